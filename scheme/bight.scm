@@ -1,0 +1,76 @@
+;;; (bight) --- the language of bight: one module to import.
+;;;
+;;; The facade only hands on what other modules define.  The modules every dive needs are loaded at
+;;; once; those that a dive may never need are loaded when one of their names is first used, be it a
+;;; procedure or a macro.  The second list must name what they export: tests/scheme/scenario.scm asks.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight)
+  #:export (language-names))
+
+;; Modules, each alone if all its names belong to the language, else with the names that do.
+(define at-once
+  '(((bight errors)
+     &bight-error bight-error? bight-error-kind bight-error-procedure bight-error-message
+     bight-error-given)
+    ((bight units))
+    ((bight types) define-tether-type define-vehicle tether-types vehicle-types)
+    ((bight world)
+     world define-world extend without with part worlds find-world
+     world? world-name world-documentation world-parts world-file world-part-names world-part
+     part? part-head part-name part-fields part-all-fields)
+    ((bight dive) enter! with-dive dive? current-dive)
+    ((bight time)
+     now time-step run run-until step! settle! every on cancel! checkpoint checkpoint? restore!
+     what-if state-hash)
+    ((bight command))
+    ((bight query)
+     rov-position rov-velocity rov-heading rov-pitch rov-roll rov-depth rov-altitude rov-speed
+     net-turns sticks held? range-to bearing-to current-at sea-depth
+     tether-points point-at tangent-at tensions tension-at
+     anchor-tension rov-tension max-tension tether-force
+     tether-length straight-distance taut-length free-length slack excess
+     taut? settled? model-of equilibria
+     deviation deviation? deviation-rms deviation-mean deviation-max deviation-worst
+     events profile parts)))
+
+(define when-used
+  '(((bight scenario)
+     define-scenario always never eventually skip run-scenario scenarios
+     expect require about between above below)
+    ((bight tap) run-tests)
+    ((bight view) look status)
+    ((bight describe) describe)
+    ((bight doc) help)))
+
+;; Names that stand for more than Guile's own of the same name.
+(define in-place-of-guile-s '(help))
+
+(define interface (module-public-interface (current-module)))
+
+(define (hand-on! entry)
+  (module-use! interface
+               (if (null? (cdr entry))
+                   (resolve-interface (car entry))
+                   (resolve-interface (car entry) #:select (cdr entry)))))
+
+(define (look-further module name define?)
+  ;; The binder of the interface, asked for every NAME it does not hold: a variable, or #f.
+  (or-map (lambda (entry)
+            (and (memq name (cdr entry))
+                 (module-variable (resolve-interface (car entry)) name)))
+          when-used))
+
+(define (language-names)
+  "Return the sorted list of all names of the language."
+  (define (names-of module)
+    (append (module-map (lambda (name variable) name) module)
+            (apply append (map names-of (module-uses module)))))
+  (sort (append (names-of interface) (apply append (map cdr when-used)))
+        (lambda (a b) (string<? (symbol->string a) (symbol->string b)))))
+
+(for-each hand-on! at-once)
+(set-module-binder! interface look-further)
+(for-each (lambda (name) (hashq-set! (module-replacements interface) name #t))
+          in-place-of-guile-s)

@@ -1,0 +1,127 @@
+;;; (bight atlas) --- worlds by name: those defined here, those in files.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight atlas)
+  #:use-module (bight assembly)
+  #:use-module (bight errors)
+  #:use-module ((bight engine) #:select (%worlds-folder))
+  #:use-module (bight verb)
+  #:use-module (srfi srfi-1)
+  #:export (remember-world!
+            worlds-path
+            worlds
+            find-world
+            the-world
+            type:the-world))
+
+(define known-worlds (make-hash-table))  ; symbol -> world
+
+(define current-rememberer
+  ;; What to do with a world just defined.
+  (make-parameter (lambda (w) (hashq-set! known-worlds (world-name-of w) w))))
+
+(define (remember-world! w)
+  "Make the world W known by its name; return it."
+  ((current-rememberer) w)
+  w)
+
+(define (worlds-path)
+  "Return the list of folders where worlds are looked for by name: those in the environment variable
+BIGHT_WORLDS, worlds/ here, and bight's own."
+  (append (let ((path (getenv "BIGHT_WORLDS")))
+            (if path (remove string-null? (string-split path #\:)) '()))
+          (list "worlds" (%worlds-folder))))
+
+(define (folder-worlds folder)
+  (map (lambda (file) (string->symbol (string-drop-right file (string-length ".scm"))))
+       (or (scandir* folder) '())))
+
+(define (scandir* folder)
+  ;; The .scm files in FOLDER, or #f.
+  (let ((port (false-if-exception (opendir folder))))
+    (and port
+         (let loop ((files '()))
+           (let ((file (readdir port)))
+             (cond ((eof-object? file) (closedir port) files)
+                   ((and (string-suffix? ".scm" file) (not (string-prefix? "." file)))
+                    (loop (cons file files)))
+                   (else (loop files))))))))
+
+(define-verb (worlds)
+  "Return the sorted names of the worlds that can be entered by name: those defined here and those in
+files."
+  (sort (delete-duplicates
+         (append (hash-map->list (lambda (name w) name) known-worlds)
+                 (append-map folder-worlds (worlds-path)))
+         eq?)
+        (lambda (a b) (string<? (symbol->string a) (symbol->string b)))))
+
+(define (plain-name? text)
+  (not (or (string-null? text) (string-index text #\/) (string-prefix? "." text)
+           (string-index text #\nul))))
+
+(define (world-file-named text)
+  ;; The file of the world called TEXT on the path, or #f.
+  (and (plain-name? text)
+       (find file-exists?
+             (map (lambda (folder) (string-append folder "/" text ".scm")) (worlds-path)))))
+
+(define (fresh-module)
+  (let ((module (make-fresh-user-module)))
+    (module-use! module (resolve-interface '(bight)))
+    module))
+
+(define (refuse-file file key arguments)
+  (if (memq key '(bight-error quit user-interrupt))
+      (apply throw key arguments)
+      (bight-raise (if (eq? key 'system-error) 'io 'format) 'find-world "~a: ~a" file
+                   (string-trim-both
+                    (call-with-output-string
+                      (lambda (port) (print-exception port #f key arguments)))))))
+
+(define (load-world file)
+  ;; The last world that FILE defines; it is not made known, so that a changed file is read again.
+  (let ((found #f))
+    (catch #t
+      (lambda ()
+        (parameterize ((current-rememberer (lambda (w) (set! found w))))
+          (save-module-excursion
+           (lambda ()
+             (set-current-module (fresh-module))
+             (primitive-load file)))))
+      (lambda (key . arguments)
+        (refuse-file file key arguments)))
+    (or found (bight-raise 'format 'find-world "~a defines no world" file))))
+
+(define (file-world text)
+  (cond ((string-index text #\nul) (bight-raise 'io 'find-world "no file is called ~s" text))
+        ((and (file-exists? text) (not (file-is-directory? text))) (load-world text))
+        ((world-file-named (if (string-suffix? ".scm" text) (string-drop-right text 4) text))
+         => load-world)
+        (else (bight-raise 'io 'find-world "there is no file ~s; known worlds are ~a" text
+                           (words->string (worlds))))))
+
+(define-argument-type (world-designator value)
+  "a world, the name of one as in 'open-water, or a file name"
+  (if (or (is-world? value) (symbol? value) (string? value)) value refused))
+
+(define-verb (find-world (designator world-designator))
+  "Return the world DESIGNATOR stands for: a world, the name of one defined here or in a file NAME.scm in
+a folder of worlds, or the name of a file.  Raise a &bight-error when there is none, or the file is
+wrong."
+  (cond ((is-world? designator) designator)
+        ((string? designator) (file-world designator))
+        ((hashq-ref known-worlds designator))
+        ((world-file-named (symbol->string designator)) => load-world)
+        (else (unknown-name 'find-world "the list of worlds" designator (worlds)))))
+
+(define-argument-type (the-world value)
+  "a world, or the name of one, as in 'open-water"
+  (cond ((is-world? value) value)
+        ((symbol? value) (find-world value))
+        (else refused)))
+
+(define (the-world proc value)
+  "Return the world that VALUE, a world or the name of one, stands for; PROC asks."
+  (check-argument proc 'world type:the-world value))

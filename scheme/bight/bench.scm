@@ -1,0 +1,141 @@
+;;; (bight bench) --- run time against error: the programs that measure, their tables and plots.
+;;;
+;;; Each bench is a program bight-bench-NAME that prints rows of CSV with a header; what it prints is
+;;; kept as it is, shown as a table, and plotted by gnuplot where there is one.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight bench)
+  #:use-module ((bight engine) #:select (%programs-folder))
+  #:use-module (bight errors)
+  #:use-module ((ice-9 ftw) #:select (scandir))
+  #:use-module (ice-9 popen)
+  #:use-module ((ice-9 rdelim) #:select (read-line))
+  #:use-module (srfi srfi-1)
+  #:export (benches run-benches))
+
+(define prefix "bight-bench-")
+
+(define (bench-program name)
+  (string-append (%programs-folder) "/" prefix name))
+
+(define (bench-file? file)
+  (and (string-prefix? prefix file)
+       (not (string-index file #\.))
+       (access? (string-append (%programs-folder) "/" file) X_OK)))
+
+(define (benches)
+  "Return the names of the benches there are."
+  (map (lambda (file) (substring file (string-length prefix)))
+       (or (scandir (%programs-folder) bench-file?) '())))
+
+(define (read-lines port)
+  (let ((line (read-line port)))
+    (if (eof-object? line) '() (cons line (read-lines port)))))
+
+(define (measure name)
+  ;; The lines of CSV that the bench NAME prints.
+  (let* ((port (open-pipe* OPEN_READ (bench-program name)))
+         (lines (read-lines port))
+         (status (close-pipe port)))
+    (unless (eqv? 0 (status:exit-val status))
+      (bight-raise 'io 'bench "bight-bench-~a failed" name))
+    (when (or (null? lines) (null? (cdr lines)))
+      (bight-raise 'format 'bench "bight-bench-~a measured nothing" name))
+    lines))
+
+(define (columns-of rows names)
+  ;; The cells of ROWS, the first of which has the names of the columns, in the order of NAMES.
+  (let ((header (car rows)))
+    (map (lambda (row)
+           (map (lambda (name)
+                  (let ((i (list-index (lambda (cell) (string=? cell name)) header)))
+                    (if (and i (< i (length row))) (list-ref row i) "")))
+                names))
+         (cdr rows))))
+
+(define (split-row line)
+  (map string-trim-both (string-split line #\,)))
+
+(define (print-table titles rows)
+  (let ((widths (apply map (lambda cells (apply max (map string-length cells))) titles rows)))
+    (for-each (lambda (row)
+                (display (string-trim-right
+                          (string-join (map string-pad-right row widths) "  ")))
+                (newline))
+              (cons* titles (map (lambda (w) (make-string w #\-)) widths) rows))))
+
+(define (write-lines file lines)
+  (call-with-output-file file
+    (lambda (port) (for-each (lambda (line) (display line port) (newline port)) lines))))
+
+(define (series-of rows)
+  ;; The rows (MODEL ERROR CPU) as an alist of models and their rows.
+  (map (lambda (model) (cons model (filter (lambda (row) (string=? model (car row))) rows)))
+       (delete-duplicates (map car rows))))
+
+(define (plottable row)
+  ;; (MODEL ERROR CPU-NS) with numbers, or #f where a logarithm would fail.
+  (let ((error (string->number (second row))) (cpu (string->number (third row))))
+    (and (real? error) (real? cpu) (positive? cpu)
+         (list (first row) (max (abs error) 1e-17) (* 1e-9 cpu)))))
+
+(define (print-plot port title file series)
+  (simple-format port "set term svg size 800,600~%set output ~s~%set title ~s noenhanced~%" file title)
+  (display "set logscale xy\nset format '%.0e'\nset xlabel 'CPU, s'\nset ylabel 'error'\n" port)
+  (display "set grid\nset key outside noenhanced\n" port)
+  (simple-format port "plot ~a~%"
+                 (string-join (map (lambda (s) (simple-format #f "'-' title ~s with linespoints" (car s)))
+                                   series)
+                              ", "))
+  (for-each (lambda (s)
+              (for-each (lambda (row) (simple-format port "~a ~a~%" (third row) (second row)))
+                        (sort (cdr s) (lambda (a b) (< (third a) (third b)))))
+              (display "e\n" port))
+            series))
+
+(define (gnuplot?)
+  (any (lambda (folder) (access? (string-append folder "/gnuplot") X_OK))
+       (string-split (or (getenv "PATH") "") #\:)))
+
+(define (plot-case name folder case rows)
+  ;; Plot ROWS, lists (MODEL ERROR CPU), as FOLDER/NAME-CASE.svg.
+  (let ((series (series-of (filter-map plottable rows)))
+        (port (open-output-pipe "gnuplot 2>/dev/null")))
+    (unless (null? series)
+      (print-plot port (string-append name ": " case)
+                  (string-append folder "/" name "-" case ".svg") series))
+    (close-pipe port)))
+
+(define (plot-cases name folder rows)
+  (let ((cells (columns-of rows '("case" "model" "error" "cpu_ns"))))
+    (for-each (lambda (case)
+                (plot-case name folder case
+                           (map cdr (filter (lambda (row) (string=? case (car row))) cells))))
+              (delete-duplicates (map car cells)))))
+
+(define (run-bench name folder)
+  (let* ((lines (measure name))
+         (rows (map split-row lines))
+         (titles '("case" "model" "setting" "metric" "error" "cpu_ns")))
+    (write-lines (string-append folder "/" name ".csv") lines)
+    (print-table titles (columns-of rows titles))
+    (when (gnuplot?)
+      (plot-cases name folder rows))))
+
+(define (ensure-folder! folder)
+  (unless (file-exists? folder)
+    (ensure-folder! (dirname folder))
+    (mkdir folder)))
+
+(define (run-benches names folder)
+  "Run the benches called NAMES, all there are when it is empty: print their tables, and write CSV files
+and plots to FOLDER, which is made if need be."
+  (let ((known (benches)))
+    (for-each (lambda (name)
+                (unless (member name known)
+                  (unknown-name 'bench "the list of benches" name known)))
+              names)
+    (ensure-folder! folder)
+    (for-each (lambda (name) (run-bench name folder))
+              (if (null? names) known names))))

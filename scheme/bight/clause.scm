@@ -1,0 +1,182 @@
+;;; (bight clause) --- from (HEAD (FIELD VALUE ...) ...) as written to checked fields.
+;;;
+;;; The first half runs while a macro expands: it turns the syntax of a part into an expression for its
+;;; data, quoting what the schema calls words and leaving the rest as ordinary expressions.  What it
+;;; does not understand it quotes, so that the second half, which runs later, can refuse it with a
+;;; &bight-error that teaches.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight clause)
+  #:use-module (bight argument)
+  #:use-module (bight current)
+  #:use-module (bight errors)
+  #:use-module (bight schema)
+  #:use-module (srfi srfi-1)
+  #:use-module (system syntax)
+  #:export (clause->expression
+            part->expression
+            global-value
+            read-fields
+            read-clause))
+
+
+;;; While a macro expands.
+
+(define (datum? stx . symbols)
+  (and (identifier? stx) (memq (syntax->datum stx) symbols) #t))
+
+(define (quoted stx)
+  #`(quote #,stx))
+
+(define (expression stx)
+  ;; () is no expression: let the reader of the data refuse it.
+  (if (null? (syntax->datum stx)) (quoted stx) stx))
+
+(define (word stx)
+  ;; A word stands for itself; ,EXPRESSION computes one.
+  (syntax-case stx ()
+    ((unquote-mark e) (datum? #'unquote-mark 'unquote) #'e)
+    (_ (quoted stx))))
+
+(define (global-value module-name name)
+  "Return the value of the variable NAME seen from the module called MODULE-NAME, or #f."
+  (let* ((module (resolve-module module-name #f #:ensure #f))
+         (variable (and module (module-variable module name))))
+    (and variable (variable-bound? variable) (variable-ref variable))))
+
+(define (lexical? id)
+  (call-with-values (lambda () (syntax-local-binding id))
+    (lambda (type value) (eq? type 'lexical))))
+
+(define (reference id)
+  ;; The name of a part, or else the variable ID: which, is known when the world is put together.
+  (if (lexical? id)
+      #`(make-reference '#,id (lambda () #,id))
+      #`(make-reference '#,id (lambda ()
+                                (global-value '#,(datum->syntax id (module-name (current-module)))
+                                              '#,id)))))
+
+(define (list-of expressions)
+  #`(list #,@expressions))
+
+(define (row stx)
+  ;; (A B C) is a row of three expressions; anything else is one expression.
+  (syntax-case stx ()
+    ((a b c) (list-of (map expression (list #'a #'b #'c))))
+    (_ (expression stx))))
+
+(define (current-clause stx)
+  ;; (speed .5) within a current.
+  (syntax-case stx ()
+    ((name value)
+     (apply datum? #'name current-field-names)
+     (list-of (list (quoted #'name) (expression #'value))))
+    (_ (expression stx))))
+
+(define (unknown-clause? stx)
+  ;; A list where only (NAME VALUE) can be meant.
+  (syntax-case stx ()
+    ((name . _) (and (identifier? #'name) (not (apply datum? #'name current-field-names))))
+    (_ #f)))
+
+(define (current-part stx)
+  (syntax-case stx ()
+    (still (datum? #'still 'still) (quoted stx))
+    ((form . _)
+     (not (apply datum? #'form current-forms))
+     stx)
+    ((form item ...)
+     (datum? #'form 'profile)
+     (list-of (cons (quoted #'form) (map row #'(item ...)))))
+    ((form item ...)
+     (datum? #'form 'turning 'tide)
+     (list-of (cons (quoted #'form)
+                    (map (lambda (item) (if (unknown-clause? item) (quoted item) (current-clause item)))
+                         #'(item ...)))))
+    ((form item ...)
+     (list-of (cons (quoted #'form) (map current-clause #'(item ...)))))
+    (_ (expression stx))))
+
+(define (special? field stx)
+  (and (identifier? stx) (assq (syntax->datum stx) (field-specials field)) #t))
+
+(define (arguments field stxs)
+  (case (field-kind field)
+    ((word name type) (map word stxs))
+    ((current) (map current-part stxs))
+    ((points) (map row stxs))
+    ((end point)
+     (if (and (= 1 (length stxs)) (identifier? (car stxs)))
+         (list (reference (car stxs)))
+         (map expression stxs)))
+    (else
+     (map (lambda (stx) (if (special? field stx) (quoted stx) (expression stx))) stxs))))
+
+(define (clause->expression head clause)
+  "Return syntax for the data of CLAUSE, the syntax (FIELD VALUE ...) of a part with HEAD, a symbol, or
+#f when that is not known yet."
+  (syntax-case clause ()
+    ((name stx ...)
+     (identifier? #'name)
+     (let* ((wanted (syntax->datum #'name))
+            (field (if head (head-field head wanted) (find-field wanted))))
+       (if field
+           (list-of (cons (quoted #'name) (arguments field #'(stx ...))))
+           (quoted clause))))
+    (_ (quoted clause))))
+
+(define (part->expression part)
+  "Return syntax for the data of PART, the syntax (HEAD CLAUSE ...)."
+  (syntax-case part ()
+    ((head clause ...)
+     (and (identifier? #'head) (part-head? (syntax->datum #'head)))
+     (let ((name (syntax->datum #'head)))
+       (list-of (cons (quoted #'head)
+                      (map (lambda (clause) (clause->expression name clause)) #'(clause ...))))))
+    (_ (quoted part))))
+
+
+;;; When the data are there.
+
+(define (wrong-clause proc head clause)
+  (bight-raise 'def proc "a field of ~a is written (NAME VALUE), not ~s" (head-title head) clause))
+
+(define (wrong-arguments proc head name values)
+  (let ((field (head-field head name)))
+    (bight-raise 'def proc "(~a ...) of ~a needs ~a; ~a given" name (head-title head)
+                 (field-range field)
+                 (if (null? values) "nothing was" (show values)))))
+
+(define (clause-value proc head name values)
+  ;; The one value that VALUES make for the field NAME.
+  (let* ((field (head-field head name))
+         (n (length values))
+         (kind (field-kind field)))
+    (cond ((and (eq? kind 'points) (> n 0) (not (and (= n 1) (accepts? type:points (car values)))))
+           values)
+          ((= n 1) (car values))
+          ((and (memq kind '(point end)) (= n 3)) values)
+          ((and (eq? kind 'current) (= n 2)) values)
+          (else (wrong-arguments proc head name values)))))
+
+(define (read-clause proc head datum)
+  "Return (FIELD . VALUE), canonical, from DATUM, the data (FIELD VALUE ...) of a part with HEAD.  Raise
+a &bight-error from PROC when HEAD has no such field or the field no such value."
+  (let ((clause (and (pair? datum) (symbol? (car datum)) (bounded-list datum))))
+    (unless clause (wrong-clause proc head datum))
+    (let ((name (car clause)))
+      (unless (head-field head name)
+        (unknown-name proc (head-title head) name (map field-name (head-fields head))))
+      (cons name (check-field proc head name (clause-value proc head name (cdr clause)))))))
+
+(define (read-fields proc head clauses)
+  "Return the alist of canonical fields from CLAUSES, a list of data (FIELD VALUE ...), in their order.
+Raise a &bight-error from PROC for the first that is wrong or given twice."
+  (let loop ((rest clauses) (fields '()))
+    (if (null? rest)
+        (reverse! fields)
+        (let ((entry (read-clause proc head (car rest))))
+          (when (assq (car entry) fields)
+            (bight-raise 'def proc "~a is given twice for ~a" (car entry) (head-title head)))
+          (loop (cdr rest) (cons entry fields))))))

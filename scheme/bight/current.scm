@@ -1,0 +1,177 @@
+;;; (bight current) --- currents of the sea, from what a person writes to what the engine takes.
+;;;
+;;; One reader serves the world's (current ...) and the verb current!.  It takes plain data:
+;;;
+;;;   (SPEED TOWARD)                                          the same everywhere
+;;;   (profile (Z SPEED TOWARD) ...)                          rows by height
+;;;   (turning (speed S) (toward B) (degrees-per-metre D))    the set turns with depth
+;;;   (power SPEED TOWARD (exponent E))                       falls to nothing at the sea bed
+;;;   (tide (speed S) (toward B) (period T))                  comes and goes
+;;;   still, or a procedure of position and time
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight current)
+  #:use-module (bight argument)
+  #:use-module (bight errors)
+  #:use-module (bight units)
+  #:use-module (srfi srfi-1)
+  #:export (current-forms
+            current-field-names
+            parse-current
+            current->string))
+
+(define current-forms
+  '(still uniform profile turning power tide function grid wake))
+
+(define not-yet '(grid wake))
+
+(define current-field-names
+  '(speed toward degrees-per-metre exponent period))
+
+(define most-rows 64)
+(define tidal-period (* 12.42 3600))
+
+(define units
+  `((knots . ,knots) (inches . ,inches) (feet . ,feet) (hours . ,hours) (minutes . ,minutes)))
+
+(define (quantity value)
+  ;; VALUE, or what (hours 12.42) and the like stand for inside quoted data.
+  (let ((unit (and (pair? value) (symbol? (car value)) (pair? (cdr value)) (null? (cddr value))
+                   (assq-ref units (car value)))))
+    (if unit (unit (cadr value)) value)))
+
+(define (check proc what type value)
+  (check-argument proc (simple-format #f "the ~a of a current" what) type (quantity value)))
+
+(define type:speed (type:between 0 20))
+(define type:turn (type:between -360 360))
+(define type:exponent (type:between 0 10))
+(define type:period (type:between 1 1e9))
+
+(define (check-speed proc value)
+  (check proc "speed (m/s)" type:speed value))
+
+(define (check-toward proc value)
+  (check proc "bearing (toward, degrees)" type:bearing value))
+
+
+;;; The forms.
+
+(define (uniform proc speed toward)
+  (list 'uniform (check-speed proc speed) (check-toward proc toward)))
+
+(define (profile-row proc row)
+  (let ((row* (and (pair? row) (bounded-list row 3))))
+    (unless (and row* (= 3 (length row*)))
+      (bight-raise 'domain proc "a row of a profile is (z speed toward), not ~s" row))
+    (list (check proc "height z (m)" type:height (first row*))
+          (check-speed proc (second row*))
+          (check-toward proc (third row*)))))
+
+(define type:height (type:between -12000 12000))
+
+(define (refuse-equal-heights proc rows)
+  (let loop ((rest rows))
+    (unless (or (null? rest) (null? (cdr rest)))
+      (when (= (first (first rest)) (first (second rest)))
+        (bight-raise 'domain proc "two rows of a profile have the same height, z = ~a"
+                     (first (first rest))))
+      (loop (cdr rest)))))
+
+(define (profile proc rows)
+  (unless (<= 1 (length rows) most-rows)
+    (bight-raise (if (null? rows) 'domain 'limit) proc
+                 "a profile has 1 to ~a rows (z speed toward), not ~a" most-rows (length rows)))
+  (let ((sorted (sort (map (lambda (row) (profile-row proc row)) rows)
+                      (lambda (a b) (> (first a) (first b))))))
+    (refuse-equal-heights proc sorted)
+    (cons 'profile sorted)))
+
+(define (fields proc form allowed positional clauses)
+  ;; The alist of CLAUSES, (NAME VALUE) each; bare values stand for POSITIONAL in order.
+  (let loop ((rest clauses) (places positional) (found '()))
+    (cond ((null? rest) found)
+          ((and (pair? (car rest)) (symbol? (caar rest)) (not (assq (caar rest) units)))
+           (let ((clause (and (list? (car rest)) (car rest))))
+             (unless (and clause (= 2 (length clause)))
+               (bight-raise 'domain proc "a field of a ~a current is (NAME VALUE), not ~s"
+                            form (car rest)))
+             (unless (memq (first clause) allowed)
+               (unknown-name proc (simple-format #f "a ~a current" form) (first clause) allowed))
+             (when (assq (first clause) found)
+               (bight-raise 'domain proc "~a is given twice in a ~a current" (first clause) form))
+             (loop (cdr rest) places (acons (first clause) (second clause) found))))
+          ((null? places)
+           (bight-raise 'domain proc "a ~a current takes ~a, not ~s" form
+                        (alternatives->string allowed) (car rest)))
+          (else (loop (cdr rest) (cdr places) (acons (car places) (car rest) found))))))
+
+(define no-default (list 'no-default))
+
+(define* (field proc form found name type #:optional (default no-default))
+  (let ((entry (assq name found)))
+    (cond (entry (check proc name type (cdr entry)))
+          ((eq? default no-default)
+           (bight-raise 'def proc "a ~a current needs (~a ...)" form name))
+          (else default))))
+
+(define (fielded proc form positional last-name last-type last-default clauses)
+  ;; (FORM speed toward LAST) from CLAUSES.
+  (let ((found (fields proc form (list 'speed 'toward last-name) positional clauses)))
+    (list form
+          (field proc form found 'speed type:speed)
+          (field proc form found 'toward type:bearing)
+          (field proc form found last-name last-type last-default))))
+
+(define (function proc arguments)
+  (unless (and (= 1 (length arguments)) (procedure? (first arguments)))
+    (bight-raise 'domain proc "a function current takes one procedure, not ~s" arguments))
+  (list 'function (first arguments)))
+
+(define (form-current proc form arguments)
+  (case form
+    ((still) (list 'still))
+    ((uniform)
+     (unless (= 2 (length arguments)) (refuse-current proc (cons form arguments)))
+     (uniform proc (first arguments) (second arguments)))
+    ((profile) (profile proc arguments))
+    ((turning)
+     (fielded proc form '(speed toward degrees-per-metre) 'degrees-per-metre type:turn no-default
+              arguments))
+    ((power) (fielded proc form '(speed toward exponent) 'exponent type:exponent (/ 1.0 7.0) arguments))
+    ((tide) (fielded proc form '(speed toward period) 'period type:period tidal-period arguments))
+    ((function) (function proc arguments))
+    ((grid wake) (bight-raise 'unsupported proc "a ~a current is not there yet" form))
+    (else (unknown-name proc "the sea" form
+                        (lset-difference eq? current-forms '(function) not-yet)
+                        "current"))))
+
+(define (refuse-current proc datum)
+  (bight-raise 'domain proc
+               "a current is SPEED TOWARD, still, a procedure, or one of (profile ...) (turning ...) (power ...) (tide ...), not ~s"
+               datum))
+
+(define (parse-current proc datum)
+  "Return the canonical form of the current that DATUM describes, for the engine: (still), (uniform SPEED
+TOWARD), (profile (Z SPEED TOWARD) ...) from the top down, (turning SPEED TOWARD DEGREES-PER-METRE),
+(power SPEED TOWARD EXPONENT), (tide SPEED TOWARD PERIOD) or (function PROCEDURE).  Raise a &bight-error
+from PROC when it describes none."
+  (let ((items (and (pair? datum) (bounded-list datum 1000))))
+    (cond ((procedure? datum) (list 'function datum))
+          ((eq? datum 'still) (list 'still))
+          ((and (number? datum) (zero? datum)) (list 'still))
+          ((symbol? datum) (form-current proc datum '()))
+          ((not items) (refuse-current proc datum))
+          ((and (symbol? (car items)) (not (assq (car items) units)))
+           (form-current proc (car items) (cdr items)))
+          ((= 2 (length items)) (uniform proc (first items) (second items)))
+          (else (refuse-current proc datum)))))
+
+(define (current->string current)
+  "Return the canonical CURRENT as it would be written in a world."
+  (case (car current)
+    ((still) "still")
+    ((uniform) (simple-format #f "~a m/s toward ~a" (second current) (third current)))
+    ((function) "a procedure")
+    (else (show current))))

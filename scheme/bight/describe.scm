@@ -1,0 +1,192 @@
+;;; (bight describe) --- what a kind of part, a type, a world or one of its parts is, as a table.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight describe)
+  #:use-module (bight assembly)
+  #:use-module (bight atlas)
+  #:use-module ((bight dive) #:select (current-dive dive-world))
+  #:use-module (bight errors)
+  #:use-module ((bight query) #:select (tether-properties))
+  #:use-module ((bight record) #:select (document))
+  #:use-module (bight schema)
+  #:use-module (bight verb)
+  #:use-module (srfi srfi-1)
+  #:export (describe
+            head-description
+            type-description
+            part-description
+            world-description
+            description?
+            description-title
+            description-sentence
+            description-rows))
+
+
+;;; Descriptions: a title, a sentence, and rows of strings in columns.
+
+(define <description>
+  (make-record-type 'description '(title sentence rows)
+                    (lambda (it port) (print-description it port))))
+
+(define make-description (record-constructor <description>))
+(define description? (record-predicate <description>))
+(define description-title (record-accessor <description> 'title))
+(define description-sentence (record-accessor <description> 'sentence))
+(define description-rows (record-accessor <description> 'rows))
+
+(document
+ (description? "Return true if OBJECT is a description.")
+ (description-title "Return the title of DESCRIPTION, a string.")
+ (description-sentence "Return the sentence of DESCRIPTION.")
+ (description-rows "Return the rows of DESCRIPTION, lists of strings of equal length."))
+
+(define (column-width rows n)
+  (fold (lambda (row width) (max width (string-length (list-ref row n)))) 0 rows))
+
+(define (print-row row widths port)
+  (let ((line (string-join (map (lambda (text width) (string-pad-right text width)) row widths) "  ")))
+    (display "\n  " port)
+    (display (string-trim-right line) port)))
+
+(define (print-description it port)
+  (let* ((rows (description-rows it))
+         (n (if (null? rows) 0 (length (car rows))))
+         (widths (map (lambda (i) (column-width rows i)) (iota n))))
+    (simple-format port "~a: ~a" (description-title it) (description-sentence it))
+    (for-each (lambda (row) (print-row row widths port)) rows)))
+
+(define (symbol->row-text symbol)
+  (if symbol (symbol->string symbol) ""))
+
+
+;;; Of each kind of thing.
+
+(define (field-row field)
+  ;; name, unit, default, what it is and what it allows
+  (list (symbol->string (field-name field))
+        (field-unit field)
+        (field-default-string field)
+        (string-append (field-text field) "; " (field-allowance field))))
+
+(define (head-description head)
+  "Return the description of parts with HEAD, a symbol such as tether: a row (NAME UNIT DEFAULT TEXT) of
+strings for each field."
+  (make-description (symbol->string head) (head-sentence head) (map field-row (head-fields head))))
+
+(define (value-row head entry source)
+  (let ((field (head-field head (car entry))))
+    (list (symbol->string (car entry))
+          (value->string field (cdr entry))
+          (field-unit field)
+          source)))
+
+(define (type-description type)
+  "Return the description of TYPE, a part type: a row (NAME VALUE UNIT \"\") for each field it sets."
+  (make-description (simple-format #f "~a, a type of ~a" (part-type-name type) (part-type-head type))
+                    (part-type-sentence type)
+                    (map (lambda (entry) (value-row (part-type-head type) entry ""))
+                         (part-type-fields type))))
+
+(define (default-rows head given)
+  ;; The fields that are left to their defaults.
+  (filter-map (lambda (field)
+                (and (not (assq (field-name field) given))
+                     (field-default field)
+                     (value-row head (cons (field-name field) (field-default field)) "default")))
+              (head-fields head)))
+
+(define (part-description part)
+  "Return the description of PART of a world: a row (NAME VALUE UNIT SOURCE) for each field, whether
+given, from its type or left to the default."
+  (let* ((head (part-head-of part))
+         (own (part-fields-of part))
+         (all (all-fields part))
+         (type (assq-ref own 'type)))
+    (define (source entry)
+      (if (assq (car entry) own) "" (string-append "from " (symbol->string (part-type-name type)))))
+    (make-description (simple-format #f "~a, ~a" (part-name-of part) (head-title head))
+                      (if type (part-type-sentence type) (head-sentence head))
+                      (append (map (lambda (entry) (value-row head entry (source entry))) all)
+                              (default-rows head all)))))
+
+(define (world-description w)
+  "Return the description of the world W: a row (NAME HEAD TYPE) for each part."
+  (define (part-row part)
+    (let ((type (assq-ref (part-fields-of part) 'type)))
+      (list (symbol->row-text (part-name-of part))
+            (symbol->string (part-head-of part))
+            (if type (symbol->string (part-type-name type)) ""))))
+  (make-description (if (world-name-of w) (symbol->string (world-name-of w)) "a world")
+                    (or (world-documentation-of w) "")
+                    (map part-row (world-parts-of w))))
+
+
+;;; By name.
+
+(define (here-world)
+  (and (current-dive) (dive-world (current-dive))))
+
+(define (here-part name)
+  (let ((w (here-world)))
+    (and w (find-part (world-parts-of w) name))))
+
+(define (live-row row live)
+  ;; ROW with the value its field has now, if that is another.
+  (let* ((field (head-field 'tether (string->symbol (first row))))
+         (entry (assq (field-name field) live))
+         (text (and entry (value->string field (cdr entry)))))
+    (if (and text (not (string=? text (second row))))
+        (list (first row) text (third row) "now")
+        row)))
+
+(define (follower-rows rows live)
+  ;; Rows for the fields that were left to follow from others.
+  (filter-map (lambda (entry)
+                (and (not (assoc (symbol->string (car entry)) rows))
+                     (value-row 'tether entry "follows")))
+              live))
+
+(define (dive-description part)
+  ;; The description of a PART of the current dive; a tether's fields as they are now.
+  (let ((described (part-description part)))
+    (if (eq? 'tether (part-head-of part))
+        (let* ((rows (description-rows described))
+               (live (live-properties (part-name-of part))))
+          (make-description (description-title described)
+                            (description-sentence described)
+                            (append (map (lambda (row) (live-row row live)) rows)
+                                    (follower-rows rows live))))
+        described)))
+
+(define (live-properties name)
+  (tether-properties (subject-index 'describe 'tether name)))
+
+(define (type-called name)
+  (find (lambda (type) (eq? name (part-type-name type)))
+        (append-map part-types (part-heads))))
+
+(define (all-names)
+  (let ((w (here-world)))
+    (append (if w (map part-name-of (world-parts-of w)) '())
+            (part-heads)
+            (map part-type-name (append-map part-types (part-heads)))
+            (worlds))))
+
+(define (describe-name name)
+  (cond ((here-part name) => dive-description)
+        ((part-head? name) (head-description name))
+        ((type-called name) => type-description)
+        ((memq name (worlds)) (world-description (find-world name)))
+        (else (unknown-name 'describe "the language" name (all-names) "part, type or world"))))
+
+(define-argument-type (describable value)
+  "a world, a part, or a name: of a part of the dive, a kind of part, a type or a world"
+  (if (or (symbol? value) (is-world? value) (is-part? value)) value refused))
+
+(define-verb (describe (thing describable))
+  "Return a description of THING that prints as a table.  THING is a world, a part, or a symbol: the name
+of a part of the present dive, a kind of part such as 'tether, a type such as 'fathom, or a world."
+  (cond ((symbol? thing) (describe-name thing))
+        ((is-world? thing) (world-description thing))
+        (else (part-description thing))))

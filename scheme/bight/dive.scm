@@ -1,0 +1,101 @@
+;;; (bight dive) --- dives: starting one, and which one is meant.
+;;;
+;;; A dive is the engine's state of a world, the world it came from, and what is to run between its
+;;; steps.  One is current; every verb is about that one.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight dive)
+  #:use-module (bight engine)
+  #:use-module (bight errors)
+  #:use-module (bight record)
+  #:use-module (bight verb)
+  #:use-module (bight world)
+  #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
+  #:export (enter!
+            with-dive
+            call-with-dive
+            dive?
+            current-dive
+            fork-dive
+            engine-of
+            this-engine
+            this-dive
+            dive-world
+            dive-tasks set-dive-tasks!
+            dive-watchers set-dive-watchers!
+            type:dive))
+
+(define-record <dive>
+  (make-dive engine world tasks watchers)
+  %dive-record?
+  (engine engine-of)
+  (world dive-world)
+  (tasks dive-tasks set-dive-tasks!)
+  (watchers dive-watchers set-dive-watchers!))
+
+(define-verb (dive? (object any))
+  "Return #t if OBJECT is a dive."
+  (%dive-record? object))
+
+(define-argument-type (dive value)
+  "a dive, as (enter! WORLD) returns"
+  (if (%dive-record? value) value refused))
+
+(define (print-dive dive port)
+  (let ((engine (engine-of dive)))
+    (format port "#<dive ~a at ~a s: ~a~a>"
+            (or (world-name (dive-world dive)) "in an unnamed world")
+            (/ (round (* 1000 (%dive-time engine))) 1000)
+            (words->string (%names engine 'rov))
+            (if (null? (%names engine 'tether))
+                ""
+                (string-append " on " (words->string (%names engine 'tether)))))))
+
+(set-record-type-printer! <dive> print-dive)
+
+(define current-dive
+  ;; The dive that verbs are about, or #f.
+  (make-parameter #f))
+
+(define (this-dive proc)
+  "Return the current dive, or raise a &bight-error from PROC when there is none."
+  (or (current-dive)
+      (bight-raise 'def proc "there is no dive yet; start one, as in (enter! 'open-water)")))
+
+(define (this-engine proc)
+  "Return the engine's handle of the current dive, or raise a &bight-error from PROC."
+  (engine-of (this-dive proc)))
+
+(define (subject-names proc kind)
+  (%names (this-engine proc) (if (eq? kind 'vehicle) 'rov kind)))
+
+(current-subject-lister subject-names)
+
+(define-argument-type (world-or-name value)
+  "a world, the name of one as in 'open-water, or a file"
+  (if (or (world? value) (symbol? value) (string? value)) value refused))
+
+(define-verb (enter! (world world-or-name))
+  "Start a dive in WORLD: a world, a symbol naming one in worlds/, or a file name.  The dive becomes the
+current one and is returned."
+  (let* ((world (if (world? world) world (find-world world)))
+         (dive (make-dive (%make-dive (world->parts world)) world '() '())))
+    (current-dive dive)
+    dive))
+
+(define-verb (call-with-dive (dive dive) (thunk thunk))
+  "Call THUNK with DIVE as the current dive, and return what it returns."
+  (parameterize ((current-dive dive))
+    (thunk)))
+
+(define-syntax-rule (with-dive dive body body* ...)
+  "Evaluate the body with DIVE as the current dive."
+  (call-with-dive dive (lambda () body body* ...)))
+
+(define (fork-dive dive)
+  "Return a copy of DIVE that goes its own way, with copies of what runs between its steps."
+  (make-dive (%fork-dive (engine-of dive))
+             (dive-world dive)
+             (dive-tasks dive)
+             '()))

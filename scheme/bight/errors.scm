@@ -1,0 +1,233 @@
+;;; (bight errors) --- the one kind of error a user of bight meets.
+;;;
+;;; Every mistake raises a condition of type &bight-error that says what kind of mistake it was, which
+;;; procedure met it, one sentence, and what was given.  The condition also carries Guile's own
+;;; &message, &origin, &irritants and throw key (`bight-error'), so that `guard', `catch', the prompt
+;;; and an uncaught error in a script all show the same clear line.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight errors)
+  #:use-module (ice-9 exceptions)
+  #:use-module (srfi srfi-1)
+  #:export (&bight-error
+            bight-error?
+            bight-error-kind
+            bight-error-procedure
+            bight-error-message
+            bight-error-given
+            bight-error-kinds
+            bight-raise
+            raise-engine-error
+            unknown-name
+            nearest
+            word->string
+            words->string
+            abbreviate
+            show))
+
+(define bight-error-kinds
+  '(domain name stale def limit diverged io format version unsupported))
+
+(define &bight-error
+  (make-exception-type '&bight-error &error '(kind procedure message given)))
+
+(define make-bight-error (record-constructor &bight-error))
+
+(define bight-error?
+  (let ((ours? (exception-predicate &bight-error)))
+    (lambda (obj)
+      "Return true if OBJ is a condition raised by bight."
+      (ours? obj))))
+
+(define-syntax-rule (define-error-field name field doc)
+  (define name
+    (let ((get (exception-accessor &bight-error (record-accessor &bight-error 'field))))
+      (lambda (condition) doc (get condition)))))
+
+(define-error-field bight-error-kind kind
+  "Return the kind of CONDITION: domain name stale def limit diverged io format version unsupported.")
+(define-error-field bight-error-procedure procedure
+  "Return the symbol of the procedure that raised CONDITION, or #f.")
+(define-error-field bight-error-message message
+  "Return the sentence of CONDITION, a string.")
+(define-error-field bight-error-given given
+  "Return the list of values that CONDITION complains of.")
+
+
+;;; Raising.
+
+(define (raise-sentence kind proc text given)
+  (raise-exception
+   (make-exception (make-bight-error kind proc text given)
+                   (make-exception-with-message text)
+                   (make-exception-with-origin proc)
+                   (make-exception-with-irritants '())
+                   (make-exception-from-throw 'bight-error (list proc text kind given)))))
+
+(define (bight-raise kind proc format-string . args)
+  "Raise a &bight-error of KIND, a symbol, from PROC, a symbol or #f.  Its sentence is FORMAT-STRING
+with ~a, ~s and ~~ filled in from ARGS, which are abbreviated there and kept whole as the values given."
+  (raise-sentence kind proc
+                  (apply simple-format #f format-string (map abbreviate args))
+                  args))
+
+(define (raise-engine-error kind proc text)
+  "Raise a &bight-error of KIND from PROC with the sentence TEXT, as the engine found it."
+  (raise-sentence kind proc text '()))
+
+(define (print-bight-error port key args default-printer)
+  (let* ((proc (car args))
+         (text (cadr args))
+         (prefix (if proc (simple-format #f "~a" proc) "")))
+    (unless (or (string-null? prefix) (string-prefix? prefix text))
+      (display prefix port)
+      (display ": " port))
+    (display text port)))
+
+(set-exception-printer! 'bight-error print-bight-error)
+
+
+;;; Showing what was given, however large, deep or circular.
+
+(define items-shown 8)
+(define levels-shown 3)
+(define characters-shown 160)
+
+;; What prints as its text in place of something too long to print.
+(define <stand-in>
+  (make-record-type 'stand-in '(text)
+                    (lambda (it port) (display (struct-ref it 0) port))))
+
+(define stand-in (record-constructor <stand-in>))
+
+(define (clip text)
+  (if (> (string-length text) characters-shown)
+      (string-append (substring text 0 (- characters-shown 1)) "…")
+      text))
+
+(define (abbreviate-list items level)
+  (let loop ((rest items) (room items-shown))
+    (cond ((null? rest) '())
+          ((not (pair? rest)) (abbreviate-to rest level))
+          ((zero? room) '(…))
+          (else (cons (abbreviate-to (car rest) level)
+                      (loop (cdr rest) (- room 1)))))))
+
+(define (abbreviate-array array level)
+  (let* ((long? (> (array-length array) items-shown))
+         (head (map (lambda (i) (abbreviate-to (array-ref array i) level))
+                    (iota (min items-shown (array-length array))))))
+    (list->vector (if long? (append head '(…)) head))))
+
+(define (abbreviate-integer n)
+  (if (< (abs n) (expt 10 21))
+      n
+      (stand-in (simple-format #f "an integer of ~a bits" (integer-length n)))))
+
+(define (abbreviate-to value level)
+  (cond ((string? value) (clip value))
+        ((symbol? value)
+         (let ((text (symbol->string value)))
+           (if (> (string-length text) characters-shown) (string->symbol (clip text)) value)))
+        ((and (number? value) (exact? value) (rational? value) (not (integer? value)))
+         (if (< (integer-length (denominator value)) 70) value (stand-in "a long fraction")))
+        ((and (number? value) (exact-integer? value)) (abbreviate-integer value))
+        ((pair? value) (if (zero? level) '… (abbreviate-list value (- level 1))))
+        ((and (array? value) (not (vector? value)) (<= (array-size value) items-shown)) value)
+        ((and (array? value) (= 1 (array-rank value)))
+         (if (zero? level) '… (abbreviate-array value (- level 1))))
+        ((array? value)
+         (stand-in (simple-format #f "an array of shape ~a" (array-dimensions value))))
+        (else value)))
+
+(define (array-size array)
+  (apply * (array-dimensions array)))
+
+(define (abbreviate value)
+  "Return VALUE itself if it is short, else something short that prints like it.  Circular, deep and
+huge data are cut."
+  (abbreviate-to value levels-shown))
+
+(define (show value)
+  "Return VALUE written in at most a line, a string."
+  (clip (simple-format #f "~s" (abbreviate value))))
+
+
+;;; The nearest thing meant.
+
+(define longest-word 48)
+
+(define (word->string word)
+  "Return WORD, a symbol, keyword, string or anything else, as a person would type it."
+  (cond ((symbol? word) (clip (symbol->string word)))
+        ((string? word) (clip word))
+        (else (show word))))
+
+(define (words->string words)
+  "Return WORDS joined by commas."
+  (string-join (map word->string words) ", "))
+
+(define (edit-row above two-above char previous b)
+  ;; One row of the edit-distance table of CHAR (after PREVIOUS) against the string B.
+  (let* ((n (string-length b))
+         (row (make-vector (+ n 1) (+ 1 (vector-ref above 0)))))
+    (do ((j 1 (+ j 1)))
+        ((> j n) row)
+      (let* ((same? (char=? char (string-ref b (- j 1))))
+             (swap? (and two-above (> j 1)
+                         (char=? char (string-ref b (- j 2)))
+                         (char=? previous (string-ref b (- j 1)))))
+             (best (min (+ 1 (vector-ref above j))
+                        (+ 1 (vector-ref row (- j 1)))
+                        (+ (if same? 0 1) (vector-ref above (- j 1))))))
+        (vector-set! row j (if swap? (min best (+ 1 (vector-ref two-above (- j 2)))) best))))))
+
+(define (edit-distance a b)
+  ;; Insertions, deletions, substitutions and swaps of neighbours (optimal string alignment).
+  (let loop ((i 0) (above (list->vector (iota (+ 1 (string-length b))))) (two-above #f))
+    (if (= i (string-length a))
+        (vector-ref above (string-length b))
+        (loop (+ i 1)
+              (edit-row above two-above (string-ref a i)
+                        (if (zero? i) #\nul (string-ref a (- i 1))) b)
+              above))))
+
+(define (word-distance a b)
+  (let ((a (string-downcase a)) (b (string-downcase b)))
+    (cond ((or (> (string-length a) longest-word) (> (string-length b) longest-word)) longest-word)
+          ((and (>= (string-length a) 3) (string-prefix? a b)) 1)
+          (else (edit-distance a b)))))
+
+(define (nearest word candidates)
+  "Return the member of CANDIDATES spelt most like WORD, or #f when none is near.  Words are symbols,
+keywords or strings."
+  (let* ((text (word->string word))
+         (limit (max 1 (quotient (+ 1 (string-length text)) 3))))
+    (let loop ((rest candidates) (best #f) (distance (+ limit 1)))
+      (if (null? rest)
+          best
+          (let ((d (word-distance text (word->string (car rest)))))
+            (if (< d distance)
+                (loop (cdr rest) (car rest) d)
+                (loop (cdr rest) best distance)))))))
+
+(define names-listed 12)
+
+(define (list-names names)
+  (if (> (length names) names-listed)
+      (string-append (words->string (take names names-listed)) ", …")
+      (words->string names)))
+
+(define* (unknown-name proc what given candidates #:optional noun)
+  "Raise a &bight-error of kind name from PROC: WHAT, such as \"a tether\", has no NOUN GIVEN; it has
+CANDIDATES, the nearest first.  NOUN, a string, may be left out."
+  (let* ((near (nearest given candidates))
+         (ordered (if near (cons near (delete near candidates)) candidates)))
+    (raise-sentence
+     'name proc
+     (string-append what " has no " (if noun (string-append noun " ") "")
+                    "`" (word->string given) "'; it has "
+                    (if (null? ordered) "none" (list-names ordered))
+                    (if near (string-append "; did you mean `" (word->string near) "'?") ""))
+     (list given))))

@@ -1,0 +1,299 @@
+;;; (bight query) --- what one may ask of a dive.
+;;;
+;;; Every answer is a snapshot: it never changes under the user.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight query)
+  #:use-module (bight dive)
+  #:use-module (bight engine)
+  #:use-module (bight errors)
+  #:use-module (bight units)
+  #:use-module (bight record)
+  #:use-module (bight verb)
+  #:use-module (srfi srfi-1)
+  #:use-module (srfi srfi-4)
+  #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
+  #:export (rov-position rov-velocity rov-heading rov-pitch rov-roll rov-depth rov-altitude rov-speed
+            net-turns sticks held? range-to bearing-to
+            current-at sea-depth
+            tether-points point-at tangent-at
+            tensions tension-at anchor-tension rov-tension max-tension tether-force
+            tether-length straight-distance taut-length free-length slack excess
+            taut? settled? model-of equilibria
+            deviation deviation-rms deviation-mean deviation-max deviation-worst deviation?
+            events profile parts find-part tether-properties))
+
+(define (vehicle-view proc v)
+  (%vehicle (this-engine proc) v))
+
+(define (tether-view proc t)
+  (%tether (this-engine proc) t))
+
+(define-syntax-rule (define-vehicle-question (name key) doc)
+  (define-verb (name #:subject (v vehicle))
+    doc
+    (assq-ref (vehicle-view 'name v) 'key)))
+
+(define-syntax-rule (define-tether-question (name key) doc)
+  (define-verb (name #:subject (t tether))
+    doc
+    (assq-ref (tether-view 'name t) 'key)))
+
+
+;;; The vehicle.
+
+(define-vehicle-question (rov-position position)
+  "Return where the vehicle is, a point.")
+(define-vehicle-question (rov-velocity velocity)
+  "Return the velocity of the vehicle over ground, m/s, a vector.")
+(define-vehicle-question (rov-heading heading)
+  "Return the heading of the vehicle, compass degrees from 0 to 360.")
+(define-vehicle-question (rov-pitch pitch)
+  "Return the pitch of the vehicle, degrees, bow up positive.")
+(define-vehicle-question (rov-roll roll)
+  "Return the roll of the vehicle, degrees, starboard down positive.")
+(define-vehicle-question (net-turns turns)
+  "Return the turns the vehicle has made since the dive began, clockwise positive.")
+(define-vehicle-question (sticks sticks)
+  "Return the sticks of the vehicle: surge, sway, heave and yaw, each -1 to 1.")
+(define-vehicle-question (held? held?)
+  "Return #t if a taut tether holds the vehicle back.")
+
+(define-verb (rov-depth #:subject (v vehicle))
+  "Return the depth of the vehicle, m."
+  (- (z (rov-position-of 'rov-depth v))))
+
+(define-verb (rov-altitude #:subject (v vehicle))
+  "Return the height of the vehicle above the bottom, m."
+  (+ (sea-depth) (z (rov-position-of 'rov-altitude v))))
+
+(define-verb (rov-speed #:subject (v vehicle))
+  "Return the speed of the vehicle over ground, m/s."
+  (norm (assq-ref (vehicle-view 'rov-speed v) 'velocity)))
+
+(define (rov-position-of proc v)
+  (assq-ref (vehicle-view proc v) 'position))
+
+(define-verb (range-to #:subject (v vehicle) (p point))
+  "Return the distance from the vehicle to the point P, m."
+  (distance (rov-position-of 'range-to v) p))
+
+(define-verb (bearing-to #:subject (v vehicle) (p point))
+  "Return the compass bearing from the vehicle to the point P, degrees from 0 to 360."
+  (let* ((way (vec- p (rov-position-of 'bearing-to v)))
+         (degrees (* (atan (x way) (y way)) (/ 180 (acos -1)))))
+    (if (< degrees 0) (+ degrees 360) degrees)))
+
+
+;;; The sea.
+
+(define-verb (current-at (p point))
+  "Return the velocity of the water at the point P now, m/s, a vector."
+  (%current-at (this-engine 'current-at) p))
+
+(define-verb (sea-depth)
+  "Return the depth of the sea, m."
+  (assq-ref (%sea (this-engine 'sea-depth)) 'depth))
+
+
+;;; The tether's shape.
+
+(define most-points 100000)
+
+(define-argument-type (points-wanted value)
+  "how many points, a whole number from 2 to 100000"
+  (if (and (real? value) (<= 2 value most-points) (integer? value)) (inexact->exact value) refused))
+
+(define-verb (tether-points #:subject (t tether) #:optional (n points-wanted 0))
+  "Return the polyline of the tether from its anchor to the vehicle, an n x 3 array: the model's own
+nodes, or N points equally spaced in arc length, both ends included."
+  (%tether-points (this-engine 'tether-points) t n))
+
+(define-verb (point-at #:subject (t tether) (s number))
+  "Return the point of the tether at arc length S metres from its anchor.  Raise domain if S lies outside
+what is out."
+  (%point-at (this-engine 'point-at) t s))
+
+(define-verb (tangent-at #:subject (t tether) (s number))
+  "Return the unit tangent of the tether, toward the vehicle, at arc length S metres from its anchor."
+  (%tangent-at (this-engine 'tangent-at) t s))
+
+
+;;; Tension.
+
+(define-verb (tensions #:subject (t tether) #:optional (n points-wanted 0))
+  "Return the tensions in newtons at the points of `tether-points', an f64vector."
+  (%tether-tensions (this-engine 'tensions) t n))
+
+(define-verb (tension-at #:subject (t tether) (s number))
+  "Return the tension of the tether in newtons at arc length S metres from its anchor."
+  (%tension-at (this-engine 'tension-at) t s))
+
+(define-tether-question (anchor-tension tension-anchor)
+  "Return the tension of the tether at its anchor, N.")
+(define-tether-question (rov-tension tension-end)
+  "Return the tension of the tether at the vehicle, N.")
+(define-tether-question (max-tension tension-max)
+  "Return the largest tension along the tether now, N.")
+(define-tether-question (tether-force force)
+  "Return the force of the tether on the vehicle, N, a vector.")
+
+
+;;; Lengths.
+
+(define-tether-question (tether-length length)
+  "Return how much tether is out, m.")
+(define-tether-question (straight-distance chord)
+  "Return the straight distance between the ends of the tether, m.")
+(define-tether-question (taut-length chord)
+  "Return the length the tether would take if it were pulled tight through nothing, m; in open water the
+straight distance.")
+(define-tether-question (free-length chord)
+  "Return the length of the shortest way from the anchor to the vehicle, m; in open water the straight
+distance.")
+
+(define-verb (slack #:subject (t tether))
+  "Return the share of the tether that is slack, (out - taut) / out."
+  (let ((view (tether-view 'slack t)))
+    (max 0.0 (- 1 (/ (assq-ref view 'chord) (assq-ref view 'length))))))
+
+(define-verb (excess #:subject (t tether))
+  "Return by how much the taut length exceeds the free length, m; in open water 0."
+  (tether-view 'excess t)
+  0.0)
+
+(define-tether-question (taut? taut?)
+  "Return #t if the tether is pulled tight.")
+(define-tether-question (settled? settled?)
+  "Return #t unless the tether's steady shape is still being relaxed.")
+
+(define-verb (model-of #:subject (t tether))
+  "Return the model of the tether, a symbol."
+  (assq-ref (tether-properties t) 'model))
+
+(define (tether-properties t)
+  "Return the properties of tether number T, an alist by field."
+  (%tether-properties (this-engine 'describe) t))
+
+(define-verb (equilibria #:subject (t tether))
+  "Return the distinct shapes in which the tether could rest with its ends where they are, polylines, the
+one found from its own side first.  The search tries bows to every side; finding one does not prove that
+there is no other.  Only the model `steady' looks."
+  (%equilibria (this-engine 'equilibria) t))
+
+
+;;; Against a measurement.
+
+(define-record <deviation>
+  (make-deviation rms mean max worst)
+  deviation-record?
+  (rms %rms) (mean %mean) (max %max) (worst %worst))
+
+(define (millimetres m)
+  (/ (round (* 10000 m)) 10))
+
+(set-record-type-printer!
+ <deviation>
+ (lambda (d port)
+   (format port "#<deviation rms ~a mm, mean ~a mm, max ~a mm at ~a m>"
+           (millimetres (%rms d)) (millimetres (%mean d)) (millimetres (%max d))
+           (/ (round (* 100 (%worst d))) 100))))
+
+(define-argument-type (deviation value)
+  "what `deviation' returns"
+  (if (deviation-record? value) value refused))
+
+(define-verb (deviation? (object any))
+  "Return #t if OBJECT is a deviation."
+  (deviation-record? object))
+(define-verb (deviation-rms (d deviation))
+  "Return the root mean square distance of the deviation D, m."
+  (%rms d))
+(define-verb (deviation-mean (d deviation))
+  "Return the mean distance of the deviation D, m."
+  (%mean d))
+(define-verb (deviation-max (d deviation))
+  "Return the largest distance of the deviation D, m."
+  (%max d))
+(define-verb (deviation-worst (d deviation))
+  "Return the arc length of the largest distance of the deviation D, m."
+  (%worst d))
+
+(define (row polyline i)
+  (f64vector (array-ref polyline i 0) (array-ref polyline i 1) (array-ref polyline i 2)))
+
+(define (polyline-rows polyline)
+  (map (lambda (i) (row polyline i)) (iota (array-length polyline))))
+
+(define (chord-lengths points)
+  ;; Arc lengths along the polyline of POINTS, from 0.
+  (let loop ((rest points) (s 0.0) (lengths '()))
+    (if (null? (cdr rest))
+        (reverse! (cons s lengths))
+        (loop (cdr rest) (+ s (distance (car rest) (cadr rest))) (cons s lengths)))))
+
+(define (spread-over length points)
+  ;; The arc lengths of POINTS, stretched so that the last lies at LENGTH.
+  (let* ((lengths (chord-lengths points))
+         (whole (last lengths)))
+    (if (zero? whole)
+        (bight-raise 'domain 'deviation "the measured points all coincide")
+        (map (lambda (s) (min length (* length (/ s whole)))) lengths))))
+
+(define-argument-type (arc-lengths value)
+  "a list of arc lengths in metres, one for each point"
+  (if (and (list? value) (every (lambda (s) (accepts? type:non-negative s)) value)) value refused))
+
+(define-verb (deviation #:subject (t tether) (points points) #:key (at arc-lengths #f))
+  "Return how far the tether lies from the measured POINTS: rms, mean and largest distance, and the arc
+length of that.  AT lists the arc length of each point; left out, the points run from anchor to vehicle
+and are matched by their own arc length."
+  (let* ((engine (this-engine 'deviation))
+         (measured (polyline-rows points))
+         (out (assq-ref (%tether engine t) 'length))
+         (places (or at (spread-over out measured))))
+    (unless (= (length places) (length measured))
+      (bight-raise 'domain 'deviation "~a arc lengths were given for ~a points"
+                   (length places) (length measured)))
+    (summary places
+             (map (lambda (s p) (distance p (%point-at engine t s))) places measured))))
+
+(define (summary places distances)
+  (let* ((n (length distances))
+         (worst (apply max distances)))
+    (make-deviation (sqrt (/ (fold (lambda (d sum) (+ sum (* d d))) 0.0 distances) n))
+                    (/ (apply + distances) n)
+                    worst
+                    (list-ref places (list-index (lambda (d) (= d worst)) distances)))))
+
+
+;;; The dive as a whole.
+
+(define-verb (events #:key (since number -1.0))
+  "Return what has happened later than SINCE seconds, oldest first: lists (KIND TIME SUBJECT).  Asking
+never drains them; the last 128 are kept."
+  (filter (lambda (event) (> (cadr event) since))
+          (%events (this-engine 'events) 0)))
+
+(define-verb (profile)
+  "Return the work done since the dive began and the work skipped, an alist of counters."
+  (%profile (this-engine 'profile)))
+
+(define-verb (parts)
+  "Return the names of the parts of the dive, symbols: vehicles, then tethers."
+  (let ((engine (this-engine 'parts)))
+    (append (%names engine 'rov) (%names engine 'tether))))
+
+(define (find-part proc name)
+  "Return the kind (vehicle or tether) and index of the part called NAME, or raise a &bight-error from
+PROC."
+  (let* ((engine (this-engine proc))
+         (index (lambda (names) (list-index (lambda (n) (eq? n name)) names)))
+         (vehicle (index (%names engine 'rov)))
+         (tether (index (%names engine 'tether))))
+    (cond (vehicle (values 'vehicle vehicle))
+          (tether (values 'tether tether))
+          (else
+           (unknown-name proc "this dive" name
+                         (append (%names engine 'rov) (%names engine 'tether)) "part")))))

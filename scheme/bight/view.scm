@@ -1,0 +1,469 @@
+;;; (bight view) --- the dive in plain characters: two drawings and a panel of figures.
+;;;
+;;; `look' draws the tether from above and from the side, on one scale; `status' tells the figures.
+;;; Both return a picture, which is text that prints as itself.  A canvas is an array of characters
+;;; with a frame: metres to cells, a cell being twice as high as wide.  Everything comes from the
+;;; queries a user has too.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight view)
+  #:use-module ((bight command) #:select (spooling?))
+  #:use-module (bight dive)
+  #:use-module (bight engine)
+  #:use-module (bight errors)
+  #:use-module (bight query)
+  #:use-module (bight record)
+  #:use-module (bight time)
+  #:use-module (bight verb)
+  #:use-module (srfi srfi-1)
+  #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
+  #:export (look
+            status
+            picture?
+            picture-lines
+            lines->picture
+            terminal-columns
+            scene?
+            canvas?))
+
+
+;;; Pictures: text that prints as itself.
+
+(define-record <picture>
+  (make-picture lines)
+  picture?
+  (lines picture-lines))
+
+(set-record-type-printer! <picture>
+  (lambda (picture port)
+    (display (string-join (picture-lines picture) "\n") port)))
+
+(define (lines->picture lines)
+  "Return the picture whose text is LINES, a list of strings."
+  (make-picture (map (lambda (line) (string-trim-right line #\space)) lines)))
+
+(define (stty-columns)
+  ;; The width that the terminal itself reports, or #f.
+  (and (isatty? (current-output-port))
+       (false-if-exception
+        (let* ((open (module-ref (resolve-interface '(ice-9 popen)) 'open-input-pipe))
+               (close (module-ref (resolve-interface '(ice-9 popen)) 'close-pipe))
+               (pipe (open "stty size < /dev/tty 2> /dev/null"))
+               (rows (read pipe))
+               (columns (read pipe)))
+          (close pipe)
+          (and (integer? rows) (integer? columns) columns)))))
+
+(define (terminal-columns)
+  "Return the number of columns of the terminal: from the variable COLUMNS, from the terminal, or 80."
+  (let ((columns (or (and=> (getenv "COLUMNS") string->number) (stty-columns))))
+    (if (and columns (exact-integer? columns) (> columns 0)) columns 80)))
+
+
+;;; Asking, where a dive may have no answer.
+
+(define-syntax-rule (answer expression)
+  ;; The value of EXPRESSION, or #f if the dive cannot tell.
+  (with-exception-handler
+      (lambda (exception)
+        (if (bight-error? exception) #f (raise-exception exception)))
+    (lambda () expression)
+    #:unwind? #t))
+
+(define (ask name . arguments)
+  ;; As `answer', for a query that the language may not have yet.
+  (let ((variable (module-variable (resolve-interface '(bight)) name)))
+    (and variable (answer (apply (variable-ref variable) arguments)))))
+
+(define (vehicles proc)
+  (%names (this-engine proc) 'rov))
+
+(define (tethers proc)
+  (%names (this-engine proc) 'tether))
+
+(define (point->list p)
+  (if (list? p) p (array->list p)))
+
+
+;;; Numbers as people read them.
+
+(define (fixed x places)
+  ;; X with PLACES decimals.
+  (let* ((scale (expt 10 places))
+         (n (inexact->exact (round (* (abs x) scale))))
+         (sign (if (and (negative? x) (positive? n)) "-" ""))
+         (whole (number->string (quotient n scale))))
+    (if (zero? places)
+        (string-append sign whole)
+        (string-append sign whole "."
+                       (string-pad (number->string (remainder n scale)) places #\0)))))
+
+(define (bearing->string degrees)
+  (string-pad (number->string (modulo (inexact->exact (round degrees)) 360)) 3 #\0))
+
+(define radian (/ (acos -1) 180))
+
+(define (bearing-of x y)
+  (let ((degrees (/ (atan x y) radian)))
+    (if (negative? degrees) (+ 360 degrees) degrees)))
+
+(define (horizontal-speed v)
+  (sqrt (+ (expt (first v) 2) (expt (second v) 2))))
+
+(define (current->string v)
+  ;; A current, a list of its components, as speed, arrow and bearing.
+  (let* ((speed (horizontal-speed v))
+         (toward (bearing-of (first v) (second v))))
+    (if (< speed 0.005)
+        "none"
+        (string-append (fixed speed 2) " m/s " (arrow toward) " " (bearing->string toward)))))
+
+(define (arrow bearing)
+  (vector-ref #("^" "^>" "-->" "v>" "v" "<v" "<--" "<^")
+              (modulo (inexact->exact (round (/ bearing 45))) 8)))
+
+
+;;; Canvases.
+
+(define-record <canvas>
+  (%make-canvas cells left top step)
+  canvas?
+  (cells canvas-cells)                  ; an array, row by column
+  (left canvas-left)                    ; metres at the left edge
+  (top canvas-top)                      ; metres at the upper edge
+  (step canvas-step))                   ; metres a column; a row is twice that
+
+(define (make-canvas columns rows middle step)
+  ;; A blank canvas with the point MIDDLE, a pair of metres, in its middle.
+  (%make-canvas (make-array #\space rows columns)
+                (- (car middle) (* 1/2 columns step))
+                (+ (cdr middle) (* rows step))
+                step))
+
+(define (canvas-columns canvas)
+  (second (array-dimensions (canvas-cells canvas))))
+
+(define (cell-of canvas place)
+  ;; The cell, a pair of column and row, at PLACE, a pair of metres.
+  (let ((step (canvas-step canvas)))
+    (cons (inexact->exact (floor (/ (- (car place) (canvas-left canvas)) step)))
+          (inexact->exact (floor (/ (- (canvas-top canvas) (cdr place)) (* 2 step)))))))
+
+(define (put! canvas cell char)
+  (when (array-in-bounds? (canvas-cells canvas) (cdr cell) (car cell))
+    (array-set! (canvas-cells canvas) char (cdr cell) (car cell))))
+
+(define (put-row! canvas height char)
+  ;; A level line at HEIGHT metres, behind everything drawn later.
+  (let ((row (cdr (cell-of canvas (cons 0 height)))))
+    (for-each (lambda (column) (put! canvas (cons column row) char))
+              (iota (canvas-columns canvas)))))
+
+(define (cells-between a b)
+  ;; The cells from A, left out, to B, each touching the next.
+  (let* ((dx (- (car b) (car a)))
+         (dy (- (cdr b) (cdr a)))
+         (n (max (abs dx) (abs dy))))
+    (map (lambda (i)
+           (cons (+ (car a) (round (/ (* i dx) n)))
+                 (+ (cdr a) (round (/ (* i dy) n)))))
+         (iota n 1))))
+
+(define (trace-cells corners)
+  ;; The connected cells along CORNERS, a list of cells.
+  (let loop ((rest (cdr corners)) (at (car corners)) (trail (list (car corners))))
+    (if (null? rest)
+        (reverse trail)
+        (loop (cdr rest) (car rest)
+              (append (reverse (cells-between at (car rest))) trail)))))
+
+(define (stroke before after)
+  ;; The character that leads from the cell BEFORE to the cell AFTER.
+  (let ((dx (- (car after) (car before)))
+        (dy (- (cdr after) (cdr before))))
+    (cond ((zero? dy) #\-)
+          ((zero? dx) #\|)
+          ((positive? (* dx dy)) #\\)
+          (else #\/))))
+
+(define (draw-line! canvas places)
+  ;; Draw the line through PLACES, a list of pairs of metres.
+  (let ((trail (trace-cells (map (lambda (place) (cell-of canvas place)) places))))
+    (let loop ((before (car trail)) (rest trail))
+      (unless (null? rest)
+        (let ((after (if (null? (cdr rest)) (car rest) (cadr rest))))
+          (put! canvas (car rest) (if (equal? before after) #\* (stroke before after)))
+          (loop (car rest) (cdr rest)))))))
+
+(define (canvas->lines canvas)
+  (map list->string (array->list (canvas-cells canvas))))
+
+(define (frame title lines columns)
+  ;; LINES, each COLUMNS long, in a box under TITLE.
+  (let ((edge (string-append "+" (make-string columns #\-) "+")))
+    (append (list (string-pad-right (string-append " " title) (+ 2 columns)) edge)
+            (map (lambda (line) (string-append "|" line "|")) lines)
+            (list edge))))
+
+
+;;; What there is to draw: a scene is read once from the dive.
+
+(define-record <scene>
+  (make-scene lines names vehicles headings current floor)
+  scene?
+  (lines scene-lines)                   ; of each tether its points, lists (x y z), from the anchor
+  (names scene-names)                   ; of the vehicles, symbols
+  (vehicles scene-vehicles)             ; a list (x y z) each
+  (headings scene-headings)             ; degrees each
+  (current scene-current)               ; at the first vehicle, a list of components
+  (floor scene-floor))                  ; height of the sea bed
+
+(define (read-scene)
+  (let ((vehicles (vehicles 'look))
+        (tethers (tethers 'look)))
+    (when (null? vehicles)
+      (bight-raise 'name 'look "this dive has no vehicle to look at"))
+    (make-scene (filter-map (lambda (name) (and=> (answer (tether-points name)) array->list)) tethers)
+                vehicles
+                (map (lambda (name) (point->list (rov-position name))) vehicles)
+                (map rov-heading vehicles)
+                (point->list (current-at (rov-position (car vehicles))))
+                (- (sea-depth)))))
+
+(define (scene-points scene)
+  (append (concatenate (scene-lines scene)) (scene-vehicles scene)))
+
+(define (mean numbers)
+  (/ (apply + numbers) (length numbers)))
+
+(define (main-direction scene)
+  ;; The bearing along which the scene is longest (least squares), from the anchor to the vehicle.
+  (let* ((points (scene-points scene))
+         (xs (map first points))
+         (ys (map second points))
+         (mx (mean xs))
+         (my (mean ys))
+         (moment (lambda (as ma bs mb) (apply + (map (lambda (a b) (* (- a ma) (- b mb))) as bs))))
+         (angle (* 1/2 (atan (* 2 (moment xs mx ys my))
+                             (- (moment xs mx xs mx) (moment ys my ys my)))))
+         (forward (+ (* (cos angle) (- (last xs) (first xs)))
+                     (* (sin angle) (- (last ys) (first ys))))))
+    (bearing-of (if (< forward -1e-9) (- (cos angle)) (cos angle))
+                (if (< forward -1e-9) (- (sin angle)) (sin angle)))))
+
+(define (from-above point)
+  (cons (first point) (second point)))
+
+(define (from-the-side bearing origin)
+  ;; The projection on the upright plane through ORIGIN that runs toward BEARING.
+  (let ((east (sin (* radian bearing)))
+        (north (cos (* radian bearing))))
+    (lambda (point)
+      (cons (+ (* east (- (first point) (first origin)))
+               (* north (- (second point) (second origin))))
+            (third point)))))
+
+
+;;; Fitting.
+
+(define (extent numbers)
+  (- (apply max numbers) (apply min numbers)))
+
+(define (middle numbers)
+  (/ (+ (apply max numbers) (apply min numbers)) 2))
+
+(define (middle-of places)
+  (cons (middle (map car places)) (middle (map cdr places))))
+
+(define finest-step 0.1)
+
+(define (step-for places columns rows)
+  ;; The metres a column must span for PLACES to fit, with a margin.
+  (max (/ (extent (map car places)) (- columns 4))
+       (/ (extent (map cdr places)) (* 2 (- rows 3)))
+       finest-step))
+
+(define (near-levels scene places)
+  ;; The levels, surface and sea bed, that are near enough to be shown with PLACES.
+  (let* ((heights (map cdr places))
+         (reach (max 3 (extent heights) (* 1/2 (extent (map car places))))))
+    (filter (lambda (level)
+              (and level
+                   (< (- (apply min heights) reach) level (+ (apply max heights) reach))))
+            (list 0 (scene-floor scene)))))
+
+(define (with-levels levels places)
+  (append (map (lambda (level) (cons (car (car places)) level)) levels) places))
+
+(define (nice-length x)
+  ;; The largest of 1, 2 and 5 times a power of ten that is not above X.
+  (let* ((power (expt 10 (inexact->exact (floor (log10 x)))))
+         (ratio (/ x power)))
+    (* power (cond ((>= ratio 5) 5) ((>= ratio 2) 2) (else 1)))))
+
+(define (scale-bar step columns)
+  (let* ((metres (nice-length (* step columns 1/3)))
+         (cells (max 2 (inexact->exact (round (/ metres step))))))
+    (string-append "|" (make-string (- cells 1) #\-) "| "
+                   (number->string (if (>= metres 1) metres (exact->inexact metres))) " m")))
+
+
+;;; Drawing the scene.
+
+(define (heading-mark heading)
+  (string-ref "^>v<" (modulo (inexact->exact (round (/ heading 90))) 4)))
+
+(define (side-mark bearing)
+  ;; The mark, by its heading, of a vehicle seen with BEARING to the right: o as it points at us or away.
+  (lambda (heading)
+    (let ((along (cos (* radian (- heading bearing)))))
+      (cond ((> along 0.4) #\>) ((< along -0.4) #\<) (else #\o)))))
+
+(define (draw-scene! canvas scene project mark)
+  (for-each (lambda (line)
+              (draw-line! canvas (map project line))
+              (put! canvas (cell-of canvas (project (car line))) #\A))
+            (scene-lines scene))
+  (for-each (lambda (vehicle heading)
+              (put! canvas (cell-of canvas (project vehicle)) (mark heading)))
+            (scene-vehicles scene) (scene-headings scene)))
+
+(define (top-panel scene places columns rows step)
+  (let ((canvas (make-canvas columns rows (middle-of places) step)))
+    (draw-scene! canvas scene from-above heading-mark)
+    (frame "from above, north up" (canvas->lines canvas) columns)))
+
+(define (side-panel scene places levels project bearing columns rows step)
+  (let ((canvas (make-canvas columns rows (middle-of (with-levels levels places)) step)))
+    (when (memv 0 levels)
+      (put-row! canvas 0 #\~))
+    (when (memv (scene-floor scene) levels)
+      (put-row! canvas (scene-floor scene) #\=))
+    (draw-scene! canvas scene project (side-mark bearing))
+    (frame (string-append "from the side, toward " (bearing->string bearing))
+           (canvas->lines canvas) columns)))
+
+(define (legend scene step columns)
+  (string-join
+   (append (list (scale-bar step columns))
+           (if (pair? (scene-lines scene)) '("A anchor") '())
+           (map (lambda (name heading) (simple-format #f "~a ~a" (heading-mark heading) name))
+                (scene-names scene) (scene-headings scene))
+           (list (string-append "current " (current->string (scene-current scene)))))
+   "   "))
+
+(define panel-rows 18)
+
+(define (draw scene width)
+  ;; The lines of both panels, side by side in WIDTH columns.
+  (let* ((columns (- (quotient (- width 1) 2) 2))
+         (bearing (main-direction scene))
+         (project (from-the-side bearing (car (scene-points scene))))
+         (above (map from-above (scene-points scene)))
+         (beside (map project (scene-points scene)))
+         (levels (near-levels scene beside))
+         (step (max (step-for above columns panel-rows)
+                    (step-for (with-levels levels beside) columns panel-rows))))
+    (append (map (lambda (left right) (string-append left " " right))
+                 (top-panel scene above columns panel-rows step)
+                 (side-panel scene beside levels project bearing columns panel-rows step))
+            (list (string-append " " (legend scene step columns))))))
+
+(define-verb (look #:key (columns (or-false (between 40 400))))
+  "Draw the present dive in plain characters, from above (north up) and from the side, on one scale in
+both: A is the anchor, ^ > v < the vehicle and where it heads, ~ the surface, = the sea bed.  The
+drawing is COLUMNS wide, by default as wide as the terminal.  Return a picture, which prints as text."
+  (let ((width (inexact->exact (floor (or columns (max 40 (min 160 (terminal-columns))))))))
+    (lines->picture (draw (read-scene) width))))
+
+
+;;; The panel of figures.  A row is a title and its cells; what the dive cannot tell is left out.
+
+(define (cell label value . units)
+  ;; "LABEL VALUE UNITS", or #f if there is no VALUE.
+  (and value
+       (string-join (remove string-null? (cons* label value units)) " ")))
+
+(define (figure x places)
+  (and (real? x) (fixed x places)))
+
+(define (point->string p)
+  (and p
+       (string-append "(" (string-join (map (lambda (x) (fixed x 2)) (point->list p)) " ") ")")))
+
+(define (row title . cells)
+  (let ((cells (filter identity cells)))
+    (and (pair? cells)
+         (string-append (string-pad-right title 10) (string-join cells "   ")))))
+
+(define (vehicle-rows name)
+  (list (row (symbol->string name)
+             (cell "at" (point->string (rov-position name)))
+             (cell "heading" (bearing->string (rov-heading name)))
+             (cell "speed" (figure (rov-speed name) 2) "m/s")
+             (cell "depth" (figure (rov-depth name) 2) "m"))
+        (apply row "sticks"
+               (cell "turns" (figure (net-turns name) 2))
+               (map (lambda (title value) (cell title (figure value 2)))
+                    '("surge" "sway" "heave" "yaw")
+                    (point->list (sticks name))))
+        (row "current"
+             (cell "" (current->string (point->list (current-at (rov-position name))))))))
+
+(define (tether-rows name)
+  (list (row (symbol->string name)
+             (word->string (model-of name))
+             (cell "out" (figure (tether-length name) 2) "m")
+             (cell "chord" (figure (straight-distance name) 2) "m")
+             (cell "slack" (and=> (answer (slack name)) (lambda (s) (fixed (* 100 s) 1))) "%")
+             (cell "contacts" (and=> (ask 'contacts name)
+                                     (lambda (all) (number->string (length all))))))
+        (row "tension"
+             (cell "anchor" (figure (answer (anchor-tension name)) 1) "N")
+             (cell "vehicle" (figure (answer (rov-tension name)) 1) "N")
+             (cell "most" (figure (answer (max-tension name)) 1) "N"))))
+
+(define tension-alarm 0.5)              ; share of the breaking load
+
+(define (breaking-load name)
+  (let ((properties (tether-properties (subject-index 'status 'tether name))))
+    (assq-ref properties 'breaking-load)))
+
+(define (overload name)
+  ;; What to say if the tether NAME is near to breaking, else #f.
+  (let ((most (answer (max-tension name)))
+        (limit (breaking-load name)))
+    (and (real? most) (real? limit) (> most (* tension-alarm limit))
+         (string-append "tension at " (fixed (* 100 (/ most limit)) 0) " % of the breaking load"))))
+
+(define (tether-warnings name)
+  (map (lambda (text) (simple-format #f "~a ~a" name text))
+       (filter identity
+               (list (and (ask 'parted? name) "parted")
+                     (and (answer (taut? name)) "taut")
+                     (and (ask 'stuck? name) "stuck")
+                     (and (ask 'fouled? name) "fouled")
+                     (overload name)
+                     (and (answer (spooling? name)) "spooling")))))
+
+(define (vehicle-warnings name)
+  (if (answer (held? name))
+      (list (simple-format #f "~a held back by its tether" name))
+      '()))
+
+(define-verb (status)
+  "Return the figures of the present dive as a picture, which prints as text: time, and of each vehicle
+and tether position, sticks, current, length, slack, tension; then what to beware of."
+  (let* ((vehicles (vehicles 'status))
+         (tethers (tethers 'status))
+         (time (row "time" (string-append (fixed (now) 2) " s")))
+         (warnings (append (append-map vehicle-warnings vehicles)
+                           (append-map tether-warnings tethers))))
+    (lines->picture
+     (filter identity
+             (append (list time)
+                     (append-map vehicle-rows vehicles)
+                     (append-map tether-rows tethers)
+                     (list (and (pair? warnings)
+                                (row "BEWARE" (string-join warnings "; ")))))))))

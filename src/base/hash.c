@@ -1,0 +1,39 @@
+/* A 64-bit hash: words mixed by multiplication and rotation, after the finaliser of MurmurHash3.  Not
+   for secrets: for telling states apart.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "base/hash.h"
+
+static uint64_t
+mix (uint64_t h, uint64_t word)
+{
+  h ^= word;
+  h ^= h >> 33;
+  h *= 0xff51afd7ed558ccdULL;
+  h ^= h >> 33;
+  h *= 0xc4ceb9fe1a85ec53ULL;
+  return h ^ (h >> 33);
+}
+
+uint64_t
+bt__hash (const void *data, size_t n, uint64_t seed)
+{
+  const unsigned char *p = data;
+  uint64_t h = mix (seed ^ 0x9e3779b97f4a7c15ULL, n);
+  for (; n >= 8; n -= 8, p += 8)
+    {
+      uint64_t word;
+      memcpy (&word, p, 8);
+      h = mix (h, word);
+    }
+  if (n > 0)
+    {
+      uint64_t word = 0;
+      memcpy (&word, p, n);
+      h = mix (h, word);
+    }
+  return h;
+}

@@ -1,0 +1,14 @@
+/* A 64-bit hash of bytes.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_BASE_HASH_H
+#define BT_BASE_HASH_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Return the hash of N bytes at DATA, continued from SEED (0 at first).  */
+uint64_t bt__hash (const void *data, size_t n, uint64_t seed);
+
+#endif

@@ -1,0 +1,16 @@
+/* The whole face of the bight engine.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BIGHT_BIGHT_H
+#define BIGHT_BIGHT_H
+
+#include <bight/dive.h>
+#include <bight/model.h>
+#include <bight/statics.h>
+#include <bight/status.h>
+#include <bight/tether.h>
+#include <bight/vec.h>
+#include <bight/water.h>
+
+#endif

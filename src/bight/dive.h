@@ -1,0 +1,218 @@
+/* A dive: one model and the flat state that moves.
+
+   Every operation works on a copy of the state and is taken over only when it succeeds, so a refused
+   call leaves the dive as it was.  Questions are pure reads.  Nothing is allocated between bt_dive_new
+   and bt_dive_free but by bt_dive_fork and the operation `follow'.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BIGHT_DIVE_H
+#define BIGHT_DIVE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <bight/model.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct bt_dive bt_dive;
+
+/* Start a dive in MODEL (kept by the dive): vehicles in place, tethers laid.  FUNCTION and USER serve a
+   current of kind BT_CURRENT_FUNCTION, else NULL; USER is borrowed.  */
+bt_status bt_dive_new (bt_model *model, bt_current_function function, void *user, bt_dive **dive,
+                       bt_error *error);
+void bt_dive_free (bt_dive *dive);
+
+/* Make *COPY a second dive on the same model in the same state; the two then know nothing of each
+   other.  */
+bt_status bt_dive_fork (const bt_dive *dive, bt_dive **copy, bt_error *error);
+
+/* Let FUNCTION serve currents of kind BT_CURRENT_FUNCTION from now on.  */
+void bt_dive_set_current_function (bt_dive *dive, bt_current_function function, void *user);
+
+/* ---- Time ---- */
+
+/* Advance by one step of bt_dive_time_step seconds.  On failure (BT_ERR_DIVERGED) the dive stays at its
+   last good step.  */
+bt_status bt_dive_step (bt_dive *dive, bt_error *error);
+int64_t bt_dive_steps (const bt_dive *dive);
+double bt_dive_time (const bt_dive *dive);      /* s: steps times the time step */
+double bt_dive_time_step (const bt_dive *dive); /* s */
+
+/* Add SECONDS of wished time to the dive's account and return the whole steps it now holds, which the
+   caller takes; the remainder is carried.  0 <= SECONDS <= 1e9, else BT_ERR_DOMAIN.  */
+bt_status bt_dive_whole_steps (bt_dive *dive, double seconds, int64_t *steps, bt_error *error);
+
+/* ---- Checkpoints ---- */
+
+size_t bt_dive_state_size (const bt_dive *dive); /* bytes */
+/* Copy the whole state to STATE, bt_dive_state_size bytes.  */
+void bt_dive_save (const bt_dive *dive, void *state);
+/* Return to STATE of SIZE bytes, saved from this dive or a fork.  BT_ERR_STALE when it is of another
+   model, BT_ERR_FORMAT when its bytes are not as saved.  */
+bt_status bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error);
+/* Return a 64-bit hash of the whole state: equal states, equal hashes.  */
+uint64_t bt_dive_hash (const bt_dive *dive);
+
+/* ---- Parts ---- */
+
+typedef enum bt_part
+{
+  BT_PART_SEA = 0,
+  BT_PART_VEHICLE,
+  BT_PART_TETHER
+} bt_part;
+
+int bt_dive_count (const bt_dive *dive, bt_part part);
+/* Return the name of the I-th PART, or NULL.  */
+const char *bt_dive_name (const bt_dive *dive, bt_part part, int i);
+
+/* ---- Operations: all that changes a dive besides time ---- */
+
+typedef enum bt_op
+{
+  BT_OP_DRIVE = 0,
+  BT_OP_RELEASE,
+  BT_OP_PLACE,
+  BT_OP_LAY,
+  BT_OP_MOVE,
+  BT_OP_FLY_TO,
+  BT_OP_HOLD_HEADING,
+  BT_OP_HOLD_DEPTH,
+  BT_OP_HOLD_ALTITUDE,
+  BT_OP_HOLD_POSITION,
+  BT_OP_FOLLOW,
+  BT_OP_PAY_OUT,
+  BT_OP_HAUL_IN,
+  BT_OP_CURRENT,
+  BT_OP_ALTER,
+  BT_OP_COUNT
+} bt_op;
+
+typedef struct bt_op_info
+{
+  const char *name;
+  bt_part subject;       /* BT_PART_SEA: none needed (but ALTER: see its text) */
+  int min_args, max_args;
+  const char *args;      /* their names */
+  const char *text;
+} bt_op_info;
+
+/* Return the description of OP, or NULL.  */
+const bt_op_info *bt_op_describe (bt_op op);
+
+enum
+{
+  BT_CURRENT_ARGS = 4 + 4 * BT_PROFILE_MAX /* most numbers a packed current takes */
+};
+
+/* Write CURRENT as the numbers of BT_OP_CURRENT to ARGS and return how many.  */
+int bt_current_pack (const bt_current *current, double *args);
+
+/* Do OP on the SUBJECT-th part of its kind with N numbers ARGS.  BT_ERR_NAME for an unknown operation
+   or subject, BT_ERR_DOMAIN for numbers outside their range, and what the tether's model says.  */
+bt_status bt_dive_do (bt_dive *dive, bt_op op, int subject, const double *args, int n,
+                      bt_error *error);
+
+/* ---- Questions ---- */
+
+typedef struct bt_sea_view
+{
+  double depth, density, gravity;
+} bt_sea_view;
+
+typedef struct bt_vehicle_view
+{
+  bt_vec3 position, velocity;  /* m, m/s */
+  double heading, pitch, roll; /* radians; heading in [0, 2 pi) */
+  double turns;                /* signed, clockwise positive, since the dive began */
+  double sticks[4];            /* surge sway heave yaw */
+  double speeds[4];            /* at full stick: m/s, and rad/s for yaw */
+  int arrived;                 /* nonzero: nowhere left to go */
+  int held;                    /* nonzero: a taut tether stops it */
+} bt_vehicle_view;
+
+typedef struct bt_tether_view
+{
+  bt_tether_props props;
+  double length;         /* paid out, m */
+  double chord;          /* straight distance between the ends, m */
+  double tension_anchor, tension_end, tension_max; /* N */
+  bt_vec3 force;         /* on what the far end is fastened to, N */
+  int vehicle;           /* index of the vehicle at the far end, -1: a fixed point */
+  int taut;
+  int spooling;
+  int settled;           /* zero: the steady shape still moves */
+  int nodes;             /* points of the model's own polyline */
+} bt_tether_view;
+
+typedef enum bt_event_kind
+{
+  BT_EVENT_TAUT = 1, /* a tether began to hold its vehicle, or stopped its winch */
+  BT_EVENT_SLACK,    /* it let go */
+  BT_EVENT_ARRIVED,  /* a vehicle reached where it was sent */
+  BT_EVENT_SPOOLED   /* a winch finished */
+} bt_event_kind;
+
+typedef struct bt_event
+{
+  double time;     /* s */
+  int64_t kind;    /* bt_event_kind */
+  int64_t subject; /* index: a tether; for ARRIVED a vehicle */
+} bt_event;
+
+/* Work done since the dive began: what ran, and what was skipped because nothing asked for it.  */
+typedef struct bt_profile
+{
+  uint64_t steps;
+  uint64_t shape_solves, shape_skips; /* tethers solved anew, and found unchanged */
+  uint64_t search_iterations;         /* of the thesis' simplex */
+  uint64_t shots, marches;            /* of the steady model's shooting */
+  uint64_t relaxations, unsettled;
+  uint64_t current_samples_skipped;   /* shapes solved in still water */
+  uint64_t operations, refused;
+} bt_profile;
+
+void bt_dive_sea (const bt_dive *dive, bt_sea_view *view);
+bt_status bt_dive_vehicle (const bt_dive *dive, int i, bt_vehicle_view *view, bt_error *error);
+bt_status bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *error);
+bt_status bt_dive_current_at (const bt_dive *dive, bt_vec3 p, bt_vec3 *velocity, bt_error *error);
+
+/* Point, unit tangent (toward the vehicle) and tension (N) of tether I at arc length S metres from its
+   anchor.  BT_ERR_DOMAIN if S lies outside the paid-out length.  */
+bt_status bt_tether_point (const bt_dive *dive, int i, double s, bt_vec3 *point, bt_error *error);
+bt_status bt_tether_tangent (const bt_dive *dive, int i, double s, bt_vec3 *tangent, bt_error *error);
+bt_status bt_tether_tension (const bt_dive *dive, int i, double s, double *tension, bt_error *error);
+
+/* Write N points equally spaced in arc length, both ends included (N >= 2), to POINTS; for N = 0 the
+   model's own, as many as bt_tether_view.nodes says.  Tensions alike.  */
+bt_status bt_tether_points (const bt_dive *dive, int i, int n, bt_vec3 *points, bt_error *error);
+bt_status bt_tether_tensions (const bt_dive *dive, int i, int n, double *tensions, bt_error *error);
+
+/* Search for distinct equilibria of tether I at its present ends, as bt_steady_equilibria, at most MAX,
+   into SHAPES (MAX times nodes points).  BT_ERR_UNSUPPORTED unless its model is `steady'.  */
+bt_status bt_tether_equilibria (const bt_dive *dive, int i, int max, bt_vec3 *shapes, int *found,
+                                bt_error *error);
+
+enum
+{
+  BT_EVENTS_KEPT = 128 /* older ones are forgotten */
+};
+
+/* Return how many events there ever were.  */
+int64_t bt_dive_event_count (const bt_dive *dive);
+/* Copy the events from number FIRST on (0: the first ever) that are still kept, oldest first, to EVENTS,
+   which has room for BT_EVENTS_KEPT, and return how many.  */
+int bt_dive_events (const bt_dive *dive, int64_t first, bt_event *events);
+const char *bt_event_name (bt_event_kind kind);
+
+void bt_dive_profile (const bt_dive *dive, bt_profile *profile);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

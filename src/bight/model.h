@@ -1,0 +1,155 @@
+/* What a world is made of: parts as plain structs, one table of fields for each kind of part, and the
+   immutable model that a world compiles to.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BIGHT_MODEL_H
+#define BIGHT_MODEL_H
+
+#include <stddef.h>
+
+#include <bight/status.h>
+#include <bight/tether.h>
+#include <bight/vec.h>
+#include <bight/water.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum
+{
+  BT_NAME_SIZE = 64,      /* bytes of a part's name with its final NUL */
+  BT_VEHICLES_MAX = 64,
+  BT_TETHERS_MAX = 64,
+  BT_NODES_MAX = 10000    /* intervals of one tether */
+};
+
+/* The water and its current.  */
+typedef struct bt_sea_def
+{
+  double depth;   /* m */
+  double density; /* kg/m3 */
+  double gravity; /* m/s2 */
+  bt_current current;
+} bt_sea_def;
+
+/* A vehicle that goes exactly where it is told.  Its own +y is its front.  */
+typedef struct bt_vehicle_def
+{
+  char name[BT_NAME_SIZE];
+  bt_vec3 at;                                  /* m */
+  double heading, pitch, roll;                 /* degrees: compass, bow up, starboard down */
+  double surge_speed, sway_speed, heave_speed; /* m/s at full stick */
+  double yaw_rate;                             /* degrees/s at full stick */
+  double pull;                                 /* N: its pull on a taut tether that holds it */
+} bt_vehicle_def;
+
+/* Where a tether ends: at the vehicle named PART, or, when PART is empty, at the point AT.  */
+typedef struct bt_end
+{
+  bt_vec3 at;
+  char part[BT_NAME_SIZE];
+} bt_end;
+
+typedef struct bt_tether_def
+{
+  char name[BT_NAME_SIZE];
+  bt_end from, to;
+  double length;         /* paid out, m */
+  bt_tether_props props; /* mass or wet_weight may be NAN: it then follows from the other */
+} bt_tether_def;
+
+typedef struct bt_world
+{
+  bt_sea_def sea;
+  const bt_vehicle_def *vehicles;
+  int n_vehicles;
+  const bt_tether_def *tethers;
+  int n_tethers;
+} bt_world;
+
+/* ---- One table of fields, many readers ---- */
+
+typedef enum bt_field_kind
+{
+  BT_FIELD_NUMBER, /* double */
+  BT_FIELD_COUNT,  /* double that holds a whole number */
+  BT_FIELD_POINT,  /* bt_vec3, every component within min and max */
+  BT_FIELD_WORD,   /* double: the value of one of WORDS */
+  BT_FIELD_END,    /* bt_end */
+  BT_FIELD_CURRENT /* bt_current */
+} bt_field_kind;
+
+typedef struct bt_word
+{
+  const char *word; /* NULL ends a list */
+  double value;
+} bt_word;
+
+typedef struct bt_field
+{
+  const char *name; /* as in Scheme: "wet-weight" */
+  const char *unit; /* "m", "N/m", "deg"; "" for none */
+  const char *text; /* what it is, a phrase */
+  bt_field_kind kind;
+  size_t offset;         /* in the part's struct */
+  double fallback;       /* the default number; NAN: must be given or follows from another field */
+  double min, max;       /* allowed range */
+  int above_min;         /* nonzero: MIN itself is not allowed */
+  const bt_word *words;  /* WORD: the choices; NUMBER: words allowed in place of a number; or NULL */
+  int live;              /* nonzero: may change while a dive runs */
+} bt_field;
+
+/* A kind of part.  */
+typedef struct bt_head
+{
+  const char *name; /* "sea", "rov", "tether" */
+  const char *text;
+  size_t size; /* of its struct */
+  const bt_field *fields;
+  size_t n_fields;
+} bt_head;
+
+/* Return the kinds of parts, *N of them.  */
+const bt_head *bt_heads (size_t *n);
+
+/* Return the head or field called NAME, or NULL.  */
+const bt_head *bt_head_find (const char *name);
+const bt_field *bt_field_find (const bt_head *head, const char *name);
+
+/* Fill DEF, a struct of the kind HEAD, with the defaults and no name.  */
+void bt_def_init (const bt_head *head, void *def);
+
+/* Set a field of DEF, checked against its range.  BT_ERR_DOMAIN says what is allowed; BT_ERR_NAME for a
+   word or kind the field does not take.  DEF is unchanged on failure.  */
+bt_status bt_def_set_number (const bt_field *field, void *def, double value, bt_error *error);
+bt_status bt_def_set_word (const bt_field *field, void *def, const char *word, bt_error *error);
+bt_status bt_def_set_point (const bt_field *field, void *def, bt_vec3 value, bt_error *error);
+bt_status bt_def_set_current (const bt_field *field, void *def, const bt_current *value,
+                              bt_error *error);
+bt_status bt_def_set_part (const bt_field *field, void *def, const char *part, bt_error *error);
+/* Copy NAME (1 to BT_NAME_SIZE - 1 bytes) to NAME_FIELD, which has BT_NAME_SIZE bytes.  */
+bt_status bt_def_set_name (char *name_field, const char *name, bt_error *error);
+
+/* ---- The model ---- */
+
+typedef struct bt_model bt_model;
+
+/* Check WORLD and compile it into *MODEL, which is immutable and counted: release it with
+   bt_model_release.  Everything is copied.  BT_ERR_DEF when the parts do not hold together (two of one
+   name, a tether to no vehicle, a tether too short to reach), BT_ERR_DOMAIN for a number outside its
+   range, BT_ERR_LIMIT for too many parts or no memory.  */
+bt_status bt_model_new (const bt_world *world, bt_model **model, bt_error *error);
+bt_model *bt_model_retain (bt_model *model);
+void bt_model_release (bt_model *model);
+
+/* Complete PROPS: give mass or wet_weight from the other in water of DENSITY under GRAVITY; neutral
+   when both are NAN.  */
+void bt_tether_props_complete (bt_tether_props *props, double density, double gravity);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,171 @@
+/* Dives: life, time, checkpoints.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <stdio.h>
+
+#include "guile/guile.h"
+
+/* ---- The object ---- */
+
+static scm_t_bits dive_tag;
+
+bt__handle *
+bt__to_handle (SCM object)
+{
+  scm_assert_smob_type (dive_tag, object);
+  return (bt__handle *)SCM_SMOB_DATA (object);
+}
+
+bt_dive *
+bt__to_dive (SCM object)
+{
+  return bt__to_handle (object)->dive;
+}
+
+SCM
+bt__from_dive (bt_dive *dive, SCM function)
+{
+  bt__handle *handle = scm_gc_malloc (sizeof *handle, "dive");
+  handle->dive = dive;
+  handle->function = function;
+  return scm_new_smob (dive_tag, (scm_t_bits)handle);
+}
+
+static SCM
+mark_dive (SCM object)
+{
+  return ((bt__handle *)SCM_SMOB_DATA (object))->function;
+}
+
+/* Also runs on Guile's finalizer thread: it touches the dive alone.  */
+static size_t
+free_dive (SCM object)
+{
+  bt_dive_free (((bt__handle *)SCM_SMOB_DATA (object))->dive);
+  return 0;
+}
+
+static int
+print_dive (SCM object, SCM port, scm_print_state *state)
+{
+  char text[80];
+  (void)state;
+  snprintf (text, sizeof text, "#<dive %.3f s>", bt_dive_time (bt__to_dive (object)));
+  scm_puts (text, port);
+  return 1;
+}
+
+static SCM
+is_dive (SCM object)
+{
+  return scm_from_bool (SCM_SMOB_PREDICATE (dive_tag, object));
+}
+
+static SCM
+fork_dive (SCM object)
+{
+  bt_error error;
+  bt_dive *copy;
+  bt__check ("what-if", bt_dive_fork (bt__to_dive (object), &copy, &error), &error);
+  return bt__from_dive (copy, bt__to_handle (object)->function);
+}
+
+/* ---- Time ---- */
+
+/* SCM_TICK between the steps lets ^C and the collector in.  */
+static SCM
+step_dive (SCM object, SCM count)
+{
+  bt_dive *dive = bt__to_dive (object);
+  int64_t n = scm_to_int64 (count);
+  bt_error error;
+  for (int64_t i = 0; i < n; i++)
+    {
+      bt__check ("run", bt_dive_step (dive, &error), &error);
+      SCM_TICK;
+    }
+  scm_remember_upto_here_1 (object);
+  return count;
+}
+
+static SCM
+whole_steps (SCM object, SCM seconds)
+{
+  bt_error error;
+  int64_t steps;
+  bt__check ("run",
+             bt_dive_whole_steps (bt__to_dive (object), scm_to_double (seconds), &steps, &error),
+             &error);
+  return scm_from_int64 (steps);
+}
+
+static SCM
+dive_time (SCM object)
+{
+  return scm_from_double (bt_dive_time (bt__to_dive (object)));
+}
+
+static SCM
+dive_steps (SCM object)
+{
+  return scm_from_int64 (bt_dive_steps (bt__to_dive (object)));
+}
+
+static SCM
+dive_time_step (SCM object)
+{
+  return scm_from_double (bt_dive_time_step (bt__to_dive (object)));
+}
+
+/* ---- Checkpoints ---- */
+
+static SCM
+save_dive (SCM object)
+{
+  bt_dive *dive = bt__to_dive (object);
+  SCM bytes = scm_c_make_bytevector (bt_dive_state_size (dive));
+  bt_dive_save (dive, SCM_BYTEVECTOR_CONTENTS (bytes));
+  return bytes;
+}
+
+static SCM
+restore_dive (SCM object, SCM bytes)
+{
+  bt_error error;
+  SCM_ASSERT_TYPE (scm_is_bytevector (bytes), bytes, SCM_ARG2, "restore!", "bytevector");
+  bt__check ("restore!",
+             bt_dive_restore (bt__to_dive (object), SCM_BYTEVECTOR_CONTENTS (bytes),
+                              SCM_BYTEVECTOR_LENGTH (bytes), &error),
+             &error);
+  return SCM_UNSPECIFIED;
+}
+
+static SCM
+hash_dive (SCM object)
+{
+  return scm_from_uint64 (bt_dive_hash (bt__to_dive (object)));
+}
+
+void
+bt__define_dives (void)
+{
+  static const bt__procedure table[] = {
+    { "%dive?", 1, 0, (scm_t_subr)is_dive, "Return #t if OBJECT is a dive." },
+    { "%fork-dive", 1, 0, (scm_t_subr)fork_dive, "Return a copy of DIVE that goes its own way." },
+    { "%step-dive!", 2, 0, (scm_t_subr)step_dive, "Advance DIVE by COUNT steps." },
+    { "%whole-steps!", 2, 0, (scm_t_subr)whole_steps,
+      "Add SECONDS to the time asked of DIVE and return the whole steps it holds." },
+    { "%dive-time", 1, 0, (scm_t_subr)dive_time, "Return the time of DIVE, s." },
+    { "%dive-steps", 1, 0, (scm_t_subr)dive_steps, "Return the steps DIVE has taken." },
+    { "%dive-time-step", 1, 0, (scm_t_subr)dive_time_step, "Return the time step of DIVE, s." },
+    { "%save-dive", 1, 0, (scm_t_subr)save_dive, "Return the state of DIVE, a bytevector." },
+    { "%restore-dive!", 2, 0, (scm_t_subr)restore_dive, "Return DIVE to the state in BYTES." },
+    { "%hash-dive", 1, 0, (scm_t_subr)hash_dive, "Return the 64-bit hash of DIVE's state." },
+  };
+  dive_tag = scm_make_smob_type ("dive", 0);
+  scm_set_smob_mark (dive_tag, mark_dive);
+  scm_set_smob_free (dive_tag, free_dive);
+  scm_set_smob_print (dive_tag, print_dive);
+  bt__define_procedures (table, sizeof table / sizeof *table);
+}

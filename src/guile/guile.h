@@ -1,0 +1,69 @@
+/* The Guile binding: what its files share.  It uses the installed headers of the engine alone.
+
+   One file for each noun; each declares its procedures in one table, from which they get their name,
+   arguments and docstring.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_GUILE_GUILE_H
+#define BT_GUILE_GUILE_H
+
+#include <bight/bight.h>
+#include <libguile.h>
+
+/* One Scheme procedure of (bight engine).  */
+typedef struct bt__procedure
+{
+  const char *name;
+  int required, optional;
+  scm_t_subr function;
+  const char *documentation;
+} bt__procedure;
+
+/* Define and export the N procedures of TABLE in the current module.  */
+void bt__define_procedures (const bt__procedure *table, size_t n);
+
+/* The tables, one for each file.  */
+void bt__define_parts (void);
+void bt__define_dives (void);
+void bt__define_operations (void);
+void bt__define_questions (void);
+
+/* Raise ERROR as a &bight-error on behalf of the Scheme procedure WHO.  Does not return.  */
+void bt__raise (const char *who, const bt_error *error) SCM_NORETURN;
+
+/* Raise ERROR unless STATUS is BT_OK.  */
+void bt__check (const char *who, bt_status status, const bt_error *error);
+
+/* A dive and the Scheme procedure its current may ask.  */
+typedef struct bt__handle
+{
+  bt_dive *dive;
+  SCM function; /* or #f */
+} bt__handle;
+
+bt_dive *bt__to_dive (SCM object);
+bt__handle *bt__to_handle (SCM object);
+SCM bt__from_dive (bt_dive *dive, SCM function);
+/* The bt_current_function that calls a Scheme procedure; USER is the SCM.  */
+void bt__call_current (void *user, bt_vec3 p, double t, bt_vec3 *v);
+
+/* Points: an f64vector of three.  */
+SCM bt__from_point (bt_vec3 p);
+bt_vec3 bt__to_point (const char *who, SCM object);
+
+/* The current that the canonical list OBJECT describes.  *FUNCTION receives the procedure of a
+   (function PROC) current, else is left alone.  */
+bt_current bt__to_current (const char *who, SCM object, SCM *function);
+
+/* The part a symbol means: sea, rov or tether.  */
+bt_part bt__to_part (const char *who, SCM symbol);
+
+/* Set FIELD of DEF from a Scheme value: number, word, point or part's name.  */
+bt_status bt__set_field (const char *who, const bt_field *field, void *def, SCM value,
+                         bt_error *error);
+
+/* The word, or else the number, that VALUE of FIELD reads as.  */
+SCM bt__from_field (const bt_field *field, double value);
+
+#endif

@@ -1,0 +1,144 @@
+/* Operations: what changes a dive.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "guile/guile.h"
+
+static bt_op
+to_op (const char *name)
+{
+  for (int op = 0; op < BT_OP_COUNT; op++)
+    if (strcmp (bt_op_describe ((bt_op)op)->name, name) == 0)
+      return (bt_op)op;
+  return BT_OP_COUNT;
+}
+
+/* The engine's name of the verb WHO: drive! is drive.  */
+static bt_op
+op_of_verb (const char *who)
+{
+  char name[64];
+  size_t n = strcspn (who, "!");
+  n = n < sizeof name ? n : sizeof name - 1;
+  memcpy (name, who, n);
+  name[n] = 0;
+  return to_op (name);
+}
+
+static SCM
+operate (SCM object, SCM verb, SCM subject, SCM args)
+{
+  bt_dive *dive = bt__to_dive (object);
+  SCM string = scm_symbol_to_string (verb);
+  size_t n = scm_c_array_length (args), length;
+  const double *numbers = (const double *)SCM_BYTEVECTOR_CONTENTS (args);
+  char who[64] = "";
+  bt_error error;
+  bt_status status;
+  length = scm_to_locale_stringbuf (string, who, sizeof who - 1);
+  who[length < sizeof who - 1 ? length : sizeof who - 1] = 0;
+  status = bt_dive_do (dive, op_of_verb (who), scm_to_int (subject), numbers, (int)n, &error);
+  scm_remember_upto_here_2 (object, args);
+  bt__check (who, status, &error);
+  return SCM_UNSPECIFIED;
+}
+
+/* A change of the procedure that a dive's current asks, taken back unless it is completed: asking the
+   new one may leave by an exception.  */
+typedef struct change
+{
+  bt__handle *handle;
+  SCM before;
+  int complete;
+} change;
+
+static void
+ask_function (bt__handle *handle, SCM function)
+{
+  int asks = scm_is_true (scm_procedure_p (function));
+  handle->function = function;
+  bt_dive_set_current_function (handle->dive, asks ? bt__call_current : NULL,
+                                asks ? SCM_UNPACK_POINTER (function) : NULL);
+}
+
+static void
+take_back (void *data)
+{
+  change *c = data;
+  if (!c->complete)
+    ask_function (c->handle, c->before);
+}
+
+static SCM
+set_current (SCM object, SCM list)
+{
+  static const char *const who = "current!";
+  change c = { bt__to_handle (object), bt__to_handle (object)->function, 0 };
+  SCM function = c.before;
+  bt_current current = bt__to_current (who, list, &function);
+  double args[BT_CURRENT_ARGS];
+  bt_error error;
+  bt__check (who, bt_current_check (&current, &error), &error);
+  scm_dynwind_begin (0);
+  scm_dynwind_unwind_handler (take_back, &c, SCM_F_WIND_EXPLICITLY);
+  ask_function (c.handle, function);
+  bt__check (who,
+             bt_dive_do (c.handle->dive, BT_OP_CURRENT, 0, args, bt_current_pack (&current, args),
+                         &error),
+             &error);
+  c.complete = 1;
+  scm_dynwind_end ();
+  return SCM_UNSPECIFIED;
+}
+
+/* The number that VALUE, a number or a word, stands for in FIELD.  */
+static double
+field_value (const char *who, const bt_field *field, SCM value)
+{
+  union
+  {
+    bt_vehicle_def vehicle;
+    bt_tether_def tether;
+  } def;
+  bt_error error;
+  memset (&def, 0, sizeof def);
+  bt__check (who, bt__set_field (who, field, &def, value, &error), &error);
+  return *(double *)(void *)((char *)&def + field->offset);
+}
+
+static SCM
+alter (SCM object, SCM part, SCM subject, SCM field_name, SCM value)
+{
+  static const char *const who = "alter!";
+  bt_dive *dive = bt__to_dive (object);
+  bt_part kind = bt__to_part (who, part);
+  const bt_head *head = bt_head_find (kind == BT_PART_VEHICLE ? "rov" : "tether");
+  char *name = scm_to_utf8_string (scm_symbol_to_string (field_name));
+  const bt_field *field = bt_field_find (head, name);
+  bt_error error = { BT_ERR_NAME, "there is no such field" };
+  double args[3];
+  free (name);
+  if (!field)
+    bt__raise (who, &error);
+  args[0] = kind;
+  args[1] = (double)(field - head->fields);
+  args[2] = field_value (who, field, value);
+  bt__check (who, bt_dive_do (dive, BT_OP_ALTER, scm_to_int (subject), args, 3, &error), &error);
+  return SCM_UNSPECIFIED;
+}
+
+void
+bt__define_operations (void)
+{
+  static const bt__procedure table[] = {
+    { "%operate!", 4, 0, (scm_t_subr)operate,
+      "Do VERB on the SUBJECT-th part of its kind in DIVE with ARGS, an f64vector." },
+    { "%set-current!", 2, 0, (scm_t_subr)set_current, "Give DIVE the current that LIST describes." },
+    { "%alter!", 5, 0, (scm_t_subr)alter,
+      "Set FIELD of the SUBJECT-th PART (rov or tether) of DIVE to VALUE." },
+  };
+  bt__define_procedures (table, sizeof table / sizeof *table);
+}

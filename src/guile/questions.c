@@ -1,0 +1,311 @@
+/* Questions: snapshots of a dive as Scheme values.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "guile/guile.h"
+
+#define DEGREES (180 / 3.14159265358979323846)
+
+static SCM
+from_doubles (const double *x, size_t n)
+{
+  SCM v = scm_make_f64vector (scm_from_size_t (n), SCM_INUM0);
+  memcpy (SCM_BYTEVECTOR_CONTENTS (v), x, n * sizeof *x);
+  return v;
+}
+
+static SCM
+symbol (const char *name)
+{
+  return scm_from_utf8_symbol (name);
+}
+
+/* An association (NAME . VALUE) in front of LIST.  */
+static SCM
+with (const char *name, SCM value, SCM list)
+{
+  return scm_acons (symbol (name), value, list);
+}
+
+static SCM
+names (SCM object, SCM part)
+{
+  bt_dive *dive = bt__to_dive (object);
+  bt_part kind = bt__to_part ("parts", part);
+  SCM list = SCM_EOL;
+  for (int i = bt_dive_count (dive, kind); i-- > 0;)
+    list = scm_cons (symbol (bt_dive_name (dive, kind, i)), list);
+  return list;
+}
+
+static SCM
+sea (SCM object)
+{
+  bt_sea_view view;
+  bt_dive_sea (bt__to_dive (object), &view);
+  return with ("depth", scm_from_double (view.depth),
+               with ("density", scm_from_double (view.density),
+                     with ("gravity", scm_from_double (view.gravity), SCM_EOL)));
+}
+
+static SCM
+vehicle (SCM object, SCM index)
+{
+  bt_vehicle_view v;
+  bt_error error;
+  SCM list = SCM_EOL;
+  bt__check ("rov-position",
+             bt_dive_vehicle (bt__to_dive (object), scm_to_int (index), &v, &error), &error);
+  list = with ("surge-speed", scm_from_double (v.speeds[0]), list);
+  list = with ("held?", scm_from_bool (v.held), list);
+  list = with ("arrived?", scm_from_bool (v.arrived), list);
+  list = with ("sticks", from_doubles (v.sticks, 4), list);
+  list = with ("turns", scm_from_double (v.turns), list);
+  list = with ("roll", scm_from_double (v.roll * DEGREES), list);
+  list = with ("pitch", scm_from_double (v.pitch * DEGREES), list);
+  list = with ("heading", scm_from_double (v.heading * DEGREES), list);
+  list = with ("velocity", bt__from_point (v.velocity), list);
+  return with ("position", bt__from_point (v.position), list);
+}
+
+/* ---- Tethers ---- */
+
+static bt_tether_view
+tether_view (const char *who, SCM object, SCM index)
+{
+  bt_tether_view view;
+  bt_error error;
+  bt__check (who, bt_dive_tether (bt__to_dive (object), scm_to_int (index), &view, &error), &error);
+  return view;
+}
+
+static SCM
+tether (SCM object, SCM index)
+{
+  bt_tether_view t = tether_view ("tether-length", object, index);
+  SCM list = SCM_EOL;
+  list = with ("settled?", scm_from_bool (t.settled), list);
+  list = with ("spooling?", scm_from_bool (t.spooling), list);
+  list = with ("taut?", scm_from_bool (t.taut), list);
+  list = with ("vehicle", t.vehicle < 0 ? SCM_BOOL_F : scm_from_int (t.vehicle), list);
+  list = with ("force", bt__from_point (t.force), list);
+  list = with ("tension-max", scm_from_double (t.tension_max), list);
+  list = with ("tension-end", scm_from_double (t.tension_end), list);
+  list = with ("tension-anchor", scm_from_double (t.tension_anchor), list);
+  list = with ("chord", scm_from_double (t.chord), list);
+  return with ("length", scm_from_double (t.length), list);
+}
+
+/* The properties of a tether, by the names of the fields that hold them.  */
+static SCM
+properties (SCM object, SCM index)
+{
+  bt_tether_def def;
+  const bt_head *head = bt_head_find ("tether");
+  SCM list = SCM_EOL;
+  bt_tether_view view = tether_view ("describe", object, index);
+  def.props = view.props;
+  def.length = view.length;
+  for (size_t i = head->n_fields; i-- > 0;)
+    {
+      const bt_field *field = &head->fields[i];
+      const double *value = (const double *)(const void *)((const char *)&def + field->offset);
+      if (field->kind != BT_FIELD_END)
+        list = with (field->name, bt__from_field (field, *value), list);
+    }
+  return list;
+}
+
+static SCM
+tether_points (SCM object, SCM index, SCM count)
+{
+  bt_dive *dive = bt__to_dive (object);
+  int i = scm_to_int (index), asked = scm_to_int (count);
+  int n = asked ? asked : tether_view ("tether-points", object, index).nodes;
+  SCM array = scm_make_typed_array (symbol ("f64"), SCM_UNSPECIFIED,
+                                    scm_list_2 (scm_from_int (n), scm_from_int (3)));
+  scm_t_array_handle handle;
+  bt_status status;
+  bt_error error;
+  scm_array_get_handle (array, &handle);
+  status = bt_tether_points (dive, i, asked,
+                             (bt_vec3 *)(void *)scm_array_handle_f64_writable_elements (&handle),
+                             &error);
+  scm_array_handle_release (&handle);
+  bt__check ("tether-points", status, &error);
+  return array;
+}
+
+static SCM
+tether_tensions (SCM object, SCM index, SCM count)
+{
+  bt_dive *dive = bt__to_dive (object);
+  int asked = scm_to_int (count);
+  int n = asked ? asked : tether_view ("tensions", object, index).nodes;
+  SCM v = scm_make_f64vector (scm_from_int (n), SCM_INUM0);
+  bt_error error;
+  bt__check ("tensions",
+             bt_tether_tensions (dive, scm_to_int (index), asked,
+                                 (double *)SCM_BYTEVECTOR_CONTENTS (v), &error),
+             &error);
+  return v;
+}
+
+static SCM
+point_at (SCM object, SCM index, SCM s)
+{
+  bt_vec3 p;
+  bt_error error;
+  bt__check ("point-at",
+             bt_tether_point (bt__to_dive (object), scm_to_int (index), scm_to_double (s), &p,
+                              &error),
+             &error);
+  return bt__from_point (p);
+}
+
+static SCM
+tangent_at (SCM object, SCM index, SCM s)
+{
+  bt_vec3 p;
+  bt_error error;
+  bt__check ("tangent-at",
+             bt_tether_tangent (bt__to_dive (object), scm_to_int (index), scm_to_double (s), &p,
+                                &error),
+             &error);
+  return bt__from_point (p);
+}
+
+static SCM
+tension_at (SCM object, SCM index, SCM s)
+{
+  double t;
+  bt_error error;
+  bt__check ("tension-at",
+             bt_tether_tension (bt__to_dive (object), scm_to_int (index), scm_to_double (s), &t,
+                                &error),
+             &error);
+  return scm_from_double (t);
+}
+
+/* A polyline of N points from POINTS.  */
+static SCM
+from_points (const bt_vec3 *points, int n)
+{
+  SCM array = scm_make_typed_array (symbol ("f64"), SCM_UNSPECIFIED,
+                                    scm_list_2 (scm_from_int (n), scm_from_int (3)));
+  scm_t_array_handle handle;
+  scm_array_get_handle (array, &handle);
+  memcpy (scm_array_handle_f64_writable_elements (&handle), points, sizeof *points * (size_t)n);
+  scm_array_handle_release (&handle);
+  return array;
+}
+
+static SCM
+equilibria (SCM object, SCM index)
+{
+  enum
+  {
+    MOST = 8
+  };
+  int n = (int)tether_view ("equilibria", object, index).props.nodes + 1, found;
+  bt_vec3 *shapes = scm_gc_malloc_pointerless (sizeof *shapes * MOST * (size_t)n, "equilibria");
+  SCM list = SCM_EOL;
+  bt_error error;
+  bt__check ("equilibria",
+             bt_tether_equilibria (bt__to_dive (object), scm_to_int (index), MOST, shapes, &found,
+                                   &error),
+             &error);
+  while (found-- > 0)
+    list = scm_cons (from_points (shapes + (size_t)found * n, n), list);
+  return list;
+}
+
+/* ---- The dive as a whole ---- */
+
+static SCM
+current_at (SCM object, SCM point)
+{
+  bt_vec3 v;
+  bt_error error;
+  bt__check ("current-at",
+             bt_dive_current_at (bt__to_dive (object), bt__to_point ("current-at", point), &v,
+                                 &error),
+             &error);
+  return bt__from_point (v);
+}
+
+static SCM
+from_event (bt_dive *dive, const bt_event *event)
+{
+  bt_part part = event->kind == BT_EVENT_ARRIVED ? BT_PART_VEHICLE : BT_PART_TETHER;
+  const char *name = bt_dive_name (dive, part, (int)event->subject);
+  return scm_list_3 (symbol (bt_event_name ((bt_event_kind)event->kind)),
+                     scm_from_double (event->time), name ? symbol (name) : SCM_BOOL_F);
+}
+
+static SCM
+event_count (SCM object)
+{
+  return scm_from_int64 (bt_dive_event_count (bt__to_dive (object)));
+}
+
+static SCM
+events (SCM object, SCM first)
+{
+  bt_dive *dive = bt__to_dive (object);
+  bt_event kept[BT_EVENTS_KEPT];
+  SCM list = SCM_EOL;
+  int n = bt_dive_events (dive, scm_to_int64 (first), kept);
+  while (n-- > 0)
+    list = scm_cons (from_event (dive, &kept[n]), list);
+  return list;
+}
+
+static SCM
+profile (SCM object)
+{
+  bt_profile p;
+  SCM list = SCM_EOL;
+  bt_dive_profile (bt__to_dive (object), &p);
+  list = with ("refused", scm_from_uint64 (p.refused), list);
+  list = with ("operations", scm_from_uint64 (p.operations), list);
+  list = with ("still-water-shapes", scm_from_uint64 (p.current_samples_skipped), list);
+  list = with ("unsettled", scm_from_uint64 (p.unsettled), list);
+  list = with ("relaxations", scm_from_uint64 (p.relaxations), list);
+  list = with ("marches", scm_from_uint64 (p.marches), list);
+  list = with ("shots", scm_from_uint64 (p.shots), list);
+  list = with ("search-iterations", scm_from_uint64 (p.search_iterations), list);
+  list = with ("shape-skips", scm_from_uint64 (p.shape_skips), list);
+  list = with ("shape-solves", scm_from_uint64 (p.shape_solves), list);
+  return with ("steps", scm_from_uint64 (p.steps), list);
+}
+
+void
+bt__define_questions (void)
+{
+  static const bt__procedure table[] = {
+    { "%names", 2, 0, (scm_t_subr)names, "Return the names of the parts of kind PART in DIVE." },
+    { "%sea", 1, 0, (scm_t_subr)sea, "Return depth, density and gravity of DIVE's sea, an alist." },
+    { "%vehicle", 2, 0, (scm_t_subr)vehicle, "Return the INDEX-th vehicle of DIVE, an alist." },
+    { "%tether", 2, 0, (scm_t_subr)tether, "Return the INDEX-th tether of DIVE, an alist." },
+    { "%tether-properties", 2, 0, (scm_t_subr)properties,
+      "Return the properties of the INDEX-th tether of DIVE, an alist by field." },
+    { "%tether-points", 3, 0, (scm_t_subr)tether_points,
+      "Return COUNT points (0: the model's own) of the INDEX-th tether of DIVE, an n x 3 array." },
+    { "%tether-tensions", 3, 0, (scm_t_subr)tether_tensions,
+      "Return tensions at the same points, an f64vector." },
+    { "%point-at", 3, 0, (scm_t_subr)point_at, "Return the point at arc length S." },
+    { "%tangent-at", 3, 0, (scm_t_subr)tangent_at, "Return the unit tangent at arc length S." },
+    { "%tension-at", 3, 0, (scm_t_subr)tension_at, "Return the tension at arc length S, N." },
+    { "%equilibria", 2, 0, (scm_t_subr)equilibria,
+      "Return the equilibria found for the INDEX-th tether of DIVE, polylines." },
+    { "%current-at", 2, 0, (scm_t_subr)current_at, "Return the velocity of the water at POINT." },
+    { "%events", 2, 0, (scm_t_subr)events,
+      "Return the kept events of DIVE from number FIRST on, lists (KIND TIME SUBJECT)." },
+    { "%event-count", 1, 0, (scm_t_subr)event_count, "Return how many events DIVE ever had." },
+    { "%profile", 1, 0, (scm_t_subr)profile, "Return the work counters of DIVE, an alist." },
+  };
+  bt__define_procedures (table, sizeof table / sizeof *table);
+}

@@ -1,0 +1,185 @@
+/* Values between Scheme and C: points, currents, fields.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "guile/guile.h"
+
+static void fail (const char *who, bt_status status, const char *text) SCM_NORETURN;
+
+static void
+fail (const char *who, bt_status status, const char *text)
+{
+  bt_error error = { .status = status };
+  strncpy (error.text, text, sizeof error.text - 1);
+  bt__raise (who, &error);
+}
+
+/* ---- Points ---- */
+
+SCM
+bt__from_point (bt_vec3 p)
+{
+  SCM v = scm_make_f64vector (scm_from_int (3), SCM_INUM0);
+  double *x = (double *)SCM_BYTEVECTOR_CONTENTS (v);
+  x[0] = p.x;
+  x[1] = p.y;
+  x[2] = p.z;
+  return v;
+}
+
+static int
+is_f64vector3 (SCM object)
+{
+  return scm_is_true (scm_f64vector_p (object)) && scm_c_array_length (object) == 3;
+}
+
+bt_vec3
+bt__to_point (const char *who, SCM object)
+{
+  const double *x;
+  if (!is_f64vector3 (object))
+    fail (who, BT_ERR_DOMAIN, "a point is an f64vector of three numbers here");
+  x = (const double *)SCM_BYTEVECTOR_CONTENTS (object);
+  return (bt_vec3){ x[0], x[1], x[2] };
+}
+
+/* ---- Currents ---- */
+
+#define DEGREE (3.14159265358979323846 / 180)
+
+static double
+number_in (SCM list, int i)
+{
+  return scm_to_double (scm_list_ref (list, scm_from_int (i)));
+}
+
+static bt_vec3
+velocity_in (SCM list, int i)
+{
+  return bt_set_and_drift (number_in (list, i), number_in (list, i + 1) * DEGREE);
+}
+
+static void
+read_profile (const char *who, SCM rows, bt_current *current)
+{
+  for (; scm_is_pair (rows); rows = SCM_CDR (rows))
+    {
+      if (current->n == BT_PROFILE_MAX)
+        fail (who, BT_ERR_LIMIT, "a current profile has at most 64 rows");
+      current->z[current->n] = number_in (SCM_CAR (rows), 0);
+      current->velocity[current->n++] = velocity_in (SCM_CAR (rows), 1);
+    }
+}
+
+typedef struct kind_word
+{
+  const char *word;
+  bt_current_kind kind;
+} kind_word;
+
+static bt_current_kind
+kind_of (const char *who, SCM symbol)
+{
+  static const kind_word words[]
+      = { { "still", BT_CURRENT_STILL },     { "uniform", BT_CURRENT_UNIFORM },
+          { "profile", BT_CURRENT_PROFILE }, { "turning", BT_CURRENT_TURNING },
+          { "power", BT_CURRENT_POWER },     { "tide", BT_CURRENT_TIDE },
+          { "function", BT_CURRENT_FUNCTION } };
+  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+    if (scm_is_eq (symbol, scm_from_utf8_symbol (words[i].word)))
+      return words[i].kind;
+  fail (who, BT_ERR_NAME, "that is no kind of current");
+}
+
+bt_current
+bt__to_current (const char *who, SCM object, SCM *function)
+{
+  bt_current current;
+  memset (&current, 0, sizeof current);
+  if (!scm_is_pair (object))
+    fail (who, BT_ERR_DOMAIN, "a current is a list here");
+  current.kind = kind_of (who, SCM_CAR (object));
+  switch (current.kind)
+    {
+    case BT_CURRENT_STILL:
+      break;
+    case BT_CURRENT_PROFILE:
+      read_profile (who, SCM_CDR (object), &current);
+      break;
+    case BT_CURRENT_FUNCTION:
+      *function = scm_cadr (object);
+      break;
+    default:
+      current.velocity[0] = velocity_in (object, 1);
+    }
+  if (current.kind == BT_CURRENT_TURNING)
+    current.turn_rate = number_in (object, 3) * DEGREE;
+  if (current.kind == BT_CURRENT_POWER)
+    current.exponent = number_in (object, 3);
+  if (current.kind == BT_CURRENT_TIDE)
+    current.period = number_in (object, 3);
+  return current;
+}
+
+void
+bt__call_current (void *user, bt_vec3 p, double t, bt_vec3 *v)
+{
+  SCM answer = scm_call_2 (SCM_PACK_POINTER (user), bt__from_point (p), scm_from_double (t));
+  if (scm_is_pair (answer))
+    answer = scm_list_to_typed_array (scm_from_utf8_symbol ("f64"), scm_from_int (1), answer);
+  else if (scm_is_true (scm_vector_p (answer)))
+    answer = scm_list_to_typed_array (scm_from_utf8_symbol ("f64"), scm_from_int (1),
+                                      scm_vector_to_list (answer));
+  *v = bt__to_point ("current", answer);
+}
+
+/* ---- Parts and fields ---- */
+
+bt_part
+bt__to_part (const char *who, SCM symbol)
+{
+  if (scm_is_eq (symbol, scm_from_utf8_symbol ("rov")))
+    return BT_PART_VEHICLE;
+  if (scm_is_eq (symbol, scm_from_utf8_symbol ("tether")))
+    return BT_PART_TETHER;
+  if (scm_is_eq (symbol, scm_from_utf8_symbol ("sea")))
+    return BT_PART_SEA;
+  fail (who, BT_ERR_NAME, "a part is a sea, a rov or a tether");
+}
+
+/* The bytes of SYMBOL in BUFFER, cut at BT_NAME_SIZE bytes, which no name reaches.  */
+static void
+symbol_bytes (SCM symbol, char buffer[BT_NAME_SIZE + 1])
+{
+  SCM bytes = scm_string_to_utf8 (scm_symbol_to_string (symbol));
+  size_t n = SCM_BYTEVECTOR_LENGTH (bytes);
+  n = n < BT_NAME_SIZE ? n : BT_NAME_SIZE;
+  memcpy (buffer, SCM_BYTEVECTOR_CONTENTS (bytes), n);
+  buffer[n] = 0;
+}
+
+bt_status
+bt__set_field (const char *who, const bt_field *field, void *def, SCM value, bt_error *error)
+{
+  char word[BT_NAME_SIZE + 1];
+  if (!scm_is_symbol (value))
+    return scm_is_real (value)
+               ? bt_def_set_number (field, def, scm_to_double (value), error)
+               : bt_def_set_point (field, def, bt__to_point (who, value), error);
+  symbol_bytes (value, word);
+  return field->kind == BT_FIELD_END ? bt_def_set_part (field, def, word, error)
+                                     : bt_def_set_word (field, def, word, error);
+}
+
+SCM
+bt__from_field (const bt_field *field, double value)
+{
+  for (const bt_word *w = field->words; w && w->word; w++)
+    if (w->value == value)
+      return scm_from_utf8_symbol (w->word);
+  return scm_from_double (value);
+}

@@ -1,0 +1,86 @@
+/* The program: find the Scheme modules, boot Guile, hand over to (bight cli).
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <config.h>
+
+#include <langinfo.h>
+#include <locale.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <libguile.h>
+
+/* Follow the user's locale, but print any letter even where none is set, and read and write numbers
+   with a point everywhere.  */
+static void
+choose_locale (void)
+{
+  setlocale (LC_ALL, "");
+  if (strcmp (nl_langinfo (CODESET), "ANSI_X3.4-1968") == 0)
+    setlocale (LC_CTYPE, "C.UTF-8");
+  setlocale (LC_NUMERIC, "C");
+}
+
+/* Return nonzero if DIR is the first folder of the search path PATH.  */
+static int
+is_first (const char *path, const char *dir)
+{
+  size_t n = strlen (dir);
+  return strncmp (path, dir, n) == 0 && (path[n] == ':' || path[n] == '\0');
+}
+
+/* Put DIR before the folders of the search path in the environment variable NAME.  */
+static void
+prepend_path (const char *name, const char *dir)
+{
+  const char *old = getenv (name);
+  if (!old || !*old)
+    {
+      setenv (name, dir, 1);
+      return;
+    }
+  if (is_first (old, dir))
+    return;
+  size_t size = strlen (dir) + 1 + strlen (old) + 1;
+  char *path = malloc (size);
+  if (!path)
+    return; /* Guile will say what it does not find.  */
+  snprintf (path, size, "%s:%s", dir, old);
+  setenv (name, path, 1);
+  free (path);
+}
+
+/* Let Guile find the installed modules.  ./pre-inst-env has named those of the build tree.  */
+static void
+find_modules (void)
+{
+  if (getenv ("BIGHT_UNINSTALLED"))
+    return;
+  prepend_path ("GUILE_LOAD_PATH", BIGHT_MODULE_DIR);
+  prepend_path ("GUILE_LOAD_COMPILED_PATH", BIGHT_CCACHE_DIR);
+  prepend_path ("GUILE_EXTENSIONS_PATH", BIGHT_EXTENSION_DIR);
+}
+
+/* Call (main ARGUMENTS) of (bight cli), as a Guile script is called.  It ends with `exit' or returns
+   the exit status.  */
+static void
+run (void *unused, int argc, char **argv)
+{
+  (void)unused;
+  (void)argc;
+  (void)argv;
+  SCM status = scm_call_1 (scm_c_public_ref ("bight cli", "main"), scm_program_arguments ());
+  scm_flush_all_ports ();
+  exit (scm_is_signed_integer (status, 0, 255) ? scm_to_int (status) : EXIT_SUCCESS);
+}
+
+int
+main (int argc, char **argv)
+{
+  choose_locale ();
+  find_modules ();
+  setenv ("GUILE_AUTO_COMPILE", "0", 0); /* A world is a small script: compiling it gains nothing.  */
+  scm_boot_guile (argc, argv, run, NULL);
+}

@@ -1,0 +1,83 @@
+/* Three-vector arithmetic, inline.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_MATH_VEC_H
+#define BT_MATH_VEC_H
+
+#include <math.h>
+
+#include <bight/vec.h>
+
+#define BT__PI 3.14159265358979323846
+
+static inline bt_vec3
+bt__vec (double x, double y, double z)
+{
+  return (bt_vec3){ x, y, z };
+}
+
+static inline bt_vec3
+bt__add (bt_vec3 a, bt_vec3 b)
+{
+  return bt__vec (a.x + b.x, a.y + b.y, a.z + b.z);
+}
+
+static inline bt_vec3
+bt__sub (bt_vec3 a, bt_vec3 b)
+{
+  return bt__vec (a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+static inline bt_vec3
+bt__scale (double k, bt_vec3 a)
+{
+  return bt__vec (k * a.x, k * a.y, k * a.z);
+}
+
+/* A + K B.  */
+static inline bt_vec3
+bt__axpy (bt_vec3 a, double k, bt_vec3 b)
+{
+  return bt__vec (a.x + k * b.x, a.y + k * b.y, a.z + k * b.z);
+}
+
+static inline double
+bt__dot (bt_vec3 a, bt_vec3 b)
+{
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline bt_vec3
+bt__cross (bt_vec3 a, bt_vec3 b)
+{
+  return bt__vec (a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+static inline double
+bt__norm (bt_vec3 a)
+{
+  return sqrt (bt__dot (a, a));
+}
+
+static inline double
+bt__distance (bt_vec3 a, bt_vec3 b)
+{
+  return bt__norm (bt__sub (a, b));
+}
+
+static inline int
+bt__is_finite (bt_vec3 a)
+{
+  return isfinite (a.x) && isfinite (a.y) && isfinite (a.z);
+}
+
+/* A / |A|, or FALLBACK when A has no direction.  */
+static inline bt_vec3
+bt__unit_or (bt_vec3 a, bt_vec3 fallback)
+{
+  double n = bt__norm (a);
+  return n > 0 && isfinite (n) ? bt__scale (1 / n, a) : fallback;
+}
+
+#endif

@@ -1,0 +1,236 @@
+/* The current: what moves the water at a place and a time.
+
+   A current is plain data (bt_current) that is read, never stepped.  Speeds are limited to 20 m/s,
+   far beyond any sea, so that squares of velocities stay harmless in the solvers.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <bight/water.h>
+
+#include "base/error.h"
+#include "math/vec.h"
+
+#define SPEED_MAX 20.0
+#define TURN_MAX 1e3 /* rad/m: beyond any meaning, well within the range of sin and cos */
+
+static const bt_vec3 still = { 0, 0, 0 };
+
+bt_vec3
+bt_set_and_drift (double speed, double toward)
+{
+  return bt__vec (speed * sin (toward), speed * cos (toward), 0);
+}
+
+/* Return the row K, 0 <= K < n - 1, such that Z lies between rows K and K + 1.  Z lies within the
+   profile.  */
+static int
+find_row (const bt_current *current, double z)
+{
+  int rising = current->z[current->n - 1] > current->z[0];
+  int low = 0, high = (int)current->n - 1;
+  while (high - low > 1)
+    {
+      int middle = (low + high) / 2;
+      if ((current->z[middle] <= z) == rising)
+        low = middle;
+      else
+        high = middle;
+    }
+  return low;
+}
+
+static bt_vec3
+profile_velocity (const bt_current *current, double z)
+{
+  int last = (int)current->n - 1;
+  if (last < 0)
+    return still;
+  int rising = current->z[last] > current->z[0];
+  if (last == 0 || (rising ? z <= current->z[0] : z >= current->z[0]))
+    return current->velocity[0];
+  if (rising ? z >= current->z[last] : z <= current->z[last])
+    return current->velocity[last];
+  if (!isfinite (z))
+    return bt__vec (NAN, NAN, NAN);
+  int k = find_row (current, z);
+  double u = (z - current->z[k]) / (current->z[k + 1] - current->z[k]);
+  return bt__axpy (bt__scale (1 - u, current->velocity[k]), u, current->velocity[k + 1]);
+}
+
+/* A bearing grows clockwise, seen from above.  */
+static bt_vec3
+turning_velocity (const bt_current *current, double z)
+{
+  double c = cos (current->turn_rate * -z), s = sin (current->turn_rate * -z);
+  bt_vec3 v = current->velocity[0];
+  return bt__vec (c * v.x + s * v.y, c * v.y - s * v.x, v.z);
+}
+
+static bt_vec3
+power_velocity (const bt_current *current, double depth, double z)
+{
+  if (z >= 0)
+    return current->velocity[0];
+  double share = 1 + z / depth;
+  if (share <= 0)
+    return still;
+  return bt__scale (pow (share, current->exponent), current->velocity[0]);
+}
+
+static bt_vec3
+function_velocity (const bt_water *water, bt_vec3 p)
+{
+  bt_vec3 v = still;
+  if (water->function)
+    water->function (water->user, p, water->time, &v);
+  return v;
+}
+
+bt_vec3
+bt_water_velocity (const bt_water *water, bt_vec3 p)
+{
+  const bt_current *current = water->current;
+  if (!current)
+    return still;
+  switch (current->kind)
+    {
+    case BT_CURRENT_UNIFORM:
+      return current->velocity[0];
+    case BT_CURRENT_PROFILE:
+      return profile_velocity (current, p.z);
+    case BT_CURRENT_TURNING:
+      return turning_velocity (current, p.z);
+    case BT_CURRENT_POWER:
+      return power_velocity (current, water->depth, p.z);
+    case BT_CURRENT_TIDE:
+      return bt__scale (cos (2 * BT__PI * water->time / current->period), current->velocity[0]);
+    case BT_CURRENT_FUNCTION:
+      return function_velocity (water, p);
+    default:
+      return still;
+    }
+}
+
+static int
+same_everywhere (const bt_current *current)
+{
+  return !current || current->kind == BT_CURRENT_STILL || current->kind == BT_CURRENT_UNIFORM
+         || current->kind == BT_CURRENT_TIDE;
+}
+
+bt_vec3
+bt_water_mean_velocity (const bt_water *water, bt_vec3 a, bt_vec3 b)
+{
+  static const double place[5]
+      = { 0.046910077030668004, 0.23076534494715845, 0.5, 0.76923465505284155, 0.953089922969332 };
+  static const double weight[5] = { 0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
+                                    0.23931433524968324, 0.11846344252809454 };
+  if (same_everywhere (water->current))
+    return bt_water_velocity (water, a);
+  bt_vec3 mean = still;
+  for (int i = 0; i < 5; i++)
+    {
+      bt_vec3 p = bt__axpy (a, place[i], bt__sub (b, a));
+      mean = bt__axpy (mean, weight[i], bt_water_velocity (water, p));
+    }
+  return mean;
+}
+
+int
+bt_current_is_unsteady (const bt_current *current)
+{
+  return current->kind == BT_CURRENT_TIDE || current->kind == BT_CURRENT_FUNCTION;
+}
+
+static bt_status
+check_velocity (bt_vec3 v, bt_error *error)
+{
+  double speed = bt__norm (v);
+  if (!(speed <= SPEED_MAX))
+    return bt__fail (error, BT_ERR_DOMAIN, "a current of %g m/s; at most %g m/s is allowed", speed,
+                     SPEED_MAX);
+  return BT_OK;
+}
+
+static bt_status
+check_order (const bt_current *current, bt_error *error)
+{
+  int rising = current->n > 1 && current->z[1] > current->z[0];
+  for (int i = 0; i < current->n; i++)
+    {
+      if (!isfinite (current->z[i]))
+        return bt__fail (error, BT_ERR_DOMAIN, "row %d of the profile lies at a height of %g m",
+                         i + 1, current->z[i]);
+      if (i > 0
+          && !(rising ? current->z[i] > current->z[i - 1] : current->z[i] < current->z[i - 1]))
+        return bt__fail (
+            error, BT_ERR_DOMAIN,
+            "row %d of the profile (z = %g m) does not follow row %d (z = %g m); heights "
+            "must all rise or all fall",
+            i + 1, current->z[i], i, current->z[i - 1]);
+    }
+  return BT_OK;
+}
+
+static bt_status
+check_profile (const bt_current *current, bt_error *error)
+{
+  if (current->n < 1 || current->n > BT_PROFILE_MAX)
+    return bt__fail (error, BT_ERR_DOMAIN, "a profile of %ld rows; 1 to %d are allowed",
+                     (long)current->n, BT_PROFILE_MAX);
+  bt_status status = check_order (current, error);
+  for (int i = 0; i < current->n && status == BT_OK; i++)
+    status = check_velocity (current->velocity[i], error);
+  return status;
+}
+
+static bt_status
+check_turning (const bt_current *current, bt_error *error)
+{
+  if (!(fabs (current->turn_rate) <= TURN_MAX))
+    return bt__fail (error, BT_ERR_DOMAIN, "a current that turns by %g rad per metre; at most %g",
+                     current->turn_rate, TURN_MAX);
+  return check_velocity (current->velocity[0], error);
+}
+
+static bt_status
+check_power (const bt_current *current, bt_error *error)
+{
+  if (!(current->exponent >= 0 && isfinite (current->exponent)))
+    return bt__fail (error, BT_ERR_DOMAIN,
+                     "a power current with the exponent %g; it must be finite and not negative",
+                     current->exponent);
+  return check_velocity (current->velocity[0], error);
+}
+
+static bt_status
+check_tide (const bt_current *current, bt_error *error)
+{
+  if (!(current->period > 0 && isfinite (current->period)))
+    return bt__fail (error, BT_ERR_DOMAIN, "a tide with a period of %g s; it must be positive",
+                     current->period);
+  return check_velocity (current->velocity[0], error);
+}
+
+bt_status
+bt_current_check (const bt_current *current, bt_error *error)
+{
+  switch (current->kind)
+    {
+    case BT_CURRENT_STILL:
+    case BT_CURRENT_FUNCTION:
+      return BT_OK;
+    case BT_CURRENT_UNIFORM:
+      return check_velocity (current->velocity[0], error);
+    case BT_CURRENT_PROFILE:
+      return check_profile (current, error);
+    case BT_CURRENT_TURNING:
+      return check_turning (current, error);
+    case BT_CURRENT_POWER:
+      return check_power (current, error);
+    case BT_CURRENT_TIDE:
+      return check_tide (current, error);
+    default:
+      return bt__fail (error, BT_ERR_DOMAIN, "a current of unknown kind %ld", (long)current->kind);
+    }
+}

@@ -1,0 +1,277 @@
+/* Compile a world into a model.  This is the validator: what it lets through, the engine can run.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "math/vec.h"
+#include "model/model.h"
+
+/* ---- Every field within its range ---- */
+
+/* Put a sentence about PART in front of what ERROR says.  */
+static bt_status
+about (const char *head, const char *name, bt_error *error)
+{
+  if (error)
+    {
+      bt_error inner = *error;
+      bt__fail (error, inner.status, "%s%s%s%s: %s", head, *name ? " `" : "", name, *name ? "'" : "",
+                inner.text);
+      return inner.status;
+    }
+  return BT_ERR_DOMAIN;
+}
+
+/* Check the field of DEF by setting it to itself.  */
+static bt_status
+check_field (const bt_field *field, void *def, bt_error *error)
+{
+  void *p = (char *)def + field->offset;
+  switch (field->kind)
+    {
+    case BT_FIELD_POINT:
+      return bt_def_set_point (field, def, *(bt_vec3 *)p, error);
+    case BT_FIELD_CURRENT:
+      return bt_current_check (p, error);
+    case BT_FIELD_END:
+      return ((bt_end *)p)->part[0] ? BT_OK : bt_def_set_point (field, def, ((bt_end *)p)->at, error);
+    default:
+      return bt_def_set_number (field, def, *(double *)p, error);
+    }
+}
+
+/* Fields left to follow from others are NAN here and complete by now.  */
+static bt_status
+check_fields (const char *head_name, const char *name, void *def, bt_error *error)
+{
+  const bt_head *head = bt_head_find (head_name);
+  bt_error here;
+  for (size_t i = 0; i < head->n_fields; i++)
+    if (check_field (&head->fields[i], def, &here) != BT_OK)
+      {
+        if (error)
+          *error = here;
+        about (head_name, name, error);
+        return here.status;
+      }
+  return BT_OK;
+}
+
+static bt_status
+check_name (const char *head, const char *name, bt_error *error)
+{
+  if (!memchr (name, 0, BT_NAME_SIZE) || !*name)
+    return bt__fail (error, BT_ERR_DEF, "a %s needs a name of 1 to %d bytes", head, BT_NAME_SIZE - 1);
+  return BT_OK;
+}
+
+void
+bt_tether_props_complete (bt_tether_props *props, double density, double gravity)
+{
+  double displaced = density * BT__PI / 4 * props->diameter * props->diameter;
+  if (isnan (props->mass) && isnan (props->wet_weight))
+    props->wet_weight = 0;
+  if (isnan (props->wet_weight))
+    props->wet_weight = (props->mass - displaced) * gravity;
+  else if (isnan (props->mass))
+    /* A line so buoyant that its mass would vanish still has some: a hundredth of what it displaces. */
+    props->mass = fmax (displaced + (gravity > 0 ? props->wet_weight / gravity : 0), 0.01 * displaced);
+}
+
+/* ---- The parts together ---- */
+
+static int
+find_vehicle (const bt_model *model, const char *name)
+{
+  for (int i = 0; i < model->n_vehicles; i++)
+    if (strncmp (model->vehicles[i].name, name, BT_NAME_SIZE) == 0)
+      return i;
+  return BT__NOT_A_VEHICLE;
+}
+
+static bt_status
+resolve_end (const bt_model *model, const bt_tether_def *tether, const bt_end *def, const char *which,
+             bt__end *end, bt_error *error)
+{
+  end->vehicle = BT__NOT_A_VEHICLE;
+  end->at = def->at;
+  if (!def->part[0])
+    return BT_OK;
+  end->vehicle = find_vehicle (model, def->part);
+  if (end->vehicle == BT__NOT_A_VEHICLE)
+    return bt__fail (error, BT_ERR_DEF, "tether `%s' goes %s `%.63s', but no vehicle has that name",
+                     tether->name, which, def->part);
+  end->at = model->vehicles[end->vehicle].at;
+  return BT_OK;
+}
+
+double
+bt__longest_chord (const bt_tether_props *props, double length)
+{
+  int stretches = (props->model == BT_MODEL_ELASTIC || props->model == BT_MODEL_STEADY)
+                  && isfinite (props->ea);
+  return stretches ? length * (1 + fmin (props->breaking_load / props->ea, 0.1)) : length;
+}
+
+static bt_status
+check_reach (const bt_model *model, int i, bt_error *error)
+{
+  const bt_tether_def *tether = &model->tethers[i];
+  double chord = bt__distance (model->ends[i][0].at, model->ends[i][1].at);
+  /* A hair of slack, so that a world written with its length equal to its chord is taken.  */
+  if (chord > bt__longest_chord (&tether->props, tether->length) * (1 + 1e-12))
+    return bt__fail (error, BT_ERR_DEF, "tether `%s' is %g m long, but its ends are %g m apart",
+                     tether->name, tether->length, chord);
+  return BT_OK;
+}
+
+static bt_status
+check_unique (const bt_model *model, bt_error *error)
+{
+  int n = model->n_vehicles + model->n_tethers;
+  for (int i = 0; i < n; i++)
+    for (int j = 0; j < i; j++)
+      {
+        const char *a = i < model->n_vehicles ? model->vehicles[i].name
+                                              : model->tethers[i - model->n_vehicles].name;
+        const char *b = j < model->n_vehicles ? model->vehicles[j].name
+                                              : model->tethers[j - model->n_vehicles].name;
+        if (strcmp (a, b) == 0)
+          return bt__fail (error, BT_ERR_DEF, "two parts are named `%s'", a);
+      }
+  return BT_OK;
+}
+
+static bt_status
+compile_tether (bt_model *model, int i, bt_error *error)
+{
+  bt_tether_def *tether = &model->tethers[i];
+  bt_status status = check_name ("tether", tether->name, error);
+  if (status == BT_OK && isnan (tether->length))
+    status = bt__fail (error, BT_ERR_DEF, "tether `%s' needs a length", tether->name);
+  if (status == BT_OK)
+    {
+      bt_tether_props_complete (&tether->props, model->sea.density, model->sea.gravity);
+      status = check_fields ("tether", tether->name, tether, error);
+    }
+  if (status == BT_OK)
+    status = resolve_end (model, tether, &tether->from, "from", &model->ends[i][0], error);
+  if (status == BT_OK)
+    status = resolve_end (model, tether, &tether->to, "to", &model->ends[i][1], error);
+  if (status == BT_OK && model->ends[i][0].vehicle >= 0
+      && model->ends[i][0].vehicle == model->ends[i][1].vehicle)
+    status = bt__fail (error, BT_ERR_DEF, "tether `%s' goes from `%s' to itself", tether->name,
+                       tether->from.part);
+  return status == BT_OK ? check_reach (model, i, error) : status;
+}
+
+static bt_status
+compile (bt_model *model, bt_error *error)
+{
+  bt_status status = check_fields ("sea", "", &model->sea, error);
+  for (int i = 0; status == BT_OK && i < model->n_vehicles; i++)
+    {
+      status = check_name ("rov", model->vehicles[i].name, error);
+      if (status == BT_OK)
+        status = check_fields ("rov", model->vehicles[i].name, &model->vehicles[i], error);
+    }
+  for (int i = 0; status == BT_OK && i < model->n_tethers; i++)
+    status = compile_tether (model, i, error);
+  return status == BT_OK ? check_unique (model, error) : status;
+}
+
+/* ---- Life ---- */
+
+static uint64_t
+content_id (const bt_model *model)
+{
+  uint64_t h = bt__hash (&model->sea, sizeof model->sea, 0);
+  h = bt__hash (model->vehicles, sizeof *model->vehicles * (size_t)model->n_vehicles, h);
+  return bt__hash (model->tethers, sizeof *model->tethers * (size_t)model->n_tethers, h);
+}
+
+static bt_status
+check_counts (const bt_world *world, bt_error *error)
+{
+  if (world->n_vehicles < 0 || world->n_vehicles > BT_VEHICLES_MAX)
+    return bt__fail (error, BT_ERR_LIMIT, "a world has at most %d vehicles, not %d", BT_VEHICLES_MAX,
+                     world->n_vehicles);
+  if (world->n_tethers < 0 || world->n_tethers > BT_TETHERS_MAX)
+    return bt__fail (error, BT_ERR_LIMIT, "a world has at most %d tethers, not %d", BT_TETHERS_MAX,
+                     world->n_tethers);
+  return BT_OK;
+}
+
+/* Copy N items of SIZE bytes; a copy of none is one unused byte, so that NULL means no memory.  */
+static void *
+copy_of (const void *items, int n, size_t size)
+{
+  size_t bytes = size * (size_t)n;
+  void *copy = malloc (bytes + 1);
+  if (copy && bytes > 0)
+    memcpy (copy, items, bytes);
+  return copy;
+}
+
+static bt_model *
+model_of (const bt_world *world)
+{
+  bt_model *model = calloc (1, sizeof *model);
+  if (!model)
+    return NULL;
+  atomic_init (&model->references, 1);
+  model->sea = world->sea;
+  model->n_vehicles = world->n_vehicles;
+  model->n_tethers = world->n_tethers;
+  model->vehicles = copy_of (world->vehicles, world->n_vehicles, sizeof *world->vehicles);
+  model->tethers = copy_of (world->tethers, world->n_tethers, sizeof *world->tethers);
+  model->ends = calloc ((size_t)world->n_tethers + 1, sizeof *model->ends);
+  if (model->vehicles && model->tethers && model->ends)
+    return model;
+  bt_model_release (model);
+  return NULL;
+}
+
+bt_status
+bt_model_new (const bt_world *world, bt_model **out, bt_error *error)
+{
+  bt_model *model;
+  bt_status status = check_counts (world, error);
+  if (status != BT_OK)
+    return status;
+  model = model_of (world);
+  if (!model)
+    return bt__fail (error, BT_ERR_LIMIT, "no memory for a world");
+  status = compile (model, error);
+  if (status == BT_OK)
+    {
+      model->id = content_id (model);
+      *out = model;
+    }
+  else
+    bt_model_release (model);
+  return status;
+}
+
+bt_model *
+bt_model_retain (bt_model *model)
+{
+  atomic_fetch_add (&model->references, 1);
+  return model;
+}
+
+void
+bt_model_release (bt_model *model)
+{
+  if (!model || atomic_fetch_sub (&model->references, 1) > 1)
+    return;
+  free (model->vehicles);
+  free (model->tethers);
+  free (model->ends);
+  free (model);
+}

@@ -1,0 +1,152 @@
+/* Vehicles that go exactly where they are told: sticks, autopilots, measured tracks.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+
+#include "math/vec.h"
+#include "sim/sim.h"
+
+enum
+{
+  SURGE,
+  SWAY,
+  HEAVE,
+  YAW
+};
+
+/* ANGLE brought to [-pi, pi].  */
+static double
+wrapped (double angle)
+{
+  return remainder (angle, 2 * BT__PI);
+}
+
+/* WANTED limited to MOST either way.  */
+static double
+limited (double wanted, double most)
+{
+  return fmax (-most, fmin (most, wanted));
+}
+
+/* ---- Heading ---- */
+
+static double
+bearing (bt_vec3 from, bt_vec3 to)
+{
+  return atan2 (to.x - from.x, to.y - from.y);
+}
+
+/* The turn of this step: toward what is faced or held, else as the stick says.  */
+static double
+turn (const bt__vehicle *v)
+{
+  double most = v->speeds[YAW] * BT__TIME_STEP;
+  int faces = v->goal == BT__GOAL_FLY
+              && hypot (v->target.x - v->position.x, v->target.y - v->position.y) > 0.05;
+  if (v->sticks[YAW] != 0)
+    return v->sticks[YAW] * most;
+  if (faces)
+    return limited (wrapped (bearing (v->position, v->target) - v->heading), most);
+  if (v->hold_heading.on)
+    return limited (wrapped (v->hold_heading.value - v->heading), most);
+  return 0;
+}
+
+/* ---- Position ---- */
+
+/* The way of this step by the sticks, heading in the middle of the turn.  */
+static bt_vec3
+stick_way (const bt__vehicle *v, double heading)
+{
+  double ahead = v->sticks[SURGE] * v->speeds[SURGE] * BT__TIME_STEP;
+  double aside = v->sticks[SWAY] * v->speeds[SWAY] * BT__TIME_STEP;
+  double up = v->sticks[HEAVE] * v->speeds[HEAVE] * BT__TIME_STEP;
+  double most = v->speeds[HEAVE] * BT__TIME_STEP;
+  if (v->sticks[HEAVE] == 0 && v->hold_depth.on)
+    up = limited (-v->hold_depth.value - v->position.z, most);
+  return bt__vec (ahead * sin (heading) + aside * cos (heading),
+                  ahead * cos (heading) - aside * sin (heading), up);
+}
+
+static void
+arrive (const bt_dive *dive, bt__state *state, bt__vehicle *v)
+{
+  v->goal = BT__GOAL_NONE;
+  bt__raise_event (state, BT_EVENT_ARRIVED, (int)(v - bt__dive_vehicle (dive, state, 0)));
+}
+
+static bt_vec3
+toward_target (const bt_dive *dive, bt__state *state, bt__vehicle *v)
+{
+  bt_vec3 way = bt__sub (v->target, v->position);
+  double left = bt__norm (way), most = v->target_speed * BT__TIME_STEP;
+  if (left > most)
+    return bt__axpy (v->position, most / left, way);
+  arrive (dive, state, v);
+  return v->target;
+}
+
+/* The row of TRACK at or before time T, by bisection.  */
+static int
+row_at (const bt__track *track, double t)
+{
+  int low = 0, high = track->n - 1;
+  while (high - low > 1)
+    {
+      int middle = (low + high) / 2;
+      if (track->row[middle][0] <= t)
+        low = middle;
+      else
+        high = middle;
+    }
+  return low;
+}
+
+static bt_vec3
+track_point (const bt__track *track, double t)
+{
+  int i = row_at (track, t);
+  const double *p = track->row[i], *q = track->row[i + 1];
+  double k = fmax (0, fmin (1, (t - p[0]) / (q[0] - p[0])));
+  return bt__vec (p[1] + k * (q[1] - p[1]), p[2] + k * (q[2] - p[2]), p[3] + k * (q[3] - p[3]));
+}
+
+static bt_vec3
+along_track (const bt_dive *dive, bt__state *state, bt__vehicle *v)
+{
+  const bt__track *track = dive->tracks[v->track];
+  double t = bt__state_time (state) - v->track_start + track->row[0][0];
+  if (t >= track->row[track->n - 1][0])
+    arrive (dive, state, v);
+  return track_point (track, t);
+}
+
+static void
+move (const bt_dive *dive, bt__state *state, bt__vehicle *v)
+{
+  double angle = turn (v);
+  bt_vec3 from = v->position, to;
+  switch (v->goal)
+    {
+    case BT__GOAL_POINT:
+    case BT__GOAL_FLY:
+      to = toward_target (dive, state, v);
+      break;
+    case BT__GOAL_TRACK:
+      to = along_track (dive, state, v);
+      break;
+    default:
+      to = bt__add (from, stick_way (v, v->heading + angle / 2));
+    }
+  v->heading += angle;
+  v->position = to;
+  v->velocity = bt__scale (1 / BT__TIME_STEP, bt__sub (to, from));
+}
+
+void
+bt__move_vehicles (const bt_dive *dive, bt__state *state)
+{
+  for (int i = 0; i < dive->model->n_vehicles; i++)
+    move (dive, state, bt__dive_vehicle (dive, state, i));
+}

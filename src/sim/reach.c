@@ -1,0 +1,118 @@
+/* A taut tether holds its vehicle: it reaches no farther than its length, more by its stretch.
+
+   The vehicle is kept inside the balls of its tethers, each round the other end.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+
+#include "math/vec.h"
+#include "sim/sim.h"
+
+bt__ends
+bt__tether_ends (const bt_dive *dive, bt__state *state, int i)
+{
+  const bt__end *end = dive->model->ends[i];
+  bt__ends ends = { end[0].at, end[1].at };
+  if (end[0].vehicle >= 0)
+    ends.a = bt__dive_vehicle (dive, state, end[0].vehicle)->position;
+  if (end[1].vehicle >= 0)
+    ends.b = bt__dive_vehicle (dive, state, end[1].vehicle)->position;
+  return ends;
+}
+
+/* The far point of tether I as seen from VEHICLE; zero when the tether is not fastened to it.  */
+static int
+fastened (const bt_dive *dive, bt__state *state, int i, int vehicle, bt_vec3 *other)
+{
+  const bt__end *end = dive->model->ends[i];
+  bt__ends ends = bt__tether_ends (dive, state, i);
+  *other = end[1].vehicle == vehicle ? ends.a : ends.b;
+  return end[0].vehicle == vehicle || end[1].vehicle == vehicle;
+}
+
+static double
+longest (const bt_dive *dive, bt__state *state, int i)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  return bt__longest_chord (&tether->props, tether->length);
+}
+
+/* Pull VEHICLE back into the ball of tether I and return nonzero if it had left it.  */
+static int
+pull_back (const bt_dive *dive, bt__state *state, int i, int vehicle)
+{
+  bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
+  double reach = longest (dive, state, i), chord;
+  bt_vec3 other;
+  if (!fastened (dive, state, i, vehicle, &other))
+    return 0;
+  chord = bt__distance (v->position, other);
+  if (chord <= reach)
+    return 0;
+  v->position = bt__axpy (other, reach / chord, bt__sub (v->position, other));
+  return 1;
+}
+
+static void
+note_hold (bt__state *state, bt__tether *tether, int i, int taut)
+{
+  if (taut != tether->taut)
+    bt__raise_event (state, taut ? BT_EVENT_TAUT : BT_EVENT_SLACK, i);
+  tether->taut = taut;
+}
+
+/* Balls that meet are approached by turns; a vehicle on several tethers is rare and two rounds bring it
+   within a millimetre, the next steps the rest.  */
+static int
+hold_vehicle (const bt_dive *dive, bt__state *state, int vehicle)
+{
+  int held = 0;
+  for (int round = 0; round < 2; round++)
+    for (int i = 0; i < dive->model->n_tethers; i++)
+      held |= pull_back (dive, state, i, vehicle);
+  return held;
+}
+
+void
+bt__hold_at_tethers (const bt_dive *dive, const bt__state *from, bt__state *state)
+{
+  for (int i = 0; i < dive->model->n_vehicles; i++)
+    {
+      bt__vehicle *v = bt__dive_vehicle (dive, state, i);
+      bt_vec3 before = bt__dive_vehicle (dive, (bt__state *)from, i)->position;
+      v->held = hold_vehicle (dive, state, i);
+      if (v->held)
+        v->velocity = bt__scale (1 / BT__TIME_STEP, bt__sub (v->position, before));
+    }
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    {
+      bt__ends ends = bt__tether_ends (dive, state, i);
+      double chord = bt__distance (ends.a, ends.b);
+      note_hold (state, bt__dive_tether (dive, state, i), i,
+                 chord >= longest (dive, state, i) * (1 - 1e-9));
+    }
+}
+
+/* The largest K in [0, 1] for which A + K (B - A) lies within REACH of CENTRE, A being inside.  */
+static double
+ball_exit (bt_vec3 a, bt_vec3 b, bt_vec3 centre, double reach)
+{
+  bt_vec3 d = bt__sub (b, a), p = bt__sub (a, centre);
+  double aa = bt__dot (d, d), half = bt__dot (p, d), c = bt__dot (p, p) - reach * reach;
+  double root = half * half - aa * c;
+  if (aa == 0 || bt__distance (b, centre) <= reach)
+    return 1;
+  return root <= 0 ? 0 : fmax (0, fmin (1, (-half + sqrt (root)) / aa));
+}
+
+double
+bt__reach_along (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 a, bt_vec3 b)
+{
+  double k = 1;
+  bt_vec3 other;
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    if (fastened (dive, state, i, vehicle, &other))
+      k = fmin (k, ball_exit (a, b, other, longest (dive, state, i)));
+  return k;
+}

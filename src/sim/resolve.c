@@ -1,0 +1,106 @@
+/* Solve anew the tethers that changed, and only those.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "base/error.h"
+#include "math/vec.h"
+#include "sim/sim.h"
+
+/* The pull on tether I: of the vehicles that stand at its end.  */
+static double
+pull_on (const bt_dive *dive, bt__state *state, int i)
+{
+  double pull = 0;
+  for (int k = 0; k < 2; k++)
+    {
+      int vehicle = dive->model->ends[i][k].vehicle;
+      const bt__vehicle *v = vehicle >= 0 ? bt__dive_vehicle (dive, state, vehicle) : NULL;
+      if (v && bt__dive_tether (dive, state, i)->taut && v->pull > pull)
+        pull = v->pull;
+    }
+  return pull;
+}
+
+/* Nonzero if nothing that the shape depends on has changed since it was solved.  */
+static int
+is_current (const bt__state *state, const bt__tether *tether, const bt__ends *ends, double pull)
+{
+  return !tether->stale && tether->pull == pull
+         && memcmp (&tether->shape.a, &ends->a, sizeof ends->a) == 0
+         && memcmp (&tether->shape.b, &ends->b, sizeof ends->b) == 0
+         && tether->shape.length == tether->length && !bt_current_is_unsteady (&state->current);
+}
+
+/* The largest tension among the places where the models can have it: ends, middle, nodes.  */
+static double
+largest_tension (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions)
+{
+  int n = shape->form == BT__FORM_NODES ? (int)shape->n : 2;
+  double most = 0;
+  for (int k = 0; k <= n; k++)
+    {
+      double t = bt__shape_tension (shape, nodes, tensions, shape->length * k / n);
+      if (t > most)
+        most = t;
+    }
+  return most;
+}
+
+static int
+is_good (const bt__shape *shape, const bt__tether *tether, const bt_vec3 *nodes)
+{
+  int good = isfinite (tether->tension_max);
+  for (int k = 0; shape->form == BT__FORM_NODES && k <= shape->n; k++)
+    good = good && bt__is_finite (nodes[k]);
+  return good;
+}
+
+static bt_status
+solve (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, double pull, bt_error *error)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt_vec3 *nodes = bt__dive_nodes (dive, state, i), *tensions = bt__dive_tensions (dive, state, i);
+  bt_water water = bt__dive_water (dive, state);
+  uint64_t unsettled = dive->counts.unsettled;
+  bt__shape_input input = { .a = ends->a,
+                            .b = ends->b,
+                            .length = tether->length,
+                            .pull = pull,
+                            .props = &tether->props,
+                            .water = &water };
+  bt_status status = bt__shape_solve (&input, &dive->tools, &dive->counts, &tether->shape,
+                                      &tether->memory, nodes, tensions, error);
+  if (status != BT_OK)
+    return status;
+  tether->tension_max = largest_tension (&tether->shape, nodes, tensions);
+  tether->pull = pull;
+  tether->settled = dive->counts.unsettled == unsettled;
+  tether->stale = !tether->settled; /* a shape that still moves goes on next step */
+  if (!is_good (&tether->shape, tether, nodes))
+    return bt__fail (error, BT_ERR_DIVERGED, "the shape of tether `%s' is not finite at t = %g s",
+                     dive->model->tethers[i].name, bt__state_time (state));
+  dive->profile.current_samples_skipped += state->current.kind == BT_CURRENT_STILL;
+  return BT_OK;
+}
+
+bt_status
+bt__resolve_tethers (bt_dive *dive, bt__state *state, bt_error *error)
+{
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    {
+      bt__ends ends = bt__tether_ends (dive, state, i);
+      double pull = pull_on (dive, state, i);
+      bt_status status;
+      if (is_current (state, bt__dive_tether (dive, state, i), &ends, pull))
+        {
+          dive->profile.shape_skips++;
+          continue;
+        }
+      status = solve (dive, state, i, &ends, pull, error);
+      if (status != BT_OK)
+        return status;
+    }
+  return BT_OK;
+}

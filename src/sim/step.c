@@ -1,0 +1,132 @@
+/* A dive begins, and steps.
+
+   The whole step stands in bt_dive_step: vehicles move, winches turn, taut tethers hold, changed
+   tethers are solved, and only then does the new state become the present.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "math/vec.h"
+#include "sim/sim.h"
+
+/* ---- Begin ---- */
+
+static double
+radians (double degrees)
+{
+  return degrees * (BT__PI / 180);
+}
+
+static void
+launch (bt__vehicle *v, const bt_vehicle_def *def)
+{
+  v->position = def->at;
+  v->heading = v->heading0 = radians (def->heading);
+  v->pitch = radians (def->pitch);
+  v->roll = radians (def->roll);
+  v->speeds[0] = def->surge_speed;
+  v->speeds[1] = def->sway_speed;
+  v->speeds[2] = def->heave_speed;
+  v->speeds[3] = radians (def->yaw_rate);
+  v->pull = def->pull;
+}
+
+static void
+fill (const bt_dive *dive, bt__state *state)
+{
+  const bt_model *model = dive->model;
+  state->depth = model->sea.depth;
+  state->density = model->sea.density;
+  state->gravity = model->sea.gravity;
+  state->current = model->sea.current;
+  for (int i = 0; i < model->n_vehicles; i++)
+    launch (bt__dive_vehicle (dive, state, i), &model->vehicles[i]);
+  for (int i = 0; i < model->n_tethers; i++)
+    {
+      bt__tether *tether = bt__dive_tether (dive, state, i);
+      tether->props = model->tethers[i].props;
+      tether->length = model->tethers[i].length;
+      tether->stale = 1;
+    }
+}
+
+bt_status
+bt_dive_new (bt_model *model, bt_current_function function, void *user, bt_dive **out,
+             bt_error *error)
+{
+  bt_dive *dive;
+  bt_status status;
+  if (model->sea.current.kind == BT_CURRENT_FUNCTION && !function)
+    return bt__fail (error, BT_ERR_DEF, "this world's current is a function, and none was given");
+  status = bt__dive_alloc (model, &dive, error);
+  if (status != BT_OK)
+    return status;
+  dive->function = function;
+  dive->user = user;
+  fill (dive, bt__dive_begin (dive));
+  bt__hold_at_tethers (dive, dive->next, dive->next);
+  status = bt__resolve_tethers (dive, dive->next, error);
+  if (status != BT_OK)
+    {
+      bt_dive_free (dive);
+      return status;
+    }
+  bt__dive_commit (dive);
+  *out = dive;
+  return BT_OK;
+}
+
+/* ---- Step ---- */
+
+bt_status
+bt_dive_step (bt_dive *dive, bt_error *error)
+{
+  bt__state *next = bt__dive_begin (dive);
+  bt_status status;
+  next->step++;
+  bt__move_vehicles (dive, next);
+  bt__turn_winches (dive, next);
+  bt__hold_at_tethers (dive, dive->now, next);
+  status = bt__resolve_tethers (dive, next, error);
+  if (status != BT_OK)
+    return status;
+  dive->profile.steps++;
+  bt__dive_commit (dive);
+  return BT_OK;
+}
+
+int64_t
+bt_dive_steps (const bt_dive *dive)
+{
+  return dive->now->step;
+}
+
+double
+bt_dive_time (const bt_dive *dive)
+{
+  return bt__state_time (dive->now);
+}
+
+double
+bt_dive_time_step (const bt_dive *dive)
+{
+  (void)dive;
+  return BT__TIME_STEP;
+}
+
+bt_status
+bt_dive_whole_steps (bt_dive *dive, double seconds, int64_t *steps, bt_error *error)
+{
+  double wished, whole;
+  if (!(seconds >= 0 && seconds <= 1e9))
+    return bt__fail (error, BT_ERR_DOMAIN, "a time to run is 0 to 1e9 s, not %g", seconds);
+  wished = dive->now->wished + seconds;
+  /* Ten times 0.1 s must be 60 steps though 0.1 has no exact double.  */
+  whole = floor (wished / BT__TIME_STEP + 1e-6);
+  dive->now->wished = wished - whole * BT__TIME_STEP;
+  *steps = (int64_t)whole;
+  return BT_OK;
+}

@@ -1,0 +1,212 @@
+/* Asking a resolved shape: points, tangents and tensions at an arc length, pure reads.
+
+   Plane curves are asked at the plane's own arc length and set into space; nodes are joined by
+   cubics.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "math/vec.h"
+#include "tether/shape.h"
+
+static const bt_vec3 down = { 0, 0, -1 };
+
+static double
+clamped (const bt__shape *shape, double s)
+{
+  return s > 0 ? (s < shape->length ? s : shape->length) : 0;
+}
+
+/* Metres of plane curve per metre of line.  */
+static double
+plane_ratio (const bt__shape *shape)
+{
+  return shape->plane_length / shape->length;
+}
+
+/* ---- The V ---- */
+
+/* The far end in the plane.  */
+static bt_point2
+plane_end (const bt__shape *shape)
+{
+  bt_vec3 chord = bt__axpy (bt__sub (shape->b, shape->a), -shape->length, shape->rise);
+  return (bt_point2){ bt__dot (chord, shape->across), bt__dot (chord, shape->against) };
+}
+
+static int
+is_second_link (const bt_v_shape *v, double u)
+{
+  return v->l2 > 0 && u >= v->l1;
+}
+
+static bt_point2
+v_point (const bt__shape *shape, double u)
+{
+  const bt_v_shape *v = &shape->v;
+  if (!is_second_link (v, u))
+    return (bt_point2){ v->bend.x * (u / v->l1), v->bend.y * (u / v->l1) };
+  bt_point2 end = plane_end (shape);
+  double k = fmin ((u - v->l1) / v->l2, 1);
+  return (bt_point2){ v->bend.x + k * (end.x - v->bend.x), v->bend.y + k * (end.y - v->bend.y) };
+}
+
+static bt_point2
+v_tangent (const bt__shape *shape, double u)
+{
+  const bt_v_shape *v = &shape->v;
+  if (!is_second_link (v, u))
+    return (bt_point2){ v->bend.x / v->l1, v->bend.y / v->l1 };
+  bt_point2 end = plane_end (shape);
+  return (bt_point2){ (end.x - v->bend.x) / v->l2, (end.y - v->bend.y) / v->l2 };
+}
+
+/* ---- Nodes ---- */
+
+/* One interval: ends, derivatives by the fraction F along it, chord.  */
+typedef struct piece
+{
+  double f;
+  int64_t i;
+  bt_vec3 p, q, dp, dq, chord;
+} piece;
+
+static int64_t
+interval_of (const bt__shape *shape, double s, double *f)
+{
+  double x = s / shape->length * (double)shape->n;
+  int64_t i = (int64_t)x;
+  if (i > shape->n - 1)
+    i = shape->n - 1;
+  *f = x - (double)i;
+  return i;
+}
+
+/* The tangents carry the arc's length: the chord's, longer by the square of the turn over 24, which
+   is right for a circle to fourth order.  */
+static piece
+piece_of (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, double s)
+{
+  piece p;
+  p.i = interval_of (shape, s, &p.f);
+  p.p = nodes[p.i];
+  p.q = nodes[p.i + 1];
+  p.chord = bt__sub (p.q, p.p);
+  bt_vec3 along = bt__unit_or (p.chord, down);
+  bt_vec3 t = bt__unit_or (tensions[p.i], along), u = bt__unit_or (tensions[p.i + 1], along);
+  double turn = bt__distance (t, u), arc = bt__norm (p.chord) * (1 + turn * turn / 24);
+  p.dp = bt__scale (arc, t);
+  p.dq = bt__scale (arc, u);
+  return p;
+}
+
+static bt_vec3
+nodes_point (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, double s)
+{
+  piece p = piece_of (shape, nodes, tensions, s);
+  double f = p.f, g = 1 - f;
+  bt_vec3 r = f < 0.5 ? bt__axpy (p.p, f * f * (3 - 2 * f), p.chord)
+                      : bt__axpy (p.q, -g * g * (3 - 2 * g), p.chord);
+  return bt__axpy (bt__axpy (r, f * g * g, p.dp), -f * f * g, p.dq);
+}
+
+static bt_vec3
+nodes_tangent (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, double s)
+{
+  piece p = piece_of (shape, nodes, tensions, s);
+  double f = p.f, g = 1 - f;
+  bt_vec3 d = bt__scale (6 * f * g, p.chord);
+  d = bt__axpy (bt__axpy (d, g * (g - 2 * f), p.dp), f * (f - 2 * g), p.dq);
+  return bt__unit_or (d, bt__unit_or (p.chord, down));
+}
+
+/* The tension vector by the cubic through the four nearest nodes, a line where there are fewer.  */
+static double
+nodes_tension (const bt__shape *shape, const bt_vec3 *tensions, double s)
+{
+  double f;
+  int64_t i = interval_of (shape, s, &f);
+  if (shape->n < 3)
+    return bt__norm (bt__axpy (bt__scale (1 - f, tensions[i]), f, tensions[i + 1]));
+  int64_t first = i < 1 ? 0 : i > shape->n - 2 ? shape->n - 3 : i - 1;
+  double x = f + (double)(i - first);
+  const bt_vec3 *t = tensions + first;
+  bt_vec3 sum = bt__scale ((1 - x) * (2 - x) * (3 - x) / 6, t[0]);
+  sum = bt__axpy (sum, x * (2 - x) * (3 - x) / 2, t[1]);
+  sum = bt__axpy (sum, x * (x - 1) * (3 - x) / 2, t[2]);
+  return bt__norm (bt__axpy (sum, x * (x - 1) * (x - 2) / 6, t[3]));
+}
+
+/* ---- Any form ---- */
+
+static bt_point2
+plane_point (const bt__shape *shape, double u)
+{
+  switch (shape->form)
+    {
+    case BT__FORM_V:
+      return v_point (shape, u);
+    case BT__FORM_ELASTIC:
+      return bt_elastic_point (&shape->elastic, u);
+    default:
+      return bt_catenary_point (&shape->catenary, u);
+    }
+}
+
+static bt_point2
+plane_tangent (const bt__shape *shape, double u)
+{
+  switch (shape->form)
+    {
+    case BT__FORM_V:
+      return v_tangent (shape, u);
+    case BT__FORM_ELASTIC:
+      return bt_elastic_tangent (&shape->elastic, u);
+    default:
+      return bt_catenary_tangent (&shape->catenary, u);
+    }
+}
+
+bt_vec3
+bt__shape_point (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, double s)
+{
+  s = clamped (shape, s);
+  if (shape->form == BT__FORM_STRAIGHT)
+    return bt__axpy (shape->a, s / shape->length, bt__sub (shape->b, shape->a));
+  if (shape->form == BT__FORM_NODES)
+    return nodes_point (shape, nodes, tensions, s);
+  bt_point2 p = plane_point (shape, s * plane_ratio (shape));
+  bt_vec3 r = bt__axpy (bt__axpy (shape->a, p.x, shape->across), p.y, shape->against);
+  return bt__axpy (r, s, shape->rise);
+}
+
+bt_vec3
+bt__shape_tangent (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, double s)
+{
+  s = clamped (shape, s);
+  if (shape->form == BT__FORM_STRAIGHT)
+    return bt__unit_or (bt__sub (shape->b, shape->a), down);
+  if (shape->form == BT__FORM_NODES)
+    return nodes_tangent (shape, nodes, tensions, s);
+  double ratio = plane_ratio (shape);
+  bt_point2 t = plane_tangent (shape, s * ratio);
+  bt_vec3 r = bt__axpy (bt__scale (t.x, shape->across), t.y, shape->against);
+  return bt__unit_or (bt__axpy (shape->rise, ratio, r), shape->across);
+}
+
+double
+bt__shape_tension (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, double s)
+{
+  (void)nodes;
+  s = clamped (shape, s);
+  switch (shape->form)
+    {
+    case BT__FORM_V:
+      return is_second_link (&shape->v, s * plane_ratio (shape)) ? shape->t2 : shape->t1;
+    case BT__FORM_ELASTIC:
+      return bt_elastic_tension (&shape->elastic, s);
+    case BT__FORM_NODES:
+      return nodes_tension (shape, tensions, s);
+    default:
+      return shape->t1;
+    }
+}

@@ -1,0 +1,70 @@
+/* A dive as the rooms above see it: the model, two buffers of state, the tools of the solvers.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_WORLD_DIVE_H
+#define BT_WORLD_DIVE_H
+
+#include <stdatomic.h>
+
+#include <bight/dive.h>
+
+#include "model/model.h"
+#include "world/state.h"
+
+/* A measured track: rows of t x y z.  Immutable once made and shared by forks.  */
+typedef struct bt__track
+{
+  atomic_int references;
+  int n;
+  double row[][4];
+} bt__track;
+
+enum
+{
+  BT__TRACKS_MAX = 256
+};
+
+struct bt_dive
+{
+  bt_model *model;
+  size_t size;       /* of a state */
+  bt__state *now;    /* what questions read */
+  bt__state *next;   /* what an operation or a step works on */
+  bt__shape_tools tools;
+  bt__shape_counts counts;
+  bt_profile profile;
+  bt_current_function function;
+  void *user;
+  int n_tracks;
+  bt__track *tracks[BT__TRACKS_MAX];
+};
+
+/* Copy the present state to dive->next and return it.  */
+bt__state *bt__dive_begin (bt_dive *dive);
+/* Take dive->next over as the present.  */
+void bt__dive_commit (bt_dive *dive);
+
+/* Views into STATE, a state of DIVE.  */
+bt__vehicle *bt__dive_vehicle (const bt_dive *dive, bt__state *state, int i);
+bt__tether *bt__dive_tether (const bt_dive *dive, bt__state *state, int i);
+bt_vec3 *bt__dive_nodes (const bt_dive *dive, bt__state *state, int tether);
+bt_vec3 *bt__dive_tensions (const bt_dive *dive, bt__state *state, int tether);
+double bt__state_time (const bt__state *state);
+bt_water bt__dive_water (const bt_dive *dive, const bt__state *state);
+
+/* Make a dive with an empty state and the tools that its tethers need.  */
+bt_status bt__dive_alloc (bt_model *model, bt_dive **dive, bt_error *error);
+
+/* Add an event to STATE.  */
+void bt__raise_event (bt__state *state, bt_event_kind kind, int subject);
+
+/* BT_ERR_NAME unless I counts a PART of DIVE.  */
+bt_status bt__check_part (const bt_dive *dive, bt_part part, int i, bt_error *error);
+
+/* Adopt TRACK, with one reference, as the last of DIVE's tracks.  */
+bt_status bt__dive_add_track (bt_dive *dive, bt__track *track, bt_error *error);
+
+#define BT__TIME_STEP (1.0 / 60)
+
+#endif

@@ -1,0 +1,46 @@
+/* What happened, with its time: a ring in the state, so that a restored dive remembers only its own past.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "world/dive.h"
+
+void
+bt__raise_event (bt__state *state, bt_event_kind kind, int subject)
+{
+  bt_event *slot = &state->event[state->events++ % BT_EVENTS_KEPT];
+  *slot = (bt_event){ .time = bt__state_time (state), .kind = kind, .subject = subject };
+}
+
+int64_t
+bt_dive_event_count (const bt_dive *dive)
+{
+  return dive->now->events;
+}
+
+int
+bt_dive_events (const bt_dive *dive, int64_t first, bt_event *events)
+{
+  const bt__state *state = dive->now;
+  int64_t oldest = state->events > BT_EVENTS_KEPT ? state->events - BT_EVENTS_KEPT : 0;
+  int n = 0;
+  for (int64_t i = first > oldest ? first : oldest; i < state->events; i++)
+    events[n++] = state->event[i % BT_EVENTS_KEPT];
+  return n;
+}
+
+const char *
+bt_event_name (bt_event_kind kind)
+{
+  switch (kind)
+    {
+    case BT_EVENT_TAUT:
+      return "taut";
+    case BT_EVENT_SLACK:
+      return "slack";
+    case BT_EVENT_ARRIVED:
+      return "arrived";
+    case BT_EVENT_SPOOLED:
+      return "spooled";
+    }
+  return "unknown";
+}

@@ -1,0 +1,93 @@
+/* The flat state of a dive: all that moves, without a pointer and without padding, so that a copy of its
+   bytes is a checkpoint and a hash of them tells states apart.
+
+   One block: the head, the vehicles, the tethers, then the node arrays.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_WORLD_STATE_H
+#define BT_WORLD_STATE_H
+
+#include <stdint.h>
+
+#include <bight/dive.h>
+
+#include "tether/shape.h"
+
+typedef enum bt__goal
+{
+  BT__GOAL_NONE = 0, /* the sticks, and whatever is held */
+  BT__GOAL_POINT,    /* along a line to TARGET */
+  BT__GOAL_FLY,      /* the same, turning to face it */
+  BT__GOAL_TRACK     /* along a measured track */
+} bt__goal;
+
+/* A value an autopilot keeps.  */
+typedef struct bt__hold
+{
+  int64_t on;
+  double value;
+} bt__hold;
+
+typedef struct bt__vehicle
+{
+  bt_vec3 position, velocity;
+  double heading; /* radians, never wrapped: it counts the turns */
+  double heading0;
+  double pitch, roll;
+  double sticks[4];
+  double speeds[4]; /* at full stick: surge sway heave (m/s), yaw (rad/s) */
+  double pull;
+  int64_t goal; /* bt__goal */
+  bt_vec3 target;
+  double target_speed;
+  int64_t track;      /* index in the dive's tracks */
+  double track_start; /* s */
+  bt__hold hold_heading, hold_depth;
+  int64_t held;
+} bt__vehicle;
+
+typedef struct bt__tether
+{
+  bt_tether_props props;
+  double length; /* paid out, m */
+  double winch_rate;   /* m/s, signed; 0: the winch stands */
+  double winch_target; /* m */
+  double tension_max;
+  double pull;         /* N: of the vehicle that it holds, as last solved */
+  int64_t nodes_at; /* offset of its node arrays in bt_vec3 units; positions, then tension vectors */
+  int64_t stale;    /* must be solved though its ends did not move */
+  int64_t settled;
+  int64_t taut;
+  bt__shape shape;
+  bt__shape_memory memory;
+} bt__tether;
+
+typedef struct bt__state
+{
+  uint64_t magic;
+  uint64_t model_id;
+  uint64_t size;     /* bytes of the whole block */
+  uint64_t checksum; /* of the block with this field zero; set in saved copies only */
+  int64_t step;
+  double wished; /* s: time asked for and not yet stepped */
+  double depth, density, gravity;
+  bt_current current;
+  int64_t events; /* ever raised */
+  bt_event event[BT_EVENTS_KEPT];
+} bt__state;
+
+/* Where the parts lie in the block of a world with N_VEHICLES.  */
+static inline bt__vehicle *
+bt__vehicles (bt__state *state)
+{
+  return (bt__vehicle *)(state + 1);
+}
+
+static inline bt__tether *
+bt__tethers (bt__state *state, int n_vehicles)
+{
+  return (bt__tether *)(bt__vehicles (state) + n_vehicles);
+}
+
+#endif

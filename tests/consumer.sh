@@ -1,0 +1,42 @@
+# The public headers and the library as programs in C11 and C++17 use them.
+# Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+. "$top_srcdir/tests/tap.sh"
+
+strict='-Wall -Wextra -Wpedantic -Werror'
+include=-I$top_srcdir/src
+library="$top_builddir/src/libbight.la"
+# The place of the library may hold spaces; the compilers' own settings are lists of words.
+link ()
+{
+  "$top_builddir/libtool" --silent --tag=CC --mode=link "$@" $BT_LDFLAGS "$library" -lm
+}
+
+for header in "$top_srcdir"/src/bight/*.h; do
+  name=bight/$(basename "$header")
+  echo "#include <$name>" >"$scratch/one.c"
+  cp "$scratch/one.c" "$scratch/one.cc"
+  check "<$name> stands alone in C11" \
+    $CC -std=c11 $strict "$include" -fsyntax-only "$scratch/one.c"
+  if [ -n "$CXX" ]; then
+    check "<$name> stands alone in C++17" \
+      $CXX -std=c++17 $strict "$include" -fsyntax-only "$scratch/one.cc"
+  else
+    skip "no C++ compiler (Debian package: g++)"
+  fi
+done
+
+check 'a C11 program compiles' \
+  $CC -std=c11 $strict "$include" -c "$top_srcdir/tests/consumer/consumer.c" -o "$scratch/c.o"
+check 'and links' link $CC "$scratch/c.o" -o "$scratch/consumer-c"
+check 'and runs' "$scratch/consumer-c"
+
+if [ -n "$CXX" ]; then
+  check 'a C++17 program compiles' \
+    $CXX -std=c++17 $strict "$include" -c "$top_srcdir/tests/consumer/consumer.cc" -o "$scratch/cc.o"
+  check 'and links' link $CXX "$scratch/cc.o" -o "$scratch/consumer-cc"
+  check 'and runs' "$scratch/consumer-cc"
+else
+  skip 'no C++ compiler (Debian package: g++)'
+fi
+finish

@@ -1,0 +1,29 @@
+# Every source, module, world and test is named in the Makefile.am of its folder: what is forgotten
+# there is neither built nor tested nor shipped.
+# Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+. "$top_srcdir/tests/tap.sh"
+cd "$top_srcdir" || exit 99
+
+# listed FOLDER FIND-ARGUMENT...: the files found below FOLDER, tried against FOLDER/Makefile.am.
+listed ()
+{
+  folder=$1
+  shift
+  : >"$scratch/missing"
+  [ -f "$folder/Makefile.am" ] || { skip "$folder has no Makefile.am"; return; }
+  tr -s ' \t\\' '\n\n\n' <"$folder/Makefile.am" >"$scratch/words"
+  (cd "$folder" && find . "$@" -type f) | sed 's,^\./,,' | sort >"$scratch/files"
+  while read -r file; do
+    # A test in C is listed as the program it makes.
+    grep -qxF -e "$file" -e "${file%.c}" "$scratch/words" || echo "$folder/Makefile.am does not name $file"
+  done <"$scratch/files" >"$scratch/missing"
+  empty "everything in $folder is listed" "$scratch/missing"
+}
+
+listed src -name '*.[ch]'
+listed scheme -name '*.scm'
+listed worlds -name '*.scm'
+listed tests '(' -path './law/*.[ch]' -o -path './unit/*.[ch]' -o -path './sc*/*.scm' -o -name '*.sh' ')'
+listed bench -name '*.[ch]'
+finish

@@ -1,0 +1,21 @@
+# The language in a plain guile, where bight is only a module among others.
+# Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+. "$top_srcdir/tests/tap.sh"
+
+guile ()
+{
+  "$top_builddir/pre-inst-env" $GUILE "$@" </dev/null >"$scratch/out" 2>"$scratch/err"
+}
+
+guile -c "(use-modules (bight)) (display 'ready)"
+result $? '(use-modules (bight)) works'
+[ "$(cat "$scratch/out")" = ready ]
+result $? 'and prints nothing of its own'
+empty 'and says nothing on standard error' "$scratch/err"
+
+# A name that hides one of Guile's warns, once somebody uses both.
+guile -c "(use-modules (bight) (srfi srfi-1) (ice-9 match) (ice-9 format)) (display 'ready)"
+result $? '(bight) goes with srfi-1, match and format'
+empty 'without a warning' "$scratch/err"
+finish

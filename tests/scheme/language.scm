@@ -1,0 +1,359 @@
+;;; The language itself: verbs and their arguments, units and points, worlds as values, types, currents.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(use-modules (bight assembly)
+             (bight current)
+             (bight describe)
+             (bight errors)
+             (bight schema)
+             (bight types)
+             (bight units)
+             (bight verb)
+             (bight world)
+             (ice-9 exceptions)
+             (srfi srfi-1)
+             (srfi srfi-4))
+
+(define (message-of thunk)
+  "Return the sentence of the &bight-error that THUNK raises, or #f."
+  (guard (e ((bight-error? e) (bight-error-message e)))
+    (thunk)
+    #f))
+
+(define-syntax-rule (message expression)
+  (message-of (lambda () expression)))
+
+(define (endless)
+  "Return a circular list."
+  (let ((items (list 1 2 3)))
+    (set-cdr! (cddr items) items)
+    items))
+
+(define (field-of world part name)
+  "Return the value that the engine is told for the field NAME of PART of WORLD, or #f."
+  (let ((told (find (lambda (entry) (eq? part (second entry))) (world->parts world))))
+    (assq-ref (third told) name)))
+
+
+;;; Verbs.
+
+(define-verb (sweep! #:subject (v vehicle) (p point)
+                     #:key (speed positive 1.0) (fresh flag #f) (paint (one-of plain tension) 'plain))
+  "Sweep the vehicle V to P."
+  (list v speed fresh paint))
+
+(define-verb (turns-about #:subject (t tether) (object name))
+  "Turns of the tether T about OBJECT."
+  (list t object))
+
+(define-verb (sampled #:subject (t tether) #:optional (n (or-false (at-least 2))))
+  "N points of the tether T."
+  (list t n))
+
+(define-verb (noted (part name) #:rest (fields any))
+  "PART and FIELDS."
+  (cons part fields))
+
+(define-syntax-rule (among vehicles tethers body ...)
+  ;; Evaluate BODY as if the dive had these.
+  (parameterize ((current-subject-lister
+                  (lambda (proc kind) (if (eq? kind 'vehicle) 'vehicles 'tethers))))
+    body ...))
+
+(define-scenario verb-arguments
+  "Positional and keyword arguments arrive checked and canonical, defaults where they are left out."
+  (among (minnow) (line)
+    (expect (sweep! '(1 2 3)) => '(0 1.0 #f plain))
+    (expect (sweep! #(1 2 3) #:speed 2) => '(0 2.0 #f plain))
+    (expect (sweep! (vec 1 2 3) #:fresh #t #:paint 'tension #:speed 1/2) => '(0 0.5 #t tension))
+    (expect (sampled) => '(0 #f))
+    (expect (sampled 5.0) => '(0 5))
+    (expect (noted 'line #:length 3) => '(line #:length 3))))
+
+(define-scenario verb-mistakes
+  "Whatever is wrong with a call is said."
+  (among (minnow) (line)
+    (expect (sweep!) raises domain)
+    (expect (sweep! '(1 2 3) '(4 5 6)) raises domain)
+    (expect (sweep! '(1 2)) raises domain)
+    (expect (sweep! '(1 2 . 3)) raises domain)
+    (expect (sweep! (endless)) raises domain)
+    (expect (sweep! (iota 100000)) raises domain)
+    (expect (sweep! '(1 2 +nan.0)) raises domain)
+    (expect (sweep! '(1 2 +inf.0)) raises domain)
+    (expect (sweep! '(1 2 1e8)) raises domain)
+    (expect (sweep! '(1 2 3) #:speed -1) raises domain)
+    (expect (sweep! '(1 2 3) #:speed +nan.0) raises domain)
+    (expect (sweep! '(1 2 3) #:speed (expt 10 400)) raises domain)
+    (expect (sweep! '(1 2 3) #:speed "fast") raises domain)
+    (expect (sweep! '(1 2 3) #:speed) raises domain)
+    (expect (sweep! '(1 2 3) #:speed #:fresh) raises domain)
+    (expect (sweep! '(1 2 3) #:speed 1 #:speed 2) raises domain)
+    (expect (sweep! '(1 2 3) #:sped 1) raises name)
+    (expect (sweep! '(1 2 3) #:paint 'tensoin) raises name)
+    (expect (sampled 1) raises domain)
+    (expect (sampled 2.5) raises domain)
+    (expect (message (sweep! '(1 2 3) #:sped 1))
+            => "sweep! has no keyword `#:sped'; it has #:speed, #:fresh, #:paint; did you mean `#:speed'?")))
+
+(define-scenario verb-subjects
+  "A leading symbol that names a vehicle or a tether is the subject; left out, it is the only one."
+  (among (minnow) (line spare)
+    (expect (sweep! 'minnow '(1 2 3)) => '(0 1.0 #f plain))
+    (expect (sweep! 'minow '(1 2 3)) raises name)
+    (expect (sweep! 'minnow) raises domain)
+    (expect (turns-about 'spare 'p1) => '(1 p1))
+    (expect (turns-about 'p1) raises name)
+    (expect (turns-about 'spair 'p1) raises name)
+    (expect (sampled 'spare 7) => '(1 7))
+    (expect (sampled) raises name))
+  (among (minnow) (line)
+    (expect (turns-about 'p1) => '(0 p1)))
+  (among () ()
+    (expect (sweep! '(1 2 3)) raises name)))
+
+(define-scenario verb-documents
+  "A verb knows its name, its docstring and how it is called."
+  (expect (procedure-name sweep!) => 'sweep!)
+  (expect (procedure-documentation sweep!) => "Sweep the vehicle V to P.")
+  (expect (verb-usage sweep!)
+          => "(sweep! ['VEHICLE] P [#:speed SPEED] [#:fresh FRESH] [#:paint PAINT])")
+  (expect (verb? sweep!) => #t)
+  (expect (verb? car) => #f))
+
+
+;;; Errors.
+
+(define-scenario errors-carry
+  "An error says its kind, its procedure, one sentence and what was given; Guile's own ways see it too."
+  (expect (guard (e ((bight-error? e)
+                     (list (bight-error-kind e) (bight-error-procedure e) (bight-error-given e)
+                           (exception-message e))))
+            (bight-raise 'limit 'weigh "~s is too much" 7))
+          => '(limit weigh (7) "7 is too much"))
+  (expect (catch 'bight-error
+            (lambda () (raise-engine-error 'diverged 'run "no answer"))
+            (lambda (key proc text kind given) (list proc text kind)))
+          => '(run "no answer" diverged))
+  (expect (nearest 'lenght '(from to length)) => 'length)
+  (expect (nearest 'zebra '(from to length)) => #f)
+  (expect (show (endless)) => "(1 2 3 1 2 3 1 2 …)"))
+
+
+;;; Units and points.
+
+(define-scenario units
+  "Units convert to SI."
+  (expect (knots 1.5) is (about 0.7717 #:within 1e-4))
+  (expect (inches 0.5) is (about 0.0127 #:within 1e-12))
+  (expect (feet 10) is (about 3.048 #:within 1e-12))
+  (expect (hours 6) => 21600)
+  (expect (minutes 2) => 120)
+  (expect (knots 'fast) raises domain)
+  (expect (hours +inf.0) raises domain))
+
+(define-scenario points
+  "Points go in as lists, vectors or f64vectors and come out as f64vectors."
+  (expect (vec 1 2 3) => #f64(1 2 3))
+  (expect (map (lambda (part) (part '(1 2 3))) (list x y z)) => '(1.0 2.0 3.0))
+  (expect (distance '(0 0 0) #(3 4 0)) => 5)
+  (expect (norm #f64(3 4 0)) => 5)
+  (expect (vec+ '(1 2 3) #(1 1 1) #f64(1 0 0)) => #f64(3 3 4))
+  (expect (vec- '(1 2 3) '(1 1 1)) => #f64(0 1 2))
+  (expect (vec- '(1 2 3)) => #f64(-1 -2 -3))
+  (expect (vec* 2 '(1 2 3)) => #f64(2 4 6))
+  (expect (vec* '(1 2 3) 2) => #f64(2 4 6))
+  (expect (vec* 2 3) raises domain)
+  (expect (vec 1 2) raises domain)
+  (expect (vec 1 2 +nan.0) raises domain)
+  (expect (distance '(0 0 0) "here") raises domain))
+
+
+;;; Worlds.
+
+(define east 5)
+(define anchor (vec 3 -6 -2))
+
+(define-world trial
+  "A world to try things on."
+  (sea (depth 60) (current (profile (0 0.6 90) (-30 (/ 0.6 2) 80) (-60 0.1 70))))
+  (rov (named minnow) (type kinematic) (at east 0 -12) (heading (* 2 45)))
+  (tether (named line) (type fathom) (from 3 -6 -2) (to minnow) (length (* 2 9)) (model catenary)
+          (ea inextensible)))
+
+(define (line-of start metres which)
+  (world (rov (at 1 2 -3))
+         (tether (from start) (length metres) (model ,which))))
+
+(define-scenario world-fields
+  "Words stand for themselves and numbers are expressions, also inside points and rows."
+  (expect (world-name trial) => 'trial)
+  (expect (world-documentation trial) => "A world to try things on.")
+  (expect (world-part-names trial) => '(sea minnow line))
+  (expect (field-of trial 'minnow 'at) => #f64(5 0 -12))
+  (expect (field-of trial 'minnow 'heading) => 90)
+  (expect (field-of trial 'line 'from) => #f64(3 -6 -2))
+  (expect (field-of trial 'line 'to) => 'minnow)
+  (expect (field-of trial 'line 'model) => 'catenary)
+  (expect (field-of trial 'line 'ea) => +inf.0)
+  (expect (field-of trial 'line 'diameter) => 0.0076)
+  (expect (field-of trial 'sea 'current)
+          => '(profile (0.0 0.6 90.0) (-30.0 0.3 80.0) (-60.0 0.1 70.0)))
+  (expect (call-with-output-string (lambda (port) (write trial port)))
+          => "#<world trial: 1 rov, 1 tether>"))
+
+(define-scenario world-points
+  "A point is three expressions or one value; a bare name at an end is a part, or else a variable."
+  (expect (field-of (world (rov (at '(1 2 -3)))) 'rov 'at) => #f64(1 2 -3))
+  (expect (field-of (world (rov (at anchor))) 'rov 'at) => anchor)
+  (expect (field-of (line-of #(1 2 3) 5 'steady) 'tether 'from) => #f64(1 2 3))
+  (expect (field-of (world (rov) (tether (from anchor) (length 3))) 'tether 'from) => anchor)
+  (expect (field-of (line-of '(0 0 0) 5 'v-shape) 'tether 'model) => 'v-shape)
+  (expect (line-of '(0 0 0) 5 'v-shpae) raises name)
+  (expect (line-of '(0 0 0) +nan.0 'steady) raises domain))
+
+(define-scenario world-defaults
+  "A world without a sea has the default one; the only vehicle is where a tether leads."
+  (expect (map second (world->parts (world))) => '(sea))
+  (expect (field-of (line-of '(0 0 0) 5 'steady) 'tether 'to) => 'rov))
+
+(define-scenario world-derived-weight
+  "Given one of mass and wet-weight, the type's value of the other is dropped."
+  (expect (field-of (with trial (line (wet-weight 0))) 'line 'mass) => #f)
+  (expect (field-of (with trial (line (type leaded-rope) (mass 0.06))) 'line 'wet-weight) => #f)
+  (expect (field-of (with trial (line (type leaded-rope))) 'line 'wet-weight) => 0.4))
+
+(define-scenario worlds-are-values
+  "extend, without and with make new worlds and leave the old one alone."
+  (expect (world-part-names (extend trial (rov (named perch)) (splice (list (part rov (named eel))))))
+          => '(sea minnow line perch eel))
+  (expect (world-part-names (without trial 'line)) => '(sea minnow))
+  (expect (field-of (with trial (current 0.5 90)) 'sea 'current) => '(uniform 0.5 90.0))
+  (expect (field-of (with trial (depth 70) (line (length 30))) 'line 'length) => 30)
+  (expect (world-part-names trial) => '(sea minnow line))
+  (expect (field-of trial 'sea 'depth) => 60)
+  (expect (without trial 'lin) raises name)
+  (expect (without trial 'minnow) raises name)
+  (expect (with trial (dept 3)) raises name)
+  (expect (with trial (line (lenght 3))) raises name)
+  (expect (with trial 5) raises def)
+  (expect (with 5 (depth 3)) raises domain)
+  (expect (extend trial (rov (named minnow))) raises def))
+
+(define-scenario world-mistakes
+  "A world that does not hold together is refused with a sentence that teaches."
+  (expect (world 5) raises def)
+  (expect (world east) raises def)
+  (expect (world ()) raises def)
+  (expect (world . 5) raises def)
+  (expect (world (tether (length))) raises def)
+  (expect (world (tether length)) raises def)
+  (expect (world (tether (length . 4))) raises def)
+  (expect (world (tehter (length 3))) raises name)
+  (expect (world (rov (at 1 2))) raises def)
+  (expect (world (rov (at () 1 2))) raises domain)
+  (expect (world (rov (heading +inf.0))) raises domain)
+  (expect (world (rov (heading "north"))) raises domain)
+  (expect (world (rov (heading 1) (heading 2))) raises def)
+  (expect (world (rov (type submarine))) raises name)
+  (expect (world (sea) (sea)) raises def)
+  (expect (world (rov) (rov)) raises def)
+  (expect (world (rov (named a)) (tether (named a) (from 0 0 0) (length 3))) raises def)
+  (expect (world (rov) (tether (from 0 0 0))) raises def)
+  (expect (world (rov) (tether (length 3))) raises def)
+  (expect (world (tether (from 0 0 0) (length 3))) raises def)
+  (expect (world (rov) (tether (from 0 0 0) (to nobody) (length 3))) raises name)
+  (expect (world (rov) (tether (from 0 0 0) (to sea) (length 3))) raises def)
+  (expect (world (rov) (tether (from 0 0 0) (length 0))) raises domain)
+  (expect (world (rov) (tether (from 0 0 0) (length -3))) raises domain)
+  (expect (world (rov) (tether (from 0 0 0) (length 3) (diameter 0))) raises domain)
+  (expect (world (splice 5)) raises domain)
+  (expect (define-world 5) raises def)
+  (expect (string-prefix? "a tether has no `lenght'; it has length, "
+                          (message (world (tether (lenght 3)))))
+          => #t)
+  (expect (string-prefix? "a world has no part `tehter'; it has tether, "
+                          (message (world (tehter (length 3)))))
+          => #t))
+
+(define-scenario world-files
+  "Worlds are found by name or file; what cannot be read is refused."
+  (expect (world-name (find-world 'trial)) => 'trial)
+  (expect (memq 'trial (worlds)) is pair?)
+  (expect (find-world 'trail) raises name)
+  (expect (find-world "no/such/file.scm") raises io)
+  (expect (find-world 5) raises domain))
+
+
+;;; Currents.
+
+(define-scenario currents
+  "Every form of current has one canonical form, from a world or quoted."
+  (expect (parse-current #f '(0.5 90)) => '(uniform 0.5 90.0))
+  (expect (parse-current #f 'still) => '(still))
+  (expect (parse-current #f '(profile (-60 .1 70) (0 (knots 1) 90)))
+          => `(profile (0.0 ,(knots 1) 90.0) (-60.0 0.1 70.0)))
+  (expect (parse-current #f '(turning (speed .5) (toward 90) (degrees-per-metre -0.9)))
+          => '(turning 0.5 90.0 -0.9))
+  (expect (parse-current #f '(power 0.5 90 (exponent 1/4))) => '(power 0.5 90.0 0.25))
+  (expect (parse-current #f '(tide (speed .6) (toward 90) (period (hours 12))))
+          => '(tide 0.6 90.0 43200.0))
+  (expect (car (parse-current #f (lambda (p t) '(0 0 0)))) => 'function)
+  (expect (field-of (with trial (current (tide (speed .6) (toward 90) (period (hours 12)))))
+                    'sea 'current)
+          => '(tide 0.6 90.0 43200.0)))
+
+(define-scenario current-mistakes
+  "A current that is none is refused."
+  (expect (parse-current #f '(-1 90)) raises domain)
+  (expect (parse-current #f '(25 90)) raises domain)
+  (expect (parse-current #f '(1 +nan.0)) raises domain)
+  (expect (parse-current #f '(1 2 3)) raises domain)
+  (expect (parse-current #f '(profile)) raises domain)
+  (expect (parse-current #f '(profile (0 1))) raises domain)
+  (expect (parse-current #f '(profile (0 1 2) (0 1 3))) raises domain)
+  (expect (parse-current #f `(profile ,@(map (lambda (i) (list i 1 1)) (iota 65)))) raises limit)
+  (expect (parse-current #f '(turning (sped .5))) raises name)
+  (expect (parse-current #f '(turning (speed .5) (toward 90))) raises def)
+  (expect (parse-current #f '(tied 3)) raises name)
+  (expect (parse-current #f '(grid "c.csv")) raises unsupported)
+  (expect (parse-current #f '(wake #t)) raises unsupported)
+  (expect (parse-current #f (endless)) raises domain)
+  (expect (parse-current #f "east") raises domain))
+
+
+;;; Types, fields, descriptions.
+
+(define-scenario types
+  "A new type fills in what is not given; one like another takes its fields."
+  (expect (define-tether-type trial-line "For trials." (like fathom) (wet-weight 0)) => 'trial-line)
+  (expect (field-of (with trial (line (type trial-line))) 'line 'wet-weight) => 0)
+  (expect (field-of (with trial (line (type trial-line))) 'line 'mass) => #f)
+  (expect (field-of (with trial (line (type trial-line))) 'line 'diameter) => 0.0076)
+  (expect (define-tether-type trial-line "Wrong." (like fatom)) raises name)
+  (expect (define-tether-type trial-line "Wrong." (lenght 3)) raises name)
+  (expect (define-tether-type trial-line "Wrong." (to minnow)) raises def)
+  (expect (define-tether-type trial-line) raises def))
+
+(define-scenario fields
+  "One place checks a value for a field."
+  (expect (check-field 'alter! 'tether 'ea 'inextensible) => +inf.0)
+  (expect (check-field 'alter! 'tether 'sag-buoyancy 'auto) => 2)
+  (expect (check-field 'alter! 'tether 'depth-rule 'linear) => 'linear)
+  (expect (check-field 'alter! 'tether 'nodes 32.0) => 32)
+  (expect (check-field 'alter! 'sea 'current '(0.5 90)) => '(uniform 0.5 90.0))
+  (expect (check-field 'alter! 'tether 'ea +inf.0) raises domain)
+  (expect (check-field 'alter! 'tether 'ea 'rigid) raises name)
+  (expect (check-field 'alter! 'tether 'nodes 2.5) raises domain)
+  (expect (check-field 'alter! 'tether 'size 3) raises name))
+
+(define-scenario descriptions
+  "Kinds of parts, types, worlds and their parts describe themselves from the same table."
+  (expect (length (description-rows (describe 'tether))) => (length (head-fields 'tether)))
+  (expect (description-title (describe 'fathom)) => "fathom, a type of tether")
+  (expect (map car (description-rows (describe trial))) => '("sea" "minnow" "line"))
+  (expect (assoc "diameter" (description-rows (describe (world-part trial 'line))))
+          => '("diameter" "0.0076" "m" "from fathom"))
+  (expect (describe 'tehter) raises name)
+  (expect (describe 5) raises domain))
