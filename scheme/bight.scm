@@ -7,6 +7,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight)
+  #:use-module ((bight verb) #:select (define-verb))
   #:export (language-names))
 
 ;; Modules, each alone if all its names belong to the language, else with the names that do.
@@ -21,9 +22,10 @@
      world? world-name world-documentation world-parts world-file world-part-names world-part
      part? part-head part-name part-fields part-all-fields)
     ((bight dive) enter! with-dive dive? current-dive)
-    ((bight time)
-     now time-step run run-until step! settle! every on cancel! checkpoint checkpoint? restore!
-     what-if state-hash)
+    ((bight task) every on cancel!)
+    ((bight pilot) define-pilot make-pilot with-pilot)
+    ((bight time) now time-step run run-until step! settle!)
+    ((bight checkpoint) checkpoint checkpoint? restore! what-if state-hash)
     ((bight command))
     ((bight query)
      rov-position rov-velocity rov-heading rov-pitch rov-roll rov-depth rov-altitude rov-speed
@@ -62,7 +64,7 @@
                  (module-variable (resolve-interface (car entry)) name)))
           when-used))
 
-(define (language-names)
+(define-verb (language-names)
   "Return the sorted list of all names of the language."
   (define (names-of module)
     (append (module-map (lambda (name variable) name) module)

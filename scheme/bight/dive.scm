@@ -42,6 +42,8 @@
   "a dive, as (enter! WORLD) returns"
   (if (%dive-record? value) value refused))
 
+(define type:maybe-dive (type:or-false dive))
+
 (define (print-dive dive port)
   (let ((engine (engine-of dive)))
     (format port "#<dive ~a at ~a s: ~a~a>"
@@ -56,7 +58,8 @@
 
 (define current-dive
   ;; The dive that verbs are about, or #f.
-  (make-parameter #f))
+  (make-parameter #f (lambda (value)
+                       (check-argument 'current-dive 'dive type:maybe-dive value))))
 
 (define (this-dive proc)
   "Return the current dive, or raise a &bight-error from PROC when there is none."

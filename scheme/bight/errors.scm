@@ -34,16 +34,30 @@
 
 (define make-bight-error (record-constructor &bight-error))
 
-(define bight-error?
-  (let ((ours? (exception-predicate &bight-error)))
-    (lambda (obj)
-      "Return true if OBJ is a condition raised by bight."
-      (ours? obj))))
+;; What asks of a condition cannot be a verb, since verbs raise conditions: it checks its own argument.
+(define-syntax-rule (define-question (name condition) doc body)
+  (define name
+    (case-lambda
+      doc
+      ((condition) body)
+      (arguments (bight-raise 'domain 'name "it is used as (~a CONDITION); ~a arguments were given"
+                              'name (length arguments))))))
+
+(define (ours? object)
+  ;; Guile's own predicate trips over a record type.
+  (and (exception? object)
+       ((exception-predicate &bight-error) object)))
+
+(define-question (bight-error? obj)
+  "Return true if OBJ is a condition raised by bight."
+  (ours? obj))
 
 (define-syntax-rule (define-error-field name field doc)
-  (define name
-    (let ((get (exception-accessor &bight-error (record-accessor &bight-error 'field))))
-      (lambda (condition) doc (get condition)))))
+  (define-question (name condition)
+    doc
+    (if (ours? condition)
+        ((exception-accessor &bight-error (record-accessor &bight-error 'field)) condition)
+        (bight-raise 'domain 'name "the condition must be one raised by bight, not ~s" condition))))
 
 (define-error-field bight-error-kind kind
   "Return the kind of CONDITION: domain name stale def limit diverged io format version unsupported.")
@@ -117,13 +131,20 @@ with ~a, ~s and ~~ filled in from ARGS, which are abbreviated there and kept who
 (define (abbreviate-array array level)
   (let* ((long? (> (array-length array) items-shown))
          (head (map (lambda (i) (abbreviate-to (array-ref array i) level))
-                    (iota (min items-shown (array-length array))))))
+                    (iota (min items-shown (array-length array)) (caar (array-shape array))))))
     (list->vector (if long? (append head '(…)) head))))
 
 (define (abbreviate-integer n)
   (if (< (abs n) (expt 10 21))
       n
       (stand-in (simple-format #f "an integer of ~a bits" (integer-length n)))))
+
+(define (abbreviate-struct value)
+  ;; Some records print as a page: such a one by the name of its type alone.
+  (let ((text (simple-format #f "~s" value)))
+    (if (or (> (string-length text) characters-shown) (string-index text #\newline))
+        (stand-in (simple-format #f "#<~a>" (record-type-name (struct-vtable value))))
+        value)))
 
 (define (abbreviate-to value level)
   (cond ((string? value) (clip value))
@@ -139,10 +160,12 @@ with ~a, ~s and ~~ filled in from ARGS, which are abbreviated there and kept who
          (if (zero? level) '… (abbreviate-array value (- level 1))))
         ((array? value)
          (stand-in (simple-format #f "an array of shape ~a" (array-dimensions value))))
+        ((and (struct? value) (record? value)) (abbreviate-struct value))
         (else value)))
 
 (define (array-size array)
-  (apply * (array-dimensions array)))
+  ;; Bounds need not begin at 0.
+  (fold (lambda (bounds size) (* size (+ 1 (- (cadr bounds) (car bounds))))) 1 (array-shape array)))
 
 (define (abbreviate value)
   "Return VALUE itself if it is short, else something short that prints like it.  Circular, deep and

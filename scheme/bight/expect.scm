@@ -226,11 +226,13 @@ expectations do, or #f."
 
 (define (judge-comparison name compare ask)
   ;; ASK gives the list of the values compared.
-  (attempt ask
-           (lambda (values)
-             (and (not (apply compare values))
+  (attempt (lambda ()
+             (let ((values (ask)))
+               (and (not (apply compare values)) values)))
+           (lambda (unlike)
+             (and unlike
                   (cons "true" (simple-format #f "(~a ~a)" name
-                                              (string-join (map show values) " ")))))
+                                              (string-join (map show unlike) " ")))))
            (lambda (exception) (cons "true" (describe-raise exception)))))
 
 (define (judge-same ask wanted)

@@ -12,6 +12,7 @@
   #:use-module (bight expect)
   #:use-module (bight dive)
   #:use-module (bight record)
+  #:use-module (bight task)
   #:use-module (bight time)
   #:use-module (bight verb)
   #:use-module ((ice-9 control) #:select (call/ec))

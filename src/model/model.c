@@ -111,11 +111,12 @@ resolve_end (const bt_model *model, const bt_tether_def *tether, const bt_end *d
 }
 
 double
-bt__longest_chord (const bt_tether_props *props, double length)
+bt__longest_chord (const bt_tether_props *props, double length, double pull)
 {
   int stretches = (props->model == BT_MODEL_ELASTIC || props->model == BT_MODEL_STEADY)
                   && isfinite (props->ea);
-  return stretches ? length * (1 + fmin (props->breaking_load / props->ea, 0.1)) : length;
+  double most = fmin (pull, props->breaking_load);
+  return stretches ? length * (1 + fmin (most / props->ea, 0.1)) : length;
 }
 
 static bt_status
@@ -124,7 +125,7 @@ check_reach (const bt_model *model, int i, bt_error *error)
   const bt_tether_def *tether = &model->tethers[i];
   double chord = bt__distance (model->ends[i][0].at, model->ends[i][1].at);
   /* A hair of slack, so that a world written with its length equal to its chord is taken.  */
-  if (chord > bt__longest_chord (&tether->props, tether->length) * (1 + 1e-12))
+  if (chord > bt__longest_chord (&tether->props, tether->length, INFINITY) * (1 + 1e-12))
     return bt__fail (error, BT_ERR_DEF, "tether `%s' is %g m long, but its ends are %g m apart",
                      tether->name, tether->length, chord);
   return BT_OK;

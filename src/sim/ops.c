@@ -402,7 +402,8 @@ alter_tether (const call *c)
   forget_follower (field, &def.props);
   bt_tether_props_complete (&def.props, c->state->density, c->state->gravity);
   ends = bt__tether_ends (c->dive, c->state, c->subject);
-  if (bt__distance (ends.a, ends.b) > bt__longest_chord (&def.props, tether->length) * (1 + 1e-12))
+  if (bt__distance (ends.a, ends.b)
+      > bt__longest_chord (&def.props, tether->length, INFINITY) * (1 + 1e-12))
     return bt__fail (c->error, BT_ERR_DOMAIN, "the tether is stretched, and would not reach so");
   tether->props = def.props;
   tether->stale = 1;

@@ -31,22 +31,42 @@ fastened (const bt_dive *dive, bt__state *state, int i, int vehicle, bt_vec3 *ot
   return end[0].vehicle == vehicle || end[1].vehicle == vehicle;
 }
 
+double
+bt__pull_on (const bt_dive *dive, bt__state *state, int i)
+{
+  double pull = 0;
+  for (int k = 0; k < 2; k++)
+    {
+      int vehicle = dive->model->ends[i][k].vehicle;
+      if (vehicle >= 0)
+        pull = fmax (pull, bt__dive_vehicle (dive, state, vehicle)->pull);
+    }
+  return pull;
+}
+
+/* How far VEHICLE may be from OTHER on tether I: as far as it can pull it, and where it was in FROM.  */
 static double
-longest (const bt_dive *dive, bt__state *state, int i)
+reach_of (const bt_dive *dive, const bt__state *from, bt__state *state, int i, int vehicle,
+          bt_vec3 other)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
-  return bt__longest_chord (&tether->props, tether->length);
+  const bt__vehicle *before = bt__dive_vehicle (dive, (bt__state *)from, vehicle);
+  double most = bt__longest_chord (&tether->props, tether->length, before->pull);
+  double there = bt__distance (before->position, other);
+  double ever = bt__longest_chord (&tether->props, tether->length, INFINITY);
+  return fmax (most, fmin (there, ever));
 }
 
 /* Pull VEHICLE back into the ball of tether I and return nonzero if it had left it.  */
 static int
-pull_back (const bt_dive *dive, bt__state *state, int i, int vehicle)
+pull_back (const bt_dive *dive, const bt__state *from, bt__state *state, int i, int vehicle)
 {
   bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
-  double reach = longest (dive, state, i), chord;
+  double reach, chord;
   bt_vec3 other;
   if (!fastened (dive, state, i, vehicle, &other))
     return 0;
+  reach = reach_of (dive, from, state, i, vehicle, other);
   chord = bt__distance (v->position, other);
   if (chord <= reach)
     return 0;
@@ -65,12 +85,12 @@ note_hold (bt__state *state, bt__tether *tether, int i, int taut)
 /* Balls that meet are approached by turns; a vehicle on several tethers is rare and two rounds bring it
    within a millimetre, the next steps the rest.  */
 static int
-hold_vehicle (const bt_dive *dive, bt__state *state, int vehicle)
+hold_vehicle (const bt_dive *dive, const bt__state *from, bt__state *state, int vehicle)
 {
   int held = 0;
   for (int round = 0; round < 2; round++)
     for (int i = 0; i < dive->model->n_tethers; i++)
-      held |= pull_back (dive, state, i, vehicle);
+      held |= pull_back (dive, from, state, i, vehicle);
   return held;
 }
 
@@ -81,16 +101,16 @@ bt__hold_at_tethers (const bt_dive *dive, const bt__state *from, bt__state *stat
     {
       bt__vehicle *v = bt__dive_vehicle (dive, state, i);
       bt_vec3 before = bt__dive_vehicle (dive, (bt__state *)from, i)->position;
-      v->held = hold_vehicle (dive, state, i);
+      v->held = hold_vehicle (dive, from, state, i);
       if (v->held)
         v->velocity = bt__scale (1 / BT__TIME_STEP, bt__sub (v->position, before));
     }
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       bt__ends ends = bt__tether_ends (dive, state, i);
-      double chord = bt__distance (ends.a, ends.b);
-      note_hold (state, bt__dive_tether (dive, state, i), i,
-                 chord >= longest (dive, state, i) * (1 - 1e-9));
+      bt__tether *tether = bt__dive_tether (dive, state, i);
+      note_hold (state, tether, i,
+                 bt__distance (ends.a, ends.b) >= tether->length * (1 - 1e-9));
     }
 }
 
@@ -113,6 +133,6 @@ bt__reach_along (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 a, 
   bt_vec3 other;
   for (int i = 0; i < dive->model->n_tethers; i++)
     if (fastened (dive, state, i, vehicle, &other))
-      k = fmin (k, ball_exit (a, b, other, longest (dive, state, i)));
+      k = fmin (k, ball_exit (a, b, other, reach_of (dive, state, state, i, vehicle, other)));
   return k;
 }

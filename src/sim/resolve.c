@@ -8,21 +8,6 @@
 #include "math/vec.h"
 #include "sim/sim.h"
 
-/* The pull on tether I: of the vehicles that stand at its end.  */
-static double
-pull_on (const bt_dive *dive, bt__state *state, int i)
-{
-  double pull = 0;
-  for (int k = 0; k < 2; k++)
-    {
-      int vehicle = dive->model->ends[i][k].vehicle;
-      const bt__vehicle *v = vehicle >= 0 ? bt__dive_vehicle (dive, state, vehicle) : NULL;
-      if (v && bt__dive_tether (dive, state, i)->taut && v->pull > pull)
-        pull = v->pull;
-    }
-  return pull;
-}
-
 /* Nonzero if nothing that the shape depends on has changed since it was solved.  */
 static int
 is_current (const bt__state *state, const bt__tether *tether, const bt__ends *ends, double pull)
@@ -91,7 +76,7 @@ bt__resolve_tethers (bt_dive *dive, bt__state *state, bt_error *error)
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       bt__ends ends = bt__tether_ends (dive, state, i);
-      double pull = pull_on (dive, state, i);
+      double pull = bt__dive_tether (dive, state, i)->taut ? bt__pull_on (dive, state, i) : 0;
       bt_status status;
       if (is_current (state, bt__dive_tether (dive, state, i), &ends, pull))
         {

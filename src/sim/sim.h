@@ -31,4 +31,7 @@ typedef struct bt__ends
 } bt__ends;
 bt__ends bt__tether_ends (const bt_dive *dive, bt__state *state, int i);
 
+/* Return the strongest pull of the vehicles at the ends of tether I, N; 0 when both are points.  */
+double bt__pull_on (const bt_dive *dive, bt__state *state, int i);
+
 #endif

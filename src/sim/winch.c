@@ -8,13 +8,14 @@
 #include "math/vec.h"
 #include "sim/sim.h"
 
-/* The shortest length that still reaches between the ends of tether I.  */
+/* The shortest length of tether I that the pull of its vehicles still lets reach between its ends.  */
 static double
 shortest (const bt_dive *dive, bt__state *state, int i)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   bt__ends ends = bt__tether_ends (dive, state, i);
-  return bt__distance (ends.a, ends.b) / (bt__longest_chord (&tether->props, 1));
+  double pull = bt__pull_on (dive, state, i);
+  return bt__distance (ends.a, ends.b) / bt__longest_chord (&tether->props, 1, pull);
 }
 
 static void

@@ -1,0 +1,146 @@
+;;; (bight task) --- what runs between the steps of a dive: `every', `on', and what else has to.
+;;;
+;;; Tasks run after each step in order of registration, in Scheme's own thread; a step itself never
+;;; enters Scheme.  A task's state is a value that never changes in place, so that a checkpoint can keep
+;;; it and a fork share it.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight task)
+  #:use-module (bight dive)
+  #:use-module (bight engine)
+  #:use-module (bight errors)
+  #:use-module (bight record)
+  #:use-module (bight verb)
+  #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
+  #:export (every every-seconds on cancel!
+            add-task! remove-task! task-state set-task-state!
+            add-step-watcher! remove-step-watcher!
+            idle? run-tasks!
+            copy-tasks! tasks-state restore-tasks!))
+
+(define-record <task>
+  (make-task name poll state)
+  task?
+  (name task-name)                      ; a string
+  (poll task-poll)                      ; called with the task after each step
+  (state task-state set-task-state!))
+
+(set-record-type-printer!
+ <task> (lambda (task port) (simple-format port "#<~a>" (task-name task))))
+
+(define-argument-type (task value)
+  "what `every' or `on' returned"
+  (if (task? value) value refused))
+
+(define (add-task! proc name poll state)
+  "Call POLL with the new task after each step of the current dive.  NAME, a string, shows it; STATE is
+what it begins with.  Return the task.  Raise a &bight-error from PROC when there is no dive."
+  (let ((dive (this-dive proc))
+        (task (make-task name poll state)))
+    (set-dive-tasks! dive (append (dive-tasks dive) (list task)))
+    task))
+
+(define (remove-task! dive task)
+  "Take TASK from DIVE; return #t if it was there."
+  (let ((there? (and (memq task (dive-tasks dive)) #t)))
+    (set-dive-tasks! dive (delq task (dive-tasks dive)))
+    there?))
+
+
+;;; The tasks a user knows.
+
+;; A drift of a millionth of a step is rounding, not time.
+(define rounding 1e-6)
+
+(define (run-when-due task thunk period)
+  ;; The state of a timed task is the step, perhaps fractional, at which it is due.
+  (when (>= (+ (%dive-steps (this-engine 'every)) rounding) (task-state task))
+    (set-task-state! task (+ (task-state task) period))
+    (thunk)
+    (run-when-due task thunk period)))
+
+(define-verb (every-seconds (seconds positive) (thunk thunk))
+  "Call THUNK every SECONDS of dive time from now on, between steps.  Return a handle for `cancel!'."
+  (let* ((engine (this-engine 'every))
+         (period (/ seconds (%dive-time-step engine))))
+    (when (< period 1e-3)
+      (bight-raise 'domain 'every "~a s is far below a time step of ~a s" seconds
+                   (%dive-time-step engine)))
+    (add-task! 'every (simple-format #f "every ~a s" seconds)
+               (lambda (task) (run-when-due task thunk period))
+               (+ (%dive-steps engine) period))))
+
+(define-syntax-rule (every seconds body body* ...)
+  "Evaluate the body every SECONDS of dive time from now on, between steps; return a handle."
+  (every-seconds seconds (lambda () body body* ...)))
+
+(define event-kinds '(taut slack arrived spooled))
+
+(define (run-on-events task kind procedure)
+  ;; The state of a task for events is how many events it has seen.
+  (let* ((engine (this-engine 'on))
+         (events (%events engine (task-state task))))
+    (set-task-state! task (%event-count engine))
+    (for-each (lambda (event)
+                (when (eq? (car event) kind)
+                  (procedure event)))
+              events)))
+
+(define-verb (on (kind name) (procedure procedure))
+  "Call PROCEDURE with each event of KIND (taut slack arrived spooled) from now on, between steps.  An
+event is a list (KIND TIME SUBJECT).  Return a handle for `cancel!'."
+  (unless (memq kind event-kinds)
+    (unknown-name 'on "a dive" kind event-kinds "event"))
+  (add-task! 'on (simple-format #f "on ~a" kind)
+             (lambda (task) (run-on-events task kind procedure))
+             (%event-count (this-engine 'on))))
+
+(define-verb (cancel! (handle task))
+  "Stop what `every' or `on' started.  Return #t if it was still registered in this dive."
+  (remove-task! (this-dive 'cancel!) handle))
+
+
+;;; Watchers: run after the tasks, not part of the dive's own story.
+
+(define (add-step-watcher! thunk)
+  "Call THUNK after every step of the current dive, after its tasks.  Return THUNK."
+  (let ((dive (this-dive 'add-step-watcher!)))
+    (set-dive-watchers! dive (append (dive-watchers dive) (list thunk)))
+    thunk))
+
+(define (remove-step-watcher! thunk)
+  "No longer call THUNK after the steps of the current dive."
+  (let ((dive (this-dive 'remove-step-watcher!)))
+    (set-dive-watchers! dive (delq thunk (dive-watchers dive)))))
+
+
+;;; For those who let time pass.
+
+(define (idle? dive)
+  "Return #t if nothing runs between the steps of DIVE."
+  (and (null? (dive-tasks dive)) (null? (dive-watchers dive))))
+
+(define (run-tasks! dive)
+  "Run what is due after a step of DIVE, the current dive."
+  (for-each (lambda (task)
+              (when (memq task (dive-tasks dive)) ; a task may cancel another
+                ((task-poll task) task)))
+            (dive-tasks dive))
+  (for-each (lambda (watcher) (watcher)) (dive-watchers dive)))
+
+(define (copy-tasks! dive)
+  "Give DIVE, a fork, copies of the tasks it shares with its origin."
+  (set-dive-tasks! dive
+                   (map (lambda (task)
+                          (make-task (task-name task) (task-poll task) (task-state task)))
+                        (dive-tasks dive))))
+
+(define (tasks-state dive)
+  "Return the tasks of DIVE with their states, a value."
+  (map (lambda (task) (cons task (task-state task))) (dive-tasks dive)))
+
+(define (restore-tasks! dive state)
+  "Bring the tasks of DIVE back to STATE, from `tasks-state'."
+  (for-each (lambda (entry) (set-task-state! (car entry) (cdr entry))) state)
+  (set-dive-tasks! dive (map car state)))
