@@ -98,21 +98,44 @@
   (any (lambda (folder) (access? (string-append folder "/gnuplot") X_OK))
        (string-split (or (getenv "PATH") "") #\:)))
 
-(define (plot-case name folder case rows)
-  ;; Plot ROWS, lists (MODEL ERROR CPU), as FOLDER/NAME-CASE.svg.
-  (let ((series (series-of (filter-map plottable rows)))
-        (port (open-output-pipe "gnuplot 2>/dev/null")))
-    (unless (null? series)
-      (print-plot port (string-append name ": " case)
-                  (string-append folder "/" name "-" case ".svg") series))
-    (close-pipe port)))
+(define (file-name . words)
+  ;; WORDS joined to a name without blanks or slashes.
+  (string-map (lambda (c) (if (memv c '(#\space #\/)) #\- c))
+              (string-join words "-")))
 
-(define (plot-cases name folder rows)
-  (let ((cells (columns-of rows '("case" "model" "error" "cpu_ns"))))
-    (for-each (lambda (case)
-                (plot-case name folder case
-                           (map cdr (filter (lambda (row) (string=? case (car row))) cells))))
-              (delete-duplicates (map car cells)))))
+(define (plot title file rows)
+  ;; Plot ROWS, lists (SERIES ERROR CPU), as the SVG FILE, if there is a front to see.
+  (let ((points (filter-map plottable rows)))
+    (when (> (length points) 1)
+      (let ((port (open-output-pipe "gnuplot 2>/dev/null")))
+        (print-plot port title file (series-of points))
+        (close-pipe port)))))
+
+(define (first-word text)
+  (car (string-split text #\space)))
+
+(define (series-row cells)
+  ;; (CASE METRIC SERIES ERROR CPU): a model's cold and warm runs are two series.
+  (list (first cells) (second cells)
+        (string-append (third cells) " " (first-word (fourth cells)))
+        (fifth cells) (sixth cells)))
+
+(define (plot-fronts name folder rows)
+  ;; One plot for each case and metric; shares of failures are read in the table.
+  (let ((cells (map series-row
+                    (columns-of rows '("case" "metric" "model" "setting" "error" "cpu_ns")))))
+    (for-each (lambda (front)
+                (plot (string-join (cons name front) ", ")
+                      (string-append folder "/" (apply file-name name front) ".svg")
+                      (filter-map (lambda (row)
+                                    (and (equal? front (list (first row) (second row)))
+                                         (cddr row)))
+                                  cells)))
+              (delete-duplicates
+               (filter-map (lambda (row)
+                             (and (not (string-contains (second row) "share"))
+                                  (list (first row) (second row))))
+                           cells)))))
 
 (define (run-bench name folder)
   (let* ((lines (measure name))
@@ -121,7 +144,7 @@
     (write-lines (string-append folder "/" name ".csv") lines)
     (print-table titles (columns-of rows titles))
     (when (gnuplot?)
-      (plot-cases name folder rows))))
+      (plot-fronts name folder rows))))
 
 (define (ensure-folder! folder)
   (unless (file-exists? folder)
