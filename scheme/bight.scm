@@ -30,10 +30,10 @@
     ((bight query)
      rov-position rov-velocity rov-heading rov-pitch rov-roll rov-depth rov-altitude rov-speed
      net-turns sticks held? range-to bearing-to current-at sea-depth
-     tether-points point-at tangent-at tensions tension-at
+     tether-points tether-tail point-at tangent-at tensions tension-at
      anchor-tension rov-tension max-tension tether-force
      tether-length straight-distance taut-length free-length slack excess
-     taut? settled? model-of equilibria
+     taut? parted? asleep? settled? model-of energy error-estimate equilibria
      deviation deviation? deviation-rms deviation-mean deviation-max deviation-worst
      events profile parts)))
 
@@ -46,8 +46,8 @@
     ((bight describe) describe)
     ((bight doc) help)))
 
-;; Names that stand for more than Guile's own of the same name.
-(define in-place-of-guile-s '(help))
+;; Names that stand for more than those of Guile and its SRFIs.
+(define in-place-of-guile-s '(help every))
 
 (define interface (module-public-interface (current-module)))
 

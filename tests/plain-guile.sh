@@ -18,4 +18,8 @@ empty 'and says nothing on standard error' "$scratch/err"
 guile -c "(use-modules (bight) (srfi srfi-1) (ice-9 match) (ice-9 format)) (display 'ready)"
 result $? '(bight) goes with srfi-1, match and format'
 empty 'without a warning' "$scratch/err"
+
+guile -c "(use-modules (bight) (srfi srfi-1)) (enter! 'tank) (every 1 (now)) (run 1)"
+result $? 'every is that of bight, beside srfi-1'
+empty 'without a warning' "$scratch/err"
 finish

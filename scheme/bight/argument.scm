@@ -26,6 +26,7 @@
             choice
             false-or
             bounded-list
+            takes?
 
             type:any type:number type:positive type:non-negative type:between
             type:count type:at-least type:bearing type:flag type:name type:string
@@ -176,6 +177,21 @@ a &bight-error when TYPE does not take it."
 (define-argument-type (procedure value)
   "a procedure"
   (if (procedure? value) value refused))
+
+(define (takes? procedure n)
+  "Return true if PROCEDURE can be called with N arguments."
+  (define (fits? required optional rest?)
+    (and (<= required n) (or rest? (<= n (+ required optional)))))
+  (define (fits-list? arguments)
+    (let ((count (lambda (key) (length (or (assq-ref arguments key) '())))))
+      (fits? (count 'required) (count 'optional) (assq-ref arguments 'rest))))
+  (let ((least (procedure-minimum-arity procedure)))
+    (or (not least)                     ; Guile cannot tell
+        (apply fits? least)
+        ;; The other clauses of a case-lambda.
+        (and ((@ (system vm program) program?) procedure)
+             (any fits-list?
+                  (or ((@ (system vm program) program-arguments-alists) procedure) '()))))))
 
 (define-argument-type (thunk value)
   "a procedure of no arguments"

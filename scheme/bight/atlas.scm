@@ -12,6 +12,7 @@
             worlds-path
             worlds
             find-world
+            world-called
             the-world
             type:the-world))
 
@@ -72,15 +73,15 @@ files."
     (module-use! module (resolve-interface '(bight)))
     module))
 
-(define (refuse-file file key arguments)
+(define (refuse-file proc file key arguments)
   (if (memq key '(bight-error quit user-interrupt))
       (apply throw key arguments)
-      (bight-raise (if (eq? key 'system-error) 'io 'format) 'find-world "~a: ~a" file
+      (bight-raise (if (eq? key 'system-error) 'io 'format) proc "~a: ~a" file
                    (string-trim-both
                     (call-with-output-string
                       (lambda (port) (print-exception port #f key arguments)))))))
 
-(define (load-world file)
+(define (load-world proc file)
   ;; The last world that FILE defines; it is not made known, so that a changed file is read again.
   (let ((found #f))
     (catch #t
@@ -91,30 +92,39 @@ files."
              (set-current-module (fresh-module))
              (primitive-load file)))))
       (lambda (key . arguments)
-        (refuse-file file key arguments)))
-    (or found (bight-raise 'format 'find-world "~a defines no world" file))))
+        (refuse-file proc file key arguments)))
+    (or found (bight-raise 'format proc "~a defines no world" file))))
 
-(define (file-world text)
-  (cond ((string-index text #\nul) (bight-raise 'io 'find-world "no file is called ~s" text))
-        ((and (file-exists? text) (not (file-is-directory? text))) (load-world text))
+(define (regular-file? text)
+  ;; A device such as /dev/zero has no end.
+  (and (file-exists? text) (eq? 'regular (stat:type (stat text)))))
+
+(define (file-world proc text)
+  (cond ((string-index text #\nul) (bight-raise 'io proc "no file is called ~s" text))
+        ((regular-file? text) (load-world proc text))
         ((world-file-named (if (string-suffix? ".scm" text) (string-drop-right text 4) text))
-         => load-world)
-        (else (bight-raise 'io 'find-world "there is no file ~s; known worlds are ~a" text
+         => (lambda (file) (load-world proc file)))
+        (else (bight-raise 'io proc "there is no file ~s; known worlds are ~a" text
                            (words->string (worlds))))))
 
 (define-argument-type (world-designator value)
   "a world, the name of one as in 'open-water, or a file name"
   (if (or (is-world? value) (symbol? value) (string? value)) value refused))
 
+(define (world-called proc designator)
+  "Return the world that DESIGNATOR, a world, a symbol or a file name, stands for; PROC asks."
+  (cond ((is-world? designator) designator)
+        ((string? designator) (file-world proc designator))
+        ((hashq-ref known-worlds designator))
+        ((world-file-named (symbol->string designator))
+         => (lambda (file) (load-world proc file)))
+        (else (unknown-name proc "the list of worlds" designator (worlds)))))
+
 (define-verb (find-world (designator world-designator))
   "Return the world DESIGNATOR stands for: a world, the name of one defined here or in a file NAME.scm in
 a folder of worlds, or the name of a file.  Raise a &bight-error when there is none, or the file is
 wrong."
-  (cond ((is-world? designator) designator)
-        ((string? designator) (file-world designator))
-        ((hashq-ref known-worlds designator))
-        ((world-file-named (symbol->string designator)) => load-world)
-        (else (unknown-name 'find-world "the list of worlds" designator (worlds)))))
+  (world-called 'find-world designator))
 
 (define-argument-type (the-world value)
   "a world, or the name of one, as in 'open-water"

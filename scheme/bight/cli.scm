@@ -79,10 +79,13 @@
 
 (define (skip-first-line! port)
   ;; Pass over `#!/usr/bin/bight', but leave Guile's own `#! ... !#' to the reader.
-  (let ((start (ftell port)))
-    (unless (and (string-prefix? "#!/" (next-line port))
-                 (not (string=? "!#" (next-line port))))
-      (seek port start SEEK_SET))))
+  (let* ((start (ftell port))
+         (ours? (and (string-prefix? "#!/" (next-line port))
+                     (not (string=? "!#" (next-line port))))))
+    (seek port start SEEK_SET)
+    (set-port-line! port 0)
+    (when ours?
+      (next-line port))))
 
 (define (next-line port)
   (let ((line ((from (ice-9 rdelim) read-line) port)))
@@ -128,6 +131,8 @@ begins with FILE and the line."
 (define (run-script file arguments)
   (unless (file-exists? file)
     (bad-usage "there is no file ~s~a" file (meant file command-names)))
+  (when (file-is-directory? file)
+    (bad-usage "~s is a folder, not a script" file))
   (set-program-arguments (cons file arguments))
   (enter-language!)
   (evaluate-file file)

@@ -14,13 +14,13 @@
   #:use-module (srfi srfi-4)
   #:export (drive! release! fly-to! move! place! follow! arrived?
             hold-heading! hold-depth! hold-altitude! hold-position!
-            pay-out! haul-in! spooling?
-            current! alter! tether-model!))
+            pay-out! haul-in! spooling? cut-tether!
+            current! alter! tether-model! accuracy!))
 
 (define degree (/ (acos -1) 180))
 
 (define (operate! verb subject . numbers)
-  (%operate! (this-engine verb) verb subject (list->f64vector numbers)))
+  (%operate! (this-engine verb) verb verb subject (list->f64vector numbers)))
 
 (define (position-of vehicle)
   (assq-ref (%vehicle (this-engine 'rov-position) vehicle) 'position))
@@ -63,14 +63,14 @@ held until changed; those not named stay.  Ends a flight to a place.  Return the
 (define-verb (place! #:subject (v vehicle) (p point) #:key (fresh flag #f))
   "Sweep the vehicle to the point P at once, stopping where it is blocked; with FRESH, put it there and
 lay the tether anew.  Return where it is now."
-  (operate! (if fresh 'lay! 'place!) v (f64vector-ref p 0) (f64vector-ref p 1) (f64vector-ref p 2))
+  (%operate! (this-engine 'place!) (if fresh 'lay! 'place!) 'place! v p)
   (position-of v))
 
 (define-verb (follow! #:subject (v vehicle) (track track))
   "Let the vehicle follow a measured TRACK, a file with columns t x y z (s, m) or a list of such rows,
 beginning now.  Return how many seconds it takes."
   (let ((rows (read-track 'follow! track)))
-    (%operate! (this-engine 'follow!) 'follow! v rows)
+    (%operate! (this-engine 'follow!) 'follow! 'follow! v rows)
     (- (f64vector-ref rows (- (f64vector-length rows) 4)) (f64vector-ref rows 0))))
 
 (define-verb (arrived? #:subject (v vehicle))
@@ -119,47 +119,72 @@ when the winch will stop, m."
   "Return #t while the tether's winch turns."
   (assq-ref (%tether (this-engine 'spooling?) t) 'spooling?))
 
+(define-verb (cut-tether! #:subject (t tether) #:key (at non-negative (/ (%length t) 2)))
+  "Cut the tether, moved by the model `dynamic', AT metres of arc length from its anchor (its middle when
+left out).  Both parts go on moving.  Return the length left at the anchor, m."
+  (operate! 'cut-tether! t at)
+  (%length t))
+
 
 ;;; The sea, and the parts' fields.
 
 (define-verb (current! #:rest (setting any))
   "Change the current: (current! SPEED TOWARD), or one of its other forms, quoted, as in
-(current! '(profile (0 0.6 90) (-30 0.3 80))); or a procedure of position and time.  Return the current
-at the surface, m/s."
-  (%set-current! (this-engine 'current!) (parse-current 'current! setting))
-  (%current-at (this-engine 'current!) (f64vector 0 0 0)))
+(current! '(profile (0 0.6 90) (-30 0.3 80))); or a procedure of position and time, which is slow.
+Return the current at the surface, m/s."
+  (let* ((engine (this-engine 'current!))
+         (setting (if (= 1 (length setting)) (car setting) setting))
+         (current (parse-current 'current! setting)))
+    (%set-current! engine current)
+    (%current-at engine (f64vector 0 0 0))))
 
-(define (alter-field! part index name field value)
-  (let ((value (check-field 'alter! (if (eq? part 'vehicle) 'rov part) field value)))
-    (%alter! (this-engine 'alter!) (if (eq? part 'vehicle) 'rov part) index field value)))
+(define (alter-field! proc head index field value)
+  (let ((value (check-field proc head field value)))
+    (if (eq? field 'current)
+        (%set-current! (this-engine proc) value)
+        (%alter! (this-engine proc) head index field value))))
 
-(define (alter-fields! part index name settings)
+(define (alter-fields! head index settings)
   (let loop ((rest settings))
-    (cond ((null? rest) name)
+    (cond ((null? rest) *unspecified*)
           ((not (and (keyword? (car rest)) (pair? (cdr rest))))
            (bight-raise 'domain 'alter! "after the part come fields as in #:cdn 1.4, not ~s"
                         (car rest)))
           (else
-           (alter-field! part index name (keyword->symbol (car rest)) (cadr rest))
+           (alter-field! 'alter! head index (keyword->symbol (car rest)) (cadr rest))
            (loop (cddr rest))))))
 
+(define (part-to-alter name)
+  ;; The head and the index of the part called NAME.
+  (if (eq? name 'sea)
+      (values 'sea 0)
+      (call-with-values (lambda () (find-part 'alter! name))
+        (lambda (kind index)
+          (values (if (eq? kind 'vehicle) 'rov kind) index)))))
+
 (define-verb (alter! (part name) #:rest (settings any))
-  "Change fields of the vehicle or tether named PART while the dive runs, as in
+  "Change fields of the vehicle or tether named PART, or of the sea, while the dive runs, as in
 (alter! 'line #:cdn 1.4 #:model 'catenary).  All are changed, or, when one is refused, none.  Return
 PART."
-  (let* ((dive (this-dive 'alter!))
-         (engine (engine-of dive))
+  (let* ((engine (this-engine 'alter!))
          (before (%save-dive engine)))
     (with-exception-handler
      (lambda (e)
        (%restore-dive! engine before)
        (raise-exception e))
      (lambda ()
-       (call-with-values (lambda () (find-part 'alter! part))
-         (lambda (kind index)
-           (alter-fields! kind index part settings)))))))
+       (call-with-values (lambda () (part-to-alter part))
+         (lambda (head index)
+           (alter-fields! head index settings)))
+       part))))
 
 (define-verb (tether-model! #:subject (t tether) (model name))
-  "Choose the tether's MODEL: rubber-band v-shape catenary catenary-simplex elastic steady.  Return it."
-  (alter-field! 'tether t #f 'model model)
+  "Choose the tether's MODEL: rubber-band v-shape catenary catenary-simplex elastic steady dynamic
+auto.  Return it."
+  (alter-field! 'tether-model! 'tether t 'model model)
   model)
+
+(define-verb (accuracy! #:subject (t tether) (metres positive))
+  "Accept an error in position of METRES: the model `auto' takes as many nodes as keep it.  Return METRES."
+  (alter-field! 'accuracy! 'tether t 'accuracy metres)
+  metres)

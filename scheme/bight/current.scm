@@ -16,6 +16,7 @@
   #:use-module (bight errors)
   #:use-module (bight units)
   #:use-module (srfi srfi-1)
+  #:use-module (srfi srfi-4)
   #:export (current-forms
             current-field-names
             parse-current
@@ -124,10 +125,33 @@
           (field proc form found 'toward type:bearing)
           (field proc form found last-name last-type last-default))))
 
+;; What a procedure answers is checked at each call, here, where there is somebody to tell.
+
+(define speed-limit 20)
+
+(define (slow? velocity)
+  (every (lambda (component) (<= (abs component) speed-limit)) (f64vector->list velocity)))
+
+(define (velocity answers)
+  (or (and (= 1 (length answers))
+           (accepts? type:point (first answers))
+           (let ((v (check-argument 'current "the velocity" type:point (first answers))))
+             (and (slow? v) v)))
+      (bight-raise 'domain 'current
+                   "the procedure of a current must return one velocity, three numbers of at most ~a m/s, not ~s"
+                   speed-limit (if (= 1 (length answers)) (first answers) answers))))
+
 (define (function proc arguments)
   (unless (and (= 1 (length arguments)) (procedure? (first arguments)))
     (bight-raise 'domain proc "a function current takes one procedure, not ~s" arguments))
-  (list 'function (first arguments)))
+  (let ((procedure (first arguments)))
+    (unless (takes? procedure 2)
+      (bight-raise 'domain proc
+                   "the procedure of a current takes a position and a time; ~s does not take two" procedure))
+    (list 'function
+          (lambda (position time)
+            (call-with-values (lambda () (procedure position time))
+              (lambda answers (velocity answers)))))))
 
 (define (form-current proc form arguments)
   (case form
@@ -158,7 +182,7 @@ TOWARD), (profile (Z SPEED TOWARD) ...) from the top down, (turning SPEED TOWARD
 (power SPEED TOWARD EXPONENT), (tide SPEED TOWARD PERIOD) or (function PROCEDURE).  Raise a &bight-error
 from PROC when it describes none."
   (let ((items (and (pair? datum) (bounded-list datum 1000))))
-    (cond ((procedure? datum) (list 'function datum))
+    (cond ((procedure? datum) (function proc (list datum)))
           ((eq? datum 'still) (list 'still))
           ((and (number? datum) (zero? datum)) (list 'still))
           ((symbol? datum) (form-current proc datum '()))
@@ -173,5 +197,5 @@ from PROC when it describes none."
   (case (car current)
     ((still) "still")
     ((uniform) (simple-format #f "~a m/s toward ~a" (second current) (third current)))
-    ((function) "a procedure")
+    ((function) "a procedure of position and time (slow)")
     (else (show current))))

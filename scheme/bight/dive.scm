@@ -6,6 +6,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight dive)
+  #:use-module ((bight atlas) #:select (world-called))
   #:use-module (bight engine)
   #:use-module (bight errors)
   #:use-module (bight record)
@@ -22,6 +23,8 @@
             this-engine
             this-dive
             dive-world
+            running-dive
+            check-not-running
             dive-tasks set-dive-tasks!
             dive-watchers set-dive-watchers!
             type:dive))
@@ -49,7 +52,7 @@
     (format port "#<dive ~a at ~a s: ~a~a>"
             (or (world-name (dive-world dive)) "in an unnamed world")
             (/ (round (* 1000 (%dive-time engine))) 1000)
-            (words->string (%names engine 'rov))
+            (if (null? (%names engine 'rov)) "no vehicle" (words->string (%names engine 'rov)))
             (if (null? (%names engine 'tether))
                 ""
                 (string-append " on " (words->string (%names engine 'tether)))))))
@@ -60,6 +63,9 @@
   ;; The dive that verbs are about, or #f.
   (make-parameter #f (lambda (value)
                        (check-argument 'current-dive 'dive type:maybe-dive value))))
+
+(set-object-property! current-dive 'documentation
+                      "Return the dive that all verbs are about, or #f.  A parameter.")
 
 (define (this-dive proc)
   "Return the current dive, or raise a &bight-error from PROC when there is none."
@@ -75,6 +81,15 @@
 
 (current-subject-lister subject-names)
 
+(define running-dive
+  ;; The dive that is being stepped, so that what runs between its steps cannot step or leave it too.
+  (make-parameter #f))
+
+(define (check-not-running proc dive)
+  "Raise a &bight-error from PROC if DIVE is being stepped now, as it is for what runs between steps."
+  (when (and dive (eq? dive (running-dive)))
+    (bight-raise 'def proc "what runs between the steps of a dive cannot do this to it")))
+
 (define-argument-type (world-or-name value)
   "a world, the name of one as in 'open-water, or a file"
   (if (or (world? value) (symbol? value) (string? value)) value refused))
@@ -82,14 +97,15 @@
 (define-verb (enter! (world world-or-name))
   "Start a dive in WORLD: a world, a symbol naming one in worlds/, or a file name.  The dive becomes the
 current one and is returned."
-  (let* ((world (if (world? world) world (find-world world)))
+  (check-not-running 'enter! (current-dive))
+  (let* ((world (world-called 'enter! world))
          (dive (make-dive (%make-dive (world->parts world)) world '() '())))
     (current-dive dive)
     dive))
 
-(define-verb (call-with-dive (dive dive) (thunk thunk))
+(define (call-with-dive dive thunk)
   "Call THUNK with DIVE as the current dive, and return what it returns."
-  (parameterize ((current-dive dive))
+  (parameterize ((current-dive (check-argument 'with-dive 'dive type:dive dive)))
     (thunk)))
 
 (define-syntax-rule (with-dive dive body body* ...)

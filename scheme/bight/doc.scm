@@ -12,6 +12,7 @@
   #:use-module (bight view)
   #:use-module (srfi srfi-1)
   #:export (help-on
+            docstring-of
             language-ref)
   #:replace (help))
 
@@ -38,9 +39,9 @@
     (cons (car lines) (map string-trim (cdr lines)))))
 
 (define (docstring-of value)
+  "Return what VALUE, also a macro, says of itself, a string, or #f."
   (cond ((macro? value) (procedure-documentation (macro-transformer value)))
-        ((not (procedure? value)) #f)
-        ((procedure-documentation value))
+        ((and (procedure? value) (procedure-documentation value)))
         (else ((module-ref (resolve-interface '(ice-9 documentation)) 'object-documentation) value))))
 
 (define (plain-usage name procedure)
@@ -172,9 +173,12 @@
          (cadr value))
         (else refused)))
 
-(define-verb (help-on #:optional (topic topic))
-  "Return help on TOPIC, a symbol or string, or a short tour, as a picture, which prints as text."
-  (lines->picture (if topic (topic-lines topic) (tour-lines))))
+(define (help-on . topics)
+  "Return help on a topic, a symbol or string, or a short tour, as a picture, which prints as text."
+  (lines->picture
+   (if (null? topics)
+       (tour-lines)
+       (topic-lines (check-argument 'help 'topic type:topic (car topics))))))
 
 (define-syntax help
   (lambda (stx)

@@ -32,6 +32,9 @@
 (define &bight-error
   (make-exception-type '&bight-error &error '(kind procedure message given)))
 
+(set-object-property! &bight-error 'documentation
+                      "The type of condition that every mistake raises.")
+
 (define make-bight-error (record-constructor &bight-error))
 
 ;; What asks of a condition cannot be a verb, since verbs raise conditions: it checks its own argument.
@@ -44,8 +47,8 @@
                               'name (length arguments))))))
 
 (define (ours? object)
-  ;; Guile's own predicate trips over a record type.
-  (and (exception? object)
+  ;; Guile's own predicates trip over structures that are no records, such as record types.
+  (and (record? object)
        ((exception-predicate &bight-error) object)))
 
 (define-question (bight-error? obj)

@@ -131,7 +131,9 @@ expectations do, or #f."
 (define (printed-exception exception)
   (let ((text (call-with-output-string
                (lambda (port)
-                 (print-exception port #f (exception-kind exception) (exception-args exception))))))
+                 ;; Guile's printer goes down into circular and deep irritants for ever.
+                 (print-exception port #f (exception-kind exception)
+                                  (map abbreviate (exception-args exception)))))))
     (string-join (remove string-null? (map tidy-line (string-split text #\newline))) " ")))
 
 
@@ -217,8 +219,10 @@ expectations do, or #f."
 
 (define (judge ask good? expected)
   ;; EXPECTED is a thunk that gives the text.
-  (attempt ask
-           (lambda (value) (and (not (good? value)) (cons (expected) (show value))))
+  (attempt (lambda ()
+             (let ((value (ask)))
+               (and (not (good? value)) (list value))))
+           (lambda (wrong) (and wrong (cons (expected) (show (car wrong)))))
            (lambda (exception) (cons (expected) (describe-raise exception)))))
 
 (define (judge-truth ask)
@@ -327,7 +331,7 @@ failure ends the scenario at once."
   ;; The list of items of a list, vector or array VALUE, or #f.
   (cond ((list? value) value)
         ((or (string? value) (bitvector? value)) #f)
-        ((array? value) (array->list value))
+        ((and (array? value) (positive? (array-rank value))) (array->list value))
         (else #f)))
 
 (define (same? a b)
@@ -366,6 +370,13 @@ whatever their kind, anything else by `equal?'."
                             (if (every real? all) (hypotenuse all) (apply max 0 (map size all)))))
         (else 0)))
 
+(define (measured? value levels)
+  ;; Whether VALUE is a number, or consists of such LEVELS deep at most.
+  (or (real? value)
+      (and (positive? levels)
+           (let ((all (items value)))
+             (and all (every (lambda (item) (measured? item (- levels 1))) all))))))
+
 (define (default-tolerance value)
   (let ((hundredth (* 0.01 (size value))))
     (if (zero? hundredth) 0.01 hundredth)))
@@ -402,7 +413,7 @@ whatever their kind, anything else by `equal?'."
 #:within TOLERANCE is the largest difference (for points the distance), by default a hundredth of
 VALUE's size, or 0.01 if VALUE is zero.  With #:degrees the difference is taken round the compass, by
 default within 1: (about 359 #:within 3 #:degrees), or (about 359 #:degrees 3)."
-  (unless (or (real? value) (items value))
+  (unless (measured? value 2)
     (bight-raise 'domain 'about "the value is a number, a point or a polyline, not ~s" value))
   (call-with-values (lambda () (about-options options))
     (lambda (within degrees?)

@@ -49,50 +49,51 @@
 (define tag (make-prompt-tag 'pilot))
 
 (define piloting
-  ;; Whether a pilot's body is being evaluated.
+  ;; The dive of the pilot whose body is being evaluated, or #f.
   (make-parameter #f))
 
 (define (piloting?)
-  "Return #t within the body of a pilot."
-  (piloting))
+  "Return #t within the body of a pilot, as far as it is about the dive that he flies."
+  (and (piloting) (eq? (piloting) (current-dive))))
 
 (define (wait-until ready?)
   "Leave the body of the pilot until READY?, a procedure of no arguments, returns true after some step."
   (abort-to-prompt tag ready?))
 
-(define (done) #f)
+(define (never) #f)
+
+(define busy
+  ;; The state of a pilot who waits for nothing: he is at work, or done.
+  (cons never #f))
 
 (define (resume! task go-on)
   ;; Let the pilot of TASK go on until he waits or is done.  The task's state is the condition he waits
-  ;; for, and how to go on then.
+  ;; for, and how to go on then; a fork that he makes meanwhile has no second pilot.
+  (set-task-state! task busy)
   (set-task-state! task
-                   (call-with-prompt tag
-                     (lambda ()
-                       (go-on)
-                       (cons done #f))
-                     (lambda (continue ready?)
-                       (cons ready? (lambda () (continue #t)))))))
+                   (parameterize ((piloting (current-dive)))
+                     (call-with-prompt tag
+                       (lambda ()
+                         (go-on)
+                         busy)
+                       (lambda (continue ready?)
+                         (cons ready? (lambda () (continue #t))))))))
 
 (define (poll task)
   (let ((state (task-state task)))
     (when ((car state))
       (resume! task (cdr state)))))
 
-(define (begin-script pilot)
-  (lambda ()
-    (parameterize ((piloting #t))
-      ((pilot-script pilot)))))
-
-(define-verb (call-with-pilot (pilot pilot) (thunk thunk))
+(define (call-with-pilot pilot thunk)
   "Call THUNK while PILOT flies the current dive, and return what it returns.  He begins at once, and
 leaves when THUNK returns."
-  (let* ((dive (this-dive 'with-pilot))
-         (task (add-task! 'with-pilot (simple-format #f "pilot ~a" (pilot-name pilot)) poll
-                          (cons done #f))))
+  (let* ((pilot (check-argument 'with-pilot 'pilot type:pilot pilot))
+         (dive (this-dive 'with-pilot))
+         (task (add-task! 'with-pilot (simple-format #f "pilot ~a" (pilot-name pilot)) poll busy)))
     (dynamic-wind
       (const #f)
       (lambda ()
-        (resume! task (begin-script pilot))
+        (resume! task (pilot-script pilot))
         (thunk))
       (lambda () (remove-task! dive task)))))
 

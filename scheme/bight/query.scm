@@ -14,13 +14,13 @@
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
-  #:export (rov-position rov-velocity rov-heading rov-pitch rov-roll rov-depth rov-altitude rov-speed
+  #:export (tether-tail rov-position rov-velocity rov-heading rov-pitch rov-roll rov-depth rov-altitude rov-speed
             net-turns sticks held? range-to bearing-to
             current-at sea-depth
             tether-points point-at tangent-at
             tensions tension-at anchor-tension rov-tension max-tension tether-force
             tether-length straight-distance taut-length free-length slack excess
-            taut? settled? model-of equilibria
+            taut? parted? asleep? settled? model-of energy error-estimate equilibria
             deviation deviation-rms deviation-mean deviation-max deviation-worst deviation?
             events profile parts find-part tether-properties))
 
@@ -110,6 +110,11 @@
 nodes, or N points equally spaced in arc length, both ends included."
   (%tether-points (this-engine 'tether-points) t n))
 
+(define-verb (tether-tail #:subject (t tether))
+  "Return the polyline of the part of a parted tether that hangs from the vehicle, from its new end on, or
+#f when the tether is whole."
+  (%tether-tail (this-engine 'tether-tail) t))
+
 (define-verb (point-at #:subject (t tether) (s number))
   "Return the point of the tether at arc length S metres from its anchor.  Raise domain if S lies outside
 what is out."
@@ -165,8 +170,12 @@ distance.")
 
 (define-tether-question (taut? taut?)
   "Return #t if the tether is pulled tight.")
+(define-tether-question (parted? parted?)
+  "Return #t if the tether is in two; then the part at the anchor is what one asks about.")
+(define-tether-question (asleep? asleep?)
+  "Return #t if the moving line rests, so that it is not stepped.")
 (define-tether-question (settled? settled?)
-  "Return #t unless the tether's steady shape is still being relaxed.")
+  "Return #t unless the tether still moves by itself.")
 
 (define-verb (model-of #:subject (t tether))
   "Return the model of the tether, a symbol."
@@ -175,6 +184,21 @@ distance.")
 (define (tether-properties t)
   "Return the properties of tether number T, an alist by field."
   (%tether-properties (this-engine 'describe) t))
+
+(define-verb (energy #:subject (t tether))
+  "Return the energies of the moving line in joules by kind: kinetic (added mass moves too), strain,
+gravity (from z = 0) and bending, an alist.  Raise unsupported for static models."
+  (%energy (this-engine 'energy) t))
+
+(define-verb (error-estimate #:subject (t tether))
+  "Return an upper estimate of the error in position of the moving line, m, as it comes of its nodes.
+Raise unsupported for static models."
+  (let ((error (assq-ref (tether-view 'error-estimate t) 'error)))
+    (if (nan? error)
+        (bight-raise 'unsupported 'error-estimate
+                     "the model ~a does not estimate its error; dynamic and auto do"
+                     (assq-ref (tether-properties t) 'model))
+        error)))
 
 (define-verb (equilibria #:subject (t tether))
   "Return the distinct shapes in which the tether could rest with its ends where they are, polylines, the

@@ -14,7 +14,8 @@
   #:use-module (rnrs bytevectors)
   #:use-module (srfi srfi-1)
   #:use-module ((system foreign) #:select (string->pointer pointer->bytevector pointer-address sizeof))
-  #:use-module ((system repl common) #:select (repl-default-option-set!))
+  #:use-module ((system repl command) #:select (define-meta-command))
+  #:use-module ((system repl common) #:select (repl-default-option-set! repl-eval))
   #:use-module ((system repl repl) #:select (start-repl))
   #:export (run-prompt
             completions))
@@ -125,6 +126,16 @@ parts and of worlds; keywords after #:; Guile's own names if there are none of t
 
 
 ;;; The loop.
+
+;; Guile's own knows no macros.
+(define-meta-command ((describe #f) repl (form))
+  "describe NAME
+Show the documentation of NAME; (help NAME) tells how it is used too."
+  (let* ((datum (syntax->datum form))
+         (value (if (symbol? datum) (module-ref (current-module) datum) (repl-eval repl form)))
+         (docstring-of (module-ref (resolve-interface '(bight doc)) 'docstring-of)))
+    (display (or (docstring-of value) "There is no documentation."))
+    (newline)))
 
 (define (call-with-interrupts thunk)
   ;; Call THUNK with ^C raising an error, which ends what is running and returns to the prompt.

@@ -12,6 +12,7 @@
   #:use-module (bight errors)
   #:use-module (bight record)
   #:use-module (bight verb)
+  #:use-module ((srfi srfi-1) #:select (remove))
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:export (every every-seconds on cancel!
             add-task! remove-task! task-state set-task-state!
@@ -20,11 +21,26 @@
             copy-tasks! tasks-state restore-tasks!))
 
 (define-record <task>
-  (make-task name poll state)
+  (%make-task name poll state origin)
   task?
   (name task-name)                      ; a string
   (poll task-poll)                      ; called with the task after each step
-  (state task-state set-task-state!))
+  (state task-state set-task-state!)
+  (origin task-origin))                 ; the task it is a copy of, or #f
+
+(define (make-task name poll state)
+  (%make-task name poll state #f))
+
+(define (copy-task task state)
+  ;; TASK for another dive or another time, in STATE.
+  (%make-task (task-name task) (task-poll task) state (original task)))
+
+(define (original task)
+  (or (task-origin task) task))
+
+(define (same-task? a b)
+  ;; The handle that `every' returned stands for the task's copies too.
+  (eq? (original a) (original b)))
 
 (set-record-type-printer!
  <task> (lambda (task port) (simple-format port "#<~a>" (task-name task))))
@@ -42,10 +58,11 @@ what it begins with.  Return the task.  Raise a &bight-error from PROC when ther
     task))
 
 (define (remove-task! dive task)
-  "Take TASK from DIVE; return #t if it was there."
-  (let ((there? (and (memq task (dive-tasks dive)) #t)))
-    (set-dive-tasks! dive (delq task (dive-tasks dive)))
-    there?))
+  "Take TASK, or the copy of it that is there, from DIVE; return #t if it was there."
+  (let* ((tasks (dive-tasks dive))
+         (others (remove (lambda (other) (same-task? task other)) tasks)))
+    (set-dive-tasks! dive others)
+    (< (length others) (length tasks))))
 
 
 ;;; The tasks a user knows.
@@ -60,9 +77,10 @@ what it begins with.  Return the task.  Raise a &bight-error from PROC when ther
     (thunk)
     (run-when-due task thunk period)))
 
-(define-verb (every-seconds (seconds positive) (thunk thunk))
+(define (every-seconds seconds thunk)
   "Call THUNK every SECONDS of dive time from now on, between steps.  Return a handle for `cancel!'."
-  (let* ((engine (this-engine 'every))
+  (let* ((seconds (check-argument 'every 'seconds type:positive seconds))
+         (engine (this-engine 'every))
          (period (/ seconds (%dive-time-step engine))))
     (when (< period 1e-3)
       (bight-raise 'domain 'every "~a s is far below a time step of ~a s" seconds
@@ -75,7 +93,7 @@ what it begins with.  Return the task.  Raise a &bight-error from PROC when ther
   "Evaluate the body every SECONDS of dive time from now on, between steps; return a handle."
   (every-seconds seconds (lambda () body body* ...)))
 
-(define event-kinds '(taut slack arrived spooled))
+(define event-kinds '(taut slack arrived spooled stalled parted snapped hockled))
 
 (define (run-on-events task kind procedure)
   ;; The state of a task for events is how many events it has seen.
@@ -88,10 +106,12 @@ what it begins with.  Return the task.  Raise a &bight-error from PROC when ther
               events)))
 
 (define-verb (on (kind name) (procedure procedure))
-  "Call PROCEDURE with each event of KIND (taut slack arrived spooled) from now on, between steps.  An
-event is a list (KIND TIME SUBJECT).  Return a handle for `cancel!'."
+  "Call PROCEDURE with each event of KIND from now on, between steps: taut slack arrived spooled stalled
+parted snapped hockled.  An event is a list (KIND TIME SUBJECT).  Return a handle for `cancel!'."
   (unless (memq kind event-kinds)
     (unknown-name 'on "a dive" kind event-kinds "event"))
+  (unless (takes? procedure 1)
+    (bight-raise 'domain 'on "the procedure must take one argument, the event; ~s does not" procedure))
   (add-task! 'on (simple-format #f "on ~a" kind)
              (lambda (task) (run-on-events task kind procedure))
              (%event-count (this-engine 'on))))
@@ -132,9 +152,7 @@ event is a list (KIND TIME SUBJECT).  Return a handle for `cancel!'."
 (define (copy-tasks! dive)
   "Give DIVE, a fork, copies of the tasks it shares with its origin."
   (set-dive-tasks! dive
-                   (map (lambda (task)
-                          (make-task (task-name task) (task-poll task) (task-state task)))
-                        (dive-tasks dive))))
+                   (map (lambda (task) (copy-task task (task-state task))) (dive-tasks dive))))
 
 (define (tasks-state dive)
   "Return the tasks of DIVE with their states, a value."
@@ -142,5 +160,4 @@ event is a list (KIND TIME SUBJECT).  Return a handle for `cancel!'."
 
 (define (restore-tasks! dive state)
   "Bring the tasks of DIVE back to STATE, from `tasks-state'."
-  (for-each (lambda (entry) (set-task-state! (car entry) (cdr entry))) state)
-  (set-dive-tasks! dive (map car state)))
+  (set-dive-tasks! dive (map (lambda (entry) (copy-task (car entry) (cdr entry))) state)))

@@ -14,19 +14,9 @@
   #:use-module (bight task)
   #:use-module (bight verb)
   #:use-module ((srfi srfi-1) #:select (fold))
-  #:export (now time-step run run-until step! settle!
-            check-not-running))
+  #:export (now time-step run run-until step! settle!))
 
 (define stretch 60)                     ; steps between looks at the clock
-
-(define running-dive
-  ;; The dive that a `run' is stepping, so that what runs between steps cannot run it too.
-  (make-parameter #f))
-
-(define (check-not-running proc dive)
-  "Raise a &bight-error from PROC if DIVE is being stepped now, as it is for what runs between steps."
-  (when (eq? dive (running-dive))
-    (bight-raise 'def proc "what runs between steps cannot let time pass itself")))
 
 (define (step-stretch! dive n)
   (if (idle? dive)
@@ -37,10 +27,9 @@
         (run-tasks! dive))))
 
 (define (wait-steps proc n)
-  ;; In a pilot's body: wait until N more steps are done.
-  (let* ((engine (this-engine proc))
-         (due (+ n (%dive-steps engine))))
-    (wait-until (lambda () (>= (%dive-steps engine) due)))))
+  ;; In a pilot's body: wait until N more steps are done, of the dive that is then his: maybe a fork.
+  (let ((due (+ n (%dive-steps (this-engine proc)))))
+    (wait-until (lambda () (>= (%dive-steps (this-engine proc)) due)))))
 
 (define (advance! proc n)
   ;; Let N steps pass; a pilot waits for them.
@@ -129,7 +118,8 @@ Return #t when it came to rest."
           #f
           (begin
             (advance! 'settle! second)
-            (let ((after (shapes engine)))
+            (let* ((engine (this-engine 'settle!)) ; a pilot may wake up in a fork
+                   (after (shapes engine)))
               (if (and (all-settled? engine) (<= (largest-move before after) within))
                   #t
                   (loop (- left second) after))))))))

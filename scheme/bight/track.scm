@@ -35,9 +35,17 @@
             ((data-line? line) (loop (+ number 1) (acons number line lines)))
             (else (loop (+ number 1) lines))))))
 
+(define (refuse-device proc file)
+  ;; What has no end is no track.
+  (let ((type (stat:type (stat file))))
+    (unless (memq type '(regular fifo))
+      (bight-raise 'io proc "cannot read ~s: it is a ~a" file type))))
+
 (define (open-lines proc file)
   (catch 'system-error
-    (lambda () (call-with-input-file file read-lines #:guess-encoding #t))
+    (lambda ()
+      (refuse-device proc file)
+      (call-with-input-file file read-lines #:guess-encoding #t))
     (lambda args
       (bight-raise 'io proc "cannot read ~s: ~a" file (strerror (system-error-errno args))))))
 

@@ -125,3 +125,8 @@
 
 (define-vehicle kinematic
   "A vehicle without forces: it goes exactly where it is told.")
+
+(define-vehicle point-mass
+  "A point with the mass, added mass and surge drag of a BlueROV2 Heavy (von Benzon 2022), the same every
+way; thrust at 16 V."
+  (mass 13.5) (added-mass 6.36) (drag 13.7) (quadratic-drag 141) (thrust 129.7))

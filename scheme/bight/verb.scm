@@ -31,6 +31,7 @@
                argument-type-words
                accepts?
                check-argument
+               takes?
                refused
                current-subject-lister
                subject-index

@@ -210,9 +210,10 @@
 ;;; What there is to draw: a scene is read once from the dive.
 
 (define-record <scene>
-  (make-scene lines names vehicles headings current floor)
+  (make-scene lines tails names vehicles headings current floor)
   scene?
   (lines scene-lines)                   ; of each tether its points, lists (x y z), from the anchor
+  (tails scene-tails)                   ; of each parted one, those of the other part
   (names scene-names)                   ; of the vehicles, symbols
   (vehicles scene-vehicles)             ; a list (x y z) each
   (headings scene-headings)             ; degrees each
@@ -225,6 +226,7 @@
     (when (null? vehicles)
       (bight-raise 'name 'look "this dive has no vehicle to look at"))
     (make-scene (filter-map (lambda (name) (and=> (answer (tether-points name)) array->list)) tethers)
+                (filter-map (lambda (name) (and=> (answer (tether-tail name)) array->list)) tethers)
                 vehicles
                 (map (lambda (name) (point->list (rov-position name))) vehicles)
                 (map rov-heading vehicles)
@@ -232,7 +234,7 @@
                 (- (sea-depth)))))
 
 (define (scene-points scene)
-  (append (concatenate (scene-lines scene)) (scene-vehicles scene)))
+  (append (concatenate (scene-lines scene)) (concatenate (scene-tails scene)) (scene-vehicles scene)))
 
 (define (mean numbers)
   (/ (apply + numbers) (length numbers)))
@@ -325,6 +327,8 @@
               (draw-line! canvas (map project line))
               (put! canvas (cell-of canvas (project (car line))) #\A))
             (scene-lines scene))
+  (for-each (lambda (line) (draw-line! canvas (map project line)))
+            (scene-tails scene))
   (for-each (lambda (vehicle heading)
               (put! canvas (cell-of canvas (project vehicle)) (mark heading)))
             (scene-vehicles scene) (scene-headings scene)))

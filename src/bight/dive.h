@@ -87,6 +87,7 @@ typedef enum bt_op
   BT_OP_FOLLOW,
   BT_OP_PAY_OUT,
   BT_OP_HAUL_IN,
+  BT_OP_CUT,
   BT_OP_CURRENT,
   BT_OP_ALTER,
   BT_OP_COUNT
@@ -144,17 +145,24 @@ typedef struct bt_tether_view
   bt_vec3 force;         /* on what the far end is fastened to, N */
   int vehicle;           /* index of the vehicle at the far end, -1: a fixed point */
   int taut;
+  int parted;            /* nonzero: the line is in two; what is asked is the part at the anchor */
   int spooling;
-  int settled;           /* zero: the steady shape still moves */
+  int settled;           /* zero: the shape still moves */
+  int asleep;            /* nonzero: the moving line rests and is not stepped */
   int nodes;             /* points of the model's own polyline */
+  double error_estimate; /* m: of the moving line's position, by its nodes; NAN for static shapes */
 } bt_tether_view;
 
 typedef enum bt_event_kind
 {
-  BT_EVENT_TAUT = 1, /* a tether began to hold its vehicle, or stopped its winch */
-  BT_EVENT_SLACK,    /* it let go */
+  BT_EVENT_TAUT = 1, /* a tether lost its slack */
+  BT_EVENT_SLACK,    /* it has some again */
   BT_EVENT_ARRIVED,  /* a vehicle reached where it was sent */
-  BT_EVENT_SPOOLED   /* a winch finished */
+  BT_EVENT_SPOOLED,  /* a winch finished */
+  BT_EVENT_STALLED,  /* a winch stopped before, on a taut tether */
+  BT_EVENT_PARTED,   /* a tether broke, or was cut */
+  BT_EVENT_SNAPPED,  /* a slack tether came taut with a jerk */
+  BT_EVENT_HOCKLED   /* its twist threw a loop into a tether */
 } bt_event_kind;
 
 typedef struct bt_event
@@ -172,6 +180,10 @@ typedef struct bt_profile
   uint64_t search_iterations;         /* of the thesis' simplex */
   uint64_t shots, marches;            /* of the steady model's shooting */
   uint64_t relaxations, unsettled;
+  uint64_t chain_steps, chain_solves; /* of the moving line */
+  uint64_t chain_sleeps;              /* steps it slept through */
+  uint64_t chain_remeshes;            /* by model `auto' */
+  uint64_t chain_safeguarded, chain_unconverged;
   uint64_t current_samples_skipped;   /* shapes solved in still water */
   uint64_t operations, refused;
 } bt_profile;
@@ -191,6 +203,18 @@ bt_status bt_tether_tension (const bt_dive *dive, int i, double s, double *tensi
    model's own, as many as bt_tether_view.nodes says.  Tensions alike.  */
 bt_status bt_tether_points (const bt_dive *dive, int i, int n, bt_vec3 *points, bt_error *error);
 bt_status bt_tether_tensions (const bt_dive *dive, int i, int n, double *tensions, bt_error *error);
+
+/* Write up to MAX points of the part of a parted tether I that hangs from its far end, from the new end
+   on, to POINTS and return how many there are; 0 when it is whole.  */
+int bt_tether_tail (const bt_dive *dive, int i, bt_vec3 *points, int max);
+
+typedef struct bt_energy
+{
+  double kinetic, strain, gravity, bending; /* J; gravity from z = 0 */
+} bt_energy;
+
+/* Return the energies of tether I in *ENERGY.  BT_ERR_UNSUPPORTED unless its model is a moving line.  */
+bt_status bt_tether_energy (const bt_dive *dive, int i, bt_energy *energy, bt_error *error);
 
 /* Search for distinct equilibria of tether I at its present ends, as bt_steady_equilibria, at most MAX,
    into SHAPES (MAX times nodes points).  BT_ERR_UNSUPPORTED unless its model is `steady'.  */

@@ -34,7 +34,8 @@ typedef struct bt_sea_def
   bt_current current;
 } bt_sea_def;
 
-/* A vehicle that goes exactly where it is told.  Its own +y is its front.  */
+/* A vehicle.  Without mass it goes exactly where it is told; with mass it is a point that its thrust, the
+   water and its tethers move.  Its own +y is its front.  */
 typedef struct bt_vehicle_def
 {
   char name[BT_NAME_SIZE];
@@ -43,6 +44,9 @@ typedef struct bt_vehicle_def
   double surge_speed, sway_speed, heave_speed; /* m/s at full stick */
   double yaw_rate;                             /* degrees/s at full stick */
   double pull;                                 /* N: its pull on a taut tether that holds it */
+  double mass, added_mass;                     /* kg; 0: it goes where it is told */
+  double drag, quadratic_drag;                 /* N s/m, N s2/m2: against the water */
+  double thrust;                               /* N at full stick */
 } bt_vehicle_def;
 
 /* Where a tether ends: at the vehicle named PART, or, when PART is empty, at the point AT.  */

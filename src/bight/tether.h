@@ -18,7 +18,9 @@ typedef enum bt_model_kind
   BT_MODEL_CATENARY,         /* thesis 2.3, by the closed equation */
   BT_MODEL_CATENARY_SIMPLEX, /* thesis 2.3, by the thesis' search */
   BT_MODEL_ELASTIC,          /* stretching catenary under weight (Irvine 1981); ignores the current */
-  BT_MODEL_STEADY            /* equilibrium in any current with weight, drag and stretch */
+  BT_MODEL_STEADY,           /* equilibrium in any current with weight, drag and stretch */
+  BT_MODEL_DYNAMIC,          /* the moving line, with everything */
+  BT_MODEL_AUTO              /* the moving line with as many nodes as its accuracy wants */
 } bt_model_kind;
 
 typedef enum bt_depth_rule
@@ -50,6 +52,7 @@ typedef struct bt_tether_props
   double model;           /* bt_model_kind */
   double depth_rule;      /* bt_depth_rule */
   double sag_buoyancy;    /* -1 sinks ... 1 floats, or BT_SAG_AUTO */
+  double accuracy;        /* m: the error in position that BT_MODEL_AUTO keeps */
   double max_current;     /* m/s: the thesis' maximum allowed current */
   double thesis_length_factor; /* thesis 2.4.1 took 0.95 of the length in its ratio; 1 */
 } bt_tether_props;

@@ -23,12 +23,29 @@ bt__to_dive (SCM object)
   return bt__to_handle (object)->dive;
 }
 
-SCM
-bt__from_dive (bt_dive *dive, SCM function)
+bt_dive *
+bt__to_idle_dive (const char *who, SCM object)
+{
+  bt__handle *handle = bt__to_handle (object);
+  bt_error error = { BT_ERR_DEF, "the procedure of a current cannot change the dive that asks it" };
+  if (handle->asking)
+    bt__raise (who, &error);
+  return handle->dive;
+}
+
+bt__handle *
+bt__new_handle (SCM function)
 {
   bt__handle *handle = scm_gc_malloc (sizeof *handle, "dive");
-  handle->dive = dive;
+  handle->dive = NULL;
   handle->function = function;
+  handle->asking = 0;
+  return handle;
+}
+
+SCM
+bt__from_handle (bt__handle *handle)
+{
   return scm_new_smob (dive_tag, (scm_t_bits)handle);
 }
 
@@ -66,9 +83,11 @@ static SCM
 fork_dive (SCM object)
 {
   bt_error error;
-  bt_dive *copy;
-  bt__check ("what-if", bt_dive_fork (bt__to_dive (object), &copy, &error), &error);
-  return bt__from_dive (copy, bt__to_handle (object)->function);
+  bt__handle *origin = bt__to_handle (object), *copy = bt__new_handle (origin->function);
+  int asks = scm_is_true (scm_procedure_p (origin->function));
+  bt__check ("what-if", bt_dive_fork (origin->dive, &copy->dive, &error), &error);
+  bt_dive_set_current_function (copy->dive, asks ? bt__call_current : NULL, copy);
+  return bt__from_handle (copy);
 }
 
 /* ---- Time ---- */
@@ -77,7 +96,7 @@ fork_dive (SCM object)
 static SCM
 step_dive (SCM object, SCM count)
 {
-  bt_dive *dive = bt__to_dive (object);
+  bt_dive *dive = bt__to_idle_dive ("run", object);
   int64_t n = scm_to_int64 (count);
   bt_error error;
   for (int64_t i = 0; i < n; i++)
@@ -95,7 +114,7 @@ whole_steps (SCM object, SCM seconds)
   bt_error error;
   int64_t steps;
   bt__check ("run",
-             bt_dive_whole_steps (bt__to_dive (object), scm_to_double (seconds), &steps, &error),
+             bt_dive_whole_steps (bt__to_idle_dive ("run", object), scm_to_double (seconds), &steps, &error),
              &error);
   return scm_from_int64 (steps);
 }
@@ -135,7 +154,7 @@ restore_dive (SCM object, SCM bytes)
   bt_error error;
   SCM_ASSERT_TYPE (scm_is_bytevector (bytes), bytes, SCM_ARG2, "restore!", "bytevector");
   bt__check ("restore!",
-             bt_dive_restore (bt__to_dive (object), SCM_BYTEVECTOR_CONTENTS (bytes),
+             bt_dive_restore (bt__to_idle_dive ("restore!", object), SCM_BYTEVECTOR_CONTENTS (bytes),
                               SCM_BYTEVECTOR_LENGTH (bytes), &error),
              &error);
   return SCM_UNSPECIFIED;

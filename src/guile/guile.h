@@ -40,12 +40,17 @@ typedef struct bt__handle
 {
   bt_dive *dive;
   SCM function; /* or #f */
+  int asking;   /* nonzero while the procedure runs, in the middle of a step or an operation */
 } bt__handle;
 
 bt_dive *bt__to_dive (SCM object);
+/* The same, but raise `def' while its current is being asked: it is not to be changed then.  */
+bt_dive *bt__to_idle_dive (const char *who, SCM object);
+/* Make a handle without a dive yet, and the Scheme object of one that has it.  */
+bt__handle *bt__new_handle (SCM function);
+SCM bt__from_handle (bt__handle *handle);
 bt__handle *bt__to_handle (SCM object);
-SCM bt__from_dive (bt_dive *dive, SCM function);
-/* The bt_current_function that calls a Scheme procedure; USER is the SCM.  */
+/* The bt_current_function that calls a Scheme procedure; USER is the handle.  */
 void bt__call_current (void *user, bt_vec3 p, double t, bt_vec3 *v);
 
 /* Points: an f64vector of three.  */

@@ -16,31 +16,35 @@ to_op (const char *name)
   return BT_OP_COUNT;
 }
 
-/* The engine's name of the verb WHO: drive! is drive.  */
+/* The name of the SYMBOL in BUFFER, cut at its N bytes.  */
+static void
+symbol_name (SCM symbol, char *buffer, size_t n)
+{
+  size_t length = scm_to_locale_stringbuf (scm_symbol_to_string (symbol), buffer, n - 1);
+  buffer[length < n - 1 ? length : n - 1] = 0;
+}
+
+/* The operation that a verb, such as drive!, stands for.  */
 static bt_op
-op_of_verb (const char *who)
+op_of_verb (SCM verb)
 {
   char name[64];
-  size_t n = strcspn (who, "!");
-  n = n < sizeof name ? n : sizeof name - 1;
-  memcpy (name, who, n);
-  name[n] = 0;
+  symbol_name (verb, name, sizeof name);
+  name[strcspn (name, "!")] = 0;
   return to_op (name);
 }
 
 static SCM
-operate (SCM object, SCM verb, SCM subject, SCM args)
+operate (SCM object, SCM verb, SCM caller, SCM subject, SCM args)
 {
-  bt_dive *dive = bt__to_dive (object);
-  SCM string = scm_symbol_to_string (verb);
-  size_t n = scm_c_array_length (args), length;
+  char who[64];
+  size_t n = scm_c_array_length (args);
   const double *numbers = (const double *)SCM_BYTEVECTOR_CONTENTS (args);
-  char who[64] = "";
   bt_error error;
   bt_status status;
-  length = scm_to_locale_stringbuf (string, who, sizeof who - 1);
-  who[length < sizeof who - 1 ? length : sizeof who - 1] = 0;
-  status = bt_dive_do (dive, op_of_verb (who), scm_to_int (subject), numbers, (int)n, &error);
+  symbol_name (caller, who, sizeof who);
+  status = bt_dive_do (bt__to_idle_dive (who, object), op_of_verb (verb), scm_to_int (subject),
+                       numbers, (int)n, &error);
   scm_remember_upto_here_2 (object, args);
   bt__check (who, status, &error);
   return SCM_UNSPECIFIED;
@@ -60,8 +64,7 @@ ask_function (bt__handle *handle, SCM function)
 {
   int asks = scm_is_true (scm_procedure_p (function));
   handle->function = function;
-  bt_dive_set_current_function (handle->dive, asks ? bt__call_current : NULL,
-                                asks ? SCM_UNPACK_POINTER (function) : NULL);
+  bt_dive_set_current_function (handle->dive, asks ? bt__call_current : NULL, handle);
 }
 
 static void
@@ -72,19 +75,31 @@ take_back (void *data)
     ask_function (c->handle, c->before);
 }
 
+/* A procedure is asked before it is believed.  */
+static void
+ask_once (bt__handle *handle, const bt_current *current)
+{
+  bt_vec3 v;
+  if (current->kind == BT_CURRENT_FUNCTION)
+    bt__call_current (handle, (bt_vec3){ 0, 0, 0 }, bt_dive_time (handle->dive), &v);
+}
+
 static SCM
 set_current (SCM object, SCM list)
 {
   static const char *const who = "current!";
-  change c = { bt__to_handle (object), bt__to_handle (object)->function, 0 };
+  bt__handle *handle = bt__to_handle (object);
+  change c = { handle, handle->function, 0 };
   SCM function = c.before;
   bt_current current = bt__to_current (who, list, &function);
   double args[BT_CURRENT_ARGS];
   bt_error error;
+  bt__to_idle_dive (who, object);
   bt__check (who, bt_current_check (&current, &error), &error);
   scm_dynwind_begin (0);
   scm_dynwind_unwind_handler (take_back, &c, SCM_F_WIND_EXPLICITLY);
   ask_function (c.handle, function);
+  ask_once (c.handle, &current);
   bt__check (who,
              bt_dive_do (c.handle->dive, BT_OP_CURRENT, 0, args, bt_current_pack (&current, args),
                          &error),
@@ -100,6 +115,7 @@ field_value (const char *who, const bt_field *field, SCM value)
 {
   union
   {
+    bt_sea_def sea;
     bt_vehicle_def vehicle;
     bt_tether_def tether;
   } def;
@@ -113,9 +129,10 @@ static SCM
 alter (SCM object, SCM part, SCM subject, SCM field_name, SCM value)
 {
   static const char *const who = "alter!";
-  bt_dive *dive = bt__to_dive (object);
+  static const char *const head_names[] = { "sea", "rov", "tether" };
+  bt_dive *dive = bt__to_idle_dive (who, object);
   bt_part kind = bt__to_part (who, part);
-  const bt_head *head = bt_head_find (kind == BT_PART_VEHICLE ? "rov" : "tether");
+  const bt_head *head = bt_head_find (head_names[kind]);
   char *name = scm_to_utf8_string (scm_symbol_to_string (field_name));
   const bt_field *field = bt_field_find (head, name);
   bt_error error = { BT_ERR_NAME, "there is no such field" };
@@ -134,8 +151,9 @@ void
 bt__define_operations (void)
 {
   static const bt__procedure table[] = {
-    { "%operate!", 4, 0, (scm_t_subr)operate,
-      "Do VERB on the SUBJECT-th part of its kind in DIVE with ARGS, an f64vector." },
+    { "%operate!", 5, 0, (scm_t_subr)operate,
+      "Do VERB, on behalf of CALLER, on the SUBJECT-th part of its kind in DIVE with ARGS, an "
+      "f64vector." },
     { "%set-current!", 2, 0, (scm_t_subr)set_current, "Give DIVE the current that LIST describes." },
     { "%alter!", 5, 0, (scm_t_subr)alter,
       "Set FIELD of the SUBJECT-th PART (rov or tether) of DIVE to VALUE." },

@@ -202,16 +202,15 @@ make_dive (SCM parts)
   static const char *const who = "enter!";
   reading r = read_parts (parts);
   int asks = scm_is_true (scm_procedure_p (r.function));
+  bt__handle *handle = bt__new_handle (r.function);
   bt_model *model;
-  bt_dive *dive;
   bt_error error;
   bt_status status;
   bt__check (who, bt_model_new (&r.world, &model, &error), &error);
-  status = bt_dive_new (model, asks ? bt__call_current : NULL,
-                        asks ? SCM_UNPACK_POINTER (r.function) : NULL, &dive, &error);
+  status = bt_dive_new (model, asks ? bt__call_current : NULL, handle, &handle->dive, &error);
   bt_model_release (model);
   bt__check (who, status, &error);
-  return bt__from_dive (dive, r.function);
+  return bt__from_handle (handle);
 }
 
 static SCM

@@ -87,6 +87,9 @@ tether (SCM object, SCM index)
   bt_tether_view t = tether_view ("tether-length", object, index);
   SCM list = SCM_EOL;
   list = with ("settled?", scm_from_bool (t.settled), list);
+  list = with ("error", scm_from_double (t.error_estimate), list);
+  list = with ("asleep?", scm_from_bool (t.asleep), list);
+  list = with ("parted?", scm_from_bool (t.parted), list);
   list = with ("spooling?", scm_from_bool (t.spooling), list);
   list = with ("taut?", scm_from_bool (t.taut), list);
   list = with ("vehicle", t.vehicle < 0 ? SCM_BOOL_F : scm_from_int (t.vehicle), list);
@@ -203,6 +206,29 @@ from_points (const bt_vec3 *points, int n)
 }
 
 static SCM
+tether_tail (SCM object, SCM index)
+{
+  bt_dive *dive = bt__to_dive (object);
+  int i = scm_to_int (index), n = bt_tether_tail (dive, i, NULL, 0);
+  bt_vec3 *points = scm_gc_malloc_pointerless (sizeof *points * (size_t)(n + 1), "tether-tail");
+  bt_tether_tail (dive, i, points, n);
+  return n ? from_points (points, n) : SCM_BOOL_F;
+}
+
+static SCM
+energy (SCM object, SCM index)
+{
+  bt_energy e;
+  bt_error error;
+  bt__check ("energy",
+             bt_tether_energy (bt__to_dive (object), scm_to_int (index), &e, &error), &error);
+  return with ("kinetic", scm_from_double (e.kinetic),
+               with ("strain", scm_from_double (e.strain),
+                     with ("gravity", scm_from_double (e.gravity),
+                           with ("bending", scm_from_double (e.bending), SCM_EOL))));
+}
+
+static SCM
 equilibria (SCM object, SCM index)
 {
   enum
@@ -272,6 +298,12 @@ profile (SCM object)
   list = with ("refused", scm_from_uint64 (p.refused), list);
   list = with ("operations", scm_from_uint64 (p.operations), list);
   list = with ("still-water-shapes", scm_from_uint64 (p.current_samples_skipped), list);
+  list = with ("chain-unconverged", scm_from_uint64 (p.chain_unconverged), list);
+  list = with ("chain-safeguarded", scm_from_uint64 (p.chain_safeguarded), list);
+  list = with ("chain-remeshes", scm_from_uint64 (p.chain_remeshes), list);
+  list = with ("chain-sleeps", scm_from_uint64 (p.chain_sleeps), list);
+  list = with ("chain-solves", scm_from_uint64 (p.chain_solves), list);
+  list = with ("chain-steps", scm_from_uint64 (p.chain_steps), list);
   list = with ("unsettled", scm_from_uint64 (p.unsettled), list);
   list = with ("relaxations", scm_from_uint64 (p.relaxations), list);
   list = with ("marches", scm_from_uint64 (p.marches), list);
@@ -299,6 +331,10 @@ bt__define_questions (void)
     { "%point-at", 3, 0, (scm_t_subr)point_at, "Return the point at arc length S." },
     { "%tangent-at", 3, 0, (scm_t_subr)tangent_at, "Return the unit tangent at arc length S." },
     { "%tension-at", 3, 0, (scm_t_subr)tension_at, "Return the tension at arc length S, N." },
+    { "%tether-tail", 2, 0, (scm_t_subr)tether_tail,
+      "Return the points of the part of a parted tether at its far end, or #f when it is whole." },
+    { "%energy", 2, 0, (scm_t_subr)energy,
+      "Return the energies of the INDEX-th tether of DIVE by kind, J, an alist." },
     { "%equilibria", 2, 0, (scm_t_subr)equilibria,
       "Return the equilibria found for the INDEX-th tether of DIVE, polylines." },
     { "%current-at", 2, 0, (scm_t_subr)current_at, "Return the velocity of the water at POINT." },

@@ -25,9 +25,9 @@ bt__from_point (bt_vec3 p)
 {
   SCM v = scm_make_f64vector (scm_from_int (3), SCM_INUM0);
   double *x = (double *)SCM_BYTEVECTOR_CONTENTS (v);
-  x[0] = p.x;
-  x[1] = p.y;
-  x[2] = p.z;
+  x[0] = p.x + 0.0; /* no minus zero */
+  x[1] = p.y + 0.0;
+  x[2] = p.z + 0.0;
   return v;
 }
 
@@ -57,10 +57,22 @@ number_in (SCM list, int i)
   return scm_to_double (scm_list_ref (list, scm_from_int (i)));
 }
 
+/* Exact toward the four winds.  */
+static bt_vec3
+set_and_drift (double speed, double degrees)
+{
+  double d = remainder (degrees, 360);
+  if (d == 0 || d == 180 || d == -180)
+    return (bt_vec3){ 0, d == 0 ? speed : -speed, 0 };
+  if (d == 90 || d == -90)
+    return (bt_vec3){ d > 0 ? speed : -speed, 0, 0 };
+  return bt_set_and_drift (speed, d * DEGREE);
+}
+
 static bt_vec3
 velocity_in (SCM list, int i)
 {
-  return bt_set_and_drift (number_in (list, i), number_in (list, i + 1) * DEGREE);
+  return set_and_drift (number_in (list, i), number_in (list, i + 1));
 }
 
 static void
@@ -125,16 +137,22 @@ bt__to_current (const char *who, SCM object, SCM *function)
   return current;
 }
 
+static void
+stop_asking (void *handle)
+{
+  ((bt__handle *)handle)->asking = 0;
+}
+
+/* The procedure may leave by an exception: nothing of the engine is held then.  */
 void
 bt__call_current (void *user, bt_vec3 p, double t, bt_vec3 *v)
 {
-  SCM answer = scm_call_2 (SCM_PACK_POINTER (user), bt__from_point (p), scm_from_double (t));
-  if (scm_is_pair (answer))
-    answer = scm_list_to_typed_array (scm_from_utf8_symbol ("f64"), scm_from_int (1), answer);
-  else if (scm_is_true (scm_vector_p (answer)))
-    answer = scm_list_to_typed_array (scm_from_utf8_symbol ("f64"), scm_from_int (1),
-                                      scm_vector_to_list (answer));
-  *v = bt__to_point ("current", answer);
+  bt__handle *handle = user;
+  scm_dynwind_begin (0);
+  scm_dynwind_unwind_handler (stop_asking, handle, SCM_F_WIND_EXPLICITLY);
+  handle->asking = 1;
+  *v = bt__to_point ("current", scm_call_2 (handle->function, bt__from_point (p), scm_from_double (t)));
+  scm_dynwind_end ();
 }
 
 /* ---- Parts and fields ---- */

@@ -22,6 +22,8 @@ static const bt_word models[] = { { "rubber-band", BT_MODEL_RUBBER_BAND },
                                   { "catenary-simplex", BT_MODEL_CATENARY_SIMPLEX },
                                   { "elastic", BT_MODEL_ELASTIC },
                                   { "steady", BT_MODEL_STEADY },
+                                  { "dynamic", BT_MODEL_DYNAMIC },
+                                  { "auto", BT_MODEL_AUTO },
                                   { NULL, 0 } };
 
 static const bt_word depth_rules[] = { { "sag", BT_DEPTH_SAG },
@@ -41,8 +43,8 @@ static const bt_word depth_rules[] = { { "sag", BT_DEPTH_SAG },
 
 static const bt_field sea_fields[] = {
   NUMBER (bt_sea_def, depth, "depth", "m", 100, 0, 12000, 1, 0, NULL, "from the surface to the bed"),
-  NUMBER (bt_sea_def, density, "density", "kg/m3", 1025, 1, 2000, 0, 0, NULL, "of the water"),
-  NUMBER (bt_sea_def, gravity, "gravity", "m/s2", 9.80665, 0, 100, 0, 0, NULL, "downward"),
+  NUMBER (bt_sea_def, density, "density", "kg/m3", 1025, 1, 2000, 0, 1, NULL, "of the water"),
+  NUMBER (bt_sea_def, gravity, "gravity", "m/s2", 9.80665, 0, 100, 0, 1, NULL, "downward"),
   OTHER (bt_sea_def, current, "current", "", BT_FIELD_CURRENT, 0, NULL, 1,
          "the flow, toward its bearing"),
 };
@@ -63,6 +65,15 @@ static const bt_field vehicle_fields[] = {
           "turning at full stick"),
   NUMBER (bt_vehicle_def, pull, "pull", "N", 100, 0, 1e6, 0, 1, NULL,
           "its pull on a taut tether that holds it"),
+  NUMBER (bt_vehicle_def, mass, "mass", "kg", 0, 0, 1e6, 0, 0, NULL,
+          "0: it goes exactly where it is told; else thrust, water and tether move it"),
+  NUMBER (bt_vehicle_def, added_mass, "added-mass", "kg", 0, 0, 1e6, 0, 0, NULL,
+          "of the water it sets in motion; with mass"),
+  NUMBER (bt_vehicle_def, drag, "drag", "N s/m", 0, 0, 1e6, 0, 1, NULL, "linear; with mass"),
+  NUMBER (bt_vehicle_def, quadratic_drag, "quadratic-drag", "N s2/m2", 0, 0, 1e6, 0, 1, NULL,
+          "with mass"),
+  NUMBER (bt_vehicle_def, thrust, "thrust", "N", 100, 0, 1e6, 0, 1, NULL,
+          "at full stick; with mass"),
 };
 
 #define PROP(m, n, u, d, lo, hi, above, words, t)                                                  \
@@ -98,6 +109,8 @@ static const bt_field tether_fields[] = {
          1, "how the thesis' models take depth"),
   PROP (sag_buoyancy, "sag-buoyancy", "", BT_SAG_AUTO, -1, 1, 0, automatic,
         "the thesis' buoyancy for rule `sag': -1 sinks, 1 floats"),
+  PROP (accuracy, "accuracy", "m", 0.05, 0, 100, 1, NULL,
+        "the error in position that model `auto' keeps"),
   PROP (max_current, "max-current", "m/s", 1, 0, 100, 1, NULL,
         "the thesis' maximum allowed current, for rule `sag'"),
   PROP (thesis_length_factor, "thesis-length-factor", "", 1, 0.5, 1, 0, NULL,

@@ -113,8 +113,7 @@ resolve_end (const bt_model *model, const bt_tether_def *tether, const bt_end *d
 double
 bt__longest_chord (const bt_tether_props *props, double length, double pull)
 {
-  int stretches = (props->model == BT_MODEL_ELASTIC || props->model == BT_MODEL_STEADY)
-                  && isfinite (props->ea);
+  int stretches = props->model >= BT_MODEL_ELASTIC && isfinite (props->ea);
   double most = fmin (pull, props->breaking_load);
   return stretches ? length * (1 + fmin (most / props->ea, 0.1)) : length;
 }

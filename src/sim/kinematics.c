@@ -144,9 +144,16 @@ move (const bt_dive *dive, bt__state *state, bt__vehicle *v)
   v->velocity = bt__scale (1 / BT__TIME_STEP, bt__sub (to, from));
 }
 
+/* A vehicle with mass turns as it is told here, and is moved by forces (mass.c).  */
 void
 bt__move_vehicles (const bt_dive *dive, bt__state *state)
 {
   for (int i = 0; i < dive->model->n_vehicles; i++)
-    move (dive, state, bt__dive_vehicle (dive, state, i));
+    {
+      bt__vehicle *v = bt__dive_vehicle (dive, state, i);
+      if (v->mass == 0)
+        move (dive, state, v);
+      else
+        v->heading += turn (v);
+    }
 }

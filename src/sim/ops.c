@@ -218,6 +218,9 @@ static bt_status
 follow (const call *c)
 {
   bt__vehicle *v = vehicle_of (c);
+  if (v->mass > 0)
+    return bt__fail (c->error, BT_ERR_UNSUPPORTED,
+                     "a vehicle with mass goes where forces take it; only one without follows a track");
   size_t bytes = sizeof (double) * (size_t)c->n;
   bt_status status = check_track (c);
   bt__track *track = status == BT_OK ? malloc (sizeof *track + bytes) : NULL;
@@ -255,6 +258,28 @@ spool (const call *c, double sign)
                      target);
   tether->winch_target = target;
   tether->winch_rate = target == tether->length ? 0 : sign * c->args[1];
+  return BT_OK;
+}
+
+/* Cut the line at an arc length.  */
+static bt_status
+cut (const call *c)
+{
+  bt__tether *tether = bt__dive_tether (c->dive, c->state, c->subject);
+  bt__dynamic *chain = bt__dive_chain (c->dive, c->state, c->subject, 0);
+  double s = c->args[0];
+  int j = 0;
+  if (tether->shape.form != BT__FORM_CHAIN)
+    return bt__fail (c->error, BT_ERR_UNSUPPORTED,
+                     "only a tether moved by the model `dynamic' can be cut");
+  if (tether->parted)
+    return bt__fail (c->error, BT_ERR_UNSUPPORTED, "the tether has parted already");
+  if (!(s >= 0 && s <= tether->length))
+    return bt__fail (c->error, BT_ERR_DOMAIN, "a place to cut lies in 0 to %g m, not %g",
+                     tether->length, s);
+  for (; j < chain->n - 1 && s > bt__dynamic_rest (chain)[j]; j++)
+    s -= bt__dynamic_rest (chain)[j];
+  bt__part_chain (c->dive, c->state, c->subject, j);
   return BT_OK;
 }
 
@@ -363,6 +388,9 @@ alter_vehicle (const call *c)
   def.heave_speed = v->speeds[2];
   def.yaw_rate = v->speeds[3] * (180 / BT__PI);
   def.pull = v->pull;
+  def.drag = v->drag;
+  def.quadratic_drag = v->quadratic_drag;
+  def.thrust = v->thrust;
   status = bt_def_set_number (field, &def, c->args[2], c->error);
   if (status != BT_OK)
     return status;
@@ -371,6 +399,9 @@ alter_vehicle (const call *c)
   v->speeds[2] = def.heave_speed;
   v->speeds[3] = def.yaw_rate * (BT__PI / 180);
   v->pull = def.pull;
+  v->drag = def.drag;
+  v->quadratic_drag = def.quadratic_drag;
+  v->thrust = def.thrust;
   return BT_OK;
 }
 
@@ -402,22 +433,55 @@ alter_tether (const call *c)
   forget_follower (field, &def.props);
   bt_tether_props_complete (&def.props, c->state->density, c->state->gravity);
   ends = bt__tether_ends (c->dive, c->state, c->subject);
-  if (bt__distance (ends.a, ends.b)
-      > bt__longest_chord (&def.props, tether->length, INFINITY) * (1 + 1e-12))
+  if (!tether->parted
+      && bt__distance (ends.a, ends.b)
+             > bt__longest_chord (&def.props, tether->length, INFINITY) * (1 + 1e-12))
     return bt__fail (c->error, BT_ERR_DOMAIN, "the tether is stretched, and would not reach so");
   tether->props = def.props;
   tether->stale = 1;
   return BT_OK;
 }
 
+/* Every line weighs what its mass does in the new water.  */
+static void
+weigh_anew (const call *c)
+{
+  for (int i = 0; i < c->dive->model->n_tethers; i++)
+    {
+      bt_tether_props *props = &bt__dive_tether (c->dive, c->state, i)->props;
+      props->wet_weight = NAN;
+      bt_tether_props_complete (props, c->state->density, c->state->gravity);
+    }
+}
+
+static bt_status
+alter_sea (const call *c)
+{
+  bt_sea_def def = { .depth = c->state->depth,
+                     .density = c->state->density,
+                     .gravity = c->state->gravity };
+  const bt_field *field = live_field (c, "sea");
+  bt_status status = field ? bt_def_set_number (field, &def, c->args[2], c->error)
+                           : c->error->status;
+  if (status != BT_OK)
+    return status;
+  c->state->density = def.density;
+  c->state->gravity = def.gravity;
+  weigh_anew (c);
+  mark_all_stale (c);
+  return BT_OK;
+}
+
 static bt_status
 alter (const call *c)
 {
+  if (c->args[0] == BT_PART_SEA)
+    return alter_sea (c);
   if (c->args[0] == BT_PART_VEHICLE)
     return alter_vehicle (c);
   if (c->args[0] == BT_PART_TETHER)
     return alter_tether (c);
-  return bt__fail (c->error, BT_ERR_NAME, "only vehicles and tethers are altered field by field");
+  return bt__fail (c->error, BT_ERR_NAME, "there is no part of the kind %g", c->args[0]);
 }
 
 /* ---- The table ---- */
@@ -459,6 +523,7 @@ static const op ops[BT_OP_COUNT] = {
                      follow },
   [BT_OP_PAY_OUT] = { { "pay-out", BT_PART_TETHER, 2, 2, "metres rate", "let tether out" }, pay_out },
   [BT_OP_HAUL_IN] = { { "haul-in", BT_PART_TETHER, 2, 2, "metres rate", "haul tether in" }, haul_in },
+  [BT_OP_CUT] = { { "cut-tether", BT_PART_TETHER, 1, 1, "arc-length", "cut the moving line" }, cut },
   [BT_OP_CURRENT] = { { "current", BT_PART_SEA, 8, BT_CURRENT_ARGS, "packed current",
                         "change the current" },
                       set_current },
@@ -488,12 +553,26 @@ check_call (const bt_dive *dive, const op *o, int subject, const double *args, i
                                         : bt__check_part (dive, o->info.subject, subject, error);
 }
 
+/* Whatever is done to a vehicle wakes the lines that are fastened to it.  */
+static void
+wake_lines (const call *c)
+{
+  for (int i = 0; i < c->dive->model->n_tethers; i++)
+    {
+      const bt__end *end = c->dive->model->ends[i];
+      if (end[0].vehicle == c->subject || end[1].vehicle == c->subject)
+        bt__dive_tether (c->dive, c->state, i)->quiet = 0;
+    }
+}
+
 static bt_status
 apply (bt_dive *dive, const op *o, int subject, const double *args, int n, bt_error *error)
 {
   call c = { dive, bt__dive_begin (dive), subject, args, n, error };
   bt_status status = o->apply (&c);
-  return status == BT_OK ? bt__resolve_tethers (dive, c.state, error) : status;
+  if (o->info.subject == BT_PART_VEHICLE)
+    wake_lines (&c);
+  return status == BT_OK ? bt__resolve_tethers (dive, c.state, 0, error) : status;
 }
 
 static bt_status

@@ -28,7 +28,8 @@ fastened (const bt_dive *dive, bt__state *state, int i, int vehicle, bt_vec3 *ot
   const bt__end *end = dive->model->ends[i];
   bt__ends ends = bt__tether_ends (dive, state, i);
   *other = end[1].vehicle == vehicle ? ends.a : ends.b;
-  return end[0].vehicle == vehicle || end[1].vehicle == vehicle;
+  return !bt__dive_tether (dive, state, i)->parted
+         && (end[0].vehicle == vehicle || end[1].vehicle == vehicle);
 }
 
 double
@@ -101,6 +102,8 @@ bt__hold_at_tethers (const bt_dive *dive, const bt__state *from, bt__state *stat
     {
       bt__vehicle *v = bt__dive_vehicle (dive, state, i);
       bt_vec3 before = bt__dive_vehicle (dive, (bt__state *)from, i)->position;
+      if (v->mass > 0 && bt__carrier (dive, state, i) >= 0)
+        continue; /* its line holds it by force */
       v->held = hold_vehicle (dive, from, state, i);
       if (v->held)
         v->velocity = bt__scale (1 / BT__TIME_STEP, bt__sub (v->position, before));

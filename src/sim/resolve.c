@@ -42,24 +42,33 @@ is_good (const bt__shape *shape, const bt__tether *tether, const bt_vec3 *nodes)
   return good;
 }
 
-static bt_status
-solve (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, double pull, bt_error *error)
+bt_status
+bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
+                 const bt_tether_props *props, double pull, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  bt_vec3 *nodes = bt__dive_nodes (dive, state, i), *tensions = bt__dive_tensions (dive, state, i);
   bt_water water = bt__dive_water (dive, state);
-  uint64_t unsettled = dive->counts.unsettled;
   bt__shape_input input = { .a = ends->a,
                             .b = ends->b,
                             .length = tether->length,
                             .pull = pull,
-                            .props = &tether->props,
+                            .props = props,
                             .water = &water };
-  bt_status status = bt__shape_solve (&input, &dive->tools, &dive->counts, &tether->shape,
-                                      &tether->memory, nodes, tensions, error);
+  return bt__shape_solve (&input, &dive->tools, &dive->counts, &tether->shape, &tether->memory,
+                          bt__dive_nodes (dive, state, i), bt__dive_tensions (dive, state, i), error);
+}
+
+static bt_status
+solve (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, double pull, bt_error *error)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt_vec3 *nodes = bt__dive_nodes (dive, state, i);
+  uint64_t unsettled = dive->counts.unsettled;
+  bt_status status = bt__solve_shape (dive, state, i, ends, &tether->props, pull, error);
   if (status != BT_OK)
     return status;
-  tether->tension_max = largest_tension (&tether->shape, nodes, tensions);
+  tether->tension_max
+      = largest_tension (&tether->shape, nodes, bt__dive_tensions (dive, state, i));
   tether->pull = pull;
   tether->settled = dive->counts.unsettled == unsettled;
   tether->stale = !tether->settled; /* a shape that still moves goes on next step */
@@ -70,22 +79,45 @@ solve (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, double pull
   return BT_OK;
 }
 
-bt_status
-bt__resolve_tethers (bt_dive *dive, bt__state *state, bt_error *error)
+static bt_status
+resolve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
-  for (int i = 0; i < dive->model->n_tethers; i++)
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  double pull = tether->taut ? bt__pull_on (dive, state, i) : 0;
+  if (tether->parted)
+    return bt__fail (error, BT_ERR_UNSUPPORTED,
+                     "tether `%s' has parted: only the model `dynamic' moves it",
+                     dive->model->tethers[i].name);
+  if (tether->shape.form == BT__FORM_CHAIN)
+    bt__still_chain (dive, state, i);
+  if (!is_current (state, tether, ends, pull))
+    return solve (dive, state, i, ends, pull, error);
+  dive->profile.shape_skips++;
+  return BT_OK;
+}
+
+static bt_status
+resolve_moving (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int passes,
+                bt_error *error)
+{
+  bt_status status = BT_OK;
+  if (bt__dive_tether (dive, state, i)->shape.form != BT__FORM_CHAIN)
+    status = bt__lay_chain (dive, state, i, ends, error);
+  else if (!passes)
+    status = bt__carry_chain (dive, state, i, ends, error);
+  return status == BT_OK && passes ? bt__step_chain (dive, state, i, ends, error) : status;
+}
+
+bt_status
+bt__resolve_tethers (bt_dive *dive, bt__state *state, int passes, bt_error *error)
+{
+  bt_status status = BT_OK;
+  for (int i = 0; status == BT_OK && i < dive->model->n_tethers; i++)
     {
       bt__ends ends = bt__tether_ends (dive, state, i);
-      double pull = bt__dive_tether (dive, state, i)->taut ? bt__pull_on (dive, state, i) : 0;
-      bt_status status;
-      if (is_current (state, bt__dive_tether (dive, state, i), &ends, pull))
-        {
-          dive->profile.shape_skips++;
-          continue;
-        }
-      status = solve (dive, state, i, &ends, pull, error);
-      if (status != BT_OK)
-        return status;
+      status = bt__is_moving_model (bt__dive_tether (dive, state, i))
+                   ? resolve_moving (dive, state, i, &ends, passes, error)
+                   : resolve_static (dive, state, i, &ends, error);
     }
-  return BT_OK;
+  return status;
 }

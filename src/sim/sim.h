@@ -10,6 +10,24 @@
 /* Move the vehicles of STATE by one step as sticks, autopilots and tracks say (kinematics.c).  */
 void bt__move_vehicles (const bt_dive *dive, bt__state *state);
 
+/* Move the vehicles with mass that hang on no moving line by one step of forces; return the moving line
+   that moves VEHICLE, or -1; return the thrust of V, N (mass.c).  */
+void bt__drift_vehicles (const bt_dive *dive, bt__state *state);
+int bt__carrier (const bt_dive *dive, bt__state *state, int vehicle);
+bt_vec3 bt__thrust (const bt__vehicle *v);
+
+enum
+{
+  BT__REMESH_EVERY = 30 /* steps between looks at the error of a line of model `auto' */
+};
+
+/* Nonzero if the model of TETHER is a moving line.  */
+static inline int
+bt__is_moving_model (const bt__tether *tether)
+{
+  return tether->props.model == BT_MODEL_DYNAMIC || tether->props.model == BT_MODEL_AUTO;
+}
+
 /* Turn the winches of STATE by one step (winch.c).  */
 void bt__turn_winches (const bt_dive *dive, bt__state *state);
 
@@ -21,8 +39,9 @@ void bt__hold_at_tethers (const bt_dive *dive, const bt__state *from, bt__state 
    stops it (reach.c).  */
 double bt__reach_along (const bt_dive *dive, bt__state *state, int i, bt_vec3 a, bt_vec3 b);
 
-/* Solve the tethers of STATE whose ends, length, properties or current changed (resolve.c).  */
-bt_status bt__resolve_tethers (bt_dive *dive, bt__state *state, bt_error *error);
+/* Solve the tethers of STATE whose ends, length, properties or current changed, and, when PASSES is
+   nonzero, let the moving lines go on by a step (resolve.c).  */
+bt_status bt__resolve_tethers (bt_dive *dive, bt__state *state, int passes, bt_error *error);
 
 /* The ends of tether I of STATE.  */
 typedef struct bt__ends
@@ -33,5 +52,22 @@ bt__ends bt__tether_ends (const bt_dive *dive, bt__state *state, int i);
 
 /* Return the strongest pull of the vehicles at the ends of tether I, N; 0 when both are points.  */
 double bt__pull_on (const bt_dive *dive, bt__state *state, int i);
+
+/* Solve the static shape of tether I with PROPS, pulled taut with PULL newtons (resolve.c).  */
+bt_status bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
+                           const bt_tether_props *props, double pull, bt_error *error);
+
+/* The moving line (chain.c): lay tether I from its present shape, or from its equilibrium; go on by a
+   step; go along with ends that were put elsewhere; become nodes of a static model; take as many nodes
+   as its accuracy wants (remesh.c); part in the middle of INTERVAL.  */
+bt_status bt__lay_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
+                         bt_error *error);
+bt_status bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
+                          bt_error *error);
+bt_status bt__carry_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
+                           bt_error *error);
+void bt__still_chain (bt_dive *dive, bt__state *state, int i);
+bt_status bt__remesh_chain (bt_dive *dive, bt__state *state, int i, bt_error *error);
+void bt__part_chain (bt_dive *dive, bt__state *state, int i, int interval);
 
 #endif

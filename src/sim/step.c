@@ -32,6 +32,11 @@ launch (bt__vehicle *v, const bt_vehicle_def *def)
   v->speeds[2] = def->heave_speed;
   v->speeds[3] = radians (def->yaw_rate);
   v->pull = def->pull;
+  v->mass = def->mass;
+  v->added_mass = def->added_mass;
+  v->drag = def->drag;
+  v->quadratic_drag = def->quadratic_drag;
+  v->thrust = def->thrust;
 }
 
 static void
@@ -50,6 +55,7 @@ fill (const bt_dive *dive, bt__state *state)
       tether->props = model->tethers[i].props;
       tether->length = model->tethers[i].length;
       tether->stale = 1;
+      tether->slack_at = -1;
     }
 }
 
@@ -68,7 +74,7 @@ bt_dive_new (bt_model *model, bt_current_function function, void *user, bt_dive 
   dive->user = user;
   fill (dive, bt__dive_begin (dive));
   bt__hold_at_tethers (dive, dive->next, dive->next);
-  status = bt__resolve_tethers (dive, dive->next, error);
+  status = bt__resolve_tethers (dive, dive->next, 0, error);
   if (status != BT_OK)
     {
       bt_dive_free (dive);
@@ -88,9 +94,10 @@ bt_dive_step (bt_dive *dive, bt_error *error)
   bt_status status;
   next->step++;
   bt__move_vehicles (dive, next);
+  bt__drift_vehicles (dive, next);
   bt__turn_winches (dive, next);
   bt__hold_at_tethers (dive, dive->now, next);
-  status = bt__resolve_tethers (dive, next, error);
+  status = bt__resolve_tethers (dive, next, 1, error);
   if (status != BT_OK)
     return status;
   dive->profile.steps++;

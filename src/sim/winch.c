@@ -37,7 +37,7 @@ turn_winch (const bt_dive *dive, bt__state *state, int i)
   if (length < floor)
     {
       tether->length = floor;
-      stop (state, tether, i, BT_EVENT_TAUT);
+      stop (state, tether, i, BT_EVENT_STALLED);
       return;
     }
   tether->length = length;

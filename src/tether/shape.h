@@ -21,7 +21,8 @@ typedef enum bt__form
   BT__FORM_V,
   BT__FORM_CATENARY,
   BT__FORM_ELASTIC,
-  BT__FORM_NODES /* positions and tension vectors in arrays beside the shape */
+  BT__FORM_NODES, /* positions and tension vectors in arrays beside the shape */
+  BT__FORM_CHAIN  /* the moving line: a bt__dynamic beside the shape; not asked through this header */
 } bt__form;
 
 /* Flat; no padding.  Arc lengths run from the anchor A to the end B, unstretched.  */

@@ -9,11 +9,11 @@
 #include "base/hash.h"
 #include "world/dive.h"
 
-/* The first bytes of a state: layout version 1.  */
-static const uint64_t magic = 0x3154484749420001ULL;
+/* The first bytes of a state: layout version 2.  */
+static const uint64_t magic = 0x3154484749420002ULL;
 
 /* Byte-wise equality of states means equality of dives only if no byte is padding.  */
-_Static_assert (sizeof (bt__vehicle) == 31 * 8, "no padding in bt__vehicle");
+_Static_assert (sizeof (bt__vehicle) == 36 * 8, "no padding in bt__vehicle");
 _Static_assert (sizeof (bt_event) == 3 * 8, "no padding in bt_event");
 _Static_assert (sizeof (bt__state) % 8 == 0, "whole words in bt__state");
 _Static_assert (sizeof (bt__tether) % 8 == 0, "whole words in bt__tether");
@@ -34,12 +34,39 @@ node_points (const bt_tether_def *tether)
 }
 
 static size_t
+arrays_size (const bt_tether_def *tether)
+{
+  return 2 * sizeof (bt_vec3) * (size_t)node_points (tether);
+}
+
+static size_t
+chain_size (const bt_tether_def *tether)
+{
+  return bt__dynamic_size (bt__chain_room (tether));
+}
+
+/* Arrays or up to two chains.  */
+static size_t
+store_size (const bt_tether_def *tether)
+{
+  size_t arrays = arrays_size (tether), chains = 2 * chain_size (tether);
+  return arrays > chains ? arrays : chains;
+}
+
+/* The winch may double the line before its intervals grow longer.  */
+int
+bt__chain_room (const bt_tether_def *tether)
+{
+  return 2 * (int)tether->props.nodes;
+}
+
+static size_t
 state_size (const bt_model *model)
 {
-  size_t points = 0;
+  size_t size = fixed_size (model);
   for (int i = 0; i < model->n_tethers; i++)
-    points += 2 * (size_t)node_points (&model->tethers[i]);
-  return fixed_size (model) + points * sizeof (bt_vec3);
+    size += store_size (&model->tethers[i]);
+  return size;
 }
 
 bt__vehicle *
@@ -55,17 +82,59 @@ bt__dive_tether (const bt_dive *dive, bt__state *state, int i)
   return bt__tethers (state, dive->model->n_vehicles) + i;
 }
 
+static char *
+store_of (const bt_dive *dive, const bt__state *state, int i)
+{
+  const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
+  return (char *)state + fixed_size (dive->model) + tether->store_at;
+}
+
 bt_vec3 *
 bt__dive_nodes (const bt_dive *dive, bt__state *state, int i)
 {
-  bt_vec3 *all = (bt_vec3 *)(void *)((char *)state + fixed_size (dive->model));
-  return all + bt__dive_tether (dive, state, i)->nodes_at;
+  return (bt_vec3 *)(void *)store_of (dive, state, i);
 }
 
 bt_vec3 *
 bt__dive_tensions (const bt_dive *dive, bt__state *state, int i)
 {
   return bt__dive_nodes (dive, state, i) + node_points (&dive->model->tethers[i]);
+}
+
+bt__dynamic *
+bt__dive_chain (const bt_dive *dive, bt__state *state, int i, int part)
+{
+  size_t offset = part ? chain_size (&dive->model->tethers[i]) : 0;
+  return (bt__dynamic *)(void *)(store_of (dive, state, i) + offset);
+}
+
+/* How many bytes of the store of tether I are in use.  */
+static size_t
+live_size (const bt_dive *dive, const bt__state *state, int i)
+{
+  const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
+  if (tether->shape.form == BT__FORM_NODES)
+    return arrays_size (&dive->model->tethers[i]);
+  if (tether->shape.form == BT__FORM_CHAIN)
+    return chain_size (&dive->model->tethers[i]) * (tether->parted ? 2 : 1);
+  return 0;
+}
+
+static void
+copy_state (const bt_dive *dive, bt__state *to, const bt__state *from)
+{
+  memcpy (to, from, fixed_size (dive->model));
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    memcpy (store_of (dive, to, i), store_of (dive, from, i), live_size (dive, from, i));
+}
+
+static uint64_t
+hash_state (const bt_dive *dive, const bt__state *state)
+{
+  uint64_t h = bt__hash (state, fixed_size (dive->model), 0);
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    h = bt__hash (store_of (dive, state, i), live_size (dive, state, i), h);
+  return h;
 }
 
 double
@@ -100,7 +169,12 @@ make_tools (bt_dive *dive, bt_error *error)
     return BT_OK;
   dive->tools.search = bt_search_new ();
   dive->tools.steady = bt_steady_new (most);
-  if (!dive->tools.search || !dive->tools.steady)
+  dive->work = bt__dynamic_work_new (2 * most);
+  dive->polyline = calloc ((size_t)(2 * most + 1), sizeof *dive->polyline);
+  dive->along = calloc ((size_t)(2 * most + 1), sizeof *dive->along);
+  dive->motion = calloc ((size_t)(2 * most + 1), sizeof *dive->motion);
+  if (!dive->tools.search || !dive->tools.steady || !dive->work || !dive->polyline || !dive->motion
+      || !dive->along)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the solvers of a dive");
   return BT_OK;
 }
@@ -114,8 +188,8 @@ lay_out (bt_dive *dive)
   dive->now->size = dive->size;
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
-      bt__dive_tether (dive, dive->now, i)->nodes_at = at;
-      at += 2 * node_points (&dive->model->tethers[i]);
+      bt__dive_tether (dive, dive->now, i)->store_at = at;
+      at += (int64_t)store_size (&dive->model->tethers[i]);
     }
 }
 
@@ -160,6 +234,10 @@ bt_dive_free (bt_dive *dive)
     release_track (dive->tracks[i]);
   bt_search_free (dive->tools.search);
   bt_steady_free (dive->tools.steady);
+  bt__dynamic_work_free (dive->work);
+  free (dive->polyline);
+  free (dive->motion);
+  free (dive->along);
   free (dive->now);
   free (dive->next);
   bt_model_release (dive->model);
@@ -173,7 +251,7 @@ bt_dive_fork (const bt_dive *dive, bt_dive **copy, bt_error *error)
   bt_status status = bt__dive_alloc (dive->model, &fork, error);
   if (status != BT_OK)
     return status;
-  memcpy (fork->now, dive->now, dive->size);
+  copy_state (dive, fork->now, dive->now);
   fork->function = dive->function;
   fork->user = dive->user;
   fork->n_tracks = dive->n_tracks;
@@ -205,7 +283,7 @@ bt__dive_add_track (bt_dive *dive, bt__track *track, bt_error *error)
 bt__state *
 bt__dive_begin (bt_dive *dive)
 {
-  memcpy (dive->next, dive->now, dive->size);
+  copy_state (dive, dive->next, dive->now);
   return dive->next;
 }
 
@@ -228,14 +306,15 @@ bt_dive_state_size (const bt_dive *dive)
 uint64_t
 bt_dive_hash (const bt_dive *dive)
 {
-  return bt__hash (dive->now, dive->size, 0);
+  return hash_state (dive, dive->now);
 }
 
 void
 bt_dive_save (const bt_dive *dive, void *state)
 {
   uint64_t checksum = bt_dive_hash (dive); /* the field itself is zero in a living state */
-  memcpy (state, dive->now, dive->size);
+  memset (state, 0, dive->size);
+  copy_state (dive, state, dive->now);
   memcpy ((char *)state + offsetof (bt__state, checksum), &checksum, sizeof checksum);
 }
 
@@ -252,6 +331,17 @@ knows_tracks (const bt_dive *dive, bt__state *state)
   return 1;
 }
 
+/* The offsets are looked at before the checksum, which they are needed for.  */
+static int
+stores_fit (const bt_dive *dive, const bt__state *state)
+{
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    if (bt__dive_tether (dive, (bt__state *)state, i)->store_at
+        != bt__dive_tether (dive, dive->now, i)->store_at)
+      return 0;
+  return 1;
+}
+
 bt_status
 bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error)
 {
@@ -263,7 +353,8 @@ bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error)
   memcpy (next, state, size);
   checksum = next->checksum;
   next->checksum = 0;
-  if (next->magic != magic || checksum != bt__hash (next, size, 0))
+  if (next->magic != magic || next->size != size || !stores_fit (dive, next)
+      || checksum != hash_state (dive, next))
     return bt__fail (error, BT_ERR_FORMAT, "these bytes are not a state as it was saved");
   if (next->model_id != dive->model->id || !knows_tracks (dive, next))
     return bt__fail (error, BT_ERR_STALE, "this checkpoint belongs to another dive");

@@ -10,6 +10,7 @@
 #include <bight/dive.h>
 
 #include "model/model.h"
+#include "tether/dynamic.h"
 #include "world/state.h"
 
 /* A measured track: rows of t x y z.  Immutable once made and shared by forks.  */
@@ -32,6 +33,10 @@ struct bt_dive
   bt__state *now;    /* what questions read */
   bt__state *next;   /* what an operation or a step works on */
   bt__shape_tools tools;
+  bt__dynamic_work *work; /* of the moving line */
+  bt_vec3 *polyline;      /* room for the points of any tether */
+  bt_vec3 *motion;        /* room for a velocity at each */
+  double *along;          /* room for a number at each */
   bt__shape_counts counts;
   bt_profile profile;
   bt_current_function function;
@@ -50,7 +55,11 @@ bt__vehicle *bt__dive_vehicle (const bt_dive *dive, bt__state *state, int i);
 bt__tether *bt__dive_tether (const bt_dive *dive, bt__state *state, int i);
 bt_vec3 *bt__dive_nodes (const bt_dive *dive, bt__state *state, int tether);
 bt_vec3 *bt__dive_tensions (const bt_dive *dive, bt__state *state, int tether);
+/* The chain of a moving tether: PART 0 at the anchor, 1 at the far end once the line has parted.  */
+bt__dynamic *bt__dive_chain (const bt_dive *dive, bt__state *state, int tether, int part);
 double bt__state_time (const bt__state *state);
+/* The most intervals that the chain of TETHER may come to.  */
+int bt__chain_room (const bt_tether_def *tether);
 bt_water bt__dive_water (const bt_dive *dive, const bt__state *state);
 
 /* Make a dive with an empty state and the tools that its tethers need.  */
@@ -66,5 +75,8 @@ bt_status bt__check_part (const bt_dive *dive, bt_part part, int i, bt_error *er
 bt_status bt__dive_add_track (bt_dive *dive, bt__track *track, bt_error *error);
 
 #define BT__TIME_STEP (1.0 / 60)
+
+/* Steps the moving line rests before it sleeps.  */
+#define BT__SLEEP_AFTER 60
 
 #endif

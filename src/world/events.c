@@ -41,6 +41,14 @@ bt_event_name (bt_event_kind kind)
       return "arrived";
     case BT_EVENT_SPOOLED:
       return "spooled";
+    case BT_EVENT_STALLED:
+      return "stalled";
+    case BT_EVENT_PARTED:
+      return "parted";
+    case BT_EVENT_SNAPPED:
+      return "snapped";
+    case BT_EVENT_HOCKLED:
+      return "hockled";
     }
   return "unknown";
 }

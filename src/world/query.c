@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "math/vec.h"
-#include "world/dive.h"
+#include "world/line.h"
 
 void
 bt_dive_sea (const bt_dive *dive, bt_sea_view *view)
@@ -66,189 +66,175 @@ bt_dive_vehicle (const bt_dive *dive, int i, bt_vehicle_view *view, bt_error *er
 
 /* ---- Tethers ---- */
 
-/* A tether with its node arrays, ready to be asked.  */
-typedef struct asked
-{
-  const bt__tether *tether;
-  const bt_vec3 *nodes, *tensions;
-} asked;
-
 static bt_status
-ask (const bt_dive *dive, int i, asked *a, bt_error *error)
+ask (const bt_dive *dive, int i, bt__line *line, bt_error *error)
 {
   bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
   if (status == BT_OK)
-    *a = (asked){ bt__dive_tether (dive, dive->now, i), bt__dive_nodes (dive, dive->now, i),
-                  bt__dive_tensions (dive, dive->now, i) };
+    *line = bt__line_of (dive, dive->now, i);
   return status;
-}
-
-static double
-tension_at (const asked *a, double s)
-{
-  return bt__shape_tension (&a->tether->shape, a->nodes, a->tensions, s);
-}
-
-/* The far end is pulled back along the tether.  */
-static bt_vec3
-end_force (const asked *a)
-{
-  double s = a->tether->shape.length;
-  bt_vec3 t = bt__shape_tangent (&a->tether->shape, a->nodes, a->tensions, s);
-  return bt__scale (-tension_at (a, s), t);
-}
-
-/* How many points show a shape that has no nodes of its own.  */
-static int
-natural_points (const bt__tether *tether)
-{
-  switch (tether->shape.form)
-    {
-    case BT__FORM_STRAIGHT:
-      return 2;
-    case BT__FORM_V:
-      return 3;
-    default:
-      return (int)tether->props.nodes + 1;
-    }
 }
 
 bt_status
 bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *error)
 {
-  asked a;
-  bt_status status = ask (dive, i, &a, error);
+  bt__line line;
+  const bt__tether *t;
+  bt_status status = ask (dive, i, &line, error);
   if (status != BT_OK)
     return status;
-  *view = (bt_tether_view){ .props = a.tether->props,
-                            .length = a.tether->length,
-                            .chord = bt__distance (a.tether->shape.a, a.tether->shape.b),
-                            .tension_anchor = tension_at (&a, 0),
-                            .tension_end = tension_at (&a, a.tether->shape.length),
-                            .tension_max = a.tether->tension_max,
-                            .force = end_force (&a),
+  t = line.tether;
+  *view = (bt_tether_view){ .props = t->props,
+                            .length = t->length,
+                            .chord = bt__distance (t->shape.a, t->shape.b),
+                            .tension_anchor = bt__line_tension (&line, 0),
+                            .tension_end = bt__norm (bt__line_force (&line)),
+                            .tension_max = t->tension_max,
+                            .force = bt__line_force (&line),
                             .vehicle = dive->model->ends[i][1].vehicle,
-                            .taut = a.tether->taut != 0,
-                            .spooling = a.tether->winch_rate != 0,
-                            .settled = a.tether->settled != 0,
-                            .nodes = natural_points (a.tether) };
+                            .taut = t->taut != 0,
+                            .parted = t->parted != 0,
+                            .spooling = t->winch_rate != 0,
+                            .settled = t->settled != 0,
+                            .asleep = t->quiet >= BT__SLEEP_AFTER,
+                            .nodes = bt__line_points (&line),
+                            .error_estimate = line.chain ? bt__chain_error (line.chain) : NAN };
   return BT_OK;
 }
 
 static bt_status
-ask_at (const bt_dive *dive, int i, double s, asked *a, bt_error *error)
+ask_at (const bt_dive *dive, int i, double s, bt__line *line, bt_error *error)
 {
-  bt_status status = ask (dive, i, a, error);
-  if (status == BT_OK && !(s >= 0 && s <= a->tether->length))
+  bt_status status = ask (dive, i, line, error);
+  double length = status == BT_OK ? bt__line_length (line) : 0;
+  if (status == BT_OK && !(s >= 0 && s <= fmax (length, line->tether->length)))
     return bt__fail (error, BT_ERR_DOMAIN, "an arc length lies in 0 to %g m, which are out, not %g",
-                     a->tether->length, s);
+                     length, s);
   return status;
 }
 
 bt_status
 bt_tether_point (const bt_dive *dive, int i, double s, bt_vec3 *point, bt_error *error)
 {
-  asked a;
-  bt_status status = ask_at (dive, i, s, &a, error);
+  bt__line line;
+  bt_status status = ask_at (dive, i, s, &line, error);
   if (status == BT_OK)
-    *point = bt__shape_point (&a.tether->shape, a.nodes, a.tensions, s);
+    *point = bt__line_point (&line, s);
   return status;
 }
 
 bt_status
 bt_tether_tangent (const bt_dive *dive, int i, double s, bt_vec3 *tangent, bt_error *error)
 {
-  asked a;
-  bt_status status = ask_at (dive, i, s, &a, error);
+  bt__line line;
+  bt_status status = ask_at (dive, i, s, &line, error);
   if (status == BT_OK)
-    *tangent = bt__shape_tangent (&a.tether->shape, a.nodes, a.tensions, s);
+    *tangent = bt__line_tangent (&line, s);
   return status;
 }
 
 bt_status
 bt_tether_tension (const bt_dive *dive, int i, double s, double *tension, bt_error *error)
 {
-  asked a;
-  bt_status status = ask_at (dive, i, s, &a, error);
+  bt__line line;
+  bt_status status = ask_at (dive, i, s, &line, error);
   if (status == BT_OK)
-    *tension = tension_at (&a, s);
+    *tension = bt__line_tension (&line, s);
   return status;
 }
 
-/* The arc length of point K of N, exact at both ends.  */
-static double
-share (const asked *a, int k, int n)
-{
-  return k == n - 1 ? a->tether->shape.length : a->tether->shape.length * k / (n - 1);
-}
-
-/* The arc length of the K-th of the model's own N points: the V has one at its bend.  */
-static double
-natural_share (const asked *a, int k, int n)
-{
-  const bt__shape *shape = &a->tether->shape;
-  if (shape->form == BT__FORM_V && k == 1)
-    return shape->v.l1 * (shape->length / (shape->v.l1 + shape->v.l2));
-  return share (a, k, n);
-}
-
 /* The arc lengths asked for by N: equally spaced, or the model's own when N is zero.  */
-typedef struct sampling
+static double
+share (const bt__line *line, int k, int n)
 {
-  asked a;
-  int n;
-  double (*share) (const asked *a, int k, int n);
-} sampling;
+  double length = bt__line_length (line);
+  if (n == 0)
+    return bt__line_share (line, k);
+  return k == n - 1 ? length : length * k / (n - 1);
+}
 
 static bt_status
-ask_many (const bt_dive *dive, int i, int n, sampling *many, bt_error *error)
+ask_many (const bt_dive *dive, int i, int n, bt__line *line, int *points, bt_error *error)
 {
-  bt_status status = ask (dive, i, &many->a, error);
+  bt_status status = ask (dive, i, line, error);
   if (status != BT_OK)
     return status;
   if (n != 0 && n < 2)
     return bt__fail (error, BT_ERR_DOMAIN, "a polyline has at least 2 points, not %d", n);
-  many->n = n ? n : natural_points (many->a.tether);
-  many->share = n ? share : natural_share;
+  *points = n ? n : bt__line_points (line);
   return BT_OK;
 }
 
 bt_status
 bt_tether_points (const bt_dive *dive, int i, int n, bt_vec3 *points, bt_error *error)
 {
-  sampling m;
-  bt_status status = ask_many (dive, i, n, &m, error);
-  for (int k = 0; status == BT_OK && k < m.n; k++)
-    points[k] = bt__shape_point (&m.a.tether->shape, m.a.nodes, m.a.tensions,
-                                 m.share (&m.a, k, m.n));
+  bt__line line;
+  int count = 0;
+  bt_status status = ask_many (dive, i, n, &line, &count, error);
+  for (int k = 0; k < count; k++)
+    points[k] = bt__line_point (&line, share (&line, k, n));
   return status;
+}
+
+int
+bt_tether_tail (const bt_dive *dive, int i, bt_vec3 *points, int max)
+{
+  bt__line line, tail;
+  int n;
+  if (ask (dive, i, &line, NULL) != BT_OK || !line.tether->parted)
+    return 0;
+  tail = bt__line_tail (&line);
+  n = bt__line_points (&tail);
+  for (int k = 0; k < n && k < max; k++)
+    points[k] = bt__line_point (&tail, bt__line_share (&tail, k));
+  return n;
 }
 
 bt_status
 bt_tether_tensions (const bt_dive *dive, int i, int n, double *tensions, bt_error *error)
 {
-  sampling m;
-  bt_status status = ask_many (dive, i, n, &m, error);
-  for (int k = 0; status == BT_OK && k < m.n; k++)
-    tensions[k] = tension_at (&m.a, m.share (&m.a, k, m.n));
+  bt__line line;
+  int count = 0;
+  bt_status status = ask_many (dive, i, n, &line, &count, error);
+  for (int k = 0; k < count; k++)
+    tensions[k] = bt__line_tension (&line, share (&line, k, n));
   return status;
+}
+
+bt_status
+bt_tether_energy (const bt_dive *dive, int i, bt_energy *energy, bt_error *error)
+{
+  bt__line line;
+  bt_water water = bt__dive_water (dive, dive->now);
+  bt__dynamic_energy e;
+  bt_status status = ask (dive, i, &line, error);
+  if (status != BT_OK)
+    return status;
+  if (!line.chain)
+    return bt__fail (error, BT_ERR_UNSUPPORTED, "only a moving line has its energies counted");
+  e = bt__dynamic_energies (line.chain, &(bt__dynamic_input){ .line = &line.tether->props,
+                                                              .water = &water,
+                                                              .h = BT__TIME_STEP });
+  *energy = (bt_energy){ e.kinetic, e.strain, e.gravity, e.bending };
+  return BT_OK;
 }
 
 bt_status
 bt_tether_equilibria (const bt_dive *dive, int i, int max, bt_vec3 *shapes, int *found,
                       bt_error *error)
 {
-  asked a;
+  bt__line line;
+  const bt__tether *t;
   bt_water water = bt__dive_water (dive, dive->now);
-  bt_status status = ask (dive, i, &a, error);
+  bt_status status = ask (dive, i, &line, error);
   if (status != BT_OK)
     return status;
-  if (a.tether->props.model != BT_MODEL_STEADY)
+  t = line.tether;
+  if (t->props.model != BT_MODEL_STEADY)
     return bt__fail (error, BT_ERR_UNSUPPORTED, "only the model `steady' looks for equilibria");
-  return bt_steady_equilibria (
-      dive->tools.steady,
-      &(bt_line){ a.tether->length, a.tether->props.diameter, a.tether->props.wet_weight,
-                  a.tether->props.ea, a.tether->props.cdn, a.tether->props.cdt },
-      &water, a.tether->shape.a, a.tether->shape.b, (int)a.tether->props.nodes, max, shapes, found,
-      error);
+  return bt_steady_equilibria (dive->tools.steady,
+                               &(bt_line){ t->length, t->props.diameter, t->props.wet_weight,
+                                           t->props.ea, t->props.cdn, t->props.cdt },
+                               &water, t->shape.a, t->shape.b, (int)t->props.nodes, max, shapes,
+                               found, error);
 }

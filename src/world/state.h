@@ -1,7 +1,9 @@
 /* The flat state of a dive: all that moves, without a pointer and without padding, so that a copy of its
    bytes is a checkpoint and a hash of them tells states apart.
 
-   One block: the head, the vehicles, the tethers, then the node arrays.
+   One block: the head, the vehicles, the tethers, then a store for each tether: its node arrays, or its
+   chain and, once it has parted, the chain of the other part.  Of a store only what is live is copied,
+   hashed or looked at.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -38,6 +40,7 @@ typedef struct bt__vehicle
   double sticks[4];
   double speeds[4]; /* at full stick: surge sway heave (m/s), yaw (rad/s) */
   double pull;
+  double mass, added_mass, drag, quadratic_drag, thrust;
   int64_t goal; /* bt__goal */
   bt_vec3 target;
   double target_speed;
@@ -55,10 +58,14 @@ typedef struct bt__tether
   double winch_target; /* m */
   double tension_max;
   double pull;         /* N: of the vehicle that it holds, as last solved */
-  int64_t nodes_at; /* offset of its node arrays in bt_vec3 units; positions, then tension vectors */
+  int64_t store_at; /* offset of its store behind the tethers, bytes */
   int64_t stale;    /* must be solved though its ends did not move */
   int64_t settled;
   int64_t taut;
+  int64_t parted;   /* the line is in two: a second chain hangs from the far end */
+  int64_t quiet;    /* DYNAMIC: steps it has rested; it sleeps when they are enough */
+  int64_t slack_at; /* DYNAMIC: the step at which it was last slack */
+  int64_t hockled;
   bt__shape shape;
   bt__shape_memory memory;
 } bt__tether;

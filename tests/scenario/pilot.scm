@@ -58,6 +58,23 @@
     (every 1 (run 1))
     (expect (run 1) raises def)))
 
+(define-scenario a-pilot-looks-ahead
+  "In a pilot's body a fork runs at once, without him; where others fork a dive, he flies on in the fork."
+  (in open-water)
+  (let* ((seen '())
+         (note! (lambda (what) (set! seen (cons what seen))))
+         (scout (make-pilot 'scout "Looks ahead."
+                            (lambda ()
+                              (run 1)
+                              (note! (what-if (run 5) (now)))
+                              (run 2)
+                              (note! (now))))))
+    (with-pilot scout
+      (run 2)
+      (what-if (run 5))
+      (run 5))
+    (expect (reverse seen) is (about '(6 3 3) #:within 1e-9))))
+
 (define-scenario events-are-told-once
   "`on' hears of each event once; asking for events never drains them."
   (in open-water)
@@ -85,6 +102,26 @@
     (expect (now) is (about 2.5 #:within 1e-9))
     (run 0.5)
     (expect ticks => 8)))
+
+(define-scenario a-fork-has-tasks-of-its-own
+  "What a fork cancels or restores does not touch the dive; a handle stands for the task in both."
+  (in open-water)
+  (let* ((ticks 0)
+         (begun (checkpoint))
+         (clock (every 1 (set! ticks (+ ticks 1))))
+         (early (checkpoint)))
+    (expect (what-if (cancel! clock)) => #t)
+    (run 2.5)
+    (what-if (restore! early) (run 0.5))
+    (expect ticks => 2)
+    (run 1)
+    (expect ticks => 3)
+    (restore! early)
+    (run 1)
+    (expect ticks => 4)
+    (expect (cancel! clock) => #t)
+    (restore! begun)
+    (expect (cancel! clock) => #f)))
 
 (define-scenario a-checkpoint-is-a-value
   "Restored, a dive goes on to the very same state; another dive's checkpoint is refused."
@@ -142,6 +179,60 @@
   (move! '(0 0 -10))
   (drive! #:surge 0.1)
   (expect (arrived?)))
+
+(define-scenario (the-current-changes setting east)
+  "`current!' takes every form in which a world writes a current."
+  #:for ((setting '(0.5 90)
+                  '((0.5 90))
+                  '((profile (0 0.5 90) (-30 0.3 80)))
+                  '((turning (speed 0.5) (toward 90) (degrees-per-metre -0.9)))
+                  '((power 0.5 90 (exponent 1/7)))
+                  '((tide (speed 0.5) (toward 90) (period (hours 12.42)))))
+         (east 0.5))
+  (in open-water)
+  (expect (apply current! setting) is (about (vec east 0 0) #:within 1e-12))
+  (expect (current-at '(1 2 0)) is (about (vec east 0 0) #:within 1e-12)))
+
+(define-scenario a-procedure-for-a-current
+  "A procedure of position and time is a current too; one that fails leaves the dive as it was."
+  (in open-water)
+  (current! (lambda (place time) (list (* 0.1 time) 0 0)))
+  (run 2)
+  (expect (current-at '(0 0 0)) is (about '(0.2 0 0) #:within 1e-9))
+  (expect (current! 'still) => '(0 0 0))
+  (let ((before (state-hash)))
+    (expect (current! (lambda (place) '(0 0 0))) raises)
+    (expect (current! '(profle (0 1 2))) raises name)
+    (expect (state-hash) => before)))
+
+(define-scenario the-sea-can-be-altered
+  "`alter!' knows the sea: current, density and gravity, which the line feels; not its depth."
+  (in open-water)
+  (expect (alter! 'sea #:current '(0.5 90)) => 'sea)
+  (expect (x (current-at '(0 0 0))) => 0.5)
+  (expect (alter! 'sea #:densty 1000) raises name)
+  (let ((before (state-hash)))
+    (expect (alter! 'sea #:current 'still #:depth 1000) raises domain)
+    (expect (state-hash) => before))
+  (tether-model! 'elastic)
+  (expect (max-tension) => 0)                     ; neutral in this water
+  (alter! 'sea #:density 1000)
+  (expect (max-tension) is (above 0))             ; and not in fresher
+  (expect (z (point-at 12)) is (below -6)))
+
+(define-scenario a-current-cannot-meddle
+  "The procedure of a current may not change the dive that asks it, nor a task leave its own dive."
+  (in open-water)
+  (let ((before (state-hash)))
+    (expect (current! (lambda (p t) (run 1) '(0.1 0 0))) raises def)
+    (expect (current! (lambda (p t) (pay-out! 1) '(0.1 0 0))) raises def)
+    (expect (state-hash) => before))
+  (current! (lambda (p t) (vec 0.2 0 0)))
+  (run 1)
+  (expect (x (current-at '(0 0 -3))) => 0.2)
+  (expect (what-if (run 1) (now)) is (about 2 #:within 1e-9))
+  (every 1 (enter! 'tank))
+  (expect (run 2) raises def))
 
 (define-scenario turns-are-counted
   "Two turns clockwise and one back are one."

@@ -283,7 +283,8 @@
   (expect (memq 'trial (worlds)) is pair?)
   (expect (find-world 'trail) raises name)
   (expect (find-world "no/such/file.scm") raises io)
-  (expect (find-world 5) raises domain))
+  (expect (find-world 5) raises domain)
+  (expect (guard (e (#t (bight-error-procedure e))) (enter! 'trail)) => 'enter!))
 
 
 ;;; Currents.

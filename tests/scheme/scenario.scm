@@ -5,6 +5,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight scenario)           ; outcome-status and its kin
+             ((bight doc) #:select (docstring-of))
              (ice-9 popen)
              (ice-9 textual-ports)
              (srfi srfi-1))
@@ -372,7 +373,15 @@
   (expect (car (command "-c" "(exit 7)")) => 7)
   (call-with-files '("(write (cdr (command-line)))")
     (lambda (folder names)
-      (expect (command (first names) "a" "--b") => '(0 . "(\"a\" \"--b\")")))))
+      (expect (command (first names) "a" "--b") => '(0 . "(\"a\" \"--b\")"))))
+  (call-with-files '("#!/usr/bin/env bight\n(display 1)\n(display 2)"
+                     "#!/usr/bin/bight \\\n!#\n(display 3)"
+                     "#!/usr/bin/env bight\n\n(oops)")
+    (lambda (folder names)
+      (expect (command (first names)) => '(0 . "12"))
+      (expect (command (second names)) => '(0 . "3"))
+      (expect (string-contains (cdr (command (third names))) ":3: "))
+      (expect (car (command folder)) => 1))))
 
 
 ;;; The facade.
@@ -386,3 +395,18 @@
               (require (not (module-variable guile-s name))))
             (language-names))
   (expect (delete-duplicates (language-names) eq?) => (language-names)))
+
+(define-scenario every-name-is-documented
+  "Every name of the language, a macro too, has a docstring."
+  (for-each (lambda (name)
+              (expect (docstring-of (module-ref (resolve-interface '(bight)) name)) is string?))
+            (language-names)))
+
+(define-scenario goes-with-srfi-1
+  "In a module that uses SRFI-1 too, `every' is the language's."
+  (in tank)
+  (let ((module (make-fresh-user-module)))
+    (for-each (lambda (name) (module-use! module (resolve-interface name)))
+              '((bight) (srfi srfi-1)))
+    (expect (eval '(cancel! (every 1 (now))) module) => #t)
+    (expect (eval '(every even? '(1 2)) module) raises domain)))

@@ -1,0 +1,79 @@
+/* Model `auto': the moving line with as many nodes as its accuracy wants.
+
+   The error that comes of the number of nodes is estimated from the bends of the line, and falls with
+   its square.  The line is laid anew on more nodes when the estimate exceeds what is accepted, and on
+   fewer when it is far below, the gap between keeping it from going to and fro.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <string.h>
+
+#include "math/vec.h"
+#include "sim/sim.h"
+#include "world/line.h"
+
+#define TOO_GOOD 0.2 /* of the accuracy: below it nodes are saved */
+#define SPARE 1.15   /* times the nodes the estimate asks for */
+enum
+{
+  FEWEST = 8
+};
+
+/* How many intervals the chain of N with the estimated ERROR should have, at most ROOM.  */
+static int
+wanted (int n, double error, double accuracy, int room)
+{
+  double ideal = SPARE * n * sqrt (error / accuracy);
+  if (error <= accuracy && error >= TOO_GOOD * accuracy)
+    return n;
+  return (int)fmax (FEWEST, fmin (room, ceil (ideal)));
+}
+
+/* Take N + 1 points, velocities and tensions off LINE.  */
+static void
+sample (bt_dive *dive, const bt__line *line, int n)
+{
+  double length = bt__line_length (line);
+  for (int k = 0; k <= n; k++)
+    {
+      double s = length * k / n;
+      dive->polyline[k] = bt__dynamic_point (line->chain, s);
+      dive->motion[k] = bt__dynamic_velocity (line->chain, s);
+      dive->along[k] = bt__line_tension (line, length * fmin (k + 0.5, n) / n);
+    }
+}
+
+static bt_status
+lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
+{
+  bt__line line = bt__line_of (dive, state, i);
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  bt_vec3 pull[2] = { chain->pull[0], chain->pull[1] };
+  double length = bt__line_length (&line);
+  bt_status status;
+  sample (dive, &line, n);
+  status = bt__dynamic_init (chain, bt__chain_room (&dive->model->tethers[i]), n, dive->polyline,
+                             n + 1, length, isfinite (tether->props.ea) ? tether->props.ea : 1e9,
+                             error);
+  if (status != BT_OK)
+    return status;
+  memcpy (bt__dynamic_v (chain), dive->motion, sizeof (bt_vec3) * (size_t)(n + 1));
+  memcpy (bt__dynamic_tension (chain), dive->along, sizeof (double) * (size_t)n);
+  chain->pull[0] = pull[0];
+  chain->pull[1] = pull[1];
+  dive->profile.chain_remeshes++;
+  return BT_OK;
+}
+
+bt_status
+bt__remesh_chain (bt_dive *dive, bt__state *state, int i, bt_error *error)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  int n = (int)chain->n;
+  int m = wanted (n, bt__chain_error (chain), tether->props.accuracy,
+                  bt__chain_room (&dive->model->tethers[i]));
+  return tether->parted || m == n ? BT_OK : lay_anew (dive, state, i, m, error);
+}

@@ -1,0 +1,169 @@
+/* The moving line: a chain of lumped nodes stepped implicitly (METHODS T2), knowing no world.
+
+   The state is one flat block of doubles and 64-bit integers, without pointers or padding: a
+   bt__dynamic followed by arrays for N_MAX intervals.  Copy it with memcpy for a checkpoint, hash
+   it, write it; two equal blocks have equal futures.  Workspaces hold nothing from step to step.
+
+   A step solves, for every node, with M mass and added mass (normal part alone), F drag on the
+   relative velocity, w wet weight, T tension and B bending,
+     M a = F(u - v) - w + T_i t_i - T_{i-1} t_{i-1} + B,
+     T = max (0, EA (e - 1) + BA de/dt),   e = chord / rest length,
+   where v and a are second-order backward differences of variable step (backward Euler when there
+   is no usable history).  Loads, mass and drag act per unstretched metre.
+
+   How a contact will join: its half-space adds SPD blocks to the diagonal and off-diagonal of the
+   nodes it touches and its force to their right-hand sides, between bt__dynamic_assemble and
+   bt__dynamic_solve; its potential joins bt__dynamic_potential.  The history rule: a node whose
+   proposal is refused and cut to another place Y, or that makes a new contact, goes on with
+   v = vp = (Y - x)/h and dx = h v, so that the next difference starts without a jump.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_TETHER_DYNAMIC_H
+#define BT_TETHER_DYNAMIC_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <bight/status.h>
+#include <bight/tether.h>
+#include <bight/vec.h>
+#include <bight/water.h>
+
+/* ---- The state ---- */
+
+/* The head of the block.  Node 0 is the winch end, node n the far end.  */
+typedef struct bt__dynamic
+{
+  int64_t n;       /* intervals in use */
+  int64_t n_max;   /* intervals there is room for */
+  int64_t history; /* steps behind that may be differenced; 0: the next is backward Euler */
+  double h;        /* s: the last step */
+  double piece;    /* m: rest length the winch gives a new interval */
+  double owed;     /* m: line that is out but not yet in the chain, see bt__dynamic_wind */
+  bt_vec3 pull[2]; /* N: force of the line on its ends */
+} bt__dynamic;
+
+/* Return the size in bytes of a block with room for N_MAX intervals.  */
+size_t bt__dynamic_size (int n_max);
+
+/* Parts of the block.  Node arrays have n + 1 elements, interval arrays n.  */
+bt_vec3 *bt__dynamic_x (const bt__dynamic *d);       /* m: positions */
+bt_vec3 *bt__dynamic_v (const bt__dynamic *d);       /* m/s: velocities */
+bt_vec3 *bt__dynamic_dx (const bt__dynamic *d);      /* m: motion in the last step */
+bt_vec3 *bt__dynamic_vp (const bt__dynamic *d);      /* m/s: velocities one step before */
+bt_vec3 *bt__dynamic_load (const bt__dynamic *d);    /* N: fourth-order part of the loads */
+bt_vec3 *bt__dynamic_chord (const bt__dynamic *d);   /* m: fourth-order part of the chords */
+double *bt__dynamic_tension (const bt__dynamic *d);  /* N: tensions of the intervals */
+double *bt__dynamic_rest (const bt__dynamic *d);     /* m: rest lengths */
+double *bt__dynamic_stretch (const bt__dynamic *d);  /* chord / rest length */
+double *bt__dynamic_dstretch (const bt__dynamic *d); /* its change in the last step */
+
+/* Lay N intervals of LENGTH metres in all along the polyline SHAPE of M points, at rest, in *D, which
+   has room for N_MAX.  EA sets the first guess of the tensions.  BT_ERR_LIMIT or BT_ERR_DOMAIN.  */
+bt_status bt__dynamic_init (bt__dynamic *d, int n_max, int n, const bt_vec3 *shape, int m,
+                            double length, double ea, bt_error *error);
+
+/* Take all motion out of D and forget its history.  */
+void bt__dynamic_still (bt__dynamic *d);
+
+/* ---- A step ---- */
+
+typedef struct bt__dynamic_work bt__dynamic_work;
+
+/* Return a workspace for up to N_MAX intervals, or NULL when memory is out.  Nothing below
+   allocates.  */
+bt__dynamic_work *bt__dynamic_work_new (int n_max);
+void bt__dynamic_work_free (bt__dynamic_work *work);
+
+/* Something that is not line: at an end, or along the line.  */
+typedef struct bt__dynamic_lump
+{
+  double from_end;     /* m of rest length from node n (bt__dynamic_end: not used) */
+  double span;         /* m over which it is spread, 0: at a point */
+  double mass, added;  /* kg; added mass in every direction */
+  double wet_weight;   /* N, sinking positive */
+  double linear, quadratic; /* N s/m, N s2/m2: drag against the water in every direction */
+  bt_vec3 force;       /* N, held over the step */
+} bt__dynamic_lump;
+
+typedef struct bt__dynamic_end
+{
+  int free;              /* zero: taken to AT; else moved by the forces, BODY among them */
+  bt_vec3 at;            /* m: where it is at the end of the step */
+  bt__dynamic_lump body; /* the vehicle: a point mass until it is more; all zero for none */
+  int clamped;           /* nonzero: the line leaves along DIRECTION; wants bending stiffness */
+  bt_vec3 direction;     /* unit, from node 0 toward node n */
+} bt__dynamic_end;
+
+typedef struct bt__dynamic_input
+{
+  const bt_tether_props *line; /* diameter, mass, wet_weight, ea, ei, ba, cdn, cdt, ca */
+  const bt_water *water;       /* TIME at the end of the step; density 0: no water */
+  bt__dynamic_end end[2];
+  const bt__dynamic_lump *lumps;
+  int n_lumps;
+  double h;         /* s */
+  double pay;       /* m/s of line through the winch end, out positive */
+  double tolerance; /* of the length: last update of a solved step; 0: 1e-5 */
+  int order;        /* 4: fourth order in space by deferred correction; else second */
+} bt__dynamic_input;
+
+typedef struct bt__dynamic_report
+{
+  int converged;
+  int solves;               /* linear solves */
+  int safeguarded;          /* nonzero: the quick iteration failed and descent took over */
+  double update;            /* m: last update */
+  double speed, acceleration; /* the largest of any node, for the caller's sleep */
+  double tension;           /* N: the largest ... */
+  int at;                   /* ... and its interval, to be held against the breaking load */
+  double bend_radius;       /* m: the tightest, INFINITY if straight */
+  int bend_at;              /* its node */
+} bt__dynamic_report;
+
+/* Step D by INPUT->h.  BT_ERR_DIVERGED (saying node, time and quantity) and BT_ERR_DOMAIN leave *D
+   as it was.  A step that is not solved to the tolerance is taken all the same, bounded, with
+   REPORT->converged = 0.  Nodes come and go at the winch end when INPUT->pay asks for it and there is
+   room.  */
+bt_status bt__dynamic_step (bt__dynamic *d, bt__dynamic_work *work, const bt__dynamic_input *input,
+                            bt__dynamic_report *report, bt_error *error);
+
+/* ---- Winch and knife ---- */
+
+/* Split the first interval of D when it has grown, or join it with the second when it has shrunk.  The
+   tension is kept: the rest lengths follow it, and what that leaves over is owed and comes out with
+   the next half second of steps.  Called by the step.  */
+void bt__dynamic_wind (bt__dynamic *d);
+
+/* Return the length of D that is out, m.  */
+double bt__dynamic_length (const bt__dynamic *d);
+
+/* Cut D in the middle of interval J into *A (nodes 0 to J and a new end) and *B (a new end and the
+   rest), blocks with room for as many intervals as D.  The new ends are to be stepped as free ends.
+   Either may be NULL; A may be D itself.  */
+void bt__dynamic_cut (const bt__dynamic *d, int j, bt__dynamic *a, bt__dynamic *b);
+
+/* ---- Questions ---- */
+
+/* Return the point, or the velocity, of D at U metres of rest length from node 0 (clamped), by the
+   cubic through four nodes.  */
+bt_vec3 bt__dynamic_point (const bt__dynamic *d, double u);
+bt_vec3 bt__dynamic_velocity (const bt__dynamic *d, double u);
+
+/* Return the tension at node I, N; of second order at the ends too.  */
+double bt__dynamic_node_tension (const bt__dynamic *d, int i);
+
+typedef struct bt__dynamic_energy
+{
+  double kinetic, strain, gravity, bending; /* J; added mass moves too; gravity from z = 0 */
+} bt__dynamic_energy;
+
+/* Return the energies of the line (not its lumps) as INPUT has it.  */
+bt__dynamic_energy bt__dynamic_energies (const bt__dynamic *d, const bt__dynamic_input *input);
+
+/* Estimate the error in position that comes of the number of nodes, m: the true one is 1.3 to 2.5
+   times as large (METHODS T4).  */
+double bt__dynamic_space_error (const bt__dynamic *d);
+
+#endif

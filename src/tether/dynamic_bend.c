@@ -1,0 +1,127 @@
+/* The moving line: bending.
+
+   A node bends by w = C_i / l_i - C_{i-1} / l_{i-1}, the turn of the line from one interval to the
+   next, and stores EI |w|^2 / (2 cell); the half cell at a clamp turns from its direction to the
+   first interval.  For intervals that hardly stretch this is the curvature of the line to second
+   order, at any rotation, and it is quadratic in the positions: forces are linear, the blocks are
+   constant multiples of the unit, and bending costs no iteration.
+
+   This energy also falls when a bent interval shortens, as if it were pushed by EI kappa^2 (the
+   multiplier of |r'| = 1 is the tension less EI kappa^2).  So an interval under bending bears that
+   thrust beside its tension, and goes slack only below it; the thrust is held while a step is
+   solved.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "tether/dynamic_kernel.h"
+
+static void
+add_row (bt__dynamic_work *w, bt__bend row)
+{
+  w->bend[w->bends++] = row;
+  for (int p = 0; p < row.count; p++)
+    {
+      int i = row.first + p;
+      w->bend_diag[i] += row.k * row.c[p] * row.c[p];
+      if (p + 1 < row.count)
+        w->bend_off[i] += row.k * row.c[p] * row.c[p + 1];
+      if (p + 2 < row.count)
+        w->bend_far[i] += row.k * row.c[p] * row.c[p + 2];
+    }
+}
+
+/* The half cell at end K turns from the clamp's direction.  */
+static void
+add_clamp (bt__dynamic_work *w, int k, double ei)
+{
+  const bt__dynamic_end *end = w->in->end + k;
+  int j = k ? w->n - 1 : 0;
+  double l = w->link[j].rest;
+  bt_vec3 d = bt__unit_or (end->direction, bt__vec (0, 0, -1));
+  if (end->clamped)
+    add_row (w, (bt__bend){ j, 2, 2 * ei / l, { -1 / l, 1 / l, 0 }, d });
+}
+
+void
+bt__dynamic_bend_prepare (bt__dynamic_work *w)
+{
+  double ei = w->in->line->ei;
+  size_t size = (size_t)(w->n + 1) * sizeof (double);
+  w->bends = 0;
+  if (!(ei > 0))
+    return;
+  bt__dynamic_bend_thrust (w);
+  memset (w->bend_diag, 0, size);
+  memset (w->bend_off, 0, size);
+  memset (w->bend_far, 0, size);
+  for (int i = 1; i < w->n; i++)
+    {
+      double q = 1 / w->link[i - 1].rest, p = 1 / w->link[i].rest;
+      add_row (w, (bt__bend){ i - 1, 3, ei / w->node[i].cell, { q, -(p + q), p }, { 0, 0, 0 } });
+    }
+  add_clamp (w, 0, ei);
+  add_clamp (w, 1, ei);
+}
+
+#define MARGIN 1.5   /* the clamp's cell and the held curvature err */
+#define SHARPEST 1.0 /* turn at a node, as a vector: none sharper thrusts */
+
+void
+bt__dynamic_bend_thrust (bt__dynamic_work *w)
+{
+  double before = 0;
+  for (int j = 0; j < w->n; j++)
+    {
+      double after = before;
+      if (j + 1 < w->n)
+        {
+          bt_vec3 a = bt__scale (1 / w->link[j].rest, bt__sub (w->x[j + 1], w->x[j])),
+                  b = bt__scale (1 / w->link[j + 1].rest, bt__sub (w->x[j + 2], w->x[j + 1]));
+          bt_vec3 turn = bt__sub (b, a);
+          double cell = w->node[j + 1].cell;
+          after = fmin (bt__dot (turn, turn), SHARPEST) / (cell * cell);
+        }
+      double square = j == 0 ? after : 0.5 * (before + after);
+      w->link[j].thrust = w->in->line->ei * MARGIN * square;
+      w->link[j].zero -= w->link[j].thrust / w->link[j].ka;
+      before = after;
+    }
+}
+
+static inline bt_vec3
+turn_of (const bt__bend *row, const bt_vec3 *X)
+{
+  bt_vec3 sum = bt__scale (-1, row->d);
+  for (int p = 0; p < row->count; p++)
+    sum = bt__axpy (sum, row->c[p], bt__sub (X[row->first + p], X[row->first]));
+  return sum;
+}
+
+void
+bt__dynamic_bend_force (bt__dynamic_work *w)
+{
+  for (int k = 0; k < w->bends; k++)
+    {
+      const bt__bend *row = w->bend + k;
+      bt_vec3 turn = turn_of (row, w->X);
+      for (int p = 0; p < row->count; p++)
+        {
+          bt_vec3 *r = w->rhs + row->first + p;
+          *r = bt__axpy (*r, -row->k * row->c[p], turn);
+        }
+    }
+}
+
+double
+bt__dynamic_bend_energy (const bt__dynamic_work *w, const bt_vec3 *X)
+{
+  double sum = 0;
+  for (int k = 0; k < w->bends; k++)
+    {
+      bt_vec3 turn = turn_of (w->bend + k, X);
+      sum += 0.5 * w->bend[k].k * bt__dot (turn, turn);
+    }
+  return sum;
+}

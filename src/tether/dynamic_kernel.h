@@ -1,0 +1,165 @@
+/* What the rooms of the dynamic line share: one step's constants and its workspace.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_TETHER_DYNAMIC_KERNEL_H
+#define BT_TETHER_DYNAMIC_KERNEL_H
+
+#include "math/vec.h"
+#include "tether/dynamic.h"
+
+/* A function of the innermost loop, worth its place there more than once.  */
+#if defined __GNUC__
+#define BT__HOT inline __attribute__ ((always_inline))
+#else
+#define BT__HOT inline
+#endif
+
+/* A symmetric 3 x 3 block.  */
+typedef struct bt__sym
+{
+  double xx, xy, xz, yy, yz, zz;
+} bt__sym;
+
+typedef struct bt__full
+{
+  double m[3][3];
+} bt__full;
+
+/* What is lumped at a node, beside the line.  */
+typedef struct bt__extra
+{
+  double mass, weight, linear, quadratic; /* mass with added mass */
+  bt_vec3 force;
+} bt__extra;
+
+/* One interval of a step: what does not change while it is solved, and the present iterate.  */
+typedef struct bt__link
+{
+  double rest, ka, zero, rho; /* m, N/m, m: length of no tension, N/m: see assemble_link */
+  double thrust;              /* N: what bending pushes along the line, see dynamic_bend.c */
+  double slack, start;        /* N/m, m: resistance to a change of length from START */
+  double tension, pull;       /* N: of the line, and all that pulls its nodes together */
+  double kg, kd;              /* N/m: K = kg 1 + kd t t^T */
+  bt_vec3 t;                  /* unit tangent */
+  int active, pad;
+} bt__link;
+
+/* One node of a step.  */
+typedef struct bt__node
+{
+  double cell;             /* m of line it stands for */
+  bt_vec3 v0, a0;          /* v = b0 (X - x) + v0, a = b0 v + a0 */
+  bt_vec3 current, tau;    /* of the water; unit tangent */
+  bt_vec3 acc, across;     /* acceleration; relative velocity across the line, ... */
+  double side, per_side, along; /* ... its size and one by it, and along the line */
+} bt__node;
+
+/* One row of bending: w = sum of c[k] X[first + k] - d, energy k |w|^2 / 2.  */
+typedef struct bt__bend
+{
+  int first, count;
+  double k, c[3];
+  bt_vec3 d;
+} bt__bend;
+
+struct bt__dynamic_work
+{
+  int n_max;
+  /* ---- of the step ---- */
+  const bt__dynamic_input *in;
+  int n, lo, hi;    /* unknown nodes LO to HI */
+  int bends, lumped; /* rows of bending; nonzero if any node has extras */
+  double b0, b1, b2;
+  double ea, kn, kt, m, ma, weight; /* N, drag, mass and wet weight per metre */
+  double stiffen;           /* of ka: the least geometric stiffness, see safe */
+  double tolerance;         /* m */
+  const bt_vec3 *x;         /* positions at the start */
+  const bt_vec3 *chord, *load; /* fourth-order parts, NULL if none */
+  /* ---- arrays ---- */
+  bt_vec3 *X, *d, *rhs, *keep; /* iterate, update, right-hand side, spare */
+  double *lam;
+  bt__link *link;
+  bt__node *node;
+  bt__extra *extra;
+  bt__sym *diag, *off; /* off-diagonal blocks are minus OFF */
+  bt__full *up, *up2;  /* eliminated */
+  bt__bend *bend;
+  double *bend_diag, *bend_off, *bend_far;
+};
+
+/* Ways to assemble: which tangents, whose activity.  */
+typedef enum bt__mode
+{
+  BT__QUICK,  /* activity and geometric stiffness by the multipliers; tangents of the iterate */
+  BT__FROZEN, /* the same, tangents kept */
+  BT__SAFE    /* activity and geometric stiffness by the stretch, tangents kept: a gradient */
+} bt__mode;
+
+/* Prepare WORK for a step of D by INPUT: constants, differences, predictor, current.  REST0 is the
+   rest length of the first interval at the end of the step.  */
+void bt__dynamic_prepare (bt__dynamic_work *w, const bt__dynamic *d, const bt__dynamic_input *in,
+                          double rest0);
+
+/* Fill the blocks and right-hand sides at the iterate X.  Return nonzero if an interval went slack or
+   taut since the last call.  */
+int bt__dynamic_assemble (bt__dynamic_work *w, bt__mode mode);
+
+/* The incremental potential of which the right-hand side in SAFE mode is minus the gradient, J.  */
+double bt__dynamic_potential (const bt__dynamic_work *w);
+
+/* Drag, weight and inertia of the line about node I, N.  */
+bt_vec3 bt__dynamic_node_load (bt__dynamic_work *w, int i);
+
+/* Force of the line on end K (0, 1), N.  */
+bt_vec3 bt__dynamic_end_pull (bt__dynamic_work *w, int k);
+
+/* Solve for the update D; return its largest, NaN if any is not finite.  */
+double bt__dynamic_solve (bt__dynamic_work *w);
+
+/* Iterate X to the solution.  Return nonzero if it is one; on return zero X may hold anything.  */
+int bt__dynamic_newton (bt__dynamic_work *w, bt__dynamic_report *report);
+
+/* Bending: set up the rows, add their forces to RHS, return their energy.  */
+void bt__dynamic_bend_prepare (bt__dynamic_work *w);
+void bt__dynamic_bend_thrust (bt__dynamic_work *w);
+void bt__dynamic_bend_force (bt__dynamic_work *w);
+double bt__dynamic_bend_energy (const bt__dynamic_work *w, const bt_vec3 *X);
+
+/* Relax the fourth-order parts of D toward those of its shape and of the present loads.  */
+void bt__dynamic_correct (bt__dynamic *d, bt__dynamic_work *w);
+
+static inline bt_vec3
+bt__sym_apply (const bt__sym *a, bt_vec3 v)
+{
+  return bt__vec (a->xx * v.x + a->xy * v.y + a->xz * v.z, a->xy * v.x + a->yy * v.y + a->yz * v.z,
+                  a->xz * v.x + a->yz * v.y + a->zz * v.z);
+}
+
+/* A += K 1 + Q u u^T.  */
+static inline void
+bt__sym_add (bt__sym *a, double k, double q, bt_vec3 u)
+{
+  double qx = q * u.x, qy = q * u.y, qz = q * u.z;
+  a->xx += k + qx * u.x;
+  a->xy += qx * u.y;
+  a->xz += qx * u.z;
+  a->yy += k + qy * u.y;
+  a->yz += qy * u.z;
+  a->zz += k + qz * u.z;
+}
+
+/* Velocity and acceleration of node I at X.  */
+static inline bt_vec3
+bt__node_v (const bt__dynamic_work *w, int i)
+{
+  return bt__axpy (w->node[i].v0, w->b0, bt__sub (w->X[i], w->x[i]));
+}
+
+static inline bt_vec3
+bt__node_a (const bt__dynamic_work *w, int i, bt_vec3 v)
+{
+  return bt__axpy (w->node[i].a0, w->b0, v);
+}
+
+#endif

@@ -1,0 +1,175 @@
+/* The moving line: the iterations of a step.
+
+   The quick way is the mixed primal-dual active set of METHODS T2.1: each interval's multiplier,
+   the linearised tension, sets the geometric stiffness and decides with the stretch whether the
+   interval is taut.  One iteration is enough in ordinary motion.  Where it does not settle, the
+   safe way restarts from the better of predictor and present shape and descends on the incremental
+   potential, so that no step ever gains energy out of nothing.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "tether/dynamic_kernel.h"
+
+enum
+{
+  QUICK = 30,
+  TURNING = 2, /* iterations in which the node tangents follow */
+  SAFE = 60,
+  HALVINGS = 8
+};
+
+#define LOST 1e3 /* of the length: an update that has left every shape */
+
+static void
+update_multipliers (bt__dynamic_work *w)
+{
+  for (int j = 0; j < w->n; j++)
+    {
+      const bt__link *k = w->link + j;
+      double closing = bt__dot (k->t, bt__sub (w->d[j + 1], w->d[j]));
+      w->lam[j] = k->active ? k->tension + k->ka * closing : 0;
+    }
+}
+
+static void
+move (bt__dynamic_work *w, const bt_vec3 *from, double share)
+{
+  for (int i = w->lo; i <= w->hi; i++)
+    w->X[i] = bt__axpy (from[i], share, w->d[i]);
+}
+
+static int
+quick (bt__dynamic_work *w, bt__dynamic_report *report)
+{
+  double lost = LOST / 1e-5 * w->tolerance;
+  for (int i = 0; i < QUICK; i++)
+    {
+      int changed = bt__dynamic_assemble (w, i < TURNING ? BT__QUICK : BT__FROZEN);
+      double most = bt__dynamic_solve (w);
+      report->solves++;
+      report->update = most;
+      if (!(most <= lost))
+        return 0;
+      update_multipliers (w);
+      move (w, w->X, 1);
+      if (most <= w->tolerance && (i == 0 || !changed))
+        return 1;
+    }
+  return 0;
+}
+
+/* ---- The safe way ---- */
+
+static void
+save (bt__dynamic_work *w)
+{
+  memcpy (w->keep, w->X, (size_t)(w->n + 1) * sizeof *w->X);
+}
+
+/* Start where the potential is lower: the predictor, in KEEP, or the present shape.  */
+static double
+start (bt__dynamic_work *w)
+{
+  double here, there;
+  for (int i = w->lo; i <= w->hi; i++)
+    w->X[i] = w->x[i];
+  here = bt__dynamic_potential (w);
+  memcpy (w->X + w->lo, w->keep + w->lo, (size_t)(w->hi - w->lo + 1) * sizeof *w->X);
+  there = bt__dynamic_potential (w);
+  if (there < here)
+    return there;
+  for (int i = w->lo; i <= w->hi; i++)
+    w->X[i] = w->x[i];
+  return here;
+}
+
+/* Move along D until the potential is no larger than PHI; return it, or NaN.  */
+static double
+descend (bt__dynamic_work *w, double phi)
+{
+  double share = 1;
+  save (w);
+  for (int i = 0; i < HALVINGS; i++, share *= 0.5)
+    {
+      move (w, w->keep, share);
+      double next = bt__dynamic_potential (w);
+      if (next <= phi)
+        return next;
+    }
+  move (w, w->keep, 0);
+  return NAN;
+}
+
+/* The tangents of the present shape: the quick way may have left any.  */
+static void
+keep_tangents (bt__dynamic_work *w)
+{
+  for (int i = 0; i <= w->n; i++)
+    {
+      bt_vec3 chord = bt__sub (w->x[i < w->n ? i + 1 : i], w->x[i > 0 ? i - 1 : i]);
+      w->node[i].tau = bt__unit_or (chord, bt__vec (0, 0, -1));
+    }
+}
+
+/* Where Newton's direction does not descend it swings nodes too far across a tight line.  As stiff
+   across as along, an interval's block is nowhere less than its energy's curvature, and every
+   step descends; so the stiffness across is raised until one does.  */
+static double
+stiffer (double now)
+{
+  return now > 0 ? fmin (30 * now, 1) : 1e-3;
+}
+
+static double
+softer (double now)
+{
+  return now > 1e-3 ? now / 10 : 0;
+}
+
+static int
+safe (bt__dynamic_work *w, bt__dynamic_report *report)
+{
+  keep_tangents (w);
+  double phi = start (w);
+  int settled = 0;
+  for (int i = 0; i < SAFE && !settled; i++)
+    {
+      bt__dynamic_assemble (w, BT__SAFE);
+      report->update = bt__dynamic_solve (w);
+      report->solves++;
+      if (!isfinite (report->update) || !isfinite (phi))
+        {
+          report->update = NAN;
+          return 0;
+        }
+      settled = report->update <= w->tolerance && !(w->stiffen > 0);
+      double next = descend (w, phi);
+      if (!(next <= phi) && w->stiffen >= 1)
+        break;
+      w->stiffen = next <= phi ? softer (w->stiffen) : stiffer (w->stiffen);
+      phi = next <= phi ? next : phi;
+    }
+  w->stiffen = 0;
+  bt__dynamic_assemble (w, BT__SAFE);
+  for (int j = 0; j < w->n; j++)
+    w->lam[j] = w->link[j].tension;
+  return settled;
+}
+
+int
+bt__dynamic_newton (bt__dynamic_work *w, bt__dynamic_report *report)
+{
+  if (w->lo > w->hi)
+    {
+      bt__dynamic_assemble (w, BT__SAFE);
+      w->lam[0] = w->link[0].tension;
+      return 1;
+    }
+  save (w); /* the predictor, for the safe way */
+  if (quick (w, report))
+    return 1;
+  report->safeguarded = 1;
+  return safe (w, report);
+}

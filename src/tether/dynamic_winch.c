@@ -1,0 +1,174 @@
+/* The moving line: nodes that come and go at the winch, and the knife.
+
+   A split or a join changes the chords that stand for the same curve.  Were the rest lengths simply
+   divided or added, the tension would jump by EA times the difference, tens of newtons for a line
+   that hangs.  So the rest lengths follow the chords at the stretch there was, and the line's length
+   is kept by what is owed, which the winch pays slowly.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "math/vec.h"
+#include "tether/dynamic.h"
+
+#define SPLIT 1.6 /* of a piece: the first interval is split beyond, ... */
+#define JOIN 0.4  /* ... and joined below; far apart, so that neither undoes the other */
+
+enum
+{
+  LEAST_INTERVALS = 2
+};
+
+/* Make room for, or remove, element AT of an array of N.  */
+static void
+shift (void *array, size_t size, int64_t at, int64_t n, int by)
+{
+  char *p = array;
+  if (by > 0)
+    memmove (p + (size_t)(at + 1) * size, p + (size_t)at * size, (size_t)(n - at) * size);
+  else
+    memmove (p + (size_t)at * size, p + (size_t)(at + 1) * size, (size_t)(n - at - 1) * size);
+}
+
+/* Shift node 1 and interval 0 of every array.  */
+static void
+shift_all (bt__dynamic *d, int by)
+{
+  bt_vec3 *nodes[] = { bt__dynamic_x (d), bt__dynamic_v (d), bt__dynamic_dx (d), bt__dynamic_vp (d),
+                       bt__dynamic_load (d) };
+  double *intervals[] = { bt__dynamic_tension (d), bt__dynamic_rest (d), bt__dynamic_stretch (d),
+                          bt__dynamic_dstretch (d) };
+  for (int k = 0; k < 5; k++)
+    shift (nodes[k], sizeof (bt_vec3), 1, d->n + 1, by);
+  for (int k = 0; k < 4; k++)
+    shift (intervals[k], sizeof (double), 0, d->n, by);
+  shift (bt__dynamic_chord (d), sizeof (bt_vec3), 0, d->n, by);
+  d->n += by;
+}
+
+static bt_vec3
+between (const bt_vec3 *a, double u)
+{
+  return bt__axpy (bt__scale (1 - u, a[0]), u, a[2]);
+}
+
+/* A point of the curve, not of the chord: the line goes on bending as it does at the next node.  */
+static bt_vec3
+bow (const bt_vec3 *x, const double *rest, double a, double b)
+{
+  bt_vec3 c0 = bt__scale (1 / (a + b), bt__sub (x[2], x[0])),
+          c1 = bt__scale (1 / rest[2], bt__sub (x[3], x[2]));
+  double cell = 0.5 * (a + b + rest[2]);
+  return bt__scale (-0.5 * a * b / cell, bt__sub (c1, c0));
+}
+
+static void
+split (bt__dynamic *d)
+{
+  double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d);
+  bt_vec3 *x = bt__dynamic_x (d);
+  double whole = rest[0], a = whole - d->piece, b = d->piece, u = a / whole;
+  int taut = bt__dynamic_tension (d)[0] > 0;
+  shift_all (d, 1);
+  bt_vec3 *nodes[] = { bt__dynamic_v (d), bt__dynamic_dx (d), bt__dynamic_vp (d) };
+  for (int k = 0; k < 3; k++)
+    nodes[k][1] = between (nodes[k], u);
+  x[1] = between (x, u);
+  bt__dynamic_load (d)[1] = bt__vec (0, 0, 0);
+  bt__dynamic_chord (d)[0] = bt__dynamic_chord (d)[1] = bt__vec (0, 0, 0);
+  rest[0] = a;
+  rest[1] = b;
+  if (!taut)
+    return;
+  if (d->n > 2 && bt__dynamic_tension (d)[2] > 0)
+    x[1] = bt__add (x[1], bow (x, rest, a, b));
+  rest[0] = bt__distance (x[0], x[1]) / e[0];
+  rest[1] = bt__distance (x[1], x[2]) / e[1];
+  d->owed += whole - rest[0] - rest[1];
+}
+
+static void
+join (bt__dynamic *d)
+{
+  double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d), *t = bt__dynamic_tension (d),
+         *de = bt__dynamic_dstretch (d);
+  double whole = rest[0] + rest[1], u = rest[0] / whole, chord;
+  double mean[] = { u * t[0] + (1 - u) * t[1], u * e[0] + (1 - u) * e[1],
+                    u * de[0] + (1 - u) * de[1] };
+  int taut = t[0] > 0 && t[1] > 0;
+  shift_all (d, -1);
+  chord = bt__distance (bt__dynamic_x (d)[0], bt__dynamic_x (d)[1]);
+  bt__dynamic_chord (d)[0] = bt__vec (0, 0, 0);
+  t[0] = mean[0];
+  de[0] = mean[2];
+  rest[0] = taut ? chord / mean[1] : whole;
+  e[0] = chord / rest[0];
+  d->owed += whole - rest[0];
+}
+
+void
+bt__dynamic_wind (bt__dynamic *d)
+{
+  while (d->n < d->n_max && bt__dynamic_rest (d)[0] > SPLIT * d->piece)
+    split (d);
+  while (d->n > LEAST_INTERVALS && bt__dynamic_rest (d)[0] < JOIN * d->piece)
+    join (d);
+}
+
+/* ---- The knife ---- */
+
+/* Copy what D has of nodes FIRST on, COUNT intervals of it, to TO.  */
+static void
+copy_part (const bt__dynamic *d, int64_t first, int64_t count, bt__dynamic *to)
+{
+  memset (to, 0, bt__dynamic_size ((int)d->n_max));
+  *to = *d;
+  to->n = count;
+  bt_vec3 *(*const nodes[]) (const bt__dynamic *)
+      = { bt__dynamic_x, bt__dynamic_v, bt__dynamic_dx, bt__dynamic_vp, bt__dynamic_load };
+  double *(*const intervals[]) (const bt__dynamic *)
+      = { bt__dynamic_tension, bt__dynamic_rest, bt__dynamic_stretch, bt__dynamic_dstretch };
+  for (int k = 0; k < 5; k++)
+    memcpy (nodes[k](to), nodes[k](d) + first, (size_t)(count + 1) * sizeof (bt_vec3));
+  for (int k = 0; k < 4; k++)
+    memcpy (intervals[k](to), intervals[k](d) + first, (size_t)count * sizeof (double));
+  memcpy (bt__dynamic_chord (to), bt__dynamic_chord (d) + first, (size_t)count * sizeof (bt_vec3));
+}
+
+/* Halve interval J of D, at whose node END the line now ends.  */
+static void
+new_end (bt__dynamic *d, int64_t j, int64_t end)
+{
+  bt_vec3 *(*const nodes[]) (const bt__dynamic *)
+      = { bt__dynamic_x, bt__dynamic_v, bt__dynamic_dx, bt__dynamic_vp };
+  for (int k = 0; k < 4; k++)
+    {
+      bt_vec3 *a = nodes[k](d);
+      a[end] = bt__scale (0.5, bt__add (a[j], a[j + 1]));
+    }
+  bt__dynamic_load (d)[end] = bt__vec (0, 0, 0);
+  bt__dynamic_chord (d)[j] = bt__vec (0, 0, 0);
+  bt__dynamic_rest (d)[j] *= 0.5;
+  bt__dynamic_tension (d)[j] = 0;
+  d->pull[end ? 1 : 0] = bt__vec (0, 0, 0);
+  d->history = 0;
+}
+
+void
+bt__dynamic_cut (const bt__dynamic *d, int j, bt__dynamic *a, bt__dynamic *b)
+{
+  if (b)
+    {
+      copy_part (d, j, d->n - j, b);
+      new_end (b, 0, 0);
+      b->owed = 0;
+    }
+  if (a && a != d)
+    copy_part (d, 0, j + 1, a);
+  if (a)
+    {
+      a->n = j + 1;
+      new_end (a, j, j + 1);
+    }
+}

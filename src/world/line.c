@@ -1,0 +1,143 @@
+/* Asking a tether, be it a static shape or the moving line.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+
+#include "math/vec.h"
+#include "world/line.h"
+
+bt__line
+bt__line_of (const bt_dive *dive, bt__state *state, int i)
+{
+  bt__line line = { .tether = bt__dive_tether (dive, state, i) };
+  if (line.tether->shape.form == BT__FORM_CHAIN)
+    {
+      line.chain = bt__dive_chain (dive, state, i, 0);
+      line.far_chain = bt__dive_chain (dive, state, i, line.tether->parted ? 1 : 0);
+      return line;
+    }
+  line.nodes = bt__dive_nodes (dive, state, i);
+  line.tensions = bt__dive_tensions (dive, state, i);
+  return line;
+}
+
+bt__line
+bt__line_tail (const bt__line *line)
+{
+  bt__line tail = *line;
+  tail.chain = line->far_chain;
+  return tail;
+}
+
+double
+bt__line_length (const bt__line *line)
+{
+  return line->chain ? bt__dynamic_length (line->chain) : line->tether->shape.length;
+}
+
+/* ---- The model's own points ---- */
+
+int
+bt__line_points (const bt__line *line)
+{
+  if (line->chain)
+    return (int)line->chain->n + 1;
+  switch (line->tether->shape.form)
+    {
+    case BT__FORM_STRAIGHT:
+      return 2;
+    case BT__FORM_V:
+      return 3;
+    default:
+      return (int)line->tether->props.nodes + 1;
+    }
+}
+
+static double
+chain_share (const bt__dynamic *chain, int k)
+{
+  const double *rest = bt__dynamic_rest (chain);
+  double s = 0;
+  for (int j = 0; j < k; j++)
+    s += rest[j];
+  return s;
+}
+
+double
+bt__line_share (const bt__line *line, int k)
+{
+  const bt__shape *shape = &line->tether->shape;
+  int n = bt__line_points (line);
+  if (line->chain)
+    return chain_share (line->chain, k);
+  if (shape->form == BT__FORM_V && k == 1)
+    return shape->v.l1 * (shape->length / (shape->v.l1 + shape->v.l2));
+  return k == n - 1 ? shape->length : shape->length * k / (n - 1);
+}
+
+/* ---- Anywhere along the line ---- */
+
+bt_vec3
+bt__line_point (const bt__line *line, double s)
+{
+  if (line->chain)
+    return bt__dynamic_point (line->chain, s);
+  return bt__shape_point (&line->tether->shape, line->nodes, line->tensions, s);
+}
+
+/* The direction between two points a hundredth of an interval to either side.  */
+static bt_vec3
+chain_tangent (const bt__dynamic *chain, double s)
+{
+  double length = bt__dynamic_length (chain), e = 0.01 * length / (double)chain->n;
+  bt_vec3 a = bt__dynamic_point (chain, fmax (s - e, 0));
+  bt_vec3 b = bt__dynamic_point (chain, fmin (s + e, length));
+  return bt__unit_or (bt__sub (b, a), bt__vec (0, 0, -1));
+}
+
+bt_vec3
+bt__line_tangent (const bt__line *line, double s)
+{
+  if (line->chain)
+    return chain_tangent (line->chain, s);
+  return bt__shape_tangent (&line->tether->shape, line->nodes, line->tensions, s);
+}
+
+/* Between the tensions of the nodes to either side.  */
+static double
+chain_tension (const bt__dynamic *chain, double s)
+{
+  const double *rest = bt__dynamic_rest (chain);
+  int i = 0, last = (int)chain->n - 1;
+  double k, t0, t1;
+  for (; i < last && s > rest[i]; i++)
+    s -= rest[i];
+  k = fmax (0, fmin (1, s / rest[i]));
+  t0 = bt__dynamic_node_tension (chain, i);
+  t1 = bt__dynamic_node_tension (chain, i + 1);
+  return t0 + k * (t1 - t0);
+}
+
+double
+bt__line_tension (const bt__line *line, double s)
+{
+  if (line->chain)
+    return chain_tension (line->chain, s);
+  return bt__shape_tension (&line->tether->shape, line->nodes, line->tensions, s);
+}
+
+double
+bt__chain_error (const bt__dynamic *chain)
+{
+  return 2.5 * bt__dynamic_space_error (chain);
+}
+
+bt_vec3
+bt__line_force (const bt__line *line)
+{
+  double s = bt__line_length (line);
+  if (line->far_chain)
+    return line->far_chain->pull[1];
+  return bt__scale (-bt__line_tension (line, s), bt__line_tangent (line, s));
+}

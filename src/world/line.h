@@ -1,0 +1,43 @@
+/* One tether, whatever model moves it, ready to be asked.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_WORLD_LINE_H
+#define BT_WORLD_LINE_H
+
+#include "world/dive.h"
+
+typedef struct bt__line
+{
+  const bt__tether *tether;
+  const bt_vec3 *nodes, *tensions; /* of a static shape */
+  const bt__dynamic *chain;        /* of the moving line, from the anchor on; else NULL */
+  const bt__dynamic *far_chain;    /* what hangs from the far end: CHAIN, or its other part */
+} bt__line;
+
+/* Return tether I of STATE.  */
+bt__line bt__line_of (const bt_dive *dive, bt__state *state, int i);
+
+/* Return the other part of LINE, which has parted: from its new end to the far end.  */
+bt__line bt__line_tail (const bt__line *line);
+
+/* Arc length from the anchor to the far end, or to where the line has parted, m.  */
+double bt__line_length (const bt__line *line);
+
+/* How many points show LINE, and the arc length of the K-th of them.  */
+int bt__line_points (const bt__line *line);
+double bt__line_share (const bt__line *line, int k);
+
+/* Point, unit tangent toward the far end, and tension (N) at arc length S.  */
+bt_vec3 bt__line_point (const bt__line *line, double s);
+bt_vec3 bt__line_tangent (const bt__line *line, double s);
+double bt__line_tension (const bt__line *line, double s);
+
+/* Return an upper estimate of the error in position that comes of the nodes of CHAIN, m: the estimator
+   of bt__dynamic_space_error times the most it was seen to fall short by.  */
+double bt__chain_error (const bt__dynamic *chain);
+
+/* The force of LINE on what its far end is fastened to, N.  */
+bt_vec3 bt__line_force (const bt__line *line);
+
+#endif

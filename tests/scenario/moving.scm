@@ -1,0 +1,246 @@
+;;; The moving line: it comes to rest where `steady' says, sleeps and wakes, snaps, parts, is wound, and
+;;; is the same every time.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define (moving)
+  ;; 40 m of neutral line across a current of 0.5 m/s; the vehicle 20 m across and 10 m up-current.
+  (world (sea    (depth 60) (current 0.5 90))
+         (rov    (named minnow) (at -10 20 0))
+         (tether (named line) (type fathom) (wet-weight 0) (cdt 0) (from 0 0 0) (to minnow)
+                 (length 40) (model dynamic))))
+
+(define-scenario it-rests-where-steady-says
+  "Disturbed and left alone, the moving line returns to the equilibrium, with its tension q A."
+  (in (moving))
+  (expect (rov-tension) is (about 5.512 #:within 0.02))
+  (drive! #:surge -1)
+  (run 5)
+  (place! '(-10 20 0))
+  (release!)
+  (expect (settle! #:within 0.001 #:at-most 600))
+  (expect (tether-force) is (about '(5.4175 -1.0163 0) #:within 0.06))
+  (expect (point-at 20) is (about '(8.6038 13.2493 0) #:within 0.02)))
+
+(define-scenario it-bends-as-it-is-towed
+  "A moving line lags: its middle trails behind the vehicle's motion, and it pulls harder."
+  (in (moving))
+  (let ((rest (rov-tension)))
+    (drive! #:sway -1)
+    (run 5)
+    (expect (rov-tension) is (above (* 1.5 rest)))))
+
+(define-scenario it-sleeps-and-wakes
+  "At rest it is not stepped at all; one step after its end moves it is awake."
+  (in (moving))
+  (run-until asleep? #:at-most 900)
+  (expect (asleep?))
+  (let ((solves (assq-ref (profile) 'chain-solves)))
+    (run 60)
+    (expect (assq-ref (profile) 'chain-solves) => solves)
+    (drive! #:surge 0.5)
+    (step!)
+    (expect (assq-ref (profile) 'chain-solves) is (above solves))
+    (expect (asleep?) => #f)))
+
+(define-scenario the-current-wakes-it
+  "A sleeping line feels a new current."
+  (in (moving))
+  (run-until asleep? #:at-most 900)
+  (current! 1.0 90)
+  (run 60)
+  (expect (rov-tension) is (about 22.05 #:within 0.5)))
+
+(define-scenario winding-makes-no-spike
+  "Ten metres out and in again at half a metre a second: the length is exact, and the tension never jumps
+as nodes come and go.  (Hauling raises it by drawing the bow up the current: twice the speed through the
+water there, four times the drag.)"
+  (in (world (sea (depth 100) (current 0.5 90))
+             (rov (named minnow) (at 0 45 0))
+             (tether (named line) (type fathom) (wet-weight 0) (from 0 0 0) (to minnow) (length 50)
+                     (model dynamic))))
+  (run 30)
+  (let ((steady (max-tension)) (last (max-tension)))
+    (define (smooth?)
+      ;; No more than a seventh of the steady tension in a sixtieth of a second.
+      (let ((jump (abs (- (max-tension) last))))
+        (set! last (max-tension))
+        (< jump (/ steady 7))))
+    (pay-out! 10 #:rate 0.5)
+    (always (smooth?) (run 25))
+    (expect (tether-length) is (about 60 #:within 1e-9))
+    (run 30)
+    (haul-in! 10 #:rate 0.5)
+    (always (smooth?) (run 25))
+    (expect (tether-length) is (about 50 #:within 1e-9))
+    (run 60)
+    (expect (max-tension) is (about steady #:within (* 0.05 steady)))))
+
+(define-scenario it-parts-at-its-breaking-load
+  "A weak line driven taut parts once; both parts go on moving and the vehicle is free."
+  (in (world (sea (current 0.2 90))
+             (rov (named minnow) (at 0 15 -5) (pull 1000))
+             (tether (named line) (type fathom) (breaking-load 50) (from 0 0 -5) (to minnow)
+                     (length 20) (model dynamic))))
+  (drive! #:surge 1)
+  (run 12)
+  (expect (parted?))
+  (expect (length (filter (lambda (e) (eq? (car e) 'parted)) (events))) => 1)
+  (expect (y (rov-position)) is (above 25))
+  (expect (tether-length) is (below 20))
+  (expect (array-dimensions (tether-tail)) is (lambda (d) (= 3 (cadr d))))
+  (let ((end (point-at (tether-length))))
+    (run 5)
+    (expect (distance end (point-at (tether-length))) is (above 0.05)))
+  (expect (tether-model! 'steady) raises unsupported))
+
+(define-scenario it-is-cut-where-one-says
+  "Cut in the middle, half stays at the anchor."
+  (in (moving))
+  (run 1)
+  (expect (tether-tail) => #f)
+  (expect (cut-tether! #:at 30) is (about 30 #:within 0.7))
+  (expect (parted?))
+  (expect (cut-tether! #:at 3) raises unsupported)
+  (drive! #:surge 1)
+  (run 60)
+  (expect (held?) => #f))
+
+(define-scenario a-jerk-is-a-snap
+  "A slack line run out at speed comes taut with a jerk, once."
+  (in (world (sea) (rov (named minnow) (at 0 10 -5) (pull 300))
+             (tether (named line) (type fathom) (wet-weight 0) (ba 0) (from 0 0 -5) (to minnow)
+                     (length 20) (model dynamic))))
+  (drive! #:surge 1)
+  (run 15)
+  (expect (assq 'taut (events)))
+  (expect (max-tension) is (above 100)))
+
+(define-scenario the-same-every-time
+  "Determinism: a rerun, a fork and a restored checkpoint give the same bits."
+  (in (moving))
+  (define (fly)
+    (drive! #:surge 0.7 #:yaw 0.4)
+    (run 5)
+    (pay-out! 5)
+    (run 7)
+    (state-hash))
+  (let* ((c (checkpoint))
+         (forked (what-if (fly)))
+         (flown (fly)))
+    (expect forked => flown)
+    (restore! c)
+    (expect (fly) => flown)
+    (enter! (moving))
+    (expect (fly) => flown)))
+
+(define-scenario models-change-hands
+  "From static to moving and back, the shape goes on from where it is."
+  (in (moving))
+  (let ((middle (point-at 20)))
+    (for-each (lambda (model)
+                (tether-model! model)
+                (expect (point-at 20) is (about middle #:within 0.05))
+                (step!)
+                (expect (point-at 20) is (about middle #:within 0.05)))
+              '(steady dynamic catenary dynamic steady))))
+
+(define-scenario twist-throws-a-loop
+  "Many turns of the vehicle and little tension: the line hockles where T < M^2 / (4 EI)."
+  (in (world (sea (current 0.25 90)) (rov (named minnow) (at 0 8 -5))
+             (tether (named line) (type fathom) (wet-weight 0) (ei 0.01) (gj 0.02) (from 0 0 -5)
+                     (to minnow) (length 10) (model dynamic))))
+  (drive! #:yaw 1)
+  (run 60)
+  (expect (assq 'hockled (events)) => #f)
+  (run 120)
+  (expect (assq 'hockled (events))))
+
+
+;;; A vehicle with mass: the tether pulls back.
+
+(define (in-still-water . more)
+  (world (sea (depth 200))
+         (rov (named minnow) (type point-mass) (at 0 29.9 -50))
+         (tether (named line) (type fathom) (wet-weight 0) (from 0 0 -50) (to minnow) (length 30)
+                 (ea 20000) (ba 0) (model dynamic))))
+
+(define-scenario terminal-speed
+  "Without a tether to speak of, thrust and drag balance: d v + q v^2 = F."
+  (in (world (sea (depth 200))
+             (rov (named minnow) (type point-mass) (at 0 0 -50))))
+  (drive! #:surge 1)
+  (run 20)
+  (let ((v (rov-speed)))
+    (expect (+ (* 13.7 v) (* 141 v v)) is (about 129.7 #:within 0.1))
+    (expect v is (about 0.91 #:within 0.02))))
+
+(define-scenario the-tether-stops-the-vehicle
+  "Driven against a taut tether the vehicle stands; the tension is its thrust."
+  (in (in-still-water))
+  (drive! #:surge 0.5)
+  (run 60)
+  (expect (rov-speed) is (below 0.01))
+  (expect (rov-tension) is (about 64.85 #:within 1))
+  (expect (rov-heading) => 0))
+
+(define-scenario the-current-carries-the-vehicle
+  "With its thrusters off the vehicle drifts down-current until the tether holds it."
+  (in (with (in-still-water) (current 0.3 90)))
+  (run 300)
+  (let ((drag (+ (* 13.7 0.3) (* 141 0.09))))
+    (expect (x (rov-position)) is (above 28))
+    (expect (rov-tension) is (about drag #:within 2))))
+
+(define-scenario autopilot-with-mass
+  "It flies to a place by thrust and stops there."
+  (in (in-still-water))
+  (fly-to! '(10 5 -45) #:speed 0.5)
+  (expect (run-until arrived? #:at-most 120))
+  (expect (distance (rov-position) '(10 5 -45)) is (below 0.2))
+  (expect (follow! '((0 0 0 0) (1 0 0 0))) raises unsupported))
+
+(define-scenario snap-load
+  "A straight massless line comes taut at 0.8 m/s under a vehicle of 19.9 kg: T = v sqrt (k m)."
+  (in (world (sea (density 1) (gravity 0))
+             (rov (named minnow) (mass 19.86) (at 0 29.5 -50) (pull 1e5))
+             (tether (named line) (mass 0.0001) (wet-weight 0) (diameter 0.0005) (from 0 0 -50)
+                     (to minnow) (length 30) (ea 20000) (ba 0) (nodes 4) (breaking-load 1e4)
+                     (model dynamic))))
+  (alter! 'minnow #:thrust 100)
+  (drive! #:surge 1)
+  (run-until (lambda () (> (rov-speed) 0.8)) #:at-most 5)
+  (release!)
+  (let ((peak 0) (speed (rov-speed)))
+    (every 1/60 (set! peak (max peak (max-tension))))
+    (run 3)
+    (expect (/ peak (* speed (sqrt (* (/ 20000 30) 19.86)))) is (about 1 #:within 0.03))))
+
+
+;;; Model `auto': as many nodes as the accuracy wants.
+
+(define-scenario (auto-takes-nodes-as-needed accuracy)
+  "A finer accuracy takes more nodes, and the estimate stays within what was accepted."
+  #:for ((accuracy 0.5 0.05))
+  (in (world (sea (depth 60) (current 0.5 90))
+             (rov (named minnow) (at -10 20 0))
+             (tether (named line) (type fathom) (wet-weight 0) (from 0 0 0) (to minnow) (length 40)
+                     (model auto) (accuracy accuracy))))
+  (run 2)
+  (drive! #:surge 0.5 #:yaw 0.2)
+  (run 20)
+  (expect (error-estimate) is (below (* 1.1 accuracy)))
+  (expect (array-length (tether-points)) is (between 9 (if (= accuracy 0.5) 40 129)))
+  (accuracy! (* 2 accuracy))
+  (run 2)
+  (expect (error-estimate) is (below (* 2 accuracy))))
+
+(define-scenario energy-is-counted
+  "A moving line has energies; a static one does not."
+  (in (moving))
+  (drive! #:sway 1)
+  (run 2)
+  (expect (assq-ref (energy) 'kinetic) is (above 0.1))
+  (tether-model! 'steady)
+  (expect (energy) raises unsupported)
+  (expect (error-estimate) raises unsupported))
