@@ -20,7 +20,7 @@
             tether-points point-at tangent-at
             tensions tension-at anchor-tension rov-tension max-tension tether-force
             tether-length straight-distance taut-length free-length slack excess
-            taut? parted? asleep? settled? model-of energy error-estimate equilibria
+            taut? parted? asleep? settled? model-of energy error-estimate tightest-bend equilibria
             deviation deviation-rms deviation-mean deviation-max deviation-worst deviation?
             events profile parts find-part tether-properties))
 
@@ -184,6 +184,11 @@ distance.")
 (define (tether-properties t)
   "Return the properties of tether number T, an alist by field."
   (%tether-properties (this-engine 'describe) t))
+
+(define-verb (tightest-bend #:subject (t tether))
+  "Return the radius of the tightest bend of the tether, m, infinite when it is straight: the smallest
+circle through three neighbours among the model's own points."
+  (%tightest-bend (this-engine 'tightest-bend) t))
 
 (define-verb (energy #:subject (t tether))
   "Return the energies of the moving line in joules by kind: kinetic (added mass moves too), strain,

@@ -93,7 +93,7 @@ what it begins with.  Return the task.  Raise a &bight-error from PROC when ther
   "Evaluate the body every SECONDS of dive time from now on, between steps; return a handle."
   (every-seconds seconds (lambda () body body* ...)))
 
-(define event-kinds '(taut slack arrived spooled stalled parted snapped hockled))
+(define event-kinds '(taut slack arrived spooled stalled parted snapped hockled kinked))
 
 (define (run-on-events task kind procedure)
   ;; The state of a task for events is how many events it has seen.
@@ -107,7 +107,7 @@ what it begins with.  Return the task.  Raise a &bight-error from PROC when ther
 
 (define-verb (on (kind name) (procedure procedure))
   "Call PROCEDURE with each event of KIND from now on, between steps: taut slack arrived spooled stalled
-parted snapped hockled.  An event is a list (KIND TIME SUBJECT).  Return a handle for `cancel!'."
+parted snapped hockled kinked.  An event is a list (KIND TIME SUBJECT).  Return a handle for `cancel!'."
   (unless (memq kind event-kinds)
     (unknown-name 'on "a dive" kind event-kinds "event"))
   (unless (takes? procedure 1)

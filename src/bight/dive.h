@@ -162,7 +162,8 @@ typedef enum bt_event_kind
   BT_EVENT_STALLED,  /* a winch stopped before, on a taut tether */
   BT_EVENT_PARTED,   /* a tether broke, or was cut */
   BT_EVENT_SNAPPED,  /* a slack tether came taut with a jerk */
-  BT_EVENT_HOCKLED   /* its twist threw a loop into a tether */
+  BT_EVENT_HOCKLED,  /* its twist threw a loop into a tether */
+  BT_EVENT_KINKED    /* it was bent more tightly than it may be */
 } bt_event_kind;
 
 typedef struct bt_event
@@ -207,6 +208,10 @@ bt_status bt_tether_tensions (const bt_dive *dive, int i, int n, double *tension
 /* Write up to MAX points of the part of a parted tether I that hangs from its far end, from the new end
    on, to POINTS and return how many there are; 0 when it is whole.  */
 int bt_tether_tail (const bt_dive *dive, int i, bt_vec3 *points, int max);
+
+/* Return in *RADIUS the radius of the tightest bend of tether I, m: the smallest circle through three
+   neighbours among the model's own points; INFINITY when it is straight.  */
+bt_status bt_tether_tightest_bend (const bt_dive *dive, int i, double *radius, bt_error *error);
 
 typedef struct bt_energy
 {

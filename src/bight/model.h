@@ -22,7 +22,8 @@ enum
   BT_NAME_SIZE = 64,      /* bytes of a part's name with its final NUL */
   BT_VEHICLES_MAX = 64,
   BT_TETHERS_MAX = 64,
-  BT_NODES_MAX = 10000    /* intervals of one tether */
+  BT_NODES_MAX = 10000,   /* intervals of one tether */
+  BT_LUMPS_MAX = 32       /* clumps and floats on one tether */
 };
 
 /* The water and its current.  */
@@ -56,12 +57,25 @@ typedef struct bt_end
   char part[BT_NAME_SIZE];
 } bt_end;
 
+/* Something fastened to the line: a clump weight (buoyancy 0) or a float (mass 0), at a point or spread
+   over a section of it.  It keeps its place on the line when the winch turns.  */
+typedef struct bt_lump
+{
+  double at;       /* m of arc length from the anchor when the dive begins: its middle */
+  double span;     /* m; 0: at a point */
+  double mass;     /* kg in air, of steel */
+  double buoyancy; /* N, net */
+} bt_lump;
+
 typedef struct bt_tether_def
 {
   char name[BT_NAME_SIZE];
   bt_end from, to;
   double length;         /* paid out, m */
+  double drum;           /* the most that can be out, m */
   bt_tether_props props; /* mass or wet_weight may be NAN: it then follows from the other */
+  bt_lump lumps[BT_LUMPS_MAX];
+  double n_lumps;
 } bt_tether_def;
 
 typedef struct bt_world
@@ -108,7 +122,8 @@ typedef struct bt_field
 /* A kind of part.  */
 typedef struct bt_head
 {
-  const char *name; /* "sea", "rov", "tether" */
+  const char *name;   /* "sea", "rov", "tether", "clump", "float" */
+  const char *inside; /* the kind of part it is written in; NULL: it is a part of the world */
   const char *text;
   size_t size; /* of its struct */
   const bt_field *fields;

@@ -18,7 +18,21 @@ part_heads (void)
   const bt_head *heads = bt_heads (&n);
   SCM list = SCM_EOL;
   while (n-- > 0)
-    list = scm_cons (scm_from_utf8_symbol (heads[n].name), list);
+    if (!heads[n].inside)
+      list = scm_cons (scm_from_utf8_symbol (heads[n].name), list);
+  return list;
+}
+
+/* The kinds of things written inside parts of kind HEAD.  */
+static SCM
+inner_heads (SCM head)
+{
+  size_t n;
+  const bt_head *heads = bt_heads (&n);
+  SCM list = SCM_EOL;
+  while (n-- > 0)
+    if (heads[n].inside && scm_is_eq (head, scm_from_utf8_symbol (heads[n].inside)))
+      list = scm_cons (scm_from_utf8_symbol (heads[n].name), list);
   return list;
 }
 
@@ -110,6 +124,20 @@ typedef struct reading
   SCM function;
 } reading;
 
+static void read_lump (bt_tether_def *tether, const bt_head *head, SCM fields);
+
+/* The field NAME of parts of kind HEAD, or NULL when it is the kind of something inside them.  */
+static const bt_field *
+field_or_inner (const bt_head *head, const char *name, const bt_head **inner)
+{
+  const bt_field *field = bt_field_find (head, name);
+  bt_error unknown = { BT_ERR_NAME, "there is no such field" };
+  *inner = field ? NULL : bt_head_find (name);
+  if (!field && !(*inner && (*inner)->inside && strcmp ((*inner)->inside, head->name) == 0))
+    bt__raise ("enter!", &unknown);
+  return field;
+}
+
 static void
 read_fields (const bt_head *head, void *def, SCM fields, SCM *function)
 {
@@ -118,15 +146,13 @@ read_fields (const bt_head *head, void *def, SCM fields, SCM *function)
   for (; scm_is_pair (fields); fields = SCM_CDR (fields))
     {
       char *name = scm_to_utf8_string (scm_symbol_to_string (SCM_CAAR (fields)));
-      const bt_field *field = bt_field_find (head, name);
+      const bt_head *inner;
+      const bt_field *field = field_or_inner (head, name, &inner);
       SCM value = SCM_CDAR (fields);
       free (name);
       if (!field)
-        {
-          bt_error unknown = { BT_ERR_NAME, "there is no such field" };
-          bt__raise (who, &unknown);
-        }
-      if (field->kind == BT_FIELD_CURRENT)
+        read_lump (def, inner, value);
+      else if (field->kind == BT_FIELD_CURRENT)
         {
           bt_current current = bt__to_current (who, value, function);
           bt__check (who, bt_def_set_current (field, def, &current, &error), &error);
@@ -154,6 +180,16 @@ check_room (int n, int most, const char *what)
     return;
   snprintf (error.text, sizeof error.text, "a world has at most %d %s", most, what);
   bt__raise ("enter!", &error);
+}
+
+static void
+read_lump (bt_tether_def *tether, const bt_head *head, SCM fields)
+{
+  bt_lump lump;
+  check_room ((int)tether->n_lumps, BT_LUMPS_MAX, "clumps and floats on one tether");
+  bt_def_init (head, &lump);
+  read_fields (head, &lump, fields, NULL);
+  tether->lumps[(int)tether->n_lumps++] = lump;
 }
 
 static void
@@ -225,6 +261,8 @@ bt__define_parts (void)
   static const bt__procedure table[] = {
     { "%version", 0, 0, (scm_t_subr)version, "Return the version of the engine, a string." },
     { "%part-heads", 0, 0, (scm_t_subr)part_heads, "Return the kinds of parts, symbols." },
+    { "%inner-heads", 1, 0, (scm_t_subr)inner_heads,
+      "Return the kinds of things that are written inside parts of kind HEAD, symbols." },
     { "%head-text", 1, 0, (scm_t_subr)head_text, "Return the sentence on parts of kind HEAD." },
     { "%part-fields", 1, 0, (scm_t_subr)part_fields,
       "Return the fields of parts of kind HEAD, a list of vectors #(name kind unit text default min "

@@ -216,6 +216,17 @@ tether_tail (SCM object, SCM index)
 }
 
 static SCM
+tightest_bend (SCM object, SCM index)
+{
+  double radius;
+  bt_error error;
+  bt__check ("tightest-bend",
+             bt_tether_tightest_bend (bt__to_dive (object), scm_to_int (index), &radius, &error),
+             &error);
+  return scm_from_double (radius);
+}
+
+static SCM
 energy (SCM object, SCM index)
 {
   bt_energy e;
@@ -333,6 +344,8 @@ bt__define_questions (void)
     { "%tension-at", 3, 0, (scm_t_subr)tension_at, "Return the tension at arc length S, N." },
     { "%tether-tail", 2, 0, (scm_t_subr)tether_tail,
       "Return the points of the part of a parted tether at its far end, or #f when it is whole." },
+    { "%tightest-bend", 2, 0, (scm_t_subr)tightest_bend,
+      "Return the radius of the tightest bend of the INDEX-th tether of DIVE, m." },
     { "%energy", 2, 0, (scm_t_subr)energy,
       "Return the energies of the INDEX-th tether of DIVE by kind, J, an alist." },
     { "%equilibria", 2, 0, (scm_t_subr)equilibria,

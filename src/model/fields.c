@@ -14,6 +14,7 @@
 
 static const bt_word inextensible[] = { { "inextensible", INFINITY }, { NULL, 0 } };
 static const bt_word unbreakable[] = { { "none", INFINITY }, { NULL, 0 } };
+static const bt_word unlimited[] = { { "none", INFINITY }, { NULL, 0 } };
 static const bt_word automatic[] = { { "auto", BT_SAG_AUTO }, { NULL, 0 } };
 
 static const bt_word models[] = { { "rubber-band", BT_MODEL_RUBBER_BAND },
@@ -86,6 +87,8 @@ static const bt_field tether_fields[] = {
          "the far end: a vehicle, or a fixed point"),
   NUMBER (bt_tether_def, length, "length", "m", NAN, 0, 1e6, 1, 0, NULL,
           "paid out; pay-out! and haul-in! change it"),
+  NUMBER (bt_tether_def, drum, "drum", "m", INFINITY, 0, 1e6, 1, 0, unlimited,
+          "the most that can be out"),
   PROP (diameter, "diameter", "m", 0.0076, 0, 2, 1, NULL, "outer"),
   PROP (mass, "mass", "kg/m", NAN, 0, 1e4, 1, NULL, "in air; follows from wet-weight when not given"),
   PROP (wet_weight, "wet-weight", "N/m", NAN, -1e5, 1e5, 0, NULL,
@@ -117,11 +120,31 @@ static const bt_field tether_fields[] = {
         "of the length in rule `thesis-linear'; the thesis took 0.95"),
 };
 
+#define LUMP_PLACE                                                                                 \
+  NUMBER (bt_lump, at, "at", "m", NAN, 0, 1e6, 0, 0, NULL,                                         \
+          "arc length of its middle from the anchor when the dive begins"),                        \
+      NUMBER (bt_lump, span, "span", "m", 0, 0, 1e6, 0, 0, NULL, "the length of line it covers")
+
+static const bt_field clump_fields[] = {
+  LUMP_PLACE,
+  NUMBER (bt_lump, mass, "mass", "kg", NAN, 0, 1e5, 1, 0, NULL, "in air, of steel"),
+};
+
+static const bt_field float_fields[] = {
+  LUMP_PLACE,
+  NUMBER (bt_lump, buoyancy, "buoyancy", "N", NAN, 0, 1e6, 1, 0, NULL, "net, upward"),
+};
+
 static const bt_head heads[] = {
-  { "sea", "the water and its current", sizeof (bt_sea_def), sea_fields, COUNT_OF (sea_fields) },
-  { "rov", "a vehicle", sizeof (bt_vehicle_def), vehicle_fields, COUNT_OF (vehicle_fields) },
-  { "tether", "a tether between its anchor and a vehicle", sizeof (bt_tether_def), tether_fields,
-    COUNT_OF (tether_fields) },
+  { "sea", NULL, "the water and its current", sizeof (bt_sea_def), sea_fields,
+    COUNT_OF (sea_fields) },
+  { "rov", NULL, "a vehicle", sizeof (bt_vehicle_def), vehicle_fields, COUNT_OF (vehicle_fields) },
+  { "tether", NULL, "a tether between its anchor and a vehicle", sizeof (bt_tether_def),
+    tether_fields, COUNT_OF (tether_fields) },
+  { "clump", "tether", "a clump weight on a tether", sizeof (bt_lump), clump_fields,
+    COUNT_OF (clump_fields) },
+  { "float", "tether", "a float or a buoyant section on a tether", sizeof (bt_lump), float_fields,
+    COUNT_OF (float_fields) },
 };
 
 const bt_head *

@@ -147,6 +147,33 @@ check_unique (const bt_model *model, bt_error *error)
   return BT_OK;
 }
 
+/* Static shapes know nothing of lumps: a line that has some is a moving one.  */
+static bt_status
+check_lumps (const bt_tether_def *tether, bt_error *error)
+{
+  int n = (int)tether->n_lumps;
+  if (!(tether->n_lumps >= 0 && tether->n_lumps <= BT_LUMPS_MAX))
+    return bt__fail (error, BT_ERR_LIMIT, "tether `%s' has at most %d clumps and floats",
+                     tether->name, BT_LUMPS_MAX);
+  if (n > 0 && tether->props.model < BT_MODEL_DYNAMIC)
+    return bt__fail (error, BT_ERR_UNSUPPORTED,
+                     "tether `%s' has clumps or floats: its model must be `dynamic' or `auto'",
+                     tether->name);
+  for (int k = 0; k < n; k++)
+    {
+      const bt_lump *lump = &tether->lumps[k];
+      if (!(lump->at - lump->span / 2 >= 0 && lump->at + lump->span / 2 <= tether->length))
+        return bt__fail (error, BT_ERR_DEF,
+                         "what is fastened at %g m does not lie on the %g m of tether `%s'", lump->at,
+                         tether->length, tether->name);
+      if (!(lump->mass >= 0 && lump->mass <= 1e5 && lump->buoyancy >= 0 && lump->buoyancy <= 1e6))
+        return bt__fail (error, BT_ERR_DOMAIN,
+                         "what is fastened at %g m of tether `%s' has no such mass or buoyancy",
+                         lump->at, tether->name);
+    }
+  return BT_OK;
+}
+
 static bt_status
 compile_tether (bt_model *model, int i, bt_error *error)
 {
@@ -167,6 +194,11 @@ compile_tether (bt_model *model, int i, bt_error *error)
       && model->ends[i][0].vehicle == model->ends[i][1].vehicle)
     status = bt__fail (error, BT_ERR_DEF, "tether `%s' goes from `%s' to itself", tether->name,
                        tether->from.part);
+  if (status == BT_OK)
+    status = check_lumps (tether, error);
+  if (status == BT_OK && tether->length > tether->drum)
+    status = bt__fail (error, BT_ERR_DEF, "%g m of tether `%s' are out, of %g m on its drum",
+                       tether->length, tether->name, tether->drum);
   return status == BT_OK ? check_reach (model, i, error) : status;
 }
 

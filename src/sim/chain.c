@@ -243,6 +243,15 @@ note_hockle (const bt_dive *dive, bt__state *state, bt__tether *tether, int i)
 }
 
 static void
+note_kink (bt__state *state, bt__tether *tether, int i, double radius)
+{
+  int kinked = radius < tether->props.min_bend_radius;
+  if (kinked && !tether->kinked)
+    bt__raise_event (state, BT_EVENT_KINKED, i);
+  tether->kinked = kinked;
+}
+
+static void
 note_rest (bt__tether *tether, const bt__dynamic_report *report)
 {
   int rests = report->speed < REST_SPEED && report->acceleration < REST_ACCELERATION;
@@ -260,6 +269,42 @@ vehicle_end (const bt__vehicle *v)
                                       .linear = v->drag,
                                       .quadratic = v->quadratic_drag,
                                       .force = bt__thrust (v) } };
+}
+
+/* Steel sinks by its weight less the water it displaces; a float is a hull that weighs three tenths of
+   what it displaces.  Both drag as spheres (Cd 0.5) and add half of what they displace.  */
+static bt__dynamic_lump
+lump_of (const bt_lump *def, double from_end, const bt_water *water)
+{
+  double rho = water->density, g = water->gravity;
+  double volume = def->mass > 0 ? def->mass / 7850
+                  : rho > 0 && g > 0 ? def->buoyancy / (0.7 * rho * g)
+                                     : 0;
+  double mass = def->mass > 0 ? def->mass : 0.3 * rho * volume;
+  double radius = cbrt (3 * volume / (4 * BT__PI));
+  return (bt__dynamic_lump){ .from_end = from_end,
+                             .span = def->span,
+                             .mass = mass,
+                             .added = 0.5 * rho * volume,
+                             .wet_weight = (mass - rho * volume) * g,
+                             .quadratic = 0.5 * rho * 0.5 * BT__PI * radius * radius };
+}
+
+/* Give INPUT what is fastened to tether I between FROM and TO metres from its far end, a distance that
+   the winch does not change.  */
+static void
+fasten (const bt_dive *dive, int i, double from, double to, bt__dynamic_input *input,
+        bt__dynamic_lump *lumps)
+{
+  const bt_tether_def *def = &dive->model->tethers[i];
+  input->lumps = lumps;
+  input->n_lumps = 0;
+  for (int k = 0; k < (int)def->n_lumps; k++)
+    {
+      double from_end = def->length - def->lumps[k].at;
+      if (from_end >= from && from_end < to)
+        lumps[input->n_lumps++] = lump_of (&def->lumps[k], from_end - from, input->water);
+    }
 }
 
 static bt__dynamic_input
@@ -291,10 +336,13 @@ bring_vehicle (const bt_dive *dive, bt__state *state, int i)
 static bt_status
 step_far_part (bt_dive *dive, bt__state *state, int i, bt__dynamic_input input, bt_error *error)
 {
+  bt__dynamic *chain = bt__dive_chain (dive, state, i, 1);
+  bt__dynamic_lump lumps[BT_LUMPS_MAX];
   bt__dynamic_report report = { 0 };
+  fasten (dive, i, 0, bt__dynamic_length (chain), &input, lumps);
   input.end[0] = (bt__dynamic_end){ .free = 1 };
   input.pay = 0;
-  return step_part (dive, bt__dive_chain (dive, state, i, 1), &input, &report, error);
+  return step_part (dive, chain, &input, &report, error);
 }
 
 /* The chain follows the winch with a lag, for a drum that starts or stops at once sends a wave of
@@ -313,7 +361,9 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
   bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
   bt_water water = bt__dive_water (dive, state);
   bt__dynamic_input input = input_of (dive, state, i, &water, ends);
+  bt__dynamic_lump lumps[BT_LUMPS_MAX];
   bt__dynamic_report report = { 0 };
+  double far_length = 0;
   bt_status status;
   note_hockle (dive, state, tether, i); /* a sleeping line can be twisted too */
   if (may_sleep_on (state, tether, ends))
@@ -323,11 +373,13 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
     }
   if (tether->parted)
     {
+      far_length = bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
       status = step_far_part (dive, state, i, input, error);
       if (status != BT_OK)
         return status;
       input.end[1] = (bt__dynamic_end){ .free = 1 };
     }
+  fasten (dive, i, far_length, INFINITY, &input, lumps);
   input.pay = pay_of (tether, chain);
   status = step_part (dive, chain, &input, &report, error);
   if (status != BT_OK)
@@ -340,6 +392,7 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
   tether->tension_max = report.tension;
   note_rest (tether, &report);
   note_snap (state, tether, i, report.tension);
+  note_kink (state, tether, i, report.bend_radius);
   if (!tether->parted && report.tension > tether->props.breaking_load)
     bt__part_chain (dive, state, i, report.at);
   else if (tether->props.model == BT_MODEL_AUTO && state->step % BT__REMESH_EVERY == 0)

@@ -250,9 +250,13 @@ spool (const call *c, double sign)
 {
   bt__tether *tether = bt__dive_tether (c->dive, c->state, c->subject);
   double target = tether->length + sign * c->args[0];
+  double drum = c->dive->model->tethers[c->subject].drum;
   if (check_range (c, 0, "metres to spool", 0, 1e6) != BT_OK
       || check_range (c, 1, "a rate in m/s", 1e-6, 1000) != BT_OK)
     return BT_ERR_DOMAIN;
+  if (target > drum)
+    return bt__fail (c->error, BT_ERR_DOMAIN, "%g m are out: the drum holds %g m", tether->length,
+                     drum);
   if (target <= 0 || target > 1e6)
     return bt__fail (c->error, BT_ERR_DOMAIN, "%g m are out: it cannot be made %g m", tether->length,
                      target);

@@ -59,8 +59,9 @@ double *bt__dynamic_rest (const bt__dynamic *d);     /* m: rest lengths */
 double *bt__dynamic_stretch (const bt__dynamic *d);  /* chord / rest length */
 double *bt__dynamic_dstretch (const bt__dynamic *d); /* its change in the last step */
 
-/* Lay N intervals of LENGTH metres in all along the polyline SHAPE of M points, at rest, in *D, which
-   has room for N_MAX.  EA sets the first guess of the tensions.  BT_ERR_LIMIT or BT_ERR_DOMAIN.  */
+/* Lay N intervals of LENGTH metres in all along the polyline SHAPE of M points, at rest, in *D,
+   which has room for N_MAX.  EA sets the first guess of the tensions.  BT_ERR_LIMIT or
+   BT_ERR_DOMAIN.  */
 bt_status bt__dynamic_init (bt__dynamic *d, int n_max, int n, const bt_vec3 *shape, int m,
                             double length, double ea, bt_error *error);
 
@@ -79,12 +80,12 @@ void bt__dynamic_work_free (bt__dynamic_work *work);
 /* Something that is not line: at an end, or along the line.  */
 typedef struct bt__dynamic_lump
 {
-  double from_end;     /* m of rest length from node n (bt__dynamic_end: not used) */
-  double span;         /* m over which it is spread, 0: at a point */
-  double mass, added;  /* kg; added mass in every direction */
-  double wet_weight;   /* N, sinking positive */
+  double from_end;          /* m of rest length from node n (bt__dynamic_end: not used) */
+  double span;              /* m over which it is spread, 0: at a point */
+  double mass, added;       /* kg; added mass in every direction */
+  double wet_weight;        /* N, sinking positive */
   double linear, quadratic; /* N s/m, N s2/m2: drag against the water in every direction */
-  bt_vec3 force;       /* N, held over the step */
+  bt_vec3 force;            /* N, held over the step */
 } bt__dynamic_lump;
 
 typedef struct bt__dynamic_end
@@ -112,28 +113,28 @@ typedef struct bt__dynamic_input
 typedef struct bt__dynamic_report
 {
   int converged;
-  int solves;               /* linear solves */
-  int safeguarded;          /* nonzero: the quick iteration failed and descent took over */
-  double update;            /* m: last update */
+  int solves;                 /* linear solves */
+  int safeguarded;            /* nonzero: the quick iteration failed and descent took over */
+  double update;              /* m: last update */
   double speed, acceleration; /* the largest of any node, for the caller's sleep */
-  double tension;           /* N: the largest ... */
-  int at;                   /* ... and its interval, to be held against the breaking load */
-  double bend_radius;       /* m: the tightest, INFINITY if straight */
-  int bend_at;              /* its node */
+  double tension;             /* N: the largest ... */
+  int at;                     /* ... and its interval, to be held against the breaking load */
+  double bend_radius;         /* m: the tightest, INFINITY if straight */
+  int bend_at;                /* its node */
 } bt__dynamic_report;
 
 /* Step D by INPUT->h.  BT_ERR_DIVERGED (saying node, time and quantity) and BT_ERR_DOMAIN leave *D
    as it was.  A step that is not solved to the tolerance is taken all the same, bounded, with
-   REPORT->converged = 0.  Nodes come and go at the winch end when INPUT->pay asks for it and there is
-   room.  */
+   REPORT->converged = 0.  Nodes come and go at the winch end when INPUT->pay asks for it and there
+   is room.  */
 bt_status bt__dynamic_step (bt__dynamic *d, bt__dynamic_work *work, const bt__dynamic_input *input,
                             bt__dynamic_report *report, bt_error *error);
 
 /* ---- Winch and knife ---- */
 
-/* Split the first interval of D when it has grown, or join it with the second when it has shrunk.  The
-   tension is kept: the rest lengths follow it, and what that leaves over is owed and comes out with
-   the next half second of steps.  Called by the step.  */
+/* Split the first interval of D when it has grown, or join it with the second when it has shrunk.
+   The tension is kept: the rest lengths follow it, and what that leaves over is owed and comes out
+   with the next half second of steps.  Called by the step.  */
 void bt__dynamic_wind (bt__dynamic *d);
 
 /* Return the length of D that is out, m.  */

@@ -1,161 +1,14 @@
 /* The moving line: the equations of a step.
 
-   One pass along the line gives the tensions and stiffnesses of the intervals and the loads, inertia
-   and blocks of the nodes.  What is lumped at nodes and bending are added by passes of their own,
-   and so will a contact be: everything is a symmetric positive block and a force.
+   One pass along the line gives the tensions and stiffnesses of the intervals and the loads,
+   inertia and blocks of the nodes.  What is lumped at nodes and bending are added by passes of
+   their own, and so will a contact be: everything is a symmetric positive block and a force.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
-#include <string.h>
-
 #include "tether/dynamic_kernel.h"
 
-#define STIFFEST 1e9   /* N: what a line that cannot stretch is given */
-#define SLACK 1e-5     /* of EA: what resists a change of length in a step, ... */
-#define SLACK_INERTIA 0.05 /* ... and at most this of the inertia that does */
-#define LEVER 0.2      /* of the rest length: the shortest lever of the geometric stiffness */
-
-/* ---- Before the iterations ---- */
-
-/* The tension is T = ka (chord - zero), with the backward difference of the stretch in it.  The
-   activity test adds to the multiplier the tension a node's inertia would make of the stretch.  A
-   slack interval would be free of all stiffness, on which the iteration walks: every interval
-   resists its change of length in the step a little.  A spring to the rest length would do, but it
-   stores energy that no line has.  */
-static void
-prepare_links (bt__dynamic_work *w, const bt__dynamic *d, double rest0)
-{
-  const double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d),
-               *de = bt__dynamic_dstretch (d), *tension = bt__dynamic_tension (d);
-  double ba = w->in->line->ba, kb = w->ea + ba * w->b0, rho = w->b0 * w->b0 * w->m * kb / w->ea;
-  double inertia = SLACK_INERTIA * w->b0 * w->b0 * w->m;
-  double stiff = w->ea / kb, ba0 = ba * w->b0 / kb, ba2 = ba * w->b2 / kb;
-  for (int j = 0; j < w->n; j++)
-    {
-      bt__link *k = w->link + j;
-      k->rest = j ? rest[j] : rest0;
-      double inverse = 1 / k->rest;
-      k->ka = kb * inverse;
-      k->zero = k->rest * (stiff + ba0 * e[j] + ba2 * de[j]);
-      k->rho = rho * k->rest;
-      k->slack = fmin (SLACK * w->ea * inverse, inertia * k->rest);
-      k->start = e[j] * rest[j];
-      k->thrust = 0;
-      k->active = -1;
-      w->lam[j] = tension[j];
-    }
-}
-
-/* The end of a step is taken to its place; any other node goes on as it does.  */
-static void
-prepare_nodes (bt__dynamic_work *w, const bt__dynamic *d)
-{
-  const bt_vec3 *v = bt__dynamic_v (d), *dx = bt__dynamic_dx (d), *vp = bt__dynamic_vp (d);
-  double h = w->in->h, r = w->b2 > 0 ? h / d->h : 0;
-  for (int i = 0; i <= w->n; i++)
-    {
-      bt__node *k = w->node + i;
-      k->cell = 0.5 * ((i ? w->link[i - 1].rest : 0) + (i < w->n ? w->link[i].rest : 0));
-      k->v0 = bt__scale (-w->b2, dx[i]);
-      k->a0 = bt__axpy (bt__scale (w->b1, v[i]), w->b2, vp[i]);
-      k->tau = bt__vec (0, 0, -1);
-      bt_vec3 speed = bt__axpy (v[i], 0.5 * r, bt__sub (v[i], vp[i]));
-      w->X[i] = bt__axpy (w->x[i], h, speed);
-    }
-  w->lo = w->in->end[0].free ? 0 : 1;
-  w->hi = w->in->end[1].free ? w->n : w->n - 1;
-  if (w->lo > 0)
-    w->X[0] = w->in->end[0].at;
-  if (w->hi < w->n)
-    w->X[w->n] = w->in->end[1].at;
-}
-
-static void
-sample_current (bt__dynamic_work *w)
-{
-  const bt_water *water = w->in->water;
-  int64_t kind = water->current ? water->current->kind : BT_CURRENT_STILL;
-  int same = kind == BT_CURRENT_STILL || kind == BT_CURRENT_UNIFORM || kind == BT_CURRENT_TIDE;
-  bt_vec3 u = bt__vec (0, 0, 0);
-  if (same && kind != BT_CURRENT_STILL)
-    u = bt_water_velocity (water, w->x[0]);
-  for (int i = 0; i <= w->n; i++)
-    w->node[i].current = same ? u : bt_water_velocity (water, w->X[i]);
-}
-
-/* Add SHARE of LUMP to node I.  */
-static void
-lump_at (bt__dynamic_work *w, int i, const bt__dynamic_lump *lump, double share)
-{
-  bt__extra *e = w->extra + i;
-  e->mass += share * (lump->mass + lump->added);
-  e->weight += share * lump->wet_weight;
-  e->linear += share * lump->linear;
-  e->quadratic += share * lump->quadratic;
-  e->force = bt__axpy (e->force, share, lump->force);
-}
-
-/* Share out SHARE of LUMP at U metres from the far end between the nodes about it.  */
-static void
-lump_between (bt__dynamic_work *w, const bt__dynamic_lump *lump, double u, double share)
-{
-  int j = w->n - 1;
-  while (j > 0 && u > w->link[j].rest)
-    u -= w->link[j--].rest;
-  double at = fmin (fmax (u / w->link[j].rest, 0), 1);
-  lump_at (w, j, lump, share * at);
-  lump_at (w, j + 1, lump, share * (1 - at));
-}
-
-static void
-prepare_lumps (bt__dynamic_work *w)
-{
-  static const bt__dynamic_lump none;
-  const bt__dynamic_input *in = w->in;
-  w->lumped = in->n_lumps > 0;
-  for (int k = 0; k < 2; k++)
-    w->lumped = w->lumped
-                || (in->end[k].free && memcmp (&in->end[k].body, &none, sizeof none) != 0);
-  if (!w->lumped)
-    return;
-  memset (w->extra, 0, (size_t)(w->n + 1) * sizeof *w->extra);
-  for (int k = 0; k < 2; k++)
-    if (in->end[k].free)
-      lump_at (w, k ? w->n : 0, &in->end[k].body, 1);
-  for (int k = 0; k < in->n_lumps; k++)
-    {
-      const bt__dynamic_lump *lump = in->lumps + k;
-      int parts = lump->span > 0 ? (int)fmin (ceil (2 * lump->span / w->link[w->n - 1].rest), 64) : 1;
-      for (int p = 0; p < parts; p++)
-        lump_between (w, lump, lump->from_end + lump->span * ((p + 0.5) / parts - 0.5),
-                      1.0 / parts);
-    }
-}
-
-void
-bt__dynamic_prepare (bt__dynamic_work *w, const bt__dynamic *d, const bt__dynamic_input *in,
-                     double rest0)
-{
-  const bt_tether_props *p = in->line;
-  double half = 0.5 * in->water->density * p->diameter;
-  w->in = in;
-  w->stiffen = 0;
-  w->n = (int)d->n;
-  w->ea = fmin (p->ea, STIFFEST);
-  w->kn = half * p->cdn;
-  w->kt = half * BT__PI * p->cdt;
-  w->m = p->mass;
-  w->weight = p->wet_weight;
-  w->ma = half * p->ca * BT__PI * p->diameter / 2;
-  w->x = bt__dynamic_x (d);
-  w->chord = in->order == 4 ? bt__dynamic_chord (d) : NULL;
-  w->load = in->order == 4 ? bt__dynamic_load (d) : NULL;
-  prepare_links (w, d, rest0);
-  prepare_nodes (w, d);
-  sample_current (w);
-  prepare_lumps (w);
-  bt__dynamic_bend_prepare (w);
-}
+#define LEVER 0.2 /* of the rest length: the shortest lever of the geometric stiffness */
 
 /* ---- The intervals ---- */
 
@@ -164,6 +17,15 @@ chord_of (const bt__dynamic_work *w, int j)
 {
   bt_vec3 c = bt__sub (w->X[j + 1], w->X[j]);
   return w->chord ? bt__add (c, w->chord[j]) : c;
+}
+
+/* Make K at least LEAST stiff in every direction, slack or not.  */
+static void
+stiffen_link (bt__link *k, double least)
+{
+  double along = fmax (k->kg + k->kd, least);
+  k->kg = fmax (k->kg, least);
+  k->kd = along - k->kg;
 }
 
 /* Tension and stiffness of interval J.  Return nonzero if it went slack or taut by more than the
@@ -185,9 +47,9 @@ assemble_link (bt__dynamic_work *w, int j, int safe)
   if (length < LEVER * k->rest)
     inverse = 1 / (LEVER * k->rest);
   k->kg = held > 0 ? held * inverse : 0;
-  if (k->kg < w->stiffen * ka)
-    k->kg = w->stiffen * ka;
   k->kd = ka - k->kg;
+  if (w->stiffen > 0)
+    stiffen_link (k, w->stiffen * k->ka);
   k->active = active;
   bt__sym off = { 0 };
   bt__sym_add (&off, k->kg, k->kd, k->t);
@@ -235,11 +97,12 @@ node_load (const bt__dynamic_work *w, int i, bt__sym *a)
   double cell = k->cell, kn = w->kn * cell * k->side, kt = w->kt * cell * fabs (k->along);
   double ma = w->ma * cell, mn = w->m * cell + ma, ca = w->b0 * w->b0;
   double level = ca * mn + w->b0 * kn, turn = w->b0 * kn * k->per_side * k->per_side;
-  double tangential = w->b0 * (2 * kt - kn) - ca * ma, pull = kt * k->along + ma * bt__dot (k->acc, k->tau);
+  double tangential = w->b0 * (2 * kt - kn) - ca * ma,
+         pull = kt * k->along + ma * bt__dot (k->acc, k->tau);
   bt_vec3 t = k->tau, c = k->across, at = bt__scale (tangential, t), ac = bt__scale (turn, c);
-  *a = (bt__sym){ level + at.x * t.x + ac.x * c.x, at.x * t.y + ac.x * c.y, at.x * t.z + ac.x * c.z,
-                  level + at.y * t.y + ac.y * c.y, at.y * t.z + ac.y * c.z,
-                  level + at.z * t.z + ac.z * c.z };
+  *a = (bt__sym){ level + at.x * t.x + ac.x * c.x, at.x * t.y + ac.x * c.y,
+                  at.x * t.z + ac.x * c.z,         level + at.y * t.y + ac.y * c.y,
+                  at.y * t.z + ac.y * c.z,         level + at.z * t.z + ac.z * c.z };
   bt_vec3 f = bt__axpy (bt__axpy (bt__scale (kn, c), pull, t), -mn, k->acc);
   f.z -= w->weight * cell;
   return f;
@@ -357,8 +220,7 @@ node_potential (const bt__dynamic_work *w, int i)
   double inertia = (w->m + w->ma) * bt__dot (a, a) - w->ma * at * at;
   double drag = w->kn * s * s * s + w->kt * fabs (along) * along * along;
   double p = k->cell
-             * (0.5 * inertia / (cv * cv) + drag / (3 * cv)
-                + w->weight * (w->X[i].z - w->x[i].z));
+             * (0.5 * inertia / (cv * cv) + drag / (3 * cv) + w->weight * (w->X[i].z - w->x[i].z));
   bt_vec3 move = bt__sub (w->X[i], w->x[i]);
   if (w->load)
     p -= bt__dot (w->load[i], move);

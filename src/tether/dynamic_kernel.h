@@ -48,10 +48,10 @@ typedef struct bt__link
 /* One node of a step.  */
 typedef struct bt__node
 {
-  double cell;             /* m of line it stands for */
-  bt_vec3 v0, a0;          /* v = b0 (X - x) + v0, a = b0 v + a0 */
-  bt_vec3 current, tau;    /* of the water; unit tangent */
-  bt_vec3 acc, across;     /* acceleration; relative velocity across the line, ... */
+  double cell;                  /* m of line it stands for */
+  bt_vec3 v0, a0;               /* v = b0 (X - x) + v0, a = b0 v + a0 */
+  bt_vec3 current, tau;         /* of the water; unit tangent */
+  bt_vec3 acc, across;          /* acceleration; relative velocity across the line, ... */
   double side, per_side, along; /* ... its size and one by it, and along the line */
 } bt__node;
 
@@ -68,14 +68,14 @@ struct bt__dynamic_work
   int n_max;
   /* ---- of the step ---- */
   const bt__dynamic_input *in;
-  int n, lo, hi;    /* unknown nodes LO to HI */
+  int n, lo, hi;     /* unknown nodes LO to HI */
   int bends, lumped; /* rows of bending; nonzero if any node has extras */
   double b0, b1, b2;
   double ea, kn, kt, m, ma, weight; /* N, drag, mass and wet weight per metre */
-  double stiffen;           /* of ka: the least geometric stiffness, see safe */
-  double tolerance;         /* m */
-  const bt_vec3 *x;         /* positions at the start */
-  const bt_vec3 *chord, *load; /* fourth-order parts, NULL if none */
+  double stiffen;                   /* of ka: the least geometric stiffness, see safe */
+  double tolerance;                 /* m */
+  const bt_vec3 *x;                 /* positions at the start */
+  const bt_vec3 *chord, *load;      /* fourth-order parts, NULL if none */
   /* ---- arrays ---- */
   bt_vec3 *X, *d, *rhs, *keep; /* iterate, update, right-hand side, spare */
   double *lam;
@@ -101,8 +101,8 @@ typedef enum bt__mode
 void bt__dynamic_prepare (bt__dynamic_work *w, const bt__dynamic *d, const bt__dynamic_input *in,
                           double rest0);
 
-/* Fill the blocks and right-hand sides at the iterate X.  Return nonzero if an interval went slack or
-   taut since the last call.  */
+/* Fill the blocks and right-hand sides at the iterate X.  Return nonzero if an interval went slack
+   or taut since the last call.  */
 int bt__dynamic_assemble (bt__dynamic_work *w, bt__mode mode);
 
 /* The incremental potential of which the right-hand side in SAFE mode is minus the gradient, J.  */

@@ -113,9 +113,10 @@ keep_tangents (bt__dynamic_work *w)
     }
 }
 
-/* Where Newton's direction does not descend it swings nodes too far across a tight line.  As stiff
-   across as along, an interval's block is nowhere less than its energy's curvature, and every
-   step descends; so the stiffness across is raised until one does.  */
+/* Where Newton's direction does not descend it swings nodes too far across a tight line, or runs a
+   slack one taut.  As stiff in every direction as a taut interval along, slack or not, its block is
+   nowhere less than its energy's curvature, and every step descends; so the least stiffness is
+   raised until one does.  */
 static double
 stiffer (double now)
 {

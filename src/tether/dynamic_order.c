@@ -69,8 +69,7 @@ bt__dynamic_correct (bt__dynamic *d, bt__dynamic_work *w)
     {
       bt_vec3 q = { 0, 0, 0 };
       if (w->n >= 6 && is_regular (w, i - 1, i))
-        q = bt__scale (1.0 / 24,
-                       bt__axpy (bt__add (w->rhs[i - 1], w->rhs[i + 1]), -2, w->rhs[i]));
+        q = bt__scale (1.0 / 24, bt__axpy (bt__add (w->rhs[i - 1], w->rhs[i + 1]), -2, w->rhs[i]));
       load[i] = bt__axpy (load[i], share, bt__sub (q, load[i]));
     }
 }

@@ -4,8 +4,8 @@
 
 #include "tether/dynamic_kernel.h"
 
-/* The value of the node array A at U metres of rest length, by the cubic through the four nodes about
-   it (fewer if there are fewer).  */
+/* The value of the node array A at U metres of rest length, by the cubic through the four nodes
+   about it (fewer if there are fewer).  */
 static bt_vec3
 interpolate (const bt__dynamic *d, const bt_vec3 *a, double u)
 {

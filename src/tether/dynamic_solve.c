@@ -65,7 +65,7 @@ subtract_product (bt__sym *a, const bt__sym *k, const bt__full *g)
   a->zz -= k->xz * g->m[0][2] + k->yz * g->m[1][2] + k->zz * g->m[2][2];
 }
 
-/* Eliminate node I, reached from node FROM through the block LEFT, toward the node beyond RIGHT.  */
+/* Eliminate node I, reached from node FROM through the block LEFT, toward the node beyond RIGHT. */
 static BT__HOT void
 eliminate_node (bt__dynamic_work *w, int i, int from, const bt__sym *left, const bt__sym *right)
 {

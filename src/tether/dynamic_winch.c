@@ -2,8 +2,8 @@
 
    A split or a join changes the chords that stand for the same curve.  Were the rest lengths simply
    divided or added, the tension would jump by EA times the difference, tens of newtons for a line
-   that hangs.  So the rest lengths follow the chords at the stretch there was, and the line's length
-   is kept by what is owed, which the winch pays slowly.
+   that hangs.  So the rest lengths follow the chords at the stretch there was, and the line's
+   length is kept by what is owed, which the winch pays slowly.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -94,8 +94,8 @@ join (bt__dynamic *d)
   double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d), *t = bt__dynamic_tension (d),
          *de = bt__dynamic_dstretch (d);
   double whole = rest[0] + rest[1], u = rest[0] / whole, chord;
-  double mean[] = { u * t[0] + (1 - u) * t[1], u * e[0] + (1 - u) * e[1],
-                    u * de[0] + (1 - u) * de[1] };
+  double mean[]
+      = { u * t[0] + (1 - u) * t[1], u * e[0] + (1 - u) * e[1], u * de[0] + (1 - u) * de[1] };
   int taut = t[0] > 0 && t[1] > 0;
   shift_all (d, -1);
   chord = bt__distance (bt__dynamic_x (d)[0], bt__dynamic_x (d)[1]);

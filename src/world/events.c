@@ -49,6 +49,8 @@ bt_event_name (bt_event_kind kind)
       return "snapped";
     case BT_EVENT_HOCKLED:
       return "hockled";
+    case BT_EVENT_KINKED:
+      return "kinked";
     }
   return "unknown";
 }

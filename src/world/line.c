@@ -36,46 +36,6 @@ bt__line_length (const bt__line *line)
   return line->chain ? bt__dynamic_length (line->chain) : line->tether->shape.length;
 }
 
-/* ---- The model's own points ---- */
-
-int
-bt__line_points (const bt__line *line)
-{
-  if (line->chain)
-    return (int)line->chain->n + 1;
-  switch (line->tether->shape.form)
-    {
-    case BT__FORM_STRAIGHT:
-      return 2;
-    case BT__FORM_V:
-      return 3;
-    default:
-      return (int)line->tether->props.nodes + 1;
-    }
-}
-
-static double
-chain_share (const bt__dynamic *chain, int k)
-{
-  const double *rest = bt__dynamic_rest (chain);
-  double s = 0;
-  for (int j = 0; j < k; j++)
-    s += rest[j];
-  return s;
-}
-
-double
-bt__line_share (const bt__line *line, int k)
-{
-  const bt__shape *shape = &line->tether->shape;
-  int n = bt__line_points (line);
-  if (line->chain)
-    return chain_share (line->chain, k);
-  if (shape->form == BT__FORM_V && k == 1)
-    return shape->v.l1 * (shape->length / (shape->v.l1 + shape->v.l2));
-  return k == n - 1 ? shape->length : shape->length * k / (n - 1);
-}
-
 /* ---- Anywhere along the line ---- */
 
 bt_vec3
@@ -126,6 +86,50 @@ bt__line_tension (const bt__line *line, double s)
     return chain_tension (line->chain, s);
   return bt__shape_tension (&line->tether->shape, line->nodes, line->tensions, s);
 }
+
+/* ---- The model's own points ---- */
+
+int
+bt__line_nodes (const bt__line *line)
+{
+  if (line->chain)
+    return (int)line->chain->n + 1;
+  switch (line->tether->shape.form)
+    {
+    case BT__FORM_STRAIGHT:
+      return 2;
+    case BT__FORM_V:
+      return 3;
+    default:
+      return (int)line->tether->props.nodes + 1;
+    }
+}
+
+/* The arc length of the K-th point of a static shape: the V has one at its bend.  */
+static double
+share (const bt__line *line, int k)
+{
+  const bt__shape *shape = &line->tether->shape;
+  int n = bt__line_nodes (line);
+  if (shape->form == BT__FORM_V && k == 1)
+    return shape->v.l1 * (shape->length / (shape->v.l1 + shape->v.l2));
+  return k == n - 1 ? shape->length : shape->length * k / (n - 1);
+}
+
+bt_vec3
+bt__line_node (const bt__line *line, int k)
+{
+  return line->chain ? bt__dynamic_x (line->chain)[k] : bt__line_point (line, share (line, k));
+}
+
+double
+bt__line_node_tension (const bt__line *line, int k)
+{
+  return line->chain ? bt__dynamic_node_tension (line->chain, k)
+                     : bt__line_tension (line, share (line, k));
+}
+
+/* ---- Errors and forces ---- */
 
 double
 bt__chain_error (const bt__dynamic *chain)

@@ -24,9 +24,10 @@ bt__line bt__line_tail (const bt__line *line);
 /* Arc length from the anchor to the far end, or to where the line has parted, m.  */
 double bt__line_length (const bt__line *line);
 
-/* How many points show LINE, and the arc length of the K-th of them.  */
-int bt__line_points (const bt__line *line);
-double bt__line_share (const bt__line *line, int k);
+/* The model's own points: how many there are, and place and tension of the K-th.  */
+int bt__line_nodes (const bt__line *line);
+bt_vec3 bt__line_node (const bt__line *line, int k);
+double bt__line_node_tension (const bt__line *line, int k);
 
 /* Point, unit tangent toward the far end, and tension (N) at arc length S.  */
 bt_vec3 bt__line_point (const bt__line *line, double s);

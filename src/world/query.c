@@ -97,7 +97,7 @@ bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *erro
                             .spooling = t->winch_rate != 0,
                             .settled = t->settled != 0,
                             .asleep = t->quiet >= BT__SLEEP_AFTER,
-                            .nodes = bt__line_points (&line),
+                            .nodes = bt__line_nodes (&line),
                             .error_estimate = line.chain ? bt__chain_error (line.chain) : NAN };
   return BT_OK;
 }
@@ -143,13 +143,11 @@ bt_tether_tension (const bt_dive *dive, int i, double s, double *tension, bt_err
   return status;
 }
 
-/* The arc lengths asked for by N: equally spaced, or the model's own when N is zero.  */
+/* The arc length of point K of N, exact at both ends.  */
 static double
 share (const bt__line *line, int k, int n)
 {
   double length = bt__line_length (line);
-  if (n == 0)
-    return bt__line_share (line, k);
   return k == n - 1 ? length : length * k / (n - 1);
 }
 
@@ -161,7 +159,7 @@ ask_many (const bt_dive *dive, int i, int n, bt__line *line, int *points, bt_err
     return status;
   if (n != 0 && n < 2)
     return bt__fail (error, BT_ERR_DOMAIN, "a polyline has at least 2 points, not %d", n);
-  *points = n ? n : bt__line_points (line);
+  *points = n ? n : bt__line_nodes (line);
   return BT_OK;
 }
 
@@ -172,7 +170,7 @@ bt_tether_points (const bt_dive *dive, int i, int n, bt_vec3 *points, bt_error *
   int count = 0;
   bt_status status = ask_many (dive, i, n, &line, &count, error);
   for (int k = 0; k < count; k++)
-    points[k] = bt__line_point (&line, share (&line, k, n));
+    points[k] = n ? bt__line_point (&line, share (&line, k, n)) : bt__line_node (&line, k);
   return status;
 }
 
@@ -184,9 +182,9 @@ bt_tether_tail (const bt_dive *dive, int i, bt_vec3 *points, int max)
   if (ask (dive, i, &line, NULL) != BT_OK || !line.tether->parted)
     return 0;
   tail = bt__line_tail (&line);
-  n = bt__line_points (&tail);
+  n = bt__line_nodes (&tail);
   for (int k = 0; k < n && k < max; k++)
-    points[k] = bt__line_point (&tail, bt__line_share (&tail, k));
+    points[k] = bt__line_node (&tail, k);
   return n;
 }
 
@@ -197,8 +195,36 @@ bt_tether_tensions (const bt_dive *dive, int i, int n, double *tensions, bt_erro
   int count = 0;
   bt_status status = ask_many (dive, i, n, &line, &count, error);
   for (int k = 0; k < count; k++)
-    tensions[k] = bt__line_tension (&line, share (&line, k, n));
+    tensions[k]
+        = n ? bt__line_tension (&line, share (&line, k, n)) : bt__line_node_tension (&line, k);
   return status;
+}
+
+/* The radius of the circle through A, B and C.  */
+static double
+circle (bt_vec3 a, bt_vec3 b, bt_vec3 c)
+{
+  bt_vec3 u = bt__sub (b, a), v = bt__sub (c, b);
+  double twice = bt__norm (bt__cross (u, v));
+  return twice > 0 ? bt__norm (u) * bt__norm (v) * bt__distance (a, c) / (2 * twice) : INFINITY;
+}
+
+bt_status
+bt_tether_tightest_bend (const bt_dive *dive, int i, double *radius, bt_error *error)
+{
+  bt__line line;
+  bt_status status = ask (dive, i, &line, error);
+  bt_vec3 p[3];
+  if (status != BT_OK)
+    return status;
+  *radius = INFINITY;
+  for (int k = 0; k < bt__line_nodes (&line); k++)
+    {
+      p[k % 3] = bt__line_node (&line, k);
+      if (k >= 2)
+        *radius = fmin (*radius, circle (p[(k + 1) % 3], p[(k + 2) % 3], p[k % 3]));
+    }
+  return BT_OK;
 }
 
 bt_status

@@ -66,6 +66,7 @@ typedef struct bt__tether
   int64_t quiet;    /* DYNAMIC: steps it has rested; it sleeps when they are enough */
   int64_t slack_at; /* DYNAMIC: the step at which it was last slack */
   int64_t hockled;
+  int64_t kinked;
   bt__shape shape;
   bt__shape_memory memory;
 } bt__tether;

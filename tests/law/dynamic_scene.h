@@ -44,8 +44,8 @@ scene_close (scene *s)
   s->work = NULL;
 }
 
-/* Set S up with LINE of N intervals and LENGTH laid along the M points SHAPE, its ends held there, in
-   water of DENSITY.  */
+/* Set S up with LINE of N intervals and LENGTH laid along the M points SHAPE, its ends held there,
+   in water of DENSITY.  */
 static inline void
 scene_open (scene *s, bt_tether_props line, double density, int n, const bt_vec3 *shape, int m,
             double length)

