@@ -1,0 +1,26 @@
+/* Moving a link against one part of a scene until they come near.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_COLLIDE_CAST_H
+#define BT_COLLIDE_CAST_H
+
+#include "collide/safe.h"
+
+typedef struct bt__cast
+{
+  const bt__scene *scene;
+  const bt__near *near;     /* what, and its distance at the start */
+  const bt__motion *motion; /* of the scene, or NULL */
+  double share;             /* of that motion */
+  double radius;            /* of the scene about the motion's origin */
+  bt__link link;            /* at the start */
+  bt_vec3 da, db;           /* the moves of its ends */
+  double core;
+} bt__cast;
+
+/* Return the largest share of the move that is known to keep the axis of the link CORE away from
+   the part, if it was so at the start; 1 if all of it is.  */
+double bt__cast_run (const bt__cast *cast, bt__count *count);
+
+#endif

@@ -1,0 +1,192 @@
+/* GJK distance.
+
+   The simplex lives in A - B.  Its point nearest to 0 is sought over all its faces that have the
+   new vertex, each answer a point of the simplex, the smallest wins: slower than walking Voronoi
+   regions, but a nearly flat simplex cannot mislead it.  It ends when the support shows that no
+   point is nearer by more than rounding, when a support repeats, or when nothing is gained.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "collide/gjk.h"
+#include "collide/pair.h"
+
+enum
+{
+  STEPS_MAX = 200
+};
+
+typedef struct vertex
+{
+  bt_vec3 w, a, b;
+} vertex;
+
+typedef struct simplex
+{
+  vertex v[4];
+  double weight[4];
+  int n;
+} simplex;
+
+/* A point of the simplex: indices into it and weights.  */
+typedef struct part
+{
+  double square;
+  int n, index[3];
+  double weight[3];
+} part;
+
+static void
+keep_smaller (part *best, const part *p, const simplex *x)
+{
+  bt_vec3 at = bt__scale (p->weight[0], x->v[p->index[0]].w);
+  for (int i = 1; i < p->n; i++)
+    at = bt__axpy (at, p->weight[i], x->v[p->index[i]].w);
+  double square = bt__dot (at, at);
+  if (square < best->square)
+    {
+      *best = *p;
+      best->square = square;
+    }
+}
+
+static void
+try_vertex (const simplex *x, int i, part *best)
+{
+  part p = { 0, 1, { i, 0, 0 }, { 1, 0, 0 } };
+  keep_smaller (best, &p, x);
+}
+
+static void
+try_edge (const simplex *x, int i, int j, part *best)
+{
+  bt_vec3 a = x->v[i].w, d = bt__sub (x->v[j].w, a);
+  double t = -bt__dot (a, d), dd = bt__dot (d, d);
+  if (!(t > 0 && t < dd))
+    return;
+  part p = { 0, 2, { i, j, 0 }, { 1 - t / dd, t / dd, 0 } };
+  keep_smaller (best, &p, x);
+}
+
+static void
+try_face (const simplex *x, int i, int j, int k, part *best)
+{
+  bt_vec3 a = x->v[i].w, e = bt__sub (x->v[j].w, a), f = bt__sub (x->v[k].w, a);
+  bt_vec3 n = bt__cross (e, f), m = bt__cross (n, a);
+  double nn = bt__dot (n, n), u = -bt__dot (m, f), v = bt__dot (m, e);
+  if (!(nn > 0 && u > 0 && v > 0 && u + v < nn))
+    return;
+  part p = { 0, 3, { i, j, k }, { 1 - (u + v) / nn, u / nn, v / nn } };
+  keep_smaller (best, &p, x);
+}
+
+/* Nonzero if 0 is on the same side of the face of X without vertex I as that vertex, and clearly
+   so: by more than the roundings of the vertices make of the face's normal.  */
+static int
+is_inside_of (const simplex *x, int i, double scale)
+{
+  bt_vec3 a = x->v[(i + 1) & 3].w, b = x->v[(i + 2) & 3].w, c = x->v[(i + 3) & 3].w;
+  bt_vec3 e = bt__sub (b, a), f = bt__sub (c, a), g = bt__sub (x->v[i].w, a), n = bt__cross (e, f);
+  double own = bt__dot (n, g), zero = -bt__dot (n, a);
+  double rough = 1e-14 * scale * (bt__largest (e) + bt__largest (f));
+  return own * zero > 0 && fabs (own) > rough * bt__largest (g)
+         && fabs (zero) > rough * bt__largest (a);
+}
+
+static int
+holds_zero (const simplex *x, double scale)
+{
+  for (int i = 0; i < 4; i++)
+    if (!is_inside_of (x, i, scale))
+      return 0;
+  return 1;
+}
+
+/* Reduce X to the smallest part that has its point nearest to 0; return that point.  */
+static bt_vec3
+reduce (simplex *x)
+{
+  part best = { .square = INFINITY };
+  int last = x->n - 1; /* without it nothing is gained */
+  try_vertex (x, last, &best);
+  for (int i = 0; i < last; i++)
+    try_edge (x, i, last, &best);
+  for (int i = 0; i < last; i++)
+    for (int j = i + 1; j < last; j++)
+      try_face (x, i, j, last, &best);
+  simplex small = { .n = best.n };
+  bt_vec3 at = { 0, 0, 0 };
+  for (int i = 0; i < best.n; i++)
+    {
+      small.v[i] = x->v[best.index[i]];
+      small.weight[i] = best.weight[i];
+      at = bt__axpy (at, best.weight[i], small.v[i].w);
+    }
+  *x = small;
+  return at;
+}
+
+static int
+has (const simplex *x, bt_vec3 w)
+{
+  for (int i = 0; i < x->n; i++)
+    if (x->v[i].w.x == w.x && x->v[i].w.y == w.y && x->v[i].w.z == w.z)
+      return 1;
+  return 0;
+}
+
+static vertex
+support (const bt__convex *a, const bt__convex *b, bt_vec3 direction, int hint[2])
+{
+  vertex v;
+  v.a = a->support (a->shape, direction, hint);
+  v.b = b->support (b->shape, bt__scale (-1, direction), hint + 1);
+  v.w = bt__sub (v.a, v.b);
+  return v;
+}
+
+static void
+finish (const simplex *x, double distance, bt__gap *out)
+{
+  out->distance = distance;
+  out->a = out->b = bt__vec (0, 0, 0);
+  for (int i = 0; i < x->n; i++)
+    {
+      out->a = bt__axpy (out->a, x->weight[i], x->v[i].a);
+      out->b = bt__axpy (out->b, x->weight[i], x->v[i].b);
+    }
+}
+
+void
+bt__gjk (const bt__convex *a, const bt__convex *b, bt__gap *out)
+{
+  simplex x = { .n = 1, .weight = { 1 } };
+  out->hint[0] = out->hint[1] = out->steps = 0;
+  x.v[0] = support (a, b, bt__vec (1, 0, 0), out->hint);
+  bt_vec3 v = x.v[0].w;
+  double size = bt__norm (v), scale = size;
+  while (out->steps++ < STEPS_MAX && size > 1e-15 * scale)
+    {
+      vertex next = support (a, b, bt__scale (-1 / size, v), out->hint);
+      scale = fmax (scale, bt__norm (next.w));
+      if (size - bt__dot (v, next.w) / size <= 1e-15 * scale || has (&x, next.w))
+        break;
+      simplex old = x;
+      x.v[x.n++] = next;
+      if (x.n == 4 && holds_zero (&x, scale))
+        {
+          x = old;
+          size = 0;
+          break;
+        }
+      bt_vec3 nearer = reduce (&x);
+      double now = bt__norm (nearer);
+      if (!(now < size))
+        {
+          x = old;
+          break;
+        }
+      v = nearer;
+      size = now;
+    }
+  finish (&x, size > 1e-15 * scale ? size : 0, out);
+}
