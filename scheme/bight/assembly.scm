@@ -54,7 +54,7 @@
  (is-part? "Return true if OBJECT is a part.")
  (part-head-of "Return the head of PART, a symbol.")
  (part-name-of "Return the name of PART, a symbol, or #f.")
- (part-fields-of "Return the alist of fields that PART itself gives, canonical.")
+ (part-fields-of "Return the alist of fields PART itself gives, canonical, and what is inside it.")
  (is-world? "Return true if OBJECT is a world.")
  (world-name-of "Return the name of WORLD, a symbol, or #f.")
  (world-documentation-of "Return the sentence of WORLD, or #f.")
@@ -106,12 +106,21 @@
 
 ;;; From data to parts.
 
+(define (misplaced proc head)
+  ;; Something with HEAD where a part should be.
+  (let ((outer (outer-head head)))
+    (bight-raise 'def proc "~a is written inside ~a, as in (~a ... (~a (~a ...) ...)), not beside it"
+                 (head-title head) (head-title outer) outer head
+                 (field-name (car (head-fields head))))))
+
 (define (data->part datum)
   "Return the part that DATUM, (HEAD (FIELD VALUE ...) ...), describes.  Raise a &bight-error when it is
 no such thing or a field is wrong."
   (unless (and (pair? datum) (list? datum) (symbol? (car datum)))
     (bight-raise 'def 'world "a part is written (HEAD (FIELD VALUE) ...), or (splice PARTS), not ~s"
                  datum))
+  (when (inner-head? (car datum))
+    (misplaced 'world (car datum)))
   (unless (part-head? (car datum))
     (unknown-name 'world "a world" (car datum) (part-heads) "part"))
   (let ((fields (read-fields 'world (car datum) (cdr datum))))
@@ -190,8 +199,11 @@ no such thing or a field is wrong."
                  (if (symbol? end) (named-end part field end parts) end)))))))
 
 (define (resolve-ends part parts)
+  (define (end? name)
+    (let ((field (head-field (part-head-of part) name)))
+      (and field (eq? 'end (field-kind field)))))
   (define (resolve entry)
-    (if (eq? 'end (field-kind (head-field (part-head-of part) (car entry))))
+    (if (end? (car entry))
         (cons (car entry) (resolved-end part (car entry) (cdr entry) parts))
         entry))
   (make-part (part-head-of part) (part-name-of part) (map resolve (part-fields-of part))))
@@ -210,9 +222,8 @@ no such thing or a field is wrong."
           (else (missing part 'to)))))
 
 (define (missing part name)
-  (let ((field (head-field (part-head-of part) name)))
-    (bight-raise 'def 'world "~a `~a' needs (~a ...), ~a: ~a" (part-head-of part) (part-name-of part)
-                 name (field-range field) (field-text field))))
+  (missing-field 'world (simple-format #f "~a `~a'" (part-head-of part) (part-name-of part))
+                 (head-field (part-head-of part) name)))
 
 (define (require-fields part)
   (let ((given (all-fields part)))
@@ -256,6 +267,7 @@ be #f.  Raise a &bight-error when the parts do not hold together."
 ;;; with: another value for some fields.
 
 (define (put-fields part fields)
+  ;; Things inside, as clumps, stand in place of all of their kind.
   (make-part (part-head-of part)
              (or (assq-ref fields 'named) (part-name-of part))
              (merge-fields (alist-delete 'named fields eq?) (part-fields-of part))))
@@ -267,6 +279,7 @@ be #f.  Raise a &bight-error when the parts do not hold together."
            (bight-raise 'def 'with "a change is (FIELD VALUE) of the sea or (PART (FIELD VALUE) ...), not ~s"
                         clause))
           ((find-part (world-parts-of w) name) name)
+          ((inner-head? name) (misplaced 'with name))
           (else
            (unknown-name 'with (world-title w) name
                          (append (map field-name (head-fields 'sea))
@@ -290,7 +303,8 @@ be #f.  Raise a &bight-error when the parts do not hold together."
 
 (define (change-world w clauses)
   "Return the world W with the changes in CLAUSES, a list of data (FIELD VALUE ...) of the sea or (PART
-(FIELD VALUE ...) ...)."
+(FIELD VALUE ...) ...).  The things of a kind inside a part, such as the clumps of a tether, change
+together: those given take the place of all there were."
   (fold (lambda (clause w) (rebuilt w (change w clause))) w clauses))
 
 

@@ -18,7 +18,8 @@
             part->expression
             global-value
             read-fields
-            read-clause))
+            read-clause
+            missing-field))
 
 
 ;;; While a macro expands.
@@ -113,17 +114,23 @@
     (else
      (map (lambda (stx) (if (special? field stx) (quoted stx) (expression stx))) stxs))))
 
+(define (headed head clauses)
+  ;; HEAD, an identifier, and CLAUSES of what it names.
+  (list-of (cons (quoted head)
+                 (map (lambda (clause) (clause->expression (syntax->datum head) clause)) clauses))))
+
 (define (clause->expression head clause)
   "Return syntax for the data of CLAUSE, the syntax (FIELD VALUE ...) of a part with HEAD, a symbol, or
-#f when that is not known yet."
+#f when that is not known yet; or the syntax (INNER (FIELD VALUE ...) ...) of a thing inside that part."
   (syntax-case clause ()
     ((name stx ...)
      (identifier? #'name)
      (let* ((wanted (syntax->datum #'name))
             (field (if head (head-field head wanted) (find-field wanted))))
-       (if field
-           (list-of (cons (quoted #'name) (arguments field #'(stx ...))))
-           (quoted clause))))
+       (cond (field (list-of (cons (quoted #'name) (arguments field #'(stx ...)))))
+             ((if head (memq wanted (inner-heads head)) (inner-head? wanted))
+              (headed #'name #'(stx ...)))
+             (else (quoted clause)))))
     (_ (quoted clause))))
 
 (define (part->expression part)
@@ -131,9 +138,7 @@
   (syntax-case part ()
     ((head clause ...)
      (and (identifier? #'head) (part-head? (syntax->datum #'head)))
-     (let ((name (syntax->datum #'head)))
-       (list-of (cons (quoted #'head)
-                      (map (lambda (clause) (clause->expression name clause)) #'(clause ...))))))
+     (headed #'head #'(clause ...)))
     (_ (quoted part))))
 
 
@@ -160,23 +165,41 @@
           ((and (eq? kind 'current) (= n 2)) values)
           (else (wrong-arguments proc head name values)))))
 
+(define (read-inner proc head clauses)
+  ;; The alist of fields of a thing with HEAD inside a part: there is no type to fill in what is missing.
+  (let ((fields (read-fields proc head clauses)))
+    (for-each (lambda (name)
+                (unless (assq name fields)
+                  (missing-field proc (head-title head) (head-field head name))))
+              (required-fields head))
+    fields))
+
+(define (missing-field proc whose field)
+  "Raise the &bight-error from PROC for WHOSE, a string such as \"a clump\", that does not give FIELD."
+  (bight-raise 'def proc "~a needs (~a ...), ~a: ~a" whose
+               (field-name field) (field-range field) (field-text field)))
+
 (define (read-clause proc head datum)
-  "Return (FIELD . VALUE), canonical, from DATUM, the data (FIELD VALUE ...) of a part with HEAD.  Raise
-a &bight-error from PROC when HEAD has no such field or the field no such value."
+  "Return (FIELD . VALUE), canonical, from DATUM, the data (FIELD VALUE ...) of a part with HEAD, or
+(INNER . FIELDS) from the data (INNER (FIELD VALUE ...) ...) of a thing inside it.  Raise a &bight-error
+from PROC when HEAD has no such field, the field no such value, or the thing not all it needs."
   (let ((clause (and (pair? datum) (symbol? (car datum)) (bounded-list datum))))
     (unless clause (wrong-clause proc head datum))
-    (let ((name (car clause)))
-      (unless (head-field head name)
-        (unknown-name proc (head-title head) name (map field-name (head-fields head))))
-      (cons name (check-field proc head name (clause-value proc head name (cdr clause)))))))
+    (let ((name (car clause)) (values (cdr clause)))
+      (cons name
+            (cond ((head-field head name)
+                   (check-field proc head name (clause-value proc head name values)))
+                  ((memq name (inner-heads head)) (read-inner proc name values))
+                  (else (unknown-name proc (head-title head) name (head-names head))))))))
 
 (define (read-fields proc head clauses)
-  "Return the alist of canonical fields from CLAUSES, a list of data (FIELD VALUE ...), in their order.
-Raise a &bight-error from PROC for the first that is wrong or given twice."
+  "Return the alist of canonical fields from CLAUSES, a list of data (FIELD VALUE ...) of a part with
+HEAD, in their order; among them an entry (INNER . FIELDS) for each thing inside the part.  Raise a
+&bight-error from PROC for the first that is wrong, and for a field that is given twice."
   (let loop ((rest clauses) (fields '()))
     (if (null? rest)
         (reverse! fields)
         (let ((entry (read-clause proc head (car rest))))
-          (when (assq (car entry) fields)
+          (when (and (head-field head (car entry)) (assq (car entry) fields))
             (bight-raise 'def proc "~a is given twice for ~a" (car entry) (head-title head)))
           (loop (cdr rest) (cons entry fields))))))

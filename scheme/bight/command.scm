@@ -139,6 +139,9 @@ Return the current at the surface, m/s."
     (%current-at engine (f64vector 0 0 0))))
 
 (define (alter-field! proc head index field value)
+  (when (memq field (inner-heads head))
+    (bight-raise 'unsupported proc "each ~a of ~a stays as its world has it while the dive runs"
+                 field (head-title head)))
   (let ((value (check-field proc head field value)))
     (if (eq? field 'current)
         (%set-current! (this-engine proc) value)

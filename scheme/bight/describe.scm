@@ -69,16 +69,32 @@
         (field-default-string field)
         (string-append (field-text field) "; " (field-allowance field))))
 
+(define (inner-row head)
+  ;; As field-row, for things with HEAD inside a part.
+  (list (symbol->string head)
+        ""
+        ""
+        (simple-format #f "~a; any number, each (~a (FIELD VALUE) ...)" (head-sentence head) head)))
+
 (define (head-description head)
-  "Return the description of parts with HEAD, a symbol such as tether: a row (NAME UNIT DEFAULT TEXT) of
-strings for each field."
-  (make-description (symbol->string head) (head-sentence head) (map field-row (head-fields head))))
+  "Return the description of parts, or of things inside them, with HEAD, a symbol such as tether or
+clump: a row (NAME UNIT DEFAULT TEXT) of strings for each field and each kind of thing inside."
+  (make-description (symbol->string head) (head-sentence head)
+                    (append (map field-row (head-fields head))
+                            (map inner-row (inner-heads head)))))
+
+(define (inner->string head fields)
+  ;; "at 6 m, mass 2 kg"
+  (define (inner-value entry)
+    (let ((row (value-row head entry "")))
+      (string-trim-right (string-join (take row 3) " "))))
+  (string-join (map inner-value fields) ", "))
 
 (define (value-row head entry source)
-  (let ((field (head-field head (car entry))))
-    (list (symbol->string (car entry))
-          (value->string field (cdr entry))
-          (field-unit field)
+  (let* ((name (car entry)) (field (head-field head name)))
+    (list (symbol->string name)
+          (if field (value->string field (cdr entry)) (inner->string name (cdr entry)))
+          (if field (field-unit field) "")
           source)))
 
 (define (type-description type)
@@ -98,7 +114,7 @@ strings for each field."
 
 (define (part-description part)
   "Return the description of PART of a world: a row (NAME VALUE UNIT SOURCE) for each field, whether
-given, from its type or left to the default."
+given, from its type or left to the default, and for each thing inside it."
   (let* ((head (part-head-of part))
          (own (part-fields-of part))
          (all (all-fields part))
@@ -133,9 +149,9 @@ given, from its type or left to the default."
 
 (define (live-row row live)
   ;; ROW with the value its field has now, if that is another.
-  (let* ((field (head-field 'tether (string->symbol (first row))))
-         (entry (assq (field-name field) live))
-         (text (and entry (value->string field (cdr entry)))))
+  (let* ((name (string->symbol (first row)))
+         (entry (assq name live))
+         (text (and entry (value->string (head-field 'tether name) (cdr entry)))))
     (if (and text (not (string=? text (second row))))
         (list (first row) text (third row) "now")
         row)))
@@ -170,12 +186,13 @@ given, from its type or left to the default."
   (let ((w (here-world)))
     (append (if w (map part-name-of (world-parts-of w)) '())
             (part-heads)
+            (append-map inner-heads (part-heads))
             (map part-type-name (append-map part-types (part-heads)))
             (worlds))))
 
 (define (describe-name name)
   (cond ((here-part name) => dive-description)
-        ((part-head? name) (head-description name))
+        ((or (part-head? name) (inner-head? name)) (head-description name))
         ((type-called name) => type-description)
         ((memq name (worlds)) (world-description (find-world name)))
         (else (unknown-name 'describe "the language" name (all-names) "part, type or world"))))
@@ -186,7 +203,8 @@ given, from its type or left to the default."
 
 (define-verb (describe (thing describable))
   "Return a description of THING that prints as a table.  THING is a world, a part, or a symbol: the name
-of a part of the present dive, a kind of part such as 'tether, a type such as 'fathom, or a world."
+of a part of the present dive, a kind of part such as 'tether or of a thing inside one such as 'clump, a
+type such as 'fathom, or a world."
   (cond ((symbol? thing) (describe-name thing))
         ((is-world? thing) (world-description thing))
         (else (part-description thing))))

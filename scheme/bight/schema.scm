@@ -1,8 +1,9 @@
 ;;; (bight schema) --- every field of every part, declared once.
 ;;;
-;;; The engine tells by reflection which parts a world has and which fields they take; what only the
-;;; language knows (a part's name and type) is declared here.  The parser of worlds, the defaults, the
-;;; error messages, `describe', `alter!' and the manual all read these records.
+;;; The engine tells by reflection which parts a world has, which fields they take and what is written
+;;; inside them, as a clump inside a tether; what only the language knows (a part's name and type) is
+;;; declared here.  The parser of worlds, the defaults, the error messages, `describe', `alter!' and the
+;;; manual all read these records.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -15,10 +16,14 @@
   #:use-module (srfi srfi-1)
   #:export (part-heads
             part-head?
+            inner-heads
+            inner-head?
+            outer-head
             head-title
             head-sentence
             head-fields
             head-field
+            head-names
             find-field
             required-fields
 
@@ -107,21 +112,47 @@
 (define needed
   '((tether from length)))
 
+(define outermost
+  ;; The heads of parts, read from the engine once.
+  (%part-heads))
+
+(define nests
+  ;; alist, head -> heads of what is written inside, for parts and all that is inside them.
+  (let nest ((heads outermost))
+    (append-map (lambda (head)
+                  (let ((inner (%inner-heads head)))
+                    (acons head inner (nest inner))))
+                heads)))
+
 (define schema
-  ;; alist, head -> fields; read from the engine once.
-  (map (lambda (head)
-         (cons head
-               (append (or (assq-ref language-fields head) '())
-                       (map vector->field (%part-fields head)))))
-       (%part-heads)))
+  ;; alist, head -> fields.
+  (map (lambda (entry)
+         (cons (car entry)
+               (append (or (assq-ref language-fields (car entry)) '())
+                       (map vector->field (%part-fields (car entry))))))
+       nests))
 
 (define (part-heads)
   "Return the heads of parts, symbols: sea, rov, tether, ..."
-  (map car schema))
+  outermost)
 
 (define (part-head? object)
   "Return true if OBJECT is the head of a kind of part."
-  (and (symbol? object) (assq object schema) #t))
+  (and (memq object outermost) #t))
+
+(define (inner-heads head)
+  "Return the heads of what is written inside a part with HEAD, any number of each: clump, float, ... in
+a tether."
+  (or (assq-ref nests head) '()))
+
+(define (inner-head? object)
+  "Return true if OBJECT is the head of something that is written inside a part."
+  (and (outer-head object) #t))
+
+(define (outer-head head)
+  "Return the head of the part inside which things with HEAD are written, or #f."
+  (let ((entry (find (lambda (entry) (memq head (cdr entry))) nests)))
+    (and entry (car entry))))
 
 (define (head-title head)
   "Return HEAD with its article, as in \"a tether\"."
@@ -129,16 +160,21 @@
       (string-append "a " (symbol->string head))))
 
 (define (head-sentence head)
-  "Return what a part with HEAD is, in a few words."
+  "Return what a part, or a thing inside one, with HEAD is, in a few words."
   (%head-text head))
 
 (define (head-fields head)
-  "Return the fields of parts with HEAD, in order; none for an unknown one."
+  "Return the fields of parts, or of things inside them, with HEAD, in order; none for an unknown one."
   (or (assq-ref schema head) '()))
 
 (define (head-field head name)
   "Return the field NAME of parts with HEAD, or #f."
   (find (lambda (field) (eq? name (field-name field))) (head-fields head)))
+
+(define (head-names head)
+  "Return all that may lead a clause of a part with HEAD: the names of its fields, then the heads of what
+is inside it."
+  (append (map field-name (head-fields head)) (inner-heads head)))
 
 (define (find-field name)
   "Return the field NAME of whatever part has one, or #f; one that takes names of parts before others."
@@ -148,8 +184,11 @@
              (car found)))))
 
 (define (required-fields head)
-  "Return the names of the fields that a part with HEAD must give, itself or by its type."
-  (or (assq-ref needed head) '()))
+  "Return the names of the fields that a part with HEAD must give, itself or by its type.  A thing inside
+a part must give all that have no default."
+  (if (inner-head? head)
+      (map field-name (remove field-default (head-fields head)))
+      (or (assq-ref needed head) '())))
 
 
 ;;; References: a bare symbol where a point may stand is a part's name first, else a variable.

@@ -50,7 +50,9 @@
 (FIELD VALUE ...), and (like OTHER).  Return NAME.  Raise a &bight-error from PROC when a field is wrong."
   (let* ((likes (filter like-clause? clauses))
          (own (read-fields proc head (remove like-clause? clauses)))
-         (odd (find (lambda (entry) (memq (car entry) never-of-a-type)) own)))
+         (odd (find (lambda (entry)
+                      (or (memq (car entry) never-of-a-type) (memq (car entry) (inner-heads head))))
+                    own)))
     (when odd
       (bight-raise 'def proc "~a belongs to a part of a world, not to a type" (car odd)))
     (add-part-type!

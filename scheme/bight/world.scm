@@ -80,7 +80,8 @@
 (define-syntax with
   (lambda (form)
     "Return the world W with other values in fields of the sea, (with W (current 0.5 90)), or of the part
-called NAME, (with W (NAME (FIELD VALUE) ...))."
+called NAME, (with W (NAME (FIELD VALUE) ...)).  Clumps of a tether that are given replace all it had; so
+do floats."
     (define (change-form clause)
       (syntax-case clause ()
         ((name . _)
@@ -139,11 +140,13 @@ called NAME, (with W (NAME (FIELD VALUE) ...))."
   (part-name-of p))
 
 (define-verb (part-fields (p a-part))
-  "Return the alist of fields that the part P gives itself, canonical; `type' is a record."
+  "Return the alist of fields that the part P gives itself, canonical; `type' is a record.  Each thing
+inside P has an entry too, as (clump (at . 6.0) (mass . 2.0)), so that there may be many with one key."
   (part-fields-of p))
 
 (define-verb (part-all-fields (p a-part))
-  "Return the alist of fields of the part P, its own before those of its type."
+  "Return the alist of fields of the part P, its own before those of its type; things inside P as
+`part-fields' has them."
   (all-fields p))
 
 (define-verb (world-part-names (w the-world))
@@ -157,6 +160,7 @@ called NAME, (with W (NAME (FIELD VALUE) ...))."
 
 (define-verb (world->parts (w the-world))
   "Return what the engine is told of the world W: a list of (HEAD NAME ((FIELD . VALUE) ...)) with
-canonical values, types resolved, and nothing that was left to its default."
+canonical values, types resolved, and nothing that was left to its default; a thing inside a part is an
+entry (INNER (FIELD . VALUE) ...)."
   (map (lambda (part) (list (part-head-of part) (part-name-of part) (all-fields part)))
        (world-parts-of w)))

@@ -111,6 +111,7 @@ properties (SCM object, SCM index)
   bt_tether_view view = tether_view ("describe", object, index);
   def.props = view.props;
   def.length = view.length;
+  def.drum = view.drum;
   for (size_t i = head->n_fields; i-- > 0;)
     {
       const bt_field *field = &head->fields[i];

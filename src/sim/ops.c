@@ -434,6 +434,9 @@ alter_tether (const call *c)
   status = bt_def_set_number (field, &def, c->args[2], c->error);
   if (status != BT_OK)
     return status;
+  if (c->dive->model->tethers[c->subject].n_lumps > 0 && def.props.model < BT_MODEL_DYNAMIC)
+    return bt__fail (c->error, BT_ERR_UNSUPPORTED,
+                     "the tether has clumps or floats: only `dynamic' and `auto' move it");
   forget_follower (field, &def.props);
   bt_tether_props_complete (&def.props, c->state->density, c->state->gravity);
   ends = bt__tether_ends (c->dive, c->state, c->subject);

@@ -86,6 +86,7 @@ bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *erro
   t = line.tether;
   *view = (bt_tether_view){ .props = t->props,
                             .length = t->length,
+                            .drum = dive->model->tethers[i].drum,
                             .chord = bt__distance (t->shape.a, t->shape.b),
                             .tension_anchor = bt__line_tension (&line, 0),
                             .tension_end = bt__norm (bt__line_force (&line)),

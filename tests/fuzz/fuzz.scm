@@ -21,8 +21,8 @@
 (use-modules (bight)
              ((bight assembly) #:select (data->part build-world))
              ((bight errors) #:select (abbreviate bight-error-kinds show))
-             ((bight schema) #:select (part-heads head-fields field-name field-kind field-words
-                                  field-live?))
+             ((bight schema) #:select (part-heads inner-heads head-fields field-name field-kind
+                                  field-words field-live?))
              ((bight verb) #:select (accepts? argument-type-name current-subject-lister))
              (ice-9 exceptions)
              (ice-9 getopt-long)
@@ -453,6 +453,18 @@
   (choose 'minnow 'line 'd1 'd2 'no-such 'fathom 'kinematic 'steady 'catenary 'open-water 'x 'stil))
 
 (define (a-clause head)
+  (let ((inner (inner-heads head)))
+    (if (and (pair? inner) (chance? 0.2))
+        (a-thing (apply choose inner))
+        (a-field head))))
+
+(define (a-thing head)
+  ;; Such as a clump, whole or not.
+  (if (chance? 0.5)
+      (cons head (map (lambda (field) (list (field-name field) (a-number 0 9))) (head-fields head)))
+      (cons head (list-tabulate (random-below 4) (lambda (i) (a-clause head))))))
+
+(define (a-field head)
   (let* ((field (apply choose (head-fields head)))
          (name (if (chance? 0.95) (field-name field) (choose 'lenght 'denstiy 'x))))
     (case (field-kind field)

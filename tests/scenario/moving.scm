@@ -278,3 +278,58 @@ water there, four times the drag.)"
   (expect (pay-out! 5) => 15)
   (run 20)
   (expect (tether-length) => 15))
+
+
+;;; What is fastened to the line.
+
+(define (hanging)
+  ;; 20 m of neutral line in still water, its ends 15 m apart at one depth, 2 kg of steel in the middle.
+  (world (sea (depth 60))
+         (rov (named minnow) (at 0 15 -30))
+         (tether (named line) (type fathom) (wet-weight 0) (from 0 0 -30) (to minnow) (length 20)
+                 (model dynamic)
+                 (clump (at 10) (mass 2)))))
+
+(define (weight-on-the-ends)
+  ;; What the line pulls down with on its two ends together, N.
+  (- (* (rov-tension) (z (tangent-at (tether-length))))
+     (* (anchor-tension) (z (tangent-at 0)))))
+
+(define weight-of-the-clump (* 2 9.80665 (- 1 (/ 1025 7850))))
+
+(define-scenario a-clump-hangs-from-both-ends
+  "The neutral line hangs in a V under the clump, and its ends carry the clump's weight in water."
+  (in (hanging))
+  (expect (settle! #:within 0.001 #:at-most 600))
+  (expect (point-at 10) is (about (vec 0 7.5 (- -30 (sqrt (- 100 (* 7.5 7.5))))) #:within 0.05))
+  (expect (weight-on-the-ends)
+          is (about weight-of-the-clump #:within (* 0.03 weight-of-the-clump)))
+  (expect (z (tether-force))
+          is (about (/ weight-of-the-clump -2) #:within (* 0.03 weight-of-the-clump))))
+
+(define-scenario a-float-lifts-the-line
+  "A buoyant section lifts the middle of a sinking line above its ends, by its lift less the line's weight."
+  (in (world (sea (depth 60))
+             (rov (named minnow) (at 0 15 -30))
+             (tether (named line) (type fathom) (wet-weight 0.05) (from 0 0 -30) (to minnow) (length 20)
+                     (model dynamic)
+                     (float (at 10) (span 4) (buoyancy 20)))))
+  (expect (settle! #:within 0.001 #:at-most 600))
+  (expect (z (point-at 10)) is (between -24 -23))
+  (expect (weight-on-the-ends) is (about (- (* 20 0.05) 20) #:within 0.5)))
+
+(define-scenario paying-out-leaves-the-clump-where-it-is-on-the-line
+  "Line comes off the drum at the anchor: the clump stays 6 m from the vehicle, and hangs below it once the
+rest is slack."
+  (in (with (hanging) (line (clump (at 14) (mass 2)))))
+  (define (from-the-vehicle)
+    (distance (rov-position) (point-at (- (tether-length) 6))))
+  (settle! #:within 0.001 #:at-most 600)
+  (expect (from-the-vehicle) is (about 6 #:within 0.1))
+  (expect (y (point-at 14)) is (below 13))
+  (pay-out! 6 #:rate 0.5)
+  (run 60)
+  (expect (tether-length) is (about 26 #:within 1e-9))
+  (expect (from-the-vehicle) is (about 6 #:within 0.1))
+  (expect (point-at 20) is (about '(0 15 -36) #:within 0.2))
+  (expect (z (tether-force)) is (about (- weight-of-the-clump) #:within 0.5)))

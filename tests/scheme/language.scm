@@ -277,6 +277,109 @@
                           (message (world (tehter (length 3)))))
           => #t))
 
+
+
+;;; Things inside a part.
+
+(define (half-of metres)
+  (/ metres 2))
+
+(define-world ballasted
+  "A line that sags and rises."
+  (rov (named minnow) (at 0 15 -5))
+  (tether (named line) (type fathom) (from 0 0 -5) (to minnow) (length 18) (model dynamic)
+          (clump (at (half-of 12)) (mass 2)) (float (at 12) (buoyancy 8))
+          (clump (mass (* 1/2 2)) (at 7)) (float (at 10) (span 4) (buoyancy 20))))
+
+(define (things-in world)
+  ;; The clumps and floats on the line of WORLD, in order.
+  (filter (lambda (entry) (memq (car entry) '(clump float)))
+          (part-fields (world-part world 'line))))
+
+(define two-clumps-two-floats
+  '((clump (at . 6.0) (mass . 2.0)) (float (at . 12.0) (buoyancy . 8.0))
+    (clump (mass . 1.0) (at . 7.0)) (float (at . 10.0) (span . 4.0) (buoyancy . 20.0))))
+
+(define-syntax-rule (line-with clause ...)
+  (world (rov) (tether (named line) (from 0 0 0) (length 9) clause ...)))
+
+(define-scenario inner-things
+  "Any number of clumps and floats inside a tether, their fields expressions; they reach the engine."
+  (expect (inner-heads 'tether) => '(clump float))
+  (expect (inner-heads 'rov) => '())
+  (expect (part-head? 'clump) => #f)
+  (expect (things-in ballasted) => two-clumps-two-floats)
+  (expect (filter (lambda (entry) (memq (car entry) '(clump float)))
+                  (third (third (world->parts ballasted))))
+          => two-clumps-two-floats)
+  (expect (call-with-output-string (lambda (port) (write (world-part ballasted 'line) port)))
+          => "#<tether line>")
+  (enter! ballasted)
+  (expect (tether-length) => 18))
+
+(define-scenario inner-things-stay
+  "They survive extend, without and with, and a type; those given in `with' replace all of their kind."
+  (expect (things-in (extend ballasted (rov (named perch)))) => two-clumps-two-floats)
+  (expect (things-in (without (extend ballasted (rov (named perch))) 'perch)) => two-clumps-two-floats)
+  (expect (things-in (with ballasted (depth 70) (line (length 20) (type falcon))))
+          => two-clumps-two-floats)
+  (let ((place 3))
+    (expect (things-in (with ballasted (line (clump (at place) (mass 3)) (clump (at 4) (mass 5)))))
+            => '((clump (at . 3.0) (mass . 3.0)) (clump (at . 4.0) (mass . 5.0))
+                 (float (at . 12.0) (buoyancy . 8.0))
+                 (float (at . 10.0) (span . 4.0) (buoyancy . 20.0)))))
+  (expect (things-in ballasted) => two-clumps-two-floats)
+  (expect (field-of (with ballasted (line (clump (at 1) (mass 3)))) 'line 'mass) => 0.043))
+
+(define-scenario inner-mistakes
+  "What is wrong inside a part is said as it is of a part."
+  (expect (line-with (clump (at 3))) raises def)
+  (expect (line-with (clump)) raises def)
+  (expect (line-with (clump 3 4)) raises def)
+  (expect (line-with (clump . 3)) raises def)
+  (expect (line-with clump) raises def)
+  (expect (line-with (clump ())) raises def)
+  (expect (line-with (clump (at 3) (at 4) (mass 1))) raises def)
+  (expect (line-with (clump (at 3 4) (mass 1))) raises def)
+  (expect (line-with (clump (at) (mass 1))) raises def)
+  (expect (line-with (clump (att 3) (mass 1))) raises name)
+  (expect (line-with (clump (at 3) (buoyancy 1))) raises name)
+  (expect (line-with (clump (at 3) (mass 1) (clump (at 3) (mass 1)))) raises name)
+  (expect (line-with (clmup (at 3) (mass 1))) raises name)
+  (expect (line-with (clump (at 3) (mass 0))) raises domain)
+  (expect (line-with (clump (at -1) (mass 1))) raises domain)
+  (expect (line-with (float (at 3) (buoyancy +nan.0))) raises domain)
+  (expect (line-with (float (at 'middle) (buoyancy 1))) raises domain)
+  (expect (world (clump (at 3) (mass 1))) raises def)
+  (expect (part clump (at 3) (mass 1)) raises def)
+  (expect (world (rov (clump (at 3) (mass 1)))) raises name)
+  (expect (with ballasted (line (clump (at 3)))) raises def)
+  (expect (with ballasted (minnow (clump (at 3) (mass 3)))) raises name)
+  (expect (with ballasted (clump (at 3) (mass 3))) raises def)
+  (expect (define-tether-type heavy "Wrong." (clump (at 3) (mass 1))) raises def)
+  (expect (check-field 'alter! 'tether 'clump 3) raises name)
+  (expect (message (line-with (clump (at 3))))
+          => "a clump needs (mass ...), a number above 0, up to 100000 (kg): in air, of steel")
+  (expect (message (line-with (clump (att 3))))
+          => "a clump has no `att'; it has at, span, mass; did you mean `at'?")
+  (expect (string-prefix? "a tether has no `flaot'; it has float, "
+                          (message (line-with (flaot (at 3) (buoyancy 1)))))
+          => #t)
+  (expect (message (world (clump (at 3) (mass 1))))
+          => "a clump is written inside a tether, as in (tether ... (clump (at ...) ...)), not beside it"))
+
+(define-scenario inner-things-in-a-dive
+  "A dive refuses what does not lie on the line, and a static model; nothing of them changes under way."
+  (expect (enter! (with ballasted (line (clump (at 20) (mass 3))))) raises def)
+  (expect (enter! (with ballasted (line (float (at 17) (span 4) (buoyancy 3))))) raises def)
+  (expect (enter! (with ballasted (line (model steady)))) raises unsupported)
+  (expect (message (enter! (with ballasted (line (model steady)))))
+          => "tether `line' has clumps or floats: its model must be `dynamic' or `auto'")
+  (enter! ballasted)
+  (expect (alter! 'line #:clump 3) raises unsupported)
+  (expect (list-head (assoc "clump" (description-rows (describe 'line))) 2)
+          => '("clump" "at 6 m, mass 2 kg")))
+
 (define-scenario world-files
   "Worlds are found by name or file; what cannot be read is refused."
   (expect (world-name (find-world 'trial)) => 'trial)
@@ -351,7 +454,13 @@
 
 (define-scenario descriptions
   "Kinds of parts, types, worlds and their parts describe themselves from the same table."
-  (expect (length (description-rows (describe 'tether))) => (length (head-fields 'tether)))
+  (expect (length (description-rows (describe 'tether))) => (length (head-names 'tether)))
+  (expect (map car (description-rows (describe 'clump))) => '("at" "span" "mass"))
+  (expect (description-sentence (describe 'float)) => "a float or a buoyant section on a tether")
+  (expect (filter-map (lambda (row) (and (member (car row) '("clump" "float")) (cadr row)))
+                      (description-rows (describe (world-part ballasted 'line))))
+          => '("at 6 m, mass 2 kg" "at 12 m, buoyancy 8 N" "mass 1 kg, at 7 m"
+               "at 10 m, span 4 m, buoyancy 20 N"))
   (expect (description-title (describe 'fathom)) => "fathom, a type of tether")
   (expect (map car (description-rows (describe trial))) => '("sea" "minnow" "line"))
   (expect (assoc "diameter" (description-rows (describe (world-part trial 'line))))
