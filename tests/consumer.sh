@@ -14,7 +14,7 @@ link ()
 
 for header in "$top_srcdir"/src/bight/*.h; do
   name=bight/$(basename "$header")
-  echo "#include <$name>" >"$scratch/one.c"
+  printf "#include <%s>\ntypedef int not_empty;\n" "$name" >"$scratch/one.c"
   cp "$scratch/one.c" "$scratch/one.cc"
   check "<$name> stands alone in C11" \
     $CC -std=c11 $strict "$include" -fsyntax-only "$scratch/one.c"

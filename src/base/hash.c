@@ -1,5 +1,5 @@
-/* A 64-bit hash: words mixed by multiplication and rotation, after the finaliser of MurmurHash3.  Not
-   for secrets: for telling states apart.
+/* A 64-bit hash: words mixed by multiplication and rotation, after the finaliser of MurmurHash3.
+   Not for secrets: for telling states apart.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

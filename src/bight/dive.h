@@ -1,8 +1,8 @@
 /* A dive: one model and the flat state that moves.
 
-   Every operation works on a copy of the state and is taken over only when it succeeds, so a refused
-   call leaves the dive as it was.  Questions are pure reads.  Nothing is allocated between bt_dive_new
-   and bt_dive_free but by bt_dive_fork and the operation `follow'.
+   Every operation works on a copy of the state and is taken over only when it succeeds, so a
+   refused call leaves the dive as it was.  Questions are pure reads.  Nothing is allocated between
+   bt_dive_new and bt_dive_free but by bt_dive_fork and the operation `follow'.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -12,16 +12,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <bight/decls.h>
 #include <bight/model.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+BT_BEGIN_DECLS
 
 typedef struct bt_dive bt_dive;
 
-/* Start a dive in MODEL (kept by the dive): vehicles in place, tethers laid.  FUNCTION and USER serve a
-   current of kind BT_CURRENT_FUNCTION, else NULL; USER is borrowed.  */
+/* Start a dive in MODEL (kept by the dive): vehicles in place, tethers laid.  FUNCTION and USER
+   serve a current of kind BT_CURRENT_FUNCTION, else NULL; USER is borrowed.  */
 bt_status bt_dive_new (bt_model *model, bt_current_function function, void *user, bt_dive **dive,
                        bt_error *error);
 void bt_dive_free (bt_dive *dive);
@@ -35,15 +34,15 @@ void bt_dive_set_current_function (bt_dive *dive, bt_current_function function, 
 
 /* ---- Time ---- */
 
-/* Advance by one step of bt_dive_time_step seconds.  On failure (BT_ERR_DIVERGED) the dive stays at its
-   last good step.  */
+/* Advance by one step of bt_dive_time_step seconds.  On failure (BT_ERR_DIVERGED) the dive stays at
+   its last good step.  */
 bt_status bt_dive_step (bt_dive *dive, bt_error *error);
 int64_t bt_dive_steps (const bt_dive *dive);
 double bt_dive_time (const bt_dive *dive);      /* s: steps times the time step */
 double bt_dive_time_step (const bt_dive *dive); /* s */
 
-/* Add SECONDS of wished time to the dive's account and return the whole steps it now holds, which the
-   caller takes; the remainder is carried.  0 <= SECONDS <= 1e9, else BT_ERR_DOMAIN.  */
+/* Add SECONDS of wished time to the dive's account and return the whole steps it now holds, which
+   the caller takes; the remainder is carried.  0 <= SECONDS <= 1e9, else BT_ERR_DOMAIN.  */
 bt_status bt_dive_whole_steps (bt_dive *dive, double seconds, int64_t *steps, bt_error *error);
 
 /* ---- Checkpoints ---- */
@@ -51,8 +50,8 @@ bt_status bt_dive_whole_steps (bt_dive *dive, double seconds, int64_t *steps, bt
 size_t bt_dive_state_size (const bt_dive *dive); /* bytes */
 /* Copy the whole state to STATE, bt_dive_state_size bytes.  */
 void bt_dive_save (const bt_dive *dive, void *state);
-/* Return to STATE of SIZE bytes, saved from this dive or a fork.  BT_ERR_STALE when it is of another
-   model, BT_ERR_FORMAT when its bytes are not as saved.  */
+/* Return to STATE of SIZE bytes, saved from this dive or a fork.  BT_ERR_STALE when it is of
+   another model, BT_ERR_FORMAT when its bytes are not as saved.  */
 bt_status bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error);
 /* Return a 64-bit hash of the whole state: equal states, equal hashes.  */
 uint64_t bt_dive_hash (const bt_dive *dive);
@@ -96,9 +95,9 @@ typedef enum bt_op
 typedef struct bt_op_info
 {
   const char *name;
-  bt_part subject;       /* BT_PART_SEA: none needed (but ALTER: see its text) */
+  bt_part subject; /* BT_PART_SEA: none needed (but ALTER: see its text) */
   int min_args, max_args;
-  const char *args;      /* their names */
+  const char *args; /* their names */
   const char *text;
 } bt_op_info;
 
@@ -113,8 +112,9 @@ enum
 /* Write CURRENT as the numbers of BT_OP_CURRENT to ARGS and return how many.  */
 int bt_current_pack (const bt_current *current, double *args);
 
-/* Do OP on the SUBJECT-th part of its kind with N numbers ARGS.  BT_ERR_NAME for an unknown operation
-   or subject, BT_ERR_DOMAIN for numbers outside their range, and what the tether's model says.  */
+/* Do OP on the SUBJECT-th part of its kind with N numbers ARGS.  BT_ERR_NAME for an unknown
+   operation or subject, BT_ERR_DOMAIN for numbers outside their range, and what the tether's model
+   says.  */
 bt_status bt_dive_do (bt_dive *dive, bt_op op, int subject, const double *args, int n,
                       bt_error *error);
 
@@ -139,13 +139,13 @@ typedef struct bt_vehicle_view
 typedef struct bt_tether_view
 {
   bt_tether_props props;
-  double length, drum;   /* paid out, and the most that can be, m */
-  double chord;          /* straight distance between the ends, m */
+  double length, drum;                             /* paid out, and the most that can be, m */
+  double chord;                                    /* straight distance between the ends, m */
   double tension_anchor, tension_end, tension_max; /* N */
-  bt_vec3 force;         /* on what the far end is fastened to, N */
-  int vehicle;           /* index of the vehicle at the far end, -1: a fixed point */
+  bt_vec3 force;                                   /* on what the far end is fastened to, N */
+  int vehicle; /* index of the vehicle at the far end, -1: a fixed point */
   int taut;
-  int parted;            /* nonzero: the line is in two; what is asked is the part at the anchor */
+  int parted; /* nonzero: the line is in two; what is asked is the part at the anchor */
   int spooling;
   int settled;           /* zero: the shape still moves */
   int asleep;            /* nonzero: the moving line rests and is not stepped */
@@ -185,7 +185,7 @@ typedef struct bt_profile
   uint64_t chain_sleeps;              /* steps it slept through */
   uint64_t chain_remeshes;            /* by model `auto' */
   uint64_t chain_safeguarded, chain_unconverged;
-  uint64_t current_samples_skipped;   /* shapes solved in still water */
+  uint64_t current_samples_skipped; /* shapes solved in still water */
   uint64_t operations, refused;
 } bt_profile;
 
@@ -194,23 +194,25 @@ bt_status bt_dive_vehicle (const bt_dive *dive, int i, bt_vehicle_view *view, bt
 bt_status bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *error);
 bt_status bt_dive_current_at (const bt_dive *dive, bt_vec3 p, bt_vec3 *velocity, bt_error *error);
 
-/* Point, unit tangent (toward the vehicle) and tension (N) of tether I at arc length S metres from its
-   anchor.  BT_ERR_DOMAIN if S lies outside the paid-out length.  */
+/* Point, unit tangent (toward the vehicle) and tension (N) of tether I at arc length S metres from
+   its anchor.  BT_ERR_DOMAIN if S lies outside the paid-out length.  */
 bt_status bt_tether_point (const bt_dive *dive, int i, double s, bt_vec3 *point, bt_error *error);
-bt_status bt_tether_tangent (const bt_dive *dive, int i, double s, bt_vec3 *tangent, bt_error *error);
-bt_status bt_tether_tension (const bt_dive *dive, int i, double s, double *tension, bt_error *error);
+bt_status bt_tether_tangent (const bt_dive *dive, int i, double s, bt_vec3 *tangent,
+                             bt_error *error);
+bt_status bt_tether_tension (const bt_dive *dive, int i, double s, double *tension,
+                             bt_error *error);
 
-/* Write N points equally spaced in arc length, both ends included (N >= 2), to POINTS; for N = 0 the
-   model's own, as many as bt_tether_view.nodes says.  Tensions alike.  */
+/* Write N points equally spaced in arc length, both ends included (N >= 2), to POINTS; for N = 0
+   the model's own, as many as bt_tether_view.nodes says.  Tensions alike.  */
 bt_status bt_tether_points (const bt_dive *dive, int i, int n, bt_vec3 *points, bt_error *error);
 bt_status bt_tether_tensions (const bt_dive *dive, int i, int n, double *tensions, bt_error *error);
 
-/* Write up to MAX points of the part of a parted tether I that hangs from its far end, from the new end
-   on, to POINTS and return how many there are; 0 when it is whole.  */
+/* Write up to MAX points of the part of a parted tether I that hangs from its far end, from the new
+   end on, to POINTS and return how many there are; 0 when it is whole.  */
 int bt_tether_tail (const bt_dive *dive, int i, bt_vec3 *points, int max);
 
-/* Return in *RADIUS the radius of the tightest bend of tether I, m: the smallest circle through three
-   neighbours among the model's own points; INFINITY when it is straight.  */
+/* Return in *RADIUS the radius of the tightest bend of tether I, m: the smallest circle through
+   three neighbours among the model's own points; INFINITY when it is straight.  */
 bt_status bt_tether_tightest_bend (const bt_dive *dive, int i, double *radius, bt_error *error);
 
 typedef struct bt_energy
@@ -218,11 +220,12 @@ typedef struct bt_energy
   double kinetic, strain, gravity, bending; /* J; gravity from z = 0 */
 } bt_energy;
 
-/* Return the energies of tether I in *ENERGY.  BT_ERR_UNSUPPORTED unless its model is a moving line.  */
+/* Return the energies of tether I in *ENERGY.  BT_ERR_UNSUPPORTED unless its model is a moving
+ * line.  */
 bt_status bt_tether_energy (const bt_dive *dive, int i, bt_energy *energy, bt_error *error);
 
-/* Search for distinct equilibria of tether I at its present ends, as bt_steady_equilibria, at most MAX,
-   into SHAPES (MAX times nodes points).  BT_ERR_UNSUPPORTED unless its model is `steady'.  */
+/* Search for distinct equilibria of tether I at its present ends, as bt_steady_equilibria, at most
+   MAX, into SHAPES (MAX times nodes points).  BT_ERR_UNSUPPORTED unless its model is `steady'.  */
 bt_status bt_tether_equilibria (const bt_dive *dive, int i, int max, bt_vec3 *shapes, int *found,
                                 bt_error *error);
 
@@ -233,15 +236,13 @@ enum
 
 /* Return how many events there ever were.  */
 int64_t bt_dive_event_count (const bt_dive *dive);
-/* Copy the events from number FIRST on (0: the first ever) that are still kept, oldest first, to EVENTS,
-   which has room for BT_EVENTS_KEPT, and return how many.  */
+/* Copy the events from number FIRST on (0: the first ever) that are still kept, oldest first, to
+   EVENTS, which has room for BT_EVENTS_KEPT, and return how many.  */
 int bt_dive_events (const bt_dive *dive, int64_t first, bt_event *events);
 const char *bt_event_name (bt_event_kind kind);
 
 void bt_dive_profile (const bt_dive *dive, bt_profile *profile);
 
-#ifdef __cplusplus
-}
-#endif
+BT_END_DECLS
 
 #endif

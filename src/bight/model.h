@@ -1,5 +1,5 @@
-/* What a world is made of: parts as plain structs, one table of fields for each kind of part, and the
-   immutable model that a world compiles to.
+/* What a world is made of: parts as plain structs, one table of fields for each kind of part, and
+   the immutable model that a world compiles to.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -8,22 +8,21 @@
 
 #include <stddef.h>
 
+#include <bight/decls.h>
 #include <bight/status.h>
 #include <bight/tether.h>
 #include <bight/vec.h>
 #include <bight/water.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+BT_BEGIN_DECLS
 
 enum
 {
-  BT_NAME_SIZE = 64,      /* bytes of a part's name with its final NUL */
+  BT_NAME_SIZE = 64, /* bytes of a part's name with its final NUL */
   BT_VEHICLES_MAX = 64,
   BT_TETHERS_MAX = 64,
-  BT_NODES_MAX = 10000,   /* intervals of one tether */
-  BT_LUMPS_MAX = 32       /* clumps and floats on one tether */
+  BT_NODES_MAX = 10000, /* intervals of one tether */
+  BT_LUMPS_MAX = 32     /* clumps and floats on one tether */
 };
 
 /* The water and its current.  */
@@ -35,8 +34,8 @@ typedef struct bt_sea_def
   bt_current current;
 } bt_sea_def;
 
-/* A vehicle.  Without mass it goes exactly where it is told; with mass it is a point that its thrust, the
-   water and its tethers move.  Its own +y is its front.  */
+/* A vehicle.  Without mass it goes exactly where it is told; with mass it is a point that its
+   thrust, the water and its tethers move.  Its own +y is its front.  */
 typedef struct bt_vehicle_def
 {
   char name[BT_NAME_SIZE];
@@ -57,8 +56,8 @@ typedef struct bt_end
   char part[BT_NAME_SIZE];
 } bt_end;
 
-/* Something fastened to the line: a clump weight (buoyancy 0) or a float (mass 0), at a point or spread
-   over a section of it.  It keeps its place on the line when the winch turns.  */
+/* Something fastened to the line: a clump weight (buoyancy 0) or a float (mass 0), at a point or
+   spread over a section of it.  It keeps its place on the line when the winch turns.  */
 typedef struct bt_lump
 {
   double at;       /* m of arc length from the anchor when the dive begins: its middle */
@@ -111,12 +110,12 @@ typedef struct bt_field
   const char *unit; /* "m", "N/m", "deg"; "" for none */
   const char *text; /* what it is, a phrase */
   bt_field_kind kind;
-  size_t offset;         /* in the part's struct */
-  double fallback;       /* the default number; NAN: must be given or follows from another field */
-  double min, max;       /* allowed range */
-  int above_min;         /* nonzero: MIN itself is not allowed */
-  const bt_word *words;  /* WORD: the choices; NUMBER: words allowed in place of a number; or NULL */
-  int live;              /* nonzero: may change while a dive runs */
+  size_t offset;        /* in the part's struct */
+  double fallback;      /* the default number; NAN: must be given or follows from another field */
+  double min, max;      /* allowed range */
+  int above_min;        /* nonzero: MIN itself is not allowed */
+  const bt_word *words; /* WORD: the choices; NUMBER: words allowed in place of a number; or NULL */
+  int live;             /* nonzero: may change while a dive runs */
 } bt_field;
 
 /* A kind of part.  */
@@ -140,8 +139,8 @@ const bt_field *bt_field_find (const bt_head *head, const char *name);
 /* Fill DEF, a struct of the kind HEAD, with the defaults and no name.  */
 void bt_def_init (const bt_head *head, void *def);
 
-/* Set a field of DEF, checked against its range.  BT_ERR_DOMAIN says what is allowed; BT_ERR_NAME for a
-   word or kind the field does not take.  DEF is unchanged on failure.  */
+/* Set a field of DEF, checked against its range.  BT_ERR_DOMAIN says what is allowed; BT_ERR_NAME
+   for a word or kind the field does not take.  DEF is unchanged on failure.  */
 bt_status bt_def_set_number (const bt_field *field, void *def, double value, bt_error *error);
 bt_status bt_def_set_word (const bt_field *field, void *def, const char *word, bt_error *error);
 bt_status bt_def_set_point (const bt_field *field, void *def, bt_vec3 value, bt_error *error);
@@ -156,9 +155,9 @@ bt_status bt_def_set_name (char *name_field, const char *name, bt_error *error);
 typedef struct bt_model bt_model;
 
 /* Check WORLD and compile it into *MODEL, which is immutable and counted: release it with
-   bt_model_release.  Everything is copied.  BT_ERR_DEF when the parts do not hold together (two of one
-   name, a tether to no vehicle, a tether too short to reach), BT_ERR_DOMAIN for a number outside its
-   range, BT_ERR_LIMIT for too many parts or no memory.  */
+   bt_model_release.  Everything is copied.  BT_ERR_DEF when the parts do not hold together (two of
+   one name, a tether to no vehicle, a tether too short to reach), BT_ERR_DOMAIN for a number
+   outside its range, BT_ERR_LIMIT for too many parts or no memory.  */
 bt_status bt_model_new (const bt_world *world, bt_model **model, bt_error *error);
 bt_model *bt_model_retain (bt_model *model);
 void bt_model_release (bt_model *model);
@@ -167,8 +166,6 @@ void bt_model_release (bt_model *model);
    when both are NAN.  */
 void bt_tether_props_complete (bt_tether_props *props, double density, double gravity);
 
-#ifdef __cplusplus
-}
-#endif
+BT_END_DECLS
 
 #endif

@@ -9,13 +9,12 @@
 #ifndef BIGHT_STATICS_H
 #define BIGHT_STATICS_H
 
+#include <bight/decls.h>
 #include <bight/status.h>
 #include <bight/vec.h>
 #include <bight/water.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+BT_BEGIN_DECLS
 
 typedef struct bt_point2
 {
@@ -33,8 +32,8 @@ typedef struct bt_catenary
   double sigma0;  /* signed arc length from the lowest point to the start, m */
 } bt_catenary;
 
-/* Solve the catenary from (0, 0) to (H, V), H >= 0, with arc length S > 0 into *C.  A line too short
-   to reach becomes the straight line.  Full double precision at any size and slack.
+/* Solve the catenary from (0, 0) to (H, V), H >= 0, with arc length S > 0 into *C.  A line too
+   short to reach becomes the straight line.  Full double precision at any size and slack.
    BT_ERR_DOMAIN unless the numbers are finite with H >= 0 and S > 0.  */
 bt_status bt_catenary_solve (double h, double v, double s, bt_catenary *c, bt_error *error);
 
@@ -50,9 +49,9 @@ typedef struct bt_search bt_search; /* GSL's workspace */
 
 typedef struct bt_search_result
 {
-  double a, xs;   /* y = A cosh ((x - xs)/A) + ys */
+  double a, xs; /* y = A cosh ((x - xs)/A) + ys */
   int iterations;
-  int converged;  /* the simplex error fell below the tolerance */
+  int converged; /* the simplex error fell below the tolerance */
 } bt_search_result;
 
 /* Return a workspace, or NULL when memory is out.  Free it with bt_search_free.  */
@@ -60,10 +59,10 @@ bt_search *bt_search_new (void);
 void bt_search_free (bt_search *search);
 
 /* Search the catenary from (0, 0) to (H, V) with arc length S until the relative error is below
-   TOLERANCE (the thesis: 0.005), at most ITERATIONS.  Starts from *RESULT when WARM is nonzero, else
-   from the thesis' guess xs = ((3 log10 S + log2 S)/4)^3, A = xs/2.  The relative forms of the errors
-   are used where |V| or S exceeds one.  Returns BT_ERR_DOMAIN as bt_catenary_solve, and BT_OK with
-   RESULT->converged = 0 when it does not settle.  */
+   TOLERANCE (the thesis: 0.005), at most ITERATIONS.  Starts from *RESULT when WARM is nonzero,
+   else from the thesis' guess xs = ((3 log10 S + log2 S)/4)^3, A = xs/2.  The relative forms of the
+   errors are used where |V| or S exceeds one.  Returns BT_ERR_DOMAIN as bt_catenary_solve, and
+   BT_OK with RESULT->converged = 0 when it does not settle.  */
 bt_status bt_search_catenary (bt_search *search, double h, double v, double s, double tolerance,
                               int iterations, int warm, bt_search_result *result, bt_error *error);
 
@@ -87,12 +86,12 @@ typedef struct bt_elastic
   double h, v, s; /* ends as above; S the unstretched length */
   double w, ea;   /* load per unstretched metre, N/m; axial stiffness, N (may be infinite) */
   double H;       /* tension component across the load, N */
-  double V;       /* tension component against the load at the start: force of the line's support, N */
+  double V; /* tension component against the load at the start: force of the line's support, N */
 } bt_elastic;
 
-/* Solve the elastic catenary from (0, 0) to (H, V) with unstretched length S under W > 0 newtons per
-   unstretched metre toward -y and axial stiffness EA (INFINITY: inextensible; then a line too short to
-   reach is BT_ERR_DOMAIN).  BT_ERR_DIVERGED if Newton does not settle.  */
+/* Solve the elastic catenary from (0, 0) to (H, V) with unstretched length S under W > 0 newtons
+   per unstretched metre toward -y and axial stiffness EA (INFINITY: inextensible; then a line too
+   short to reach is BT_ERR_DOMAIN).  BT_ERR_DIVERGED if Newton does not settle.  */
 bt_status bt_elastic_solve (double h, double v, double s, double w, double ea, bt_elastic *e,
                             bt_error *error);
 bt_point2 bt_elastic_point (const bt_elastic *e, double u);   /* U unstretched, from the start */
@@ -102,8 +101,8 @@ double bt_elastic_tension (const bt_elastic *e, double u);    /* N */
 /* ---- The line in any current: three-dimensional equilibrium ---- */
 
 /* One uniform line between two ends.  Loads act per unstretched metre:
-     dr/ds = t (1 + T/ea),  d(T t)/ds = -(0, 0, -wet_weight) - rho/2 cdn d |un| un - rho/2 cdt pi d |ut| ut
-   with un, ut the parts of the current normal and tangential to the unit tangent t.  */
+     dr/ds = t (1 + T/ea),  d(T t)/ds = -(0, 0, -wet_weight) - rho/2 cdn d |un| un - rho/2 cdt pi d
+   |ut| ut with un, ut the parts of the current normal and tangential to the unit tangent t.  */
 typedef struct bt_line
 {
   double length;     /* unstretched, m */
@@ -123,44 +122,43 @@ void bt_steady_free (bt_steady *steady);
 /* What a solve did and how far it got.  */
 typedef struct bt_steady_report
 {
-  int converged;      /* nonzero: residual within tolerance */
-  int iterations;     /* Newton iterations (shooting) or relaxation steps */
-  int integrations;   /* marches along the line, or linear solves */
-  double residual;    /* miss of the far end, or fastest node motion times the settling time, m */
+  int converged;    /* nonzero: residual within tolerance */
+  int iterations;   /* Newton iterations (shooting) or relaxation steps */
+  int integrations; /* marches along the line, or linear solves */
+  double residual;  /* miss of the far end, or fastest node motion times the settling time, m */
 } bt_steady_report;
 
 /* March LINE in WATER from START with tension vector PULL there (N, pointing along the line) in N
-   fourth-order Runge-Kutta steps.  R and T receive N + 1 positions and tension vectors (T points from
-   start to end).  BT_ERR_DIVERGED when the tension vanishes or a value is not finite.  */
+   fourth-order Runge-Kutta steps.  R and T receive N + 1 positions and tension vectors (T points
+   from start to end).  BT_ERR_DIVERGED when the tension vanishes or a value is not finite.  */
 bt_status bt_steady_march (const bt_line *line, const bt_water *water, bt_vec3 start, bt_vec3 pull,
                            int n, bt_vec3 *r, bt_vec3 *t, bt_error *error);
 
 /* Find the equilibrium of LINE in WATER between A and B by shooting over N intervals (GSL's hybrid
-   root finder on the tension at A).  *PULL is the tension vector at A: the guess when WARM is nonzero,
-   and the answer.  Cold, the guess is the catenary under the mean load.  R, T as above.  Returns BT_OK
-   with REPORT->converged = 0 when it did not converge (then R and T are unspecified).  */
+   root finder on the tension at A).  *PULL is the tension vector at A: the guess when WARM is
+   nonzero, and the answer.  Cold, the guess is the catenary under the mean load.  R, T as above.
+   Returns BT_OK with REPORT->converged = 0 when it did not converge (then R and T are unspecified).
+ */
 bt_status bt_steady_shoot (bt_steady *steady, const bt_line *line, const bt_water *water, bt_vec3 a,
                            bt_vec3 b, int n, int warm, bt_vec3 *pull, bt_vec3 *r, bt_vec3 *t,
                            bt_steady_report *report, bt_error *error);
 
-/* Relax the chain of N links whose present shape is R (N + 1 nodes; its ends are moved to A and B) in
-   WATER until it rests, by backward Euler with growing steps and at most SOLVES linear solves.  R
-   receives the shape, T the tension vectors at the nodes.  The equilibrium found is the one this shape
-   falls into.  REPORT->converged = 0 when it still moves; R is then finite and usable.  */
+/* Relax the chain of N links whose present shape is R (N + 1 nodes; its ends are moved to A and B)
+   in WATER until it rests, by backward Euler with growing steps and at most SOLVES linear solves. R
+   receives the shape, T the tension vectors at the nodes.  The equilibrium found is the one this
+   shape falls into.  REPORT->converged = 0 when it still moves; R is then finite and usable.  */
 bt_status bt_steady_relax (bt_steady *steady, const bt_line *line, const bt_water *water, bt_vec3 a,
                            bt_vec3 b, int n, int solves, bt_vec3 *r, bt_vec3 *t,
                            bt_steady_report *report, bt_error *error);
 
 /* Search for distinct equilibria of LINE in WATER between A and B: the line is relaxed from its own
-   catenary, from bows to the other sides, and from above and below.  SHAPES has room for MAX shapes of
-   N + 1 points each, one after another; *FOUND receives how many differ by more than LINE->length / 100.
-   A search that finds one proves nothing about others.  */
+   catenary, from bows to the other sides, and from above and below.  SHAPES has room for MAX shapes
+   of N + 1 points each, one after another; *FOUND receives how many differ by more than
+   LINE->length / 100. A search that finds one proves nothing about others.  */
 bt_status bt_steady_equilibria (bt_steady *steady, const bt_line *line, const bt_water *water,
                                 bt_vec3 a, bt_vec3 b, int n, int max, bt_vec3 *shapes, int *found,
                                 bt_error *error);
 
-#ifdef __cplusplus
-}
-#endif
+BT_END_DECLS
 
 #endif

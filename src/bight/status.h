@@ -6,24 +6,24 @@
 #ifndef BIGHT_STATUS_H
 #define BIGHT_STATUS_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include <bight/decls.h>
+
+BT_BEGIN_DECLS
 
 /* What kind of mistake it was.  Scheme sees the same kinds as symbols, see bt_status_name.  */
 typedef enum bt_status
 {
   BT_OK = 0,
-  BT_ERR_DOMAIN,      /* a number outside its range, or not finite */
-  BT_ERR_NAME,        /* no such part, field, model, word */
-  BT_ERR_STALE,       /* a handle or checkpoint that belongs to something else */
-  BT_ERR_DEF,         /* a world that does not hold together */
-  BT_ERR_LIMIT,       /* too many, too large, out of memory */
-  BT_ERR_DIVERGED,    /* no finite answer was found */
-  BT_ERR_IO,          /* a file that cannot be read or written */
-  BT_ERR_FORMAT,      /* a file whose content is wrong */
-  BT_ERR_VERSION,     /* data written by another version */
-  BT_ERR_UNSUPPORTED  /* the chosen model has no answer to this */
+  BT_ERR_DOMAIN,     /* a number outside its range, or not finite */
+  BT_ERR_NAME,       /* no such part, field, model, word */
+  BT_ERR_STALE,      /* a handle or checkpoint that belongs to something else */
+  BT_ERR_DEF,        /* a world that does not hold together */
+  BT_ERR_LIMIT,      /* too many, too large, out of memory */
+  BT_ERR_DIVERGED,   /* no finite answer was found */
+  BT_ERR_IO,         /* a file that cannot be read or written */
+  BT_ERR_FORMAT,     /* a file whose content is wrong */
+  BT_ERR_VERSION,    /* data written by another version */
+  BT_ERR_UNSUPPORTED /* the chosen model has no answer to this */
 } bt_status;
 
 enum
@@ -43,8 +43,6 @@ const char *bt_status_name (bt_status status);
 /* Return the version of the library, "MAJOR.MINOR.PATCH".  */
 const char *bt_version (void);
 
-#ifdef __cplusplus
-}
-#endif
+BT_END_DECLS
 
 #endif

@@ -7,9 +7,9 @@
 
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include <bight/decls.h>
+
+BT_BEGIN_DECLS
 
 typedef enum bt_model_kind
 {
@@ -17,10 +17,10 @@ typedef enum bt_model_kind
   BT_MODEL_V_SHAPE,          /* thesis 2.2 */
   BT_MODEL_CATENARY,         /* thesis 2.3, by the closed equation */
   BT_MODEL_CATENARY_SIMPLEX, /* thesis 2.3, by the thesis' search */
-  BT_MODEL_ELASTIC,          /* stretching catenary under weight (Irvine 1981); ignores the current */
-  BT_MODEL_STEADY,           /* equilibrium in any current with weight, drag and stretch */
-  BT_MODEL_DYNAMIC,          /* the moving line, with everything */
-  BT_MODEL_AUTO              /* the moving line with as many nodes as its accuracy wants */
+  BT_MODEL_ELASTIC, /* stretching catenary under weight (Irvine 1981); ignores the current */
+  BT_MODEL_STEADY,  /* equilibrium in any current with weight, drag and stretch */
+  BT_MODEL_DYNAMIC, /* the moving line, with everything */
+  BT_MODEL_AUTO     /* the moving line with as many nodes as its accuracy wants */
 } bt_model_kind;
 
 typedef enum bt_depth_rule
@@ -33,32 +33,30 @@ typedef enum bt_depth_rule
 /* The value of sag_buoyancy that means `from the real weight and the real drag'.  */
 #define BT_SAG_AUTO 2.0
 
-/* Flat; no padding.  Numbers that count or choose are kept as doubles so that one table of fields can
-   set them all.  */
+/* Flat; no padding.  Numbers that count or choose are kept as doubles so that one table of fields
+   can set them all.  */
 typedef struct bt_tether_props
 {
-  double diameter;        /* m */
-  double mass;            /* kg/m in air */
-  double wet_weight;      /* N/m, sinking positive */
-  double ea;              /* N; INFINITY: inextensible */
-  double ei;              /* N m2 */
-  double gj;              /* N m2 */
-  double ba;              /* internal damping, N s */
-  double cdn, cdt, ca;    /* drag on D, on pi D; added mass per displaced mass */
-  double friction;        /* Coulomb */
-  double breaking_load;   /* N */
-  double min_bend_radius; /* m */
-  double nodes;           /* intervals of the models that have nodes */
-  double model;           /* bt_model_kind */
-  double depth_rule;      /* bt_depth_rule */
-  double sag_buoyancy;    /* -1 sinks ... 1 floats, or BT_SAG_AUTO */
-  double accuracy;        /* m: the error in position that BT_MODEL_AUTO keeps */
-  double max_current;     /* m/s: the thesis' maximum allowed current */
+  double diameter;             /* m */
+  double mass;                 /* kg/m in air */
+  double wet_weight;           /* N/m, sinking positive */
+  double ea;                   /* N; INFINITY: inextensible */
+  double ei;                   /* N m2 */
+  double gj;                   /* N m2 */
+  double ba;                   /* internal damping, N s */
+  double cdn, cdt, ca;         /* drag on D, on pi D; added mass per displaced mass */
+  double friction;             /* Coulomb */
+  double breaking_load;        /* N */
+  double min_bend_radius;      /* m */
+  double nodes;                /* intervals of the models that have nodes */
+  double model;                /* bt_model_kind */
+  double depth_rule;           /* bt_depth_rule */
+  double sag_buoyancy;         /* -1 sinks ... 1 floats, or BT_SAG_AUTO */
+  double accuracy;             /* m: the error in position that BT_MODEL_AUTO keeps */
+  double max_current;          /* m/s: the thesis' maximum allowed current */
   double thesis_length_factor; /* thesis 2.4.1 took 0.95 of the length in its ratio; 1 */
 } bt_tether_props;
 
-#ifdef __cplusplus
-}
-#endif
+BT_END_DECLS
 
 #endif

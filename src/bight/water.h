@@ -7,12 +7,11 @@
 
 #include <stdint.h>
 
+#include <bight/decls.h>
 #include <bight/status.h>
 #include <bight/vec.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+BT_BEGIN_DECLS
 
 enum
 {
@@ -23,7 +22,8 @@ typedef enum bt_current_kind
 {
   BT_CURRENT_STILL = 0, /* no current: nothing is sampled */
   BT_CURRENT_UNIFORM,   /* velocity[0] everywhere */
-  BT_CURRENT_PROFILE,   /* rows by height z; the velocity vector is linear between rows, constant beyond */
+  BT_CURRENT_PROFILE,   /* rows by height z; the velocity vector is linear between rows, constant
+                           beyond */
   BT_CURRENT_TURNING,   /* constant speed, the set turns with depth */
   BT_CURRENT_POWER,     /* velocity[0] (1 + z/depth)^exponent over the depth of the sea */
   BT_CURRENT_TIDE,      /* velocity[0] cos (2 pi t / period) */
@@ -58,26 +58,24 @@ typedef struct bt_water
   void *user;
 } bt_water;
 
-/* Return the horizontal velocity of a current of SPEED m/s that flows TOWARD the compass bearing, in
-   radians clockwise from north.  */
+/* Return the horizontal velocity of a current of SPEED m/s that flows TOWARD the compass bearing,
+   in radians clockwise from north.  */
 bt_vec3 bt_set_and_drift (double speed, double toward);
 
 /* Return the velocity of WATER at P, m/s.  */
 bt_vec3 bt_water_velocity (const bt_water *water, bt_vec3 p);
 
-/* Return the mean velocity of WATER over the straight line from A to B, m/s (5-point Gauss rule; the
-   value at A when the current is the same everywhere).  */
+/* Return the mean velocity of WATER over the straight line from A to B, m/s (5-point Gauss rule;
+   the value at A when the current is the same everywhere).  */
 bt_vec3 bt_water_mean_velocity (const bt_water *water, bt_vec3 a, bt_vec3 b);
 
 /* Return nonzero if CURRENT changes with time though nothing else does.  */
 int bt_current_is_unsteady (const bt_current *current);
 
-/* Check CURRENT: finite, at most 20 m/s, rows in order, period positive.  BT_ERR_DOMAIN says what is
-   wrong.  */
+/* Check CURRENT: finite, at most 20 m/s, rows in order, period positive.  BT_ERR_DOMAIN says what
+   is wrong.  */
 bt_status bt_current_check (const bt_current *current, bt_error *error);
 
-#ifdef __cplusplus
-}
-#endif
+BT_END_DECLS
 
 #endif

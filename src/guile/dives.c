@@ -114,7 +114,8 @@ whole_steps (SCM object, SCM seconds)
   bt_error error;
   int64_t steps;
   bt__check ("run",
-             bt_dive_whole_steps (bt__to_idle_dive ("run", object), scm_to_double (seconds), &steps, &error),
+             bt_dive_whole_steps (bt__to_idle_dive ("run", object), scm_to_double (seconds), &steps,
+                                  &error),
              &error);
   return scm_from_int64 (steps);
 }
@@ -154,8 +155,9 @@ restore_dive (SCM object, SCM bytes)
   bt_error error;
   SCM_ASSERT_TYPE (scm_is_bytevector (bytes), bytes, SCM_ARG2, "restore!", "bytevector");
   bt__check ("restore!",
-             bt_dive_restore (bt__to_idle_dive ("restore!", object), SCM_BYTEVECTOR_CONTENTS (bytes),
-                              SCM_BYTEVECTOR_LENGTH (bytes), &error),
+             bt_dive_restore (bt__to_idle_dive ("restore!", object),
+                              SCM_BYTEVECTOR_CONTENTS (bytes), SCM_BYTEVECTOR_LENGTH (bytes),
+                              &error),
              &error);
   return SCM_UNSPECIFIED;
 }

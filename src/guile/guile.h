@@ -1,7 +1,7 @@
 /* The Guile binding: what its files share.  It uses the installed headers of the engine alone.
 
-   One file for each noun; each declares its procedures in one table, from which they get their name,
-   arguments and docstring.
+   One file for each noun; each declares its procedures in one table, from which they get their
+   name, arguments and docstring.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -50,8 +50,8 @@ operate (SCM object, SCM verb, SCM caller, SCM subject, SCM args)
   return SCM_UNSPECIFIED;
 }
 
-/* A change of the procedure that a dive's current asks, taken back unless it is completed: asking the
-   new one may leave by an exception.  */
+/* A change of the procedure that a dive's current asks, taken back unless it is completed: asking
+   the new one may leave by an exception.  */
 typedef struct change
 {
   bt__handle *handle;
@@ -100,10 +100,10 @@ set_current (SCM object, SCM list)
   scm_dynwind_unwind_handler (take_back, &c, SCM_F_WIND_EXPLICITLY);
   ask_function (c.handle, function);
   ask_once (c.handle, &current);
-  bt__check (who,
-             bt_dive_do (c.handle->dive, BT_OP_CURRENT, 0, args, bt_current_pack (&current, args),
-                         &error),
-             &error);
+  bt__check (
+      who,
+      bt_dive_do (c.handle->dive, BT_OP_CURRENT, 0, args, bt_current_pack (&current, args), &error),
+      &error);
   c.complete = 1;
   scm_dynwind_end ();
   return SCM_UNSPECIFIED;
@@ -154,7 +154,8 @@ bt__define_operations (void)
     { "%operate!", 5, 0, (scm_t_subr)operate,
       "Do VERB, on behalf of CALLER, on the SUBJECT-th part of its kind in DIVE with ARGS, an "
       "f64vector." },
-    { "%set-current!", 2, 0, (scm_t_subr)set_current, "Give DIVE the current that LIST describes." },
+    { "%set-current!", 2, 0, (scm_t_subr)set_current,
+      "Give DIVE the current that LIST describes." },
     { "%alter!", 5, 0, (scm_t_subr)alter,
       "Set FIELD of the SUBJECT-th PART (rov or tether) of DIVE to VALUE." },
   };

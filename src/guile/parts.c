@@ -97,7 +97,8 @@ from_field_description (const bt_field *field)
   scm_c_vector_set_x (v, 5, scm_from_double (field->min));
   scm_c_vector_set_x (v, 6, scm_from_double (field->max));
   scm_c_vector_set_x (v, 7, scm_from_bool (field->above_min));
-  scm_c_vector_set_x (v, 8, field->kind == BT_FIELD_WORD ? scm_reverse_x (names, SCM_EOL) : SCM_EOL);
+  scm_c_vector_set_x (v, 8,
+                      field->kind == BT_FIELD_WORD ? scm_reverse_x (names, SCM_EOL) : SCM_EOL);
   scm_c_vector_set_x (v, 9, field->kind == BT_FIELD_WORD ? SCM_EOL : words);
   scm_c_vector_set_x (v, 10, scm_from_bool (field->live));
   return v;
@@ -265,7 +266,8 @@ bt__define_parts (void)
       "Return the kinds of things that are written inside parts of kind HEAD, symbols." },
     { "%head-text", 1, 0, (scm_t_subr)head_text, "Return the sentence on parts of kind HEAD." },
     { "%part-fields", 1, 0, (scm_t_subr)part_fields,
-      "Return the fields of parts of kind HEAD, a list of vectors #(name kind unit text default min "
+      "Return the fields of parts of kind HEAD, a list of vectors #(name kind unit text default "
+      "min "
       "max above-min? words specials live?)." },
     { "%make-dive", 1, 0, (scm_t_subr)make_dive,
       "Start a dive from PARTS, a list of (HEAD NAME ((FIELD . VALUE) ...))." },

@@ -56,8 +56,8 @@ vehicle (SCM object, SCM index)
   bt_vehicle_view v;
   bt_error error;
   SCM list = SCM_EOL;
-  bt__check ("rov-position",
-             bt_dive_vehicle (bt__to_dive (object), scm_to_int (index), &v, &error), &error);
+  bt__check ("rov-position", bt_dive_vehicle (bt__to_dive (object), scm_to_int (index), &v, &error),
+             &error);
   list = with ("surge-speed", scm_from_double (v.speeds[0]), list);
   list = with ("held?", scm_from_bool (v.held), list);
   list = with ("arrived?", scm_from_bool (v.arrived), list);
@@ -134,9 +134,8 @@ tether_points (SCM object, SCM index, SCM count)
   bt_status status;
   bt_error error;
   scm_array_get_handle (array, &handle);
-  status = bt_tether_points (dive, i, asked,
-                             (bt_vec3 *)(void *)scm_array_handle_f64_writable_elements (&handle),
-                             &error);
+  status = bt_tether_points (
+      dive, i, asked, (bt_vec3 *)(void *)scm_array_handle_f64_writable_elements (&handle), &error);
   scm_array_handle_release (&handle);
   bt__check ("tether-points", status, &error);
   return array;
@@ -162,10 +161,10 @@ point_at (SCM object, SCM index, SCM s)
 {
   bt_vec3 p;
   bt_error error;
-  bt__check ("point-at",
-             bt_tether_point (bt__to_dive (object), scm_to_int (index), scm_to_double (s), &p,
-                              &error),
-             &error);
+  bt__check (
+      "point-at",
+      bt_tether_point (bt__to_dive (object), scm_to_int (index), scm_to_double (s), &p, &error),
+      &error);
   return bt__from_point (p);
 }
 
@@ -174,10 +173,10 @@ tangent_at (SCM object, SCM index, SCM s)
 {
   bt_vec3 p;
   bt_error error;
-  bt__check ("tangent-at",
-             bt_tether_tangent (bt__to_dive (object), scm_to_int (index), scm_to_double (s), &p,
-                                &error),
-             &error);
+  bt__check (
+      "tangent-at",
+      bt_tether_tangent (bt__to_dive (object), scm_to_int (index), scm_to_double (s), &p, &error),
+      &error);
   return bt__from_point (p);
 }
 
@@ -186,10 +185,10 @@ tension_at (SCM object, SCM index, SCM s)
 {
   double t;
   bt_error error;
-  bt__check ("tension-at",
-             bt_tether_tension (bt__to_dive (object), scm_to_int (index), scm_to_double (s), &t,
-                                &error),
-             &error);
+  bt__check (
+      "tension-at",
+      bt_tether_tension (bt__to_dive (object), scm_to_int (index), scm_to_double (s), &t, &error),
+      &error);
   return scm_from_double (t);
 }
 
@@ -232,8 +231,8 @@ energy (SCM object, SCM index)
 {
   bt_energy e;
   bt_error error;
-  bt__check ("energy",
-             bt_tether_energy (bt__to_dive (object), scm_to_int (index), &e, &error), &error);
+  bt__check ("energy", bt_tether_energy (bt__to_dive (object), scm_to_int (index), &e, &error),
+             &error);
   return with ("kinetic", scm_from_double (e.kinetic),
                with ("strain", scm_from_double (e.strain),
                      with ("gravity", scm_from_double (e.gravity),
@@ -251,10 +250,10 @@ equilibria (SCM object, SCM index)
   bt_vec3 *shapes = scm_gc_malloc_pointerless (sizeof *shapes * MOST * (size_t)n, "equilibria");
   SCM list = SCM_EOL;
   bt_error error;
-  bt__check ("equilibria",
-             bt_tether_equilibria (bt__to_dive (object), scm_to_int (index), MOST, shapes, &found,
-                                   &error),
-             &error);
+  bt__check (
+      "equilibria",
+      bt_tether_equilibria (bt__to_dive (object), scm_to_int (index), MOST, shapes, &found, &error),
+      &error);
   while (found-- > 0)
     list = scm_cons (from_points (shapes + (size_t)found * n, n), list);
   return list;
@@ -267,10 +266,10 @@ current_at (SCM object, SCM point)
 {
   bt_vec3 v;
   bt_error error;
-  bt__check ("current-at",
-             bt_dive_current_at (bt__to_dive (object), bt__to_point ("current-at", point), &v,
-                                 &error),
-             &error);
+  bt__check (
+      "current-at",
+      bt_dive_current_at (bt__to_dive (object), bt__to_point ("current-at", point), &v, &error),
+      &error);
   return bt__from_point (v);
 }
 

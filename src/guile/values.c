@@ -97,9 +97,9 @@ static bt_current_kind
 kind_of (const char *who, SCM symbol)
 {
   static const kind_word words[]
-      = { { "still", BT_CURRENT_STILL },     { "uniform", BT_CURRENT_UNIFORM },
-          { "profile", BT_CURRENT_PROFILE }, { "turning", BT_CURRENT_TURNING },
-          { "power", BT_CURRENT_POWER },     { "tide", BT_CURRENT_TIDE },
+      = { { "still", BT_CURRENT_STILL },      { "uniform", BT_CURRENT_UNIFORM },
+          { "profile", BT_CURRENT_PROFILE },  { "turning", BT_CURRENT_TURNING },
+          { "power", BT_CURRENT_POWER },      { "tide", BT_CURRENT_TIDE },
           { "function", BT_CURRENT_FUNCTION } };
   for (size_t i = 0; i < sizeof words / sizeof *words; i++)
     if (scm_is_eq (symbol, scm_from_utf8_symbol (words[i].word)))
@@ -151,7 +151,8 @@ bt__call_current (void *user, bt_vec3 p, double t, bt_vec3 *v)
   scm_dynwind_begin (0);
   scm_dynwind_unwind_handler (stop_asking, handle, SCM_F_WIND_EXPLICITLY);
   handle->asking = 1;
-  *v = bt__to_point ("current", scm_call_2 (handle->function, bt__from_point (p), scm_from_double (t)));
+  *v = bt__to_point ("current",
+                     scm_call_2 (handle->function, bt__from_point (p), scm_from_double (t)));
   scm_dynwind_end ();
 }
 
@@ -185,9 +186,8 @@ bt__set_field (const char *who, const bt_field *field, void *def, SCM value, bt_
 {
   char word[BT_NAME_SIZE + 1];
   if (!scm_is_symbol (value))
-    return scm_is_real (value)
-               ? bt_def_set_number (field, def, scm_to_double (value), error)
-               : bt_def_set_point (field, def, bt__to_point (who, value), error);
+    return scm_is_real (value) ? bt_def_set_number (field, def, scm_to_double (value), error)
+                               : bt_def_set_point (field, def, bt__to_point (who, value), error);
   symbol_bytes (value, word);
   return field->kind == BT_FIELD_END ? bt_def_set_part (field, def, word, error)
                                      : bt_def_set_word (field, def, word, error);

@@ -36,14 +36,21 @@ static const bt_word depth_rules[] = { { "sag", BT_DEPTH_SAG },
 
 /* NUMBER (struct, member, name, unit, default, min, max, min excluded, live, words, text) */
 #define NUMBER(s, m, n, u, d, lo, hi, above, live, words, t)                                       \
-  { n, u, t, BT_FIELD_NUMBER, offsetof (s, m), d, lo, hi, above, words, live }
+  {                                                                                                \
+    n, u, t, BT_FIELD_NUMBER, offsetof (s, m), d, lo, hi, above, words, live                       \
+  }
 #define OTHER(s, m, n, u, k, d, words, live, t)                                                    \
-  { n, u, t, k, offsetof (s, m), d, -FAR, FAR, 0, words, live }
+  {                                                                                                \
+    n, u, t, k, offsetof (s, m), d, -FAR, FAR, 0, words, live                                      \
+  }
 #define COUNT(s, m, n, u, d, lo, hi, live, t)                                                      \
-  { n, u, t, BT_FIELD_COUNT, offsetof (s, m), d, lo, hi, 0, NULL, live }
+  {                                                                                                \
+    n, u, t, BT_FIELD_COUNT, offsetof (s, m), d, lo, hi, 0, NULL, live                             \
+  }
 
 static const bt_field sea_fields[] = {
-  NUMBER (bt_sea_def, depth, "depth", "m", 100, 0, 12000, 1, 0, NULL, "from the surface to the bed"),
+  NUMBER (bt_sea_def, depth, "depth", "m", 100, 0, 12000, 1, 0, NULL,
+          "from the surface to the bed"),
   NUMBER (bt_sea_def, density, "density", "kg/m3", 1025, 1, 2000, 0, 1, NULL, "of the water"),
   NUMBER (bt_sea_def, gravity, "gravity", "m/s2", 9.80665, 0, 100, 0, 1, NULL, "downward"),
   OTHER (bt_sea_def, current, "current", "", BT_FIELD_CURRENT, 0, NULL, 1,
@@ -90,7 +97,8 @@ static const bt_field tether_fields[] = {
   NUMBER (bt_tether_def, drum, "drum", "m", INFINITY, 0, 1e6, 1, 0, unlimited,
           "the most that can be out"),
   PROP (diameter, "diameter", "m", 0.0076, 0, 2, 1, NULL, "outer"),
-  PROP (mass, "mass", "kg/m", NAN, 0, 1e4, 1, NULL, "in air; follows from wet-weight when not given"),
+  PROP (mass, "mass", "kg/m", NAN, 0, 1e4, 1, NULL,
+        "in air; follows from wet-weight when not given"),
   PROP (wet_weight, "wet-weight", "N/m", NAN, -1e5, 1e5, 0, NULL,
         "in the water, sinking positive; follows from mass when not given"),
   PROP (ea, "ea", "N", 2e5, 0, 1e12, 1, inextensible, "axial stiffness"),
@@ -108,8 +116,8 @@ static const bt_field tether_fields[] = {
          "intervals of the models that have nodes"),
   OTHER (bt_tether_def, props.model, "model", "", BT_FIELD_WORD, BT_MODEL_STEADY, models, 1,
          "how its shape is found"),
-  OTHER (bt_tether_def, props.depth_rule, "depth-rule", "", BT_FIELD_WORD, BT_DEPTH_SAG, depth_rules,
-         1, "how the thesis' models take depth"),
+  OTHER (bt_tether_def, props.depth_rule, "depth-rule", "", BT_FIELD_WORD, BT_DEPTH_SAG,
+         depth_rules, 1, "how the thesis' models take depth"),
   PROP (sag_buoyancy, "sag-buoyancy", "", BT_SAG_AUTO, -1, 1, 0, automatic,
         "the thesis' buoyancy for rule `sag': -1 sinks, 1 floats"),
   PROP (accuracy, "accuracy", "m", 0.05, 0, 100, 1, NULL,
@@ -223,10 +231,11 @@ bt_def_set_number (const bt_field *field, void *def, double value, bt_error *err
   if (!is_numeric (field))
     return bt__fail (error, BT_ERR_NAME, "`%s' does not take a number", field->name);
   if (field->kind == BT_FIELD_WORD && !is_word_value (field, value))
-    return bt__fail (error, BT_ERR_NAME, "`%s' takes a word, not the number %g", field->name, value);
+    return bt__fail (error, BT_ERR_NAME, "`%s' takes a word, not the number %g", field->name,
+                     value);
   if (whole && (!in_range (field, value) || value != floor (value)))
-    return bt__fail (error, BT_ERR_DOMAIN, "`%s' is a whole number from %g to %g, not %g", field->name,
-                     field->min, field->max, value);
+    return bt__fail (error, BT_ERR_DOMAIN, "`%s' is a whole number from %g to %g, not %g",
+                     field->name, field->min, field->max, value);
   if (!whole && !is_word_value (field, value) && !in_range (field, value))
     return bt__fail (error, BT_ERR_DOMAIN, "`%s' is %s %g and at most %g%s%s, not %g", field->name,
                      lower_bound_word (field), field->min, field->max, *field->unit ? " " : "",
@@ -254,8 +263,8 @@ bt_def_set_point (const bt_field *field, void *def, bt_vec3 v, bt_error *error)
   if (field->kind != BT_FIELD_POINT && field->kind != BT_FIELD_END)
     return bt__fail (error, BT_ERR_NAME, "`%s' does not take a point", field->name);
   if (!fits) /* false for NaN too */
-    return bt__fail (error, BT_ERR_DOMAIN, "`%s' is a point within %g m, not (%g %g %g)", field->name,
-                     field->max, v.x, v.y, v.z);
+    return bt__fail (error, BT_ERR_DOMAIN, "`%s' is a point within %g m, not (%g %g %g)",
+                     field->name, field->max, v.x, v.y, v.z);
   if (field->kind == BT_FIELD_END)
     *(bt_end *)member (field, def) = (bt_end){ .at = v };
   else

@@ -20,8 +20,8 @@ about (const char *head, const char *name, bt_error *error)
   if (error)
     {
       bt_error inner = *error;
-      bt__fail (error, inner.status, "%s%s%s%s: %s", head, *name ? " `" : "", name, *name ? "'" : "",
-                inner.text);
+      bt__fail (error, inner.status, "%s%s%s%s: %s", head, *name ? " `" : "", name,
+                *name ? "'" : "", inner.text);
       return inner.status;
     }
   return BT_ERR_DOMAIN;
@@ -39,7 +39,8 @@ check_field (const bt_field *field, void *def, bt_error *error)
     case BT_FIELD_CURRENT:
       return bt_current_check (p, error);
     case BT_FIELD_END:
-      return ((bt_end *)p)->part[0] ? BT_OK : bt_def_set_point (field, def, ((bt_end *)p)->at, error);
+      return ((bt_end *)p)->part[0] ? BT_OK
+                                    : bt_def_set_point (field, def, ((bt_end *)p)->at, error);
     default:
       return bt_def_set_number (field, def, *(double *)p, error);
     }
@@ -66,7 +67,8 @@ static bt_status
 check_name (const char *head, const char *name, bt_error *error)
 {
   if (!memchr (name, 0, BT_NAME_SIZE) || !*name)
-    return bt__fail (error, BT_ERR_DEF, "a %s needs a name of 1 to %d bytes", head, BT_NAME_SIZE - 1);
+    return bt__fail (error, BT_ERR_DEF, "a %s needs a name of 1 to %d bytes", head,
+                     BT_NAME_SIZE - 1);
   return BT_OK;
 }
 
@@ -79,8 +81,10 @@ bt_tether_props_complete (bt_tether_props *props, double density, double gravity
   if (isnan (props->wet_weight))
     props->wet_weight = (props->mass - displaced) * gravity;
   else if (isnan (props->mass))
-    /* A line so buoyant that its mass would vanish still has some: a hundredth of what it displaces. */
-    props->mass = fmax (displaced + (gravity > 0 ? props->wet_weight / gravity : 0), 0.01 * displaced);
+    /* A line so buoyant that its mass would vanish still has some: a hundredth of what it
+     * displaces. */
+    props->mass
+        = fmax (displaced + (gravity > 0 ? props->wet_weight / gravity : 0), 0.01 * displaced);
 }
 
 /* ---- The parts together ---- */
@@ -95,8 +99,8 @@ find_vehicle (const bt_model *model, const char *name)
 }
 
 static bt_status
-resolve_end (const bt_model *model, const bt_tether_def *tether, const bt_end *def, const char *which,
-             bt__end *end, bt_error *error)
+resolve_end (const bt_model *model, const bt_tether_def *tether, const bt_end *def,
+             const char *which, bt__end *end, bt_error *error)
 {
   end->vehicle = BT__NOT_A_VEHICLE;
   end->at = def->at;
@@ -164,8 +168,8 @@ check_lumps (const bt_tether_def *tether, bt_error *error)
       const bt_lump *lump = &tether->lumps[k];
       if (!(lump->at - lump->span / 2 >= 0 && lump->at + lump->span / 2 <= tether->length))
         return bt__fail (error, BT_ERR_DEF,
-                         "what is fastened at %g m does not lie on the %g m of tether `%s'", lump->at,
-                         tether->length, tether->name);
+                         "what is fastened at %g m does not lie on the %g m of tether `%s'",
+                         lump->at, tether->length, tether->name);
       if (!(lump->mass >= 0 && lump->mass <= 1e5 && lump->buoyancy >= 0 && lump->buoyancy <= 1e6))
         return bt__fail (error, BT_ERR_DOMAIN,
                          "what is fastened at %g m of tether `%s' has no such mass or buoyancy",
@@ -231,8 +235,8 @@ static bt_status
 check_counts (const bt_world *world, bt_error *error)
 {
   if (world->n_vehicles < 0 || world->n_vehicles > BT_VEHICLES_MAX)
-    return bt__fail (error, BT_ERR_LIMIT, "a world has at most %d vehicles, not %d", BT_VEHICLES_MAX,
-                     world->n_vehicles);
+    return bt__fail (error, BT_ERR_LIMIT, "a world has at most %d vehicles, not %d",
+                     BT_VEHICLES_MAX, world->n_vehicles);
   if (world->n_tethers < 0 || world->n_tethers > BT_TETHERS_MAX)
     return bt__fail (error, BT_ERR_LIMIT, "a world has at most %d tethers, not %d", BT_TETHERS_MAX,
                      world->n_tethers);

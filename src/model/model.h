@@ -33,8 +33,8 @@ struct bt_model
   bt__end (*ends)[2];     /* per tether: anchor, far end */
 };
 
-/* The longest chord that LENGTH metres of a tether with PROPS span when pulled with at most PULL newtons:
-   the length, and more if it stretches, up to its breaking load or a tenth.  */
+/* The longest chord that LENGTH metres of a tether with PROPS span when pulled with at most PULL
+   newtons: the length, and more if it stretches, up to its breaking load or a tenth.  */
 double bt__longest_chord (const bt_tether_props *props, double length, double pull);
 
 #endif

@@ -1,7 +1,7 @@
 /* The moving line in a dive: laid, stepped, carried along, put to sleep, parted.
 
-   The kernel is tether/dynamic.h; here it is given its ends, its winch and its sea, and what it does is
-   told as events.
+   The kernel is tether/dynamic.h; here it is given its ends, its winch and its sea, and what it
+   does is told as events.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -13,8 +13,8 @@
 #include "sim/sim.h"
 #include "world/line.h"
 
-/* What counts as rest, m/s and m/s2; how the chain follows the winch; and what counts as a snap: from
-   below 1 N to above 25 N within half a second.  */
+/* What counts as rest, m/s and m/s2; how the chain follows the winch; and what counts as a snap:
+   from below 1 N to above 25 N within half a second.  */
 #define REST_SPEED 1e-4
 #define REST_ACCELERATION 1e-3
 #define WINCH_LAG 0.25  /* s */
@@ -39,8 +39,8 @@ carried (const bt_dive *dive, bt__state *state, int i)
 
 /* ---- Laying ---- */
 
-/* Put the present shape of tether I, N + 1 points of it, on the dive's polyline, and the tensions in the
-   middle between them along it.  */
+/* Put the present shape of tether I, N + 1 points of it, on the dive's polyline, and the tensions
+   in the middle between them along it.  */
 static void
 trace (bt_dive *dive, bt__state *state, int i, int n)
 {
@@ -53,7 +53,8 @@ trace (bt_dive *dive, bt__state *state, int i, int n)
     }
 }
 
-/* Give a CHAIN of N intervals the tensions its shape had, so that it has them before its first step.  */
+/* Give a CHAIN of N intervals the tensions its shape had, so that it has them before its first
+ * step.  */
 static void
 tense (const bt_dive *dive, bt__dynamic *chain, int n)
 {
@@ -65,8 +66,8 @@ tense (const bt_dive *dive, bt__dynamic *chain, int n)
   chain->pull[1] = bt__scale (dive->along[n - 1], last);
 }
 
-/* Give tether I a shape to begin with when it has none: its equilibrium, or, when that is not found, the
-   catenary.  */
+/* Give tether I a shape to begin with when it has none: its equilibrium, or, when that is not
+   found, the catenary.  */
 static bt_status
 rest_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
@@ -147,7 +148,8 @@ is_same (bt_vec3 a, bt_vec3 b)
   return memcmp (&a, &b, sizeof a) == 0;
 }
 
-/* An end was put elsewhere in no time: the line takes the equilibrium that it comes to from where it is.  */
+/* An end was put elsewhere in no time: the line takes the equilibrium that it comes to from where
+ * it is.  */
 bt_status
 bt__carry_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
@@ -176,7 +178,8 @@ void
 bt__part_chain (bt_dive *dive, bt__state *state, int i, int interval)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  bt__dynamic *whole = bt__dive_chain (dive, state, i, 0), *far = bt__dive_chain (dive, state, i, 1);
+  bt__dynamic *whole = bt__dive_chain (dive, state, i, 0),
+              *far = bt__dive_chain (dive, state, i, 1);
   bt__dynamic_cut (whole, interval, whole, far);
   tether->parted = 1;
   tether->length = bt__dynamic_length (whole);
@@ -192,8 +195,7 @@ may_sleep_on (const bt__state *state, const bt__tether *tether, const bt__ends *
 {
   return tether->quiet >= BT__SLEEP_AFTER && !tether->stale && tether->winch_rate == 0
          && tether->shape.length == tether->length && is_same (tether->shape.a, ends->a)
-         && is_same (tether->shape.b, ends->b)
-         && !bt_current_is_unsteady (&state->current);
+         && is_same (tether->shape.b, ends->b) && !bt_current_is_unsteady (&state->current);
 }
 
 static bt_status
@@ -271,13 +273,13 @@ vehicle_end (const bt__vehicle *v)
                                       .force = bt__thrust (v) } };
 }
 
-/* Steel sinks by its weight less the water it displaces; a float is a hull that weighs three tenths of
-   what it displaces.  Both drag as spheres (Cd 0.5) and add half of what they displace.  */
+/* Steel sinks by its weight less the water it displaces; a float is a hull that weighs three tenths
+   of what it displaces.  Both drag as spheres (Cd 0.5) and add half of what they displace.  */
 static bt__dynamic_lump
 lump_of (const bt_lump *def, double from_end, const bt_water *water)
 {
   double rho = water->density, g = water->gravity;
-  double volume = def->mass > 0 ? def->mass / 7850
+  double volume = def->mass > 0      ? def->mass / 7850
                   : rho > 0 && g > 0 ? def->buoyancy / (0.7 * rho * g)
                                      : 0;
   double mass = def->mass > 0 ? def->mass : 0.3 * rho * volume;
@@ -290,8 +292,8 @@ lump_of (const bt_lump *def, double from_end, const bt_water *water)
                              .quadratic = 0.5 * rho * 0.5 * BT__PI * radius * radius };
 }
 
-/* Give INPUT what is fastened to tether I between FROM and TO metres from its far end, a distance that
-   the winch does not change.  */
+/* Give INPUT what is fastened to tether I between FROM and TO metres from its far end, a distance
+   that the winch does not change.  */
 static void
 fasten (const bt_dive *dive, int i, double from, double to, bt__dynamic_input *input,
         bt__dynamic_lump *lumps)

@@ -1,7 +1,7 @@
 /* A vehicle with mass: a point that thrust, water and tethers move.
 
-   On the far end of a moving line it is part of the line's own implicit step (chain.c).  Anywhere else it
-   is stepped here, the drag taken implicitly, with the end forces its tethers had.
+   On the far end of a moving line it is part of the line's own implicit step (chain.c).  Anywhere
+   else it is stepped here, the drag taken implicitly, with the end forces its tethers had.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -47,11 +47,12 @@ stick_thrust (const bt__vehicle *v)
 {
   double ahead = v->sticks[SURGE] * v->thrust, aside = v->sticks[SWAY] * v->thrust;
   return bt__vec (ahead * sin (v->heading) + aside * cos (v->heading),
-                  ahead * cos (v->heading) - aside * sin (v->heading), v->sticks[HEAVE] * v->thrust);
+                  ahead * cos (v->heading) - aside * sin (v->heading),
+                  v->sticks[HEAVE] * v->thrust);
 }
 
-/* Toward the target, no faster than told: what the drag will take at the speed wished for, and a damped
-   spring.  */
+/* Toward the target, no faster than told: what the drag will take at the speed wished for, and a
+   damped spring.  */
 static bt_vec3
 goal_thrust (const bt__vehicle *v)
 {
@@ -69,9 +70,10 @@ bt__thrust (const bt__vehicle *v)
   bt_vec3 force = v->goal == BT__GOAL_NONE ? stick_thrust (v) : goal_thrust (v);
   double moving = v->mass + v->added_mass;
   if (v->goal == BT__GOAL_NONE && v->hold_depth.on && v->sticks[HEAVE] == 0)
-    force.z = fmax (-v->thrust, fmin (v->thrust,
-                                      moving * (STIFFNESS * (-v->hold_depth.value - v->position.z)
-                                                - DAMPING * v->velocity.z)));
+    force.z = fmax (-v->thrust,
+                    fmin (v->thrust, moving
+                                         * (STIFFNESS * (-v->hold_depth.value - v->position.z)
+                                            - DAMPING * v->velocity.z)));
   return force;
 }
 
@@ -100,7 +102,8 @@ drift (const bt_dive *dive, bt__state *state, int vehicle)
   double c = v->drag + v->quadratic_drag * speed;
   bt_vec3 force = bt__add (bt__thrust (v), tether_force (dive, state, vehicle));
   bt_vec3 push = bt__axpy (force, c, flow);
-  v->velocity = bt__scale (1 / (moving + h * c), bt__axpy (bt__scale (moving, v->velocity), h, push));
+  v->velocity
+      = bt__scale (1 / (moving + h * c), bt__axpy (bt__scale (moving, v->velocity), h, push));
   v->position = bt__axpy (v->position, h, v->velocity);
 }
 

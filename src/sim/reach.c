@@ -45,7 +45,8 @@ bt__pull_on (const bt_dive *dive, bt__state *state, int i)
   return pull;
 }
 
-/* How far VEHICLE may be from OTHER on tether I: as far as it can pull it, and where it was in FROM.  */
+/* How far VEHICLE may be from OTHER on tether I: as far as it can pull it, and where it was in
+ * FROM.  */
 static double
 reach_of (const bt_dive *dive, const bt__state *from, bt__state *state, int i, int vehicle,
           bt_vec3 other)
@@ -83,8 +84,8 @@ note_hold (bt__state *state, bt__tether *tether, int i, int taut)
   tether->taut = taut;
 }
 
-/* Balls that meet are approached by turns; a vehicle on several tethers is rare and two rounds bring it
-   within a millimetre, the next steps the rest.  */
+/* Balls that meet are approached by turns; a vehicle on several tethers is rare and two rounds
+   bring it within a millimetre, the next steps the rest.  */
 static int
 hold_vehicle (const bt_dive *dive, const bt__state *from, bt__state *state, int vehicle)
 {
@@ -112,8 +113,7 @@ bt__hold_at_tethers (const bt_dive *dive, const bt__state *from, bt__state *stat
     {
       bt__ends ends = bt__tether_ends (dive, state, i);
       bt__tether *tether = bt__dive_tether (dive, state, i);
-      note_hold (state, tether, i,
-                 bt__distance (ends.a, ends.b) >= tether->length * (1 - 1e-9));
+      note_hold (state, tether, i, bt__distance (ends.a, ends.b) >= tether->length * (1 - 1e-9));
     }
 }
 

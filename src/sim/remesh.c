@@ -1,8 +1,8 @@
 /* Model `auto': the moving line with as many nodes as its accuracy wants.
 
-   The error that comes of the number of nodes is estimated from the bends of the line, and falls with
-   its square.  The line is laid anew on more nodes when the estimate exceeds what is accepted, and on
-   fewer when it is far below, the gap between keeping it from going to and fro.
+   The error that comes of the number of nodes is estimated from the bends of the line, and falls
+   with its square.  The line is laid anew on more nodes when the estimate exceeds what is accepted,
+   and on fewer when it is far below, the gap between keeping it from going to and fro.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

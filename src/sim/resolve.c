@@ -55,7 +55,8 @@ bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
                             .props = props,
                             .water = &water };
   return bt__shape_solve (&input, &dive->tools, &dive->counts, &tether->shape, &tether->memory,
-                          bt__dive_nodes (dive, state, i), bt__dive_tensions (dive, state, i), error);
+                          bt__dive_nodes (dive, state, i), bt__dive_tensions (dive, state, i),
+                          error);
 }
 
 static bt_status
@@ -67,8 +68,7 @@ solve (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, double pull
   bt_status status = bt__solve_shape (dive, state, i, ends, &tether->props, pull, error);
   if (status != BT_OK)
     return status;
-  tether->tension_max
-      = largest_tension (&tether->shape, nodes, bt__dive_tensions (dive, state, i));
+  tether->tension_max = largest_tension (&tether->shape, nodes, bt__dive_tensions (dive, state, i));
   tether->pull = pull;
   tether->settled = dive->counts.unsettled == unsettled;
   tether->stale = !tether->settled; /* a shape that still moves goes on next step */

@@ -1,4 +1,5 @@
-/* The parts of a step, in the order it takes them.  Each works on a state that is not yet the present.
+/* The parts of a step, in the order it takes them.  Each works on a state that is not yet the
+   present.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -10,8 +11,8 @@
 /* Move the vehicles of STATE by one step as sticks, autopilots and tracks say (kinematics.c).  */
 void bt__move_vehicles (const bt_dive *dive, bt__state *state);
 
-/* Move the vehicles with mass that hang on no moving line by one step of forces; return the moving line
-   that moves VEHICLE, or -1; return the thrust of V, N (mass.c).  */
+/* Move the vehicles with mass that hang on no moving line by one step of forces; return the moving
+   line that moves VEHICLE, or -1; return the thrust of V, N (mass.c).  */
 void bt__drift_vehicles (const bt_dive *dive, bt__state *state);
 int bt__carrier (const bt_dive *dive, bt__state *state, int vehicle);
 bt_vec3 bt__thrust (const bt__vehicle *v);
@@ -35,8 +36,8 @@ void bt__turn_winches (const bt_dive *dive, bt__state *state);
    (reach.c).  */
 void bt__hold_at_tethers (const bt_dive *dive, const bt__state *from, bt__state *state);
 
-/* Return how far along the straight way from A to B, 0 to 1, vehicle I of STATE gets before a tether
-   stops it (reach.c).  */
+/* Return how far along the straight way from A to B, 0 to 1, vehicle I of STATE gets before a
+   tether stops it (reach.c).  */
 double bt__reach_along (const bt_dive *dive, bt__state *state, int i, bt_vec3 a, bt_vec3 b);
 
 /* Solve the tethers of STATE whose ends, length, properties or current changed, and, when PASSES is
@@ -57,9 +58,9 @@ double bt__pull_on (const bt_dive *dive, bt__state *state, int i);
 bt_status bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
                            const bt_tether_props *props, double pull, bt_error *error);
 
-/* The moving line (chain.c): lay tether I from its present shape, or from its equilibrium; go on by a
-   step; go along with ends that were put elsewhere; become nodes of a static model; take as many nodes
-   as its accuracy wants (remesh.c); part in the middle of INTERVAL.  */
+/* The moving line (chain.c): lay tether I from its present shape, or from its equilibrium; go on by
+   a step; go along with ends that were put elsewhere; become nodes of a static model; take as many
+   nodes as its accuracy wants (remesh.c); part in the middle of INTERVAL.  */
 bt_status bt__lay_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
                          bt_error *error);
 bt_status bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,

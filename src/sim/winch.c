@@ -1,5 +1,5 @@
-/* The winch: pays out and hauls in at its rate, exactly as much as it was told, and stalls on a taut
-   tether.
+/* The winch: pays out and hauls in at its rate, exactly as much as it was told, and stalls on a
+   taut tether.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -8,7 +8,8 @@
 #include "math/vec.h"
 #include "sim/sim.h"
 
-/* The shortest length of tether I that the pull of its vehicles still lets reach between its ends.  */
+/* The shortest length of tether I that the pull of its vehicles still lets reach between its ends.
+ */
 static double
 shortest (const bt_dive *dive, bt__state *state, int i)
 {
@@ -30,7 +31,8 @@ turn_winch (const bt_dive *dive, bt__state *state, int i)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
   double length = tether->length + tether->winch_rate * BT__TIME_STEP;
-  int past = tether->winch_rate > 0 ? length >= tether->winch_target : length <= tether->winch_target;
+  int past
+      = tether->winch_rate > 0 ? length >= tether->winch_target : length <= tether->winch_target;
   double floor = tether->winch_rate < 0 ? fmin (tether->length, shortest (dive, state, i)) : 0;
   if (past)
     length = tether->winch_target;

@@ -1,8 +1,8 @@
 /* The resolved shape of one tether in space: solved once, then asked.
 
-   The plane solutions of <bight/statics.h> are set into space here, after the thesis (2.2 to 2.4): the
-   plane of the bend, the depth rule, the pieces.  A shape is flat plain data and every question is a
-   pure read of it.
+   The plane solutions of <bight/statics.h> are set into space here, after the thesis (2.2 to 2.4):
+   the plane of the bend, the depth rule, the pieces.  A shape is flat plain data and every question
+   is a pure read of it.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -22,22 +22,23 @@ typedef enum bt__form
   BT__FORM_CATENARY,
   BT__FORM_ELASTIC,
   BT__FORM_NODES, /* positions and tension vectors in arrays beside the shape */
-  BT__FORM_CHAIN  /* the moving line: a bt__dynamic beside the shape; not asked through this header */
+  BT__FORM_CHAIN  /* the moving line: a bt__dynamic beside the shape; not asked through this header
+                   */
 } bt__form;
 
 /* Flat; no padding.  Arc lengths run from the anchor A to the end B, unstretched.  */
 typedef struct bt__shape
 {
-  int64_t form;   /* bt__form */
-  int64_t n;      /* NODES: intervals */
-  bt_vec3 a, b;   /* the ends, m */
-  double length;  /* m */
-  bt_vec3 across; /* unit, in the plane of the bend, across the load */
-  bt_vec3 against;/* unit, in the plane of the bend, against the load */
-  bt_vec3 rise;   /* added per metre of arc length: the linear depth rule; else zero */
+  int64_t form;        /* bt__form */
+  int64_t n;           /* NODES: intervals */
+  bt_vec3 a, b;        /* the ends, m */
+  double length;       /* m */
+  bt_vec3 across;      /* unit, in the plane of the bend, across the load */
+  bt_vec3 against;     /* unit, in the plane of the bend, against the load */
+  bt_vec3 rise;        /* added per metre of arc length: the linear depth rule; else zero */
   double plane_length; /* arc length of the plane curve: LENGTH, less with the linear rule */
-  double load;    /* N/m on the plane curve: |(q, w)| */
-  double t1, t2;  /* N: constant tension (STRAIGHT, CATENARY: t1), of the two links (V) */
+  double load;         /* N/m on the plane curve: |(q, w)| */
+  double t1, t2;       /* N: constant tension (STRAIGHT, CATENARY: t1), of the two links (V) */
   bt_v_shape v;
   bt_catenary catenary;
   bt_elastic elastic;
@@ -46,9 +47,9 @@ typedef struct bt__shape
 /* What a shape is solved from.  */
 typedef struct bt__shape_input
 {
-  bt_vec3 a, b;     /* anchor and vehicle's end; |b - a| may exceed the length: straight */
-  double length;    /* paid out, m */
-  double pull;      /* N: what the vehicle pulls with while a taut tether holds it, else 0 */
+  bt_vec3 a, b;  /* anchor and vehicle's end; |b - a| may exceed the length: straight */
+  double length; /* paid out, m */
+  double pull;   /* N: what the vehicle pulls with while a taut tether holds it, else 0 */
   const bt_tether_props *props;
   const bt_water *water;
 } bt__shape_input;
@@ -56,10 +57,10 @@ typedef struct bt__shape_input
 /* What is remembered from shape to shape; part of the state.  */
 typedef struct bt__shape_memory
 {
-  bt_vec3 load_direction; /* unit, of the last load there was; zero at first */
-  bt_vec3 across;         /* last across axis: used when the chord runs along the load */
+  bt_vec3 load_direction;     /* unit, of the last load there was; zero at first */
+  bt_vec3 across;             /* last across axis: used when the chord runs along the load */
   double search_a, search_xs; /* last answer of the thesis' search; search_a = 0: none */
-  bt_vec3 pull;           /* last tension vector at the anchor (steady); zero: none */
+  bt_vec3 pull;               /* last tension vector at the anchor (steady); zero: none */
 } bt__shape_memory;
 
 /* Workspaces a solve may use; each is NULL unless the scene has a tether that needs it.  */
@@ -77,16 +78,16 @@ typedef struct bt__shape_counts
 
 /* Solve INPUT into *SHAPE.  MEMORY is read and, on success, updated.  NODES and TENSIONS hold
    props->nodes + 1 vectors each and are used by the steady model alone: on entry the present shape
-   (when shape->form is NODES), on success the new one.  On failure SHAPE, MEMORY and the arrays may be
-   half written: the caller works on a copy.  */
+   (when shape->form is NODES), on success the new one.  On failure SHAPE, MEMORY and the arrays may
+   be half written: the caller works on a copy.  */
 bt_status bt__shape_solve (const bt__shape_input *input, bt__shape_tools *tools,
                            bt__shape_counts *counts, bt__shape *shape, bt__shape_memory *memory,
                            bt_vec3 *nodes, bt_vec3 *tensions, bt_error *error);
 
 /* Point, unit tangent (anchor toward vehicle) and tension (N) at arc length S, clamped to the line.
-   NODES and TENSIONS as filled by the solve.  At a kink (the V's bend) the tangent is that of the link
-   toward the vehicle.  Between nodes the NODES form is cubic Hermite in the position, second-order
-   accurate or better in tension.  */
+   NODES and TENSIONS as filled by the solve.  At a kink (the V's bend) the tangent is that of the
+   link toward the vehicle.  Between nodes the NODES form is cubic Hermite in the position,
+   second-order accurate or better in tension.  */
 bt_vec3 bt__shape_point (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions,
                          double s);
 bt_vec3 bt__shape_tangent (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions,

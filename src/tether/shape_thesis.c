@@ -70,8 +70,8 @@ bend_thesis_linear (bt__shape_job *j)
   return BT_OK;
 }
 
-/* Straight, with the bend where equation 2-1 has its limits: taut against the load it is at the start,
-   with it at the end.  */
+/* Straight, with the bend where equation 2-1 has its limits: taut against the load it is at the
+   start, with it at the end.  */
 static void
 pull_v_taut (bt__shape_job *j)
 {

@@ -13,10 +13,10 @@
 static const uint64_t magic = 0x3154484749420002ULL;
 
 /* Byte-wise equality of states means equality of dives only if no byte is padding.  */
-_Static_assert (sizeof (bt__vehicle) == 36 * 8, "no padding in bt__vehicle");
-_Static_assert (sizeof (bt_event) == 3 * 8, "no padding in bt_event");
-_Static_assert (sizeof (bt__state) % 8 == 0, "whole words in bt__state");
-_Static_assert (sizeof (bt__tether) % 8 == 0, "whole words in bt__tether");
+_Static_assert(sizeof (bt__vehicle) == 36 * 8, "no padding in bt__vehicle");
+_Static_assert(sizeof (bt_event) == 3 * 8, "no padding in bt_event");
+_Static_assert(sizeof (bt__state) % 8 == 0, "whole words in bt__state");
+_Static_assert(sizeof (bt__tether) % 8 == 0, "whole words in bt__tether");
 
 /* ---- Layout ---- */
 
@@ -157,7 +157,8 @@ bt__dive_water (const bt_dive *dive, const bt__state *state)
 
 /* ---- Life ---- */
 
-/* Make the workspaces any tether of the model may come to need: its model may change while it dives.  */
+/* Make the workspaces any tether of the model may come to need: its model may change while it
+ * dives.  */
 static bt_status
 make_tools (bt_dive *dive, bt_error *error)
 {
@@ -395,7 +396,7 @@ bt__check_part (const bt_dive *dive, bt_part part, int i, bt_error *error)
   static const char *const words[] = { "sea", "vehicle", "tether" };
   int n = bt_dive_count (dive, part);
   if (i < 0 || i >= n)
-    return bt__fail (error, BT_ERR_NAME, "there is no %s number %d; this dive has %d", words[part], i,
-                     n);
+    return bt__fail (error, BT_ERR_NAME, "there is no %s number %d; this dive has %d", words[part],
+                     i, n);
   return BT_OK;
 }

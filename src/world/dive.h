@@ -29,9 +29,9 @@ enum
 struct bt_dive
 {
   bt_model *model;
-  size_t size;       /* of a state */
-  bt__state *now;    /* what questions read */
-  bt__state *next;   /* what an operation or a step works on */
+  size_t size;     /* of a state */
+  bt__state *now;  /* what questions read */
+  bt__state *next; /* what an operation or a step works on */
   bt__shape_tools tools;
   bt__dynamic_work *work; /* of the moving line */
   bt_vec3 *polyline;      /* room for the points of any tether */
@@ -55,7 +55,7 @@ bt__vehicle *bt__dive_vehicle (const bt_dive *dive, bt__state *state, int i);
 bt__tether *bt__dive_tether (const bt_dive *dive, bt__state *state, int i);
 bt_vec3 *bt__dive_nodes (const bt_dive *dive, bt__state *state, int tether);
 bt_vec3 *bt__dive_tensions (const bt_dive *dive, bt__state *state, int tether);
-/* The chain of a moving tether: PART 0 at the anchor, 1 at the far end once the line has parted.  */
+/* The chain of a moving tether: PART 0 at the anchor, 1 at the far end once the line has parted. */
 bt__dynamic *bt__dive_chain (const bt_dive *dive, bt__state *state, int tether, int part);
 double bt__state_time (const bt__state *state);
 /* The most intervals that the chain of TETHER may come to.  */

@@ -1,4 +1,5 @@
-/* What happened, with its time: a ring in the state, so that a restored dive remembers only its own past.
+/* What happened, with its time: a ring in the state, so that a restored dive remembers only its own
+   past.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -34,8 +34,8 @@ bt_vec3 bt__line_point (const bt__line *line, double s);
 bt_vec3 bt__line_tangent (const bt__line *line, double s);
 double bt__line_tension (const bt__line *line, double s);
 
-/* Return an upper estimate of the error in position that comes of the nodes of CHAIN, m: the estimator
-   of bt__dynamic_space_error times the most it was seen to fall short by.  */
+/* Return an upper estimate of the error in position that comes of the nodes of CHAIN, m: the
+   estimator of bt__dynamic_space_error times the most it was seen to fall short by.  */
 double bt__chain_error (const bt__dynamic *chain);
 
 /* The force of LINE on what its far end is fastened to, N.  */

@@ -35,7 +35,8 @@ bt_dive_current_at (const bt_dive *dive, bt_vec3 p, bt_vec3 *velocity, bt_error 
   if (!bt__is_finite (p))
     return bt__fail (error, BT_ERR_DOMAIN, "a place has finite coordinates");
   if (!bt__is_finite (v))
-    return bt__fail (error, BT_ERR_DIVERGED, "the current at (%g %g %g) is not finite", p.x, p.y, p.z);
+    return bt__fail (error, BT_ERR_DIVERGED, "the current at (%g %g %g) is not finite", p.x, p.y,
+                     p.z);
   *velocity = v;
   return BT_OK;
 }
@@ -239,9 +240,9 @@ bt_tether_energy (const bt_dive *dive, int i, bt_energy *energy, bt_error *error
     return status;
   if (!line.chain)
     return bt__fail (error, BT_ERR_UNSUPPORTED, "only a moving line has its energies counted");
-  e = bt__dynamic_energies (line.chain, &(bt__dynamic_input){ .line = &line.tether->props,
-                                                              .water = &water,
-                                                              .h = BT__TIME_STEP });
+  e = bt__dynamic_energies (
+      line.chain,
+      &(bt__dynamic_input){ .line = &line.tether->props, .water = &water, .h = BT__TIME_STEP });
   *energy = (bt_energy){ e.kinetic, e.strain, e.gravity, e.bending };
   return BT_OK;
 }

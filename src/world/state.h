@@ -1,9 +1,9 @@
-/* The flat state of a dive: all that moves, without a pointer and without padding, so that a copy of its
-   bytes is a checkpoint and a hash of them tells states apart.
+/* The flat state of a dive: all that moves, without a pointer and without padding, so that a copy
+   of its bytes is a checkpoint and a hash of them tells states apart.
 
-   One block: the head, the vehicles, the tethers, then a store for each tether: its node arrays, or its
-   chain and, once it has parted, the chain of the other part.  Of a store only what is live is copied,
-   hashed or looked at.
+   One block: the head, the vehicles, the tethers, then a store for each tether: its node arrays, or
+   its chain and, once it has parted, the chain of the other part.  Of a store only what is live is
+   copied, hashed or looked at.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -53,11 +53,11 @@ typedef struct bt__vehicle
 typedef struct bt__tether
 {
   bt_tether_props props;
-  double length; /* paid out, m */
+  double length;       /* paid out, m */
   double winch_rate;   /* m/s, signed; 0: the winch stands */
   double winch_target; /* m */
   double tension_max;
-  double pull;         /* N: of the vehicle that it holds, as last solved */
+  double pull;      /* N: of the vehicle that it holds, as last solved */
   int64_t store_at; /* offset of its store behind the tethers, bytes */
   int64_t stale;    /* must be solved though its ends did not move */
   int64_t settled;

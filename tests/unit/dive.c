@@ -1,5 +1,5 @@
-/* The dive as a machine: operations that succeed whole or not at all, forks and checkpoints that are
-   bit-equal, work that is skipped, no allocation in a step, and memory that runs out.
+/* The dive as a machine: operations that succeed whole or not at all, forks and checkpoints that
+   are bit-equal, work that is skipped, no allocation in a step, and memory that runs out.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -24,8 +24,8 @@ void *__libc_malloc (size_t);
 void *__libc_calloc (size_t, size_t);
 void *__libc_realloc (void *, size_t);
 
-static long allocations;        /* since the program began */
-static long fail_at = -1;       /* the allocation of this number is refused; -1: none */
+static long allocations;  /* since the program began */
+static long fail_at = -1; /* the allocation of this number is refused; -1: none */
 
 static int
 refuse (void)

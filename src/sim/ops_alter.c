@@ -1,0 +1,136 @@
+/* Changing a live field of a vehicle, a tether or the sea, by its place in the table of fields.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <string.h>
+
+#include "math/vec.h"
+#include "sim/ops.h"
+
+static const bt_field *
+live_field (const bt__call *c, const char *head_name)
+{
+  const bt_head *head = bt_head_find (head_name);
+  double i = c->args[1];
+  const bt_field *field = i >= 0 && i < (double)head->n_fields ? &head->fields[(size_t)i] : NULL;
+  if (!field)
+    bt__fail (c->error, BT_ERR_NAME, "a %s has no field number %g", head_name, i);
+  else if (!field->live)
+    bt__fail (c->error, BT_ERR_DOMAIN, "the %s of a %s is fixed while it dives", field->name,
+              head_name);
+  return field && field->live ? field : NULL;
+}
+
+static bt_status
+alter_vehicle (const bt__call *c)
+{
+  bt__vehicle *v;
+  bt_vehicle_def def = { 0 };
+  const bt_field *field = live_field (c, "rov");
+  bt_status status = bt__check_part (c->dive, BT_PART_VEHICLE, c->subject, c->error);
+  if (status != BT_OK || !field)
+    return status != BT_OK ? status : c->error->status;
+  v = bt__dive_vehicle (c->dive, c->state, c->subject);
+  def.surge_speed = v->speeds[0];
+  def.sway_speed = v->speeds[1];
+  def.heave_speed = v->speeds[2];
+  def.yaw_rate = v->speeds[3] * (180 / BT__PI);
+  def.pull = v->pull;
+  def.drag = v->drag;
+  def.quadratic_drag = v->quadratic_drag;
+  def.thrust = v->thrust;
+  status = bt_def_set_number (field, &def, c->args[2], c->error);
+  if (status != BT_OK)
+    return status;
+  v->speeds[0] = def.surge_speed;
+  v->speeds[1] = def.sway_speed;
+  v->speeds[2] = def.heave_speed;
+  v->speeds[3] = def.yaw_rate * (BT__PI / 180);
+  v->pull = def.pull;
+  v->drag = def.drag;
+  v->quadratic_drag = def.quadratic_drag;
+  v->thrust = def.thrust;
+  return BT_OK;
+}
+
+/* Mass and wet weight follow each other and the diameter.  */
+static void
+forget_follower (const bt_field *field, bt_tether_props *props)
+{
+  if (strcmp (field->name, "wet-weight") == 0)
+    props->mass = NAN;
+  else if (strcmp (field->name, "mass") == 0 || strcmp (field->name, "diameter") == 0)
+    props->wet_weight = NAN;
+}
+
+static bt_status
+alter_tether (const bt__call *c)
+{
+  bt_tether_def def = { 0 };
+  bt__tether *tether;
+  bt__ends ends;
+  const bt_field *field = live_field (c, "tether");
+  bt_status status = bt__check_part (c->dive, BT_PART_TETHER, c->subject, c->error);
+  if (status != BT_OK || !field)
+    return status != BT_OK ? status : c->error->status;
+  tether = bt__dive_tether (c->dive, c->state, c->subject);
+  def.props = tether->props;
+  status = bt_def_set_number (field, &def, c->args[2], c->error);
+  if (status != BT_OK)
+    return status;
+  if (c->dive->model->tethers[c->subject].n_lumps > 0 && def.props.model < BT_MODEL_DYNAMIC)
+    return bt__fail (c->error, BT_ERR_UNSUPPORTED,
+                     "the tether has clumps or floats: only `dynamic' and `auto' move it");
+  forget_follower (field, &def.props);
+  bt_tether_props_complete (&def.props, c->state->density, c->state->gravity);
+  ends = bt__tether_ends (c->dive, c->state, c->subject);
+  if (!tether->parted
+      && bt__distance (ends.a, ends.b)
+             > bt__longest_chord (&def.props, tether->length, INFINITY) * (1 + 1e-12))
+    return bt__fail (c->error, BT_ERR_DOMAIN, "the tether is stretched, and would not reach so");
+  tether->props = def.props;
+  tether->stale = 1;
+  return BT_OK;
+}
+
+/* Every line weighs what its mass does in the new water.  */
+static void
+weigh_anew (const bt__call *c)
+{
+  for (int i = 0; i < c->dive->model->n_tethers; i++)
+    {
+      bt_tether_props *props = &bt__dive_tether (c->dive, c->state, i)->props;
+      props->wet_weight = NAN;
+      bt_tether_props_complete (props, c->state->density, c->state->gravity);
+    }
+}
+
+static bt_status
+alter_sea (const bt__call *c)
+{
+  bt_sea_def def
+      = { .depth = c->state->depth, .density = c->state->density, .gravity = c->state->gravity };
+  const bt_field *field = live_field (c, "sea");
+  bt_status status
+      = field ? bt_def_set_number (field, &def, c->args[2], c->error) : c->error->status;
+  if (status != BT_OK)
+    return status;
+  c->state->density = def.density;
+  c->state->gravity = def.gravity;
+  weigh_anew (c);
+  bt__mark_all_stale (c);
+  return BT_OK;
+}
+
+bt_status
+bt__op_alter (const bt__call *c)
+{
+  if (c->args[0] == BT_PART_SEA)
+    return alter_sea (c);
+  if (c->args[0] == BT_PART_VEHICLE)
+    return alter_vehicle (c);
+  if (c->args[0] == BT_PART_TETHER)
+    return alter_tether (c);
+  return bt__fail (c->error, BT_ERR_NAME, "there is no part of the kind %g", c->args[0]);
+}

@@ -1,0 +1,61 @@
+/* What may be done to the sea: its current.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "math/vec.h"
+#include "sim/ops.h"
+
+int
+bt_current_pack (const bt_current *current, double *args)
+{
+  int rows = current->kind == BT_CURRENT_PROFILE ? (int)current->n : 1, n = 0;
+  args[n++] = (double)current->kind;
+  args[n++] = current->turn_rate;
+  args[n++] = current->exponent;
+  args[n++] = current->period;
+  for (int i = 0; i < rows; i++)
+    {
+      args[n++] = current->z[i];
+      args[n++] = current->velocity[i].x;
+      args[n++] = current->velocity[i].y;
+      args[n++] = current->velocity[i].z;
+    }
+  return n;
+}
+
+static bt_status
+unpack_current (const bt__call *c, bt_current *current)
+{
+  int kind = c->args[0] >= 0 && c->args[0] <= BT_CURRENT_FUNCTION ? (int)c->args[0] : -1;
+  if (kind < 0 || kind != c->args[0] || c->n % 4 != 0)
+    return bt__fail (c->error, BT_ERR_FORMAT, "these %d numbers are not a current", c->n);
+  memset (current, 0, sizeof *current);
+  current->kind = kind;
+  current->turn_rate = c->args[1];
+  current->exponent = c->args[2];
+  current->period = c->args[3];
+  current->n = kind == BT_CURRENT_PROFILE ? (c->n - 4) / 4 : 0;
+  for (int i = 0; i < (c->n - 4) / 4; i++)
+    {
+      const double *row = c->args + 4 + 4 * i;
+      current->z[i] = row[0];
+      current->velocity[i] = bt__vec (row[1], row[2], row[3]);
+    }
+  return bt_current_check (current, c->error);
+}
+
+bt_status
+bt__op_current (const bt__call *c)
+{
+  bt_current current;
+  bt_status status = unpack_current (c, &current);
+  if (status != BT_OK)
+    return status;
+  if (current.kind == BT_CURRENT_FUNCTION && !c->dive->function)
+    return bt__fail (c->error, BT_ERR_UNSUPPORTED, "this dive has no function for its current");
+  c->state->current = current;
+  bt__mark_all_stale (c);
+  return BT_OK;
+}

@@ -1,0 +1,204 @@
+/* What may be done to a vehicle.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "math/vec.h"
+#include "sim/ops.h"
+
+static bt__vehicle *
+vehicle_of (const bt__call *c)
+{
+  return bt__dive_vehicle (c->dive, c->state, c->subject);
+}
+
+bt_status
+bt__op_drive (const bt__call *c)
+{
+  static const char *const names[] = { "surge", "sway", "heave", "yaw" };
+  bt__vehicle *v = vehicle_of (c);
+  for (int i = 0; i < 4; i++)
+    if (!isnan (c->args[i]) && bt__check_range (c, i, names[i], -1, 1) != BT_OK)
+      return BT_ERR_DOMAIN;
+  for (int i = 0; i < 4; i++)
+    if (!isnan (c->args[i]))
+      v->sticks[i] = c->args[i];
+  v->goal = BT__GOAL_NONE; /* hands on the sticks end a flight to a place */
+  return BT_OK;
+}
+
+bt_status
+bt__op_release (const bt__call *c)
+{
+  bt__vehicle *v = vehicle_of (c);
+  memset (v->sticks, 0, sizeof v->sticks);
+  v->goal = BT__GOAL_NONE;
+  v->hold_heading.on = v->hold_depth.on = 0;
+  return BT_OK;
+}
+
+static void
+stand_at (bt__vehicle *v, bt_vec3 p)
+{
+  v->position = p;
+  v->velocity = bt__vec (0, 0, 0);
+  v->goal = BT__GOAL_NONE;
+}
+
+bt_status
+bt__op_place (const bt__call *c)
+{
+  bt__vehicle *v = vehicle_of (c);
+  bt_vec3 way;
+  double k;
+  if (bt__check_point (c) != BT_OK)
+    return BT_ERR_DOMAIN;
+  way = bt__sub (bt__point_of (c), v->position);
+  k = bt__reach_along (c->dive, c->state, c->subject, v->position, bt__point_of (c));
+  stand_at (v, k < 1 ? bt__axpy (v->position, k, way) : bt__point_of (c));
+  bt__hold_at_tethers (c->dive, c->dive->now, c->state);
+  v->held = k < 1;
+  return BT_OK;
+}
+
+/* Lay tether I anew if it is fastened to the subject.  */
+static void
+forget_shape (const bt__call *c, int i)
+{
+  const bt__end *end = c->dive->model->ends[i];
+  bt__tether *tether = bt__dive_tether (c->dive, c->state, i);
+  if (end[0].vehicle != c->subject && end[1].vehicle != c->subject)
+    return;
+  memset (&tether->memory, 0, sizeof tether->memory);
+  memset (&tether->shape, 0, sizeof tether->shape);
+  tether->stale = 1;
+}
+
+bt_status
+bt__op_lay (const bt__call *c)
+{
+  bt__vehicle *v = vehicle_of (c);
+  bt_vec3 p;
+  if (bt__check_point (c) != BT_OK)
+    return BT_ERR_DOMAIN;
+  p = bt__point_of (c);
+  if (bt__reach_along (c->dive, c->state, c->subject, v->position, p) < 1)
+    return bt__fail (c->error, BT_ERR_DOMAIN, "the tether does not reach to (%g %g %g)", p.x, p.y,
+                     p.z);
+  stand_at (v, p);
+  bt__hold_at_tethers (c->dive, c->dive->now, c->state);
+  for (int i = 0; i < c->dive->model->n_tethers; i++)
+    forget_shape (c, i);
+  return BT_OK;
+}
+
+static bt_status
+go (const bt__call *c, bt__goal goal)
+{
+  bt__vehicle *v = vehicle_of (c);
+  if (bt__check_point (c) != BT_OK || bt__check_range (c, 3, "a speed in m/s", 1e-6, 1000) != BT_OK)
+    return BT_ERR_DOMAIN;
+  v->goal = goal;
+  v->target = bt__point_of (c);
+  v->target_speed = c->args[3];
+  return BT_OK;
+}
+
+bt_status
+bt__op_move (const bt__call *c)
+{
+  return go (c, BT__GOAL_POINT);
+}
+
+bt_status
+bt__op_fly_to (const bt__call *c)
+{
+  return go (c, BT__GOAL_FLY);
+}
+
+bt_status
+bt__op_hold_heading (const bt__call *c)
+{
+  bt_status status = bt__check_range (c, 0, "a heading in radians", -1e6, 1e6);
+  if (status == BT_OK)
+    vehicle_of (c)->hold_heading = (bt__hold){ 1, c->args[0] };
+  return status;
+}
+
+bt_status
+bt__op_hold_depth (const bt__call *c)
+{
+  bt_status status = bt__check_range (c, 0, "a depth in m", -1e7, 1e7);
+  if (status == BT_OK)
+    vehicle_of (c)->hold_depth = (bt__hold){ 1, c->args[0] };
+  return status;
+}
+
+bt_status
+bt__op_hold_altitude (const bt__call *c)
+{
+  bt_status status = bt__check_range (c, 0, "an altitude in m", 0, c->state->depth);
+  if (status == BT_OK)
+    vehicle_of (c)->hold_depth = (bt__hold){ 1, c->state->depth - c->args[0] };
+  return status;
+}
+
+bt_status
+bt__op_hold_position (const bt__call *c)
+{
+  bt__vehicle *v = vehicle_of (c);
+  memset (v->sticks, 0, sizeof v->sticks);
+  v->goal = BT__GOAL_NONE;
+  v->hold_heading = (bt__hold){ 1, v->heading };
+  v->hold_depth = (bt__hold){ 1, -v->position.z };
+  return BT_OK;
+}
+
+static bt_status
+check_track (const bt__call *c)
+{
+  if (c->n % 4 != 0)
+    return bt__fail (c->error, BT_ERR_FORMAT, "a track has rows of t x y z, not %d numbers", c->n);
+  for (int i = 0; i < c->n; i++)
+    if (!(fabs (c->args[i]) <= 1e7))
+      return bt__fail (c->error, BT_ERR_FORMAT, "row %d of the track has %g", i / 4 + 1,
+                       c->args[i]);
+  for (int i = 4; i < c->n; i += 4)
+    if (c->args[i] <= c->args[i - 4])
+      return bt__fail (c->error, BT_ERR_FORMAT,
+                       "row %d of the track does not come later than row %d", i / 4 + 1, i / 4);
+  return BT_OK;
+}
+
+bt_status
+bt__op_follow (const bt__call *c)
+{
+  bt__vehicle *v = vehicle_of (c);
+  if (v->mass > 0)
+    return bt__fail (
+        c->error, BT_ERR_UNSUPPORTED,
+        "a vehicle with mass goes where forces take it; only one without follows a track");
+  size_t bytes = sizeof (double) * (size_t)c->n;
+  bt_status status = check_track (c);
+  bt__track *track = status == BT_OK ? malloc (sizeof *track + bytes) : NULL;
+  if (status != BT_OK)
+    return status;
+  if (!track)
+    return bt__fail (c->error, BT_ERR_LIMIT, "no memory for a track of %d rows", c->n / 4);
+  atomic_init (&track->references, 1);
+  track->n = c->n / 4;
+  memcpy (track->row, c->args, bytes);
+  status = bt__dive_add_track (c->dive, track, c->error);
+  if (status != BT_OK)
+    {
+      free (track);
+      return status;
+    }
+  v->goal = BT__GOAL_TRACK;
+  v->track = c->dive->n_tracks - 1;
+  v->track_start = bt__state_time (c->state);
+  return BT_OK;
+}
