@@ -23,7 +23,8 @@
 #define SNAP_TO 25.0
 enum
 {
-  SNAP_STEPS = 30
+  SNAP_STEPS = 30,
+  SETTLE_TRIES = 20
 };
 
 /* The vehicle with mass at the far end of tether I, which this line carries, or NULL.  */
@@ -66,6 +67,20 @@ tense (const bt_dive *dive, bt__dynamic *chain, int n)
   chain->pull[1] = bt__scale (dive->along[n - 1], last);
 }
 
+/* Solve the shape of tether I with PROPS again and again while it still moves.  */
+static bt_status
+settle_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
+              const bt_tether_props *props, bt_error *error)
+{
+  for (int k = 0;; k++)
+    {
+      uint64_t unsettled = dive->counts.unsettled;
+      bt_status status = bt__solve_shape (dive, state, i, ends, props, 0, error);
+      if (status != BT_OK || dive->counts.unsettled == unsettled || k == SETTLE_TRIES)
+        return status;
+    }
+}
+
 /* Give tether I a shape to begin with when it has none: its equilibrium, or, when that is not
    found, the catenary.  */
 static bt_status
@@ -75,7 +90,9 @@ rest_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_err
   bt_tether_props props = tether->props;
   bt_status status;
   props.model = BT_MODEL_STEADY;
-  status = bt__solve_shape (dive, state, i, ends, &props, 0, error);
+  if (tether->props.model == BT_MODEL_AUTO)
+    props.nodes = bt__chain_room (&dive->model->tethers[i]);
+  status = settle_shape (dive, state, i, ends, &props, error);
   if (status == BT_OK)
     return status;
   props.model = BT_MODEL_CATENARY;
@@ -90,7 +107,8 @@ bt__lay_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_
   bt__tether *tether = bt__dive_tether (dive, state, i);
   const bt_tether_def *def = &dive->model->tethers[i];
   const bt__vehicle *v;
-  int n = (int)def->props.nodes;
+  int is_auto = tether->props.model == BT_MODEL_AUTO;
+  int n = is_auto ? bt__chain_room (def) : (int)def->props.nodes;
   bt_status status = BT_OK;
   if (tether->shape.length == 0)
     status = rest_shape (dive, state, i, ends, error);
@@ -114,7 +132,7 @@ bt__lay_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_
   v = carried (dive, state, i);
   if (v)
     bt__dynamic_v (bt__dive_chain (dive, state, i, 0))[n] = v->velocity;
-  return BT_OK;
+  return is_auto ? bt__remesh_chain (dive, state, i, error) : BT_OK;
 }
 
 /* ---- Between steps ---- */

@@ -13,8 +13,11 @@
 #include "sim/sim.h"
 #include "world/line.h"
 
-#define TOO_GOOD 0.2 /* of the accuracy: below it nodes are saved */
-#define SPARE 1.15   /* times the nodes the estimate asks for */
+/* What is aimed at and when nodes are saved, of the accuracy: an error made once is carried on, in
+   still water for long, so the estimate of the moment is kept well below what is accepted.  */
+#define AIM 0.3
+#define TOO_GOOD 0.06
+#define SPARE 1.15 /* times the nodes the estimate asks for */
 enum
 {
   FEWEST = 8
@@ -24,8 +27,8 @@ enum
 static int
 wanted (int n, double error, double accuracy, int room)
 {
-  double ideal = SPARE * n * sqrt (error / accuracy);
-  if (error <= accuracy && error >= TOO_GOOD * accuracy)
+  double ideal = SPARE * n * sqrt (error / (AIM * accuracy));
+  if (error <= AIM * accuracy && error >= TOO_GOOD * accuracy)
     return n;
   return (int)fmax (FEWEST, fmin (room, ceil (ideal)));
 }

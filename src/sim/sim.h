@@ -19,7 +19,7 @@ bt_vec3 bt__thrust (const bt__vehicle *v);
 
 enum
 {
-  BT__REMESH_EVERY = 30 /* steps between looks at the error of a line of model `auto' */
+  BT__REMESH_EVERY = 10 /* steps between looks at the error of a line of model `auto' */
 };
 
 /* Nonzero if the model of TETHER is a moving line.  */

@@ -27,10 +27,11 @@ fixed_size (const bt_model *model)
          + sizeof (bt__tether) * (size_t)model->n_tethers;
 }
 
+/* A shape that a chain is laid from may have as many points as the chain.  */
 static int
 node_points (const bt_tether_def *tether)
 {
-  return (int)tether->props.nodes + 1;
+  return bt__chain_room (tether) + 1;
 }
 
 static size_t
@@ -169,7 +170,7 @@ make_tools (bt_dive *dive, bt_error *error)
   if (most == 0)
     return BT_OK;
   dive->tools.search = bt_search_new ();
-  dive->tools.steady = bt_steady_new (most);
+  dive->tools.steady = bt_steady_new (2 * most); /* as many as a chain comes to */
   dive->work = bt__dynamic_work_new (2 * most);
   dive->polyline = calloc ((size_t)(2 * most + 1), sizeof *dive->polyline);
   dive->along = calloc ((size_t)(2 * most + 1), sizeof *dive->along);

@@ -1,0 +1,59 @@
+;;; What model `auto' promises: of a hundred flights at most one lies farther from the truth than the
+;;; error that was accepted.  The truth here is the same flight on four hundred nodes.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define state (seed->random-state 4))
+
+(define (between-random low high)
+  (+ low (* (- high low) (random:uniform state))))
+
+(define (random-world)
+  ;; A procedure that makes the same world with a model and a number of nodes.
+  (let* ((length (between-random 15 80))
+         (chord (* length (between-random 0.3 0.95)))
+         (bearing (between-random 0 6.28))
+         (dip (between-random -1.0 0.3))
+         (flat (* chord (cos dip)))
+         (end (vec (* flat (sin bearing)) (* flat (cos bearing)) (+ -20 (* chord (sin dip)))))
+         (speed (between-random 0 0.7))
+         (toward (between-random 0 360))
+         (weight (between-random -0.05 0.3)))
+    (lambda (model nodes)
+      (world (sea (depth 200) (current speed toward))
+             (rov (named minnow) (at end))
+             (tether (named line) (type fathom) (wet-weight weight) (from 0 0 -20) (to minnow)
+                     (length length) (model ,model) (nodes nodes) (accuracy asked))))))
+
+(define asked 0.1)                      ; m
+
+(define (shapes-of-flight w moves)
+  ;; The polylines of a flight in W, one at the end of each of MOVES, four seconds long.
+  (enter! w)
+  (map (lambda (move)
+         (drive! #:surge (car move) #:sway (cadr move) #:heave (caddr move))
+         (run 4)
+         (tether-points 41))
+       moves))
+
+(define (farthest-apart one other)
+  (apply max
+         (map (lambda (i) (distance (array-cell-ref one i) (array-cell-ref other i))) (iota 41))))
+
+(define (random-move)
+  (list (between-random -0.5 0.5) (between-random -0.5 0.5) (between-random -0.3 0.3)))
+
+(define (flight-error)
+  (let* ((make (random-world))
+         (moves (list (random-move) (random-move) (random-move)))
+         (found (shapes-of-flight (make 'auto 64) moves))
+         (truth (shapes-of-flight (make 'dynamic 400) moves)))
+    (apply max (map farthest-apart found truth))))
+
+(define-scenario auto-keeps-its-promise
+  "A hundred random flights at an accepted error of 10 cm: at most one is worse."
+  (let* ((errors (map (lambda (i) (flight-error)) (iota 100)))
+         (worse (filter (lambda (e) (> e asked)) errors)))
+    (format #t "# errors of 100 flights: median ~,3f m, worst ~,3f m, ~a above ~a m~%"
+            (list-ref (sort errors <) 50) (apply max errors) (length worse) asked)
+    (expect (length worse) is (between 0 1))))
