@@ -132,7 +132,7 @@ static void
 steps_allocate_nothing (void **unused)
 {
   (void)unused;
-  for (int model = BT_MODEL_RUBBER_BAND; model <= BT_MODEL_STEADY; model++)
+  for (int model = BT_MODEL_RUBBER_BAND; model <= BT_MODEL_AUTO; model++)
     {
       bt_dive *dive = begin ((bt_model_kind)model);
       long before;
@@ -175,11 +175,10 @@ memory_running_out_is_an_error (void **unused)
 #endif
 
 static void
-a_fork_goes_on_bit_equal (void **unused)
+fork_goes_on_bit_equal (bt_model_kind model)
 {
-  bt_dive *dive = begin (BT_MODEL_STEADY), *fork;
+  bt_dive *dive = begin (model), *fork;
   bt_error e;
-  (void)unused;
   drive (dive, 0.7, 0.2);
   step (dive, 100);
   assert_int_equal (bt_dive_fork (dive, &fork, &e), BT_OK);
@@ -193,14 +192,21 @@ a_fork_goes_on_bit_equal (void **unused)
 }
 
 static void
-a_checkpoint_brings_everything_back (void **unused)
+a_fork_goes_on_bit_equal (void **unused)
 {
-  bt_dive *dive = begin (BT_MODEL_CATENARY_SIMPLEX);
+  (void)unused;
+  for (int model = BT_MODEL_RUBBER_BAND; model <= BT_MODEL_AUTO; model++)
+    fork_goes_on_bit_equal ((bt_model_kind)model);
+}
+
+static void
+checkpoint_brings_everything_back (bt_model_kind model)
+{
+  bt_dive *dive = begin (model);
   size_t size = bt_dive_state_size (dive);
   void *state = malloc (size);
   uint64_t then, later;
   bt_error e;
-  (void)unused;
   drive (dive, 0.7, 0.2);
   step (dive, 50);
   then = bt_dive_hash (dive);
@@ -213,6 +219,14 @@ a_checkpoint_brings_everything_back (void **unused)
   assert_true (bt_dive_hash (dive) == later);
   free (state);
   bt_dive_free (dive);
+}
+
+static void
+a_checkpoint_brings_everything_back (void **unused)
+{
+  (void)unused;
+  for (int model = BT_MODEL_RUBBER_BAND; model <= BT_MODEL_AUTO; model++)
+    checkpoint_brings_everything_back ((bt_model_kind)model);
 }
 
 static void

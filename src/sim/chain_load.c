@@ -1,0 +1,93 @@
+/* What a moving line carries: the vehicle with mass at its far end, its clumps and floats.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+
+#include "math/vec.h"
+#include "sim/chain.h"
+
+/* The vehicle with mass at the far end of tether I, which this line carries, or NULL.  */
+bt__vehicle *
+bt__carried (const bt_dive *dive, bt__state *state, int i)
+{
+  int vehicle = dive->model->ends[i][1].vehicle;
+  if (vehicle < 0 || bt__dive_vehicle (dive, state, vehicle)->mass == 0
+      || bt__carrier (dive, state, vehicle) != i)
+    return NULL;
+  return bt__dive_vehicle (dive, state, vehicle);
+}
+
+static bt__dynamic_end
+vehicle_end (const bt__vehicle *v)
+{
+  return (bt__dynamic_end){ .free = 1,
+                            .at = v->position,
+                            .body = { .mass = v->mass,
+                                      .added = v->added_mass,
+                                      .linear = v->drag,
+                                      .quadratic = v->quadratic_drag,
+                                      .force = bt__thrust (v) } };
+}
+
+/* Steel sinks by its weight less the water it displaces; a float is a hull that weighs three tenths
+   of what it displaces.  Both drag as spheres (Cd 0.5) and add half of what they displace.  */
+static bt__dynamic_lump
+lump_of (const bt_lump *def, double from_end, const bt_water *water)
+{
+  double rho = water->density, g = water->gravity;
+  double volume = def->mass > 0      ? def->mass / 7850
+                  : rho > 0 && g > 0 ? def->buoyancy / (0.7 * rho * g)
+                                     : 0;
+  double mass = def->mass > 0 ? def->mass : 0.3 * rho * volume;
+  double radius = cbrt (3 * volume / (4 * BT__PI));
+  return (bt__dynamic_lump){ .from_end = from_end,
+                             .span = def->span,
+                             .mass = mass,
+                             .added = 0.5 * rho * volume,
+                             .wet_weight = (mass - rho * volume) * g,
+                             .quadratic = 0.5 * rho * 0.5 * BT__PI * radius * radius };
+}
+
+/* Give INPUT what is fastened to tether I between FROM and TO metres from its far end, a distance
+   that the winch does not change.  */
+void
+bt__fasten (const bt_dive *dive, int i, double from, double to, bt__dynamic_input *input,
+            bt__dynamic_lump *lumps)
+{
+  const bt_tether_def *def = &dive->model->tethers[i];
+  input->lumps = lumps;
+  input->n_lumps = 0;
+  for (int k = 0; k < (int)def->n_lumps; k++)
+    {
+      double from_end = def->length - def->lumps[k].at;
+      if (from_end >= from && from_end < to)
+        lumps[input->n_lumps++] = lump_of (&def->lumps[k], from_end - from, input->water);
+    }
+}
+
+bt__dynamic_input
+bt__chain_input (const bt_dive *dive, bt__state *state, int i, const bt_water *water,
+                 const bt__ends *ends)
+{
+  const bt__vehicle *v = bt__carried (dive, state, i);
+  bt__dynamic_end far = { .at = ends->b };
+  return (bt__dynamic_input){ .line = &bt__dive_tether (dive, state, i)->props,
+                              .water = water,
+                              .end = { { .at = ends->a }, v ? vehicle_end (v) : far },
+                              .h = BT__TIME_STEP };
+}
+
+/* Give the vehicle that the last node of the line carries its place and velocity.  */
+void
+bt__bring_vehicle (const bt_dive *dive, bt__state *state, int i)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  const bt__dynamic *chain = bt__dive_chain (dive, state, i, tether->parted ? 1 : 0);
+  bt__vehicle *v = bt__carried (dive, state, i);
+  if (!v)
+    return;
+  v->position = bt__dynamic_x (chain)[chain->n];
+  v->velocity = bt__dynamic_v (chain)[chain->n];
+  tether->shape.b = v->position;
+}

@@ -1,0 +1,100 @@
+/* A step of the moving line in a dive: asleep or awake, whole or in two, on its winch.
+
+   The kernel is tether/dynamic.h; here it is given its ends, its winch and its sea.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <string.h>
+
+#include "math/vec.h"
+#include "sim/chain.h"
+
+/* How the chain follows the winch.  */
+#define WINCH_LAG 0.25  /* s */
+#define WINCH_REST 1e-5 /* m */
+
+static int
+may_sleep_on (const bt__state *state, const bt__tether *tether, const bt__ends *ends)
+{
+  return tether->quiet >= BT__SLEEP_AFTER && !tether->stale && tether->winch_rate == 0
+         && tether->shape.length == tether->length && bt__is_same (tether->shape.a, ends->a)
+         && bt__is_same (tether->shape.b, ends->b) && !bt_current_is_unsteady (&state->current);
+}
+
+static bt_status
+step_part (bt_dive *dive, bt__dynamic *chain, bt__dynamic_input *input, bt__dynamic_report *report,
+           bt_error *error)
+{
+  bt_status status = bt__dynamic_step (chain, dive->work, input, report, error);
+  dive->profile.chain_steps++;
+  dive->profile.chain_solves += (uint64_t)report->solves;
+  dive->profile.chain_safeguarded += report->safeguarded != 0;
+  dive->profile.chain_unconverged += !report->converged;
+  return status;
+}
+
+/* The far part of a parted line: its new end is free, the other goes with the vehicle.  */
+static bt_status
+step_far_part (bt_dive *dive, bt__state *state, int i, bt__dynamic_input input, bt_error *error)
+{
+  bt__dynamic *chain = bt__dive_chain (dive, state, i, 1);
+  bt__dynamic_lump lumps[BT_LUMPS_MAX];
+  bt__dynamic_report report = { 0 };
+  bt__fasten (dive, i, 0, bt__dynamic_length (chain), &input, lumps);
+  input.end[0] = (bt__dynamic_end){ .free = 1 };
+  input.pay = 0;
+  return step_part (dive, chain, &input, &report, error);
+}
+
+/* The chain follows the winch with a lag, for a drum that starts or stops at once sends a wave of
+   v sqrt (EA m) along the line.  */
+static double
+pay_of (const bt__tether *tether, const bt__dynamic *chain)
+{
+  double owed = tether->length - bt__dynamic_length (chain);
+  return owed / (fabs (owed) < WINCH_REST ? BT__TIME_STEP : WINCH_LAG);
+}
+
+bt_status
+bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  bt_water water = bt__dive_water (dive, state);
+  bt__dynamic_input input = bt__chain_input (dive, state, i, &water, ends);
+  bt__dynamic_lump lumps[BT_LUMPS_MAX];
+  bt__dynamic_report report = { 0 };
+  double far_length = 0;
+  bt_status status;
+  bt__watch_twist (dive, state, tether, i); /* a sleeping line can be twisted too */
+  if (may_sleep_on (state, tether, ends))
+    {
+      dive->profile.chain_sleeps++;
+      return BT_OK;
+    }
+  if (tether->parted)
+    {
+      far_length = bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
+      status = step_far_part (dive, state, i, input, error);
+      if (status != BT_OK)
+        return status;
+      input.end[1] = (bt__dynamic_end){ .free = 1 };
+    }
+  bt__fasten (dive, i, far_length, INFINITY, &input, lumps);
+  input.pay = pay_of (tether, chain);
+  status = step_part (dive, chain, &input, &report, error);
+  if (status != BT_OK)
+    return status;
+  tether->shape.a = ends->a;
+  tether->shape.b = ends->b;
+  tether->shape.length = tether->length;
+  tether->stale = 0;
+  bt__bring_vehicle (dive, state, i);
+  bt__watch_step (state, tether, i, &report);
+  if (!tether->parted && report.tension > tether->props.breaking_load)
+    bt__part_chain (dive, state, i, report.at);
+  else if (tether->props.model == BT_MODEL_AUTO && state->step % BT__REMESH_EVERY == 0)
+    return bt__remesh_chain (dive, state, i, error);
+  return BT_OK;
+}

@@ -1,0 +1,79 @@
+/* What a moving line does, told as events: snaps, kinks, loops; and whether it rests.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+
+#include "math/vec.h"
+#include "sim/chain.h"
+
+/* What counts as rest, m/s and m/s2, and as a snap: from below 1 N to above 25 N within half a
+   second.  */
+#define REST_SPEED 1e-4
+#define REST_ACCELERATION 1e-3
+#define SNAP_FROM 1.0
+#define SNAP_TO 25.0
+enum
+{
+  SNAP_STEPS = 30
+};
+
+static void
+note_snap (bt__state *state, bt__tether *tether, int i, double tension)
+{
+  if (tension < SNAP_FROM)
+    tether->slack_at = state->step;
+  else if (tension > SNAP_TO && tether->slack_at >= 0
+           && state->step - tether->slack_at <= SNAP_STEPS)
+    {
+      bt__raise_event (state, BT_EVENT_SNAPPED, i);
+      tether->slack_at = -1;
+    }
+}
+
+/* The twist that the vehicle's turns put into the line throws a loop where the torque exceeds what
+   tension, bending and length hold: T < M^2/(4 EI) - pi^2 EI/L^2 (Greenhill 1883).  */
+void
+bt__watch_twist (const bt_dive *dive, bt__state *state, bt__tether *tether, int i)
+{
+  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  int vehicle = dive->model->ends[i][1].vehicle;
+  double turn, torque, most, least = INFINITY, ei = tether->props.ei, length = tether->length;
+  if (tether->props.gj == 0 || ei == 0 || vehicle < 0 || tether->parted)
+    return;
+  turn = bt__dive_vehicle (dive, state, vehicle)->heading
+         - bt__dive_vehicle (dive, state, vehicle)->heading0;
+  torque = tether->props.gj * turn / length;
+  most = torque * torque / (4 * ei) - BT__PI * BT__PI * ei / (length * length);
+  for (int64_t j = 0; j < chain->n; j++)
+    least = fmin (least, bt__dynamic_tension (chain)[j]);
+  if (least < most && !tether->hockled)
+    bt__raise_event (state, BT_EVENT_HOCKLED, i);
+  tether->hockled = least < most;
+}
+
+static void
+note_kink (bt__state *state, bt__tether *tether, int i, double radius)
+{
+  int kinked = radius < tether->props.min_bend_radius;
+  if (kinked && !tether->kinked)
+    bt__raise_event (state, BT_EVENT_KINKED, i);
+  tether->kinked = kinked;
+}
+
+static void
+note_rest (bt__tether *tether, const bt__dynamic_report *report)
+{
+  int rests = report->speed < REST_SPEED && report->acceleration < REST_ACCELERATION;
+  tether->quiet = rests ? tether->quiet + 1 : 0;
+  tether->settled = report->speed < 1e-3;
+}
+
+void
+bt__watch_step (bt__state *state, bt__tether *tether, int i, const bt__dynamic_report *report)
+{
+  tether->tension_max = report->tension;
+  note_rest (tether, report);
+  note_snap (state, tether, i, report->tension);
+  note_kink (state, tether, i, report->bend_radius);
+}
