@@ -28,6 +28,8 @@ typedef struct campaign
 {
   uint64_t seed;
   double (*clock) (void); /* s, or NULL: times are then 0 */
+  int quick;              /* nonzero: more short lines than long ones, these not flown as far;
+                             else as many in every octave of nodes, 200 steps each */
   campaign_kind kind;
   bt_tether_props line;
   bt_water water;
@@ -46,13 +48,14 @@ typedef struct campaign
 typedef struct campaign_tally
 {
   long lines, steps, solves, unsolved;
-  long broken;      /* lines that were refused or came to hold what is not finite */
-  long blown;       /* lines faster than 20 times what drove them */
-  long unrecovered; /* lines unsolved for more than 3 s */
+  long broken;           /* lines that were refused or came to hold what is not finite */
+  long blown;            /* lines faster than 20 times what drove them */
+  long unrecovered;      /* lines unsolved for more than 3 s */
   double unsolved_for;   /* s: the longest */
   double fastest, ratio; /* m/s, and as a multiple of what drove it */
   double settled;        /* m/s: the fastest after 3 s with the ends held */
-  double gain;           /* of m g L^2: the most energy above that at the start; below 0: none */
+  double gain; /* the most energy above that at the start, of m g L^2 and that of bending; below 0:
+                  none */
   double seconds, slowest; /* CPU s: of all steps, of a step */
 } campaign_tally;
 

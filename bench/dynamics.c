@@ -22,6 +22,7 @@
 #include "tether/dynamic.h"
 
 #include "calibration.h"
+#include "moordyn.h"
 
 enum
 {
@@ -560,7 +561,8 @@ run_pilot (chain *c, int n, double ei, int quiet)
 static const char usage[]
     = "Usage: bight-bench-dynamics [OPTION]...\n"
       "Measure time against error of the moving line; rows of CSV on standard output.\n\n"
-      "  --summary  the ratios to the explicit base line instead of rows\n"
+      "  --summary  the ratios to the explicit base line, and to MoorDyn through it, instead of "
+      "rows\n"
       "  --help     this text\n";
 
 static int
@@ -580,6 +582,8 @@ run (int quiet)
   run_pilot (&c, 100, 0.1, quiet);
   for (int k = 0; k < SCENES; k++)
     run_scene (&c, e, (scene)k, quiet);
+  if (quiet)
+    bench_moordyn (calibration);
   free (e);
   free (c.d);
   bt__dynamic_work_free (c.work);

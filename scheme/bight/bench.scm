@@ -1,7 +1,8 @@
 ;;; (bight bench) --- run time against error: the programs that measure, their tables and plots.
 ;;;
 ;;; Each bench is a program bight-bench-NAME that prints rows of CSV with a header; what it prints is
-;;; kept as it is, shown as a table, and plotted by gnuplot where there is one.
+;;; kept as it is, shown as a table, and plotted by gnuplot where there is one.  Cases called
+;;; map-... are drawn as a map of the error over the two numbers of their settings, "X=1;Y=2".
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -94,6 +95,45 @@
               (display "e\n" port))
             series))
 
+(define (map-case? name)
+  (string-prefix? "map-" name))
+
+(define (setting-pairs setting)
+  ;; "X=1;Y=2" as (("X" . "1") ("Y" . "2")).
+  (map (lambda (word)
+         (let ((parts (string-split word #\=)))
+           (cons (car parts) (string-join (cdr parts) "="))))
+       (string-split setting #\;)))
+
+(define (places cells)
+  ;; The different numbers that CELLS spell, in order, as an alist of spellings and places.
+  (let ((spellings (sort (delete-duplicates cells)
+                         (lambda (a b) (< (string->number a) (string->number b))))))
+    (map cons spellings (iota (length spellings)))))
+
+(define (print-map port title file cells)
+  ;; CELLS are (X Y VALUE), where X and Y are pairs (NAME . NUMBER), all spelt out.
+  (let ((xs (places (map cdar cells)))
+        (ys (places (map cdadr cells)))
+        (tics (lambda (places)
+                (string-join (map (lambda (place) (simple-format #f "~s ~a" (car place) (cdr place)))
+                                  places)
+                             ", "))))
+    (simple-format port "set term svg size 800,600~%set output ~s~%set title ~s noenhanced~%" file title)
+    (simple-format port "set xlabel ~s noenhanced~%set ylabel ~s noenhanced~%"
+                   (caaar cells) (caadar cells))
+    (simple-format port "set xtics (~a)~%set ytics (~a)~%" (tics xs) (tics ys))
+    (when (every (lambda (cell) (positive? (string->number (third cell)))) cells)
+      (display "set logscale cb\n" port))
+    (display "set palette defined (0 'white', 1 'gold', 2 'red', 3 'black')\n" port)
+    (display "set style fill solid noborder\n" port)
+    (display "plot '-' using 1:2:(.5):(.5):3 with boxxyerror palette notitle\n" port)
+    (for-each (lambda (cell)
+                (simple-format port "~a ~a ~a~%" (assoc-ref xs (cdar cell))
+                               (assoc-ref ys (cdadr cell)) (third cell)))
+              cells)
+    (display "e\n" port)))
+
 (define (gnuplot?)
   (any (lambda (folder) (access? (string-append folder "/gnuplot") X_OK))
        (string-split (or (getenv "PATH") "") #\:)))
@@ -103,13 +143,16 @@
   (string-map (lambda (c) (if (memv c '(#\space #\/)) #\- c))
               (string-join words "-")))
 
+(define (call-with-gnuplot proc)
+  (let ((port (open-output-pipe "gnuplot 2>/dev/null")))
+    (proc port)
+    (close-pipe port)))
+
 (define (plot title file rows)
   ;; Plot ROWS, lists (SERIES ERROR CPU), as the SVG FILE, if there is a front to see.
   (let ((points (filter-map plottable rows)))
     (when (> (length points) 1)
-      (let ((port (open-output-pipe "gnuplot 2>/dev/null")))
-        (print-plot port title file (series-of points))
-        (close-pipe port)))))
+      (call-with-gnuplot (lambda (port) (print-plot port title file (series-of points)))))))
 
 (define (first-word text)
   (car (string-split text #\space)))
@@ -121,7 +164,7 @@
         (fifth cells) (sixth cells)))
 
 (define (plot-fronts name folder rows)
-  ;; One plot for each case and metric; shares of failures are read in the table.
+  ;; One plot for each case and metric but the maps; shares of failures are read in the table.
   (let ((cells (map series-row
                     (columns-of rows '("case" "metric" "model" "setting" "error" "cpu_ns")))))
     (for-each (lambda (front)
@@ -133,9 +176,25 @@
                                   cells)))
               (delete-duplicates
                (filter-map (lambda (row)
-                             (and (not (string-contains (second row) "share"))
+                             (and (not (map-case? (first row)))
+                                  (not (string-contains (second row) "share"))
                                   (list (first row) (second row))))
                            cells)))))
+
+(define (plot-maps name folder rows)
+  ;; One picture for each case whose name begins with map-: its errors over the two numbers of its
+  ;; settings, "X=1;Y=2".
+  (let ((cells (columns-of rows '("case" "metric" "setting" "error"))))
+    (for-each (lambda (case)
+                (let ((mine (filter (lambda (row) (string=? case (first row))) cells)))
+                  (call-with-gnuplot
+                   (lambda (port)
+                     (print-map port (string-join (list name case (second (car mine))) ", ")
+                                (string-append folder "/" (file-name name case) ".svg")
+                                (map (lambda (row)
+                                       (append (setting-pairs (third row)) (list (fourth row))))
+                                     mine))))))
+              (delete-duplicates (filter map-case? (map first cells))))))
 
 (define (run-bench name folder)
   (let* ((lines (measure name))
@@ -144,7 +203,8 @@
     (write-lines (string-append folder "/" name ".csv") lines)
     (print-table titles (columns-of rows titles))
     (when (gnuplot?)
-      (plot-fronts name folder rows))))
+      (plot-fronts name folder rows)
+      (plot-maps name folder rows))))
 
 (define (ensure-folder! folder)
   (unless (file-exists? folder)

@@ -10,7 +10,10 @@
 #define HISTORY_RATIO 2.4 /* steps may grow by less than 1 + sqrt (2), else backward Euler */
 #define OWED_TIME 0.5     /* s in which the winch pays what it owes */
 #define LEAST_REST 0.05   /* of a piece: the shortest an interval is hauled to */
+/* Of the length, in steps of a sixtieth of a second and longer; what a step may leave undone must
+   shrink with it, or short steps add it up.  */
 #define DEFAULT_TOLERANCE 1e-5
+#define DEFAULT_STEP (1.0 / 60)
 
 /* ---- The workspace ---- */
 
@@ -199,6 +202,12 @@ commit (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *in,
   return BT_OK;
 }
 
+static double
+tolerance_of (const bt__dynamic_input *in)
+{
+  return in->tolerance > 0 ? in->tolerance : DEFAULT_TOLERANCE * fmin (1, in->h / DEFAULT_STEP);
+}
+
 bt_status
 bt__dynamic_step (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *in,
                   bt__dynamic_report *report, bt_error *error)
@@ -208,7 +217,7 @@ bt__dynamic_step (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *
   bt_status status = check_input (d, w, in, error);
   if (status)
     return status;
-  w->tolerance = (in->tolerance > 0 ? in->tolerance : DEFAULT_TOLERANCE) * bt__dynamic_length (d);
+  w->tolerance = tolerance_of (in) * bt__dynamic_length (d);
   double rest0 = wind_first (d, in, &owed), r = d->history ? in->h / d->h : 0;
   if (r > HISTORY_RATIO)
     r = 0;

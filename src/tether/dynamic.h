@@ -106,7 +106,8 @@ typedef struct bt__dynamic_input
   int n_lumps;
   double h;         /* s */
   double pay;       /* m/s of line through the winch end, out positive */
-  double tolerance; /* of the length: last update of a solved step; 0: 1e-5 */
+  double tolerance; /* of the length: last update of a solved step; 0: 1e-5, less in steps below
+                       1/60 s */
   int order;        /* 4: fourth order in space by deferred correction; else second */
 } bt__dynamic_input;
 

@@ -1,5 +1,5 @@
 /* The moving line against what others computed or measured.  The reference data are not part of the
-   package: without them these tests say so and prove nothing.
+   package: without them these tests are skipped.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -31,29 +31,36 @@ parse (table *t, char *line)
   t->rows++;
 }
 
-/* Read the numbers of FILE in the folder of the reference data.  Return zero, having said so, when
-   it is not there.  */
-static int
+/* Open FILE in the folder of the reference data.  */
+static FILE *
+open_data (const char *file)
+{
+  char path[1024];
+  const char *folder = getenv ("BIGHT_REFERENCE_DATA"), *source = getenv ("top_srcdir");
+  if (folder)
+    snprintf (path, sizeof path, "%s/%s", folder, file);
+  else
+    snprintf (path, sizeof path, "%s/../shared/data/%s", source ? source : ".", file);
+  return fopen (path, "r");
+}
+
+/* Read the numbers of FILE; the test is skipped when it is not there.  */
+static void
 load (const char *file, table *t)
 {
   static char line[16384];
-  const char *folder = getenv ("BIGHT_REFERENCE_DATA"), *source = getenv ("top_srcdir");
-  if (folder)
-    snprintf (line, sizeof line, "%s/%s", folder, file);
-  else
-    snprintf (line, sizeof line, "%s/../shared/data/%s", source ? source : ".", file);
-  FILE *f = fopen (line, "r");
+  FILE *f = open_data (file);
   t->rows = 0;
   if (!f)
     {
-      printf ("# skipped: no reference data, %s\n", line);
-      return 0;
+      printf ("# no reference data: %s\n", file);
+      skip ();
+      return;
     }
   while (t->rows < ROWS && fgets (line, sizeof line, f))
     if ((line[0] >= '0' && line[0] <= '9') || line[0] == '-')
       parse (t, line);
   fclose (f);
-  return 1;
 }
 
 static table data;
@@ -90,8 +97,7 @@ test_moordyn_rest (void **state)
       bt_tether_props line = moordyn_line;
       bt_vec3 shape[3]
           = { { 0, 0, -100 }, { 30, k ? 30 : 0, k ? -100 : -140 }, { k ? 70 : 60, 0, -100 } };
-      if (!load (k ? "moordyn/B.csv" : "moordyn/A.csv", &data))
-        return;
+      load (k ? "moordyn/B.csv" : "moordyn/A.csv", &data);
       line.mass = k ? line.mass : 0.12;
       line.wet_weight = k ? 0 : 0.387462511750;
       scene_open (&s, line, 1025, 800, shape, 3, 100);
@@ -170,8 +176,7 @@ test_moordyn_flight (void **state)
   (void)state;
   static flight coarse, fine, best;
   double miss[2], own[2], best_miss[2];
-  if (!load ("moordyn/C.csv", &data))
-    return;
+  load ("moordyn/C.csv", &data);
   fly_c (100, 0.01, coarse.shape, coarse.pull);
   fly_c (200, 0.005, fine.shape, fine.pull);
   for (int k = 0; k < data.rows; k++) /* second order in both */
@@ -220,8 +225,7 @@ test_lowe_langley (void **state)
       double worst = 0, early = 0, sum = 0;
       int count = 0;
       snprintf (file, sizeof file, "published/lowe_langley_2006_case%d.csv", which);
-      if (!load (file, &data))
-        return;
+      load (file, &data);
       bt_vec3 shape[3] = { { 0, 0, -5 }, { -40, 0, -95 }, { -100, 0, -55 } };
       bt_tether_props line
           = { .diameter = 0.396, .mass = 165, .ea = 5e8, .ei = 120.8e3, .cdn = 1, .ca = 1 };
@@ -249,6 +253,116 @@ test_lowe_langley (void **state)
               " %.2f in the reference's first %.1f s\n",
               which, worst, sqrt (sum / count), early, RUN_UP);
       assert_true (worst < 0.5 && early < 0.7);
+      scene_close (&s);
+    }
+}
+
+/* ---- OrcaFlex: a chain that lies on the seabed ---- */
+
+/* WD0050: 410 m of chain from an anchor 400 m off and 50 m down, half of it at rest on the bottom
+   (MoorDyn's springs of it, by lumps at the nodes), the fairlead heaving.  The reference's own
+   bottom and its friction are not known; here there is none.  The large motion leaves a third of
+   the tension at its lowest: there its own tenth is missed, whatever nodes, steps or bottom.  */
+enum
+{
+  CHAIN = 82
+};
+
+static void
+lie_on_bottom (scene *s, bt__dynamic_lump *lumps, const bt_vec3 *first)
+{
+  const double stiffness = 1e5, damping = 1e4, d = s->line.diameter; /* Pa/m, Pa s/m */
+  for (int i = 1; i < CHAIN; i++)
+    {
+      double l = 410.0 / CHAIN, deep = first->z - bt__dynamic_x (s->d)[i].z;
+      double push = deep > 0 ? stiffness * deep - damping * bt__dynamic_v (s->d)[i].z : 0;
+      lumps[i - 1] = (bt__dynamic_lump){ .from_end = (CHAIN - i) * l,
+                                         .force = { 0, 0, fmax (push, 0) * d * l } };
+    }
+  s->in.lumps = lumps;
+  s->in.n_lumps = CHAIN - 1;
+}
+
+/* The height of the fairlead of MOTION at time T, by the cubic through four rows.  */
+static double
+heave (const table *motion, double t)
+{
+  double u = (t - motion->at[0][0]) / 0.1;
+  int k = (int)fmin (fmax (u - 1, 0), motion->rows - 4);
+  double sum = 0;
+  for (int i = k; i < k + 4; i++)
+    {
+      double p = motion->at[i][3];
+      for (int j = k; j < k + 4; j++)
+        p *= j == i ? 1 : (u - j) / (i - j);
+      sum += p;
+    }
+  return sum;
+}
+
+static void
+test_orcaflex (void **state)
+{
+  (void)state;
+  static table motion;
+  static bt__dynamic_lump lumps[CHAIN];
+  for (int which = 1; which <= 2; which++)
+    {
+      scene s;
+      char file[80];
+      const double h = 0.02;
+      double worst = 0, most = 0, sum = 0, scale = 0, peaks[2] = { 0, 0 }, lows[2] = { 1e9, 1e9 };
+      snprintf (file, sizeof file, "published/orcaflex_motion_ZZP1_A%d.csv", which);
+      load (file, &motion);
+      snprintf (file, sizeof file, "published/orcaflex_WD0050_ZZP1_A%d.csv", which);
+      load (file, &data);
+      bt_vec3 shape[3] = { { 400, 0, -50 }, { 160, 0, -50 }, { 0, 0, 0 } };
+      bt_tether_props line = { .diameter = 0.252,
+                               .mass = 390,
+                               .ea = 1.674e9,
+                               .ba = 5 * sqrt (1.674e9 * 390), /* critical for an interval */
+                               .cdn = 1.37,
+                               .cdt = 0.64,
+                               .ca = 1 };
+      line.wet_weight = (390 - 1025 * BT__PI * 0.252 * 0.252 / 4) * 9.81;
+      scene_open (&s, line, 1025, CHAIN, shape, 3, 410);
+      s.in.tolerance = 1e-8;
+      for (int i = 0; i < 30000; i++)
+        {
+          lie_on_bottom (&s, lumps, shape);
+          scene_step (&s, h);
+        }
+      double anchor = bt__dynamic_node_tension (s.d, 0) / 1e3,
+             fairlead = bt__dynamic_node_tension (s.d, CHAIN) / 1e3;
+      printf ("# OrcaFlex chain, static: fairlead %.1f kN of 991.6, anchor %.1f of 826.2\n",
+              fairlead, anchor);
+      assert_close (fairlead / 991.6, 1, 0.02, "static tension");
+      assert_close (anchor / 826.2, 1, 0.02, "static tension of the anchor");
+      for (int i = 1; i <= 1500; i++)
+        {
+          double t = -10 + i * h;
+          s.in.end[1].at.z = heave (&motion, t);
+          lie_on_bottom (&s, lumps, shape);
+          scene_step (&s, h);
+          int row = (int)floor (t * 10 + 0.5);
+          if (t < -h / 2 || fabs (t * 10 - row) > 1e-6 || row >= data.rows)
+            continue;
+          double is = bt__dynamic_node_tension (s.d, CHAIN) / 1e3, wanted = data.at[row][3];
+          worst = fmax (worst, fabs (is / wanted - 1));
+          most = fmax (most, fabs (is - wanted) / 991.6);
+          sum += (is - wanted) * (is - wanted);
+          scale += wanted * wanted;
+          peaks[0] = fmax (peaks[0], is);
+          peaks[1] = fmax (peaks[1], wanted);
+          lows[0] = fmin (lows[0], is);
+          lows[1] = fmin (lows[1], wanted);
+        }
+      printf (
+          "# OrcaFlex A%d, fairlead: off by %.1f %% of the static tension at most, %.1f %% of its"
+          " own, %.1f %% rms; %.0f to %.0f kN of %.0f to %.0f\n",
+          which, 100 * most, 100 * worst, 100 * sqrt (sum / scale), lows[0], peaks[0], lows[1],
+          peaks[1]);
+      assert_true (most < 0.1 && worst < (which == 1 ? 0.1 : 0.15));
       scene_close (&s);
     }
 }
@@ -347,8 +461,7 @@ test_tank (void **state)
 {
   (void)state;
   static frames f;
-  if (!load ("real/toulon_cable6_surge_0p6_0031.csv", &data))
-    return;
+  load ("real/toulon_cable6_surge_0p6_0031.csv", &data);
   for (double cd = 1.2; cd < 1.45; cd += 0.1)
     {
       double off[KINDS], median[KINDS], doubt[KINDS], unused;
@@ -375,10 +488,16 @@ int
 main (void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test (test_moordyn_rest),
-    cmocka_unit_test (test_moordyn_flight),
-    cmocka_unit_test (test_lowe_langley),
+    cmocka_unit_test (test_moordyn_rest), cmocka_unit_test (test_moordyn_flight),
+    cmocka_unit_test (test_lowe_langley), cmocka_unit_test (test_orcaflex),
     cmocka_unit_test (test_tank),
   };
+  FILE *readme = open_data ("README.md");
+  if (!readme)
+    {
+      puts ("1..0 # SKIP the reference data are not here");
+      return 0;
+    }
+  fclose (readme);
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
