@@ -8,161 +8,259 @@
 
 #include "tether/dynamic_kernel.h"
 
-#define LEVER 0.2 /* of the rest length: the shortest lever of the geometric stiffness */
+#define LEVER 0.2     /* of the rest length: the shortest lever of the geometric stiffness */
+#define NO_TURN 1e-18 /* of the rest length, squared: a sum of tangents that has no direction */
 
 /* ---- The intervals ---- */
 
-static BT__HOT bt_vec3
+static inline bt_vec3
 chord_of (const bt__dynamic_work *w, int j)
 {
   bt_vec3 c = bt__sub (w->X[j + 1], w->X[j]);
   return w->chord ? bt__add (c, w->chord[j]) : c;
 }
 
-/* Make K at least LEAST stiff in every direction, slack or not.  */
-static void
-stiffen_link (bt__link *k, double least)
+static BT__HOT bt__pair_vec
+chords_of (const bt__dynamic_work *w, int i, int j)
 {
-  double along = fmax (k->kg + k->kd, least);
-  k->kg = fmax (k->kg, least);
-  k->kd = along - k->kg;
+  bt__pair_vec c = bt__pair_sub (bt__pair_load (w->X + i + 1, w->X + j + 1),
+                                 bt__pair_load (w->X + i, w->X + j));
+  return w->chord ? bt__pair_add (c, bt__pair_load (w->chord + i, w->chord + j)) : c;
 }
 
-/* Tension and stiffness of interval J.  Return nonzero if it went slack or taut by more than the
-   tolerance would tell.  */
-static BT__HOT int
-assemble_link (bt__dynamic_work *w, int j, int safe)
+/* A tangent for interval J when it has no length: what it had.  */
+static void
+keep_tangent (bt__dynamic_work *w, int j)
 {
   bt__link *k = w->link + j;
-  bt_vec3 c = chord_of (w, j);
-  double length = bt__norm (c), stretch = length - k->zero, inverse = 1 / length;
-  k->t = length > 1e-9 * k->rest ? bt__scale (inverse, c)
-                                 : bt__unit_or (bt__sub (w->x[j + 1], w->x[j]), bt__vec (0, 0, -1));
-  double urge = safe ? stretch : w->lam[j] + k->rho * stretch;
-  int active = urge > 0, was = k->active;
-  double ka = k->slack + (active ? k->ka : 0), tension = active ? k->ka * stretch : 0;
-  k->tension = tension;
-  k->pull = tension + k->slack * (length - k->start) - k->thrust;
-  double held = safe ? k->pull : w->lam[j] - k->thrust;
-  if (length < LEVER * k->rest)
-    inverse = 1 / (LEVER * k->rest);
-  k->kg = held > 0 ? held * inverse : 0;
-  k->kd = ka - k->kg;
-  if (w->stiffen > 0)
-    stiffen_link (k, w->stiffen * k->ka);
-  k->active = active;
-  bt__sym off = { 0 };
-  bt__sym_add (&off, k->kg, k->kd, k->t);
-  w->off[j] = off;
-  return active != was && fabs (urge) > k->rho * w->tolerance;
+  if (!(bt__norm (chord_of (w, j)) > 1e-9 * k->rest))
+    k->t = bt__unit_or (bt__sub (w->x[j + 1], w->x[j]), bt__vec (0, 0, -1));
+}
+
+/* What two intervals do to the nodes at their ends.  */
+typedef struct sides
+{
+  bt__pair rest, pull;
+  bt__pair_vec t;
+  bt__pair length, per_length;
+  bt__pair_sym k; /* stiffness kg 1 + kd t t^T */
+} sides;
+
+static BT__HOT bt__pair_sym
+stiffness (bt__pair kg, bt__pair kd, bt__pair_vec t)
+{
+  bt__pair_vec d = bt__pair_scale (kd, t);
+  return (bt__pair_sym){ kg + d.x * t.x, d.x * t.y, d.x * t.z,
+                         kg + d.y * t.y, d.y * t.z, kg + d.z * t.z };
+}
+
+/* Directions of intervals I and J, to S.  */
+static BT__HOT void
+measure_links (bt__dynamic_work *w, int i, int j, sides *s)
+{
+  bt__link *a = w->link + i, *b = w->link + j;
+  bt__pair_vec c = chords_of (w, i, j);
+  bt__pair square = bt__pair_dot (c, c);
+  s->rest = (bt__pair){ a->rest, b->rest };
+  s->length = bt__pair_sqrt (square);
+  s->per_length = s->length * (1 / square);
+  s->t = bt__pair_scale (s->per_length, c);
+  bt__pair_store (&a->t, &b->t, s->t);
+  bt__pair shortest = LEVER * s->rest;
+  if (bt__pair_any (s->length < shortest))
+    {
+      keep_tangent (w, i);
+      keep_tangent (w, j);
+      s->t = bt__pair_load (&a->t, &b->t);
+      s->per_length = 1 / bt__pair_max (s->length, shortest);
+    }
+}
+
+/* Tension and stiffness of intervals I and J, to S.  Return nonzero if one went slack or taut by
+   more than the tolerance would tell.  */
+static BT__HOT int
+assemble_links (bt__dynamic_work *w, int i, int j, int safe, sides *s)
+{
+  bt__link *a = w->link + i, *b = w->link + j;
+  bt__pair spring = { a->ka, b->ka }, zero = { a->zero, b->zero },
+           thrust = { a->thrust, b->thrust }, from = { a->start, b->start },
+           lam = { w->lam[i], w->lam[j] };
+  bt__pair rho = w->rho * s->rest, slack = bt__pair_min (w->soft * spring, w->inertia * s->rest);
+  bt__pair length = s->length, stretch = length - zero;
+  bt__pair urge = safe ? stretch : lam + rho * stretch;
+  bt__mask taut = urge > 0;
+  bt__pair active = bt__pair_where (taut, (bt__pair){ 1, 1 }), was = { a->active, b->active };
+  bt__pair ka = slack + bt__pair_where (taut, spring),
+           tension = bt__pair_where (taut, spring * stretch);
+  s->pull = tension + slack * (length - from) - thrust;
+  bt__pair held = safe ? s->pull : lam - thrust;
+  bt__pair kg = bt__pair_where (held > 0, held * s->per_length), kd = ka - kg;
+  if (w->stiffen > 0) /* at least as stiff in every direction, slack or not */
+    {
+      kg = bt__pair_max (kg, w->stiffen * spring);
+      kd = bt__pair_max (ka, w->stiffen * spring) - kg;
+    }
+  s->k = stiffness (kg, kd, s->t);
+  bt__pair_store_sym (w->off + i, w->off + j, &s->k);
+  a->tension = tension[0];
+  b->tension = tension[1];
+  a->active = active[0];
+  b->active = active[1];
+  return bt__pair_any ((active != was) & (bt__pair_abs (urge) > rho * w->tolerance));
 }
 
 /* ---- The nodes ---- */
 
-/* Tangent at node I: that of the parabola through its neighbours.  */
-static BT__HOT bt_vec3
-node_tangent (const bt__dynamic_work *w, int i)
+/* Tangent at node I where T, square SQUARE before it was unit, will not do: that of the interval
+   before where the line turns back, and one of the fourth order.  */
+static bt_vec3
+tangent_of (const bt__dynamic_work *w, int i, bt_vec3 t, double square)
 {
-  if (i == 0)
-    return w->link[0].t;
-  const bt__link *p = w->link + i - 1, *q = w->link + i;
-  if (i == w->n)
-    return p->t;
-  bt_vec3 t = bt__axpy (bt__scale (q->rest, p->t), p->rest, q->t);
-  if (w->chord && i > 1 && i < w->n - 1)
-    t = bt__axpy (bt__scale (8, bt__sub (w->X[i + 1], w->X[i - 1])), -1,
-                  bt__sub (w->X[i + 2], w->X[i - 2]));
-  double square = bt__dot (t, t);
-  return square > 1e-18 * p->rest * p->rest ? bt__scale (1 / sqrt (square), t) : p->t;
+  const bt_vec3 *X = w->X + i;
+  const bt__link *before = w->link + (i > 0 ? i - 1 : 0);
+  if (!(square > NO_TURN * before->rest * before->rest))
+    t = before->t;
+  if (!w->chord || i < 2 || i > w->n - 2)
+    return t;
+  bt_vec3 twice = bt__sub (X[1], X[-1]);
+  return bt__unit_or (bt__axpy (bt__scale (8, twice), -1, bt__sub (X[2], X[-2])), t);
 }
 
-/* How node I moves and how the water flows past it.  */
+/* How two nodes move and how the water flows past them.  */
+typedef struct flows
+{
+  bt__pair_vec tau, acc, side; /* tangent; acceleration; relative velocity across the line, ... */
+  bt__pair across, per_across, along; /* ... its size and one by it, and along the line */
+} flows;
+
+/* Tangents at nodes I and J between P and Q: those of the parabolas through their neighbours.  */
+static BT__HOT bt__pair_vec
+turn_nodes (bt__dynamic_work *w, int i, int j, const sides *p, const sides *q)
+{
+  bt_vec3 *a = &w->node[i].tau, *b = &w->node[j].tau;
+  bt__pair_vec t = bt__pair_axpy (bt__pair_scale (q->rest, p->t), p->rest, q->t);
+  bt__pair square = bt__pair_dot (t, t);
+  t = bt__pair_scale (bt__pair_sqrt (square) * (1 / square), t);
+  bt__pair_store (a, b, t);
+  if (!w->chord && !bt__pair_any (square <= NO_TURN * p->rest * p->rest))
+    return t;
+  bt_vec3 first = tangent_of (w, i, *a, square[0]), second = tangent_of (w, j, *b, square[1]);
+  *a = first;
+  *b = second; /* where both are the same, this one is kept */
+  return bt__pair_load (a, b);
+}
+
 static BT__HOT void
-node_flow (bt__dynamic_work *w, int i)
+flow_past (const bt__dynamic_work *w, int i, int j, flows *s)
 {
-  bt__node *k = w->node + i;
-  bt_vec3 v = bt__node_v (w, i), rel = bt__sub (k->current, v);
-  k->acc = bt__node_a (w, i, v);
-  k->along = bt__dot (rel, k->tau);
-  k->across = bt__axpy (rel, -k->along, k->tau);
-  k->side = sqrt (bt__dot (k->across, k->across));
-  k->per_side = k->side > 1e-10 ? 1 / k->side : 0;
+  const bt__node *p = w->node + i, *q = w->node + j;
+  bt__pair rate = { w->b0, w->b0 };
+  bt__pair_vec move
+      = bt__pair_sub (bt__pair_load (w->X + i, w->X + j), bt__pair_load (w->x + i, w->x + j));
+  bt__pair_vec v = bt__pair_axpy (bt__pair_load (&p->v0, &q->v0), rate, move);
+  bt__pair_vec rel = bt__pair_sub (bt__pair_load (&p->current, &q->current), v);
+  s->acc = bt__pair_axpy (bt__pair_load (&p->a0, &q->a0), rate, v);
+  s->along = bt__pair_dot (rel, s->tau);
+  s->side = bt__pair_axpy (rel, -s->along, s->tau);
+  bt__pair square = bt__pair_dot (s->side, s->side);
+  s->across = bt__pair_sqrt (square);
+  s->per_across = bt__pair_where (square > 1e-20, s->across * (1 / square));
 }
 
-/* Drag, weight and inertia of the line about node I: the force, and its block to A.  */
-static BT__HOT bt_vec3
-node_load (const bt__dynamic_work *w, int i, bt__sym *a)
+/* Drag, weight and inertia of the line about nodes I and J in S: the forces, and their blocks to
+   A.  */
+static BT__HOT bt__pair_vec
+node_loads (const bt__dynamic_work *w, int i, int j, const flows *s, bt__pair_sym *a)
 {
-  const bt__node *k = w->node + i;
-  double cell = k->cell, kn = w->kn * cell * k->side, kt = w->kt * cell * fabs (k->along);
-  double ma = w->ma * cell, mn = w->m * cell + ma, ca = w->b0 * w->b0;
-  double level = ca * mn + w->b0 * kn, turn = w->b0 * kn * k->per_side * k->per_side;
-  double tangential = w->b0 * (2 * kt - kn) - ca * ma,
-         pull = kt * k->along + ma * bt__dot (k->acc, k->tau);
-  bt_vec3 t = k->tau, c = k->across, at = bt__scale (tangential, t), ac = bt__scale (turn, c);
-  *a = (bt__sym){ level + at.x * t.x + ac.x * c.x, at.x * t.y + ac.x * c.y,
-                  at.x * t.z + ac.x * c.z,         level + at.y * t.y + ac.y * c.y,
-                  at.y * t.z + ac.y * c.z,         level + at.z * t.z + ac.z * c.z };
-  bt_vec3 f = bt__axpy (bt__axpy (bt__scale (kn, c), pull, t), -mn, k->acc);
+  double b0 = w->b0, ca = b0 * b0;
+  bt__pair cell = { w->node[i].cell, w->node[j].cell };
+  bt__pair kn = w->kn * cell * s->across, kt = w->kt * cell * bt__pair_abs (s->along);
+  bt__pair ma = w->ma * cell, mn = w->m * cell + ma;
+  bt__pair level = ca * mn + b0 * kn, turn = b0 * kn * s->per_across * s->per_across;
+  bt__pair tangential = b0 * (2 * kt - kn) - ca * ma;
+  bt__pair_vec t = s->tau, c = s->side, at = bt__pair_scale (tangential, t),
+               ac = bt__pair_scale (turn, c);
+  *a = (bt__pair_sym){ level + at.x * t.x + ac.x * c.x, at.x * t.y + ac.x * c.y,
+                       at.x * t.z + ac.x * c.z,         level + at.y * t.y + ac.y * c.y,
+                       at.y * t.z + ac.y * c.z,         level + at.z * t.z + ac.z * c.z };
+  bt__pair pull = kt * s->along + ma * bt__pair_dot (s->acc, t);
+  bt__pair_vec f = bt__pair_axpy (bt__pair_axpy (bt__pair_scale (kn, c), pull, t), -mn, s->acc);
   f.z -= w->weight * cell;
   return f;
 }
 
+/* Right-hand sides and diagonal blocks of nodes I and J between P and Q.  */
 static BT__HOT void
-add_block (bt__sym *a, const bt__sym *b)
+assemble_nodes (bt__dynamic_work *w, int i, int j, const flows *s, const sides *p, const sides *q)
 {
-  a->xx += b->xx;
-  a->xy += b->xy;
-  a->xz += b->xz;
-  a->yy += b->yy;
-  a->yz += b->yz;
-  a->zz += b->zz;
+  bt__pair_sym a;
+  bt__pair_vec f = node_loads (w, i, j, s, &a);
+  f = bt__pair_axpy (bt__pair_axpy (f, -p->pull, p->t), q->pull, q->t);
+  a.xx = a.xx + p->k.xx + q->k.xx;
+  a.xy = a.xy + p->k.xy + q->k.xy;
+  a.xz = a.xz + p->k.xz + q->k.xz;
+  a.yy = a.yy + p->k.yy + q->k.yy;
+  a.yz = a.yz + p->k.yz + q->k.yz;
+  a.zz = a.zz + p->k.zz + q->k.zz;
+  bt__pair_store (w->rhs + i, w->rhs + j, f);
+  bt__pair_store_sym (w->diag + i, w->diag + j, &a);
 }
 
-/* Right-hand side and diagonal block of node I, between its intervals.  */
-static BT__HOT void
-assemble_node (bt__dynamic_work *w, int i)
-{
-  bt__sym a;
-  bt_vec3 f = node_load (w, i, &a);
-  if (i > 0)
-    {
-      f = bt__axpy (f, -w->link[i - 1].pull, w->link[i - 1].t);
-      add_block (&a, w->off + i - 1);
-    }
-  if (i < w->n)
-    {
-      f = bt__axpy (f, w->link[i].pull, w->link[i].t);
-      add_block (&a, w->off + i);
-    }
-  w->rhs[i] = f;
-  w->diag[i] = a;
-}
+/* ---- The line ---- */
 
 enum
 {
-  PART = 16 /* nodes: what stays at hand */
+  PART = 16 /* pairs of nodes: what stays at hand */
 };
 
-/* Short loops rather than one, over short parts of the line: their roots and divisions overlap, and
-   what one leaves is at hand for the next.  */
+/* P but for what pulls and holds, where THERE is zero.  */
+static sides
+end_of (const sides *p, bt__pair there)
+{
+  sides s = { .rest = p->rest, .pull = there * p->pull, .t = p->t };
+  s.k = (bt__pair_sym){ there * p->k.xx, there * p->k.xy, there * p->k.xz,
+                        there * p->k.yy, there * p->k.yz, there * p->k.zz };
+  return s;
+}
+
+/* Nodes I + k and J + k between S[k] and S[k + 1].  */
+static void
+assemble_part (bt__dynamic_work *w, int i, int j, int count, int turning, const sides *s)
+{
+  flows f[PART];
+  for (int k = 0; k < count; k++)
+    f[k].tau = turning ? turn_nodes (w, i + k, j + k, s + k, s + k + 1)
+                       : bt__pair_load (&w->node[i + k].tau, &w->node[j + k].tau);
+  for (int k = 0; k < count; k++)
+    flow_past (w, i + k, j + k, f + k);
+  for (int k = 0; k < count; k++)
+    assemble_nodes (w, i + k, j + k, f + k, s + k, s + k + 1);
+}
+
+/* The two halves of the line side by side, which overlap if its intervals are odd.  Short loops
+   rather than one, over short parts: their roots and divisions overlap, and what one leaves is at
+   hand for the next.  */
 static int
 assemble_line (bt__dynamic_work *w, bt__mode mode)
 {
-  int changed = 0;
-  for (int from = 0; from <= w->n; from += PART)
+  int n = w->n, half = (n + 1) / 2, other = n - half, safe = mode == BT__SAFE;
+  int turning = mode == BT__QUICK;
+  sides s[PART + 1];
+  measure_links (w, 0, other > 0 ? other - 1 : 0, s);
+  int changed = assemble_links (w, 0, other > 0 ? other - 1 : 0, safe, s);
+  s[0] = end_of (s, (bt__pair){ 0, other > 0 });
+  for (int from = 0; from < half; from += PART)
     {
-      int to = from + PART < w->n + 1 ? from + PART : w->n + 1;
-      int first = from > w->lo ? from : w->lo, last = to - 1 < w->hi ? to - 1 : w->hi;
-      for (int j = from; j < to && j < w->n; j++)
-        changed |= assemble_link (w, j, mode == BT__SAFE);
-      for (int i = from; i < to && mode == BT__QUICK; i++)
-        w->node[i].tau = node_tangent (w, i);
-      for (int i = first; i <= last; i++)
-        node_flow (w, i);
-      for (int i = first; i <= last; i++)
-        assemble_node (w, i);
+      int count = from + PART < half ? PART : half - from;
+      for (int k = 0; k < count; k++)
+        measure_links (w, from + k, other + from + k, s + k + 1);
+      for (int k = 0; k < count; k++)
+        changed |= assemble_links (w, from + k, other + from + k, safe, s + k + 1);
+      assemble_part (w, from, other + from, count, turning, s);
+      s[0] = s[count];
     }
+  s[1] = end_of (s, (bt__pair){ 0, 0 });
+  assemble_part (w, n, n, 1, turning, s); /* the second is kept */
   return changed;
 }
 
@@ -188,9 +286,11 @@ assemble_lumps (bt__dynamic_work *w)
 bt_vec3
 bt__dynamic_node_load (bt__dynamic_work *w, int i)
 {
-  bt__sym unused;
-  node_flow (w, i);
-  return node_load (w, i, &unused);
+  bt__pair_sym unused;
+  flows s = { .tau = bt__pair_load (&w->node[i].tau, &w->node[i].tau) };
+  flow_past (w, i, i, &s);
+  bt__pair_vec f = node_loads (w, i, i, &s, &unused);
+  return bt__vec (f.x[0], f.y[0], f.z[0]);
 }
 
 int
@@ -243,8 +343,9 @@ bt__dynamic_potential (const bt__dynamic_work *w)
       const bt__link *k = w->link + j;
       double stretch = bt__norm (chord_of (w, j)) - k->zero;
       double change = stretch + k->zero - k->start;
+      double slack = fmin (w->soft * k->ka, w->inertia * k->rest);
       sum += 0.5 * (stretch > 0 ? k->ka : 0) * stretch * stretch - k->thrust * stretch
-             + 0.5 * k->slack * change * change;
+             + 0.5 * slack * change * change;
     }
   return sum;
 }

@@ -5,6 +5,10 @@
 #ifndef BT_TETHER_DYNAMIC_KERNEL_H
 #define BT_TETHER_DYNAMIC_KERNEL_H
 
+#if defined __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include "math/vec.h"
 #include "tether/dynamic.h"
 
@@ -26,6 +30,26 @@ typedef struct bt__full
   double m[3][3];
 } bt__full;
 
+/* Two numbers, vectors or blocks side by side, of two places that do not wait for each other:
+   vectors of GNU C, on any machine.  Each half comes out as it would alone.  */
+typedef double bt__pair __attribute__ ((vector_size (16)));
+typedef int64_t bt__mask __attribute__ ((vector_size (16))); /* -1 yes, 0 no */
+
+typedef struct bt__pair_vec
+{
+  bt__pair x, y, z;
+} bt__pair_vec;
+
+typedef struct bt__pair_sym
+{
+  bt__pair xx, xy, xz, yy, yz, zz;
+} bt__pair_sym;
+
+typedef struct bt__pair_full
+{
+  bt__pair m[3][3];
+} bt__pair_full;
+
 /* What is lumped at a node, beside the line.  */
 typedef struct bt__extra
 {
@@ -36,23 +60,20 @@ typedef struct bt__extra
 /* One interval of a step: what does not change while it is solved, and the present iterate.  */
 typedef struct bt__link
 {
-  double rest, ka, zero, rho; /* m, N/m, m: length of no tension, N/m: see assemble_link */
-  double thrust;              /* N: what bending pushes along the line, see dynamic_bend.c */
-  double slack, start;        /* N/m, m: resistance to a change of length from START */
-  double tension, pull;       /* N: of the line, and all that pulls its nodes together */
-  double kg, kd;              /* N/m: K = kg 1 + kd t t^T */
-  bt_vec3 t;                  /* unit tangent */
-  int active, pad;
+  double rest, ka, zero; /* m, N/m, m: length of no tension */
+  double thrust;         /* N: what bending pushes along the line, see dynamic_bend.c */
+  double start;          /* m: length at the start */
+  double tension;        /* N: of the line */
+  bt_vec3 t;             /* unit tangent */
+  double active;         /* 1 taut, 0 slack, -1 not known yet */
 } bt__link;
 
 /* One node of a step.  */
 typedef struct bt__node
 {
-  double cell;                  /* m of line it stands for */
-  bt_vec3 v0, a0;               /* v = b0 (X - x) + v0, a = b0 v + a0 */
-  bt_vec3 current, tau;         /* of the water; unit tangent */
-  bt_vec3 acc, across;          /* acceleration; relative velocity across the line, ... */
-  double side, per_side, along; /* ... its size and one by it, and along the line */
+  double cell;          /* m of line it stands for */
+  bt_vec3 v0, a0;       /* v = b0 (X - x) + v0, a = b0 v + a0 */
+  bt_vec3 current, tau; /* of the water; unit tangent */
 } bt__node;
 
 /* One row of bending: w = sum of c[k] X[first + k] - d, energy k |w|^2 / 2.  */
@@ -62,6 +83,13 @@ typedef struct bt__bend
   double k, c[3];
   bt_vec3 d;
 } bt__bend;
+
+/* A^-1 K of one node, or of two side by side.  */
+typedef union bt__factors
+{
+  bt__full one;
+  bt__pair_full two;
+} bt__factors;
 
 struct bt__dynamic_work
 {
@@ -73,6 +101,8 @@ struct bt__dynamic_work
   double b0, b1, b2;
   double ea, kn, kt, m, ma, weight; /* N, drag, mass and wet weight per metre */
   double stiffen;                   /* of ka: the least geometric stiffness, see safe */
+  double rho;                       /* N/m2: of the activity test, see prepare_links */
+  double soft, inertia;             /* of ka, N/m2: what resists a change of length is the less */
   double tolerance;                 /* m */
   const bt_vec3 *x;                 /* positions at the start */
   const bt_vec3 *chord, *load;      /* fourth-order parts, NULL if none */
@@ -83,7 +113,8 @@ struct bt__dynamic_work
   bt__node *node;
   bt__extra *extra;
   bt__sym *diag, *off; /* off-diagonal blocks are minus OFF */
-  bt__full *up, *up2;  /* eliminated */
+  bt__factors *up;     /* eliminated: to the next node, ... */
+  bt__full *up2;       /* ... and with bending to the one after it */
   bt__bend *bend;
   double *bend_diag, *bend_off, *bend_far;
 };
@@ -160,6 +191,118 @@ static inline bt_vec3
 bt__node_a (const bt__dynamic_work *w, int i, bt_vec3 v)
 {
   return bt__axpy (w->node[i].a0, w->b0, v);
+}
+
+/* ---- Two at a time ---- */
+
+static BT__HOT int
+bt__pair_any (bt__mask m)
+{
+#if defined __SSE2__
+  return _mm_movemask_pd ((bt__pair)m) != 0;
+#else
+  return (m[0] | m[1]) != 0;
+#endif
+}
+
+/* A where M says so, else zero.  */
+static BT__HOT bt__pair
+bt__pair_where (bt__mask m, bt__pair a)
+{
+  return (bt__pair)((bt__mask)a & m);
+}
+
+static BT__HOT bt__pair
+bt__pair_abs (bt__pair a)
+{
+  return (bt__pair)((bt__mask)a & INT64_MAX);
+}
+
+static BT__HOT bt__pair
+bt__pair_max (bt__pair a, bt__pair b)
+{
+#if defined __SSE2__
+  return _mm_max_pd (a, b);
+#else
+  return (bt__pair){ a[0] > b[0] ? a[0] : b[0], a[1] > b[1] ? a[1] : b[1] };
+#endif
+}
+
+static BT__HOT bt__pair
+bt__pair_min (bt__pair a, bt__pair b)
+{
+#if defined __SSE2__
+  return _mm_min_pd (a, b);
+#else
+  return (bt__pair){ a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1] };
+#endif
+}
+
+static BT__HOT bt__pair
+bt__pair_sqrt (bt__pair a)
+{
+#if defined __SSE2__
+  return _mm_sqrt_pd (a);
+#else
+  return (bt__pair){ sqrt (a[0]), sqrt (a[1]) };
+#endif
+}
+
+static BT__HOT bt__pair_vec
+bt__pair_load (const bt_vec3 *a, const bt_vec3 *b)
+{
+  return (bt__pair_vec){ { a->x, b->x }, { a->y, b->y }, { a->z, b->z } };
+}
+
+static BT__HOT void
+bt__pair_store (bt_vec3 *a, bt_vec3 *b, bt__pair_vec v)
+{
+  *a = bt__vec (v.x[0], v.y[0], v.z[0]);
+  *b = bt__vec (v.x[1], v.y[1], v.z[1]);
+}
+
+static BT__HOT bt__pair_sym
+bt__pair_load_sym (const bt__sym *a, const bt__sym *b)
+{
+  return (bt__pair_sym){ { a->xx, b->xx }, { a->xy, b->xy }, { a->xz, b->xz },
+                         { a->yy, b->yy }, { a->yz, b->yz }, { a->zz, b->zz } };
+}
+
+static BT__HOT void
+bt__pair_store_sym (bt__sym *a, bt__sym *b, const bt__pair_sym *s)
+{
+  *a = (bt__sym){ s->xx[0], s->xy[0], s->xz[0], s->yy[0], s->yz[0], s->zz[0] };
+  *b = (bt__sym){ s->xx[1], s->xy[1], s->xz[1], s->yy[1], s->yz[1], s->zz[1] };
+}
+
+static BT__HOT bt__pair_vec
+bt__pair_add (bt__pair_vec a, bt__pair_vec b)
+{
+  return (bt__pair_vec){ a.x + b.x, a.y + b.y, a.z + b.z };
+}
+
+static BT__HOT bt__pair_vec
+bt__pair_sub (bt__pair_vec a, bt__pair_vec b)
+{
+  return (bt__pair_vec){ a.x - b.x, a.y - b.y, a.z - b.z };
+}
+
+static BT__HOT bt__pair_vec
+bt__pair_scale (bt__pair k, bt__pair_vec a)
+{
+  return (bt__pair_vec){ k * a.x, k * a.y, k * a.z };
+}
+
+static BT__HOT bt__pair_vec
+bt__pair_axpy (bt__pair_vec a, bt__pair k, bt__pair_vec b)
+{
+  return (bt__pair_vec){ a.x + k * b.x, a.y + k * b.y, a.z + k * b.z };
+}
+
+static BT__HOT bt__pair
+bt__pair_dot (bt__pair_vec a, bt__pair_vec b)
+{
+  return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 #endif

@@ -22,14 +22,20 @@ enum
 
 #define LOST 1e3 /* of the length: an update that has left every shape */
 
+/* Take over the update: the multipliers and the places.  */
 static void
-update_multipliers (bt__dynamic_work *w)
+take (bt__dynamic_work *w)
 {
+  bt_vec3 before = w->d[0];
+  w->X[0] = bt__add (w->X[0], before);
   for (int j = 0; j < w->n; j++)
     {
       const bt__link *k = w->link + j;
-      double closing = bt__dot (k->t, bt__sub (w->d[j + 1], w->d[j]));
-      w->lam[j] = k->active ? k->tension + k->ka * closing : 0;
+      bt_vec3 after = w->d[j + 1];
+      double closing = bt__dot (k->t, bt__sub (after, before));
+      w->lam[j] = k->active > 0 ? k->tension + k->ka * closing : 0;
+      w->X[j + 1] = bt__add (w->X[j + 1], after);
+      before = after;
     }
 }
 
@@ -52,8 +58,7 @@ quick (bt__dynamic_work *w, bt__dynamic_report *report)
       report->update = most;
       if (!(most <= lost))
         return 0;
-      update_multipliers (w);
-      move (w, w->X, 1);
+      take (w);
       if (most <= w->tolerance && (i == 0 || !changed))
         return 1;
     }
@@ -164,6 +169,7 @@ bt__dynamic_newton (bt__dynamic_work *w, bt__dynamic_report *report)
 {
   if (w->lo > w->hi)
     {
+      keep_tangents (w);
       bt__dynamic_assemble (w, BT__SAFE);
       w->lam[0] = w->link[0].tension;
       return 1;

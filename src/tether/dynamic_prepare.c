@@ -20,24 +20,26 @@ prepare_links (bt__dynamic_work *w, const bt__dynamic *d, double rest0)
 {
   const double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d),
                *de = bt__dynamic_dstretch (d), *tension = bt__dynamic_tension (d);
-  double ba = w->in->line->ba, kb = w->ea + ba * w->b0, rho = w->b0 * w->b0 * w->m * kb / w->ea;
-  double inertia = SLACK_INERTIA * w->b0 * w->b0 * w->m;
+  double ba = w->in->line->ba, kb = w->ea + ba * w->b0;
   double stiff = w->ea / kb, ba0 = ba * w->b0 / kb, ba2 = ba * w->b2 / kb;
+  w->rho = w->b0 * w->b0 * w->m * kb / w->ea;
+  w->soft = SLACK * stiff;
+  w->inertia = SLACK_INERTIA * w->b0 * w->b0 * w->m;
+  double before = 0;
   for (int j = 0; j < w->n; j++)
     {
       bt__link *k = w->link + j;
       k->rest = j ? rest[j] : rest0;
-      double inverse = 1 / k->rest;
-      k->ka = kb * inverse;
+      w->node[j].cell = 0.5 * (before + k->rest);
+      before = k->rest;
+      k->ka = kb / k->rest;
       k->zero = k->rest * (stiff + ba0 * e[j] + ba2 * de[j]);
-      k->rho = rho * k->rest;
-      double soft = SLACK * w->ea * inverse, most = inertia * k->rest;
-      k->slack = soft < most ? soft : most;
       k->start = e[j] * rest[j];
       k->thrust = 0;
       k->active = -1;
       w->lam[j] = tension[j];
     }
+  w->node[w->n].cell = 0.5 * before;
 }
 
 /* The end of a step is taken to its place; any other node goes on as it does.  */
@@ -46,15 +48,18 @@ prepare_nodes (bt__dynamic_work *w, const bt__dynamic *d)
 {
   const bt_vec3 *v = bt__dynamic_v (d), *dx = bt__dynamic_dx (d), *vp = bt__dynamic_vp (d);
   double h = w->in->h, r = w->b2 > 0 ? h / d->h : 0;
-  for (int i = 0; i <= w->n; i++)
+  bt__pair b1 = { w->b1, w->b1 }, b2 = { w->b2, w->b2 }, ahead = { h, h },
+           half = { 0.5 * r, 0.5 * r };
+  for (int i = 0; i <= w->n; i += 2)
     {
-      bt__node *k = w->node + i;
-      k->cell = 0.5 * ((i ? w->link[i - 1].rest : 0) + (i < w->n ? w->link[i].rest : 0));
-      k->v0 = bt__scale (-w->b2, dx[i]);
-      k->a0 = bt__axpy (bt__scale (w->b1, v[i]), w->b2, vp[i]);
-      k->tau = bt__vec (0, 0, -1);
-      bt_vec3 speed = bt__axpy (v[i], 0.5 * r, bt__sub (v[i], vp[i]));
-      w->X[i] = bt__axpy (w->x[i], h, speed);
+      int j = i < w->n ? i + 1 : i;
+      bt__node *p = w->node + i, *q = w->node + j;
+      bt__pair_vec now = bt__pair_load (v + i, v + j), before = bt__pair_load (vp + i, vp + j);
+      bt__pair_vec speed = bt__pair_axpy (now, half, bt__pair_sub (now, before));
+      bt__pair_vec x = bt__pair_load (w->x + i, w->x + j);
+      bt__pair_store (&p->v0, &q->v0, bt__pair_scale (-b2, bt__pair_load (dx + i, dx + j)));
+      bt__pair_store (&p->a0, &q->a0, bt__pair_axpy (bt__pair_scale (b1, now), b2, before));
+      bt__pair_store (w->X + i, w->X + j, bt__pair_axpy (x, ahead, speed));
     }
   w->lo = w->in->end[0].free ? 0 : 1;
   w->hi = w->in->end[1].free ? w->n : w->n - 1;

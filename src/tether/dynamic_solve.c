@@ -6,6 +6,8 @@
 
 #include "tether/dynamic_kernel.h"
 
+#define HUGE_UPDATE 1e60 /* m2: not finite */
+
 /* A = L D L^T with unit L; inverse pivots.  The divisions are those that can overlap.  */
 typedef struct factor
 {
@@ -35,8 +37,6 @@ resolve (const factor *f, bt_vec3 b)
   return bt__vec (b.x * f->d0 - f->l10 * y - f->l20 * z, y, z);
 }
 
-/* ---- Without bending: G = A^-1 K is kept ---- */
-
 static BT__HOT void
 put_column (bt__full *g, int c, bt_vec3 v)
 {
@@ -53,76 +53,160 @@ full_apply (const bt__full *g, bt_vec3 v)
                   g->m[2][0] * v.x + g->m[2][1] * v.y + g->m[2][2] * v.z);
 }
 
-/* A -= K G, which is symmetric.  */
-static BT__HOT void
-subtract_product (bt__sym *a, const bt__sym *k, const bt__full *g)
+/* ---- Without bending: from both ends to the middle and back, a pair of nodes at a time ----
+
+   Of a pair with blocks A, right-hand sides R and blocks K toward the middle, G = A^-1 K and A^-1 R
+   are kept.  What it passes on, K A^-1 K and K A^-1 R, is had from L^-1 K and L^-1 R already, so
+   that the next pair need not wait for them.  */
+
+typedef struct pair_factor
 {
-  a->xx -= k->xx * g->m[0][0] + k->xy * g->m[1][0] + k->xz * g->m[2][0];
-  a->xy -= k->xx * g->m[0][1] + k->xy * g->m[1][1] + k->xz * g->m[2][1];
-  a->xz -= k->xx * g->m[0][2] + k->xy * g->m[1][2] + k->xz * g->m[2][2];
-  a->yy -= k->xy * g->m[0][1] + k->yy * g->m[1][1] + k->yz * g->m[2][1];
-  a->yz -= k->xy * g->m[0][2] + k->yy * g->m[1][2] + k->yz * g->m[2][2];
-  a->zz -= k->xz * g->m[0][2] + k->yz * g->m[1][2] + k->zz * g->m[2][2];
+  bt__pair l10, l20, l21, d0, d1, d2;
+} pair_factor;
+
+static BT__HOT pair_factor
+factorize_pair (const bt__pair_sym *a)
+{
+  pair_factor f;
+  bt__pair minor = a->xx * a->yy - a->xy * a->xy, mixed = a->xx * a->yz - a->xy * a->xz;
+  bt__pair inverse = 1 / minor;
+  f.d0 = 1 / a->xx;
+  f.d1 = a->xx * inverse;
+  f.l10 = a->xy * f.d0;
+  f.l20 = a->xz * f.d0;
+  f.l21 = mixed * inverse;
+  f.d2 = 1 / (a->zz - f.l20 * a->xz - f.l21 * (mixed * f.d0));
+  return f;
 }
 
-/* Eliminate node I, reached from node FROM through the block LEFT, toward the node beyond RIGHT. */
-static BT__HOT void
-eliminate_node (bt__dynamic_work *w, int i, int from, const bt__sym *left, const bt__sym *right)
+/* L^-1 B.  */
+static BT__HOT bt__pair_vec
+descend (const pair_factor *f, bt__pair_vec b)
 {
-  bt__sym a = w->diag[i];
-  bt_vec3 r = w->rhs[i];
-  if (left)
-    {
-      subtract_product (&a, left, w->up + from);
-      r = bt__add (r, bt__sym_apply (left, w->d[from]));
-    }
-  factor f = factorize (&a);
-  w->d[i] = resolve (&f, r);
-  put_column (w->up + i, 0, resolve (&f, bt__vec (right->xx, right->xy, right->xz)));
-  put_column (w->up + i, 1, resolve (&f, bt__vec (right->xy, right->yy, right->yz)));
-  put_column (w->up + i, 2, resolve (&f, bt__vec (right->xz, right->yz, right->zz)));
+  b.y -= f->l10 * b.x;
+  b.z -= f->l20 * b.x + f->l21 * b.y;
+  return b;
 }
 
-/* The node where both ways meet.  */
+/* D^-1 Y.  */
+static BT__HOT bt__pair_vec
+weigh (const pair_factor *f, bt__pair_vec y)
+{
+  return (bt__pair_vec){ y.x * f->d0, y.y * f->d1, y.z * f->d2 };
+}
+
+/* L^-T Y.  */
+static BT__HOT bt__pair_vec
+ascend (const pair_factor *f, bt__pair_vec y)
+{
+  y.y -= f->l21 * y.z;
+  y.x -= f->l10 * y.y + f->l20 * y.z;
+  return y;
+}
+
+static BT__HOT void
+put_pair_column (bt__pair_full *g, int c, bt__pair_vec v)
+{
+  g->m[0][c] = v.x;
+  g->m[1][c] = v.y;
+  g->m[2][c] = v.z;
+}
+
+/* What nodes I and J pass on to the next: K A^-1 K and K A^-1 R.  */
+typedef struct passed
+{
+  bt__pair_sym a;
+  bt__pair_vec r;
+} passed;
+
+/* Eliminate nodes I and J toward the nodes beyond the blocks RIGHT and LEFT.  */
+static BT__HOT void
+eliminate_pair (bt__dynamic_work *w, int i, int j, const bt__sym *right, const bt__sym *left,
+                passed *p)
+{
+  bt__pair_sym a = bt__pair_load_sym (w->diag + i, w->diag + j),
+               k = bt__pair_load_sym (right, left);
+  bt__pair_vec r = bt__pair_add (bt__pair_load (w->rhs + i, w->rhs + j), p->r);
+  a.xx -= p->a.xx;
+  a.xy -= p->a.xy;
+  a.xz -= p->a.xz;
+  a.yy -= p->a.yy;
+  a.yz -= p->a.yz;
+  a.zz -= p->a.zz;
+  pair_factor f = factorize_pair (&a);
+  bt__pair_vec y = descend (&f, r), x = descend (&f, (bt__pair_vec){ k.xx, k.xy, k.xz }),
+               u = descend (&f, (bt__pair_vec){ k.xy, k.yy, k.yz }),
+               v = descend (&f, (bt__pair_vec){ k.xz, k.yz, k.zz });
+  bt__pair_vec dy = weigh (&f, y), dx = weigh (&f, x), du = weigh (&f, u), dv = weigh (&f, v);
+  p->a = (bt__pair_sym){ bt__pair_dot (x, dx), bt__pair_dot (x, du), bt__pair_dot (x, dv),
+                         bt__pair_dot (u, du), bt__pair_dot (u, dv), bt__pair_dot (v, dv) };
+  p->r = (bt__pair_vec){ bt__pair_dot (x, dy), bt__pair_dot (u, dy), bt__pair_dot (v, dy) };
+  bt__pair_store (w->d + i, w->d + j, ascend (&f, dy));
+  put_pair_column (&w->up[i].two, 0, ascend (&f, dx));
+  put_pair_column (&w->up[i].two, 1, ascend (&f, du));
+  put_pair_column (&w->up[i].two, 2, ascend (&f, dv));
+}
+
+/* The node where both ways meet: P and Q are passed on from either side.  */
 static void
-solve_middle (bt__dynamic_work *w, int m)
+solve_middle (bt__dynamic_work *w, int m, const passed *p, const passed *q)
 {
   bt__sym a = w->diag[m];
   bt_vec3 r = w->rhs[m];
-  if (m > w->lo)
-    {
-      subtract_product (&a, w->off + m - 1, w->up + m - 1);
-      r = bt__add (r, bt__sym_apply (w->off + m - 1, w->d[m - 1]));
-    }
-  if (m < w->hi)
-    {
-      subtract_product (&a, w->off + m, w->up + m + 1);
-      r = bt__add (r, bt__sym_apply (w->off + m, w->d[m + 1]));
-    }
+  a.xx -= p->a.xx[0] + q->a.xx[1];
+  a.xy -= p->a.xy[0] + q->a.xy[1];
+  a.xz -= p->a.xz[0] + q->a.xz[1];
+  a.yy -= p->a.yy[0] + q->a.yy[1];
+  a.yz -= p->a.yz[0] + q->a.yz[1];
+  a.zz -= p->a.zz[0] + q->a.zz[1];
+  r.x += p->r.x[0] + q->r.x[1];
+  r.y += p->r.y[0] + q->r.y[1];
+  r.z += p->r.z[0] + q->r.z[1];
   factor f = factorize (&a);
   w->d[m] = resolve (&f, r);
 }
 
-/* From both ends to the middle and back: the two ways do not wait for each other.  */
-static void
+/* D += G of the nodes nearer the middle, V.  Return the squares of their updates.  */
+static BT__HOT bt__pair
+substitute_pair (bt__dynamic_work *w, int i, int j, bt__pair_vec *v)
+{
+  const bt__pair_full *g = &w->up[i].two;
+  bt__pair_vec d = bt__pair_load (w->d + i, w->d + j);
+  bt__pair_vec x = { g->m[0][0], g->m[0][1], g->m[0][2] },
+               y = { g->m[1][0], g->m[1][1], g->m[1][2] },
+               z = { g->m[2][0], g->m[2][1], g->m[2][2] };
+  *v = (bt__pair_vec){ d.x + bt__pair_dot (x, *v), d.y + bt__pair_dot (y, *v),
+                       d.z + bt__pair_dot (z, *v) };
+  bt__pair_store (w->d + i, w->d + j, *v);
+  return bt__pair_dot (*v, *v);
+}
+
+/* Return the square of the largest update, NaN if any is not finite.  */
+static double
 solve_plain (bt__dynamic_work *w)
 {
   int lo = w->lo, hi = w->hi, m = lo + (hi - lo) / 2, up = m - lo, down = hi - m;
-  for (int k = 0; k < down; k++)
+  passed p = { 0 };
+  for (int k = 0; k < up; k++)
+    eliminate_pair (w, lo + k, hi - k, w->off + lo + k, w->off + hi - k - 1, &p);
+  passed q = p;
+  if (down > up)
+    eliminate_pair (w, m + 1, m + 1, w->off + m, w->off + m, &q);
+  solve_middle (w, m, &p, &q);
+  bt__pair_vec v = bt__pair_load (w->d + m, w->d + m);
+  if (down > up)
     {
-      int i = lo + k, j = hi - k;
-      if (k < up)
-        eliminate_node (w, i, i - 1, k ? w->off + i - 1 : NULL, w->off + i);
-      eliminate_node (w, j, j + 1, k ? w->off + j : NULL, w->off + j - 1);
+      substitute_pair (w, m + 1, m + 1, &v);
+      v = bt__pair_load (w->d + m, w->d + m + 1);
     }
-  solve_middle (w, m);
-  for (int k = 1; k <= down; k++)
+  bt__pair most = bt__pair_dot (v, v), sum = most;
+  for (int k = up - 1; k >= 0; k--)
     {
-      int i = m - k, j = m + k;
-      if (k <= up)
-        w->d[i] = bt__add (w->d[i], full_apply (w->up + i, w->d[i + 1]));
-      w->d[j] = bt__add (w->d[j], full_apply (w->up + j, w->d[j - 1]));
+      bt__pair square = substitute_pair (w, lo + k, hi - k, &v);
+      most = bt__pair_max (most, square);
+      sum += square;
     }
+  return sum[0] + sum[1] <= HUGE_UPDATE ? fmax (most[0], most[1]) : NAN;
 }
 
 /* ---- With bending: the coupling to the next node but one is a multiple E of the unit ---- */
@@ -174,7 +258,7 @@ static inline void
 eliminate_stiff (bt__dynamic_work *w, int i, rows *s, double e)
 {
   factor f = factorize (&s->a);
-  bt__full *u1 = w->up + i, *u2 = w->up2 + i;
+  bt__full *u1 = &w->up[i].one, *u2 = w->up2 + i;
   bt_vec3 unit[3] = { { e, 0, 0 }, { 0, e, 0 }, { 0, 0, e } };
   for (int c = 0; c < 3; c++)
     {
@@ -244,29 +328,33 @@ solve_stiff (bt__dynamic_work *w)
     }
   for (int i = hi - 1; i >= lo; i--)
     {
-      w->d[i] = bt__sub (w->d[i], full_apply (w->up + i, w->d[i + 1]));
+      w->d[i] = bt__sub (w->d[i], full_apply (&w->up[i].one, w->d[i + 1]));
       if (i + 2 <= hi)
         w->d[i] = bt__sub (w->d[i], full_apply (w->up2 + i, w->d[i + 2]));
     }
 }
 
-double
-bt__dynamic_solve (bt__dynamic_work *w)
+static double
+largest_update (const bt__dynamic_work *w)
 {
-  double most = 0;
-  w->d[0] = w->d[w->n] = bt__vec (0, 0, 0);
-  if (w->lo > w->hi)
-    return 0;
-  if (w->bends > 0)
-    solve_stiff (w);
-  else
-    solve_plain (w);
+  double most = 0, sum = 0;
   for (int i = w->lo; i <= w->hi; i++)
     {
       double square = bt__dot (w->d[i], w->d[i]);
-      if (!(square <= 1e60))
-        return NAN;
+      sum += square;
       most = square > most ? square : most;
     }
-  return sqrt (most);
+  return sum <= HUGE_UPDATE ? most : NAN;
+}
+
+double
+bt__dynamic_solve (bt__dynamic_work *w)
+{
+  w->d[0] = w->d[w->n] = bt__vec (0, 0, 0);
+  if (w->lo > w->hi)
+    return 0;
+  if (!(w->bends > 0))
+    return sqrt (solve_plain (w));
+  solve_stiff (w);
+  return sqrt (largest_update (w));
 }
