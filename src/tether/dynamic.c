@@ -7,7 +7,9 @@
 #include "base/error.h"
 #include "tether/dynamic_kernel.h"
 
-#define HISTORY_RATIO 2.4 /* steps may grow by less than 1 + sqrt (2), else backward Euler */
+/* A step that grows by more than this is backward Euler: just after a snap the second-order
+   difference of a growing step gains energy, though it is stable up to 1 + sqrt (2).  */
+#define HISTORY_RATIO 1.02
 #define OWED_TIME 0.5     /* s in which the winch pays what it owes */
 #define LEAST_REST 0.05   /* of a piece: the shortest an interval is hauled to */
 /* Of the length, in steps of a sixtieth of a second and longer; what a step may leave undone must
