@@ -132,6 +132,7 @@
     "(pay-out! 5)                       ; more tether; (haul-in! 5) takes it back"
     "(what-if (run 60) (slack))         ; try the future, keep the present"
     "(release!) (run 5) (look)          ; let go of the sticks"
+    "(tether-model! 'dynamic) (run 5)   ; from now on the line moves"
     ""
     ";; (help drive!) tells of one name, (help \"tension\") finds names; ,q leaves."))
 

@@ -10,8 +10,8 @@
 /* A step that grows by more than this is backward Euler: just after a snap the second-order
    difference of a growing step gains energy, though it is stable up to 1 + sqrt (2).  */
 #define HISTORY_RATIO 1.02
-#define OWED_TIME 0.5     /* s in which the winch pays what it owes */
-#define LEAST_REST 0.05   /* of a piece: the shortest an interval is hauled to */
+#define OWED_TIME 0.5   /* s in which the winch pays what it owes */
+#define LEAST_REST 0.05 /* of a piece: the shortest an interval is hauled to */
 /* Of the length, in steps of a sixtieth of a second and longer; what a step may leave undone must
    shrink with it, or short steps add it up.  */
 #define DEFAULT_TOLERANCE 1e-5
