@@ -1,11 +1,11 @@
 /* bight-bench-collision: time and error of the collision queries, as CSV rows on standard output.
 
-   Pairs: a link of radius 1 cm and 0.5 to 1.5 m against shapes of 0.1 to 1 m, gap within a radius
-   (METHODS C1); the error is of the distance, against golden section over the link.  With libccd
-   (HAVE_CCD) its MPR stands beside, timed only: what it calls depth is none.  Scenes: a jacket of
-   tubulars 60 x 60 x 100 m in 1e4 to 1e6 triangles, a tether of 100 links draped through it and one
-   wound round a leg, every triangle within 6 cm of each link (METHODS C2); fields of 1e2 to 1e5
-   capsules of one density; the safe step in both.  Times are CPU, medians of several rounds.
+   Pairs: a link of radius 1 cm and 0.5 to 1.5 m against shapes of 0.1 to 1 m, gap within a radius;
+   the error is of the distance, against golden section over the link.  With libccd (HAVE_CCD) its
+   MPR stands beside, timed only: what it calls depth is none.  Scenes: a jacket of tubulars 60 x 60
+   x 100 m in 1e4 to 1e6 triangles, a tether of 100 links draped through it and one wound round a
+   leg, every triangle within 6 cm of each link; fields of 1e2 to 1e5 capsules of one density; the
+   safe step in both.  Times are CPU, medians of several rounds.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,7 +1,7 @@
 /* bight-bench-dynamics: time against error of the moving line, as CSV rows on standard output.
 
    Two scenes of a 100 m line (EA 2e5 N, BA 20 N s, 10 mm, neutral, current .3 m/s), each 20 s:
-   `smooth', a vehicle set off at once on a Lissajous path of at most 1.5 m/s (METHODS T2.2), and
+   `smooth', a vehicle set off at once on a Lissajous path of at most 1.5 m/s, and
    `snap', a slack line run out at 1.5 m/s until it is taut and held.  Errors are rms over eleven
    points and every half second, and of the tension at the vehicle relative to its own rms, against
    a converged run: 400 and 800 intervals in steps of 1/480 s, extrapolated.  The base line is an
@@ -330,7 +330,7 @@ enum
   TARGETS = 4
 };
 
-/* METHODS: what is to be reached, of the smooth scene.  */
+/* What is to be reached, of the smooth scene.  */
 static const struct
 {
   double error, ratio;

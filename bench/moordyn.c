@@ -17,7 +17,7 @@
 #include "calibration.h"
 #include "moordyn.h"
 
-/* s: an explicit base-line step of 100 nodes on the machine of MoorDyn's table (METHODS T6); a
+/* s: an explicit base-line step of 100 nodes on the machine of MoorDyn's table; a
    step of MoorDyn's own rk4 takes 40e-6 there.  */
 #define THEIR_CALIBRATION 19e-6
 

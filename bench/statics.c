@@ -49,7 +49,7 @@ typedef struct family
   int steep;       /* nearly vertical */
 } family;
 
-/* METHODS 1a.  */
+/* The families of cases.  */
 static const family families[] = {
   { "ordinary", { 0, 2.30103 }, { -2, 0 }, 0 },
   { "near-taut", { 0, 2.30103 }, { -8, -2 }, 0 },
@@ -217,7 +217,7 @@ error_of (const gsl_vector *x, void *user)
   return e < 1e200 ? e : 1e200;
 }
 
-/* METHODS 1a stopped where the simplex is smaller than 0.005 (m): quick, and often not there yet.
+/* Stopped where the simplex is smaller than 0.005 (m): quick, and often not there yet.
  */
 static void
 search_by_size (bench *b, const problem *p, bt_search_result from, bt_search_result *found)
@@ -441,8 +441,8 @@ typedef struct sea
   bt_vec3 r[STEADY_FINE + 1], t[STEADY_FINE + 1];
 } sea;
 
-/* 100 m of a sinking line in a current that fades with depth, 0.57 m/s at the anchor, 0.19 at 90 m
-   (METHODS 1c).  */
+/* 100 m of a sinking line in a current that fades with depth, 0.57 m/s at the anchor, 0.19 at 90 m.
+ */
 static void
 fill_sea (sea *x)
 {

@@ -1,4 +1,4 @@
-/* The moving line: a chain of lumped nodes stepped implicitly (METHODS T2), knowing no world.
+/* The moving line: a chain of lumped nodes stepped implicitly, knowing no world.
 
    The state is one flat block of doubles and 64-bit integers, without pointers or padding: a
    bt__dynamic followed by arrays for N_MAX intervals.  Copy it with memcpy for a checkpoint, hash
@@ -165,7 +165,7 @@ typedef struct bt__dynamic_energy
 bt__dynamic_energy bt__dynamic_energies (const bt__dynamic *d, const bt__dynamic_input *input);
 
 /* Estimate the error in position that comes of the number of nodes, m: the true one is 1.3 to 2.5
-   times as large (METHODS T4).  */
+   times as large.  */
 double bt__dynamic_space_error (const bt__dynamic *d);
 
 #endif

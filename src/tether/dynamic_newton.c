@@ -1,6 +1,6 @@
 /* The moving line: the iterations of a step.
 
-   The quick way is the mixed primal-dual active set of METHODS T2.1: each interval's multiplier,
+   The quick way is a mixed primal-dual active set: each interval's multiplier,
    the linearised tension, sets the geometric stiffness and decides with the stretch whether the
    interval is taut.  One iteration is enough in ordinary motion.  Where it does not settle, the
    safe way restarts from the better of predictor and present shape and descends on the incremental

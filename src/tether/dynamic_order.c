@@ -1,4 +1,4 @@
-/* The moving line: fourth order in space by deferred correction (METHODS T2.4).
+/* The moving line: fourth order in space by deferred correction.
 
    The arc differs from the chord, and the load of a cell from its middle value, by a 24th of second
    differences.  They follow the shape with a delay, held while a step is solved: taken at once they

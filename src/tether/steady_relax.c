@@ -6,7 +6,7 @@
    kappa follows the path on which the shape falls, none at all is Newton's method on the
    equilibrium.
 
-   The kernel is the mixed primal-dual active set (METHODS T2.1): every link has a multiplier LAM of
+   The kernel is a mixed primal-dual active set: every link has a multiplier LAM of
    its own, the linearised tension, which sets the geometric stiffness and decides with the stretch
    C whether the link is taut:
 

@@ -446,7 +446,7 @@ static const struct
 } snaps[] = { { 400, 0.5, 2.85, 11.5, 20.08752777048, 0.4496361614167 },
               { 5e4, 1, 100, 11.5, 75.82875444052, 0.2382230578812 },
               { 5e4, 0.5, 30, 60, 158.1138830084, 0.2980376479739 },
-              { 2e4, 0.8, 30, 19.9, 92.05, 0.2713936 } }; /* DOMAIN.md test 22 */
+              { 2e4, 0.8, 30, 19.9, 92.05, 0.2713936 } };
 
 static void
 test_snap_mass (void **state)
@@ -478,7 +478,7 @@ test_snap_mass (void **state)
     }
 }
 
-/* DOMAIN.md test 22 with the drag of the vehicle (13.7 N s/m and 141 N s2/m2, 13.54 kg and 6.36 of
+/* The same with the drag of the vehicle (13.7 N s/m and 141 N s2/m2, 13.54 kg and 6.36 of
    added mass): thrust off, and held at what kept .8 m/s.  */
 static void
 test_snap_vehicle (void **state)

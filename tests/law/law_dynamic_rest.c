@@ -150,7 +150,7 @@ static const struct
 {
   double w, u, length;
   bt_vec3 b;
-} rests[] = { { 0.1, 0.25, 40, { 0, 20, -15 } }, /* DOMAIN.md tests 8 and 1 */
+} rests[] = { { 0.1, 0.25, 40, { 0, 20, -15 } },
               { 0.1, 0.5, 40, { 0, 20, -15 } },
               { 0, 0.5, 40, { -10, 20, 0 } },
               { -0.05, 0.25, 40, { 0, 20, -15 } } };
@@ -207,7 +207,7 @@ test_rest_is_steady (void **state)
     }
 }
 
-/* DOMAIN.md test 1: a neutral line without tangential drag has the same tension everywhere, the
+/* A neutral line without tangential drag has the same tension everywhere, the
    shape of a catenary with A = 4.7172 m that does not depend on the current.  */
 static void
 test_neutral_line (void **state)

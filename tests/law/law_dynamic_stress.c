@@ -9,7 +9,7 @@
 
 /* ---- Energy ---- */
 
-/* DOMAIN.md test 27.  A line let go off balance in still water loses energy at every step of 300 s.
+/* A line let go off balance in still water loses energy at every step of 300 s.
  */
 static void
 test_energy_in_still_water (void **state)
@@ -79,7 +79,7 @@ test_energy_in_vacuo (void **state)
 
 /* ---- Winch ---- */
 
-/* DOMAIN.md test 21: a taut 50 m line hauled and paid by 10 m at .5 m/s.  */
+/* A taut 50 m line hauled and paid by 10 m at .5 m/s.  */
 static void
 test_winch (void **state)
 {
@@ -231,7 +231,7 @@ test_refusals (void **state)
   scene_close (&s);
 }
 
-/* DOMAIN.md test 28, for the kernel: a copied block goes on bit by bit, in another workspace too.
+/* A copied block goes on bit by bit, in another workspace too.
  */
 static void
 test_checkpoint (void **state)

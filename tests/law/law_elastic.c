@@ -139,7 +139,7 @@ is_the_catenary_when_it_cannot_stretch (void **state)
 {
   bt_elastic e, stiff;
   (void)state;
-  /* DOMAIN test 4 and golden S2: w 0.1, (0, 0) to (20, -10), length 30.  */
+  /* w 0.1, (0, 0) to (20, -10), length 30.  */
   assert_int_equal (bt_elastic_solve (20, -10, 30, 0.1, INFINITY, &e, NULL), BT_OK);
   near ("start", bt_elastic_tension (&e, 0), 2.160, 5e-4);
   near ("end", bt_elastic_tension (&e, 30), 1.160, 5e-4);

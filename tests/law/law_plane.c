@@ -197,7 +197,7 @@ neutral_line_in_a_current (void **state)
     }
 }
 
-/* DOMAIN test 2: the shape is that of the current's direction, T goes with its square; -U mirrors.
+/* The shape is that of the current's direction, T goes with its square; -U mirrors.
  */
 static void
 shape_does_not_know_the_speed (void **state)
@@ -226,7 +226,7 @@ shape_does_not_know_the_speed (void **state)
       bt_vec3 p = point (&s, i);
       near_point ("mirrored", point (&back, i), -p.x, p.y, p.z, 1e-12);
     }
-  /* Force on the vehicle: DOMAIN test 1 at 0.5 m/s, 5.418 N down-current, 1.016 toward the anchor.
+  /* Force on the vehicle at 0.5 m/s: 5.418 N down-current, 1.016 toward the anchor.
    */
   bt_vec3 pull = bt__scale (-4 * tension (&s, 40), tangent (&s, 40));
   near_point ("force on the vehicle", pull, 5.4175, -1.0163, 0, 6e-4);
@@ -258,7 +258,7 @@ turns_with_the_world (void **state)
     }
 }
 
-/* ---- The V, DOMAIN tests 3 and 5 ---- */
+/* ---- The V ---- */
 
 /* Length 10, 6 across, DZ up-current: l1, bend across and down-current.  */
 static void
@@ -285,7 +285,7 @@ bends_into_a_v (void **state)
     }
 }
 
-/* DOMAIN test 5: length 100, 60 across, 20 up-current, 30 up.  */
+/* Length 100, 60 across, 20 up-current, 30 up.  */
 static void
 begin_deep_v (scene *s, bt_model_kind model, bt_depth_rule rule)
 {
@@ -351,7 +351,7 @@ depth_rule_thesis_linear (void **state)
   assert_int_equal (solve (&s), BT_ERR_UNSUPPORTED);
 }
 
-/* DOMAIN test 7: buoyancy -0.5 at half of the largest current: the plane tilts by -22.5 degrees. */
+/* Buoyancy -0.5 at half of the largest current: the plane tilts by -22.5 degrees. */
 static void
 depth_rule_sag (void **state)
 {
@@ -401,7 +401,7 @@ depth_rule_sag_auto (void **state)
   near_point ("buoyancy", s.memory.load_direction, 0, 0, 1, 0);
 }
 
-/* ---- Still water, DOMAIN test 4 ---- */
+/* ---- Still water ---- */
 
 static const bt_model_kind bent[]
     = { BT_MODEL_V_SHAPE, BT_MODEL_CATENARY, BT_MODEL_CATENARY_SIMPLEX, BT_MODEL_ELASTIC,

@@ -404,7 +404,7 @@ test_free_ends_are_reproduced (void **state)
     }
 }
 
-/* ---- DOMAIN.md chapter 6: rho 1025, d 7.6 mm, cdn 1.2; four digits after the point ---- */
+/* ---- Shooting in 4000 steps: rho 1025, d 7.6 mm, cdn 1.2; four digits after the point ---- */
 
 static const struct golden
 {

@@ -28,7 +28,7 @@ length_of (const bt_v_shape *v, double h, double y)
   return hypot (v->bend.x, v->bend.y) + hypot (h - v->bend.x, y - v->bend.y);
 }
 
-/* DOMAIN test 3, figure 2-2: length 10, 6 across; with the thesis' three constraints.  */
+/* Figure 2-2: length 10, 6 across; with the thesis' three constraints.  */
 static void
 meets_equation_2_1 (void **state)
 {
