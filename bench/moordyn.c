@@ -16,6 +16,7 @@
 
 #include "calibration.h"
 #include "moordyn.h"
+#include "reference.h"
 
 /* s: an explicit base-line step of 100 nodes on the machine of MoorDyn's table; a
    step of MoorDyn's own rk4 takes 40e-6 there.  */
@@ -42,24 +43,12 @@ typedef struct level
   char setting[48];
 } level;
 
-static FILE *
-open_data (const char *file)
-{
-  char path[1024];
-  const char *folder = getenv ("BIGHT_REFERENCE_DATA"), *source = getenv ("top_srcdir");
-  if (folder)
-    snprintf (path, sizeof path, "%s/moordyn/%s", folder, file);
-  else
-    snprintf (path, sizeof path, "%s/../shared/data/moordyn/%s", source ? source : ".", file);
-  return fopen (path, "r");
-}
-
 /* Read case C's points: t, TA, TB, then 21 points, of which every second is wanted.  */
 static int
 read_best (void)
 {
   static char text[4096];
-  FILE *f = open_data ("C.csv");
+  FILE *f = bench_open_reference ("moordyn/C.csv");
   int rows = 0;
   while (f && rows < SAMPLES && fgets (text, sizeof text, f))
     {
@@ -89,7 +78,7 @@ static int
 read_levels (level *levels)
 {
   char text[512];
-  FILE *f = open_data ("workprecision.csv");
+  FILE *f = bench_open_reference ("moordyn/workprecision.csv");
   int count = 0;
   while (f && fgets (text, sizeof text, f))
     {

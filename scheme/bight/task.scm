@@ -93,7 +93,7 @@ what it begins with.  Return the task.  Raise a &bight-error from PROC when ther
   "Evaluate the body every SECONDS of dive time from now on, between steps; return a handle."
   (every-seconds seconds (lambda () body body* ...)))
 
-(define event-kinds '(taut slack arrived spooled stalled parted snapped hockled kinked))
+(define event-kinds (%event-kinds))
 
 (define (run-on-events task kind procedure)
   ;; The state of a task for events is how many events it has seen.

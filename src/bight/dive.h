@@ -239,6 +239,8 @@ int64_t bt_dive_event_count (const bt_dive *dive);
 /* Copy the events from number FIRST on (0: the first ever) that are still kept, oldest first, to
    EVENTS, which has room for BT_EVENTS_KEPT, and return how many.  */
 int bt_dive_events (const bt_dive *dive, int64_t first, bt_event *events);
+/* Return the word for KIND, or NULL when there is no such kind; they count from BT_EVENT_TAUT on.
+ */
 const char *bt_event_name (bt_event_kind kind);
 
 void bt_dive_profile (const bt_dive *dive, bt_profile *profile);

@@ -289,6 +289,15 @@ event_count (SCM object)
 }
 
 static SCM
+event_kinds (void)
+{
+  SCM list = SCM_EOL;
+  for (int kind = BT_EVENT_TAUT; bt_event_name ((bt_event_kind)kind); kind++)
+    list = scm_cons (symbol (bt_event_name ((bt_event_kind)kind)), list);
+  return scm_reverse_x (list, SCM_EOL);
+}
+
+static SCM
 events (SCM object, SCM first)
 {
   bt_dive *dive = bt__to_dive (object);
@@ -353,6 +362,7 @@ bt__define_questions (void)
     { "%current-at", 2, 0, (scm_t_subr)current_at, "Return the velocity of the water at POINT." },
     { "%events", 2, 0, (scm_t_subr)events,
       "Return the kept events of DIVE from number FIRST on, lists (KIND TIME SUBJECT)." },
+    { "%event-kinds", 0, 0, (scm_t_subr)event_kinds, "Return the kinds of events, symbols." },
     { "%event-count", 1, 0, (scm_t_subr)event_count, "Return how many events DIVE ever had." },
     { "%profile", 1, 0, (scm_t_subr)profile, "Return the work counters of DIVE, an alist." },
   };

@@ -143,6 +143,12 @@ shift_part (bt__dynamic *chain, bt_vec3 from, bt_vec3 to)
     x[k] = bt__add (x[k], way);
 }
 
+static int
+is_same (bt_vec3 a, bt_vec3 b)
+{
+  return memcmp (&a, &b, sizeof a) == 0;
+}
+
 /* An end was put elsewhere in no time: the line takes the equilibrium that it comes to from
    there.  */
 bt_status
@@ -151,7 +157,7 @@ bt__carry_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, b
   bt__tether *tether = bt__dive_tether (dive, state, i);
   bt__ends before = { tether->shape.a, tether->shape.b };
   bt_status status;
-  if (bt__is_same (before.a, ends->a) && bt__is_same (before.b, ends->b))
+  if (is_same (before.a, ends->a) && is_same (before.b, ends->b))
     return BT_OK;
   if (tether->parted)
     {

@@ -5,8 +5,6 @@
 #ifndef BT_SIM_CHAIN_H
 #define BT_SIM_CHAIN_H
 
-#include <string.h>
-
 #include "base/error.h"
 #include "sim/sim.h"
 #include "world/line.h"
@@ -29,11 +27,5 @@ void bt__bring_vehicle (const bt_dive *dive, bt__state *state, int i);
 /* Note what REPORT says of a step of TETHER, and what its twist does, as events.  */
 void bt__watch_step (bt__state *state, bt__tether *tether, int i, const bt__dynamic_report *report);
 void bt__watch_twist (const bt_dive *dive, bt__state *state, bt__tether *tether, int i);
-
-static inline int
-bt__is_same (bt_vec3 a, bt_vec3 b)
-{
-  return memcmp (&a, &b, sizeof a) == 0;
-}
 
 #endif

@@ -17,9 +17,8 @@
 static int
 may_sleep_on (const bt__state *state, const bt__tether *tether, const bt__ends *ends)
 {
-  return tether->quiet >= BT__SLEEP_AFTER && !tether->stale && tether->winch_rate == 0
-         && tether->shape.length == tether->length && bt__is_same (tether->shape.a, ends->a)
-         && bt__is_same (tether->shape.b, ends->b) && !bt_current_is_unsteady (&state->current);
+  return tether->quiet >= BT__SLEEP_AFTER && tether->winch_rate == 0
+         && bt__is_unchanged (state, tether, ends);
 }
 
 static bt_status

@@ -8,12 +8,10 @@
 #include "math/vec.h"
 #include "sim/sim.h"
 
-/* Nonzero if nothing that the shape depends on has changed since it was solved.  */
-static int
-is_current (const bt__state *state, const bt__tether *tether, const bt__ends *ends, double pull)
+int
+bt__is_unchanged (const bt__state *state, const bt__tether *tether, const bt__ends *ends)
 {
-  return !tether->stale && tether->pull == pull
-         && memcmp (&tether->shape.a, &ends->a, sizeof ends->a) == 0
+  return !tether->stale && memcmp (&tether->shape.a, &ends->a, sizeof ends->a) == 0
          && memcmp (&tether->shape.b, &ends->b, sizeof ends->b) == 0
          && tether->shape.length == tether->length && !bt_current_is_unsteady (&state->current);
 }
@@ -90,7 +88,7 @@ resolve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
                      dive->model->tethers[i].name);
   if (tether->shape.form == BT__FORM_CHAIN)
     bt__still_chain (dive, state, i);
-  if (!is_current (state, tether, ends, pull))
+  if (tether->pull != pull || !bt__is_unchanged (state, tether, ends))
     return solve (dive, state, i, ends, pull, error);
   dive->profile.shape_skips++;
   return BT_OK;

@@ -54,6 +54,10 @@ bt__ends bt__tether_ends (const bt_dive *dive, bt__state *state, int i);
 /* Return the strongest pull of the vehicles at the ends of tether I, N; 0 when both are points.  */
 double bt__pull_on (const bt_dive *dive, bt__state *state, int i);
 
+/* Nonzero if nothing that the line of TETHER depends on has changed since it was last solved or
+   stepped: ends, length, properties, current (resolve.c).  */
+int bt__is_unchanged (const bt__state *state, const bt__tether *tether, const bt__ends *ends);
+
 /* Solve the static shape of tether I with PROPS, pulled taut with PULL newtons (resolve.c).  */
 bt_status bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
                            const bt_tether_props *props, double pull, bt_error *error);

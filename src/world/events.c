@@ -53,5 +53,5 @@ bt_event_name (bt_event_kind kind)
     case BT_EVENT_KINKED:
       return "kinked";
     }
-  return "unknown";
+  return NULL;
 }

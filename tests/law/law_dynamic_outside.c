@@ -4,6 +4,7 @@
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include "law/dynamic_scene.h"
+#include "reference.h"
 
 enum
 {
@@ -31,25 +32,12 @@ parse (table *t, char *line)
   t->rows++;
 }
 
-/* Open FILE in the folder of the reference data.  */
-static FILE *
-open_data (const char *file)
-{
-  char path[1024];
-  const char *folder = getenv ("BIGHT_REFERENCE_DATA"), *source = getenv ("top_srcdir");
-  if (folder)
-    snprintf (path, sizeof path, "%s/%s", folder, file);
-  else
-    snprintf (path, sizeof path, "%s/../shared/data/%s", source ? source : ".", file);
-  return fopen (path, "r");
-}
-
 /* Read the numbers of FILE; the test is skipped when it is not there.  */
 static void
 load (const char *file, table *t)
 {
   static char line[16384];
-  FILE *f = open_data (file);
+  FILE *f = bench_open_reference (file);
   t->rows = 0;
   if (!f)
     {
@@ -492,7 +480,7 @@ main (void)
     cmocka_unit_test (test_lowe_langley), cmocka_unit_test (test_orcaflex),
     cmocka_unit_test (test_tank),
   };
-  FILE *readme = open_data ("README.md");
+  FILE *readme = bench_open_reference ("README.md");
   if (!readme)
     {
       puts ("1..0 # SKIP the reference data are not here");

@@ -18,6 +18,7 @@
 
 #include "../oracle/solids.h"
 #include "../oracle/sweep.h"
+#include "reference.h"
 #include "collide/safe.h"
 
 enum
@@ -74,13 +75,9 @@ read_obj (model *m, FILE *f)
 static FILE *
 open_mesh (const char *name)
 {
-  const char *folder = getenv ("BIGHT_REFERENCE_DATA"), *source = getenv ("top_srcdir");
-  char path[1000];
-  if (folder)
-    snprintf (path, sizeof path, "%s/meshes/%s", folder, name);
-  else
-    snprintf (path, sizeof path, "%s/../shared/data/meshes/%s", source ? source : ".", name);
-  return fopen (path, "r");
+  char path[100];
+  snprintf (path, sizeof path, "meshes/%s", name);
+  return bench_open_reference (path);
 }
 
 static void
