@@ -3,7 +3,8 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(define state (seed->random-state 4))
+;; BIGHT_SEED draws other flights.
+(define state (seed->random-state (or (and=> (getenv "BIGHT_SEED") string->number) 4)))
 
 (define (between-random low high)
   (+ low (* (- high low) (random:uniform state))))
