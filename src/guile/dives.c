@@ -33,6 +33,8 @@ bt__to_idle_dive (const char *who, SCM object)
   return handle->dive;
 }
 
+/* The collector scans the handle, and so finds its procedure: a mark function of our own would run
+   on the collector's helper threads, which Guile knows nothing of.  */
 bt__handle *
 bt__new_handle (SCM function)
 {
@@ -47,12 +49,6 @@ SCM
 bt__from_handle (bt__handle *handle)
 {
   return scm_new_smob (dive_tag, (scm_t_bits)handle);
-}
-
-static SCM
-mark_dive (SCM object)
-{
-  return ((bt__handle *)SCM_SMOB_DATA (object))->function;
 }
 
 /* Also runs on Guile's finalizer thread: it touches the dive alone.  */
@@ -185,7 +181,6 @@ bt__define_dives (void)
     { "%hash-dive", 1, 0, (scm_t_subr)hash_dive, "Return the 64-bit hash of DIVE's state." },
   };
   dive_tag = scm_make_smob_type ("dive", 0);
-  scm_set_smob_mark (dive_tag, mark_dive);
   scm_set_smob_free (dive_tag, free_dive);
   scm_set_smob_print (dive_tag, print_dive);
   bt__define_procedures (table, sizeof table / sizeof *table);
