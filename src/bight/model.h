@@ -7,6 +7,7 @@
 #define BIGHT_MODEL_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include <bight/decls.h>
 #include <bight/status.h>
@@ -22,7 +23,8 @@ enum
   BT_VEHICLES_MAX = 64,
   BT_TETHERS_MAX = 64,
   BT_NODES_MAX = 10000, /* intervals of one tether */
-  BT_LUMPS_MAX = 32     /* clumps and floats on one tether */
+  BT_LUMPS_MAX = 32,    /* clumps and floats on one tether */
+  BT_OBSTACLES_MAX = 100000
 };
 
 /* The water and its current.  */
@@ -77,6 +79,61 @@ typedef struct bt_tether_def
   double n_lumps;
 } bt_tether_def;
 
+typedef enum bt_obstacle_kind
+{
+  BT_OBSTACLE_SEABED = 0, /* level at the depth of the sea; or its GRID or MESH */
+  BT_OBSTACLE_BOX,
+  BT_OBSTACLE_SPHERE,
+  BT_OBSTACLE_CYLINDER, /* solid, with flat caps */
+  BT_OBSTACLE_CAPSULE,
+  BT_OBSTACLE_CONVEX, /* the hull of POINTS, which are relative to AT */
+  BT_OBSTACLE_MESH    /* triangles, two-sided */
+} bt_obstacle_kind;
+
+/* Points or rows of numbers: N rows of WIDTH, borrowed until bt_model_new has copied them.  */
+typedef struct bt_rows
+{
+  const double *at;
+  size_t n, width;
+} bt_rows;
+
+/* Triangles, borrowed until bt_model_new has copied them.  Any soup will do.  */
+typedef struct bt_triangles
+{
+  const bt_vec3 *vertex;
+  size_t vertices;
+  const uint32_t (*corner)[3];
+  size_t triangles;
+  const uint32_t *id; /* of each triangle; NULL: 0, 1, 2 ... */
+} bt_triangles;
+
+/* A height field: NX by NY posts DX and DY apart, the first at (X, Y), borrowed likewise.  */
+typedef struct bt_heights
+{
+  const double *z; /* m, rows from south to north, each from west to east; NaN: no bottom there */
+  size_t nx, ny;
+  double x, y, dx, dy; /* m */
+} bt_heights;
+
+/* An obstacle.  Its kind says which fields count.  */
+typedef struct bt_obstacle_def
+{
+  char name[BT_NAME_SIZE];
+  bt_obstacle_kind kind;
+  bt_vec3 at;                  /* m: the centre; of a mesh and of convex points their own origin */
+  double heading, pitch, roll; /* degrees: compass, bow up, starboard down */
+  bt_vec3 from, to;            /* m: the ends of the axis */
+  bt_vec3 size;                /* m: along its own x, y, z */
+  double radius;               /* m */
+  double scale;                /* of a mesh */
+  double friction;             /* Coulomb; NAN: the tether's own */
+  bt_rows points;              /* CONVEX: rows of x y z */
+  bt_triangles mesh;           /* MESH, SEABED; z up */
+  bt_heights grid;             /* SEABED */
+  bt_rows track;               /* rows of t x y z heading (s, m, degrees): where AT is and how it
+                                  is turned from the start of the dive on; none: it stands still */
+} bt_obstacle_def;
+
 typedef struct bt_world
 {
   bt_sea_def sea;
@@ -84,6 +141,8 @@ typedef struct bt_world
   int n_vehicles;
   const bt_tether_def *tethers;
   int n_tethers;
+  const bt_obstacle_def *obstacles;
+  int n_obstacles;
 } bt_world;
 
 /* ---- One table of fields, many readers ---- */
