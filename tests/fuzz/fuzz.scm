@@ -20,7 +20,7 @@
 
 (use-modules (bight)
              ((bight assembly) #:select (data->part build-world))
-             ((bight errors) #:select (abbreviate bight-error-kinds show))
+             ((bight errors) #:select (abbreviate bight-error-kinds brief))
              ((bight schema) #:select (part-heads inner-heads head-fields field-name field-kind
                                   field-words field-live?))
              ((bight verb) #:select (accepts? argument-type-name current-subject-lister))
@@ -152,6 +152,7 @@
   (expressions
    'minnow 'line 'rope 'no-such 'minow 'linne 'sea 'rov 'tether 'fathom 'kinematic 'open-water 'tank
    'cross-current 'tide-profile 'opne-water 'still 'uniform 'profile 'taut 'slack 'arrived 'spooled 'tuat
+   'crate 'tower 'tower/leg 'tower/sphere 'wreck 'box 'group 'mesh
    'rubber-band 'v-shape 'catenary 'catenary-simplex 'elastic 'steady 'dynamic 'auto 'stedy 'inextensible
    'x 'to 'd1 'd2 (string->symbol "") (string->symbol "a b") (string->symbol "~a") (string->symbol "a\x00;b")
    (string->symbol "../world") 'Ωλ long-symbol unnamed-symbol
@@ -202,6 +203,15 @@
                     (tether (named other) (from 1 1 0) (to second) (length 30)))
             (without 'open-water 'line)
             (world (sea (depth 10)))
+            (extend 'open-water (seabed) (box (named crate) (at 30 0 -5) (size 1 2 3) (heading 30))
+                    (group (named tower) (at -40 0 0)
+                      (cylinder (named leg) (from 0 0 0) (to 0 0 -20) (radius 0.5))
+                      (sphere (at 0 0 -5) (radius 1) (track (0 0 0 -5) (5 3 3 -5 90)))))
+            (extend 'open-water
+                    (seabed (grid (lambda (x y) (- -50 (* 0.1 x))) (from -20 -20) (to 20 20) (spacing 5))))
+            (extend 'open-water (mesh (named wreck) (file "no-such.obj")))
+            (part box (size 1 1 1))
+            (part group (named frame) (capsule (from 9 9 0) (to 9 9 -9) (radius 0.2)))
             (world (rov (named d1) (at 0 0 -1)))
             (part rov (named d2) (at 4 4 -4))
             (part tether (named t2) (from 0 0 0) (to minnow) (length 30))
@@ -308,9 +318,10 @@
 (define apt-names
   '((tether-model! rubber-band v-shape catenary catenary-simplex elastic steady dynamic auto)
     (on taut slack arrived spooled)
-    (alter! minnow line rope second)
-    (world-part sea minnow line)
-    (without minnow line)
+    (alter! minnow line rope second crate tower/leg seabed)
+    (describe minnow line crate tower tower/sphere seabed mesh group)
+    (world-part sea minnow line crate tower/leg)
+    (without minnow line crate tower)
     (enter! open-water tank cross-current tide-profile)))
 
 (define (fit verb type share)
@@ -469,6 +480,13 @@
          (name (if (chance? 0.95) (field-name field) (choose 'lenght 'denstiy 'x))))
     (case (field-kind field)
       ((word name type) (list name (if (chance? 0.8) (a-word) (expression))))
+      ((points) (cons name (rows 3)))
+      ((track) (cons name (rows (choose 4 5))))
+      ((grid) (cons* name (choose (expression) "no-such.asc" '(lambda (x y) -5))
+                     (choose '() '((from -1 -1) (to 1 1) (spacing 1))
+                             (list '(from -1 -1) (list 'to (expression) 1) '(spacing 1))
+                             (list '(from 0 0) '(to 1 1) (list 'spacing (expression))))))
+      ((mesh) (list name (choose "no-such.obj" "empty" "folder" (expression))))
       ((point end) (if (chance? 0.5)
                        (list name (a-number -9 9) (a-number -9 9) (a-number -9 0))
                        (list name (if (chance? 0.5) (a-word) (expression)))))
@@ -481,11 +499,37 @@
                 (list name (a-number 0 (choose 1 50)))
                 (list name (expression)))))))
 
+(define (rows width)
+  ;; Some rows of WIDTH numbers, the first rising.
+  (list-tabulate (random-below 6)
+                 (lambda (i)
+                   (cons i (list-tabulate (- width 1)
+                                          (lambda (j)
+                                            (if (chance? 0.95) (a-number -9 9) (expression))))))))
+
+;; What a kind of obstacle cannot do without, so that some are made.
+(define whole
+  '((box (at 9 9 -9) (size 1 2 3))
+    (sphere (at 9 9 -9) (radius 1))
+    (cylinder (from 9 9 0) (to 9 9 -9) (radius 0.3))
+    (capsule (from 9 9 0) (to 9 9 -9) (radius 0.3))
+    (convex (at 9 9 -9) (points (0 0 0) (1 0 0) (0 1 0) (0 0 1)))
+    (group (named d2) (heading 90) (box (size 1 1 1)))))
+
 (define (a-part)
+  (let ((known (apply choose whole)))
+    (if (chance? 0.3)
+        (append known (list-tabulate (random-below 2) (lambda (i) (a-member (car known)))))
+        (any-part))))
+
+(define (a-member head)
+  (if (and (eq? head 'group) (chance? 0.7)) (a-part) (a-clause head)))
+
+(define (any-part)
   (let ((head (if (chance? 0.97) (apply choose (part-heads)) 'rvo)))
     (append (list head)
             (if (and (eq? head 'tether) (chance? 0.8)) '((from 0 0 -1) (length 30)) '())
-            (list-tabulate (random-below 4) (lambda (i) (a-clause (if (eq? head 'rvo) 'rov head)))))))
+            (list-tabulate (random-below 4) (lambda (i) (a-member (if (eq? head 'rvo) 'rov head)))))))
 
 (define (some-parts)
   (list-tabulate (+ 1 (random-below 3))
@@ -674,7 +718,7 @@
       #:unwind? #t)
     (set! call-began #f)
     (let ((took (- (processor-seconds) began)))
-      (when trace? (say "trace   ~a s: ~a" took (show outcome)))
+      (when trace? (say "trace   ~a s: ~a" took (brief outcome)))
       (when (> took (+ limit 0.5))
         (finding! (simple-format #f "took ~a s of processor time" took))))))
 
