@@ -85,4 +85,9 @@ typedef double (*bt__visit) (void *user, uint32_t slot, double reach);
 double bt__bvh_query (const bt__bvh *tree, const bt__link *link, double reach, int nearest,
                       bt__visit visit, void *user, bt__count *count);
 
+/* Visit every item whose box the ray from FROM along DIRECTION, unit, meets before REACH, nearer
+   boxes first.  Return the last reach.  */
+double bt__bvh_ray (const bt__bvh *tree, bt_vec3 from, bt_vec3 direction, double reach,
+                    bt__visit visit, void *user, bt__count *count);
+
 #endif

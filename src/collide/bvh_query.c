@@ -124,6 +124,17 @@ push (entry *stack, int base, int depth, entry e, int nearest)
   return depth + 1;
 }
 
+/* LINK is farther than REACH from the cube about all of TREE.  */
+static ALWAYS int
+is_outside (const bt__bvh *tree, const bt__link *link, double reach)
+{
+  double half = 0.5000001 * tree->extent + reach + 1e-15 * bt__largest (tree->origin);
+  bt_vec3 a = bt__sub (link->a, tree->origin), b = bt__sub (link->b, tree->origin);
+  return (a.x > half && b.x > half) || (a.x < -half && b.x < -half) || (a.y > half && b.y > half)
+         || (a.y < -half && b.y < -half) || (a.z > half && b.z > half)
+         || (a.z < -half && b.z < -half);
+}
+
 static float
 as_float (double reach)
 {
@@ -137,7 +148,7 @@ bt__bvh_query (const bt__bvh *tree, const bt__link *link, double reach, int near
   entry stack[BT__BVH_STACK];
   probe p;
   int depth = 0;
-  if (tree->n == 0 || !(reach >= 0))
+  if (tree->n == 0 || !(reach >= 0) || is_outside (tree, link, reach))
     return reach;
   make_probe (tree, link, &p);
   stack[depth++] = (entry){ 0, 0 };

@@ -2,8 +2,10 @@
 
    The simplex lives in A - B.  Its point nearest to 0 is sought over all its faces that have the
    new vertex, each answer a point of the simplex, the smallest wins: slower than walking Voronoi
-   regions, but a nearly flat simplex cannot mislead it.  It ends when the support shows that no
-   point is nearer by more than rounding, when a support repeats, or when nothing is gained.
+   regions, but a nearly flat simplex cannot mislead it: where rounding leaves nothing to gain the
+   simplex is made of its point alone, and grows again.  It ends when the support shows that no
+   point is nearer by more than rounding, when a support repeats, or when even then nothing is
+   gained.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -156,6 +158,39 @@ finish (const simplex *x, double distance, bt__gap *out)
     }
 }
 
+/* The point of X as a simplex of its own.  */
+static simplex
+collapsed (const simplex *x, bt_vec3 at)
+{
+  bt__gap gap;
+  finish (x, 0, &gap);
+  return (simplex){ .v = { { at, gap.a, gap.b } }, .weight = { 1 }, .n = 1 };
+}
+
+/* Add NEXT to X and reduce; return nonzero if the nearest point, *V at *SIZE, came nearer.  */
+static int
+gain (simplex *x, const vertex *next, bt_vec3 *v, double *size)
+{
+  simplex grown = *x;
+  grown.v[grown.n++] = *next;
+  bt_vec3 nearer = reduce (&grown);
+  double now = bt__norm (nearer);
+  if (!(now < *size))
+    return 0;
+  *x = grown;
+  *v = nearer;
+  *size = now;
+  return 1;
+}
+
+static int
+would_hold_zero (const simplex *x, const vertex *next, double scale)
+{
+  simplex grown = *x;
+  grown.v[3] = *next;
+  return x->n == 3 && holds_zero (&grown, scale);
+}
+
 void
 bt__gjk (const bt__convex *a, const bt__convex *b, bt__gap *out)
 {
@@ -170,23 +205,17 @@ bt__gjk (const bt__convex *a, const bt__convex *b, bt__gap *out)
       scale = fmax (scale, bt__norm (next.w));
       if (size - bt__dot (v, next.w) / size <= 1e-15 * scale || has (&x, next.w))
         break;
-      simplex old = x;
-      x.v[x.n++] = next;
-      if (x.n == 4 && holds_zero (&x, scale))
+      if (would_hold_zero (&x, &next, scale))
         {
-          x = old;
           size = 0;
           break;
         }
-      bt_vec3 nearer = reduce (&x);
-      double now = bt__norm (nearer);
-      if (!(now < size))
-        {
-          x = old;
-          break;
-        }
-      v = nearer;
-      size = now;
+      if (gain (&x, &next, &v, &size))
+        continue;
+      /* Stalled: from the point itself straight towards the new vertex there is a way down.  */
+      x = collapsed (&x, v);
+      if (!gain (&x, &next, &v, &size))
+        break;
     }
   finish (&x, size > 1e-15 * scale ? size : 0, out);
 }

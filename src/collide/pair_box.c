@@ -98,7 +98,7 @@ static void
 try_edges (const local *k, int i, way_out *best)
 {
   int j = (i + 1) % 3, l = (i + 2) % 3;
-  double size = hypot (k->d[j], k->d[l]);
+  double size = sqrt (k->d[j] * k->d[j] + k->d[l] * k->d[l]);
   if (!(size > 0))
     return;
   double nj = -k->d[l] / size, nl = k->d[j] / size, at = nj * k->p[j] + nl * k->p[l];

@@ -108,8 +108,8 @@ cylinder_half (const bt__cylinder *c, double along)
   return c->half * fabs (along) + c->radius * sqrt (fmax (1 - along * along, 0));
 }
 
-static bt__aabb
-tight_box (const bt__obstacle *o)
+bt__aabb
+bt__obstacle_box (const bt__obstacle *o)
 {
   const bt__cylinder *c = &o->shape.cylinder;
   double r = o->shape.sphere.radius;
@@ -128,6 +128,8 @@ tight_box (const bt__obstacle *o)
                             o->shape.capsule.radius);
     case BT__OBSTACLE_CONVEX:
       return box_of_points (o->shape.hull->v, o->shape.hull->vertices, 0);
+    case BT__OBSTACLE_PLANE:
+      return box_about (bt__vec (0, 0, 0), bt__vec (INFINITY, INFINITY, INFINITY));
     default:
       return o->shape.mesh->box;
     }
@@ -138,7 +140,7 @@ static void
 box_of (const void *user, uint32_t i, bt__aabb *box)
 {
   const bt__scene *s = user;
-  bt__aabb b = tight_box (s->object + s->solid[i]);
+  bt__aabb b = bt__obstacle_box (s->object + s->solid[i]);
   double more = 1e-8 * bt__largest (bt__sub (b.hi, b.lo));
   bt_vec3 r = { more, more, more };
   *box = (bt__aabb){ bt__sub (b.lo, r), bt__add (b.hi, r) };

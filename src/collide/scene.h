@@ -87,6 +87,9 @@ bt_status bt__scene_new (const bt__obstacle *obstacles, uint32_t n, uint64_t ser
 
 void bt__scene_free (bt__scene *scene); /* NULL is nothing */
 
+/* The box about an obstacle; a plane's has no end.  */
+bt__aabb bt__obstacle_box (const bt__obstacle *obstacle);
+
 /* The distance of LINK to an obstacle that is not a mesh.  */
 void bt__obstacle_pair (const bt__obstacle *obstacle, const bt__link *link, bt__witness *out);
 
@@ -118,6 +121,14 @@ int bt__nears_has (const bt__nears *list, uint32_t link, uint32_t object, double
 int bt__scene_nearest_to_body (const bt__scene *scene, const bt__switches *on,
                                const bt__convex *body, bt_vec3 centre, double radius, double cap,
                                bt__near *out, bt__gap *gap, bt__count *count);
+
+/* Return the core of an obstacle that is neither mesh nor plane; *RADIUS is round it.  */
+bt__convex bt__obstacle_core (const bt__obstacle *obstacle, double *radius);
+
+/* Each a bt__support of the shape it is called by; of a capsule the axis.  */
+bt_vec3 bt__box_support (const void *shape, bt_vec3 direction, int *hint);
+bt_vec3 bt__capsule_support (const void *shape, bt_vec3 direction, int *hint);
+bt_vec3 bt__triangle_support (const void *shape, bt_vec3 direction, int *hint);
 
 static inline int
 bt__is_on (const bt__switches *on, uint32_t object)

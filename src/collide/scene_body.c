@@ -13,8 +13,8 @@ farther (bt_vec3 a, bt_vec3 b, bt_vec3 d)
   return bt__dot (bt__sub (b, a), d) > 0 ? b : a;
 }
 
-static bt_vec3
-box_support (const void *shape, bt_vec3 d, int *hint)
+bt_vec3
+bt__box_support (const void *shape, bt_vec3 d, int *hint)
 {
   const bt__box *b = shape;
   bt_vec3 q = bt__into (&b->frame, d);
@@ -30,6 +30,8 @@ cylinder_support (const void *shape, bt_vec3 d, int *hint)
   const bt__cylinder *c = shape;
   double z = bt__dot (c->axis, d);
   bt_vec3 level = bt__axpy (d, -z, c->axis), p = c->centre;
+  /* Along the axis the difference is rounding, of which a short one is all made.  */
+  level = bt__axpy (level, -bt__dot (c->axis, level), c->axis);
   double size = bt__norm (level);
   if (size > 1e-12 * bt__norm (d))
     p = bt__axpy (p, c->radius / size, level);
@@ -37,8 +39,8 @@ cylinder_support (const void *shape, bt_vec3 d, int *hint)
   return bt__axpy (p, z > 0 ? c->half : -c->half, c->axis);
 }
 
-static bt_vec3
-segment_support (const void *shape, bt_vec3 d, int *hint)
+bt_vec3
+bt__capsule_support (const void *shape, bt_vec3 d, int *hint)
 {
   const bt__capsule *c = shape;
   (void)hint;
@@ -53,23 +55,22 @@ point_support (const void *shape, bt_vec3 d, int *hint)
   return *(const bt_vec3 *)shape;
 }
 
-static bt_vec3
-triangle_support (const void *shape, bt_vec3 d, int *hint)
+bt_vec3
+bt__triangle_support (const void *shape, bt_vec3 d, int *hint)
 {
   const bt__triangle *t = shape;
   (void)hint;
   return farther (farther (t->v[0], t->v[1], d), t->v[2], d);
 }
 
-/* Return the core of an obstacle that is neither mesh nor plane; *RADIUS is round it.  */
-static bt__convex
-core_of (const bt__obstacle *o, double *radius)
+bt__convex
+bt__obstacle_core (const bt__obstacle *o, double *radius)
 {
   *radius = 0;
   switch (o->kind)
     {
     case BT__OBSTACLE_BOX:
-      return (bt__convex){ box_support, &o->shape.box };
+      return (bt__convex){ bt__box_support, &o->shape.box };
     case BT__OBSTACLE_SPHERE:
       *radius = o->shape.sphere.radius;
       return (bt__convex){ point_support, &o->shape.sphere.centre };
@@ -77,7 +78,7 @@ core_of (const bt__obstacle *o, double *radius)
       return (bt__convex){ cylinder_support, &o->shape.cylinder };
     case BT__OBSTACLE_CAPSULE:
       *radius = o->shape.capsule.radius;
-      return (bt__convex){ segment_support, &o->shape.capsule };
+      return (bt__convex){ bt__capsule_support, &o->shape.capsule };
     default:
       return (bt__convex){ bt__hull_support, o->shape.hull };
     }
@@ -121,7 +122,7 @@ visit_triangle (void *user, uint32_t slot, double reach)
 {
   question *q = user;
   bt__triangle t = bt__mesh_triangle (q->scene->object[q->object].shape.mesh, slot);
-  bt__convex core = { triangle_support, &t };
+  bt__convex core = { bt__triangle_support, &t };
   bt__gap gap;
   bt__gjk (q->body, &core, &gap);
   return offer (q, slot, &gap, gap.distance, reach);
@@ -153,7 +154,7 @@ visit_object (question *q, uint32_t object, double reach)
     return bt__bvh_query (&o->shape.mesh->tree, &q->centre, reach, 1, visit_triangle, q, q->count);
   bt__gap gap;
   double radius;
-  bt__convex core = core_of (o, &radius);
+  bt__convex core = bt__obstacle_core (o, &radius);
   bt__gjk (q->body, &core, &gap);
   return offer (q, BT__NO_TRIANGLE, &gap, fmax (gap.distance - radius, 0), reach);
 }

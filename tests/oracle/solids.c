@@ -261,6 +261,7 @@ core_support (const void *shape, bt_vec3 d, int *hint)
     case SOLID_CYLINDER:
       p = x->cylinder.axis;
       q = bt__axpy (d, -bt__dot (d, p), p);
+      q = bt__axpy (q, -bt__dot (q, p), p); /* what rounding left along the axis */
       q = bt__norm (q) > 1e-12 * bt__norm (d) ? bt__unit_or (q, q) : bt__vec (0, 0, 0);
       return bt__axpy (bt__axpy (x->cylinder.centre, x->cylinder.radius, q),
                        copysign (x->cylinder.half, bt__dot (d, p)), p);

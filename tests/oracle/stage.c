@@ -133,6 +133,23 @@ draw_sheets (stage *g, dice *d)
     }
 }
 
+void
+draw_movers (stage *g, dice *d)
+{
+  for (int i = 0; i < 20; i++)
+    {
+      bt_vec3 a = dice_point (d, 5);
+      solid x = capsule_between (a, bt__axpy (a, 3, dice_direction (d)), 0.01);
+      add_solid (g, &x);
+    }
+  g->bar_bone = (sweep_segment){ { -2, 0, 0 }, { 2, 0, 0 } };
+  g->bar_solid = capsule_between (g->bar_bone.a, g->bar_bone.b, 0.03);
+  g->bar_radius = 2.04;
+  g->movers = MOVERS;
+  for (int m = 0; m < MOVERS; m++) /* clear of the tether */
+    g->at[m] = (bt__frame){ { 5, 4.0 * m, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+}
+
 static bt__mesh *
 mesh_of_sheets (const stage *g)
 {
@@ -161,6 +178,12 @@ raise_stage (stage *g)
     }
   if (bt__scene_new (o, n, 1, &g->scene, NULL) || bt__safe_new (NODES, 12, &g->safe, NULL))
     return 0;
+  if (g->movers)
+    {
+      bt__obstacle bar = obstacle_of (&g->bar_solid);
+      if (bt__scene_new (&bar, 1, 2, &g->bar, NULL))
+        return 0;
+    }
   for (int i = 0; i < NODES; i++) /* clear of everything */
     g->x[i] = bt__vec (-9, -10 + 20.0 * i / (NODES - 1), 0.1 * sin (i));
   return 1;
@@ -170,6 +193,7 @@ void
 strike (stage *g)
 {
   bt__scene_free (g->scene);
+  bt__scene_free (g->bar);
   bt__safe_free (g->safe);
   free (g);
 }

@@ -14,7 +14,8 @@ enum
   NODES = 41,
   OBSTACLES = 120,
   SHEETS = 300,
-  RING = 24
+  RING = 24,
+  MOVERS = 3
 };
 
 typedef struct stage
@@ -28,6 +29,13 @@ typedef struct stage
   sweep_triangle sheet[SHEETS];
   bt_vec3 ring[RING];
   int has_ring;
+  int movers; /* bars, all alike */
+  bt__scene *bar;
+  solid bar_solid;
+  sweep_segment bar_bone;
+  double bar_radius;
+  bt__mover mover[MOVERS];
+  bt__frame at[MOVERS];
   bt_vec3 x[NODES];
 } stage;
 
@@ -44,6 +52,9 @@ void draw_corners (stage *g, dice *d);
 
 /* Triangles.  */
 void draw_sheets (stage *g, dice *d);
+
+/* Three bars that move, among wires.  */
+void draw_movers (stage *g, dice *d);
 
 /* Make scene, safe step and a tether clear of everything; nonzero on success.  */
 int raise_stage (stage *g);

@@ -177,7 +177,7 @@ check_kind (solid_kind kind)
   /* GJK converges slowly on a curved core and may stall on a flat simplex.  The way out of a box
      for a link nearly along a side is by side or edge, which then tie, and
      a link that touches a sliver is where the sliver is but for its angle: the point shows it.  */
-  double gjk = kind == SOLID_CYLINDER ? 1e-3 : 1e-6;
+  double gjk = 1e-7;
   if (!(e.brute <= 1e-12 && e.point <= 1e-10 && e.normal <= 1e-12 && e.gap <= 1e-12
         && e.depth <= 1e-12 && e.gjk <= gjk))
     fail_msg ("%s: brute %.2g, GJK %.2g, point %.2g, normal %.2g, gap %.2g, depth %.2g",

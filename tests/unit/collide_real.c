@@ -16,9 +16,9 @@
 
 #include <cmocka.h>
 
+#include "../oracle/obj.h"
 #include "../oracle/solids.h"
 #include "../oracle/sweep.h"
-#include "reference.h"
 #include "collide/safe.h"
 
 enum
@@ -28,57 +28,6 @@ enum
 };
 
 static const double core = 0.0025;
-
-typedef struct model
-{
-  bt_vec3 *v;
-  uint32_t (*corner)[3];
-  uint32_t vertices, triangles;
-} model;
-
-/* The first number of each corner of a line "f a/b/c ...", fans of what has more than three.  */
-static void
-read_face (model *m, const char *line)
-{
-  uint32_t first = 0, last = 0, n = 0;
-  for (const char *at = strchr (line, ' '); at && m->triangles < MOST; at = strchr (at + 1, ' '))
-    {
-      long k = strtol (at, NULL, 10);
-      if (k < 1)
-        continue;
-      uint32_t c = (uint32_t)(k - 1);
-      if (n >= 2)
-        memcpy (m->corner[m->triangles++], (uint32_t[]){ first, last, c }, sizeof *m->corner);
-      first = n++ ? first : c;
-      last = c;
-    }
-}
-
-static int
-read_obj (model *m, FILE *f)
-{
-  char line[1024];
-  *m = (model){ 0 };
-  m->v = malloc (MOST * sizeof *m->v);
-  m->corner = malloc (MOST * sizeof *m->corner);
-  while (m->v && m->corner && fgets (line, sizeof line, f))
-    if (line[0] == 'v' && line[1] == ' ' && m->vertices < MOST)
-      {
-        bt_vec3 *p = m->v + m->vertices;
-        m->vertices += sscanf (line + 1, "%lf %lf %lf", &p->x, &p->y, &p->z) == 3;
-      }
-    else if (line[0] == 'f')
-      read_face (m, line);
-  return m->triangles > 0;
-}
-
-static FILE *
-open_mesh (const char *name)
-{
-  char path[100];
-  snprintf (path, sizeof path, "meshes/%s", name);
-  return bench_open_reference (path);
-}
 
 static void
 check_tree (const bt__scene *s, const bt__mesh *m, dice *d, bt_vec3 middle, double half)
@@ -160,22 +109,14 @@ throw_about (const bt__scene *s, const bt__mesh *m, dice *d, bt_vec3 middle, dou
 static void
 check (const char *name)
 {
-  FILE *f = open_mesh (name);
-  model m;
-  bt_error error;
-  bt__mesh *mesh = NULL;
+  bt__mesh *mesh = obj_mesh (name);
   bt__scene *scene = NULL;
   dice d = dice_new (3);
-  if (!f)
+  if (!mesh)
     {
       print_message ("# %s is not here: not tested\n", name);
       return;
     }
-  assert_true (read_obj (&m, f));
-  fclose (f);
-  bt__soup soup = { m.vertices, m.triangles, m.v, (const uint32_t (*)[3])m.corner, NULL };
-  if (bt__mesh_new (&soup, NULL, &mesh, &error))
-    fail_msg ("%s: %s", name, error.text);
   bt__obstacle o = { .kind = BT__OBSTACLE_MESH, .shape.mesh = mesh };
   assert_int_equal (bt__scene_new (&o, 1, 1, &scene, NULL), BT_OK);
   bt_vec3 middle = bt__scale (0.5, bt__add (mesh->box.lo, mesh->box.hi));
@@ -184,8 +125,6 @@ check (const char *name)
   check_tree (scene, mesh, &d, middle, half);
   throw_about (scene, mesh, &d, middle, half);
   bt__scene_free (scene);
-  free (m.v);
-  free (m.corner);
 }
 
 static void
@@ -230,12 +169,10 @@ main (void)
   const struct CMUnitTest tests[]
       = { cmocka_unit_test (wreck), cmocka_unit_test (frame), cmocka_unit_test (panel),
           cmocka_unit_test (seabeds), cmocka_unit_test (vehicle) };
-  FILE *mesh = open_mesh ("sunken_ship.obj");
-  if (!mesh)
+  if (!obj_is_here ("sunken_ship.obj"))
     {
       puts ("1..0 # SKIP the reference meshes are not here");
       return 0;
     }
-  fclose (mesh);
   return cmocka_run_group_tests_name ("collide_real", tests, NULL, NULL);
 }

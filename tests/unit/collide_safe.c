@@ -2,7 +2,8 @@
    or comes nearer than the core.  The judge is oracle/sweep.c, which shares nothing with the
    engine; the mutants, no truncation and end points only, show that it can say no.
 
-   4000 steps, 1e5 with BIGHT_LONG=1 in the environment.
+   5000 steps, 1.25e5 with BIGHT_LONG=1 in the environment; `bight bench collision --stress N' plays
+   the same.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -15,7 +16,7 @@
 
 #include <cmocka.h>
 
-#include "../oracle/stage.h"
+#include "../oracle/play.h"
 
 static const double core = 0.0025;
 
@@ -24,97 +25,6 @@ steps (void)
 {
   const char *wish = getenv ("BIGHT_LONG");
   return wish && *wish == '1' ? 25000 : 1000;
-}
-
-/* ---- Proposals ---- */
-
-static void
-propose (stage *g, dice *d, bt_vec3 want[NODES])
-{
-  int style = dice_below (d, 6);
-  bt_vec3 jump = dice_point (d, style == 0 ? 20 : 1), pull = dice_point (d, 8);
-  double noise = pow (10, dice_between (d, -3, 0.7));
-  for (int i = 0; i < NODES; i++)
-    {
-      double u = (double)i / (NODES - 1);
-      want[i] = bt__axpy (g->x[i], style == 0 ? u : style == 1 ? 1 : 0, jump);
-      if (style == 2) /* straight to somewhere */
-        want[i] = bt__axpy (g->x[0], u, bt__sub (pull, g->x[0]));
-      else if (style >= 3)
-        want[i] = bt__add (bt__axpy (g->x[i], 0.2, bt__sub (pull, g->x[i])), dice_point (d, noise));
-      int bad = dice_below (d, 300);
-      if (bad == 0)
-        want[i].y = NAN;
-      else if (bad == 1)
-        want[i] = dice_point (d, 1e9);
-      else if (bad == 2)
-        want[i].x = INFINITY;
-    }
-}
-
-/* ---- The judge ---- */
-
-static int
-crossings (const stage *g, const bt_vec3 *from, const bt_vec3 *to)
-{
-  int sum = 0;
-  for (int i = 0; i < g->bones; i++)
-    sum += sweep_crossings (from, to, NODES, g->bone + i);
-  for (int i = 0; i < g->sheets; i++)
-    sum += sweep_sheet (from, to, NODES, g->sheet + i);
-  return sum;
-}
-
-static double
-clearance (const stage *g, const bt_vec3 *x)
-{
-  double least = INFINITY;
-  for (int j = 0; j + 1 < NODES; j++)
-    {
-      bt__link link = { x[j], x[j + 1] };
-      for (int i = 0; i < g->solids; i++)
-        least = fmin (least, solid_brute (g->solid + i, &link));
-      for (int i = 0; i < g->sheets; i++)
-        {
-          solid s = { .kind = SOLID_TRIANGLE };
-          for (int k = 0; k < 3; k++)
-            s.triangle.v[k] = g->sheet[i].v[k];
-          least = fmin (least, solid_brute (&s, &link));
-        }
-    }
-  return least;
-}
-
-typedef struct verdict
-{
-  long crossings, too_near, unlinked, truncated, overflows;
-  double least;
-} verdict;
-
-static verdict
-play (stage *g, dice *d, long n)
-{
-  bt__safe_config config = { core, 2, 1 };
-  verdict v = { .least = INFINITY };
-  for (long i = 0; i < n; i++)
-    {
-      bt_vec3 before[NODES], want[NODES];
-      bt__safe_report report;
-      propose (g, d, want);
-      for (int k = 0; k < NODES; k++)
-        before[k] = g->x[k];
-      bt__safe_step (g->safe, &config, g->scene, NULL, NULL, 0, g->x, want, NODES, &report,
-                     &g->count);
-      v.crossings += crossings (g, before, g->x);
-      v.truncated += report.truncated;
-      v.overflows += report.overflows;
-      if (g->has_ring)
-        v.unlinked += !(fabs (sweep_linking (before, g->x, NODES, g->ring, RING)) < 0.01);
-      if (i % 20 == 0)
-        v.least = fmin (v.least, clearance (g, g->x));
-    }
-  v.too_near = !(v.least >= core);
-  return v;
 }
 
 static void
@@ -126,13 +36,14 @@ check (void (*draw) (stage *, dice *), uint64_t seed)
   draw (g, &d);
   assert_true (raise_stage (g));
   assert_true (clearance (g, g->x) > core);
-  verdict v = play (g, &d, steps ());
+  verdict v = play (g, &d, steps (), core);
   print_message ("# truncated %ld of %ld, overflows %ld, least %.6g m, casts %lu\n", v.truncated,
                  steps (), v.overflows, v.least, (unsigned long)g->count.casts);
   if (v.crossings || v.too_near || v.unlinked)
     fail_msg ("%ld crossings, %ld links undone, least clearance %.17g", v.crossings, v.unlinked,
               v.least);
   assert_true (v.truncated > 0);
+  assert_true (g->movers == 0 || v.pinched > 0);
   strike (g);
 }
 
@@ -162,6 +73,13 @@ sheets (void **state)
 {
   (void)state;
   check (draw_sheets, 4);
+}
+
+static void
+movers (void **state)
+{
+  (void)state;
+  check (draw_movers, 5);
 }
 
 /* ---- Mutants ---- */
@@ -332,6 +250,7 @@ main (void)
                                       cmocka_unit_test (cage),
                                       cmocka_unit_test (corners),
                                       cmocka_unit_test (sheets),
+                                      cmocka_unit_test (movers),
                                       cmocka_unit_test (movers_are_held_back),
                                       cmocka_unit_test (goes_where_it_is_free) };
   return cmocka_run_group_tests_name ("collide_safe", tests, NULL, NULL);

@@ -1,0 +1,47 @@
+/* Rays: what a beam of a sonar meets first; and which solid a point is inside of.
+
+   Obstacles are seen from outside: a ray that starts inside a solid meets it at once, at range 0.
+   Meshes are two-sided and have no inside.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_COLLIDE_RAY_H
+#define BT_COLLIDE_RAY_H
+
+#include "collide/safe.h"
+
+#define BT__NO_MOVER UINT32_MAX
+
+typedef struct bt__ray
+{
+  bt_vec3 from, direction; /* direction: unit */
+  double range;            /* m: no farther than this; finite */
+} bt__ray;
+
+typedef struct bt__hit
+{
+  double range;          /* m from the start */
+  bt_vec3 point, normal; /* normal: unit, of the surface, against the ray */
+  uint32_t mover;        /* whose scene, or BT__NO_MOVER: the one that stands still */
+  uint32_t object;       /* its place in that scene */
+  uint32_t slot;         /* the triangle in the mesh's order, or BT__NO_TRIANGLE */
+  uint32_t triangle;     /* its id, or BT__NO_TRIANGLE */
+} bt__hit;
+
+/* Return nonzero and *OUT, the first thing RAY meets in SCENE (NULL: nothing is there).  Ranges are
+   good to 1e-12 of the largest length involved but for grazing rays: no point of the ray before the
+   range is deeper in a solid than that.  A ray that is not finite meets nothing.  */
+int bt__scene_ray (const bt__scene *scene, const bt__switches *on, const bt__ray *ray, bt__hit *out,
+                   bt__count *count);
+
+/* The same with movers, each where the share DONE of its motion brings it.  */
+int bt__ray_cast (const bt__scene *scene, const bt__switches *on, const bt__mover *mover,
+                  uint32_t movers, const bt__ray *ray, bt__hit *out, bt__count *count);
+
+/* Return nonzero and *OUT, the part with the shortest way out (its distance is minus that way), if
+   POINT is more than DEPTH (m, 0 or more) below the surface of a solid: box, sphere, cylinder,
+   capsule, convex, or the ground under a plane; of several solids the one it is deepest in.  */
+int bt__scene_contains (const bt__scene *scene, const bt__switches *on, bt_vec3 point, double depth,
+                        bt__near *out, bt__count *count);
+
+#endif
