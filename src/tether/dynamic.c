@@ -3,6 +3,7 @@
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/error.h"
 #include "tether/dynamic_kernel.h"
@@ -16,6 +17,7 @@
    shrink with it, or short steps add it up.  */
 #define DEFAULT_TOLERANCE 1e-5
 #define DEFAULT_STEP (1.0 / 60)
+#define TOUCHING_TOLERANCE 1e-4 /* m: with contacts, at most */
 
 /* ---- The workspace ---- */
 
@@ -118,13 +120,16 @@ refuse (const bt__dynamic_work *w, bt_error *error)
 
 /* Velocities of the solution, to SPEED; note the fastest node and the tightest bend.  */
 static int
-judge (const bt__dynamic_work *w, const bt_vec3 *pull, bt_vec3 *speed, bt__dynamic_report *report)
+judge (const bt__dynamic_work *w, const bt_vec3 *pull, const uint8_t *restart, bt_vec3 *speed,
+       bt__dynamic_report *report)
 {
   double fastest = 0, hardest = 0, bend = 0, sum = 0;
   int bend_at = 0;
   for (int i = 0; i <= w->n; i++)
     {
       bt_vec3 v = bt__node_v (w, i), a = bt__node_a (w, i, v);
+      if (restart && restart[i])
+        v = bt__scale (1 / w->in->h, bt__sub (w->X[i], w->x[i]));
       double vv = bt__dot (v, v), aa = bt__dot (a, a);
       speed[i] = v;
       sum += vv + aa;
@@ -149,7 +154,8 @@ judge (const bt__dynamic_work *w, const bt_vec3 *pull, bt_vec3 *speed, bt__dynam
 
 /* Take the solution over, its velocities in SPEED.  */
 static void
-commit_nodes (bt__dynamic *d, const bt__dynamic_work *w, const bt_vec3 *speed)
+commit_nodes (bt__dynamic *d, const bt__dynamic_work *w, const bt_vec3 *speed,
+              const uint8_t *restart)
 {
   bt_vec3 *x = bt__dynamic_x (d), *v = bt__dynamic_v (d), *dx = bt__dynamic_dx (d),
           *vp = bt__dynamic_vp (d);
@@ -157,7 +163,7 @@ commit_nodes (bt__dynamic *d, const bt__dynamic_work *w, const bt_vec3 *speed)
     {
       dx[i] = bt__sub (w->X[i], x[i]);
       x[i] = w->X[i];
-      vp[i] = v[i];
+      vp[i] = restart && restart[i] ? speed[i] : v[i];
       v[i] = speed[i];
     }
 }
@@ -186,53 +192,94 @@ commit_links (bt__dynamic *d, const bt__dynamic_work *w, bt__dynamic_report *rep
   bt__dynamic_rest (d)[0] = w->link[0].rest;
 }
 
-static bt_status
-commit (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *in,
-        bt__dynamic_report *report, bt_error *error)
-{
-  bt_vec3 pull[2] = { bt__dynamic_end_pull (w, 0), bt__dynamic_end_pull (w, 1) };
-  if (!judge (w, pull, w->keep, report) || !isfinite (report->update))
-    return refuse (w, error);
-  d->pull[0] = pull[0];
-  d->pull[1] = pull[1];
-  if (in->order == 4)
-    bt__dynamic_correct (d, w);
-  commit_nodes (d, w, w->keep);
-  commit_links (d, w, report);
-  d->h = in->h;
-  d->history = report->converged;
-  return BT_OK;
-}
-
 static double
 tolerance_of (const bt__dynamic_input *in)
 {
   return in->tolerance > 0 ? in->tolerance : DEFAULT_TOLERANCE * fmin (1, in->h / DEFAULT_STEP);
 }
 
+/* ---- Its parts ---- */
+
 bt_status
-bt__dynamic_step (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *in,
-                  bt__dynamic_report *report, bt_error *error)
+bt__dynamic_begin (const bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *in,
+                   bt__dynamic_report *report, bt_error *error)
 {
-  double owed;
   *report = (bt__dynamic_report){ .bend_radius = HUGE_VAL };
   bt_status status = check_input (d, w, in, error);
   if (status)
     return status;
   w->tolerance = tolerance_of (in) * bt__dynamic_length (d);
-  double rest0 = wind_first (d, in, &owed), r = d->history ? in->h / d->h : 0;
+  double rest0 = wind_first (d, in, &w->owed), r = d->history ? in->h / d->h : 0;
   if (r > HISTORY_RATIO)
     r = 0;
   w->b0 = (1 + 2 * r) / ((1 + r) * in->h);
   w->b2 = r * r / ((1 + r) * in->h);
   w->b1 = -(w->b0 + w->b2);
   bt__dynamic_prepare (w, d, in, rest0);
+  return BT_OK;
+}
+
+bt_vec3 *
+bt__dynamic_proposal (bt__dynamic_work *w)
+{
+  return w->X;
+}
+
+int
+bt__dynamic_iterate (bt__dynamic_work *w, bt__dynamic_row *rows, int n, bt__dynamic_hold *hold,
+                     bt__dynamic_report *report)
+{
+  w->row = rows;
+  w->rows = n;
+  w->hold = hold;
+  if (bt__dynamic_touches (w))
+    w->tolerance = fmin (w->tolerance, TOUCHING_TOLERANCE);
   report->converged = bt__dynamic_newton (w, report);
-  status = commit (d, w, in, report, error);
+  return report->converged;
+}
+
+void
+bt__dynamic_stay (const bt__dynamic *d, bt__dynamic_work *w, bt__dynamic_report *report)
+{
+  memcpy (w->X, w->x, (size_t)(w->n + 1) * sizeof *w->X);
+  memcpy (w->lam, bt__dynamic_tension (d), (size_t)w->n * sizeof *w->lam);
+  for (int j = 0; j < w->n; j++)
+    w->link[j].t = bt__unit_or (bt__sub (w->x[j + 1], w->x[j]), bt__vec (0, 0, -1));
+  report->converged = 0;
+  report->update = 0;
+}
+
+bt_status
+bt__dynamic_finish (bt__dynamic *d, bt__dynamic_work *w, const uint8_t *restart,
+                    bt__dynamic_report *report, bt_error *error)
+{
+  bt_vec3 pull[2] = { bt__dynamic_end_pull (w, 0), bt__dynamic_end_pull (w, 1) };
+  if (!judge (w, pull, restart, w->keep, report) || !isfinite (report->update))
+    return refuse (w, error);
+  d->pull[0] = pull[0];
+  d->pull[1] = pull[1];
+  if (w->in->order == 4)
+    bt__dynamic_correct (d, w);
+  commit_nodes (d, w, w->keep, restart);
+  commit_links (d, w, report);
+  d->h = w->in->h;
+  d->history = report->converged;
+  d->owed = w->owed;
+  return BT_OK;
+}
+
+bt_status
+bt__dynamic_step (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *in,
+                  bt__dynamic_report *report, bt_error *error)
+{
+  bt_status status = bt__dynamic_begin (d, w, in, report, error);
   if (status)
     return status;
-  d->owed = owed;
-  if (in->pay != 0 || owed != 0)
+  report->converged = bt__dynamic_newton (w, report);
+  status = bt__dynamic_finish (d, w, NULL, report, error);
+  if (status)
+    return status;
+  if (in->pay != 0 || d->owed != 0)
     bt__dynamic_wind (d);
   return BT_OK;
 }

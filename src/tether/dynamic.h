@@ -11,11 +11,11 @@
    where v and a are second-order backward differences of variable step (backward Euler when there
    is no usable history).  Loads, mass and drag act per unstretched metre.
 
-   How a contact will join: its half-space adds SPD blocks to the diagonal and off-diagonal of the
-   nodes it touches and its force to their right-hand sides, between bt__dynamic_assemble and
-   bt__dynamic_solve; its potential joins bt__dynamic_potential.  The history rule: a node whose
-   proposal is refused and cut to another place Y, or that makes a new contact, goes on with
-   v = vp = (Y - x)/h and dx = h v, so that the next difference starts without a jump.
+   Contacts join by dynamic_contact.h: a half-space adds SPD blocks to the diagonal and off-diagonal
+   of the nodes it touches, its force to their right-hand sides, its potential to the line's.  The
+   history rule: a node whose proposal is refused and cut to another place Y, or that makes a new
+   contact, goes on with v = vp = (Y - x)/h and dx = h v, so that the next difference starts without
+   a jump.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

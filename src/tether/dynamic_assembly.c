@@ -1,8 +1,8 @@
 /* The moving line: the equations of a step.
 
    One pass along the line gives the tensions and stiffnesses of the intervals and the loads,
-   inertia and blocks of the nodes.  What is lumped at nodes and bending are added by passes of
-   their own, and so will a contact be: everything is a symmetric positive block and a force.
+   inertia and blocks of the nodes.  What is lumped at nodes, bending and contacts are added by
+   passes of their own: everything is a symmetric positive block and a force.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -304,6 +304,8 @@ bt__dynamic_assemble (bt__dynamic_work *w, bt__mode mode)
     assemble_lumps (w);
   if (w->bends > 0)
     bt__dynamic_bend_force (w);
+  if (bt__dynamic_touches (w))
+    changed |= bt__dynamic_contact_assemble (w, mode);
   return changed;
 }
 
@@ -347,7 +349,7 @@ bt__dynamic_potential (const bt__dynamic_work *w)
       sum += 0.5 * (stretch > 0 ? k->ka : 0) * stretch * stretch - k->thrust * stretch
              + 0.5 * slack * change * change;
     }
-  return sum;
+  return bt__dynamic_touches (w) ? sum + bt__dynamic_contact_potential (w) : sum;
 }
 
 /* ---- The ends ---- */

@@ -11,6 +11,7 @@
 
 #include "math/vec.h"
 #include "tether/dynamic.h"
+#include "tether/dynamic_contact.h"
 
 /* A function of the innermost loop, worth its place there more than once.  */
 #if defined __GNUC__
@@ -104,8 +105,12 @@ struct bt__dynamic_work
   double rho;                       /* N/m2: of the activity test, see prepare_links */
   double soft, inertia;             /* of ka, N/m2: what resists a change of length is the less */
   double tolerance;                 /* m */
+  double owed;                      /* m: line out, not in the chain, after the step */
   const bt_vec3 *x;                 /* positions at the start */
   const bt_vec3 *chord, *load;      /* fourth-order parts, NULL if none */
+  bt__dynamic_row *row;             /* the caller's half-spaces, ... */
+  int rows;                         /* ... how many */
+  bt__dynamic_hold *hold;           /* of the ends, NULL if none */
   /* ---- arrays ---- */
   bt_vec3 *X, *d, *rhs, *keep; /* iterate, update, right-hand side, spare */
   double *lam;
@@ -150,6 +155,23 @@ double bt__dynamic_solve (bt__dynamic_work *w);
 
 /* Iterate X to the solution.  Return nonzero if it is one; on return zero X may hold anything.  */
 int bt__dynamic_newton (bt__dynamic_work *w, bt__dynamic_report *report);
+
+/* Contacts: add the blocks and forces of the rows and holds at the iterate X, and return nonzero if
+   one changed sides since the last call; take over the update D; forget the loads, or set them to
+   those of X; their potential.  */
+int bt__dynamic_contact_assemble (bt__dynamic_work *w, bt__mode mode);
+void bt__dynamic_contact_take (bt__dynamic_work *w);
+void bt__dynamic_contact_load (bt__dynamic_work *w, int none);
+double bt__dynamic_contact_potential (const bt__dynamic_work *w);
+
+/* Return nonzero if a held end would run past its place by the update D: it has been put there.  */
+int bt__dynamic_hold_arrives (bt__dynamic_work *w);
+
+static inline int
+bt__dynamic_touches (const bt__dynamic_work *w)
+{
+  return w->rows > 0 || w->hold != NULL;
+}
 
 /* Bending: set up the rows, add their forces to RHS, return their energy.  */
 void bt__dynamic_bend_prepare (bt__dynamic_work *w);

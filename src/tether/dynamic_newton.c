@@ -17,10 +17,15 @@ enum
   QUICK = 30,
   TURNING = 2, /* iterations in which the node tangents follow */
   SAFE = 60,
-  HALVINGS = 8
+  HALVINGS = 8,
+  /* With contacts: a step that needs more is better restarted.  */
+  QUICK_TOUCHING = 20,
+  SAFE_TOUCHING = 40
 };
 
-#define LOST 1e3 /* of the length: an update that has left every shape */
+#define LOST 1e3          /* of the length: an update that has left every shape */
+#define LOST_TOUCHING 0.3 /* m: one that has left what it touches, ... */
+#define STRIDE 0.3        /* m: ... and what is taken at most in the safe way */
 
 /* Take over the update: the multipliers and the places.  */
 static void
@@ -37,6 +42,8 @@ take (bt__dynamic_work *w)
       w->X[j + 1] = bt__add (w->X[j + 1], after);
       before = after;
     }
+  if (bt__dynamic_touches (w))
+    bt__dynamic_contact_take (w);
 }
 
 static void
@@ -49,13 +56,16 @@ move (bt__dynamic_work *w, const bt_vec3 *from, double share)
 static int
 quick (bt__dynamic_work *w, bt__dynamic_report *report)
 {
-  double lost = LOST / 1e-5 * w->tolerance;
-  for (int i = 0; i < QUICK; i++)
+  int touches = bt__dynamic_touches (w), last = touches ? QUICK_TOUCHING : QUICK;
+  double lost = touches ? LOST_TOUCHING : LOST / 1e-5 * w->tolerance;
+  for (int i = 0; i < last; i++)
     {
       int changed = bt__dynamic_assemble (w, i < TURNING ? BT__QUICK : BT__FROZEN);
       double most = bt__dynamic_solve (w);
       report->solves++;
       report->update = most;
+      if (touches && bt__dynamic_hold_arrives (w))
+        continue;
       if (!(most <= lost))
         return 0;
       take (w);
@@ -92,11 +102,12 @@ start (bt__dynamic_work *w)
 
 /* Move along D until the potential is no larger than PHI; return it, or NaN.  */
 static double
-descend (bt__dynamic_work *w, double phi)
+descend (bt__dynamic_work *w, double most, double phi)
 {
-  double share = 1;
+  int touches = bt__dynamic_touches (w), last = touches ? 2 * HALVINGS : HALVINGS;
+  double share = touches && most > STRIDE ? STRIDE / most : 1;
   save (w);
-  for (int i = 0; i < HALVINGS; i++, share *= 0.5)
+  for (int i = 0; i < last; i++, share *= i < HALVINGS / 2 ? 0.5 : touches ? 0.2 : 0.5)
     {
       move (w, w->keep, share);
       double next = bt__dynamic_potential (w);
@@ -137,10 +148,13 @@ softer (double now)
 static int
 safe (bt__dynamic_work *w, bt__dynamic_report *report)
 {
+  int touches = bt__dynamic_touches (w), last = touches ? SAFE_TOUCHING : SAFE;
   keep_tangents (w);
+  if (touches)
+    bt__dynamic_contact_load (w, 1);
   double phi = start (w);
   int settled = 0;
-  for (int i = 0; i < SAFE && !settled; i++)
+  for (int i = 0; i < last && !settled; i++)
     {
       bt__dynamic_assemble (w, BT__SAFE);
       report->update = bt__dynamic_solve (w);
@@ -151,11 +165,16 @@ safe (bt__dynamic_work *w, bt__dynamic_report *report)
           return 0;
         }
       settled = report->update <= w->tolerance && !(w->stiffen > 0);
-      double next = descend (w, phi);
+      double next = descend (w, report->update, phi);
       if (!(next <= phi) && w->stiffen >= 1)
         break;
       w->stiffen = next <= phi ? softer (w->stiffen) : stiffer (w->stiffen);
       phi = next <= phi ? next : phi;
+      if (touches) /* friction follows the loads from one iteration to the next */
+        {
+          bt__dynamic_contact_load (w, 0);
+          phi = bt__dynamic_potential (w);
+        }
     }
   w->stiffen = 0;
   bt__dynamic_assemble (w, BT__SAFE);

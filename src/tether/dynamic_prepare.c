@@ -140,6 +140,8 @@ bt__dynamic_prepare (bt__dynamic_work *w, const bt__dynamic *d, const bt__dynami
   double half = 0.5 * in->water->density * p->diameter;
   w->in = in;
   w->stiffen = 0;
+  w->rows = 0;
+  w->hold = NULL;
   w->n = (int)d->n;
   w->ea = fmin (p->ea, STIFFEST);
   w->kn = half * p->cdn;

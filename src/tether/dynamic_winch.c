@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "math/vec.h"
-#include "tether/dynamic.h"
+#include "tether/dynamic_contact.h"
 
 #define SPLIT 1.6 /* of a piece: the first interval is split beyond, ... */
 #define JOIN 0.4  /* ... and joined below; far apart, so that neither undoes the other */
@@ -64,7 +64,7 @@ bow (const bt_vec3 *x, const double *rest, double a, double b)
 }
 
 static void
-split (bt__dynamic *d)
+split (bt__dynamic *d, int straight)
 {
   double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d);
   bt_vec3 *x = bt__dynamic_x (d);
@@ -81,7 +81,7 @@ split (bt__dynamic *d)
   rest[1] = b;
   if (!taut)
     return;
-  if (d->n > 2 && bt__dynamic_tension (d)[2] > 0)
+  if (!straight && d->n > 2 && bt__dynamic_tension (d)[2] > 0)
     x[1] = bt__add (x[1], bow (x, rest, a, b));
   rest[0] = bt__distance (x[0], x[1]) / e[0];
   rest[1] = bt__distance (x[1], x[2]) / e[1];
@@ -107,12 +107,30 @@ join (bt__dynamic *d)
   d->owed += whole - rest[0];
 }
 
+int
+bt__dynamic_winding (const bt__dynamic *d)
+{
+  double rest = bt__dynamic_rest (d)[0];
+  return d->n < d->n_max && rest > SPLIT * d->piece         ? 1
+         : d->n > LEAST_INTERVALS && rest < JOIN * d->piece ? -1
+                                                            : 0;
+}
+
+void
+bt__dynamic_wind_once (bt__dynamic *d, int way, int straight)
+{
+  if (way > 0)
+    split (d, straight);
+  else if (way < 0)
+    join (d);
+}
+
 void
 bt__dynamic_wind (bt__dynamic *d)
 {
-  while (d->n < d->n_max && bt__dynamic_rest (d)[0] > SPLIT * d->piece)
-    split (d);
-  while (d->n > LEAST_INTERVALS && bt__dynamic_rest (d)[0] < JOIN * d->piece)
+  while (bt__dynamic_winding (d) > 0)
+    split (d, 0);
+  while (bt__dynamic_winding (d) < 0)
     join (d);
 }
 

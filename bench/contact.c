@@ -1,0 +1,402 @@
+/* bight-bench-contact: the moving line among obstacles, as CSV rows on standard output.
+
+   drag: 100 links hauled at 0.1, 1 and 3 m/s through a right angle over a box's edge, a drum, a
+   wire of 10 mm, a weight on the near end; the error is the mean of T2 / T1 against e^(mu theta),
+   the counters say what share of steps was held back or cut, and how far T2 swings.  jacket: a
+   pilot who aims through the members, by the hour of the day it takes: percentiles of the step,
+   towed and with a mass of its own, at 0.1, 1 and 3 m/s.  ground: a line on a bottom, by the number
+   of places it touches.  alone: what a scene far away adds to the line's own step.  quiet: the most
+   energy a line that falls over a beam gains in a step.
+
+   Crossings are counted by an outside judge; times leave him out.  Times are CPU; the calibration
+   ratio is per step.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "calibration.h"
+#include "contact_scene.h"
+
+enum
+{
+  LINKS = 100,
+  MOST_STEPS = 200000
+};
+
+static const double frame = 1.0 / 60;
+static double calibration, times[MOST_STEPS];
+static reef place;
+static rope line;
+
+static void
+row (const char *name, const char *setting, const char *metric, double error, double seconds,
+     const char *counters)
+{
+  printf ("%s,dynamic,%s,%s,%.3g,closed form,0,%.1f,%.4g,%s\n", name, setting, metric, error,
+          1e9 * seconds, seconds / calibration, counters);
+  fflush (stdout);
+}
+
+static int
+ascending (const void *a, const void *b)
+{
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+/* One step, timed without its judge.  */
+static double
+timed_step (int judged)
+{
+  double start = bench_now ();
+  rope_step (&line, frame, 0);
+  double time = bench_now () - start;
+  if (judged)
+    line.crossings += reef_crossings (&place, line.before, bt__dynamic_x (line.d), line.nodes);
+  return time;
+}
+
+static void
+fail (void)
+{
+  fputs ("bight-bench-contact: a scene could not be made\n", stderr);
+  exit (EXIT_FAILURE);
+}
+
+static void
+close_scene (void)
+{
+  rope_close (&line);
+  reef_close (&place);
+}
+
+/* ---- Hauled through a right angle ---- */
+
+typedef enum corner
+{
+  BOX_EDGE,
+  DRUM,
+  WIRE,
+  CORNERS
+} corner;
+
+static const char *const corner_names[CORNERS] = { "box edge", "drum .6 m", "wire 10 mm" };
+
+static void
+open_corner (corner k, double mu)
+{
+  double radius = k == DRUM ? 0.6 : k == WIRE ? 0.005 : 0, bend = radius + 0.006;
+  bt_vec3 shape[12] = { { -bend, 0, -14 } };
+  if (!reef_open (&place))
+    fail ();
+  if (k == BOX_EDGE)
+    reef_box (&place, bt__vec (15, 0, -1), bt__vec (15, 3, 1), 0);
+  else if (k == DRUM)
+    reef_cylinder (&place, bt__vec (0, -3, 0), bt__vec (0, 3, 0), radius);
+  else
+    reef_wire (&place, bt__vec (0, -3, 0), bt__vec (0, 3, 0), radius);
+  for (int i = 0; i < 10; i++)
+    {
+      double a = BT__PI / 2 * i / 9, r = k == BOX_EDGE ? 0.006 : 1.03 * bend;
+      shape[i + 1] = bt__vec (-r * cos (a), 0, r * sin (a));
+    }
+  shape[11] = bt__vec (15, 0, shape[10].z);
+  double length = 0;
+  for (int i = 0; i < 11; i++)
+    length += bt__distance (shape[i], shape[i + 1]);
+  if (!reef_raise (&place) || !rope_open (&line, &place, LINKS, shape, 12, length, mu))
+    fail ();
+  line.line.cdt = 0;
+  line.config.pull[1] = INFINITY;
+  line.in.end[0]
+      = (bt__dynamic_end){ .free = 1, .body = { .mass = 1, .linear = 5, .force = { 0, 0, -30 } } };
+}
+
+static void
+haul (corner k, double mu, double speed)
+{
+  open_corner (k, mu);
+  bt_vec3 at = line.in.end[1].at;
+  int steps = (int)fmin (9 / speed / frame, 1200), counted = 0;
+  double low = 0, high = 0, least = INFINITY, most = 0, sum = 0;
+  for (int i = 0; i < steps; i++)
+    {
+      const double *t = bt__dynamic_tension (line.d);
+      at.x += speed * frame * fmin (1, i / 60.0);
+      line.in.end[1].at = at;
+      sum += timed_step (1);
+      if (i < steps / 2)
+        continue;
+      low += t[1];
+      high += t[LINKS - 2];
+      least = fmin (least, t[LINKS - 2]);
+      most = fmax (most, t[LINKS - 2]);
+      counted++;
+    }
+  char setting[80], counters[200];
+  snprintf (setting, sizeof setting, "%s mu=%g %g m/s", corner_names[k], mu, speed);
+  snprintf (counters, sizeof counters,
+            "T2=%.1f..%.1f N;truncated=%.3g;unsolved=%.3g;crossings=%ld;solves=%.2f", least, most,
+            (double)line.truncated / steps, (double)line.unconverged / steps, line.crossings,
+            (double)line.solves / steps);
+  row ("drag", setting, "T2/T1 against capstan", high / low / exp (mu * BT__PI / 2) - 1,
+       sum / steps, counters);
+  close_scene ();
+}
+
+/* ---- A pilot in a jacket ---- */
+
+static void
+thrust (bt_vec3 target, double speed)
+{
+  bt_vec3 way = bt__sub (target, bt__dynamic_x (line.d)[LINKS]);
+  double far = bt__norm (way), most = speed > 1.5 ? 600 : 150;
+  bt_vec3 want = bt__scale (fmin (speed, far) / fmax (far, 1e-9), way);
+  bt_vec3 f = bt__scale (200, bt__sub (want, bt__dynamic_v (line.d)[LINKS]));
+  double size = bt__norm (f);
+  line.in.end[1].body.force = size > most ? bt__scale (most / size, f) : f;
+}
+
+static void
+fly (int body, double speed, int steps, uint64_t seed, int judged)
+{
+  static const double shares[] = { 0.5, 0.99, 0.999, 1 };
+  static const char *const names[] = { "p50", "p99", "p99.9", "max" };
+  const bt_vec3 shape[] = { { -14, 0, -5 }, { -16, -20, -8 }, { -12, -20, -8 }, { -9, 0, -8 } };
+  dice d = dice_new (7 * seed + 1);
+  bt_vec3 target = { 0, 0, -8 };
+  double sum = 0, busy = 0;
+  int until = 0, busy_steps = 0;
+  long held = 0;
+  if (!reef_jacket (&place, seed) || !rope_open (&line, &place, LINKS, shape, 4, 60, 0.3))
+    fail ();
+  line.current = (bt_current){ .kind = BT_CURRENT_UNIFORM, .velocity = { { -0.15, 0.1, 0 } } };
+  if (body)
+    line.in.end[1] = (bt__dynamic_end){ .free = 1, .body = { .mass = 20, .quadratic = 60 } };
+  for (int i = 0; i < steps; i++)
+    {
+      if (i >= until || bt__distance (bt__dynamic_x (line.d)[LINKS], target) < 0.3)
+        {
+          target = bt__vec (dice_between (&d, -9, 9), dice_between (&d, -9, 9),
+                            dice_between (&d, -28, -1));
+          until = i + 900;
+        }
+      if (body)
+        thrust (target, speed);
+      else
+        rope_tow (&line, target, speed, frame);
+      times[i] = timed_step (judged);
+      sum += times[i];
+      held += line.touch.held[1];
+      if (line.touch.touches >= 15 && line.touch.touches <= 25)
+        {
+          busy += times[i];
+          busy_steps++;
+        }
+    }
+  qsort (times, (size_t)steps, sizeof *times, ascending);
+  char setting[80], counters[240];
+  snprintf (
+      counters, sizeof counters,
+      "steps=%d;held=%.3g;truncated=%.3g;unsolved=%.3g;crossings=%ld;solves=%.2f;touches=%.1f;"
+      "most=%ld;tension=%.0f N",
+      steps, (double)held / steps, (double)line.truncated / steps, (double)line.unconverged / steps,
+      line.crossings, (double)line.solves / steps, (double)line.touches / steps, line.most_touches,
+      line.tension);
+  snprintf (setting, sizeof setting, "%s %g m/s mean", body ? "20 kg" : "towed", speed);
+  row ("jacket", setting, "crossings", (double)line.crossings, sum / steps, counters);
+  for (int k = 0; k < 4; k++)
+    {
+      snprintf (setting, sizeof setting, "%s %g m/s %s", body ? "20 kg" : "towed", speed, names[k]);
+      row ("jacket", setting, "crossings", (double)line.crossings,
+           times[(int)(shares[k] * (steps - 1))], "");
+    }
+  if (busy_steps)
+    {
+      snprintf (setting, sizeof setting, "%s %g m/s at 15 to 25", body ? "20 kg" : "towed", speed);
+      row ("jacket", setting, "crossings", (double)line.crossings, busy / busy_steps, "");
+    }
+  close_scene ();
+}
+
+/* ---- On the ground ---- */
+
+static void
+lie (int links, double height, int mesh)
+{
+  dice d = dice_new (3);
+  const bt_vec3 shape[] = { { 0, 0, height - 10 }, { 10, 0, -9.9 }, { 20, 0, height - 10 } };
+  if (!reef_open (&place))
+    fail ();
+  if (mesh)
+    reef_bottom (&place, &d, -10, 0.5, 110, mesh > 1 ? 0.1 : 0);
+  else
+    reef_plane (&place, -10);
+  if (!reef_raise (&place) || !rope_open (&line, &place, links, shape, 3, 34, 0.3))
+    fail ();
+  line.line.wet_weight = 0.5;
+  line.line.mass += 0.5 / 9.81;
+  double sum = 0;
+  long touches = 0, solves = 0;
+  int steps = 900;
+  for (int i = 0; i < 1200; i++)
+    timed_step (0);
+  long before = line.solves;
+  for (int i = 0; i < steps; i++)
+    {
+      line.in.end[1].at.y += 0.5 * frame;
+      sum += timed_step (0);
+      touches += line.touch.touches;
+    }
+  solves = line.solves - before;
+  char setting[80], counters[120];
+  snprintf (setting, sizeof setting, "%s %d links %ld touches",
+            mesh > 1 ? "rough mesh"
+            : mesh   ? "flat mesh"
+                     : "plane",
+            links, touches / steps);
+  snprintf (counters, sizeof counters, "solves=%.2f;unsolved=%.3g;truncated=%ld",
+            (double)solves / steps, (double)line.unconverged / (double)line.steps, line.truncated);
+  row ("ground", setting, "truncated", (double)line.truncated, sum / steps, counters);
+  close_scene ();
+}
+
+/* ---- Alone ---- */
+
+static double
+fly_alone (int obstacles)
+{
+  const bt_vec3 shape[] = { { 0, 0, 0 }, { 25, 3, -4 }, { 50, 0, 0 } };
+  enum
+  {
+    ROUNDS = 25,
+    STEPS = 400
+  };
+  double rounds[ROUNDS];
+  if (!reef_open (&place))
+    fail ();
+  if (obstacles)
+    reef_box (&place, bt__vec (10, 0, -60), bt__vec (1, 1, 1), 0);
+  if (!reef_raise (&place) || !rope_open (&line, &place, LINKS, shape, 3, 58, 0.3))
+    fail ();
+  for (int k = 0; k < ROUNDS; k++)
+    {
+      double start = bench_now ();
+      for (int i = 0; i < STEPS; i++)
+        {
+          double t = frame * (k * STEPS + i);
+          line.in.end[1].at = bt__vec (50 + sin (t), cos (1.3 * t), sin (0.7 * t));
+          if (obstacles >= 0)
+            rope_step (&line, frame, 0);
+        }
+      rounds[k] = (bench_now () - start) / STEPS;
+    }
+  close_scene ();
+  return bench_median (rounds, ROUNDS);
+}
+
+static void
+alone (void)
+{
+  double none = fly_alone (0), far = fly_alone (1);
+  row ("alone", "a scene far away", "more than the line's own", far / none - 1, far, "");
+}
+
+/* ---- Quiet ---- */
+
+static void
+quiet (void)
+{
+  const bt_vec3 shape[] = { { 0, 0, -3 }, { 10, 0, -3 }, { 20, 0, -3 } };
+  double most = 0, sum = 0, before = INFINITY;
+  int steps = 3600;
+  if (!reef_open (&place))
+    fail ();
+  reef_cylinder (&place, bt__vec (10, -5, -5), bt__vec (10, 5, -5), 0.3);
+  if (!reef_raise (&place) || !rope_open (&line, &place, LINKS, shape, 3, 24, 0.3))
+    fail ();
+  line.line.wet_weight = 0.5;
+  line.line.mass += 0.5 / 9.81;
+  for (int i = 0; i < steps; i++)
+    {
+      sum += timed_step (0);
+      bt__dynamic_energy e = bt__dynamic_energies (line.d, &line.in);
+      double now = e.kinetic + e.strain + e.gravity;
+      most = fmax (most, now - before);
+      before = now;
+    }
+  char counters[80];
+  snprintf (counters, sizeof counters, "slip=%.3g m/s;speed=%.3g m/s", line.touch.speed,
+            line.report.speed);
+  row ("quiet", "a line falls over a beam", "J gained in a step", most, sum / steps, counters);
+  close_scene ();
+}
+
+/* ---- ---- */
+
+static const char usage[]
+    = "Usage: bight-bench-contact [OPTION]...\n"
+      "Measure the moving line among obstacles; rows of CSV on standard output.\n\n"
+      "  --steps N  of a pilot in the jacket; 6000\n"
+      "  --seed N   of the jacket and the pilot; 3\n"
+      "  --help     this text\n";
+
+static void
+run (int steps, uint64_t seed)
+{
+  static const double speeds[] = { 0.1, 1, 3 };
+  calibration = bench_calibrate (0.3);
+  puts ("case,model,setting,metric,error,reference,reference_uncertainty,cpu_ns,"
+        "calibration_ratio,counters");
+  for (int k = 0; k < CORNERS; k++)
+    for (int i = 0; i < 3; i++)
+      haul ((corner)k, 0.3, speeds[i]);
+  for (int i = 0; i < 3; i++)
+    fly (1, speeds[i], steps, seed, 1);
+  for (int i = 0; i < 3; i++)
+    fly (0, speeds[i], steps, seed, 1);
+  for (int mesh = 0; mesh < 3; mesh++)
+    for (int links = 50; links <= 200; links *= 2)
+      lie (links, 1, mesh);
+  lie (100, 5, 0);
+  alone ();
+  quiet ();
+}
+
+int
+main (int argc, char **argv)
+{
+  static const struct option options[] = { { "steps", required_argument, NULL, 'n' },
+                                           { "seed", required_argument, NULL, 's' },
+                                           { "help", no_argument, NULL, 'h' },
+                                           { NULL, 0, NULL, 0 } };
+  int c, steps = 6000;
+  uint64_t seed = 3;
+  while ((c = getopt_long (argc, argv, "", options, NULL)) != -1)
+    switch (c)
+      {
+      case 'n':
+        steps = atoi (optarg);
+        break;
+      case 's':
+        seed = strtoull (optarg, NULL, 10);
+        break;
+      case 'h':
+        fputs (usage, stdout);
+        return EXIT_SUCCESS;
+      default:
+        fputs (usage, stderr);
+        return EXIT_FAILURE;
+      }
+  if (steps < 1 || steps > MOST_STEPS)
+    {
+      fprintf (stderr, "bight-bench-contact: %d steps; 1 to %d\n", steps, MOST_STEPS);
+      return EXIT_FAILURE;
+    }
+  run (steps, seed);
+  return EXIT_SUCCESS;
+}

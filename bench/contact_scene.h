@@ -1,0 +1,92 @@
+/* A moving line among obstacles, and a judge who knows them without the engine's help: what the
+   bench and the laws of contact share.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_BENCH_CONTACT_SCENE_H
+#define BT_BENCH_CONTACT_SCENE_H
+
+#include "../tests/oracle/solids.h"
+#include "../tests/oracle/sweep.h"
+#include "contact/line.h"
+
+enum
+{
+  REEF_SOLIDS = 160,
+  REEF_SHEETS = 32000,
+  REEF_ANCHORS = 2000
+};
+
+/* Obstacles, as the engine and as the judge have them.  */
+typedef struct reef
+{
+  bt__scene *scene;
+  int obstacles, solids, bones, sheets;
+  bt__obstacle obstacle[REEF_SOLIDS];
+  solid solid[REEF_SOLIDS];
+  sweep_segment bone[16 * REEF_SOLIDS]; /* segments inside solids */
+  sweep_triangle *sheet;                /* triangles of meshes */
+} reef;
+
+/* Make R, without obstacles; add some; raise it.  Nonzero on success.  */
+int reef_open (reef *r);
+void reef_close (reef *r);
+void reef_box (reef *r, bt_vec3 centre, bt_vec3 half, double turn); /* about the vertical */
+void reef_cylinder (reef *r, bt_vec3 a, bt_vec3 b, double radius);
+void reef_wire (reef *r, bt_vec3 a, bt_vec3 b, double radius); /* a capsule */
+void reef_plane (reef *r, double z);                           /* not known to the judge's bones */
+/* A rough bottom at Z about the origin: N by N squares of SIDE metres.  */
+int reef_bottom (reef *r, dice *d, double z, double side, int n, double rough);
+/* A standing tube of triangles.  */
+int reef_tube (reef *r, bt_vec3 foot, double height, double radius, int round, int up);
+int reef_raise (reef *r);
+
+/* A jacket: 4 legs of 1.2 m 12 m apart, 4 levels and crossed braces, 24 wires of 10 mm, 6 boxes, a
+   caisson of 2880 triangles, a rough bottom of 7200.  */
+int reef_jacket (reef *r, uint64_t seed);
+
+/* The nearest any link of the polyline X of N points comes to anything, by brute force.  */
+double reef_clearance (const reef *r, const bt_vec3 *x, int n);
+
+/* How often the move of the polyline passes through something.  */
+int reef_crossings (const reef *r, const bt_vec3 *from, const bt_vec3 *to, int n);
+
+/* ---- A line in it ---- */
+
+typedef struct rope
+{
+  reef *reef;
+  bt_tether_props line;
+  bt_water water;
+  bt_current current;
+  bt__dynamic_input in;
+  bt__line_config config;
+  bt__line_hook hook;
+  bt__surroundings around;
+  bt__dynamic *d;
+  bt__dynamic_work *work;
+  bt__line_work *contact;
+  bt__anchors *anchors;
+  bt__dynamic_report report;
+  bt__line_report touch;
+  bt__count count;
+  bt_vec3 *before;
+  int nodes;
+  /* what came of it */
+  long steps, solves, worst, unconverged, crossings, truncated, rounds, nan, touches, refused;
+  long most_touches;
+  double fastest, load, tension;
+} rope;
+
+/* Lay N intervals of LENGTH along the M points SHAPE in R, ends held there, without water's motion:
+   10 mm, EA 2e5 N, BA 20 N s, neutral, friction MU.  Nonzero on success.  */
+int rope_open (rope *p, reef *r, int n, const bt_vec3 *shape, int m, double length, double mu);
+void rope_close (rope *p);
+
+/* One step, judged if JUDGED.  Zero if it was refused.  */
+int rope_step (rope *p, double h, int judged);
+
+/* Take end 1 toward TARGET at SPEED for a step of H.  */
+void rope_tow (rope *p, bt_vec3 target, double speed, double h);
+
+#endif

@@ -1,0 +1,356 @@
+/* A step of the line among obstacles.
+
+   Where nothing is near, the step is the line's own.  Else: half-spaces for what is touched, solve;
+   cast every link along its move; a hit adds a half-space at the place and time of the impact, and
+   the step is solved again, a few times; what still hits is tried as a shorter move of the whole
+   line, and cut by the safe step if that hits too.  Only casts and safe step decide what is taken:
+   nothing the equations say can break the promise.
+
+   An end that is taken somewhere is a place the line must reach, whatever the force; among
+   obstacles there may be no such shape.  So where anything is near the end is pulled there by so
+   much at most.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "contact/line_job.h"
+
+#define GIVE 20.0        /* m/s2: what the pull makes of the mass of an end that was held back */
+#define HELD_BACK 0.9    /* of the most: an end that is pulled by more was held back */
+#define HELD 1e-3        /* m: an end nearer than this to its place is there */
+#define HOLDING 10.0     /* times EA over a link's length: what holds an end in its place, ... */
+#define HOLDING_MOST 1e9 /* N/m: ... at most */
+
+/* Where nothing stands.  */
+static const bt__scene nothing;
+
+/* ---- The workspace ---- */
+
+void
+bt__line_work_free (bt__line_work *w)
+{
+  if (!w)
+    return;
+  bt__safe_free (w->safe);
+  free (w->watch);
+  free (w->near);
+  free (w->row);
+  free (w->of);
+  free (w->old);
+  free (w->to);
+  free (w->stood);
+  free (w->from_end);
+  free (w->restart);
+  free (w);
+}
+
+bt__line_work *
+bt__line_work_new (int n_max)
+{
+  bt__line_work *w = n_max < 1 ? NULL : calloc (1, sizeof *w);
+  if (!w)
+    return NULL;
+  size_t n = (size_t)n_max + 1, rows = BT__LINE_ROWS * n + 16;
+  w->n_max = n_max;
+  w->rows_max = (int)rows;
+  int whole = bt__safe_new ((uint32_t)n, BT__LINE_ROOM, &w->safe, NULL) == BT_OK
+              && (w->watch = calloc (n, sizeof *w->watch))
+              && (w->near = calloc (n * BT__LINE_ROOM, sizeof *w->near))
+              && (w->row = calloc (rows + 1, sizeof *w->row))
+              && (w->of = calloc (rows + 1, sizeof *w->of))
+              && (w->old = calloc (rows, sizeof *w->old)) && (w->to = calloc (n, sizeof *w->to))
+              && (w->stood = calloc (n, sizeof *w->stood))
+              && (w->from_end = calloc (n, sizeof *w->from_end))
+              && (w->restart = calloc (n, sizeof *w->restart));
+  if (whole)
+    {
+      bt__line_work_forget (w);
+      return w;
+    }
+  bt__line_work_free (w);
+  return NULL;
+}
+
+void
+bt__line_work_forget (bt__line_work *w)
+{
+  bt__safe_forget (w->safe);
+  for (int j = 0; j < w->n_max; j++)
+    {
+      w->watch[j].clear = 1;
+      w->watch[j].a = w->watch[j].b = bt__vec (INFINITY, 0, 0);
+    }
+  w->spare = 0;
+}
+
+/* ---- The parts of a step ---- */
+
+static bt_status
+check_config (const bt__line_config *c, const bt__line_work *w, const bt__dynamic *d,
+              bt_error *error)
+{
+  if (!(c->core > 0 && c->core < c->radius && isfinite (c->radius)))
+    return bt__fail (error, BT_ERR_DOMAIN,
+                     "a line of radius %g m with a core of %g m; both must be positive, the core "
+                     "the smaller",
+                     c->radius, c->core);
+  if (!(c->friction >= 0 && isfinite (c->friction)))
+    return bt__fail (error, BT_ERR_DOMAIN, "a coefficient of friction of %g; it is 0 or more",
+                     c->friction);
+  if (!(c->pull[0] >= 0 && c->pull[1] >= 0))
+    return bt__fail (error, BT_ERR_DOMAIN, "ends pulled by %g and %g N; 0 or more", c->pull[0],
+                     c->pull[1]);
+  if (d->n > w->n_max)
+    return bt__fail (error, BT_ERR_LIMIT, "%d intervals; the workspace holds 1 to %d", (int)d->n,
+                     w->n_max);
+  return BT_OK;
+}
+
+/* The promise is kept against rounding: by a core a little larger, and by coordinates.  */
+static double
+widened (double core, const bt_vec3 *x, int links)
+{
+  double far = 0;
+  for (int i = 0; i <= links; i++)
+    far = fmax (far, bt__largest (x[i]));
+  return core * (1 + 1e-6) + 1e-14 * far;
+}
+
+/* Where the ends are wanted; a place that is not finite means stay.  */
+static void
+aim_ends (bt__line_job *k)
+{
+  for (int e = 0; e < 2; e++)
+    if (!bt__is_finite (k->in.end[e].at))
+      k->in.end[e].at = k->x[e ? k->links : 0];
+}
+
+static void
+check_known (bt__line_job *k)
+{
+  bt__line_work *w = k->w;
+  uint64_t version = k->on ? k->on->version : 0;
+  const uint8_t *off = k->on ? k->on->off : NULL;
+  if (w->serial != k->scene->serial || w->version != version || w->off != off)
+    bt__line_work_forget (w);
+  w->serial = k->scene->serial;
+  w->version = version;
+  w->off = off;
+}
+
+static void
+prepare (bt__line_job *k)
+{
+  bt__line_work *w = k->w;
+  const double *rest = bt__dynamic_rest (k->d);
+  w->from_end[k->links] = 0;
+  for (int j = k->links - 1; j >= 0; j--)
+    w->from_end[j] = w->from_end[j + 1] + rest[j];
+  k->olds = k->anchors->n < w->rows_max ? (int)k->anchors->n : w->rows_max;
+  memcpy (w->old, bt__anchors_at (k->anchors), (size_t)k->olds * sizeof *w->old);
+  memset (w->restart, 0, (size_t)k->links + 1);
+}
+
+/* Let the prescribed ends be pulled.  */
+static int
+hold_ends (bt__line_job *k)
+{
+  const double *rest = bt__dynamic_rest (k->d);
+  int any = 0;
+  for (int e = 0; e < 2; e++)
+    {
+      bt__dynamic_end *end = k->in.end + e;
+      bt_vec3 x = k->x[e ? k->links : 0], d = bt__sub (end->at, x);
+      double size = bt__norm (d), most = k->config->pull[e];
+      k->hold[e] = (bt__dynamic_hold){ 0 };
+      if (end->free || !isfinite (most))
+        continue;
+      bt_vec3 pull = bt__scale (-1, k->d->pull[e]);
+      double now = bt__norm (pull);
+      k->hold[e] = (bt__dynamic_hold){ .on = 1, .most = fmax (most, 1e-9) };
+      k->hold[e].stiffness
+          = fmin (HOLDING * k->in.line->ea / rest[e ? k->links - 1 : 0], HOLDING_MOST);
+      k->hold[e].mass = most / GIVE;
+      k->hold[e].at = size > BT__LINE_STRIDE ? bt__axpy (x, BT__LINE_STRIDE / size, d) : end->at;
+      k->hold[e].force = now > most ? bt__scale (most / now, pull) : pull;
+      end->free = 1;
+      any = 1;
+    }
+  return any;
+}
+
+/* An end that was held back starts from where it is, any other from where it is taken.  */
+static void
+start_ends (bt__line_job *k)
+{
+  for (int e = 0; e < 2; e++)
+    {
+      const bt__dynamic_hold *h = k->hold + e;
+      int i = e ? k->links : 0;
+      if (h->on)
+        k->X[i] = bt__norm (h->force) > HELD_BACK * h->most ? k->x[i] : h->at;
+    }
+}
+
+static void
+solve (bt__line_job *k, int held, bt__dynamic_report *report)
+{
+  bt__dynamic_hold *hold = held ? k->hold : NULL;
+  const bt__line_hook *hook = k->config->hook;
+  bt__dynamic_iterate (k->kernel, k->w->row, k->rows, hold, report);
+  if (!isfinite (report->update))
+    bt__dynamic_stay (k->d, k->kernel, report);
+  if (hook && hook->spoil)
+    hook->spoil (hook->user, k->x, k->X, k->links + 1);
+}
+
+/* Solve, and again for what is hit; then cut what still is.  */
+static void
+propose (bt__line_job *k, int near, int held, bt__dynamic_report *report)
+{
+  static const bt__line_hook none;
+  const bt__line_hook *hook = k->config->hook ? k->config->hook : &none;
+  int rounds = hook->no_rounds || hook->no_contacts ? 0 : BT__LINE_ROUNDS, hits = 0;
+  for (int i = 0;; i++)
+    {
+      solve (k, held, report);
+      if (!bt__line_bound (k, near ? BT__LINE_STRIDE : INFINITY))
+        report->converged = 0;
+      bt__line_watch_moves (k);
+      if (hook->no_guard)
+        return;
+      hits = bt__line_hits (k, i < rounds);
+      if (hits == 0 || i == rounds)
+        break;
+      bt__line_harden (k);
+      k->report->rounds++;
+    }
+  k->report->rows = k->rows;
+  if (hits > 0 && bt__line_shorten (k) > 0)
+    bt__line_truncate (k);
+}
+
+/* Nodes that met something go on without memory.  */
+static void
+mark_fresh (bt__line_job *k)
+{
+  for (int i = 0; i < k->rows; i++)
+    if (k->w->of[i].fresh && k->w->row[i].load > 0)
+      k->w->restart[k->w->row[i].node] = k->w->restart[k->w->row[i].node + 1] = 1;
+}
+
+static void
+tell_ends (bt__line_job *k, const bt__dynamic_input *input)
+{
+  for (int e = 0; e < 2; e++)
+    {
+      bt_vec3 x = bt__dynamic_x (k->d)[e ? k->d->n : 0], at = input->end[e].at;
+      k->report->end[e] = x;
+      k->report->held[e] = !input->end[e].free && !(bt__distance (x, at) <= HELD);
+    }
+}
+
+/* The step of a line that is far from everything, unless it comes near: then *DONE is zero and
+   nothing has happened.  */
+static bt_status
+step_far (bt__line_job *k, bt__dynamic_report *report, int *done, bt_error *error)
+{
+  bt_status status = bt__dynamic_begin (k->d, k->kernel, &k->in, report, error);
+  *done = 1;
+  if (status)
+    return status;
+  bt__dynamic_iterate (k->kernel, NULL, 0, NULL, report);
+  k->X = bt__dynamic_proposal (k->kernel);
+  *done = bt__line_stays_far (k);
+  if (!*done)
+    return BT_OK;
+  k->anchors->n = 0;
+  return bt__dynamic_finish (k->d, k->kernel, NULL, report, error);
+}
+
+static bt_status
+step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
+{
+  const bt__line_hook *hook = k->config->hook;
+  int near = bt__line_watch (k), held = near && hold_ends (k);
+  bt_status status = bt__dynamic_begin (k->d, k->kernel, &k->in, report, error);
+  if (status)
+    return status;
+  k->X = bt__dynamic_proposal (k->kernel);
+  start_ends (k);
+  if (near && !(hook && hook->no_contacts))
+    {
+      bt__line_rows (k);
+      bt__line_inherit (k);
+      bt__line_harden (k);
+    }
+  propose (k, near, held, report);
+  mark_fresh (k);
+  bt__line_keep (k);
+  status = bt__dynamic_finish (k->d, k->kernel, k->w->restart, report, error);
+  if (status)
+    return status;
+  bt__line_store (k);
+  if (k->in.pay != 0 || k->d->owed != 0)
+    bt__line_wind (k);
+  return BT_OK;
+}
+
+bt_status
+bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
+               const bt__dynamic_input *input, const bt__surroundings *around,
+               const bt__line_config *config, bt__anchors *anchors, bt__dynamic_report *report,
+               bt__line_report *line_report, bt__count *count, bt_error *error)
+{
+  bt__line_job k = { .w = w,
+                     .d = d,
+                     .kernel = work,
+                     .in = *input,
+                     .scene = around->scene ? around->scene : &nothing,
+                     .on = around->on,
+                     .mover = around->mover,
+                     .movers = around->movers,
+                     .config = config,
+                     .anchors = anchors,
+                     .links = (int)d->n,
+                     .margin = config->radius,
+                     .h = input->h,
+                     .x = bt__dynamic_x (d),
+                     .report = line_report,
+                     .count = count };
+  *line_report = (bt__line_report){ 0 };
+  for (uint32_t m = 0; m < k.movers; m++)
+    k.mover[m].done = 1;
+  bt_status status = check_config (config, w, d, error);
+  if (status)
+    return status;
+  aim_ends (&k);
+  if (k.scene->n == 0 && k.movers == 0)
+    {
+      anchors->n = 0;
+      status = bt__dynamic_step (d, work, &k.in, report, error);
+    }
+  else
+    {
+      const bt__line_hook *hook = config->hook;
+      int done = 0;
+      check_known (&k);
+      k.core = config->core * 1.01;
+      if (bt__line_is_far (&k) && !(hook && hook->spoil))
+        status = step_far (&k, report, &done, error);
+      if (!done)
+        {
+          k.core = widened (config->core, k.x, k.links);
+          prepare (&k);
+          status = step (&k, report, error);
+        }
+      else if (status == BT_OK && (k.in.pay != 0 || d->owed != 0))
+        bt__line_wind (&k);
+    }
+  if (status == BT_OK)
+    tell_ends (&k, input);
+  return status;
+}

@@ -1,0 +1,121 @@
+/* The moving line among obstacles: it touches, sticks, slides and never passes through.
+
+   A step is the moving line's own (tether/dynamic.h) with the contacts as half-spaces inside its
+   equations, checked link by link by casts, solved again where it would hit, and in the end never
+   taken farther than the safe step allows: from a clear start no link's axis comes nearer than the
+   core to an obstacle, standing or moving, whatever the solver gave.
+
+   What lasts from step to step is in the bt__dynamic and in the bt__anchors beside it: both flat,
+   both copied with memcpy.  A workspace holds nothing that changes a result.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_CONTACT_LINE_H
+#define BT_CONTACT_LINE_H
+
+#include <stddef.h>
+
+#include "contact/touch.h"
+#include "tether/dynamic.h"
+
+/* ---- What lasts ---- */
+
+/* A place of the line that touches an obstacle, or touched it in the last step.  */
+typedef struct bt__anchor
+{
+  int64_t object;   /* the obstacle's id */
+  int64_t triangle; /* its id on a mesh, or -1 */
+  int64_t mover;    /* the obstacle's place among the movers, or -1: it stands */
+  int64_t state;    /* bt__touch_state */
+  double from_end;  /* m of rest length from node n: the winch does not change it */
+  double load;      /* N along the normal */
+  double work;      /* J of slip since the contact was made */
+  double step_work; /* J of slip in the last step */
+  double speed;     /* m/s of the line along the obstacle in the last step */
+  bt_vec3 point;    /* m: on the obstacle */
+  bt_vec3 normal;   /* unit, from the obstacle to the line */
+  bt_vec3 force;    /* N on the line: load and friction */
+  bt_vec3 stick;    /* m: how far the line is dragged from where it stuck */
+} bt__anchor;
+
+/* The head of a flat block; N anchors follow, in order from node 0 to node n.  */
+typedef struct bt__anchors
+{
+  int64_t n, room;
+} bt__anchors;
+
+/* Return the bytes of a block with room for ROOM anchors, and of the part of ANCHORS in use.
+   Room for four an interval is never too little; what finds no room is forgotten: it starts anew
+   in the next step.  */
+size_t bt__anchors_size (int room);
+size_t bt__anchors_live (const bt__anchors *anchors);
+void bt__anchors_init (bt__anchors *anchors, int room);
+bt__anchor *bt__anchors_at (const bt__anchors *anchors);
+
+/* ---- A step ---- */
+
+typedef struct bt__line_work bt__line_work;
+
+/* Return a workspace for lines of up to N_MAX intervals, or NULL when memory is out.  */
+bt__line_work *bt__line_work_new (int n_max);
+void bt__line_work_free (bt__line_work *work); /* NULL is nothing */
+
+/* Forget what is known to be clear: another line, another scene of the same serial.  It costs time
+   alone.  */
+void bt__line_work_forget (bt__line_work *work);
+
+/* For tests: what is done to the solver's result before it is checked, and what is left undone.  */
+typedef struct bt__line_hook
+{
+  void (*spoil) (void *user, const bt_vec3 *from, bt_vec3 *to, int nodes); /* or NULL */
+  void *user;
+  int no_contacts; /* the guard alone */
+  int no_guard;    /* mutant: what the solver gives is taken */
+  int no_rounds;   /* no second solve */
+} bt__line_hook;
+
+typedef struct bt__line_config
+{
+  double radius;       /* m: half the line's diameter */
+  double core;         /* m: bt__core (diameter) */
+  double friction;     /* Coulomb: the line's own, ... */
+  const double *rough; /* ... and by obstacle id; NaN: the line's own.  NULL: the line's all over */
+  int64_t obstacles;   /* entries of ROUGH */
+  double pull[2];      /* N: what at most takes a prescribed end to its place when obstacles are
+                          near; INFINITY: whatever it takes */
+  const bt__line_hook *hook; /* NULL */
+} bt__line_config;
+
+typedef struct bt__line_report
+{
+  bt_vec3 end[2];   /* m: where the ends are now */
+  int held[2];      /* nonzero: a prescribed end is not where INPUT wanted it */
+  int touches;      /* places that bear on an obstacle */
+  int rows;         /* half-spaces in the equations */
+  int rounds;       /* times the step was solved again for a hit */
+  int truncated;    /* nodes that the guard held back: all where it shortened the whole move */
+  int overlaps;     /* links nearer than the core at the start: nothing is promised for them */
+  int overflows;    /* links with more near than there is room for */
+  int pinched;      /* movers that were held back: bt__mover.done says how far they came */
+  double load;      /* N: the largest along a normal */
+  double speed;     /* m/s: the fastest slip along an obstacle, for the caller's sleep */
+  double slip_work; /* J: of friction in this step */
+} bt__line_report;
+
+/* Step D by INPUT->h among AROUND.  As bt__dynamic_step, and the same to the last bit where nothing
+   is near; but a place for an end that is not finite means stay, and a solution that is not finite
+   is not taken: the line then stays where it is, REPORT->converged = 0.  The bodies of prescribed
+   ends count when their pull is limited.  Every mover's DONE is set.  BT_ERR_DOMAIN (also for a
+   radius or core that is not positive, a core above the radius) and BT_ERR_LIMIT leave D and
+   ANCHORS as they were.  */
+bt_status bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *contact_work,
+                         const bt__dynamic_input *input, const bt__surroundings *around,
+                         const bt__line_config *config, bt__anchors *anchors,
+                         bt__dynamic_report *report, bt__line_report *contact_report,
+                         bt__count *count, bt_error *error);
+
+/* Fill OUT, of ROOM, with what touches: the anchors that bear load, in order from node 0.  Return
+   how many there are.  S is in metres of arc length from node 0 as it lies.  */
+int bt__line_touches (const bt__dynamic *d, const bt__anchors *anchors, bt__touch *out, int room);
+
+#endif

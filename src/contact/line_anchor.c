@@ -1,0 +1,298 @@
+/* What a contact remembers: where the line stuck to the obstacle, how hard it pressed.
+
+   A contact is known again by its place in the line's material and its direction, whatever link,
+   triangle or obstacle it is on now.
+
+   A chain turns at its nodes, a line all along: with the coefficient itself the tensions before and
+   after a turn D would not be as e^(mu D).  With one contact in a turn, at a node or on a link
+   between two, they are with tanh (mu D/2) / tan (D/2); with one on every link, turning D at every
+   node, with sinh (mu D) / sin D.
+
+   The stiffness follows the load: what a contact gives way must be small against the way from the
+   radius to the core, or the guard would bear the load and nothing slid.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "contact/line_job.h"
+
+#define REMEMBER 0.75 /* of a link: the farthest a contact goes along the line in a step */
+#define ALIKE 0.8     /* product of the normals */
+#define SLIP 0.002    /* m: the drag at which friction is whole */
+#define STIFF 30.0    /* times EA over a link's length: of contacts, ... */
+#define STIFFEST 1e9  /* N/m: ... at most, but for the load */
+#define YIELD 20.0    /* the part of the way to the core that the load may press a contact in */
+
+/* ---- The block ---- */
+
+size_t
+bt__anchors_size (int room)
+{
+  return sizeof (bt__anchors) + (size_t)room * sizeof (bt__anchor);
+}
+
+size_t
+bt__anchors_live (const bt__anchors *a)
+{
+  return bt__anchors_size ((int)a->n);
+}
+
+bt__anchor *
+bt__anchors_at (const bt__anchors *a)
+{
+  return (bt__anchor *)(a + 1);
+}
+
+void
+bt__anchors_init (bt__anchors *a, int room)
+{
+  memset (a, 0, bt__anchors_size (room));
+  a->room = room;
+}
+
+/* ---- Friction ---- */
+
+/* The turn of the line at node I if it is toward the obstacle, against normal N; radians.  */
+static double
+turn_at (const bt__line_job *k, int64_t i, bt_vec3 n)
+{
+  if (i < 1 || i >= k->links)
+    return 0;
+  bt_vec3 none = { 0, 0, 0 };
+  bt_vec3 a = bt__unit_or (bt__sub (k->x[i], k->x[i - 1]), none),
+          b = bt__unit_or (bt__sub (k->x[i + 1], k->x[i]), none), turn = bt__sub (b, a);
+  double size = bt__norm (turn);
+  return -bt__dot (turn, n) > 0.5 * size ? 2 * asin (fmin (size / 2, 1)) : 0;
+}
+
+/* Of one contact that turns the line by D.  */
+static double
+single (double mu, double d)
+{
+  d = fmin (d, 2.5);
+  return d > 1e-6 && mu > 0 ? tanh (mu * d / 2) / tan (d / 2) : mu;
+}
+
+/* Of one of many, each turning it by D.  */
+static double
+one_of_many (double mu, double d)
+{
+  d = fmin (d, 1.2);
+  return d > 1e-6 ? sinh (mu * d) / sin (d) : mu;
+}
+
+/* Nonzero if a row is on link J, of the same obstacle as row I.  */
+static int
+has_neighbour (const bt__line_job *k, int i, int64_t j)
+{
+  const bt__line_row *of = k->w->of;
+  for (int q = i - 1; q >= 0 && q >= i - 8; q--)
+    if (of[q].link == j && of[q].id == of[i].id)
+      return 1;
+  for (int q = i + 1; q < k->rows && q <= i + 8; q++)
+    if (of[q].link == j && of[q].id == of[i].id)
+      return 1;
+  return 0;
+}
+
+static double
+coefficient (const bt__line_job *k, int i)
+{
+  const bt__line_config *c = k->config;
+  const bt__dynamic_row *r = k->w->row + i;
+  const bt__line_row *of = k->w->of + i;
+  double mu = c->friction;
+  if (c->rough && of->id < c->obstacles && !isnan (c->rough[of->id]))
+    mu = c->rough[of->id];
+  if (r->s == 0 || r->s == 1)
+    return single (mu, turn_at (k, r->node + (r->s == 1), r->normal));
+  int64_t j = r->node;
+  double before = turn_at (k, j, r->normal), after = turn_at (k, j + 1, r->normal);
+  int left = has_neighbour (k, i, j - 1), right = has_neighbour (k, i, j + 1);
+  if (!left && !right)
+    return single (mu, before + after);
+  double many = one_of_many (mu, 0.5 * (before + after));
+  if (left && right)
+    return many;
+  double d = 0.5 * (left ? before : after) + (left ? after : before);
+  return 0.5 * (many + single (mu, d));
+}
+
+static double
+stiffness (const bt__line_job *k, const bt__dynamic_row *r)
+{
+  const double *rest = bt__dynamic_rest (k->d), *tension = bt__dynamic_tension (k->d);
+  const bt__line_config *c = k->config;
+  double ea = k->in.line->ea, load = fmax (tension[r->node], r->load);
+  double stiff = fmin (STIFF * ea / rest[r->node], STIFFEST);
+  return fmax (stiff, YIELD * load / (c->radius - c->core));
+}
+
+/* ---- What is remembered ---- */
+
+/* The anchor nearest to row I along the line that no other row has, from *FROM on, or -1.  */
+static int
+find_anchor (bt__line_job *k, int i, int *from)
+{
+  const bt__dynamic_row *r = k->w->row + i;
+  const bt__line_row *of = k->w->of + i;
+  double reach = REMEMBER * bt__dynamic_rest (k->d)[r->node], least = reach;
+  int best = -1;
+  while (*from < k->olds && k->w->old[*from].from_end > of->from_end + 2 * reach)
+    ++*from;
+  for (int q = *from; q < k->olds; q++)
+    {
+      const bt__anchor *a = k->w->old + q;
+      double away = fabs (a->from_end - of->from_end);
+      if (a->from_end < of->from_end - reach)
+        break;
+      if (a->state >= 0 && away < least && a->mover == (int64_t)of->mover - 1
+          && bt__dot (a->normal, r->normal) > ALIKE)
+        {
+          best = q;
+          least = away;
+        }
+    }
+  return best;
+}
+
+static void
+inherit (bt__line_job *k, int i, const bt__anchor *a)
+{
+  bt__dynamic_row *r = k->w->row + i;
+  r->load = a->load;
+  r->stick = bt__axpy (a->stick, -bt__dot (a->stick, r->normal), r->normal);
+  k->w->of[i].work = a->work;
+  k->w->of[i].fresh = 0;
+}
+
+void
+bt__line_inherit (bt__line_job *k)
+{
+  int from = 0;
+  for (int i = 0; i < k->rows; i++)
+    {
+      int a = find_anchor (k, i, &from);
+      if (a >= 0)
+        {
+          inherit (k, i, k->w->old + a);
+          k->w->old[a].state = -1; /* taken */
+        }
+    }
+}
+
+void
+bt__line_harden (bt__line_job *k)
+{
+  for (int i = 0; i < k->rows; i++)
+    {
+      bt__dynamic_row *r = k->w->row + i;
+      if (r->stiffness > 0)
+        continue;
+      r->slip = SLIP;
+      r->friction = coefficient (k, i);
+      r->stiffness = stiffness (k, r);
+    }
+}
+
+/* ---- What is kept ---- */
+
+/* The move of the line along the obstacle at row R.  */
+static bt_vec3
+slide_of (const bt__line_job *k, const bt__dynamic_row *r)
+{
+  bt_vec3 a = bt__sub (k->X[r->node], k->x[r->node]),
+          b = bt__sub (k->X[r->node + 1], k->x[r->node + 1]);
+  bt_vec3 d = bt__sub (bt__axpy (bt__scale (1 - r->s, a), r->s, b), r->drift);
+  return bt__axpy (d, -bt__dot (d, r->normal), r->normal);
+}
+
+static bt__anchor
+anchor_of (const bt__line_job *k, int i)
+{
+  const bt__dynamic_row *r = k->w->row + i;
+  const bt__line_row *of = k->w->of + i;
+  bt_vec3 slide = slide_of (k, r), stick = bt__add (r->stick, slide);
+  double drag = bt__norm (stick), over = fmax (drag - r->slip, 0);
+  double work = r->friction * r->load * over;
+  if (over > 0)
+    stick = bt__scale (r->slip / drag, stick);
+  return (bt__anchor){ .object = of->id,
+                       .triangle = of->triangle == BT__NO_TRIANGLE ? -1 : (int64_t)of->triangle,
+                       .mover = (int64_t)of->mover - 1,
+                       .state = over > 0 ? BT__TOUCH_SLIDE : BT__TOUCH_STICK,
+                       .from_end = of->from_end,
+                       .load = r->load,
+                       .work = of->work + work,
+                       .step_work = work,
+                       .speed = bt__norm (slide) / k->h,
+                       .point = of->point,
+                       .normal = r->normal,
+                       .force = r->force,
+                       .stick = stick };
+}
+
+/* Put A where it belongs in the order of the line.  */
+static void
+insert (bt__line_job *k, const bt__anchor *a)
+{
+  bt__anchor *at = k->w->old;
+  int i = k->olds++;
+  for (; i > 0 && at[i - 1].from_end < a->from_end; i--)
+    at[i] = at[i - 1];
+  at[i] = *a;
+}
+
+void
+bt__line_keep (bt__line_job *k)
+{
+  bt__line_report *report = k->report;
+  k->olds = 0;
+  for (int i = 0; i < k->rows; i++)
+    {
+      if (!(k->w->row[i].load > 0))
+        continue;
+      bt__anchor a = anchor_of (k, i);
+      insert (k, &a);
+      report->touches++;
+      report->load = fmax (report->load, a.load);
+      report->speed = fmax (report->speed, a.speed);
+      report->slip_work += a.step_work;
+    }
+}
+
+void
+bt__line_store (bt__line_job *k)
+{
+  bt__anchors *to = k->anchors;
+  to->n = k->olds < to->room ? k->olds : to->room;
+  memcpy (bt__anchors_at (to), k->w->old, (size_t)to->n * sizeof *k->w->old);
+}
+
+/* ---- What is told ---- */
+
+int
+bt__line_touches (const bt__dynamic *d, const bt__anchors *anchors, bt__touch *out, int room)
+{
+  const double *rest = bt__dynamic_rest (d);
+  const bt_vec3 *x = bt__dynamic_x (d);
+  const bt__anchor *a = bt__anchors_at (anchors);
+  int n = anchors->n < room ? (int)anchors->n : room;
+  double arc = 0, from_end = bt__dynamic_length (d);
+  int64_t j = 0;
+  for (int i = 0; i < n; i++)
+    {
+      for (; j < d->n - 1 && from_end - rest[j] > a[i].from_end; j++)
+        {
+          arc += bt__distance (x[j], x[j + 1]);
+          from_end -= rest[j];
+        }
+      double share = fmin (fmax ((from_end - a[i].from_end) / rest[j], 0), 1);
+      out[i] = (bt__touch){ a[i].object, a[i].triangle,
+                            a[i].state,  arc + share * bt__distance (x[j], x[j + 1]),
+                            a[i].point,  a[i].normal,
+                            a[i].force };
+    }
+  return n;
+}

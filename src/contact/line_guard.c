@@ -1,0 +1,184 @@
+/* What a line must not pass through: casts, the safe step, and the winch that splits and joins.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "contact/line_job.h"
+
+enum
+{
+  SHORTER = 4 /* times a move is shortened, ... */
+};
+
+#define SHORT 0.2 /* ... to this share */
+
+int
+bt__line_bound (bt__line_job *k, double most)
+{
+  int finite = 1;
+  for (int i = 0; i <= k->links; i++)
+    {
+      double size = bt__distance (k->x[i], k->X[i]);
+      if (isfinite (size) && size <= most)
+        continue;
+      finite &= isfinite (size);
+      k->X[i]
+          = isfinite (size) ? bt__axpy (k->x[i], most / size, bt__sub (k->X[i], k->x[i])) : k->x[i];
+    }
+  return finite;
+}
+
+/* ---- Casts ---- */
+
+static bt__cast
+cast_of (const bt__line_job *k, uint32_t j, const bt__near *near)
+{
+  const bt__mover *m = bt__line_mover (k, near);
+  return (bt__cast){ .scene = bt__line_scene (k, near),
+                     .near = near,
+                     .motion = m ? &m->motion : NULL,
+                     .share = 1,
+                     .radius = m ? m->radius : 0,
+                     .link = bt__line_link (k->x, j),
+                     .da = bt__sub (k->X[j], k->x[j]),
+                     .db = bt__sub (k->X[j + 1], k->x[j + 1]),
+                     .core = k->core };
+}
+
+/* Where link J and NEAR are to one another after the share T of the step.  */
+static bt__witness
+witness_at (const bt__cast *c, double t)
+{
+  bt__link link = { bt__axpy (c->link.a, t, c->da), bt__axpy (c->link.b, t, c->db) };
+  bt__witness w;
+  if (c->motion)
+    {
+      bt__frame f = bt__motion_at (c->motion, t);
+      link = (bt__link){ bt__to_local (&f, link.a), bt__to_local (&f, link.b) };
+    }
+  bt__scene_pair (c->scene, c->near, &link, &w);
+  return w;
+}
+
+int
+bt__line_hits (bt__line_job *k, int add)
+{
+  int hits = 0;
+  double before = bt__distance (k->x[0], k->X[0]);
+  for (uint32_t j = 0; j < (uint32_t)k->links; j++)
+    {
+      const bt__near *near = bt__line_near (k, j);
+      double after = bt__distance (k->x[j + 1], k->X[j + 1]), move = fmax (before, after);
+      before = after;
+      for (uint32_t i = 0; i < k->w->watch[j].found; i++)
+        {
+          if (near[i].link == 0 && near[i].w.distance - k->core > move)
+            continue;
+          bt__cast c = cast_of (k, j, near + i);
+          double t = bt__cast_run (&c, k->count);
+          if (t >= 1)
+            continue;
+          hits++;
+          if (!add)
+            return hits;
+          bt__witness w = witness_at (&c, t);
+          bt__line_add_hit (k, j, near + i, &w, t);
+        }
+    }
+  return hits;
+}
+
+/* A line that is pressed to the core can go nowhere by halves: a node held back alone keeps its
+   neighbours from leaving.  The whole line may.  */
+int
+bt__line_shorten (bt__line_job *k)
+{
+  int hits = 1;
+  k->report->truncated = k->links + 1;
+  memset (k->w->restart, 1, (size_t)k->links + 1);
+  for (int i = 0; i < SHORTER && hits > 0; i++)
+    {
+      for (int q = 0; q <= k->links; q++)
+        k->X[q] = bt__axpy (k->x[q], SHORT, bt__sub (k->X[q], k->x[q]));
+      hits = bt__line_hits (k, 0);
+    }
+  return hits;
+}
+
+/* ---- The safe step ---- */
+
+void
+bt__line_truncate (bt__line_job *k)
+{
+  bt__safe_config config = { k->config->core, BT__LINE_STRIDE, 1 };
+  bt__safe_report safe;
+  size_t size = (size_t)(k->links + 1) * sizeof *k->x;
+  memcpy (k->w->to, k->x, size);
+  bt__safe_step (k->w->safe, &config, k->scene, k->on, k->mover, k->movers, k->w->to, k->X,
+                 (uint32_t)k->links + 1, &safe, k->count);
+  memcpy (k->X, k->w->to, size);
+  for (uint32_t m = 0; m < k->movers; m++)
+    k->report->pinched += k->mover[m].done < 1;
+}
+
+/* ---- The winch ---- */
+
+/* Nonzero if node 1 of P can go straight by MOVE, the others staying, and meets nothing.  */
+static int
+may_move (bt__line_job *k, const bt_vec3 *p, bt_vec3 move)
+{
+  bt__near part[BT__LINE_ROOM];
+  double need = bt__norm (move) + k->core;
+  for (uint32_t j = 0; j < 2; j++)
+    {
+      bt__nears list = { part, 0, BT__LINE_ROOM, INFINITY };
+      bt__link link = bt__line_link (p, j);
+      for (uint32_t m = 0; m < k->movers; m++) /* beside what moves it can wait */
+        {
+          bt__frame f = bt__motion_at (&k->mover[m].motion, k->mover[m].done);
+          bt__link local = { bt__to_local (&f, link.a), bt__to_local (&f, link.b) };
+          bt__near unused;
+          if (bt__scene_nearest (k->mover[m].body, k->mover[m].on, &local, need, &unused, k->count))
+            return 0;
+        }
+      bt__scene_near (k->scene, k->on, &link, 0, need, &list, k->count);
+      if (list.dropped < need)
+        return 0;
+      for (uint32_t i = 0; i < list.n; i++)
+        {
+          bt__cast c = { .scene = k->scene, .near = part + i, .link = link, .core = k->core };
+          if (j)
+            c.da = move;
+          else
+            c.db = move;
+          if (bt__cast_run (&c, k->count) < 1)
+            return 0;
+        }
+    }
+  return 1;
+}
+
+/* A joined pair is as its middle node gone to the chord; a split one as a new node gone from there
+   to the curve, never farther than half its length.  */
+void
+bt__line_wind (bt__line_job *k)
+{
+  const double *rest = bt__dynamic_rest (k->d);
+  const bt_vec3 *x = bt__dynamic_x (k->d);
+  int way = bt__dynamic_winding (k->d);
+  bt__link first = bt__line_link (x, 0);
+  bt__near unused;
+  if (way < 0)
+    {
+      double share = rest[0] / (rest[0] + rest[1]);
+      bt_vec3 to = bt__axpy (bt__scale (1 - share, x[0]), share, x[2]);
+      if (!may_move (k, x, bt__sub (to, x[1])))
+        return;
+    }
+  int straight = k->movers > 0
+                 || (way > 0
+                     && bt__scene_nearest (k->scene, k->on, &first, 0.5 * rest[0] + k->core,
+                                           &unused, k->count));
+  bt__dynamic_wind_once (k->d, way, straight);
+}

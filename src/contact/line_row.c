@@ -1,0 +1,445 @@
+/* Which half-spaces keep a line out of what it touches.
+
+   A part within touch of a link gives some: at the ends of the link where it is flat or so round
+   that the line lies along it, else at the nearest point.  A mesh's triangle gives none where its
+   neighbour is nearer, at an edge that the surface around it hides.
+
+   A line that has been pressed nearer than its radius is let out slowly.  What moves takes its
+   half-space along.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "contact/line_job.h"
+
+#define ROUND 2.2     /* links: an obstacle of this radius along the line is touched by nodes */
+#define EVENLY 0.15   /* of what is beyond the plane, half way out: less and it is an edge */
+#define NEAREST 0.01  /* of the radius: an end that is so little farther is as near */
+#define FLAT 0.1      /* of the radius: a link no steeper lies along a plane */
+#define SAME 0.15     /* of a link: places so near are one, ... */
+#define SAME_HIT 0.25 /* ... of hits, ... */
+#define ALIKE 0.995   /* ... if their normals' product is more, ... */
+#define ALIKE_HIT 0.7 /* ... of hits */
+#define TURNED 0.9    /* the same of a normal now and at the end of the step */
+#define AHEAD 0.2     /* m: a line that moves more in a step is not foretold */
+#define COPLANAR 0.9999
+#define RECOVERY 0.2 /* m/s: a line that was pressed in is let out so fast */
+#define GHOST 1e-6   /* sine of the angle at which a neighbour counts as nearer */
+
+/* ---- Edges that a mesh hides ---- */
+
+static int
+is_corner (const bt__triangle *t, bt_vec3 p)
+{
+  for (int i = 0; i < 3; i++)
+    if (t->v[i].x == p.x && t->v[i].y == p.y && t->v[i].z == p.z)
+      return i + 1;
+  return 0;
+}
+
+/* Nonzero if triangle T rises to the side of normal N from its corner I.  */
+static int
+rises_from_corner (const bt__triangle *t, int i, bt_vec3 n)
+{
+  for (int k = 1; k < 3; k++)
+    {
+      bt_vec3 e = bt__sub (t->v[(i + k) % 3], t->v[i]);
+      if (bt__dot (n, e) > GHOST * bt__norm (e))
+        return 1;
+    }
+  return 0;
+}
+
+/* The same from its edge between corners I and J.  */
+static int
+rises_from_edge (const bt__triangle *t, int i, int j, bt_vec3 n)
+{
+  bt_vec3 a = t->v[i], e = bt__sub (t->v[j], a), c = bt__sub (t->v[3 - i - j], a);
+  bt_vec3 in = bt__axpy (c, -bt__dot (c, e) / bt__dot (e, e), e);
+  return bt__dot (n, in) > GHOST * bt__norm (in);
+}
+
+static int
+is_hidden_by (const bt__triangle *own, int feature, bt_vec3 n, const bt__triangle *other)
+{
+  int a = is_corner (other, own->v[feature > 3 ? feature - 4 : feature - 1]);
+  if (feature > 3)
+    return a && rises_from_corner (other, a - 1, n);
+  int b = is_corner (other, own->v[feature % 3]);
+  return a && b && rises_from_edge (other, a - 1, b - 1, n);
+}
+
+/* Nonzero if the nearest point W of the triangle NEAR is on an edge or corner where another listed
+   triangle is nearer.  */
+static int
+is_ghost (const bt__line_job *k, uint32_t j, const bt__near *near, const bt__witness *w)
+{
+  const bt__scene *scene = bt__line_scene (k, near);
+  const bt__near *other = bt__line_near (k, j);
+  if (near->slot == BT__NO_TRIANGLE || w->feature == 0)
+    return 0;
+  const bt__mesh *mesh = scene->object[near->object].shape.mesh;
+  bt__triangle own = bt__mesh_triangle (mesh, near->slot);
+  for (uint32_t i = 0; i < k->w->watch[j].found; i++)
+    {
+      if (other[i].link != near->link || other[i].object != near->object
+          || other[i].slot == near->slot)
+        continue;
+      bt__triangle t = bt__mesh_triangle (mesh, other[i].slot);
+      if (is_hidden_by (&own, w->feature, w->normal, &t))
+        return 1;
+    }
+  return 0;
+}
+
+/* ---- Rows ---- */
+
+/* The place of a row along the line, in links.  */
+static double
+place_of (const bt__dynamic_row *r)
+{
+  return (double)r->node + r->s;
+}
+
+/* The place S of link J is pushed off NEAR, as W says in its frame; START is how near it was at the
+   start of the step.  To be added as the row NUMBER.  */
+static void
+set_row (bt__line_job *k, int number, uint32_t j, double s, const bt__near *near,
+         const bt__witness *w, double start)
+{
+  const bt__mover *m = bt__line_mover (k, near);
+  bt_vec3 point = w->point, normal = w->normal, drift = { 0, 0, 0 };
+  if (m)
+    {
+      bt__frame to = bt__motion_at (&m->motion, 1);
+      normal = bt__out_of (&to, normal);
+      point = bt__to_world (&to, w->point);
+      drift = bt__sub (point, bt__to_world (&m->motion.from, w->point));
+    }
+  double out = fmin (k->config->radius, fmax (start, k->core) + RECOVERY * k->h);
+  k->w->row[number] = (bt__dynamic_row){ .node = (int64_t)j,
+                                         .s = s,
+                                         .normal = normal,
+                                         .offset = bt__dot (normal, point) + out,
+                                         .drift = drift,
+                                         .active = -1 };
+  k->w->of[number] = (bt__line_row){
+    .link = j,
+    .mover = near->link,
+    .object = near->object,
+    .slot = near->slot,
+    .triangle = near->triangle,
+    .id = bt__line_scene (k, near)->object[near->object].id,
+    .fresh = 1,
+    .from_end = (1 - s) * k->w->from_end[j] + s * k->w->from_end[j + 1],
+    .point = point,
+  };
+}
+
+static double
+height_of (const bt__line_job *k, const bt__dynamic_row *r)
+{
+  const bt_vec3 *p = k->x + r->node;
+  bt_vec3 at = bt__axpy (bt__scale (1 - r->s, p[0]), r->s, p[1]);
+  return bt__dot (r->normal, at) - r->offset;
+}
+
+/* Take the row just set unless there is one like it; of both, the lower stays.  */
+static void
+take_row (bt__line_job *k, int flat)
+{
+  bt__dynamic_row *row = k->w->row, *r = row + k->rows;
+  k->w->of[k->rows].flat = flat;
+  for (int i = k->rows - 1; i >= 0 && row[i].node + 1 >= r->node; i--)
+    if (fabs (place_of (row + i) - place_of (r)) < SAME
+        && bt__dot (row[i].normal, r->normal) > ALIKE)
+      {
+        if (height_of (k, r) < height_of (k, row + i))
+          {
+            row[i] = *r;
+            k->w->of[i] = k->w->of[k->rows];
+          }
+        return;
+      }
+  k->rows++;
+}
+
+/* Link J against NEAR, in its frame: as the step starts, and as it is expected to end.  */
+typedef struct pass
+{
+  const bt__near *near;
+  bt__link from, to;
+  bt__witness w; /* of TO */
+} pass;
+
+/* The half-space of FROM's nearest point turns as the line moves on, so that of TO serves better:
+   that of FROM drags the line back by its speed times the step over the radius.  Unless the line
+   would be inside by then, or over the next triangle.  */
+static void
+look_ahead (const bt__line_job *k, const pass *p, const bt__link *from, const bt__link *to,
+            const bt__witness *now, bt__witness *w)
+{
+  *w = *now;
+  if (fmax (bt__distance (from->a, to->a), bt__distance (from->b, to->b)) > AHEAD)
+    return;
+  bt__scene_pair (bt__line_scene (k, p->near), p->near, to, w);
+  int turned = !(bt__dot (w->normal, now->normal) > TURNED);
+  int other = p->near->slot != BT__NO_TRIANGLE && w->feature != now->feature;
+  if (!(w->distance > k->core) || turned || other)
+    *w = *now;
+}
+
+static pass
+pass_of (const bt__line_job *k, uint32_t j, const bt__near *near)
+{
+  const bt__mover *m = bt__line_mover (k, near);
+  pass p = { .near = near, .from = bt__line_link (k->x, j), .to = bt__line_link (k->X, j) };
+  if (m)
+    {
+      bt__frame end = bt__motion_at (&m->motion, 1);
+      p.from = (bt__link){ bt__to_local (&m->motion.from, p.from.a),
+                           bt__to_local (&m->motion.from, p.from.b) };
+      p.to = (bt__link){ bt__to_local (&end, p.to.a), bt__to_local (&end, p.to.b) };
+    }
+  look_ahead (k, &p, &p.from, &p.to, &near->w, &p.w);
+  return p;
+}
+
+/* An end of a link against what the link passes.  */
+typedef struct pass_end
+{
+  bt__witness from, w; /* as the step starts; at its end */
+  double lever;        /* m of link from its nearest point */
+  double radius;       /* m: of the obstacle along the link on this side, as seen from the end */
+  int round;           /* nonzero: the obstacle is flat or round there, not sharp */
+} pass_end;
+
+/* What is farther from the obstacle than from the plane of its nearest point, of the link's place S
+   in the frame of P: a half of the square of the way over the radius, if it is round.  */
+static double
+beyond_plane (const bt__line_job *k, const pass *p, double s, bt__witness *w)
+{
+  const bt__witness *found = &p->near->w;
+  bt_vec3 at = bt__along (&p->from, s);
+  bt__link point = { at, at };
+  bt__scene_pair (bt__line_scene (k, p->near), p->near, &point, w);
+  return fmax (w->distance - bt__dot (found->normal, bt__sub (at, found->point)), 0);
+}
+
+static pass_end
+pass_end_of (const bt__line_job *k, const pass *p, int e, double length)
+{
+  bt_vec3 at = e ? p->from.b : p->from.a, to = e ? p->to.b : p->to.a;
+  bt__link from = { at, at }, then = { to, to };
+  double s = p->near->w.s;
+  bt__witness half;
+  pass_end end;
+  double more = beyond_plane (k, p, e, &end.from);
+  look_ahead (k, p, &from, &then, &end.from, &end.w);
+  end.lever = fabs (e - s) * length;
+  end.radius = end.lever * end.lever / (2 * fmax (more, 1e-9));
+  end.round = more <= FLAT * k->config->radius
+              || (end.radius >= ROUND * length
+                  && beyond_plane (k, p, 0.5 * (e + s), &half) > EVENLY * more);
+  return end;
+}
+
+/* The row of end E of link J: the nodes of a line about something round are so high that the links
+   between them are not inside.  */
+static void
+touch_end (bt__line_job *k, uint32_t j, int e, const pass *p, const pass_end *end, double raise)
+{
+  if (end->from.distance - raise >= k->config->radius + k->margin
+      || is_ghost (k, j, p->near, &end->from) || k->rows >= k->w->rows_max)
+    return;
+  set_row (k, k->rows, j, e, p->near, &end->w, end->from.distance - raise);
+  k->w->row[k->rows].offset += raise;
+  take_row (k, 1);
+}
+
+/* Nonzero if LINK lies along the plane of W.  */
+static int
+lies_along (const bt__line_job *k, const bt__link *link, const bt__witness *w)
+{
+  double slope = bt__dot (w->normal, bt__sub (link->b, link->a));
+  return fabs (slope) <= FLAT * k->config->radius;
+}
+
+static void
+touch_between (bt__line_job *k, uint32_t j, const pass *p, double radius)
+{
+  bt_vec3 along = bt__sub (p->to.b, p->to.a);
+  if (k->rows >= k->w->rows_max || is_ghost (k, j, p->near, &p->near->w))
+    return;
+  set_row (k, k->rows, j, p->w.s, p->near, &p->w, p->near->w.distance);
+  bt__dynamic_row *r = k->w->row + k->rows;
+  r->roll = radius / fmax (bt__dot (along, along), 1e-12);
+  r->tilt = bt__dot (p->w.normal, along); /* the same in either frame */
+  take_row (k, 2 * lies_along (k, &p->from, &p->near->w));
+}
+
+/* Nonzero if node AT is over the face of T, HEIGHT from it, on the side of NORMAL.  */
+static int
+is_over (const bt__triangle *t, bt_vec3 at, double *height, bt_vec3 *normal)
+{
+  bt_vec3 n = bt__unit_or (bt__cross (bt__sub (t->v[1], t->v[0]), bt__sub (t->v[2], t->v[0])),
+                           bt__vec (0, 0, 0));
+  double h = bt__dot (n, bt__sub (at, t->v[0]));
+  for (int i = 0; i < 3; i++)
+    {
+      bt_vec3 e = bt__sub (t->v[(i + 1) % 3], t->v[i]);
+      if (!(bt__dot (bt__cross (n, e), bt__sub (at, t->v[i])) >= 0))
+        return 0;
+    }
+  *height = fabs (h);
+  *normal = h < 0 ? bt__scale (-1, n) : n;
+  return bt__dot (n, n) > 0;
+}
+
+/* A triangle: nodes over its face, else the nearest place of the link.  */
+static void
+touch_facet (bt__line_job *k, uint32_t j, const bt__near *near)
+{
+  const bt__mover *m = bt__line_mover (k, near);
+  bt__triangle t
+      = bt__mesh_triangle (bt__line_scene (k, near)->object[near->object].shape.mesh, near->slot);
+  bt__link link = bt__line_link (k->x, j);
+  double nearest = near->w.distance + NEAREST * k->config->radius;
+  int over = 0, is_nearest = 0;
+  if (m)
+    link = (bt__link){ bt__to_local (&m->motion.from, link.a),
+                       bt__to_local (&m->motion.from, link.b) };
+  for (int e = 0; e < 2; e++)
+    {
+      bt_vec3 at = e ? link.b : link.a;
+      bt__witness w = { 0 };
+      if (!is_over (&t, at, &w.distance, &w.normal))
+        continue;
+      over++;
+      is_nearest |= w.distance <= nearest;
+      w.point = bt__axpy (at, -w.distance, w.normal);
+      if (w.distance >= k->config->radius + k->margin || k->rows >= k->w->rows_max)
+        continue;
+      set_row (k, k->rows, j, e, near, &w, w.distance);
+      take_row (k, 1);
+    }
+  if (over < 2 && !is_nearest)
+    {
+      pass p = pass_of (k, j, near);
+      touch_between (k, j, &p, 0);
+    }
+}
+
+static void
+touch_part (bt__line_job *k, uint32_t j, const bt__near *near)
+{
+  if (near->slot != BT__NO_TRIANGLE)
+    {
+      touch_facet (k, j, near);
+      return;
+    }
+  pass p = pass_of (k, j, near);
+  double length = bt__distance (p.from.a, p.from.b);
+  pass_end end[2] = { pass_end_of (k, &p, 0, length), pass_end_of (k, &p, 1, length) };
+  double nearest = near->w.distance + NEAREST * k->config->radius, raise = 0;
+  int both = end[0].round && end[1].round;
+  if (both)
+    {
+      double about = end[0].lever > end[1].lever ? end[0].radius : end[1].radius;
+      double half = length / 2;
+      raise = half * half / (about + sqrt (about * about + half * half));
+    }
+  int is_nearest[2] = { end[0].from.distance <= nearest, end[1].from.distance <= nearest };
+  for (int e = 0; e < 2; e++)
+    if (both || is_nearest[e])
+      touch_end (k, j, e, &p, end + e, raise);
+  if (!both && !is_nearest[0] && !is_nearest[1])
+    touch_between (k, j, &p, fmin (end[0].radius, end[1].radius));
+}
+
+/* Nonzero if one of the rows from FIRST on, at node I, says what R says.  */
+static int
+is_borne (const bt__line_job *k, const bt__dynamic_row *r, int first, double i)
+{
+  for (int q = first; q < k->rows; q++)
+    {
+      const bt__dynamic_row *o = k->w->row + q;
+      if (k->w->of[q].flat == 1 && place_of (o) == i && bt__dot (o->normal, r->normal) > COPLANAR)
+        return 1;
+    }
+  return 0;
+}
+
+/* A link that lies along a plane, whose nodes both bear on it, needs no rows between: drop those of
+   link J, from FIRST on.  */
+static void
+drop_between (bt__line_job *k, uint32_t j, int first, int before)
+{
+  int n = first;
+  for (int q = first; q < k->rows; q++)
+    {
+      const bt__dynamic_row *r = k->w->row + q;
+      if (k->w->of[q].flat == 2 && is_borne (k, r, before, j) && is_borne (k, r, before, j + 1.0))
+        continue;
+      k->w->row[n] = *r;
+      k->w->of[n++] = k->w->of[q];
+    }
+  k->rows = n;
+}
+
+void
+bt__line_rows (bt__line_job *k)
+{
+  double touch = k->config->radius + k->margin;
+  int before = 0;
+  for (uint32_t j = 0; j < (uint32_t)k->links; j++)
+    {
+      const bt__near *near = bt__line_near (k, j);
+      int first = k->rows;
+      for (uint32_t i = 0; i < k->w->watch[j].found; i++)
+        if (near[i].w.distance < touch)
+          touch_part (k, j, near + i);
+      if (k->rows > first)
+        drop_between (k, j, first, before);
+      before = first;
+    }
+}
+
+/* ---- Hits ---- */
+
+/* The row that the hit of link J with NEAR at S, normal N, replaces, or the next.  */
+static int
+row_for_hit (const bt__line_job *k, uint32_t j, const bt__near *near, double s, bt_vec3 n)
+{
+  for (int i = 0; i < k->rows; i++)
+    {
+      const bt__dynamic_row *r = k->w->row + i;
+      const bt__line_row *of = k->w->of + i;
+      if (of->link == j && of->mover == near->link && of->object == near->object
+          && of->slot == near->slot && fabs (r->s - s) < SAME_HIT
+          && bt__dot (r->normal, n) > ALIKE_HIT)
+        return i;
+    }
+  return k->rows;
+}
+
+int
+bt__line_add_hit (bt__line_job *k, uint32_t j, const bt__near *near, const bt__witness *w, double t)
+{
+  const bt__mover *m = bt__line_mover (k, near);
+  bt_vec3 n = w->normal;
+  if (m)
+    {
+      bt__frame to = bt__motion_at (&m->motion, 1);
+      n = bt__out_of (&to, n);
+    }
+  int at = row_for_hit (k, j, near, w->s, n);
+  if (at >= k->w->rows_max)
+    return -1;
+  set_row (k, at, j, w->s, near, w, near->w.distance);
+  bt__dynamic_row *r = k->w->row + at;
+  bt_vec3 a = bt__sub (k->X[j], k->x[j]), b = bt__sub (k->X[j + 1], k->x[j + 1]);
+  bt_vec3 moved = bt__sub (bt__axpy (bt__scale (1 - r->s, a), r->s, b), r->drift);
+  r->stick = bt__scale (-t, bt__axpy (moved, -bt__dot (moved, r->normal), r->normal));
+  k->rows += at == k->rows;
+  return at;
+}

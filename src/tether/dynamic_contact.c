@@ -1,0 +1,253 @@
+/* The moving line: contacts as rows of its equations.
+
+   The quick way treats a row as it treats an interval: its multiplier, the linearised load, decides
+   with the gap whether it bears.  Friction takes the load of the iterate before, so that its block
+   is symmetric.  The safe way takes load and activity from the gap, and friction from the load of
+   the iterate before.
+
+   A held end is stuck to its place by a spring while its multiplier is less than the most it may
+   pull with, else it is pulled by that and has mass: without, a slack line would fly.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "tether/dynamic_kernel.h"
+
+#define ACTIVITY 0.02 /* of the stiffness: what a gap takes from a multiplier */
+#define HOLDING 0.05  /* the same of a held end */
+
+/* ---- Rows ---- */
+
+static bt_vec3
+place_of (const bt__dynamic_row *r, const bt_vec3 *X)
+{
+  const bt_vec3 *p = X + r->node;
+  return bt__axpy (bt__scale (1 - r->s, p[0]), r->s, p[1]);
+}
+
+static double
+gap_of (const bt__dynamic_row *r, const bt_vec3 *X)
+{
+  return bt__dot (r->normal, place_of (r, X)) - r->offset;
+}
+
+static bt_vec3
+tangential (const bt__dynamic_row *r, bt_vec3 v)
+{
+  return bt__axpy (v, -bt__dot (r->normal, v), r->normal);
+}
+
+static bt_vec3
+drag_of (const bt__dynamic_work *w, const bt__dynamic_row *r)
+{
+  bt_vec3 moved = bt__sub (place_of (r, w->X), place_of (r, w->x));
+  return tangential (r, bt__add (r->stick, bt__sub (moved, r->drift)));
+}
+
+/* How far the next node has risen against the node of R, m.  */
+static double
+tilt_of (const bt__dynamic_work *w, const bt__dynamic_row *r)
+{
+  return bt__dot (r->normal, bt__sub (w->X[r->node + 1], w->X[r->node])) - r->tilt;
+}
+
+/* Add what the load does by having wandered along the link, to its ends at most.  */
+static void
+add_roll (bt__dynamic_work *w, bt__dynamic_row *r)
+{
+  double load = r->load > 0 ? r->load : 0, shift = -r->roll * tilt_of (w, r), k = load * r->roll;
+  if (shift < -r->s || shift > 1 - r->s)
+    {
+      shift = shift < 0 ? -r->s : 1 - r->s;
+      k = 0;
+    }
+  bt__sym *p = w->diag + r->node;
+  bt__sym_add (p, 0, k, r->normal);
+  bt__sym_add (p + 1, 0, k, r->normal);
+  bt__sym_add (w->off + r->node, 0, k, r->normal);
+  w->rhs[r->node] = bt__axpy (w->rhs[r->node], -load * shift, r->normal);
+  w->rhs[r->node + 1] = bt__axpy (w->rhs[r->node + 1], load * shift, r->normal);
+}
+
+/* A block kn n n^T + ks (1 - n n^T) - kd d d^T with weights at two nodes, and the force.  */
+static void
+add_row (bt__dynamic_work *w, const bt__dynamic_row *r, double kn, double ks, double kd, bt_vec3 d)
+{
+  bt_vec3 n = r->normal;
+  double a = 1 - r->s, b = r->s;
+  bt__sym *p = w->diag + r->node, *q = p + 1, *o = w->off + r->node;
+  bt__sym k = { 0 };
+  bt__sym_add (&k, ks, kn - ks, n);
+  bt__sym_add (&k, 0, -kd, d);
+  bt__sym *to[3] = { p, q, o };
+  const double weight[3] = { a * a, b * b, -a * b };
+  for (int i = 0; i < 3; i++)
+    {
+      to[i]->xx += weight[i] * k.xx;
+      to[i]->xy += weight[i] * k.xy;
+      to[i]->xz += weight[i] * k.xz;
+      to[i]->yy += weight[i] * k.yy;
+      to[i]->yz += weight[i] * k.yz;
+      to[i]->zz += weight[i] * k.zz;
+    }
+  w->rhs[r->node] = bt__axpy (w->rhs[r->node], a, r->force);
+  w->rhs[r->node + 1] = bt__axpy (w->rhs[r->node + 1], b, r->force);
+}
+
+static int
+assemble_row (bt__dynamic_work *w, bt__dynamic_row *r, bt__mode mode)
+{
+  double gap = gap_of (r, w->X), urge = -ACTIVITY * r->stiffness * gap;
+  urge = mode == BT__SAFE ? -gap : r->load + urge;
+  double active = urge > 0, was = r->active;
+  double kn = active * r->stiffness, most = r->load > 0 ? r->friction * r->load : 0;
+  r->active = active;
+  r->drag = drag_of (w, r);
+  double size = bt__norm (r->drag), ks = most / fmax (size, r->slip);
+  int slides = size > r->slip;
+  bt_vec3 d = slides ? bt__scale (1 / size, r->drag) : bt__vec (0, 0, 0);
+  r->force = bt__axpy (bt__scale (-kn * gap, r->normal), -ks, r->drag);
+  add_row (w, r, kn, ks, slides ? ks : 0, d);
+  if (r->roll > 0)
+    add_roll (w, r);
+  return active != was && fabs (gap) > w->tolerance;
+}
+
+/* ---- Held ends ---- */
+
+static int
+end_node (const bt__dynamic_work *w, int k)
+{
+  return k ? w->n : 0;
+}
+
+static void
+assemble_hold (bt__dynamic_work *w, int k, bt__mode mode)
+{
+  bt__dynamic_hold *h = w->hold + k;
+  int i = end_node (w, k);
+  bt_vec3 away = bt__sub (h->at, w->X[i]), spring = bt__scale (h->stiffness, away), f = spring;
+  double c = h->stiffness, turn = 0;
+  bt_vec3 urge = spring, along = { 0, 0, 0 };
+  if (mode != BT__SAFE)
+    urge = bt__axpy (h->force, HOLDING, spring);
+  double size = bt__norm (urge);
+  h->slips = size > h->most;
+  if (h->slips)
+    {
+      along = bt__scale (1 / size, urge);
+      f = bt__scale (h->most, along);
+      c = (mode == BT__SAFE ? 1 : HOLDING) * h->stiffness * h->most / size;
+      turn = mode == BT__SAFE ? 0 : -c; /* the safe way would run off along the pull */
+    }
+  h->force = f;
+  w->rhs[i] = bt__add (w->rhs[i], f);
+  bt__sym_add (w->diag + i, c, turn, along);
+  if (h->slips || mode == BT__SAFE)
+    {
+      bt_vec3 a = bt__node_a (w, i, bt__node_v (w, i));
+      w->rhs[i] = bt__axpy (w->rhs[i], -h->mass, a);
+      bt__sym_add (w->diag + i, w->b0 * w->b0 * h->mass, 0, a);
+    }
+}
+
+/* An end that is pulled by a force runs past its place when nothing holds it back: then it gets
+   there with less.  */
+int
+bt__dynamic_hold_arrives (bt__dynamic_work *w)
+{
+  int any = 0;
+  for (int k = 0; w->hold && k < 2; k++)
+    {
+      bt__dynamic_hold *h = w->hold + k;
+      int i = end_node (w, k);
+      if (!h->on || !h->slips)
+        continue;
+      bt_vec3 away = bt__sub (h->at, w->X[i]);
+      if (!(bt__dot (w->d[i], away) > bt__dot (away, away)))
+        continue;
+      h->force = bt__vec (0, 0, 0);
+      w->X[i] = h->at;
+      any = 1;
+    }
+  return any;
+}
+
+/* ---- All ---- */
+
+int
+bt__dynamic_contact_assemble (bt__dynamic_work *w, bt__mode mode)
+{
+  int changed = 0;
+  for (int k = 0; k < w->rows; k++)
+    changed |= assemble_row (w, w->row + k, mode);
+  for (int k = 0; w->hold && k < 2; k++)
+    if (w->hold[k].on)
+      assemble_hold (w, k, mode);
+  return changed;
+}
+
+void
+bt__dynamic_contact_take (bt__dynamic_work *w)
+{
+  for (int k = 0; k < w->rows; k++)
+    {
+      bt__dynamic_row *r = w->row + k;
+      r->load = r->active > 0 ? fmax (-r->stiffness * gap_of (r, w->X), 0) : 0;
+    }
+  for (int k = 0; w->hold && k < 2; k++)
+    {
+      bt__dynamic_hold *h = w->hold + k;
+      if (h->on && !h->slips)
+        h->force = bt__scale (h->stiffness, bt__sub (h->at, w->X[end_node (w, k)]));
+    }
+}
+
+void
+bt__dynamic_contact_load (bt__dynamic_work *w, int none)
+{
+  for (int k = 0; k < w->rows; k++)
+    {
+      bt__dynamic_row *r = w->row + k;
+      r->load = none ? 0 : r->stiffness * fmax (-gap_of (r, w->X), 0);
+    }
+}
+
+static double
+roll_potential (const bt__dynamic_work *w, const bt__dynamic_row *r)
+{
+  double tilt = tilt_of (w, r), most = tilt > 0 ? r->s : 1 - r->s, shift = r->roll * fabs (tilt);
+  return shift < most ? 0.5 * shift * fabs (tilt) : most * (fabs (tilt) - 0.5 * most / r->roll);
+}
+
+static double
+row_potential (const bt__dynamic_work *w, const bt__dynamic_row *r)
+{
+  double depth = fmax (-gap_of (r, w->X), 0), most = r->friction * r->load;
+  double size = bt__norm (drag_of (w, r));
+  double drag = size < r->slip ? 0.5 * size * size / r->slip : size - 0.5 * r->slip;
+  double roll = r->roll > 0 ? r->load * roll_potential (w, r) : 0;
+  return 0.5 * r->stiffness * depth * depth + most * drag + roll;
+}
+
+static double
+hold_potential (const bt__dynamic_work *w, int k)
+{
+  const bt__dynamic_hold *h = w->hold + k;
+  int i = end_node (w, k);
+  bt_vec3 a = bt__node_a (w, i, bt__node_v (w, i));
+  double away = bt__distance (h->at, w->X[i]), yield = h->most / h->stiffness;
+  double pull = away < yield ? 0.5 * h->stiffness * away * away : h->most * (away - 0.5 * yield);
+  return pull + 0.5 * h->mass * bt__dot (a, a) / (w->b0 * w->b0);
+}
+
+double
+bt__dynamic_contact_potential (const bt__dynamic_work *w)
+{
+  double sum = 0;
+  for (int k = 0; k < w->rows; k++)
+    sum += row_potential (w, w->row + k);
+  for (int k = 0; w->hold && k < 2; k++)
+    if (w->hold[k].on)
+      sum += hold_potential (w, k);
+  return sum;
+}

@@ -1,0 +1,83 @@
+/* The moving line: half-spaces it may not enter, and ends that are pulled by so much at most.
+
+   A step in parts, for a caller who knows obstacles: begin, iterate with rows as often as need be,
+   alter the places, finish.  The kernel knows nothing of where rows come from.
+
+   A row is of a step: its half-space stays.  But on a round obstacle the place it pushes wanders
+   along the link as the link tilts, by ROLL; without that a chain of links shorter than the radius
+   is pushed in the wrong places, each step to the other side.
+
+   A row pushes the place between two nodes out of a half-space with STIFFNESS times the depth, and
+   drags it back to where it stuck.  Friction grows with the distance dragged, up to the load times
+   the coefficient where that is SLIP metres: the distance is fixed, not the stiffness, so that
+   heavy contacts are no harder to solve than light ones.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_TETHER_DYNAMIC_CONTACT_H
+#define BT_TETHER_DYNAMIC_CONTACT_H
+
+#include "tether/dynamic.h"
+
+typedef struct bt__dynamic_row
+{
+  int64_t node;     /* the place is at (1 - S) of NODE and S of the next, 0 <= S <= 1; ... */
+  double s;         /* ... NODE is not the last */
+  bt_vec3 normal;   /* unit, out of the half-space, at the end of the step */
+  double offset;    /* m: the place must have normal . place >= offset */
+  double roll;      /* 1/m: what S loses when the next node rises by a metre against NODE, ... */
+  double tilt;      /* m: ... from where it is so much higher along NORMAL */
+  double stiffness; /* N/m */
+  double friction;  /* Coulomb's coefficient */
+  double slip;      /* m of drag from where friction is whole */
+  bt_vec3 stick;    /* m: the drag at the start of the step */
+  bt_vec3 drift;    /* m: motion of the obstacle there in the step */
+  double load;      /* N: in a guess, out the solution */
+  double active;    /* out: 1 if it bears, 0 if not; any value in */
+  bt_vec3 drag;     /* out, m: the drag at the end, not yet shortened to SLIP */
+  bt_vec3 force;    /* out, N on the line */
+} bt__dynamic_row;
+
+/* An end that is taken to its place by MOST newtons at the most; the end must be free in the input.
+   What cannot be taken along goes on as a body of MASS pulled by MOST.  */
+typedef struct bt__dynamic_hold
+{
+  int64_t on;
+  double most;      /* N */
+  double stiffness; /* N/m below that */
+  double mass;      /* kg */
+  bt_vec3 at;       /* m */
+  bt_vec3 force;    /* N on the end: in a guess, out the solution */
+  int64_t slips;    /* out: nonzero if it is pulled by that and no more */
+} bt__dynamic_hold;
+
+/* Prepare the step of D that INPUT asks for, which must last until it is finished; the proposal is
+   the predictor.  What can fail of bt__dynamic_step fails here or in the end.  */
+bt_status bt__dynamic_begin (const bt__dynamic *d, bt__dynamic_work *work,
+                             const bt__dynamic_input *input, bt__dynamic_report *report,
+                             bt_error *error);
+
+/* The positions proposed for the end of the step; they may be altered.  */
+bt_vec3 *bt__dynamic_proposal (bt__dynamic_work *work);
+
+/* Solve with N ROWS, sorted or not, from the proposal on.  HOLD has two, for either end, or is
+   NULL. Return nonzero if it converged; the proposal may then be anything, also not finite.  */
+int bt__dynamic_iterate (bt__dynamic_work *work, bt__dynamic_row *rows, int n,
+                         bt__dynamic_hold *hold, bt__dynamic_report *report);
+
+/* Take the proposal over into D, without winding.  RESTART (a flag a node, or NULL) says which
+   nodes were held back or met something: they go on with the velocity of the move they made and no
+   memory.  BT_ERR_DIVERGED leaves D as it was.  */
+bt_status bt__dynamic_finish (bt__dynamic *d, bt__dynamic_work *work, const uint8_t *restart,
+                              bt__dynamic_report *report, bt_error *error);
+
+/* Return 1 if winding would split the first interval of D, -1 if it would join it, else 0.  */
+int bt__dynamic_winding (const bt__dynamic *d);
+
+/* Split or join the first interval of D once.  STRAIGHT: the new node lies on the chord.  */
+void bt__dynamic_wind_once (bt__dynamic *d, int way, int straight);
+
+/* Propose that every node of D stays where it is, and forget what the solver found.  */
+void bt__dynamic_stay (const bt__dynamic *d, bt__dynamic_work *work, bt__dynamic_report *report);
+
+#endif

@@ -1,0 +1,191 @@
+/* A line drawn over a drum: T2 / T1 = e^(mu theta) at every coefficient, turn and link length;
+   where it stops it stays.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "contact_law.h"
+
+#define DRUM 0.6 /* m */
+#define LEG 1.5
+#define SPEED 0.1
+
+typedef struct capstan
+{
+  reef reef;
+  rope rope;
+  double theta;
+  bt_vec3 along, at; /* the tangent of the hauled leg; its end */
+} capstan;
+
+enum
+{
+  CORNERS = 402
+};
+
+/* A line about TURNS of a drum, its links SHARE of the drum's radius, a weight on the near end.  */
+static void
+wind (capstan *c, double share, double mu, double turns)
+{
+  static bt_vec3 shape[CORNERS + 1];
+  double link = share * DRUM, rise = turns > 0.75 ? 0.15 * turns : 0;
+  double r = 1.0001 * (DRUM + 0.005) / cos (share / 2), length = 0;
+  c->theta = 2 * BT__PI * turns;
+  assert_true (reef_open (&c->reef));
+  reef_cylinder (&c->reef, bt__vec (0, -5, 0), bt__vec (0, 5, 0), DRUM);
+  assert_true (reef_raise (&c->reef));
+  shape[0] = bt__vec (-r, 0, -LEG);
+  for (int i = 1; i < CORNERS; i++)
+    {
+      double u = (i - 1) / (CORNERS - 2.0), a = BT__PI - c->theta * u;
+      shape[i] = bt__vec (r * cos (a), rise * u, r * sin (a));
+    }
+  double a = BT__PI - c->theta;
+  c->along = bt__vec (sin (a), 0, -cos (a));
+  c->at = shape[CORNERS] = bt__axpy (shape[CORNERS - 1], LEG + 0.5, c->along);
+  for (int i = 0; i < CORNERS; i++)
+    length += bt__distance (shape[i], shape[i + 1]);
+  assert_true (
+      rope_open (&c->rope, &c->reef, (int)(length / link + 0.5), shape, CORNERS + 1, length, mu));
+  c->rope.line.cdt = 0;
+  c->rope.in.end[0]
+      = (bt__dynamic_end){ .free = 1, .body = { .mass = 1, .linear = 20, .force = { 0, 0, -30 } } };
+  c->rope.config.pull[1] = INFINITY;
+}
+
+/* Haul for STEPS; return the ratio of the tensions over the second half.  */
+static double
+haul (capstan *c, int steps)
+{
+  const double *t = bt__dynamic_tension (c->rope.d);
+  double low = 0, high = 0;
+  for (int i = 0; i < steps; i++)
+    {
+      c->at = bt__axpy (c->at, SPEED * frame * fmin (1, i / 60.0), c->along);
+      c->rope.in.end[1].at = c->at;
+      assert_true (rope_step (&c->rope, frame, 0));
+      if (i >= steps / 2)
+        {
+          low += t[1];
+          high += t[c->rope.d->n - 2];
+        }
+    }
+  return high / low;
+}
+
+static void
+unwind (capstan *c)
+{
+  rope_close (&c->rope);
+  reef_close (&c->reef);
+}
+
+static void
+check (double share, double mu, double turns)
+{
+  static capstan c;
+  wind (&c, share, mu, turns);
+  double ratio = haul (&c, 400), wanted = exp (mu * c.theta);
+  print_message ("# link %.2f R, mu %.1f, %.2f turns: %.4f, exactly %.4f, %.2f solves a step\n",
+                 share, mu, turns, ratio, wanted, (double)c.rope.solves / (double)c.rope.steps);
+  assert_near (ratio / wanted, 1, 0.01, "the ratio of tensions");
+  assert_int_equal (c.rope.truncated, 0);
+  unwind (&c);
+}
+
+static void
+half_a_turn (void **state)
+{
+  (void)state;
+  const double share[] = { 0.05, 0.1, 0.2, 0.3, 0.4 }, mu[] = { 0.1, 0.3, 0.6 };
+  for (int i = 0; i < 5; i++)
+    for (int k = 0; k < 3; k++)
+      check (share[i], mu[k], 0.5);
+}
+
+static void
+a_turn (void **state)
+{
+  (void)state;
+  const double share[] = { 0.1, 0.2, 0.4 };
+  for (int i = 0; i < 3; i++)
+    {
+      check (share[i], 0.1, 1);
+      check (share[i], 0.3, 1);
+    }
+  check (0.2, 0.6, 1);
+  check (0.4, 0.6, 1);
+}
+
+/* Without friction the contacts take nothing: no drag from half-spaces that lag behind.  */
+static void
+no_friction (void **state)
+{
+  (void)state;
+  const double share[] = { 0.05, 0.2, 0.4 };
+  for (int i = 0; i < 3; i++)
+    {
+      static capstan c;
+      wind (&c, share[i], 0, 0.5);
+      assert_near (haul (&c, 300), 1, 5e-4, "the ratio of tensions");
+      unwind (&c);
+    }
+}
+
+/* The links in turn are not felt: no ripple as nodes come and go.  */
+static void
+no_ripple (void **state)
+{
+  (void)state;
+  static capstan c;
+  wind (&c, 0.3, 0.3, 0.5);
+  haul (&c, 300);
+  const double *t = bt__dynamic_tension (c.rope.d);
+  double least = INFINITY, most = 0;
+  for (int i = 0; i < 200; i++)
+    {
+      c.at = bt__axpy (c.at, SPEED * frame, c.along);
+      c.rope.in.end[1].at = c.at;
+      assert_true (rope_step (&c.rope, frame, 0));
+      least = fmin (least, t[c.rope.d->n - 2]);
+      most = fmax (most, t[c.rope.d->n - 2]);
+    }
+  print_message ("# tension from %.2f to %.2f N\n", least, most);
+  assert_below (most / least, 1.05, "the ripple");
+  unwind (&c);
+}
+
+static void
+sticks (void **state)
+{
+  (void)state;
+  static capstan c;
+  static bt_vec3 before[1000];
+  wind (&c, 0.3, 0.3, 0.5);
+  haul (&c, 300);
+  int n = (int)c.rope.d->n;
+  const bt_vec3 *x = bt__dynamic_x (c.rope.d);
+  for (int i = 0; i < 1200; i++) /* until the legs no longer swing */
+    assert_true (rope_step (&c.rope, frame, 0));
+  for (int i = 0; i <= n; i++)
+    before[i] = x[i];
+  double held = bt__dynamic_tension (c.rope.d)[n - 2];
+  for (int i = 0; i < 3600; i++)
+    assert_true (rope_step (&c.rope, frame, 0));
+  double creep = 0;
+  for (int i = 0; i <= n; i++)
+    creep = fmax (creep, bt__distance (before[i], x[i]));
+  print_message ("# 60 s at %.1f N over 30 N: %.3g m, %.3g m/s\n", held, creep, c.rope.touch.speed);
+  assert_below (creep, 5e-5, "the creep");
+  assert_true (held > 45); /* friction holds what the weight does not */
+  assert_true (c.rope.touch.touches > 5);
+  unwind (&c);
+}
+
+int
+main (void)
+{
+  const struct CMUnitTest tests[]
+      = { cmocka_unit_test (half_a_turn), cmocka_unit_test (a_turn), cmocka_unit_test (no_friction),
+          cmocka_unit_test (no_ripple), cmocka_unit_test (sticks) };
+  return cmocka_run_group_tests (tests, NULL, NULL);
+}

@@ -1,0 +1,239 @@
+/* What a line does on what it touches: comes to rest on a bottom and over a beam, is pushed by what
+   moves, loses no more energy than friction takes, and is the line alone where nothing is near.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "contact_law.h"
+
+/* ---- Rest ---- */
+
+typedef enum ground
+{
+  PLANE,
+  FLAT_MESH,
+  ROUGH_MESH,
+  BEAM
+} ground;
+
+static void
+lay (reef *r, rope *p, ground g)
+{
+  double z = g == BEAM ? -4 : -1, deep = g == BEAM ? -4 : -8;
+  const bt_vec3 shape[] = { { 0, 0, z }, { 10, 0, deep }, { 20, 0, z } };
+  dice d = dice_new (3);
+  assert_true (reef_open (r));
+  if (g == PLANE)
+    reef_plane (r, -10);
+  else if (g == BEAM)
+    reef_cylinder (r, bt__vec (10, -5, -5), bt__vec (10, 5, -5), 0.3);
+  else
+    assert_true (reef_bottom (r, &d, -10, 0.5, 80, g == ROUGH_MESH ? 0.1 : 0));
+  assert_true (reef_raise (r));
+  assert_true (rope_open (p, r, 100, shape, 3, g == BEAM ? 26 : 40, 0.3));
+  p->line.wet_weight = 0.5;
+  p->line.mass += 0.5 / 9.81;
+}
+
+static void
+rests (ground g, const char *what, double seconds)
+{
+  static reef r;
+  static rope p;
+  double slip = 0, lowest = INFINITY;
+  lay (&r, &p, g);
+  for (int i = 0; i < seconds * 60; i++)
+    {
+      assert_true (rope_step (&p, frame, 0));
+      if (i >= (seconds - 5) * 60)
+        slip = fmax (slip, p.touch.speed);
+    }
+  for (int i = 0; i <= p.d->n; i++)
+    lowest = fmin (lowest, bt__dynamic_x (p.d)[i].z);
+  print_message ("# %s: slip %.3g m/s, %d touches, %.2f solves a step\n", what, slip,
+                 p.touch.touches, (double)p.solves / (double)p.steps);
+  assert_true (p.touch.touches >= (g == BEAM ? 1 : 20));
+  assert_below (slip, 1e-4, what);
+  assert_true (g == BEAM || g == ROUGH_MESH || fabs (lowest + 10 - 0.005) < 1e-4);
+  assert_int_equal (p.truncated, 0);
+  rope_close (&p);
+  reef_close (&r);
+}
+
+static void
+comes_to_rest (void **state)
+{
+  (void)state;
+  rests (PLANE, "a plane", 60);
+  rests (FLAT_MESH, "a flat mesh", 60);
+  rests (BEAM, "a beam", 40);
+}
+
+/* ---- Movers ---- */
+
+/* A box that is driven along x into a slack line at SPEED, against a wall if WALL.  */
+static void
+drive (double speed, double turn, int wall, int *pinched, double *moved)
+{
+  static reef body, r;
+  static rope p;
+  const bt_vec3 shape[] = { { 0, -3, 0 }, { 0.5, 0, 0 }, { 0, 3, 0 } };
+  assert_true (reef_open (&body) && reef_open (&r));
+  reef_box (&body, bt__vec (0, 0, 0), bt__vec (0.4, 0.3, 0.5), 0);
+  if (wall)
+    reef_box (&r, bt__vec (1.8, 0, 0), bt__vec (0.5, 4, 4), 0);
+  assert_true (reef_raise (&body) && reef_raise (&r));
+  assert_true (rope_open (&p, &r, 40, shape, 3, 7.5, 0.3));
+  bt__mover m = { .body = body.scene, .radius = 0.75 };
+  p.around.mover = &m;
+  p.around.movers = 1;
+  bt__frame at = { { -1, 0.1, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+  *pinched = 0;
+  for (int i = 0; i < 300; i++)
+    {
+      bt_vec3 from[41], to[41];
+      int n = (int)p.d->n + 1;
+      bt__frame next = at;
+      double a = turn * frame;
+      next.origin.x += speed * frame;
+      next.x = bt__add (bt__scale (cos (a), at.x), bt__scale (sin (a), at.y));
+      next.y = bt__axpy (bt__scale (cos (a), at.y), -sin (a), at.x);
+      m.motion = bt__motion_between (&at, &next);
+      for (int k = 0; k < n; k++)
+        from[k] = bt__to_local (&at, bt__dynamic_x (p.d)[k]);
+      assert_true (rope_step (&p, frame, 1));
+      at = bt__motion_at (&m.motion, m.done);
+      *pinched += m.done < 1;
+      for (int k = 0; k < n; k++)
+        to[k] = bt__to_local (&at, bt__dynamic_x (p.d)[k]);
+      p.crossings += reef_crossings (&body, from, to, n);
+      double clear = reef_clearance (&body, to, n);
+      if (!(clear >= p.config.core))
+        fail_msg ("the box is %.9g m from the line", clear);
+    }
+  assert_kept (&p, "a mover");
+  *moved = bt__dynamic_x (p.d)[20].x;
+  rope_close (&p);
+  reef_close (&r);
+  reef_close (&body);
+}
+
+static void
+is_pushed (void **state)
+{
+  (void)state;
+  int pinched;
+  double moved;
+  drive (0.4, 0, 0, &pinched, &moved);
+  assert_int_equal (pinched, 0);
+  assert_true (moved > 1.3);
+  drive (0.4, 1, 0, &pinched, &moved);
+  drive (0.4, 0, 1, &pinched, &moved);
+  assert_true (pinched > 0);
+  drive (5, 0, 1, &pinched, &moved);
+}
+
+/* ---- Where nothing is near ---- */
+
+static void
+is_the_line_alone (void **state)
+{
+  (void)state;
+  static reef r;
+  static rope p;
+  const bt_vec3 shape[] = { { 0, 0, 0 }, { 10, 3, -4 }, { 20, 0, 0 } };
+  assert_true (reef_open (&r));
+  reef_box (&r, bt__vec (10, 0, -60), bt__vec (1, 1, 1), 0);
+  assert_true (reef_raise (&r));
+  assert_true (rope_open (&p, &r, 50, shape, 3, 25, 0.3));
+  bt__dynamic *d = calloc (1, bt__dynamic_size (50));
+  bt__dynamic_work *work = bt__dynamic_work_new (50);
+  assert_true (d && work);
+  memcpy (d, p.d, bt__dynamic_size (50));
+  for (int i = 0; i < 600; i++)
+    {
+      bt__dynamic_report report;
+      p.in.end[1].at = bt__vec (20 + sin (0.02 * i), cos (0.03 * i), 0.01 * i);
+      p.in.pay = 0.3 * sin (0.01 * i);
+      assert_true (rope_step (&p, frame, 0));
+      assert_int_equal (bt__dynamic_step (d, work, &p.in, &report, NULL), BT_OK);
+    }
+  assert_memory_equal (d, p.d, bt__dynamic_size (50));
+  free (d);
+  bt__dynamic_work_free (work);
+  rope_close (&p);
+  reef_close (&r);
+}
+
+/* What the workspace remembers changes no result: a step with a new one is the same to the last
+   bit.  */
+static void
+remembers_nothing (void **state)
+{
+  (void)state;
+  static reef r;
+  static rope p, q;
+  const bt_vec3 shape[] = { { 0, 0, -1 }, { 10, 0, -8 }, { 20, 0, -1 } };
+  assert_true (reef_open (&r));
+  reef_plane (&r, -10);
+  reef_cylinder (&r, bt__vec (10, -5, -5), bt__vec (10, 5, -5), 0.3);
+  assert_true (reef_raise (&r));
+  assert_true (rope_open (&p, &r, 60, shape, 3, 30, 0.3));
+  assert_true (rope_open (&q, &r, 60, shape, 3, 30, 0.3));
+  for (int i = 0; i < 400; i++)
+    {
+      bt__line_work_forget (q.contact);
+      p.in.end[1].at = q.in.end[1].at = bt__vec (20 - 0.01 * i, 0.01 * i, -1);
+      p.line.wet_weight = q.line.wet_weight = 0.5;
+      p.in.pay = q.in.pay = 0.2 * sin (0.02 * i);
+      assert_true (rope_step (&p, frame, 0) && rope_step (&q, frame, 0));
+    }
+  assert_true (p.anchors->n > 0);
+  assert_memory_equal (p.d, q.d, bt__dynamic_size (60));
+  assert_int_equal (p.anchors->n, q.anchors->n);
+  assert_memory_equal (bt__anchors_at (p.anchors), bt__anchors_at (q.anchors),
+                       (size_t)p.anchors->n * sizeof (bt__anchor));
+  rope_close (&p);
+  rope_close (&q);
+  reef_close (&r);
+}
+
+/* ---- What is told ---- */
+
+static void
+tells_touches (void **state)
+{
+  (void)state;
+  static reef r;
+  static rope p;
+  bt__touch touch[100];
+  lay (&r, &p, PLANE);
+  for (int i = 0; i < 3600; i++)
+    assert_true (rope_step (&p, frame, 0));
+  int n = bt__line_touches (p.d, p.anchors, touch, 100);
+  assert_int_equal (n, p.touch.touches);
+  double sum = 0;
+  for (int i = 0; i < n; i++)
+    {
+      sum += touch[i].force.z;
+      assert_int_equal (touch[i].object, 0);
+      assert_near (touch[i].normal.z, 1, 1e-12, "the normal");
+      assert_true (touch[i].s > 0 && touch[i].s < 40.1 && (i == 0 || touch[i].s > touch[i - 1].s));
+    }
+  double weight = 0.5 * 40 - bt__dot (p.d->pull[0], bt__vec (0, 0, -1))
+                  - bt__dot (p.d->pull[1], bt__vec (0, 0, -1));
+  assert_near (sum, weight, 0.02 * weight, "what the bottom bears");
+  rope_close (&p);
+  reef_close (&r);
+}
+
+int
+main (void)
+{
+  const struct CMUnitTest tests[]
+      = { cmocka_unit_test (comes_to_rest), cmocka_unit_test (is_pushed),
+          cmocka_unit_test (is_the_line_alone), cmocka_unit_test (remembers_nothing),
+          cmocka_unit_test (tells_touches) };
+  return cmocka_run_group_tests (tests, NULL, NULL);
+}
