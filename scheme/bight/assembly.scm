@@ -1,107 +1,34 @@
-;;; (bight assembly) --- parts and worlds as records, and how parts become a world.
+;;; (bight assembly) --- how parts become a world.
 ;;;
-;;; A world is an immutable list of parts whose fields were checked one by one against the schema
-;;; (bight clause) and whose parts are checked against each other here: one sea, unique names, ends that
-;;; are there, nothing missing.  The forms a person writes are in (bight world).
+;;; A world (bight part) is an immutable list of parts whose fields were checked one by one against the
+;;; schema (bight clause) and whose parts are checked against each other here: one sea, unique names, ends
+;;; that are there, nothing missing.  The forms a person writes are in (bight world).
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight assembly)
+  #:use-module (bight allowance)
   #:use-module (bight clause)
   #:use-module (bight errors)
-  #:use-module ((bight record) #:select (document))
+  #:use-module (bight group)
+  #:use-module (bight part)
   #:use-module (bight schema)
   #:use-module (bight types)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
-  #:export (is-part? part-head-of part-name-of part-fields-of
-            is-world? world-name-of world-documentation-of world-parts-of world-file-of
-            all-fields
-            find-part
-            unknown-part
-            data->part
+  #:export (data->part
             splice-parts
             build-world
             extend-world
             reduce-world
             change-world
-            malformed))
-
-
-;;; Records.
-
-(define <part>
-  (make-record-type 'part '(head name fields) (lambda (part port) (print-part part port))))
-
-(define make-part (record-constructor <part>))
-(define part-head-of (record-accessor <part> 'head))
-(define part-name-of (record-accessor <part> 'name))
-(define part-fields-of (record-accessor <part> 'fields))
-(define is-part? (record-predicate <part>))
-
-(define <world>
-  (make-record-type 'world '(name documentation parts file)
-                    (lambda (world port) (print-world world port))))
-
-(define make-world (record-constructor <world>))
-(define is-world? (record-predicate <world>))
-(define world-name-of (record-accessor <world> 'name))
-(define world-documentation-of (record-accessor <world> 'documentation))
-(define world-parts-of (record-accessor <world> 'parts))
-(define world-file-of (record-accessor <world> 'file))
-
-(document
- (is-part? "Return true if OBJECT is a part.")
- (part-head-of "Return the head of PART, a symbol.")
- (part-name-of "Return the name of PART, a symbol, or #f.")
- (part-fields-of "Return the alist of fields PART itself gives, canonical, and what is inside it.")
- (is-world? "Return true if OBJECT is a world.")
- (world-name-of "Return the name of WORLD, a symbol, or #f.")
- (world-documentation-of "Return the sentence of WORLD, or #f.")
- (world-parts-of "Return the parts of WORLD, the sea first.")
- (world-file-of "Return the name of the file WORLD was written in, or #f."))
-
-(define (print-part part port)
-  (simple-format port "#<~a~a>" (part-head-of part)
-                 (if (part-name-of part) (string-append " " (symbol->string (part-name-of part))) "")))
-
-(define (plural n head)
-  (simple-format #f "~a ~a~a" n head (if (= n 1) "" "s")))
-
-(define (inventory world)
-  ;; "1 rov, 2 tethers"
-  (let ((counts (filter-map
-                 (lambda (head)
-                   (let ((n (count (lambda (part) (eq? head (part-head-of part))) (world-parts-of world))))
-                     (and (> n 0) (not (eq? head 'sea)) (plural n head))))
-                 (part-heads))))
-    (if (null? counts) "open water" (string-join counts ", "))))
-
-(define (print-world world port)
-  (simple-format port "#<world~a: ~a>"
-                 (if (world-name-of world)
-                     (string-append " " (symbol->string (world-name-of world)))
-                     "")
-                 (inventory world)))
-
-(define (all-fields part)
-  "Return the alist of fields of PART, its own before those of its type."
-  (let* ((own (part-fields-of part))
-         (type (assq-ref own 'type)))
-    (alist-delete 'type (merge-fields own (if type (part-type-fields type) '())) eq?)))
-
-(define (find-part parts name)
-  "Return the one of PARTS called NAME, or #f."
-  (find (lambda (part) (eq? name (part-name-of part))) parts))
-
-(define (unknown-part proc w name)
-  "Raise a &bight-error of kind name from PROC: the world W has no part NAME."
-  (unknown-name proc (world-title w) name (map part-name-of (world-parts-of w)) "part"))
-
-(define (world-title w)
-  (if (world-name-of w)
-      (string-append "world " (symbol->string (world-name-of w)))
-      "this world"))
+            malformed)
+  #:re-export (is-part? part-head-of part-name-of part-fields-of
+               is-world? world-name-of world-documentation-of world-parts-of world-file-of
+               all-fields
+               find-part
+               group-members
+               unknown-part))
 
 
 ;;; From data to parts.
@@ -123,8 +50,33 @@ no such thing or a field is wrong."
     (misplaced 'world (car datum)))
   (unless (part-head? (car datum))
     (unknown-name 'world "a world" (car datum) (part-heads) "part"))
-  (let ((fields (read-fields 'world (car datum) (cdr datum))))
-    (make-part (car datum) (assq-ref fields 'named) (alist-delete 'named fields eq?))))
+  (if (eq? 'group (car datum))
+      (data->group (cdr datum))
+      (part-of (car datum) (read-fields 'world (car datum) (cdr datum)))))
+
+(define (part-of head fields)
+  (make-part head (assq-ref fields 'named) (alist-delete 'named fields eq?)))
+
+(define (data->group items)
+  ;; Clauses of the group itself, parts, lists of parts, and data of parts.
+  (define (headed? item test)
+    (and (pair? item) (symbol? (car item)) (test (car item))))
+  (define (clause? item)
+    (headed? item (lambda (head) (head-field 'group head))))
+  (define (member-parts item)
+    (cond ((headed? item part-head?) (list (data->part item)))
+          ((headed? item inner-head?) (misplaced 'world (car item)))
+          ((headed? item (const #t))
+           (unknown-name 'world "a group" (car item) (append (head-names 'group) (part-heads))))
+          (else (splice-parts item))))
+  (let* ((fields (read-fields 'world 'group (filter clause? items)))
+         (members (append-map member-parts (remove clause? items)))
+         (odd (find (lambda (part) (memq (part-head-of part) '(sea seabed))) members)))
+    (when odd
+      (bight-raise 'def 'world "a group holds no ~a: that is the world's own" (part-head-of odd)))
+    (when (null? members)
+      (bight-raise 'def 'world "a group has one part or more, as in (group (named tower) (box ...))"))
+    (part-of 'group (append fields (list (cons 'parts members))))))
 
 (define deepest-splice 20)
 
@@ -138,13 +90,47 @@ no such thing or a field is wrong."
 
 ;;; Putting parts together.
 
+(define (numbered head n)
+  (if (= n 1) head (symbol-append head '- (string->symbol (number->string n)))))
+
 (define (default-names parts)
-  ;; Every part with a name: an unnamed one is called by its head.
-  (map (lambda (part)
-         (if (part-name-of part)
-             part
-             (make-part (part-head-of part) (part-head-of part) (part-fields-of part))))
-       parts))
+  ;; Every part with a name: an unnamed one is called by its head; obstacles and groups, of which there
+  ;; may be many, box, box-2, ...
+  (let ((taken (make-hash-table)) (last (make-hash-table)))
+    (define (next-name head)
+      (let loop ((n (+ 1 (hashq-ref last head 0))))
+        (let ((name (numbered head n)))
+          (if (hashq-ref taken name)
+              (loop (+ n 1))
+              (begin (hashq-set! last head n) name)))))
+    (for-each (lambda (part)
+                (when (part-name-of part) (hashq-set! taken (part-name-of part) #t)))
+              parts)
+    (map (lambda (part)
+           (let ((head (part-head-of part)))
+             (cond ((part-name-of part) part)
+                   ((or (eq? head 'group) (obstacle-head? head))
+                    (make-part head (next-name head) (part-fields-of part)))
+                   (else (make-part head head (part-fields-of part))))))
+         parts)))
+
+(define (ungroup part)
+  ;; The parts that PART, which has a name, stands for in a world: itself, or those of a group.
+  (if (eq? 'group (part-head-of part))
+      (let* ((fields (part-fields-of part))
+             (members (append-map ungroup (default-names (assq-ref fields 'parts))))
+             (names (map part-name-of members)))
+        (map (lambda (member) (placed-member part member names)) members))
+      (list part)))
+
+(define (placed-member group member names)
+  (let ((fields (part-fields-of group)) (name (part-name-of group)))
+    (make-part (part-head-of member)
+               (member-name name (part-name-of member))
+               (place-fields (part-head-of member) (part-fields-of member) name
+                             (or (assq-ref fields 'at) (f64vector 0 0 0))
+                             (or (assq-ref fields 'heading) 0.)
+                             names))))
 
 (define (with-sea parts)
   ;; The sea first, with the defaults if there is none.
@@ -157,20 +143,22 @@ no such thing or a field is wrong."
       (else (bight-raise 'def 'world "a world has one sea, not ~a" (length seas))))))
 
 (define (refuse-twins parts)
-  (let loop ((rest parts))
-    (unless (null? rest)
-      (let* ((part (car rest)) (name (part-name-of part)))
-        (when (find-part (cdr rest) name)
-          (bight-raise 'def 'world
-                       "two parts are called `~a'; names are unique: write (named ...) in each ~a"
-                       name (part-head-of part))))
-      (loop (cdr rest)))))
+  (let ((seen (make-hash-table)))
+    (for-each (lambda (part)
+                (let* ((name (part-name-of part)) (other (hashq-ref seen name)))
+                  (when other
+                    (bight-raise 'def 'world
+                                 "two parts are called `~a'; names are unique: write (named ...) in each ~a"
+                                 name (part-head-of other)))
+                  (hashq-set! seen name part)))
+              parts)))
 
-(define (end-heads field)
-  ;; What may be named as an end.
-  (if (eq? field 'to)
-      '(rov)
-      (remove (lambda (head) (memq head '(sea tether))) (part-heads))))
+(define (refuse-second-seabed parts)
+  (let ((n (count (lambda (part) (eq? 'seabed (part-head-of part))) parts)))
+    (when (> n 1)
+      (bight-raise 'def 'world "a world has one seabed, not ~a" n))))
+
+(define end-heads '(rov))               ; what may be named as an end
 
 (define (named-end part field name parts)
   (let ((other (find-part parts name)))
@@ -179,12 +167,15 @@ no such thing or a field is wrong."
                          (simple-format #f "the end `~a' of ~a: this world" field (part-name-of part))
                          name
                          (map part-name-of
-                              (filter (lambda (p) (memq (part-head-of p) (end-heads field))) parts))
+                              (filter (lambda (p) (memq (part-head-of p) end-heads)) parts))
                          "part"))
-          ((memq (part-head-of other) (end-heads field)) name)
+          ((memq (part-head-of other) end-heads) name)
           (else
-           (bight-raise 'def 'world "the end `~a' of ~a is ~a, not ~a: ~a" field (part-name-of part)
-                        "a point, or the name of an rov" (head-title (part-head-of other)) name)))))
+           (bight-raise 'def 'world "the end `~a' of ~a is a point, or the name of an rov, not ~a: ~a~a"
+                        field (part-name-of part) (head-title (part-head-of other)) name
+                        (if (obstacle-head? (part-head-of other))
+                            "; of an obstacle, give the point where it is fastened"
+                            ""))))))
 
 (define (resolved-end part field value parts)
   (cond ((f64vector? value) value)
@@ -232,7 +223,8 @@ no such thing or a field is wrong."
 
 (define (assemble parts)
   ;; PARTS, checked against each other, ready for a world.
-  (let ((parts (default-names (with-sea parts))))
+  (let ((parts (append-map ungroup (default-names (with-sea parts)))))
+    (refuse-second-seabed parts)
     (refuse-twins parts)
     (let ((whole (map (lambda (part) (default-end (resolve-ends part parts) parts)) parts)))
       (for-each require-fields whole)
@@ -257,11 +249,17 @@ be #f.  Raise a &bight-error when the parts do not hold together."
   (rebuilt w (append (given-parts w) (splice-parts parts))))
 
 (define (reduce-world w names)
-  "Return the world W without the parts called NAMES."
+  "Return the world W without the parts called NAMES, and without all parts of groups called so."
   (for-each (lambda (name)
-              (unless (find-part (world-parts-of w) name) (unknown-part 'without w name)))
+              (unless (or (find-part (world-parts-of w) name)
+                          (pair? (group-members (world-parts-of w) name)))
+                (unknown-part 'without w name)))
             names)
-  (rebuilt w (remove (lambda (part) (memq (part-name-of part) names)) (world-parts-of w))))
+  (rebuilt w (remove (lambda (part)
+                       (any (lambda (name)
+                              (or (eq? name (part-name-of part)) (member-of? name (part-name-of part))))
+                            names))
+                     (world-parts-of w))))
 
 
 ;;; with: another value for some fields.
@@ -280,6 +278,11 @@ be #f.  Raise a &bight-error when the parts do not hold together."
                         clause))
           ((find-part (world-parts-of w) name) name)
           ((inner-head? name) (misplaced 'with name))
+          ((pair? (group-members (world-parts-of w) name))
+           => (lambda (yes)
+                (bight-raise 'def 'with "`~a' is a group; change its parts one by one: ~a" name
+                             (words->string
+                              (map part-name-of (group-members (world-parts-of w) name))))))
           (else
            (unknown-name 'with (world-title w) name
                          (append (map field-name (head-fields 'sea))

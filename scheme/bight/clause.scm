@@ -8,10 +8,12 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight clause)
+  #:use-module (bight allowance)
   #:use-module (bight argument)
   #:use-module (bight current)
   #:use-module (bight errors)
   #:use-module (bight schema)
+  #:use-module (bight shape)
   #:use-module (srfi srfi-1)
   #:use-module (system syntax)
   #:export (clause->expression
@@ -61,11 +63,33 @@
 (define (list-of expressions)
   #`(list #,@expressions))
 
-(define (row stx)
-  ;; (A B C) is a row of three expressions; anything else is one expression.
+(define (row widths)
+  ;; The reader of rows: a list as long as one of WIDTHS, or that begins with a number, is a row of
+  ;; expressions; anything else, and what a comma leads, is one expression.
+  (lambda (stx)
+    (syntax-case stx ()
+      ((unquote-mark e) (datum? #'unquote-mark 'unquote) #'e)
+      ((item . more)
+       (and (list? (syntax->datum stx))
+            (or (memv (length (syntax->datum stx)) widths)
+                (number? (syntax->datum #'item))))
+       (syntax-case stx ()
+         ((item ...) (list-of (map expression #'(item ...))))))
+      (_ (expression stx)))))
+
+(define (grid-part stx)
+  ;; (from X Y) within a grid.  Another list here is a mistake, not an expression.
   (syntax-case stx ()
-    ((a b c) (list-of (map expression (list #'a #'b #'c))))
-    (_ (expression stx))))
+    ((name value ...)
+     (apply datum? #'name grid-clause-names)
+     (list-of (cons (quoted #'name) (map expression #'(value ...)))))
+    (_ (quoted stx))))
+
+(define (grid-parts stxs)
+  ;; A file or a procedure, an expression; then its clauses.
+  (if (null? stxs)
+      '()
+      (cons (expression (car stxs)) (map grid-part (cdr stxs)))))
 
 (define (current-clause stx)
   ;; (speed .5) within a current.
@@ -89,7 +113,7 @@
      stx)
     ((form item ...)
      (datum? #'form 'profile)
-     (list-of (cons (quoted #'form) (map row #'(item ...)))))
+     (list-of (cons (quoted #'form) (map (row '(3)) #'(item ...)))))
     ((form item ...)
      (datum? #'form 'turning 'tide)
      (list-of (cons (quoted #'form)
@@ -106,7 +130,9 @@
   (case (field-kind field)
     ((word name type) (map word stxs))
     ((current) (map current-part stxs))
-    ((points) (map row stxs))
+    ((points) (map (row '(3)) stxs))
+    ((track) (map (row '(4 5)) stxs))
+    ((grid) (grid-parts stxs))
     ((end point)
      (if (and (= 1 (length stxs)) (identifier? (car stxs)))
          (list (reference (car stxs)))
@@ -133,9 +159,26 @@
              (else (quoted clause)))))
     (_ (quoted clause))))
 
+(define (member->expression stx)
+  ;; What stands in a group: a clause of its own, or a part.
+  (syntax-case stx ()
+    ((head . _)
+     (and (identifier? #'head) (head-field 'group (syntax->datum #'head)))
+     (clause->expression 'group stx))
+    ((head parts ...)
+     (datum? #'head 'splice)
+     #'(list parts ...))
+    ((head . part)
+     (datum? #'head 'part)
+     (part->expression #'part))
+    (_ (part->expression stx))))
+
 (define (part->expression part)
   "Return syntax for the data of PART, the syntax (HEAD CLAUSE ...)."
   (syntax-case part ()
+    ((head member ...)
+     (datum? #'head 'group)
+     (list-of (cons (quoted #'head) (map member->expression #'(member ...)))))
     ((head clause ...)
      (and (identifier? #'head) (part-head? (syntax->datum #'head)))
      (headed #'head #'(clause ...)))
@@ -151,7 +194,7 @@
   (let ((field (head-field head name)))
     (bight-raise 'def proc "(~a ...) of ~a needs ~a; ~a given" name (head-title head)
                  (field-range field)
-                 (if (null? values) "nothing was" (show values)))))
+                 (if (null? values) "nothing was" (brief values)))))
 
 (define (clause-value proc head name values)
   ;; The one value that VALUES make for the field NAME.
@@ -160,7 +203,11 @@
          (kind (field-kind field)))
     (cond ((and (eq? kind 'points) (> n 0) (not (and (= n 1) (accepts? type:points (car values)))))
            values)
+          ((and (eq? kind 'track) (> n 0)
+                (not (and (= n 1) (accepts? type:rows-in-time (car values)))))
+           values)
           ((= n 1) (car values))
+          ((and (eq? kind 'grid) (> n 1)) values)
           ((and (memq kind '(point end)) (= n 3)) values)
           ((and (eq? kind 'current) (= n 2)) values)
           (else (wrong-arguments proc head name values)))))

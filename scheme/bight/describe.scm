@@ -3,11 +3,13 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight describe)
+  #:use-module (bight allowance)
   #:use-module (bight assembly)
   #:use-module (bight atlas)
   #:use-module ((bight dive) #:select (current-dive dive-world))
   #:use-module (bight errors)
-  #:use-module ((bight query) #:select (tether-properties))
+  #:use-module ((bight query)
+                #:select (tether-properties obstacle-properties (find-part . index-of-part)))
   #:use-module ((bight record) #:select (document))
   #:use-module (bight schema)
   #:use-module (bight verb)
@@ -147,36 +149,56 @@ given, from its type or left to the default, and for each thing inside it."
   (let ((w (here-world)))
     (and w (find-part (world-parts-of w) name))))
 
-(define (live-row row live)
+(define (live-row head row live)
   ;; ROW with the value its field has now, if that is another.
   (let* ((name (string->symbol (first row)))
          (entry (assq name live))
-         (text (and entry (value->string (head-field 'tether name) (cdr entry)))))
+         (text (and entry (value->string (head-field head name) (cdr entry)))))
     (if (and text (not (string=? text (second row))))
         (list (first row) text (third row) "now")
         row)))
 
-(define (follower-rows rows live)
+(define (follower-rows head rows live)
   ;; Rows for the fields that were left to follow from others.
   (filter-map (lambda (entry)
                 (and (not (assoc (symbol->string (car entry)) rows))
-                     (value-row 'tether entry "follows")))
+                     (value-row head entry "follows")))
               live))
 
 (define (dive-description part)
-  ;; The description of a PART of the current dive; a tether's fields as they are now.
-  (let ((described (part-description part)))
-    (if (eq? 'tether (part-head-of part))
-        (let* ((rows (description-rows described))
-               (live (live-properties (part-name-of part))))
-          (make-description (description-title described)
-                            (description-sentence described)
-                            (append (map (lambda (row) (live-row row live)) rows)
-                                    (follower-rows rows live))))
-        described)))
+  ;; The description of a PART of the current dive; fields of tethers and obstacles as they are now.
+  (let* ((described (part-description part))
+         (head (part-head-of part))
+         (rows (description-rows described))
+         (live (live-properties head (part-name-of part))))
+    (make-description (description-title described)
+                      (description-sentence described)
+                      (append (map (lambda (row) (live-row head row live)) rows)
+                              (follower-rows head rows live)))))
 
-(define (live-properties name)
-  (tether-properties (subject-index 'describe 'tether name)))
+(define (live-properties head name)
+  ;; What may have changed since the dive began, an alist.
+  (cond ((eq? head 'tether) (tether-properties (subject-index 'describe 'tether name)))
+        ((obstacle-head? head)
+         (call-with-values (lambda () (index-of-part 'describe name))
+           (lambda (kind index)
+             (list (assq 'friction (obstacle-properties 'describe index))))))
+        (else '())))
+
+(define (group-description name members)
+  "Return the description of the group NAME of MEMBERS, parts: a row (NAME HEAD) for each."
+  (make-description (simple-format #f "~a, a group" name)
+                    (head-sentence 'group)
+                    (map (lambda (part)
+                           (list (symbol->row-text (part-name-of part))
+                                 (symbol->string (part-head-of part))))
+                         members)))
+
+(define (here-group name)
+  ;; The parts of the group NAME in the current dive, or #f.
+  (let* ((w (here-world))
+         (members (if w (group-members (world-parts-of w) name) '())))
+    (and (pair? members) members)))
 
 (define (type-called name)
   (find (lambda (type) (eq? name (part-type-name type)))
@@ -192,6 +214,7 @@ given, from its type or left to the default, and for each thing inside it."
 
 (define (describe-name name)
   (cond ((here-part name) => dive-description)
+        ((here-group name) => (lambda (members) (group-description name members)))
         ((or (part-head? name) (inner-head? name)) (head-description name))
         ((type-called name) => type-description)
         ((memq name (worlds)) (world-description (find-world name)))
@@ -203,8 +226,10 @@ given, from its type or left to the default, and for each thing inside it."
 
 (define-verb (describe (thing describable))
   "Return a description of THING that prints as a table.  THING is a world, a part, or a symbol: the name
-of a part of the present dive, a kind of part such as 'tether or of a thing inside one such as 'clump, a
-type such as 'fathom, or a world."
+of a part or a group of the present dive, a kind of part such as 'tether or of a thing inside one such as
+'clump, a type such as 'fathom, or a world."
   (cond ((symbol? thing) (describe-name thing))
         ((is-world? thing) (world-description thing))
+        ((assq-ref (part-fields-of thing) 'parts)
+         => (lambda (members) (group-description (or (part-name-of thing) 'group) members)))
         (else (part-description thing))))

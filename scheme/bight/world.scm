@@ -97,7 +97,7 @@ do floats."
       (_ #`(malformed 'with '#,form)))))
 
 (define-verb (without (w the-world) #:rest (names name))
-  "Return the world W without the parts called NAMES."
+  "Return the world W without the parts called NAMES; the name of a group means all its parts."
   (reduce-world w names))
 
 
@@ -132,7 +132,7 @@ do floats."
   (world-file-of w))
 
 (define-verb (part-head (p a-part))
-  "Return the head of the part P: sea, rov, tether, ..."
+  "Return the head of the part P: sea, rov, tether, box, ..."
   (part-head-of p))
 
 (define-verb (part-name (p a-part))

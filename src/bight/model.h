@@ -24,7 +24,9 @@ enum
   BT_TETHERS_MAX = 64,
   BT_NODES_MAX = 10000, /* intervals of one tether */
   BT_LUMPS_MAX = 32,    /* clumps and floats on one tether */
-  BT_OBSTACLES_MAX = 100000
+  BT_VIA_MAX = 32,      /* points that one tether is laid through */
+  BT_OBSTACLES_MAX = 100000,
+  BT_TRIANGLES_MAX = 1 << 28 /* of one mesh */
 };
 
 /* The water and its current.  */
@@ -41,8 +43,9 @@ typedef struct bt_sea_def
 typedef struct bt_vehicle_def
 {
   char name[BT_NAME_SIZE];
-  bt_vec3 at;                                  /* m */
-  double heading, pitch, roll;                 /* degrees: compass, bow up, starboard down */
+  bt_vec3 at;                  /* m */
+  double heading, pitch, roll; /* degrees: compass, bow up, starboard down */
+  bt_vec3 size; /* m: of its hull, along its own x, y, z about its place; all 0: a point */
   double surge_speed, sway_speed, heave_speed; /* m/s at full stick */
   double yaw_rate;                             /* degrees/s at full stick */
   double pull;                                 /* N: its pull on a taut tether that holds it */
@@ -68,10 +71,18 @@ typedef struct bt_lump
   double buoyancy; /* N, net */
 } bt_lump;
 
+/* Points between the two ends.  */
+typedef struct bt_via
+{
+  double n;
+  bt_vec3 at[BT_VIA_MAX]; /* m */
+} bt_via;
+
 typedef struct bt_tether_def
 {
   char name[BT_NAME_SIZE];
   bt_end from, to;
+  bt_via via;            /* what its line of lay goes through; none: it is straight */
   double length;         /* paid out, m */
   double drum;           /* the most that can be out, m */
   bt_tether_props props; /* mass or wet_weight may be NAN: it then follows from the other */
@@ -120,7 +131,7 @@ typedef struct bt_obstacle_def
 {
   char name[BT_NAME_SIZE];
   bt_obstacle_kind kind;
-  bt_vec3 at;                  /* m: the centre; of a mesh and of convex points their own origin */
+  bt_vec3 at; /* m: the centre; of a mesh, convex points, a grid: their own origin */
   double heading, pitch, roll; /* degrees: compass, bow up, starboard down */
   bt_vec3 from, to;            /* m: the ends of the axis */
   bt_vec3 size;                /* m: along its own x, y, z */
@@ -130,8 +141,10 @@ typedef struct bt_obstacle_def
   bt_rows points;              /* CONVEX: rows of x y z */
   bt_triangles mesh;           /* MESH, SEABED; z up */
   bt_heights grid;             /* SEABED */
-  bt_rows track;               /* rows of t x y z heading (s, m, degrees): where AT is and how it
-                                  is turned from the start of the dive on; none: it stands still */
+  bt_rows track; /* rows of t x y z heading (s, m, degrees; heading NAN: its own): where
+                    AT is and how it is turned from the start of the dive on, in place
+                    of AT and HEADING; with an axis, AT is its middle, and it is drawn
+                    at heading 0.  None: it stands still */
 } bt_obstacle_def;
 
 typedef struct bt_world
@@ -149,12 +162,17 @@ typedef struct bt_world
 
 typedef enum bt_field_kind
 {
-  BT_FIELD_NUMBER, /* double */
-  BT_FIELD_COUNT,  /* double that holds a whole number */
-  BT_FIELD_POINT,  /* bt_vec3, every component within min and max */
-  BT_FIELD_WORD,   /* double: the value of one of WORDS */
-  BT_FIELD_END,    /* bt_end */
-  BT_FIELD_CURRENT /* bt_current */
+  BT_FIELD_NUMBER,  /* double */
+  BT_FIELD_COUNT,   /* double that holds a whole number */
+  BT_FIELD_POINT,   /* bt_vec3, every component within min and max */
+  BT_FIELD_WORD,    /* double: the value of one of WORDS */
+  BT_FIELD_END,     /* bt_end */
+  BT_FIELD_CURRENT, /* bt_current */
+  BT_FIELD_VIA,     /* bt_via */
+  BT_FIELD_POINTS,  /* bt_rows of x y z */
+  BT_FIELD_TRACK,   /* bt_rows of t x y z heading */
+  BT_FIELD_MESH,    /* bt_triangles */
+  BT_FIELD_GRID     /* bt_heights */
 } bt_field_kind;
 
 typedef struct bt_word
@@ -170,7 +188,8 @@ typedef struct bt_field
   const char *text; /* what it is, a phrase */
   bt_field_kind kind;
   size_t offset;        /* in the part's struct */
-  double fallback;      /* the default number; NAN: must be given or follows from another field */
+  double fallback;      /* the default number; NAN: must be given or follows from another field,
+                           unless NAN is the value of one of WORDS */
   double min, max;      /* allowed range */
   int above_min;        /* nonzero: MIN itself is not allowed */
   const bt_word *words; /* WORD: the choices; NUMBER: words allowed in place of a number; or NULL */
@@ -180,12 +199,13 @@ typedef struct bt_field
 /* A kind of part.  */
 typedef struct bt_head
 {
-  const char *name;   /* "sea", "rov", "tether", "clump", "float" */
+  const char *name;   /* "sea", "rov", "tether", "clump", "box" */
   const char *inside; /* the kind of part it is written in; NULL: it is a part of the world */
   const char *text;
   size_t size; /* of its struct */
   const bt_field *fields;
   size_t n_fields;
+  int obstacle; /* its bt_obstacle_kind, or -1: it is none */
 } bt_head;
 
 /* Return the kinds of parts, *N of them.  */
@@ -194,8 +214,10 @@ const bt_head *bt_heads (size_t *n);
 /* Return the head or field called NAME, or NULL.  */
 const bt_head *bt_head_find (const char *name);
 const bt_field *bt_field_find (const bt_head *head, const char *name);
+/* Return the head of obstacles of KIND, or NULL.  */
+const bt_head *bt_obstacle_head (bt_obstacle_kind kind);
 
-/* Fill DEF, a struct of the kind HEAD, with the defaults and no name.  */
+/* Fill DEF, a struct of the kind HEAD, with the defaults and no name; an obstacle's kind is set. */
 void bt_def_init (const bt_head *head, void *def);
 
 /* Set a field of DEF, checked against its range.  BT_ERR_DOMAIN says what is allowed; BT_ERR_NAME
@@ -206,6 +228,12 @@ bt_status bt_def_set_point (const bt_field *field, void *def, bt_vec3 value, bt_
 bt_status bt_def_set_current (const bt_field *field, void *def, const bt_current *value,
                               bt_error *error);
 bt_status bt_def_set_part (const bt_field *field, void *def, const char *part, bt_error *error);
+/* VIA copies the rows, POINTS and TRACK borrow them.  */
+bt_status bt_def_set_rows (const bt_field *field, void *def, const bt_rows *rows, bt_error *error);
+bt_status bt_def_set_mesh (const bt_field *field, void *def, const bt_triangles *mesh,
+                           bt_error *error);
+bt_status bt_def_set_grid (const bt_field *field, void *def, const bt_heights *grid,
+                           bt_error *error);
 /* Copy NAME (1 to BT_NAME_SIZE - 1 bytes) to NAME_FIELD, which has BT_NAME_SIZE bytes.  */
 bt_status bt_def_set_name (char *name_field, const char *name, bt_error *error);
 
@@ -215,8 +243,9 @@ typedef struct bt_model bt_model;
 
 /* Check WORLD and compile it into *MODEL, which is immutable and counted: release it with
    bt_model_release.  Everything is copied.  BT_ERR_DEF when the parts do not hold together (two of
-   one name, a tether to no vehicle, a tether too short to reach), BT_ERR_DOMAIN for a number
-   outside its range, BT_ERR_LIMIT for too many parts or no memory.  */
+   one name, a tether to no vehicle, a tether too short to reach, one whose line of lay meets an
+   obstacle), BT_ERR_DOMAIN for a number outside its range, BT_ERR_LIMIT for too many parts or no
+   memory.  */
 bt_status bt_model_new (const bt_world *world, bt_model **model, bt_error *error);
 bt_model *bt_model_retain (bt_model *model);
 void bt_model_release (bt_model *model);

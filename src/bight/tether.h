@@ -30,6 +30,24 @@ typedef enum bt_depth_rule
   BT_DEPTH_THESIS_LINEAR /* thesis 2.4.1; the V alone; does not keep the length */
 } bt_depth_rule;
 
+/* What a tether does where it meets an obstacle.  The model decides: the moving line responds
+   physically, the thesis' models as the thesis has it (chapter 3), `elastic' and `steady' not at
+   all: they are held.  A world may say which of the first two it means.  */
+typedef enum bt_response
+{
+  BT_RESPONSE_PHYSICAL = 0,
+  BT_RESPONSE_THESIS
+} bt_response;
+
+/* When it sticks, in the response of the thesis (3.5.2).  */
+typedef enum bt_stick_by
+{
+  BT_STICK_BY_ANGLE = 0, /* the normals have turned by stick_angle from the first contact */
+  BT_STICK_BY_COUNT,     /* there are stick_count contacts */
+  BT_STICK_BY_EITHER,
+  BT_STICK_BY_BOTH
+} bt_stick_by;
+
 /* The value of sag_buoyancy that means `from the real weight and the real drag'.  */
 #define BT_SAG_AUTO 2.0
 
@@ -55,6 +73,12 @@ typedef struct bt_tether_props
   double accuracy;             /* m: the error in position that BT_MODEL_AUTO keeps */
   double max_current;          /* m/s: the thesis' maximum allowed current */
   double thesis_length_factor; /* thesis 2.4.1 took 0.95 of the length in its ratio; 1 */
+  double response;             /* bt_response */
+  double rejoin_angle;         /* degrees: a contact opened so far is none */
+  double stick_angle;          /* degrees */
+  double stick_count;          /* INFINITY: never */
+  double stick_by;             /* bt_stick_by */
+  double sliding;              /* 0: it sticks wherever it touches */
 } bt_tether_props;
 
 BT_END_DECLS

@@ -118,6 +118,7 @@ field_value (const char *who, const bt_field *field, SCM value)
     bt_sea_def sea;
     bt_vehicle_def vehicle;
     bt_tether_def tether;
+    bt_obstacle_def obstacle;
   } def;
   bt_error error;
   memset (&def, 0, sizeof def);
@@ -129,10 +130,9 @@ static SCM
 alter (SCM object, SCM part, SCM subject, SCM field_name, SCM value)
 {
   static const char *const who = "alter!";
-  static const char *const head_names[] = { "sea", "rov", "tether" };
   bt_dive *dive = bt__to_idle_dive (who, object);
-  bt_part kind = bt__to_part (who, part);
-  const bt_head *head = bt_head_find (head_names[kind]);
+  const bt_head *head = bt__to_head (who, part);
+  bt_part kind = head->obstacle >= 0 ? BT_PART_OBSTACLE : bt__to_part (who, part);
   char *name = scm_to_utf8_string (scm_symbol_to_string (field_name));
   const bt_field *field = bt_field_find (head, name);
   bt_error error = { BT_ERR_NAME, "there is no such field" };
@@ -157,7 +157,8 @@ bt__define_operations (void)
     { "%set-current!", 2, 0, (scm_t_subr)set_current,
       "Give DIVE the current that LIST describes." },
     { "%alter!", 5, 0, (scm_t_subr)alter,
-      "Set FIELD of the SUBJECT-th PART (rov or tether) of DIVE to VALUE." },
+      "Set FIELD of the SUBJECT-th PART (sea, rov, tether or obstacle, by its head) of DIVE to "
+      "VALUE." },
   };
   bt__define_procedures (table, sizeof table / sizeof *table);
 }

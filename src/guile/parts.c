@@ -36,8 +36,8 @@ inner_heads (SCM head)
   return list;
 }
 
-static const bt_head *
-to_head (const char *who, SCM symbol)
+const bt_head *
+bt__to_head (const char *who, SCM symbol)
 {
   char *name = scm_to_utf8_string (scm_symbol_to_string (symbol));
   const bt_head *head = bt_head_find (name);
@@ -53,7 +53,7 @@ to_head (const char *who, SCM symbol)
 static SCM
 head_text (SCM head)
 {
-  return scm_from_utf8_string (to_head ("%head-text", head)->text);
+  return scm_from_utf8_string (bt__to_head ("%head-text", head)->text);
 }
 
 static SCM
@@ -68,7 +68,8 @@ words_of (const bt_field *field)
 static const char *
 kind_name (bt_field_kind kind)
 {
-  static const char *const names[] = { "number", "count", "point", "word", "end", "current" };
+  static const char *const names[] = { "number", "count",  "point", "word", "end", "current",
+                                       "points", "points", "track", "mesh", "grid" };
   return names[kind];
 }
 
@@ -77,7 +78,7 @@ has_default (const bt_field *field)
 {
   return (field->kind == BT_FIELD_NUMBER || field->kind == BT_FIELD_COUNT
           || field->kind == BT_FIELD_WORD)
-         && !isnan (field->fallback);
+         && (!isnan (field->fallback) || scm_is_symbol (bt__from_field (field, field->fallback)));
 }
 
 /* #(name kind unit text default min max above-min? words specials live?) */
@@ -107,7 +108,7 @@ from_field_description (const bt_field *field)
 static SCM
 part_fields (SCM symbol)
 {
-  const bt_head *head = to_head ("%part-fields", symbol);
+  const bt_head *head = bt__to_head ("%part-fields", symbol);
   SCM list = SCM_EOL;
   for (size_t i = head->n_fields; i-- > 0;)
     list = scm_cons (from_field_description (&head->fields[i]), list);
@@ -122,6 +123,7 @@ typedef struct reading
   bt_world world;
   bt_vehicle_def *vehicles;
   bt_tether_def *tethers;
+  bt_obstacle_def *obstacles;
   SCM function;
 } reading;
 
@@ -153,6 +155,8 @@ read_fields (const bt_head *head, void *def, SCM fields, SCM *function)
       free (name);
       if (!field)
         read_lump (def, inner, value);
+      else if (bt__set_shape (who, field, def, value))
+        continue;
       else if (field->kind == BT_FIELD_CURRENT)
         {
           bt_current current = bt__to_current (who, value, function);
@@ -196,7 +200,7 @@ read_lump (bt_tether_def *tether, const bt_head *head, SCM fields)
 static void
 read_part (reading *r, SCM part)
 {
-  const bt_head *head = to_head ("enter!", SCM_CAR (part));
+  const bt_head *head = bt__to_head ("enter!", SCM_CAR (part));
   SCM name = scm_cadr (part), fields = scm_caddr (part);
   if (strcmp (head->name, "sea") == 0)
     read_fields (head, &r->world.sea, fields, &r->function);
@@ -204,6 +208,14 @@ read_part (reading *r, SCM part)
     {
       check_room (r->world.n_vehicles, BT_VEHICLES_MAX, "vehicles");
       bt_vehicle_def *def = &r->vehicles[r->world.n_vehicles++];
+      bt_def_init (head, def);
+      read_name (def->name, name);
+      read_fields (head, def, fields, &r->function);
+    }
+  else if (head->obstacle >= 0)
+    {
+      check_room (r->world.n_obstacles, BT_OBSTACLES_MAX, "obstacles");
+      bt_obstacle_def *def = &r->obstacles[r->world.n_obstacles++];
       bt_def_init (head, def);
       read_name (def->name, name);
       read_fields (head, def, fields, &r->function);
@@ -218,6 +230,16 @@ read_part (reading *r, SCM part)
     }
 }
 
+/* Room for as many as a world may have, and no more than there are.  */
+static size_t
+count_obstacles (SCM parts)
+{
+  size_t n = 0;
+  for (; scm_is_pair (parts) && n < BT_OBSTACLES_MAX; parts = SCM_CDR (parts))
+    n += bt__to_head ("enter!", SCM_CAAR (parts))->obstacle >= 0;
+  return n;
+}
+
 static reading
 read_parts (SCM parts)
 {
@@ -225,6 +247,9 @@ read_parts (SCM parts)
   reading r = { .function = SCM_BOOL_F };
   r.vehicles = scm_gc_malloc_pointerless (sizeof *r.vehicles * BT_VEHICLES_MAX, what);
   r.tethers = scm_gc_malloc_pointerless (sizeof *r.tethers * BT_TETHERS_MAX, what);
+  /* They borrow from values in PARTS: seen by the collector.  */
+  r.obstacles = scm_gc_calloc (sizeof *r.obstacles * count_obstacles (parts), what);
+  r.world.obstacles = r.obstacles;
   r.world.vehicles = r.vehicles;
   r.world.tethers = r.tethers;
   bt_def_init (bt_head_find ("sea"), &r.world.sea);
@@ -247,6 +272,7 @@ make_dive (SCM parts)
   status = bt_dive_new (model, asks ? bt__call_current : NULL, handle, &handle->dive, &error);
   bt_model_release (model);
   bt__check (who, status, &error);
+  scm_remember_upto_here_1 (parts);
   return bt__from_handle (handle);
 }
 

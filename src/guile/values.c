@@ -167,7 +167,9 @@ bt__to_part (const char *who, SCM symbol)
     return BT_PART_TETHER;
   if (scm_is_eq (symbol, scm_from_utf8_symbol ("sea")))
     return BT_PART_SEA;
-  fail (who, BT_ERR_NAME, "a part is a sea, a rov or a tether");
+  if (scm_is_eq (symbol, scm_from_utf8_symbol ("obstacle")))
+    return BT_PART_OBSTACLE;
+  fail (who, BT_ERR_NAME, "a part is a sea, a rov, a tether or an obstacle");
 }
 
 /* The bytes of SYMBOL in BUFFER, cut at BT_NAME_SIZE bytes, which no name reaches.  */
@@ -197,7 +199,7 @@ SCM
 bt__from_field (const bt_field *field, double value)
 {
   for (const bt_word *w = field->words; w && w->word; w++)
-    if (w->value == value)
+    if (w->value == value || (isnan (w->value) && isnan (value)))
       return scm_from_utf8_symbol (w->word);
   return scm_from_double (value);
 }

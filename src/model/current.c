@@ -86,8 +86,17 @@ function_velocity (const bt_water *water, bt_vec3 p)
   return v;
 }
 
-bt_vec3
-bt_water_velocity (const bt_water *water, bt_vec3 p)
+static bt_vec3
+grid_velocity (const bt_water *water, bt_vec3 p)
+{
+  if (!water->sea || !water->sea->grid)
+    return water->current->velocity[0];
+  return bt_current_grid_velocity (water->sea->grid, p, water->time);
+}
+
+/* The current as if nothing stood in it.  */
+static bt_vec3
+open_current (const bt_water *water, bt_vec3 p)
 {
   const bt_current *current = water->current;
   if (!current)
@@ -106,14 +115,62 @@ bt_water_velocity (const bt_water *water, bt_vec3 p)
       return bt__scale (cos (2 * BT__PI * water->time / current->period), current->velocity[0]);
     case BT_CURRENT_FUNCTION:
       return function_velocity (water, p);
+    case BT_CURRENT_GRID:
+      return grid_velocity (water, p);
     default:
       return still;
     }
 }
 
 static int
-same_everywhere (const bt_current *current)
+has_waves (const bt_water *water)
 {
+  return water->sea && water->sea->waves && water->sea->waves->n > 0;
+}
+
+bt_vec3
+bt_water_current (const bt_water *water, bt_vec3 p)
+{
+  bt_vec3 v = open_current (water, p);
+  double share = 1;
+  if (!water->sea || (v.x == 0 && v.y == 0 && v.z == 0))
+    return v;
+  for (size_t i = 0; i < water->sea->n_wakes; i++)
+    share *= bt_wake_share (&water->sea->wakes[i], v, p);
+  return bt__scale (share, v);
+}
+
+bt_vec3
+bt_water_velocity (const bt_water *water, bt_vec3 p)
+{
+  bt_vec3 v = bt_water_current (water, p), orbit;
+  if (!has_waves (water))
+    return v;
+  bt_waves_motion (water->sea->waves, p, water->time, &orbit, NULL);
+  return bt__add (v, orbit);
+}
+
+bt_vec3
+bt_water_acceleration (const bt_water *water, bt_vec3 p)
+{
+  bt_vec3 a = still;
+  if (has_waves (water))
+    bt_waves_motion (water->sea->waves, p, water->time, NULL, &a);
+  return a;
+}
+
+double
+bt_water_surface (const bt_water *water, bt_vec3 p)
+{
+  return has_waves (water) ? bt_waves_elevation (water->sea->waves, p.x, p.y, water->time) : 0;
+}
+
+static int
+same_everywhere (const bt_water *water)
+{
+  const bt_current *current = water->current;
+  if (has_waves (water) || (water->sea && water->sea->n_wakes > 0))
+    return 0;
   return !current || current->kind == BT_CURRENT_STILL || current->kind == BT_CURRENT_UNIFORM
          || current->kind == BT_CURRENT_TIDE;
 }
@@ -125,7 +182,7 @@ bt_water_mean_velocity (const bt_water *water, bt_vec3 a, bt_vec3 b)
       = { 0.046910077030668004, 0.23076534494715845, 0.5, 0.76923465505284155, 0.953089922969332 };
   static const double weight[5] = { 0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
                                     0.23931433524968324, 0.11846344252809454 };
-  if (same_everywhere (water->current))
+  if (same_everywhere (water))
     return bt_water_velocity (water, a);
   bt_vec3 mean = still;
   for (int i = 0; i < 5; i++)
@@ -140,6 +197,17 @@ int
 bt_current_is_unsteady (const bt_current *current)
 {
   return current->kind == BT_CURRENT_TIDE || current->kind == BT_CURRENT_FUNCTION;
+}
+
+int
+bt_water_is_unsteady (const bt_water *water)
+{
+  const bt_current *current = water->current;
+  if (has_waves (water))
+    return 1;
+  if (current && current->kind == BT_CURRENT_GRID)
+    return water->sea && water->sea->grid && bt_current_grid_is_unsteady (water->sea->grid);
+  return current && bt_current_is_unsteady (current);
 }
 
 static bt_status
@@ -221,6 +289,7 @@ bt_current_check (const bt_current *current, bt_error *error)
     case BT_CURRENT_FUNCTION:
       return BT_OK;
     case BT_CURRENT_UNIFORM:
+    case BT_CURRENT_GRID:
       return check_velocity (current->velocity[0], error);
     case BT_CURRENT_PROFILE:
       return check_profile (current, error);

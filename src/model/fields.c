@@ -16,6 +16,16 @@ static const bt_word inextensible[] = { { "inextensible", INFINITY }, { NULL, 0 
 static const bt_word unbreakable[] = { { "none", INFINITY }, { NULL, 0 } };
 static const bt_word unlimited[] = { { "none", INFINITY }, { NULL, 0 } };
 static const bt_word automatic[] = { { "auto", BT_SAG_AUTO }, { NULL, 0 } };
+static const bt_word never[] = { { "none", INFINITY }, { NULL, 0 } };
+static const bt_word yes_no[] = { { "yes", 1 }, { "no", 0 }, { NULL, 0 } };
+static const bt_word responses[]
+    = { { "physical", BT_RESPONSE_PHYSICAL }, { "thesis", BT_RESPONSE_THESIS }, { NULL, 0 } };
+static const bt_word stick_rules[] = { { "angle", BT_STICK_BY_ANGLE },
+                                       { "count", BT_STICK_BY_COUNT },
+                                       { "either", BT_STICK_BY_EITHER },
+                                       { "both", BT_STICK_BY_BOTH },
+                                       { NULL, 0 } };
+static const bt_word as_tether[] = { { "tether", NAN }, { NULL, 0 } };
 
 static const bt_word models[] = { { "rubber-band", BT_MODEL_RUBBER_BAND },
                                   { "v-shape", BT_MODEL_V_SHAPE },
@@ -63,6 +73,8 @@ static const bt_field vehicle_fields[] = {
           "compass bearing of its front"),
   NUMBER (bt_vehicle_def, pitch, "pitch", "deg", 0, -90, 90, 0, 0, NULL, "bow up positive"),
   NUMBER (bt_vehicle_def, roll, "roll", "deg", 0, -180, 180, 0, 0, NULL, "starboard down positive"),
+  { "size", "m", "of its hull, along its own x, y, z about its place; all 0: a point",
+    BT_FIELD_POINT, offsetof (bt_vehicle_def, size), 0, 0, 100, 0, NULL, 0 },
   NUMBER (bt_vehicle_def, surge_speed, "surge-speed", "m/s", 1.0, 0, 100, 0, 1, NULL,
           "ahead at full stick"),
   NUMBER (bt_vehicle_def, sway_speed, "sway-speed", "m/s", 0.7, 0, 100, 0, 1, NULL,
@@ -92,6 +104,8 @@ static const bt_field tether_fields[] = {
          "the anchor: a point, or a vehicle that carries the winch"),
   OTHER (bt_tether_def, to, "to", "m", BT_FIELD_END, 0, NULL, 0,
          "the far end: a vehicle, or a fixed point"),
+  OTHER (bt_tether_def, via, "via", "m", BT_FIELD_VIA, 0, NULL, 0,
+         "points that it is laid through from its anchor to its far end"),
   NUMBER (bt_tether_def, length, "length", "m", NAN, 0, 1e6, 1, 0, NULL,
           "paid out; pay-out! and haul-in! change it"),
   NUMBER (bt_tether_def, drum, "drum", "m", INFINITY, 0, 1e6, 1, 0, unlimited,
@@ -126,6 +140,18 @@ static const bt_field tether_fields[] = {
         "the thesis' maximum allowed current, for rule `sag'"),
   PROP (thesis_length_factor, "thesis-length-factor", "", 1, 0.5, 1, 0, NULL,
         "of the length in rule `thesis-linear'; the thesis took 0.95"),
+  OTHER (bt_tether_def, props.response, "response", "", BT_FIELD_WORD, BT_RESPONSE_PHYSICAL,
+         responses, 1, "to obstacles, as its model has it: for a world to say which it means"),
+  PROP (rejoin_angle, "rejoin-angle", "deg", 185, 90, 360, 0, NULL,
+        "response `thesis': a contact that opens so far is left"),
+  PROP (stick_angle, "stick-angle", "deg", 90, 0, 36000, 0, NULL,
+        "response `thesis': it sticks when the normals of its contacts turn by more"),
+  PROP (stick_count, "stick-count", "", INFINITY, 1, 1000, 0, never,
+        "response `thesis': it sticks when it has so many contacts"),
+  OTHER (bt_tether_def, props.stick_by, "stick-by", "", BT_FIELD_WORD, BT_STICK_BY_ANGLE,
+         stick_rules, 1, "response `thesis': which of the two makes it stick"),
+  OTHER (bt_tether_def, props.sliding, "sliding", "", BT_FIELD_WORD, 1, yes_no, 1,
+         "response `thesis': may it slide; else it sticks wherever it touches"),
 };
 
 #define LUMP_PLACE                                                                                 \
@@ -143,16 +169,95 @@ static const bt_field float_fields[] = {
   NUMBER (bt_lump, buoyancy, "buoyancy", "N", NAN, 0, 1e6, 1, 0, NULL, "net, upward"),
 };
 
+/* ---- Obstacles: they share a struct, of which each kind has its own fields ---- */
+
+#define PLACE(t) OTHER (bt_obstacle_def, at, "at", "m", BT_FIELD_POINT, 0, NULL, 0, t)
+#define AXIS                                                                                       \
+  OTHER (bt_obstacle_def, from, "from", "m", BT_FIELD_POINT, 0, NULL, 0,                           \
+         "the end of its axis that it winds from"),                                                \
+      OTHER (bt_obstacle_def, to, "to", "m", BT_FIELD_POINT, 0, NULL, 0,                           \
+             "the other end of its axis")
+#define RADIUS                                                                                     \
+  NUMBER (bt_obstacle_def, radius, "radius", "m", NAN, 0, FAR, 1, 0, NULL,                         \
+          "from its centre or axis to its surface")
+#define HEADING                                                                                    \
+  NUMBER (bt_obstacle_def, heading, "heading", "deg", 0, -1e6, 1e6, 0, 0, NULL,                    \
+          "compass bearing of its own north")
+#define TURNED                                                                                     \
+  HEADING,                                                                                         \
+      NUMBER (bt_obstacle_def, pitch, "pitch", "deg", 0, -90, 90, 0, 0, NULL, "bow up positive"),  \
+      NUMBER (bt_obstacle_def, roll, "roll", "deg", 0, -180, 180, 0, 0, NULL,                      \
+              "starboard down positive")
+#define FRICTION                                                                                   \
+  NUMBER (bt_obstacle_def, friction, "friction", "", NAN, 0, 10, 0, 1, as_tether,                  \
+          "Coulomb coefficient of a tether on it; `tether': the tether's own")
+#define TRACK                                                                                      \
+  OTHER (bt_obstacle_def, track, "track", "", BT_FIELD_TRACK, 0, NULL, 0,                          \
+         "where its place is at which time, when it moves: in place of `at' and `heading'")
+
+static const bt_field seabed_fields[] = {
+  FRICTION,
+  OTHER (bt_obstacle_def, grid, "grid", "", BT_FIELD_GRID, 0, NULL, 0,
+         "heights: a file, an ESRI ASCII grid, or a procedure of x and y"),
+  OTHER (bt_obstacle_def, mesh, "mesh", "", BT_FIELD_MESH, 0, NULL, 0, "a file of triangles"),
+  PLACE ("where the origin of its grid or mesh goes"),
+};
+
+static const bt_field box_fields[] = {
+  PLACE ("its centre"),
+  { "size", "m", "along its own x, y, z", BT_FIELD_POINT, offsetof (bt_obstacle_def, size), NAN, 0,
+    FAR, 1, NULL, 0 },
+  TURNED,
+  FRICTION,
+  TRACK,
+};
+
+static const bt_field sphere_fields[] = { PLACE ("its centre"), RADIUS, FRICTION, TRACK };
+
+static const bt_field cylinder_fields[] = { AXIS, RADIUS, FRICTION, TRACK };
+
+static const bt_field convex_fields[] = {
+  OTHER (bt_obstacle_def, points, "points", "m", BT_FIELD_POINTS, 0, NULL, 0,
+         "it is their hull: four or more, relative to `at'"),
+  PLACE ("where their origin goes"),
+  TURNED,
+  FRICTION,
+  TRACK,
+};
+
+static const bt_field mesh_fields[] = {
+  OTHER (bt_obstacle_def, mesh, "file", "", BT_FIELD_MESH, 0, NULL, 0, "of its triangles"),
+  PLACE ("where its origin goes"),
+  TURNED,
+  NUMBER (bt_obstacle_def, scale, "scale", "", 1, 0, 1e6, 1, 0, NULL, "metres of one unit"),
+  FRICTION,
+  TRACK,
+};
+
+/* ---- Kinds of parts ---- */
+
+#define HEAD(name, inside, text, type, fields, obstacle)                                           \
+  {                                                                                                \
+    name, inside, text, sizeof (type), fields, COUNT_OF (fields), obstacle                         \
+  }
+#define OBSTACLE(name, text, fields, kind) HEAD (name, NULL, text, bt_obstacle_def, fields, kind)
+
 static const bt_head heads[] = {
-  { "sea", NULL, "the water and its current", sizeof (bt_sea_def), sea_fields,
-    COUNT_OF (sea_fields) },
-  { "rov", NULL, "a vehicle", sizeof (bt_vehicle_def), vehicle_fields, COUNT_OF (vehicle_fields) },
-  { "tether", NULL, "a tether between its anchor and a vehicle", sizeof (bt_tether_def),
-    tether_fields, COUNT_OF (tether_fields) },
-  { "clump", "tether", "a clump weight on a tether", sizeof (bt_lump), clump_fields,
-    COUNT_OF (clump_fields) },
-  { "float", "tether", "a float or a buoyant section on a tether", sizeof (bt_lump), float_fields,
-    COUNT_OF (float_fields) },
+  HEAD ("sea", NULL, "the water and its current", bt_sea_def, sea_fields, -1),
+  HEAD ("rov", NULL, "a vehicle", bt_vehicle_def, vehicle_fields, -1),
+  HEAD ("tether", NULL, "a tether between its anchor and a vehicle", bt_tether_def, tether_fields,
+        -1),
+  HEAD ("clump", "tether", "a clump weight on a tether", bt_lump, clump_fields, -1),
+  HEAD ("float", "tether", "a float or a buoyant section on a tether", bt_lump, float_fields, -1),
+  OBSTACLE ("seabed", "the bottom: level at the depth of the sea, or a grid or mesh of it",
+            seabed_fields, BT_OBSTACLE_SEABED),
+  OBSTACLE ("box", "a solid box", box_fields, BT_OBSTACLE_BOX),
+  OBSTACLE ("sphere", "a solid sphere", sphere_fields, BT_OBSTACLE_SPHERE),
+  OBSTACLE ("cylinder", "a solid cylinder with flat ends", cylinder_fields, BT_OBSTACLE_CYLINDER),
+  OBSTACLE ("capsule", "a solid cylinder with round ends", cylinder_fields, BT_OBSTACLE_CAPSULE),
+  OBSTACLE ("convex", "the convex hull of some points, solid", convex_fields, BT_OBSTACLE_CONVEX),
+  OBSTACLE ("mesh", "triangles from a file: a surface with two sides", mesh_fields,
+            BT_OBSTACLE_MESH),
 };
 
 const bt_head *
@@ -180,130 +285,11 @@ bt_field_find (const bt_head *head, const char *name)
   return NULL;
 }
 
-static void *
-member (const bt_field *field, void *def)
+const bt_head *
+bt_obstacle_head (bt_obstacle_kind kind)
 {
-  return (char *)def + field->offset;
-}
-
-static int
-is_numeric (const bt_field *field)
-{
-  return field->kind == BT_FIELD_NUMBER || field->kind == BT_FIELD_COUNT
-         || field->kind == BT_FIELD_WORD;
-}
-
-void
-bt_def_init (const bt_head *head, void *def)
-{
-  memset (def, 0, head->size);
-  for (size_t i = 0; i < head->n_fields; i++)
-    if (is_numeric (&head->fields[i]))
-      *(double *)member (&head->fields[i], def) = head->fields[i].fallback;
-}
-
-static const char *
-lower_bound_word (const bt_field *field)
-{
-  return field->above_min ? "above" : "at least";
-}
-
-static int
-is_word_value (const bt_field *field, double value)
-{
-  for (const bt_word *w = field->words; w && w->word; w++)
-    if (w->value == value)
-      return 1;
-  return 0;
-}
-
-static int
-in_range (const bt_field *field, double value)
-{
-  return isfinite (value) && value <= field->max
-         && (field->above_min ? value > field->min : value >= field->min);
-}
-
-bt_status
-bt_def_set_number (const bt_field *field, void *def, double value, bt_error *error)
-{
-  int whole = field->kind == BT_FIELD_COUNT;
-  if (!is_numeric (field))
-    return bt__fail (error, BT_ERR_NAME, "`%s' does not take a number", field->name);
-  if (field->kind == BT_FIELD_WORD && !is_word_value (field, value))
-    return bt__fail (error, BT_ERR_NAME, "`%s' takes a word, not the number %g", field->name,
-                     value);
-  if (whole && (!in_range (field, value) || value != floor (value)))
-    return bt__fail (error, BT_ERR_DOMAIN, "`%s' is a whole number from %g to %g, not %g",
-                     field->name, field->min, field->max, value);
-  if (!whole && !is_word_value (field, value) && !in_range (field, value))
-    return bt__fail (error, BT_ERR_DOMAIN, "`%s' is %s %g and at most %g%s%s, not %g", field->name,
-                     lower_bound_word (field), field->min, field->max, *field->unit ? " " : "",
-                     field->unit, value);
-  *(double *)member (field, def) = value;
-  return BT_OK;
-}
-
-bt_status
-bt_def_set_word (const bt_field *field, void *def, const char *word, bt_error *error)
-{
-  for (const bt_word *w = field->words; w && w->word; w++)
-    if (strcmp (w->word, word) == 0)
-      {
-        *(double *)member (field, def) = w->value;
-        return BT_OK;
-      }
-  return bt__fail (error, BT_ERR_NAME, "`%s' does not take the word `%s'", field->name, word);
-}
-
-bt_status
-bt_def_set_point (const bt_field *field, void *def, bt_vec3 v, bt_error *error)
-{
-  int fits = fabs (v.x) <= field->max && fabs (v.y) <= field->max && fabs (v.z) <= field->max;
-  if (field->kind != BT_FIELD_POINT && field->kind != BT_FIELD_END)
-    return bt__fail (error, BT_ERR_NAME, "`%s' does not take a point", field->name);
-  if (!fits) /* false for NaN too */
-    return bt__fail (error, BT_ERR_DOMAIN, "`%s' is a point within %g m, not (%g %g %g)",
-                     field->name, field->max, v.x, v.y, v.z);
-  if (field->kind == BT_FIELD_END)
-    *(bt_end *)member (field, def) = (bt_end){ .at = v };
-  else
-    *(bt_vec3 *)member (field, def) = v;
-  return BT_OK;
-}
-
-bt_status
-bt_def_set_current (const bt_field *field, void *def, const bt_current *value, bt_error *error)
-{
-  bt_status status;
-  if (field->kind != BT_FIELD_CURRENT)
-    return bt__fail (error, BT_ERR_NAME, "`%s' does not take a current", field->name);
-  status = bt_current_check (value, error);
-  if (status == BT_OK)
-    *(bt_current *)member (field, def) = *value;
-  return status;
-}
-
-bt_status
-bt_def_set_part (const bt_field *field, void *def, const char *part, bt_error *error)
-{
-  bt_end end = { { 0, 0, 0 }, { 0 } };
-  bt_status status;
-  if (field->kind != BT_FIELD_END)
-    return bt__fail (error, BT_ERR_NAME, "`%s' does not take the name of a part", field->name);
-  status = bt_def_set_name (end.part, part, error);
-  if (status == BT_OK)
-    *(bt_end *)member (field, def) = end;
-  return status;
-}
-
-bt_status
-bt_def_set_name (char *name_field, const char *name, bt_error *error)
-{
-  size_t n = strlen (name);
-  if (n == 0 || n >= BT_NAME_SIZE)
-    return bt__fail (error, BT_ERR_DEF, "a name has 1 to %d bytes, not %zu", BT_NAME_SIZE - 1, n);
-  memset (name_field, 0, BT_NAME_SIZE);
-  memcpy (name_field, name, n);
-  return BT_OK;
+  for (size_t i = 0; i < COUNT_OF (heads); i++)
+    if (heads[i].obstacle >= 0 && heads[i].obstacle == (int)kind)
+      return &heads[i];
+  return NULL;
 }

@@ -9,68 +9,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "math/vec.h"
-#include "model/model.h"
-
-/* ---- Every field within its range ---- */
-
-/* Put a sentence about PART in front of what ERROR says.  */
-static bt_status
-about (const char *head, const char *name, bt_error *error)
-{
-  if (error)
-    {
-      bt_error inner = *error;
-      bt__fail (error, inner.status, "%s%s%s%s: %s", head, *name ? " `" : "", name,
-                *name ? "'" : "", inner.text);
-      return inner.status;
-    }
-  return BT_ERR_DOMAIN;
-}
-
-/* Check the field of DEF by setting it to itself.  */
-static bt_status
-check_field (const bt_field *field, void *def, bt_error *error)
-{
-  void *p = (char *)def + field->offset;
-  switch (field->kind)
-    {
-    case BT_FIELD_POINT:
-      return bt_def_set_point (field, def, *(bt_vec3 *)p, error);
-    case BT_FIELD_CURRENT:
-      return bt_current_check (p, error);
-    case BT_FIELD_END:
-      return ((bt_end *)p)->part[0] ? BT_OK
-                                    : bt_def_set_point (field, def, ((bt_end *)p)->at, error);
-    default:
-      return bt_def_set_number (field, def, *(double *)p, error);
-    }
-}
-
-/* Fields left to follow from others are NAN here and complete by now.  */
-static bt_status
-check_fields (const char *head_name, const char *name, void *def, bt_error *error)
-{
-  const bt_head *head = bt_head_find (head_name);
-  bt_error here;
-  for (size_t i = 0; i < head->n_fields; i++)
-    if (check_field (&head->fields[i], def, &here) != BT_OK)
-      {
-        if (error)
-          *error = here;
-        about (head_name, name, error);
-        return here.status;
-      }
-  return BT_OK;
-}
-
-static bt_status
-check_name (const char *head, const char *name, bt_error *error)
-{
-  if (!memchr (name, 0, BT_NAME_SIZE) || !*name)
-    return bt__fail (error, BT_ERR_DEF, "a %s needs a name of 1 to %d bytes", head,
-                     BT_NAME_SIZE - 1);
-  return BT_OK;
-}
+#include "model/compile.h"
 
 void
 bt_tether_props_complete (bt_tether_props *props, double density, double gravity)
@@ -107,6 +46,10 @@ resolve_end (const bt_model *model, const bt_tether_def *tether, const bt_end *d
   if (!def->part[0])
     return BT_OK;
   end->vehicle = find_vehicle (model, def->part);
+  if (end->vehicle == BT__NOT_A_VEHICLE && bt__model_obstacle (model, def->part) != BT__NO_OBSTACLE)
+    return bt__fail (error, BT_ERR_DEF,
+                     "tether `%s' goes %s `%.63s', an obstacle: an end is a vehicle or a point",
+                     tether->name, which, def->part);
   if (end->vehicle == BT__NOT_A_VEHICLE)
     return bt__fail (error, BT_ERR_DEF, "tether `%s' goes %s `%.63s', but no vehicle has that name",
                      tether->name, which, def->part);
@@ -126,29 +69,57 @@ static bt_status
 check_reach (const bt_model *model, int i, bt_error *error)
 {
   const bt_tether_def *tether = &model->tethers[i];
-  double chord = bt__distance (model->ends[i][0].at, model->ends[i][1].at);
+  bt_vec3 p[BT_VIA_MAX + 2];
+  int n = bt__lay_points (model, i, p);
+  double way = 0;
+  for (int k = 0; k + 1 < n; k++)
+    way += bt__distance (p[k], p[k + 1]);
   /* A hair of slack, so that a world written with its length equal to its chord is taken.  */
-  if (chord > bt__longest_chord (&tether->props, tether->length, INFINITY) * (1 + 1e-12))
-    return bt__fail (error, BT_ERR_DEF, "tether `%s' is %g m long, but its ends are %g m apart",
-                     tether->name, tether->length, chord);
-  return BT_OK;
+  if (way <= bt__longest_chord (&tether->props, tether->length, INFINITY) * (1 + 1e-12))
+    return BT_OK;
+  if (n > 2)
+    return bt__fail (error, BT_ERR_DEF,
+                     "tether `%s' is %g m long, but its way through its `via' is %g m",
+                     tether->name, tether->length, way);
+  return bt__fail (error, BT_ERR_DEF, "tether `%s' is %g m long, but its ends are %g m apart",
+                   tether->name, tether->length, way);
+}
+
+static int
+compare_names (const void *a, const void *b)
+{
+  return strncmp (*(const char *const *)a, *(const char *const *)b, BT_NAME_SIZE);
+}
+
+static int
+list_names (const bt_model *model, const char **names)
+{
+  int n = 0;
+  for (int i = 0; i < model->n_vehicles; i++)
+    names[n++] = model->vehicles[i].name;
+  for (int i = 0; i < model->n_tethers; i++)
+    names[n++] = model->tethers[i].name;
+  for (int i = 0; i < model->n_obstacles; i++)
+    names[n++] = model->obstacles[i].name;
+  return n;
 }
 
 static bt_status
 check_unique (const bt_model *model, bt_error *error)
 {
-  int n = model->n_vehicles + model->n_tethers;
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < i; j++)
-      {
-        const char *a = i < model->n_vehicles ? model->vehicles[i].name
-                                              : model->tethers[i - model->n_vehicles].name;
-        const char *b = j < model->n_vehicles ? model->vehicles[j].name
-                                              : model->tethers[j - model->n_vehicles].name;
-        if (strcmp (a, b) == 0)
-          return bt__fail (error, BT_ERR_DEF, "two parts are named `%s'", a);
-      }
-  return BT_OK;
+  size_t room = (size_t)(model->n_vehicles + model->n_tethers + model->n_obstacles);
+  const char **names = malloc (room * sizeof *names + 1);
+  bt_status status = BT_OK;
+  int n;
+  if (!names)
+    return bt__fail (error, BT_ERR_LIMIT, "no memory for the names of a world");
+  n = list_names (model, names);
+  qsort (names, (size_t)n, sizeof *names, compare_names);
+  for (int i = 1; i < n && status == BT_OK; i++)
+    if (compare_names (&names[i - 1], &names[i]) == 0)
+      status = bt__fail (error, BT_ERR_DEF, "two parts are named `%s'", names[i]);
+  free (names);
+  return status;
 }
 
 /* Static shapes know nothing of lumps: a line that has some is a moving one.  */
@@ -182,13 +153,13 @@ static bt_status
 compile_tether (bt_model *model, int i, bt_error *error)
 {
   bt_tether_def *tether = &model->tethers[i];
-  bt_status status = check_name ("tether", tether->name, error);
+  bt_status status = bt__check_name ("tether", tether->name, error);
   if (status == BT_OK && isnan (tether->length))
     status = bt__fail (error, BT_ERR_DEF, "tether `%s' needs a length", tether->name);
   if (status == BT_OK)
     {
       bt_tether_props_complete (&tether->props, model->sea.density, model->sea.gravity);
-      status = check_fields ("tether", tether->name, tether, error);
+      status = bt__check_def (bt_head_find ("tether"), tether->name, tether, error);
     }
   if (status == BT_OK)
     status = resolve_end (model, tether, &tether->from, "from", &model->ends[i][0], error);
@@ -207,28 +178,34 @@ compile_tether (bt_model *model, int i, bt_error *error)
 }
 
 static bt_status
-compile (bt_model *model, bt_error *error)
+compile (bt_model *model, const bt_world *world, bt_error *error)
 {
-  bt_status status = check_fields ("sea", "", &model->sea, error);
+  bt_status status = bt__check_def (bt_head_find ("sea"), "", &model->sea, error);
   for (int i = 0; status == BT_OK && i < model->n_vehicles; i++)
     {
-      status = check_name ("rov", model->vehicles[i].name, error);
+      status = bt__check_name ("rov", model->vehicles[i].name, error);
       if (status == BT_OK)
-        status = check_fields ("rov", model->vehicles[i].name, &model->vehicles[i], error);
+        status = bt__check_def (bt_head_find ("rov"), model->vehicles[i].name, &model->vehicles[i],
+                                error);
     }
+  if (status == BT_OK)
+    status = bt__compile_obstacles (model, world, error);
   for (int i = 0; status == BT_OK && i < model->n_tethers; i++)
     status = compile_tether (model, i, error);
-  return status == BT_OK ? check_unique (model, error) : status;
+  if (status == BT_OK)
+    status = check_unique (model, error);
+  return status == BT_OK ? bt__check_laying (model, error) : status;
 }
 
 /* ---- Life ---- */
 
 static uint64_t
-content_id (const bt_model *model)
+content_id (const bt_model *model, const bt_world *world)
 {
   uint64_t h = bt__hash (&model->sea, sizeof model->sea, 0);
   h = bt__hash (model->vehicles, sizeof *model->vehicles * (size_t)model->n_vehicles, h);
-  return bt__hash (model->tethers, sizeof *model->tethers * (size_t)model->n_tethers, h);
+  h = bt__hash (model->tethers, sizeof *model->tethers * (size_t)model->n_tethers, h);
+  return bt__hash_obstacles (world, h);
 }
 
 static bt_status
@@ -283,10 +260,11 @@ bt_model_new (const bt_world *world, bt_model **out, bt_error *error)
   model = model_of (world);
   if (!model)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for a world");
-  status = compile (model, error);
+  status = compile (model, world, error);
   if (status == BT_OK)
     {
-      model->id = content_id (model);
+      model->id = content_id (model, world);
+      bt__number_scenes (model);
       *out = model;
     }
   else
@@ -309,5 +287,6 @@ bt_model_release (bt_model *model)
   free (model->vehicles);
   free (model->tethers);
   free (model->ends);
+  bt__release_obstacles (model);
   free (model);
 }

@@ -10,9 +10,12 @@
 
 #include <bight/model.h>
 
+#include "collide/scene.h"
+
 enum
 {
-  BT__NOT_A_VEHICLE = -1 /* an end that is a point */
+  BT__NOT_A_VEHICLE = -1, /* an end that is a point */
+  BT__NO_OBSTACLE = -1
 };
 
 /* An end with its name looked up.  */
@@ -21,6 +24,16 @@ typedef struct bt__end
   bt_vec3 at;
   int vehicle; /* index, or BT__NOT_A_VEHICLE */
 } bt__end;
+
+/* An obstacle on a track.  */
+typedef struct bt__carried
+{
+  int obstacle;     /* its number */
+  bt__scene *body;  /* that obstacle alone, in its own frame: its place is the origin, heading 0 */
+  double radius;    /* of a ball about the origin that holds it */
+  int n;            /* rows, one or more */
+  double (*row)[5]; /* t x y z heading: s, m, degrees */
+} bt__carried;
 
 struct bt_model
 {
@@ -31,10 +44,51 @@ struct bt_model
   bt_vehicle_def *vehicles;
   bt_tether_def *tethers; /* props complete */
   bt__end (*ends)[2];     /* per tether: anchor, far end */
+  int n_obstacles, n_carried;
+  bt_obstacle_def *obstacles; /* their numbers and names; what they borrowed is in the scenes */
+  int *where;                 /* of each: its place in SCENE, or -1 - its place in CARRIED */
+  bt__scene *scene;           /* what stands still, ids its numbers; NULL: nothing does */
+  bt__carried *carried;       /* what does not */
 };
 
 /* The longest chord that LENGTH metres of a tether with PROPS span when pulled with at most PULL
    newtons: the length, and more if it stretches, up to its breaking load or a tenth.  */
 double bt__longest_chord (const bt_tether_props *props, double length, double pull);
+
+/* The points of the line that tether I is laid along: its anchor, those of `via', its far end; at
+   most BT_VIA_MAX + 2.  Return how many.  */
+int bt__lay_points (const bt_model *model, int i, bt_vec3 *points);
+
+/* ---- Obstacles ---- */
+
+/* What stands still, or NULL.  */
+static inline const bt__scene *
+bt__model_scene (const bt_model *model)
+{
+  return model->scene;
+}
+
+/* The number of the obstacle called NAME, or BT__NO_OBSTACLE.  */
+int bt__model_obstacle (const bt_model *model, const char *name);
+
+/* The shape of obstacle I: in the world if it stands still, else in its own frame.  */
+const bt__obstacle *bt__model_shape (const bt_model *model, int i);
+
+/* The place in model->carried of obstacle I, or -1: it stands still.  */
+int bt__model_carried (const bt_model *model, int i);
+
+/* Where the K-th of model->carried is at the time T: on straight lines between the rows of its
+   track, turning the shorter way round; before the first and after the last as there.  */
+bt__frame bt__carried_frame (const bt_model *model, int k, double t);
+
+/* The box about SHAPE, drawn in FRAME; exact but for hulls and meshes that are turned.  */
+bt__aabb bt__framed_box (const bt__obstacle *shape, const bt__frame *frame);
+
+/* The box about obstacle I at the time T; without end for a level seabed.  */
+bt__aabb bt__model_obstacle_box (const bt_model *model, int i, double t);
+
+/* The axes of what is turned by HEADING (compass, clockwise), then bow up by PITCH, then starboard
+   down by ROLL, all in degrees; quarter turns are exact.  Its origin is AT.  */
+bt__frame bt__turned (bt_vec3 at, double heading, double pitch, double roll);
 
 #endif

@@ -1,0 +1,47 @@
+/* What the files that check a world and compile it share.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_MODEL_COMPILE_H
+#define BT_MODEL_COMPILE_H
+
+#include "model/model.h"
+
+/* Fill ERROR with INNER, about the part of kind HEAD called NAME ("": none).  */
+bt_status bt__about (const char *head, const char *name, bt_error *error, const bt_error *inner);
+
+/* Check every field that HEAD knows of DEF, the part called NAME.  Fields left to follow from
+   others must be complete.  */
+bt_status bt__check_def (const bt_head *head, const char *name, void *def, bt_error *error);
+
+bt_status bt__check_name (const char *head, const char *name, bt_error *error);
+
+/* ---- Obstacles ---- */
+
+int bt__has_axis (const bt_obstacle_def *def);    /* from FROM to TO */
+int bt__has_heading (const bt_obstacle_def *def); /* and pitch and roll */
+int bt__is_carried (const bt_obstacle_def *def);
+
+/* Check DEF, number I of a world in a sea of DEPTH, and draw it in *OUT: free that with
+   bt__free_shape, or give it to a scene.  */
+bt_status bt__draw_obstacle (bt_obstacle_def *def, int i, double depth, bt__obstacle *out,
+                             bt_error *error);
+void bt__free_shape (bt__obstacle *shape);
+
+/* Check the obstacles of WORLD and copy them into MODEL, which has its sea.  Nothing is allocated
+   for a world without.  */
+bt_status bt__compile_obstacles (bt_model *model, const bt_world *world, bt_error *error);
+
+void bt__release_obstacles (bt_model *model);
+
+/* Give every scene of MODEL a serial from its id.  */
+void bt__number_scenes (bt_model *model);
+
+/* Continue the hash H with the obstacles of WORLD.  */
+uint64_t bt__hash_obstacles (const bt_world *world, uint64_t h);
+
+/* Check that anchors, vehicles and the lines along which the tethers of MODEL are laid are clear of
+   its obstacles.  */
+bt_status bt__check_laying (const bt_model *model, bt_error *error);
+
+#endif
