@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include <bight/decls.h>
+#include <bight/sea.h>
 #include <bight/status.h>
 #include <bight/vec.h>
 
@@ -27,7 +28,8 @@ typedef enum bt_current_kind
   BT_CURRENT_TURNING,   /* constant speed, the set turns with depth */
   BT_CURRENT_POWER,     /* velocity[0] (1 + z/depth)^exponent over the depth of the sea */
   BT_CURRENT_TIDE,      /* velocity[0] cos (2 pi t / period) */
-  BT_CURRENT_FUNCTION   /* asked of bt_water.function */
+  BT_CURRENT_FUNCTION,  /* asked of bt_water.function */
+  BT_CURRENT_GRID       /* asked of the grid of bt_water.sea; velocity[0] without one */
 } bt_current_kind;
 
 /* A current as plain data, without pointers, so that it may live in the state of a dive.  */
@@ -56,14 +58,28 @@ typedef struct bt_water
   const bt_current *current;
   bt_current_function function; /* for BT_CURRENT_FUNCTION, else NULL */
   void *user;
+  const bt_sea *sea; /* what there is beside the current, borrowed; NULL: nothing */
 } bt_water;
 
 /* Return the horizontal velocity of a current of SPEED m/s that flows TOWARD the compass bearing,
    in radians clockwise from north.  */
 bt_vec3 bt_set_and_drift (double speed, double toward);
 
-/* Return the velocity of WATER at P, m/s.  */
+/* Return the velocity of WATER at P, m/s: the current, less in the lee of what stands in it, and
+   waves.  */
 bt_vec3 bt_water_velocity (const bt_water *water, bt_vec3 p);
+
+/* Return the same without waves: what carries a tether on the whole.  */
+bt_vec3 bt_water_current (const bt_water *water, bt_vec3 p);
+
+/* Return the acceleration of WATER by waves at P, m/s2.  */
+bt_vec3 bt_water_acceleration (const bt_water *water, bt_vec3 p);
+
+/* Return the height of the surface of WATER over P, m: 0 without waves.  */
+double bt_water_surface (const bt_water *water, bt_vec3 p);
+
+/* Return nonzero if WATER changes with time though nothing else does.  */
+int bt_water_is_unsteady (const bt_water *water);
 
 /* Return the mean velocity of WATER over the straight line from A to B, m/s (5-point Gauss rule;
    the value at A when the current is the same everywhere).  */

@@ -1,0 +1,215 @@
+/* Waves: linear theory over a level bottom, one component or many.
+
+   A component of amplitude a, theta = k (x . way) - omega t + phase, over depth d has the surface
+   a cos theta and below it the velocity a omega (C cos theta along its way, S sin theta up), C and
+   S the hyperbolic cosine and sine of k (z + d) by sinh (k d) (R. G. Dean and R. A. Dalrymple,
+   Water Wave Mechanics for Engineers and Scientists, ch. 3).
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <bight/sea.h>
+
+#include <string.h>
+
+#include "base/error.h"
+#include "math/vec.h"
+
+enum
+{
+  CELLS = 4000 /* of the integral of a spectrum */
+};
+
+#define PERIOD_LEAST 0.5
+#define PERIOD_MOST 60.0
+#define HEIGHT_MOST 40.0
+#define MICHE 0.142
+#define LOWEST 0.5 /* of the peak frequency */
+#define HIGHEST 4.0
+#define UNFELT 16.0     /* k times the depth at which a component is 1e-7 of itself */
+#define BOTTOMLESS 18.5 /* k times the height at which it does not feel the bottom, to 1e-16 */
+
+double
+bt_wave_number (double omega, double depth, double gravity)
+{
+  double deep = omega * omega / gravity * depth;
+  double y = deep > 1 ? deep : sqrt (deep); /* y tanh y = deep */
+  for (int i = 0; i < 30; i++)
+    {
+      double t = tanh (y), step = (y * t - deep) / (t + y * (1 - t * t));
+      y -= step;
+      if (fabs (step) <= 1e-15 * y)
+        break;
+    }
+  return y / depth;
+}
+
+/* ---- Making them ---- */
+
+static bt_status
+check (const bt_wave_def *def, double depth, double gravity, bt_error *error)
+{
+  if (!(def->period >= PERIOD_LEAST && def->period <= PERIOD_MOST))
+    return bt__fail (error, BT_ERR_DOMAIN, "waves of %g s; %g to %g s are allowed", def->period,
+                     PERIOD_LEAST, PERIOD_MOST);
+  if (!(def->height >= 0 && def->height <= HEIGHT_MOST))
+    return bt__fail (error, BT_ERR_DOMAIN, "waves of %g m; 0 to %g m are allowed", def->height,
+                     HEIGHT_MOST);
+  if (!(depth > 0 && gravity > 0 && isfinite (depth) && isfinite (gravity)))
+    return bt__fail (error, BT_ERR_DOMAIN, "waves in %g m of water under %g m/s2", depth, gravity);
+  if (!(isfinite (def->toward) && isfinite (def->phase)))
+    return bt__fail (error, BT_ERR_DOMAIN, "waves toward %g rad of phase %g", def->toward,
+                     def->phase);
+  double k = bt_wave_number (2 * BT__PI / def->period, depth, gravity);
+  double most = MICHE * 2 * BT__PI / k * tanh (k * depth);
+  if (def->height > most)
+    return bt__fail (error, BT_ERR_DOMAIN,
+                     "waves of %g m and %g s break; at most %.3g m is allowed", def->height,
+                     def->period, most);
+  if (def->kind == BT_WAVE_AIRY)
+    return BT_OK;
+  if (def->kind != BT_WAVE_JONSWAP)
+    return bt__fail (error, BT_ERR_DOMAIN, "waves of unknown kind %ld", (long)def->kind);
+  if (!(def->gamma >= 1 && def->gamma <= 10))
+    return bt__fail (error, BT_ERR_DOMAIN, "a JONSWAP sea with gamma %g; 1 to 10 are allowed",
+                     def->gamma);
+  if (!(def->components >= 2 && def->components <= BT_WAVES_MAX))
+    return bt__fail (error, BT_ERR_DOMAIN, "a sea of %g components; 2 to %d are allowed",
+                     def->components, BT_WAVES_MAX);
+  return BT_OK;
+}
+
+/* A number in [0, 1) that follows from *SEED, which goes on (splitmix64).  */
+static double
+draw (uint64_t *seed)
+{
+  uint64_t z = *seed += 0x9e3779b97f4a7c15u;
+  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+  return (double)((z ^ z >> 31) >> 11) / 9007199254740992.0;
+}
+
+/* The JONSWAP spectrum at R times the peak frequency, but for a factor.  */
+static double
+density (double r, double gamma)
+{
+  double width = r <= 1 ? 0.07 : 0.09, s = (r - 1) / width;
+  return pow (r, -5) * exp (-1.25 * pow (r, -4)) * pow (gamma, exp (-s * s / 2));
+}
+
+static double
+frequency_of_cell (double cell)
+{
+  return LOWEST + (HIGHEST - LOWEST) * cell / CELLS;
+}
+
+/* Each part has the same energy; its frequency is drawn from within it.  */
+static void
+draw_sea (const bt_wave_def *def, double gravity, bt_waves *w)
+{
+  double whole = 0, below = 0, peak = 2 * BT__PI / def->period;
+  uint64_t seed = (uint64_t)def->seed;
+  int cell = 0;
+  for (int i = 0; i < CELLS; i++)
+    whole += density (frequency_of_cell (i + 0.5), def->gamma);
+  for (int i = 0; i < w->n; i++)
+    {
+      double wish = (i + draw (&seed)) / (double)w->n * whole;
+      double here = density (frequency_of_cell (cell + 0.5), def->gamma);
+      while (below + here < wish && cell < CELLS - 1)
+        {
+          below += here;
+          here = density (frequency_of_cell (++cell + 0.5), def->gamma);
+        }
+      double share = fmax (0, fmin (1, (wish - below) / here));
+      w->omega[i] = peak * frequency_of_cell (cell + share);
+      w->k[i] = bt_wave_number (w->omega[i], w->depth, gravity);
+      w->amplitude[i] = def->height / 4 * sqrt (2 / (double)w->n);
+      w->phase[i] = 2 * BT__PI * draw (&seed);
+    }
+}
+
+bt_status
+bt_waves_make (const bt_wave_def *def, double depth, double gravity, bt_waves *waves,
+               bt_error *error)
+{
+  memset (waves, 0, sizeof *waves);
+  if (def->kind == BT_WAVE_NONE)
+    return BT_OK;
+  bt_status status = check (def, depth, gravity, error);
+  if (status != BT_OK)
+    return status;
+  waves->n = def->kind == BT_WAVE_AIRY ? 1 : (int64_t)def->components;
+  waves->depth = depth;
+  waves->east = sin (def->toward);
+  waves->north = cos (def->toward);
+  if (def->kind == BT_WAVE_JONSWAP)
+    draw_sea (def, gravity, waves);
+  else
+    {
+      waves->omega[0] = 2 * BT__PI / def->period;
+      waves->k[0] = bt_wave_number (waves->omega[0], depth, gravity);
+      waves->amplitude[0] = def->height / 2;
+      waves->phase[0] = def->phase;
+    }
+  for (int i = 0; i < waves->n; i++)
+    waves->speed[i]
+        = waves->amplitude[i] * waves->omega[i] / -expm1 (-2 * waves->k[i] * waves->depth);
+  return BT_OK;
+}
+
+/* ---- Asking them ---- */
+
+static inline double
+angle (const bt_waves *w, int i, double way, double t)
+{
+  return w->k[i] * way - w->omega[i] * t + w->phase[i];
+}
+
+double
+bt_waves_elevation (const bt_waves *w, double x, double y, double t)
+{
+  double way = w->east * x + w->north * y, sum = 0;
+  for (int i = 0; i < w->n; i++)
+    sum += w->amplitude[i] * cos (angle (w, i, way, t));
+  return sum;
+}
+
+void
+bt_waves_motion (const bt_waves *w, bt_vec3 p, double t, bt_vec3 *velocity, bt_vec3 *acceleration)
+{
+  double way = w->east * p.x + w->north * p.y, z = fmax (-w->depth, fmin (0, p.z));
+  double along = 0, up = 0, along2 = 0, up2 = 0;
+  for (int i = 0; i < w->n && w->k[i] * -z < UNFELT; i++)
+    {
+      double theta = angle (w, i, way, t), c = cos (theta), s = sin (theta);
+      double k = w->k[i],
+             floor = k * (z + w->depth) < BOTTOMLESS ? exp (-2 * k * (z + w->depth)) : 0;
+      double speed = w->speed[i] * exp (k * z);
+      double level = speed * (1 + floor), rise = speed * (1 - floor);
+      along += level * c;
+      up += rise * s;
+      along2 += level * w->omega[i] * s;
+      up2 -= rise * w->omega[i] * c;
+    }
+  if (velocity)
+    *velocity = bt__vec (along * w->east, along * w->north, up);
+  if (acceleration)
+    *acceleration = bt__vec (along2 * w->east, along2 * w->north, up2);
+}
+
+bt_vec3
+bt_waves_ride (const bt_waves *w, const bt_rider *rider, bt_vec3 p, double t)
+{
+  double way = w->east * p.x + w->north * p.y, along = 0, up = 0;
+  for (int i = 0; i < w->n; i++)
+    {
+      double theta = angle (w, i, way, t), bed = tanh (w->k[i] * w->depth);
+      along -= w->amplitude[i] * sin (theta) / bed;
+      up += w->amplitude[i] * cos (theta);
+    }
+  double ahead_e = sin (rider->yaw), ahead_n = cos (rider->yaw);
+  double ahead = rider->surge * along * (w->east * ahead_e + w->north * ahead_n);
+  double aside = rider->sway * along * (w->east * ahead_n - w->north * ahead_e);
+  return bt__vec (ahead * ahead_e + aside * ahead_n, ahead * ahead_n - aside * ahead_e,
+                  rider->heave * up);
+}

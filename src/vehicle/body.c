@@ -1,0 +1,401 @@
+/* The step of a rigid body in water; the method stands in body.h.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "vehicle/body.h"
+#include "vehicle/inertia.h"
+#include "vehicle/solve.h"
+
+enum
+{
+  ITERATES = 60
+};
+
+/* The last change of a solved step, of the velocity or of LEAST m/s and rad/s.  */
+#define SOLVED 1e-14
+#define LEAST 0.1
+#define LETTING_GO 4.0 /* a pull that falls to less than one part in this in a step */
+#define SOFT 50.0      /* h2 k / m of a line that is neither soft nor stiff */
+
+/* Two vectors: along and about the own axes.  */
+typedef struct motion
+{
+  bt_vec3 v, w;
+} motion;
+
+/* What a step works on.  Forces are in the own axes but for WORLD_*.  */
+typedef struct job
+{
+  const bt__vehicle_type *type;
+  const bt__body *body;
+  const bt__body_input *in;
+  bt_vec3 mass, inertia, linear, quadratic, linear_w, quadratic_w;
+  motion start, mid;               /* relative to the water */
+  motion thrust;                   /* N, N m: mean of the step */
+  bt_vec3 world_pull, world_force; /* N */
+  double theta;                    /* share of the new pull, see body.h */
+  double a[6][6];                  /* of the last iterate */
+} job;
+
+/* ---- Thrusters ---- */
+
+/* The force that thruster K settles to.  */
+static double
+settled (const job *j, int k)
+{
+  const bt__thruster *t = &j->type->thruster[k];
+  double nominal = j->type->volts, volts = j->in->volts > 0 ? j->in->volts : nominal;
+  if (j->in->lost >> k & 1)
+    return 0;
+  return bt__thruster_force (t, volts, bt__thruster_command (t, nominal, j->in->wish[k]));
+}
+
+/* First-order lag, exact for a command held over the step: the mean of the step, and *END.  */
+static double
+lagged (const bt__thruster *t, double start, double target, double h, double *end)
+{
+  double s = t->lag > 0 ? h / t->lag : INFINITY;
+  double left = exp (-s), mean = t->lag > 0 ? -expm1 (-s) / s : 0;
+  *end = target + (start - target) * left;
+  return target + (start - target) * mean;
+}
+
+static void
+run_thrusters (job *j, double *end)
+{
+  memset (end, 0, BT__THRUSTERS_MAX * sizeof *end);
+  for (int k = 0; k < j->type->n; k++)
+    {
+      const bt__thruster *t = &j->type->thruster[k];
+      double f = lagged (t, j->body->thrust[k], settled (j, k), j->in->h, &end[k]);
+      j->thrust.v = bt__axpy (j->thrust.v, f, t->along);
+      j->thrust.w = bt__axpy (j->thrust.w, f, bt__cross (t->at, t->along));
+    }
+}
+
+/* ---- The equations ---- */
+
+/* The share of the hull that is under water at height Z.  */
+static double
+wet_share (const job *j, double z)
+{
+  double height = j->type->size.z;
+  if (!(j->in->surface < INFINITY))
+    return 1;
+  double s = 0.5 + (j->in->surface - z) / (height > 0 ? height : 1e-3);
+  return fmax (0, fmin (1, s));
+}
+
+static void
+add_skew (double (*a)[6], int row, int column, bt_vec3 p)
+{
+  a[row][column + 1] += p.z;
+  a[row][column + 2] -= p.y;
+  a[row + 1][column] -= p.z;
+  a[row + 1][column + 2] += p.x;
+  a[row + 2][column] += p.y;
+  a[row + 2][column + 1] -= p.x;
+}
+
+/* The stiffness against turning of the force F, held in the world, at R; what is negative of it is
+   left out.  */
+static void
+add_turning (double (*a)[6], double k, bt_vec3 r, bt_vec3 f)
+{
+  double along = bt__dot (r, f), level = along + (bt__norm (r) * bt__norm (f) - along) / 2;
+  double u[3] = { r.x, r.y, r.z }, w[3] = { f.x, f.y, f.z };
+  for (int i = 0; i < 3; i++)
+    for (int c = 0; c < 3; c++)
+      a[3 + i][3 + c] += k * ((i == c ? level : 0) - (u[i] * w[c] + w[i] * u[c]) / 2);
+}
+
+static void
+add_diagonal (double (*a)[6], int at, bt_vec3 d)
+{
+  a[at][at] += d.x;
+  a[at + 1][at + 1] += d.y;
+  a[at + 2][at + 2] += d.z;
+}
+
+static bt_vec3
+damping (bt_vec3 linear, bt_vec3 quadratic, bt_vec3 v)
+{
+  return bt__vec (linear.x + quadratic.x * fabs (v.x), linear.y + quadratic.y * fabs (v.y),
+                  linear.z + quadratic.z * fabs (v.z));
+}
+
+/* The momenta that C is made of.  */
+static motion
+momenta (const job *j, motion m)
+{
+  const bt__hydro *hydro = &j->type->hydro;
+  bt_vec3 added = bt__along (hydro->added);
+  double mean = (added.x + added.y + added.z) / 3;
+  bt_vec3 kept
+      = bt__axpy (bt__scale ((1 - hydro->munk) * mean, bt__vec (1, 1, 1)), hydro->munk, added);
+  bt_vec3 mass = bt__add (kept, bt__vec (j->type->mass, j->type->mass, j->type->mass));
+  return (motion){ bt__times (mass, m.v), bt__times (j->inertia, m.w) };
+}
+
+/* Forces and their points at an iterate: everything but C, D and inertia.  */
+typedef struct scene
+{
+  bt__quat q;
+  bt_vec3 buoyancy, pull; /* N, own axes */
+  motion sum;
+  double wet;
+} scene;
+
+static scene
+look (const job *j)
+{
+  const bt__vehicle_type *type = j->type;
+  const bt__body_input *in = j->in;
+  scene s = { .q = bt__quat_turned (j->body->attitude, bt__scale (in->h / 2, j->mid.w)) };
+  double up = bt__turn_out (s.q, j->mid.v).z + in->flow.z;
+  s.wet = wet_share (j, j->body->position.z + in->h / 2 * up);
+  double weight = type->mass * in->gravity, lift = s.wet * in->density * type->volume * in->gravity;
+  double displaced = s.wet * in->density * type->volume - type->mass;
+  bt_vec3 outside = bt__axpy (j->world_force, displaced, in->flow_acceleration);
+  s.buoyancy = bt__turn_in (s.q, bt__vec (0, 0, lift));
+  s.pull = bt__turn_in (s.q, j->world_pull);
+  outside.z += lift - weight;
+  s.sum.v = bt__add (bt__add (bt__turn_in (s.q, outside), s.pull), j->thrust.v);
+  s.sum.w = bt__add (bt__cross (type->buoyancy, s.buoyancy), bt__cross (type->attached, s.pull));
+  s.sum.w = bt__add (bt__add (s.sum.w, j->thrust.w), bt__turn_in (s.q, in->moment));
+  return s;
+}
+
+/* The matrix at the iterate; without C if not TURNING.  */
+static void
+assemble (job *j, const scene *s, int turning)
+{
+  double rate = 2 / j->in->h;
+  motion p = momenta (j, j->mid);
+  memset (j->a, 0, sizeof j->a);
+  add_diagonal (j->a, 0, bt__scale (rate, j->mass));
+  add_diagonal (j->a, 3, bt__scale (rate, j->inertia));
+  add_diagonal (j->a, 0, bt__scale (s->wet, damping (j->linear, j->quadratic, j->mid.v)));
+  add_diagonal (j->a, 3, bt__scale (s->wet, damping (j->linear_w, j->quadratic_w, j->mid.w)));
+  add_turning (j->a, 1 / rate, j->type->buoyancy, s->buoyancy);
+  add_turning (j->a, 1 / rate, j->type->attached, s->pull);
+  if (!turning)
+    return;
+  add_skew (j->a, 0, 3, p.v);
+  add_skew (j->a, 3, 0, p.v);
+  add_skew (j->a, 3, 3, p.w);
+}
+
+/* What is left of the equations at the iterate.  */
+static void
+residual (const job *j, const scene *s, double *r)
+{
+  double rate = 2 / j->in->h;
+  motion p = momenta (j, j->mid), m = j->mid;
+  bt_vec3 v = bt__axpy (s->sum.v, -rate, bt__times (j->mass, bt__sub (m.v, j->start.v)));
+  bt_vec3 w = bt__axpy (s->sum.w, -rate, bt__times (j->inertia, bt__sub (m.w, j->start.w)));
+  v = bt__axpy (v, -s->wet, bt__times (damping (j->linear, j->quadratic, m.v), m.v));
+  w = bt__axpy (w, -s->wet, bt__times (damping (j->linear_w, j->quadratic_w, m.w), m.w));
+  v = bt__add (v, bt__cross (p.v, m.w));
+  w = bt__add (w, bt__add (bt__cross (p.w, m.w), bt__cross (p.v, m.v)));
+  memcpy (r, (double[6]){ v.x, v.y, v.z, w.x, w.y, w.z }, 6 * sizeof *r);
+}
+
+static int
+solve_mid (job *j)
+{
+  double r[6], d[6], a[6][6];
+  for (int i = 0; i < ITERATES; i++)
+    {
+      scene s = look (j);
+      residual (j, &s, r);
+      assemble (j, &s, 1);
+      memcpy (a, j->a, sizeof a);
+      if (!bt__solve6 (a, r, d))
+        return 0;
+      bt_vec3 dv = bt__vec (d[0], d[1], d[2]), dw = bt__vec (d[3], d[4], d[5]);
+      j->mid.v = bt__add (j->mid.v, dv);
+      j->mid.w = bt__add (j->mid.w, dw);
+      if (bt__norm (dv) <= SOLVED * (LEAST + bt__norm (j->mid.v))
+          && bt__norm (dw) <= SOLVED * (LEAST + bt__norm (j->mid.w)))
+        break;
+    }
+  return bt__is_finite (j->mid.v) && bt__is_finite (j->mid.w);
+}
+
+static void
+prepare (job *j, const bt__vehicle_type *type, const bt__body *body, const bt__body_input *in)
+{
+  const bt__hydro *hydro = &type->hydro;
+  double water = in->density > 0;
+  bt_vec3 begin = bt__axpy (in->flow, -in->h / 2, in->flow_acceleration);
+  *j = (job){ .type = type, .body = body, .in = in };
+  j->mass = bt__masses (type);
+  j->inertia = bt__inertias (type);
+  j->linear = bt__scale (water, bt__along (hydro->linear));
+  j->quadratic = bt__scale (water, bt__along (hydro->quadratic));
+  j->linear_w = bt__scale (water, bt__about (hydro->linear));
+  j->quadratic_w = bt__scale (water, bt__about (hydro->quadratic));
+  j->start.v = bt__sub (body->velocity, bt__turn_in (body->attitude, begin));
+  j->start.w = body->spin;
+  j->mid = j->start;
+  j->world_force = in->force;
+}
+
+/* ---- The step ---- */
+
+/* One by the mass that the line has to do with: along its pull, or the least any way.  */
+static double
+lightness (const job *j, bt_vec3 pull)
+{
+  bt_vec3 r = j->type->attached, u = bt__turn_in (j->body->attitude, pull);
+  double size = bt__norm (pull);
+  if (size == 0)
+    return 1 / fmin (j->mass.x, fmin (j->mass.y, j->mass.z))
+           + bt__dot (r, r) / fmin (j->inertia.x, fmin (j->inertia.y, j->inertia.z));
+  u = bt__scale (1 / size, u);
+  bt_vec3 m = bt__cross (r, u);
+  return bt__dot (u, bt__over (u, j->mass)) + bt__dot (m, bt__over (m, j->inertia));
+}
+
+static double
+share_of_new (const job *j)
+{
+  double s = j->in->h * j->in->h * j->in->stiffness * lightness (j, j->body->pull);
+  return j->in->gripped ? 0.5 + 0.5 * s / (s + SOFT) : 0.5;
+}
+
+/* The pull of the step.  Of that before a line goes slack the rest is left out: counted in full it
+   would have pulled after it was gone, and made energy.  */
+static bt_vec3
+mean_pull (const job *j, bt_vec3 pull)
+{
+  double before = bt__norm (j->body->pull), now = bt__norm (pull);
+  double kept = LETTING_GO * now < before ? LETTING_GO * now / before : 1;
+  return bt__axpy (bt__scale (j->theta, pull), (1 - j->theta) * kept, j->body->pull);
+}
+
+/* What the mean motion of a step with a stiff line has beyond the midpoint's.  */
+static motion
+lead_of (const job *j)
+{
+  double k = 2 * j->theta - 1;
+  return (motion){ bt__scale (k, bt__sub (j->mid.v, j->start.v)),
+                   bt__scale (k, bt__sub (j->mid.w, j->start.w)) };
+}
+
+static void
+move (const job *j, bt__body *next)
+{
+  double h = j->in->h;
+  bt__quat q = bt__quat_turned (j->body->attitude, bt__scale (h / 2, j->mid.w));
+  bt_vec3 end = bt__axpy (j->in->flow, h / 2, j->in->flow_acceleration);
+  motion lead = lead_of (j);
+  bt_vec3 way = bt__add (bt__turn_out (q, bt__add (j->mid.v, lead.v)), j->in->flow);
+  next->position = bt__axpy (j->body->position, h, way);
+  next->attitude = bt__quat_turned (j->body->attitude, bt__scale (h, bt__add (j->mid.w, lead.w)));
+  next->velocity
+      = bt__add (bt__sub (bt__scale (2, j->mid.v), j->start.v), bt__turn_in (next->attitude, end));
+  next->spin = bt__sub (bt__scale (2, j->mid.w), j->start.w);
+  next->heading = bt__heading_follow (next->heading, next->attitude);
+}
+
+/* NEXT from BODY with PULL at the end of the step.  J keeps the last iterate.  */
+static int
+advance (job *j, const bt__vehicle_type *type, const bt__body *body, const bt__body_input *in,
+         bt_vec3 pull, bt__body *next)
+{
+  prepare (j, type, body, in);
+  *next = *body;
+  run_thrusters (j, next->thrust);
+  j->theta = share_of_new (j);
+  j->world_pull = in->gripped ? mean_pull (j, pull) : pull;
+  if (!solve_mid (j))
+    return 0;
+  next->pull = pull;
+  move (j, next);
+  return bt__is_finite (next->position) && bt__is_finite (next->velocity)
+         && bt__is_finite (next->spin);
+}
+
+bt_status
+bt__body_step (const bt__vehicle_type *type, bt__body *body, const bt__body_input *in,
+               bt_error *error)
+{
+  job j;
+  bt__body next;
+  if (!advance (&j, type, body, in, in->pull, &next))
+    return bt__fail (error, BT_ERR_DIVERGED, "the motion of a vehicle (%s) has no finite answer",
+                     type->name);
+  *body = next;
+  return BT_OK;
+}
+
+/* ---- The grip ---- */
+
+/* Column C of how the attachment moves with a force on it, world: J S J^T.  */
+static bt_vec3
+yield (const job *j, bt__quat q, bt_vec3 force)
+{
+  double a[6][6], x[6];
+  bt_vec3 f = bt__turn_in (q, force), m = bt__cross (j->type->attached, f);
+  double b[6] = { f.x, f.y, f.z, m.x, m.y, m.z };
+  memcpy (a, j->a, sizeof a);
+  bt__solve6 (a, b, x);
+  bt_vec3 v = bt__vec (x[0], x[1], x[2]), w = bt__vec (x[3], x[4], x[5]);
+  return bt__turn_out (q, bt__add (v, bt__cross (w, j->type->attached)));
+}
+
+/* The inverse of the matrix of columns C, symmetric.  */
+static void
+invert (const bt_vec3 *c, double (*k)[3])
+{
+  bt_vec3 row[3] = { bt__cross (c[1], c[2]), bt__cross (c[2], c[0]), bt__cross (c[0], c[1]) };
+  double per = 1 / bt__dot (c[0], row[0]);
+  for (int i = 0; i < 3; i++)
+    memcpy (k[i], (double[3]){ per * row[i].x, per * row[i].y, per * row[i].z }, sizeof k[i]);
+  for (int i = 0; i < 3; i++)
+    for (int m = 0; m < i; m++)
+      k[i][m] = k[m][i] = (k[i][m] + k[m][i]) / 2;
+}
+
+bt_status
+bt__body_grip (const bt__vehicle_type *type, const bt__body *body, const bt__body_input *in,
+               bt__grip *grip, bt_error *error)
+{
+  job j;
+  bt__body next;
+  bt__body_input gripped = *in;
+  bt_vec3 column[3];
+  gripped.gripped = 1;
+  if (!advance (&j, type, body, &gripped, body->pull, &next))
+    return bt__fail (error, BT_ERR_DIVERGED, "the motion of a vehicle (%s) has no finite answer",
+                     type->name);
+  scene s = look (&j);
+  assemble (&j, &s, 0);
+  for (int i = 0; i < 3; i++)
+    {
+      bt_vec3 unit = bt__vec (i == 0, i == 1, i == 2);
+      column[i] = bt__scale (2 * j.theta * j.theta * in->h, yield (&j, s.q, unit));
+    }
+  invert (column, grip->stiffness);
+  grip->at = bt__body_point (&next, type->attached);
+  grip->at = bt__axpy (grip->at, -body->pull.x, column[0]);
+  grip->at = bt__axpy (grip->at, -body->pull.y, column[1]);
+  grip->at = bt__axpy (grip->at, -body->pull.z, column[2]);
+  return BT_OK;
+}
+
+bt_vec3
+bt__grip_pull (const bt__grip *grip, bt_vec3 x)
+{
+  const double (*k)[3] = grip->stiffness;
+  bt_vec3 d = bt__sub (x, grip->at);
+  return bt__vec (k[0][0] * d.x + k[0][1] * d.y + k[0][2] * d.z,
+                  k[1][0] * d.x + k[1][1] * d.y + k[1][2] * d.z,
+                  k[2][0] * d.x + k[2][1] * d.y + k[2][2] * d.z);
+}

@@ -1,0 +1,113 @@
+/* A rigid body in water, with thrusters and a tether, stepped implicitly.
+
+   After Fossen (Handbook of Marine Craft Hydrodynamics and Motion Control, ch. 6-8), with nu the
+   velocity relative to the water along and about the body's own axes at its centre of gravity,
+     M nu' + C(nu) nu + D(nu) nu + g = tau + (rho V - m) a + J^T F,
+   M the mass with its added mass, a the acceleration of the water, F the pull of the tether on the
+   point it is made fast to.  A step is the midpoint rule, of second order, solved by iterates each
+   of which holds C skew and D positive: whatever the iteration comes to, C does no work, drag takes
+   energy away, and the step is bounded for any h.  Without forces the midpoint rule keeps the
+   kinetic energy, and with the attitude turned by Cayley's transform the momentum in the world.
+
+   The implicit line.  A stiff line must be solved together with the body it pulls.  Over a step the
+   place X of the attachment at its end is a linear function of the pull F there but for terms of
+   higher order, X = AT + Y F, so to the line the body is a spring of stiffness K = Y^-1 to the
+   point AT: bt__body_grip gives both.  The line's step then adds K (AT - X) to the force on its end
+   node and K to the node's block, and bt__body_step is given what it found, F = K (X - AT).  With
+   F0 the pull of the last step, the body takes the impulse h (theta F + (1 - theta) F0), and what
+   changes its velocity counts theta h in the way.  Over S = (2 M/h + D + torques that turn with the
+   body)^-1 that is Y = 2 theta2 h J S J^T, over M alone theta2 h2 J M^-1 J^T.  theta is 1/2, of
+   second order, while the line is soft, and goes to 1, which damps all that is too quick for the
+   step, as it grows stiff: theta = 1/2 + 1/2 s/(s + 50), s = h2 k / m, k of the line at its end, m
+   of the body there.  A line that goes slack leaves nothing behind (F0 counts for less as F falls
+   below a quarter of it): a longer memory makes energy at every snap.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_VEHICLE_BODY_H
+#define BT_VEHICLE_BODY_H
+
+#include <stdint.h>
+
+#include "vehicle/frame.h"
+#include "vehicle/type.h"
+
+/* All that moves: flat, of doubles alone.  */
+typedef struct bt__body
+{
+  bt_vec3 position; /* m: of the centre of gravity */
+  bt__quat attitude;
+  bt_vec3 velocity; /* m/s over ground, along its own axes */
+  bt_vec3 spin;     /* rad/s, about its own axes */
+  double heading;   /* rad, never wrapped: it counts the turns, clockwise positive */
+  double thrust[BT__THRUSTERS_MAX]; /* N: now */
+  bt_vec3 pull; /* N: F of the last step; at the start that of the line as it was laid */
+} bt__body;
+
+/* What surrounds it in a step.  All zero: nothing does.  */
+typedef struct bt__body_input
+{
+  double h;                        /* s */
+  double density, gravity;         /* kg/m3, m/s2 */
+  double surface;                  /* m: height of the water's surface there; INFINITY: none */
+  bt_vec3 flow, flow_acceleration; /* of the water, in the middle of the step */
+  bt_vec3 force, moment;           /* N, N m at the centre of gravity, world, held */
+  bt_vec3 pull;                    /* N on the attachment: at the end of the step if GRIPPED, else
+                                      held over it */
+  int64_t gripped;                 /* nonzero: PULL is that of an implicit line */
+  double stiffness;                /* N/m: of that line at its end, EA by the length of a piece */
+  double volts;                    /* of the battery; 0: the type's */
+  uint64_t lost;                   /* bit K: thruster K is dead */
+  double wish[BT__THRUSTERS_MAX];  /* N asked of each thruster */
+} bt__body_input;
+
+/* Put BODY, at rest, at a place in an attitude (rad).  */
+void bt__body_place (bt__body *body, bt_vec3 position, double heading, double pitch, double roll);
+
+/* Step BODY.  BT_ERR_DIVERGED leaves it as it was.  */
+bt_status bt__body_step (const bt__vehicle_type *type, bt__body *body, const bt__body_input *in,
+                         bt_error *error);
+
+/* What an implicit line sees at its end.  */
+typedef struct bt__grip
+{
+  bt_vec3 at;             /* m: where the attachment would come to without the line */
+  double stiffness[3][3]; /* N/m: symmetric, positive definite */
+} bt__grip;
+
+/* Return in *GRIP what the line of the coming step has at its end; IN->pull is not looked at.  */
+bt_status bt__body_grip (const bt__vehicle_type *type, const bt__body *body,
+                         const bt__body_input *in, bt__grip *grip, bt_error *error);
+
+/* The pull on the body of a line whose end the step has brought to X.  */
+bt_vec3 bt__grip_pull (const bt__grip *grip, bt_vec3 x);
+
+/* ---- Points of it ---- */
+
+/* Place and velocity, in the world, of the point P of its own axes.  */
+bt_vec3 bt__body_point (const bt__body *body, bt_vec3 p);
+bt_vec3 bt__body_point_velocity (const bt__body *body, bt_vec3 p);
+
+/* Strike BODY at the point P of the world with IMPULSE, N s.  */
+void bt__body_strike (const bt__vehicle_type *type, bt__body *body, bt_vec3 p, bt_vec3 impulse);
+
+/* Let BODY bounce at the point P of the world off what has the outward NORMAL: Newton's RESTITUTION
+   (0 to 1), Coulomb's FRICTION; never with more energy than it had.  Return the impulse, N s; zero
+   if it was moving away.  */
+bt_vec3 bt__body_bounce (const bt__vehicle_type *type, bt__body *body, bt_vec3 p, bt_vec3 normal,
+                         double restitution, double friction);
+
+/* ---- Measures ---- */
+
+/* Kinetic energy with added mass relative to water that flows by at FLOW, J.  */
+double bt__body_energy (const bt__vehicle_type *type, const bt__body *body, bt_vec3 flow);
+
+/* Signed turns since the heading was FROM (rad), clockwise positive.  */
+double bt__body_turns (const bt__body *body, double from);
+
+/* HEADING carried on to that of ATTITUDE by the shorter way: the turn about the vertical left when
+   the tilt is taken out, so that pitch and roll, and loops, leave the count alone.  Within 37 deg
+   of upside down, where it means nothing, HEADING stays.  */
+double bt__heading_follow (double heading, bt__quat attitude);
+
+#endif

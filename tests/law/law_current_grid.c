@@ -1,0 +1,263 @@
+/* A current from a table is linear between its points, and a pile leaves a lee.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <config.h>
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <bight/water.h>
+
+#include "math/vec.h"
+
+static void
+assert_close (double value, double expected, double tolerance, const char *what)
+{
+  if (!(fabs (value - expected) <= tolerance))
+    fail_msg ("%s: %.12g is not %.12g within %g", what, value, expected, tolerance);
+}
+
+/* ---- The grid ---- */
+
+/* Linear in each coordinate by itself: what interpolation between points keeps exactly.  */
+static bt_vec3
+field (const double *p)
+{
+  double x = p[0], y = p[1], z = p[2], t = p[3];
+  return bt__vec (0.2 + 0.01 * x - 0.02 * y * z / 10 + 1e-3 * t, 0.1 + 1e-4 * x * t - 0.01 * z,
+                  0.01 * y + 1e-6 * x * y * z * t);
+}
+
+enum
+{
+  NX = 4,
+  NY = 3,
+  NZ = 5,
+  NT = 3,
+  ROWS = NX * NY * NZ * NT
+};
+
+static const double xs[NX] = { -10, 0, 4, 20 }, ys[NY] = { -5, 5, 6 };
+static const double zs[NZ] = { -40, -20, -10, -5, 0 }, ts[NT] = { 0, 600, 1000 };
+
+/* In an order that is no order.  */
+static void
+fill_rows (double (*rows)[7])
+{
+  for (int i = 0; i < ROWS; i++)
+    {
+      double *r = rows[i * 77 % ROWS];
+      r[0] = xs[i % NX];
+      r[1] = ys[i / NX % NY];
+      r[2] = zs[i / NX / NY % NZ];
+      r[3] = ts[i / NX / NY / NZ];
+      bt_vec3 v = field (r);
+      r[4] = v.x;
+      r[5] = v.y;
+      r[6] = v.z;
+    }
+}
+
+static double
+within (const double *line, int n, double value)
+{
+  return fmax (line[0], fmin (line[n - 1], value));
+}
+
+static void
+check_field (const bt_current_grid *grid)
+{
+  for (double x = -15; x < 30; x += 2.3)
+    for (double y = -8; y < 9; y += 1.1)
+      for (double z = -50; z < 5; z += 3.7)
+        for (double t = -100; t < 1200; t += 130)
+          {
+            double in[4] = { within (xs, NX, x), within (ys, NY, y), within (zs, NZ, z),
+                             within (ts, NT, t) };
+            bt_vec3 v = bt_current_grid_velocity (grid, bt__vec (x, y, z), t);
+            assert_close (bt__distance (v, field (in)), 0, 1e-13, "field");
+          }
+}
+
+static void
+test_grid (void **state)
+{
+  (void)state;
+  double rows[ROWS][7];
+  bt_current_grid *grid;
+  bt_error error;
+  fill_rows (rows);
+  assert_int_equal (bt_current_grid_new ((const double (*)[7])rows, ROWS, &grid, &error), BT_OK);
+  check_field (grid);
+  assert_true (bt_current_grid_is_unsteady (grid));
+  assert_false (bt__is_finite (bt_current_grid_velocity (grid, bt__vec (0, NAN, 0), 0)));
+  bt_current current = { .kind = BT_CURRENT_GRID };
+  bt_sea sea = { grid, NULL, NULL, 0 };
+  bt_water water = { 1025, 9.81, 40, 300, &current, NULL, NULL, &sea };
+  double p[4] = { 1, 2, -3, 300 };
+  assert_close (bt__distance (bt_water_velocity (&water, bt__vec (1, 2, -3)), field (p)), 0, 1e-14,
+                "water");
+  assert_true (bt_water_is_unsteady (&water));
+  bt_current_grid_free (grid);
+}
+
+/* ---- The file ---- */
+
+static bt_status
+read_text (const char *text, bt_current_grid **grid, bt_error *error)
+{
+  char name[] = "/tmp/bight-grid-XXXXXX";
+  int fd = mkstemp (name);
+  assert_true (fd >= 0);
+  FILE *file = fdopen (fd, "w");
+  fputs (text, file);
+  fclose (file);
+  bt_status status = bt_current_grid_read (name, grid, error);
+  remove (name);
+  return status;
+}
+
+static void
+test_file (void **state)
+{
+  (void)state;
+  bt_current_grid *grid;
+  bt_error error;
+  const char *text = "# measured\nx, y, z, t, u, v, w\n0,0,0,0, 1,0,0\n\n0 0 -10 0 0.5 0 0\n";
+  assert_int_equal (read_text (text, &grid, &error), BT_OK);
+  bt_vec3 v = bt_current_grid_velocity (grid, bt__vec (7, 8, -4), 99);
+  assert_close (v.x, 0.8, 1e-15, "read");
+  assert_false (bt_current_grid_is_unsteady (grid));
+  bt_current_grid_free (grid);
+}
+
+/* What is wrong is named, with its line or its place.  */
+static void
+test_bad_files (void **state)
+{
+  (void)state;
+  static const struct
+  {
+    const char *text, *says;
+    bt_status status;
+  } cases[] = {
+    { "", "no rows", BT_ERR_FORMAT },
+    { "0 0 0 0 1 0\n", "line 1: 6 numbers", BT_ERR_FORMAT },
+    { "x y z t u v w\n0 0 0 0 1 0 0\n0 0 0 fast 1 0 0\n", "line 3", BT_ERR_FORMAT },
+    { "a\nb\n0 0 0 0 1 0 0\n", "line 2", BT_ERR_FORMAT },
+    { "0 0 0 0 1 0 0\n1 1 0 0 1 0 0\n1 0 0 0 1 0 0\n", "x 0, y 1, z 0, t 0", BT_ERR_FORMAT },
+    { "0 0 0 0 1 0 0\n0 0 0 0 1 0 0\n", "two rows", BT_ERR_FORMAT },
+    { "0 0 0 0 21 0 0\n", "21 m/s", BT_ERR_DOMAIN },
+    { "0 0 0 0 nan 0 0\n", "row 1", BT_ERR_DOMAIN },
+    { "inf 0 0 0 0 0 0\n", "row 1", BT_ERR_DOMAIN },
+  };
+  bt_current_grid *grid;
+  bt_error error;
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+    {
+      bt_status status = read_text (cases[i].text, &grid, &error);
+      if (status != cases[i].status || !strstr (error.text, cases[i].says))
+        fail_msg ("case %zu: %s: %s", i, bt_status_name (status), error.text);
+    }
+  assert_int_equal (bt_current_grid_read ("/nowhere/at.all", &grid, &error), BT_ERR_IO);
+}
+
+/* ---- The lee ---- */
+
+static const bt_wake pile = { { 0, 0, 2 }, { 0, 0, -1 }, 32, 0.5 };
+static const bt_vec3 east = { 0.6, 0, 0 };
+
+static double
+share (double x, double y, double z)
+{
+  return bt_wake_share (&pile, east, bt__vec (x, y, z));
+}
+
+/* Half the current from one to three diameters behind, all of it before and far away; the momentum
+   that it lacks is that of a drag coefficient of 1.25: the integral of 1 - share over y is
+   1.25 D/2, with a Gaussian's sqrt (2 pi) for 2.5.  */
+static void
+test_lee (void **state)
+{
+  (void)state;
+  for (double s = 0.5; s <= 3; s += 0.25)
+    assert_close (share (s, 0, -10), 0.5, 1e-12, "close");
+  assert_true (share (-0.5, 0, -10) == 1 && share (-5, 0, -10) == 1);
+  assert_true (share (2, 3.1, -10) == 1 && share (61, 0, -10) == 1 && share (2, 0, -32) == 1);
+  assert_close (1 - share (12, 0, -10), 0.25, 1e-12, "far");
+  for (double s = 1; s < 40; s *= 2)
+    {
+      double lack = 0;
+      for (double y = -15; y < 15; y += 0.01)
+        lack += (1 - share (s, y, -10)) * 0.01;
+      assert_close (lack, 0.25 * sqrt (2 * BT__PI), 1e-3, "momentum");
+    }
+}
+
+/* No jump anywhere, as P and the direction of the current go round.  */
+static void
+test_lee_is_smooth (void **state)
+{
+  (void)state;
+  double e = 1e-6, steepest = 0;
+  for (double x = -3; x < 65; x += 0.37)
+    for (double y = -6; y < 6; y += 0.29)
+      for (double z = -33; z < 4; z += 1.3)
+        {
+          double here = share (x, y, z);
+          assert_true (here >= 0.5 && here <= 1);
+          steepest = fmax (steepest, fabs (share (x + e, y, z) - here) / e);
+          steepest = fmax (steepest, fabs (share (x, y + e, z) - here) / e);
+          steepest = fmax (steepest, fabs (share (x, y, z + e) - here) / e);
+        }
+  assert_true (steepest < 1.6);
+  double before = 1;
+  for (double a = 0; a < 6.3; a += 1e-3)
+    {
+      bt_vec3 flow = bt__vec (cos (a), sin (a), 0);
+      double now = bt_wake_share (&pile, flow, bt__vec (-2, -1, -9));
+      assert_true (a == 0 || fabs (now - before) < 5e-3);
+      before = now;
+    }
+  assert_true (bt_wake_share (&pile, bt__vec (0, 0, 0), bt__vec (2, 0, -9)) == 1);
+  assert_true (bt_wake_share (&pile, bt__vec (0, 0, 1), bt__vec (2, 0, -9)) == 1);
+}
+
+/* The water behind two piles has both their lees, a turned scene the same ones.  */
+static void
+test_lees_in_water (void **state)
+{
+  (void)state;
+  bt_wake two[2] = { pile, bt_wake_of (bt__vec (4, 0, 0), bt__vec (4, 0, -30), 0.5) };
+  bt_current current = { .kind = BT_CURRENT_UNIFORM, .velocity = { { 0.6, 0, 0 } } };
+  bt_sea sea = { NULL, NULL, two, 2 };
+  bt_water water = { 1025, 9.81, 40, 0, &current, NULL, NULL, &sea };
+  bt_vec3 p = { 6, 0.2, -8 };
+  double expected = 0.6 * share (6, 0.2, -8) * bt_wake_share (&two[1], east, p);
+  assert_close (bt_water_velocity (&water, p).x, expected, 1e-15, "two");
+  bt_vec3 mean = bt_water_mean_velocity (&water, bt__vec (6, -1, -8), bt__vec (6, 1, -8));
+  assert_true (mean.x < 0.45 && mean.x > 0.15);
+  double c = cos (0.9), s = sin (0.9);
+  bt_wake turned = bt_wake_of (bt__vec (0, 2 * s, 2 * c), bt__vec (0, -30 * s, -30 * c), 0.5);
+  bt_vec3 q = bt__vec (2, 0.3 * c - 9 * s, -0.3 * s - 9 * c);
+  assert_close (bt_wake_share (&turned, east, q), share (2, 0.3, -9), 1e-12, "turned");
+}
+
+int
+main (void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test (test_grid),          cmocka_unit_test (test_file),
+    cmocka_unit_test (test_bad_files),     cmocka_unit_test (test_lee),
+    cmocka_unit_test (test_lee_is_smooth), cmocka_unit_test (test_lees_in_water),
+  };
+  return cmocka_run_group_tests (tests, NULL, NULL);
+}
