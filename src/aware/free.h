@@ -1,0 +1,55 @@
+/* The free length: the shortest way from the anchor, whatever its homotopy class.
+
+   A tree of any-angle ways over a grid, grown once from the anchor by lazy Theta* (Nash, Koenig and
+   Tovey 2010); a question looks for the best of the tree's points in sight and tightens that way.
+   Shortest ways in space are NP-hard: an answer may be too long, in trials by more than 0.2 % in
+   one of a hundred, never too short.  Obstacles that move are left out.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_AWARE_FREE_H
+#define BT_AWARE_FREE_H
+
+#include "aware/taut.h"
+
+typedef struct bt__free bt__free;
+
+enum
+{
+  BT__FREE_CELLS_MAX = 1 << 22,
+  BT__FREE_WAY_MAX = 256 /* points of a way */
+};
+
+/* The grid: of cells of size CELL in the box from LO to HI; ways keep CLEAR off, a little more than
+   the core of the string that tightens them.  */
+typedef struct bt__free_config
+{
+  const bt__scene *scene;
+  const bt__switches *on;
+  bt_vec3 lo, hi;
+  double cell, clear;
+} bt__free_config;
+
+/* Make *OUT with room for its grid.  BT_ERR_DOMAIN if the box or a size makes no sense;
+   BT_ERR_LIMIT if there are too many cells.  */
+bt_status bt__free_new (const bt__free_config *config, bt__free **out, bt_error *error);
+
+void bt__free_free (bt__free *tree); /* NULL is nothing */
+
+/* Grow the tree from ANCHOR; no allocation.  */
+void bt__free_grow (bt__free *tree, bt_vec3 anchor, bt__count *count);
+
+/* Put into WAY (BT__FREE_WAY_MAX points of room) the corners of a way from the anchor to P; return
+   their number, 0 if none was found.  */
+uint32_t bt__free_way (const bt__free *tree, bt_vec3 p, bt_vec3 *way, bt__count *count);
+
+/* Lay STRING along the way to P and tighten it by up to STEPS; return its length in m, with arcs
+   for corners at round members, INFINITY if there is no way.  */
+double bt__free_length (const bt__free *tree, bt__taut *taut, const bt__taut_config *config,
+                        bt_vec3 p, uint32_t steps, bt__string *string, bt__count *count);
+
+/* Return the length of STRING with arcs for corners at round members.  */
+double bt__string_length (const bt__taut_config *config, const bt__string *string,
+                          bt__count *count);
+
+#endif

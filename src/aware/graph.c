@@ -1,0 +1,338 @@
+/* From obstacles to a graph.
+
+   Every member is sampled for where it is in the ground, every pair of members for where they meet.
+   Both give points on a member; points that are the same joint are united, whatever lies between
+   two neighbouring ones in the water is an edge.  From where one enters the ground an edge goes on
+   straight down, past everything; from where one leaves the water, up: so that a shadow cast to the
+   side ends at no bed, sloping or not.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "aware/graph_job.h"
+#include "base/error.h"
+
+enum
+{
+  SAMPLES = 64 /* of a member in the ground, at most */
+};
+
+static int
+is_member (const bt__obstacle *o)
+{
+  return o->kind == BT__OBSTACLE_CAPSULE || o->kind == BT__OBSTACLE_CYLINDER;
+}
+
+static int
+is_ground (const bt__graph_job *k, uint32_t i)
+{
+  return k->scene->object[i].kind == BT__OBSTACLE_PLANE || (k->c->ground && k->c->ground[i]);
+}
+
+static int
+counts (const bt__graph_job *k, uint32_t i)
+{
+  return bt__is_on (k->c->on, i) && !is_ground (k, i);
+}
+
+static bt__capsule
+axis_of (const bt__obstacle *o)
+{
+  if (o->kind == BT__OBSTACLE_CAPSULE)
+    return o->shape.capsule;
+  const bt__cylinder *c = &o->shape.cylinder;
+  return (bt__capsule){ bt__axpy (c->centre, -c->half, c->axis),
+                        bt__axpy (c->centre, c->half, c->axis), c->radius };
+}
+
+/* ---- Points ---- */
+
+static uint32_t
+add_point (bt__graph_job *k, uint32_t member, double s, bt_vec3 at, double radius)
+{
+  if (k->n == k->room)
+    {
+      uint32_t room = k->room ? 2 * k->room : 256;
+      bt__point *p = realloc (k->p, room * sizeof *p);
+      if (!p)
+        {
+          k->failed = 1;
+          return 0;
+        }
+      k->p = p;
+      k->room = room;
+    }
+  k->p[k->n] = (bt__point){ .at = at, .s = s, .radius = radius, .member = member, .joint = k->n };
+  return k->n++;
+}
+
+uint32_t
+bt__joint_of (const bt__graph_job *k, uint32_t i)
+{
+  while (k->p[i].joint != i)
+    i = k->p[i].joint;
+  return i;
+}
+
+void
+bt__unite (bt__graph_job *k, uint32_t a, uint32_t b)
+{
+  a = bt__joint_of (k, a);
+  b = bt__joint_of (k, b);
+  if (a < b)
+    k->p[b].joint = a;
+  else
+    k->p[a].joint = b;
+}
+
+/* ---- Ground ---- */
+
+static uint8_t
+medium (bt__graph_job *k, bt_vec3 p, double radius)
+{
+  bt__switches ground = { k->off, 0 };
+  bt__link link = { p, p };
+  bt__near near;
+  if (bt__scene_nearest (k->scene, &ground, &link, radius + k->c->gap, &near, &k->count))
+    return BT__GROUND;
+  return p.z >= k->c->surface ? BT__AIR : BT__WATER;
+}
+
+/* The share between A and B where the medium stops being that at A.  */
+static double
+shore (bt__graph_job *k, const bt__capsule *m, double a, double b, uint8_t at_a)
+{
+  for (int i = 0; i < 30; i++)
+    {
+      double middle = 0.5 * (a + b);
+      if (medium (k, bt__axpy (m->a, middle, bt__sub (m->b, m->a)), m->radius) == at_a)
+        a = middle;
+      else
+        b = middle;
+    }
+  return 0.5 * (a + b);
+}
+
+/* A point of member I at its shore, share S, moved WAY (1 or -1) along it well into what is not
+   water.  */
+static void
+add_shore (bt__graph_job *k, uint32_t i, const bt__capsule *m, double s, int way, uint8_t what)
+{
+  bt_vec3 d = bt__sub (m->b, m->a), p = bt__axpy (m->a, s, d);
+  double in = 2 * m->radius + k->c->gap + 0.2;
+  uint32_t at = add_point (k, i, s, bt__axpy (p, way * in, bt__unit_or (d, d)), m->radius);
+  k->p[at].boundary = what;
+  k->p[at].dry = way > 0;
+}
+
+/* The ends of member I and where it goes into the ground and out of it.  */
+static void
+add_member (bt__graph_job *k, uint32_t i)
+{
+  bt__capsule m = axis_of (k->scene->object + i);
+  bt_vec3 d = bt__sub (m.b, m.a);
+  int samples = (int)fmin (SAMPLES, 2 + ceil (bt__norm (d) / 0.5));
+  uint8_t before = medium (k, m.a, m.radius);
+  uint32_t end = add_point (k, i, 0, m.a, m.radius);
+  k->p[end].dry = before != BT__WATER;
+  for (int j = 1; j <= samples && !k->failed; j++)
+    {
+      double s = (double)j / samples;
+      uint8_t now = medium (k, bt__axpy (m.a, s, d), m.radius);
+      if ((now == BT__WATER) != (before == BT__WATER))
+        add_shore (k, i, &m, shore (k, &m, (j - 1.0) / samples, s, before),
+                   now == BT__WATER ? -1 : 1, now == BT__WATER ? before : now);
+      before = now;
+    }
+  add_point (k, i, 1, m.b, m.radius);
+}
+
+/* ---- Where members meet ---- */
+
+/* A point of member I at share S, in the water or not as its stretch is.  */
+static uint32_t
+add_meeting (bt__graph_job *k, uint32_t i, const bt__capsule *m, double s)
+{
+  return add_point (k, i, s, bt__axpy (m->a, s, bt__sub (m->b, m->a)), m->radius);
+}
+
+static void
+join_members (bt__graph_job *k, uint32_t i, uint32_t j)
+{
+  bt__capsule a = axis_of (k->scene->object + i), b = axis_of (k->scene->object + j);
+  bt_vec3 d = bt__sub (a.b, a.a), e = bt__sub (b.b, b.a);
+  double s, t;
+  bt__closest_segments (bt__sub (a.a, b.a), d, e, &s, &t);
+  bt_vec3 p = bt__axpy (a.a, s, d), q = bt__axpy (b.a, t, e);
+  if (bt__distance (p, q) > a.radius + b.radius + k->c->gap)
+    return;
+  uint32_t one = add_meeting (k, i, &a, s), other = add_meeting (k, j, &b, t);
+  if (!k->failed)
+    bt__unite (k, one, other);
+}
+
+static bt_vec3
+middle_of (const bt__obstacle *o)
+{
+  bt_vec3 sum = bt__vec (0, 0, 0);
+  if (o->kind == BT__OBSTACLE_BOX)
+    return o->shape.box.frame.origin;
+  if (o->kind == BT__OBSTACLE_SPHERE)
+    return o->shape.sphere.centre;
+  for (int i = 0; i < o->shape.hull->vertices; i++)
+    sum = bt__add (sum, o->shape.hull->v[i]);
+  return bt__scale (1.0 / o->shape.hull->vertices, sum);
+}
+
+/* What O reaches into: what any point that stands for its surface does.  */
+static uint8_t
+reaches_into (bt__graph_job *k, const bt__obstacle *o)
+{
+  if (o->kind == BT__OBSTACLE_SPHERE)
+    return medium (k, o->shape.sphere.centre, o->shape.sphere.radius);
+  if (o->kind == BT__OBSTACLE_BOX)
+    {
+      const bt__box *b = &o->shape.box;
+      for (int i = 0; i < 8; i++)
+        {
+          bt_vec3 c = bt__vec (i & 1 ? b->half.x : -b->half.x, i & 2 ? b->half.y : -b->half.y,
+                               i & 4 ? b->half.z : -b->half.z);
+          uint8_t what = medium (k, bt__to_world (&b->frame, c), 0);
+          if (what != BT__WATER)
+            return what;
+        }
+      return medium (k, b->frame.origin, fmin (b->half.x, fmin (b->half.y, b->half.z)));
+    }
+  for (int i = 0; i < o->shape.hull->vertices; i++)
+    {
+      uint8_t what = medium (k, o->shape.hull->v[i], 0);
+      if (what != BT__WATER)
+        return what;
+    }
+  return BT__WATER;
+}
+
+/* Member I ends in, or goes through, joint J.  */
+static void
+join_to_joint (bt__graph_job *k, uint32_t i, uint32_t j)
+{
+  bt__capsule m = axis_of (k->scene->object + i);
+  bt__link link = { m.a, m.b };
+  bt__witness w;
+  bt__obstacle_pair (k->scene->object + j, &link, &w);
+  if (w.distance > m.radius + k->c->gap)
+    return;
+  uint32_t one = add_meeting (k, i, &m, w.s);
+  if (!k->failed)
+    bt__unite (k, one, k->middle[j]);
+}
+
+/* Two joints that touch: one vertex, unless they were already; then a hole may be between.  */
+static void
+join_joints (bt__graph_job *k, uint32_t i, uint32_t j)
+{
+  const bt__obstacle *a = k->scene->object + i, *b = k->scene->object + j;
+  bt__link link = { middle_of (a), middle_of (b) };
+  int covered = 1;
+  for (int n = 0; n <= 32 && covered; n++)
+    {
+      bt_vec3 p = bt__along (&link, n / 32.0);
+      bt__link at = { p, p };
+      bt__witness v, w;
+      bt__obstacle_pair (a, &at, &v);
+      bt__obstacle_pair (b, &at, &w);
+      covered = fmin (v.distance, w.distance) <= k->c->gap;
+    }
+  uint32_t x = k->middle[i], y = k->middle[j];
+  if (!covered)
+    return;
+  if (bt__joint_of (k, x) == bt__joint_of (k, y) || (k->p[x].boundary && k->p[y].boundary))
+    k->undescribed++;
+  bt__unite (k, x, y);
+}
+
+static void
+find_meetings (bt__graph_job *k)
+{
+  uint32_t n = k->scene->n;
+  for (uint32_t i = 0; i < n; i++)
+    for (uint32_t j = i + 1; j < n && !k->failed; j++)
+      {
+        if (!counts (k, i) || !counts (k, j))
+          continue;
+        int a = is_member (k->scene->object + i), b = is_member (k->scene->object + j);
+        if (a && b)
+          join_members (k, i, j);
+        else if (a && k->middle[j] != BT__NO_MEMBER)
+          join_to_joint (k, i, j);
+        else if (b && k->middle[i] != BT__NO_MEMBER)
+          join_to_joint (k, j, i);
+        else if (k->middle[i] != BT__NO_MEMBER && k->middle[j] != BT__NO_MEMBER)
+          join_joints (k, i, j);
+      }
+}
+
+static void
+start (bt__graph_job *k)
+{
+  for (uint32_t i = 0; i < k->scene->n; i++)
+    {
+      k->off[i] = !is_ground (k, i) || !bt__is_on (k->c->on, i);
+      k->middle[i] = BT__NO_MEMBER;
+    }
+  for (uint32_t i = 0; i < k->scene->n && !k->failed; i++)
+    {
+      const bt__obstacle *o = k->scene->object + i;
+      if (!counts (k, i))
+        continue;
+      if (o->kind == BT__OBSTACLE_MESH)
+        k->undescribed++;
+      else if (is_member (o))
+        add_member (k, i);
+      else
+        {
+          k->middle[i] = add_point (k, BT__NO_MEMBER, 0, middle_of (o), 0.1);
+          if (!k->failed)
+            k->p[k->middle[i]].boundary = reaches_into (k, o);
+        }
+    }
+}
+
+bt_status
+bt__graph_new (const bt__graph_config *config, bt__graph *graph, bt_error *error)
+{
+  bt__graph_job k = { .c = config, .scene = config->scene };
+  memset (graph, 0, sizeof *graph);
+  k.off = calloc (k.scene->n + 1, 1);
+  k.middle = malloc ((k.scene->n + 1) * sizeof *k.middle);
+  k.failed = !k.off || !k.middle;
+  if (!k.failed)
+    start (&k);
+  if (!k.failed)
+    find_meetings (&k);
+  if (!k.failed)
+    bt__graph_build (&k, graph);
+  graph->undescribed = (uint32_t)k.undescribed;
+  free (k.p);
+  free (k.off);
+  free (k.middle);
+  if (!k.failed)
+    return BT_OK;
+  bt__graph_free (graph);
+  return bt__fail (error, BT_ERR_LIMIT, "no memory for the graph of %u obstacles",
+                   (unsigned)config->scene->n);
+}
+
+void
+bt__graph_free (bt__graph *g)
+{
+  free (g->v);
+  free (g->radius);
+  free (g->boundary);
+  free (g->edge);
+  free (g->object);
+  memset (g, 0, sizeof *g);
+}

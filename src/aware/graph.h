@@ -1,0 +1,44 @@
+/* What can hold a line for good, as a graph: the axes of members, joined where members overlap, cut
+   where they enter the ground or leave the water.
+
+   Members are capsules and cylinders; boxes, balls and hulls are joints where members end in them.
+   A member that lies on the ground holds nothing there.  Meshes are ground if said so, else they
+   are not described: `undescribed' counts them.  Obstacles that move do not belong in the scene.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_AWARE_GRAPH_H
+#define BT_AWARE_GRAPH_H
+
+#include "collide/scene.h"
+
+typedef struct bt__graph
+{
+  uint32_t vertices, edges;
+  bt_vec3 *v;
+  double *radius;    /* m: of the thinnest member at the vertex */
+  uint8_t *boundary; /* in the ground or out of the water */
+  uint32_t (*edge)[2];
+  uint32_t *object; /* of each edge: its member's place in the scene */
+  uint32_t undescribed;
+} bt__graph;
+
+typedef struct bt__graph_config
+{
+  const bt__scene *scene;
+  const bt__switches *on;
+  const uint8_t *ground; /* which objects are ground besides the planes; NULL: none */
+  double surface;        /* m: z of the water's surface; INFINITY: none */
+  double gap;            /* m: less than that between two members is no way through */
+} bt__graph_config;
+
+/* Make *GRAPH (any bytes).  BT_ERR_LIMIT.  */
+bt_status bt__graph_new (const bt__graph_config *config, bt__graph *graph, bt_error *error);
+
+void bt__graph_free (bt__graph *graph);
+
+/* What the group of a graph in the water must have: edges less inner vertices and one more for
+   every part that touches no boundary.  */
+uint32_t bt__graph_rank (const bt__graph *graph);
+
+#endif

@@ -1,0 +1,138 @@
+/* Holds: a node's turning goes to what is nearest to the halves of its two links.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "aware/hold.h"
+
+#define LEAST_ANGLE 1e-4
+
+double
+bt__length (const bt_vec3 *p, uint32_t n)
+{
+  double sum = 0;
+  for (uint32_t i = 0; i + 1 < n; i++)
+    sum += bt__distance (p[i], p[i + 1]);
+  return sum;
+}
+
+/* The angle between directions A and B, good for small ones too.  */
+static double
+angle_between (bt_vec3 a, bt_vec3 b)
+{
+  return atan2 (bt__norm (bt__cross (a, b)), bt__dot (a, b));
+}
+
+/* Nonzero and *OUT, what is nearest to the halves of the links that meet at node P[1].  */
+static int
+nearest_to_corner (const bt__scene *s, const bt__switches *on, const bt_vec3 *p, double reach,
+                   bt__near *out, bt__count *count)
+{
+  bt__link before = { bt__scale (0.5, bt__add (p[0], p[1])), p[1] };
+  bt__link after = { p[1], bt__scale (0.5, bt__add (p[1], p[2])) };
+  bt__near other;
+  int found = bt__scene_nearest (s, on, &before, reach, out, count);
+  double cap = found ? out->w.distance : reach;
+  if (!bt__scene_nearest (s, on, &after, cap, &other, count))
+    return found;
+  if (!found || other.w.distance < out->w.distance)
+    *out = other;
+  return 1;
+}
+
+/* The radius of a line's arc about a round member of RADIUS: a helix if it goes along AXIS too.  */
+static double
+helix (double radius, bt_vec3 axis, bt_vec3 along)
+{
+  bt_vec3 across = bt__cross (axis, along);
+  double sine2 = bt__dot (across, across) / bt__dot (along, along);
+  return sine2 > 1e-6 ? radius / sine2 : 0;
+}
+
+static void
+set_radius (const bt__obstacle *o, const bt__witness *w, bt_vec3 along, double core, bt__hold *h)
+{
+  const bt__capsule *c = &o->shape.capsule;
+  h->radius = h->bend = 0;
+  if (o->kind == BT__OBSTACLE_SPHERE)
+    h->bend = (h->radius = o->shape.sphere.radius) + core;
+  else if (o->kind == BT__OBSTACLE_CYLINDER && w->feature == BT__SIDE)
+    {
+      h->radius = o->shape.cylinder.radius;
+      h->bend = helix (h->radius + core, o->shape.cylinder.axis, along);
+    }
+  else if (o->kind == BT__OBSTACLE_CAPSULE)
+    {
+      h->radius = c->radius;
+      bt_vec3 axis = bt__unit_or (bt__sub (c->b, c->a), bt__vec (0, 0, 0));
+      h->bend = w->feature == BT__SIDE ? helix (h->radius + core, axis, along) : h->radius + core;
+    }
+}
+
+void
+bt__holds_find (const bt__scene *scene, const bt__switches *on, const bt_vec3 *p, uint32_t n,
+                double core, double reach, bt__holds *list, bt__count *count)
+{
+  double s = 0;
+  list->n = list->dropped = 0;
+  for (uint32_t i = 1; i + 1 < n; i++)
+    {
+      bt_vec3 u = bt__sub (p[i], p[i - 1]), v = bt__sub (p[i + 1], p[i]);
+      double angle = angle_between (u, v);
+      bt__near near;
+      s += bt__norm (u);
+      if (!(angle > LEAST_ANGLE) || !nearest_to_corner (scene, on, p + i - 1, reach, &near, count))
+        continue;
+      if (list->n == list->room)
+        {
+          list->dropped++;
+          continue;
+        }
+      bt__hold *h = list->at + list->n++;
+      *h = (bt__hold){ .node = i,
+                       .object = near.object,
+                       .triangle = near.triangle,
+                       .angle = angle,
+                       .s = s,
+                       .point = near.w.point,
+                       .normal = near.w.normal };
+      bt_vec3 along = bt__add (bt__unit_or (u, u), bt__unit_or (v, v));
+      set_radius (scene->object + near.object, &near.w, along, core, h);
+    }
+}
+
+double
+bt__holds_wrap (const bt__holds *list, uint32_t object)
+{
+  double sum = 0;
+  for (uint32_t i = 0; i < list->n; i++)
+    sum += list->at[i].object == object ? list->at[i].angle : 0;
+  return sum;
+}
+
+double
+bt__holds_lock (const bt__scene *scene, const bt__holds *list)
+{
+  double sum = 0;
+  for (uint32_t i = 0; i < list->n; i++)
+    sum += scene->object[list->at[i].object].friction * list->at[i].angle;
+  return exp (sum);
+}
+
+/* Links as unequal as this still count as one polygon.  */
+#define UNEVEN 1.3
+
+double
+bt__holds_length (const bt__holds *list, const bt_vec3 *p, uint32_t n)
+{
+  double length = bt__length (p, n);
+  for (uint32_t i = 0; i < list->n; i++)
+    {
+      const bt__hold *h = list->at + i;
+      const bt_vec3 *x = p + h->node;
+      double tangent = h->bend * tan (0.5 * h->angle);
+      double half = 0.5 * fmin (bt__distance (x[-1], x[0]), bt__distance (x[0], x[1]));
+      if (h->angle < BT__PI / 2 && tangent <= UNEVEN * half)
+        length -= 2 * tangent - h->bend * h->angle;
+    }
+  return length;
+}

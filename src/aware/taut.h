@@ -1,0 +1,78 @@
+/* The taut string: the local shortest line that the tether's shape shrinks to, through nothing.
+
+   Kept as a polyline of its own from start to end; its interior never hears of the tether again, so
+   a frame costs a step or two.  A step gives every link and every convex part near it (a solid, a
+   triangle) a plane between them that both ends of the link must respect.  Old and new link are
+   then on one side of it, so the move between them cannot cross: the homotopy class is kept
+   exactly, whatever the step, and nodes slide along the planes freely.  Within the planes the sum
+   of squared link lengths is minimised, weighted by one over the length of before: the length.
+
+   Several such local minima may share a class; this is the one monotone shrinking reaches.  The
+   string ignores itself, and obstacles that move.  Slow creeping over smooth bodies (a ball) is
+   spread over the frames.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_AWARE_TAUT_H
+#define BT_AWARE_TAUT_H
+
+#include <stddef.h>
+
+#include "aware/hold.h"
+
+/* Flat: no pointers, no padding; bt__string_size bytes of it can be copied.  */
+typedef struct bt__string
+{
+  uint32_t room, n;        /* nodes */
+  uint32_t still, settled; /* steps in a row that gained nothing; nonzero: enough of them */
+  double length;           /* m, of the polyline */
+  bt_vec3 x[];
+} bt__string;
+
+/* What a string is among, and how finely.  */
+typedef struct bt__taut_config
+{
+  const bt__scene *scene;
+  const bt__switches *on;
+  double core;   /* m: no link comes nearer, more than 0 */
+  double want;   /* m: pushed out to as far as that where there is room; CORE for a taut string */
+  double mesh;   /* m: of the links near obstacles */
+  double margin; /* m: how near that is; about MESH */
+  int whole;     /* nonzero: far from obstacles links are split too */
+} bt__taut_config;
+
+typedef struct bt__taut bt__taut;
+
+size_t bt__string_size (uint32_t room);
+
+/* Make *OUT, working memory for strings of up to ROOM nodes, 8 or more.  BT_ERR_LIMIT.  */
+bt_status bt__taut_new (uint32_t room, bt__taut **out, bt_error *error);
+
+void bt__taut_free (bt__taut *taut); /* NULL is nothing */
+
+/* Lay STRING (its room is set) along the polyline P of N points, as it is.  Return 0 if it has no
+   room for it.  */
+int bt__string_lay (bt__string *string, const bt_vec3 *p, uint32_t n);
+
+/* Shrink STRING by up to STEPS steps, until it gains nothing; return the steps taken.  */
+uint32_t bt__taut_relax (bt__taut *taut, const bt__taut_config *config, bt__string *string,
+                         uint32_t steps, bt__count *count);
+
+/* Lead the ends of STRING straight to START and END and relax by up to STEPS.  Return 0, and leave
+   STRING, if an end would touch something on its way or there is no room: seed it again.  */
+int bt__taut_step (bt__taut *taut, const bt__taut_config *config, bt__string *string, bt_vec3 start,
+                   bt_vec3 end, uint32_t steps, bt__count *count);
+
+/* Lay FRESH along the tether P of N points and relax it by up to STEPS; where that is shorter than
+   STRING by more than SLIP of it, or STRING is empty, copy it there.  Return nonzero if a string
+   was there and has slipped.  FRESH must have the room of STRING; where P does not fit into it
+   nothing happens.  */
+int bt__taut_reseed (bt__taut *taut, const bt__taut_config *config, bt__string *string,
+                     bt__string *fresh, const bt_vec3 *p, uint32_t n, uint32_t steps, double slip,
+                     bt__count *count);
+
+/* Return how near the polyline comes to anything, or CAP.  */
+double bt__clearance (const bt__taut_config *config, const bt_vec3 *p, uint32_t n, double cap,
+                      bt__count *count);
+
+#endif

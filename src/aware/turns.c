@@ -1,0 +1,113 @@
+/* Turns, winding and linking: sums of angles, each by one atan2.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "aware/turns.h"
+
+/* ---- The axis of an obstacle ---- */
+
+static bt_vec3
+middle_of (const bt_vec3 *v, uint32_t n)
+{
+  bt_vec3 lo = v[0], hi = v[0];
+  for (uint32_t i = 1; i < n; i++)
+    {
+      lo = bt__vec (fmin (lo.x, v[i].x), fmin (lo.y, v[i].y), fmin (lo.z, v[i].z));
+      hi = bt__vec (fmax (hi.x, v[i].x), fmax (hi.y, v[i].y), fmax (hi.z, v[i].z));
+    }
+  return bt__scale (0.5, bt__add (lo, hi));
+}
+
+int
+bt__axis_of (const bt__obstacle *o, bt__axis *out)
+{
+  bt_vec3 down = bt__vec (0, 0, -1);
+  *out = (bt__axis){ .along = down };
+  switch (o->kind)
+    {
+    case BT__OBSTACLE_BOX:
+      out->at = o->shape.box.frame.origin;
+      return 1;
+    case BT__OBSTACLE_SPHERE:
+      out->at = o->shape.sphere.centre;
+      return 1;
+    case BT__OBSTACLE_CYLINDER:
+      *out = (bt__axis){ o->shape.cylinder.centre, o->shape.cylinder.axis };
+      return 1;
+    case BT__OBSTACLE_CAPSULE:
+      out->at = o->shape.capsule.a;
+      out->along = bt__unit_or (bt__sub (o->shape.capsule.b, o->shape.capsule.a), down);
+      return 1;
+    case BT__OBSTACLE_CONVEX:
+      out->at = middle_of (o->shape.hull->v, (uint32_t)o->shape.hull->vertices);
+      return 1;
+    case BT__OBSTACLE_MESH:
+      out->at = bt__scale (0.5, bt__add (o->shape.mesh->box.lo, o->shape.mesh->box.hi));
+      return 1;
+    default:
+      return 0;
+    }
+}
+
+/* ---- Turns ---- */
+
+/* The part of P - AXIS across the axis.  */
+static bt_vec3
+off_axis (const bt__axis *axis, bt_vec3 p)
+{
+  bt_vec3 d = bt__sub (p, axis->at);
+  return bt__axpy (d, -bt__dot (d, axis->along), axis->along);
+}
+
+double
+bt__turns (const bt__axis *axis, const bt_vec3 *p, uint32_t n)
+{
+  double sum = 0;
+  for (uint32_t i = 0; i + 1 < n; i++)
+    {
+      bt_vec3 a = off_axis (axis, p[i]), b = off_axis (axis, p[i + 1]);
+      double sine = bt__dot (axis->along, bt__cross (a, b)), cosine = bt__dot (a, b);
+      sum += sine != 0 ? atan2 (sine, cosine) : 0;
+    }
+  return sum / (2 * BT__PI);
+}
+
+int
+bt__winding (const bt__axis *axis, const bt_vec3 *p, uint32_t n)
+{
+  double turns = bt__turns (axis, p, n), size = fabs (turns);
+  double whole = ceil (size - 0.5 - 1e-9);
+  return (int)copysign (fmax (whole, 0), turns);
+}
+
+/* ---- Linking ---- */
+
+/* Half the solid angle of the triangle A, B, C seen from 0.  */
+static double
+half_angle (bt_vec3 a, bt_vec3 b, bt_vec3 c)
+{
+  double x = bt__norm (a), y = bt__norm (b), z = bt__norm (c);
+  double volume = bt__dot (a, bt__cross (b, c));
+  return atan2 (volume, x * y * z + bt__dot (a, b) * z + bt__dot (b, c) * x + bt__dot (c, a) * y);
+}
+
+/* Of link A to B and link C to D: Gauss' integral over 2 pi.  */
+static double
+half_angle_of_links (bt_vec3 a, bt_vec3 b, bt_vec3 c, bt_vec3 d)
+{
+  bt_vec3 ca = bt__sub (c, a), cb = bt__sub (c, b), db = bt__sub (d, b), da = bt__sub (d, a);
+  return half_angle (ca, cb, db) + half_angle (ca, db, da);
+}
+
+int
+bt__linking (const bt_vec3 *p, uint32_t n, const bt_vec3 *q, uint32_t m, double *off)
+{
+  double sum = 0;
+  for (uint32_t i = 0; i < n; i++)
+    for (uint32_t j = 0; j < m; j++)
+      sum += half_angle_of_links (p[i], p[(i + 1) % n], q[j], q[(j + 1) % m]);
+  double lk = sum / (2 * BT__PI), whole = rint (lk);
+  if (off)
+    *off = fabs (lk - whole);
+  return (int)whole;
+}

@@ -1,0 +1,37 @@
+/* How a line goes about an axis or about another line.
+
+   Geometry alone: the line is a polyline, an axis has no ends, nothing is said about what holds.
+   Clockwise looking along the axis is positive, so a pile's axis must point down.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_AWARE_TURNS_H
+#define BT_AWARE_TURNS_H
+
+#include "collide/scene.h"
+
+typedef struct bt__axis
+{
+  bt_vec3 at, along; /* along: unit */
+} bt__axis;
+
+/* Return nonzero and *OUT, the axis of an obstacle: from end to end of a capsule, along a cylinder,
+   down through the middle of what has none.  A plane has no middle: 0.  */
+int bt__axis_of (const bt__obstacle *obstacle, bt__axis *out);
+
+/* Return the signed turns of the polyline P of N points about AXIS: the angle swept, over 2 pi;
+   continuous in P while no link meets the axis.  A link through the axis counts nothing.  */
+double bt__turns (const bt__axis *axis, const bt_vec3 *p, uint32_t n);
+
+/* Return how often the polyline, closed by a straight chord, goes about AXIS.  The chord sweeps
+   less than half a turn, so this is the whole number next to the turns; half a turn, where the
+   chord meets the axis, goes to the smaller.  */
+int bt__winding (const bt__axis *axis, const bt_vec3 *p, uint32_t n);
+
+/* Return the linking number of the closed polylines P of N and Q of M points (the last is joined to
+   the first), which must not meet.  Every pair of links sees a parallelogram whose solid angle is
+   summed in two triangles (van Oosterom and Strackee 1983); the sum over 4 pi is a whole number but
+   for rounding, and *OFF (may be NULL) is how far it was from one.  */
+int bt__linking (const bt_vec3 *p, uint32_t n, const bt_vec3 *q, uint32_t m, double *off);
+
+#endif

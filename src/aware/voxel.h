@@ -1,0 +1,57 @@
+/* Words of lines among anything, meshes too: labels on the faces of voxels.
+
+   The cells whose middles are clear, the steps between neighbours that are, and the squares of four
+   steps that nothing goes through make a complex whose group stands for the water's.  A tree of
+   steps is labelled with nothing; a square with one step unlabelled says what it is; where no
+   square does, the step is a generator.  Squares that say something else again are relations,
+   simplified as in tietze.h.
+
+   A line is followed by cells it can be joined to by a straight line, every triangle between line
+   and cells tested, so its word is that of the line itself; a line that squeezes where no cell can
+   follow is lost.  Gaps narrower than a cell may be closed: equal words always mean deformable,
+   unequal ones in this complex only.  Obstacles that move are left out.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_AWARE_VOXEL_H
+#define BT_AWARE_VOXEL_H
+
+#include "aware/word.h"
+#include "collide/scene.h"
+
+typedef struct bt__voxels bt__voxels;
+
+enum
+{
+  BT__VOXELS_MAX = 1 << 22
+};
+
+typedef struct bt__voxel_config
+{
+  const bt__scene *scene;
+  const bt__switches *on;
+  bt_vec3 lo, hi; /* the water: nothing is outside */
+  double cell;
+} bt__voxel_config;
+
+typedef struct bt__voxel_report
+{
+  uint32_t cells, clear;        /* all of them, those in the water */
+  uint32_t generators, dropped; /* left, and as many more before simplifying */
+  uint32_t leftover;            /* relations left */
+} bt__voxel_report;
+
+/* Make *OUT.  BT_ERR_DOMAIN if the box or the cell makes no sense; BT_ERR_LIMIT if there are too
+   many cells or memory runs out.  */
+bt_status bt__voxels_new (const bt__voxel_config *config, bt__voxels **out, bt_error *error);
+
+void bt__voxels_free (bt__voxels *voxels); /* NULL is nothing */
+
+void bt__voxels_report_of (const bt__voxels *voxels, bt__voxel_report *out);
+
+/* Put the word of the polyline P of N points into *WORD; lost if it cannot be followed.  No
+   allocation.  */
+void bt__voxels_word (const bt__voxels *voxels, const bt_vec3 *p, uint32_t n, bt__word *word,
+                      bt__count *count);
+
+#endif
