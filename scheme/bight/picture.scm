@@ -1,0 +1,297 @@
+;;; (bight picture) --- pictures of the dive: in a file, in the terminal.
+;;;
+;;; `snapshot' writes a PNG, `show' puts the same picture in the terminal.  Both ask the renderer, an
+;;; extension that is loaded here and now, for the pixels of each view; a sheet of several views is put
+;;; together of theirs.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight picture)
+  #:use-module (bight argument)
+  #:use-module (bight dive)
+  #:use-module ((bight errors) #:select (bight-raise nearest))
+  #:use-module (bight record)
+  #:use-module (bight verb)
+  #:use-module ((bight world) #:select (world-name))
+  #:use-module (rnrs bytevectors)
+  #:use-module (srfi srfi-1)
+  #:use-module (srfi srfi-4)
+  #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
+  #:export (snapshot
+            show
+            snapshot-world
+            renderer-name
+            caption?))
+
+
+;;; What is loaded when it is used.
+
+(define (extension module name)
+  ;; The value of NAME in MODULE, or #f if its extension cannot be loaded.
+  (false-if-exception (module-ref (resolve-interface module) name)))
+
+(define (renders proc name)
+  (or (extension '(bight render) name)
+      (bight-raise 'unsupported proc
+                   "there are no pictures: this bight was built without its renderer, bight-render")))
+
+(define the-renderer #f)                ; opened once
+
+(define (renderer proc)
+  (unless the-renderer
+    (set! the-renderer ((renders proc '%open-renderer) #f)))
+  the-renderer)
+
+(define (renderer-name)
+  "Return what draws pictures, a string, or raise a &bight-error when nothing can."
+  ((renders 'snapshot '%renderer-name) (renderer 'snapshot)))
+
+
+;;; Arguments.
+
+(define views '(chase pilot top side north east overview plan))
+
+(define (look-from value)
+  ;; (look FROM AT) as an f64vector of six numbers, or #f.
+  (and (list? value) (= 3 (length value)) (eq? 'look (car value))
+       (every (lambda (p) (accepts? type:point p)) (cdr value))
+       (let ((points (map (argument-type-coerce type:point) (cdr value))))
+         (list->f64vector (append-map f64vector->list points)))))
+
+(define (one-view value)
+  (cond ((memq value views) value)
+        ((look-from value))
+        (else #f)))
+
+(define most-views 16)
+
+(define (several-views value)
+  (let ((views (and (pair? value) (bounded-list value most-views))))
+    (and views (every one-view views) (map one-view views))))
+
+(define type:views
+  ;; A list of views, each a symbol or an f64vector.
+  (make-argument-type
+   'views
+   (lambda (value)
+     (cond ((one-view value) => list)
+           ((several-views value))
+           (else refused)))
+   (string-append (alternatives->string (append views '("(look FROM AT)")))
+                  ", or a list of up to 16 of them for a sheet")
+   views))
+
+(define least-side 16)
+(define most-side 8192)
+
+(define (whole-between low high)
+  (lambda (n) (and (real? n) (<= low n high) (integer? n))))
+
+(define (pair-of-sides value low high)
+  (if (and (list? value) (= 2 (length value)) (every (whole-between low high) value))
+      (cons (inexact->exact (first value)) (inexact->exact (second value)))
+      refused))
+
+(define-argument-type (pixels value)
+  "(WIDTH HEIGHT) in pixels, each a whole number from 16 to 8192"
+  (pair-of-sides value least-side most-side))
+
+(define-argument-type (cells value)
+  "(COLUMNS ROWS) in characters, each a whole number from 4 to 400"
+  (pair-of-sides value 4 400))
+
+(define (extension-of file)
+  ;; What follows the last dot of FILE's own name, or #f.
+  (let* ((name (basename file))
+         (dot (string-rindex name #\.)))
+    (and dot (> dot 0) (substring name (+ dot 1)))))
+
+(define-argument-type (png-file value)
+  "the name of a file to write, such as \"dive.png\""
+  (if (and (string? value) (not (string-null? value)) (not (string-index value #\nul)))
+      value
+      refused))
+
+(define (check-file proc file)
+  (let ((kind (extension-of file)))
+    (when (and kind (not (string-ci=? kind "png")))
+      (bight-raise 'domain proc "a picture is written as PNG: name it ~s, not ~s"
+                   (string-append (substring file 0 (- (string-length file) (string-length kind)))
+                                  "png")
+                   file))
+    (when (and (file-exists? file) (file-is-directory? file))
+      (bight-raise 'io proc "cannot write ~s: it is a folder" file))))
+
+
+;;; Drawing.
+
+(define (view-name view)
+  (if (symbol? view) (symbol->string view) "look"))
+
+(define (title-of view)
+  (let ((name (world-name (dive-world (this-dive 'snapshot)))))
+    (string-append (if name (symbol->string name) "a dive") ": " (view-name view))))
+
+(define (draw-view proc view size paint flags)
+  ;; The pixels of one view of SIZE, a pair.
+  ((renders proc '%draw) (and (not (eq? view 'plan)) (renderer proc))
+                         (this-engine proc) (title-of view) view size paint flags))
+
+(define (put! whole width part size column row)
+  ;; Copy PART of SIZE into WHOLE, WIDTH pixels wide, with its first pixel at COLUMN, ROW.
+  (let ((line (* 4 (car size))))
+    (do ((i 0 (+ i 1)))
+        ((= i (cdr size)))
+      (bytevector-copy! part (* i line) whole (* 4 (+ (* (+ row i) width) column)) line))))
+
+(define (draw-sheet proc views size paint flags)
+  ;; The pixels of a sheet of VIEWS, row by row, as square a grid as can be, thin gaps between.
+  (let* ((n (length views))
+         (columns (inexact->exact (ceiling (sqrt n))))
+         (rows (ceiling-quotient n columns))
+         (gap 2)
+         (cell (cons (quotient (- (car size) (* gap (- columns 1))) columns)
+                     (quotient (- (cdr size) (* gap (- rows 1))) rows)))
+         (sheet (make-bytevector (* 4 (car size) (cdr size))
+                                 (if (memq 'transparent flags) 0 255))))
+    (when (< (min (car cell) (cdr cell)) least-side)
+      (bight-raise 'domain proc "~a views do not fit in ~a x ~a pixels" n (car size) (cdr size)))
+    (for-each (lambda (view i)
+                (put! sheet (car size) (draw-view proc view cell paint flags) cell
+                      (* (remainder i columns) (+ gap (car cell)))
+                      (* (quotient i columns) (+ gap (cdr cell)))))
+              views (iota n))
+    sheet))
+
+(define (ceiling-quotient a b)
+  (quotient (+ a b -1) b))
+
+(define (draw proc views size paint flags)
+  (if (null? (cdr views))
+      (draw-view proc (car views) size paint flags)
+      (draw-sheet proc views size paint flags)))
+
+(define (flags-of overlay transparent)
+  (append (if (eq? overlay 'figures) '(figures) '())
+          (if transparent '(transparent) '())))
+
+
+;;; In a file.
+
+(define-record <caption>
+  (make-caption text)
+  caption?
+  (text caption-text))
+
+(set-record-type-printer! <caption>
+  (lambda (caption port) (display (caption-text caption) port)))
+
+(define (caption views . parts)
+  (make-caption (string-append (string-concatenate parts) ", "
+                               (string-join (map view-name views) " "))))
+
+(define-verb (snapshot (file png-file)
+                       #:key (view views '(overview)) (size pixels '(1280 . 720))
+                       (paint (one-of plain tension curvature model) 'plain)
+                       (overlay (one-of figures none) 'figures)
+                       (transparent flag #f))
+  "Write a picture of the dive as it is now to FILE, a PNG, and return its name and size.  VIEW is chase,
+pilot, top, side, north, east, overview (the default), plan (a drawing on paper), (look FROM AT), or a
+list of these for a sheet; SIZE is (WIDTH HEIGHT) in pixels; PAINT colours tethers plain, by tension, by
+curvature or by model; OVERLAY is figures (title, scale, compass, legend) or none; TRANSPARENT leaves
+out water and ground."
+  (check-file 'snapshot file)
+  (let ((pixels (draw 'snapshot view size paint (flags-of overlay transparent))))
+    ((renders 'snapshot '%write-picture) pixels (car size) (cdr size) file)
+    (caption view file ", " (number->string (car size)) " x " (number->string (cdr size)) " pixels")))
+
+
+;;; In the terminal.
+
+(define-syntax-rule (from module name)
+  (module-ref (resolve-interface 'module) 'name))
+
+(define (watched?)
+  (and (file-port? (current-output-port)) (isatty? (current-output-port))))
+
+(define (best-way)
+  ;; kitty, sixel, symbols, or plain.
+  (let ((ask (and (watched?) (extension '(bight chafa) '%terminal-mode))))
+    (or (and ask (extension '(bight render) '%draw) (ask)) 'plain)))
+
+(define (usual-cells)
+  ;; As wide as the terminal, in the shape of a snapshot; a cell is twice as high as wide.
+  (let ((columns (max 20 (min 160 ((from (bight view) terminal-columns))))))
+    (cons columns (max 6 (round (/ (* columns 9) 32))))))
+
+(define (show-text text)
+  (display text)
+  (newline)
+  (force-output))
+
+(define (show-plainly)
+  (write ((from (bight view) look)))
+  (newline)
+  (make-caption "plain characters, from above and from the side"))
+
+(define (show-pixels views cells paint flags way)
+  (let* ((size (cons (max least-side (* 8 (car cells))) (max least-side (* 16 (cdr cells)))))
+         (turn (or (extension '(bight chafa) '%picture->text)
+                   (bight-raise 'unsupported 'show
+                                "this bight was built without chafa; #:as 'plain always works")))
+         (pixels (draw 'show views size paint flags)))
+    (show-text (turn pixels (car size) (cdr size) (car cells) (cdr cells) way))
+    (caption views (symbol->string way) ", " (number->string (car cells)) " x "
+             (number->string (cdr cells)) " cells")))
+
+(define-verb (show #:key (view views '(overview)) (size (or-false cells))
+                   (paint (one-of plain tension curvature model) 'plain)
+                   (overlay (one-of figures none) 'figures)
+                   (as (or-false (one-of kitty sixel symbols plain))))
+  "Put a picture of the dive as it is now in the terminal, as `snapshot' draws it: VIEW, PAINT and
+OVERLAY are the same; SIZE is (COLUMNS ROWS) in characters.  AS is kitty, sixel, symbols or plain, by
+default the best that the terminal can; plain is what `look' draws.  Return what was shown."
+  (let ((way (or as (best-way))))
+    (this-dive 'show)
+    (if (eq? way 'plain)
+        (show-plainly)
+        (show-pixels view (or size (usual-cells)) paint (flags-of overlay #f) way))))
+
+
+;;; From the command line.
+
+(define (option->symbol text)
+  (string->symbol text))
+
+(define (option->size text)
+  ;; "1280x720" as (1280 720), or TEXT itself, to be refused.
+  (let ((numbers (map string->number (string-split text #\x))))
+    (if (and (= 2 (length numbers)) (every identity numbers)) numbers text)))
+
+(define (option->views text)
+  (let ((views (map option->symbol (string-split text #\,))))
+    (if (null? (cdr views)) (car views) views)))
+
+(define command-options
+  ;; What of the command line becomes which keyword, and how.
+  `(("--view" #:view ,option->views)
+    ("--size" #:size ,option->size)
+    ("--paint" #:paint ,option->symbol)
+    ("--overlay" #:overlay ,option->symbol)))
+
+(define (option->seconds text)
+  (or (string->number text)
+      (bight-raise 'domain 'snapshot "--run must be a number of seconds, not ~s" text)))
+
+(define (snapshot-world world file options)
+  "Start a dive in WORLD, a name or a file, let it run as OPTIONS say, an alist of the command line, and
+write a picture of it to FILE.  Return what `snapshot' returns."
+  ((from (bight dive) enter!) world)
+  (let ((seconds (assoc-ref options "--run")))
+    (when seconds
+      ((from (bight time) run) (option->seconds seconds))))
+  (apply snapshot file
+         (append-map (lambda (entry)
+                       (let ((text (assoc-ref options (first entry))))
+                         (if text (list (second entry) ((third entry) text)) '())))
+                     command-options)))

@@ -1,0 +1,343 @@
+/* Drawing a view: the scene into buffers at several samples a pixel, then pixels from those, tile
+   by tile, so that the size of a picture is bound by its own memory alone.
+
+   A tile is drawn with a margin as wide as the looks around that shade it, so that its pixels are
+   those of the picture drawn at once.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "math/vec.h"
+#include "render/job.h"
+
+enum
+{
+  TILE = 1536 /* pixels */
+};
+
+/* ---- The graphics library's side ---- */
+
+static GLuint
+new_texture (const bt__gl *gl, GLint form, int w, int h, GLenum layout, GLenum type)
+{
+  GLuint t;
+  gl->GenTextures (1, &t);
+  gl->BindTexture (GL_TEXTURE_2D, t);
+  gl->TexImage2D (GL_TEXTURE_2D, 0, form, w, h, 0, layout, type, NULL);
+  gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return t;
+}
+
+static void
+attach (const bt__gl *gl, GLenum where, GLuint texture)
+{
+  gl->FramebufferTexture2D (GL_FRAMEBUFFER, where, GL_TEXTURE_2D, texture, 0);
+}
+
+/* Buffers for tiles of W by H pixels.  */
+static bt_status
+make_frames (bt__job *j, int w, int h, bt_error *error)
+{
+  static const GLenum two[] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1 };
+  const bt__gl *gl = j->gl;
+  int s = j->drawing.samples, bw = s * (w + 2 * j->margin), bh = s * (h + 2 * j->margin), ok;
+  j->colors = new_texture (gl, GL_RGBA16F, bw, bh, GL_RGBA, GL_HALF_FLOAT);
+  j->shapes = new_texture (gl, GL_RGBA16F, bw, bh, GL_RGBA, GL_HALF_FLOAT);
+  j->depths = new_texture (gl, GL_DEPTH_COMPONENT32F, bw, bh, GL_DEPTH_COMPONENT, GL_FLOAT);
+  j->pixels = new_texture (gl, GL_RGBA8, w, h, GL_RGBA, GL_UNSIGNED_BYTE);
+  gl->GenFramebuffers (2, j->frame);
+  gl->BindFramebuffer (GL_FRAMEBUFFER, j->frame[0]);
+  attach (gl, two[0], j->colors);
+  attach (gl, two[1], j->shapes);
+  attach (gl, GL_DEPTH_ATTACHMENT, j->depths);
+  gl->DrawBuffers (2, two);
+  ok = gl->CheckFramebufferStatus (GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  gl->BindFramebuffer (GL_FRAMEBUFFER, j->frame[1]);
+  attach (gl, two[0], j->pixels);
+  gl->DrawBuffers (1, two);
+  if (!ok || gl->CheckFramebufferStatus (GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    return bt__fail (error, BT_ERR_LIMIT, "OpenGL has no room for %d x %d samples", bw, bh);
+  return BT_OK;
+}
+
+static void
+free_frames (bt__job *j)
+{
+  GLuint textures[] = { j->colors, j->shapes, j->depths, j->pixels };
+  j->gl->DeleteFramebuffers (2, j->frame);
+  j->gl->DeleteTextures (4, textures);
+  j->gl->DeleteBuffers (2, j->buffer);
+  j->gl->DeleteVertexArrays (1, &j->array);
+}
+
+static void
+upload (bt__job *j)
+{
+  const bt__gl *gl = j->gl;
+  GLsizei stride = sizeof (bt__vertex);
+  gl->GenVertexArrays (1, &j->array);
+  gl->BindVertexArray (j->array);
+  gl->GenBuffers (2, j->buffer);
+  gl->BindBuffer (GL_ARRAY_BUFFER, j->buffer[0]);
+  gl->BufferData (GL_ARRAY_BUFFER, (GLsizeiptr)(j->soup.n * sizeof *j->soup.vertex), j->soup.vertex,
+                  GL_STATIC_DRAW);
+  gl->BindBuffer (GL_ELEMENT_ARRAY_BUFFER, j->buffer[1]);
+  gl->BufferData (GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(j->soup.n_index * sizeof *j->soup.index),
+                  j->soup.index, GL_STATIC_DRAW);
+  gl->VertexAttribPointer (0, 3, GL_FLOAT, GL_FALSE, stride, (void *)offsetof (bt__vertex, at));
+  gl->VertexAttribPointer (1, 3, GL_FLOAT, GL_FALSE, stride, (void *)offsetof (bt__vertex, normal));
+  gl->VertexAttribPointer (2, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride,
+                           (void *)offsetof (bt__vertex, stuff.color));
+  gl->VertexAttribPointer (3, 4, GL_UNSIGNED_BYTE, GL_FALSE, stride,
+                           (void *)offsetof (bt__vertex, stuff.fog));
+  for (GLuint i = 0; i < 4; i++)
+    gl->EnableVertexAttribArray (i);
+}
+
+static void
+draw_soup (const bt__job *j)
+{
+  j->gl->BindVertexArray (j->array);
+  j->gl->DrawElements (GL_TRIANGLES, (GLsizei)j->soup.n_index, GL_UNSIGNED_INT, NULL);
+}
+
+/* ---- Uniforms ---- */
+
+static GLint
+spot (const bt__job *j, GLuint program, const char *name)
+{
+  return j->gl->GetUniformLocation (program, name);
+}
+
+static void
+set_number (const bt__job *j, GLuint program, const char *name, double x)
+{
+  j->gl->Uniform1f (spot (j, program, name), (float)x);
+}
+
+static void
+set_vector (const bt__job *j, GLuint program, const char *name, bt_vec3 v)
+{
+  j->gl->Uniform3f (spot (j, program, name), (float)v.x, (float)v.y, (float)v.z);
+}
+
+/* Heights and places are told to the shaders from the soup's origin on; patterns go on from tile to
+   tile and picture to picture by SHIFT.  */
+static void
+set_common (const bt__job *j, GLuint program)
+{
+  const bt_vec3 o = j->soup.origin;
+  j->gl->UseProgram (program);
+  set_vector (j, program, "eye", bt__sub (j->optics.eye, o));
+  set_vector (j, program, "right", j->optics.right);
+  set_vector (j, program, "up", j->optics.up);
+  set_vector (j, program, "ahead", j->optics.ahead);
+  set_vector (j, program, "sun", j->view->sun);
+  set_number (j, program, "perspective", j->optics.perspective);
+  set_number (j, program, "surface", fmin (j->view->surface, 1e9));
+  set_number (j, program, "visibility", bt__visibility (j));
+  set_number (j, program, "lamp", j->view->lamp);
+  set_number (j, program, "time", fmod (j->view->time, 3600));
+  set_number (j, program, "plain", j->drawing.transparent);
+  set_number (j, program, "height", o.z);
+  j->gl->Uniform2f (spot (j, program, "shift"), (float)fmod (o.x, 1000), (float)fmod (o.y, 1000));
+}
+
+/* ---- Passes ---- */
+
+static void
+draw_shadows (bt__job *j)
+{
+  const bt__gl *gl = j->gl;
+  bt__cast_matrix (j->view->sun, j->middle, j->radius, j->soup.origin, j->cast);
+  gl->BindFramebuffer (GL_FRAMEBUFFER, j->r->shadow_frame);
+  gl->Viewport (0, 0, BT__SHADOW_SIDE, BT__SHADOW_SIDE);
+  gl->ClearBufferfv (GL_DEPTH, 0, (const GLfloat[]){ 1 });
+  gl->UseProgram (j->r->shadow);
+  gl->UniformMatrix4fv (spot (j, j->r->shadow, "sunward"), 1, GL_FALSE, j->cast);
+  draw_soup (j);
+}
+
+/* What hides a tube lets some of it through: it is mixed to the colour in front.  */
+static void
+draw_ghosts (const bt__job *j)
+{
+  static const GLenum two[] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1 };
+  const bt__gl *gl = j->gl;
+  gl->DrawBuffers (1, two);
+  gl->DepthMask (GL_FALSE);
+  gl->DepthFunc (GL_GREATER);
+  gl->Enable (GL_BLEND);
+  gl->BlendColor (0, 0, 0, (GLfloat)j->view->ghost);
+  gl->BlendFuncSeparate (GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA, GL_ZERO, GL_ONE);
+  for (int i = 0; i < j->soup.ghosts && j->view->ghost > 0; i++)
+    gl->DrawElements (GL_TRIANGLES, (GLsizei)j->soup.ghost[i].n, GL_UNSIGNED_INT,
+                      (const void *)(j->soup.ghost[i].first * sizeof *j->soup.index));
+  gl->Disable (GL_BLEND);
+  gl->DepthFunc (GL_LESS);
+  gl->DepthMask (GL_TRUE);
+  gl->DrawBuffers (2, two);
+}
+
+static void
+draw_scene (bt__job *j, const bt__window *window)
+{
+  static const GLfloat nothing[] = { 0, 0, 0, 0 }, far[] = { 1 };
+  const bt__gl *gl = j->gl;
+  GLuint program = j->r->scene;
+  float clip[16];
+  int s = j->drawing.samples;
+  bt__camera_matrix (&j->optics, j->soup.origin, j->drawing.width, j->drawing.height, window, clip);
+  gl->BindFramebuffer (GL_FRAMEBUFFER, j->frame[0]);
+  gl->Viewport (0, 0, s * (int)window->width, s * (int)window->height);
+  gl->ClearBufferfv (GL_COLOR, 0, nothing);
+  gl->ClearBufferfv (GL_COLOR, 1, nothing);
+  gl->ClearBufferfv (GL_DEPTH, 0, far);
+  set_common (j, program);
+  gl->UniformMatrix4fv (spot (j, program, "clip"), 1, GL_FALSE, clip);
+  gl->UniformMatrix4fv (spot (j, program, "sunward"), 1, GL_FALSE, j->cast);
+  gl->Uniform1i (spot (j, program, "shadow"), 0);
+  set_number (j, program, "grid", bt__grid_step (j));
+  gl->ActiveTexture (GL_TEXTURE0);
+  gl->BindTexture (GL_TEXTURE_2D, j->r->shadow_map);
+  draw_soup (j);
+  draw_ghosts (j);
+}
+
+static void
+bind_buffers (const bt__job *j, GLuint program)
+{
+  const GLuint texture[] = { j->colors, j->shapes, j->depths };
+  const char *const name[] = { "colors", "shapes", "depths" };
+  for (int i = 0; i < 3; i++)
+    {
+      j->gl->ActiveTexture (GL_TEXTURE0 + (GLenum)i);
+      j->gl->BindTexture (GL_TEXTURE_2D, texture[i]);
+      j->gl->Uniform1i (spot (j, program, name[i]), i);
+    }
+}
+
+/* Pixels of the tile whose first one is (X, Y), rows from the bottom.  */
+static void
+resolve (const bt__job *j, int x, int y, int w, int h)
+{
+  const bt__gl *gl = j->gl;
+  GLuint program = j->r->resolve;
+  set_common (j, program);
+  bind_buffers (j, program);
+  gl->BindFramebuffer (GL_FRAMEBUFFER, j->frame[1]);
+  gl->Viewport (0, 0, w, h);
+  gl->Uniform1i (spot (j, program, "samples"), j->drawing.samples);
+  gl->Uniform1i (spot (j, program, "margin"), j->margin);
+  gl->Uniform2f (spot (j, program, "tile"), (float)x, (float)y);
+  gl->Uniform2f (spot (j, program, "size"), (float)j->drawing.width, (float)j->drawing.height);
+  gl->Uniform2f (spot (j, program, "half_size"), (float)j->optics.half_width,
+                 (float)j->optics.half_height);
+  set_number (j, program, "near", j->optics.near);
+  set_number (j, program, "far", j->optics.far);
+  set_number (j, program, "pixel", 2 * j->optics.half_height / j->drawing.height);
+  set_number (j, program, "reach", j->reach);
+  set_number (j, program, "ground", j->level);
+  set_number (j, program, "level", fmax (j->level, j->middle.z - j->radius));
+  set_number (j, program, "bare", j->drawing.transparent);
+  gl->Disable (GL_DEPTH_TEST);
+  gl->BindVertexArray (j->r->empty);
+  gl->DrawArrays (GL_TRIANGLES, 0, 3);
+  gl->Enable (GL_DEPTH_TEST);
+}
+
+/* Read the tile's pixels, turned right way up, into the picture.  */
+static bt_status
+read_back (const bt__job *j, int x, int y, int w, int h, bt__picture *picture, bt_error *error)
+{
+  uint32_t *rows = malloc ((size_t)w * (size_t)h * sizeof *rows);
+  if (!rows)
+    return bt__fail (error, BT_ERR_LIMIT, "there is no memory left for a tile of the picture");
+  j->gl->ReadPixels (0, 0, w, h, GL_BGRA, GL_UNSIGNED_INT_8_8_8_8_REV, rows);
+  for (int i = 0; i < h; i++)
+    memcpy (picture->pixels + (size_t)(picture->height - 1 - y - i) * (size_t)picture->width + x,
+            rows + (size_t)i * (size_t)w, (size_t)w * sizeof *rows);
+  free (rows);
+  return BT_OK;
+}
+
+static int
+smaller (int a, int b)
+{
+  return a < b ? a : b;
+}
+
+static bt_status
+draw_tiles (bt__job *j, bt__picture *picture, bt_error *error)
+{
+  int side = j->drawing.tile ? j->drawing.tile : TILE;
+  int W = picture->width, H = picture->height, m = j->margin;
+  bt_status status = make_frames (j, smaller (side, W), smaller (side, H), error);
+  for (int y = 0; status == BT_OK && y < H; y += side)
+    for (int x = 0; status == BT_OK && x < W; x += side)
+      {
+        int w = smaller (side, W - x), h = smaller (side, H - y);
+        draw_scene (j, &(bt__window){ x - m, y - m, w + 2 * m, h + 2 * m });
+        resolve (j, x, y, w, h);
+        status = read_back (j, x, y, w, h, picture, error);
+      }
+  if (status == BT_OK && j->gl->GetError () == GL_OUT_OF_MEMORY)
+    status = bt__fail (error, BT_ERR_LIMIT, "OpenGL has no memory left for the picture");
+  return status;
+}
+
+/* ---- The whole ---- */
+
+bt_status
+bt__check_size (int width, int height, bt_error *error)
+{
+  if (width < BT__SIDE_MIN || height < BT__SIDE_MIN || width > BT__SIDE_MAX
+      || height > BT__SIDE_MAX)
+    return bt__fail (error, BT_ERR_DOMAIN,
+                     "a picture is %d to %d pixels wide and high, not %d x %d", BT__SIDE_MIN,
+                     BT__SIDE_MAX, width, height);
+  return BT_OK;
+}
+
+static bt_status
+draw_in_context (bt__job *j, bt__picture *picture, bt_error *error)
+{
+  bt_status status = j->r->backend->use (j->r->context, error);
+  if (status != BT_OK)
+    return status;
+  j->gl->Enable (GL_DEPTH_TEST);
+  j->gl->PixelStorei (GL_PACK_ALIGNMENT, 4);
+  upload (j);
+  draw_shadows (j);
+  status = draw_tiles (j, picture, error);
+  free_frames (j);
+  j->r->backend->leave (j->r->context);
+  return status;
+}
+
+bt_status
+bt__render (bt__renderer *r, const bt_view *view, const bt__drawing *drawing, bt__picture *picture,
+            bt_error *error)
+{
+  bt__job j = { .r = r, .gl = &r->gl, .view = view, .drawing = *drawing };
+  bt_status status = bt__check_size (drawing->width, drawing->height, error);
+  if (status != BT_OK)
+    return status;
+  j.optics = bt__optics_of (&view->camera, (double)drawing->width / drawing->height);
+  j.soup.origin = view->camera.at;
+  j.soup.lens = bt__lens_of (&j.optics, drawing->height);
+  j.reach = drawing->height / 50;
+  j.margin = j.reach + 2;
+  bt__prepare (&j);
+  status = j.soup.full ? bt__fail (error, BT_ERR_LIMIT, "there is no memory left for the scene")
+                       : bt__picture_new (picture, drawing->width, drawing->height, error);
+  if (status == BT_OK && (status = draw_in_context (&j, picture, error)) != BT_OK)
+    bt__picture_free (picture);
+  bt__soup_free (&j.soup);
+  return status;
+}

@@ -1,0 +1,217 @@
+/* The extension for pictures: fills the module (bight render).  It is loaded when the first picture
+   is asked for, and opens a graphics library then.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "guile/guile.h"
+#include "render/render.h"
+#include "render/scene_of_dive.h"
+
+/* A dive comes from the other extension, which alone knows its type.  */
+static const bt_dive *
+to_dive (SCM object)
+{
+  SCM is_dive = scm_c_public_ref ("bight engine", "%dive?");
+  SCM_ASSERT_TYPE (scm_is_true (scm_call_1 (is_dive, object)), object, SCM_ARG2, "%draw", "dive");
+  return ((bt__handle *)SCM_SMOB_DATA (object))->dive;
+}
+
+/* ---- Renderers: they live as long as the process ---- */
+
+static SCM
+open_renderer (SCM name)
+{
+  bt__renderer *renderer = NULL;
+  bt_error error;
+  char *backend = scm_is_true (name) ? scm_to_utf8_string (scm_symbol_to_string (name)) : NULL;
+  bt_status status = bt__renderer_new (backend, &renderer, &error);
+  free (backend);
+  bt__check ("snapshot", status, &error);
+  return scm_from_pointer (renderer, NULL);
+}
+
+static SCM
+renderer_name (SCM renderer)
+{
+  return scm_from_utf8_string (bt__renderer_name (scm_to_pointer (renderer)));
+}
+
+/* ---- Words ---- */
+
+static SCM
+names_of (const char *(*name) (int))
+{
+  SCM list = SCM_EOL;
+  for (int i = 0; name (i); i++)
+    list = scm_cons (scm_from_utf8_symbol (name (i)), list);
+  return scm_reverse_x (list, SCM_EOL);
+}
+
+static const char *
+aim_name (int i)
+{
+  return bt_aim_name ((bt_aim)i);
+}
+
+static const char *
+paint_name (int i)
+{
+  return bt__paint_name ((bt__paint)i);
+}
+
+/* The place of SYMBOL among the names, or -1.  */
+static int
+index_of (SCM symbol, const char *(*name) (int))
+{
+  for (int i = 0; name (i); i++)
+    if (scm_is_eq (symbol, scm_from_utf8_symbol (name (i))))
+      return i;
+  return -1;
+}
+
+static SCM
+views (void)
+{
+  return names_of (aim_name);
+}
+
+/* ---- Drawing ---- */
+
+/* What one call draws, and what is to be freed when it is left, by error or not: a current may be
+   a procedure that raises.  */
+typedef struct sketch
+{
+  bt_view *view;
+  bt__picture picture;
+  bt__drawing drawing;
+  int paper;
+} sketch;
+
+static void
+free_sketch (void *data)
+{
+  sketch *s = data;
+  bt_view_free (s->view);
+  bt__picture_free (&s->picture);
+}
+
+/* AIM is the name of a view, or an f64vector of six numbers: from, at.  */
+static bt_status
+aim_camera (sketch *s, SCM aim, bt_error *error)
+{
+  double aspect = (double)s->drawing.width / s->drawing.height;
+  const double *x;
+  if (scm_is_symbol (aim))
+    {
+      int i = index_of (aim, aim_name);
+      s->paper = i == BT_AIM_PLAN;
+      return bt_view_aim (s->view, (bt_aim)i, aspect, error);
+    }
+  x = (const double *)SCM_BYTEVECTOR_CONTENTS (aim);
+  return bt_view_look (s->view, (bt_vec3){ x[0], x[1], x[2] }, (bt_vec3){ x[3], x[4], x[5] },
+                       error);
+}
+
+static void
+draw (sketch *s, SCM renderer, int figures)
+{
+  bt_error error;
+  bt_status status = s->paper ? bt__plan (s->view, &s->drawing, &s->picture, &error)
+                              : bt__render (scm_to_pointer (renderer), s->view, &s->drawing,
+                                            &s->picture, &error);
+  bt__check ("snapshot", status, &error);
+  if (figures)
+    bt__check ("snapshot",
+               bt__overlay (s->view, &s->picture, s->paper || s->drawing.transparent, &error),
+               &error);
+}
+
+static void
+set_title (sketch *s, SCM title)
+{
+  char *text = scm_to_utf8_string (title);
+  s->view->title = bt_view_text (s->view, text);
+  free (text);
+}
+
+static SCM
+pixels_of (const bt__picture *picture)
+{
+  size_t size = (size_t)picture->width * (size_t)picture->height * sizeof *picture->pixels;
+  SCM bytes = scm_c_make_bytevector (size);
+  memcpy (SCM_BYTEVECTOR_CONTENTS (bytes), picture->pixels, size);
+  return bytes;
+}
+
+static SCM
+draw_dive (SCM renderer, SCM object, SCM title, SCM aim, SCM size, SCM paint, SCM flags)
+{
+  const bt_dive *dive = to_dive (object);
+  sketch *s = scm_gc_calloc (sizeof *s, "sketch");
+  bt_error error;
+  SCM bytes;
+  s->drawing.width = scm_to_int (scm_car (size));
+  s->drawing.height = scm_to_int (scm_cdr (size));
+  s->drawing.samples = scm_is_true (scm_memq (scm_from_utf8_symbol ("quick"), flags)) ? 1 : 2;
+  s->drawing.transparent = scm_is_true (scm_memq (scm_from_utf8_symbol ("transparent"), flags));
+  scm_dynwind_begin (0);
+  scm_dynwind_unwind_handler (free_sketch, s, SCM_F_WIND_EXPLICITLY);
+  bt__check ("snapshot", bt__check_size (s->drawing.width, s->drawing.height, &error), &error);
+  bt__check ("snapshot", bt_view_new (&s->view, &error), &error);
+  bt__check ("snapshot",
+             bt__scene_of_dive (dive, (bt__paint)index_of (paint, paint_name), s->view, &error),
+             &error);
+  set_title (s, title);
+  bt__check ("snapshot", aim_camera (s, aim, &error), &error);
+  draw (s, renderer, scm_is_true (scm_memq (scm_from_utf8_symbol ("figures"), flags)));
+  bytes = pixels_of (&s->picture);
+  scm_dynwind_end ();
+  scm_remember_upto_here_2 (object, s);
+  return bytes;
+}
+
+/* ---- Files ---- */
+
+static SCM
+write_picture (SCM bytes, SCM width, SCM height, SCM file)
+{
+  bt__picture picture = { scm_to_int (width), scm_to_int (height), NULL };
+  bt_error error;
+  bt_status status;
+  char *name;
+  SCM_ASSERT_TYPE (scm_is_bytevector (bytes), bytes, SCM_ARG1, "%write-picture", "bytevector");
+  SCM_ASSERT (SCM_BYTEVECTOR_LENGTH (bytes)
+                  == (size_t)picture.width * (size_t)picture.height * sizeof *picture.pixels,
+              bytes, SCM_ARG1, "%write-picture");
+  picture.pixels = (uint32_t *)(void *)SCM_BYTEVECTOR_CONTENTS (bytes);
+  name = scm_to_locale_string (file);
+  status = bt__picture_write (&picture, name, &error);
+  free (name);
+  bt__check ("snapshot", status, &error);
+  scm_remember_upto_here_1 (bytes);
+  return SCM_UNSPECIFIED;
+}
+
+void bight_render_init (void);
+
+__attribute__ ((visibility ("default"))) void
+bight_render_init (void)
+{
+  static const bt__procedure table[] = {
+    { "%open-renderer", 1, 0, (scm_t_subr)open_renderer,
+      "Return a renderer by the back end NAME, osmesa or egl, or by the first that works for #f." },
+    { "%renderer-name", 1, 0, (scm_t_subr)renderer_name, "Return what draws for RENDERER." },
+    { "%views", 0, 0, (scm_t_subr)views, "Return the names of the views." },
+    { "%draw", 7, 0, (scm_t_subr)draw_dive,
+      "Return the pixels, a bytevector, of a picture by RENDERER of DIVE with TITLE, seen by AIM, "
+      "of "
+      "SIZE (WIDTH . HEIGHT), tethers painted by PAINT; FLAGS are of figures, transparent, "
+      "quick." },
+    { "%write-picture", 4, 0, (scm_t_subr)write_picture,
+      "Write BYTES, the pixels of a picture of WIDTH by HEIGHT, to FILE as PNG." },
+  };
+  bt__define_procedures (table, sizeof table / sizeof *table);
+}

@@ -1,0 +1,117 @@
+/* Pictures: pixels in memory, and as PNG in a file.
+
+   A file is written beside its place and moved there when it is whole, so that a full disk costs
+   nothing that was there.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cairo.h>
+
+#include "base/error.h"
+#include "render/render.h"
+
+bt_status
+bt__picture_new (bt__picture *picture, int width, int height, bt_error *error)
+{
+  picture->pixels = calloc ((size_t)width * (size_t)height, sizeof *picture->pixels);
+  picture->width = width;
+  picture->height = height;
+  if (!picture->pixels)
+    return bt__fail (error, BT_ERR_LIMIT, "there is no memory left for %d x %d pixels", width,
+                     height);
+  return BT_OK;
+}
+
+void
+bt__picture_free (bt__picture *picture)
+{
+  free (picture->pixels);
+  picture->pixels = NULL;
+}
+
+void
+bt__picture_put (bt__picture *whole, const bt__picture *part, int x, int y)
+{
+  int w = part->width < whole->width - x ? part->width : whole->width - x;
+  for (int i = 0; w > 0 && i < part->height && y + i < whole->height; i++)
+    memcpy (whole->pixels + (size_t)(y + i) * (size_t)whole->width + x,
+            part->pixels + (size_t)i * (size_t)part->width, (size_t)w * sizeof *part->pixels);
+}
+
+static cairo_status_t
+write_bytes (void *file, const unsigned char *bytes, unsigned n)
+{
+  return fwrite (bytes, 1, n, file) == n ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
+}
+
+static cairo_status_t
+write_stream (const bt__picture *p, FILE *stream)
+{
+  cairo_surface_t *surface = cairo_image_surface_create_for_data (
+      (unsigned char *)(void *)p->pixels, CAIRO_FORMAT_ARGB32, p->width, p->height, 4 * p->width);
+  cairo_status_t status = cairo_surface_write_to_png_stream (surface, write_bytes, stream);
+  cairo_surface_destroy (surface);
+  return status;
+}
+
+static bt_status
+cannot_write (const char *file, int why, bt_error *error)
+{
+  return bt__fail (error, BT_ERR_IO, "cannot write \"%.200s\": %s", file,
+                   why ? strerror (why) : "the picture could not be encoded");
+}
+
+/* Write to the file PART, and on success give it the name FILE, unless that is NULL.  */
+static bt_status
+write_part (const bt__picture *picture, const char *part, const char *file, bt_error *error)
+{
+  FILE *stream = fopen (part, "wb");
+  const char *name = file ? file : part;
+  cairo_status_t drawn;
+  int why;
+  if (!stream)
+    return cannot_write (name, errno, error);
+  errno = 0;
+  drawn = write_stream (picture, stream);
+  why = errno;
+  if (fclose (stream) != 0 && drawn == CAIRO_STATUS_SUCCESS)
+    drawn = CAIRO_STATUS_WRITE_ERROR, why = errno;
+  if (drawn == CAIRO_STATUS_SUCCESS && file && rename (part, file) != 0)
+    drawn = CAIRO_STATUS_WRITE_ERROR, why = errno;
+  if (drawn == CAIRO_STATUS_SUCCESS)
+    return BT_OK;
+  if (file)
+    unlink (part);
+  return cannot_write (name, why, error);
+}
+
+/* A device or a pipe is written to, never replaced.  */
+static int
+is_special (const char *file)
+{
+  struct stat s;
+  return stat (file, &s) == 0 && !S_ISREG (s.st_mode) && !S_ISDIR (s.st_mode);
+}
+
+bt_status
+bt__picture_write (const bt__picture *picture, const char *file, bt_error *error)
+{
+  size_t size = strlen (file) + 32;
+  char *part;
+  bt_status status;
+  if (is_special (file))
+    return write_part (picture, file, NULL, error);
+  if (!(part = malloc (size)))
+    return cannot_write (file, ENOMEM, error);
+  snprintf (part, size, "%s.%ld.part", file, (long)getpid ());
+  status = write_part (picture, part, file, error);
+  free (part);
+  return status;
+}

@@ -1,0 +1,198 @@
+/* Opening a context, compiling the shaders.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "render/renderer.h"
+#include "render/shaders.h"
+
+/* ---- Shaders ---- */
+
+static bt_status
+compile (const bt__gl *gl, GLenum kind, const char *const *text, GLuint *shader, bt_error *error)
+{
+  GLsizei n = 0;
+  GLint ok = 0;
+  while (text[n])
+    n++;
+  *shader = gl->CreateShader (kind);
+  gl->ShaderSource (*shader, n, (const GLchar *const *)text, NULL);
+  gl->CompileShader (*shader);
+  gl->GetShaderiv (*shader, GL_COMPILE_STATUS, &ok);
+  if (!ok)
+    {
+      char log[300] = "";
+      gl->GetShaderInfoLog (*shader, sizeof log, NULL, log);
+      log[strcspn (log, "\n")] = 0;
+      return bt__fail (error, BT_ERR_UNSUPPORTED, "this OpenGL does not take a shader: %s", log);
+    }
+  return BT_OK;
+}
+
+static bt_status
+link_program (const bt__gl *gl, const char *const *vertex, const char *const *fragment,
+              GLuint *program, bt_error *error)
+{
+  GLuint v = 0, f = 0;
+  GLint ok = 0;
+  bt_status status = compile (gl, GL_VERTEX_SHADER, vertex, &v, error);
+  if (status == BT_OK)
+    status = compile (gl, GL_FRAGMENT_SHADER, fragment, &f, error);
+  if (status == BT_OK)
+    {
+      *program = gl->CreateProgram ();
+      gl->AttachShader (*program, v);
+      gl->AttachShader (*program, f);
+      gl->LinkProgram (*program);
+      gl->GetProgramiv (*program, GL_LINK_STATUS, &ok);
+      if (!ok)
+        status = bt__fail (error, BT_ERR_UNSUPPORTED, "this OpenGL does not link the shaders");
+    }
+  gl->DeleteShader (v);
+  gl->DeleteShader (f);
+  return status;
+}
+
+static bt_status
+build_programs (bt__renderer *r, bt_error *error)
+{
+  bt_status status
+      = link_program (&r->gl, bt__shader_scene_vertex, bt__shader_scene_fragment, &r->scene, error);
+  if (status == BT_OK)
+    status = link_program (&r->gl, bt__shader_shadow_vertex, bt__shader_shadow_fragment, &r->shadow,
+                           error);
+  if (status == BT_OK)
+    status = link_program (&r->gl, bt__shader_resolve_vertex, bt__shader_resolve_fragment,
+                           &r->resolve, error);
+  return status;
+}
+
+/* ---- The shadow map ---- */
+
+static bt_status
+build_shadow_map (bt__renderer *r, bt_error *error)
+{
+  const bt__gl *gl = &r->gl;
+  gl->GenTextures (1, &r->shadow_map);
+  gl->BindTexture (GL_TEXTURE_2D, r->shadow_map);
+  gl->TexImage2D (GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, BT__SHADOW_SIDE, BT__SHADOW_SIDE, 0,
+                  GL_DEPTH_COMPONENT, GL_FLOAT, NULL);
+  gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  gl->GenFramebuffers (1, &r->shadow_frame);
+  gl->BindFramebuffer (GL_FRAMEBUFFER, r->shadow_frame);
+  gl->FramebufferTexture2D (GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, r->shadow_map, 0);
+  gl->DrawBuffers (1, (const GLenum[]){ GL_NONE });
+  if (gl->CheckFramebufferStatus (GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    return bt__fail (error, BT_ERR_UNSUPPORTED, "this OpenGL cannot draw shadows");
+  return BT_OK;
+}
+
+/* ---- Life ---- */
+
+static void
+set_name (bt__renderer *r)
+{
+  const char *version = (const char *)r->gl.GetString (GL_VERSION);
+  snprintf (r->name, sizeof r->name, "%s, OpenGL %s", r->backend->full, version ? version : "");
+}
+
+/* The context is current from use to leave.  */
+static bt_status
+furnish (bt__renderer *r, bt_error *error)
+{
+  bt_status status = r->backend->use (r->context, error);
+  if (status != BT_OK)
+    return status;
+  status = bt__gl_load (&r->gl, r->backend, r->context, error);
+  if (status == BT_OK)
+    status = build_programs (r, error);
+  if (status == BT_OK)
+    status = build_shadow_map (r, error);
+  if (status == BT_OK)
+    {
+      r->gl.GenVertexArrays (1, &r->empty);
+      set_name (r);
+    }
+  r->backend->leave (r->context);
+  return status;
+}
+
+static bt_status
+open_backend (const bt__backend *backend, bt__renderer **renderer, bt_error *error)
+{
+  bt__renderer *r = calloc (1, sizeof *r);
+  bt_status status;
+  if (!r)
+    return bt__fail (error, BT_ERR_LIMIT, "there is no memory left");
+  r->backend = backend;
+  status = backend->open (&r->context, error);
+  if (status == BT_OK)
+    status = furnish (r, error);
+  if (status == BT_OK)
+    *renderer = r;
+  else
+    bt__renderer_free (r);
+  return status;
+}
+
+/* What the context holds goes with it.  */
+void
+bt__renderer_free (bt__renderer *r)
+{
+  if (r && r->context)
+    r->backend->close (r->context);
+  free (r);
+}
+
+const char *
+bt__renderer_name (const bt__renderer *r)
+{
+  return r->name;
+}
+
+static const bt__backend *
+backend_called (const char *name)
+{
+  if (strcmp (name, bt__backend_osmesa.name) == 0)
+    return &bt__backend_osmesa;
+  return strcmp (name, bt__backend_egl.name) == 0 ? &bt__backend_egl : NULL;
+}
+
+static bt_status
+open_named (const char *name, bt__renderer **renderer, bt_error *error)
+{
+  const bt__backend *backend = backend_called (name);
+  bt_error why;
+  bt_status status;
+  if (!backend)
+    return bt__fail (error, BT_ERR_NAME, "pictures are drawn by osmesa or egl, not by `%.40s'",
+                     name);
+  status = open_backend (backend, renderer, &why);
+  if (status != BT_OK)
+    return bt__fail (error, status, "no picture can be drawn by %s: %s", name, why.text);
+  return BT_OK;
+}
+
+bt_status
+bt__renderer_new (const char *name, bt__renderer **renderer, bt_error *error)
+{
+  const char *wish = name ? name : getenv ("BIGHT_GL");
+  bt_error first, second;
+  if (wish && *wish)
+    return open_named (wish, renderer, error);
+  if (open_backend (&bt__backend_osmesa, renderer, &first) == BT_OK
+      || open_backend (&bt__backend_egl, renderer, &second) == BT_OK)
+    return BT_OK;
+  return bt__fail (error, BT_ERR_UNSUPPORTED,
+                   "no picture can be drawn: OSMesa: %.120s; EGL: %.120s (Debian packages: "
+                   "libosmesa6, libegl1)",
+                   first.text, second.text);
+}

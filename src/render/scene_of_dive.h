@@ -1,0 +1,28 @@
+/* The view of a dive.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_RENDER_SCENE_OF_DIVE_H
+#define BT_RENDER_SCENE_OF_DIVE_H
+
+#include <bight/bight.h>
+#include <bight/view.h>
+
+/* By what tethers are painted.  */
+typedef enum bt__paint
+{
+  BT__PAINT_PLAIN = 0,
+  BT__PAINT_TENSION,
+  BT__PAINT_CURVATURE,
+  BT__PAINT_MODEL,
+  BT__PAINTS
+} bt__paint;
+
+/* Return the word for PAINT, or NULL.  */
+const char *bt__paint_name (bt__paint paint);
+
+/* Put what DIVE holds now into VIEW, an empty one: sea and bottom, obstacles, tethers painted by
+   PAINT, vehicles, where tethers come from, what they touch, the current.  */
+bt_status bt__scene_of_dive (const bt_dive *dive, bt__paint paint, bt_view *view, bt_error *error);
+
+#endif

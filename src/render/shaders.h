@@ -1,0 +1,16 @@
+/* The shaders, as text.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_RENDER_SHADERS_H
+#define BT_RENDER_SHADERS_H
+
+/* Pieces; each NULL-terminated list is one shader.  */
+extern const char *const bt__shader_scene_vertex[];
+extern const char *const bt__shader_scene_fragment[];
+extern const char *const bt__shader_shadow_vertex[];
+extern const char *const bt__shader_shadow_fragment[];
+extern const char *const bt__shader_resolve_vertex[];
+extern const char *const bt__shader_resolve_fragment[];
+
+#endif

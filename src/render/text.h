@@ -1,0 +1,40 @@
+/* Drawing on pictures: a pen with a size of letters, paper or water behind it.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_RENDER_TEXT_H
+#define BT_RENDER_TEXT_H
+
+#include <cairo.h>
+
+#include "render/camera.h"
+#include "render/render.h"
+
+typedef struct bt__pen
+{
+  cairo_t *cr;
+  cairo_surface_t *surface;
+  int width, height;
+  double letter; /* height of the letters, pixels */
+  int paper;     /* nonzero: dark on white, else white on water */
+} bt__pen;
+
+bt_status bt__pen_open (bt__pen *pen, bt__picture *picture, int paper, bt_error *error);
+/* Finish, and tell whether all was drawn.  */
+bt_status bt__pen_close (bt__pen *pen, bt_error *error);
+
+/* Text with its left (ALIGN 0), middle (0.5) or right (1) end at X, its base line at Y.  */
+void bt__pen_text (bt__pen *pen, double x, double y, double align, const char *text);
+double bt__pen_width (bt__pen *pen, const char *text);
+
+/* Strokes: the path is drawn WIDTH pixels wide in the pen's ink, with a halo on water.  */
+void bt__pen_stroke (bt__pen *pen, double width);
+void bt__pen_color (bt__pen *pen, bt_color color);
+
+/* 1, 2 or 5 times a power of ten, not above X.  */
+double bt__round_step (double x);
+
+/* All that is read, with the pen: what bt__overlay and bt__plan share.  */
+void bt__write_figures (bt__pen *pen, const bt_view *view, const bt__optics *optics);
+
+#endif
