@@ -112,7 +112,7 @@ lay (campaign *c)
   c->v = bt__vec (0, 0, 0);
   c->current = (bt_current){ .kind = BT_CURRENT_STILL };
   c->water = (bt_water){
-    c->kind == CAMPAIGN_VACUO ? 0 : DENSITY, GRAVITY, 1000, 0, &c->current, NULL, NULL
+    c->kind == CAMPAIGN_VACUO ? 0 : DENSITY, GRAVITY, 1000, 0, &c->current, NULL, NULL, NULL
   };
   c->in = (bt__dynamic_input){ .line = &c->line, .water = &c->water, .tolerance = 1e-5 };
   if (c->kind == CAMPAIGN_VACUO)

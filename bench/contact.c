@@ -89,7 +89,7 @@ static const char *const corner_names[CORNERS] = { "box edge", "drum .6 m", "wir
 static void
 open_corner (corner k, double mu)
 {
-  double radius = k == DRUM ? 0.6 : k == WIRE ? 0.005 : 0, bend = radius + 0.006;
+  double radius = k == DRUM ? 0.6 : k == WIRE ? 0.005 : 0, bend = radius + (k == DRUM ? 0.006 : 0.4);
   bt_vec3 shape[12] = { { -bend, 0, -14 } };
   if (!reef_open (&place))
     fail ();
@@ -101,7 +101,7 @@ open_corner (corner k, double mu)
     reef_wire (&place, bt__vec (0, -3, 0), bt__vec (0, 3, 0), radius);
   for (int i = 0; i < 10; i++)
     {
-      double a = BT__PI / 2 * i / 9, r = k == BOX_EDGE ? 0.006 : 1.03 * bend;
+      double a = BT__PI / 2 * i / 9, r = 1.03 * bend;
       shape[i + 1] = bt__vec (-r * cos (a), 0, r * sin (a));
     }
   shape[11] = bt__vec (15, 0, shape[10].z);

@@ -101,7 +101,7 @@ chain_start (chain *c, scene k, int n)
   bt_vec3 from = { 0, 0, 0 }, to = vehicle (k, 0);
   bt_vec3 shape[3] = { from, { to.x / 2 - 10, 22, 12 }, to };
   c->current = (bt_current){ .kind = BT_CURRENT_UNIFORM, .velocity = { current_velocity } };
-  c->water = (bt_water){ DENSITY, 9.81, 100, 0, &c->current, NULL, NULL };
+  c->water = (bt_water){ DENSITY, 9.81, 100, 0, &c->current, NULL, NULL, NULL };
   c->in = (bt__dynamic_input){ .line = &line, .water = &c->water, .tolerance = 1e-8 };
   c->in.end[0].at = from;
   c->in.end[1].at = to;

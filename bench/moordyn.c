@@ -121,7 +121,7 @@ fly (bt__dynamic *d, bt__dynamic_work *work, int n, int per, int order, double *
   };
   bt_vec3 shape[3] = { { 0, 0, -100 }, { 35, 32, -100 }, end_at (0) };
   bt_current current = { .kind = BT_CURRENT_UNIFORM, .velocity = { bt__vec (0, 0.5, 0) } };
-  bt_water water = { 1025, 9.81, 1000, 0, &current, NULL, NULL };
+  bt_water water = { 1025, 9.81, 1000, 0, &current, NULL, NULL, NULL };
   bt__dynamic_input in = { .line = &line, .water = &water, .tolerance = 1e-8, .h = 0.05 };
   bt__dynamic_report report;
   double sum = 0;

@@ -260,7 +260,7 @@ fly_error (campaign *c, int taut, int n, double ea, int per, record *r)
     .diameter = 0.01, .mass = 0.0805033117, .ea = ea, .ba = 20, .cdn = 1.2, .cdt = 0.02, .ca = 1
   };
   c->current = (bt_current){ .kind = BT_CURRENT_UNIFORM, .velocity = { bt__vec (-0.2, 0.2, 0.1) } };
-  c->water = (bt_water){ 1025, 9.81, 100, 0, &c->current, NULL, NULL };
+  c->water = (bt_water){ 1025, 9.81, 100, 0, &c->current, NULL, NULL, NULL };
   c->in = (bt__dynamic_input){ .line = &c->line, .water = &c->water, .tolerance = 1e-8 };
   if (bt__dynamic_init (c->d, CAMPAIGN_NODES, n, shape, 3, LENGTH, ea, NULL))
     abort ();

@@ -38,11 +38,20 @@
      events profile parts)))
 
 (define when-used
-  '(((bight scenario)
+  '(((bight build)
+     make-jacket make-pier make-wreck make-hull make-net-pen make-pipeline make-ice-hole make-tunnel
+     make-wellhead make-rigging)
+    ((bight contact)
+     contacts contact? contact-object contact-triangle contact-position contact-normal
+     contact-arc-length contact-force contact-state
+     segments segment? segment-model segment-from segment-to segment-length segment-ends
+     clearance rov-clearance collide! collided? stuck?)
+    ((bight scenario)
      define-scenario always never eventually skip run-scenario scenarios
      expect require about between above below)
     ((bight tap) run-tests)
     ((bight view) look status)
+    ((bight picture) snapshot show)
     ((bight describe) describe)
     ((bight doc) help)))
 

@@ -71,6 +71,8 @@ run (void *unused, int argc, char **argv)
   (void)unused;
   (void)argc;
   (void)argv;
+  /* No second thread in the house: the binding frees what was dropped, between steps.  */
+  scm_set_automatic_finalization_enabled (0);
   SCM status = scm_call_1 (scm_c_public_ref ("bight cli", "main"), scm_program_arguments ());
   scm_flush_all_ports ();
   exit (scm_is_signed_integer (status, 0, 255) ? scm_to_int (status) : EXIT_SUCCESS);

@@ -174,6 +174,8 @@ begins with FILE and the line."
                                    run scenario tests, print TAP; a PATH is a file or a folder
        bight bench [NAME...] [-o DIR]
                                    measure run time against error; write tables and plots to DIR
+       bight snapshot WORLD -o FILE.png [--view V] [--size WxH] [--paint P] [--run S]
+                                   write a picture of a world, S seconds into a dive
        bight --version | --help
 
 A script and the prompt know the whole language; `(use-modules (bight))' gives it to plain guile.
@@ -235,6 +237,24 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
       0)))
 
 
+;;; bight snapshot.
+
+(define snapshot-options '("-o" "--view" "--size" "--paint" "--overlay" "--run"))
+
+(define (take-snapshot arguments)
+  (call-with-values (lambda () (split-arguments "snapshot" arguments snapshot-options))
+    (lambda (worlds options)
+      (unless (= 1 (length worlds))
+        (bad-usage "snapshot: name one world or file, as in bight snapshot WORLD -o FILE.png"))
+      (unless (assoc-ref options "-o")
+        (bad-usage "snapshot: say where to, as in bight snapshot ~a -o FILE.png" (car worlds)))
+      (show-values ((from (bight picture) snapshot-world)
+                    (if (file-like? (car worlds)) (car worlds) (string->symbol (car worlds)))
+                    (assoc-ref options "-o")
+                    options))
+      0)))
+
+
 ;;; Choosing the command.
 
 (define commands
@@ -242,6 +262,7 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
     ("-" . ,(lambda (arguments) (run-input ignore arguments)))
     ("test" . ,run-tests)
     ("bench" . ,run-benches)
+    ("snapshot" . ,take-snapshot)
     ("--version" . ,print-version)
     ("--help" . ,print-help)
     ("-h" . ,print-help)))

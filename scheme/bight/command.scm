@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight command)
+  #:use-module (bight allowance)
   #:use-module (bight current)
   #:use-module (bight dive)
   #:use-module (bight engine)
@@ -11,6 +12,7 @@
   #:use-module (bight schema)
   #:use-module (bight track)
   #:use-module (bight verb)
+  #:use-module ((bight world) #:select (part-head world-part))
   #:use-module (srfi srfi-4)
   #:export (drive! release! fly-to! move! place! follow! arrived?
             hold-heading! hold-depth! hold-altitude! hold-position!
@@ -163,10 +165,14 @@ Return the current at the surface, m/s."
       (values 'sea 0)
       (call-with-values (lambda () (find-part 'alter! name))
         (lambda (kind index)
-          (values (if (eq? kind 'vehicle) 'rov kind) index)))))
+          (values (case kind
+                    ((vehicle) 'rov)
+                    ((obstacle) (part-head (world-part (dive-world (this-dive 'alter!)) name)))
+                    (else kind))
+                  index)))))
 
 (define-verb (alter! (part name) #:rest (settings any))
-  "Change fields of the vehicle or tether named PART, or of the sea, while the dive runs, as in
+  "Change fields of the vehicle, tether or obstacle named PART, or of the sea, while the dive runs, as in
 (alter! 'line #:cdn 1.4 #:model 'catenary).  All are changed, or, when one is refused, none.  Return
 PART."
   (let* ((engine (this-engine 'alter!))

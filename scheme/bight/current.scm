@@ -198,4 +198,4 @@ from PROC when it describes none."
     ((still) "still")
     ((uniform) (simple-format #f "~a m/s toward ~a" (second current) (third current)))
     ((function) "a procedure of position and time (slow)")
-    (else (show current))))
+    (else (brief current))))

@@ -9,6 +9,7 @@
   #:use-module ((bight atlas) #:select (world-called))
   #:use-module (bight engine)
   #:use-module (bight errors)
+  #:use-module ((bight files) #:select (engine-parts))
   #:use-module (bight record)
   #:use-module (bight verb)
   #:use-module (bight world)
@@ -99,7 +100,7 @@
 current one and is returned."
   (check-not-running 'enter! (current-dive))
   (let* ((world (world-called 'enter! world))
-         (dive (make-dive (%make-dive (world->parts world)) world '() '())))
+         (dive (make-dive (%make-dive (engine-parts 'enter! world)) world '() '())))
     (current-dive dive)
     dive))
 

@@ -70,7 +70,7 @@
   (cond ((and doc (string-prefix? "(" doc)) '())
         ((procedure? value) (list (or (verb-usage value) (plain-usage name value))))
         ((macro? value) (macro-usages name value))
-        (else (list (simple-format #f "~a = ~a" name (show value))))))
+        (else (list (simple-format #f "~a = ~a" name (brief value))))))
 
 (define (argument-lines value)
   (let ((arguments (verb-arguments value)))

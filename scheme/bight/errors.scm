@@ -24,7 +24,7 @@
             word->string
             words->string
             abbreviate
-            show))
+            brief))
 
 (define bight-error-kinds
   '(domain name stale def limit diverged io format version unsupported))
@@ -175,7 +175,7 @@ with ~a, ~s and ~~ filled in from ARGS, which are abbreviated there and kept who
 huge data are cut."
   (abbreviate-to value levels-shown))
 
-(define (show value)
+(define (brief value)
   "Return VALUE written in at most a line, a string."
   (clip (simple-format #f "~s" (abbreviate value))))
 
@@ -188,7 +188,7 @@ huge data are cut."
   "Return WORD, a symbol, keyword, string or anything else, as a person would type it."
   (cond ((symbol? word) (clip (symbol->string word)))
         ((string? word) (clip word))
-        (else (show word))))
+        (else (brief word))))
 
 (define (words->string words)
   "Return WORDS joined by commas."

@@ -120,7 +120,7 @@ expectations do, or #f."
 (define (syntax-error->line who what where form subform)
   (string-append (if who (simple-format #f "~a: " who) "")
                  what
-                 (if form (string-append " in " (show form)) "")))
+                 (if form (string-append " in " (brief form)) "")))
 
 (define (exception->line exception)
   "Return what EXCEPTION says on one line: PROCEDURE: MESSAGE."
@@ -222,7 +222,7 @@ expectations do, or #f."
   (attempt (lambda ()
              (let ((value (ask)))
                (and (not (good? value)) (list value))))
-           (lambda (wrong) (and wrong (cons (expected) (show (car wrong)))))
+           (lambda (wrong) (and wrong (cons (expected) (brief (car wrong)))))
            (lambda (exception) (cons (expected) (describe-raise exception)))))
 
 (define (judge-truth ask)
@@ -236,19 +236,19 @@ expectations do, or #f."
            (lambda (unlike)
              (and unlike
                   (cons "true" (simple-format #f "(~a ~a)" name
-                                              (string-join (map show unlike) " ")))))
+                                              (string-join (map brief unlike) " ")))))
            (lambda (exception) (cons "true" (describe-raise exception)))))
 
 (define (judge-same ask wanted)
   (attempt wanted
-           (lambda (value) (judge ask (lambda (given) (same? value given)) (lambda () (show value))))
+           (lambda (value) (judge ask (lambda (given) (same? value given)) (lambda () (brief value))))
            (lambda (exception) (cons "a value to compare with" (describe-raise exception)))))
 
 (define (judge-is ask predicate code)
   (define (judge-by accept?)
     (if (procedure? accept?)
         (judge ask accept? (lambda () (describe-predicate accept? code)))
-        (cons "a predicate after `is'" (show accept?))))
+        (cons "a predicate after `is'" (brief accept?))))
   (attempt predicate judge-by
            (lambda (exception) (cons (code->string code) (describe-raise exception)))))
 
@@ -256,7 +256,7 @@ expectations do, or #f."
   (define (expected)
     (if kind (simple-format #f "a ~a error" kind) "an error"))
   (attempt ask
-           (lambda (value) (cons (expected) (show value)))
+           (lambda (value) (cons (expected) (brief value)))
            (lambda (exception)
              (and kind
                   (not (eq? kind (raised-kind exception)))
@@ -385,7 +385,7 @@ whatever their kind, anything else by `equal?'."
 ;;; Predicates that can say what they wanted.
 
 (define (named-predicate accept? text . values)
-  (set-procedure-property! accept? 'wanted (apply simple-format #f text (map show values)))
+  (set-procedure-property! accept? 'wanted (apply simple-format #f text (map brief values)))
   accept?)
 
 (define (describe-predicate accept? code)

@@ -22,7 +22,7 @@
             tether-length straight-distance taut-length free-length slack excess
             taut? parted? asleep? settled? model-of energy error-estimate tightest-bend equilibria
             deviation deviation-rms deviation-mean deviation-max deviation-worst deviation?
-            events profile parts find-part tether-properties))
+            events profile parts find-part tether-properties obstacle-properties))
 
 (define (vehicle-view proc v)
   (%vehicle (this-engine proc) v))
@@ -310,19 +310,24 @@ never drains them; the last 128 are kept."
   (%profile (this-engine 'profile)))
 
 (define-verb (parts)
-  "Return the names of the parts of the dive, symbols: vehicles, then tethers."
+  "Return the names of the parts of the dive, symbols: vehicles, then tethers, then obstacles."
   (let ((engine (this-engine 'parts)))
-    (append (%names engine 'rov) (%names engine 'tether))))
+    (append-map (lambda (kind) (%names engine kind)) '(rov tether obstacle))))
+
+(define (obstacle-properties proc index)
+  "Return the alist of what the obstacle number INDEX is and where; PROC asks."
+  (%obstacle (this-engine proc) index))
 
 (define (find-part proc name)
-  "Return the kind (vehicle or tether) and index of the part called NAME, or raise a &bight-error from
-PROC."
+  "Return the kind (vehicle, tether or obstacle) and index of the part called NAME, or raise a &bight-error
+from PROC."
   (let* ((engine (this-engine proc))
          (index (lambda (names) (list-index (lambda (n) (eq? n name)) names)))
          (vehicle (index (%names engine 'rov)))
-         (tether (index (%names engine 'tether))))
+         (tether (index (%names engine 'tether)))
+         (obstacle (index (%names engine 'obstacle))))
     (cond (vehicle (values 'vehicle vehicle))
           (tether (values 'tether tether))
+          (obstacle (values 'obstacle obstacle))
           (else
-           (unknown-name proc "this dive" name
-                         (append (%names engine 'rov) (%names engine 'tether)) "part")))))
+           (unknown-name proc "this dive" name (parts) "part")))))

@@ -65,7 +65,7 @@
 
 (define (binding->string binding)
   (simple-format #f "~a=~a" (car binding)
-                 (if (string? (cdr binding)) (cdr binding) (show (cdr binding)))))
+                 (if (string? (cdr binding)) (cdr binding) (brief (cdr binding)))))
 
 (define (scenario-label scenario)
   "Return what SCENARIO is called in a report: its name, and the values of its variables if any."
@@ -242,7 +242,7 @@ combination of the values, the last variable varying fastest."
     (look)))
 
 (define (when->string time)
-  (if time (simple-format #f " at ~a s" (show time)) ""))
+  (if time (simple-format #f " at ~a s" (brief time)) ""))
 
 (define (time-or-false)
   (and (current-dive) (now)))

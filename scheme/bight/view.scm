@@ -187,6 +187,34 @@
           ((positive? (* dx dy)) #\\)
           (else #\/))))
 
+(define (mark-line! canvas char a b)
+  ;; Put CHAR all along the straight line from A to B, pairs of metres, where it is on the canvas.
+  (let* ((step (canvas-step canvas))
+         (dx (- (car b) (car a)))
+         (dy (- (cdr b) (cdr a)))
+         (span (clipped canvas a dx dy)))
+    (when span
+      (let* ((from (car span)) (length (- (cdr span) from))
+             (n (+ 1 (inexact->exact
+                      (ceiling (/ (* length (max (abs dx) (* 1/2 (abs dy)))) step))))))
+        (do ((i 0 (+ i 1))) ((> i n))
+          (let ((k (+ from (* length (/ i n)))))
+            (put! canvas (cell-of canvas (cons (+ (car a) (* k dx)) (+ (cdr a) (* k dy)))) char)))))))
+
+(define (clipped canvas a dx dy)
+  ;; The shares, a pair, between which the line from A by (DX DY) is on the canvas, or #f.
+  (let ((width (* (canvas-columns canvas) (canvas-step canvas)))
+        (height (* 2 (first (array-dimensions (canvas-cells canvas))) (canvas-step canvas))))
+    (define (cut span start way low high)
+      (and span
+           (if (zero? way)
+               (and (<= low start high) span)
+               (let* ((s (/ (- low start) way)) (t (/ (- high start) way))
+                      (from (max (car span) (min s t))) (to (min (cdr span) (max s t))))
+                 (and (<= from to) (cons from to))))))
+    (cut (cut '(0 . 1) (car a) dx (canvas-left canvas) (+ (canvas-left canvas) width))
+         (cdr a) dy (- (canvas-top canvas) height) (canvas-top canvas))))
+
 (define (draw-line! canvas places)
   ;; Draw the line through PLACES, a list of pairs of metres.
   (let ((trail (trace-cells (map (lambda (place) (cell-of canvas place)) places))))
@@ -210,10 +238,11 @@
 ;;; What there is to draw: a scene is read once from the dive.
 
 (define-record <scene>
-  (make-scene lines tails names vehicles headings current floor)
+  (make-scene lines tails outlines names vehicles headings current floor)
   scene?
   (lines scene-lines)                   ; of each tether its points, lists (x y z), from the anchor
   (tails scene-tails)                   ; of each parted one, those of the other part
+  (outlines scene-outlines)             ; lines that outline the obstacles, lists of points
   (names scene-names)                   ; of the vehicles, symbols
   (vehicles scene-vehicles)             ; a list (x y z) each
   (headings scene-headings)             ; degrees each
@@ -227,11 +256,17 @@
       (bight-raise 'name 'look "this dive has no vehicle to look at"))
     (make-scene (filter-map (lambda (name) (and=> (answer (tether-points name)) array->list)) tethers)
                 (filter-map (lambda (name) (and=> (answer (tether-tail name)) array->list)) tethers)
+                (outlines 'look)
                 vehicles
                 (map (lambda (name) (point->list (rov-position name))) vehicles)
                 (map rov-heading vehicles)
                 (point->list (current-at (rov-position (car vehicles))))
                 (- (sea-depth)))))
+
+(define (outlines proc)
+  (let ((engine (this-engine proc)))
+    (append-map (lambda (i) (map array->list (%outline engine i)))
+                (iota (length (%names engine 'obstacle))))))
 
 (define (scene-points scene)
   (append (concatenate (scene-lines scene)) (concatenate (scene-tails scene)) (scene-vehicles scene)))
@@ -322,7 +357,12 @@
     (let ((along (cos (* radian (- heading bearing)))))
       (cond ((> along 0.4) #\>) ((< along -0.4) #\<) (else #\o)))))
 
+(define (draw-outline! canvas places)
+  (for-each (lambda (a b) (mark-line! canvas #\# a b)) places (cdr places)))
+
 (define (draw-scene! canvas scene project mark)
+  (for-each (lambda (line) (draw-outline! canvas (map project line)))
+            (scene-outlines scene))
   (for-each (lambda (line)
               (draw-line! canvas (map project line))
               (put! canvas (cell-of canvas (project (car line))) #\A))
@@ -376,8 +416,8 @@
 
 (define-verb (look #:key (columns (or-false (between 40 400))))
   "Draw the present dive in plain characters, from above (north up) and from the side, on one scale in
-both: A is the anchor, ^ > v < the vehicle and where it heads, ~ the surface, = the sea bed.  The
-drawing is COLUMNS wide, by default as wide as the terminal.  Return a picture, which prints as text."
+both: A is the anchor, ^ > v < the vehicle and where it heads, # an obstacle, ~ the surface, = the
+sea bed.  The drawing is COLUMNS wide, by default as wide as the terminal.  Return a picture, which prints as text."
   (let ((width (inexact->exact (floor (or columns (max 40 (min 160 (terminal-columns))))))))
     (lines->picture (draw (read-scene) width))))
 

@@ -5,12 +5,16 @@
 #ifndef BIGHT_BIGHT_H
 #define BIGHT_BIGHT_H
 
+#include <bight/contact.h>
 #include <bight/dive.h>
+#include <bight/mesh.h>
 #include <bight/model.h>
+#include <bight/obstacle.h>
 #include <bight/statics.h>
 #include <bight/status.h>
 #include <bight/tether.h>
 #include <bight/vec.h>
+#include <bight/view.h>
 #include <bight/water.h>
 
 #endif

@@ -62,7 +62,8 @@ typedef enum bt_part
 {
   BT_PART_SEA = 0,
   BT_PART_VEHICLE,
-  BT_PART_TETHER
+  BT_PART_TETHER,
+  BT_PART_OBSTACLE
 } bt_part;
 
 int bt_dive_count (const bt_dive *dive, bt_part part);
@@ -89,6 +90,7 @@ typedef enum bt_op
   BT_OP_CUT,
   BT_OP_CURRENT,
   BT_OP_ALTER,
+  BT_OP_COLLIDE,
   BT_OP_COUNT
 } bt_op;
 
@@ -147,6 +149,9 @@ typedef struct bt_tether_view
   int taut;
   int parted; /* nonzero: the line is in two; what is asked is the part at the anchor */
   int spooling;
+  int stuck;             /* nonzero: pulled, and held fast by what it touches for 5 s; of the
+                            thesis' response: by its rules */
+  int blocked;           /* nonzero: an obstacle keeps a static line off its shape */
   int settled;           /* zero: the shape still moves */
   int asleep;            /* nonzero: the moving line rests and is not stepped */
   int nodes;             /* points of the model's own polyline */
@@ -163,14 +168,20 @@ typedef enum bt_event_kind
   BT_EVENT_PARTED,   /* a tether broke, or was cut */
   BT_EVENT_SNAPPED,  /* a slack tether came taut with a jerk */
   BT_EVENT_HOCKLED,  /* its twist threw a loop into a tether */
-  BT_EVENT_KINKED    /* it was bent more tightly than it may be */
+  BT_EVENT_KINKED,   /* it was bent more tightly than it may be */
+  BT_EVENT_TOUCHED,  /* a tether or a vehicle met an obstacle */
+  BT_EVENT_LEFT,     /* it has been away from it for half a second */
+  BT_EVENT_STUCK,    /* a tether that touches something has held fast for 5 s against a pull */
+  BT_EVENT_PINCHED   /* a moving obstacle was held back by what it would run into */
 } bt_event_kind;
 
 typedef struct bt_event
 {
   double time;     /* s */
   int64_t kind;    /* bt_event_kind */
-  int64_t subject; /* index: a tether; for ARRIVED a vehicle */
+  int64_t part;    /* bt_part: what its subject is */
+  int64_t subject; /* index among its kind */
+  int64_t object;  /* index of the obstacle it met, or -1 */
 } bt_event;
 
 /* Work done since the dive began: what ran, and what was skipped because nothing asked for it.  */
@@ -185,6 +196,12 @@ typedef struct bt_profile
   uint64_t chain_sleeps;              /* steps it slept through */
   uint64_t chain_remeshes;            /* by model `auto' */
   uint64_t chain_safeguarded, chain_unconverged;
+  /* Of obstacles: links that were asked about, boxes and parts that were looked at, links that were
+     known to be clear, casts; places touched, added up over the steps; steps solved again for a
+     hit; steps in which the guard held nodes back.  All zero in a world without.  */
+  uint64_t links_asked, boxes_visited, pairs_measured, links_clear, casts;
+  uint64_t touches, contact_rounds, truncated;
+  uint64_t span_solves, span_skips; /* of the thesis' response */
   uint64_t current_samples_skipped; /* shapes solved in still water */
   uint64_t operations, refused;
 } bt_profile;

@@ -51,7 +51,7 @@ bt__from_handle (bt__handle *handle)
   return scm_new_smob (dive_tag, (scm_t_bits)handle);
 }
 
-/* Also runs on Guile's finalizer thread: it touches the dive alone.  */
+/* Under plain guile this runs on its finalizer thread: it touches the dive alone.  */
 static size_t
 free_dive (SCM object)
 {
@@ -81,6 +81,7 @@ fork_dive (SCM object)
   bt_error error;
   bt__handle *origin = bt__to_handle (object), *copy = bt__new_handle (origin->function);
   int asks = scm_is_true (scm_procedure_p (origin->function));
+  scm_run_finalizers (); /* forks come and go by the thousand */
   bt__check ("what-if", bt_dive_fork (origin->dive, &copy->dive, &error), &error);
   bt_dive_set_current_function (copy->dive, asks ? bt__call_current : NULL, copy);
   return bt__from_handle (copy);
@@ -95,6 +96,7 @@ step_dive (SCM object, SCM count)
   bt_dive *dive = bt__to_idle_dive ("run", object);
   int64_t n = scm_to_int64 (count);
   bt_error error;
+  scm_run_finalizers ();
   for (int64_t i = 0; i < n; i++)
     {
       bt__check ("run", bt_dive_step (dive, &error), &error);

@@ -45,7 +45,10 @@ bight_guile_init (void)
 {
   define_folders ();
   bt__define_parts ();
+  bt__define_shapes ();
   bt__define_dives ();
   bt__define_operations ();
   bt__define_questions ();
+  bt__define_contacts ();
+  bt__define_outlines ();
 }

@@ -25,9 +25,12 @@ void bt__define_procedures (const bt__procedure *table, size_t n);
 
 /* The tables, one for each file.  */
 void bt__define_parts (void);
+void bt__define_shapes (void);
 void bt__define_dives (void);
 void bt__define_operations (void);
 void bt__define_questions (void);
+void bt__define_contacts (void);
+void bt__define_outlines (void);
 
 /* Raise ERROR as a &bight-error on behalf of the Scheme procedure WHO.  Does not return.  */
 void bt__raise (const char *who, const bt_error *error) SCM_NORETURN;
@@ -61,12 +64,19 @@ bt_vec3 bt__to_point (const char *who, SCM object);
    (function PROC) current, else is left alone.  */
 bt_current bt__to_current (const char *who, SCM object, SCM *function);
 
-/* The part a symbol means: sea, rov or tether.  */
+/* The kind of part that SYMBOL is the head of.  */
+const bt_head *bt__to_head (const char *who, SCM symbol);
+
+/* The part a symbol means: sea, rov, tether or obstacle.  */
 bt_part bt__to_part (const char *who, SCM symbol);
 
 /* Set FIELD of DEF from a Scheme value: number, word, point or part's name.  */
 bt_status bt__set_field (const char *who, const bt_field *field, void *def, SCM value,
                          bt_error *error);
+
+/* Set FIELD of DEF, rows, a mesh or a grid, from a Scheme value, which lends it its memory.
+   Return zero if FIELD is of another kind.  */
+int bt__set_shape (const char *who, const bt_field *field, void *def, SCM value);
 
 /* The word, or else the number, that VALUE of FIELD reads as.  */
 SCM bt__from_field (const bt_field *field, double value);

@@ -88,6 +88,8 @@ tether (SCM object, SCM index)
   SCM list = SCM_EOL;
   list = with ("settled?", scm_from_bool (t.settled), list);
   list = with ("error", scm_from_double (t.error_estimate), list);
+  list = with ("stuck?", scm_from_bool (t.stuck), list);
+  list = with ("blocked?", scm_from_bool (t.blocked), list);
   list = with ("asleep?", scm_from_bool (t.asleep), list);
   list = with ("parted?", scm_from_bool (t.parted), list);
   list = with ("spooling?", scm_from_bool (t.spooling), list);
@@ -116,7 +118,8 @@ properties (SCM object, SCM index)
     {
       const bt_field *field = &head->fields[i];
       const double *value = (const double *)(const void *)((const char *)&def + field->offset);
-      if (field->kind != BT_FIELD_END)
+      if (field->kind == BT_FIELD_NUMBER || field->kind == BT_FIELD_COUNT
+          || field->kind == BT_FIELD_WORD)
         list = with (field->name, bt__from_field (field, *value), list);
     }
   return list;
@@ -276,10 +279,12 @@ current_at (SCM object, SCM point)
 static SCM
 from_event (bt_dive *dive, const bt_event *event)
 {
-  bt_part part = event->kind == BT_EVENT_ARRIVED ? BT_PART_VEHICLE : BT_PART_TETHER;
-  const char *name = bt_dive_name (dive, part, (int)event->subject);
-  return scm_list_3 (symbol (bt_event_name ((bt_event_kind)event->kind)),
-                     scm_from_double (event->time), name ? symbol (name) : SCM_BOOL_F);
+  const char *name = bt_dive_name (dive, (bt_part)event->part, (int)event->subject);
+  const char *object = bt_dive_name (dive, BT_PART_OBSTACLE, (int)event->object);
+  return scm_cons2 (symbol (bt_event_name ((bt_event_kind)event->kind)),
+                    scm_from_double (event->time),
+                    scm_cons (name ? symbol (name) : SCM_BOOL_F,
+                              object ? scm_list_1 (symbol (object)) : SCM_EOL));
 }
 
 static SCM
@@ -317,6 +322,16 @@ profile (SCM object)
   bt_dive_profile (bt__to_dive (object), &p);
   list = with ("refused", scm_from_uint64 (p.refused), list);
   list = with ("operations", scm_from_uint64 (p.operations), list);
+  list = with ("span-skips", scm_from_uint64 (p.span_skips), list);
+  list = with ("span-solves", scm_from_uint64 (p.span_solves), list);
+  list = with ("truncated", scm_from_uint64 (p.truncated), list);
+  list = with ("contact-rounds", scm_from_uint64 (p.contact_rounds), list);
+  list = with ("touches", scm_from_uint64 (p.touches), list);
+  list = with ("casts", scm_from_uint64 (p.casts), list);
+  list = with ("links-clear", scm_from_uint64 (p.links_clear), list);
+  list = with ("pairs-measured", scm_from_uint64 (p.pairs_measured), list);
+  list = with ("boxes-visited", scm_from_uint64 (p.boxes_visited), list);
+  list = with ("links-asked", scm_from_uint64 (p.links_asked), list);
   list = with ("still-water-shapes", scm_from_uint64 (p.current_samples_skipped), list);
   list = with ("chain-unconverged", scm_from_uint64 (p.chain_unconverged), list);
   list = with ("chain-safeguarded", scm_from_uint64 (p.chain_safeguarded), list);

@@ -7,7 +7,10 @@
 
 #include "base/error.h"
 #include "math/vec.h"
+#include "sim/around.h"
 #include "sim/chain.h"
+#include "sim/lay.h"
+#include "world/layout.h"
 #include "world/line.h"
 
 /* The equilibrium to lay a line from may take several searches.  */
@@ -59,8 +62,8 @@ settle_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
 }
 
 /* How many intervals the equilibrium that tether I is laid from has.  */
-static int
-rest_nodes (const bt_dive *dive, const bt__tether *tether, int i)
+int
+bt__rest_nodes (const bt_dive *dive, const bt__tether *tether, int i)
 {
   const bt_tether_def *def = &dive->model->tethers[i];
   return tether->props.model == BT_MODEL_AUTO ? bt__chain_room (def) : (int)def->props.nodes;
@@ -75,7 +78,7 @@ rest_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_err
   bt_tether_props props = tether->props;
   bt_status status;
   props.model = BT_MODEL_STEADY;
-  props.nodes = rest_nodes (dive, tether, i);
+  props.nodes = bt__rest_nodes (dive, tether, i);
   status = settle_shape (dive, state, i, ends, &props, error);
   if (status == BT_OK)
     return status;
@@ -86,35 +89,81 @@ rest_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_err
 }
 
 bt_status
-bt__lay_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+bt__trace_rest (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int n,
+                bt_error *error)
 {
-  bt__tether *tether = bt__dive_tether (dive, state, i);
-  const bt_tether_def *def = &dive->model->tethers[i];
-  const bt__vehicle *v;
-  int n = rest_nodes (dive, tether, i);
   bt_status status = BT_OK;
-  if (tether->shape.length == 0)
+  if (bt__dive_tether (dive, state, i)->shape.length == 0)
     status = rest_shape (dive, state, i, ends, error);
   if (status != BT_OK)
     return status;
   trace (dive, state, i, n);
   dive->polyline[0] = ends->a;
   dive->polyline[n] = ends->b;
-  status = bt__dynamic_init (bt__dive_chain (dive, state, i, 0), bt__chain_room (def), n,
-                             dive->polyline, n + 1, tether->length,
-                             isfinite (tether->props.ea) ? tether->props.ea : 1e9, error);
+  return BT_OK;
+}
+
+/* Rest lengths in the SHARE of the whole that each interval spans.  */
+static void
+share_out (bt__dynamic *chain, const double *share, double length)
+{
+  for (int64_t k = 0; k < chain->n; k++)
+    {
+      double chord = bt__distance (bt__dynamic_x (chain)[k], bt__dynamic_x (chain)[k + 1]);
+      bt__dynamic_rest (chain)[k] = share[k] * length;
+      bt__dynamic_stretch (chain)[k] = chord / (share[k] * length);
+    }
+}
+
+bt_status
+bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int n,
+                 const double *share, bt_error *error)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  const bt_tether_def *def = &dive->model->tethers[i];
+  bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  double ea = isfinite (tether->props.ea) ? tether->props.ea : 1e9;
+  const bt__vehicle *v;
+  bt_status status = bt__dynamic_init (chain, bt__chain_room (def), n, dive->polyline, n + 1,
+                                       tether->length, ea, error);
   if (status != BT_OK)
     return status;
-  tense (dive, bt__dive_chain (dive, state, i, 0), n);
+  if (share)
+    {
+      memcpy (bt__dynamic_x (chain), dive->polyline, sizeof (bt_vec3) * (size_t)(n + 1));
+      share_out (chain, share, tether->length);
+      memset (bt__dynamic_tension (chain), 0, sizeof (double) * (size_t)n);
+    }
+  else
+    tense (dive, chain, n);
+  if (bt__has_obstacles (dive))
+    bt__anchors_init (bt__dive_anchors (dive, state, i, 0), bt__anchor_room (def));
   memset (&tether->shape, 0, sizeof tether->shape);
   tether->shape.form = BT__FORM_CHAIN;
   tether->shape.a = ends->a;
   tether->shape.b = ends->b;
   tether->shape.length = tether->length;
-  tether->parted = tether->quiet = tether->settled = 0;
-  v = bt__carried (dive, state, i);
+  tether->drape = BT__DRAPE_NONE;
+  tether->parted = tether->quiet = tether->settled = tether->blocked = 0;
+  v = bt__carried_vehicle (dive, state, i);
   if (v)
-    bt__dynamic_v (bt__dive_chain (dive, state, i, 0))[n] = v->velocity;
+    bt__dynamic_v (chain)[n] = v->velocity;
+  return BT_OK;
+}
+
+bt_status
+bt__lay_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  int n = bt__rest_nodes (dive, tether, i);
+  bt_status status;
+  if (bt__has_obstacles (dive))
+    return bt__lay_chain_among (dive, state, i, ends, error);
+  status = bt__trace_rest (dive, state, i, ends, n, error);
+  if (status == BT_OK)
+    status = bt__begin_chain (dive, state, i, ends, n, NULL, error);
+  if (status != BT_OK)
+    return status;
   return tether->props.model == BT_MODEL_AUTO ? bt__remesh_chain (dive, state, i, error) : BT_OK;
 }
 
@@ -125,7 +174,7 @@ void
 bt__still_chain (bt_dive *dive, bt__state *state, int i)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  int n = rest_nodes (dive, tether, i);
+  int n = bt__rest_nodes (dive, tether, i);
   trace (dive, state, i, n);
   memcpy (bt__dive_nodes (dive, state, i), dive->polyline, sizeof (bt_vec3) * (size_t)(n + 1));
   memset (bt__dive_tensions (dive, state, i), 0, sizeof (bt_vec3) * (size_t)(n + 1));
@@ -168,6 +217,8 @@ bt__carry_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, b
       tether->quiet = 0;
       return BT_OK;
     }
+  if (bt__has_obstacles (dive))
+    return bt__drag_chain (dive, state, i, ends, error);
   bt__still_chain (dive, state, i);
   status = rest_shape (dive, state, i, ends, error);
   return status == BT_OK ? bt__lay_chain (dive, state, i, ends, error) : status;

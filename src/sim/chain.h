@@ -10,7 +10,7 @@
 #include "world/line.h"
 
 /* The vehicle with mass at the far end of tether I, which this line carries, or NULL.  */
-bt__vehicle *bt__carried (const bt_dive *dive, bt__state *state, int i);
+bt__vehicle *bt__carried_vehicle (const bt_dive *dive, bt__state *state, int i);
 
 /* What the kernel is told of tether I: ends, water, the vehicle it carries; no winch, no lumps.  */
 bt__dynamic_input bt__chain_input (const bt_dive *dive, bt__state *state, int i,
@@ -23,6 +23,21 @@ void bt__fasten (const bt_dive *dive, int i, double from, double to, bt__dynamic
 
 /* Give the vehicle that the last node of tether I carries its place and velocity.  */
 void bt__bring_vehicle (const bt_dive *dive, bt__state *state, int i);
+
+/* How many intervals a chain of TETHER begins with.  Put N + 1 points of its shape, or of its
+   equilibrium when it has none, on the dive's polyline and the tensions along it.  Begin a chain of
+   N intervals from there, at rest; with SHARE each has that share of the length, and no tension
+   (chain.c).  */
+int bt__rest_nodes (const bt_dive *dive, const bt__tether *tether, int i);
+bt_status bt__trace_rest (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int n,
+                          bt_error *error);
+bt_status bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int n,
+                           const double *share, bt_error *error);
+
+/* As bt__dynamic_step for a PART of tether I, among the obstacles of its world (chain_touch.c).  */
+bt_status bt__step_among (bt_dive *dive, bt__state *state, int i, int part,
+                          const bt__dynamic_input *input, bt__dynamic_report *report,
+                          bt_error *error);
 
 /* Note what REPORT says of a step of TETHER, and what its twist does, as events.  */
 void bt__watch_step (bt__state *state, bt__tether *tether, int i, const bt__dynamic_report *report);

@@ -5,15 +5,16 @@
 #include <math.h>
 
 #include "math/vec.h"
+#include "sim/around.h"
 #include "sim/chain.h"
 
 /* The vehicle with mass at the far end of tether I, which this line carries, or NULL.  */
 bt__vehicle *
-bt__carried (const bt_dive *dive, bt__state *state, int i)
+bt__carried_vehicle (const bt_dive *dive, bt__state *state, int i)
 {
   int vehicle = dive->model->ends[i][1].vehicle;
   if (vehicle < 0 || bt__dive_vehicle (dive, state, vehicle)->mass == 0
-      || bt__carrier (dive, state, vehicle) != i)
+      || bt__pinned (dive, vehicle) || bt__carrier (dive, state, vehicle) != i)
     return NULL;
   return bt__dive_vehicle (dive, state, vehicle);
 }
@@ -70,7 +71,7 @@ bt__dynamic_input
 bt__chain_input (const bt_dive *dive, bt__state *state, int i, const bt_water *water,
                  const bt__ends *ends)
 {
-  const bt__vehicle *v = bt__carried (dive, state, i);
+  const bt__vehicle *v = bt__carried_vehicle (dive, state, i);
   bt__dynamic_end far = { .at = ends->b };
   return (bt__dynamic_input){ .line = &bt__dive_tether (dive, state, i)->props,
                               .water = water,
@@ -84,7 +85,7 @@ bt__bring_vehicle (const bt_dive *dive, bt__state *state, int i)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, tether->parted ? 1 : 0);
-  bt__vehicle *v = bt__carried (dive, state, i);
+  bt__vehicle *v = bt__carried_vehicle (dive, state, i);
   if (!v)
     return;
   v->position = bt__dynamic_x (chain)[chain->n];

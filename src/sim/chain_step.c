@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "math/vec.h"
+#include "sim/around.h"
 #include "sim/chain.h"
 
 /* How the chain follows the winch.  */
@@ -15,17 +16,21 @@
 #define WINCH_REST 1e-5 /* m */
 
 static int
-may_sleep_on (const bt__state *state, const bt__tether *tether, const bt__ends *ends)
+may_sleep_on (const bt_dive *dive, const bt__state *state, const bt__tether *tether,
+              const bt__ends *ends)
 {
   return tether->quiet >= BT__SLEEP_AFTER && tether->winch_rate == 0
-         && bt__is_unchanged (state, tether, ends);
+         && bt__is_unchanged (state, tether, ends) && !bt__movers_move (dive);
 }
 
 static bt_status
-step_part (bt_dive *dive, bt__dynamic *chain, bt__dynamic_input *input, bt__dynamic_report *report,
-           bt_error *error)
+step_part (bt_dive *dive, bt__state *state, int i, int part, const bt__dynamic_input *input,
+           bt__dynamic_report *report, bt_error *error)
 {
-  bt_status status = bt__dynamic_step (chain, dive->work, input, report, error);
+  bt_status status = bt__has_obstacles (dive)
+                         ? bt__step_among (dive, state, i, part, input, report, error)
+                         : bt__dynamic_step (bt__dive_chain (dive, state, i, part), dive->work,
+                                             input, report, error);
   dive->profile.chain_steps++;
   dive->profile.chain_solves += (uint64_t)report->solves;
   dive->profile.chain_safeguarded += report->safeguarded != 0;
@@ -43,7 +48,7 @@ step_far_part (bt_dive *dive, bt__state *state, int i, bt__dynamic_input input, 
   bt__fasten (dive, i, 0, bt__dynamic_length (chain), &input, lumps);
   input.end[0] = (bt__dynamic_end){ .free = 1 };
   input.pay = 0;
-  return step_part (dive, chain, &input, &report, error);
+  return step_part (dive, state, i, 1, &input, &report, error);
 }
 
 /* The chain follows the winch with a lag, for a drum that starts or stops at once sends a wave of
@@ -65,9 +70,10 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
   bt__dynamic_lump lumps[BT_LUMPS_MAX];
   bt__dynamic_report report = { 0 };
   double far_length = 0;
+  bt__ends here; /* where obstacles let the ends come */
   bt_status status;
   bt__watch_twist (dive, state, tether, i); /* a sleeping line can be twisted too */
-  if (may_sleep_on (state, tether, ends))
+  if (may_sleep_on (dive, state, tether, ends))
     {
       dive->profile.chain_sleeps++;
       return BT_OK;
@@ -82,11 +88,12 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
     }
   bt__fasten (dive, i, far_length, INFINITY, &input, lumps);
   input.pay = pay_of (tether, chain);
-  status = step_part (dive, chain, &input, &report, error);
+  status = step_part (dive, state, i, 0, &input, &report, error);
   if (status != BT_OK)
     return status;
-  tether->shape.a = ends->a;
-  tether->shape.b = ends->b;
+  here = bt__tether_ends (dive, state, i);
+  tether->shape.a = here.a;
+  tether->shape.b = here.b;
   tether->shape.length = tether->length;
   tether->stale = 0;
   bt__bring_vehicle (dive, state, i);

@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "math/vec.h"
+#include "sim/around.h"
 #include "sim/ops.h"
 
 /* ---- Checks ---- */
@@ -94,6 +95,11 @@ static const op ops[BT_OP_COUNT] = {
                       "change a live field of the subject-th PART (a bt_part), by its place in the "
                       "table of fields" },
                     bt__op_alter },
+  [BT_OP_COLLIDE]
+  = { { "collide", BT_PART_SEA, 3, 3, "part obstacle on",
+        "let the subject-th PART (a bt_part: a vehicle or a tether) and an obstacle meet or not; "
+        "obstacle -1: all of its pairs, part 0: all pairs there are" },
+      bt__op_collide },
 };
 
 const bt_op_info *
@@ -133,6 +139,8 @@ apply (bt_dive *dive, const op *o, int subject, const double *args, int n, bt_er
 {
   bt__call c = { dive, bt__dive_begin (dive), subject, args, n, error };
   bt_status status = o->apply (&c);
+  if (bt__has_obstacles (dive))
+    bt__rest_movers (dive, c.state);
   if (o->info.subject == BT_PART_VEHICLE)
     wake_lines (&c);
   return status == BT_OK ? bt__resolve_tethers (dive, c.state, 0, error) : status;

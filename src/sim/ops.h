@@ -50,6 +50,9 @@ bt_status bt__op_cut (const bt__call *c);
 /* ops_sea.c */
 bt_status bt__op_current (const bt__call *c);
 
+/* ops_collide.c */
+bt_status bt__op_collide (const bt__call *c);
+
 /* ops_alter.c */
 bt_status bt__op_alter (const bt__call *c);
 

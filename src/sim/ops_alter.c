@@ -7,6 +7,7 @@
 
 #include "math/vec.h"
 #include "sim/ops.h"
+#include "world/obstacles.h"
 
 static const bt_field *
 live_field (const bt__call *c, const char *head_name)
@@ -123,6 +124,27 @@ alter_sea (const bt__call *c)
   return BT_OK;
 }
 
+/* All that changes of an obstacle is its friction.  */
+static bt_status
+alter_obstacle (const bt__call *c)
+{
+  bt_obstacle_def def = { 0 };
+  const bt_field *field;
+  double *roughness;
+  bt_status status = bt__check_part (c->dive, BT_PART_OBSTACLE, c->subject, c->error);
+  if (status != BT_OK)
+    return status;
+  field = live_field (c, bt_obstacle_head (c->dive->model->obstacles[c->subject].kind)->name);
+  if (!field)
+    return c->error->status;
+  roughness = &bt__dive_roughness (c->dive, c->state)[c->subject];
+  def.friction = *roughness;
+  status = bt_def_set_number (field, &def, c->args[2], c->error);
+  *roughness = def.friction;
+  bt__mark_all_stale (c);
+  return status;
+}
+
 bt_status
 bt__op_alter (const bt__call *c)
 {
@@ -132,5 +154,7 @@ bt__op_alter (const bt__call *c)
     return alter_vehicle (c);
   if (c->args[0] == BT_PART_TETHER)
     return alter_tether (c);
+  if (c->args[0] == BT_PART_OBSTACLE)
+    return alter_obstacle (c);
   return bt__fail (c->error, BT_ERR_NAME, "there is no part of the kind %g", c->args[0]);
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "math/vec.h"
+#include "sim/around.h"
 #include "sim/ops.h"
 
 static bt__vehicle *
@@ -48,19 +49,29 @@ stand_at (bt__vehicle *v, bt_vec3 p)
   v->goal = BT__GOAL_NONE;
 }
 
+static bt_vec3
+sweep_hull (const bt__call *c, bt_vec3 to)
+{
+  bt__rest_movers (c->dive, c->state);
+  return bt__hull_reach (c->dive, c->state, c->subject, to);
+}
+
 bt_status
 bt__op_place (const bt__call *c)
 {
   bt__vehicle *v = vehicle_of (c);
-  bt_vec3 way;
+  bt_vec3 way, to;
   double k;
   if (bt__check_point (c) != BT_OK)
     return BT_ERR_DOMAIN;
   way = bt__sub (bt__point_of (c), v->position);
   k = bt__reach_along (c->dive, c->state, c->subject, v->position, bt__point_of (c));
-  stand_at (v, k < 1 ? bt__axpy (v->position, k, way) : bt__point_of (c));
+  to = k < 1 ? bt__axpy (v->position, k, way) : bt__point_of (c);
+  if (bt__has_obstacles (c->dive))
+    to = sweep_hull (c, to);
+  stand_at (v, to);
   bt__hold_at_tethers (c->dive, c->dive->now, c->state);
-  v->held = k < 1;
+  v->held = bt__distance (to, bt__point_of (c)) > 0;
   return BT_OK;
 }
 
@@ -74,7 +85,8 @@ forget_shape (const bt__call *c, int i)
     return;
   memset (&tether->memory, 0, sizeof tether->memory);
   memset (&tether->shape, 0, sizeof tether->shape);
-  tether->stale = 1;
+  tether->drape = BT__DRAPE_NONE;
+  tether->relaid = tether->stale = 1;
 }
 
 bt_status

@@ -76,8 +76,8 @@ pull_back (const bt_dive *dive, const bt__state *from, bt__state *state, int i, 
   return 1;
 }
 
-static void
-note_hold (bt__state *state, bt__tether *tether, int i, int taut)
+void
+bt__note_taut (bt__state *state, bt__tether *tether, int i, int taut)
 {
   if (taut != tether->taut)
     bt__raise_event (state, taut ? BT_EVENT_TAUT : BT_EVENT_SLACK, i);
@@ -113,7 +113,9 @@ bt__hold_at_tethers (const bt_dive *dive, const bt__state *from, bt__state *stat
     {
       bt__ends ends = bt__tether_ends (dive, state, i);
       bt__tether *tether = bt__dive_tether (dive, state, i);
-      note_hold (state, tether, i, bt__distance (ends.a, ends.b) >= tether->length * (1 - 1e-9));
+      if (tether->drape != BT__DRAPE_SPANS) /* that knows by itself */
+        bt__note_taut (state, tether, i,
+                       bt__distance (ends.a, ends.b) >= tether->length * (1 - 1e-9));
     }
 }
 

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "math/vec.h"
-#include "sim/sim.h"
+#include "sim/around.h"
 
 int
 bt__is_unchanged (const bt__state *state, const bt__tether *tether, const bt__ends *ends)
@@ -57,10 +57,18 @@ bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
                           error);
 }
 
-static bt_status
-solve (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, double pull, bt_error *error)
+/* The pull it is solved with.  */
+static double
+pull_of (const bt_dive *dive, bt__state *state, int i)
+{
+  return bt__dive_tether (dive, state, i)->taut ? bt__pull_on (dive, state, i) : 0;
+}
+
+bt_status
+bt__solve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
+  double pull = pull_of (dive, state, i);
   bt_vec3 *nodes = bt__dive_nodes (dive, state, i);
   uint64_t unsettled = dive->counts.unsettled;
   bt_status status = bt__solve_shape (dive, state, i, ends, &tether->props, pull, error);
@@ -81,15 +89,16 @@ static bt_status
 resolve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
-  double pull = tether->taut ? bt__pull_on (dive, state, i) : 0;
   if (tether->parted)
     return bt__fail (error, BT_ERR_UNSUPPORTED,
                      "tether `%s' has parted: only the model `dynamic' moves it",
                      dive->model->tethers[i].name);
+  if (bt__has_obstacles (dive))
+    return bt__drape_tether (dive, state, i, ends, error);
   if (tether->shape.form == BT__FORM_CHAIN)
     bt__still_chain (dive, state, i);
-  if (tether->pull != pull || !bt__is_unchanged (state, tether, ends))
-    return solve (dive, state, i, ends, pull, error);
+  if (tether->pull != pull_of (dive, state, i) || !bt__is_unchanged (state, tether, ends))
+    return bt__solve_static (dive, state, i, ends, error);
   dive->profile.shape_skips++;
   return BT_OK;
 }

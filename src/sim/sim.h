@@ -62,6 +62,18 @@ int bt__is_unchanged (const bt__state *state, const bt__tether *tether, const bt
 bt_status bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
                            const bt_tether_props *props, double pull, bt_error *error);
 
+/* Solve tether I between ENDS as its static model has it, pulled taut by its vehicles (resolve.c).
+ */
+bt_status bt__solve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
+                            bt_error *error);
+
+/* Among obstacles bring a tether of a static model to ENDS as far as they let it (drape.c).  */
+bt_status bt__drape_tether (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
+                            bt_error *error);
+
+/* Note that tether I is TAUT or no longer, with its event (reach.c).  */
+void bt__note_taut (bt__state *state, bt__tether *tether, int i, int taut);
+
 /* The moving line (chain.c): lay tether I from its present shape, or from its equilibrium; go on by
    a step; go along with ends that were put elsewhere; become nodes of a static model; take as many
    nodes as its accuracy wants (remesh.c); part in the middle of INTERVAL.  */

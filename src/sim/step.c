@@ -10,7 +10,8 @@
 
 #include "base/error.h"
 #include "math/vec.h"
-#include "sim/sim.h"
+#include "sim/around.h"
+#include "world/obstacles.h"
 
 /* ---- Begin ---- */
 
@@ -57,6 +58,8 @@ fill (const bt_dive *dive, bt__state *state)
       tether->stale = 1;
       tether->slack_at = -1;
     }
+  if (bt__has_obstacles (dive))
+    bt__obstacles_init (dive, state);
 }
 
 bt_status
@@ -74,6 +77,8 @@ bt_dive_new (bt_model *model, bt_current_function function, void *user, bt_dive 
   dive->user = user;
   fill (dive, bt__dive_begin (dive));
   bt__hold_at_tethers (dive, dive->next, dive->next);
+  if (bt__has_obstacles (dive))
+    bt__rest_movers (dive, dive->next);
   status = bt__resolve_tethers (dive, dive->next, 0, error);
   if (status != BT_OK)
     {
@@ -87,17 +92,54 @@ bt_dive_new (bt_model *model, bt_current_function function, void *user, bt_dive 
 
 /* ---- Step ---- */
 
-bt_status
-bt_dive_step (bt_dive *dive, bt_error *error)
+static void
+begin_among (bt_dive *dive, bt__state *next, int round)
+{
+  bt__aim_movers (dive, next, round);
+  bt__pin_vehicles (dive, next, round);
+}
+
+static void
+end_among (bt_dive *dive, bt__state *next)
+{
+  bt__settle_movers (dive, next);
+  bt__note_all_partings (dive, next);
+  bt__note_stuck (dive, next);
+}
+
+static int
+agree (bt_dive *dive, bt__state *next)
+{
+  int vehicles = bt__vehicles_agree (dive, next);
+  return bt__around_agrees (dive) && vehicles;
+}
+
+/* Step the copy; ROUND tries at it did not fit together with the obstacles.  */
+static bt_status
+try_step (bt_dive *dive, int round, bt_error *error)
 {
   bt__state *next = bt__dive_begin (dive);
-  bt_status status;
   next->step++;
   bt__move_vehicles (dive, next);
   bt__drift_vehicles (dive, next);
   bt__turn_winches (dive, next);
   bt__hold_at_tethers (dive, dive->now, next);
-  status = bt__resolve_tethers (dive, next, 1, error);
+  if (bt__has_obstacles (dive))
+    begin_among (dive, next, round);
+  return bt__resolve_tethers (dive, next, 1, error);
+}
+
+bt_status
+bt_dive_step (bt_dive *dive, bt_error *error)
+{
+  bt_status status = try_step (dive, 0, error);
+  if (bt__has_obstacles (dive))
+    {
+      for (int round = 1; status == BT_OK && round <= BT__TRIES && !agree (dive, dive->next);
+           round++)
+        status = try_step (dive, round, error);
+      end_among (dive, dive->next);
+    }
   if (status != BT_OK)
     return status;
   dive->profile.steps++;

@@ -7,136 +7,10 @@
 
 #include "base/error.h"
 #include "base/hash.h"
-#include "world/dive.h"
+#include "world/layout.h"
 
-/* The first bytes of a state: layout version 2.  */
-static const uint64_t magic = 0x3154484749420002ULL;
-
-/* Byte-wise equality of states means equality of dives only if no byte is padding.  */
-_Static_assert(sizeof (bt__vehicle) == 36 * 8, "no padding in bt__vehicle");
-_Static_assert(sizeof (bt_event) == 3 * 8, "no padding in bt_event");
-_Static_assert(sizeof (bt__state) % 8 == 0, "whole words in bt__state");
-_Static_assert(sizeof (bt__tether) % 8 == 0, "whole words in bt__tether");
-
-/* ---- Layout ---- */
-
-static size_t
-fixed_size (const bt_model *model)
-{
-  return sizeof (bt__state) + sizeof (bt__vehicle) * (size_t)model->n_vehicles
-         + sizeof (bt__tether) * (size_t)model->n_tethers;
-}
-
-/* A shape that a chain is laid from may have as many points as the chain.  */
-static int
-node_points (const bt_tether_def *tether)
-{
-  return bt__chain_room (tether) + 1;
-}
-
-static size_t
-arrays_size (const bt_tether_def *tether)
-{
-  return 2 * sizeof (bt_vec3) * (size_t)node_points (tether);
-}
-
-static size_t
-chain_size (const bt_tether_def *tether)
-{
-  return bt__dynamic_size (bt__chain_room (tether));
-}
-
-/* Arrays or up to two chains.  */
-static size_t
-store_size (const bt_tether_def *tether)
-{
-  size_t arrays = arrays_size (tether), chains = 2 * chain_size (tether);
-  return arrays > chains ? arrays : chains;
-}
-
-/* The winch may double the line before its intervals grow longer.  */
-int
-bt__chain_room (const bt_tether_def *tether)
-{
-  return 2 * (int)tether->props.nodes;
-}
-
-static size_t
-state_size (const bt_model *model)
-{
-  size_t size = fixed_size (model);
-  for (int i = 0; i < model->n_tethers; i++)
-    size += store_size (&model->tethers[i]);
-  return size;
-}
-
-bt__vehicle *
-bt__dive_vehicle (const bt_dive *dive, bt__state *state, int i)
-{
-  (void)dive;
-  return bt__vehicles (state) + i;
-}
-
-bt__tether *
-bt__dive_tether (const bt_dive *dive, bt__state *state, int i)
-{
-  return bt__tethers (state, dive->model->n_vehicles) + i;
-}
-
-static char *
-store_of (const bt_dive *dive, const bt__state *state, int i)
-{
-  const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
-  return (char *)state + fixed_size (dive->model) + tether->store_at;
-}
-
-bt_vec3 *
-bt__dive_nodes (const bt_dive *dive, bt__state *state, int i)
-{
-  return (bt_vec3 *)(void *)store_of (dive, state, i);
-}
-
-bt_vec3 *
-bt__dive_tensions (const bt_dive *dive, bt__state *state, int i)
-{
-  return bt__dive_nodes (dive, state, i) + node_points (&dive->model->tethers[i]);
-}
-
-bt__dynamic *
-bt__dive_chain (const bt_dive *dive, bt__state *state, int i, int part)
-{
-  size_t offset = part ? chain_size (&dive->model->tethers[i]) : 0;
-  return (bt__dynamic *)(void *)(store_of (dive, state, i) + offset);
-}
-
-/* How many bytes of the store of tether I are in use.  */
-static size_t
-live_size (const bt_dive *dive, const bt__state *state, int i)
-{
-  const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
-  if (tether->shape.form == BT__FORM_NODES)
-    return arrays_size (&dive->model->tethers[i]);
-  if (tether->shape.form == BT__FORM_CHAIN)
-    return chain_size (&dive->model->tethers[i]) * (tether->parted ? 2 : 1);
-  return 0;
-}
-
-static void
-copy_state (const bt_dive *dive, bt__state *to, const bt__state *from)
-{
-  memcpy (to, from, fixed_size (dive->model));
-  for (int i = 0; i < dive->model->n_tethers; i++)
-    memcpy (store_of (dive, to, i), store_of (dive, from, i), live_size (dive, from, i));
-}
-
-static uint64_t
-hash_state (const bt_dive *dive, const bt__state *state)
-{
-  uint64_t h = bt__hash (state, fixed_size (dive->model), 0);
-  for (int i = 0; i < dive->model->n_tethers; i++)
-    h = bt__hash (store_of (dive, state, i), live_size (dive, state, i), h);
-  return h;
-}
+/* The first bytes of a state: layout version 3.  */
+static const uint64_t magic = 0x3154484749420003ULL;
 
 double
 bt__state_time (const bt__state *state)
@@ -164,6 +38,7 @@ static bt_status
 make_tools (bt_dive *dive, bt_error *error)
 {
   int most = 0;
+  size_t points;
   for (int i = 0; i < dive->model->n_tethers; i++)
     if (dive->model->tethers[i].props.nodes > most)
       most = (int)dive->model->tethers[i].props.nodes;
@@ -172,13 +47,61 @@ make_tools (bt_dive *dive, bt_error *error)
   dive->tools.search = bt_search_new ();
   dive->tools.steady = bt_steady_new (2 * most); /* as many as a chain comes to */
   dive->work = bt__dynamic_work_new (2 * most);
-  dive->polyline = calloc ((size_t)(2 * most + 1), sizeof *dive->polyline);
-  dive->along = calloc ((size_t)(2 * most + 1), sizeof *dive->along);
-  dive->motion = calloc ((size_t)(2 * most + 1), sizeof *dive->motion);
+  points = 2 * (size_t)most + 1 + 2 * BT__SPLITS_MAX;
+  dive->polyline = calloc (points, sizeof *dive->polyline);
+  dive->along = calloc (points, sizeof *dive->along);
+  dive->motion = calloc (points, sizeof *dive->motion);
   if (!dive->tools.search || !dive->tools.steady || !dive->work || !dive->polyline || !dive->motion
       || !dive->along)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the solvers of a dive");
   return BT_OK;
+}
+
+/* What obstacles need, for the longest tether and all the movers.  */
+static bt_status
+make_shore (bt_dive *dive, bt_error *error)
+{
+  const bt_model *model = dive->model;
+  bt__shore *shore = &dive->shore;
+  int chain = 0, room = 0;
+  bt_status status;
+  if (model->n_obstacles == 0)
+    return BT_OK;
+  for (int i = 0; i < model->n_tethers; i++)
+    {
+      chain = chain > bt__chain_room (&model->tethers[i]) ? chain
+                                                          : bt__chain_room (&model->tethers[i]);
+      room = room > bt__polyline_room (&model->tethers[i]) ? room
+                                                           : bt__polyline_room (&model->tethers[i]);
+    }
+  shore->mover = calloc ((size_t)model->n_carried + 1, sizeof *shore->mover);
+  shore->course = calloc ((size_t)model->n_carried + 1, sizeof *shore->course);
+  shore->pin = calloc ((size_t)model->n_vehicles + 1, sizeof *shore->pin);
+  shore->line = bt__line_work_new (chain + 1);
+  shore->line_of = -1;
+  shore->safe_of = -1;
+  shore->node = calloc ((size_t)chain + 1, sizeof *shore->node);
+  shore->share = calloc ((size_t)chain + 1, sizeof *shore->share);
+  if (!shore->mover || !shore->course || !shore->pin || !shore->line || !shore->node
+      || !shore->share)
+    return bt__fail (error, BT_ERR_LIMIT, "no memory for the obstacles of a dive");
+  status = bt__polyline_work_new ((uint32_t)room + 1, (uint32_t)model->n_carried, &shore->polyline,
+                                  error);
+  return status == BT_OK ? bt__safe_new ((uint32_t)room + 1, BT__PARTS_MAX, &shore->safe, error)
+                         : status;
+}
+
+static void
+free_shore (bt__shore *shore)
+{
+  free (shore->mover);
+  free (shore->course);
+  free (shore->pin);
+  free (shore->node);
+  free (shore->share);
+  bt__line_work_free (shore->line);
+  bt__polyline_work_free (shore->polyline);
+  bt__safe_free (shore->safe);
 }
 
 static void
@@ -191,7 +114,7 @@ lay_out (bt_dive *dive)
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       bt__dive_tether (dive, dive->now, i)->store_at = at;
-      at += (int64_t)store_size (&dive->model->tethers[i]);
+      at += (int64_t)bt__store_size (dive->model, i);
     }
 }
 
@@ -203,13 +126,15 @@ bt__dive_alloc (bt_model *model, bt_dive **out, bt_error *error)
   if (!dive)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for a dive");
   dive->model = bt_model_retain (model);
-  dive->size = state_size (model);
+  dive->size = bt__state_size (model);
   dive->now = calloc (1, dive->size);
   dive->next = calloc (1, dive->size);
   if (!dive->now || !dive->next)
     status = bt__fail (error, BT_ERR_LIMIT, "no memory for a state of %zu bytes", dive->size);
   else
     status = make_tools (dive, error);
+  if (status == BT_OK)
+    status = make_shore (dive, error);
   if (status != BT_OK)
     {
       bt_dive_free (dive);
@@ -240,6 +165,7 @@ bt_dive_free (bt_dive *dive)
   free (dive->polyline);
   free (dive->motion);
   free (dive->along);
+  free_shore (&dive->shore);
   free (dive->now);
   free (dive->next);
   bt_model_release (dive->model);
@@ -253,7 +179,7 @@ bt_dive_fork (const bt_dive *dive, bt_dive **copy, bt_error *error)
   bt_status status = bt__dive_alloc (dive->model, &fork, error);
   if (status != BT_OK)
     return status;
-  copy_state (dive, fork->now, dive->now);
+  bt__copy_state (dive, fork->now, dive->now);
   fork->function = dive->function;
   fork->user = dive->user;
   fork->n_tracks = dive->n_tracks;
@@ -285,7 +211,7 @@ bt__dive_add_track (bt_dive *dive, bt__track *track, bt_error *error)
 bt__state *
 bt__dive_begin (bt_dive *dive)
 {
-  copy_state (dive, dive->next, dive->now);
+  bt__copy_state (dive, dive->next, dive->now);
   return dive->next;
 }
 
@@ -308,7 +234,7 @@ bt_dive_state_size (const bt_dive *dive)
 uint64_t
 bt_dive_hash (const bt_dive *dive)
 {
-  return hash_state (dive, dive->now);
+  return bt__hash_state (dive, dive->now);
 }
 
 void
@@ -316,7 +242,7 @@ bt_dive_save (const bt_dive *dive, void *state)
 {
   uint64_t checksum = bt_dive_hash (dive); /* the field itself is zero in a living state */
   memset (state, 0, dive->size);
-  copy_state (dive, state, dive->now);
+  bt__copy_state (dive, state, dive->now);
   memcpy ((char *)state + offsetof (bt__state, checksum), &checksum, sizeof checksum);
 }
 
@@ -333,17 +259,6 @@ knows_tracks (const bt_dive *dive, bt__state *state)
   return 1;
 }
 
-/* The offsets are looked at before the checksum, which they are needed for.  */
-static int
-stores_fit (const bt_dive *dive, const bt__state *state)
-{
-  for (int i = 0; i < dive->model->n_tethers; i++)
-    if (bt__dive_tether (dive, (bt__state *)state, i)->store_at
-        != bt__dive_tether (dive, dive->now, i)->store_at)
-      return 0;
-  return 1;
-}
-
 bt_status
 bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error)
 {
@@ -355,8 +270,8 @@ bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error)
   memcpy (next, state, size);
   checksum = next->checksum;
   next->checksum = 0;
-  if (next->magic != magic || next->size != size || !stores_fit (dive, next)
-      || checksum != hash_state (dive, next))
+  if (next->magic != magic || next->size != size || !bt__layout_fits (dive, next)
+      || checksum != bt__hash_state (dive, next))
     return bt__fail (error, BT_ERR_FORMAT, "these bytes are not a state as it was saved");
   if (next->model_id != dive->model->id || !knows_tracks (dive, next))
     return bt__fail (error, BT_ERR_STALE, "this checkpoint belongs to another dive");
@@ -377,6 +292,8 @@ bt_dive_count (const bt_dive *dive, bt_part part)
       return dive->model->n_vehicles;
     case BT_PART_TETHER:
       return dive->model->n_tethers;
+    case BT_PART_OBSTACLE:
+      return dive->model->n_obstacles;
     }
   return 0;
 }
@@ -388,13 +305,15 @@ bt_dive_name (const bt_dive *dive, bt_part part, int i)
     return NULL;
   if (part == BT_PART_SEA)
     return "sea";
+  if (part == BT_PART_OBSTACLE)
+    return dive->model->obstacles[i].name;
   return part == BT_PART_VEHICLE ? dive->model->vehicles[i].name : dive->model->tethers[i].name;
 }
 
 bt_status
 bt__check_part (const bt_dive *dive, bt_part part, int i, bt_error *error)
 {
-  static const char *const words[] = { "sea", "vehicle", "tether" };
+  static const char *const words[] = { "sea", "vehicle", "tether", "obstacle" };
   int n = bt_dive_count (dive, part);
   if (i < 0 || i >= n)
     return bt__fail (error, BT_ERR_NAME, "there is no %s number %d; this dive has %d", words[part],

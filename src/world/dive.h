@@ -9,6 +9,9 @@
 
 #include <bight/dive.h>
 
+#include "contact/held.h"
+#include "contact/line.h"
+#include "contact/thesis.h"
 #include "model/model.h"
 #include "tether/dynamic.h"
 #include "world/state.h"
@@ -26,6 +29,50 @@ enum
   BT__TRACKS_MAX = 256
 };
 
+/* The way of a mover in the present step.  */
+typedef struct bt__course
+{
+  bt__motion whole; /* along its track */
+  double seconds;   /* that it takes */
+  double share;     /* of it that everybody so far lets it take */
+  int gone;         /* somebody has gone by it */
+  bt__switches on;
+} bt__course;
+
+/* Where a vehicle is taken in the present try at a step, whatever moves it; softly: with no more
+   than its pull.  */
+typedef enum bt__pin_how
+{
+  BT__PIN_OFF = 0,
+  BT__PIN_HARD,
+  BT__PIN_SOFT
+} bt__pin_how;
+
+typedef struct bt__pin
+{
+  int how; /* bt__pin_how */
+  bt_vec3 at;
+} bt__pin;
+
+/* What a world with obstacles needs in a step; else all of it is NULL.  */
+typedef struct bt__shore
+{
+  bt__mover *mover;
+  bt__course *course;
+  bt__switches on;
+  int disagree; /* a mover was held back after somebody had gone by its whole way */
+  bt__pin *pin; /* of each vehicle */
+  bt__line_work *line;
+  int line_of; /* the line it knows: twice the tether and the part */
+  bt__safe *safe;
+  int safe_of;   /* the tether it knows */
+  bt_vec3 *node; /* room for a chain, and a share of its length for each interval */
+  double *share;
+  bt__polyline_work *polyline;
+  bt__count count;
+  bt__thesis_counts thesis;
+} bt__shore;
+
 struct bt_dive
 {
   bt_model *model;
@@ -37,6 +84,7 @@ struct bt_dive
   bt_vec3 *polyline;      /* room for the points of any tether */
   bt_vec3 *motion;        /* room for a velocity at each */
   double *along;          /* room for a number at each */
+  bt__shore shore;
   bt__shape_counts counts;
   bt_profile profile;
   bt_current_function function;
@@ -57,6 +105,12 @@ bt_vec3 *bt__dive_nodes (const bt_dive *dive, bt__state *state, int tether);
 bt_vec3 *bt__dive_tensions (const bt_dive *dive, bt__state *state, int tether);
 /* The chain of a moving tether: PART 0 at the anchor, 1 at the far end once the line has parted. */
 bt__dynamic *bt__dive_chain (const bt_dive *dive, bt__state *state, int tether, int part);
+/* Among obstacles: what that part touches; the static tether as a thesis line; as a held one.  */
+bt__anchors *bt__dive_anchors (const bt_dive *dive, bt__state *state, int tether, int part);
+bt__thesis *bt__dive_thesis (const bt_dive *dive, bt__state *state, int tether);
+bt__polyline *bt__dive_held (const bt_dive *dive, bt__state *state, int tether);
+/* The most nodes that a polyline of TETHER may have.  */
+int bt__polyline_room (const bt_tether_def *tether);
 double bt__state_time (const bt__state *state);
 /* The most intervals that the chain of TETHER may come to.  */
 int bt__chain_room (const bt_tether_def *tether);
@@ -65,8 +119,11 @@ bt_water bt__dive_water (const bt_dive *dive, const bt__state *state);
 /* Make a dive with an empty state and the tools that its tethers need.  */
 bt_status bt__dive_alloc (bt_model *model, bt_dive **dive, bt_error *error);
 
-/* Add an event to STATE.  */
+/* Add an event to STATE: of the kind of subject that KIND has, or of the PART named, about an
+   obstacle.  */
 void bt__raise_event (bt__state *state, bt_event_kind kind, int subject);
+void bt__raise_event_at (bt__state *state, bt_event_kind kind, bt_part part, int subject,
+                         int object);
 
 /* BT_ERR_NAME unless I counts a PART of DIVE.  */
 bt_status bt__check_part (const bt_dive *dive, bt_part part, int i, bt_error *error);
@@ -75,6 +132,9 @@ bt_status bt__check_part (const bt_dive *dive, bt_part part, int i, bt_error *er
 bt_status bt__dive_add_track (bt_dive *dive, bt__track *track, bt_error *error);
 
 #define BT__TIME_STEP (1.0 / 60)
+
+/* Steps a tether that is pulled holds its vehicle fast before it is stuck.  */
+#define BT__STUCK_AFTER 300
 
 /* Steps the moving line rests before it sleeps.  */
 #define BT__SLEEP_AFTER 60

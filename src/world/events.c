@@ -6,10 +6,21 @@
 #include "world/dive.h"
 
 void
-bt__raise_event (bt__state *state, bt_event_kind kind, int subject)
+bt__raise_event_at (bt__state *state, bt_event_kind kind, bt_part part, int subject, int object)
 {
   bt_event *slot = &state->event[state->events++ % BT_EVENTS_KEPT];
-  *slot = (bt_event){ .time = bt__state_time (state), .kind = kind, .subject = subject };
+  *slot = (bt_event){
+    .time = bt__state_time (state), .kind = kind, .part = part, .subject = subject, .object = object
+  };
+}
+
+void
+bt__raise_event (bt__state *state, bt_event_kind kind, int subject)
+{
+  bt_part part = kind == BT_EVENT_ARRIVED   ? BT_PART_VEHICLE
+                 : kind == BT_EVENT_PINCHED ? BT_PART_OBSTACLE
+                                            : BT_PART_TETHER;
+  bt__raise_event_at (state, kind, part, subject, -1);
 }
 
 int64_t
@@ -52,6 +63,14 @@ bt_event_name (bt_event_kind kind)
       return "hockled";
     case BT_EVENT_KINKED:
       return "kinked";
+    case BT_EVENT_TOUCHED:
+      return "touched";
+    case BT_EVENT_LEFT:
+      return "left";
+    case BT_EVENT_STUCK:
+      return "stuck";
+    case BT_EVENT_PINCHED:
+      return "pinched";
     }
   return NULL;
 }

@@ -17,6 +17,10 @@ bt__line_of (const bt_dive *dive, bt__state *state, int i)
       line.far_chain = bt__dive_chain (dive, state, i, line.tether->parted ? 1 : 0);
       return line;
     }
+  if (line.tether->drape == BT__DRAPE_SPANS)
+    line.split = bt__dive_thesis (dive, state, i);
+  else if (line.tether->drape == BT__DRAPE_HELD && line.tether->blocked)
+    line.held = bt__dive_held (dive, state, i);
   line.nodes = bt__dive_nodes (dive, state, i);
   line.tensions = bt__dive_tensions (dive, state, i);
   return line;
@@ -33,6 +37,8 @@ bt__line_tail (const bt__line *line)
 double
 bt__line_length (const bt__line *line)
 {
+  if (line->split)
+    return line->split->length;
   return line->chain ? bt__dynamic_length (line->chain) : line->tether->shape.length;
 }
 
@@ -43,6 +49,10 @@ bt__line_point (const bt__line *line, double s)
 {
   if (line->chain)
     return bt__dynamic_point (line->chain, s);
+  if (line->split)
+    return bt__thesis_point (line->split, s);
+  if (line->held)
+    return bt__polyline_point (line->held, s);
   return bt__shape_point (&line->tether->shape, line->nodes, line->tensions, s);
 }
 
@@ -61,6 +71,10 @@ bt__line_tangent (const bt__line *line, double s)
 {
   if (line->chain)
     return chain_tangent (line->chain, s);
+  if (line->split)
+    return bt__thesis_tangent (line->split, s);
+  if (line->held)
+    return bt__polyline_tangent (line->held, s);
   return bt__shape_tangent (&line->tether->shape, line->nodes, line->tensions, s);
 }
 
@@ -84,6 +98,8 @@ bt__line_tension (const bt__line *line, double s)
 {
   if (line->chain)
     return chain_tension (line->chain, s);
+  if (line->split)
+    return bt__thesis_tension (line->split, s);
   return bt__shape_tension (&line->tether->shape, line->nodes, line->tensions, s);
 }
 
@@ -92,8 +108,11 @@ bt__line_tension (const bt__line *line, double s)
 int
 bt__line_nodes (const bt__line *line)
 {
+  const bt__polyline *polyline = line->split ? bt__thesis_line (line->split) : line->held;
   if (line->chain)
     return (int)line->chain->n + 1;
+  if (polyline)
+    return (int)polyline->n;
   switch (line->tether->shape.form)
     {
     case BT__FORM_STRAIGHT:
@@ -110,6 +129,10 @@ static double
 share (const bt__line *line, int k)
 {
   const bt__shape *shape = &line->tether->shape;
+  if (line->split)
+    return bt__polyline_u (bt__thesis_line (line->split))[k];
+  if (line->held)
+    return bt__polyline_u ((bt__polyline *)line->held)[k];
   int n = bt__line_nodes (line);
   if (shape->form == BT__FORM_V && k == 1)
     return shape->v.l1 * (shape->length / (shape->v.l1 + shape->v.l2));

@@ -25,6 +25,13 @@ bt_dive_profile (const bt_dive *dive, bt_profile *profile)
   profile->marches = dive->counts.marches;
   profile->relaxations = dive->counts.relaxations;
   profile->unsettled = dive->counts.unsettled;
+  profile->links_asked = dive->shore.count.links;
+  profile->boxes_visited = dive->shore.count.nodes;
+  profile->pairs_measured = dive->shore.count.pairs;
+  profile->links_clear = dive->shore.count.skipped_clear;
+  profile->casts = dive->shore.count.casts;
+  profile->span_solves = dive->shore.thesis.solves;
+  profile->span_skips = dive->shore.thesis.skips;
 }
 
 bt_status

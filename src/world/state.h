@@ -1,9 +1,10 @@
 /* The flat state of a dive: all that moves, without a pointer and without padding, so that a copy
    of its bytes is a checkpoint and a hash of them tells states apart.
 
-   One block: the head, the vehicles, the tethers, then a store for each tether: its node arrays, or
-   its chain and, once it has parted, the chain of the other part.  Of a store only what is live is
-   copied, hashed or looked at.
+   One block: the head, the vehicles, the tethers; in a world with obstacles the movers, the
+   friction of every obstacle and who meets what; then a store for each tether: its node arrays, or
+   its chain and, once it has parted, the chain of the other part, and what it touches.  Of a store
+   only what is live is copied, hashed or looked at.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -14,6 +15,7 @@
 
 #include <bight/dive.h>
 
+#include "collide/pair.h"
 #include "tether/shape.h"
 
 typedef enum bt__goal
@@ -50,6 +52,15 @@ typedef struct bt__vehicle
   int64_t held;
 } bt__vehicle;
 
+/* A static tether in a world with obstacles: not laid yet, or a chain; split where it touches; held
+   where it touches.  */
+typedef enum bt__drape
+{
+  BT__DRAPE_NONE = 0,
+  BT__DRAPE_SPANS,
+  BT__DRAPE_HELD
+} bt__drape;
+
 typedef struct bt__tether
 {
   bt_tether_props props;
@@ -67,6 +78,10 @@ typedef struct bt__tether
   int64_t slack_at; /* DYNAMIC: the step at which it was last slack */
   int64_t hockled;
   int64_t kinked;
+  int64_t caught;  /* steps for which it was pulled and held its vehicle fast */
+  int64_t relaid;  /* it was laid anew, straight */
+  int64_t drape;   /* bt__drape: what its store holds besides, in a world with obstacles */
+  int64_t blocked; /* an obstacle holds a static line off its shape */
   bt__shape shape;
   bt__shape_memory memory;
 } bt__tether;
@@ -84,6 +99,36 @@ typedef struct bt__state
   int64_t events; /* ever raised */
   bt_event event[BT_EVENTS_KEPT];
 } bt__state;
+
+/* An obstacle on a track.  Held back by what it would run into, it goes on later: its clock stands
+   meanwhile.  */
+typedef struct bt__mover_state
+{
+  bt__frame frame;
+  double clock;    /* s along its track */
+  int64_t pinched; /* held back in the last step */
+} bt__mover_state;
+
+enum
+{
+  BT__MEETINGS_MAX = 30
+};
+
+/* What a vehicle or a tether touches, or touched not long ago.  */
+typedef struct bt__meeting
+{
+  int64_t object; /* the obstacle's number */
+  int64_t last;   /* the step */
+} bt__meeting;
+
+/* A vehicle or a tether among obstacles; behind it a byte for each of them, nonzero: the pair is
+   switched off.  */
+typedef struct bt__subject
+{
+  uint64_t version; /* a hash of the bytes; 0: none is off */
+  int64_t n;
+  bt__meeting meeting[BT__MEETINGS_MAX];
+} bt__subject;
 
 /* Where the parts lie in the block of a world with N_VEHICLES.  */
 static inline bt__vehicle *

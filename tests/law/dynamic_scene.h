@@ -54,7 +54,7 @@ scene_open (scene *s, bt_tether_props line, double density, int n, const bt_vec3
   s->d = malloc (bt__dynamic_size (SCENE_MAX));
   s->work = bt__dynamic_work_new (SCENE_MAX);
   assert_true (s->d && s->work);
-  s->water = (bt_water){ density, 9.81, 1000, 0, &s->current, NULL, NULL };
+  s->water = (bt_water){ density, 9.81, 1000, 0, &s->current, NULL, NULL, NULL };
   s->in = (bt__dynamic_input){ .line = &s->line, .water = &s->water, .tolerance = 1e-9 };
   s->in.end[0].at = shape[0];
   s->in.end[1].at = shape[m - 1];

@@ -26,7 +26,7 @@ assert_near (bt_vec3 a, bt_vec3 b, double tolerance)
 static bt_water
 water_with (const bt_current *current)
 {
-  return (bt_water){ 1025, 9.81, 100, 0, current, NULL, NULL };
+  return (bt_water){ 1025, 9.81, 100, 0, current, NULL, NULL, NULL };
 }
 
 static bt_vec3
@@ -172,7 +172,7 @@ test_function (void **state)
   (void)state;
   double rate = 0.5;
   bt_current c = { .kind = BT_CURRENT_FUNCTION };
-  bt_water water = { 1025, 9.81, 100, 2, &c, swirl, &rate };
+  bt_water water = { 1025, 9.81, 100, 2, &c, swirl, &rate, NULL };
   assert_near (bt_water_velocity (&water, bt__vec (3, 4, 0)), bt__vec (-4, 3, 0), 0);
   water.function = NULL;
   assert_near (bt_water_velocity (&water, bt__vec (3, 4, 0)), bt__vec (0, 0, 0), 0);
@@ -192,7 +192,7 @@ test_mean (void **state)
 {
   (void)state;
   bt_current c = { .kind = BT_CURRENT_FUNCTION };
-  bt_water water = { 1025, 9.81, 100, 0, &c, ninth_power, NULL };
+  bt_water water = { 1025, 9.81, 100, 0, &c, ninth_power, NULL, NULL };
   bt_vec3 mean = bt_water_mean_velocity (&water, bt__vec (1, 2, 0), bt__vec (5, -3, -2));
   assert_near (mean, bt__vec (-51.2, 0, 0), 1e-12);
   bt_current uniform = { .kind = BT_CURRENT_UNIFORM, .velocity = { { 0.3, 0.1, 0 } } };

@@ -42,7 +42,7 @@ static void
 set_scene (scene *s, bt_line line, double density, int kind, double p, bt_vec3 u, bt_vec3 b)
 {
   *s = (scene){ .line = line, .b = b };
-  s->water = (bt_water){ density, 9.81, p > 0 ? p : 100, 0, &s->current, NULL, NULL };
+  s->water = (bt_water){ density, 9.81, p > 0 ? p : 100, 0, &s->current, NULL, NULL, NULL };
   s->current = (bt_current){ .kind = kind, .velocity = { u } };
   s->current.exponent = 1.0 / 7;
   s->current.turn_rate = -BT__PI / 2 / (p > 0 ? p : 1);

@@ -2,7 +2,8 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight assembly)
+(use-modules (bight allowance)
+             (bight assembly)
              (bight current)
              (bight describe)
              (bight errors)
@@ -138,7 +139,7 @@
           => '(run "no answer" diverged))
   (expect (nearest 'lenght '(from to length)) => 'length)
   (expect (nearest 'zebra '(from to length)) => #f)
-  (expect (show (endless)) => "(1 2 3 1 2 3 1 2 …)"))
+  (expect (brief (endless)) => "(1 2 3 1 2 3 1 2 …)"))
 
 
 ;;; Units and points.

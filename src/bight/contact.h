@@ -1,0 +1,63 @@
+/* What a dive tells of contact: where its tethers touch, into which spans that divides them, how
+   near they and the vehicles are to what.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BIGHT_CONTACT_H
+#define BIGHT_CONTACT_H
+
+#include <bight/dive.h>
+
+BT_BEGIN_DECLS
+
+/* A place where a tether touches an obstacle.  */
+typedef struct bt_contact
+{
+  int object;       /* the obstacle's number */
+  int64_t triangle; /* its id on a mesh, or -1 */
+  int slides;       /* zero: it sticks */
+  double s;         /* m of arc length from the anchor */
+  bt_vec3 position; /* m, on the obstacle */
+  bt_vec3 normal;   /* unit, from the obstacle to the tether */
+  bt_vec3 force;    /* N, on the tether; zero of a static model */
+} bt_contact;
+
+/* Write up to MAX contacts of tether I to CONTACTS, from the anchor on, and return how many there
+   are; -1 when there is no such tether.  */
+int bt_tether_contacts (const bt_dive *dive, int i, bt_contact *contacts, int max);
+
+/* A span between contacts, or between a contact and an end.  */
+typedef struct bt_segment
+{
+  double model;    /* bt_model_kind: the tether's, or a rubber band by a rule of the thesis */
+  double from, to; /* m of arc length from the anchor */
+  bt_vec3 a, b;    /* its ends, m */
+} bt_segment;
+
+/* The same for the spans of tether I; one when it touches nothing.  */
+int bt_tether_segments (const bt_dive *dive, int i, bt_segment *segments, int max);
+
+/* The nearest obstacle to something.  */
+typedef struct bt_clearance
+{
+  double distance;  /* m from surface to surface, less than 0 where they overlap; INFINITY: nothing
+                       is there */
+  int object;       /* the obstacle's number, or -1 */
+  double s;         /* m: where on the tether */
+  bt_vec3 position; /* m: the nearest point of the obstacle */
+} bt_clearance;
+
+/* How near tether I comes to OBSTACLE, or with OBSTACLE -1 to any; likewise vehicle I with its
+   hull, farther than 1000 m not looked for.  Pairs that are switched off count too.  BT_ERR_NAME.
+ */
+bt_status bt_tether_clearance (const bt_dive *dive, int i, int obstacle, bt_clearance *clearance,
+                               bt_error *error);
+bt_status bt_vehicle_clearance (const bt_dive *dive, int i, int obstacle, bt_clearance *clearance,
+                                bt_error *error);
+
+/* Nonzero if the I-th vehicle or tether, by PART, met OBSTACLE in the last step.  */
+int bt_dive_collided (const bt_dive *dive, bt_part part, int i, int obstacle);
+
+BT_END_DECLS
+
+#endif

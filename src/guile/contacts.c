@@ -1,0 +1,120 @@
+/* Contact: what touches what, how near things are, which pairs count.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <bight/contact.h>
+#include <math.h>
+
+#include "guile/guile.h"
+
+enum
+{
+  MOST = 4096
+};
+
+static SCM
+name_of (bt_dive *dive, int object)
+{
+  const char *name = bt_dive_name (dive, BT_PART_OBSTACLE, object);
+  return name ? scm_from_utf8_symbol (name) : SCM_BOOL_F;
+}
+
+/* #(object triangle position normal s force sliding?) */
+static SCM
+from_contact (bt_dive *dive, const bt_contact *c)
+{
+  SCM v = scm_c_make_vector (7, SCM_BOOL_F);
+  scm_c_vector_set_x (v, 0, name_of (dive, c->object));
+  if (c->triangle >= 0)
+    scm_c_vector_set_x (v, 1, scm_from_int64 (c->triangle));
+  scm_c_vector_set_x (v, 2, bt__from_point (c->position));
+  scm_c_vector_set_x (v, 3, bt__from_point (c->normal));
+  scm_c_vector_set_x (v, 4, scm_from_double (c->s));
+  scm_c_vector_set_x (v, 5, bt__from_point (c->force));
+  scm_c_vector_set_x (v, 6, scm_from_bool (c->slides));
+  return v;
+}
+
+static SCM
+contacts (SCM object, SCM index)
+{
+  bt_dive *dive = bt__to_dive (object);
+  bt_contact *contact = scm_gc_malloc_pointerless (sizeof *contact * MOST, "contacts");
+  int n = bt_tether_contacts (dive, scm_to_int (index), contact, MOST);
+  SCM list = SCM_EOL;
+  for (n = n < MOST ? n : MOST; n-- > 0;)
+    list = scm_cons (from_contact (dive, &contact[n]), list);
+  return list;
+}
+
+static SCM
+model_name (double value)
+{
+  return bt__from_field (bt_field_find (bt_head_find ("tether"), "model"), value);
+}
+
+/* #(model from to a b) */
+static SCM
+from_segment (const bt_segment *s)
+{
+  SCM v = scm_c_make_vector (5, SCM_BOOL_F);
+  scm_c_vector_set_x (v, 0, model_name (s->model));
+  scm_c_vector_set_x (v, 1, scm_from_double (s->from));
+  scm_c_vector_set_x (v, 2, scm_from_double (s->to));
+  scm_c_vector_set_x (v, 3, bt__from_point (s->a));
+  scm_c_vector_set_x (v, 4, bt__from_point (s->b));
+  return v;
+}
+
+static SCM
+segments (SCM object, SCM index)
+{
+  bt_segment *segment = scm_gc_malloc_pointerless (sizeof *segment * MOST, "segments");
+  int n = bt_tether_segments (bt__to_dive (object), scm_to_int (index), segment, MOST);
+  SCM list = SCM_EOL;
+  for (n = n < MOST ? n : MOST; n-- > 0;)
+    list = scm_cons (from_segment (&segment[n]), list);
+  return list;
+}
+
+/* (distance object s position), or #f when nothing is near.  */
+static SCM
+clearance (SCM object, SCM part, SCM index, SCM obstacle)
+{
+  bt_dive *dive = bt__to_dive (object);
+  int vehicle = bt__to_part ("clearance", part) == BT_PART_VEHICLE;
+  bt_clearance c;
+  bt_error error;
+  bt_status status
+      = vehicle ? bt_vehicle_clearance (dive, scm_to_int (index), scm_to_int (obstacle), &c, &error)
+                : bt_tether_clearance (dive, scm_to_int (index), scm_to_int (obstacle), &c, &error);
+  bt__check ("clearance", status, &error);
+  return c.object < 0 ? SCM_BOOL_F
+                      : scm_list_4 (scm_from_double (c.distance), name_of (dive, c.object),
+                                    scm_from_double (c.s), bt__from_point (c.position));
+}
+
+static SCM
+collided (SCM object, SCM part, SCM index, SCM obstacle)
+{
+  return scm_from_bool (bt_dive_collided (bt__to_dive (object), bt__to_part ("collided?", part),
+                                          scm_to_int (index), scm_to_int (obstacle)));
+}
+
+void
+bt__define_contacts (void)
+{
+  static const bt__procedure table[] = {
+    { "%contacts", 2, 0, (scm_t_subr)contacts,
+      "Return the contacts of the INDEX-th tether of DIVE, vectors #(OBJECT TRIANGLE POSITION "
+      "NORMAL S FORCE SLIDING?)." },
+    { "%segments", 2, 0, (scm_t_subr)segments,
+      "Return the spans of the INDEX-th tether of DIVE, vectors #(MODEL FROM TO A B)." },
+    { "%clearance", 4, 0, (scm_t_subr)clearance,
+      "Return (METRES OBJECT S POSITION) of what is nearest to the INDEX-th PART of DIVE, or #f; "
+      "OBSTACLE -1 stands for all." },
+    { "%collided?", 4, 0, (scm_t_subr)collided,
+      "Return #t if the INDEX-th PART of DIVE met OBSTACLE in the last step." },
+  };
+  bt__define_procedures (table, sizeof table / sizeof *table);
+}

@@ -1,0 +1,106 @@
+/* Surroundings of a step: see around.h.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "sim/around.h"
+
+#include "math/vec.h"
+#include "world/obstacles.h"
+
+static void
+aim (bt_dive *dive, bt__state *state, int k, double seconds)
+{
+  const bt__mover_state *now = &bt__dive_movers (dive, state)[k];
+  bt__frame to = bt__carried_frame (dive->model, k, now->clock + seconds);
+  bt__course *course = &dive->shore.course[k];
+  course->whole = bt__motion_between (&now->frame, seconds > 0 ? &to : &now->frame);
+  course->seconds = seconds;
+}
+
+void
+bt__aim_movers (bt_dive *dive, bt__state *state, int round)
+{
+  dive->shore.disagree = 0;
+  for (int k = 0; k < dive->model->n_carried; k++)
+    {
+      bt__course *course = &dive->shore.course[k];
+      /* What a try before came to is as far as this one aims.  */
+      course->share = round == 0 ? 1 : round < BT__TRIES ? course->share : 0;
+      course->gone = 0;
+      aim (dive, state, k, BT__TIME_STEP);
+    }
+}
+
+void
+bt__rest_movers (bt_dive *dive, bt__state *state)
+{
+  dive->shore.disagree = 0;
+  for (int k = 0; k < dive->model->n_carried; k++)
+    {
+      dive->shore.course[k].share = 0;
+      dive->shore.course[k].gone = 0;
+      aim (dive, state, k, 0);
+    }
+}
+
+void
+bt__around_done (bt_dive *dive)
+{
+  for (int k = 0; k < dive->model->n_carried; k++)
+    {
+      bt__course *course = &dive->shore.course[k];
+      double done = dive->shore.mover[k].done;
+      dive->shore.disagree |= done < 1 && course->gone;
+      course->share *= done;
+      course->gone = course->share > 0;
+    }
+}
+
+int
+bt__around_agrees (const bt_dive *dive)
+{
+  return !dive->shore.disagree;
+}
+
+void
+bt__settle_movers (bt_dive *dive, bt__state *state)
+{
+  for (int k = 0; k < dive->model->n_carried; k++)
+    {
+      const bt__course *course = &dive->shore.course[k];
+      bt__mover_state *mover = &bt__dive_movers (dive, state)[k];
+      int pinched = course->share < 1;
+      mover->frame = bt__motion_at (&course->whole, course->share);
+      mover->clock += course->share * course->seconds;
+      if (pinched && !mover->pinched)
+        bt__raise_event (state, BT_EVENT_PINCHED, dive->model->carried[k].obstacle);
+      mover->pinched = pinched;
+    }
+}
+
+int
+bt__movers_move (const bt_dive *dive)
+{
+  for (int k = 0; k < dive->model->n_carried; k++)
+    {
+      const bt__course *course = &dive->shore.course[k];
+      int moves = bt__norm (course->whole.travel) > 0 || course->whole.angle != 0;
+      if (moves && course->share > 0)
+        return 1;
+    }
+  return 0;
+}
+
+static void
+note_partings (const bt_dive *dive, bt__state *state, bt_part part, int n)
+{
+  for (int i = 0; i < n; i++)
+    bt__note_partings (state, bt__dive_subject (dive, state, part, i), part, i);
+}
+
+void
+bt__note_all_partings (const bt_dive *dive, bt__state *state)
+{
+  note_partings (dive, state, BT_PART_VEHICLE, dive->model->n_vehicles);
+  note_partings (dive, state, BT_PART_TETHER, dive->model->n_tethers);
+}

@@ -1,0 +1,176 @@
+/* A static tether among obstacles: split where it touches, or held.
+
+   The thesis' models are split at what they touch (contact/thesis.h); `elastic' and `steady' have
+   no answer to contact and stop there, their vehicle with them (contact/held.h).
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "math/vec.h"
+#include "sim/around.h"
+#include "sim/lay.h"
+#include "world/obstacles.h"
+
+enum
+{
+  TOUCHES_MAX = 64
+};
+
+static int
+is_split_model (const bt__tether *tether)
+{
+  return tether->props.model < BT_MODEL_ELASTIC;
+}
+
+/* The workspace of safe steps knows one line at a time.  */
+static bt__way
+way_of (bt_dive *dive, const bt__tether *tether, int i, const bt__surroundings *around)
+{
+  if (dive->shore.safe_of != i)
+    bt__safe_forget (dive->shore.safe);
+  dive->shore.safe_of = i;
+  return (bt__way){ .around = around,
+                    .core = bt__core (tether->props.diameter),
+                    .safe = dive->shore.safe,
+                    .work = dive->shore.polyline,
+                    .count = &dive->shore.count };
+}
+
+/* ---- Laying: from a chain, from the other kind, from the world's line of lay ---- */
+
+static bt_status
+lay (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  const bt_tether_def *def = &dive->model->tethers[i];
+  int n = 0, split = is_split_model (tether);
+  bt_status status = bt__corners (dive, state, i, ends, &n, error);
+  if (status != BT_OK)
+    return status;
+  if (tether->shape.form == BT__FORM_CHAIN || tether->drape)
+    memset (&tether->shape, 0, sizeof tether->shape);
+  tether->drape = split ? BT__DRAPE_SPANS : BT__DRAPE_HELD;
+  tether->blocked = 0;
+  tether->stale = 1;
+  if (split)
+    return bt__thesis_lay (bt__dive_thesis (dive, state, i), (uint32_t)def->props.nodes,
+                           dive->polyline, (uint32_t)n, tether->length, error);
+  return bt__polyline_lay (bt__dive_held (dive, state, i), (uint32_t)bt__polyline_room (def),
+                           dive->polyline, (uint32_t)n, tether->length, (uint32_t)def->props.nodes,
+                           error);
+}
+
+/* ---- Split ---- */
+
+static void
+note_meetings (const bt_dive *dive, bt__state *state, int i, const bt__touch *touch, int n)
+{
+  bt__subject *subject = bt__dive_subject (dive, state, BT_PART_TETHER, i);
+  for (int k = 0; k < n; k++)
+    bt__note_meeting (state, subject, BT_PART_TETHER, i, (int)touch[k].object);
+}
+
+static void
+bring_ends (const bt_dive *dive, bt__state *state, int i, const bt__ends *wanted, bt_vec3 a,
+            bt_vec3 b)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  tether->shape.a = a;
+  tether->shape.b = b;
+  tether->shape.length = tether->length;
+  if (bt__distance (a, wanted->a) > 0)
+    bt__bring_end (dive, state, i, 0, a);
+  if (bt__distance (b, wanted->b) > 0)
+    bt__bring_end (dive, state, i, 1, b);
+}
+
+static bt_status
+step_spans (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, const bt__way *way,
+            bt_error *error)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt__thesis *spans = bt__dive_thesis (dive, state, i);
+  bt_water water = bt__dive_water (dive, state);
+  bt__thesis_rules rules = bt__thesis_rules_of (&tether->props);
+  bt__thesis_input input = { .a = ends->a,
+                             .b = ends->b,
+                             .length = tether->length,
+                             .pull = bt__pull_on (dive, state, i),
+                             .stale = tether->stale || bt_current_is_unsteady (&state->current),
+                             .props = &tether->props,
+                             .rules = &rules,
+                             .water = &water,
+                             .tools = &dive->tools,
+                             .counts = &dive->counts };
+  bt__thesis_report report;
+  bt__touch touch[TOUCHES_MAX];
+  bt_status status = bt__thesis_step (spans, &input, way, &dive->shore.thesis, &report, error);
+  if (status != BT_OK)
+    return status;
+  tether->length = report.length;
+  tether->tension_max = bt__thesis_tension_max (spans);
+  tether->stale = 0;
+  tether->settled = 1;
+  tether->blocked = report.held != 0;
+  bt__note_taut (state, tether, i, report.taut);
+  bring_ends (dive, state, i, ends, report.a, report.b);
+  note_meetings (dive, state, i, touch, bt__thesis_touches (spans, touch, TOUCHES_MAX));
+  return BT_OK;
+}
+
+/* ---- Held ---- */
+
+static bt_status
+step_held (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, const bt__way *way,
+           bt_error *error)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt__polyline *line = bt__dive_held (dive, state, i);
+  bt__held_report report;
+  bt__touch touch[TOUCHES_MAX];
+  bt_status status = bt__solve_static (dive, state, i, ends, error);
+  if (status != BT_OK)
+    return status;
+  bt__held_step (line, way, &tether->shape, bt__dive_nodes (dive, state, i),
+                 bt__dive_tensions (dive, state, i), &report);
+  tether->blocked = report.held != 0;
+  if (report.held)
+    {
+      bt__ends here = { report.a, report.b };
+      note_meetings (dive, state, i, touch,
+                     bt__held_touches (line, way, tether->props.diameter, touch, TOUCHES_MAX));
+      /* The tension is that of the shape between the ends where they are.  */
+      status = bt__solve_static (dive, state, i, &here, error);
+      tether->stale = 1;
+    }
+  bring_ends (dive, state, i, ends, report.a, report.b);
+  return status;
+}
+
+bt_status
+bt__drape_tether (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  int64_t drape = is_split_model (tether) ? BT__DRAPE_SPANS : BT__DRAPE_HELD;
+  bt__surroundings around;
+  bt__way way;
+  bt_status status = BT_OK;
+  if (tether->drape != drape || tether->shape.form == BT__FORM_CHAIN)
+    status = lay (dive, state, i, ends, error);
+  if (status != BT_OK)
+    return status;
+  if (drape == BT__DRAPE_HELD && bt__is_unchanged (state, tether, ends) && !bt__movers_move (dive))
+    {
+      dive->profile.shape_skips++;
+      return BT_OK;
+    }
+  around = bt__surround (dive, state, BT_PART_TETHER, i);
+  way = way_of (dive, tether, i, &around);
+  status = drape == BT__DRAPE_SPANS ? step_spans (dive, state, i, ends, &way, error)
+                                    : step_held (dive, state, i, ends, &way, error);
+  bt__around_done (dive);
+  return status;
+}

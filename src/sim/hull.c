@@ -1,0 +1,124 @@
+/* The hull of a vehicle against obstacles: it comes as far as they let it, slides along them, and
+   turns as far as it may.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <string.h>
+
+#include "math/vec.h"
+#include "sim/around.h"
+#include "world/hull.h"
+#include "world/obstacles.h"
+
+/* How near a hull may come, and how often it slides in a step.  */
+#define GAP 1e-3 /* m */
+enum
+{
+  SLIDES = 3
+};
+
+static void
+note_stop (bt_dive *dive, bt__state *state, int vehicle, const bt__stop *stop)
+{
+  bt__subject *subject = bt__dive_subject (dive, state, BT_PART_VEHICLE, vehicle);
+  bt__note_meeting (state, subject, BT_PART_VEHICLE, vehicle,
+                    bt__stop_obstacle (dive->model, stop));
+}
+
+/* WAY without what leads into the obstacle.  */
+static bt_vec3
+along (bt_vec3 way, bt_vec3 normal)
+{
+  double into = bt__dot (way, normal);
+  return into < 0 ? bt__axpy (way, -into, normal) : way;
+}
+
+/* A hull on its way in a step.  */
+typedef struct passage
+{
+  bt_dive *dive;
+  bt__state *state;
+  int vehicle;
+  bt__hull_body hull;
+  bt__surroundings around;
+} passage;
+
+/* Bring *FRAME toward TO; return the share taken.  */
+static double
+sweep (const passage *p, bt__frame *frame, const bt__frame *to, bt__stop *stop)
+{
+  bt__motion motion = bt__motion_between (frame, to);
+  double share = bt__body_sweep (&p->hull.body, &motion, GAP, p->around.scene, p->around.on,
+                                 p->around.mover, p->around.movers, stop, &p->dive->shore.count);
+  *frame = share < 1 ? bt__motion_at (&motion, share) : *to;
+  if (share < 1)
+    note_stop (p->dive, p->state, p->vehicle, stop);
+  return share;
+}
+
+/* The movers have gone as far as they could with the hull: from now on they stand there.  */
+static void
+stand_movers (const passage *p)
+{
+  for (uint32_t k = 0; k < p->around.movers; k++)
+    {
+      bt__mover *mover = &p->around.mover[k];
+      bt__frame there = bt__motion_at (&mover->motion, mover->done);
+      mover->motion = bt__motion_between (&there, &there);
+      mover->done = 1;
+    }
+}
+
+/* Go on by WAY along what stopped it.  */
+static void
+slide (const passage *p, bt__frame *frame, bt_vec3 way, bt__stop *stop)
+{
+  for (int k = 1; k < SLIDES; k++)
+    {
+      bt__frame to = *frame;
+      double share;
+      way = along (way, stop->normal);
+      if (bt__norm (way) == 0)
+        return;
+      to.origin = bt__add (frame->origin, way);
+      share = sweep (p, frame, &to, stop);
+      if (share >= 1)
+        return;
+      way = bt__scale (1 - share, way);
+    }
+}
+
+/* Turn in place as TO is turned; return the share.  */
+static double
+turn (const passage *p, bt__frame *frame, bt__frame to)
+{
+  bt__stop stop;
+  to.origin = frame->origin;
+  return sweep (p, frame, &to, &stop);
+}
+
+bt_vec3
+bt__hull_reach (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
+{
+  const bt__vehicle *before = bt__dive_vehicle (dive, dive->now, vehicle);
+  bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
+  bt__frame frame = bt__vehicle_frame (before), to = bt__vehicle_frame (v);
+  passage p = { .dive = dive, .state = state, .vehicle = vehicle };
+  bt__stop stop;
+  double share;
+  to.origin = wanted;
+  if (memcmp (&frame, &to, sizeof frame) == 0 && !bt__movers_move (dive))
+    return wanted;
+  bt__hull_of (&dive->model->vehicles[vehicle], &p.hull);
+  p.around = bt__surround (dive, state, BT_PART_VEHICLE, vehicle);
+  share = sweep (&p, &frame, &to, &stop);
+  bt__around_done (dive);
+  if (share >= 1)
+    return wanted;
+  stand_movers (&p);
+  slide (&p, &frame, bt__scale (1 - share, bt__sub (wanted, before->position)), &stop);
+  share += (1 - share) * turn (&p, &frame, to);
+  v->heading = before->heading + share * (v->heading - before->heading);
+  return frame.origin;
+}

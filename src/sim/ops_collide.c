@@ -1,0 +1,48 @@
+/* Which pairs of a vehicle or a tether and an obstacle may meet.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "sim/ops.h"
+#include "world/obstacles.h"
+
+static bt_status
+check_numbers (const bt__call *c)
+{
+  double part = c->args[0];
+  if (part != BT_PART_SEA && part != BT_PART_VEHICLE && part != BT_PART_TETHER)
+    return bt__fail (c->error, BT_ERR_NAME, "a vehicle or a tether meets obstacles, not a part %g",
+                     part);
+  if (c->args[2] != 0 && c->args[2] != 1)
+    return bt__fail (c->error, BT_ERR_DOMAIN, "a pair is on, 1, or off, 0, not %g", c->args[2]);
+  if (part != BT_PART_SEA && bt__check_part (c->dive, (bt_part)part, c->subject, c->error) != BT_OK)
+    return BT_ERR_NAME;
+  return c->args[1] == -1 ? BT_OK
+                          : bt__check_part (c->dive, BT_PART_OBSTACLE, (int)c->args[1], c->error);
+}
+
+static void
+switch_all (const bt__call *c, bt_part part, int n)
+{
+  for (int i = 0; i < n; i++)
+    bt__switch_pair (c->dive, c->state, part, i, (int)c->args[1], c->args[2] != 0);
+}
+
+bt_status
+bt__op_collide (const bt__call *c)
+{
+  bt_part part = (bt_part)c->args[0];
+  bt_status status = check_numbers (c);
+  if (status != BT_OK || c->dive->model->n_obstacles == 0)
+    return status;
+  if (part != BT_PART_SEA)
+    bt__switch_pair (c->dive, c->state, part, c->subject, (int)c->args[1], c->args[2] != 0);
+  else
+    {
+      switch_all (c, BT_PART_VEHICLE, c->dive->model->n_vehicles);
+      switch_all (c, BT_PART_TETHER, c->dive->model->n_tethers);
+    }
+  for (int i = 0; i < c->dive->model->n_tethers; i++)
+    bt__dive_tether (c->dive, c->state, i)->quiet = 0; /* what it lay on may be gone */
+  bt__mark_all_stale (c);
+  return BT_OK;
+}

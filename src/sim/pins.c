@@ -1,0 +1,160 @@
+/* Vehicles that obstacles hold: see around.h.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+
+#include "math/vec.h"
+#include "sim/around.h"
+#include "world/line.h"
+
+#define SAME 1e-9 /* m */
+
+static bt_vec3
+place_before (const bt_dive *dive, int vehicle)
+{
+  return bt__dive_vehicle (dive, dive->now, vehicle)->position;
+}
+
+/* An operation takes no time: what it moves is at rest.  */
+static void
+stand (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 p)
+{
+  bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
+  bt_vec3 way = bt__sub (p, place_before (dive, vehicle));
+  int goes = state->step != dive->now->step;
+  v->position = p;
+  v->velocity = bt__scale (goes ? 1 / BT__TIME_STEP : 0, way);
+}
+
+/* How far the hull of VEHICLE comes toward WANTED without leaving the reach of its tethers: it may
+   have slid out of that.  */
+static bt_vec3
+reach_within (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
+{
+  bt_vec3 before = place_before (dive, vehicle);
+  for (int k = 0; k < 2; k++)
+    {
+      bt_vec3 p = bt__hull_reach (dive, state, vehicle, wanted);
+      double share = bt__distance (p, wanted) > SAME
+                         ? bt__reach_along (dive, dive->now, vehicle, before, p)
+                         : 1;
+      if (share >= 1)
+        return p;
+      wanted = bt__axpy (before, share, bt__sub (p, before));
+    }
+  return bt__hull_reach (dive, state, vehicle, before);
+}
+
+/* Come to WANTED as far as the hull does; a moving line that carries the vehicle has yet to say
+   where.  */
+static void
+come (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
+{
+  bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
+  bt_vec3 reach = reach_within (dive, state, vehicle, wanted);
+  dive->shore.pin[vehicle].at = reach;
+  if (bt__distance (reach, v->position) <= SAME)
+    return;
+  stand (dive, state, vehicle, reach);
+  v->held = 1;
+}
+
+/* Stay where and as it was.  */
+static void
+stay (bt_dive *dive, bt__state *state, int vehicle)
+{
+  bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
+  v->heading = bt__dive_vehicle (dive, dive->now, vehicle)->heading;
+  dive->shore.pin[vehicle] = (bt__pin){ BT__PIN_HARD, place_before (dive, vehicle) };
+  stand (dive, state, vehicle, dive->shore.pin[vehicle].at);
+}
+
+void
+bt__pin_vehicles (bt_dive *dive, bt__state *state, int round)
+{
+  for (int i = 0; i < dive->model->n_vehicles; i++)
+    {
+      bt__pin *pin = &dive->shore.pin[i];
+      const bt__vehicle *v = bt__dive_vehicle (dive, state, i);
+      if (round == 0)
+        pin->how = BT__PIN_OFF;
+      if (round >= BT__TRIES)
+        stay (dive, state, i);
+      else
+        come (dive, state, i, pin->how ? pin->at : v->position);
+    }
+}
+
+void
+bt__unpin_vehicles (bt_dive *dive, bt__state *state)
+{
+  for (int i = 0; i < dive->model->n_vehicles; i++)
+    dive->shore.pin[i]
+        = (bt__pin){ BT__PIN_OFF, bt__dive_vehicle (dive, state, i)->position };
+}
+
+int
+bt__pinned (const bt_dive *dive, int vehicle)
+{
+  return dive->shore.pin && dive->shore.pin[vehicle].how;
+}
+
+void
+bt__bring_end (const bt_dive *dive, bt__state *state, int i, int k, bt_vec3 p)
+{
+  int vehicle = dive->model->ends[i][k].vehicle;
+  if (vehicle < 0)
+    return;
+  stand (dive, state, vehicle, p);
+  bt__dive_vehicle (dive, state, vehicle)->held = 1;
+}
+
+/* Where end K of tether I is.  */
+static bt_vec3
+end_of (const bt_dive *dive, bt__state *state, int i, int k)
+{
+  bt__line line = bt__line_of (dive, state, i);
+  if (line.chain)
+    return k == 0 ? bt__dynamic_x (line.chain)[0]
+                  : bt__dynamic_x (line.far_chain)[line.far_chain->n];
+  return k == 0 ? line.tether->shape.a : line.tether->shape.b;
+}
+
+/* Take *AT back to P if that is less far from BEFORE; return nonzero if P is another place.  */
+static int
+draw_back (bt_vec3 p, bt_vec3 before, bt_vec3 *at)
+{
+  if (bt__distance (p, *at) <= SAME)
+    return 0;
+  if (bt__distance (p, before) < bt__distance (*at, before))
+    *at = p;
+  return 1;
+}
+
+static int
+agrees (bt_dive *dive, bt__state *state, int vehicle)
+{
+  const bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
+  bt__pin *pin = &dive->shore.pin[vehicle];
+  bt_vec3 before = place_before (dive, vehicle), at = v->position;
+  int differ = 0;
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    for (int k = 0; k < 2; k++)
+      if (dive->model->ends[i][k].vehicle == vehicle)
+        differ |= draw_back (end_of (dive, state, i, k), before, &at);
+  if (bt__distance (pin->at, v->position) > SAME) /* its hull has not gone there yet */
+    differ |= draw_back (bt__hull_reach (dive, state, vehicle, v->position), before, &at);
+  if (differ)
+    *pin = (bt__pin){ BT__PIN_HARD, at };
+  return !differ;
+}
+
+int
+bt__vehicles_agree (bt_dive *dive, bt__state *state)
+{
+  int agree = 1;
+  for (int i = 0; i < dive->model->n_vehicles; i++)
+    agree &= agrees (dive, state, i);
+  return agree;
+}

@@ -1,0 +1,279 @@
+/* Questions about contact.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <bight/contact.h>
+
+#include "base/error.h"
+#include "collide/sweep.h"
+#include "math/vec.h"
+#include "world/hull.h"
+#include "world/line.h"
+#include "world/obstacles.h"
+
+/* Farther than this nothing is near, m.  */
+#define FAR 1000.0
+
+enum
+{
+  TOUCHES_MAX = 4096
+};
+
+/* ---- Contacts ---- */
+
+static bt_contact
+contact_of (const bt__touch *touch)
+{
+  return (bt_contact){ .object = (int)touch->object,
+                       .triangle = touch->triangle,
+                       .slides = touch->state == BT__TOUCH_SLIDE,
+                       .s = touch->s,
+                       .position = touch->point,
+                       .normal = touch->normal,
+                       .force = touch->force };
+}
+
+static bt__way
+way_of (const bt_dive *dive, const bt__tether *tether, const bt__surroundings *around)
+{
+  return (bt__way){ .around = around,
+                    .core = bt__core (tether->props.diameter),
+                    .work = dive->shore.polyline,
+                    .count = &((bt_dive *)dive)->shore.count };
+}
+
+static int
+touches_of (const bt_dive *dive, int i, bt__touch *touch, int room)
+{
+  bt__line line = bt__line_of (dive, dive->now, i);
+  bt__surroundings around;
+  bt__way way;
+  if (line.chain)
+    return bt__line_touches (line.chain, bt__dive_anchors (dive, dive->now, i, 0), touch, room);
+  if (line.split)
+    return bt__thesis_touches (line.split, touch, room);
+  if (!line.held)
+    return 0;
+  around = bt__standing (dive, dive->now, BT_PART_TETHER, i);
+  way = way_of (dive, line.tether, &around);
+  return bt__held_touches (line.held, &way, line.tether->props.diameter, touch, room);
+}
+
+/* All of them in memory of their own; *N is -1 when there is no such tether.  */
+static bt__touch *
+all_touches (const bt_dive *dive, int i, int *n)
+{
+  bt__touch *touch = NULL;
+  *n = i < 0 || i >= dive->model->n_tethers ? -1 : 0;
+  if (*n < 0 || dive->model->n_obstacles == 0)
+    return NULL;
+  touch = malloc (sizeof *touch * TOUCHES_MAX);
+  if (touch)
+    *n = touches_of (dive, i, touch, TOUCHES_MAX);
+  if (*n > TOUCHES_MAX)
+    *n = TOUCHES_MAX;
+  return touch;
+}
+
+int
+bt_tether_contacts (const bt_dive *dive, int i, bt_contact *contacts, int max)
+{
+  int n;
+  bt__touch *touch = all_touches (dive, i, &n);
+  for (int k = 0; k < n && k < max; k++)
+    contacts[k] = contact_of (&touch[k]);
+  free (touch);
+  return n;
+}
+
+/* ---- Segments ---- */
+
+static int
+thesis_segments (const bt__line *line, bt_segment *out, int max)
+{
+  bt__segment segment[BT__SPLITS_MAX + 1];
+  int n = bt__thesis_segments (line->split, (int64_t)line->tether->props.model, segment,
+                               BT__SPLITS_MAX + 1);
+  for (int k = 0; k < n && k < max; k++)
+    out[k] = (bt_segment){ (double)segment[k].model, segment[k].from, segment[k].to, segment[k].a,
+                           segment[k].b };
+  return n;
+}
+
+static bt_segment
+segment_between (const bt__line *line, double from, double to)
+{
+  return (bt_segment){ line->tether->props.model, from, to, bt__line_point (line, from),
+                       bt__line_point (line, to) };
+}
+
+/* Contacts of one object that follow each other within so much arc are one wrap: no span is between
+   them.  */
+static double
+wrap_gap (const bt__line *line)
+{
+  return 2.5 * bt__line_length (line) / fmax (1, bt__line_nodes (line) - 1);
+}
+
+static int
+is_one_wrap (const bt__touch *a, const bt__touch *b, double gap)
+{
+  return a->object == b->object && b->s - a->s < gap;
+}
+
+int
+bt_tether_segments (const bt_dive *dive, int i, bt_segment *segments, int max)
+{
+  int touches, n = 0;
+  double from = 0;
+  bt__touch *touch = all_touches (dive, i, &touches);
+  bt__line line;
+  if (touches < 0)
+    return -1;
+  line = bt__line_of (dive, dive->now, i);
+  if (line.split)
+    n = thesis_segments (&line, segments, max);
+  for (int k = 0; !line.split && k <= touches; k++)
+    {
+      double to = k < touches ? touch[k].s : bt__line_length (&line);
+      int inside = k > 0 && k < touches && is_one_wrap (&touch[k - 1], &touch[k], wrap_gap (&line));
+      if (!inside && n < max)
+        segments[n] = segment_between (&line, from, to);
+      n += !inside;
+      from = to;
+    }
+  free (touch);
+  return n;
+}
+
+/* ---- Clearance ---- */
+
+/* What is looked at: all obstacles, or one.  */
+typedef struct look
+{
+  bt__surroundings around;
+  bt__switches only, only_mover;
+  uint8_t *off;
+} look;
+
+static bt_status
+look_at (const bt_dive *dive, bt_part part, int i, int obstacle, look *look, bt_error *error)
+{
+  const bt_model *model = dive->model;
+  bt_status status = bt__check_part (dive, part, i, error);
+  if (status == BT_OK && obstacle >= 0)
+    status = bt__check_part (dive, BT_PART_OBSTACLE, obstacle, error);
+  memset (look, 0, sizeof *look);
+  if (status != BT_OK || model->n_obstacles == 0)
+    return status;
+  look->around = bt__standing (dive, dive->now, part, i);
+  look->off = malloc ((size_t)model->n_obstacles);
+  if (!look->off)
+    return bt__fail (error, BT_ERR_LIMIT, "no memory to look at obstacles");
+  memset (look->off, obstacle >= 0, (size_t)model->n_obstacles);
+  if (obstacle >= 0)
+    look->off[bt__obstacle_slot (model, obstacle)] = 0;
+  look->only.off = look->off;
+  look->around.on = &look->only;
+  for (uint32_t k = 0; k < look->around.movers; k++)
+    {
+      dive->shore.course[k].on
+          = (bt__switches){ look->off + bt__obstacle_slot (model, model->carried[k].obstacle), 0 };
+      dive->shore.mover[k].on = &dive->shore.course[k].on;
+    }
+  return BT_OK;
+}
+
+/* The nearest part within *CAP of LINK; returns nonzero and lowers *CAP.  */
+static int
+nearest (const bt_dive *dive, const look *look, const bt__link *link, double *cap, bt__near *near,
+         bt_clearance *out)
+{
+  bt__count *count = &((bt_dive *)dive)->shore.count;
+  const bt__scene *scene = look->around.scene;
+  int found = 0;
+  if (scene && bt__scene_nearest (scene, look->around.on, link, *cap, near, count))
+    {
+      *cap = near->w.distance;
+      out->object = (int)scene->object[near->object].id;
+      out->position = near->w.point;
+      found = 1;
+    }
+  for (uint32_t k = 0; k < look->around.movers; k++)
+    {
+      const bt__mover *mover = &look->around.mover[k];
+      const bt__frame *frame = &mover->motion.from;
+      bt__link there = { bt__to_local (frame, link->a), bt__to_local (frame, link->b) };
+      if (!bt__scene_nearest (mover->body, mover->on, &there, *cap, near, count))
+        continue;
+      *cap = near->w.distance;
+      out->object = dive->model->carried[k].obstacle;
+      out->position = bt__to_world (frame, near->w.point);
+      found = 1;
+    }
+  return found;
+}
+
+bt_status
+bt_tether_clearance (const bt_dive *dive, int i, int obstacle, bt_clearance *out, bt_error *error)
+{
+  look look;
+  bt__line line;
+  bt__near near;
+  double cap = FAR, length;
+  int n;
+  bt_status status = look_at (dive, BT_PART_TETHER, i, obstacle, &look, error);
+  if (status != BT_OK)
+    return status;
+  *out = (bt_clearance){ .distance = INFINITY, .object = -1 };
+  line = bt__line_of (dive, dive->now, i);
+  n = bt__line_nodes (&line) - 1;
+  length = bt__line_length (&line);
+  for (int k = 0; look.off && k < n; k++)
+    {
+      bt__link link = { bt__line_node (&line, k), bt__line_node (&line, k + 1) };
+      if (!nearest (dive, &look, &link, &cap, &near, out))
+        continue;
+      out->distance = cap - line.tether->props.diameter / 2;
+      out->s = length * (k + near.w.s) / n;
+    }
+  free (look.off);
+  return BT_OK;
+}
+
+bt_status
+bt_vehicle_clearance (const bt_dive *dive, int i, int obstacle, bt_clearance *out, bt_error *error)
+{
+  look look;
+  bt__hull_body hull;
+  bt__stop stop;
+  bt_status status = look_at (dive, BT_PART_VEHICLE, i, obstacle, &look, error);
+  if (status != BT_OK)
+    return status;
+  *out = (bt_clearance){ .distance = INFINITY, .object = -1 };
+  bt__hull_of (&dive->model->vehicles[i], &hull);
+  bt__frame frame = bt__vehicle_frame (bt__dive_vehicle (dive, dive->now, i));
+  if (look.off
+      && bt__body_nearest (&hull.body, &frame, FAR, look.around.scene, look.around.on,
+                           look.around.mover, look.around.movers, &stop,
+                           &((bt_dive *)dive)->shore.count))
+    {
+      out->distance = stop.distance;
+      out->position = stop.point;
+      out->object = bt__stop_obstacle (dive->model, &stop);
+    }
+  free (look.off);
+  return BT_OK;
+}
+
+int
+bt_dive_collided (const bt_dive *dive, bt_part part, int i, int obstacle)
+{
+  if (dive->model->n_obstacles == 0)
+    return 0;
+  return bt__meets (dive->now, bt__dive_subject (dive, dive->now, part, i), obstacle);
+}

@@ -1,0 +1,263 @@
+/* Where everything lies in the flat state of a dive, and which of it is live.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "base/hash.h"
+#include "world/layout.h"
+#include "world/obstacles.h"
+
+/* Byte-wise equality of states means equality of dives only if no byte is padding.  */
+_Static_assert(sizeof (bt__vehicle) == 36 * 8, "no padding in bt__vehicle");
+_Static_assert(sizeof (bt_event) == 5 * 8, "no padding in bt_event");
+_Static_assert(sizeof (bt__mover_state) == 14 * 8, "no padding in bt__mover_state");
+_Static_assert(sizeof (bt__subject) == (2 + 2 * BT__MEETINGS_MAX) * 8, "nor in bt__subject");
+_Static_assert(sizeof (bt__state) % 8 == 0, "whole words in bt__state");
+_Static_assert(sizeof (bt__tether) % 8 == 0, "whole words in bt__tether");
+
+static size_t
+fixed_size (const bt_model *model)
+{
+  return sizeof (bt__state) + sizeof (bt__vehicle) * (size_t)model->n_vehicles
+         + sizeof (bt__tether) * (size_t)model->n_tethers + bt__obstacles_size (model);
+}
+
+/* ---- The store of a tether ---- */
+
+/* The winch may double the line before its intervals grow longer.  */
+int
+bt__chain_room (const bt_tether_def *tether)
+{
+  return 2 * (int)tether->props.nodes;
+}
+
+int
+bt__polyline_room (const bt_tether_def *tether)
+{
+  return (int)bt__thesis_room ((uint32_t)tether->props.nodes);
+}
+
+/* A shape that a chain is laid from may have as many points as the chain.  */
+static int
+node_points (const bt_tether_def *tether)
+{
+  return bt__chain_room (tether) + 1;
+}
+
+static size_t
+arrays_size (const bt_tether_def *tether)
+{
+  return 2 * sizeof (bt_vec3) * (size_t)node_points (tether);
+}
+
+static size_t
+chain_size (const bt_tether_def *tether)
+{
+  return bt__dynamic_size (bt__chain_room (tether));
+}
+
+int
+bt__anchor_room (const bt_tether_def *tether)
+{
+  return 2 * bt__chain_room (tether) + 64;
+}
+
+/* A part of a moving line and, among obstacles, what it touches.  */
+static size_t
+part_size (const bt_model *model, const bt_tether_def *tether)
+{
+  size_t anchors = model->n_obstacles > 0 ? bt__anchors_size (bt__anchor_room (tether)) : 0;
+  return chain_size (tether) + anchors;
+}
+
+/* The polyline of a static line, split or held.  */
+static size_t
+drape_size (const bt_model *model, const bt_tether_def *tether)
+{
+  size_t spans = bt__thesis_size ((uint32_t)tether->props.nodes);
+  size_t held = bt__polyline_size ((uint32_t)bt__polyline_room (tether));
+  if (model->n_obstacles == 0)
+    return 0;
+  return spans > held ? spans : held;
+}
+
+size_t
+bt__store_size (const bt_model *model, int i)
+{
+  const bt_tether_def *tether = &model->tethers[i];
+  size_t still = arrays_size (tether) + drape_size (model, tether);
+  size_t moving = 2 * part_size (model, tether);
+  return still > moving ? still : moving;
+}
+
+size_t
+bt__state_size (const bt_model *model)
+{
+  size_t size = fixed_size (model);
+  for (int i = 0; i < model->n_tethers; i++)
+    size += bt__store_size (model, i);
+  return size;
+}
+
+/* ---- Views ---- */
+
+bt__vehicle *
+bt__dive_vehicle (const bt_dive *dive, bt__state *state, int i)
+{
+  (void)dive;
+  return bt__vehicles (state) + i;
+}
+
+bt__tether *
+bt__dive_tether (const bt_dive *dive, bt__state *state, int i)
+{
+  return bt__tethers (state, dive->model->n_vehicles) + i;
+}
+
+static char *
+store_of (const bt_dive *dive, const bt__state *state, int i)
+{
+  const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
+  return (char *)state + fixed_size (dive->model) + tether->store_at;
+}
+
+bt_vec3 *
+bt__dive_nodes (const bt_dive *dive, bt__state *state, int i)
+{
+  return (bt_vec3 *)(void *)store_of (dive, state, i);
+}
+
+bt_vec3 *
+bt__dive_tensions (const bt_dive *dive, bt__state *state, int i)
+{
+  return bt__dive_nodes (dive, state, i) + node_points (&dive->model->tethers[i]);
+}
+
+bt__dynamic *
+bt__dive_chain (const bt_dive *dive, bt__state *state, int i, int part)
+{
+  size_t offset = part ? part_size (dive->model, &dive->model->tethers[i]) : 0;
+  return (bt__dynamic *)(void *)(store_of (dive, state, i) + offset);
+}
+
+bt__anchors *
+bt__dive_anchors (const bt_dive *dive, bt__state *state, int i, int part)
+{
+  char *chain = (char *)bt__dive_chain (dive, state, i, part);
+  return (bt__anchors *)(void *)(chain + chain_size (&dive->model->tethers[i]));
+}
+
+bt__thesis *
+bt__dive_thesis (const bt_dive *dive, bt__state *state, int i)
+{
+  return (bt__thesis *)(void *)(store_of (dive, state, i) + arrays_size (&dive->model->tethers[i]));
+}
+
+bt__polyline *
+bt__dive_held (const bt_dive *dive, bt__state *state, int i)
+{
+  return (bt__polyline *)(void *)bt__dive_thesis (dive, state, i);
+}
+
+/* ---- What is live ---- */
+
+typedef struct extent
+{
+  size_t at, size;
+} extent;
+
+enum
+{
+  EXTENTS = 4
+};
+
+static int
+chain_extents (const bt_dive *dive, const bt__state *state, int i, extent *out)
+{
+  const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
+  const bt_tether_def *def = &dive->model->tethers[i];
+  int n = 0;
+  for (int part = 0; part <= (tether->parted != 0); part++)
+    {
+      size_t at = (size_t)part * part_size (dive->model, def), chain = chain_size (def);
+      out[n++] = (extent){ at, chain };
+      if (dive->model->n_obstacles > 0)
+        out[n++]
+            = (extent){ at + chain,
+                        bt__anchors_live (bt__dive_anchors (dive, (bt__state *)state, i, part)) };
+    }
+  return n;
+}
+
+static size_t
+drape_live (const bt_dive *dive, const bt__state *state, int i)
+{
+  switch (bt__dive_tether (dive, (bt__state *)state, i)->drape)
+    {
+    case BT__DRAPE_SPANS:
+      return bt__thesis_live (bt__dive_thesis (dive, (bt__state *)state, i));
+    case BT__DRAPE_HELD:
+      return bt__polyline_size ((uint32_t)bt__polyline_room (&dive->model->tethers[i]));
+    default:
+      return 0;
+    }
+}
+
+/* The parts of the store of tether I that are in use.  */
+static int
+live_extents (const bt_dive *dive, const bt__state *state, int i, extent *out)
+{
+  const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
+  size_t arrays = arrays_size (&dive->model->tethers[i]);
+  int n = 0;
+  if (tether->shape.form == BT__FORM_CHAIN)
+    return chain_extents (dive, state, i, out);
+  if (tether->shape.form == BT__FORM_NODES)
+    out[n++] = (extent){ 0, arrays };
+  if (tether->drape)
+    out[n++] = (extent){ arrays, drape_live (dive, state, i) };
+  return n;
+}
+
+void
+bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from)
+{
+  extent live[EXTENTS];
+  memcpy (to, from, fixed_size (dive->model));
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    for (int k = live_extents (dive, from, i, live); k-- > 0;)
+      memcpy (store_of (dive, to, i) + live[k].at, store_of (dive, from, i) + live[k].at,
+              live[k].size);
+}
+
+uint64_t
+bt__hash_state (const bt_dive *dive, const bt__state *state)
+{
+  extent live[EXTENTS];
+  uint64_t h = bt__hash (state, fixed_size (dive->model), 0);
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    {
+      int n = live_extents (dive, state, i, live);
+      for (int k = 0; k < n; k++)
+        h = bt__hash (store_of (dive, state, i) + live[k].at, live[k].size, h);
+    }
+  return h;
+}
+
+int
+bt__layout_fits (const bt_dive *dive, const bt__state *state)
+{
+  extent live[EXTENTS];
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    {
+      size_t store = bt__store_size (dive->model, i);
+      if (bt__dive_tether (dive, (bt__state *)state, i)->store_at
+          != bt__dive_tether (dive, dive->now, i)->store_at)
+        return 0;
+      for (int k = live_extents (dive, state, i, live); k-- > 0;)
+        if (live[k].at > store || live[k].size > store - live[k].at)
+          return 0;
+    }
+  return 1;
+}

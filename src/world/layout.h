@@ -1,0 +1,25 @@
+/* The layout of a state: sizes, copies, hashes.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_WORLD_LAYOUT_H
+#define BT_WORLD_LAYOUT_H
+
+#include "world/dive.h"
+
+/* Bytes of a state of MODEL, and of the store of its tether I.  */
+size_t bt__state_size (const bt_model *model);
+size_t bt__store_size (const bt_model *model, int i);
+
+/* How many places a chain of TETHER may touch.  */
+int bt__anchor_room (const bt_tether_def *tether);
+
+/* Copy what is live of FROM to TO; hash it.  */
+void bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from);
+uint64_t bt__hash_state (const bt_dive *dive, const bt__state *state);
+
+/* Nonzero if all that STATE says is live lies within it: to be asked before it is hashed, of bytes
+   that came from elsewhere.  */
+int bt__layout_fits (const bt_dive *dive, const bt__state *state);
+
+#endif

@@ -1,0 +1,215 @@
+/* What the state of a dive knows of obstacles.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "base/hash.h"
+#include "world/obstacles.h"
+
+/* A tether that bounces has not left: it must be away for so many steps.  */
+enum
+{
+  LEFT_AFTER = 30
+};
+
+/* ---- Layout: movers, roughness, then for each vehicle and each tether its subject and bytes ----
+ */
+
+static size_t
+off_size (const bt_model *model)
+{
+  return ((size_t)model->n_obstacles + 7) / 8 * 8;
+}
+
+static size_t
+subject_size (const bt_model *model)
+{
+  return sizeof (bt__subject) + off_size (model);
+}
+
+static size_t
+movers_size (const bt_model *model)
+{
+  return sizeof (bt__mover_state) * (size_t)model->n_carried;
+}
+
+static size_t
+roughness_size (const bt_model *model)
+{
+  return sizeof (double) * (size_t)model->n_obstacles;
+}
+
+size_t
+bt__obstacles_size (const bt_model *model)
+{
+  size_t subjects = (size_t)(model->n_vehicles + model->n_tethers);
+  if (model->n_obstacles == 0)
+    return 0;
+  return movers_size (model) + roughness_size (model) + subjects * subject_size (model);
+}
+
+static char *
+section (const bt_dive *dive, bt__state *state)
+{
+  return (char *)(bt__tethers (state, dive->model->n_vehicles) + dive->model->n_tethers);
+}
+
+bt__mover_state *
+bt__dive_movers (const bt_dive *dive, bt__state *state)
+{
+  return (bt__mover_state *)(void *)section (dive, state);
+}
+
+double *
+bt__dive_roughness (const bt_dive *dive, bt__state *state)
+{
+  return (double *)(void *)(section (dive, state) + movers_size (dive->model));
+}
+
+bt__subject *
+bt__dive_subject (const bt_dive *dive, bt__state *state, bt_part part, int i)
+{
+  const bt_model *model = dive->model;
+  size_t k = (size_t)(part == BT_PART_VEHICLE ? i : model->n_vehicles + i);
+  return (bt__subject *)(void *)(section (dive, state) + movers_size (model)
+                                 + roughness_size (model) + k * subject_size (model));
+}
+
+uint8_t *
+bt__dive_off (const bt_dive *dive, bt__state *state, bt_part part, int i)
+{
+  return (uint8_t *)(bt__dive_subject (dive, state, part, i) + 1);
+}
+
+void
+bt__obstacles_init (const bt_dive *dive, bt__state *state)
+{
+  const bt_model *model = dive->model;
+  for (int k = 0; k < model->n_carried; k++)
+    bt__dive_movers (dive, state)[k].frame = bt__carried_frame (model, k, 0);
+  for (int i = 0; i < model->n_obstacles; i++)
+    bt__dive_roughness (dive, state)[i] = model->obstacles[i].friction;
+}
+
+/* ---- Pairs ---- */
+
+int
+bt__obstacle_slot (const bt_model *model, int obstacle)
+{
+  int where = model->where[obstacle];
+  return where >= 0 ? where : model->n_obstacles - model->n_carried + (-1 - where);
+}
+
+void
+bt__switch_pair (const bt_dive *dive, bt__state *state, bt_part part, int i, int obstacle, int on)
+{
+  const bt_model *model = dive->model;
+  bt__subject *subject = bt__dive_subject (dive, state, part, i);
+  uint8_t *off = bt__dive_off (dive, state, part, i);
+  if (obstacle < 0)
+    memset (off, !on, (size_t)model->n_obstacles);
+  else
+    off[bt__obstacle_slot (model, obstacle)] = (uint8_t)!on;
+  /* Equal bytes, equal versions: whoever keeps what it knows of a scene goes by it.  */
+  subject->version = memchr (off, 1, (size_t)model->n_obstacles)
+                         ? bt__hash (off, (size_t)model->n_obstacles, 1) | 1
+                         : 0;
+}
+
+/* ---- Surroundings ---- */
+
+static bt__motion
+part_of (const bt__motion *motion, double share)
+{
+  bt__frame to = bt__motion_at (motion, share);
+  return share < 1 ? bt__motion_between (&motion->from, &to) : *motion;
+}
+
+static bt__surroundings
+surround (const bt_dive *dive, bt__state *state, bt_part part, int i, int standing)
+{
+  const bt_model *model = dive->model;
+  bt__shore *shore = &((bt_dive *)dive)->shore;
+  const bt__subject *subject = bt__dive_subject (dive, state, part, i);
+  const uint8_t *off = subject->version ? bt__dive_off (dive, state, part, i) : NULL;
+  shore->on = (bt__switches){ off, subject->version };
+  for (int k = 0; k < model->n_carried; k++)
+    {
+      const bt__carried *carried = &model->carried[k];
+      const bt__frame *here = &bt__dive_movers (dive, state)[k].frame;
+      bt__course *course = &shore->course[k];
+      course->on = (bt__switches){ off ? off + bt__obstacle_slot (model, carried->obstacle) : NULL,
+                                   subject->version };
+      shore->mover[k] = (bt__mover){ .body = carried->body,
+                                     .on = &course->on,
+                                     .motion = standing ? bt__motion_between (here, here)
+                                                        : part_of (&course->whole, course->share),
+                                     .radius = carried->radius,
+                                     .done = 1 };
+    }
+  return (bt__surroundings){ .scene = model->scene,
+                             .on = &shore->on,
+                             .mover = shore->mover,
+                             .movers = (uint32_t)model->n_carried };
+}
+
+bt__surroundings
+bt__surround (const bt_dive *dive, bt__state *state, bt_part part, int i)
+{
+  return surround (dive, state, part, i, 0);
+}
+
+bt__surroundings
+bt__standing (const bt_dive *dive, bt__state *state, bt_part part, int i)
+{
+  return surround (dive, state, part, i, 1);
+}
+
+/* ---- Meetings ---- */
+
+static bt__meeting *
+find (bt__subject *subject, int obstacle)
+{
+  for (int64_t k = 0; k < subject->n; k++)
+    if (subject->meeting[k].object == obstacle)
+      return &subject->meeting[k];
+  return NULL;
+}
+
+void
+bt__note_meeting (bt__state *state, bt__subject *subject, bt_part part, int i, int obstacle)
+{
+  bt__meeting *meeting = find (subject, obstacle);
+  if (!meeting && subject->n < BT__MEETINGS_MAX)
+    {
+      meeting = &subject->meeting[subject->n++];
+      meeting->object = obstacle;
+      bt__raise_event_at (state, BT_EVENT_TOUCHED, part, i, obstacle);
+    }
+  if (meeting)
+    meeting->last = state->step;
+}
+
+void
+bt__note_partings (bt__state *state, bt__subject *subject, bt_part part, int i)
+{
+  int64_t kept = 0;
+  for (int64_t k = 0; k < subject->n; k++)
+    {
+      bt__meeting meeting = subject->meeting[k];
+      if (state->step - meeting.last < LEFT_AFTER)
+        subject->meeting[kept++] = meeting;
+      else
+        bt__raise_event_at (state, BT_EVENT_LEFT, part, i, (int)meeting.object);
+    }
+  memset (&subject->meeting[kept], 0, sizeof (bt__meeting) * (size_t)(subject->n - kept));
+  subject->n = kept;
+}
+
+int
+bt__meets (const bt__state *state, const bt__subject *subject, int obstacle)
+{
+  const bt__meeting *meeting = find ((bt__subject *)subject, obstacle);
+  return meeting && meeting->last == state->step;
+}

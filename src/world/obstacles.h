@@ -1,0 +1,48 @@
+/* A dive among obstacles: where the movers are, how rough everything is, which pairs count, who
+   meets what.  A world without obstacles has none of it.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_WORLD_OBSTACLES_H
+#define BT_WORLD_OBSTACLES_H
+
+#include "contact/touch.h"
+#include "world/dive.h"
+
+/* Return the bytes that the obstacles of MODEL add to a state; 0 if it has none.  */
+size_t bt__obstacles_size (const bt_model *model);
+
+/* Put everything in its place for the start of a dive.  */
+void bt__obstacles_init (const bt_dive *dive, bt__state *state);
+
+bt__mover_state *bt__dive_movers (const bt_dive *dive, bt__state *state);
+
+/* Coulomb's coefficient of each obstacle; NaN: the tether's own.  */
+double *bt__dive_roughness (const bt_dive *dive, bt__state *state);
+
+/* Where OBSTACLE stands among the bytes below: those in the scene by their place there, then those
+   carried.  */
+int bt__obstacle_slot (const bt_model *model, int obstacle);
+
+/* The I-th vehicle or tether, by PART, and its byte for each obstacle, by slot.  */
+bt__subject *bt__dive_subject (const bt_dive *dive, bt__state *state, bt_part part, int i);
+uint8_t *bt__dive_off (const bt_dive *dive, bt__state *state, bt_part part, int i);
+
+/* Return what surrounds the subject, every mover on its way from COURSE K's motion by its share; or
+   standing where it is.  Good until the next call.  */
+bt__surroundings bt__surround (const bt_dive *dive, bt__state *state, bt_part part, int i);
+bt__surroundings bt__standing (const bt_dive *dive, bt__state *state, bt_part part, int i);
+
+/* Switch the pair of a subject and OBSTACLE, or with OBSTACLE -1 all of its pairs, on or off.  */
+void bt__switch_pair (const bt_dive *dive, bt__state *state, bt_part part, int i, int obstacle,
+                      int on);
+
+/* Note that the subject meets OBSTACLE in this step; forget what it has not met for a while, with
+   the events `touched' and `left'.  */
+void bt__note_meeting (bt__state *state, bt__subject *subject, bt_part part, int i, int obstacle);
+void bt__note_partings (bt__state *state, bt__subject *subject, bt_part part, int i);
+
+/* Nonzero if the subject met OBSTACLE in the last step.  */
+int bt__meets (const bt__state *state, const bt__subject *subject, int obstacle);
+
+#endif

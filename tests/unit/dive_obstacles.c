@@ -1,0 +1,776 @@
+/* Dives among obstacles, under the eyes of a judge that shares nothing with the engine: exact
+   predicates on what the line swept, linking numbers about what it may not pass, brute force for
+   the distances.
+
+   Every model, hulls, masses, several tethers, jumps of 20 m, flights at 20 m/s, winch, cuts, other
+   models while wound, forks and checkpoints in the middle.  With all pairs switched off the judge
+   must cry out.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <bight/bight.h>
+
+#include "../oracle/solids.h"
+#include "../oracle/sweep.h"
+#include "math/vec.h"
+#include "world/line.h"
+
+enum
+{
+  OBSTACLES = 10,
+  LINES = 2,
+  PARTS = 2 * LINES, /* a parted line is two */
+  POINTS = 2000,
+  RING = 6,
+  EDGES = 12
+};
+
+#define DEGREES (180 / BT__PI)
+
+/* ---- Worlds ---- */
+
+typedef struct scene
+{
+  bt_world world;
+  bt_vehicle_def vehicle[2];
+  bt_tether_def tether[LINES];
+  bt_obstacle_def obstacle[OBSTACLES];
+  double track[2][60];
+} scene;
+
+static bt_obstacle_def *
+add (scene *s, const char *head, const char *name)
+{
+  bt_obstacle_def *def = &s->obstacle[s->world.n_obstacles++];
+  assert_true (s->world.n_obstacles <= OBSTACLES);
+  bt_def_init (bt_head_find (head), def);
+  assert_int_equal (bt_def_set_name (def->name, name, NULL), BT_OK);
+  return def;
+}
+
+static void
+add_post (scene *s, const char *head, const char *name, bt_vec3 middle, bt_vec3 axis, double radius)
+{
+  bt_obstacle_def *def = add (s, head, name);
+  def->from = bt__axpy (middle, -200, axis);
+  def->to = bt__axpy (middle, 200, axis);
+  def->radius = radius;
+}
+
+/* It goes to and fro by WAY from MIDDLE, a whole time in SECONDS.  */
+static void
+send (scene *s, bt_obstacle_def *def, int k, bt_vec3 middle, bt_vec3 way, double seconds)
+{
+  for (int i = 0; i < 12; i++)
+    {
+      bt_vec3 p = bt__axpy (middle, i % 2 ? 1 : -1, way);
+      double *row = s->track[k] + 5 * i;
+      row[0] = seconds / 2 * i;
+      row[1] = p.x;
+      row[2] = p.y;
+      row[3] = p.z;
+      row[4] = 0;
+    }
+  def->track = (bt_rows){ s->track[k], 12, 5 };
+}
+
+/* A slack line from (-8 -8 -6) to a vehicle 16 m east of there, in a current to the north.  */
+static void
+begin_scene (scene *s, bt_model_kind model)
+{
+  memset (s, 0, sizeof *s);
+  bt_def_init (bt_head_find ("sea"), &s->world.sea);
+  s->world.sea.depth = 300;
+  s->world.sea.current.kind = BT_CURRENT_UNIFORM;
+  s->world.sea.current.velocity[0] = (bt_vec3){ 0.05, 0.3, 0 };
+  for (int i = 0; i < 2; i++)
+    {
+      bt_def_init (bt_head_find ("rov"), &s->vehicle[i]);
+      bt_def_init (bt_head_find ("tether"), &s->tether[i]);
+      s->tether[i].length = 30;
+      s->tether[i].props.nodes = 24;
+      s->tether[i].props.wet_weight = 0;
+      s->tether[i].props.model = model;
+      s->tether[i].props.response = BT_RESPONSE_THESIS;
+    }
+  bt_def_set_name (s->vehicle[0].name, "minnow", NULL);
+  bt_def_set_name (s->vehicle[1].name, "garage", NULL);
+  bt_def_set_name (s->tether[0].name, "line", NULL);
+  bt_def_set_name (s->tether[1].name, "umbilical", NULL);
+  bt_def_set_name (s->tether[0].to.part, "minnow", NULL);
+  s->vehicle[0].at = (bt_vec3){ 8, -8, -6 };
+  s->tether[0].from.at = (bt_vec3){ -8, -8, -6 };
+  s->world.vehicles = s->vehicle;
+  s->world.n_vehicles = 1;
+  s->world.tethers = s->tether;
+  s->world.n_tethers = 1;
+  s->world.obstacles = s->obstacle;
+}
+
+/* Endless posts, so that whether a line has passed one is a number.  */
+static void
+plant_wood (scene *s)
+{
+  bt_vec3 up = { 0, 0, 1 };
+  add_post (s, "cylinder", "leg", bt__vec (0, 0, 0), up, 0.6);
+  add_post (s, "capsule", "wire", bt__vec (3, -3, 0), up, 0.01);
+  add_post (s, "capsule", "brace", bt__vec (0, 3, -4), bt__vec (0.8, 0, 0.6), 0.25);
+  add_post (s, "cylinder", "pipe", bt__vec (0, -4, -9), bt__vec (1, 0, 0), 0.3);
+  add_post (s, "capsule", "pile", bt__vec (-4, 4, 0), up, 0.45);
+}
+
+static void
+add_movers (scene *s)
+{
+  bt_vec3 up = { 0, 0, 1 };
+  add_post (s, "capsule", "boom", bt__vec (5, 0, 0), up, 0.2);
+  send (s, &s->obstacle[s->world.n_obstacles - 1], 0, bt__vec (5, 0, 0), bt__vec (2, 5, 0), 9);
+  add_post (s, "cylinder", "chain", bt__vec (0, 0, -14), bt__vec (0, 1, 0), 0.1);
+  send (s, &s->obstacle[s->world.n_obstacles - 1], 1, bt__vec (0, 0, -9), bt__vec (3, 0, 6), 14);
+}
+
+static void
+give_hull (scene *s, int i, bt_vec3 size)
+{
+  s->vehicle[i].size = size;
+}
+
+/* The line comes from a second vehicle, on an umbilical of its own.  */
+static void
+hang_garage (scene *s)
+{
+  s->vehicle[1].at = (bt_vec3){ -8, -8, -6 };
+  bt_def_set_name (s->tether[0].from.part, "garage", NULL);
+  bt_def_set_name (s->tether[1].to.part, "garage", NULL);
+  s->tether[1].from.at = (bt_vec3){ -12, -12, 2 };
+  s->world.n_vehicles = s->world.n_tethers = 2;
+}
+
+/* A second line holds the same vehicle.  */
+static void
+tie_twice (scene *s)
+{
+  bt_def_set_name (s->tether[1].to.part, "minnow", NULL);
+  s->tether[1].from.at = (bt_vec3){ 12, -12, -2 };
+  s->world.n_tethers = 2;
+}
+
+static bt_dive *
+enter (const scene *s)
+{
+  bt_model *model = NULL;
+  bt_dive *dive = NULL;
+  bt_error e = { 0 };
+  if (bt_model_new (&s->world, &model, &e) != BT_OK
+      || bt_dive_new (model, NULL, NULL, &dive, &e) != BT_OK)
+    fail_msg ("%s", e.text);
+  bt_model_release (model);
+  return dive;
+}
+
+/* ---- What the judge sees ---- */
+
+typedef struct sight
+{
+  int n[PARTS]; /* 0: there is no such part */
+  bt_vec3 x[PARTS][POINTS];
+  bt__frame mover[OBSTACLES];
+} sight;
+
+typedef struct judge
+{
+  const scene *scene;
+  sight *was, *is;
+  uint8_t excused[LINES][OBSTACLES]; /* the pair was off */
+  uint8_t excused_hull[2][OBSTACLES];
+  long looks, crossings, stretched, apart, not_finite;
+  double least, least_hull; /* m: beyond half the radius; beyond touch */
+  double stretch;
+} judge;
+
+/* The frame that what has a track is drawn in: for an axis its middle, unturned.  */
+static bt__frame
+frame_of (const bt_dive *dive, int obstacle)
+{
+  int k = bt__model_carried (dive->model, obstacle);
+  bt__frame still = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+  if (k < 0)
+    return still;
+  bt_obstacle_view view;
+  assert_int_equal (bt_dive_obstacle (dive, obstacle, &view, NULL), BT_OK);
+  still.origin = bt__scale (0.5, bt__add (view.from, view.to));
+  return still;
+}
+
+static void
+look (const bt_dive *dive, sight *sight)
+{
+  memset (sight->n, 0, sizeof sight->n);
+  for (int i = 0; i < bt_dive_count (dive, BT_PART_TETHER); i++)
+    {
+      bt_tether_view view;
+      assert_int_equal (bt_dive_tether (dive, i, &view, NULL), BT_OK);
+      assert_true (view.nodes <= POINTS);
+      sight->n[2 * i] = view.nodes;
+      assert_int_equal (bt_tether_points (dive, i, 0, sight->x[2 * i], NULL), BT_OK);
+      if (view.parted)
+        sight->n[2 * i + 1] = bt_tether_tail (dive, i, sight->x[2 * i + 1], POINTS);
+    }
+  for (int o = 0; o < bt_dive_count (dive, BT_PART_OBSTACLE); o++)
+    sight->mover[o] = frame_of (dive, o);
+}
+
+/* ---- Has it passed through?  ---- */
+
+/* Where the corners of the N points X lie, 0 to 1 by arc length.  */
+static void
+measure (const bt_vec3 *x, int n, double *u)
+{
+  u[0] = 0;
+  for (int i = 1; i < n; i++)
+    u[i] = u[i - 1] + fmax (bt__distance (x[i - 1], x[i]), 1e-12);
+  for (int i = n - 1; i >= 0; i--)
+    u[i] /= u[n - 1];
+}
+
+/* Put the corners of the other among those of X; return how many there are now.  */
+static int
+refine (const bt_vec3 *x, const double *u, int n, const double *v, int m, bt_vec3 *out)
+{
+  int count = 0, j = 1;
+  out[count++] = x[0];
+  for (int i = 1; i < n; i++)
+    {
+      for (; j < m - 1 && v[j] < u[i]; j++)
+        if (v[j] > u[i - 1])
+          out[count++] = bt__axpy (x[i - 1], (v[j] - u[i - 1]) / (u[i] - u[i - 1]),
+                                   bt__sub (x[i], x[i - 1]));
+        else
+          out[count++] = x[i - 1];
+      out[count++] = x[i];
+      if (j < m - 1 && v[j] == u[i])
+        out[count++] = x[i], j++;
+    }
+  for (; j < m - 1; j++)
+    out[count++] = x[n - 1];
+  return count;
+}
+
+/* The two lines FROM and TO with as many points each: every corner of both is in both.  */
+static int
+match (const bt_vec3 *from, int n, const bt_vec3 *to, int m, bt_vec3 *a, bt_vec3 *b)
+{
+  static double u[POINTS], v[POINTS];
+  if (n == m)
+    {
+      memcpy (a, from, sizeof *a * (size_t)n);
+      memcpy (b, to, sizeof *b * (size_t)n);
+      return n;
+    }
+  measure (from, n, u);
+  measure (to, m, v);
+  int p = refine (from, u, n, v, m, a), q = refine (to, v, m, u, n, b);
+  while (p < q)
+    a[p++] = from[n - 1];
+  while (q < p)
+    b[q++] = to[m - 1];
+  return p;
+}
+
+/* A ring that closes the endless axis A B far away.  */
+static void
+close_ring (bt_vec3 a, bt_vec3 b, bt_vec3 ring[RING])
+{
+  bt_vec3 d = bt__unit_or (bt__sub (b, a), a), out = bt__scale (5000, bt__across (d));
+  ring[0] = bt__axpy (a, -2000, d);
+  ring[1] = a;
+  ring[2] = b;
+  ring[3] = bt__axpy (b, 2000, d);
+  ring[4] = bt__add (ring[3], out);
+  ring[5] = bt__add (ring[0], out);
+}
+
+/* How often the line went through the axis of post DEF in all: what lies between the two sights is
+   a path round nothing, or through it.  */
+static int
+passages (const bt_obstacle_def *def, const bt__frame *f, const bt__frame *g, const bt_vec3 *from,
+          int n, const bt_vec3 *to, int m)
+{
+  static bt_vec3 a[2 * POINTS], b[2 * POINTS];
+  bt_vec3 half = bt__scale (0.5, bt__sub (def->to, def->from));
+  bt_vec3 middle = bt__scale (0.5, bt__add (def->to, def->from)), ring[RING];
+  int k = match (from, n, to, m, a, b), moves = def->track.n > 0;
+  sweep_segment axis = moves ? (sweep_segment){ bt__scale (-1, half), half }
+                             : (sweep_segment){ bt__sub (middle, half), bt__add (middle, half) };
+  for (int i = 0; i < k; i++)
+    {
+      a[i] = bt__to_local (f, a[i]);
+      b[i] = bt__to_local (g, b[i]);
+    }
+  if (sweep_crossings (a, b, k, &axis) == 0)
+    return 0;
+  close_ring (axis.a, axis.b, ring);
+  return (int)lround (fabs (sweep_linking (a, b, k, ring, RING)));
+}
+
+static void
+judge_passages (judge *j, const bt_dive *dive)
+{
+  for (int p = 0; p < PARTS; p++)
+    for (int o = 0; o < bt_dive_count (dive, BT_PART_OBSTACLE); o++)
+      if (j->was->n[p] > 1 && j->is->n[p] > 1 && !j->excused[p / 2][o]
+          && j->scene->obstacle[o].kind != BT_OBSTACLE_BOX
+          && (j->was->n[2 * (p / 2) + 1] == 0) == (j->is->n[2 * (p / 2) + 1] == 0))
+        j->crossings += passages (&j->scene->obstacle[o], &j->was->mover[o], &j->is->mover[o],
+                                  j->was->x[p], j->was->n[p], j->is->x[p], j->is->n[p]);
+}
+
+/* ---- How near is it?  ---- */
+
+static bt__link
+axis_of (const scene *s, const sight *sight, int o)
+{
+  const bt_obstacle_def *def = &s->obstacle[o];
+  bt_vec3 half = bt__scale (0.5, bt__sub (def->to, def->from));
+  bt_vec3 middle = def->track.n > 0 ? sight->mover[o].origin
+                                    : bt__scale (0.5, bt__add (def->from, def->to));
+  return (bt__link){ bt__sub (middle, half), bt__add (middle, half) };
+}
+
+/* The distance of LINK from the axis of an endless post.  */
+static double
+line_distance (const bt__link *axis, const bt__link *link)
+{
+  bt_vec3 d = bt__unit_or (bt__sub (axis->b, axis->a), axis->a);
+  bt_vec3 p = bt__sub (link->a, axis->a), q = bt__sub (link->b, axis->a);
+  bt_vec3 way, at;
+  double t, size;
+  p = bt__axpy (p, -bt__dot (p, d), d);
+  q = bt__axpy (q, -bt__dot (q, d), d);
+  way = bt__sub (q, p);
+  size = bt__dot (way, way);
+  t = size > 0 ? fmax (0, fmin (1, -bt__dot (p, way) / size)) : 0;
+  at = bt__axpy (p, t, way);
+  return bt__norm (at);
+}
+
+static void
+judge_clearance (judge *j, const bt_dive *dive)
+{
+  const scene *s = j->scene;
+  for (int p = 0; p < PARTS; p++)
+    for (int o = 0; o < bt_dive_count (dive, BT_PART_OBSTACLE) && j->is->n[p]; o++)
+      {
+        bt__link axis = axis_of (s, j->is, o);
+        double core = s->tether[p / 2].props.diameter / 4;
+        for (int i = 0; !j->excused[p / 2][o] && i + 1 < j->is->n[p]; i++)
+          {
+            bt__link link = { j->is->x[p][i], j->is->x[p][i + 1] };
+            double gap = line_distance (&axis, &link) - s->obstacle[o].radius - core;
+            j->least = fmin (j->least, gap);
+          }
+      }
+}
+
+/* The hull as it was told to stand, by its heading.  */
+static bt__box
+hull_of (const scene *s, int i, const bt_vehicle_view *v)
+{
+  double c = cos (v->heading), k = sin (v->heading);
+  return (bt__box){ { v->position, { c, -k, 0 }, { k, c, 0 }, { 0, 0, 1 } },
+                    bt__scale (0.5, s->vehicle[i].size) };
+}
+
+/* The axis is longer than the sampling of a brute search likes: the part about the hull.  */
+static bt__link
+part_of_axis (const bt__link *axis, bt_vec3 p)
+{
+  bt_vec3 d = bt__unit_or (bt__sub (axis->b, axis->a), axis->a);
+  bt_vec3 c = bt__axpy (axis->a, bt__dot (bt__sub (p, axis->a), d), d);
+  return (bt__link){ bt__axpy (c, -3, d), bt__axpy (c, 3, d) };
+}
+
+static void
+note_hull (judge *j, const bt_dive *dive, int i, int o, double gap)
+{
+  if (gap <= 0 && j->least_hull > 0 && getenv ("BIGHT_TELL"))
+    printf ("# t %.3f hull of %s in %s by %g\n", bt_dive_time (dive), j->scene->vehicle[i].name,
+            j->scene->obstacle[o].name, -gap);
+  j->least_hull = fmin (j->least_hull, gap);
+}
+
+static void
+judge_hulls (judge *j, const bt_dive *dive)
+{
+  for (int i = 0; i < bt_dive_count (dive, BT_PART_VEHICLE); i++)
+    for (int o = 0; o < bt_dive_count (dive, BT_PART_OBSTACLE); o++)
+      {
+        bt_vehicle_view view;
+        bt__link axis = axis_of (j->scene, j->is, o), part;
+        assert_int_equal (bt_dive_vehicle (dive, i, &view, NULL), BT_OK);
+        solid hull = { .kind = SOLID_BOX, .box = hull_of (j->scene, i, &view) };
+        part = part_of_axis (&axis, view.position);
+        if (!j->excused_hull[i][o])
+          note_hull (j, dive, i, o, solid_brute (&hull, &part) - j->scene->obstacle[o].radius);
+      }
+}
+
+/* ---- Does it hold together?  ---- */
+
+static void
+judge_stretch (judge *j, const bt_dive *dive, int i)
+{
+  bt__line line = bt__line_of (dive, dive->now, i);
+  const bt__polyline *p = line.split ? bt__thesis_line (line.split) : line.held;
+  double most = 0;
+  for (int64_t k = 0; p && k + 1 < p->n; k++)
+    {
+      const bt_vec3 *x = bt__polyline_x ((bt__polyline *)p);
+      const double *u = bt__polyline_u ((bt__polyline *)p);
+      most = fmax (most, (bt__distance (x[k], x[k + 1]) - 1e-9) / fmax (u[k + 1] - u[k], 1e-12));
+    }
+  j->stretch = fmax (j->stretch, most);
+  j->stretched += most > 1.01;
+}
+
+static void
+judge_ends (judge *j, const bt_dive *dive, int i)
+{
+  const bt__tether *tether = bt__dive_tether (dive, dive->now, i);
+  for (int k = 0; k < 2; k++)
+    {
+      const bt__end *end = &dive->model->ends[i][k];
+      int part = 2 * i + (k && tether->parted), n = j->is->n[part];
+      bt_vec3 at = j->is->x[part][k ? n - 1 : 0], wanted = end->at;
+      if (end->vehicle >= 0)
+        wanted = bt__dive_vehicle (dive, dive->now, end->vehicle)->position;
+      j->apart += !(bt__distance (at, wanted) < 1e-6);
+    }
+}
+
+static void
+judge_numbers (judge *j)
+{
+  for (int p = 0; p < PARTS; p++)
+    for (int i = 0; i < j->is->n[p]; i++)
+      j->not_finite += !bt__is_finite (j->is->x[p][i]);
+}
+
+static void
+look_again (judge *j, const bt_dive *dive)
+{
+  sight *old = j->was;
+  j->was = j->is;
+  j->is = old;
+  look (dive, j->is);
+  judge_numbers (j);
+  judge_passages (j, dive);
+  for (int i = 0; i < bt_dive_count (dive, BT_PART_TETHER); i++)
+    {
+      judge_stretch (j, dive, i);
+      judge_ends (j, dive, i);
+    }
+  if (j->looks++ % 4 == 0)
+    judge_clearance (j, dive);
+  if (j->looks % 2 == 0)
+    judge_hulls (j, dive);
+}
+
+static void
+begin_judging (judge *j, const scene *s, const bt_dive *dive)
+{
+  memset (j, 0, sizeof *j);
+  j->scene = s;
+  j->was = calloc (1, sizeof *j->was);
+  j->is = calloc (1, sizeof *j->is);
+  assert_non_null (j->was);
+  assert_non_null (j->is);
+  j->least = j->least_hull = INFINITY;
+  look (dive, j->is);
+}
+
+static void
+end_judging (judge *j)
+{
+  free (j->was);
+  free (j->is);
+}
+
+/* The safe step finds its way from below by casts to a hundredth of a micrometre.  */
+#define ROUNDING 1e-9
+
+static void
+acquit (const judge *j, const char *name)
+{
+  if (j->crossings || j->stretched || j->apart || j->not_finite || !(j->least > -ROUNDING)
+      || !(j->least_hull > 0))
+    fail_msg ("%s: %ld crossings, %ld stretched (%g), %ld ends apart, %ld not finite, clearance "
+              "%g, hull %g",
+              name, j->crossings, j->stretched, j->stretch, j->apart, j->not_finite, j->least,
+              j->least_hull);
+}
+
+/* ---- What is done ---- */
+
+static bt_status
+operate (bt_dive *dive, bt_op op, int subject, int n, const double *args)
+{
+  bt_error e = { 0 };
+  bt_status status = bt_dive_do (dive, op, subject, args, n, &e);
+  assert_true (status == BT_OK || strlen (e.text) > 0);
+  if (getenv ("BIGHT_TELL"))
+    printf ("# t %.3f op %s subject %d: %g %g %g %g -> %s\n", bt_dive_time (dive),
+            bt_op_describe (op)->name, subject, n > 0 ? args[0] : 0, n > 1 ? args[1] : 0,
+            n > 2 ? args[2] : 0, n > 3 ? args[3] : 0, status == BT_OK ? "ok" : e.text);
+  return status;
+}
+
+static void
+step (bt_dive *dive)
+{
+  bt_error e = { 0 };
+  if (bt_dive_step (dive, &e) != BT_OK)
+    fail_msg ("t = %g: %s", bt_dive_time (dive), e.text);
+}
+
+static int
+field_number (const char *head, const char *name)
+{
+  const bt_head *h = bt_head_find (head);
+  const bt_field *field = bt_field_find (h, name);
+  assert_non_null (field);
+  return (int)(field - h->fields);
+}
+
+static bt_status
+take_model (bt_dive *dive, int i, bt_model_kind model)
+{
+  return operate (dive, BT_OP_ALTER, i, 3,
+                  (double[]){ BT_PART_TETHER, field_number ("tether", "model"), model });
+}
+
+typedef struct habits
+{
+  int jumps, winch, models, cut, pairs;
+} habits;
+
+static void
+switch_pair (bt_dive *dive, judge *j, dice *d)
+{
+  int o = dice_below (d, bt_dive_count (dive, BT_PART_OBSTACLE));
+  int part = dice_below (d, 2) ? BT_PART_VEHICLE : BT_PART_TETHER;
+  if (operate (dive, BT_OP_COLLIDE, 0, 3, (double[]){ part, o, dice_below (d, 2) }) != BT_OK)
+    return;
+  (part == BT_PART_VEHICLE ? j->excused_hull : j->excused)[0][o] = 1;
+}
+
+/* Anywhere, or right beside an obstacle, or in it.  */
+static bt_vec3
+somewhere (const judge *j, dice *d)
+{
+  int o = dice_below (d, j->scene->world.n_obstacles);
+  bt__link axis = axis_of (j->scene, j->is, o);
+  bt_vec3 p = dice_point (d, 12);
+  p.z = dice_between (d, -16, 0);
+  if (dice_below (d, 2))
+    {
+      axis = part_of_axis (&axis, p);
+      p = bt__add (bt__scale (0.5, bt__add (axis.a, axis.b)), dice_point (d, 1.5));
+    }
+  return p;
+}
+
+/* Something a pilot might do, and things no pilot would.  */
+static void
+do_something (bt_dive *dive, judge *j, dice *d, habits h)
+{
+  int v = dice_below (d, bt_dive_count (dive, BT_PART_VEHICLE));
+  int t = dice_below (d, bt_dive_count (dive, BT_PART_TETHER));
+  bt_vec3 p = somewhere (j, d);
+  switch (dice_below (d, 9))
+    {
+    case 0:
+    case 1:
+      operate (dive, BT_OP_DRIVE, v, 4,
+               (double[]){ dice_between (d, -1, 1), dice_between (d, -1, 1),
+                           dice_between (d, -1, 1), dice_between (d, -1, 1) });
+      break;
+    case 2:
+      operate (dive, BT_OP_MOVE, v, 4, (double[]){ p.x, p.y, p.z, dice_below (d, 3) ? 2 : 20 });
+      break;
+    case 3:
+      operate (dive, BT_OP_FLY_TO, v, 4, (double[]){ p.x, p.y, p.z, 3 });
+      break;
+    case 4:
+      if (h.jumps)
+        operate (dive, BT_OP_PLACE, v, 3, (double[]){ p.x, p.y, p.z });
+      break;
+    case 5:
+      if (h.winch)
+        operate (dive, dice_below (d, 2) ? BT_OP_PAY_OUT : BT_OP_HAUL_IN, t, 2,
+                 (double[]){ dice_between (d, 0.1, 12), dice_between (d, 0.1, 2) });
+      break;
+    case 6:
+      if (h.models)
+        take_model (dive, t, (bt_model_kind)dice_below (d, BT_MODEL_AUTO + 1));
+      break;
+    case 7:
+      if (h.cut && dice_below (d, 4) == 0)
+        operate (dive, BT_OP_CUT, t, 1, (double[]){ dice_between (d, 1, 28) });
+      break;
+    default:
+      if (h.pairs)
+        switch_pair (dive, j, d);
+    }
+}
+
+static void
+live (bt_dive *dive, judge *j, dice *d, habits h, int acts, int steps)
+{
+  for (int k = 0; k < acts; k++)
+    {
+      do_something (dive, j, d, h);
+      look_again (j, dive);
+      for (int i = 0; i < steps; i++)
+        {
+          step (dive);
+          look_again (j, dive);
+        }
+    }
+}
+
+/* ---- Dives ---- */
+
+static int
+longer (void)
+{
+  const char *wish = getenv ("BIGHT_LONG");
+  return wish && *wish == '1' ? 20 : 1;
+}
+
+static void
+fly (const scene *s, uint64_t seed, habits h, int acts, int steps, const char *name)
+{
+  bt_dive *dive = enter (s);
+  dice d = dice_new (seed);
+  judge j;
+  begin_judging (&j, s, dive);
+  live (dive, &j, &d, h, acts * longer (), steps);
+  print_message ("# %s: %ld looks, clearance beyond the core %.3g m, hull %.3g m, stretch %.6g\n",
+                 name, j.looks, j.least, j.least_hull, j.stretch);
+  acquit (&j, name);
+  end_judging (&j);
+  bt_dive_free (dive);
+}
+
+static const char *const model_names[] = { "rubber-band", "v-shape", "catenary", "catenary-simplex",
+                                           "elastic",     "steady",  "dynamic",  "auto" };
+
+static void
+every_model (void **state)
+{
+  (void)state;
+  for (int model = 0; model <= BT_MODEL_AUTO; model++)
+    {
+      scene s;
+      begin_scene (&s, (bt_model_kind)model);
+      plant_wood (&s);
+      fly (&s, 10 + (uint64_t)model, (habits){ .jumps = 1, .winch = 1 }, 14, 50,
+           model_names[model]);
+    }
+}
+
+static void
+hulls_and_movers (void **state)
+{
+  (void)state;
+  for (int model = 0; model <= BT_MODEL_AUTO; model++)
+    {
+      scene s;
+      begin_scene (&s, (bt_model_kind)model);
+      plant_wood (&s);
+      add_movers (&s);
+      give_hull (&s, 0, bt__vec (0.5, 0.8, 0.4));
+      fly (&s, 30 + (uint64_t)model, (habits){ .jumps = 1, .winch = 1, .pairs = 1 }, 12, 50,
+           model_names[model]);
+    }
+}
+
+static void
+masses (void **state)
+{
+  static const bt_model_kind models[]
+      = { BT_MODEL_DYNAMIC, BT_MODEL_AUTO, BT_MODEL_STEADY, BT_MODEL_CATENARY };
+  (void)state;
+  for (int k = 0; k < 4; k++)
+    {
+      scene s;
+      begin_scene (&s, models[k]);
+      plant_wood (&s);
+      add_movers (&s);
+      give_hull (&s, 0, bt__vec (0.4, 0.5, 0.3));
+      s.vehicle[0].mass = 12;
+      s.vehicle[0].added_mass = 8;
+      s.vehicle[0].quadratic_drag = 40;
+      fly (&s, 50 + (uint64_t)k, (habits){ .jumps = 1, .winch = 1, .cut = 1 }, 12, 50,
+           model_names[models[k]]);
+    }
+}
+
+static void
+two_tethers (void **state)
+{
+  static const bt_model_kind models[] = { BT_MODEL_DYNAMIC, BT_MODEL_CATENARY, BT_MODEL_STEADY };
+  (void)state;
+  for (int k = 0; k < 6; k++)
+    {
+      scene s;
+      begin_scene (&s, models[k / 2]);
+      plant_wood (&s);
+      if (k % 2)
+        tie_twice (&s);
+      else
+        hang_garage (&s);
+      add_movers (&s);
+      give_hull (&s, 0, bt__vec (0.4, 0.5, 0.3));
+      fly (&s, 60 + (uint64_t)k, (habits){ .jumps = 1, .winch = 1 }, 10, 40,
+           k % 2 ? "two lines" : "garage");
+    }
+}
+
+static void
+other_models_while_wound (void **state)
+{
+  (void)state;
+  for (uint64_t k = 0; k < 4; k++)
+    {
+      scene s;
+      begin_scene (&s, BT_MODEL_DYNAMIC);
+      plant_wood (&s);
+      add_movers (&s);
+      fly (&s, 70 + k, (habits){ .winch = 1, .models = 1, .jumps = k % 2 == 0, .cut = k == 3 }, 16,
+           40, "models");
+    }
+}
+
+int
+main (void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test (every_model),   cmocka_unit_test (hulls_and_movers),
+    cmocka_unit_test (masses),        cmocka_unit_test (two_tethers),
+    cmocka_unit_test (other_models_while_wound),
+  };
+  return cmocka_run_group_tests_name ("dive_obstacles", tests, NULL, NULL);
+}
