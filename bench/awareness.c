@@ -405,7 +405,7 @@ hauls (bench *b, int kind)
       bt__free_grow (tree, b->p[0], &b->count);
       bt__free_length (tree, b->taut, &c, b->p[n - 1], 200, b->fine, &b->count);
       double start = bench_now ();
-      bt__way w = bt__way_home (b->taut, &c, b->s, 0.32, b->home, &b->count);
+      bt__route w = bt__way_home (b->taut, &c, b->s, 0.32, b->home, &b->count);
       home[i] = bench_now () - start;
       wide += w.clearance > 0.3;
       start = bench_now ();

@@ -3,10 +3,10 @@
    drag: 100 links hauled at 0.1, 1 and 3 m/s through a right angle over a box's edge, a drum, a
    wire of 10 mm, a weight on the near end; the error is the mean of T2 / T1 against e^(mu theta),
    the counters say what share of steps was held back or cut, and how far T2 swings.  jacket: a
-   pilot who aims through the members, by the hour of the day it takes: percentiles of the step,
-   towed and with a mass of its own, at 0.1, 1 and 3 m/s.  ground: a line on a bottom, by the number
-   of places it touches.  alone: what a scene far away adds to the line's own step.  quiet: the most
-   energy a line that falls over a beam gains in a step.
+   pilot who aims through the members: percentiles of the step, towed and with a mass of its own, at
+   0.1, 1 and 3 m/s.  ground: a line on a bottom, by the number of places it touches.  alone: what a
+   scene far away adds to the line's own step.  quiet: the most energy a line that falls over a beam
+   gains in a step.
 
    Crossings are counted by an outside judge; times leave him out.  Times are CPU; the calibration
    ratio is per step.
@@ -89,7 +89,10 @@ static const char *const corner_names[CORNERS] = { "box edge", "drum .6 m", "wir
 static void
 open_corner (corner k, double mu)
 {
-  double radius = k == DRUM ? 0.6 : k == WIRE ? 0.005 : 0, bend = radius + (k == DRUM ? 0.006 : 0.4);
+  double radius = k == DRUM   ? 0.6
+                  : k == WIRE ? 0.005
+                              : 0,
+         bend = radius + (k == DRUM ? 0.006 : 0.4);
   bt_vec3 shape[12] = { { -bend, 0, -14 } };
   if (!reef_open (&place))
     fail ();

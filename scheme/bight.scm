@@ -25,7 +25,7 @@
     ((bight task) every on cancel!)
     ((bight pilot) define-pilot make-pilot with-pilot)
     ((bight time) now time-step run run-until step! settle!)
-    ((bight checkpoint) checkpoint checkpoint? restore! what-if state-hash)
+    ((bight checkpoint) checkpoint checkpoint? restore! rewind! what-if state-hash)
     ((bight command))
     ((bight query)
      rov-position rov-velocity rov-heading rov-pitch rov-roll rov-depth rov-altitude rov-speed
@@ -49,7 +49,24 @@
     ((bight scenario)
      define-scenario always never eventually skip run-scenario scenarios
      expect require about between above below)
+    ((bight lesson)
+     define-lesson run-lesson counter count! setting jitter tell! told messages
+     report? report-total report-passed? report-marks report-said report-text report-hash
+     report-coached report-hints report-rewinds report-seconds)
+    ((bight lesson-file) lessons)
+    ((bight lesson-measure) turns winding)
+    ((bight coach) make-coach coach-looks! coach-log coach-rules define-coach-rule)
     ((bight tap) run-tests)
+    ((bight saving) save! load-dive)
+    ((bight recording)
+     record! stop-recording! recording? replay
+     difference? difference-step difference-time difference-quantities)
+    ((bight frames) export-csv)
+    ((bight live) live! freeze! live?)
+    ((bight logbook)
+     log-dive! log-lesson! log-probe! logbook logbook-file
+     log-entry? log-entry-kind log-entry-when log-entry-trainee log-entry-what log-entry-score
+     log-entry-data)
     ((bight view) look status)
     ((bight picture) snapshot show)
     ((bight describe) describe)

@@ -24,6 +24,7 @@ listed ()
 listed src -name '*.[ch]'
 listed scheme -name '*.scm'
 listed worlds -name '*.scm'
+listed lessons -name '*.scm'
 listed tests '(' -path './law/*.[ch]' -o -path './unit/*.[ch]' -o -path './sc*/*.scm' -o -name '*.sh' ')'
 listed bench -name '*.[ch]'
 finish

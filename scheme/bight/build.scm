@@ -17,13 +17,27 @@
 
 (define origin (f64vector 0 0 0))
 
+;; Wider than any structure there is, and yet so that no call takes longer than a blink.
+
+(define-argument-type (metres value)
+  "a number of metres from 0.01 to 5000"
+  (if (and (real? value) (<= 0.01 value 5000)) (exact->inexact value) refused))
+
+(define-argument-type (radius-of-tube value)
+  "a radius from 0.0005 to 100 m"
+  (if (and (real? value) (<= 0.0005 value 100)) (exact->inexact value) refused))
+
 (define-argument-type (many value)
-  "a whole number from 1 to 1000"
-  (if (and (exact-integer? value) (<= 1 value 1000)) value refused))
+  "a whole number from 1 to 100"
+  (if (and (exact-integer? value) (<= 1 value 100)) value refused))
 
 (define-argument-type (side-count value)
-  "a whole number from 3 to 1000"
-  (if (and (exact-integer? value) (<= 3 value 1000)) value refused))
+  "a whole number from 4 to 100"
+  (if (and (exact-integer? value) (<= 4 value 100)) value refused))
+
+(define (check proc holds? . message)
+  (unless holds?
+    (apply bight-raise 'domain proc message)))
 
 (define (group name at heading members)
   ;; The list of the one group that MEMBERS, data of parts, make.
@@ -85,12 +99,14 @@
   (each-pair (lambda (a b i) (tube (numbered 'level level i) a b radius)) points))
 
 (define-verb (make-jacket #:key (name name 'jacket) (at point origin) (heading bearing 0)
-                          (depth positive 60) (spacing positive 12) (bays many 3)
-                          (leg-radius positive 0.6) (brace-radius positive 0.25)
-                          (batter non-negative 0) (top number 0))
+                          (depth metres 60) (spacing metres 12) (bays many 3)
+                          (leg-radius radius-of-tube 0.6) (brace-radius radius-of-tube 0.25)
+                          (batter (between 0 1) 0) (top (between -5000 1000) 0))
   "Return the parts of a jacket of four legs, SPACING metres apart at the surface and spreading by BATTER
 to every metre down, from TOP to DEPTH, with levels and X braces in BAYS bays: legs leg-a1 leg-a2 leg-b2
 leg-b1, clockwise from the north-west."
+  (check 'make-jacket (> top (- depth)) "a jacket reaches from its top down to its depth, not from ~a to ~a"
+         top (- depth))
   (let* ((levels (spread (+ bays 1) top (- depth)))
          (rings (map (lambda (z) (leg-at (/ spacing 2) batter z)) levels)))
     (group name at heading
@@ -105,7 +121,7 @@ leg-b1, clockwise from the north-west."
                         rings (cdr rings) (iota bays 1))))))
 
 (define-verb (make-pipeline #:key (name name 'pipeline) (at point origin) (heading bearing 0)
-                            (length positive 30) (radius positive 0.3) (span non-negative 0.8)
+                            (length metres 30) (radius radius-of-tube 0.3) (span (between 0 1000) 0.8)
                             (supports many 3))
   "Return the parts of a pipeline LENGTH metres long to the north and south, its lower side SPAN metres
 above the level of AT on SUPPORTS concrete blocks."
@@ -120,7 +136,7 @@ above the level of AT on SUPPORTS concrete blocks."
                           (iota supports 1)))))))
 
 (define-verb (make-wellhead #:key (name name 'wellhead) (at point origin) (heading bearing 0)
-                            (height positive 12) (riser positive 30))
+                            (height metres 12) (riser metres 30))
   "Return the parts of a wellhead standing on the level of AT: guide base with four posts, a blow-out
 preventer up to HEIGHT metres, a panel on its front, choke and kill hoses, and RISER metres of riser."
   (let ((top (+ 1 height)))
@@ -140,8 +156,8 @@ preventer up to HEIGHT metres, a panel on its front, choke and kill hoses, and R
 ;;; Harbours and ships.
 
 (define-verb (make-pier #:key (name name 'pier) (at point origin) (heading bearing 0)
-                        (depth positive 10) (rows many 2) (columns many 5) (spacing positive 4)
-                        (radius positive 0.3) (deck flag #t))
+                        (depth metres 10) (rows many 2) (columns many 5) (spacing metres 4)
+                        (radius radius-of-tube 0.3) (deck flag #t))
   "Return the parts of a pier: COLUMNS by ROWS piles SPACING metres apart, down to DEPTH, beams along the
 rows a metre above the water, and a DECK on them: piles pile-ROW-COLUMN."
   (let* ((xs (spread columns (* -1/2 spacing (- columns 1)) (* 1/2 spacing (- columns 1))))
@@ -174,7 +190,7 @@ rows a metre above the water, and a DECK on them: piles pile-ROW-COLUMN."
     (append sections (list (list 0 (* bow half) (- draught)) (list 0 half 1.5)))))
 
 (define-verb (make-hull #:key (name name 'ship) (at point origin) (heading bearing 0)
-                        (length positive 60) (beam positive 12) (draught positive 4))
+                        (length metres 60) (beam metres 12) (draught metres 4))
   "Return the parts of a ship's hull afloat, its bow to the north: the hull, bilge keels, rudder and
 propeller shaft, and an anchor chain from the bow."
   (let ((half (/ length 2)))
@@ -191,8 +207,8 @@ propeller shaft, and an anchor chain from the bow."
                  (tube 'chain (list 0 (+ half 0.3) 1) (list 0 (+ half 12) -15) 0.06)))))
 
 (define-verb (make-rigging #:key (name name 'rigging) (at point origin) (heading bearing 0)
-                           (masts many 2) (height positive 12) (spacing positive 10)
-                           (beam positive 6) (wire positive 0.01))
+                           (masts many 2) (height metres 12) (spacing metres 10)
+                           (beam metres 6) (wire radius-of-tube 0.01))
   "Return the parts of rigging that stands on the level of AT: MASTS masts in a row to the north, each
 with a yard and two shrouds to either side, and stays between their tops, of wire with radius WIRE."
   (let* ((ys (spread masts (* -1/2 spacing (- masts 1)) (* 1/2 spacing (- masts 1))))
@@ -220,7 +236,7 @@ with a yard and two shrouds to either side, and stays between their tops, of wir
                  ys (append (cdr ys) '()) (iota (max 0 (- masts 1)) 1))))))
 
 (define-verb (make-wreck #:key (name name 'wreck) (at point origin) (heading bearing 0)
-                         (length positive 30) (beam positive 7) (height positive 4)
+                         (length metres 30) (beam metres 7) (height metres 4)
                          (list-angle bearing 20))
   "Return the parts of a wreck on the level of AT, lying over by LIST-ANGLE degrees: sides and decks with
 an open hatch one may swim into, a deckhouse, masts and stays."
@@ -253,11 +269,13 @@ an open hatch one may swim into, a deckhouse, masts and stays."
 ;;; Farms, ice, tunnels.
 
 (define-verb (make-net-pen #:key (name name 'pen) (at point origin) (heading bearing 0)
-                           (radius positive 15) (depth positive 15) (sides side-count 16)
-                           (mesh positive 3))
+                           (radius metres 15) (depth metres 15) (sides side-count 16)
+                           (mesh metres 3))
   "Return the parts of a net pen afloat: a collar of RADIUS metres with SIDES sides, the net's own lines
 down to the sinker tube at DEPTH, level lines every MESH metres, and four bridles.  The cloth between the
 lines is not modelled."
+  (check 'make-net-pen (<= (/ depth mesh) 100)
+         "a net of ~a m has level lines at least ~a m apart, not ~a" depth (/ depth 100) mesh)
   (let* ((collar (around sides radius 0))
          (sinker (around sides radius (- depth)))
          (levels (map (lambda (i) (- (* mesh (+ i 1))))
@@ -280,10 +298,11 @@ lines is not modelled."
                  (iota 4))))))
 
 (define-verb (make-ice-hole #:key (name name 'ice) (at point origin) (heading bearing 0)
-                            (hole positive 1) (thickness positive 2) (extent positive 60)
+                            (hole metres 1) (thickness metres 2) (extent metres 60)
                             (keels many 3))
   "Return the parts of a sheet of ice, EXTENT metres wide and THICKNESS deep, with a square hole HOLE
 metres wide in its middle and KEELS keels under it."
+  (check 'make-ice-hole (< hole extent) "a hole in ice ~a m wide is less wide, not ~a" extent hole)
   (let* ((half (/ extent 2)) (rim (/ hole 2)) (side (- half rim)) (z (* -1/2 thickness)))
     (group name at heading
            (append
@@ -298,7 +317,7 @@ metres wide in its middle and KEELS keels under it."
                  (iota (+ keels 2)))))))
 
 (define-verb (make-tunnel #:key (name name 'tunnel) (at point origin) (heading bearing 0)
-                          (length positive 60) (width positive 3) (bend bearing 0) (bars flag #t))
+                          (length metres 60) (width metres 3) (bend bearing 0) (bars flag #t))
   "Return the parts of a square tunnel WIDTH metres wide that runs LENGTH metres to the north and, half
 way, turns by BEND degrees (at most 80 either way); with BARS a trash rack closes its far end but for a
 gap."

@@ -172,10 +172,16 @@ begins with FILE and the line."
        bight -                     run what comes on standard input
        bight test [PATH...] [--only RE] [--junit FILE]
                                    run scenario tests, print TAP; a PATH is a file or a folder
+       bight lessons [--trainee WHO]
+                                   list the lessons, with marks
+       bight lesson NAME|FILE [--trainee WHO] [--group G] [--level L] [--typed] [--fresh] [--quiet]
+                                   take a lesson, or go on with it; a FILE from outside is enclosed,
+                                   unless --trust; --pilot P shows it flown, --check proves it
        bight bench [NAME...] [-o DIR]
                                    measure run time against error; write tables and plots to DIR
        bight snapshot WORLD -o FILE.png [--view V] [--size WxH] [--paint P] [--run S]
                                    write a picture of a world, S seconds into a dive
+       bight replay FILE           do again what was recorded; exit 1 if it comes out otherwise
        bight --version | --help
 
 A script and the prompt know the whole language; `(use-modules (bight))' gives it to plain guile.
@@ -255,14 +261,25 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
       0)))
 
 
+;;; bight replay.
+
+(define (run-replay arguments)
+  (unless (= 1 (length arguments))
+    (bad-usage "replay: name one recording, as in bight replay FILE"))
+  (if ((from (bight recording) replay-file) (car arguments)) 0 1))
+
+
 ;;; Choosing the command.
 
 (define commands
   `(("-c" . ,run-expression)
     ("-" . ,(lambda (arguments) (run-input ignore arguments)))
     ("test" . ,run-tests)
+    ("lesson" . ,(lambda (arguments) ((from (bight lesson-command) lesson-command) arguments)))
+    ("lessons" . ,(lambda (arguments) ((from (bight lesson-command) lessons-command) arguments)))
     ("bench" . ,run-benches)
     ("snapshot" . ,take-snapshot)
+    ("replay" . ,run-replay)
     ("--version" . ,print-version)
     ("--help" . ,print-help)
     ("-h" . ,print-help)))

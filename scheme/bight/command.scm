@@ -176,10 +176,13 @@ Return the current at the surface, m/s."
 (alter! 'line #:cdn 1.4 #:model 'catenary).  All are changed, or, when one is refused, none.  Return
 PART."
   (let* ((engine (this-engine 'alter!))
-         (before (%save-dive engine)))
+         (before (and (not (%live? engine)) (%save-dive engine)))
+         (journal (%journal engine)))
     (with-exception-handler
      (lambda (e)
-       (%restore-dive! engine before)
+       (when before                     ; a live dive keeps those that went before
+         (%restore-dive! engine before)
+         (%set-journal! engine journal))
        (raise-exception e))
      (lambda ()
        (call-with-values (lambda () (part-to-alter part))

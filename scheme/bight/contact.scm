@@ -126,12 +126,9 @@ it touches nothing."
 
 (define (obstacle-index proc name)
   ;; The number of the obstacle called NAME.
-  (call-with-values (lambda () (find-part proc name))
-    (lambda (kind index)
-      (if (eq? kind 'obstacle)
-          index
-          (unknown-name proc "the obstacles of this dive" name
-                        (%names (this-engine proc) 'obstacle) "part")))))
+  (let ((names (%names (this-engine proc) 'obstacle)))
+    (or (list-index (lambda (other) (eq? name other)) names)
+        (unknown-name proc "this dive" name names "obstacle"))))
 
 (define (nearest proc part index object)
   (%clearance (this-engine proc) part index (if object (obstacle-index proc object) -1)))

@@ -10,6 +10,7 @@
   #:use-module (bight engine)
   #:use-module (bight errors)
   #:use-module ((bight files) #:select (engine-parts))
+  #:use-module ((bight past) #:select (new-past))
   #:use-module (bight record)
   #:use-module (bight verb)
   #:use-module (bight world)
@@ -28,15 +29,20 @@
             check-not-running
             dive-tasks set-dive-tasks!
             dive-watchers set-dive-watchers!
+            dive-past set-dive-past!
+            dive-recorder set-dive-recorder!
+            begin-dive
             type:dive))
 
 (define-record <dive>
-  (make-dive engine world tasks watchers)
+  (make-dive engine world tasks watchers past recorder)
   %dive-record?
   (engine engine-of)
   (world dive-world)
   (tasks dive-tasks set-dive-tasks!)
-  (watchers dive-watchers set-dive-watchers!))
+  (watchers dive-watchers set-dive-watchers!)
+  (past dive-past set-dive-past!)       ; (bight past), or #f: nothing is remembered
+  (recorder dive-recorder set-dive-recorder!)) ; (bight recording), or #f
 
 (define-verb (dive? (object any))
   "Return #t if OBJECT is a dive."
@@ -100,9 +106,13 @@
 current one and is returned."
   (check-not-running 'enter! (current-dive))
   (let* ((world (world-called 'enter! world))
-         (dive (make-dive (%make-dive (engine-parts 'enter! world)) world '() '())))
+         (dive (begin-dive (%make-dive (engine-parts 'enter! world)) world)))
     (current-dive dive)
     dive))
+
+(define (begin-dive engine world)
+  "Return a dive in WORLD, of which ENGINE is the handle."
+  (make-dive engine world '() '() (new-past engine '()) #f))
 
 (define (call-with-dive dive thunk)
   "Call THUNK with DIVE as the current dive, and return what it returns."
@@ -118,4 +128,6 @@ current one and is returned."
   (make-dive (%fork-dive (engine-of dive))
              (dive-world dive)
              (dive-tasks dive)
-             '()))
+             '()
+             (dive-past dive)
+             #f))

@@ -238,12 +238,20 @@ keywords or strings."
                 (loop (cdr rest) (car rest) d)
                 (loop (cdr rest) best distance)))))))
 
-(define names-listed 12)
+;; So much of a list that the hint behind it is not cut off at the end of a line.
+(define list-shown 60)
+
+(define (fit names room)
+  ;; As many of NAMES as take ROOM characters, at least the first.
+  (let loop ((rest names) (room room) (kept '()))
+    (let ((left (and (pair? rest) (- room 2 (string-length (word->string (car rest)))))))
+      (if (and left (or (null? kept) (>= left 0)))
+          (loop (cdr rest) left (cons (car rest) kept))
+          (reverse kept)))))
 
 (define (list-names names)
-  (if (> (length names) names-listed)
-      (string-append (words->string (take names names-listed)) ", …")
-      (words->string names)))
+  (let ((kept (fit names list-shown)))
+    (string-append (words->string kept) (if (= (length kept) (length names)) "" ", …"))))
 
 (define* (unknown-name proc what given candidates #:optional noun)
   "Raise a &bight-error of kind name from PROC: WHAT, such as \"a tether\", has no NOUN GIVEN; it has

@@ -216,7 +216,8 @@ out water and ground."
 
 (define (best-way)
   ;; kitty, sixel, symbols, or plain.
-  (let ((ask (and (watched?) (extension '(bight chafa) '%terminal-mode))))
+  (let ((ask (and (watched?) (not (member (getenv "TERM") '(#f "" "dumb")))
+                  (extension '(bight chafa) '%terminal-mode))))
     (or (and ask (extension '(bight render) '%draw) (ask)) 'plain)))
 
 (define (usual-cells)

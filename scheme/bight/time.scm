@@ -9,6 +9,7 @@
   #:use-module (bight dive)
   #:use-module (bight engine)
   #:use-module (bight errors)
+  #:use-module (bight past)
   #:use-module (bight pilot)
   #:use-module (bight progress)
   #:use-module (bight task)
@@ -18,13 +19,48 @@
 
 (define stretch 60)                     ; steps between looks at the clock
 
+(define (note-tasks! dive step)
+  ;; How the tasks stand after those of STEP have run.
+  (let ((past (dive-past dive)))
+    (when past
+      (set-dive-past! dive (past-with-tasks past (engine-of dive) step (tasks-state dive))))))
+
+(define (keep-moment! dive)
+  (let ((past (dive-past dive)))
+    (when past
+      (set-dive-past! dive (past-with-moment past (engine-of dive) (lambda () (tasks-state dive)))))))
+
+(define (step-and-tell! dive recorder)
+  (let ((engine (engine-of dive)))
+    (%step-dive! engine 1)
+    (when recorder (recorder 'step))
+    (unless (idle? dive)
+      (run-tasks! dive)
+      (note-tasks! dive (%dive-steps engine)))))
+
 (define (step-stretch! dive n)
-  (if (idle? dive)
-      (%step-dive! (engine-of dive) n)
-      (do ((i 0 (+ i 1)))
-          ((= i n))
-        (%step-dive! (engine-of dive) 1)
-        (run-tasks! dive))))
+  (let ((engine (engine-of dive)) (recorder (dive-recorder dive)))
+    (note-tasks! dive (+ 1 (%dive-steps engine)))
+    (if (or recorder (not (idle? dive)))
+        (do ((i 0 (+ i 1)))
+            ((= i n))
+          (step-and-tell! dive recorder))
+        (%step-dive! engine n))
+    (keep-moment! dive)
+    (when recorder (recorder 'pause))))
+
+(define (next-stretch dive left)
+  ;; How many of the LEFT steps to take before the next look: to the end of a second.
+  (min left (- stretch (modulo (%dive-steps (engine-of dive)) stretch))))
+
+(define (live-along! dive n)
+  ;; Of a live dive the steps come by themselves, and its tasks run as fast as they can.
+  (let* ((engine (engine-of dive)) (last (+ n (%dive-steps engine))))
+    (let loop ()
+      (when (< (%dive-steps engine) last)
+        (%step-dive! engine (if (idle? dive) (min stretch (- last (%dive-steps engine))) 1))
+        (run-tasks! dive)
+        (loop)))))
 
 (define (wait-steps proc n)
   ;; In a pilot's body: wait until N more steps are done, of the dive that is then his: maybe a fork.
@@ -41,14 +77,16 @@
   (let ((dive (this-dive proc)))
     (check-not-running proc dive)
     (parameterize ((running-dive dive))
-      (with-progress n
-        (lambda (report)
-          (let loop ((done 0))
-            (when (< done n)
-              (let ((k (min stretch (- n done))))
-                (step-stretch! dive k)
-                (report (+ done k))
-                (loop (+ done k))))))))))
+      (if (%live? (engine-of dive))
+          (live-along! dive n)
+          (with-progress n
+            (lambda (report)
+              (let loop ((done 0))
+                (when (< done n)
+                  (let ((k (next-stretch dive (- n done))))
+                    (step-stretch! dive k)
+                    (report (+ done k))
+                    (loop (+ done k)))))))))))
 
 (define-verb (now)
   "Return the time of the dive, s."

@@ -332,7 +332,7 @@ bt__free_way (const bt__free *t, bt_vec3 p, bt_vec3 *way, bt__count *count)
 double
 bt__string_length (const bt__taut_config *config, const bt__string *s, bt__count *count)
 {
-  bt__hold hold[512];
+  bt__corner hold[512];
   bt__holds list = { hold, 0, 512, 0 };
   bt__holds_find (config->scene, config->on, s->x, s->n, config->core, 0.05, &list, count);
   return bt__holds_length (&list, s->x, s->n);

@@ -43,11 +43,11 @@ share_past (const bt__haul_body *b, double member)
 typedef struct bend
 {
   uint32_t object, next; /* next: the hold after it */
-  double angle, radius, s;
+  double angle, radius, s, friction;
 } bend;
 
 static int
-is_one_bend (const bt__hold *a, const bt__hold *b, double width)
+is_one_bend (const bt__corner *a, const bt__corner *b, double width)
 {
   return a->object == b->object && ((a->radius > 0 && b->radius > 0) || b->s - a->s < width);
 }
@@ -55,7 +55,9 @@ is_one_bend (const bt__hold *a, const bt__hold *b, double width)
 static bend
 bend_from (const bt__holds *h, uint32_t i, double width)
 {
-  bend b = { .object = h->at[i].object, .radius = INFINITY, .s = h->at[i].s };
+  bend b = {
+    .object = h->at[i].object, .radius = INFINITY, .s = h->at[i].s, .friction = h->at[i].friction
+  };
   for (b.next = i; b.next < h->n; b.next++)
     {
       if (b.next > i && !is_one_bend (h->at + b.next - 1, h->at + b.next, width))
@@ -77,14 +79,14 @@ say (bt__prospect *p, bt__answer answer, bt__haul_reason reason, uint32_t object
 
 /* Where most of the friction is.  */
 static bend
-worst_bend (const bt__scene *scene, const bt__holds *h, double width)
+worst_bend (const bt__holds *h, double width)
 {
   bend worst = { .object = NOTHING };
   double most = -1;
   for (uint32_t i = 0; i < h->n;)
     {
       bend b = bend_from (h, i, width);
-      double grip = scene->object[b.object].friction * b.angle;
+      double grip = b.friction * b.angle;
       if (grip > most)
         {
           most = grip;
@@ -96,23 +98,23 @@ worst_bend (const bt__scene *scene, const bt__holds *h, double width)
 }
 
 bt__prospect
-bt__haul_prospect (const bt__scene *scene, const bt__holds *h, const bt__haul_body *body)
+bt__haul_prospect (const bt__holds *h, const bt__haul_body *body)
 {
-  bt__prospect p = { .object = NOTHING, .lock = bt__holds_lock (scene, h) };
+  bt__prospect p = { .object = NOTHING, .lock = bt__holds_lock (h) };
   double weight = fabs (body->weight), pull = body->winch;
   p.pull = pull / p.lock;
   p.speed = speed_at (body, p.pull - weight);
   say (&p, h->n == 0 && weight < SPARE_PULL ? BT__YES : BT__UNSURE, BT__HAUL_CLEAR, NOTHING, 0);
   if (fmax (body->least, weight) > p.pull)
     {
-      bend b = worst_bend (scene, h, 2 * body->radius);
+      bend b = worst_bend (h, 2 * body->radius);
       say (&p, BT__NO, BT__HAUL_LOCKED, b.object, b.s);
       return p;
     }
   for (uint32_t i = 0; i < h->n;)
     {
       bend b = bend_from (h, i, 2 * body->radius);
-      pull *= exp (-scene->object[b.object].friction * b.angle);
+      pull *= exp (-b.friction * b.angle);
       if (b.angle > LEAST_BEND && pull * share_past (body, b.radius) < weight + SPARE_PULL)
         say (&p, BT__UNSURE, BT__HAUL_HUNG, b.object, b.s); /* the last one is met first */
       i = b.next;
@@ -121,7 +123,7 @@ bt__haul_prospect (const bt__scene *scene, const bt__holds *h, const bt__haul_bo
 }
 
 void
-bt__haul_wedge (const bt__way *home, const bt__haul_body *body, bt__prospect *p)
+bt__haul_wedge (const bt__route *home, const bt__haul_body *body, bt__prospect *p)
 {
   if (p->reason == BT__HAUL_CLEAR && home->clearance < body->radius)
     say (p, BT__UNSURE, BT__HAUL_WEDGED, home->object, fmax (home->length - home->s, 0));
@@ -130,7 +132,7 @@ bt__haul_wedge (const bt__way *home, const bt__haul_body *body, bt__prospect *p)
 /* ---- Ways ---- */
 
 /* Push STRING out to WANT and measure it.  */
-static bt__way
+static bt__route
 push_out (bt__taut *taut, const bt__taut_config *config, double want, bt__string *string,
           bt__count *count)
 {
@@ -138,9 +140,9 @@ push_out (bt__taut *taut, const bt__taut_config *config, double want, bt__string
   wide.want = want;
   wide.margin = fmax (config->margin, want + 0.2);
   wide.mesh = fmin (config->mesh, want);
-  string->still = string->settled = 0;
+  bt__string_wake (string);
   bt__taut_relax (taut, &wide, string, PUSH_STEPS, count);
-  bt__way way = { string->length, 10 * want, NOTHING, 0 };
+  bt__route way = { string->length, 10 * want, NOTHING, 0 };
   double s = 0;
   for (uint32_t i = 0; i + 1 < string->n; i++)
     {
@@ -168,11 +170,11 @@ reverse (bt_vec3 *p, uint32_t n)
     }
 }
 
-bt__way
+bt__route
 bt__way_home (bt__taut *taut, const bt__taut_config *config, const bt__string *string, double want,
               bt__string *home, bt__count *count)
 {
-  bt__way none = { 0, 0, NOTHING, 0 };
+  bt__route none = { 0, 0, NOTHING, 0 };
   if (!bt__string_lay (home, string->x, string->n))
     return none;
   reverse (home->x, home->n);
@@ -192,7 +194,7 @@ lay_loop (const bt__string *string, const bt__string *free_way, bt__string *loop
   reverse (loop->x, string->n);
   memcpy (loop->x + string->n, free_way->x + 1, (free_way->n - 1) * sizeof *loop->x);
   loop->n = n;
-  loop->still = loop->settled = 0;
+  bt__string_wake (loop);
   loop->length = bt__length (loop->x, n);
   return 1;
 }

@@ -50,31 +50,30 @@ typedef struct bt__prospect
 } bt__prospect;
 
 /* Judge by the HOLDS of the string, its start at the winch.  */
-bt__prospect bt__haul_prospect (const bt__scene *scene, const bt__holds *holds,
-                                const bt__haul_body *body);
+bt__prospect bt__haul_prospect (const bt__holds *holds, const bt__haul_body *body);
 
 /* A way for a body: a string, how near it comes to anything and to what.  */
-typedef struct bt__way
+typedef struct bt__route
 {
   double length, clearance; /* m */
   uint32_t object;          /* its place in the scene; UINT32_MAX: nothing near */
   double s;                 /* m along the way, of the link that is nearest */
-} bt__way;
+} bt__route;
 
 /* Put into HOME the way back along STRING, from its end to its start, pushed out to WANT (m) from
    obstacles where there is room.  HOME has at least the room of STRING.  */
-bt__way bt__way_home (bt__taut *taut, const bt__taut_config *config, const bt__string *string,
-                      double want, bt__string *home, bt__count *count);
+bt__route bt__way_home (bt__taut *taut, const bt__taut_config *config, const bt__string *string,
+                        double want, bt__string *home, bt__count *count);
 
 /* If PROSPECT is not bad already and the way home is narrower than the body, make it wedged.  */
-void bt__haul_wedge (const bt__way *home, const bt__haul_body *body, bt__prospect *prospect);
+void bt__haul_wedge (const bt__route *home, const bt__haul_body *body, bt__prospect *prospect);
 
 /* What flying a loop would do, by the string alone.  */
 typedef struct bt__unwind
 {
   int needed;     /* 0: the string's class is already that of the free way */
   int feasible;   /* flown to its end, never longer than paid out, free at the end, wide enough */
-  bt__way way;    /* the loop */
+  bt__route way;  /* the loop */
   double longest; /* m: of the string on the way */
   double left;    /* m: of the string at the end */
 } bt__unwind;

@@ -49,7 +49,7 @@ helix (double radius, bt_vec3 axis, bt_vec3 along)
 }
 
 static void
-set_radius (const bt__obstacle *o, const bt__witness *w, bt_vec3 along, double core, bt__hold *h)
+set_radius (const bt__obstacle *o, const bt__witness *w, bt_vec3 along, double core, bt__corner *h)
 {
   const bt__capsule *c = &o->shape.capsule;
   h->radius = h->bend = 0;
@@ -87,14 +87,15 @@ bt__holds_find (const bt__scene *scene, const bt__switches *on, const bt_vec3 *p
           list->dropped++;
           continue;
         }
-      bt__hold *h = list->at + list->n++;
-      *h = (bt__hold){ .node = i,
+      bt__corner *h = list->at + list->n++;
+      *h = (bt__corner){ .node = i,
                        .object = near.object,
                        .triangle = near.triangle,
                        .angle = angle,
                        .s = s,
                        .point = near.w.point,
-                       .normal = near.w.normal };
+                       .normal = near.w.normal,
+                       .friction = scene->object[near.object].friction };
       bt_vec3 along = bt__add (bt__unit_or (u, u), bt__unit_or (v, v));
       set_radius (scene->object + near.object, &near.w, along, core, h);
     }
@@ -110,11 +111,11 @@ bt__holds_wrap (const bt__holds *list, uint32_t object)
 }
 
 double
-bt__holds_lock (const bt__scene *scene, const bt__holds *list)
+bt__holds_lock (const bt__holds *list)
 {
   double sum = 0;
   for (uint32_t i = 0; i < list->n; i++)
-    sum += scene->object[list->at[i].object].friction * list->at[i].angle;
+    sum += list->at[i].friction * list->at[i].angle;
   return exp (sum);
 }
 
@@ -127,7 +128,7 @@ bt__holds_length (const bt__holds *list, const bt_vec3 *p, uint32_t n)
   double length = bt__length (p, n);
   for (uint32_t i = 0; i < list->n; i++)
     {
-      const bt__hold *h = list->at + i;
+      const bt__corner *h = list->at + i;
       const bt_vec3 *x = p + h->node;
       double tangent = h->bend * tan (0.5 * h->angle);
       double half = 0.5 * fmin (bt__distance (x[-1], x[0]), bt__distance (x[0], x[1]));

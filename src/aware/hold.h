@@ -10,7 +10,7 @@
 #include "collide/scene.h"
 
 /* A node that bends at an obstacle.  */
-typedef struct bt__hold
+typedef struct bt__corner
 {
   uint32_t node, object; /* object: its place in the scene */
   uint32_t triangle;     /* its id, or BT__NO_TRIANGLE */
@@ -19,11 +19,12 @@ typedef struct bt__hold
   bt_vec3 point, normal; /* on the obstacle; unit, to the line */
   double radius;         /* m, of the round member there; 0 at an edge, a face, a triangle */
   double bend;           /* m, radius of the line's arc there; 0 where it has a corner */
-} bt__hold;
+  double friction;       /* Coulomb, the object's; NaN: the line's own, which the caller puts in */
+} bt__corner;
 
 typedef struct bt__holds
 {
-  bt__hold *at;
+  bt__corner *at;
   uint32_t n, room;
   uint32_t dropped; /* that found no room */
 } bt__holds;
@@ -38,7 +39,7 @@ double bt__holds_wrap (const bt__holds *list, uint32_t object);
 
 /* Return the product of exp (mu theta) over the holds: the ratio of pulls a rope of no weight
    bears before it slides.  */
-double bt__holds_lock (const bt__scene *scene, const bt__holds *list);
+double bt__holds_lock (const bt__holds *list);
 
 /* Return the length of the polyline with its corners at round members made arcs: each corner of
    angle t stands over an arc rho t by two tangents rho tan (t / 2).  Corners with links too short

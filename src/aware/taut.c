@@ -70,7 +70,7 @@ bt__string_lay (bt__string *s, const bt_vec3 *p, uint32_t n)
     return 0;
   memmove (s->x, p, n * sizeof *p);
   s->n = n;
-  s->still = s->settled = 0;
+  bt__string_wake (s);
   s->length = bt__length (s->x, n);
   return 1;
 }
@@ -148,7 +148,7 @@ bt__taut_step (bt__taut *t, const bt__taut_config *c, bt__string *s, bt_vec3 sta
   if (trail)
     s->x[s->n++] = end;
   if (lead || trail)
-    s->still = s->settled = 0;
+    bt__string_wake (s);
   bt__taut_relax (t, c, s, steps, count);
   return 1;
 }

@@ -29,7 +29,8 @@ typedef struct bt__string
   bt_vec3 x[];
 } bt__string;
 
-/* What a string is among, and how finely.  */
+/* What a string is among, and how finely.  A settled string is not looked at again until an end
+   moves: wake it when switches change.  */
 typedef struct bt__taut_config
 {
   const bt__scene *scene;
@@ -53,6 +54,13 @@ void bt__taut_free (bt__taut *taut); /* NULL is nothing */
 /* Lay STRING (its room is set) along the polyline P of N points, as it is.  Return 0 if it has no
    room for it.  */
 int bt__string_lay (bt__string *string, const bt_vec3 *p, uint32_t n);
+
+/* What it is among has changed: a settled string is to be looked at again.  */
+static inline void
+bt__string_wake (bt__string *string)
+{
+  string->still = string->settled = 0;
+}
 
 /* Shrink STRING by up to STEPS steps, until it gains nothing; return the steps taken.  */
 uint32_t bt__taut_relax (bt__taut *taut, const bt__taut_config *config, bt__string *string,

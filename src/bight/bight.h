@@ -5,8 +5,10 @@
 #ifndef BIGHT_BIGHT_H
 #define BIGHT_BIGHT_H
 
+#include <bight/aware.h>
 #include <bight/contact.h>
 #include <bight/dive.h>
+#include <bight/live.h>
 #include <bight/mesh.h>
 #include <bight/model.h>
 #include <bight/obstacle.h>

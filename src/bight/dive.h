@@ -44,8 +44,23 @@ double bt_dive_time_step (const bt_dive *dive); /* s */
 /* Add SECONDS of wished time to the dive's account and return the whole steps it now holds, which
    the caller takes; the remainder is carried.  0 <= SECONDS <= 1e9, else BT_ERR_DOMAIN.  */
 bt_status bt_dive_whole_steps (bt_dive *dive, double seconds, int64_t *steps, bt_error *error);
+/* Return the remainder, s, and set it.  It is no part of the state: how a time was asked for, in one
+   piece or in many, makes no other dive.  */
+double bt_dive_carried (const bt_dive *dive);
+void bt_dive_carry (bt_dive *dive, double seconds);
 
 /* ---- Checkpoints ---- */
+
+/* Return nonzero while the current of DIVE is a function (BT_CURRENT_FUNCTION): what the dive does is
+   then not in its state and its operations alone.  */
+int bt_dive_asks (const bt_dive *dive);
+
+/* Keep the N numbers ROWS, t x y z of each, as a track of DIVE, and return its number in *INDEX; the
+   same rows are kept once.  A state that follows a track can be restored only where its number
+   stands for it.  BT_ERR_FORMAT, BT_ERR_LIMIT.  */
+bt_status bt_dive_add_track (bt_dive *dive, const double *rows, int n, int *index, bt_error *error);
+/* Return how many numbers the I-th track of DIVE has, and where in *ROWS; 0 when there is none.  */
+int bt_dive_track (const bt_dive *dive, int i, const double **rows);
 
 size_t bt_dive_state_size (const bt_dive *dive); /* bytes */
 /* Copy the whole state to STATE, bt_dive_state_size bytes.  */
@@ -66,6 +81,7 @@ typedef enum bt_part
   BT_PART_OBSTACLE
 } bt_part;
 
+/* Return how many of PART there are.  */
 int bt_dive_count (const bt_dive *dive, bt_part part);
 /* Return the name of the I-th PART, or NULL.  */
 const char *bt_dive_name (const bt_dive *dive, bt_part part, int i);
@@ -203,9 +219,12 @@ typedef struct bt_profile
   uint64_t touches, contact_rounds, truncated;
   uint64_t span_solves, span_skips; /* of the thesis' response */
   uint64_t current_samples_skipped; /* shapes solved in still water */
+  uint64_t strings, charts, words; /* for questions about what a tether is doing */
   uint64_t operations, refused;
 } bt_profile;
 
+/* Write how the sea, vehicle I, tether I, the water at P are now.  BT_ERR_NAME when there is no such
+   part, BT_ERR_DOMAIN for a place that is not finite.  */
 void bt_dive_sea (const bt_dive *dive, bt_sea_view *view);
 bt_status bt_dive_vehicle (const bt_dive *dive, int i, bt_vehicle_view *view, bt_error *error);
 bt_status bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *error);
@@ -260,6 +279,7 @@ int bt_dive_events (const bt_dive *dive, int64_t first, bt_event *events);
  */
 const char *bt_event_name (bt_event_kind kind);
 
+/* Write the work done since DIVE began.  */
 void bt_dive_profile (const bt_dive *dive, bt_profile *profile);
 
 BT_END_DECLS

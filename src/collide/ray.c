@@ -13,14 +13,14 @@ typedef struct question
   uint32_t object;
   bt__entry best;
   int found;
-  bt__hit *out;
+  bt__ray_hit *out;
   bt__count *count;
 } question;
 
 static double
 take (question *q, const bt__entry *e, uint32_t slot)
 {
-  bt__hit *h = q->out;
+  bt__ray_hit *h = q->out;
   q->found = 1;
   h->range = e->range;
   h->normal = e->normal;
@@ -74,7 +74,7 @@ is_ray (const bt__ray *r)
 }
 
 int
-bt__scene_ray (const bt__scene *s, const bt__switches *on, const bt__ray *ray, bt__hit *out,
+bt__scene_ray (const bt__scene *s, const bt__switches *on, const bt__ray *ray, bt__ray_hit *out,
                bt__count *count)
 {
   question q = { .scene = s, .on = on, .ray = *ray, .out = out, .count = count };
@@ -100,7 +100,7 @@ bt__scene_ray (const bt__scene *s, const bt__switches *on, const bt__ray *ray, b
 
 int
 bt__ray_cast (const bt__scene *scene, const bt__switches *on, const bt__mover *mover,
-              uint32_t movers, const bt__ray *ray, bt__hit *out, bt__count *count)
+              uint32_t movers, const bt__ray *ray, bt__ray_hit *out, bt__count *count)
 {
   bt__ray left = *ray;
   int found = 0;
@@ -113,7 +113,7 @@ bt__ray_cast (const bt__scene *scene, const bt__switches *on, const bt__mover *m
     {
       bt__frame f = bt__motion_at (&mover[m].motion, mover[m].done);
       bt__ray local = { bt__to_local (&f, left.from), bt__into (&f, left.direction), left.range };
-      bt__hit hit;
+      bt__ray_hit hit;
       if (!bt__scene_ray (mover[m].body, mover[m].on, &local, &hit, count))
         continue;
       found = 1;

@@ -18,7 +18,7 @@ typedef struct bt__ray
   double range;            /* m: no farther than this; finite */
 } bt__ray;
 
-typedef struct bt__hit
+typedef struct bt__ray_hit
 {
   double range;          /* m from the start */
   bt_vec3 point, normal; /* normal: unit, of the surface, against the ray */
@@ -26,17 +26,17 @@ typedef struct bt__hit
   uint32_t object;       /* its place in that scene */
   uint32_t slot;         /* the triangle in the mesh's order, or BT__NO_TRIANGLE */
   uint32_t triangle;     /* its id, or BT__NO_TRIANGLE */
-} bt__hit;
+} bt__ray_hit;
 
 /* Return nonzero and *OUT, the first thing RAY meets in SCENE (NULL: nothing is there).  Ranges are
    good to 1e-12 of the largest length involved but for grazing rays: no point of the ray before the
    range is deeper in a solid than that.  A ray that is not finite meets nothing.  */
-int bt__scene_ray (const bt__scene *scene, const bt__switches *on, const bt__ray *ray, bt__hit *out,
+int bt__scene_ray (const bt__scene *scene, const bt__switches *on, const bt__ray *ray, bt__ray_hit *out,
                    bt__count *count);
 
 /* The same with movers, each where the share DONE of its motion brings it.  */
 int bt__ray_cast (const bt__scene *scene, const bt__switches *on, const bt__mover *mover,
-                  uint32_t movers, const bt__ray *ray, bt__hit *out, bt__count *count);
+                  uint32_t movers, const bt__ray *ray, bt__ray_hit *out, bt__count *count);
 
 /* Return nonzero and *OUT, the part with the shortest way out (its distance is minus that way), if
    POINT is more than DEPTH (m, 0 or more) below the surface of a solid: box, sphere, cylinder,

@@ -80,10 +80,11 @@ bt__line_work_forget (bt__line_work *w)
   bt__safe_forget (w->safe);
   for (int j = 0; j < w->n_max; j++)
     {
-      w->watch[j].clear = 1;
+      w->watch[j].clear = 1e9;
       w->watch[j].a = w->watch[j].b = bt__vec (INFINITY, 0, 0);
     }
   w->spare = 0;
+  w->still = 0;
 }
 
 /* ---- The parts of a step ---- */
@@ -264,7 +265,7 @@ step_far (bt__line_job *k, bt__dynamic_report *report, int *done, bt_error *erro
     return status;
   bt__dynamic_iterate (k->kernel, NULL, 0, NULL, report);
   k->X = bt__dynamic_proposal (k->kernel);
-  *done = bt__line_stays_far (k);
+  *done = isfinite (report->update) && bt__line_stays_far (k);
   if (!*done)
     return BT_OK;
   k->anchors->n = 0;

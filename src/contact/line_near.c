@@ -13,7 +13,9 @@
 
 #define AHEAD 1.2  /* of the present speed: how far a link may go in the step */
 #define WIDER 1.1  /* of what is needed: what is listed */
-#define FAR 3.0    /* m: how far a clear link looks, so as not to ask again soon */
+#define LOOK 0.5   /* m: how far a clear link looks, so as not to ask again soon, ... */
+#define FAR 10.0   /* ... and the whole line, ... */
+#define OFTEN 0.3  /* m: ... whenever it has gone so far and half of what was clear */
 #define CLOSE 1e-6 /* for rounding */
 
 /* What is left of the clearance measured last.  */
@@ -35,10 +37,10 @@ motion_of (const bt__mover *m)
 
 /* Measure the clearance of a link that was clear; return nonzero if it is more than NEED.  */
 static int
-is_clear (bt__line_job *k, const bt__link *link, bt__link_watch *s, double need)
+is_clear (bt__line_job *k, const bt__link *link, bt__link_watch *s, double need, double look)
 {
   bt__near nearest;
-  s->clear = fmax (FAR, 2 * need);
+  s->clear = fmax (look, 2 * need);
   if (bt__scene_nearest (k->scene, k->on, link, s->clear, &nearest, k->count))
     s->clear = nearest.w.distance;
   s->reach = s->clear;
@@ -60,7 +62,7 @@ list_static (bt__line_job *k, uint32_t j, double need, bt__nears *list)
     }
   s->a = link.a;
   s->b = link.b;
-  if (was_clear && is_clear (k, &link, s, need))
+  if (was_clear && is_clear (k, &link, s, need, LOOK))
     return;
   s->reach = WIDER * need;
   bt__scene_near (k->scene, k->on, &link, 0, s->reach, list, k->count);
@@ -109,6 +111,29 @@ list_link (bt__line_job *k, uint32_t j, double need)
 
 /* ---- All links ---- */
 
+/* Measure how clear the whole line is, unless it has hardly moved since that was done.  */
+static void
+look_far (bt__line_job *k)
+{
+  bt__line_work *w = k->w;
+  double spare = FAR;
+  if (w->still == k->links + 1
+      && bt__dynamic_stray (k->x, w->stood, k->links + 1) < 0.5 * w->spare + OFTEN)
+    return;
+  for (uint32_t j = 0; j < (uint32_t)k->links; j++)
+    {
+      bt__link link = bt__line_link (k->x, j);
+      bt__link_watch *s = w->watch + j;
+      is_clear (k, &link, s, 0, FAR);
+      s->a = link.a;
+      s->b = link.b;
+      spare = fmin (spare, s->clear);
+    }
+  w->spare = spare;
+  w->still = k->links + 1;
+  memcpy (w->stood, k->x, (size_t)w->still * sizeof *k->x);
+}
+
 /* Nonzero if a part that link J lists is within NEED.  */
 static int
 is_near (const bt__line_job *k, uint32_t j, double need)
@@ -140,7 +165,7 @@ int
 bt__line_watch (bt__line_job *k)
 {
   const bt_vec3 *v = bt__dynamic_v (k->d);
-  double touch = k->config->radius + k->margin, ends = move_of_ends (k), spare = INFINITY;
+  double touch = k->config->radius + k->margin, ends = move_of_ends (k);
   int any = 0;
   double before = bt__dot (v[0], v[0]);
   for (int j = 0; j < k->links; j++)
@@ -150,45 +175,31 @@ bt__line_watch (bt__line_job *k)
       double need = fmax (touch, AHEAD * fmin (move, BT__LINE_STRIDE) + k->core);
       list_link (k, (uint32_t)j, need);
       any |= is_near (k, (uint32_t)j, need);
-      spare = fmin (spare, k->w->watch[j].found ? 0 : k->w->watch[j].reach);
       before = after;
     }
-  k->w->spare = k->movers > 0 ? 0 : spare;
-  k->w->still = k->links + 1;
-  memcpy (k->w->stood, k->x, (size_t)k->w->still * sizeof *k->x);
+  if (!any && k->movers == 0)
+    look_far (k);
   return any;
 }
 
 /* ---- The line as a whole ---- */
 
-/* The square of the farthest any node of P is from where it was when SPARE was measured.  */
-static double
-farthest (const bt__line_job *k, const bt_vec3 *p)
-{
-  const bt_vec3 *q = k->w->stood;
-  double most[2] = { 0, 0 };
-  for (int i = 0; i <= k->links; i++)
-    {
-      bt_vec3 d = bt__sub (p[i], q[i]);
-      double square = bt__dot (d, d);
-      most[i & 1] = most[i & 1] > square ? most[i & 1] : square;
-    }
-  return fmax (most[0], most[1]);
-}
-
+/* What a link needs is no more than what the stride does.  */
 int
 bt__line_is_far (const bt__line_job *k)
 {
-  double spare = (1 - CLOSE) * k->w->spare - AHEAD * BT__LINE_STRIDE - k->core;
-  return k->movers == 0 && k->w->still == k->links + 1 && spare > k->config->radius + k->margin
-         && farthest (k, k->x) < spare * spare;
+  double need = fmax (k->config->radius + k->margin, AHEAD * BT__LINE_STRIDE + k->core);
+  double spare = (1 - CLOSE) * k->w->spare - need;
+  return k->movers == 0 && k->w->still == k->links + 1 && spare > 0
+         && bt__dynamic_stray (k->x, k->w->stood, k->links + 1) < spare;
 }
 
+/* NaN is not far.  */
 int
 bt__line_stays_far (const bt__line_job *k)
 {
   double spare = (1 - CLOSE) * k->w->spare - k->core;
-  return farthest (k, k->X) < spare * spare;
+  return bt__dynamic_stray (k->X, k->w->stood, k->links + 1) < spare;
 }
 
 static void

@@ -17,10 +17,25 @@ bt__to_handle (SCM object)
   return (bt__handle *)SCM_SMOB_DATA (object);
 }
 
+/* Bring what one asks of a live dive up to what it has published.  */
+static void
+catch_up (bt__handle *handle)
+{
+  uint64_t edition = bt_live_edition (handle->live);
+  bt_error error;
+  if (edition == handle->edition)
+    return;
+  bt__check ("live!", bt_live_read (handle->live, handle->dive, &error), &error);
+  handle->edition = edition;
+}
+
 bt_dive *
 bt__to_dive (SCM object)
 {
-  return bt__to_handle (object)->dive;
+  bt__handle *handle = bt__to_handle (object);
+  if (handle->live)
+    catch_up (handle);
+  return handle->dive;
 }
 
 bt_dive *
@@ -30,7 +45,7 @@ bt__to_idle_dive (const char *who, SCM object)
   bt_error error = { BT_ERR_DEF, "the procedure of a current cannot change the dive that asks it" };
   if (handle->asking)
     bt__raise (who, &error);
-  return handle->dive;
+  return bt__to_dive (object);
 }
 
 /* The collector scans the handle, and so finds its procedure: a mark function of our own would run
@@ -42,6 +57,11 @@ bt__new_handle (SCM function)
   handle->dive = NULL;
   handle->function = function;
   handle->asking = 0;
+  handle->journal = SCM_EOL;
+  handle->serial = 0;
+  handle->live = NULL;
+  handle->flown = NULL;
+  handle->edition = 0;
   return handle;
 }
 
@@ -55,7 +75,10 @@ bt__from_handle (bt__handle *handle)
 static size_t
 free_dive (SCM object)
 {
-  bt_dive_free (((bt__handle *)SCM_SMOB_DATA (object))->dive);
+  bt__handle *handle = (bt__handle *)SCM_SMOB_DATA (object);
+  bt_live_stop (handle->live, NULL);
+  bt_dive_free (handle->flown);
+  bt_dive_free (handle->dive);
   return 0;
 }
 
@@ -82,12 +105,31 @@ fork_dive (SCM object)
   bt__handle *origin = bt__to_handle (object), *copy = bt__new_handle (origin->function);
   int asks = scm_is_true (scm_procedure_p (origin->function));
   scm_run_finalizers (); /* forks come and go by the thousand */
-  bt__check ("what-if", bt_dive_fork (origin->dive, &copy->dive, &error), &error);
+  bt__check ("what-if", bt_dive_fork (bt__to_dive (object), &copy->dive, &error), &error);
+  copy->journal = origin->journal;
+  copy->serial = origin->serial;
   bt_dive_set_current_function (copy->dive, asks ? bt__call_current : NULL, copy);
   return bt__from_handle (copy);
 }
 
 /* ---- Time ---- */
+
+/* Of a live dive the steps come by themselves.  */
+static SCM
+wait_for_steps (SCM object, int64_t n)
+{
+  bt_live *live = bt__to_handle (object)->live;
+  int64_t last = bt_live_steps (live) + n;
+  bt_error error;
+  do
+    {
+      bt__check ("run", bt_live_status (live, &error), &error);
+      SCM_TICK;
+    }
+  while (bt_live_wait (live, last, 0.02) < last);
+  scm_remember_upto_here_1 (object);
+  return scm_from_int64 (n);
+}
 
 /* SCM_TICK between the steps lets ^C and the collector in.  */
 static SCM
@@ -96,6 +138,8 @@ step_dive (SCM object, SCM count)
   bt_dive *dive = bt__to_idle_dive ("run", object);
   int64_t n = scm_to_int64 (count);
   bt_error error;
+  if (bt__to_handle (object)->live)
+    return wait_for_steps (object, n);
   scm_run_finalizers ();
   for (int64_t i = 0; i < n; i++)
     {
@@ -116,6 +160,19 @@ whole_steps (SCM object, SCM seconds)
                                   &error),
              &error);
   return scm_from_int64 (steps);
+}
+
+static SCM
+carried (SCM object)
+{
+  return scm_from_double (bt_dive_carried (bt__to_dive (object)));
+}
+
+static SCM
+carry (SCM object, SCM seconds)
+{
+  bt_dive_carry (bt__to_dive (object), scm_to_double (seconds));
+  return SCM_UNSPECIFIED;
 }
 
 static SCM
@@ -151,7 +208,10 @@ static SCM
 restore_dive (SCM object, SCM bytes)
 {
   bt_error error;
+  bt_error live = { BT_ERR_DEF, "a live dive does not go back in time; say (freeze!) first" };
   SCM_ASSERT_TYPE (scm_is_bytevector (bytes), bytes, SCM_ARG2, "restore!", "bytevector");
+  if (bt__to_handle (object)->live)
+    bt__raise ("restore!", &live);
   bt__check ("restore!",
              bt_dive_restore (bt__to_idle_dive ("restore!", object),
                               SCM_BYTEVECTOR_CONTENTS (bytes), SCM_BYTEVECTOR_LENGTH (bytes),
@@ -175,6 +235,9 @@ bt__define_dives (void)
     { "%step-dive!", 2, 0, (scm_t_subr)step_dive, "Advance DIVE by COUNT steps." },
     { "%whole-steps!", 2, 0, (scm_t_subr)whole_steps,
       "Add SECONDS to the time asked of DIVE and return the whole steps it holds." },
+    { "%carried", 1, 0, (scm_t_subr)carried,
+      "Return how much of the time asked of DIVE is not yet stepped, s." },
+    { "%carry!", 2, 0, (scm_t_subr)carry, "Let that be SECONDS." },
     { "%dive-time", 1, 0, (scm_t_subr)dive_time, "Return the time of DIVE, s." },
     { "%dive-steps", 1, 0, (scm_t_subr)dive_steps, "Return the steps DIVE has taken." },
     { "%dive-time-step", 1, 0, (scm_t_subr)dive_time_step, "Return the time step of DIVE, s." },

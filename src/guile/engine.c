@@ -48,6 +48,8 @@ bight_guile_init (void)
   bt__define_shapes ();
   bt__define_dives ();
   bt__define_operations ();
+  bt__define_times ();
+  bt__define_live ();
   bt__define_questions ();
   bt__define_contacts ();
   bt__define_outlines ();

@@ -28,6 +28,8 @@ void bt__define_parts (void);
 void bt__define_shapes (void);
 void bt__define_dives (void);
 void bt__define_operations (void);
+void bt__define_times (void);
+void bt__define_live (void);
 void bt__define_questions (void);
 void bt__define_contacts (void);
 void bt__define_outlines (void);
@@ -38,17 +40,25 @@ void bt__raise (const char *who, const bt_error *error) SCM_NORETURN;
 /* Raise ERROR unless STATUS is BT_OK.  */
 void bt__check (const char *who, bt_status status, const bt_error *error);
 
-/* A dive and the Scheme procedure its current may ask.  */
+/* A dive, the Scheme procedure its current may ask, and what was done to it.  */
 typedef struct bt__handle
 {
-  bt_dive *dive;
-  SCM function; /* or #f */
-  int asking;   /* nonzero while the procedure runs, in the middle of a step or an operation */
+  bt_dive *dive;    /* while it is live, a copy to ask, no older than the last question */
+  SCM function;     /* or #f */
+  int asking;       /* nonzero while the procedure runs, in the middle of a step or an operation */
+  SCM journal;      /* the operations that were done, the last first, as `%journal' has them */
+  int64_t serial;   /* of the last one; never the same twice */
+  bt_live *live;    /* or NULL */
+  bt_dive *flown;   /* the dive itself while it is live: the thread's */
+  uint64_t edition; /* of what DIVE is a copy of */
 } bt__handle;
 
 bt_dive *bt__to_dive (SCM object);
 /* The same, but raise `def' while its current is being asked: it is not to be changed then.  */
 bt_dive *bt__to_idle_dive (const char *who, SCM object);
+/* Do OP on the dive of HANDLE, live or not, on behalf of WHO, and note it in the journal.  */
+void bt__operate (const char *who, bt__handle *handle, bt_op op, int subject, const double *args,
+                  int n);
 /* Make a handle without a dive yet, and the Scheme object of one that has it.  */
 bt__handle *bt__new_handle (SCM function);
 SCM bt__from_handle (bt__handle *handle);

@@ -34,19 +34,57 @@ op_of_verb (SCM verb)
   return to_op (name);
 }
 
+/* What was done, as `%journal' has it.  */
+static SCM
+journal_entry (int64_t serial, int64_t step, bt_op op, int subject, const double *args, int n)
+{
+  SCM numbers = scm_make_f64vector (scm_from_int (n), scm_from_double (0));
+  SCM entry = scm_c_make_vector (5, SCM_BOOL_F);
+  if (n > 0)
+    memcpy (SCM_BYTEVECTOR_CONTENTS (numbers), args, sizeof *args * (size_t)n);
+  scm_c_vector_set_x (entry, 0, scm_from_int64 (serial));
+  scm_c_vector_set_x (entry, 1, scm_from_int64 (step));
+  scm_c_vector_set_x (entry, 2, scm_from_utf8_symbol (bt_op_describe (op)->name));
+  scm_c_vector_set_x (entry, 3, scm_from_int (subject));
+  scm_c_vector_set_x (entry, 4, numbers);
+  return entry;
+}
+
+/* The thread of a live dive has its own tracks; what it publishes follows them by number.  */
+static bt_status
+operate_live (bt__handle *handle, bt_op op, int subject, const double *args, int n, int64_t *step,
+              bt_error *error)
+{
+  bt_status status = bt_live_do (handle->live, op, subject, args, n, step, error);
+  int index;
+  if (status == BT_OK && op == BT_OP_FOLLOW)
+    status = bt_dive_add_track (handle->dive, args, n, &index, error);
+  return status;
+}
+
+void
+bt__operate (const char *who, bt__handle *handle, bt_op op, int subject, const double *args, int n)
+{
+  bt_error error;
+  int64_t step = bt_dive_steps (handle->dive);
+  bt_status status = handle->live ? operate_live (handle, op, subject, args, n, &step, &error)
+                                  : bt_dive_do (handle->dive, op, subject, args, n, &error);
+  bt__check (who, status, &error);
+  handle->journal
+      = scm_cons (journal_entry (++handle->serial, step, op, subject, args, n), handle->journal);
+}
+
 static SCM
 operate (SCM object, SCM verb, SCM caller, SCM subject, SCM args)
 {
   char who[64];
   size_t n = scm_c_array_length (args);
   const double *numbers = (const double *)SCM_BYTEVECTOR_CONTENTS (args);
-  bt_error error;
-  bt_status status;
   symbol_name (caller, who, sizeof who);
-  status = bt_dive_do (bt__to_idle_dive (who, object), op_of_verb (verb), scm_to_int (subject),
-                       numbers, (int)n, &error);
+  bt__to_idle_dive (who, object);
+  bt__operate (who, bt__to_handle (object), op_of_verb (verb), scm_to_int (subject), numbers,
+               (int)n);
   scm_remember_upto_here_2 (object, args);
-  bt__check (who, status, &error);
   return SCM_UNSPECIFIED;
 }
 
@@ -94,16 +132,17 @@ set_current (SCM object, SCM list)
   bt_current current = bt__to_current (who, list, &function);
   double args[BT_CURRENT_ARGS];
   bt_error error;
+  bt_error live = { BT_ERR_UNSUPPORTED, "the current of a live dive cannot be a procedure: the "
+                                        "thread that steps it never enters Scheme" };
   bt__to_idle_dive (who, object);
   bt__check (who, bt_current_check (&current, &error), &error);
+  if (handle->live && current.kind == BT_CURRENT_FUNCTION)
+    bt__raise (who, &live);
   scm_dynwind_begin (0);
   scm_dynwind_unwind_handler (take_back, &c, SCM_F_WIND_EXPLICITLY);
   ask_function (c.handle, function);
   ask_once (c.handle, &current);
-  bt__check (
-      who,
-      bt_dive_do (c.handle->dive, BT_OP_CURRENT, 0, args, bt_current_pack (&current, args), &error),
-      &error);
+  bt__operate (who, handle, BT_OP_CURRENT, 0, args, bt_current_pack (&current, args));
   c.complete = 1;
   scm_dynwind_end ();
   return SCM_UNSPECIFIED;
@@ -130,20 +169,20 @@ static SCM
 alter (SCM object, SCM part, SCM subject, SCM field_name, SCM value)
 {
   static const char *const who = "alter!";
-  bt_dive *dive = bt__to_idle_dive (who, object);
   const bt_head *head = bt__to_head (who, part);
   bt_part kind = head->obstacle >= 0 ? BT_PART_OBSTACLE : bt__to_part (who, part);
   char *name = scm_to_utf8_string (scm_symbol_to_string (field_name));
   const bt_field *field = bt_field_find (head, name);
   bt_error error = { BT_ERR_NAME, "there is no such field" };
   double args[3];
+  bt__to_idle_dive (who, object);
   free (name);
   if (!field)
     bt__raise (who, &error);
   args[0] = kind;
   args[1] = (double)(field - head->fields);
   args[2] = field_value (who, field, value);
-  bt__check (who, bt_dive_do (dive, BT_OP_ALTER, scm_to_int (subject), args, 3, &error), &error);
+  bt__operate (who, bt__to_handle (object), BT_OP_ALTER, scm_to_int (subject), args, 3);
   return SCM_UNSPECIFIED;
 }
 

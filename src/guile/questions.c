@@ -321,6 +321,9 @@ profile (SCM object)
   SCM list = SCM_EOL;
   bt_dive_profile (bt__to_dive (object), &p);
   list = with ("refused", scm_from_uint64 (p.refused), list);
+  list = with ("words", scm_from_uint64 (p.words), list);
+  list = with ("charts", scm_from_uint64 (p.charts), list);
+  list = with ("strings", scm_from_uint64 (p.strings), list);
   list = with ("operations", scm_from_uint64 (p.operations), list);
   list = with ("span-skips", scm_from_uint64 (p.span_skips), list);
   list = with ("span-solves", scm_from_uint64 (p.span_solves), list);

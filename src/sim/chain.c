@@ -208,6 +208,8 @@ bt__carry_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, b
   bt_status status;
   if (is_same (before.a, ends->a) && is_same (before.b, ends->b))
     return BT_OK;
+  if (bt__has_obstacles (dive))
+    return bt__drag_chain (dive, state, i, ends, error);
   if (tether->parted)
     {
       shift_part (bt__dive_chain (dive, state, i, 0), before.a, ends->a);
@@ -217,8 +219,6 @@ bt__carry_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, b
       tether->quiet = 0;
       return BT_OK;
     }
-  if (bt__has_obstacles (dive))
-    return bt__drag_chain (dive, state, i, ends, error);
   bt__still_chain (dive, state, i);
   status = rest_shape (dive, state, i, ends, error);
   return status == BT_OK ? bt__lay_chain (dive, state, i, ends, error) : status;

@@ -11,8 +11,7 @@
 #include "world/hull.h"
 #include "world/obstacles.h"
 
-/* How near a hull may come, and how often it slides in a step.  */
-#define GAP 1e-3 /* m */
+/* How often it slides in a step.  */
 enum
 {
   SLIDES = 3
@@ -49,7 +48,7 @@ static double
 sweep (const passage *p, bt__frame *frame, const bt__frame *to, bt__stop *stop)
 {
   bt__motion motion = bt__motion_between (frame, to);
-  double share = bt__body_sweep (&p->hull.body, &motion, GAP, p->around.scene, p->around.on,
+  double share = bt__body_sweep (&p->hull.body, &motion, BT__HULL_GAP, p->around.scene, p->around.on,
                                  p->around.mover, p->around.movers, stop, &p->dive->shore.count);
   *frame = share < 1 ? bt__motion_at (&motion, share) : *to;
   if (share < 1)

@@ -24,6 +24,14 @@ enum
 
 /* ---- Corners ---- */
 
+/* LINK as seen from MOVER where its motion ends.  */
+static bt__link
+to_mover (const bt__mover *mover, const bt__link *link)
+{
+  bt__frame frame = bt__motion_at (&mover->motion, 1);
+  return (bt__link){ bt__to_local (&frame, link->a), bt__to_local (&frame, link->b) };
+}
+
 /* The distance of LINK to the nearest of what stands around, at most CAP.  */
 static double
 clearance (bt_dive *dive, const bt__surroundings *around, const bt__link *link, double cap,
@@ -35,8 +43,7 @@ clearance (bt_dive *dive, const bt__surroundings *around, const bt__link *link, 
   for (uint32_t k = 0; k < around->movers; k++)
     {
       const bt__mover *mover = &around->mover[k];
-      bt__link there = { bt__to_local (&mover->motion.from, link->a),
-                         bt__to_local (&mover->motion.from, link->b) };
+      bt__link there = to_mover (mover, link);
       if (bt__scene_nearest (mover->body, mover->on, &there, cap, near, &dive->shore.count))
         cap = near->w.distance;
     }
@@ -53,6 +60,31 @@ is_clear (bt_dive *dive, const bt__surroundings *around, double core, bt_vec3 a,
   bt__witness w;
   bt__pair_point (b, &link, &w);
   return clearance (dive, around, &link, w.distance + 2 * core, &near) >= w.distance + 1.1 * core;
+}
+
+int
+bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n)
+{
+  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  bt__surroundings around = bt__surround (dive, state, BT_PART_TETHER, i);
+  double core = bt__core (bt__dive_tether (dive, state, i)->props.diameter);
+  double length = bt__dynamic_length (chain), s = 0;
+  int64_t j = 0;
+  for (int k = 0; k < n; k++)
+    {
+      bt__link link = { dive->polyline[k], dive->polyline[k + 1] };
+      double off = 0;
+      bt__near near;
+      for (; j <= chain->n && s <= length * (k + 1) / n; s += bt__dynamic_rest (chain)[j++])
+        {
+          bt__witness w;
+          bt__pair_point (bt__dynamic_x (chain)[j], &link, &w);
+          off = fmax (off, w.distance);
+        }
+      if (clearance (dive, &around, &link, off + 2 * core, &near) < off + 1.1 * core)
+        return 0;
+    }
+  return 1;
 }
 
 /* Leave out of the N corners P what is not needed; return how many are left.  */
@@ -97,6 +129,24 @@ lay_corners (bt_dive *dive, bt__state *state, int i, const bt__ends *ends)
   return n;
 }
 
+static const char *
+name_near (const bt_dive *dive, const bt__surroundings *around, const bt__link *link, double cap)
+{
+  const bt_model *model = dive->model;
+  bt__count count = { 0 };
+  bt__near near;
+  if (around->scene && bt__scene_nearest (around->scene, around->on, link, cap, &near, &count))
+    return model->obstacles[around->scene->object[near.object].id].name;
+  for (uint32_t k = 0; k < around->movers; k++)
+    {
+      const bt__mover *mover = &around->mover[k];
+      bt__link there = to_mover (mover, link);
+      if (bt__scene_nearest (mover->body, mover->on, &there, cap, &near, &count))
+        return model->obstacles[model->carried[k].obstacle].name;
+    }
+  return "";
+}
+
 static bt_status
 check_way (bt_dive *dive, const bt__surroundings *around, int i, int n, bt_error *error)
 {
@@ -107,10 +157,10 @@ check_way (bt_dive *dive, const bt__surroundings *around, int i, int n, bt_error
     {
       bt__link link = { dive->polyline[k], dive->polyline[k + 1] };
       if (clearance (dive, around, &link, radius, &near) < radius)
-        return bt__fail (error, BT_ERR_DEF,
-                         "tether `%s' cannot be laid straight to (%g %g %g): an obstacle is in "
-                         "the way",
-                         def->name, link.b.x, link.b.y, link.b.z);
+        return bt__fail (error, BT_ERR_DOMAIN,
+                         "tether `%s' cannot be laid straight to (%g %g %g): `%s' is in the way",
+                         def->name, link.b.x, link.b.y, link.b.z,
+                         name_near (dive, around, &link, radius));
     }
   return BT_OK;
 }
@@ -191,6 +241,32 @@ pin_ends (bt_dive *dive, bt__state *state, int i, int how)
     }
 }
 
+/* Take what the ends of tether I are pinned by from KEPT, or with TAKE zero put it there.  */
+static void
+keep_pins (bt_dive *dive, int i, bt__pin kept[2], int take)
+{
+  for (int k = 0; k < 2; k++)
+    {
+      int vehicle = dive->model->ends[i][k].vehicle;
+      if (vehicle >= 0 && take)
+        dive->shore.pin[vehicle] = kept[k];
+      else if (vehicle >= 0)
+        kept[k] = dive->shore.pin[vehicle];
+    }
+}
+
+/* The part of a parted line that hangs from the far end.  */
+static bt_status
+step_far (bt_dive *dive, bt__state *state, int i, bt__dynamic_input input,
+          bt__dynamic_report *report, bt_error *error)
+{
+  bt__dynamic_lump lumps[BT_LUMPS_MAX];
+  double length = bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
+  bt__fasten (dive, i, 0, length, &input, lumps);
+  input.end[0] = (bt__dynamic_end){ .free = 1 };
+  return bt__step_among (dive, state, i, 1, &input, report, error);
+}
+
 static bt_status
 step_to (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt__dynamic_report *report,
          bt_error *error)
@@ -198,21 +274,40 @@ step_to (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt__dynam
   bt_water water = bt__dive_water (dive, state);
   bt__dynamic_lump lumps[BT_LUMPS_MAX];
   bt__dynamic_input input = bt__chain_input (dive, state, i, &water, ends);
-  bt__fasten (dive, i, 0, INFINITY, &input, lumps);
-  return bt__step_among (dive, state, i, 0, &input, report, error);
+  bt__dynamic_report far = { 0 };
+  double from = 0;
+  bt_status status = BT_OK;
+  if (bt__dive_tether (dive, state, i)->parted)
+    {
+      from = bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
+      status = step_far (dive, state, i, input, &far, error);
+      input.end[1] = (bt__dynamic_end){ .free = 1 };
+    }
+  bt__fasten (dive, i, from, INFINITY, &input, lumps);
+  if (status == BT_OK)
+    status = bt__step_among (dive, state, i, 0, &input, report, error);
+  report->speed = fmax (report->speed, far.speed);
+  return status;
 }
 
 static bt_status
 fall (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt__pin kept[2];
   bt__dynamic_report report = { .speed = INFINITY };
   bt_status status = BT_OK;
   int steps = (int)(FALL / BT__TIME_STEP);
+  keep_pins (dive, i, kept, 0);
   pin_ends (dive, state, i, BT__PIN_HARD);
   for (int k = 0; status == BT_OK && k < steps && report.speed > AT_REST; k++)
     status = step_to (dive, state, i, ends, &report, error);
-  pin_ends (dive, state, i, BT__PIN_OFF);
-  bt__dynamic_still (bt__dive_chain (dive, state, i, 0));
+  keep_pins (dive, i, kept, 1);
+  for (int part = 0; part <= (tether->parted != 0); part++)
+    bt__dynamic_still (bt__dive_chain (dive, state, i, part));
+  tether->shape.a = ends->a;
+  tether->shape.b = ends->b;
+  tether->quiet = 0;
   return status;
 }
 
@@ -256,7 +351,9 @@ bt__drag_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
   bt__ends at = { tether->shape.a, tether->shape.b }, last = at;
   bt__dynamic_report report;
   bt_status status = BT_OK;
+  bt__pin kept[2];
   int idle = 0;
+  keep_pins (dive, i, kept, 0);
   for (int k = 0; k < 2; k++)
     bt__bring_end (dive, state, i, k, k == 0 ? at.a : at.b);
   pin_ends (dive, state, i, BT__PIN_SOFT);
@@ -271,5 +368,6 @@ bt__drag_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
       idle = bt__distance (at.a, last.a) + bt__distance (at.b, last.b) < DRAG_LEAST ? idle + 1 : 0;
       last = at;
     }
+  keep_pins (dive, i, kept, 1);
   return status == BT_OK ? fall (dive, state, i, &at, error) : status;
 }

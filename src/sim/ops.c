@@ -134,16 +134,52 @@ wake_lines (const bt__call *c)
     }
 }
 
+/* Among obstacles a vehicle comes as far as its hull does, and no operation but `lay' goes round
+   them.  */
+static void
+place_among (const bt__call *c, const op *o, int round)
+{
+  bt__rest_movers (c->dive, c->state);
+  if (o == &ops[BT_OP_LAY])
+    bt__unpin_vehicles (c->dive, c->state);
+  else
+    bt__pin_vehicles (c->dive, c->state, round);
+}
+
+/* Apply O to a copy; ROUND tries at it did not fit together with the obstacles.  */
 static bt_status
-apply (bt_dive *dive, const op *o, int subject, const double *args, int n, bt_error *error)
+apply (bt_dive *dive, const op *o, int round, int subject, const double *args, int n,
+       bt_error *error)
 {
   bt__call c = { dive, bt__dive_begin (dive), subject, args, n, error };
   bt_status status = o->apply (&c);
+  if (status != BT_OK)
+    return status;
   if (bt__has_obstacles (dive))
-    bt__rest_movers (dive, c.state);
+    place_among (&c, o, round);
   if (o->info.subject == BT_PART_VEHICLE)
     wake_lines (&c);
-  return status == BT_OK ? bt__resolve_tethers (dive, c.state, 0, error) : status;
+  return bt__resolve_tethers (dive, c.state, 0, error);
+}
+
+/* A track is added once; and what begins to follow one has not moved yet.  */
+static int
+fits (bt_dive *dive, const op *o)
+{
+  return !bt__has_obstacles (dive) || o == &ops[BT_OP_FOLLOW]
+         || bt__vehicles_agree (dive, dive->next);
+}
+
+static bt_status
+apply_until_it_fits (bt_dive *dive, const op *o, int subject, const double *args, int n,
+                     bt_error *error)
+{
+  bt_status status = apply (dive, o, 0, subject, args, n, error);
+  for (int round = 1; status == BT_OK && round <= BT__TRIES && !fits (dive, o); round++)
+    status = o == &ops[BT_OP_LAY]
+                 ? bt__fail (error, BT_ERR_DOMAIN, "the tether cannot be laid to there")
+                 : apply (dive, o, round, subject, args, n, error);
+  return status;
 }
 
 static bt_status
@@ -154,7 +190,7 @@ try_op (bt_dive *dive, bt_op which, int subject, const double *args, int n, bt_e
   if (!o)
     return bt__fail (error, BT_ERR_NAME, "there is no operation number %d", (int)which);
   status = check_call (dive, o, subject, args, n, error);
-  return status == BT_OK ? apply (dive, o, subject, args, n, error) : status;
+  return status == BT_OK ? apply_until_it_fits (dive, o, subject, args, n, error) : status;
 }
 
 bt_status

@@ -3,12 +3,13 @@
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "math/vec.h"
 #include "sim/around.h"
 #include "sim/ops.h"
+#include "world/hull.h"
+#include "world/obstacles.h"
 
 static bt__vehicle *
 vehicle_of (const bt__call *c)
@@ -49,13 +50,6 @@ stand_at (bt__vehicle *v, bt_vec3 p)
   v->goal = BT__GOAL_NONE;
 }
 
-static bt_vec3
-sweep_hull (const bt__call *c, bt_vec3 to)
-{
-  bt__rest_movers (c->dive, c->state);
-  return bt__hull_reach (c->dive, c->state, c->subject, to);
-}
-
 bt_status
 bt__op_place (const bt__call *c)
 {
@@ -67,12 +61,29 @@ bt__op_place (const bt__call *c)
   way = bt__sub (bt__point_of (c), v->position);
   k = bt__reach_along (c->dive, c->state, c->subject, v->position, bt__point_of (c));
   to = k < 1 ? bt__axpy (v->position, k, way) : bt__point_of (c);
-  if (bt__has_obstacles (c->dive))
-    to = sweep_hull (c, to);
   stand_at (v, to);
   bt__hold_at_tethers (c->dive, c->dive->now, c->state);
   v->held = bt__distance (to, bt__point_of (c)) > 0;
   return BT_OK;
+}
+
+/* BT_ERR_DOMAIN if the hull of the subject, where it stands now, is in an obstacle.  */
+static bt_status
+check_hull (const bt__call *c)
+{
+  const bt__vehicle *v = vehicle_of (c);
+  bt__frame frame = bt__vehicle_frame (v);
+  bt__surroundings around = bt__standing (c->dive, c->state, BT_PART_VEHICLE, c->subject);
+  bt__hull_body hull;
+  bt__stop stop;
+  bt__hull_of (&c->dive->model->vehicles[c->subject], &hull);
+  if (!bt__body_nearest (&hull.body, &frame, BT__HULL_GAP, around.scene, around.on, around.mover,
+                         around.movers, &stop, &c->dive->shore.count))
+    return BT_OK;
+  return bt__fail (c->error, BT_ERR_DOMAIN, "`%s' cannot be put at (%g %g %g): `%s' is there",
+                   c->dive->model->vehicles[c->subject].name, v->position.x, v->position.y,
+                   v->position.z,
+                   c->dive->model->obstacles[bt__stop_obstacle (c->dive->model, &stop)].name);
 }
 
 /* Lay tether I anew if it is fastened to the subject.  */
@@ -101,6 +112,8 @@ bt__op_lay (const bt__call *c)
     return bt__fail (c->error, BT_ERR_DOMAIN, "the tether does not reach to (%g %g %g)", p.x, p.y,
                      p.z);
   stand_at (v, p);
+  if (bt__has_obstacles (c->dive) && check_hull (c) != BT_OK)
+    return BT_ERR_DOMAIN;
   bt__hold_at_tethers (c->dive, c->dive->now, c->state);
   for (int i = 0; i < c->dive->model->n_tethers; i++)
     forget_shape (c, i);
@@ -169,22 +182,6 @@ bt__op_hold_position (const bt__call *c)
   return BT_OK;
 }
 
-static bt_status
-check_track (const bt__call *c)
-{
-  if (c->n % 4 != 0)
-    return bt__fail (c->error, BT_ERR_FORMAT, "a track has rows of t x y z, not %d numbers", c->n);
-  for (int i = 0; i < c->n; i++)
-    if (!(fabs (c->args[i]) <= 1e7))
-      return bt__fail (c->error, BT_ERR_FORMAT, "row %d of the track has %g", i / 4 + 1,
-                       c->args[i]);
-  for (int i = 4; i < c->n; i += 4)
-    if (c->args[i] <= c->args[i - 4])
-      return bt__fail (c->error, BT_ERR_FORMAT,
-                       "row %d of the track does not come later than row %d", i / 4 + 1, i / 4);
-  return BT_OK;
-}
-
 bt_status
 bt__op_follow (const bt__call *c)
 {
@@ -193,24 +190,12 @@ bt__op_follow (const bt__call *c)
     return bt__fail (
         c->error, BT_ERR_UNSUPPORTED,
         "a vehicle with mass goes where forces take it; only one without follows a track");
-  size_t bytes = sizeof (double) * (size_t)c->n;
-  bt_status status = check_track (c);
-  bt__track *track = status == BT_OK ? malloc (sizeof *track + bytes) : NULL;
+  int track;
+  bt_status status = bt_dive_add_track (c->dive, c->args, c->n, &track, c->error);
   if (status != BT_OK)
     return status;
-  if (!track)
-    return bt__fail (c->error, BT_ERR_LIMIT, "no memory for a track of %d rows", c->n / 4);
-  atomic_init (&track->references, 1);
-  track->n = c->n / 4;
-  memcpy (track->row, c->args, bytes);
-  status = bt__dive_add_track (c->dive, track, c->error);
-  if (status != BT_OK)
-    {
-      free (track);
-      return status;
-    }
   v->goal = BT__GOAL_TRACK;
-  v->track = c->dive->n_tracks - 1;
+  v->track = track;
   v->track_start = bt__state_time (c->state);
   return BT_OK;
 }

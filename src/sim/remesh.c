@@ -10,7 +10,8 @@
 #include <string.h>
 
 #include "math/vec.h"
-#include "sim/sim.h"
+#include "sim/around.h"
+#include "sim/lay.h"
 #include "world/line.h"
 
 /* What is aimed at and when nodes are saved, of the accuracy: an error made once is carried on, in
@@ -31,6 +32,14 @@ wanted (int n, double error, double accuracy, int room)
   if (error <= AIM * accuracy && error >= TOO_GOOD * accuracy)
     return n;
   return (int)fmax (FEWEST, fmin (room, ceil (ideal)));
+}
+
+/* Among obstacles a line is refined by whole multiples: its nodes stay.  */
+static int
+multiple (int n, int m, int room)
+{
+  int times = (m + n - 1) / n;
+  return m < n ? m : times * n <= room ? times * n : n;
 }
 
 /* Take N + 1 points, velocities and tensions off LINE.  */
@@ -57,6 +66,8 @@ lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
   double length = bt__line_length (&line);
   bt_status status;
   sample (dive, &line, n);
+  if (bt__has_obstacles (dive) && !bt__may_remesh (dive, state, i, n))
+    return BT_OK;
   status = bt__dynamic_init (chain, bt__chain_room (&dive->model->tethers[i]), n, dive->polyline,
                              n + 1, length, isfinite (tether->props.ea) ? tether->props.ea : 1e9,
                              error);
@@ -75,8 +86,9 @@ bt__remesh_chain (bt_dive *dive, bt__state *state, int i, bt_error *error)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
-  int n = (int)chain->n;
-  int m = wanted (n, bt__chain_error (chain), tether->props.accuracy,
-                  bt__chain_room (&dive->model->tethers[i]));
+  int n = (int)chain->n, room = bt__chain_room (&dive->model->tethers[i]);
+  int m = wanted (n, bt__chain_error (chain), tether->props.accuracy, room);
+  if (bt__has_obstacles (dive))
+    m = multiple (n, m, room);
   return tether->parted || m == n ? BT_OK : lay_anew (dive, state, i, m, error);
 }

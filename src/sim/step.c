@@ -166,16 +166,28 @@ bt_dive_time_step (const bt_dive *dive)
   return BT__TIME_STEP;
 }
 
+double
+bt_dive_carried (const bt_dive *dive)
+{
+  return dive->wished;
+}
+
+void
+bt_dive_carry (bt_dive *dive, double seconds)
+{
+  dive->wished = seconds;
+}
+
 bt_status
 bt_dive_whole_steps (bt_dive *dive, double seconds, int64_t *steps, bt_error *error)
 {
   double wished, whole;
   if (!(seconds >= 0 && seconds <= 1e9))
     return bt__fail (error, BT_ERR_DOMAIN, "a time to run is 0 to 1e9 s, not %g", seconds);
-  wished = dive->now->wished + seconds;
+  wished = dive->wished + seconds;
   /* Ten times 0.1 s must be 60 steps though 0.1 has no exact double.  */
   whole = floor (wished / BT__TIME_STEP + 1e-6);
-  dive->now->wished = wished - whole * BT__TIME_STEP;
+  dive->wished = wished - whole * BT__TIME_STEP;
   *steps = (int64_t)whole;
   return BT_OK;
 }

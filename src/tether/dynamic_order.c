@@ -2,7 +2,7 @@
 
    The arc differs from the chord, and the load of a cell from its middle value, by a 24th of second
    differences.  They follow the shape with a delay, held while a step is solved: taken at once they
-   blow up.  Next to slack intervals, uneven ones and lumps they fade away.
+   blow up.  Next to slack intervals and uneven ones, and with lumps and contacts, they fade away.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -16,7 +16,7 @@
 static int
 is_regular (const bt__dynamic_work *w, int from, int to)
 {
-  if (from < 0 || to >= w->n || w->lumped)
+  if (from < 0 || to >= w->n || w->lumped || bt__dynamic_touches (w))
     return 0;
   for (int j = from; j <= to; j++)
     if (!(w->lam[j] > 0) || fabs (w->link[j].rest - w->link[from].rest) > EVEN * w->link[j].rest)

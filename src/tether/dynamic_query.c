@@ -4,6 +4,26 @@
 
 #include "tether/dynamic_kernel.h"
 
+/* The largest of their components, two by two, times the root of three.  */
+double
+bt__dynamic_stray (const bt_vec3 *a, const bt_vec3 *b, int n)
+{
+  bt__pair most = { 0, 0 }, more = { 0, 0 };
+  int i = 0;
+  for (; i + 1 < n; i += 2)
+    {
+      bt__pair x = { a[i].x, a[i].y }, y = { a[i].z, a[i + 1].x }, z = { a[i + 1].y, a[i + 1].z };
+      bt__pair p = { b[i].x, b[i].y }, q = { b[i].z, b[i + 1].x }, r = { b[i + 1].y, b[i + 1].z };
+      most = bt__pair_max (most, bt__pair_max (bt__pair_abs (x - p), bt__pair_abs (y - q)));
+      more = bt__pair_max (more, bt__pair_abs (z - r));
+    }
+  most = bt__pair_max (most, more);
+  double last = 0;
+  if (i < n)
+    last = fmax (fabs (a[i].x - b[i].x), fmax (fabs (a[i].y - b[i].y), fabs (a[i].z - b[i].z)));
+  return 1.7320508075688774 * fmax (last, fmax (most[0], most[1]));
+}
+
 /* The value of the node array A at U metres of rest length, by the cubic through the four nodes
    about it (fewer if there are fewer).  */
 static bt_vec3

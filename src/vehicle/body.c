@@ -31,8 +31,8 @@ typedef struct motion
 typedef struct job
 {
   const bt__vehicle_type *type;
-  const bt__body *body;
-  const bt__body_input *in;
+  const bt__rigid *body;
+  const bt__rigid_input *in;
   bt_vec3 mass, inertia, linear, quadratic, linear_w, quadratic_w;
   motion start, mid;               /* relative to the water */
   motion thrust;                   /* N, N m: mean of the step */
@@ -154,7 +154,7 @@ static scene
 look (const job *j)
 {
   const bt__vehicle_type *type = j->type;
-  const bt__body_input *in = j->in;
+  const bt__rigid_input *in = j->in;
   scene s = { .q = bt__quat_turned (j->body->attitude, bt__scale (in->h / 2, j->mid.w)) };
   double up = bt__turn_out (s.q, j->mid.v).z + in->flow.z;
   s.wet = wet_share (j, j->body->position.z + in->h / 2 * up);
@@ -228,7 +228,7 @@ solve_mid (job *j)
 }
 
 static void
-prepare (job *j, const bt__vehicle_type *type, const bt__body *body, const bt__body_input *in)
+prepare (job *j, const bt__vehicle_type *type, const bt__rigid *body, const bt__rigid_input *in)
 {
   const bt__hydro *hydro = &type->hydro;
   double water = in->density > 0;
@@ -289,7 +289,7 @@ lead_of (const job *j)
 }
 
 static void
-move (const job *j, bt__body *next)
+move (const job *j, bt__rigid *next)
 {
   double h = j->in->h;
   bt__quat q = bt__quat_turned (j->body->attitude, bt__scale (h / 2, j->mid.w));
@@ -306,8 +306,8 @@ move (const job *j, bt__body *next)
 
 /* NEXT from BODY with PULL at the end of the step.  J keeps the last iterate.  */
 static int
-advance (job *j, const bt__vehicle_type *type, const bt__body *body, const bt__body_input *in,
-         bt_vec3 pull, bt__body *next)
+advance (job *j, const bt__vehicle_type *type, const bt__rigid *body, const bt__rigid_input *in,
+         bt_vec3 pull, bt__rigid *next)
 {
   prepare (j, type, body, in);
   *next = *body;
@@ -323,11 +323,11 @@ advance (job *j, const bt__vehicle_type *type, const bt__body *body, const bt__b
 }
 
 bt_status
-bt__body_step (const bt__vehicle_type *type, bt__body *body, const bt__body_input *in,
+bt__rigid_step (const bt__vehicle_type *type, bt__rigid *body, const bt__rigid_input *in,
                bt_error *error)
 {
   job j;
-  bt__body next;
+  bt__rigid next;
   if (!advance (&j, type, body, in, in->pull, &next))
     return bt__fail (error, BT_ERR_DIVERGED, "the motion of a vehicle (%s) has no finite answer",
                      type->name);
@@ -364,12 +364,12 @@ invert (const bt_vec3 *c, double (*k)[3])
 }
 
 bt_status
-bt__body_grip (const bt__vehicle_type *type, const bt__body *body, const bt__body_input *in,
+bt__rigid_grip (const bt__vehicle_type *type, const bt__rigid *body, const bt__rigid_input *in,
                bt__grip *grip, bt_error *error)
 {
   job j;
-  bt__body next;
-  bt__body_input gripped = *in;
+  bt__rigid next;
+  bt__rigid_input gripped = *in;
   bt_vec3 column[3];
   gripped.gripped = 1;
   if (!advance (&j, type, body, &gripped, body->pull, &next))
@@ -383,7 +383,7 @@ bt__body_grip (const bt__vehicle_type *type, const bt__body *body, const bt__bod
       column[i] = bt__scale (2 * j.theta * j.theta * in->h, yield (&j, s.q, unit));
     }
   invert (column, grip->stiffness);
-  grip->at = bt__body_point (&next, type->attached);
+  grip->at = bt__rigid_point (&next, type->attached);
   grip->at = bt__axpy (grip->at, -body->pull.x, column[0]);
   grip->at = bt__axpy (grip->at, -body->pull.y, column[1]);
   grip->at = bt__axpy (grip->at, -body->pull.z, column[2]);

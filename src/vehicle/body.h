@@ -12,8 +12,8 @@
    The implicit line.  A stiff line must be solved together with the body it pulls.  Over a step the
    place X of the attachment at its end is a linear function of the pull F there but for terms of
    higher order, X = AT + Y F, so to the line the body is a spring of stiffness K = Y^-1 to the
-   point AT: bt__body_grip gives both.  The line's step then adds K (AT - X) to the force on its end
-   node and K to the node's block, and bt__body_step is given what it found, F = K (X - AT).  With
+   point AT: bt__rigid_grip gives both.  The line's step then adds K (AT - X) to the force on its end
+   node and K to the node's block, and bt__rigid_step is given what it found, F = K (X - AT).  With
    F0 the pull of the last step, the body takes the impulse h (theta F + (1 - theta) F0), and what
    changes its velocity counts theta h in the way.  Over S = (2 M/h + D + torques that turn with the
    body)^-1 that is Y = 2 theta2 h J S J^T, over M alone theta2 h2 J M^-1 J^T.  theta is 1/2, of
@@ -33,7 +33,7 @@
 #include "vehicle/type.h"
 
 /* All that moves: flat, of doubles alone.  */
-typedef struct bt__body
+typedef struct bt__rigid
 {
   bt_vec3 position; /* m: of the centre of gravity */
   bt__quat attitude;
@@ -42,10 +42,10 @@ typedef struct bt__body
   double heading;   /* rad, never wrapped: it counts the turns, clockwise positive */
   double thrust[BT__THRUSTERS_MAX]; /* N: now */
   bt_vec3 pull; /* N: F of the last step; at the start that of the line as it was laid */
-} bt__body;
+} bt__rigid;
 
 /* What surrounds it in a step.  All zero: nothing does.  */
-typedef struct bt__body_input
+typedef struct bt__rigid_input
 {
   double h;                        /* s */
   double density, gravity;         /* kg/m3, m/s2 */
@@ -59,13 +59,13 @@ typedef struct bt__body_input
   double volts;                    /* of the battery; 0: the type's */
   uint64_t lost;                   /* bit K: thruster K is dead */
   double wish[BT__THRUSTERS_MAX];  /* N asked of each thruster */
-} bt__body_input;
+} bt__rigid_input;
 
 /* Put BODY, at rest, at a place in an attitude (rad).  */
-void bt__body_place (bt__body *body, bt_vec3 position, double heading, double pitch, double roll);
+void bt__rigid_place (bt__rigid *body, bt_vec3 position, double heading, double pitch, double roll);
 
 /* Step BODY.  BT_ERR_DIVERGED leaves it as it was.  */
-bt_status bt__body_step (const bt__vehicle_type *type, bt__body *body, const bt__body_input *in,
+bt_status bt__rigid_step (const bt__vehicle_type *type, bt__rigid *body, const bt__rigid_input *in,
                          bt_error *error);
 
 /* What an implicit line sees at its end.  */
@@ -76,8 +76,8 @@ typedef struct bt__grip
 } bt__grip;
 
 /* Return in *GRIP what the line of the coming step has at its end; IN->pull is not looked at.  */
-bt_status bt__body_grip (const bt__vehicle_type *type, const bt__body *body,
-                         const bt__body_input *in, bt__grip *grip, bt_error *error);
+bt_status bt__rigid_grip (const bt__vehicle_type *type, const bt__rigid *body,
+                         const bt__rigid_input *in, bt__grip *grip, bt_error *error);
 
 /* The pull on the body of a line whose end the step has brought to X.  */
 bt_vec3 bt__grip_pull (const bt__grip *grip, bt_vec3 x);
@@ -85,25 +85,25 @@ bt_vec3 bt__grip_pull (const bt__grip *grip, bt_vec3 x);
 /* ---- Points of it ---- */
 
 /* Place and velocity, in the world, of the point P of its own axes.  */
-bt_vec3 bt__body_point (const bt__body *body, bt_vec3 p);
-bt_vec3 bt__body_point_velocity (const bt__body *body, bt_vec3 p);
+bt_vec3 bt__rigid_point (const bt__rigid *body, bt_vec3 p);
+bt_vec3 bt__rigid_point_velocity (const bt__rigid *body, bt_vec3 p);
 
 /* Strike BODY at the point P of the world with IMPULSE, N s.  */
-void bt__body_strike (const bt__vehicle_type *type, bt__body *body, bt_vec3 p, bt_vec3 impulse);
+void bt__rigid_strike (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_vec3 impulse);
 
 /* Let BODY bounce at the point P of the world off what has the outward NORMAL: Newton's RESTITUTION
    (0 to 1), Coulomb's FRICTION; never with more energy than it had.  Return the impulse, N s; zero
    if it was moving away.  */
-bt_vec3 bt__body_bounce (const bt__vehicle_type *type, bt__body *body, bt_vec3 p, bt_vec3 normal,
+bt_vec3 bt__rigid_bounce (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_vec3 normal,
                          double restitution, double friction);
 
 /* ---- Measures ---- */
 
 /* Kinetic energy with added mass relative to water that flows by at FLOW, J.  */
-double bt__body_energy (const bt__vehicle_type *type, const bt__body *body, bt_vec3 flow);
+double bt__rigid_energy (const bt__vehicle_type *type, const bt__rigid *body, bt_vec3 flow);
 
 /* Signed turns since the heading was FROM (rad), clockwise positive.  */
-double bt__body_turns (const bt__body *body, double from);
+double bt__rigid_turns (const bt__rigid *body, double from);
 
 /* HEADING carried on to that of ATTITUDE by the shorter way: the turn about the vertical left when
    the tilt is taken out, so that pitch and roll, and loops, leave the count alone.  Within 37 deg

@@ -11,19 +11,19 @@
 #define UPSIDE_DOWN 0.1 /* cos2 of half the tilt below which a heading means nothing */
 
 bt_vec3
-bt__body_point (const bt__body *body, bt_vec3 p)
+bt__rigid_point (const bt__rigid *body, bt_vec3 p)
 {
   return bt__add (body->position, bt__turn_out (body->attitude, p));
 }
 
 bt_vec3
-bt__body_point_velocity (const bt__body *body, bt_vec3 p)
+bt__rigid_point_velocity (const bt__rigid *body, bt_vec3 p)
 {
   return bt__turn_out (body->attitude, bt__add (body->velocity, bt__cross (body->spin, p)));
 }
 
 double
-bt__body_energy (const bt__vehicle_type *type, const bt__body *body, bt_vec3 flow)
+bt__rigid_energy (const bt__vehicle_type *type, const bt__rigid *body, bt_vec3 flow)
 {
   bt_vec3 v = bt__sub (body->velocity, bt__turn_in (body->attitude, flow));
   bt_vec3 p = bt__times (bt__masses (type), v), l = bt__times (bt__inertias (type), body->spin);
@@ -31,7 +31,7 @@ bt__body_energy (const bt__vehicle_type *type, const bt__body *body, bt_vec3 flo
 }
 
 void
-bt__body_strike (const bt__vehicle_type *type, bt__body *body, bt_vec3 p, bt_vec3 impulse)
+bt__rigid_strike (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_vec3 impulse)
 {
   bt_vec3 r = bt__turn_in (body->attitude, bt__sub (p, body->position));
   bt_vec3 blow = bt__turn_in (body->attitude, impulse);
@@ -72,7 +72,7 @@ sliding_blow (const bt__vehicle_type *type, bt_vec3 r, bt_vec3 n, bt_vec3 v, dou
 }
 
 bt_vec3
-bt__body_bounce (const bt__vehicle_type *type, bt__body *body, bt_vec3 p, bt_vec3 normal,
+bt__rigid_bounce (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_vec3 normal,
                  double restitution, double friction)
 {
   bt_vec3 r = bt__turn_in (body->attitude, bt__sub (p, body->position));
@@ -91,7 +91,7 @@ bt__body_bounce (const bt__vehicle_type *type, bt__body *body, bt_vec3 p, bt_vec
   if (work + cost > 0)
     blow = bt__scale (fmax (0, -work / cost), blow);
   blow = bt__turn_out (body->attitude, blow);
-  bt__body_strike (type, body, p, blow);
+  bt__rigid_strike (type, body, p, blow);
   return blow;
 }
 
@@ -106,13 +106,13 @@ bt__heading_follow (double heading, bt__quat q)
 }
 
 double
-bt__body_turns (const bt__body *body, double from)
+bt__rigid_turns (const bt__rigid *body, double from)
 {
   return (body->heading - from) / (2 * BT__PI);
 }
 
 void
-bt__body_place (bt__body *body, bt_vec3 position, double heading, double pitch, double roll)
+bt__rigid_place (bt__rigid *body, bt_vec3 position, double heading, double pitch, double roll)
 {
   memset (body, 0, sizeof *body);
   body->position = position;

@@ -30,7 +30,7 @@ bt__sonar_sweep (const bt__sonar *sonar, bt_vec3 position, bt__quat attitude, in
   ray.from = bt__add (position, bt__turn_out (attitude, sonar->at));
   for (int i = 0; i < beams; i++)
     {
-      bt__hit hit;
+      bt__ray_hit hit;
       ray.direction
           = bt__unit_or (bt__turn_out (attitude, beam (sonar, i, beams)), bt__vec (0, 1, 0));
       range[i] = INFINITY;

@@ -20,7 +20,7 @@ enum
 };
 
 /* Degrees of freedom in the papers' order.  */
-typedef enum bt__axis
+typedef enum bt__freedom
 {
   BT__SURGE, /* ahead */
   BT__SWAY,  /* to starboard */
@@ -29,7 +29,7 @@ typedef enum bt__axis
   BT__PITCH, /* bow up */
   BT__YAW,   /* clockwise */
   BT__AXES
-} bt__axis;
+} bt__freedom;
 
 /* How a thruster answers its command, -1 to 1.  */
 typedef enum bt__thrust_map

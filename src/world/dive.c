@@ -8,9 +8,10 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "world/layout.h"
+#include "world/watch.h"
 
-/* The first bytes of a state: layout version 3.  */
-static const uint64_t magic = 0x3154484749420003ULL;
+/* The first bytes of a state: layout version 4.  */
+static const uint64_t magic = 0x3154484749420004ULL;
 
 double
 bt__state_time (const bt__state *state)
@@ -166,6 +167,7 @@ bt_dive_free (bt_dive *dive)
   free (dive->motion);
   free (dive->along);
   free_shore (&dive->shore);
+  bt__watch_free_all (dive->watch);
   free (dive->now);
   free (dive->next);
   bt_model_release (dive->model);
@@ -182,12 +184,14 @@ bt_dive_fork (const bt_dive *dive, bt_dive **copy, bt_error *error)
   bt__copy_state (dive, fork->now, dive->now);
   fork->function = dive->function;
   fork->user = dive->user;
+  fork->wished = dive->wished;
   fork->n_tracks = dive->n_tracks;
   for (int i = 0; i < dive->n_tracks; i++)
     {
       fork->tracks[i] = dive->tracks[i];
       atomic_fetch_add (&fork->tracks[i]->references, 1);
     }
+  bt__watch_share (dive, fork);
   *copy = fork;
   return BT_OK;
 }
@@ -199,13 +203,10 @@ bt_dive_set_current_function (bt_dive *dive, bt_current_function function, void 
   dive->user = user;
 }
 
-bt_status
-bt__dive_add_track (bt_dive *dive, bt__track *track, bt_error *error)
+int
+bt_dive_asks (const bt_dive *dive)
 {
-  if (dive->n_tracks == BT__TRACKS_MAX)
-    return bt__fail (error, BT_ERR_LIMIT, "a dive follows at most %d tracks", BT__TRACKS_MAX);
-  dive->tracks[dive->n_tracks++] = track;
-  return BT_OK;
+  return dive->now->current.kind == BT_CURRENT_FUNCTION;
 }
 
 bt__state *
@@ -221,6 +222,7 @@ bt__dive_commit (bt_dive *dive)
   bt__state *old = dive->now;
   dive->now = dive->next;
   dive->next = old;
+  dive->changes++;
 }
 
 /* ---- Checkpoints ---- */

@@ -89,8 +89,11 @@ struct bt_dive
   bt_profile profile;
   bt_current_function function;
   void *user;
+  double wished; /* s: time asked for and not yet stepped */
   int n_tracks;
   bt__track *tracks[BT__TRACKS_MAX];
+  uint64_t changes;        /* of the present state: the watch goes by it */
+  struct bt__watch *watch; /* what was asked of the tethers; NULL: nothing yet */
 };
 
 /* Copy the present state to dive->next and return it.  */
@@ -127,9 +130,6 @@ void bt__raise_event_at (bt__state *state, bt_event_kind kind, bt_part part, int
 
 /* BT_ERR_NAME unless I counts a PART of DIVE.  */
 bt_status bt__check_part (const bt_dive *dive, bt_part part, int i, bt_error *error);
-
-/* Adopt TRACK, with one reference, as the last of DIVE's tracks.  */
-bt_status bt__dive_add_track (bt_dive *dive, bt__track *track, bt_error *error);
 
 #define BT__TIME_STEP (1.0 / 60)
 

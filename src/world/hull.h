@@ -8,6 +8,9 @@
 #include "collide/sweep.h"
 #include "world/dive.h"
 
+/* How near it comes to them, m.  */
+#define BT__HULL_GAP 1e-3
+
 typedef struct bt__hull_body
 {
   bt__box box;

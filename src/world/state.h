@@ -93,7 +93,6 @@ typedef struct bt__state
   uint64_t size;     /* bytes of the whole block */
   uint64_t checksum; /* of the block with this field zero; set in saved copies only */
   int64_t step;
-  double wished; /* s: time asked for and not yet stepped */
   double depth, density, gravity;
   bt_current current;
   int64_t events; /* ever raised */

@@ -26,7 +26,7 @@ typedef struct rig
   bt__shadow *shadow;
   bt__taut_config config;
   bt__count count;
-  bt__hold hold[CASE_NODES];
+  bt__corner hold[CASE_NODES];
   bt_vec3 p[CASE_NODES];
 } rig;
 
@@ -92,7 +92,7 @@ prospect (const bt_vec3 *line, uint32_t n, const bt__haul_body *b)
   bt__taut_relax (r.taut, &r.config, r.s, 1000, &r.count);
   bt__holds h = { r.hold, 0, CASE_NODES, 0 };
   bt__holds_find (r.g.scene, NULL, r.s->x, r.s->n, CORE, 0.05, &h, &r.count);
-  return bt__haul_prospect (r.g.scene, &h, b);
+  return bt__haul_prospect (&h, b);
 }
 
 /* A line bent by a right angle round an upright member of RADIUS.  */
@@ -196,7 +196,7 @@ wedged_in_a_gap (void **state)
       assert_true (stage_make (&r.g));
       bt__prospect p = prospect (line, 2, &body);
       assert_true (p.reason == BT__HAUL_CLEAR);
-      bt__way w = bt__way_home (r.taut, &r.config, r.s, body.radius + 0.02, r.home, &r.count);
+      bt__route w = bt__way_home (r.taut, &r.config, r.s, body.radius + 0.02, r.home, &r.count);
       near ("clearance", w.clearance, wide ? 0.5 : 0.15, 0.01);
       bt__haul_wedge (&w, &body, &p);
       assert_int_equal (p.reason, wide ? BT__HAUL_CLEAR : BT__HAUL_WEDGED);
@@ -268,7 +268,7 @@ ways_home (void **state)
   for (uint64_t seed = 1; seed <= 30; seed++)
     {
       draw (seed);
-      bt__way w = bt__way_home (r.taut, &r.config, r.s, body.radius + 0.02, r.home, &r.count);
+      bt__route w = bt__way_home (r.taut, &r.config, r.s, body.radius + 0.02, r.home, &r.count);
       wide += w.clearance > body.radius;
       assert_true (w.clearance >= CORE);
       word_of (r.s, &there);

@@ -66,7 +66,7 @@ comes_to_rest (void **state)
 {
   (void)state;
   rests (PLANE, "a plane", 60);
-  rests (FLAT_MESH, "a flat mesh", 60);
+  rests (FLAT_MESH, "a flat mesh", 180);
   rests (BEAM, "a beam", 40);
 }
 

@@ -131,14 +131,14 @@ solve (line *l, const bt__grip *grip, bt_vec3 wish, double h)
 
 /* A coupled step; returns how far the body's attachment ends from the line's end, m.  */
 static double
-step (const bt__vehicle_type *type, bt__body *body, bt__body_input *in, line *l)
+step (const bt__vehicle_type *type, bt__rigid *body, bt__rigid_input *in, line *l)
 {
   bt__grip grip;
   bt_error error;
   double h = in->h, b0 = 1.5 / h;
   in->gripped = 1;
   in->stiffness = l->k;
-  assert_int_equal (bt__body_grip (type, body, in, &grip, &error), BT_OK);
+  assert_int_equal (bt__rigid_grip (type, body, in, &grip, &error), BT_OK);
   /* BDF2: v = (3 X - 4 x + x')/2h, a = (3 v - 4 v0 + v')/2h: mass times b0^2 (X - wish).  */
   bt_vec3 v0 = bt__scale (0.5 / h, bt__sub (l->x_before, l->x[0]));
   bt_vec3 a0 = bt__scale (0.5 / h, bt__axpy (l->v_before, -4, l->v));
@@ -150,15 +150,15 @@ step (const bt__vehicle_type *type, bt__body *body, bt__body_input *in, line *l)
   l->x_before = start;
   in->pull = bt__grip_pull (&grip, l->x[1]);
   l->tension = bt__norm (in->pull);
-  assert_int_equal (bt__body_step (type, body, in, &error), BT_OK);
-  return bt__distance (bt__body_point (body, type->attached), l->x[1]);
+  assert_int_equal (bt__rigid_step (type, body, in, &error), BT_OK);
+  return bt__distance (bt__rigid_point (body, type->attached), l->x[1]);
 }
 
 static line
-line_to (const bt__vehicle_type *type, const bt__body *body, double k, double mass, double rest)
+line_to (const bt__vehicle_type *type, const bt__rigid *body, double k, double mass, double rest)
 {
   line l = { .k = 2 * k, .rest = rest / 2, .mass = mass };
-  l.x[1] = bt__body_point (body, type->attached);
+  l.x[1] = bt__rigid_point (body, type->attached);
   l.anchor = bt__sub (l.x[1], bt__vec (0, rest, 0));
   l.x[0] = l.x_before = bt__axpy (l.anchor, 0.5, bt__sub (l.x[1], l.anchor));
   return l;
@@ -196,16 +196,16 @@ test_no_energy_is_made (void **state)
       for (double k = 1e2; k < 2e7; k *= 10)
         {
           bt__vehicle_type type = type_of (bt__vehicle_type_name (i));
-          bt__body body;
-          bt__body_place (&body, bt__vec (0, 0, -50), 0.3, 0.1, 0);
+          bt__rigid body;
+          bt__rigid_place (&body, bt__vec (0, 0, -50), 0.3, 0.1, 0);
           body.velocity = bt__vec (0.5, 1.5, 0.3);
-          bt__body_input in = { .h = STEP };
+          bt__rigid_input in = { .h = STEP };
           line l = line_to (&type, &body, k, ratio * type.mass, 2);
-          double energy = bt__body_energy (&type, &body, still);
+          double energy = bt__rigid_energy (&type, &body, still);
           for (int n = 0; n < 1200; n++)
             {
               double apart = step (&type, &body, &in, &l);
-              double now = bt__body_energy (&type, &body, still) + spring_energy (&l);
+              double now = bt__rigid_energy (&type, &body, still) + spring_energy (&l);
               worst = fmax (worst, now / energy - 1);
               gap = fmax (gap, apart);
               pull = fmax (pull, l.tension);
@@ -228,15 +228,15 @@ test_no_jitter (void **state)
       for (double per_mass = 1e2; per_mass < 2e6; per_mass *= 100)
         {
           bt__vehicle_type type = type_of (bt__vehicle_type_name (i));
-          bt__body body;
+          bt__rigid body;
           type.volume = type.mass / 1025;
           double k = per_mass * type.mass;
           for (int c = 0; c < BT__AXES; c++)
             type.hydro.linear[c] += c < 3 ? 2 * type.mass : type.inertia.z; /* soon at rest */
-          bt__body_place (&body, bt__vec (0, 0, -50), 0, 0, 0);
+          bt__rigid_place (&body, bt__vec (0, 0, -50), 0, 0, 0);
           body.velocity = bt__vec (0, 3, 0);
           double thrust = type.mass * G;
-          bt__body_input in = {
+          bt__rigid_input in = {
             .h = STEP, .density = 1025, .gravity = G, .surface = INFINITY, .force = { 0, thrust, 0 }
           };
           line l = line_to (&type, &body, k, ratio * type.mass, 2);
@@ -267,12 +267,12 @@ test_snap (void **state)
   for (int r = 0; r < 3; r++)
     {
       bt__vehicle_type type = type_of ("bluerov2-heavy");
-      bt__body body;
+      bt__rigid body;
       memset (&type.hydro.linear, 0, sizeof type.hydro.linear);
       memset (&type.hydro.quadratic, 0, sizeof type.hydro.quadratic);
-      bt__body_place (&body, bt__vec (0, 0, -50), 0, 0, 0);
+      bt__rigid_place (&body, bt__vec (0, 0, -50), 0, 0, 0);
       body.velocity.y = 0.8;
-      bt__body_input in = { .h = STEP / (1 << r) };
+      bt__rigid_input in = { .h = STEP / (1 << r) };
       line l = line_to (&type, &body, 20000.0 / 30, 1e-9, 30);
       peak[r] = 0;
       for (int n = 0; n < 20 << r; n++)
@@ -298,26 +298,26 @@ test_momentum (void **state)
 {
   (void)state;
   bt__vehicle_type type = type_of ("bluerov2-heavy");
-  bt__body body;
+  bt__rigid body;
   bt_error error;
   type.attached = still;
   memset (type.hydro.added, 0, sizeof type.hydro.added);
-  bt__body_place (&body, bt__vec (0, 0, -50), 0.4, 0, 0);
+  bt__rigid_place (&body, bt__vec (0, 0, -50), 0.4, 0, 0);
   bt_vec3 sum = { 0, 0, 0 }, before = { 0, 0, 0 };
   for (int n = 0; n < 200; n++)
     {
-      bt__body_input in = { .h = STEP, .gripped = 1 };
+      bt__rigid_input in = { .h = STEP, .gripped = 1 };
       in.pull = bt__vec (20 + 10 * sin (0.1 * n), 9 * cos (0.2 * n), -4);
       sum = bt__axpy (sum, STEP / 2, bt__add (in.pull, before));
       before = in.pull;
-      assert_int_equal (bt__body_step (&type, &body, &in, &error), BT_OK);
+      assert_int_equal (bt__rigid_step (&type, &body, &in, &error), BT_OK);
     }
-  bt_vec3 p = bt__scale (type.mass, bt__body_point_velocity (&body, still));
+  bt_vec3 p = bt__scale (type.mass, bt__rigid_point_velocity (&body, still));
   assert_true (bt__norm (sum) > 1);
   assert_true (bt__distance (p, sum) < 1e-10 * bt__norm (sum));
-  bt__body_input gone = { .h = STEP, .gripped = 1 };
-  assert_int_equal (bt__body_step (&type, &body, &gone, &error), BT_OK);
-  bt_vec3 q = bt__scale (type.mass, bt__body_point_velocity (&body, still));
+  bt__rigid_input gone = { .h = STEP, .gripped = 1 };
+  assert_int_equal (bt__rigid_step (&type, &body, &gone, &error), BT_OK);
+  bt_vec3 q = bt__scale (type.mass, bt__rigid_point_velocity (&body, still));
   assert_true (bt__distance (p, q) <= 1e-14 * bt__norm (p));
 }
 
@@ -327,11 +327,11 @@ test_grip_is_where_the_body_goes (void **state)
 {
   (void)state;
   bt__vehicle_type type = type_of ("bluerov2-heavy");
-  bt__body body;
-  bt__body_place (&body, bt__vec (0, 0, -50), 0, 0, 0);
+  bt__rigid body;
+  bt__rigid_place (&body, bt__vec (0, 0, -50), 0, 0, 0);
   body.velocity = bt__vec (0.6, 0.2, 0.1);
   body.spin = bt__vec (0.1, 0.2, 0.5);
-  bt__body_input in = { .h = STEP, .density = 1025, .gravity = G, .surface = INFINITY };
+  bt__rigid_input in = { .h = STEP, .density = 1025, .gravity = G, .surface = INFINITY };
   line l = line_to (&type, &body, 2e4, 0.1, 5);
   double gap = 0;
   for (int n = 0; n < 1200; n++)

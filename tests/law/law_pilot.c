@@ -21,9 +21,9 @@ typedef struct flight
 {
   bt__vehicle_type type;
   bt__rig rig;
-  bt__body body;
+  bt__rigid body;
   bt__pilot pilot;
-  bt__body_input in;
+  bt__rigid_input in;
   double bottom; /* m */
 } flight;
 
@@ -34,8 +34,8 @@ flight_of (const char *name)
   bt_error error;
   assert_int_equal (bt__vehicle_type_find (name, &f.type, &error), BT_OK);
   assert_int_equal (bt__rig_make (&f.type, &f.rig, &error), BT_OK);
-  bt__body_place (&f.body, bt__vec (0, 0, -20), 0, 0, 0);
-  f.in = (bt__body_input){ .h = STEP, .density = 1025, .gravity = G, .surface = 0 };
+  bt__rigid_place (&f.body, bt__vec (0, 0, -20), 0, 0, 0);
+  f.in = (bt__rigid_input){ .h = STEP, .density = 1025, .gravity = G, .surface = 0 };
   f.pilot.holds = BT__HOLD_LEVEL;
   f.pilot.yaw_rate = 1;
   return f;
@@ -45,7 +45,7 @@ static bt__fix
 fix_of (const flight *f)
 {
   bt_vec3 own = { 0, 0, 0 };
-  return (bt__fix){ f->body.position, bt__body_point_velocity (&f->body, own), f->body.attitude,
+  return (bt__fix){ f->body.position, bt__rigid_point_velocity (&f->body, own), f->body.attitude,
                     f->body.spin, f->body.position.z - f->bottom };
 }
 
@@ -57,7 +57,7 @@ fly (flight *f, double seconds)
     {
       bt__fix fix = fix_of (f);
       bt__pilot_steer (&f->type, &f->rig, &f->pilot, &fix, STEP, f->in.wish);
-      assert_int_equal (bt__body_step (&f->type, &f->body, &f->in, &error), BT_OK);
+      assert_int_equal (bt__rigid_step (&f->type, &f->body, &f->in, &error), BT_OK);
     }
 }
 
@@ -216,7 +216,7 @@ test_yaw_rate_and_turns (void **state)
   f.pilot.yaw_rate = 45 * DEGREE;
   f.pilot.sticks[3] = 1;
   fly (&f, 16);
-  assert_close (bt__body_turns (&f.body, 0), 2, 0.1, "turns");
+  assert_close (bt__rigid_turns (&f.body, 0), 2, 0.1, "turns");
 }
 
 /* One thruster dead: it still holds its place.  */

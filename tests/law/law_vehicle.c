@@ -34,11 +34,11 @@ lump_of (double mass, bt_vec3 inertia)
 }
 
 static void
-run (const bt__vehicle_type *type, bt__body *body, const bt__body_input *in, int steps)
+run (const bt__vehicle_type *type, bt__rigid *body, const bt__rigid_input *in, int steps)
 {
   bt_error error;
   for (int i = 0; i < steps; i++)
-    assert_int_equal (bt__body_step (type, body, in, &error), BT_OK);
+    assert_int_equal (bt__rigid_step (type, body, in, &error), BT_OK);
 }
 
 static void
@@ -50,7 +50,7 @@ assert_close (double value, double expected, double tolerance, const char *what)
 }
 
 static bt_vec3
-angular_momentum (const bt__vehicle_type *type, const bt__body *body)
+angular_momentum (const bt__vehicle_type *type, const bt__rigid *body)
 {
   return bt__turn_out (body->attitude, bt__times (bt__inertias (type), body->spin));
 }
@@ -63,19 +63,19 @@ test_free_precession (void **state)
 {
   (void)state;
   bt__vehicle_type type = lump_of (10, bt__vec (1, 2, 3));
-  bt__body body;
-  bt__body_place (&body, bt__vec (0, 0, -5), 1, 0.3, -0.2);
+  bt__rigid body;
+  bt__rigid_place (&body, bt__vec (0, 0, -5), 1, 0.3, -0.2);
   body.spin = bt__vec (3, 0.2, 0.1); /* near the unstable axis: it tumbles */
-  double energy = bt__body_energy (&type, &body, bt__vec (0, 0, 0)), flipped = 0;
+  double energy = bt__rigid_energy (&type, &body, bt__vec (0, 0, 0)), flipped = 0;
   bt_vec3 start = angular_momentum (&type, &body);
-  bt__body_input in = { .h = STEP };
+  bt__rigid_input in = { .h = STEP };
   for (int i = 0; i < 20000; i++)
     {
       run (&type, &body, &in, 1);
       flipped = fmin (flipped, body.spin.x);
     }
   assert_true (flipped < -2.9);
-  assert_close (bt__body_energy (&type, &body, bt__vec (0, 0, 0)) / energy, 1, 1e-11, "energy");
+  assert_close (bt__rigid_energy (&type, &body, bt__vec (0, 0, 0)) / energy, 1, 1e-11, "energy");
   assert_close (bt__distance (angular_momentum (&type, &body), start) / bt__norm (start), 0, 1e-11,
                 "momentum");
 }
@@ -87,10 +87,10 @@ test_precession_rate (void **state)
   (void)state;
   bt__vehicle_type type = lump_of (1, bt__vec (2, 2, 3));
   type.inertia = bt__vec (2, 2, 3); /* roll pitch yaw: x and y alike */
-  bt__body body;
-  bt__body_place (&body, bt__vec (0, 0, 0), 0, 0, 0);
+  bt__rigid body;
+  bt__rigid_place (&body, bt__vec (0, 0, 0), 0, 0, 0);
   body.spin = bt__vec (0.4, 0, 1.5);
-  bt__body_input in = { .h = STEP };
+  bt__rigid_input in = { .h = STEP };
   double rate = (3 - 2) / 2.0 * 1.5, t = 4;
   run (&type, &body, &in, 240);
   assert_close (atan2 (body.spin.y, body.spin.x), remainder (rate * t, 2 * BT__PI), 3e-4, "phase");
@@ -105,20 +105,20 @@ test_coriolis_does_no_work (void **state)
   for (int k = 0; k < 2; k++)
     {
       bt__vehicle_type type = type_of (k ? "bluerov2-heavy" : "work-class");
-      bt__body body;
-      bt__body_place (&body, bt__vec (0, 0, -50), 0.5, 0.2, 0.1);
+      bt__rigid body;
+      bt__rigid_place (&body, bt__vec (0, 0, -50), 0.5, 0.2, 0.1);
       memset (type.hydro.linear, 0, sizeof type.hydro.linear);
       memset (type.hydro.quadratic, 0, sizeof type.hydro.quadratic);
       type.hydro.munk = k ? 1 : 0.4;
       body.velocity = bt__vec (0.7, -1.1, 0.4);
       body.spin = bt__vec (0.5, -0.3, 0.9);
       bt_vec3 flow = bt__vec (0.3, 0.2, -0.1);
-      double energy = bt__body_energy (&type, &body, flow), least = energy;
-      bt__body_input in = { .h = STEP, .flow = flow };
+      double energy = bt__rigid_energy (&type, &body, flow), least = energy;
+      bt__rigid_input in = { .h = STEP, .flow = flow };
       for (int i = 0; i < 6000; i++)
         {
           run (&type, &body, &in, 1);
-          assert_close (bt__body_energy (&type, &body, flow) / energy, 1, 1e-10, "energy");
+          assert_close (bt__rigid_energy (&type, &body, flow) / energy, 1, 1e-10, "energy");
           least = fmin (least, type.mass * bt__dot (body.velocity, body.velocity) / 2);
         }
       assert_true (least < 0.95 * energy); /* it did go about */
@@ -135,16 +135,16 @@ test_bounded (void **state)
       for (double h = STEP; h < 100; h *= 40)
         {
           bt__vehicle_type type = type_of (bt__vehicle_type_name (i));
-          bt__body body;
-          bt__body_place (&body, bt__vec (0, 0, -5), 0, 0, 0);
+          bt__rigid body;
+          bt__rigid_place (&body, bt__vec (0, 0, -5), 0, 0, 0);
           body.velocity = bt__vec (speed, -0.3 * speed, 0.7 * speed);
           body.spin = bt__vec (0.5 * speed, speed, -0.2 * speed);
-          bt__body_input in = { .h = h, .density = 1025, .surface = INFINITY };
-          double before = bt__body_energy (&type, &body, bt__vec (0, 0, 0));
+          bt__rigid_input in = { .h = h, .density = 1025, .surface = INFINITY };
+          double before = bt__rigid_energy (&type, &body, bt__vec (0, 0, 0));
           for (int n = 0; n < 30; n++)
             {
               run (&type, &body, &in, 1);
-              double now = bt__body_energy (&type, &body, bt__vec (0, 0, 0));
+              double now = bt__rigid_energy (&type, &body, bt__vec (0, 0, 0));
               assert_true (now <= before * (1 + 1e-12));
               before = now;
             }
@@ -158,10 +158,10 @@ test_rest (void **state)
   (void)state;
   bt__vehicle_type type = type_of ("bluerov2-heavy");
   type.volume = type.mass / 1000;
-  bt__body body, before;
-  bt__body_place (&body, bt__vec (3.3, -7.7, -5.1), 0.7, 0, 0);
+  bt__rigid body, before;
+  bt__rigid_place (&body, bt__vec (3.3, -7.7, -5.1), 0.7, 0, 0);
   before = body;
-  bt__body_input in = { .h = STEP, .density = 1000, .gravity = G, .surface = 0 };
+  bt__rigid_input in = { .h = STEP, .density = 1000, .gravity = G, .surface = 0 };
   run (&type, &body, &in, 1000);
   assert_memory_equal (&body, &before, sizeof body);
   in.gripped = 1;
@@ -186,13 +186,13 @@ test_terminal_speed (void **state)
     for (int axis = BT__SURGE; axis <= BT__HEAVE; axis++)
       {
         bt__vehicle_type type = type_of (bt__vehicle_type_name (i));
-        bt__body body;
+        bt__rigid body;
         type.volume = type.mass / 1025;
         type.buoyancy = bt__vec (0, 0, 100); /* held upright */
         double force = 0.3 * type.mass * G;
         bt_vec3 way[3] = { { 0, 1, 0 }, { 1, 0, 0 }, { 0, 0, 1 } };
-        bt__body_place (&body, bt__vec (0, 0, -50), 0, 0, 0);
-        bt__body_input in = { .h = STEP,
+        bt__rigid_place (&body, bt__vec (0, 0, -50), 0, 0, 0);
+        bt__rigid_input in = { .h = STEP,
                               .density = 1025,
                               .gravity = G,
                               .surface = INFINITY,
@@ -200,7 +200,7 @@ test_terminal_speed (void **state)
                               .flow = { 0.2, -0.3, 0.1 } };
         body.velocity = in.flow;
         run (&type, &body, &in, 6000);
-        double v = bt__dot (bt__sub (bt__body_point_velocity (&body, bt__vec (0, 0, 0)), in.flow),
+        double v = bt__dot (bt__sub (bt__rigid_point_velocity (&body, bt__vec (0, 0, 0)), in.flow),
                             way[axis]);
         double expected = terminal (type.hydro.linear[axis], type.hydro.quadratic[axis], force);
         assert_close (v / expected, 1, 1e-9, type.name);
@@ -218,10 +218,10 @@ test_free_decay (void **state)
   double expected = l / ((l / v0 + q) * exp (l * t / m) - q);
   for (int k = 0; k < 2; k++)
     {
-      bt__body body;
-      bt__body_place (&body, bt__vec (0, 0, -50), 0, 0, 0);
+      bt__rigid body;
+      bt__rigid_place (&body, bt__vec (0, 0, -50), 0, 0, 0);
       body.velocity.y = v0;
-      bt__body_input in = { .h = k ? STEP / 2 : STEP, .density = 1025, .surface = INFINITY };
+      bt__rigid_input in = { .h = k ? STEP / 2 : STEP, .density = 1025, .surface = INFINITY };
       run (&type, &body, &in, k ? 240 : 120);
       error[k] = fabs (body.velocity.y - expected);
     }
@@ -238,9 +238,9 @@ test_righting_period (void **state)
   memset (type.hydro.linear, 0, sizeof type.hydro.linear);
   memset (type.hydro.quadratic, 0, sizeof type.hydro.quadratic);
   type.volume = type.mass / 1025;
-  bt__body body;
-  bt__body_place (&body, bt__vec (0, 0, -50), 0.4, 0, 0.01);
-  bt__body_input in = { .h = STEP, .density = 1025, .gravity = G, .surface = INFINITY };
+  bt__rigid body;
+  bt__rigid_place (&body, bt__vec (0, 0, -50), 0.4, 0, 0.01);
+  bt__rigid_input in = { .h = STEP, .density = 1025, .gravity = G, .surface = INFINITY };
   double inertia = type.inertia.x + type.hydro.added[BT__ROLL];
   double period = 2 * BT__PI * sqrt (inertia / (type.mass * G * 0.3)), crossed = 0;
   double before = bt__roll_of (body.attitude), last = 0;
@@ -265,14 +265,14 @@ test_current_and_acceleration (void **state)
 {
   (void)state;
   bt__vehicle_type type = type_of ("bluerov2-heavy");
-  bt__body body;
+  bt__rigid body;
   type.volume = type.mass / 1025;
-  bt__body_place (&body, bt__vec (0, 0, -50), 1, 0, 0);
+  bt__rigid_place (&body, bt__vec (0, 0, -50), 1, 0, 0);
   bt_vec3 a = bt__vec (0.3, -0.2, 0.1);
   for (int i = 0; i < 600; i++)
     {
       bt_vec3 flow = bt__scale ((i + 0.5) * STEP, a);
-      bt__body_input in = { .h = STEP,
+      bt__rigid_input in = { .h = STEP,
                             .density = 1025,
                             .gravity = G,
                             .surface = INFINITY,
@@ -280,7 +280,7 @@ test_current_and_acceleration (void **state)
                             .flow_acceleration = a };
       run (&type, &body, &in, 1);
     }
-  bt_vec3 v = bt__body_point_velocity (&body, bt__vec (0, 0, 0));
+  bt_vec3 v = bt__rigid_point_velocity (&body, bt__vec (0, 0, 0));
   assert_close (bt__distance (v, bt__scale (10, a)), 0, 1e-10, "velocity");
   assert_close (bt__distance (body.position, bt__axpy (bt__vec (0, 0, -50), 50, a)), 0, 1e-9,
                 "position");
@@ -292,9 +292,9 @@ test_floats (void **state)
 {
   (void)state;
   bt__vehicle_type type = type_of ("bluerov2-heavy");
-  bt__body body;
-  bt__body_place (&body, bt__vec (0, 0, -2), 0, 0, 0);
-  bt__body_input in = { .h = STEP, .density = 1025, .gravity = G, .surface = 0.4 };
+  bt__rigid body;
+  bt__rigid_place (&body, bt__vec (0, 0, -2), 0, 0, 0);
+  bt__rigid_input in = { .h = STEP, .density = 1025, .gravity = G, .surface = 0.4 };
   run (&type, &body, &in, 6000);
   double wet = type.mass / (1025 * type.volume);
   assert_close (body.position.z, 0.4 + (0.5 - wet) * type.size.z, 1e-4, "height");
@@ -335,9 +335,9 @@ test_lag (void **state)
   bt__vehicle_type type = lump_of (2, bt__vec (1, 1, 1));
   type.n = 1;
   type.thruster[0] = (bt__thruster){ { 0, 0, 0 }, { 0, 1, 0 }, BT__MAP_SQUARE, 50, 50, 0.05, 0.08 };
-  bt__body body;
-  bt__body_place (&body, bt__vec (0, 0, -5), 0, 0, 0);
-  bt__body_input in = { .h = STEP, .wish = { 20 } };
+  bt__rigid body;
+  bt__rigid_place (&body, bt__vec (0, 0, -5), 0, 0, 0);
+  bt__rigid_input in = { .h = STEP, .wish = { 20 } };
   run (&type, &body, &in, 12);
   double tau = 0.08, t = 0.2, f = 20 * (1 - exp (-t / tau));
   assert_close (body.thrust[0], f, 1e-10, "force");
@@ -440,12 +440,12 @@ test_turns_survive_loops (void **state)
         assert_close (heading, 0.3, 1e-12, "loop");
       }
   bt__vehicle_type type = lump_of (1, bt__vec (1, 1, 1));
-  bt__body body;
-  bt__body_place (&body, bt__vec (0, 0, 0), 0.3, 0, 0);
+  bt__rigid body;
+  bt__rigid_place (&body, bt__vec (0, 0, 0), 0.3, 0, 0);
   body.spin.z = -2 * BT__PI / 10;
-  bt__body_input in = { .h = STEP };
+  bt__rigid_input in = { .h = STEP };
   run (&type, &body, &in, 1200);
-  assert_close (bt__body_turns (&body, 0.3), 2, 1e-4, "spun");
+  assert_close (bt__rigid_turns (&body, 0.3), 2, 1e-4, "spun");
 }
 
 /* ---- Blows ---- */
@@ -456,10 +456,10 @@ test_bounce (void **state)
 {
   (void)state;
   bt__vehicle_type type = lump_of (3, bt__vec (0.2, 0.3, 0.4));
-  bt__body body;
-  bt__body_place (&body, bt__vec (0, 0, 0), 0, 0, 0);
+  bt__rigid body;
+  bt__rigid_place (&body, bt__vec (0, 0, 0), 0, 0, 0);
   body.velocity = bt__vec (1, 0, -2);
-  bt__body_bounce (&type, &body, bt__vec (0, 0, -0.5), bt__vec (0, 0, 1), 0.5, 0);
+  bt__rigid_bounce (&type, &body, bt__vec (0, 0, -0.5), bt__vec (0, 0, 1), 0.5, 0);
   assert_close (body.velocity.z, 1, 1e-12, "restitution");
   assert_close (body.velocity.x, 1, 1e-12, "without friction");
   uint64_t seed = 7;
@@ -471,13 +471,13 @@ test_bounce (void **state)
           seed = seed * 6364136223846793005u + 1442695040888963407u;
           r[k] = (double)(seed >> 11) / 4503599627370496.0 - 1;
         }
-      bt__body_place (&body, bt__vec (0, 0, 0), r[0], r[1], r[2]);
+      bt__rigid_place (&body, bt__vec (0, 0, 0), r[0], r[1], r[2]);
       body.velocity = bt__vec (r[3], r[4], r[5]);
       body.spin = bt__vec (5 * r[6], r[7], r[8]);
       bt_vec3 p = bt__vec (r[8], r[3], r[6]), n = bt__unit_or (bt__vec (r[1], r[5], r[7]), p);
-      double before = bt__body_energy (&type, &body, bt__vec (0, 0, 0));
-      bt__body_bounce (&type, &body, p, n, fabs (r[2]), fabs (r[0]));
-      assert_true (bt__body_energy (&type, &body, bt__vec (0, 0, 0)) <= before * (1 + 1e-12));
+      double before = bt__rigid_energy (&type, &body, bt__vec (0, 0, 0));
+      bt__rigid_bounce (&type, &body, p, n, fabs (r[2]), fabs (r[0]));
+      assert_true (bt__rigid_energy (&type, &body, bt__vec (0, 0, 0)) <= before * (1 + 1e-12));
     }
 }
 

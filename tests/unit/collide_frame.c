@@ -183,7 +183,7 @@ cast_beams (play *p, dice *d)
   for (int i = 0; i < BEAMS; i++)
     {
       bt__ray ray = { p->hull.origin, dice_direction (d), 30 };
-      bt__hit hit;
+      bt__ray_hit hit;
       bt__near in;
       if (bt__ray_cast (p->scene, NULL, &p->mover, 1, &ray, &hit, &p->count))
         add (p, &hit.range, sizeof hit.range);

@@ -244,7 +244,7 @@ check_scene (bt_vec3 far)
     {
       bt_vec3 n = i % 10 ? dice_direction (&d) : bt__vec (0, i % 20 ? 1 : -1, 0);
       bt__ray ray = { bt__add (far, dice_point (&d, 25)), n, pow (10, dice_between (&d, 0, 3)) };
-      bt__hit hit;
+      bt__ray_hit hit;
       int found = bt__scene_ray (s, &on, &ray, &hit, &count);
       double wanted = brute (s, &on, &ray);
       assert_int_equal (found, wanted < INFINITY);
@@ -319,7 +319,7 @@ nothing_leaks (void **state)
         b = a;
       bt_vec3 at = bt__axpy (a, t, bt__sub (b, a));
       bt__ray ray = { from, bt__unit_or (bt__sub (at, from), bt__vec (0, 0, 1)), 3 };
-      bt__hit hit;
+      bt__ray_hit hit;
       bt__count count = { 0 };
       assert_true (bt__scene_ray (s, NULL, &ray, &hit, &count));
     }
@@ -340,7 +340,7 @@ movers_where_they_stand (void **state)
     {
       bt__ray ray = { dice_point (&d, 40), dice_direction (&d), 100 };
       double best = INFINITY;
-      bt__hit hit, own;
+      bt__ray_hit hit, own;
       for (int m = 0; m < 2; m++)
         {
           bt__frame f = bt__motion_at (&mover[m].motion, mover[m].done);
@@ -366,7 +366,7 @@ bad_rays_meet_nothing (void **state)
   bt__scene *s = draw_scene (&d, bt__vec (0, 0, 0));
   bt__scene *empty = NULL;
   bt__count count = { 0 };
-  bt__hit hit;
+  bt__ray_hit hit;
   bt__ray bad[] = { { { NAN, 0, 0 }, { 1, 0, 0 }, 5 },
                     { { 0, 0, 0 }, { 0, INFINITY, 0 }, 5 },
                     { { 0, 0, 0 }, { 0, 0, 1 }, -1 },

@@ -4,6 +4,8 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#define _DEFAULT_SOURCE /* mkstemp */
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,0 +1,55 @@
+;; The vehicle pulls its tether to the site; the tender gives just enough.
+(define-lesson just-enough-slack "Just enough slack: forty metres out"
+  (setting set 0.1 0.2 0.3)
+  (in (with open-water (current (setting 'set) (+ 90 (jitter 20))) (minnow (at 0 8 -6)) (line (length 9))))
+  (say "Today you are pilot and tender in one: + pays a metre out, - hauls one in; or (pay-out! 5).  Too
+little tether and it stops you; too much and it drifts, drags and finds something to hang on.")
+  (show)
+  (fork-and-show "Watch what happens to one who leaves and pays nothing out."
+    (fly-to! '(0 48 -8) #:speed 0.4) (run 60))
+  (task "Fly forty metres north, to within 1.5 m of (0 48 -8), keeping 5 to 20 % of the tether slack."
+        (done-when (< (range-to '(0 48 -8)) 1.5))
+        (hint-after 30 "(slack) is the share that is slack: keep it near 0.12.  Pay out as fast as you fly.")
+        (hint-after 90 "(fly-to! '(0 48 -8) #:speed 0.3) (pay-out! 45 #:rate 0.33), and look now and then.")
+        (fail-when (parted?) "The tether has parted.")
+        (at-most 300))
+  (task "Now home, to within 1.5 m of (0 8 -6): take in what comes loose."
+        (done-when (< (range-to '(0 8 -6)) 1.5))
+        (hint-after 60 "Haul in as fast as you come: (haul-in! 40 #:rate 0.28).")
+        (fail-when (parted?) "The tether has parted.")
+        (at-most 300))
+  (count snaps (taut?))
+  (score (slack 0.05 0.20 #:share 0.8 #:weight 4)
+         (rov-tension 0 20 #:share 0.95 #:over 60)
+         ((counter 'snaps) 0 0 #:by end #:over 3 #:weight 2)
+         ((if (taut?) 1 0) 0 0 #:share 0.98 #:weight 2))
+  (pilot expert "Watches the slack, and tends as he flies."
+    (flies (fly-to! '(0 48 -8) #:speed 0.4) (tend 0.12 0.4))
+    (flies (fly-to! '(0 8 -6) #:speed 0.4) (tend 0.12 0.4)))
+  (pilot ordinary "Looks at the slack now and then."
+    (flies (fly-to! '(0 48 -8) #:speed 0.4) (tend-seldom))
+    (flies (fly-to! '(0 8 -6) #:speed 0.4) (tend-seldom)))
+  (pilot careless "Pays out when he is stopped, and then far too much."
+    (flies (fly-to! '(0 48 -8) #:speed 0.6)
+           (let again () (run-until taut?) (run (+ 4 (jitter 2))) (pay-out! 30 #:rate 1) (run 10)
+                (fly-to! '(0 48 -8) #:speed 0.6) (again)))
+    (flies (fly-to! '(0 8 -6) #:speed 0.6))))
+
+(define (tend aim rate)
+  ;; Look twice a second, and pay out or haul in toward the slack AIM.
+  (let look ()
+    (let* ((wanted (/ (straight-distance) (- 1 aim)))
+           (off (- wanted (tether-length))))
+      (cond ((> off 0.2) (pay-out! off #:rate (* 1.2 rate)))
+            ((< off -0.2) (haul-in! (- off) #:rate (* 1.2 rate))))
+      (run 0.5)
+      (look))))
+
+(define (tend-seldom)
+  ;; A handful of metres every ten seconds or so.
+  (let look ()
+    (run (+ 10 (jitter 2)))
+    (let ((off (- (/ (straight-distance) 0.82) (tether-length))))
+      (cond ((> off 1) (pay-out! (+ off 2 (jitter 2)) #:rate 0.8))
+            ((< off -3) (haul-in! (- (- off) 2) #:rate 0.8))))
+    (look)))

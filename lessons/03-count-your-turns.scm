@@ -1,0 +1,68 @@
+;; Each turn of the vehicle is a turn in its tether.  Take off what you put on.
+(define-lesson count-your-turns "Count your turns"
+  (in (with open-water (current 0.05 90) (minnow (at 0 10 -6)) (line (length 20))))
+  (say "Every time your heading goes once round, your tether has one turn more in it.  Twist makes loops,
+and loops hang on things.  Count, take the shorter way only when it is the way back, and come home with none.")
+  (task "Inspect the four sides: fly to within 1 m of (6 14 -6), (-6 14 -6), (-6 6 -6) and (6 6 -6), in any
+order, then to the dock at (0 10 -6)."
+        (first (count! 'sides 0))
+        (done-when (and (begin (tick-side!) (= 15 (sides-seen))) (< (range-to '(0 10 -6)) 1)))
+        (hint-after 60 "(net-turns) counts for you, clockwise +.")
+        (hint-after 120 "If you go round by the right three times, go round by the left three times too.")
+        (at-most 300))
+  (probe "How many turns have you made, to the nearest quarter, clockwise +?" (net-turns) #:within 0.3)
+  (task "Take all turns off: face north again with no turn left."
+        (done-when (< (abs (net-turns)) 0.06))
+        (held-for 2)
+        (hint-after 30 "Turn against the turns you made: (drive! #:yaw -0.5) takes off clockwise ones.")
+        (at-most 120))
+  (score ((abs (net-turns)) 0 1 #:by most #:over 1.5 #:weight 3)
+         ((abs (net-turns)) 0 0.06 #:by end #:over 1 #:weight 2))
+  (pilot expert "Goes there and back, never all the way round."
+    (answers (truth choices) truth)
+    (flies (fly-legs '((6 14 -6) (-6 14 -6) (-6 6 -6)) 0.4)
+           (take-off 0.5)
+           (fly-legs '((6 6 -6) (0 10 -6)) 0.4))
+    (flies (take-off 0.5)))
+  (pilot ordinary "Goes round once, and counts nearly right."
+    (answers (truth choices) (+ truth (jitter 0.5)))
+    (flies (fly-legs '((6 14 -6) (-6 14 -6) (-6 6 -6) (6 6 -6) (0 10 -6)) 0.35))
+    (flies (run 5) (take-off 0.3)))
+  (pilot careless "Looks round at every corner, always the same way."
+    (answers (truth choices) (+ 1 (jitter 1)))
+    (flies (for-each (lambda (p)
+                       (fly-legs (list p) 0.4)
+                       (look-round (+ 0.8 (jitter 0.2))))
+                     '((6 14 -6) (6 6 -6) (-6 6 -6) (-6 14 -6)))
+           (fly-legs '((0 10 -6)) 0.4))
+    (flies (run 10) (take-off 0.2))))
+
+(define sides '((6 14 -6) (-6 14 -6) (-6 6 -6) (6 6 -6)))
+
+(define (tick-side!)
+  ;; Count 1, 2, 4 or 8 for each side that is reached for the first time.
+  (for-each (lambda (p bit name)
+              (if (and (< (range-to p) 1) (= 0 (counter name)))
+                  (begin (count! name) (count! 'sides bit))))
+            sides '(1 2 4 8) '(side-1 side-2 side-3 side-4)))
+
+(define (sides-seen) (counter 'sides))
+
+(define (fly-legs points speed)
+  (for-each (lambda (p) (fly-to! p #:speed speed) (run-until arrived? #:at-most 90)) points))
+
+(define (look-round turns)
+  ;; Turn clockwise by TURNS.
+  (let ((end (+ (net-turns) turns)))
+    (drive! #:yaw 0.6)
+    (run-until (lambda () (>= (net-turns) end)) #:at-most 60)
+    (release!)))
+
+(define (take-off stick)
+  ;; Turn back until no turn is left.
+  (release!)
+  (drive! #:yaw (if (> (net-turns) 0) (- stick) stick))
+  (let ((sign (if (> (net-turns) 0) 1 -1)))
+    (run-until (lambda () (< (* sign (net-turns)) 0.02)) #:at-most 120))
+  (release!)
+  (run 1))

@@ -1,0 +1,83 @@
+;;; (bight lesson-file) --- lessons in files: which there are, and reading one.
+;;;
+;;; A lesson that comes with bight lies in a folder of lessons as NN-NAME.scm and is called NAME, or NN.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight lesson-file)
+  #:use-module ((bight cli) #:select (evaluate-file))
+  #:use-module ((bight engine) #:select (%worlds-folder))
+  #:use-module (bight errors)
+  #:use-module (bight lesson)
+  #:use-module (bight verb)
+  #:use-module (ice-9 ftw)
+  #:use-module (srfi srfi-1)
+  #:export (lessons
+            lessons-path
+            lesson-files
+            lesson-file
+            lesson-file-name
+            load-lesson
+            read-lessons))
+
+(define (lessons-path)
+  "Return the list of folders where lessons are looked for by name: those in the environment variable
+BIGHT_LESSONS and bight's own."
+  (append (let ((path (getenv "BIGHT_LESSONS")))
+            (if path (remove string-null? (string-split path #\:)) '()))
+          (list (string-append (dirname (%worlds-folder)) "/lessons"))))
+
+(define (numbered? file)
+  (and (string-suffix? ".scm" file)
+       (> (string-length file) 7)
+       (string-every char-numeric? (substring file 0 2))
+       (char=? #\- (string-ref file 2))))
+
+(define (lesson-files)
+  "Return the files of the lessons that are known by name, in order."
+  (delete-duplicates
+   (append-map (lambda (folder)
+                 (map (lambda (file) (string-append folder "/" file))
+                      (or (scandir folder numbered? string<?) '())))
+               (lessons-path))
+   (lambda (a b) (string=? (basename a) (basename b)))))
+
+(define (lesson-file-name file)
+  "Return the name, a symbol, of the lesson in FILE, one of `lesson-files'."
+  (string->symbol (substring (basename file ".scm") 3)))
+
+(define-verb (lessons)
+  "Return the names of the lessons that come with bight, in order.  `bight lesson NAME' takes one."
+  (map lesson-file-name (lesson-files)))
+
+(define (lesson-file designator)
+  "Return the file of the lesson that DESIGNATOR, a string, names: by name or number.  Raise a &bight-error
+of kind name when there is none."
+  (let* ((files (lesson-files))
+         (number (string->number designator)))
+    (or (find (lambda (file)
+                (or (string=? designator (symbol->string (lesson-file-name file)))
+                    (eqv? number (string->number (substring (basename file) 0 2)))))
+              files)
+        (unknown-name 'lesson "the list of lessons" designator (lessons)))))
+
+(define (fresh-module)
+  (let ((module (make-fresh-user-module)))
+    (module-use! module (resolve-interface '(bight)))
+    module))
+
+(define (read-lessons file)
+  "Return the lessons that FILE, which is trusted, defines."
+  (collect-lessons
+   (lambda ()
+     (save-module-excursion
+      (lambda ()
+        (set-current-module (fresh-module))
+        (evaluate-file file))))))
+
+(define* (load-lesson file #:optional (read read-lessons))
+  "Return the lesson in FILE as READ reads it; the last when there are more."
+  (let ((found (read file)))
+    (when (null? found)
+      (bight-raise 'format 'lesson "~a defines no lesson: it says no (define-lesson NAME \"title\" ...)" file))
+    (last found)))

@@ -1,0 +1,266 @@
+;;; (bight sandbox) --- reading and running a lesson from outside without harm.
+;;;
+;;; Three walls.  The first is the language: the forms are evaluated in a module that has Guile's own pure
+;;; bindings, the language of worlds, dives and lessons, and nothing that names files, modules, processes,
+;;; the clock or another's syntax, nor anything that changes a value in place; what eats memory in one call
+;;; is guarded.  The second is the process: limits on memory, on files, and on processor time, which is
+;;; granted anew whenever the lesson has let time pass or waits for the pupil.  The third is the kernel's,
+;;; where it has Landlock: no path can be written, no program started, no port bound or reached.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight sandbox)
+  #:use-module (bight errors)
+  #:use-module (bight lesson)
+  #:use-module ((bight lesson-play) #:select (untrusted?))
+  #:use-module (ice-9 sandbox)
+  #:use-module (rnrs bytevectors)
+  #:use-module (srfi srfi-1)
+  #:use-module (system foreign)
+  #:export (enclose!
+            breathe!
+            sandbox-module
+            read-lessons-inside
+            memory-limit
+            breath))
+
+(define memory-limit (* 1024 1024 1024)) ; bytes of address space
+(define breath 20)                       ; seconds of processor time without letting time pass
+
+
+;;; The language inside.
+
+(define (groups-without . names)
+  ;; Guile's pure bindings but the groups that hold one of NAMES.
+  (remove (lambda (group) (any (lambda (name) (memq name (cdr group))) names))
+          all-pure-bindings))
+
+;; datum->syntax could be turned against the syntax of our own macros.
+(define guile-bindings
+  (groups-without 'datum->syntax 'get-internal-real-time))
+
+(define most-items 100000)
+(define most-bits 10000)
+
+(define (too-much name what)
+  (bight-raise 'domain name "~a is more than a lesson from outside may make" what))
+
+(define (sized name proc argument-index)
+  ;; PROC, whose argument number ARGUMENT-INDEX is the size of what it makes.
+  (lambda arguments
+    (let ((n (and (> (length arguments) argument-index) (list-ref arguments argument-index))))
+      (when (and (real? n) (> n most-items)) (too-much name n))
+      (apply proc arguments))))
+
+(define (bits x)
+  (cond ((exact-integer? x) (integer-length x))
+        ((and (number? x) (exact? x) (rational? x))
+         (+ (integer-length (numerator x)) (integer-length (denominator x))))
+        (else 0)))
+
+(define (power name proc)
+  (lambda (base exponent)
+    (when (and (real? exponent) (exact? base) (> (* (bits base) (abs exponent)) most-bits))
+      (too-much name "such a power"))
+    (proc base exponent)))
+
+(define (shift name proc)
+  (lambda (n count)
+    (when (> count most-bits) (too-much name "such a shift"))
+    (proc n count)))
+
+(define (times . factors)
+  ;; Squaring again and again doubles the digits each time.
+  (when (> (apply + (map bits factors)) (* 2 most-bits)) (too-much '* "such a product"))
+  (apply * factors))
+
+(define (joined name proc)
+  ;; PROC makes something as long as its list or string arguments together.
+  (lambda arguments
+    (let ((n (apply + (map (lambda (a) (cond ((string? a) (string-length a))
+                                             ((list? a) (length a))
+                                             (else 0)))
+                           arguments))))
+      (when (> n most-items) (too-much name "such a length"))
+      (apply proc arguments))))
+
+(define guarded
+  `((expt . ,(power 'expt expt))
+    (integer-expt . ,(power 'integer-expt integer-expt))
+    (ash . ,(shift 'ash ash))
+    (round-ash . ,(shift 'round-ash round-ash))
+    (* . ,times)
+    (iota . ,(sized 'iota iota 0))
+    (make-list . ,(sized 'make-list make-list 0))
+    (make-string . ,(sized 'make-string make-string 0))
+    (make-vector . ,(sized 'make-vector make-vector 0))
+    (make-bitvector . ,(sized 'make-bitvector make-bitvector 0))
+    (string-pad . ,(sized 'string-pad string-pad 1))
+    (string-pad-right . ,(sized 'string-pad-right string-pad-right 1))
+    (string-tabulate . ,(sized 'string-tabulate string-tabulate 1))
+    (append . ,(joined 'append append))
+    (string-append . ,(joined 'string-append string-append))))
+
+;; Made by size through many names, and of no use in a lesson; or patterns that take for ever.
+(define left-out
+  '(make-array make-typed-array make-shared-array xsubstring string-unfold string-unfold-right
+    string-append/shared string-concatenate string-concatenate/shared symbol-append make-regexp
+    regexp-exec string->number rationalize exact-integer-sqrt with-throw-handler make-hash-table
+    make-doubly-weak-hash-table make-weak-key-hash-table make-weak-value-hash-table modulo-expt
+    integer-length procedure-documentation procedure-name
+    make-f32vector make-f64vector make-s16vector make-s32vector make-s64vector make-s8vector
+    make-u16vector make-u32vector make-u64vector make-u8vector abort-to-prompt abort-to-prompt*
+    call-with-prompt make-prompt-tag start-stack
+    version major-version minor-version micro-version effective-version))
+
+(define (plain-name entry) (if (pair? entry) (cdr entry) entry))
+
+(define (with-guards bindings)
+  (filter-map
+   (lambda (group)
+     (let ((names (remove (lambda (entry)
+                            (or (assq (plain-name entry) guarded) (memq (plain-name entry) left-out)))
+                          (cdr group))))
+       (and (pair? names) (cons (car group) names))))
+   bindings))
+
+;; Whole modules of the language, but for the names after each.
+(define language
+  '(((bight units))
+    ((bight world) world-file find-world worlds world->parts)
+    ((bight types))
+    ((bight dive) call-with-dive current-dive fork-dive engine-of this-engine this-dive dive-world
+     enter! running-dive check-not-running dive-tasks set-dive-tasks! dive-watchers
+     set-dive-watchers! type:dive)
+    ((bight command) follow!)
+    ((bight query) find-part tether-properties obstacle-properties)
+    ((bight contact))
+    ((bight build))
+    ((bight time))
+    ((bight lesson) run-lesson lesson-list lesson-code lesson-location collect-lessons take-lesson
+     scripted-guide pilot-named register-lesson! unknown-clause malformed-clause malformed-lesson)
+    ((bight lesson-measure))))
+
+(define single-names
+  '(((bight task) every on cancel!)
+    ((bight pilot) define-pilot make-pilot with-pilot)
+    ((bight checkpoint) checkpoint restore! what-if state-hash)
+    ((bight expect) about between above below)
+    ((bight view) look status)))
+
+(define (public-names module)
+  (module-map (lambda (name variable) name) (resolve-interface module)))
+
+(define (language-bindings)
+  (append single-names
+          (map (lambda (entry)
+                 (cons (car entry) (lset-difference eq? (public-names (car entry)) (cdr entry))))
+               language)))
+
+(define (sandbox-module)
+  "Return a new module in which a lesson from outside can be evaluated."
+  (let* ((ours (language-bindings))
+         (our-names (append-map cdr ours))
+         (guile (map (lambda (group)
+                       (cons (car group)
+                             (remove (lambda (entry) (memq (plain-name entry) our-names)) (cdr group))))
+                     (with-guards guile-bindings)))
+         (module (make-sandbox-module (append guile ours))))
+    (for-each (lambda (entry) (module-define! module (car entry) (cdr entry))) guarded)
+    module))
+
+
+;;; Reading.
+
+(define (line-of form)
+  (+ 1 (or (assq-ref (or (syntax-source form) '()) 'line) 0)))
+
+(define (evaluate-inside port file module)
+  (let loop ()
+    (let ((form (read-syntax port)))
+      (unless (eof-object? form)
+        (breathe!)
+        (with-exception-handler
+            (lambda (e)
+              (bight-raise (if (bight-error? e) (bight-error-kind e) 'def) #f "~a:~a: ~a" file
+                           (line-of form)
+                           ((module-ref (resolve-interface '(bight expect)) 'exception->line) e)))
+          (lambda () (eval form module))
+          #:unwind? #t)
+        (loop)))))
+
+(define (read-lessons-inside file)
+  "Return the lessons that FILE, which is not trusted, defines.  Raise a &bight-error for whatever goes
+wrong in it."
+  (untrusted? #t)
+  (collect-lessons
+   (lambda ()
+     (call-with-input-file file
+       (lambda (port)
+         (set-port-filename! port file)
+         (evaluate-inside port file (sandbox-module)))))))
+
+
+;;; The process.
+
+(define (processor-seconds)
+  (let ((t (times)))
+    (quotient (+ (tms:utime t) (tms:stime t)) internal-time-units-per-second)))
+
+(define enclosed? #f)
+
+(define (breathe!)
+  "Grant this process, if it is enclosed, processor time anew."
+  (when enclosed?
+    (setrlimit 'cpu (+ breath 1 (processor-seconds)) (+ 3600 breath))))
+
+(define (limit! resource value)
+  (false-if-exception (setrlimit resource value value)))
+
+(define (foreign name return arguments)
+  (let ((address (false-if-exception (dynamic-func name (dynamic-link)))))
+    (and address (pointer->procedure return address arguments))))
+
+;; The numbers of Landlock's system calls are the same on all machines.
+(define landlock-create 444)
+(define landlock-restrict 446)
+(define no-new-privileges 38)
+
+(define (landlock-version syscall)
+  (syscall landlock-create 0 0 1))
+
+(define (rights version)
+  ;; Of a file: to start it, write it, remove, make, refer to, truncate it.
+  (logior 1 2 (ash #x1ff 4)
+          (if (>= version 2) (ash 1 13) 0)
+          (if (>= version 3) (ash 1 14) 0)))
+
+(define (close-paths!)
+  ;; Let the kernel refuse; return #t if it can.
+  (let ((syscall (foreign "syscall" long (list long uintptr_t size_t uint32)))
+        (prctl (foreign "prctl" int (list int unsigned-long unsigned-long unsigned-long unsigned-long))))
+    (and syscall prctl
+         (let ((version (landlock-version syscall))
+               (attributes (make-bytevector 16 0)))
+           (and (>= version 1)
+                (begin
+                  (bytevector-u64-native-set! attributes 0 (rights version))
+                  (bytevector-u64-native-set! attributes 8 3)
+                  (let ((rules (syscall landlock-create
+                                        (pointer-address (bytevector->pointer attributes))
+                                        (if (>= version 4) 16 8) 0)))
+                    (and (>= rules 0)
+                         (zero? (prctl no-new-privileges 1 0 0 0))
+                         (zero? (syscall landlock-restrict rules 0 0))))))))))
+
+(define (enclose!)
+  "Take from this process, for good, what a lesson from outside has no use for: writing to any path,
+starting programs, more than so much memory or processor time.  Return `kernel' if the kernel watches the
+paths, else `limits'."
+  (chdir "/")                           ; no folder of worlds lies here
+  (limit! 'fsize (* 16 1024 1024))      ; standard output may be a file
+  (limit! 'core 0)
+  (limit! 'as memory-limit)
+  (set! enclosed? #t)
+  (breathe!)
+  (if (close-paths!) 'kernel 'limits))

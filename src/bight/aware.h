@@ -1,0 +1,193 @@
+/* What a tether is doing: how tight, how wound, how free, and which way out.
+
+   Every answer is of the present state alone: equal states, equal answers, whoever asked before.
+   Nothing is computed unless asked; several questions about one state share one taut string.  What
+   depends on the world alone (the tree of free ways, the table of words) is made when first asked
+   for and shared by forks.  Obstacles on tracks are left out of strings, ways and words: they hold
+   nothing for good; turns about them are counted.
+
+   The string of a world in which nothing stands but level ground is the straight line; nothing is
+   solved then.  Every function gives BT_ERR_NAME when there is no such part and BT_ERR_LIMIT when
+   memory runs out.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BIGHT_AWARE_H
+#define BIGHT_AWARE_H
+
+#include <bight/dive.h>
+
+BT_BEGIN_DECLS
+
+/* ---- Lengths, m ---- */
+
+/* Of the taut string: what tether I shrinks to through nothing, without friction.  */
+bt_status bt_tether_taut_length (const bt_dive *dive, int i, double *length, bt_error *error);
+
+/* Of the shortest way that is known from its anchor to its far end; never more than the above.  */
+bt_status bt_tether_free_length (const bt_dive *dive, int i, double *length, bt_error *error);
+
+/* Of the tether that lies on OBSTACLE, -1 for any; with SLIDING nonzero only what is dragged.  */
+bt_status bt_tether_contact_length (const bt_dive *dive, int i, int obstacle, int sliding,
+                                    double *length, bt_error *error);
+
+/* ---- Turns ---- */
+
+/* Signed turns of tether I about OBSTACLE, continuous; clockwise looking along its axis is positive
+   (down, where it has none).  The tether closed by its chord winds about it a whole number of
+   times.  BT_ERR_UNSUPPORTED for level ground, which has no axis.  */
+bt_status bt_tether_turns (const bt_dive *dive, int i, int obstacle, double *turns,
+                           bt_error *error);
+bt_status bt_tether_winding (const bt_dive *dive, int i, int obstacle, int *winding,
+                             bt_error *error);
+
+/* Radians by which the taut string bends at OBSTACLE, -1 for all; and the product of
+   exp (mu theta) over all it bends at: the ratio of pulls that friction bears.  */
+bt_status bt_tether_wrap_angle (const bt_dive *dive, int i, int obstacle, double *radians,
+                                bt_error *error);
+bt_status bt_tether_capstan_lock (const bt_dive *dive, int i, double *lock, bt_error *error);
+
+/* ---- Classes ---- */
+
+enum
+{
+  BT_CLASS_MAX = 1022
+};
+
+/* The homotopy class of a tether: the reduced word of its way and the free way back.  Without
+   letters it can be drawn to the free way.  Classes of tethers with the same ends are equal when
+   the tethers can be moved into each other.  Flat; zeros behind the letters.  */
+typedef struct bt_class
+{
+  uint64_t world;  /* whose letters */
+  int32_t letters; /* how many */
+  int16_t decided; /* nonzero: unequal words are unequal classes */
+  int16_t lost;    /* nonzero: it squeezes where it cannot be followed; equal to nothing */
+  int32_t letter[BT_CLASS_MAX];
+  int32_t object[BT_CLASS_MAX]; /* of each letter the obstacle it goes round, -1: not known */
+} bt_class;
+
+bt_status bt_tether_class (const bt_dive *dive, int i, bt_class *out, bt_error *error);
+
+/* Nonzero if A and B are equal and neither is lost.  */
+int bt_class_equal (const bt_class *a, const bt_class *b);
+
+/* Is the line itself knotted?  BT_ERR_UNSUPPORTED if it crosses itself too often to tell.  */
+bt_status bt_tether_knotted (const bt_dive *dive, int i, int *knotted, bt_error *error);
+
+/* ---- Fouled, hauled, freed ---- */
+
+typedef enum bt_foul
+{
+  BT_FOUL_NOT = 0, /* its string exceeds the free way by no more than 1 m or 5 % */
+  BT_FOUL_WOUND,   /* nothing but going back round frees it */
+  BT_FOUL_HUNG     /* it may slip off, or be lifted off */
+} bt_foul;
+
+bt_status bt_tether_fouled (const bt_dive *dive, int i, bt_foul *foul, bt_error *error);
+
+typedef enum bt_haul_answer
+{
+  BT_HAUL_NO = 0,
+  BT_HAUL_YES,
+  BT_HAUL_UNSURE
+} bt_haul_answer;
+
+typedef enum bt_haul_reason
+{
+  BT_HAUL_CLEAR = 0,
+  BT_HAUL_LOCKED, /* friction round the object and others eats the winch's pull */
+  BT_HAUL_HUNG,   /* the vehicle's body hangs on it */
+  BT_HAUL_WEDGED  /* the body does not go through at it */
+} bt_haul_reason;
+
+/* Will the dead vehicle come home if tether I is hauled?  */
+typedef struct bt_prospect
+{
+  bt_haul_answer answer;
+  bt_haul_reason reason;
+  int object;   /* the obstacle, or -1 */
+  double s;     /* m along the string, where */
+  double pull;  /* N that reach the vehicle */
+  double speed; /* m/s at which it comes if nothing hangs */
+} bt_prospect;
+
+/* At once, by the string, for a winch that pulls with WINCH newtons.  */
+bt_status bt_tether_prospect (const bt_dive *dive, int i, double winch, bt_prospect *out,
+                              bt_error *error);
+
+/* By hauling on a fork with the moving line: the engine's own answer.  */
+typedef struct bt_haul
+{
+  int home;       /* nonzero: it came within reach of the anchor */
+  double seconds; /* that it took, or until it was clear that it is stuck */
+  double left;    /* m of tether still out */
+  int object;     /* stuck: the obstacle at its hull or, failing that, at its tether; or -1 */
+  int hull;       /* nonzero: at its hull */
+  bt_vec3 at;     /* m: where the vehicle came to */
+} bt_haul;
+
+/* Haul at RATE m/s with no more than WINCH newtons, for at most SECONDS.  */
+bt_status bt_tether_haul (const bt_dive *dive, int i, double rate, double winch, double seconds,
+                          bt_haul *out, bt_error *error);
+
+/* A way to fly.  */
+typedef struct bt_route
+{
+  int needed;       /* zero: there is nothing to unwind, the way is empty */
+  int feasible;     /* nonzero: wide enough, never longer than what is out, free at its end */
+  double length;    /* m */
+  double clearance; /* m: how near it comes to OBSTACLE */
+  int obstacle;     /* -1: to nothing */
+  double longest;   /* m: of the string on the way */
+  double left;      /* m: of the string at the end */
+} bt_route;
+
+/* Put into POINTS, at most MAX, the way that retraces the string of tether I from its vehicle to
+   its anchor; or the loop that frees it, back to where the vehicle is.  *N is how many there are.
+   BT_ERR_UNSUPPORTED when no vehicle is at its far end.  */
+bt_status bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n,
+                              bt_route *out, bt_error *error);
+bt_status bt_tether_unwind_plan (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n,
+                                 bt_route *out, bt_error *error);
+
+/* ---- What is to come ---- */
+
+typedef enum bt_foresight_kind
+{
+  BT_FORESEE_TOUCH = 1, /* the string meets an obstacle */
+  BT_FORESEE_TURN,      /* its turns about it pass the next half */
+  BT_FORESEE_TAUT,      /* the string is as long as what is out */
+  BT_FORESEE_BUMP       /* the vehicle meets it: the forecast ends */
+} bt_foresight_kind;
+
+typedef struct bt_foresight
+{
+  bt_foresight_kind kind;
+  int object;     /* the obstacle, or -1 */
+  double seconds; /* from now */
+  double turns;   /* about it, then */
+} bt_foresight;
+
+/* What the string of tether I will do if the vehicle goes on for SECONDS as it goes now; at most
+   MAX events in their order to OUT, *N of them.  A model of the string alone: no slack, no current.
+ */
+bt_status bt_tether_foresee (const bt_dive *dive, int i, double seconds, bt_foresight *out, int max,
+                             int *n, bt_error *error);
+
+/* ---- For a live view ---- */
+
+/* The string as it is led from one call to the next, a step or two each: cheap, and of the history
+   of its calls; no answer above depends on it.  */
+typedef struct bt_follow
+{
+  double length;
+  int nodes;
+  int slipped; /* nonzero: it slid off something that could not hold it */
+} bt_follow;
+
+bt_status bt_tether_follow (const bt_dive *dive, int i, bt_follow *out, bt_error *error);
+
+BT_END_DECLS
+
+#endif

@@ -1,0 +1,114 @@
+/* Live dives: a thread steps them, Scheme asks a copy.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "guile/guile.h"
+
+static SCM
+is_live (SCM object)
+{
+  return scm_from_bool (bt__to_handle (object)->live != NULL);
+}
+
+static SCM
+go_live (SCM object, SCM pace)
+{
+  static const char *const who = "live!";
+  bt__handle *handle = bt__to_handle (object);
+  bt_live_options options = bt_live_default_options ();
+  bt_error error = { BT_ERR_UNSUPPORTED, "a dive whose current is a procedure cannot be live: the "
+                                         "thread that steps it never enters Scheme" };
+  bt_dive *view;
+  bt_status status;
+  options.pace = scm_to_double (pace);
+  if (handle->live)
+    return SCM_BOOL_F;
+  if (bt_dive_asks (bt__to_idle_dive (who, object)))
+    bt__raise (who, &error);
+  bt__check (who, bt_dive_fork (handle->dive, &view, &error), &error);
+  status = bt_live_start (handle->dive, &options, &handle->live, &error);
+  if (status != BT_OK)
+    bt_dive_free (view);
+  bt__check (who, status, &error);
+  handle->flown = handle->dive;
+  handle->dive = view;
+  handle->edition = 0;
+  return SCM_BOOL_T;
+}
+
+static SCM
+freeze (SCM object)
+{
+  bt__handle *handle = bt__to_handle (object);
+  bt_error error;
+  bt_status status;
+  if (!handle->live)
+    return SCM_BOOL_F;
+  status = bt_live_stop (handle->live, &error);
+  bt_dive_free (handle->dive);
+  handle->dive = handle->flown;
+  handle->flown = NULL;
+  handle->live = NULL;
+  bt__check ("freeze!", status, &error);
+  return SCM_BOOL_T;
+}
+
+static bt_live *
+to_live (SCM object)
+{
+  bt__handle *handle = bt__to_handle (object);
+  bt_error error = { BT_ERR_DEF, "this dive is not live" };
+  if (!handle->live)
+    bt__raise ("live!", &error);
+  return handle->live;
+}
+
+/* #(step hash), or with BYTES? #(step hash state), for each checkpoint later than step AFTER.  */
+static SCM
+live_moments (SCM object, SCM after, SCM wanted)
+{
+  bt_live *live = to_live (object);
+  int64_t last = scm_to_int64 (after), step;
+  uint64_t hash;
+  SCM list = SCM_EOL;
+  for (int i = 0; bt_live_moment (live, i, &step, &hash, NULL) > 0; i++)
+    {
+      SCM moment = scm_c_make_vector (3, SCM_BOOL_F);
+      if (step <= last)
+        continue;
+      last = step;
+      if (scm_is_true (wanted))
+        {
+          SCM bytes = scm_c_make_bytevector (bt_dive_state_size (bt__to_handle (object)->dive));
+          bt_live_moment (live, i, &step, &hash, SCM_BYTEVECTOR_CONTENTS (bytes));
+          scm_c_vector_set_x (moment, 2, bytes);
+        }
+      scm_c_vector_set_x (moment, 0, scm_from_int64 (step));
+      scm_c_vector_set_x (moment, 1, scm_from_uint64 (hash));
+      list = scm_cons (moment, list);
+    }
+  return scm_reverse_x (list, SCM_EOL);
+}
+
+static SCM
+live_late (SCM object)
+{
+  return scm_from_double (bt_live_late (to_live (object)));
+}
+
+void
+bt__define_live (void)
+{
+  static const bt__procedure table[] = {
+    { "%live?", 1, 0, (scm_t_subr)is_live, "Return #t while DIVE is live." },
+    { "%live!", 2, 0, (scm_t_subr)go_live,
+      "Let DIVE run by itself at PACE; return #f if it does already." },
+    { "%freeze!", 1, 0, (scm_t_subr)freeze, "Stop what %live! started; return #f if it was not." },
+    { "%live-moments", 3, 0, (scm_t_subr)live_moments,
+      "Return the checkpoints of the live DIVE after the step AFTER, the oldest first: vectors "
+      "#(step hash state), the state #f unless WANTED." },
+    { "%live-late", 1, 0, (scm_t_subr)live_late,
+      "Return by how much the live DIVE fell behind real time, s." },
+  };
+  bt__define_procedures (table, sizeof table / sizeof *table);
+}

@@ -1,0 +1,220 @@
+/* The extension for SQLite: fills the module (bight sqlite).  It is loaded when a database is first
+   wanted.
+
+   A database is written by whoever comes: it is in WAL mode, a writer waits for another, and what
+   was committed survives the end of the process.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <sqlite3.h>
+
+#include "guile/guile.h"
+
+enum
+{
+  PATIENCE = 10000 /* ms that a writer waits for another */
+};
+
+static scm_t_bits database_tag;
+
+static size_t
+free_database (SCM object)
+{
+  sqlite3_close_v2 ((sqlite3 *)SCM_SMOB_DATA (object));
+  return 0;
+}
+
+static sqlite3 *
+to_database (SCM object)
+{
+  bt_error closed = { BT_ERR_STALE, "this database is closed" };
+  scm_assert_smob_type (database_tag, object);
+  if (!SCM_SMOB_DATA (object))
+    bt__raise ("database", &closed);
+  return (sqlite3 *)SCM_SMOB_DATA (object);
+}
+
+/* A file that is no database is of the wrong format; all else is the system's fault.  */
+static void
+raise_sqlite (const char *who, sqlite3 *database, int code)
+{
+  bt_error error;
+  int format = code == SQLITE_NOTADB || code == SQLITE_CORRUPT;
+  const char *text = database ? sqlite3_errmsg (database) : sqlite3_errstr (code);
+  error.status = format ? BT_ERR_FORMAT : BT_ERR_IO;
+  strncpy (error.text, text, sizeof error.text - 1);
+  error.text[sizeof error.text - 1] = 0;
+  bt__raise (who, &error);
+}
+
+static SCM
+open_database (SCM file)
+{
+  sqlite3 *database = NULL;
+  int code;
+  char *name;
+  scm_dynwind_begin (0);
+  name = scm_to_utf8_string (file);
+  scm_dynwind_free (name);
+  code = sqlite3_open_v2 (name, &database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, NULL);
+  if (code == SQLITE_OK)
+    {
+      sqlite3_extended_result_codes (database, 0);
+      sqlite3_busy_timeout (database, PATIENCE);
+      code = sqlite3_exec (database, "pragma journal_mode=wal; pragma synchronous=normal;", NULL,
+                           NULL, NULL);
+    }
+  if (code != SQLITE_OK)
+    {
+      sqlite3_close_v2 (database);
+      raise_sqlite ("database", NULL, code);
+    }
+  scm_dynwind_end ();
+  return scm_new_smob (database_tag, (scm_t_bits)database);
+}
+
+static SCM
+close_database (SCM object)
+{
+  scm_assert_smob_type (database_tag, object);
+  sqlite3_close_v2 ((sqlite3 *)SCM_SMOB_DATA (object));
+  SCM_SET_SMOB_DATA (object, 0);
+  return SCM_UNSPECIFIED;
+}
+
+/* ---- Statements ---- */
+
+static void
+finish (void *statement)
+{
+  sqlite3_finalize (statement);
+}
+
+static void
+bind_text (sqlite3_stmt *statement, int i, SCM value)
+{
+  size_t n;
+  char *text = scm_to_utf8_stringn (value, &n);
+  sqlite3_bind_text (statement, i, text, (int)n, free);
+}
+
+static void
+bind_value (sqlite3_stmt *statement, int i, SCM value)
+{
+  if (scm_is_string (value))
+    bind_text (statement, i, value);
+  else if (scm_is_symbol (value))
+    bind_text (statement, i, scm_symbol_to_string (value));
+  else if (scm_is_signed_integer (value, INT64_MIN, INT64_MAX))
+    sqlite3_bind_int64 (statement, i, scm_to_int64 (value));
+  else if (scm_is_real (value))
+    sqlite3_bind_double (statement, i, scm_to_double (value));
+  else
+    sqlite3_bind_null (statement, i);
+}
+
+static void
+bind_row (sqlite3_stmt *statement, SCM row)
+{
+  for (int i = 1; scm_is_pair (row); row = SCM_CDR (row))
+    bind_value (statement, i++, SCM_CAR (row));
+}
+
+static SCM
+from_column (sqlite3_stmt *statement, int i)
+{
+  switch (sqlite3_column_type (statement, i))
+    {
+    case SQLITE_INTEGER:
+      return scm_from_int64 (sqlite3_column_int64 (statement, i));
+    case SQLITE_FLOAT:
+      return scm_from_double (sqlite3_column_double (statement, i));
+    case SQLITE_NULL:
+      return SCM_BOOL_F;
+    default:
+      return scm_from_utf8_stringn ((const char *)sqlite3_column_text (statement, i),
+                                    (size_t)sqlite3_column_bytes (statement, i));
+    }
+}
+
+static SCM
+from_row (sqlite3_stmt *statement)
+{
+  SCM row = SCM_EOL;
+  for (int i = sqlite3_column_count (statement); i-- > 0;)
+    row = scm_cons (from_column (statement, i), row);
+  return row;
+}
+
+static sqlite3_stmt *
+prepare (sqlite3 *database, SCM text)
+{
+  sqlite3_stmt *statement = NULL;
+  char *sql = scm_to_utf8_string (text);
+  int code = sqlite3_prepare_v2 (database, sql, -1, &statement, NULL);
+  free (sql);
+  if (code != SQLITE_OK)
+    raise_sqlite ("database", database, code);
+  scm_dynwind_unwind_handler (finish, statement, SCM_F_WIND_EXPLICITLY);
+  return statement;
+}
+
+static SCM
+query (SCM object, SCM text, SCM values)
+{
+  sqlite3 *database = to_database (object);
+  sqlite3_stmt *statement;
+  SCM rows = SCM_EOL;
+  int code;
+  scm_dynwind_begin (0);
+  statement = prepare (database, text);
+  bind_row (statement, values);
+  while ((code = sqlite3_step (statement)) == SQLITE_ROW)
+    rows = scm_cons (from_row (statement), rows);
+  if (code != SQLITE_DONE)
+    raise_sqlite ("database", database, code);
+  scm_dynwind_end ();
+  return scm_reverse_x (rows, SCM_EOL);
+}
+
+static SCM
+insert (SCM object, SCM text, SCM rows)
+{
+  sqlite3 *database = to_database (object);
+  sqlite3_stmt *statement;
+  scm_dynwind_begin (0);
+  statement = prepare (database, text);
+  for (; scm_is_pair (rows); rows = SCM_CDR (rows))
+    {
+      int code;
+      bind_row (statement, SCM_CAR (rows));
+      code = sqlite3_step (statement);
+      if (code != SQLITE_DONE && code != SQLITE_ROW)
+        raise_sqlite ("database", database, code);
+      sqlite3_reset (statement);
+    }
+  scm_dynwind_end ();
+  return SCM_UNSPECIFIED;
+}
+
+void bight_sqlite_init (void);
+
+__attribute__ ((visibility ("default"))) void
+bight_sqlite_init (void)
+{
+  static const bt__procedure table[] = {
+    { "%open-database", 1, 0, (scm_t_subr)open_database,
+      "Open the database FILE, made if there is none, for many readers and writers." },
+    { "%close-database", 1, 0, (scm_t_subr)close_database, "Close DATABASE." },
+    { "%query", 3, 0, (scm_t_subr)query,
+      "Do the statement SQL in DATABASE with VALUES for its `?', and return its rows, lists." },
+    { "%insert", 3, 0, (scm_t_subr)insert,
+      "Do the statement SQL in DATABASE once for each of ROWS, lists of values for its `?'." },
+  };
+  database_tag = scm_make_smob_type ("database", 0);
+  scm_set_smob_free (database_tag, free_database);
+  bt__define_procedures (table, sizeof table / sizeof *table);
+}

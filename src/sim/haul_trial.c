@@ -1,0 +1,231 @@
+/* A haul on a fork: the dead vehicle at the end of the moving line, the winch that pulls no more
+   than it can.
+
+   What goes where it is told gets a body for the trial.  The winch turns while the tension at it is
+   below its limit and stands while it is above.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <string.h>
+
+#include <bight/aware.h>
+#include <bight/contact.h>
+
+#include "base/error.h"
+#include "math/vec.h"
+#include "sim/sim.h"
+#include "world/line.h"
+
+enum
+{
+  STEPS_A_LOOK = 6
+};
+
+#define HOME_WITHIN 0.5 /* m, beyond the hull */
+#define LEAST_OUT 0.5   /* m */
+#define STUCK_WAY 0.15  /* m: less ... */
+#define STUCK_TIME 20.0 /* s: ... in so long is stuck */
+#define AT_HULL 0.03    /* m: so near to the hull it is what holds it */
+
+/* The body of a vehicle that has none: kg, N s/m, N s2/m2.  */
+#define MASS 20.0
+#define DRAG1 60.0
+#define DRAG2 100.0
+
+/* ---- The fork ---- */
+
+static bt_status
+do_number (bt_dive *fork, bt_op op, int subject, double a, double b, int n, bt_error *error)
+{
+  double args[2] = { a, b };
+  return bt_dive_do (fork, op, subject, args, n, error);
+}
+
+/* Nobody flies, and every vehicle is moved by forces.  */
+static void
+deaden (bt__vehicle *v)
+{
+  if (v->mass != 0)
+    return;
+  v->mass = v->added_mass = MASS;
+  v->drag = DRAG1;
+  v->quadratic_drag = DRAG2;
+}
+
+static bt_status
+make_moving (bt_dive *fork, int i, bt_error *error)
+{
+  const bt_head *head = bt_head_find ("tether");
+  const bt_field *model = bt_field_find (head, "model");
+  double args[3] = { BT_PART_TETHER, (double)(model - head->fields), BT_MODEL_DYNAMIC };
+  if (bt__is_moving_model (bt__dive_tether (fork, fork->now, i)))
+    return BT_OK;
+  return bt_dive_do (fork, BT_OP_ALTER, i, args, 3, error);
+}
+
+static bt_status
+make_trial (const bt_dive *dive, int i, bt_dive **out, bt_error *error)
+{
+  int vehicle = dive->model->ends[i][1].vehicle;
+  bt_status status = bt_dive_fork (dive, out, error);
+  if (status != BT_OK)
+    return status;
+  status = do_number (*out, BT_OP_RELEASE, vehicle, 0, 0, 0, error);
+  if (status == BT_OK)
+    status = make_moving (*out, i, error);
+  if (status != BT_OK)
+    {
+      bt_dive_free (*out);
+      return status;
+    }
+  deaden (bt__dive_vehicle (*out, (*out)->now, vehicle));
+  return BT_OK;
+}
+
+/* ---- The haul ---- */
+
+typedef struct trial
+{
+  bt_dive *fork;
+  int tether, vehicle;
+  double rate, winch; /* m/s, N */
+  double least;       /* m: home */
+  bt_vec3 there;      /* where the vehicle was when it last moved on */
+  double since;       /* s */
+} trial;
+
+static bt_vec3
+vehicle_at (const trial *t)
+{
+  return bt__dive_vehicle (t->fork, t->fork->now, t->vehicle)->position;
+}
+
+static bt__line
+line_of (const trial *t)
+{
+  return bt__line_of (t->fork, t->fork->now, t->tether);
+}
+
+/* Turn the winch if it can; at its limit it stands.  */
+static bt_status
+turn (const trial *t, bt_error *error)
+{
+  bt__line line = line_of (t);
+  double out = bt__line_length (&line), metres = fmax (out - LEAST_OUT, 0);
+  if (bt__line_tension (&line, 0) > t->winch)
+    metres = 0;
+  return do_number (t->fork, BT_OP_HAUL_IN, t->tether, metres, t->rate, 2, error);
+}
+
+static int
+is_home (const trial *t)
+{
+  bt__line line = line_of (t);
+  return bt__distance (bt__line_node (&line, 0), vehicle_at (t)) < t->least
+         || bt__line_length (&line) <= LEAST_OUT * 1.01;
+}
+
+static int
+is_stuck (trial *t, double now)
+{
+  bt_vec3 here = vehicle_at (t);
+  if (bt__distance (here, t->there) > STUCK_WAY)
+    {
+      t->there = here;
+      t->since = now;
+    }
+  return now - t->since > STUCK_TIME;
+}
+
+/* Nonzero while the line still comes in slack: nothing pulls at the vehicle yet.  */
+static int
+is_slack (const trial *t)
+{
+  bt__line line = line_of (t);
+  return bt__line_tension (&line, 0) < fmin (t->winch, 5) && bt__norm (bt__line_force (&line)) < 1;
+}
+
+static void
+look_for_culprit (const trial *t, bt_haul *out)
+{
+  bt_clearance near;
+  bt_contact contact;
+  out->object = -1;
+  if (bt_vehicle_clearance (t->fork, t->vehicle, -1, &near, NULL) == BT_OK
+      && near.distance < AT_HULL)
+    {
+      out->object = near.object;
+      out->hull = 1;
+    }
+  else if (bt_tether_contacts (t->fork, t->tether, &contact, 1) > 0)
+    out->object = contact.object;
+}
+
+static bt_status
+haul (trial *t, double seconds, bt_haul *out, bt_error *error)
+{
+  bt_status status = BT_OK;
+  double begin = bt_dive_time (t->fork), now = 0;
+  t->there = vehicle_at (t);
+  out->home = is_home (t);
+  while (!out->home && now < seconds)
+    {
+      status = turn (t, error);
+      for (int k = 0; k < STEPS_A_LOOK && status == BT_OK; k++)
+        status = bt_dive_step (t->fork, error);
+      if (status != BT_OK)
+        return status;
+      now = bt_dive_time (t->fork) - begin;
+      out->home = is_home (t);
+      if (is_slack (t))
+        t->since = now;
+      if (is_stuck (t, now))
+        break;
+    }
+  bt__line line = line_of (t);
+  out->seconds = now;
+  out->left = bt__line_length (&line);
+  out->at = vehicle_at (t);
+  if (!out->home)
+    look_for_culprit (t, out);
+  return BT_OK;
+}
+
+static bt_status
+check (const bt_dive *dive, int i, double rate, double winch, double seconds, bt_error *error)
+{
+  bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
+  if (status != BT_OK)
+    return status;
+  if (!(rate > 0 && winch > 0 && seconds >= 0 && seconds <= 1e5))
+    return bt__fail (error, BT_ERR_DOMAIN,
+                     "a haul has a rate and a pull above 0 and 0 to 1e5 s, not %g m/s, %g N, %g s",
+                     rate, winch, seconds);
+  if (dive->model->ends[i][1].vehicle < 0)
+    return bt__fail (error, BT_ERR_UNSUPPORTED, "no vehicle is at the far end of `%s' to be hauled",
+                     dive->model->tethers[i].name);
+  if (bt__dive_tether (dive, dive->now, i)->parted)
+    return bt__fail (error, BT_ERR_UNSUPPORTED, "`%s' has parted: nothing hangs from its winch",
+                     dive->model->tethers[i].name);
+  return BT_OK;
+}
+
+bt_status
+bt_tether_haul (const bt_dive *dive, int i, double rate, double winch, double seconds, bt_haul *out,
+                bt_error *error)
+{
+  bt_status status = check (dive, i, rate, winch, seconds, error);
+  trial t = { .tether = i, .rate = rate, .winch = winch };
+  if (status == BT_OK)
+    status = make_trial (dive, i, &t.fork, error);
+  if (status != BT_OK)
+    return status;
+  t.vehicle = dive->model->ends[i][1].vehicle;
+  t.least = 0.5 * bt__norm (dive->model->vehicles[t.vehicle].size) + HOME_WITHIN;
+  memset (out, 0, sizeof *out);
+  out->object = -1;
+  status = haul (&t, seconds, out, error);
+  bt_dive_free (t.fork);
+  return status;
+}

@@ -1,0 +1,283 @@
+/* What a tether is doing: the answers that come of its string and its word.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <bight/contact.h>
+
+#include "aware/knot.h"
+#include "aware/turns.h"
+#include "base/error.h"
+#include "math/vec.h"
+#include "world/obstacles.h"
+#include "world/watch.h"
+
+enum
+{
+  CONTACTS_MAX = 4096
+};
+
+/* Excess beyond both is fouled: m, and a share of the free length.  */
+#define FOULED_BY 1.0
+#define FOULED_SHARE 0.05
+
+/* ---- Lengths ---- */
+
+bt_status
+bt_tether_taut_length (const bt_dive *dive, int i, double *length, bt_error *error)
+{
+  bt__gaze *g;
+  bt_status status = bt__watch_gaze (dive, i, &g, error);
+  if (status == BT_OK)
+    *length = g->taut_length;
+  return status;
+}
+
+bt_status
+bt_tether_free_length (const bt_dive *dive, int i, double *length, bt_error *error)
+{
+  bt__gaze *g;
+  bt_status status = bt__watch_free (dive, i, &g, error);
+  if (status == BT_OK)
+    *length = g->free_length;
+  return status;
+}
+
+/* A contact stands for the line to half way to its neighbours, at most an interval.  */
+static double
+length_of (const bt_contact *c, int n, int k, double interval)
+{
+  double before = k > 0 ? c[k].s - c[k - 1].s : INFINITY;
+  double after = k + 1 < n ? c[k + 1].s - c[k].s : INFINITY;
+  return 0.5 * (fmin (before, interval) + fmin (after, interval));
+}
+
+bt_status
+bt_tether_contact_length (const bt_dive *dive, int i, int obstacle, int sliding, double *length,
+                          bt_error *error)
+{
+  bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
+  if (status == BT_OK && obstacle >= 0)
+    status = bt__check_part (dive, BT_PART_OBSTACLE, obstacle, error);
+  if (status != BT_OK)
+    return status;
+  *length = 0;
+  if (dive->model->n_obstacles == 0)
+    return BT_OK;
+  bt_contact *c = malloc (sizeof *c * CONTACTS_MAX);
+  if (!c)
+    return bt__fail (error, BT_ERR_LIMIT, "no memory for contacts");
+  bt__line line = bt__line_of (dive, dive->now, i);
+  double interval = bt__line_length (&line) / fmax (1, bt__line_nodes (&line) - 1);
+  int n = bt_tether_contacts (dive, i, c, CONTACTS_MAX);
+  n = n < CONTACTS_MAX ? n : CONTACTS_MAX;
+  for (int k = 0; k < n; k++)
+    if ((obstacle < 0 || c[k].object == obstacle) && (!sliding || c[k].slides))
+      *length += length_of (c, n, k, interval);
+  free (c);
+  return BT_OK;
+}
+
+/* ---- Turns ---- */
+
+/* The axis of OBSTACLE, where it is now.  */
+static bt_status
+axis_of (const bt_dive *dive, int obstacle, bt__axis *axis, bt_error *error)
+{
+  bt_status status = bt__check_part (dive, BT_PART_OBSTACLE, obstacle, error);
+  if (status != BT_OK)
+    return status;
+  const bt__obstacle *shape = bt__model_shape (dive->model, obstacle);
+  int k = bt__model_carried (dive->model, obstacle);
+  if (!bt__axis_of (shape, axis))
+    return bt__fail (error, BT_ERR_UNSUPPORTED,
+                     "`%s' is level ground and has no axis that a tether could go round",
+                     dive->model->obstacles[obstacle].name);
+  if (k >= 0)
+    {
+      const bt__frame *frame = &bt__dive_movers (dive, dive->now)[k].frame;
+      int round = shape->kind == BT__OBSTACLE_CYLINDER || shape->kind == BT__OBSTACLE_CAPSULE;
+      axis->at = bt__to_world (frame, axis->at);
+      if (round)
+        axis->along = bt__out_of (frame, axis->along);
+    }
+  return BT_OK;
+}
+
+/* The tether's own nodes are enough: no string is solved.  */
+static bt_status
+nodes_and_axis (const bt_dive *dive, int i, int obstacle, bt__axis *axis, bt_vec3 **node,
+                uint32_t *n, bt_error *error)
+{
+  bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
+  if (status == BT_OK)
+    status = axis_of (dive, obstacle, axis, error);
+  if (status != BT_OK)
+    return status;
+  bt__line line = bt__line_of (dive, dive->now, i);
+  *n = (uint32_t)bt__line_nodes (&line);
+  *node = malloc (*n * sizeof **node);
+  if (!*node)
+    return bt__fail (error, BT_ERR_LIMIT, "no memory for the nodes of a tether");
+  for (uint32_t k = 0; k < *n; k++)
+    (*node)[k] = bt__line_node (&line, (int)k);
+  return BT_OK;
+}
+
+bt_status
+bt_tether_turns (const bt_dive *dive, int i, int obstacle, double *turns, bt_error *error)
+{
+  bt__axis axis;
+  bt_vec3 *node;
+  uint32_t n;
+  bt_status status = nodes_and_axis (dive, i, obstacle, &axis, &node, &n, error);
+  if (status != BT_OK)
+    return status;
+  *turns = bt__turns (&axis, node, n);
+  free (node);
+  return BT_OK;
+}
+
+bt_status
+bt_tether_winding (const bt_dive *dive, int i, int obstacle, int *winding, bt_error *error)
+{
+  bt__axis axis;
+  bt_vec3 *node;
+  uint32_t n;
+  bt_status status = nodes_and_axis (dive, i, obstacle, &axis, &node, &n, error);
+  if (status != BT_OK)
+    return status;
+  *winding = bt__winding (&axis, node, n);
+  free (node);
+  return BT_OK;
+}
+
+bt_status
+bt_tether_wrap_angle (const bt_dive *dive, int i, int obstacle, double *radians, bt_error *error)
+{
+  bt__gaze *g;
+  bt_status status = bt__watch_gaze (dive, i, &g, error);
+  if (status == BT_OK && obstacle >= 0)
+    status = bt__check_part (dive, BT_PART_OBSTACLE, obstacle, error);
+  if (status != BT_OK)
+    return status;
+  *radians = 0;
+  for (uint32_t k = 0; k < g->holds.n; k++)
+    {
+      const bt__corner *h = &g->holds.at[k];
+      if (obstacle < 0 || (int)dive->model->scene->object[h->object].id == obstacle)
+        *radians += h->angle;
+    }
+  return BT_OK;
+}
+
+bt_status
+bt_tether_capstan_lock (const bt_dive *dive, int i, double *lock, bt_error *error)
+{
+  bt__gaze *g;
+  bt_status status = bt__watch_gaze (dive, i, &g, error);
+  if (status == BT_OK)
+    *lock = bt__holds_lock (&g->holds);
+  return status;
+}
+
+/* ---- Classes ---- */
+
+/* The obstacle that LETTER goes round, or -1.  */
+static int32_t
+object_of (const bt_dive *dive, const bt__chart *chart, int32_t letter)
+{
+  uint32_t place = chart->shadow ? bt__shadow_object (chart->shadow, letter) : UINT32_MAX;
+  return place == UINT32_MAX ? -1 : (int32_t)dive->model->scene->object[place].id;
+}
+
+bt_status
+bt_tether_class (const bt_dive *dive, int i, bt_class *out, bt_error *error)
+{
+  bt__gaze *g;
+  bt_status status = bt__watch_class (dive, i, &g, error);
+  if (status != BT_OK)
+    return status;
+  memset (out, 0, sizeof *out);
+  out->world = g->word.world;
+  out->letters = (int32_t)g->word.n;
+  out->decided = g->word.decided != 0;
+  out->lost = g->word.lost != 0;
+  for (int k = 0; k < out->letters; k++)
+    {
+      out->letter[k] = g->word.letter[k];
+      out->object[k] = object_of (dive, g->words, g->word.letter[k]);
+    }
+  return BT_OK;
+}
+
+int
+bt_class_equal (const bt_class *a, const bt_class *b)
+{
+  return !a->lost && !b->lost && a->world == b->world && a->letters == b->letters
+         && memcmp (a->letter, b->letter, sizeof a->letter) == 0;
+}
+
+bt_status
+bt_tether_knotted (const bt_dive *dive, int i, int *knotted, bt_error *error)
+{
+  bt__knot *knot = NULL;
+  bt__knot_value value;
+  bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
+  if (status != BT_OK)
+    return status;
+  bt__line line = bt__line_of (dive, dive->now, i);
+  int n = bt__line_nodes (&line), known;
+  bt_vec3 *node = malloc ((size_t)n * sizeof *node);
+  if (!node || bt__knot_new ((uint32_t)n, &knot, error) != BT_OK)
+    {
+      free (node);
+      return bt__fail (error, BT_ERR_LIMIT, "no memory to look for a knot");
+    }
+  for (int k = 0; k < n; k++)
+    node[k] = bt__line_node (&line, k);
+  known = bt__knot_of (knot, node, (uint32_t)n, &value);
+  bt__knot_free (knot);
+  free (node);
+  if (!known)
+    return bt__fail (error, BT_ERR_UNSUPPORTED,
+                     "the tether crosses itself more than %d times: nobody can tell",
+                     BT__KNOT_CROSSINGS);
+  *knotted = value.knotted != 0;
+  return BT_OK;
+}
+
+/* ---- Fouled ---- */
+
+/* Where words are not decided, winding about something tells of it too.  */
+static int
+is_wound (const bt_dive *dive, int i, const bt__gaze *g)
+{
+  if (g->word.decided && !g->word.lost)
+    return g->word.n > 0;
+  for (int k = 0; k < dive->model->n_obstacles; k++)
+    {
+      int winding = 0;
+      if (bt_tether_winding (dive, i, k, &winding, NULL) == BT_OK && winding != 0)
+        return 1;
+    }
+  return 0;
+}
+
+bt_status
+bt_tether_fouled (const bt_dive *dive, int i, bt_foul *foul, bt_error *error)
+{
+  bt__gaze *g;
+  bt_status status = bt__watch_free (dive, i, &g, error);
+  *foul = BT_FOUL_NOT;
+  if (status != BT_OK
+      || !(g->taut_length - g->free_length > fmax (FOULED_BY, FOULED_SHARE * g->free_length)))
+    return status;
+  status = bt__watch_class (dive, i, &g, error);
+  if (status == BT_OK)
+    *foul = is_wound (dive, i, g) ? BT_FOUL_WOUND : BT_FOUL_HUNG;
+  return status;
+}

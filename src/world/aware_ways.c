@@ -1,0 +1,209 @@
+/* What a tether is doing: hauling it by the instant rule, the way home, the loop that frees it.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "math/vec.h"
+#include "world/watch.h"
+
+#define BODY_FRICTION 0.4 /* of a hull on obstacles: caught most in trials */
+#define LEAST_SPEED 0.2   /* m/s: slower is not coming home */
+#define LEAST_RADIUS 0.05 /* m: of a way, for a vehicle that is a point */
+#define HOME_ROOM 0.02    /* m, beyond the radius */
+#define LOOP_ROOM 0.15
+
+/* The drag of a vehicle that has none of its own, going where it is told: N s/m, N s2/m2.  */
+#define DRAG1 60.0
+#define DRAG2 100.0
+
+/* ---- The body ---- */
+
+static bt_status
+vehicle_of (const bt_dive *dive, int i, int *vehicle, bt_error *error)
+{
+  bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
+  if (status != BT_OK)
+    return status;
+  *vehicle = dive->model->ends[i][1].vehicle;
+  if (*vehicle < 0)
+    return bt__fail (error, BT_ERR_UNSUPPORTED,
+                     "no vehicle is at the far end of `%s' that could be hauled or fly",
+                     dive->model->tethers[i].name);
+  return BT_OK;
+}
+
+static double
+radius_of (const bt_dive *dive, int vehicle)
+{
+  bt_vec3 size = dive->model->vehicles[vehicle].size;
+  return 0.5 * cbrt (size.x * size.y * size.z);
+}
+
+static bt__haul_body
+body_of (const bt_dive *dive, int vehicle, double winch)
+{
+  const bt__vehicle *v = bt__dive_vehicle (dive, dive->now, vehicle);
+  int told = v->mass == 0 || (v->drag == 0 && v->quadratic_drag == 0);
+  bt__haul_body body = { .radius = radius_of (dive, vehicle),
+                         .friction = BODY_FRICTION,
+                         .drag1 = told ? DRAG1 : v->drag,
+                         .drag2 = told ? DRAG2 : v->quadratic_drag,
+                         .winch = winch };
+  body.least = body.drag1 * LEAST_SPEED + body.drag2 * LEAST_SPEED * LEAST_SPEED;
+  return body;
+}
+
+static int
+obstacle_of (const bt_dive *dive, uint32_t place)
+{
+  return place == UINT32_MAX ? -1 : (int)dive->model->scene->object[place].id;
+}
+
+/* ---- The instant rule ---- */
+
+/* Whether the body fits through, on the way home.  */
+static bt_status
+look_for_wedges (const bt_dive *dive, bt__gaze *g, const bt__haul_body *body, bt__prospect *p,
+                 bt_error *error)
+{
+  bt__string *home = bt__watch_string (dive);
+  if (!home)
+    return bt__fail (error, BT_ERR_LIMIT, "no memory for a way home");
+  bt__route way = bt__way_home (dive->watch->taut, &g->config, g->taut, body->radius + HOME_ROOM,
+                                home, &dive->watch->count);
+  bt__haul_wedge (&way, body, p);
+  free (home);
+  return BT_OK;
+}
+
+bt_status
+bt_tether_prospect (const bt_dive *dive, int i, double winch, bt_prospect *out, bt_error *error)
+{
+  bt__gaze *g;
+  int vehicle;
+  bt_status status = vehicle_of (dive, i, &vehicle, error);
+  if (status == BT_OK && !(winch > 0))
+    status = bt__fail (error, BT_ERR_DOMAIN, "a winch pulls with more than 0 N, not %g", winch);
+  if (status == BT_OK)
+    status = bt__watch_gaze (dive, i, &g, error);
+  if (status != BT_OK)
+    return status;
+  bt__haul_body body = body_of (dive, vehicle, winch);
+  bt__prospect p = bt__haul_prospect (&g->holds, &body);
+  if (!g->open && body.radius > 0)
+    status = look_for_wedges (dive, g, &body, &p, error);
+  *out = (bt_prospect){ .answer = (bt_haul_answer)p.answer,
+                        .reason = (bt_haul_reason)p.reason,
+                        .object = obstacle_of (dive, p.object),
+                        .s = p.s,
+                        .pull = p.pull,
+                        .speed = p.speed };
+  return status;
+}
+
+/* ---- Ways ---- */
+
+static int
+put_points (const bt__string *s, bt_vec3 *points, int max)
+{
+  for (uint32_t k = 0; k < s->n && (int)k < max; k++)
+    points[k] = s->x[k];
+  return (int)s->n < max ? (int)s->n : max;
+}
+
+/* In open water the way home is the chord.  */
+static void
+straight_home (const bt__gaze *g, bt_vec3 *points, int max, int *n, bt_route *out)
+{
+  bt_vec3 ends[2] = { g->node[g->n - 1], g->node[0] };
+  for (int k = 0; k < 2 && k < max; k++)
+    points[k] = ends[k];
+  *n = max < 2 ? max : 2;
+  *out = (bt_route){ .needed = 1,
+                     .feasible = 1,
+                     .length = g->taut_length,
+                     .clearance = INFINITY,
+                     .obstacle = -1,
+                     .longest = g->taut_length };
+}
+
+bt_status
+bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n, bt_route *out,
+                    bt_error *error)
+{
+  bt__gaze *g;
+  int vehicle;
+  bt_status status = vehicle_of (dive, i, &vehicle, error);
+  if (status == BT_OK)
+    status = bt__watch_gaze (dive, i, &g, error);
+  if (status != BT_OK)
+    return status;
+  if (g->open)
+    {
+      straight_home (g, points, max, n, out);
+      return BT_OK;
+    }
+  double radius = radius_of (dive, vehicle), want = fmax (radius, LEAST_RADIUS) + HOME_ROOM;
+  bt__string *home = bt__watch_string (dive);
+  if (!home)
+    return bt__fail (error, BT_ERR_LIMIT, "no memory for a way home");
+  bt__route way
+      = bt__way_home (dive->watch->taut, &g->config, g->taut, want, home, &dive->watch->count);
+  *n = put_points (home, points, max);
+  *out = (bt_route){ .needed = 1,
+                     .feasible = way.clearance >= radius && way.length > 0,
+                     .length = way.length,
+                     .clearance = way.clearance,
+                     .obstacle = obstacle_of (dive, way.object),
+                     .longest = g->taut_length };
+  free (home);
+  return BT_OK;
+}
+
+/* The plan of G's loop into LOOP.  */
+static bt_route
+plan (const bt_dive *dive, const bt__gaze *g, double radius, bt__string *loop, bt__string *copy)
+{
+  struct bt__watch *w = dive->watch;
+  bt__unwind u = bt__unwind_plan (w->taut, &g->config, g->taut, g->shortest,
+                                  fmax (radius, LEAST_RADIUS) + LOOP_ROOM, g->out, radius, loop,
+                                  copy, &w->count);
+  return (bt_route){ .needed = u.needed,
+                     .feasible = u.feasible,
+                     .length = u.way.length,
+                     .clearance = u.way.clearance,
+                     .obstacle = obstacle_of (dive, u.way.object),
+                     .longest = u.longest,
+                     .left = u.left };
+}
+
+bt_status
+bt_tether_unwind_plan (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n, bt_route *out,
+                       bt_error *error)
+{
+  bt__gaze *g;
+  int vehicle;
+  bt_status status = vehicle_of (dive, i, &vehicle, error);
+  if (status == BT_OK)
+    status = bt__watch_free (dive, i, &g, error);
+  if (status != BT_OK)
+    return status;
+  *n = 0;
+  *out = (bt_route){ .feasible = 1, .clearance = INFINITY, .obstacle = -1, .left = g->taut_length };
+  if (g->open || g->taut_length <= g->free_length)
+    return BT_OK;
+  bt__string *loop = bt__watch_string (dive), *copy = bt__watch_string (dive);
+  if (loop && copy)
+    *out = plan (dive, g, radius_of (dive, vehicle), loop, copy);
+  else
+    status = bt__fail (error, BT_ERR_LIMIT, "no memory for a plan");
+  if (status == BT_OK && out->needed)
+    *n = put_points (loop, points, max);
+  free (loop);
+  free (copy);
+  return status;
+}

@@ -1,0 +1,326 @@
+/* The watch: memory, and one solve for all questions about one state.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "math/vec.h"
+#include "world/obstacles.h"
+#include "world/watch.h"
+
+enum
+{
+  TAUT_STEPS = 400, /* of a string from the tether's own shape */
+  FREE_STEPS = 200,
+  ROOM_LEAST = 256
+};
+
+#define HOLD_REACH 0.05 /* m: a corner nearer than that to something is held by it */
+
+/* ---- Memory ---- */
+
+static void
+free_gaze (bt__gaze *g)
+{
+  free (g->node);
+  free (g->taut);
+  free (g->shortest);
+  free (g->live);
+  free (g->hold);
+  bt__chart_release (g->ways);
+  bt__chart_release (g->words);
+}
+
+void
+bt__watch_free_all (struct bt__watch *w)
+{
+  if (!w)
+    return;
+  for (int i = 0; i < w->n; i++)
+    free_gaze (&w->gaze[i]);
+  bt__taut_free (w->taut);
+  free (w);
+}
+
+static struct bt__watch *
+watch_of (const bt_dive *dive)
+{
+  size_t n = (size_t)dive->model->n_tethers;
+  if (!dive->watch)
+    ((bt_dive *)dive)->watch = calloc (1, sizeof (struct bt__watch) + n * sizeof (bt__gaze));
+  if (dive->watch)
+    dive->watch->n = (int)n;
+  return dive->watch;
+}
+
+void
+bt__watch_share (const bt_dive *dive, bt_dive *fork)
+{
+  struct bt__watch *w = dive->watch ? watch_of (fork) : NULL;
+  for (int i = 0; w && i < w->n; i++)
+    {
+      bt__gaze *from = &dive->watch->gaze[i], *to = &w->gaze[i];
+      to->ways = from->ways;
+      to->words = from->words;
+      if (to->ways)
+        atomic_fetch_add (&to->ways->references, 1);
+      if (to->words)
+        atomic_fetch_add (&to->words->references, 1);
+    }
+}
+
+static int
+new_string (bt__string **string, uint32_t room)
+{
+  free (*string);
+  *string = calloc (1, bt__string_size (room));
+  if (*string)
+    (*string)->room = room;
+  return *string != NULL;
+}
+
+bt__string *
+bt__watch_string (const bt_dive *dive)
+{
+  bt__string *s = NULL;
+  return new_string (&s, dive->watch->room) ? s : NULL;
+}
+
+/* Have room for strings of ROOM nodes.  What the tethers knew is forgotten.  */
+static int
+make_room (struct bt__watch *w, uint32_t room)
+{
+  if (room <= w->room)
+    return 1;
+  bt__taut_free (w->taut);
+  w->room = 0;
+  for (int i = 0; i < w->n; i++)
+    w->gaze[i].change = 0;
+  if (bt__taut_new (room, &w->taut, NULL) != BT_OK)
+    return 0;
+  w->room = room;
+  return 1;
+}
+
+static int
+make_gaze_room (const struct bt__watch *w, bt__gaze *g)
+{
+  if (g->taut && g->shortest && g->hold && g->taut->room == w->room)
+    return 1;
+  free (g->live);
+  g->live = NULL;
+  free (g->hold);
+  g->hold = calloc (w->room, sizeof *g->hold);
+  g->holds = (bt__holds){ g->hold, 0, w->room, 0 };
+  return new_string (&g->taut, w->room) && new_string (&g->shortest, w->room) && g->hold;
+}
+
+/* ---- What it is among ---- */
+
+static int
+is_open (const bt__scene *scene, const bt__switches *on)
+{
+  for (uint32_t k = 0; scene && k < scene->solids; k++)
+    if (bt__is_on (on, scene->solid[k]))
+      return 0;
+  return 1;
+}
+
+/* Links of an eightieth of the tether, near obstacles, within what a string can do well.  */
+static bt__taut_config
+config_of (const bt__chart *chart, const bt__scene *scene, double out, double diameter)
+{
+  double core = bt__core (diameter), mesh = fmax (fmin (out / 80, 0.6), 8 * core);
+  return (bt__taut_config){ .scene = scene,
+                            .on = &chart->on,
+                            .core = 0.9 * core,
+                            .want = 0.9 * core,
+                            .mesh = mesh,
+                            .margin = fmin (mesh, 0.4) };
+}
+
+static int
+take_nodes (bt__gaze *g, const bt__line *line)
+{
+  uint32_t n = (uint32_t)bt__line_nodes (line);
+  if (n > g->node_room)
+    {
+      free (g->node);
+      g->node = malloc (n * sizeof *g->node);
+      g->node_room = g->node ? n : 0;
+    }
+  for (uint32_t k = 0; g->node && k < n; k++)
+    g->node[k] = bt__line_node (line, (int)k);
+  g->n = n;
+  return g->node != NULL;
+}
+
+/* ---- The string ---- */
+
+/* The friction of what the holds are at, as it is now.  */
+static void
+set_friction (const bt_dive *dive, const bt__tether *tether, bt__holds *holds)
+{
+  const double *rough = bt__dive_roughness (dive, dive->now);
+  for (uint32_t k = 0; k < holds->n; k++)
+    {
+      double own = rough[dive->model->scene->object[holds->at[k].object].id];
+      holds->at[k].friction = isnan (own) ? tether->props.friction : own;
+    }
+}
+
+static bt_status
+no_memory (bt_error *error)
+{
+  return bt__fail (error, BT_ERR_LIMIT, "no memory to watch a tether");
+}
+
+/* Have room for the string, and say what it is among.  */
+static bt_status
+make_ready (const bt_dive *dive, int i, struct bt__watch *w, bt__gaze *g, double diameter,
+            bt_error *error)
+{
+  bt_status status = bt__chart_ways (dive, i, g, error);
+  if (status != BT_OK)
+    return status;
+  g->config = config_of (g->ways, dive->model->scene, g->out, diameter);
+  uint32_t room = ROOM_LEAST + 2 * g->n + 3 * (uint32_t)(g->out / g->config.mesh);
+  return make_room (w, room) && make_gaze_room (w, g) ? BT_OK : no_memory (error);
+}
+
+/* Solve the string of tether I.  */
+static void
+solve (const bt_dive *dive, struct bt__watch *w, bt__gaze *g, const bt__tether *tether)
+{
+  const bt__scene *scene = dive->model->scene;
+  bt__string_lay (g->taut, g->node, g->n);
+  bt__taut_relax (w->taut, &g->config, g->taut, TAUT_STEPS, &w->count);
+  bt__holds_find (scene, g->config.on, g->taut->x, g->taut->n, g->config.core, HOLD_REACH,
+                  &g->holds, &w->count);
+  set_friction (dive, tether, &g->holds);
+  g->taut_length = bt__holds_length (&g->holds, g->taut->x, g->taut->n);
+  ((bt_dive *)dive)->profile.strings++;
+}
+
+/* In open water a string is two nodes, and nothing holds it.  */
+static void
+set_open (bt__gaze *g)
+{
+  g->holds.n = 0;
+  g->taut_length = g->free_length = bt__distance (g->node[0], g->node[g->n - 1]);
+  g->has_taut = g->has_free = 1;
+}
+
+bt_status
+bt__watch_look (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
+{
+  bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
+  if (status != BT_OK)
+    return status;
+  struct bt__watch *w = watch_of (dive);
+  bt__gaze *g = w ? &w->gaze[i] : NULL;
+  if (!w)
+    return no_memory (error);
+  *out = g;
+  if (g->change == dive->changes + 1)
+    return BT_OK;
+  bt__line line = bt__line_of (dive, dive->now, i);
+  g->change = 0;
+  g->has_taut = g->has_free = g->has_class = 0;
+  g->out = bt__line_length (&line);
+  if (!take_nodes (g, &line))
+    return no_memory (error);
+  const uint8_t *off
+      = dive->model->n_obstacles ? bt__dive_off (dive, dive->now, BT_PART_TETHER, i) : NULL;
+  g->open = is_open (dive->model->scene, &(bt__switches){ off, 0 });
+  if (g->open)
+    set_open (g);
+  else
+    status = make_ready (dive, i, w, g, line.tether->props.diameter, error);
+  if (status == BT_OK)
+    g->change = dive->changes + 1;
+  return status;
+}
+
+bt_status
+bt__watch_gaze (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
+{
+  bt_status status = bt__watch_look (dive, i, out, error);
+  if (status == BT_OK && !(*out)->has_taut)
+    {
+      solve (dive, dive->watch, *out, bt__dive_tether (dive, dive->now, i));
+      (*out)->has_taut = 1;
+    }
+  return status;
+}
+
+/* ---- The free way ---- */
+
+/* The tree's way, or the string itself where that is shorter or there is no other.  */
+bt_status
+bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
+{
+  bt_status status = bt__watch_gaze (dive, i, out, error);
+  bt__gaze *g = *out;
+  if (status != BT_OK || g->has_free)
+    return status;
+  struct bt__watch *w = dive->watch;
+  double length = INFINITY;
+  status = bt__chart_grow (dive, i, g, error);
+  if (status != BT_OK)
+    return status;
+  bt_vec3 far = g->node[g->n - 1];
+  if (g->ways->tree)
+    length = bt__free_length (g->ways->tree, w->taut, &g->config, far, FREE_STEPS, g->shortest,
+                              &w->count);
+  if (!(length < g->taut_length))
+    {
+      memcpy (g->shortest, g->taut, bt__string_size (g->taut->n));
+      g->shortest->room = w->room;
+      length = g->taut_length;
+    }
+  g->free_length = length;
+  g->has_free = 1;
+  return BT_OK;
+}
+
+/* ---- The word ---- */
+
+static void
+word_of (const bt__chart *chart, const bt_vec3 *p, uint32_t n, bt__word *word, bt__count *count)
+{
+  if (chart->shadow)
+    bt__shadow_word (chart->shadow, p, n, word);
+  else
+    bt__voxels_word (chart->voxels, p, n, word, count);
+}
+
+bt_status
+bt__watch_class (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
+{
+  bt_status status = bt__watch_free (dive, i, out, error);
+  bt__gaze *g = *out;
+  if (status != BT_OK || g->has_class)
+    return status;
+  bt__word_begin (&g->word, 0, 1);
+  bt__word_end (&g->word);
+  if (!g->open)
+    {
+      struct bt__watch *w = dive->watch;
+      status = bt__chart_words (dive, i, g, error);
+      if (status != BT_OK)
+        return status;
+      bt__word own, way;
+      word_of (g->words, g->node, g->n, &own, &w->count);
+      if (own.lost)
+        word_of (g->words, g->taut->x, g->taut->n, &own, &w->count);
+      word_of (g->words, g->shortest->x, g->shortest->n, &way, &w->count);
+      bt__word_relative (&own, &way, &g->word);
+      ((bt_dive *)dive)->profile.words++;
+    }
+  g->has_class = 1;
+  return BT_OK;
+}

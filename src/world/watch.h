@@ -1,0 +1,88 @@
+/* The watch over a dive's tethers: taut strings, free ways and words, made when asked for.
+
+   A watch belongs to a dive and is no part of its state.  It knows of every tether the state it
+   last looked at, by the dive's count of changes; its answers come of that state alone.  Charts are
+   of the world and the switches, immutable once made, and shared by forks.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_WORLD_WATCH_H
+#define BT_WORLD_WATCH_H
+
+#include <bight/aware.h>
+
+#include "aware/free.h"
+#include "aware/haul.h"
+#include "aware/shadow.h"
+#include "aware/voxel.h"
+#include "world/line.h"
+
+/* What the world is like for a tether.  The tree of free ways is of one anchor and of what its
+   reach comes to; the words are of one gap.  */
+typedef struct bt__chart
+{
+  atomic_int references;
+  uint64_t version; /* of the switches */
+  double reach;     /* m */
+  bt_vec3 anchor;
+  double gap; /* m */
+  uint8_t *off;
+  bt__switches on;
+  bt__free *tree; /* NULL: nothing is within reach */
+  bt__shadow *shadow;
+  bt__voxels *voxels;
+} bt__chart;
+
+/* One tether as last looked at.  */
+typedef struct bt__gaze
+{
+  uint64_t change; /* the dive's count then, plus 1; 0: never */
+  int open;        /* nothing stands in its water: the string is the chord */
+  int has_taut, has_free, has_class;
+  uint32_t n, node_room;
+  uint32_t followed; /* calls since the live string was last seeded */
+  bt_vec3 *node;     /* the tether's own */
+  double out;        /* m */
+  bt__taut_config config;
+  bt__string *taut, *shortest, *live;
+  bt__corner *hold;
+  bt__holds holds;
+  double taut_length, free_length;
+  bt__word word; /* the tether's, then the free way back */
+  bt__chart *ways, *words;
+} bt__gaze;
+
+struct bt__watch
+{
+  uint32_t room; /* nodes of every string */
+  bt__taut *taut;
+  bt__count count;
+  int n;
+  bt__gaze gaze[];
+};
+
+/* Return tether I of DIVE as it is now: its nodes, and what it is among.  */
+bt_status bt__watch_look (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
+
+/* The same, with its string solved.  */
+bt_status bt__watch_gaze (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
+
+/* The same, with the free way; and with the word.  */
+bt_status bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
+bt_status bt__watch_class (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
+
+/* A new string with the room of those of the watch; NULL: no memory.  */
+bt__string *bt__watch_string (const bt_dive *dive);
+
+void bt__watch_free_all (struct bt__watch *watch); /* NULL is nothing */
+
+/* Let FORK share the charts of DIVE.  Without memory it makes its own.  */
+void bt__watch_share (const bt_dive *dive, bt_dive *fork);
+
+/* watch_chart.c: have GAZE's chart of ways, without its tree; with its tree; its chart of words. */
+bt_status bt__chart_ways (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
+bt_status bt__chart_grow (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
+bt_status bt__chart_words (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
+void bt__chart_release (bt__chart *chart); /* NULL is nothing */
+
+#endif

@@ -1,0 +1,259 @@
+/* Charts: what of the world a tether's string, ways and words go by, made once.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "math/vec.h"
+#include "world/obstacles.h"
+#include "world/watch.h"
+
+enum
+{
+  TREE_CELLS = 50000,
+  VOXELS = 150000,
+  DIRECTIONS = 24
+};
+
+#define JITTER 0.2
+#define GAP_LEAST 0.01  /* m: a narrower gap between members is no way through */
+#define CLEAR_MOST 0.03 /* m: what free ways keep off */
+
+void
+bt__chart_release (bt__chart *c)
+{
+  if (!c || atomic_fetch_sub (&c->references, 1) != 1)
+    return;
+  bt__free_free (c->tree);
+  bt__shadow_free (c->shadow);
+  bt__voxels_free (c->voxels);
+  free (c->off);
+  free (c);
+}
+
+/* A chart of the switches of tether I, with nothing on it yet; NULL: no memory.  */
+static bt__chart *
+new_chart (const bt_dive *dive, int i)
+{
+  const bt__scene *scene = dive->model->scene;
+  const bt__subject *subject = bt__dive_subject (dive, dive->now, BT_PART_TETHER, i);
+  bt__chart *c = calloc (1, sizeof *c);
+  if (!c)
+    return NULL;
+  atomic_init (&c->references, 1);
+  c->version = subject->version;
+  c->on.version = subject->version;
+  if (subject->version == 0)
+    return c;
+  c->off = malloc (scene->n);
+  c->on.off = c->off;
+  if (c->off)
+    {
+      memcpy (c->off, bt__dive_off (dive, dive->now, BT_PART_TETHER, i), scene->n);
+      return c;
+    }
+  free (c);
+  return NULL;
+}
+
+static int
+is_of (const bt_dive *dive, int i, const bt__chart *c)
+{
+  return c && c->version == bt__dive_subject (dive, dive->now, BT_PART_TETHER, i)->version;
+}
+
+static bt_status
+no_memory (bt_error *error)
+{
+  return bt__fail (error, BT_ERR_LIMIT, "no memory for what a tether is among");
+}
+
+bt_status
+bt__chart_ways (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+{
+  if (is_of (dive, i, g->ways))
+    return BT_OK;
+  bt__chart_release (g->ways);
+  g->ways = new_chart (dive, i);
+  return g->ways ? BT_OK : no_memory (error);
+}
+
+/* ---- The box in which there is anything ---- */
+
+static bt_vec3
+least (bt_vec3 a, bt_vec3 b)
+{
+  return bt__vec (fmin (a.x, b.x), fmin (a.y, b.y), fmin (a.z, b.z));
+}
+
+static bt_vec3
+most (bt_vec3 a, bt_vec3 b)
+{
+  return bt__vec (fmax (a.x, b.x), fmax (a.y, b.y), fmax (a.z, b.z));
+}
+
+/* The box about the anchor and all that counts within REACH of it, with room to go round; zero if
+   nothing does.  */
+static int
+box_of (const bt__scene *scene, const bt__switches *on, bt_vec3 anchor, double reach, bt_vec3 *lo,
+        bt_vec3 *hi)
+{
+  bt_vec3 far = bt__vec (reach, reach, reach), aside = bt__vec (0, 0, 0);
+  bt_vec3 from = bt__sub (anchor, far), to = bt__add (anchor, far);
+  int found = 0;
+  *lo = *hi = anchor;
+  for (uint32_t k = 0; k < scene->solids; k++)
+    {
+      bt__aabb b = bt__obstacle_box (&scene->object[scene->solid[k]]);
+      bt_vec3 l = most (b.lo, from), h = least (b.hi, to);
+      if (!bt__is_on (on, scene->solid[k]) || l.x > h.x || l.y > h.y || l.z > h.z)
+        continue;
+      *lo = least (*lo, l);
+      *hi = most (*hi, h);
+      found = 1;
+    }
+  double room = fmin (3, 0.1 * bt__distance (*lo, *hi) + 0.05);
+  aside = bt__vec (room, room, room);
+  *lo = bt__sub (*lo, aside);
+  *hi = bt__add (*hi, aside);
+  hi->z = fmin (hi->z, fmax (anchor.z, 0) + 0.5 * room); /* nobody flies */
+  return found;
+}
+
+static double
+cell_of (bt_vec3 lo, bt_vec3 hi, int cells)
+{
+  bt_vec3 d = bt__sub (hi, lo);
+  return 1.02 * cbrt (d.x * d.y * d.z / cells);
+}
+
+/* ---- The tree of free ways ---- */
+
+/* The power of two that the tether reaches to: so that paying out does not mean growing anew.  */
+static double
+reach_of (const bt__gaze *g)
+{
+  return exp2 (ceil (log2 (fmax (g->out, 1))));
+}
+
+static bt_status
+grow (const bt_dive *dive, bt__chart *c, double core, bt_error *error)
+{
+  bt__count count = { 0 };
+  bt__free_config config = { .scene = dive->model->scene, .on = &c->on };
+  if (!box_of (config.scene, &c->on, c->anchor, c->reach, &config.lo, &config.hi))
+    return BT_OK;
+  config.cell = cell_of (config.lo, config.hi, TREE_CELLS);
+  config.clear = fmax (1.5 * core, fmin (CLEAR_MOST, 0.05 * config.cell));
+  bt_status status = bt__free_new (&config, &c->tree, error);
+  if (status == BT_OK)
+    bt__free_grow (c->tree, c->anchor, &count);
+  ((bt_dive *)dive)->profile.charts++;
+  return status;
+}
+
+bt_status
+bt__chart_grow (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+{
+  double reach = reach_of (g);
+  bt_vec3 anchor = g->node[0];
+  bt__chart *had = g->ways;
+  if (had->reach == reach && bt__distance (had->anchor, anchor) == 0)
+    return BT_OK;
+  bt__chart *c = new_chart (dive, i);
+  if (!c)
+    return no_memory (error);
+  c->reach = reach;
+  c->anchor = anchor;
+  bt_status status = grow (dive, c, g->config.core, error);
+  if (status != BT_OK)
+    {
+      bt__chart_release (c);
+      return status;
+    }
+  g->ways = c;
+  g->config.on = &c->on;
+  bt__chart_release (had);
+  return BT_OK;
+}
+
+/* ---- The words ---- */
+
+/* Nonzero if what counts is members and what they end in; GROUND is filled.  */
+static bt_status
+describe (const bt_dive *dive, bt__chart *c, uint8_t *ground, bt__graph *graph, bt_error *error)
+{
+  const bt__scene *scene = dive->model->scene;
+  for (uint32_t k = 0; k < scene->n; k++)
+    ground[k] = dive->model->obstacles[scene->object[k].id].kind == BT_OBSTACLE_SEABED;
+  return bt__graph_new (
+      &(bt__graph_config){
+          .scene = scene, .on = &c->on, .ground = ground, .surface = 0, .gap = c->gap },
+      graph, error);
+}
+
+static bt_status
+make_voxels (const bt_dive *dive, bt__chart *c, bt_vec3 anchor, bt_error *error)
+{
+  bt__voxel_config config = { .scene = dive->model->scene, .on = &c->on };
+  box_of (config.scene, &c->on, anchor, c->reach, &config.lo, &config.hi);
+  config.cell = cell_of (config.lo, config.hi, VOXELS);
+  return bt__voxels_new (&config, &c->voxels, error);
+}
+
+static bt_status
+make_words (const bt_dive *dive, bt__chart *c, bt_vec3 anchor, bt_error *error)
+{
+  bt__graph graph;
+  uint8_t *ground = calloc (dive->model->scene->n, 1);
+  if (!ground)
+    return no_memory (error);
+  bt_status status = describe (dive, c, ground, &graph, error);
+  if (status == BT_OK)
+    {
+      status = graph.undescribed
+                   ? make_voxels (dive, c, anchor, error)
+                   : bt__shadow_new (&graph, &(bt__shadow_config){ JITTER, DIRECTIONS }, &c->shadow,
+                                     error);
+      bt__graph_free (&graph);
+    }
+  free (ground);
+  ((bt_dive *)dive)->profile.charts++;
+  return status;
+}
+
+/* Words among members are of the whole world.  Voxels are of what is within reach of the anchor. */
+static int
+has_words (const bt_dive *dive, int i, const bt__gaze *g, double gap)
+{
+  const bt__chart *c = g->words;
+  if (!is_of (dive, i, c) || c->gap != gap)
+    return 0;
+  return c->shadow || (c->reach == reach_of (g) && bt__distance (c->anchor, g->node[0]) == 0);
+}
+
+bt_status
+bt__chart_words (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+{
+  double gap = fmax (GAP_LEAST, bt__dive_tether (dive, dive->now, i)->props.diameter);
+  if (has_words (dive, i, g, gap))
+    return BT_OK;
+  bt__chart *c = new_chart (dive, i);
+  if (!c)
+    return no_memory (error);
+  c->gap = gap;
+  c->reach = reach_of (g);
+  c->anchor = g->node[0];
+  bt_status status = make_words (dive, c, c->anchor, error);
+  if (status != BT_OK)
+    {
+      bt__chart_release (c);
+      return status;
+    }
+  bt__chart_release (g->words);
+  g->words = c;
+  return BT_OK;
+}

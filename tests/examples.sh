@@ -1,0 +1,31 @@
+# Every example in the README and in the manual does what it says; see examples.scm.
+# Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+. "$top_srcdir/tests/tap.sh"
+
+pre=$top_builddir/pre-inst-env
+
+# How a program in C is built and run.
+cat >"$scratch/run-c" <<RUN
+"$top_builddir/libtool" --silent --tag=CC --mode=compile $CC -std=c11 -Wall -Wextra -Werror \\
+  "-I$top_srcdir/src" -c "\$1" -o example.lo >/dev/null \\
+  && "$top_builddir/libtool" --silent --tag=CC --mode=link $CC example.lo $BT_LDFLAGS \\
+    "$top_builddir/src/libbight.la" -lm -o example \\
+  && ./example
+RUN
+RUN_C="sh $scratch/run-c"
+export RUN_C
+
+# Each document is a session in a folder of its own; what it says is counted here.
+for document in README.md doc/tutorial.texi doc/physics.texi doc/language.texi doc/program.texi \
+                doc/library.texi doc/extending.texi doc/limits.texi doc/thesis.texi; do
+  mkdir -p "$scratch/there"
+  (cd "$scratch/there" && "$pre" bight "$top_srcdir/tests/examples.scm" "$top_srcdir/$document") \
+    >"$scratch/said" 2>"$scratch/err" </dev/null
+  result $? "the examples of $document are tried"
+  [ ! -s "$scratch/err" ] || diag "$(cat "$scratch/err")"
+  cat "$scratch/said"
+  tests=$((tests + $(grep -cE '^(not )?ok ' "$scratch/said")))
+  rm -rf "$scratch/there"
+done
+finish

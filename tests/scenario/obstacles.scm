@@ -1,0 +1,307 @@
+;;; Dives among obstacles as a pilot meets them: round posts and back, along walls, into corners, past
+;;; what moves; and every world there is, flown by a bad pilot.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(use-modules (srfi srfi-1))
+
+
+;;; What a pilot would count by hand.
+
+(define (angle-about x0 y0 p q)
+  ;; How far one turns from P to Q seen from (X0 Y0), radians, clockwise looking down.
+  (let ((a (atan (- (x p) x0) (- (y p) y0)))
+        (b (atan (- (x q) x0) (- (y q) y0))))
+    (let loop ((d (- b a)))
+      (cond ((> d (acos -1)) (loop (- d (* 2 (acos -1)))))
+            ((< d (- (acos -1))) (loop (+ d (* 2 (acos -1)))))
+            (else d)))))
+
+(define (corners)
+  (array->points (tether-points)))
+
+(define (array->points array)
+  (map (lambda (i) (array-cell-ref array i)) (iota (array-length array))))
+
+(define* (turns-about x0 y0 #:optional (points (corners)))
+  ;; The open angle of the tether about an upright post, in turns.
+  (/ (fold + 0 (map (lambda (p q) (angle-about x0 y0 p q)) points (cdr points)))
+     (* 2 (acos -1))))
+
+(define (wound x0 y0)
+  ;; The same of the tether closed by a straight chord: a whole number.
+  (let ((points (corners)))
+    (turns-about x0 y0 (append points (list (first points))))))
+
+(define (fly . places)
+  ;; Through PLACES one after another, giving up on each after a while.
+  (for-each (lambda (p)
+              (move! p #:speed 2)
+              (run-until arrived? #:at-most 20))
+            places))
+
+(define (sane?)
+  ;; Nothing stands in an obstacle, nothing is infinite.
+  (and (> (clearance) (* -1/4 0.0077))
+       (> (rov-clearance) -1e-9)
+       (every (lambda (p) (< (norm p) 1000)) (corners))))
+
+(define (kinds)
+  (map car (events)))
+
+
+;;; Posts.
+
+(define (post part model)
+  ;; The anchor south-west of a post of 1 m, the vehicle south-east of it.
+  (world (sea (depth 20) (current 0.1 0))
+         (splice part)
+         (rov (named minnow) (at 5 -5 -6) (surge-speed 2))
+         (tether (named line) (type fathom) (wet-weight 0) (model ,model) (nodes 40)
+                 (stick-angle 36000) (from -5 -5 -6) (to minnow) (length 40))))
+
+(define posts
+  (list (part cylinder (named post) (from 0 0 5) (to 0 0 -20) (radius 0.5))
+        (part capsule (named post) (from 0 0 5) (to 0 0 -20) (radius 0.5))
+        (part box (named post) (at 0 0 -8) (size 0.8 0.8 24) (heading 20))
+        (part convex (named post)
+              (points (0.5 0 5) (-0.4 0.5 5) (-0.4 -0.5 5) (0.5 0 -20) (-0.4 0.5 -20) (-0.4 -0.5 -20)))))
+
+(define-scenario (round-and-back shape model)
+  "Driving round a post adds one turn, and the way back takes it off."
+  #:for ((shape 0 1 2 3) (model 'dynamic 'catenary))
+  (in (post (list-ref posts shape) model))
+  (let ((before (wound 0 0)))
+    (expect before is (about 0 #:within 1e-6))
+    (always (sane?)
+      (fly '(5 5 -6) '(-5 5 -6) '(-7 0 -6) '(-5 -8 -6) '(5 -5 -6)))
+    (expect (wound 0 0) is (about -1 #:within 1e-6))
+    (expect (memq 'touched (kinds)))
+    (expect (clearance 'post) is (below 0.01))
+    (always (sane?)
+      (fly '(-5 -8 -6) '(-7 0 -6) '(-5 5 -6) '(5 5 -6) '(5 -5 -6)))
+    (expect (wound 0 0) is (about 0 #:within 1e-6))))
+
+(define-scenario (another-time-round model)
+  "Each time round adds one: two rounds are two."
+  #:for ((model 'dynamic 'catenary))
+  (in (post (first posts) model))
+  (pay-out! 15 #:rate 5)
+  (run 4)
+  (always (sane?)
+    (fly '(5 5 -6) '(-5 5 -6) '(-7 0 -6) '(-5 -8 -6) '(5 -5 -7)
+         '(5 5 -7) '(-5 5 -7) '(-7 0 -7) '(-5 -8 -7) '(5 -5 -7)))
+  (expect (wound 0 0) is (about -2 #:within 1e-6)))
+
+(define-scenario it-is-held-where-there-is-no-answer
+  "`elastic' and `steady' do not know contact: they stop at the post, and go free on the way back."
+  (in (post (first posts) 'steady))
+  (always (sane?) (fly '(5 9 -6) '(-5 9 -6)))
+  (expect (wound 0 0) is (about 0 #:within 1e-6))
+  (expect (arrived?) => #f)
+  (always (sane?) (fly '(5 -5 -6)))
+  (expect (rov-position) is (about '(5 -5 -6) #:within 1e-6)))
+
+
+;;; Asking.
+
+(define-scenario what-touches
+  "What touches is named, with its place, its side and its force; the spans lie between."
+  (in (post (first posts) 'dynamic))
+  (expect (contacts) => '())
+  (expect (length (segments)) => 1)
+  (expect (collided? 'line 'post) => #f)
+  (fly '(5 8 -6) '(-8 8 -6))
+  (drive! #:sway -0.3)
+  (run 5)
+  (let ((c (contacts)))
+    (require (> (length c) 0))
+    (expect (every (lambda (c) (eq? 'post (contact-object c))) c))
+    (expect (every (lambda (c) (> (contact-arc-length c) 0)) c))
+    (expect (every (lambda (c) (< (abs (- 1 (norm (contact-normal c)))) 1e-9)) c))
+    (expect (every (lambda (c)          ; on the surface, and pushed away from it
+                     (let ((p (contact-position c)) (n (contact-normal c)) (f (contact-force c)))
+                       (and (< (abs (- 0.5 (norm (vec (x p) (y p) 0)))) 0.01)
+                            (> (+ (* (x n) (x f)) (* (y n) (y f)) (* (z n) (z f))) 0))))
+                   c))
+    (expect (every (lambda (c) (memq (contact-state c) '(stick slide))) c)))
+  (expect (collided? 'post 'line))
+  (expect (length (segments)) is (above 1))
+  (expect (fold + 0 (map segment-length (segments))) is (about (tether-length) #:within 0.01)))
+
+(define-scenario pairs-off-and-on
+  "A pair that is off passes through each other; the rest does not."
+  (in (post (first posts) 'dynamic))
+  (collide! 'line 'post #f)
+  (collide! 'minnow 'post #f)
+  (fly '(5 9 -6) '(-5 9 -6) '(-5 -8 -6))
+  (expect (memq 'touched (kinds)) => #f)
+  (expect (wound 0 0) is (about 0 #:within 1e-6))
+  (collide! #:all #t)
+  (always (sane?) (fly '(-5 9 -6) '(5 9 -6)))
+  (expect (memq 'touched (kinds))))
+
+
+;;; Walls, and what stands in the way.
+
+(define (walled model)
+  (world (sea (depth 20))
+         (seabed)
+         (box (named wall) (at 0 6 -10) (size 40 2 30))
+         (rov (named minnow) (at 0 0 -6) (size 0.4 0.6 0.4) (heading 60))
+         (tether (named line) (type fathom) (wet-weight 0) (model ,model) (from 0 -8 -6) (to minnow)
+                 (length 60))))
+
+(define-scenario (it-slides-along-a-wall model)
+  "A vehicle driven at a slant into a wall slides along it, and turns only as far as its hull may."
+  #:for ((model 'dynamic 'steady 'catenary))
+  (in (walled model))
+  (drive! #:surge 1 #:yaw 0.2)
+  (always (> (rov-clearance) 0) (run 12))
+  (expect (collided? 'minnow 'wall))
+  (expect (x (rov-position)) is (above 3))
+  (expect (y (rov-position)) is (between 4 5))
+  (expect (memq 'touched (kinds)))
+  (drive! #:surge -1 #:yaw 0)
+  (run 4)
+  (expect (memq 'left (kinds))))
+
+(define-scenario (bed-and-wall-stop-a-jump model)
+  "`place!' sweeps: it stops at what is in the way, hull and tether."
+  #:for ((model 'dynamic 'catenary))
+  (in (walled model))
+  (expect (y (place! '(0 20 -6))) is (between 4 5))
+  (expect (z (place! '(0 0 -40))) is (between -19.9 -19.7))
+  (expect (rov-speed) => 0)
+  (expect (sane?)))
+
+(define (fails thunk)
+  ;; The text of the error that THUNK raises, else "".
+  (with-exception-handler (lambda (e) (bight-error-message e)) (lambda () (thunk) "")
+    #:unwind? #t #:unwind-for-type &bight-error))
+
+(define (names-both? text . words)
+  (every (lambda (word) (string-contains text word)) words))
+
+(define-scenario laid-anew
+  "`place! #:fresh' puts the vehicle anywhere that is clear in a straight line, and says what is not."
+  (in (walled 'dynamic))
+  (expect (place! '(10 0 -6) #:fresh #t) is (about '(10 0 -6)))
+  (expect (names-both? (fails (lambda () (place! '(0 6 -6) #:fresh #t))) "minnow" "wall"))
+  (expect (names-both? (fails (lambda () (place! '(0 12 -6) #:fresh #t))) "line" "wall"))
+  (expect (rov-position) is (about '(10 0 -6)))
+  (expect (place! '(0 20 -6) #:fresh #t) raises domain))
+
+(define (laid via-points)
+  (world (sea (depth 20))
+         (cylinder (named post) (from 0 0 5) (to 0 0 -20) (radius 0.5))
+         (rov (named minnow) (at 6 0 -6))
+         (tether (named line) (type fathom) (model dynamic) (from -6 0 -6) (to minnow) (length 20)
+                 (splice via-points))))
+
+(define-scenario lines-of-lay
+  "A line is laid straight, or through points, clear of everything; else the world is refused, naming
+both."
+  (expect (names-both? (fails (lambda () (enter! (world (sea (depth 20))
+                                                       (cylinder (named post) (from 0 0 5) (to 0 0 -20)
+                                                                 (radius 0.5))
+                                                       (rov (named minnow) (at 6 0 -6))
+                                                       (tether (named line) (from -6 0 -6) (to minnow)
+                                                               (length 20))))))
+                       "line" "post"))
+  (expect (names-both? (fails (lambda () (enter! (world (sea (depth 20))
+                                                       (sphere (named buoy) (at 6 0.3 -6) (radius 0.5))
+                                                       (rov (named minnow) (at 6 0 -6))
+                                                       (tether (named line) (from -6 0 -6) (to minnow)
+                                                               (length 20))))))
+                       "buoy"))
+  (with-dive (enter! (world (sea (depth 20))
+                            (cylinder (named post) (from 0 0 5) (to 0 0 -20) (radius 0.5))
+                            (rov (named minnow) (at 6 0 -6))
+                            (tether (named line) (type fathom) (wet-weight 0) (model dynamic)
+                                    (from -6 0 -6) (to minnow) (length 20)
+                                    (via (0 3 -6)))))
+    (expect (turns-about 0 0) is (about 1/2 #:within 0.01))
+    (always (sane?) (run 5))))
+
+
+;;; What moves.
+
+(define (crane model)
+  ;; A boom that comes down on a line stretched above the bed.
+  (world (sea (depth 12))
+         (seabed)
+         (capsule (named boom) (from -3 0 -4) (to 3 0 -4) (radius 0.2)
+                  (track (0 0 0 -4) (8 0 0 -11.75)))
+         (rov (named minnow) (at 0 6 -11.5) (size 0.4 0.4 0.4))
+         (tether (named line) (type fathom) (wet-weight 0.3) (model ,model) (from 0 -6 -11.5)
+                 (to minnow) (length 14))))
+
+(define-scenario (pinched model)
+  "A boom that comes down on a tether is held back rather than let through."
+  #:for ((model 'dynamic 'steady 'catenary))
+  (in (crane model))
+  (always (sane?) (run 20))
+  (expect (memq 'touched (kinds)))
+  (expect (clearance 'boom) is (between -0.0019 0.05))
+  (expect (clearance 'seabed) is (above -0.0019)))
+
+(define-scenario a-vehicle-under-the-boom
+  "And so it is by a vehicle under it."
+  (in (crane 'dynamic))
+  (fly '(0 0 -11.5))
+  (always (> (rov-clearance) 0) (run 15))
+  (expect (memq 'pinched (kinds)))
+  (expect (collided? 'minnow 'boom)))
+
+
+;;; Stuck.
+
+(define-scenario stuck-in-a-wedge
+  "Pulled and held fast for 5 s by what it touches, the tether is stuck; backing off, it is not."
+  (in (world (sea (depth 20))
+             (cylinder (named post) (from 0 0 5) (to 0 0 -20) (radius 0.5) (friction 0.9))
+             (rov (named minnow) (at 5 -5 -6) (pull 60))
+             (tether (named line) (type fathom) (wet-weight 0) (model dynamic) (from -5 -5 -6)
+                     (to minnow) (length 26))))
+  (fly '(5 5 -6) '(-5 5 -6) '(-6 -1 -6) '(-1 -6 -6))
+  (move! '(30 -6 -6) #:speed 1)
+  (always (sane?) (run 30))
+  (expect (stuck?))
+  (expect (memq 'stuck (kinds)))
+  (fly '(-1 -6 -6))
+  (expect (stuck?) => #f))
+
+
+;;; Soups: the real meshes, when they are here.
+
+(define meshes
+  (string-append (or (getenv "top_srcdir") "..") "/../shared/data/meshes/"))
+
+(define-scenario (soup file scale)
+  "A line dragged over an open or tangled mesh stays out of it."
+  #:for ((file "sunken_ship.obj" "underwater_frame.obj") (scale 1))
+  (unless (file-exists? (string-append meshes file))
+    (skip "the reference meshes are not here"))
+  (in (world (sea (depth 60) (current 0.1 90))
+             (mesh (named soup) (file (string-append meshes file)) (at 0 0 -40))
+             (rov (named minnow) (at 0 40 -30))
+             (tether (named line) (type fathom) (wet-weight 0.05) (model dynamic) (from 0 -40 -20)
+                     (to minnow) (length 95))))
+  (always (> (clearance) (* -1/4 0.0077))
+    (fly '(0 40 -39) '(25 0 -39) '(0 -30 -39))))
+
+
+;;; Every world there is.
+
+(define-scenario (by-a-bad-pilot name)
+  "Any world can be entered and flown for a minute by sticks that mean nothing."
+  #:for ((name 'box 'cage 'canyon 'cross-current 'jacket 'open-water 'pier 'pile 'rigging 'tank
+               'tide-profile 'wall-and-overhang 'wreck))
+  (in name)
+  (set! *random-state* (seed->random-state 5))
+  (always (sane?)
+    (do ((i 0 (+ i 1))) ((= i 12))
+      (drive! #:surge (- (random 2.0) 0.6) #:sway (- (random 2.0) 1) #:heave (- (random 2.0) 1)
+              #:yaw (- (random 2.0) 1))
+      (run 5))))
