@@ -57,6 +57,10 @@ function end_block(    i)
       if (code[i] ~ /\/\*/)
         told = 1
     }
+    # A function of the type that was told of just before needs no more.
+    for (i = 1; i <= code_lines; i++)
+      if (told_type != "" && code[i] ~ told_type " ")
+        told = 1
     if (functions != "" && about == "" && !told)
       missing = missing header ":" functions "\n"
     if (about != "")
@@ -65,6 +69,9 @@ function end_block(    i)
     for (i = 1; i <= code_lines; i++)
       say(escape(code[i]))
     say("@end example\n")
+    told_type = ""
+    if (about != "" && match(code[code_lines], /^} bt_[a-z0-9_]+;/))
+      told_type = substr(code[code_lines], 3, RLENGTH - 3)
   }
   about = ""
   functions = ""

@@ -19,7 +19,7 @@ little tether and it stops you; too much and it drifts, drags and finds somethin
         (fail-when (parted?) "The tether has parted.")
         (at-most 300))
   (count snaps (taut?))
-  (score (slack 0.05 0.20 #:share 0.8 #:weight 4)
+  (score (slack 0.05 0.20 #:share 0.8 #:weight 8)
          (rov-tension 0 20 #:share 0.95 #:over 60)
          ((counter 'snaps) 0 0 #:by end #:over 3 #:weight 2)
          ((if (taut?) 1 0) 0 0 #:share 0.98 #:weight 2))

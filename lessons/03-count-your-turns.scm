@@ -5,8 +5,7 @@
 and loops hang on things.  Count, take the shorter way only when it is the way back, and come home with none.")
   (task "Inspect the four sides: fly to within 1 m of (6 14 -6), (-6 14 -6), (-6 6 -6) and (6 6 -6), in any
 order, then to the dock at (0 10 -6)."
-        (first (count! 'sides 0))
-        (done-when (and (begin (tick-side!) (= 15 (sides-seen))) (< (range-to '(0 10 -6)) 1)))
+        (done-when (and (all-sides-seen?) (< (range-to '(0 10 -6)) 1)))
         (hint-after 60 "(net-turns) counts for you, clockwise +.")
         (hint-after 120 "If you go round by the right three times, go round by the left three times too.")
         (at-most 300))
@@ -16,6 +15,10 @@ order, then to the dock at (0 10 -6)."
         (held-for 2)
         (hint-after 30 "Turn against the turns you made: (drive! #:yaw -0.5) takes off clockwise ones.")
         (at-most 120))
+  (count north-east (< (range-to '(6 14 -6)) 1))
+  (count north-west (< (range-to '(-6 14 -6)) 1))
+  (count south-west (< (range-to '(-6 6 -6)) 1))
+  (count south-east (< (range-to '(6 6 -6)) 1))
   (score ((abs (net-turns)) 0 1 #:by most #:over 1.5 #:weight 3)
          ((abs (net-turns)) 0 0.06 #:by end #:over 1 #:weight 2))
   (pilot expert "Goes there and back, never all the way round."
@@ -37,16 +40,8 @@ order, then to the dock at (0 10 -6)."
            (fly-legs '((0 10 -6)) 0.4))
     (flies (run 10) (take-off 0.2))))
 
-(define sides '((6 14 -6) (-6 14 -6) (-6 6 -6) (6 6 -6)))
-
-(define (tick-side!)
-  ;; Count 1, 2, 4 or 8 for each side that is reached for the first time.
-  (for-each (lambda (p bit name)
-              (if (and (< (range-to p) 1) (= 0 (counter name)))
-                  (begin (count! name) (count! 'sides bit))))
-            sides '(1 2 4 8) '(side-1 side-2 side-3 side-4)))
-
-(define (sides-seen) (counter 'sides))
+(define (all-sides-seen?)
+  (= 4 (length (filter (lambda (name) (> (counter name) 0)) '(north-east north-west south-west south-east)))))
 
 (define (fly-legs points speed)
   (for-each (lambda (p) (fly-to! p #:speed speed) (run-until arrived? #:at-most 90)) points))

@@ -50,13 +50,26 @@
      define-scenario always never eventually skip run-scenario scenarios
      expect require about between above below)
     ((bight lesson)
-     define-lesson run-lesson counter count! setting jitter tell! told messages
+     define-lesson run-lesson last-answer counter count! setting jitter tell! told messages
      report? report-total report-passed? report-marks report-said report-text report-hash
      report-coached report-hints report-rewinds report-seconds)
     ((bight lesson-file) lessons)
-    ((bight lesson-measure) turns winding)
+    ((bight aware)
+     winding turns windings wrap-angle capstan-lock
+     homotopy-class homotopy-class? class-decided? class-free?
+     knotted? fouled? foul-reason free-to-haul? haul-trial haul-prospect
+     way-home way-home-preview unwind-plan unwind-preview
+     contact-length seabed-length bend-ratio snap-count thrust-share follow-string)
+    ((bight foresight)
+     foresee foresight? foresight-kind foresight-object foresight-seconds foresight-confidence
+     foresight-turns)
+    ((bight probe)
+     awareness-probes probe-question probe-level probe-truth probe-stable? probe-error probe-score)
     ((bight coach) make-coach coach-looks! coach-log coach-rules define-coach-rule)
     ((bight tap) run-tests)
+    ((bight instruments)
+     instruments compass depth-sensor altimeter speed-log turn-counter ship-range ship-bearing
+     load-cell payout-counter fault! mend! faults thrusts sonar in-view? tether-in-view)
     ((bight saving) save! load-dive)
     ((bight recording)
      record! stop-recording! recording? replay
@@ -69,6 +82,7 @@
      log-entry-data)
     ((bight view) look status)
     ((bight picture) snapshot show)
+    ((bight pilot-view) pilot!)
     ((bight describe) describe)
     ((bight doc) help)))
 

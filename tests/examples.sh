@@ -1,4 +1,4 @@
-# Every example in the README and in the manual does what it says; see examples.scm.
+# Every example in the README and in the manual does what it says; see documents.scm.
 # Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 . "$top_srcdir/tests/tap.sh"
@@ -20,7 +20,7 @@ export RUN_C
 for document in README.md doc/tutorial.texi doc/physics.texi doc/language.texi doc/program.texi \
                 doc/library.texi doc/extending.texi doc/limits.texi doc/thesis.texi; do
   mkdir -p "$scratch/there"
-  (cd "$scratch/there" && "$pre" bight "$top_srcdir/tests/examples.scm" "$top_srcdir/$document") \
+  (cd "$scratch/there" && "$pre" bight "$top_srcdir/tests/documents.scm" "$top_srcdir/$document") \
     >"$scratch/said" 2>"$scratch/err" </dev/null
   result $? "the examples of $document are tried"
   [ ! -s "$scratch/err" ] || diag "$(cat "$scratch/err")"

@@ -51,8 +51,13 @@ while [ $i -lt "$kills" ]; do
   file=$scratch/$i.rec
   "$bight" bight "$scratch/dive.scm" "$file" >"$file.said" 2>"$file.err" &
   diver=$!
-  # Between 0.1 and 0.9 s, another time each.
-  sleep "0.$((1 + i * 7 % 9))$((i * 3 % 10))"
+  # Two of three are under way; the third dies any time after it was started.
+  tries=0
+  while [ $((i % 3)) -ne 0 ] && [ ! -s "$file.said" ] && [ $tries -lt 300 ]; do
+    sleep 0.02
+    tries=$((tries + 1))
+  done
+  sleep "0.$((i * 7 % 5))$((1 + i * 3 % 9))"
   kill -9 $diver
   wait $diver 2>/dev/null
   i=$((i + 1))

@@ -118,4 +118,16 @@ else
   skip 'there is no makeinfo (Debian package: texinfo)'
   skip 'there is no makeinfo'
 fi
+
+# ---- The Debian package ----
+
+if [ -f "$top_srcdir/debian/control" ]; then
+  sed -n "/^packages='/,/'\$/p" "$top_srcdir/bootstrap" | grep -oE '[a-z0-9.-]+-dev' | grep -v '^libc6' |
+    while read -r package; do
+      grep -qE "^ $package( |,|\$)" "$top_srcdir/debian/control" || echo "$package"
+    done >"$scratch/missing"
+  empty 'debian/control names the libraries that bootstrap installs' "$scratch/missing"
+else
+  skip 'there is no folder debian here'
+fi
 finish

@@ -14,6 +14,7 @@
   #:use-module (bight errors)
   #:use-module (bight schema)
   #:use-module (bight shape)
+  #:use-module (bight waves)
   #:use-module (srfi srfi-1)
   #:use-module (system syntax)
   #:export (clause->expression
@@ -123,6 +124,23 @@
      (list-of (cons (quoted #'form) (map current-clause #'(item ...)))))
     (_ (expression stx))))
 
+(define (waves-part stx)
+  ;; none, or (airy (height 1) ...).
+  (syntax-case stx ()
+    ((form item ...)
+     (apply datum? #'form wave-forms)
+     (list-of (cons (quoted #'form)
+                    (map (lambda (item)
+                           (syntax-case item ()
+                             ((name value)
+                              (apply datum? #'name wave-field-names)
+                              (list-of (list (quoted #'name) (expression #'value))))
+                             ((name . _) (identifier? #'name) (quoted item))
+                             (_ (expression item))))
+                         #'(item ...)))))
+    (none (datum? #'none 'none) (quoted stx))
+    (_ (expression stx))))
+
 (define (special? field stx)
   (and (identifier? stx) (assq (syntax->datum stx) (field-specials field)) #t))
 
@@ -130,6 +148,7 @@
   (case (field-kind field)
     ((word name type) (map word stxs))
     ((current) (map current-part stxs))
+    ((waves) (map waves-part stxs))
     ((points) (map (row '(3)) stxs))
     ((track) (map (row '(4 5)) stxs))
     ((grid) (grid-parts stxs))

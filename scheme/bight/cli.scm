@@ -181,6 +181,8 @@ begins with FILE and the line."
                                    measure run time against error; write tables and plots to DIR
        bight snapshot WORLD -o FILE.png [--view V] [--size WxH] [--paint P] [--run S]
                                    write a picture of a world, S seconds into a dive
+       bight pilot WORLD [--view V] [--paint P] [--colors true|many|few|none]
+                                   fly a world live from the keyboard; ? there shows the keys
        bight replay FILE           do again what was recorded; exit 1 if it comes out otherwise
        bight --version | --help
 
@@ -245,6 +247,10 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
 
 ;;; bight snapshot.
 
+(define (world-argument word)
+  ;; A file's name, or a world's.
+  (if (file-like? word) word (string->symbol word)))
+
 (define snapshot-options '("-o" "--view" "--size" "--paint" "--overlay" "--run"))
 
 (define (take-snapshot arguments)
@@ -255,9 +261,21 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
       (unless (assoc-ref options "-o")
         (bad-usage "snapshot: say where to, as in bight snapshot ~a -o FILE.png" (car worlds)))
       (show-values ((from (bight picture) snapshot-world)
-                    (if (file-like? (car worlds)) (car worlds) (string->symbol (car worlds)))
+                    (world-argument (car worlds))
                     (assoc-ref options "-o")
                     options))
+      0)))
+
+
+;;; bight pilot.
+
+(define (fly arguments)
+  (call-with-values (lambda () (split-arguments "pilot" arguments '("--view" "--paint" "--colors")))
+    (lambda (worlds options)
+      (unless (= 1 (length worlds))
+        (bad-usage "pilot: name one world or file, as in bight pilot WORLD"))
+      (enter-language!)
+      ((from (bight pilot-view) pilot-world) (world-argument (car worlds)) options)
       0)))
 
 
@@ -279,6 +297,7 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
     ("lessons" . ,(lambda (arguments) ((from (bight lesson-command) lessons-command) arguments)))
     ("bench" . ,run-benches)
     ("snapshot" . ,take-snapshot)
+    ("pilot" . ,fly)
     ("replay" . ,run-replay)
     ("--version" . ,print-version)
     ("--help" . ,print-help)

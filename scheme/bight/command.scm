@@ -10,14 +10,17 @@
   #:use-module (bight errors)
   #:use-module (bight query)
   #:use-module (bight schema)
+  #:use-module (bight task)
   #:use-module (bight track)
+  #:use-module (bight units)
   #:use-module (bight verb)
+  #:use-module (bight waves)
   #:use-module ((bight world) #:select (part-head world-part))
   #:use-module (srfi srfi-4)
-  #:export (drive! release! fly-to! move! place! follow! arrived?
-            hold-heading! hold-depth! hold-altitude! hold-position!
+  #:export (drive! release! fly-to! fly-along! move! place! follow! arrived?
+            stabilise! hold-heading! hold-depth! hold-altitude! hold-position!
             pay-out! haul-in! spooling? cut-tether!
-            current! alter! tether-model! accuracy!))
+            current! waves! alter! tether-model! accuracy!))
 
 (define degree (/ (acos -1) 180))
 
@@ -57,6 +60,54 @@ held until changed; those not named stay.  Ends a flight to a place.  Return the
   (operate! 'fly-to! v (f64vector-ref p 0) (f64vector-ref p 1) (f64vector-ref p 2) speed)
   p)
 
+(define (row-of polyline i)
+  (f64vector (array-ref polyline i 0) (array-ref polyline i 1) (array-ref polyline i 2)))
+
+(define round-corner 0.1)               ; m: so near to a corner a vehicle with mass turns to the next
+
+(define (fly-on task v speed)
+  ;; The state of the task is the points that are left, the one he flies to first.
+  (let* ((engine (this-engine 'fly-along!))
+         (view (%vehicle engine v))
+         (points (task-state task))
+         (off (distance (assq-ref view 'position) (car points))))
+    (cond ((and (pair? (cdr points)) (<= off round-corner))
+           (set-task-state! task (cdr points))
+           (move-to engine v (cadr points) speed))
+          ((assq-ref view 'arrived?)    ; there, or told something else
+           (remove-task! (this-dive 'fly-along!) task)))))
+
+(define (move-to engine v p speed)
+  (%operate! engine 'move! 'fly-along! v
+             (f64vector (f64vector-ref p 0) (f64vector-ref p 1) (f64vector-ref p 2) speed)))
+
+(define (corners polyline)
+  ;; The points of POLYLINE but those that lie within a centimetre of the way without them.
+  (let loop ((i 1) (last (row-of polyline 0)) (kept '()))
+    (let ((p (row-of polyline i)))
+      (cond ((= i (- (array-length polyline) 1)) (reverse! (cons p kept)))
+            ((straight? last p (row-of polyline (+ i 1))) (loop (+ i 1) last kept))
+            (else (loop (+ i 1) p (cons p kept)))))))
+
+(define (straight? a b c)
+  ;; Is B on the way from A to C?
+  (< (- (+ (distance a b) (distance b c)) (distance a c)) 1e-4))
+
+;; The length of the way through POINTS, m.
+(define (way-length points)
+  (if (null? (cdr points))
+      0
+      (+ (distance (car points) (cadr points)) (way-length (cdr points)))))
+
+(define-verb (fly-along! #:subject (v vehicle) (points points) #:key (speed positive (own-speed v)))
+  "Fly the vehicle along the polyline POINTS at SPEED m/s, keeping its heading; time passes in `run', and
+`arrived?' tells.  Sticks, or another place to go to, end it.  Return the length of the way, m."
+  (let* ((engine (this-engine 'fly-along!))
+         (way (corners points)))
+    (move-to engine v (car way) speed)
+    (add-task! 'fly-along! "fly along" (lambda (task) (fly-on task v speed)) way)
+    (way-length (cons (position-of v) way))))
+
 (define-verb (move! #:subject (v vehicle) (p point) #:key (speed positive (own-speed v)))
   "Move the vehicle along the straight line to the point P at SPEED m/s, keeping its heading.  Return P."
   (operate! 'move! v (f64vector-ref p 0) (f64vector-ref p 1) (f64vector-ref p 2) speed)
@@ -78,6 +129,12 @@ beginning now.  Return how many seconds it takes."
 (define-verb (arrived? #:subject (v vehicle))
   "Return #t unless the vehicle is still on its way to a place or along a track."
   (assq-ref (%vehicle (this-engine 'arrived?) v) 'arrived?))
+
+(define-verb (stabilise! #:subject (v vehicle) #:optional (on flag #t))
+  "Keep a vehicle with mass level; its yaw stick then sets a rate.  So it is from the start; with ON #f
+the sticks are forces and moments alone.  Return ON."
+  (operate! 'stabilise! v (if on 1 0))
+  on)
 
 (define-verb (hold-heading! #:subject (v vehicle) (heading bearing))
   "Keep the vehicle's HEADING, compass degrees, until `release!'.  Return it."
@@ -130,6 +187,12 @@ left out).  Both parts go on moving.  Return the length left at the anchor, m."
 
 ;;; The sea, and the parts' fields.
 
+(define (set-current! proc current)
+  (when (and (eq? 'grid (car current)) (pair? (cdr current)))
+    (bight-raise 'unsupported proc
+                 "a dive has the grid of its world, (grid); another file needs another dive"))
+  (%set-current! (this-engine proc) current))
+
 (define-verb (current! #:rest (setting any))
   "Change the current: (current! SPEED TOWARD), or one of its other forms, quoted, as in
 (current! '(profile (0 0.6 90) (-30 0.3 80))); or a procedure of position and time, which is slow.
@@ -137,17 +200,27 @@ Return the current at the surface, m/s."
   (let* ((engine (this-engine 'current!))
          (setting (if (= 1 (length setting)) (car setting) setting))
          (current (parse-current 'current! setting)))
-    (%set-current! engine current)
+    (set-current! 'current! current)
     (%current-at engine (f64vector 0 0 0))))
+
+(define-verb (waves! #:rest (setting any))
+  "Change the waves, as in (waves! '(airy (height 1) (period 6) (toward 90))), (waves! '(jonswap (height
+1.5) (period 7) (toward 90) (seed 3))) or (waves! 'none).  Return them as they are now."
+  (set-waves! 'waves! (parse-waves 'waves! (if (= 1 (length setting)) (car setting) setting))))
+
+(define (set-waves! proc waves)
+  (%operate! (this-engine proc) 'waves! proc 0 (list->f64vector (waves->numbers waves)))
+  waves)
 
 (define (alter-field! proc head index field value)
   (when (memq field (inner-heads head))
     (bight-raise 'unsupported proc "each ~a of ~a stays as its world has it while the dive runs"
                  field (head-title head)))
   (let ((value (check-field proc head field value)))
-    (if (eq? field 'current)
-        (%set-current! (this-engine proc) value)
-        (%alter! (this-engine proc) head index field value))))
+    (case field
+      ((current) (set-current! proc value))
+      ((waves) (set-waves! proc value))
+      (else (%alter! (this-engine proc) head index field value)))))
 
 (define (alter-fields! head index settings)
   (let loop ((rest settings))

@@ -20,7 +20,8 @@
             segments
             segment? segment-model segment-from segment-to segment-length segment-ends
             clearance rov-clearance
-            collide! collided? stuck?))
+            collide! collided? stuck?
+            obstacle-index))
 
 
 ;;; Contacts.
@@ -125,7 +126,7 @@ it touches nothing."
 ;;; How near.
 
 (define (obstacle-index proc name)
-  ;; The number of the obstacle called NAME.
+  "Return the number of the obstacle called NAME, or raise a &bight-error from PROC."
   (let ((names (%names (this-engine proc) 'obstacle)))
     (or (list-index (lambda (other) (eq? name other)) names)
         (unknown-name proc "this dive" name names "obstacle"))))

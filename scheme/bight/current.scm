@@ -7,6 +7,7 @@
 ;;;   (turning (speed S) (toward B) (degrees-per-metre D))    the set turns with depth
 ;;;   (power SPEED TOWARD (exponent E))                       falls to nothing at the sea bed
 ;;;   (tide (speed S) (toward B) (period T))                  comes and goes
+;;;   (grid FILE)                                             measured in space and time
 ;;;   still, or a procedure of position and time
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
@@ -20,12 +21,12 @@
   #:export (current-forms
             current-field-names
             parse-current
+            clause-fields
+            clause-field
             current->string))
 
 (define current-forms
-  '(still uniform profile turning power tide function grid wake))
-
-(define not-yet '(grid wake))
+  '(still uniform profile turning power tide function grid))
 
 (define current-field-names
   '(speed toward degrees-per-metre exponent period))
@@ -89,8 +90,9 @@
     (refuse-equal-heights proc sorted)
     (cons 'profile sorted)))
 
-(define (fields proc form allowed positional clauses)
-  ;; The alist of CLAUSES, (NAME VALUE) each; bare values stand for POSITIONAL in order.
+(define (clause-fields proc form allowed positional clauses)
+  "Return the alist of CLAUSES, (NAME VALUE) each, of what is called FORM; bare values stand for
+POSITIONAL in order.  Raise a &bight-error from PROC for a name that is not ALLOWED."
   (let loop ((rest clauses) (places positional) (found '()))
     (cond ((null? rest) found)
           ((and (pair? (car rest)) (symbol? (caar rest)) (not (assq (caar rest) units)))
@@ -110,7 +112,8 @@
 
 (define no-default (list 'no-default))
 
-(define* (field proc form found name type #:optional (default no-default))
+(define* (clause-field proc form found name type #:optional (default no-default))
+  "Return the value of NAME in the alist FOUND, checked by TYPE, or DEFAULT."
   (let ((entry (assq name found)))
     (cond (entry (check proc name type (cdr entry)))
           ((eq? default no-default)
@@ -119,11 +122,11 @@
 
 (define (fielded proc form positional last-name last-type last-default clauses)
   ;; (FORM speed toward LAST) from CLAUSES.
-  (let ((found (fields proc form (list 'speed 'toward last-name) positional clauses)))
+  (let ((found (clause-fields proc form (list 'speed 'toward last-name) positional clauses)))
     (list form
-          (field proc form found 'speed type:speed)
-          (field proc form found 'toward type:bearing)
-          (field proc form found last-name last-type last-default))))
+          (clause-field proc form found 'speed type:speed)
+          (clause-field proc form found 'toward type:bearing)
+          (clause-field proc form found last-name last-type last-default))))
 
 ;; What a procedure answers is checked at each call, here, where there is somebody to tell.
 
@@ -153,6 +156,14 @@
             (call-with-values (lambda () (procedure position time))
               (lambda answers (velocity answers)))))))
 
+(define (grid proc arguments)
+  ;; A file of rows x y z t u v w; none: the one that the world of the dive has.
+  (unless (or (null? arguments)
+              (and (= 1 (length arguments)) (string? (first arguments)) (not (string-null? (first arguments)))))
+    (bight-raise 'domain proc "a grid current takes the name of a file, (grid \"c.csv\"), not ~s"
+                 (cons 'grid arguments)))
+  (cons 'grid arguments))
+
 (define (form-current proc form arguments)
   (case form
     ((still) (list 'still))
@@ -166,19 +177,19 @@
     ((power) (fielded proc form '(speed toward exponent) 'exponent type:exponent (/ 1.0 7.0) arguments))
     ((tide) (fielded proc form '(speed toward period) 'period type:period tidal-period arguments))
     ((function) (function proc arguments))
-    ((grid wake) (bight-raise 'unsupported proc "a ~a current is not there yet" form))
+    ((grid) (grid proc arguments))
     (else (unknown-name proc "the sea" form
-                        (lset-difference eq? current-forms '(function) not-yet)
+                        (delq 'function (list-copy current-forms))
                         "current"))))
 
 (define (refuse-current proc datum)
   (bight-raise 'domain proc
-               "a current is SPEED TOWARD, still, a procedure, or one of (profile ...) (turning ...) (power ...) (tide ...), not ~s"
+               "a current is SPEED TOWARD, still, a procedure, or one of (profile ...) (turning ...) (power ...) (tide ...) (grid ...), not ~s"
                datum))
 
 (define (parse-current proc datum)
   "Return the canonical form of the current that DATUM describes, for the engine: (still), (uniform SPEED
-TOWARD), (profile (Z SPEED TOWARD) ...) from the top down, (turning SPEED TOWARD DEGREES-PER-METRE),
+TOWARD), (grid FILE), (profile (Z SPEED TOWARD) ...) from the top down, (turning SPEED TOWARD DEGREES-PER-METRE),
 (power SPEED TOWARD EXPONENT), (tide SPEED TOWARD PERIOD) or (function PROCEDURE).  Raise a &bight-error
 from PROC when it describes none."
   (let ((items (and (pair? datum) (bounded-list datum 1000))))

@@ -11,7 +11,9 @@
   #:use-module (bight errors)
   #:use-module (bight schema)
   #:use-module (bight world)
+  #:use-module (bight waves)
   #:use-module (srfi srfi-1)
+  #:use-module (srfi srfi-4)
   #:export (engine-parts
             find-beside))
 
@@ -69,14 +71,25 @@ among the worlds.  Raise a &bight-error from PROC when there is none."
         (read-once path up (lambda () (%read-mesh path up)))
         (read-once path 'grid (lambda () (%read-heights path))))))
 
+(define (read-flow proc w names)
+  ;; The current in the one file of NAMES.
+  (when (null? names)
+    (bight-raise 'def proc "a world's (current (grid ...)) names its file"))
+  (let ((path (find-beside proc w (car names))))
+    (read-once path 'flow (lambda () (%read-current-grid path)))))
+
 (define (read-part proc w part)
   ;; PART, (HEAD NAME FIELDS), with what is in its files.
   (let* ((head (first part)) (fields (third part)) (up (or (assq-ref fields 'up) 'z)))
     (define (read-entry entry)
       (let* ((field (head-field head (car entry))) (kind (and field (field-kind field))))
-        (if (and (memq kind '(mesh grid)) (string? (cdr entry)))
-            (cons (car entry) (read-field proc w kind (cdr entry) up))
-            entry)))
+        (cond ((and (memq kind '(mesh grid)) (string? (cdr entry)))
+               (cons (car entry) (read-field proc w kind (cdr entry) up)))
+              ((and (eq? kind 'current) (pair? (cdr entry)) (eq? 'grid (cadr entry)))
+               (list (car entry) 'grid (read-flow proc w (cddr entry))))
+              ((eq? kind 'waves)
+               (cons (car entry) (list->f64vector (waves->numbers (cdr entry)))))
+              (else entry))))
     (list head (second part) (map read-entry (alist-delete 'up fields eq?)))))
 
 (define (engine-parts proc w)

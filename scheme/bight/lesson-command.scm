@@ -20,7 +20,8 @@
   #:use-module (bight sandbox)
   #:use-module (bight terminal)
   #:use-module (srfi srfi-1)
-  #:export (lesson-command
+  #:export (is-order?
+            lesson-command
             lessons-command))
 
 
@@ -78,7 +79,7 @@
 
 (define-record <order>
   (make-order file outside? given)
-  order?
+  is-order?
   (file order-file)
   (outside? order-outside?)             ; it came from outside and is not trusted
   (given order-given))
@@ -101,6 +102,13 @@
   (write datum port)
   (newline port)
   (force-output port))
+
+(define (telling port)
+  ;; A procedure that tells the parent a datum; without a parent the lesson ends.
+  (lambda (datum)
+    (catch 'system-error
+      (lambda () (tell-parent port datum))
+      (lambda arguments (throw 'quit 1)))))
 
 (define (merging-passes tell)
   ;; A keeper of inputs that tells stretches of time as one; called with #f it tells what it still has.
@@ -341,13 +349,26 @@
            (lambda (e)
              (if (eq? 'quit (exception-kind e)) (raise-exception e) (complain e)))
          (lambda ()
-           (in-child order inputs (lambda (datum) (tell-parent port datum))))
+           (sigaction SIGPIPE SIG_IGN)
+           (in-child order inputs (telling port)))
          #:unwind? #t))
      (lambda (key . arguments)
        (if (and (pair? arguments) (exact-integer? (car arguments))) (car arguments) 0)))))
 
+(define (end-with-child! pid state)
+  ;; Whoever ends this process ends the child too, and finds the terminal as it was.
+  (for-each (lambda (signal)
+              (sigaction signal
+                (lambda (signal)
+                  (false-if-exception (kill pid SIGKILL))
+                  (when state (display screen-back) (force-output))
+                  (restore-terminal! state)
+                  (primitive-exit (+ 128 signal)))))
+            (list SIGTERM SIGHUP)))
+
 (define (wait-for pid order port journal state)
   (sigaction SIGINT SIG_IGN)            ; ^C is for the child
+  (end-with-child! pid state)
   (dynamic-wind
     (const #t)
     (lambda () (listen port order journal))
@@ -427,7 +448,7 @@
            (let* ((name (lesson-file-name file)) (total (best results name)))
              (simple-format #t "~a  ~a ~a ~a~%"
                             (substring (basename file) 0 2)
-                            (string-pad-right (symbol->string name) 20)
+                            (string-pad-right (symbol->string name) 26)
                             (string-pad (cond (total (number->string total))
                                               ((begun? file given) "begun")
                                               (else "-"))

@@ -1,29 +1,53 @@
-;;; (bight lesson-log) --- where the results of lessons go.
+;;; (bight lesson-log) --- what came of lessons, in the logbook.
 ;;;
-;;; One hook: the logbook, if this bight has one, is told what came of a lesson and asked for what there
-;;; was before.  An entry is an association list with the keys lesson title who group seed level total
-;;; passed? seconds hints rewinds marks coached.
+;;; A result is an association list with the keys lesson title who group seed level total passed? seconds
+;;; hints rewinds marks coached; the logbook keeps it as the data of an entry, and its total as the score.
+;;; Probes get entries of their own.  The logbook is a module that is loaded when it is needed, and a bight
+;;; without it, or without a place to keep it, teaches all the same.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson-log)
+  #:use-module (bight errors)
+  #:use-module (srfi srfi-1)
   #:export (log-result!
             logged-results))
 
-(define (from-logbook name)
+(define (logbook-ref name)
   ;; The procedure NAME of the logbook, or #f if there is none.
   (let ((interface (false-if-exception (resolve-interface '(bight logbook)))))
     (and interface
          (let ((variable (module-variable interface name)))
-           (and variable (variable-bound? variable) (variable-ref variable))))))
+           (and variable (variable-ref variable))))))
 
-(define (log-result! entry)
-  "Tell the logbook of ENTRY, an association list.  Return #t if there is a logbook."
-  (let ((log-lesson! (from-logbook 'log-lesson!)))
-    (and log-lesson!
-         (begin (log-lesson! entry) #t))))
+(define (trying default thunk)
+  ;; What THUNK returns, or DEFAULT if the logbook refuses.
+  (with-exception-handler
+      (lambda (e) (if (bight-error? e) default (raise-exception e)))
+    thunk
+    #:unwind? #t))
+
+(define (write-result! log-lesson! log-probe! result)
+  (let ((get (lambda (key) (assq-ref result key))))
+    (log-lesson! (get 'lesson) #:trainee (get 'who) #:score (get 'total) #:data result)
+    (for-each (lambda (mark)
+                (when (string-prefix? "probe" (first mark))
+                  (log-probe! (string-append (symbol->string (get 'lesson)) ": " (first mark))
+                              #:trainee (get 'who) #:score (second mark)
+                              #:data `((passed? ,(third mark)) (how ,(fourth mark))))))
+              (get 'marks))
+    #t))
+
+(define (log-result! result)
+  "Tell the logbook of RESULT.  Return #t if it is written there."
+  (let ((log-lesson! (logbook-ref 'log-lesson!)) (log-probe! (logbook-ref 'log-probe!)))
+    (and log-lesson! log-probe!
+         (trying #f (lambda () (write-result! log-lesson! log-probe! result))))))
 
 (define (logged-results who)
-  "Return the entries in the logbook about WHO, a string, oldest first."
-  (let ((lesson-entries (from-logbook 'lesson-entries)))
-    (if lesson-entries (lesson-entries who) '())))
+  "Return the results in the logbook of WHO, a string, oldest first."
+  (let ((logbook (logbook-ref 'logbook)) (data (logbook-ref 'log-entry-data)))
+    (if (and logbook data)
+        (filter (lambda (result) (and (pair? result) (assq 'lesson result)))
+                (trying '() (lambda () (map data (logbook #:trainee who #:kind 'lesson)))))
+        '())))

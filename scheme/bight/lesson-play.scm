@@ -18,12 +18,13 @@
   #:use-module (bight record)
   #:use-module (bight task)
   #:use-module (bight time)
+  #:use-module (bight verb)
   #:use-module ((bight view) #:select (look))
   #:use-module ((ice-9 control) #:select (call/ec))
   #:use-module (srfi srfi-1)
   #:export (make-guide guide? plan? guide-hears-hints?
             call-with-plan plan-rows plan-counts plan-tender
-            begin-dive! say-text show-picture put-probe run-task watch-fork repeat-steps
+            begin-dive! say-text show-picture put-probe last-answer run-task watch-fork repeat-steps
             untrusted? breathing
             ;; For guides.
             task-text next-hint! save-point! go-back! recent-points ask-for-hint!
@@ -153,7 +154,13 @@ CHOICES.  BEARING? says that the truth is a bearing unless DEGREES says otherwis
     (let* ((answer ((guide-probe (this-guide)) question truth choices))
            (mark (probe-mark (simple-format #f "probe ~a" n) answer truth choices within degrees)))
       (add-mark! mark)
+      (tally-set! 'answer answer)
       (say (if (mark-passed? mark) 'right 'wrong) (mark-detail mark)))))
+
+
+(define-verb (last-answer)
+  "Return the answer to the last probe of the lesson, a number or a symbol, or #f: for (branch ...)."
+  (tally-ref 'answer))
 
 
 ;;; Tasks.  CONDITIONS are lists: (done THUNK) (fail THUNK TEXT) (hint SECONDS TEXT) (at-most SECONDS)
@@ -167,8 +174,8 @@ CHOICES.  BEARING? says that the truth is a bearing unless DEGREES says otherwis
     (if (null? found) default (car (last found)))))
 
 ;; How often the conditions are asked, and the measures taken, s; and how far a step back is.
-(define look-time 0.1)
-(define sample-time 0.2)
+(define look-time 0.2)
+(define sample-time 0.5)
 (define point-time 5)
 (define points-kept 24)
 

@@ -32,8 +32,13 @@
 (define replay (make-parameter #f))     ; a variable with the inputs to come, or #f
 (define journal (make-parameter noop))  ; called with each new input
 
+;; True while the last input of the journal is done.
+(define silent? (make-parameter #f))
+
 (define (replaying?)
   (and (replay) (pair? (variable-ref (replay)))))
+
+(define (quiet?) (or (silent?) (replaying?)))
 
 (define (next-input ask)
   ;; The next input: out of the journal, or what ASK, a thunk, returns.
@@ -48,7 +53,7 @@
         input)))
 
 (define (print . parts)
-  (unless (replaying?)
+  (unless (quiet?)
     (for-each display parts)
     (newline)
     (force-output)))
@@ -237,14 +242,22 @@
 (define (marked-as-replayed input)
   (if (eq? 'form (car input)) (append input '(again)) input))
 
-(define (take-input ask)
-  (if (replaying?)
-      (marked-as-replayed (next-input ask))
-      (next-input ask)))
+(define (catch-up!)
+  ;; Do what is left of the journal, and say where that has led.
+  (when (replaying?)
+    (let loop ()
+      (when (replaying?)
+        (let* ((last? (null? (cdr (variable-ref (replay)))))
+               (input (marked-as-replayed (next-input noop))))
+          (parameterize ((silent? #t))
+            (apply-input! input))
+          (unless last? (loop)))))
+    (for-each print (wrap (string-append "TASK: " (task-text)) 78))))
 
 (define (fly-by-lines n seconds)
+  (catch-up!)
   (let loop ()
-    (for-each print (apply-input! (take-input ask-input)))
+    (for-each print (apply-input! (next-input ask-input)))
     (loop)))
 
 
@@ -356,7 +369,7 @@
       (cond ((eof-object? key) ((quit)))
             ((memv key '(#\q #\x04)) ((quit)))
             ((memv key '(#\p #\x03)) (set! paused? (not paused?)) (resume!) (draw!) '(nothing))
-            ((memv key '(#\: #\return #\newline #\())
+            ((memv key '(#\: #\())
              (typed (if (eqv? key #\() "scheme> (" "scheme> ")
                     (lambda (line)
                       (list 'form (if (eqv? key #\() (string-append "(" line) line)))))
@@ -375,15 +388,12 @@
 
 (define (fly-by-keys n seconds)
   (let ((state (terminal-state)))
-    (let catch-up ()                    ; the journal first, before the screen changes
-      (when (replaying?)
-        (apply-input! (take-input noop))
-        (catch-up)))
+    (catch-up!)
     (call-with-keys
      (lambda ()
        (let ((ask (keys-asker state)))
          (let loop ()
-           (for-each hear! (apply-input! (take-input ask)))
+           (for-each hear! (apply-input! (next-input ask)))
            (loop)))))))
 
 
@@ -395,8 +405,10 @@
 
 (define (say kind text)
   (let ((line (string-append (or (assq-ref titles kind) "") text)))
-    (unless (replaying?)
-      (hear! line)
+    (unless (quiet?)
+      (if (eq? kind 'task)
+          (set! heard '())              ; the screen has it at the top
+          (hear! line))
       (unless (and (memq kind '(hint coach fault)) (keys?))
         (newline)
         (for-each (lambda (line) (print line)) (wrap line 78))))))

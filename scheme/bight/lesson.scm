@@ -24,7 +24,7 @@
   #:use-module ((ice-9 control) #:select (call/ec))
   #:use-module (srfi srfi-1)
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
-  #:re-export (counter count! setting jitter tell! told messages)
+  #:re-export (last-answer counter count! setting jitter tell! told messages)
   #:export (define-lesson
             run-lesson
             lesson-list
@@ -348,6 +348,9 @@ HARD), (pilot NAME TEXT ...) and (tender TEXT FORM ...)."
   (charts report-charts)                ; lines
   (coached %report-coached)
   (hash %report-hash))
+
+(document
+ (report? "Return true if OBJECT is the report of a lesson."))
 
 (define-argument-type (report value)
   "a report, as `run-lesson' returns"

@@ -21,6 +21,7 @@
             show
             snapshot-world
             renderer-name
+            renderer
             caption?))
 
 
@@ -38,6 +39,7 @@
 (define the-renderer #f)                ; opened once
 
 (define (renderer proc)
+  "Return what draws pictures, opened if it was not, or raise a &bight-error from PROC."
   (unless the-renderer
     (set! the-renderer ((renders proc '%open-renderer) #f)))
   the-renderer)

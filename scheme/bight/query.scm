@@ -151,25 +151,45 @@ what is out."
   "Return how much tether is out, m.")
 (define-tether-question (straight-distance chord)
   "Return the straight distance between the ends of the tether, m.")
-(define-tether-question (taut-length chord)
+(define (open-water? engine)
+  ;; Nothing could hold a tether: the chord is all.
+  (null? (%names engine 'obstacle)))
+
+(define-verb (taut-length #:subject (t tether))
   "Return the length the tether would take if it were pulled tight through nothing, m; in open water the
-straight distance.")
-(define-tether-question (free-length chord)
+straight distance."
+  (let ((engine (this-engine 'taut-length)))
+    (if (open-water? engine) (assq-ref (%tether engine t) 'chord) (%taut-length engine t))))
+
+(define-verb (free-length #:subject (t tether))
   "Return the length of the shortest way from the anchor to the vehicle, m; in open water the straight
-distance.")
+distance."
+  (let ((engine (this-engine 'free-length)))
+    (if (open-water? engine) (assq-ref (%tether engine t) 'chord) (%free-length engine t))))
 
 (define-verb (slack #:subject (t tether))
   "Return the share of the tether that is slack, (out - taut) / out."
-  (let ((view (tether-view 'slack t)))
-    (max 0.0 (- 1 (/ (assq-ref view 'chord) (assq-ref view 'length))))))
+  (let ((out (assq-ref (tether-view 'slack t) 'length)))
+    (max 0.0 (- 1 (/ (taut-length (tether-called t)) out)))))
 
 (define-verb (excess #:subject (t tether))
   "Return by how much the taut length exceeds the free length, m; in open water 0."
-  (tether-view 'excess t)
-  0.0)
+  (let ((name (tether-called t)))
+    (max 0.0 (- (taut-length name) (free-length name)))))
 
-(define-tether-question (taut? taut?)
-  "Return #t if the tether is pulled tight.")
+(define (tether-called t)
+  (list-ref (%names (this-engine 'tether-length) 'tether) t))
+
+(define taut-share 1e-3)                ; of what is out: with no more slack a tether is taut
+
+(define-verb (taut? #:subject (t tether))
+  "Return #t if the tether is pulled tight: its model says so, or, among obstacles, it has less than 0.1 %
+of slack round what it touches."
+  (let* ((engine (this-engine 'taut?))
+         (view (%tether engine t)))
+    (or (assq-ref view 'taut?)
+        (and (not (open-water? engine))
+             (>= (%taut-length engine t) (* (- 1 taut-share) (assq-ref view 'length)))))))
 (define-tether-question (parted? parted?)
   "Return #t if the tether is in two; then the part at the anchor is what one asks about.")
 (define-tether-question (asleep? asleep?)

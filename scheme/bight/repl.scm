@@ -18,6 +18,7 @@
   #:use-module ((system repl common) #:select (repl-default-option-set! repl-eval))
   #:use-module ((system repl repl) #:select (start-repl))
   #:export (run-prompt
+            run-inner-prompt
             completions))
 
 
@@ -182,6 +183,21 @@ Show the documentation of NAME; (help NAME) tells how it is used too."
           ((not value) 1)
           (else 0))))
 
+(define (call-with-prompt-below thunk)
+  ;; With a loop below it a new one does not print Guile's own banner.
+  (with-fluids ((*repl-stack* (cons 'bight (or (fluid-ref *repl-stack*) '()))))
+    (thunk)))
+
+(define (run-inner-prompt greeting)
+  "Say GREETING, and run a prompt within what is going on until the user leaves it."
+  (set-manners!)
+  (display greeting)
+  (newline)
+  (call-with-interrupts
+   (lambda ()
+     (call-with-line-editing
+      (lambda () (call-with-prompt-below (lambda () (start-repl))))))))
+
 (define (run-prompt version)
   "Run the prompt of bight VERSION, a string, until the user leaves.  Return the exit status."
   (enter-language!)
@@ -190,9 +206,6 @@ Show the documentation of NAME; (help NAME) tells how it is used too."
   (let ((result (call-with-interrupts
                  (lambda ()
                    (call-with-line-editing
-                    (lambda ()
-                      ;; With a loop below it the new one does not print Guile's own banner.
-                      (with-fluids ((*repl-stack* '(bight)))
-                        (start-repl))))))))
+                    (lambda () (call-with-prompt-below (lambda () (start-repl)))))))))
     (run-hook exit-hook)
     (status-of result)))

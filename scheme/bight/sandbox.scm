@@ -24,8 +24,15 @@
             memory-limit
             breath))
 
-(define memory-limit (* 1024 1024 1024)) ; bytes of address space
-(define breath 20)                       ; seconds of processor time without letting time pass
+(define (limit-from variable default)
+  ;; The user, who is not the lesson, may choose other limits.
+  (let ((n (and=> (getenv variable) string->number)))
+    (if (and n (exact-integer? n) (positive? n)) n default)))
+
+(define memory-limit                    ; bytes of address space
+  (* 1024 1024 (limit-from "BIGHT_LESSON_MEGABYTES" 1024)))
+(define breath                          ; seconds of processor time without letting time pass
+  (limit-from "BIGHT_LESSON_SECONDS" 20))
 
 
 ;;; The language inside.
@@ -69,7 +76,7 @@
     (when (> count most-bits) (too-much name "such a shift"))
     (proc n count)))
 
-(define (times . factors)
+(define (product . factors)
   ;; Squaring again and again doubles the digits each time.
   (when (> (apply + (map bits factors)) (* 2 most-bits)) (too-much '* "such a product"))
   (apply * factors))
@@ -89,7 +96,7 @@
     (integer-expt . ,(power 'integer-expt integer-expt))
     (ash . ,(shift 'ash ash))
     (round-ash . ,(shift 'round-ash round-ash))
-    (* . ,times)
+    (* . ,product)
     (iota . ,(sized 'iota iota 0))
     (make-list . ,(sized 'make-list make-list 0))
     (make-string . ,(sized 'make-string make-string 0))
@@ -139,7 +146,9 @@
     ((bight time))
     ((bight lesson) run-lesson lesson-list lesson-code lesson-location collect-lessons take-lesson
      scripted-guide pilot-named register-lesson! unknown-clause malformed-clause malformed-lesson)
-    ((bight lesson-measure))))
+    ((bight aware))
+    ((bight foresight))
+    ((bight probe))))
 
 (define single-names
   '(((bight task) every on cancel!)

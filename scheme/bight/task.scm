@@ -12,7 +12,7 @@
   #:use-module (bight errors)
   #:use-module (bight record)
   #:use-module (bight verb)
-  #:use-module ((srfi srfi-1) #:select (remove))
+  #:use-module ((srfi srfi-1) #:select (append-map delete-duplicates filter iota remove))
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:export (every every-seconds on cancel!
             add-task! remove-task! task-state set-task-state!
@@ -105,16 +105,54 @@ what it begins with.  Return the task.  Raise a &bight-error from PROC when ther
                   (procedure event)))
               events)))
 
+;; What no step notes, since it would cost every step: a tether has wound once more about something, or
+;; has come free of it.
+
+(define watched-kinds '(wrapped freed))
+
+(define look-every 30)                  ; steps
+
+(define (all-windings engine)
+  ;; ((TETHER . OBJECT) . WINDINGS) of all tethers and what they wind about.
+  (append-map (lambda (tether t)
+                (map (lambda (entry) (cons (cons tether (car entry)) (cdr entry))) (%windings engine t)))
+              (%names engine 'tether) (iota (length (%names engine 'tether)))))
+
+(define (changed before after more?)
+  ;; The pairs whose windings in AFTER are MORE? than in BEFORE, an entry that is not there being 0.
+  (let ((of (lambda (all pair) (abs (or (assoc-ref all pair) 0)))))
+    (filter (lambda (pair) (more? (of after pair) (of before pair)))
+            (map car (append after before)))))
+
+(define (run-on-windings task kind procedure)
+  (let ((engine (this-engine 'on)))
+    (when (zero? (modulo (%dive-steps engine) look-every))
+      (let ((before (task-state task)) (after (all-windings engine)))
+        (set-task-state! task after)
+        (for-each (lambda (pair)
+                    (procedure (list kind (%dive-time engine) (car pair) (cdr pair))))
+                  (delete-duplicates
+                   (changed before after
+                            (if (eq? kind 'wrapped)
+                                >
+                                (lambda (now then) (and (zero? now) (> then 0)))))))))))
+
 (define-verb (on (kind name) (procedure procedure))
   "Call PROCEDURE with each event of KIND from now on, between steps: taut slack arrived spooled stalled
-parted snapped hockled kinked.  An event is a list (KIND TIME SUBJECT).  Return a handle for `cancel!'."
-  (unless (memq kind event-kinds)
-    (unknown-name 'on "a dive" kind event-kinds "event"))
+parted snapped hockled kinked touched left stuck pinched; wrapped and freed, which are looked for twice a
+second once somebody wants to know.  An event is a list (KIND TIME SUBJECT [OBJECT]).  Return a handle for
+`cancel!'."
+  (unless (memq kind (append watched-kinds event-kinds))
+    (unknown-name 'on "a dive" kind (append watched-kinds event-kinds) "event"))
   (unless (takes? procedure 1)
     (bight-raise 'domain 'on "the procedure must take one argument, the event; ~s does not" procedure))
-  (add-task! 'on (simple-format #f "on ~a" kind)
-             (lambda (task) (run-on-events task kind procedure))
-             (%event-count (this-engine 'on))))
+  (if (memq kind watched-kinds)
+      (add-task! 'on (simple-format #f "on ~a" kind)
+                 (lambda (task) (run-on-windings task kind procedure))
+                 (all-windings (this-engine 'on)))
+      (add-task! 'on (simple-format #f "on ~a" kind)
+                 (lambda (task) (run-on-events task kind procedure))
+                 (%event-count (this-engine 'on)))))
 
 (define-verb (cancel! (handle task))
   "Stop what `every' or `on' started.  Return #t if it was still registered in this dive."

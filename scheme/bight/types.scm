@@ -7,6 +7,7 @@
 
 (define-module (bight types)
   #:use-module (bight clause)
+  #:use-module (bight engine)
   #:use-module (bight errors)
   #:use-module (bight schema)
   #:use-module (bight verb)
@@ -51,7 +52,8 @@
   (let* ((likes (filter like-clause? clauses))
          (own (read-fields proc head (remove like-clause? clauses)))
          (odd (find (lambda (entry)
-                      (or (memq (car entry) never-of-a-type) (memq (car entry) (inner-heads head))))
+                      (or (memq (car entry) never-of-a-type)
+                          (and (eq? head 'tether) (memq (car entry) (inner-heads head)))))
                     own)))
     (when odd
       (bight-raise 'def proc "~a belongs to a part of a world, not to a type" (car odd)))
@@ -128,7 +130,7 @@
 (define-vehicle kinematic
   "A vehicle without forces: it goes exactly where it is told.")
 
-(define-vehicle point-mass
-  "A point with the mass, added mass and surge drag of a BlueROV2 Heavy (von Benzon 2022), the same every
-way; thrust at 16 V."
-  (mass 13.5) (added-mass 6.36) (drag 13.7) (quadratic-drag 141) (thrust 129.7))
+;; Those whose figures the engine has.
+(for-each (lambda (type)
+            (add-part-type! (make-part-type 'rov (first type) (second type) (third type))))
+          (%vehicle-types))

@@ -468,6 +468,27 @@ sea bed.  The drawing is COLUMNS wide, by default as wide as the terminal.  Retu
              (cell "vehicle" (figure (answer (rov-tension name)) 1) "N")
              (cell "most" (figure (answer (max-tension name)) 1) "N"))))
 
+(define (among-obstacles?)
+  (pair? (%names (this-engine 'status) 'obstacle)))
+
+(define (winding->string entry)
+  (string-append (symbol->string (car entry)) " " (if (positive? (cdr entry)) "+" "")
+                 (number->string (cdr entry))))
+
+(define (awareness-rows name)
+  ;; What the tether is doing among obstacles; nothing in open water.
+  (if (among-obstacles?)
+      (list (row "string"
+                 (cell "taut" (figure (answer (taut-length name)) 2) "m")
+                 (cell "free way" (figure (answer (free-length name)) 2) "m")
+                 (cell "excess" (figure (answer (excess name)) 2) "m"))
+            (apply row "windings" (map winding->string (or (ask 'windings name) '()))))
+      '()))
+
+(define (foul-warning name)
+  (let ((reason (and (among-obstacles?) (ask 'foul-reason name))))
+    (and reason (string-append "fouled: " (symbol->string reason)))))
+
 (define tension-alarm 0.5)              ; share of the breaking load
 
 (define (breaking-load name)
@@ -487,7 +508,7 @@ sea bed.  The drawing is COLUMNS wide, by default as wide as the terminal.  Retu
                (list (and (ask 'parted? name) "parted")
                      (and (answer (taut? name)) "taut")
                      (and (ask 'stuck? name) "stuck")
-                     (and (ask 'fouled? name) "fouled")
+                     (foul-warning name)
                      (overload name)
                      (and (answer (spooling? name)) "spooling")))))
 
@@ -509,5 +530,6 @@ and tether position, sticks, current, length, slack, tension; then what to bewar
              (append (list time)
                      (append-map vehicle-rows vehicles)
                      (append-map tether-rows tethers)
+                     (append-map awareness-rows tethers)
                      (list (and (pair? warnings)
                                 (row "BEWARE" (string-join warnings "; ")))))))))

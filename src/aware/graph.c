@@ -98,6 +98,8 @@ medium (bt__graph_job *k, bt_vec3 p, double radius)
   bt__near near;
   if (bt__scene_nearest (k->scene, &ground, &link, radius + k->c->gap, &near, &k->count))
     return BT__GROUND;
+  if (k->c->depth > 0 && p.z <= -k->c->depth)
+    return BT__GROUND;
   return p.z >= k->c->surface ? BT__AIR : BT__WATER;
 }
 

@@ -29,6 +29,7 @@ typedef struct bt__graph_config
   const bt__switches *on;
   const uint8_t *ground; /* which objects are ground besides the planes; NULL: none */
   double surface;        /* m: z of the water's surface; INFINITY: none */
+  double depth;          /* m: below z = 0 there is ground from there on; 0: only what is ground */
   double gap;            /* m: less than that between two members is no way through */
 } bt__graph_config;
 

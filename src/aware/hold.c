@@ -89,13 +89,13 @@ bt__holds_find (const bt__scene *scene, const bt__switches *on, const bt_vec3 *p
         }
       bt__corner *h = list->at + list->n++;
       *h = (bt__corner){ .node = i,
-                       .object = near.object,
-                       .triangle = near.triangle,
-                       .angle = angle,
-                       .s = s,
-                       .point = near.w.point,
-                       .normal = near.w.normal,
-                       .friction = scene->object[near.object].friction };
+                         .object = near.object,
+                         .triangle = near.triangle,
+                         .angle = angle,
+                         .s = s,
+                         .point = near.w.point,
+                         .normal = near.w.normal,
+                         .friction = scene->object[near.object].friction };
       bt_vec3 along = bt__add (bt__unit_or (u, u), bt__unit_or (v, v));
       set_radius (scene->object + near.object, &near.w, along, core, h);
     }
@@ -119,21 +119,48 @@ bt__holds_lock (const bt__holds *list)
   return exp (sum);
 }
 
-/* Links as unequal as this still count as one polygon.  */
-#define UNEVEN 1.3
+/* Rounding, and a link that is not quite tangent.  */
+#define SPARE 1.02
+
+static double
+tangent_of (const bt__corner *h)
+{
+  return h->angle < BT__PI / 2 ? h->bend * tan (0.5 * h->angle) : 0;
+}
+
+/* The tangent of the corner K next to corner H, if it lies on the same object at the node WAY on.
+ */
+static double
+next_tangent (const bt__holds *list, const bt__corner *h, uint32_t k, int way)
+{
+  if (k >= list->n || list->at[k].object != h->object
+      || (int)list->at[k].node != (int)h->node + way)
+    return 0;
+  return tangent_of (&list->at[k]);
+}
+
+/* Nonzero if the tangents of corner I and its neighbours have room on its links; on a link that
+   leads away a corner may take all of it.  */
+static int
+is_resolved (const bt__holds *list, const bt_vec3 *p, uint32_t i)
+{
+  const bt__corner *h = list->at + i;
+  const bt_vec3 *x = p + h->node;
+  double tangent = tangent_of (h);
+  double before = next_tangent (list, h, i - 1, -1), after = next_tangent (list, h, i + 1, 1);
+  return tangent > 0 && tangent + before <= SPARE * bt__distance (x[-1], x[0])
+         && tangent + after <= SPARE * bt__distance (x[0], x[1]);
+}
 
 double
 bt__holds_length (const bt__holds *list, const bt_vec3 *p, uint32_t n)
 {
   double length = bt__length (p, n);
   for (uint32_t i = 0; i < list->n; i++)
-    {
-      const bt__corner *h = list->at + i;
-      const bt_vec3 *x = p + h->node;
-      double tangent = h->bend * tan (0.5 * h->angle);
-      double half = 0.5 * fmin (bt__distance (x[-1], x[0]), bt__distance (x[0], x[1]));
-      if (h->angle < BT__PI / 2 && tangent <= UNEVEN * half)
-        length -= 2 * tangent - h->bend * h->angle;
-    }
+    if (is_resolved (list, p, i))
+      {
+        const bt__corner *h = list->at + i;
+        length -= 2 * tangent_of (h) - h->bend * h->angle;
+      }
   return length;
 }

@@ -84,6 +84,7 @@ typedef enum bt_foul
   BT_FOUL_HUNG     /* it may slip off, or be lifted off */
 } bt_foul;
 
+/* Write how tether I is fouled.  */
 bt_status bt_tether_fouled (const bt_dive *dive, int i, bt_foul *foul, bt_error *error);
 
 typedef enum bt_haul_answer

@@ -44,19 +44,19 @@ double bt_dive_time_step (const bt_dive *dive); /* s */
 /* Add SECONDS of wished time to the dive's account and return the whole steps it now holds, which
    the caller takes; the remainder is carried.  0 <= SECONDS <= 1e9, else BT_ERR_DOMAIN.  */
 bt_status bt_dive_whole_steps (bt_dive *dive, double seconds, int64_t *steps, bt_error *error);
-/* Return the remainder, s, and set it.  It is no part of the state: how a time was asked for, in one
-   piece or in many, makes no other dive.  */
+/* Return the remainder, s, and set it.  It is no part of the state: how a time was asked for, in
+   one piece or in many, makes no other dive.  */
 double bt_dive_carried (const bt_dive *dive);
 void bt_dive_carry (bt_dive *dive, double seconds);
 
 /* ---- Checkpoints ---- */
 
-/* Return nonzero while the current of DIVE is a function (BT_CURRENT_FUNCTION): what the dive does is
-   then not in its state and its operations alone.  */
+/* Return nonzero while the current of DIVE is a function (BT_CURRENT_FUNCTION): what the dive does
+   is then not in its state and its operations alone.  */
 int bt_dive_asks (const bt_dive *dive);
 
-/* Keep the N numbers ROWS, t x y z of each, as a track of DIVE, and return its number in *INDEX; the
-   same rows are kept once.  A state that follows a track can be restored only where its number
+/* Keep the N numbers ROWS, t x y z of each, as a track of DIVE, and return its number in *INDEX;
+   the same rows are kept once.  A state that follows a track can be restored only where its number
    stands for it.  BT_ERR_FORMAT, BT_ERR_LIMIT.  */
 bt_status bt_dive_add_track (bt_dive *dive, const double *rows, int n, int *index, bt_error *error);
 /* Return how many numbers the I-th track of DIVE has, and where in *ROWS; 0 when there is none.  */
@@ -107,6 +107,9 @@ typedef enum bt_op
   BT_OP_CURRENT,
   BT_OP_ALTER,
   BT_OP_COLLIDE,
+  BT_OP_STABILISE,
+  BT_OP_WAVES,
+  BT_OP_FAULT,
   BT_OP_COUNT
 } bt_op;
 
@@ -130,6 +133,14 @@ enum
 /* Write CURRENT as the numbers of BT_OP_CURRENT to ARGS and return how many.  */
 int bt_current_pack (const bt_current *current, double *args);
 
+enum
+{
+  BT_WAVES_ARGS = 8
+};
+
+/* The same for BT_OP_WAVES.  */
+int bt_waves_pack (const bt_wave_def *waves, double *args);
+
 /* Do OP on the SUBJECT-th part of its kind with N numbers ARGS.  BT_ERR_NAME for an unknown
    operation or subject, BT_ERR_DOMAIN for numbers outside their range, and what the tether's model
    says.  */
@@ -141,11 +152,14 @@ bt_status bt_dive_do (bt_dive *dive, bt_op op, int subject, const double *args, 
 typedef struct bt_sea_view
 {
   double depth, density, gravity;
+  bt_wave_def waves;
+  int wake; /* nonzero: the current is less in the lee of obstacles */
 } bt_sea_view;
 
 typedef struct bt_vehicle_view
 {
   bt_vec3 position, velocity;  /* m, m/s */
+  bt_vec3 attachment;          /* m: where its tether is made fast */
   double heading, pitch, roll; /* radians; heading in [0, 2 pi) */
   double turns;                /* signed, clockwise positive, since the dive began */
   double sticks[4];            /* surge sway heave yaw */
@@ -176,19 +190,20 @@ typedef struct bt_tether_view
 
 typedef enum bt_event_kind
 {
-  BT_EVENT_TAUT = 1, /* a tether lost its slack */
-  BT_EVENT_SLACK,    /* it has some again */
-  BT_EVENT_ARRIVED,  /* a vehicle reached where it was sent */
-  BT_EVENT_SPOOLED,  /* a winch finished */
-  BT_EVENT_STALLED,  /* a winch stopped before, on a taut tether */
-  BT_EVENT_PARTED,   /* a tether broke, or was cut */
-  BT_EVENT_SNAPPED,  /* a slack tether came taut with a jerk */
-  BT_EVENT_HOCKLED,  /* its twist threw a loop into a tether */
-  BT_EVENT_KINKED,   /* it was bent more tightly than it may be */
-  BT_EVENT_TOUCHED,  /* a tether or a vehicle met an obstacle */
-  BT_EVENT_LEFT,     /* it has been away from it for half a second */
-  BT_EVENT_STUCK,    /* a tether that touches something has held fast for 5 s against a pull */
-  BT_EVENT_PINCHED   /* a moving obstacle was held back by what it would run into */
+  BT_EVENT_TAUT = 1,   /* a tether lost its slack */
+  BT_EVENT_SLACK,      /* it has some again */
+  BT_EVENT_ARRIVED,    /* a vehicle reached where it was sent */
+  BT_EVENT_SPOOLED,    /* a winch finished */
+  BT_EVENT_STALLED,    /* a winch stopped before, on a taut tether */
+  BT_EVENT_PARTED,     /* a tether broke, or was cut */
+  BT_EVENT_SNAPPED,    /* a slack tether came taut with a jerk */
+  BT_EVENT_HOCKLED,    /* its twist threw a loop into a tether */
+  BT_EVENT_KINKED,     /* it was bent more tightly than it may be */
+  BT_EVENT_TOUCHED,    /* a tether or a vehicle met an obstacle */
+  BT_EVENT_LEFT,       /* it has been away from it for half a second */
+  BT_EVENT_STUCK,      /* a tether that touches something has held fast for 5 s against a pull */
+  BT_EVENT_PINCHED,    /* a moving obstacle was held back by what it would run into */
+  BT_EVENT_PROP_DANGER /* a tether has come near to a thruster of a vehicle that turns */
 } bt_event_kind;
 
 typedef struct bt_event
@@ -219,12 +234,12 @@ typedef struct bt_profile
   uint64_t touches, contact_rounds, truncated;
   uint64_t span_solves, span_skips; /* of the thesis' response */
   uint64_t current_samples_skipped; /* shapes solved in still water */
-  uint64_t strings, charts, words; /* for questions about what a tether is doing */
+  uint64_t strings, charts, words;  /* for questions about what a tether is doing */
   uint64_t operations, refused;
 } bt_profile;
 
-/* Write how the sea, vehicle I, tether I, the water at P are now.  BT_ERR_NAME when there is no such
-   part, BT_ERR_DOMAIN for a place that is not finite.  */
+/* Write how the sea, vehicle I, tether I, the water at P are now.  BT_ERR_NAME when there is no
+   such part, BT_ERR_DOMAIN for a place that is not finite.  */
 void bt_dive_sea (const bt_dive *dive, bt_sea_view *view);
 bt_status bt_dive_vehicle (const bt_dive *dive, int i, bt_vehicle_view *view, bt_error *error);
 bt_status bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *error);

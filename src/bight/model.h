@@ -21,6 +21,7 @@ enum
 {
   BT_NAME_SIZE = 64, /* bytes of a part's name with its final NUL */
   BT_VEHICLES_MAX = 64,
+  BT_THRUSTERS_MAX = 12,
   BT_TETHERS_MAX = 64,
   BT_NODES_MAX = 10000, /* intervals of one tether */
   BT_LUMPS_MAX = 32,    /* clumps and floats on one tether */
@@ -36,22 +37,62 @@ typedef struct bt_sea_def
   double density; /* kg/m3 */
   double gravity; /* m/s2 */
   bt_current current;
+  double wake; /* nonzero: the current is less in the lee of what stands in it */
+  bt_wave_def waves;
+  bt_current_grid *grid; /* for a current of kind BT_CURRENT_GRID; borrowed: a model retains it */
 } bt_sea_def;
 
-/* A vehicle.  Without mass it goes exactly where it is told; with mass it is a point that its
-   thrust, the water and its tethers move.  Its own +y is its front.  */
+/* Numbers along the own axes (surge, sway, heave) and about them (roll, pitch, yaw).  */
+typedef struct bt_six
+{
+  bt_vec3 along, about;
+} bt_six;
+
+/* How a thruster answers its command, -1 to 1.  */
+typedef enum bt_thrust_map
+{
+  BT_MAP_T200,  /* the measured table of a T200, by voltage */
+  BT_MAP_SQUARE /* AHEAD or ASTERN times the square of the command */
+} bt_thrust_map;
+
+typedef struct bt_thruster_def
+{
+  bt_vec3 at, along; /* m from the centre of gravity; the way it pushes at a positive command */
+  double map;        /* bt_thrust_map */
+  double ahead;      /* N: the most either way */
+  double astern;     /* N; 0: as ahead */
+  double dead;       /* of the command: within it nothing turns */
+  double lag;        /* s: time constant, 0: none */
+} bt_thruster_def;
+
+/* A vehicle.  Without mass it goes exactly where it is told; with mass it is a rigid body that its
+   thrusters, the water and its tethers move.  Its own +y is its front.  */
 typedef struct bt_vehicle_def
 {
   char name[BT_NAME_SIZE];
-  bt_vec3 at;                  /* m */
+  bt_vec3 at;                  /* m: with mass, its centre of gravity */
   double heading, pitch, roll; /* degrees: compass, bow up, starboard down */
   bt_vec3 size; /* m: of its hull, along its own x, y, z about its place; all 0: a point */
-  double surge_speed, sway_speed, heave_speed; /* m/s at full stick */
+  double surge_speed, sway_speed, heave_speed; /* m/s at full stick, without mass */
   double yaw_rate;                             /* degrees/s at full stick */
-  double pull;                                 /* N: its pull on a taut tether that holds it */
-  double mass, added_mass;                     /* kg; 0: it goes where it is told */
-  double drag, quadratic_drag;                 /* N s/m, N s2/m2: against the water */
-  double thrust;                               /* N at full stick */
+  double pull;        /* N: its pull on a taut tether that holds it, without mass */
+  double restitution; /* of its hull */
+  /* With mass.  */
+  double mass;                     /* kg */
+  double volume;                   /* m3 of water displaced; NAN: it neither floats nor sinks */
+  bt_vec3 inertia;                 /* kg m2: roll, pitch, yaw; 0: of a box of its size */
+  bt_vec3 buoyancy;                /* m: the centre of buoyancy from the centre of gravity */
+  bt_vec3 attached;                /* m: where the tether is made fast, likewise */
+  bt_six added, linear, quadratic; /* kg, kg m2; N s/m, N m s; N s2/m2, N m s2 */
+  double munk;                     /* share of the couple of a slender body in oblique flow */
+  bt_six steers;                   /* 1: the thrusters command it; all 0: whatever they can */
+  double volts;                    /* V: of the battery; 0: the thrusters do not ask */
+  bt_thruster_def thrusters[BT_THRUSTERS_MAX];
+  double n_thrusters;
+  /* Instruments: standard deviations.  */
+  double seed;
+  double compass_noise, depth_noise, speed_noise, altitude_noise;  /* degrees, m, m/s, m */
+  double range_noise, bearing_noise, tension_noise, counter_noise; /* m, degrees, N, m */
 } bt_vehicle_def;
 
 /* Where a tether ends: at the vehicle named PART, or, when PART is empty, at the point AT.  */
@@ -82,9 +123,11 @@ typedef struct bt_tether_def
 {
   char name[BT_NAME_SIZE];
   bt_end from, to;
-  bt_via via;            /* what its line of lay goes through; none: it is straight */
-  double length;         /* paid out, m */
-  double drum;           /* the most that can be out, m */
+  bt_via via;    /* what its line of lay goes through; none: it is straight */
+  double length; /* paid out, m */
+  double drum;   /* the most that can be out, m */
+  bt_vec3 ride; /* shares of the motion of the water, heave, surge and sway along the waves, that an
+                   anchor that is a point takes; 0: it stands */
   bt_tether_props props; /* mass or wet_weight may be NAN: it then follows from the other */
   bt_lump lumps[BT_LUMPS_MAX];
   double n_lumps;
@@ -168,8 +211,10 @@ typedef enum bt_field_kind
   BT_FIELD_WORD,    /* double: the value of one of WORDS */
   BT_FIELD_END,     /* bt_end */
   BT_FIELD_CURRENT, /* bt_current */
+  BT_FIELD_WAVES,   /* bt_wave_def */
   BT_FIELD_VIA,     /* bt_via */
   BT_FIELD_POINTS,  /* bt_rows of x y z */
+  BT_FIELD_SIX,     /* bt_six: two rows, along and about the own axes */
   BT_FIELD_TRACK,   /* bt_rows of t x y z heading */
   BT_FIELD_MESH,    /* bt_triangles */
   BT_FIELD_GRID     /* bt_heights */
@@ -227,8 +272,10 @@ bt_status bt_def_set_word (const bt_field *field, void *def, const char *word, b
 bt_status bt_def_set_point (const bt_field *field, void *def, bt_vec3 value, bt_error *error);
 bt_status bt_def_set_current (const bt_field *field, void *def, const bt_current *value,
                               bt_error *error);
+bt_status bt_def_set_waves (const bt_field *field, void *def, const bt_wave_def *value,
+                            bt_error *error);
 bt_status bt_def_set_part (const bt_field *field, void *def, const char *part, bt_error *error);
-/* VIA copies the rows, POINTS and TRACK borrow them.  */
+/* VIA and SIX copy the rows, POINTS and TRACK borrow them.  */
 bt_status bt_def_set_rows (const bt_field *field, void *def, const bt_rows *rows, bt_error *error);
 bt_status bt_def_set_mesh (const bt_field *field, void *def, const bt_triangles *mesh,
                            bt_error *error);
@@ -236,6 +283,17 @@ bt_status bt_def_set_grid (const bt_field *field, void *def, const bt_heights *g
                            bt_error *error);
 /* Copy NAME (1 to BT_NAME_SIZE - 1 bytes) to NAME_FIELD, which has BT_NAME_SIZE bytes.  */
 bt_status bt_def_set_name (char *name_field, const char *name, bt_error *error);
+
+/* ---- Vehicles that come with the engine ---- */
+
+/* Return the name of the I-th type of vehicle, what it is and where its figures come from, or
+   NULL beyond the last.  */
+const char *bt_vehicle_type_name (int i);
+const char *bt_vehicle_type_text (int i);
+
+/* Give DEF the figures of the type called NAME, leaving the rest as it is.  BT_ERR_NAME lists the
+   types.  */
+bt_status bt_def_set_vehicle_type (bt_vehicle_def *def, const char *name, bt_error *error);
 
 /* ---- The model ---- */
 

@@ -30,6 +30,8 @@ bt_status bt_current_grid_read (const char *file, bt_current_grid **grid, bt_err
 /* The same from N ROWS of seven numbers.  */
 bt_status bt_current_grid_new (const double (*rows)[7], size_t n, bt_current_grid **grid,
                                bt_error *error);
+/* A grid is counted: it is gone when it was freed as often as it was made and retained.  */
+bt_current_grid *bt_current_grid_retain (bt_current_grid *grid);
 void bt_current_grid_free (bt_current_grid *grid);
 
 /* Return the velocity of GRID at P and T; not finite where P is not.  */

@@ -78,6 +78,9 @@ bt_vec3 bt_water_acceleration (const bt_water *water, bt_vec3 p);
 /* Return the height of the surface of WATER over P, m: 0 without waves.  */
 double bt_water_surface (const bt_water *water, bt_vec3 p);
 
+/* Return nonzero if the velocity of WATER is the same everywhere, at any one time.  */
+int bt_water_is_uniform (const bt_water *water);
+
 /* Return nonzero if WATER changes with time though nothing else does.  */
 int bt_water_is_unsteady (const bt_water *water);
 

@@ -52,5 +52,7 @@ bight_guile_init (void)
   bt__define_live ();
   bt__define_questions ();
   bt__define_contacts ();
+  bt__define_aware ();
   bt__define_outlines ();
+  bt__define_instruments ();
 }

@@ -32,7 +32,9 @@ void bt__define_times (void);
 void bt__define_live (void);
 void bt__define_questions (void);
 void bt__define_contacts (void);
+void bt__define_aware (void);
 void bt__define_outlines (void);
+void bt__define_instruments (void);
 
 /* Raise ERROR as a &bight-error on behalf of the Scheme procedure WHO.  Does not return.  */
 void bt__raise (const char *who, const bt_error *error) SCM_NORETURN;

@@ -68,8 +68,9 @@ words_of (const bt_field *field)
 static const char *
 kind_name (bt_field_kind kind)
 {
-  static const char *const names[] = { "number", "count",  "point", "word", "end", "current",
-                                       "points", "points", "track", "mesh", "grid" };
+  static const char *const names[]
+      = { "number", "count",  "point",  "word",  "end",  "current", "waves",
+          "points", "points", "points", "track", "mesh", "grid" };
   return names[kind];
 }
 
@@ -127,7 +128,7 @@ typedef struct reading
   SCM function;
 } reading;
 
-static void read_lump (bt_tether_def *tether, const bt_head *head, SCM fields);
+static void read_inner (void *outer, const bt_head *head, SCM fields);
 
 /* The field NAME of parts of kind HEAD, or NULL when it is the kind of something inside them.  */
 static const bt_field *
@@ -139,6 +140,21 @@ field_or_inner (const bt_head *head, const char *name, const bt_head **inner)
   if (!field && !(*inner && (*inner)->inside && strcmp ((*inner)->inside, head->name) == 0))
     bt__raise ("enter!", &unknown);
   return field;
+}
+
+/* Waves from the numbers that bt_waves_pack makes of them.  */
+static bt_wave_def
+to_waves (SCM numbers)
+{
+  const double *x = (const double *)SCM_BYTEVECTOR_CONTENTS (numbers);
+  return (bt_wave_def){ .kind = (int64_t)x[0],
+                        .height = x[1],
+                        .period = x[2],
+                        .toward = x[3],
+                        .phase = x[4],
+                        .gamma = x[5],
+                        .components = x[6],
+                        .seed = (int64_t)x[7] };
 }
 
 static void
@@ -154,13 +170,20 @@ read_fields (const bt_head *head, void *def, SCM fields, SCM *function)
       SCM value = SCM_CDAR (fields);
       free (name);
       if (!field)
-        read_lump (def, inner, value);
+        read_inner (def, inner, value);
       else if (bt__set_shape (who, field, def, value))
         continue;
       else if (field->kind == BT_FIELD_CURRENT)
         {
           bt_current current = bt__to_current (who, value, function);
           bt__check (who, bt_def_set_current (field, def, &current, &error), &error);
+          if (current.kind == BT_CURRENT_GRID)
+            ((bt_sea_def *)def)->grid = scm_to_pointer (scm_cadr (value));
+        }
+      else if (field->kind == BT_FIELD_WAVES)
+        {
+          bt_wave_def waves = to_waves (value);
+          bt__check (who, bt_def_set_waves (field, def, &waves, &error), &error);
         }
       else
         bt__check (who, bt__set_field (who, field, def, value, &error), &error);
@@ -195,6 +218,26 @@ read_lump (bt_tether_def *tether, const bt_head *head, SCM fields)
   bt_def_init (head, &lump);
   read_fields (head, &lump, fields, NULL);
   tether->lumps[(int)tether->n_lumps++] = lump;
+}
+
+static void
+read_thruster (bt_vehicle_def *vehicle, const bt_head *head, SCM fields)
+{
+  bt_thruster_def thruster;
+  check_room ((int)vehicle->n_thrusters, BT_THRUSTERS_MAX, "thrusters on one rov");
+  bt_def_init (head, &thruster);
+  read_fields (head, &thruster, fields, NULL);
+  vehicle->thrusters[(int)vehicle->n_thrusters++] = thruster;
+}
+
+/* A thing of kind HEAD inside OUTER.  */
+static void
+read_inner (void *outer, const bt_head *head, SCM fields)
+{
+  if (strcmp (head->inside, "rov") == 0)
+    read_thruster (outer, head, fields);
+  else
+    read_lump (outer, head, fields);
 }
 
 static void
@@ -276,6 +319,68 @@ make_dive (SCM parts)
   return bt__from_handle (handle);
 }
 
+/* ---- Types of vehicles that come with the engine ---- */
+
+static SCM
+from_rows (const double *x, size_t n)
+{
+  SCM array = scm_make_typed_array (scm_from_utf8_symbol ("f64"), SCM_UNSPECIFIED,
+                                    scm_list_2 (scm_from_size_t (n), scm_from_int (3)));
+  scm_t_array_handle handle;
+  scm_array_get_handle (array, &handle);
+  memcpy (scm_array_handle_f64_writable_elements (&handle), x, 3 * n * sizeof *x);
+  scm_array_handle_release (&handle);
+  return array;
+}
+
+/* The fields of DEF, a struct of the kind HEAD, that are not as one is born, in front of LIST.  */
+static SCM
+from_fields (const bt_head *head, const void *def, const void *born, SCM list)
+{
+  for (size_t i = head->n_fields; i-- > 0;)
+    {
+      const bt_field *field = &head->fields[i];
+      const char *at = (const char *)def + field->offset;
+      size_t size = field->kind == BT_FIELD_SIX     ? sizeof (bt_six)
+                    : field->kind == BT_FIELD_POINT ? sizeof (bt_vec3)
+                                                    : sizeof (double);
+      SCM value;
+      if (born && memcmp (at, (const char *)born + field->offset, size) == 0)
+        continue;
+      value = field->kind == BT_FIELD_SIX ? from_rows ((const double *)(const void *)at, 2)
+              : field->kind == BT_FIELD_POINT
+                  ? bt__from_point (*(const bt_vec3 *)(const void *)at)
+                  : bt__from_field (field, *(const double *)(const void *)at);
+      list = scm_acons (scm_from_utf8_symbol (field->name), value, list);
+    }
+  return list;
+}
+
+static SCM
+vehicle_types (void)
+{
+  const bt_head *rov = bt_head_find ("rov"), *thruster = bt_head_find ("thruster");
+  SCM list = SCM_EOL;
+  for (int i = 0; bt_vehicle_type_name (i); i++)
+    {
+      bt_vehicle_def def, born;
+      bt_error error;
+      SCM fields = SCM_EOL;
+      bt_def_init (rov, &def);
+      born = def;
+      bt__check ("vehicle-types", bt_def_set_vehicle_type (&def, bt_vehicle_type_name (i), &error),
+                 &error);
+      for (int k = (int)def.n_thrusters; k-- > 0;)
+        fields = scm_acons (scm_from_utf8_symbol ("thruster"),
+                            from_fields (thruster, &def.thrusters[k], NULL, SCM_EOL), fields);
+      list = scm_cons (scm_list_3 (scm_from_utf8_symbol (bt_vehicle_type_name (i)),
+                                   scm_from_utf8_string (bt_vehicle_type_text (i)),
+                                   from_fields (rov, &def, &born, fields)),
+                       list);
+    }
+  return scm_reverse_x (list, SCM_EOL);
+}
+
 static SCM
 version (void)
 {
@@ -295,6 +400,8 @@ bt__define_parts (void)
       "Return the fields of parts of kind HEAD, a list of vectors #(name kind unit text default "
       "min "
       "max above-min? words specials live?)." },
+    { "%vehicle-types", 0, 0, (scm_t_subr)vehicle_types,
+      "Return the types of vehicle that come with the engine, lists (NAME SENTENCE FIELDS)." },
     { "%make-dive", 1, 0, (scm_t_subr)make_dive,
       "Start a dive from PARTS, a list of (HEAD NAME ((FIELD . VALUE) ...))." },
   };

@@ -44,10 +44,14 @@ static SCM
 sea (SCM object)
 {
   bt_sea_view view;
+  double waves[BT_WAVES_ARGS];
+  int n;
   bt_dive_sea (bt__to_dive (object), &view);
+  n = bt_waves_pack (&view.waves, waves);
   return with ("depth", scm_from_double (view.depth),
                with ("density", scm_from_double (view.density),
-                     with ("gravity", scm_from_double (view.gravity), SCM_EOL)));
+                     with ("gravity", scm_from_double (view.gravity),
+                           with ("waves", from_doubles (waves, (size_t)n), SCM_EOL))));
 }
 
 static SCM

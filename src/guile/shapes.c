@@ -46,6 +46,24 @@ read_heights (SCM file)
   return scm_from_pointer (data, free_heights);
 }
 
+static void
+free_flow (void *data)
+{
+  bt_current_grid_free (data);
+}
+
+static SCM
+read_current_grid (SCM file)
+{
+  char *name = scm_to_locale_string (file);
+  bt_current_grid *grid;
+  bt_error error;
+  bt_status status = bt_current_grid_read (name, &grid, &error);
+  free (name);
+  bt__check ("enter!", status, &error);
+  return scm_from_pointer (grid, free_flow);
+}
+
 /* ---- Fields ---- */
 
 /* Arrays are made by the language, rank 2 and packed.  */
@@ -94,8 +112,8 @@ bt__set_shape (const char *who, const bt_field *field, void *def, SCM value)
 {
   bt_error error;
   bt_status status;
-  if (field->kind == BT_FIELD_VIA || field->kind == BT_FIELD_POINTS
-      || field->kind == BT_FIELD_TRACK)
+  if (field->kind == BT_FIELD_VIA || field->kind == BT_FIELD_POINTS || field->kind == BT_FIELD_TRACK
+      || field->kind == BT_FIELD_SIX)
     {
       bt_rows rows = to_rows (value);
       status = bt_def_set_rows (field, def, &rows, &error);
@@ -161,6 +179,8 @@ bt__define_shapes (void)
       "radius low high moves triangles; a friction of NaN is the tether's own." },
     { "%read-mesh", 2, 0, (scm_t_subr)read_mesh,
       "Return the triangles in FILE, whose axis UP, y or z, points up: an object for %make-dive." },
+    { "%read-current-grid", 1, 0, (scm_t_subr)read_current_grid,
+      "Return the current in FILE, rows of x y z t u v w: an object for %make-dive." },
     { "%read-heights", 1, 0, (scm_t_subr)read_heights,
       "Return the heights in FILE, an ESRI ASCII grid: an object for %make-dive." },
   };

@@ -97,10 +97,10 @@ static bt_current_kind
 kind_of (const char *who, SCM symbol)
 {
   static const kind_word words[]
-      = { { "still", BT_CURRENT_STILL },      { "uniform", BT_CURRENT_UNIFORM },
-          { "profile", BT_CURRENT_PROFILE },  { "turning", BT_CURRENT_TURNING },
-          { "power", BT_CURRENT_POWER },      { "tide", BT_CURRENT_TIDE },
-          { "function", BT_CURRENT_FUNCTION } };
+      = { { "still", BT_CURRENT_STILL },       { "uniform", BT_CURRENT_UNIFORM },
+          { "profile", BT_CURRENT_PROFILE },   { "turning", BT_CURRENT_TURNING },
+          { "power", BT_CURRENT_POWER },       { "tide", BT_CURRENT_TIDE },
+          { "function", BT_CURRENT_FUNCTION }, { "grid", BT_CURRENT_GRID } };
   for (size_t i = 0; i < sizeof words / sizeof *words; i++)
     if (scm_is_eq (symbol, scm_from_utf8_symbol (words[i].word)))
       return words[i].kind;
@@ -118,6 +118,7 @@ bt__to_current (const char *who, SCM object, SCM *function)
   switch (current.kind)
     {
     case BT_CURRENT_STILL:
+    case BT_CURRENT_GRID:
       break;
     case BT_CURRENT_PROFILE:
       read_profile (who, SCM_CDR (object), &current);

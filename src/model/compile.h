@@ -14,7 +14,21 @@ bt_status bt__about (const char *head, const char *name, bt_error *error, const 
    others must be complete.  */
 bt_status bt__check_def (const bt_head *head, const char *name, void *def, bt_error *error);
 
+/* Complete DEF and make *TYPE, of a vehicle without mass what it would be as a dead weight, and
+ *RIG, of one with mass.  */
+bt_status bt__compile_vehicle (bt_vehicle_def *def, double density, bt__vehicle_type *type,
+                               bt__rig *rig, bt_error *error);
+
+/* Where the tether of DEF is made fast when the dive begins, m.  */
+bt_vec3 bt__attached_at (const bt_vehicle_def *def);
+
 bt_status bt__check_name (const char *head, const char *name, bt_error *error);
+
+/* Make the waves of MODEL, and find what of its obstacles casts a lee.  */
+bt_status bt__compile_sea (bt_model *model, bt_error *error);
+
+/* Continue the hash H with SEA.  */
+uint64_t bt__hash_sea (const bt_sea_def *sea, uint64_t h);
 
 /* ---- Obstacles ---- */
 

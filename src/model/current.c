@@ -165,8 +165,8 @@ bt_water_surface (const bt_water *water, bt_vec3 p)
   return has_waves (water) ? bt_waves_elevation (water->sea->waves, p.x, p.y, water->time) : 0;
 }
 
-static int
-same_everywhere (const bt_water *water)
+int
+bt_water_is_uniform (const bt_water *water)
 {
   const bt_current *current = water->current;
   if (has_waves (water) || (water->sea && water->sea->n_wakes > 0))
@@ -182,7 +182,7 @@ bt_water_mean_velocity (const bt_water *water, bt_vec3 a, bt_vec3 b)
       = { 0.046910077030668004, 0.23076534494715845, 0.5, 0.76923465505284155, 0.953089922969332 };
   static const double weight[5] = { 0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
                                     0.23931433524968324, 0.11846344252809454 };
-  if (same_everywhere (water))
+  if (bt_water_is_uniform (water))
     return bt_water_velocity (water, a);
   bt_vec3 mean = still;
   for (int i = 0; i < 5; i++)

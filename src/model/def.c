@@ -127,6 +127,15 @@ bt_def_set_current (const bt_field *field, void *def, const bt_current *value, b
 }
 
 bt_status
+bt_def_set_waves (const bt_field *field, void *def, const bt_wave_def *value, bt_error *error)
+{
+  if (field->kind != BT_FIELD_WAVES)
+    return bt__fail (error, BT_ERR_NAME, "`%s' does not take waves", field->name);
+  *(bt_wave_def *)member (field, def) = *value;
+  return BT_OK;
+}
+
+bt_status
 bt_def_set_part (const bt_field *field, void *def, const char *part, bt_error *error)
 {
   bt_end end = { { 0, 0, 0 }, { 0 } };
@@ -194,7 +203,13 @@ static bt_status
 check_rows (const bt_field *field, const bt_rows *rows, bt_error *error)
 {
   size_t width = field->kind == BT_FIELD_TRACK ? 5 : 3;
-  size_t most = field->kind == BT_FIELD_VIA ? BT_VIA_MAX : ROWS_MAX;
+  size_t most = field->kind == BT_FIELD_VIA   ? BT_VIA_MAX
+                : field->kind == BT_FIELD_SIX ? 2
+                                              : ROWS_MAX;
+  if (field->kind == BT_FIELD_SIX && rows->n != 2)
+    return bt__fail (error, BT_ERR_DOMAIN,
+                     "`%s' is two rows, surge sway heave and roll pitch yaw, not %zu", field->name,
+                     rows->n);
   if (rows->n > most)
     return bt__fail (error, BT_ERR_LIMIT, "`%s' has %zu rows; at most %zu are allowed", field->name,
                      rows->n, most);
@@ -209,8 +224,8 @@ bt_status
 bt_def_set_rows (const bt_field *field, void *def, const bt_rows *rows, bt_error *error)
 {
   bt_status status;
-  if (field->kind != BT_FIELD_VIA && field->kind != BT_FIELD_POINTS
-      && field->kind != BT_FIELD_TRACK)
+  if (field->kind != BT_FIELD_VIA && field->kind != BT_FIELD_POINTS && field->kind != BT_FIELD_TRACK
+      && field->kind != BT_FIELD_SIX)
     return bt__fail (error, BT_ERR_NAME, "`%s' does not take rows of numbers", field->name);
   status = check_rows (field, rows, error);
   if (status != BT_OK)
@@ -222,6 +237,8 @@ bt_def_set_rows (const bt_field *field, void *def, const bt_rows *rows, bt_error
         memcpy (via.at, rows->at, rows->n * sizeof *via.at);
       *(bt_via *)member (field, def) = via;
     }
+  else if (field->kind == BT_FIELD_SIX)
+    memcpy (member (field, def), rows->at, sizeof (bt_six));
   else
     *(bt_rows *)member (field, def) = *rows;
   return BT_OK;
@@ -297,6 +314,8 @@ set_again (const bt_field *field, void *def, bt_error *error)
       return bt_def_set_point (field, def, *(bt_vec3 *)p, error);
     case BT_FIELD_CURRENT:
       return bt_current_check (p, error);
+    case BT_FIELD_WAVES: /* what they are depends on the sea: checked with it */
+      return BT_OK;
     case BT_FIELD_END:
       return ((bt_end *)p)->part[0] ? BT_OK
                                     : bt_def_set_point (field, def, ((bt_end *)p)->at, error);
@@ -305,6 +324,9 @@ set_again (const bt_field *field, void *def, bt_error *error)
         return bt__fail (error, BT_ERR_LIMIT, "`%s' has %g points; at most %d are allowed",
                          field->name, via->n, BT_VIA_MAX);
       rows.n = (size_t)via->n;
+      return check_rows (field, &rows, error);
+    case BT_FIELD_SIX:
+      rows = (bt_rows){ p, 2, 3 };
       return check_rows (field, &rows, error);
     case BT_FIELD_POINTS:
     case BT_FIELD_TRACK:

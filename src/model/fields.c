@@ -25,6 +25,8 @@ static const bt_word stick_rules[] = { { "angle", BT_STICK_BY_ANGLE },
                                        { "either", BT_STICK_BY_EITHER },
                                        { "both", BT_STICK_BY_BOTH },
                                        { NULL, 0 } };
+static const bt_word neutral[] = { { "neutral", NAN }, { NULL, 0 } };
+static const bt_word maps[] = { { "t200", BT_MAP_T200 }, { "square", BT_MAP_SQUARE }, { NULL, 0 } };
 static const bt_word as_tether[] = { { "tether", NAN }, { NULL, 0 } };
 
 static const bt_word models[] = { { "rubber-band", BT_MODEL_RUBBER_BAND },
@@ -65,7 +67,22 @@ static const bt_field sea_fields[] = {
   NUMBER (bt_sea_def, gravity, "gravity", "m/s2", 9.80665, 0, 100, 0, 1, NULL, "downward"),
   OTHER (bt_sea_def, current, "current", "", BT_FIELD_CURRENT, 0, NULL, 1,
          "the flow, toward its bearing"),
+  OTHER (bt_sea_def, wake, "wake", "", BT_FIELD_WORD, 0, yes_no, 1,
+         "is the current less in the lee of what stands in it"),
+  OTHER (bt_sea_def, waves, "waves", "", BT_FIELD_WAVES, 0, NULL, 1, "of the surface"),
 };
+
+/* Numbers along and about the own axes: two rows of three.  */
+#define SIX(m, n, u, hi, t)                                                                        \
+  {                                                                                                \
+    n, u, t, BT_FIELD_SIX, offsetof (bt_vehicle_def, m), 0, 0, hi, 0, NULL, 0                      \
+  }
+#define POSITIVE(m, n, u, hi, t)                                                                   \
+  {                                                                                                \
+    n, u, t, BT_FIELD_POINT, offsetof (bt_vehicle_def, m), 0, 0, hi, 0, NULL, 0                    \
+  }
+#define NOISE(m, n, u, t)                                                                          \
+  NUMBER (bt_vehicle_def, m, n, u, 0, 0, 1e3, 0, 0, NULL, t ", standard deviation")
 
 static const bt_field vehicle_fields[] = {
   OTHER (bt_vehicle_def, at, "at", "m", BT_FIELD_POINT, 0, NULL, 0, "where it starts"),
@@ -73,27 +90,63 @@ static const bt_field vehicle_fields[] = {
           "compass bearing of its front"),
   NUMBER (bt_vehicle_def, pitch, "pitch", "deg", 0, -90, 90, 0, 0, NULL, "bow up positive"),
   NUMBER (bt_vehicle_def, roll, "roll", "deg", 0, -180, 180, 0, 0, NULL, "starboard down positive"),
-  { "size", "m", "of its hull, along its own x, y, z about its place; all 0: a point",
-    BT_FIELD_POINT, offsetof (bt_vehicle_def, size), 0, 0, 100, 0, NULL, 0 },
+  POSITIVE (size, "size", "m", 100,
+            "of its hull, along its own x, y, z about its place; all 0: a point"),
   NUMBER (bt_vehicle_def, surge_speed, "surge-speed", "m/s", 1.0, 0, 100, 0, 1, NULL,
-          "ahead at full stick"),
+          "ahead at full stick; without mass"),
   NUMBER (bt_vehicle_def, sway_speed, "sway-speed", "m/s", 0.7, 0, 100, 0, 1, NULL,
-          "sideways at full stick"),
+          "sideways at full stick; without mass"),
   NUMBER (bt_vehicle_def, heave_speed, "heave-speed", "m/s", 0.7, 0, 100, 0, 1, NULL,
-          "up at full stick"),
+          "up at full stick; without mass"),
   NUMBER (bt_vehicle_def, yaw_rate, "yaw-rate", "deg/s", 45, 0, 3600, 0, 1, NULL,
           "turning at full stick"),
   NUMBER (bt_vehicle_def, pull, "pull", "N", 100, 0, 1e6, 0, 1, NULL,
-          "its pull on a taut tether that holds it"),
+          "its pull on a taut tether that holds it; without mass"),
+  NUMBER (bt_vehicle_def, restitution, "restitution", "", 0.2, 0, 1, 0, 0, NULL,
+          "of its hull; with mass"),
   NUMBER (bt_vehicle_def, mass, "mass", "kg", 0, 0, 1e6, 0, 0, NULL,
           "0: it goes exactly where it is told; else thrust, water and tether move it"),
-  NUMBER (bt_vehicle_def, added_mass, "added-mass", "kg", 0, 0, 1e6, 0, 0, NULL,
-          "of the water it sets in motion; with mass"),
-  NUMBER (bt_vehicle_def, drag, "drag", "N s/m", 0, 0, 1e6, 0, 1, NULL, "linear; with mass"),
-  NUMBER (bt_vehicle_def, quadratic_drag, "quadratic-drag", "N s2/m2", 0, 0, 1e6, 0, 1, NULL,
-          "with mass"),
-  NUMBER (bt_vehicle_def, thrust, "thrust", "N", 100, 0, 1e6, 0, 1, NULL,
-          "at full stick; with mass"),
+  NUMBER (bt_vehicle_def, volume, "volume", "m3", NAN, 0, 1e6, 0, 0, neutral,
+          "of water displaced; with mass"),
+  POSITIVE (inertia, "inertia", "kg m2", 1e9,
+            "of roll, pitch, yaw about the centre of gravity; 0: of a box of its size"),
+  OTHER (bt_vehicle_def, buoyancy, "buoyancy-centre", "m", BT_FIELD_POINT, 0, NULL, 0,
+         "from the centre of gravity, along its own x, y, z"),
+  OTHER (bt_vehicle_def, attached, "tether-point", "m", BT_FIELD_POINT, 0, NULL, 0,
+         "where the tether is made fast, likewise"),
+  SIX (added, "added-mass", "kg, kg m2", 1e6, "of surge sway heave; roll pitch yaw"),
+  SIX (linear, "linear-drag", "N s/m, N m s", 1e6, "of surge sway heave; roll pitch yaw"),
+  SIX (quadratic, "quadratic-drag", "N s2/m2, N m s2", 1e6, "of surge sway heave; roll pitch yaw"),
+  NUMBER (bt_vehicle_def, munk, "munk", "", 1, 0, 1, 0, 0, NULL,
+          "share of the couple of a slender body in oblique flow that is kept"),
+  SIX (
+      steers, "steers", "", 1,
+      "1 for what the thrusters command of surge sway heave; roll pitch yaw; all 0: what they can"),
+  NUMBER (bt_vehicle_def, volts, "volts", "V", 16, 0, 1e4, 0, 1, NULL, "of its battery"),
+  NUMBER (bt_vehicle_def, seed, "seed", "", 1, 0, 1e9, 0, 0, NULL, "of the noise below"),
+  NOISE (compass_noise, "compass-noise", "deg", "of the compass"),
+  NOISE (depth_noise, "depth-noise", "m", "of the depth sensor"),
+  NOISE (speed_noise, "speed-noise", "m/s", "of the speed over ground"),
+  NOISE (altitude_noise, "altitude-noise", "m", "of the altimeter"),
+  NOISE (range_noise, "range-noise", "m", "of the range to the ship, and of the sonar"),
+  NOISE (bearing_noise, "bearing-noise", "deg", "of the bearing to the ship"),
+  NOISE (tension_noise, "tension-noise", "N", "of the load cell at the winch"),
+  NOISE (counter_noise, "counter-noise", "m", "of the payout counter"),
+};
+
+static const bt_field thruster_fields[] = {
+  OTHER (bt_thruster_def, at, "at", "m", BT_FIELD_POINT, 0, NULL, 0,
+         "from the centre of gravity, along the vehicle's own x, y, z"),
+  OTHER (bt_thruster_def, along, "along", "", BT_FIELD_POINT, 0, NULL, 0,
+         "the way it pushes at a positive command"),
+  NUMBER (bt_thruster_def, ahead, "ahead", "N", NAN, 0, 1e6, 1, 0, NULL, "the most that way"),
+  NUMBER (bt_thruster_def, astern, "astern", "N", 0, 0, 1e6, 0, 0, NULL,
+          "the most the other way; 0: as ahead"),
+  OTHER (bt_thruster_def, map, "map", "", BT_FIELD_WORD, BT_MAP_SQUARE, maps, 0,
+         "how it answers its command"),
+  NUMBER (bt_thruster_def, dead, "dead", "", 0, 0, 0.9, 0, 0, NULL,
+          "share of the command within which nothing turns"),
+  NUMBER (bt_thruster_def, lag, "lag", "s", 0.1, 0, 100, 0, 0, NULL, "time constant"),
 };
 
 #define PROP(m, n, u, d, lo, hi, above, words, t)                                                  \
@@ -110,6 +163,9 @@ static const bt_field tether_fields[] = {
           "paid out; pay-out! and haul-in! change it"),
   NUMBER (bt_tether_def, drum, "drum", "m", INFINITY, 0, 1e6, 1, 0, unlimited,
           "the most that can be out"),
+  { "ride", "",
+    "shares of the water's heave, surge and sway that an anchor at a point takes in waves",
+    BT_FIELD_POINT, offsetof (bt_tether_def, ride), 0, 0, 2, 0, NULL, 0 },
   PROP (diameter, "diameter", "m", 0.0076, 0, 2, 1, NULL, "outer"),
   PROP (mass, "mass", "kg/m", NAN, 0, 1e4, 1, NULL,
         "in air; follows from wet-weight when not given"),
@@ -245,6 +301,7 @@ static const bt_field mesh_fields[] = {
 static const bt_head heads[] = {
   HEAD ("sea", NULL, "the water and its current", bt_sea_def, sea_fields, -1),
   HEAD ("rov", NULL, "a vehicle", bt_vehicle_def, vehicle_fields, -1),
+  HEAD ("thruster", "rov", "a thruster of a vehicle", bt_thruster_def, thruster_fields, -1),
   HEAD ("tether", NULL, "a tether between its anchor and a vehicle", bt_tether_def, tether_fields,
         -1),
   HEAD ("clump", "tether", "a clump weight on a tether", bt_lump, clump_fields, -1),

@@ -53,7 +53,7 @@ resolve_end (const bt_model *model, const bt_tether_def *tether, const bt_end *d
   if (end->vehicle == BT__NOT_A_VEHICLE)
     return bt__fail (error, BT_ERR_DEF, "tether `%s' goes %s `%.63s', but no vehicle has that name",
                      tether->name, which, def->part);
-  end->at = model->vehicles[end->vehicle].at;
+  end->at = bt__attached_at (&model->vehicles[end->vehicle]);
   return BT_OK;
 }
 
@@ -187,9 +187,14 @@ compile (bt_model *model, const bt_world *world, bt_error *error)
       if (status == BT_OK)
         status = bt__check_def (bt_head_find ("rov"), model->vehicles[i].name, &model->vehicles[i],
                                 error);
+      if (status == BT_OK)
+        status = bt__compile_vehicle (&model->vehicles[i], model->sea.density, &model->types[i],
+                                      &model->rigs[i], error);
     }
   if (status == BT_OK)
     status = bt__compile_obstacles (model, world, error);
+  if (status == BT_OK)
+    status = bt__compile_sea (model, error);
   for (int i = 0; status == BT_OK && i < model->n_tethers; i++)
     status = compile_tether (model, i, error);
   if (status == BT_OK)
@@ -202,7 +207,7 @@ compile (bt_model *model, const bt_world *world, bt_error *error)
 static uint64_t
 content_id (const bt_model *model, const bt_world *world)
 {
-  uint64_t h = bt__hash (&model->sea, sizeof model->sea, 0);
+  uint64_t h = bt__hash_sea (&model->sea, 0);
   h = bt__hash (model->vehicles, sizeof *model->vehicles * (size_t)model->n_vehicles, h);
   h = bt__hash (model->tethers, sizeof *model->tethers * (size_t)model->n_tethers, h);
   return bt__hash_obstacles (world, h);
@@ -239,12 +244,15 @@ model_of (const bt_world *world)
     return NULL;
   atomic_init (&model->references, 1);
   model->sea = world->sea;
+  bt_current_grid_retain (model->sea.grid);
   model->n_vehicles = world->n_vehicles;
   model->n_tethers = world->n_tethers;
   model->vehicles = copy_of (world->vehicles, world->n_vehicles, sizeof *world->vehicles);
   model->tethers = copy_of (world->tethers, world->n_tethers, sizeof *world->tethers);
   model->ends = calloc ((size_t)world->n_tethers + 1, sizeof *model->ends);
-  if (model->vehicles && model->tethers && model->ends)
+  model->types = calloc ((size_t)world->n_vehicles + 1, sizeof *model->types);
+  model->rigs = calloc ((size_t)world->n_vehicles + 1, sizeof *model->rigs);
+  if (model->vehicles && model->tethers && model->ends && model->types && model->rigs)
     return model;
   bt_model_release (model);
   return NULL;
@@ -284,7 +292,11 @@ bt_model_release (bt_model *model)
 {
   if (!model || atomic_fetch_sub (&model->references, 1) > 1)
     return;
+  bt_current_grid_free (model->sea.grid);
+  free (model->wakes);
   free (model->vehicles);
+  free (model->types);
+  free (model->rigs);
   free (model->tethers);
   free (model->ends);
   bt__release_obstacles (model);

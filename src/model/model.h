@@ -11,6 +11,8 @@
 #include <bight/model.h>
 
 #include "collide/scene.h"
+#include "vehicle/frame.h"
+#include "vehicle/type.h"
 
 enum
 {
@@ -40,8 +42,13 @@ struct bt_model
   atomic_int references;
   uint64_t id; /* hash of the content: equal worlds, equal ids */
   bt_sea_def sea;
+  bt_waves waves;
+  bt_wake *wakes; /* of what stands in the current */
+  size_t n_wakes;
   int n_vehicles, n_tethers;
   bt_vehicle_def *vehicles;
+  bt__vehicle_type *types; /* of each; of one without mass what it would be as a dead weight */
+  bt__rig *rigs;
   bt_tether_def *tethers; /* props complete */
   bt__end (*ends)[2];     /* per tether: anchor, far end */
   int n_obstacles, n_carried;

@@ -150,13 +150,20 @@ set_common (const bt__job *j, GLuint program)
 
 /* ---- Passes ---- */
 
+static const bt__shadows *
+shadows_of (const bt__job *j)
+{
+  return j->drawing.quick ? &j->r->quick : &j->r->still;
+}
+
 static void
 draw_shadows (bt__job *j)
 {
   const bt__gl *gl = j->gl;
+  const bt__shadows *shadows = shadows_of (j);
   bt__cast_matrix (j->view->sun, j->middle, j->radius, j->soup.origin, j->cast);
-  gl->BindFramebuffer (GL_FRAMEBUFFER, j->r->shadow_frame);
-  gl->Viewport (0, 0, BT__SHADOW_SIDE, BT__SHADOW_SIDE);
+  gl->BindFramebuffer (GL_FRAMEBUFFER, shadows->frame);
+  gl->Viewport (0, 0, shadows->side, shadows->side);
   gl->ClearBufferfv (GL_DEPTH, 0, (const GLfloat[]){ 1 });
   gl->UseProgram (j->r->shadow);
   gl->UniformMatrix4fv (spot (j, j->r->shadow, "sunward"), 1, GL_FALSE, j->cast);
@@ -203,8 +210,9 @@ draw_scene (bt__job *j, const bt__window *window)
   gl->UniformMatrix4fv (spot (j, program, "sunward"), 1, GL_FALSE, j->cast);
   gl->Uniform1i (spot (j, program, "shadow"), 0);
   set_number (j, program, "grid", bt__grid_step (j));
+  set_number (j, program, "texel", 1.0 / shadows_of (j)->side);
   gl->ActiveTexture (GL_TEXTURE0);
-  gl->BindTexture (GL_TEXTURE_2D, j->r->shadow_map);
+  gl->BindTexture (GL_TEXTURE_2D, shadows_of (j)->map);
   draw_soup (j);
   draw_ghosts (j);
 }
@@ -305,7 +313,7 @@ bt__check_size (int width, int height, bt_error *error)
 }
 
 static bt_status
-draw_in_context (bt__job *j, bt__picture *picture, bt_error *error)
+draw_alone (bt__job *j, bt__picture *picture, bt_error *error)
 {
   bt_status status = j->r->backend->use (j->r->context, error);
   if (status != BT_OK)
@@ -317,6 +325,17 @@ draw_in_context (bt__job *j, bt__picture *picture, bt_error *error)
   status = draw_tiles (j, picture, error);
   free_frames (j);
   j->r->backend->leave (j->r->context);
+  return status;
+}
+
+/* A context is for one thread at a time.  */
+static bt_status
+draw_in_context (bt__job *j, bt__picture *picture, bt_error *error)
+{
+  bt_status status;
+  pthread_mutex_lock (&j->r->lock);
+  status = draw_alone (j, picture, error);
+  pthread_mutex_unlock (&j->r->lock);
   return status;
 }
 

@@ -146,27 +146,52 @@ pixels_of (const bt__picture *picture)
   return bytes;
 }
 
+static int
+has_flag (SCM flags, const char *name)
+{
+  return scm_is_true (scm_memq (scm_from_utf8_symbol (name), flags));
+}
+
+static void
+set_drawing (bt__drawing *drawing, SCM size, SCM flags)
+{
+  drawing->width = scm_to_int (scm_car (size));
+  drawing->height = scm_to_int (scm_cdr (size));
+  drawing->quick = has_flag (flags, "quick");
+  drawing->samples = drawing->quick ? 1 : 2;
+  drawing->transparent = has_flag (flags, "transparent");
+}
+
+/* GHOST, another dive, is drawn pale beside the first; or none, for what is no dive.  */
+static void
+gather (sketch *s, const bt_dive *dive, SCM paint, SCM ghost, int lamp)
+{
+  bt_error error;
+  bt__check ("snapshot", bt_view_new (&s->view, &error), &error);
+  bt__check ("snapshot",
+             bt__scene_of_dive (dive, (bt__paint)index_of (paint, paint_name), s->view, &error),
+             &error);
+  if (!SCM_UNBNDP (ghost) && scm_is_true (ghost))
+    bt__check ("snapshot", bt__scene_ghost (to_dive (ghost), s->view, &error), &error);
+  if (lamp)
+    s->view->lamp = 1;
+}
+
 static SCM
-draw_dive (SCM renderer, SCM object, SCM title, SCM aim, SCM size, SCM paint, SCM flags)
+draw_dive (SCM renderer, SCM object, SCM title, SCM aim, SCM size, SCM paint, SCM flags, SCM ghost)
 {
   const bt_dive *dive = to_dive (object);
   sketch *s = scm_gc_calloc (sizeof *s, "sketch");
   bt_error error;
   SCM bytes;
-  s->drawing.width = scm_to_int (scm_car (size));
-  s->drawing.height = scm_to_int (scm_cdr (size));
-  s->drawing.samples = scm_is_true (scm_memq (scm_from_utf8_symbol ("quick"), flags)) ? 1 : 2;
-  s->drawing.transparent = scm_is_true (scm_memq (scm_from_utf8_symbol ("transparent"), flags));
+  set_drawing (&s->drawing, size, flags);
   scm_dynwind_begin (0);
   scm_dynwind_unwind_handler (free_sketch, s, SCM_F_WIND_EXPLICITLY);
   bt__check ("snapshot", bt__check_size (s->drawing.width, s->drawing.height, &error), &error);
-  bt__check ("snapshot", bt_view_new (&s->view, &error), &error);
-  bt__check ("snapshot",
-             bt__scene_of_dive (dive, (bt__paint)index_of (paint, paint_name), s->view, &error),
-             &error);
+  gather (s, dive, paint, ghost, has_flag (flags, "lamp"));
   set_title (s, title);
   bt__check ("snapshot", aim_camera (s, aim, &error), &error);
-  draw (s, renderer, scm_is_true (scm_memq (scm_from_utf8_symbol ("figures"), flags)));
+  draw (s, renderer, has_flag (flags, "figures"));
   bytes = pixels_of (&s->picture);
   scm_dynwind_end ();
   scm_remember_upto_here_2 (object, s);
@@ -205,11 +230,11 @@ bight_render_init (void)
       "Return a renderer by the back end NAME, osmesa or egl, or by the first that works for #f." },
     { "%renderer-name", 1, 0, (scm_t_subr)renderer_name, "Return what draws for RENDERER." },
     { "%views", 0, 0, (scm_t_subr)views, "Return the names of the views." },
-    { "%draw", 7, 0, (scm_t_subr)draw_dive,
+    { "%draw", 7, 1, (scm_t_subr)draw_dive,
       "Return the pixels, a bytevector, of a picture by RENDERER of DIVE with TITLE, seen by AIM, "
       "of "
-      "SIZE (WIDTH . HEIGHT), tethers painted by PAINT; FLAGS are of figures, transparent, "
-      "quick." },
+      "SIZE (WIDTH . HEIGHT), tethers painted by PAINT; FLAGS are of figures, transparent, quick, "
+      "lamp; GHOST, another dive, is drawn pale beside it." },
     { "%write-picture", 4, 0, (scm_t_subr)write_picture,
       "Write BYTES, the pixels of a picture of WIDTH by HEIGHT, to FILE as PNG." },
   };

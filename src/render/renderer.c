@@ -71,24 +71,24 @@ build_programs (bt__renderer *r, bt_error *error)
   return status;
 }
 
-/* ---- The shadow map ---- */
+/* ---- Shadow maps ---- */
 
 static bt_status
-build_shadow_map (bt__renderer *r, bt_error *error)
+build_shadows (const bt__gl *gl, int side, bt__shadows *s, bt_error *error)
 {
-  const bt__gl *gl = &r->gl;
-  gl->GenTextures (1, &r->shadow_map);
-  gl->BindTexture (GL_TEXTURE_2D, r->shadow_map);
-  gl->TexImage2D (GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, BT__SHADOW_SIDE, BT__SHADOW_SIDE, 0,
-                  GL_DEPTH_COMPONENT, GL_FLOAT, NULL);
+  s->side = side;
+  gl->GenTextures (1, &s->map);
+  gl->BindTexture (GL_TEXTURE_2D, s->map);
+  gl->TexImage2D (GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, side, side, 0, GL_DEPTH_COMPONENT,
+                  GL_FLOAT, NULL);
   gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  gl->GenFramebuffers (1, &r->shadow_frame);
-  gl->BindFramebuffer (GL_FRAMEBUFFER, r->shadow_frame);
-  gl->FramebufferTexture2D (GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, r->shadow_map, 0);
+  gl->GenFramebuffers (1, &s->frame);
+  gl->BindFramebuffer (GL_FRAMEBUFFER, s->frame);
+  gl->FramebufferTexture2D (GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, s->map, 0);
   gl->DrawBuffers (1, (const GLenum[]){ GL_NONE });
   if (gl->CheckFramebufferStatus (GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
     return bt__fail (error, BT_ERR_UNSUPPORTED, "this OpenGL cannot draw shadows");
@@ -115,7 +115,9 @@ furnish (bt__renderer *r, bt_error *error)
   if (status == BT_OK)
     status = build_programs (r, error);
   if (status == BT_OK)
-    status = build_shadow_map (r, error);
+    status = build_shadows (&r->gl, BT__SHADOW_SIDE, &r->still, error);
+  if (status == BT_OK)
+    status = build_shadows (&r->gl, BT__SHADOW_SIDE_QUICK, &r->quick, error);
   if (status == BT_OK)
     {
       r->gl.GenVertexArrays (1, &r->empty);
@@ -133,6 +135,7 @@ open_backend (const bt__backend *backend, bt__renderer **renderer, bt_error *err
   if (!r)
     return bt__fail (error, BT_ERR_LIMIT, "there is no memory left");
   r->backend = backend;
+  pthread_mutex_init (&r->lock, NULL);
   status = backend->open (&r->context, error);
   if (status == BT_OK)
     status = furnish (r, error);
@@ -147,8 +150,11 @@ open_backend (const bt__backend *backend, bt__renderer **renderer, bt_error *err
 void
 bt__renderer_free (bt__renderer *r)
 {
-  if (r && r->context)
+  if (!r)
+    return;
+  if (r->context)
     r->backend->close (r->context);
+  pthread_mutex_destroy (&r->lock);
   free (r);
 }
 

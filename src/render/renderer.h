@@ -5,13 +5,23 @@
 #ifndef BT_RENDER_RENDERER_H
 #define BT_RENDER_RENDERER_H
 
+#include <pthread.h>
+
 #include "render/gl.h"
 #include "render/render.h"
 
 enum
 {
-  BT__SHADOW_SIDE = 2048
+  BT__SHADOW_SIDE = 2048,
+  BT__SHADOW_SIDE_QUICK = 512
 };
+
+/* Depths seen from the sun.  */
+typedef struct bt__shadows
+{
+  GLuint map, frame;
+  int side; /* pixels */
+} bt__shadows;
 
 struct bt__renderer
 {
@@ -19,8 +29,9 @@ struct bt__renderer
   void *context;
   bt__gl gl;
   GLuint scene, shadow, resolve; /* programs */
-  GLuint shadow_map, shadow_frame;
-  GLuint empty; /* a vertex array for what has no vertices */
+  bt__shadows still, quick;
+  pthread_mutex_t lock; /* of the context: a picture at a time */
+  GLuint empty;         /* a vertex array for what has no vertices */
   char name[200];
 };
 

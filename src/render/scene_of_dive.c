@@ -38,20 +38,27 @@ vehicle_of (bt__scene *s, int i)
 /* Breadth, length and height of a BlueROV2 in its heavy configuration, m.  */
 static const bt_vec3 usual_size = { 0.575, 0.457, 0.254 };
 
+static bt_thing
+vehicle_thing (bt__scene *s, int i)
+{
+  bt_vehicle_view v = vehicle_of (s, i);
+  bt_thing t = bt_thing_of (BT_THING_VEHICLE);
+  t.at = v.position;
+  t.heading = v.heading;
+  t.pitch = v.pitch;
+  t.roll = v.roll;
+  t.size = usual_size;
+  t.framing = BT_FRAME_MUST;
+  return t;
+}
+
 static void
 add_vehicles (bt__scene *s)
 {
   int n = bt_dive_count (s->dive, BT_PART_VEHICLE);
   for (int i = 0; i < n; i++)
     {
-      bt_vehicle_view v = vehicle_of (s, i);
-      bt_thing t = bt_thing_of (BT_THING_VEHICLE);
-      t.at = v.position;
-      t.heading = v.heading;
-      t.pitch = v.pitch;
-      t.roll = v.roll;
-      t.size = usual_size;
-      t.framing = BT_FRAME_MUST;
+      bt_thing t = vehicle_thing (s, i);
       t.text = n > 1 ? bt_dive_name (s->dive, BT_PART_VEHICLE, i) : NULL;
       bt__scene_add (s, &t);
     }
@@ -185,6 +192,42 @@ add_note (bt__scene *s)
                   t.tension_max);
     }
   s->view->note = bt_view_text (s->view, text);
+}
+
+/* ---- Another fate ---- */
+
+static void
+add_pale_tether (bt__scene *s, int i)
+{
+  bt_thing line = bt_thing_of (BT_THING_TUBE);
+  bt_tether_view t = { .nodes = 0 };
+  bt_vec3 *points;
+  s->status = bt_dive_tether (s->dive, i, &t, s->error);
+  points = s->status == BT_OK ? calloc ((size_t)t.nodes, sizeof *points) : NULL;
+  if (!points)
+    return;
+  s->status = bt_tether_points (s->dive, i, 0, points, s->error);
+  line.points = points;
+  line.n = (size_t)t.nodes;
+  line.radius = t.props.diameter / 2;
+  line.color = (bt_color){ 0.72F, 0.92F, 1 };
+  bt__scene_add (s, &line);
+  free (points);
+}
+
+bt_status
+bt__scene_ghost (const bt_dive *dive, bt_view *view, bt_error *error)
+{
+  bt__scene s = { .dive = dive, .view = view, .status = BT_OK, .error = error };
+  for (int i = 0; s.status == BT_OK && i < bt_dive_count (dive, BT_PART_TETHER); i++)
+    add_pale_tether (&s, i);
+  for (int i = 0; s.status == BT_OK && i < bt_dive_count (dive, BT_PART_VEHICLE); i++)
+    {
+      bt_thing t = vehicle_thing (&s, i);
+      t.framing = BT_FRAME_NOT;
+      bt__scene_add (&s, &t);
+    }
+  return s.status;
 }
 
 /* ---- The whole ---- */

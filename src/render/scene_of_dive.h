@@ -25,4 +25,8 @@ const char *bt__paint_name (bt__paint paint);
    PAINT, vehicles, where tethers come from, what they touch, the current.  */
 bt_status bt__scene_of_dive (const bt_dive *dive, bt__paint paint, bt_view *view, bt_error *error);
 
+/* Add the vehicles and tethers of DIVE, another fate of the dive in VIEW, pale.  No camera aims at
+   them.  */
+bt_status bt__scene_ghost (const bt_dive *dive, bt_view *view, bt_error *error);
+
 #endif

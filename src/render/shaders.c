@@ -77,13 +77,14 @@ static const char scene_fragment[] =
     "in vec3 p, n, c, q;\n"
     "flat in vec4 s;\n"
     "uniform sampler2DShadow shadow;\n"
-    "uniform float grid, height;\n" /* spacing of the lines on the ground; z of the origin */
+    "uniform float grid, height, texel;\n" /* spacing of the lines on the ground; z of the origin; a
+                                              texel's share of the shadows */
     "layout (location = 0) out vec4 color;\n"
     "layout (location = 1) out vec4 shape;\n"
     "float lit (float slope)\n"
     "{\n"
     "  if (q.x < 0.0 || q.x > 1.0 || q.y < 0.0 || q.y > 1.0 || q.z > 1.0) return 1.0;\n"
-    "  float bias = 0.0012 + 0.003 * (1.0 - slope), sum = 0.0, r = 0.8 / 2048.0;\n"
+    "  float bias = 0.0012 + 0.003 * (1.0 - slope), sum = 0.0, r = 0.8 * texel;\n"
     "  for (int i = 0; i < 4; i++)\n"
     "    sum += texture (shadow, vec3 (q.xy + r * vec2 (i % 2 * 2 - 1, i / 2 * 2 - 1), q.z - bias));\n"
     "  return sum / 4.0;\n"

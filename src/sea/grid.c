@@ -4,6 +4,7 @@
 
 #include <bight/sea.h>
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,6 +22,7 @@ enum
 
 struct bt_current_grid
 {
+  atomic_int references;
   size_t n[AXES];
   double *line[AXES]; /* the coordinates that occur, rising */
   bt_vec3 *v;         /* x fastest, then y, z, t */
@@ -182,6 +184,7 @@ bt_current_grid_new (const double (*rows)[7], size_t n, bt_current_grid **out, b
   bt_current_grid *grid = calloc (1, sizeof *grid);
   if (!grid)
     return no_memory (error);
+  atomic_init (&grid->references, 1);
   status = build (grid, rows, n, error);
   if (status != BT_OK)
     bt_current_grid_free (grid);
@@ -190,10 +193,18 @@ bt_current_grid_new (const double (*rows)[7], size_t n, bt_current_grid **out, b
   return status;
 }
 
+bt_current_grid *
+bt_current_grid_retain (bt_current_grid *grid)
+{
+  if (grid)
+    atomic_fetch_add (&grid->references, 1);
+  return grid;
+}
+
 void
 bt_current_grid_free (bt_current_grid *grid)
 {
-  if (!grid)
+  if (!grid || atomic_fetch_sub (&grid->references, 1) > 1)
     return;
   for (int a = 0; a < AXES; a++)
     free (grid->line[a]);

@@ -123,7 +123,7 @@ bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, i
   const bt_tether_def *def = &dive->model->tethers[i];
   bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
   double ea = isfinite (tether->props.ea) ? tether->props.ea : 1e9;
-  const bt__vehicle *v;
+  int vehicle;
   bt_status status = bt__dynamic_init (chain, bt__chain_room (def), n, dive->polyline, n + 1,
                                        tether->length, ea, error);
   if (status != BT_OK)
@@ -145,9 +145,10 @@ bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, i
   tether->shape.length = tether->length;
   tether->drape = BT__DRAPE_NONE;
   tether->parted = tether->quiet = tether->settled = tether->blocked = 0;
-  v = bt__carried_vehicle (dive, state, i);
-  if (v)
-    bt__dynamic_v (chain)[n] = v->velocity;
+  vehicle = bt__carried_vehicle (dive, state, i);
+  if (vehicle >= 0)
+    bt__dynamic_v (chain)[n] = bt__rigid_point_velocity (
+        &bt__dive_vehicle (dive, state, vehicle)->body, dive->model->types[vehicle].attached);
   return BT_OK;
 }
 

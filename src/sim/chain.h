@@ -9,8 +9,8 @@
 #include "sim/sim.h"
 #include "world/line.h"
 
-/* The vehicle with mass at the far end of tether I, which this line carries, or NULL.  */
-bt__vehicle *bt__carried_vehicle (const bt_dive *dive, bt__state *state, int i);
+/* The vehicle with mass at the far end of tether I, which this line carries, or -1.  */
+int bt__carried_vehicle (const bt_dive *dive, bt__state *state, int i);
 
 /* What the kernel is told of tether I: ends, water, the vehicle it carries; no winch, no lumps.  */
 bt__dynamic_input bt__chain_input (const bt_dive *dive, bt__state *state, int i,
@@ -21,8 +21,8 @@ bt__dynamic_input bt__chain_input (const bt_dive *dive, bt__state *state, int i,
 void bt__fasten (const bt_dive *dive, int i, double from, double to, bt__dynamic_input *input,
                  bt__dynamic_lump *lumps);
 
-/* Give the vehicle that the last node of tether I carries its place and velocity.  */
-void bt__bring_vehicle (const bt_dive *dive, bt__state *state, int i);
+/* Let the vehicle that tether I carries follow its last node.  */
+bt_status bt__bring_vehicle (const bt_dive *dive, bt__state *state, int i, bt_error *error);
 
 /* How many intervals a chain of TETHER begins with.  Put N + 1 points of its shape, or of its
    equilibrium when it has none, on the dive's polyline and the tensions along it.  Begin a chain of
@@ -40,7 +40,8 @@ bt_status bt__step_among (bt_dive *dive, bt__state *state, int i, int part,
                           bt_error *error);
 
 /* Note what REPORT says of a step of TETHER, and what its twist does, as events.  */
-void bt__watch_step (bt__state *state, bt__tether *tether, int i, const bt__dynamic_report *report);
+void bt__watch_step (const bt_dive *dive, bt__state *state, bt__tether *tether, int i,
+                     const bt__dynamic_report *report);
 void bt__watch_twist (const bt_dive *dive, bt__state *state, bt__tether *tether, int i);
 
 #endif

@@ -3,32 +3,31 @@
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
+#include <string.h>
 
 #include "math/vec.h"
 #include "sim/around.h"
 #include "sim/chain.h"
 
-/* The vehicle with mass at the far end of tether I, which this line carries, or NULL.  */
-bt__vehicle *
+/* The vehicle with mass at the far end of tether I, which this line carries, or -1.  */
+int
 bt__carried_vehicle (const bt_dive *dive, bt__state *state, int i)
 {
   int vehicle = dive->model->ends[i][1].vehicle;
-  if (vehicle < 0 || bt__dive_vehicle (dive, state, vehicle)->mass == 0
-      || bt__pinned (dive, vehicle) || bt__carrier (dive, state, vehicle) != i)
-    return NULL;
-  return bt__dive_vehicle (dive, state, vehicle);
+  if (vehicle < 0 || !bt__dive_vehicle (dive, state, vehicle)->rigid || bt__pinned (dive, vehicle)
+      || bt__carrier (dive, state, vehicle) != i)
+    return -1;
+  return vehicle;
 }
 
+/* The far end of a line that carries VEHICLE: its body, as far as this step is concerned.  */
 static bt__dynamic_end
-vehicle_end (const bt__vehicle *v)
+vehicle_end (const bt_dive *dive, int vehicle)
 {
-  return (bt__dynamic_end){ .free = 1,
-                            .at = v->position,
-                            .body = { .mass = v->mass,
-                                      .added = v->added_mass,
-                                      .linear = v->drag,
-                                      .quadratic = v->quadratic_drag,
-                                      .force = bt__thrust (v) } };
+  const bt__grip *grip = &dive->driven[vehicle].grip;
+  bt__dynamic_end end = { .free = 1, .at = grip->at, .gripped = 1 };
+  memcpy (end.stiffness, grip->stiffness, sizeof end.stiffness);
+  return end;
 }
 
 /* Steel sinks by its weight less the water it displaces; a float is a hull that weighs three tenths
@@ -71,24 +70,29 @@ bt__dynamic_input
 bt__chain_input (const bt_dive *dive, bt__state *state, int i, const bt_water *water,
                  const bt__ends *ends)
 {
-  const bt__vehicle *v = bt__carried_vehicle (dive, state, i);
+  int vehicle = bt__carried_vehicle (dive, state, i);
   bt__dynamic_end far = { .at = ends->b };
   return (bt__dynamic_input){ .line = &bt__dive_tether (dive, state, i)->props,
                               .water = water,
-                              .end = { { .at = ends->a }, v ? vehicle_end (v) : far },
+                              .end = { { .at = ends->a },
+                                       vehicle >= 0 ? vehicle_end (dive, vehicle) : far },
                               .h = BT__TIME_STEP };
 }
 
-/* Give the vehicle that the last node of the line carries its place and velocity.  */
-void
-bt__bring_vehicle (const bt_dive *dive, bt__state *state, int i)
+/* Let the vehicle that the line carries follow its last node.  */
+bt_status
+bt__bring_vehicle (const bt_dive *dive, bt__state *state, int i, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, tether->parted ? 1 : 0);
-  bt__vehicle *v = bt__carried_vehicle (dive, state, i);
-  if (!v)
-    return;
-  v->position = bt__dynamic_x (chain)[chain->n];
-  v->velocity = bt__dynamic_v (chain)[chain->n];
-  tether->shape.b = v->position;
+  int vehicle = bt__carried_vehicle (dive, state, i);
+  bt_status status;
+  if (vehicle < 0)
+    {
+      bt__note_pull (dive, state, i);
+      return BT_OK;
+    }
+  status = bt__follow_line (dive, state, vehicle, bt__dynamic_x (chain)[chain->n], error);
+  tether->shape.b = bt__attachment (dive, state, vehicle);
+  return status;
 }

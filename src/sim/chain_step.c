@@ -20,7 +20,7 @@ may_sleep_on (const bt_dive *dive, const bt__state *state, const bt__tether *tet
               const bt__ends *ends)
 {
   return tether->quiet >= BT__SLEEP_AFTER && tether->winch_rate == 0
-         && bt__is_unchanged (state, tether, ends) && !bt__movers_move (dive);
+         && bt__is_unchanged (dive, state, tether, ends) && !bt__movers_move (dive);
 }
 
 static bt_status
@@ -96,8 +96,10 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
   tether->shape.b = here.b;
   tether->shape.length = tether->length;
   tether->stale = 0;
-  bt__bring_vehicle (dive, state, i);
-  bt__watch_step (state, tether, i, &report);
+  status = bt__bring_vehicle (dive, state, i, error);
+  if (status != BT_OK)
+    return status;
+  bt__watch_step (dive, state, tether, i, &report);
   if (!tether->parted && report.tension > tether->props.breaking_load)
     bt__part_chain (dive, state, i, report.at);
   else if (tether->props.model == BT_MODEL_AUTO && state->step % BT__REMESH_EVERY == 0)

@@ -61,19 +61,43 @@ note_kink (bt__state *state, bt__tether *tether, int i, double radius)
   tether->kinked = kinked;
 }
 
-static void
-note_rest (bt__tether *tether, const bt__dynamic_report *report)
+/* Nonzero if the vehicle that tether I carries rests, and hangs on nothing else that may move it.
+ */
+static int
+vehicle_rests (const bt_dive *dive, bt__state *state, int i)
 {
-  int rests = report->speed < REST_SPEED && report->acceleration < REST_ACCELERATION;
+  int vehicle = bt__carried_vehicle (dive, state, i);
+  const bt__rigid *now, *before;
+  if (vehicle < 0)
+    return 1;
+  for (int k = 0; k < dive->model->n_tethers; k++)
+    if (k != i
+        && (dive->model->ends[k][0].vehicle == vehicle
+            || dive->model->ends[k][1].vehicle == vehicle))
+      return 0;
+  now = &bt__dive_vehicle (dive, state, vehicle)->body;
+  before = &bt__dive_vehicle (dive, dive->now, vehicle)->body;
+  return bt__norm (now->velocity) < REST_SPEED && bt__norm (now->spin) < REST_SPEED
+         && bt__distance (now->velocity, before->velocity) < REST_ACCELERATION * BT__TIME_STEP
+         && bt__distance (now->spin, before->spin) < REST_ACCELERATION * BT__TIME_STEP;
+}
+
+static void
+note_rest (const bt_dive *dive, bt__state *state, bt__tether *tether, int i,
+           const bt__dynamic_report *report)
+{
+  int rests = report->speed < REST_SPEED && report->acceleration < REST_ACCELERATION
+              && vehicle_rests (dive, state, i);
   tether->quiet = rests ? tether->quiet + 1 : 0;
   tether->settled = report->speed < 1e-3;
 }
 
 void
-bt__watch_step (bt__state *state, bt__tether *tether, int i, const bt__dynamic_report *report)
+bt__watch_step (const bt_dive *dive, bt__state *state, bt__tether *tether, int i,
+                const bt__dynamic_report *report)
 {
   tether->tension_max = report->tension;
-  note_rest (tether, report);
+  note_rest (dive, state, tether, i, report);
   note_snap (state, tether, i, report->tension);
   note_kink (state, tether, i, report->bend_radius);
 }

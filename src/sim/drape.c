@@ -99,7 +99,7 @@ step_spans (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, const 
                              .b = ends->b,
                              .length = tether->length,
                              .pull = bt__pull_on (dive, state, i),
-                             .stale = tether->stale || bt_current_is_unsteady (&state->current),
+                             .stale = tether->stale || bt_water_is_unsteady (&water),
                              .props = &tether->props,
                              .rules = &rules,
                              .water = &water,
@@ -162,7 +162,8 @@ bt__drape_tether (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, 
     status = lay (dive, state, i, ends, error);
   if (status != BT_OK)
     return status;
-  if (drape == BT__DRAPE_HELD && bt__is_unchanged (state, tether, ends) && !bt__movers_move (dive))
+  if (drape == BT__DRAPE_HELD && bt__is_unchanged (dive, state, tether, ends)
+      && !bt__movers_move (dive))
     {
       dive->profile.shape_skips++;
       return BT_OK;

@@ -1,8 +1,8 @@
 /* A haul on a fork: the dead vehicle at the end of the moving line, the winch that pulls no more
    than it can.
 
-   What goes where it is told gets a body for the trial.  The winch turns while the tension at it is
-   below its limit and stands while it is above.
+   What goes where it is told is a dead weight in the trial.  The winch turns while the tension at
+   it is below its limit and stands while it is above.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -17,21 +17,11 @@
 #include "sim/sim.h"
 #include "world/line.h"
 
-enum
-{
-  STEPS_A_LOOK = 6
-};
-
-#define HOME_WITHIN 0.5 /* m, beyond the hull */
+#define HOME_WITHIN 1.5 /* m, beyond the hull */
 #define LEAST_OUT 0.5   /* m */
 #define STUCK_WAY 0.15  /* m: less ... */
 #define STUCK_TIME 20.0 /* s: ... in so long is stuck */
 #define AT_HULL 0.03    /* m: so near to the hull it is what holds it */
-
-/* The body of a vehicle that has none: kg, N s/m, N s2/m2.  */
-#define MASS 20.0
-#define DRAG1 60.0
-#define DRAG2 100.0
 
 /* ---- The fork ---- */
 
@@ -40,17 +30,6 @@ do_number (bt_dive *fork, bt_op op, int subject, double a, double b, int n, bt_e
 {
   double args[2] = { a, b };
   return bt_dive_do (fork, op, subject, args, n, error);
-}
-
-/* Nobody flies, and every vehicle is moved by forces.  */
-static void
-deaden (bt__vehicle *v)
-{
-  if (v->mass != 0)
-    return;
-  v->mass = v->added_mass = MASS;
-  v->drag = DRAG1;
-  v->quadratic_drag = DRAG2;
 }
 
 static bt_status
@@ -79,7 +58,7 @@ make_trial (const bt_dive *dive, int i, bt_dive **out, bt_error *error)
       bt_dive_free (*out);
       return status;
     }
-  deaden (bt__dive_vehicle (*out, (*out)->now, vehicle));
+  bt__deaden_vehicle (bt__dive_vehicle (*out, (*out)->now, vehicle));
   return BT_OK;
 }
 
@@ -122,8 +101,7 @@ static int
 is_home (const trial *t)
 {
   bt__line line = line_of (t);
-  return bt__distance (bt__line_node (&line, 0), vehicle_at (t)) < t->least
-         || bt__line_length (&line) <= LEAST_OUT * 1.01;
+  return bt__distance (bt__line_node (&line, 0), vehicle_at (t)) < t->least;
 }
 
 static int
@@ -172,7 +150,7 @@ haul (trial *t, double seconds, bt_haul *out, bt_error *error)
   while (!out->home && now < seconds)
     {
       status = turn (t, error);
-      for (int k = 0; k < STEPS_A_LOOK && status == BT_OK; k++)
+      if (status == BT_OK)
         status = bt_dive_step (t->fork, error);
       if (status != BT_OK)
         return status;

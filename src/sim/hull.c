@@ -11,6 +11,8 @@
 #include "world/hull.h"
 #include "world/obstacles.h"
 
+#define HULL_FRICTION 0.3
+
 /* How often it slides in a step.  */
 enum
 {
@@ -48,8 +50,9 @@ static double
 sweep (const passage *p, bt__frame *frame, const bt__frame *to, bt__stop *stop)
 {
   bt__motion motion = bt__motion_between (frame, to);
-  double share = bt__body_sweep (&p->hull.body, &motion, BT__HULL_GAP, p->around.scene, p->around.on,
-                                 p->around.mover, p->around.movers, stop, &p->dive->shore.count);
+  double share
+      = bt__body_sweep (&p->hull.body, &motion, BT__HULL_GAP, p->around.scene, p->around.on,
+                        p->around.mover, p->around.movers, stop, &p->dive->shore.count);
   *frame = share < 1 ? bt__motion_at (&motion, share) : *to;
   if (share < 1)
     note_stop (p->dive, p->state, p->vehicle, stop);
@@ -97,6 +100,28 @@ turn (const passage *p, bt__frame *frame, bt__frame to)
   return sweep (p, frame, &to, &stop);
 }
 
+/* A vehicle with mass bounces off what stopped it, and rubs on it as hulls do on steel where that
+   says nothing of friction itself.  */
+static void
+strike (const passage *p, bt__vehicle *v, const bt__stop *stop)
+{
+  const bt_model *model = p->dive->model;
+  double rough = bt__dive_roughness (p->dive, p->state)[bt__stop_obstacle (model, stop)];
+  bt__rigid_bounce (&model->types[p->vehicle], &v->body, stop->point, stop->normal,
+                    model->vehicles[p->vehicle].restitution, isnan (rough) ? HULL_FRICTION : rough);
+}
+
+/* The attitude of V after SHARE of its turn from BEFORE.  */
+static void
+turn_body (bt__vehicle *v, const bt__vehicle *before, double share)
+{
+  bt__quat a = before->body.attitude, b = v->body.attitude;
+  double side = a.w * b.w + bt__dot (a.v, b.v) < 0 ? -share : share;
+  v->body.attitude = bt__quat_unit ((bt__quat){ (1 - share) * a.w + side * b.w,
+                                                bt__axpy (bt__scale (1 - share, a.v), side, b.v) });
+  v->body.heading = bt__heading_follow (before->body.heading, v->body.attitude);
+}
+
 bt_vec3
 bt__hull_reach (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
 {
@@ -116,8 +141,12 @@ bt__hull_reach (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
   if (share >= 1)
     return wanted;
   stand_movers (&p);
+  if (v->rigid)
+    strike (&p, v, &stop);
   slide (&p, &frame, bt__scale (1 - share, bt__sub (wanted, before->position)), &stop);
   share += (1 - share) * turn (&p, &frame, to);
   v->heading = before->heading + share * (v->heading - before->heading);
+  if (v->rigid)
+    turn_body (v, before, share);
   return frame.origin;
 }

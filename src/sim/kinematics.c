@@ -144,16 +144,14 @@ move (const bt_dive *dive, bt__state *state, bt__vehicle *v)
   v->velocity = bt__scale (1 / BT__TIME_STEP, bt__sub (to, from));
 }
 
-/* A vehicle with mass turns as it is told here, and is moved by forces (mass.c).  */
+/* Those with mass are moved by forces (bodies.c).  */
 void
 bt__move_vehicles (const bt_dive *dive, bt__state *state)
 {
   for (int i = 0; i < dive->model->n_vehicles; i++)
     {
       bt__vehicle *v = bt__dive_vehicle (dive, state, i);
-      if (v->mass == 0)
+      if (!v->rigid)
         move (dive, state, v);
-      else
-        v->heading += turn (v);
     }
 }

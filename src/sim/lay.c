@@ -236,8 +236,10 @@ pin_ends (bt_dive *dive, bt__state *state, int i, int how)
     {
       int vehicle = dive->model->ends[i][k].vehicle;
       if (vehicle >= 0)
-        dive->shore.pin[vehicle]
-            = (bt__pin){ how, bt__dive_vehicle (dive, state, vehicle)->position };
+        {
+          const bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
+          dive->shore.pin[vehicle] = (bt__pin){ how, v->position, v->body };
+        }
     }
 }
 

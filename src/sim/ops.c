@@ -82,6 +82,9 @@ static const op ops[BT_OP_COUNT] = {
   [BT_OP_FOLLOW] = { { "follow", BT_PART_VEHICLE, 8, 40000000, "t x y z ...",
                        "follow a measured track, beginning now" },
                      bt__op_follow },
+  [BT_OP_STABILISE] = { { "stabilise", BT_PART_VEHICLE, 1, 1, "on",
+                          "keep a vehicle with mass level; the yaw stick then sets a rate" },
+                        bt__op_stabilise },
   [BT_OP_PAY_OUT]
   = { { "pay-out", BT_PART_TETHER, 2, 2, "metres rate", "let tether out" }, bt__op_pay_out },
   [BT_OP_HAUL_IN]
@@ -91,6 +94,15 @@ static const op ops[BT_OP_COUNT] = {
   [BT_OP_CURRENT]
   = { { "current", BT_PART_SEA, 8, BT_CURRENT_ARGS, "packed current", "change the current" },
       bt__op_current },
+  [BT_OP_FAULT]
+  = { { "fault", BT_PART_VEHICLE, 3, 3, "fault on value",
+        "break an instrument (a bt_fault) or mend it; value: of the compass its drift in "
+        "rad/s, of a thruster its number" },
+      bt__op_fault },
+  [BT_OP_WAVES] = { { "waves", BT_PART_SEA, BT_WAVES_ARGS, BT_WAVES_ARGS,
+                      "kind height period toward phase gamma components seed",
+                      "change the waves; kind 0: none, 1: one, 2: a wind sea" },
+                    bt__op_waves },
   [BT_OP_ALTER] = { { "alter", BT_PART_SEA, 3, 3, "part field value",
                       "change a live field of the subject-th PART (a bt_part), by its place in the "
                       "table of fields" },

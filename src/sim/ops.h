@@ -41,6 +41,8 @@ bt_status bt__op_hold_depth (const bt__call *c);
 bt_status bt__op_hold_altitude (const bt__call *c);
 bt_status bt__op_hold_position (const bt__call *c);
 bt_status bt__op_follow (const bt__call *c);
+bt_status bt__op_stabilise (const bt__call *c);
+bt_status bt__op_fault (const bt__call *c);
 
 /* ops_tether.c */
 bt_status bt__op_pay_out (const bt__call *c);
@@ -49,6 +51,7 @@ bt_status bt__op_cut (const bt__call *c);
 
 /* ops_sea.c */
 bt_status bt__op_current (const bt__call *c);
+bt_status bt__op_waves (const bt__call *c);
 
 /* ops_collide.c */
 bt_status bt__op_collide (const bt__call *c);

@@ -38,9 +38,7 @@ alter_vehicle (const bt__call *c)
   def.heave_speed = v->speeds[2];
   def.yaw_rate = v->speeds[3] * (180 / BT__PI);
   def.pull = v->pull;
-  def.drag = v->drag;
-  def.quadratic_drag = v->quadratic_drag;
-  def.thrust = v->thrust;
+  def.volts = v->volts;
   status = bt_def_set_number (field, &def, c->args[2], c->error);
   if (status != BT_OK)
     return status;
@@ -49,9 +47,7 @@ alter_vehicle (const bt__call *c)
   v->speeds[2] = def.heave_speed;
   v->speeds[3] = def.yaw_rate * (BT__PI / 180);
   v->pull = def.pull;
-  v->drag = def.drag;
-  v->quadratic_drag = def.quadratic_drag;
-  v->thrust = def.thrust;
+  v->volts = def.volts;
   return BT_OK;
 }
 
@@ -110,8 +106,10 @@ weigh_anew (const bt__call *c)
 static bt_status
 alter_sea (const bt__call *c)
 {
-  bt_sea_def def
-      = { .depth = c->state->depth, .density = c->state->density, .gravity = c->state->gravity };
+  bt_sea_def def = { .depth = c->state->depth,
+                     .density = c->state->density,
+                     .gravity = c->state->gravity,
+                     .wake = (double)c->state->wake };
   const bt_field *field = live_field (c, "sea");
   bt_status status
       = field ? bt_def_set_number (field, &def, c->args[2], c->error) : c->error->status;
@@ -119,6 +117,7 @@ alter_sea (const bt__call *c)
     return status;
   c->state->density = def.density;
   c->state->gravity = def.gravity;
+  c->state->wake = def.wake != 0;
   weigh_anew (c);
   bt__mark_all_stale (c);
   return BT_OK;

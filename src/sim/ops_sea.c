@@ -2,6 +2,7 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <math.h>
 #include <string.h>
 
 #include "math/vec.h"
@@ -28,7 +29,7 @@ bt_current_pack (const bt_current *current, double *args)
 static bt_status
 unpack_current (const bt__call *c, bt_current *current)
 {
-  int kind = c->args[0] >= 0 && c->args[0] <= BT_CURRENT_FUNCTION ? (int)c->args[0] : -1;
+  int kind = c->args[0] >= 0 && c->args[0] <= BT_CURRENT_GRID ? (int)c->args[0] : -1;
   if (kind < 0 || kind != c->args[0] || c->n % 4 != 0)
     return bt__fail (c->error, BT_ERR_FORMAT, "these %d numbers are not a current", c->n);
   memset (current, 0, sizeof *current);
@@ -46,6 +47,39 @@ unpack_current (const bt__call *c, bt_current *current)
   return bt_current_check (current, c->error);
 }
 
+int
+bt_waves_pack (const bt_wave_def *waves, double *args)
+{
+  double all[BT_WAVES_ARGS]
+      = { (double)waves->kind, waves->height, waves->period,     waves->toward,
+          waves->phase,        waves->gamma,  waves->components, (double)waves->seed };
+  memcpy (args, all, sizeof all);
+  return BT_WAVES_ARGS;
+}
+
+/* Waves in the present sea.  */
+bt_status
+bt__op_waves (const bt__call *c)
+{
+  const double *a = c->args;
+  bt_wave_def def = {
+    .height = a[1], .period = a[2], .toward = a[3], .phase = a[4], .gamma = a[5], .components = a[6]
+  };
+  bt_waves waves;
+  bt_status status;
+  if (!(a[0] >= BT_WAVE_NONE && a[0] <= BT_WAVE_JONSWAP && fabs (a[7]) <= 1e15))
+    return bt__fail (c->error, BT_ERR_FORMAT, "these numbers are not waves");
+  def.kind = (int64_t)a[0];
+  def.seed = (int64_t)a[7];
+  status = bt_waves_make (&def, c->state->depth, c->state->gravity, &waves, c->error);
+  if (status != BT_OK)
+    return status;
+  c->state->wave = def;
+  c->state->waves = waves;
+  bt__mark_all_stale (c);
+  return BT_OK;
+}
+
 bt_status
 bt__op_current (const bt__call *c)
 {
@@ -55,6 +89,9 @@ bt__op_current (const bt__call *c)
     return status;
   if (current.kind == BT_CURRENT_FUNCTION && !c->dive->function)
     return bt__fail (c->error, BT_ERR_UNSUPPORTED, "this dive has no function for its current");
+  if (current.kind == BT_CURRENT_GRID && !c->dive->model->sea.grid)
+    return bt__fail (c->error, BT_ERR_UNSUPPORTED,
+                     "this world's sea has no grid: a dive takes one from its world alone");
   c->state->current = current;
   bt__mark_all_stale (c);
   return BT_OK;

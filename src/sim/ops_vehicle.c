@@ -29,6 +29,7 @@ bt__op_drive (const bt__call *c)
     if (!isnan (c->args[i]))
       v->sticks[i] = c->args[i];
   v->goal = BT__GOAL_NONE; /* hands on the sticks end a flight to a place */
+  v->pilot.holds &= ~(int64_t)BT__HOLD_WAYPOINT;
   return BT_OK;
 }
 
@@ -39,15 +40,64 @@ bt__op_release (const bt__call *c)
   memset (v->sticks, 0, sizeof v->sticks);
   v->goal = BT__GOAL_NONE;
   v->hold_heading.on = v->hold_depth.on = 0;
+  v->pilot.holds &= BT__HOLD_LEVEL;
+  memset (v->pilot.sum, 0, sizeof v->pilot.sum);
+  return BT_OK;
+}
+
+bt_status
+bt__op_stabilise (const bt__call *c)
+{
+  bt__vehicle *v = vehicle_of (c);
+  if (c->args[0] != 0)
+    v->pilot.holds |= BT__HOLD_LEVEL;
+  else
+    v->pilot.holds &= ~(int64_t)BT__HOLD_LEVEL;
+  return BT_OK;
+}
+
+/* Thruster NUMBER of the subject dies, or lives again.  */
+static bt_status
+break_thruster (const bt__call *c, int on, double number)
+{
+  int n = (int)c->dive->model->types[c->subject].n;
+  bt__vehicle *v = vehicle_of (c);
+  if (!v->rigid || !(number >= 0 && number < n) || number != floor (number))
+    return bt__fail (c->error, BT_ERR_DOMAIN, "`%s' has %d thrusters, counted from 0, and no %g",
+                     c->dive->model->vehicles[c->subject].name, v->rigid ? n : 0, number);
+  v->lost = on ? v->lost | (int64_t)1 << (int)number : v->lost & ~((int64_t)1 << (int)number);
+  return BT_OK;
+}
+
+bt_status
+bt__op_fault (const bt__call *c)
+{
+  bt__vehicle *v = vehicle_of (c);
+  int64_t fault = c->args[0] >= 1 && c->args[0] <= BT_FAULT_THRUSTER ? (int64_t)c->args[0] : 0;
+  int on = c->args[1] != 0;
+  if (!bt_fault_name ((bt_fault)fault))
+    return bt__fail (c->error, BT_ERR_NAME, "there is no fault number %g", c->args[0]);
+  if (!isfinite (c->args[2]))
+    return bt__fail (c->error, BT_ERR_DOMAIN, "a fault of %g", c->args[2]);
+  if (fault == BT_FAULT_THRUSTER)
+    return break_thruster (c, on, c->args[2]);
+  if (fault == BT_FAULT_COMPASS && on)
+    {
+      v->instruments.drift = c->args[2];
+      v->instruments.since = bt__state_time (c->state);
+    }
+  if (fault == BT_FAULT_DEPTH && on)
+    v->instruments.frozen = -v->position.z;
+  v->instruments.faults = on ? v->instruments.faults | fault : v->instruments.faults & ~fault;
   return BT_OK;
 }
 
 static void
 stand_at (bt__vehicle *v, bt_vec3 p)
 {
-  v->position = p;
-  v->velocity = bt__vec (0, 0, 0);
+  bt__put_vehicle (v, p, 0);
   v->goal = BT__GOAL_NONE;
+  v->pilot.holds &= ~(int64_t)(BT__HOLD_WAYPOINT | BT__HOLD_POSITION);
 }
 
 bt_status
@@ -120,6 +170,20 @@ bt__op_lay (const bt__call *c)
   return BT_OK;
 }
 
+/* Let the autopilot of one with mass hold KIND instead of all of INSTEAD.  */
+static void
+hold (bt__vehicle *v, int64_t kind, int64_t instead)
+{
+  v->pilot.holds = (v->pilot.holds & ~instead) | kind;
+}
+
+static void
+keep_heading (bt__vehicle *v, double heading)
+{
+  v->pilot.heading = heading;
+  v->pilot.holds |= BT__HOLD_HEADING;
+}
+
 static bt_status
 go (const bt__call *c, bt__goal goal)
 {
@@ -129,6 +193,13 @@ go (const bt__call *c, bt__goal goal)
   v->goal = goal;
   v->target = bt__point_of (c);
   v->target_speed = c->args[3];
+  memset (v->sticks, 0, v->rigid ? sizeof v->sticks : 0);
+  v->pilot.place = v->target;
+  v->pilot.speed = v->target_speed;
+  hold (v, goal == BT__GOAL_FLY ? BT__HOLD_WAYPOINT : BT__HOLD_POSITION,
+        BT__HOLD_WAYPOINT | BT__HOLD_POSITION);
+  if (v->rigid && !(v->pilot.holds & BT__HOLD_HEADING))
+    keep_heading (v, v->heading);
   return BT_OK;
 }
 
@@ -148,27 +219,37 @@ bt_status
 bt__op_hold_heading (const bt__call *c)
 {
   bt_status status = bt__check_range (c, 0, "a heading in radians", -1e6, 1e6);
-  if (status == BT_OK)
-    vehicle_of (c)->hold_heading = (bt__hold){ 1, c->args[0] };
-  return status;
+  if (status != BT_OK)
+    return status;
+  vehicle_of (c)->hold_heading = (bt__hold){ 1, c->args[0] };
+  keep_heading (vehicle_of (c), c->args[0]);
+  return BT_OK;
 }
 
 bt_status
 bt__op_hold_depth (const bt__call *c)
 {
+  bt__vehicle *v = vehicle_of (c);
   bt_status status = bt__check_range (c, 0, "a depth in m", -1e7, 1e7);
-  if (status == BT_OK)
-    vehicle_of (c)->hold_depth = (bt__hold){ 1, c->args[0] };
-  return status;
+  if (status != BT_OK)
+    return status;
+  v->hold_depth = (bt__hold){ 1, c->args[0] };
+  v->pilot.height = -c->args[0];
+  hold (v, BT__HOLD_DEPTH, BT__HOLD_ALTITUDE);
+  return BT_OK;
 }
 
 bt_status
 bt__op_hold_altitude (const bt__call *c)
 {
+  bt__vehicle *v = vehicle_of (c);
   bt_status status = bt__check_range (c, 0, "an altitude in m", 0, c->state->depth);
-  if (status == BT_OK)
-    vehicle_of (c)->hold_depth = (bt__hold){ 1, c->state->depth - c->args[0] };
-  return status;
+  if (status != BT_OK)
+    return status;
+  v->hold_depth = (bt__hold){ 1, c->state->depth - c->args[0] };
+  v->pilot.altitude = c->args[0];
+  hold (v, BT__HOLD_ALTITUDE, BT__HOLD_DEPTH);
+  return BT_OK;
 }
 
 bt_status
@@ -179,6 +260,10 @@ bt__op_hold_position (const bt__call *c)
   v->goal = BT__GOAL_NONE;
   v->hold_heading = (bt__hold){ 1, v->heading };
   v->hold_depth = (bt__hold){ 1, -v->position.z };
+  v->pilot.place = v->position;
+  v->pilot.speed = 0;
+  keep_heading (v, v->heading);
+  hold (v, BT__HOLD_POSITION, BT__HOLD_WAYPOINT);
   return BT_OK;
 }
 
@@ -186,7 +271,7 @@ bt_status
 bt__op_follow (const bt__call *c)
 {
   bt__vehicle *v = vehicle_of (c);
-  if (v->mass > 0)
+  if (v->rigid)
     return bt__fail (
         c->error, BT_ERR_UNSUPPORTED,
         "a vehicle with mass goes where forces take it; only one without follows a track");

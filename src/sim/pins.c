@@ -3,9 +3,11 @@
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
+#include <string.h>
 
 #include "math/vec.h"
 #include "sim/around.h"
+#include "sim/chain.h"
 #include "world/line.h"
 
 #define SAME 1e-9 /* m */
@@ -16,15 +18,19 @@ place_before (const bt_dive *dive, int vehicle)
   return bt__dive_vehicle (dive, dive->now, vehicle)->position;
 }
 
-/* An operation takes no time: what it moves is at rest.  */
+/* An operation takes no time: what it moves is at rest.  One with mass has its motion from what it
+   struck.  */
 static void
 stand (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 p)
 {
   bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
   bt_vec3 way = bt__sub (p, place_before (dive, vehicle));
   int goes = state->step != dive->now->step;
-  v->position = p;
-  v->velocity = bt__scale (goes ? 1 / BT__TIME_STEP : 0, way);
+  bt__put_vehicle (v, p, goes);
+  if (goes && v->rigid)
+    bt__mirror_body (v);
+  else if (goes)
+    v->velocity = bt__scale (1 / BT__TIME_STEP, way);
 }
 
 /* How far the hull of VEHICLE comes toward WANTED without leaving the reach of its tethers: it may
@@ -54,6 +60,8 @@ come (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
   bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
   bt_vec3 reach = reach_within (dive, state, vehicle, wanted);
   dive->shore.pin[vehicle].at = reach;
+  dive->shore.pin[vehicle].body = v->body;
+  dive->shore.pin[vehicle].body.position = reach;
   if (bt__distance (reach, v->position) <= SAME)
     return;
   stand (dive, state, vehicle, reach);
@@ -65,9 +73,12 @@ static void
 stay (bt_dive *dive, bt__state *state, int vehicle)
 {
   bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
-  v->heading = bt__dive_vehicle (dive, dive->now, vehicle)->heading;
-  dive->shore.pin[vehicle] = (bt__pin){ BT__PIN_HARD, place_before (dive, vehicle) };
-  stand (dive, state, vehicle, dive->shore.pin[vehicle].at);
+  const bt__vehicle *before = bt__dive_vehicle (dive, dive->now, vehicle);
+  v->heading = before->heading;
+  v->body = before->body;
+  v->body.velocity = v->body.spin = bt__vec (0, 0, 0);
+  dive->shore.pin[vehicle] = (bt__pin){ BT__PIN_HARD, before->position, v->body };
+  stand (dive, state, vehicle, before->position);
 }
 
 void
@@ -90,8 +101,10 @@ void
 bt__unpin_vehicles (bt_dive *dive, bt__state *state)
 {
   for (int i = 0; i < dive->model->n_vehicles; i++)
-    dive->shore.pin[i]
-        = (bt__pin){ BT__PIN_OFF, bt__dive_vehicle (dive, state, i)->position };
+    {
+      const bt__vehicle *v = bt__dive_vehicle (dive, state, i);
+      dive->shore.pin[i] = (bt__pin){ BT__PIN_OFF, v->position, v->body };
+    }
 }
 
 int
@@ -100,14 +113,28 @@ bt__pinned (const bt_dive *dive, int vehicle)
   return dive->shore.pin && dive->shore.pin[vehicle].how;
 }
 
+/* Where VEHICLE is when its tether ends at P.  */
+static bt_vec3
+place_for (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 p)
+{
+  bt_vec3 at = bt__dive_vehicle (dive, state, vehicle)->position;
+  return bt__add (p, bt__sub (at, bt__attachment (dive, state, vehicle)));
+}
+
 void
 bt__bring_end (const bt_dive *dive, bt__state *state, int i, int k, bt_vec3 p)
 {
   int vehicle = dive->model->ends[i][k].vehicle;
+  bt__vehicle *v;
   if (vehicle < 0)
     return;
-  stand (dive, state, vehicle, p);
-  bt__dive_vehicle (dive, state, vehicle)->held = 1;
+  v = bt__dive_vehicle (dive, state, vehicle);
+  stand (dive, state, vehicle, place_for (dive, state, vehicle, p));
+  v->held = 1;
+  if (!v->rigid)
+    return;
+  v->body.velocity = bt__vec (0, 0, 0);
+  bt__mirror_body (v);
 }
 
 /* Where end K of tether I is.  */
@@ -132,21 +159,36 @@ draw_back (bt_vec3 p, bt_vec3 before, bt_vec3 *at)
   return 1;
 }
 
+/* Draw *AT back to where the ends of the tethers of VEHICLE let it be; nonzero if that is another
+   place.  Where a body follows a line they are as near as the step is exact.  */
+static int
+draw_back_to_ends (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 before, bt_vec3 *at)
+{
+  int differ = 0;
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    for (int k = 0; k < 2; k++)
+      if (dive->model->ends[i][k].vehicle == vehicle
+          && !(k == 1 && bt__carried_vehicle (dive, state, i) == vehicle))
+        differ
+            |= draw_back (place_for (dive, state, vehicle, end_of (dive, state, i, k)), before, at);
+  return differ;
+}
+
 static int
 agrees (bt_dive *dive, bt__state *state, int vehicle)
 {
   const bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
   bt__pin *pin = &dive->shore.pin[vehicle];
   bt_vec3 before = place_before (dive, vehicle), at = v->position;
-  int differ = 0;
-  for (int i = 0; i < dive->model->n_tethers; i++)
-    for (int k = 0; k < 2; k++)
-      if (dive->model->ends[i][k].vehicle == vehicle)
-        differ |= draw_back (end_of (dive, state, i, k), before, &at);
-  if (bt__distance (pin->at, v->position) > SAME) /* its hull has not gone there yet */
+  int differ = draw_back_to_ends (dive, state, vehicle, before, &at);
+  int turned = v->rigid && memcmp (&pin->body.attitude, &v->body.attitude, sizeof (bt__quat)) != 0;
+  if (turned || bt__distance (pin->at, v->position) > SAME) /* its hull has not gone there yet */
     differ |= draw_back (bt__hull_reach (dive, state, vehicle, v->position), before, &at);
   if (differ)
-    *pin = (bt__pin){ BT__PIN_HARD, at };
+    {
+      *pin = (bt__pin){ BT__PIN_HARD, at, v->body };
+      pin->body.position = at;
+    }
   return !differ;
 }
 

@@ -9,15 +9,31 @@
 #include "math/vec.h"
 #include "sim/sim.h"
 
+#define SMOOTH 0.1    /* share of a step in a mean */
+#define NO_FORCE 1e-6 /* N */
+
+/* Where an anchor at the point P, that of tether I, is in the waves.  */
+static bt_vec3
+ride (const bt_dive *dive, const bt__state *state, int i, bt_vec3 p)
+{
+  bt_vec3 share = dive->model->tethers[i].ride;
+  bt_rider rider = { share.x, share.y, share.z, state->wave.toward };
+  if (state->waves.n == 0 || bt__norm (share) == 0)
+    return p;
+  return bt__add (p, bt_waves_ride (&state->waves, &rider, p, bt__state_time (state)));
+}
+
 bt__ends
 bt__tether_ends (const bt_dive *dive, bt__state *state, int i)
 {
   const bt__end *end = dive->model->ends[i];
   bt__ends ends = { end[0].at, end[1].at };
-  if (end[0].vehicle >= 0)
-    ends.a = bt__dive_vehicle (dive, state, end[0].vehicle)->position;
+  if (end[0].vehicle < 0)
+    ends.a = ride (dive, state, i, ends.a);
+  else
+    ends.a = bt__attachment (dive, state, end[0].vehicle);
   if (end[1].vehicle >= 0)
-    ends.b = bt__dive_vehicle (dive, state, end[1].vehicle)->position;
+    ends.b = bt__attachment (dive, state, end[1].vehicle);
   return ends;
 }
 
@@ -53,10 +69,24 @@ reach_of (const bt_dive *dive, const bt__state *from, bt__state *state, int i, i
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   const bt__vehicle *before = bt__dive_vehicle (dive, (bt__state *)from, vehicle);
-  double most = bt__longest_chord (&tether->props, tether->length, before->pull);
-  double there = bt__distance (before->position, other);
+  double pull = before->rigid && bt__is_spring (tether) ? INFINITY : before->pull;
+  double most = bt__longest_chord (&tether->props, tether->length, pull);
+  double there = bt__distance (bt__attachment (dive, (bt__state *)from, vehicle), other);
   double ever = bt__longest_chord (&tether->props, tether->length, INFINITY);
   return fmax (most, fmin (there, ever));
+}
+
+/* Stop VEHICLE, with mass, on a taut line that pulls along U: a jerk without a bounce, whose mean
+   over some steps is the pull.  */
+static void
+stop_body (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 u)
+{
+  bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
+  bt_vec3 jerk = bt__rigid_bounce (&dive->model->types[vehicle], &v->body,
+                                   bt__attachment (dive, state, vehicle), u, 0, 0);
+  double force = bt__norm (jerk) / BT__TIME_STEP;
+  if (force > NO_FORCE) /* else the second look at one that stands */
+    v->pull += SMOOTH * (force - v->pull);
 }
 
 /* Pull VEHICLE back into the ball of tether I and return nonzero if it had left it.  */
@@ -65,14 +95,17 @@ pull_back (const bt_dive *dive, const bt__state *from, bt__state *state, int i, 
 {
   bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
   double reach, chord;
-  bt_vec3 other;
+  bt_vec3 p, other;
   if (!fastened (dive, state, i, vehicle, &other))
     return 0;
+  p = bt__attachment (dive, state, vehicle);
   reach = reach_of (dive, from, state, i, vehicle, other);
-  chord = bt__distance (v->position, other);
+  chord = bt__distance (p, other);
   if (chord <= reach)
     return 0;
-  v->position = bt__axpy (other, reach / chord, bt__sub (v->position, other));
+  bt__put_vehicle (v, bt__axpy (v->position, reach / chord - 1, bt__sub (p, other)), 1);
+  if (v->rigid)
+    stop_body (dive, state, vehicle, bt__scale (1 / chord, bt__sub (other, p)));
   return 1;
 }
 
@@ -103,10 +136,12 @@ bt__hold_at_tethers (const bt_dive *dive, const bt__state *from, bt__state *stat
     {
       bt__vehicle *v = bt__dive_vehicle (dive, state, i);
       bt_vec3 before = bt__dive_vehicle (dive, (bt__state *)from, i)->position;
-      if (v->mass > 0 && bt__carrier (dive, state, i) >= 0)
+      if (v->rigid && bt__carrier (dive, state, i) >= 0)
         continue; /* its line holds it by force */
       v->held = hold_vehicle (dive, from, state, i);
-      if (v->held)
+      if (v->held && v->rigid)
+        bt__mirror_body (v);
+      else if (v->held)
         v->velocity = bt__scale (1 / BT__TIME_STEP, bt__sub (v->position, before));
     }
   for (int i = 0; i < dive->model->n_tethers; i++)
@@ -134,8 +169,12 @@ ball_exit (bt_vec3 a, bt_vec3 b, bt_vec3 centre, double reach)
 double
 bt__reach_along (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 a, bt_vec3 b)
 {
+  bt_vec3 arm = bt__sub (bt__attachment (dive, state, vehicle),
+                         bt__dive_vehicle (dive, state, vehicle)->position);
   double k = 1;
   bt_vec3 other;
+  a = bt__add (a, arm);
+  b = bt__add (b, arm);
   for (int i = 0; i < dive->model->n_tethers; i++)
     if (fastened (dive, state, i, vehicle, &other))
       k = fmin (k, ball_exit (a, b, other, reach_of (dive, state, state, i, vehicle, other)));

@@ -9,11 +9,13 @@
 #include "sim/around.h"
 
 int
-bt__is_unchanged (const bt__state *state, const bt__tether *tether, const bt__ends *ends)
+bt__is_unchanged (const bt_dive *dive, const bt__state *state, const bt__tether *tether,
+                  const bt__ends *ends)
 {
+  bt_water water = bt__dive_water (dive, state);
   return !tether->stale && memcmp (&tether->shape.a, &ends->a, sizeof ends->a) == 0
          && memcmp (&tether->shape.b, &ends->b, sizeof ends->b) == 0
-         && tether->shape.length == tether->length && !bt_current_is_unsteady (&state->current);
+         && tether->shape.length == tether->length && !bt_water_is_unsteady (&water);
 }
 
 /* The largest tension among the places where the models can have it: ends, middle, nodes.  */
@@ -97,7 +99,7 @@ resolve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
     return bt__drape_tether (dive, state, i, ends, error);
   if (tether->shape.form == BT__FORM_CHAIN)
     bt__still_chain (dive, state, i);
-  if (tether->pull != pull_of (dive, state, i) || !bt__is_unchanged (state, tether, ends))
+  if (tether->pull != pull_of (dive, state, i) || !bt__is_unchanged (dive, state, tether, ends))
     return bt__solve_static (dive, state, i, ends, error);
   dive->profile.shape_skips++;
   return BT_OK;
@@ -112,6 +114,8 @@ resolve_moving (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, in
     status = bt__lay_chain (dive, state, i, ends, error);
   else if (!passes)
     status = bt__carry_chain (dive, state, i, ends, error);
+  if (status == BT_OK && !passes)
+    bt__note_pull (dive, state, i);
   return status == BT_OK && passes ? bt__step_chain (dive, state, i, ends, error) : status;
 }
 

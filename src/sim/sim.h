@@ -6,16 +6,39 @@
 #ifndef BT_SIM_SIM_H
 #define BT_SIM_SIM_H
 
+#include <math.h>
+
 #include "world/dive.h"
 
 /* Move the vehicles of STATE by one step as sticks, autopilots and tracks say (kinematics.c).  */
 void bt__move_vehicles (const bt_dive *dive, bt__state *state);
 
-/* Move the vehicles with mass that hang on no moving line by one step of forces; return the moving
-   line that moves VEHICLE, or -1; return the thrust of V, N (mass.c).  */
-void bt__drift_vehicles (const bt_dive *dive, bt__state *state);
+/* Vehicles with mass (bodies.c).  Steer those of STATE, and find what their moving lines have at
+   their ends; step those that no moving line carries.  */
+bt_status bt__steer_bodies (const bt_dive *dive, bt__state *state, bt_error *error);
+bt_status bt__step_bodies (const bt_dive *dive, bt__state *state, bt_error *error);
+
+/* Step VEHICLE with the end of its moving line where the line's step brought it, X.  */
+bt_status bt__follow_line (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 x,
+                           bt_error *error);
+
+/* Return the moving line that pulls VEHICLE at its far end, or -1.  */
 int bt__carrier (const bt_dive *dive, bt__state *state, int vehicle);
-bt_vec3 bt__thrust (const bt__vehicle *v);
+
+/* Put V at P, at rest unless it KEEPS its motion.  */
+void bt__put_vehicle (bt__vehicle *v, bt_vec3 p, int keeps);
+
+/* Give V, with mass, the place and motion of its body.  */
+void bt__mirror_body (bt__vehicle *v);
+
+/* Note where a tether has come near to a thruster that turns, with its event (props.c).  */
+void bt__watch_props (const bt_dive *dive, bt__state *state);
+
+/* Let V, which goes where it is told, be moved by forces as a dead weight.  */
+void bt__deaden_vehicle (bt__vehicle *v);
+
+/* Remember the pull of tether I, laid anew, on the vehicle it carries.  */
+void bt__note_pull (const bt_dive *dive, bt__state *state, int i);
 
 enum
 {
@@ -27,6 +50,13 @@ static inline int
 bt__is_moving_model (const bt__tether *tether)
 {
   return tether->props.model == BT_MODEL_DYNAMIC || tether->props.model == BT_MODEL_AUTO;
+}
+
+/* Nonzero if TETHER stretches, so that it holds by force.  */
+static inline int
+bt__is_spring (const bt__tether *tether)
+{
+  return tether->props.model >= BT_MODEL_ELASTIC && isfinite (tether->props.ea);
 }
 
 /* Turn the winches of STATE by one step (winch.c).  */
@@ -56,7 +86,8 @@ double bt__pull_on (const bt_dive *dive, bt__state *state, int i);
 
 /* Nonzero if nothing that the line of TETHER depends on has changed since it was last solved or
    stepped: ends, length, properties, current (resolve.c).  */
-int bt__is_unchanged (const bt__state *state, const bt__tether *tether, const bt__ends *ends);
+int bt__is_unchanged (const bt_dive *dive, const bt__state *state, const bt__tether *tether,
+                      const bt__ends *ends);
 
 /* Solve the static shape of tether I with PROPS, pulled taut with PULL newtons (resolve.c).  */
 bt_status bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,

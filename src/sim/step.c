@@ -22,6 +22,20 @@ radians (double degrees)
 }
 
 static void
+launch_instruments (bt__instruments *in, const bt_vehicle_def *def)
+{
+  *in = (bt__instruments){ .seed = (int64_t)def->seed,
+                           .compass_noise = radians (def->compass_noise),
+                           .depth_noise = def->depth_noise,
+                           .speed_noise = def->speed_noise,
+                           .altitude_noise = def->altitude_noise,
+                           .range_noise = def->range_noise,
+                           .bearing_noise = radians (def->bearing_noise),
+                           .tension_noise = def->tension_noise,
+                           .counter_noise = def->counter_noise };
+}
+
+static void
 launch (bt__vehicle *v, const bt_vehicle_def *def)
 {
   v->position = def->at;
@@ -33,11 +47,30 @@ launch (bt__vehicle *v, const bt_vehicle_def *def)
   v->speeds[2] = def->heave_speed;
   v->speeds[3] = radians (def->yaw_rate);
   v->pull = def->pull;
-  v->mass = def->mass;
-  v->added_mass = def->added_mass;
-  v->drag = def->drag;
-  v->quadratic_drag = def->quadratic_drag;
-  v->thrust = def->thrust;
+  launch_instruments (&v->instruments, def);
+}
+
+/* What VALUE of speed a steady FORCE makes against drag: lin v + quad v v = force.  */
+static double
+speed_at (double force, double linear, double quadratic)
+{
+  double root = sqrt (linear * linear + 4 * quadratic * force);
+  return force > 0 && linear + root > 0 ? fmin (100, 2 * force / (linear + root)) : 0;
+}
+
+/* One with mass does at full stick what its thrust makes of it.  */
+static void
+launch_body (bt__vehicle *v, const bt__vehicle_type *type, const bt__rig *rig)
+{
+  v->rigid = 1;
+  v->volts = type->volts;
+  v->pilot.holds = BT__HOLD_LEVEL;
+  v->pull = rig->most[BT__SURGE];
+  for (int k = 0; k < 3; k++)
+    v->speeds[k] = speed_at (rig->most[k], type->hydro.linear[k], type->hydro.quadratic[k]);
+  bt__rigid_place (&v->body, v->position, v->heading, v->pitch, v->roll);
+  bt__mirror_body (v);
+  v->heading0 = v->heading;
 }
 
 static void
@@ -48,8 +81,16 @@ fill (const bt_dive *dive, bt__state *state)
   state->density = model->sea.density;
   state->gravity = model->sea.gravity;
   state->current = model->sea.current;
+  state->wake = model->sea.wake != 0;
+  state->wave = model->sea.waves;
+  state->waves = model->waves;
   for (int i = 0; i < model->n_vehicles; i++)
-    launch (bt__dive_vehicle (dive, state, i), &model->vehicles[i]);
+    {
+      bt__vehicle *v = bt__dive_vehicle (dive, state, i);
+      launch (v, &model->vehicles[i]);
+      if (model->vehicles[i].mass > 0)
+        launch_body (v, &model->types[i], &model->rigs[i]);
+    }
   for (int i = 0; i < model->n_tethers; i++)
     {
       bt__tether *tether = bt__dive_tether (dive, state, i);
@@ -119,9 +160,16 @@ static bt_status
 try_step (bt_dive *dive, int round, bt_error *error)
 {
   bt__state *next = bt__dive_begin (dive);
+  bt_status status;
   next->step++;
+  if (bt__has_obstacles (dive) && round == 0)
+    bt__unpin_vehicles (dive, next);
   bt__move_vehicles (dive, next);
-  bt__drift_vehicles (dive, next);
+  status = bt__steer_bodies (dive, next, error);
+  if (status == BT_OK)
+    status = bt__step_bodies (dive, next, error);
+  if (status != BT_OK)
+    return status;
   bt__turn_winches (dive, next);
   bt__hold_at_tethers (dive, dive->now, next);
   if (bt__has_obstacles (dive))
@@ -142,6 +190,7 @@ bt_dive_step (bt_dive *dive, bt_error *error)
     }
   if (status != BT_OK)
     return status;
+  bt__watch_props (dive, dive->next);
   dive->profile.steps++;
   bt__dive_commit (dive);
   return BT_OK;

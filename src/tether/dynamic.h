@@ -90,11 +90,13 @@ typedef struct bt__dynamic_lump
 
 typedef struct bt__dynamic_end
 {
-  int free;              /* zero: taken to AT; else moved by the forces, BODY among them */
-  bt_vec3 at;            /* m: where it is at the end of the step */
-  bt__dynamic_lump body; /* the vehicle: a point mass until it is more; all zero for none */
-  int clamped;           /* nonzero: the line leaves along DIRECTION; wants bending stiffness */
-  bt_vec3 direction;     /* unit, from node 0 toward node n */
+  int free;               /* zero: taken to AT; else moved by the forces, BODY among them */
+  bt_vec3 at;             /* m: where it is at the end of the step */
+  bt__dynamic_lump body;  /* a point mass fastened there; all zero for none */
+  int gripped;            /* FREE alone: a spring of STIFFNESS holds it to AT: a vehicle's body */
+  double stiffness[3][3]; /* N/m: symmetric, positive definite */
+  int clamped;            /* nonzero: the line leaves along DIRECTION; wants bending stiffness */
+  bt_vec3 direction;      /* unit, from node 0 toward node n */
 } bt__dynamic_end;
 
 typedef struct bt__dynamic_input

@@ -283,6 +283,50 @@ assemble_lumps (bt__dynamic_work *w)
     }
 }
 
+/* ---- What grips an end ---- */
+
+/* The spring of end E on its node at X.  */
+static bt_vec3
+grip_force (const bt__dynamic_end *e, bt_vec3 x)
+{
+  bt_vec3 d = bt__sub (e->at, x);
+  const double (*k)[3] = e->stiffness;
+  return bt__vec (k[0][0] * d.x + k[0][1] * d.y + k[0][2] * d.z,
+                  k[1][0] * d.x + k[1][1] * d.y + k[1][2] * d.z,
+                  k[2][0] * d.x + k[2][1] * d.y + k[2][2] * d.z);
+}
+
+static void
+assemble_grips (bt__dynamic_work *w)
+{
+  for (int end = 0; end < 2; end++)
+    {
+      const bt__dynamic_end *e = &w->in->end[end];
+      const double (*k)[3] = e->stiffness;
+      int i = end ? w->n : 0;
+      bt__sym *a = w->diag + i;
+      if (!e->free || !e->gripped)
+        continue;
+      w->rhs[i] = bt__add (w->rhs[i], grip_force (e, w->X[i]));
+      *a = (bt__sym){ a->xx + k[0][0], a->xy + k[0][1], a->xz + k[0][2],
+                      a->yy + k[1][1], a->yz + k[1][2], a->zz + k[2][2] };
+    }
+}
+
+static double
+grip_potential (const bt__dynamic_work *w)
+{
+  double sum = 0;
+  for (int end = 0; end < 2; end++)
+    {
+      const bt__dynamic_end *e = &w->in->end[end];
+      bt_vec3 x = w->X[end ? w->n : 0];
+      if (e->free && e->gripped)
+        sum += 0.5 * bt__dot (grip_force (e, x), bt__sub (e->at, x));
+    }
+  return sum;
+}
+
 bt_vec3
 bt__dynamic_node_load (bt__dynamic_work *w, int i)
 {
@@ -300,6 +344,7 @@ bt__dynamic_assemble (bt__dynamic_work *w, bt__mode mode)
   if (w->load)
     for (int i = w->lo; i <= w->hi; i++)
       w->rhs[i] = bt__add (w->rhs[i], w->load[i]);
+  assemble_grips (w);
   if (w->lumped)
     assemble_lumps (w);
   if (w->bends > 0)
@@ -338,6 +383,7 @@ double
 bt__dynamic_potential (const bt__dynamic_work *w)
 {
   double sum = w->bends > 0 ? bt__dynamic_bend_energy (w, w->X) : 0;
+  sum += grip_potential (w);
   for (int i = w->lo; i <= w->hi; i++)
     sum += node_potential (w, i);
   for (int j = 0; j < w->n; j++)

@@ -73,11 +73,8 @@ static void
 sample_current (bt__dynamic_work *w)
 {
   const bt_water *water = w->in->water;
-  int64_t kind = water->current ? water->current->kind : BT_CURRENT_STILL;
-  int same = kind == BT_CURRENT_STILL || kind == BT_CURRENT_UNIFORM || kind == BT_CURRENT_TIDE;
-  bt_vec3 u = bt__vec (0, 0, 0);
-  if (same && kind != BT_CURRENT_STILL)
-    u = bt_water_velocity (water, w->x[0]);
+  int same = bt_water_is_uniform (water);
+  bt_vec3 u = same ? bt_water_velocity (water, w->x[0]) : bt__vec (0, 0, 0);
   for (int i = 0; i <= w->n; i++)
     w->node[i].current = same ? u : bt_water_velocity (water, w->X[i]);
 }
@@ -106,6 +103,28 @@ lump_between (bt__dynamic_work *w, const bt__dynamic_lump *lump, double u, doubl
   lump_at (w, j + 1, lump, share * (1 - at));
 }
 
+static int
+has_waves (const bt_water *water)
+{
+  return water->sea && water->sea->waves && water->sea->waves->n > 0;
+}
+
+/* Water that is accelerated across the line pushes on what it displaces and on its added mass.  */
+static void
+push_by_waves (bt__dynamic_work *w)
+{
+  const bt__dynamic_input *in = w->in;
+  double d = in->line->diameter, displaced = in->water->density * BT__PI / 4 * d * d;
+  for (int i = 0; i <= w->n; i++)
+    {
+      bt_vec3 a = bt_water_acceleration (in->water, w->x[i]);
+      bt_vec3 chord = bt__sub (w->x[i < w->n ? i + 1 : i], w->x[i > 0 ? i - 1 : i]);
+      bt_vec3 t = bt__unit_or (chord, bt__vec (0, 0, 0));
+      double k = (displaced + w->ma) * w->node[i].cell;
+      w->extra[i].force = bt__axpy (w->extra[i].force, k, bt__axpy (a, -bt__dot (a, t), t));
+    }
+}
+
 static void
 prepare_lumps (bt__dynamic_work *w)
 {
@@ -115,6 +134,7 @@ prepare_lumps (bt__dynamic_work *w)
   for (int k = 0; k < 2; k++)
     w->lumped
         = w->lumped || (in->end[k].free && memcmp (&in->end[k].body, &none, sizeof none) != 0);
+  w->lumped = w->lumped || has_waves (in->water);
   if (!w->lumped)
     return;
   memset (w->extra, 0, (size_t)(w->n + 1) * sizeof *w->extra);
@@ -130,6 +150,8 @@ prepare_lumps (bt__dynamic_work *w)
         lump_between (w, lump, lump->from_end + lump->span * ((p + 0.5) / parts - 0.5),
                       1.0 / parts);
     }
+  if (has_waves (in->water))
+    push_by_waves (w);
 }
 
 void

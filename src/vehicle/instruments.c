@@ -70,10 +70,10 @@ once_round (double angle)
 }
 
 static void
-read_attitude (reader r, bt__readings *out)
+read_attitude (reader r, bt_readings *out)
 {
   double off = 0;
-  if (is_broken (r, BT__FAULT_COMPASS))
+  if (is_broken (r, BT_FAULT_COMPASS))
     off = r.of->drift * fmax (0, r.truth->time - r.of->since);
   double heading = bt__twist_of (r.truth->attitude) + off;
   out->heading = once_round (noisy (r, heading, r.of->compass_noise, COMPASS));
@@ -83,23 +83,23 @@ read_attitude (reader r, bt__readings *out)
 }
 
 static void
-read_motion (reader r, bt__readings *out)
+read_motion (reader r, bt_readings *out)
 {
   bt_vec3 v = bt__turn_in (r.truth->attitude, r.truth->velocity);
-  double depth = is_broken (r, BT__FAULT_DEPTH) ? r.of->frozen : -r.truth->position.z;
+  double depth = is_broken (r, BT_FAULT_DEPTH) ? r.of->frozen : -r.truth->position.z;
   out->depth = noisy (r, depth, r.of->depth_noise, DEPTH);
   out->ahead = noisy (r, v.y, r.of->speed_noise, SPEED);
   out->aside = noisy (r, v.x, r.of->speed_noise, SPEED + 1);
   out->up = noisy (r, v.z, r.of->speed_noise, SPEED + 2);
-  if (is_broken (r, BT__FAULT_SPEED))
+  if (is_broken (r, BT_FAULT_SPEED))
     out->ahead = out->aside = out->up = NAN;
   out->altitude = noisy (r, r.truth->altitude, r.of->altitude_noise, ALTITUDE);
-  if (is_broken (r, BT__FAULT_ALTITUDE))
+  if (is_broken (r, BT_FAULT_ALTITUDE))
     out->altitude = NAN;
 }
 
 static void
-read_ship (reader r, bt__readings *out)
+read_ship (reader r, bt_readings *out)
 {
   bt_vec3 way = bt__sub (r.truth->ship, r.truth->position);
   double bearing = noisy (r, atan2 (way.x, way.y), r.of->bearing_noise, BEARING);
@@ -107,19 +107,19 @@ read_ship (reader r, bt__readings *out)
   out->bearing = once_round (bearing);
 }
 
-bt__readings
+bt_readings
 bt__instruments_read (const bt__instruments *instruments, const bt__truth *truth)
 {
   reader r = { instruments, truth };
-  bt__readings out;
+  bt_readings out;
   read_attitude (r, &out);
   read_motion (r, &out);
   read_ship (r, &out);
-  if (is_broken (r, BT__FAULT_TELEMETRY))
-    out = (bt__readings){
+  if (is_broken (r, BT_FAULT_TELEMETRY))
+    out = (bt_readings){
       NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, out.range, out.bearing, 0, 0
     };
-  double tension = is_broken (r, BT__FAULT_TENSION) ? 0 : truth->tension;
+  double tension = is_broken (r, BT_FAULT_TENSION) ? 0 : truth->tension;
   out.tension = noisy (r, tension, instruments->tension_noise, TENSION);
   out.payout = noisy (r, truth->payout, instruments->counter_noise, COUNTER);
   return out;

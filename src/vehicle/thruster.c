@@ -177,7 +177,7 @@ bt__thruster_force (const bt__thruster *thruster, double volts, double command)
   double c = fmax (-1, fmin (1, command));
   if (!(fabs (c) > thruster->dead))
     return 0;
-  if (thruster->map == BT__MAP_T200)
+  if (thruster->map == BT_MAP_T200)
     return t200_force (volts, c);
   return c > 0 ? thruster->ahead * c * c : -thruster->astern * c * c;
 }
@@ -186,7 +186,7 @@ double
 bt__thruster_command (const bt__thruster *thruster, double volts, double force)
 {
   double f = fmax (-thruster->astern, fmin (thruster->ahead, force));
-  if (thruster->map == BT__MAP_T200)
+  if (thruster->map == BT_MAP_T200)
     return t200_command (volts, f);
   return f > 0 ? sqrt (f / thruster->ahead) : f < 0 ? -sqrt (-f / thruster->astern) : 0;
 }

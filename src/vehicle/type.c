@@ -18,7 +18,7 @@
  */
 #define T200(x, y, z, a, b, c)                                                                     \
   {                                                                                                \
-    { x, y, z }, { a, b, c }, BT__MAP_T200, 51.436, 39.908, 0, 0.078                               \
+    { x, y, z }, { a, b, c }, BT_MAP_T200, 51.436, 39.908, 0, 0.078                                \
   }
 
 /* The four level thrusters of both BlueROV2, at the height Z: front ones push ahead and inward,
@@ -37,7 +37,7 @@
    atan (25/42) from ahead share the first two.  */
 #define FALCON_LEVEL(x, y, a, b)                                                                   \
   {                                                                                                \
-    { x, y, 0 }, { a * 0.51148, b * 0.85929, 0 }, BT__MAP_SQUARE, 119.8, 119.8, 0.03, 0.1          \
+    { x, y, 0 }, { a * 0.51148, b * 0.85929, 0 }, BT_MAP_SQUARE, 119.8, 119.8, 0.03, 0.1           \
   }
 
 /* Places and directions of the RexROV of the UUV Simulator, which carries Berg's vehicle; 4 kN
@@ -45,11 +45,11 @@
 #define WORK_UPPER(sx, sy)                                                                         \
   {                                                                                                \
     { sx * 0.334385, sy * 0.890895, 0.528822 }, { -sx * 0.213588, -sy * 0.159732, 0.963742 },      \
-        BT__MAP_SQUARE, 1414, 1414, 0.02, 0.05                                                     \
+        BT_MAP_SQUARE, 1414, 1414, 0.02, 0.05                                                      \
   }
 #define WORK_LEVEL(sx, sy)                                                                         \
   {                                                                                                \
-    { sx * 0.505415, sy * 0.412125, 0.129 }, { sx * HALF, -sy * HALF, 0 }, BT__MAP_SQUARE, 1414,   \
+    { sx * 0.505415, sy * 0.412125, 0.129 }, { sx * HALF, -sy * HALF, 0 }, BT_MAP_SQUARE, 1414,    \
         1414, 0.02, 0.05                                                                           \
   }
 
@@ -130,7 +130,7 @@ static const bt__vehicle_type types[] = {
                   FALCON_LEVEL (-0.25, 0.4, 1, 1),
                   FALCON_LEVEL (0.25, -0.4, -1, -1),
                   FALCON_LEVEL (-0.25, -0.4, 1, -1),
-                  { { 0, 0, 0 }, { 0, 0, 1 }, BT__MAP_SQUARE, 127.5, 127.5, 0.03, 0.1 } } },
+                  { { 0, 0, 0 }, { 0, 0, 1 }, BT_MAP_SQUARE, 127.5, 127.5, 0.03, 0.1 } } },
   /* V. Berg: Development and commissioning of a DP system for ROV SF 30k, NTNU (2012), as carried
      by the RexROV of M. M. M. Manhaes et al.: UUV Simulator, OCEANS 2016.  */
   { .name = "work-class",
@@ -155,6 +155,20 @@ enum
 {
   TYPES = sizeof types / sizeof *types
 };
+
+static const char *const texts[TYPES] = {
+  "BlueROV2 Heavy, 16 V (von Benzon et al. 2022); where the tether leaves is an estimate.",
+  "BlueROV2 Heavy by another set (Wu 2018): its drag is far too low; for comparison.",
+  "BlueROV2 of six thrusters: drag Li 2020; mass, added mass, angular drag as Wu's: estimates.",
+  "Seaeye Falcon: mass, pull and surge drag the maker's; all else estimates from its size.",
+  "Work-class, SF 30k (Berg 2012; RexROV); 4 kN ahead, the usual pull, is an estimate.",
+};
+
+const char *
+bt__vehicle_type_text (int i)
+{
+  return i >= 0 && i < TYPES ? texts[i] : NULL;
+}
 
 const char *
 bt__vehicle_type_name (int i)

@@ -11,12 +11,13 @@
 
 #include <stdint.h>
 
+#include <bight/model.h>
 #include <bight/status.h>
 #include <bight/vec.h>
 
 enum
 {
-  BT__THRUSTERS_MAX = 12
+  BT__THRUSTERS_MAX = BT_THRUSTERS_MAX
 };
 
 /* Degrees of freedom in the papers' order.  */
@@ -31,17 +32,10 @@ typedef enum bt__freedom
   BT__AXES
 } bt__freedom;
 
-/* How a thruster answers its command, -1 to 1.  */
-typedef enum bt__thrust_map
-{
-  BT__MAP_T200,   /* the measured table, by voltage */
-  BT__MAP_SQUARE, /* AHEAD or ASTERN times the square of the command */
-} bt__thrust_map;
-
 typedef struct bt__thruster
 {
   bt_vec3 at, along; /* m from the centre of gravity; unit, of the thrust at a positive command */
-  int64_t map;       /* bt__thrust_map */
+  int64_t map;       /* bt_thrust_map */
   double ahead, astern; /* N: the most either way, both positive */
   double dead;          /* of the command: within it nothing turns */
   double lag;           /* s: time constant, 0 for none */
@@ -76,8 +70,9 @@ typedef struct bt__vehicle_type
    `falcon', `work-class'.  BT_ERR_NAME lists them.  */
 bt_status bt__vehicle_type_find (const char *name, bt__vehicle_type *type, bt_error *error);
 
-/* Return the name of the I-th type of the table, NULL beyond the last.  */
+/* Return the name of the I-th type of the table, and where it comes from; NULL beyond the last.  */
 const char *bt__vehicle_type_name (int i);
+const char *bt__vehicle_type_text (int i);
 
 /* Check TYPE: finite, masses and inertias positive, drag not negative, unit directions.
    BT_ERR_DOMAIN names the field.  */

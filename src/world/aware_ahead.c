@@ -84,7 +84,7 @@ ghost_of (const bt__vehicle *v)
   double s = sin (v->heading), c = cos (v->heading);
   if (v->goal == BT__GOAL_POINT || v->goal == BT__GOAL_FLY)
     ghost.yaw = 0;
-  else if (v->mass == 0 && v->goal == BT__GOAL_NONE)
+  else if (!v->rigid && v->goal == BT__GOAL_NONE)
     ghost.velocity
         = bt__vec (ahead * s + aside * c, ahead * c - aside * s, v->sticks[2] * v->speeds[2]);
   return ghost;

@@ -46,12 +46,13 @@ radius_of (const bt_dive *dive, int vehicle)
 static bt__haul_body
 body_of (const bt_dive *dive, int vehicle, double winch)
 {
-  const bt__vehicle *v = bt__dive_vehicle (dive, dive->now, vehicle);
-  int told = v->mass == 0 || (v->drag == 0 && v->quadratic_drag == 0);
+  const bt__hydro *hydro = &dive->model->types[vehicle].hydro;
+  double linear = hydro->linear[BT__SURGE], quadratic = hydro->quadratic[BT__SURGE];
+  int slips = linear == 0 && quadratic == 0;
   bt__haul_body body = { .radius = radius_of (dive, vehicle),
                          .friction = BODY_FRICTION,
-                         .drag1 = told ? DRAG1 : v->drag,
-                         .drag2 = told ? DRAG2 : v->quadratic_drag,
+                         .drag1 = slips ? DRAG1 : linear,
+                         .drag2 = slips ? DRAG2 : quadratic,
                          .winch = winch };
   body.least = body.drag1 * LEAST_SPEED + body.drag2 * LEAST_SPEED * LEAST_SPEED;
   return body;

@@ -19,6 +19,19 @@ bt__state_time (const bt__state *state)
   return (double)state->step * BT__TIME_STEP;
 }
 
+/* What there is beside the current, or NULL.  */
+static const bt_sea *
+sea_of (const bt_dive *dive, const bt__state *state)
+{
+  bt_sea *sea = &dive->sea[state == dive->now];
+  const bt_model *model = dive->model;
+  *sea = (bt_sea){ .grid = model->sea.grid,
+                   .waves = state->waves.n > 0 ? &state->waves : NULL,
+                   .wakes = model->wakes,
+                   .n_wakes = state->wake ? model->n_wakes : 0 };
+  return sea->grid || sea->waves || sea->n_wakes > 0 ? sea : NULL;
+}
+
 bt_water
 bt__dive_water (const bt_dive *dive, const bt__state *state)
 {
@@ -28,7 +41,8 @@ bt__dive_water (const bt_dive *dive, const bt__state *state)
                      .time = bt__state_time (state),
                      .current = &state->current,
                      .function = dive->function,
-                     .user = dive->user };
+                     .user = dive->user,
+                     .sea = sea_of (dive, state) };
 }
 
 /* ---- Life ---- */
@@ -130,7 +144,9 @@ bt__dive_alloc (bt_model *model, bt_dive **out, bt_error *error)
   dive->size = bt__state_size (model);
   dive->now = calloc (1, dive->size);
   dive->next = calloc (1, dive->size);
-  if (!dive->now || !dive->next)
+  dive->sea = calloc (2, sizeof *dive->sea);
+  dive->driven = calloc ((size_t)model->n_vehicles + 1, sizeof *dive->driven);
+  if (!dive->now || !dive->next || !dive->driven || !dive->sea)
     status = bt__fail (error, BT_ERR_LIMIT, "no memory for a state of %zu bytes", dive->size);
   else
     status = make_tools (dive, error);
@@ -166,6 +182,8 @@ bt_dive_free (bt_dive *dive)
   free (dive->polyline);
   free (dive->motion);
   free (dive->along);
+  free (dive->driven);
+  free (dive->sea);
   free_shore (&dive->shore);
   bt__watch_free_all (dive->watch);
   free (dive->now);

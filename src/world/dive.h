@@ -52,7 +52,15 @@ typedef struct bt__pin
 {
   int how; /* bt__pin_how */
   bt_vec3 at;
+  bt__rigid body; /* of a vehicle with mass: all of it there */
 } bt__pin;
+
+/* What a vehicle with mass is given in the present step, and what its line has at its end.  */
+typedef struct bt__driven
+{
+  bt__rigid_input in;
+  bt__grip grip;
+} bt__driven;
 
 /* What a world with obstacles needs in a step; else all of it is NULL.  */
 typedef struct bt__shore
@@ -84,6 +92,8 @@ struct bt_dive
   bt_vec3 *polyline;      /* room for the points of any tether */
   bt_vec3 *motion;        /* room for a velocity at each */
   double *along;          /* room for a number at each */
+  bt_sea *sea;            /* beside the current: in the next state, and in the present */
+  bt__driven *driven;     /* of each vehicle */
   bt__shore shore;
   bt__shape_counts counts;
   bt_profile profile;
@@ -104,6 +114,8 @@ void bt__dive_commit (bt_dive *dive);
 /* Views into STATE, a state of DIVE.  */
 bt__vehicle *bt__dive_vehicle (const bt_dive *dive, bt__state *state, int i);
 bt__tether *bt__dive_tether (const bt_dive *dive, bt__state *state, int i);
+/* Where the tethers of VEHICLE are made fast.  */
+bt_vec3 bt__attachment (const bt_dive *dive, bt__state *state, int vehicle);
 bt_vec3 *bt__dive_nodes (const bt_dive *dive, bt__state *state, int tether);
 bt_vec3 *bt__dive_tensions (const bt_dive *dive, bt__state *state, int tether);
 /* The chain of a moving tether: PART 0 at the anchor, 1 at the far end once the line has parted. */

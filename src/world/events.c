@@ -17,9 +17,9 @@ bt__raise_event_at (bt__state *state, bt_event_kind kind, bt_part part, int subj
 void
 bt__raise_event (bt__state *state, bt_event_kind kind, int subject)
 {
-  bt_part part = kind == BT_EVENT_ARRIVED   ? BT_PART_VEHICLE
-                 : kind == BT_EVENT_PINCHED ? BT_PART_OBSTACLE
-                                            : BT_PART_TETHER;
+  bt_part part = kind == BT_EVENT_ARRIVED || kind == BT_EVENT_PROP_DANGER ? BT_PART_VEHICLE
+                 : kind == BT_EVENT_PINCHED                               ? BT_PART_OBSTACLE
+                                                                          : BT_PART_TETHER;
   bt__raise_event_at (state, kind, part, subject, -1);
 }
 
@@ -71,6 +71,8 @@ bt_event_name (bt_event_kind kind)
       return "stuck";
     case BT_EVENT_PINCHED:
       return "pinched";
+    case BT_EVENT_PROP_DANGER:
+      return "prop-danger";
     }
   return NULL;
 }

@@ -22,6 +22,10 @@ bt__frame
 bt__vehicle_frame (const bt__vehicle *v)
 {
   double degrees = 180 / BT__PI;
+  bt__quat q = v->body.attitude;
+  if (v->rigid)
+    return (bt__frame){ v->position, bt__turn_out (q, bt__vec (1, 0, 0)),
+                        bt__turn_out (q, bt__vec (0, 1, 0)), bt__turn_out (q, bt__vec (0, 0, 1)) };
   return bt__turned (v->position, v->heading * degrees, v->pitch * degrees, v->roll * degrees);
 }
 

@@ -9,7 +9,10 @@
 #include "world/obstacles.h"
 
 /* Byte-wise equality of states means equality of dives only if no byte is padding.  */
-_Static_assert(sizeof (bt__vehicle) == 36 * 8, "no padding in bt__vehicle");
+_Static_assert(sizeof (bt__rigid) == 29 * 8, "no padding in bt__rigid");
+_Static_assert(sizeof (bt__pilot) == 20 * 8, "no padding in bt__pilot");
+_Static_assert(sizeof (bt__instruments) == 13 * 8, "no padding in bt__instruments");
+_Static_assert(sizeof (bt__vehicle) == (35 + 29 + 20 + 13) * 8, "no padding in bt__vehicle");
 _Static_assert(sizeof (bt_event) == 5 * 8, "no padding in bt_event");
 _Static_assert(sizeof (bt__mover_state) == 14 * 8, "no padding in bt__mover_state");
 _Static_assert(sizeof (bt__subject) == (2 + 2 * BT__MEETINGS_MAX) * 8, "nor in bt__subject");
@@ -113,6 +116,13 @@ bt__tether *
 bt__dive_tether (const bt_dive *dive, bt__state *state, int i)
 {
   return bt__tethers (state, dive->model->n_vehicles) + i;
+}
+
+bt_vec3
+bt__attachment (const bt_dive *dive, bt__state *state, int vehicle)
+{
+  const bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
+  return v->rigid ? bt__rigid_point (&v->body, dive->model->types[vehicle].attached) : v->position;
 }
 
 static char *

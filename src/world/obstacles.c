@@ -2,9 +2,12 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <math.h>
 #include <string.h>
 
 #include "base/hash.h"
+#include "collide/ray.h"
+#include "math/vec.h"
 #include "world/obstacles.h"
 
 /* A tether that bounces has not left: it must be away for so many steps.  */
@@ -164,6 +167,22 @@ bt__surroundings
 bt__standing (const bt_dive *dive, bt__state *state, bt_part part, int i)
 {
   return surround (dive, state, part, i, 1);
+}
+
+double
+bt__dive_altitude (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 p)
+{
+  double most = fmax (0, p.z + state->depth);
+  bt__ray down = { p, { 0, 0, -1 }, most };
+  bt__surroundings around;
+  bt__count unused = { 0 };
+  bt__ray_hit hit;
+  if (dive->model->n_obstacles == 0 || most == 0)
+    return most;
+  around = bt__standing (dive, state, BT_PART_VEHICLE, vehicle);
+  return bt__ray_cast (around.scene, around.on, around.mover, around.movers, &down, &hit, &unused)
+             ? hit.range
+             : most;
 }
 
 /* ---- Meetings ---- */

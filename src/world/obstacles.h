@@ -33,6 +33,10 @@ uint8_t *bt__dive_off (const bt_dive *dive, bt__state *state, bt_part part, int 
 bt__surroundings bt__surround (const bt_dive *dive, bt__state *state, bt_part part, int i);
 bt__surroundings bt__standing (const bt_dive *dive, bt__state *state, bt_part part, int i);
 
+/* Return how far it is from P, where VEHICLE is, down to the bottom or to an obstacle above it, m.
+ */
+double bt__dive_altitude (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 p);
+
 /* Switch the pair of a subject and OBSTACLE, or with OBSTACLE -1 all of its pairs, on or off.  */
 void bt__switch_pair (const bt_dive *dive, bt__state *state, bt_part part, int i, int obstacle,
                       int on);

@@ -12,7 +12,8 @@
 void
 bt_dive_sea (const bt_dive *dive, bt_sea_view *view)
 {
-  *view = (bt_sea_view){ dive->now->depth, dive->now->density, dive->now->gravity };
+  *view = (bt_sea_view){ dive->now->depth, dive->now->density, dive->now->gravity, dive->now->wave,
+                         dive->now->wake != 0 };
 }
 
 void
@@ -61,6 +62,7 @@ bt_dive_vehicle (const bt_dive *dive, int i, bt_vehicle_view *view, bt_error *er
   heading = fmod (v->heading, 2 * BT__PI);
   *view = (bt_vehicle_view){ .position = v->position,
                              .velocity = v->velocity,
+                             .attachment = bt__attachment (dive, dive->now, i),
                              .heading = heading < 0 ? heading + 2 * BT__PI : heading,
                              .pitch = v->pitch,
                              .roll = v->roll,

@@ -17,6 +17,9 @@
 
 #include "collide/pair.h"
 #include "tether/shape.h"
+#include "vehicle/body.h"
+#include "vehicle/instruments.h"
+#include "vehicle/pilot.h"
 
 typedef enum bt__goal
 {
@@ -42,7 +45,6 @@ typedef struct bt__vehicle
   double sticks[4];
   double speeds[4]; /* at full stick: surge sway heave (m/s), yaw (rad/s) */
   double pull;
-  double mass, added_mass, drag, quadratic_drag, thrust;
   int64_t goal; /* bt__goal */
   bt_vec3 target;
   double target_speed;
@@ -50,6 +52,14 @@ typedef struct bt__vehicle
   double track_start; /* s */
   bt__hold hold_heading, hold_depth;
   int64_t held;
+  bt__instruments instruments;
+  /* Of one with mass, whose place and motion above are those of BODY.  */
+  int64_t rigid; /* nonzero: it has mass */
+  int64_t lost;  /* bit K: thruster K is dead */
+  int64_t props; /* nonzero: a tether is near to its thrusters */
+  double volts;  /* of the battery, V */
+  bt__rigid body;
+  bt__pilot pilot;
 } bt__vehicle;
 
 /* A static tether in a world with obstacles: not laid yet, or a chain; split where it touches; held
@@ -95,6 +105,9 @@ typedef struct bt__state
   int64_t step;
   double depth, density, gravity;
   bt_current current;
+  int64_t wake;     /* nonzero: the current is less in the lee of obstacles */
+  bt_wave_def wave; /* as they were asked for */
+  bt_waves waves;
   int64_t events; /* ever raised */
   bt_event event[BT_EVENTS_KEPT];
 } bt__state;

@@ -15,9 +15,11 @@ enum
 {
   TAUT_STEPS = 400, /* of a string from the tether's own shape */
   FREE_STEPS = 200,
+  FINE_STEPS = 60, /* more, with a finer mesh: corners become arcs */
   ROOM_LEAST = 256
 };
 
+#define FINER 0.4       /* of the mesh */
 #define HOLD_REACH 0.05 /* m: a corner nearer than that to something is held by it */
 
 /* ---- Memory ---- */
@@ -187,7 +189,7 @@ make_ready (const bt_dive *dive, int i, struct bt__watch *w, bt__gaze *g, double
   if (status != BT_OK)
     return status;
   g->config = config_of (g->ways, dive->model->scene, g->out, diameter);
-  uint32_t room = ROOM_LEAST + 2 * g->n + 3 * (uint32_t)(g->out / g->config.mesh);
+  uint32_t room = ROOM_LEAST + 2 * g->n + 3 * (uint32_t)(g->out / (FINER * g->config.mesh));
   return make_room (w, room) && make_gaze_room (w, g) ? BT_OK : no_memory (error);
 }
 
@@ -196,8 +198,12 @@ static void
 solve (const bt_dive *dive, struct bt__watch *w, bt__gaze *g, const bt__tether *tether)
 {
   const bt__scene *scene = dive->model->scene;
+  bt__taut_config fine = g->config;
+  fine.mesh *= FINER;
   bt__string_lay (g->taut, g->node, g->n);
   bt__taut_relax (w->taut, &g->config, g->taut, TAUT_STEPS, &w->count);
+  bt__string_wake (g->taut);
+  bt__taut_relax (w->taut, &fine, g->taut, FINE_STEPS, &w->count);
   bt__holds_find (scene, g->config.on, g->taut->x, g->taut->n, g->config.core, HOLD_REACH,
                   &g->holds, &w->count);
   set_friction (dive, tether, &g->holds);

@@ -189,10 +189,12 @@ describe (const bt_dive *dive, bt__chart *c, uint8_t *ground, bt__graph *graph, 
   const bt__scene *scene = dive->model->scene;
   for (uint32_t k = 0; k < scene->n; k++)
     ground[k] = dive->model->obstacles[scene->object[k].id].kind == BT_OBSTACLE_SEABED;
-  return bt__graph_new (
-      &(bt__graph_config){
-          .scene = scene, .on = &c->on, .ground = ground, .surface = 0, .gap = c->gap },
-      graph, error);
+  return bt__graph_new (&(bt__graph_config){ .scene = scene,
+                                             .on = &c->on,
+                                             .ground = ground,
+                                             .depth = dive->now->depth,
+                                             .gap = c->gap },
+                        graph, error);
 }
 
 static bt_status

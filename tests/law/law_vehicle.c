@@ -334,7 +334,7 @@ test_lag (void **state)
   (void)state;
   bt__vehicle_type type = lump_of (2, bt__vec (1, 1, 1));
   type.n = 1;
-  type.thruster[0] = (bt__thruster){ { 0, 0, 0 }, { 0, 1, 0 }, BT__MAP_SQUARE, 50, 50, 0.05, 0.08 };
+  type.thruster[0] = (bt__thruster){ { 0, 0, 0 }, { 0, 1, 0 }, BT_MAP_SQUARE, 50, 50, 0.05, 0.08 };
   bt__rigid body;
   bt__rigid_place (&body, bt__vec (0, 0, -5), 0, 0, 0);
   bt__rigid_input in = { .h = STEP, .wish = { 20 } };

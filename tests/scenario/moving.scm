@@ -157,66 +157,6 @@ water there, four times the drag.)"
   (expect (assq 'hockled (events))))
 
 
-;;; A vehicle with mass: the tether pulls back.
-
-(define (in-still-water . more)
-  (world (sea (depth 200))
-         (rov (named minnow) (type point-mass) (at 0 29.9 -50))
-         (tether (named line) (type fathom) (wet-weight 0) (from 0 0 -50) (to minnow) (length 30)
-                 (ea 20000) (ba 0) (model dynamic))))
-
-(define-scenario terminal-speed
-  "Without a tether to speak of, thrust and drag balance: d v + q v^2 = F."
-  (in (world (sea (depth 200))
-             (rov (named minnow) (type point-mass) (at 0 0 -50))))
-  (drive! #:surge 1)
-  (run 20)
-  (let ((v (rov-speed)))
-    (expect (+ (* 13.7 v) (* 141 v v)) is (about 129.7 #:within 0.1))
-    (expect v is (about 0.91 #:within 0.02))))
-
-(define-scenario the-tether-stops-the-vehicle
-  "Driven against a taut tether the vehicle stands; the tension is its thrust."
-  (in (in-still-water))
-  (drive! #:surge 0.5)
-  (run 60)
-  (expect (rov-speed) is (below 0.01))
-  (expect (rov-tension) is (about 64.85 #:within 1))
-  (expect (rov-heading) => 0))
-
-(define-scenario the-current-carries-the-vehicle
-  "With its thrusters off the vehicle drifts down-current until the tether holds it."
-  (in (with (in-still-water) (current 0.3 90)))
-  (run 300)
-  (let ((drag (+ (* 13.7 0.3) (* 141 0.09))))
-    (expect (x (rov-position)) is (above 28))
-    (expect (rov-tension) is (about drag #:within 2))))
-
-(define-scenario autopilot-with-mass
-  "It flies to a place by thrust and stops there."
-  (in (in-still-water))
-  (fly-to! '(10 5 -45) #:speed 0.5)
-  (expect (run-until arrived? #:at-most 120))
-  (expect (distance (rov-position) '(10 5 -45)) is (below 0.2))
-  (expect (follow! '((0 0 0 0) (1 0 0 0))) raises unsupported))
-
-(define-scenario snap-load
-  "A straight massless line comes taut at 0.8 m/s under a vehicle of 19.9 kg: T = v sqrt (k m)."
-  (in (world (sea (density 1) (gravity 0))
-             (rov (named minnow) (mass 19.86) (at 0 29.5 -50) (pull 1e5))
-             (tether (named line) (mass 0.0001) (wet-weight 0) (diameter 0.0005) (from 0 0 -50)
-                     (to minnow) (length 30) (ea 20000) (ba 0) (nodes 4) (breaking-load 1e4)
-                     (model dynamic))))
-  (alter! 'minnow #:thrust 100)
-  (drive! #:surge 1)
-  (run-until (lambda () (> (rov-speed) 0.8)) #:at-most 5)
-  (release!)
-  (let ((peak 0) (speed (rov-speed)))
-    (every 1/60 (set! peak (max peak (max-tension))))
-    (run 3)
-    (expect (/ peak (* speed (sqrt (* (/ 20000 30) 19.86)))) is (about 1 #:within 0.03))))
-
-
 ;;; Model `auto': as many nodes as the accuracy wants.
 
 (define-scenario (auto-takes-nodes-as-needed accuracy)

@@ -307,7 +307,8 @@
 (define-scenario inner-things
   "Any number of clumps and floats inside a tether, their fields expressions; they reach the engine."
   (expect (inner-heads 'tether) => '(clump float))
-  (expect (inner-heads 'rov) => '())
+  (expect (inner-heads 'rov) => '(thruster))
+  (expect (inner-heads 'sea) => '())
   (expect (part-head? 'clump) => #f)
   (expect (things-in ballasted) => two-clumps-two-floats)
   (expect (filter (lambda (entry) (memq (car entry) '(clump float)))
@@ -422,8 +423,9 @@
   (expect (parse-current #f '(turning (sped .5))) raises name)
   (expect (parse-current #f '(turning (speed .5) (toward 90))) raises def)
   (expect (parse-current #f '(tied 3)) raises name)
-  (expect (parse-current #f '(grid "c.csv")) raises unsupported)
-  (expect (parse-current #f '(wake #t)) raises unsupported)
+  (expect (parse-current #f '(grid "c.csv")) => '(grid "c.csv"))
+  (expect (parse-current #f '(grid 3)) raises domain)
+  (expect (parse-current #f '(wake #t)) raises name)
   (expect (parse-current #f (endless)) raises domain)
   (expect (parse-current #f "east") raises domain))
 

@@ -4,7 +4,7 @@
 
 (use-modules (bight errors)
              ((bight sqlite) #:select (there?))
-             (bight story)
+             ((bight story) #:prefix story:)
              (ice-9 exceptions)
              (ice-9 textual-ports)
              ((ice-9 binary-ports) #:select (get-bytevector-all put-bytevector))
@@ -65,13 +65,20 @@
 (define-scenario rewinding-tasks
   "What runs between the steps goes back too, and goes on from there; nothing within it may go back."
   (in open-water)
-  (let ((log '()))
-    (every 1 (set! log (cons (now) log)))
-    (run 4.5)
-    (rewind! 2)
+  (let ((log '()) (after #f))
+    (every 0.7 (set! log (cons (now) log)) (drive! #:surge (/ (now) 10)))
+    (run 2.8)                           ; not a whole second, where a state may have been kept
+    (set! after (state-hash))
+    (run 1.7)
+    (rewind! 2.2)
     (set! log '())
-    (run 2)
-    (expect (map round log) => '(4.0 3.0))
+    (run 2.2)
+    (expect (map (lambda (t) (round (* 10 t))) log) => '(42.0 35.0 28.0))
+    (rewind! 1.7)                       ; just after `every' had its turn
+    (expect (state-hash) => after)
+    (set! log '())
+    (run 1.7)
+    (expect (map (lambda (t) (round (* 10 t))) log) => '(42.0 35.0))
     (every 0.5 (rewind! 0.1))
     (expect (run 1) raises def)))
 
@@ -306,17 +313,17 @@
 
 (define (retold file other change)
   "Write the story in FILE to OTHER with each line as CHANGE has it, and checksums that hold."
-  (let ((teller (make-teller 'test other)))
+  (let ((teller (story:make-teller 'test other)))
     (call-with-input-file file
       (lambda (port)
         (let loop ((datum (read port)))
           (unless (eof-object? datum)
             (let ((datum (change datum)))
               (if (memq (car datum) '(begin second end))
-                  (apply tell-with-checksum! teller (drop-right datum 1))
-                  (tell! teller datum)))
+                  (apply story:tell-with-checksum! teller (drop-right datum 1))
+                  (story:tell! teller datum)))
             (loop (read port))))))
-    (teller-close! teller)))
+    (story:teller-close! teller)))
 
 (define-scenario otherwise
   "The first step and the quantities that come out otherwise are named."

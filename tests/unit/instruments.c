@@ -45,7 +45,7 @@ test_truth (void **state)
   (void)state;
   bt__instruments none = { .seed = 1 };
   bt__truth truth = truth_at (600);
-  bt__readings r = bt__instruments_read (&none, &truth);
+  bt_readings r = bt__instruments_read (&none, &truth);
   assert_close (r.heading, bt__twist_of (truth.attitude), 1e-12, "heading");
   assert_close (r.pitch, 0.1, 1e-12, "pitch");
   assert_close (r.roll, -0.2, 1e-12, "roll");
@@ -100,7 +100,7 @@ test_noisy_readings (void **state)
   for (int step = 0; step < 10000; step++)
     {
       bt__truth truth = truth_at (step);
-      bt__readings r = bt__instruments_read (&i, &truth), again = bt__instruments_read (&i, &truth);
+      bt_readings r = bt__instruments_read (&i, &truth), again = bt__instruments_read (&i, &truth);
       assert_memory_equal (&r, &again, sizeof r);
       sum += r.depth - 12;
       square += (r.depth - 12) * (r.depth - 12);
@@ -116,21 +116,21 @@ test_faults (void **state)
   (void)state;
   bt__truth truth = truth_at (1200);
   bt__instruments good = { .seed = 1 }, i = good;
-  bt__readings fine = bt__instruments_read (&good, &truth);
-  i.faults = BT__FAULT_COMPASS | BT__FAULT_TENSION;
+  bt_readings fine = bt__instruments_read (&good, &truth);
+  i.faults = BT_FAULT_COMPASS | BT_FAULT_TENSION;
   i.drift = 1 * DEGREE;
   i.since = 10;
-  bt__readings r = bt__instruments_read (&i, &truth);
+  bt_readings r = bt__instruments_read (&i, &truth);
   assert_close (r.heading - fine.heading, 10 * DEGREE, 1e-12, "drift");
   assert_close (r.turns - fine.turns, 10.0 / 360, 1e-12, "turns drift");
   assert_true (r.tension == 0 && r.depth == fine.depth);
   i.since = 30;
   assert_close (bt__instruments_read (&i, &truth).heading, fine.heading, 1e-12, "not yet");
-  i.faults = BT__FAULT_DEPTH | BT__FAULT_SPEED | BT__FAULT_ALTITUDE;
+  i.faults = BT_FAULT_DEPTH | BT_FAULT_SPEED | BT_FAULT_ALTITUDE;
   i.frozen = 3;
   r = bt__instruments_read (&i, &truth);
   assert_true (r.depth == 3 && isnan (r.ahead) && isnan (r.altitude) && r.heading == fine.heading);
-  i.faults = BT__FAULT_TELEMETRY;
+  i.faults = BT_FAULT_TELEMETRY;
   r = bt__instruments_read (&i, &truth);
   assert_true (isnan (r.heading) && isnan (r.depth) && isnan (r.turns));
   assert_true (r.tension == 80 && r.payout == 33 && r.range == fine.range);

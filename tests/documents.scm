@@ -1,4 +1,4 @@
-;;; Run every example of documents: `bight examples.scm FILE...', as TAP without a plan.
+;;; Run every example of documents: `bight documents.scm FILE...', as TAP without a plan.
 ;;;
 ;;; In a manual (.texi) a block @lisp is Scheme, @example shell a script, @example c a program; a block
 ;;; @example without a word is a mistake, since nobody could try it.  In a text with fences (.md) they are
@@ -11,7 +11,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(define-module (tests examples)
+(define-module (tests documents)
   #:use-module ((bight expect) #:select (exception->line))
   #:use-module ((bight errors) #:select (bight-error? bight-error-kind))
   #:use-module (ice-9 popen)

@@ -1,0 +1,271 @@
+;;; (bight aware) --- what a tether is doing: how wound, how fouled, how it comes free.
+;;;
+;;; Every answer comes of the present state alone and is worked out when asked: a step costs nothing for
+;;; it.  Several questions about one state share one taut string.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight aware)
+  #:use-module (bight contact)
+  #:use-module (bight dive)
+  #:use-module (bight engine)
+  #:use-module (bight errors)
+  #:use-module (bight query)
+  #:use-module (bight record)
+  #:use-module (bight units)
+  #:use-module (bight verb)
+  #:use-module ((bight world) #:select (part-all-fields world-part))
+  #:use-module (srfi srfi-1)
+  #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
+  #:export (winding turns wrap-angle capstan-lock
+            homotopy-class homotopy-class? class-decided? class-free?
+            knotted? fouled? foul-reason
+            free-to-haul? haul-trial haul-prospect
+            way-home way-home-preview unwind-plan unwind-preview
+            contact-length seabed-length bend-ratio snap-count thrust-share
+            follow-string
+            windings))
+
+(define degree (/ (acos -1) 180))
+
+
+;;; Turns.
+
+(define-verb (winding #:subject (t tether) (object name))
+  "Return how often the tether, closed by the straight chord back to its anchor, winds about OBJECT, a whole
+number: clockwise looking along its axis (down, for a pile and for what has none) is positive; 0 for a line
+that merely passes."
+  (%winding (this-engine 'winding) t (obstacle-index 'winding object)))
+
+(define-verb (turns #:subject (t tether) (object name))
+  "Return the signed turns of the tether about OBJECT from its anchor to its end, a number that grows
+steadily as the vehicle goes round; clockwise, as for `winding', is positive."
+  (%turns (this-engine 'turns) t (obstacle-index 'turns object)))
+
+(define-verb (wrap-angle #:subject (t tether) (object name))
+  "Return the degrees of contact by which the tether, drawn tight, bends round OBJECT."
+  (/ (%wrap-angle (this-engine 'wrap-angle) t (obstacle-index 'wrap-angle object)) degree))
+
+(define-verb (capstan-lock #:subject (t tether))
+  "Return by how much friction multiplies a pull along the tether, drawn tight: the product of exp (mu
+theta) over all it bends round; 1 when it touches nothing."
+  (%capstan-lock (this-engine 'capstan-lock) t))
+
+(define-verb (windings #:subject (t tether))
+  "Return what the tether winds about, an alist from the name of the object to the windings."
+  (%windings (this-engine 'windings) t))
+
+
+;;; Classes.
+
+(define-record <class>
+  (make-class world letters objects decided? stamp)
+  class?
+  (letters class-letters)
+  (objects class-objects)
+  (decided? %decided?)
+  (stamp class-stamp))                  ; of a class that is not known: it equals that of its state alone
+
+(define (times n)
+  (case n ((1) "once") ((2) "twice") (else (string-append (number->string n) " times"))))
+
+(define (runs letters objects)
+  ;; Lists (OBJECT SIGN COUNT) of letters in a row that are the same.
+  (let loop ((letters letters) (objects objects) (all '()))
+    (cond ((null? letters) (reverse! all))
+          ((and (pair? all) (equal? (caar all) (abs (car letters)))
+                (= (caddar all) (if (positive? (car letters)) 1 -1)))
+           (let ((run (car all)))
+             (loop (cdr letters) (cdr objects)
+                   (cons (list (first run) (second run) (third run) (+ 1 (fourth run))) (cdr all)))))
+          (else
+           (loop (cdr letters) (cdr objects)
+                 (cons (list (abs (car letters)) (car objects)
+                             (if (positive? (car letters)) 1 -1) 1)
+                       all))))))
+
+(define (run->string run)
+  (string-append "round " (if (second run) (symbol->string (second run)) "something")
+                 " " (times (fourth run))
+                 (if (negative? (third run)) " the other way" "")))
+
+(define most-told 4)
+
+(define (class->string c)
+  (let* ((all (runs (class-letters c) (class-objects c)))
+         (told (if (> (length all) most-told) (take all most-told) all))
+         (more (- (length all) (length told))))
+    (cond ((class-stamp c) "cannot be followed")
+          ((null? all) "as the free way")
+          (else
+           (string-append (string-join (map run->string told) ", then ")
+                          (if (zero? more) "" (string-append ", and " (number->string more) " more")))))))
+
+(set-record-type-printer!
+ <class>
+ (lambda (c port)
+   (simple-format port "#<class: ~a; ~a>" (class->string c)
+                  (if (%decided? c) "decided" "not decided"))))
+
+(define-argument-type (homotopy-class value)
+  "what `homotopy-class' returned"
+  (if (class? value) value refused))
+
+(define-verb (homotopy-class #:subject (t tether))
+  "Return the homotopy class of the tether, a value: two tethers with the same ends have `equal?' classes
+when they can be moved into each other.  It prints what must be undone to come back to the free way.  A
+class is not decided where the group of the scene was not shown free: then equal classes still mean so,
+unequal ones need not.  A level bed or a ball in open water holds no line: the class is that of the free
+way."
+  (let* ((engine (this-engine 'homotopy-class))
+         (v (%class engine t))
+         (lost? (vector-ref v 4)))
+    (make-class (vector-ref v 0) (vector-ref v 1) (vector-ref v 2)
+                (and (vector-ref v 3) (not lost?))
+                (and lost? (%hash-dive engine)))))
+
+(define-verb (homotopy-class? (object any))
+  "Return #t if OBJECT is a homotopy class."
+  (class? object))
+
+(define-verb (class-decided? (c homotopy-class))
+  "Return #t if the class C is decided: what is unequal to it cannot be moved into it."
+  (%decided? c))
+
+(define-verb (class-free? (c homotopy-class))
+  "Return #t if C is the class of the free way: nothing needs to be unwound."
+  (and (null? (class-letters c)) (not (class-stamp c))))
+
+(define-verb (knotted? #:subject (t tether))
+  "Return #t if the line itself has a knot, told by its Alexander polynomial; the smallest knots that does
+not tell have 11 crossings."
+  (%knotted? (this-engine 'knotted?) t))
+
+
+;;; Fouled.
+
+(define-verb (foul-reason #:subject (t tether))
+  "Return why the tether is fouled: `wound' when nothing but the vehicle going back round frees it, `hung'
+when it may slip off or be lifted off; #f when it is not fouled."
+  (%fouled (this-engine 'foul-reason) t))
+
+(define-verb (fouled? #:subject (t tether))
+  "Return #t if the tether, drawn tight, is longer than the free way by more than 1 m and more than 5 %."
+  (and (%fouled (this-engine 'fouled?) t) #t))
+
+
+;;; Hauling.
+
+(define-verb (haul-trial #:subject (t tether) #:key (rate positive 0.4) (pull positive 150.0)
+                         (at-most positive 600.0))
+  "Haul the tether in on a fork, its vehicle dead, at RATE m/s with no more than PULL newtons, for AT-MOST
+seconds.  Return an alist: home?, seconds, left (m still out), object and hull? (what holds it, and whether
+by the vehicle's hull), at (where the vehicle came to)."
+  (let ((v (%haul (this-engine 'haul-trial) t rate pull at-most)))
+    (map cons '(home? seconds left object hull? at) (vector->list v))))
+
+(define-verb (free-to-haul? #:subject (t tether) #:key (rate positive 0.4) (pull positive 150.0))
+  "Return #t if the dead vehicle comes home when the tether is hauled at RATE m/s with no more than PULL
+newtons: a fork of the dive hauls it.  `haul-prospect' answers at once."
+  (vector-ref (%haul (this-engine 'free-to-haul?) t rate pull 600.0) 0))
+
+(define-verb (haul-prospect #:subject (t tether) #:key (pull positive 150.0))
+  "Return at once what hauling the tether with PULL newtons promises, by rules about the taut string: a list
+(ANSWER REASON OBJECT); ANSWER yes, no or unsure, REASON clear, locked (by friction), hung (the vehicle's
+body on it) or wedged, OBJECT a name or #f."
+  (let ((v (%haul-prospect (this-engine 'haul-prospect) t pull)))
+    (list (vector-ref v 0) (vector-ref v 1) (vector-ref v 2))))
+
+
+;;; Ways.
+
+(define (why-not v)
+  ;; Why the route V is not feasible, a sentence, or #f.
+  (let ((clearance (vector-ref v 4)) (object (vector-ref v 5)))
+    (cond ((vector-ref v 2) #f)
+          ((zero? (vector-ref v 3)) "no way was found")
+          (object (simple-format #f "it comes within ~a m of ~a, or the tether does not allow it"
+                                 (/ (round (* 100 clearance)) 100) object))
+          (else "the tether does not allow it"))))
+
+(define (preview v)
+  (list (cons 'needed? (vector-ref v 1))
+        (cons 'feasible? (vector-ref v 2))
+        (cons 'why-not (why-not v))
+        (cons 'length (vector-ref v 3))
+        (cons 'clearance (vector-ref v 4))
+        (cons 'nearest (vector-ref v 5))
+        (cons 'longest (vector-ref v 6))
+        (cons 'left (vector-ref v 7))))
+
+(define-verb (way-home #:subject (t tether))
+  "Return the way that retraces the tether, drawn tight, from the vehicle to the anchor: a polyline that
+`fly-along!' can fly."
+  (vector-ref (%way-home (this-engine 'way-home) t) 0))
+
+(define-verb (way-home-preview #:subject (t tether))
+  "Return what is known of the way home before it is flown, an alist: feasible?, why-not, length, clearance,
+nearest."
+  (preview (%way-home (this-engine 'way-home-preview) t)))
+
+(define-verb (unwind-plan #:subject (t tether))
+  "Return the loop that the vehicle must fly to free its tether, a polyline back to where it is, or #f when
+nothing needs to be unwound.  `unwind-preview' says whether it can be flown."
+  (vector-ref (%unwind-plan (this-engine 'unwind-plan) t) 0))
+
+(define-verb (unwind-preview #:subject (t tether))
+  "Return what is known of the unwinding loop before it is flown, an alist: needed?, feasible?, why-not,
+length, clearance, nearest, longest (m that the string becomes on the way), left (m of it at the end)."
+  (preview (%unwind-plan (this-engine 'unwind-preview) t)))
+
+
+;;; Figures.
+
+(define-argument-type (maybe-object value)
+  "the name of an obstacle"
+  (if (or (not value) (symbol? value)) value refused))
+
+(define-verb (contact-length #:subject (t tether) #:optional (object maybe-object #f))
+  "Return how much of the tether lies on OBJECT, or on anything, m."
+  (%contact-length (this-engine 'contact-length) t
+                   (if object (obstacle-index 'contact-length object) -1) #f))
+
+(define-verb (seabed-length #:subject (t tether) #:key (dragged flag #f))
+  "Return how much of the tether lies on the sea bed, m; with DRAGGED only what slides over it."
+  (let* ((engine (this-engine 'seabed-length))
+         (bed (list-index (lambda (name) (eq? name 'seabed)) (%names engine 'obstacle))))
+    (if bed (%contact-length engine t bed dragged) 0.0)))
+
+(define-verb (bend-ratio #:subject (t tether))
+  "Return the radius of the tether's tightest bend over the tightest allowed: below 1 it suffers; infinite
+when it has no least radius."
+  (let ((least (assq-ref (tether-properties t) 'min-bend-radius))
+        (radius (%tightest-bend (this-engine 'bend-ratio) t)))
+    (if (zero? least) +inf.0 (/ radius least))))
+
+(define-verb (snap-count #:subject (t tether))
+  "Return how often the slack tether came taut with a jerk, among the events that are kept."
+  (let* ((engine (this-engine 'snap-count))
+         (name (list-ref (%names engine 'tether) t)))
+    (count (lambda (event) (and (eq? (car event) 'snapped) (eq? (caddr event) name)))
+           (%events engine 0))))
+
+(define (full-thrust v)
+  ;; What vehicle number V can push with, N: its thrust, or the pull of one that goes where it is told.
+  (let* ((name (list-ref (%names (this-engine 'thrust-share) 'rov) v))
+         (fields (part-all-fields (world-part (dive-world (this-dive 'thrust-share)) name)))
+         (mass (or (assq-ref fields 'mass) 0)))
+    (or (assq-ref fields (if (zero? mass) 'pull 'thrust)) 0)))
+
+(define-verb (thrust-share #:subject (t tether))
+  "Return the force of the tether on its vehicle over what the vehicle can push with."
+  (let* ((view (%tether (this-engine 'thrust-share) t))
+         (vehicle (assq-ref view 'vehicle)))
+    (if (and vehicle (>= vehicle 0) (positive? (full-thrust vehicle)))
+        (/ (norm (assq-ref view 'force)) (full-thrust vehicle))
+        (bight-raise 'unsupported 'thrust-share "no vehicle with thrust is at the tether's far end"))))
+
+(define-verb (follow-string #:subject (t tether))
+  "Return the length of the taut string as it is led along from one call to the next, m: for a live view,
+which asks in every frame.  It depends on the calls before; `taut-length' does not."
+  (car (%follow-string (this-engine 'follow-string) t)))

@@ -1,0 +1,97 @@
+;;; (bight listen) --- a prompt on a socket, for an editor to talk to.
+;;;
+;;; Never on a network: the socket is a file that its owner alone can open, in a folder that he alone can
+;;; enter.  Each client has a thread of its own, so that an endless loop typed there holds up nothing
+;;; else.  A session is about the dive of the house, the one that the prompt or the pilot flies, as long
+;;; as it is live: then what it does goes through the dive's queue, and what it asks is answered from a
+;;; copy of its own.  Else it starts dives of its own.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight listen)
+  #:use-module (bight dive)
+  #:use-module (bight errors)
+  #:use-module ((system repl common) #:select (repl-default-option-set!))
+  #:use-module ((system repl server) #:select (make-unix-domain-server-socket spawn-server
+                                               stop-server-and-clients!))
+  #:export (start-listening!
+            stop-listening!
+            usual-socket))
+
+(define the-socket #f)                  ; its file, while there is one
+
+(define (own-folder folder)
+  ;; Make FOLDER for its owner alone, or raise.
+  (unless (file-exists? folder)
+    (mkdir folder #o700))
+  (let ((s (lstat folder)))
+    (unless (and (eq? 'directory (stat:type s)) (= (stat:uid s) (getuid))
+                 (zero? (logand #o077 (stat:perms s))))
+      (bight-raise 'io 'listen "the folder ~s must be yours alone (mode 700)" folder))
+    folder))
+
+(define (runtime-folder)
+  (let ((runtime (getenv "XDG_RUNTIME_DIR")))
+    (if (and runtime (string-prefix? "/" runtime) (file-exists? runtime))
+        (string-append runtime "/bight")
+        (string-append (or (getenv "TMPDIR") "/tmp") "/bight-" (number->string (getuid))))))
+
+(define (usual-socket)
+  "Return the file of the socket when none is named."
+  (string-append (own-folder (runtime-folder)) "/" (number->string (getpid))))
+
+(define longest-name 107)               ; bytes of a socket's address
+
+(define (answers? file)
+  ;; #t if somebody listens at FILE.
+  (let ((s (socket PF_UNIX SOCK_STREAM 0)))
+    (dynamic-wind
+      (const #f)
+      (lambda () (false-if-exception (begin (connect s AF_UNIX file) #t)))
+      (lambda () (close-port s)))))
+
+(define (make-way! file)
+  ;; A socket that nobody listens at is left from a process that was killed.
+  (when (false-if-exception (lstat file))
+    (cond ((not (eq? 'socket (stat:type (lstat file))))
+           (bight-raise 'io 'listen "~s is there, and is no socket" file))
+          ((answers? file)
+           (bight-raise 'io 'listen "somebody listens at ~s already" file))
+          (else (delete-file file)))))
+
+(define (open-socket file)
+  (when (> (string-length file) longest-name)
+    (bight-raise 'io 'listen "the name of a socket has ~a letters at most: ~s" longest-name file))
+  (make-way! file)
+  (let ((mask (umask #o177)))
+    (dynamic-wind
+      (const #f)
+      (lambda ()
+        (catch 'system-error
+          (lambda () (make-unix-domain-server-socket #:path file))
+          (lambda (key . arguments)
+            (bight-raise 'io 'listen "cannot listen at ~s: ~a" file
+                         (strerror (system-error-errno (cons key arguments)))))))
+      (lambda () (umask mask)))))
+
+(define (prompt-of repl)
+  ;; Editors look for Guile's own.
+  (if (served?) "scheme@(guile-user)> " "bight> "))
+
+(define (start-listening! file)
+  "Listen at FILE, a socket made now, or at the usual one for #f, until this process ends.  Return the
+file's name."
+  (let* ((file (or file (usual-socket))) (socket (open-socket file)))
+    (set! the-socket file)
+    (repl-default-option-set! 'prompt prompt-of)
+    (repl-default-option-set! 'on-error 'report)
+    (repl-default-option-set! 'value-history #f)
+    (call-in-session (lambda () (spawn-server socket)))
+    (add-hook! exit-hook stop-listening!)
+    file))
+
+(define (stop-listening!)
+  "Stop what `start-listening!' began."
+  (when the-socket
+    (false-if-exception (delete-file the-socket))
+    (set! the-socket #f)))

@@ -1,0 +1,325 @@
+;;; (bight plot) --- numbers as lines: over time, along the tether, run time against error.
+;;;
+;;; What is plotted becomes a chart: named curves of (x y) rows, with words for the axes.  gnuplot draws
+;;; it, as SVG or PNG in a file, or in characters for the terminal.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight plot)
+  #:use-module ((bight errors) #:select (bight-raise bight-error?))
+  #:use-module (bight dive)
+  #:use-module (bight programs)
+  #:use-module (bight query)
+  #:use-module (bight record)
+  #:use-module ((bight task) #:select (every-seconds cancel!))
+  #:use-module ((bight time) #:select (now))
+  #:use-module (bight verb)
+  #:use-module ((ice-9 rdelim) #:select (read-line))
+  #:use-module (rnrs bytevectors)
+  #:use-module (srfi srfi-1)
+  #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
+  #:export (plot
+            sample!
+            sample-every
+            samples?
+            samples-rows
+            chart?))
+
+(define-record <chart>
+  (make-chart title x y log curves)
+  chart?
+  (title chart-title)
+  (x chart-x)                           ; words
+  (y chart-y)
+  (log chart-log)                       ; "", "x", "y" or "xy"
+  (curves chart-curves))                ; an alist of names, strings, and rows (x y)
+
+
+;;; Over time: numbers are gathered while the dive runs.
+
+(define-record <samples>
+  (make-samples names rows task)
+  samples?
+  (names samples-names)
+  (rows %samples-rows set-samples-rows!) ; (TIME NUMBER ...), the newest first
+  (task samples-task set-samples-task!))
+
+(set-record-type-printer!
+ <samples>
+ (lambda (s port)
+   (simple-format port "#<samples of ~a: ~a rows>" (string-join (samples-names s) ", ")
+                  (length (%samples-rows s)))))
+
+(define (samples-rows samples)
+  "Return the rows (TIME NUMBER ...) of SAMPLES, the oldest first."
+  (reverse (%samples-rows samples)))
+
+(define most-rows 200000)
+
+(define (number-or-false thunk)
+  ;; What THUNK returns if it is a number to plot: a dive may have no answer now and then.
+  (let ((value (with-exception-handler
+                   (lambda (e) (if (bight-error? e) #f (raise-exception e)))
+                 thunk
+                 #:unwind? #t)))
+    (and (real? value) (< -inf.0 value +inf.0) (exact->inexact value))))
+
+(define (take-sample! samples thunks)
+  (when (< (length+* (%samples-rows samples)) most-rows)
+    (set-samples-rows! samples
+                       (cons (cons (now) (map number-or-false thunks)) (%samples-rows samples)))))
+
+(define (length+* rows)
+  (length rows))
+
+(define (sample-every seconds names thunks)
+  "Call THUNKS every SECONDS of the dive from now on and keep the numbers they return, under NAMES.  Return
+samples, for `plot'."
+  (let ((samples (make-samples names '() #f)))
+    (take-sample! samples thunks)
+    (set-samples-task! samples (every-seconds seconds (lambda () (take-sample! samples thunks))))
+    samples))
+
+(define-syntax-rule (sample! seconds expression expression* ...)
+  "Keep what the EXPRESSIONs are, numbers, every SECONDS of the dive from now on; return samples for `plot'."
+  (sample-every seconds
+                (map (lambda (datum) (object->string datum display)) '(expression expression* ...))
+                (list (lambda () expression) (lambda () expression*) ...)))
+
+(define (chart-of-samples samples)
+  (let ((rows (samples-rows samples)))
+    (make-chart #f "time, s" "" ""
+                (map (lambda (name i)
+                       (cons name
+                             (filter-map (lambda (row)
+                                           (let ((y (list-ref row i))) (and y (list (car row) y))))
+                                         rows)))
+                     (samples-names samples) (iota (length (samples-names samples)) 1)))))
+
+
+;;; Along a tether.
+
+(define profile-points 201)
+
+(define profiles '(tension depth curvature))
+
+(define profile-units '((tension . "tension, N") (depth . "depth, m") (curvature . "curvature, 1/m")))
+
+(define (rows-along length values)
+  (let ((n (vector-length values)))
+    (map (lambda (i) (list (/ (* length i) (max 1 (- n 1))) (vector-ref values i))) (iota n))))
+
+(define (depths points)
+  (list->vector (map (lambda (p) (- (third p))) (array->list points))))
+
+(define (distance a b)
+  (sqrt (apply + (map (lambda (x y) (expt (- x y) 2)) a b))))
+
+(define (bend a b c)
+  ;; One over the radius of the circle through three points.
+  (let* ((ab (distance a b)) (bc (distance b c)) (ca (distance c a))
+         (s (/ (+ ab bc ca) 2))
+         (area (sqrt (max 0 (* s (- s ab) (- s bc) (- s ca))))))
+    (if (< (* ab bc ca) 1e-18) 0.0 (/ (* 4 area) (* ab bc ca)))))
+
+(define (curvatures points)
+  (let ((p (list->vector (array->list points))))
+    (list->vector
+     (map (lambda (i)
+            (let ((k (min (max i 1) (- (vector-length p) 2))))
+              (bend (vector-ref p (- k 1)) (vector-ref p k) (vector-ref p (+ k 1)))))
+          (iota (vector-length p))))))
+
+(define (chart-along what tether)
+  (let ((name (or tether (first-tether))))
+    (make-chart (simple-format #f "~a, ~a s" name (/ (round (* 100 (now))) 100))
+                "arc length from the anchor, m" (assq-ref profile-units what) ""
+                (list (cons (symbol->string what)
+                            (rows-along (tether-length name)
+                                        (case what
+                                          ((tension) (list->vector (array->list (tensions name profile-points))))
+                                          ((depth) (depths (tether-points name profile-points)))
+                                          ((curvature) (curvatures (tether-points name profile-points))))))))))
+
+(define (first-tether)
+  (let ((tethers (filter (lambda (name) (false-if-exception (tether-length name))) (parts))))
+    (if (null? tethers)
+        (bight-raise 'def 'plot "this dive has no tether to look along")
+        (car tethers))))
+
+
+;;; Run time against error: what `bight bench' wrote.
+
+(define (read-lines file)
+  (call-with-input-file file
+    (lambda (port)
+      (let loop ((lines '()))
+        (let ((line (read-line port)))
+          (if (eof-object? line) (reverse lines) (loop (cons line lines))))))))
+
+(define (column header name file)
+  (or (list-index (lambda (cell) (string=? cell name)) header)
+      (bight-raise 'format 'plot "~s has no column ~s: it is no table of a bench" file name)))
+
+(define (bench-rows file)
+  ;; (CASE-METRIC-MODEL CPU ERROR) of each row that a logarithm takes.
+  (unless (file-exists? file)
+    (bight-raise 'io 'plot "there is no file ~s" file))
+  (let* ((rows (map (lambda (line) (map string-trim-both (string-split line #\,))) (read-lines file)))
+         (header (if (null? rows) '() (car rows)))
+         (places (map (lambda (name) (column header name file))
+                      '("case" "model" "metric" "cpu_ns" "error"))))
+    (filter-map
+     (lambda (row)
+       (and (= (length row) (length header))
+            (let* ((cells (map (lambda (i) (list-ref row i)) places))
+                   (cpu (string->number (fourth cells))) (error (string->number (fifth cells))))
+              (and (real? cpu) (real? error) (> cpu 0) (> (abs error) 0)
+                   (list (string-join (list (first cells) (third cells) (second cells)) " ")
+                         (* 1e-9 cpu) (abs error))))))
+     (cdr rows))))
+
+(define (chart-of-bench file)
+  (let ((rows (bench-rows file)))
+    (make-chart (basename file) "CPU, s" "error" "xy"
+                (map (lambda (name)
+                       (cons name (sort (filter-map (lambda (row) (and (string=? name (car row)) (cdr row)))
+                                                    rows)
+                                        (lambda (a b) (< (car a) (car b))))))
+                     (delete-duplicates (map car rows))))))
+
+
+;;; Numbers of one's own.
+
+(define (row? value)
+  (and (list? value) (= 2 (length value)) (every real? value)))
+
+(define (curve? value)
+  (and (pair? value) (or (string? (car value)) (symbol? (car value)))
+       (list? (cdr value)) (every row? (cdr value))))
+
+(define (chart-of-numbers value)
+  (make-chart #f "" "" ""
+              (if (every row? value)
+                  (list (cons "" value))
+                  (map (lambda (curve) (cons (object->string (car curve) display) (cdr curve))) value))))
+
+(define-argument-type (plotted value)
+  "what `sample!' returned, tension, depth or curvature (along the tether), the CSV file of a bench, or rows
+(X Y), or a list of (NAME ROW ...)"
+  (cond ((samples? value) value)
+        ((memq value profiles) value)
+        ((and (string? value) (string-suffix? ".csv" value)) value)
+        ((and (list? value) (pair? value) (or (every row? value) (every curve? value))) value)
+        (else refused)))
+
+(define (chart-of value tether)
+  (cond ((samples? value) (chart-of-samples value))
+        ((symbol? value) (chart-along value tether))
+        ((string? value) (chart-of-bench value))
+        (else (chart-of-numbers value))))
+
+
+;;; gnuplot.
+
+(define (quoted text)
+  ;; TEXT as gnuplot reads it between single quotes.
+  (string-append "'" (string-join (string-split (string-delete #\newline text) #\') "''") "'"))
+
+(define (terminal-of kind size)
+  (case kind
+    ((svg) (simple-format #f "svg size ~a,~a dynamic background rgb 'white'" (car size) (cdr size)))
+    ((png) (simple-format #f "pngcairo size ~a,~a" (car size) (cdr size)))
+    (else (simple-format #f "dumb size ~a,~a noenhanced" (car size) (cdr size)))))
+
+(define (print-script chart kind size port)
+  (simple-format port "set term ~a\nset encoding utf8\nset grid\n" (terminal-of kind size))
+  (when (chart-title chart)
+    (simple-format port "set title ~a noenhanced\n" (quoted (chart-title chart))))
+  (simple-format port "set xlabel ~a noenhanced\nset ylabel ~a noenhanced\n"
+                 (quoted (chart-x chart)) (quoted (chart-y chart)))
+  (unless (string-null? (chart-log chart))
+    (simple-format port "set logscale ~a\nset format ~a '%.0e'\n" (chart-log chart) (chart-log chart)))
+  (when (> (length (chart-curves chart)) 1)
+    (display (if (eq? kind 'text) "set key below noenhanced\n" "set key outside noenhanced\n") port))
+  (simple-format port "plot ~a\n"
+                 (string-join
+                  (map (lambda (curve)
+                         (simple-format #f "'-' ~a with ~a"
+                                        (if (string-null? (car curve)) "notitle"
+                                            (string-append "title " (quoted (car curve))))
+                                        (if (string-null? (chart-log chart)) "lines lw 2" "linespoints")))
+                       (chart-curves chart))
+                  ", "))
+  (for-each (lambda (curve)
+              (for-each (lambda (row)
+                          (simple-format port "~a ~a\n" (exact->inexact (first row))
+                                         (exact->inexact (second row))))
+                        (cdr curve))
+              (display "e\n" port))
+            (chart-curves chart)))
+
+(define (draw chart kind size)
+  ;; The bytes that gnuplot makes of CHART.
+  (unless (program? "gnuplot")
+    (bight-raise 'unsupported 'plot "plots are drawn by gnuplot (Debian package: gnuplot-nox), which is missing"))
+  (let ((script (temporary-file)) (log (temporary-file)))
+    (dynamic-wind
+      (const #f)
+      (lambda ()
+        (call-with-output-file script (lambda (port) (print-script chart kind size port))
+                               #:encoding "UTF-8")
+        (or (program-output log "gnuplot" script)
+            (bight-raise 'io 'plot "gnuplot failed: ~a" (or (last-line log) "it says nothing"))))
+      (lambda ()
+        (false-if-exception (delete-file script))
+        (false-if-exception (delete-file log))))))
+
+(define (kind-of file)
+  (cond ((not file) 'text)
+        ((string-suffix-ci? ".svg" file) 'svg)
+        ((string-suffix-ci? ".png" file) 'png)
+        (else (bight-raise 'domain 'plot "a plot is written as SVG or PNG, by the end of its name, not ~s"
+                           file))))
+
+(define (check-curves chart)
+  (when (every (lambda (curve) (null? (cdr curve))) (chart-curves chart))
+    (bight-raise 'def 'plot "there is nothing to plot yet"))
+  (make-chart (chart-title chart) (chart-x chart) (chart-y chart) (chart-log chart)
+              (remove (lambda (curve) (null? (cdr curve))) (chart-curves chart))))
+
+(define (with-words chart title x y log)
+  (make-chart (or title (chart-title chart)) (or x (chart-x chart)) (or y (chart-y chart))
+              (case log ((#f) (chart-log chart)) ((none) "") (else (symbol->string log)))
+              (chart-curves chart)))
+
+(define-argument-type (plot-size value)
+  "(WIDTH HEIGHT): pixels in a file, characters in the terminal, from 20 to 8192"
+  (if (and (list? value) (= 2 (length value))
+           (every (lambda (n) (and (real? n) (integer? n) (<= 20 n 8192))) value))
+      (cons (inexact->exact (first value)) (inexact->exact (second value)))
+      refused))
+
+(define (terminal-size)
+  (let ((columns ((module-ref (resolve-interface '(bight view)) 'terminal-columns))))
+    (cons (max 40 (min 120 columns)) 24)))
+
+(define-verb (plot (what plotted)
+                   #:key (to (or-false string)) (of (or-false name)) (title (or-false string))
+                   (x (or-false string)) (y (or-false string)) (log (or-false (one-of none x y xy)))
+                   (size (or-false plot-size)))
+  "Draw WHAT as lines: samples (see `sample!') over time; tension, depth or curvature along the tether OF
+that name, the only one when left out; run time against error of the CSV file that a bench wrote; or rows
+of numbers.  It goes to the file TO, an SVG or PNG by its name, or as characters to the terminal.  TITLE, X
+and Y are words to put there, LOG the axes with a logarithmic scale, SIZE (WIDTH HEIGHT).  Return what was
+written, or the text."
+  (let* ((kind (kind-of to))
+         (chart (with-words (check-curves (chart-of what of)) title x y log))
+         (size (or size (if (eq? kind 'text) (terminal-size) '(800 . 600)))))
+    (when to (check-writable 'plot to))
+    (let ((bytes (draw chart kind size)))
+      (if to
+          (begin
+            (write-bytes 'plot bytes to)
+            (written-note to ", " (number->string (bytevector-length bytes)) " bytes"))
+          (written-note (string-trim-both (utf8->string bytes) (lambda (c) (memv c '(#\newline #\page)))))))))

@@ -1,0 +1,366 @@
+/* Screens of characters.
+
+   A cell is a letter, its colour and the colour behind it; a picture's cell is the upper half
+   block, so that it shows two pixels.  Colours are first brought to what the terminal has, then
+   compared with what it shows: a cell that would look the same is not written, nor a colour that is
+   set, nor a place where the cursor is.  In true colour a step of three of 256 is the same.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <config.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "pilot/screen.h"
+
+enum
+{
+  CELL_BYTES = 64, /* the most that one cell takes: a move, two colours, a letter */
+  SIDE_MAX = 2000, /* cells */
+  UPPER_HALF = 0x2580
+};
+
+typedef struct cell
+{
+  uint32_t letter; /* Unicode */
+  int32_t ink, paper;
+} cell;
+
+struct bt__screen
+{
+  int columns, rows;
+  bt__palette palette;
+  cell *wanted, *shown;
+  char *bytes;
+  size_t n;
+  int32_t ink, paper; /* as the terminal has them; -1: not known */
+  int at;             /* the cell the cursor is at, or -1 */
+};
+
+const char *
+bt__palette_name (bt__palette palette)
+{
+  static const char *const names[BT__PALETTES] = { "none", "few", "many", "true" };
+  return (unsigned)palette < BT__PALETTES ? names[palette] : NULL;
+}
+
+/* ---- Life ---- */
+
+static size_t
+cells_of (const bt__screen *s)
+{
+  return (size_t)s->columns * (size_t)s->rows;
+}
+
+bt_status
+bt__screen_new (int columns, int rows, bt__palette palette, bt__screen **screen, bt_error *error)
+{
+  bt__screen *s;
+  if (columns < 1 || rows < 1 || columns > SIDE_MAX || rows > SIDE_MAX)
+    return bt__fail (error, BT_ERR_LIMIT, "a screen has 1 to %d columns and rows, not %d and %d",
+                     SIDE_MAX, columns, rows);
+  s = calloc (1, sizeof *s);
+  if (s)
+    {
+      s->columns = columns;
+      s->rows = rows;
+      s->palette = palette;
+      s->wanted = calloc (cells_of (s), sizeof *s->wanted);
+      s->shown = calloc (cells_of (s), sizeof *s->shown);
+      s->bytes = malloc (cells_of (s) * CELL_BYTES + CELL_BYTES);
+    }
+  if (!s || !s->wanted || !s->shown || !s->bytes)
+    {
+      bt__screen_free (s);
+      return bt__fail (error, BT_ERR_LIMIT, "there is no memory left for a screen");
+    }
+  bt__screen_clear (s);
+  *screen = s;
+  return BT_OK;
+}
+
+void
+bt__screen_free (bt__screen *s)
+{
+  if (!s)
+    return;
+  free (s->wanted);
+  free (s->shown);
+  free (s->bytes);
+  free (s);
+}
+
+int
+bt__screen_columns (const bt__screen *s)
+{
+  return s->columns;
+}
+
+int
+bt__screen_rows (const bt__screen *s)
+{
+  return s->rows;
+}
+
+/* ---- Colours ---- */
+
+static int
+channel (int32_t color, int shift)
+{
+  return (int)((color >> shift) & 255);
+}
+
+/* 0 to 255.  */
+static int
+light_of (int32_t color)
+{
+  return (54 * channel (color, 16) + 183 * channel (color, 8) + 19 * channel (color, 0)) >> 8;
+}
+
+static int
+square (int x)
+{
+  return x * x;
+}
+
+static int
+apart (int32_t a, int32_t b)
+{
+  return 2 * square (channel (a, 16) - channel (b, 16))
+         + 4 * square (channel (a, 8) - channel (b, 8)) + square (channel (a, 0) - channel (b, 0));
+}
+
+/* The nearest of xterm's 256: its cube of 6 levels or its 24 greys.  */
+static int32_t
+nearest_of_256 (int32_t color)
+{
+  static const int level[] = { 0, 95, 135, 175, 215, 255 };
+  int index[3], grey = (light_of (color) - 3) / 10;
+  int32_t cube = 0, tone;
+  for (int i = 0; i < 3; i++)
+    {
+      int v = channel (color, 16 - 8 * i);
+      index[i] = v < 48 ? 0 : v < 115 ? 1 : (v - 35) / 40;
+      cube = cube << 8 | level[index[i]];
+    }
+  grey = grey < 0 ? 0 : grey > 23 ? 23 : grey;
+  tone = (8 + 10 * grey) * 0x010101;
+  return apart (color, tone) < apart (color, cube) ? 232 + grey
+                                                   : 16 + 36 * index[0] + 6 * index[1] + index[2];
+}
+
+/* As xterm has the first sixteen.  */
+static int32_t
+nearest_of_16 (int32_t color)
+{
+  static const int32_t sixteen[]
+      = { 0x000000, 0xcd0000, 0x00cd00, 0xcdcd00, 0x0000ee, 0xcd00cd, 0x00cdcd, 0xe5e5e5,
+          0x7f7f7f, 0xff0000, 0x00ff00, 0xffff00, 0x5c5cff, 0xff00ff, 0x00ffff, 0xffffff };
+  int best = 0;
+  for (int i = 1; i < 16; i++)
+    if (apart (color, sixteen[i]) < apart (color, sixteen[best]))
+      best = i;
+  return best;
+}
+
+/* COLOR as the terminal counts them.  */
+static int32_t
+on_terminal (const bt__screen *s, int32_t color)
+{
+  switch (s->palette)
+    {
+    case BT__PALETTE_TRUE:
+      return color;
+    case BT__PALETTE_256:
+      return nearest_of_256 (color);
+    case BT__PALETTE_16:
+      return nearest_of_16 (color);
+    default:
+      return 0;
+    }
+}
+
+/* Darker by as much as words need to be read on it.  */
+static int32_t
+dimmed (int32_t color)
+{
+  return (color >> 2) & 0x3f3f3f;
+}
+
+/* ---- Filling ---- */
+
+void
+bt__screen_clear (bt__screen *s)
+{
+  for (size_t i = 0; i < cells_of (s); i++)
+    s->wanted[i] = (cell){ ' ', 0xffffff, 0 };
+}
+
+/* A letter as bright as LIGHT.  */
+static uint32_t
+letter_for (int light)
+{
+  static const char ramp[] = " .:-=+*%#@";
+  return (uint32_t)ramp[light * (int)(sizeof ramp - 1) / 256];
+}
+
+void
+bt__screen_picture (bt__screen *s, const uint32_t *pixels)
+{
+  for (int row = 0; row < s->rows; row++)
+    for (int column = 0; column < s->columns; column++)
+      {
+        const uint32_t *p = pixels + (size_t)(2 * row) * (size_t)s->columns + column;
+        int32_t above = (int32_t)(p[0] & 0xffffff), below = (int32_t)(p[s->columns] & 0xffffff);
+        cell c = { UPPER_HALF, above, below };
+        if (s->palette == BT__PALETTE_NONE)
+          c.letter = letter_for ((light_of (above) + light_of (below)) / 2);
+        s->wanted[row * s->columns + column] = c;
+      }
+}
+
+/* The letter at TEXT, of at most LEFT bytes, and how many it takes; a stray byte is a question
+ * mark. */
+static int
+decode (const char *text, size_t left, uint32_t *letter)
+{
+  unsigned char lead = (unsigned char)text[0];
+  int n = lead < 0x80 ? 1 : lead >> 5 == 6 ? 2 : lead >> 4 == 14 ? 3 : lead >> 3 == 30 ? 4 : 0;
+  *letter = '?';
+  if (n == 0 || (size_t)n > left)
+    return 1;
+  *letter = n == 1 ? lead : lead & (0x7fU >> n);
+  for (int i = 1; i < n; i++)
+    *letter = *letter << 6 | ((unsigned char)text[i] & 0x3fU);
+  if (*letter < ' ')
+    *letter = '?';
+  return n;
+}
+
+void
+bt__screen_text (bt__screen *s, int column, int row, const char *text, size_t n, int32_t ink,
+                 int32_t paper)
+{
+  for (size_t i = 0; i < n; column++)
+    {
+      uint32_t letter;
+      i += (size_t)decode (text + i, n - i, &letter);
+      if (row < 0 || row >= s->rows || column < 0 || column >= s->columns)
+        continue;
+      cell *c = &s->wanted[row * s->columns + column];
+      c->paper = paper == BT__DIMMED ? dimmed (c->paper) : paper;
+      c->ink = ink;
+      c->letter = letter;
+    }
+}
+
+/* ---- Writing ---- */
+
+static void
+put (bt__screen *s, const char *text)
+{
+  size_t n = strlen (text);
+  memcpy (s->bytes + s->n, text, n);
+  s->n += n;
+}
+
+static void
+put_letter (bt__screen *s, uint32_t u)
+{
+  char *p = s->bytes + s->n;
+  int n = u < 0x80 ? 1 : u < 0x800 ? 2 : u < 0x10000 ? 3 : 4;
+  if (n == 1)
+    *p = (char)u;
+  for (int i = n; n > 1 && i-- > 0; u >>= 6)
+    p[i] = (char)(i ? 0x80U | (u & 0x3fU) : (0xf00U >> n & 0xffU) | u);
+  s->n += (size_t)n;
+}
+
+/* Choose COLOR, the terminal's own number, in front or BEHIND.  */
+static void
+put_color (bt__screen *s, int32_t color, int behind)
+{
+  char text[32];
+  if (s->palette == BT__PALETTE_TRUE)
+    snprintf (text, sizeof text, "\033[%d;2;%d;%d;%dm", behind ? 48 : 38, channel (color, 16),
+              channel (color, 8), channel (color, 0));
+  else if (s->palette == BT__PALETTE_256)
+    snprintf (text, sizeof text, "\033[%d;5;%dm", behind ? 48 : 38, (int)color);
+  else
+    snprintf (text, sizeof text, "\033[%dm",
+              (int)(color < 8 ? 30 + color : 82 + color) + (behind ? 10 : 0));
+  put (s, text);
+}
+
+static int
+same_color (const bt__screen *s, int32_t a, int32_t b)
+{
+  if (s->palette != BT__PALETTE_TRUE || a < 0 || b < 0)
+    return a == b;
+  return abs (channel (a, 16) - channel (b, 16)) < 4 && abs (channel (a, 8) - channel (b, 8)) < 4
+         && abs (channel (a, 0) - channel (b, 0)) < 4;
+}
+
+/* The cell at I as the terminal will have it: a half block of one colour is a blank.  */
+static cell
+on_screen (const bt__screen *s, size_t i)
+{
+  cell c = s->wanted[i];
+  c.ink = on_terminal (s, c.ink);
+  c.paper = on_terminal (s, c.paper);
+  if (c.letter == UPPER_HALF && c.ink == c.paper)
+    c.letter = ' ';
+  return c;
+}
+
+static int
+looks_the_same (const bt__screen *s, cell a, cell b)
+{
+  return a.letter == b.letter && same_color (s, a.paper, b.paper)
+         && (a.letter == ' ' || same_color (s, a.ink, b.ink));
+}
+
+static void
+put_cell (bt__screen *s, int i, cell c)
+{
+  char text[32];
+  if (s->at != i)
+    {
+      snprintf (text, sizeof text, "\033[%d;%dH", i / s->columns + 1, i % s->columns + 1);
+      put (s, text);
+    }
+  if (s->palette != BT__PALETTE_NONE && c.paper != s->paper)
+    put_color (s, s->paper = c.paper, 1);
+  if (s->palette != BT__PALETTE_NONE && c.letter != ' ' && c.ink != s->ink)
+    put_color (s, s->ink = c.ink, 0);
+  put_letter (s, c.letter);
+  s->at = (i + 1) % s->columns ? i + 1 : -1; /* where the cursor is at a line's end differs */
+}
+
+size_t
+bt__screen_changes (bt__screen *s, int all, const char **bytes, int *cells)
+{
+  int changed = 0;
+  s->n = 0;
+  s->at = s->ink = s->paper = -1;
+  if (all)
+    put (s, "\033[0m\033[2J");
+  for (size_t i = 0; i < cells_of (s); i++)
+    {
+      cell c = on_screen (s, i);
+      if (!all && looks_the_same (s, c, s->shown[i]))
+        continue;
+      put_cell (s, (int)i, c);
+      s->shown[i] = c;
+      changed++;
+    }
+  if (changed)
+    put (s, "\033[0m");
+  *bytes = s->bytes;
+  if (cells)
+    *cells = changed;
+  return s->n;
+}

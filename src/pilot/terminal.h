@@ -1,0 +1,32 @@
+/* The terminal while a dive is flown in it: keys as they come, and a state to go back to.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_PILOT_TERMINAL_H
+#define BT_PILOT_TERMINAL_H
+
+#include <stddef.h>
+
+#include <bight/status.h>
+
+/* Take the terminal on standard input and output: keys one by one and unseen, the other page of the
+   screen, no cursor.  However this process ends from here on, the terminal is put back: by
+   bt__terminal_leave, by `exit', by a handler of the signals that kill, and by a small process that
+   waits for this one's end when nothing else could be done.  BT_ERR_UNSUPPORTED when there is no
+   terminal, or its TERM is dumb.  */
+bt_status bt__terminal_enter (bt_error *error);
+
+/* Put the terminal back; nothing if it was not taken.  */
+void bt__terminal_leave (void);
+
+/* Tell its size in characters, 80 by 24 if it does not.  */
+void bt__terminal_size (int *columns, int *rows);
+
+/* Wait at most SECONDS for keys and write up to ROOM bytes of what came to BYTES.  Return how many,
+   or -1 when the terminal is gone.  */
+int bt__terminal_keys (double seconds, char *bytes, size_t room);
+
+/* Write all N BYTES; zero when the terminal is gone, or takes nothing for ten seconds.  */
+int bt__terminal_write (const char *bytes, size_t n);
+
+#endif

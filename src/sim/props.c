@@ -1,0 +1,75 @@
+/* A tether near the thrusters of a vehicle: what ends a dive if nobody looks.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+
+#include "math/vec.h"
+#include "sim/sim.h"
+#include "world/line.h"
+
+#define NEAR 0.12      /* m from the middle of a thruster */
+#define AWAY 0.18      /* m: farther than this it has gone */
+#define TURNS 1.0      /* N: what a thruster that turns pushes with */
+#define OWN_LENGTH 0.3 /* m of tether that leaves the vehicle in any case */
+
+/* The squared distance of P from the line between A and B.  */
+static double
+apart2 (bt_vec3 p, bt_vec3 a, bt_vec3 b)
+{
+  bt_vec3 way = bt__sub (b, a), to = bt__sub (p, a);
+  double k = fmax (0, fmin (1, bt__dot (to, way) / fmax (bt__dot (way, way), 1e-300)));
+  bt_vec3 d = bt__axpy (to, -k, way);
+  return bt__dot (d, d);
+}
+
+/* The nearest that the link from A to B comes to a thruster of V that turns, squared.  */
+static double
+nearest_prop (const bt__vehicle_type *type, const bt__vehicle *v, bt_vec3 a, bt_vec3 b)
+{
+  double least = INFINITY;
+  for (int k = 0; k < type->n; k++)
+    if (fabs (v->body.thrust[k]) > TURNS)
+      least = fmin (least, apart2 (bt__rigid_point (&v->body, type->thruster[k].at), a, b));
+  return least;
+}
+
+/* The nearest that tether I comes to a thruster of V that turns, squared.  */
+static double
+nearest_on (const bt_dive *dive, bt__state *state, int i, const bt__vehicle_type *type,
+            const bt__vehicle *v)
+{
+  bt__line line = bt__line_of (dive, state, i);
+  int n = bt__line_nodes (&line);
+  double reach = bt__norm (type->size) + AWAY, least = INFINITY;
+  bt_vec3 a = bt__line_node (&line, 0), end = bt__line_node (&line, n - 1);
+  for (int k = 1; k < n; k++)
+    {
+      bt_vec3 b = bt__line_node (&line, k);
+      double link = bt__distance (a, b);
+      if (bt__distance (b, v->position) < reach + link && bt__distance (a, end) > OWN_LENGTH)
+        least = fmin (least, nearest_prop (type, v, a, k == n - 1 ? a : b));
+      a = b;
+    }
+  return least;
+}
+
+void
+bt__watch_props (const bt_dive *dive, bt__state *state)
+{
+  for (int vehicle = 0; vehicle < dive->model->n_vehicles; vehicle++)
+    {
+      bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
+      double least = INFINITY;
+      if (!v->rigid)
+        continue;
+      for (int i = 0; i < dive->model->n_tethers; i++)
+        if (bt__dive_tether (dive, state, i)->quiet < BT__SLEEP_AFTER)
+          least = fmin (least, nearest_on (dive, state, i, &dive->model->types[vehicle], v));
+        else if (v->props)
+          least = 0; /* asleep, it stays where it is */
+      if (least < NEAR * NEAR && !v->props)
+        bt__raise_event (state, BT_EVENT_PROP_DANGER, vehicle);
+      v->props = least < NEAR * NEAR || (v->props && least < AWAY * AWAY);
+    }
+}

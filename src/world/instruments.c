@@ -1,0 +1,217 @@
+/* What a pilot can read of a dive; the instruments themselves are vehicle/instruments.h's.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <bight/instruments.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "collide/ray.h"
+#include "math/vec.h"
+#include "vehicle/sonar.h"
+#include "world/line.h"
+#include "world/obstacles.h"
+
+const char *
+bt_fault_name (bt_fault fault)
+{
+  switch (fault)
+    {
+    case BT_FAULT_COMPASS:
+      return "compass";
+    case BT_FAULT_DEPTH:
+      return "depth";
+    case BT_FAULT_SPEED:
+      return "speed";
+    case BT_FAULT_ALTITUDE:
+      return "altitude";
+    case BT_FAULT_TENSION:
+      return "tension";
+    case BT_FAULT_TELEMETRY:
+      return "telemetry";
+    case BT_FAULT_THRUSTER:
+      return "thruster";
+    }
+  return NULL;
+}
+
+static bt__quat
+attitude_of (const bt__vehicle *v)
+{
+  return v->rigid ? v->body.attitude : bt__quat_of (v->heading, v->pitch, v->roll);
+}
+
+/* The first tether whose far end VEHICLE has, or -1.  */
+static int
+tether_of (const bt_dive *dive, int vehicle)
+{
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    if (dive->model->ends[i][1].vehicle == vehicle)
+      return i;
+  return -1;
+}
+
+/* What the winch and the ship know.  */
+static void
+look_at_ship (const bt_dive *dive, int tether, bt__truth *truth)
+{
+  bt__line line;
+  if (tether < 0)
+    return;
+  line = bt__line_of (dive, dive->now, tether);
+  truth->ship = bt__line_node (&line, 0);
+  truth->tension = bt__line_tension (&line, 0);
+  truth->payout = line.tether->length;
+}
+
+bt_status
+bt_dive_instruments (const bt_dive *dive, int i, bt_readings *readings, bt_error *error)
+{
+  bt_status status = bt__check_part (dive, BT_PART_VEHICLE, i, error);
+  const bt__vehicle *v = bt__dive_vehicle (dive, dive->now, i);
+  bt__truth truth = { .step = dive->now->step, .time = bt__state_time (dive->now) };
+  bt__instruments in;
+  int tether;
+  if (status != BT_OK)
+    return status;
+  in = v->instruments;
+  tether = tether_of (dive, i);
+  truth.position = v->position;
+  truth.velocity = v->velocity;
+  truth.attitude = attitude_of (v);
+  truth.turned = v->heading;
+  truth.turned_from = v->heading0;
+  truth.altitude = bt__dive_altitude (dive, dive->now, i, v->position);
+  look_at_ship (dive, tether, &truth);
+  if (tether >= 0 && bt__dive_tether (dive, dive->now, tether)->parted)
+    in.faults |= BT_FAULT_TELEMETRY;
+  *readings = bt__instruments_read (&in, &truth);
+  return BT_OK;
+}
+
+int64_t
+bt_dive_faults (const bt_dive *dive, int i, int64_t *lost)
+{
+  const bt__vehicle *v = bt__dive_vehicle (dive, dive->now, i);
+  *lost = 0;
+  if (bt__check_part (dive, BT_PART_VEHICLE, i, NULL) != BT_OK)
+    return 0;
+  *lost = v->lost;
+  return v->instruments.faults | (v->lost ? BT_FAULT_THRUSTER : 0);
+}
+
+int
+bt_dive_thrusts (const bt_dive *dive, int i, double *thrust)
+{
+  int n;
+  if (bt__check_part (dive, BT_PART_VEHICLE, i, NULL) != BT_OK
+      || !bt__dive_vehicle (dive, dive->now, i)->rigid)
+    return 0;
+  n = (int)dive->model->types[i].n;
+  memcpy (thrust, bt__dive_vehicle (dive, dive->now, i)->body.thrust, (size_t)n * sizeof *thrust);
+  return n;
+}
+
+/* ---- Sonar ---- */
+
+static bt_vec3
+bow_of (const bt_dive *dive, int vehicle)
+{
+  return bt__vec (0, dive->model->vehicles[vehicle].size.y / 2, 0);
+}
+
+bt_status
+bt_dive_sonar (const bt_dive *dive, int i, const bt_sonar *sonar, double *range, bt_error *error)
+{
+  bt_status status = bt__check_part (dive, BT_PART_VEHICLE, i, error);
+  const bt__vehicle *v = bt__dive_vehicle (dive, dive->now, i);
+  bt__surroundings around = { 0 };
+  bt__count count = { 0 };
+  bt__sonar head;
+  if (status != BT_OK)
+    return status;
+  if (!(sonar->beams >= 1 && sonar->beams <= BT_BEAMS_MAX && sonar->range > 0
+        && isfinite (sonar->range) && isfinite (sonar->tilt) && isfinite (sonar->sector)))
+    return bt__fail (error, BT_ERR_DOMAIN, "a sonar of %d beams to %g m; 1 to %d are allowed",
+                     sonar->beams, sonar->range, BT_BEAMS_MAX);
+  head = (bt__sonar){ .at = bow_of (dive, i),
+                      .sector = sonar->sector,
+                      .tilt = sonar->tilt,
+                      .range = sonar->range,
+                      .noise = v->instruments.range_noise,
+                      .seed = v->instruments.seed };
+  if (dive->model->n_obstacles > 0)
+    around = bt__standing (dive, dive->now, BT_PART_VEHICLE, i);
+  bt__sonar_sweep (&head, v->position, attitude_of (v), dive->now->step, around.scene, around.on,
+                   around.mover, around.movers, sonar->beams, range, &count);
+  return BT_OK;
+}
+
+/* ---- Camera ---- */
+
+typedef struct lens
+{
+  const bt_eye *camera;
+  bt_vec3 eye;
+  bt__quat attitude;
+  bt__surroundings around;
+} lens;
+
+/* Return how far P is, or INFINITY if it is not in the picture.  */
+static double
+distance_in_view (const lens *l, bt_vec3 p)
+{
+  bt_vec3 way = bt__turn_in (l->attitude, bt__sub (p, l->eye));
+  double c = cos (l->camera->tilt), s = sin (l->camera->tilt);
+  double ahead = c * way.y + s * way.z, up = c * way.z - s * way.y, far = bt__norm (way);
+  bt__ray ray = { .from = l->eye, .range = far };
+  bt__count unused = { 0 };
+  bt__ray_hit hit;
+  if (far > l->camera->sight || !(ahead > 0) || fabs (way.x) > ahead * tan (l->camera->width / 2)
+      || fabs (up) > ahead * tan (l->camera->height / 2))
+    return INFINITY;
+  ray.direction = bt__unit_or (bt__sub (p, l->eye), bt__vec (0, 1, 0));
+  ray.range = far * (1 - 1e-9);
+  return bt__ray_cast (l->around.scene, l->around.on, l->around.mover, l->around.movers, &ray, &hit,
+                       &unused)
+             ? INFINITY
+             : far;
+}
+
+#define LOOK_EVERY 0.1 /* m of tether */
+
+bt_status
+bt_dive_sight (const bt_dive *dive, int i, const bt_eye *camera, int tether, bt_sighting *sighting,
+               bt_error *error)
+{
+  bt_status status = bt__check_part (dive, BT_PART_VEHICLE, i, error);
+  const bt__vehicle *v = bt__dive_vehicle (dive, dive->now, i);
+  double half = BT__PI / 2, length;
+  bt__line line;
+  lens l;
+  if (status == BT_OK)
+    status = bt__check_part (dive, BT_PART_TETHER, tether, error);
+  if (status != BT_OK)
+    return status;
+  if (!(camera->width > 0 && camera->width / 2 < half && camera->height > 0
+        && camera->height / 2 < half && camera->sight > 0 && isfinite (camera->tilt)))
+    return bt__fail (error, BT_ERR_DOMAIN,
+                     "a camera sees less than 180 degrees, and some metres far");
+  l = (lens){ .camera = camera, .attitude = attitude_of (v) };
+  l.eye = bt__add (v->position, bt__turn_out (l.attitude, bow_of (dive, i)));
+  if (dive->model->n_obstacles > 0)
+    l.around = bt__standing (dive, dive->now, BT_PART_VEHICLE, i);
+  line = bt__line_of (dive, dive->now, tether);
+  length = bt__line_length (&line);
+  *sighting = (bt_sighting){ 0, INFINITY };
+  int n = (int)fmin (fmax (ceil (length / LOOK_EVERY), 1), 10000);
+  for (int k = 0; k < n; k++)
+    {
+      double far = distance_in_view (&l, bt__line_point (&line, length * (k + 0.5) / n));
+      sighting->nearest = fmin (sighting->nearest, far);
+      sighting->length += isfinite (far) ? length / n : 0;
+    }
+  return BT_OK;
+}

@@ -1,0 +1,209 @@
+# Fly in a terminal, by the keys of a tmux: what the screen shows, and how it is left.
+# Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+. "$top_srcdir/tests/tap.sh"
+
+if ! command -v tmux >/dev/null 2>&1; then
+  skip 'there is no tmux here to fly in'
+  finish
+fi
+
+TMUX_TMPDIR=$scratch
+export TMUX_TMPDIR
+unset TMUX
+trap 'tmux -L bight kill-server 2>/dev/null; rm -rf "$scratch"' EXIT
+
+pane ()
+{
+  tmux -L bight "$@"
+}
+
+# begin COLUMNS ROWS SETTING...: a shell in a terminal of that size, with variables set.
+begin ()
+{
+  columns=$1
+  rows=$2
+  shift 2
+  pane kill-server 2>/dev/null
+  while pane list-sessions >/dev/null 2>&1; do sleep 0.1; done
+  sleep 0.2
+  pane -f /dev/null new-session -d -x "$columns" -y "$rows" \
+    "exec env PS1='shell> ' $* '$top_builddir/pre-inst-env' sh" || return 1
+  see 'shell>$'
+}
+
+screen ()
+{
+  pane capture-pane -p
+}
+
+# see PATTERN [SECONDS]: wait until the screen shows it.
+see ()
+{
+  left=$((5 * ${2:-15}))
+  until screen | grep -q -- "$1"; do
+    left=$((left - 1))
+    if [ "$left" -le 0 ]; then
+      diag "not seen: $1"
+      diag "$(screen | cut -c1-79 | tail -5)"
+      return 1
+    fi
+    sleep 0.2
+  done
+}
+
+keys ()
+{
+  pane send-keys "$@"
+}
+
+# The terminal is as a shell wants it: what is typed is seen, and a line is a line.
+sane ()
+{
+  see 'shell>$' 10 || return 1
+  keys "stty -a | grep -c ' echo ' | sed 's/^/echoes /'" Enter
+  see '^echoes 1' 10 || return 1
+  keys "stty -a | grep -c ' icanon ' | sed 's/^/lines /'" Enter
+  see '^lines 1' 10 && [ "$(pane display-message -p '#{alternate_on} #{cursor_flag}')" = '0 1' ]
+}
+
+fly ()
+{
+  keys "bight pilot pier $*" Enter
+  see ' depth .* m '
+}
+
+the_pid ()
+{
+  pgrep -P "$(pane display-message -p '#{pane_pid}')" -x bight
+}
+
+# ---- A flight: figures, sticks, views, the prompt ----
+
+begin 120 40 COLORTERM=truecolor
+check 'a flight begins' fly
+see ' out *35.00 m'
+result $? 'and shows how much tether is out'
+see 'depth *4.00 m'
+result $? 'and how deep the vehicle is'
+
+keys W
+see 'surge +0.1'
+result $? 'a key with shift nudges a stick'
+keys d d
+see 'yaw +1.0'
+result $? 'a key holds its stick'
+see 'yaw  0.0'
+result $? 'and lets it go'
+keys Space
+see 'surge  0.0'
+result $? 'the space bar lets go of all'
+keys 3
+see ' top .*/s'
+result $? 'views have numbers'
+keys v
+see ' side .*/s'
+result $? 'v shows the next one'
+keys '?'
+see 'ahead, astern'
+result $? 'there is help'
+keys '?' ']'
+see ' out *35.[1-9]'
+result $? 'the winch pays out'
+keys h
+see 'holding heading'
+result $? 'an autopilot holds'
+keys p
+see PAUSED
+result $? 'a dive is paused'
+keys p g
+see 'what if'
+result $? 'a fork runs ahead'
+keys u
+see 'back at'
+result $? 'time goes back'
+
+keys :
+see 'bight>$'
+result $? 'the prompt is one key away'
+keys "(drive! #:heave 1)" Enter "(list 'steps (begin (let loop ((t (+ 1 (now)))) (when (< (now) t) (loop t))) 'by))" Enter
+see 'steps by'
+result $? 'the dive goes on meanwhile, without `run'\'
+keys ,q Enter
+see 'heave +1.0'
+result $? 'and what was said there holds'
+
+pane resize-window -x 250 -y 80
+see '^.\{200\}' 10
+result $? 'a larger window is filled'
+pane resize-window -x 80 -y 24
+see ' depth .* m ' 10
+result $? 'and a smaller one'
+[ "$(screen | grep -c .)" -le 24 ]
+result $? 'within its lines'
+
+keys q
+check 'q leaves a terminal as it was' sane
+
+# ---- Other ways out ----
+
+begin 80 24 COLORTERM= TERM=screen-256color
+fly
+keys C-c
+check 'so does ^C, in 256 colours' sane
+for how in TERM HUP 9; do
+  begin 100 30 COLORTERM=
+  fly
+  kill -"$how" "$(the_pid)"
+  check "so does kill -$how" sane
+done
+begin 100 30 COLORTERM=
+fly
+keys C-z
+check 'so does ^Z, for a while' sane
+keys fg Enter
+see ' depth .* m '
+result $? 'and the flight goes on'
+keys q
+sane >/dev/null
+
+# ---- Lesser terminals ----
+
+begin 90 30 NO_COLOR=1
+fly
+see 'from above'
+result $? 'without colours the view is plain characters'
+keys x
+see ' chase .*/s'
+result $? 'or light and dark ones'
+keys q
+sane >/dev/null
+begin 80 24 BIGHT_GL=none
+fly
+see 'from above'
+result $? 'so it is without a graphics library'
+see 'pictures are drawn by osmesa or egl' 3
+result $? 'and a line says why'
+keys q
+sane >/dev/null
+
+# ---- No terminal ----
+
+"$top_builddir/pre-inst-env" bight pilot pier </dev/null >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 1 ] && [ "$(wc -l <"$scratch/err")" -eq 1 ] && grep -q 'terminal' "$scratch/err"
+result $? 'without a terminal there is one clear line'
+
+# ---- A terminal that goes away ----
+
+begin 80 24 COLORTERM=
+fly
+pid=$(the_pid)
+pane kill-server
+left=50
+while kill -0 "$pid" 2>/dev/null && [ $left -gt 0 ]; do
+  left=$((left - 1))
+  sleep 0.1
+done
+! kill -0 "$pid" 2>/dev/null
+result $? 'a terminal that is closed ends the flight'
+finish

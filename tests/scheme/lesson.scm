@@ -1,0 +1,197 @@
+;;; The lesson language: clauses, marks, hints, faults, counters, branches, rewinds, messages, errors.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(use-modules (bight lesson)
+             (bight lesson-check)
+             (bight errors)
+             ((bight lesson-play) #:select (make-guide))
+             (ice-9 exceptions)
+             (srfi srfi-1))
+
+(define small
+  (world (sea (depth 20))
+         (rov (named m) (at 0 5 -5))
+         (tether (named line) (wet-weight 0) (from 0 0 -2) (to m) (length 12))))
+
+(define (texts kind report)
+  (filter-map (lambda (line) (and (eq? kind (second line)) (third line))) (report-said report)))
+
+(define (mark label report)
+  (second (assoc label (report-marks report))))
+
+(define-syntax-rule (message expression)
+  (guard (e ((bight-error? e) (bight-error-message e))) expression "no error"))
+
+(define-syntax-rule (says? text expression)
+  (and (string-contains (message expression) text) #t))
+
+(define-lesson everything "One of each"
+  (setting far 6 7 8)
+  (in small)
+  (say "It is ~a m to the anchor." (range-to '(0 0 -2)))
+  (show)
+  (probe "Which way is north?" (bearing-to '(0 50 -5)) #:within 25)
+  (probe "Which side?" 'left #:choices (left right))
+  (branch ((eq? 'right (last-answer)) (say "right"))
+          (else (say "left")))
+  (repeat 2 (when #t (say "again")))
+  (fork-and-show "Watch." (drive! #:surge 1) (run 3))
+  (task "Go ahead."
+        (first (count! 'begun))
+        (done-when (> (y (rov-position)) (setting 'far)))
+        (hint-after 1 "Ahead.")
+        (hint-after 500 "Never heard.")
+        (fault-after 0.5 "A gust." (current! 0.1 90))
+        (at-most 30))
+  (task "Stay." (done-when (< (rov-speed) 0.01)) (held-for 2) (at-most 30))
+  (count fast (> (rov-speed) 0.05))
+  (tender "Pays out when told." (run-until (lambda () (told 'tender))) (pay-out! 3) (run 1000))
+  (score (slack 0.1 0.6)
+         ((counter 'fast) 1 1 #:by end)
+         (tether-length 15 15 #:by most #:over 3)
+         (rov-depth 4.9 5.1 #:by mean))
+  (pilot expert "Goes and stays."
+    (answers (truth choices) truth)
+    (flies (drive! #:surge 0.5) (tell! 'tender "three metres"))
+    (flies (release!)))
+  (pilot lost "Goes nowhere."
+    (answers (truth choices) (if choices 'right 120))))
+
+(define-scenario a-lesson-is-flown-by-its-pilot
+  "Steps in order, marks, hints, faults, settings, counters, the tender and messages."
+  (let ((report (run-lesson 'everything)))
+    (expect (report-passed? report))
+    (expect (report-total report) => 100)
+    (expect (texts 'say report) => '("It is 5.83 m to the anchor." "left" "again" "again" "Watch."))
+    (expect (texts 'hint report) => '("Ahead."))
+    (expect (texts 'fault report) => '("A gust."))
+    (expect (texts 'message report) => '("to the tender: three metres"))
+    (expect (report-hints report) => 1)
+    (expect (mark "tether-length" report) => 1)
+    (expect (mark "(counter 'fast)" report) => 1)))
+
+(define-scenario one-who-does-nothing-fails
+  "A task that is not done in time ends the flight; what was never begun is no mark."
+  (let ((report (run-lesson 'everything #:pilot 'lost)))
+    (expect (report-passed? report) => #f)
+    (expect (mark "probe 1" report) => 0)
+    (expect (mark "probe 2" report) => 0)
+    (expect (mark "task 1" report) => 0)
+    (expect (mark "task 2" report) => 0)
+    (expect (member "right" (texts 'say report)))
+    (expect (texts 'failed report) => '("Time is up."))))
+
+(define-scenario a-lesson-is-deterministic
+  "The same seed gives the same bits; levels change the settings."
+  (expect (report-hash (run-lesson 'everything #:seed 3)) => (report-hash (run-lesson 'everything #:seed 3)))
+  (expect (texts 'done (run-lesson 'everything #:level 'hard)) => '("Done." "Done."))
+  (expect (texts 'hint (run-lesson 'everything #:level 'hard)) => '())
+  (expect (run-lesson 'everything #:level 'harder) raises)
+  (expect (run-lesson 'everythng) raises name)
+  (expect (run-lesson 'everything #:pilot 'exprt) raises name))
+
+(define-scenario jitter-is-seeded
+  "Random numbers come from the seed, within what is asked, and spread."
+  (let ((draw (lambda (seed)
+                (let ((drawn '()))
+                  (run-lesson
+                   (define-lesson chance "x" (in small)
+                     (set-up (set! drawn (map (lambda (i) (jitter 10)) (iota 200))))
+                     (pilot expert "x"))
+                   #:seed seed)
+                  drawn))))
+    (expect (draw 1) => (draw 1))
+    (expect (not (equal? (draw 1) (draw 2))))
+    (expect (every (lambda (x) (<= -10 x 10)) (draw 5)))
+    (expect (abs (/ (apply + (draw 5)) 200)) is (below 1.5))
+    (expect (count (lambda (x) (> x 5)) (draw 5)) is (between 30 70))
+    (expect (jitter 10) => 0)))
+
+(define-scenario mistakes-teach
+  "An unknown clause lists those there are and the nearest; a wrong one is shown how it is written."
+  (expect (says? "did you mean (say \"text\" VALUE ...)" (define-lesson a "x" (sya "hello"))))
+  (expect (says? "fork-and-show" (define-lesson a "x" (sya "hello"))))
+  (expect (says? "did you mean (done-when E)" (define-lesson a "x" (task "t" (done-wen #t)))))
+  (expect (says? "hint-after" (define-lesson a "x" (task "t" (hint 3 "x")))))
+  (expect (says? "did you mean (flies FORM ...)" (define-lesson a "x" (pilot p "x" (flys 1)))))
+  (expect (says? "say (say \"text\" VALUE ...)" (define-lesson a "x" (say hello))))
+  (expect (says? "say (in WORLD)" (define-lesson a "x" (in))))
+  (expect (says? "inside" (define-lesson a "x" (when #t (insde small)))) => #f)
+  (expect (says? "has no clause `insde'" (define-lesson a "x" (when #t (insde small)))))
+  (expect (says? "has no clause `insde'" (define-lesson a "x" (branch (#t (insde small))))))
+  (expect (says? "three values" (define-lesson a "x" (setting u 1 2))))
+  (expect (says? "say (define-lesson" (define-lesson "x")))
+  (expect (says? "has no way of judging" (run-lesson (define-lesson a "x" (in small) (score (slack 0 1 #:by alwys))
+                                          (pilot expert "x")))))
+  (expect (says? "say (in WORLD) before" (run-lesson (define-lesson a "x" (task "t" (done-when #t))
+                                                       (pilot expert "x")))))
+  (expect (says? "has no setting `v'" (run-lesson (define-lesson a "x" (setting u 1 2 3) (set-up (setting 'v))
+                                                    (pilot expert "x"))))))
+
+(define-scenario checking-finds-what-is-wrong
+  "Each thing that --check proves has a lesson that it refuses."
+  (let ((wrong? (lambda (text lesson)
+                  (any (lambda (line) (string-contains line text)) (check-lesson lesson)))))
+    (expect (check-lesson (find (lambda (l) (eq? 'everything (lesson-name l))) (lesson-list)))
+            => '("nobody can hear the hint: Never heard."))
+    (expect (wrong? "does not pass"
+                    (define-lesson bad "x" (in small) (task "t" (done-when #f) (at-most 1)) (pilot expert "x"))))
+    (expect (wrong? "doing nothing"
+                    (define-lesson bad "x" (in small) (task "t" (done-when #t)) (task "u" (done-when #t))
+                      (pilot expert "x"))))
+    (expect (wrong? "asks the machine: random"
+                    (define-lesson bad "x" (in small) (set-up (random 3)) (pilot expert "x"))))
+    (let ((n 0))
+      (expect (wrong? "the same"
+                      (define-lesson bad "x" (in small) (set-up (set! n (+ n 1)) (run n)) (pilot expert "x")))))))
+
+(define (stubborn answers)
+  ;; A guide of one who flies ahead, and when he fails chooses what ANSWERS say in turn.
+  (let ((left answers))
+    (make-guide (const #t) (const #t) (lambda (question truth choices) truth)
+                (lambda (n seconds) (drive! #:surge 1) (run seconds))
+                (lambda (text)
+                  (if (null? left)
+                      'end
+                      (let ((answer (car left)))
+                        (set! left (cdr left))
+                        answer)))
+                #t)))
+
+(define-scenario going-back-is-exact
+  "After a failure the pupil may go back ten seconds or begin again; the dive and the marks go back too."
+  (let* ((lesson (define-lesson taut "x" (in small)
+                   (task "Do not come taut." (done-when #f) (fail-when (taut?) "Taut.") (at-most 100))
+                   (score (slack 0 1 #:by least))
+                   (pilot expert "x")))
+         (none (take-lesson lesson (stubborn '())))
+         (back (take-lesson lesson (stubborn '(back again))))
+         (failures (lambda (r) (filter (lambda (line) (eq? 'failed (second line))) (report-said r)))))
+    (expect (report-rewinds none) => 0)
+    (expect (report-rewinds back) => 2)
+    (expect (map car (failures back)) => (make-list 3 (car (first (failures none)))))
+    (expect (report-hash back) => (report-hash none))
+    (expect (mark "slack" back) => (mark "slack" none))))
+
+(define-scenario the-coach-is-sparing
+  "At most six utterances in fifteen minutes, ten seconds apart, none twice, fewer for the able, each with
+its reason."
+  (in small)
+  (let* ((coach (make-coach)) (able (make-coach #:competence 0.9)))
+    (drive! #:surge 1 #:yaw 0.4)
+    (every 1 (coach-looks! coach))
+    (every 1 (coach-looks! able))
+    (run 300)
+    (let* ((said (coach-log coach)) (times (map first said)))
+      (expect (length said) is (between 2 6))
+      (expect (every (lambda (a b) (>= (- b a) 10)) times (append (cdr times) (list +inf.0))))
+      (expect (length (delete-duplicates (map second said))) => (length said))
+      (expect (every (lambda (line) (assq (second line) (coach-rules))) said)))
+    (expect (length (coach-log able)) is (below (length (coach-log coach))))
+    (expect (every (lambda (line) (= 3 (second (assq (second line) (coach-rules))))) (coach-log able)))))
+
+(define-scenario the-coach-is-off-in-tests
+  "A lesson flown by a pilot is coached only when that is asked for."
+  (expect (report-coached (run-lesson 'everything)) => '())
+  (expect (texts 'coach (run-lesson 'everything)) => '()))
