@@ -11,9 +11,12 @@ subject_of (bt_part part)
 {
   switch (part)
     {
-    case BT_PART_VEHICLE: return "a vehicle";
-    case BT_PART_TETHER: return "a tether";
-    default: return "the sea, or a part it names";
+    case BT_PART_VEHICLE:
+      return "a vehicle";
+    case BT_PART_TETHER:
+      return "a tether";
+    default:
+      return "the sea, or a part it names";
     }
 }
 

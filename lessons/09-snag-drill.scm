@@ -28,6 +28,7 @@ pull, and do not let anybody haul.")
         (fail-when (> (max-tension) 300) "You pulled with more than 300 N: never pull to clear a snag.")
         (at-most 90))
   (task "Turn round until you look along your tether, within 25 degrees, and hold still."
+        (first (hold-heading! (+ 180 (along-the-tether))) (run 4) (release!))
         (done-when (< (off-the-tether) 25))
         (held-for 2)
         (hint-after 20 "(bearing-to (point-at (- (tether-length) 3))) is where it leads; (hold-heading! ...).")
@@ -45,8 +46,8 @@ pull, and do not let anybody haul.")
         (fail-when (> (max-tension) 300) "You pulled with more than 300 N: never pull to clear a snag.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 200))
-  (score (max-tension 0 60 #:by most #:over 240 #:weight 4)
-         ((task-seconds) 0 120 #:by end #:over 240 #:weight 3))
+  (score (max-tension 0 60 #:by most #:over 100 #:weight 4)
+         ((now) 0 100 #:by end #:over 120 #:weight 4))
   (pilot expert "Does the drill."
     (flies (drive! #:surge 0.25))
     (flies (drive! #:surge -0.3) (run 6) (release!))
@@ -70,8 +71,6 @@ pull, and do not let anybody haul.")
   ;; Degrees between the heading and where the tether leads.
   (let ((d (- (rov-heading) (along-the-tether))))
     (abs (- d (* 360 (round (/ d 360)))))))
-
-(define (task-seconds) (now))
 
 (define (fly-legs points speed)
   (for-each (lambda (p) (fly-to! p #:speed speed) (run-until arrived? #:at-most 90)) points))

@@ -20,8 +20,8 @@ of her, the current sets west.  You are to look at her stem: the place is (3 18 
         (at-most 240))
   (count crossings (over-her?))
   (score ((counter 'crossings) 0 0 #:by end #:over 2 #:weight 3)
-         (rov-clearance 1 +inf.0 #:by least #:over 1 #:weight 3)
-         (clearance 1 +inf.0 #:share 0.9 #:weight 3)
+         (rov-clearance 2.5 +inf.0 #:by least #:over 2.5 #:weight 4)
+         (clearance 1 +inf.0 #:by least #:over 1 #:weight 3)
          (max-tension 0 60 #:by most #:over 100))
   (pilot expert "Beside her, down-current, both ways."
     (flies (fly-legs '((-11 4 -18) (-5 18 -19) (3 18 -19)) 0.5))

@@ -83,6 +83,8 @@
     ((bight view) look status)
     ((bight picture) snapshot show)
     ((bight pilot-view) pilot!)
+    ((bight film) film)
+    ((bight plot) plot sample! sample-every samples? samples-rows)
     ((bight describe) describe)
     ((bight doc) help)))
 

@@ -12,9 +12,10 @@
   #:use-module (bight errors)
   #:use-module (bight query)
   #:use-module (bight record)
+  #:use-module ((bight schema) #:select (field-default head-field reference? reference-name))
   #:use-module (bight units)
   #:use-module (bight verb)
-  #:use-module ((bight world) #:select (part-all-fields world-part))
+  #:use-module ((bight world) #:select (part-all-fields part-head world-part))
   #:use-module (srfi srfi-1)
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:export (winding turns wrap-angle capstan-lock
@@ -233,7 +234,9 @@ length, clearance, nearest, longest (m that the string becomes on the way), left
 (define-verb (seabed-length #:subject (t tether) #:key (dragged flag #f))
   "Return how much of the tether lies on the sea bed, m; with DRAGGED only what slides over it."
   (let* ((engine (this-engine 'seabed-length))
-         (bed (list-index (lambda (name) (eq? name 'seabed)) (%names engine 'obstacle))))
+         (world (dive-world (this-dive 'seabed-length)))
+         (bed (list-index (lambda (name) (eq? 'seabed (part-head (world-part world name))))
+                          (%names engine 'obstacle))))
     (if bed (%contact-length engine t bed dragged) 0.0)))
 
 (define-verb (bend-ratio #:subject (t tether))
@@ -250,20 +253,26 @@ when it has no least radius."
     (count (lambda (event) (and (eq? (car event) 'snapped) (eq? (caddr event) name)))
            (%events engine 0))))
 
-(define (full-thrust v)
-  ;; What vehicle number V can push with, N: its thrust, or the pull of one that goes where it is told.
-  (let* ((name (list-ref (%names (this-engine 'thrust-share) 'rov) v))
-         (fields (part-all-fields (world-part (dive-world (this-dive 'thrust-share)) name)))
-         (mass (or (assq-ref fields 'mass) 0)))
-    (or (assq-ref fields (if (zero? mass) 'pull 'thrust)) 0)))
+(define (own-fields name)
+  (part-all-fields (world-part (dive-world (this-dive 'thrust-share)) name)))
+
+(define (vehicle-of t)
+  ;; The name of the vehicle at the far end of tether number T, or #f.
+  (let* ((engine (this-engine 'thrust-share))
+         (end (assq-ref (own-fields (list-ref (%names engine 'tether) t)) 'to)))
+    (find (lambda (name) (eq? name (if (reference? end) (reference-name end) end)))
+          (%names engine 'rov))))
+
+(define (full-pull vehicle)
+  ;; What VEHICLE, a name, can hold a tether with, N.
+  (or (assq-ref (own-fields vehicle) 'pull) (field-default (head-field 'rov 'pull))))
 
 (define-verb (thrust-share #:subject (t tether))
-  "Return the force of the tether on its vehicle over what the vehicle can push with."
-  (let* ((view (%tether (this-engine 'thrust-share) t))
-         (vehicle (assq-ref view 'vehicle)))
-    (if (and vehicle (>= vehicle 0) (positive? (full-thrust vehicle)))
-        (/ (norm (assq-ref view 'force)) (full-thrust vehicle))
-        (bight-raise 'unsupported 'thrust-share "no vehicle with thrust is at the tether's far end"))))
+  "Return the force of the tether on its vehicle over the pull that the world gives the vehicle."
+  (let ((vehicle (vehicle-of t)))
+    (if (and vehicle (positive? (full-pull vehicle)))
+        (/ (norm (assq-ref (%tether (this-engine 'thrust-share) t) 'force)) (full-pull vehicle))
+        (bight-raise 'unsupported 'thrust-share "no vehicle that pulls is at the tether's far end"))))
 
 (define-verb (follow-string #:subject (t tether))
   "Return the length of the taut string as it is led along from one call to the next, m: for a live view,

@@ -56,6 +56,8 @@
 (define (go-live! dive pace)
   "Let DIVE run by itself, PACE seconds in a second.  Return #f if it does already."
   (let ((started? (%live! (engine-of dive) pace)))
+    (when started?
+      (set-house-dive! dive))
     (when (and started? (dive-recorder dive))
       ((dive-recorder dive) 'live))
     started?))

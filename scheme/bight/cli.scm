@@ -172,8 +172,8 @@ begins with FILE and the line."
        bight -                     run what comes on standard input
        bight test [PATH...] [--only RE] [--junit FILE]
                                    run scenario tests, print TAP; a PATH is a file or a folder
-       bight lessons [--trainee WHO]
-                                   list the lessons, with marks
+       bight lessons [--trainee WHO | --group G] [--csv]
+                                   list the lessons with marks, or the marks of a group
        bight lesson NAME|FILE [--trainee WHO] [--group G] [--level L] [--typed] [--fresh] [--quiet]
                                    take a lesson, or go on with it; a FILE from outside is enclosed,
                                    unless --trust; --pilot P shows it flown, --check proves it
@@ -183,6 +183,9 @@ begins with FILE and the line."
                                    write a picture of a world, S seconds into a dive
        bight pilot WORLD [--view V] [--paint P] [--colors true|many|few|none]
                                    fly a world live from the keyboard; ? there shows the keys
+       bight --listen[=SOCKET] [...]
+                                   do the rest, or open the prompt, and serve another prompt on a
+                                   unix socket, yours alone, to an editor
        bight replay FILE           do again what was recorded; exit 1 if it comes out otherwise
        bight --version | --help
 
@@ -314,8 +317,28 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
       (string-suffix? ".scm" word)
       (file-exists? word)))
 
+(define (listen-option argument)
+  ;; The socket that --listen or --listen=SOCKET names, #t for the usual one; else #f.
+  (cond ((string=? argument "--listen") #t)
+        ((split-equals argument '("--listen")) => cdr)
+        (else #f)))
+
+(define (listen! socket arguments)
+  ;; Do what ARGUMENTS say, and listen meanwhile; without a terminal that is all there is to do.
+  (enter-language!)
+  (let ((file ((from (bight listen) start-listening!) (if (string? socket) (absolute socket) #f))))
+    (simple-format (current-error-port) "bight: listening at ~a~%" file)
+    (dynamic-wind
+      (const #f)
+      (lambda ()
+        (if (and (null? arguments) (not (isatty? (current-input-port))))
+            (let loop () (sleep 3600) (loop))
+            (run-command arguments)))
+      (from (bight listen) stop-listening!))))
+
 (define (run-command arguments)
   (cond ((null? arguments) (run-prompt))
+        ((listen-option (car arguments)) => (lambda (socket) (listen! socket (cdr arguments))))
         ((assoc-ref commands (car arguments)) => (lambda (run) (run (cdr arguments))))
         ((string-prefix? "-" (car arguments))
          (bad-usage "there is no option ~a~a" (car arguments) (meant (car arguments) command-names)))

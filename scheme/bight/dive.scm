@@ -24,6 +24,10 @@
             engine-of
             this-engine
             this-dive
+            served?
+            session-dive
+            house-dive set-house-dive!
+            guest-dive
             dive-world
             running-dive
             check-not-running
@@ -74,9 +78,31 @@
 (set-object-property! current-dive 'documentation
                       "Return the dive that all verbs are about, or #f.  A parameter.")
 
+;;; Threads beside the house's: they have no current dive, unless they begin one.
+
+(define served?
+  ;; True in a session of (bight listen).
+  (make-parameter #f))
+
+(define session-dive
+  ;; A procedure of a verb's name that returns the dive of such a session, or #f.
+  (make-parameter (lambda (proc) #f)))
+
+(define the-house-dive #f)
+
+(define (house-dive)
+  "Return the dive that last went live outside of sessions, or #f."
+  the-house-dive)
+
+(define (set-house-dive! dive)
+  "Let DIVE be the one that sessions are about."
+  (unless (served?)
+    (set! the-house-dive dive)))
+
 (define (this-dive proc)
   "Return the current dive, or raise a &bight-error from PROC when there is none."
   (or (current-dive)
+      ((session-dive) proc)
       (bight-raise 'def proc "there is no dive yet; start one, as in (enter! 'open-water)")))
 
 (define (this-engine proc)
@@ -113,6 +139,10 @@ current one and is returned."
 (define (begin-dive engine world)
   "Return a dive in WORLD, of which ENGINE is the handle."
   (make-dive engine world '() '() (new-past engine '()) #f))
+
+(define (guest-dive dive)
+  "Return a dive that is the live DIVE for another thread.  It remembers nothing of itself."
+  (make-dive (%share-live (engine-of dive)) (dive-world dive) '() '() #f #f))
 
 (define (call-with-dive dive thunk)
   "Call THUNK with DIVE as the current dive, and return what it returns."

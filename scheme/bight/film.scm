@@ -114,7 +114,7 @@
           (report (+ i 1)))))))
 
 (define-verb (film (file film-file)
-                   #:key (for film-length 10) (view view 'chase) (size pixels '(640 . 360))
+                   #:key (for film-length 10) (view views '(chase)) (size pixels '(640 . 360))
                    (paint (one-of plain tension curvature model) 'plain)
                    (overlay (one-of figures none) 'figures)
                    (rate rate 25) (speed positive 1.0))

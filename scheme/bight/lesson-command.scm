@@ -30,7 +30,7 @@
 (define (bad-usage text . values)
   (apply bight-raise 'domain #f text values))
 
-(define flags '("--check" "--typed" "--trust" "--fresh" "--quiet"))
+(define flags '("--check" "--typed" "--trust" "--fresh" "--quiet" "--csv"))
 (define options '("--trainee" "--group" "--seed" "--level" "--pilot"))
 
 (define (split-option word)
@@ -314,7 +314,7 @@
         (loop)))))
 
 (define (signal-text signal)
-  (cond ((eqv? signal SIGXCPU)
+  (cond ((eqv? signal SIGPROF)
          (simple-format #f "it took more than ~a s of processor time at one stretch" breath))
         ((memv signal (list SIGABRT SIGSEGV SIGBUS))
          (simple-format #f "it broke down, as one that wants more than ~a megabytes of memory does"
@@ -436,23 +436,65 @@
   (let ((journal (journal-file (make-order file #f given))))
     (and journal (file-exists? journal))))
 
+(define (list-lessons given)
+  (let ((results (logged-results (who-of given))))
+    (for-each
+     (lambda (file)
+       (let* ((name (lesson-file-name file)) (total (best results name)))
+         (simple-format #t "~a  ~a ~a  ~a~%"
+                        (substring (basename file) 0 2)
+                        (string-pad-right (symbol->string name) 26)
+                        (string-pad (cond (total (number->string total))
+                                          ((begun? file given) "begun")
+                                          (else "-"))
+                                    5)
+                        (title-of file))))
+     (lesson-files))))
+
+(define (results-of given)
+  ;; The results that are meant: those of a group, or of one pupil.
+  (let ((group (option given "--group" #f)))
+    (if group
+        (filter (lambda (result) (equal? group (assq-ref result 'group))) (logged-results #f))
+        (logged-results (who-of given)))))
+
+(define (list-group given)
+  ;; A line for each pupil of the group: the best total of each lesson taken.
+  (let* ((results (results-of given))
+         (pupils (sort (delete-duplicates (map (lambda (r) (assq-ref r 'who)) results)) string<?)))
+    (for-each
+     (lambda (who)
+       (let ((own (filter (lambda (r) (equal? who (assq-ref r 'who))) results)))
+         (simple-format #t "~a ~a~%" (string-pad-right who 16)
+                        (string-join
+                         (map (lambda (name)
+                                (simple-format #f "~a ~a" name (best own name)))
+                              (delete-duplicates (map (lambda (r) (assq-ref r 'lesson)) own)))
+                         ", "))))
+     pupils)))
+
+(define columns '(who group lesson level seed total passed? seconds hints rewinds))
+
+(define (csv-cell value)
+  (let ((text (cond ((not value) "") ((eq? value #t) "1") (else (simple-format #f "~a" value)))))
+    (if (string-any (char-set #\, #\" #\newline) text)
+        (string-append "\"" (string-join (string-split text #\") "\"\"") "\"")
+        text)))
+
+(define (list-csv given)
+  (simple-format #t "~a~%" (string-join (map symbol->string columns) ","))
+  (for-each (lambda (result)
+              (simple-format #t "~a~%"
+                             (string-join (map (lambda (c) (csv-cell (assq-ref result c))) columns) ",")))
+            (results-of given)))
+
 (define (lessons-command words)
   "Do what `bight lessons WORDS' asks, and return the exit status."
   (call-with-values (lambda () (read-words "lessons" words))
     (lambda (plain given)
       (unless (null? plain)
         (bad-usage "lessons: only lists; `bight lesson ~a' takes one" (car plain)))
-      (let ((results (logged-results (who-of given))))
-        (for-each
-         (lambda (file)
-           (let* ((name (lesson-file-name file)) (total (best results name)))
-             (simple-format #t "~a  ~a ~a ~a~%"
-                            (substring (basename file) 0 2)
-                            (string-pad-right (symbol->string name) 26)
-                            (string-pad (cond (total (number->string total))
-                                              ((begun? file given) "begun")
-                                              (else "-"))
-                                        5)
-                            (string-append " " (title-of file)))))
-         (lesson-files)))
+      (cond ((option given "--csv" #f) (list-csv given))
+            ((option given "--group" #f) (list-group given))
+            (else (list-lessons given)))
       0)))

@@ -45,7 +45,7 @@
          (trying #f (lambda () (write-result! log-lesson! log-probe! result))))))
 
 (define (logged-results who)
-  "Return the results in the logbook of WHO, a string, oldest first."
+  "Return the results in the logbook of WHO, a string, or of all if it is #f, oldest first."
   (let ((logbook (logbook-ref 'logbook)) (data (logbook-ref 'log-entry-data)))
     (if (and logbook data)
         (filter (lambda (result) (and (pair? result) (assq 'lesson result)))

@@ -157,12 +157,12 @@
   (define (text? stx) (string? (syntax->datum stx)))
 
   (define (wrong where clause)
-    #`(malformed-clause '#,where '#,(datum->syntax #'here (syntax->datum clause))
+    #`(malformed-clause '#,(datum->syntax #'here where) '#,(datum->syntax #'here (syntax->datum clause))
                         (source-location #,clause)))
 
   (define (unknown where clause)
     (if (head-of clause)
-        #`(unknown-clause '#,where '#,(datum->syntax #'here (head-of clause)) (source-location #,clause))
+        #`(unknown-clause '#,(datum->syntax #'here where) '#,(datum->syntax #'here (head-of clause)) (source-location #,clause))
         (wrong where clause)))
 
   (define declaring '(score count setting pilot tender))

@@ -10,10 +10,12 @@
 
 (define-module (bight listen)
   #:use-module (bight dive)
+  #:use-module (bight engine)
   #:use-module (bight errors)
-  #:use-module ((system repl common) #:select (repl-default-option-set!))
-  #:use-module ((system repl server) #:select (make-unix-domain-server-socket spawn-server
-                                               stop-server-and-clients!))
+  #:use-module ((ice-9 threads) #:select (call-with-new-thread current-thread))
+  #:use-module ((bight repl) #:select (set-manners!))
+  #:use-module ((system repl server) #:select (make-unix-domain-server-socket))
+  #:use-module ((system repl repl) #:select (start-repl))
   #:export (start-listening!
             stop-listening!
             usual-socket))
@@ -74,19 +76,64 @@
                          (strerror (system-error-errno (cons key arguments)))))))
       (lambda () (umask mask)))))
 
-(define (prompt-of repl)
-  ;; Editors look for Guile's own.
-  (if (served?) "scheme@(guile-user)> " "bight> "))
+;;; The dive of a session.
+
+(define guests (make-weak-key-hash-table)) ; of threads: (HOST . GUEST)
+
+(define (guest-of-house proc)
+  ;; This thread's own handle of the house's dive.
+  (let ((host (house-dive)) (known (hashq-ref guests (current-thread))))
+    (cond ((not host) #f)
+          ((and known (eq? host (car known)) (%live? (engine-of (cdr known)))) (cdr known))
+          ((%live? (engine-of host))
+           (let ((guest (guest-dive host)))
+             (hashq-set! guests (current-thread) (cons host guest))
+             guest))
+          (else
+           (bight-raise 'def proc
+                        "the dive of the house stands still, so it is not shared; enter! one here")))))
+
+(define (call-in-session thunk)
+  (parameterize ((served? #t) (current-dive #f) (session-dive guest-of-house))
+    (thunk)))
+
+
+;;; Listening.
+
+;; Guile's own server of prompts complains on the terminal whenever a client leaves.
+
+(define (serve client)
+  (parameterize ((current-input-port client) (current-output-port client)
+                 (current-error-port client) (current-warning-port client))
+    (with-fluids ((*repl-stack* '()))
+      (start-repl))))
+
+(define (serve-or-forget client)
+  ;; Whatever ends a session is its client's affair.
+  (catch #t (lambda () (serve client)) (const #f))
+  (false-if-exception (close-port client)))
+
+(define (serve-all socket)
+  (let loop ()
+    (let ((client (false-if-exception
+                   (begin
+                     (select (list socket) '() '())
+                     (car (accept socket))))))
+      (if client
+          (call-with-new-thread (lambda () (serve-or-forget client)))
+          (sleep 1))
+      (loop))))
 
 (define (start-listening! file)
   "Listen at FILE, a socket made now, or at the usual one for #f, until this process ends.  Return the
 file's name."
   (let* ((file (or file (usual-socket))) (socket (open-socket file)))
     (set! the-socket file)
-    (repl-default-option-set! 'prompt prompt-of)
-    (repl-default-option-set! 'on-error 'report)
-    (repl-default-option-set! 'value-history #f)
-    (call-in-session (lambda () (spawn-server socket)))
+    (set-manners!)
+    (sigaction SIGPIPE SIG_IGN)         ; a client that goes is no end of ours
+    (listen socket 5)
+    (call-in-session
+     (lambda () (call-with-new-thread (lambda () (serve-all socket)))))
     (add-hook! exit-hook stop-listening!)
     file))
 

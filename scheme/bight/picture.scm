@@ -22,6 +22,10 @@
             snapshot-world
             renderer-name
             renderer
+            picture-pixels
+            write-picture
+            type:views
+            type:pixels
             caption?))
 
 
@@ -173,6 +177,14 @@
       (draw-view proc (car views) size paint flags)
       (draw-sheet proc views size paint flags)))
 
+(define (picture-pixels proc views size paint overlay)
+  "Return the pixels of a picture of the dive, on behalf of PROC; the others as `snapshot' has them."
+  (draw proc views size paint (flags-of overlay #f)))
+
+(define (write-picture proc pixels size file)
+  "Write PIXELS of SIZE, a pair, to FILE as PNG, on behalf of PROC."
+  ((renders proc '%write-picture) pixels (car size) (cdr size) file))
+
 (define (flags-of overlay transparent)
   (append (if (eq? overlay 'figures) '(figures) '())
           (if transparent '(transparent) '())))
@@ -204,7 +216,7 @@ curvature or by model; OVERLAY is figures (title, scale, compass, legend) or non
 out water and ground."
   (check-file 'snapshot file)
   (let ((pixels (draw 'snapshot view size paint (flags-of overlay transparent))))
-    ((renders 'snapshot '%write-picture) pixels (car size) (cdr size) file)
+    (write-picture 'snapshot pixels size file)
     (caption view file ", " (number->string (car size)) " x " (number->string (cdr size)) " pixels")))
 
 

@@ -11,7 +11,7 @@
   #:use-module (bight programs)
   #:use-module (bight query)
   #:use-module (bight record)
-  #:use-module ((bight task) #:select (every-seconds cancel!))
+  #:use-module ((bight task) #:select (every-seconds))
   #:use-module ((bight time) #:select (now))
   #:use-module (bight verb)
   #:use-module ((ice-9 rdelim) #:select (read-line))
@@ -38,17 +38,20 @@
 ;;; Over time: numbers are gathered while the dive runs.
 
 (define-record <samples>
-  (make-samples names rows task)
+  (make-samples names rows count)
   samples?
   (names samples-names)
   (rows %samples-rows set-samples-rows!) ; (TIME NUMBER ...), the newest first
-  (task samples-task set-samples-task!))
+  (count samples-count set-samples-count!))
+
+(document
+ (samples? "Return true if OBJECT is what `sample!' or `sample-every' gathers."))
 
 (set-record-type-printer!
  <samples>
  (lambda (s port)
    (simple-format port "#<samples of ~a: ~a rows>" (string-join (samples-names s) ", ")
-                  (length (%samples-rows s)))))
+                  (samples-count s))))
 
 (define (samples-rows samples)
   "Return the rows (TIME NUMBER ...) of SAMPLES, the oldest first."
@@ -65,19 +68,17 @@
     (and (real? value) (< -inf.0 value +inf.0) (exact->inexact value))))
 
 (define (take-sample! samples thunks)
-  (when (< (length+* (%samples-rows samples)) most-rows)
+  (when (< (samples-count samples) most-rows)
+    (set-samples-count! samples (+ 1 (samples-count samples)))
     (set-samples-rows! samples
                        (cons (cons (now) (map number-or-false thunks)) (%samples-rows samples)))))
-
-(define (length+* rows)
-  (length rows))
 
 (define (sample-every seconds names thunks)
   "Call THUNKS every SECONDS of the dive from now on and keep the numbers they return, under NAMES.  Return
 samples, for `plot'."
-  (let ((samples (make-samples names '() #f)))
+  (let ((samples (make-samples names '() 0)))
     (take-sample! samples thunks)
-    (set-samples-task! samples (every-seconds seconds (lambda () (take-sample! samples thunks))))
+    (every-seconds seconds (lambda () (take-sample! samples thunks)))
     samples))
 
 (define-syntax-rule (sample! seconds expression expression* ...)
@@ -294,9 +295,9 @@ samples, for `plot'."
               (chart-curves chart)))
 
 (define-argument-type (plot-size value)
-  "(WIDTH HEIGHT): pixels in a file, characters in the terminal, from 20 to 8192"
+  "(WIDTH HEIGHT): pixels in a file, characters in the terminal, from 10 to 8192"
   (if (and (list? value) (= 2 (length value))
-           (every (lambda (n) (and (real? n) (integer? n) (<= 20 n 8192))) value))
+           (every (lambda (n) (and (real? n) (integer? n) (<= 10 n 8192))) value))
       (cons (inexact->exact (first value)) (inexact->exact (second value)))
       refused))
 

@@ -7,6 +7,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight repl)
+  #:use-module ((bight dive) #:select (served?))
   #:use-module (bight errors)
   #:use-module (bight verb)
   #:use-module ((ice-9 regex) #:select (regexp-quote))
@@ -18,6 +19,7 @@
   #:use-module ((system repl common) #:select (repl-default-option-set! repl-eval))
   #:use-module ((system repl repl) #:select (start-repl))
   #:export (run-prompt
+            set-manners!
             run-inner-prompt
             completions))
 
@@ -163,8 +165,12 @@ Show the documentation of NAME; (help NAME) tells how it is used too."
                             (when near
                               (simple-format port "; did you mean `~a'?" near)))))
 
+(define (prompt-of repl)
+  ;; Editors look for Guile's own.
+  (if (served?) "scheme@(guile-user)> " "bight> "))
+
 (define (set-manners!)
-  (repl-default-option-set! 'prompt "bight> ")
+  (repl-default-option-set! 'prompt prompt-of)
   (repl-default-option-set! 'on-error 'report)
   (repl-default-option-set! 'value-history #f) ; a picture must begin in the first column
   (repl-default-option-set! 'warning-level 0))

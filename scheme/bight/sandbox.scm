@@ -31,6 +31,7 @@
 
 (define memory-limit                    ; bytes of address space
   (* 1024 1024 (limit-from "BIGHT_LESSON_MEGABYTES" 1024)))
+(define most-seconds 7200)              ; of processor time in all
 (define breath                          ; seconds of processor time without letting time pass
   (limit-from "BIGHT_LESSON_SECONDS" 20))
 
@@ -212,16 +213,13 @@ wrong in it."
 
 ;;; The process.
 
-(define (processor-seconds)
-  (let ((t (times)))
-    (quotient (+ (tms:utime t) (tms:stime t)) internal-time-units-per-second)))
-
 (define enclosed? #f)
 
 (define (breathe!)
   "Grant this process, if it is enclosed, processor time anew."
+  ;; The collector has SIGXCPU for itself, so a timer ends the process, by SIGPROF.
   (when enclosed?
-    (setrlimit 'cpu (+ breath 1 (processor-seconds)) (+ 3600 breath))))
+    (setitimer ITIMER_PROF 0 0 breath 0)))
 
 (define (limit! resource value)
   (false-if-exception (setrlimit resource value value)))
@@ -270,6 +268,7 @@ paths, else `limits'."
   (limit! 'fsize (* 16 1024 1024))      ; standard output may be a file
   (limit! 'core 0)
   (limit! 'as memory-limit)
+  (limit! 'cpu most-seconds)
   (set! enclosed? #t)
   (breathe!)
   (if (close-paths!) 'kernel 'limits))

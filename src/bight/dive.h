@@ -232,9 +232,12 @@ typedef struct bt_profile
      hit; steps in which the guard held nodes back.  All zero in a world without.  */
   uint64_t links_asked, boxes_visited, pairs_measured, links_clear, casts;
   uint64_t touches, contact_rounds, truncated;
-  uint64_t span_solves, span_skips; /* of the thesis' response */
-  uint64_t current_samples_skipped; /* shapes solved in still water */
-  uint64_t strings, charts, words;  /* for questions about what a tether is doing */
+  uint64_t span_solves, span_skips;   /* of the thesis' response */
+  uint64_t current_samples_skipped;   /* shapes solved in still water */
+  uint64_t strings, charts, words;    /* for questions about what a tether is doing */
+  uint64_t body_steps;                /* of vehicles with mass */
+  uint64_t wave_samples, lee_samples; /* places of moving lines and vehicles where the water was
+                                         asked for waves, for the lee of obstacles */
   uint64_t operations, refused;
 } bt_profile;
 

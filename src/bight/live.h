@@ -36,9 +36,17 @@ bt_live_options bt_live_default_options (void);
 bt_status bt_live_start (bt_dive *dive, const bt_live_options *options, bt_live **live,
                          bt_error *error);
 
-/* Stop the thread between two steps; DIVE is its owner's again, and LIVE is gone.  Return what
+/* Stop the thread between two steps; DIVE is its owner's again, and LIVE is let go.  Return what
    stopped it before, such as BT_ERR_DIVERGED, or BT_OK.  What was not yet due is forgotten.  */
 bt_status bt_live_stop (bt_live *live, bt_error *error);
+
+/* Hold LIVE for one who uses it beside its owner, such as another thread with a fork of its own to
+   read; it stays after bt_live_stop until each has let it go.  Once it is stopped commands are
+   refused with BT_ERR_STALE and nothing is waited for.  */
+void bt_live_hold (bt_live *live);
+void bt_live_let_go (bt_live *live);
+/* Return nonzero once LIVE is stopped.  */
+int bt_live_stopped (bt_live *live);
 
 /* ---- Commands ---- */
 

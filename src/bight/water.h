@@ -75,6 +75,9 @@ bt_vec3 bt_water_current (const bt_water *water, bt_vec3 p);
 /* Return the acceleration of WATER by waves at P, m/s2.  */
 bt_vec3 bt_water_acceleration (const bt_water *water, bt_vec3 p);
 
+/* Return both at once, which costs waves but once: VELOCITY and ACCELERATION.  */
+void bt_water_motion (const bt_water *water, bt_vec3 p, bt_vec3 *velocity, bt_vec3 *acceleration);
+
 /* Return the height of the surface of WATER over P, m: 0 without waves.  */
 double bt_water_surface (const bt_water *water, bt_vec3 p);
 

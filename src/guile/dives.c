@@ -62,6 +62,7 @@ bt__new_handle (SCM function)
   handle->live = NULL;
   handle->flown = NULL;
   handle->edition = 0;
+  handle->host = SCM_BOOL_F;
   return handle;
 }
 
@@ -76,7 +77,10 @@ static size_t
 free_dive (SCM object)
 {
   bt__handle *handle = (bt__handle *)SCM_SMOB_DATA (object);
-  bt_live_stop (handle->live, NULL);
+  if (scm_is_true (handle->host))
+    bt_live_let_go (handle->live);
+  else
+    bt_live_stop (handle->live, NULL);
   bt_dive_free (handle->flown);
   bt_dive_free (handle->dive);
   return 0;
@@ -120,10 +124,12 @@ wait_for_steps (SCM object, int64_t n)
 {
   bt_live *live = bt__to_handle (object)->live;
   int64_t last = bt_live_steps (live) + n;
-  bt_error error;
+  bt_error error, stopped = { BT_ERR_STALE, "the dive is no longer live" };
   do
     {
       bt__check ("run", bt_live_status (live, &error), &error);
+      if (bt_live_stopped (live))
+        bt__raise ("run", &stopped);
       SCM_TICK;
     }
   while (bt_live_wait (live, last, 0.02) < last);

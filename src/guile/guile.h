@@ -53,6 +53,7 @@ typedef struct bt__handle
   bt_live *live;    /* or NULL */
   bt_dive *flown;   /* the dive itself while it is live: the thread's */
   uint64_t edition; /* of what DIVE is a copy of */
+  SCM host;         /* the handle whose live dive this one shares, or #f */
 } bt__handle;
 
 bt_dive *bt__to_dive (SCM object);
@@ -65,6 +66,9 @@ void bt__operate (const char *who, bt__handle *handle, bt_op op, int subject, co
 bt__handle *bt__new_handle (SCM function);
 SCM bt__from_handle (bt__handle *handle);
 bt__handle *bt__to_handle (SCM object);
+/* One at a time: what threads that share a live dive do to its handle.  */
+void bt__lock_sharing (void);
+void bt__unlock_sharing (void);
 /* The bt_current_function that calls a Scheme procedure; USER is the handle.  */
 void bt__call_current (void *user, bt_vec3 p, double t, bt_vec3 *v);
 

@@ -2,12 +2,53 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <pthread.h>
+
 #include "guile/guile.h"
+
+/* ---- Sharing: another thread's handle of the same live dive ---- */
+
+static pthread_mutex_t sharing = PTHREAD_MUTEX_INITIALIZER;
+
+void
+bt__lock_sharing (void)
+{
+  pthread_mutex_lock (&sharing);
+}
+
+void
+bt__unlock_sharing (void)
+{
+  pthread_mutex_unlock (&sharing);
+}
+
+static SCM
+share_live (SCM object)
+{
+  bt__handle *host = bt__to_handle (object), *guest = bt__new_handle (SCM_BOOL_F);
+  bt_error error = { BT_ERR_DEF, "the dive is not live" };
+  bt_status status = BT_ERR_DEF;
+  bt__lock_sharing ();
+  if (host->live && scm_is_false (host->host))
+    status = bt_dive_fork (host->dive, &guest->dive, &error);
+  if (status == BT_OK)
+    {
+      bt_live_hold (host->live);
+      guest->live = host->live;
+      guest->host = object;
+    }
+  bt__unlock_sharing ();
+  bt__check ("listen", status, &error);
+  return bt__from_handle (guest);
+}
+
+/* ---- One's own ---- */
 
 static SCM
 is_live (SCM object)
 {
-  return scm_from_bool (bt__to_handle (object)->live != NULL);
+  bt_live *live = bt__to_handle (object)->live;
+  return scm_from_bool (live && !bt_live_stopped (live));
 }
 
 static SCM
@@ -40,15 +81,19 @@ static SCM
 freeze (SCM object)
 {
   bt__handle *handle = bt__to_handle (object);
-  bt_error error;
+  bt_error error, shared = { BT_ERR_DEF, "this dive is live elsewhere, and is frozen there alone" };
   bt_status status;
   if (!handle->live)
     return SCM_BOOL_F;
+  if (scm_is_true (handle->host))
+    bt__raise ("freeze!", &shared);
+  bt__lock_sharing ();
   status = bt_live_stop (handle->live, &error);
   bt_dive_free (handle->dive);
   handle->dive = handle->flown;
   handle->flown = NULL;
   handle->live = NULL;
+  bt__unlock_sharing ();
   bt__check ("freeze!", status, &error);
   return SCM_BOOL_T;
 }
@@ -107,6 +152,8 @@ bt__define_live (void)
     { "%live-moments", 3, 0, (scm_t_subr)live_moments,
       "Return the checkpoints of the live DIVE after the step AFTER, the oldest first: vectors "
       "#(step hash state), the state #f unless WANTED." },
+    { "%share-live", 1, 0, (scm_t_subr)share_live,
+      "Return another handle of the live DIVE, for another thread." },
     { "%live-late", 1, 0, (scm_t_subr)live_late,
       "Return by how much the live DIVE fell behind real time, s." },
   };

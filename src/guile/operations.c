@@ -62,6 +62,17 @@ operate_live (bt__handle *handle, bt_op op, int subject, const double *args, int
   return status;
 }
 
+/* What a guest does to a dive stands in its host's journal.  */
+static void
+note_down (bt__handle *handle, int64_t step, bt_op op, int subject, const double *args, int n)
+{
+  SCM entry = journal_entry (handle->serial + 1, step, op, subject, args, n);
+  bt__lock_sharing ();
+  scm_c_vector_set_x (entry, 0, scm_from_int64 (++handle->serial));
+  handle->journal = scm_cons (entry, handle->journal);
+  bt__unlock_sharing ();
+}
+
 void
 bt__operate (const char *who, bt__handle *handle, bt_op op, int subject, const double *args, int n)
 {
@@ -70,8 +81,8 @@ bt__operate (const char *who, bt__handle *handle, bt_op op, int subject, const d
   bt_status status = handle->live ? operate_live (handle, op, subject, args, n, &step, &error)
                                   : bt_dive_do (handle->dive, op, subject, args, n, &error);
   bt__check (who, status, &error);
-  handle->journal
-      = scm_cons (journal_entry (++handle->serial, step, op, subject, args, n), handle->journal);
+  note_down (scm_is_true (handle->host) ? bt__to_handle (handle->host) : handle, step, op, subject,
+             args, n);
 }
 
 static SCM

@@ -329,6 +329,9 @@ profile (SCM object)
   list = with ("charts", scm_from_uint64 (p.charts), list);
   list = with ("strings", scm_from_uint64 (p.strings), list);
   list = with ("operations", scm_from_uint64 (p.operations), list);
+  list = with ("lee-samples", scm_from_uint64 (p.lee_samples), list);
+  list = with ("wave-samples", scm_from_uint64 (p.wave_samples), list);
+  list = with ("body-steps", scm_from_uint64 (p.body_steps), list);
   list = with ("span-skips", scm_from_uint64 (p.span_skips), list);
   list = with ("span-solves", scm_from_uint64 (p.span_solves), list);
   list = with ("truncated", scm_from_uint64 (p.truncated), list);

@@ -82,6 +82,7 @@ bt_live_start (bt_dive *dive, const bt_live_options *options, bt_live **out, bt_
   live->dive = dive;
   live->options = chosen;
   live->steps = bt_dive_steps (dive);
+  live->holders = 1;
   make_locks (live);
   status = bt__shelf_init (&live->shelf, dive, chosen.moments, error);
   if (status == BT_OK && start_thread (live))
@@ -104,13 +105,55 @@ bt_live_stop (bt_live *live, bt_error *error)
   pthread_cond_signal (&live->wake);
   pthread_mutex_unlock (&live->lock);
   pthread_join (live->thread, NULL);
+  pthread_mutex_lock (&live->lock);
+  live->ended = 1;
+  pthread_cond_broadcast (&live->moved);
+  pthread_mutex_unlock (&live->lock);
   status = bt_live_status (live, error);
-  free_live (live);
+  bt_live_let_go (live);
   return status;
+}
+
+void
+bt_live_hold (bt_live *live)
+{
+  pthread_mutex_lock (&live->lock);
+  live->holders++;
+  pthread_mutex_unlock (&live->lock);
+}
+
+void
+bt_live_let_go (bt_live *live)
+{
+  int left;
+  if (!live)
+    return;
+  pthread_mutex_lock (&live->lock);
+  left = --live->holders;
+  pthread_mutex_unlock (&live->lock);
+  if (left == 0)
+    free_live (live);
+}
+
+int
+bt_live_stopped (bt_live *live)
+{
+  int stopped;
+  pthread_mutex_lock (&live->lock);
+  stopped = live->stop;
+  pthread_mutex_unlock (&live->lock);
+  return stopped;
 }
 
 /* ---- Commands ---- */
 
+static bt_status
+refuse_stopped (bt_error *error)
+{
+  return bt__fail (error, BT_ERR_STALE, "the dive is no longer live");
+}
+
+/* Queue a command and return it with the lock held, or NULL.  */
 static bt__command *
 post (bt_live *live, int64_t step, bt_op op, int subject, const double *args, int n, int awaited,
       bt_error *error)
@@ -123,6 +166,13 @@ post (bt_live *live, int64_t step, bt_op op, int subject, const double *args, in
     }
   command->awaited = awaited;
   pthread_mutex_lock (&live->lock);
+  if (live->stop)
+    {
+      pthread_mutex_unlock (&live->lock);
+      free (command);
+      refuse_stopped (error);
+      return NULL;
+    }
   if (step < live->steps)
     command->step = live->steps; /* after what is there for this step */
   bt__queue_put (&live->queue, command);
@@ -135,7 +185,7 @@ bt_live_post (bt_live *live, int64_t step, bt_op op, int subject, const double *
               bt_error *error)
 {
   if (!post (live, step, op, subject, args, n, 0, error))
-    return BT_ERR_LIMIT;
+    return error ? error->status : BT_ERR_LIMIT;
   pthread_mutex_unlock (&live->lock);
   return BT_OK;
 }
@@ -147,9 +197,14 @@ bt_live_do (bt_live *live, bt_op op, int subject, const double *args, int n, int
   bt__command *command = post (live, -1, op, subject, args, n, 1, error);
   bt_status status;
   if (!command)
-    return BT_ERR_LIMIT;
-  while (!command->done)
+    return error ? error->status : BT_ERR_LIMIT;
+  while (!command->done && !live->ended)
     pthread_cond_wait (&live->moved, &live->lock);
+  if (!command->done)
+    {
+      bt__queue_remove (&live->queue, command);
+      command->status = refuse_stopped (&command->error);
+    }
   pthread_mutex_unlock (&live->lock);
   status = command->status;
   if (status != BT_OK && error)
@@ -192,7 +247,7 @@ bt_live_wait (bt_live *live, int64_t step, double seconds)
   int64_t steps;
   int late = 0;
   pthread_mutex_lock (&live->lock);
-  while (!late && live->steps < step && live->status == BT_OK
+  while (!late && !live->ended && live->steps < step && live->status == BT_OK
          && !(live->options.until >= 0 && live->steps >= live->options.until))
     late = pthread_cond_timedwait (&live->moved, &live->lock, &end) != 0;
   steps = live->steps;

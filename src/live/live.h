@@ -35,6 +35,8 @@ bt__command *bt__command_new (int64_t step, bt_op op, int subject, const double 
 void bt__queue_put (bt__queue *queue, bt__command *command);
 /* Return and remove the first command that is due at STEP, or NULL.  */
 bt__command *bt__queue_due (bt__queue *queue, int64_t step);
+/* Take COMMAND out of the queue, if it is in it.  */
+void bt__queue_remove (bt__queue *queue, const bt__command *command);
 void bt__queue_free (bt__queue *queue);
 
 /* ---- The shelf: copies of the state that others read, and the checkpoints ---- */
@@ -88,6 +90,8 @@ struct bt_live
   bt__command *log, *log_end;
   int64_t steps;
   int stop;
+  int ended;   /* nonzero: the thread is gone, and what waits shall wait no more */
+  int holders; /* who must let it go before it is freed */
   double late;
   bt_status status;
   bt_error error; /* what stopped time */

@@ -51,6 +51,16 @@ bt__queue_due (bt__queue *queue, int64_t step)
 }
 
 void
+bt__queue_remove (bt__queue *queue, const bt__command *command)
+{
+  bt__command **place = &queue->first;
+  while (*place && *place != command)
+    place = &(*place)->next;
+  if (*place)
+    *place = command->next;
+}
+
+void
 bt__queue_free (bt__queue *queue)
 {
   while (queue->first)

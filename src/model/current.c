@@ -159,6 +159,16 @@ bt_water_acceleration (const bt_water *water, bt_vec3 p)
   return a;
 }
 
+void
+bt_water_motion (const bt_water *water, bt_vec3 p, bt_vec3 *velocity, bt_vec3 *acceleration)
+{
+  bt_vec3 orbit = still;
+  *acceleration = still;
+  if (has_waves (water))
+    bt_waves_motion (water->sea->waves, p, water->time, &orbit, acceleration);
+  *velocity = bt__add (bt_water_current (water, p), orbit);
+}
+
 double
 bt_water_surface (const bt_water *water, bt_vec3 p)
 {

@@ -99,11 +99,13 @@ upload (bt__job *j)
     gl->EnableVertexAttribArray (i);
 }
 
+/* Draw N corners of triangles, from FIRST on.  */
 static void
-draw_soup (const bt__job *j)
+draw_corners (const bt__job *j, size_t first, size_t n)
 {
   j->gl->BindVertexArray (j->array);
-  j->gl->DrawElements (GL_TRIANGLES, (GLsizei)j->soup.n_index, GL_UNSIGNED_INT, NULL);
+  j->gl->DrawElements (GL_TRIANGLES, (GLsizei)n, GL_UNSIGNED_INT,
+                       (const void *)(first * sizeof *j->soup.index));
 }
 
 /* ---- Uniforms ---- */
@@ -167,7 +169,7 @@ draw_shadows (bt__job *j)
   gl->ClearBufferfv (GL_DEPTH, 0, (const GLfloat[]){ 1 });
   gl->UseProgram (j->r->shadow);
   gl->UniformMatrix4fv (spot (j, j->r->shadow, "sunward"), 1, GL_FALSE, j->cast);
-  draw_soup (j);
+  draw_corners (j, 0, j->soup.n_index);
 }
 
 /* What hides a tube lets some of it through: it is mixed to the colour in front.  */
@@ -192,11 +194,23 @@ draw_ghosts (const bt__job *j)
 }
 
 static void
+use_program (const bt__job *j, GLuint program, const float clip[16])
+{
+  const bt__gl *gl = j->gl;
+  set_common (j, program);
+  gl->UniformMatrix4fv (spot (j, program, "clip"), 1, GL_FALSE, clip);
+  gl->UniformMatrix4fv (spot (j, program, "sunward"), 1, GL_FALSE, j->cast);
+  gl->Uniform1i (spot (j, program, "shadow"), 0);
+  set_number (j, program, "grid", bt__grid_step (j));
+  set_number (j, program, "texel", 1.0 / shadows_of (j)->side);
+  set_number (j, program, "jitter", j->drawing.samples > 1);
+}
+
+static void
 draw_scene (bt__job *j, const bt__window *window)
 {
   static const GLfloat nothing[] = { 0, 0, 0, 0 }, far[] = { 1 };
   const bt__gl *gl = j->gl;
-  GLuint program = j->r->scene;
   float clip[16];
   int s = j->drawing.samples;
   bt__camera_matrix (&j->optics, j->soup.origin, j->drawing.width, j->drawing.height, window, clip);
@@ -205,15 +219,13 @@ draw_scene (bt__job *j, const bt__window *window)
   gl->ClearBufferfv (GL_COLOR, 0, nothing);
   gl->ClearBufferfv (GL_COLOR, 1, nothing);
   gl->ClearBufferfv (GL_DEPTH, 0, far);
-  set_common (j, program);
-  gl->UniformMatrix4fv (spot (j, program, "clip"), 1, GL_FALSE, clip);
-  gl->UniformMatrix4fv (spot (j, program, "sunward"), 1, GL_FALSE, j->cast);
-  gl->Uniform1i (spot (j, program, "shadow"), 0);
-  set_number (j, program, "grid", bt__grid_step (j));
-  set_number (j, program, "texel", 1.0 / shadows_of (j)->side);
   gl->ActiveTexture (GL_TEXTURE0);
   gl->BindTexture (GL_TEXTURE_2D, shadows_of (j)->map);
-  draw_soup (j);
+  use_program (j, j->r->scene, clip);
+  draw_corners (j, 0, j->n_solid);
+  use_program (j, j->r->ground, clip); /* last: most of it is hidden by then */
+  draw_corners (j, j->n_solid, j->soup.n_index - j->n_solid);
+  gl->UseProgram (j->r->scene);
   draw_ghosts (j);
 }
 

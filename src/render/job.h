@@ -16,6 +16,7 @@ typedef struct bt__job
   bt__drawing drawing;
   bt__optics optics;
   bt__soup soup;
+  size_t n_solid; /* corners of the soup that are no ground; they come first */
   bt_vec3 middle; /* of what casts shadows */
   double radius;
   double level; /* height of level ground, or -1e30 */

@@ -105,6 +105,7 @@ bt__prepare (bt__job *j)
 {
   j->level = -1e30;
   gather (j, 0);
+  j->n_solid = j->soup.n_index;
   if (!j->drawing.transparent)
     gather (j, 1); /* last: most of it is hidden by then */
   measure (j);

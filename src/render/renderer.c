@@ -63,6 +63,9 @@ build_programs (bt__renderer *r, bt_error *error)
   bt_status status
       = link_program (&r->gl, bt__shader_scene_vertex, bt__shader_scene_fragment, &r->scene, error);
   if (status == BT_OK)
+    status = link_program (&r->gl, bt__shader_scene_vertex, bt__shader_ground_fragment, &r->ground,
+                           error);
+  if (status == BT_OK)
     status = link_program (&r->gl, bt__shader_shadow_vertex, bt__shader_shadow_fragment, &r->shadow,
                            error);
   if (status == BT_OK)

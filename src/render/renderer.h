@@ -28,7 +28,7 @@ struct bt__renderer
   const bt__backend *backend;
   void *context;
   bt__gl gl;
-  GLuint scene, shadow, resolve; /* programs */
+  GLuint scene, ground, shadow, resolve; /* programs */
   bt__shadows still, quick;
   pthread_mutex_t lock; /* of the context: a picture at a time */
   GLuint empty;         /* a vertex array for what has no vertices */

@@ -77,18 +77,19 @@ static const char scene_fragment[] =
     "in vec3 p, n, c, q;\n"
     "flat in vec4 s;\n"
     "uniform sampler2DShadow shadow;\n"
-    "uniform float grid, height, texel;\n" /* spacing of the lines on the ground; z of the origin; a
+    "uniform float grid, height, texel, jitter;\n" /* spacing of the lines on the ground; z of the origin; a
                                               texel's share of the shadows */
     "layout (location = 0) out vec4 color;\n"
     "layout (location = 1) out vec4 shape;\n"
+    /* The samples of a pixel look at four places of the shadows between them.  */
     "float lit (float slope)\n"
     "{\n"
     "  if (q.x < 0.0 || q.x > 1.0 || q.y < 0.0 || q.y > 1.0 || q.z > 1.0) return 1.0;\n"
-    "  float bias = 0.0012 + 0.003 * (1.0 - slope), sum = 0.0, r = 0.8 * texel;\n"
-    "  for (int i = 0; i < 4; i++)\n"
-    "    sum += texture (shadow, vec3 (q.xy + r * vec2 (i % 2 * 2 - 1, i / 2 * 2 - 1), q.z - bias));\n"
-    "  return sum / 4.0;\n"
+    "  float bias = 0.0012 + 0.003 * (1.0 - slope);\n"
+    "  vec2 corner = 2.0 * mod (floor (gl_FragCoord.xy), 2.0) - 1.0;\n"
+    "  return texture (shadow, vec3 (q.xy + 0.8 * texel * jitter * corner, q.z - bias));\n"
     "}\n"
+    "#ifdef GROUND\n"
     /* Sand: its grain, its ripples, a faint net of lines to tell sizes by.  */
     "vec3 sand (vec3 a, inout vec3 N)\n"
     "{\n"
@@ -109,6 +110,7 @@ static const char scene_fragment[] =
     "    }\n"
     "  return a;\n"
     "}\n"
+    "#else\n"
     /* What stands in the sea is not of one colour.  */
     "float weathered ()\n"
     "{\n"
@@ -119,6 +121,7 @@ static const char scene_fragment[] =
     "  return 0.80 + 0.16 * (noise (k) + noise (l)) \n"
     "         + 0.16 * fine * (noise (4.7 * k) + noise (4.9 * l) - 0.9);\n"
     "}\n"
+    "#endif\n"
     "void main ()\n"
     "{\n"
     "  vec3 N = normalize (n), V = perspective > 0.5 ? normalize (eye - p) : -ahead;\n"
@@ -133,11 +136,14 @@ static const char scene_fragment[] =
     "                    + 4.0 * step (100.0, s.y) * step (s.y, 200.0));\n"
     "      return;\n"
     "    }\n"
-    "  if (s.z > 0.5) a = sand (a, N);\n"
-    "  else if (s.y > 100.0) a *= weathered ();\n"
+    "#ifdef GROUND\n"
+    "  a = sand (a, N);\n"
+    "#else\n"
+    "  if (s.y > 100.0) a *= weathered ();\n"
+    "#endif\n"
     "  float slope = max (0.0, dot (N, sun)), day = 0.38 + 0.62 * exp (-depth / 55.0);\n"
     "  float play = smoothstep (0.0, 0.7, N.z) * exp (-depth / 80.0);\n"
-    "  float direct = slope * lit (slope);\n"
+    "  float open = lit (slope), direct = slope * open;\n"
     "  vec3 sky = mix (vec3 (0.10, 0.17, 0.19), vec3 (0.36, 0.56, 0.58), N.z * 0.5 + 0.5);\n"
     "  vec3 beam = day * 1.45 * vec3 (0.90, 1.0, 0.92) * direct;\n"
     "  vec3 light = beam + day * sky\n"
@@ -147,7 +153,7 @@ static const char scene_fragment[] =
     "             * smoothstep (0.60, 0.92, dot (-V, ahead));\n"
     "  vec3 H = normalize (sun + V);\n"
     "  float g = s.w / 255.0;\n"
-    "  float shine = g * pow (max (0.0, dot (N, H)), 8.0 + 56.0 * g) * lit (slope);\n"
+    "  float shine = g * pow (max (0.0, dot (N, H)), 8.0 + 56.0 * g) * open;\n"
     /* ALPHA: the share of the light that waves play with.  */
     "  color = vec4 (a * light + vec3 (0.6, 0.8, 0.8) * shine * day, play * beam.g / light.g);\n"
     "  shape = vec4 (smooth_normal, s.x / 255.0 + 2.0 * step (200.0, s.y)\n"
@@ -392,6 +398,8 @@ static const char resolve_water[] =
 
 const char *const bt__shader_scene_vertex[] = { version, scene_vertex, NULL };
 const char *const bt__shader_scene_fragment[] = { version, common, scene_fragment, NULL };
+const char *const bt__shader_ground_fragment[]
+    = { version, "#define GROUND\n", common, scene_fragment, NULL };
 const char *const bt__shader_shadow_vertex[] = { version, shadow_vertex, NULL };
 const char *const bt__shader_shadow_fragment[] = { version, shadow_fragment, NULL };
 const char *const bt__shader_resolve_vertex[] = { version, resolve_vertex, NULL };

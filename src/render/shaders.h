@@ -8,6 +8,7 @@
 /* Pieces; each NULL-terminated list is one shader.  */
 extern const char *const bt__shader_scene_vertex[];
 extern const char *const bt__shader_scene_fragment[];
+extern const char *const bt__shader_ground_fragment[]; /* the scene's, for the ground alone */
 extern const char *const bt__shader_shadow_vertex[];
 extern const char *const bt__shader_shadow_fragment[];
 extern const char *const bt__shader_resolve_vertex[];

@@ -133,13 +133,17 @@ add_pulls (const bt_dive *dive, bt__state *state, int vehicle, int but, bt__rigi
         }
 }
 
-/* The stiffness of the moving line I at its far end.  */
+/* The stiffness of the moving line I at its far end: of its last piece, and of the inertia of its
+   last node, which is that of half a piece and whose acceleration is (1.5 / h)2 of its way.  */
 static double
 stiffness_of (const bt_dive *dive, bt__state *state, int i)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
+  const bt_tether_props *p = &tether->props;
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, tether->parted ? 1 : 0);
-  return fmin (tether->props.ea, 1e9) / bt__dynamic_rest (chain)[chain->n - 1];
+  double piece = bt__dynamic_rest (chain)[chain->n - 1], rate = 1.5 / BT__TIME_STEP;
+  double displaced = state->density * BT__PI / 4 * p->diameter * p->diameter;
+  return fmin (p->ea, 1e9) / piece + rate * rate * (p->mass + p->ca * displaced) * piece / 2;
 }
 
 /* ---- What a body is given ---- */
@@ -243,7 +247,8 @@ pull_of_slack (const bt_dive *dive, bt__state *state, int vehicle, int i, bt_err
   bt__driven *d = &dive->driven[vehicle];
   bt__line line = bt__line_of (dive, state, i);
   bt_vec3 force = bt__line_force (&line), x0 = bt__attachment (dive, state, vehicle);
-  bt_vec3 way = bt__sub (x0, bt__tether_ends (dive, state, i).a);
+  bt__ends ends = bt__tether_ends (dive, state, i);
+  bt_vec3 way = bt__sub (x0, ends.a);
   bt_vec3 u = bt__unit_or (way, bt__vec (0, 0, 0));
   double f0 = -bt__dot (force, u), f;
   double left = fmax (tether->length - bt__norm (way), SHALLOWEST * tether->length);
@@ -252,6 +257,15 @@ pull_of_slack (const bt_dive *dive, bt__state *state, int vehicle, int i, bt_err
   if (status != BT_OK)
     return status;
   f = (f0 + k * bt__dot (bt__sub (d->grip.at, x0), u)) / (1 + k * yield_along (&d->grip, u));
+  /* Where it would come taut within the step, the stretch is what counts.  */
+  if (bt__is_spring (tether))
+    {
+      double ea = tether->props.ea / tether->length;
+      double over = bt__dot (bt__sub (d->grip.at, ends.a), u) - tether->length;
+      double taut = ea * over / (1 + ea * yield_along (&d->grip, u));
+      k = taut > f ? ea : k;
+      f = fmax (f, taut);
+    }
   d->in.gripped = 1;
   d->in.stiffness = k;
   d->in.pull = bt__axpy (force, f0 - f, u);

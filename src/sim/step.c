@@ -177,6 +177,26 @@ try_step (bt_dive *dive, int round, bt_error *error)
   return bt__resolve_tethers (dive, next, 1, error);
 }
 
+/* What a step had to do with bodies, waves and lee.  */
+static void
+count_work (bt_dive *dive)
+{
+  const bt_model *model = dive->model;
+  bt__state *state = dive->next;
+  uint64_t bodies = 0, places = 0;
+  for (int i = 0; i < model->n_vehicles; i++)
+    bodies += bt__dive_vehicle (dive, state, i)->rigid != 0;
+  for (int i = 0; i < model->n_tethers; i++)
+    {
+      const bt__tether *tether = bt__dive_tether (dive, state, i);
+      if (tether->shape.form == BT__FORM_CHAIN && tether->quiet < BT__SLEEP_AFTER)
+        places += (uint64_t)bt__dive_chain (dive, state, i, 0)->n + 1;
+    }
+  dive->profile.body_steps += bodies;
+  dive->profile.wave_samples += state->waves.n > 0 ? bodies + places : 0;
+  dive->profile.lee_samples += state->wake && model->n_wakes > 0 ? bodies + places : 0;
+}
+
 bt_status
 bt_dive_step (bt_dive *dive, bt_error *error)
 {
@@ -191,6 +211,7 @@ bt_dive_step (bt_dive *dive, bt_error *error)
   if (status != BT_OK)
     return status;
   bt__watch_props (dive, dive->next);
+  count_work (dive);
   dive->profile.steps++;
   bt__dive_commit (dive);
   return BT_OK;

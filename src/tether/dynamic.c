@@ -26,9 +26,9 @@ bt__dynamic_work_free (bt__dynamic_work *w)
 {
   if (!w)
     return;
-  void *arrays[]
-      = { w->X,    w->d,   w->rhs, w->keep, w->lam,  w->link,      w->node,     w->extra,
-          w->diag, w->off, w->up,  w->up2,  w->bend, w->bend_diag, w->bend_off, w->bend_far };
+  void *arrays[] = { w->X,    w->d,    w->rhs,       w->keep,     w->last,    w->lam,
+                     w->link, w->node, w->extra,     w->diag,     w->off,     w->up,
+                     w->up2,  w->bend, w->bend_diag, w->bend_off, w->bend_far };
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
     free (arrays[i]);
   free (w);
@@ -46,8 +46,8 @@ bt__dynamic_work_new (int n_max)
   w->n_max = n_max;
   int whole = (w->X = calloc (n, sizeof *w->X)) && (w->d = calloc (n, sizeof *w->d))
               && (w->rhs = calloc (n, sizeof *w->rhs)) && (w->keep = calloc (n, sizeof *w->keep))
-              && (w->lam = calloc (n, sizeof *w->lam)) && (w->link = calloc (n, sizeof *w->link))
-              && (w->node = calloc (n, sizeof *w->node))
+              && (w->last = calloc (n, sizeof *w->last)) && (w->lam = calloc (n, sizeof *w->lam))
+              && (w->link = calloc (n, sizeof *w->link)) && (w->node = calloc (n, sizeof *w->node))
               && (w->extra = calloc (n, sizeof *w->extra))
               && (w->diag = calloc (n, sizeof *w->diag)) && (w->off = calloc (n, sizeof *w->off))
               && (w->up = calloc (n, sizeof *w->up)) && (w->up2 = calloc (n, sizeof *w->up2))

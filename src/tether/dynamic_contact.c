@@ -186,19 +186,37 @@ bt__dynamic_contact_assemble (bt__dynamic_work *w, bt__mode mode)
   return changed;
 }
 
+/* What end K pulled by SHARE of what was solved for presses on, it presses by no more.  */
+static void
+ease_rows (bt__dynamic_work *w, int k, double share)
+{
+  for (int q = 0; q < w->rows; q++)
+    {
+      bt__dynamic_row *r = w->row + q;
+      if (r->node == (k ? w->n - 1 : 0))
+        r->load *= share;
+    }
+}
+
 void
-bt__dynamic_contact_take (bt__dynamic_work *w)
+bt__dynamic_contact_take (bt__dynamic_work *w, double share)
 {
   for (int k = 0; k < w->rows; k++)
     {
       bt__dynamic_row *r = w->row + k;
-      r->load = r->active > 0 ? fmax (-r->stiffness * gap_of (r, w->X), 0) : 0;
+      double gap = gap_of (r, w->X) + (1 - share) * bt__dot (r->normal, place_of (r, w->d));
+      double load = r->active > 0 ? fmax (-r->stiffness * gap, 0) : 0;
+      r->load = share < 1 ? r->load + share * (load - r->load) : load;
     }
   for (int k = 0; w->hold && k < 2; k++)
     {
       bt__dynamic_hold *h = w->hold + k;
-      if (h->on && !h->slips)
-        h->force = bt__scale (h->stiffness, bt__sub (h->at, w->X[end_node (w, k)]));
+      if (!h->on || h->slips)
+        continue;
+      h->force = bt__scale (h->stiffness, bt__sub (h->at, w->X[end_node (w, k)]));
+      double size = bt__norm (h->force);
+      if (size > h->most)
+        ease_rows (w, k, h->most / size);
     }
 }
 

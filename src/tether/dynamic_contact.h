@@ -65,7 +65,8 @@ bt_vec3 *bt__dynamic_proposal (bt__dynamic_work *work);
 int bt__dynamic_iterate (bt__dynamic_work *work, bt__dynamic_row *rows, int n,
                          bt__dynamic_hold *hold, bt__dynamic_report *report);
 
-/* Return no less than the longest of the N vectors A, less B: cheap, and up to sqrt (3) too large.  */
+/* Return no less than the longest of the N vectors A, less B: cheap, and up to sqrt (3) too large.
+ */
 double bt__dynamic_stray (const bt_vec3 *a, const bt_vec3 *b, int n);
 
 /* Take the proposal over into D, without winding.  RESTART (a flag a node, or NULL) says which

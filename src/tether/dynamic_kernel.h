@@ -113,6 +113,7 @@ struct bt__dynamic_work
   bt__dynamic_hold *hold;           /* of the ends, NULL if none */
   /* ---- arrays ---- */
   bt_vec3 *X, *d, *rhs, *keep; /* iterate, update, right-hand side, spare */
+  bt_vec3 *last;               /* among contacts: the update before */
   double *lam;
   bt__link *link;
   bt__node *node;
@@ -157,10 +158,10 @@ double bt__dynamic_solve (bt__dynamic_work *w);
 int bt__dynamic_newton (bt__dynamic_work *w, bt__dynamic_report *report);
 
 /* Contacts: add the blocks and forces of the rows and holds at the iterate X, and return nonzero if
-   one changed sides since the last call; take over the update D; forget the loads, or set them to
-   those of X; their potential.  */
+   one changed sides since the last call; take over SHARE of the update D; forget the loads, or set
+   them to those of X; their potential.  */
 int bt__dynamic_contact_assemble (bt__dynamic_work *w, bt__mode mode);
-void bt__dynamic_contact_take (bt__dynamic_work *w);
+void bt__dynamic_contact_take (bt__dynamic_work *w, double share);
 void bt__dynamic_contact_load (bt__dynamic_work *w, int none);
 double bt__dynamic_contact_potential (const bt__dynamic_work *w);
 

@@ -18,33 +18,36 @@ enum
   TURNING = 2, /* iterations in which the node tangents follow */
   SAFE = 60,
   HALVINGS = 8,
+  SWINGING = 2, /* iterations before an update is held back */
   /* With contacts: a step that needs more is better restarted.  */
-  QUICK_TOUCHING = 20,
+  QUICK_TOUCHING = 30,
   SAFE_TOUCHING = 40
 };
 
 #define LOST 1e3          /* of the length: an update that has left every shape */
 #define FRONT 5e-4        /* m: what a front of tension may still move in the last iteration */
 #define LOST_TOUCHING 0.3 /* m: an update that has left what it touches */
+#define LEAST_SHARE 0.3   /* of an update that is held back */
 #define STRIDE 0.3        /* m: what is taken at most of one in the safe way */
 
-/* Take over the update: the multipliers and the places.  */
+/* Take over SHARE of the update: the multipliers and the places.  */
 static void
-take (bt__dynamic_work *w)
+take (bt__dynamic_work *w, double share)
 {
   bt_vec3 before = w->d[0];
-  w->X[0] = bt__add (w->X[0], before);
+  w->X[0] = bt__axpy (w->X[0], share, before);
   for (int j = 0; j < w->n; j++)
     {
       const bt__link *k = w->link + j;
       bt_vec3 after = w->d[j + 1];
       double closing = bt__dot (k->t, bt__sub (after, before));
-      w->lam[j] = k->active > 0 ? k->tension + k->ka * closing : 0;
-      w->X[j + 1] = bt__add (w->X[j + 1], after);
+      double lam = k->active > 0 ? k->tension + k->ka * closing : 0;
+      w->lam[j] = share < 1 ? w->lam[j] + share * (lam - w->lam[j]) : lam;
+      w->X[j + 1] = bt__axpy (w->X[j + 1], share, after);
       before = after;
     }
   if (bt__dynamic_touches (w))
-    bt__dynamic_contact_take (w);
+    bt__dynamic_contact_take (w, share);
 }
 
 static void
@@ -54,6 +57,22 @@ move (bt__dynamic_work *w, const bt_vec3 *from, double share)
     w->X[i] = bt__axpy (from[i], share, w->d[i]);
 }
 
+/* The share to take of the update, if SHARE was of the last: less where it goes back on that one,
+   as Aitken would have it.  Friction goes by the load of the iterate before; where the line turns
+   about thin things, that swings to and fro.  */
+static double
+calm (bt__dynamic_work *w, double share)
+{
+  double along = 0, size = 0;
+  for (int i = 0; i <= w->n; i++)
+    {
+      bt_vec3 change = bt__sub (w->d[i], w->last[i]);
+      along += bt__dot (w->last[i], change);
+      size += bt__dot (change, change);
+    }
+  return size > 0 ? fmin (fmax (-share * along / size, LEAST_SHARE), 1) : 1;
+}
+
 /* Among contacts tension walks along a slack line an interval at a time, each time by less: what is
    left of that is taken for solved.  */
 static int
@@ -61,6 +80,7 @@ quick (bt__dynamic_work *w, bt__dynamic_report *report)
 {
   int touches = bt__dynamic_touches (w), last = touches ? QUICK_TOUCHING : QUICK;
   double lost = touches ? LOST_TOUCHING : LOST / 1e-5 * w->tolerance;
+  double share = 1;
   for (int i = 0; i < last; i++)
     {
       int changed = bt__dynamic_assemble (w, i < TURNING ? BT__QUICK : BT__FROZEN);
@@ -71,7 +91,12 @@ quick (bt__dynamic_work *w, bt__dynamic_report *report)
         continue;
       if (!(most <= lost))
         return 0;
-      take (w);
+      if (touches)
+        {
+          share = i < SWINGING ? 1 : calm (w, share);
+          memcpy (w->last, w->d, (size_t)(w->n + 1) * sizeof *w->d);
+        }
+      take (w, share);
       if (most <= w->tolerance && (i == 0 || !changed))
         return 1;
     }

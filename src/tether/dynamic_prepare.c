@@ -69,13 +69,22 @@ prepare_nodes (bt__dynamic_work *w, const bt__dynamic *d)
     w->X[w->n] = w->in->end[1].at;
 }
 
+static int
+has_waves (const bt_water *water)
+{
+  return water->sea && water->sea->waves && water->sea->waves->n > 0;
+}
+
+/* Velocities of the water, and where there are waves its accelerations, to the spare.  */
 static void
 sample_current (bt__dynamic_work *w)
 {
   const bt_water *water = w->in->water;
   int same = bt_water_is_uniform (water);
   bt_vec3 u = same ? bt_water_velocity (water, w->x[0]) : bt__vec (0, 0, 0);
-  for (int i = 0; i <= w->n; i++)
+  for (int i = 0; has_waves (water) && i <= w->n; i++)
+    bt_water_motion (water, w->X[i], &w->node[i].current, &w->keep[i]);
+  for (int i = 0; !has_waves (water) && i <= w->n; i++)
     w->node[i].current = same ? u : bt_water_velocity (water, w->X[i]);
 }
 
@@ -103,13 +112,8 @@ lump_between (bt__dynamic_work *w, const bt__dynamic_lump *lump, double u, doubl
   lump_at (w, j + 1, lump, share * (1 - at));
 }
 
-static int
-has_waves (const bt_water *water)
-{
-  return water->sea && water->sea->waves && water->sea->waves->n > 0;
-}
-
-/* Water that is accelerated across the line pushes on what it displaces and on its added mass.  */
+/* Water that is accelerated pushes on what it displaces, any way, for the tension is the effective
+   one; and across the line on its added mass.  */
 static void
 push_by_waves (bt__dynamic_work *w)
 {
@@ -117,11 +121,11 @@ push_by_waves (bt__dynamic_work *w)
   double d = in->line->diameter, displaced = in->water->density * BT__PI / 4 * d * d;
   for (int i = 0; i <= w->n; i++)
     {
-      bt_vec3 a = bt_water_acceleration (in->water, w->x[i]);
+      bt_vec3 a = w->keep[i];
       bt_vec3 chord = bt__sub (w->x[i < w->n ? i + 1 : i], w->x[i > 0 ? i - 1 : i]);
       bt_vec3 t = bt__unit_or (chord, bt__vec (0, 0, 0));
-      double k = (displaced + w->ma) * w->node[i].cell;
-      w->extra[i].force = bt__axpy (w->extra[i].force, k, bt__axpy (a, -bt__dot (a, t), t));
+      bt_vec3 push = bt__axpy (bt__scale (displaced + w->ma, a), -w->ma * bt__dot (a, t), t);
+      w->extra[i].force = bt__axpy (w->extra[i].force, w->node[i].cell, push);
     }
 }
 

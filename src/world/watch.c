@@ -19,6 +19,7 @@ enum
   ROOM_LEAST = 256
 };
 
+#define STRAIGHT 1e-9   /* share of the chord: no longer is straight */
 #define FINER 0.4       /* of the mesh */
 #define HOLD_REACH 0.05 /* m: a corner nearer than that to something is held by it */
 
@@ -265,7 +266,8 @@ bt__watch_gaze (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
 
 /* ---- The free way ---- */
 
-/* The tree's way, or the string itself where that is shorter or there is no other.  */
+/* The tree's way, or the string itself where that is shorter or there is no other; no tree is grown
+   for a straight string.  */
 bt_status
 bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
 {
@@ -275,11 +277,13 @@ bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
     return status;
   struct bt__watch *w = dive->watch;
   double length = INFINITY;
-  status = bt__chart_grow (dive, i, g, error);
+  bt_vec3 far = g->node[g->n - 1];
+  int straight = g->taut_length <= (1 + STRAIGHT) * bt__distance (g->node[0], far);
+  if (!straight)
+    status = bt__chart_grow (dive, i, g, error);
   if (status != BT_OK)
     return status;
-  bt_vec3 far = g->node[g->n - 1];
-  if (g->ways->tree)
+  if (!straight && g->ways->tree)
     length = bt__free_length (g->ways->tree, w->taut, &g->config, far, FREE_STEPS, g->shortest,
                               &w->count);
   if (!(length < g->taut_length))

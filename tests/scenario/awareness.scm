@@ -159,12 +159,16 @@ the line is wound all the same."
 (define-scenario nothing-for-nothing
   "A dive that asks nothing has nothing solved for it; one that asks twice of a state solves once."
   (in (alone 'dynamic))
-  (go '(3 -3 -5) '(-3 -3 -5))
+  (go-round)
   (expect (assq-ref (profile) 'strings) => 0)
   (expect (assq-ref (profile) 'charts) => 0)
   (taut-length) (excess) (fouled?) (capstan-lock) (slack)
   (expect (assq-ref (profile) 'strings) => 1)
-  (expect (assq-ref (profile) 'charts) => 1))
+  (expect (assq-ref (profile) 'charts) => 2)
+  (run 1)
+  (taut-length) (fouled?)
+  (expect (assq-ref (profile) 'strings) => 2)
+  (expect (assq-ref (profile) 'charts) => 2))
 
 (define (all-answers)
   (list (taut-length) (free-length) (wrap-angle 'p1) (capstan-lock) (homotopy-class) (foul-reason)

@@ -42,7 +42,7 @@
               (splice (data->part `(rov (named minnow) (type bluerov2-heavy) (at ,@end))))
               (splice (data->part `(tether (named line) (type fathom) (wet-weight 0) (from ,@(car way))
                                            (to minnow) (length ,(* 1.1 (length-of way))) (nodes ,nodes)
-                                           (via ,@(drop-right (cdr way) 1)) (model dynamic)))))) 
+                                           (via ,@(drop-right (cdr way) 1)) (model dynamic))))))
      #:unwind? #t)))
 
 (define (enter seed nodes)
@@ -62,8 +62,8 @@
   (if (null? all) 0 (/ n (length all))))
 
 (define-scenario hauling
-  "The instant rule misses at most a tenth of those that do not come home and warns falsely of a quarter; the
-fork agrees with a finer one."
+  "The fork agrees with one of twice the nodes; the answer at once does not cry wolf too often.  What it
+misses is printed in the long form."
   (define all
     (let loop ((seed 1) (n 0) (all '()))
       (if (= n scenes)

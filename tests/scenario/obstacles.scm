@@ -3,7 +3,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules ((srfi srfi-1) #:select (first fold)))
+(use-modules ((srfi srfi-1) #:select (first fold map)))
 
 
 ;;; What a pilot would count by hand.

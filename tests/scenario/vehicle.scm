@@ -2,6 +2,8 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
+(use-modules ((srfi srfi-1) #:hide (every)) (srfi srfi-4))
+
 (define (open-water)
   (world (sea (depth 200)) (rov (named minnow) (type bluerov2-heavy) (at 0 0 -50))))
 
@@ -163,3 +165,80 @@ tension is v sqrt (k m)."
     (every 1/60 (set! peak (max peak (max-tension))))
     (run 3)
     (expect (/ peak (* speed (sqrt (* (/ 20000 30) 19.86)))) is (about 1 #:within 0.03))))
+
+
+;;; On station in a current.
+
+(define (station c u model)
+  ;; A vehicle held at C metres across a current of U m/s toward south, on 1.05 C of neutral line.
+  (world (sea (depth 200) (current u 180))
+         (rov (named minnow) (type bluerov2-heavy) (tether-point 0 0 0) (at c 0 -50))
+         (tether (named line) (type fathom) (wet-weight 0) (cdt 0) (from 0 0 -50) (to minnow)
+                 (length (* 1.05 c)) (nodes 60) (model ,model))))
+
+(define (level-thrust)
+  ;; What the four level thrusters push with, over ground, (east north).
+  (let* ((f (f64vector->list (thrusts))) (k (sqrt 1/2))
+         (ahead (* k (- (+ (list-ref f 0) (list-ref f 1)) (list-ref f 2) (list-ref f 3))))
+         (aside (* k (- (+ (list-ref f 1) (list-ref f 3)) (list-ref f 0) (list-ref f 2))))
+         (h (* (/ (acos -1) 180) (rov-heading))))
+    (list (+ (* ahead (sin h)) (* aside (cos h))) (- (* ahead (cos h)) (* aside (sin h))))))
+
+(define-scenario on-station
+  "Held against a current, its thrust is its own drag and the force of the line at rest, within 1 %."
+  (in (station 50 0.4 'dynamic))
+  (hold-heading! 0)
+  (hold-position!)
+  (run 300)
+  (expect (rov-speed) is (below 1e-3))
+  (let* ((thrust (level-thrust)) (here (rov-position)))
+    (enter! (with (station 50 0.4 'steady) (minnow (mass 0) (at here))))
+    (let* ((f (tether-force))
+           (east (- (x f))) (north (- (drag 0.4) (y f))) (whole (sqrt (+ (* east east) (* north north)))))
+      (expect (car thrust) is (about east #:within (* 0.01 whole)))
+      (expect (cadr thrust) is (about north #:within (* 0.01 whole))))))
+
+(define (needed c u)
+  ;; The thrust that holds the vehicle in place, N.
+  (enter! (with (station c u 'steady) (minnow (mass 0))))
+  (let ((f (tether-force)))
+    (sqrt (+ (expt (x f) 2) (expt (- (drag u) (y f)) 2)))))
+
+(define (largest-current c most)
+  (let bisect ((low 0.1) (high 2.0) (n 0))
+    (let ((u (/ (+ low high) 2)))
+      (cond ((= n 20) u)
+            ((< (needed c u) most) (bisect u high (+ n 1)))
+            (else (bisect low u (+ n 1)))))))
+
+(define-scenario (the-largest-current-held c)
+  "On 25, 50 and 100 m of neutral tether across the current, full thrust ahead holds .747, .629, .493 m/s."
+  #:for ((c 25 50 100))
+  (in (open-water))
+  (hold-depth! 50)
+  (drive! #:surge 1)
+  (run 5)
+  (let ((u (largest-current c (cadr (level-thrust)))))
+    (expect (/ u (case c ((25) .747) ((50) .629) (else .493))) is (about 1 #:within 0.03))))
+
+(define-scenario (turning-while-taut backs-off)
+  "Its tether made fast at the stern, taut, the current from ahead: it does not turn round on the stick
+until it has backed off."
+  #:for ((backs-off #f #t))
+  (in (world (sea (depth 60) (current 0.4 0))
+             (rov (named minnow) (type bluerov2-heavy) (at 0 19.9 -20) (heading 0))
+             (tether (named line) (type fathom) (wet-weight 0) (from 0 0 -20) (to minnow) (length 20)
+                     (model dynamic))))
+  (hold-depth! 20)
+  (drive! #:surge 0.6)
+  (run 20)
+  (expect (taut?))
+  (if backs-off
+      (begin
+        (drive! #:surge -0.9)
+        (run-until (lambda () (< (straight-distance) 17)) #:at-most 60)
+        (drive! #:surge 0 #:yaw 1)
+        (expect (run-until (lambda () (> (abs (net-turns)) 0.5)) #:at-most 20)))
+      (begin
+        (drive! #:yaw 1)
+        (expect (run-until (lambda () (> (abs (net-turns)) 0.5)) #:at-most 60) => #f))))

@@ -69,6 +69,7 @@
                "(snapshot \"/tmp/stolen\")" "(save! \"/tmp/stolen\")" "(record! \"/tmp/stolen\")"
                "(load-dive \"/tmp/x\")" "(log-lesson! 'x)" "(run-tests \"/tmp\")" "(world-file (world))"
                "(run-lesson 'x)" "(take-lesson 1 2)" "(breathe!)" "(untrusted? #f)" "(define-verb (f) \"x\" 1)"))
+  (require (read-inside "(+ 1 2)") => (list))
   (expect (read-inside form) raises)
   (expect (file-exists? "/tmp/stolen") => #f))
 
@@ -82,6 +83,7 @@
                "(let loop ((l '(1 2))) (loop (append l l)))"
                "(string-tabulate (lambda (i) #\\a) 1000000000)" "(xsubstring \"abc\" 0 1000000000)"
                "(make-bitvector 100000000000 #f)" "(make-f64vector 1000000000 0)"))
+  (require (read-inside "(+ 1 2)") => (list))
   (expect (read-inside form) raises))
 
 (define-scenario bindings-cannot-be-poisoned

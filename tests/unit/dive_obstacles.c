@@ -420,13 +420,23 @@ judge_clearance (judge *j, const bt_dive *dive)
       }
 }
 
-/* The hull as it was told to stand, by its heading.  */
+static bt_vec3
+blend (double a, bt_vec3 u, double b, bt_vec3 v)
+{
+  return bt__axpy (bt__scale (a, u), b, v);
+}
+
+/* The hull as it is turned: by heading, then bow up, then starboard down.  */
 static bt__box
 hull_of (const scene *s, int i, const bt_vehicle_view *v)
 {
   double c = cos (v->heading), k = sin (v->heading);
-  return (bt__box){ { v->position, { c, -k, 0 }, { k, c, 0 }, { 0, 0, 1 } },
-                    bt__scale (0.5, s->vehicle[i].size) };
+  bt_vec3 right = { c, -k, 0 }, ahead = { k, c, 0 }, up = { 0, 0, 1 };
+  bt_vec3 bow = blend (cos (v->pitch), ahead, sin (v->pitch), up);
+  bt_vec3 mast = blend (cos (v->pitch), up, -sin (v->pitch), ahead);
+  bt_vec3 beam = blend (cos (v->roll), right, -sin (v->roll), mast);
+  mast = blend (cos (v->roll), mast, sin (v->roll), right);
+  return (bt__box){ { v->position, beam, bow, mast }, bt__scale (0.5, s->vehicle[i].size) };
 }
 
 /* The axis is longer than the sampling of a brute search likes: the part about the hull.  */
@@ -488,6 +498,13 @@ follows (const bt_dive *dive, int vehicle)
 }
 
 static void
+note_apart (judge *j, const bt_dive *dive, int i, int k, double gap)
+{
+  if (j->apart++ == 0 && getenv ("BIGHT_TELL"))
+    printf ("# t %.3f end %d of line %d is apart by %g\n", bt_dive_time (dive), k, i, gap);
+}
+
+static void
 judge_ends (judge *j, const bt_dive *dive, int i)
 {
   const bt__tether *tether = bt__dive_tether (dive, dive->now, i);
@@ -499,7 +516,8 @@ judge_ends (judge *j, const bt_dive *dive, int i)
       if (end->vehicle >= 0)
         wanted = bt__attachment (dive, dive->now, end->vehicle);
       /* A body follows its line as exactly as the step is exact.  */
-      j->apart += !(bt__distance (at, wanted) < (follows (dive, end->vehicle) ? 1e-3 : 1e-6));
+      if (!(bt__distance (at, wanted) < (follows (dive, end->vehicle) ? 1e-3 : 1e-6)))
+        note_apart (j, dive, i, k, bt__distance (at, wanted));
     }
 }
 

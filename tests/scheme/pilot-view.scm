@@ -1,0 +1,142 @@
+;;; Flying in a terminal, without one: keys, sticks, the display, and what is written to a screen.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(use-modules (bight cells)
+             (bight pilot-hud)
+             (bight pilot-keys)
+             (bight pilot-view)
+             (ice-9 regex)
+             (rnrs bytevectors)
+             (srfi srfi-1))
+
+(define (keys-of text)
+  (bytes->keys (map char->integer (string->list text))))
+
+(define-scenario keys-are-told-apart
+  "Letters, arrows in both their forms, and sequences that are no key of ours."
+  (in open-water)
+  (expect (keys-of "wW") => '(#\w #\W))
+  (expect (keys-of "\x1b[A\x1bOB") => '(up down))
+  (expect (keys-of "\x1b[1;5Hq") => '(#\q))
+  (expect (keys-of "\x1b[15~q") => '(#\q))
+  (expect (keys-of "\x1bx") => '(escape #\x))
+  (expect (bytes->keys '(195 164 113)) => '(#\q)))
+
+(define-scenario sticks-are-held-and-nudged
+  "A key holds its stick while it repeats; with shift it stays where it was put, at most full."
+  (in open-water)
+  (let ((pressed (press (new-sticks) 0 1 10)))
+    (expect (stick-values pressed) => '(1.0 0.0 0.0 0.0))
+    (expect (stick-values (settle pressed 10.5)) => '(1.0 0.0 0.0 0.0))
+    (expect (stick-values (settle pressed 10.6)) => '(0.0 0.0 0.0 0.0))
+    (expect (stick-values (settle (press pressed 0 1 10.5) 10.65)) => '(1.0 0.0 0.0 0.0))
+    (expect (stick-values (settle (press pressed 0 1 10.5) 10.7)) => '(0.0 0.0 0.0 0.0))
+    (expect (stick-values (press pressed 0 -1 10.2)) => '(-1.0 0.0 0.0 0.0)))
+  (let ((put (fold (lambda (i sticks) (nudge sticks 3 1/10)) (new-sticks) (iota 12))))
+    (expect (stick-values put) => '(0.0 0.0 0.0 1.0))
+    (expect (stick-values (settle (press put 3 -1 0) 0.1)) => '(0.0 0.0 0.0 -1.0))
+    (expect (stick-values (settle (press put 3 -1 0) 1)) => '(0.0 0.0 0.0 1.0)))
+  (expect (nudge-of-key #\D) => '(3 . 1/10))
+  (expect (nudge-of-key #\Q) => #f))
+
+(define-scenario the-tape-turns
+  "The heading stands in the middle of its tape, whatever it is."
+  (in open-water)
+  (expect (string-ref (heading-tape 0 61) 30) => #\N)
+  (expect (string-ref (heading-tape 270.0 61) 30) => #\W)
+  (expect (substring (heading-tape 30 61) 29 32) => "030")
+  (expect (string-contains (heading-tape 359.9 61) " N ") => 29)
+  (expect (string-contains (heading-tape 6 61) " N ") => 27)
+  (for-each (lambda (heading) (expect (string-length (heading-tape heading 20)) => 20))
+            (iota 40 0.0 9.7)))
+
+(define-scenario palettes-follow-the-terminal
+  "What a terminal says of itself chooses its colours."
+  (in open-water)
+  (expect (palette-of "xterm-256color" "truecolor" #f) => 'true)
+  (expect (palette-of "tmux-256color" #f #f) => 'many)
+  (expect (palette-of "xterm" #f "") => 'few)
+  (expect (palette-of "vt100" #f #f) => 'none)
+  (expect (palette-of "xterm-256color" "truecolor" "1") => 'none))
+
+(define (pixels columns rows color-of)
+  "Return a picture for COLUMNS by ROWS cells; COLOR-OF is called with x and y."
+  (let ((bytes (make-bytevector (* 8 columns rows))))
+    (do ((i 0 (+ i 1)))
+        ((= i (* 2 columns rows)) bytes)
+      (bytevector-u32-native-set! bytes (* 4 i)
+                                  (color-of (remainder i columns) (quotient i columns))))))
+
+(define (half? x y) (if (even? y) #xff0000 #x0000ff))
+
+(define-scenario only-what-changed-is-written
+  "Nothing twice; one cell for one pixel; everything when asked."
+  (in open-water)
+  (let ((screen (%make-screen 20 5 'true)))
+    (%screen-picture! screen (pixels 20 5 half?))
+    (let ((all (%screen-bytes screen #t)))
+      (expect (string-count all #\▀) => 100)
+      (expect (->bool (string-contains all "\x1b[38;2;255;0;0m")) => #t)
+      (expect (->bool (string-contains all "\x1b[48;2;0;0;255m")) => #t))
+    (expect (%screen-bytes screen #f) => "")
+    (%screen-picture! screen (pixels 20 5 (lambda (x y) (if (and (= x 3) (= y 4)) #x00ff00 (half? x y)))))
+    (let ((one (%screen-bytes screen #f)))
+      (expect (string-count one #\▀) => 1)
+      (expect (->bool (string-contains one "\x1b[3;4H")) => #t))
+    (%screen-picture! screen (pixels 20 5 (lambda (x y) (logxor 2 (half? x y)))))
+    (expect (string-count (%screen-bytes screen #f) #\▀) => 1) ; back, and no more for a shade
+    (%screen-text! screen 18 1 "längs" #xffffff 0)
+    (%screen-text! screen -2 9 "outside" #xffffff 0)
+    (expect (->bool (string-contains (%screen-bytes screen #f) "lä")) => #t)))
+
+(define-scenario colors-are-those-there-are
+  "In 256 and in 16 colours each is the nearest; without, light and dark are letters."
+  (in open-water)
+  (define (bytes-in palette color)
+    (let ((screen (%make-screen 2 1 palette)))
+      (%screen-picture! screen (pixels 2 1 (lambda (x y) color)))
+      (%screen-bytes screen #t)))
+  (expect (->bool (string-contains (bytes-in 'many #xff0000) "\x1b[48;5;196m")) => #t)
+  (expect (->bool (string-contains (bytes-in 'many #x808080) "\x1b[48;5;244m")) => #t)
+  (expect (->bool (string-contains (bytes-in 'few #xff0000) "\x1b[101m")) => #t)
+  (expect (->bool (string-contains (bytes-in 'few #x0000e0) "\x1b[44m")) => #t)
+  (expect (->bool (string-contains (bytes-in 'none #xffffff) "@@")) => #t)
+  (expect (string-match "\x1b\\[[0-9;]*[1-9]m" (bytes-in 'none #xffffff)) => #f))
+
+(define (draw-on columns rows)
+  "Return the lines of a display of the present dive."
+  (let ((lines (map (lambda (i) (make-string columns #\space)) (iota rows))))
+    (draw-hud (lambda (column row text ink paper)
+                (string-for-each-index
+                 (lambda (i)
+                   (let ((x (+ column i)))
+                     (when (and (< -1 x columns) (< -1 row rows))
+                       (string-set! (list-ref lines row) x (string-ref text i)))))
+                 text))
+              columns rows
+              (read-figures 'minnow 'line) (slow-figures 'minnow 'line)
+              '((title . "t") (right . "r") (message . "m") (urgent? . #f) (sticks . (0.5 0.0 -1.0 0.0))))
+    lines))
+
+(define (string-for-each-index proc text)
+  (for-each proc (iota (string-length text))))
+
+(define-scenario the-display-tells-the-figures
+  "Of the dive as it is, in windows large and small."
+  (in pier)
+  (for-each
+   (lambda (size)
+     (let ((text (string-join (apply draw-on size) "\n")))
+       (expect (->bool (string-match "depth +4.00 m" text)) => #t)
+       (expect (->bool (string-match "out +35.00 m" text)) => #t)
+       (expect (->bool (string-match "surge \\+0.5 .*heave -1.0" text)) => #t)))
+   '((80 24) (120 40) (250 80)))
+  (expect (list? (draw-on 20 5)) => #t))
+
+(define-scenario a-dive-is-flown-in-a-terminal-alone
+  "Without one nothing begins."
+  (in open-water)
+  (expect (with-input-from-file "/dev/null" (lambda () (pilot! #:colors 'many))) raises unsupported)
+  (expect (live?) => #f)
+  (expect (pilot! #:view 'plan) raises name))

@@ -1,0 +1,137 @@
+;;; Plots and films: files whole or not at all, programs that are there, missing, or fail.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(use-modules (bight errors)
+             (bight picture)
+             (bight programs)
+             (ice-9 exceptions)
+             (ice-9 ftw)
+             (ice-9 textual-ports)
+             (srfi srfi-1))
+
+(define scratch
+  (mkdtemp (string-append (or (getenv "TMPDIR") "/tmp") "/bight-plot-XXXXXX")))
+
+(define (in-scratch name)
+  (string-append scratch "/" name))
+
+(define (files)
+  (scandir scratch (lambda (name) (not (string-prefix? "." name)))))
+
+(define (said thunk)
+  "Return the message of what THUNK raises, or #f."
+  (guard (e ((bight-error? e) (bight-error-message e)))
+    (thunk)
+    #f))
+
+(define (call-with-path path thunk)
+  (let ((before (getenv "PATH")))
+    (dynamic-wind
+      (lambda () (setenv "PATH" path))
+      thunk
+      (lambda () (setenv "PATH" before)))))
+
+(define-syntax-rule (with-gnuplot body ...)
+  (if (program? "gnuplot") (let () body ...) (skip "there is no gnuplot")))
+
+(define no-picture
+  ;; Why there are no pictures, or #f.
+  (said (lambda () (renderer-name))))
+
+(define-syntax-rule (with-pictures body ...)
+  (if no-picture (skip no-picture) (let () body ...)))
+
+(define (make-program! name . lines)
+  "Make a shell script NAME in a folder of its own, and return the folder."
+  (let ((folder (in-scratch "bin")))
+    (unless (file-exists? folder) (mkdir folder))
+    (call-with-output-file (string-append folder "/" name)
+      (lambda (port) (display (string-join (cons "#!/bin/sh" lines) "\n") port)))
+    (chmod (string-append folder "/" name) #o755)
+    folder))
+
+(define-scenario samples-are-plotted
+  "What was gathered while the dive ran becomes an SVG, a PNG, and characters."
+  (in cross-current)
+  (define s (sample! 0.5 (max-tension) (rov-depth) (string-length "no number of seconds")))
+  (run 2)
+  (expect (length (samples-rows s)) => 5)
+  (expect (map car (samples-rows s)) is (about '(0 0.5 1 1.5 2) #:within 0.02))
+  (with-gnuplot
+   (plot s #:to (in-scratch "a.svg") #:title "It's <it>")
+   (let ((text (call-with-input-file (in-scratch "a.svg") get-string-all)))
+     (expect (string-prefix? "<?xml" text) => #t)
+     (expect (->bool (string-contains text "max-tension")) => #t)
+     (expect (->bool (string-contains text "s &lt;it")) => #t))
+   (plot s #:to (in-scratch "b.svg") #:title "It's <it>")
+   (expect (equal? (call-with-input-file (in-scratch "a.svg") get-string-all)
+                   (call-with-input-file (in-scratch "b.svg") get-string-all))
+           => #t)
+   (plot s #:to (in-scratch "a.png") #:size '(200 150))
+   (expect (> (stat:size (stat (in-scratch "a.png"))) 500) => #t)
+   (expect (->bool (string-contains (object->string (plot s #:size '(60 15))) "max-tension")) => #t)))
+
+(define-scenario a-tether-is-plotted-along-its-length
+  "Tension, depth and curvature; the file of a bench; numbers of one's own."
+  (in cross-current)
+  (with-gnuplot
+   (for-each (lambda (what)
+               (expect (->bool (string-contains (object->string (plot what)) "arc length")) => #t))
+             '(tension depth curvature))
+   (call-with-output-file (in-scratch "bench.csv")
+     (lambda (port)
+       (display "case,model,setting,metric,error,reference,reference_uncertainty,cpu_ns\n" port)
+       (display "c,m,n=1,rms,1e-3,none,0,1000\nc,m,n=2,rms,1e-5,none,0,5000\nc,m,n=3,rms,0,none,0,5\n"
+                port)))
+   (expect (->bool (string-contains (object->string (plot (in-scratch "bench.csv"))) "CPU, s")) => #t)
+   (expect (->bool (string-contains (object->string (plot '((up (0 0) (1 1)) (down (0 1) (1 0))))) "down"))
+           => #t)))
+
+(define-scenario plots-that-cannot-be
+  "Each failure is one clear line, and leaves no file."
+  (in cross-current)
+  (expect (plot 'tension #:to (in-scratch "x.pdf")) raises domain)
+  (expect (plot 'tension #:to (in-scratch "no/x.svg")) raises io)
+  (expect (plot 'colour) raises domain)
+  (expect (plot (in-scratch "missing.csv")) raises io)
+  (expect (plot '()) raises domain)
+  (expect (call-with-path (in-scratch "nowhere") (lambda () (plot 'tension))) raises unsupported)
+  (let ((bin (make-program! "gnuplot" "echo 'line 1: it hurts' >&2" "exit 1")))
+    (expect (said (lambda ()
+                    (call-with-path (string-append bin ":" (getenv "PATH"))
+                                    (lambda () (plot 'tension #:to (in-scratch "x.svg"))))))
+            => "gnuplot failed: line 1: it hurts"))
+  (expect (file-exists? (in-scratch "x.svg")) => #f)
+  (with-gnuplot
+   (symlink "/dev/full" (in-scratch "full.svg"))
+   (expect (->bool (string-contains (said (lambda () (plot 'tension #:to (in-scratch "full.svg"))))
+                                    "No space left"))
+           => #t)))
+
+(define-scenario films-are-poured-into-ffmpeg
+  "Frame by frame, whole or not at all; time passes."
+  (in open-water)
+  (with-pictures
+   (let ((bin (make-program! "ffmpeg" "for last; do :; done" "exec cat >\"$last\"")))
+     (call-with-path (string-append bin ":" (getenv "PATH"))
+                     (lambda () (film (in-scratch "f.mp4") #:for 0.2 #:size '(64 48) #:rate 10)))
+     (expect (stat:size (stat (in-scratch "f.mp4"))) => (* 2 4 64 48))
+     (expect (now) is (about 0.2 #:within 0.02)))
+   (let ((bin (make-program! "ffmpeg" "echo 'Unknown encoder' >&2" "exit 1")))
+     (expect (said (lambda ()
+                     (call-with-path (string-append bin ":" (getenv "PATH"))
+                                     (lambda ()
+                                       (film (in-scratch "g.mp4") #:for 1 #:size '(640 480) #:rate 10)))))
+             => (string-append "cannot write \"" (in-scratch "g.mp4") "\": Unknown encoder"))
+     (expect (filter (lambda (name) (string-prefix? "g" name)) (files)) => '()))))
+
+(define-scenario films-without-ffmpeg
+  "Become numbered pictures."
+  (in open-water)
+  (with-pictures
+   (film (in-scratch "h.png") #:for 0.3 #:size '(32 32) #:rate 10)
+   (expect (filter (lambda (name) (string-prefix? "h" name)) (files))
+           => '("h-00001.png" "h-00002.png" "h-00003.png"))
+   (expect (film (in-scratch "no/h.png") #:for 1) raises io)
+   (expect (film (in-scratch "h.png") #:for 0) raises domain)))
