@@ -1,6 +1,6 @@
 ;; Each turn of the vehicle is a turn in its tether.  Take off what you put on.
 (define-lesson count-your-turns "Count your turns"
-  (in (with open-water (current 0.05 90) (minnow (at 0 10 -6)) (line (length 20))))
+  (in (with open-water (current 0.05 90) (minnow (at 0 10 -6)) (line (length 20) (model catenary))))
   (say "Every time your heading goes once round, your tether has one turn more in it.  Twist makes loops,
 and loops hang on things.  Count, take the shorter way only when it is the way back, and come home with none.")
   (task "Inspect the four sides: fly to within 1 m of (6 14 -6), (-6 14 -6), (-6 6 -6) and (6 6 -6), in any

@@ -11,11 +11,13 @@ fi
 TMUX_TMPDIR=$scratch
 export TMUX_TMPDIR
 unset TMUX
-trap 'tmux -L bight kill-server 2>/dev/null; rm -rf "$scratch"' EXIT
+trap 'pane kill-server 2>/dev/null; rm -rf "$scratch"' EXIT
 
+# Each terminal is a server of its own: one that is on its way out takes no more.
+server=0
 pane ()
 {
-  tmux -L bight "$@"
+  tmux -L "bight$server" "$@"
 }
 
 # begin COLUMNS ROWS SETTING...: a shell in a terminal of that size, with variables set.
@@ -24,12 +26,15 @@ begin ()
   columns=$1
   rows=$2
   shift 2
-  pane kill-server 2>/dev/null
-  while pane list-sessions >/dev/null 2>&1; do sleep 0.1; done
-  sleep 0.2
-  pane -f /dev/null new-session -d -x "$columns" -y "$rows" \
-    "exec env PS1='shell> ' $* '$top_builddir/pre-inst-env' sh" || return 1
-  see 'shell>$'
+  setting=$*
+  for try in 1 2 3; do # a server now and then dies at birth
+    pane kill-server 2>/dev/null
+    server=$((server + 1))
+    pane -f /dev/null new-session -d -x "$columns" -y "$rows" \
+      "exec env PS1='shell> ' $setting '$top_builddir/pre-inst-env' sh" && see 'shell>$' && return 0
+    diag "no terminal at try $try"
+  done
+  return 1
 }
 
 screen ()
@@ -151,11 +156,21 @@ begin 80 24 COLORTERM= TERM=screen-256color
 fly
 keys C-c
 check 'so does ^C, in 256 colours' sane
+
+# leave_by SIGNAL: fly, be killed, look; once more if it was the tmux that died.
+leave_by ()
+{
+  for turn in 1 2; do
+    begin 100 30 COLORTERM=
+    fly
+    kill -"$1" "$(the_pid)"
+    sane && return 0
+    pane list-sessions >/dev/null 2>&1 && return 1
+  done
+  return 1
+}
 for how in TERM HUP 9; do
-  begin 100 30 COLORTERM=
-  fly
-  kill -"$how" "$(the_pid)"
-  check "so does kill -$how" sane
+  check "so does kill -$how" leave_by $how
 done
 begin 100 30 COLORTERM=
 fly

@@ -67,15 +67,15 @@
   (cons never #f))
 
 (define (resume! task go-on)
-  ;; Let the pilot of TASK go on until he waits or is done.  The task's state is the condition he waits
-  ;; for, and how to go on then; a fork that he makes meanwhile has no second pilot.
+  ;; Let the pilot of TASK go on, by a thunk that returns `busy' in the end, until he waits or is done.
+  ;; The task's state is the condition he waits for, and how to go on then; a fork that he makes meanwhile
+  ;; has no second pilot.
   (set-task-state! task busy)
   (set-task-state! task
                    (parameterize ((piloting (current-dive)))
+                     ;; A tail call: else each wait would leave a frame in the next continuation.
                      (call-with-prompt tag
-                       (lambda ()
-                         (go-on)
-                         busy)
+                       go-on
                        (lambda (continue ready?)
                          (cons ready? (lambda () (continue #t))))))))
 
@@ -93,7 +93,7 @@ leaves when THUNK returns."
     (dynamic-wind
       (const #f)
       (lambda ()
-        (resume! task (pilot-script pilot))
+        (resume! task (lambda () ((pilot-script pilot)) busy))
         (thunk))
       (lambda () (remove-task! dive task)))))
 

@@ -1,9 +1,10 @@
-;;; (bight progress) --- a progress bar on long runs at a terminal.
+;;; (bight progress) --- at a terminal: a progress bar on long runs, and what happened in them.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight progress)
-  #:export (with-progress))
+  #:use-module ((srfi srfi-1) #:select (first second third))
+  #:export (with-progress with-telling tell-events))
 
 (define patience 1.0)                   ; seconds of waiting before a bar is shown
 (define width 40)
@@ -37,6 +38,33 @@
       (lambda () #f)
       (lambda () (work report))
       (lambda () (when drawn (clear port) (set! drawn #f))))))
+
+(define (at-prompt?)
+  ;; Does a person type at a prompt?
+  (let ((module (resolve-module '(system repl common) #f #:ensure #f)))
+    (and module
+         (let ((stack (module-variable module '*repl-stack*)))
+           (and stack (pair? (or (fluid-ref (variable-ref stack)) '())))))))
+
+(define (event->string event)
+  ;; "   12.35 s  line touched leg-a1"
+  (simple-format #f "~a s  ~a ~a"
+                 (string-pad (number->string (/ (round (* 100 (second event))) 100)) 10)
+                 (or (third event) "")
+                 (string-join (map symbol->string (cons (first event) (cdddr event))))))
+
+(define (tell-events port events)
+  "Tell PORT what happened: EVENTS, lists (KIND TIME SUBJECT OBJECT ...), a line each."
+  (for-each (lambda (event) (display (event->string event) port) (newline port)) events))
+
+(define (with-telling events work)
+  "Return what WORK, a thunk, returns.  Where a person types at a prompt, tell what happened meanwhile:
+what EVENTS, a procedure of the number of events to leave out, then returns."
+  (if (and (terminal) (at-prompt?))
+      (let* ((before (events #f)) (value (work)))
+        (tell-events (terminal) (events before))
+        value)
+      (work)))
 
 (define (with-progress n work)
   "Call WORK with a procedure that it calls with how many of N steps are done.  When that takes long and

@@ -101,13 +101,16 @@
   (if (and (real? value) (<= 0 value 1e9)) (exact->inexact value) refused))
 
 (define-verb (run (seconds duration))
-  "Let SECONDS pass, in whole steps; the remainder is carried to the next `run'.  Return the time."
+  "Let SECONDS pass, in whole steps; the remainder is carried to the next `run'.  Return the time.  At a
+prompt it tells what happened meanwhile."
   (let ((engine (this-engine 'run)))
     (if (piloting?)
         (wait-steps 'run (/ seconds (%dive-time-step engine)))
         (begin
           (check-not-running 'run (this-dive 'run))
-          (advance! 'run (%whole-steps! engine seconds))))
+          (with-telling (lambda (before)
+                          (if before (%events engine before) (%event-count engine)))
+            (lambda () (advance! 'run (%whole-steps! engine seconds))))))
     (now)))
 
 (define-verb (step!)

@@ -452,6 +452,13 @@ sea bed.  The drawing is COLUMNS wide, by default as wide as the terminal.  Retu
                (map (lambda (title value) (cell title (figure value 2)))
                     '("surge" "sway" "heave" "yaw")
                     (point->list (sticks name))))
+        (row "thrust"
+             (let ((all (ask 'thrusts name)))
+               (and all (positive? (array-length all))
+                    (cell "" (string-join (map (lambda (f) (fixed f 0)) (array->list all))) "N")))
+             (cell "altitude" (figure (answer (rov-altitude name)) 2) "m")
+             (cell "pitch" (figure (rov-pitch name) 1))
+             (cell "roll" (figure (rov-roll name) 1)))
         (row "current"
              (cell "" (current->string (point->list (current-at (rov-position name))))))))
 
@@ -512,10 +519,23 @@ sea bed.  The drawing is COLUMNS wide, by default as wide as the terminal.  Retu
                      (overload name)
                      (and (answer (spooling? name)) "spooling")))))
 
+(define (broken->string fault)
+  (if (pair? fault) (simple-format #f "~a ~a" (car fault) (cadr fault)) (symbol->string fault)))
+
+(define recent 3)                       ; s: what is still worth a warning
+
+(define (near-props? name)
+  (find (lambda (event) (and (eq? 'prop-danger (first event)) (eq? name (third event))))
+        (events #:since (- (now) recent))))
+
 (define (vehicle-warnings name)
-  (if (answer (held? name))
-      (list (simple-format #f "~a held back by its tether" name))
-      '()))
+  (map (lambda (text) (simple-format #f "~a ~a" name text))
+       (filter identity
+               (list (and (answer (held? name)) "held back")
+                     (and (near-props? name) "has a tether near its thrusters")
+                     (let ((broken (or (ask 'faults name) '())))
+                       (and (pair? broken)
+                            (string-append "without " (string-join (map broken->string broken) ", "))))))))
 
 (define-verb (status)
   "Return the figures of the present dive as a picture, which prints as text: time, and of each vehicle

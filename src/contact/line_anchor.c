@@ -19,6 +19,7 @@
 
 #define REMEMBER 0.75 /* of a link: the farthest a contact goes along the line in a step */
 #define ALIKE 0.8     /* product of the normals */
+#define TURNED 1.0    /* of that: a normal that is at right angles counts like a place so far */
 #define SLIP 0.002    /* m: the drag at which friction is whole */
 #define STIFF 30.0    /* times EA over a link's length: of contacts, ... */
 #define STIFFEST 1e9  /* N/m: ... at most, but for the load */
@@ -131,7 +132,8 @@ stiffness (const bt__line_job *k, const bt__dynamic_row *r)
 
 /* ---- What is remembered ---- */
 
-/* The anchor nearest to row I along the line that no other row has, from *FROM on, or -1.  */
+/* The anchor nearest to row I along the line that no other row has, from *FROM on, or -1; of those
+   at one place, the one of its direction.  */
 static int
 find_anchor (bt__line_job *k, int i, int *from)
 {
@@ -144,11 +146,11 @@ find_anchor (bt__line_job *k, int i, int *from)
   for (int q = *from; q < k->olds; q++)
     {
       const bt__anchor *a = k->w->old + q;
-      double away = fabs (a->from_end - of->from_end);
+      double alike = bt__dot (a->normal, r->normal);
+      double away = fabs (a->from_end - of->from_end) + TURNED * reach * (1 - alike);
       if (a->from_end < of->from_end - reach)
         break;
-      if (a->state >= 0 && away < least && a->mover == (int64_t)of->mover - 1
-          && bt__dot (a->normal, r->normal) > ALIKE)
+      if (a->state >= 0 && away < least && a->mover == (int64_t)of->mover - 1 && alike > ALIKE)
         {
           best = q;
           least = away;

@@ -50,6 +50,7 @@ make_frames (bt__job *j, int w, int h, bt_error *error)
   j->shapes = new_texture (gl, GL_RGBA16F, bw, bh, GL_RGBA, GL_HALF_FLOAT);
   j->depths = new_texture (gl, GL_DEPTH_COMPONENT32F, bw, bh, GL_DEPTH_COMPONENT, GL_FLOAT);
   j->pixels = new_texture (gl, GL_RGBA8, w, h, GL_RGBA, GL_UNSIGNED_BYTE);
+  j->kinds = new_texture (gl, GL_DEPTH_COMPONENT32F, w, h, GL_DEPTH_COMPONENT, GL_FLOAT);
   gl->GenFramebuffers (2, j->frame);
   gl->BindFramebuffer (GL_FRAMEBUFFER, j->frame[0]);
   attach (gl, two[0], j->colors);
@@ -59,6 +60,7 @@ make_frames (bt__job *j, int w, int h, bt_error *error)
   ok = gl->CheckFramebufferStatus (GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   gl->BindFramebuffer (GL_FRAMEBUFFER, j->frame[1]);
   attach (gl, two[0], j->pixels);
+  attach (gl, GL_DEPTH_ATTACHMENT, j->kinds);
   gl->DrawBuffers (1, two);
   if (!ok || gl->CheckFramebufferStatus (GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
     return bt__fail (error, BT_ERR_LIMIT, "OpenGL has no room for %d x %d samples", bw, bh);
@@ -68,9 +70,9 @@ make_frames (bt__job *j, int w, int h, bt_error *error)
 static void
 free_frames (bt__job *j)
 {
-  GLuint textures[] = { j->colors, j->shapes, j->depths, j->pixels };
+  GLuint textures[] = { j->colors, j->shapes, j->depths, j->pixels, j->kinds };
   j->gl->DeleteFramebuffers (2, j->frame);
-  j->gl->DeleteTextures (4, textures);
+  j->gl->DeleteTextures (5, textures);
   j->gl->DeleteBuffers (2, j->buffer);
   j->gl->DeleteVertexArrays (1, &j->array);
 }
@@ -242,16 +244,13 @@ bind_buffers (const bt__job *j, GLuint program)
     }
 }
 
-/* Pixels of the tile whose first one is (X, Y), rows from the bottom.  */
+/* For the tile whose first pixel is (X, Y), rows from the bottom.  */
 static void
-resolve (const bt__job *j, int x, int y, int w, int h)
+set_tile (const bt__job *j, GLuint program, int x, int y)
 {
   const bt__gl *gl = j->gl;
-  GLuint program = j->r->resolve;
   set_common (j, program);
   bind_buffers (j, program);
-  gl->BindFramebuffer (GL_FRAMEBUFFER, j->frame[1]);
-  gl->Viewport (0, 0, w, h);
   gl->Uniform1i (spot (j, program, "samples"), j->drawing.samples);
   gl->Uniform1i (spot (j, program, "margin"), j->margin);
   gl->Uniform2f (spot (j, program, "tile"), (float)x, (float)y);
@@ -265,10 +264,27 @@ resolve (const bt__job *j, int x, int y, int w, int h)
   set_number (j, program, "ground", j->level);
   set_number (j, program, "level", fmax (j->level, j->middle.z - j->radius));
   set_number (j, program, "bare", j->drawing.transparent);
-  gl->Disable (GL_DEPTH_TEST);
+}
+
+/* Sort the pixels, then make those of each kind.  */
+static void
+resolve (const bt__job *j, int x, int y, int w, int h)
+{
+  const bt__gl *gl = j->gl;
+  gl->BindFramebuffer (GL_FRAMEBUFFER, j->frame[1]);
+  gl->Viewport (0, 0, w, h);
   gl->BindVertexArray (j->r->empty);
-  gl->DrawArrays (GL_TRIANGLES, 0, 3);
-  gl->Enable (GL_DEPTH_TEST);
+  gl->DepthFunc (GL_ALWAYS);
+  for (int i = 0; i < BT__RESOLVE_PASSES; i++)
+    {
+      set_tile (j, j->r->resolve[i], x, y);
+      set_number (j, j->r->resolve[i], "layer", i / 4.0);
+      gl->DrawArrays (GL_TRIANGLES, 0, 3);
+      gl->DepthFunc (GL_EQUAL);
+      gl->DepthMask (GL_FALSE);
+    }
+  gl->DepthMask (GL_TRUE);
+  gl->DepthFunc (GL_LESS);
 }
 
 /* Read the tile's pixels, turned right way up, into the picture.  */

@@ -24,7 +24,7 @@ typedef struct bt__job
   int margin;   /* pixels around a tile */
   float cast[16];
   GLuint array, buffer[2];
-  GLuint frame[2], colors, shapes, depths, pixels;
+  GLuint frame[2], colors, shapes, depths, pixels, kinds;
 } bt__job;
 
 /* Gather the triangles of JOB's view, and from them what its light and its camera span.  */

@@ -68,9 +68,9 @@ build_programs (bt__renderer *r, bt_error *error)
   if (status == BT_OK)
     status = link_program (&r->gl, bt__shader_shadow_vertex, bt__shader_shadow_fragment, &r->shadow,
                            error);
-  if (status == BT_OK)
-    status = link_program (&r->gl, bt__shader_resolve_vertex, bt__shader_resolve_fragment,
-                           &r->resolve, error);
+  for (int i = 0; status == BT_OK && i < BT__RESOLVE_PASSES; i++)
+    status = link_program (&r->gl, bt__shader_resolve_vertex, bt__shader_resolve_fragment[i],
+                           &r->resolve[i], error);
   return status;
 }
 

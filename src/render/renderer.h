@@ -9,6 +9,7 @@
 
 #include "render/gl.h"
 #include "render/render.h"
+#include "render/shaders.h"
 
 enum
 {
@@ -28,7 +29,8 @@ struct bt__renderer
   const bt__backend *backend;
   void *context;
   bt__gl gl;
-  GLuint scene, ground, shadow, resolve; /* programs */
+  GLuint scene, ground, shadow; /* programs */
+  GLuint resolve[BT__RESOLVE_PASSES];
   bt__shadows still, quick;
   pthread_mutex_t lock; /* of the context: a picture at a time */
   GLuint empty;         /* a vertex array for what has no vertices */

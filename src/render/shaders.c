@@ -4,6 +4,10 @@
    fog share and outline; depth.  A second pass makes pixels of it: outlines where depth or normal
    jump, darker corners, then the water's fog, averaging the samples of a pixel in linear light.
 
+   The second pass first sorts the pixels: nothing there, one surface, or an edge of some kind.  What a
+   pixel is goes to a depth buffer, so that each kind has a shader of its own that runs for no
+   others: a processor that draws takes every branch of a shader for every pixel.
+
    Depth in a buffer with perspective is affine in 1/z, which is affine over a plane in the picture:
    its second difference is zero on every plane however steep, and not at an outline.
 
@@ -171,9 +175,11 @@ static const char shadow_fragment[] = "void main () { }\n";
 /* ---- Pixels ---- */
 
 static const char resolve_vertex[] =
+    "uniform float layer;\n"
     "void main ()\n"
     "{\n"
-    "  gl_Position = vec4 (gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0, 1);\n"
+    "  gl_Position = vec4 (gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0,\n"
+    "                      2.0 * layer - 1.0, 1);\n"
     "}\n";
 
 static const char resolve_fragment[] =
@@ -368,28 +374,33 @@ static const char resolve_water[] =
     "{\n"
     "  ivec2 first = (ivec2 (gl_FragCoord.xy) + margin) * samples;\n"
     "  ivec2 middle = first + samples / 2;\n"
-    "  float d = depth_at (middle), open = 1.0;\n"
-    "  vec4 s = shape_at (middle);\n"
-    "  if (d < 1.0 && outline (s.w) != 1 && reach > 0.0)\n"
-    "    open = open_sky (middle, place (middle, metres (d)), normalize (s.xyz), metres (d));\n"
-    "  float net = 0.0;\n"
-    "  if (d < 1.0 && plain < 0.5 && texelFetch (colors, middle, 0).a > 0.01)\n"
-    "    net = play_at (place (middle, metres (d)), metres (d));\n"
-    "  vec4 sum = vec4 (0);\n"
+    "  float d = depth_at (middle);\n"
+    "  vec4 s = shape_at (middle), sum = vec4 (0);\n"
+    "#if PASS == 0\n"
+    "  gl_FragDepth = !is_flat (middle, d, s) ? 0.75 : d < 1.0 ? 0.5 : 0.25;\n"
+    "#else\n"
     "  vec3 p = place (middle, metres (d));\n"
-    "  if (is_flat (middle, d, s))\n"
-    "    sum = d < 1.0 ? flat_pixel (first, open, net, p, metres (d), s)\n"
-    "          : bare > 0.5 ? vec4 (0) : vec4 (backdrop (toward (p), p), 1);\n"
-    "  else\n"
-    "    {\n"
-    "      for (int j = 0; j < samples; j++)\n"
-    "        for (int i = 0; i < samples; i++)\n"
-    "          {\n"
-    "            vec4 c = sample_at (first + ivec2 (i, j), open, net);\n"
-    "            sum += vec4 (c.rgb * c.a, c.a);\n"
-    "          }\n"
-    "      sum /= float (samples * samples);\n"
-    "    }\n"
+    "#if PASS == 1\n"
+    "  sum = bare > 0.5 ? vec4 (0) : vec4 (backdrop (toward (p), p), 1);\n"
+    "#else\n"
+    "  float open = 1.0, net = 0.0;\n"
+    "  if (d < 1.0 && outline (s.w) != 1 && reach > 0.0)\n"
+    "    open = open_sky (middle, p, normalize (s.xyz), metres (d));\n"
+    "  if (d < 1.0 && plain < 0.5 && texelFetch (colors, middle, 0).a > 0.01)\n"
+    "    net = play_at (p, metres (d));\n"
+    "#if PASS == 2\n"
+    "  sum = flat_pixel (first, open, net, p, metres (d), s);\n"
+    "#else\n"
+    "  for (int j = 0; j < samples; j++)\n"
+    "    for (int i = 0; i < samples; i++)\n"
+    "      {\n"
+    "        vec4 c = sample_at (first + ivec2 (i, j), open, net);\n"
+    "        sum += vec4 (c.rgb * c.a, c.a);\n"
+    "      }\n"
+    "  sum /= float (samples * samples);\n"
+    "#endif\n"
+    "#endif\n"
+    "#endif\n"
     "  vec3 c = encode (sum.rgb / max (sum.a, 1e-4));\n"
     /* Half a step of noise, against bands in what changes slowly.  */
     "  c += (hash (ivec2 (gl_FragCoord.xy + tile) + 911) - 0.5) / 255.0;\n"
@@ -403,5 +414,9 @@ const char *const bt__shader_ground_fragment[]
 const char *const bt__shader_shadow_vertex[] = { version, shadow_vertex, NULL };
 const char *const bt__shader_shadow_fragment[] = { version, shadow_fragment, NULL };
 const char *const bt__shader_resolve_vertex[] = { version, resolve_vertex, NULL };
-const char *const bt__shader_resolve_fragment[]
-    = { version, common, resolve_fragment, resolve_water, NULL };
+const char *const bt__shader_resolve_fragment[BT__RESOLVE_PASSES][6] = {
+  { version, "#define PASS 0\n", common, resolve_fragment, resolve_water, NULL },
+  { version, "#define PASS 1\n", common, resolve_fragment, resolve_water, NULL },
+  { version, "#define PASS 2\n", common, resolve_fragment, resolve_water, NULL },
+  { version, "#define PASS 3\n", common, resolve_fragment, resolve_water, NULL },
+};

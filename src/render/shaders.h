@@ -12,6 +12,13 @@ extern const char *const bt__shader_ground_fragment[]; /* the scene's, for the g
 extern const char *const bt__shader_shadow_vertex[];
 extern const char *const bt__shader_shadow_fragment[];
 extern const char *const bt__shader_resolve_vertex[];
-extern const char *const bt__shader_resolve_fragment[];
+
+/* To sort the pixels; then for those with nothing in them, one surface, edges: the K-th of these is
+   drawn at the depth K / 4.  */
+enum
+{
+  BT__RESOLVE_PASSES = 4
+};
+extern const char *const bt__shader_resolve_fragment[BT__RESOLVE_PASSES][6];
 
 #endif

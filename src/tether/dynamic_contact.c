@@ -14,6 +14,7 @@
 
 #define ACTIVITY 0.02 /* of the stiffness: what a gap takes from a multiplier */
 #define HOLDING 0.05  /* the same of a held end */
+#define DAMPING 1.0   /* times the step's drag: what sticks is a spring that must not ring */
 
 /* ---- Rows ---- */
 
@@ -36,11 +37,12 @@ tangential (const bt__dynamic_row *r, bt_vec3 v)
   return bt__axpy (v, -bt__dot (r->normal, v), r->normal);
 }
 
+/* What friction answers.  */
 static bt_vec3
 drag_of (const bt__dynamic_work *w, const bt__dynamic_row *r)
 {
   bt_vec3 moved = bt__sub (place_of (r, w->X), place_of (r, w->x));
-  return tangential (r, bt__add (r->stick, bt__sub (moved, r->drift)));
+  return tangential (r, bt__axpy (r->stick, 1 + DAMPING, bt__sub (moved, r->drift)));
 }
 
 /* How far the next node has risen against the node of R, m.  */
@@ -102,11 +104,11 @@ assemble_row (bt__dynamic_work *w, bt__dynamic_row *r, bt__mode mode)
   double kn = active * r->stiffness, most = r->load > 0 ? r->friction * r->load : 0;
   r->active = active;
   r->drag = drag_of (w, r);
-  double size = bt__norm (r->drag), ks = most / fmax (size, r->slip);
+  double size = bt__norm (r->drag), ks = most / fmax (size, r->slip), kt = (1 + DAMPING) * ks;
   int slides = size > r->slip;
   bt_vec3 d = slides ? bt__scale (1 / size, r->drag) : bt__vec (0, 0, 0);
   r->force = bt__axpy (bt__scale (-kn * gap, r->normal), -ks, r->drag);
-  add_row (w, r, kn, ks, slides ? ks : 0, d);
+  add_row (w, r, kn, kt, slides ? kt : 0, d);
   if (r->roll > 0)
     add_roll (w, r);
   return active != was && fabs (gap) > w->tolerance;
@@ -244,7 +246,7 @@ row_potential (const bt__dynamic_work *w, const bt__dynamic_row *r)
   double size = bt__norm (drag_of (w, r));
   double drag = size < r->slip ? 0.5 * size * size / r->slip : size - 0.5 * r->slip;
   double roll = r->roll > 0 ? r->load * roll_potential (w, r) : 0;
-  return 0.5 * r->stiffness * depth * depth + most * drag + roll;
+  return 0.5 * r->stiffness * depth * depth + most * drag / (1 + DAMPING) + roll;
 }
 
 static double

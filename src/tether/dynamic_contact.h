@@ -34,7 +34,7 @@ typedef struct bt__dynamic_row
   bt_vec3 drift;    /* m: motion of the obstacle there in the step */
   double load;      /* N: in a guess, out the solution */
   double active;    /* out: 1 if it bears, 0 if not; any value in */
-  bt_vec3 drag;     /* out, m: the drag at the end, not yet shortened to SLIP */
+  bt_vec3 drag;     /* out, m: the drag that friction answers, not yet shortened to SLIP */
   bt_vec3 force;    /* out, N on the line */
 } bt__dynamic_row;
 

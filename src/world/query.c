@@ -85,6 +85,13 @@ ask (const bt_dive *dive, int i, bt__line *line, bt_error *error)
   return status;
 }
 
+static int
+is_stuck (const bt__line *line)
+{
+  return line->split ? line->split->stuck != BT__STUCK_NOT
+                     : line->tether->caught >= BT__STUCK_AFTER;
+}
+
 bt_status
 bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *error)
 {
@@ -106,6 +113,8 @@ bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *erro
                             .taut = t->taut != 0,
                             .parted = t->parted != 0,
                             .spooling = t->winch_rate != 0,
+                            .stuck = is_stuck (&line),
+                            .blocked = t->blocked != 0,
                             .settled = t->settled != 0,
                             .asleep = t->quiet >= BT__SLEEP_AFTER,
                             .nodes = bt__line_nodes (&line),

@@ -112,6 +112,7 @@ a_turn (void **state)
       check (share[i], 0.1, 1);
       check (share[i], 0.3, 1);
     }
+  check (0.1, 0.6, 1);
   check (0.2, 0.6, 1);
   check (0.4, 0.6, 1);
 }
