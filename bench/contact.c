@@ -56,7 +56,7 @@ timed_step (int judged)
   rope_step (&line, frame, 0);
   double time = bench_now () - start;
   if (judged)
-    line.crossings += reef_crossings (&place, line.before, bt__dynamic_x (line.d), line.nodes);
+    rope_judge (&line);
   return time;
 }
 
@@ -125,7 +125,7 @@ haul (corner k, double mu, double speed)
   open_corner (k, mu);
   bt_vec3 at = line.in.end[1].at;
   int steps = (int)fmin (9 / speed / frame, 1200), counted = 0;
-  double low = 0, high = 0, least = INFINITY, most = 0, sum = 0;
+  double low = 0, high = 0, least = INFINITY, most = 0, sum = 0, under = INFINITY, over = 0;
   for (int i = 0; i < steps; i++)
     {
       const double *t = bt__dynamic_tension (line.d);
@@ -135,15 +135,19 @@ haul (corner k, double mu, double speed)
       if (i < steps / 2)
         continue;
       low += t[1];
-      high += t[LINKS - 2];
-      least = fmin (least, t[LINKS - 2]);
-      most = fmax (most, t[LINKS - 2]);
+      high += t[line.d->n - 2];
+      least = fmin (least, t[line.d->n - 2]);
+      most = fmax (most, t[line.d->n - 2]);
+      under = fmin (under, t[line.d->n - 2] / t[1]);
+      over = fmax (over, t[line.d->n - 2] / t[1]);
       counted++;
     }
-  char setting[80], counters[200];
+  char setting[80], counters[240];
   snprintf (setting, sizeof setting, "%s mu=%g %g m/s", corner_names[k], mu, speed);
   snprintf (counters, sizeof counters,
-            "T2=%.1f..%.1f N;truncated=%.3g;unsolved=%.3g;crossings=%ld;solves=%.2f", least, most,
+            "T2=%.1f..%.1f N;T2/T1=%.3f, %.3f..%.3f, exactly %.3f;truncated=%.3g;unsolved=%.3g;"
+            "crossings=%ld;solves=%.2f",
+            least, most, high / low, under, over, exp (mu * BT__PI / 2),
             (double)line.truncated / steps, (double)line.unconverged / steps, line.crossings,
             (double)line.solves / steps);
   row ("drag", setting, "T2/T1 against capstan", high / low / exp (mu * BT__PI / 2) - 1,
@@ -156,10 +160,10 @@ haul (corner k, double mu, double speed)
 static void
 thrust (bt_vec3 target, double speed)
 {
-  bt_vec3 way = bt__sub (target, bt__dynamic_x (line.d)[LINKS]);
+  bt_vec3 way = bt__sub (target, bt__dynamic_x (line.d)[line.d->n]);
   double far = bt__norm (way), most = speed > 1.5 ? 600 : 150;
   bt_vec3 want = bt__scale (fmin (speed, far) / fmax (far, 1e-9), way);
-  bt_vec3 f = bt__scale (200, bt__sub (want, bt__dynamic_v (line.d)[LINKS]));
+  bt_vec3 f = bt__scale (200, bt__sub (want, bt__dynamic_v (line.d)[line.d->n]));
   double size = bt__norm (f);
   line.in.end[1].body.force = size > most ? bt__scale (most / size, f) : f;
 }
@@ -182,7 +186,7 @@ fly (int body, double speed, int steps, uint64_t seed, int judged)
     line.in.end[1] = (bt__dynamic_end){ .free = 1, .body = { .mass = 20, .quadratic = 60 } };
   for (int i = 0; i < steps; i++)
     {
-      if (i >= until || bt__distance (bt__dynamic_x (line.d)[LINKS], target) < 0.3)
+      if (i >= until || bt__distance (bt__dynamic_x (line.d)[line.d->n], target) < 0.3)
         {
           target = bt__vec (dice_between (&d, -9, 9), dice_between (&d, -9, 9),
                             dice_between (&d, -28, -1));

@@ -274,6 +274,11 @@ reef_crossings (const reef *r, const bt_vec3 *from, const bt_vec3 *to, int n)
 
 /* ---- Lines ---- */
 
+enum
+{
+  SPARE = 24 /* nodes that may come where the line runs about edges */
+};
+
 int
 rope_open (rope *p, reef *r, int n, const bt_vec3 *shape, int m, double length, double mu)
 {
@@ -288,12 +293,15 @@ rope_open (rope *p, reef *r, int n, const bt_vec3 *shape, int m, double length, 
                                .ca = 1,
                                .friction = mu };
   p->nodes = n + 1;
-  p->d = calloc (1, bt__dynamic_size (n));
-  p->work = bt__dynamic_work_new (n);
-  p->contact = bt__line_work_new (n);
+  p->d = calloc (1, bt__dynamic_size (n + SPARE));
+  p->work = bt__dynamic_work_new (n + SPARE);
+  p->contact = bt__line_work_new (n + SPARE);
   p->anchors = malloc (bt__anchors_size (REEF_ANCHORS));
-  p->before = malloc ((size_t)(n + 1) * sizeof *p->before);
-  if (!p->d || !p->work || !p->contact || !p->anchors || !p->before)
+  p->before = malloc ((size_t)(n + 1 + SPARE) * sizeof *p->before);
+  p->after = malloc ((size_t)(n + 2 + SPARE) * sizeof *p->after);
+  p->room = n + 1 + SPARE;
+  p->shown = malloc (ROPE_PARTS * (size_t)p->room * sizeof *p->shown);
+  if (!p->after || !p->shown || !p->d || !p->work || !p->contact || !p->anchors || !p->before)
     return 0;
   bt__anchors_init (p->anchors, REEF_ANCHORS);
   p->water = (bt_water){ 1025, 9.81, 1000, 0, NULL, NULL, NULL, NULL };
@@ -302,7 +310,7 @@ rope_open (rope *p, reef *r, int n, const bt_vec3 *shape, int m, double length, 
   };
   p->in.end[0].at = shape[0];
   p->in.end[1].at = shape[m - 1];
-  return bt__dynamic_init (p->d, n, n, shape, m, length, p->line.ea, NULL) == BT_OK;
+  return bt__dynamic_init (p->d, n + SPARE, n, shape, m, length, p->line.ea, NULL) == BT_OK;
 }
 
 void
@@ -311,6 +319,8 @@ rope_close (rope *p)
   free (p->d);
   free (p->anchors);
   free (p->before);
+  free (p->after);
+  free (p->shown);
   bt__dynamic_work_free (p->work);
   bt__line_work_free (p->contact);
 }
@@ -323,6 +333,50 @@ rope_tow (rope *p, bt_vec3 target, double speed, double h)
   p->in.end[1].at = far > step ? bt__axpy (x, step / far, way) : target;
 }
 
+/* Keep what happened for the judge, who takes his time.  */
+static void
+see (void *user, int i, int by, const bt_vec3 *x, int nodes)
+{
+  rope *p = user;
+  if (p->parts == ROPE_PARTS)
+    {
+      p->crossings++; /* too much to be sure */
+      return;
+    }
+  p->part[p->parts] = (rope_part){ i, by, nodes };
+  memcpy (p->shown + p->parts++ * p->room, x, (size_t)nodes * sizeof *x);
+}
+
+/* The line before and after a part: where node I was taken out, it went to the chord.  */
+static int
+replay (rope *p, const rope_part *part, const bt_vec3 *x)
+{
+  size_t size = (size_t)part->nodes * sizeof *x;
+  memcpy (p->after, x, size);
+  if (part->by >= 0)
+    return part->nodes;
+  const bt_vec3 *a = p->before + part->node - 1;
+  bt_vec3 d = bt__sub (a[2], a[0]);
+  double u = bt__dot (bt__sub (a[1], a[0]), d) / fmax (bt__dot (d, d), 1e-30);
+  memcpy (p->after, p->before, size + sizeof *x);
+  p->after[part->node] = bt__axpy (a[0], fmin (fmax (u, 0), 1), d);
+  return part->nodes + 1;
+}
+
+void
+rope_judge (rope *p)
+{
+  for (int k = 0; k < p->parts; k++)
+    {
+      const bt_vec3 *x = p->shown + k * p->room;
+      int n = replay (p, p->part + k, x);
+      if (p->part[k].by <= 0)
+        p->crossings += reef_crossings (p->reef, p->before, p->after, n);
+      memcpy (p->before, x, (size_t)p->part[k].nodes * sizeof *x);
+    }
+  p->parts = 0;
+}
+
 int
 rope_step (rope *p, double h, int judged)
 {
@@ -332,6 +386,9 @@ rope_step (rope *p, double h, int judged)
   p->in.water = &p->water;
   p->in.h = h;
   p->config.hook = &p->hook;
+  p->hook.see = see;
+  p->hook.witness = p;
+  p->parts = 0;
   p->around.scene = p->reef->scene;
   p->water.time += h;
   int n = (int)p->d->n + 1;
@@ -357,7 +414,7 @@ rope_step (rope *p, double h, int judged)
   p->tension = fmax (p->tension, p->report.tension);
   for (int i = 0; i < n; i++)
     p->nan += !bt__is_finite (x[i]) || !bt__is_finite (bt__dynamic_v (p->d)[i]);
-  if (judged && p->d->n + 1 == n)
-    p->crossings += reef_crossings (p->reef, p->before, x, n);
+  if (judged)
+    rope_judge (p);
   return 1;
 }

@@ -53,6 +53,17 @@ int reef_crossings (const reef *r, const bt_vec3 *from, const bt_vec3 *to, int n
 
 /* ---- A line in it ---- */
 
+enum
+{
+  ROPE_PARTS = 40
+};
+
+/* What happened to the line in a part of a step, see bt__line_hook.  */
+typedef struct rope_part
+{
+  int node, by, nodes;
+} rope_part;
+
 typedef struct rope
 {
   reef *reef;
@@ -70,7 +81,10 @@ typedef struct rope
   bt__dynamic_report report;
   bt__line_report touch;
   bt__count count;
-  bt_vec3 *before;
+  bt_vec3 *before, *after; /* the line before a part of the last step, and after it */
+  rope_part part[ROPE_PARTS];
+  bt_vec3 *shown; /* of each part, ROOM nodes */
+  int parts, room;
   int nodes;
   /* what came of it */
   long steps, solves, worst, unconverged, crossings, truncated, rounds, nan, touches, refused;
@@ -85,6 +99,9 @@ void rope_close (rope *p);
 
 /* One step, judged if JUDGED.  Zero if it was refused.  */
 int rope_step (rope *p, double h, int judged);
+
+/* Judge the last step, if it was not: add to the crossings.  */
+void rope_judge (rope *p);
 
 /* Take end 1 toward TARGET at SPEED for a step of H.  */
 void rope_tow (rope *p, bt_vec3 target, double speed, double h);

@@ -3,7 +3,8 @@
 ;;; Each rule that pilots are taught is one rule here: a name, how urgent it is, when it applies, and what
 ;;; to say, milder words after a warning.  The coach speaks at most six times in fifteen minutes, never
 ;;; within ten seconds of itself, never twice by the same rule, and less to those who do well: for a pupil
-;;; whose competence is known only what is urgent is said.  Time is the dive's.  Everything said is noted with its reason.
+;;; whose competence is known only what is urgent is said.  Time is the dive's.  Everything said is noted
+;;; with its reason.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 

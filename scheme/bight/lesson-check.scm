@@ -26,7 +26,8 @@
     (cond ((memq 'demonstration names) 'demonstration)
           ((memq 'expert names) 'expert)
           ((pair? names) (car names))
-          (else (bight-raise 'def 'lesson "the lesson ~a has no pilot to show it: say (pilot expert \"...\" (flies ...))"
+          (else (bight-raise 'def 'lesson
+                             "the lesson ~a has no pilot to show it: say (pilot expert \"...\" (flies ...))"
                              (lesson-name lesson))))))
 
 (define (words-in code)

@@ -265,7 +265,7 @@
 
 (define frame 6)                        ; steps between looks at the keys
 (define key-help
-  "w s ahead  a d turn  z c sideways  r f up down  space stop  + - tether  : Scheme")
+  "w s ahead  a d turn  z c aside  r f up down  space stop  + - tether  : Scheme")
 (define more-help
   "h hint  p pause  u back 10 s  t tell tender  v figures  q leave, to go on later")
 
@@ -319,7 +319,7 @@
                     (answer-or-dash rov-heading) "   depth " (answer-or-dash rov-depth)
                     "   speed " (answer-or-dash rov-speed) "   turns " (answer-or-dash net-turns))
      (string-append "tether " (answer-or-dash tether-length) " m, slack "
-                    (answer-or-dash (lambda () (* 100 (slack)))) " %, at the vehicle "
+                    (answer-or-dash (lambda () (* 100 (slack)))) " %, pull "
                     (answer-or-dash rov-tension) " N   sticks " (string-join s " ")))))
 
 (define (draw-screen! paused?)
@@ -429,8 +429,7 @@
   (for-each print (wrap (string-append "? " question) 78))
   (let loop ()
     (let ((line (ask-line (if choices
-                              (string-append "  " (string-join (map (lambda (c) (simple-format #f "~a" c)) choices) ", ")
-                                             "> ")
+                              (string-append "  " (words->string choices) "> ")
                               "  a number> "))))
       (cond ((eof-object? line) ((quit)))
             ((string=? "q" (string-trim-both line)) ((quit)))

@@ -29,8 +29,8 @@
             run-lesson
             lesson-list
             lesson? lesson-name lesson-title lesson-code lesson-pilots lesson-location
-            report? report-who report-seed report-level report-total report-passed? report-marks report-said report-text report-hash
-            report-coached report-hints report-rewinds report-seconds
+            report? report-who report-seed report-level report-total report-passed? report-marks
+            report-said report-text report-hash report-coached report-hints report-rewinds report-seconds
             ;; For those who run lessons.
             collect-lessons take-lesson scripted-guide pilot-named
             ;; What the macro expands to.
@@ -162,7 +162,9 @@
 
   (define (unknown where clause)
     (if (head-of clause)
-        #`(unknown-clause '#,(datum->syntax #'here where) '#,(datum->syntax #'here (head-of clause)) (source-location #,clause))
+        #`(unknown-clause '#,(datum->syntax #'here where)
+                          '#,(datum->syntax #'here (head-of clause))
+                          (source-location #,clause))
         (wrong where clause)))
 
   (define declaring '(score count setting pilot tender))

@@ -299,17 +299,21 @@ step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
   start_ends (k);
   if (near && !(hook && hook->no_contacts))
     {
+      bt__line_bends (k);
       bt__line_rows (k);
       bt__line_inherit (k);
       bt__line_harden (k);
     }
   propose (k, near, held, report);
+  if (k->report->truncated || (hook && hook->spoil))
+    bt__dynamic_bent_follow (k->kernel);
   mark_fresh (k);
   bt__line_keep (k);
   status = bt__dynamic_finish (k->d, k->kernel, k->w->restart, report, error);
   if (status)
     return status;
   bt__line_store (k);
+  bt__line_rebend (k);
   if (k->in.pay != 0 || k->d->owed != 0)
     bt__line_wind (k);
   return BT_OK;

@@ -36,6 +36,13 @@ typedef struct bt__anchor
   bt_vec3 normal;   /* unit, from the obstacle to the line */
   bt_vec3 force;    /* N on the line: load and friction */
   bt_vec3 stick;    /* m: how far the line is dragged from where it stuck */
+  int64_t age;      /* steps since the contact was made */
+  int64_t bent;     /* nonzero: a node about which the line runs, held at an edge; then: */
+  double drag;      /* m: STICK along the line, ... */
+  double side;      /* ... and along the edge */
+  double flow;      /* m/s of rest length that runs through, toward node n */
+  double thick;     /* m: radius of the edge */
+  bt_vec3 axis;     /* unit: of the edge */
 } bt__anchor;
 
 /* The head of a flat block; N anchors follow, in order from node 0 to node n.  */
@@ -69,9 +76,14 @@ typedef struct bt__line_hook
 {
   void (*spoil) (void *user, const bt_vec3 *from, bt_vec3 *to, int nodes); /* or NULL */
   void *user;
+  /* shown the line's NODES after each part of a step: BY 0: after its move; 1 or -1: after node I
+     was put in or taken out; or NULL */
+  void (*see) (void *witness, int i, int by, const bt_vec3 *x, int nodes);
+  void *witness;
   int no_contacts; /* the guard alone */
   int no_guard;    /* mutant: what the solver gives is taken */
   int no_rounds;   /* no second solve */
+  int no_bends;    /* no node is held at an edge */
 } bt__line_hook;
 
 typedef struct bt__line_config
@@ -90,7 +102,8 @@ typedef struct bt__line_report
 {
   bt_vec3 end[2];   /* m: where the ends are now */
   int held[2];      /* nonzero: a prescribed end is not where INPUT wanted it */
-  int touches;      /* places that bear on an obstacle */
+  int touches;      /* places that bear on an obstacle, ... */
+  int bends;        /* ... and of these nodes held at an edge */
   int rows;         /* half-spaces in the equations */
   int rounds;       /* times the step was solved again for a hit */
   int truncated;    /* nodes that the guard held back: all where it shortened the whole move */

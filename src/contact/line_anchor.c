@@ -20,7 +20,6 @@
 #define REMEMBER 0.75 /* of a link: the farthest a contact goes along the line in a step */
 #define ALIKE 0.8     /* product of the normals */
 #define TURNED 1.0    /* of that: a normal that is at right angles counts like a place so far */
-#define SLIP 0.002    /* m: the drag at which friction is whole */
 #define STIFF 30.0    /* times EA over a link's length: of contacts, ... */
 #define STIFFEST 1e9  /* N/m: ... at most, but for the load */
 #define YIELD 20.0    /* the part of the way to the core that the load may press a contact in */
@@ -97,15 +96,19 @@ has_neighbour (const bt__line_job *k, int i, int64_t j)
   return 0;
 }
 
+double
+bt__line_friction (const bt__line_job *k, int64_t id)
+{
+  const bt__line_config *c = k->config;
+  return c->rough && id < c->obstacles && !isnan (c->rough[id]) ? c->rough[id] : c->friction;
+}
+
 static double
 coefficient (const bt__line_job *k, int i)
 {
-  const bt__line_config *c = k->config;
   const bt__dynamic_row *r = k->w->row + i;
   const bt__line_row *of = k->w->of + i;
-  double mu = c->friction;
-  if (c->rough && of->id < c->obstacles && !isnan (c->rough[of->id]))
-    mu = c->rough[of->id];
+  double mu = bt__line_friction (k, of->id);
   if (r->s == 0 || r->s == 1)
     return single (mu, turn_at (k, r->node + (r->s == 1), r->normal));
   int64_t j = r->node;
@@ -120,13 +123,13 @@ coefficient (const bt__line_job *k, int i)
   return 0.5 * (many + single (mu, d));
 }
 
-static double
-stiffness (const bt__line_job *k, const bt__dynamic_row *r)
+double
+bt__line_stiffness (const bt__line_job *k, int64_t i, double last)
 {
   const double *rest = bt__dynamic_rest (k->d), *tension = bt__dynamic_tension (k->d);
   const bt__line_config *c = k->config;
-  double ea = k->in.line->ea, load = fmax (tension[r->node], r->load);
-  double stiff = fmin (STIFF * ea / rest[r->node], STIFFEST);
+  double ea = k->in.line->ea, load = fmax (tension[i], last);
+  double stiff = fmin (STIFF * ea / rest[i], STIFFEST);
   return fmax (stiff, YIELD * load / (c->radius - c->core));
 }
 
@@ -166,6 +169,7 @@ inherit (bt__line_job *k, int i, const bt__anchor *a)
   r->load = a->load;
   r->stick = bt__axpy (a->stick, -bt__dot (a->stick, r->normal), r->normal);
   k->w->of[i].work = a->work;
+  k->w->of[i].age = a->age + 1;
   k->w->of[i].fresh = 0;
 }
 
@@ -192,9 +196,9 @@ bt__line_harden (bt__line_job *k)
       bt__dynamic_row *r = k->w->row + i;
       if (r->stiffness > 0)
         continue;
-      r->slip = SLIP;
+      r->slip = BT__LINE_SLIP;
       r->friction = coefficient (k, i);
-      r->stiffness = stiffness (k, r);
+      r->stiffness = bt__line_stiffness (k, r->node, r->load);
     }
 }
 
@@ -226,6 +230,7 @@ anchor_of (const bt__line_job *k, int i)
                        .state = over > 0 ? BT__TOUCH_SLIDE : BT__TOUCH_STICK,
                        .from_end = of->from_end,
                        .load = r->load,
+                       .age = of->age,
                        .work = of->work + work,
                        .step_work = work,
                        .speed = bt__norm (slide) / k->h,
@@ -246,21 +251,35 @@ insert (bt__line_job *k, const bt__anchor *a)
   at[i] = *a;
 }
 
+static void
+keep (bt__line_job *k, const bt__anchor *a)
+{
+  bt__line_report *report = k->report;
+  insert (k, a);
+  report->touches++;
+  report->load = fmax (report->load, a->load);
+  report->speed = fmax (report->speed, a->speed);
+  report->slip_work += a->step_work;
+}
+
 void
 bt__line_keep (bt__line_job *k)
 {
-  bt__line_report *report = k->report;
   k->olds = 0;
   for (int i = 0; i < k->rows; i++)
     {
       if (!(k->w->row[i].load > 0))
         continue;
       bt__anchor a = anchor_of (k, i);
-      insert (k, &a);
-      report->touches++;
-      report->load = fmax (report->load, a.load);
-      report->speed = fmax (report->speed, a.speed);
-      report->slip_work += a.step_work;
+      keep (k, &a);
+    }
+  for (int i = 0; i < k->bents; i++)
+    {
+      if (!(k->w->bent[i].load > 0))
+        continue;
+      bt__anchor a = bt__line_bent_anchor (k, i);
+      k->report->bends++;
+      keep (k, &a);
     }
 }
 

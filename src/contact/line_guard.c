@@ -124,9 +124,8 @@ bt__line_truncate (bt__line_job *k)
 
 /* ---- The winch ---- */
 
-/* Nonzero if node 1 of P can go straight by MOVE, the others staying, and meets nothing.  */
-static int
-may_move (bt__line_job *k, const bt_vec3 *p, bt_vec3 move)
+int
+bt__line_may_move (bt__line_job *k, const bt_vec3 *p, bt_vec3 move)
 {
   bt__near part[BT__LINE_ROOM];
   double need = bt__norm (move) + k->core;
@@ -173,7 +172,7 @@ bt__line_wind (bt__line_job *k)
     {
       double share = rest[0] / (rest[0] + rest[1]);
       bt_vec3 to = bt__axpy (bt__scale (1 - share, x[0]), share, x[2]);
-      if (!may_move (k, x, bt__sub (to, x[1])))
+      if (!bt__line_may_move (k, x, bt__sub (to, x[1])))
         return;
     }
   int straight = k->movers > 0

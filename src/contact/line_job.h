@@ -16,6 +16,7 @@ enum
   BT__LINE_ROUNDS = 4 /* times a step is solved again */
 };
 
+#define BT__LINE_SLIP 0.002 /* m: the drag at which friction is whole */
 #define BT__LINE_STRIDE 2.0 /* m: no node goes farther in a step in which anything is near */
 
 /* What is known of a link.  */
@@ -38,6 +39,7 @@ typedef struct bt__line_row
   int flat;   /* the line lies along the plane there */
   int fresh;  /* the contact is new */
   double from_end;
+  int64_t age;   /* steps so far */
   double work;   /* J so far */
   bt_vec3 point; /* on the obstacle, at the end of the step */
 } bt__line_row;
@@ -59,6 +61,8 @@ struct bt__line_work
   int still;        /* ... and had so many nodes */
   double *from_end; /* m of rest length from each node to node n */
   uint8_t *restart;
+  bt__dynamic_bent bent[BT__BENTS]; /* nodes held at edges, ... */
+  bt__anchor bend[BT__BENTS];       /* ... and what they are held at */
 };
 
 typedef struct bt__line_job
@@ -73,7 +77,7 @@ typedef struct bt__line_job
   uint32_t movers;
   const bt__line_config *config;
   bt__anchors *anchors;
-  int links, rows, olds;
+  int links, rows, olds, bents;
   double core, margin; /* m: a little more than asked for, for rounding; of what touches */
   double h;
   const bt_vec3 *x; /* at the start */
@@ -132,7 +136,26 @@ void bt__line_rows (bt__line_job *k);
 int bt__line_add_hit (bt__line_job *k, uint32_t j, const bt__near *near, const bt__witness *w,
                       double t);
 
+/* ---- Where the line runs about an edge (line_bend.c) ---- */
+
+/* Hold the nodes at edges that were there in the last step and are still; before the rows.  */
+void bt__line_bends (bt__line_job *k);
+
+/* Nonzero if row Q says what a node held at an edge does.  */
+int bt__line_is_bent_about (const bt__line_job *k, int q);
+
+/* What is to be kept of the I-th node held at an edge.  */
+bt__anchor bt__line_bent_anchor (const bt__line_job *k, int i);
+
+/* After the step: nodes come and go where the line runs about edges, the line staying where it is
+   but for those that are taken out.  */
+void bt__line_rebend (bt__line_job *k);
+
 /* ---- What sticks (line_anchor.c) ---- */
+
+/* The coefficient of obstacle ID; the stiffness of a contact at node I that bears LOAD.  */
+double bt__line_friction (const bt__line_job *k, int64_t id);
+double bt__line_stiffness (const bt__line_job *k, int64_t i, double load);
 
 /* Give the rows what is known from the last step: load, drag and work.  */
 void bt__line_inherit (bt__line_job *k);
@@ -158,6 +181,9 @@ int bt__line_shorten (bt__line_job *k);
 
 /* Cut the proposal, node by node, to what is safe.  */
 void bt__line_truncate (bt__line_job *k);
+
+/* Nonzero if node 1 of P can go straight by MOVE, nodes 0 and 2 staying, and meets nothing.  */
+int bt__line_may_move (bt__line_job *k, const bt_vec3 *p, bt_vec3 move);
 
 /* Wind D, one interval at the most, if it passes through nothing on the way.  */
 void bt__line_wind (bt__line_job *k);

@@ -13,6 +13,7 @@
 
 #define ROUND 2.2     /* links: an obstacle of this radius along the line is touched by nodes */
 #define EVENLY 0.15   /* of what is beyond the plane, half way out: less and it is an edge */
+#define SHARP 0.4     /* ... half way out: more and it is sharp */
 #define NEAREST 0.01  /* of the radius: an end that is so little farther is as near */
 #define FLAT 0.1      /* of the radius: a link no steeper lies along a plane */
 #define SAME 0.15     /* of a link: places so near are one, ... */
@@ -329,6 +330,32 @@ touch_facet (bt__line_job *k, uint32_t j, const bt__near *near)
     }
 }
 
+/* Nonzero if the obstacle is sharp where it is nearest to the link's end E: what is beyond its
+   plane grows as the way from there, not as its square.  */
+static int
+is_sharp (const bt__line_job *k, const pass *p, int e)
+{
+  bt__witness w;
+  double more = beyond_plane (k, p, !e, &w);
+  return more > FLAT * k->config->radius && beyond_plane (k, p, 0.5, &w) > SHARP * more;
+}
+
+/* Nonzero if link J's end E is at a sharp edge, and beyond it the line comes nearer yet: the next
+   link bears, and the plane of the end would bar the way of the node over the edge.  */
+static int
+bars_the_way (const bt__line_job *k, uint32_t j, int e, const pass *p)
+{
+  int64_t i = (int64_t)j + e, next = e ? i + 1 : i - 1;
+  const bt__mover *m = bt__line_mover (k, p->near);
+  bt_vec3 n = p->near->w.normal;
+  if (next < 0 || next > k->links)
+    return 0;
+  if (m)
+    n = bt__out_of (&m->motion.from, n);
+  return bt__dot (n, bt__sub (k->x[next], k->x[i])) < -NEAREST * k->config->radius
+         && is_sharp (k, p, e);
+}
+
 static void
 touch_part (bt__line_job *k, uint32_t j, const bt__near *near)
 {
@@ -350,7 +377,8 @@ touch_part (bt__line_job *k, uint32_t j, const bt__near *near)
     }
   int is_nearest[2] = { end[0].from.distance <= nearest, end[1].from.distance <= nearest };
   for (int e = 0; e < 2; e++)
-    if (both || is_nearest[e])
+    if ((both || is_nearest[e])
+        && !(is_nearest[e] && !is_nearest[!e] && bars_the_way (k, j, e, &p)))
       touch_end (k, j, e, &p, end + e, raise);
   if (!both && !is_nearest[0] && !is_nearest[1])
     touch_between (k, j, &p, fmin (end[0].radius, end[1].radius));
@@ -386,6 +414,21 @@ drop_between (bt__line_job *k, uint32_t j, int first, int before)
   k->rows = n;
 }
 
+/* Drop the rows from FIRST on of edges about which the line is bent.  */
+static void
+drop_bent (bt__line_job *k, int first)
+{
+  int n = first;
+  for (int q = first; q < k->rows; q++)
+    {
+      if (bt__line_is_bent_about (k, q))
+        continue;
+      k->w->row[n] = k->w->row[q];
+      k->w->of[n++] = k->w->of[q];
+    }
+  k->rows = n;
+}
+
 void
 bt__line_rows (bt__line_job *k)
 {
@@ -400,6 +443,8 @@ bt__line_rows (bt__line_job *k)
           touch_part (k, j, near + i);
       if (k->rows > first)
         drop_between (k, j, first, before);
+      if (k->bents > 0)
+        drop_bent (k, first);
       before = first;
     }
 }

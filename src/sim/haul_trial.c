@@ -91,7 +91,7 @@ static bt_status
 turn (const trial *t, bt_error *error)
 {
   bt__line line = line_of (t);
-  double out = bt__line_length (&line), metres = fmax (out - LEAST_OUT, 0);
+  double out = line.tether->length, metres = fmax (out - LEAST_OUT, 0);
   if (bt__line_tension (&line, 0) > t->winch)
     metres = 0;
   return do_number (t->fork, BT_OP_HAUL_IN, t->tether, metres, t->rate, 2, error);

@@ -26,9 +26,9 @@ bt__dynamic_work_free (bt__dynamic_work *w)
 {
   if (!w)
     return;
-  void *arrays[] = { w->X,    w->d,    w->rhs,       w->keep,     w->last,    w->lam,
-                     w->link, w->node, w->extra,     w->diag,     w->off,     w->up,
-                     w->up2,  w->bend, w->bend_diag, w->bend_off, w->bend_far };
+  void *arrays[] = { w->X,         w->d,        w->rhs,      w->keep,  w->last,  w->lam,    w->link,
+                     w->node,      w->extra,    w->diag,     w->off,   w->up,    w->up2,    w->bend,
+                     w->bend_diag, w->bend_off, w->bend_far, w->whole, w->spare, w->by_flow };
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
     free (arrays[i]);
   free (w);
@@ -44,17 +44,19 @@ bt__dynamic_work_new (int n_max)
   if (!w)
     return NULL;
   w->n_max = n_max;
-  int whole = (w->X = calloc (n, sizeof *w->X)) && (w->d = calloc (n, sizeof *w->d))
-              && (w->rhs = calloc (n, sizeof *w->rhs)) && (w->keep = calloc (n, sizeof *w->keep))
-              && (w->last = calloc (n, sizeof *w->last)) && (w->lam = calloc (n, sizeof *w->lam))
-              && (w->link = calloc (n, sizeof *w->link)) && (w->node = calloc (n, sizeof *w->node))
-              && (w->extra = calloc (n, sizeof *w->extra))
-              && (w->diag = calloc (n, sizeof *w->diag)) && (w->off = calloc (n, sizeof *w->off))
-              && (w->up = calloc (n, sizeof *w->up)) && (w->up2 = calloc (n, sizeof *w->up2))
-              && (w->bend = calloc (n, sizeof *w->bend))
-              && (w->bend_diag = calloc (n, sizeof *w->bend_diag))
-              && (w->bend_off = calloc (n, sizeof *w->bend_off))
-              && (w->bend_far = calloc (n, sizeof *w->bend_far));
+  int whole
+      = (w->X = calloc (n, sizeof *w->X)) && (w->d = calloc (n, sizeof *w->d))
+        && (w->rhs = calloc (n, sizeof *w->rhs)) && (w->keep = calloc (n, sizeof *w->keep))
+        && (w->last = calloc (n, sizeof *w->last)) && (w->lam = calloc (n, sizeof *w->lam))
+        && (w->link = calloc (n, sizeof *w->link)) && (w->node = calloc (n, sizeof *w->node))
+        && (w->extra = calloc (n, sizeof *w->extra)) && (w->diag = calloc (n, sizeof *w->diag))
+        && (w->off = calloc (n, sizeof *w->off)) && (w->up = calloc (n, sizeof *w->up))
+        && (w->up2 = calloc (n, sizeof *w->up2)) && (w->bend = calloc (n, sizeof *w->bend))
+        && (w->bend_diag = calloc (n, sizeof *w->bend_diag))
+        && (w->bend_off = calloc (n, sizeof *w->bend_off))
+        && (w->bend_far = calloc (n, sizeof *w->bend_far))
+        && (w->whole = calloc (n, sizeof *w->whole)) && (w->spare = calloc (n, sizeof *w->spare))
+        && (w->by_flow = calloc (BT__BENTS * n, sizeof *w->by_flow));
   if (whole)
     return w;
   bt__dynamic_work_free (w);
@@ -189,7 +191,8 @@ commit_links (bt__dynamic *d, const bt__dynamic_work *w, bt__dynamic_report *rep
     }
   report->tension = most;
   report->at = at;
-  bt__dynamic_rest (d)[0] = w->link[0].rest;
+  for (int j = 0; j < (w->bents > 0 ? w->n : 1); j++)
+    bt__dynamic_rest (d)[j] = w->link[j].rest;
 }
 
 static double
@@ -243,6 +246,7 @@ bt__dynamic_stay (const bt__dynamic *d, bt__dynamic_work *w, bt__dynamic_report 
 {
   memcpy (w->X, w->x, (size_t)(w->n + 1) * sizeof *w->X);
   memcpy (w->lam, bt__dynamic_tension (d), (size_t)w->n * sizeof *w->lam);
+  bt__dynamic_bent_stop (w);
   for (int j = 0; j < w->n; j++)
     w->link[j].t = bt__unit_or (bt__sub (w->x[j + 1], w->x[j]), bt__vec (0, 0, -1));
   report->converged = 0;

@@ -185,6 +185,7 @@ bt__dynamic_contact_assemble (bt__dynamic_work *w, bt__mode mode)
   for (int k = 0; w->hold && k < 2; k++)
     if (w->hold[k].on)
       assemble_hold (w, k, mode);
+  bt__dynamic_bent_assemble (w, mode);
   return changed;
 }
 
@@ -220,11 +221,16 @@ bt__dynamic_contact_take (bt__dynamic_work *w, double share)
       if (size > h->most)
         ease_rows (w, k, h->most / size);
     }
+  bt__dynamic_bent_take (w, share);
 }
 
 void
 bt__dynamic_contact_load (bt__dynamic_work *w, int none)
 {
+  if (none)
+    bt__dynamic_bent_stop (w);
+  else
+    bt__dynamic_bent_follow (w);
   for (int k = 0; k < w->rows; k++)
     {
       bt__dynamic_row *r = w->row + k;
@@ -269,5 +275,5 @@ bt__dynamic_contact_potential (const bt__dynamic_work *w)
   for (int k = 0; w->hold && k < 2; k++)
     if (w->hold[k].on)
       sum += hold_potential (w, k);
-  return sum;
+  return sum + bt__dynamic_bent_potential (w);
 }

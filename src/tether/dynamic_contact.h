@@ -51,11 +51,48 @@ typedef struct bt__dynamic_hold
   int64_t slips;    /* out: nonzero if it is pulled by that and no more */
 } bt__dynamic_hold;
 
+enum
+{
+  BT__BENTS = 8 /* bent nodes a line has at most */
+};
+
+/* A node about which the line runs, see dynamic_bent.c: held in the plane across AXIS, and line
+   flows through it from the interval before to the one after.  */
+typedef struct bt__dynamic_bent
+{
+  int64_t node;     /* neither end */
+  bt_vec3 at;       /* m: where it is held at the end of the step, but for along AXIS */
+  bt_vec3 axis;     /* unit: of the edge or wire */
+  bt_vec3 normal;   /* unit, across AXIS: from the obstacle */
+  bt_vec3 drift;    /* m: motion of the obstacle there in the step */
+  double stiffness; /* N/m */
+  double wrap;      /* coefficient times the angle by which the line turns */
+  double friction;  /* Coulomb's coefficient, along AXIS */
+  double slip;      /* m of drag from where friction is whole */
+  double drag;      /* m: drag along the line at the start of the step, ... */
+  double side;      /* ... and along AXIS */
+  double flow;      /* m in this step: in a guess, out the solution */
+  double load;      /* N along the normal: in a guess, out the solution */
+  double pull[2];   /* out, N: the tensions before and after */
+  double side_now;  /* out, m: SIDE at the end */
+  double step;      /* m: the last update of FLOW, ... */
+  double gain[2];   /* ... and what the tensions on both sides gain and lose by it, N/m */
+  bt_vec3 force;    /* out, N on the line */
+} bt__dynamic_bent;
+
 /* Prepare the step of D that INPUT asks for, which must last until it is finished; the proposal is
    the predictor.  What can fail of bt__dynamic_step fails here or in the end.  */
 bt_status bt__dynamic_begin (const bt__dynamic *d, bt__dynamic_work *work,
                              const bt__dynamic_input *input, bt__dynamic_report *report,
                              bt_error *error);
+
+/* Between begin and iterate: the line runs about N nodes BENT, at most BT__BENTS, in order.  They
+   are kept for the step.  */
+void bt__dynamic_bend (bt__dynamic_work *work, bt__dynamic_bent *bent, int n);
+
+/* Let the line flow so that the tensions suit the proposal, which was altered; or not at all.  */
+void bt__dynamic_bent_follow (bt__dynamic_work *work);
+void bt__dynamic_bent_stop (bt__dynamic_work *work);
 
 /* The positions proposed for the end of the step; they may be altered.  */
 bt_vec3 *bt__dynamic_proposal (bt__dynamic_work *work);
@@ -80,6 +117,14 @@ int bt__dynamic_winding (const bt__dynamic *d);
 
 /* Split or join the first interval of D once.  STRAIGHT: the new node lies on the chord.  */
 void bt__dynamic_wind_once (bt__dynamic *d, int way, int straight);
+
+/* Put a node at the share U of interval J's chord, with what it has between its ends; FLOWS:
+   interval J runs through one of its ends, and the new node goes along with the other, FROM.  There
+   must be room.  */
+void bt__dynamic_insert (bt__dynamic *d, int64_t j, double u, int64_t from);
+
+/* Take out node I, not an end: the two intervals become one of the same tension.  */
+void bt__dynamic_remove (bt__dynamic *d, int64_t i);
 
 /* Propose that every node of D stays where it is, and forget what the solver found.  */
 void bt__dynamic_stay (const bt__dynamic *d, bt__dynamic_work *work, bt__dynamic_report *report);

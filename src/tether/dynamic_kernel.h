@@ -111,6 +111,8 @@ struct bt__dynamic_work
   bt__dynamic_row *row;             /* the caller's half-spaces, ... */
   int rows;                         /* ... how many */
   bt__dynamic_hold *hold;           /* of the ends, NULL if none */
+  bt__dynamic_bent *bent;           /* nodes about which the line runs, ... */
+  int bents, bordered;              /* ... how many; nonzero if their flows are unknowns */
   /* ---- arrays ---- */
   bt_vec3 *X, *d, *rhs, *keep; /* iterate, update, right-hand side, spare */
   bt_vec3 *last;               /* among contacts: the update before */
@@ -123,6 +125,7 @@ struct bt__dynamic_work
   bt__full *up2;       /* ... and with bending to the one after it */
   bt__bend *bend;
   double *bend_diag, *bend_off, *bend_far;
+  bt_vec3 *whole, *spare, *by_flow; /* of bent nodes: updates without flow and of each flow */
 };
 
 /* Ways to assemble: which tangents, whose activity.  */
@@ -171,8 +174,14 @@ int bt__dynamic_hold_arrives (bt__dynamic_work *w);
 static inline int
 bt__dynamic_touches (const bt__dynamic_work *w)
 {
-  return w->rows > 0 || w->hold != NULL;
+  return w->rows > 0 || w->hold != NULL || w->bents > 0;
 }
+
+/* Bent nodes, likewise; the solution with their flows, by SOLVE of that without.  */
+void bt__dynamic_bent_assemble (bt__dynamic_work *w, bt__mode mode);
+void bt__dynamic_bent_take (bt__dynamic_work *w, double share);
+double bt__dynamic_bent_potential (const bt__dynamic_work *w);
+double bt__dynamic_bent_solve (bt__dynamic_work *w, double (*solve) (bt__dynamic_work *));
 
 /* Bending: set up the rows, add their forces to RHS, return their energy.  */
 void bt__dynamic_bend_prepare (bt__dynamic_work *w);

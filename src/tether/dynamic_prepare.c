@@ -168,6 +168,7 @@ bt__dynamic_prepare (bt__dynamic_work *w, const bt__dynamic *d, const bt__dynami
   w->stiffen = 0;
   w->rows = 0;
   w->hold = NULL;
+  w->bents = 0;
   w->n = (int)d->n;
   w->ea = fmin (p->ea, STIFFEST);
   w->kn = half * p->cdn;

@@ -347,8 +347,8 @@ largest_update (const bt__dynamic_work *w)
   return sum <= HUGE_UPDATE ? most : NAN;
 }
 
-double
-bt__dynamic_solve (bt__dynamic_work *w)
+static double
+solve (bt__dynamic_work *w)
 {
   w->d[0] = w->d[w->n] = bt__vec (0, 0, 0);
   if (w->lo > w->hi)
@@ -357,4 +357,10 @@ bt__dynamic_solve (bt__dynamic_work *w)
     return sqrt (solve_plain (w));
   solve_stiff (w);
   return sqrt (largest_update (w));
+}
+
+double
+bt__dynamic_solve (bt__dynamic_work *w)
+{
+  return w->bents > 0 && w->bordered ? bt__dynamic_bent_solve (w, solve) : solve (w);
 }

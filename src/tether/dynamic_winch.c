@@ -31,19 +31,19 @@ shift (void *array, size_t size, int64_t at, int64_t n, int by)
     memmove (p + (size_t)at * size, p + (size_t)(at + 1) * size, (size_t)(n - at - 1) * size);
 }
 
-/* Shift node 1 and interval 0 of every array.  */
+/* Make room for, or remove, node I and interval I - 1 of every array.  */
 static void
-shift_all (bt__dynamic *d, int by)
+shift_all (bt__dynamic *d, int64_t i, int by)
 {
   bt_vec3 *nodes[] = { bt__dynamic_x (d), bt__dynamic_v (d), bt__dynamic_dx (d), bt__dynamic_vp (d),
                        bt__dynamic_load (d) };
   double *intervals[] = { bt__dynamic_tension (d), bt__dynamic_rest (d), bt__dynamic_stretch (d),
                           bt__dynamic_dstretch (d) };
   for (int k = 0; k < 5; k++)
-    shift (nodes[k], sizeof (bt_vec3), 1, d->n + 1, by);
+    shift (nodes[k], sizeof (bt_vec3), i, d->n + 1, by);
   for (int k = 0; k < 4; k++)
-    shift (intervals[k], sizeof (double), 0, d->n, by);
-  shift (bt__dynamic_chord (d), sizeof (bt_vec3), 0, d->n, by);
+    shift (intervals[k], sizeof (double), i - 1, d->n, by);
+  shift (bt__dynamic_chord (d), sizeof (bt_vec3), i - 1, d->n, by);
   d->n += by;
 }
 
@@ -70,7 +70,7 @@ split (bt__dynamic *d, int straight)
   bt_vec3 *x = bt__dynamic_x (d);
   double whole = rest[0], a = whole - d->piece, b = d->piece, u = a / whole;
   int taut = bt__dynamic_tension (d)[0] > 0;
-  shift_all (d, 1);
+  shift_all (d, 1, 1);
   bt_vec3 *nodes[] = { bt__dynamic_v (d), bt__dynamic_dx (d), bt__dynamic_vp (d) };
   for (int k = 0; k < 3; k++)
     nodes[k][1] = between (nodes[k], u);
@@ -88,23 +88,56 @@ split (bt__dynamic *d, int straight)
   d->owed += whole - rest[0] - rest[1];
 }
 
-static void
-join (bt__dynamic *d)
+void
+bt__dynamic_remove (bt__dynamic *d, int64_t i)
 {
-  double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d), *t = bt__dynamic_tension (d),
-         *de = bt__dynamic_dstretch (d);
+  int64_t j = i - 1;
+  double *rest = bt__dynamic_rest (d) + j, *e = bt__dynamic_stretch (d) + j,
+         *t = bt__dynamic_tension (d) + j, *de = bt__dynamic_dstretch (d) + j;
   double whole = rest[0] + rest[1], u = rest[0] / whole, chord;
   double mean[]
       = { u * t[0] + (1 - u) * t[1], u * e[0] + (1 - u) * e[1], u * de[0] + (1 - u) * de[1] };
   int taut = t[0] > 0 && t[1] > 0;
-  shift_all (d, -1);
-  chord = bt__distance (bt__dynamic_x (d)[0], bt__dynamic_x (d)[1]);
-  bt__dynamic_chord (d)[0] = bt__vec (0, 0, 0);
+  shift_all (d, i, -1);
+  chord = bt__distance (bt__dynamic_x (d)[j], bt__dynamic_x (d)[j + 1]);
+  bt__dynamic_chord (d)[j] = bt__vec (0, 0, 0);
   t[0] = mean[0];
   de[0] = mean[2];
   rest[0] = taut ? chord / mean[1] : whole;
   e[0] = chord / rest[0];
   d->owed += whole - rest[0];
+}
+
+static void
+join (bt__dynamic *d)
+{
+  bt__dynamic_remove (d, 1);
+}
+
+/* A node between two others, one of which line runs through, moves along the line as the other.  */
+void
+bt__dynamic_insert (bt__dynamic *d, int64_t j, double u, int64_t from)
+{
+  int64_t i = j + 1, other = from > j ? i + 1 : j;
+  double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d), *t = bt__dynamic_tension (d),
+         *de = bt__dynamic_dstretch (d), whole = rest[j];
+  shift_all (d, i, 1);
+  bt_vec3 *x = bt__dynamic_x (d),
+          *nodes[] = { bt__dynamic_v (d), bt__dynamic_dx (d), bt__dynamic_vp (d) };
+  bt_vec3 along = bt__unit_or (bt__sub (x[i + 1], x[j]), bt__vec (0, 0, 0));
+  x[i] = bt__axpy (bt__scale (1 - u, x[j]), u, x[i + 1]);
+  for (int k = 0; k < 3; k++)
+    {
+      bt_vec3 *a = nodes[k], v = bt__axpy (bt__scale (1 - u, a[j]), u, a[i + 1]);
+      a[i] = bt__axpy (v, bt__dot (along, bt__sub (a[other], v)), along);
+    }
+  bt__dynamic_load (d)[i] = bt__vec (0, 0, 0);
+  bt__dynamic_chord (d)[j] = bt__dynamic_chord (d)[i] = bt__vec (0, 0, 0);
+  rest[j] = u * whole;
+  rest[i] = whole - rest[j];
+  t[j] = t[i];
+  e[j] = e[i];
+  de[j] = de[i];
 }
 
 int

@@ -147,10 +147,10 @@ is_the_line_alone (void **state)
   reef_box (&r, bt__vec (10, 0, -60), bt__vec (1, 1, 1), 0);
   assert_true (reef_raise (&r));
   assert_true (rope_open (&p, &r, 50, shape, 3, 25, 0.3));
-  bt__dynamic *d = calloc (1, bt__dynamic_size (50));
-  bt__dynamic_work *work = bt__dynamic_work_new (50);
+  bt__dynamic *d = calloc (1, bt__dynamic_size ((int)p.d->n_max));
+  bt__dynamic_work *work = bt__dynamic_work_new ((int)p.d->n_max);
   assert_true (d && work);
-  memcpy (d, p.d, bt__dynamic_size (50));
+  memcpy (d, p.d, bt__dynamic_size ((int)p.d->n_max));
   for (int i = 0; i < 600; i++)
     {
       bt__dynamic_report report;
@@ -159,7 +159,7 @@ is_the_line_alone (void **state)
       assert_true (rope_step (&p, frame, 0));
       assert_int_equal (bt__dynamic_step (d, work, &p.in, &report, NULL), BT_OK);
     }
-  assert_memory_equal (d, p.d, bt__dynamic_size (50));
+  assert_memory_equal (d, p.d, bt__dynamic_size ((int)p.d->n_max));
   free (d);
   bt__dynamic_work_free (work);
   rope_close (&p);
@@ -190,7 +190,7 @@ remembers_nothing (void **state)
       assert_true (rope_step (&p, frame, 0) && rope_step (&q, frame, 0));
     }
   assert_true (p.anchors->n > 0);
-  assert_memory_equal (p.d, q.d, bt__dynamic_size (60));
+  assert_memory_equal (p.d, q.d, bt__dynamic_size ((int)p.d->n_max));
   assert_int_equal (p.anchors->n, q.anchors->n);
   assert_memory_equal (bt__anchors_at (p.anchors), bt__anchors_at (q.anchors),
                        (size_t)p.anchors->n * sizeof (bt__anchor));

@@ -1,0 +1,433 @@
+/* The moving line: nodes about which the line runs, as about a wire or an edge.
+
+   Such a node is held in place across the edge, and line runs through it: FLOW metres of rest
+   length in the step go from the interval before it to the one after.  That is one more unknown a
+   node, and one more equation: the tensions are as the capstan has it,
+     T_b = T_a exp (wrap k),   k = drag / max (|drag, side|, slip),
+   where DRAG is how far the line has been drawn from where it stuck: friction grows with it to the
+   whole at SLIP, as in every other contact.
+
+   The equations of the nodes stay symmetric and tridiagonal: the flows border them.  With y for the
+   update without flow and z for that of a metre of it, a small full system gives the flows.  It is
+   not symmetric, as friction is not.
+
+   Without the border the descent of the safe way would be none: there the flows follow the places
+   from one iteration to the next, as friction follows the loads.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "tether/dynamic_kernel.h"
+
+#define LEAST 0.02    /* of an interval: what line leaves of it in a step */
+#define SOFT 1e-6     /* of the stiffness: what resists the flow between slack intervals */
+#define FOLLOWS 60    /* iterations for a flow that follows the places */
+#define SETTLED 1e-13 /* m */
+
+/* ---- The intervals before and after ---- */
+
+/* An interval at a bent node: its tension, and what that gains with its length, and with less rest
+   length.  */
+typedef struct leg
+{
+  double tension, along, by_rest, soft;
+  bt_vec3 t;
+} leg;
+
+static bt_vec3
+chord_of (const bt__dynamic_work *w, int64_t j)
+{
+  bt_vec3 c = bt__sub (w->X[j + 1], w->X[j]);
+  return w->chord ? bt__add (c, w->chord[j]) : c;
+}
+
+static leg
+leg_of (const bt__dynamic_work *w, int64_t j)
+{
+  const bt__link *k = w->link + j;
+  double length = bt__norm (chord_of (w, j)), active = k->active > 0;
+  return (leg){ .tension = active * k->tension,
+                .along = active * k->ka,
+                .by_rest = active * k->ka * length / k->rest,
+                .soft = SOFT * k->ka,
+                .t = k->t };
+}
+
+/* Give interval J so much more rest length.  */
+static void
+lengthen (bt__dynamic_work *w, int64_t j, double more)
+{
+  bt__link *k = w->link + j;
+  double ratio = (k->rest + more) / k->rest;
+  k->rest *= ratio;
+  k->zero *= ratio;
+  k->ka /= ratio;
+}
+
+/* Let MORE flow at B, as far as there is line.  Return what did.  */
+static double
+let_flow (bt__dynamic_work *w, bt__dynamic_bent *b, double more)
+{
+  double before = w->link[b->node - 1].rest, after = w->link[b->node].rest;
+  more = fmin (fmax (more, -(1 - LEAST) * after), (1 - LEAST) * before);
+  lengthen (w, b->node - 1, -more);
+  lengthen (w, b->node, more);
+  b->flow += more;
+  return more;
+}
+
+/* ---- Friction ---- */
+
+/* The share K of the whole friction that is along the line, and its derivative by the drag.  */
+static double
+share_of (const bt__dynamic_bent *b, double drag, double *slope)
+{
+  double size = hypot (drag, b->side_now);
+  if (size <= b->slip)
+    {
+      *slope = 1 / b->slip;
+      return drag / b->slip;
+    }
+  *slope = b->side_now * b->side_now / (size * size * size);
+  return drag / size;
+}
+
+static double
+side_of (const bt__dynamic_work *w, const bt__dynamic_bent *b)
+{
+  bt_vec3 moved = bt__sub (bt__sub (w->X[b->node], w->x[b->node]), b->drift);
+  return b->side + bt__dot (b->axis, moved);
+}
+
+/* ---- The equations of the nodes ---- */
+
+static bt_vec3
+spring_of (const bt__dynamic_work *w, const bt__dynamic_bent *b)
+{
+  bt_vec3 away = bt__sub (b->at, w->X[b->node]);
+  return bt__scale (b->stiffness, bt__axpy (away, -bt__dot (b->axis, away), b->axis));
+}
+
+static void
+assemble_bent (bt__dynamic_work *w, bt__dynamic_bent *b)
+{
+  b->side_now = side_of (w, b);
+  double size = hypot (b->drag + b->flow, b->side_now),
+         most = b->load > 0 ? b->friction * b->load : 0;
+  double ks = most / fmax (size, b->slip), part = b->side_now / size;
+  double slope = size > b->slip ? ks * fmax (1 - part * part, 0) : ks;
+  b->force = bt__axpy (spring_of (w, b), -ks * b->side_now, b->axis);
+  w->rhs[b->node] = bt__add (w->rhs[b->node], b->force);
+  bt__sym_add (w->diag + b->node, b->stiffness, slope - b->stiffness, b->axis);
+}
+
+void
+bt__dynamic_bent_assemble (bt__dynamic_work *w, bt__mode mode)
+{
+  w->bordered = mode != BT__SAFE;
+  for (int k = 0; k < w->bents; k++)
+    assemble_bent (w, w->bent + k);
+}
+
+double
+bt__dynamic_bent_potential (const bt__dynamic_work *w)
+{
+  double sum = 0;
+  for (int k = 0; k < w->bents; k++)
+    {
+      const bt__dynamic_bent *b = w->bent + k;
+      bt_vec3 f = spring_of (w, b);
+      double size = fabs (side_of (w, b)), most = b->load > 0 ? b->friction * b->load : 0;
+      double floor = fmax (b->slip, fabs (b->drag + b->flow));
+      sum += 0.5 * bt__dot (f, f) / b->stiffness
+             + most * (size < floor ? 0.5 * size * size / floor : size - 0.5 * floor);
+    }
+  return sum;
+}
+
+/* ---- The border ---- */
+
+/* One bent node's equation: its two legs, and what it lacks.  */
+typedef struct border
+{
+  leg a, b;
+  double e, slope; /* T_b / T_a; what T_b - e T_a loses by friction with the flow, N/m */
+  double lack;     /* N: T_b - e T_a */
+} border;
+
+static border
+border_of (const bt__dynamic_work *w, const bt__dynamic_bent *b)
+{
+  border r = { .a = leg_of (w, b->node - 1), .b = leg_of (w, b->node) };
+  double slope, k = share_of (b, b->drag + b->flow, &slope);
+  r.e = exp (b->wrap * k);
+  r.slope = r.a.tension * r.e * b->wrap * slope;
+  r.lack = r.b.tension - r.e * r.a.tension;
+  return r;
+}
+
+/* What a metre of flow does to the nodes, as a right-hand side.  */
+static void
+push_of (bt__dynamic_work *w, const bt__dynamic_bent *b, const border *r)
+{
+  memset (w->rhs, 0, (size_t)(w->n + 1) * sizeof *w->rhs);
+  bt_vec3 *p = w->rhs + b->node, a = bt__scale (r->a.by_rest, r->a.t),
+          c = bt__scale (r->b.by_rest, r->b.t);
+  p[-1] = a;
+  p[0] = bt__scale (-1, bt__add (a, c));
+  p[1] = c;
+}
+
+/* What the update D does to the lack of B.  */
+static double
+lack_by (const bt__dynamic_bent *b, const border *r, const bt_vec3 *d)
+{
+  const bt_vec3 *p = d + b->node;
+  return r->b.along * bt__dot (r->b.t, bt__sub (p[1], p[0]))
+         - r->e * r->a.along * bt__dot (r->a.t, bt__sub (p[0], p[-1]));
+}
+
+/* What a metre of flow at bent node L does to the lack at K, the nodes staying.  */
+static double
+lack_by_flow (const bt__dynamic_work *w, const border *r, int k, int l)
+{
+  int64_t away = w->bent[l].node - w->bent[k].node;
+  const border *b = r + k;
+  if (k == l)
+    return -(b->b.by_rest + b->e * b->a.by_rest + b->slope + b->a.soft + b->b.soft);
+  return away == 1 ? b->b.by_rest : away == -1 ? b->e * b->a.by_rest : 0;
+}
+
+/* Solve the N equations M x = Y, of BT__BENTS columns, into Y.  Return zero if they are not
+   finite.  */
+static int
+eliminate (double m[][BT__BENTS], double *y, int n)
+{
+  for (int i = 0; i < n; i++)
+    {
+      int p = i;
+      for (int k = i + 1; k < n; k++)
+        p = fabs (m[k][i]) > fabs (m[p][i]) ? k : p;
+      for (int c = 0; c < n; c++)
+        {
+          double t = m[i][c];
+          m[i][c] = m[p][c];
+          m[p][c] = t;
+        }
+      double t = y[i];
+      y[i] = y[p];
+      y[p] = t;
+      for (int k = i + 1; k < n; k++)
+        {
+          double f = m[k][i] / m[i][i];
+          for (int c = i; c < n; c++)
+            m[k][c] -= f * m[i][c];
+          y[k] -= f * y[i];
+        }
+    }
+  double sum = 0;
+  for (int i = n - 1; i >= 0; i--)
+    {
+      for (int c = i + 1; c < n; c++)
+        y[i] -= m[i][c] * y[c];
+      y[i] /= m[i][i];
+      sum += y[i];
+    }
+  return isfinite (sum);
+}
+
+static double
+largest (const bt__dynamic_work *w)
+{
+  double most = 0, sum = 0;
+  for (int i = w->lo; i <= w->hi; i++)
+    {
+      double square = bt__dot (w->d[i], w->d[i]);
+      sum += square;
+      most = square > most ? square : most;
+    }
+  return isfinite (sum) ? sqrt (most) : NAN;
+}
+
+/* The updates of a metre of each flow.  */
+static void
+find_by_flow (bt__dynamic_work *w, const border *r, double (*solve) (bt__dynamic_work *))
+{
+  size_t nodes = (size_t)w->n + 1, size = nodes * sizeof *w->d;
+  memcpy (w->spare, w->rhs, size);
+  for (int l = 0; l < w->bents; l++)
+    {
+      push_of (w, w->bent + l, r + l);
+      solve (w);
+      memcpy (w->by_flow + (size_t)l * nodes, w->d, size);
+    }
+  memcpy (w->rhs, w->spare, size);
+}
+
+double
+bt__dynamic_bent_solve (bt__dynamic_work *w, double (*solve) (bt__dynamic_work *))
+{
+  border r[BT__BENTS];
+  double m[BT__BENTS][BT__BENTS], y[BT__BENTS];
+  size_t nodes = (size_t)w->n + 1, size = nodes * sizeof *w->d;
+  solve (w);
+  memcpy (w->whole, w->d, size);
+  for (int k = 0; k < w->bents; k++)
+    {
+      r[k] = border_of (w, w->bent + k);
+      y[k] = -r[k].lack - lack_by (w->bent + k, r + k, w->d);
+    }
+  find_by_flow (w, r, solve);
+  for (int l = 0; l < w->bents; l++)
+    for (int k = 0; k < w->bents; k++)
+      m[k][l] = lack_by_flow (w, r, k, l)
+                + lack_by (w->bent + k, r + k, w->by_flow + (size_t)l * nodes);
+  memcpy (w->d, w->whole, size);
+  if (!eliminate (m, y, w->bents))
+    return NAN;
+  double most = 0;
+  for (int l = 0; l < w->bents; l++)
+    {
+      const bt_vec3 *z = w->by_flow + (size_t)l * nodes;
+      w->bent[l].step = y[l];
+      w->bent[l].gain[0] = r[l].a.by_rest;
+      w->bent[l].gain[1] = r[l].b.by_rest;
+      most = fmax (most, fabs (y[l]));
+      for (size_t i = 0; i < nodes; i++)
+        w->d[i] = bt__axpy (w->d[i], y[l], z[i]);
+    }
+  double moved = largest (w);
+  return moved >= most || isnan (moved) ? moved : most;
+}
+
+/* ---- Flows that follow the places ---- */
+
+/* The legs of a bent node as they share their line: what they could span without tension, m of rest
+   length, how much they have, and the tension of a stretch by one.  */
+typedef struct share
+{
+  double a, b, rest_a, rest_b, unit;
+  double zero_a, zero_b; /* of the rest length, where there is no tension */
+} share;
+
+static share
+share_out (const bt__dynamic_work *w, const bt__dynamic_bent *b)
+{
+  const bt__link *p = w->link + b->node - 1, *q = p + 1;
+  share s = { .rest_a = p->rest, .rest_b = q->rest, .unit = p->ka * p->rest };
+  s.zero_a = p->zero / p->rest;
+  s.zero_b = q->zero / q->rest;
+  s.a = bt__norm (chord_of (w, b->node - 1)) / s.zero_a;
+  s.b = bt__norm (chord_of (w, b->node)) / s.zero_b;
+  return s;
+}
+
+/* What T_b exceeds exp (wrap k) T_a by when MORE has flowed; *SLOPE its derivative, below zero.  */
+static double
+lack_at (const bt__dynamic_bent *b, const share *s, double more, double *slope)
+{
+  double bends, k = share_of (b, b->drag + b->flow + more, &bends), e = exp (b->wrap * k);
+  double ra = s->rest_a - more, rb = s->rest_b + more;
+  double ta = s->unit * s->zero_a * (s->a / ra - 1), tb = s->unit * s->zero_b * (s->b / rb - 1);
+  *slope = -s->unit * (s->zero_b * s->b / (rb * rb) + e * s->zero_a * s->a / (ra * ra))
+           - ta * e * b->wrap * bends;
+  return tb - e * ta;
+}
+
+/* What must flow at B so that the tensions are right where the nodes are.  Both legs are taut, or
+   neither is: then they share what is slack.  */
+static double
+wanted_flow (const bt__dynamic_work *w, const bt__dynamic_bent *b)
+{
+  share s = share_out (w, b);
+  double even = (s.rest_a * s.b - s.rest_b * s.a) / (s.a + s.b);
+  double low = s.rest_a - s.a, high = s.b - s.rest_b, f = even, slope;
+  if (!(low < high))
+    return isfinite (even) ? even : 0;
+  for (int i = 0; i < FOLLOWS; i++)
+    {
+      double lack = lack_at (b, &s, f, &slope), next = f - lack / slope;
+      if (lack > 0)
+        low = f;
+      else
+        high = f;
+      if (!(next > low && next < high))
+        next = 0.5 * (low + high);
+      if (fabs (next - f) < SETTLED)
+        return next;
+      f = next;
+    }
+  return f;
+}
+
+static void
+follow (bt__dynamic_work *w, bt__dynamic_bent *b)
+{
+  b->side_now = side_of (w, b);
+  let_flow (w, b, wanted_flow (w, b));
+}
+
+/* What the obstacle bears: never more than both tensions, whatever was done to the places.  */
+static void
+bear (const bt__dynamic_work *w, bt__dynamic_bent *b)
+{
+  b->pull[0] = fmax (w->lam[b->node - 1], 0);
+  b->pull[1] = fmax (w->lam[b->node], 0);
+  b->load = fmin (bt__dot (b->normal, spring_of (w, b)), b->pull[0] + b->pull[1]);
+  b->load = fmax (b->load, 0);
+}
+
+void
+bt__dynamic_bent_follow (bt__dynamic_work *w)
+{
+  for (int k = 0; k < w->bents; k++)
+    {
+      follow (w, w->bent + k);
+      bear (w, w->bent + k);
+    }
+}
+
+/* ---- After an iteration ---- */
+
+/* The tensions are those of the linear equations, the flows what then suits the places.  */
+void
+bt__dynamic_bent_take (bt__dynamic_work *w, double share)
+{
+  for (int k = 0; k < w->bents && w->bordered; k++)
+    {
+      bt__dynamic_bent *b = w->bent + k;
+      w->lam[b->node - 1] += share * b->gain[0] * b->step;
+      w->lam[b->node] -= share * b->gain[1] * b->step;
+      let_flow (w, b, share * b->step);
+    }
+  bt__dynamic_bent_follow (w);
+}
+
+/* ---- From outside ---- */
+
+void
+bt__dynamic_bent_stop (bt__dynamic_work *w)
+{
+  for (int k = 0; k < w->bents; k++)
+    {
+      let_flow (w, w->bent + k, -w->bent[k].flow);
+      w->bent[k].flow = 0;
+    }
+}
+
+void
+bt__dynamic_bend (bt__dynamic_work *w, bt__dynamic_bent *bent, int n)
+{
+  w->bent = bent;
+  w->bents = n;
+  for (int k = 0; k < n; k++)
+    {
+      double guess = bent[k].flow;
+      bent[k].flow = 0;
+      let_flow (w, bent + k, guess);
+      w->X[bent[k].node] = bent[k].at;
+    }
+  for (int k = 0; k < n; k++)
+    follow (w, bent + k);
+}

@@ -1,0 +1,89 @@
+# Taking a lesson as a person does, through a pipe: typing, leaving, going on at the same point, marks in the
+# logbook, a lesson that is killed.
+# Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+. "$top_srcdir/tests/tap.sh"
+
+pre=$top_builddir/pre-inst-env
+BIGHT_LOGBOOK=$scratch/logbook.db
+XDG_STATE_HOME=$scratch/state
+export BIGHT_LOGBOOK XDG_STATE_HOME
+
+take ()
+{
+  "$pre" bight lesson one-pile --typed --quiet --trainee ann --group crew >"$scratch/out" 2>"$scratch/err"
+}
+
+"$pre" bight lessons --trainee ann >"$scratch/out" 2>"$scratch/err"
+grep -q '^05  one-pile  *-  One pile, out and back' "$scratch/out"
+result $? 'bight lessons lists the lessons'
+
+take <<END
+h
+(fly-to! '(4 0 -5) #:speed 0.5)
+(run 20)
+(foo)
+q
+END
+result $? 'a lesson that is left is no failure'
+empty 'and nothing on standard error' "$scratch/err"
+grep -q '^20.0 s> Unbound variable: foo' "$scratch/out"
+result $? 'a mistake is told and the lesson goes on'
+grep -q 'Hint: Choose a side' "$scratch/out"
+result $? 'h gives a hint'
+"$pre" bight lessons --trainee ann | grep -q '^05  one-pile  *begun'
+result $? 'the list knows that it is begun'
+
+take <<END
+(fly-to! '(0 5 -5) #:speed 0.5)
+(run 60)
+east
+(fly-to! '(4 0 -5) #:speed 0.5)
+(run 20)
+(fly-to! '(6 -6 -5))
+(run 60)
+END
+result $? 'a lesson that was left goes on'
+grep -q '^20.0 s> ' "$scratch/out"
+result $? 'at the same point'
+grep -q '^one-pile: 100 out of 100, passed' "$scratch/out"
+result $? 'to its end'
+
+if grep -q '^bight: ' "$scratch/err" || ! "$pre" bight -c '(logbook)' >/dev/null 2>&1; then
+  skip 'marks in the list: no logbook here'
+  skip 'marks of a group: no logbook here'
+else
+  "$pre" bight lessons --trainee ann | grep -q '^05  one-pile  *100  One pile'
+  result $? 'the list shows the marks'
+  "$pre" bight lessons --csv --group crew | grep -q '^ann,crew,one-pile,normal,1,100,1,'
+  result $? 'and a group is told as CSV'
+fi
+
+# Killed in the middle, it goes on where it was.
+{ printf '%s\n' "(fly-to! '(4 0 -5) #:speed 0.5)" '(run 7)' '(kill (getpid) 9)'; } |
+  "$pre" bight lesson one-pile --typed --quiet --trainee bob >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 1 ] && grep -q 'signal 9' "$scratch/err"
+result $? 'a lesson that is killed says so'
+# What killed it is in the journal only if it came to an end: it did not.
+echo q | "$pre" bight lesson one-pile --typed --quiet --trainee bob >"$scratch/out" 2>"$scratch/err"
+grep -q '^7.00 s> ' "$scratch/out"
+result $? 'and goes on at the same point'
+
+"$pre" bight lesson one-pil </dev/null >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 1 ] && grep -q 'one-pile' "$scratch/err"
+result $? 'a misspelt name is told the nearest'
+"$pre" bight lesson one-pile --chek </dev/null >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 1 ] && grep -q 'did you mean `--check' "$scratch/err"
+result $? 'so is a misspelt option'
+
+cat >"$scratch/bad.scm" <<END
+(define-lesson bad "Bad"
+  (in open-water)
+  (task "Nothing." (done-when #f) (hint-after 5 "Never.") (at-most 2))
+  (pilot expert "Does nothing."))
+END
+"$pre" bight lesson --check "$scratch/bad.scm" >"$scratch/out" 2>"$scratch/err"
+[ $? -eq 1 ] && grep -q 'demonstration does not pass' "$scratch/out" && grep -q 'nobody can hear the hint: Never' "$scratch/out"
+result $? 'a lesson that cannot be passed does not check'
+
+finish
