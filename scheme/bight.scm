@@ -84,7 +84,7 @@
     ((bight picture) snapshot show)
     ((bight pilot-view) pilot!)
     ((bight film) film)
-    ((bight plot) plot sample! sample-every samples? samples-rows)
+    ((bight plot) plot sample! samples? samples-rows)
     ((bight describe) describe)
     ((bight doc) help)))
 

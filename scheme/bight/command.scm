@@ -83,7 +83,7 @@ held until changed; those not named stay.  Ends a flight to a place.  Return the
 
 (define (corners polyline)
   ;; The points of POLYLINE but those that lie within a centimetre of the way without them.
-  (let loop ((i 1) (last (row-of polyline 0)) (kept '()))
+  (let loop ((i (min 1 (- (array-length polyline) 1))) (last (row-of polyline 0)) (kept '()))
     (let ((p (row-of polyline i)))
       (cond ((= i (- (array-length polyline) 1)) (reverse! (cons p kept)))
             ((straight? last p (row-of polyline (+ i 1))) (loop (+ i 1) last kept))

@@ -316,8 +316,8 @@
 (define (signal-text signal)
   (cond ((eqv? signal SIGPROF)
          (simple-format #f "it took more than ~a s of processor time at one stretch" breath))
-        ((memv signal (list SIGABRT SIGSEGV SIGBUS))
-         (simple-format #f "it broke down, as one that wants more than ~a megabytes of memory does"
+        ((memv signal (list SIGABRT SIGSEGV SIGBUS SIGALRM))
+         (simple-format #f "it broke down or hung, as one that wants more than ~a megabytes of memory does"
                         (quotient memory-limit (* 1024 1024))))
         ((eqv? signal SIGINT) "it was interrupted")
         (else (simple-format #f "it was ended by signal ~a" signal))))

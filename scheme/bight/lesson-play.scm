@@ -74,7 +74,8 @@
 
 ;;; The plain clauses.
 
-;; Called when the dive goes on: who limits processor time grants more.
+;; Called with #t when the dive goes on, and with #f before waiting for the pupil: who limits processor time
+;; grants more.
 (define breathing (make-parameter noop))
 
 ;; True in a process that runs what came from outside: then worlds are named, not read from files.
@@ -261,7 +262,7 @@ CHOICES.  BEARING? says that the truth is a bearing unless DEGREES says otherwis
     (sample-rows! (plan-rows (current-plan)))
     (tick-counters! (plan-counts (current-plan))))
   (when (due? 1)
-    ((breathing)))
+    ((breathing) #t))
   (when (due? point-time)
     (save-point!))
   (when (due? look-time)

@@ -42,7 +42,7 @@
 
 (define (next-input ask)
   ;; The next input: out of the journal, or what ASK, a thunk, returns.
-  ((breathing))
+  ((breathing) #t)
   (if (replaying?)
       (let ((all (variable-ref (replay))))
         (variable-set! (replay) (cdr all))
@@ -188,10 +188,12 @@
   ;; The next line, or an eof object; ^C asks anew.
   (let loop ()
     (prompt text)
+    ((breathing) #f)
     (let ((line (with-exception-handler
                     (lambda (e) (if (interrupted? e) #f (raise-exception e)))
                   (lambda () (read-line))
                   #:unwind? #t)))
+      ((breathing) #t)
       (cond (line line)
             (else (newline) (loop))))))
 

@@ -335,7 +335,7 @@ HARD), (pilot NAME TEXT ...) and (tender TEXT FORM ...)."
 
 (define-record <report>
   (make-report lesson who seed level marks total passed? seconds hints rewinds said charts coached hash)
-  report?
+  report-record?
   (lesson report-lesson)
   (who report-who)                      ; the name of the pilot or the pupil
   (seed report-seed)
@@ -351,12 +351,13 @@ HARD), (pilot NAME TEXT ...) and (tender TEXT FORM ...)."
   (coached %report-coached)
   (hash %report-hash))
 
-(document
- (report? "Return true if OBJECT is the report of a lesson."))
-
 (define-argument-type (report value)
   "a report, as `run-lesson' returns"
-  (if (report? value) value refused))
+  (if (report-record? value) value refused))
+
+(define-verb (report? (object any))
+  "Return #t if OBJECT is the report of a lesson."
+  (report-record? object))
 
 (define-verb (report-total (r report)) "Return the marks of the report R out of 100." (%report-total r))
 (define-verb (report-passed? (r report))

@@ -84,14 +84,18 @@ trainee text not null, what text not null, score real, data text not null)"
         ((and (real? value) (not (nan? value))) (exact->inexact value))
         (else refused)))
 
-(define (plain? value)
-  ;; Does VALUE come back as it was written?
-  (cond ((pair? value) (and (plain? (car value)) (plain? (cdr value))))
-        (else (or (null? value) (symbol? value) (string? value) (number? value) (boolean? value)))))
+(define most-data 100000)
+
+(define (room-after value room)
+  ;; The room left when VALUE, which comes back as it was written, has taken its part of ROOM; else #f.
+  (cond ((or (not room) (zero? room)) #f)
+        ((pair? value) (room-after (cdr value) (room-after (car value) (- room 1))))
+        ((or (null? value) (symbol? value) (string? value) (number? value) (boolean? value)) room)
+        (else #f)))
 
 (define-argument-type (data value)
   "a list of symbols, strings, numbers and such lists"
-  (if (and (list? value) (plain? value)) value refused))
+  (if (and (list? value) (room-after value most-data)) value refused))
 
 (define (dive-world-name)
   (let ((name (and (current-dive) (world-name (dive-world (current-dive))))))

@@ -39,13 +39,10 @@
 
 (define-record <samples>
   (make-samples names rows count)
-  samples?
+  samples-record?
   (names samples-names)
   (rows %samples-rows set-samples-rows!) ; (TIME NUMBER ...), the newest first
   (count samples-count set-samples-count!))
-
-(document
- (samples? "Return true if OBJECT is what `sample!' or `sample-every' gathers."))
 
 (set-record-type-printer!
  <samples>
@@ -53,9 +50,17 @@
    (simple-format port "#<samples of ~a: ~a rows>" (string-join (samples-names s) ", ")
                   (samples-count s))))
 
-(define (samples-rows samples)
-  "Return the rows (TIME NUMBER ...) of SAMPLES, the oldest first."
-  (reverse (%samples-rows samples)))
+(define-argument-type (samples value)
+  "samples, as `sample!' returns"
+  (if (samples-record? value) value refused))
+
+(define-verb (samples? (object any))
+  "Return #t if OBJECT is what `sample!' gathers."
+  (samples-record? object))
+
+(define-verb (samples-rows (s samples))
+  "Return the rows (TIME NUMBER ...) of the samples S, the oldest first."
+  (reverse (%samples-rows s)))
 
 (define most-rows 200000)
 
@@ -208,14 +213,14 @@ samples, for `plot'."
 (define-argument-type (plotted value)
   "what `sample!' returned, tension, depth or curvature (along the tether), the CSV file of a bench, or rows
 (X Y), or a list of (NAME ROW ...)"
-  (cond ((samples? value) value)
+  (cond ((samples-record? value) value)
         ((memq value profiles) value)
         ((and (string? value) (string-suffix? ".csv" value)) value)
         ((and (list? value) (pair? value) (or (every row? value) (every curve? value))) value)
         (else refused)))
 
 (define (chart-of value tether)
-  (cond ((samples? value) (chart-of-samples value))
+  (cond ((samples-record? value) (chart-of-samples value))
         ((symbol? value) (chart-along value tether))
         ((string? value) (chart-of-bench value))
         (else (chart-of-numbers value))))

@@ -215,11 +215,23 @@ wrong in it."
 
 (define enclosed? #f)
 
-(define (breathe!)
-  "Grant this process, if it is enclosed, processor time anew."
+(define* (breathe! #:optional (busy? #t))
+  "Grant this process, if it is enclosed, processor time anew.  BUSY? is #f while it waits for the pupil."
   ;; The collector has SIGXCPU for itself, so a timer ends the process, by SIGPROF.
   (when enclosed?
-    (setitimer ITIMER_PROF 0 0 breath 0)))
+    (setitimer ITIMER_PROF 0 0 breath 0)
+    ;; A collector that finds no memory may wait for ever, and then takes no processor time.
+    (setitimer ITIMER_REAL 0 0 (if busy? (* 10 breath) 0) 0)))
+
+(define heap-share 0.6)                 ; of the memory: what the lesson's own data may take
+
+(define (watch-heap!)
+  ;; End by a signal before the collector meets the limit: there it may break down in its own ways.
+  (add-hook! after-gc-hook
+             (lambda ()
+               (when (> (assq-ref (gc-stats) 'heap-size) (* heap-share memory-limit))
+                 (sigaction SIGABRT SIG_DFL)
+                 (kill (getpid) SIGABRT)))))
 
 (define (limit! resource value)
   (false-if-exception (setrlimit resource value value)))
@@ -270,5 +282,6 @@ paths, else `limits'."
   (limit! 'as memory-limit)
   (limit! 'cpu most-seconds)
   (set! enclosed? #t)
+  (watch-heap!)
   (breathe!)
   (if (close-paths!) 'kernel 'limits))

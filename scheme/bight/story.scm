@@ -317,6 +317,8 @@ altered, version when it is of another version."
                  (begin
                    (when (file-is-directory? file)
                      (bight-raise 'io proc "~s is a folder" file))
+                   (unless (eq? 'regular (stat:type (stat file))) ; a device may have no end
+                     (bight-raise 'io proc "~s is a device, not a file" file))
                    (file-bytes file)))))
     (first-datum proc file kind bytes)
     (call-with-values

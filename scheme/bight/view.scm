@@ -452,13 +452,14 @@ sea bed.  The drawing is COLUMNS wide, by default as wide as the terminal.  Retu
                (map (lambda (title value) (cell title (figure value 2)))
                     '("surge" "sway" "heave" "yaw")
                     (point->list (sticks name))))
-        (row "thrust"
-             (let ((all (ask 'thrusts name)))
-               (and all (positive? (array-length all))
-                    (cell "" (string-join (map (lambda (f) (fixed f 0)) (array->list all))) "N")))
+        (row "attitude"
              (cell "altitude" (figure (answer (rov-altitude name)) 2) "m")
              (cell "pitch" (figure (rov-pitch name) 1))
-             (cell "roll" (figure (rov-roll name) 1)))
+             (cell "roll" (figure (rov-roll name) 1))
+             (let ((all (ask 'thrusts name)))
+               (and all (positive? (array-length all))
+                    (cell "thrust" (string-join (map (lambda (f) (fixed f 0)) (array->list all)))
+                          "N"))))
         (row "current"
              (cell "" (current->string (point->list (current-at (rov-position name))))))))
 

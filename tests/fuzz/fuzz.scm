@@ -38,11 +38,14 @@
 ;;; What is left out.
 
 (define not-called
-  '((run-tests . "reads and runs whatever test files there are, this one's neighbours too")))
+  '((run-tests . "reads and runs whatever test files there are, this one's neighbours too")
+    (live! . "time then passes by the clock, and no two runs are the same")
+    (film . "draws for as long as it is told to")
+    (pilot! . "wants a terminal and somebody at its keys")))
 
 ;; These let time pass for as long as they are told: a run of 1e9 seconds is no mistake.  What the
 ;; fuzzer asks of them is kept below `longest-run', unless it is refused anyway.
-(define long-by-request '(run run-until settle!))
+(define long-by-request '(run run-until settle! foresee))
 
 ;; Not a procedure of ours: Guile's own parameter, whose count of arguments Guile itself checks.
 (define parameters '(current-dive))
