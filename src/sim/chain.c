@@ -136,6 +136,9 @@ bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, i
     }
   else
     tense (dive, chain, n);
+  tether->tension_max = 0;
+  for (int k = 0; k < n; k++)
+    tether->tension_max = fmax (tether->tension_max, bt__dynamic_tension (chain)[k]);
   if (bt__has_obstacles (dive))
     bt__anchors_init (bt__dive_anchors (dive, state, i, 0), bt__anchor_room (def));
   memset (&tether->shape, 0, sizeof tether->shape);
