@@ -39,6 +39,8 @@
 
 (define not-called
   '((run-tests . "reads and runs whatever test files there are, this one's neighbours too")
+    (haul-trial . "flies a dive for minutes, which may take seconds")
+    (free-to-haul? . "the same")
     (live! . "time then passes by the clock, and no two runs are the same")
     (film . "draws for as long as it is told to")
     (pilot! . "wants a terminal and somebody at its keys")))
@@ -291,7 +293,7 @@
         (list entry entry entry)
         (list entry))))
 
-;; With --bait these are among the names, once each: faults of every kind, which must be found.
+;; With --bait these are among the names, ten times each: faults of every kind, which must be found.
 
 (define unprintable
   (make-struct/no-tail (make-record-type 'unprintable '() (lambda (it port) (car '())))))
@@ -775,7 +777,8 @@
   (symlink "/dev/full" "full"))
 
 (define (child seed first n bait?)
-  (let ((names (list->vector (append (if bait? baits '()) (procedures-to-call))))
+  (let ((names (list->vector (append (if bait? (apply append (make-list 10 baits)) '())
+                                     (procedures-to-call))))
         (void (%make-void-port "w")))
     (set! report-port (current-output-port))
     (say "pid ~a" (getpid))
