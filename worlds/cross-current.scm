@@ -1,7 +1,5 @@
-(bight-recording 1)
-(engine "0.1.0")
-(world open-water "Nothing but water: a vehicle 15 m from its anchor on 25 m of neutral line in a gentle current." "/work/main/worlds/open-water.scm")
-(part sea (depth 40.0) (current (uniform 0.25 90.0)))
-(part rov (named minnow) (at #f64(0.0 15.0 -8.0)) (heading 0.0))
-(fresh "589d13acd8505989")
-(begin 0 "1bb2a2c9e2177345")
+(define-world cross-current
+  "Forty metres of neutral line across half a metre a second: the bow points down-current."
+  (sea    (depth 60) (density 1025) (current 0.5 90))
+  (rov    (named minnow) (at -10 20 -10) (heading 0))
+  (tether (named line) (type fathom) (wet-weight 0) (from 0 0 -10) (to minnow) (length 40)))

@@ -39,6 +39,11 @@
 
 (define not-called
   '((run-tests . "reads and runs whatever test files there are, this one's neighbours too")
+    (record! . "writes where it is told, and may be told a file of ours")
+    (save! . "the same")
+    (export-csv . "the same")
+    (snapshot . "the same")
+    (plot . "the same")
     (haul-trial . "flies a dive for minutes, which may take seconds")
     (free-to-haul? . "the same")
     (live! . "time then passes by the clock, and no two runs are the same")
