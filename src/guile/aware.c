@@ -13,13 +13,6 @@ enum
   EVENTS_MOST = 256
 };
 
-static SCM
-name_of (bt_dive *dive, int object)
-{
-  const char *name = bt_dive_name (dive, BT_PART_OBSTACLE, object);
-  return name ? scm_from_utf8_symbol (name) : SCM_BOOL_F;
-}
-
 /* ---- Numbers ---- */
 
 static SCM
@@ -91,7 +84,7 @@ windings (SCM object, SCM index)
     {
       int value;
       if (bt_tether_winding (dive, scm_to_int (index), k, &value, NULL) == BT_OK && value != 0)
-        list = scm_acons (name_of (dive, k), scm_from_int (value), list);
+        list = scm_acons (bt__obstacle_name (dive, k), scm_from_int (value), list);
     }
   return list;
 }
@@ -133,7 +126,7 @@ class_of (SCM object, SCM index)
   for (int k = c->letters; k-- > 0;)
     {
       letters = scm_cons (scm_from_int32 (c->letter[k]), letters);
-      objects = scm_cons (name_of (dive, c->object[k]), objects);
+      objects = scm_cons (bt__obstacle_name (dive, c->object[k]), objects);
     }
   return scm_vector (scm_list_5 (scm_from_uint64 (c->world), letters, objects,
                                  scm_from_bool (c->decided), scm_from_bool (c->lost)));
@@ -178,7 +171,7 @@ prospect (SCM object, SCM index, SCM winch)
              &error);
   scm_c_vector_set_x (v, 0, scm_from_utf8_symbol (answers[p.answer]));
   scm_c_vector_set_x (v, 1, scm_from_utf8_symbol (reasons[p.reason]));
-  scm_c_vector_set_x (v, 2, name_of (dive, p.object));
+  scm_c_vector_set_x (v, 2, bt__obstacle_name (dive, p.object));
   scm_c_vector_set_x (v, 3, scm_from_double (p.s));
   scm_c_vector_set_x (v, 4, scm_from_double (p.pull));
   scm_c_vector_set_x (v, 5, scm_from_double (p.speed));
@@ -200,7 +193,7 @@ haul (SCM object, SCM index, SCM rate, SCM winch, SCM seconds)
   scm_c_vector_set_x (v, 0, scm_from_bool (h.home));
   scm_c_vector_set_x (v, 1, scm_from_double (h.seconds));
   scm_c_vector_set_x (v, 2, scm_from_double (h.left));
-  scm_c_vector_set_x (v, 3, name_of (dive, h.object));
+  scm_c_vector_set_x (v, 3, bt__obstacle_name (dive, h.object));
   scm_c_vector_set_x (v, 4, scm_from_bool (h.hull));
   scm_c_vector_set_x (v, 5, bt__from_point (h.at));
   return v;
@@ -208,36 +201,18 @@ haul (SCM object, SCM index, SCM rate, SCM winch, SCM seconds)
 
 /* ---- Ways ---- */
 
-static SCM
-from_points (const bt_vec3 *p, int n)
-{
-  SCM array = scm_make_typed_array (scm_from_utf8_symbol ("f64"), SCM_INUM0,
-                                    scm_list_2 (scm_from_int (n), scm_from_int (3)));
-  scm_t_array_handle handle;
-  scm_array_get_handle (array, &handle);
-  double *x = scm_array_handle_f64_writable_elements (&handle);
-  for (int k = 0; k < n; k++)
-    {
-      x[3 * k] = p[k].x;
-      x[3 * k + 1] = p[k].y;
-      x[3 * k + 2] = p[k].z;
-    }
-  scm_array_handle_release (&handle);
-  return array;
-}
-
 /* #(points needed? feasible? length clearance obstacle longest left) */
 static SCM
 from_route (bt_dive *dive, const bt_route *r, const bt_vec3 *points, int n)
 {
   SCM v = scm_c_make_vector (8, SCM_BOOL_F);
   if (n > 0)
-    scm_c_vector_set_x (v, 0, from_points (points, n));
+    scm_c_vector_set_x (v, 0, bt__from_points (points, n));
   scm_c_vector_set_x (v, 1, scm_from_bool (r->needed));
   scm_c_vector_set_x (v, 2, scm_from_bool (r->feasible));
   scm_c_vector_set_x (v, 3, scm_from_double (r->length));
   scm_c_vector_set_x (v, 4, scm_from_double (r->clearance));
-  scm_c_vector_set_x (v, 5, name_of (dive, r->obstacle));
+  scm_c_vector_set_x (v, 5, bt__obstacle_name (dive, r->obstacle));
   scm_c_vector_set_x (v, 6, scm_from_double (r->longest));
   scm_c_vector_set_x (v, 7, scm_from_double (r->left));
   return v;
@@ -289,8 +264,8 @@ foresee (SCM object, SCM index, SCM seconds)
              &error);
   while (n-- > 0)
     list = scm_cons (scm_list_4 (scm_from_utf8_symbol (kinds[f[n].kind - 1]),
-                                 name_of (dive, f[n].object), scm_from_double (f[n].seconds),
-                                 scm_from_double (f[n].turns)),
+                                 bt__obstacle_name (dive, f[n].object),
+                                 scm_from_double (f[n].seconds), scm_from_double (f[n].turns)),
                      list);
   return list;
 }

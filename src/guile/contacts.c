@@ -12,19 +12,12 @@ enum
   MOST = 4096
 };
 
-static SCM
-name_of (bt_dive *dive, int object)
-{
-  const char *name = bt_dive_name (dive, BT_PART_OBSTACLE, object);
-  return name ? scm_from_utf8_symbol (name) : SCM_BOOL_F;
-}
-
 /* #(object triangle position normal s force sliding?) */
 static SCM
 from_contact (bt_dive *dive, const bt_contact *c)
 {
   SCM v = scm_c_make_vector (7, SCM_BOOL_F);
-  scm_c_vector_set_x (v, 0, name_of (dive, c->object));
+  scm_c_vector_set_x (v, 0, bt__obstacle_name (dive, c->object));
   if (c->triangle >= 0)
     scm_c_vector_set_x (v, 1, scm_from_int64 (c->triangle));
   scm_c_vector_set_x (v, 2, bt__from_point (c->position));
@@ -89,9 +82,10 @@ clearance (SCM object, SCM part, SCM index, SCM obstacle)
       = vehicle ? bt_vehicle_clearance (dive, scm_to_int (index), scm_to_int (obstacle), &c, &error)
                 : bt_tether_clearance (dive, scm_to_int (index), scm_to_int (obstacle), &c, &error);
   bt__check ("clearance", status, &error);
-  return c.object < 0 ? SCM_BOOL_F
-                      : scm_list_4 (scm_from_double (c.distance), name_of (dive, c.object),
-                                    scm_from_double (c.s), bt__from_point (c.position));
+  return c.object < 0
+             ? SCM_BOOL_F
+             : scm_list_4 (scm_from_double (c.distance), bt__obstacle_name (dive, c.object),
+                           scm_from_double (c.s), bt__from_point (c.position));
 }
 
 static SCM

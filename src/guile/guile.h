@@ -72,9 +72,13 @@ void bt__unlock_sharing (void);
 /* The bt_current_function that calls a Scheme procedure; USER is the handle.  */
 void bt__call_current (void *user, bt_vec3 p, double t, bt_vec3 *v);
 
-/* Points: an f64vector of three.  */
+/* Points: an f64vector of three; a polyline of N points: an N x 3 array.  */
 SCM bt__from_point (bt_vec3 p);
 bt_vec3 bt__to_point (const char *who, SCM object);
+SCM bt__from_points (const bt_vec3 *points, int n);
+
+/* The symbol that names an obstacle, or #f where there is none.  */
+SCM bt__obstacle_name (bt_dive *dive, int object);
 
 /* The current that the canonical list OBJECT describes.  *FUNCTION receives the procedure of a
    (function PROC) current, else is left alone.  */

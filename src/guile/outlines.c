@@ -4,7 +4,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "guile/guile.h"
 
@@ -21,17 +20,10 @@ at (const bt_vec3 *o, double a, bt_vec3 u, double b, bt_vec3 v, double c, bt_vec
                     o->z + a * u.z + b * v.z + c * w.z };
 }
 
-/* The polyline of N points, an n x 3 array, in front of LIST.  */
 static SCM
 with_line (const bt_vec3 *p, int n, SCM list)
 {
-  SCM array = scm_make_typed_array (scm_from_utf8_symbol ("f64"), SCM_UNSPECIFIED,
-                                    scm_list_2 (scm_from_int (n), scm_from_int (3)));
-  scm_t_array_handle handle;
-  scm_array_get_handle (array, &handle);
-  memcpy (scm_array_handle_f64_writable_elements (&handle), p, sizeof *p * (size_t)n);
-  scm_array_handle_release (&handle);
-  return scm_cons (array, list);
+  return scm_cons (bt__from_points (p, n), list);
 }
 
 /* Two square rings and the edges between them.  */

@@ -199,19 +199,6 @@ tension_at (SCM object, SCM index, SCM s)
   return scm_from_double (t);
 }
 
-/* A polyline of N points from POINTS.  */
-static SCM
-from_points (const bt_vec3 *points, int n)
-{
-  SCM array = scm_make_typed_array (symbol ("f64"), SCM_UNSPECIFIED,
-                                    scm_list_2 (scm_from_int (n), scm_from_int (3)));
-  scm_t_array_handle handle;
-  scm_array_get_handle (array, &handle);
-  memcpy (scm_array_handle_f64_writable_elements (&handle), points, sizeof *points * (size_t)n);
-  scm_array_handle_release (&handle);
-  return array;
-}
-
 static SCM
 tether_tail (SCM object, SCM index)
 {
@@ -219,7 +206,7 @@ tether_tail (SCM object, SCM index)
   int i = scm_to_int (index), n = bt_tether_tail (dive, i, NULL, 0);
   bt_vec3 *points = scm_gc_malloc_pointerless (sizeof *points * (size_t)(n + 1), "tether-tail");
   bt_tether_tail (dive, i, points, n);
-  return n ? from_points (points, n) : SCM_BOOL_F;
+  return n ? bt__from_points (points, n) : SCM_BOOL_F;
 }
 
 static SCM
@@ -262,7 +249,7 @@ equilibria (SCM object, SCM index)
       bt_tether_equilibria (bt__to_dive (object), scm_to_int (index), MOST, shapes, &found, &error),
       &error);
   while (found-- > 0)
-    list = scm_cons (from_points (shapes + (size_t)found * n, n), list);
+    list = scm_cons (bt__from_points (shapes + (size_t)found * n, n), list);
   return list;
 }
 

@@ -47,6 +47,27 @@ bt__to_point (const char *who, SCM object)
   return (bt_vec3){ x[0], x[1], x[2] };
 }
 
+SCM
+bt__from_points (const bt_vec3 *points, int n)
+{
+  SCM array = scm_make_typed_array (scm_from_utf8_symbol ("f64"), SCM_UNSPECIFIED,
+                                    scm_list_2 (scm_from_int (n), scm_from_int (3)));
+  scm_t_array_handle handle;
+  scm_array_get_handle (array, &handle);
+  memcpy (scm_array_handle_f64_writable_elements (&handle), points, sizeof *points * (size_t)n);
+  scm_array_handle_release (&handle);
+  return array;
+}
+
+/* ---- Names ---- */
+
+SCM
+bt__obstacle_name (bt_dive *dive, int object)
+{
+  const char *name = bt_dive_name (dive, BT_PART_OBSTACLE, object);
+  return name ? scm_from_utf8_symbol (name) : SCM_BOOL_F;
+}
+
 /* ---- Currents ---- */
 
 #define DEGREE (3.14159265358979323846 / 180)
