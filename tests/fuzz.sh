@@ -4,11 +4,6 @@
 
 . "$top_srcdir/tests/tap.sh"
 
-# What it logs is no dive of anybody's.
-BIGHT_LOGBOOK=$scratch/logbook.db
-XDG_STATE_HOME=$scratch/state
-export BIGHT_LOGBOOK XDG_STATE_HOME
-
 sequences=5000
 # Seconds of processor time for a call: sanitizers make everything several times slower.
 if [ "${sanitize:-no}" = yes ]; then

@@ -11,12 +11,11 @@
 
 (define-module (bight sandbox)
   #:use-module (bight errors)
+  #:use-module ((bight landlock) #:select (close-paths!))
   #:use-module (bight lesson)
   #:use-module ((bight lesson-play) #:select (untrusted?))
   #:use-module (ice-9 sandbox)
-  #:use-module (rnrs bytevectors)
   #:use-module (srfi srfi-1)
-  #:use-module (system foreign)
   #:export (enclose!
             breathe!
             sandbox-module
@@ -235,42 +234,6 @@ wrong in it."
 
 (define (limit! resource value)
   (false-if-exception (setrlimit resource value value)))
-
-(define (foreign name return arguments)
-  (let ((address (false-if-exception (dynamic-func name (dynamic-link)))))
-    (and address (pointer->procedure return address arguments))))
-
-;; The numbers of Landlock's system calls are the same on all machines.
-(define landlock-create 444)
-(define landlock-restrict 446)
-(define no-new-privileges 38)
-
-(define (landlock-version syscall)
-  (syscall landlock-create 0 0 1))
-
-(define (rights version)
-  ;; Of a file: to start it, write it, remove, make, refer to, truncate it.
-  (logior 1 2 (ash #x1ff 4)
-          (if (>= version 2) (ash 1 13) 0)
-          (if (>= version 3) (ash 1 14) 0)))
-
-(define (close-paths!)
-  ;; Let the kernel refuse; return #t if it can.
-  (let ((syscall (foreign "syscall" long (list long uintptr_t size_t uint32)))
-        (prctl (foreign "prctl" int (list int unsigned-long unsigned-long unsigned-long unsigned-long))))
-    (and syscall prctl
-         (let ((version (landlock-version syscall))
-               (attributes (make-bytevector 16 0)))
-           (and (>= version 1)
-                (begin
-                  (bytevector-u64-native-set! attributes 0 (rights version))
-                  (bytevector-u64-native-set! attributes 8 3)
-                  (let ((rules (syscall landlock-create
-                                        (pointer-address (bytevector->pointer attributes))
-                                        (if (>= version 4) 16 8) 0)))
-                    (and (>= rules 0)
-                         (zero? (prctl no-new-privileges 1 0 0 0))
-                         (zero? (syscall landlock-restrict rules 0 0))))))))))
 
 (define (enclose!)
   "Take from this process, for good, what a lesson from outside has no use for: writing to any path,

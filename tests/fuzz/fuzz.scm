@@ -21,6 +21,7 @@
 (use-modules (bight)
              ((bight assembly) #:select (data->part build-world))
              ((bight errors) #:select (abbreviate bight-error-kinds brief))
+             ((bight landlock) #:select (close-paths!))
              ((bight schema) #:select (part-heads inner-heads head-fields field-name field-kind
                                   field-words field-live?))
              ((bight verb) #:select (accepts? argument-type-name current-subject-lister))
@@ -30,6 +31,7 @@
              (srfi srfi-1)
              (srfi srfi-4))
 
+(define enclosed? #f)                   ; does the kernel watch where this process writes?
 (define calls-per-sequence 20)
 (define longest-message 1500)
 (define longest-run 0.25)               ; seconds of dive time
@@ -39,16 +41,15 @@
 
 (define not-called
   '((run-tests . "reads and runs whatever test files there are, this one's neighbours too")
-    (record! . "writes where it is told, and may be told a file of ours")
-    (save! . "the same")
-    (export-csv . "the same")
-    (snapshot . "the same")
-    (plot . "the same")
     (haul-trial . "flies a dive for minutes, which may take seconds")
     (free-to-haul? . "the same")
     (live! . "time then passes by the clock, and no two runs are the same")
     (film . "draws for as long as it is told to")
     (pilot! . "wants a terminal and somebody at its keys")))
+
+;; Calls are made of what others gave, names of files among it.  These write where they are told, and are
+;; only let loose where the kernel keeps them from whatever is not the fuzzer's.
+(define writers '(record! save! export-csv snapshot plot))
 
 ;; These let time pass for as long as they are told: a run of 1e9 seconds is no mistake.  What the
 ;; fuzzer asks of them is kept below `longest-run', unless it is refused anyway.
@@ -319,7 +320,9 @@
   (let ((interface (resolve-interface '(bight))))
     (append-map (lambda (name)
                   (let ((value (variable-ref (module-variable interface name))))
-                    (if (and (procedure? value) (not (assq name not-called)))
+                    (if (and (procedure? value)
+                             (not (assq name not-called))
+                             (or enclosed? (not (memq name writers))))
                         (worth (cons name value))
                         '())))
                 (language-names))))
@@ -781,7 +784,14 @@
   (symlink "/dev/null" "null")
   (symlink "/dev/full" "full"))
 
+(define (enclose!)
+  ;; The folder above is ours as well; there lies the logbook: what is logged is no dive of anybody's.
+  (setenv "XDG_STATE_HOME" (dirname (getcwd)))
+  (unsetenv "BIGHT_LOGBOOK")
+  (close-paths! #:but '(".." "/dev/null" "/dev/full") #:programs? #t))
+
 (define (child seed first n bait?)
+  (set! enclosed? (enclose!))
   (let ((names (list->vector (append (if bait? (apply append (make-list 10 baits)) '())
                                      (procedures-to-call))))
         (void (%make-void-port "w")))
