@@ -19,6 +19,7 @@ enum
 #define SOLVED 1e-14
 #define LEAST 0.1
 #define LETTING_GO 4.0 /* a pull that falls to less than one part in this in a step */
+#define PROPELLER 0.1  /* m: the height over which a thruster leaves the water */
 #define SOFT 50.0      /* h2 k / m of a line that is neither soft nor stiff */
 
 /* Two vectors: along and about the own axes.  */
@@ -43,6 +44,16 @@ typedef struct job
 
 /* ---- Thrusters ---- */
 
+/* The share of thruster K that is under water: out of it, it turns in air.  */
+static double
+drowned (const job *j, int k)
+{
+  if (!(j->in->surface < INFINITY))
+    return 1;
+  double depth = j->in->surface - bt__rigid_point (j->body, j->type->thruster[k].at).z;
+  return fmax (0, fmin (1, 0.5 + depth / PROPELLER));
+}
+
 /* The force that thruster K settles to.  */
 static double
 settled (const job *j, int k)
@@ -51,7 +62,8 @@ settled (const job *j, int k)
   double nominal = j->type->volts, volts = j->in->volts > 0 ? j->in->volts : nominal;
   if (j->in->lost >> k & 1)
     return 0;
-  return bt__thruster_force (t, volts, bt__thruster_command (t, nominal, j->in->wish[k]));
+  return drowned (j, k)
+         * bt__thruster_force (t, volts, bt__thruster_command (t, nominal, j->in->wish[k]));
 }
 
 /* First-order lag, exact for a command held over the step: the mean of the step, and *END.  */

@@ -160,3 +160,11 @@ down."
                   (history reference))))
     (expect (apply max (filter-map (lambda (pair) (and (> (car pair) 10) (cdr pair))) off)) is (below 0.5))
     (expect (apply max (map cdr off)) is (below 0.7))))
+
+(define-scenario (held-by-the-surface heave)
+  "A vehicle driven up bobs at the surface and does not fly: a thruster in the air pushes nothing."
+  #:for ((heave 0.5 1))
+  (enter! (world (rov (named minnow) (type bluerov2-heavy) (at 0 0 -3))))
+  (never (> (z (rov-position)) 0.5)
+    (drive! #:heave heave) (run 30))
+  (expect (z (rov-position)) is (between -0.6 0.4)))
