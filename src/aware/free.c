@@ -299,8 +299,10 @@ last_corner (const bt__free *t, bt_vec3 p, double clear, int radius, bt__count *
   return best_in_sight (t, &c, p, clear, count);
 }
 
-uint32_t
-bt__free_way (const bt__free *t, bt_vec3 p, bt_vec3 *way, bt__count *count)
+/* Put into WAY (BT__FREE_WAY_MAX points of room) the corners of a way from the anchor to P; return
+   their number, 0 if none was found.  */
+static uint32_t
+find_way (const bt__free *t, bt_vec3 p, bt_vec3 *way, bt__count *count)
 {
   uint32_t corner = NOWHERE, n = 0;
   if (sees (t, t->anchor, p, t->c.clear, count))
@@ -343,7 +345,7 @@ bt__free_length (const bt__free *t, bt__taut *taut, const bt__taut_config *confi
                  uint32_t steps, bt__string *string, bt__count *count)
 {
   bt_vec3 way[BT__FREE_WAY_MAX];
-  uint32_t n = bt__free_way (t, p, way, count);
+  uint32_t n = find_way (t, p, way, count);
   if (n == 0 || !bt__string_lay (string, way, n))
     return INFINITY;
   if (n > 2)

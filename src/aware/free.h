@@ -39,10 +39,6 @@ void bt__free_free (bt__free *tree); /* NULL is nothing */
 /* Grow the tree from ANCHOR; no allocation.  */
 void bt__free_grow (bt__free *tree, bt_vec3 anchor, bt__count *count);
 
-/* Put into WAY (BT__FREE_WAY_MAX points of room) the corners of a way from the anchor to P; return
-   their number, 0 if none was found.  */
-uint32_t bt__free_way (const bt__free *tree, bt_vec3 p, bt_vec3 *way, bt__count *count);
-
 /* Lay STRING along the way to P and tighten it by up to STEPS; return its length in m, with arcs
    for corners at round members, INFINITY if there is no way.  */
 double bt__free_length (const bt__free *tree, bt__taut *taut, const bt__taut_config *config,

@@ -11,17 +11,17 @@
 /* Farther from the origin than this no geometry holds in doubles.  */
 #define FAR 1e12
 
-bt_vec3
-bt__place_direction (const bt__place *place, bt_vec3 d)
+static bt_vec3
+turned (const bt__place *place, bt_vec3 d)
 {
   double c = cos (place->heading), s = sin (place->heading);
   return bt__vec (c * d.x + s * d.y, c * d.y - s * d.x, d.z);
 }
 
-bt_vec3
-bt__place_point (const bt__place *place, bt_vec3 p)
+static bt_vec3
+placed (const bt__place *place, bt_vec3 p)
 {
-  return bt__add (place->at, bt__place_direction (place, bt__scale (place->scale, p)));
+  return bt__add (place->at, turned (place, bt__scale (place->scale, p)));
 }
 
 void
@@ -97,7 +97,7 @@ copy_soup (bt__mesh *m, const bt__soup *s, const bt__place *place)
   if (!m->v || !m->corner || !m->id)
     return 0;
   for (uint32_t i = 0; i < s->vertices; i++)
-    m->v[i] = place ? bt__place_point (place, s->v[i]) : s->v[i];
+    m->v[i] = place ? placed (place, s->v[i]) : s->v[i];
   memcpy (m->corner, s->corner, s->triangles * sizeof *m->corner);
   return 1;
 }

@@ -15,9 +15,6 @@ typedef struct bt__place
   double heading, scale;
 } bt__place;
 
-bt_vec3 bt__place_point (const bt__place *place, bt_vec3 p);
-bt_vec3 bt__place_direction (const bt__place *place, bt_vec3 d); /* turned only */
-
 typedef struct bt__mesh
 {
   uint32_t vertices, triangles;

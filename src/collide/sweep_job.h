@@ -32,8 +32,6 @@ typedef struct bt__apart
   bt_vec3 normal;  /* unit, from the part to the body; 0 where the cores meet */
 } bt__apart;
 
-void bt__chase_measure (const bt__chase *chase, double t, bt__apart *out);
-
 /* Return the largest share, at most MOST, of both ways that keeps the two apart; *OUT is how they
    stand there if it is less than MOST.  */
 double bt__chase_run (const bt__chase *chase, double most, bt__apart *out, bt__count *count);

@@ -122,8 +122,9 @@ bt__polyline_lay (bt__polyline *line, uint32_t room, const bt_vec3 *points, uint
 
 /* ---- Nodes ---- */
 
-int64_t
-bt__polyline_link (const bt__polyline *line, double s)
+/* The link that holds arc length S, clamped.  */
+static int64_t
+link_at (const bt__polyline *line, double s)
 {
   const double *u = bt__polyline_u ((bt__polyline *)line);
   int64_t lo = 0, hi = line->n - 1;
@@ -150,7 +151,7 @@ bt__polyline_insert (bt__polyline *line, double s, double grain)
 {
   bt_vec3 *x = bt__polyline_x (line);
   double *u = bt__polyline_u (line);
-  int64_t j = bt__polyline_link (line, s), i = j + 1;
+  int64_t j = link_at (line, s), i = j + 1;
   if (fabs (u[j] - s) <= grain)
     return j;
   if (fabs (u[i] - s) <= grain)
@@ -183,7 +184,7 @@ bt__polyline_remove (bt__polyline *line, int64_t i)
 bt_vec3
 bt__polyline_point (const bt__polyline *line, double s)
 {
-  int64_t j = bt__polyline_link (line, s);
+  int64_t j = link_at (line, s);
   const bt_vec3 *x = bt__polyline_x ((bt__polyline *)line) + j;
   return bt__axpy (x[0], share_of (line, j, s), bt__sub (x[1], x[0]));
 }
@@ -191,7 +192,7 @@ bt__polyline_point (const bt__polyline *line, double s)
 bt_vec3
 bt__polyline_tangent (const bt__polyline *line, double s)
 {
-  const bt_vec3 *x = bt__polyline_x ((bt__polyline *)line) + bt__polyline_link (line, s);
+  const bt_vec3 *x = bt__polyline_x ((bt__polyline *)line) + link_at (line, s);
   return bt__unit_or (bt__sub (x[1], x[0]), bt__vec (0, 0, -1));
 }
 

@@ -117,10 +117,9 @@ int64_t bt__polyline_insert (bt__polyline *line, double s, double grain);
 /* Take out the inner node I, which must lie on the line of its neighbours.  */
 void bt__polyline_remove (bt__polyline *line, int64_t i);
 
-/* Point, unit tangent from the anchor on, and the link that holds arc length S (clamped).  */
+/* Point and unit tangent from the anchor on at arc length S, clamped.  */
 bt_vec3 bt__polyline_point (const bt__polyline *line, double s);
 bt_vec3 bt__polyline_tangent (const bt__polyline *line, double s);
-int64_t bt__polyline_link (const bt__polyline *line, double s);
 
 /* The largest of length / arc over the links.  */
 double bt__polyline_stretch (const bt__polyline *line);

@@ -93,9 +93,6 @@ int64_t bt__thesis_last (const bt__thesis_job *j, int64_t k);
 /* Split where HIT stopped the move; zero if that cannot be.  */
 int bt__thesis_split (bt__thesis_job *j, const bt__hit *hit);
 
-/* Take back the split after span K.  */
-void bt__thesis_rejoin (bt__thesis_job *j, int64_t k);
-
 /* Measure the angles of the polyline at the splits; take back those that are open.  Return how
    many.  */
 int bt__thesis_rejoin_open (bt__thesis_job *j);

@@ -206,8 +206,9 @@ bt__thesis_split (bt__thesis_job *j, const bt__hit *hit)
 
 /* ---- Taking back ---- */
 
-void
-bt__thesis_rejoin (bt__thesis_job *j, int64_t k)
+/* Take back the split after span K.  */
+static void
+take_back (bt__thesis_job *j, int64_t k)
 {
   bt__thesis *s = j->state;
   bt__span *span = j->span;
@@ -249,7 +250,7 @@ bt__thesis_rejoin_open (bt__thesis_job *j)
         enough = fmax (enough, split->kept + MORE);
       if (split->angle < enough)
         continue;
-      bt__thesis_rejoin (j, k--);
+      take_back (j, k--);
       n++;
     }
   return n;
@@ -270,6 +271,6 @@ bt__thesis_drop_lost (bt__thesis_job *j)
       double reach = bt__distance (s->contact, s->point) + LOST * j->radius;
       uint32_t mover = (uint32_t)s->mover;
       if (mover > j->way->around->movers || !is_near (j, mover, s->point, reach, s->object))
-        bt__thesis_rejoin (j, k--);
+        take_back (j, k--);
     }
 }

@@ -12,15 +12,15 @@
    The implicit line.  A stiff line must be solved together with the body it pulls.  Over a step the
    place X of the attachment at its end is a linear function of the pull F there but for terms of
    higher order, X = AT + Y F, so to the line the body is a spring of stiffness K = Y^-1 to the
-   point AT: bt__rigid_grip gives both.  The line's step then adds K (AT - X) to the force on its end
-   node and K to the node's block, and bt__rigid_step is given what it found, F = K (X - AT).  With
-   F0 the pull of the last step, the body takes the impulse h (theta F + (1 - theta) F0), and what
-   changes its velocity counts theta h in the way.  Over S = (2 M/h + D + torques that turn with the
-   body)^-1 that is Y = 2 theta2 h J S J^T, over M alone theta2 h2 J M^-1 J^T.  theta is 1/2, of
-   second order, while the line is soft, and goes to 1, which damps all that is too quick for the
-   step, as it grows stiff: theta = 1/2 + 1/2 s/(s + 50), s = h2 k / m, k of the line at its end, m
-   of the body there.  A line that goes slack leaves nothing behind (F0 counts for less as F falls
-   below a quarter of it): a longer memory makes energy at every snap.
+   point AT: bt__rigid_grip gives both.  The line's step then adds K (AT - X) to the force on its
+   end node and K to the node's block, and bt__rigid_step is given what it found, F = K (X - AT).
+   With F0 the pull of the last step, the body takes the impulse h (theta F + (1 - theta) F0), and
+   what changes its velocity counts theta h in the way.  Over S = (2 M/h + D + torques that turn
+   with the body)^-1 that is Y = 2 theta2 h J S J^T, over M alone theta2 h2 J M^-1 J^T.  theta is
+   1/2, of second order, while the line is soft, and goes to 1, which damps all that is too quick
+   for the step, as it grows stiff: theta = 1/2 + 1/2 s/(s + 50), s = h2 k / m, k of the line at its
+   end, m of the body there.  A line that goes slack leaves nothing behind (F0 counts for less as F
+   falls below a quarter of it): a longer memory makes energy at every snap.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -66,7 +66,7 @@ void bt__rigid_place (bt__rigid *body, bt_vec3 position, double heading, double 
 
 /* Step BODY.  BT_ERR_DIVERGED leaves it as it was.  */
 bt_status bt__rigid_step (const bt__vehicle_type *type, bt__rigid *body, const bt__rigid_input *in,
-                         bt_error *error);
+                          bt_error *error);
 
 /* What an implicit line sees at its end.  */
 typedef struct bt__grip
@@ -77,7 +77,7 @@ typedef struct bt__grip
 
 /* Return in *GRIP what the line of the coming step has at its end; IN->pull is not looked at.  */
 bt_status bt__rigid_grip (const bt__vehicle_type *type, const bt__rigid *body,
-                         const bt__rigid_input *in, bt__grip *grip, bt_error *error);
+                          const bt__rigid_input *in, bt__grip *grip, bt_error *error);
 
 /* The pull on the body of a line whose end the step has brought to X.  */
 bt_vec3 bt__grip_pull (const bt__grip *grip, bt_vec3 x);
@@ -88,14 +88,11 @@ bt_vec3 bt__grip_pull (const bt__grip *grip, bt_vec3 x);
 bt_vec3 bt__rigid_point (const bt__rigid *body, bt_vec3 p);
 bt_vec3 bt__rigid_point_velocity (const bt__rigid *body, bt_vec3 p);
 
-/* Strike BODY at the point P of the world with IMPULSE, N s.  */
-void bt__rigid_strike (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_vec3 impulse);
-
 /* Let BODY bounce at the point P of the world off what has the outward NORMAL: Newton's RESTITUTION
    (0 to 1), Coulomb's FRICTION; never with more energy than it had.  Return the impulse, N s; zero
    if it was moving away.  */
 bt_vec3 bt__rigid_bounce (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_vec3 normal,
-                         double restitution, double friction);
+                          double restitution, double friction);
 
 /* ---- Measures ---- */
 

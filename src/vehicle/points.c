@@ -30,8 +30,9 @@ bt__rigid_energy (const bt__vehicle_type *type, const bt__rigid *body, bt_vec3 f
   return (bt__dot (p, v) + bt__dot (l, body->spin)) / 2;
 }
 
-void
-bt__rigid_strike (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_vec3 impulse)
+/* Strike BODY at the point P of the world with IMPULSE, N s.  */
+static void
+strike (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_vec3 impulse)
 {
   bt_vec3 r = bt__turn_in (body->attitude, bt__sub (p, body->position));
   bt_vec3 blow = bt__turn_in (body->attitude, impulse);
@@ -73,7 +74,7 @@ sliding_blow (const bt__vehicle_type *type, bt_vec3 r, bt_vec3 n, bt_vec3 v, dou
 
 bt_vec3
 bt__rigid_bounce (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_vec3 normal,
-                 double restitution, double friction)
+                  double restitution, double friction)
 {
   bt_vec3 r = bt__turn_in (body->attitude, bt__sub (p, body->position));
   bt_vec3 n = bt__turn_in (body->attitude, normal);
@@ -91,7 +92,7 @@ bt__rigid_bounce (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_v
   if (work + cost > 0)
     blow = bt__scale (fmax (0, -work / cost), blow);
   blow = bt__turn_out (body->attitude, blow);
-  bt__rigid_strike (type, body, p, blow);
+  strike (type, body, p, blow);
   return blow;
 }
 
