@@ -297,13 +297,18 @@ lines is not modelled."
                            (list (* 2 (first c)) (* 2 (second c)) (* -0.7 depth)) 0.03)))
                  (iota 4))))))
 
+;; Of a keel of ice, m.
+(define keel-breadth 1.5)
+
 (define-verb (make-ice-hole #:key (name name 'ice) (at point origin) (heading bearing 0)
                             (hole metres 1) (thickness metres 2) (extent metres 60)
                             (keels many 3))
   "Return the parts of a sheet of ice, EXTENT metres wide and THICKNESS deep, with a square hole HOLE
-metres wide in its middle and KEELS keels under it."
+metres wide in its middle and KEELS keels under it between its edges, but none under the hole."
   (check 'make-ice-hole (< hole extent) "a hole in ice ~a m wide is less wide, not ~a" extent hole)
-  (let* ((half (/ extent 2)) (rim (/ hole 2)) (side (- half rim)) (z (* -1/2 thickness)))
+  (let* ((half (/ extent 2)) (rim (/ hole 2)) (side (- half rim)) (z (* -1/2 thickness))
+         (under-hole? (lambda (y) (< (abs y) (+ rim keel-breadth))))
+         (places (remove under-hole? (spread (+ keels 2) (- half) half))))
     (group name at heading
            (append
             (list (block 'west (list (- (+ rim (/ side 2))) 0 z) (list side extent thickness))
@@ -312,9 +317,9 @@ metres wide in its middle and KEELS keels under it."
                   (block 'south (list 0 (- (+ rim (/ side 2))) z) (list hole side thickness)))
             (map (lambda (y i)
                    (block (numbered 'keel i) (list 0 y (- (+ thickness 0.5)))
-                          (list (* 0.7 extent) 1.5 3) '(pitch 20)))
-                 (spread (+ keels 2) (- half) half)
-                 (iota (+ keels 2)))))))
+                          (list (* 0.7 extent) keel-breadth 3) '(pitch 20)))
+                 places
+                 (iota (length places)))))))
 
 (define-verb (make-tunnel #:key (name name 'tunnel) (at point origin) (heading bearing 0)
                           (length metres 60) (width metres 3) (bend bearing 0) (bars flag #t))
