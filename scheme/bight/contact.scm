@@ -21,6 +21,7 @@
             segment? segment-model segment-from segment-to segment-length segment-ends
             clearance rov-clearance
             collide! collided? stuck?
+            wear wear-profile
             obstacle-index))
 
 
@@ -54,7 +55,7 @@
   "Return #t if OBJECT is a contact."
   (contact-record? object))
 (define-verb (contact-object (c contact))
-  "Return the name of the obstacle of the contact C."
+  "Return the name of what is touched in the contact C: an obstacle, or a tether."
   (%object c))
 (define-verb (contact-triangle (c contact))
   "Return the id of the triangle of the contact C with a mesh, else #f."
@@ -76,7 +77,8 @@
   (if (%slides? c) 'slide 'stick))
 
 (define-verb (contacts #:subject (t tether))
-  "Return where the tether touches obstacles, from the anchor on: a list of contacts."
+  "Return where the tether touches obstacles, other tethers and, at either place, itself, from the anchor
+on: a list of contacts."
   (map (lambda (v) (apply make-contact (vector->list v)))
        (%contacts (this-engine 'contacts) t)))
 
@@ -156,13 +158,15 @@ none is within 1000 m."
 ;;; Pairs.
 
 (define (pair-of proc a b)
-  ;; Head and index of the vehicle or tether, and the number of the obstacle, of A and B.
+  ;; Head and index of the vehicle or tether, and the number of the obstacle or other tether, of A and B.
   (let-values (((kind-a a*) (find-part proc a))
                ((kind-b b*) (find-part proc b)))
     (cond ((and (eq? kind-b 'obstacle) (memq kind-a '(vehicle tether))) (values kind-a a* b*))
+          ((and (eq? kind-a 'tether) (eq? kind-b 'tether))
+           (values kind-a a* (+ b* (length (%names (this-engine proc) 'obstacle)))))
           ((and (eq? kind-a 'obstacle) (memq kind-b '(vehicle tether))) (values kind-b b* a*))
           (else
-           (bight-raise 'name proc "a pair is a vehicle or a tether and an obstacle, not ~a and ~a"
+           (bight-raise 'name proc "a pair is a vehicle or a tether and an obstacle, or two tethers, not ~a and ~a"
                         a b)))))
 
 (define (part-number kind)
@@ -178,8 +182,8 @@ none is within 1000 m."
 
 (define-verb (collide! #:rest (setting setting))
   "Switch the pair of a vehicle or a tether A and an obstacle B on or off, as in (collide! 'line 'leg-a1
-#f); all pairs with (collide! #:all #f).  A pair that is off passes through each other.  Return whether
-it is on."
+#f); likewise two tethers, or a tether and itself, as in (collide! 'line 'line #f); all pairs with
+(collide! #:all #f).  A pair that is off passes through each other.  Return whether it is on."
   (let ((on? (and (pair? setting) (last setting))))
     (cond ((and (= 2 (length setting)) (eq? #:all (car setting)) (boolean? on?))
            (switch! #f 0 -1 on?))
@@ -189,12 +193,13 @@ it is on."
              (switch! kind index obstacle on?)))
           (else
            (bight-raise 'domain 'collide!
-                        "say (collide! A B #f), names and on or off, or (collide! #:all #f), not ~s"
-                        setting)))
+                        "say (collide! A B #f), names and on or off, or (collide! #:all #f), not ~a"
+                        (brief setting))))
     on?))
 
 (define-verb (collided? (a name) (b name))
-  "Return #t if the vehicle or tether A and the obstacle B met in the last step."
+  "Return #t if the vehicle or tether A and the obstacle B met in the last step; or two tethers, or a
+tether and itself."
   (let-values (((kind index obstacle) (pair-of 'collided? a b)))
     (%collided? (this-engine 'collided?) (if (eq? kind 'vehicle) 'rov 'tether) index obstacle)))
 
@@ -202,3 +207,25 @@ it is on."
   "Return #t if the tether is pulled and what it touches has held it fast for 5 s (less than 2 cm/s); in
 the response of the thesis, if its rules say so."
   (assq-ref (%tether (this-engine 'stuck?) t) 'stuck?))
+
+
+;;; Wear.
+
+(define-verb (wear #:subject (t tether) #:key (at (or-false number) #f))
+  "Return the share of the tether's jacket that is worn where it is worn most, 0 to 1 (worn through) and
+beyond, or at arc length AT metres from the anchor.  The moving line wears where it slides on something:
+by the work of friction, times the `abrasiveness' of the obstacle, over the `wear-energy' of the tether.
+At its `wear-limit' the event `worn' comes.  Models at rest wear nothing."
+  (%wear (this-engine 'wear) t at))
+
+(define-argument-type (places-wanted value)
+  "how many places, a whole number from 2 to 100000"
+  (if (and (exact-integer? value) (<= 2 value 100000)) value refused))
+
+(define-verb (wear-profile #:subject (t tether) (n places-wanted))
+  "Return the shares of the jacket worn at N places equally spaced in arc length, both ends included, an
+f64vector; see `wear'."
+  (let* ((engine (this-engine 'wear-profile))
+         (length (assq-ref (%tether engine t) 'length))
+         (place (lambda (k) (* length (/ k (- n 1))))))
+    (list->f64vector (map (lambda (k) (%wear engine t (place k))) (iota n)))))

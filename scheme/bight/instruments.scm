@@ -9,11 +9,12 @@
   #:use-module (bight dive)
   #:use-module (bight engine)
   #:use-module (bight errors)
+  #:use-module ((bight query) #:select (places-of))
   #:use-module (bight verb)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:export (instruments compass depth-sensor altimeter speed-log turn-counter ship-range ship-bearing
-            load-cell payout-counter
+            load-cell payout-counter transponders
             fault! mend! faults thrusts
             sonar in-view? tether-in-view))
 
@@ -49,6 +50,25 @@ payout (m) at the winch."
   "Return the speeds over ground that the vehicle shows, ahead, to starboard and up, m/s, a list."
   (let ((all (%instruments (this-engine 'speed-log) v)))
     (map (lambda (key) (assq-ref all key)) '(ahead aside up))))
+
+
+;;; Along the tether.
+
+(define-argument-type (transponder-count value)
+  "how many, a whole number from 2 to 100000"
+  (if (and (exact-integer? value) (<= 2 value 100000)) value refused))
+
+(define-verb (transponders #:subject (t tether) (n transponder-count) #:key (noise (between 0 1000) 0))
+  "Return where N transponders along an instrumented tether say that they are, an n x 3 array: equally
+spaced in arc length from the anchor to the vehicle, each coordinate with Gaussian noise of standard
+deviation NOISE in metres.  At one step of a dive it is always the same noise, from the `seed' of the
+vehicle.  The points know their arc lengths: (deviation (transponders 10 #:noise .02)) is the noise, but
+asked of another model, of another tether or later, how far that lies from what was measured."
+  (let* ((engine (this-engine 'transponders))
+         (length (assq-ref (%tether engine t) 'length))
+         (points (%transponders engine t n noise)))
+    (set! (places-of points) (map (lambda (k) (* length (/ k (- n 1)))) (iota n)))
+    points))
 
 
 ;;; Faults.

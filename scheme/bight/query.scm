@@ -21,7 +21,7 @@
             tensions tension-at anchor-tension rov-tension max-tension tether-force
             tether-length straight-distance taut-length free-length slack excess
             taut? parted? asleep? settled? model-of energy error-estimate tightest-bend equilibria
-            deviation deviation-rms deviation-mean deviation-max deviation-worst deviation?
+            places-of deviation deviation-rms deviation-mean deviation-max deviation-worst deviation?
             events profile parts find-part tether-properties obstacle-properties))
 
 (define (vehicle-view proc v)
@@ -294,14 +294,25 @@ there is no other.  Only the model `steady' looks."
   "a list of arc lengths in metres, one for each point"
   (if (and (list? value) (every (lambda (s) (accepts? type:non-negative s)) value)) value refused))
 
-(define-verb (deviation #:subject (t tether) (points points) #:key (at arc-lengths #f))
+;; The arc lengths of points that know them: `transponders' sets it.
+(define places-of (make-object-property))
+
+(define-argument-type (measured value)
+  ;; A polyline and the arc lengths it knows.
+  (argument-type-sentence type:points)
+  (if (accepts? type:points value)
+      (cons (check-argument 'deviation 'points type:points value) (places-of value))
+      refused))
+
+(define-verb (deviation #:subject (t tether) (points measured) #:key (at arc-lengths #f))
   "Return how far the tether lies from the measured POINTS: rms, mean and largest distance, and the arc
 length of that.  AT lists the arc length of each point; left out, the points run from anchor to vehicle
-and are matched by their own arc length."
+and are matched by their own arc length, or as `transponders' knows them: (deviation (transponders 10
+#:noise .02))."
   (let* ((engine (this-engine 'deviation))
-         (measured (polyline-rows points))
+         (measured (polyline-rows (car points)))
          (out (assq-ref (%tether engine t) 'length))
-         (places (or at (spread-over out measured))))
+         (places (or at (cdr points) (spread-over out measured))))
     (unless (= (length places) (length measured))
       (bight-raise 'domain 'deviation "~a arc lengths were given for ~a points"
                    (length places) (length measured)))

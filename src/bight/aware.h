@@ -24,6 +24,12 @@ BT_BEGIN_DECLS
 /* Of the taut string: what tether I shrinks to through nothing, without friction.  */
 bt_status bt_tether_taut_length (const bt_dive *dive, int i, double *length, bt_error *error);
 
+/* Put the taut string itself into POINTS, at most MAX, from the anchor on; *N is how many there
+ * are.
+ */
+bt_status bt_tether_taut_string (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n,
+                                 bt_error *error);
+
 /* Of the shortest way that is known from its anchor to its far end; never more than the above.  */
 bt_status bt_tether_free_length (const bt_dive *dive, int i, double *length, bt_error *error);
 

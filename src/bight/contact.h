@@ -13,7 +13,8 @@ BT_BEGIN_DECLS
 /* A place where a tether touches an obstacle.  */
 typedef struct bt_contact
 {
-  int object;       /* the obstacle's number */
+  int object;       /* the obstacle's number; a tether's, itself among them, plus the number of
+                       obstacles */
   int64_t triangle; /* its id on a mesh, or -1 */
   int slides;       /* zero: it sticks */
   double s;         /* m of arc length from the anchor */
@@ -36,6 +37,13 @@ typedef struct bt_segment
 
 /* The same for the spans of tether I; one when it touches nothing.  */
 int bt_tether_segments (const bt_dive *dive, int i, bt_segment *segments, int max);
+
+/* Return in *SHARE how far the jacket of tether I is worn by what it slid on, 0 to 1 (worn through)
+   and beyond: the largest share of any spot; or that of the spot S metres of arc length from the
+   anchor.  Only the moving line wears.  BT_ERR_NAME; BT_ERR_DOMAIN if S lies outside the paid-out
+   length.  */
+bt_status bt_tether_wear (const bt_dive *dive, int i, double *share, bt_error *error);
+bt_status bt_tether_wear_at (const bt_dive *dive, int i, double s, double *share, bt_error *error);
 
 /* The nearest obstacle to something.  */
 typedef struct bt_clearance

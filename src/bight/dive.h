@@ -83,7 +83,8 @@ typedef enum bt_part
 
 /* Return how many of PART there are.  */
 int bt_dive_count (const bt_dive *dive, bt_part part);
-/* Return the name of the I-th PART, or NULL.  */
+/* Return the name of the I-th PART, or NULL.  What is touched may be a tether too: after the last
+   obstacle, tethers are counted on.  */
 const char *bt_dive_name (const bt_dive *dive, bt_part part, int i);
 
 /* ---- Operations: all that changes a dive besides time ---- */
@@ -160,6 +161,7 @@ typedef struct bt_vehicle_view
 {
   bt_vec3 position, velocity;  /* m, m/s */
   bt_vec3 attachment;          /* m: where its tether is made fast */
+  bt_vec3 size;                /* m: of its hull, along its own x, y, z; all 0: a point */
   double heading, pitch, roll; /* radians; heading in [0, 2 pi) */
   double turns;                /* signed, clockwise positive, since the dive began */
   double sticks[4];            /* surge sway heave yaw */
@@ -190,20 +192,21 @@ typedef struct bt_tether_view
 
 typedef enum bt_event_kind
 {
-  BT_EVENT_TAUT = 1,   /* a tether lost its slack */
-  BT_EVENT_SLACK,      /* it has some again */
-  BT_EVENT_ARRIVED,    /* a vehicle reached where it was sent */
-  BT_EVENT_SPOOLED,    /* a winch finished */
-  BT_EVENT_STALLED,    /* a winch stopped before, on a taut tether */
-  BT_EVENT_PARTED,     /* a tether broke, or was cut */
-  BT_EVENT_SNAPPED,    /* a slack tether came taut with a jerk */
-  BT_EVENT_HOCKLED,    /* its twist threw a loop into a tether */
-  BT_EVENT_KINKED,     /* it was bent more tightly than it may be */
-  BT_EVENT_TOUCHED,    /* a tether or a vehicle met an obstacle */
-  BT_EVENT_LEFT,       /* it has been away from it for half a second */
-  BT_EVENT_STUCK,      /* a tether that touches something has held fast for 5 s against a pull */
-  BT_EVENT_PINCHED,    /* a moving obstacle was held back by what it would run into */
-  BT_EVENT_PROP_DANGER /* a tether has come near to a thruster of a vehicle that turns */
+  BT_EVENT_TAUT = 1,    /* a tether lost its slack */
+  BT_EVENT_SLACK,       /* it has some again */
+  BT_EVENT_ARRIVED,     /* a vehicle reached where it was sent */
+  BT_EVENT_SPOOLED,     /* a winch finished */
+  BT_EVENT_STALLED,     /* a winch stopped before, on a taut tether */
+  BT_EVENT_PARTED,      /* a tether broke, or was cut */
+  BT_EVENT_SNAPPED,     /* a slack tether came taut with a jerk */
+  BT_EVENT_HOCKLED,     /* its twist threw a loop into a tether */
+  BT_EVENT_KINKED,      /* it was bent more tightly than it may be */
+  BT_EVENT_TOUCHED,     /* a tether or a vehicle met an obstacle */
+  BT_EVENT_LEFT,        /* it has been away from it for half a second */
+  BT_EVENT_STUCK,       /* a tether that touches something has held fast for 5 s against a pull */
+  BT_EVENT_PINCHED,     /* a moving obstacle was held back by what it would run into */
+  BT_EVENT_PROP_DANGER, /* a tether has come near to a thruster of a vehicle that turns */
+  BT_EVENT_WORN         /* an obstacle has worn a tether's jacket to its limit */
 } bt_event_kind;
 
 typedef struct bt_event
@@ -232,6 +235,8 @@ typedef struct bt_profile
      hit; steps in which the guard held nodes back.  All zero in a world without.  */
   uint64_t links_asked, boxes_visited, pairs_measured, links_clear, casts;
   uint64_t touches, contact_rounds, truncated;
+  uint64_t line_pairs;                /* links of tethers measured against links of tethers */
+  uint64_t chafes;                    /* of the touches: those that wore the jacket */
   uint64_t span_solves, span_skips;   /* of the thesis' response */
   uint64_t current_samples_skipped;   /* shapes solved in still water */
   uint64_t strings, charts, words;    /* for questions about what a tether is doing */

@@ -66,6 +66,13 @@ typedef struct bt_sonar
 bt_status bt_dive_sonar (const bt_dive *dive, int i, const bt_sonar *sonar, double *range,
                          bt_error *error);
 
+/* Write where N transponders on tether I say that they are, m, equally spaced in arc length, both
+   ends included: each coordinate with Gaussian noise of SIGMA metres, which follows from the seed
+   of the vehicle at its far end (of its anchor, else 1), the step and the transponder alone.
+   BT_ERR_NAME; BT_ERR_DOMAIN unless N is 2 or more and SIGMA 0 or more.  */
+bt_status bt_dive_transponders (const bt_dive *dive, int i, int n, double sigma, bt_vec3 *points,
+                                bt_error *error);
+
 /* A camera at the bow.  */
 typedef struct bt_eye
 {

@@ -181,6 +181,7 @@ typedef struct bt_obstacle_def
   double radius;               /* m */
   double scale;                /* of a mesh */
   double friction;             /* Coulomb; NAN: the tether's own */
+  double abrasiveness;         /* times as fast as bare steel */
   bt_rows points;              /* CONVEX: rows of x y z */
   bt_triangles mesh;           /* MESH, SEABED; z up */
   bt_heights grid;             /* SEABED */

@@ -39,6 +39,23 @@ typedef struct bt_facet
    return how many; 0 when there are no more, or no such obstacle.  */
 size_t bt_obstacle_triangles (const bt_dive *dive, int i, size_t first, size_t n, bt_facet *facets);
 
+/* A box of the tree over an obstacle's triangles, its sides along the axes of the obstacle's view.
+ */
+typedef struct bt_tree_box
+{
+  bt_vec3 centre, half; /* m */
+} bt_tree_box;
+
+/* Return how many levels the tree over the triangles of obstacle I has, the box about all of them
+   the first; 0 when it has no tree, or there is no such obstacle.  Meshes and grids have one.  */
+int bt_obstacle_levels (const bt_dive *dive, int i);
+
+/* Write up to N boxes of the tree's LEVEL (0: the one about all) of obstacle I, from the FIRST on,
+   to BOXES and return how many; 0 when there are no more.  Where a branch ends above LEVEL its last
+   box is there: the boxes of every level hold all triangles.  */
+size_t bt_obstacle_boxes (const bt_dive *dive, int i, int level, size_t first, size_t n,
+                          bt_tree_box *boxes);
+
 BT_END_DECLS
 
 #endif

@@ -66,6 +66,8 @@ typedef struct bt_tether_props
   double friction;             /* Coulomb */
   double breaking_load;        /* N */
   double min_bend_radius;      /* m */
+  double wear_energy;          /* J of slip work per metre that wears the jacket through */
+  double wear_limit;           /* share of the jacket at which it counts as worn */
   double nodes;                /* intervals of the models that have nodes */
   double model;                /* bt_model_kind */
   double depth_rule;           /* bt_depth_rule */

@@ -29,6 +29,20 @@ static const bt__scene nothing;
 
 /* ---- The workspace ---- */
 
+static int
+self_new (bt__self *s, size_t n)
+{
+  size_t boxes = 2;
+  while (boxes < 2 * n)
+    boxes *= 2;
+  s->room = BT__SELF_ROOM * (int)n;
+  return (s->pair = calloc ((size_t)s->room, sizeof *s->pair))
+         && (s->known = calloc ((size_t)s->room, sizeof *s->known))
+         && (s->move = calloc (n, sizeof *s->move)) && (s->reach = calloc (n, sizeof *s->reach))
+         && (s->box = calloc (boxes, sizeof *s->box)) && (s->its = calloc (boxes, sizeof *s->its))
+         && (s->stood = calloc (n, sizeof *s->stood));
+}
+
 void
 bt__line_work_free (bt__line_work *w)
 {
@@ -42,8 +56,16 @@ bt__line_work_free (bt__line_work *w)
   free (w->old);
   free (w->to);
   free (w->stood);
+  free (w->at);
   free (w->from_end);
   free (w->restart);
+  free (w->self.pair);
+  free (w->self.move);
+  free (w->self.reach);
+  free (w->self.box);
+  free (w->self.its);
+  free (w->self.stood);
+  free (w->self.known);
   free (w);
 }
 
@@ -62,9 +84,9 @@ bt__line_work_new (int n_max)
               && (w->row = calloc (rows + 1, sizeof *w->row))
               && (w->of = calloc (rows + 1, sizeof *w->of))
               && (w->old = calloc (rows, sizeof *w->old)) && (w->to = calloc (n, sizeof *w->to))
-              && (w->stood = calloc (n, sizeof *w->stood))
+              && (w->stood = calloc (n, sizeof *w->stood)) && (w->at = calloc (n, sizeof *w->at))
               && (w->from_end = calloc (n, sizeof *w->from_end))
-              && (w->restart = calloc (n, sizeof *w->restart));
+              && (w->restart = calloc (n, sizeof *w->restart)) && self_new (&w->self, n);
   if (whole)
     {
       bt__line_work_forget (w);
@@ -84,7 +106,22 @@ bt__line_work_forget (bt__line_work *w)
       w->watch[j].a = w->watch[j].b = bt__vec (INFINITY, 0, 0);
     }
   w->spare = 0;
-  w->still = 0;
+  w->still = w->self.still = w->went = 0;
+}
+
+double
+bt__line_work_spare (bt__line_work *w, bt__dynamic *d)
+{
+  bt__line_report unused = { 0 };
+  bt__line_job k = { .w = w,
+                     .d = d,
+                     .config = &w->last,
+                     .links = (int)d->n,
+                     .margin = w->last.radius,
+                     .core = w->last.core,
+                     .x = bt__dynamic_x (d),
+                     .report = &unused };
+  return bt__self_counts (&k) ? bt__self_spare (&k) : INFINITY;
 }
 
 /* ---- The parts of a step ---- */
@@ -104,6 +141,10 @@ check_config (const bt__line_config *c, const bt__line_work *w, const bt__dynami
   if (!(c->pull[0] >= 0 && c->pull[1] >= 0))
     return bt__fail (error, BT_ERR_DOMAIN, "ends pulled by %g and %g N; 0 or more", c->pull[0],
                      c->pull[1]);
+  for (int i = 0; i < c->strands; i++)
+    if (c->strand[i].line->n > w->n_max)
+      return bt__fail (error, BT_ERR_LIMIT, "another line of %d intervals; 1 to %d",
+                       (int)c->strand[i].line->n, w->n_max);
   if (d->n > w->n_max)
     return bt__fail (error, BT_ERR_LIMIT, "%d intervals; the workspace holds 1 to %d", (int)d->n,
                      w->n_max);
@@ -140,6 +181,15 @@ check_known (bt__line_job *k)
   w->serial = k->scene->serial;
   w->version = version;
   w->off = off;
+}
+
+/* A line that goes on from where it went need not be looked at again.  */
+static void
+resume (bt__line_job *k)
+{
+  bt__line_work *w = k->w;
+  k->resumes = w->went == k->links + 1 && memcmp (w->at, k->x, (size_t)w->went * sizeof *k->x) == 0;
+  w->went = 0;
 }
 
 static void
@@ -236,6 +286,7 @@ propose (bt__line_job *k, int near, int held, bt__dynamic_report *report)
       if (!bt__line_bound (k, near ? BT__LINE_STRIDE : INFINITY))
         report->converged = 0;
       bt__line_watch_moves (k);
+      bt__self_watch_moves (k);
       if (hook->no_guard)
         return;
       hits = bt__line_hits (k, i < rounds);
@@ -254,8 +305,14 @@ static void
 mark_fresh (bt__line_job *k)
 {
   for (int i = 0; i < k->rows; i++)
-    if (k->w->of[i].fresh && k->w->row[i].load > 0)
-      k->w->restart[k->w->row[i].node] = k->w->restart[k->w->row[i].node + 1] = 1;
+    {
+      const bt__dynamic_row *r = k->w->row + i;
+      if (!k->w->of[i].fresh || !(r->load > 0))
+        continue;
+      k->w->restart[r->node] = k->w->restart[r->node + 1] = 1;
+      if (r->pair > 0)
+        k->w->restart[r->pair - 1] = k->w->restart[r->pair] = 1;
+    }
 }
 
 static void
@@ -280,10 +337,16 @@ step_far (bt__line_job *k, bt__dynamic_report *report, int *done, bt_error *erro
     return status;
   bt__dynamic_iterate (k->kernel, NULL, 0, NULL, report);
   k->X = bt__dynamic_proposal (k->kernel);
-  *done = isfinite (report->update) && bt__line_stays_far (k);
+  k->stride = bt__dynamic_stray (k->X, k->x, k->links + 1);
+  *done = isfinite (report->update) && bt__line_stays_far (k) && bt__self_stays_far (k);
   if (!*done)
-    return BT_OK;
+    {
+      k->stride = INFINITY;
+      return BT_OK;
+    }
   k->anchors->n = 0;
+  memcpy (k->w->at, k->X, (size_t)(k->links + 1) * sizeof *k->X);
+  k->w->went = k->links + 1;
   return bt__dynamic_finish (k->d, k->kernel, NULL, report, error);
 }
 
@@ -291,7 +354,7 @@ static bt_status
 step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
 {
   const bt__line_hook *hook = k->config->hook;
-  int near = bt__line_watch (k), held = near && hold_ends (k);
+  int near = bt__line_watch (k) | bt__self_watch (k), held = near && hold_ends (k);
   bt_status status = bt__dynamic_begin (k->d, k->kernel, &k->in, report, error);
   if (status)
     return status;
@@ -301,6 +364,7 @@ step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
     {
       bt__line_bends (k);
       bt__line_rows (k);
+      bt__self_rows (k);
       bt__line_inherit (k);
       bt__line_harden (k);
     }
@@ -339,6 +403,7 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
                      .margin = config->radius,
                      .h = input->h,
                      .x = bt__dynamic_x (d),
+                     .stride = INFINITY,
                      .report = line_report,
                      .count = count };
   *line_report = (bt__line_report){ 0 };
@@ -347,8 +412,9 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
   bt_status status = check_config (config, w, d, error);
   if (status)
     return status;
+  w->last = *config;
   aim_ends (&k);
-  if (k.scene->n == 0 && k.movers == 0)
+  if (k.scene->n == 0 && k.movers == 0 && !bt__self_counts (&k))
     {
       anchors->n = 0;
       status = bt__dynamic_step (d, work, &k.in, report, error);
@@ -358,8 +424,10 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
       const bt__line_hook *hook = config->hook;
       int done = 0;
       check_known (&k);
+      resume (&k);
+      w->self.asked = 0;
       k.core = config->core * 1.01;
-      if (bt__line_is_far (&k) && !(hook && hook->spoil))
+      if (bt__line_is_far (&k) && !bt__self_watch (&k) && !(hook && hook->spoil))
         status = step_far (&k, report, &done, error);
       if (!done)
         {

@@ -25,7 +25,7 @@ typedef struct bt__anchor
 {
   int64_t object;   /* the obstacle's id */
   int64_t triangle; /* its id on a mesh, or -1 */
-  int64_t mover;    /* the obstacle's place among the movers, or -1: it stands */
+  int64_t mover;    /* the obstacle's place among the movers, -1: it stands, or as below */
   int64_t state;    /* bt__touch_state */
   double from_end;  /* m of rest length from node n: the winch does not change it */
   double load;      /* N along the normal */
@@ -43,7 +43,13 @@ typedef struct bt__anchor
   double flow;      /* m/s of rest length that runs through, toward node n */
   double thick;     /* m: radius of the edge */
   bt_vec3 axis;     /* unit: of the edge */
+  double other;     /* MOVER is BT__ANCHOR_LINE: m of rest length from the end of what it touches */
 } bt__anchor;
+
+enum
+{
+  BT__ANCHOR_LINE = -2 /* for a mover: OBJECT is a line, this one or another */
+};
 
 /* The head of a flat block; N anchors follow, in order from node 0 to node n.  */
 typedef struct bt__anchors
@@ -71,6 +77,11 @@ void bt__line_work_free (bt__line_work *work); /* NULL is nothing */
    alone.  */
 void bt__line_work_forget (bt__line_work *work);
 
+/* Return how far each node of D, which WORK has just stepped, may be from where it is, for it to be
+   clear of itself and other lines whatever those do, m; 0: it is not.  What the step's CONFIG
+   points to must still be there.  */
+double bt__line_work_spare (bt__line_work *work, bt__dynamic *d);
+
 /* For tests: what is done to the solver's result before it is checked, and what is left undone.  */
 typedef struct bt__line_hook
 {
@@ -86,6 +97,17 @@ typedef struct bt__line_hook
   int no_bends;    /* no node is held at an edge */
 } bt__line_hook;
 
+/* Another line, which stands while this one steps: as it is after its own step, or before it.  */
+typedef struct bt__strand
+{
+  const bt__dynamic *line;
+  const bt__anchors *anchors; /* of its last step, or NULL */
+  int64_t id;                 /* as an object */
+  double radius, core, friction;
+  double inertia; /* kg/m: mass and added mass */
+  int yields;     /* nonzero: it has its step yet to come, and will give way */
+} bt__strand;
+
 typedef struct bt__line_config
 {
   double radius;       /* m: half the line's diameter */
@@ -95,6 +117,10 @@ typedef struct bt__line_config
   int64_t obstacles;   /* entries of ROUGH */
   double pull[2];      /* N: what at most takes a prescribed end to its place when obstacles are
                           near; INFINITY: whatever it takes */
+  int itself;          /* nonzero: the line touches itself, ... */
+  int64_t id;          /* ... as the object of this number, which it is to others too */
+  const bt__strand *strand;  /* other lines that it touches, none of more intervals than the */
+  int strands;               /* workspace has room for */
   const bt__line_hook *hook; /* NULL */
 } bt__line_config;
 
@@ -110,6 +136,8 @@ typedef struct bt__line_report
   int overlaps;     /* links nearer than the core at the start: nothing is promised for them */
   int overflows;    /* links with more near than there is room for */
   int pinched;      /* movers that were held back: bt__mover.done says how far they came */
+  int pairs;        /* pairs of links, its own or another line's, that were measured, ... */
+  int meets;        /* ... and of the touches those with a line */
   double load;      /* N: the largest along a normal */
   double speed;     /* m/s: the fastest slip along an obstacle, for the caller's sleep */
   double slip_work; /* J: of friction in this step */
@@ -120,7 +148,11 @@ typedef struct bt__line_report
    is not taken: the line then stays where it is, REPORT->converged = 0.  The bodies of prescribed
    ends count when their pull is limited.  Every mover's DONE is set.  BT_ERR_DOMAIN (also for a
    radius or core that is not positive, a core above the radius) and BT_ERR_LIMIT leave D and
-   ANCHORS as they were.  */
+   ANCHORS as they were.
+
+   The axes of two links that are no neighbours come no nearer than twice the core, and those of
+   this line and another than the sum of both cores; less where so little line is between them that
+   they are nearer by themselves, but never do they pass through each other.  */
 bt_status bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *contact_work,
                          const bt__dynamic_input *input, const bt__surroundings *around,
                          const bt__line_config *config, bt__anchors *anchors,

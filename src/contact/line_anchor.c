@@ -108,6 +108,8 @@ coefficient (const bt__line_job *k, int i)
 {
   const bt__dynamic_row *r = k->w->row + i;
   const bt__line_row *of = k->w->of + i;
+  if (of->mover == BT__LINE_SELF)
+    return bt__self_friction (k, i);
   double mu = bt__line_friction (k, of->id);
   if (r->s == 0 || r->s == 1)
     return single (mu, turn_at (k, r->node + (r->s == 1), r->normal));
@@ -166,8 +168,11 @@ static void
 inherit (bt__line_job *k, int i, const bt__anchor *a)
 {
   bt__dynamic_row *r = k->w->row + i;
-  r->load = a->load;
-  r->stick = bt__axpy (a->stick, -bt__dot (a->stick, r->normal), r->normal);
+  if (!(r->stiffness > 0))
+    {
+      r->load = a->load;
+      r->stick = bt__axpy (a->stick, -bt__dot (a->stick, r->normal), r->normal);
+    }
   k->w->of[i].work = a->work;
   k->w->of[i].age = a->age + 1;
   k->w->of[i].fresh = 0;
@@ -179,7 +184,8 @@ bt__line_inherit (bt__line_job *k)
   int from = 0;
   for (int i = 0; i < k->rows; i++)
     {
-      int a = find_anchor (k, i, &from);
+      int is_line = k->w->of[i].mover == BT__LINE_SELF;
+      int a = is_line ? bt__self_anchor (k, i) : find_anchor (k, i, &from);
       if (a >= 0)
         {
           inherit (k, i, k->w->old + a);
@@ -198,7 +204,8 @@ bt__line_harden (bt__line_job *k)
         continue;
       r->slip = BT__LINE_SLIP;
       r->friction = coefficient (k, i);
-      r->stiffness = bt__line_stiffness (k, r->node, r->load);
+      r->stiffness = k->w->of[i].mover == BT__LINE_SELF ? bt__self_stiffness (k, i)
+                                                        : bt__line_stiffness (k, r->node, r->load);
     }
 }
 
@@ -208,9 +215,7 @@ bt__line_harden (bt__line_job *k)
 static bt_vec3
 slide_of (const bt__line_job *k, const bt__dynamic_row *r)
 {
-  bt_vec3 a = bt__sub (k->X[r->node], k->x[r->node]),
-          b = bt__sub (k->X[r->node + 1], k->x[r->node + 1]);
-  bt_vec3 d = bt__sub (bt__axpy (bt__scale (1 - r->s, a), r->s, b), r->drift);
+  bt_vec3 d = bt__self_move (k, r);
   return bt__axpy (d, -bt__dot (d, r->normal), r->normal);
 }
 
@@ -224,9 +229,14 @@ anchor_of (const bt__line_job *k, int i)
   double work = r->friction * r->load * over;
   if (over > 0)
     stick = bt__scale (r->slip / drag, stick);
+  int is_line = of->mover == BT__LINE_SELF;
+  if (r->pair > 0) /* half of it goes into either side */
+    work *= 0.5;
   return (bt__anchor){ .object = of->id,
-                       .triangle = of->triangle == BT__NO_TRIANGLE ? -1 : (int64_t)of->triangle,
-                       .mover = (int64_t)of->mover - 1,
+                       .triangle
+                       = is_line || of->triangle == BT__NO_TRIANGLE ? -1 : (int64_t)of->triangle,
+                       .mover = is_line ? BT__ANCHOR_LINE : (int64_t)of->mover - 1,
+                       .other = of->other,
                        .state = over > 0 ? BT__TOUCH_SLIDE : BT__TOUCH_STICK,
                        .from_end = of->from_end,
                        .load = r->load,
@@ -271,6 +281,11 @@ bt__line_keep (bt__line_job *k)
       if (!(k->w->row[i].load > 0))
         continue;
       bt__anchor a = anchor_of (k, i);
+      keep (k, &a);
+      k->report->meets += k->w->of[i].mover == BT__LINE_SELF;
+      if (k->w->row[i].pair == 0 || k->olds >= k->w->rows_max)
+        continue;
+      a = bt__self_reaction (k, i, &a);
       keep (k, &a);
     }
   for (int i = 0; i < k->bents; i++)

@@ -33,7 +33,8 @@
 #define SPLIT 1.6      /* ... an interval so long is split; ... */
 #define LEAST 0.06     /* ... with so little left the line runs over the edge as it can */
 #define SPARE 1.3      /* of a piece: a node between two intervals no longer than this is spare */
-#define FROM_NODE 0.1  /* of a piece: nearer to a node no other is put */
+#define FROM_NODE 0.1  /* of a piece: nearer to a node no other is put; ... */
+#define CROWDED 0.01   /* ... nearer to the next one none is bent */
 
 enum
 {
@@ -525,7 +526,7 @@ static int
 is_crowded (const bt__line_job *k, int64_t i)
 {
   const double *rest = bt__dynamic_rest (k->d) + i;
-  return i < 1 || i >= k->d->n || fmin (rest[-1], rest[0]) < FROM_NODE * k->d->piece;
+  return i < 1 || i >= k->d->n || fmin (rest[-1], rest[0]) < CROWDED * k->d->piece;
 }
 
 /* Nonzero if the line may be bent where row Q bears; E is the edge then.  */

@@ -8,7 +8,8 @@
 
 enum
 {
-  SHORTER = 4 /* times a move is shortened, ... */
+  SHORTER = 4, /* times a move is shortened, ... */
+  CUTS = 6     /* times it is cut for obstacles and for lines */
 };
 
 #define SHORT 0.2 /* ... to this share */
@@ -86,7 +87,7 @@ bt__line_hits (bt__line_job *k, int add)
           bt__line_add_hit (k, j, near + i, &w, t);
         }
     }
-  return hits;
+  return hits + bt__self_hits (k, add);
 }
 
 /* A line that is pressed to the core can go nowhere by halves: a node held back alone keeps its
@@ -108,8 +109,9 @@ bt__line_shorten (bt__line_job *k)
 
 /* ---- The safe step ---- */
 
-void
-bt__line_truncate (bt__line_job *k)
+/* What the safe step leaves of the proposal.  */
+static void
+cut_at_obstacles (bt__line_job *k)
 {
   bt__safe_config config = { k->config->core, BT__LINE_STRIDE, 1 };
   bt__safe_report safe;
@@ -118,6 +120,22 @@ bt__line_truncate (bt__line_job *k)
   bt__safe_step (k->w->safe, &config, k->scene, k->on, k->mover, k->movers, k->w->to, k->X,
                  (uint32_t)k->links + 1, &safe, k->count);
   memcpy (k->X, k->w->to, size);
+}
+
+/* Either cut spoils the other's promise, which is of the moves it was given; both make them shorter
+   only.  In the end the line stays, with which everybody agrees.  */
+void
+bt__line_truncate (bt__line_job *k)
+{
+  for (int i = 0; i <= CUTS; i++)
+    {
+      if (i == CUTS)
+        memcpy (k->X, k->x, (size_t)(k->links + 1) * sizeof *k->x);
+      bt__self_truncate (k);
+      cut_at_obstacles (k);
+      if (bt__self_hits (k, 0) == 0)
+        break;
+    }
   for (uint32_t m = 0; m < k->movers; m++)
     k->report->pinched += k->mover[m].done < 1;
 }
@@ -155,7 +173,7 @@ bt__line_may_move (bt__line_job *k, const bt_vec3 *p, bt_vec3 move)
             return 0;
         }
     }
-  return 1;
+  return bt__self_may_move (k, p - bt__dynamic_x (k->d) + 1, move);
 }
 
 /* A joined pair is as its middle node gone to the chord; a split one as a new node gone from there
@@ -177,7 +195,8 @@ bt__line_wind (bt__line_job *k)
     }
   int straight = k->movers > 0
                  || (way > 0
-                     && bt__scene_nearest (k->scene, k->on, &first, 0.5 * rest[0] + k->core,
-                                           &unused, k->count));
+                     && (bt__scene_nearest (k->scene, k->on, &first, 0.5 * rest[0] + k->core,
+                                            &unused, k->count)
+                         || !bt__self_is_clear (k, 0, 0.5 * rest[0])));
   bt__dynamic_wind_once (k->d, way, straight);
 }

@@ -11,12 +11,50 @@
 
 enum
 {
-  BT__LINE_ROOM = 48, /* parts near a link */
-  BT__LINE_ROWS = 4,  /* half-spaces an interval, on average */
-  BT__LINE_ROUNDS = 4 /* times a step is solved again */
+  BT__LINE_ROOM = 48,  /* parts near a link */
+  BT__LINE_ROWS = 4,   /* half-spaces an interval, on average */
+  BT__LINE_ROUNDS = 4, /* times a step is solved again */
+  BT__SELF_ROOM = 24   /* pairs of links that could meet, on average a link */
 };
 
+/* Two links that could meet in the step: I of this line and J of this or of another.  */
+typedef struct bt__self_pair
+{
+  uint32_t i, j;
+  int32_t strand; /* its number, or -1: J is of this line */
+  double floor;   /* m: no nearer */
+  bt__witness w;  /* of I against the axis of J, as the step starts */
+} bt__self_pair;
+
+/* Two links of the line that may come to touch before the next look.  */
+typedef struct bt__self_known
+{
+  uint32_t i, j;
+  double clear; /* m: more than a touch */
+} bt__self_known;
+
+/* What is known of a line and itself, see self_pairs.c.  */
+typedef struct bt__self
+{
+  int pairs, knowns, room;  /* of either */
+  bt__self_pair *pair;      /* of this step */
+  bt__self_known *known;    /* until the next look */
+  double *move;             /* m: how far each node may go for PAIR to hold all */
+  double *reach;            /* m: how far each link looks */
+  bt__aabb *box, *its;      /* of links, of links of links: this line's, another's */
+  bt_vec3 *stood;           /* where the nodes were when it was looked ... */
+  int still;                /* ... and had so many; 0: it was not */
+  double turn, way;         /* m: KNOWN is of what parts by less, two in a row and any */
+  double least, least_turn; /* m: none of it touches before any, or two in a row, part by this */
+  bt__dynamic_drift drift;  /* since then, as the step starts */
+  bt__dynamic_drift gone;   /* the drift after the step ... */
+  int went;                 /* ... if it is known */
+  int asked;                /* nonzero: PAIR is of this step */
+  int wait;                 /* steps until the next look */
+} bt__self;
+
 #define BT__LINE_SLIP 0.002 /* m: the drag at which friction is whole */
+#define BT__LINE_SELF UINT32_MAX
 #define BT__LINE_STRIDE 2.0 /* m: no node goes farther in a step in which anything is near */
 
 /* What is known of a link.  */
@@ -33,12 +71,13 @@ typedef struct bt__link_watch
 typedef struct bt__line_row
 {
   uint32_t link;
-  uint32_t mover; /* number + 1, 0: what stands */
+  uint32_t mover; /* number + 1, 0: what stands, BT__LINE_SELF: a line */
   uint32_t object, slot, triangle;
   int64_t id; /* of the obstacle */
   int flat;   /* the line lies along the plane there */
   int fresh;  /* the contact is new */
   double from_end;
+  double other;  /* of a line: the same there */
   int64_t age;   /* steps so far */
   double work;   /* J so far */
   bt_vec3 point; /* on the obstacle, at the end of the step */
@@ -59,8 +98,13 @@ struct bt__line_work
   bt_vec3 *stood;   /* where the nodes were when ... */
   double spare;     /* ... the whole line was so clear of what stands, m ... */
   int still;        /* ... and had so many nodes */
+  double moved;     /* m: as the step starts no node is farther from there */
+  bt_vec3 *at;      /* where the nodes went in the last step, ... */
+  int went;         /* ... and how many, if nothing was near; else 0 */
   double *from_end; /* m of rest length from each node to node n */
   uint8_t *restart;
+  bt__self self;
+  bt__line_config last;             /* of the last step */
   bt__dynamic_bent bent[BT__BENTS]; /* nodes held at edges, ... */
   bt__anchor bend[BT__BENTS];       /* ... and what they are held at */
 };
@@ -82,6 +126,8 @@ typedef struct bt__line_job
   double h;
   const bt_vec3 *x; /* at the start */
   bt_vec3 *X;       /* proposed */
+  int resumes;      /* nonzero: it starts where it went in the last step, with nothing near */
+  double stride;    /* m: no node goes farther in the step; INFINITY: not known */
   bt__dynamic_hold hold[2];
   bt__line_report *report;
   bt__count *count;
@@ -167,6 +213,69 @@ void bt__line_harden (bt__line_job *k);
 void bt__line_keep (bt__line_job *k);
 void bt__line_store (bt__line_job *k);
 
+/* ---- The line and itself, and other lines ---- */
+
+/* Nonzero if they touch at all.  */
+static inline int
+bt__self_counts (const bt__line_job *k)
+{
+  return k->config->itself || k->config->strands > 0;
+}
+
+/* self_pairs.c: list the pairs that could meet in the step; return nonzero if there are any.  The
+   same for the proposed move, which is shortened if there is no room for all.  Nonzero if the
+   proposed move meets no other pairs than those listed.  */
+int bt__self_watch (bt__line_job *k);
+void bt__self_watch_moves (bt__line_job *k);
+int bt__self_stays_far (const bt__line_job *k);
+
+/* How far each node may go with the line clear of itself and others whatever they do, m, up to a
+   share of an interval.  */
+double bt__self_spare (bt__line_job *k);
+
+/* The links of pair P now.  */
+static inline bt__link
+bt__self_first (const bt_vec3 *x, const bt__self_pair *p)
+{
+  return bt__line_link (x, p->i);
+}
+
+static inline bt__link
+bt__self_second (const bt__line_job *k, const bt_vec3 *x, const bt__self_pair *p)
+{
+  return bt__line_link (p->strand < 0 ? x : bt__dynamic_x (k->config->strand[p->strand].line),
+                        p->j);
+}
+
+/* The least distance that links I and J, I before J, of the line must keep.  */
+double bt__self_floor (const bt__line_job *k, uint32_t i, uint32_t j);
+
+/* The same for links that start at DISTANCE.  */
+double bt__self_lowered (double floor, double distance);
+
+/* Link A against the axis of link B.  */
+bt__witness bt__self_witness (const bt__link *a, const bt__link *b);
+
+/* self_row.c: rows of the pairs that touch; of a hit, of P at W after the share T; what is known of
+   row I from the last step, or -1; move of one place against the other in row R; the anchor that
+   the second place of row I has, A being the first's.  */
+void bt__self_rows (bt__line_job *k);
+void bt__self_add_hit (bt__line_job *k, const bt__self_pair *p, const bt__witness *w, double t);
+int bt__self_anchor (const bt__line_job *k, int i);
+double bt__self_friction (const bt__line_job *k, int i);
+double bt__self_stiffness (const bt__line_job *k, int i);
+bt_vec3 bt__self_move (const bt__line_job *k, const bt__dynamic_row *r);
+bt__anchor bt__self_reaction (const bt__line_job *k, int i, const bt__anchor *a);
+
+/* self_guard.c: as bt__line_hits and bt__line_truncate for pairs; nonzero if node I can go straight
+   by MOVE, the others staying, and meets no other link.  */
+int bt__self_hits (bt__line_job *k, int add);
+void bt__self_truncate (bt__line_job *k);
+int bt__self_may_move (bt__line_job *k, int64_t i, bt_vec3 move);
+
+/* Nonzero if no other link but its neighbours is nearer to link J than WAY and what they keep.  */
+int bt__self_is_clear (const bt__line_job *k, int64_t j, double way);
+
 /* ---- What must not be hit (line_guard.c) ---- */
 
 /* Make the proposal finite, and no node's move longer than MOST.  Return nonzero if all of it was
@@ -182,7 +291,8 @@ int bt__line_shorten (bt__line_job *k);
 /* Cut the proposal, node by node, to what is safe.  */
 void bt__line_truncate (bt__line_job *k);
 
-/* Nonzero if node 1 of P can go straight by MOVE, nodes 0 and 2 staying, and meets nothing.  */
+/* Nonzero if node 1 of P, nodes of the line, can go straight by MOVE, nodes 0 and 2 staying, and
+   meets nothing.  */
 int bt__line_may_move (bt__line_job *k, const bt_vec3 *p, bt_vec3 move);
 
 /* Wind D, one interval at the most, if it passes through nothing on the way.  */

@@ -184,22 +184,36 @@ bt__line_watch (bt__line_job *k)
 
 /* ---- The line as a whole ---- */
 
+static double
+strayed (const bt__line_job *k, const bt_vec3 *x)
+{
+  return bt__dynamic_stray (x, k->w->stood, k->links + 1);
+}
+
 /* What a link needs is no more than what the stride does.  */
 int
 bt__line_is_far (const bt__line_job *k)
 {
+  bt__line_work *w = k->w;
   double need = fmax (k->config->radius + k->margin, AHEAD * BT__LINE_STRIDE + k->core);
-  double spare = (1 - CLOSE) * k->w->spare - need;
-  return k->movers == 0 && k->w->still == k->links + 1 && spare > 0
-         && bt__dynamic_stray (k->x, k->w->stood, k->links + 1) < spare;
+  double spare = (1 - CLOSE) * w->spare - need;
+  if (k->movers > 0 || w->still != k->links + 1 || !(spare > 0))
+    return 0;
+  if (!k->resumes || !(w->moved < spare))
+    w->moved = strayed (k, k->x);
+  return w->moved < spare;
 }
 
-/* NaN is not far.  */
+/* After that; NaN is not far.  */
 int
 bt__line_stays_far (const bt__line_job *k)
 {
-  double spare = (1 - CLOSE) * k->w->spare - k->core;
-  return bt__dynamic_stray (k->X, k->w->stood, k->links + 1) < spare;
+  bt__line_work *w = k->w;
+  double spare = (1 - CLOSE) * w->spare - k->core;
+  w->moved += k->stride;
+  if (!(w->moved < spare))
+    w->moved = strayed (k, k->X);
+  return w->moved < spare;
 }
 
 static void

@@ -71,6 +71,21 @@ segments (SCM object, SCM index)
 }
 
 /* (distance object s position), or #f when nothing is near.  */
+/* At S metres from the anchor; #f: the most of any spot.  */
+static SCM
+wear (SCM object, SCM index, SCM s)
+{
+  bt_dive *dive = bt__to_dive (object);
+  double share = 0;
+  bt_error error;
+  bt__check ("wear",
+             scm_is_true (s)
+                 ? bt_tether_wear_at (dive, scm_to_int (index), scm_to_double (s), &share, &error)
+                 : bt_tether_wear (dive, scm_to_int (index), &share, &error),
+             &error);
+  return scm_from_double (share);
+}
+
 static SCM
 clearance (SCM object, SCM part, SCM index, SCM obstacle)
 {
@@ -104,6 +119,9 @@ bt__define_contacts (void)
       "NORMAL S FORCE SLIDING?)." },
     { "%segments", 2, 0, (scm_t_subr)segments,
       "Return the spans of the INDEX-th tether of DIVE, vectors #(MODEL FROM TO A B)." },
+    { "%wear", 3, 0, (scm_t_subr)wear,
+      "Return the share of the jacket of the INDEX-th tether of DIVE that is worn at arc length S; "
+      "with S #f the largest." },
     { "%clearance", 4, 0, (scm_t_subr)clearance,
       "Return (METRES OBJECT S POSITION) of what is nearest to the INDEX-th PART of DIVE, or #f; "
       "OBSTACLE -1 stands for all." },

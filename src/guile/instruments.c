@@ -79,6 +79,20 @@ thrusts (SCM object, SCM index)
 }
 
 static SCM
+transponders (SCM object, SCM index, SCM count, SCM noise)
+{
+  bt_dive *dive = bt__to_dive (object);
+  int n = scm_to_int (count);
+  bt_vec3 *points = scm_gc_malloc_pointerless (sizeof *points * (size_t)n, "transponders");
+  bt_error error;
+  bt__check (
+      "transponders",
+      bt_dive_transponders (dive, scm_to_int (index), n, scm_to_double (noise), points, &error),
+      &error);
+  return bt__from_points (points, n);
+}
+
+static SCM
 sonar (SCM object, SCM index, SCM sector, SCM tilt, SCM range, SCM beams)
 {
   bt_sonar s = { scm_to_double (sector) / DEGREES, scm_to_double (tilt) / DEGREES,
@@ -119,6 +133,10 @@ bt__define_instruments (void)
       "Return the faults of the INDEX-th vehicle of DIVE, symbols and lists (thruster K)." },
     { "%thrusts", 2, 0, (scm_t_subr)thrusts,
       "Return what the thrusters of the INDEX-th vehicle of DIVE push with, N, an f64vector." },
+    { "%transponders", 4, 0, (scm_t_subr)transponders,
+      "Return where N transponders on the INDEX-th tether of DIVE say that they are, an N x 3 "
+      "array "
+      "with NOISE metres of noise in each coordinate." },
     { "%sonar", 6, 0, (scm_t_subr)sonar,
       "Return the echoes of BEAMS beams of the INDEX-th vehicle of DIVE over SECTOR degrees, "
       "tilted "

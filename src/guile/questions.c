@@ -321,8 +321,10 @@ profile (SCM object)
   list = with ("body-steps", scm_from_uint64 (p.body_steps), list);
   list = with ("span-skips", scm_from_uint64 (p.span_skips), list);
   list = with ("span-solves", scm_from_uint64 (p.span_solves), list);
+  list = with ("line-pairs", scm_from_uint64 (p.line_pairs), list);
   list = with ("truncated", scm_from_uint64 (p.truncated), list);
   list = with ("contact-rounds", scm_from_uint64 (p.contact_rounds), list);
+  list = with ("chafes", scm_from_uint64 (p.chafes), list);
   list = with ("touches", scm_from_uint64 (p.touches), list);
   list = with ("casts", scm_from_uint64 (p.casts), list);
   list = with ("links-clear", scm_from_uint64 (p.links_clear), list);

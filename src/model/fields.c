@@ -182,6 +182,10 @@ static const bt_field tether_fields[] = {
   PROP (breaking_load, "breaking-load", "N", INFINITY, 0, 1e9, 1, unbreakable,
         "the tension it parts at"),
   PROP (min_bend_radius, "min-bend-radius", "m", 0, 0, 100, 0, NULL, "the tightest bend allowed"),
+  PROP (wear_energy, "wear-energy", "J/m", 1e5, 0, 1e12, 1, never,
+        "slip work that wears the jacket through, over the length it is done on; an estimate"),
+  PROP (wear_limit, "wear-limit", "", 1, 0, 1, 1, NULL,
+        "share of the jacket worn at which the event `worn' comes"),
   COUNT (bt_tether_def, props.nodes, "nodes", "", 64, 2, BT_NODES_MAX, 0,
          "intervals of the models that have nodes"),
   OTHER (bt_tether_def, props.model, "model", "", BT_FIELD_WORD, BT_MODEL_STEADY, models, 1,
@@ -247,12 +251,16 @@ static const bt_field float_fields[] = {
 #define FRICTION                                                                                   \
   NUMBER (bt_obstacle_def, friction, "friction", "", NAN, 0, 10, 0, 1, as_tether,                  \
           "Coulomb coefficient of a tether on it; `tether': the tether's own")
+#define ABRASIVE                                                                                   \
+  NUMBER (bt_obstacle_def, abrasiveness, "abrasiveness", "", 1, 0, 1e6, 0, 0, NULL,                \
+          "how many times as fast as bare steel it wears a tether's jacket")
 #define TRACK                                                                                      \
   OTHER (bt_obstacle_def, track, "track", "", BT_FIELD_TRACK, 0, NULL, 0,                          \
          "where its place is at which time, when it moves: in place of `at' and `heading'")
 
 static const bt_field seabed_fields[] = {
   FRICTION,
+  ABRASIVE,
   OTHER (bt_obstacle_def, grid, "grid", "", BT_FIELD_GRID, 0, NULL, 0,
          "heights: a file, an ESRI ASCII grid, or a procedure of x and y"),
   OTHER (bt_obstacle_def, mesh, "mesh", "", BT_FIELD_MESH, 0, NULL, 0, "a file of triangles"),
@@ -265,12 +273,13 @@ static const bt_field box_fields[] = {
     FAR, 1, NULL, 0 },
   TURNED,
   FRICTION,
+  ABRASIVE,
   TRACK,
 };
 
-static const bt_field sphere_fields[] = { PLACE ("its centre"), RADIUS, FRICTION, TRACK };
+static const bt_field sphere_fields[] = { PLACE ("its centre"), RADIUS, FRICTION, ABRASIVE, TRACK };
 
-static const bt_field cylinder_fields[] = { AXIS, RADIUS, FRICTION, TRACK };
+static const bt_field cylinder_fields[] = { AXIS, RADIUS, FRICTION, ABRASIVE, TRACK };
 
 static const bt_field convex_fields[] = {
   OTHER (bt_obstacle_def, points, "points", "m", BT_FIELD_POINTS, 0, NULL, 0,
@@ -278,6 +287,7 @@ static const bt_field convex_fields[] = {
   PLACE ("where their origin goes"),
   TURNED,
   FRICTION,
+  ABRASIVE,
   TRACK,
 };
 
@@ -287,6 +297,7 @@ static const bt_field mesh_fields[] = {
   TURNED,
   NUMBER (bt_obstacle_def, scale, "scale", "", 1, 0, 1e6, 1, 0, NULL, "metres of one unit"),
   FRICTION,
+  ABRASIVE,
   TRACK,
 };
 

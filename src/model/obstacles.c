@@ -180,7 +180,7 @@ bt__number_scenes (bt_model *model)
 /* ---- Identity ---- */
 
 #define NUMBERS (offsetof (bt_obstacle_def, points) - offsetof (bt_obstacle_def, at))
-_Static_assert(NUMBERS == 18 * sizeof (double), "no padding among an obstacle's numbers");
+_Static_assert(NUMBERS == 19 * sizeof (double), "no padding among an obstacle's numbers");
 
 static uint64_t
 hash_rows (const bt_rows *rows, uint64_t h)

@@ -39,6 +39,16 @@ bt_status bt__step_among (bt_dive *dive, bt__state *state, int i, int part,
                           const bt__dynamic_input *input, bt__dynamic_report *report,
                           bt_error *error);
 
+/* Put the tethers of a world with obstacles in the order in which they step.  */
+void bt__order_tethers (bt_dive *dive, bt__state *state);
+
+/* Wake the tethers that PART of tether I, which moves, touches.  */
+void bt__wake_touched (const bt_dive *dive, bt__state *state, int i, int part);
+
+/* Add what a PART of tether I did at its contacts in the last step to the wear of its jacket
+   (chain_wear.c).  */
+void bt__wear_chain (bt_dive *dive, bt__state *state, int i, int part);
+
 /* Note what REPORT says of a step of TETHER, and what its twist does, as events.  */
 void bt__watch_step (const bt_dive *dive, bt__state *state, bt__tether *tether, int i,
                      const bt__dynamic_report *report);

@@ -31,6 +31,8 @@ step_part (bt_dive *dive, bt__state *state, int i, int part, const bt__dynamic_i
                          ? bt__step_among (dive, state, i, part, input, report, error)
                          : bt__dynamic_step (bt__dive_chain (dive, state, i, part), dive->work,
                                              input, report, error);
+  if (status == BT_OK && bt__has_obstacles (dive))
+    bt__wear_chain (dive, state, i, part);
   dive->profile.chain_steps++;
   dive->profile.chain_solves += (uint64_t)report->solves;
   dive->profile.chain_safeguarded += report->safeguarded != 0;
@@ -100,7 +102,11 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
   if (status != BT_OK)
     return status;
   bt__watch_step (dive, state, tether, i, &report);
-  if (!tether->parted && report.tension > tether->props.breaking_load)
+  if (bt__has_obstacles (dive) && tether->quiet == 0)
+    for (int part = 0; part <= (tether->parted != 0); part++)
+      bt__wake_touched (dive, state, i, part);
+  /* The tensions of a step that did not converge prove nothing.  */
+  if (!tether->parted && report.converged && report.tension > tether->props.breaking_load)
     bt__part_chain (dive, state, i, report.at);
   else if (tether->props.model == BT_MODEL_AUTO && state->step % BT__REMESH_EVERY == 0)
     return bt__remesh_chain (dive, state, i, error);

@@ -3,6 +3,11 @@
    The step is contact/line.h's; here it is given what surrounds the line and how rough that is, and
    what it met is noted.
 
+   Tethers step one after another, each among the others as they are by then: those before it where
+   they came to, those after it where they were.  So no two of them move at once, and what each
+   keeps off all keep off.  Of two that go along together pressed to each other the one in front
+   goes first, or it would be in the way of the other.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
@@ -22,8 +27,56 @@ pull_at (const bt_dive *dive, bt__state *state, int i, int k)
   return bt__dive_vehicle (dive, state, vehicle)->pull;
 }
 
+/* Nonzero if tether I touches tether J, which may be I.  */
+static int
+may_touch (const bt_dive *dive, bt__state *state, int i, int j)
+{
+  return !bt__dive_off (dive, state, BT_PART_TETHER, i)[dive->model->n_obstacles + j];
+}
+
+static double
+inertia_of (const bt__state *state, const bt_tether_props *p)
+{
+  return p->mass + p->ca * state->density * BT__PI / 4 * p->diameter * p->diameter;
+}
+
+/* Nonzero if PART K of tether J is to step after PART of tether I in the present step.  */
+static int
+yields (const bt_dive *dive, bt__state *state, int i, int part, int j, int k)
+{
+  const bt__tether *other = bt__dive_tether (dive, state, j);
+  int later = i == j ? k < part : dive->shore.place[j] > dive->shore.place[i];
+  return later && state->step != dive->now->step && bt__is_moving_model (other)
+         && other->quiet < BT__SLEEP_AFTER;
+}
+
+/* Put the moving lines that PART of tether I touches among the dive's strands; return how many
+   there are.  */
+static int
+gather_strands (const bt_dive *dive, bt__state *state, int i, int part)
+{
+  int n = 0;
+  for (int j = 0; j < dive->model->n_tethers; j++)
+    {
+      const bt__tether *other = bt__dive_tether (dive, state, j);
+      if (other->shape.form != BT__FORM_CHAIN || !may_touch (dive, state, i, j))
+        continue;
+      for (int k = 0; k <= (other->parted != 0); k++)
+        if (j != i || k != part)
+          dive->shore.strand[n++] = (bt__strand){ .line = bt__dive_chain (dive, state, j, k),
+                                                  .anchors = bt__dive_anchors (dive, state, j, k),
+                                                  .inertia = inertia_of (state, &other->props),
+                                                  .yields = yields (dive, state, i, part, j, k),
+                                                  .id = dive->model->n_obstacles + j,
+                                                  .radius = other->props.diameter / 2,
+                                                  .core = bt__core (other->props.diameter),
+                                                  .friction = other->props.friction };
+    }
+  return n;
+}
+
 static bt__line_config
-config_of (const bt_dive *dive, bt__state *state, int i)
+config_of (const bt_dive *dive, bt__state *state, int i, int part)
 {
   const bt_tether_props *props = &bt__dive_tether (dive, state, i)->props;
   return (bt__line_config){ .radius = props->diameter / 2,
@@ -31,7 +84,11 @@ config_of (const bt_dive *dive, bt__state *state, int i)
                             .friction = props->friction,
                             .rough = bt__dive_roughness (dive, state),
                             .obstacles = dive->model->n_obstacles,
-                            .pull = { pull_at (dive, state, i, 0), pull_at (dive, state, i, 1) } };
+                            .pull = { pull_at (dive, state, i, 0), pull_at (dive, state, i, 1) },
+                            .itself = may_touch (dive, state, i, i),
+                            .id = dive->model->n_obstacles + i,
+                            .strand = dive->shore.strand,
+                            .strands = gather_strands (dive, state, i, part) };
 }
 
 /* The workspace knows one line at a time.  */
@@ -70,6 +127,7 @@ add_up (bt_profile *profile, const bt__line_report *report)
   profile->touches += (uint64_t)report->touches;
   profile->contact_rounds += (uint64_t)report->rounds;
   profile->truncated += report->truncated > 0;
+  profile->line_pairs += (uint64_t)report->pairs;
 }
 
 bt_status
@@ -78,7 +136,7 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
 {
   bt__anchors *anchors = bt__dive_anchors (dive, state, i, part);
   bt__surroundings around = bt__surround (dive, state, BT_PART_TETHER, i);
-  bt__line_config config = config_of (dive, state, i);
+  bt__line_config config = config_of (dive, state, i, part);
   bt__line_report touch = { 0 };
   bt_status status;
   take_up (dive, i, part);
@@ -92,4 +150,54 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
   bring_ends (dive, state, i, part, &touch);
   add_up (&dive->profile, &touch);
   return BT_OK;
+}
+
+void
+bt__wake_touched (const bt_dive *dive, bt__state *state, int i, int part)
+{
+  const bt__anchors *anchors = bt__dive_anchors (dive, state, i, part);
+  const bt__anchor *anchor = bt__anchors_at (anchors);
+  for (int64_t k = 0; k < anchors->n; k++)
+    if (anchor[k].mover == BT__ANCHOR_LINE)
+      bt__dive_tether (dive, state, (int)anchor[k].object - dive->model->n_obstacles)->quiet = 0;
+}
+
+/* ---- In which order ---- */
+
+/* How tether I goes where it presses on tether J: toward that, or from it if less than 0; W.  */
+static double
+push_of (const bt_dive *dive, bt__state *state, int i, int j)
+{
+  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  const bt__anchors *anchors = bt__dive_anchors (dive, state, i, 0);
+  const bt__anchor *a = bt__anchors_at (anchors);
+  double sum = 0, length = bt__dynamic_length (chain);
+  for (int64_t k = 0; k < anchors->n; k++)
+    if (a[k].mover == BT__ANCHOR_LINE && a[k].object == dive->model->n_obstacles + j)
+      sum -= a[k].load
+             * bt__dot (a[k].normal, bt__dynamic_velocity (chain, length - a[k].from_end));
+  return sum;
+}
+
+static int
+is_behind (const bt_dive *dive, bt__state *state, int i, int j)
+{
+  return bt__dive_tether (dive, state, i)->shape.form == BT__FORM_CHAIN
+         && bt__dive_tether (dive, state, j)->shape.form == BT__FORM_CHAIN
+         && push_of (dive, state, i, j) > push_of (dive, state, j, i);
+}
+
+void
+bt__order_tethers (bt_dive *dive, bt__state *state)
+{
+  int *order = dive->shore.order, n = dive->model->n_tethers;
+  for (int i = 0; i < n; i++)
+    {
+      int at = i;
+      for (; at > 0 && is_behind (dive, state, order[at - 1], i); at--)
+        order[at] = order[at - 1];
+      order[at] = i;
+    }
+  for (int i = 0; i < n; i++)
+    dive->shore.place[order[i]] = i;
 }

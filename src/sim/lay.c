@@ -18,7 +18,7 @@
 #define DRAG_SPEED 3.0 /* m/s */
 enum
 {
-  DRAG_TRIES = 30 /* steps without getting anywhere */
+  DRAG_TRIES = 30 /* steps without getting nearer */
 };
 #define DRAG_LEAST 1e-4 /* m a step */
 
@@ -65,10 +65,12 @@ is_clear (bt_dive *dive, const bt__surroundings *around, double core, bt_vec3 a,
 int
 bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n)
 {
-  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
   bt__surroundings around = bt__surround (dive, state, BT_PART_TETHER, i);
   double core = bt__core (bt__dive_tether (dive, state, i)->props.diameter);
   double length = bt__dynamic_length (chain), s = 0;
+  /* It has just stepped; where lines touch, nodes stay.  */
+  double spare = bt__line_work_spare (dive->shore.line, chain);
   int64_t j = 0;
   for (int k = 0; k < n; k++)
     {
@@ -81,7 +83,8 @@ bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n)
           bt__pair_point (bt__dynamic_x (chain)[j], &link, &w);
           off = fmax (off, w.distance);
         }
-      if (clearance (dive, &around, &link, off + 2 * core, &near) < off + 1.1 * core)
+      if (off >= spare
+          || clearance (dive, &around, &link, off + 2 * core, &near) < off + 1.1 * core)
         return 0;
     }
   return 1;
@@ -346,29 +349,35 @@ toward (bt_vec3 from, bt_vec3 to)
   return way <= most ? to : bt__axpy (from, most / way, bt__sub (to, from));
 }
 
+static double
+way_left (const bt__ends *at, const bt__ends *to)
+{
+  return bt__distance (at->a, to->a) + bt__distance (at->b, to->b);
+}
+
 bt_status
 bt__drag_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  bt__ends at = { tether->shape.a, tether->shape.b }, last = at;
+  bt__ends at = { tether->shape.a, tether->shape.b };
   bt__dynamic_report report;
   bt_status status = BT_OK;
   bt__pin kept[2];
+  double least = INFINITY, left;
   int idle = 0;
   keep_pins (dive, i, kept, 0);
   for (int k = 0; k < 2; k++)
     bt__bring_end (dive, state, i, k, k == 0 ? at.a : at.b);
   pin_ends (dive, state, i, BT__PIN_SOFT);
-  while (status == BT_OK && idle < DRAG_TRIES
-         && bt__distance (at.a, ends->a) + bt__distance (at.b, ends->b) > 0)
+  while (status == BT_OK && idle < DRAG_TRIES && (left = way_left (&at, ends)) > 0)
     {
+      idle = left > least - DRAG_LEAST ? idle + 1 : 0;
+      least = fmin (least, left);
       bt__ends next = { toward (at.a, ends->a), toward (at.b, ends->b) };
       bt__bring_end (dive, state, i, 0, next.a);
       bt__bring_end (dive, state, i, 1, next.b);
       status = step_to (dive, state, i, &next, &report, error);
       at = bt__tether_ends (dive, state, i);
-      idle = bt__distance (at.a, last.a) + bt__distance (at.b, last.b) < DRAG_LEAST ? idle + 1 : 0;
-      last = at;
     }
   keep_pins (dive, i, kept, 1);
   return status == BT_OK ? fall (dive, state, i, &at, error) : status;

@@ -1,9 +1,17 @@
-/* Which pairs of a vehicle or a tether and an obstacle may meet.
+/* Which pairs of a vehicle or a tether and an obstacle, or of tethers, may meet.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include "sim/ops.h"
 #include "world/obstacles.h"
+
+/* The tether that a tether is to meet, or -1: an obstacle.  */
+static int
+tether_of (const bt__call *c)
+{
+  int i = (int)c->args[1] - c->dive->model->n_obstacles;
+  return i >= 0 && i < c->dive->model->n_tethers ? i : -1;
+}
 
 static bt_status
 check_numbers (const bt__call *c)
@@ -16,6 +24,10 @@ check_numbers (const bt__call *c)
     return bt__fail (c->error, BT_ERR_DOMAIN, "a pair is on, 1, or off, 0, not %g", c->args[2]);
   if (part != BT_PART_SEA && bt__check_part (c->dive, (bt_part)part, c->subject, c->error) != BT_OK)
     return BT_ERR_NAME;
+  if (tether_of (c) >= 0)
+    return part == BT_PART_TETHER
+               ? BT_OK
+               : bt__fail (c->error, BT_ERR_NAME, "a tether meets tethers, a vehicle does not");
   return c->args[1] == -1 ? BT_OK
                           : bt__check_part (c->dive, BT_PART_OBSTACLE, (int)c->args[1], c->error);
 }
@@ -36,7 +48,10 @@ bt__op_collide (const bt__call *c)
     return status;
   if (part != BT_PART_SEA)
     bt__switch_pair (c->dive, c->state, part, c->subject, (int)c->args[1], c->args[2] != 0);
-  else
+  if (part == BT_PART_TETHER && tether_of (c) >= 0) /* the other way round it is the same */
+    bt__switch_pair (c->dive, c->state, part, tether_of (c),
+                     c->dive->model->n_obstacles + c->subject, c->args[2] != 0);
+  if (part == BT_PART_SEA)
     {
       switch_all (c, BT_PART_VEHICLE, c->dive->model->n_vehicles);
       switch_all (c, BT_PART_TETHER, c->dive->model->n_tethers);

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "math/vec.h"
 #include "sim/around.h"
+#include "sim/chain.h"
 
 int
 bt__is_unchanged (const bt_dive *dive, const bt__state *state, const bt__tether *tether,
@@ -119,16 +120,23 @@ resolve_moving (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, in
   return status == BT_OK && passes ? bt__step_chain (dive, state, i, ends, error) : status;
 }
 
+static bt_status
+resolve (bt_dive *dive, bt__state *state, int i, int passes, bt_error *error)
+{
+  bt__ends ends = bt__tether_ends (dive, state, i);
+  return bt__is_moving_model (bt__dive_tether (dive, state, i))
+             ? resolve_moving (dive, state, i, &ends, passes, error)
+             : resolve_static (dive, state, i, &ends, error);
+}
+
 bt_status
 bt__resolve_tethers (bt_dive *dive, bt__state *state, int passes, bt_error *error)
 {
   bt_status status = BT_OK;
+  int among = bt__has_obstacles (dive);
+  if (among)
+    bt__order_tethers (dive, state);
   for (int i = 0; status == BT_OK && i < dive->model->n_tethers; i++)
-    {
-      bt__ends ends = bt__tether_ends (dive, state, i);
-      status = bt__is_moving_model (bt__dive_tether (dive, state, i))
-                   ? resolve_moving (dive, state, i, &ends, passes, error)
-                   : resolve_static (dive, state, i, &ends, error);
-    }
+    status = resolve (dive, state, among ? dive->shore.order[i] : i, passes, error);
   return status;
 }

@@ -18,6 +18,7 @@
 #define DEFAULT_TOLERANCE 1e-5
 #define DEFAULT_STEP (1.0 / 60)
 #define TOUCHING_TOLERANCE 1e-4 /* m: with contacts, at most */
+#define ALONE_TOLERANCE 1e-9    /* of the length: where energy would be gained otherwise */
 
 /* ---- The workspace ---- */
 
@@ -272,17 +273,54 @@ bt__dynamic_finish (bt__dynamic *d, bt__dynamic_work *w, const uint8_t *restart,
   return BT_OK;
 }
 
+/* Solve the step of D, a line alone, so that it has no more than MOST energy: what is not solved is
+   a force that does work.  *SLOWED: it had to be slowed down.  */
+static bt_status
+solve_alone (bt__dynamic *d, bt__dynamic_work *w, double most, bt__dynamic_report *report,
+             int *slowed, bt_error *error)
+{
+  int64_t history = d->history;
+  report->converged = bt__dynamic_newton (w, report);
+  if (!bt__dynamic_gains (d, w, most))
+    return BT_OK;
+  int solves = report->solves;
+  d->history = 0;
+  bt_status status = bt__dynamic_begin (d, w, w->in, report, error);
+  d->history = history;
+  if (status)
+    return status;
+  w->tolerance = fmin (w->tolerance, ALONE_TOLERANCE * bt__dynamic_length (d));
+  report->converged = bt__dynamic_newton (w, report);
+  report->solves += solves;
+  *slowed = bt__dynamic_slow_down (d, w, most, report);
+  return BT_OK;
+}
+
 bt_status
 bt__dynamic_step (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *in,
                   bt__dynamic_report *report, bt_error *error)
 {
+  int alone = 0, slowed = 0;
+  double most = 0;
   bt_status status = bt__dynamic_begin (d, w, in, report, error);
   if (status)
     return status;
-  report->converged = bt__dynamic_newton (w, report);
-  status = bt__dynamic_finish (d, w, NULL, report, error);
+  alone = bt__dynamic_is_alone (d, in);
+  if (alone)
+    {
+      most = bt__dynamic_most (d, w);
+      status = solve_alone (d, w, most, report, &slowed, error);
+    }
+  else
+    report->converged = bt__dynamic_newton (w, report);
+  if (!status)
+    status = bt__dynamic_finish (d, w, NULL, report, error);
   if (status)
     return status;
+  if (alone)
+    bt__dynamic_note (d, w, most);
+  if (slowed)
+    d->history = 0;
   if (in->pay != 0 || d->owed != 0)
     bt__dynamic_wind (d);
   return BT_OK;

@@ -42,6 +42,8 @@ typedef struct bt__dynamic
   double piece;    /* m: rest length the winch gives a new interval */
   double owed;     /* m: line that is out but not yet in the chain, see bt__dynamic_wind */
   bt_vec3 pull[2]; /* N: force of the line on its ends */
+  double most;     /* J: of a line alone, the energy it may have, if it still has ... */
+  double left;     /* ... what its last step left it */
 } bt__dynamic;
 
 /* Return the size in bytes of a block with room for N_MAX intervals.  */
@@ -160,7 +162,8 @@ double bt__dynamic_node_tension (const bt__dynamic *d, int i);
 
 typedef struct bt__dynamic_energy
 {
-  double kinetic, strain, gravity, bending; /* J; added mass moves too; gravity from z = 0 */
+  double kinetic, strain, gravity, bending; /* J; added mass moves too; gravity from z = 0; a line
+                                               under bending is strained by pushing together too */
 } bt__dynamic_energy;
 
 /* Return the energies of the line (not its lumps) as INPUT has it.  */

@@ -44,6 +44,27 @@ add_clamp (bt__dynamic_work *w, int k, double ei)
     add_row (w, (bt__bend){ j, 2, 2 * ei / l, { -1 / l, 1 / l, 0 }, d });
 }
 
+/* How far interval J has been pushed together beyond what its thrust can hold, m.  */
+static double
+yielded (const bt__dynamic_work *w, int j)
+{
+  const bt__link *k = w->link + j;
+  return fmax (k->rest - k->start - k->thrust * k->rest / w->ea, 0);
+}
+
+/* A thrust grows with the bend, and so it costs more to bend what has yielded to it: the thrust and
+   this are the gradient of one energy, and neither makes any.  */
+static double
+stiffer_by_thrust (const bt__dynamic_work *w, int i)
+{
+  double before = i > 1 ? 0.5 : 1, after = i + 1 < w->n ? 0.5 : 1;
+  double far = before * yielded (w, i - 1) + after * yielded (w, i);
+  if (!(far > 0)
+      || bt__turn_square (w->x + i, w->link[i - 1].rest, w->link[i].rest) >= BT__SHARPEST)
+    return 1;
+  return 1 + 2 * BT__THRUST * far / w->node[i].cell;
+}
+
 void
 bt__dynamic_bend_prepare (bt__dynamic_work *w)
 {
@@ -59,14 +80,12 @@ bt__dynamic_bend_prepare (bt__dynamic_work *w)
   for (int i = 1; i < w->n; i++)
     {
       double q = 1 / w->link[i - 1].rest, p = 1 / w->link[i].rest;
-      add_row (w, (bt__bend){ i - 1, 3, ei / w->node[i].cell, { q, -(p + q), p }, { 0, 0, 0 } });
+      double k = stiffer_by_thrust (w, i) * ei / w->node[i].cell;
+      add_row (w, (bt__bend){ i - 1, 3, k, { q, -(p + q), p }, { 0, 0, 0 } });
     }
   add_clamp (w, 0, ei);
   add_clamp (w, 1, ei);
 }
-
-#define MARGIN 1.5   /* the clamp's cell and the held curvature err */
-#define SHARPEST 1.0 /* turn at a node, as a vector: none sharper thrusts */
 
 void
 bt__dynamic_bend_thrust (bt__dynamic_work *w)
@@ -74,18 +93,10 @@ bt__dynamic_bend_thrust (bt__dynamic_work *w)
   double before = 0;
   for (int j = 0; j < w->n; j++)
     {
-      double after = before;
-      if (j + 1 < w->n)
-        {
-          bt_vec3 a = bt__scale (1 / w->link[j].rest, bt__sub (w->x[j + 1], w->x[j])),
-                  b = bt__scale (1 / w->link[j + 1].rest, bt__sub (w->x[j + 2], w->x[j + 1]));
-          bt_vec3 turn = bt__sub (b, a);
-          double cell = w->node[j + 1].cell;
-          after = fmin (bt__dot (turn, turn), SHARPEST) / (cell * cell);
-        }
-      double square = j == 0 ? after : 0.5 * (before + after);
-      w->link[j].thrust = w->in->line->ei * MARGIN * square;
-      w->link[j].zero -= w->link[j].thrust / w->link[j].ka;
+      bt__link *k = w->link + j;
+      double after = j + 1 < w->n ? bt__bend_square (w->x + j + 1, k->rest, k[1].rest) : before;
+      k->thrust = bt__thrust_of (w->in->line->ei, j ? before : after, after);
+      k->zero -= k->thrust / k->ka;
       before = after;
     }
 }

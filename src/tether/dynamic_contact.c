@@ -16,13 +16,22 @@
 #define HOLDING 0.05  /* the same of a held end */
 #define DAMPING 1.0   /* times the step's drag: what sticks is a spring that must not ring */
 
+#define LOAD 1.0        /* N: loads that change less in an iteration, ... */
+#define LOAD_SHARE 0.05 /* ... and by this share of them, are settled */
+
 /* ---- Rows ---- */
+
+static bt_vec3
+between (const bt_vec3 *p, double s)
+{
+  return bt__axpy (bt__scale (1 - s, p[0]), s, p[1]);
+}
 
 static bt_vec3
 place_of (const bt__dynamic_row *r, const bt_vec3 *X)
 {
-  const bt_vec3 *p = X + r->node;
-  return bt__axpy (bt__scale (1 - r->s, p[0]), r->s, p[1]);
+  bt_vec3 p = between (X + r->node, r->s);
+  return r->pair > 0 ? bt__sub (p, between (X + r->pair - 1, r->t)) : p;
 }
 
 static double
@@ -72,25 +81,21 @@ add_roll (bt__dynamic_work *w, bt__dynamic_row *r)
 
 /* A block kn n n^T + ks (1 - n n^T) - kd d d^T with weights at two nodes, and the force.  */
 static void
-add_row (bt__dynamic_work *w, const bt__dynamic_row *r, double kn, double ks, double kd, bt_vec3 d)
+add_row (bt__dynamic_work *w, bt__dynamic_row *r, double kn, double ks, double kd, bt_vec3 d)
 {
-  bt_vec3 n = r->normal;
   double a = 1 - r->s, b = r->s;
   bt__sym *p = w->diag + r->node, *q = p + 1, *o = w->off + r->node;
   bt__sym k = { 0 };
-  bt__sym_add (&k, ks, kn - ks, n);
+  bt__sym_add (&k, ks, kn - ks, r->normal);
   bt__sym_add (&k, 0, -kd, d);
-  bt__sym *to[3] = { p, q, o };
-  const double weight[3] = { a * a, b * b, -a * b };
-  for (int i = 0; i < 3; i++)
+  if (r->pair > 0)
     {
-      to[i]->xx += weight[i] * k.xx;
-      to[i]->xy += weight[i] * k.xy;
-      to[i]->xz += weight[i] * k.xz;
-      to[i]->yy += weight[i] * k.yy;
-      to[i]->yz += weight[i] * k.yz;
-      to[i]->zz += weight[i] * k.zz;
+      bt__dynamic_pair_add (w, r, &k);
+      return;
     }
+  bt__sym_axpy (p, a * a, &k);
+  bt__sym_axpy (q, b * b, &k);
+  bt__sym_axpy (o, -a * b, &k);
   w->rhs[r->node] = bt__axpy (w->rhs[r->node], a, r->force);
   w->rhs[r->node + 1] = bt__axpy (w->rhs[r->node + 1], b, r->force);
 }
@@ -180,6 +185,7 @@ int
 bt__dynamic_contact_assemble (bt__dynamic_work *w, bt__mode mode)
 {
   int changed = 0;
+  w->pairs = 0;
   for (int k = 0; k < w->rows; k++)
     changed |= assemble_row (w, w->row + k, mode);
   for (int k = 0; w->hold && k < 2; k++)
@@ -196,20 +202,25 @@ ease_rows (bt__dynamic_work *w, int k, double share)
   for (int q = 0; q < w->rows; q++)
     {
       bt__dynamic_row *r = w->row + q;
-      if (r->node == (k ? w->n - 1 : 0))
+      int64_t end = k ? w->n - 1 : 0;
+      if (r->node == end || r->pair - 1 == end)
         r->load *= share;
     }
 }
 
-void
+int
 bt__dynamic_contact_take (bt__dynamic_work *w, double share)
 {
+  int settled = 1;
   for (int k = 0; k < w->rows; k++)
     {
       bt__dynamic_row *r = w->row + k;
       double gap = gap_of (r, w->X) + (1 - share) * bt__dot (r->normal, place_of (r, w->d));
-      double load = r->active > 0 ? fmax (-r->stiffness * gap, 0) : 0;
-      r->load = share < 1 ? r->load + share * (load - r->load) : load;
+      double push = -r->stiffness * gap, load = r->active > 0 ? fmax (push, 0) : 0;
+      double next = share < 1 ? r->load + share * (load - r->load) : load;
+      settled &= fabs (load - r->load) <= LOAD + LOAD_SHARE * load;
+      settled &= r->active > 0 ? push > -LOAD : push < LOAD; /* or it bears the wrong way */
+      r->load = next;
     }
   for (int k = 0; w->hold && k < 2; k++)
     {
@@ -222,6 +233,7 @@ bt__dynamic_contact_take (bt__dynamic_work *w, double share)
         ease_rows (w, k, h->most / size);
     }
   bt__dynamic_bent_take (w, share);
+  return settled;
 }
 
 void

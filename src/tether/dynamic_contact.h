@@ -12,6 +12,9 @@
    the coefficient where that is SLIP metres: the distance is fixed, not the stiffness, so that
    heavy contacts are no harder to solve than light ones.
 
+   A row may be of two places of the line instead: its half-space is then about the way from the
+   second to the first, and what pushes the one pushes the other back (dynamic_pair.c).
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #ifndef BT_TETHER_DYNAMIC_CONTACT_H
@@ -23,6 +26,8 @@ typedef struct bt__dynamic_row
 {
   int64_t node;     /* the place is at (1 - S) of NODE and S of the next, 0 <= S <= 1; ... */
   double s;         /* ... NODE is not the last */
+  int64_t pair;     /* 0, or 1 + the node of the second place, ... */
+  double t;         /* ... likewise; then PLACE below is the first's less the second's */
   bt_vec3 normal;   /* unit, out of the half-space, at the end of the step */
   double offset;    /* m: the place must have normal . place >= offset */
   double roll;      /* 1/m: what S loses when the next node rises by a metre against NODE, ... */
@@ -35,7 +40,8 @@ typedef struct bt__dynamic_row
   double load;      /* N: in a guess, out the solution */
   double active;    /* out: 1 if it bears, 0 if not; any value in */
   bt_vec3 drag;     /* out, m: the drag that friction answers, not yet shortened to SLIP */
-  bt_vec3 force;    /* out, N on the line */
+  bt_vec3 force;    /* out, N on the line; of two places on the first */
+  double block[6];  /* out, of two places: the stiffness between them */
 } bt__dynamic_row;
 
 /* An end that is taken to its place by MOST newtons at the most; the end must be free in the input.
@@ -105,6 +111,15 @@ int bt__dynamic_iterate (bt__dynamic_work *work, bt__dynamic_row *rows, int n,
 /* Return no less than the longest of the N vectors A, less B: cheap, and up to sqrt (3) too large.
  */
 double bt__dynamic_stray (const bt_vec3 *a, const bt_vec3 *b, int n);
+
+/* How N vectors A differ from B.  */
+typedef struct bt__dynamic_drift
+{
+  double turned; /* no less than the most that two in a row went apart, ... */
+  double apart;  /* ... and than any two; both up to sqrt (3) too large */
+} bt__dynamic_drift;
+
+void bt__dynamic_drifted (const bt_vec3 *a, const bt_vec3 *b, int n, bt__dynamic_drift *drift);
 
 /* Take the proposal over into D, without winding.  RESTART (a flag a node, or NULL) says which
    nodes were held back or met something: they go on with the velocity of the move they made and no

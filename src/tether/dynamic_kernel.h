@@ -20,6 +20,17 @@
 #define BT__HOT inline
 #endif
 
+#define BT__STIFFEST 1e9 /* N: what a line that cannot stretch is given */
+#define BT__THRUST 1.5   /* of EI kappa^2: the clamp's cell and the held curvature err */
+#define BT__SHARPEST 1.0 /* turn at a node, as a vector: none sharper thrusts more */
+
+/* The axial stiffness, N, that a line of EA is stepped with.  */
+static inline double
+bt__stiffness (double ea)
+{
+  return isfinite (ea) ? ea : BT__STIFFEST;
+}
+
 /* A symmetric 3 x 3 block.  */
 typedef struct bt__sym
 {
@@ -109,7 +120,7 @@ struct bt__dynamic_work
   const bt_vec3 *x;                 /* positions at the start */
   const bt_vec3 *chord, *load;      /* fourth-order parts, NULL if none */
   bt__dynamic_row *row;             /* the caller's half-spaces, ... */
-  int rows;                         /* ... how many */
+  int rows, pairs;                  /* ... how many; and of these, how many bear on two places */
   bt__dynamic_hold *hold;           /* of the ends, NULL if none */
   bt__dynamic_bent *bent;           /* nodes about which the line runs, ... */
   int bents, bordered;              /* ... how many; nonzero if their flows are unknowns */
@@ -161,10 +172,10 @@ double bt__dynamic_solve (bt__dynamic_work *w);
 int bt__dynamic_newton (bt__dynamic_work *w, bt__dynamic_report *report);
 
 /* Contacts: add the blocks and forces of the rows and holds at the iterate X, and return nonzero if
-   one changed sides since the last call; take over SHARE of the update D; forget the loads, or set
-   them to those of X; their potential.  */
+   one changed sides since the last call; take over SHARE of the update D, and return nonzero if
+   loads hardly changed; forget the loads, or set them to those of X; their potential.  */
 int bt__dynamic_contact_assemble (bt__dynamic_work *w, bt__mode mode);
-void bt__dynamic_contact_take (bt__dynamic_work *w, double share);
+int bt__dynamic_contact_take (bt__dynamic_work *w, double share);
 void bt__dynamic_contact_load (bt__dynamic_work *w, int none);
 double bt__dynamic_contact_potential (const bt__dynamic_work *w);
 
@@ -176,6 +187,11 @@ bt__dynamic_touches (const bt__dynamic_work *w)
 {
   return w->rows > 0 || w->hold != NULL || w->bents > 0;
 }
+
+/* A row of two places: add block K and what pushes; the solution with all pairs, by SOLVE of that
+   without what couples them.  */
+void bt__dynamic_pair_add (bt__dynamic_work *w, bt__dynamic_row *r, const bt__sym *k);
+double bt__dynamic_pair_solve (bt__dynamic_work *w, double (*solve) (bt__dynamic_work *));
 
 /* Bent nodes, likewise; the solution with their flows, by SOLVE of that without.  */
 void bt__dynamic_bent_assemble (bt__dynamic_work *w, bt__mode mode);
@@ -189,6 +205,41 @@ void bt__dynamic_bend_thrust (bt__dynamic_work *w);
 void bt__dynamic_bend_force (bt__dynamic_work *w);
 double bt__dynamic_bend_energy (const bt__dynamic_work *w, const bt_vec3 *X);
 
+/* The square of what node X[0] turns by, its intervals BEFORE and AFTER metres long; and of that by
+   its cell, as far as it thrusts.  */
+static inline double
+bt__turn_square (const bt_vec3 *x, double before, double after)
+{
+  bt_vec3 a = bt__scale (1 / before, bt__sub (x[0], x[-1])),
+          b = bt__scale (1 / after, bt__sub (x[1], x[0])), turn = bt__sub (b, a);
+  return bt__dot (turn, turn);
+}
+
+static inline double
+bt__bend_square (const bt_vec3 *x, double before, double after)
+{
+  double cell = 0.5 * (before + after);
+  return fmin (bt__turn_square (x, before, after), BT__SHARPEST) / (cell * cell);
+}
+
+/* The thrust of an interval between nodes of bend squares BEFORE and AFTER, N.  */
+static inline double
+bt__thrust_of (double ei, double before, double after)
+{
+  return ei * BT__THRUST * 0.5 * (before + after);
+}
+
+/* Return nonzero if the step of D that INPUT asks for can only take energy from it.  */
+int bt__dynamic_is_alone (const bt__dynamic *d, const bt__dynamic_input *in);
+
+/* Of a line alone: the most energy it may have, J; nonzero if the solution has more; slow it down
+   until it has not, and return nonzero if it had; after the step, keep in D what the next asks.  */
+double bt__dynamic_most (const bt__dynamic *d, const bt__dynamic_work *w);
+int bt__dynamic_gains (const bt__dynamic *d, bt__dynamic_work *w, double most);
+int bt__dynamic_slow_down (const bt__dynamic *d, bt__dynamic_work *w, double most,
+                           bt__dynamic_report *report);
+void bt__dynamic_note (bt__dynamic *d, const bt__dynamic_work *w, double most);
+
 /* Relax the fourth-order parts of D toward those of its shape and of the present loads.  */
 void bt__dynamic_correct (bt__dynamic *d, bt__dynamic_work *w);
 
@@ -197,6 +248,18 @@ bt__sym_apply (const bt__sym *a, bt_vec3 v)
 {
   return bt__vec (a->xx * v.x + a->xy * v.y + a->xz * v.z, a->xy * v.x + a->yy * v.y + a->yz * v.z,
                   a->xz * v.x + a->yz * v.y + a->zz * v.z);
+}
+
+/* A += W B.  */
+static inline void
+bt__sym_axpy (bt__sym *a, double w, const bt__sym *b)
+{
+  a->xx += w * b->xx;
+  a->xy += w * b->xy;
+  a->xz += w * b->xz;
+  a->yy += w * b->yy;
+  a->yz += w * b->yz;
+  a->zz += w * b->zz;
 }
 
 /* A += K 1 + Q u u^T.  */

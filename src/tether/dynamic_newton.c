@@ -14,10 +14,11 @@
 
 enum
 {
-  QUICK = 30,
+  QUICK = 150, /* a front of tension walks along a slack line by some intervals in each */
   TURNING = 2, /* iterations in which the node tangents follow */
   SAFE = 60,
   HALVINGS = 8,
+  PRESSED = 3,  /* iterations more, for the loads */
   SWINGING = 2, /* iterations before an update is held back */
   /* With contacts: a step that needs more is better restarted.  */
   QUICK_TOUCHING = 30,
@@ -30,8 +31,9 @@ enum
 #define LEAST_SHARE 0.3   /* of an update that is held back */
 #define STRIDE 0.3        /* m: what is taken at most of one in the safe way */
 
-/* Take over SHARE of the update: the multipliers and the places.  */
-static void
+/* Take over SHARE of the update: the multipliers and the places.  Nonzero if that hardly changed
+   what presses.  */
+static int
 take (bt__dynamic_work *w, double share)
 {
   bt_vec3 before = w->d[0];
@@ -46,8 +48,7 @@ take (bt__dynamic_work *w, double share)
       w->X[j + 1] = bt__axpy (w->X[j + 1], share, after);
       before = after;
     }
-  if (bt__dynamic_touches (w))
-    bt__dynamic_contact_take (w, share);
+  return !bt__dynamic_touches (w) || bt__dynamic_contact_take (w, share);
 }
 
 static void
@@ -73,7 +74,10 @@ calm (bt__dynamic_work *w, double share)
   return size > 0 ? fmin (fmax (-share * along / size, LEAST_SHARE), 1) : 1;
 }
 
-/* Among contacts tension walks along a slack line an interval at a time, each time by less: what is
+/* Contacts are stiff: places that are solved for may press with too much, and a line that lies be
+   thrown up in every step, unless the loads are too; but they need not settle at all costs.
+
+   Among contacts tension walks along a slack line an interval at a time, each time by less: what is
    left of that is taken for solved.  */
 static int
 quick (bt__dynamic_work *w, bt__dynamic_report *report)
@@ -81,6 +85,7 @@ quick (bt__dynamic_work *w, bt__dynamic_report *report)
   int touches = bt__dynamic_touches (w), last = touches ? QUICK_TOUCHING : QUICK;
   double lost = touches ? LOST_TOUCHING : LOST / 1e-5 * w->tolerance;
   double share = 1;
+  int pressed = 0;
   for (int i = 0; i < last; i++)
     {
       int changed = bt__dynamic_assemble (w, i < TURNING ? BT__QUICK : BT__FROZEN);
@@ -96,8 +101,10 @@ quick (bt__dynamic_work *w, bt__dynamic_report *report)
           share = i < SWINGING ? 1 : calm (w, share);
           memcpy (w->last, w->d, (size_t)(w->n + 1) * sizeof *w->d);
         }
-      take (w, share);
-      if (most <= w->tolerance && (i == 0 || !changed))
+      int settled = take (w, share);
+      if (!(most <= w->tolerance && (i == 0 || !changed)))
+        continue;
+      if (settled || ++pressed > PRESSED)
         return 1;
     }
   return touches && report->update <= FRONT;

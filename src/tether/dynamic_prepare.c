@@ -6,7 +6,6 @@
 
 #include "tether/dynamic_kernel.h"
 
-#define STIFFEST 1e9       /* N: what a line that cannot stretch is given */
 #define SLACK 1e-5         /* of EA: what resists a change of length in a step, ... */
 #define SLACK_INERTIA 0.05 /* ... and at most this of the inertia that does */
 
@@ -166,11 +165,11 @@ bt__dynamic_prepare (bt__dynamic_work *w, const bt__dynamic *d, const bt__dynami
   double half = 0.5 * in->water->density * p->diameter;
   w->in = in;
   w->stiffen = 0;
-  w->rows = 0;
+  w->rows = w->pairs = 0;
   w->hold = NULL;
   w->bents = 0;
   w->n = (int)d->n;
-  w->ea = fmin (p->ea, STIFFEST);
+  w->ea = bt__stiffness (p->ea);
   w->kn = half * p->cdn;
   w->kt = half * BT__PI * p->cdt;
   w->m = p->mass;

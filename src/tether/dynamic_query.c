@@ -24,6 +24,78 @@ bt__dynamic_stray (const bt_vec3 *a, const bt_vec3 *b, int n)
   return 1.7320508075688774 * fmax (last, fmax (most[0], most[1]));
 }
 
+/* The differences from B of two nodes in a row: x y, z x, y z.  */
+typedef struct twin
+{
+  bt__pair p, q, r;
+} twin;
+
+static BT__HOT twin
+twin_of (const bt_vec3 *a, const bt_vec3 *b)
+{
+  bt__pair p = { a[0].x, a[0].y }, q = { a[0].z, a[1].x }, r = { a[1].y, a[1].z };
+  bt__pair s = { b[0].x, b[0].y }, t = { b[0].z, b[1].x }, u = { b[1].y, b[1].z };
+  return (twin){ p - s, q - t, r - u };
+}
+
+/* The largest x, y and z of a twin.  */
+static bt_vec3
+largest_of (const twin *t)
+{
+  return bt__vec (fmax (t->p[0], t->q[1]), fmax (t->p[1], t->r[0]), fmax (t->q[0], t->r[1]));
+}
+
+static bt_vec3
+higher_of (bt_vec3 a, bt_vec3 b)
+{
+  return bt__vec (fmax (a.x, b.x), fmax (a.y, b.y), fmax (a.z, b.z));
+}
+
+static bt_vec3
+absolute (bt_vec3 a)
+{
+  return bt__vec (fabs (a.x), fabs (a.y), fabs (a.z));
+}
+
+void
+bt__dynamic_drifted (const bt_vec3 *a, const bt_vec3 *b, int n, bt__dynamic_drift *drift)
+{
+  bt_vec3 d = bt__sub (a[0], b[0]), turn = { 0, 0, 0 };
+  twin lo = { { d.x, d.y }, { d.z, d.x }, { d.y, d.z } }, hi = lo, most = { 0 };
+  int i = 0;
+  if (n >= 4)
+    {
+      twin now = twin_of (a, b);
+      for (; i + 3 < n; i += 2)
+        {
+          twin next = twin_of (a + i + 2, b + i + 2);
+          bt__pair s = { now.q[1], now.r[0] }, t = { now.r[1], next.p[0] },
+                   u = { next.p[1], next.q[0] };
+          most.p = bt__pair_max (most.p, bt__pair_abs (s - now.p));
+          most.q = bt__pair_max (most.q, bt__pair_abs (t - now.q));
+          most.r = bt__pair_max (most.r, bt__pair_abs (u - now.r));
+          lo = (twin){ bt__pair_min (lo.p, now.p), bt__pair_min (lo.q, now.q),
+                       bt__pair_min (lo.r, now.r) };
+          hi = (twin){ bt__pair_max (hi.p, now.p), bt__pair_max (hi.q, now.q),
+                       bt__pair_max (hi.r, now.r) };
+          now = next;
+        }
+    }
+  lo = (twin){ -lo.p, -lo.q, -lo.r };
+  bt_vec3 top = largest_of (&hi), bottom = largest_of (&lo);
+  turn = largest_of (&most);
+  for (bt_vec3 before = bt__sub (a[i], b[i]); i < n; i++)
+    {
+      d = bt__sub (a[i], b[i]);
+      turn = higher_of (turn, absolute (bt__sub (d, before)));
+      top = higher_of (top, d);
+      bottom = higher_of (bottom, bt__scale (-1, d));
+      before = d;
+    }
+  drift->turned = bt__norm (turn);
+  drift->apart = bt__norm (bt__add (top, bottom));
+}
+
 /* The value of the node array A at U metres of rest length, by the cubic through the four nodes
    about it (fewer if there are fewer).  */
 static bt_vec3
@@ -74,43 +146,6 @@ bt__dynamic_node_tension (const bt__dynamic *d, int i)
   if (i <= 0 || i >= d->n)
     return bt__norm (d->pull[i > 0]);
   return (t[i - 1] * rest[i] + t[i] * rest[i - 1]) / (rest[i - 1] + rest[i]);
-}
-
-static double
-bending_energy (const bt__dynamic *d, double ei)
-{
-  const bt_vec3 *x = bt__dynamic_x (d);
-  const double *rest = bt__dynamic_rest (d);
-  double sum = 0;
-  for (int i = 1; i < d->n && ei > 0; i++)
-    {
-      bt_vec3 a = bt__scale (1 / rest[i - 1], bt__sub (x[i], x[i - 1])),
-              b = bt__scale (1 / rest[i], bt__sub (x[i + 1], x[i])), turn = bt__sub (b, a);
-      sum += ei * bt__dot (turn, turn) / (rest[i - 1] + rest[i]);
-    }
-  return sum;
-}
-
-bt__dynamic_energy
-bt__dynamic_energies (const bt__dynamic *d, const bt__dynamic_input *in)
-{
-  const bt_vec3 *x = bt__dynamic_x (d), *v = bt__dynamic_v (d);
-  const double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d);
-  const bt_tether_props *p = in->line;
-  double ma = in->water->density * p->ca * BT__PI * p->diameter * p->diameter / 4;
-  bt__dynamic_energy sum = { 0, 0, 0, bending_energy (d, p->ei) };
-  for (int i = 0; i <= d->n; i++)
-    {
-      double cell = 0.5 * ((i ? rest[i - 1] : 0) + (i < d->n ? rest[i] : 0));
-      bt_vec3 tau = bt__sub (x[i < d->n ? i + 1 : i], x[i ? i - 1 : i]);
-      double along = bt__dot (v[i], bt__unit_or (tau, bt__vec (0, 0, -1)));
-      sum.kinetic += 0.5 * cell * ((p->mass + ma) * bt__dot (v[i], v[i]) - ma * along * along);
-      sum.gravity += p->wet_weight * cell * x[i].z;
-    }
-  for (int j = 0; j < d->n; j++)
-    if (e[j] > 1 && isfinite (p->ea))
-      sum.strain += 0.5 * p->ea * rest[j] * (e[j] - 1) * (e[j] - 1);
-  return sum;
 }
 
 /* The difference between the arc and the chord of interval J, along and across: minus a 24th of the

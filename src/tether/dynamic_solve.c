@@ -362,5 +362,7 @@ solve (bt__dynamic_work *w)
 double
 bt__dynamic_solve (bt__dynamic_work *w)
 {
-  return w->bents > 0 && w->bordered ? bt__dynamic_bent_solve (w, solve) : solve (w);
+  if (w->bents > 0 && w->bordered)
+    return bt__dynamic_bent_solve (w, solve);
+  return w->pairs > 0 ? bt__dynamic_pair_solve (w, solve) : solve (w);
 }

@@ -90,6 +90,47 @@ bt_tether_contacts (const bt_dive *dive, int i, bt_contact *contacts, int max)
   return n;
 }
 
+/* ---- Wear ---- */
+
+/* Metres of rest length between the far end and S metres from the anchor.  */
+static double
+from_far_end (const bt_dive *dive, int i, double s)
+{
+  const bt__tether *tether = bt__dive_tether (dive, dive->now, i);
+  double far = tether->parted ? bt__dynamic_length (bt__dive_chain (dive, dive->now, i, 1)) : 0;
+  return far + tether->length - s;
+}
+
+bt_status
+bt_tether_wear (const bt_dive *dive, int i, double *share, bt_error *error)
+{
+  bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
+  const bt__tether *tether;
+  if (status != BT_OK)
+    return status;
+  tether = bt__dive_tether (dive, dive->now, i);
+  *share = tether->wear / tether->props.wear_energy;
+  return BT_OK;
+}
+
+bt_status
+bt_tether_wear_at (const bt_dive *dive, int i, double s, double *share, bt_error *error)
+{
+  bt_vec3 unused;
+  bt_status status = bt_tether_point (dive, i, s, &unused, error);
+  const bt__tether *tether;
+  if (status != BT_OK)
+    return status;
+  tether = bt__dive_tether (dive, dive->now, i);
+  *share = 0;
+  if (tether->wear != 0)
+    {
+      bt__wear wear = bt__dive_wear (dive, dive->now, i);
+      *share = bt__wear_at (&wear, from_far_end (dive, i, s)) / tether->props.wear_energy;
+    }
+  return BT_OK;
+}
+
 /* ---- Segments ---- */
 
 static int

@@ -10,8 +10,8 @@
 #include "world/layout.h"
 #include "world/watch.h"
 
-/* The first bytes of a state: layout version 4.  */
-static const uint64_t magic = 0x3154484749420004ULL;
+/* The first bytes of a state: layout version 5.  */
+static const uint64_t magic = 0x3154484749420005ULL;
 
 double
 bt__state_time (const bt__state *state)
@@ -93,12 +93,15 @@ make_shore (bt_dive *dive, bt_error *error)
   shore->course = calloc ((size_t)model->n_carried + 1, sizeof *shore->course);
   shore->pin = calloc ((size_t)model->n_vehicles + 1, sizeof *shore->pin);
   shore->line = bt__line_work_new (chain + 1);
+  shore->strand = calloc (2 * (size_t)model->n_tethers + 1, sizeof *shore->strand);
+  shore->order = calloc ((size_t)model->n_tethers + 1, sizeof *shore->order);
+  shore->place = calloc ((size_t)model->n_tethers + 1, sizeof *shore->place);
   shore->line_of = -1;
   shore->safe_of = -1;
   shore->node = calloc ((size_t)chain + 1, sizeof *shore->node);
   shore->share = calloc ((size_t)chain + 1, sizeof *shore->share);
-  if (!shore->mover || !shore->course || !shore->pin || !shore->line || !shore->node
-      || !shore->share)
+  if (!shore->mover || !shore->course || !shore->pin || !shore->line || !shore->strand
+      || !shore->order || !shore->place || !shore->node || !shore->share)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the obstacles of a dive");
   status = bt__polyline_work_new ((uint32_t)room + 1, (uint32_t)model->n_carried, &shore->polyline,
                                   error);
@@ -112,6 +115,9 @@ free_shore (bt__shore *shore)
   free (shore->mover);
   free (shore->course);
   free (shore->pin);
+  free (shore->strand);
+  free (shore->order);
+  free (shore->place);
   free (shore->node);
   free (shore->share);
   bt__line_work_free (shore->line);
@@ -321,7 +327,10 @@ bt_dive_count (const bt_dive *dive, bt_part part)
 const char *
 bt_dive_name (const bt_dive *dive, bt_part part, int i)
 {
-  if (i < 0 || i >= bt_dive_count (dive, part))
+  int n = bt_dive_count (dive, part);
+  if (part == BT_PART_OBSTACLE && i >= n)
+    return bt_dive_name (dive, BT_PART_TETHER, i - n);
+  if (i < 0 || i >= n)
     return NULL;
   if (part == BT_PART_SEA)
     return "sea";

@@ -12,6 +12,7 @@
 #include "contact/held.h"
 #include "contact/line.h"
 #include "contact/thesis.h"
+#include "contact/wear.h"
 #include "model/model.h"
 #include "tether/dynamic.h"
 #include "world/state.h"
@@ -71,7 +72,9 @@ typedef struct bt__shore
   int disagree; /* a mover was held back after somebody had gone by its whole way */
   bt__pin *pin; /* of each vehicle */
   bt__line_work *line;
-  int line_of; /* the line it knows: twice the tether and the part */
+  int *order, *place; /* of tethers: which steps when, and when which steps */
+  bt__strand *strand; /* room for both parts of every tether */
+  int line_of;        /* the line it knows: twice the tether and the part */
   bt__safe *safe;
   int safe_of;   /* the tether it knows */
   bt_vec3 *node; /* room for a chain, and a share of its length for each interval */
@@ -120,8 +123,10 @@ bt_vec3 *bt__dive_nodes (const bt_dive *dive, bt__state *state, int tether);
 bt_vec3 *bt__dive_tensions (const bt_dive *dive, bt__state *state, int tether);
 /* The chain of a moving tether: PART 0 at the anchor, 1 at the far end once the line has parted. */
 bt__dynamic *bt__dive_chain (const bt_dive *dive, bt__state *state, int tether, int part);
-/* Among obstacles: what that part touches; the static tether as a thesis line; as a held one.  */
+/* Among obstacles: what that part touches; how its jacket is worn; the static tether as a thesis
+   line; as a held one.  */
 bt__anchors *bt__dive_anchors (const bt_dive *dive, bt__state *state, int tether, int part);
+bt__wear bt__dive_wear (const bt_dive *dive, bt__state *state, int tether);
 bt__thesis *bt__dive_thesis (const bt_dive *dive, bt__state *state, int tether);
 bt__polyline *bt__dive_held (const bt_dive *dive, bt__state *state, int tether);
 /* The most nodes that a polyline of TETHER may have.  */

@@ -73,6 +73,8 @@ bt_event_name (bt_event_kind kind)
       return "pinched";
     case BT_EVENT_PROP_DANGER:
       return "prop-danger";
+    case BT_EVENT_WORN:
+      return "worn";
     }
   return NULL;
 }

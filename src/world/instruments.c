@@ -114,6 +114,50 @@ bt_dive_thrusts (const bt_dive *dive, int i, double *thrust)
   return n;
 }
 
+/* ---- Transponders ---- */
+
+/* Beyond the channels of a vehicle's own instruments and of its sonar.  */
+#define TRANSPONDERS ((int64_t)1 << 32)
+
+static int64_t
+seed_of (const bt_dive *dive, int tether)
+{
+  for (int k = 1; k >= 0; k--)
+    {
+      int vehicle = dive->model->ends[tether][k].vehicle;
+      if (vehicle >= 0)
+        return bt__dive_vehicle (dive, dive->now, vehicle)->instruments.seed;
+    }
+  return 1;
+}
+
+bt_status
+bt_dive_transponders (const bt_dive *dive, int i, int n, double sigma, bt_vec3 *points,
+                      bt_error *error)
+{
+  bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
+  int64_t seed, first = (i + 1) * TRANSPONDERS, step = dive->now->step;
+  if (status != BT_OK)
+    return status;
+  if (n < 2 || !(sigma >= 0 && isfinite (sigma)))
+    return bt__fail (error, BT_ERR_DOMAIN,
+                     "%d transponders with a noise of %g m; two or more, and 0 m or more, are "
+                     "allowed",
+                     n, sigma);
+  status = bt_tether_points (dive, i, n, points, error);
+  if (status != BT_OK || sigma == 0)
+    return status;
+  seed = seed_of (dive, i);
+  for (int64_t k = 0; k < n; k++)
+    {
+      int64_t channel = first + 3 * k;
+      bt_vec3 off = { bt__noise (seed, step, channel), bt__noise (seed, step, channel + 1),
+                      bt__noise (seed, step, channel + 2) };
+      points[k] = bt__axpy (points[k], sigma, off);
+    }
+  return BT_OK;
+}
+
 /* ---- Sonar ---- */
 
 static bt_vec3

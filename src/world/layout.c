@@ -85,13 +85,26 @@ drape_size (const bt_model *model, const bt_tether_def *tether)
   return spans > held ? spans : held;
 }
 
+/* Where its shape, still or moving, ends and its wear begins.  */
+static size_t
+shape_size (const bt_model *model, const bt_tether_def *tether)
+{
+  size_t still = arrays_size (tether) + drape_size (model, tether);
+  size_t moving = 2 * part_size (model, tether);
+  return still > moving ? still : moving;
+}
+
+static size_t
+wear_size (const bt_tether_def *tether)
+{
+  return sizeof (double) * (size_t)bt__wear_spots (tether->length);
+}
+
 size_t
 bt__store_size (const bt_model *model, int i)
 {
   const bt_tether_def *tether = &model->tethers[i];
-  size_t still = arrays_size (tether) + drape_size (model, tether);
-  size_t moving = 2 * part_size (model, tether);
-  return still > moving ? still : moving;
+  return shape_size (model, tether) + (model->n_obstacles > 0 ? wear_size (tether) : 0);
 }
 
 size_t
@@ -158,6 +171,15 @@ bt__dive_anchors (const bt_dive *dive, bt__state *state, int i, int part)
   return (bt__anchors *)(void *)(chain + chain_size (&dive->model->tethers[i]));
 }
 
+bt__wear
+bt__dive_wear (const bt_dive *dive, bt__state *state, int i)
+{
+  const bt_tether_def *tether = &dive->model->tethers[i];
+  char *at = store_of (dive, state, i) + shape_size (dive->model, tether);
+  return (bt__wear){ (double *)(void *)at, bt__wear_spots (tether->length),
+                     bt__wear_width (tether->length) };
+}
+
 bt__thesis *
 bt__dive_thesis (const bt_dive *dive, bt__state *state, int i)
 {
@@ -179,7 +201,7 @@ typedef struct extent
 
 enum
 {
-  EXTENTS = 4
+  EXTENTS = 5
 };
 
 static int
@@ -219,10 +241,13 @@ static int
 live_extents (const bt_dive *dive, const bt__state *state, int i, extent *out)
 {
   const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
-  size_t arrays = arrays_size (&dive->model->tethers[i]);
+  const bt_tether_def *def = &dive->model->tethers[i];
+  size_t arrays = arrays_size (def);
   int n = 0;
+  if (tether->wear != 0)
+    out[n++] = (extent){ shape_size (dive->model, def), wear_size (def) };
   if (tether->shape.form == BT__FORM_CHAIN)
-    return chain_extents (dive, state, i, out);
+    return n + chain_extents (dive, state, i, out + n);
   if (tether->shape.form == BT__FORM_NODES)
     out[n++] = (extent){ 0, arrays };
   if (tether->drape)

@@ -19,10 +19,16 @@ enum
 /* ---- Layout: movers, roughness, then for each vehicle and each tether its subject and bytes ----
  */
 
+int
+bt__objects (const bt_model *model)
+{
+  return model->n_obstacles + model->n_tethers;
+}
+
 static size_t
 off_size (const bt_model *model)
 {
-  return ((size_t)model->n_obstacles + 7) / 8 * 8;
+  return ((size_t)bt__objects (model) + 7) / 8 * 8;
 }
 
 static size_t
@@ -100,6 +106,8 @@ bt__obstacles_init (const bt_dive *dive, bt__state *state)
 int
 bt__obstacle_slot (const bt_model *model, int obstacle)
 {
+  if (obstacle >= model->n_obstacles)
+    return obstacle;
   int where = model->where[obstacle];
   return where >= 0 ? where : model->n_obstacles - model->n_carried + (-1 - where);
 }
@@ -110,14 +118,13 @@ bt__switch_pair (const bt_dive *dive, bt__state *state, bt_part part, int i, int
   const bt_model *model = dive->model;
   bt__subject *subject = bt__dive_subject (dive, state, part, i);
   uint8_t *off = bt__dive_off (dive, state, part, i);
+  size_t n = (size_t)bt__objects (model);
   if (obstacle < 0)
-    memset (off, !on, (size_t)model->n_obstacles);
+    memset (off, !on, n);
   else
     off[bt__obstacle_slot (model, obstacle)] = (uint8_t)!on;
   /* Equal bytes, equal versions: whoever keeps what it knows of a scene goes by it.  */
-  subject->version = memchr (off, 1, (size_t)model->n_obstacles)
-                         ? bt__hash (off, (size_t)model->n_obstacles, 1) | 1
-                         : 0;
+  subject->version = memchr (off, 1, n) ? bt__hash (off, n, 1) | 1 : 0;
 }
 
 /* ---- Surroundings ---- */

@@ -20,11 +20,14 @@ bt__mover_state *bt__dive_movers (const bt_dive *dive, bt__state *state);
 /* Coulomb's coefficient of each obstacle; NaN: the tether's own.  */
 double *bt__dive_roughness (const bt_dive *dive, bt__state *state);
 
+/* What a tether may touch: the obstacles by their numbers, then the tethers, itself among them.  */
+int bt__objects (const bt_model *model);
+
 /* Where OBSTACLE stands among the bytes below: those in the scene by their place there, then those
-   carried.  */
+   carried, then tethers.  */
 int bt__obstacle_slot (const bt_model *model, int obstacle);
 
-/* The I-th vehicle or tether, by PART, and its byte for each obstacle, by slot.  */
+/* The I-th vehicle or tether, by PART, and its byte for each object, by slot.  */
 bt__subject *bt__dive_subject (const bt_dive *dive, bt__state *state, bt_part part, int i);
 uint8_t *bt__dive_off (const bt_dive *dive, bt__state *state, bt_part part, int i);
 
@@ -37,7 +40,8 @@ bt__surroundings bt__standing (const bt_dive *dive, bt__state *state, bt_part pa
  */
 double bt__dive_altitude (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 p);
 
-/* Switch the pair of a subject and OBSTACLE, or with OBSTACLE -1 all of its pairs, on or off.  */
+/* Switch the pair of a subject and the object OBSTACLE, or with OBSTACLE -1 all of its pairs, on or
+   off.  */
 void bt__switch_pair (const bt_dive *dive, bt__state *state, bt_part part, int i, int obstacle,
                       int on);
 

@@ -63,6 +63,7 @@ bt_dive_vehicle (const bt_dive *dive, int i, bt_vehicle_view *view, bt_error *er
   *view = (bt_vehicle_view){ .position = v->position,
                              .velocity = v->velocity,
                              .attachment = bt__attachment (dive, dive->now, i),
+                             .size = dive->model->vehicles[i].size,
                              .heading = heading < 0 ? heading + 2 * BT__PI : heading,
                              .pitch = v->pitch,
                              .roll = v->roll,

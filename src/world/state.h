@@ -3,8 +3,8 @@
 
    One block: the head, the vehicles, the tethers; in a world with obstacles the movers, the
    friction of every obstacle and who meets what; then a store for each tether: its node arrays, or
-   its chain and, once it has parted, the chain of the other part, and what it touches.  Of a store
-   only what is live is copied, hashed or looked at.
+   its chain and, once it has parted, the chain of the other part, and what it touches; in a world
+   with obstacles then its wear.  Of a store only what is live is copied, hashed or looked at.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -92,6 +92,8 @@ typedef struct bt__tether
   int64_t relaid;  /* it was laid anew, straight */
   int64_t drape;   /* bt__drape: what its store holds besides, in a world with obstacles */
   int64_t blocked; /* an obstacle holds a static line off its shape */
+  double wear;     /* J/m: the most of any spot; 0: its spots are not in use */
+  int64_t worn;    /* that has reached the limit */
   bt__shape shape;
   bt__shape_memory memory;
 } bt__tether;
@@ -133,7 +135,8 @@ typedef struct bt__meeting
   int64_t last;   /* the step */
 } bt__meeting;
 
-/* A vehicle or a tether among obstacles; behind it a byte for each of them, nonzero: the pair is
+/* A vehicle or a tether among obstacles; behind it a byte for each of them
+   and each tether, nonzero: the pair is
    switched off.  */
 typedef struct bt__subject
 {

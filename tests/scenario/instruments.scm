@@ -120,3 +120,25 @@ as before."
   (drive! #:surge -0.4)
   (run 12)
   (expect (assq 'prop-danger (events))))
+
+(define-scenario transponders-along-the-tether
+  "An instrumented tether shows its shape with the noise it was given: the same again from the same seed, new
+at every step; so a model can be held against it."
+  (in (with (basin) (minnow (seed 7))))
+  (drive! #:surge 0.3)
+  (run 5)
+  (expect (deviation-max (deviation (transponders 20))) is (below 1e-12))
+  (expect (equal? (transponders 20) (tether-points 20)))
+  (expect (deviation-rms (deviation (transponders 2000 #:noise 0.02)))
+          is (about (* (sqrt 3) 0.02) #:within 1e-3))
+  (let ((start (checkpoint))
+        (read-all (lambda () (map (lambda (i) (step!) (transponders 5 #:noise 0.1)) (iota 10)))))
+    (let ((once (read-all)))
+      (expect (equal? (first once) (cadr once)) => #f)
+      (restore! start)
+      (expect (equal? once (read-all)))))
+  (let ((measured (transponders 20 #:noise 0.02)))
+    (tether-model! 'rubber-band)
+    (expect (deviation-rms (deviation measured)) is (above 0.1)))
+  (expect (transponders 1) raises domain)
+  (expect (transponders 5 #:noise -1) raises domain))

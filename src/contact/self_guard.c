@@ -1,0 +1,261 @@
+/* A line does not pass through itself, nor through another.
+
+   Two links, all of whose ends go straight, are cast against each other as a link and an obstacle
+   are: they may come nearer by no more than their ends' moves differ, whatever they have in common;
+   and as long as the ends of the one stay on their side of the plane through the nearest places,
+   and those of the other on theirs, they do not meet.  The rest is a work list as that of the safe
+   step: what a pair may not do is cut from the moves of its four ends, and every pair of these is
+   asked again.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "contact/line_job.h"
+
+enum
+{
+  STEPS_MAX = 200,
+  SWEEPS_SOFT = 20,
+  SWEEPS_HARD = 60
+};
+
+#define SAFETY 0.9
+#define NEAR 0.02  /* of the floor: near enough to stop */
+#define FLOOR 1e-4 /* of the floor: nearer than this nothing comes nearer */
+
+/* ---- The cast ---- */
+
+/* Two links, the moves of their ends, and how near they may come.  */
+typedef struct meeting
+{
+  bt__link a, b;
+  bt_vec3 da[2], db[2];
+  double floor;
+  bt__witness w; /* of A against B, at the start; then where it ends */
+} meeting;
+
+static bt__link
+moved (const bt__link *link, const bt_vec3 d[2], double t)
+{
+  return (bt__link){ bt__axpy (link->a, t, d[0]), bt__axpy (link->b, t, d[1]) };
+}
+
+/* The most that an end of the one moves against one of the other.  */
+static double
+speed_of (const meeting *m)
+{
+  double most = 0;
+  for (int i = 0; i < 4; i++)
+    {
+      bt_vec3 d = bt__sub (m->da[i & 1], m->db[i >> 1]);
+      most = fmax (most, bt__dot (d, d));
+    }
+  return sqrt (most);
+}
+
+/* With the links at A and B: the share of the move that keeps either on its side of the plane
+   between them; INFINITY if they stay there for all of what is LEFT.  */
+static double
+planar (const meeting *m, const bt__link *a, const bt__link *b, double left)
+{
+  double best = INFINITY;
+  bt_vec3 n = m->w.normal;
+  for (int i = 0; i < 4; i++)
+    {
+      bt_vec3 p = i & 1 ? a->b : a->a, q = i >> 1 ? b->b : b->a;
+      double v = bt__dot (n, bt__sub (m->da[i & 1], m->db[i >> 1]));
+      double g = bt__dot (n, bt__sub (p, q)) - m->floor;
+      if (v >= 0 || g + v * left >= 0)
+        continue;
+      best = fmin (best, g > FLOOR * m->floor ? SAFETY * g / -v : 0);
+    }
+  return best;
+}
+
+/* The largest share of the move that is known to be safe, 1 if all of it is.  */
+static double
+run (meeting *m, bt__count *count)
+{
+  double speed = speed_of (m), t = 0;
+  if (m->floor == 0 || m->w.distance - m->floor > speed)
+    return 1;
+  count->casts++;
+  for (int i = 0; i < STEPS_MAX; i++)
+    {
+      double gap = m->w.distance - m->floor;
+      bt__link a = moved (&m->a, m->da, t), b = moved (&m->b, m->db, t);
+      if (i > 0 && gap < NEAR * m->floor)
+        return t;
+      double step = gap > FLOOR * m->floor ? SAFETY * gap / speed : 0;
+      step = fmax (step, planar (m, &a, &b, 1 - t));
+      if (!(step > 0))
+        return t;
+      if (t + step >= 1)
+        return 1;
+      t += step;
+      a = moved (&m->a, m->da, t);
+      b = moved (&m->b, m->db, t);
+      m->w = bt__self_witness (&a, &b);
+      count->cast_steps++;
+    }
+  return t;
+}
+
+/* Pair P, of whose nodes I takes the share SHARE[I] of its move; NULL: all.  */
+static meeting
+meeting_of (const bt__line_job *k, const bt__self_pair *p, const double *share)
+{
+  meeting m = {
+    .a = bt__self_first (k->x, p), .b = bt__self_second (k, k->x, p), .floor = p->floor, .w = p->w
+  };
+  for (int e = 0; e < 2; e++)
+    {
+      uint32_t i = p->i + (uint32_t)e, j = p->j + (uint32_t)e;
+      m.da[e] = bt__scale (share ? share[i] : 1, bt__sub (k->X[i], k->x[i]));
+      if (p->strand < 0)
+        m.db[e] = bt__scale (share ? share[j] : 1, bt__sub (k->X[j], k->x[j]));
+    }
+  return m;
+}
+
+/* ---- Hits ---- */
+
+int
+bt__self_hits (bt__line_job *k, int add)
+{
+  int hits = 0;
+  for (int n = 0; n < k->w->self.pairs; n++)
+    {
+      const bt__self_pair *p = k->w->self.pair + n;
+      meeting m = meeting_of (k, p, NULL);
+      double t = run (&m, k->count);
+      if (t >= 1)
+        continue;
+      hits++;
+      if (!add)
+        return hits;
+      bt__self_add_hit (k, p, &m.w, t);
+    }
+  return hits;
+}
+
+/* ---- Truncation ---- */
+
+static void
+shrink (double *share, double t)
+{
+  *share *= t;
+  if (*share < 1e-3)
+    *share = 0;
+}
+
+/* Go through all pairs until none objects; the shares only shrink.  */
+static void
+agree (bt__line_job *k, double *share)
+{
+  for (int sweep = 0, cut = 1; cut; sweep++)
+    {
+      cut = 0;
+      for (int n = 0; n < k->w->self.pairs; n++)
+        {
+          const bt__self_pair *p = k->w->self.pair + n;
+          meeting m = meeting_of (k, p, share);
+          double t = run (&m, k->count);
+          if (t >= 1)
+            continue;
+          cut = 1;
+          t = sweep < SWEEPS_SOFT ? t : 0;
+          for (uint32_t e = 0; e < 2; e++)
+            {
+              shrink (share + p->i + e, t);
+              if (p->strand < 0)
+                shrink (share + p->j + e, t);
+            }
+        }
+      if (sweep < SWEEPS_HARD)
+        continue;
+      for (int i = 0; i <= k->links; i++)
+        share[i] = 0;
+      return;
+    }
+}
+
+void
+bt__self_truncate (bt__line_job *k)
+{
+  double *share = k->w->self.reach;
+  if (k->w->self.pairs == 0)
+    return;
+  for (int i = 0; i <= k->links; i++)
+    share[i] = 1;
+  agree (k, share);
+  for (int i = 0; i <= k->links; i++)
+    if (share[i] < 1)
+      k->X[i] = bt__axpy (k->x[i], share[i], bt__sub (k->X[i], k->x[i]));
+}
+
+/* ---- A single node ---- */
+
+/* Nonzero if link J of the line, whose end E goes by MOVE, meets link Q of STRAND.  */
+static int
+meets (bt__line_job *k, uint32_t j, int e, bt_vec3 move, int strand, uint32_t q)
+{
+  const bt_vec3 *x = bt__dynamic_x (k->d);
+  bt__self_pair p
+      = { .i = j < q || strand >= 0 ? j : q, .j = j < q || strand >= 0 ? q : j, .strand = strand };
+  meeting m = { .a = bt__line_link (x, j),
+                .b = bt__self_second (k, x, &(bt__self_pair){ .j = q, .strand = strand }) };
+  m.da[e] = move;
+  m.floor = strand < 0 ? bt__self_floor (k, p.i, p.j) : k->core + k->config->strand[strand].core;
+  m.w = bt__self_witness (&m.a, &m.b);
+  m.floor = bt__self_lowered (m.floor, m.w.distance);
+  return run (&m, k->count) < 1;
+}
+
+int
+bt__self_may_move (bt__line_job *k, int64_t i, bt_vec3 move)
+{
+  if (!bt__self_counts (k))
+    return 1;
+  const double *rest = bt__dynamic_rest (k->d);
+  int n = (int)k->d->n;
+  double *from_end = k->w->from_end;
+  from_end[n] = 0;
+  for (int j = n - 1; j >= 0; j--)
+    from_end[j] = from_end[j + 1] + rest[j];
+  for (int e = 0; e < 2; e++)
+    {
+      int64_t j = i - 1 + e;
+      for (int64_t q = 0; q < n && k->config->itself; q++)
+        if ((q < j - 1 || q > j + 1) && meets (k, (uint32_t)j, !e, move, -1, (uint32_t)q))
+          return 0;
+      for (int s = 0; s < k->config->strands; s++)
+        for (int64_t q = 0; q < k->config->strand[s].line->n; q++)
+          if (meets (k, (uint32_t)j, !e, move, s, (uint32_t)q))
+            return 0;
+    }
+  return 1;
+}
+
+int
+bt__self_is_clear (const bt__line_job *k, int64_t j, double way)
+{
+  const bt_vec3 *x = bt__dynamic_x (k->d);
+  bt__link a = bt__line_link (x, (uint32_t)j), b;
+  for (int64_t q = 0; q < k->d->n && k->config->itself; q++)
+    {
+      b = bt__line_link (x, (uint32_t)q);
+      if ((q < j - 1 || q > j + 1) && bt__self_witness (&a, &b).distance < way + 2 * k->core)
+        return 0;
+    }
+  for (int s = 0; s < k->config->strands; s++)
+    {
+      const bt__strand *o = k->config->strand + s;
+      for (int64_t q = 0; q < o->line->n; q++)
+        {
+          b = bt__line_link (bt__dynamic_x (o->line), (uint32_t)q);
+          if (bt__self_witness (&a, &b).distance < way + k->core + o->core)
+            return 0;
+        }
+    }
+  return 1;
+}

@@ -1,0 +1,285 @@
+/* What keeps two links of a line apart, or a link from another line.
+
+   Of two links that touch, their nearest places push each other: a row of two places, so that force
+   and reaction are one number.
+
+   Another line stands while this one steps.  Were it a wall to each, two lines would press each
+   other with forces that do not know of each other, and each would stop the other for good.  So
+   only the one that steps later keeps out of the gap.  The one before it feels what the other felt
+   in its last step, and more by what the other resists if it is moved: its inertia and its tension
+   at the place.  Where it resists as much as that or less, force and reaction become the same in a
+   few steps, and two lines together are at most as heavy again as the one.
+
+   The half-space is that of the start of the step: where links are expected to be at its end their
+   nearest places may be others, and of two that change by turns a knot would never come to rest.
+
+   Links with little line between them are bent about each other by that; what keeps those apart is
+   not contact.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "contact/line_job.h"
+
+#define APART 4.0     /* radii of line between two links: less, and they do not touch */
+#define RECOVERY 0.2  /* m/s: links that were pressed together part so fast */
+#define STIFF 0.1     /* times EA over a link's length: of a touch, ... */
+#define STIFFEST 1e6  /* N/m: ... at most, but for the load */
+#define YIELD 8.0     /* the part of the way to the core that the load may press them */
+#define ALIKE_HIT 0.7 /* product of the normals: a hit is of the row that is there */
+#define REMEMBER 0.75 /* of a link: the farthest a touch goes along either line in a step */
+#define ALIKE 0.5     /* product of the normals in that */
+
+static double
+radius_of (const bt__line_job *k, const bt__self_pair *p)
+{
+  return p->strand < 0 ? k->config->radius : k->config->strand[p->strand].radius;
+}
+
+/* Metres of rest length to the end of what link J of P is of, from T along it.  */
+static double
+from_end_of (const bt__line_job *k, const bt__self_pair *p, double t)
+{
+  if (p->strand < 0)
+    return (1 - t) * k->w->from_end[p->j] + t * k->w->from_end[p->j + 1];
+  const bt__dynamic *o = k->config->strand[p->strand].line;
+  const double *rest = bt__dynamic_rest (o);
+  double sum = (1 - t) * rest[p->j];
+  for (int64_t q = p->j + 1; q < o->n; q++)
+    sum += rest[q];
+  return sum;
+}
+
+/* Where W's point is along link B.  */
+static double
+share_of (const bt__link *b, bt_vec3 point)
+{
+  bt_vec3 d = bt__sub (b->b, b->a);
+  return bt__share (bt__dot (bt__sub (point, b->a), d), bt__dot (d, d));
+}
+
+/* How another line went in its last step, at T along link J.  */
+static bt_vec3
+drift_of (const bt__line_job *k, const bt__self_pair *p, double t)
+{
+  if (p->strand < 0)
+    return bt__vec (0, 0, 0);
+  const bt_vec3 *dx = bt__dynamic_dx (k->config->strand[p->strand].line) + p->j;
+  return bt__axpy (bt__scale (1 - t, dx[0]), t, dx[1]);
+}
+
+/* ---- Lines that yield ---- */
+
+/* N/m: what line O resists in a step at T along its link J, at most.  A node of a chain that is
+   held by its inertia M and by the tension K of its links yields by 1 / sqrt (M2 + 4 M K); its ends
+   do not.  */
+static double
+resistance_of (const bt__line_job *k, const bt__strand *o, uint32_t j, double t)
+{
+  double rest = bt__dynamic_rest (o->line)[j], rate = 1.5 / k->h;
+  double m = rate * rate * o->inertia * rest;
+  double tension = fmax (bt__dynamic_tension (o->line)[j], 0) / rest;
+  double yield = j > 0 ? (1 - t) * (1 - t) : 0;
+  yield += (int64_t)j + 1 < o->line->n ? t * t : 0;
+  return 2 * sqrt (m * m + 4 * m * tension) / fmax (yield, 1e-9);
+}
+
+/* Nonzero if a row before Q is of anchor I of the same line.  */
+static int
+is_taken (const bt__line_job *k, int q, int64_t i)
+{
+  const bt__line_row *of = k->w->of;
+  for (int p = 0; p < k->rows; p++)
+    if (p != q && of[p].mover == BT__LINE_SELF && of[p].object == of[q].object
+        && of[p].triangle == (uint32_t)i)
+      return 1;
+  return 0;
+}
+
+/* What line O knows of row Q, and no other row has, or -1.  */
+static int64_t
+their_anchor (const bt__line_job *k, const bt__strand *o, int q)
+{
+  const bt__line_row *of = k->w->of + q;
+  const bt__anchor *a = o->anchors ? bt__anchors_at (o->anchors) : NULL;
+  double least = bt__dynamic_rest (k->d)[of->link] + bt__dynamic_rest (o->line)[of->slot];
+  int64_t best = -1;
+  for (int64_t i = 0; a && i < o->anchors->n; i++)
+    {
+      double away = fabs (a[i].from_end - of->other) + fabs (a[i].other - of->from_end);
+      if (a[i].mover != BT__ANCHOR_LINE || a[i].object != k->config->id || !(away < least)
+          || !(bt__dot (a[i].normal, k->w->row[q].normal) < -ALIKE) || is_taken (k, q, i))
+        continue;
+      least = away;
+      best = i;
+    }
+  return best;
+}
+
+/* Let row Q, of a line that yields, feel what that line felt.  */
+static void
+feel (bt__line_job *k, int q)
+{
+  bt__dynamic_row *r = k->w->row + q;
+  bt__line_row *of = k->w->of + q;
+  const bt__strand *o = k->config->strand + of->object - 1;
+  int64_t at = their_anchor (k, o, q);
+  const bt__anchor *a = at < 0 ? NULL : bt__anchors_at (o->anchors) + at;
+  double load = a ? a->load : 0;
+  r->load = load;
+  r->stiffness = fmin (resistance_of (k, o, of->slot, r->t), bt__self_stiffness (k, q));
+  r->friction = bt__self_friction (k, q);
+  r->slip = BT__LINE_SLIP;
+  r->offset += bt__dot (r->normal, r->drift);
+  if (!a)
+    return;
+  const bt_vec3 *x = k->x + r->node;
+  bt_vec3 here = bt__add (bt__axpy (bt__scale (1 - r->s, x[0]), r->s, x[1]), r->drift);
+  bt_vec3 drag = bt__axpy (a->force, -bt__dot (a->force, r->normal), r->normal);
+  of->triangle = (uint32_t)at;
+  r->offset = bt__dot (r->normal, here) + load / r->stiffness;
+  r->slip = fmax (BT__LINE_SLIP, r->friction * load / r->stiffness);
+  r->stick = bt__scale (r->slip / fmax (r->friction * load, 1e-9), drag);
+}
+
+/* ---- Rows ---- */
+
+static void
+set_row (bt__line_job *k, int q, const bt__self_pair *p, const bt__link *second,
+         const bt__witness *w)
+{
+  double t = share_of (second, w->point), whole = k->config->radius + radius_of (k, p);
+  double out = fmin (whole, fmax (p->w.distance, p->floor) + RECOVERY * k->h);
+  double stands = p->strand < 0 ? 0 : bt__dot (w->normal, w->point);
+  int64_t id = p->strand < 0 ? k->config->id : k->config->strand[p->strand].id;
+  k->w->row[q] = (bt__dynamic_row){ .node = p->i,
+                                    .s = w->s,
+                                    .pair = p->strand < 0 ? (int64_t)p->j + 1 : 0,
+                                    .t = t,
+                                    .normal = w->normal,
+                                    .offset = out + stands,
+                                    .drift = drift_of (k, p, t),
+                                    .active = -1 };
+  k->w->of[q] = (bt__line_row){ .link = p->i,
+                                .mover = BT__LINE_SELF,
+                                .object = (uint32_t)(p->strand + 1),
+                                .slot = p->j,
+                                .triangle = BT__NO_TRIANGLE,
+                                .id = id,
+                                .fresh = 1,
+                                .from_end = (1 - w->s) * k->w->from_end[p->i]
+                                            + w->s * k->w->from_end[p->i + 1],
+                                .other = from_end_of (k, p, t),
+                                .point = bt__axpy (w->point, radius_of (k, p), w->normal) };
+  if (p->strand >= 0 && k->config->strand[p->strand].yields)
+    feel (k, q);
+}
+
+void
+bt__self_rows (bt__line_job *k)
+{
+  const bt__self *self = &k->w->self;
+  for (int n = 0; n < self->pairs && k->rows < k->w->rows_max; n++)
+    {
+      const bt__self_pair *p = self->pair + n;
+      double touch = k->config->radius + radius_of (k, p) + k->margin;
+      double way = p->strand < 0 ? k->w->from_end[p->i + 1] - k->w->from_end[p->j] : INFINITY;
+      if (!(p->w.distance < touch) || way < APART * k->config->radius)
+        continue;
+      bt__link second = bt__self_second (k, k->x, p);
+      set_row (k, k->rows++, p, &second, &p->w);
+    }
+}
+
+void
+bt__self_add_hit (bt__line_job *k, const bt__self_pair *p, const bt__witness *w, double t)
+{
+  int at = 0;
+  for (; at < k->rows; at++)
+    {
+      const bt__line_row *of = k->w->of + at;
+      if (of->mover == BT__LINE_SELF && of->link == p->i && of->slot == p->j
+          && of->object == (uint32_t)(p->strand + 1)
+          && bt__dot (k->w->row[at].normal, w->normal) > ALIKE_HIT)
+        break;
+    }
+  if (at >= k->w->rows_max)
+    return;
+  bt__link a = bt__self_second (k, k->x, p), b = bt__self_second (k, k->X, p);
+  bt__link second
+      = { bt__axpy (a.a, t, bt__sub (b.a, a.a)), bt__axpy (a.b, t, bt__sub (b.b, a.b)) };
+  set_row (k, at, p, &second, w);
+  k->rows += at == k->rows;
+}
+
+bt_vec3
+bt__self_move (const bt__line_job *k, const bt__dynamic_row *r)
+{
+  const bt_vec3 *x = k->x + r->node, *X = k->X + r->node;
+  bt_vec3 a = bt__sub (X[0], x[0]), b = bt__sub (X[1], x[1]);
+  bt_vec3 d = bt__sub (bt__axpy (bt__scale (1 - r->s, a), r->s, b), r->drift);
+  if (r->pair == 0)
+    return d;
+  x = k->x + r->pair - 1;
+  X = k->X + r->pair - 1;
+  a = bt__sub (X[0], x[0]);
+  b = bt__sub (X[1], x[1]);
+  return bt__sub (d, bt__axpy (bt__scale (1 - r->t, a), r->t, b));
+}
+
+/* ---- What lasts ---- */
+
+int
+bt__self_anchor (const bt__line_job *k, int i)
+{
+  const bt__dynamic_row *r = k->w->row + i;
+  const bt__line_row *of = k->w->of + i;
+  double reach = REMEMBER * bt__dynamic_rest (k->d)[r->node], least = 2 * reach;
+  int best = -1;
+  for (int q = 0; q < k->olds; q++)
+    {
+      const bt__anchor *a = k->w->old + q;
+      if (a->mover != BT__ANCHOR_LINE || a->object != of->id || a->state < 0)
+        continue;
+      double away = fabs (a->from_end - of->from_end) + fabs (a->other - of->other);
+      if (away < least && bt__dot (a->normal, r->normal) > ALIKE)
+        {
+          best = q;
+          least = away;
+        }
+    }
+  return best;
+}
+
+double
+bt__self_friction (const bt__line_job *k, int i)
+{
+  uint32_t strand = k->w->of[i].object;
+  double own = k->config->friction;
+  return strand ? 0.5 * (own + k->config->strand[strand - 1].friction) : own;
+}
+
+double
+bt__self_stiffness (const bt__line_job *k, int i)
+{
+  const bt__dynamic_row *r = k->w->row + i;
+  uint32_t strand = k->w->of[i].object;
+  const bt__strand *o = strand ? k->config->strand + strand - 1 : NULL;
+  double way
+      = o ? k->config->radius + o->radius - k->core - o->core : 2 * (k->config->radius - k->core);
+  double stiff = fmin (STIFF * k->in.line->ea / bt__dynamic_rest (k->d)[r->node], STIFFEST);
+  return fmax (stiff, YIELD * r->load / way);
+}
+
+bt__anchor
+bt__self_reaction (const bt__line_job *k, int i, const bt__anchor *a)
+{
+  bt__anchor b = *a;
+  b.from_end = a->other;
+  b.other = a->from_end;
+  b.point = bt__axpy (a->point, -2 * k->config->radius, a->normal);
+  b.normal = bt__scale (-1, a->normal);
+  b.force = bt__scale (-1, a->force);
+  b.stick = bt__scale (-1, a->stick);
+  (void)i;
+  return b;
+}

@@ -1,0 +1,164 @@
+/* The moving line: its energies, and the watch over those of a line alone.
+
+   Without water, winch and moving ends nothing can give a line energy.  Backward Euler takes some
+   from it in every step, its equations being those of a potential that is convex.  The second-order
+   differences keep more, but may give where a line runs taut; so a step that would leave it more
+   than it began with alone, is taken by backward Euler.  Where that gives too, because the step was
+   not solved or bending was held in it, the velocities are slowed down by as much.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "tether/dynamic_kernel.h"
+
+#define NOTHING 1e-12 /* of what moves, is strained and can fall: no gain */
+
+/* What interval J stores at the stretch E: a line under bending is also pushed together, by THRUST
+   at the most.  */
+static double
+strain_energy (double ea, double rest, double e, double thrust)
+{
+  double over = e - 1, yield = thrust / ea;
+  if (over >= -yield)
+    return over > 0 || thrust > 0 ? 0.5 * ea * rest * over * over : 0;
+  return thrust * rest * (-over - 0.5 * yield);
+}
+
+static double
+bending_energy (const bt_vec3 *x, const double *rest, int n, double ei)
+{
+  double sum = 0;
+  for (int i = 1; i < n && ei > 0; i++)
+    {
+      double cell = 0.5 * (rest[i - 1] + rest[i]);
+      sum += 0.5 * ei * bt__turn_square (x + i, rest[i - 1], rest[i]) / cell;
+    }
+  return sum;
+}
+
+/* The energies of D at the places X with the velocities V.  */
+static bt__dynamic_energy
+energies_at (const bt__dynamic *d, const bt__dynamic_input *in, const bt_vec3 *x, const bt_vec3 *v)
+{
+  const double *rest = bt__dynamic_rest (d);
+  const bt_vec3 *chord = in->order == 4 ? bt__dynamic_chord (d) : NULL;
+  const bt_tether_props *p = in->line;
+  double ma = in->water->density * p->ca * BT__PI * p->diameter * p->diameter / 4;
+  double ea = bt__stiffness (p->ea), before = 0;
+  int n = (int)d->n;
+  bt__dynamic_energy sum = { 0, 0, 0, bending_energy (x, rest, n, p->ei) };
+  for (int i = 0; i <= n; i++)
+    {
+      double cell = 0.5 * ((i ? rest[i - 1] : 0) + (i < n ? rest[i] : 0));
+      bt_vec3 tau = bt__sub (x[i < n ? i + 1 : i], x[i ? i - 1 : i]);
+      double along = ma > 0 ? bt__dot (v[i], bt__unit_or (tau, bt__vec (0, 0, -1))) : 0;
+      sum.kinetic += 0.5 * cell * ((p->mass + ma) * bt__dot (v[i], v[i]) - ma * along * along);
+      sum.gravity += p->wet_weight * cell * x[i].z;
+    }
+  for (int j = 0; j < n; j++)
+    {
+      double after
+          = p->ei > 0 && j + 1 < n ? bt__bend_square (x + j + 1, rest[j], rest[j + 1]) : before;
+      bt_vec3 c = bt__sub (x[j + 1], x[j]);
+      double e = bt__norm (chord ? bt__add (c, chord[j]) : c) / rest[j];
+      sum.strain
+          += strain_energy (ea, rest[j], e, bt__thrust_of (p->ei, j ? before : after, after));
+      before = after;
+    }
+  return sum;
+}
+
+bt__dynamic_energy
+bt__dynamic_energies (const bt__dynamic *d, const bt__dynamic_input *in)
+{
+  return energies_at (d, in, bt__dynamic_x (d), bt__dynamic_v (d));
+}
+
+/* ---- A line alone ---- */
+
+int
+bt__dynamic_is_alone (const bt__dynamic *d, const bt__dynamic_input *in)
+{
+  const bt_vec3 *x = bt__dynamic_x (d);
+  if (in->water->density > 0 || in->pay != 0 || d->owed != 0)
+    return 0;
+  for (int k = 0; k < 2; k++)
+    {
+      const bt__dynamic_end *e = in->end + k;
+      if (e->free ? e->gripped : bt__distance (e->at, x[k ? d->n : 0]) > 0)
+        return 0;
+    }
+  return 1;
+}
+
+/* The energy of D at X and V with what is lumped there, J; *MOVING of that by motion, and *GRAIN
+   what is no difference.  */
+static double
+energy_of (const bt__dynamic *d, const bt__dynamic_work *w, const bt_vec3 *x, const bt_vec3 *v,
+           double *moving, double *grain)
+{
+  bt__dynamic_energy e = energies_at (d, w->in, x, v);
+  double length = bt__dynamic_length (d), weight = fabs (w->weight) * length;
+  for (int i = 0; w->lumped && i <= w->n; i++)
+    {
+      const bt__extra *l = w->extra + i;
+      e.kinetic += 0.5 * l->mass * bt__dot (v[i], v[i]);
+      e.gravity += l->weight * x[i].z - bt__dot (l->force, bt__sub (x[i], w->x[i]));
+    }
+  *moving = e.kinetic;
+  *grain = NOTHING * (e.kinetic + e.strain + e.bending + weight * length);
+  return e.kinetic + e.strain + e.gravity + e.bending;
+}
+
+static double
+energy_now (const bt__dynamic *d, const bt__dynamic_work *w)
+{
+  double moving, grain;
+  return energy_of (d, w, bt__dynamic_x (d), bt__dynamic_v (d), &moving, &grain);
+}
+
+double
+bt__dynamic_most (const bt__dynamic *d, const bt__dynamic_work *w)
+{
+  double now = energy_now (d, w);
+  return now == d->left && d->most > now ? d->most : now;
+}
+
+/* Return what the solution has more than MOST, J; *MOVING its kinetic energy.  */
+static double
+excess (const bt__dynamic *d, bt__dynamic_work *w, double most, double *moving)
+{
+  double grain;
+  for (int i = 0; i <= w->n; i++)
+    w->keep[i] = bt__node_v (w, i);
+  double over = energy_of (d, w, w->X, w->keep, moving, &grain) - most;
+  return over <= grain ? 0 : over;
+}
+
+int
+bt__dynamic_gains (const bt__dynamic *d, bt__dynamic_work *w, double most)
+{
+  double moving;
+  return excess (d, w, most, &moving) > 0;
+}
+
+int
+bt__dynamic_slow_down (const bt__dynamic *d, bt__dynamic_work *w, double most,
+                       bt__dynamic_report *report)
+{
+  double moving, over = excess (d, w, most, &moving);
+  if (!(over > 0))
+    return 0;
+  double keep = over < moving ? sqrt (1 - over / moving) : 0;
+  if (!(over < moving))
+    bt__dynamic_stay (d, w, report);
+  for (int i = 0; i <= w->n; i++)
+    w->node[i].v0 = bt__axpy (w->node[i].v0, keep - 1, bt__node_v (w, i));
+  return 1;
+}
+
+void
+bt__dynamic_note (bt__dynamic *d, const bt__dynamic_work *w, double most)
+{
+  d->most = most;
+  d->left = energy_now (d, w);
+}

@@ -1,0 +1,141 @@
+/* The moving line: two of its places that push each other apart.
+
+   A contact K between places u and v of one line adds K (u - v) to what holds u, and the negative
+   to what holds v: it couples nodes that are no neighbours.  The blocks of the line take up twice
+   K at either place instead, which is nowhere less, for
+     (u - v) K (u - v) <= 2 u K u + 2 v K v,
+   and keep their form.  What that is too much, K (u + v) at both, is taken back by conjugate
+   gradients: an iteration is a solution of the blocks, and one or two suffice for a crossing.  Left
+   in, it would not spoil the solution of the step, but two places that go together would be slow to
+   move, as if heavy.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "tether/dynamic_kernel.h"
+
+enum
+{
+  ITERATIONS = 6
+};
+
+#define ENOUGH                                                                                     \
+  1e-3 /* of the square of the first residual: the step's own iterations do the rest               \
+        */
+
+/* ---- Blocks ---- */
+
+static void
+add_at (bt__dynamic_work *w, int64_t i, double s, const bt__sym *k, bt_vec3 f)
+{
+  double a = 1 - s;
+  bt__sym_axpy (w->diag + i, 2 * a * a, k);
+  bt__sym_axpy (w->diag + i + 1, 2 * s * s, k);
+  bt__sym_axpy (w->off + i, -2 * a * s, k);
+  w->rhs[i] = bt__axpy (w->rhs[i], a, f);
+  w->rhs[i + 1] = bt__axpy (w->rhs[i + 1], s, f);
+}
+
+void
+bt__dynamic_pair_add (bt__dynamic_work *w, bt__dynamic_row *r, const bt__sym *k)
+{
+  memcpy (r->block, k, sizeof r->block);
+  add_at (w, r->node, r->s, k, r->force);
+  add_at (w, r->pair - 1, r->t, k, bt__scale (-1, r->force));
+  w->pairs += r->active > 0 || r->load > 0;
+}
+
+/* ---- The solution ---- */
+
+static bt_vec3
+at (const bt_vec3 *p, int64_t i, double s)
+{
+  return bt__axpy (bt__scale (1 - s, p[i]), s, p[i + 1]);
+}
+
+static void
+take_from (bt_vec3 *q, int64_t i, double s, bt_vec3 f)
+{
+  q[i] = bt__axpy (q[i], s - 1, f);
+  q[i + 1] = bt__axpy (q[i + 1], -s, f);
+}
+
+/* Q less what the blocks have too much of, times P.  */
+static void
+take_back (const bt__dynamic_work *w, const bt_vec3 *p, bt_vec3 *q)
+{
+  for (int k = 0; k < w->rows; k++)
+    {
+      const bt__dynamic_row *r = w->row + k;
+      bt__sym block;
+      if (r->pair == 0)
+        continue;
+      memcpy (&block, r->block, sizeof block);
+      bt_vec3 both = bt__add (at (p, r->node, r->s), at (p, r->pair - 1, r->t));
+      bt_vec3 f = bt__sym_apply (&block, both);
+      take_from (q, r->node, r->s, f);
+      take_from (q, r->pair - 1, r->t, f);
+    }
+}
+
+static double
+product (const bt__dynamic_work *w, const bt_vec3 *a, const bt_vec3 *b)
+{
+  double sum = 0;
+  for (int i = w->lo; i <= w->hi; i++)
+    sum += bt__dot (a[i], b[i]);
+  return sum;
+}
+
+/* TO = A + SHARE B.  */
+static void
+sum_of (const bt__dynamic_work *w, bt_vec3 *to, const bt_vec3 *a, double share, const bt_vec3 *b)
+{
+  for (int i = w->lo; i <= w->hi; i++)
+    to[i] = bt__axpy (a[i], share, b[i]);
+}
+
+static double
+largest (const bt__dynamic_work *w)
+{
+  double most = 0;
+  for (int i = w->lo; i <= w->hi; i++)
+    most = fmax (most, bt__dot (w->d[i], w->d[i]));
+  return sqrt (most);
+}
+
+/* The residual is RHS; D, what SOLVE makes of it, WHOLE the solution so far, SPARE the direction,
+   BY_FLOW the blocks times that.  */
+double
+bt__dynamic_pair_solve (bt__dynamic_work *w, double (*solve) (bt__dynamic_work *))
+{
+  size_t size = (size_t)(w->n + 1) * sizeof *w->d;
+  bt_vec3 *sum = w->whole, *p = w->spare, *mp = w->by_flow, *q = mp + w->n + 1;
+  double most = solve (w), rz = product (w, w->rhs, w->d), first = rz;
+  if (w->lo > w->hi || !isfinite (most))
+    return most;
+  memset (sum, 0, size);
+  memcpy (p, w->d, size);
+  memcpy (mp, w->rhs, size);
+  for (int i = 0; i < ITERATIONS; i++)
+    {
+      memcpy (q, mp, size);
+      take_back (w, p, q);
+      double curve = product (w, p, q);
+      if (!(curve > 0))
+        break;
+      sum_of (w, sum, sum, rz / curve, p);
+      sum_of (w, w->rhs, w->rhs, -rz / curve, q);
+      if (i + 1 == ITERATIONS || !isfinite (solve (w)))
+        break;
+      double next = product (w, w->rhs, w->d);
+      if (!(next > ENOUGH * first))
+        break;
+      sum_of (w, p, w->d, next / rz, p);
+      sum_of (w, mp, w->rhs, next / rz, mp);
+      rz = next;
+    }
+  memcpy (w->d, sum, size);
+  return largest (w);
+}

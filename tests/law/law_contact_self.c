@@ -1,0 +1,420 @@
+/* A line against itself: it holds a knot, and does not pass through itself.
+
+   Short of steps by default, more with BIGHT_LONG=1 in the environment.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "../oracle/meet.h"
+#include "aware/knot.h"
+#include "contact_law.h"
+
+#define RADIUS 0.01 /* m: of the line */
+#define CORE 0.01   /* m: twice the core of that: what its axis keeps from itself */
+
+enum
+{
+  TURN = 48 /* corners of a knot's path */
+};
+
+/* What was seen of the line and itself.  */
+typedef struct witness
+{
+  bt_vec3 before[600];
+  long crossings, pairs, hits;
+  double nearest;
+} witness;
+
+static void
+set_itself (rope *p)
+{
+  p->line.diameter = 2 * RADIUS;
+  p->line.mass = 0.32;
+  p->config.radius = RADIUS;
+  p->config.core = bt__core (2 * RADIUS);
+  p->config.itself = 1;
+  p->config.id = 1000;
+}
+
+/* A step of P, held against its own crossings if JUDGED.  */
+static void
+step (rope *p, witness *w, int judged)
+{
+  int n = (int)p->d->n + 1;
+  memcpy (w->before, bt__dynamic_x (p->d), (size_t)n * sizeof *w->before);
+  rope_step (p, frame, judged);
+  const bt_vec3 *x = bt__dynamic_x (p->d);
+  w->pairs += p->touch.pairs;
+  if (!judged || (int)p->d->n + 1 != n)
+    return;
+  w->crossings += meet_crossings (w->before, x, n, w->before, x, n);
+  w->nearest = fmin (w->nearest, meet_clearance (x, n, x, n, 2, 0.05));
+}
+
+static bt__knot_value
+knot_of (const rope *p)
+{
+  bt__knot *knot;
+  bt__knot_value v = { 0 };
+  assert_int_equal (bt__knot_new (700, &knot, NULL), BT_OK);
+  assert_true (bt__knot_of (knot, bt__dynamic_x (p->d), (uint32_t)p->d->n + 1, &v));
+  bt__knot_free (knot);
+  return v;
+}
+
+/* The path of an overhand knot round a beam along z: two turns about it and three about a ring of
+   RING metres.  Ends lead away along x.  */
+static int
+overhand (bt_vec3 *path, double ring, double thick, double away)
+{
+  int n = 0;
+  double cut = 0.22;
+  path[n++] = bt__vec (away, 1.5, 0.3);
+  path[n++] = bt__vec (ring + 2.5 * thick, 0.4, 0.1);
+  for (int i = 0; i <= TURN; i++)
+    {
+      double t = cut + (2 * BT__PI - 2 * cut) * i / TURN, r = ring + thick * cos (3 * t);
+      path[n++] = bt__vec (r * cos (2 * t), r * sin (2 * t), thick * sin (3 * t));
+    }
+  path[n++] = bt__vec (ring + 2.5 * thick, -0.4, -0.1);
+  path[n++] = bt__vec (away, -1.5, -0.3);
+  return n;
+}
+
+static double
+length_of (const bt_vec3 *p, int n)
+{
+  double sum = 0;
+  for (int i = 0; i + 1 < n; i++)
+    sum += bt__distance (p[i], p[i + 1]);
+  return sum;
+}
+
+static void
+tie (rope *p, reef *r, int links, double beam, double mu)
+{
+  bt_vec3 path[TURN + 8];
+  int n = overhand (path, beam + 0.25, 0.13, 4);
+  assert_true (reef_open (r));
+  reef_cylinder (r, bt__vec (0, 0, -3), bt__vec (0, 0, 3), beam);
+  assert_true (reef_raise (r));
+  assert_true (rope_open (p, r, links, path, n, 1.001 * length_of (path, n), mu));
+  set_itself (p);
+}
+
+static void
+untie (rope *p, reef *r)
+{
+  rope_close (p);
+  reef_close (r);
+}
+
+static void
+pull (rope *p, double force)
+{
+  p->in.end[1] = (bt__dynamic_end){
+    .free = 1, .body = { .mass = 20, .quadratic = 60, .force = { force, -0.3 * force, 0 } }
+  };
+}
+
+static void
+assert_whole (const rope *p, const witness *w, const char *what)
+{
+  if (w->crossings || p->nan || p->refused || !(w->nearest >= CORE))
+    fail_msg ("%s: %ld crossings, %ld not finite, %ld refused, nearest %.6g m", what, w->crossings,
+              p->nan, p->refused, w->nearest);
+}
+
+/* Pull the knot of LINKS tight by FORCE: it holds, and is the knot it was.  */
+static void
+pull_tight (int links, double force)
+{
+  static reef r;
+  static rope p;
+  witness w = { .nearest = 1 };
+  int seconds = is_long () ? 30 : 6;
+  tie (&p, &r, links, 0.15, 0.3);
+  assert_int_equal (knot_of (&p).determinant, 3);
+  pull (&p, force);
+  for (int i = 0; i < seconds * 60; i++)
+    step (&p, &w, i % 3 == 0);
+  bt_vec3 end = bt__dynamic_x (p.d)[p.d->n];
+  print_message ("# %d links, %.0f N: nearest %.2f mm, %ld of %ld steps cut, %ld unsolved, %.1f "
+                 "solves each, on itself at %d places, end at %.2f m\n",
+                 links, force, 1e3 * w.nearest, p.truncated, p.steps, p.unconverged,
+                 (double)p.solves / (double)p.steps, p.touch.meets, end.x);
+  assert_whole (&p, &w, "a knot");
+  assert_int_equal (knot_of (&p).determinant, 3);
+  assert_true (p.touch.meets >= 2);
+  assert_below (end.x, 8, "how far the knot lets the end go");
+  assert_true (p.truncated <= p.steps / 50 && p.unconverged <= p.steps / 20);
+  untie (&p, &r);
+}
+
+static void
+knot_holds (void **state)
+{
+  (void)state;
+  pull_tight (120, 60);
+  pull_tight (120, 300);
+}
+
+/* Without contact with itself the line goes through, and the witness says so.  */
+static void
+knot_runs_through (void **state)
+{
+  (void)state;
+  static reef r;
+  static rope p;
+  witness w = { .nearest = 1 };
+  tie (&p, &r, 120, 0.15, 0.3);
+  p.config.itself = 0;
+  pull (&p, 60);
+  for (int i = 0; i < 360; i++)
+    step (&p, &w, 1);
+  assert_int_equal (knot_of (&p).determinant, 1);
+  assert_true (w.crossings > 0);
+  untie (&p, &r);
+}
+
+/* ---- Junk ---- */
+
+static void
+spoil (void *user, const bt_vec3 *from, bt_vec3 *to, int nodes)
+{
+  dice *d = user;
+  for (int i = 0; i < nodes; i++)
+    {
+      int bad = dice_below (d, 200);
+      to[i] = bt__add (to[i], dice_point (d, dice_below (d, 4) ? 0.02 : 0.5));
+      if (bad == 0)
+        to[i].x = NAN;
+      else if (bad == 1)
+        to[i] = bt__add (from[i], dice_point (d, 1e9));
+    }
+}
+
+/* A knot whose solver errs by centimetres to a thousand kilometres; return the crossings.  */
+static long
+throw_about (uint64_t seed, int guarded, int steps)
+{
+  static reef r;
+  static rope p;
+  witness w = { .nearest = 1 };
+  dice d = dice_new (seed);
+  tie (&p, &r, 60, 0.15, 0.3);
+  pull (&p, 60);
+  for (int i = 0; i < 150; i++)
+    step (&p, &w, 0);
+  p.hook.spoil = spoil;
+  p.hook.user = &d;
+  p.hook.no_guard = !guarded;
+  for (int i = 0; i < steps; i++)
+    step (&p, &w, 1);
+  if (guarded)
+    {
+      assert_whole (&p, &w, "a solver overwritten");
+      assert_int_equal (p.crossings, 0);
+      assert_int_equal (knot_of (&p).determinant, 3);
+    }
+  untie (&p, &r);
+  return w.crossings;
+}
+
+static void
+junk (void **state)
+{
+  (void)state;
+  for (uint64_t seed = 1; seed <= (is_long () ? 40 : 3); seed++)
+    throw_about (seed, 1, is_long () ? 2000 : 120);
+  assert_true (throw_about (1, 0, 20) > 0); /* mutant: the judge can say no */
+}
+
+/* ---- What is not needed is not done ---- */
+
+static void
+straight_line_asks_nothing (void **state)
+{
+  (void)state;
+  static reef r;
+  static rope p;
+  witness w = { .nearest = 1 };
+  bt_vec3 shape[] = { { 0, 0, 0 }, { 20, 0, -2 }, { 40, 10, 0 } };
+  assert_true (reef_open (&r) && reef_raise (&r));
+  assert_true (rope_open (&p, &r, 120, shape, 3, 44, 0.3));
+  set_itself (&p);
+  for (int i = 0; i < 300; i++)
+    {
+      rope_tow (&p, bt__vec (43, 12, 1), 1.5, frame);
+      step (&p, &w, 0);
+    }
+  assert_int_equal (w.pairs, 0);
+  assert_int_equal (p.count.casts, 0);
+  untie (&p, &r);
+}
+
+/* ---- The same again ---- */
+
+static void
+remembers_nothing (void **state)
+{
+  (void)state;
+  static reef r;
+  static rope p, q;
+  witness w = { .nearest = 1 };
+  tie (&p, &r, 60, 0.15, 0.3);
+  pull (&p, 60);
+  for (int i = 0; i < 200; i++)
+    step (&p, &w, 0);
+  bt_vec3 any[] = { { 50, 0, 0 }, { 60, 0, 0 } };
+  assert_true (rope_open (&q, &r, 60, any, 2, 10, 0.3));
+  set_itself (&q);
+  memcpy (q.d, p.d, bt__dynamic_size ((int)p.d->n_max));
+  memcpy (q.anchors, p.anchors, bt__anchors_live (p.anchors));
+  q.in.end[0] = p.in.end[0];
+  pull (&q, 60);
+  q.water.time = p.water.time;
+  for (int i = 0; i < 60; i++)
+    {
+      step (&p, &w, 0);
+      step (&q, &w, 0);
+    }
+  assert_memory_equal (bt__dynamic_x (p.d), bt__dynamic_x (q.d),
+                       (size_t)(p.d->n + 1) * sizeof (bt_vec3));
+  assert_int_equal (p.anchors->n, q.anchors->n);
+  assert_memory_equal (p.anchors, q.anchors, bt__anchors_live (p.anchors));
+  rope_close (&q);
+  untie (&p, &r);
+}
+
+/* ---- Two lines ---- */
+
+static bt__strand
+strand_of (const rope *p, int yields)
+{
+  double area = BT__PI / 4 * p->line.diameter * p->line.diameter;
+  return (bt__strand){ .line = p->d,
+                       .anchors = p->anchors,
+                       .id = p->config.id,
+                       .radius = p->config.radius,
+                       .core = p->config.core,
+                       .friction = p->config.friction,
+                       .inertia = p->line.mass + p->line.ca * p->water.density * area,
+                       .yields = yields };
+}
+
+static bt_vec3
+force_on (const rope *p)
+{
+  bt_vec3 sum = { 0, 0, 0 };
+  const bt__anchor *a = bt__anchors_at (p->anchors);
+  for (int64_t i = 0; i < p->anchors->n; i++)
+    if (a[i].mover == BT__ANCHOR_LINE)
+      sum = bt__add (sum, a[i].force);
+  return sum;
+}
+
+/* Two bights through each other, pulled apart: what the one feels the other feels back, and what
+   their ends feel; the axes are as far apart as both radii.  */
+static void
+bights_hook (void **state)
+{
+  (void)state;
+  static reef r;
+  static rope p, q;
+  witness w = { .nearest = 1 };
+  long crossings = 0;
+  double nearest = 1, seconds = 5;
+  bt_vec3 a = { 0, 0, 0 }, b = { 0, 0, 0 };
+  bt_vec3 one[] = { { -3, -0.5, 0 }, { 0.3, 0, 0 }, { -3, 0.5, 0 } };
+  bt_vec3 two[] = { { 3, 0, -0.5 }, { -0.3, 0, 0 }, { 3, 0, 0.5 } };
+  assert_true (reef_open (&r) && reef_raise (&r));
+  assert_true (rope_open (&p, &r, 40, one, 3, 6.7, 0.3)
+               && rope_open (&q, &r, 40, two, 3, 6.7, 0.3));
+  set_itself (&p);
+  set_itself (&q);
+  q.config.id = 1001;
+  for (int e = 0; e < 2; e++)
+    q.in.end[e] = (bt__dynamic_end){ .free = 1, .body = { .mass = 10, .quadratic = 60 } };
+  static bt_vec3 before[2][64];
+  for (int i = 0; i < 2400; i++)
+    {
+      double f = fmin (50, 0.2 * i);
+      bt__strand on_p = strand_of (&q, 1), on_q = strand_of (&p, 0);
+      p.config.strand = &on_p;
+      q.config.strand = &on_q;
+      p.config.strands = q.config.strands = 1;
+      for (int e = 0; e < 2; e++)
+        q.in.end[e].body.force = bt__vec (f, 0, e ? 0.15 * f : -0.15 * f);
+      const bt_vec3 *x = bt__dynamic_x (p.d), *y = bt__dynamic_x (q.d);
+      memcpy (before[0], x, 41 * sizeof *x);
+      memcpy (before[1], y, 41 * sizeof *y);
+      step (&p, &w, 0);
+      crossings += meet_crossings (before[0], x, 41, before[1], before[1], 41);
+      step (&q, &w, 0);
+      crossings += meet_crossings (x, x, 41, before[1], y, 41);
+      nearest = fmin (nearest, meet_clearance (x, 41, y, 41, 0, 0.05));
+      if (i < 2400 - seconds / frame)
+        continue;
+      a = bt__axpy (a, frame / seconds, force_on (&p));
+      b = bt__axpy (b, frame / seconds, force_on (&q));
+    }
+  double now = meet_clearance (bt__dynamic_x (p.d), 41, bt__dynamic_x (q.d), 41, 0, 0.05);
+  print_message ("# 2 bights: %.4g N and %.4g N, %.2g N left over, ends %.4g N, apart %.2f mm, "
+                 "nearest %.2f mm\n",
+                 bt__norm (a), bt__norm (b), bt__norm (bt__add (a, b)),
+                 bt__norm (bt__add (p.d->pull[0], p.d->pull[1])), 1e3 * now, 1e3 * nearest);
+  assert_int_equal (crossings, 0);
+  assert_true (nearest >= CORE);
+  assert_near (bt__norm (bt__add (a, b)), 0, 0.02 * bt__norm (b), "force and reaction");
+  assert_near (a.x, 100, 2, "the pull of the ends");
+  assert_near (now, 2 * RADIUS, 0.2 * RADIUS, "the distance of the axes");
+  rope_close (&q);
+  untie (&p, &r);
+}
+
+/* ---- Energy ---- */
+
+/* A knot in still water, not pulled, that springs open by its bending stiffness' absence: what it
+   has of energy only falls.  */
+static void
+gains_no_energy (void **state)
+{
+  (void)state;
+  static reef r;
+  static rope p;
+  witness w = { .nearest = 1 };
+  tie (&p, &r, 60, 0.15, 0.3);
+  pull (&p, 100);
+  for (int i = 0; i < 240; i++)
+    step (&p, &w, 0);
+  p.in.end[1].body = (bt__dynamic_lump){ 0 }; /* let go */
+  bt__dynamic_energy start = bt__dynamic_energies (p.d, &p.in);
+  double before = start.kinetic + start.strain, worst = 0, last = INFINITY;
+  for (int i = 0; i < 300; i++)
+    {
+      step (&p, &w, 0);
+      bt__dynamic_energy e = bt__dynamic_energies (p.d, &p.in);
+      double now = e.kinetic + e.strain + e.gravity + e.bending;
+      worst = fmax (worst, now - last);
+      last = now;
+    }
+  print_message ("# let go: of %.2g J the most gained in a step is %.2g J, %.2g J left\n", before,
+                 worst, last);
+  assert_below (worst, 0.15 * before, "energy gained in a step");
+  assert_below (last, 0.1, "energy left");
+  assert_whole (&p, &w, "let go");
+  untie (&p, &r);
+}
+
+int
+main (void)
+{
+  const struct CMUnitTest tests[]
+      = { cmocka_unit_test (knot_holds),     cmocka_unit_test (knot_runs_through),
+          cmocka_unit_test (junk),           cmocka_unit_test (straight_line_asks_nothing),
+          cmocka_unit_test (bights_hook),    cmocka_unit_test (remembers_nothing),
+          cmocka_unit_test (gains_no_energy) };
+  return cmocka_run_group_tests (tests, NULL, NULL);
+}

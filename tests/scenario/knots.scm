@@ -1,0 +1,181 @@
+;;; Lines against lines, as a pilot meets them: a knot tied by flying it, two vehicles that cross their
+;;; tethers, a line on the bottom.  Model `dynamic' at 60 Hz; neutral lines, friction as each world says.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(use-modules ((srfi srfi-1) #:select (any append-map map)))
+
+(define (fly . places)
+  ;; Through PLACES one after another, giving up on each after a while.
+  (for-each (lambda (p)
+              (move! p #:speed 0.5)
+              (run-until arrived? #:at-most 30))
+            places))
+
+(define (kinds)
+  (map car (events)))
+
+(define (on-itself? c)
+  (eq? 'line (contact-object c)))
+
+(define beam
+  (world (sea (depth 20))
+         (cylinder (named pile) (from 0 0 1) (to 0 0 -20) (radius 0.5))
+         (rov (named minnow) (at 3 2 -6) (surge-speed 1))
+         (tether (named line) (type fathom) (wet-weight 0) (model dynamic) (nodes 60) (friction 0.2)
+                 (breaking-load 1e9) (from 8 2 -6) (to minnow) (length 8))))
+
+;; Round the pile, over the standing part, down beyond it, back under it and up between it and the pile.
+(define overhand
+  '((-2 2 -6) (-2 -2 -6) (3 -2 -6) (4 -2 -4.5) (4 3 -4.5) (4 3 -7.5) (1.05 0.35 -7.5) (1.05 0.35 -4) (4 -3 -4)))
+
+(define-scenario an-overhand-knot-holds-and-is-freed-by-the-way-it-was-made
+  "Flown round a pile and through its own loop, a line is knotted; pulled, the knot runs up to the pile and
+holds; hauled in, it stays; the way back through the loop, and nothing else, undoes it."
+  (in beam)
+  (pay-out! 22 #:rate 0.35)
+  (apply fly overhand)
+  (expect (knotted?))
+  (let ((loose (checkpoint)))
+    (move! '(14 -8 -5) #:speed 0.5)
+    (run 45)
+    (expect (memq 'parted (kinds)) => #f)
+    (expect (knotted?))
+    (expect (any on-itself? (contacts)))
+    (expect (memq 'touched (kinds)))
+    (expect (collided? 'line 'line))
+    (expect (norm (rov-position)) is (below 14))
+    (expect (rov-tension) is (above 60))
+    (restore! loose))
+  (apply fly (append (reverse overhand) '((3 2 -6))))
+  (expect (knotted?) => #f)
+  (haul-in! 21 #:rate 0.6)
+  (run 40)
+  (expect (null? (windings)))
+  (expect (any (lambda (c) (eq? 'pile (contact-object c))) (contacts)) => #f))
+
+(define-scenario what-is-switched-off-passes
+  "The same flight with the line's own contact off: it pulls through itself, and no knot is left."
+  (in beam)
+  (collide! 'line 'line #f)
+  (pay-out! 22 #:rate 0.35)
+  (apply fly overhand)
+  (move! '(14 -8 -5) #:speed 0.5)
+  (run 45)
+  (expect (knotted?) => #f)
+  (expect (any on-itself? (contacts)) => #f))
+
+
+;;; Two tethers.
+
+(define crossed
+  (world (sea (depth 20))
+         (seabed)
+         (rov (named one) (at 5 0 -6) (surge-speed 1))
+         (rov (named two) (at 0 5 -6.5) (surge-speed 1))
+         (tether (named first) (type fathom) (wet-weight 0) (model dynamic) (nodes 40) (from -5 0 -6) (to one)
+                 (length 14))
+         (tether (named second) (type fathom) (wet-weight 0) (model dynamic) (nodes 40) (from 0 -5 -6.5) (to two)
+                 (length 14))))
+
+;; Seen from above, with its ends led on straight outward, one line crosses the other so often to the left
+;; more than to the right where it lies on top: no motion changes that but going through each other.
+
+(define (corners t)
+  (let ((a (tether-points t)))
+    (map (lambda (i) (array-cell-ref a i)) (iota (array-length a)))))
+
+(define (side a b c)
+  (- (* (- (x b) (x a)) (- (y c) (y a))) (* (- (y b) (y a)) (- (x c) (x a)))))
+
+(define (crossing a b c d)
+  ;; 1 or -1 if the link from A to B lies across that from C to D and over it, else 0.
+  (let ((ca (side c d a)) (cb (side c d b)) (ac (side a b c)) (ad (side a b d)))
+    (if (or (eq? (>= ca 0) (>= cb 0)) (eq? (>= ac 0) (>= ad 0)))
+        0
+        (let* ((s (/ ca (- ca cb))) (u (/ ac (- ac ad)))
+               (over (- (+ (z a) (* s (- (z b) (z a)))) (+ (z c) (* u (- (z d) (z c)))))))
+          (cond ((< over 0) 0) ((> ad ac) 1) (else -1))))))
+
+(define (times-over)
+  (let ((p (corners 'first)) (q (corners 'second)))
+    (apply + (append-map (lambda (a b) (map (lambda (c d) (crossing a b c d)) q (cdr q))) p (cdr p)))))
+
+(define-scenario two-vehicles-hook-each-other
+  "One tether lies over the other; its vehicle dives and the other's climbs: they hook, pull alike, hold both
+vehicles back and never pass."
+  (in crossed)
+  (define (fly-on seconds)
+    (do ((i 0 (+ i 1))) ((= i seconds))
+      (run 1)
+      (expect (times-over) => 1)))
+  (expect (times-over) => 1)
+  (move! 'one '(5 0 -9) #:speed 0.5)
+  (move! 'two '(0 5 -3) #:speed 0.5)
+  (fly-on 10)
+  (move! 'one '(14 0 -9) #:speed 0.5)
+  (move! 'two '(0 14 -3) #:speed 0.5)
+  (fly-on 40)
+  (expect (any (lambda (c) (eq? 'second (contact-object c))) (contacts 'first)))
+  (expect (any (lambda (c) (eq? 'first (contact-object c))) (contacts 'second)))
+  (expect (collided? 'first 'second))
+  (let ((force (lambda (t) (apply + (map (lambda (c) (norm (contact-force c))) (contacts t)))))
+        (first 0) (second 0))
+    (do ((i 0 (+ i 1))) ((= i 100)) ; they saw to and fro
+      (run 0.1)
+      (set! first (+ first (force 'first)))
+      (set! second (+ second (force 'second))))
+    (expect first is (about second #:within (* 0.1 second))))
+  (expect (x (rov-position 'one)) is (below 9))
+  (expect (y (rov-position 'two)) is (below 9)))
+
+;; What a step remembers to save time is no part of the state.
+
+(define-scenario hooked-tethers-go-on-the-same-from-a-checkpoint
+  "Of two tethers that touch, a step goes on the same to the last bit from a checkpoint and in a fork, whatever
+the engine knew of them before."
+  (in crossed)
+  (move! 'one '(5 0 -9) #:speed 0.5)
+  (move! 'two '(0 5 -3) #:speed 0.5)
+  (run 10)
+  (move! 'one '(14 0 -9) #:speed 0.5)
+  (move! 'two '(0 14 -3) #:speed 0.5)
+  (run 15)
+  (expect (collided? 'first 'second))
+  (let* ((here (checkpoint))
+         (forked (what-if (run 5) (state-hash))))
+    (run 5)
+    (let ((there (state-hash)))
+      (expect forked => there)
+      (run 20)
+      (restore! here)
+      (run 5)
+      (expect (state-hash) => there))))
+
+(define-scenario two-tethers-that-are-switched-off
+  "Two tethers whose pair is off go through each other."
+  (in crossed)
+  (collide! 'first 'second #f)
+  (move! 'one '(14 0 -9) #:speed 0.5)
+  (move! 'two '(0 14 -3) #:speed 0.5)
+  (run 45)
+  (expect (memq 'touched (kinds)) => #f)
+  (expect (times-over) => 0))
+
+
+;;; At rest.
+
+(define-scenario a-coil-on-the-bottom-comes-to-rest
+  "A heavy line laid down in bights across itself comes to rest, lying on itself, and sleeps."
+  (in (world (sea (depth 8))
+             (seabed (friction 0.5))
+             (rov (named minnow) (at 3 0 -7) (surge-speed 1))
+             (tether (named line) (type fathom) (wet-weight 0.5) (model dynamic) (nodes 60) (friction 0.4)
+                     (from -3 0 -7.8) (to minnow) (length 16))))
+  (fly '(0 3 -7) '(-3 0 -7) '(0 -3 -6.5) '(3 0 -6.5) '(0 0 -7.7))
+  (run 110)
+  (expect (any on-itself? (contacts)))
+  (expect (assq-ref (energy) 'kinetic) is (below 1e-6))
+  (let ((before (assq-ref (profile) 'chain-sleeps)))
+    (run 1)
+    (expect (assq-ref (profile) 'chain-sleeps) is (above before))))
