@@ -119,6 +119,17 @@
                        (make-foresight kind (object-of event) (- (cadr event) start) 1.0 #f))))
               (%events engine seen)))
 
+(define nearly 0.99)                    ; of what is out: so long a string is called taut by the engine too
+
+(define (taut-now? engine t)
+  (>= (%taut-length engine t) (* nearly (assq-ref (%tether engine t) 'length))))
+
+(define (new-taut before? now? events seconds)
+  ;; Among obstacles a tether is taut round what it touches, which is no event.
+  (if (and now? (not before?) (not (any (lambda (f) (eq? 'taut (%kind f))) events)))
+      (list (make-foresight 'taut #f seconds 1.0 #f))
+      '()))
+
 (define (by-fork engine t seconds)
   (let* ((fork (%fork-dive engine))
          (names (%names fork 'obstacle))
@@ -126,7 +137,8 @@
          (subjects (cons (list-ref (%names fork 'tether) t) vehicles))
          (start (%dive-time fork))
          (steps (inexact->exact (round (/ look (%dive-time-step fork))))))
-    (let loop ((turns (half-turns fork t names)) (seen (%event-count fork)) (all '()))
+    (let loop ((turns (half-turns fork t names)) (taut? (taut-now? fork t))
+               (seen (%event-count fork)) (all '()))
       (let ((now (- (%dive-time fork) start)))
         (if (>= (+ now 1e-6) seconds)
             (reverse! all)
@@ -134,9 +146,12 @@
               (%step-dive! fork steps)
               (let* ((now (- (%dive-time fork) start))
                      (after (half-turns fork t names))
+                     (taut-after? (taut-now? fork t))
                      (events (new-events fork seen start subjects vehicles)))
-                (loop after (%event-count fork)
-                      (append-reverse (append events (new-turns turns after now)) all)))))))))
+                (loop after taut-after? (%event-count fork)
+                      (append-reverse (append events (new-taut taut? taut-after? events now)
+                                              (new-turns turns after now))
+                                      all)))))))))
 
 (define (told-by? all f)
   (any (lambda (g)
@@ -148,7 +163,7 @@
   "Return what will happen within SECONDS if the sticks stay as they are, soonest first: a list of
 foresights, each with kind, object, seconds and confidence.  The taut string is led on first, then a fork
 of the dive is run; what the fork does is sure.  With QUICK the string alone is asked, which takes
-milliseconds."
+milliseconds.  A tether is taut with less than a hundredth of slack round what it touches."
   (let* ((engine (this-engine 'foresee))
          (guess (by-string engine t seconds))
          (sure (if quick '() (by-fork engine t seconds))))

@@ -21,7 +21,7 @@
 
 (define-verb (live! #:key (pace pace 1.0))
   "Let the dive run by itself, in real time or PACE seconds in a second, until `freeze!'.  All verbs work as
-ever; (run S) waits.  Raise unsupported when the current is a procedure.  Return the dive."
+ever; (run S) waits, and while it does, no longer, `every', `on' and pilots run.  Raise unsupported when the current is a procedure.  Return the dive."
   (let ((dive (this-dive 'live!)))
     (check-not-running 'live! dive)
     (go-live! dive pace)

@@ -9,11 +9,14 @@
 enum
 {
   PUSH_STEPS = 40, /* a body's way need not be the shortest */
-  LOOP_STEPS = 400
+  LOOP_STEPS = 400,
+  PARTS = 32 /* near to a link; those beyond are farther */
 };
 
 #define LEAST_BEND 0.3 /* radians: a body slides past less */
 #define SPARE_PULL 1.0 /* N: less does not count as pulling */
+#define FACING 0.5     /* cosine between two outward normals: less is a corner to wedge in */
+#define HOME_NEAR 1.5  /* m: of the start is home */
 #define NOTHING UINT32_MAX
 
 /* ---- The instant rule ---- */
@@ -34,7 +37,7 @@ speed_at (const bt__haul_body *b, double force)
 static double
 share_past (const bt__haul_body *b, double member)
 {
-  double s = member / (member + b->radius);
+  double s = member / (member + fmax (b->radius, b->reach));
   return s - b->friction * sqrt (1 - s * s);
 }
 
@@ -129,7 +132,67 @@ bt__haul_wedge (const bt__route *home, const bt__haul_body *body, bt__prospect *
     say (p, BT__UNSURE, BT__HAUL_WEDGED, home->object, fmax (home->length - home->s, 0));
 }
 
+/* Nonzero if two parts in LIST face each other.  */
+static int
+is_corner (const bt__nears *list)
+{
+  for (uint32_t i = 1; i < list->n; i++)
+    for (uint32_t j = 0; j < i; j++)
+      if (bt__dot (list->at[i].w.normal, list->at[j].w.normal) < FACING)
+        return 1;
+  return 0;
+}
+
+void
+bt__haul_crotch (const bt__taut_config *config, const bt__string *string, const bt__haul_body *body,
+                 bt__prospect *p, bt__count *count)
+{
+  bt__near room[PARTS];
+  double s = 0;
+  if (p->reason != BT__HAUL_CLEAR)
+    return;
+  for (uint32_t i = 0; i + 1 < string->n; i++)
+    {
+      bt__link link = { string->x[i], string->x[i + 1] };
+      bt__nears list = { .at = room, .room = PARTS };
+      s += bt__distance (link.a, link.b);
+      if (s < HOME_NEAR)
+        continue;
+      bt__scene_near (config->scene, config->on, &link, i, body->radius, &list, count);
+      if (is_corner (&list))
+        say (p, BT__UNSURE, BT__HAUL_WEDGED, list.at[0].object, s); /* the last is met first */
+    }
+}
+
 /* ---- Ways ---- */
+
+/* How near STRING comes to anything but within SPARE of its ends, where the body is already, or has
+   come.  */
+static bt__route
+measure (const bt__taut_config *config, double spare, double cap, const bt__string *string,
+         bt__count *count)
+{
+  bt__route way = { string->length, cap, NOTHING, 0 };
+  double s = 0;
+  for (uint32_t i = 0; i + 1 < string->n; i++)
+    {
+      bt_vec3 d = bt__sub (string->x[i + 1], string->x[i]);
+      double end = s + bt__norm (d);
+      double from = fmax (s, spare), to = fmin (end, string->length - spare);
+      bt__link link = { bt__axpy (string->x[i], (from - s) / (end - s), d),
+                        bt__axpy (string->x[i], (to - s) / (end - s), d) };
+      bt__near near;
+      if (from < to
+          && bt__scene_nearest (config->scene, config->on, &link, way.clearance, &near, count))
+        {
+          way.clearance = near.w.distance;
+          way.object = near.object;
+          way.s = from;
+        }
+      s = end;
+    }
+  return way;
+}
 
 /* Push STRING out to WANT and measure it.  */
 static bt__route
@@ -142,21 +205,7 @@ push_out (bt__taut *taut, const bt__taut_config *config, double want, bt__string
   wide.mesh = fmin (config->mesh, want);
   bt__string_wake (string);
   bt__taut_relax (taut, &wide, string, PUSH_STEPS, count);
-  bt__route way = { string->length, 10 * want, NOTHING, 0 };
-  double s = 0;
-  for (uint32_t i = 0; i + 1 < string->n; i++)
-    {
-      bt__link link = { string->x[i], string->x[i + 1] };
-      bt__near near;
-      if (bt__scene_nearest (config->scene, config->on, &link, way.clearance, &near, count))
-        {
-          way.clearance = near.w.distance;
-          way.object = near.object;
-          way.s = s;
-        }
-      s += bt__distance (link.a, link.b);
-    }
-  return way;
+  return measure (config, want, 10 * want, string, count);
 }
 
 static void

@@ -1,8 +1,9 @@
 /* Can the vehicle be hauled home, and which way does it get free by itself?
 
    The instant rule looks at the taut string alone.  Capstan friction seldom holds a tether; what
-   stops a haul is mostly the dead vehicle's body hung on a thin member or an edge that the string
-   bends round.  The rule cannot see slack, current or a body that rolls off sideways: a haul on a
+   stops a haul is mostly the dead vehicle's body: hung on a thin member or an edge that the string
+   bends round, or drawn into the corner between two things that the string passes.  The rule cannot
+   see slack, current or a body that rolls off sideways: a haul on a
    fork of the dive is the judge, this the answer at once.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
@@ -15,7 +16,8 @@
 /* The dead vehicle and the winch.  */
 typedef struct bt__haul_body
 {
-  double radius;       /* m, of a ball about it */
+  double radius;       /* m, of a ball as large */
+  double reach;        /* m, half its longest side, by which it hangs; if less than RADIUS: that */
   double friction;     /* of its body on obstacles; 0.4 caught most in trials */
   double weight;       /* N, in water; its size counts */
   double least;        /* N: what it takes to move it at the least speed that counts */
@@ -52,7 +54,8 @@ typedef struct bt__prospect
 /* Judge by the HOLDS of the string, its start at the winch.  */
 bt__prospect bt__haul_prospect (const bt__holds *holds, const bt__haul_body *body);
 
-/* A way for a body: a string, how near it comes to anything and to what.  */
+/* A way for a body: a string, how near it comes to anything and to what, its two ends left out,
+   where the body stands or is to come.  */
 typedef struct bt__route
 {
   double length, clearance; /* m */
@@ -67,6 +70,12 @@ bt__route bt__way_home (bt__taut *taut, const bt__taut_config *config, const bt_
 
 /* If PROSPECT is not bad already and the way home is narrower than the body, make it wedged.  */
 void bt__haul_wedge (const bt__route *home, const bt__haul_body *body, bt__prospect *prospect);
+
+/* If PROSPECT is not bad already and STRING passes within the radius of the body two surfaces whose
+   outward normals are 60 degrees or more apart, it is drawn in between them and wedged.  Not where
+   the string begins: there it is home.  */
+void bt__haul_crotch (const bt__taut_config *config, const bt__string *string,
+                      const bt__haul_body *body, bt__prospect *prospect, bt__count *count);
 
 /* What flying a loop would do, by the string alone.  */
 typedef struct bt__unwind

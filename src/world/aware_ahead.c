@@ -9,6 +9,7 @@
 #include "aware/turns.h"
 #include "base/error.h"
 #include "math/vec.h"
+#include "world/ghost.h"
 #include "world/watch.h"
 
 enum
@@ -17,14 +18,17 @@ enum
   SEED_STEPS = 400,
   SEED_EVERY = 300, /* calls */
   AHEAD_STEPS = 6,
+  LOOKS = 5,   /* at what holds the line, in AHEAD */
   OBJECTS = 64 /* told apart in a forecast */
 };
 
 #define SLIP 0.005      /* of its length: a string that is so much shorter has slipped */
 #define AHEAD 0.5       /* s between looks ahead */
 #define TOUCH_ANGLE 0.1 /* radians: a string that bends so much touches */
+#define LEASH_PULL 10.0 /* N: less is the drag of a slack line */
+#define LEASH_BOW 1.02  /* of its chord: so straight is a line that is held */
 #define HOLD_REACH 0.05 /* m */
-#define TAUT 1e-3       /* share of what is out: no more is slack */
+#define TAUT 0.01       /* share of what is out: no more is slack */
 
 /* ---- Live ---- */
 
@@ -66,59 +70,6 @@ bt_tether_follow (const bt_dive *dive, int i, bt_follow *out, bt_error *error)
   return BT_OK;
 }
 
-/* ---- The vehicle ahead ---- */
-
-/* Where a vehicle will be that goes on as it goes.  */
-typedef struct ghost
-{
-  bt_vec3 at, velocity;
-  double heading, yaw; /* radians, radians/s */
-} ghost;
-
-/* By its sticks if it goes where it is told, to its goal if it has one, else as it moves now.  */
-static ghost
-ghost_of (const bt__vehicle *v)
-{
-  ghost ghost = { v->position, v->velocity, v->heading, v->sticks[3] * v->speeds[3] };
-  double ahead = v->sticks[0] * v->speeds[0], aside = v->sticks[1] * v->speeds[1];
-  double s = sin (v->heading), c = cos (v->heading);
-  if (v->goal == BT__GOAL_POINT || v->goal == BT__GOAL_FLY)
-    ghost.yaw = 0;
-  else if (!v->rigid && v->goal == BT__GOAL_NONE)
-    ghost.velocity
-        = bt__vec (ahead * s + aside * c, ahead * c - aside * s, v->sticks[2] * v->speeds[2]);
-  return ghost;
-}
-
-static void
-go_to_goal (const bt__vehicle *v, ghost *g, double seconds)
-{
-  bt_vec3 way = bt__sub (v->target, g->at);
-  double left = bt__norm (way), step = v->target_speed * seconds;
-  g->at = left > step ? bt__axpy (g->at, step / left, way) : v->target;
-}
-
-/* On by SECONDS; velocity turns with the heading, clockwise.  */
-static void
-go_on (const bt__vehicle *v, ghost *g, double seconds)
-{
-  if (v->goal == BT__GOAL_POINT || v->goal == BT__GOAL_FLY)
-    {
-      go_to_goal (v, g, seconds);
-      return;
-    }
-  double turn = g->yaw * seconds, s = sin (0.5 * turn), c = cos (0.5 * turn);
-  bt_vec3 u = g->velocity;
-  for (int half = 0; half < 2; half++)
-    {
-      u = bt__vec (u.x * c + u.y * s, u.y * c - u.x * s, u.z);
-      if (half == 0)
-        g->at = bt__axpy (g->at, seconds, u);
-    }
-  g->velocity = u;
-  g->heading += turn;
-}
-
 /* ---- The forecast ---- */
 
 typedef struct object
@@ -134,7 +85,11 @@ typedef struct forecast
   bt__string *string;
   bt__holds holds;
   object object[OBJECTS];
-  uint32_t objects;
+  uint32_t objects, bumps;
+  uint32_t met[OBJECTS];
+  double radius; /* m, of the vehicle */
+  bt_vec3 held;  /* where the line is held by friction ... */
+  double leash;  /* m: ... on what is left; INFINITY: it is not */
   int taut;
   bt_foresight *out;
   int max, n;
@@ -204,60 +159,111 @@ note_taut (forecast *f, double seconds)
   f->taut = taut;
 }
 
-/* What stands within RADIUS of the way from A to B, UINT32_MAX: nothing.  */
-static uint32_t
-in_the_way (const forecast *f, bt_vec3 a, bt_vec3 b, double radius)
+/* ---- The vehicle ahead ---- */
+
+static int
+is_met (forecast *f, uint32_t place)
+{
+  for (uint32_t k = 0; k < f->bumps; k++)
+    if (f->met[k] == place)
+      return 1;
+  return 0;
+}
+
+/* Stop GHOST, which has come from FROM, at what stands within RADIUS of its way; tell of it, if
+   SECONDS have passed and it is new.  */
+static void
+note_bump (forecast *f, bt__ghost *ghost, bt_vec3 from, double seconds)
 {
   bt__near near;
-  bt__link way = { a, b };
-  int hit = bt__scene_nearest (f->g->config.scene, f->g->config.on, &way, radius, &near,
-                               &f->dive->watch->count);
-  return hit ? near.object : UINT32_MAX;
+  bt__link way = { from, ghost->v.position };
+  if (f->g->open
+      || !bt__scene_nearest (f->g->config.scene, f->g->config.on, &way, f->radius, &near,
+                             &f->dive->watch->count))
+    return;
+  if (!is_met (f, near.object))
+    {
+      if (f->bumps < OBJECTS)
+        f->met[f->bumps++] = near.object;
+      if (seconds > 0)
+        tell (f, BT_FORESEE_BUMP, near.object, seconds, 0);
+    }
+  bt_vec3 n = near.w.normal, on = near.w.point, to = way.b;
+  double in = f->radius - bt__dot (bt__sub (to, on), n);
+  bt__ghost_stop (ghost, in > 0 ? bt__axpy (to, in, n) : to, n);
+}
+
+/* A line may pull with slack elsewhere: friction, or its own turns, hold it at its last bend.  Then
+   the vehicle goes round that.  Look whether it is so, for tether I.  */
+static void
+look_for_leash (forecast *f, int i, bt_vec3 vehicle)
+{
+  const bt__gaze *g = f->g;
+  bt__line line = bt__line_of (f->dive, f->dive->now, i);
+  uint32_t nearest = 0;
+  double along = 0;
+  f->leash = INFINITY;
+  if (f->holds.n == 0 || bt__norm (bt__line_force (&line)) < LEASH_PULL)
+    return;
+  f->held = f->string->x[f->holds.at[f->holds.n - 1].node];
+  for (uint32_t k = 1; k < g->n; k++)
+    if (bt__distance (g->node[k], f->held) <= bt__distance (g->node[nearest], f->held))
+      nearest = k;
+  for (uint32_t k = nearest; k + 1 < g->n; k++)
+    along += bt__distance (g->node[k], g->node[k + 1]);
+  if (along < LEASH_BOW * bt__distance (g->node[nearest], g->node[g->n - 1]))
+    f->leash = bt__distance (f->held, vehicle);
+}
+
+static void
+hold_on_leash (const forecast *f, bt__ghost *ghost)
+{
+  bt_vec3 way = bt__sub (ghost->v.position, f->held);
+  double far = bt__norm (way);
+  if (far > f->leash)
+    bt__ghost_stop (ghost, bt__axpy (f->held, f->leash / far, way), bt__scale (-1 / far, way));
 }
 
 /* Lead the string on by a look ahead; zero when it ends here.  */
 static int
-look_ahead (forecast *f, const bt__vehicle *v, ghost *ghost, double radius, double t)
+look_ahead (forecast *f, bt__ghost *ghost, double t)
 {
-  bt_vec3 from = ghost->at;
-  go_on (v, ghost, AHEAD);
-  uint32_t bump = f->g->open ? UINT32_MAX : in_the_way (f, from, ghost->at, radius);
-  if (bump != UINT32_MAX && in_the_way (f, from, from, radius) == UINT32_MAX)
+  bt_vec3 from = ghost->v.position;
+  for (int k = 0; k < LOOKS; k++)
     {
-      tell (f, BT_FORESEE_BUMP, bump, t, 0);
-      return 0;
+      bt__ghost_go_on (ghost, AHEAD / LOOKS);
+      hold_on_leash (f, ghost);
     }
+  note_bump (f, ghost, from, t);
   if (f->g->open)
     {
-      f->string->x[1] = ghost->at;
-      f->string->length = bt__distance (f->string->x[0], ghost->at);
+      f->string->x[1] = ghost->v.position;
+      f->string->length = bt__distance (f->string->x[0], ghost->v.position);
     }
-  else if (!bt__taut_step (f->dive->watch->taut, &f->g->config, f->string, f->string->x[0],
-                           ghost->at, AHEAD_STEPS, &f->dive->watch->count))
-    {
-      tell (f, BT_FORESEE_BUMP, bump, t, 0);
-      return 0;
-    }
-  else
+  else if (bt__taut_step (f->dive->watch->taut, &f->g->config, f->string, f->string->x[0],
+                          ghost->v.position, AHEAD_STEPS, &f->dive->watch->count))
     note_holds (f, t);
+  else
+    return 0;
   note_taut (f, t);
   return !f->taut;
 }
 
-static bt_status
-run_ahead (forecast *f, int vehicle, double seconds)
+static void
+run_ahead (forecast *f, int i, double seconds)
 {
-  const bt__vehicle *v = bt__dive_vehicle (f->dive, f->dive->now, vehicle);
+  int vehicle = f->dive->model->ends[i][1].vehicle;
   bt_vec3 size = f->dive->model->vehicles[vehicle].size;
-  double radius = fmax (0.5 * cbrt (size.x * size.y * size.z), 2 * f->g->config.core);
-  ghost ghost = ghost_of (v);
+  bt__ghost ghost = bt__ghost_of (f->dive, vehicle);
+  f->radius = fmax (0.5 * fmax (size.x, size.y), 2 * f->g->config.core);
   f->taut = f->string->length >= (1 - TAUT) * f->g->out;
   if (!f->g->open)
     note_holds (f, 0);
+  note_bump (f, &ghost, ghost.v.position, 0);
+  look_for_leash (f, i, ghost.v.position);
   for (int k = 1; k * AHEAD <= seconds + 1e-9; k++)
-    if (!look_ahead (f, v, &ghost, radius, k * AHEAD))
+    if (!look_ahead (f, &ghost, k * AHEAD))
       break;
-  return BT_OK;
 }
 
 bt_status
@@ -282,7 +288,7 @@ bt_tether_foresee (const bt_dive *dive, int i, double seconds, bt_foresight *out
       ends[1] = g->node[g->n - 1];
       f.string->room = room;
       bt__string_lay (f.string, g->open ? ends : g->taut->x, g->open ? 2 : g->taut->n);
-      status = run_ahead (&f, dive->model->ends[i][1].vehicle, seconds);
+      run_ahead (&f, i, seconds);
     }
   else
     status = bt__fail (error, BT_ERR_LIMIT, "no memory for a forecast");

@@ -13,8 +13,8 @@
 #define BODY_FRICTION 0.4 /* of a hull on obstacles: caught most in trials */
 #define LEAST_SPEED 0.2   /* m/s: slower is not coming home */
 #define LEAST_RADIUS 0.05 /* m: of a way, for a vehicle that is a point */
-#define HOME_ROOM 0.02    /* m, beyond the radius */
-#define LOOP_ROOM 0.15
+#define GAP_ROOM 0.02     /* m, beyond the radius: of what is hauled through a gap */
+#define WAY_ROOM 0.15     /* m, beyond the reach of the hull: corners are not flown exactly */
 
 /* The drag of a vehicle that has none of its own, going where it is told: N s/m, N s2/m2.  */
 #define DRAG1 60.0
@@ -43,13 +43,22 @@ radius_of (const bt_dive *dive, int vehicle)
   return 0.5 * cbrt (size.x * size.y * size.z);
 }
 
+/* How far the hull reaches from its middle: what flies turns as it likes.  */
+static double
+reach_of (const bt_dive *dive, int vehicle)
+{
+  return 0.5 * bt__norm (dive->model->vehicles[vehicle].size);
+}
+
 static bt__haul_body
 body_of (const bt_dive *dive, int vehicle, double winch)
 {
   const bt__hydro *hydro = &dive->model->types[vehicle].hydro;
   double linear = hydro->linear[BT__SURGE], quadratic = hydro->quadratic[BT__SURGE];
   int slips = linear == 0 && quadratic == 0;
+  bt_vec3 size = dive->model->vehicles[vehicle].size;
   bt__haul_body body = { .radius = radius_of (dive, vehicle),
+                         .reach = 0.5 * fmax (size.x, fmax (size.y, size.z)),
                          .friction = BODY_FRICTION,
                          .drag1 = slips ? DRAG1 : linear,
                          .drag2 = slips ? DRAG2 : quadratic,
@@ -74,7 +83,7 @@ look_for_wedges (const bt_dive *dive, bt__gaze *g, const bt__haul_body *body, bt
   bt__string *home = bt__watch_string (dive);
   if (!home)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for a way home");
-  bt__route way = bt__way_home (dive->watch->taut, &g->config, g->taut, body->radius + HOME_ROOM,
+  bt__route way = bt__way_home (dive->watch->taut, &g->config, g->taut, body->radius + GAP_ROOM,
                                 home, &dive->watch->count);
   bt__haul_wedge (&way, body, p);
   free (home);
@@ -96,7 +105,10 @@ bt_tether_prospect (const bt_dive *dive, int i, double winch, bt_prospect *out, 
   bt__haul_body body = body_of (dive, vehicle, winch);
   bt__prospect p = bt__haul_prospect (&g->holds, &body);
   if (!g->open && body.radius > 0)
-    status = look_for_wedges (dive, g, &body, &p, error);
+    {
+      bt__haul_crotch (&g->config, g->taut, &body, &p, &dive->watch->count);
+      status = look_for_wedges (dive, g, &body, &p, error);
+    }
   *out = (bt_prospect){ .answer = (bt_haul_answer)p.answer,
                         .reason = (bt_haul_reason)p.reason,
                         .object = obstacle_of (dive, p.object),
@@ -114,6 +126,22 @@ put_points (const bt__string *s, bt_vec3 *points, int max)
   for (uint32_t k = 0; k < s->n && (int)k < max; k++)
     points[k] = s->x[k];
   return (int)s->n < max ? (int)s->n : max;
+}
+
+bt_status
+bt_tether_taut_string (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n,
+                       bt_error *error)
+{
+  bt__gaze *g;
+  bt_status status = bt__watch_gaze (dive, i, &g, error);
+  if (status != BT_OK)
+    return status;
+  if (!g->open)
+    *n = put_points (g->taut, points, max);
+  else
+    for (*n = 0; *n < 2 && *n < max; ++*n)
+      points[*n] = g->node[*n ? g->n - 1 : 0];
+  return BT_OK;
 }
 
 /* In open water the way home is the chord.  */
@@ -148,7 +176,7 @@ bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n
       straight_home (g, points, max, n, out);
       return BT_OK;
     }
-  double radius = radius_of (dive, vehicle), want = fmax (radius, LEAST_RADIUS) + HOME_ROOM;
+  double reach = reach_of (dive, vehicle), want = fmax (reach, LEAST_RADIUS) + WAY_ROOM;
   bt__string *home = bt__watch_string (dive);
   if (!home)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for a way home");
@@ -156,7 +184,7 @@ bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n
       = bt__way_home (dive->watch->taut, &g->config, g->taut, want, home, &dive->watch->count);
   *n = put_points (home, points, max);
   *out = (bt_route){ .needed = 1,
-                     .feasible = way.clearance >= radius && way.length > 0,
+                     .feasible = way.clearance >= reach && way.length > 0,
                      .length = way.length,
                      .clearance = way.clearance,
                      .obstacle = obstacle_of (dive, way.object),
@@ -167,12 +195,12 @@ bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n
 
 /* The plan of G's loop into LOOP.  */
 static bt_route
-plan (const bt_dive *dive, const bt__gaze *g, double radius, bt__string *loop, bt__string *copy)
+plan (const bt_dive *dive, const bt__gaze *g, double reach, bt__string *loop, bt__string *copy)
 {
   struct bt__watch *w = dive->watch;
   bt__unwind u = bt__unwind_plan (w->taut, &g->config, g->taut, g->shortest,
-                                  fmax (radius, LEAST_RADIUS) + LOOP_ROOM, g->out, radius, loop,
-                                  copy, &w->count);
+                                  fmax (reach, LEAST_RADIUS) + WAY_ROOM, g->out, reach, loop, copy,
+                                  &w->count);
   return (bt_route){ .needed = u.needed,
                      .feasible = u.feasible,
                      .length = u.way.length,
@@ -199,7 +227,7 @@ bt_tether_unwind_plan (const bt_dive *dive, int i, bt_vec3 *points, int max, int
     return BT_OK;
   bt__string *loop = bt__watch_string (dive), *copy = bt__watch_string (dive);
   if (loop && copy)
-    *out = plan (dive, g, radius_of (dive, vehicle), loop, copy);
+    *out = plan (dive, g, reach_of (dive, vehicle), loop, copy);
   else
     status = bt__fail (error, BT_ERR_LIMIT, "no memory for a plan");
   if (status == BT_OK && out->needed)

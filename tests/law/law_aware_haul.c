@@ -206,6 +206,69 @@ wedged_in_a_gap (void **state)
     }
 }
 
+/* The prospect of a line over the crossing of two bars, or over one of them, AWAY from its start.
+ */
+static bt__prospect
+over_bars (int bars, double away)
+{
+  bt_vec3 line[3] = { { 0, -away, -10.3 }, { 0, 0, -9.74 }, { 0, 6, -10.3 } };
+  stage_clear (&r.g);
+  for (int k = 0; k < bars; k++)
+    stage_capsule (&r.g, bt__vec (-3, 0, -10 - 3 * (1 - 2 * k)),
+                   bt__vec (3, 0, -10 + 3 * (1 - 2 * k)), 0.25);
+  assert_true (stage_make (&r.g));
+  bt__prospect p = prospect (line, 3, &body);
+  bt__haul_crotch (&r.config, r.s, &body, &p, &r.count);
+  return p;
+}
+
+/* In the upper corner of two crossed bars the body wedges, over one it is drawn; not at home.  */
+static void
+wedged_in_a_corner (void **state)
+{
+  (void)state;
+  bt__prospect p = over_bars (2, 6);
+  assert_true (p.answer == BT__UNSURE && p.reason == BT__HAUL_WEDGED && p.object < 2);
+  near ("where", p.s, 6, 0.7);
+  assert_int_equal (over_bars (1, 6).reason, BT__HAUL_CLEAR);
+  assert_int_equal (over_bars (2, 0.8).reason, BT__HAUL_CLEAR);
+}
+
+/* What is long hangs on a member that a ball as large slips past.  */
+static void
+hangs_by_its_longest_side (void **state)
+{
+  bt__haul_body longer = body;
+  (void)state;
+  assert_int_equal (round_a_member (0.2, &longer).reason, BT__HAUL_CLEAR);
+  longer.reach = 0.2; /* less than its radius: that counts */
+  assert_int_equal (round_a_member (0.2, &longer).reason, BT__HAUL_CLEAR);
+  longer.reach = 0.6;
+  assert_int_equal (round_a_member (0.2, &longer).reason, BT__HAUL_HUNG);
+}
+
+/* A block beside the vehicle, or beside the anchor, does not make the way home narrow; one on the
+   way does.  */
+static void
+ends_of_a_way (void **state)
+{
+  bt_vec3 line[2] = { { 0, -6, -10 }, { 0, 6, -10 } };
+  (void)state;
+  for (int k = -1; k <= 1; k++)
+    {
+      stage_clear (&r.g);
+      stage_box (&r.g, bt__vec (1.1, k ? 6.5 * k : 0, -10), bt__vec (1, k ? 0.7 : 6, 1));
+      stage_box (&r.g, bt__vec (-1.1, k ? 6.5 * k : 0, -10), bt__vec (1, k ? 0.7 : 6, 1));
+      assert_true (stage_make (&r.g));
+      prospect (line, 2, &body);
+      bt__route w = bt__way_home (r.taut, &r.config, r.s, 0.5, r.home, &r.count);
+      if (k == 0)
+        near ("between the blocks", w.clearance, 0.1, 0.01);
+      else
+        assert_true (w.clearance > 0.3);
+    }
+}
+
 /* ---- Many scenes ---- */
 
 static void
@@ -360,6 +423,8 @@ main (void)
       = { cmocka_unit_test (clear_of_everything), cmocka_unit_test (hangs_on_thin_members),
           cmocka_unit_test (hangs_on_edges),      cmocka_unit_test (locked_by_turns),
           cmocka_unit_test (wedged_in_a_gap),     cmocka_unit_test (ways_home),
-          cmocka_unit_test (unwinding),           cmocka_unit_test (one_turn_off) };
+          cmocka_unit_test (wedged_in_a_corner),  cmocka_unit_test (hangs_by_its_longest_side),
+          cmocka_unit_test (ends_of_a_way),       cmocka_unit_test (unwinding),
+          cmocka_unit_test (one_turn_off) };
   return cmocka_run_group_tests_name ("aware haul", tests, set_up, tear_down);
 }

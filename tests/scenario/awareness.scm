@@ -210,6 +210,8 @@ the line is wound all the same."
 
 ;;; Ways.
 
+(define (dead-rov at) (part rov (named minnow) (type bluerov2-heavy) (at at)))
+
 (define-scenario way-home
   "The way home, flown with the moving line and the winch taking in slack, arrives at the anchor."
   (in (alone 'dynamic))
@@ -220,6 +222,20 @@ the line is wound all the same."
   (expect (rov-position) is (about '(-6 -6 -5) #:within 0.2))
   (expect (windings) => '())
   (expect (fouled?) => #f))
+
+(define-scenario way-of-a-hull
+  "The way home of a vehicle with a hull and mass leads round a pile without touching it."
+  (in (world (sea (depth 60)) (splice (pile 'p1 0 0)) (splice (dead-rov '(-4 6 -5)))
+             (tether (named line) (type fathom) (wet-weight 0) (from -6 -6 -5) (to minnow) (length 26)
+                     (via (4 -3 -5) (4 4 -5)) (model dynamic))))
+  (expect (assq-ref (way-home-preview) 'clearance) is (between 0.4 0.6))
+  (define start (now))
+  (fly-along! (way-home) #:speed 0.4)
+  (run-until arrived? #:at-most 200)
+  (expect (arrived?))
+  (expect (rov-position) is (about '(-6 -6 -5) #:within 0.2))
+  (expect (filter (lambda (e) (and (eq? 'touched (car e)) (eq? 'minnow (caddr e)))) (events #:since start))
+          => '()))
 
 (define-scenario (unwinding times)
   "The plan, flown, frees the tether; the preview knew it."
@@ -239,8 +255,6 @@ the line is wound all the same."
   (expect (unwind-plan) => #f))
 
 ;;; Hauling.
-
-(define (dead-rov at) (part rov (named minnow) (type bluerov2-heavy) (at at)))
 
 (define-scenario free-to-haul
   "A free line is hauled home, on the fork as in the dive; a line twice round a pile is not."
@@ -278,6 +292,20 @@ the line is wound all the same."
   (when taut
     (expect (any (lambda (h) (and (eq? 'taut (cadr h)) (< (abs (- (car h) (foresight-seconds taut))) 3)))
                  happened))))
+
+(define-scenario forecast-of-a-body
+  "A vehicle with mass, at rest when its sticks are set, gets up to speed in the forecast as in the dive:
+it meets the pile when the string alone had said so."
+  (in (world (sea (depth 60) (current 0.1 90)) (splice (pile 'p1 1 0)) (splice (dead-rov '(0 -8 -5)))
+             (tether (named line) (type fathom) (wet-weight 0) (from 0 -12 -5) (to minnow) (length 20)
+                     (model dynamic))))
+  (drive! #:surge 0.3)
+  (define bump (find (lambda (f) (eq? 'bump (foresight-kind f))) (foresee 60 #:quick #t)))
+  (expect (foresight-object bump) => 'p1)
+  (define start (now))
+  (run 60)
+  (define met (find (lambda (e) (and (eq? 'touched (car e)) (eq? 'minnow (caddr e)))) (events #:since start)))
+  (expect (/ (foresight-seconds bump) (- (cadr met) start)) is (between 0.8 1.25)))
 
 ;;; Probes.
 
