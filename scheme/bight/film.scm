@@ -81,7 +81,9 @@
          (lambda ()
            (let ((port (apply open-program-input log "ffmpeg" (arguments-of size rate part))))
              (pour port file log draw-all)
-             (unless (eqv? 0 (status:exit-val (close-pipe port)))
+             ;; On a full disk ffmpeg may complain and end well all the same.
+             (unless (and (eqv? 0 (status:exit-val (close-pipe port)))
+                          (not (last-line log)))
                (ffmpeg-failed file log)))))
         (rename-or-raise 'film part file))
       (lambda ()
@@ -116,7 +118,7 @@
 (define-verb (film (file film-file)
                    #:key (for film-length 10) (view views '(chase)) (size pixels '(640 . 360))
                    (paint (one-of plain tension curvature model) 'plain)
-                   (overlay (one-of figures none) 'figures)
+                   (overlay overlay '(figures))
                    (rate rate 25) (speed positive 1.0))
   "Let FOR seconds pass and write a film of them to FILE through ffmpeg, or numbered PNGs where there is
 none or FILE ends with .png.  RATE is in pictures a second, SPEED in seconds of the dive in a second; VIEW,

@@ -9,7 +9,8 @@
 (define-module (bight picture)
   #:use-module (bight argument)
   #:use-module (bight dive)
-  #:use-module ((bight errors) #:select (bight-raise nearest))
+  #:use-module ((bight errors)
+                #:select (bight-raise bight-error? bight-error-kind bight-error-message nearest))
   #:use-module (bight record)
   #:use-module (bight verb)
   #:use-module ((bight world) #:select (world-name))
@@ -26,6 +27,7 @@
             write-picture
             type:views
             type:pixels
+            type:overlay
             caption?))
 
 
@@ -35,10 +37,23 @@
   ;; The value of NAME in MODULE, or #f if its extension cannot be loaded.
   (false-if-exception (module-ref (resolve-interface module) name)))
 
+(define (on-behalf proc procedure)
+  ;; PROCEDURE, whose errors are those of PROC.
+  (lambda arguments
+    (with-exception-handler
+        (lambda (e)
+          (if (bight-error? e)
+              (bight-raise (bight-error-kind e) proc "~a" (bight-error-message e))
+              (raise-exception e)))
+      (lambda () (apply procedure arguments))
+      #:unwind? #t)))
+
 (define (renders proc name)
-  (or (extension '(bight render) name)
-      (bight-raise 'unsupported proc
-                   "there are no pictures: this bight was built without its renderer, bight-render")))
+  (on-behalf
+   proc
+   (or (extension '(bight render) name)
+       (bight-raise 'unsupported proc
+                    "there are no pictures: this bight was built without its renderer, bight-render"))))
 
 (define the-renderer #f)                ; opened once
 
@@ -105,6 +120,40 @@
 (define-argument-type (cells value)
   "(COLUMNS ROWS) in characters, each a whole number from 4 to 400"
   (pair-of-sides value 4 400))
+
+;; What is drawn over a picture: (bvh LEVEL) is one level of what bvh shows the first of.
+
+(define overlays '(figures none contacts turns taut-string bvh))
+
+(define deepest 30)
+
+(define (one-overlay value)
+  ;; VALUE as a list of flags for the renderer, or #f.
+  (cond ((eq? value 'none) '())
+        ((memq value overlays) (list value))
+        ((and (list? value) (= 2 (length value)) (eq? 'bvh (car value))
+              ((whole-between 0 deepest) (cadr value)))
+         (list 'bvh (inexact->exact (cadr value))))
+        (else #f)))
+
+(define (several-overlays value)
+  (let ((values (and (pair? value) (bounded-list value (length overlays)))))
+    (and values (every one-overlay values) (append-map one-overlay values))))
+
+(define (with-figures flags)
+  ;; Whatever is shown besides is read with the figures.
+  (if (or (null? flags) (memq 'figures flags)) flags (cons 'figures flags)))
+
+(define type:overlay
+  ;; A list of flags.
+  (make-argument-type
+   'overlay
+   (lambda (value)
+     (cond ((or (one-overlay value) (several-overlays value)) => with-figures)
+           (else refused)))
+   (string-append (alternatives->string (append overlays '("(bvh LEVEL)")))
+                  ", or a list of several of these")
+   overlays))
 
 (define (extension-of file)
   ;; What follows the last dot of FILE's own name, or #f.
@@ -179,15 +228,14 @@
 
 (define (picture-pixels proc views size paint overlay)
   "Return the pixels of a picture of the dive, on behalf of PROC; the others as `snapshot' has them."
-  (draw proc views size paint (flags-of overlay #f)))
+  (draw proc views size paint overlay))
 
 (define (write-picture proc pixels size file)
   "Write PIXELS of SIZE, a pair, to FILE as PNG, on behalf of PROC."
   ((renders proc '%write-picture) pixels (car size) (cdr size) file))
 
 (define (flags-of overlay transparent)
-  (append (if (eq? overlay 'figures) '(figures) '())
-          (if transparent '(transparent) '())))
+  (if transparent (cons 'transparent overlay) overlay))
 
 
 ;;; In a file.
@@ -207,13 +255,15 @@
 (define-verb (snapshot (file png-file)
                        #:key (view views '(overview)) (size pixels '(1280 . 720))
                        (paint (one-of plain tension curvature model) 'plain)
-                       (overlay (one-of figures none) 'figures)
+                       (overlay overlay '(figures))
                        (transparent flag #f))
   "Write a picture of the dive as it is now to FILE, a PNG, and return its name and size.  VIEW is chase,
 pilot, top, side, north, east, overview (the default), plan (a drawing on paper), (look FROM AT), or a
 list of these for a sheet; SIZE is (WIDTH HEIGHT) in pixels; PAINT colours tethers plain, by tension, by
-curvature or by model; OVERLAY is figures (title, scale, compass, legend) or none; TRANSPARENT leaves
-out water and ground."
+curvature or by model; OVERLAY is figures (title, scale, compass, legend) or none, or more than the
+figures: contacts (each with its force), turns about what, taut-string (what the tether would shrink to),
+bvh (the boxes about obstacles that collisions are looked for in, the first levels of them; (bvh LEVEL)
+is one alone), or a list of several; TRANSPARENT leaves out water and ground."
   (check-file 'snapshot file)
   (let ((pixels (draw 'snapshot view size paint (flags-of overlay transparent))))
     (write-picture 'snapshot pixels size file)
@@ -261,7 +311,7 @@ out water and ground."
 
 (define-verb (show #:key (view views '(overview)) (size (or-false cells))
                    (paint (one-of plain tension curvature model) 'plain)
-                   (overlay (one-of figures none) 'figures)
+                   (overlay overlay '(figures))
                    (as (or-false (one-of kitty sixel symbols plain))))
   "Put a picture of the dive as it is now in the terminal, as `snapshot' draws it: VIEW, PAINT and
 OVERLAY are the same; SIZE is (COLUMNS ROWS) in characters.  AS is kitty, sixel, symbols or plain, by
@@ -270,7 +320,7 @@ default the best that the terminal can; plain is what `look' draws.  Return what
     (this-dive 'show)
     (if (eq? way 'plain)
         (show-plainly)
-        (show-pixels view (or size (usual-cells)) paint (flags-of overlay #f) way))))
+        (show-pixels view (or size (usual-cells)) paint overlay way))))
 
 
 ;;; From the command line.
@@ -287,12 +337,15 @@ default the best that the terminal can; plain is what `look' draws.  Return what
   (let ((views (map option->symbol (string-split text #\,))))
     (if (null? (cdr views)) (car views) views)))
 
+(define (option->overlay text)
+  (map option->symbol (string-split text #\,)))
+
 (define command-options
   ;; What of the command line becomes which keyword, and how.
   `(("--view" #:view ,option->views)
     ("--size" #:size ,option->size)
     ("--paint" #:paint ,option->symbol)
-    ("--overlay" #:overlay ,option->symbol)))
+    ("--overlay" #:overlay ,option->overlay)))
 
 (define (option->seconds text)
   (or (string->number text)
@@ -301,7 +354,7 @@ default the best that the terminal can; plain is what `look' draws.  Return what
 (define (snapshot-world world file options)
   "Start a dive in WORLD, a name or a file, let it run as OPTIONS say, an alist of the command line, and
 write a picture of it to FILE.  Return what `snapshot' returns."
-  ((from (bight dive) enter!) world)
+  ((from (bight dive) enter!) world #:trust (assoc-ref options "--trust"))
   (let ((seconds (assoc-ref options "--run")))
     (when seconds
       ((from (bight time) run) (option->seconds seconds))))

@@ -11,6 +11,7 @@
   #:use-module (bight dive)
   #:use-module (bight engine)
   #:use-module (bight errors)
+  #:use-module (bight foresight)
   #:use-module (bight query)
   #:use-module (bight record)
   #:use-module ((bight command) #:select (spooling?))
@@ -18,6 +19,7 @@
   #:export (read-figures
             figures?
             slow-figures
+            forecast
             heading-tape
             draw-hud
             draw-lines))
@@ -101,6 +103,27 @@
     (warnings . ,(warnings vehicle tether))))
 
 
+;;; What is to come, by the string alone.
+
+(define horizon 20)                     ; s
+(define most-foretold 2)
+
+(define (foretold f)
+  (string-append
+   (case (foresight-kind f)
+     ((touch) (simple-format #f "string touches ~a" (foresight-object f)))
+     ((turn) (simple-format #f "~a turns about ~a" (fixed (foresight-turns f) 1) (foresight-object f)))
+     ((taut) "tether taut")
+     (else (simple-format #f "vehicle meets ~a" (or (foresight-object f) "something"))))
+   " in " (fixed (foresight-seconds f) 0) " s"))
+
+(define (forecast tether)
+  "Return what TETHER, a name or #f, will soon do if nobody touches the sticks, strings, soonest first: at
+most two.  This takes milliseconds."
+  (let ((all (or (and tether (answer (foresee tether horizon #:quick #t))) '())))
+    (map foretold (take all (min most-foretold (length all))))))
+
+
 ;;; Words.
 
 (define (fixed x places)
@@ -182,6 +205,7 @@
 (define pale #x9fc4cc)
 (define yellow #xffd84a)
 (define red #xb01818)
+(define amber #xe0a820)
 
 (define (draw-lines put column row lines ink paper)
   "Put LINES, strings, one below the other by PUT from COLUMN and ROW on."
@@ -205,18 +229,25 @@
                (string-append "^ " (string-pad (fixed (floor (figures-heading f)) 0) 3 #\0) " ^")
                yellow #f))))
 
+(define (draw-warnings put columns now ahead)
+  ;; What is, and below it what is to come.
+  (for-each (lambda (text ink paper i)
+              (centred put columns (+ 3 i) (string-append "  " text "  ") ink paper))
+            (append now ahead)
+            (append (map (const #xffffff) now) (map (const #x201800) ahead))
+            (append (map (const red) now) (map (const amber) ahead))
+            (iota (+ (length now) (length ahead)))))
+
 (define (draw-hud put columns rows f slow state)
   "Draw the display of the figures F and SLOW on a screen of COLUMNS and ROWS by PUT, a procedure of a
 column, a row, a string, its colour and that behind it (#f: dimmed).  STATE is an alist of strings: title,
-right, message, and of sticks, a list."
+right, message; of sticks, a list; and of ahead, a list of strings."
   (let ((left (left-rows f)) (right (right-rows f slow)))
     (put 0 0 (string-append " " (assq-ref state 'title) " ") white #f)
     (let ((text (string-append " " (assq-ref state 'right) " ")))
       (put (max 0 (- columns (string-length text))) 0 text pale #f))
     (draw-tape put columns f)
-    (for-each (lambda (text i)
-                (centred put columns (+ 3 i) (string-append "  " text "  ") #xffffff red))
-              (assq-ref slow 'warnings) (iota (length (assq-ref slow 'warnings))))
+    (draw-warnings put columns (assq-ref slow 'warnings) (or (assq-ref state 'ahead) '()))
     (when (and (> rows 12) (>= columns 46))
       (draw-lines put 0 (- rows 3 (length left)) left white #f)
       (draw-lines put (- columns 22) (- rows 3 (length right)) right white #f))

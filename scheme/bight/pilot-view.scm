@@ -36,6 +36,8 @@
 
 (define frame 1/30)                     ; s
 (define slow-period 1/2)                ; s: between questions that cost something
+(define forecast-period 1)              ; s: between looks ahead, or longer,
+(define forecast-share 1/50)            ; so that they take no more of the time than this
 (define ghost-horizon 5)                ; s
 (define ghost-budget 0.006)             ; s of a frame
 
@@ -47,7 +49,7 @@
 
 (define-record <cockpit>
   (make-cockpit dive vehicle tether palette screen size view paint plain? lamp? help? sticks sent
-                message message-until slow slow-due paused? ghost ghost-fork live? done? times
+                message message-until slow slow-due ahead ahead-due paused? ghost ghost-fork live? done? times
                 stepped)
   cockpit?
   (dive cockpit-dive)
@@ -67,6 +69,8 @@
   (message-until cockpit-message-until set-message-until!)
   (slow cockpit-slow set-slow!)
   (slow-due cockpit-slow-due set-slow-due!)
+  (ahead cockpit-ahead set-ahead!)      ; what is to come, strings
+  (ahead-due cockpit-ahead-due set-ahead-due!)
   (paused? cockpit-paused? set-paused!)
   (ghost cockpit-ghost set-ghost!)      ; a dive to draw, #t: wanted, #f: not
   (ghost-fork cockpit-ghost-fork set-ghost-fork!) ; (DIVE . STEPS-LEFT) on its way, or #f
@@ -82,7 +86,7 @@
   (let ((engine (engine-of dive)))
     (make-cockpit dive (first-or-false (%names engine 'rov)) (first-or-false (%names engine 'tether))
                   palette #f #f view paint (eq? palette 'none) #f #f (new-sticks) #f
-                  "" 0 '((windings) (warnings)) 0 #f #f #f #f #f '() (clock))))
+                  "" 0 '((windings) (warnings)) 0 '() 0 #f #f #f #f #f '() (clock))))
 
 (define (tell! c text)
   ;; Show TEXT for a while.
@@ -268,17 +272,25 @@ columns and rows; GHOST is the engine of another dive, or #f."
 (define (f64vector->list* v)
   (array->list v))
 
+(define (ask-ahead! c t)
+  ;; At T, of the copy that a live dive last published; not in a frame that asks for the slow figures.
+  (set-ahead! c (forecast (cockpit-tether c)))
+  (set-ahead-due! c (+ (clock) (max forecast-period (/ (- (clock) t) forecast-share)))))
+
 (define (draw-figures! c put)
   (let ((t (clock)))
-    (when (> t (cockpit-slow-due c))
-      (set-slow! c (slow-figures (cockpit-vehicle c) (cockpit-tether c)))
-      (set-slow-due! c (+ t slow-period)))
+    (cond ((> t (cockpit-slow-due c))
+           (set-slow! c (slow-figures (cockpit-vehicle c) (cockpit-tether c)))
+           (set-slow-due! c (+ t slow-period)))
+          ((and (> t (cockpit-ahead-due c)) (not (cockpit-paused? c)))
+           (ask-ahead! c t)))
     (let ((telling? (< t (cockpit-message-until c))))
       (draw-hud put (car (cockpit-size c)) (cdr (cockpit-size c))
                 (read-figures (cockpit-vehicle c) (cockpit-tether c))
                 (cockpit-slow c)
                 `((title . ,(title c)) (right . ,(right-text c)) (urgent? . ,telling?)
                   (message . ,(if telling? (cockpit-message c) hint))
+                  (ahead . ,(cockpit-ahead c))
                   (sticks . ,(sticks-now c)))))))
 
 (define (draw-help! c put)
@@ -360,6 +372,7 @@ columns and rows; GHOST is the engine of another dive, or #f."
       (set-sticks! c (new-sticks))
       (set-sent! c (stick-values (cockpit-sticks c)))
       (set-slow-due! c 0)
+      (set-ahead-due! c 0)
       (tell! c (simple-format #f "back at ~a s" (/ (round (* 100 t)) 100))))))
 
 (define (toggle-ghost! c)
@@ -479,7 +492,7 @@ at which it was left."
 
 (define (pilot-world world options)
   "Start a dive in WORLD, a name or a file, and fly it, with OPTIONS of the command line, an alist."
-  ((from (bight dive) enter!) world)
+  ((from (bight dive) enter!) world #:trust (assoc-ref options "--trust"))
   (apply pilot!
          (append-map (lambda (entry)
                        (let ((text (assoc-ref options (first entry))))

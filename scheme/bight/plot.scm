@@ -23,7 +23,9 @@
             sample-every
             samples?
             samples-rows
-            chart?))
+            chart?
+            ;; For those who draw other things with gnuplot.
+            gnuplot-output gnuplot-quoted gnuplot-terminal picture-kind))
 
 (define-record <chart>
   (make-chart title x y log curves)
@@ -228,22 +230,23 @@ samples, for `plot'."
 
 ;;; gnuplot.
 
-(define (quoted text)
-  ;; TEXT as gnuplot reads it between single quotes.
+(define (gnuplot-quoted text)
+  "Return TEXT as gnuplot reads it, between single quotes."
   (string-append "'" (string-join (string-split (string-delete #\newline text) #\') "''") "'"))
 
-(define (terminal-of kind size)
+(define (gnuplot-terminal kind size)
+  "Return the words with which gnuplot draws a picture of KIND (svg, png, text), SIZE (WIDTH . HEIGHT)."
   (case kind
     ((svg) (simple-format #f "svg size ~a,~a dynamic background rgb 'white'" (car size) (cdr size)))
     ((png) (simple-format #f "pngcairo size ~a,~a" (car size) (cdr size)))
     (else (simple-format #f "dumb size ~a,~a noenhanced" (car size) (cdr size)))))
 
 (define (print-script chart kind size port)
-  (simple-format port "set term ~a\nset encoding utf8\nset grid\n" (terminal-of kind size))
+  (simple-format port "set term ~a\nset encoding utf8\nset grid\n" (gnuplot-terminal kind size))
   (when (chart-title chart)
-    (simple-format port "set title ~a noenhanced\n" (quoted (chart-title chart))))
+    (simple-format port "set title ~a noenhanced\n" (gnuplot-quoted (chart-title chart))))
   (simple-format port "set xlabel ~a noenhanced\nset ylabel ~a noenhanced\n"
-                 (quoted (chart-x chart)) (quoted (chart-y chart)))
+                 (gnuplot-quoted (chart-x chart)) (gnuplot-quoted (chart-y chart)))
   (unless (string-null? (chart-log chart))
     (simple-format port "set logscale ~a\nset format ~a '%.0e'\n" (chart-log chart) (chart-log chart)))
   (when (> (length (chart-curves chart)) 1)
@@ -253,7 +256,7 @@ samples, for `plot'."
                   (map (lambda (curve)
                          (simple-format #f "'-' ~a with ~a"
                                         (if (string-null? (car curve)) "notitle"
-                                            (string-append "title " (quoted (car curve))))
+                                            (string-append "title " (gnuplot-quoted (car curve))))
                                         (if (string-null? (chart-log chart)) "lines lw 2" "linespoints")))
                        (chart-curves chart))
                   ", "))
@@ -265,25 +268,32 @@ samples, for `plot'."
               (display "e\n" port))
             (chart-curves chart)))
 
-(define (draw chart kind size)
-  ;; The bytes that gnuplot makes of CHART.
+(define (gnuplot-output proc print)
+  "Return the bytes that gnuplot makes of the script that PRINT, a procedure of a port, prints.  Raise a
+&bight-error from PROC if it makes none."
   (unless (program? "gnuplot")
-    (bight-raise 'unsupported 'plot "plots are drawn by gnuplot (Debian package: gnuplot-nox), which is missing"))
+    (bight-raise 'unsupported proc "plots are drawn by gnuplot (Debian package: gnuplot-nox), which is missing"))
   (let ((script (temporary-file)) (log (temporary-file)))
     (dynamic-wind
       (const #f)
       (lambda ()
-        (call-with-output-file script (lambda (port) (print-script chart kind size port))
-                               #:encoding "UTF-8")
+        (call-with-output-file script print #:encoding "UTF-8")
         (or (program-output log "gnuplot" script)
-            (bight-raise 'io 'plot "gnuplot failed: ~a" (or (last-line log) "it says nothing"))))
+            (bight-raise 'io proc "gnuplot failed: ~a" (or (last-line log) "it says nothing"))))
       (lambda ()
         (false-if-exception (delete-file script))
         (false-if-exception (delete-file log))))))
 
+(define (draw chart kind size)
+  ;; The bytes that gnuplot makes of CHART.
+  (gnuplot-output 'plot (lambda (port) (print-script chart kind size port))))
+
 (define (kind-of file)
-  (cond ((not file) 'text)
-        ((string-suffix-ci? ".svg" file) 'svg)
+  (if file (picture-kind file) 'text))
+
+(define (picture-kind file)
+  "Return the kind of picture, svg or png, that the name FILE asks for."
+  (cond ((string-suffix-ci? ".svg" file) 'svg)
         ((string-suffix-ci? ".png" file) 'png)
         (else (bight-raise 'domain 'plot "a plot is written as SVG or PNG, by the end of its name, not ~s"
                            file))))

@@ -474,7 +474,14 @@ sea bed.  The drawing is COLUMNS wide, by default as wide as the terminal.  Retu
         (row "tension"
              (cell "anchor" (figure (answer (anchor-tension name)) 1) "N")
              (cell "vehicle" (figure (answer (rov-tension name)) 1) "N")
-             (cell "most" (figure (answer (max-tension name)) 1) "N"))))
+             (cell "most" (figure (answer (max-tension name)) 1) "N")
+             (worn name))))
+
+(define (worn name)
+  ;; What is worn of the jacket of the tether NAME, #f while it does not show.
+  (let ((share (ask 'wear name)))
+    (and share (>= share 5e-4)
+         (cell "worn" (fixed (* 100 share) 1) "%"))))
 
 (define (among-obstacles?)
   (pair? (%names (this-engine 'status) 'obstacle)))

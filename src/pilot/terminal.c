@@ -177,12 +177,16 @@ check_terminal (bt_error *error)
 {
   const char *kind = getenv ("TERM");
   if (!isatty (STDIN_FILENO) || !isatty (STDOUT_FILENO))
-    return bt__fail (error, BT_ERR_UNSUPPORTED,
-                     "a dive is flown in a terminal, and standard input and output are none");
+    return bt__fail (
+        error, BT_ERR_UNSUPPORTED,
+        "a dive is flown in a terminal, and standard input and output are none; with ssh, "
+        "ssh -t");
   if (!kind || !*kind || strcmp (kind, "dumb") == 0)
-    return bt__fail (error, BT_ERR_UNSUPPORTED,
-                     "a dive is flown in a terminal that can move its cursor; TERM says `%.40s'",
-                     kind ? kind : "");
+    return bt__fail (
+        error, BT_ERR_UNSUPPORTED,
+        "a dive is flown in a terminal that can move its cursor, and TERM says `%.40s'; "
+        "if that is not so, TERM=xterm tells",
+        kind ? kind : "");
   if (tcgetattr (STDIN_FILENO, &the.before) != 0)
     return bt__fail (error, BT_ERR_IO, "the terminal does not tell its state: %s",
                      strerror (errno));

@@ -228,8 +228,10 @@ centre (fit *f)
     f->middle = bt__axpy (f->middle, (f->low[i] + f->high[i]) / 2, f->axis[i]);
 }
 
-/* The share of the picture that is left free around what must be seen.  */
+/* By how much more is in the picture than must be seen: all round, and of a level view above and
+   below, where the titles are.  */
 #define MARGIN 1.16
+#define HEADROOM 1.36
 
 static void
 aim_level (bt_view *view, bt_vec3 ahead, bt_vec3 up, double aspect)
@@ -242,7 +244,7 @@ aim_level (bt_view *view, bt_vec3 ahead, bt_vec3 up, double aspect)
   width = f.high[0] - f.low[0];
   height = f.high[1] - f.low[1];
   view->camera = (bt_camera){ .at = f.middle, .up = f.axis[1] };
-  view->camera.height = MARGIN * fmax (fmax (height, width / aspect), 1);
+  view->camera.height = fmax (fmax (HEADROOM * height, MARGIN * width / aspect), 1);
   view->camera.from = bt__axpy (f.middle, -fmax (1, (f.high[2] - f.low[2]) / 2 + 0.5), f.axis[2]);
 }
 

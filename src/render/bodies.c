@@ -1,8 +1,9 @@
 /* Bodies that people know: the vehicle, the boat, the frame a tether hangs from.
 
-   The vehicle is a small open-frame one of the kind that inspects: 0.46 m long, two dark side
-   plates, bright floats on top, a clear tube with a dome in front, thrusters on its sides.  Lengths
-   are in parts of that of the vehicle.
+   The vehicle is a small open-frame one of the kind that inspects: two dark side plates, bright
+   floats on top with an orange nose, a clear tube with a dome in front, thrusters on its sides.
+   Lengths are in parts of that of the vehicle, as it is built; the whole is then drawn out to the
+   size of its hull.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -11,18 +12,27 @@
 #include "math/vec.h"
 #include "render/soup.h"
 
-/* A body under construction: its pose, and what one unit is in metres.  */
+/* A body under construction: its pose, and what one unit is in metres, along its axes and of what
+   is round.  */
 typedef struct builder
 {
   bt__soup *soup;
   bt__pose pose;
-  double unit;
+  bt_vec3 unit;
+  double round;
 } builder;
+
+static builder
+build (bt__soup *soup, const bt_thing *thing, bt_vec3 unit)
+{
+  bt__pose pose = bt__pose_of (thing->at, thing->heading, thing->pitch, thing->roll);
+  return (builder){ soup, pose, unit, cbrt (unit.x * unit.y * unit.z) };
+}
 
 static bt_vec3
 place (const builder *b, double x, double y, double z)
 {
-  return bt__pose_point (&b->pose, b->unit * x, b->unit * y, b->unit * z);
+  return bt__pose_point (&b->pose, b->unit.x * x, b->unit.y * y, b->unit.z * z);
 }
 
 static void
@@ -37,25 +47,27 @@ block (builder *b, bt_vec3 at, bt_vec3 size)
 {
   bt__pose pose = b->pose;
   pose.at = place (b, at.x, at.y, at.z);
-  bt__add_box (b->soup, &pose, bt__scale (b->unit, size));
+  size = bt__vec (b->unit.x * size.x, b->unit.y * size.y, b->unit.z * size.z);
+  bt__add_box (b->soup, &pose, size);
 }
 
 static void
 rod (builder *b, bt_vec3 from, bt_vec3 to, double r0, double r1)
 {
   bt__add_cone (b->soup, place (b, from.x, from.y, from.z), place (b, to.x, to.y, to.z),
-                b->unit * r0, b->unit * r1, 1);
+                b->round * r0, b->round * r1, 1);
 }
 
 static void
 ball (builder *b, bt_vec3 at, double r)
 {
-  bt__add_sphere (b->soup, place (b, at.x, at.y, at.z), b->unit * r);
+  bt__add_sphere (b->soup, place (b, at.x, at.y, at.z), b->round * r);
 }
 
 static const bt_color dark = { 0.11F, 0.12F, 0.14F }, steel = { 0.55F, 0.57F, 0.6F },
                       glass = { 0.55F, 0.75F, 0.85F }, white = { 0.93F, 0.94F, 0.95F },
-                      black = { 0.03F, 0.03F, 0.04F }, lamp = { 1, 0.97F, 0.85F };
+                      black = { 0.03F, 0.03F, 0.04F }, lamp = { 1, 0.97F, 0.85F },
+                      orange = { 1, 0.55F, 0.08F };
 
 /* ---- The vehicle ---- */
 
@@ -82,15 +94,18 @@ frame (builder *b)
   block (b, bt__vec (0, 0, -0.24), bt__vec (0.66, 0.5, 0.02));
 }
 
+/* Their noses are of another colour: which way it heads is seen from afar.  */
 static void
 floats (builder *b, bt_color color)
 {
   for (int s = -1; s <= 1; s += 2)
     {
       paint (b, color, 50);
-      block (b, bt__vec (0.19 * s, 0.0, 0.2), bt__vec (0.24, 0.86, 0.13));
+      block (b, bt__vec (0.19 * s, -0.1, 0.2), bt__vec (0.24, 0.66, 0.13));
+      paint (b, orange, 50);
+      block (b, bt__vec (0.19 * s, 0.33, 0.2), bt__vec (0.24, 0.2, 0.13));
       paint (b, white, 50);
-      block (b, bt__vec (0.19 * s, 0.0, 0.268), bt__vec (0.1, 0.62, 0.008)); /* its stripe */
+      block (b, bt__vec (0.19 * s, -0.1, 0.268), bt__vec (0.1, 0.5, 0.008)); /* its stripe */
     }
 }
 
@@ -144,8 +159,11 @@ bt__vehicle_growth (const bt__lens *lens, const bt_thing *thing)
 void
 bt__add_vehicle (bt__soup *soup, const bt_thing *thing)
 {
-  builder b = { soup, bt__pose_of (thing->at, thing->heading, thing->pitch, thing->roll),
-                thing->size.y * bt__vehicle_growth (&soup->lens, thing) };
+  static const bt_vec3 built = { 1.258, 1, 0.556 }; /* breadth, length and height of what follows */
+  double growth = bt__vehicle_growth (&soup->lens, thing);
+  builder b = build (soup, thing,
+                     bt__vec (growth * thing->size.x / built.x, growth * thing->size.y / built.y,
+                              growth * thing->size.z / built.z));
   soup->stuff.fog = 150;
   frame (&b);
   floats (&b, thing->color);
@@ -202,8 +220,8 @@ transom (builder *b)
 void
 bt__add_ship (bt__soup *soup, const bt_thing *thing)
 {
-  builder b
-      = { soup, bt__pose_of (thing->at, thing->heading, thing->pitch, thing->roll), thing->size.y };
+  double l = thing->size.y;
+  builder b = build (soup, thing, bt__vec (l, l, l));
   soup->stuff.fog = 120;
   paint (&b, thing->color, 60);
   hull_side (&b, 1);
@@ -224,7 +242,8 @@ void
 bt__add_anchor (bt__soup *soup, const bt_thing *thing)
 {
   double least = 14 * bt__stroke (&soup->lens) * bt__pixel_at (&soup->lens, thing->at);
-  builder b = { soup, bt__pose_of (thing->at, thing->heading, 0, 0), fmax (thing->size.y, least) };
+  double l = fmax (thing->size.y, least);
+  builder b = build (soup, thing, bt__vec (l, l, l));
   soup->stuff.fog = 150;
   paint (&b, thing->color, 60);
   for (int i = 0; i < 4; i++)

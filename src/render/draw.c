@@ -19,63 +19,7 @@ enum
   TILE = 1536 /* pixels */
 };
 
-/* ---- The graphics library's side ---- */
-
-static GLuint
-new_texture (const bt__gl *gl, GLint form, int w, int h, GLenum layout, GLenum type)
-{
-  GLuint t;
-  gl->GenTextures (1, &t);
-  gl->BindTexture (GL_TEXTURE_2D, t);
-  gl->TexImage2D (GL_TEXTURE_2D, 0, form, w, h, 0, layout, type, NULL);
-  gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  return t;
-}
-
-static void
-attach (const bt__gl *gl, GLenum where, GLuint texture)
-{
-  gl->FramebufferTexture2D (GL_FRAMEBUFFER, where, GL_TEXTURE_2D, texture, 0);
-}
-
-/* Buffers for tiles of W by H pixels.  */
-static bt_status
-make_frames (bt__job *j, int w, int h, bt_error *error)
-{
-  static const GLenum two[] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1 };
-  const bt__gl *gl = j->gl;
-  int s = j->drawing.samples, bw = s * (w + 2 * j->margin), bh = s * (h + 2 * j->margin), ok;
-  j->colors = new_texture (gl, GL_RGBA16F, bw, bh, GL_RGBA, GL_HALF_FLOAT);
-  j->shapes = new_texture (gl, GL_RGBA16F, bw, bh, GL_RGBA, GL_HALF_FLOAT);
-  j->depths = new_texture (gl, GL_DEPTH_COMPONENT32F, bw, bh, GL_DEPTH_COMPONENT, GL_FLOAT);
-  j->pixels = new_texture (gl, GL_RGBA8, w, h, GL_RGBA, GL_UNSIGNED_BYTE);
-  j->kinds = new_texture (gl, GL_DEPTH_COMPONENT32F, w, h, GL_DEPTH_COMPONENT, GL_FLOAT);
-  gl->GenFramebuffers (2, j->frame);
-  gl->BindFramebuffer (GL_FRAMEBUFFER, j->frame[0]);
-  attach (gl, two[0], j->colors);
-  attach (gl, two[1], j->shapes);
-  attach (gl, GL_DEPTH_ATTACHMENT, j->depths);
-  gl->DrawBuffers (2, two);
-  ok = gl->CheckFramebufferStatus (GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-  gl->BindFramebuffer (GL_FRAMEBUFFER, j->frame[1]);
-  attach (gl, two[0], j->pixels);
-  attach (gl, GL_DEPTH_ATTACHMENT, j->kinds);
-  gl->DrawBuffers (1, two);
-  if (!ok || gl->CheckFramebufferStatus (GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    return bt__fail (error, BT_ERR_LIMIT, "OpenGL has no room for %d x %d samples", bw, bh);
-  return BT_OK;
-}
-
-static void
-free_frames (bt__job *j)
-{
-  GLuint textures[] = { j->colors, j->shapes, j->depths, j->pixels, j->kinds };
-  j->gl->DeleteFramebuffers (2, j->frame);
-  j->gl->DeleteTextures (5, textures);
-  j->gl->DeleteBuffers (2, j->buffer);
-  j->gl->DeleteVertexArrays (1, &j->array);
-}
+/* ---- Triangles ---- */
 
 static void
 upload (bt__job *j)
@@ -171,7 +115,8 @@ draw_shadows (bt__job *j)
   gl->ClearBufferfv (GL_DEPTH, 0, (const GLfloat[]){ 1 });
   gl->UseProgram (j->r->shadow);
   gl->UniformMatrix4fv (spot (j, j->r->shadow, "sunward"), 1, GL_FALSE, j->cast);
-  draw_corners (j, 0, j->soup.n_index);
+  draw_corners (j, 0, j->n_cast);
+  draw_corners (j, j->n_solid, j->soup.n_index - j->n_solid);
 }
 
 /* What hides a tube lets some of it through: it is mixed to the colour in front.  */
@@ -203,7 +148,6 @@ use_program (const bt__job *j, GLuint program, const float clip[16])
   gl->UniformMatrix4fv (spot (j, program, "clip"), 1, GL_FALSE, clip);
   gl->UniformMatrix4fv (spot (j, program, "sunward"), 1, GL_FALSE, j->cast);
   gl->Uniform1i (spot (j, program, "shadow"), 0);
-  set_number (j, program, "grid", bt__grid_step (j));
   set_number (j, program, "texel", 1.0 / shadows_of (j)->side);
   set_number (j, program, "jitter", j->drawing.samples > 1);
 }
@@ -216,7 +160,7 @@ draw_scene (bt__job *j, const bt__window *window)
   float clip[16];
   int s = j->drawing.samples;
   bt__camera_matrix (&j->optics, j->soup.origin, j->drawing.width, j->drawing.height, window, clip);
-  gl->BindFramebuffer (GL_FRAMEBUFFER, j->frame[0]);
+  gl->BindFramebuffer (GL_FRAMEBUFFER, j->frames->frame[0]);
   gl->Viewport (0, 0, s * (int)window->width, s * (int)window->height);
   gl->ClearBufferfv (GL_COLOR, 0, nothing);
   gl->ClearBufferfv (GL_COLOR, 1, nothing);
@@ -234,9 +178,10 @@ draw_scene (bt__job *j, const bt__window *window)
 static void
 bind_buffers (const bt__job *j, GLuint program)
 {
-  const GLuint texture[] = { j->colors, j->shapes, j->depths };
-  const char *const name[] = { "colors", "shapes", "depths" };
-  for (int i = 0; i < 3; i++)
+  const GLuint texture[] = { j->frames->colors, j->frames->shapes, j->frames->depths,
+                             shadows_of (j)->map, j->frames->sky };
+  const char *const name[] = { "colors", "shapes", "depths", "shadow", "sky" };
+  for (int i = 0; i < 5; i++)
     {
       j->gl->ActiveTexture (GL_TEXTURE0 + (GLenum)i);
       j->gl->BindTexture (GL_TEXTURE_2D, texture[i]);
@@ -264,6 +209,9 @@ set_tile (const bt__job *j, GLuint program, int x, int y)
   set_number (j, program, "ground", j->level);
   set_number (j, program, "level", fmax (j->level, j->middle.z - j->radius));
   set_number (j, program, "bare", j->drawing.transparent);
+  gl->UniformMatrix4fv (spot (j, program, "sunward"), 1, GL_FALSE, j->cast);
+  set_number (j, program, "texel", 1.0 / shadows_of (j)->side);
+  set_number (j, program, "grid", bt__grid_step (j));
 }
 
 /* Sort the pixels, then make those of each kind.  */
@@ -271,14 +219,18 @@ static void
 resolve (const bt__job *j, int x, int y, int w, int h)
 {
   const bt__gl *gl = j->gl;
-  gl->BindFramebuffer (GL_FRAMEBUFFER, j->frame[1]);
-  gl->Viewport (0, 0, w, h);
   gl->BindVertexArray (j->r->empty);
   gl->DepthFunc (GL_ALWAYS);
-  for (int i = 0; i < BT__RESOLVE_PASSES; i++)
+  gl->BindFramebuffer (GL_FRAMEBUFFER, j->frames->frame[2]);
+  gl->Viewport (0, 0, bt__cells (w), bt__cells (h));
+  set_tile (j, j->r->resolve[BT__RESOLVE_SKY], x, y);
+  gl->DrawArrays (GL_TRIANGLES, 0, 3);
+  gl->BindFramebuffer (GL_FRAMEBUFFER, j->frames->frame[1]);
+  gl->Viewport (0, 0, w, h);
+  for (int i = 0; i < BT__RESOLVE_SKY; i++)
     {
       set_tile (j, j->r->resolve[i], x, y);
-      set_number (j, j->r->resolve[i], "layer", i / 4.0);
+      set_number (j, j->r->resolve[i], "layer", i / 8.0);
       gl->DrawArrays (GL_TRIANGLES, 0, 3);
       gl->DepthFunc (GL_EQUAL);
       gl->DepthMask (GL_FALSE);
@@ -313,7 +265,7 @@ draw_tiles (bt__job *j, bt__picture *picture, bt_error *error)
 {
   int side = j->drawing.tile ? j->drawing.tile : TILE;
   int W = picture->width, H = picture->height, m = j->margin;
-  bt_status status = make_frames (j, smaller (side, W), smaller (side, H), error);
+  bt_status status = bt__frames_have (j, smaller (side, W), smaller (side, H), error);
   for (int y = 0; status == BT_OK && y < H; y += side)
     for (int x = 0; status == BT_OK && x < W; x += side)
       {
@@ -351,7 +303,9 @@ draw_alone (bt__job *j, bt__picture *picture, bt_error *error)
   upload (j);
   draw_shadows (j);
   status = draw_tiles (j, picture, error);
-  free_frames (j);
+  j->gl->DeleteBuffers (2, j->buffer);
+  j->gl->DeleteVertexArrays (1, &j->array);
+  bt__frames_leave (j);
   j->r->backend->leave (j->r->context);
   return status;
 }
@@ -379,7 +333,7 @@ bt__render (bt__renderer *r, const bt_view *view, const bt__drawing *drawing, bt
   j.soup.origin = view->camera.at;
   j.soup.lens = bt__lens_of (&j.optics, drawing->height);
   j.reach = drawing->height / 50;
-  j.margin = j.reach + 2;
+  j.margin = j.reach + 4;
   bt__prepare (&j);
   status = j.soup.full ? bt__fail (error, BT_ERR_LIMIT, "there is no memory left for the scene")
                        : bt__picture_new (picture, drawing->width, drawing->height, error);

@@ -162,15 +162,27 @@ set_drawing (bt__drawing *drawing, SCM size, SCM flags)
   drawing->transparent = has_flag (flags, "transparent");
 }
 
+/* What FLAGS, and PAINT, want to see; a number among them is the level of the boxes.  */
+static bt__show
+show_of (SCM paint, SCM flags)
+{
+  static const char *const more[] = { "contacts", "turns", "taut-string", "bvh" };
+  bt__show show = { .paint = (bt__paint)index_of (paint, paint_name), .level = -1 };
+  for (unsigned i = 0; i < sizeof more / sizeof *more; i++)
+    show.more |= has_flag (flags, more[i]) ? 1U << i : 0;
+  for (; scm_is_pair (flags); flags = scm_cdr (flags))
+    if (scm_is_exact_integer (scm_car (flags)))
+      show.level = scm_to_int (scm_car (flags));
+  return show;
+}
+
 /* GHOST, another dive, is drawn pale beside the first; or none, for what is no dive.  */
 static void
-gather (sketch *s, const bt_dive *dive, SCM paint, SCM ghost, int lamp)
+gather (sketch *s, const bt_dive *dive, const bt__show *show, SCM ghost, int lamp)
 {
   bt_error error;
   bt__check ("snapshot", bt_view_new (&s->view, &error), &error);
-  bt__check ("snapshot",
-             bt__scene_of_dive (dive, (bt__paint)index_of (paint, paint_name), s->view, &error),
-             &error);
+  bt__check ("snapshot", bt__scene_of_dive (dive, show, s->view, &error), &error);
   if (!SCM_UNBNDP (ghost) && scm_is_true (ghost))
     bt__check ("snapshot", bt__scene_ghost (to_dive (ghost), s->view, &error), &error);
   if (lamp)
@@ -181,6 +193,7 @@ static SCM
 draw_dive (SCM renderer, SCM object, SCM title, SCM aim, SCM size, SCM paint, SCM flags, SCM ghost)
 {
   const bt_dive *dive = to_dive (object);
+  const bt__show show = show_of (paint, flags);
   sketch *s = scm_gc_calloc (sizeof *s, "sketch");
   bt_error error;
   SCM bytes;
@@ -188,7 +201,7 @@ draw_dive (SCM renderer, SCM object, SCM title, SCM aim, SCM size, SCM paint, SC
   scm_dynwind_begin (0);
   scm_dynwind_unwind_handler (free_sketch, s, SCM_F_WIND_EXPLICITLY);
   bt__check ("snapshot", bt__check_size (s->drawing.width, s->drawing.height, &error), &error);
-  gather (s, dive, paint, ghost, has_flag (flags, "lamp"));
+  gather (s, dive, &show, ghost, has_flag (flags, "lamp"));
   set_title (s, title);
   bt__check ("snapshot", aim_camera (s, aim, &error), &error);
   draw (s, renderer, has_flag (flags, "figures"));
@@ -234,7 +247,8 @@ bight_render_init (void)
       "Return the pixels, a bytevector, of a picture by RENDERER of DIVE with TITLE, seen by AIM, "
       "of "
       "SIZE (WIDTH . HEIGHT), tethers painted by PAINT; FLAGS are of figures, transparent, quick, "
-      "lamp; GHOST, another dive, is drawn pale beside it." },
+      "lamp, contacts, turns, taut-string, bvh, a level of boxes; GHOST, another dive, is drawn "
+      "pale beside it." },
     { "%write-picture", 4, 0, (scm_t_subr)write_picture,
       "Write BYTES, the pixels of a picture of WIDTH by HEIGHT, to FILE as PNG." },
   };

@@ -16,7 +16,8 @@ typedef struct bt__job
   bt__drawing drawing;
   bt__optics optics;
   bt__soup soup;
-  size_t n_solid; /* corners of the soup that are no ground; they come first */
+  size_t n_cast;  /* corners of the soup that cast shadows, ground apart; they come first */
+  size_t n_solid; /* corners that are no ground */
   bt_vec3 middle; /* of what casts shadows */
   double radius;
   double level; /* height of level ground, or -1e30 */
@@ -24,11 +25,18 @@ typedef struct bt__job
   int margin;   /* pixels around a tile */
   float cast[16];
   GLuint array, buffer[2];
-  GLuint frame[2], colors, shapes, depths, pixels, kinds;
+  bt__frames *frames; /* the renderer's, once they are had */
 } bt__job;
 
 /* Gather the triangles of JOB's view, and from them what its light and its camera span.  */
 void bt__prepare (bt__job *job);
+
+/* frames.c: have buffers for tiles of W by H pixels: those of the last picture, if they are of that
+   size.  Leave them for the next picture, unless they are large.  */
+bt_status bt__frames_have (bt__job *job, int w, int h, bt_error *error);
+void bt__frames_leave (bt__job *job);
+/* Cells of two pixels that a side of N pixels needs, with those about it.  */
+int bt__cells (int n);
 
 /* How far one sees, m.  */
 double bt__visibility (const bt__job *job);

@@ -16,25 +16,64 @@ label_place (const bt_thing *t)
   return t->kind == BT_THING_ARROW ? t->to : t->at;
 }
 
+/* Where labels are already.  */
+typedef struct labels
+{
+  int n;
+  struct
+  {
+    double x, y, w;
+  } at[64];
+} labels;
+
+static int
+is_free (const labels *l, double x, double y, double w, double h)
+{
+  for (int i = 0; i < l->n; i++)
+    if (x < l->at[i].x + l->at[i].w && l->at[i].x < x + w && fabs (y - l->at[i].y) < h)
+      return 0;
+  return 1;
+}
+
+/* The nearest free line above or below Y, within four.  */
+static double
+free_line (const labels *l, double x, double y, double w, double h)
+{
+  for (int i = 0; i < 9; i++)
+    {
+      double at = y + (i & 1 ? (i + 1) / 2 : -i / 2) * h;
+      if (is_free (l, x, at, w, h))
+        return at;
+    }
+  return y;
+}
+
 static void
-write_label (bt__pen *pen, const bt__optics *optics, const bt_thing *t)
+write_label (bt__pen *pen, const bt__optics *optics, const bt_thing *t, labels *done)
 {
   double x, y, w = bt__pen_width (pen, t->text), gap = 0.7 * pen->letter;
   if (!bt__project (optics, label_place (t), pen->width, pen->height, &x, &y))
     return;
   if (x < 0 || x > pen->width || y < 0 || y > pen->height)
     return;
-  if (x + gap + w > pen->width) /* to the other side */
-    x -= 2 * gap + w;
-  bt__pen_text (pen, x + gap, y - 0.45 * pen->letter, 0, t->text);
+  x += x + gap + w > pen->width ? -gap - w : gap; /* or to the other side */
+  y = free_line (done, x, y - 0.45 * pen->letter, w, 1.25 * pen->letter);
+  if (done->n < (int)(sizeof done->at / sizeof *done->at))
+    {
+      done->at[done->n].x = x;
+      done->at[done->n].y = y;
+      done->at[done->n++].w = w;
+    }
+  bt__pen_text (pen, x, y, 0, t->text);
 }
 
 static void
 write_labels (bt__pen *pen, const bt_view *view, const bt__optics *optics)
 {
+  labels done = { .n = 0 };
   for (size_t i = 0; i < view->n; i++)
     if (view->things[i].text)
-      write_label (pen, optics, &view->things[i]);
+      write_label (pen, optics, &view->things[i], &done);
 }
 
 /* ---- The scale bar ---- */
@@ -233,16 +272,27 @@ write_legend (bt__pen *pen, const bt_scale *scale)
 
 /* ---- All of it ---- */
 
+/* TEXT of SIZE letters at most, smaller if it would run into the compass.  */
+static void
+write_line (bt__pen *pen, const char *text, double size, double y)
+{
+  double e = pen->letter, room = pen->width - 9 * e, w;
+  cairo_set_font_size (pen->cr, size * e);
+  w = bt__pen_width (pen, text);
+  if (w > room)
+    cairo_set_font_size (pen->cr, size * e * fmax (room / w, 0.5));
+  bt__pen_text (pen, 1.2 * e, y, 0, text);
+  cairo_set_font_size (pen->cr, e);
+}
+
 static void
 write_title (bt__pen *pen, const bt_view *view)
 {
   double e = pen->letter;
   if (view->title)
-    bt__pen_text (pen, 1.2 * e, 1.9 * e, 0, view->title);
-  cairo_set_font_size (pen->cr, 0.82 * e);
+    write_line (pen, view->title, 1, 1.9 * e);
   if (view->note)
-    bt__pen_text (pen, 1.2 * e, 3.2 * e, 0, view->note);
-  cairo_set_font_size (pen->cr, e);
+    write_line (pen, view->note, 0.82, 3.2 * e);
 }
 
 /* In a small picture there is room for the scale alone.  */

@@ -7,10 +7,21 @@
 #include "math/vec.h"
 #include "render/job.h"
 
-static int
-is_ground (const bt_thing *t)
+/* What casts shadows; what is drawn to be read and casts none; what most of the others hide.  */
+enum
 {
-  return t->kind == BT_THING_LEVEL || t->kind == BT_THING_FIELD || t->ground;
+  SOLID,
+  SIGN,
+  GROUND
+};
+
+static int
+sort_of (const bt_thing *t)
+{
+  if (t->kind == BT_THING_LEVEL || t->kind == BT_THING_FIELD || t->ground)
+    return GROUND;
+  return t->kind == BT_THING_ARROW || t->kind == BT_THING_MARK || t->kind == BT_THING_LINES ? SIGN
+                                                                                            : SOLID;
 }
 
 double
@@ -32,7 +43,7 @@ reach_of (const bt__job *j)
 }
 
 static void
-gather (bt__job *j, int ground)
+gather (bt__job *j, int sort)
 {
   const bt_view *view = j->view;
   for (size_t i = 0; i < view->n; i++)
@@ -40,7 +51,7 @@ gather (bt__job *j, int ground)
       const bt_thing *t = &view->things[i];
       if (t->kind == BT_THING_LEVEL)
         j->level = t->at.z;
-      if (is_ground (t) == ground)
+      if (sort_of (t) == sort)
         bt__add_thing (&j->soup, view, t, reach_of (j));
     }
 }
@@ -104,10 +115,12 @@ void
 bt__prepare (bt__job *j)
 {
   j->level = -1e30;
-  gather (j, 0);
+  gather (j, SOLID);
+  j->n_cast = j->soup.n_index;
+  gather (j, SIGN);
   j->n_solid = j->soup.n_index;
   if (!j->drawing.transparent)
-    gather (j, 1); /* last: most of it is hidden by then */
+    gather (j, GROUND); /* last: most of it is hidden by then */
   measure (j);
   set_depths (j);
 }

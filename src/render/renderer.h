@@ -24,6 +24,15 @@ typedef struct bt__shadows
   int side; /* pixels */
 } bt__shadows;
 
+/* Buffers for tiles of W by H pixels: samples by colour, by shape, by depth; pixels and of which
+   kind they are; how open the sky is.  */
+typedef struct bt__frames
+{
+  int w, h, margin, samples;
+  GLuint frame[3];
+  GLuint colors, shapes, depths, pixels, kinds, sky;
+} bt__frames;
+
 struct bt__renderer
 {
   const bt__backend *backend;
@@ -32,6 +41,7 @@ struct bt__renderer
   GLuint scene, ground, shadow; /* programs */
   GLuint resolve[BT__RESOLVE_PASSES];
   bt__shadows still, quick;
+  bt__frames frames;    /* of the last picture; W 0: there are none */
   pthread_mutex_t lock; /* of the context: a picture at a time */
   GLuint empty;         /* a vertex array for what has no vertices */
   char name[200];

@@ -12,7 +12,7 @@ typedef struct bt__scene
 {
   const bt_dive *dive;
   bt_view *view;
-  bt__paint paint;
+  bt__show show;
   bt_sea_view sea;
   bt_status status;
   bt_error *error;
@@ -28,5 +28,6 @@ void bt__scene_add (bt__scene *scene, const bt_thing *thing);
 
 void bt__scene_tethers (bt__scene *scene);   /* scene_tether.c */
 void bt__scene_obstacles (bt__scene *scene); /* scene_obstacle.c */
+void bt__scene_more (bt__scene *scene);      /* scene_more.c */
 
 #endif

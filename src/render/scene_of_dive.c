@@ -35,7 +35,8 @@ vehicle_of (bt__scene *s, int i)
   return v;
 }
 
-/* Breadth, length and height of a BlueROV2 in its heavy configuration, m.  */
+/* Breadth, length and height of a BlueROV2 in its heavy configuration, m: of a vehicle without a
+   size of its own.  */
 static const bt_vec3 usual_size = { 0.575, 0.457, 0.254 };
 
 static bt_thing
@@ -47,7 +48,7 @@ vehicle_thing (bt__scene *s, int i)
   t.heading = v.heading;
   t.pitch = v.pitch;
   t.roll = v.roll;
-  t.size = usual_size;
+  t.size = v.size.y > 0 ? v.size : usual_size;
   t.framing = BT_FRAME_MUST;
   return t;
 }
@@ -233,9 +234,9 @@ bt__scene_ghost (const bt_dive *dive, bt_view *view, bt_error *error)
 /* ---- The whole ---- */
 
 bt_status
-bt__scene_of_dive (const bt_dive *dive, bt__paint paint, bt_view *view, bt_error *error)
+bt__scene_of_dive (const bt_dive *dive, const bt__show *show, bt_view *view, bt_error *error)
 {
-  bt__scene s = { .dive = dive, .view = view, .paint = paint, .status = BT_OK, .error = error };
+  bt__scene s = { .dive = dive, .view = view, .show = *show, .status = BT_OK, .error = error };
   bt_dive_sea (dive, &s.sea);
   view->time = bt_dive_time (dive);
   bt__scene_obstacles (&s);
@@ -246,6 +247,7 @@ bt__scene_of_dive (const bt_dive *dive, bt__paint paint, bt_view *view, bt_error
       add_anchors (&s);
       add_current (&s);
     }
+  bt__scene_more (&s);
   if (s.status == BT_OK)
     add_note (&s);
   free (s.points);

@@ -18,12 +18,29 @@ typedef enum bt__paint
   BT__PAINTS
 } bt__paint;
 
+/* What is drawn over the scene for who wants to look closer.  */
+enum
+{
+  BT__SHOW_CONTACTS = 1, /* every contact, with the force or the normal there */
+  BT__SHOW_TURNS = 2,    /* how often tethers go round what */
+  BT__SHOW_STRING = 4,   /* what the tethers would shrink to */
+  BT__SHOW_BOXES = 8     /* the boxes about the obstacles */
+};
+
+typedef struct bt__show
+{
+  bt__paint paint;
+  unsigned more; /* of the above */
+  int level;     /* of the boxes; -1: the first few levels */
+} bt__show;
+
 /* Return the word for PAINT, or NULL.  */
 const char *bt__paint_name (bt__paint paint);
 
-/* Put what DIVE holds now into VIEW, an empty one: sea and bottom, obstacles, tethers painted by
-   PAINT, vehicles, where tethers come from, what they touch, the current.  */
-bt_status bt__scene_of_dive (const bt_dive *dive, bt__paint paint, bt_view *view, bt_error *error);
+/* Put what DIVE holds now into VIEW, an empty one: sea and bottom, obstacles, tethers painted,
+   vehicles, where tethers come from, what they touch, the current, and what SHOW wants more.  */
+bt_status bt__scene_of_dive (const bt_dive *dive, const bt__show *show, bt_view *view,
+                             bt_error *error);
 
 /* Add the vehicles and tethers of DIVE, another fate of the dive in VIEW, pale.  No camera aims at
    them.  */

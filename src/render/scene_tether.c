@@ -3,6 +3,7 @@
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -101,11 +102,11 @@ static void
 set_values (bt__scene *s, int i, const bt_tether_view *t, double *value, size_t n)
 {
   const bt_vec3 *p = s->points + (value - s->values);
-  if (s->paint == BT__PAINT_TENSION)
+  if (s->show.paint == BT__PAINT_TENSION)
     s->status = bt_tether_tensions (s->dive, i, (int)n, value, s->error);
-  else if (s->paint == BT__PAINT_CURVATURE)
+  else if (s->show.paint == BT__PAINT_CURVATURE)
     set_curvatures (p, value, n);
-  else if (s->paint == BT__PAINT_MODEL)
+  else if (s->show.paint == BT__PAINT_MODEL)
     set_models (s, i, t, value, n);
 }
 
@@ -123,7 +124,8 @@ set_range (bt__scene *s)
       scale->low = fmin (scale->low, s->values[i]);
       scale->high = fmax (scale->high, s->values[i]);
     }
-  if (s->paint == BT__PAINT_CURVATURE || !(scale->high - scale->low > 1e-6 * fabs (scale->high)))
+  if (s->show.paint == BT__PAINT_CURVATURE
+      || !(scale->high - scale->low > 1e-6 * fabs (scale->high)))
     scale->low = fmin (0, scale->low);
   if (!(scale->high > scale->low))
     scale->high = scale->low + 1;
@@ -173,11 +175,11 @@ set_scale (bt__scene *s)
   static const char *const names[BT__PAINTS] = { NULL, "tension", "curvature", "model" };
   static const char *const units[BT__PAINTS] = { NULL, "N", "1/m", NULL };
   bt_scale *scale = &s->view->scale;
-  scale->name = names[s->paint];
-  scale->unit = units[s->paint];
-  if (s->paint == BT__PAINT_MODEL)
+  scale->name = names[s->show.paint];
+  scale->unit = units[s->show.paint];
+  if (s->show.paint == BT__PAINT_MODEL)
     set_words (s);
-  else if (s->paint != BT__PAINT_PLAIN)
+  else if (s->show.paint != BT__PAINT_PLAIN)
     set_range (s);
 }
 
@@ -188,7 +190,7 @@ add_tube (bt__scene *s, const bt_vec3 *points, const double *values, size_t n, d
 {
   bt_thing t = bt_thing_of (BT_THING_TUBE);
   t.points = points;
-  t.values = s->paint == BT__PAINT_PLAIN ? NULL : values;
+  t.values = s->show.paint == BT__PAINT_PLAIN ? NULL : values;
   t.n = n;
   t.radius = radius;
   t.framing = BT_FRAME_MUST;
@@ -211,8 +213,21 @@ add_tail (bt__scene *s, int i, const bt_tether_view *t)
   free (points);
 }
 
+/* The name of OBSTACLE, and how often tether I goes round it, if it does.  */
+static void
+describe_touch (bt__scene *s, int i, int obstacle, char text[static 120])
+{
+  const char *name = bt_dive_name (s->dive, BT_PART_OBSTACLE, obstacle);
+  double turns = 0;
+  bt_status status = bt_tether_turns (s->dive, i, obstacle, &turns, NULL);
+  if (status == BT_OK && fabs (turns) >= 0.75)
+    snprintf (text, 120, "%.60s, %+.1f turns", name ? name : "", turns);
+  else
+    snprintf (text, 120, "%.60s", name ? name : "");
+}
+
 /* Rings where tether I touches, not two within a hundredth of its length; the first on an obstacle
-   tells its name.  */
+   tells its name, unless more is told of it.  */
 static void
 add_marks (bt__scene *s, int i, const bt_tether_view *t)
 {
@@ -222,6 +237,7 @@ add_marks (bt__scene *s, int i, const bt_tether_view *t)
   };
   bt_contact *contact = malloc (MOST * sizeof *contact);
   int n = contact ? bt_tether_contacts (s->dive, i, contact, MOST) : 0, last = -1;
+  char text[120];
   double at = -INFINITY;
   for (int k = 0; k < n && k < MOST; k++)
     {
@@ -230,8 +246,11 @@ add_marks (bt__scene *s, int i, const bt_tether_view *t)
         continue;
       mark.at = contact[k].position;
       mark.radius = 6;
-      if (contact[k].object != last)
-        mark.text = bt_dive_name (s->dive, BT_PART_OBSTACLE, contact[k].object);
+      if (contact[k].object != last && !(s->show.more & (BT__SHOW_CONTACTS | BT__SHOW_TURNS)))
+        {
+          describe_touch (s, i, contact[k].object, text);
+          mark.text = text;
+        }
       last = contact[k].object;
       at = contact[k].s;
       bt__scene_add (s, &mark);

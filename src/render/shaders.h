@@ -13,12 +13,13 @@ extern const char *const bt__shader_shadow_vertex[];
 extern const char *const bt__shader_shadow_fragment[];
 extern const char *const bt__shader_resolve_vertex[];
 
-/* To sort the pixels; then for those with nothing in them, one surface, edges: the K-th of these is
-   drawn at the depth K / 4.  */
+/* To sort the pixels; then for those with nothing in them, one surface, edges, ground: the K-th of
+   these is drawn at the depth K / 8.  */
 enum
 {
-  BT__RESOLVE_PASSES = 4
+  BT__RESOLVE_SKY = 5, /* before these */
+  BT__RESOLVE_PASSES = 6
 };
-extern const char *const bt__shader_resolve_fragment[BT__RESOLVE_PASSES][6];
+extern const char *const bt__shader_resolve_fragment[BT__RESOLVE_PASSES][8];
 
 #endif

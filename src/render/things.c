@@ -85,12 +85,26 @@ add_mark (bt__soup *soup, const bt_thing *t)
 
 /* ---- Solids ---- */
 
-static void
-add_capsule (bt__soup *soup, const bt_thing *t)
+/* What is round and thin, a wire, is drawn no thinner than a tether: it is what one hangs on.  */
+static double
+thick_at (bt__soup *soup, double radius, bt_vec3 p)
 {
-  bt__add_cone (soup, t->from, t->to, t->radius, t->radius, 0);
-  bt__add_sphere (soup, t->from, t->radius);
-  bt__add_sphere (soup, t->to, t->radius);
+  return fmax (radius, least_width (soup) / 2 * bt__pixel_at (&soup->lens, p));
+}
+
+static void
+add_round (bt__soup *soup, const bt_thing *t)
+{
+  double r0 = thick_at (soup, t->radius, t->from), r1 = thick_at (soup, t->radius, t->to);
+  int ball = t->kind == BT_THING_CAPSULE;
+  if (r0 > t->radius || r1 > t->radius)
+    soup->stuff.edge = BT__EDGE_NONE; /* nothing of it would be left between its outlines */
+  bt__add_cone (soup, t->from, t->to, r0, r1, !ball);
+  if (ball)
+    {
+      bt__add_sphere (soup, t->from, r0);
+      bt__add_sphere (soup, t->to, r1);
+    }
 }
 
 static void
@@ -119,10 +133,8 @@ add_solid (bt__soup *soup, const bt_thing *t)
     bt__add_box (soup, &pose, t->size);
   else if (t->kind == BT_THING_SPHERE)
     bt__add_sphere (soup, t->at, t->radius);
-  else if (t->kind == BT_THING_CYLINDER)
-    bt__add_cone (soup, t->from, t->to, t->radius, t->radius, 1);
-  else if (t->kind == BT_THING_CAPSULE)
-    add_capsule (soup, t);
+  else if (t->kind == BT_THING_CYLINDER || t->kind == BT_THING_CAPSULE)
+    add_round (soup, t);
   else
     add_mesh (soup, t);
 }

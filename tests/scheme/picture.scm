@@ -35,14 +35,8 @@
   ;; Why there are no pictures, or #f.  To ask is to load.
   (delay (raised (renderer-name))))
 
-(define scratch
-  (mkdtemp (string-append (or (getenv "TMPDIR") "/tmp") "/bight-picture-XXXXXX")))
-
-(define (in-scratch name)
-  (string-append scratch "/" name))
-
 (define (file-bytes name)
-  (call-with-input-file (in-scratch name) get-bytevector-all #:binary #t))
+  (call-with-input-file (scratch-file name) get-bytevector-all #:binary #t))
 
 (define (png-size name)
   "Return (WIDTH HEIGHT) of the PNG called NAME, or #f if it is none."
@@ -66,7 +60,7 @@
   (in open-water)
   (run 0.1)
   (expect loaded-at-first => '())
-  (let ((missing (raised (snapshot (in-scratch "plan.png") #:view 'plan #:size '(320 200)))))
+  (let ((missing (raised (snapshot (scratch-file "plan.png") #:view 'plan #:size '(320 200)))))
     (if missing
         (skip (cdr missing))
         (begin
@@ -77,21 +71,21 @@
   "A snapshot writes a PNG of the size asked for and says so."
   (in open-water)
   (with-pictures
-   (expect (shown (snapshot (in-scratch "a.png") #:size '(160 90))) =>
-           (string-append (in-scratch "a.png") ", 160 x 90 pixels, overview"))
+   (expect (shown (snapshot (scratch-file "a.png") #:size '(160 90))) =>
+           (string-append (scratch-file "a.png") ", 160 x 90 pixels, overview"))
    (expect (png-size "a.png") => '(160 90))
    (expect (or (loaded? "libOSMesa") (loaded? "libEGL")) => #t)
    (for-each (lambda (view)
-               (snapshot (in-scratch "v.png") #:view view #:size '(96 64))
+               (snapshot (scratch-file "v.png") #:view view #:size '(96 64))
                (expect (png-size "v.png") => '(96 64)))
              '(chase pilot top side north east plan (look (5 -5 -3) (0 5 -5))))
    (for-each (lambda (paint)
-               (snapshot (in-scratch "p.png") #:paint paint #:size '(96 64))
+               (snapshot (scratch-file "p.png") #:paint paint #:size '(96 64))
                (expect (png-size "p.png") => '(96 64)))
              '(plain tension curvature model))
-   (snapshot (in-scratch "s.png") #:view '(top side chase) #:size '(300 200))
+   (snapshot (scratch-file "s.png") #:view '(top side chase) #:size '(300 200))
    (expect (png-size "s.png") => '(300 200))
-   (snapshot (in-scratch "t.png") #:transparent #t #:size '(96 64))
+   (snapshot (scratch-file "t.png") #:transparent #t #:size '(96 64))
    (expect (png-size "t.png") => '(96 64))))
 
 (define-scenario a-picture-leaves-the-dive-alone
@@ -100,11 +94,11 @@
   (run 0.5)
   (with-pictures
    (let ((before (state-hash)))
-     (snapshot (in-scratch "one.png") #:size '(160 120) #:paint 'tension)
-     (snapshot (in-scratch "two.png") #:size '(160 120) #:paint 'tension)
+     (snapshot (scratch-file "one.png") #:size '(160 120) #:paint 'tension)
+     (snapshot (scratch-file "two.png") #:size '(160 120) #:paint 'tension)
      (expect (state-hash) => before)
      (expect (equal? (file-bytes "one.png") (file-bytes "two.png")) => #t)
-     (snapshot (in-scratch "two.png") #:size '(160 120) #:paint 'curvature)
+     (snapshot (scratch-file "two.png") #:size '(160 120) #:paint 'curvature)
      (expect (equal? (file-bytes "one.png") (file-bytes "two.png")) => #f))))
 
 (define-scenario obstacles-are-seen
@@ -113,7 +107,7 @@
   (with-pictures
    (define (draw-with name . parts)
      (enter! (extend (find-world 'open-water) (splice parts)))
-     (snapshot (in-scratch name) #:size '(120 90) #:view '(look (20 5 -6) (0 5 -6)) #:overlay 'none)
+     (snapshot (scratch-file name) #:size '(120 90) #:view '(look (20 5 -6) (0 5 -6)) #:overlay 'none)
      (file-bytes name))
    (let ((bare (draw-with "o0.png"))
          (one (draw-with "o1.png" (part cylinder (named p) (from 8 5 0) (to 8 5 -40) (radius 0.5))))
@@ -121,6 +115,40 @@
      (expect (equal? bare one) => #f)
      (expect (equal? bare other) => #f)
      (expect (equal? one other) => #f))))
+
+(define-scenario more-is-drawn-over
+  "Each overlay changes the picture, the same twice; levels of boxes differ; a list is all of its parts."
+  (in pile)
+  (for-each (lambda (p) (move! p #:speed 0.5) (run-until arrived? #:at-most 60))
+            '((6 6 -5) (-4 6 -6) (-4 -4 -5) (6 -4 -6)))
+  (expect (contacts) is pair?)
+  (with-pictures
+   (define (drawn overlay)
+     (snapshot (scratch-file "o.png") #:overlay overlay #:size '(320 240))
+     (file-bytes "o.png"))
+   (let ((all (map drawn '(none figures contacts turns taut-string bvh (contacts bvh)))))
+     (expect (length (delete-duplicates all)) => (length all))
+     (expect (equal? (drawn '(bvh contacts)) (last all)) => #t)
+     (expect (equal? (drawn '(bvh 0)) (drawn '(bvh 1))) => #f))
+   (expect (snapshot (scratch-file "o.png") #:overlay 'turns #:view 'plan #:size '(96 64))))
+  (expect (snapshot "x.png" #:overlay 'trees) raises name)
+  (expect (snapshot "x.png" #:overlay '(bvh -1)) raises domain)
+  (expect (snapshot "x.png" #:overlay '(bvh trees)) raises domain))
+
+(define-scenario a-vehicle-is-as-large-as-its-hull
+  "A hull of another size changes the picture."
+  (in open-water)
+  (with-pictures
+   (define (drawn w)
+     (enter! w)
+     (snapshot (scratch-file "h.png") #:view 'chase #:size '(96 64) #:overlay 'none)
+     (file-bytes "h.png"))
+   (define (sized y)
+     (world (sea (depth 40))
+            (rov (named minnow) (type kinematic) (at 0 0 -5) (size 0.6 y 0.4))
+            (tether (from 0 -5 -2) (to minnow) (length 8) (wet-weight 0) (model catenary))))
+   (expect (equal? (drawn (sized 0.5)) (drawn (sized 0.5))) => #t)
+   (expect (equal? (drawn (sized 0.5)) (drawn (sized 0.9))) => #f)))
 
 (define-scenario mistakes-teach
   "What is wrong with a call is said before anything is drawn, with what is allowed."
@@ -140,7 +168,7 @@
   (expect (snapshot "x.jpg") raises domain)
   (expect (snapshot 'x) raises domain)
   (expect (snapshot "x.png" #:vieuw 'top) raises name)
-  (expect (snapshot scratch) raises io)
+  (expect (snapshot (dirname (scratch-file "x"))) raises io)
   (expect (show #:as 'telepathy) raises name)
   (expect (file-exists? "x.png") => #f))
 
@@ -149,9 +177,9 @@
   (in open-water)
   (with-pictures
    (expect (snapshot "/nowhere/at/all.png" #:size '(64 64)) raises io)
-   (expect (snapshot (in-scratch "none/x.png") #:size '(64 64)) raises io)
-   (expect (filter (lambda (file) (string-suffix? ".part" file)) (scandir scratch)) => '())
-   (expect (raised (snapshot (in-scratch "l.png") #:view '(look (1 1 1) (1 1 1)))) =>
+   (expect (snapshot (scratch-file "none/x.png") #:size '(64 64)) raises io)
+   (expect (filter (lambda (file) (string-suffix? ".part" file)) (scandir (dirname (scratch-file "x")))) => '())
+   (expect (raised (snapshot (scratch-file "l.png") #:view '(look (1 1 1) (1 1 1)))) =>
            (cons 'domain "a camera looks from one point at another, not at itself"))))
 
 (define-scenario shown-in-a-terminal

@@ -134,6 +134,23 @@
    '((80 24) (120 40) (250 80)))
   (expect (list? (draw-on 20 5)) => #t))
 
+(define-scenario what-is-to-come-is-foretold
+  "On course for a pile the display says so, with the seconds; standing still it says nothing."
+  (in pier)
+  (expect (forecast 'line) => '())
+  (expect (forecast #f) => '())
+  (drive! #:surge 0.8)
+  (run 3)
+  (let* ((foretold (forecast 'line)) (said '())
+         (put (lambda (column row text ink paper) (set! said (cons text said)))))
+    (expect (length foretold) is (between 1 2))
+    (expect (->bool (string-match "(meets|touches) pier/.* in [0-9]+ s$" (car foretold))) => #t)
+    (draw-hud put 80 24 (read-figures 'minnow 'line) '((windings) (warnings "TAUT"))
+              `((title . "t") (right . "r") (message . "m") (urgent? . #f) (sticks . (0 0 0 0))
+                (ahead . ,foretold)))
+    (expect (->bool (member "  TAUT  " said)) => #t)
+    (expect (->bool (member (string-append "  " (car foretold) "  ") said)) => #t)))
+
 (define-scenario a-dive-is-flown-in-a-terminal-alone
   "Without one nothing begins."
   (in open-water)

@@ -10,14 +10,8 @@
              (ice-9 textual-ports)
              (srfi srfi-1))
 
-(define scratch
-  (mkdtemp (string-append (or (getenv "TMPDIR") "/tmp") "/bight-plot-XXXXXX")))
-
-(define (in-scratch name)
-  (string-append scratch "/" name))
-
 (define (files)
-  (scandir scratch (lambda (name) (not (string-prefix? "." name)))))
+  (scandir (dirname (scratch-file "x")) (lambda (name) (not (string-prefix? "." name)))))
 
 (define (said thunk)
   "Return the message of what THUNK raises, or #f."
@@ -44,7 +38,7 @@
 
 (define (make-program! name . lines)
   "Make a shell script NAME in a folder of its own, and return the folder."
-  (let ((folder (in-scratch "bin")))
+  (let ((folder (scratch-file "bin")))
     (unless (file-exists? folder) (mkdir folder))
     (call-with-output-file (string-append folder "/" name)
       (lambda (port) (display (string-join (cons "#!/bin/sh" lines) "\n") port)))
@@ -59,17 +53,17 @@
   (expect (length (samples-rows s)) => 5)
   (expect (map car (samples-rows s)) is (about '(0 0.5 1 1.5 2) #:within 0.02))
   (with-gnuplot
-   (plot s #:to (in-scratch "a.svg") #:title "It's <it>")
-   (let ((text (call-with-input-file (in-scratch "a.svg") get-string-all)))
+   (plot s #:to (scratch-file "a.svg") #:title "It's <it>")
+   (let ((text (call-with-input-file (scratch-file "a.svg") get-string-all)))
      (expect (string-prefix? "<?xml" text) => #t)
      (expect (->bool (string-contains text "max-tension")) => #t)
      (expect (->bool (string-contains text "s &lt;it")) => #t))
-   (plot s #:to (in-scratch "b.svg") #:title "It's <it>")
-   (expect (equal? (call-with-input-file (in-scratch "a.svg") get-string-all)
-                   (call-with-input-file (in-scratch "b.svg") get-string-all))
+   (plot s #:to (scratch-file "b.svg") #:title "It's <it>")
+   (expect (equal? (call-with-input-file (scratch-file "a.svg") get-string-all)
+                   (call-with-input-file (scratch-file "b.svg") get-string-all))
            => #t)
-   (plot s #:to (in-scratch "a.png") #:size '(200 150))
-   (expect (> (stat:size (stat (in-scratch "a.png"))) 500) => #t)
+   (plot s #:to (scratch-file "a.png") #:size '(200 150))
+   (expect (> (stat:size (stat (scratch-file "a.png"))) 500) => #t)
    (expect (->bool (string-contains (object->string (plot s #:size '(60 15))) "max-tension")) => #t)))
 
 (define-scenario a-tether-is-plotted-along-its-length
@@ -79,33 +73,33 @@
    (for-each (lambda (what)
                (expect (->bool (string-contains (object->string (plot what)) "arc length")) => #t))
              '(tension depth curvature))
-   (call-with-output-file (in-scratch "bench.csv")
+   (call-with-output-file (scratch-file "bench.csv")
      (lambda (port)
        (display "case,model,setting,metric,error,reference,reference_uncertainty,cpu_ns\n" port)
        (display "c,m,n=1,rms,1e-3,none,0,1000\nc,m,n=2,rms,1e-5,none,0,5000\nc,m,n=3,rms,0,none,0,5\n"
                 port)))
-   (expect (->bool (string-contains (object->string (plot (in-scratch "bench.csv"))) "CPU, s")) => #t)
+   (expect (->bool (string-contains (object->string (plot (scratch-file "bench.csv"))) "CPU, s")) => #t)
    (expect (->bool (string-contains (object->string (plot '((up (0 0) (1 1)) (down (0 1) (1 0))))) "down"))
            => #t)))
 
 (define-scenario plots-that-cannot-be
   "Each failure is one clear line, and leaves no file."
   (in cross-current)
-  (expect (plot 'tension #:to (in-scratch "x.pdf")) raises domain)
-  (expect (plot 'tension #:to (in-scratch "no/x.svg")) raises io)
+  (expect (plot 'tension #:to (scratch-file "x.pdf")) raises domain)
+  (expect (plot 'tension #:to (scratch-file "no/x.svg")) raises io)
   (expect (plot 'colour) raises domain)
-  (expect (plot (in-scratch "missing.csv")) raises io)
+  (expect (plot (scratch-file "missing.csv")) raises io)
   (expect (plot '()) raises domain)
-  (expect (call-with-path (in-scratch "nowhere") (lambda () (plot 'tension))) raises unsupported)
+  (expect (call-with-path (scratch-file "nowhere") (lambda () (plot 'tension))) raises unsupported)
   (let ((bin (make-program! "gnuplot" "echo 'line 1: it hurts' >&2" "exit 1")))
     (expect (said (lambda ()
                     (call-with-path (string-append bin ":" (getenv "PATH"))
-                                    (lambda () (plot 'tension #:to (in-scratch "x.svg"))))))
+                                    (lambda () (plot 'tension #:to (scratch-file "x.svg"))))))
             => "gnuplot failed: line 1: it hurts"))
-  (expect (file-exists? (in-scratch "x.svg")) => #f)
+  (expect (file-exists? (scratch-file "x.svg")) => #f)
   (with-gnuplot
-   (symlink "/dev/full" (in-scratch "full.svg"))
-   (expect (->bool (string-contains (said (lambda () (plot 'tension #:to (in-scratch "full.svg"))))
+   (symlink "/dev/full" (scratch-file "full.svg"))
+   (expect (->bool (string-contains (said (lambda () (plot 'tension #:to (scratch-file "full.svg"))))
                                     "No space left"))
            => #t)))
 
@@ -115,23 +109,23 @@
   (with-pictures
    (let ((bin (make-program! "ffmpeg" "for last; do :; done" "exec cat >\"$last\"")))
      (call-with-path (string-append bin ":" (getenv "PATH"))
-                     (lambda () (film (in-scratch "f.mp4") #:for 0.2 #:size '(64 48) #:rate 10)))
-     (expect (stat:size (stat (in-scratch "f.mp4"))) => (* 2 4 64 48))
+                     (lambda () (film (scratch-file "f.mp4") #:for 0.2 #:size '(64 48) #:rate 10)))
+     (expect (stat:size (stat (scratch-file "f.mp4"))) => (* 2 4 64 48))
      (expect (now) is (about 0.2 #:within 0.02)))
    (let ((bin (make-program! "ffmpeg" "echo 'Unknown encoder' >&2" "exit 1")))
      (expect (said (lambda ()
                      (call-with-path (string-append bin ":" (getenv "PATH"))
                                      (lambda ()
-                                       (film (in-scratch "g.mp4") #:for 1 #:size '(640 480) #:rate 10)))))
-             => (string-append "cannot write \"" (in-scratch "g.mp4") "\": Unknown encoder"))
+                                       (film (scratch-file "g.mp4") #:for 1 #:size '(640 480) #:rate 10)))))
+             => (string-append "cannot write \"" (scratch-file "g.mp4") "\": Unknown encoder"))
      (expect (filter (lambda (name) (string-prefix? "g" name)) (files)) => '()))))
 
 (define-scenario films-without-ffmpeg
   "Become numbered pictures."
   (in open-water)
   (with-pictures
-   (film (in-scratch "h.png") #:for 0.3 #:size '(32 32) #:rate 10)
+   (film (scratch-file "h.png") #:for 0.3 #:size '(32 32) #:rate 10)
    (expect (filter (lambda (name) (string-prefix? "h" name)) (files))
            => '("h-00001.png" "h-00002.png" "h-00003.png"))
-   (expect (film (in-scratch "no/h.png") #:for 1) raises io)
-   (expect (film (in-scratch "h.png") #:for 0) raises domain)))
+   (expect (film (scratch-file "no/h.png") #:for 1) raises io)
+   (expect (film (scratch-file "h.png") #:for 0) raises domain)))

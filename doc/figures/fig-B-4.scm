@@ -1,0 +1,10 @@
+;;; Figure B-4: the catenary whose plane sags.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(enter! (world (sea (depth 30) (current 0.5 90))
+               (rov (named minnow) (at -4 18 -20))
+               (tether (named line) (type fathom) (wet-weight 0) (cdt 0) (from 0 0 -4) (to minnow)
+                       (length 34) (model catenary)
+                       (depth-rule sag) (sag-buoyancy -0.5) (max-current 1))))
+(snapshot "fig-B-4.png" #:view '((look (17 -12 -2) (2 9 -13)) east) #:size '(1280 480))
