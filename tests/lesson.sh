@@ -86,4 +86,23 @@ END
 [ $? -eq 1 ] && grep -q 'demonstration does not pass' "$scratch/out" && grep -q 'nobody can hear the hint: Never' "$scratch/out"
 result $? 'a lesson that cannot be passed does not check'
 
+cp "$top_srcdir/lessons/11-blind-tender.scm" "$scratch/outside.scm"
+"$pre" bight lesson --check "$scratch/outside.scm" >"$scratch/out" 2>"$scratch/err"
+result $? 'a lesson with messages checks from outside as well'
+
+# What a lesson hides is hidden at its prompt.
+"$pre" bight lesson blind-tender --typed --quiet --trainee eve >"$scratch/out" 2>"$scratch/err" <<END
+(slack)
+l
+t give 5
+(run 2)
+(payout-counter)
+(rov-depth)
+q
+END
+[ "$(grep -c 'you cannot see that from where you are' "$scratch/out")" -eq 3 ] && grep -q '8.0$' "$scratch/out"
+result $? 'what a lesson hides its pupil cannot ask'
+grep -q '^Tender: Giving' "$scratch/out"
+result $? 'and hears what the tender answers'
+
 finish

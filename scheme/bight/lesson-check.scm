@@ -2,14 +2,13 @@
 ;;;
 ;;; Its own demonstration pilot must pass it; flown again it must come out the same to the last bit; each
 ;;; hint must be heard by a pilot who does nothing, and no task may be done by doing nothing; nothing in it
-;;; may ask the machine for the time or for chance.
+;;; may ask the machine for the time or for chance, and its pilots may not see what it hides from a pupil.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson-check)
   #:use-module (bight errors)
   #:use-module (bight lesson)
-  #:use-module (bight verb)
   #:use-module (srfi srfi-1)
   #:export (check-lesson
             demonstration
@@ -96,6 +95,12 @@
   (map (lambda (word) (simple-format #f "it asks the machine: ~a" word))
        (filter (lambda (word) (memq word machine-words)) words)))
 
+(define (check-hidden lesson)
+  (let ((hidden (append-map cdr (clauses-in 'hides (lesson-code lesson))))
+        (flown (words-in (clauses-in 'flies (lesson-code lesson)))))
+    (map (lambda (verb) (simple-format #f "its pilots see what it hides from the pupil: ~a" verb))
+         (filter (lambda (verb) (memq verb flown)) hidden))))
+
 (define* (check-lesson lesson #:optional (words (words-in (lesson-code lesson))))
   "Return what is wrong with LESSON, a list of sentences, empty if it is proved.  WORDS are the symbols of
 the file it is in."
@@ -106,4 +111,5 @@ the file it is in."
             (check-same report again)
             (check-hints lesson report idles)
             (check-idle idles)
-            (check-machine words))))
+            (check-machine words)
+            (check-hidden lesson))))

@@ -14,6 +14,7 @@
   #:use-module (bight errors)
   #:use-module (bight lesson-score)
   #:use-module (bight lesson-tally)
+  #:use-module (bight lesson-way)
   #:use-module (bight pilot)
   #:use-module (bight record)
   #:use-module (bight task)
@@ -24,7 +25,7 @@
   #:use-module (srfi srfi-1)
   #:export (make-guide guide? plan? guide-hears-hints?
             call-with-plan plan-rows plan-counts plan-tender
-            begin-dive! say-text show-picture put-probe last-answer run-task watch-fork repeat-steps
+            begin-dive! say-as say-text show-picture put-probe last-answer run-task watch-fork repeat-steps
             untrusted? breathing
             ;; For guides.
             task-text next-hint! save-point! go-back! recent-points ask-for-hint!
@@ -43,7 +44,8 @@
 (define (this-guide)
   (session-guide (this-session 'lesson)))
 
-(define (say kind text)
+(define (say-as kind text)
+  "Say TEXT to the pupil, and log it as being of KIND: say, hint, coach, fault, message and so on."
   (log-line! kind text)
   ((guide-say (this-guide)) kind text))
 
@@ -98,7 +100,7 @@
 
 (define (say-text text values)
   "Say TEXT, in which each ~a stands for one of VALUES."
-  (say 'say (filled text values)))
+  (say-as 'say (filled text values)))
 
 (define (show-picture thunk)
   "Show what THUNK returns, or, when it is #f, the dive."
@@ -106,7 +108,7 @@
 
 (define (watch-fork text thunk)
   "Say TEXT, call THUNK on a fork of the dive, and show what became of it; the dive is as before."
-  (say 'say text)
+  (say-as 'say text)
   (let ((seen (what-if-thunk (lambda () (thunk) (look)))))
     ((guide-picture (this-guide)) (lambda () seen))))
 
@@ -143,20 +145,29 @@
          (bight-raise 'domain 'probe "the truth of a probe without #:choices is a number, not ~s" truth))
         (else truth)))
 
+(define (check-tolerance what value)
+  ;; Within nothing no answer could be right.
+  (unless (or (not value) (and (real? value) (finite? value) (positive? value)))
+    (bight-raise 'domain 'probe "~a of a probe is a number above 0, how near an answer must come, not ~s; \
+for one right answer of several say #:choices (A B ...)" what value)))
+
 (define* (put-probe question truth bearing? #:key (within (if bearing? 25 #f)) choices (degrees bearing?)
-                    ratio)
+                    ratio answer)
   "Ask QUESTION, whose answer TRUTH, a thunk, knows: within WITHIN, or by RATIO of the truth, or one of
-CHOICES.  BEARING? says that the truth is a bearing unless DEGREES says otherwise."
+CHOICES.  BEARING? says that the truth is a bearing unless DEGREES says otherwise.  ANSWER, if given, is
+what somebody else than the pupil says, who is asked in his place."
+  (check-tolerance "#:within" within)
+  (check-tolerance "#:ratio" ratio)
   (let* ((n (+ 1 (tally-ref 'probes 0)))
          (truth (checked-truth (truth) choices))
          (within (cond (choices #f) (ratio (max 1e-9 (abs (* ratio truth)))) (else (or within 1)))))
     (tally-set! 'probes n)
     (log-line! 'probe question)
-    (let* ((answer ((guide-probe (this-guide)) question truth choices))
+    (let* ((answer (or answer ((guide-probe (this-guide)) question truth choices)))
            (mark (probe-mark (simple-format #f "probe ~a" n) answer truth choices within degrees)))
       (add-mark! mark)
       (tally-set! 'answer answer)
-      (say (if (mark-passed? mark) 'right 'wrong) (mark-detail mark)))))
+      (say-as (if (mark-passed? mark) 'right 'wrong) (mark-detail mark)))))
 
 
 (define-verb (last-answer)
@@ -207,7 +218,7 @@ CHOICES.  BEARING? says that the truth is a bearing unless DEGREES says otherwis
 (define (give-hint! hint)
   (tally-set! 'hints-left (delq hint (tally-ref 'hints-left '())))
   (tally-set! 'hints-given (+ 1 (tally-ref 'hints-given 0)))
-  (say 'hint (second hint)))
+  (say-as 'hint (second hint)))
 
 (define (next-hint!)
   "Give the next hint of the task that is going on; return #f when there is none left."
@@ -234,7 +245,7 @@ CHOICES.  BEARING? says that the truth is a bearing unless DEGREES says otherwis
   (for-each (lambda (fault)
               (when (fault-due? fault)
                 (tally-set! 'faults-left (delq fault (tally-ref 'faults-left)))
-                (say 'fault (third fault))
+                (say-as 'fault (third fault))
                 ((fourth fault))))
             (tally-ref 'faults-left '())))
 
@@ -254,11 +265,12 @@ CHOICES.  BEARING? says that the truth is a bearing unless DEGREES says otherwis
   (let ((coach (session-coach (this-session 'task))))
     (when (and coach (due? 1))
       (let ((words (coach-looks! coach)))
-        (when words (say 'coach words))))))
+        (when words (say-as 'coach words))))))
 
 (define (look-around conditions finish)
   ;; Called after each step of a task.
   (when (due? sample-time)
+    (note-way!)
     (sample-rows! (plan-rows (current-plan)))
     (tick-counters! (plan-counts (current-plan))))
   (when (due? 1)
@@ -334,7 +346,7 @@ CHOICES.  BEARING? says that the truth is a bearing unless DEGREES says otherwis
 (define (finish-task! n outcome)
   (add-mark! (task-mark n outcome))
   (if (eq? 'done (car outcome))
-      (say 'done "Done.")
+      (say-as 'done "Done.")
       ((session-stop (this-session 'task)) (car outcome))))
 
 (define (what-went-wrong outcome)
@@ -346,7 +358,7 @@ CHOICES.  BEARING? says that the truth is a bearing unless DEGREES says otherwis
     (if (eq? 'done (car outcome))
         (finish-task! n outcome)
         (begin
-          (say 'failed (what-went-wrong outcome))
+          (say-as 'failed (what-went-wrong outcome))
           (case ((guide-failed (this-guide)) (what-went-wrong outcome))
             ((back) (go-back! 10) (attempt! n conditions))
             ((again) (go-back! +inf.0) (attempt! n conditions))
@@ -368,7 +380,7 @@ CHOICES.  BEARING? says that the truth is a bearing unless DEGREES says otherwis
   (let ((n (+ 1 (tally-ref 'tasks 0))))
     (check-seconds conditions)
     (tally-set! 'tasks n)
-    (say 'task text)
+    (say-as 'task text)
     (begin-task! conditions)
     (parameterize ((current-task (cons text conditions))
                    (recent-points (and (guide-hears-hints? (this-guide)) (make-variable '()))))

@@ -2,7 +2,7 @@
 ;;;
 ;;; A row of (score ...) names a measure and the band it should be in.  Each row makes one mark between
 ;;; 0 and 1: by `share' the part of the time spent in the band against the part asked for, else by how
-;;; far the `end', `most', `least' or `mean' value lies outside.
+;;; far the `end', `most', `least', `mean' or `rms' value lies outside.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -10,7 +10,6 @@
   #:use-module (bight errors)
   #:use-module (bight record)
   #:use-module (bight time)
-  #:use-module (bight verb)
   #:use-module (bight lesson-tally)
   #:use-module (srfi srfi-1)
   #:export (make-row row? row-label row-low row-high
@@ -31,7 +30,7 @@
   (over row-over)                       ; how far outside nothing is left of the mark
   (weight row-weight))
 
-(define ways '(share end most least mean))
+(define ways '(share end most least mean rms))
 
 (define* (make-row label ask low high #:key (by 'share) (share 0.8) over (weight 1))
   "Return the row of a score called LABEL, whose measure ASK, a thunk, should lie from LOW to HIGH."
@@ -128,7 +127,8 @@
     ((end) (last values))
     ((most) (apply max values))
     ((least) (apply min values))
-    ((mean) (/ (apply + values) (length values)))))
+    ((mean) (/ (apply + values) (length values)))
+    ((rms) (sqrt (/ (apply + (map (lambda (v) (* v v)) values)) (length values))))))
 
 (define (judge-row rows row)
   "Return the mark of ROW, one of ROWS."
@@ -148,7 +148,8 @@
                                        (band row))))))))
 
 (define (way->string way)
-  (assq-ref '((end . "at the end") (most . "at most") (least . "at least") (mean . "on average")) way))
+  (assq-ref '((end . "at the end") (most . "at most") (least . "at least") (mean . "on average")
+              (rms . "rms")) way))
 
 (define (total-of marks)
   "Return the weighted mean of MARKS out of 100, a whole number."

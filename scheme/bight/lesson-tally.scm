@@ -23,30 +23,33 @@
             session-stop
             session-coach
             session-log
+            session-limits
             tally tally-ref tally-set! restore-tally!
             log-line!
             time-or-0
             tick-counters!
             levels
             ;; The language of lessons.
-            counter count! setting jitter tell! told messages))
+            counter count! setting jitter))
 
 (define levels '(easy normal hard))
 
 (define-record <session>
-  (%make-session settings level guide coach stop tally log)
+  (%make-session settings level guide coach stop limits tally log)
   session?
   (settings session-settings)           ; an alist from name to a list of values, one for each level
   (level session-level)                 ; one of `levels'
   (guide session-guide)
   (coach session-coach)                 ; or #f
   (stop session-stop)                   ; ends the lesson, called with why
+  (limits session-limits)               ; an alist: messages, how many; hidden, verbs
   (tally session-tally set-session-tally!)
   (log session-log set-session-log!))   ; (TIME KIND TEXT), the last first
 
-(define (make-session settings level guide coach stop seed)
-  "Return a session that has only begun; SEED is a whole number that its random numbers come from."
-  (%make-session settings level guide coach stop `((random . ,(scramble seed))) '()))
+(define* (make-session settings level guide coach stop seed #:optional (limits '()))
+  "Return a session that has only begun; SEED is a whole number that its random numbers come from.  LIMITS
+is an alist: `messages', how many the pilot may send, and `hidden', the verbs that the pupil has not."
+  (%make-session settings level guide coach stop limits `((random . ,(scramble seed))) '()))
 
 (define current-session (make-parameter #f))
 
@@ -138,26 +141,3 @@ Outside a lesson it is 0."
     (unless values
       (unknown-name 'setting "this lesson" name (map car (session-settings s)) "setting"))
     (list-ref values (list-index (lambda (l) (eq? l (session-level s))) levels))))
-
-
-;;; Messages between pilot and tender.
-
-(define-verb (tell! (whom name) (text string))
-  "Send WHOM, such as the tender, the message TEXT.  Return how many messages were sent so far."
-  (log-line! 'message (string-append "to the " (symbol->string whom) ": " text))
-  (tally-set! 'messages (append (tally-ref 'messages '()) (list (cons whom text))))
-  (length (tally-ref 'messages)))
-
-(define-verb (told (whom name))
-  "Return the oldest message to WHOM that was not read yet, a string, or #f; then it is read."
-  (let ((unread (tally-ref 'unread-from '()))
-        (mine (filter (lambda (m) (eq? whom (car m))) (tally-ref 'messages '()))))
-    (let ((n (or (assq-ref unread whom) 0)))
-      (and (< n (length mine))
-           (begin
-             (tally-set! 'unread-from (acons whom (+ n 1) (alist-delete whom unread eq?)))
-             (cdr (list-ref mine n)))))))
-
-(define-verb (messages)
-  "Return the messages sent in this lesson so far, in order: pairs of whom and text."
-  (tally-ref 'messages '()))

@@ -14,7 +14,8 @@
 (define-scenario (three-pilots name)
   "The careless pilot fails; the ordinary one is well above him, and the expert above both."
   #:for ((name 'read-the-bow 'just-enough-slack 'count-your-turns 'turn-into-the-current 'one-pile
-               'wrong-side 'which-side-of-the-leg 'snag-drill 'clump-and-float 'wreck-with-rigging))
+               'wrong-side 'which-side-of-the-leg 'follow-your-tether 'snag-drill 'clump-and-float
+               'blind-tender 'wreck-with-rigging 'under-ice 'tms-day 'the-tide-makes))
   (let ((lesson (load-lesson (lesson-file (symbol->string name)))))
     (for-each
      (lambda (seed)
@@ -29,7 +30,7 @@
 
 (define-scenario every-lesson-is-tested
   "No lesson is left out above."
-  (expect (length (lessons)) => 10))
+  (expect (length (lessons)) => 15))
 
 (define-scenario (a-lesson-is-proved name)
   "What bight lesson --check says of some, and of the template."

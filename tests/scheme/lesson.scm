@@ -1,4 +1,4 @@
-;;; The lesson language: clauses, marks, hints, faults, counters, branches, rewinds, messages, errors.
+;;; The lesson language: clauses, marks, hints, faults, counters, branches, rewinds, messages, ways, errors.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -121,6 +121,12 @@
   (expect (says? "has no clause `insde'" (define-lesson a "x" (when #t (insde small)))))
   (expect (says? "has no clause `insde'" (define-lesson a "x" (branch (#t (insde small))))))
   (expect (says? "three values" (define-lesson a "x" (setting u 1 2))))
+  (expect (says? "N above 0" (define-lesson a "x" (probe "How far?" 3 #:within 0))))
+  (expect (says? "N above 0" (define-lesson a "x" (when #t (probe "How far?" 3 #:ratio -1)))))
+  (expect (says? "above 0" (run-lesson (define-lesson a "x" (probe "How far?" 3 #:within (- 1 1))
+                                         (pilot expert "x")))))
+  (expect (says? "whole number" (define-lesson a "x" (message-limit 1.5))))
+  (expect (says? "say (hides VERB ...)" (define-lesson a "x" (hides))))
   (expect (says? "say (define-lesson" (define-lesson "x")))
   (expect (says? "has no way of judging" (run-lesson (define-lesson a "x" (in small) (score (slack 0 1 #:by alwys))
                                           (pilot expert "x")))))
@@ -140,11 +146,66 @@
     (expect (wrong? "doing nothing"
                     (define-lesson bad "x" (in small) (task "t" (done-when #t)) (task "u" (done-when #t))
                       (pilot expert "x"))))
+    (expect (wrong? "see what it hides from the pupil: slack"
+                    (define-lesson bad "x" (hides turns slack) (in small)
+                      (task "t" (done-when (> (now) 1)) (at-most 5))
+                      (pilot expert "x" (flies (if (> (slack) 0) (run 2)))))))
     (expect (wrong? "asks the machine: random"
                     (define-lesson bad "x" (in small) (set-up (random 3)) (pilot expert "x"))))
     (let ((n 0))
       (expect (wrong? "the same"
                       (define-lesson bad "x" (in small) (set-up (set! n (+ n 1)) (run n)) (pilot expert "x")))))))
+
+(define-lesson few-words "Messages between pilot and tender"
+  (message-limit 2)
+  (hides slack)
+  (in small)
+  (task "Ask for tether."
+        (first (count! 'read 0))
+        (done-when (> (now) 4)))
+  (probe "Tender: how many messages?" (- 2 (messages-left)) #:within 0.5 #:answer (counter 'read))
+  (tender "Counts what it is told, and answers."
+    (let listen ()
+      (run-until (lambda () (told 'tender)))
+      (count! 'read)
+      (tell! 'pilot "Heard.")
+      (listen)))
+  (pilot expert "Says little."
+    (flies (tell! 'tender "one") (run 1) (tell! 'tender "two")))
+  (pilot chatty "Says much."
+    (flies (every 0.5 (count! 'sent (if (tell! 'tender "more") 1 0))))))
+
+(define-scenario messages-are-limited
+  "A message beyond the limit is not sent; the tender's answers are free, and the pupil hears them."
+  (let ((expert (run-lesson 'few-words)) (chatty (run-lesson 'few-words #:pilot 'chatty)))
+    (expect (length (texts 'message expert)) => 4)
+    (expect (length (texts 'message chatty)) => 4)
+    (expect (member "Heard." (texts 'message expert)))
+    (expect (texts 'fault expert) => '())
+    (expect (length (texts 'fault chatty)) is (above 4))
+    (expect (mark "probe 1" chatty) => 1))
+  (expect (messages-left) raises def)
+  (expect (number-in "give 5.5 metres") => 5.5)
+  (expect (number-in "give 1e300000 or 3") => 3)
+  (expect (number-in "more") => #f))
+
+(define-scenario the-way-in-is-known-on-the-way-out
+  "How far the vehicle is from the way it took in an earlier task, and its root mean square."
+  (let* ((lesson (define-lesson out-and-back "x" (in small)
+                   (task "North." (done-when (> (y (rov-position)) 8)) (fail-when (> (off-here) 0) "No."))
+                   (task "Home, two metres east." (done-when (< (y (rov-position)) 5.5)) (at-most 30))
+                   (score ((off-the-way 1) 0 0 #:by rms #:over 4)
+                          ((off-the-way 1) 2 2 #:by most #:over 4))
+                   (pilot expert "x"
+                     (flies (drive! #:surge 0.5))
+                     (flies (place! '(2 8 -5)) (drive! #:surge -0.5)))))
+         (report (take-lesson lesson (scripted-guide (pilot-named lesson 'expert)))))
+    (expect (second (third (report-marks report))) is (about 0.5 #:within 0.01))
+    (expect (second (fourth (report-marks report))) is (about 1 #:within 0.01))))
+
+(define (off-here)
+  ;; The way of a task that is going on is nobody's way back.
+  (guard (e ((bight-error? e) 0)) (off-the-way 1)))
 
 (define (stubborn answers)
   ;; A guide of one who flies ahead, and when he fails chooses what ANSWERS say in turn.
