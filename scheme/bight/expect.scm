@@ -29,7 +29,9 @@
             failure-expected
             failure-actual
             failure-location
+            failure-remarks
             make-failure
+            with-remarks
             note-failure!
             note-success!
             claim
@@ -100,6 +102,8 @@
   (let ((line (string-trim-both line)))
     (cond ((string=? line "ERROR:") "")
           ((string-prefix? "ERROR: " line) (tidy-line (substring line 7)))
+          ((string-prefix? "In procedure fport_write: " line)
+           (string-append "cannot write: " (substring line 26)))
           ((string-prefix? "In procedure " line) (substring line 13))
           (else line))))
 
@@ -140,12 +144,23 @@ expectations do, or #f."
 ;;; Failures and the trial that collects them.
 
 (define-record <failure>
-  (make-failure form expected actual location)
+  (%make-failure form expected actual location remarks)
   failure?
   (form failure-form)                   ; a datum
   (expected failure-expected)           ; a string
   (actual failure-actual)               ; a string
-  (location failure-location))          ; (FILE . LINE) or #f
+  (location failure-location)           ; (FILE . LINE) or #f
+  (remarks failure-remarks))            ; lines that show the dive, or what led there; or #f
+
+(define* (make-failure form expected actual location #:optional remarks)
+  "Return the failure of FORM, a datum, at LOCATION: what was EXPECTED and what was ACTUAL, strings.
+REMARKS are lines that show more of it; #f leaves them to the trial that is told of it."
+  (%make-failure form expected actual location remarks))
+
+(define (with-remarks failure lines)
+  "Return FAILURE with LINES for its remarks."
+  (make-failure (failure-form failure) (failure-expected failure) (failure-actual failure)
+                (failure-location failure) lines))
 
 (define-record <trial>
   (make-trial note stop)

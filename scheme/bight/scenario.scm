@@ -14,12 +14,14 @@
   #:use-module (bight record)
   #:use-module (bight task)
   #:use-module (bight time)
+  #:use-module (bight trial)
   #:use-module (bight verb)
   #:use-module ((ice-9 control) #:select (call/ec))
   #:use-module (srfi srfi-1)
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:use-module ((system syntax) #:select (syntax-local-binding))
-  #:re-export (expect require about between above below)
+  #:re-export (expect require about between above below
+               reached! run-trial test-seed call-with-seed random-state-of stop-whole-trial! epilogue)
   #:export (define-scenario
             always
             never
@@ -43,25 +45,31 @@
             outcome-seconds
             ;; What the macros expand to.
             register-scenario!
+            shelve-scenarios!
+            make-scenario
             enter-world!
             world-of
             world-named
-            reached!
             watch-always
             watch-eventually
-            negate))
+            negate
+            ;; For properties, and for the processes that run scenarios.
+            expand-steps
+            scenario-cases
+            world-refused))
 
 
 ;;; Scenarios, and where they are kept.
 
 (define-record <scenario>
-  (make-scenario name sentence bindings body location)
+  (make-scenario name sentence bindings body location cases)
   scenario?
   (name scenario-name)                  ; a symbol
   (sentence scenario-sentence)          ; a string
   (bindings scenario-bindings)          ; an alist of variables and values, from #:for
   (body scenario-body)                  ; a procedure of the values
-  (location scenario-location))         ; (FILE . LINE) or #f
+  (location scenario-location)          ; (FILE . LINE) or #f
+  (cases scenario-cases))               ; of a property: how many, else #f
 
 (define (binding->string binding)
   (simple-format #f "~a=~a" (car binding)
@@ -121,17 +129,30 @@
   ;; Make a scenario of each combination of ROWS, the lists of values of VARIABLES.
   (check-new-name name location)
   (let ((new (map (lambda (row)
-                    (make-scenario name sentence (map cons variables row) body location))
+                    (make-scenario name sentence (map cons variables row) body location #f))
                   (combinations rows))))
     (shelve! name new)
     (if (= 1 (length new)) (car new) new)))
 
+(define (shelve-scenarios! name location new)
+  "Keep NEW, a list of scenarios called NAME that were written at LOCATION."
+  (check-new-name name location)
+  (shelve! name new))
+
 
 ;;; Writing one.
 
+;; What is done with the exception that refuses a world; properties draw another.
+(define world-refused (make-parameter raise-exception))
+
 (define (enter-world! world)
   (if world
-      (enter! world)
+      ((call/ec
+        (lambda (return)
+          (with-exception-handler
+              (lambda (exception)
+                (return (lambda () ((world-refused) exception))))
+            (lambda () (enter! world) (lambda () (current-dive)))))))
       (bight-raise 'domain 'in "a scenario takes place in a world, not in #f")))
 
 (define (world-named name module-name)
@@ -167,6 +188,10 @@ world of that name, alone or in (with NAME ...), (extend NAME ...) and (without 
             ((in . _) (eq? (syntax->datum #'in) 'in)
              (syntax-violation #f "say (in WORLD), not" stx))
             (_ stx))))
+
+  (define (expand-steps forms)
+    "Return FORMS, those of a scenario's body, each noted as it is reached."
+    (map expand-step forms))
 
   (define (split-head stx head)
     ;; The name and the variables of HEAD: NAME or (NAME VARIABLE ...).
@@ -206,7 +231,7 @@ world of that name, alone or in (with NAME ...), (extend NAME ...) and (without 
         #`(register-scenario!
            '#,name #,sentence '#,variables
            (list #,@(map (lambda (v) (row-of stx v rows)) variables))
-           (lambda #,variables #,@(map expand-step body) *unspecified*)
+           (lambda #,variables #,@(expand-steps body) *unspecified*)
            (source-location #,stx))))))
 
 (define-syntax define-scenario
@@ -242,35 +267,37 @@ combination of the values, the last variable varying fastest."
     (look)))
 
 (define (when->string time)
-  (if time (simple-format #f " at ~a s" (brief time)) ""))
+  (if time (simple-format #f " at ~a s" (to-the-millisecond time)) ""))
 
 (define (time-or-false)
   (and (current-dive) (now)))
 
-(define (note-watched! form wanted verdict time location)
+(define (note-watched! form wanted verdict time location remarks)
   (note-failure! (make-failure form
                                (string-append (car verdict) " " wanted)
                                (string-append (cdr verdict) (when->string time))
-                               location)))
+                               location remarks)))
 
 (define (watch-always form location judge body wanted)
   ;; JUDGE returns #f while all is well; the first verdict is the one reported.
-  (let ((first #f) (time #f))
+  (let ((first #f) (time #f) (remarks #f))
     (call-while-watching
      (lambda ()
        (unless first
          (set! first (judge))
-         (when first (set! time (time-or-false)))))
+         (when first
+           (set! time (time-or-false))
+           (set! remarks (scene)))))
      body)
     (if first
-        (note-watched! form wanted first time location)
+        (note-watched! form wanted first time location remarks)
         (note-success!))))
 
 (define (watch-eventually form location judge body)
   (let ((last #t))
     (call-while-watching (lambda () (when last (set! last (judge)))) body)
     (if last
-        (note-watched! form "at some step" last (time-or-false) location)
+        (note-watched! form "at some step" last (time-or-false) location (scene))
         (note-success!))))
 
 (define (negate verdict)
@@ -324,7 +351,9 @@ when they have ended.  Return #t or #f."
                  (location->string (failure-location failure))
                  (code->string (failure-form failure))
                  (failure-expected failure)
-                 (failure-actual failure)))
+                 (failure-actual failure))
+  (for-each (lambda (line) (simple-format port "~%    ~a" line))
+            (or (failure-remarks failure) '())))
 
 (set-record-type-printer! <outcome>
   (lambda (outcome port)
@@ -335,50 +364,10 @@ when they have ended.  Return #t or #f."
       (simple-format port " (~a)" (outcome-reason outcome)))
     (for-each (lambda (failure) (print-failure failure port)) (outcome-failures outcome))))
 
-;; The line last reached in the running scenario, for errors that nobody expected.
-(define current-location (make-parameter #f))
-
-(define (reached! location)
-  (when (and location (current-location))
-    (variable-set! (current-location) location)))
-
-(define (unexpected exception)
-  (make-failure '... "no error"
-                (simple-format #f "~a error: ~a" (raised-kind exception) (exception->line exception))
-                (variable-ref (current-location))))
-
-(define (call-catching thunk fail)
-  ;; Call THUNK; FAIL with the exception it raises, but let (exit) and ^C through.
-  (with-exception-handler
-      (lambda (exception)
-        (if (memq (exception-kind exception) '(quit signal))
-            (raise-exception exception)
-            (fail exception)))
-    thunk
-    #:unwind? #t))
-
 (define (try scenario)
-  ;; Run SCENARIO: its status, reason, count of claims and failures.
-  (let ((claims 0) (failures '()) (status #f) (reason #f))
-    (define (note failure)
-      (set! claims (+ claims 1))
-      (when failure
-        (set! failures (cons failure failures))))
-    (call/ec
-     (lambda (return)
-       (define (stop s r)
-         (set! status s)
-         (set! reason r)
-         (return))
-       (parameterize ((current-trial (make-trial note stop))
-                      (current-location (make-variable (scenario-location scenario))))
-         (call-catching
-          (lambda ()
-            (parameterize ((current-dive #f))
-              (apply (scenario-body scenario) (map cdr (scenario-bindings scenario)))))
-          (lambda (exception) (note (unexpected exception)))))))
-    (values (cond ((pair? failures) 'fail) (else (or status 'pass)))
-            reason claims (reverse failures))))
+  (reseed! (scenario-label scenario))
+  (run-trial (lambda () (apply (scenario-body scenario) (map cdr (scenario-bindings scenario))))
+             (scenario-location scenario)))
 
 (define (run-one scenario)
   (let ((start (get-internal-real-time)))

@@ -1,140 +1,62 @@
-;;; (bight tap) --- the runner of scenario tests: TAP for people and automake, JUnit XML for servers.
-;;;
-;;; Every file is loaded in a fresh module that has the language; then its scenarios run in order, each
-;;; in its own dive.  What goes wrong never passes in silence: a file that cannot be loaded or holds no
-;;; scenario, and a choice that leaves nothing to run, are failures of their own.
+;;; (bight tap) --- what became of scenarios: TAP for people and automake, JUnit XML for servers.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight tap)
-  #:use-module ((bight cli) #:select (evaluate-file program-error? program-error-text))
-  #:use-module (bight errors)
-  #:use-module (bight expect)
   #:use-module (bight record)
-  #:use-module (bight scenario)
-  #:use-module (bight verb)
-  #:use-module (ice-9 ftw)
   #:use-module (srfi srfi-1)
-  #:export (run-tests))
+  #:export (make-point
+            point?
+            failed-point
+            point-file
+            point-label
+            point-sentence
+            point-status
+            point-location
+            point-details
+            point-view
+            output-lines
+            print-plan
+            print-comments
+            print-point
+            print-summary
+            count-of
+            write-junit))
 
 
 ;;; A test point: one line of the report.
 
 (define-record <point>
-  (make-point file label sentence status note details seconds)
+  (make-point file label sentence location status note details seconds view)
   point?
   (file point-file)
   (label point-label)                   ; the scenario's name and values, or #f
   (sentence point-sentence)
+  (location point-location)             ; FILE:LINE, or #f
   (status point-status)                 ; pass, fail or skip
   (note point-note)                     ; why it was skipped
   (details point-details)               ; lines that explain
-  (seconds point-seconds))
+  (seconds point-seconds)
+  (view point-view))                    ; (LINES PICTURE) of its dive, or #f
+
+(document
+ (make-point "Return what became of a scenario.")
+ (point-file "Return the file that POINT is about.")
+ (point-label "Return the name and the values of the scenario that POINT is about, or #f.")
+ (point-sentence "Return the sentence of POINT.")
+ (point-location "Return where the scenario of POINT stands, FILE:LINE, or #f.")
+ (point-status "Return pass, fail or skip.")
+ (point-details "Return the lines that explain POINT.")
+ (point-view "Return the lines of a drawing and the name of a picture or #f, a list, or #f."))
 
 (define (failed-point file sentence . details)
-  (make-point file #f sentence 'fail #f details 0.))
-
-(define (failure-lines failure)
-  (list (string-append (location->string (failure-location failure)) ": "
-                       (if (eq? (failure-form failure) '...)
-                           "an error that was not expected"
-                           (code->string (failure-form failure))))
-        (string-append "  expected: " (failure-expected failure))
-        (string-append "  actual:   " (failure-actual failure))))
+  "Return a failure that is about FILE as a whole: SENTENCE, and lines that explain."
+  (make-point file #f sentence #f 'fail #f details 0. #f))
 
 (define (output-lines text)
+  "Return what was printed, TEXT, as lines of a report."
   (map (lambda (line) (string-append "output: " line))
        (remove string-null? (string-split text #\newline))))
-
-(define (outcome->point file outcome output)
-  (let ((scenario (outcome-scenario outcome)))
-    (make-point file (scenario-label scenario) (scenario-sentence scenario)
-                (outcome-status outcome) (outcome-reason outcome)
-                (append (append-map failure-lines (outcome-failures outcome))
-                        (if (and (eq? 'pass (outcome-status outcome))
-                                 (zero? (outcome-claims outcome)))
-                            '("nothing was expected here: only that no error is raised")
-                            '())
-                        (output-lines output))
-                (outcome-seconds outcome))))
-
-
-;;; Loading.
-
-(define (fresh-module)
-  (let ((module (make-fresh-user-module)))
-    (module-use! module (resolve-interface '(bight)))
-    module))
-
-(define (load-scenarios file)
-  ;; The list of the scenarios of FILE; raise &program-error.
-  (collect-scenarios
-   (lambda ()
-     (save-module-excursion
-      (lambda ()
-        (set-current-module (fresh-module))
-        (call-with-comments (lambda () (evaluate-file file))))))))
-
-(define (call-with-comments thunk)
-  ;; Call THUNK; what it prints becomes comments of the report.
-  (let ((text (with-output-to-string thunk)))
-    (for-each (lambda (line) (simple-format #t "# ~a~%" line)) (output-lines text))))
-
-;; A batch is a file with its scenarios, or with the point that says why there are none.
-(define (read-batch file)
-  (with-exception-handler
-      (lambda (exception)
-        (if (program-error? exception)
-            (list file (failed-point file "could not load" (program-error-text exception)))
-            (raise-exception exception)))
-    (lambda ()
-      (let ((found (load-scenarios file)))
-        (cons file
-              (if (null? found)
-                  (list (failed-point file "holds no scenario"))
-                  found))))
-    #:unwind? #t))
-
-
-;;; Finding the files.
-
-(define (scheme-file? name)
-  (and (string-suffix? ".scm" name)
-       (not (string-prefix? "." name))))
-
-(define (files-at path)
-  ;; The test files that PATH stands for: itself, or all *.scm of a folder, sorted.
-  (cond ((not (file-exists? path))
-         (bight-raise 'io 'run-tests "there is no file or folder ~s" path))
-        ((file-is-directory? path)
-         (map (lambda (name) (string-append (string-trim-right path #\/) "/" name))
-              (or (scandir path scheme-file? string<?) '())))
-        (else (list path))))
-
-(define (batches-at path)
-  (let ((files (files-at path)))
-    (if (null? files)
-        (list (list path (failed-point path "holds no *.scm file")))
-        (map read-batch files))))
-
-
-;;; Choosing.
-
-(define (choose-by regexp batch)
-  ;; BATCH with those scenarios alone whose name REGEXP matches; what failed to load stays.
-  (cons (car batch)
-        (filter (lambda (entry)
-                  (or (point? entry)
-                      (regexp-exec regexp (scenario-label entry))))
-                (cdr batch))))
-
-(define (choose only batches)
-  (if only
-      (let ((chosen (map (lambda (batch) (choose-by only batch)) batches)))
-        (if (every null? (map cdr chosen))
-            (list (list "tests" (failed-point "tests" "no scenario has a name that was asked for")))
-            chosen))
-      batches))
 
 
 ;;; TAP.
@@ -151,7 +73,17 @@
                  (if (point-label point) (string-append (point-label point) ": ") "")
                  (point-sentence point)))
 
+(define (print-plan n)
+  "Print that N points follow."
+  (simple-format #t "TAP version 13~%1..~a~%" n)
+  (force-output))
+
+(define (print-comments lines)
+  "Print LINES as comments of the report."
+  (for-each (lambda (line) (simple-format #t "# ~a~%" line)) lines))
+
 (define (print-point point number)
+  "Print POINT, the one of that NUMBER."
   (simple-format #t "~a ~a - ~a~a~%"
                  (if (eq? 'fail (point-status point)) "not ok" "ok")
                  number
@@ -162,33 +94,12 @@
   (for-each (lambda (line) (simple-format #t "#   ~a~%" line)) (point-details point))
   (force-output))
 
-(define (run-entry file entry)
-  ;; The point of ENTRY, a scenario, which runs now, or a point already.
-  (if (point? entry)
-      entry
-      (let* ((outcome #f)
-             (output (with-output-to-string
-                       (lambda () (set! outcome (run-scenario entry))))))
-        (outcome->point file outcome output))))
-
-(define (run-batches batches)
-  ;; Run all, print each point as it comes, and return the list of points.
-  (simple-format #t "TAP version 13~%1..~a~%" (apply + (map (lambda (b) (length (cdr b))) batches)))
-  (force-output)
-  (let ((number 0))
-    (append-map (lambda (batch)
-                  (map-in-order (lambda (entry)
-                                  (let ((point (run-entry (car batch) entry)))
-                                    (set! number (+ number 1))
-                                    (print-point point number)
-                                    point))
-                                (cdr batch)))
-                batches)))
-
 (define (count-of status points)
+  "Return how many of POINTS have STATUS."
   (count (lambda (point) (eq? status (point-status point))) points))
 
 (define (print-summary points)
+  "Print how many of POINTS passed, failed and were skipped."
   (simple-format #t "# ~a passed, ~a failed, ~a skipped~%" (count-of 'pass points)
                  (count-of 'fail points) (count-of 'skip points))
   (force-output))
@@ -233,6 +144,7 @@
   (display "  </testsuite>\n" port))
 
 (define (write-junit file points)
+  "Write POINTS to FILE as JUnit XML."
   (call-with-output-file file
     (lambda (port)
       (set-port-encoding! port "UTF-8")
@@ -243,28 +155,3 @@
                                port))
                 (delete-duplicates (map point-file points)))
       (display "</testsuites>\n" port))))
-
-
-;;; All together.
-
-(define-argument-type (paths value)
-  "a file, a folder or a list of them"
-  (cond ((string? value) (list value))
-        ((and (pair? value) (list? value) (every string? value)) value)
-        (else refused)))
-
-(define-argument-type (regexp value)
-  "a regular expression, a string"
-  (or (and (string? value)
-           (false-if-exception (make-regexp value)))
-      refused))
-
-(define-verb (run-tests (paths paths) #:key (junit (or-false string)) (only (or-false regexp)))
-  "Run the scenarios of PATHS, a file, a folder whose *.scm files are meant, or a list of such, and
-print what became of them as TAP.  #:junit FILE writes JUnit XML too; #:only RE runs the scenarios
-alone whose name matches the regular expression RE.  Return true if nothing failed."
-  (let ((points (run-batches (choose only (append-map batches-at paths)))))
-    (print-summary points)
-    (when junit
-      (write-junit junit points))
-    (zero? (count-of 'fail points))))

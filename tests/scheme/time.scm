@@ -11,12 +11,6 @@
              (rnrs bytevectors)
              (srfi srfi-1))
 
-(define folder (mkdtemp (string-append (or (getenv "TMPDIR") "/tmp") "/bight-time-XXXXXX")))
-
-(define (scratch name)
-  "Return the name of a file called NAME that a test may write."
-  (string-append folder "/" name))
-
 (define (kind-of thunk)
   "Return the kind of the &bight-error that THUNK raises, or #f."
   (guard (e ((bight-error? e) (bight-error-kind e)))
@@ -173,7 +167,7 @@
   #:for ((W 'open-water 'tank 'tide-profile 'pile 'pier 'rigging 'box 'wreck))
   (enter! W)
   (run 0.5)
-  (let ((file (scratch "saved.dive")) (hash (state-hash)))
+  (let ((file (scratch-file "saved.dive")) (hash (state-hash)))
     (save! file)
     (run 0.5)
     (let ((later (state-hash)))
@@ -191,24 +185,24 @@
   (in (with 'open-water (minnow (type kinematic))))
   (follow! '((0 0 15 -8) (10 5 15 -8)))
   (run 2)
-  (save! (scratch "track.dive"))
+  (save! (scratch-file "track.dive"))
   (run 2)
   (let ((later (state-hash)))
-    (load-dive (scratch "track.dive"))
+    (load-dive (scratch-file "track.dive"))
     (run 2)
     (expect (state-hash) => later)))
 
 (define-scenario not-saved
   "What is a procedure is in no file; a file that cannot be written says so."
   (in (with 'open-water (current (lambda (p t) (list 0.1 0 0)))))
-  (expect (save! (scratch "no.dive")) raises unsupported)
-  (expect (record! (scratch "no.rec")) raises unsupported)
+  (expect (save! (scratch-file "no.dive")) raises unsupported)
+  (expect (record! (scratch-file "no.rec")) raises unsupported)
   (expect (live!) raises unsupported)
   (enter! 'tank)
   (expect (save! "/nowhere/at/all.dive") raises io)
   (expect (load-dive "/nowhere/at/all.dive") raises io)
   (expect (record! "/nowhere/at/all.rec") raises io)
-  (expect (file-exists? (scratch "no.dive")) => #f))
+  (expect (file-exists? (scratch-file "no.dive")) => #f))
 
 (define (write-text! file text)
   (call-with-output-file file (lambda (port) (put-string port text))))
@@ -218,8 +212,8 @@
   (in tank)
   (let ((hash (state-hash)))
     (for-each (lambda (entry)
-                (write-text! (scratch "foreign") (car entry))
-                (expect (kind-of (lambda () (load-dive (scratch "foreign")))) => (cdr entry)))
+                (write-text! (scratch-file "foreign") (car entry))
+                (expect (kind-of (lambda () (load-dive (scratch-file "foreign")))) => (cdr entry)))
               '(("" . format)
                 ("hello" . format)
                 ("(bight-recording 1)\n" . format)
@@ -227,13 +221,13 @@
                 ("(bight-dive 2)\n" . version)
                 ("(bight-dive 1)\n" . format)
                 ("(bight-dive 1)\n(begin 0 \"0\")\n" . format)))
-    (expect (load-dive folder) raises io)
+    (expect (load-dive (dirname (scratch-file "folder"))) raises io)
     (expect (state-hash) => hash)))
 
 (define* (damaged-kinds file load flips random-state #:optional (spared 0))
   "Return the kinds of what LOAD raises, or #f, when single bytes of FILE are altered, but for the last
 SPARED."
-  (let* ((bytes (bytes-of file)) (n (bytevector-length bytes)) (copy (scratch "damaged")))
+  (let* ((bytes (bytes-of file)) (n (bytevector-length bytes)) (copy (scratch-file "damaged")))
     (delete-duplicates
      (map (lambda (i)
             (let* ((at (random (- n spared) random-state)) (was (bytevector-u8-ref bytes at)))
@@ -245,7 +239,7 @@ SPARED."
 
 (define (cut-kinds file load cuts random-state)
   "Return the kinds of what LOAD raises, or #f, when FILE is cut off somewhere."
-  (let* ((bytes (bytes-of file)) (n (bytevector-length bytes)) (copy (scratch "cut")))
+  (let* ((bytes (bytes-of file)) (n (bytevector-length bytes)) (copy (scratch-file "cut")))
     (delete-duplicates
      (map (lambda (i)
             (write-bytes! copy bytes (random n random-state))
@@ -256,7 +250,7 @@ SPARED."
   "Of a file that was altered or cut off nothing is loaded."
   (in pile)
   (run 0.2)
-  (let ((file (scratch "whole.dive")) (random-state (seed->random-state 7)))
+  (let ((file (scratch-file "whole.dive")) (random-state (seed->random-state 7)))
     (save! file)
     (run 0.2)
     (let ((hash (state-hash)))
@@ -288,7 +282,7 @@ SPARED."
 (define-scenario recorded
   "What was recorded comes out the same, without the code that ran between the steps."
   (in pile)
-  (let* ((file (scratch "dive.rec")) (end (record-something! file)))
+  (let* ((file (scratch-file "dive.rec")) (end (record-something! file)))
     (expect (recording?) => #f)
     (expect (stop-recording!) => #f)
     (expect (replay file) => 'identical)
@@ -304,7 +298,7 @@ SPARED."
   (in pile)
   (drive! #:surge 0.5)
   (run 1.1)
-  (let ((file (scratch "middle.rec")))
+  (let ((file (scratch-file "middle.rec")))
     (record! file)
     (run 1.1)
     (haul-in! 0.2)
@@ -329,7 +323,7 @@ SPARED."
 (define-scenario otherwise
   "The first step and the quantities that come out otherwise are named."
   (in pile)
-  (let ((file (scratch "one.rec")) (other (scratch "other.rec")))
+  (let ((file (scratch-file "one.rec")) (other (scratch-file "other.rec")))
     (record! file)
     (run 1.5)
     (drive! #:surge 0.8)
@@ -356,35 +350,35 @@ SPARED."
 (define-scenario damaged-recordings
   "A recording that was altered says where; one that was cut off is replayed as far as it goes."
   (in pile)
-  (let ((file (scratch "damage.rec")) (random-state (seed->random-state 11)))
+  (let ((file (scratch-file "damage.rec")) (random-state (seed->random-state 11)))
     (record-something! file)
     ;; A last line that is altered is taken for one that was cut off.
     (expect (lset-difference eq? (damaged-kinds file replay 60 random-state 80) '(format version))
             => '())
     (expect (lset-difference eq? (cut-kinds file replay 20 random-state) '(format #f)) => '())
     (let* ((bytes (bytes-of file)) (n (bytevector-length bytes)))
-      (write-bytes! (scratch "short.rec") bytes (- n 5))
-      (expect (replay (scratch "short.rec")) => 'identical)
+      (write-bytes! (scratch-file "short.rec") bytes (- n 5))
+      (expect (replay (scratch-file "short.rec")) => 'identical)
       (bytevector-u8-set! bytes (- n 60) 64)
-      (write-bytes! (scratch "short.rec") bytes n)
-      (expect (replay (scratch "short.rec")) raises format)
-      (expect (replay (scratch "short.rec") #:salvage #t) => 'identical))))
+      (write-bytes! (scratch-file "short.rec") bytes n)
+      (expect (replay (scratch-file "short.rec")) raises format)
+      (expect (replay (scratch-file "short.rec") #:salvage #t) => 'identical))))
 
 (define-scenario framed
   "Frames are in a database and in a table for other programs."
   (unless there? (skip "built without SQLite"))
   (enter! 'pile)
-  (let ((file (scratch "frames.db")))
-    (record! (scratch "framed.rec") #:frames file)
+  (let ((file (scratch-file "frames.db")))
+    (record! (scratch-file "framed.rec") #:frames file)
     (drive! #:surge 0.5)
     (run 2)
     (stop-recording!)
-    (let ((lines (export-csv file (scratch "frames.csv"))))
+    (let ((lines (export-csv file (scratch-file "frames.csv"))))
       ;; 21 frames: the first, then ten a second.
       (expect lines => (* 21 (+ 1 (car (array-dimensions (tether-points)))))))
-    (expect (export-csv (scratch "framed.rec") (scratch "frames.csv")) raises format)
-    (expect (export-csv "/nowhere.db" (scratch "frames.csv")) raises io)
-    (expect (record! (scratch "framed.rec") #:frames "/nowhere/frames.db") raises io)))
+    (expect (export-csv (scratch-file "framed.rec") (scratch-file "frames.csv")) raises format)
+    (expect (export-csv "/nowhere.db" (scratch-file "frames.csv")) raises io)
+    (expect (record! (scratch-file "framed.rec") #:frames "/nowhere/frames.db") raises io)))
 
 
 ;;; Live.
@@ -392,7 +386,7 @@ SPARED."
 (define-scenario living
   "A live dive goes on while Scheme does not let time pass, obeys, answers, and is replayed to the bit."
   (in pile)
-  (let ((file (scratch "live.rec")))
+  (let ((file (scratch-file "live.rec")))
     (record! file)
     (expect (live?) => #f)
     (live! #:pace 4)
@@ -438,7 +432,7 @@ SPARED."
 (define-scenario logging
   "The logbook holds dives, lessons and probes of each trainee."
   (unless there? (skip "built without SQLite"))
-  (setenv "BIGHT_LOGBOOK" (scratch "state/logbook.db"))
+  (setenv "BIGHT_LOGBOOK" (scratch-file "state/logbook.db"))
   (enter! 'pile)
   (run 1)
   (expect (logbook) => '())
@@ -452,13 +446,8 @@ SPARED."
   (expect (log-entry-data (car (logbook))) => '((seconds . 1.0)))
   (expect (logbook #:trainee "x' or 1=1; --") => '())
   (expect (log-probe! "?" #:data (list car)) raises domain)
-  (write-text! (scratch "no.db") "this is text, and long enough to be taken for a database or something else")
-  (setenv "BIGHT_LOGBOOK" (scratch "no.db"))
+  (write-text! (scratch-file "no.db") "this is text, and long enough to be taken for a database or something else")
+  (setenv "BIGHT_LOGBOOK" (scratch-file "no.db"))
   (expect (logbook) raises format)
   (setenv "BIGHT_LOGBOOK" "/dev/null/logbook.db")
   (expect (logbook) raises io))
-
-(define-scenario clean
-  "The files of these tests are gone."
-  (system* "rm" "-rf" folder)
-  (expect (file-exists? folder) => #f))

@@ -1,0 +1,162 @@
+;;; The instrument itself: rows, fronts, reports, exact tests, verdicts; its programs played by scripts.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(use-modules (bight bench)
+             (bight bench-compare)
+             (bight bench-json)
+             (bight bench-plot)
+             (bight bench-report)
+             (bight bench-row)
+             (bight errors)
+             (ice-9 textual-ports)
+             (srfi srfi-1))
+
+(define (in-scratch . words)
+  (scratch-file (string-concatenate words)))
+
+(define (text-of file)
+  (call-with-input-file file get-string-all #:encoding "UTF-8"))
+
+(define header
+  "case,model,setting,metric,error,reference,reference_uncertainty,cpu_ns,calibration_ratio,counters")
+
+(define (rows-from . lines)
+  (read-csv (cons header lines)))
+
+(define (gather . rounds)
+  (gather-rows (map (lambda (rows) (list (cons "play" rows))) rounds)))
+
+(define (write-program! folder name . lines)
+  ;; A bench called NAME in FOLDER that prints LINES.
+  (unless (file-exists? (in-scratch folder)) (mkdir (in-scratch folder)))
+  (let ((file (in-scratch folder "/bight-bench-" name)))
+    (call-with-output-file file
+      (lambda (port)
+        (simple-format port "#!/bin/sh~%cat <<'END'~%~a~%END~%" (string-join lines "\n"))))
+    (chmod file #o755)))
+
+(define (status-and-words . arguments)
+  ;; What bight bench with ARGUMENTS exits with, and what it says.
+  (let* ((status #f)
+         (words (with-output-to-string (lambda () (set! status (bench-command arguments))))))
+    (cons status words)))
+
+(define (call-with-programs folder thunk)
+  (let ((before (getenv "BIGHT_LIBEXEC")))
+    (dynamic-wind
+      (lambda () (setenv "BIGHT_LIBEXEC" (in-scratch folder)))
+      thunk
+      (lambda () (if before (setenv "BIGHT_LIBEXEC" before) (unsetenv "BIGHT_LIBEXEC"))))))
+
+(define-scenario rows-are-read
+  "Cells may hold commas and quotes; empty ones are no numbers; costs are medians over the rounds."
+  (let ((row (first (gather (rows-from "a,\"m,\"\"1\"\"\",s,e,0.5,r,,100,2,k=1")
+                            (rows-from "a,\"m,\"\"1\"\"\",s,e,0.5,r,,300,6,k=2")
+                            (rows-from "a,\"m,\"\"1\"\"\",s,e,0.5,r,,110,3,k=3")))))
+    (expect (row-model row) => "m,\"1\"")
+    (expect (row-error row) => 0.5)
+    (expect (row-uncertainty row) => #f)
+    (expect (row-cpu row) => 110)
+    (expect (row-ratios row) => '(2 6 3))
+    (expect (row-ratio row) => 3)
+    (expect (row-counters row) => "k=1")
+    (expect (row-key row) => '("play" "a" "m,\"1\"" "s" "e"))))
+
+(define-scenario fronts-are-marked
+  "On the front is what nothing as cheap beats; where all are equally wrong there is none."
+  (let ((rows (gather (rows-from "a,m,1,e,1e-1,r,,1,1," "a,m,2,e,1e-2,r,,2,2," "a,m,3,e,5e-2,r,,3,3,"
+                                 "a,m,4,e,1e-3,r,,4,4," "a,m,5,e,,r,,5,5," "b,m,1,e,0,r,,1,1,"
+                                 "b,m,2,e,0,r,,2,2,"))))
+    (expect (map row-setting (filter row-front? rows)) => '("1" "2" "4"))
+    (expect (delete-duplicates (map row-case (filter row-front? rows))) => '("a"))
+    (let ((plots (plots-of rows)))
+      (expect (length plots) => 1)
+      (expect (plot-file (caar plots)) => "play-a-e.svg")
+      (expect (string-prefix? "<svg" (cdar plots))))))
+
+(define-scenario json-comes-back
+  "What is written is read again; what is no JSON is refused."
+  (let ((value `(("a" . #(1 2.5 -0.25 1e-17 null)) ("b" . "x\"\\\n\u00e9") ("c" . #t) ("d" . #f))))
+    (expect (call-with-input-string (call-with-output-string (lambda (port) (write-json value port)))
+              read-json)
+            => value))
+  (expect (call-with-input-string "{\"a\":" read-json) raises format)
+  (expect (call-with-input-string "[1 2]" read-json) raises format))
+
+(define-scenario tests-are-exact
+  "Chances as the tables have them, ties with mean ranks."
+  (expect (rank-sum-chance '(1 2 3 4) '(5 6 7 8)) is (about (/ 2. 70) #:within 1e-12))
+  (expect (rank-sum-chance '(1 3 5 7) '(2 4 6 8)) is (about 0.685714285714 #:within 1e-12))
+  (expect (rank-sum-chance '(1 1 2) '(1 2 2 3)) is (about 0.571428571429 #:within 1e-12))
+  (expect (signed-rank-chance '(1 2 3 4 5 6)) is (about (/ 2. 64) #:within 1e-12))
+  (expect (signed-rank-chance '(-1 2 -3 4)) is (about 0.875 #:within 1e-12))
+  (expect (signed-rank-chance '(0 0)) => 1.0))
+
+(define (play ratios error)
+  ;; A report with one row of these RATIOS.
+  (make-report "quick" (length ratios) '()
+               (apply gather (map (lambda (ratio)
+                                    (rows-from (simple-format #f "a,m,s,e,~a,r,,1,~a," error ratio)))
+                                  ratios))))
+
+(define (verdict old new)
+  (with-output-to-string (lambda () (compare-reports old new))))
+
+(define-scenario verdicts-are-careful
+  "Better and worse only beyond chance and the usual stray; few rounds tell nothing."
+  (let ((old (play '(1.00 1.01 0.99 1.005) 0.1)))
+    (expect (string-contains (verdict old (play '(2.00 2.01 1.99 2.02) 0.1)) "0 better, 1 worse"))
+    (expect (string-contains (verdict old (play '(0.50 0.51 0.49 0.52) 0.1)) "1 better, 0 worse"))
+    (expect (string-contains (verdict old (play '(1.02 1.03 1.021 1.025) 0.1)) "1 noise"))
+    (expect (string-contains (verdict old (play '(0.5 2 1.1 0.8) 0.1)) "1 noise"))
+    (expect (string-contains (verdict old (play '(3 3) 0.1)) "1 untold"))))
+
+(define-scenario errors-that-grow-are-a-failure
+  "The verdict on errors knows no noise but a percent."
+  (let ((old (play '(1 1 1 1) 0.1)) (answer #f))
+    (define (good? error)
+      (with-output-to-string (lambda () (set! answer (compare-reports old (play '(1 1 1 1) error)))))
+      answer)
+    (expect (good? 0.1))
+    (expect (good? 0.1005))
+    (expect (good? 0.05))
+    (expect (good? 0.11) => #f)
+    (expect (good? "inf") => #f)
+    (expect (good? "") => #f)))
+
+(define-scenario the-command-reports-and-compares
+  "Scripts play the programs: files are written, a worse error is status 1, a failure does not hide."
+  (write-program! "old" "statics" header "a,m,s,e,0.1,r,,100,1," "a,m,t,e,0.01,r,,300,3,")
+  (write-program! "new" "statics" header "a,m,s,e,0.2,r,,100,1," "a,m,t,e,0.01,r,,300,3,")
+  (write-program! "half" "statics" header "a,m,s,e,0.1,r,,100,1,")
+  (write-program! "half" "contact" "no rows")
+  (call-with-programs "old"
+    (lambda ()
+      (expect (car (status-and-words "--rounds" "4" "-o" (in-scratch "out"))) => 0)
+      (expect (string-contains (text-of (in-scratch "out/report.html")) "<svg"))
+      (expect (string-contains (text-of (in-scratch "out/report.csv")) "statics,a,m,s,e,0.1"))
+      (expect (file-exists? (in-scratch "out/statics-a-e.svg")))
+      (expect (length (report-rows (read-report (in-scratch "out/report.json")))) => 2)
+      (expect (car (status-and-words "--compare" (in-scratch "out/report.json") "-o" (in-scratch "out2")))
+              => 0)
+      (expect (bench-command '("staticks")) raises name)
+      (expect (bench-command '("--sideways")) raises domain)
+      (expect (bench-command (list "-o" (in-scratch "out/report.csv"))) raises io)))
+  (call-with-programs "new"
+    (lambda ()
+      (let ((said (status-and-words "--compare" (in-scratch "out/report.json") "-o" (in-scratch "out3"))))
+        (expect (car said) => 1)
+        (expect (string-contains (cdr said) "Errors: 1 grew")))
+      (let ((said (status-and-words "--compare" (in-scratch "old") "--rounds" "6" "-o" (in-scratch "out4"))))
+        (expect (car said) => 1)
+        (expect (string-contains (cdr said) "signed rank")))
+      (expect (car (status-and-words "--compare" (in-scratch "out/report.json")
+                                     (in-scratch "out3/report.json")))
+              => 1)))
+  (call-with-programs "half"
+    (lambda ()
+      (let ((said #f))
+        (with-error-to-string
+          (lambda () (set! said (status-and-words "--rounds" "1" "-o" (in-scratch "out5")))))
+        (expect (car said) => 1)))))
