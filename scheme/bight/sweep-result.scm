@@ -1,0 +1,300 @@
+;;; (bight sweep-result) --- what a sweep found, in one SQLite file that anybody can query.
+;;;
+;;;   study   name, value: the study's name, sentence, text, world, version, variables, measures, ...
+;;;   cases   number, key, status (done, failed, timed out), error, message, cpu (s), hash, version, and a
+;;;           column for each variable and each measure
+;;;   legs    key (of the case), leg (1, 2, ...), name, x, y, z, and a column for each measure
+;;;
+;;; True and false are 1 and 0.  A case is in the table when it has an outcome, and then in one
+;;; transaction with its legs: what is not there is to be flown.  As in: select U, avg(fouled) from cases
+;;; where status = 'done' group by U;
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight sweep-result)
+  #:use-module (bight database)
+  #:use-module (bight errors)
+  #:use-module ((bight programs) #:select (check-writable))
+  #:use-module (bight record)
+  #:use-module (bight sqlite)
+  #:use-module (bight sweep-design)
+  #:use-module (srfi srfi-1)
+  #:export (make-plan
+            plan?
+            plan-name
+            plan-facts
+            plan-fact
+            open-result
+            open-found
+            close-result!
+            found-plan
+            known-keys
+            add-case!
+            number-cases!
+            forget-unfinished!
+            case-rows
+            leg-rows
+            count-by-status
+            result-fingerprint
+            merge-result!))
+
+(define kind #x42474853)                ; "BGHS"
+(define version 1)
+
+
+;;; What a result says of its study.
+
+(define-record <plan>
+  (make-plan facts)
+  plan?
+  (facts plan-facts))                   ; an alist of symbols and data
+
+(define (plan-fact plan name)
+  "Return what PLAN says about NAME: name, sentence, text, world, version, variables, spread, measures,
+legs or cases."
+  (assq-ref (plan-facts plan) name))
+
+(define (plan-name plan)
+  "Return the name of the study of PLAN."
+  (plan-fact plan 'name))
+
+(define identity                        ; what two sweeps must share, and what it is called
+  '((name . "a study of another name")
+    (text . "another text of the study")
+    (world . "another world")
+    (version . "another version of bight")
+    (variables . "other variables")
+    (measures . "other measures")
+    (legs . "other legs")))
+
+(define (difference ours theirs)
+  ;; What sets the plans apart, a string, or #f.
+  (any (lambda (entry)
+         (and (not (equal? (plan-fact ours (car entry)) (plan-fact theirs (car entry))))
+              (cdr entry)))
+       identity))
+
+(define (check-same file ours theirs)
+  ;; The result FILE of the plan THEIRS can hold cases of OURS.
+  (let ((other (difference ours theirs)))
+    (when other
+      (bight-raise 'stale 'sweep "~s is the result of ~a (~a, bight ~a), and is not mixed: \
+name another result with -o, or move that one away" file other (plan-name theirs)
+                   (plan-fact theirs 'version)))))
+
+
+;;; Tables.
+
+(define (column name)
+  ;; NAME, a symbol, as SQL has it.
+  (string-append "\"" (string-join (string-split (symbol->string name) #\") "\"\"") "\""))
+
+(define (columns names)
+  (string-concatenate (map (lambda (name) (string-append ", " (column name))) names)))
+
+(define (outcome-columns plan)
+  (append (plan-fact plan 'variables) (plan-fact plan 'measures)))
+
+(define (tables plan)
+  (list "create table study (name text primary key, value text not null)"
+        (string-append "create table cases (number integer not null, key text primary key,
+status text not null, error text, message text, cpu real, hash text, version text not null"
+                       (columns (outcome-columns plan)) ")")
+        (string-append "create table legs (key text not null, leg integer not null, name text not null,
+x real, y real, z real" (columns (plan-fact plan 'measures)) ", primary key (key, leg))")
+        "create index cases_in_order on cases (number)"))
+
+(define (write-plan! database plan)
+  (%insert database "insert or replace into study values (?, ?)"
+           (map (lambda (fact) (list (car fact) (object->string (cdr fact)))) (plan-facts plan))))
+
+(define (found-plan database)
+  "Return the plan of the result DATABASE."
+  (make-plan (map (lambda (row)
+                    (cons (string->symbol (first row)) (call-with-input-string (second row) read)))
+                  (%query database "select name, value from study order by rowid" '()))))
+
+(define (open-named file statements)
+  ;; What SQLite says of a file does not name it.
+  (with-exception-handler
+      (lambda (e)
+        (if (and (bight-error? e) (not (string-contains (bight-error-message e) file))
+                 (not (eq? 'unsupported (bight-error-kind e))))
+            (bight-raise (bight-error-kind e) 'sweep "~s: ~a" file (bight-error-message e))
+            (raise-exception e)))
+    (lambda () (open-tables 'sweep file kind version statements))
+    #:unwind? #t))
+
+(define (open-result file plan)
+  "Open the result FILE, made if there is none, for PLAN.  Raise a &bight-error of kind stale if it is of
+another study, text, world or version."
+  (check-writable 'sweep file)
+  (let ((database (open-named file (tables plan))))
+    (if (null? (%query database "select name from study limit 1" '()))
+        (write-plan! database plan)
+        (check-same file plan (found-plan database)))
+    database))
+
+(define (open-found file)
+  "Open the result FILE, which must be there."
+  (unless (file-exists? file)
+    (bight-raise 'io 'sweep "there is no file ~s" file))
+  (when (file-is-directory? file)
+    (bight-raise 'io 'sweep "~s is a folder, not the result of a sweep" file))
+  (when (zero? (stat:size (stat file)))
+    (bight-raise 'format 'sweep "~s is empty, not the result of a sweep" file))
+  (open-named file '()))
+
+(define (close-result! database)
+  "Close DATABASE.  What it holds is then in one file."
+  (close-tables! database))
+
+
+;;; Cases.
+
+(define (known-keys database)
+  "Return a table of the keys of the cases that DATABASE has an outcome of."
+  (let ((table (make-hash-table)))
+    (for-each (lambda (row) (hash-set! table (car row) #t))
+              (%query database "select key from cases" '()))
+    table))
+
+(define (stored value)
+  ;; VALUE as the database has it.
+  (case value ((#t) 1) ((#f) 0) (else value)))
+
+(define (marks n)
+  (string-join (make-list n "?") ", "))
+
+(define (insert! database table row)
+  (%query database (simple-format #f "insert into ~a values (~a)" table (marks (length row))) row))
+
+(define (measured plan measures)
+  ;; The values of MEASURES, an alist, in the order of PLAN; none where there are none.
+  (map (lambda (name) (let ((entry (assq name measures))) (and entry (stored (cdr entry)))))
+       (plan-fact plan 'measures)))
+
+(define (add-case! database plan number key values outcome)
+  "Add to DATABASE the case NUMBER, from 1, with KEY and VALUES of the variables of PLAN.  OUTCOME is an alist
+of status, error, message, cpu, hash, measures and legs."
+  (define (of name) (assq-ref outcome name))
+  (in-transaction database
+    (lambda ()
+      (insert! database "cases"
+               `(,number ,key ,(of 'status) ,(of 'error) ,(of 'message) ,(of 'cpu) ,(of 'hash)
+                         ,(plan-fact plan 'version)
+                         ,@(map stored values) ,@(measured plan (or (of 'measures) '()))))
+      (for-each (lambda (leg i)
+                  (insert! database "legs"
+                           `(,key ,i ,(first leg) ,@(second leg) ,@(measured plan (third leg)))))
+                (or (of 'legs) '()) (iota (length (or (of 'legs) '())) 1)))))
+
+(define (number-cases! database plan numbers)
+  "See to it that DATABASE has no other cases than those of PLAN, where NUMBERS is a table from keys to
+numbers, and number them so.  Raise a &bight-error if it has."
+  (let* ((rows (%query database "select key, number from cases" '()))
+         (lost (remove (lambda (row) (hash-ref numbers (first row))) rows)))
+    (unless (null? lost)
+      (bight-raise 'stale 'sweep "the result holds ~a ~a that the study does not ask for any more, and is \
+not mixed: name another result with -o, or move that one away" (length lost)
+                   (if (= 1 (length lost)) "case" "cases")))
+    (in-transaction database
+      (lambda ()
+        (%insert database "update cases set number = ? where key = ?"
+                 (filter-map (lambda (row)
+                               (let ((number (hash-ref numbers (first row))))
+                                 (and (not (= number (second row))) (list number (first row)))))
+                             rows))
+        (write-plan! database plan)))))
+
+(define (forget-unfinished! database)
+  "Take the cases that failed or were timed out from DATABASE, so that they are flown again."
+  (in-transaction database
+    (lambda ()
+      (%query database
+              "delete from legs where key in (select key from cases where status <> 'done')" '())
+      (%query database "delete from cases where status <> 'done'" '()))))
+
+
+;;; Reading.
+
+(define (case-rows database plan)
+  "Return the cases of DATABASE in order, each a list: number, status, error, message, then the variables and
+measures of PLAN."
+  (%query database
+          (string-append "select number, status, error, message" (columns (outcome-columns plan))
+                         " from cases order by number")
+          '()))
+
+(define (leg-rows database plan)
+  "Return the legs of the cases of DATABASE that are done, in order, each a list: the number of the case, leg,
+name, x, y, z, then the variables and measures of PLAN."
+  (%query database
+          (string-append "select number, leg, legs.name, x, y, z"
+                         (columns (plan-fact plan 'variables))
+                         (string-concatenate
+                          (map (lambda (m) (string-append ", legs." (column m)))
+                               (plan-fact plan 'measures)))
+                         " from legs join cases using (key) where status = 'done' order by number, leg")
+          '()))
+
+(define (count-by-status database)
+  "Return an alist of status and how many cases of DATABASE have it."
+  (map (lambda (row) (cons (first row) (second row)))
+       (%query database "select status, count(*) from cases group by status order by status" '())))
+
+(define (result-fingerprint database plan)
+  "Return 16 digits by which all outcomes in DATABASE are known, whoever flew them, where and how fast."
+  (fingerprint
+   (object->string
+    (list (%query database
+                  (string-append "select key, status, error, message, hash"
+                                 (columns (outcome-columns plan)) " from cases order by key")
+                  '())
+          (%query database
+                  (string-append "select key, leg, name, x, y, z" (columns (plan-fact plan 'measures))
+                                 " from legs order by key, leg")
+                  '())))))
+
+
+;;; Putting shards together.
+
+(define (check-agreement database file)
+  ;; The same case flown twice has come out in the same way, or bight is not what it says.
+  (let ((apart (%query database "select c.number from cases c join shard.cases s using (key)
+where c.status = 'done' and s.status = 'done' and c.hash is not s.hash limit 1" '())))
+    (unless (null? apart)
+      (bight-raise 'diverged 'sweep "case ~a came out in another way in ~s: the machines do not agree"
+                   (caar apart) file))))
+
+(define (copy! database)
+  ;; What is done takes the place of what is not.
+  (for-each
+   (lambda (sql) (%query database sql '()))
+   '("create temp table fresh as select s.key from shard.cases s left join main.cases c using (key)
+where c.key is null or (c.status <> 'done' and s.status = 'done')"
+     "delete from main.legs where key in (select key from fresh)"
+     "delete from main.cases where key in (select key from fresh)"
+     "insert into main.cases select * from shard.cases where key in (select key from fresh)"
+     "insert into main.legs select * from shard.legs where key in (select key from fresh)"))
+  (let ((n (caar (%query database "select count(*) from fresh" '()))))
+    (%query database "drop table fresh" '())
+    n))
+
+(define (merge-result! database file shard-file)
+  "Put into DATABASE, the result FILE, the cases that SHARD-FILE has and it has not.  Return how many."
+  (let* ((shard (open-found shard-file))
+         (theirs (found-plan shard))
+         (ours (found-plan database)))
+    (close-result! shard)
+    (check-same shard-file ours theirs)
+    (unless (equal? (plan-fact ours 'design) (plan-fact theirs 'design))
+      (bight-raise 'stale 'sweep "~s was flown for other cases of ~a than ~s (~a, not ~a)" shard-file
+                   (plan-name ours) file (plan-fact theirs 'cases) (plan-fact ours 'cases)))
+    (%query database "attach database ? as shard" (list shard-file))
+    (dynamic-wind
+      (const #f)
+      (lambda ()
+        (check-agreement database shard-file)
+        (in-transaction database (lambda () (copy! database))))
+      (lambda () (%query database "detach database shard" '())))))

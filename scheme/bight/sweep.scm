@@ -1,0 +1,286 @@
+;;; (bight sweep) --- all cases of a study, flown by workers into one result.
+;;;
+;;; The master alone writes: it hands the number of a case to whoever is idle and enters what came of it,
+;;; each case in a transaction of its own.  What is in the result when the master dies, however it dies, is
+;;; whole, and what is not there is flown when it is started again.  Which case is which does not depend on
+;;; who flies it: the same study gives the same result with any number of workers, shards and deaths.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight sweep)
+  #:use-module ((bight engine) #:select (%version))
+  #:use-module (bight errors)
+  #:use-module (bight record)
+  #:use-module (bight study-case)
+  #:use-module (bight sweep-design)
+  #:use-module (bight sweep-file)
+  #:use-module (bight sweep-result)
+  #:use-module (bight sweep-worker)
+  #:use-module (srfi srfi-1)
+  #:export (sweep
+            tally?
+            tally-cases
+            tally-done
+            tally-failed
+            tally-flown
+            tally-stopped?
+            tally-fingerprint
+            tally-first-failure
+            merge-shards))
+
+
+;;; What is to be flown.
+
+(define (plan-of study file shard)
+  "Return the plan of STUDY, read from FILE."
+  (let ((design (study-design study)))
+    (make-plan
+     `((name . ,(study-name study))
+       (sentence . ,(study-sentence study))
+       (file . ,(basename file))
+       (text . ,(fingerprint (study-text file)))
+       (world . ,(fingerprint (world-text study)))
+       (version . ,(%version))
+       (variables . ,(design-variables design))
+       (spread . ,(design-spread design))
+       (measures . ,(study-measures study))
+       (legs . ,(study-legs study))
+       (cases . ,(design-size design))
+       (design . ,(fingerprint (object->string
+                                (map (lambda (i) (design-case design i)) (iota (design-size design))))))
+       (shard . ,shard)))))
+
+(define (case-key plan values)
+  ;; What a case is known by, whatever its number.
+  (fingerprint (object->string (list (plan-name plan) (plan-fact plan 'text) values))))
+
+(define (keys-of study plan)
+  ;; The keys of all cases, a vector.
+  (let ((keys (make-vector (plan-fact plan 'cases))))
+    (do ((i 0 (+ i 1)))
+        ((= i (vector-length keys)) keys)
+      (vector-set! keys i (case-key plan (case-values study i))))))
+
+(define (numbers-of keys)
+  ;; A table from keys to numbers, from 1.
+  (let ((table (make-hash-table (vector-length keys))))
+    (do ((i 0 (+ i 1)))
+        ((= i (vector-length keys)) table)
+      (when (hash-ref table (vector-ref keys i))
+        (bight-raise 'def 'sweep "cases ~a and ~a have the same values: a value is listed twice"
+                     (hash-ref table (vector-ref keys i)) (+ i 1)))
+      (hash-set! table (vector-ref keys i) (+ i 1)))))
+
+(define (in-shard? shard i)
+  ;; Does the case I, from 0, belong to SHARD, (I . N) or #f?
+  (or (not shard)
+      (= (remainder i (cdr shard)) (- (car shard) 1))))
+
+(define (missing keys known shard)
+  ;; The numbers, from 0, of the cases to be flown, in order.
+  (filter (lambda (i) (and (in-shard? shard i) (not (hash-ref known (vector-ref keys i)))))
+          (iota (vector-length keys))))
+
+
+;;; One master at a time.
+
+(define (lock! file)
+  ;; A port that holds FILE for us until it is closed, or we are gone.
+  (let ((port (open-file file "r+b")))
+    (catch 'system-error
+      (lambda () (flock port (logior LOCK_EX LOCK_NB)))
+      (lambda arguments
+        (when (eqv? EWOULDBLOCK (system-error-errno arguments))
+          (bight-raise 'io 'sweep "another sweep is writing ~s" file))))
+    port))
+
+
+;;; Progress.
+
+(define (clock)
+  (/ (get-internal-real-time) (exact->inexact internal-time-units-per-second)))
+
+(define (two-digits n) (string-pad (number->string n) 2 #\0))
+
+(define (duration->string seconds)
+  ;; H:MM:SS, or M:SS.
+  (let* ((s (inexact->exact (ceiling seconds))) (m (quotient s 60)) (h (quotient m 60)))
+    (if (zero? h)
+        (simple-format #f "~a:~a" m (two-digits (remainder s 60)))
+        (simple-format #f "~a:~a:~a" h (two-digits (remainder m 60)) (two-digits (remainder s 60))))))
+
+(define (tenths x) (/ (round (* 10 x)) 10))
+
+(define bar-width 24)
+
+(define (progress-line flown all failed seconds)
+  (let* ((full (quotient (* bar-width flown) (max 1 all)))
+         (rate (/ flown (max 1e-3 seconds))))
+    (string-append
+     "[" (make-string full #\=) (make-string (- bar-width full) #\space) "] "
+     (simple-format #f "~a/~a" flown all)
+     (if (positive? flown)
+         (simple-format #f ", ~a/s, ~a left" (tenths rate) (duration->string (/ (- all flown) rate)))
+         "")
+     (if (positive? failed) (simple-format #f ", ~a failed" failed) ""))))
+
+(define erase-line "\r\x1b[K")
+
+(define (progress-shower)
+  ;; A procedure of what `progress-line' takes that shows it, or, called with #f, clears it.
+  (let ((port (current-error-port)) (begun (clock)) (drawn -1))
+    (if (and (file-port? port) (isatty? port) (not (equal? "dumb" (getenv "TERM"))))
+        (lambda (flown . rest)
+          (cond ((not flown) (display erase-line port) (force-output port))
+                ((> (- (clock) drawn) 0.1)
+                 (set! drawn (clock))
+                 (display erase-line port)
+                 (display (apply progress-line flown (append rest (list (- drawn begun)))) port)
+                 (force-output port))))
+        (const #f))))
+
+
+;;; The master.
+
+(define-record <tally>
+  (make-tally cases done failed flown stopped? fingerprint first-failure)
+  tally?
+  (cases tally-cases)                   ; how many the study, or the shard, has
+  (done tally-done)                     ; of those in the result
+  (failed tally-failed)                 ; failed or timed out, of those in the result
+  (flown tally-flown)                   ; how many were flown now
+  (stopped? tally-stopped?)             ; by ^C
+  (fingerprint tally-fingerprint)
+  (first-failure tally-first-failure))  ; (NUMBER MESSAGE) or #f
+
+(define stop-asked (make-parameter #f)) ; a variable
+
+(define (call-with-stop thunk)
+  ;; Call THUNK; ^C, or an end that is asked for otherwise, is noted in `stop-asked'.
+  (let* ((stop (make-variable #f))
+         (note (lambda (signal) (variable-set! stop #t)))
+         (signals (list SIGINT SIGTERM SIGHUP))
+         (before (map (lambda (signal) (sigaction signal note)) signals)))
+    (dynamic-wind
+      (const #f)
+      (lambda () (parameterize ((stop-asked stop)) (thunk)))
+      (lambda ()
+        (for-each (lambda (signal old) (sigaction signal (car old) (cdr old))) signals before)))))
+
+(define (answered workers)
+  ;; Those of WORKERS who have something to say, after a second at most.
+  (let ((ready (catch 'system-error
+                 (lambda () (first (select (map worker-port workers) '() '() 1)))
+                 (lambda arguments
+                   (if (eqv? EINTR (system-error-errno arguments)) '() (apply throw arguments))))))
+    (filter (lambda (worker) (memq (worker-port worker) ready)) workers)))
+
+(define (hand-out! workers pending)
+  ;; Give each of WORKERS who is idle a case of PENDING; return those left.
+  (fold (lambda (worker pending)
+          (if (or (worker-case worker) (null? pending))
+              pending
+              (begin
+                (set-task! worker (car pending))
+                (cdr pending))))
+        pending workers))
+
+(define (fly-all! workers pending enter!)
+  "Let WORKERS fly the cases PENDING, and call ENTER! with the number and outcome of each.  Return #t if it
+was stopped."
+  (let loop ((workers workers) (pending pending))
+    (let* ((pending (hand-out! workers pending))
+           (busy (filter worker-case workers)))
+      (cond ((variable-ref (stop-asked)) #t)
+            ((and (null? busy) (null? pending)) #f)
+            ((null? busy)
+             (bight-raise 'io 'sweep "all workers are gone; start it again and it goes on"))
+            (else
+             (let answers ((rest (answered busy)) (workers workers) (pending pending))
+               (if (null? rest)
+                   (loop workers pending)
+                   (let* ((worker (car rest))
+                          (number (worker-case worker))
+                          (outcome (worker-answer worker)))
+                     (when outcome (enter! number outcome))
+                     (if outcome
+                         (answers (cdr rest) workers pending)
+                         ;; A worker that is gone leaves its case to the others.
+                         (answers (cdr rest) (delq worker workers) (cons number pending)))))))))))
+
+(define (first-failure rows)
+  ;; (NUMBER MESSAGE) of the first of ROWS that is not done.
+  (let ((row (find (lambda (row) (not (equal? "done" (second row)))) rows)))
+    (and row (list (first row) (fourth row)))))
+
+(define (tally-of database plan shard flown stopped?)
+  (let* ((counts (count-by-status database))
+         (done (or (assoc-ref counts "done") 0)))
+    (make-tally (if shard
+                    (count (lambda (i) (in-shard? shard i)) (iota (plan-fact plan 'cases)))
+                    (plan-fact plan 'cases))
+                done
+                (- (apply + (map cdr counts)) done)
+                flown stopped? (result-fingerprint database plan)
+                (first-failure (case-rows database plan)))))
+
+(define (start-workers study n)
+  (let loop ((workers '()))
+    (if (= n (length workers))
+        workers
+        (loop (cons (start-worker study workers) workers)))))
+
+(define (fly-missing! study plan database workers shard again?)
+  (let* ((keys (keys-of study plan))
+         (flown 0) (failed 0)
+         (show (progress-shower)))
+    (number-cases! database plan (numbers-of keys))
+    (when again? (forget-unfinished! database))
+    (let* ((pending (missing keys (known-keys database) shard))
+           (all (length pending)))
+      (define (enter! number outcome)
+        (add-case! database plan (+ number 1) (vector-ref keys number) (case-values study number) outcome)
+        (set! flown (+ flown 1))
+        (unless (equal? "done" (assq-ref outcome 'status)) (set! failed (+ failed 1)))
+        (show flown all failed))
+      (show 0 all 0)
+      (let ((stopped? (call-with-stop (lambda () (fly-all! workers pending enter!)))))
+        (show #f)
+        (tally-of database plan shard flown stopped?)))))
+
+(define (sweep file result jobs shard again?)
+  "Fly the cases of the study in FILE that the file RESULT lacks, JOBS at a time, and return a tally.  SHARD
+is (I . N), the I-th of N parts, or #f for all; AGAIN? also flies what failed before."
+  (let* ((study (load-study file))
+         (plan (plan-of study file shard)))
+    (force-output (current-output-port))
+    (let ((workers (start-workers study (min jobs (plan-fact plan 'cases)))))
+      (sigaction SIGPIPE SIG_IGN)       ; a worker may be gone when it is written to
+      (dynamic-wind
+        (const #f)
+        (lambda ()
+          (let* ((database (open-result result plan))
+                 (lock (lock! result))
+                 (tally (fly-missing! study plan database workers shard again?)))
+            (close-result! database)
+            (close-port lock)
+            tally))
+        (lambda () (for-each stop-worker! workers))))))
+
+
+;;; Shards.
+
+(define (merge-shards result shards)
+  "Put the cases in the files SHARDS into the file RESULT, made if there is none.  Return a tally."
+  (let* ((plan (let* ((shard (open-found (car shards)))
+                      (plan (found-plan shard)))
+                 (close-result! shard)
+                 (make-plan (map (lambda (fact) (if (eq? 'shard (car fact)) '(shard . #f) fact))
+                                 (plan-facts plan)))))
+         (database (open-result result plan))
+         (lock (lock! result))
+         (merged (apply + (map (lambda (shard) (merge-result! database result shard)) shards)))
+         (tally (tally-of database (found-plan database) #f merged #f)))
+    (close-result! database)
+    (close-port lock)
+    tally))
