@@ -7,7 +7,7 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
-#include <getopt.h>
+#include <limits.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -21,6 +21,8 @@
 #include "aware/voxel.h"
 #include "calibration.h"
 #include "law_aware_cases.h"
+#include "options.h"
+#include "row.h"
 
 enum
 {
@@ -36,10 +38,8 @@ static const char *const kinds[KINDS]
 
 typedef struct bench
 {
-  double calibration; /* s */
-  uint64_t seed;
-  int scenes, detours;
-  long moves;
+  bench_table table;
+  long seed, scenes, detours, moves;
   stage g;
   bt__taut *taut;
   bt__string *s, *fine, *home, *loop, *copy;
@@ -51,12 +51,11 @@ typedef struct bench
 } bench;
 
 static void
-row (const bench *b, const char *name, const char *setting, const char *metric, double error,
+row (bench *b, const char *name, const char *setting, const char *metric, double error,
      const char *reference, double seconds, const char *counters)
 {
-  printf ("%s,aware,%s,%s,%.3g,%s,0,%.1f,%.4g,%s\n", name, setting, metric, error, reference,
-          1e9 * seconds, seconds / b->calibration, counters);
-  fflush (stdout);
+  bench_put (&b->table, &(bench_row){ name, "aware", setting, metric, error, reference, 0, seconds,
+                                      counters });
 }
 
 static int
@@ -133,8 +132,8 @@ exact (bench *b, exact_kind k)
     frame (b, &c, b->s, bt__axpy (end, 0.02 * (i < 200 ? i : 400 - i), bt__vec (0.72, -0.6, 0.35)));
   double p99 = quantile (b->frames, b->n, 0.99);
   snprintf (counters, sizeof counters, "p99_us=%.1f;frames=%ld", 1e6 * p99, b->n);
-  row (b, "taut frame", exact_names[k], "2 cm a frame", NAN, "none",
-       quantile (b->frames, b->n, 0.5), counters);
+  row (b, "taut frame", exact_names[k], "2 cm a frame", NAN, NULL, quantile (b->frames, b->n, 0.5),
+       counters);
 }
 
 /* ---- Random scenes ---- */
@@ -156,7 +155,7 @@ scenes (bench *b, int kind)
   b->n = 0;
   for (int i = 0; i < b->scenes; i++)
     {
-      dice d = dice_new (b->seed + (uint64_t)(1000 * kind + i));
+      dice d = dice_new ((uint64_t)b->seed + (uint64_t)(1000 * kind + i));
       draw (b, kind, &d);
       bt__taut_config c = config_of (b, 0.6), fine = config_of (b, 0.6 / 3.5);
       uint32_t n = draw_line (&b->g, &d, 14, 0.35, 0.5, b->p);
@@ -175,13 +174,13 @@ scenes (bench *b, int kind)
     }
   double p99 = quantile (b->frames, b->n, 0.99), most = b->frames[b->n - 1];
   snprintf (counters, sizeof counters, "max_ms=%.2f;worst=%.2g;nodes=%.1f;clearance=%.9f",
-            1e3 * quantile (cold, b->scenes, 1), quantile (error, b->scenes, 1), nodes / b->scenes,
-            clear);
+            1e3 * quantile (cold, b->scenes, 1), quantile (error, b->scenes, 1),
+            nodes / (double)b->scenes, clear);
   row (b, "taut", kinds[kind], "median share of length", quantile (error, b->scenes, 0.5),
        "3.5 times finer", quantile (cold, b->scenes, 0.5), counters);
   snprintf (counters, sizeof counters, "p99_us=%.1f;max_us=%.1f;frames=%ld", 1e6 * p99, 1e6 * most,
             b->n);
-  row (b, "taut frame", kinds[kind], "2 cm a frame", NAN, "none", quantile (b->frames, b->n, 0.5),
+  row (b, "taut frame", kinds[kind], "2 cm a frame", NAN, NULL, quantile (b->frames, b->n, 0.5),
        counters);
 }
 
@@ -240,7 +239,7 @@ time_words (bench *b, const bt__shadow *shadow, dice *d, const char *setting)
   char counters[80];
   double most = quantile (b->frames, b->n, 1);
   snprintf (counters, sizeof counters, "max_us=%.1f;letters=%.0f", 1e6 * most, letters);
-  row (b, "word", setting, "100 links", NAN, "none", quantile (b->frames, b->n, 0.5), counters);
+  row (b, "word", setting, "100 links", NAN, NULL, quantile (b->frames, b->n, 0.5), counters);
 }
 
 static void
@@ -254,7 +253,7 @@ words (bench *b)
                 { "jacket 2 bays", 0, 2 }, { "jacket 4 bays", 0, 4 }, { "jacket 8 bays", 0, 8 } };
   for (int k = 0; k < 6; k++)
     {
-      dice d = dice_new (b->seed + 7);
+      dice d = dice_new ((uint64_t)b->seed + 7);
       double load;
       if (scene[k].bays)
         draw_jacket (&b->g, &d, scene[k].bays);
@@ -289,7 +288,7 @@ voxels (bench *b, int kind)
     PATHS = 40
   };
   static bt__word one[PATHS], other[PATHS];
-  dice d = dice_new (b->seed + 11);
+  dice d = dice_new ((uint64_t)b->seed + 11);
   double load;
   draw (b, kind, &d);
   bt__shadow *shadow = shadow_of (b, &load);
@@ -327,7 +326,7 @@ voxels (bench *b, int kind)
       snprintf (counters, sizeof counters, "cells=%u;generators=%u;rank=%u;left=%u",
                 (unsigned)r.cells, (unsigned)r.generators, (unsigned)known.rank,
                 (unsigned)r.leftover);
-      row (b, "voxels load", kinds[kind], "0.5 m", NAN, "none", load, counters);
+      row (b, "voxels load", kinds[kind], "0.5 m", NAN, NULL, load, counters);
       snprintf (counters, sizeof counters, "pairs=%d;lost=%d", pairs, lost);
       row (b, "voxel word", kinds[kind], "pairs that disagree", pairs - agree, "words",
            quantile (b->frames, b->n, 0.5), counters);
@@ -347,7 +346,7 @@ free_lengths (bench *b, int kind)
   b->n = 0;
   for (int i = 0; i < b->scenes; i++)
     {
-      dice d = dice_new (b->seed + (uint64_t)(1000 * kind + i));
+      dice d = dice_new ((uint64_t)b->seed + (uint64_t)(1000 * kind + i));
       bt__free *tree;
       draw (b, kind, &d);
       bt__taut_config c = config_of (b, 0.6);
@@ -367,14 +366,14 @@ free_lengths (bench *b, int kind)
           b->frames[b->n++] = bench_now () - start;
           if (k >= queries)
             continue;
-          double best = best_detour (&b->g, &d, b->taut, &c, b->p[0], to, b->detours, b->s);
+          double best = best_detour (&b->g, &d, b->taut, &c, b->p[0], to, (int)b->detours, b->s);
           asked++;
           longer += is > 1.002 * best;
           worst = fmax (worst, is / best - 1);
         }
       bt__free_free (tree);
     }
-  row (b, "free load", kinds[kind], "0.75 m", NAN, "none", quantile (build, b->scenes, 0.5), "");
+  row (b, "free load", kinds[kind], "0.75 m", NAN, NULL, quantile (build, b->scenes, 0.5), "");
   double p95 = quantile (b->frames, b->n, 0.95);
   snprintf (counters, sizeof counters, "p95_us=%.1f;asked=%d;worst=%.2g", 1e6 * p95, asked, worst);
   row (b, "free length", kinds[kind], "share longer by 0.2 %", asked ? (double)longer / asked : NAN,
@@ -391,7 +390,7 @@ hauls (bench *b, int kind)
   int needed = 0, feasible = 0, wide = 0;
   for (int i = 0; i < b->scenes; i++)
     {
-      dice d = dice_new (b->seed + (uint64_t)(1000 * kind + i));
+      dice d = dice_new ((uint64_t)b->seed + (uint64_t)(1000 * kind + i));
       bt__free *tree;
       draw (b, kind, &d);
       bt__taut_config c = config_of (b, 0.6);
@@ -416,8 +415,8 @@ hauls (bench *b, int kind)
       feasible += u.feasible;
       bt__free_free (tree);
     }
-  snprintf (counters, sizeof counters, "of=%d", b->scenes);
-  row (b, "way home", kinds[kind], "too narrow", b->scenes - wide, "vehicle of 0.3 m",
+  snprintf (counters, sizeof counters, "of=%ld", b->scenes);
+  row (b, "way home", kinds[kind], "too narrow", (double)(b->scenes - wide), "vehicle of 0.3 m",
        quantile (home, b->scenes, 0.5), counters);
   snprintf (counters, sizeof counters, "max_ms=%.2f;needed=%d", 1e3 * quantile (plan, b->scenes, 1),
             needed);
@@ -433,7 +432,7 @@ knots (bench *b)
   b->n = 0;
   for (int i = 0; i < 50; i++)
     {
-      dice d = dice_new (b->seed + (uint64_t)i);
+      dice d = dice_new ((uint64_t)b->seed + (uint64_t)i);
       bt__knot_value v;
       bt_vec3 at = bt__vec (0, 0, 0), way = dice_direction (&d);
       for (int k = 0; k < 200; k++)
@@ -452,7 +451,7 @@ knots (bench *b)
   double most = quantile (b->frames, b->n, 1);
   snprintf (counters, sizeof counters, "max_us=%.0f;knotted=%d;crossings=%.1f", 1e6 * most, knotted,
             crossings);
-  row (b, "knot", "200 links in a ball", "Alexander", NAN, "none", quantile (b->frames, b->n, 0.5),
+  row (b, "knot", "200 links in a ball", "Alexander", NAN, NULL, quantile (b->frames, b->n, 0.5),
        counters);
 }
 
@@ -478,9 +477,7 @@ run (bench *b)
   if (!b->s || !b->fine || !b->home || !b->loop || !b->copy
       || bt__taut_new (CASE_NODES, &b->taut, NULL) || bt__knot_new (CASE_NODES, &b->knot, NULL))
     return EXIT_FAILURE;
-  b->calibration = bench_calibrate (0.3);
-  puts ("case,model,setting,metric,error,reference,reference_uncertainty,cpu_ns,calibration_ratio,"
-        "counters");
+  bench_open (&b->table);
   for (int k = 0; k < EXACT_KINDS; k++)
     exact (b, (exact_kind)k);
   for (int k = 0; k < KINDS; k++)
@@ -501,53 +498,21 @@ run (bench *b)
   free (b->copy);
   bt__taut_free (b->taut);
   bt__knot_free (b->knot);
-  return EXIT_SUCCESS;
+  return bench_close (&b->table);
 }
-
-static const char usage[]
-    = "usage: bight-bench-awareness [--scenes N] [--moves N] [--detours N] [--seed N] [--help]\n"
-      "Print time and error of what a tether is said to do as CSV rows.\n"
-      "  --scenes N   of each kind; 20\n"
-      "  --moves N    random moves a scene that may not change a word; 100000 (asked: 1000000)\n"
-      "  --detours N  random detours beside a free length; 150\n"
-      "  --seed N     of the random numbers; 1\n"
-      "  --help       this text\n";
 
 int
 main (int argc, char **argv)
 {
-  static const struct option options[]
-      = { { "scenes", required_argument, NULL, 'n' },  { "moves", required_argument, NULL, 'm' },
-          { "detours", required_argument, NULL, 'd' }, { "seed", required_argument, NULL, 's' },
-          { "help", no_argument, NULL, 'h' },          { NULL, 0, NULL, 0 } };
   static bench b = { .scenes = 20, .detours = 150, .moves = 100000, .seed = 1 };
-  int c;
-  while ((c = getopt_long (argc, argv, "", options, NULL)) != -1)
-    switch (c)
-      {
-      case 'n':
-        b.scenes = atoi (optarg);
-        break;
-      case 'm':
-        b.moves = strtol (optarg, NULL, 10);
-        break;
-      case 'd':
-        b.detours = atoi (optarg);
-        break;
-      case 's':
-        b.seed = strtoul (optarg, NULL, 10);
-        break;
-      case 'h':
-        fputs (usage, stdout);
-        return EXIT_SUCCESS;
-      default:
-        fputs (usage, stderr);
-        return EXIT_FAILURE;
-      }
-  if (b.scenes < 1 || b.scenes > 1000 || b.moves < 60 || b.detours < 0)
-    {
-      fputs ("bight-bench-awareness: --scenes takes 1 to 1000, --moves 60 or more\n", stderr);
-      return EXIT_FAILURE;
-    }
-  return run (&b);
+  const bench_option options[] = {
+    { "scenes", &b.scenes, 1, 1000, 3, "scenes of each kind" },
+    { "moves", &b.moves, 60, LONG_MAX, 6000, "random moves a scene that may not change a word" },
+    { "detours", &b.detours, 0, INT_MAX, 20, "random detours beside a free length" },
+    { "seed", &b.seed, 0, LONG_MAX, 0, "seed of the random numbers" },
+  };
+  const bench_program program
+      = { "awareness", "Measure time and error of what a tether is said to do", options, 4 };
+  int status = bench_options (&program, argc, argv);
+  return status == BENCH_GO_ON ? run (&b) : status;
 }

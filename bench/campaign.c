@@ -12,6 +12,11 @@
 #define DENSITY 1025.0
 #define GRAVITY 9.81
 
+const char *const campaign_kind_names[CAMPAIGN_KINDS] = { "plain", "teleports", "vacuo" };
+
+const char *const campaign_fault_names[CAMPAIGN_FAULTS]
+    = { "sound", "broken", "blown up", "unrecovered", "gained energy", "not laid" };
+
 const campaign_tally campaign_nothing = { .gain = -HUGE_VAL };
 
 /* ---- Random numbers ---- */
@@ -46,6 +51,16 @@ box (campaign *c, double r)
 
 /* ---- Lines ---- */
 
+void
+campaign_seed (campaign *c, uint64_t seed, long number)
+{
+  uint64_t z = seed * 0x9e3779b97f4a7c15u + (uint64_t)number + 1; /* SplitMix64 */
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  z ^= z >> 31;
+  c->seed = z ? z : 1;
+}
+
 int
 campaign_open (campaign *c, uint64_t seed)
 {
@@ -65,7 +80,7 @@ campaign_close (campaign *c)
 }
 
 static bt_tether_props
-random_props (campaign *c)
+random_props (campaign *c, campaign_kind kind)
 {
   double d = campaign_decades (c, 0.003, 0.03), water = DENSITY * BT__PI * d * d / 4;
   bt_tether_props line = { .diameter = d,
@@ -77,90 +92,122 @@ random_props (campaign *c)
                            .cdn = campaign_uniform (c, 0.5, 2),
                            .cdt = 0.02,
                            .ca = 1 };
-  if (c->kind == CAMPAIGN_VACUO)
+  if (kind == CAMPAIGN_VACUO)
     line.wet_weight = line.mass * GRAVITY;
   return line;
 }
 
-enum
-{
-  CORNERS = 129
-};
-
-/* Lay a line of any kind without overstretching it: slack between three points, and without water,
-   where what pushes a bent interval to its length would count as a gain, in an arc.  */
+/* Draw a line of any kind that is not overstretched: slack between three points, and without water,
+   where it is to move smoothly too, in an arc.  */
 static void
-lay (campaign *c)
+draw_line (campaign *c, campaign_flight *f)
 {
   double l = campaign_decades (c, 1, 300), a = campaign_uniform (c, 0.1, 0.99);
   double sag = 0.45 * sqrt (1 - a * a), aside = campaign_uniform (c, -0.7, 0.7);
   double most = campaign_uniform (c, 0, 1) * (c->quick ? campaign_uniform (c, 0, 1) : 1);
-  bt_vec3 shape[CORNERS]
-      = { { 0, 0, 0 }, { l * a / 2, l * sag * aside, -l * sag * 0.7 }, { l * a, 0, 0 } };
-  int corners = c->kind == CAMPAIGN_VACUO ? CORNERS : 3;
-  for (int i = 0; i < corners && corners > 3; i++)
+  bt_vec3 middle = { l * a / 2, l * sag * aside, -l * sag * 0.7 };
+  f->corners = f->kind == CAMPAIGN_VACUO ? CAMPAIGN_CORNERS : 3;
+  f->shape[0] = bt__vec (0, 0, 0);
+  f->shape[1] = middle;
+  f->shape[2] = bt__vec (l * a, 0, 0);
+  for (int i = 0; i < f->corners && f->corners > 3; i++)
     {
-      double turn = 4 * a, u = (double)i / (CORNERS - 1), r = l / turn;
+      double turn = 4 * a, u = (double)i / (CAMPAIGN_CORNERS - 1), r = l / turn;
       double x = r * sin (turn * u), y = r * (1 - cos (turn * u));
-      shape[i] = bt__vec (x, y * aside, -y * sqrt (1 - aside * aside));
+      f->shape[i] = bt__vec (x, y * aside, -y * sqrt (1 - aside * aside));
     }
-  c->nodes = (int)(2 * pow (CAMPAIGN_NODES / 2, most));
-  c->line = random_props (c);
-  c->length = l;
-  c->step = campaign_decades (c, 1e-3, 0.1);
-  c->jittered = chance (c, 0.5);
-  c->v = bt__vec (0, 0, 0);
-  c->current = (bt_current){ .kind = BT_CURRENT_STILL };
-  c->water = (bt_water){
-    c->kind == CAMPAIGN_VACUO ? 0 : DENSITY, GRAVITY, 1000, 0, &c->current, NULL, NULL, NULL
-  };
-  c->in = (bt__dynamic_input){ .line = &c->line, .water = &c->water, .tolerance = 1e-5 };
-  if (c->kind == CAMPAIGN_VACUO)
-    c->in.tolerance = 1e-9; /* what is not solved may be gained */
-  c->in.end[1].at = shape[corners - 1];
-  c->in.end[1].free = chance (c, c->kind == CAMPAIGN_VACUO ? 0.5 : 0.1);
-  if (c->in.end[1].free && c->kind != CAMPAIGN_VACUO)
-    c->in.end[1].body = (bt__dynamic_lump){ .mass = 20, .added = 10, .quadratic = 60 };
-  if (bt__dynamic_init (c->d, CAMPAIGN_NODES, c->nodes - 1, shape, corners, l, c->line.ea, NULL))
-    abort ();
-  c->driven = sqrt (2 * bt__dynamic_energies (c->d, &c->in).bending / (c->line.mass * l));
-  c->driven += c->kind == CAMPAIGN_VACUO ? sqrt (2 * GRAVITY * l) : 5 * sqrt (3); /* a jerk */
-  if (c->kind == CAMPAIGN_TELEPORTS)
-    c->driven += 0.05 * sqrt (c->line.ea / c->line.mass);
+  f->nodes = (int)(2 * pow (CAMPAIGN_NODES / 2, most));
+  f->line = random_props (c, f->kind);
+  f->length = l;
+  f->step = campaign_decades (c, 1e-3, 0.1);
+  f->jittered = chance (c, 0.5);
+  f->free = chance (c, f->kind == CAMPAIGN_VACUO ? 0.5 : 0.1);
+  if (f->free && f->kind != CAMPAIGN_VACUO)
+    f->body = (bt__dynamic_lump){ .mass = 20, .added = 10, .quadratic = 60 };
 }
 
-/* Where the far end goes in the next H seconds.  */
+/* Draw *M, which begins as the move before it, the far end at V metres a second.  */
 static void
-move (campaign *c, double h)
+draw_move (campaign *c, const campaign_flight *f, campaign_move *m, bt_vec3 *v)
 {
-  bt_vec3 *at = &c->in.end[1].at, from = *at;
-  double reach = c->kind == CAMPAIGN_TELEPORTS ? 1.05 * c->length : c->length;
-  if (c->kind == CAMPAIGN_VACUO)
+  double reach = f->kind == CAMPAIGN_TELEPORTS ? 1.05 * f->length : f->length;
+  m->h = f->jittered ? f->step * campaign_decades (c, 0.1, 1) : f->step;
+  if (f->kind == CAMPAIGN_VACUO)
     return;
   if (chance (c, 0.02))
-    c->v = box (c, 5);
+    *v = box (c, 5);
   if (chance (c, 0.02))
-    c->v = bt__vec (0, 0, 0);
+    *v = bt__vec (0, 0, 0);
   if (chance (c, 0.05))
-    c->v = bt__scale (-1, c->v);
+    *v = bt__scale (-1, *v);
   if (chance (c, 0.01))
     {
       double u = campaign_uniform (c, -2, 2);
-      c->current = (bt_current){ .kind = BT_CURRENT_UNIFORM,
-                                 .velocity = { bt__vec (u, campaign_uniform (c, -2, 2), 0) } };
+      m->flow = bt__vec (u, campaign_uniform (c, -2, 2), 0);
     }
-  *at = bt__axpy (*at, h, c->v);
-  if (c->kind == CAMPAIGN_TELEPORTS && chance (c, 0.01))
-    *at = bt__add (*at, box (c, 5));
-  double far = bt__norm (*at);
+  m->at = bt__axpy (m->at, m->h, *v);
+  if (f->kind == CAMPAIGN_TELEPORTS && chance (c, 0.01))
+    m->at = bt__add (m->at, box (c, 5));
+  double far = bt__norm (m->at);
   if (far > reach)
-    *at = bt__scale (reach / far, *at);
-  c->in.end[1].body.force = bt__scale (30, c->v);
-  if (!c->in.end[1].free)
-    c->driven = fmax (c->driven, bt__distance (*at, from) / h);
+    m->at = bt__scale (reach / far, m->at);
+  m->force = bt__scale (30, *v);
+}
+
+void
+campaign_draw (campaign *c, campaign_kind kind)
+{
+  campaign_flight *f = &c->flight;
+  bt_vec3 v = { 0, 0, 0 };
+  *f = (campaign_flight){ .kind = kind };
+  draw_line (c, f);
+  campaign_move m = { .at = f->shape[f->corners - 1] };
+  f->moves = c->quick && f->nodes > 400 ? 60 : CAMPAIGN_MOVES;
+  for (int i = 0; i < f->moves; i++)
+    {
+      draw_move (c, f, &m, &v);
+      f->move[i] = m;
+    }
 }
 
 /* ---- Flights ---- */
+
+/* Lay the line of C's flight; nonzero if it can be.  */
+static int
+lay (campaign *c)
+{
+  const campaign_flight *f = &c->flight;
+  c->current = (bt_current){ .kind = BT_CURRENT_STILL };
+  c->water = (bt_water){
+    f->kind == CAMPAIGN_VACUO ? 0 : DENSITY, GRAVITY, 1000, 0, &c->current, NULL, NULL, NULL
+  };
+  c->in = (bt__dynamic_input){ .line = &f->line, .water = &c->water, .tolerance = 1e-5 };
+  c->in.end[0].at = f->shape[0];
+  c->in.end[1].at = f->shape[f->corners - 1];
+  c->in.end[1].free = f->free;
+  c->in.end[1].body = f->body;
+  if (bt__dynamic_init (c->d, CAMPAIGN_NODES, f->nodes - 1, f->shape, f->corners, f->length,
+                        f->line.ea, NULL))
+    return 0;
+  c->driven = sqrt (2 * bt__dynamic_energies (c->d, &c->in).bending / (f->line.mass * f->length));
+  c->driven += f->kind == CAMPAIGN_VACUO ? sqrt (2 * GRAVITY * f->length) : 5 * sqrt (3); /* jerk */
+  if (f->kind == CAMPAIGN_TELEPORTS)
+    c->driven += 0.05 * sqrt (f->line.ea / f->line.mass);
+  return 1;
+}
+
+/* Set C for the move M.  */
+static void
+move (campaign *c, const campaign_move *m)
+{
+  bt_vec3 from = c->in.end[1].at;
+  c->current.velocity[0] = m->flow;
+  c->current.kind = bt__norm (m->flow) > 0 ? BT_CURRENT_UNIFORM : BT_CURRENT_STILL;
+  c->in.end[1].at = m->at;
+  c->in.end[1].body.force = m->force;
+  if (!c->in.end[1].free)
+    c->driven = fmax (c->driven, bt__distance (m->at, from) / m->h);
+}
 
 /* Return nonzero when all that the line of C is made of is finite.  */
 static int
@@ -193,7 +240,7 @@ step (campaign *c, double h, double *behind, campaign_tally *t)
   double start = c->clock ? c->clock () : 0;
   bt_status status = bt__dynamic_step (c->d, c->work, &c->in, &c->report, NULL);
   double spent = c->clock ? c->clock () - start : 0;
-  if (status || !finite_line (c))
+  if (status || !finite_line (c) || (c->planted && c->planted (c)))
     {
       t->broken++;
       return 0;
@@ -224,29 +271,53 @@ rest (campaign *c, double behind, campaign_tally *t)
   t->settled = c->report.speed;
 }
 
-void
+/* The worst of what *T, of one line, says.  */
+static campaign_fault
+fault_of (const campaign_tally *t)
+{
+  return t->broken        ? CAMPAIGN_BROKEN
+         : t->blown       ? CAMPAIGN_BLOWN
+         : t->unrecovered ? CAMPAIGN_UNRECOVERED
+         : t->gained      ? CAMPAIGN_GAINED
+                          : CAMPAIGN_SOUND;
+}
+
+campaign_fault
+campaign_play (campaign *c, campaign_tally *t)
+{
+  const campaign_flight *f = &c->flight;
+  double behind = 0;
+  *t = campaign_nothing;
+  t->lines = 1;
+  if (!lay (c))
+    {
+      t->broken = 1;
+      return CAMPAIGN_UNLAID;
+    }
+  double start = energy (c), scale = f->line.mass * GRAVITY * f->length * f->length;
+  scale += bt__dynamic_energies (c->d, &c->in).bending;
+  for (int i = 0; i < f->moves && !t->broken; i++)
+    {
+      move (c, f->move + i);
+      if (step (c, f->move[i].h, &behind, t) && f->kind == CAMPAIGN_VACUO)
+        t->gain = fmax (t->gain, (energy (c) - start) / scale);
+    }
+  if (f->kind != CAMPAIGN_VACUO && !t->broken)
+    rest (c, behind, t);
+  t->blown = t->ratio > 20;
+  t->unrecovered = t->unsolved_for > 3;
+  t->gained = t->gain > CAMPAIGN_GAIN;
+  return fault_of (t);
+}
+
+campaign_fault
 campaign_fly (campaign *c, campaign_kind kind, campaign_tally *total)
 {
-  campaign_tally t = campaign_nothing;
-  double behind = 0;
-  c->kind = kind;
-  lay (c);
-  double start = energy (c), scale = c->line.mass * GRAVITY * c->length * c->length;
-  scale += bt__dynamic_energies (c->d, &c->in).bending;
-  int steps = c->quick && c->nodes > 400 ? 60 : 200;
-  for (int i = 0; i < steps && !t.broken; i++)
-    {
-      double h = c->jittered ? c->step * campaign_decades (c, 0.1, 1) : c->step;
-      move (c, h);
-      if (step (c, h, &behind, &t) && kind == CAMPAIGN_VACUO)
-        t.gain = fmax (t.gain, (energy (c) - start) / scale);
-    }
-  if (kind != CAMPAIGN_VACUO && !t.broken)
-    rest (c, behind, &t);
-  t.lines = 1;
-  t.blown = t.ratio > 20;
-  t.unrecovered = t.unsolved_for > 3;
+  campaign_tally t;
+  campaign_draw (c, kind);
+  campaign_fault fault = campaign_play (c, &t);
   campaign_add (total, &t);
+  return fault;
 }
 
 void
@@ -259,6 +330,7 @@ campaign_add (campaign_tally *t, const campaign_tally *from)
   t->broken += from->broken;
   t->blown += from->blown;
   t->unrecovered += from->unrecovered;
+  t->gained += from->gained;
   t->unsolved_for = fmax (t->unsolved_for, from->unsolved_for);
   t->fastest = fmax (t->fastest, from->fastest);
   t->ratio = fmax (t->ratio, from->ratio);

@@ -6,6 +6,7 @@
 #define BT_BENCH_COLLISION_H
 
 #include "../tests/oracle/solids.h"
+#include "row.h"
 
 enum
 {
@@ -20,13 +21,8 @@ enum
 typedef struct bench
 {
   dice dice;
-  double calibration; /* s */
+  bench_table table;
 } bench;
-
-/* Print a row; SECONDS of CPU.  */
-void bench_row (const bench *b, const char *name, const char *model, const char *setting,
-                const char *metric, double error, const char *reference, double uncertainty,
-                double seconds, const char *counters);
 
 /* A link against shapes, N of each kind.  */
 void bench_pairs (bench *b, long n);
@@ -36,6 +32,11 @@ void bench_meshes (bench *b, uint32_t most);
 
 /* A tether among N capsules of one density.  */
 void bench_field (bench *b, uint32_t n);
+
+/* Print a row of B.  */
+void bench_say (bench *b, const char *name, const char *model, const char *setting,
+                const char *metric, double error, const char *reference, double uncertainty,
+                double seconds, const char *counters);
 
 /* N steps of junk on every stage, judged by the oracle.  Return nonzero if it found nothing.  */
 int bench_stress (bench *b, long n);

@@ -37,7 +37,7 @@ make_field (bench *b, uint32_t n, double half)
   char setting[40];
   snprintf (setting, sizeof setting, "%u capsules", (unsigned)n);
   if (n > 0)
-    bench_row (b, "build", "scene", setting, "check and tree", 0, "none", 0, seconds, "");
+    bench_say (b, "build", "scene", setting, "check and tree", 0, NULL, 0, seconds, "");
   free (o);
   return status ? NULL : scene;
 }
@@ -87,7 +87,7 @@ time_field (bench *b, const bt__scene *s, const char *name, bt_vec3 from, double
             (unsigned long)(pairs / BENCH_FRAMES), (unsigned long)(count.links / BENCH_REPEATS),
             (unsigned long)(count.nodes / BENCH_REPEATS),
             (unsigned long)(count.pairs / BENCH_REPEATS));
-  bench_row (b, name, "scene", setting, "frame of 100 links; wrong pairs", wrong, "brute force", 0,
+  bench_say (b, name, "scene", setting, "frame of 100 links; wrong pairs", wrong, "brute force", 0,
              bench_median (times, BENCH_FRAMES), counters);
 }
 
@@ -136,7 +136,7 @@ bench_stress (bench *b, long n)
                 "crossings=%ld;unlinked=%ld;clearance_over_core=%.6f;truncated=%ld;overflows=%ld;"
                 "pinched=%ld",
                 v.crossings, v.unlinked, v.least / core, v.truncated, v.overflows, v.pinched);
-      bench_row (b, "stress", stages[i].name, setting, "crossings", (double)v.crossings,
+      bench_say (b, "stress", stages[i].name, setting, "crossings", (double)v.crossings,
                  "swept patches", 0, (bench_now () - start) / (double)n, counters);
       strike (g);
     }

@@ -83,7 +83,7 @@ time_frames (bench *b, const bt__scene *s, const jacket *j, const char *name, co
   snprintf (counters, sizeof counters, "pairs=%lu;measured=%lu;nodes=%lu",
             (unsigned long)(pairs / BENCH_FRAMES), (unsigned long)(count.pairs / BENCH_REPEATS),
             (unsigned long)(count.nodes / BENCH_REPEATS));
-  bench_row (b, name, "mesh", setting, "frame of 100 links; wrong pairs", wrong, "brute force", 0,
+  bench_say (b, name, "mesh", setting, "frame of 100 links; wrong pairs", wrong, "brute force", 0,
              seconds, counters);
   return seconds;
 }
@@ -122,7 +122,7 @@ time_rival_frames (bench *b, const rival *r, void *built, const jacket *j, const
   double seconds = bench_median (times, FEW);
   snprintf (setting, sizeof setting, "%s; %u triangles", r->name, (unsigned)j->triangles);
   snprintf (counters, sizeof counters, "pairs=%ld;ratio=%.2f", answer.pairs, seconds / own);
-  bench_row (b, name, "rival", setting, "frame of 100 links; wrong pairs", wrong, "brute force", 0,
+  bench_say (b, name, "rival", setting, "frame of 100 links; wrong pairs", wrong, "brute force", 0,
              seconds, counters);
 }
 
@@ -135,7 +135,7 @@ run_rival (bench *b, const rival *r, const jacket *j, const own_times *own)
   double seconds = bench_now () - start;
   snprintf (setting, sizeof setting, "%s; %u triangles", r->name, (unsigned)j->triangles);
   snprintf (counters, sizeof counters, "ratio=%.2f", seconds / own->build);
-  bench_row (b, "build", "rival", setting, "tree", 0, "none", 0, seconds, counters);
+  bench_say (b, "build", "rival", setting, "tree", 0, NULL, 0, seconds, counters);
   time_rival_frames (b, r, built, j, "drape", jacket_drape, own->drape);
   time_rival_frames (b, r, built, j, "lie", jacket_lie, own->lie);
   time_rival_frames (b, r, built, j, "wrap", jacket_wrap, own->wrap);
@@ -183,7 +183,7 @@ time_safe (bench *b, const bt__scene *s, const char *name, const char *setting, 
             (unsigned long)(count.casts / BENCH_FRAMES),
             (unsigned long)(count.skipped_clear / BENCH_FRAMES),
             (unsigned long)(count.pairs / BENCH_FRAMES));
-  bench_row (b, name, "safe step", setting, "2 cm at random", 0, "none", 0,
+  bench_say (b, name, "safe step", setting, "2 cm at random", 0, NULL, 0,
              bench_median (times, BENCH_FRAMES), counters);
   bt__safe_free (safe);
 }
@@ -215,7 +215,7 @@ time_beams (bench *b, const bt__scene *s, const char *setting)
   snprintf (counters, sizeof counters, "hits=%ld;measured=%lu;nodes=%lu", hits / BENCH_FRAMES,
             (unsigned long)(count.pairs / BENCH_FRAMES),
             (unsigned long)(count.nodes / BENCH_FRAMES));
-  bench_row (b, "beams", "mesh", setting, "fan of 120 beams", 0, "none", 0,
+  bench_say (b, "beams", "mesh", setting, "fan of 120 beams", 0, NULL, 0,
              bench_median (times, BENCH_FRAMES), counters);
 }
 
@@ -244,7 +244,7 @@ time_hull (bench *b, const bt__scene *s, const char *setting)
   char counters[120];
   snprintf (counters, sizeof counters, "least=%.6g;chases=%lu", least,
             (unsigned long)(count.casts / BENCH_FRAMES));
-  bench_row (b, "hull", "mesh", setting, "step of 10 cm on to a brace", 0, "none", 0,
+  bench_say (b, "hull", "mesh", setting, "step of 10 cm on to a brace", 0, NULL, 0,
              bench_median (times, BENCH_FRAMES), counters);
 }
 
@@ -268,7 +268,7 @@ run_mesh (bench *b, jacket *s, uint32_t wanted)
       times[k] = bench_now () - start;
     }
   snprintf (counters, sizeof counters, "nodes=%u", (unsigned)o.shape.mesh->tree.nodes);
-  bench_row (b, "build", "mesh", setting, "copy check tree", 0, "none", 0, bench_median (times, 3),
+  bench_say (b, "build", "mesh", setting, "copy check tree", 0, NULL, 0, bench_median (times, 3),
              counters);
   if (bt__scene_new (&o, 1, 1, &scene, NULL))
     return;

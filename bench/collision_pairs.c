@@ -189,14 +189,14 @@ report_pair (bench *b, cases *c, solid_kind kind, const char *setting, bt__hull 
   for (long i = 0; i < c->n && i < 4000; i++)
     worst = fmax (worst, fabs (fmax (c->w[i].distance, 0) - solid_brute (c->x + i, c->link + i)));
   snprintf (counters, sizeof counters, "cases=%ld", c->n);
-  bench_row (b, "pair", solid_names[kind], setting, "worst distance [m]", worst, "golden section",
+  bench_say (b, "pair", solid_names[kind], setting, "worst distance [m]", worst, "golden section",
              1e-16, seconds, counters);
 #ifdef HAVE_CCD
   long hits = 0;
   double other = time_mpr (c, &hits);
   snprintf (counters, sizeof counters, "cases=%ld;hits=%ld;ratio=%.2f", c->n, hits,
             other / seconds);
-  bench_row (b, "pair", solid_names[kind], "libccd MPR", "not compared", NAN, "none", 0, other,
+  bench_say (b, "pair", solid_names[kind], "libccd MPR", "not compared", NAN, NULL, 0, other,
              counters);
 #endif
 }

@@ -6,20 +6,23 @@
    pilot who aims through the members: percentiles of the step, towed and with a mass of its own, at
    0.1, 1 and 3 m/s.  ground: a line on a bottom, by the number of places it touches.  alone: what a
    scene far away adds to the line's own step.  quiet: the most energy a line that falls over a beam
-   gains in a step.
+   gains in a step.  knot: an overhand knot about a beam runs up and is pulled tight; the error is
+   by how much the tension ever exceeds the pull.
 
    Crossings are counted by an outside judge; times leave him out.  Times are CPU; the calibration
    ratio is per step.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
-#include <getopt.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "calibration.h"
 #include "contact_scene.h"
+#include "options.h"
+#include "row.h"
 
 enum
 {
@@ -28,7 +31,8 @@ enum
 };
 
 static const double frame = 1.0 / 60;
-static double calibration, times[MOST_STEPS];
+static bench_table table;
+static double times[MOST_STEPS];
 static reef place;
 static rope line;
 
@@ -36,9 +40,8 @@ static void
 row (const char *name, const char *setting, const char *metric, double error, double seconds,
      const char *counters)
 {
-  printf ("%s,dynamic,%s,%s,%.3g,closed form,0,%.1f,%.4g,%s\n", name, setting, metric, error,
-          1e9 * seconds, seconds / calibration, counters);
-  fflush (stdout);
+  bench_put (&table, &(bench_row){ name, "dynamic", setting, metric, error, "closed form", 0,
+                                   seconds, counters });
 }
 
 static int
@@ -144,13 +147,13 @@ haul (corner k, double mu, double speed)
     }
   char setting[80], counters[240];
   snprintf (setting, sizeof setting, "%s mu=%g %g m/s", corner_names[k], mu, speed);
-  snprintf (counters, sizeof counters,
-            "T2=%.1f..%.1f N;T2/T1=%.3f, %.3f..%.3f, exactly %.3f;truncated=%.3g;unsolved=%.3g;"
-            "crossings=%ld;solves=%.2f",
-            least, most, high / low, under, over, exp (mu * BT__PI / 2),
-            (double)line.truncated / steps, (double)line.unconverged / steps, line.crossings,
-            (double)line.solves / steps);
-  row ("drag", setting, "T2/T1 against capstan", high / low / exp (mu * BT__PI / 2) - 1,
+  snprintf (
+      counters, sizeof counters,
+      "T2=%.1f..%.1f N;T2/T1=%.3f;from=%.3f;to=%.3f;exactly=%.3f;truncated=%.3g;unsolved=%.3g;"
+      "crossings=%ld;solves=%.2f",
+      least, most, high / low, under, over, exp (mu * BT__PI / 2), (double)line.truncated / steps,
+      (double)line.unconverged / steps, line.crossings, (double)line.solves / steps);
+  row ("drag", setting, "T2/T1 against capstan", fabs (high / low / exp (mu * BT__PI / 2) - 1),
        sum / steps, counters);
   close_scene ();
 }
@@ -343,67 +346,98 @@ quiet (void)
   close_scene ();
 }
 
+/* ---- Knotted ---- */
+
+/* An overhand knot of LINKS about a beam, pulled by FORCE.  */
+static void
+tie (int links, double force)
+{
+  enum
+  {
+    TURN = 48,
+    STEPS = 600
+  };
+  bt_vec3 path[TURN + 5];
+  double beam = 0.15, ring = beam + 0.25, thick = 0.13, cut = 0.22, length = 0, sum = 0, load = 0;
+  int n = 0;
+  path[n++] = bt__vec (4, 1.5, 0.3);
+  path[n++] = bt__vec (ring + 2.5 * thick, 0.4, 0.1);
+  for (int i = 0; i <= TURN; i++)
+    {
+      double t = cut + (2 * BT__PI - 2 * cut) * i / TURN, r = ring + thick * cos (3 * t);
+      path[n++] = bt__vec (r * cos (2 * t), r * sin (2 * t), thick * sin (3 * t));
+    }
+  path[n++] = bt__vec (ring + 2.5 * thick, -0.4, -0.1);
+  path[n++] = bt__vec (4, -1.5, -0.3);
+  for (int i = 0; i + 1 < n; i++)
+    length += bt__distance (path[i], path[i + 1]);
+  if (!reef_open (&place))
+    fail ();
+  reef_cylinder (&place, bt__vec (0, 0, -3), bt__vec (0, 0, 3), beam);
+  if (!reef_raise (&place) || !rope_open (&line, &place, links, path, n, 1.001 * length, 0.3))
+    fail ();
+  line.line.diameter = 0.02;
+  line.line.mass = 0.32;
+  line.config.radius = 0.01;
+  line.config.core = bt__core (0.02);
+  line.config.itself = 1;
+  line.config.id = 1000;
+  line.in.end[1] = (bt__dynamic_end){
+    .free = 1, .body = { .mass = 20, .quadratic = 60, .force = { force, -0.3 * force, 0 } }
+  };
+  for (int i = 0; i < STEPS; i++)
+    {
+      sum += timed_step (1);
+      load = fmax (load, line.touch.load);
+    }
+  double pull = bt__norm (line.in.end[1].body.force);
+  char setting[80], counters[200];
+  snprintf (setting, sizeof setting, "overhand %d links %g N", links, force);
+  snprintf (counters, sizeof counters,
+            "unsolved=%.3g;truncated=%.3g;crossings=%ld;solves=%.2f;meets=%d;load=%.0f N;"
+            "tension=%.0f N",
+            (double)line.unconverged / STEPS, (double)line.truncated / STEPS, line.crossings,
+            (double)line.solves / STEPS, line.touch.meets, load, line.tension);
+  row ("knot", setting, "most tension, times the pull, less one", line.tension / pull - 1,
+       sum / STEPS, counters);
+  close_scene ();
+}
+
 /* ---- ---- */
 
-static const char usage[]
-    = "Usage: bight-bench-contact [OPTION]...\n"
-      "Measure the moving line among obstacles; rows of CSV on standard output.\n\n"
-      "  --steps N  of a pilot in the jacket; 6000\n"
-      "  --seed N   of the jacket and the pilot; 3\n"
-      "  --help     this text\n";
-
-static void
-run (int steps, uint64_t seed)
+static int
+run (long steps, uint64_t seed)
 {
   static const double speeds[] = { 0.1, 1, 3 };
-  calibration = bench_calibrate (0.3);
-  puts ("case,model,setting,metric,error,reference,reference_uncertainty,cpu_ns,"
-        "calibration_ratio,counters");
+  bench_open (&table);
   for (int k = 0; k < CORNERS; k++)
     for (int i = 0; i < 3; i++)
       haul ((corner)k, 0.3, speeds[i]);
   for (int i = 0; i < 3; i++)
-    fly (1, speeds[i], steps, seed, 1);
+    fly (1, speeds[i], (int)steps, seed, 1);
   for (int i = 0; i < 3; i++)
-    fly (0, speeds[i], steps, seed, 1);
+    fly (0, speeds[i], (int)steps, seed, 1);
   for (int mesh = 0; mesh < 3; mesh++)
     for (int links = 50; links <= 200; links *= 2)
       lie (links, 1, mesh);
   lie (100, 5, 0);
   alone ();
   quiet ();
+  tie (120, 60);
+  tie (120, 300);
+  return bench_close (&table);
 }
 
 int
 main (int argc, char **argv)
 {
-  static const struct option options[] = { { "steps", required_argument, NULL, 'n' },
-                                           { "seed", required_argument, NULL, 's' },
-                                           { "help", no_argument, NULL, 'h' },
-                                           { NULL, 0, NULL, 0 } };
-  int c, steps = 6000;
-  uint64_t seed = 3;
-  while ((c = getopt_long (argc, argv, "", options, NULL)) != -1)
-    switch (c)
-      {
-      case 'n':
-        steps = atoi (optarg);
-        break;
-      case 's':
-        seed = strtoull (optarg, NULL, 10);
-        break;
-      case 'h':
-        fputs (usage, stdout);
-        return EXIT_SUCCESS;
-      default:
-        fputs (usage, stderr);
-        return EXIT_FAILURE;
-      }
-  if (steps < 1 || steps > MOST_STEPS)
-    {
-      fprintf (stderr, "bight-bench-contact: %d steps; 1 to %d\n", steps, MOST_STEPS);
-      return EXIT_FAILURE;
-    }
-  run (steps, seed);
-  return EXIT_SUCCESS;
+  long steps = 6000, seed = 3;
+  const bench_option options[] = {
+    { "steps", &steps, 1, MOST_STEPS, 900, "steps of a pilot in the jacket" },
+    { "seed", &seed, 0, LONG_MAX, 0, "seed of the jacket and the pilot" },
+  };
+  const bench_program program
+      = { "contact", "Measure the moving line among obstacles", options, 2 };
+  int status = bench_options (&program, argc, argv);
+  return status == BENCH_GO_ON ? run (steps, (uint64_t)seed) : status;
 }

@@ -11,7 +11,6 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
-#include <getopt.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -23,6 +22,8 @@
 
 #include "calibration.h"
 #include "moordyn.h"
+#include "options.h"
+#include "row.h"
 
 enum
 {
@@ -37,7 +38,8 @@ enum
 #define LENGTH 100.0
 #define DENSITY 1025.0
 
-static double calibration;
+static bench_table table;
+static long every = 1, finest = 800, rounds = 3, seeds = PILOT_SEEDS; /* options */
 static const bt_vec3 current_velocity = { -0.2, 0.2, 0.1 };
 static bt_tether_props line = {
   .diameter = 0.01, .mass = 0.0805033117, .ea = 2e5, .ba = 20, .cdn = 1.2, .cdt = 0.02, .ca = 1
@@ -306,8 +308,9 @@ static misses
 converge (chain *c, scene k, record *r)
 {
   static record coarse;
-  chain_fly (c, k, 400, 120, 2, 1e-8, &coarse);
-  chain_fly (c, k, 800, 240, 2, 1e-8, r);
+  int n = (int)finest, per = (int)(240 * finest / N_MAX);
+  chain_fly (c, k, n / 2, per / 2, 2, 1e-8, &coarse);
+  chain_fly (c, k, n, per, 2, 1e-8, r);
   misses m = compare (&coarse, r);
   for (int s = 0; s < SAMPLES; s++)
     {
@@ -368,8 +371,8 @@ static void
 row (const char *name, const char *model, const char *setting, const char *metric, double error,
      double uncertainty, double seconds, const char *counters)
 {
-  printf ("%s,%s,%s,%s,%.3g,converged run,%.2g,%.1f,%.4g,%s\n", name, model, setting, metric, error,
-          uncertainty, 1e9 * seconds, seconds / calibration, counters);
+  bench_put (&table, &(bench_row){ name, model, setting, metric, error, "converged run",
+                                   uncertainty, seconds, counters });
 }
 
 static void
@@ -389,13 +392,13 @@ static void
 bench_implicit (chain *c, scene k, const record *best, misses doubt, front *f, int quiet)
 {
   static record r;
-  for (int i = 0; i < SIZES; i++)
+  for (int i = 0; i < SIZES; i += (int)every)
     for (int q = 0; q < RATES; q++)
       for (int order = 2; order <= 4; order += 2)
         {
           char setting[48], counters[80];
           double seconds = HUGE_VAL;
-          for (int round = 0; round < 3; round++)
+          for (int round = 0; round < rounds; round++)
             seconds = fmin (seconds, chain_fly (c, k, intervals[i], rates[q], order, 0, &r));
           misses m = compare (&r, best);
           snprintf (setting, sizeof setting, "n=%d h=%.3g order=%d", intervals[i], 0.5 / rates[q],
@@ -442,7 +445,7 @@ static void
 bench_explicit (chain *c, explicit_chain *e, scene k, const record *best, misses doubt, front *f,
                 int quiet)
 {
-  for (int i = 0; i < SIZES; i++)
+  for (int i = 0; i < SIZES; i += (int)every)
     {
       char setting[48], counters[80];
       int n = intervals[i];
@@ -523,47 +526,37 @@ run_pilot (chain *c, int n, double ei, int quiet)
   static double times[PILOT_SEEDS * PILOT_STEPS];
   static const double shares[] = { 0.5, 0.99, 0.999, 1 };
   static const char *const names[] = { "p50", "p99", "p99.9", "max" };
-  enum
-  {
-    ALL = PILOT_SEEDS * PILOT_STEPS
-  };
+  int all = (int)seeds * PILOT_STEPS;
   long solves = 0, unsolved = 0;
   line.ei = ei;
   seed = 0x9e3779b97f4a7c15u;
-  for (int k = 0; k < PILOT_SEEDS; k++)
+  for (int k = 0; k < seeds; k++)
     {
       fly_pilot (c, n, times + k * PILOT_STEPS);
       solves += c->solves;
       unsolved += c->unsolved;
     }
   line.ei = 0;
-  qsort (times, ALL, sizeof *times, ascending);
+  qsort (times, (size_t)all, sizeof *times, ascending);
   if (quiet)
     printf ("pilot, %d intervals, EI %g: ", n, ei);
   for (int k = 0; k < 4; k++)
     {
       char setting[48], counters[80];
-      double t = times[(int)(shares[k] * (ALL - 1))];
+      double t = times[(int)(shares[k] * (all - 1))];
       snprintf (setting, sizeof setting, "n=%d h=1/60 EI=%g %s per step", n, ei, names[k]);
-      snprintf (counters, sizeof counters, "steps=%d;solves=%ld;unsolved=%ld", ALL, solves,
+      snprintf (counters, sizeof counters, "steps=%d;solves=%ld;unsolved=%ld", all, solves,
                 unsolved);
       if (quiet)
-        printf ("%s %.1f us (%.2f), ", names[k], 1e6 * t, t / calibration);
+        printf ("%s %.1f us (%.2f), ", names[k], 1e6 * t, t / table.step);
       else
-        row ("pilot", "dynamic", setting, "unsolved share", (double)unsolved / ALL, 0, t, counters);
+        row ("pilot", "dynamic", setting, "unsolved share", (double)unsolved / all, 0, t, counters);
     }
   if (quiet)
-    printf ("%.2f solves a step, %ld of %d unsolved\n", (double)solves / ALL, unsolved, ALL);
+    printf ("%.2f solves a step, %ld of %d unsolved\n", (double)solves / all, unsolved, all);
 }
 
 /* ---- ---- */
-
-static const char usage[]
-    = "Usage: bight-bench-dynamics [OPTION]...\n"
-      "Measure time against error of the moving line; rows of CSV on standard output.\n\n"
-      "  --summary  the ratios to the explicit base line, and to MoorDyn through it, instead of "
-      "rows\n"
-      "  --help     this text\n";
 
 static int
 run (int quiet)
@@ -572,43 +565,38 @@ run (int quiet)
   explicit_chain *e = malloc (sizeof *e);
   if (!chain_open (&c) || !e)
     return EXIT_FAILURE;
-  calibration = bench_calibrate (0.3);
   if (quiet)
-    printf ("one calibration step: %.2f us\n", 1e6 * calibration);
+    bench_calibrate_table (&table);
   else
-    puts ("case,model,setting,metric,error,reference,reference_uncertainty,cpu_ns,"
-          "calibration_ratio,counters");
+    bench_open (&table);
+  if (quiet)
+    printf ("one calibration step: %.2f us\n", 1e6 * table.step);
   run_pilot (&c, 100, 0, quiet);
   run_pilot (&c, 100, 0.1, quiet);
   for (int k = 0; k < SCENES; k++)
     run_scene (&c, e, (scene)k, quiet);
   if (quiet)
-    bench_moordyn (calibration);
+    bench_moordyn (&table, 1, 3, quiet);
   free (e);
   free (c.d);
   bt__dynamic_work_free (c.work);
-  return EXIT_SUCCESS;
+  return quiet ? EXIT_SUCCESS : bench_close (&table);
 }
 
 int
 main (int argc, char **argv)
 {
-  static const struct option options[] = { { "summary", no_argument, NULL, 'S' },
-                                           { "help", no_argument, NULL, 'h' },
-                                           { NULL, 0, NULL, 0 } };
-  int quiet = 0, c;
-  while ((c = getopt_long (argc, argv, "", options, NULL)) != -1)
-    switch (c)
-      {
-      case 'S':
-        quiet = 1;
-        break;
-      case 'h':
-        fputs (usage, stdout);
-        return EXIT_SUCCESS;
-      default:
-        fputs (usage, stderr);
-        return EXIT_FAILURE;
-      }
-  return run (quiet);
+  long quiet = 0;
+  const bench_option options[] = {
+    { "every", &every, 1, SIZES, 3, "only every N-th of the numbers of intervals" },
+    { "finest", &finest, 100, N_MAX, 320, "intervals of the converged run" },
+    { "rounds", &rounds, 1, 100, 1, "runs, of which the quickest counts" },
+    { "pilots", &seeds, 1, PILOT_SEEDS, 4, "jerky pilots" },
+    { "summary", &quiet, 0, 0, 0,
+      "the ratios to the explicit base line, and to MoorDyn through it, instead of rows" },
+  };
+  const bench_program program
+      = { "dynamics", "Measure time against error of the moving line", options, 5 };
+  int status = bench_options (&program, argc, argv);
+  return status == BENCH_GO_ON ? run ((int)quiet) : status;
 }

@@ -1,36 +1,28 @@
-/* The moving line beside MoorDyn: see moordyn.h.
-
-   Case C: a line of 100 m (EA 2e5 N, BA 50 N s, 10 mm, neutral) in a current of .5 m/s across, its
-   far end moved smoothly by up to 20 m, for 60 s.  Errors are rms over eleven points and every half
-   second against MoorDyn's own converged run.
+/* The moving line beside MoorDyn: see moordyn.h, and outside.h for case C.  Errors are rms over
+   eleven points and every half second against MoorDyn's own converged run.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "math/vec.h"
-#include "tether/dynamic.h"
-
-#include "calibration.h"
 #include "moordyn.h"
+#include "outside.h"
 #include "reference.h"
 
 /* s: an explicit base-line step of 100 nodes on the machine of MoorDyn's table; a
    step of MoorDyn's own rk4 takes 40e-6 there.  */
 #define THEIR_CALIBRATION 19e-6
 
+/* m: how sure their converged run is, by an integration of another kind.  */
+#define SURE 1.12e-5
+
 enum
 {
-  SAMPLES = 121, /* half seconds */
-  POINTS = 11,
-  N_MAX = 400,
-  LEVELS_MAX = 8
+  LEVELS_MAX = 8,
+  EVERY = 2 /* of its stations: eleven */
 };
-
-static bt_vec3 best[SAMPLES][POINTS];
 
 /* What of either can be had within an error.  */
 typedef struct level
@@ -42,36 +34,6 @@ typedef struct level
   double ours;     /* s */
   char setting[48];
 } level;
-
-/* Read case C's points: t, TA, TB, then 21 points, of which every second is wanted.  */
-static int
-read_best (void)
-{
-  static char text[4096];
-  FILE *f = bench_open_reference ("moordyn/C.csv");
-  int rows = 0;
-  while (f && rows < SAMPLES && fgets (text, sizeof text, f))
-    {
-      double x[66];
-      int count = 0;
-      char *end;
-      for (char *p = text; count < 66; p = end + 1)
-        {
-          x[count] = strtod (p, &end);
-          if (end == p)
-            break;
-          count++;
-        }
-      if (count < 66)
-        continue; /* a heading */
-      for (int i = 0; i < POINTS; i++)
-        best[rows][i] = bt__vec (x[3 + 6 * i], x[4 + 6 * i], x[5 + 6 * i]);
-      rows++;
-    }
-  if (f)
-    fclose (f);
-  return rows == SAMPLES;
-}
 
 /* Read the cheapest sound run of every number of segments.  */
 static int
@@ -102,112 +64,83 @@ read_levels (level *levels)
   return count;
 }
 
-/* The far end of case C, T seconds after the start.  */
-static bt_vec3
-end_at (double t)
+static void
+row (bench_table *table, const char *model, const char *setting, double error, double seconds)
 {
-  double u = fmin (t / 10, 1);
-  double a = 10 * (1 - cos (0.1 * t)) * u * u * u * (10 - 15 * u + 6 * u * u);
-  return bt__vec (70 + 0.8 * a, 0, -100 + 0.6 * a);
-}
-
-/* Fly it with N intervals in PER steps each half second.  Return the error; *SECONDS receives CPU
-   seconds of a simulated second.  */
-static double
-fly (bt__dynamic *d, bt__dynamic_work *work, int n, int per, int order, double *seconds)
-{
-  static const bt_tether_props line = {
-    .diameter = 0.01, .mass = 0.0805033117, .ea = 2e5, .ba = 50, .cdn = 1.2, .cdt = 0.02, .ca = 1
-  };
-  bt_vec3 shape[3] = { { 0, 0, -100 }, { 35, 32, -100 }, end_at (0) };
-  bt_current current = { .kind = BT_CURRENT_UNIFORM, .velocity = { bt__vec (0, 0.5, 0) } };
-  bt_water water = { 1025, 9.81, 1000, 0, &current, NULL, NULL, NULL };
-  bt__dynamic_input in = { .line = &line, .water = &water, .tolerance = 1e-8, .h = 0.05 };
-  bt__dynamic_report report;
-  double sum = 0;
-  in.end[0].at = shape[0];
-  in.end[1].at = shape[2];
-  if (bt__dynamic_init (d, N_MAX, n, shape, 3, 100, line.ea, NULL))
-    abort ();
-  for (int i = 0; i < 90; i++) /* the equilibrium in the current */
-    {
-      if (bt__dynamic_step (d, work, &in, &report, NULL))
-        abort ();
-      bt__dynamic_still (d);
-      in.h = report.converged ? fmin (1.3 * in.h, 300) : fmax (in.h / 4, 0.01);
-    }
-  in.tolerance = 0;
-  in.order = order;
-  in.h = 0.5 / per;
-  *seconds = 0;
-  for (int s = 0; s < SAMPLES; s++)
-    {
-      double start = bench_now ();
-      for (int i = 1; i <= per && s > 0; i++)
-        {
-          in.end[1].at = end_at (0.5 * (s - 1) + i * in.h);
-          if (bt__dynamic_step (d, work, &in, &report, NULL))
-            abort ();
-        }
-      *seconds += (bench_now () - start) / (0.5 * (SAMPLES - 1));
-      for (int p = 0; p < POINTS; p++)
-        {
-          bt_vec3 off = bt__sub (bt__dynamic_point (d, 100.0 * p / (POINTS - 1)), best[s][p]);
-          sum += bt__dot (off, off);
-        }
-    }
-  return sqrt (sum / (SAMPLES * POINTS));
+  bench_put (table, &(bench_row){ "moordyn-c", model, setting, "rms position m", error,
+                                  "MoorDyn's converged run", SURE, seconds, NULL });
 }
 
 static void
-fly_all (bt__dynamic *d, bt__dynamic_work *work, level *levels, int count)
+put_theirs (bench_table *table, const level *l)
 {
-  static const int intervals[] = { 5, 7, 10, 14, 20, 28, 40, 57, 80, 113, 160, 226 };
-  static const int rates[] = { 60, 30, 15, 10, 5, 3, 2, 1 }; /* steps in half a second */
-  for (size_t i = 0; i < sizeof intervals / sizeof *intervals; i++)
-    for (size_t q = 0; q < sizeof rates / sizeof *rates; q++)
-      for (int order = 2; order <= 4; order += 2)
-        {
-          double seconds = HUGE_VAL, error = 0, once;
-          for (int round = 0; round < 3; round++)
-            {
-              error = fly (d, work, intervals[i], rates[q], order, &once);
-              seconds = fmin (seconds, once);
-            }
-          for (int k = 0; k < count; k++)
-            if (error <= levels[k].error && seconds < levels[k].ours)
-              {
-                levels[k].ours = seconds;
-                snprintf (levels[k].setting, sizeof levels[k].setting, "n=%d h=%.3g order=%d",
-                          intervals[i], 0.5 / rates[q], order);
-              }
-        }
+  char model[32], setting[16];
+  snprintf (model, sizeof model, "moordyn %s", l->scheme);
+  snprintf (setting, sizeof setting, "n=%d", l->n);
+  row (table, model, setting, l->error, l->seconds / THEIR_CALIBRATION * table->step);
+}
+
+/* Fly it as HOW says; LEVELS learn what it costs.  */
+static void
+fly_ours (bench_table *table, const outside_flight *best, const outside_setting *how, int rounds,
+          int quiet, level *levels, int count)
+{
+  static outside_flight flight;
+  char setting[48];
+  double seconds = HUGE_VAL, once;
+  for (int round = 0; round < rounds; round++)
+    if (outside_moordyn_ours (how, &flight, &once) == OUTSIDE_DONE)
+      seconds = fmin (seconds, once);
+  if (!isfinite (seconds))
+    return;
+  double error = outside_apart (&flight, best, EVERY, NULL);
+  snprintf (setting, sizeof setting, "n=%d h=%.3g order=%d", how->intervals, 0.5 / how->per,
+            how->order);
+  if (!quiet)
+    row (table, "dynamic", setting, error, seconds);
+  for (int k = 0; k < count; k++)
+    if (error <= levels[k].error && seconds < levels[k].ours)
+      {
+        levels[k].ours = seconds;
+        memcpy (levels[k].setting, setting, sizeof setting);
+      }
+}
+
+static void
+say (const bench_table *table, const level *levels, int count)
+{
+  printf ("MoorDyn 2.7.1's case C, in base-line steps for a simulated second (theirs of %.0f us,"
+          " ours of %.2f us):\n",
+          1e6 * THEIR_CALIBRATION, 1e6 * table->step);
+  for (int k = 0; k < count; k++)
+    {
+      double theirs = levels[k].seconds / THEIR_CALIBRATION, ours = levels[k].ours / table->step;
+      printf ("  %.2g m: MoorDyn %8.1f (N=%d, %s), ours %6.2f (%s): 1/%.0f\n", levels[k].error,
+              theirs, levels[k].n, levels[k].scheme, ours, levels[k].setting, theirs / ours);
+    }
 }
 
 void
-bench_moordyn (double calibration)
+bench_moordyn (bench_table *table, int every, int rounds, int quiet)
 {
+  static const int intervals[] = { 5, 7, 10, 14, 20, 28, 40, 57, 80, 113, 160, 226 };
+  static const int rates[] = { 60, 30, 15, 10, 5, 3, 2, 1 }; /* steps in half a second */
+  static outside_flight best;
   level levels[LEVELS_MAX] = { { 0 } };
-  bt__dynamic *d = malloc (bt__dynamic_size (N_MAX));
-  bt__dynamic_work *work = bt__dynamic_work_new (N_MAX);
   int count = read_levels (levels);
-  if (count == 0 || !read_best ())
-    puts ("MoorDyn: skipped, the reference data are not here");
-  else if (d && work)
+  if (count == 0 || outside_moordyn_theirs (&best) != OUTSIDE_DONE)
     {
-      printf (
-          "MoorDyn 2.7.1's case C, in base-line steps for a simulated second (theirs of %.0f us,"
-          " ours of %.2f us):\n",
-          1e6 * THEIR_CALIBRATION, 1e6 * calibration);
-      fly_all (d, work, levels, count);
-      for (int k = 0; k < count; k++)
-        {
-          double theirs = levels[k].seconds / THEIR_CALIBRATION,
-                 ours = levels[k].ours / calibration;
-          printf ("  %.2g m: MoorDyn %8.1f (N=%d, %s), ours %6.2f (%s): 1/%.0f\n", levels[k].error,
-                  theirs, levels[k].n, levels[k].scheme, ours, levels[k].setting, theirs / ours);
-        }
+      if (quiet)
+        puts ("MoorDyn: skipped, the reference data are not here");
+      return;
     }
-  free (d);
-  bt__dynamic_work_free (work);
+  for (int k = 0; k < count && !quiet; k++)
+    put_theirs (table, levels + k);
+  for (size_t i = 0; i < sizeof intervals / sizeof *intervals; i += (size_t)every)
+    for (size_t q = 0; q < sizeof rates / sizeof *rates; q++)
+      for (int order = 2; order <= 4; order += 2)
+        fly_ours (table, &best, &(outside_setting){ intervals[i], rates[q], order, 0 }, rounds,
+                  quiet, levels, count);
+  if (quiet)
+    say (table, levels, count);
 }

@@ -3,7 +3,7 @@
    A pier of ten piles with a vehicle and its tether, made by hand: the first picture of a process,
    which compiles the shaders; a still of 1280 by 720 at 2 x 2 samples, without PNG; a frame of the
    live view, 120 by 40 characters, from the view's things to the bytes for a terminal, while the
-   vehicle swims.  Times are CPU, of all threads; error is none.
+   vehicle swims.  Times are CPU, of all threads.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -15,21 +15,23 @@
 
 #include "calibration.h"
 #include "math/vec.h"
+#include "options.h"
 #include "pilot/screen.h"
 #include "render/render.h"
+#include "row.h"
 
 enum
 {
   COLUMNS = 120,
   ROWS = 40,
-  STILLS = 5,
-  FRAMES = 60,
+  PICTURES_MAX = 1000,
   NODES = 81
 };
 
 typedef struct bench
 {
-  double calibration;
+  bench_table table;
+  long stills, frames;
   bt__renderer *renderer;
 } bench;
 
@@ -48,11 +50,10 @@ check (bt_status status, const bt_error *error)
 }
 
 static void
-row (const bench *b, const char *name, const char *setting, double seconds, const char *counters)
+row (bench *b, const char *name, const char *setting, double seconds, const char *counters)
 {
-  printf ("%s,render,%s,cpu,0,none,0,%.1f,%.4g,%s\n", name, setting, 1e9 * seconds,
-          seconds / b->calibration, counters);
-  fflush (stdout);
+  bench_put (&b->table,
+             &(bench_row){ name, "render", setting, "cpu", NAN, NULL, 0, seconds, counters });
 }
 
 /* ---- The pier ---- */
@@ -139,9 +140,9 @@ static void
 measure_stills (bench *b, bt_aim aim)
 {
   const bt__drawing still = { .width = 1280, .height = 720, .samples = 2 };
-  double x[STILLS];
+  double x[PICTURES_MAX];
   char setting[60];
-  for (int i = 0; i < STILLS; i++)
+  for (int i = 0; i < b->stills; i++)
     {
       bt_view *view = new_view (i, aim, 16.0 / 9);
       bt__picture picture;
@@ -150,7 +151,7 @@ measure_stills (bench *b, bt_aim aim)
       bt_view_free (view);
     }
   snprintf (setting, sizeof setting, "view=%s", bt_aim_name (aim));
-  row (b, "still-1280x720-2x2", setting, bench_median (x, STILLS), "");
+  row (b, "still-1280x720-2x2", setting, bench_median (x, (int)b->stills), "");
 }
 
 /* One frame of the live view; *BYTES grows by what would be written.  */
@@ -173,18 +174,18 @@ fly_frame (const bench *b, bt_aim aim, int i, bt__screen *screen, size_t *bytes)
 static void
 measure_flight (bench *b, bt_aim aim)
 {
-  double x[FRAMES];
+  double x[PICTURES_MAX];
   size_t bytes = 0;
   bt__screen *screen;
   bt_error error;
   char setting[60], counters[60];
   check (bt__screen_new (COLUMNS, ROWS, BT__PALETTE_TRUE, &screen, &error), &error);
-  for (int i = 0; i < FRAMES; i++)
+  for (int i = 0; i < b->frames; i++)
     x[i] = fly_frame (b, aim, i, screen, &bytes);
   bt__screen_free (screen);
   snprintf (setting, sizeof setting, "view=%s", bt_aim_name (aim));
-  snprintf (counters, sizeof counters, "bytes=%zu", bytes / FRAMES);
-  row (b, "frame-120x40", setting, bench_median (x, FRAMES), counters);
+  snprintf (counters, sizeof counters, "bytes=%zu", bytes / (size_t)b->frames);
+  row (b, "frame-120x40", setting, bench_median (x, (int)b->frames), counters);
 }
 
 static void
@@ -203,17 +204,24 @@ measure_first (bench *b)
 }
 
 int
-main (void)
+main (int argc, char **argv)
 {
   static const bt_aim aims[] = { BT_AIM_CHASE, BT_AIM_PILOT, BT_AIM_TOP, BT_AIM_SIDE };
-  bench b = { .calibration = bench_calibrate (0.2) };
-  puts ("case,model,setting,metric,error,reference,reference_uncertainty,cpu_ns,calibration_ratio,"
-        "counters");
+  static bench b = { .stills = 5, .frames = 60 };
+  const bench_option options[] = {
+    { "stills", &b.stills, 1, PICTURES_MAX, 2, "stills of each view" },
+    { "frames", &b.frames, 2, PICTURES_MAX, 15, "frames of each flight" },
+  };
+  const bench_program program = { "render", "Measure what pictures cost", options, 2 };
+  int status = bench_options (&program, argc, argv);
+  if (status != BENCH_GO_ON)
+    return status;
+  bench_open (&b.table);
   measure_first (&b);
   measure_stills (&b, BT_AIM_OVERVIEW);
   measure_stills (&b, BT_AIM_CHASE);
   for (size_t i = 0; i < sizeof aims / sizeof *aims; i++)
     measure_flight (&b, aims[i]);
   bt__renderer_free (b.renderer);
-  return 0;
+  return bench_close (&b.table);
 }

@@ -8,12 +8,11 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
-#include <getopt.h>
+#include <limits.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multimin.h>
@@ -21,18 +20,18 @@
 #include <bight/statics.h>
 
 #include "calibration.h"
+#include "options.h"
+#include "row.h"
+#include "statics.h"
 
 enum
 {
-  ROUNDS = 5,
-  STEPS = 500, /* the most a search may take */
-  STEADY_CASES = 24,
-  STEADY_FINE = 1024
+  STEPS = 500 /* the most a search may take */
 };
 
 #define FAILURE 0.01
 
-static double calibration;
+static bench_table table;
 
 /* ---- Cases ---- */
 
@@ -66,8 +65,8 @@ enum
 
 static uint64_t state;
 
-static double
-uniform (void)
+double
+statics_uniform (void)
 {
   state ^= state << 13;
   state ^= state >> 7;
@@ -78,7 +77,7 @@ uniform (void)
 static double
 decades (const double range[2])
 {
-  return pow (10, range[0] + (range[1] - range[0]) * uniform ());
+  return pow (10, range[0] + (range[1] - range[0]) * statics_uniform ());
 }
 
 static problem
@@ -86,16 +85,16 @@ draw (const family *f)
 {
   static const double steepness[2] = { -6, -2 };
   double s = decades (f->size), chord = s / (1 + decades (f->slack));
-  double angle = f->steep ? acos (0.0) - decades (steepness) : 1.4 * uniform ();
+  double angle = f->steep ? acos (0.0) - decades (steepness) : 1.4 * statics_uniform ();
   double v = chord * sin (angle);
-  return (problem){ chord * cos (angle), uniform () < 0.5 ? -v : v, s };
+  return (problem){ chord * cos (angle), statics_uniform () < 0.5 ? -v : v, s };
 }
 
 /* The next problem of a vehicle under way: the end moves by 0.3 % of the length, still slack.  */
 static problem
 move (problem p)
 {
-  double turn = 6.283185307179586 * uniform (), d = 0.003 * p.s;
+  double turn = 6.283185307179586 * statics_uniform (), d = 0.003 * p.s;
   problem q = { fabs (p.h + d * cos (turn)), p.v + d * sin (turn), p.s };
   double chord = hypot (q.h, q.v);
   if (chord >= p.s)
@@ -293,16 +292,16 @@ typedef struct figures
 static figures
 measure (bench *b, solver solve, misser miss)
 {
-  double times[ROUNDS], *misses = malloc ((size_t)b->n * sizeof *misses);
+  double times[STATICS_ROUNDS], *misses = malloc ((size_t)b->n * sizeof *misses);
   figures f = { 0, 0, 0, 0 };
-  for (int k = 0; k < ROUNDS; k++)
+  for (int k = 0; k < STATICS_ROUNDS; k++)
     {
       double start = bench_now ();
       for (long i = 0; i < b->n; i++)
         solve (b, i);
       times[k] = (bench_now () - start) / (double)b->n;
     }
-  f.seconds = bench_median (times, ROUNDS);
+  f.seconds = bench_median (times, STATICS_ROUNDS);
   if (!misses)
     return f;
   for (long i = 0; i < b->n; i++)
@@ -316,12 +315,13 @@ measure (bench *b, solver solve, misser miss)
   return f;
 }
 
-static void
-row (const char *name, const char *model, const char *setting, const char *metric, double error,
-     const char *reference, double uncertainty, double seconds, const char *counters)
+void
+statics_row (const char *name, const char *model, const char *setting, const char *metric,
+             double error, const char *reference, double uncertainty, double seconds,
+             const char *counters)
 {
-  printf ("%s,%s,%s,%s,%.3g,%s,%.2g,%.1f,%.4g,%s\n", name, model, setting, metric, error, reference,
-          uncertainty, 1e9 * seconds, seconds / calibration, counters);
+  bench_put (&table, &(bench_row){ name, model, setting, metric, error, reference, uncertainty,
+                                   seconds, counters });
 }
 
 static void
@@ -329,12 +329,12 @@ report (const char *name, const char *model, const char *setting, const figures 
 {
   char counters[80];
   snprintf (counters, sizeof counters, "cases=%ld;failures=%ld", n, f->failures);
-  row (name, model, setting, "median miss/length", f->median, "ends and length", 1e-16, f->seconds,
-       counters);
-  row (name, model, setting, "worst miss/length", f->worst, "ends and length", 1e-16, f->seconds,
-       counters);
-  row (name, model, setting, "failed share", (double)f->failures / (double)n, "miss > 1 %", 0,
-       f->seconds, counters);
+  statics_row (name, model, setting, "median miss/length", f->median, "ends and length", 1e-16,
+               f->seconds, counters);
+  statics_row (name, model, setting, "worst miss/length", f->worst, "ends and length", 1e-16,
+               f->seconds, counters);
+  statics_row (name, model, setting, "failed share", (double)f->failures / (double)n, "miss > 1 %",
+               0, f->seconds, counters);
 }
 
 typedef struct way
@@ -419,197 +419,8 @@ run_torture (long n)
     }
   char counters[80];
   snprintf (counters, sizeof counters, "cases=%ld;failures=%ld", n, failures);
-  row ("everything", "catenary", "drawn and checked", "worst miss/length", worst, "end", 1e-16,
-       (bench_now () - start) / (double)n, counters);
-}
-
-/* ---- Steady ---- */
-
-typedef struct steady_case
-{
-  bt_vec3 b, moved, pull, next_pull;
-  bt_vec3 fine[5], next_fine[5]; /* at quarters of the length */
-} steady_case;
-
-typedef struct sea
-{
-  bt_line line;
-  bt_current current;
-  bt_water water;
-  bt_steady *steady;
-  double uncertainty; /* of the fine solution, of the length */
-  bt_vec3 r[STEADY_FINE + 1], t[STEADY_FINE + 1];
-} sea;
-
-/* 100 m of a sinking line in a current that fades with depth, 0.57 m/s at the anchor, 0.19 at 90 m.
- */
-static void
-fill_sea (sea *x)
-{
-  memset (x, 0, sizeof *x);
-  x->line = (bt_line){ 100, 0.0076, 0.1, 2e5, 1.2, 0.01 };
-  x->current.kind = BT_CURRENT_POWER;
-  x->current.n = 1;
-  x->current.exponent = 2;
-  x->current.velocity[0] = (bt_vec3){ 0.6, 0.2, 0 };
-  x->water = (bt_water){ .density = 1025, .gravity = 9.81, .depth = 200, .current = &x->current };
-  x->steady = bt_steady_new (STEADY_FINE);
-}
-
-static const bt_vec3 anchor = { 0, 0, -10 };
-
-/* Sample the fine shape at quarters.  Return nonzero if it converged.  */
-static int
-solve_fine (sea *x, bt_vec3 b, bt_vec3 *pull, bt_vec3 out[5])
-{
-  bt_steady_report report = { 0 };
-  bt_error error;
-  bt_status status = bt_steady_shoot (x->steady, &x->line, &x->water, anchor, b, STEADY_FINE, 0,
-                                      pull, x->r, x->t, &report, &error);
-  for (int k = 0; k < 5; k++)
-    out[k] = x->r[k * STEADY_FINE / 4];
-  return status == BT_OK && report.converged;
-}
-
-/* Draw chords of 0.5 to 0.95 of the length; those whose fine solution fails are drawn anew and
-   counted.  */
-static int
-draw_steady (sea *x, steady_case *c)
-{
-  int redrawn = 0;
-  for (int i = 0; i < STEADY_CASES && redrawn < 500;)
-    {
-      double chord = 100 * (0.5 + 0.45 * uniform ()), turn = 6.283185307179586 * uniform (),
-             dip = 0.8 * (uniform () - 0.7);
-      steady_case s;
-      s.b = (bt_vec3){ chord * cos (dip) * cos (turn), chord * cos (dip) * sin (turn),
-                       anchor.z + chord * sin (dip) };
-      s.moved = (bt_vec3){ s.b.x + 0.02, s.b.y - 0.015, s.b.z };
-      if (solve_fine (x, s.b, &s.pull, s.fine)
-          && solve_fine (x, s.moved, &s.next_pull, s.next_fine))
-        c[i++] = s;
-      else
-        redrawn++;
-    }
-  return redrawn;
-}
-
-static double
-steady_miss (const sea *x, int n, const bt_vec3 fine[5])
-{
-  double worst = 0;
-  for (int k = 1; k < 4; k++)
-    {
-      bt_vec3 p = x->r[k * n / 4], q = fine[k];
-      worst = fmax (worst, sqrt ((p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y)
-                                 + (p.z - q.z) * (p.z - q.z)));
-    }
-  return worst / x->line.length;
-}
-
-static int
-shoot (sea *x, const steady_case *c, int n, int warm)
-{
-  bt_steady_report report = { 0 };
-  bt_error error;
-  bt_vec3 pull = c->pull;
-  bt_status status
-      = bt_steady_shoot (x->steady, &x->line, &x->water, anchor, warm ? c->moved : c->b, n, warm,
-                         &pull, x->r, x->t, &report, &error);
-  return status == BT_OK && report.converged;
-}
-
-/* Cold from a parabola through the ends; warm from the shape before.  */
-static void
-lay (sea *x, const steady_case *c, int n)
-{
-  double sag = sqrt (fmax (1 - pow (hypot (c->b.x, c->b.y) / x->line.length, 2), 0.01));
-  for (int i = 0; i <= n; i++)
-    {
-      double u = (double)i / n, bow = 0.5 * sag * x->line.length * 4 * u * (1 - u);
-      x->r[i] = (bt_vec3){ u * c->b.x + 0.8 * bow, u * c->b.y,
-                           anchor.z + u * (c->b.z - anchor.z) - 0.5 * bow };
-    }
-}
-
-static int
-relax (sea *x, bt_vec3 b, int n)
-{
-  bt_steady_report report = { 0 };
-  bt_error error;
-  bt_status status = bt_steady_relax (x->steady, &x->line, &x->water, anchor, b, n, 400, x->r, x->t,
-                                      &report, &error);
-  return status == BT_OK && report.converged;
-}
-
-/* Time all cases one by one, each the median of ROUNDS, and hand the median and the worst out.  */
-static void
-report_steady (sea *x, const steady_case *c, const char *model, int n, int warm)
-{
-  double seconds[STEADY_CASES], misses[STEADY_CASES], times[ROUNDS];
-  int failures = 0, shooting = !strcmp (model, "steady-shoot"), kept = 0;
-  for (int i = 0; i < STEADY_CASES; i++)
-    {
-      int good = 0;
-      for (int k = 0; k < ROUNDS; k++)
-        {
-          if (!shooting)
-            lay (x, c + i, n);
-          if (!shooting && warm)
-            relax (x, c[i].b, n);
-          double start = bench_now ();
-          good = shooting ? shoot (x, c + i, n, warm) : relax (x, warm ? c[i].moved : c[i].b, n);
-          times[k] = bench_now () - start;
-        }
-      failures += !good;
-      seconds[i] = bench_median (times, ROUNDS);
-      if (good)
-        misses[kept++] = steady_miss (x, n, warm ? c[i].next_fine : c[i].fine);
-    }
-  char setting[40], counters[80];
-  snprintf (setting, sizeof setting, "%s n=%d", warm ? "warm" : "cold", n);
-  snprintf (counters, sizeof counters, "cases=%d;failures=%d", STEADY_CASES, failures);
-  double median = kept ? bench_median (misses, kept) : NAN,
-         middle = bench_median (seconds, STEADY_CASES);
-  row ("sheared", model, setting, "median position/length", median, "shooting n=1024",
-       x->uncertainty, middle, counters);
-  row ("sheared", model, setting, "worst position/length", kept ? misses[kept - 1] : NAN,
-       "shooting n=1024", x->uncertainty, middle, counters);
-}
-
-/* The fine solution is fourth order: a fifteenth of how far half as many steps are from it.  */
-static double
-worst_doubt (sea *x, const steady_case *c)
-{
-  double worst = 0;
-  for (int i = 0; i < STEADY_CASES; i++)
-    if (shoot (x, c + i, STEADY_FINE / 2, 0))
-      worst = fmax (worst, steady_miss (x, STEADY_FINE / 2, c[i].fine) / 15);
-  return worst;
-}
-
-static void
-run_steady (void)
-{
-  static sea x;
-  static steady_case cases[STEADY_CASES];
-  static const int shots[] = { 8, 32, 128, 256 }, chains[] = { 16, 128, 512 };
-  fill_sea (&x);
-  if (!x.steady)
-    return;
-  int redrawn = draw_steady (&x, cases);
-  x.uncertainty = worst_doubt (&x, cases);
-  char counters[80];
-  snprintf (counters, sizeof counters, "cases=%d;redrawn=%d", STEADY_CASES, redrawn);
-  row ("sheared", "steady-shoot", "cold n=1024", "fine solutions that failed", redrawn, "none", 0,
-       0, counters);
-  for (size_t k = 0; k < sizeof shots / sizeof *shots; k++)
-    for (int warm = 0; warm < 2; warm++)
-      report_steady (&x, cases, "steady-shoot", shots[k], warm);
-  for (size_t k = 0; k < sizeof chains / sizeof *chains; k++)
-    for (int warm = 0; warm < 2; warm++)
-      report_steady (&x, cases, "steady-relax", chains[k], warm);
-  bt_steady_free (x.steady);
+  statics_row ("everything", "catenary", "drawn and checked", "worst miss/length", worst, "end",
+               1e-16, (bench_now () - start) / (double)n, counters);
 }
 
 /* ---- The program ---- */
@@ -664,31 +475,22 @@ release (bench *b)
     gsl_multimin_fminimizer_free (b->simplex);
 }
 
-static const char usage[]
-    = "Usage: bight-bench-statics [OPTION]...\n"
-      "Measure time against error of the static shapes; rows of CSV on standard output.\n\n"
-      "  --cases N    cases of each family (default 4000)\n"
-      "  --torture N  cases of the closed catenary over everything (default 1000000)\n"
-      "  --seed S     seed of the cases (default 1)\n"
-      "  --summary    the ratios to the thesis' search instead of rows\n"
-      "  --help       this text\n";
-
 static int
-run (long cases, long torture, int quiet)
+run (long cases, long torture, int steady, int quiet)
 {
   bench b;
   figures g[WAYS];
-  calibration = bench_calibrate (0.3);
   if (!allocate (&b, cases))
     {
       release (&b);
       return EXIT_FAILURE;
     }
   if (quiet)
-    printf ("one calibration step: %.2f us\n", 1e6 * calibration);
+    bench_calibrate_table (&table);
   else
-    puts ("case,model,setting,metric,error,reference,reference_uncertainty,cpu_ns,"
-          "calibration_ratio,counters");
+    bench_open (&table);
+  if (quiet)
+    printf ("one calibration step: %.2f us\n", 1e6 * table.step);
   for (int k = 0; k < FAMILIES; k++)
     {
       run_family (&b, families + k, g, quiet);
@@ -697,48 +499,28 @@ run (long cases, long torture, int quiet)
     }
   release (&b);
   run_torture (torture);
-  if (!quiet)
-    run_steady ();
-  return EXIT_SUCCESS;
+  if (quiet)
+    return EXIT_SUCCESS;
+  statics_steady (steady);
+  return bench_close (&table);
 }
 
 int
 main (int argc, char **argv)
 {
-  static const struct option options[]
-      = { { "cases", required_argument, NULL, 'c' }, { "torture", required_argument, NULL, 't' },
-          { "seed", required_argument, NULL, 's' },  { "summary", no_argument, NULL, 'S' },
-          { "help", no_argument, NULL, 'h' },        { NULL, 0, NULL, 0 } };
-  long cases = 4000, torture = 1000000;
-  unsigned long long seed = 1;
-  int quiet = 0, c;
-  while ((c = getopt_long (argc, argv, "", options, NULL)) != -1)
-    switch (c)
-      {
-      case 'c':
-        cases = strtol (optarg, NULL, 10);
-        break;
-      case 't':
-        torture = strtol (optarg, NULL, 10);
-        break;
-      case 's':
-        seed = strtoull (optarg, NULL, 10);
-        break;
-      case 'S':
-        quiet = 1;
-        break;
-      case 'h':
-        fputs (usage, stdout);
-        return EXIT_SUCCESS;
-      default:
-        fputs (usage, stderr);
-        return EXIT_FAILURE;
-      }
-  if (cases < 1 || cases > 10000000 || torture < 1)
-    {
-      fputs ("bight-bench-statics: --cases takes 1 to 10000000, --torture 1 or more\n", stderr);
-      return EXIT_FAILURE;
-    }
-  state = 0x9e3779b97f4a7c15u * (seed + 1);
-  return run (cases, torture, quiet);
+  long cases = 4000, torture = 1000000, steady = 24, seed = 1, quiet = 0;
+  const bench_option options[] = {
+    { "cases", &cases, 1, 10000000, 500, "cases of each family" },
+    { "torture", &torture, 1, LONG_MAX, 100000, "cases of the closed catenary over everything" },
+    { "steady", &steady, 1, STATICS_STEADY_MOST, 4, "cases in a current" },
+    { "seed", &seed, 0, LONG_MAX, 0, "seed of the cases" },
+    { "summary", &quiet, 0, 0, 0, "the ratios to the thesis' search instead of rows" },
+  };
+  const bench_program program
+      = { "statics", "Measure time against error of the static shapes", options, 5 };
+  int status = bench_options (&program, argc, argv);
+  if (status != BENCH_GO_ON)
+    return status;
+  state = 0x9e3779b97f4a7c15u * ((uint64_t)seed + 1);
+  return run (cases, torture, (int)steady, (int)quiet);
 }

@@ -1,0 +1,168 @@
+/* bight-bench-scale: how a dive grows with what is in it, as CSV rows on standard output.
+
+   A moving line of 2 to 10^4 intervals; 1 to 64 vehicles, each on a line of 50; a line of 100 laid
+   along a jacket's face of 10^3 to 10^6 triangles, pressed on to it by a current.  Times are CPU of
+   a step; the counters have them for one node, vehicle or triangle, too.  The error is bytes, that
+   the model and the dive (of triangles, the model) take from the system's allocator, for one of
+   what grows; it is the only number here that is not better for being closer to something else.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <malloc.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "calibration.h"
+#include "jacket.h"
+#include "math/vec.h"
+#include "options.h"
+#include "row.h"
+#include "scene.h"
+
+enum
+{
+  ROUNDS = 5,
+  WARM = 12,   /* steps before it is timed */
+  SEVERAL = 50 /* intervals of each of several lines */
+};
+
+static double
+bytes_in_use (void)
+{
+  struct mallinfo2 m = mallinfo2 ();
+  return (double)m.uordblks + (double)m.hblkhd;
+}
+
+typedef struct size
+{
+  double step;        /* s of CPU */
+  double model, dive; /* bytes */
+  double load;        /* s of CPU */
+  bt_profile profile;
+} size;
+
+/* Fly S, STEPS in each of ROUNDS.  */
+static size
+measure (const scene *s, int flown, int steps)
+{
+  double seconds[ROUNDS], before = bytes_in_use (), begun = bench_now ();
+  bt_model *model;
+  bt_dive *dive;
+  bt_error error;
+  size z;
+  scene_must (bt_model_new (&s->world, &model, &error), &error);
+  z.model = bytes_in_use () - before;
+  scene_must (bt_dive_new (model, NULL, NULL, &dive, &error), &error);
+  z.dive = bytes_in_use () - before - z.model;
+  z.load = bench_now () - begun;
+  bt_model_release (model);
+  scene_fly (dive, flown, 0, WARM);
+  for (int r = 0; r < ROUNDS; r++)
+    seconds[r] = scene_fly (dive, flown, WARM + (long)r * steps, steps);
+  z.step = bench_median (seconds, ROUNDS);
+  bt_dive_profile (dive, &z.profile);
+  bt_dive_free (dive);
+  return z;
+}
+
+static void
+say (bench_table *t, const char *name, long n, const char *what, double bytes, const size *z)
+{
+  char setting[60], metric[60], counters[240];
+  snprintf (setting, sizeof setting, "%ld %s", n, what);
+  snprintf (metric, sizeof metric, "bytes for one of %s", what);
+  snprintf (counters, sizeof counters,
+            "step_ns_each=%.4g;load_ns_each=%.4g;model_kB=%.4g;dive_kB=%.4g;solves=%.2f;"
+            "touches=%.1f",
+            1e9 * z->step / (double)n, 1e9 * z->load / (double)n, 1e-3 * z->model, 1e-3 * z->dive,
+            (double)z->profile.chain_solves / (double)z->profile.steps,
+            (double)z->profile.touches / (double)z->profile.steps);
+  bench_put (t, &(bench_row){ name, "dynamic", setting, metric, bytes / (double)n, NULL, 0, z->step,
+                              counters });
+}
+
+static int
+steps_for (double work, double of)
+{
+  return (int)fmax (5, fmin (600, of / work));
+}
+
+static void
+scale_nodes (bench_table *t, long most, double work)
+{
+  static scene s;
+  for (long n = 2; n <= most; n = n == 2 ? 10 : 10 * n)
+    {
+      scene_clear (&s);
+      scene_vehicle (&s, bt__vec (0, 25, -20));
+      scene_line (&s, bt__vec (0, -25, 0), 60, (int)n);
+      size z = measure (&s, 1, steps_for ((double)n, work));
+      say (t, "nodes", n, "intervals", z.model + z.dive, &z);
+    }
+}
+
+static void
+scale_vehicles (bench_table *t, long most, double work)
+{
+  static scene s;
+  for (int n = 1; n <= most; n *= 4)
+    {
+      scene_clear (&s);
+      for (int i = 0; i < n; i++)
+        {
+          bt_vec3 at = bt__vec (100 * (i % 8), 100 * (int)(i / 8), 0);
+          scene_vehicle (&s, bt__add (at, bt__vec (0, 12, -20)));
+          scene_line (&s, at, 30, SEVERAL);
+        }
+      size z = measure (&s, n, steps_for (SEVERAL * n, work));
+      say (t, "vehicles", n, "vehicles", z.model + z.dive, &z);
+    }
+}
+
+static void
+scale_triangles (bench_table *t, long most, double work)
+{
+  static scene s;
+  jacket j;
+  if (!jacket_new (&j, (uint32_t)most))
+    return;
+  for (long n = 1000; n <= most; n *= 10)
+    {
+      jacket_make (&j, (uint32_t)n);
+      scene_clear (&s);
+      s.world.sea.depth = 120;
+      scene_current (&s, bt__vec (0, 0.2, 0));
+      scene_vehicle (&s, bt__vec (25, -31.5, -52));
+      scene_line (&s, bt__vec (-25, -31.5, -48), 51, 100);
+      bt_obstacle_def *o = scene_obstacle (&s, "mesh");
+      o->mesh
+          = (bt_triangles){ j.v, j.vertices, (const uint32_t (*)[3])j.corner, j.triangles, NULL };
+      size z = measure (&s, 0, steps_for (100, work));
+      say (t, "triangles", j.triangles, "triangles", z.model, &z);
+    }
+  jacket_free (&j);
+}
+
+int
+main (int argc, char **argv)
+{
+  long nodes = 10000, vehicles = 64, triangles = 1000000, work = 60000;
+  const bench_option options[] = {
+    { "nodes", &nodes, 2, BT_NODES_MAX, 0, "intervals of the longest line" },
+    { "vehicles", &vehicles, 1, BT_VEHICLES_MAX, 0, "vehicles of the fullest scene" },
+    { "triangles", &triangles, 1000, 10000000, 100000, "triangles of the finest mesh" },
+    { "work", &work, 1, 100000000, 10000, "steps times intervals of a round" },
+  };
+  const bench_program program
+      = { "scale", "Measure how a dive grows with what is in it", options, 4 };
+  int status = bench_options (&program, argc, argv);
+  if (status != BENCH_GO_ON)
+    return status;
+  bench_table table;
+  bench_open (&table);
+  scale_nodes (&table, nodes, (double)work);
+  scale_vehicles (&table, vehicles, (double)work);
+  scale_triangles (&table, triangles, (double)work);
+  return bench_close (&table);
+}
