@@ -63,14 +63,25 @@ find_modules (void)
   prepend_path ("GUILE_EXTENSIONS_PATH", BIGHT_EXTENSION_DIR);
 }
 
-/* Call (main ARGUMENTS) of (bight cli), as a Guile script is called.  It ends with `exit' or returns
-   the exit status.  */
+/* The command line, in the locale that was chosen: Guile reads it in the user's own.  */
+static SCM
+arguments (int argc, char **argv)
+{
+  SCM list = SCM_EOL;
+  for (int i = argc - 1; i >= 0; i--)
+    list = scm_cons (scm_from_stringn (argv[i], (size_t)-1, nl_langinfo (CODESET),
+                                       SCM_FAILED_CONVERSION_QUESTION_MARK),
+                     list);
+  return list;
+}
+
+/* Call (main ARGUMENTS) of (bight cli), as a Guile script is called.  It ends with `exit' or
+   returns the exit status.  */
 static void
 run (void *unused, int argc, char **argv)
 {
   (void)unused;
-  (void)argc;
-  (void)argv;
+  scm_set_program_arguments_scm (arguments (argc, argv));
   /* No second thread in the house: the binding frees what was dropped, between steps.  */
   scm_set_automatic_finalization_enabled (0);
   SCM status = scm_call_1 (scm_c_public_ref ("bight cli", "main"), scm_program_arguments ());
@@ -83,6 +94,7 @@ main (int argc, char **argv)
 {
   choose_locale ();
   find_modules ();
-  setenv ("GUILE_AUTO_COMPILE", "0", 0); /* A world is a small script: compiling it gains nothing.  */
+  setenv ("GUILE_AUTO_COMPILE", "0",
+          0); /* A world is a small script: compiling it gains nothing.  */
   scm_boot_guile (argc, argv, run, NULL);
 }

@@ -1,5 +1,9 @@
 ;;; (bight atlas) --- worlds by name: those defined here, those in files.
 ;;;
+;;; What lies in the folders where worlds are looked for by name is the user's own, and so is what he calls
+;;; trusted: it is evaluated in full.  Any other file is read in an enclosed process, (bight
+;;; world-outside).
+;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight atlas)
@@ -9,6 +13,7 @@
   #:use-module (bight verb)
   #:use-module (srfi srfi-1)
   #:export (remember-world!
+            last-remembered
             worlds-path
             worlds
             find-world
@@ -26,6 +31,13 @@
   "Make the world W known by its name; return it."
   ((current-rememberer) w)
   w)
+
+(define (last-remembered thunk)
+  "Call THUNK; return the last world that was defined meanwhile, or #f.  It is not made known."
+  (let ((found #f))
+    (parameterize ((current-rememberer (lambda (w) (set! found w))))
+      (thunk))
+    found))
 
 (define (worlds-path)
   "Return the list of folders where worlds are looked for by name: those in the environment variable
@@ -83,25 +95,36 @@ files."
 
 (define (load-world proc file)
   ;; The last world that FILE defines; it is not made known, so that a changed file is read again.
-  (let ((found #f))
-    (catch #t
-      (lambda ()
-        (parameterize ((current-rememberer (lambda (w) (set! found w))))
-          (save-module-excursion
+  (or (last-remembered
+       (lambda ()
+         (catch #t
            (lambda ()
-             (set-current-module (fresh-module))
-             (primitive-load file)))))
-      (lambda (key . arguments)
-        (refuse-file proc file key arguments)))
-    (or found (bight-raise 'format proc "~a defines no world" file))))
+             (save-module-excursion
+              (lambda ()
+                (set-current-module (fresh-module))
+                (primitive-load file))))
+           (lambda (key . arguments)
+             (refuse-file proc file key arguments)))))
+      (bight-raise 'format proc "~a defines no world" file)))
 
 (define (regular-file? text)
   ;; A device such as /dev/zero has no end.
   (and (file-exists? text) (eq? 'regular (stat:type (stat text)))))
 
-(define (file-world proc text)
+(define (canonical folder)
+  (false-if-exception (canonicalize-path folder)))
+
+(define (on-the-path? file)
+  ;; Does FILE lie in one of the folders where worlds are looked for by name?
+  (let ((folder (canonical (dirname file))))
+    (and folder (member folder (filter-map canonical (worlds-path))) #t)))
+
+(define (file-world proc text trust?)
   (cond ((string-index text #\nul) (bight-raise 'io proc "no file is called ~s" text))
-        ((regular-file? text) (load-world proc text))
+        ((regular-file? text)
+         (if (or trust? (on-the-path? text))
+             (load-world proc text)
+             ((module-ref (resolve-interface '(bight world-outside)) 'read-world-outside) proc text)))
         ((world-file-named (if (string-suffix? ".scm" text) (string-drop-right text 4) text))
          => (lambda (file) (load-world proc file)))
         (else (bight-raise 'io proc "there is no file ~s; known worlds are ~a" text
@@ -111,20 +134,22 @@ files."
   "a world, the name of one as in 'open-water, or a file name"
   (if (or (is-world? value) (symbol? value) (string? value)) value refused))
 
-(define (world-called proc designator)
-  "Return the world that DESIGNATOR, a world, a symbol or a file name, stands for; PROC asks."
+(define* (world-called proc designator #:optional trust?)
+  "Return the world that DESIGNATOR, a world, a symbol or a file name, stands for; PROC asks.  A file from
+elsewhere than the folders of worlds is enclosed unless TRUST?."
   (cond ((is-world? designator) designator)
-        ((string? designator) (file-world proc designator))
+        ((string? designator) (file-world proc designator trust?))
         ((hashq-ref known-worlds designator))
         ((world-file-named (symbol->string designator))
          => (lambda (file) (load-world proc file)))
         (else (unknown-name proc "the list of worlds" designator (worlds)))))
 
-(define-verb (find-world (designator world-designator))
+(define-verb (find-world (designator world-designator) #:key (trust flag #f))
   "Return the world DESIGNATOR stands for: a world, the name of one defined here or in a file NAME.scm in
-a folder of worlds, or the name of a file.  Raise a &bight-error when there is none, or the file is
-wrong."
-  (world-called 'find-world designator))
+a folder of worlds, or the name of a file.  A file in none of those folders is enclosed: it has the
+language of worlds and cannot touch anything; with TRUST it may do all that you may.  Raise a &bight-error
+when there is none, or the file is wrong."
+  (world-called 'find-world designator trust))
 
 (define-argument-type (the-world value)
   "a world, or the name of one, as in 'open-water"

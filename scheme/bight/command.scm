@@ -63,15 +63,28 @@ held until changed; those not named stay.  Ends a flight to a place.  Return the
 (define (row-of polyline i)
   (f64vector (array-ref polyline i 0) (array-ref polyline i 1) (array-ref polyline i 2)))
 
-(define round-corner 0.1)               ; m: so near to a corner a vehicle with mass turns to the next
+(define round-corner 0.1)               ; m: so near to a corner a vehicle with mass turns to the next,
+(define look-ahead 0.5)                 ; and so near if it misses the corner by no more than
+(define cut-corner 0.05)                ; on the straight way to the next: it need not slow down
+
+(define (off-line p a b)
+  ;; How far P is from the line from A to B, m (Heron).
+  (let* ((x (distance p a)) (y (distance p b)) (z (distance a b)) (s (/ (+ x y z) 2)))
+    (if (zero? z) x (/ (* 2 (sqrt (max 0 (* s (- s x) (- s y) (- s z))))) z))))
+
+(define (is-rounded? place points)
+  ;; Is it time to turn to the second of POINTS?
+  (let ((off (distance place (car points))))
+    (or (<= off round-corner)
+        (and (<= off look-ahead)
+             (<= (off-line (car points) place (cadr points)) cut-corner)))))
 
 (define (fly-on task v speed)
   ;; The state of the task is the points that are left, the one he flies to first.
   (let* ((engine (this-engine 'fly-along!))
          (view (%vehicle engine v))
-         (points (task-state task))
-         (off (distance (assq-ref view 'position) (car points))))
-    (cond ((and (pair? (cdr points)) (<= off round-corner))
+         (points (task-state task)))
+    (cond ((and (pair? (cdr points)) (is-rounded? (assq-ref view 'position) points))
            (set-task-state! task (cdr points))
            (move-to engine v (cadr points) speed))
           ((assq-ref view 'arrived?)    ; there, or told something else
@@ -127,7 +140,8 @@ beginning now.  Return how many seconds it takes."
     (- (f64vector-ref rows (- (f64vector-length rows) 4)) (f64vector-ref rows 0))))
 
 (define-verb (arrived? #:subject (v vehicle))
-  "Return #t unless the vehicle is still on its way to a place or along a track."
+  "Return #t unless the vehicle is still on its way to a place or along a track.  One with mass in a swell
+may be so for ever: ask `range-to' there."
   (assq-ref (%vehicle (this-engine 'arrived?) v) 'arrived?))
 
 (define-verb (stabilise! #:subject (v vehicle) #:optional (on flag #t))

@@ -127,11 +127,12 @@
   "a world, the name of one as in 'open-water, or a file"
   (if (or (world? value) (symbol? value) (string? value)) value refused))
 
-(define-verb (enter! (world world-or-name))
+(define-verb (enter! (world world-or-name) #:key (trust flag #f))
   "Start a dive in WORLD: a world, a symbol naming one in worlds/, or a file name.  The dive becomes the
-current one and is returned."
+current one and is returned.  A file that lies in no folder of worlds is enclosed: it has the language of
+worlds and cannot touch anything; with TRUST it may do all that you may."
   (check-not-running 'enter! (current-dive))
-  (let* ((world (world-called 'enter! world))
+  (let* ((world (world-called 'enter! world trust))
          (dive (begin-dive (%make-dive (engine-parts 'enter! world)) world)))
     (current-dive dive)
     dive))

@@ -23,6 +23,7 @@
 (define path-only #o10000000)           ; O_PATH
 
 (define start-programs 1)
+(define read-files-and-folders 12)
 (define (write-paths version)
   ;; To write a file; to remove, to make; to refer to one in another folder; to truncate.
   (logior 2 (ash #x1ff 4)
@@ -39,28 +40,35 @@
   (let* ((port (open folder path-only))
          (rule (make-bytevector 12 0))
          (folder? (eq? 'directory (stat:type (stat folder)))))
-    (word rule 0 (if folder? access (logand access (logior 2 (ash 1 14)))))
+    (word rule 0 (if folder? access (logand access (logior 6 (ash 1 14)))))
     (bytevector-s32-native-set! rule 8 (fileno port))
     (let ((status (syscall add-rule rules beneath-path (pointer-address (bytevector->pointer rule)) 0)))
       (close-port port)
       (zero? status))))
 
-(define* (close-paths! #:key (but '()) (programs? #f))
+(define (allow-all! syscall rules paths access)
+  (and-map (lambda (path) (allow-beneath! syscall rules path access)) paths))
+
+(define* (close-paths! #:key (but '()) reading (programs? #f))
   "Let the kernel refuse this process, from now on, to write, make, move or remove anything but what lies in
 the folders or is one of the files of the list BUT, to bind or reach a port, and, unless PROGRAMS?, to start
-a program.  Return #t if it does."
+a program.  If READING is a list of folders and files, refuse to read all others.  Return #t if it does."
   (let ((syscall (foreign "syscall" long (list long uintptr_t size_t uintptr_t uint32)))
         (prctl (foreign "prctl" int (list int unsigned-long unsigned-long unsigned-long unsigned-long)))
         (attributes (make-bytevector 16 0)))
     (and syscall prctl
          (let ((version (syscall create-ruleset 0 0 1 0)))
            (and (>= version 1)
-                (let ((access (write-paths version)))
-                  (word attributes 0 (if programs? access (logior access start-programs)))
+                (let ((writing (write-paths version)))
+                  (word attributes 0 (logior writing
+                                             (if programs? 0 start-programs)
+                                             (if reading read-files-and-folders 0)))
                   (word attributes 1 (if (>= version 4) ports 0))
                   (let ((rules (syscall create-ruleset (pointer-address (bytevector->pointer attributes))
                                         (if (>= version 4) 16 8) 0 0)))
                     (and (>= rules 0)
-                         (and-map (lambda (path) (allow-beneath! syscall rules path access)) but)
+                         (allow-all! syscall rules but
+                                     (if reading (logior writing read-files-and-folders) writing))
+                         (allow-all! syscall rules (or reading '()) read-files-and-folders)
                          (zero? (prctl no-new-privileges 1 0 0 0))
                          (zero? (syscall restrict-self rules 0 0 0))))))))))

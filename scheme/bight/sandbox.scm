@@ -1,4 +1,4 @@
-;;; (bight sandbox) --- reading and running a lesson from outside without harm.
+;;; (bight sandbox) --- reading and running a lesson, or a world, from outside without harm.
 ;;;
 ;;; Three walls.  The first is the language: the forms are evaluated in a module that has Guile's own pure
 ;;; bindings, the language of worlds, dives and lessons, and nothing that names files, modules, processes,
@@ -18,10 +18,10 @@
   #:use-module (srfi srfi-1)
   #:export (enclose!
             breathe!
+            ending-text
             sandbox-module
-            read-lessons-inside
-            memory-limit
-            breath))
+            evaluate-inside
+            read-lessons-inside))
 
 (define (limit-from variable default)
   ;; The user, who is not the lesson, may choose other limits.
@@ -147,6 +147,7 @@
     ((bight lesson) run-lesson lesson-list lesson-code lesson-location collect-lessons take-lesson
      scripted-guide pilot-named register-lesson! unknown-clause malformed-clause malformed-lesson)
     ((bight aware))
+    ((bight instruments))
     ((bight foresight))
     ((bight probe))))
 
@@ -184,19 +185,33 @@
 (define (line-of form)
   (+ 1 (or (assq-ref (or (syntax-source form) '()) 'line) 0)))
 
-(define (evaluate-inside port file module)
-  (let loop ()
-    (let ((form (read-syntax port)))
+(define (cure exception)
+  ;; What to do about a name that is not there, if it is there for others.
+  (if (eq? 'unbound-variable (exception-kind exception))
+      "; what comes from outside has only the language, unless it is trusted: --trust, or #:trust #t"
+      ""))
+
+(define (refused-at file line exception)
+  ;; Raise what EXCEPTION says, after its place; the reader tells that itself.
+  (let ((text ((module-ref (resolve-interface '(bight expect)) 'exception->line) exception)))
+    (raise-engine-error (if (bight-error? exception) (bight-error-kind exception) 'def) #f
+                        (string-append (if (string-prefix? (string-append file ":") text)
+                                           ""
+                                           (string-append file ":" (number->string line) ": "))
+                                       text
+                                       (cure exception)))))
+
+(define* (evaluate-inside port file module #:optional (between breathe!))
+  "Evaluate the forms in PORT, from FILE, in MODULE, one from `sandbox-module'; call BETWEEN before each.
+Raise a &bight-error that begins with FILE and the line for whatever goes wrong."
+  (define (at line thunk)
+    (with-exception-handler (lambda (e) (refused-at file line e)) thunk #:unwind? #t))
+  (let loop ((line 1))
+    (let ((form (at line (lambda () (read-syntax port)))))
       (unless (eof-object? form)
-        (breathe!)
-        (with-exception-handler
-            (lambda (e)
-              (bight-raise (if (bight-error? e) (bight-error-kind e) 'def) #f "~a:~a: ~a" file
-                           (line-of form)
-                           ((module-ref (resolve-interface '(bight expect)) 'exception->line) e)))
-          (lambda () (eval form module))
-          #:unwind? #t)
-        (loop)))))
+        (between)
+        (at (line-of form) (lambda () (eval form module)))
+        (loop (line-of form))))))
 
 (define (read-lessons-inside file)
   "Return the lessons that FILE, which is not trusted, defines.  Raise a &bight-error for whatever goes
@@ -236,16 +251,33 @@ wrong in it."
 (define (limit! resource value)
   (false-if-exception (setrlimit resource value value)))
 
-(define (enclose!)
+(define page 4096)
+
+(define (mapped)
+  ;; The address space that this process has taken, bytes.
+  (* page (or (false-if-exception (call-with-input-file "/proc/self/statm" read)) 0)))
+
+(define* (enclose! #:key reading)
   "Take from this process, for good, what a lesson from outside has no use for: writing to any path,
-starting programs, more than so much memory or processor time.  Return `kernel' if the kernel watches the
-paths, else `limits'."
+starting programs, more than so much memory or processor time; reading, too, if READING is a list of the
+folders and files that still may be read.  Return `kernel' if the kernel watches the paths, else `limits'."
   (chdir "/")                           ; no folder of worlds lies here
   (limit! 'fsize (* 16 1024 1024))      ; standard output may be a file
   (limit! 'core 0)
-  (limit! 'as memory-limit)
+  (when (< (mapped) memory-limit)       ; a sanitizer takes terabytes, and uses few
+    (limit! 'as memory-limit))
   (limit! 'cpu most-seconds)
   (set! enclosed? #t)
   (watch-heap!)
   (breathe!)
-  (if (close-paths!) 'kernel 'limits))
+  (if (close-paths! #:reading reading) 'kernel 'limits))
+
+(define (ending-text signal)
+  "Return why an enclosed process was ended by SIGNAL, in a few words."
+  (cond ((eqv? signal SIGPROF)
+         (simple-format #f "it took more than ~a s of processor time at one stretch" breath))
+        ((memv signal (list SIGABRT SIGSEGV SIGBUS SIGALRM))
+         (simple-format #f "it broke down or hung, as one that wants more than ~a megabytes of memory does"
+                        (quotient memory-limit (* 1024 1024))))
+        ((eqv? signal SIGINT) "it was interrupted")
+        (else (simple-format #f "it was ended by signal ~a" signal))))

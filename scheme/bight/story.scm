@@ -27,6 +27,7 @@
   #:use-module (bight record)
   #:use-module (bight schema)
   #:use-module (bight world)
+  #:use-module (bight world-data)
   #:use-module (ice-9 exceptions)
   #:use-module ((ice-9 binary-ports) #:select (get-bytevector-all put-bytevector))
   #:use-module (rnrs bytevectors)
@@ -117,50 +118,13 @@
 
 ;;; The world as text.
 
-(define (special-word field value)
-  ;; The symbol that the number VALUE of FIELD is written as, or VALUE.
-  (let ((entry (and (number? value)
-                    (find (lambda (entry) (eqv? value (cdr entry))) (field-specials field)))))
-    (if entry (car entry) value)))
-
-(define (field->data head entry)
-  ;; (FIELD VALUE), or (INNER (FIELD VALUE) ...), of ENTRY of a part with HEAD.
-  (let ((field (head-field head (car entry))))
-    (if field
-        (list (car entry) (special-word field (cdr entry)))
-        (cons (car entry)
-              (map (lambda (inner) (field->data (car entry) inner)) (cdr entry))))))
-
-(define (part->data part)
-  (let ((head (part-head-of part)))
-    (cons* 'part head
-           (append (if (eq? head 'sea) '() `((named ,(part-name-of part))))
-                   (map (lambda (entry) (field->data head entry)) (all-fields part))))))
-
-(define (contains-procedure? value)
-  (cond ((procedure? value) #t)
-        ((pair? value) (or (contains-procedure? (car value)) (contains-procedure? (cdr value))))
-        (else #f)))
-
 (define (check-tellable proc world)
   ;; What cannot be written as data, or does not come back as it was, is not saved at all.
-  (define (engine-text w)
-    (datum->line (world->parts w)))
-  (for-each (lambda (part)
-              (when (contains-procedure? (all-fields part))
-                (bight-raise 'unsupported proc "~a of the world is given by a procedure, which no file can hold"
-                             (part-name-of part))))
-            (world-parts world))
-  (unless (string=? (engine-text world) (engine-text (data->world world (world-data world))))
-    (bight-raise 'unsupported proc "this world cannot be written as data")))
-
-(define (world-data world)
-  (map part->data (world-parts world)))
-
-(define (data->world like data)
-  ;; The world of DATA, (part HEAD ...) each, with the name and the file of LIKE.
-  (build-world (world-name like) (world-documentation like) (world-file like)
-               (map (lambda (datum) (data->part (cdr datum))) data)))
+  (let ((name (part-by-procedure world)))
+    (when name
+      (bight-raise 'unsupported proc "~a of the world is given by a procedure, which no file can hold" name))
+    (unless (comes-back? world)
+      (bight-raise 'unsupported proc "this world cannot be written as data"))))
 
 (define (named-files world)
   ;; The names of the files that WORLD names.
@@ -207,7 +171,7 @@ hold it."
     (tell! teller (list 'engine (%version)))
     (tell! teller (list 'world (world-name world) (world-documentation world)
                         (absolute (world-file world))))
-    (for-each (lambda (datum) (tell! teller datum)) (world-data world))
+    (for-each (lambda (datum) (tell! teller datum)) (world->data world))
     (for-each (lambda (name) (tell! teller (file-line proc world name))) (named-files world))
     (for-each (lambda (rows) (tell! teller (list 'track rows))) (%tracks engine))
     (tell! teller (list 'fresh (hex fresh)))
@@ -345,9 +309,8 @@ altered, version when it is of another version."
   (cdr (first (lines-of story head))))
 
 (define (told-world proc story)
-  (let* ((parts (map (lambda (line) (data->part (cdr line))) (lines-of story 'part)))
-         (told (the-line story 'world))
-         (world (build-world (first told) (second told) (third told) parts)))
+  (let* ((told (the-line story 'world))
+         (world (data->world (first told) (second told) (third told) (lines-of story 'part))))
     (for-each (lambda (line) (apply check-file proc world (cdr line))) (lines-of story 'file))
     world))
 
