@@ -1,4 +1,4 @@
-# The manual page: bight.1.in with @COMMANDS@ made of what `bight --help' says and @VERSION@ filled in.
+# The manual page: bight.1.in with @COMMANDS@ made of what `bight --help all' says and @VERSION@ filled in.
 #
 #   awk -v version=V -f man.awk HELP bight.1.in
 #
@@ -12,21 +12,36 @@ function escape(text)
   return text
 }
 
-# A line of the usage: how to call it, then two spaces or more, then what it does; or more of that.
-NR == FNR && done { next }
-NR == FNR && /^$/ { done = 1; next }
+function add(line)
+{
+  commands = commands line "\n"
+}
+
+# How to call it; then lines of what it does, two blanks in; then its options, two blanks in too, and
+# lines about them farther in.
+NR == FNR && /^Usage: / {
+  sub(/^Usage: /, "")
+  add(".TP\n.B " escape($0))
+  next
+}
+NR == FNR && /^  -/ {
+  sub(/^ +/, "")
+  at = match($0, /   *[^ ]/)
+  add(".RS\n.TP\n.B " escape(at ? substr($0, 1, at - 1) : $0))
+  if (at)
+    add(escape(substr($0, at + RLENGTH - 1)))
+  add(".RE")
+  next
+}
 NR == FNR {
-  sub(/^Usage: /, "       ")
-  if (/^       bight/) {
-    sub(/^ +/, "")
-    at = match($0, /  +/)
-    call = at ? substr($0, 1, at - 1) : $0
-    text = at ? substr($0, at + RLENGTH) : ""
-    commands = commands ".TP\n.B " escape(call) "\n" (text == "" ? "" : escape(text) "\n")
-  } else {
-    sub(/^ +/, "")
-    commands = commands escape($0) "\n"
-  }
+  if (/^      /)
+    # More about an option: before the end of its block.
+    sub(/\.RE\n$/, "", commands)
+  more = /^      /
+  sub(/^ +/, "")
+  add(escape($0))
+  if (more)
+    add(".RE")
   next
 }
 

@@ -45,15 +45,25 @@
      contacts contact? contact-object contact-triangle contact-position contact-normal
      contact-arc-length contact-force contact-state
      segments segment? segment-model segment-from segment-to segment-length segment-ends
-     clearance rov-clearance collide! collided? stuck?)
+     clearance rov-clearance collide! collided? stuck? wear wear-profile)
     ((bight scenario)
-     define-scenario always never eventually skip run-scenario scenarios
+     define-scenario always never eventually skip run-scenario scenarios test-seed
      expect require about between above below)
+    ((bight scratch) scratch-file)
+    ((bight property) define-property assume)
+    ((bight generator) uniform integer one-of any-of list-of point-in made-of generator?)
+    ((bight random-dive) random-parts random-world random-pilot)
+    ((bight invariant)
+     all-finite? nothing-crossed? energy-bounded? turns-watcher same-again? always-sound)
     ((bight lesson)
      define-lesson run-lesson last-answer counter count! setting jitter tell! told messages
+     messages-left number-in way-flown off-the-way
      report? report-total report-passed? report-marks report-said report-text report-hash
      report-coached report-hints report-rewinds report-seconds)
     ((bight lesson-file) lessons)
+    ((bight study) define-study)
+    ((bight study-case) study? study-cases run-case)
+    ((bight risk) wilson-interval)
     ((bight aware)
      winding turns windings wrap-angle capstan-lock
      homotopy-class homotopy-class? class-decided? class-free?
@@ -66,10 +76,10 @@
     ((bight probe)
      awareness-probes probe-question probe-level probe-truth probe-stable? probe-error probe-score)
     ((bight coach) make-coach coach-looks! coach-log coach-rules define-coach-rule)
-    ((bight tap) run-tests)
+    ((bight test-command) run-tests)
     ((bight instruments)
      instruments compass depth-sensor altimeter speed-log turn-counter ship-range ship-bearing
-     load-cell payout-counter fault! mend! faults thrusts sonar in-view? tether-in-view)
+     load-cell payout-counter transponders fault! mend! faults thrusts sonar in-view? tether-in-view)
     ((bight saving) save! load-dive)
     ((bight recording)
      record! stop-recording! recording? replay

@@ -25,6 +25,8 @@ listed src -name '*.[ch]'
 listed scheme -name '*.scm'
 listed worlds -name '*.scm'
 listed lessons -name '*.scm'
+listed studies '(' -name '*.scm' -o -name '*.sh' ')'
 listed tests '(' -path './law/*.[ch]' -o -path './unit/*.[ch]' -o -path './sc*/*.scm' -o -name '*.sh' ')'
 listed bench -name '*.[ch]'
+listed doc -path './figures/*.scm'
 finish

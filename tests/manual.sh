@@ -94,7 +94,7 @@ empty 'every figure of the thesis stands beside ours' "$scratch/missing"
 
 # ---- The manual page ----
 
-"$pre" bight --help </dev/null | grep -oE '(^|[ [])-{1,2}[a-zA-Z][a-z-]*' | tr -d ' [' | sort -u |
+"$pre" bight --help all </dev/null | grep -oE '(^|[ [])-{1,2}[a-zA-Z][a-z-]*' | tr -d ' [' | sort -u |
   while read -r option; do
     sed 's/\\-/-/g' "$made/bight.1" | grep -qF -e "$option" || echo "$option"
   done >"$scratch/missing"

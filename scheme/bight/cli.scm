@@ -8,9 +8,12 @@
 
 (define-module (bight cli)
   #:use-module (bight errors)
+  #:use-module (bight usage)
   #:use-module (srfi srfi-1)
   #:export (main
             evaluate-file
+            complain
+            exit-status
             program-error?
             program-error-text))
 
@@ -165,87 +168,55 @@ begins with FILE and the line."
   (simple-format #t "bight ~a~%" (version))
   0)
 
-(define usage
-  "Usage: bight                       the prompt; (help) there is a short tour
-       bight FILE.scm [ARG...]     run a script
-       bight -c EXPR               evaluate expressions and print their values
-       bight -                     run what comes on standard input
-       bight test [PATH...] [--only RE] [--junit FILE]
-                                   run scenario tests, print TAP; a PATH is a file or a folder
-       bight lessons [--trainee WHO | --group G] [--csv]
-                                   list the lessons with marks, or the marks of a group
-       bight lesson NAME|FILE [--trainee WHO] [--group G] [--level L] [--typed] [--fresh] [--quiet]
-                                   take a lesson, or go on with it; a FILE from outside is enclosed,
-                                   unless --trust; --pilot P shows it flown, --check proves it
-       bight bench [NAME...] [-o DIR]
-                                   measure run time against error; write tables and plots to DIR
-       bight snapshot WORLD -o FILE.png [--view V] [--size WxH] [--paint P] [--run S]
-                                   write a picture of a world, S seconds into a dive
-       bight pilot WORLD [--view V] [--paint P] [--colors true|many|few|none]
-                                   fly a world live from the keyboard; ? there shows the keys
-       bight --listen[=SOCKET] [...]
-                                   do the rest, or open the prompt, and serve another prompt on a
-                                   unix socket, yours alone, to an editor
-       bight replay FILE           do again what was recorded; exit 1 if it comes out otherwise
-       bight --version | --help
+;;; Options.
 
-A script and the prompt know the whole language; `(use-modules (bight))' gives it to plain guile.
-Exit status: 0 if all is well, else 1 with a line on standard error.
-")
+(define (split-arguments name arguments)
+  ;; ARGUMENTS as the others and an alist of the options that the command NAME knows; a flag's value is
+  ;; #t.
+  (let* ((known (command-options (command-called name)))
+         (names (map car known)))
+    (let loop ((rest arguments) (others '()) (options '()))
+      (cond ((null? rest) (values (reverse others) options))
+            ((string=? (car rest) "--") (values (append (reverse others) (cdr rest)) options))
+            ((split-option (car rest) known)
+             => (lambda (option) (loop (cdr rest) others (cons option options))))
+            ((and (assoc-ref known (car rest)) (pair? (cdr rest)))
+             (loop (cddr rest) others (acons (car rest) (cadr rest) options)))
+            ((assoc-ref known (car rest)) (bad-usage "~a: ~a needs a value after it" name (car rest)))
+            ((member (car rest) names) (loop (cdr rest) others (acons (car rest) #t options)))
+            ((and (string-prefix? "-" (car rest)) (> (string-length (car rest)) 1))
+             (bad-usage "~a has no option ~a~a" name (car rest) (meant (car rest) names)))
+            (else (loop (cdr rest) (cons (car rest) others) options))))))
 
-(define (print-help arguments)
-  (display usage)
-  0)
+(define (split-option argument known)
+  ;; (NAME . VALUE) of --NAME=VALUE or -nVALUE if NAME is KNOWN to take one, else #f.
+  (let* ((long? (string-prefix? "--" argument))
+         (end (if long? (string-index argument #\=) (and (> (string-length argument) 2) 2))))
+    (and end
+         (string-prefix? "-" argument)
+         (assoc-ref known (substring argument 0 end))
+         (cons (substring argument 0 end) (substring argument (if long? (+ end 1) end))))))
 
 
 ;;; bight test.
-
-(define (take-option options name)
-  (or (assoc-ref options name) #f))
-
-(define (split-arguments command arguments known)
-  ;; ARGUMENTS as the others and an alist of the options in KNOWN, each of which takes a value.
-  (let loop ((rest arguments) (others '()) (options '()))
-    (cond ((null? rest) (values (reverse others) options))
-          ((string=? (car rest) "--") (values (append (reverse others) (cdr rest)) options))
-          ((split-equals (car rest) known)
-           => (lambda (option) (loop (cdr rest) others (cons option options))))
-          ((and (member (car rest) known) (pair? (cdr rest)))
-           (loop (cddr rest) others (acons (car rest) (cadr rest) options)))
-          ((member (car rest) known) (bad-usage "~a: ~a needs a value after it" command (car rest)))
-          ((and (string-prefix? "-" (car rest)) (> (string-length (car rest)) 1))
-           (bad-usage "~a has no option ~a~a" command (car rest) (meant (car rest) known)))
-          (else (loop (cdr rest) (cons (car rest) others) options)))))
-
-(define (split-equals argument known)
-  ;; (NAME . VALUE) of --NAME=VALUE if --NAME is KNOWN, else #f.
-  (let ((i (string-index argument #\=)))
-    (and i
-         (member (substring argument 0 i) known)
-         (cons (substring argument 0 i) (substring argument (+ i 1))))))
 
 (define (default-tests)
   (or (find file-exists? '("tests/scenario" "tests"))
       (bad-usage "test: name a file or a folder; there is no folder tests here")))
 
 (define (run-tests arguments)
-  (call-with-values (lambda () (split-arguments "test" arguments '("--junit" "--only")))
+  (call-with-values (lambda () (split-arguments "test" arguments))
     (lambda (paths options)
-      (if ((from (bight tap) run-tests)
-           (if (null? paths) (default-tests) paths)
-           #:junit (take-option options "--junit")
-           #:only (take-option options "--only"))
-          0
-          1))))
+      ((from (bight test-command) test-command)
+       (if (null? paths) (list (default-tests)) paths)
+       options))))
 
 
 ;;; bight bench.
 
 (define (run-benches arguments)
-  (call-with-values (lambda () (split-arguments "bench" arguments '("-o")))
-    (lambda (names options)
-      ((from (bight bench) run-benches) names (or (take-option options "-o") "."))
-      0)))
+  ;; Not split here: what is no option of ours may be one of the program that measures.
+  ((from (bight bench) bench-command) arguments))
 
 
 ;;; bight snapshot.
@@ -254,10 +225,8 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
   ;; A file's name, or a world's.
   (if (file-like? word) word (string->symbol word)))
 
-(define snapshot-options '("-o" "--view" "--size" "--paint" "--overlay" "--run"))
-
 (define (take-snapshot arguments)
-  (call-with-values (lambda () (split-arguments "snapshot" arguments snapshot-options))
+  (call-with-values (lambda () (split-arguments "snapshot" arguments))
     (lambda (worlds options)
       (unless (= 1 (length worlds))
         (bad-usage "snapshot: name one world or file, as in bight snapshot WORLD -o FILE.png"))
@@ -273,13 +242,20 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
 ;;; bight pilot.
 
 (define (fly arguments)
-  (call-with-values (lambda () (split-arguments "pilot" arguments '("--view" "--paint" "--colors")))
+  (call-with-values (lambda () (split-arguments "pilot" arguments))
     (lambda (worlds options)
       (unless (= 1 (length worlds))
         (bad-usage "pilot: name one world or file, as in bight pilot WORLD"))
       (enter-language!)
       ((from (bight pilot-view) pilot-world) (world-argument (car worlds)) options)
       0)))
+
+
+;;; bight sweep.
+
+(define (run-sweep arguments)
+  (call-with-values (lambda () (split-arguments "sweep" arguments))
+    (from (bight sweep-command) sweep-command)))
 
 
 ;;; bight replay.
@@ -290,23 +266,129 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
   (if ((from (bight recording) replay-file) (car arguments)) 0 1))
 
 
-;;; Choosing the command.
+;;; The commands: one entry each, of which all help, the manual page and the options known are made.
 
 (define commands
-  `(("-c" . ,run-expression)
-    ("-" . ,(lambda (arguments) (run-input ignore arguments)))
-    ("test" . ,run-tests)
-    ("lesson" . ,(lambda (arguments) ((from (bight lesson-command) lesson-command) arguments)))
-    ("lessons" . ,(lambda (arguments) ((from (bight lesson-command) lessons-command) arguments)))
-    ("bench" . ,run-benches)
-    ("snapshot" . ,take-snapshot)
-    ("pilot" . ,fly)
-    ("replay" . ,run-replay)
-    ("--version" . ,print-version)
-    ("--help" . ,print-help)
-    ("-h" . ,print-help)))
+  (list
+   (command "" #f "" '("the prompt; (help) there is a short tour"))
+   (command "FILE.scm" #f "[ARG...]" '("run a script"))
+   (command "-c" run-expression "EXPR" '("evaluate expressions and print their values"))
+   (command "-" (lambda (arguments) (run-input ignore arguments)) ""
+            '("run what comes on standard input"))
+   (command "test" run-tests "[PATH...]"
+            '("run scenario tests, print TAP; a PATH is a file or a folder")
+            '("-j N" "so many at once; when left out, as many as there are cores")
+            '("--only RE" "those alone whose name the regular expression matches")
+            '("--junit FILE" "write the report as JUnit XML too")
+            '("--seed N" "begin the random things of every scenario with N; 1 when left out")
+            '("--cases N" "try every property on N cases")
+            '("--limit S" "seconds of processor time a scenario may take; 0 for no limit,"
+              "600 when left out")
+            '("--reproducers DIR" "write what shrinks a property that fails to DIR, as scenarios")
+            '("--catalogue DIR" "write a page with a sentence and a view of each scenario and"
+              "world to DIR")
+            '("--list" "run nothing; print the scenarios with their sentences"))
+   (command "lessons" (lambda (arguments) ((from (bight lesson-command) lessons-command) arguments)) ""
+            '("list the lessons with marks, or the marks of a group")
+            '("--trainee WHO" "whose marks")
+            '("--group G" "the marks of all in the group")
+            '("--csv" "as comma-separated values"))
+   (command "lesson" (lambda (arguments) ((from (bight lesson-command) lesson-command) arguments))
+            "NAME|FILE"
+            '("take a lesson, or go on with it; a FILE from outside is enclosed")
+            '("--trainee WHO" "who takes it")
+            '("--group G" "the group he belongs to")
+            '("--level L" "easy, normal or hard")
+            '("--seed N" "begin what is random in it with N; 1 when left out")
+            '("--typed" "fly by what is typed, not by keys")
+            '("--fresh" "from its beginning, not from where it was left")
+            '("--quiet" "without the coach")
+            '("--trust" "let a FILE from outside do all that you may")
+            '("--pilot P" "show it flown by its pilot P, such as expert")
+            '("--check" "prove it: its own pilot finishes it, every hint can be reached"))
+   (command "bench" run-benches "[NAME...]"
+            '("measure run time against error: all families, short, in five minutes, or the whole of some;"
+              "other options go to the one bench that is named")
+            '("-o DIR" "where text, CSV, JSON, plots and a page go; bight-bench when left out")
+            '("--data DIR" "of validation: measurements, other codes' results and tables to be held against")
+            '("--list" "run nothing; print the benches there are")
+            '("--quick" "the short form of those named")
+            '("--minutes M" "repeat it round by round for so long; 5 when none is named")
+            '("--rounds N" "repeat it so often")
+            '("--compare OLD" "a report.json, or the programs' folder of another build: run again and say"
+              "what is better, worse or noise; with a second .json compare the two; exit 1 if an error grew"))
+   (command "snapshot" take-snapshot "WORLD"
+            '("write a picture of a world")
+            '("-o FILE" "the picture, a PNG")
+            '("--view V" "chase, pilot, top, side, north, east, overview or plan")
+            '("--size WxH" "in pixels")
+            '("--paint P" "colour tethers plain, by tension, curvature or model")
+            '("--overlay O" "figures, none, contacts, turns, taut-string, bvh; or several, with commas")
+            '("--run S" "as it is S seconds into a dive")
+            '("--trust" "let a file from outside do all that you may"))
+   (command "pilot" fly "WORLD"
+            '("fly a world live from the keyboard; ? there shows the keys")
+            '("--view V" "which view it begins with")
+            '("--paint P" "colour tethers plain, by tension, curvature or model")
+            '("--colors C" "true, many, few or none")
+            '("--trust" "let a file from outside do all that you may"))
+   (command "sweep" run-sweep "STUDY|FILE..."
+            '("fly all cases of a study into one SQLite result; again, only what is missing")
+            '("-j N" "so many dives at a time; when left out, as many as there are cores")
+            '("-o FILE" "the result, or the picture of --map; STUDY.db here when left out")
+            '("--shard I/N" "only the I-th of N parts, into a result of its own")
+            '("--again" "also what failed or was timed out before")
+            '("--case K" "fly the case K alone and print it")
+            '("--merge" "bight sweep --merge RESULT SHARD...: put shards together")
+            '("--table" "print what the RESULT says, in groups, with 95 % intervals")
+            '("--rows" "print all cases of the RESULT, comma-separated")
+            '("--map" "print the risk after each leg, or draw it, SVG or PNG by -o")
+            '("--by V,..." "group by these variables; those the study lists when left out")
+            '("--of MEASURE" "what to map; the first that is true or false when left out")
+            '("--csv" "as comma-separated values"))
+   (command "replay" run-replay "FILE"
+            '("do again what was recorded; exit 1 if it comes out otherwise"))
+   (command "--listen[=SOCKET]" #f "[...]"
+            '("do the rest, or open the prompt, and serve another prompt on a"
+              "unix socket, yours alone, to an editor"))
+   (command "--version" print-version "" '("print the version"))
+   (command "--help" (lambda (arguments) (print-usage arguments)) "[COMMAND|all]"
+            '("print this, or the options of a command"))))
 
-(define command-names (map car commands))
+(define command-names
+  (map command-name (filter command-run commands)))
+
+(define (command-called word)
+  ;; The command that WORD names, or #f.
+  (find (lambda (command) (and (command-run command) (string=? word (command-name command))))
+        commands))
+
+(define closing-words "
+A script and the prompt know the whole language; `(use-modules (bight))' gives it to plain guile.
+`bight COMMAND --help' tells the options of a command.
+Exit status: 0 if all is well, else 1 with a line on standard error.
+")
+
+(define (print-usage arguments)
+  (cond ((null? arguments)
+         (print-overview commands)
+         (display closing-words))
+        ((string=? (car arguments) "all") (for-each print-help commands))
+        ((command-called (car arguments)) => print-help)
+        (else (bad-usage "there is no command ~a~a" (car arguments)
+                         (meant (car arguments) command-names))))
+  0)
+
+(define (help-wanted? arguments)
+  (and (pair? arguments)
+       (not (string=? "--" (car arguments)))
+       (or (member (car arguments) '("--help" "-h"))
+           (help-wanted? (cdr arguments)))))
+
+(define (do-command command arguments)
+  (if (and (help-wanted? arguments) (not (member (command-name command) '("-c" "-"))))
+      (print-usage (list (command-name command)))
+      ((command-run command) arguments)))
 
 (define (meant word words)
   (let ((near (nearest word words)))
@@ -320,7 +402,7 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
 (define (listen-option argument)
   ;; The socket that --listen or --listen=SOCKET names, #t for the usual one; else #f.
   (cond ((string=? argument "--listen") #t)
-        ((split-equals argument '("--listen")) => cdr)
+        ((split-option argument '(("--listen" . #t))) => cdr)
         (else #f)))
 
 (define (listen! socket arguments)
@@ -339,7 +421,8 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
 (define (run-command arguments)
   (cond ((null? arguments) (run-prompt))
         ((listen-option (car arguments)) => (lambda (socket) (listen! socket (cdr arguments))))
-        ((assoc-ref commands (car arguments)) => (lambda (run) (run (cdr arguments))))
+        ((string=? "-h" (car arguments)) (print-usage (cdr arguments)))
+        ((command-called (car arguments)) => (lambda (command) (do-command command (cdr arguments))))
         ((string-prefix? "-" (car arguments))
          (bad-usage "there is no option ~a~a" (car arguments) (meant (car arguments) command-names)))
         ((file-like? (car arguments)) (run-script (car arguments) (cdr arguments)))
@@ -347,9 +430,22 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
          (bad-usage "there is no command and no file ~a~a" (car arguments)
                     (meant (car arguments) command-names)))))
 
+(define (lost-output)
+  ;; Why what was written to the standard output cannot go there, a string, or #f.  What is left of it is
+  ;; then thrown away, so that nobody stumbles over it again.
+  (catch 'system-error
+    (lambda ()
+      (force-output (current-output-port))
+      #f)
+    (lambda arguments
+      (dup2 (open-fdes "/dev/null" O_WRONLY) 1)
+      (force-output (current-output-port))
+      (string-append "cannot write to the standard output: " (strerror (system-error-errno arguments))))))
+
 (define (complain text)
-  (force-output (current-output-port))
-  (simple-format (current-error-port) "bight: ~a~%" text)
+  "Say TEXT on the standard error, or that the standard output is lost, and return the exit status for it."
+  (simple-format (current-error-port) "bight: ~a~%" (or (lost-output) text))
+  (force-output (current-error-port))   ; a child may be made next
   1)
 
 (define (status-of arguments)
@@ -359,8 +455,8 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
         ((car arguments) 0)
         (else 1)))
 
-(define (main arguments)
-  "Do what ARGUMENTS, the command line as a list of strings, ask for, and return the exit status."
+(define (told-status thunk)
+  ;; What THUNK returns, or the status of an exit; what it raises is told in a line.
   (catch 'quit
     (lambda ()
       (with-exception-handler
@@ -368,6 +464,17 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
             (cond ((program-error? exception) (complain (program-error-text exception)))
                   ((memq (exception-kind exception) '(quit)) (raise-exception exception))
                   (else (complain ((from (bight expect) exception->line) exception)))))
-        (lambda () (run-command (cdr arguments)))
+        thunk
         #:unwind? #t))
     (lambda (key . arguments) (status-of arguments))))
+
+(define (exit-status thunk)
+  "Call THUNK, which returns an exit status or exits, and return that.  What it raises, and that its output
+could not be written, is told in one line on the standard error."
+  (let* ((status (told-status thunk))
+         (lost (lost-output)))
+    (if lost (complain lost) status)))
+
+(define (main arguments)
+  "Do what ARGUMENTS, the command line as a list of strings, ask for, and return the exit status."
+  (exit-status (lambda () (run-command (cdr arguments)))))
