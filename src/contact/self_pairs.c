@@ -1,10 +1,5 @@
 /* Which links of a line could meet each other, or those of another line, in a step.
 
-   Links that run along with the way from the first of them to the last, all of them and all the
-   time, come no nearer to each other than the line between them is long in that direction: of a
-   stretch that is straight so far no pair is asked.  For the rest there are boxes about links,
-   about four links, eight, sixteen, and only where boxes meet is looked into them.
-
    What a look found serves until the line has turned or changed its shape by so much.  Of two
    places with M links between and with them, the one goes no farther against the other than M times
    the most that the two ends of any link do, nor farther than any two nodes do.  So a look lists
@@ -21,317 +16,22 @@
 
 #include <string.h>
 
-#include "contact/line_job.h"
+#include "contact/self_search.h"
 
 enum
 {
-  LEAF = 4,    /* links in the smallest box */
   WAIT = 12,   /* steps after a look that found more than it could list */
-  MANY = 4,    /* pairs listed, a link: then it is looked less far, ... */
-  FEW = 1,     /* ... and if fewer farther */
   SHORTER = 12 /* times a move is halved for want of room */
 };
 
-#define ALONG 0.25 /* of a rest length: a link that goes so far in a direction goes along */
-#define UNDER 0.96 /* of that: what such links must keep */
-#define TURN 0.5   /* of a piece: what the ends of a link may go apart until the next look, ... */
+#define TURN 0.5 /* of a piece: what the ends of a link may go apart until the next look, ... */
 #define LEAST_TURN 0.1 /* ... at most and at least */
 #define WAY 8.0        /* the same of any two nodes */
 #define LEAST_WAY 0.5
 #define FARTHER 1.4 /* times as far at the next look */
 #define SPARE 0.2   /* of a piece: the most of what a line is said to be clear by */
-#define WITHIN 0.02 /* of what links must keep: nearer, and they are within each other */
-#define CLOSE 1e-6  /* for rounding */
 
-double
-bt__self_floor (const bt__line_job *k, uint32_t i, uint32_t j)
-{
-  return fmin (2 * k->core, UNDER * ALONG * (k->w->from_end[i + 1] - k->w->from_end[j]));
-}
-
-/* Links that start nearer may come nearer yet by half, so that they can get away from each other,
-   but not through.  Those that start within each other may do as they like.  */
-double
-bt__self_lowered (double floor, double distance)
-{
-  double least = WITHIN * floor;
-  return distance >= floor ? floor : distance > least ? fmax (0.5 * distance, least) : 0;
-}
-
-bt__witness
-bt__self_witness (const bt__link *a, const bt__link *b)
-{
-  bt__capsule axis = { b->a, b->b, 0 };
-  bt__witness w;
-  bt__pair_capsule (&axis, a, &w);
-  return w;
-}
-
-/* ---- Boxes ---- */
-
-/* The links of one of two lines, and boxes about them: box 1 about all, of box T the halves 2T and
-   2T + 1.  */
-typedef struct side
-{
-  const bt_vec3 *x;
-  const double *reach; /* of each link; NULL: THICK */
-  double thick;
-  bt__aabb *box;
-  int links, span; /* links, and how many box 1 could hold */
-} side;
-
-/* What box T holds: links FROM to TO, less one.  */
-typedef struct part
-{
-  int t, from, span;
-} part;
-
-static int
-end_of (const side *s, part p)
-{
-  return p.from + p.span < s->links ? p.from + p.span : s->links;
-}
-
-static part
-half_of (part p, int second)
-{
-  return (part){ 2 * p.t + second, p.from + second * p.span / 2, p.span / 2 };
-}
-
-static double
-reach_of (const side *s, int j)
-{
-  return s->reach ? s->reach[j] : s->thick;
-}
-
-static double
-lower (double a, double b)
-{
-  return a < b ? a : b;
-}
-
-static double
-higher (double a, double b)
-{
-  return a > b ? a : b;
-}
-
-static void
-add_point (bt__aabb *b, bt_vec3 p, double more)
-{
-  b->lo = bt__vec (lower (b->lo.x, p.x - more), lower (b->lo.y, p.y - more),
-                   lower (b->lo.z, p.z - more));
-  b->hi = bt__vec (higher (b->hi.x, p.x + more), higher (b->hi.y, p.y + more),
-                   higher (b->hi.z, p.z + more));
-}
-
-static const bt__aabb none
-    = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
-
-static void
-fill_boxes (side *s, part p)
-{
-  bt__aabb b = none;
-  int to = end_of (s, p);
-  if (p.span > LEAF && p.from < to)
-    {
-      part one = half_of (p, 0), two = half_of (p, 1);
-      fill_boxes (s, one);
-      fill_boxes (s, two);
-      b = s->box[one.t];
-      add_point (&b, s->box[two.t].lo, 0);
-      add_point (&b, s->box[two.t].hi, 0);
-      if (two.from >= to)
-        b = s->box[one.t];
-    }
-  else
-    for (int j = p.from; j < to; j++)
-      {
-        add_point (&b, s->x[j], reach_of (s, j));
-        add_point (&b, s->x[j + 1], reach_of (s, j));
-      }
-  s->box[p.t] = b;
-}
-
-static int
-are_apart (const bt__aabb *a, const bt__aabb *b)
-{
-  return a->hi.x < b->lo.x || a->lo.x > b->hi.x || a->hi.y < b->lo.y || a->lo.y > b->hi.y
-         || a->hi.z < b->lo.z || a->lo.z > b->hi.z;
-}
-
-static part
-whole (side *s)
-{
-  s->span = LEAF;
-  while (s->span < s->links)
-    s->span *= 2;
-  return (part){ 1, 0, s->span };
-}
-
-/* How near touches, from the axis of the line on.  */
-static double
-touching (const bt__line_job *k)
-{
-  return k->config->radius + k->margin / 2;
-}
-
-/* ---- The search ---- */
-
-typedef struct search
-{
-  bt__line_job *k;
-  side own, its;
-  const double *move; /* how far each node goes */
-  int strand;         /* of ITS, -1: the line itself */
-  enum
-  {
-    PAIRS, /* list what can meet */
-    KNOWN, /* list what can meet until the next look */
-    SPARED /* how far may each node go? */
-  } what;
-  double spare;
-  int dropped;
-} search;
-
-/* The distance of the axes of A and B.  */
-static double
-distance_of (const bt__link *a, const bt__link *b)
-{
-  double u, v;
-  bt_vec3 d = bt__sub (a->b, a->a), e = bt__sub (b->b, b->a), r = bt__sub (a->a, b->a);
-  bt__closest_segments (r, d, e, &u, &v);
-  return bt__norm (bt__axpy (bt__axpy (r, u, d), -v, e));
-}
-
-/* Nonzero if links FROM to TO, less one, go along with the chord of all of them, wherever they
- * move.
- */
-static int
-is_straight (const search *s, int from, int to)
-{
-  const bt_vec3 *x = s->own.x;
-  const double *rest = bt__dynamic_rest (s->k->d);
-  bt_vec3 u = bt__unit_or (bt__sub (x[to], x[from]), bt__vec (0, 0, 0));
-  double before = bt__dot (u, x[from]);
-  for (int j = from; j < to; j++)
-    {
-      double after = bt__dot (u, x[j + 1]);
-      if (!(after - before - s->move[j] - s->move[j + 1] >= ALONG * rest[j]))
-        return 0;
-      before = after;
-    }
-  return 1;
-}
-
-/* Add links I of the own side and J of the other, if they can meet.  */
-static void
-add_pair (search *s, int i, int j)
-{
-  bt__line_job *k = s->k;
-  bt__self *all = &k->w->self;
-  bt__link a = bt__line_link (s->own.x, (uint32_t)i), b = bt__line_link (s->its.x, (uint32_t)j);
-  double reach = reach_of (&s->own, i) + reach_of (&s->its, j);
-  k->report->pairs++;
-  if (!(distance_of (&a, &b) <= reach))
-    return;
-  if (all->pairs == all->room)
-    {
-      s->dropped++;
-      return;
-    }
-  bt__self_pair *p = all->pair + all->pairs++;
-  *p = (bt__self_pair){ .i = (uint32_t)i, .j = (uint32_t)j, .strand = s->strand };
-  p->w = bt__self_witness (&a, &b);
-  p->floor = s->strand < 0 ? bt__self_floor (k, p->i, p->j)
-                           : k->core + k->config->strand[s->strand].core * (1 + CLOSE);
-  k->report->overlaps += p->w.distance < p->floor;
-  p->floor = bt__self_lowered (p->floor, p->w.distance);
-}
-
-/* How far links I and J may come toward each other until the next look.  */
-static double
-toward (uint32_t i, uint32_t j, double turned, double apart)
-{
-  return lower ((double)(j + 1 - i) * turned, apart);
-}
-
-static void
-add_known (search *s, int i, int j)
-{
-  bt__line_job *k = s->k;
-  bt__self *self = &k->w->self;
-  bt__link a = bt__line_link (s->own.x, (uint32_t)i), b = bt__line_link (s->its.x, (uint32_t)j);
-  double clear = distance_of (&a, &b) - 2 * touching (k);
-  k->report->pairs++;
-  if (clear > toward ((uint32_t)i, (uint32_t)j, self->turn, self->way))
-    return;
-  self->least = lower (self->least, clear);
-  self->least_turn = lower (self->least_turn, clear / (j + 1 - i));
-  if (self->knowns == self->room)
-    s->dropped++;
-  else
-    self->known[self->knowns++] = (bt__self_known){ (uint32_t)i, (uint32_t)j, clear };
-}
-
-static void
-look_at (search *s, int i, int j)
-{
-  if (s->what == PAIRS)
-    add_pair (s, i, j);
-  else if (s->what == KNOWN)
-    add_known (s, i, j);
-  else
-    {
-      bt__link a = bt__line_link (s->own.x, (uint32_t)i), b = bt__line_link (s->its.x, (uint32_t)j);
-      double near = s->strand < 0 ? touching (s->k) : s->its.thick;
-      s->spare = fmin (s->spare, 0.5 * (distance_of (&a, &b) - touching (s->k) - near));
-    }
-}
-
-/* Parts P of the one and Q of the other, which in the same line comes after it.  */
-static void
-look_between (search *s, part p, part q)
-{
-  int a = end_of (&s->own, p), b = end_of (&s->its, q);
-  if (p.from >= a || q.from >= b || are_apart (s->own.box + p.t, s->its.box + q.t))
-    return;
-  int near = s->strand < 0 && q.from - a <= 2 * (p.span + q.span);
-  if (near && is_straight (s, p.from, b))
-    return;
-  if (p.span == LEAF && q.span == LEAF)
-    {
-      for (int i = p.from; i < a; i++)
-        for (int j = s->strand < 0 && q.from < i + 2 ? i + 2 : q.from; j < b; j++)
-          look_at (s, i, j);
-      return;
-    }
-  for (int h = 0; h < 2; h++)
-    if (p.span >= q.span)
-      look_between (s, half_of (p, h), q);
-    else
-      look_between (s, p, half_of (q, h));
-}
-
-static void
-look_within (search *s, part p)
-{
-  int to = end_of (&s->own, p);
-  if (p.from >= to || is_straight (s, p.from, to))
-    return;
-  if (p.span > LEAF)
-    {
-      look_within (s, half_of (p, 0));
-      look_within (s, half_of (p, 1));
-      look_between (s, half_of (p, 0), half_of (p, 1));
-      return;
-    }
-  for (int i = p.from; i < to; i++)
-    for (int j = i + 2; j < to; j++)
-      look_at (s, i, j);
-}
-
-/* ---- One line ---- */
+/* ---- What is known of a line and itself ---- */
 
 static void
 measure (bt__line_job *k)
@@ -343,65 +43,20 @@ measure (bt__line_job *k)
     from_end[j] = from_end[j + 1] + rest[j];
 }
 
-static side
-side_of (const bt__line_job *k, int strand)
-{
-  const bt__strand *o = strand < 0 ? NULL : k->config->strand + strand;
-  if (!o)
-    return (side){ .x = k->x, .reach = k->w->self.reach, .box = k->w->self.box, .links = k->links };
-  return (side){ .x = bt__dynamic_x (o->line),
-                 .thick = fmax (o->radius + k->margin / 2, o->core),
-                 .box = k->w->self.its,
-                 .links = (int)o->line->n };
-}
-
-/* Ask the line, whose nodes go as far as MOVE says and whose links look as far as their REACH.  */
-static int
-look_at_itself (bt__line_job *k, search *s)
-{
-  part all = whole (&s->own);
-  s->its = s->own;
-  s->strand = -1;
-  if (!k->config->itself || is_straight (s, 0, k->links))
-    return 0;
-  fill_boxes (&s->own, all);
-  look_within (s, all);
-  return s->dropped;
-}
-
-static int
-look_at_others (bt__line_job *k, search *s)
-{
-  if (k->config->strands == 0)
-    return 0;
-  part all = whole (&s->own);
-  fill_boxes (&s->own, all);
-  for (int i = 0; i < k->config->strands; i++)
-    {
-      s->its = side_of (k, i);
-      s->strand = i;
-      part other = whole (&s->its);
-      fill_boxes (&s->its, other);
-      look_between (s, all, other);
-    }
-  return s->dropped;
-}
-
-/* ---- What is known of a line and itself ---- */
-
 /* Look; zero if there was more than room for it.  */
 static int
 look_once (bt__line_job *k)
 {
   bt__self *self = &k->w->self;
-  search s = { .k = k, .own = side_of (k, -1), .move = self->move, .what = KNOWN };
+  bt__self_search s
+      = { .k = k, .own = bt__self_side_of (k, -1), .move = self->move, .what = BT__SELF_KNOWN };
   self->knowns = 0;
   self->least = self->least_turn = INFINITY;
   for (int i = 0; i <= k->links; i++)
     self->move[i] = 0.5 * self->turn;
   for (int j = 0; j < k->links; j++)
-    self->reach[j] = touching (k) + 0.5 * self->way;
-  look_at_itself (k, &s);
+    self->reach[j] = bt__self_touching (k) + 0.5 * self->way;
+  bt__self_look_at_itself (k, &s);
   return s.dropped == 0;
 }
 
@@ -439,8 +94,8 @@ is_known (const bt__line_job *k, const bt_vec3 *x, bt__dynamic_drift *drift)
 {
   const bt__self *self = &k->w->self;
   bt__dynamic_drifted (x, self->stood, self->still, drift);
-  drift->turned *= 1 + CLOSE;
-  drift->apart *= 1 + CLOSE;
+  drift->turned *= 1 + BT__SELF_CLOSE;
+  drift->apart *= 1 + BT__SELF_CLOSE;
   return drift->turned < self->turn && drift->apart < self->way;
 }
 
@@ -473,20 +128,20 @@ none_touches (const bt__self *self, const bt__dynamic_drift *drift)
 /* List the pairs of the line itself that can meet while its links look as far as their REACH, and
    its nodes go no farther than MOVE; if SURE of what is known, which lasts to DRIFT.  */
 static int
-list_itself (bt__line_job *k, search *s, const bt__dynamic_drift *drift)
+list_itself (bt__line_job *k, bt__self_search *s, const bt__dynamic_drift *drift)
 {
   const bt__self *self = &k->w->self;
   if (!k->config->itself)
     return 0;
   if (!drift)
-    return look_at_itself (k, s);
+    return bt__self_look_at_itself (k, s);
   s->its = s->own;
   s->strand = -1;
   for (int n = 0; n < self->knowns; n++)
     {
       const bt__self_known *p = self->known + n;
-      if (p->clear <= toward (p->i, p->j, drift->turned, drift->apart))
-        add_pair (s, (int)p->i, (int)p->j);
+      if (p->clear <= bt__self_toward (p->i, p->j, drift->turned, drift->apart))
+        bt__self_add (s, (int)p->i, (int)p->j);
     }
   return s->dropped;
 }
@@ -495,12 +150,12 @@ list_itself (bt__line_job *k, search *s, const bt__dynamic_drift *drift)
 static bt__aabb
 way_of (const bt__line_job *k, const bt_vec3 *to)
 {
-  bt__aabb b = none;
+  bt__aabb b = bt__no_box;
   for (int i = 0; i <= k->links; i++)
     {
-      add_point (&b, k->x[i], touching (k));
+      bt__self_add_point (&b, k->x[i], bt__self_touching (k));
       if (to)
-        add_point (&b, to[i], touching (k));
+        bt__self_add_point (&b, to[i], bt__self_touching (k));
     }
   return b;
 }
@@ -514,11 +169,11 @@ are_others_far (const bt__line_job *k, const bt_vec3 *to)
   bt__aabb own = way_of (k, to);
   for (int i = 0; i < k->config->strands; i++)
     {
-      side s = side_of (k, i);
-      bt__aabb b = none;
+      bt__self_side s = bt__self_side_of (k, i);
+      bt__aabb b = bt__no_box;
       for (int j = 0; j <= s.links; j++)
-        add_point (&b, s.x[j], s.thick);
-      if (!are_apart (&b, &own))
+        bt__self_add_point (&b, s.x[j], s.thick);
+      if (!bt__self_are_apart (&b, &own))
         return 0;
     }
   return 1;
@@ -530,13 +185,15 @@ static int
 list (bt__line_job *k, const bt_vec3 *to, const bt__dynamic_drift *drift)
 {
   bt__self *self = &k->w->self;
-  search s = { .k = k, .own = side_of (k, -1), .move = self->move };
+  bt__self_search s = { .k = k, .own = bt__self_side_of (k, -1), .move = self->move };
   self->pairs = 0;
   if (!drift || self->knowns > 0 || k->config->strands > 0)
     measure (k);
   for (int j = 0; j < k->links; j++)
-    self->reach[j] = higher (touching (k), k->core + higher (self->move[j], self->move[j + 1]));
-  return list_itself (k, &s, drift) == 0 && (are_others_far (k, to) || look_at_others (k, &s) == 0);
+    self->reach[j] = bt__self_higher (bt__self_touching (k),
+                                      k->core + bt__self_higher (self->move[j], self->move[j + 1]));
+  return list_itself (k, &s, drift) == 0
+         && (are_others_far (k, to) || bt__self_look_at_others (k, &s) == 0);
 }
 
 /* ---- A step ---- */
@@ -574,8 +231,8 @@ know_move (const bt__line_job *k, bt__dynamic_drift *drift)
     return drift;
   if (self->still != k->links + 1 || !is_known (k, k->X, drift))
     return NULL;
-  drift->turned = higher (drift->turned, self->drift.turned);
-  drift->apart = higher (drift->apart, self->drift.apart);
+  drift->turned = bt__self_higher (drift->turned, self->drift.turned);
+  drift->apart = bt__self_higher (drift->apart, self->drift.apart);
   return drift;
 }
 
@@ -584,13 +241,13 @@ static int
 goes_clear (const bt__line_job *k, const bt__self_known *p)
 {
   bt__link a = bt__line_link (k->x, p->i), b = bt__line_link (k->x, p->j);
-  double most = 0, gap = distance_of (&a, &b);
+  double most = 0, gap = bt__self_distance (&a, &b);
   for (uint32_t n = 0; n < 2; n++)
     {
       most = fmax (most, bt__distance (k->x[p->i + n], k->X[p->i + n]));
       most = fmax (most, bt__distance (k->x[p->j + n], k->X[p->j + n]));
     }
-  return gap > 2 * (k->core + most * (1 + CLOSE)) * (1 + CLOSE);
+  return gap > 2 * (k->core + most * (1 + BT__SELF_CLOSE)) * (1 + BT__SELF_CLOSE);
 }
 
 static int
@@ -612,8 +269,8 @@ others_go_clear (const bt__line_job *k, const bt__dynamic_drift *drift)
   for (int n = 0; n < self->knowns; n++)
     {
       const bt__self_known *p = self->known + n;
-      if (p->clear <= toward (p->i, p->j, drift->turned, drift->apart) && !goes_clear (k, p)
-          && !is_listed (self, p))
+      if (p->clear <= bt__self_toward (p->i, p->j, drift->turned, drift->apart)
+          && !goes_clear (k, p) && !is_listed (self, p))
         return 0;
     }
   return 1;
@@ -651,7 +308,7 @@ bt__self_watch_moves (bt__line_job *k)
   for (int n = 0;; n++)
     {
       for (int i = 0; i <= k->links; i++)
-        self->move[i] = bt__distance (k->x[i], k->X[i]) * (1 + CLOSE);
+        self->move[i] = bt__distance (k->x[i], k->X[i]) * (1 + BT__SELF_CLOSE);
       if (list (k, k->X, know_move (k, &drift)))
         return;
       k->report->overflows++;
@@ -668,13 +325,17 @@ bt__self_spare (bt__line_job *k)
 {
   bt__self *self = &k->w->self;
   double most = SPARE * k->d->piece;
-  search s = { .k = k, .own = side_of (k, -1), .move = self->move, .what = SPARED, .spare = most };
+  bt__self_search s = { .k = k,
+                        .own = bt__self_side_of (k, -1),
+                        .move = self->move,
+                        .what = BT__SELF_SPARED,
+                        .spare = most };
   for (int i = 0; i <= k->links; i++)
     self->move[i] = most;
   for (int j = 0; j < k->links; j++)
-    self->reach[j] = touching (k) + most;
+    self->reach[j] = bt__self_touching (k) + most;
   measure (k);
-  look_at_itself (k, &s);
-  look_at_others (k, &s);
+  bt__self_look_at_itself (k, &s);
+  bt__self_look_at_others (k, &s);
   return fmax (s.spare, 0);
 }

@@ -1,0 +1,287 @@
+/* Which links of a line, or of two, are near each other.
+
+   Links that run along with the way from the first of them to the last, all of them and all the
+   time, come no nearer to each other than the line between them is long in that direction: of a
+   stretch that is straight so far no pair is asked.  For the rest there are boxes about links,
+   about four links, eight, sixteen, and only where boxes meet is looked into them.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "contact/self_search.h"
+
+enum
+{
+  LEAF = 4 /* links in the smallest box */
+};
+
+#define ALONG 0.25  /* of a rest length: a link that goes so far in a direction goes along */
+#define UNDER 0.96  /* of that: what such links must keep */
+#define WITHIN 0.02 /* of what links must keep: nearer, and they are within each other */
+
+double
+bt__self_floor (const bt__line_job *k, uint32_t i, uint32_t j)
+{
+  return fmin (2 * k->core, UNDER * ALONG * (k->w->from_end[i + 1] - k->w->from_end[j]));
+}
+
+/* Links that start nearer may come nearer yet by half, so that they can get away from each other,
+   but not through.  Those that start within each other may do as they like.  */
+double
+bt__self_lowered (double floor, double distance)
+{
+  double least = WITHIN * floor;
+  return distance >= floor ? floor : distance > least ? fmax (0.5 * distance, least) : 0;
+}
+
+bt__witness
+bt__self_witness (const bt__link *a, const bt__link *b)
+{
+  bt__capsule axis = { b->a, b->b, 0 };
+  bt__witness w;
+  bt__pair_capsule (&axis, a, &w);
+  return w;
+}
+
+/* ---- Boxes ---- */
+
+/* What box T holds: links FROM to TO, less one.  */
+typedef struct part
+{
+  int t, from, span;
+} part;
+
+static int
+end_of (const bt__self_side *s, part p)
+{
+  return p.from + p.span < s->links ? p.from + p.span : s->links;
+}
+
+static part
+half_of (part p, int second)
+{
+  return (part){ 2 * p.t + second, p.from + second * p.span / 2, p.span / 2 };
+}
+
+static double
+reach_of (const bt__self_side *s, int j)
+{
+  return s->reach ? s->reach[j] : s->thick;
+}
+
+static void
+fill_boxes (bt__self_side *s, part p)
+{
+  bt__aabb b = bt__no_box;
+  int to = end_of (s, p);
+  if (p.span > LEAF && p.from < to)
+    {
+      part one = half_of (p, 0), two = half_of (p, 1);
+      fill_boxes (s, one);
+      fill_boxes (s, two);
+      b = s->box[one.t];
+      bt__self_add_point (&b, s->box[two.t].lo, 0);
+      bt__self_add_point (&b, s->box[two.t].hi, 0);
+      if (two.from >= to)
+        b = s->box[one.t];
+    }
+  else
+    for (int j = p.from; j < to; j++)
+      {
+        bt__self_add_point (&b, s->x[j], reach_of (s, j));
+        bt__self_add_point (&b, s->x[j + 1], reach_of (s, j));
+      }
+  s->box[p.t] = b;
+}
+
+static part
+whole (bt__self_side *s)
+{
+  s->span = LEAF;
+  while (s->span < s->links)
+    s->span *= 2;
+  return (part){ 1, 0, s->span };
+}
+
+/* ---- The search ---- */
+
+double
+bt__self_distance (const bt__link *a, const bt__link *b)
+{
+  double u, v;
+  bt_vec3 d = bt__sub (a->b, a->a), e = bt__sub (b->b, b->a), r = bt__sub (a->a, b->a);
+  bt__closest_segments (r, d, e, &u, &v);
+  return bt__norm (bt__axpy (bt__axpy (r, u, d), -v, e));
+}
+
+/* Nonzero if links FROM to TO, less one, go along with the chord of all of them, wherever they
+ * move.
+ */
+static int
+is_straight (const bt__self_search *s, int from, int to)
+{
+  const bt_vec3 *x = s->own.x;
+  const double *rest = bt__dynamic_rest (s->k->d);
+  bt_vec3 u = bt__unit_or (bt__sub (x[to], x[from]), bt__vec (0, 0, 0));
+  double before = bt__dot (u, x[from]);
+  for (int j = from; j < to; j++)
+    {
+      double after = bt__dot (u, x[j + 1]);
+      if (!(after - before - s->move[j] - s->move[j + 1] >= ALONG * rest[j]))
+        return 0;
+      before = after;
+    }
+  return 1;
+}
+
+void
+bt__self_add (bt__self_search *s, int i, int j)
+{
+  bt__line_job *k = s->k;
+  bt__self *all = &k->w->self;
+  bt__link a = bt__line_link (s->own.x, (uint32_t)i), b = bt__line_link (s->its.x, (uint32_t)j);
+  double reach = reach_of (&s->own, i) + reach_of (&s->its, j);
+  k->report->pairs++;
+  if (!(bt__self_distance (&a, &b) <= reach))
+    return;
+  if (all->pairs == all->room)
+    {
+      s->dropped++;
+      return;
+    }
+  bt__self_pair *p = all->pair + all->pairs++;
+  *p = (bt__self_pair){ .i = (uint32_t)i, .j = (uint32_t)j, .strand = s->strand };
+  p->w = bt__self_witness (&a, &b);
+  p->floor = s->strand < 0 ? bt__self_floor (k, p->i, p->j)
+                           : k->core + k->config->strand[s->strand].core * (1 + BT__SELF_CLOSE);
+  k->report->overlaps += p->w.distance < p->floor;
+  p->floor = bt__self_lowered (p->floor, p->w.distance);
+}
+
+double
+bt__self_toward (uint32_t i, uint32_t j, double turned, double apart)
+{
+  return bt__self_lower ((double)(j + 1 - i) * turned, apart);
+}
+
+static void
+add_known (bt__self_search *s, int i, int j)
+{
+  bt__line_job *k = s->k;
+  bt__self *self = &k->w->self;
+  bt__link a = bt__line_link (s->own.x, (uint32_t)i), b = bt__line_link (s->its.x, (uint32_t)j);
+  double clear = bt__self_distance (&a, &b) - 2 * bt__self_touching (k);
+  k->report->pairs++;
+  if (clear > bt__self_toward ((uint32_t)i, (uint32_t)j, self->turn, self->way))
+    return;
+  self->least = bt__self_lower (self->least, clear);
+  self->least_turn = bt__self_lower (self->least_turn, clear / (j + 1 - i));
+  if (self->knowns == self->room)
+    s->dropped++;
+  else
+    self->known[self->knowns++] = (bt__self_known){ (uint32_t)i, (uint32_t)j, clear };
+}
+
+static void
+look_at (bt__self_search *s, int i, int j)
+{
+  if (s->what == BT__SELF_PAIRS)
+    bt__self_add (s, i, j);
+  else if (s->what == BT__SELF_KNOWN)
+    add_known (s, i, j);
+  else
+    {
+      bt__link a = bt__line_link (s->own.x, (uint32_t)i), b = bt__line_link (s->its.x, (uint32_t)j);
+      double near = s->strand < 0 ? bt__self_touching (s->k) : s->its.thick;
+      s->spare
+          = fmin (s->spare, 0.5 * (bt__self_distance (&a, &b) - bt__self_touching (s->k) - near));
+    }
+}
+
+/* Parts P of the one and Q of the other, which in the same line comes after it.  */
+static void
+look_between (bt__self_search *s, part p, part q)
+{
+  int a = end_of (&s->own, p), b = end_of (&s->its, q);
+  if (p.from >= a || q.from >= b || bt__self_are_apart (s->own.box + p.t, s->its.box + q.t))
+    return;
+  int near = s->strand < 0 && q.from - a <= 2 * (p.span + q.span);
+  if (near && is_straight (s, p.from, b))
+    return;
+  if (p.span == LEAF && q.span == LEAF)
+    {
+      for (int i = p.from; i < a; i++)
+        for (int j = s->strand < 0 && q.from < i + 2 ? i + 2 : q.from; j < b; j++)
+          look_at (s, i, j);
+      return;
+    }
+  for (int h = 0; h < 2; h++)
+    if (p.span >= q.span)
+      look_between (s, half_of (p, h), q);
+    else
+      look_between (s, p, half_of (q, h));
+}
+
+static void
+look_within (bt__self_search *s, part p)
+{
+  int to = end_of (&s->own, p);
+  if (p.from >= to || is_straight (s, p.from, to))
+    return;
+  if (p.span > LEAF)
+    {
+      look_within (s, half_of (p, 0));
+      look_within (s, half_of (p, 1));
+      look_between (s, half_of (p, 0), half_of (p, 1));
+      return;
+    }
+  for (int i = p.from; i < to; i++)
+    for (int j = i + 2; j < to; j++)
+      look_at (s, i, j);
+}
+
+/* ---- All of a line ---- */
+
+bt__self_side
+bt__self_side_of (const bt__line_job *k, int strand)
+{
+  const bt__strand *o = strand < 0 ? NULL : k->config->strand + strand;
+  if (!o)
+    return (bt__self_side){
+      .x = k->x, .reach = k->w->self.reach, .box = k->w->self.box, .links = k->links
+    };
+  return (bt__self_side){ .x = bt__dynamic_x (o->line),
+                          .thick = fmax (o->radius + k->margin / 2, o->core),
+                          .box = k->w->self.its,
+                          .links = (int)o->line->n };
+}
+
+int
+bt__self_look_at_itself (bt__line_job *k, bt__self_search *s)
+{
+  part all = whole (&s->own);
+  s->its = s->own;
+  s->strand = -1;
+  if (!k->config->itself || is_straight (s, 0, k->links))
+    return 0;
+  fill_boxes (&s->own, all);
+  look_within (s, all);
+  return s->dropped;
+}
+
+int
+bt__self_look_at_others (bt__line_job *k, bt__self_search *s)
+{
+  if (k->config->strands == 0)
+    return 0;
+  part all = whole (&s->own);
+  fill_boxes (&s->own, all);
+  for (int i = 0; i < k->config->strands; i++)
+    {
+      s->its = bt__self_side_of (k, i);
+      s->strand = i;
+      part other = whole (&s->its);
+      fill_boxes (&s->its, other);
+      look_between (s, all, other);
+    }
+  return s->dropped;
+}
