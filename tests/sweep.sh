@@ -216,12 +216,13 @@ fi
 if ssh -o BatchMode=yes -o ConnectTimeout=2 localhost true >/dev/null 2>&1; then
   mkdir loop
   cp quick.scm loop
+  # What is built is not on the path over there; the command comes by standard input, as it is.
   cat >remote <<SH
 #!/bin/sh
-exec ssh -o BatchMode=yes "\$1" "'$pre' sh -c '\$2'"
+printf '%s\\n' "\$2" | ssh -o BatchMode=yes "\$1" "'$pre' sh -s"
 SH
   chmod +x remote
-  (cd loop && BIGHT_SSH=$scratch/remote "$pre" sh -c "sed \"s/cd '\\\$here'/cd \\\$here/; s/'\\\$study'/\\\$study/\" '$top_srcdir/studies/over-ssh.sh' >here.sh; sh here.sh quick.scm localhost" >out 2>&1)
+  (cd loop && BIGHT_SSH=$scratch/remote "$pre" sh "$top_srcdir/studies/over-ssh.sh" quick.scm localhost >out 2>&1)
   grep -q "12 done (12 now), fingerprint $one" loop/out
   result $? 'so does ssh, on loopback'
 else
