@@ -4,8 +4,8 @@
 #
 #   sh over-ssh.sh STUDY.scm node1 node2 node3
 #
-# With GNU parallel it is one line, and a machine that is done takes the next shard; each shard is flown by
-# the cores of one machine, and written to its own file:
+# With GNU parallel (and rsync, which brings the files) it is one line, and a machine that is done takes the
+# next shard; each shard is flown by the cores of one machine, and written to its own file:
 #
 #   parallel -S node1,node2,node3 -j 1 --workdir . --return STUDY.{}-of-12.db --cleanup \
 #     bight sweep STUDY.scm -o STUDY.{}-of-12.db --shard {}/12 ::: $(seq 12)
