@@ -2,25 +2,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(define (write-torus file around across)
-  ;; Radii 2 m and 0.7 m, as triangles.
-  (define (corner i j)
-    (let* ((turn (* 2 (acos -1))) (a (* turn (/ i around))) (b (* turn (/ j across)))
-           (r (+ 2 (* 0.7 (cos b)))))
-      (list (* r (cos a)) (* r (sin a)) (* 0.7 (sin b)))))
-  (define (number i j)
-    (+ 1 (* across (modulo i around)) (modulo j across)))
-  (with-output-to-file file
-    (lambda ()
-      (for-each (lambda (k)
-                  (apply format #t "v ~a ~a ~a~%" (corner (quotient k across) (remainder k across))))
-                (iota (* around across)))
-      (for-each (lambda (k)
-                  (let ((i (quotient k across)) (j (remainder k across)))
-                    (format #t "f ~a ~a ~a ~a~%" (number i j) (number (+ i 1) j)
-                            (number (+ i 1) (+ j 1)) (number i (+ j 1)))))
-                (iota (* around across))))))
-
+(load "torus.scm")
 (write-torus "torus.obj" 24 12)
 (enter! (world (sea (depth 12) (current 0.25 0))
                (mesh (named torus) (file "torus.obj") (at 0 0 -6) (up z))

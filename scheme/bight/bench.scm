@@ -15,6 +15,7 @@
   #:use-module (bight bench-validation)
   #:use-module ((bight engine) #:select (%programs-folder))
   #:use-module (bight errors)
+  #:use-module ((bight folders) #:select (ensure-folder!))
   #:use-module ((ice-9 ftw) #:select (scandir))
   #:use-module (ice-9 popen)
   #:use-module ((ice-9 rdelim) #:select (read-line))
@@ -250,13 +251,11 @@
       (most . ,(or rounds (if (or all? (assoc-ref options "--minutes")) 100 1)))
       (seconds . ,(* 60 minutes)))))
 
-(define (ensure-folder! folder)
+(define (prepare-folder! folder)
   ;; Before minutes are spent on what cannot be kept.
-  (unless (file-exists? folder)
-    (ensure-folder! (dirname folder))
-    (catch 'system-error
-      (lambda () (mkdir folder))
-      (lambda _ (bight-raise 'io 'bench "the folder ~s cannot be made" folder))))
+  (catch 'system-error
+    (lambda () (ensure-folder! folder))
+    (lambda _ (bight-raise 'io 'bench "the folder ~s cannot be made" folder)))
   (unless (and (file-is-directory? folder) (access? folder W_OK))
     (bight-raise 'io 'bench "~s is no folder that can be written to" folder)))
 
@@ -264,7 +263,7 @@
   (if good? 0 1))
 
 (define (run-and-write plan folder brief?)
-  (ensure-folder! folder)
+  (prepare-folder! folder)
   (let ((report (run-report plan)))
     (write-report folder report)
     (print-head (current-output-port) report)
@@ -294,7 +293,7 @@
           ((not (file-is-directory? folder)) (bight-raise 'io 'bench "~s is no folder" folder)))))
 
 (define (validate plan folder)
-  (ensure-folder! folder)
+  (prepare-folder! folder)
   (let* ((curves (list "--curves" (string-append folder "/curves.csv")))
          (with-curves (assq-set! (alist-copy plan) 'arguments (append (plan-ref plan 'arguments) curves)))
          (report (run-report with-curves))
@@ -329,13 +328,13 @@
   (cond ((pair? files)
          (status-of (compare-reports (read-report old) (read-report (car files)))))
         ((file-is-directory? old)
-         (ensure-folder! folder)
+         (prepare-folder! folder)
          (call-with-values (lambda () (run-two-reports (make-plan names options passed) old))
            (lambda (before now)
              (write-report folder now)
              (status-of (compare-reports before now #:paired? #t)))))
         (else
-         (ensure-folder! folder)
+         (prepare-folder! folder)
          (let* ((before (read-report old)) (now (run-report (plan-like before names options passed))))
            (write-report folder now)
            (status-of (compare-reports before now))))))

@@ -5,6 +5,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson-journal)
+  #:use-module ((bight folders) #:select (ensure-folder! state-folder))
   #:use-module (bight lesson-order)
   #:export (write-datum! the-end journal-file journal-inputs open-journal drop-journal!))
 
@@ -17,22 +18,13 @@
 ;; What reading past the last datum returns.
 (define the-end (call-with-input-string "" read))
 
-(define (ensure-folder! folder)
-  (unless (file-exists? folder)
-    (ensure-folder! (dirname folder))
-    (mkdir folder #o700)))
-
-(define (state-folder)
-  ;; By the XDG rules, or #f.
-  (let* ((home (getenv "HOME"))
-         (state (getenv "XDG_STATE_HOME"))
-         (base (cond ((and state (string-prefix? "/" state)) state)
-                     (home (string-append home "/.local/state"))
-                     (else #f))))
-    (and base
+(define (journals-folder)
+  ;; Made if need be; #f if there is no such place.
+  (let ((folder (state-folder)))
+    (and folder
          (false-if-exception
-          (let ((folder (string-append base "/bight/lessons")))
-            (ensure-folder! folder)
+          (let ((folder (string-append folder "/lessons")))
+            (ensure-folder! folder #o700)
             folder)))))
 
 (define (safe-word text)
@@ -41,7 +33,7 @@
 
 (define (journal-file order)
   "Return the file of the journal of ORDER, or #f when there is no place for it."
-  (let ((folder (state-folder)))
+  (let ((folder (journals-folder)))
     (and folder
          (string-append folder "/" (safe-word (who-of (order-given order))) "-"
                         (safe-word (basename (order-file order) ".scm")) ".journal"))))

@@ -11,6 +11,7 @@
   #:use-module (bight dive)
   #:use-module (bight engine)
   #:use-module (bight errors)
+  #:use-module ((bight folders) #:select (ensure-folder! state-folder))
   #:use-module (bight record)
   #:use-module (bight sqlite)
   #:use-module (bight verb)
@@ -33,21 +34,14 @@ trainee text not null, what text not null, score real, data text not null)"
 
 (define-verb (logbook-file)
   "Return the name of the file that the logbook is in."
-  (let ((state (getenv "XDG_STATE_HOME")))
-    (or (getenv "BIGHT_LOGBOOK")
-        (string-append (if (and state (absolute-file-name? state))
-                           state
-                           (string-append (or (getenv "HOME") "/tmp") "/.local/state"))
-                       "/bight/logbook.db"))))
+  (or (getenv "BIGHT_LOGBOOK")
+      (string-append (or (state-folder) "/tmp/.local/state/bight") "/logbook.db")))
 
 (define (make-folder folder)
-  (unless (file-exists? folder)
-    (make-folder (dirname folder))
-    (catch 'system-error
-      (lambda () (mkdir folder #o700))
-      (lambda args
-        (unless (file-exists? folder)   ; somebody else was faster
-          (bight-raise 'io 'logbook "~s: ~a" folder (strerror (system-error-errno args))))))))
+  (catch 'system-error
+    (lambda () (ensure-folder! folder #o700))
+    (lambda arguments
+      (bight-raise 'io 'logbook "~s: ~a" folder (strerror (system-error-errno arguments))))))
 
 (define (call-with-logbook proc use)
   (let ((file (logbook-file)))

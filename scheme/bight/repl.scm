@@ -9,6 +9,7 @@
 (define-module (bight repl)
   #:use-module ((bight dive) #:select (served?))
   #:use-module (bight errors)
+  #:use-module ((bight folders) #:select (ensure-folder! state-folder))
   #:use-module (bight verb)
   #:use-module ((ice-9 regex) #:select (regexp-quote))
   #:use-module ((ice-9 session) #:select (apropos-internal))
@@ -96,23 +97,14 @@ parts and of worlds; keywords after #:; Guile's own names if there are none of t
 
 ;;; History and line editing.
 
-(define (ensure-folder! folder)
-  (unless (file-exists? folder)
-    (ensure-folder! (dirname folder))
-    (mkdir folder #o700)))
-
 (define (history-file)
-  ;; Where lines are kept, by the XDG rules, or #f if there is no such place.
-  (let* ((home (getenv "HOME"))
-         (state (getenv "XDG_STATE_HOME"))
-         (base (cond ((and state (string-prefix? "/" state)) state)
-                     (home (string-append home "/.local/state"))
-                     (else #f))))
-    (and base
+  ;; Where lines are kept, or #f if there is no such place.
+  (let ((folder (state-folder)))
+    (and folder
          (false-if-exception
           (begin
-            (ensure-folder! (string-append base "/bight"))
-            (string-append base "/bight/history"))))))
+            (ensure-folder! folder #o700)
+            (string-append folder "/history"))))))
 
 (define (call-with-line-editing thunk)
   ;; Call THUNK with readline on, if this Guile has it.
