@@ -16,7 +16,8 @@
 
 enum
 {
-  TOUCHES_MAX = 64
+  /* Of which the obstacles are noted; a line split more often meets the same ones.  */
+  TOUCHES_MAX = 512
 };
 
 static int
@@ -65,11 +66,12 @@ lay (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *err
 
 /* ---- Split ---- */
 
+/* Of the N touches that there are TOUCH holds as many as fit.  */
 static void
 note_meetings (const bt_dive *dive, bt__state *state, int i, const bt__touch *touch, int n)
 {
   bt__subject *subject = bt__dive_subject (dive, state, BT_PART_TETHER, i);
-  for (int k = 0; k < n; k++)
+  for (int k = 0; k < n && k < TOUCHES_MAX; k++)
     bt__note_meeting (state, subject, BT_PART_TETHER, i, (int)touch[k].object);
 }
 
