@@ -146,10 +146,11 @@ could give it before it breaks."
              (loop (+ i 1))))))
 
 (define (all-turns posts)
-  ;; Of each tether about each of POSTS its turns, or #f where it is not beside it.
+  ;; Of each tether about each of POSTS its turns, or #f where it is not beside it, or in two.
   (append-map (lambda (t)
                 (let* ((name (name-of 'tether t)) (points (tether-points name)))
-                  (map (lambda (post) (and (beside? points post) (turns name (post-name post))))
+                  (map (lambda (post)
+                         (and (not (parted? name)) (beside? points post) (turns name (post-name post))))
                        posts)))
               (tethers)))
 
