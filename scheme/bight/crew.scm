@@ -126,12 +126,21 @@ PATIENCE seconds unless that is #f.  No process outlives the call."
 
 ;;; Children.
 
+;; Is this process of somebody else's crew?
+(define child? #f)
+
 (define (become-child!)
   ;; The standard input is empty; what is written to the standard output by others than Scheme must not
   ;; get into the report.
   (let ((nothing (open "/dev/null" O_RDONLY)))
     (dup2 (fileno nothing) 0))
-  (dup2 2 1))
+  (dup2 2 1)
+  (set! child? #t))
+
+(define (let-threads-settle!)
+  ;; Guile's thread for signals holds locks while it begins, and a process forked then waits for them for
+  ;; ever.  A child may just have begun one, for its own time limit.
+  (when child? (usleep 100000)))
 
 (define (call-in-child thunk)
   ;; Fork; the child calls THUNK and ends.  Return its process.
@@ -224,6 +233,7 @@ PATIENCE seconds unless that is #f.  No process outlives the call."
 the file and a procedure that tells one datum, a list; it returns a procedure that does work, for
 `do-orders', or #f if there is none to do.  Return what they told, in order; (late) and (died EXIT SIGNAL)
 stand for what was told by none."
+  (let-threads-settle!)
   (let loop ((rest files) (told '()))
     (if (null? rest)
         (concatenate (reverse told))
