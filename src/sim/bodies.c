@@ -143,7 +143,7 @@ stiffness_of (const bt_dive *dive, bt__state *state, int i)
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, tether->parted ? 1 : 0);
   double piece = bt__dynamic_rest (chain)[chain->n - 1], rate = 1.5 / BT__TIME_STEP;
   double displaced = state->density * BT__PI / 4 * p->diameter * p->diameter;
-  return fmin (p->ea, 1e9) / piece + rate * rate * (p->mass + p->ca * displaced) * piece / 2;
+  return bt__stiffness (p->ea) / piece + rate * rate * (p->mass + p->ca * displaced) * piece / 2;
 }
 
 /* ---- What a body is given ---- */
@@ -252,7 +252,7 @@ pull_of_slack (const bt_dive *dive, bt__state *state, int vehicle, int i, bt_err
   bt_vec3 u = bt__unit_or (way, bt__vec (0, 0, 0));
   double f0 = -bt__dot (force, u), f;
   double left = fmax (tether->length - bt__norm (way), SHALLOWEST * tether->length);
-  double k = fmin (fmax (f0, 0) / (2 * left), fmin (tether->props.ea, 1e9) / tether->length);
+  double k = fmin (fmax (f0, 0) / (2 * left), bt__stiffness (tether->props.ea) / tether->length);
   bt_status status = bt__rigid_grip (type_of (dive, vehicle), &v->body, &d->in, &d->grip, error);
   if (status != BT_OK)
     return status;

@@ -122,10 +122,9 @@ bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, i
   bt__tether *tether = bt__dive_tether (dive, state, i);
   const bt_tether_def *def = &dive->model->tethers[i];
   bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
-  double ea = isfinite (tether->props.ea) ? tether->props.ea : 1e9;
   int vehicle;
   bt_status status = bt__dynamic_init (chain, bt__chain_room (def), n, dive->polyline, n + 1,
-                                       tether->length, ea, error);
+                                       tether->length, tether->props.ea, error);
   if (status != BT_OK)
     return status;
   if (share)

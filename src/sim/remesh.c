@@ -69,8 +69,7 @@ lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
   if (bt__has_obstacles (dive) && !bt__may_remesh (dive, state, i, n))
     return BT_OK;
   status = bt__dynamic_init (chain, bt__chain_room (&dive->model->tethers[i]), n, dive->polyline,
-                             n + 1, length, isfinite (tether->props.ea) ? tether->props.ea : 1e9,
-                             error);
+                             n + 1, length, tether->props.ea, error);
   if (status != BT_OK)
     return status;
   memcpy (bt__dynamic_v (chain), dive->motion, sizeof (bt_vec3) * (size_t)(n + 1));

@@ -22,6 +22,7 @@
 #ifndef BT_TETHER_DYNAMIC_H
 #define BT_TETHER_DYNAMIC_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -60,6 +61,14 @@ double *bt__dynamic_tension (const bt__dynamic *d);  /* N: tensions of the inter
 double *bt__dynamic_rest (const bt__dynamic *d);     /* m: rest lengths */
 double *bt__dynamic_stretch (const bt__dynamic *d);  /* chord / rest length */
 double *bt__dynamic_dstretch (const bt__dynamic *d); /* its change in the last step */
+
+/* The axial stiffness, N, that a line of stiffness EA is stepped with: one that cannot stretch
+   stretches very little.  */
+static inline double
+bt__stiffness (double ea)
+{
+  return isfinite (ea) ? ea : 1e9;
+}
 
 /* Lay N intervals of LENGTH metres in all along the polyline SHAPE of M points, at rest, in *D,
    which has room for N_MAX.  EA sets the first guess of the tensions.  BT_ERR_LIMIT or

@@ -159,7 +159,7 @@ bt__dynamic_init (bt__dynamic *d, int n_max, int n, const bt_vec3 *shape, int m,
       double e = bt__distance (x[j], x[j + 1]) / d->piece;
       bt__dynamic_rest (d)[j] = d->piece;
       bt__dynamic_stretch (d)[j] = e;
-      bt__dynamic_tension (d)[j] = e > 1 && isfinite (ea) ? ea * (e - 1) : 0;
+      bt__dynamic_tension (d)[j] = e > 1 ? bt__stiffness (ea) * (e - 1) : 0;
     }
   return BT_OK;
 }

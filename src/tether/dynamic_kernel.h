@@ -20,16 +20,8 @@
 #define BT__HOT inline
 #endif
 
-#define BT__STIFFEST 1e9 /* N: what a line that cannot stretch is given */
 #define BT__THRUST 1.5   /* of EI kappa^2: the clamp's cell and the held curvature err */
 #define BT__SHARPEST 1.0 /* turn at a node, as a vector: none sharper thrusts more */
-
-/* The axial stiffness, N, that a line of EA is stepped with.  */
-static inline double
-bt__stiffness (double ea)
-{
-  return isfinite (ea) ? ea : BT__STIFFEST;
-}
 
 /* A symmetric 3 x 3 block.  */
 typedef struct bt__sym
