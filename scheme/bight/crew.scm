@@ -137,10 +137,19 @@ PATIENCE seconds unless that is #f.  No process outlives the call."
   (dup2 2 1)
   (set! child? #t))
 
-(define (let-threads-settle!)
+(define (await-signals!)
   ;; Guile's thread for signals holds locks while it begins, and a process forked then waits for them for
-  ;; ever.  A child may just have begun one, for its own time limit.
-  (when child? (usleep 100000)))
+  ;; ever.  A child may just have begun one, for its own time limit: when a signal has been heard, it has
+  ;; begun.  In a child that hears none there is no such thread, and the wait is in vain.
+  (when child?
+    (let ((heard? #f) (old (sigaction SIGURG)))
+      (sigaction SIGURG (lambda (signal) (set! heard? #t)))
+      (kill (getpid) SIGURG)
+      (let wait ((turns 100))
+        (unless (or heard? (zero? turns))
+          (usleep 10000)
+          (wait (- turns 1))))
+      (sigaction SIGURG (car old) (cdr old)))))
 
 (define (call-in-child thunk)
   ;; Fork; the child calls THUNK and ends.  Return its process.
@@ -233,7 +242,7 @@ PATIENCE seconds unless that is #f.  No process outlives the call."
 the file and a procedure that tells one datum, a list; it returns a procedure that does work, for
 `do-orders', or #f if there is none to do.  Return what they told, in order; (late) and (died EXIT SIGNAL)
 stand for what was told by none."
-  (let-threads-settle!)
+  (await-signals!)
   (let loop ((rest files) (told '()))
     (if (null? rest)
         (concatenate (reverse told))

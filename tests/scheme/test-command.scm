@@ -77,7 +77,7 @@
 (define-scenario no-result-is-lost
   "A scenario whose process dies or ends by itself is a failure that says so; those after it are run."
   (call-in-folder
-      '("(define-scenario crash \"Crashes.\" (kill (getpid) SIGSEGV))
+      '("(define-scenario crash \"Crashes.\" (kill (getpid) SIGABRT))
          (define-scenario ends \"Ends.\" (primitive-exit 7))
          (define-scenario killed \"Is killed.\" (kill (getpid) SIGKILL))
          (define-scenario after \"Goes on.\" (expect #t))"
@@ -85,11 +85,28 @@
         "(define-scenario also \"Also.\" (expect #t))")
     (lambda (folder)
       (let ((text (report folder #:jobs 2 #:limit 0)))
-        (expect (says text "not ok 1 - a.scm: crash: Crashes." "a segmentation fault"
+        (expect (says text "not ok 1 - a.scm: crash: Crashes." "it aborted"
                       "not ok 2 - a.scm: ends: Ends." "ended by itself, with status 7"
                       "not ok 3 - a.scm: killed: Is killed." "its process died: it was killed"
                       "ok 4 - a.scm: after" "not ok 5 - b.scm: could not load" "ok 6 - c.scm: also"
                       "# 2 passed, 4 failed"))))))
+
+(define-scenario files-of-its-own-are-removed
+  "The files that a scenario asked for are its own while it runs, and gone when it has ended."
+  (call-in-folder
+      '("(define-scenario (one n) \"One.\" #:for ((n 1 2))
+           (let ((file (scratch-file \"a\")))
+             (expect (file-exists? file) => #f)
+             (call-with-output-file file (lambda (port) (write n port)))
+             (mkdir (scratch-file \"folder\"))
+             (call-with-output-file (scratch-file \"folder/b\") (lambda (port) (write n port)))
+             (call-with-output-file (string-append (dirname (current-filename)) \"/\" (number->string n))
+               (lambda (port) (write (dirname file) port)))))")
+    (lambda (folder)
+      (expect (says (report folder) "# 2 passed"))
+      (for-each (lambda (n)
+                  (expect (file-exists? (call-with-input-file (string-append folder "/" n) read)) => #f))
+                '("1" "2")))))
 
 (define-scenario nobody-disturbs-another
   "What a scenario does to the file's variables, another does not see."
@@ -210,8 +227,8 @@
 (define-scenario a-case-that-kills
   "Of a property whose process dies the case is told in which it did."
   (call-in-folder '("(define-property p \"P.\" #:for ((n (integer 0 9)))
-                       (when (= n 7) (kill (getpid) SIGSEGV)))")
-    (lambda (folder) (expect (says (report folder) "a segmentation fault" "in case " "(define n 7)")))))
+                       (when (= n 7) (kill (getpid) SIGABRT)))")
+    (lambda (folder) (expect (says (report folder) "it aborted" "in case " "(define n 7)")))))
 
 
 ;;; Lists and catalogues.
