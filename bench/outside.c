@@ -62,7 +62,7 @@ static void
 open_moordyn (rig *r, bt_tether_props line, int n, bt_vec3 middle, bt_vec3 end)
 {
   bt_vec3 shape[3] = { { 0, 0, -100 }, middle, end };
-  rig_open (r, line, 1025, n, shape, 100);
+  rig_open (r, line, 1025, n, shape, 3, 100);
 }
 
 /* Beside a current of half a knot or so.  */
@@ -229,7 +229,7 @@ open_jumper (rig *r, int n, double density)
   bt_tether_props line
       = { .diameter = 0.396, .mass = 165, .ea = 5e8, .ei = 120.8e3, .cdn = 1, .ca = 1 };
   line.wet_weight = (165 - density * BT__PI * 0.396 * 0.396 / 4) * g;
-  rig_open (r, line, density, n, shape, 170);
+  rig_open (r, line, density, n, shape, 3, 170);
   r->water.gravity = g;
   r->water.depth = 100;
   r->in.tolerance = 1e-7;
@@ -323,7 +323,7 @@ outside_in_tank (double cd, outside_tank *tank)
                            .cdn = cd,
                            .cdt = 0.01,
                            .ca = 1 };
-  rig_open (&r, line, 1000, 57, shape, 2.85);
+  rig_open (&r, line, 1000, 57, shape, 3, 2.85);
   rig_settle (&r);
   tank->rows = data.rows;
   for (int k = 0; r.good && k < data.rows; k++)

@@ -51,7 +51,7 @@ open_chain (rig *r, const outside_bottom *b)
                            .cdt = 0.64 * b->along,
                            .ca = 1 };
   line.wet_weight = (390 - 1025 * BT__PI * 0.252 * 0.252 / 4) * 9.81;
-  rig_open (r, line, 1025, b->intervals, shape, CHAIN_LENGTH);
+  rig_open (r, line, 1025, b->intervals, shape, 3, CHAIN_LENGTH);
   r->in.tolerance = 1e-8;
 }
 

@@ -8,7 +8,8 @@
 #include "rig.h"
 
 void
-rig_open (rig *r, bt_tether_props line, double density, int n, const bt_vec3 *shape, double length)
+rig_open (rig *r, bt_tether_props line, double density, int n, const bt_vec3 *shape, int m,
+          double length)
 {
   *r = (rig){ .line = line };
   r->d = malloc (bt__dynamic_size (RIG_MAX));
@@ -16,9 +17,9 @@ rig_open (rig *r, bt_tether_props line, double density, int n, const bt_vec3 *sh
   r->water = (bt_water){ density, 9.81, 1000, 0, &r->current, NULL, NULL, NULL };
   r->in = (bt__dynamic_input){ .line = &r->line, .water = &r->water, .tolerance = 1e-9 };
   r->in.end[0].at = shape[0];
-  r->in.end[1].at = shape[2];
+  r->in.end[1].at = shape[m - 1];
   r->good = r->d && r->work
-            && bt__dynamic_init (r->d, RIG_MAX, n, shape, 3, length, line.ea, NULL) == BT_OK;
+            && bt__dynamic_init (r->d, RIG_MAX, n, shape, m, length, line.ea, &r->error) == BT_OK;
 }
 
 int
@@ -34,7 +35,10 @@ rig_step (rig *r, double h)
 {
   r->in.h = h;
   r->water.time += h;
-  r->good = r->good && bt__dynamic_step (r->d, r->work, &r->in, &r->report, NULL) == BT_OK;
+  r->good = r->good && bt__dynamic_step (r->d, r->work, &r->in, &r->report, &r->error) == BT_OK;
+  r->steps++;
+  r->solves += r->report.solves;
+  r->unconverged += !r->report.converged;
 }
 
 /* Backward Euler steps that grow, without inertia in the end.  Beyond some hundred seconds the
@@ -42,7 +46,7 @@ rig_step (rig *r, double h)
 void
 rig_settle (rig *r)
 {
-  double tolerance = r->in.tolerance, h = 0.05;
+  double tolerance = r->in.tolerance, time = r->water.time, h = 0.05;
   r->in.tolerance = 1e-9;
   for (int i = 0, long_ones = 0; r->good && i < 600 && long_ones < 40; i++)
     {
@@ -52,5 +56,5 @@ rig_settle (rig *r)
       h = r->report.converged ? fmin (1.3 * h, 300) : fmax (h / 4, 0.01);
     }
   r->in.tolerance = tolerance;
-  r->water.time = 0;
+  r->water.time = time;
 }

@@ -10,7 +10,7 @@
 
 enum
 {
-  RIG_MAX = 1000 /* intervals */
+  RIG_MAX = 2000 /* intervals */
 };
 
 typedef struct rig
@@ -22,18 +22,20 @@ typedef struct rig
   bt__dynamic_report report;
   bt__dynamic *d;
   bt__dynamic_work *work;
-  int good; /* zero once something was refused: nothing is to be read of the line then */
+  long steps, solves, unconverged;
+  bt_error error; /* of what was refused */
+  int good;       /* zero once something was refused: nothing is to be read of the line then */
 } rig;
 
-/* Set R up, which stays where it is, with LINE of N intervals and LENGTH laid along the three
-   points SHAPE, its ends held there, in water of DENSITY.  */
-void rig_open (rig *r, bt_tether_props line, double density, int n, const bt_vec3 *shape,
+/* Set R up, which stays where it is, with LINE of N intervals and LENGTH laid along the M points
+   SHAPE, its ends held there, in water of DENSITY.  */
+void rig_open (rig *r, bt_tether_props line, double density, int n, const bt_vec3 *shape, int m,
                double length);
 
 /* Step R by H seconds.  */
 void rig_step (rig *r, double h);
 
-/* Let R come to rest where its ends are, and begin its time again.  */
+/* Let R come to rest where its ends are; no time passes.  */
 void rig_settle (rig *r);
 
 /* Return nonzero if all that R was asked for was done.  */

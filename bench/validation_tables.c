@@ -171,7 +171,7 @@ try_sinking (const double *x, char **f, verdict *v)
   bt_tether_props props
       = { .diameter = x[1], .mass = x[0], .wet_weight = x[2], .ea = 1e5, .cdn = x[3], .ca = x[4] };
   (void)f;
-  rig_open (&line, props, x[5], 20, shape, 20);
+  rig_open (&line, props, x[5], 20, shape, 3, 20);
   line.in.end[0].free = line.in.end[1].free = 1;
   int steps = (int)lround (x[8] / 2e-4 * intervals / INTERVALS);
   for (int i = 0; i < steps; i++)

@@ -15,33 +15,22 @@
 
 #include <cmocka.h>
 
-#include "math/vec.h"
-#include "tether/dynamic.h"
+#include "../bench/rig.h"
 
-enum
-{
-  SCENE_MAX = 2000 /* intervals */
-};
-
-typedef struct scene
-{
-  bt_tether_props line;
-  bt_water water;
-  bt_current current;
-  bt__dynamic_input in;
-  bt__dynamic_report report;
-  bt__dynamic *d;
-  bt__dynamic_work *work;
-  long solves, unconverged, steps;
-} scene;
+typedef rig scene;
 
 static inline void
 scene_close (scene *s)
 {
-  free (s->d);
-  bt__dynamic_work_free (s->work);
-  s->d = NULL;
-  s->work = NULL;
+  rig_close (s);
+}
+
+/* What cannot be done fails the test.  */
+static inline void
+scene_good (const scene *s)
+{
+  if (!s->good)
+    fail_msg ("%s", s->error.text);
 }
 
 /* Set S up with LINE of N intervals and LENGTH laid along the M points SHAPE, its ends held there,
@@ -50,15 +39,8 @@ static inline void
 scene_open (scene *s, bt_tether_props line, double density, int n, const bt_vec3 *shape, int m,
             double length)
 {
-  *s = (scene){ .line = line };
-  s->d = malloc (bt__dynamic_size (SCENE_MAX));
-  s->work = bt__dynamic_work_new (SCENE_MAX);
-  assert_true (s->d && s->work);
-  s->water = (bt_water){ density, 9.81, 1000, 0, &s->current, NULL, NULL, NULL };
-  s->in = (bt__dynamic_input){ .line = &s->line, .water = &s->water, .tolerance = 1e-9 };
-  s->in.end[0].at = shape[0];
-  s->in.end[1].at = shape[m - 1];
-  assert_int_equal (bt__dynamic_init (s->d, SCENE_MAX, n, shape, m, length, line.ea, NULL), BT_OK);
+  rig_open (s, line, density, n, shape, m, length);
+  scene_good (s);
 }
 
 /* Let the water of S flow at U everywhere.  */
@@ -71,36 +53,44 @@ scene_current (scene *s, bt_vec3 u)
 static inline void
 scene_step (scene *s, double h)
 {
-  bt_error error = { 0 };
-  s->water.current = &s->current;
-  s->in.line = &s->line;
-  s->in.water = &s->water;
-  s->in.h = h;
-  s->water.time += h;
-  if (bt__dynamic_step (s->d, s->work, &s->in, &s->report, &error) != BT_OK)
-    fail_msg ("%s", error.text);
-  s->solves += s->report.solves;
-  s->unconverged += !s->report.converged;
-  s->steps++;
+  rig_step (s, h);
+  scene_good (s);
 }
 
-/* Let S come to rest: backward Euler steps that grow, without inertia in the end.  Beyond some
-   hundred seconds the frozen tangents no longer converge where drag turns the line.  */
 static inline void
 scene_settle (scene *s)
 {
-  double tolerance = s->in.tolerance, time = s->water.time;
-  s->in.tolerance = 1e-9;
-  double h = 0.05;
-  for (int i = 0, long_ones = 0; i < 600 && long_ones < 40; i++)
-    {
-      scene_step (s, h);
-      bt__dynamic_still (s->d);
-      long_ones += h >= 300 && s->report.converged;
-      h = s->report.converged ? fmin (1.3 * h, 300) : fmax (h / 4, 0.01);
-    }
-  s->in.tolerance = tolerance;
-  s->water.time = time;
+  rig_settle (s);
+  scene_good (s);
+}
+
+/* ---- A flight ---- */
+
+/* Set S up with N intervals of 24 m of line to a vehicle at rest, in a current.  */
+static inline void
+scene_open_flight (scene *s, int n)
+{
+  bt_vec3 shape[3] = { { 0, 0, -10 }, { 10, 8, -14 }, { 18, 0, -10 } };
+  bt_tether_props line = { .diameter = 0.01,
+                           .mass = 0.1,
+                           .wet_weight = 0.2,
+                           .ea = 2e4,
+                           .ba = 200,
+                           .cdn = 1.2,
+                           .cdt = 0.01,
+                           .ca = 1 };
+  scene_open (s, line, 1025, n, shape, 3, 24);
+  scene_current (s, bt__vec (0, 0.3, 0));
+  scene_settle (s);
+}
+
+/* Where that vehicle, which sets off gently on a Lissajous path, is at T.  */
+static inline bt_vec3
+flight_at (double t)
+{
+  double ramp = t * t * t / (1 + t * t * t);
+  return bt__vec (18 - ramp * (1 - cos (0.7 * t)) * 4, ramp * 2 * sin (0.9 * t),
+                  -10 + ramp * sin (1.3 * t));
 }
 
 /* The mechanical energy of S, J.  */

@@ -124,7 +124,7 @@ test_folded_chain (void **state)
 static double
 frequency (scene *s, bt_vec3 way, const double *mode, double amplitude, double about, int parts)
 {
-  static double before[SCENE_MAX + 1];
+  static double before[RIG_MAX + 1];
   passages p = { 0 };
   bt_vec3 *x = bt__dynamic_x (s->d);
   double *e = bt__dynamic_stretch (s->d), h = 1 / (about * parts);
@@ -519,24 +519,12 @@ static void
 fly (int n, double h, int order, bt_vec3 *points)
 {
   scene s;
-  bt_vec3 shape[3] = { { 0, 0, -10 }, { 10, 8, -14 }, { 18, 0, -10 } };
-  bt_tether_props line = { .diameter = 0.01,
-                           .mass = 0.1,
-                           .wet_weight = 0.2,
-                           .ea = 2e4,
-                           .ba = 200,
-                           .cdn = 1.2,
-                           .cdt = 0.01,
-                           .ca = 1 };
-  scene_open (&s, line, 1025, n, shape, 3, 24);
-  scene_current (&s, bt__vec (0, 0.3, 0));
-  scene_settle (&s);
+  scene_open_flight (&s, n);
   s.in.order = order;
   for (int i = 1; i * h < 2.5 + h / 2; i++)
     {
-      double t = i * h, ramp = t * t * t / (1 + t * t * t);
-      s.in.end[1].at = bt__vec (18 - ramp * (1 - cos (0.7 * t)) * 4, ramp * 2 * sin (0.9 * t),
-                                -10 + ramp * sin (1.3 * t));
+      double t = i * h;
+      s.in.end[1].at = flight_at (t);
       scene_step (&s, h);
     }
   for (int k = 0; k <= 10; k++)

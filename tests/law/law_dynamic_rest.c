@@ -159,7 +159,7 @@ static const struct
 static void
 against_steady (int k, int n, double miss[2])
 {
-  static bt_vec3 r[SCENE_MAX + 1], t[SCENE_MAX + 1];
+  static bt_vec3 r[RIG_MAX + 1], t[RIG_MAX + 1];
   scene s;
   bt_tether_props p = { .diameter = 0.0076,
                         .mass = 0.06,

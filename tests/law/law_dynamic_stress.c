@@ -167,8 +167,8 @@ test_parting (void **state)
   scene_open (&s, line, 1025, 30, shape, 3, 20.3);
   scene_open (&rest, line, 1025, 30, shape, 3, 20.3);
   scene_settle (&s);
-  bt__dynamic *whole = malloc (bt__dynamic_size (SCENE_MAX));
-  memcpy (whole, s.d, bt__dynamic_size (SCENE_MAX));
+  bt__dynamic *whole = malloc (bt__dynamic_size (RIG_MAX));
+  memcpy (whole, s.d, bt__dynamic_size (RIG_MAX));
   bt__dynamic_cut (whole, 12, s.d, rest.d);
   assert_close (bt__dynamic_length (s.d) + bt__dynamic_length (rest.d), 20.3, 1e-12, "length");
   assert_int_equal (s.d->n + rest.d->n, 31);
@@ -206,7 +206,7 @@ test_refusals (void **state)
   bt_vec3 shape[2] = { { 0, 0, 0 }, { 9, 0, -3 } };
   bt_tether_props line
       = { .diameter = 0.0076, .mass = 0.06, .ea = 2e5, .cdn = 1.2, .cdt = 0.01, .ca = 1 };
-  size_t size = bt__dynamic_size (SCENE_MAX);
+  size_t size = bt__dynamic_size (RIG_MAX);
   scene_open (&s, line, 1025, 10, shape, 2, 10);
   scene_step (&s, 0.02);
   bt__dynamic *before = malloc (size);
@@ -253,14 +253,14 @@ test_checkpoint (void **state)
   for (int i = 0; i < 600; i++)
     {
       if (i == 300)
-        memcpy (copy.d, s.d, bt__dynamic_size (SCENE_MAX));
+        memcpy (copy.d, s.d, bt__dynamic_size (RIG_MAX));
       s.in.pay = copy.in.pay = 0.3 * sin (0.02 * i);
       s.in.end[1].at.y = copy.in.end[1].at.y = sin (0.05 * i);
       scene_step (&s, 1.0 / 60);
       if (i >= 300)
         scene_step (&copy, 1.0 / 60);
     }
-  assert_memory_equal (s.d, copy.d, bt__dynamic_size (SCENE_MAX));
+  assert_memory_equal (s.d, copy.d, bt__dynamic_size (RIG_MAX));
   scene_close (&s);
   scene_close (&copy);
 }

@@ -65,23 +65,11 @@ static void
 fly (int n, double h, pace p, fault f, numbers *v)
 {
   scene s;
-  bt_vec3 shape[3] = { { 0, 0, -10 }, { 10, 8, -14 }, { 18, 0, -10 } };
-  bt_tether_props line = { .diameter = 0.01,
-                           .mass = 0.1,
-                           .wet_weight = 0.2,
-                           .ea = 2e4,
-                           .ba = 200,
-                           .cdn = 1.2,
-                           .cdt = 0.01,
-                           .ca = 1 };
-  scene_open (&s, line, 1025, n, shape, 3, 24);
-  scene_current (&s, bt__vec (0, 0.3, 0));
-  scene_settle (&s);
+  scene_open_flight (&s, n);
   for (int i = 1; i < 2 / h + 0.5; i++)
     {
-      double t = moment (i, h, p), ramp = t * t * t / (1 + t * t * t);
-      s.in.end[1].at = bt__vec (18 - ramp * (1 - cos (0.7 * t)) * 4, ramp * 2 * sin (0.9 * t),
-                                -10 + ramp * sin (1.3 * t));
+      double t = moment (i, h, p);
+      s.in.end[1].at = flight_at (t);
       if (f == FORGETFUL)
         s.d->history = 0;
       scene_step (&s, t - moment (i - 1, h, p));
