@@ -10,6 +10,8 @@
   #:use-module (bight assembly)
   #:use-module (bight errors)
   #:use-module ((bight engine) #:select (%worlds-folder))
+  #:use-module (bight folders)
+  #:use-module (bight language)
   #:use-module (bight verb)
   #:use-module (srfi srfi-1)
   #:export (remember-world!
@@ -42,9 +44,7 @@
 (define (worlds-path)
   "Return the list of folders where worlds are looked for by name: those in the environment variable
 BIGHT_WORLDS, worlds/ here, and bight's own."
-  (append (let ((path (getenv "BIGHT_WORLDS")))
-            (if path (remove string-null? (string-split path #\:)) '()))
-          (list "worlds" (%worlds-folder))))
+  (search-path-of "BIGHT_WORLDS" "worlds" (%worlds-folder)))
 
 (define (folder-worlds folder)
   (map (lambda (file) (string->symbol (string-drop-right file (string-length ".scm"))))
@@ -80,11 +80,6 @@ files."
        (find file-exists?
              (map (lambda (folder) (string-append folder "/" text ".scm")) (worlds-path)))))
 
-(define (fresh-module)
-  (let ((module (make-fresh-user-module)))
-    (module-use! module (resolve-interface '(bight)))
-    module))
-
 (define (refuse-file proc file key arguments)
   (if (memq key '(bight-error quit user-interrupt))
       (apply throw key arguments)
@@ -99,10 +94,7 @@ files."
        (lambda ()
          (catch #t
            (lambda ()
-             (save-module-excursion
-              (lambda ()
-                (set-current-module (fresh-module))
-                (primitive-load file))))
+             (call-in-language (lambda () (primitive-load file))))
            (lambda (key . arguments)
              (refuse-file proc file key arguments)))))
       (bight-raise 'format proc "~a defines no world" file)))

@@ -4,6 +4,7 @@
 
 (define-module (bight folders)
   #:export (ensure-folder!
+            search-path-of
             state-folder))
 
 (define* (ensure-folder! folder #:optional (mode #o777))
@@ -15,6 +16,10 @@
       (lambda arguments
         (unless (file-exists? folder)   ; somebody else was faster
           (apply throw arguments))))))
+
+(define (search-path-of variable . own)
+  "Return the list of the folders in the environment variable VARIABLE, separated by colons, and OWN."
+  (append (delete "" (string-split (or (getenv variable) "") #\:)) own))
 
 (define (state-folder)
   "Return the folder for what bight keeps of a user, by the XDG rules, or #f if there is no such place.  It

@@ -7,6 +7,7 @@
 
 (define-module (bight generator)
   #:use-module (bight errors)
+  #:use-module (bight language)
   #:use-module (bight record)
   #:use-module (bight verb)
   #:use-module (srfi srfi-1)
@@ -60,8 +61,7 @@ nothing simpler will do."
   (let ((module #f))
     (lambda ()
       (unless module
-        (set! module (make-fresh-user-module))
-        (module-use! module (resolve-interface '(bight))))
+        (set! module (language-module)))
       module)))
 
 (define (value-of expression)

@@ -8,6 +8,8 @@
   #:use-module ((bight cli) #:select (evaluate-file))
   #:use-module ((bight engine) #:select (%worlds-folder))
   #:use-module (bight errors)
+  #:use-module (bight folders)
+  #:use-module (bight language)
   #:use-module (bight lesson)
   #:use-module (bight verb)
   #:use-module (ice-9 ftw)
@@ -23,9 +25,7 @@
 (define (lessons-path)
   "Return the list of folders where lessons are looked for by name: those in the environment variable
 BIGHT_LESSONS and bight's own."
-  (append (let ((path (getenv "BIGHT_LESSONS")))
-            (if path (remove string-null? (string-split path #\:)) '()))
-          (list (string-append (dirname (%worlds-folder)) "/lessons"))))
+  (search-path-of "BIGHT_LESSONS" (string-append (dirname (%worlds-folder)) "/lessons")))
 
 (define (numbered? file)
   (and (string-suffix? ".scm" file)
@@ -61,19 +61,11 @@ of kind name when there is none."
               files)
         (unknown-name 'lesson "the list of lessons" designator (lessons)))))
 
-(define (fresh-module)
-  (let ((module (make-fresh-user-module)))
-    (module-use! module (resolve-interface '(bight)))
-    module))
-
 (define (read-lessons file)
   "Return the lessons that FILE, which is trusted, defines."
   (collect-lessons
    (lambda ()
-     (save-module-excursion
-      (lambda ()
-        (set-current-module (fresh-module))
-        (evaluate-file file))))))
+     (call-in-language (lambda () (evaluate-file file))))))
 
 (define* (load-lesson file #:optional (read read-lessons))
   "Return the lesson in FILE as READ reads it; the last when there are more."

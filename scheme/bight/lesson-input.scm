@@ -23,7 +23,7 @@
   #:use-module (srfi srfi-1)
   #:export (replay journal silent? replaying? quiet? next-input
             print show-value hidden?
-            module pupil-module
+            module
             interrupted? apply-input!))
 
 
@@ -64,12 +64,6 @@
 
 
 ;;; What inputs do.
-
-(define (pupil-module)
-  "Return a module in which what a pupil types is evaluated."
-  (let ((module (make-fresh-user-module)))
-    (module-use! module (resolve-interface '(bight)))
-    module))
 
 (define module (make-parameter #f))
 

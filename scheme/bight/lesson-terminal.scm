@@ -8,6 +8,7 @@
 
 (define-module (bight lesson-terminal)
   #:use-module (bight errors)
+  #:use-module (bight language)
   #:use-module (bight lesson-input)
   #:use-module (bight lesson-keys)
   #:use-module (bight lesson-lines)
@@ -98,5 +99,5 @@ with; LEAVE is called when the person leaves; BY-KEYS? says whether keys are rea
   (values (make-guide say picture probe fly failed #t)
           (lambda (thunk)
             (parameterize ((replay (make-variable inputs)) (journal keep) (leaving leave)
-                           (module (pupil-module)) (keys? by-keys?))
+                           (module (language-module)) (keys? by-keys?))
               (thunk)))))

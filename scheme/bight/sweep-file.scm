@@ -10,6 +10,8 @@
   #:use-module ((bight cli) #:select (evaluate-file))
   #:use-module ((bight engine) #:select (%worlds-folder))
   #:use-module (bight errors)
+  #:use-module (bight folders)
+  #:use-module (bight language)
   #:use-module (bight study)
   #:use-module ((bight study-case) #:select (study-name))
   #:use-module (ice-9 ftw)
@@ -23,9 +25,7 @@
 (define (studies-path)
   "Return the list of folders where studies are looked for by name: those in the environment variable
 BIGHT_STUDIES and bight's own."
-  (append (let ((path (getenv "BIGHT_STUDIES")))
-            (if path (remove string-null? (string-split path #\:)) '()))
-          (list (string-append (dirname (%worlds-folder)) "/studies"))))
+  (search-path-of "BIGHT_STUDIES" (string-append (dirname (%worlds-folder)) "/studies")))
 
 (define (names-in folder)
   (map (lambda (file) (basename file ".scm"))
@@ -41,19 +41,11 @@ BIGHT_STUDIES and bight's own."
         (else (unknown-name 'sweep "the list of studies" designator
                             (delete-duplicates (append-map names-in (studies-path)))))))
 
-(define (fresh-module)
-  (let ((module (make-fresh-user-module)))
-    (module-use! module (resolve-interface '(bight)))
-    module))
-
 (define (load-study file)
   "Return the one study that FILE defines."
   (let ((found (collect-studies
                 (lambda ()
-                  (save-module-excursion
-                   (lambda ()
-                     (set-current-module (fresh-module))
-                     (evaluate-file file)))))))
+                  (call-in-language (lambda () (evaluate-file file)))))))
     (case (length found)
       ((1) (car found))
       ((0) (bight-raise 'format 'sweep "~s defines no study: it says no (define-study NAME \"sentence\" ...)"

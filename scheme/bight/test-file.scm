@@ -10,6 +10,7 @@
   #:use-module (bight dive)
   #:use-module (bight errors)
   #:use-module (bight expect)
+  #:use-module (bight language)
   #:use-module (bight property)
   #:use-module (bight record)
   #:use-module (bight scenario)
@@ -170,19 +171,11 @@
   (setenv "LP_NUM_THREADS" "0")
   (setenv "MESA_SHADER_CACHE_DISABLE" "true"))
 
-(define (fresh-module)
-  (let ((module (make-fresh-user-module)))
-    (module-use! module (resolve-interface '(bight)))
-    module))
-
 (define (load-scenarios file)
   ;; The list of the scenarios of FILE; raise &program-error.
   (collect-scenarios
    (lambda ()
-     (save-module-excursion
-      (lambda ()
-        (set-current-module (fresh-module))
-        (evaluate-file file))))))
+     (call-in-language (lambda () (evaluate-file file))))))
 
 (define (scenario->data scenario)
   `((label . ,(scenario-label scenario))
