@@ -125,6 +125,18 @@ typedef struct outside_tank
 /* Fly cable 6, surge run, with normal drag coefficient CD.  */
 outside_result outside_in_tank (double cd, outside_tank *tank);
 
+/* ---- Chen et al. (CoRL 2024): cables swung in air by two robot arms ---- */
+
+typedef struct outside_swing
+{
+  double stiffness;   /* EI by mass per length, m4/s2: not told */
+  double mass;        /* kg/m: not told, matters against the air alone */
+  int intervals, per; /* steps in a hundredth of a second */
+} outside_swing;
+
+/* Swing the cable of FILE: H's OURS is the mean distance to the markers that are not held, mm.  */
+outside_result outside_cable (const char *file, const outside_swing *how, outside_history *h);
+
 /* A frame moves when a catenary is off by more than 20 mm in it.  */
 #define OUTSIDE_MOVING 20.0
 

@@ -224,6 +224,7 @@ run (validation *v)
   bench_open (&v->table);
   v->model = "dynamic";
   fly_tank (v);
+  validation_cables (v);
   for (int which = 0; which < 2; which++)
     hang (v, which);
   fly_moordyn (v);

@@ -38,6 +38,9 @@ int validation_counts (validation *v, const char *name, int result, const char *
 /* Jumpers and chains over time.  */
 void validation_histories (validation *v);
 
+/* Cables swung in air.  */
+void validation_cables (validation *v);
+
 /* The analytic tables.  */
 void validation_tables (validation *v);
 

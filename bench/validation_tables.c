@@ -184,6 +184,32 @@ try_sinking (const double *x, char **f, verdict *v)
   return rig_close (&line);
 }
 
+/* A cable of 1000 ft span with a load of 8 kip at a joint: the second row of its table; the first
+   is without the load, and begins each line here.  */
+static int
+try_point_load (const double *x, char **f, verdict *v)
+{
+  const double ft = 0.3048, lb = 4.4482216152605, left = 412.8837 * ft, right = 613.0422 * ft;
+  rig line;
+  bt_vec3 shape[3] = { { 0, 0, 0 }, { 400 * ft, 0, -100 * ft }, { 1000 * ft, 0, 0 } };
+  bt_tether_props props
+      = { .diameter = 0.026, .mass = 4.7, .wet_weight = 3.16 * lb / ft, .ea = 16150e3 * lb };
+  bt__dynamic_lump load = { .from_end = right, .wet_weight = x[0] * lb };
+  (void)f;
+  rig_open (&line, props, 0, intervals / 64 * 41, shape, 3, left + right);
+  line.in.lumps = &load;
+  line.in.n_lumps = 1;
+  rig_settle (&line);
+  if (line.good)
+    {
+      bt_vec3 pull = line.d->pull[0];
+      miss_place (v, bt__dynamic_point (line.d, left), bt__vec (x[3] * ft, 0, x[4] * ft),
+                  left + right);
+      miss_force (v, hypot (pull.x, pull.z), hypot (x[1], x[2]) * lb, hypot (x[1], x[2]) * lb);
+    }
+  return rig_close (&line);
+}
+
 /* ---- All of them ---- */
 
 static const struct
@@ -210,6 +236,9 @@ static const struct
   { "table-sinking", "dynamic", "analytic/sink_terminal.csv", "steps of 0.2 ms",
     "largest difference of the way, of vt tau", "largest difference of speed, of vt", try_sinking,
     11, 2, 1e-12 },
+  { "table-point-load", "dynamic", "analytic/michalos_birnstiel.csv", "328 intervals",
+    "largest distance, of the length", "largest difference of tension, relative", try_point_load, 9,
+    2, 1e-9 },
 };
 
 /* Cut LINE into its cells F and their numbers X.  Return how many there are.  */

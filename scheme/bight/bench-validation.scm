@@ -25,6 +25,17 @@ follows the measured path of the vehicle. The reference is the authors' own fit 
 these by the uncertainty."
      "What they publish are curves of a turned catenary fitted to the markers, a frame at a time, not the \
 markers; while the rope is swung hardest that fit itself is 40 mm off them in the mean, as far as ours.")
+    ("cable-1" "A cable swung in air by two robot arms"
+     "Chen et al. (CoRL 2024), cable 1 of five, a metre each: motion capture of some twelve markers. Their \
+first two and last two are held by the arms and lead ours, the others are what it is held against. Mass and \
+bending stiffness are not told: EI by mass per metre is found on the first 2.5 s, and the next 2.5 s, flown on \
+without looking, are what counts. The uncertainty is how much the chords between the markers vary in sum."
+     "Nothing of the cable is told but its markers. Ours does not twist, is straight when left alone and loses \
+nothing as it bends; a real one does all three, and 5 s of swinging add up what that leaves.")
+    ("cable-2" "Another, swung in air" "As cable 1." "As cable 1.")
+    ("cable-3" "Another, swung in air" "As cable 1." "As cable 1.")
+    ("cable-4" "Another, swung in air" "As cable 1." "As cable 1.")
+    ("cable-5" "Another, swung in air" "As cable 1." "As cable 1.")
     ("moordyn-a" "A heavy line at rest" "MoorDyn's case A: 100 m hung between two points 60 m apart, still \
 water; held against the elastic catenary." "The line is a chain of straight intervals, of second order.")
     ("moordyn-b" "A neutral line in a current" "MoorDyn's case B: 100 m across a current of 0.5 m/s; held \
@@ -67,7 +78,10 @@ integrated elsewhere to nine digits." "The table's own digits end there.")
     ("table-neutral" "A neutral line in a current without drag along it" "Its shape is a catenary, its tension \
 the same everywhere: exact." "")
     ("table-sinking" "A line that sinks flat" "Its speed is vt tanh (t/tau): exact. The moving line, in steps \
-of 0.2 ms." "")))
+of 0.2 ms." "")
+    ("table-point-load" "A cable with a load on it" "Michalos and Birnstiel's cable of 1000 feet, with 8 kip at a \
+joint and without: two elastic catenaries, to ten digits. The moving line at rest."
+     "The joint lies a 250th of an interval off a node, and a load between nodes rounds its corner off.")))
 
 (define (case-ref name k)
   (let ((found (assoc name cases)))
