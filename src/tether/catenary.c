@@ -2,10 +2,10 @@
 
    With d = s^2 - h^2 - v^2 the whole problem is sinh (x) / x = r, r^2 - 1 = g = d / h^2, for
    x = h / (2 A).  The taut limit lives in d, so d is formed in double-double; then r - 1 is never
-   formed by a difference and every size, slack and steepness keeps full precision.  For
-   r < 2.3 a fit and one Newton step give x, else Halley's iteration on the logarithm.  Points come
-   from arc lengths alone, without sinh or cosh: nothing can overflow (the thesis met errors of 1e84
-   there, section 2.3.2).
+   formed by a difference and every size, slack and steepness keeps full precision.  A fit and one
+   Newton step give x, in r - 1 or in log r, but for lines so slack that r is above 3000.  Points
+   come from arc lengths alone, without sinh or cosh: nothing can overflow (the thesis met errors of
+   1e84 there, section 2.3.2).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -35,6 +35,15 @@ bt__plane_refuse (double h, double v, double s, bt_error *error)
                    h, v, s);
 }
 
+/* The error of the product A A, exactly (Veltkamp, Dekker): as good as fma, which without its
+   instruction is a call.  Sizes that are allowed do not overflow.  */
+static inline double
+square_error (double a, double square)
+{
+  double t = 134217729 * a, high = t - (t - a), low = a - high; /* 2^27 + 1 */
+  return ((high * high - square) + 2 * (high * low)) + low * low;
+}
+
 /* A + B = SUM + ERROR exactly (Knuth).  */
 static inline double
 two_sum (double a, double b, double *error)
@@ -48,45 +57,47 @@ double
 bt__plane_excess (double h, double v, double s)
 {
   double ss = s * s, hh = h * h, vv = v * v, e1, e2;
-  double low = (fma (s, s, -ss) - fma (h, h, -hh)) - fma (v, v, -vv);
+  double low = (square_error (s, ss) - square_error (h, hh)) - square_error (v, vv);
   /* The larger square first: its difference from s^2 is then nearly exact.  */
-  double first = two_sum (ss, -fmax (hh, vv), &e1);
-  double high = two_sum (first, -fmin (hh, vv), &e2);
+  double more = hh > vv ? hh : vv, less = hh > vv ? vv : hh;
+  double first = two_sum (ss, -more, &e1);
+  double high = two_sum (first, -less, &e2);
   return high + ((e1 + e2) + low);
 }
 
 /* ---- sinh (x) / x = r ---- */
 
-/* Return S (y) = sinh (sqrt y) / sqrt y - 1 = sum y^k / (2k + 1)!, twelve terms, for y up to 5. Odd
-   and even terms apart, so that the processor works on both at once.  */
+/* Return C[0] + C[1] z + ... + C[5] z^5, of which Z2 is z^2: what can be is done side by side.  */
 static inline double
-series (double y)
+sextic (const double *c, double z, double z2)
 {
-  static const double c[2][6]
-      = { { 1.0 / 6.0, 1.0 / 5040.0, 1.0 / 39916800.0, 1.0 / 1307674368000.0,
-            1.0 / 121645100408832000.0, 1.0 / 25852016738884976640000.0 },
-          { 1.0 / 120.0, 1.0 / 362880.0, 1.0 / 6227020800.0, 1.0 / 355687428096000.0,
-            1.0 / 51090942171709440000.0, 1.0 / 15511210043330985984000000.0 } };
-  double z = y * y, odd = c[0][5], even = c[1][5];
-  for (int k = 4; k >= 0; k--)
-    {
-      odd = odd * z + c[0][k];
-      even = even * z + c[1][k];
-    }
-  return y * (odd + y * even);
+  return (c[0] + c[1] * z) + z2 * ((c[2] + c[3] * z) + z2 * (c[4] + c[5] * z));
 }
 
-/* Return S' (y) to 1e-8, enough for a last correction.  */
+/* Return S (y) = sinh (sqrt y) / sqrt y - 1 = sum y^k / (2k + 1)!, twelve terms, for y up to 5, and
+   in *SLOPE its derivative to 1e-8, enough for a last correction.  */
 static inline double
-series_slope (double y)
+series (double y, double *slope)
 {
-  static const double c[]
+  static const double odd[6] = { 1.0 / 6.0,
+                                 1.0 / 5040.0,
+                                 1.0 / 39916800.0,
+                                 1.0 / 1307674368000.0,
+                                 1.0 / 121645100408832000.0,
+                                 1.0 / 25852016738884976640000.0 };
+  static const double even[6] = { 1.0 / 120.0,
+                                  1.0 / 362880.0,
+                                  1.0 / 6227020800.0,
+                                  1.0 / 355687428096000.0,
+                                  1.0 / 51090942171709440000.0,
+                                  1.0 / 15511210043330985984000000.0 };
+  static const double d[8]
       = { 1.0 / 6.0,        2.0 / 120.0,        3.0 / 5040.0,          4.0 / 362880.0,
           5.0 / 39916800.0, 6.0 / 6227020800.0, 7.0 / 1307674368000.0, 8.0 / 355687428096000.0 };
-  double sum = c[7];
-  for (int k = 6; k >= 0; k--)
-    sum = sum * y + c[k];
-  return sum;
+  double z = y * y, z2 = z * z;
+  *slope = ((d[0] + d[1] * y) + z * (d[2] + d[3] * y))
+           + z2 * ((d[4] + d[5] * y) + z * (d[6] + d[7] * y));
+  return y * (sextic (odd, z, z2) + y * sextic (even, z, z2));
 }
 
 /* Return x where sinh (x) / x = 1 + RHO, RHO up to 1.32, in y = x^2.  The guess is a rational fit
@@ -97,12 +108,27 @@ root_of_series (double rho)
   double p
       = 0.999999998863 + rho * (0.86501755109 + rho * (0.159037712179 + rho * 0.00237665158013));
   double q = 1 + rho * (1.16501743073 + rho * (0.371402139046 + rho * 0.0282956411283));
-  double y = 6 * rho * p / q;
-  return sqrt (y - (series (y) - rho) / series_slope (y));
+  double y = 6 * rho * p / q, slope, sum = series (y, &slope);
+  return sqrt (y - (sum - rho) / slope);
 }
 
-/* Return x where log (sinh (x) / x) = L, L above about 0.8.  Halley's step is cubic: one of 2e-6
-   leaves nothing.  */
+/* Return x where log (sinh (x) / x) = L = log (R), L from 0.8 to 8.  The guess is a rational fit
+   good to 4e-8; Newton squares that.  */
+static inline double
+root_of_ratio (double r, double l)
+{
+  double p = 0.316774270515
+             + l * (7.40604833451 + l * (14.7784521387 + l * (3.82605610478 + l * 0.121489495924)));
+  double q
+      = 1 + l * (6.75615574311 + l * (6.85586929761 + l * (1.05751400066 + l * 0.0198849562706)));
+  double x = l + p / q, e = exp (x), back = 1 / e;
+  double over = (e - back) / (2 * x * r) - 1;
+  double slope = (e + back) / (e - back) - 1 / x;
+  return x - over * (1 - 0.5 * over) / slope;
+}
+
+/* The same for L above 8: so slack that nobody waits for it.  Halley's step is cubic: one of 2e-6
+ * leaves nothing.  */
 static double
 root_of_logarithm (double l)
 {
@@ -119,12 +145,20 @@ root_of_logarithm (double l)
   return x;
 }
 
+static inline double
+root (double g, double r)
+{
+  if (g < 4.3)
+    return root_of_series (g / (1 + r));
+  double l = 0.5 * log (1 + g);
+  return l < 8 ? root_of_ratio (r, l) : root_of_logarithm (l);
+}
+
 /* A line with excess D > 0, not folded.  With sinh x = r x known, coth x needs no exponential.  */
 static bt_catenary
 slack (double h, double v, double s, double d)
 {
-  double g = d / (h * h), r = sqrt (1 + g);
-  double x = g < 4.3 ? root_of_series (g / (1 + r)) : root_of_logarithm (0.5 * log (1 + g));
+  double g = d / (h * h), r = sqrt (1 + g), x = root (g, r);
   double sinh_x = x * r, coth_x = sqrt (1 + sinh_x * sinh_x) / sinh_x;
   return (bt_catenary){ h, v, s, h / (2 * x), 0.5 * (v * coth_x - s) };
 }
