@@ -8,6 +8,7 @@
 (define-module (bight lesson-shelf)
   #:use-module (bight errors)
   #:use-module (bight record)
+  #:use-module (bight shelf)
   #:use-module (bight verb)
   #:use-module (srfi srfi-1)
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
@@ -28,26 +29,22 @@
   (lambda (lesson port)
     (simple-format port "#<lesson ~a: ~a>" (lesson-name lesson) (lesson-title lesson))))
 
-(define current-shelf (make-parameter (make-variable '())))
+(define shelf (make-shelf))
 
 (define-verb (lesson-list)
   "Return the lessons defined so far, in order."
-  (reverse (variable-ref (current-shelf))))
+  (on-shelf shelf))
 
 (define (collect-lessons thunk)
   "Call THUNK and return the lessons it defines, in order."
-  (parameterize ((current-shelf (make-variable '())))
-    (thunk)
-    (lesson-list)))
+  (call-with-empty-shelf shelf thunk))
 
 (define (register-lesson! name title code location declarations steps)
   "Put the lesson that these make on the shelf, in place of one with its NAME, and return it."
   (let ((lesson (make-lesson name title code location declarations steps)))
     (check-settings lesson)
     (check-limits lesson)
-    (variable-set! (current-shelf)
-                   (cons lesson (remove (lambda (l) (eq? name (lesson-name l)))
-                                        (variable-ref (current-shelf)))))
+    (shelve! shelf lesson-name name (list lesson))
     lesson))
 
 (define (declared kind lesson)

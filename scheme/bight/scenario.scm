@@ -12,6 +12,7 @@
   #:use-module (bight expect)
   #:use-module (bight dive)
   #:use-module (bight record)
+  #:use-module (bight shelf)
   #:use-module (bight task)
   #:use-module (bight time)
   #:use-module (bight trial)
@@ -88,25 +89,15 @@
     (simple-format port "#<scenario ~a: ~a>" (scenario-label scenario)
                    (scenario-sentence scenario))))
 
-;; The shelf is a box with the scenarios defined so far, the last first.
-(define current-shelf (make-parameter (make-variable '())))
+(define shelf (make-shelf))
 
 (define-verb (scenarios)
   "Return the list of the scenarios defined so far, in order."
-  (reverse (variable-ref (current-shelf))))
+  (on-shelf shelf))
 
 (define (collect-scenarios thunk)
   "Call THUNK and return the list of the scenarios it defined, in order."
-  (parameterize ((current-shelf (make-variable '())))
-    (thunk)
-    (scenarios)))
-
-(define (shelve! name new)
-  ;; A scenario defined again at the prompt takes the place of the old one.
-  (variable-set! (current-shelf)
-                 (append (reverse new)
-                         (remove (lambda (old) (eq? (scenario-name old) name))
-                                 (variable-ref (current-shelf))))))
+  (call-with-empty-shelf shelf thunk))
 
 (define (combinations lists)
   ;; All ways to take one item of each of LISTS, the last varying fastest.
@@ -131,13 +122,13 @@
   (let ((new (map (lambda (row)
                     (make-scenario name sentence (map cons variables row) body location #f))
                   (combinations rows))))
-    (shelve! name new)
+    (shelve! shelf scenario-name name new)
     (if (= 1 (length new)) (car new) new)))
 
 (define (shelve-scenarios! name location new)
   "Keep NEW, a list of scenarios called NAME that were written at LOCATION."
   (check-new-name name location)
-  (shelve! name new))
+  (shelve! shelf scenario-name name new))
 
 
 ;;; Writing one.

@@ -10,6 +10,7 @@
   #:use-module (bight errors)
   #:use-module ((bight expect) #:select (source-location location->string))
   #:use-module ((bight scenario) #:select (world-of))
+  #:use-module (bight shelf)
   #:use-module (bight study-case)
   #:use-module (bight sweep-design)
   #:use-module (srfi srfi-1)
@@ -23,19 +24,11 @@
 
 ;;; Studies, and where they are kept.
 
-(define current-shelf (make-parameter (make-variable '())))
+(define shelf (make-shelf))
 
 (define (collect-studies thunk)
   "Call THUNK and return the studies it defines, in order."
-  (parameterize ((current-shelf (make-variable '())))
-    (thunk)
-    (reverse (variable-ref (current-shelf)))))
-
-(define (shelve! study)
-  (variable-set! (current-shelf)
-                 (cons study (remove (lambda (s) (eq? (study-name s) (study-name study)))
-                                     (variable-ref (current-shelf)))))
-  study)
+  (call-with-empty-shelf shelf thunk))
 
 
 ;;; Errors that teach.
@@ -121,8 +114,10 @@ one value that THUNK, a procedure of HEAD's arguments, returns."
       (bight-raise 'def 'define-study "~aa study needs (in WORLD): where its dives take place" at))
     (check-names at (map draw-variable draws) measures legs)
     (check-limit at limit)
-    (shelve! (make-study name sentence location (design at draws sampling) limit measures legs world
-                         body))))
+    (let ((study (make-study name sentence location (design at draws sampling) limit measures legs world
+                             body)))
+      (shelve! shelf study-name name (list study))
+      study)))
 
 
 ;;; The macro.
