@@ -175,6 +175,15 @@ bt_water_surface (const bt_water *water, bt_vec3 p)
   return has_waves (water) ? bt_waves_elevation (water->sea->waves, p.x, p.y, water->time) : 0;
 }
 
+double
+bt_water_crest (const bt_water *water)
+{
+  double sum = 0;
+  for (int i = 0; has_waves (water) && i < water->sea->waves->n; i++)
+    sum += water->sea->waves->amplitude[i];
+  return sum;
+}
+
 int
 bt_water_is_uniform (const bt_water *water)
 {

@@ -76,7 +76,8 @@ bt__chain_input (const bt_dive *dive, bt__state *state, int i, const bt_water *w
                               .water = water,
                               .end = { { .at = ends->a },
                                        vehicle >= 0 ? vehicle_end (dive, vehicle) : far },
-                              .h = BT__TIME_STEP };
+                              .h = BT__TIME_STEP,
+                              .surfaced = 1 };
 }
 
 /* Let the vehicle that the line carries follow its last node.  */

@@ -121,6 +121,7 @@ typedef struct bt__dynamic_input
   double pay;       /* m/s of line through the winch end, out positive */
   double tolerance; /* of the length: last update of a solved step; 0: 1e-5, less in steps below
                        1/60 s */
+  int surfaced;     /* nonzero: what is above the surface of the water is in air */
   int order;        /* 4: fourth order in space by deferred correction; else second */
 } bt__dynamic_input;
 

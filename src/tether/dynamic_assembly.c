@@ -173,9 +173,9 @@ static BT__HOT bt__pair_vec
 node_loads (const bt__dynamic_work *w, int i, int j, const flows *s, bt__pair_sym *a)
 {
   double b0 = w->b0, ca = b0 * b0;
-  bt__pair cell = { w->node[i].cell, w->node[j].cell };
-  bt__pair kn = w->kn * cell * s->across, kt = w->kt * cell * bt__pair_abs (s->along);
-  bt__pair ma = w->ma * cell, mn = w->m * cell + ma;
+  bt__pair cell = { w->node[i].cell, w->node[j].cell }, wet = { w->node[i].wet, w->node[j].wet };
+  bt__pair kn = w->kn * wet * s->across, kt = w->kt * wet * bt__pair_abs (s->along);
+  bt__pair ma = w->ma * wet, mn = w->m * cell + ma;
   bt__pair level = ca * mn + b0 * kn, turn = b0 * kn * s->per_across * s->per_across;
   bt__pair tangential = b0 * (2 * kt - kn) - ca * ma;
   bt__pair_vec t = s->tau, c = s->side, at = bt__pair_scale (tangential, t),
@@ -334,7 +334,7 @@ bt__dynamic_node_load (bt__dynamic_work *w, int i)
   flows s = { .tau = bt__pair_load (&w->node[i].tau, &w->node[i].tau) };
   flow_past (w, i, i, &s);
   bt__pair_vec f = node_loads (w, i, i, &s, &unused);
-  return bt__vec (f.x[0], f.y[0], f.z[0]);
+  return bt__vec (f.x[0], f.y[0], f.z[0] - bt__dynamic_surface_load (w, i));
 }
 
 int
@@ -347,6 +347,8 @@ bt__dynamic_assemble (bt__dynamic_work *w, bt__mode mode)
   assemble_grips (w);
   if (w->lumped)
     assemble_lumps (w);
+  if (w->surfaced)
+    bt__dynamic_surface_force (w);
   if (w->bends > 0)
     bt__dynamic_bend_force (w);
   if (bt__dynamic_touches (w))
@@ -364,10 +366,11 @@ node_potential (const bt__dynamic_work *w, int i)
   bt_vec3 v = bt__node_v (w, i), a = bt__node_a (w, i, v), rel = bt__sub (k->current, v);
   double along = bt__dot (rel, k->tau), at = bt__dot (a, k->tau);
   double s = bt__norm (bt__axpy (rel, -along, k->tau)), cv = w->b0;
-  double inertia = (w->m + w->ma) * bt__dot (a, a) - w->ma * at * at;
+  double carried = w->ma * (bt__dot (a, a) - at * at);
   double drag = w->kn * s * s * s + w->kt * fabs (along) * along * along;
-  double p = k->cell
-             * (0.5 * inertia / (cv * cv) + drag / (3 * cv) + w->weight * (w->X[i].z - w->x[i].z));
+  double p
+      = k->cell * (0.5 * w->m * bt__dot (a, a) / (cv * cv) + w->weight * (w->X[i].z - w->x[i].z))
+        + k->wet * (0.5 * carried / (cv * cv) + drag / (3 * cv));
   bt_vec3 move = bt__sub (w->X[i], w->x[i]);
   if (w->load)
     p -= bt__dot (w->load[i], move);
@@ -384,6 +387,7 @@ bt__dynamic_potential (const bt__dynamic_work *w)
 {
   double sum = w->bends > 0 ? bt__dynamic_bend_energy (w, w->X) : 0;
   sum += grip_potential (w);
+  sum += w->surfaced ? bt__dynamic_surface_potential (w) : 0;
   for (int i = w->lo; i <= w->hi; i++)
     sum += node_potential (w, i);
   for (int j = 0; j < w->n; j++)

@@ -44,6 +44,7 @@ energies_at (const bt__dynamic *d, const bt__dynamic_input *in, const bt_vec3 *x
   const bt_tether_props *p = in->line;
   double ma = in->water->density * p->ca * BT__PI * p->diameter * p->diameter / 4;
   double ea = bt__stiffness (p->ea), before = 0;
+  double lift = in->water->density > 0 ? p->mass * in->water->gravity - p->wet_weight : 0;
   int n = (int)d->n;
   bt__dynamic_energy sum = { 0, 0, 0, bending_energy (x, rest, n, p->ei) };
   for (int i = 0; i <= n; i++)
@@ -53,6 +54,8 @@ energies_at (const bt__dynamic *d, const bt__dynamic_input *in, const bt_vec3 *x
       double along = ma > 0 ? bt__dot (v[i], bt__unit_or (tau, bt__vec (0, 0, -1))) : 0;
       sum.kinetic += 0.5 * cell * ((p->mass + ma) * bt__dot (v[i], v[i]) - ma * along * along);
       sum.gravity += p->wet_weight * cell * x[i].z;
+      if (in->surfaced && lift > 0)
+        sum.gravity += lift * cell * bt__dynamic_out (in->water, x[i]);
     }
   for (int j = 0; j < n; j++)
     {

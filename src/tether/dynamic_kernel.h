@@ -58,6 +58,7 @@ typedef struct bt__pair_full
 typedef struct bt__extra
 {
   double mass, weight, linear, quadratic; /* mass with added mass */
+  double lift;                            /* N: buoyancy, which it has in the water alone */
   bt_vec3 force;
 } bt__extra;
 
@@ -75,7 +76,8 @@ typedef struct bt__link
 /* One node of a step.  */
 typedef struct bt__node
 {
-  double cell;          /* m of line it stands for */
+  double cell, wet;     /* m of line it stands for; of them under water */
+  double level;         /* m: the surface above or below it, if the line comes near to it */
   bt_vec3 v0, a0;       /* v = b0 (X - x) + v0, a = b0 v + a0 */
   bt_vec3 current, tau; /* of the water; unit tangent */
 } bt__node;
@@ -104,6 +106,8 @@ struct bt__dynamic_work
   int bends, lumped; /* rows of bending; nonzero if any node has extras */
   double b0, b1, b2;
   double ea, kn, kt, m, ma, weight; /* N, drag, mass and wet weight per metre */
+  double lift;                      /* N/m: buoyancy */
+  int surfaced;                     /* nonzero: the line comes near to the surface */
   double stiffen;                   /* of ka: the least geometric stiffness, see safe */
   double rho;                       /* N/m2: of the activity test, see prepare_links */
   double soft, inertia;             /* of ka, N/m2: what resists a change of length is the less */
@@ -151,7 +155,7 @@ int bt__dynamic_assemble (bt__dynamic_work *w, bt__mode mode);
 /* The incremental potential of which the right-hand side in SAFE mode is minus the gradient, J.  */
 double bt__dynamic_potential (const bt__dynamic_work *w);
 
-/* Drag, weight and inertia of the line about node I, N.  */
+/* Drag, weight, inertia and lost buoyancy of the line about node I, N.  */
 bt_vec3 bt__dynamic_node_load (bt__dynamic_work *w, int i);
 
 /* Force of the line on end K (0, 1), N.  */
@@ -162,6 +166,16 @@ double bt__dynamic_solve (bt__dynamic_work *w);
 
 /* Iterate X to the solution.  Return nonzero if it is one; on return zero X may hold anything.  */
 int bt__dynamic_newton (bt__dynamic_work *w, bt__dynamic_report *report);
+
+/* The surface: note what is near to it, and how much is wet; add its forces and blocks at the
+   iterate X; their potential.  */
+void bt__dynamic_surface_prepare (bt__dynamic_work *w);
+double bt__dynamic_surface_load (const bt__dynamic_work *w, int i); /* N: of the line alone */
+void bt__dynamic_surface_force (bt__dynamic_work *w);
+double bt__dynamic_surface_potential (const bt__dynamic_work *w);
+
+/* Return the energy, J, that a newton of buoyancy at X lacks, for it is above the surface.  */
+double bt__dynamic_out (const bt_water *water, bt_vec3 x);
 
 /* Contacts: add the blocks and forces of the rows and holds at the iterate X, and return nonzero if
    one changed sides since the last call; take over SHARE of the update D, and return nonzero if

@@ -94,6 +94,7 @@ lump_at (bt__dynamic_work *w, int i, const bt__dynamic_lump *lump, double share)
   bt__extra *e = w->extra + i;
   e->mass += share * (lump->mass + lump->added);
   e->weight += share * lump->wet_weight;
+  e->lift += share * (lump->mass * w->in->water->gravity - lump->wet_weight);
   e->linear += share * lump->linear;
   e->quadratic += share * lump->quadratic;
   e->force = bt__axpy (e->force, share, lump->force);
@@ -124,7 +125,7 @@ push_by_waves (bt__dynamic_work *w)
       bt_vec3 chord = bt__sub (w->x[i < w->n ? i + 1 : i], w->x[i > 0 ? i - 1 : i]);
       bt_vec3 t = bt__unit_or (chord, bt__vec (0, 0, 0));
       bt_vec3 push = bt__axpy (bt__scale (displaced + w->ma, a), -w->ma * bt__dot (a, t), t);
-      w->extra[i].force = bt__axpy (w->extra[i].force, w->node[i].cell, push);
+      w->extra[i].force = bt__axpy (w->extra[i].force, w->node[i].wet, push);
     }
 }
 
@@ -181,6 +182,7 @@ bt__dynamic_prepare (bt__dynamic_work *w, const bt__dynamic *d, const bt__dynami
   prepare_links (w, d, rest0);
   prepare_nodes (w, d);
   sample_current (w);
+  bt__dynamic_surface_prepare (w);
   prepare_lumps (w);
   bt__dynamic_bend_prepare (w);
 }

@@ -258,6 +258,17 @@ water there, four times the drag.)"
   (expect (z (point-at 10)) is (between -24 -23))
   (expect (weight-on-the-ends) is (about (- (* 20 0.05) 20) #:within 0.5)))
 
+(define-scenario a-floating-line-lies-on-the-water
+  "A buoyant tether, slack, comes up and lies on the water; it does not stand in the air."
+  (in (world (sea (depth 20) (current 0.1 0))
+             (rov (named minnow) (at 10 0 -3))
+             (tether (named line) (type fathom) (wet-weight -0.3) (from 0 0 -0.5) (to minnow) (length 16)
+                     (model dynamic))))
+  (define (tops) (map (lambda (s) (z (point-at s))) '(2 4 6 8 10)))
+  (run 60)
+  (for-each (lambda (height) (expect height is (between 0 0.1))) (tops))
+  (expect (settle! #:within 0.01 #:at-most 600)))
+
 (define-scenario paying-out-leaves-the-clump-where-it-is-on-the-line
   "Line comes off the drum at the anchor: the clump stays 6 m from the vehicle, and hangs below it once the
 rest is slack."
