@@ -11,12 +11,21 @@
 
 static const bt_vec3 anchor = { -1, -12, 0 }, start = { 0, 12, -20 };
 
+/* A line that sinks: one that floats comes to the surface.  */
+static bt_tether_def *
+add_line (scene *s, bt_vec3 from)
+{
+  bt_tether_def *line = scene_line (s, from, LENGTH, SKIP_NODES);
+  line->props.mass = 0.05;
+  return line;
+}
+
 static bt_tether_def *
 add_bare (scene *s)
 {
   scene_clear (s);
   scene_vehicle (s, start);
-  return scene_line (s, anchor, LENGTH, SKIP_NODES);
+  return add_line (s, anchor);
 }
 
 static void
@@ -98,7 +107,7 @@ draw_two (scene *s)
 {
   add_bare (s);
   scene_vehicle (s, bt__add (start, bt__vec (200, 0, 0)));
-  scene_line (s, bt__add (anchor, bt__vec (200, 0, 0)), LENGTH, SKIP_NODES);
+  add_line (s, bt__add (anchor, bt__vec (200, 0, 0)));
 }
 
 static void
