@@ -67,7 +67,8 @@ typedef struct bt_wave_def
   int64_t seed;      /* JONSWAP */
 } bt_wave_def;
 
-/* The same as components, longest first: plain data that may live in the state of a dive.  */
+/* The same as components, longest first: plain data that may live in the state of a dive.  Beyond
+   the N components all is zero.  */
 typedef struct bt_waves
 {
   int64_t n;
@@ -77,6 +78,7 @@ typedef struct bt_waves
   double k[BT_WAVES_MAX];         /* 1/m: omega2 = g k tanh (k depth) */
   double amplitude[BT_WAVES_MAX]; /* m */
   double speed[BT_WAVES_MAX];     /* m/s: amplitude omega / (1 - e^(-2 k depth)) */
+  double bed[BT_WAVES_MAX];       /* e^(-2 k depth); 0 where the bottom is not felt */
   double phase[BT_WAVES_MAX];     /* rad */
 } bt_waves;
 
@@ -91,11 +93,15 @@ bt_status bt_waves_make (const bt_wave_def *def, double depth, double gravity, b
 /* Return the wave number of OMEGA (rad/s) in water of DEPTH: omega2 = g k tanh (k depth).  */
 double bt_wave_number (double omega, double depth, double gravity);
 
+/* What follows adds up what the components do, each good to 1e-15 of its most and its phase to
+   5e-16 of the larger of k (x . way) and omega t: 2 microradians in waves of 1.5 s at t = 1e9 s. */
+
 /* Return the height of the surface at (X, Y) and T, m.  */
 double bt_waves_elevation (const bt_waves *waves, double x, double y, double t);
 
-/* Write the velocity and acceleration (either may be NULL) of the water at P and T.  Above the
-   still surface they are those at it, below the bottom those there.  */
+/* Write the velocity and acceleration (either may be NULL) of the water at P and T; not finite
+   where P is not.  Above the still surface they are those at it, below the bottom those there; a
+   component is left out where it is less than 1e-7 of itself.  */
 void bt_waves_motion (const bt_waves *waves, bt_vec3 p, double t, bt_vec3 *velocity,
                       bt_vec3 *acceleration);
 
@@ -134,6 +140,27 @@ bt_wake bt_wake_of (bt_vec3 a, bt_vec3 b, double radius);
    the root of the way), whose momentum is that of a drag coefficient of 1.25.  */
 double bt_wake_share (const bt_wake *wake, bt_vec3 ambient, bt_vec3 p);
 
+enum
+{
+  BT_WAKES_WIDE = 4
+};
+
+/* Wakes side by side, as water asks them; with a radius of 0 where there is none.  */
+typedef struct bt_wakes
+{
+  double a[3][BT_WAKES_WIDE], axis[3][BT_WAKES_WIDE];
+  double length[BT_WAKES_WIDE], radius[BT_WAKES_WIDE];
+} bt_wakes;
+
+/* How many of these N wakes fill.  */
+#define BT_WAKES_BLOCKS(n) (((n) + BT_WAKES_WIDE - 1) / BT_WAKES_WIDE)
+
+/* Make WAKE number I of WAKES, which were zero.  */
+void bt_wakes_put (bt_wakes *wakes, size_t i, const bt_wake *wake);
+
+/* Return the share of AMBIENT that all N of WAKES leave at P: the product of theirs.  */
+double bt_wakes_share (const bt_wakes *wakes, size_t n, bt_vec3 ambient, bt_vec3 p);
+
 /* ---- All of it ---- */
 
 /* What bt_water looks at beside its current.  Everything is borrowed.  */
@@ -141,8 +168,8 @@ typedef struct bt_sea
 {
   const bt_current_grid *grid; /* for BT_CURRENT_GRID */
   const bt_waves *waves;       /* or NULL */
-  const bt_wake *wakes;
-  size_t n_wakes;
+  const bt_wakes *wakes;
+  size_t n_wakes; /* single ones */
 } bt_sea;
 
 BT_END_DECLS

@@ -118,12 +118,6 @@ bt__along (const bt__link *link, double s)
   return bt__axpy (link->a, s, bt__sub (link->b, link->a));
 }
 
-static inline double
-bt__clamp (double x, double lo, double hi)
-{
-  return x < lo ? lo : x > hi ? hi : x;
-}
-
 /* The quotient N / D within 0 and 1; 0 if D is 0.  */
 static inline double
 bt__share (double n, double d)

@@ -11,6 +11,13 @@
 
 #define BT__PI 3.14159265358979323846
 
+/* X within LO and HI; no calls, as fmin and fmax are.  */
+static inline double
+bt__clamp (double x, double lo, double hi)
+{
+  return x < lo ? lo : x > hi ? hi : x;
+}
+
 static inline bt_vec3
 bt__vec (double x, double y, double z)
 {

@@ -132,12 +132,10 @@ bt_vec3
 bt_water_current (const bt_water *water, bt_vec3 p)
 {
   bt_vec3 v = open_current (water, p);
-  double share = 1;
-  if (!water->sea || (v.x == 0 && v.y == 0 && v.z == 0))
+  const bt_sea *sea = water->sea;
+  if (!sea || sea->n_wakes == 0 || (v.x == 0 && v.y == 0 && v.z == 0))
     return v;
-  for (size_t i = 0; i < water->sea->n_wakes; i++)
-    share *= bt_wake_share (&water->sea->wakes[i], v, p);
-  return bt__scale (share, v);
+  return bt__scale (bt_wakes_share (sea->wakes, sea->n_wakes, v, p), v);
 }
 
 bt_vec3

@@ -43,7 +43,7 @@ struct bt_model
   uint64_t id; /* hash of the content: equal worlds, equal ids */
   bt_sea_def sea;
   bt_waves waves;
-  bt_wake *wakes; /* of what stands in the current */
+  bt_wakes *wakes; /* of what stands in the current */
   size_t n_wakes;
   int n_vehicles, n_tethers;
   bt_vehicle_def *vehicles;

@@ -45,12 +45,15 @@ find_wakes (bt_model *model, bt_error *error)
 {
   if (model->n_obstacles == 0)
     return BT_OK;
-  model->wakes = malloc ((size_t)model->n_obstacles * sizeof *model->wakes);
+  model->wakes = calloc (BT_WAKES_BLOCKS ((size_t)model->n_obstacles), sizeof *model->wakes);
   if (!model->wakes)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the lee of obstacles");
   for (int i = 0; i < model->n_obstacles; i++)
-    if (bt__model_carried (model, i) < 0)
-      model->n_wakes += (size_t)wake_of (&model->obstacles[i], &model->wakes[model->n_wakes]);
+    {
+      bt_wake wake;
+      if (bt__model_carried (model, i) < 0 && wake_of (&model->obstacles[i], &wake))
+        bt_wakes_put (model->wakes, model->n_wakes++, &wake);
+    }
   return BT_OK;
 }
 

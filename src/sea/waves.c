@@ -1,9 +1,6 @@
 /* Waves: linear theory over a level bottom, one component or many.
 
-   A component of amplitude a, theta = k (x . way) - omega t + phase, over depth d has the surface
-   a cos theta and below it the velocity a omega (C cos theta along its way, S sin theta up), C and
-   S the hyperbolic cosine and sine of k (z + d) by sinh (k d) (R. G. Dean and R. A. Dalrymple,
-   Water Wave Mechanics for Engineers and Scientists, ch. 3).
+   Each is plain data, a table of components; what they do at a place is in waves_sum.h.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -13,6 +10,7 @@
 
 #include "base/error.h"
 #include "math/vec.h"
+#include "sea/waves_sum.h"
 
 enum
 {
@@ -25,7 +23,6 @@ enum
 #define MICHE 0.142
 #define LOWEST 0.5 /* of the peak frequency */
 #define HIGHEST 4.0
-#define UNFELT 16.0     /* k times the depth at which a component is 1e-7 of itself */
 #define BOTTOMLESS 18.5 /* k times the height at which it does not feel the bottom, to 1e-16 */
 
 double
@@ -102,9 +99,20 @@ frequency_of_cell (double cell)
   return LOWEST + (HIGHEST - LOWEST) * cell / CELLS;
 }
 
+/* Complete component I of W, which has its frequency.  Of the bottom is told only where it is felt
+   at any height at which the component is.  */
+static void
+complete (bt_waves *w, int i, double gravity)
+{
+  double k = bt_wave_number (w->omega[i], w->depth, gravity), deep = k * w->depth;
+  w->k[i] = k;
+  w->bed[i] = deep < BT__UNFELT + BOTTOMLESS ? exp (-2 * deep) : 0;
+  w->speed[i] = w->amplitude[i] * w->omega[i] / -expm1 (-2 * deep);
+}
+
 /* Each part has the same energy; its frequency is drawn from within it.  */
 static void
-draw_sea (const bt_wave_def *def, double gravity, bt_waves *w)
+draw_sea (const bt_wave_def *def, bt_waves *w)
 {
   double whole = 0, below = 0, peak = 2 * BT__PI / def->period;
   uint64_t seed = (uint64_t)def->seed;
@@ -122,7 +130,6 @@ draw_sea (const bt_wave_def *def, double gravity, bt_waves *w)
         }
       double share = fmax (0, fmin (1, (wish - below) / here));
       w->omega[i] = peak * frequency_of_cell (cell + share);
-      w->k[i] = bt_wave_number (w->omega[i], w->depth, gravity);
       w->amplitude[i] = def->height / 4 * sqrt (2 / (double)w->n);
       w->phase[i] = 2 * BT__PI * draw (&seed);
     }
@@ -143,73 +150,63 @@ bt_waves_make (const bt_wave_def *def, double depth, double gravity, bt_waves *w
   waves->east = sin (def->toward);
   waves->north = cos (def->toward);
   if (def->kind == BT_WAVE_JONSWAP)
-    draw_sea (def, gravity, waves);
+    draw_sea (def, waves);
   else
     {
       waves->omega[0] = 2 * BT__PI / def->period;
-      waves->k[0] = bt_wave_number (waves->omega[0], depth, gravity);
       waves->amplitude[0] = def->height / 2;
       waves->phase[0] = def->phase;
     }
   for (int i = 0; i < waves->n; i++)
-    waves->speed[i]
-        = waves->amplitude[i] * waves->omega[i] / -expm1 (-2 * waves->k[i] * waves->depth);
+    complete (waves, i, gravity);
   return BT_OK;
 }
 
 /* ---- Asking them ---- */
 
-static inline double
-angle (const bt_waves *w, int i, double way, double t)
+static BT__WIDE bt__orbit
+orbit_at (const bt_waves *w, double way, double z, double t)
 {
-  return w->k[i] * way - w->omega[i] * t + w->phase[i];
+  return bt__waves_orbit (w, way, z, t);
+}
+
+static BT__WIDE bt__orbit
+surface_at (const bt_waves *w, double way, double t)
+{
+  return bt__waves_surface (w, way, t);
+}
+
+static double
+way_of (const bt_waves *w, double x, double y)
+{
+  return w->east * x + w->north * y;
 }
 
 double
 bt_waves_elevation (const bt_waves *w, double x, double y, double t)
 {
-  double way = w->east * x + w->north * y, sum = 0;
-  for (int i = 0; i < w->n; i++)
-    sum += w->amplitude[i] * cos (angle (w, i, way, t));
-  return sum;
+  return surface_at (w, way_of (w, x, y), t).up;
 }
 
 void
 bt_waves_motion (const bt_waves *w, bt_vec3 p, double t, bt_vec3 *velocity, bt_vec3 *acceleration)
 {
-  double way = w->east * p.x + w->north * p.y, z = fmax (-w->depth, fmin (0, p.z));
-  double along = 0, up = 0, along2 = 0, up2 = 0;
-  for (int i = 0; i < w->n && w->k[i] * -z < UNFELT; i++)
-    {
-      double theta = angle (w, i, way, t), c = cos (theta), s = sin (theta);
-      double k = w->k[i],
-             floor = k * (z + w->depth) < BOTTOMLESS ? exp (-2 * k * (z + w->depth)) : 0;
-      double speed = w->speed[i] * exp (k * z);
-      double level = speed * (1 + floor), rise = speed * (1 - floor);
-      along += level * c;
-      up += rise * s;
-      along2 += level * w->omega[i] * s;
-      up2 -= rise * w->omega[i] * c;
-    }
+  double z = p.z < 0 ? bt__clamp (p.z, -w->depth, 0) : 0;
+  double lost = 0 * p.x + 0 * p.y + 0 * p.z + 0 * t; /* NaN, where nothing felt would hide it */
+  bt__orbit o = orbit_at (w, way_of (w, p.x, p.y), z, t);
   if (velocity)
-    *velocity = bt__vec (along * w->east, along * w->north, up);
+    *velocity = bt__vec (o.along * w->east, o.along * w->north, o.up + lost);
   if (acceleration)
-    *acceleration = bt__vec (along2 * w->east, along2 * w->north, up2);
+    *acceleration = bt__vec (o.along2 * w->east, o.along2 * w->north, o.up2 + lost);
 }
 
 bt_vec3
 bt_waves_ride (const bt_waves *w, const bt_rider *rider, bt_vec3 p, double t)
 {
-  double way = w->east * p.x + w->north * p.y, along = 0, up = 0;
-  for (int i = 0; i < w->n; i++)
-    {
-      double theta = angle (w, i, way, t), bed = tanh (w->k[i] * w->depth);
-      along -= w->amplitude[i] * sin (theta) / bed;
-      up += w->amplitude[i] * cos (theta);
-    }
+  bt__orbit o = surface_at (w, way_of (w, p.x, p.y), t);
   double ahead_e = sin (rider->yaw), ahead_n = cos (rider->yaw);
-  double ahead = rider->surge * along * (w->east * ahead_e + w->north * ahead_n);
-  double aside = rider->sway * along * (w->east * ahead_n - w->north * ahead_e);
+  double ahead = rider->surge * o.along * (w->east * ahead_e + w->north * ahead_n);
+  double aside = rider->sway * o.along * (w->east * ahead_n - w->north * ahead_e);
   return bt__vec (ahead * ahead_e + aside * ahead_n, ahead * ahead_n - aside * ahead_e,
-                  rider->heave * up);
+                  rider->heave * o.up);
 }

@@ -4,6 +4,7 @@
 
 #include <config.h>
 
+#include <fenv.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -236,12 +237,15 @@ static void
 test_lees_in_water (void **state)
 {
   (void)state;
-  bt_wake two[2] = { pile, bt_wake_of (bt__vec (4, 0, 0), bt__vec (4, 0, -30), 0.5) };
+  bt_wake other = bt_wake_of (bt__vec (4, 0, 0), bt__vec (4, 0, -30), 0.5);
+  bt_wakes two = { 0 };
+  bt_wakes_put (&two, 0, &pile);
+  bt_wakes_put (&two, 1, &other);
   bt_current current = { .kind = BT_CURRENT_UNIFORM, .velocity = { { 0.6, 0, 0 } } };
-  bt_sea sea = { NULL, NULL, two, 2 };
+  bt_sea sea = { NULL, NULL, &two, 2 };
   bt_water water = { 1025, 9.81, 40, 0, &current, NULL, NULL, &sea };
   bt_vec3 p = { 6, 0.2, -8 };
-  double expected = 0.6 * share (6, 0.2, -8) * bt_wake_share (&two[1], east, p);
+  double expected = 0.6 * share (6, 0.2, -8) * bt_wake_share (&other, east, p);
   assert_close (bt_water_velocity (&water, p).x, expected, 1e-15, "two");
   bt_vec3 mean = bt_water_mean_velocity (&water, bt__vec (6, -1, -8), bt__vec (6, 1, -8));
   assert_true (mean.x < 0.45 && mean.x > 0.15);
@@ -251,6 +255,92 @@ test_lees_in_water (void **state)
   assert_close (bt_wake_share (&turned, east, q), share (2, 0.3, -9), 1e-12, "turned");
 }
 
+/* In [-1, 1), from *SEED, which goes on.  */
+static double
+draw (uint64_t *seed)
+{
+  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+  return (double)(int64_t)(*seed >> 11 << 11) / 9223372036854775808.0;
+}
+
+static bt_vec3
+draw_vec (uint64_t *seed, double size)
+{
+  double x = draw (seed), y = draw (seed), z = draw (seed);
+  return bt__vec (size * x, size * y, size * z);
+}
+
+static double
+sets_in (double u)
+{
+  u = fmax (0, fmin (1, u));
+  return u * u * (3 - 2 * u);
+}
+
+/* What bight/sea.h says of one lee, from the place in the plane across its axis.  */
+static double
+share_by_the_book (const bt_wake *w, bt_vec3 flow, bt_vec3 p)
+{
+  double diameter = 2 * w->radius;
+  bt_vec3 from = bt__sub (p, w->a);
+  double along = bt__dot (from, w->axis), beyond = fmax (-along, along - w->length);
+  bt_vec3 across = bt__axpy (flow, -bt__dot (flow, w->axis), w->axis);
+  bt_vec3 off = bt__axpy (from, -along, w->axis), way = bt__unit_or (across, off);
+  double s = bt__dot (off, way) / diameter, side = bt__norm (bt__axpy (off, -s * diameter, way));
+  double c = sqrt (fmin (1, 3 / fmax (s, 1e-300))), b = diameter / 2 / c;
+  if (side > 6 * b || bt__norm (across) <= 1e-6 * bt__norm (flow))
+    return 1;
+  double d = 0.5 * c * exp (-side * side / (2 * b * b));
+  d *= sets_in (s + 0.5) * (1 - sets_in ((s - 40) / 20)) * sets_in (1 - beyond / diameter);
+  return 1 - d * bt__norm (across) / bt__norm (flow);
+}
+
+/* What many leave is the product of what each leaves, and that is what the book says; nothing is
+   divided by zero for those that are not there.  */
+static void
+test_many_lees (void **state)
+{
+  (void)state;
+  enum
+  {
+    MOST = 11
+  };
+  uint64_t seed = 11;
+  int felt = 0, asked = 0;
+  for (int round = 0; round < 3000; round++)
+    {
+      bt_wakes wakes[BT_WAKES_BLOCKS (MOST)] = { 0 };
+      bt_wake one[MOST];
+      size_t n = (size_t)round % (MOST + 1);
+      for (size_t i = 0; i < n; i++)
+        {
+          bt_vec3 a = draw_vec (&seed, 10);
+          double length = round % 7 ? pow (10, 2 * draw (&seed)) : 0;
+          one[i]
+              = bt_wake_of (a, bt__add (a, draw_vec (&seed, length)), exp (2 * draw (&seed)) / 3);
+          bt_wakes_put (wakes, i, &one[i]);
+        }
+      bt_vec3 flow = round % 5 || n == 0 ? draw_vec (&seed, 1) : one[0].axis;
+      for (int k = 0; k < 40; k++)
+        {
+          bt_vec3 p = draw_vec (&seed, 15);
+          double product = 1;
+          for (size_t i = 0; i < n; i++)
+            {
+              double one_share = bt_wake_share (&one[i], flow, p);
+              assert_close (one_share, share_by_the_book (&one[i], flow, p), 1e-11, "one");
+              product *= one_share;
+            }
+          feclearexcept (FE_ALL_EXCEPT);
+          assert_close (bt_wakes_share (wakes, n, flow, p), product, 1e-14, "many");
+          assert_false (fetestexcept (FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW));
+          felt += product < 1;
+          asked++;
+        }
+    }
+  assert_true (felt > asked / 10 && felt < asked * 9 / 10);
+}
+
 int
 main (void)
 {
@@ -258,6 +348,7 @@ main (void)
     cmocka_unit_test (test_grid),          cmocka_unit_test (test_file),
     cmocka_unit_test (test_bad_files),     cmocka_unit_test (test_lee),
     cmocka_unit_test (test_lee_is_smooth), cmocka_unit_test (test_lees_in_water),
+    cmocka_unit_test (test_many_lees),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }

@@ -1,0 +1,27 @@
+/* Functions compiled more than once: for any machine, and for one with AVX2.
+
+   Which is called is settled when the library is loaded.  AVX2 brings no fused multiplication, and
+   the compiler is told to make none, so that both give the same bits.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_MATH_WIDE_H
+#define BT_MATH_WIDE_H
+
+/* Sanitizers are not yet set up when the choice is made.  */
+#if defined __x86_64__ && defined __gnu_linux__ && defined __GNUC__ && !defined __clang__          \
+    && !defined __SANITIZE_ADDRESS__ && !defined __SANITIZE_THREAD__
+#define BT__WIDE __attribute__ ((target_clones ("avx2", "default")))
+#else
+#define BT__WIDE
+#endif
+
+/* What such a function is made of, or it would be left to the lesser machine; and any function of
+   an innermost loop that is worth its place there more than once.  */
+#if defined __GNUC__
+#define BT__HOT inline __attribute__ ((always_inline))
+#else
+#define BT__HOT inline
+#endif
+
+#endif
