@@ -15,7 +15,7 @@
 const char *const campaign_kind_names[CAMPAIGN_KINDS] = { "plain", "teleports", "vacuo" };
 
 const char *const campaign_fault_names[CAMPAIGN_FAULTS]
-    = { "sound", "broken", "blown up", "unrecovered", "gained energy", "not laid" };
+    = { "sound", "broken", "blown up", "unrecovered", "gained energy", "not laid", "too tight" };
 
 const campaign_tally campaign_nothing = { .gain = -HUGE_VAL };
 
@@ -252,6 +252,7 @@ step (campaign *c, double h, double *behind, campaign_tally *t)
   t->unsolved += !c->report.converged;
   t->seconds += spent;
   t->slowest = fmax (t->slowest, spent);
+  t->tension = fmax (t->tension, c->report.tension);
   t->fastest = fmax (t->fastest, c->report.speed);
   t->ratio = fmax (t->ratio, c->report.speed / c->driven);
   return 1;
@@ -279,6 +280,7 @@ fault_of (const campaign_tally *t)
          : t->blown       ? CAMPAIGN_BLOWN
          : t->unrecovered ? CAMPAIGN_UNRECOVERED
          : t->gained      ? CAMPAIGN_GAINED
+         : t->tight       ? CAMPAIGN_TIGHT
                           : CAMPAIGN_SOUND;
 }
 
@@ -307,6 +309,7 @@ campaign_play (campaign *c, campaign_tally *t)
   t->blown = t->ratio > 20;
   t->unrecovered = t->unsolved_for > 3;
   t->gained = t->gain > CAMPAIGN_GAIN;
+  t->tight = c->tension > 0 && t->tension > c->tension;
   return fault_of (t);
 }
 
@@ -331,6 +334,8 @@ campaign_add (campaign_tally *t, const campaign_tally *from)
   t->blown += from->blown;
   t->unrecovered += from->unrecovered;
   t->gained += from->gained;
+  t->tight += from->tight;
+  t->tension = fmax (t->tension, from->tension);
   t->unsolved_for = fmax (t->unsolved_for, from->unsolved_for);
   t->fastest = fmax (t->fastest, from->fastest);
   t->ratio = fmax (t->ratio, from->ratio);

@@ -62,6 +62,7 @@ typedef enum campaign_fault
   CAMPAIGN_UNRECOVERED, /* not solved for more than 3 s */
   CAMPAIGN_GAINED,      /* energy, without water */
   CAMPAIGN_UNLAID,      /* there is no such line */
+  CAMPAIGN_TIGHT,       /* tighter than it may be: see campaign.tension */
   CAMPAIGN_FAULTS
 } campaign_fault;
 
@@ -81,7 +82,8 @@ typedef struct campaign
   bt__dynamic_report report;
   bt__dynamic *d;
   bt__dynamic_work *work;
-  double driven; /* m/s: the most that ends, water or overstretch can move the line with */
+  double tension; /* N: the most it may have; 0: any */
+  double driven;  /* m/s: the most that ends, water or overstretch can move the line with */
   int (*planted) (const struct campaign *); /* NULL, or called after every step: nonzero breaks the
                                                line; for tests of the minimiser */
 } campaign;
@@ -90,10 +92,11 @@ typedef struct campaign
 typedef struct campaign_tally
 {
   long lines, steps, solves, unsolved;
-  long broken, blown, unrecovered, gained; /* lines, see campaign_fault */
-  double unsolved_for;                     /* s: the longest */
-  double fastest, ratio;                   /* m/s, and as a multiple of what drove it */
-  double settled;                          /* m/s: the fastest after 3 s with the ends held */
+  long broken, blown, unrecovered, gained, tight; /* lines, see campaign_fault */
+  double unsolved_for;                            /* s: the longest */
+  double tension;                                 /* N */
+  double fastest, ratio;                          /* m/s, and as a multiple of what drove it */
+  double settled; /* m/s: the fastest after 3 s with the ends held */
   double gain; /* the most energy above that at the start, of m g L^2 and that of bending; below 0:
                   none */
   double seconds, slowest; /* CPU s: of all steps, of a step */

@@ -14,20 +14,32 @@ reef_open (reef *r)
 {
   memset (r, 0, sizeof *r);
   r->sheet = malloc (REEF_SHEETS * sizeof *r->sheet);
-  return r->sheet != NULL;
+  r->of_sheet = malloc (REEF_SHEETS * sizeof *r->of_sheet);
+  return r->sheet && r->of_sheet;
 }
 
 void
 reef_close (reef *r)
 {
   bt__scene_free (r->scene);
+  reef_bins_free (r->bins);
   free (r->sheet);
+  free (r->of_sheet);
 }
 
+/* Of the obstacle that comes next.  */
 static void
 add_bone (reef *r, bt_vec3 a, bt_vec3 b)
 {
+  r->of_bone[r->bones] = r->obstacles;
   r->bone[r->bones++] = (sweep_segment){ a, b };
+}
+
+static void
+add_solid (reef *r, solid s)
+{
+  r->of_solid[r->solids] = r->obstacles;
+  r->solid[r->solids++] = s;
 }
 
 static void
@@ -43,13 +55,13 @@ reef_box (reef *r, bt_vec3 centre, bt_vec3 half, double turn)
   bt__frame f
       = { centre, { cos (turn), sin (turn), 0 }, { -sin (turn), cos (turn), 0 }, { 0, 0, 1 } };
   bt__box b = { f, half };
-  r->solid[r->solids++] = (solid){ .kind = SOLID_BOX, .box = b };
-  add_obstacle (r, (bt__obstacle){ .kind = BT__OBSTACLE_BOX, .shape.box = b });
+  add_solid (r, (solid){ .kind = SOLID_BOX, .box = b });
   for (int i = 14; i < 27; i++) /* one of each pair of opposite corners, edges, sides */
     {
       bt_vec3 p = { half.x * (i % 3 - 1), half.y * (i / 3 % 3 - 1), half.z * (i / 9 - 1) };
       add_bone (r, bt__to_world (&f, p), bt__to_world (&f, bt__scale (-1, p)));
     }
+  add_obstacle (r, (bt__obstacle){ .kind = BT__OBSTACLE_BOX, .shape.box = b });
 }
 
 void
@@ -57,20 +69,20 @@ reef_cylinder (reef *r, bt_vec3 a, bt_vec3 b, double radius)
 {
   bt_vec3 axis = bt__unit_or (bt__sub (b, a), bt__vec (0, 0, 1));
   bt__cylinder c = { bt__scale (0.5, bt__add (a, b)), axis, bt__distance (a, b) / 2, radius };
-  r->solid[r->solids++] = (solid){ .kind = SOLID_CYLINDER, .cylinder = c };
-  add_obstacle (r, (bt__obstacle){ .kind = BT__OBSTACLE_CYLINDER, .shape.cylinder = c });
+  add_solid (r, (solid){ .kind = SOLID_CYLINDER, .cylinder = c });
   add_bone (r, a, b);
   bt_vec3 across = bt__scale (radius, bt__across (axis));
   add_bone (r, bt__sub (c.centre, across), bt__add (c.centre, across));
+  add_obstacle (r, (bt__obstacle){ .kind = BT__OBSTACLE_CYLINDER, .shape.cylinder = c });
 }
 
 void
 reef_wire (reef *r, bt_vec3 a, bt_vec3 b, double radius)
 {
   bt__capsule c = { a, b, radius };
-  r->solid[r->solids++] = (solid){ .kind = SOLID_CAPSULE, .capsule = c };
-  add_obstacle (r, (bt__obstacle){ .kind = BT__OBSTACLE_CAPSULE, .shape.capsule = c });
+  add_solid (r, (solid){ .kind = SOLID_CAPSULE, .capsule = c });
   add_bone (r, a, b);
+  add_obstacle (r, (bt__obstacle){ .kind = BT__OBSTACLE_CAPSULE, .shape.capsule = c });
 }
 
 void
@@ -82,11 +94,12 @@ reef_plane (reef *r, double z)
 static int
 add_mesh (reef *r, bt__mesh *m)
 {
-  if (!m || r->sheets + (int)m->triangles > REEF_SHEETS)
+  if (!m || r->obstacles == REEF_SOLIDS || r->sheets + (int)m->triangles > REEF_SHEETS)
     return 0;
   for (uint32_t i = 0; i < m->triangles; i++)
     {
       bt__triangle t = bt__mesh_triangle (m, i);
+      r->of_sheet[r->sheets] = r->obstacles;
       memcpy (r->sheet[r->sheets++].v, t.v, sizeof t.v);
     }
   add_obstacle (r, (bt__obstacle){ .kind = BT__OBSTACLE_MESH, .shape.mesh = m });
@@ -94,16 +107,29 @@ add_mesh (reef *r, bt__mesh *m)
 }
 
 int
+reef_soup (reef *r, const bt__soup *soup)
+{
+  bt__mesh *m = NULL;
+  return bt__mesh_new (soup, NULL, &m, NULL) == BT_OK && add_mesh (r, m);
+}
+
+int
+reef_grid (reef *r, const bt__grid *grid)
+{
+  bt__mesh *m = NULL;
+  return bt__mesh_from_grid (grid, NULL, &m, NULL) == BT_OK && add_mesh (r, m);
+}
+
+int
 reef_bottom (reef *r, dice *d, double z, double side, int n, double rough)
 {
   int posts = (n + 1) * (n + 1);
   double *height = malloc ((size_t)posts * sizeof *height);
-  bt__mesh *m = NULL;
   for (int i = 0; height && i < posts; i++)
     height[i] = z + dice_between (d, -rough, rough);
   bt__grid g
       = { (uint32_t)n + 1, (uint32_t)n + 1, -side * n / 2, -side * n / 2, side, side, height };
-  int done = height && bt__mesh_from_grid (&g, NULL, &m, NULL) == BT_OK && add_mesh (r, m);
+  int done = height && reef_grid (r, &g);
   free (height);
   return done;
 }
@@ -114,7 +140,6 @@ reef_tube (reef *r, bt_vec3 foot, double height, double radius, int round, int u
   int vertices = round * (up + 1), triangles = 2 * round * up;
   bt_vec3 *v = malloc ((size_t)vertices * sizeof *v);
   uint32_t (*corner)[3] = malloc ((size_t)triangles * sizeof *corner);
-  bt__mesh *m = NULL;
   for (int i = 0; v && i < vertices; i++)
     {
       double a = 2 * BT__PI * (i % round) / round;
@@ -130,7 +155,7 @@ reef_tube (reef *r, bt_vec3 foot, double height, double radius, int round, int u
     }
   bt__soup soup
       = { (uint32_t)vertices, (uint32_t)triangles, v, (const uint32_t (*)[3])corner, NULL };
-  int done = v && corner && bt__mesh_new (&soup, NULL, &m, NULL) == BT_OK && add_mesh (r, m);
+  int done = v && corner && reef_soup (r, &soup);
   free (v);
   free (corner);
   return done;
@@ -140,7 +165,8 @@ int
 reef_raise (reef *r)
 {
   static uint64_t serial;
-  return bt__scene_new (r->obstacle, (uint32_t)r->obstacles, ++serial, &r->scene, NULL) == BT_OK;
+  return reef_bin (r)
+         && bt__scene_new (r->obstacle, (uint32_t)r->obstacles, ++serial, &r->scene, NULL) == BT_OK;
 }
 
 static bt_vec3
@@ -186,90 +212,6 @@ reef_jacket (reef *r, uint64_t seed)
     }
   return reef_tube (r, bt__vec (1.5, 1, -29), 27, 0.7, 48, 30)
          && reef_bottom (r, &d, -30, 0.6, 60, 0.15) && reef_raise (r);
-}
-
-/* ---- The judge ---- */
-
-typedef struct bounds
-{
-  bt_vec3 lo, hi;
-} bounds;
-
-static bounds
-bounds_of (const bt_vec3 *p, int n, double more)
-{
-  bounds b = { p[0], p[0] };
-  for (int i = 1; i < n; i++)
-    {
-      b.lo = bt__vec (fmin (b.lo.x, p[i].x), fmin (b.lo.y, p[i].y), fmin (b.lo.z, p[i].z));
-      b.hi = bt__vec (fmax (b.hi.x, p[i].x), fmax (b.hi.y, p[i].y), fmax (b.hi.z, p[i].z));
-    }
-  bt_vec3 m = { more, more, more };
-  return (bounds){ bt__sub (b.lo, m), bt__add (b.hi, m) };
-}
-
-static int
-are_apart (const bounds *a, const bounds *b)
-{
-  return a->hi.x < b->lo.x || a->lo.x > b->hi.x || a->hi.y < b->lo.y || a->lo.y > b->hi.y
-         || a->hi.z < b->lo.z || a->lo.z > b->hi.z;
-}
-
-#define LOOK 0.05 /* m: clearances beyond are not looked for */
-
-double
-reef_clearance (const reef *r, const bt_vec3 *x, int n)
-{
-  double least = LOOK;
-  bounds all = bounds_of (x, n, LOOK);
-  for (int i = 0; i < r->solids; i++)
-    for (int j = 0; j + 1 < n; j++)
-      {
-        bt__link link = { x[j], x[j + 1] };
-        bt_vec3 mid = bt__scale (0.5, bt__add (x[j], x[j + 1]));
-        double size = bt__distance (x[j], x[j + 1]) / 2;
-        if (solid_point (r->solid + i, mid) <= size + LOOK)
-          least = fmin (least, solid_brute (r->solid + i, &link));
-      }
-  for (int i = 0; i < r->sheets; i++)
-    {
-      solid s = { .kind = SOLID_TRIANGLE };
-      memcpy (s.triangle.v, r->sheet[i].v, sizeof s.triangle.v);
-      bounds b = bounds_of (s.triangle.v, 3, 0);
-      if (are_apart (&all, &b))
-        continue;
-      for (int j = 0; j + 1 < n; j++)
-        {
-          bounds at = bounds_of (x + j, 2, LOOK);
-          bt__link link = { x[j], x[j + 1] };
-          if (!are_apart (&at, &b))
-            least = fmin (least, solid_brute (&s, &link));
-        }
-    }
-  return least;
-}
-
-int
-reef_crossings (const reef *r, const bt_vec3 *from, const bt_vec3 *to, int n)
-{
-  int sum = 0;
-  bounds a = bounds_of (from, n, 0), b = bounds_of (to, n, 0);
-  bounds all = bounds_of ((bt_vec3[]){ a.lo, a.hi, b.lo, b.hi }, 4, 0);
-  for (int i = 0; i < r->bones; i++)
-    sum += sweep_crossings (from, to, n, r->bone + i);
-  for (int i = 0; i < r->sheets; i++)
-    {
-      bounds t = bounds_of (r->sheet[i].v, 3, 0);
-      if (are_apart (&all, &t))
-        continue;
-      for (int j = 0; j + 1 < n; j++)
-        {
-          bounds swept = bounds_of ((bt_vec3[]){ from[j], from[j + 1], to[j], to[j + 1] }, 4, 0);
-          if (!are_apart (&swept, &t))
-            sum += sweep_sheet (from + j, to + j, 2, r->sheet + i);
-        }
-    }
-  return sum;
 }
 
 /* ---- Lines ---- */
@@ -390,6 +332,7 @@ rope_step (rope *p, double h, int judged)
   p->hook.witness = p;
   p->parts = 0;
   p->around.scene = p->reef->scene;
+  p->around.on = &p->reef->on;
   p->water.time += h;
   int n = (int)p->d->n + 1;
   memcpy (p->before, bt__dynamic_x (p->d), (size_t)n * sizeof *p->before);

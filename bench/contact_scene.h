@@ -12,20 +12,27 @@
 
 enum
 {
-  REEF_SOLIDS = 160,
-  REEF_SHEETS = 32000,
+  REEF_SOLIDS = 160, /* obstacles of any kind */
+  REEF_SHEETS = 40000,
   REEF_ANCHORS = 2000
 };
+
+/* Where the judge finds what is near: contact_judge.c.  */
+typedef struct reef_bins reef_bins;
 
 /* Obstacles, as the engine and as the judge have them.  */
 typedef struct reef
 {
   bt__scene *scene;
+  reef_bins *bins;
+  bt__switches on;          /* for the engine; the judge asks OFF too */
+  uint8_t off[REEF_SOLIDS]; /* nonzero: the obstacle is not there; see reef_take */
   int obstacles, solids, bones, sheets;
   bt__obstacle obstacle[REEF_SOLIDS];
   solid solid[REEF_SOLIDS];
-  sweep_segment bone[16 * REEF_SOLIDS]; /* segments inside solids */
-  sweep_triangle *sheet;                /* triangles of meshes */
+  sweep_segment bone[16 * REEF_SOLIDS];                            /* segments inside solids */
+  sweep_triangle *sheet;                                           /* triangles of meshes */
+  int of_solid[REEF_SOLIDS], of_bone[16 * REEF_SOLIDS], *of_sheet; /* which obstacle they are of */
 } reef;
 
 /* Make R, without obstacles; add some; raise it.  Nonzero on success.  */
@@ -34,12 +41,18 @@ void reef_close (reef *r);
 void reef_box (reef *r, bt_vec3 centre, bt_vec3 half, double turn); /* about the vertical */
 void reef_cylinder (reef *r, bt_vec3 a, bt_vec3 b, double radius);
 void reef_wire (reef *r, bt_vec3 a, bt_vec3 b, double radius); /* a capsule */
-void reef_plane (reef *r, double z);                           /* not known to the judge's bones */
+void reef_plane (reef *r, double z);
 /* A rough bottom at Z about the origin: N by N squares of SIDE metres.  */
 int reef_bottom (reef *r, dice *d, double z, double side, int n, double rough);
 /* A standing tube of triangles.  */
 int reef_tube (reef *r, bt_vec3 foot, double height, double radius, int round, int up);
+/* Any triangles; any grid of heights.  */
+int reef_soup (reef *r, const bt__soup *soup);
+int reef_grid (reef *r, const bt__grid *grid);
 int reef_raise (reef *r);
+
+/* Take obstacle I of what is raised away, for engine and judge, or put it back.  */
+void reef_take (reef *r, int i, int away);
 
 /* A jacket: 4 legs of 1.2 m 12 m apart, 4 levels and crossed braces, 24 wires of 10 mm, 6 boxes, a
    caisson of 2880 triangles, a rough bottom of 7200.  */
@@ -50,6 +63,10 @@ double reef_clearance (const reef *r, const bt_vec3 *x, int n);
 
 /* How often the move of the polyline passes through something.  */
 int reef_crossings (const reef *r, const bt_vec3 *from, const bt_vec3 *to, int n);
+
+/* Make the judge's bins of what R has, at reef_raise; nonzero on success.  */
+int reef_bin (reef *r);
+void reef_bins_free (reef_bins *bins);
 
 /* ---- A line in it ---- */
 

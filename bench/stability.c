@@ -3,7 +3,11 @@
    By itself: the moving line, so many random steps, and maps of where it errs; without the maps for
    a budget of hours, or when a summary is kept. Cases are numbered, and each is the same alone: a
    campaign can be cut into shards, and a case that fails repeated by its number.  What fails is
-   said on standard error, and cut down to a flight that --replay repeats.
+   said on standard error; with --log it is cut down and told as a scenario, and a line by itself as
+   a flight that --replay repeats, too.
+
+   --tension and --mutant plant faults, to see what becomes of them.  --agree and --traps run a
+   fixed set of cases, for tests/agree.sh.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -109,12 +113,19 @@ int
 main (int argc, char **argv)
 {
   stability_plan plan = { .seed = 1, .steps = 200000, .shard = 1, .shards = 1, .one = -1 };
+  long agree = 0, traps = 0;
   const char *hours = NULL, *shard = NULL, *family = "dynamics", *flight = NULL;
   const bench_option options[] = {
     { "steps", &plan.steps, 1, LONG_MAX, 20000, "steps, or states, to be taken" },
     { "seed", &plan.seed, 0, LONG_MAX, 0, "of the cases" },
     { "case", &plan.one, 0, LONG_MAX, 0,
       "one case alone, by its number; all of them when it is -1" },
+    { "tension", &plan.tension, 0, LONG_MAX, 0,
+      "N: a tighter line is a fault, too; to try what becomes of faults; 0: it is none" },
+    { "agree", &agree, 0, 0, 0,
+      "run a fixed set of cases and tell what they come to; for builds to be compared by" },
+    { "traps", &traps, 0, 0, 0, "the same, and stop at an invalid floating-point operation" },
+    { "mutant", &plan.mutant, 0, 0, 0, "fly without the guard, which the judge must notice" },
   };
   const bench_word words[] = {
     { "hours", &hours, "H", "go on for so long, in place of --steps" },
@@ -124,10 +135,12 @@ main (int argc, char **argv)
     { "replay", &flight, "FILE", "fly what failed, and was cut down, again" },
   };
   const bench_program program
-      = { "stability", "Abuse the engine and map where it labours", options, 3 };
+      = { "stability", "Abuse the engine and map where it labours", options, 7 };
   int status = bench_options_and_words (&program, words, 5, argc, argv);
   if (status != BENCH_GO_ON)
     return status;
+  if (agree || traps)
+    return stability_agree ((int)traps);
   int k = family_of (family);
   if (k == FAMILIES)
     return complain ("a family is dynamics, statics or contact, not ", family);

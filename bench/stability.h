@@ -15,7 +15,7 @@
 
 enum
 {
-  STABILITY_FAULTS = 6
+  STABILITY_FAULTS = 7
 };
 
 typedef struct stability_plan
@@ -26,6 +26,8 @@ typedef struct stability_plan
   int shard, shards;  /* this one of so many, from 1 */
   long one;           /* the only case, or -1 */
   const char *folder; /* where the summary and reproducers go, or NULL */
+  long tension;       /* N: a tighter line is a fault, too; 0: it is not */
+  long mutant;        /* nonzero: without the guard, which the judge must notice */
 } stability_plan;
 
 /* What a family counts.  */
@@ -56,8 +58,9 @@ long stability_next (stability_log *l);
 /* Case NUMBER has fault KIND: count it and say on standard error how to repeat it.  */
 void stability_fault (stability_log *l, long number, int kind);
 
-/* Open NAME-SEED-NUMBER.txt in the folder of L to write to, NULL without one.  */
+/* Open NAME-SEED-NUMBER.txt in the folder of L to write to, NULL without one; NAME.KIND.  */
 FILE *stability_file (const stability_log *l, const char *name, long number);
+FILE *stability_open (const stability_log *l, const char *name, const char *kind);
 
 /* Write the summary of L to its folder, as text and JSON, and return nonzero if that was done; its
    rows go to TABLE.  */
@@ -68,6 +71,10 @@ int stability_end (stability_log *l, bench_table *table);
 int stability_statics (const stability_plan *plan, bench_table *table, stability_log *l);
 int stability_contact (const stability_plan *plan, bench_table *table, stability_log *l);
 int stability_dynamics (const stability_plan *plan, bench_table *table, stability_log *l);
+
+/* Tell what a fixed set of cases comes to in this build; with TRAPS end at an invalid operation.
+   Return the status to exit with.  */
+int stability_agree (int traps);
 
 /* Where the moving line errs: maps, some minutes of them.  */
 int stability_maps (bench_table *table);

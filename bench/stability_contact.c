@@ -1,106 +1,133 @@
-/* Campaigns among obstacles: a line of 100 intervals towed through a jacket by an end that darts
-   from aim to aim and turns about, or with a vehicle of 20 kg there; every step is judged for
-   crossings by one who knows nothing of the engine.  A case is 600 steps in a jacket of its own.
+/* Campaigns among obstacles: see stability_flight.h.  Every other case is of a pilot, in the four
+   scenes by turns; the others mean harm.  Rows by scene and by harm.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
 
-#include "calibration.h"
-#include "contact_scene.h"
-#include "stability.h"
+#include "stability_tell.h"
+
+typedef struct survey
+{
+  flight_tally kind[FLIGHT_KINDS], harm[HARMS];
+} survey;
+
+static const flight_tally nothing = { .nearest = HUGE_VAL };
 
 enum
 {
-  LINKS = 100,
-  STEPS = 600,
-  REFUSED = 0,
-  NOT_FINITE,
-  CROSSING,
-  FAULTS
+  BUDGET = 300, /* flights to cut one down, ... */
+  SECONDS = 60  /* ... and CPU seconds */
 };
 
-static const char *const fault_names[FAULTS] = { "refused", "not finite", "crossing" };
-static const double frame = 1.0 / 60;
-static reef place;
-static rope line;
+/* ---- Rows ---- */
 
-/* Drive the free end toward TARGET.  */
-static void
-thrust (bt_vec3 target, double speed)
+static double
+share (long part, long whole)
 {
-  bt_vec3 way = bt__sub (target, bt__dynamic_x (line.d)[line.d->n]);
-  bt_vec3 want = bt__scale (speed / fmax (bt__norm (way), 1), way);
-  bt_vec3 f = bt__scale (200, bt__sub (want, bt__dynamic_v (line.d)[line.d->n]));
-  double size = bt__norm (f);
-  line.in.end[1].body.force = size > 600 ? bt__scale (600 / size, f) : f;
+  return (double)part / fmax ((double)whole, 1);
 }
 
-/* Fly case NUMBER; zero if it could not be laid.  */
-static int
-fly (stability_log *l, long number)
+static void
+report_tally (bench_table *table, const char *name, const flight_tally *t, double cut,
+              double unsolved)
 {
-  static const bt_vec3 shape[]
-      = { { -14, 0, -5 }, { -16, -20, -8 }, { -12, -20, -8 }, { -9, 0, -8 } };
-  uint64_t seed = (uint64_t)(l->plan->seed * 1000003 + number) + 1;
-  dice d = dice_new (seed);
-  bt_vec3 target = { 0, 0, -8 };
-  int body = dice_below (&d, 2);
-  double speed = exp (dice_between (&d, log (0.1), log (5)));
-  if (!reef_jacket (&place, seed) || !rope_open (&line, &place, LINKS, shape, 4, 60, 0.3))
-    return 0;
-  if (body)
-    line.in.end[1] = (bt__dynamic_end){ .free = 1, .body = { .mass = 20, .quadratic = 60 } };
-  for (int i = 0; i < STEPS && !line.nan && !line.refused; i++)
+  char counters[240], asked[32];
+  long through = t->faults[FLIGHT_CROSSING] + t->faults[FLIGHT_TOO_NEAR];
+  double each = t->seconds / fmax ((double)t->steps, 1);
+  snprintf (
+      counters, sizeof counters,
+      "flights=%ld;jammed=%ld;steps=%ld;refused=%ld;not_finite=%ld;nearest=%.7g cores;solves=%.2f;"
+      "touches=%.1f;fastest=%.3g m/s;tension=%.3g N;unsolved_for=%.2g s",
+      t->flights, t->jammed, t->steps, t->faults[FLIGHT_REFUSED], t->faults[FLIGHT_NOT_FINITE],
+      t->nearest, share (t->solves, t->steps), share (t->touches, t->steps), t->fastest, t->tension,
+      t->unsolved_for);
+  bench_put (table, &(bench_row){ "contact", "dynamic", name, "crossings or too near",
+                                  (double)through, "outside judge, asked: 0", 0, each, counters });
+  snprintf (asked, sizeof asked, "asked: %g", cut);
+  bench_put (table,
+             &(bench_row){ "contact", "dynamic", name, "share of steps cut by the guard",
+                           share (t->truncated, t->steps), cut < 1 ? asked : NULL, 0, 0, NULL });
+  snprintf (asked, sizeof asked, "asked: %g", unsolved);
+  bench_put (table, &(bench_row){ "contact", "dynamic", name, "share of steps not solved",
+                                  share (t->unsolved, t->steps), unsolved < 1 ? asked : NULL, 0, 0,
+                                  NULL });
+}
+
+static void
+report (bench_table *table, const survey *s)
+{
+  char name[64];
+  for (int k = 0; k < FLIGHT_HARM; k++)
+    if (s->kind[k].flights)
+      report_tally (table, flight_kind_names[k], s->kind + k, 1e-4,
+                    k == FLIGHT_CANYON ? 1.5e-2 : 1e-3);
+  for (int k = 0; k < HARMS; k++)
+    if (s->harm[k].flights)
+      {
+        snprintf (name, sizeof name, "harm: %s", flight_harm_names[k]);
+        report_tally (table, name, s->harm + k, 1, 1);
+      }
+}
+
+/* ---- Cases ---- */
+
+/* Add what came of F to what it belongs to.  */
+static void
+enter (survey *s, stability_log *l, const flight *f, const flight_tally *t)
+{
+  flight_add (s->kind + f->kind, t);
+  if (f->kind == FLIGHT_HARM)
+    flight_add (s->harm + f->harm, t);
+  l->steps += t->steps;
+  l->cpu += t->seconds;
+  if (f->kind != FLIGHT_HARM)
     {
-      if (dice_below (&d, 120) == 0)
-        target = bt__vec (dice_between (&d, -9, 9), dice_between (&d, -9, 9),
-                          dice_between (&d, -28, -1));
-      if (dice_below (&d, 60) == 0)
-        target = bt__scale (-1, target);
-      if (body)
-        thrust (target, speed);
-      else
-        rope_tow (&line, target, speed, frame);
-      double start = bench_now ();
-      rope_step (&line, frame, 0);
-      l->cpu += bench_now () - start;
-      rope_judge (&line);
+      l->solves += t->solves;
+      l->unsolved += t->unsolved;
+      l->unsolved_for = fmax (l->unsolved_for, t->unsolved_for);
+      l->worst = fmax (l->worst, t->fastest);
     }
-  return 1;
 }
 
+/* Cut F down while it has FAULT, and tell what is left as a scenario.  */
 static void
-close_case (void)
+reproduce (const stability_log *l, flight *f, const flight_rules *rules, long number, int fault)
 {
-  rope_close (&line);
-  reef_close (&place);
+  if (!l->plan->folder)
+    return;
+  static flight whole;
+  whole = *f;
+  flight_minimise (f, rules, fault, BUDGET, SECONDS);
+  fprintf (stderr, "  cut down to %d steps and %d aims\n", f->steps, f->aims);
+  stability_tell_flight (l, &whole, f, number, fault);
 }
 
 int
 stability_contact (const stability_plan *plan, bench_table *table, stability_log *l)
 {
-  long truncated = 0;
-  stability_begin (l, plan, "steps", fault_names, FAULTS, "fastest m/s");
+  static flight f;
+  survey s;
+  const flight_rules rules = { plan->tension > 0 ? plan->tension : INFINITY, plan->mutant };
+  for (int k = 0; k < FLIGHT_KINDS; k++)
+    s.kind[k] = nothing;
+  for (int k = 0; k < HARMS; k++)
+    s.harm[k] = nothing;
+  stability_begin (l, plan, "steps", flight_fault_names, FLIGHT_FAULTS, "fastest m/s");
   for (long number; (number = stability_next (l)) >= 0;)
     {
-      if (!fly (l, number))
+      flight_tally t;
+      flight_draw (&f, (uint64_t)plan->seed, number);
+      int fault = flight_play (&f, &rules, &t);
+      if (fault < 0)
         return 0;
-      l->steps += line.steps;
-      l->solves += line.solves;
-      l->unsolved += line.unconverged;
-      l->worst = fmax (l->worst, line.fastest);
-      truncated += line.truncated;
-      if (line.refused)
-        stability_fault (l, number, REFUSED);
-      if (line.nan)
-        stability_fault (l, number, NOT_FINITE);
-      if (line.crossings)
-        stability_fault (l, number, CROSSING);
-      close_case ();
+      enter (&s, l, &f, &t);
+      for (int k = 0; k < FLIGHT_FAULTS; k++)
+        if (t.faults[k])
+          stability_fault (l, number, k);
+      if (fault != FLIGHT_SOUND)
+        reproduce (l, &f, &rules, number, fault);
     }
-  bench_put (table,
-             &(bench_row){ "contact", "dynamic", "all", "share of steps cut by the guard",
-                           (double)truncated / fmax ((double)l->steps, 1), NULL, 0, 0, NULL });
+  report (table, &s);
   return 1;
 }

@@ -10,7 +10,7 @@
 
 #include "calibration.h"
 #include "campaign.h"
-#include "stability.h"
+#include "stability_tell.h"
 
 static bench_table *table;
 
@@ -109,11 +109,14 @@ reproduce (const stability_log *l, campaign *c, long number, campaign_fault faul
   FILE *file = stability_file (l, "flight", number);
   if (!file)
     return;
+  static campaign_flight whole;
+  whole = c->flight;
   campaign_minimise (c, fault, BUDGET, SECONDS);
   fprintf (stderr, "  cut down to %d nodes and %d steps: --replay %s/flight-%ld-%ld.txt\n",
            c->flight.nodes, c->flight.moves, l->plan->folder, l->plan->seed, number);
   campaign_write (file, &c->flight);
   fclose (file);
+  stability_tell_line (l, &whole, &c->flight, c->driven, number, fault);
 }
 
 static void
@@ -246,6 +249,7 @@ stability_dynamics (const stability_plan *plan, bench_table *to, stability_log *
   int good = campaign_open (&c, 1) && s;
   table = to;
   c.clock = bench_now;
+  c.tension = (double)plan->tension;
   if (good)
     {
       survey_clear (s);

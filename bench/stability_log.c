@@ -139,6 +139,14 @@ write_json (const stability_log *l, FILE *f, double hours, double each)
   fputs ("}}\n", f);
 }
 
+FILE *
+stability_open (const stability_log *l, const char *name, const char *kind)
+{
+  char file[256];
+  snprintf (file, sizeof file, "%s.%s", name, kind);
+  return open_in (l, file);
+}
+
 static int
 write_both (const stability_log *l, double hours, double each)
 {

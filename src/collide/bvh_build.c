@@ -198,8 +198,10 @@ find_cut (const bt__bvh *tree, const part *p, cut *out)
     {
       bin bins[BINS];
       int at = 0;
+      if (!(size[k] > 0) || (p->n > 4096 && k != longest))
+        continue;
       float scale = (float)BINS * 0.999f / size[k];
-      if (!(size[k] > 0) || !(scale < FLT_MAX) || (p->n > 4096 && k != longest))
+      if (!(scale < FLT_MAX))
         continue;
       fill_bins (tree, p, k, p->middles.lo[k], scale, bins);
       float cost = best_cut (bins, &at);

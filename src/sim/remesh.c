@@ -19,6 +19,11 @@
 #define AIM 0.3
 #define TOO_GOOD 0.06
 #define SPARE 1.15 /* times the nodes the estimate asks for */
+
+/* A coarse line about a corner is no cubic: one that passes through its nodes swings out beside
+   them, and may be longer than the line by a third.  No interval is laid as stretched as this, of
+   what it was.  */
+#define STRETCH 0.01
 enum
 {
   FEWEST = 8
@@ -42,6 +47,51 @@ multiple (int n, int m, int room)
   return m < n ? m : times * n <= room ? times * n : n;
 }
 
+/* Where arc length S is on the straight intervals of CHAIN; *J, *FROM: the interval that the last
+   S, not larger, was in, and where that begins; 0 at first.  */
+static bt_vec3
+point_on_chords (const bt__dynamic *chain, double s, int64_t *j, double *from)
+{
+  const double *rest = bt__dynamic_rest ((bt__dynamic *)chain);
+  const bt_vec3 *x = bt__dynamic_x ((bt__dynamic *)chain);
+  for (; *j < chain->n - 1 && s > *from + rest[*j]; (*j)++)
+    *from += rest[*j];
+  return bt__axpy (x[*j], fmin ((s - *from) / rest[*j], 1), bt__sub (x[*j + 1], x[*j]));
+}
+
+/* The share that the chords must have in the N + 1 points P of CHAIN, LENGTH long, for none of the
+   intervals between them to be stretched by STRETCH more than on the chords.  */
+static double
+share_of_chords (const bt__dynamic *chain, double length, const bt_vec3 *p, int n)
+{
+  int64_t j = 0;
+  double from = 0, share = 0, most = (1 + STRETCH) * length / n;
+  bt_vec3 last = p[0];
+  for (int k = 1; k <= n; k++)
+    {
+      bt_vec3 next = point_on_chords (chain, length * k / n, &j, &from);
+      double straight = bt__distance (last, next), bent = bt__distance (p[k - 1], p[k]);
+      double allowed = fmax (most, straight);
+      if (bent > allowed)
+        share = fmax (share, (bent - allowed) / (bent - straight));
+      last = next;
+    }
+  return share;
+}
+
+/* Take back the N + 1 points P of CHAIN, LENGTH long, to its chords as far as that.  */
+static void
+straighten (const bt__dynamic *chain, double length, bt_vec3 *p, int n)
+{
+  int64_t j = 0;
+  double from = 0, share = share_of_chords (chain, length, p, n);
+  for (int k = 1; k < n && share > 0; k++)
+    {
+      bt_vec3 to = point_on_chords (chain, length * k / n, &j, &from);
+      p[k] = bt__axpy (p[k], share, bt__sub (to, p[k]));
+    }
+}
+
 /* Take N + 1 points, velocities and tensions off LINE.  */
 static void
 sample (bt_dive *dive, const bt__line *line, int n)
@@ -54,6 +104,7 @@ sample (bt_dive *dive, const bt__line *line, int n)
       dive->motion[k] = bt__dynamic_velocity (line->chain, s);
       dive->along[k] = bt__line_tension (line, length * fmin (k + 0.5, n) / n);
     }
+  straighten (line->chain, length, dive->polyline, n);
 }
 
 static bt_status
