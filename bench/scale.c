@@ -6,12 +6,18 @@
    the model and the dive (of triangles, the model) take from the system's allocator, for one of
    what grows; it is the only number here that is not better for being closer to something else.
 
+   The same vehicles stepped by several threads, in open water and each line pressed to a post,
+   beside a dive of one thread: by turns, a few steps each.  The error is the number of turns after
+   which the states differ; the counters have the speed-up, of the least time that passed, what CPU
+   it took of that of one thread, how many steps were shared out, and how many of them done again.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <malloc.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
 
 #include "calibration.h"
 #include "jacket.h"
@@ -23,8 +29,10 @@
 enum
 {
   ROUNDS = 5,
-  WARM = 12,   /* steps before it is timed */
-  SEVERAL = 50 /* intervals of each of several lines */
+  WARM = 12,    /* steps before it is timed */
+  SEVERAL = 50, /* intervals of each of several lines */
+  TURNS = 300,  /* of two dives that are compared, at most, ... */
+  TURN = 20 /* ... and steps of one tether in a turn: short, for a busy machine to overlook it */
 };
 
 static double
@@ -144,6 +152,87 @@ scale_triangles (bench_table *t, long most, double work)
   jacket_free (&j);
 }
 
+/* ---- Threads ---- */
+
+static double
+time_passed (void)
+{
+  struct timespec t;
+  clock_gettime (CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* N vehicles, each line in open water or pressed to a post.  */
+static void
+make_fleet (scene *s, int n, int posts)
+{
+  scene_clear (s);
+  scene_current (s, bt__vec (0.3, 0, 0));
+  for (int i = 0; i < n; i++)
+    {
+      bt_vec3 at = bt__vec (30 * (i % 8), 30 * (int)(i / 8), 0);
+      scene_vehicle (s, bt__add (at, bt__vec (0, 12, -20)));
+      scene_line (s, at, 30, SEVERAL);
+      if (posts)
+        scene_bar (s, bt__add (at, bt__vec (1, -20, -10)), bt__add (at, bt__vec (1, 20, -10)), 0.3);
+    }
+}
+
+/* A dive at its turns.  */
+typedef struct runner
+{
+  bt_dive *dive;
+  double least, cpu; /* s of a step, as it passed; s of CPU in all */
+} runner;
+
+static void
+take_turn (runner *r, int flown, int turn, int steps)
+{
+  double begun = time_passed ();
+  r->cpu += steps * scene_fly (r->dive, flown, (long)turn * steps, steps);
+  r->least = fmin (r->least, (time_passed () - begun) / steps);
+}
+
+static void
+compare_threads (bench_table *t, const scene *s, int n, int threads, const char *where, double work)
+{
+  runner one = { scene_begin (s), INFINITY, 0 }, many = { scene_begin (s), INFINITY, 0 };
+  int steps = 1 + TURN / n, turns = (int)fmin (TURNS, work / TURN), differ = 0;
+  char setting[60], counters[240];
+  bt_profile p;
+  bt_error error;
+  scene_must (bt_dive_set_threads (many.dive, threads, &error), &error);
+  for (int turn = 0; turn < turns; turn++)
+    {
+      take_turn (&one, n, turn, steps);
+      take_turn (&many, n, turn, steps);
+      differ += bt_dive_hash (one.dive) != bt_dive_hash (many.dive);
+    }
+  bt_dive_profile (many.dive, &p);
+  snprintf (setting, sizeof setting, "%d tethers, %d threads, %s", n, threads, where);
+  snprintf (counters, sizeof counters,
+            "speed_up=%.2f;cpu_of_one=%.2f;shared=%.3f;again=%.3f;threads=%d",
+            one.least / many.least, many.cpu / one.cpu, (double)p.shared_steps / (double)p.steps,
+            (double)p.shared_again / (double)p.steps, (int)p.threads);
+  bench_put (t, &(bench_row){ "threads", "dynamic", setting, "turns after which states differ",
+                              differ, "one thread", 0, many.cpu / (turns * steps), counters });
+  bt_dive_free (one.dive);
+  bt_dive_free (many.dive);
+}
+
+static void
+scale_threads (bench_table *t, long most, double work)
+{
+  static scene s;
+  for (int posts = 0; posts < 2; posts++)
+    for (int n = 1; n <= most; n *= 4)
+      for (int threads = 1; threads <= 4; threads *= 2)
+        {
+          make_fleet (&s, n, posts);
+          compare_threads (t, &s, n, threads, posts ? "at posts" : "open water", work);
+        }
+}
+
 int
 main (int argc, char **argv)
 {
@@ -164,5 +253,6 @@ main (int argc, char **argv)
   scale_nodes (&table, nodes, (double)work);
   scale_vehicles (&table, vehicles, (double)work);
   scale_triangles (&table, triangles, (double)work);
+  scale_threads (&table, vehicles, (double)work);
   return bench_close (&table);
 }

@@ -2,7 +2,8 @@
 
    Every operation works on a copy of the state and is taken over only when it succeeds, so a
    refused call leaves the dive as it was.  Questions are pure reads.  Nothing is allocated between
-   bt_dive_new and bt_dive_free but by bt_dive_fork and the operation `follow'.
+   bt_dive_new and bt_dive_free but by bt_dive_fork, bt_dive_set_threads and the operation
+   `follow'.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -28,6 +29,19 @@ void bt_dive_free (bt_dive *dive);
 /* Make *COPY a second dive on the same model in the same state; the two then know nothing of each
    other.  */
 bt_status bt_dive_fork (const bt_dive *dive, bt_dive **copy, bt_error *error);
+
+enum
+{
+  BT_THREADS_MAX = 64
+};
+
+/* Let up to N threads, 1 to BT_THREADS_MAX, the caller of bt_dive_step among them, step the tethers
+   of DIVE; at first it is 1.  What comes of it never depends on N, and it is no part of the state:
+   forks have 1, and what a dive is restored to leaves it alone.  The threads start in the first
+   step that has work for several, in a world whose current is no function, and end with
+   bt_dive_free or another N.  BT_ERR_DOMAIN, BT_ERR_LIMIT: as it was.  */
+bt_status bt_dive_set_threads (bt_dive *dive, int n, bt_error *error);
+int bt_dive_threads (const bt_dive *dive);
 
 /* Let FUNCTION serve currents of kind BT_CURRENT_FUNCTION from now on.  */
 void bt_dive_set_current_function (bt_dive *dive, bt_current_function function, void *user);
@@ -244,6 +258,9 @@ typedef struct bt_profile
   uint64_t wave_samples, lee_samples; /* places of moving lines and vehicles where the water was
                                          asked for waves, for the lee of obstacles */
   uint64_t operations, refused;
+  uint64_t threads;      /* ever started */
+  uint64_t shared_steps; /* tries at a step whose tethers several threads could share, ... */
+  uint64_t shared_again; /* ... and those that one had to do again, for tethers that met */
 } bt_profile;
 
 /* Write how the sea, vehicle I, tether I, the water at P are now.  BT_ERR_NAME when there is no

@@ -199,6 +199,34 @@ dive_time_step (SCM object)
   return scm_from_double (bt_dive_time_step (bt__to_dive (object)));
 }
 
+/* ---- Threads ---- */
+
+static SCM
+set_threads (SCM object, SCM n)
+{
+  bt_dive *dive = bt__to_idle_dive ("threads!", object);
+  bt_error error;
+  bt_error live = { BT_ERR_DEF, "a live dive keeps its threads; say (freeze!) first" };
+  if (bt__to_handle (object)->live)
+    bt__raise ("threads!", &live);
+  bt__check ("threads!", bt_dive_set_threads (dive, scm_to_int (n), &error), &error);
+  return SCM_UNSPECIFIED;
+}
+
+/* Of a live dive what is asked is a copy: the threads are those of the one that is flown.  */
+static SCM
+threads (SCM object)
+{
+  const bt__handle *handle = bt__to_handle (object);
+  return scm_from_int (bt_dive_threads (handle->flown ? handle->flown : handle->dive));
+}
+
+static SCM
+most_threads (void)
+{
+  return scm_from_int (BT_THREADS_MAX);
+}
+
 /* ---- Checkpoints ---- */
 
 static SCM
@@ -247,6 +275,9 @@ bt__define_dives (void)
     { "%dive-time", 1, 0, (scm_t_subr)dive_time, "Return the time of DIVE, s." },
     { "%dive-steps", 1, 0, (scm_t_subr)dive_steps, "Return the steps DIVE has taken." },
     { "%dive-time-step", 1, 0, (scm_t_subr)dive_time_step, "Return the time step of DIVE, s." },
+    { "%set-threads!", 2, 0, (scm_t_subr)set_threads, "Let up to N threads step DIVE." },
+    { "%threads", 1, 0, (scm_t_subr)threads, "Return how many may." },
+    { "%most-threads", 0, 0, (scm_t_subr)most_threads, "Return the most there can be." },
     { "%save-dive", 1, 0, (scm_t_subr)save_dive, "Return the state of DIVE, a bytevector." },
     { "%restore-dive!", 2, 0, (scm_t_subr)restore_dive, "Return DIVE to the state in BYTES." },
     { "%hash-dive", 1, 0, (scm_t_subr)hash_dive, "Return the 64-bit hash of DIVE's state." },

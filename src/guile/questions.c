@@ -312,6 +312,9 @@ profile (SCM object)
   SCM list = SCM_EOL;
   bt_dive_profile (bt__to_dive (object), &p);
   list = with ("refused", scm_from_uint64 (p.refused), list);
+  list = with ("shared-again", scm_from_uint64 (p.shared_again), list);
+  list = with ("shared-steps", scm_from_uint64 (p.shared_steps), list);
+  list = with ("threads", scm_from_uint64 (p.threads), list);
   list = with ("words", scm_from_uint64 (p.words), list);
   list = with ("charts", scm_from_uint64 (p.charts), list);
   list = with ("strings", scm_from_uint64 (p.strings), list);

@@ -126,7 +126,7 @@ bt__bring_end (const bt_dive *dive, bt__state *state, int i, int k, bt_vec3 p)
 {
   int vehicle = dive->model->ends[i][k].vehicle;
   bt__vehicle *v;
-  if (vehicle < 0)
+  if (vehicle < 0 || bt__is_shared (dive, vehicle))
     return;
   v = bt__dive_vehicle (dive, state, vehicle);
   stand (dive, state, vehicle, place_for (dive, state, vehicle, p));

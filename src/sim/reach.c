@@ -42,10 +42,13 @@ static int
 fastened (const bt_dive *dive, bt__state *state, int i, int vehicle, bt_vec3 *other)
 {
   const bt__end *end = dive->model->ends[i];
-  bt__ends ends = bt__tether_ends (dive, state, i);
+  bt__ends ends;
+  if ((end[0].vehicle != vehicle && end[1].vehicle != vehicle)
+      || bt__dive_tether (dive, state, i)->parted)
+    return 0;
+  ends = bt__tether_ends (dive, state, i);
   *other = end[1].vehicle == vehicle ? ends.a : ends.b;
-  return !bt__dive_tether (dive, state, i)->parted
-         && (end[0].vehicle == vehicle || end[1].vehicle == vehicle);
+  return 1;
 }
 
 double

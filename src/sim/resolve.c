@@ -8,6 +8,7 @@
 #include "math/vec.h"
 #include "sim/around.h"
 #include "sim/chain.h"
+#include "sim/share.h"
 
 int
 bt__is_unchanged (const bt_dive *dive, const bt__state *state, const bt__tether *tether,
@@ -120,13 +121,16 @@ resolve_moving (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, in
   return status == BT_OK && passes ? bt__step_chain (dive, state, i, ends, error) : status;
 }
 
-static bt_status
-resolve (bt_dive *dive, bt__state *state, int i, int passes, bt_error *error)
+bt_status
+bt__resolve_tether (bt_dive *dive, bt__state *state, int i, int passes, bt_error *error)
 {
   bt__ends ends = bt__tether_ends (dive, state, i);
-  return bt__is_moving_model (bt__dive_tether (dive, state, i))
-             ? resolve_moving (dive, state, i, &ends, passes, error)
-             : resolve_static (dive, state, i, &ends, error);
+  bt_status status = bt__is_moving_model (bt__dive_tether (dive, state, i))
+                         ? resolve_moving (dive, state, i, &ends, passes, error)
+                         : resolve_static (dive, state, i, &ends, error);
+  if (bt__has_obstacles (dive) && bt__box_line (dive, state, i) && dive->lane)
+    dive->lane->refused = 1; /* others were told that it is where it was */
+  return status;
 }
 
 bt_status
@@ -135,8 +139,13 @@ bt__resolve_tethers (bt_dive *dive, bt__state *state, int passes, bt_error *erro
   bt_status status = BT_OK;
   int among = bt__has_obstacles (dive);
   if (among)
-    bt__order_tethers (dive, state);
+    {
+      bt__order_tethers (dive, state);
+      bt__box_lines (dive, state);
+    }
+  if (passes && dive->lanes && bt__share_tethers (dive, state))
+    return BT_OK;
   for (int i = 0; status == BT_OK && i < dive->model->n_tethers; i++)
-    status = resolve (dive, state, among ? dive->shore.order[i] : i, passes, error);
+    status = bt__resolve_tether (dive, state, among ? dive->shore.order[i] : i, passes, error);
   return status;
 }

@@ -74,6 +74,9 @@ double bt__reach_along (const bt_dive *dive, bt__state *state, int i, bt_vec3 a,
    nonzero, let the moving lines go on by a step (resolve.c).  */
 bt_status bt__resolve_tethers (bt_dive *dive, bt__state *state, int passes, bt_error *error);
 
+/* The same of tether I alone, whose turn it is.  */
+bt_status bt__resolve_tether (bt_dive *dive, bt__state *state, int i, int passes, bt_error *error);
+
 /* The ends of tether I of STATE.  */
 typedef struct bt__ends
 {

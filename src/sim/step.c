@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "math/vec.h"
 #include "sim/around.h"
+#include "sim/share.h"
 #include "world/obstacles.h"
 
 /* ---- Begin ---- */
@@ -157,7 +158,7 @@ agree (bt_dive *dive, bt__state *next)
 
 /* Step the copy; ROUND tries at it did not fit together with the obstacles.  */
 static bt_status
-try_step (bt_dive *dive, int round, bt_error *error)
+try_once (bt_dive *dive, int round, bt_error *error)
 {
   bt__state *next = bt__dive_begin (dive);
   bt_status status;
@@ -175,6 +176,18 @@ try_step (bt_dive *dive, int round, bt_error *error)
   if (bt__has_obstacles (dive))
     begin_among (dive, next, round);
   return bt__resolve_tethers (dive, next, 1, error);
+}
+
+/* The same, shared out if there are threads for it and that can be done.  */
+static bt_status
+try_step (bt_dive *dive, int round, bt_error *error)
+{
+  bt_status status;
+  if (!dive->lanes)
+    return try_once (dive, round, error);
+  bt__share_begin (dive);
+  status = try_once (dive, round, error);
+  return bt__share_refused (dive) ? try_once (dive, round, error) : status;
 }
 
 /* What a step had to do with bodies, waves and lee.  */

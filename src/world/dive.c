@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "world/lanes.h"
 #include "world/layout.h"
 #include "world/watch.h"
 
@@ -55,14 +56,14 @@ make_tools (bt_dive *dive, bt_error *error)
   int most = 0;
   size_t points;
   for (int i = 0; i < dive->model->n_tethers; i++)
-    if (dive->model->tethers[i].props.nodes > most)
-      most = (int)dive->model->tethers[i].props.nodes;
+    if (bt__chain_room (&dive->model->tethers[i]) > most)
+      most = bt__chain_room (&dive->model->tethers[i]);
   if (most == 0)
     return BT_OK;
   dive->tools.search = bt_search_new ();
-  dive->tools.steady = bt_steady_new (2 * most); /* as many as a chain comes to */
-  dive->work = bt__dynamic_work_new (2 * most);
-  points = 2 * (size_t)most + 1 + 2 * BT__SPLITS_MAX;
+  dive->tools.steady = bt_steady_new (most); /* as many as a chain comes to */
+  dive->work = bt__dynamic_work_new (most);
+  points = (size_t)most + 1 + 2 * BT__SPLITS_MAX;
   dive->polyline = calloc (points, sizeof *dive->polyline);
   dive->along = calloc (points, sizeof *dive->along);
   dive->motion = calloc (points, sizeof *dive->motion);
@@ -70,6 +71,21 @@ make_tools (bt_dive *dive, bt_error *error)
       || !dive->along)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the solvers of a dive");
   return BT_OK;
+}
+
+/* What a step has of each vehicle and each tether: lanes borrow it.  */
+static bt_status
+make_rows (bt_dive *dive, bt_error *error)
+{
+  const bt_model *model = dive->model;
+  bt__shore *shore = &dive->shore;
+  size_t vehicles = (size_t)model->n_vehicles + 1, tethers = (size_t)model->n_tethers + 1;
+  int whole = (dive->driven = calloc (vehicles, sizeof *dive->driven)) != NULL;
+  if (model->n_obstacles > 0)
+    whole = whole && (shore->pin = calloc (vehicles, sizeof *shore->pin))
+            && (shore->order = calloc (tethers, sizeof *shore->order))
+            && (shore->place = calloc (tethers, sizeof *shore->place));
+  return whole ? BT_OK : bt__fail (error, BT_ERR_LIMIT, "no memory for the parts of a dive");
 }
 
 /* What obstacles need, for the longest tether and all the movers.  */
@@ -91,17 +107,15 @@ make_shore (bt_dive *dive, bt_error *error)
     }
   shore->mover = calloc ((size_t)model->n_carried + 1, sizeof *shore->mover);
   shore->course = calloc ((size_t)model->n_carried + 1, sizeof *shore->course);
-  shore->pin = calloc ((size_t)model->n_vehicles + 1, sizeof *shore->pin);
   shore->line = bt__line_work_new (chain + 1);
   shore->strand = calloc (2 * (size_t)model->n_tethers + 1, sizeof *shore->strand);
-  shore->order = calloc ((size_t)model->n_tethers + 1, sizeof *shore->order);
-  shore->place = calloc ((size_t)model->n_tethers + 1, sizeof *shore->place);
+  shore->box = calloc (2 * (size_t)model->n_tethers + 1, sizeof *shore->box);
   shore->line_of = -1;
   shore->safe_of = -1;
   shore->node = calloc ((size_t)chain + 1, sizeof *shore->node);
   shore->share = calloc ((size_t)chain + 1, sizeof *shore->share);
-  if (!shore->mover || !shore->course || !shore->pin || !shore->line || !shore->strand
-      || !shore->order || !shore->place || !shore->node || !shore->share)
+  if (!shore->mover || !shore->course || !shore->line || !shore->strand || !shore->box
+      || !shore->node || !shore->share)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the obstacles of a dive");
   status = bt__polyline_work_new ((uint32_t)room + 1, (uint32_t)model->n_carried, &shore->polyline,
                                   error);
@@ -116,6 +130,7 @@ free_shore (bt__shore *shore)
   free (shore->course);
   free (shore->pin);
   free (shore->strand);
+  free (shore->box);
   free (shore->order);
   free (shore->place);
   free (shore->node);
@@ -139,8 +154,9 @@ lay_out (bt_dive *dive)
     }
 }
 
-bt_status
-bt__dive_alloc (bt_model *model, bt_dive **out, bt_error *error)
+/* Make a dive with NOW and NEXT bytes of its states; 0: none.  */
+static bt_status
+make_dive (bt_model *model, size_t now, size_t next, bt_dive **out, bt_error *error)
 {
   bt_status status = BT_OK;
   bt_dive *dive = calloc (1, sizeof *dive);
@@ -148,16 +164,31 @@ bt__dive_alloc (bt_model *model, bt_dive **out, bt_error *error)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for a dive");
   dive->model = bt_model_retain (model);
   dive->size = bt__state_size (model);
-  dive->now = calloc (1, dive->size);
-  dive->next = calloc (1, dive->size);
+  dive->now = now > 0 ? calloc (1, now) : NULL;
+  dive->next = calloc (1, next);
   dive->sea = calloc (2, sizeof *dive->sea);
-  dive->driven = calloc ((size_t)model->n_vehicles + 1, sizeof *dive->driven);
-  if (!dive->now || !dive->next || !dive->driven || !dive->sea)
+  if ((now > 0 && !dive->now) || !dive->next || !dive->sea)
     status = bt__fail (error, BT_ERR_LIMIT, "no memory for a state of %zu bytes", dive->size);
   else
     status = make_tools (dive, error);
   if (status == BT_OK)
     status = make_shore (dive, error);
+  if (status == BT_OK)
+    *out = dive;
+  else
+    bt_dive_free (dive);
+  return status;
+}
+
+bt_status
+bt__dive_alloc (bt_model *model, bt_dive **out, bt_error *error)
+{
+  size_t size = bt__state_size (model);
+  bt_dive *dive;
+  bt_status status = make_dive (model, size, size, &dive, error);
+  if (status != BT_OK)
+    return status;
+  status = make_rows (dive, error);
   if (status != BT_OK)
     {
       bt_dive_free (dive);
@@ -166,6 +197,15 @@ bt__dive_alloc (bt_model *model, bt_dive **out, bt_error *error)
   lay_out (dive);
   *out = dive;
   return BT_OK;
+}
+
+bt_status
+bt__dive_alloc_lane (bt_model *model, bt__lane *lane, bt_error *error)
+{
+  bt_status status = make_dive (model, 0, sizeof (bt__state), &lane->dive, error);
+  if (status == BT_OK)
+    lane->dive->lane = lane;
+  return status;
 }
 
 static void
@@ -192,6 +232,7 @@ bt_dive_free (bt_dive *dive)
   free (dive->sea);
   free_shore (&dive->shore);
   bt__watch_free_all (dive->watch);
+  bt__lanes_free (dive->lanes);
   free (dive->now);
   free (dive->next);
   bt_model_release (dive->model);

@@ -73,7 +73,8 @@ typedef struct bt__shore
   bt__pin *pin; /* of each vehicle */
   bt__line_work *line;
   int *order, *place; /* of tethers: which steps when, and when which steps */
-  bt__strand *strand; /* room for both parts of every tether */
+  bt__strand *strand; /* room for both parts of every tether, ... */
+  bt__aabb *box;      /* ... and where each is, while tethers are resolved */
   int line_of;        /* the line it knows: twice the tether and the part */
   bt__safe *safe;
   int safe_of;   /* the tether it knows */
@@ -83,6 +84,18 @@ typedef struct bt__shore
   bt__count count;
   bt__thesis_counts thesis;
 } bt__shore;
+
+/* One of several dives that share a step out (sim/share.c): its tools, and of a state the head
+   alone.  What it borrows it never frees.  */
+typedef struct bt__lane
+{
+  bt_dive *dive;
+  char *body;       /* of the state that is worked on: each lane on tethers of its own */
+  const int *group; /* of each tether: who may meet whom */
+  const char
+      *shared; /* of each vehicle, nonzero: several groups hang on it, and none may move it */
+  int refused; /* what it was given cannot be done apart */
+} bt__lane;
 
 struct bt_dive
 {
@@ -105,6 +118,8 @@ struct bt_dive
   double wished; /* s: time asked for and not yet stepped */
   int n_tracks;
   bt__track *tracks[BT__TRACKS_MAX];
+  struct bt__lanes *lanes; /* that share its steps out; NULL: none */
+  bt__lane *lane;          /* it is the dive of; NULL: of none */
   uint64_t changes;        /* of the present state: the watch goes by it */
   struct bt__watch *watch; /* what was asked of the tethers; NULL: nothing yet */
 };
@@ -136,8 +151,18 @@ double bt__state_time (const bt__state *state);
 int bt__chain_room (const bt_tether_def *tether);
 bt_water bt__dive_water (const bt_dive *dive, const bt__state *state);
 
-/* Make a dive with an empty state and the tools that its tethers need.  */
+/* Make a dive with an empty state and the tools that its tethers need; the dive of LANE, with the
+   tools and the head of a state alone.  */
 bt_status bt__dive_alloc (bt_model *model, bt_dive **dive, bt_error *error);
+bt_status bt__dive_alloc_lane (bt_model *model, bt__lane *lane, bt_error *error);
+
+/* Nonzero if tethers I and J are of groups that step at the same time: each sees the other where it
+   was.  */
+static inline int
+bt__are_apart (const bt_dive *dive, int i, int j)
+{
+  return dive->lane && dive->lane->group[i] != dive->lane->group[j];
+}
 
 /* Add an event to STATE: of the kind of subject that KIND has, or of the PART named, about an
    obstacle.  */
@@ -147,6 +172,17 @@ void bt__raise_event_at (bt__state *state, bt_event_kind kind, bt_part part, int
 
 /* BT_ERR_NAME unless I counts a PART of DIVE.  */
 bt_status bt__check_part (const bt_dive *dive, bt_part part, int i, bt_error *error);
+
+/* Nonzero if VEHICLE cannot be moved, for groups that step at the same time hang on it: then the
+   step is refused.  */
+static inline int
+bt__is_shared (const bt_dive *dive, int vehicle)
+{
+  int shared = dive->lane && dive->lane->shared[vehicle];
+  if (shared)
+    dive->lane->refused = 1;
+  return shared;
+}
 
 #define BT__TIME_STEP (1.0 / 60)
 

@@ -96,10 +96,9 @@ step_body (bt__ghost *g, double h)
                          .density = water.density,
                          .gravity = water.gravity,
                          .surface = bt_water_surface (&water, v->position),
-                         .flow = bt_water_velocity (&water, v->position),
-                         .flow_acceleration = bt_water_acceleration (&water, v->position),
                          .volts = v->volts,
                          .lost = (uint64_t)v->lost };
+  bt_water_motion (&water, v->position, &in.flow, &in.flow_acceleration);
   steer (g, &in);
   if (bt__rigid_step (&g->dive->model->types[g->vehicle], &v->body, &in, NULL) == BT_OK)
     mirror (v);

@@ -2,6 +2,7 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <math.h>
 #include <string.h>
 
 #include "base/hash.h"
@@ -28,11 +29,13 @@ fixed_size (const bt_model *model)
 
 /* ---- The store of a tether ---- */
 
-/* The winch may double the line before its intervals grow longer.  */
+/* Intervals for all that is on the drum; where that is not told, the winch may double the line
+   before the first of them grows longer.  */
 int
 bt__chain_room (const bt_tether_def *tether)
 {
-  return 2 * (int)tether->props.nodes;
+  double n = (double)tether->props.nodes, all = ceil (n * tether->drum / tether->length);
+  return (int)fmax (2 * n, isfinite (all) ? fmin (all, 2 * BT_NODES_MAX) : 0);
 }
 
 int
@@ -121,14 +124,13 @@ bt__state_size (const bt_model *model)
 bt__vehicle *
 bt__dive_vehicle (const bt_dive *dive, bt__state *state, int i)
 {
-  (void)dive;
-  return bt__vehicles (state) + i;
+  return (bt__vehicle *)(void *)bt__body (dive, state) + i;
 }
 
 bt__tether *
 bt__dive_tether (const bt_dive *dive, bt__state *state, int i)
 {
-  return bt__tethers (state, dive->model->n_vehicles) + i;
+  return (bt__tether *)(void *)bt__dive_vehicle (dive, state, dive->model->n_vehicles) + i;
 }
 
 bt_vec3
@@ -142,7 +144,8 @@ static char *
 store_of (const bt_dive *dive, const bt__state *state, int i)
 {
   const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
-  return (char *)state + fixed_size (dive->model) + tether->store_at;
+  return bt__body (dive, (bt__state *)state) + fixed_size (dive->model) - sizeof *state
+         + tether->store_at;
 }
 
 bt_vec3 *

@@ -7,6 +7,13 @@
 
 #include "world/dive.h"
 
+/* What follows the head of STATE: of a lane it is another's.  */
+static inline char *
+bt__body (const bt_dive *dive, bt__state *state)
+{
+  return dive->lane && state == dive->next ? dive->lane->body : (char *)(state + 1);
+}
+
 /* Bytes of a state of MODEL, and of the store of its tether I.  */
 size_t bt__state_size (const bt_model *model);
 size_t bt__store_size (const bt_model *model, int i);

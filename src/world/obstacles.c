@@ -61,7 +61,7 @@ bt__obstacles_size (const bt_model *model)
 static char *
 section (const bt_dive *dive, bt__state *state)
 {
-  return (char *)(bt__tethers (state, dive->model->n_vehicles) + dive->model->n_tethers);
+  return (char *)bt__dive_tether (dive, state, dive->model->n_tethers);
 }
 
 bt__mover_state *

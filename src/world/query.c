@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "math/vec.h"
+#include "world/lanes.h"
 #include "world/line.h"
 
 void
@@ -33,6 +34,8 @@ bt_dive_profile (const bt_dive *dive, bt_profile *profile)
   profile->casts = dive->shore.count.casts;
   profile->span_solves = dive->shore.thesis.solves;
   profile->span_skips = dive->shore.thesis.skips;
+  if (dive->lanes)
+    profile->threads += (uint64_t)bt__workers_started (dive->lanes->workers);
 }
 
 bt_status

@@ -145,17 +145,4 @@ typedef struct bt__subject
   bt__meeting meeting[BT__MEETINGS_MAX];
 } bt__subject;
 
-/* Where the parts lie in the block of a world with N_VEHICLES.  */
-static inline bt__vehicle *
-bt__vehicles (bt__state *state)
-{
-  return (bt__vehicle *)(state + 1);
-}
-
-static inline bt__tether *
-bt__tethers (bt__state *state, int n_vehicles)
-{
-  return (bt__tether *)(bt__vehicles (state) + n_vehicles);
-}
-
 #endif

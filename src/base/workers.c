@@ -1,0 +1,201 @@
+/* Workers: see workers.h.
+
+   A round is open from when its tasks are laid out until the caller finds none left.  A worker that
+   wakes while it is open takes part, and only such a one is waited for: one that wakes late, on a
+   busy machine, holds up nobody.  Rounds that follow each other closely find the workers awake:
+   each looks for a while, giving way to whoever else wants to run, before it sleeps.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <config.h>
+
+#include <pthread.h>
+#include <sched.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "base/workers.h"
+
+enum
+{
+  LOOKS = 200 /* before a worker sleeps: about a tenth of a millisecond when nobody else runs */
+};
+
+/* A thread that waits.  */
+typedef struct hand
+{
+  bt__workers *all;
+  int number;
+  pthread_t thread;
+} hand;
+
+struct bt__workers
+{
+  int hands, started, ever; /* that there may be; that there are; ever */
+  pid_t process;            /* that started them; 0: none are */
+  pthread_mutex_t lock;
+  pthread_cond_t wake, rested;
+  atomic_ullong round; /* the last that was opened */
+  atomic_int busy;     /* workers that take part in it */
+  int open, stop;
+  void (*duty) (void *user, int w, int k);
+  void *user;
+  int tasks;
+  atomic_int next;
+  hand hand[];
+};
+
+static void
+take_part (bt__workers *all, int w)
+{
+  int k;
+  while ((k = atomic_fetch_add_explicit (&all->next, 1, memory_order_relaxed)) < all->tasks)
+    all->duty (all->user, w, k);
+}
+
+/* Wait for a round after DONE; return its number, 0: there are no more.  Whoever returns takes part
+   in it.  */
+static unsigned long long
+join (bt__workers *all, unsigned long long done)
+{
+  unsigned long long round;
+  for (int i = 0; i < LOOKS && all->round == done; i++)
+    sched_yield ();
+  pthread_mutex_lock (&all->lock);
+  while (!all->stop && (!all->open || all->round == done))
+    pthread_cond_wait (&all->wake, &all->lock);
+  round = all->stop ? 0 : all->round;
+  all->busy += round > 0;
+  pthread_mutex_unlock (&all->lock);
+  return round;
+}
+
+static void
+leave (bt__workers *all)
+{
+  pthread_mutex_lock (&all->lock);
+  if (--all->busy == 0)
+    pthread_cond_signal (&all->rested);
+  pthread_mutex_unlock (&all->lock);
+}
+
+static void *
+live (void *data)
+{
+  hand *self = data;
+  unsigned long long done = 0;
+  while ((done = join (self->all, done)))
+    {
+      take_part (self->all, self->number);
+      leave (self->all);
+    }
+  return NULL;
+}
+
+/* Signals, ^C among them, are for the caller's threads.  */
+static void
+start_threads (bt__workers *all)
+{
+  sigset_t none, before;
+  sigfillset (&none);
+  pthread_sigmask (SIG_SETMASK, &none, &before);
+  while (all->started < all->hands)
+    {
+      hand *h = &all->hand[all->started];
+      *h = (hand){ .all = all, .number = all->started + 1 };
+      if (pthread_create (&h->thread, NULL, live, h))
+        break;
+      all->started++;
+    }
+  pthread_sigmask (SIG_SETMASK, &before, NULL);
+  all->ever += all->started;
+}
+
+/* A child has the memory of its parent and none of its threads: locks that they may have held are
+   made anew, and whoever waited is forgotten.  */
+static void
+begin_in (bt__workers *all, pid_t process)
+{
+  all->process = process;
+  all->started = all->open = 0;
+  all->busy = 0;
+  pthread_mutex_init (&all->lock, NULL);
+  pthread_cond_init (&all->wake, NULL);
+  pthread_cond_init (&all->rested, NULL);
+  start_threads (all);
+}
+
+bt__workers *
+bt__workers_new (int count)
+{
+  size_t hands = (size_t)count - 1;
+  bt__workers *all = calloc (1, sizeof *all + hands * sizeof (hand));
+  if (all)
+    all->hands = (int)hands;
+  return all;
+}
+
+void
+bt__workers_free (bt__workers *all)
+{
+  if (all && all->process == getpid ())
+    {
+      pthread_mutex_lock (&all->lock);
+      all->stop = 1;
+      pthread_cond_broadcast (&all->wake);
+      pthread_mutex_unlock (&all->lock);
+      for (int i = 0; i < all->started; i++)
+        pthread_join (all->hand[i].thread, NULL);
+      pthread_cond_destroy (&all->wake);
+      pthread_cond_destroy (&all->rested);
+      pthread_mutex_destroy (&all->lock);
+    }
+  free (all);
+}
+
+static void
+open_round (bt__workers *all, int tasks, void (*duty) (void *user, int w, int k), void *user)
+{
+  pthread_mutex_lock (&all->lock);
+  all->duty = duty;
+  all->user = user;
+  all->tasks = tasks;
+  atomic_store_explicit (&all->next, 0, memory_order_relaxed);
+  all->round++;
+  all->open = 1;
+  pthread_mutex_unlock (&all->lock);
+  pthread_cond_broadcast (&all->wake);
+}
+
+static void
+close_round (bt__workers *all)
+{
+  pthread_mutex_lock (&all->lock);
+  all->open = 0;
+  pthread_mutex_unlock (&all->lock);
+  for (int i = 0; i < LOOKS && all->busy > 0; i++)
+    sched_yield ();
+  pthread_mutex_lock (&all->lock);
+  while (all->busy > 0)
+    pthread_cond_wait (&all->rested, &all->lock);
+  pthread_mutex_unlock (&all->lock);
+}
+
+void
+bt__workers_run (bt__workers *all, int tasks, void (*duty) (void *user, int w, int k), void *user)
+{
+  pid_t process = getpid ();
+  if (all->process != process)
+    begin_in (all, process);
+  open_round (all, tasks, duty, user);
+  take_part (all, 0);
+  close_round (all);
+}
+
+int
+bt__workers_started (const bt__workers *all)
+{
+  return all->ever;
+}

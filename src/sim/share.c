@@ -1,0 +1,245 @@
+/* A step's tethers, shared out.
+
+   Within a step a tether depends on others in three ways: through a vehicle that two of them hang
+   on, through the water between two lines that may touch, and through an obstacle on its way that
+   one holds back for all.  Tethers bound by the first two are a group (apart.c) and step one after
+   another as always; groups step at the same time, on lanes: dives that have tools of their own but
+   work on the one state, each on its tethers and their vehicles alone.  Of other groups a lane sees
+   the present state, which nobody writes to.  Events are kept by the lane and raised afterwards in
+   the order of the tethers; of counters there are only sums.
+
+   That groups had nothing to do with each other is supposed before the step and known after it: no
+   line asked for others so far off that there was one or left its box (chain_box.c), nobody held an
+   obstacle back, nobody moved what other groups hang on, nothing failed.  Otherwise the try is made again by one thread, as it
+   would have been; so what comes of a step is always what one thread makes of it.  The margins go
+   by what the lines asked for last, and when tries are refused one after another it is waited
+   longer and longer until the next.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <string.h>
+
+#include "sim/around.h"
+#include "sim/share.h"
+
+_Static_assert(sizeof (bt_profile) % sizeof (uint64_t) == 0, "counters and nothing else");
+
+#define SLACK 0.05     /* m: what a margin has beyond twice what was asked for */
+#define MOST_ASKED 2.0 /* m: that is doubled */
+#define SHRINK 0.9     /* a try */
+enum
+{
+  LEAST_WORK = 400, /* intervals in open water: with less to do threads gain nothing */
+  AMONG = 4,        /* times as much is to be done among obstacles */
+  PATIENCE = 64     /* steps that it is waited at most */
+};
+
+/* ---- Tries ---- */
+
+static size_t
+pins_size (const bt_dive *dive)
+{
+  return sizeof (bt__pin) * (size_t)dive->model->n_vehicles;
+}
+
+void
+bt__share_begin (bt_dive *dive)
+{
+  if (bt__has_obstacles (dive))
+    memcpy (dive->lanes->pin, dive->shore.pin, pins_size (dive));
+  dive->lanes->refused = 0;
+}
+
+int
+bt__share_refused (bt_dive *dive)
+{
+  if (dive->lanes->refused && bt__has_obstacles (dive))
+    memcpy (dive->shore.pin, dive->lanes->pin, pins_size (dive));
+  return dive->lanes->refused;
+}
+
+/* ---- Is it worth while? ---- */
+
+/* About what there is to do for tether I, in intervals of a moving line.  */
+static int64_t
+work_of (const bt_dive *dive, bt__state *state, int i)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  int moves = tether->shape.form == BT__FORM_CHAIN;
+  bt__ends ends;
+  if (moves && tether->quiet < BT__SLEEP_AFTER)
+    return bt__dive_chain (dive, state, i, 0)->n;
+  ends = bt__tether_ends (dive, state, i);
+  return bt__is_unchanged (dive, state, tether, &ends) ? 0 : dive->model->tethers[i].props.nodes;
+}
+
+/* A line that is laid goes many steps in one.  */
+static int
+is_to_be_laid (const bt__tether *tether)
+{
+  return bt__is_moving_model (tether) && tether->shape.form != BT__FORM_CHAIN;
+}
+
+static int
+has_work (const bt_dive *dive, bt__state *state)
+{
+  int64_t work = 0;
+  int times = bt__has_obstacles (dive) ? AMONG : 1;
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    {
+      if (is_to_be_laid (bt__dive_tether (dive, state, i)))
+        return 0;
+      work += times * work_of (dive, state, i);
+    }
+  return work >= LEAST_WORK;
+}
+
+/* Nonzero if two groups have something to do.  */
+static int
+can_share (const bt_dive *dive, bt__state *state, const bt__lanes *l)
+{
+  int busy = 0;
+  for (int g = 0; g < l->groups && busy < 2; g++)
+    {
+      int64_t work = 0;
+      for (int i = l->first[g]; i >= 0; i = l->after[i])
+        work += work_of (dive, state, i);
+      busy += work > 0;
+    }
+  return busy == 2;
+}
+
+/* ---- On the lanes ---- */
+
+static void
+step_tether (bt__lanes *l, int w, int i)
+{
+  bt__lane *lane = &l->lane[w];
+  bt_dive *dive = lane->dive;
+  bt_status status;
+  bt_error unused;
+  l->raised[i] = (bt__raised){ .lane = w, .from = dive->next->events };
+  status = bt__resolve_tether (dive, dive->next, i, 1, &unused);
+  l->raised[i].to = dive->next->events;
+  if (dive->shore.line)
+    l->asked[i] = fmax (l->asked[i], bt__line_work_asked (dive->shore.line));
+  if (status != BT_OK || dive->next->events > BT_EVENTS_KEPT)
+    lane->refused = 1;
+}
+
+static void
+step_group (void *user, int w, int g)
+{
+  bt__lanes *l = user;
+  for (int i = l->first[g]; i >= 0 && !l->lane[w].refused; i = l->after[i])
+    step_tether (l, w, i);
+}
+
+/* ---- Afterwards ---- */
+
+/* Nonzero if LANE had to hold an obstacle back.  */
+static int
+held_back (const bt_dive *dive, const bt__lane *lane)
+{
+  for (int k = 0; k < dive->model->n_carried; k++)
+    if (lane->dive->shore.course[k].share != dive->shore.course[k].share)
+      return 1;
+  return 0;
+}
+
+/* Nonzero if a line asked for others farther off than it might.  */
+static int
+asked_too_far (const bt_dive *dive, const bt__lanes *l)
+{
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    if (!(l->asked[i] <= l->margin[i]))
+      return 1;
+  return 0;
+}
+
+static int
+is_done (const bt_dive *dive, bt__lanes *l)
+{
+  for (int w = 0; w < l->n; w++)
+    if (l->lane[w].refused || held_back (dive, &l->lane[w]))
+      return 0;
+  return !asked_too_far (dive, l) || bt__were_apart (dive, l);
+}
+
+static void
+raise_events (const bt_dive *dive, bt__state *state, const bt__lanes *l)
+{
+  for (int p = 0; p < dive->model->n_tethers; p++)
+    {
+      int i = bt__has_obstacles (dive) ? dive->shore.order[p] : p;
+      const bt__raised *raised = &l->raised[i];
+      const bt_event *event = l->lane[raised->lane].dive->next->event;
+      for (int64_t k = raised->from; k < raised->to; k++)
+        state->event[state->events++ % BT_EVENTS_KEPT] = event[k];
+    }
+}
+
+static void
+take_over (bt_dive *dive, bt__state *state, bt__lanes *l)
+{
+  raise_events (dive, state, l);
+  for (int w = 0; w < l->n; w++)
+    {
+      bt__lane_count (&l->lane[w], dive);
+      for (int k = 0; k < dive->model->n_carried; k++)
+        dive->shore.course[k].gone |= l->lane[w].dive->shore.course[k].gone;
+    }
+  l->patience = 0;
+}
+
+static void
+refuse (bt_dive *dive, bt__lanes *l)
+{
+  l->refused = 1;
+  l->alone = l->patience;
+  l->patience = l->patience < PATIENCE / 2 ? 2 * l->patience + 1 : PATIENCE;
+  dive->profile.shared_again++;
+}
+
+/* What a line asked for it may ask for twice; what it did not again shrinks.  */
+static void
+set_margins (const bt_dive *dive, bt__lanes *l)
+{
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    {
+      l->asked[i] = fmin (l->asked[i], MOST_ASKED);
+      l->margin[i] = 2 * l->asked[i] + SLACK;
+      l->asked[i] *= SHRINK;
+    }
+}
+
+int
+bt__share_tethers (bt_dive *dive, bt__state *state)
+{
+  bt__lanes *l = dive->lanes;
+  if (l->refused || state->current.kind == BT_CURRENT_FUNCTION)
+    return 0;
+  if (l->alone > 0)
+    {
+      l->alone--;
+      return 0;
+    }
+  if (!has_work (dive, state))
+    return 0;
+  set_margins (dive, l);
+  bt__set_apart (dive, state, l);
+  if (!can_share (dive, state, l))
+    return 0;
+  dive->profile.shared_steps++;
+  for (int w = 0; w < l->n; w++)
+    bt__lane_enter (&l->lane[w], dive, state);
+  bt__workers_run (l->workers, l->groups, step_group, l);
+  if (is_done (dive, l))
+    take_over (dive, state, l);
+  else
+    refuse (dive, l);
+  for (int w = 0; w < l->n; w++)
+    bt__lane_leave (&l->lane[w]);
+  return 1;
+}

@@ -1,0 +1,26 @@
+/* A step's tethers, shared out to the lanes of a dive.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_SIM_SHARE_H
+#define BT_SIM_SHARE_H
+
+#include "sim/sim.h"
+#include "world/lanes.h"
+
+/* Begin a try at a step of DIVE, which has lanes.  Nonzero if it has been refused: the try is to be
+   made again, which is then not shared out.  */
+void bt__share_begin (bt_dive *dive);
+int bt__share_refused (bt_dive *dive);
+
+/* Step the tethers of STATE, the order of which is known.  Zero if that is not worth while and
+   nothing has been done; otherwise it is done or refused.  */
+int bt__share_tethers (bt_dive *dive, bt__state *state);
+
+/* Sort the tethers of STATE into groups that have nothing to do with each other in the coming step;
+   no two of different groups are nearer than their margins and themselves (apart.c).  Nonzero if
+   the groups were right for what was then asked for.  */
+void bt__set_apart (const bt_dive *dive, bt__state *state, bt__lanes *lanes);
+int bt__were_apart (const bt_dive *dive, bt__lanes *lanes);
+
+#endif

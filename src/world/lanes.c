@@ -1,0 +1,184 @@
+/* The life of lanes: made, lent what they need, freed.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "world/lanes.h"
+#include "world/layout.h"
+
+/* ---- Life ---- */
+
+static void
+free_arrays (bt__lanes *l)
+{
+  free (l->group);
+  free (l->first);
+  free (l->after);
+  free (l->last);
+  free (l->shared);
+  free (l->margin);
+  free (l->asked);
+  free (l->raised);
+  free (l->whole);
+  free (l->box);
+  free (l->box_at);
+  free (l->boxes);
+  free (l->pin);
+}
+
+void
+bt__lanes_free (bt__lanes *l)
+{
+  if (!l)
+    return;
+  bt__workers_free (l->workers);
+  for (int i = 0; l->lane && i < l->n; i++)
+    bt_dive_free (l->lane[i].dive);
+  free (l->lane);
+  free_arrays (l);
+  free (l);
+}
+
+/* Boxes for both parts of each tether.  */
+static int
+make_boxes (bt__lanes *l, const bt_model *model)
+{
+  int boxes = 0;
+  size_t tethers = (size_t)model->n_tethers + 1;
+  if (!(l->box_at = calloc (tethers, sizeof *l->box_at))
+      || !(l->boxes = calloc (tethers, sizeof *l->boxes))
+      || !(l->whole = calloc (tethers, sizeof *l->whole)))
+    return 0;
+  for (int i = 0; i < model->n_tethers; i++)
+    {
+      l->box_at[i] = boxes;
+      boxes += 2 * (bt__chain_room (&model->tethers[i]) / BT__LANE_LEAF + 1);
+    }
+  return (l->box = calloc ((size_t)boxes + 1, sizeof *l->box)) != NULL;
+}
+
+static int
+make_arrays (bt__lanes *l, const bt_model *model)
+{
+  size_t tethers = (size_t)model->n_tethers + 1, vehicles = (size_t)model->n_vehicles + 1;
+  return (l->group = calloc (tethers, sizeof *l->group))
+         && (l->first = calloc (tethers, sizeof *l->first))
+         && (l->after = calloc (tethers, sizeof *l->after))
+         && (l->last = calloc (tethers, sizeof *l->last))
+         && (l->shared = calloc (vehicles, sizeof *l->shared))
+         && (l->margin = calloc (tethers, sizeof *l->margin))
+         && (l->asked = calloc (tethers, sizeof *l->asked))
+         && (l->raised = calloc (tethers, sizeof *l->raised))
+         && (l->pin = calloc (vehicles, sizeof *l->pin)) && make_boxes (l, model);
+}
+
+static bt_status
+make_lanes (bt_model *model, int n, bt__lanes **out, bt_error *error)
+{
+  bt__lanes *l = calloc (1, sizeof *l);
+  bt_status status = BT_OK;
+  if (l && (l->lane = calloc ((size_t)n, sizeof *l->lane)))
+    l->n = n;
+  if (!l || l->n == 0 || !(l->workers = bt__workers_new (n)) || !make_arrays (l, model))
+    status = bt__fail (error, BT_ERR_LIMIT, "no memory for %d threads", n);
+  for (int i = 0; status == BT_OK && i < n; i++)
+    {
+      l->lane[i].group = l->group;
+      l->lane[i].shared = l->shared;
+      status = bt__dive_alloc_lane (model, &l->lane[i], error);
+    }
+  if (status == BT_OK)
+    *out = l;
+  else
+    bt__lanes_free (l);
+  return status;
+}
+
+bt_status
+bt_dive_set_threads (bt_dive *dive, int n, bt_error *error)
+{
+  bt__lanes *lanes = NULL;
+  bt_status status = BT_OK;
+  if (n < 1 || n > BT_THREADS_MAX)
+    return bt__fail (error, BT_ERR_DOMAIN, "a dive is stepped by 1 to %d threads, not %d",
+                     BT_THREADS_MAX, n);
+  if (n == bt_dive_threads (dive))
+    return BT_OK;
+  if (n > 1)
+    status = make_lanes (dive->model, n, &lanes, error);
+  if (status != BT_OK)
+    return status;
+  if (dive->lanes)
+    dive->profile.threads += (uint64_t)bt__workers_started (dive->lanes->workers);
+  bt__lanes_free (dive->lanes);
+  dive->lanes = lanes;
+  return BT_OK;
+}
+
+int
+bt_dive_threads (const bt_dive *dive)
+{
+  return dive->lanes ? dive->lanes->n : 1;
+}
+
+/* ---- Lending ---- */
+
+void
+bt__lane_enter (bt__lane *lane, const bt_dive *dive, bt__state *next)
+{
+  bt_dive *own = lane->dive;
+  lane->body = bt__body (dive, next);
+  lane->refused = 0;
+  own->now = dive->now;
+  memcpy (own->next, next, offsetof (bt__state, events));
+  own->next->events = 0;
+  own->driven = dive->driven;
+  own->shore.pin = dive->shore.pin;
+  own->shore.place = dive->shore.place;
+  if (dive->model->n_carried > 0)
+    memcpy (own->shore.course, dive->shore.course,
+            sizeof *own->shore.course * (size_t)dive->model->n_carried);
+  if (dive->model->n_obstacles > 0)
+    memcpy (own->shore.box, dive->shore.box,
+            2 * sizeof *own->shore.box * (size_t)dive->model->n_tethers);
+  own->shore.disagree = 0;
+  own->profile = (bt_profile){ 0 };
+  own->counts = (bt__shape_counts){ 0 };
+  own->shore.count = (bt__count){ 0 };
+  own->shore.thesis = (bt__thesis_counts){ 0 };
+}
+
+void
+bt__lane_leave (bt__lane *lane)
+{
+  bt_dive *own = lane->dive;
+  lane->body = NULL;
+  own->now = NULL;
+  own->driven = NULL;
+  own->shore.pin = NULL;
+  own->shore.place = NULL;
+}
+
+/* Records of counters and nothing else.  */
+static void
+add_up (void *sum, const void *more, size_t size)
+{
+  uint64_t *a = sum;
+  const uint64_t *b = more;
+  for (size_t i = 0; i < size / sizeof *a; i++)
+    a[i] += b[i];
+}
+
+void
+bt__lane_count (const bt__lane *lane, bt_dive *dive)
+{
+  const bt_dive *own = lane->dive;
+  add_up (&dive->profile, &own->profile, sizeof dive->profile);
+  add_up (&dive->counts, &own->counts, sizeof dive->counts);
+  add_up (&dive->shore.count, &own->shore.count, sizeof dive->shore.count);
+  add_up (&dive->shore.thesis, &own->shore.thesis, sizeof dive->shore.thesis);
+}

@@ -1,0 +1,54 @@
+/* Lanes: dives that share out the steps of one, each with tools of its own; see sim/share.c.
+
+   They are made when more threads than one are asked for, and a dive that never asks has none.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_WORLD_LANES_H
+#define BT_WORLD_LANES_H
+
+#include "base/workers.h"
+#include "collide/pair.h"
+#include "world/dive.h"
+
+enum
+{
+  BT__LANE_LEAF = 4 /* intervals of a chain in a box */
+};
+
+/* What a tether raised in a step: events FROM to TO, less one, of a lane.  */
+typedef struct bt__raised
+{
+  int64_t from, to;
+  int lane;
+} bt__raised;
+
+typedef struct bt__lanes
+{
+  int n;
+  bt__lane *lane;
+  bt__workers *workers;
+  /* Groups of tethers, in the order in which they step: of each group the first, of each tether the
+     next one, or -1.  */
+  int groups;
+  int *group, *first, *after, *last;
+  char *shared;           /* of each vehicle, as in bt__lane */
+  double *margin, *asked; /* of each tether, m: what it may ask for, and what it did */
+  bt__raised *raised;     /* of each tether */
+  bt__aabb *whole, *box;  /* of each tether; of its leaves, from BOX_AT on */
+  int *box_at, *boxes;
+  bt__pin *pin; /* of each vehicle, as a try at the step began */
+  int refused;  /* what was begun cannot be done apart */
+  int alone;    /* steps to come that are not shared out */
+  int patience; /* how many they will be next time */
+} bt__lanes;
+
+/* Borrow for LANE what it has of DIVE, of whose NEXT it is to do a part; give it back.  Add what it
+   did to the counters of DIVE.  */
+void bt__lane_enter (bt__lane *lane, const bt_dive *dive, bt__state *next);
+void bt__lane_leave (bt__lane *lane);
+void bt__lane_count (const bt__lane *lane, bt_dive *dive);
+
+void bt__lanes_free (bt__lanes *lanes); /* NULL is nothing */
+
+#endif
