@@ -68,8 +68,9 @@
      winding turns windings wrap-angle capstan-lock
      homotopy-class homotopy-class? class-decided? class-free?
      knotted? fouled? foul-reason free-to-haul? haul-trial haul-prospect
-     way-home way-home-preview unwind-plan unwind-preview
+     way-home way-home-preview unwind-plan
      contact-length seabed-length bend-ratio snap-count thrust-share follow-string)
+    ((bight homing) fly-home! home-trial unwind-preview)
     ((bight foresight)
      foresee foresight? foresight-kind foresight-object foresight-seconds foresight-confidence
      foresight-turns)
@@ -86,6 +87,7 @@
      difference? difference-step difference-time difference-quantities)
     ((bight frames) export-csv)
     ((bight live) live! freeze! live?)
+    ((bight threads) threads! threads)
     ((bight logbook)
      log-dive! log-lesson! log-probe! logbook logbook-file
      log-entry? log-entry-kind log-entry-when log-entry-trainee log-entry-what log-entry-score

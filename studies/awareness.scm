@@ -5,8 +5,10 @@
 ;;
 ;;   haul      the vehicle is dead and is hauled, as one would in the dive; beside it what `free-to-haul?' and
 ;;             `haul-prospect' had said
-;;   home      he flies along `way-home', the winch taking in what gets slack
-;;   unwound   he flies `unwind-plan'
+;;   home      `fly-home!', which tries on forks before it flies; beside it, `retraced', the `way-home' of
+;;             the string alone, the winch taking in what gets slack
+;;   unwound   he flies `unwind-plan', if its preview says that it frees; `unwound-quick' by the preview of
+;;             the string alone
 ;;   touch, bump, taut   he carries on with his sticks as they are; beside it what `foresee' had said, with
 ;;             #:quick, of the first that the tether touches, that he meets, and of when it is taut; `sure'
 ;;             is whether `foresee' without it told all three
@@ -74,7 +76,7 @@
          (splice (things scene))
          (rov (named minnow) (type bluerov2-heavy) (at -11 -10.5 -3))
          (tether (named line) (type fathom) (wet-weight 0) (from -11.5 -11.5 -1) (to minnow) (length 4)
-                 (breaking-load 1e5) (nodes 40) (model dynamic))))
+                 (drum 80) (breaking-load 1e5) (nodes 10) (model dynamic))))
 
 ;;; The pilot.
 
@@ -124,6 +126,20 @@
 
 ;;; Ways.
 
+(define (fly-for seconds)
+  ;; Until he is at the anchor, SECONDS at most.
+  (let ((start (now)))
+    (let loop ()
+      (cond ((< (straight-distance) 1) 'arrived)
+            ((> (- (now) start) seconds) 'failed)
+            (else (run 0.5) (loop))))))
+
+(define (fly-home)
+  ;; The way that a fork found to arrive.
+  (if (fly-home! #:pull pull)
+      (fly-for 900)
+      'refused))
+
 (define (take-in)
   ;; The winch takes in what is slack, and leaves the vehicle some for its way round things.
   (let ((spare (- (tether-length) (* 1.05 (taut-length)) 1)) (tension (tension-at 0)))
@@ -131,21 +147,21 @@
           ((and (> spare 0.1) (< tension 15)) (haul-in! spare #:rate 0.4))
           (else (haul-in! 0)))))
 
-(define (fly-home)
+(define (retrace)
+  ;; The way of the string alone, untried.
   (if (not (assq-ref (way-home-preview) 'feasible?))
       'refused
-      (let ((way (way-home)))
+      (begin
         (every 0.1 (take-in))
-        (run-until arrived? #:at-most (+ 60 (/ (fly-along! way #:speed 0.35) 0.15)))
-        (if (< (straight-distance) 1) 'arrived 'failed))))
+        (fly-for (+ 60 (/ (fly-along! (way-home) #:speed 0.35) 0.15))))))
 
-(define (unwind)
-  (let ((preview (unwind-preview)))
-    (cond ((not (assq-ref preview 'needed?)) 'not-needed)
-          ((not (assq-ref preview 'feasible?)) 'refused)
-          (else
-           (run-until arrived? #:at-most (+ 60 (/ (fly-along! (unwind-plan) #:speed 0.35) 0.15)))
-           (if (< (excess) (max 0.5 (* 0.02 (free-length)))) 'freed 'failed)))))
+(define (unwind preview)
+  (cond ((not (assq-ref preview 'needed?)) 'not-needed)
+        ((not (assq-ref preview 'feasible?)) 'refused)
+        (else
+         (run-until arrived? #:at-most (+ 60 (/ (fly-along! (unwind-plan) #:speed 0.35) 0.15)))
+         (if (< (excess) (max 0.5 (* 0.02 (free-length)))) 'freed 'failed))))
+
 
 ;;; What is to come.
 
@@ -171,8 +187,8 @@
 
 (define (compare said true)
   (cond ((not (and said true)) (outcome said true))
-        ((not (near? (second said) (second true))) 'other-time)
         ((not (eq? (first said) (first true))) 'other-object)
+        ((not (near? (second said) (second true))) 'other-time)
         (else 'told)))
 
 (define (same? a b)
@@ -180,12 +196,12 @@
       (and a b (eq? (first a) (first b)) (< (abs (- (second a) (second b))) 0.02))))
 
 (define (run-until-taut)
-  ;; Carry on; return in how many seconds the tether has less than a hundredth of slack, or #f.
+  ;; Carry on; return in how many seconds the tether is taut, or #f.
   (let loop ((k 1) (taut #f))
     (cond ((> (* k 0.5) ahead) taut)
           (else
            (run 0.5)
-           (loop (+ k 1) (or taut (and (< (slack) 0.01) (list #f (* k 0.5)))))))))
+           (loop (+ k 1) (or taut (and (taut?) (list #f (* k 0.5)))))))))
 
 (define (look-ahead)
   ;; What is said and what then is, of each kind: an alist of words.
@@ -194,7 +210,7 @@
           #:yaw (from-to -0.05 0.05))
   (run 4)
   (let* ((start (now))
-         (old (map contact-object (contacts)))
+         (old (cons 'line (map contact-object (contacts)))) ; what it touches of itself is no obstacle
          (string (foresee ahead #:quick #t))
          (sure (filter (lambda (f) (= 1 (foresight-confidence f))) (foresee ahead)))
          (taut (run-until-taut))
@@ -224,14 +240,18 @@
   (define forked (assq-ref trial 'home?))
   (define held (what-if (not (haul-in-the-dive))))
   (define home (what-if (fly-home)))
-  (define plan (what-if (unwind)))
+  (define by-string (what-if (retrace)))
+  (define plan (what-if (unwind (unwind-preview))))
+  (define quick-plan (what-if (unwind (unwind-preview #:quick #t))))
   (measure (haul (if (eq? forked (not held)) 'agrees 'differs))
            (held held)
            (rule (outcome (warned? prospect) held))
            (reason (second prospect))
            (by (cond (forked 'nothing) ((assq-ref trial 'hull?) 'hull) (else 'tether)))
            (home home)
+           (retraced by-string)
            (unwound plan)
+           (unwound-quick quick-plan)
            (touch (assq-ref future 'touch))
            (bump (assq-ref future 'bump))
            (taut (assq-ref future 'taut))

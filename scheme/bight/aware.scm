@@ -22,10 +22,12 @@
             homotopy-class homotopy-class? class-decided? class-free?
             knotted? fouled? foul-reason
             free-to-haul? haul-trial haul-prospect
-            way-home way-home-preview unwind-plan unwind-preview
+            way-home way-home-preview unwind-plan
             contact-length seabed-length bend-ratio snap-count thrust-share
             follow-string
-            windings))
+            windings
+            ;; For (bight homing).
+            vehicle-of unwind-said))
 
 (define degree (/ (acos -1) 180))
 
@@ -172,8 +174,8 @@ newtons: a fork of the dive hauls it.  `haul-prospect' answers at once."
 
 (define-verb (haul-prospect #:subject (t tether) #:key (pull positive 150.0))
   "Return at once what hauling the tether with PULL newtons promises, by rules about the taut string: a list
-(ANSWER REASON OBJECT); ANSWER yes, no or unsure, REASON clear, locked (by friction), hung (the vehicle's
-body on it) or wedged, OBJECT a name or #f."
+(ANSWER REASON OBJECT); ANSWER yes, no or unsure, REASON clear, locked (by friction, or by the vehicle's own
+weight or buoyancy), hung (the vehicle's body on it) or wedged, OBJECT a name or #f."
   (let ((v (%haul-prospect (this-engine 'haul-prospect) t pull)))
     (list (vector-ref v 0) (vector-ref v 1) (vector-ref v 2))))
 
@@ -201,7 +203,7 @@ body on it) or wedged, OBJECT a name or #f."
 
 (define-verb (way-home #:subject (t tether))
   "Return the way that retraces the tether, drawn tight, from the vehicle to the anchor: a polyline that
-`fly-along!' can fly."
+`fly-along!' can fly.  A slack line may hook where its string does not: `fly-home!' tries before it flies."
   (vector-ref (%way-home (this-engine 'way-home) t) 0))
 
 (define-verb (way-home-preview #:subject (t tether))
@@ -214,9 +216,8 @@ nearest."
 nothing needs to be unwound.  `unwind-preview' says whether it can be flown."
   (vector-ref (%unwind-plan (this-engine 'unwind-plan) t) 0))
 
-(define-verb (unwind-preview #:subject (t tether))
-  "Return what is known of the unwinding loop before it is flown, an alist: needed?, feasible?, why-not,
-length, clearance, nearest, longest (m that the string becomes on the way), left (m of it at the end)."
+(define (unwind-said t)
+  "Return what the string says of the unwinding loop of tether number T, an alist, see `unwind-preview'."
   (preview (%unwind-plan (this-engine 'unwind-preview) t)))
 
 

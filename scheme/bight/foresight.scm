@@ -1,7 +1,8 @@
 ;;; (bight foresight) --- what is to come if nobody touches the sticks.
 ;;;
-;;; First the taut string alone is led on, which takes milliseconds; then a fork of the dive is run, which
-;;; is what will happen.  What both tell is told once, by the fork.
+;;; First the line is led on without forces, which takes milliseconds: as it lies, it trails behind the
+;;; vehicle and touches; its taut string turns and holds.  Then a fork of the dive is run, which is what
+;;; will happen.  What both tell is told once, by the fork.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -119,11 +120,6 @@
                        (make-foresight kind (object-of event) (- (cadr event) start) 1.0 #f))))
               (%events engine seen)))
 
-(define nearly 0.99)                    ; of what is out: so long a string is called taut by the engine too
-
-(define (taut-now? engine t)
-  (>= (%taut-length engine t) (* nearly (assq-ref (%tether engine t) 'length))))
-
 (define (new-taut before? now? events seconds)
   ;; Among obstacles a tether is taut round what it touches, which is no event.
   (if (and now? (not before?) (not (any (lambda (f) (eq? 'taut (%kind f))) events)))
@@ -137,7 +133,7 @@
          (subjects (cons (list-ref (%names fork 'tether) t) vehicles))
          (start (%dive-time fork))
          (steps (inexact->exact (round (/ look (%dive-time-step fork))))))
-    (let loop ((turns (half-turns fork t names)) (taut? (taut-now? fork t))
+    (let loop ((turns (half-turns fork t names)) (taut? (%taut? fork t))
                (seen (%event-count fork)) (all '()))
       (let ((now (- (%dive-time fork) start)))
         (if (>= (+ now 1e-6) seconds)
@@ -146,7 +142,7 @@
               (%step-dive! fork steps)
               (let* ((now (- (%dive-time fork) start))
                      (after (half-turns fork t names))
-                     (taut-after? (taut-now? fork t))
+                     (taut-after? (%taut? fork t))
                      (events (new-events fork seen start subjects vehicles)))
                 (loop after taut-after? (%event-count fork)
                       (append-reverse (append events (new-taut taut? taut-after? events now)
@@ -161,9 +157,9 @@
 
 (define-verb (foresee #:subject (t tether) (seconds (between 0 3600)) #:key (quick flag #f))
   "Return what will happen within SECONDS if the sticks stay as they are, soonest first: a list of
-foresights, each with kind, object, seconds and confidence.  The taut string is led on first, then a fork
-of the dive is run; what the fork does is sure.  With QUICK the string alone is asked, which takes
-milliseconds.  A tether is taut with less than a hundredth of slack round what it touches."
+foresights, each with kind, object, seconds and confidence.  The line and its string are led on first,
+without forces; then a fork of the dive is run; what the fork does is sure.  With QUICK there is no fork:
+that takes milliseconds.  A tether is taut by the rule of `taut?'."
   (let* ((engine (this-engine 'foresee))
          (guess (by-string engine t seconds))
          (sure (if quick '() (by-fork engine t seconds))))

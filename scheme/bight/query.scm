@@ -180,16 +180,10 @@ distance."
 (define (tether-called t)
   (list-ref (%names (this-engine 'tether-length) 'tether) t))
 
-(define taut-share 1e-3)                ; of what is out: with no more slack a tether is taut
-
 (define-verb (taut? #:subject (t tether))
-  "Return #t if the tether is pulled tight: its model says so, or, among obstacles, it has less than 0.1 %
-of slack round what it touches."
-  (let* ((engine (this-engine 'taut?))
-         (view (%tether engine t)))
-    (or (assq-ref view 'taut?)
-        (and (not (open-water? engine))
-             (>= (%taut-length engine t) (* (- 1 taut-share) (assq-ref view 'length)))))))
+  "Return #t if the tether is pulled tight: its model says so, as the event `taut' tells, or, among
+obstacles, less than a hundredth of it is slack round what it touches.  `foresee' goes by the same rule."
+  (%taut? (this-engine 'taut?) t))
 (define-tether-question (parted? parted?)
   "Return #t if the tether is in two; then the part at the anchor is what one asks about.")
 (define-tether-question (asleep? asleep?)

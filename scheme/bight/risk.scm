@@ -21,6 +21,7 @@
             print-columns
             print-csv
             risk-table
+            risk-summary
             ;; For (bight risk-map).
             column-place
             column-of
@@ -201,6 +202,41 @@ order in which they first come."
 of strings, the first their heads."
   (let ((plan (found-plan database)))
     (table-cells plan (case-rows database plan) (group-variables plan by) csv?)))
+
+
+;;; The summary: a row for each measure, and for each word that one was.
+
+(define (share-row name word share)
+  (list name word (simple-format #f "~a of ~a" (fourth share) (fifth share)) (interval->string share)))
+
+(define (word-rows name known)
+  ;; The most frequent first.
+  (let* ((words (map (lambda (v) (object->string v display)) known))
+         (counts (map (lambda (word) (cons word (count (lambda (v) (string=? v word)) words)))
+                      (delete-duplicates words))))
+    (map (lambda (entry)
+           (share-row name (car entry)
+                      (share-of (map (lambda (v) (if (string=? v (car entry)) 1 0)) words))))
+         (sort counts (lambda (a b)
+                        (or (> (cdr a) (cdr b))
+                            (and (= (cdr a) (cdr b)) (string<? (car a) (car b)))))))))
+
+(define (summary-rows name values)
+  (let ((known (filter identity values)))
+    (case (measure-kind values)
+      ((probability) (list (share-row name "true" (share-of values))))
+      ((number) (list (list name "" (number->string (length known)) (number-summary known))))
+      (else (word-rows name known)))))
+
+(define (risk-summary database)
+  "Return what all cases of the result DATABASE came to: rows (MEASURE WORD COUNT SHARE) of strings, a share
+with its interval; none when no case is done."
+  (let* ((plan (found-plan database)) (done (filter done? (case-rows database plan))))
+    (if (null? done)
+        '()
+        (append-map (lambda (name)
+                      (summary-rows (symbol->string name) (column-of done (place-of plan name))))
+                    (plan-fact plan 'measures)))))
 
 
 ;;; Printing.

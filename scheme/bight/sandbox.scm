@@ -146,7 +146,8 @@
     ((bight time))
     ((bight lesson) run-lesson lesson-list lesson-code lesson-location collect-lessons take-lesson
      scripted-guide pilot-named register-lesson! unknown-clause malformed-clause malformed-lesson)
-    ((bight aware))
+    ((bight aware) vehicle-of unwind-said)
+    ((bight homing))
     ((bight instruments))
     ((bight foresight))
     ((bight probe))))

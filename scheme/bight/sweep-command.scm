@@ -68,6 +68,20 @@
       (bad-usage "sweep: name one ~a" what)))
 
 
+;;; What is found.
+
+(define (call-with-result file proc)
+  (let* ((database (open-found file))
+         (value (proc database)))
+    (close-result! database)
+    value))
+
+(define (tell-summary file)
+  (let ((rows (call-with-result file risk-summary)))
+    (unless (null? rows)
+      (print-columns rows))))
+
+
 ;;; Flying.
 
 (define (times n one many)
@@ -106,6 +120,7 @@
          (result (result-name file options))
          (tally (sweep file result (jobs options) (shard options) (option options "--again"))))
     (tell-tally result tally)
+    (tell-summary result)
     (status-of tally (string-append (same-again word options) "'"))))
 
 (define (show-case word options)
@@ -127,16 +142,11 @@
     (bad-usage "sweep: say what goes into which, as in bight sweep --merge RESULT.db SHARD.db ..."))
   (let ((tally (merge-shards (car words) (cdr words))))
     (tell-tally (car words) tally)
+    (tell-summary (car words))
     (status-of tally "the same")))
 
 
 ;;; Looking.
-
-(define (call-with-result file proc)
-  (let* ((database (open-found file))
-         (value (proc database)))
-    (close-result! database)
-    value))
 
 (define (print-rows rows csv?)
   (if csv? (print-csv rows) (print-columns rows)))

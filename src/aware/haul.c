@@ -15,6 +15,7 @@ enum
 
 #define LEAST_BEND 0.3 /* radians: a body slides past less */
 #define SPARE_PULL 1.0 /* N: less does not count as pulling */
+#define TRIM 0.05      /* of the pull: a vehicle in trim weighs less */
 #define FACING 0.5     /* cosine between two outward normals: less is a corner to wedge in */
 #define HOME_NEAR 1.5  /* m: of the start is home */
 #define NOTHING UINT32_MAX
@@ -107,7 +108,7 @@ bt__haul_prospect (const bt__holds *h, const bt__haul_body *body)
   double weight = fabs (body->weight), pull = body->winch;
   p.pull = pull / p.lock;
   p.speed = speed_at (body, p.pull - weight);
-  say (&p, h->n == 0 && weight < SPARE_PULL ? BT__YES : BT__UNSURE, BT__HAUL_CLEAR, NOTHING, 0);
+  say (&p, h->n == 0 && weight < TRIM * p.pull ? BT__YES : BT__UNSURE, BT__HAUL_CLEAR, NOTHING, 0);
   if (fmax (body->least, weight) > p.pull)
     {
       bend b = worst_bend (h, 2 * body->radius);

@@ -3,8 +3,9 @@
    The instant rule looks at the taut string alone.  Capstan friction seldom holds a tether; what
    stops a haul is mostly the dead vehicle's body: hung on a thin member or an edge that the string
    bends round, or drawn into the corner between two things that the string passes.  The rule cannot
-   see slack, current or a body that rolls off sideways: a haul on a
-   fork of the dive is the judge, this the answer at once.
+   see slack, current or a body that rolls off sideways.  A body's weight or buoyancy adds to the
+   pull it takes, past what it hangs on too; that it may sink to the bed and drag is not looked at.
+   A haul on a fork of the dive is the judge, this the answer at once.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

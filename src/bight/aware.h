@@ -24,6 +24,15 @@ BT_BEGIN_DECLS
 /* Of the taut string: what tether I shrinks to through nothing, without friction.  */
 bt_status bt_tether_taut_length (const bt_dive *dive, int i, double *length, bt_error *error);
 
+/* Among obstacles a tether is taut with less slack than that share of what is out, round what it
+   touches.  */
+#define BT_TAUT_SLACK 0.01
+
+/* Is tether I pulled tight?  Its model says so, as the event `taut' does: its chord is all that is
+   out; or, where something stands, its taut string is, but for BT_TAUT_SLACK.  A forecast and the
+   live view go by the same rule.  */
+bt_status bt_tether_is_taut (const bt_dive *dive, int i, int *taut, bt_error *error);
+
 /* Put the taut string itself into POINTS, at most MAX, from the anchor on; *N is how many there
  * are.
  */
@@ -162,10 +171,10 @@ bt_status bt_tether_unwind_plan (const bt_dive *dive, int i, bt_vec3 *points, in
 
 typedef enum bt_foresight_kind
 {
-  BT_FORESEE_TOUCH = 1, /* the string meets an obstacle */
+  BT_FORESEE_TOUCH = 1, /* the tether meets an obstacle */
   BT_FORESEE_TURN,      /* its turns about it pass the next half */
-  BT_FORESEE_TAUT,      /* the string is as long as what is out */
-  BT_FORESEE_BUMP       /* the vehicle meets it: the forecast ends */
+  BT_FORESEE_TAUT, /* no more than BT_TAUT_SLACK is slack: what is out then holds the vehicle */
+  BT_FORESEE_BUMP  /* the vehicle meets it, and slides on */
 } bt_foresight_kind;
 
 typedef struct bt_foresight
@@ -176,9 +185,9 @@ typedef struct bt_foresight
   double turns;   /* about it, then */
 } bt_foresight;
 
-/* What the string of tether I will do if the vehicle goes on for SECONDS as it goes now; at most
-   MAX events in their order to OUT, *N of them.  A model of the string alone: no slack, no current.
- */
+/* What tether I will do if the vehicle goes on for SECONDS as it goes now; at most MAX events in
+   their order to OUT, *N of them.  A model without forces: the line as it lies trails behind the
+   vehicle and touches; its string, which turns and is taut, holds it; no current, no weight.  */
 bt_status bt_tether_foresee (const bt_dive *dive, int i, double seconds, bt_foresight *out, int max,
                              int *n, bt_error *error);
 

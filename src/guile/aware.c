@@ -27,6 +27,16 @@ taut_length (SCM object, SCM index)
 }
 
 static SCM
+is_taut (SCM object, SCM index)
+{
+  int taut;
+  bt_error error;
+  bt__check ("taut?", bt_tether_is_taut (bt__to_dive (object), scm_to_int (index), &taut, &error),
+             &error);
+  return scm_from_bool (taut);
+}
+
+static SCM
 free_length (SCM object, SCM index)
 {
   double length;
@@ -287,6 +297,8 @@ bt__define_aware (void)
   static const bt__procedure table[] = {
     { "%taut-length", 2, 0, (scm_t_subr)taut_length,
       "Return the length of the taut string of the INDEX-th tether of DIVE, m." },
+    { "%taut?", 2, 0, (scm_t_subr)is_taut,
+      "Return #t if the INDEX-th tether of DIVE is pulled tight." },
     { "%free-length", 2, 0, (scm_t_subr)free_length,
       "Return the length of the shortest way known to the end of the INDEX-th tether of DIVE, m." },
     { "%contact-length", 4, 0, (scm_t_subr)contact_length,

@@ -157,8 +157,7 @@ sample_water (const bt_dive *dive, bt__state *state, bt_vec3 p, bt__rigid_input 
   in->density = water.density;
   in->gravity = water.gravity;
   in->surface = bt_water_surface (&water, p);
-  in->flow = bt_water_velocity (&water, p);
-  in->flow_acceleration = bt_water_acceleration (&water, p);
+  bt_water_motion (&water, p, &in->flow, &in->flow_acceleration);
 }
 
 static bt__fix

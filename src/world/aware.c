@@ -37,6 +37,22 @@ bt_tether_taut_length (const bt_dive *dive, int i, double *length, bt_error *err
 }
 
 bt_status
+bt_tether_is_taut (const bt_dive *dive, int i, int *taut, bt_error *error)
+{
+  bt__gaze *g;
+  bt_status status = bt__watch_look (dive, i, &g, error);
+  if (status != BT_OK)
+    return status;
+  *taut = bt__dive_tether (dive, dive->now, i)->taut != 0;
+  if (*taut || g->open)
+    return BT_OK;
+  status = bt__watch_gaze (dive, i, &g, error);
+  if (status == BT_OK)
+    *taut = bt__is_taut (g->taut_length, g->out);
+  return status;
+}
+
+bt_status
 bt_tether_free_length (const bt_dive *dive, int i, double *length, bt_error *error)
 {
   bt__gaze *g;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "aware/trail.h"
 #include "aware/turns.h"
 #include "base/error.h"
 #include "math/vec.h"
@@ -28,7 +29,7 @@ enum
 #define LEASH_PULL 10.0 /* N: less is the drag of a slack line */
 #define LEASH_BOW 1.02  /* of its chord: so straight is a line that is held */
 #define HOLD_REACH 0.05 /* m */
-#define TAUT 0.01       /* share of what is out: no more is slack */
+#define SKIN 1.3        /* of its core: so near the trailing line touches */
 
 /* ---- Live ---- */
 
@@ -83,13 +84,15 @@ typedef struct forecast
   const bt_dive *dive;
   const bt__gaze *g;
   bt__string *string;
+  bt__trail trail; /* the line as it lies, which may touch what the string does not */
   bt__holds holds;
   object object[OBJECTS];
-  uint32_t objects, bumps;
-  uint32_t met[OBJECTS];
-  double radius; /* m, of the vehicle */
-  bt_vec3 held;  /* where the line is held by friction ... */
-  double leash;  /* m: ... on what is left; INFINITY: it is not */
+  uint32_t objects, touches, bumps;
+  uint32_t touched[OBJECTS], met[OBJECTS]; /* by the line as it lies, by the vehicle */
+  double radius;                           /* m, of the vehicle */
+  bt_vec3 held;                            /* where the line is held by friction ... */
+  double leash;                            /* m: ... on what is left; INFINITY: it is not */
+  int reined;                              /* the leash is that of what is out */
   int taut;
   bt_foresight *out;
   int max, n;
@@ -112,6 +115,15 @@ turns_about (const forecast *f, uint32_t place)
   return bt__turns (&axis, f->string->x, f->string->n);
 }
 
+static int
+is_among (const uint32_t *list, uint32_t n, uint32_t place)
+{
+  for (uint32_t k = 0; k < n; k++)
+    if (list[k] == place)
+      return 1;
+  return 0;
+}
+
 static object *
 find (forecast *f, uint32_t place)
 {
@@ -119,6 +131,29 @@ find (forecast *f, uint32_t place)
     if (f->object[k].place == place)
       return &f->object[k];
   return NULL;
+}
+
+/* Note that the line touches PLACE, telling of it if that is new and SECONDS have passed.  */
+static void
+note_touch (forecast *f, uint32_t place, double seconds)
+{
+  if (is_among (f->touched, f->touches, place) || f->touches == OBJECTS)
+    return;
+  f->touched[f->touches++] = place;
+  if (seconds > 0)
+    tell (f, BT_FORESEE_TOUCH, place, seconds, turns_about (f, place));
+}
+
+/* Note what the line as it lies touches, from link K on.  */
+static void
+note_trail (forecast *f, uint32_t k, double seconds)
+{
+  bt__near near;
+  const bt__taut_config *c = &f->g->config;
+  for (; k + 1 < f->trail.n; k++)
+    if (bt__trail_meet (&f->trail, k, c->scene, c->on, SKIN * c->core, &near,
+                        &f->dive->watch->count))
+      note_touch (f, near.object, seconds);
 }
 
 /* Note what the string bends at, telling of what is new if SECONDS have passed.  */
@@ -145,7 +180,7 @@ note_holds (forecast *f, double seconds)
         {
           f->object[f->objects++] = (object){ place, halves };
           if (seconds > 0)
-            tell (f, BT_FORESEE_TOUCH, place, seconds, turns);
+            note_touch (f, place, seconds);
         }
     }
 }
@@ -153,22 +188,13 @@ note_holds (forecast *f, double seconds)
 static void
 note_taut (forecast *f, double seconds)
 {
-  int taut = f->string->length >= (1 - TAUT) * f->g->out;
+  int taut = bt__is_taut (f->string->length, f->g->out);
   if (taut && !f->taut)
     tell (f, BT_FORESEE_TAUT, UINT32_MAX, seconds, 0);
   f->taut = taut;
 }
 
 /* ---- The vehicle ahead ---- */
-
-static int
-is_met (forecast *f, uint32_t place)
-{
-  for (uint32_t k = 0; k < f->bumps; k++)
-    if (f->met[k] == place)
-      return 1;
-  return 0;
-}
 
 /* Stop GHOST, which has come from FROM, at what stands within RADIUS of its way; tell of it, if
    SECONDS have passed and it is new.  */
@@ -181,7 +207,7 @@ note_bump (forecast *f, bt__ghost *ghost, bt_vec3 from, double seconds)
       || !bt__scene_nearest (f->g->config.scene, f->g->config.on, &way, f->radius, &near,
                              &f->dive->watch->count))
     return;
-  if (!is_met (f, near.object))
+  if (!is_among (f->met, f->bumps, near.object))
     {
       if (f->bumps < OBJECTS)
         f->met[f->bumps++] = near.object;
@@ -224,7 +250,21 @@ hold_on_leash (const forecast *f, bt__ghost *ghost)
     bt__ghost_stop (ghost, bt__axpy (f->held, f->leash / far, way), bt__scale (-1 / far, way));
 }
 
-/* Lead the string on by a look ahead; zero when it ends here.  */
+/* What is out holds the VEHICLE at the string's last bend.  */
+static void
+rein_in (forecast *f, bt_vec3 vehicle)
+{
+  double over = f->string->length - f->g->out;
+  if (over <= 0 && f->reined)
+    f->leash = INFINITY;
+  f->reined = over > 0;
+  if (over <= 0)
+    return;
+  f->held = f->string->x[f->holds.n > 0 ? f->holds.at[f->holds.n - 1].node : 0];
+  f->leash = fmax (bt__distance (f->held, vehicle) - over, 0);
+}
+
+/* Lead the string on by a look ahead; zero when it cannot be.  */
 static int
 look_ahead (forecast *f, bt__ghost *ghost, double t)
 {
@@ -235,6 +275,8 @@ look_ahead (forecast *f, bt__ghost *ghost, double t)
       hold_on_leash (f, ghost);
     }
   note_bump (f, ghost, from, t);
+  if (!f->g->open)
+    note_trail (f, bt__trail_lead (&f->trail, ghost->v.position), t);
   if (f->g->open)
     {
       f->string->x[1] = ghost->v.position;
@@ -246,7 +288,8 @@ look_ahead (forecast *f, bt__ghost *ghost, double t)
   else
     return 0;
   note_taut (f, t);
-  return !f->taut;
+  rein_in (f, ghost->v.position);
+  return 1;
 }
 
 static void
@@ -256,9 +299,12 @@ run_ahead (forecast *f, int i, double seconds)
   bt_vec3 size = f->dive->model->vehicles[vehicle].size;
   bt__ghost ghost = bt__ghost_of (f->dive, vehicle);
   f->radius = fmax (0.5 * fmax (size.x, size.y), 2 * f->g->config.core);
-  f->taut = f->string->length >= (1 - TAUT) * f->g->out;
+  f->taut = bt__is_taut (f->string->length, f->g->out);
   if (!f->g->open)
-    note_holds (f, 0);
+    {
+      note_holds (f, 0);
+      note_trail (f, 0, 0);
+    }
   note_bump (f, &ghost, ghost.v.position, 0);
   look_for_leash (f, i, ghost.v.position);
   for (int k = 1; k * AHEAD <= seconds + 1e-9; k++)
@@ -282,8 +328,10 @@ bt_tether_foresee (const bt_dive *dive, int i, double seconds, bt_foresight *out
   uint32_t room = g->open ? 2 : dive->watch->room;
   f.string = calloc (1, bt__string_size (room));
   f.holds = (bt__holds){ calloc (room, sizeof (bt__corner)), 0, room, 0 };
-  if (f.string && f.holds.at)
+  f.trail = (bt__trail){ calloc (g->n, sizeof (bt_vec3)), calloc (g->n, sizeof (double)), 0 };
+  if (f.string && f.holds.at && f.trail.x && f.trail.link)
     {
+      bt__trail_lay (&f.trail, g->node, g->n);
       ends[0] = g->node[0];
       ends[1] = g->node[g->n - 1];
       f.string->room = room;
@@ -295,5 +343,7 @@ bt_tether_foresee (const bt_dive *dive, int i, double seconds, bt_foresight *out
   *n = f.n;
   free (f.string);
   free (f.holds.at);
+  free (f.trail.x);
+  free (f.trail.link);
   return status;
 }

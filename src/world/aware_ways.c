@@ -50,6 +50,15 @@ reach_of (const bt_dive *dive, int vehicle)
   return 0.5 * bt__norm (dive->model->vehicles[vehicle].size);
 }
 
+/* N, in the water as it is; what has no mass has no weight.  */
+static double
+weight_of (const bt_dive *dive, int vehicle)
+{
+  const bt__vehicle_type *type = &dive->model->types[vehicle];
+  bt_water water = bt__dive_water (dive, dive->now);
+  return (type->mass - water.density * type->volume) * water.gravity;
+}
+
 static bt__haul_body
 body_of (const bt_dive *dive, int vehicle, double winch)
 {
@@ -60,6 +69,7 @@ body_of (const bt_dive *dive, int vehicle, double winch)
   bt__haul_body body = { .radius = radius_of (dive, vehicle),
                          .reach = 0.5 * fmax (size.x, fmax (size.y, size.z)),
                          .friction = BODY_FRICTION,
+                         .weight = weight_of (dive, vehicle),
                          .drag1 = slips ? DRAG1 : linear,
                          .drag2 = slips ? DRAG2 : quadratic,
                          .winch = winch };

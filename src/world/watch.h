@@ -17,6 +17,14 @@
 #include "aware/voxel.h"
 #include "world/line.h"
 
+/* The one rule for a tether that is taut among obstacles: its string, of LENGTH, leaves less than
+   BT_TAUT_SLACK of what is OUT.  */
+static inline int
+bt__is_taut (double length, double out)
+{
+  return length >= (1 - BT_TAUT_SLACK) * out;
+}
+
 /* What the world is like for a tether.  The tree of free ways is of one anchor and of what its
    reach comes to; the words are of one gap.  */
 typedef struct bt__chart

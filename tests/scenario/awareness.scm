@@ -237,6 +237,43 @@ the line is wound all the same."
   (expect (filter (lambda (e) (and (eq? 'touched (car e)) (eq? 'minnow (caddr e)))) (events #:since start))
           => '()))
 
+(define-scenario home-on-a-fork
+  "What `home-trial' says comes true, and leaves the dive as it was; what cannot come home stays."
+  (in (alone 'dynamic))
+  (go-round)
+  (define before (state-hash))
+  (define trial (home-trial))
+  (expect (state-hash) => before)
+  (expect (assq-ref trial 'home?))
+  (expect (fly-home!) => (assq-ref trial 'plan))
+  (run (assq-ref trial 'seconds))
+  (expect (straight-distance) is (below 0.8))
+  (expect (rov-position) is (about (assq-ref trial 'at) #:within 1e-9))
+  (expect (spooling?) => #f))
+
+(define-scenario one-rule-of-taut
+  "`taut?' and `foresee' go by one rule: what is foreseen as taut is so then, and not before."
+  (in (alone 'dynamic))
+  (go '(3 -3 -5) '(-3 -3 -5) '(-3 3 -5))
+  (expect (taut?) => #f)
+  (drive! #:sway 0.5 #:yaw 0.05)
+  (define taut (find (lambda (f) (and (eq? 'taut (foresight-kind f)) (= 1 (foresight-confidence f))))
+                     (foresee 60)))
+  (when taut
+    (run (- (foresight-seconds taut) 0.5))
+    (expect (taut?) => #f)
+    (run 0.5)
+    (expect (taut?))))
+
+(define-scenario (weight-of-the-dead volume)
+  "A heavy or a buoyant vehicle adds its weight in water to the pull that a haul needs."
+  #:for ((volume 0.03 0.07))
+  (in (world (sea (depth 60)) (splice (pile 'p1 0 0))
+             (rov (named minnow) (type bluerov2-heavy) (at 6 -6 -5) (mass 50) (volume volume))
+             (tether (type fathom) (wet-weight 0) (from -6 -6 -5) (to minnow) (length 16) (model dynamic))))
+  (expect (take (haul-prospect #:pull 150) 2) => '(no locked))
+  (expect (second (haul-prospect #:pull 400)) => 'clear))
+
 (define-scenario (unwinding times)
   "The plan, flown, frees the tether; the preview knew it."
   #:for ((times 1 2))

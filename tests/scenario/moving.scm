@@ -219,6 +219,21 @@ water there, four times the drag.)"
   (run 20)
   (expect (tether-length) => 15))
 
+(define-scenario links-for-all-on-the-drum
+  "A moving line of which the world tells the drum has links for all of it: none grows longer."
+  (in (world (sea) (rov (named minnow) (at 0 4 -5))
+             (tether (named line) (type fathom) (wet-weight 0) (from 0 0 -5) (to minnow) (length 4.4)
+                     (drum 20) (nodes 8) (model dynamic))))
+  (drive! #:surge 0.5)
+  (pay-out! 15 #:rate 1)
+  (run 20)
+  (define p (tether-points))
+  (define (link i)
+    (apply distance (map (lambda (i) (list (array-ref p i 0) (array-ref p i 1) (array-ref p i 2)))
+                         (list i (+ i 1)))))
+  (expect (tether-length) is (about 19.4 #:within 0.01))
+  (expect (apply max (map link (iota (- (array-length p) 1)))) is (below 1)))
+
 
 ;;; What is fastened to the line.
 
