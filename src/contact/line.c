@@ -40,6 +40,7 @@ self_new (bt__self *s, size_t n)
          && (s->known = calloc ((size_t)s->room, sizeof *s->known))
          && (s->move = calloc (n, sizeof *s->move)) && (s->reach = calloc (n, sizeof *s->reach))
          && (s->box = calloc (boxes, sizeof *s->box)) && (s->its = calloc (boxes, sizeof *s->its))
+         && (s->chord = calloc (boxes, sizeof *s->chord))
          && (s->stood = calloc (n, sizeof *s->stood));
 }
 
@@ -55,8 +56,6 @@ bt__line_work_free (bt__line_work *w)
   free (w->of);
   free (w->old);
   free (w->to);
-  free (w->stood);
-  free (w->at);
   free (w->from_end);
   free (w->restart);
   free (w->self.pair);
@@ -64,6 +63,7 @@ bt__line_work_free (bt__line_work *w)
   free (w->self.reach);
   free (w->self.box);
   free (w->self.its);
+  free (w->self.chord);
   free (w->self.stood);
   free (w->self.known);
   free (w);
@@ -84,7 +84,6 @@ bt__line_work_new (int n_max)
               && (w->row = calloc (rows + 1, sizeof *w->row))
               && (w->of = calloc (rows + 1, sizeof *w->of))
               && (w->old = calloc (rows, sizeof *w->old)) && (w->to = calloc (n, sizeof *w->to))
-              && (w->stood = calloc (n, sizeof *w->stood)) && (w->at = calloc (n, sizeof *w->at))
               && (w->from_end = calloc (n, sizeof *w->from_end))
               && (w->restart = calloc (n, sizeof *w->restart)) && self_new (&w->self, n);
   if (whole)
@@ -105,8 +104,7 @@ bt__line_work_forget (bt__line_work *w)
       w->watch[j].clear = 1e9;
       w->watch[j].a = w->watch[j].b = bt__vec (INFINITY, 0, 0);
     }
-  w->spare = 0;
-  w->still = w->self.still = w->went = 0;
+  w->self.still = 0;
 }
 
 double
@@ -122,6 +120,14 @@ bt__line_work_spare (bt__line_work *w, bt__dynamic *d)
                      .x = bt__dynamic_x (d),
                      .report = &unused };
   return bt__self_counts (&k) ? bt__self_spare (&k) : INFINITY;
+}
+
+double
+bt__line_work_asked (bt__line_work *w)
+{
+  double asked = w->asked;
+  w->asked = 0;
+  return asked;
 }
 
 /* ---- The parts of a step ---- */
@@ -161,13 +167,23 @@ widened (double core, const bt_vec3 *x, int links)
   return core * (1 + 1e-6) + 1e-14 * far;
 }
 
+/* The input, to be altered.  */
+static bt__dynamic_input *
+own_input (bt__line_job *k)
+{
+  if (k->in != &k->w->in)
+    k->w->in = *k->in;
+  k->in = &k->w->in;
+  return &k->w->in;
+}
+
 /* Where the ends are wanted; a place that is not finite means stay.  */
 static void
 aim_ends (bt__line_job *k)
 {
   for (int e = 0; e < 2; e++)
-    if (!bt__is_finite (k->in.end[e].at))
-      k->in.end[e].at = k->x[e ? k->links : 0];
+    if (!bt__is_finite (k->in->end[e].at))
+      own_input (k)->end[e].at = k->x[e ? k->links : 0];
 }
 
 static void
@@ -181,15 +197,6 @@ check_known (bt__line_job *k)
   w->serial = k->scene->serial;
   w->version = version;
   w->off = off;
-}
-
-/* A line that goes on from where it went need not be looked at again.  */
-static void
-resume (bt__line_job *k)
-{
-  bt__line_work *w = k->w;
-  k->resumes = w->went == k->links + 1 && memcmp (w->at, k->x, (size_t)w->went * sizeof *k->x) == 0;
-  w->went = 0;
 }
 
 static void
@@ -228,21 +235,21 @@ hold_ends (bt__line_job *k)
   int any = 0;
   for (int e = 0; e < 2; e++)
     {
-      bt__dynamic_end *end = k->in.end + e;
+      const bt__dynamic_end *end = k->in->end + e;
       bt_vec3 x = k->x[e ? k->links : 0], d = bt__sub (end->at, x);
       double size = bt__norm (d), most = k->config->pull[e];
-      k->hold[e] = (bt__dynamic_hold){ 0 };
+      k->w->hold[e] = (bt__dynamic_hold){ 0 };
       if (end->free || !isfinite (most))
         continue;
       double last = rest[e ? k->links - 1 : 0];
       bt_vec3 pull = pull_of (k, e, last);
       double now = bt__norm (pull);
-      k->hold[e] = (bt__dynamic_hold){ .on = 1, .most = fmax (most, 1e-9) };
-      k->hold[e].stiffness = fmin (HOLDING * k->in.line->ea / last, HOLDING_MOST);
-      k->hold[e].mass = most / GIVE;
-      k->hold[e].at = size > BT__LINE_STRIDE ? bt__axpy (x, BT__LINE_STRIDE / size, d) : end->at;
-      k->hold[e].force = now > most ? bt__scale (most / now, pull) : pull;
-      end->free = 1;
+      k->w->hold[e] = (bt__dynamic_hold){ .on = 1, .most = fmax (most, 1e-9) };
+      k->w->hold[e].stiffness = fmin (HOLDING * k->in->line->ea / last, HOLDING_MOST);
+      k->w->hold[e].mass = most / GIVE;
+      k->w->hold[e].at = size > BT__LINE_STRIDE ? bt__axpy (x, BT__LINE_STRIDE / size, d) : end->at;
+      k->w->hold[e].force = now > most ? bt__scale (most / now, pull) : pull;
+      own_input (k)->end[e].free = 1;
       any = 1;
     }
   return any;
@@ -254,7 +261,7 @@ start_ends (bt__line_job *k)
 {
   for (int e = 0; e < 2; e++)
     {
-      const bt__dynamic_hold *h = k->hold + e;
+      const bt__dynamic_hold *h = k->w->hold + e;
       int i = e ? k->links : 0;
       if (h->on)
         k->X[i] = bt__norm (h->force) > HELD_BACK * h->most ? k->x[i] : h->at;
@@ -264,7 +271,7 @@ start_ends (bt__line_job *k)
 static void
 solve (bt__line_job *k, int held, bt__dynamic_report *report)
 {
-  bt__dynamic_hold *hold = held ? k->hold : NULL;
+  bt__dynamic_hold *hold = held ? k->w->hold : NULL;
   const bt__line_hook *hook = k->config->hook;
   bt__dynamic_iterate (k->kernel, k->w->row, k->rows, hold, report);
   if (!isfinite (report->update))
@@ -326,40 +333,39 @@ tell_ends (bt__line_job *k, const bt__dynamic_input *input)
     }
 }
 
-/* The step of a line that is far from everything, unless it comes near: then *DONE is zero and
-   nothing has happened.  */
+/* The step of a line that is far from everything while it drifts by no more than MAY; else *DONE is
+   zero and nothing has happened.  */
 static bt_status
-step_far (bt__line_job *k, bt__dynamic_report *report, int *done, bt_error *error)
+step_far (bt__line_job *k, const bt__dynamic_drift *may, bt__dynamic_report *report, int *done,
+          bt_error *error)
 {
-  bt_status status = bt__dynamic_begin (k->d, k->kernel, &k->in, report, error);
+  bt_status status = bt__dynamic_begin (k->d, k->kernel, k->in, report, error);
   *done = 1;
   if (status)
     return status;
   bt__dynamic_iterate (k->kernel, NULL, 0, NULL, report);
   k->X = bt__dynamic_proposal (k->kernel);
-  k->stride = bt__dynamic_stray (k->X, k->x, k->links + 1);
-  *done = isfinite (report->update) && bt__line_stays_far (k) && bt__self_stays_far (k);
-  if (!*done)
-    {
-      k->stride = INFINITY;
-      return BT_OK;
-    }
+  *done = isfinite (report->update) && bt__self_stays_far (k);
+  if (*done)
+    status = bt__dynamic_finish_within (k->d, k->kernel, may, done, report, error);
+  if (!*done || status)
+    return status;
+  bt__self_note_near (k);
   k->anchors->n = 0;
-  memcpy (k->w->at, k->X, (size_t)(k->links + 1) * sizeof *k->X);
-  k->w->went = k->links + 1;
-  return bt__dynamic_finish (k->d, k->kernel, NULL, report, error);
+  return BT_OK;
 }
 
 static bt_status
 step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
 {
   const bt__line_hook *hook = k->config->hook;
-  int near = bt__line_watch (k) | bt__self_watch (k), held = near && hold_ends (k);
-  bt_status status = bt__dynamic_begin (k->d, k->kernel, &k->in, report, error);
+  int beside = bt__line_watch (k), near = bt__self_watch (k) | beside, held = near && hold_ends (k);
+  bt_status status = bt__dynamic_begin (k->d, k->kernel, k->in, report, error);
   if (status)
     return status;
   k->X = bt__dynamic_proposal (k->kernel);
-  start_ends (k);
+  if (held) /* else what is held is of another line's step */
+    start_ends (k);
   if (near && !(hook && hook->no_contacts))
     {
       bt__line_bends (k);
@@ -377,8 +383,10 @@ step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
   if (status)
     return status;
   bt__line_store (k);
+  bt__line_note_near (k, beside);
+  bt__self_note_near (k);
   bt__line_rebend (k);
-  if (k->in.pay != 0 || k->d->owed != 0)
+  if (k->in->pay != 0 || k->d->owed != 0)
     bt__line_wind (k);
   return BT_OK;
 }
@@ -392,7 +400,7 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
   bt__line_job k = { .w = w,
                      .d = d,
                      .kernel = work,
-                     .in = *input,
+                     .in = input,
                      .scene = around->scene ? around->scene : &nothing,
                      .on = around->on,
                      .mover = around->mover,
@@ -403,7 +411,6 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
                      .margin = config->radius,
                      .h = input->h,
                      .x = bt__dynamic_x (d),
-                     .stride = INFINITY,
                      .report = line_report,
                      .count = count };
   *line_report = (bt__line_report){ 0 };
@@ -417,25 +424,24 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
   if (k.scene->n == 0 && k.movers == 0 && !bt__self_counts (&k))
     {
       anchors->n = 0;
-      status = bt__dynamic_step (d, work, &k.in, report, error);
+      status = bt__dynamic_step (d, work, k.in, report, error);
     }
   else
     {
       const bt__line_hook *hook = config->hook;
       int done = 0;
+      bt__dynamic_drift may = { INFINITY, INFINITY, INFINITY };
       check_known (&k);
-      resume (&k);
-      w->self.asked = 0;
       k.core = config->core * 1.01;
-      if (bt__line_is_far (&k) && !bt__self_watch (&k) && !(hook && hook->spoil))
-        status = step_far (&k, report, &done, error);
+      if (bt__line_is_far (&k, &may.way) && bt__self_is_far (&k, &may) && !(hook && hook->spoil))
+        status = step_far (&k, &may, report, &done, error);
       if (!done)
         {
           k.core = widened (config->core, k.x, k.links);
           prepare (&k);
           status = step (&k, report, error);
         }
-      else if (status == BT_OK && (k.in.pay != 0 || d->owed != 0))
+      else if (status == BT_OK && (k.in->pay != 0 || d->owed != 0))
         bt__line_wind (&k);
     }
   if (status == BT_OK)

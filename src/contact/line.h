@@ -82,6 +82,10 @@ void bt__line_work_forget (bt__line_work *work);
    points to must still be there.  */
 double bt__line_work_spare (bt__line_work *work, bt__dynamic *d);
 
+/* Return within what distance of where it was, m, a line came, and asked for others, in all that
+   was done with WORK since this was last called: farther off others may do as they like.  */
+double bt__line_work_asked (bt__line_work *work);
+
 /* For tests: what is done to the solver's result before it is checked, and what is left undone.  */
 typedef struct bt__line_hook
 {
@@ -102,6 +106,7 @@ typedef struct bt__strand
 {
   const bt__dynamic *line;
   const bt__anchors *anchors; /* of its last step, or NULL */
+  const bt__aabb *box;        /* that its nodes are in, or NULL: it is looked for */
   int64_t id;                 /* as an object */
   double radius, core, friction;
   double inertia; /* kg/m: mass and added mass */

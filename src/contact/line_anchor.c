@@ -130,7 +130,7 @@ bt__line_stiffness (const bt__line_job *k, int64_t i, double last)
 {
   const double *rest = bt__dynamic_rest (k->d), *tension = bt__dynamic_tension (k->d);
   const bt__line_config *c = k->config;
-  double ea = k->in.line->ea, load = fmax (tension[i], last);
+  double ea = k->in->line->ea, load = fmax (tension[i], last);
   double stiff = fmin (STIFF * ea / rest[i], STIFFEST);
   return fmax (stiff, YIELD * load / (c->radius - c->core));
 }

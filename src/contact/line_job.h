@@ -42,14 +42,13 @@ typedef struct bt__self
   double *move;             /* m: how far each node may go for PAIR to hold all */
   double *reach;            /* m: how far each link looks */
   bt__aabb *box, *its;      /* of links, of links of links: this line's, another's */
+  bt__capsule *chord;       /* of links of links, see self_look.c */
   bt_vec3 *stood;           /* where the nodes were when it was looked ... */
   int still;                /* ... and had so many; 0: it was not */
   double turn, way;         /* m: KNOWN is of what parts by less, two in a row and any */
   double least, least_turn; /* m: none of it touches before any, or two in a row, part by this */
   bt__dynamic_drift drift;  /* since then, as the step starts */
-  bt__dynamic_drift gone;   /* the drift after the step ... */
-  int went;                 /* ... if it is known */
-  int asked;                /* nonzero: PAIR is of this step */
+  int clear;                /* nonzero: the spare of the line says that there is none of itself */
   int wait;                 /* steps until the next look */
 } bt__self;
 
@@ -95,16 +94,13 @@ struct bt__line_work
   bt__line_row *of; /* what ROW is of */
   bt__anchor *old;  /* anchors of the last step, then of this */
   bt_vec3 *to;
-  bt_vec3 *stood;   /* where the nodes were when ... */
-  double spare;     /* ... the whole line was so clear of what stands, m ... */
-  int still;        /* ... and had so many nodes */
-  double moved;     /* m: as the step starts no node is farther from there */
-  bt_vec3 *at;      /* where the nodes went in the last step, ... */
-  int went;         /* ... and how many, if nothing was near; else 0 */
   double *from_end; /* m of rest length from each node to node n */
   uint8_t *restart;
   bt__self self;
   bt__line_config last;             /* of the last step */
+  double asked;                     /* m, see bt__line_work_asked */
+  bt__dynamic_input in;             /* of a step in which ends are not where they are wanted */
+  bt__dynamic_hold hold[2];         /* what holds them */
   bt__dynamic_bent bent[BT__BENTS]; /* nodes held at edges, ... */
   bt__anchor bend[BT__BENTS];       /* ... and what they are held at */
 };
@@ -114,7 +110,7 @@ typedef struct bt__line_job
   bt__line_work *w;
   bt__dynamic *d;
   bt__dynamic_work *kernel;
-  bt__dynamic_input in; /* as the kernel gets it */
+  const bt__dynamic_input *in; /* as the kernel gets it */
   const bt__scene *scene;
   const bt__switches *on;
   bt__mover *mover;
@@ -126,9 +122,6 @@ typedef struct bt__line_job
   double h;
   const bt_vec3 *x; /* at the start */
   bt_vec3 *X;       /* proposed */
-  int resumes;      /* nonzero: it starts where it went in the last step, with nothing near */
-  double stride;    /* m: no node goes farther in the step; INFINITY: not known */
-  bt__dynamic_hold hold[2];
   bt__line_report *report;
   bt__count *count;
 } bt__line_job;
@@ -138,10 +131,12 @@ typedef struct bt__line_job
 /* List what every link could meet; return nonzero if anything is so near that it matters.  */
 int bt__line_watch (bt__line_job *k);
 
-/* Nonzero if the whole line is known to be so far from everything that no link need be asked; after
-   the solution, if all of the proposed move is.  */
-int bt__line_is_far (const bt__line_job *k);
-int bt__line_stays_far (const bt__line_job *k);
+/* Nonzero if the whole line is known to be so far from everything that stands that no link need be
+   asked while its nodes go no farther than *MAY.  */
+int bt__line_is_far (bt__line_job *k, double *may);
+
+/* After a step in which that was not so: NEAR says whether anything was.  */
+void bt__line_note_near (bt__line_job *k, int near);
 
 /* List more where the proposal goes farther than was listed; shorten its moves where the lists are
    full.  */
@@ -222,12 +217,30 @@ bt__self_counts (const bt__line_job *k)
   return k->config->itself || k->config->strands > 0;
 }
 
-/* self_pairs.c: list the pairs that could meet in the step; return nonzero if there are any.  The
-   same for the proposed move, which is shortened if there is no room for all.  Nonzero if the
-   proposed move meets no other pairs than those listed.  */
+/* Note that others within WAY of where the line was as the step began would have counted; of where
+   it is after its move.  */
+static inline void
+bt__self_asks (const bt__line_job *k, double way)
+{
+  k->w->asked = k->w->asked > way ? k->w->asked : way;
+}
+
+static inline void
+bt__self_asks_more (const bt__line_job *k, double way)
+{
+  k->w->asked += way;
+}
+
+/* self_pairs.c: nonzero if no link can meet one of the line itself while it drifts by no more than
+   MAY, nor one of another line as the step starts; nonzero if none of another line in the proposed
+   move.  List the pairs that could meet in the step; return nonzero if there are any.  The same for
+   the proposed move, which is shortened if there is no room for all.  After a step in which there
+   were some.  */
+int bt__self_is_far (bt__line_job *k, bt__dynamic_drift *may);
+int bt__self_stays_far (const bt__line_job *k);
 int bt__self_watch (bt__line_job *k);
 void bt__self_watch_moves (bt__line_job *k);
-int bt__self_stays_far (const bt__line_job *k);
+void bt__self_note_near (bt__line_job *k);
 
 /* How far each node may go with the line clear of itself and others whatever they do, m, up to a
    share of an interval.  */

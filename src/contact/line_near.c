@@ -9,13 +9,13 @@
 
 #include <string.h>
 
+#include "base/hash.h"
 #include "contact/line_job.h"
 
 #define AHEAD 1.2  /* of the present speed: how far a link may go in the step */
 #define WIDER 1.1  /* of what is needed: what is listed */
 #define LOOK 0.5   /* m: how far a clear link looks, so as not to ask again soon, ... */
-#define FAR 10.0   /* ... and the whole line, ... */
-#define OFTEN 0.3  /* m: ... whenever it has gone so far and half of what was clear */
+#define FAR 2.0    /* ... and the whole line */
 #define CLOSE 1e-6 /* for rounding */
 
 /* What is left of the clearance measured last.  */
@@ -35,16 +35,27 @@ motion_of (const bt__mover *m)
   return bt__norm (m->motion.travel) + fabs (m->motion.angle) * m->radius;
 }
 
-/* Measure the clearance of a link that was clear; return nonzero if it is more than NEED.  */
-static int
-is_clear (bt__line_job *k, const bt__link *link, bt__link_watch *s, double need, double look)
+/* Measure how clear link J is, as far as LOOK.  KNOWN is what is left of what was measured last: by
+   as much as it has lost it may have gained, and it is not likely to be clearer than that.  */
+static void
+measure_clear (bt__line_job *k, uint32_t j, double known, double look)
 {
+  bt__link_watch *s = k->w->watch + j;
+  bt__link link = bt__line_link (k->x, j);
+  double likely = 2 * s->clear - known;
   bt__near nearest;
-  s->clear = fmax (look, 2 * need);
-  if (bt__scene_nearest (k->scene, k->on, link, s->clear, &nearest, k->count))
-    s->clear = nearest.w.distance;
+  s->a = link.a;
+  s->b = link.b;
+  for (double cap = likely < look ? likely : look;; cap = look)
+    {
+      s->clear = cap;
+      if (bt__scene_nearest (k->scene, k->on, &link, cap, &nearest, k->count))
+        s->clear = nearest.w.distance;
+      else if (cap < look)
+        continue;
+      break;
+    }
   s->reach = s->clear;
-  return s->clear > need;
 }
 
 static void
@@ -53,17 +64,20 @@ list_static (bt__line_job *k, uint32_t j, double need, bt__nears *list)
   bt__link_watch *s = k->w->watch + j;
   bt__link link = bt__line_link (k->x, j);
   double known = known_clear (k, j);
-  int was_clear = !(s->clear <= need);
   if (known > need)
     {
       k->count->skipped_clear++;
       s->reach = known;
       return;
     }
+  if (!(s->clear <= need)) /* it was clear */
+    {
+      measure_clear (k, j, known, fmax (LOOK, 2 * need));
+      if (s->clear > need)
+        return;
+    }
   s->a = link.a;
   s->b = link.b;
-  if (was_clear && is_clear (k, &link, s, need, LOOK))
-    return;
   s->reach = WIDER * need;
   bt__scene_near (k->scene, k->on, &link, 0, s->reach, list, k->count);
   s->full = list->dropped < s->reach;
@@ -111,29 +125,6 @@ list_link (bt__line_job *k, uint32_t j, double need)
 
 /* ---- All links ---- */
 
-/* Measure how clear the whole line is, unless it has hardly moved since that was done.  */
-static void
-look_far (bt__line_job *k)
-{
-  bt__line_work *w = k->w;
-  double spare = FAR;
-  if (w->still == k->links + 1
-      && bt__dynamic_stray (k->x, w->stood, k->links + 1) < 0.5 * w->spare + OFTEN)
-    return;
-  for (uint32_t j = 0; j < (uint32_t)k->links; j++)
-    {
-      bt__link link = bt__line_link (k->x, j);
-      bt__link_watch *s = w->watch + j;
-      is_clear (k, &link, s, 0, FAR);
-      s->a = link.a;
-      s->b = link.b;
-      spare = fmin (spare, s->clear);
-    }
-  w->spare = spare;
-  w->still = k->links + 1;
-  memcpy (w->stood, k->x, (size_t)w->still * sizeof *k->x);
-}
-
 /* Nonzero if a part that link J lists is within NEED.  */
 static int
 is_near (const bt__line_job *k, uint32_t j, double need)
@@ -156,8 +147,8 @@ move_of_ends (const bt__line_job *k)
 {
   double most = 0;
   for (int e = 0; e < 2; e++)
-    if (!k->in.end[e].free)
-      most = fmax (most, bt__distance (k->in.end[e].at, k->x[e ? k->links : 0]));
+    if (!k->in->end[e].free)
+      most = fmax (most, bt__distance (k->in->end[e].at, k->x[e ? k->links : 0]));
   return fmin (most, BT__LINE_STRIDE);
 }
 
@@ -177,43 +168,139 @@ bt__line_watch (bt__line_job *k)
       any |= is_near (k, (uint32_t)j, need);
       before = after;
     }
-  if (!any && k->movers == 0)
-    look_far (k);
   return any;
 }
 
 /* ---- The line as a whole ---- */
 
+/* How clear link J is, m, at least: what was measured while that is more than LEAST.  */
 static double
-strayed (const bt__line_job *k, const bt_vec3 *x)
+clear_by (bt__line_job *k, uint32_t j, double least)
 {
-  return bt__dynamic_stray (x, k->w->stood, k->links + 1);
+  double known = known_clear (k, j);
+  if (known >= least)
+    return known;
+  measure_clear (k, j, known, fmin (least + LOOK, FAR));
+  return k->w->watch[j].clear;
 }
 
-/* What a link needs is no more than what the stride does.  */
-int
-bt__line_is_far (const bt__line_job *k)
+static double
+gap_between (double lo, double hi, double centre, double half)
 {
-  bt__line_work *w = k->w;
-  double need = fmax (k->config->radius + k->margin, AHEAD * BT__LINE_STRIDE + k->core);
-  double spare = (1 - CLOSE) * w->spare - need;
-  if (k->movers > 0 || w->still != k->links + 1 || !(spare > 0))
+  return fmax (lo - (centre + half), centre - half - hi);
+}
+
+/* How far the line is from everything that stands, at least, by the box about it.  */
+static double
+distance_of_all (const bt__line_job *k)
+{
+  const bt__scene *s = k->scene;
+  bt_vec3 lo = k->x[0], hi = lo, o = s->tree.origin;
+  double half = 0.5 * s->tree.extent * (1 + CLOSE), gap = INFINITY;
+  for (int i = 1; i <= k->links; i++)
+    {
+      bt_vec3 p = k->x[i];
+      lo = bt__vec (p.x < lo.x ? p.x : lo.x, p.y < lo.y ? p.y : lo.y, p.z < lo.z ? p.z : lo.z);
+      hi = bt__vec (p.x > hi.x ? p.x : hi.x, p.y > hi.y ? p.y : hi.y, p.z > hi.z ? p.z : hi.z);
+    }
+  if (s->solids > 0)
+    gap = fmax (gap_between (lo.x, hi.x, o.x, half),
+                fmax (gap_between (lo.y, hi.y, o.y, half), gap_between (lo.z, hi.z, o.z, half)));
+  bt_vec3 middle = bt__scale (0.5, bt__add (lo, hi)), reach = bt__scale (0.5, bt__sub (hi, lo));
+  for (uint32_t i = 0; i < s->planes; i++)
+    {
+      const bt__plane *p = &s->object[s->plane[i]].shape.plane;
+      bt_vec3 n = p->normal;
+      gap = fmin (gap, bt__dot (n, middle) - p->offset - fabs (n.x) * reach.x - fabs (n.y) * reach.y
+                           - fabs (n.z) * reach.z);
+    }
+  return gap;
+}
+
+/* How clear the line is of what stands, at least: by the box about it if that is far, else the
+   least clearance of a link, at most FAR.  What is remembered spares links that have more, and
+   changes nothing else: this is kept in the state.  */
+static double
+clearance (bt__line_job *k)
+{
+  double least = FAR, known = INFINITY, all = distance_of_all (k);
+  uint32_t nearest = 0;
+  if (all > FAR)
+    return all;
+  for (uint32_t j = 0; j < (uint32_t)k->links; j++)
+    {
+      double this = known_clear (k, j);
+      if (this < known)
+        nearest = j;
+      known = fmin (known, this);
+    }
+  least = fmin (least, clear_by (k, nearest, least));
+  for (uint32_t j = 0; j < (uint32_t)k->links; j++)
+    least = fmin (least, clear_by (k, j, least));
+  return least;
+}
+
+static double
+fastest (const bt__line_job *k)
+{
+  const bt_vec3 *v = bt__dynamic_v (k->d);
+  double most = 0;
+  for (int i = 0; i <= k->links; i++)
+    most = fmax (most, bt__dot (v[i], v[i]));
+  return sqrt (most);
+}
+
+/* What what is spared was given for: the scene, which of it counts, how thick the line is.  */
+static int64_t
+seal_of (const bt__line_job *k)
+{
+  uint64_t parts[] = { k->scene->serial, k->on ? k->on->version : 0, 0 };
+  int64_t seal;
+  memcpy (parts + 2, &k->config->radius, sizeof parts[2]);
+  parts[0] = bt__hash (parts, sizeof parts, 1);
+  memcpy (&seal, parts, sizeof seal);
+  return seal;
+}
+
+static void
+check_spare (bt__line_job *k)
+{
+  int64_t seal = seal_of (k);
+  if (k->d->seen != seal)
+    k->d->spare = (bt__dynamic_drift){ 0, 0, 0 };
+  k->d->seen = seal;
+}
+
+/* What a link needs is no more than what the fastest node does.  */
+int
+bt__line_is_far (bt__line_job *k, double *may)
+{
+  bt__dynamic *d = k->d;
+  double touch = k->config->radius + k->margin, ends = move_of_ends (k);
+  check_spare (k);
+  *may = INFINITY;
+  if (k->movers > 0)
     return 0;
-  if (!k->resumes || !(w->moved < spare))
-    w->moved = strayed (k, k->x);
-  return w->moved < spare;
+  if (k->scene->n == 0)
+    return 1;
+  for (int looked = 0;; looked++)
+    {
+      double move = fmin (fmax (k->h * d->fastest, ends), BT__LINE_STRIDE);
+      double clear = (1 - CLOSE) * d->spare.way;
+      *may = clear - k->core;
+      if (clear > fmax (touch, AHEAD * move + k->core))
+        return 1;
+      if (looked || d->spare.way < 0)
+        return 0;
+      d->spare.way = clearance (k);
+      d->fastest = fastest (k);
+    }
 }
 
-/* After that; NaN is not far.  */
-int
-bt__line_stays_far (const bt__line_job *k)
+void
+bt__line_note_near (bt__line_job *k, int near)
 {
-  bt__line_work *w = k->w;
-  double spare = (1 - CLOSE) * w->spare - k->core;
-  w->moved += k->stride;
-  if (!(w->moved < spare))
-    w->moved = strayed (k, k->X);
-  return w->moved < spare;
+  k->d->spare.way = near ? -1 : fmax (k->d->spare.way, 0);
 }
 
 static void

@@ -216,6 +216,7 @@ bt__self_may_move (bt__line_job *k, int64_t i, bt_vec3 move)
 {
   if (!bt__self_counts (k))
     return 1;
+  bt__self_asks_more (k, bt__norm (move) + k->core);
   const double *rest = bt__dynamic_rest (k->d);
   int n = (int)k->d->n;
   double *from_end = k->w->from_end;
@@ -241,6 +242,7 @@ bt__self_is_clear (const bt__line_job *k, int64_t j, double way)
 {
   const bt_vec3 *x = bt__dynamic_x (k->d);
   bt__link a = bt__line_link (x, (uint32_t)j), b;
+  bt__self_asks_more (k, way + k->core);
   for (int64_t q = 0; q < k->d->n && k->config->itself; q++)
     {
       b = bt__line_link (x, (uint32_t)q);

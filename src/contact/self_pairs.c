@@ -1,11 +1,12 @@
 /* Which links of a line could meet each other, or those of another line, in a step.
 
-   What a look found serves until the line has turned or changed its shape by so much.  Of two
-   places with M links between and with them, the one goes no farther against the other than M times
-   the most that the two ends of any link do, nor farther than any two nodes do.  So a look lists
-   the pairs that are nearer than what either may come to, and from then on no other can touch; of
-   those listed all are passed over whose distance is not yet used up.  A line that goes along as a
-   whole uses up nothing, and where nothing is listed a step costs one pass over the nodes.
+   A line that is clear of itself knows how far it may go and stay so (self_look.c): until then a
+   step asks nothing.  Else a list of pairs is kept.  What a look found serves until the line has
+   turned or changed its shape by so much.  Of two places with M links between and with them, the
+   one goes no farther against the other than M times the most that the two ends of any link do, nor
+   farther than any two nodes do.  So a look lists the pairs that are nearer than what either may
+   come to, and from then on no other can touch; of those listed all are passed over whose distance
+   is not yet used up.
 
    Which pairs are told never depends on when was looked, so that this saves time alone.
 
@@ -30,6 +31,55 @@ enum
 #define LEAST_WAY 0.5
 #define FARTHER 1.4 /* times as far at the next look */
 #define SPARE 0.2   /* of a piece: the most of what a line is said to be clear by */
+#define AHEAD 1.2   /* of the last step's drift: what is expected of this one */
+
+/* ---- A line that is clear of itself ---- */
+
+/* How far it may go apart in a step that starts with what it has to spare: what that lets come
+   together does not touch, and for a step may, but not meet.  */
+static bt__dynamic_drift
+allowed (const bt__line_job *k)
+{
+  bt__dynamic_drift may = k->d->spare;
+  may.apart += 2 * (bt__self_touching (k) - k->core) * (1 - BT__SELF_CLOSE);
+  return may;
+}
+
+static int
+is_ahead (const bt__line_job *k)
+{
+  bt__dynamic_drift may = allowed (k);
+  const bt__dynamic *d = k->d;
+  return d->spare.turned > 0 && d->spare.apart > 0 && may.turned > AHEAD * d->step.turned
+         && may.apart > AHEAD * d->step.apart;
+}
+
+/* Nonzero if it is clear of itself, and for longer than the step that starts is expected to go.
+   What was not in the last step is not looked at.  */
+static int
+is_clear (bt__line_job *k)
+{
+  bt__dynamic *d = k->d;
+  if (!k->config->itself || is_ahead (k))
+    return 1;
+  if (d->spare.turned < 0 || d->spare.apart < 0)
+    return 0;
+  bt__self_look (k, &d->spare.turned, &d->spare.apart);
+  return is_ahead (k);
+}
+
+void
+bt__self_note_near (bt__line_job *k)
+{
+  bt__dynamic_drift *spare = &k->d->spare;
+  if (k->w->self.clear)
+    {
+      spare->turned = fmax (spare->turned, 0);
+      spare->apart = fmax (spare->apart, 0);
+    }
+  else
+    spare->turned = spare->apart = k->w->self.pairs > 0 ? -1 : 0;
+}
 
 /* ---- What is known of a line and itself ---- */
 
@@ -104,15 +154,12 @@ static int
 know (bt__line_job *k)
 {
   bt__self *self = &k->w->self;
-  if (k->resumes && self->went && self->still == k->links + 1)
-    self->drift = self->gone;
-  else if (self->still == k->links + 1 && is_known (k, k->x, &self->drift))
+  if (self->still == k->links + 1 && is_known (k, k->x, &self->drift))
     ;
   else if (self->still > 0 || self->wait == 0)
     look (k);
   else
     self->wait--;
-  self->went = 0;
   return self->still > 0;
 }
 
@@ -131,7 +178,7 @@ static int
 list_itself (bt__line_job *k, bt__self_search *s, const bt__dynamic_drift *drift)
 {
   const bt__self *self = &k->w->self;
-  if (!k->config->itself)
+  if (!k->config->itself || self->clear)
     return 0;
   if (!drift)
     return bt__self_look_at_itself (k, s);
@@ -160,6 +207,23 @@ way_of (const bt__line_job *k, const bt_vec3 *to)
   return b;
 }
 
+/* About links of line number I, as thick as they are.  */
+static bt__aabb
+strand_box (const bt__line_job *k, int i)
+{
+  const bt__aabb *known = k->config->strand[i].box;
+  bt__self_side s = bt__self_side_of (k, i);
+  bt__aabb b = bt__no_box;
+  for (int j = 0; !known && j <= s.links; j++)
+    bt__self_add_point (&b, s.x[j], s.thick);
+  if (known)
+    {
+      bt__self_add_point (&b, known->lo, s.thick);
+      bt__self_add_point (&b, known->hi, s.thick);
+    }
+  return b;
+}
+
 /* Nonzero if no other line is where this one is and is to go.  */
 static int
 are_others_far (const bt__line_job *k, const bt_vec3 *to)
@@ -169,10 +233,7 @@ are_others_far (const bt__line_job *k, const bt_vec3 *to)
   bt__aabb own = way_of (k, to);
   for (int i = 0; i < k->config->strands; i++)
     {
-      bt__self_side s = bt__self_side_of (k, i);
-      bt__aabb b = bt__no_box;
-      for (int j = 0; j <= s.links; j++)
-        bt__self_add_point (&b, s.x[j], s.thick);
+      bt__aabb b = strand_box (k, i);
       if (!bt__self_are_apart (&b, &own))
         return 0;
     }
@@ -199,18 +260,51 @@ list (bt__line_job *k, const bt_vec3 *to, const bt__dynamic_drift *drift)
 /* ---- A step ---- */
 
 int
+bt__self_is_far (bt__line_job *k, bt__dynamic_drift *may)
+{
+  k->w->self.clear = 1;
+  bt__self_asks (k, bt__self_touching (k));
+  if (!bt__self_counts (k))
+    return 1;
+  k->w->self.clear = is_clear (k);
+  if (k->config->itself)
+    {
+      bt__dynamic_drift own = allowed (k);
+      may->turned = own.turned;
+      may->apart = own.apart;
+    }
+  return k->w->self.clear && are_others_far (k, NULL);
+}
+
+/* Other lines that come as near as that to where this one was may be met in its move.  */
+static void
+ask_moved (const bt__line_job *k)
+{
+  if (k->config->strands > 0)
+    bt__self_asks (k, bt__self_touching (k) + bt__dynamic_stray (k->X, k->x, k->links + 1));
+}
+
+int
+bt__self_stays_far (const bt__line_job *k)
+{
+  ask_moved (k);
+  return are_others_far (k, k->X);
+}
+
+int
 bt__self_watch (bt__line_job *k)
 {
   bt__self *self = &k->w->self;
-  if (self->asked)
-    return self->pairs > 0;
-  self->asked = 1;
   self->pairs = 0;
+  self->clear = 1;
+  bt__self_asks (k, bt__self_touching (k));
   if (!bt__self_counts (k))
     return 0;
-  int known = !k->config->itself || know (k);
-  if (known && (!k->config->itself || none_touches (self, &self->drift))
-      && are_others_far (k, NULL))
+  self->clear = is_clear (k);
+  if (self->clear && are_others_far (k, NULL))
+    return 0;
+  int known = self->clear || know (k);
+  if (!self->clear && known && none_touches (self, &self->drift) && are_others_far (k, NULL))
     return 0;
   memset (self->move, 0, (size_t)(k->links + 1) * sizeof *self->move);
   list (k, NULL, known ? &self->drift : NULL); /* of what finds no room there is no row */
@@ -224,10 +318,6 @@ know_move (const bt__line_job *k, bt__dynamic_drift *drift)
 {
   const bt__self *self = &k->w->self;
   if (!k->config->itself)
-    return drift;
-  drift->turned = self->drift.turned + 2 * k->stride;
-  drift->apart = self->drift.apart + 2 * k->stride;
-  if (self->still == k->links + 1 && drift->turned < self->turn && drift->apart < self->way)
     return drift;
   if (self->still != k->links + 1 || !is_known (k, k->X, drift))
     return NULL;
@@ -264,7 +354,7 @@ static int
 others_go_clear (const bt__line_job *k, const bt__dynamic_drift *drift)
 {
   const bt__self *self = &k->w->self;
-  if (!k->config->itself || none_touches (self, drift))
+  if (none_touches (self, drift))
     return 1;
   for (int n = 0; n < self->knowns; n++)
     {
@@ -276,19 +366,30 @@ others_go_clear (const bt__line_job *k, const bt__dynamic_drift *drift)
   return 1;
 }
 
-int
-bt__self_stays_far (const bt__line_job *k)
+/* The same for a line that was clear as the step began: what it proposes must be allowed.  */
+static int
+stays_clear (bt__line_job *k)
+{
+  bt__dynamic_drift drift, may = allowed (k);
+  if (!k->config->itself)
+    return 1;
+  bt__dynamic_drifted (k->X, k->x, k->links + 1, &drift);
+  return drift.turned <= may.turned && drift.apart <= may.apart;
+}
+
+static int
+keeps_listed (bt__line_job *k)
 {
   bt__self *self = &k->w->self;
+  bt__dynamic_drift drift = { 0 };
+  ask_moved (k);
   if (!bt__self_counts (k))
     return 1;
-  self->gone = (bt__dynamic_drift){ 0 };
-  if (!know_move (k, &self->gone))
+  if (self->clear && !stays_clear (k))
+    self->clear = self->still = 0;
+  if (!self->clear && (!know_move (k, &drift) || !others_go_clear (k, &drift)))
     return 0;
-  if (!others_go_clear (k, &self->gone) || !are_others_far (k, k->X))
-    return 0;
-  self->went = k->config->itself;
-  return 1;
+  return are_others_far (k, k->X);
 }
 
 static void
@@ -303,7 +404,7 @@ bt__self_watch_moves (bt__line_job *k)
 {
   bt__self *self = &k->w->self;
   bt__dynamic_drift drift = { 0 };
-  if (bt__self_stays_far (k))
+  if (keeps_listed (k))
     return;
   for (int n = 0;; n++)
     {
@@ -334,6 +435,7 @@ bt__self_spare (bt__line_job *k)
     self->move[i] = most;
   for (int j = 0; j < k->links; j++)
     self->reach[j] = bt__self_touching (k) + most;
+  bt__self_asks_more (k, bt__self_touching (k) + 2 * most);
   measure (k);
   bt__self_look_at_itself (k, &s);
   bt__self_look_at_others (k, &s);

@@ -207,7 +207,9 @@ bt__self_add_hit (bt__line_job *k, const bt__self_pair *p, const bt__witness *w,
   bt__link a = bt__self_second (k, k->x, p), b = bt__self_second (k, k->X, p);
   bt__link second
       = { bt__axpy (a.a, t, bt__sub (b.a, a.a)), bt__axpy (a.b, t, bt__sub (b.b, a.b)) };
+  double bore = at < k->rows ? k->w->row[at].load : 0; /* too soft for that */
   set_row (k, at, p, &second, w);
+  k->w->row[at].load = bore;
   k->rows += at == k->rows;
 }
 
@@ -266,7 +268,7 @@ bt__self_stiffness (const bt__line_job *k, int i)
   const bt__strand *o = strand ? k->config->strand + strand - 1 : NULL;
   double way
       = o ? k->config->radius + o->radius - k->core - o->core : 2 * (k->config->radius - k->core);
-  double stiff = fmin (STIFF * k->in.line->ea / bt__dynamic_rest (k->d)[r->node], STIFFEST);
+  double stiff = fmin (STIFF * k->in->line->ea / bt__dynamic_rest (k->d)[r->node], STIFFEST);
   return fmax (stiff, YIELD * r->load / way);
 }
 

@@ -14,14 +14,12 @@ enum
   LEAF = 4 /* links in the smallest box */
 };
 
-#define ALONG 0.25  /* of a rest length: a link that goes so far in a direction goes along */
-#define UNDER 0.96  /* of that: what such links must keep */
 #define WITHIN 0.02 /* of what links must keep: nearer, and they are within each other */
 
 double
 bt__self_floor (const bt__line_job *k, uint32_t i, uint32_t j)
 {
-  return fmin (2 * k->core, UNDER * ALONG * (k->w->from_end[i + 1] - k->w->from_end[j]));
+  return fmin (2 * k->core, BT__SELF_ALONG * (k->w->from_end[i + 1] - k->w->from_end[j]));
 }
 
 /* Links that start nearer may come nearer yet by half, so that they can get away from each other,
@@ -126,7 +124,7 @@ is_straight (const bt__self_search *s, int from, int to)
   for (int j = from; j < to; j++)
     {
       double after = bt__dot (u, x[j + 1]);
-      if (!(after - before - s->move[j] - s->move[j + 1] >= ALONG * rest[j]))
+      if (!(after - before - s->move[j] - s->move[j + 1] >= BT__SELF_TELLS * rest[j]))
         return 0;
       before = after;
     }

@@ -9,6 +9,10 @@
 
 #define BT__SELF_CLOSE 1e-6 /* for rounding */
 
+/* A link that goes so much of its rest length in a direction goes along, ... */
+#define BT__SELF_TELLS 0.25
+#define BT__SELF_ALONG 0.24 /* ... and what such links must keep */
+
 /* ---- Boxes ---- */
 
 static const bt__aabb bt__no_box
@@ -83,6 +87,10 @@ bt__self_side bt__self_side_of (const bt__line_job *k, int strand);
 
 /* The distance of the axes of A and B.  */
 double bt__self_distance (const bt__link *a, const bt__link *b);
+
+/* How far the ends of a link of the line may go apart, and any two places, until any two of its
+   links touch; less than 0: they do (self_look.c).  */
+void bt__self_look (const bt__line_job *k, double *turned, double *apart);
 
 /* How far links I and J may come toward each other while no link's ends go farther apart than
    TURNED, nor any two nodes than APART.  */

@@ -6,6 +6,7 @@
 #define BT_SIM_CHAIN_H
 
 #include "base/error.h"
+#include "collide/bvh.h"
 #include "sim/sim.h"
 #include "world/line.h"
 
@@ -41,6 +42,24 @@ bt_status bt__step_among (bt_dive *dive, bt__state *state, int i, int part,
 
 /* Put the tethers of a world with obstacles in the order in which they step.  */
 void bt__order_tethers (bt_dive *dive, bt__state *state);
+
+/* BOX with P in it.  */
+static inline bt__aabb
+bt__box_with (bt__aabb box, bt_vec3 p)
+{
+  box.lo.x = p.x < box.lo.x ? p.x : box.lo.x;
+  box.lo.y = p.y < box.lo.y ? p.y : box.lo.y;
+  box.lo.z = p.z < box.lo.z ? p.z : box.lo.z;
+  box.hi.x = p.x > box.hi.x ? p.x : box.hi.x;
+  box.hi.y = p.y > box.hi.y ? p.y : box.hi.y;
+  box.hi.z = p.z > box.hi.z ? p.z : box.hi.z;
+  return box;
+}
+
+/* Draw the boxes about all moving lines as tethers begin to be resolved; draw those of tether I
+   anew if it is no longer in them, and return nonzero (chain_box.c).  */
+void bt__box_lines (bt_dive *dive, bt__state *state);
+int bt__box_line (bt_dive *dive, bt__state *state, int i);
 
 /* Wake the tethers that PART of tether I, which moves, touches.  */
 void bt__wake_touched (const bt_dive *dive, bt__state *state, int i, int part);

@@ -40,11 +40,11 @@ inertia_of (const bt__state *state, const bt_tether_props *p)
   return p->mass + p->ca * state->density * BT__PI / 4 * p->diameter * p->diameter;
 }
 
-/* Nonzero if PART K of tether J is to step after PART of tether I in the present step.  */
+/* Nonzero if PART K of tether J, OTHER, is to step after PART of tether I in the present step.  */
 static int
-yields (const bt_dive *dive, bt__state *state, int i, int part, int j, int k)
+yields (const bt_dive *dive, const bt__state *state, int i, int part, const bt__tether *other,
+        int j, int k)
 {
-  const bt__tether *other = bt__dive_tether (dive, state, j);
   int later = i == j ? k < part : dive->shore.place[j] > dive->shore.place[i];
   return later && state->step != dive->now->step && bt__is_moving_model (other)
          && other->quiet < BT__SLEEP_AFTER;
@@ -58,19 +58,22 @@ gather_strands (const bt_dive *dive, bt__state *state, int i, int part)
   int n = 0;
   for (int j = 0; j < dive->model->n_tethers; j++)
     {
-      const bt__tether *other = bt__dive_tether (dive, state, j);
+      bt__state *from = bt__are_apart (dive, i, j) ? dive->now : state;
+      const bt__tether *other = bt__dive_tether (dive, from, j);
       if (other->shape.form != BT__FORM_CHAIN || !may_touch (dive, state, i, j))
         continue;
       for (int k = 0; k <= (other->parted != 0); k++)
         if (j != i || k != part)
-          dive->shore.strand[n++] = (bt__strand){ .line = bt__dive_chain (dive, state, j, k),
-                                                  .anchors = bt__dive_anchors (dive, state, j, k),
-                                                  .inertia = inertia_of (state, &other->props),
-                                                  .yields = yields (dive, state, i, part, j, k),
-                                                  .id = dive->model->n_obstacles + j,
-                                                  .radius = other->props.diameter / 2,
-                                                  .core = bt__core (other->props.diameter),
-                                                  .friction = other->props.friction };
+          dive->shore.strand[n++]
+              = (bt__strand){ .line = bt__dive_chain (dive, from, j, k),
+                              .anchors = bt__dive_anchors (dive, from, j, k),
+                              .box = j == i ? NULL : dive->shore.box + 2 * j + k,
+                              .inertia = inertia_of (state, &other->props),
+                              .yields = yields (dive, state, i, part, other, j, k),
+                              .id = dive->model->n_obstacles + j,
+                              .radius = other->props.diameter / 2,
+                              .core = bt__core (other->props.diameter),
+                              .friction = other->props.friction };
     }
   return n;
 }
@@ -158,8 +161,13 @@ bt__wake_touched (const bt_dive *dive, bt__state *state, int i, int part)
   const bt__anchors *anchors = bt__dive_anchors (dive, state, i, part);
   const bt__anchor *anchor = bt__anchors_at (anchors);
   for (int64_t k = 0; k < anchors->n; k++)
-    if (anchor[k].mover == BT__ANCHOR_LINE)
-      bt__dive_tether (dive, state, (int)anchor[k].object - dive->model->n_obstacles)->quiet = 0;
+    {
+      int j = (int)anchor[k].object - dive->model->n_obstacles;
+      if (anchor[k].mover == BT__ANCHOR_LINE && bt__are_apart (dive, i, j))
+        dive->lane->refused = 1;
+      else if (anchor[k].mover == BT__ANCHOR_LINE)
+        bt__dive_tether (dive, state, j)->quiet = 0;
+    }
 }
 
 /* ---- In which order ---- */

@@ -28,7 +28,7 @@ bt__dynamic_work_free (bt__dynamic_work *w)
   if (!w)
     return;
   void *arrays[] = { w->X,         w->d,        w->rhs,      w->keep,  w->last,  w->lam,    w->link,
-                     w->node,      w->extra,    w->diag,     w->off,   w->up,    w->up2,    w->bend,
+                     w->node,      w->extra,    w->diag,     w->off,   w->up,    w->up2,    w->pivot, w->bend,
                      w->bend_diag, w->bend_off, w->bend_far, w->whole, w->spare, w->by_flow };
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
     free (arrays[i]);
@@ -52,7 +52,7 @@ bt__dynamic_work_new (int n_max)
         && (w->link = calloc (n, sizeof *w->link)) && (w->node = calloc (n, sizeof *w->node))
         && (w->extra = calloc (n, sizeof *w->extra)) && (w->diag = calloc (n, sizeof *w->diag))
         && (w->off = calloc (n, sizeof *w->off)) && (w->up = calloc (n, sizeof *w->up))
-        && (w->up2 = calloc (n, sizeof *w->up2)) && (w->bend = calloc (n, sizeof *w->bend))
+        && (w->up2 = calloc (n, sizeof *w->up2)) && (w->pivot = calloc (n, sizeof *w->pivot)) && (w->bend = calloc (n, sizeof *w->bend))
         && (w->bend_diag = calloc (n, sizeof *w->bend_diag))
         && (w->bend_off = calloc (n, sizeof *w->bend_off))
         && (w->bend_far = calloc (n, sizeof *w->bend_far))
@@ -100,100 +100,6 @@ wind_first (const bt__dynamic *d, const bt__dynamic_input *in, double *owed)
   double next = fmax (rest + in->pay * in->h + part, fmin (rest, LEAST_REST * d->piece));
   *owed = d->owed - part;
   return next;
-}
-
-/* Say what is not finite in the solution.  */
-static bt_status
-refuse (const bt__dynamic_work *w, bt_error *error)
-{
-  const char *what = "motion";
-  int at = 0;
-  for (int i = w->n; i >= 0; i--)
-    {
-      const char *is = !bt__is_finite (w->node[i].current)                      ? "current"
-                       : !bt__is_finite (w->X[i])                               ? "position"
-                       : i >= w->lo && i <= w->hi && !bt__is_finite (w->rhs[i]) ? "force"
-                                                                                : NULL;
-      at = is ? i : at;
-      what = is ? is : what;
-    }
-  return bt__fail (error, BT_ERR_DIVERGED, "the %s at node %d of the line is not finite at %g s",
-                   what, at, w->in->water->time);
-}
-
-/* Velocities of the solution, to SPEED; note the fastest node and the tightest bend.  */
-static int
-judge (const bt__dynamic_work *w, const bt_vec3 *pull, const uint8_t *restart, bt_vec3 *speed,
-       bt__dynamic_report *report)
-{
-  double fastest = 0, hardest = 0, bend = 0, sum = 0;
-  int bend_at = 0;
-  for (int i = 0; i <= w->n; i++)
-    {
-      bt_vec3 v = bt__node_v (w, i), a = bt__node_a (w, i, v);
-      if (restart && restart[i])
-        v = bt__scale (1 / w->in->h, bt__sub (w->X[i], w->x[i]));
-      double vv = bt__dot (v, v), aa = bt__dot (a, a);
-      speed[i] = v;
-      sum += vv + aa;
-      fastest = vv > fastest ? vv : fastest;
-      hardest = aa > hardest ? aa : hardest;
-      if (i == 0 || i == w->n)
-        continue;
-      bt_vec3 turn = bt__sub (w->link[i].t, w->link[i - 1].t);
-      double k = bt__dot (turn, turn);
-      if (k > bend * w->node[i].cell * w->node[i].cell)
-        {
-          bend = k / (w->node[i].cell * w->node[i].cell);
-          bend_at = i;
-        }
-    }
-  report->bend_at = bend_at;
-  report->speed = sqrt (fastest);
-  report->acceleration = sqrt (hardest);
-  report->bend_radius = bend > 0 ? 1 / sqrt (bend) : HUGE_VAL;
-  return isfinite (sum) && bt__is_finite (pull[0]) && bt__is_finite (pull[1]);
-}
-
-/* Take the solution over, its velocities in SPEED.  */
-static void
-commit_nodes (bt__dynamic *d, const bt__dynamic_work *w, const bt_vec3 *speed,
-              const uint8_t *restart)
-{
-  bt_vec3 *x = bt__dynamic_x (d), *v = bt__dynamic_v (d), *dx = bt__dynamic_dx (d),
-          *vp = bt__dynamic_vp (d);
-  for (int i = 0; i <= w->n; i++)
-    {
-      dx[i] = bt__sub (w->X[i], x[i]);
-      x[i] = w->X[i];
-      vp[i] = restart && restart[i] ? speed[i] : v[i];
-      v[i] = speed[i];
-    }
-}
-
-static void
-commit_links (bt__dynamic *d, const bt__dynamic_work *w, bt__dynamic_report *report)
-{
-  double *e = bt__dynamic_stretch (d), *de = bt__dynamic_dstretch (d),
-         *tension = bt__dynamic_tension (d), most = 0;
-  const bt_vec3 *x = bt__dynamic_x (d);
-  int at = 0;
-  for (int j = 0; j < w->n; j++)
-    {
-      bt_vec3 c = bt__sub (x[j + 1], x[j]);
-      if (w->chord)
-        c = bt__add (c, w->chord[j]);
-      double next = bt__norm (c) / w->link[j].rest, lam = w->lam[j];
-      de[j] = next - e[j];
-      e[j] = next;
-      tension[j] = lam;
-      at = lam > most ? j : at;
-      most = lam > most ? lam : most;
-    }
-  report->tension = most;
-  report->at = at;
-  for (int j = 0; j < (w->bents > 0 ? w->n : 1); j++)
-    bt__dynamic_rest (d)[j] = w->link[j].rest;
 }
 
 static double
@@ -252,25 +158,6 @@ bt__dynamic_stay (const bt__dynamic *d, bt__dynamic_work *w, bt__dynamic_report 
     w->link[j].t = bt__unit_or (bt__sub (w->x[j + 1], w->x[j]), bt__vec (0, 0, -1));
   report->converged = 0;
   report->update = 0;
-}
-
-bt_status
-bt__dynamic_finish (bt__dynamic *d, bt__dynamic_work *w, const uint8_t *restart,
-                    bt__dynamic_report *report, bt_error *error)
-{
-  bt_vec3 pull[2] = { bt__dynamic_end_pull (w, 0), bt__dynamic_end_pull (w, 1) };
-  if (!judge (w, pull, restart, w->keep, report) || !isfinite (report->update))
-    return refuse (w, error);
-  d->pull[0] = pull[0];
-  d->pull[1] = pull[1];
-  if (w->in->order == 4)
-    bt__dynamic_correct (d, w);
-  commit_nodes (d, w, w->keep, restart);
-  commit_links (d, w, report);
-  d->h = w->in->h;
-  d->history = report->converged;
-  d->owed = w->owed;
-  return BT_OK;
 }
 
 /* Solve the step of D, a line alone, so that it has no more than MOST energy: what is not solved is

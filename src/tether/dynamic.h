@@ -33,18 +33,31 @@
 
 /* ---- The state ---- */
 
+/* How far a line went, or may go: no less than the most that ...  */
+typedef struct bt__dynamic_drift
+{
+  double way;    /* m: ... a node goes, ... */
+  double turned; /* m: ... the one end of an interval against the other, ... */
+  double apart;  /* m: ... and any node against any other */
+} bt__dynamic_drift;
+
 /* The head of the block.  Node 0 is the winch end, node n the far end.  */
 typedef struct bt__dynamic
 {
-  int64_t n;       /* intervals in use */
-  int64_t n_max;   /* intervals there is room for */
-  int64_t history; /* steps behind that may be differenced; 0: the next is backward Euler */
-  double h;        /* s: the last step */
-  double piece;    /* m: rest length the winch gives a new interval */
-  double owed;     /* m: line that is out but not yet in the chain, see bt__dynamic_wind */
-  bt_vec3 pull[2]; /* N: force of the line on its ends */
-  double most;     /* J: of a line alone, the energy it may have, if it still has ... */
-  double left;     /* ... what its last step left it */
+  int64_t n;               /* intervals in use */
+  int64_t n_max;           /* intervals there is room for */
+  int64_t history;         /* steps behind that may be differenced; 0: the next is backward Euler */
+  double h;                /* s: the last step */
+  double piece;            /* m: rest length the winch gives a new interval */
+  double owed;             /* m: line that is out but not yet in the chain, see bt__dynamic_wind */
+  bt_vec3 pull[2];         /* N: force of the line on its ends */
+  double most;             /* J: of a line alone, the energy it may have, if it still has ... */
+  double left;             /* ... what its last step left it */
+  bt__dynamic_drift step;  /* m: the last step's */
+  bt__dynamic_drift spare; /* m: what it may go until it must be looked at.  Contact gives it, a
+                              step takes what it goes, what else alters the line takes all.  */
+  double fastest;          /* m/s: no node is faster, if there is some spare way */
+  int64_t seen;            /* what the spare was given for, see contact/line.h */
 } bt__dynamic;
 
 /* Return the size in bytes of a block with room for N_MAX intervals.  */
@@ -136,6 +149,7 @@ typedef struct bt__dynamic_report
   int at;                     /* ... and its interval, to be held against the breaking load */
   double bend_radius;         /* m: the tightest, INFINITY if straight */
   int bend_at;                /* its node */
+  bt__dynamic_drift drift;    /* m: of the step */
 } bt__dynamic_report;
 
 /* Step D by INPUT->h.  BT_ERR_DIVERGED (saying node, time and quantity) and BT_ERR_DOMAIN leave *D

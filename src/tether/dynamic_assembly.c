@@ -8,8 +8,17 @@
 
 #include "tether/dynamic_kernel.h"
 
-#define LEVER 0.2     /* of the rest length: the shortest lever of the geometric stiffness */
-#define NO_TURN 1e-18 /* of the rest length, squared: a sum of tangents that has no direction */
+#define LEVER 0.2      /* of the rest length: the shortest lever of the geometric stiffness */
+#define NO_TURN 1e-18  /* of the rest length, squared: a sum of tangents that has no direction */
+#define STILL 1e-20    /* m2/s2: of water that does not flow */
+#define NOTHING 1e-200 /* m2: a square that is no divisor */
+
+/* A, but for what is less than LEAST: nothing is divided by zero, not even where it is not used. */
+static inline bt__pair
+at_least (double least, bt__pair a)
+{
+  return bt__pair_max (a, (bt__pair){ least, least });
+}
 
 /* ---- The intervals ---- */
 
@@ -63,7 +72,7 @@ measure_links (bt__dynamic_work *w, int i, int j, sides *s)
   bt__pair square = bt__pair_dot (c, c);
   s->rest = (bt__pair){ a->rest, b->rest };
   s->length = bt__pair_sqrt (square);
-  s->per_length = s->length * (1 / square);
+  s->per_length = s->length * (1 / at_least (NOTHING, square));
   s->t = bt__pair_scale (s->per_length, c);
   bt__pair_store (&a->t, &b->t, s->t);
   bt__pair shortest = LEVER * s->rest;
@@ -140,7 +149,7 @@ turn_nodes (bt__dynamic_work *w, int i, int j, const sides *p, const sides *q)
   bt_vec3 *a = &w->node[i].tau, *b = &w->node[j].tau;
   bt__pair_vec t = bt__pair_axpy (bt__pair_scale (q->rest, p->t), p->rest, q->t);
   bt__pair square = bt__pair_dot (t, t);
-  t = bt__pair_scale (bt__pair_sqrt (square) * (1 / square), t);
+  t = bt__pair_scale (bt__pair_sqrt (square) * (1 / at_least (NOTHING, square)), t);
   bt__pair_store (a, b, t);
   if (!w->chord && !bt__pair_any (square <= NO_TURN * p->rest * p->rest))
     return t;
@@ -164,7 +173,7 @@ flow_past (const bt__dynamic_work *w, int i, int j, flows *s)
   s->side = bt__pair_axpy (rel, -s->along, s->tau);
   bt__pair square = bt__pair_dot (s->side, s->side);
   s->across = bt__pair_sqrt (square);
-  s->per_across = bt__pair_where (square > 1e-20, s->across * (1 / square));
+  s->per_across = bt__pair_where (square > STILL, s->across * (1 / at_least (STILL, square)));
 }
 
 /* Drag, weight and inertia of the line about nodes I and J in S: the forces, and their blocks to

@@ -167,13 +167,12 @@ border_of (const bt__dynamic_work *w, const bt__dynamic_bent *b)
   return r;
 }
 
-/* What a metre of flow does to the nodes, as a right-hand side.  */
+/* What a metre of flow at B does to the nodes, as a right-hand side P.  */
 static void
-push_of (bt__dynamic_work *w, const bt__dynamic_bent *b, const border *r)
+push_of (const bt__dynamic_bent *b, const border *r, bt_vec3 *p)
 {
-  memset (w->rhs, 0, (size_t)(w->n + 1) * sizeof *w->rhs);
-  bt_vec3 *p = w->rhs + b->node, a = bt__scale (r->a.by_rest, r->a.t),
-          c = bt__scale (r->b.by_rest, r->b.t);
+  bt_vec3 a = bt__scale (r->a.by_rest, r->a.t), c = bt__scale (r->b.by_rest, r->b.t);
+  p += b->node;
   p[-1] = a;
   p[0] = bt__scale (-1, bt__add (a, c));
   p[1] = c;
@@ -252,38 +251,38 @@ largest (const bt__dynamic_work *w)
 
 /* The updates of a metre of each flow.  */
 static void
-find_by_flow (bt__dynamic_work *w, const border *r, double (*solve) (bt__dynamic_work *))
+find_by_flow (bt__dynamic_work *w, const border *r)
 {
-  size_t nodes = (size_t)w->n + 1, size = nodes * sizeof *w->d;
-  memcpy (w->spare, w->rhs, size);
+  size_t nodes = (size_t)w->n + 1;
+  int64_t first = w->n, last = 0;
+  memset (w->by_flow, 0, (size_t)w->bents * nodes * sizeof *w->by_flow);
   for (int l = 0; l < w->bents; l++)
     {
-      push_of (w, w->bent + l, r + l);
-      solve (w);
-      memcpy (w->by_flow + (size_t)l * nodes, w->d, size);
+      const bt__dynamic_bent *b = w->bent + l;
+      push_of (b, r + l, w->by_flow + (size_t)l * nodes);
+      first = b->node - 1 < first ? b->node - 1 : first;
+      last = b->node + 1 > last ? b->node + 1 : last;
     }
-  memcpy (w->rhs, w->spare, size);
+  bt__dynamic_solve_again (w, w->by_flow, w->bents, first, last);
 }
 
 double
-bt__dynamic_bent_solve (bt__dynamic_work *w, double (*solve) (bt__dynamic_work *))
+bt__dynamic_bent_solve (bt__dynamic_work *w)
 {
   border r[BT__BENTS];
   double m[BT__BENTS][BT__BENTS], y[BT__BENTS];
-  size_t nodes = (size_t)w->n + 1, size = nodes * sizeof *w->d;
-  solve (w);
-  memcpy (w->whole, w->d, size);
+  size_t nodes = (size_t)w->n + 1;
+  bt__dynamic_solve_blocks (w);
   for (int k = 0; k < w->bents; k++)
     {
       r[k] = border_of (w, w->bent + k);
       y[k] = -r[k].lack - lack_by (w->bent + k, r + k, w->d);
     }
-  find_by_flow (w, r, solve);
+  find_by_flow (w, r);
   for (int l = 0; l < w->bents; l++)
     for (int k = 0; k < w->bents; k++)
       m[k][l] = lack_by_flow (w, r, k, l)
                 + lack_by (w->bent + k, r + k, w->by_flow + (size_t)l * nodes);
-  memcpy (w->d, w->whole, size);
   if (!eliminate (m, y, w->bents))
     return NAN;
   double most = 0;

@@ -112,13 +112,7 @@ int bt__dynamic_iterate (bt__dynamic_work *work, bt__dynamic_row *rows, int n,
  */
 double bt__dynamic_stray (const bt_vec3 *a, const bt_vec3 *b, int n);
 
-/* How N vectors A differ from B.  */
-typedef struct bt__dynamic_drift
-{
-  double turned; /* no less than the most that two in a row went apart, ... */
-  double apart;  /* ... and than any two; both up to sqrt (3) too large */
-} bt__dynamic_drift;
-
+/* How N vectors A differ from B: up to sqrt (3) too much.  */
 void bt__dynamic_drifted (const bt_vec3 *a, const bt_vec3 *b, int n, bt__dynamic_drift *drift);
 
 /* Take the proposal over into D, without winding.  RESTART (a flag a node, or NULL) says which
@@ -126,6 +120,11 @@ void bt__dynamic_drifted (const bt_vec3 *a, const bt_vec3 *b, int n, bt__dynamic
    memory.  BT_ERR_DIVERGED leaves D as it was.  */
 bt_status bt__dynamic_finish (bt__dynamic *d, bt__dynamic_work *work, const uint8_t *restart,
                               bt__dynamic_report *report, bt_error *error);
+
+/* The same if the step's drift is no more than MOST; else *TAKEN is zero and D as it was.  */
+bt_status bt__dynamic_finish_within (bt__dynamic *d, bt__dynamic_work *work,
+                                     const bt__dynamic_drift *most, int *taken,
+                                     bt__dynamic_report *report, bt_error *error);
 
 /* Return 1 if winding would split the first interval of D, -1 if it would join it, else 0.  */
 int bt__dynamic_winding (const bt__dynamic *d);

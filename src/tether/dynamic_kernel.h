@@ -10,15 +10,9 @@
 #endif
 
 #include "math/vec.h"
+#include "math/wide.h"
 #include "tether/dynamic.h"
 #include "tether/dynamic_contact.h"
-
-/* A function of the innermost loop, worth its place there more than once.  */
-#if defined __GNUC__
-#define BT__HOT inline __attribute__ ((always_inline))
-#else
-#define BT__HOT inline
-#endif
 
 #define BT__THRUST 1.5   /* of EI kappa^2: the clamp's cell and the held curvature err */
 #define BT__SHARPEST 1.0 /* turn at a node, as a vector: none sharper thrusts more */
@@ -97,6 +91,23 @@ typedef union bt__factors
   bt__pair_full two;
 } bt__factors;
 
+/* A pivot: A = L D L^T with unit L; inverse D.  */
+typedef struct bt__factor
+{
+  double l10, l20, l21, d0, d1, d2;
+} bt__factor;
+
+typedef struct bt__pair_factor
+{
+  bt__pair l10, l20, l21, d0, d1, d2;
+} bt__pair_factor;
+
+typedef union bt__pivot
+{
+  bt__factor one;
+  bt__pair_factor two;
+} bt__pivot;
+
 struct bt__dynamic_work
 {
   int n_max;
@@ -130,6 +141,8 @@ struct bt__dynamic_work
   bt__sym *diag, *off; /* off-diagonal blocks are minus OFF */
   bt__factors *up;     /* eliminated: to the next node, ... */
   bt__full *up2;       /* ... and with bending to the one after it */
+  bt__pivot *pivot;    /* of each, if it is to be solved again, ... */
+  bt__factor middle;   /* ... and where both ways meet */
   bt__bend *bend;
   double *bend_diag, *bend_off, *bend_far;
   bt_vec3 *whole, *spare, *by_flow; /* of bent nodes: updates without flow and of each flow */
@@ -164,6 +177,13 @@ bt_vec3 bt__dynamic_end_pull (bt__dynamic_work *w, int k);
 /* Solve for the update D; return its largest, NaN if any is not finite.  */
 double bt__dynamic_solve (bt__dynamic_work *w);
 
+/* The same without what borders the blocks or couples places, which is to be asked for again; and
+   again with COUNT other right-hand sides, one behind the other from COLUMN on and solved in place,
+   that are zero but for nodes FIRST to LAST.  */
+double bt__dynamic_solve_blocks (bt__dynamic_work *w);
+void bt__dynamic_solve_again (bt__dynamic_work *w, bt_vec3 *column, int count, int64_t first,
+                              int64_t last);
+
 /* Iterate X to the solution.  Return nonzero if it is one; on return zero X may hold anything.  */
 int bt__dynamic_newton (bt__dynamic_work *w, bt__dynamic_report *report);
 
@@ -194,16 +214,15 @@ bt__dynamic_touches (const bt__dynamic_work *w)
   return w->rows > 0 || w->hold != NULL || w->bents > 0;
 }
 
-/* A row of two places: add block K and what pushes; the solution with all pairs, by SOLVE of that
-   without what couples them.  */
+/* A row of two places: add block K and what pushes; the solution with all pairs.  */
 void bt__dynamic_pair_add (bt__dynamic_work *w, bt__dynamic_row *r, const bt__sym *k);
-double bt__dynamic_pair_solve (bt__dynamic_work *w, double (*solve) (bt__dynamic_work *));
+double bt__dynamic_pair_solve (bt__dynamic_work *w);
 
-/* Bent nodes, likewise; the solution with their flows, by SOLVE of that without.  */
+/* Bent nodes, likewise; the solution with their flows.  */
 void bt__dynamic_bent_assemble (bt__dynamic_work *w, bt__mode mode);
 void bt__dynamic_bent_take (bt__dynamic_work *w, double share);
 double bt__dynamic_bent_potential (const bt__dynamic_work *w);
-double bt__dynamic_bent_solve (bt__dynamic_work *w, double (*solve) (bt__dynamic_work *));
+double bt__dynamic_bent_solve (bt__dynamic_work *w);
 
 /* Bending: set up the rows, add their forces to RHS, return their energy.  */
 void bt__dynamic_bend_prepare (bt__dynamic_work *w);

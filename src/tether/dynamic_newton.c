@@ -18,6 +18,7 @@ enum
   TURNING = 2, /* iterations in which the node tangents follow */
   SAFE = 60,
   HALVINGS = 8,
+  WALKING = 1,  /* iterations before fronts of tension are sent ahead */
   PRESSED = 3,  /* iterations more, for the loads */
   SWINGING = 2, /* iterations before an update is held back */
   /* With contacts: a step that needs more is better restarted.  */
@@ -29,7 +30,10 @@ enum
 #define FRONT 5e-4        /* m: what a front of tension may still move in the last iteration */
 #define LOST_TOUCHING 0.3 /* m: an update that has left what it touches */
 #define LEAST_SHARE 0.3   /* of an update that is held back */
-#define STRIDE 0.3        /* m: what is taken at most of one in the safe way */
+#define MORE 2.0         /* times that, when updates do not go back that differ by as much as ... */
+#define WALKS_LEAST 2e-3 /* m: ... fronts that walk, at least ... */
+#define WALKS_MOST 2e-2  /* ... and at most */
+#define STRIDE 0.3       /* m: what is taken at most of one in the safe way */
 
 /* Take over SHARE of the update: the multipliers and the places.  Nonzero if that hardly changed
    what presses.  */
@@ -51,6 +55,40 @@ take (bt__dynamic_work *w, double share)
   return !bt__dynamic_touches (w) || bt__dynamic_contact_take (w, share);
 }
 
+/* The direction of interval J where it is, and what it is longer there than without tension.  */
+static double
+excess_of (const bt__dynamic_work *w, int j, bt_vec3 *t)
+{
+  bt_vec3 c = bt__sub (w->X[j + 1], w->X[j]);
+  double length = bt__norm (w->chord ? bt__add (c, w->chord[j]) : c);
+  *t = length > 0 ? bt__scale (1 / length, c) : w->link[j].t;
+  return length - w->link[j].zero;
+}
+
+/* A front of tension would walk along a slack line an interval an iteration, each pulling on the
+   next.  So what an interval that ran taut is too long is handed on at once, from interval FROM on,
+   BY to the next: those it makes taut are given the tension that a node's inertia makes of it.  */
+static void
+pull_on (bt__dynamic_work *w, int from, int by)
+{
+  bt_vec3 before = { 0, 0, 0 }, t;
+  double pull = 0;
+  for (int j = from; j >= 0 && j < w->n; j += by)
+    {
+      if (w->link[j].active > 0)
+        {
+          pull = 0;
+          continue;
+        }
+      double excess = excess_of (w, j, &t);
+      double handed = pull > 0 ? pull * fmax (bt__dot (before, t), 0) : 0;
+      if (handed > 0 && excess <= 0 && excess + handed > 0)
+        w->lam[j] = fmax (w->lam[j], w->rho * w->link[j].rest * handed);
+      pull = fmax (excess + handed, 0);
+      before = t;
+    }
+}
+
 static void
 move (bt__dynamic_work *w, const bt_vec3 *from, double share)
 {
@@ -60,17 +98,21 @@ move (bt__dynamic_work *w, const bt_vec3 *from, double share)
 
 /* The share to take of the update, if SHARE was of the last: less where it goes back on that one,
    as Aitken would have it.  Friction goes by the load of the iterate before; where the line turns
-   about thin things, that swings to and fro.  */
+   about thin things, that swings to and fro.  The update of a front of tension that walks on is one
+   of other nodes and does not go back; nearer the solution what rests would be stirred up.  */
 static double
 calm (bt__dynamic_work *w, double share)
 {
-  double along = 0, size = 0;
+  double along = 0, size = 0, back = 0;
   for (int i = 0; i <= w->n; i++)
     {
       bt_vec3 change = bt__sub (w->d[i], w->last[i]);
+      back += bt__dot (w->last[i], w->d[i]);
       along += bt__dot (w->last[i], change);
       size += bt__dot (change, change);
     }
+  if (back >= 0 && size > WALKS_LEAST * WALKS_LEAST && size < WALKS_MOST * WALKS_MOST)
+    return fmin (1, MORE * share);
   return size > 0 ? fmin (fmax (-share * along / size, LEAST_SHARE), 1) : 1;
 }
 
@@ -102,6 +144,11 @@ quick (bt__dynamic_work *w, bt__dynamic_report *report)
           memcpy (w->last, w->d, (size_t)(w->n + 1) * sizeof *w->d);
         }
       int settled = take (w, share);
+      if (changed && i >= WALKING)
+        {
+          pull_on (w, 0, 1);
+          pull_on (w, w->n - 1, -1);
+        }
       if (!(most <= w->tolerance && (i == 0 || !changed)))
         continue;
       if (settled || ++pressed > PRESSED)

@@ -105,14 +105,14 @@ largest (const bt__dynamic_work *w)
   return sqrt (most);
 }
 
-/* The residual is RHS; D, what SOLVE makes of it, WHOLE the solution so far, SPARE the direction,
-   BY_FLOW the blocks times that.  */
+/* The residual is RHS; D, what the blocks make of it, WHOLE the solution so far, SPARE the
+   direction, BY_FLOW the blocks times that.  */
 double
-bt__dynamic_pair_solve (bt__dynamic_work *w, double (*solve) (bt__dynamic_work *))
+bt__dynamic_pair_solve (bt__dynamic_work *w)
 {
   size_t size = (size_t)(w->n + 1) * sizeof *w->d;
   bt_vec3 *sum = w->whole, *p = w->spare, *mp = w->by_flow, *q = mp + w->n + 1;
-  double most = solve (w), rz = product (w, w->rhs, w->d), first = rz;
+  double most = bt__dynamic_solve_blocks (w), rz = product (w, w->rhs, w->d), first = rz;
   if (w->lo > w->hi || !isfinite (most))
     return most;
   memset (sum, 0, size);
@@ -127,8 +127,10 @@ bt__dynamic_pair_solve (bt__dynamic_work *w, double (*solve) (bt__dynamic_work *
         break;
       sum_of (w, sum, sum, rz / curve, p);
       sum_of (w, w->rhs, w->rhs, -rz / curve, q);
-      if (i + 1 == ITERATIONS || !isfinite (solve (w)))
+      if (i + 1 == ITERATIONS)
         break;
+      memcpy (w->d, w->rhs, size);
+      bt__dynamic_solve_again (w, w->d, 1, w->lo, w->hi);
       double next = product (w, w->rhs, w->d);
       if (!(next > ENOUGH * first))
         break;

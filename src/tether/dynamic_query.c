@@ -92,6 +92,7 @@ bt__dynamic_drifted (const bt_vec3 *a, const bt_vec3 *b, int n, bt__dynamic_drif
       bottom = higher_of (bottom, bt__scale (-1, d));
       before = d;
     }
+  drift->way = bt__norm (higher_of (absolute (top), absolute (bottom)));
   drift->turned = bt__norm (turn);
   drift->apart = bt__norm (bt__add (top, bottom));
 }

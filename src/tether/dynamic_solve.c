@@ -4,20 +4,22 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <string.h>
+
 #include "tether/dynamic_kernel.h"
+
+enum
+{
+  SIDE = 4 /* right-hand sides solved side by side */
+};
 
 #define HUGE_UPDATE 1e60 /* m2: not finite */
 
-/* A = L D L^T with unit L; inverse pivots.  The divisions are those that can overlap.  */
-typedef struct factor
-{
-  double l10, l20, l21, d0, d1, d2;
-} factor;
-
-static BT__HOT factor
+/* The divisions are those that can overlap.  */
+static BT__HOT bt__factor
 factorize (const bt__sym *a)
 {
-  factor f;
+  bt__factor f;
   double minor = a->xx * a->yy - a->xy * a->xy, mixed = a->xx * a->yz - a->xy * a->xz;
   double inverse = 1 / minor;
   f.d0 = 1 / a->xx;
@@ -30,7 +32,7 @@ factorize (const bt__sym *a)
 }
 
 static BT__HOT bt_vec3
-resolve (const factor *f, bt_vec3 b)
+resolve (const bt__factor *f, bt_vec3 b)
 {
   double y = b.y - f->l10 * b.x, z = (b.z - f->l20 * b.x - f->l21 * y) * f->d2;
   y = y * f->d1 - f->l21 * z;
@@ -59,15 +61,10 @@ full_apply (const bt__full *g, bt_vec3 v)
    are kept.  What it passes on, K A^-1 K and K A^-1 R, is had from L^-1 K and L^-1 R already, so
    that the next pair need not wait for them.  */
 
-typedef struct pair_factor
-{
-  bt__pair l10, l20, l21, d0, d1, d2;
-} pair_factor;
-
-static BT__HOT pair_factor
+static BT__HOT bt__pair_factor
 factorize_pair (const bt__pair_sym *a)
 {
-  pair_factor f;
+  bt__pair_factor f;
   bt__pair minor = a->xx * a->yy - a->xy * a->xy, mixed = a->xx * a->yz - a->xy * a->xz;
   bt__pair inverse = 1 / minor;
   f.d0 = 1 / a->xx;
@@ -81,7 +78,7 @@ factorize_pair (const bt__pair_sym *a)
 
 /* L^-1 B.  */
 static BT__HOT bt__pair_vec
-descend (const pair_factor *f, bt__pair_vec b)
+descend (const bt__pair_factor *f, bt__pair_vec b)
 {
   b.y -= f->l10 * b.x;
   b.z -= f->l20 * b.x + f->l21 * b.y;
@@ -90,14 +87,14 @@ descend (const pair_factor *f, bt__pair_vec b)
 
 /* D^-1 Y.  */
 static BT__HOT bt__pair_vec
-weigh (const pair_factor *f, bt__pair_vec y)
+weigh (const bt__pair_factor *f, bt__pair_vec y)
 {
   return (bt__pair_vec){ y.x * f->d0, y.y * f->d1, y.z * f->d2 };
 }
 
 /* L^-T Y.  */
 static BT__HOT bt__pair_vec
-ascend (const pair_factor *f, bt__pair_vec y)
+ascend (const bt__pair_factor *f, bt__pair_vec y)
 {
   y.y -= f->l21 * y.z;
   y.x -= f->l10 * y.y + f->l20 * y.z;
@@ -119,10 +116,11 @@ typedef struct passed
   bt__pair_vec r;
 } passed;
 
-/* Eliminate nodes I and J toward the nodes beyond the blocks RIGHT and LEFT.  */
+/* Eliminate nodes I and J toward the nodes beyond the blocks RIGHT and LEFT.  KEEP: their pivots
+   are kept.  */
 static BT__HOT void
 eliminate_pair (bt__dynamic_work *w, int i, int j, const bt__sym *right, const bt__sym *left,
-                passed *p)
+                int keep, passed *p)
 {
   bt__pair_sym a = bt__pair_load_sym (w->diag + i, w->diag + j),
                k = bt__pair_load_sym (right, left);
@@ -133,7 +131,9 @@ eliminate_pair (bt__dynamic_work *w, int i, int j, const bt__sym *right, const b
   a.yy -= p->a.yy;
   a.yz -= p->a.yz;
   a.zz -= p->a.zz;
-  pair_factor f = factorize_pair (&a);
+  bt__pair_factor f = factorize_pair (&a);
+  if (keep)
+    w->pivot[i].two = f;
   bt__pair_vec y = descend (&f, r), x = descend (&f, (bt__pair_vec){ k.xx, k.xy, k.xz }),
                u = descend (&f, (bt__pair_vec){ k.xy, k.yy, k.yz }),
                v = descend (&f, (bt__pair_vec){ k.xz, k.yz, k.zz });
@@ -162,51 +162,105 @@ solve_middle (bt__dynamic_work *w, int m, const passed *p, const passed *q)
   r.x += p->r.x[0] + q->r.x[1];
   r.y += p->r.y[0] + q->r.y[1];
   r.z += p->r.z[0] + q->r.z[1];
-  factor f = factorize (&a);
-  w->d[m] = resolve (&f, r);
+  w->middle = factorize (&a);
+  w->d[m] = resolve (&w->middle, r);
 }
 
-/* D += G of the nodes nearer the middle, V.  Return the squares of their updates.  */
+/* TO += G of the nodes nearer the middle, V.  Return the squares of their updates.  */
 static BT__HOT bt__pair
-substitute_pair (bt__dynamic_work *w, int i, int j, bt__pair_vec *v)
+substitute_pair (const bt__dynamic_work *w, bt_vec3 *to, int i, int j, bt__pair_vec *v)
 {
   const bt__pair_full *g = &w->up[i].two;
-  bt__pair_vec d = bt__pair_load (w->d + i, w->d + j);
+  bt__pair_vec d = bt__pair_load (to + i, to + j);
   bt__pair_vec x = { g->m[0][0], g->m[0][1], g->m[0][2] },
                y = { g->m[1][0], g->m[1][1], g->m[1][2] },
                z = { g->m[2][0], g->m[2][1], g->m[2][2] };
   *v = (bt__pair_vec){ d.x + bt__pair_dot (x, *v), d.y + bt__pair_dot (y, *v),
                        d.z + bt__pair_dot (z, *v) };
-  bt__pair_store (w->d + i, w->d + j, *v);
+  bt__pair_store (to + i, to + j, *v);
   return bt__pair_dot (*v, *v);
 }
 
-/* Return the square of the largest update, NaN if any is not finite.  */
-static double
-solve_plain (bt__dynamic_work *w)
+/* From the middle back to both ends.  Return the square of the largest update, NaN if any is not
+   finite.  */
+static BT__HOT double
+substitute_plain (bt__dynamic_work *w)
 {
   int lo = w->lo, hi = w->hi, m = lo + (hi - lo) / 2, up = m - lo, down = hi - m;
-  passed p = { 0 };
-  for (int k = 0; k < up; k++)
-    eliminate_pair (w, lo + k, hi - k, w->off + lo + k, w->off + hi - k - 1, &p);
-  passed q = p;
-  if (down > up)
-    eliminate_pair (w, m + 1, m + 1, w->off + m, w->off + m, &q);
-  solve_middle (w, m, &p, &q);
   bt__pair_vec v = bt__pair_load (w->d + m, w->d + m);
   if (down > up)
     {
-      substitute_pair (w, m + 1, m + 1, &v);
+      substitute_pair (w, w->d, m + 1, m + 1, &v);
       v = bt__pair_load (w->d + m, w->d + m + 1);
     }
   bt__pair most = bt__pair_dot (v, v), sum = most;
   for (int k = up - 1; k >= 0; k--)
     {
-      bt__pair square = substitute_pair (w, lo + k, hi - k, &v);
+      bt__pair square = substitute_pair (w, w->d, lo + k, hi - k, &v);
       most = bt__pair_max (most, square);
       sum += square;
     }
   return sum[0] + sum[1] <= HUGE_UPDATE ? fmax (most[0], most[1]) : NAN;
+}
+
+static BT__HOT double
+solve_plain (bt__dynamic_work *w, int keep)
+{
+  int lo = w->lo, hi = w->hi, m = lo + (hi - lo) / 2, up = m - lo, down = hi - m;
+  passed p = { 0 };
+  for (int k = 0; k < up; k++)
+    eliminate_pair (w, lo + k, hi - k, w->off + lo + k, w->off + hi - k - 1, keep, &p);
+  passed q = p;
+  if (down > up)
+    eliminate_pair (w, m + 1, m + 1, w->off + m, w->off + m, keep, &q);
+  solve_middle (w, m, &p, &q);
+  return substitute_plain (w);
+}
+
+/* With the pivots kept: right-hand sides X of nodes I and J, to which *R is passed on, are solved
+   in place; *R is then what they pass on.  */
+static BT__HOT void
+pass_pair (const bt__dynamic_work *w, bt_vec3 *x, int i, int j, bt__pair_vec *passed)
+{
+  const bt__pair_factor *f = &w->pivot[i].two;
+  const bt__pair_full *g = &w->up[i].two;
+  bt__pair_vec r = bt__pair_add (bt__pair_load (x + i, x + j), *passed);
+  bt__pair_store (x + i, x + j, ascend (f, weigh (f, descend (f, r))));
+  *passed = (bt__pair_vec){ g->m[0][0] * r.x + g->m[1][0] * r.y + g->m[2][0] * r.z,
+                            g->m[0][1] * r.x + g->m[1][1] * r.y + g->m[2][1] * r.z,
+                            g->m[0][2] * r.x + g->m[1][2] * r.y + g->m[2][2] * r.z };
+}
+
+/* Columns X, SIDE of them: each waits for itself, not for the others.  What no right-hand side has
+   been passed on to is zero and stays so until the way back.  */
+static void
+solve_plain_again (const bt__dynamic_work *w, bt_vec3 *x, int count, int first, int last)
+{
+  int lo = w->lo, hi = w->hi, m = lo + (hi - lo) / 2, up = m - lo, down = hi - m;
+  int none = first - lo < hi - last ? first - lo : hi - last;
+  size_t column = (size_t)w->n + 1;
+  bt__pair_vec p[SIDE] = { { .x = { 0, 0 } } };
+  for (int k = none > 0 ? none : 0; k < up; k++)
+    for (int c = 0; c < count; c++)
+      pass_pair (w, x + (size_t)c * column, lo + k, hi - k, p + c);
+  for (int c = 0; c < count; c++)
+    {
+      bt_vec3 *y = x + (size_t)c * column;
+      bt__pair_vec q = p[c];
+      if (down > up)
+        pass_pair (w, y, m + 1, m + 1, &q);
+      bt_vec3 r = bt__vec (p[c].x[0] + q.x[1], p[c].y[0] + q.y[1], p[c].z[0] + q.z[1]);
+      y[m] = resolve (&w->middle, bt__add (y[m], r));
+      p[c] = bt__pair_load (y + m, y + m);
+      if (down > up)
+        {
+          substitute_pair (w, y, m + 1, m + 1, p + c);
+          p[c] = bt__pair_load (y + m, y + m + 1);
+        }
+    }
+  for (int k = up - 1; k >= 0; k--)
+    for (int c = 0; c < count; c++)
+      substitute_pair (w, x + (size_t)c * column, lo + k, hi - k, p + c);
 }
 
 /* ---- With bending: the coupling to the next node but one is a multiple E of the unit ---- */
@@ -257,8 +311,9 @@ subtract_symmetric (bt__sym *a, const bt__full *b, const bt__full *u)
 static inline void
 eliminate_stiff (bt__dynamic_work *w, int i, rows *s, double e)
 {
-  factor f = factorize (&s->a);
+  bt__factor f = factorize (&s->a);
   bt__full *u1 = &w->up[i].one, *u2 = w->up2 + i;
+  w->pivot[i].one = f;
   bt_vec3 unit[3] = { { e, 0, 0 }, { 0, e, 0 }, { 0, 0, e } };
   for (int c = 0; c < 3; c++)
     {
@@ -304,6 +359,17 @@ stiff_off (const bt__dynamic_work *w, int i)
 }
 
 static void
+substitute_stiff (const bt__dynamic_work *w, bt_vec3 *x)
+{
+  for (int i = w->hi - 1; i >= w->lo; i--)
+    {
+      x[i] = bt__sub (x[i], full_apply (&w->up[i].one, x[i + 1]));
+      if (i + 2 <= w->hi)
+        x[i] = bt__sub (x[i], full_apply (w->up2 + i, x[i + 2]));
+    }
+}
+
+static void
 solve_stiff (bt__dynamic_work *w)
 {
   const bt_vec3 zero = { 0, 0, 0 };
@@ -326,12 +392,22 @@ solve_stiff (bt__dynamic_work *w)
       s.next_b = stiff_off (w, i + 2);
       s.next_r = s.third_r;
     }
-  for (int i = hi - 1; i >= lo; i--)
+  substitute_stiff (w, w->d);
+}
+
+static void
+solve_stiff_again (const bt__dynamic_work *w, bt_vec3 *x)
+{
+  for (int i = w->lo; i <= w->hi; i++)
     {
-      w->d[i] = bt__sub (w->d[i], full_apply (&w->up[i].one, w->d[i + 1]));
-      if (i + 2 <= hi)
-        w->d[i] = bt__sub (w->d[i], full_apply (w->up2 + i, w->d[i + 2]));
+      bt_vec3 r = x[i];
+      x[i] = resolve (&w->pivot[i].one, r);
+      if (i + 1 <= w->hi)
+        x[i + 1] = bt__sub (x[i + 1], transposed_apply (&w->up[i].one, r));
+      if (i + 2 <= w->hi)
+        x[i + 2] = bt__sub (x[i + 2], transposed_apply (w->up2 + i, r));
     }
+  substitute_stiff (w, x);
 }
 
 static double
@@ -347,22 +423,47 @@ largest_update (const bt__dynamic_work *w)
   return sum <= HUGE_UPDATE ? most : NAN;
 }
 
-static double
-solve (bt__dynamic_work *w)
+static BT__HOT double
+solve (bt__dynamic_work *w, int keep)
 {
   w->d[0] = w->d[w->n] = bt__vec (0, 0, 0);
   if (w->lo > w->hi)
     return 0;
   if (!(w->bends > 0))
-    return sqrt (solve_plain (w));
+    return sqrt (keep ? solve_plain (w, 1) : solve_plain (w, 0));
   solve_stiff (w);
   return sqrt (largest_update (w));
+}
+
+double
+bt__dynamic_solve_blocks (bt__dynamic_work *w)
+{
+  return solve (w, 1);
+}
+
+void
+bt__dynamic_solve_again (bt__dynamic_work *w, bt_vec3 *x, int count, int64_t first, int64_t last)
+{
+  size_t column = (size_t)w->n + 1;
+  for (int c = 0; c < count; c++)
+    {
+      bt_vec3 *y = x + (size_t)c * column;
+      for (int i = 0; i < w->lo; i++)
+        y[i] = bt__vec (0, 0, 0);
+      for (int i = w->hi + 1; i <= w->n; i++)
+        y[i] = bt__vec (0, 0, 0);
+      if (w->bends > 0 && w->lo <= w->hi)
+        solve_stiff_again (w, y);
+    }
+  for (int c = 0; c < count && !(w->bends > 0) && w->lo <= w->hi; c += SIDE)
+    solve_plain_again (w, x + (size_t)c * column, count - c < SIDE ? count - c : SIDE, (int)first,
+                       (int)last);
 }
 
 double
 bt__dynamic_solve (bt__dynamic_work *w)
 {
   if (w->bents > 0 && w->bordered)
-    return bt__dynamic_bent_solve (w, solve);
-  return w->pairs > 0 ? bt__dynamic_pair_solve (w, solve) : solve (w);
+    return bt__dynamic_bent_solve (w);
+  return w->pairs > 0 ? bt__dynamic_pair_solve (w) : solve (w, 0);
 }

@@ -31,10 +31,12 @@ shift (void *array, size_t size, int64_t at, int64_t n, int by)
     memmove (p + (size_t)at * size, p + (size_t)(at + 1) * size, (size_t)(n - at - 1) * size);
 }
 
-/* Make room for, or remove, node I and interval I - 1 of every array.  */
+/* Make room for, or remove, node I and interval I - 1 of every array: another line, to be looked at
+   anew.  */
 static void
 shift_all (bt__dynamic *d, int64_t i, int by)
 {
+  d->spare = (bt__dynamic_drift){ 0, 0, 0 };
   bt_vec3 *nodes[] = { bt__dynamic_x (d), bt__dynamic_v (d), bt__dynamic_dx (d), bt__dynamic_vp (d),
                        bt__dynamic_load (d) };
   double *intervals[] = { bt__dynamic_tension (d), bt__dynamic_rest (d), bt__dynamic_stretch (d),
@@ -175,6 +177,7 @@ copy_part (const bt__dynamic *d, int64_t first, int64_t count, bt__dynamic *to)
 {
   memset (to, 0, bt__dynamic_size ((int)d->n_max));
   *to = *d;
+  to->spare = (bt__dynamic_drift){ 0, 0, 0 };
   to->n = count;
   bt_vec3 *(*const nodes[]) (const bt__dynamic *)
       = { bt__dynamic_x, bt__dynamic_v, bt__dynamic_dx, bt__dynamic_vp, bt__dynamic_load };
@@ -204,6 +207,7 @@ new_end (bt__dynamic *d, int64_t j, int64_t end)
   bt__dynamic_tension (d)[j] = 0;
   d->pull[end ? 1 : 0] = bt__vec (0, 0, 0);
   d->history = 0;
+  d->spare = (bt__dynamic_drift){ 0, 0, 0 };
 }
 
 void

@@ -136,6 +136,12 @@ meet_crossings (const bt_vec3 *p_from, const bt_vec3 *p_to, int n, const bt_vec3
 }
 
 double
+meet_distance (const bt_vec3 *p, const bt_vec3 *q)
+{
+  return sqrt (square_between (p[0], p[1], q[0], q[1]));
+}
+
+double
 meet_clearance (const bt_vec3 *p, int n, const bt_vec3 *q, int m, int apart, double cap)
 {
   double best = cap * cap;

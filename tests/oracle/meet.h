@@ -14,6 +14,9 @@
 long meet_crossings (const bt_vec3 *p_from, const bt_vec3 *p_to, int n, const bt_vec3 *q_from,
                      const bt_vec3 *q_to, int m);
 
+/* The distance of the links from P[0] to P[1] and from Q[0] to Q[1].  */
+double meet_distance (const bt_vec3 *p, const bt_vec3 *q);
+
 /* The nearest that links of P, N points, and of Q, M points, are to each other, at most CAP; when P
    is Q, links with fewer than APART links between them are left out.  */
 double meet_clearance (const bt_vec3 *p, int n, const bt_vec3 *q, int m, int apart, double cap);

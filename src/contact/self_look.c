@@ -1,0 +1,224 @@
+/* How far the parts of a line may go against each other until any two of its links could touch.
+
+   Told as two ways: what the ends of a link may go apart, and what any two places may.  Of links
+   that have M links between and with them the one goes no farther against the other than M times
+   the first, nor farther than the second.
+
+   Where links run along with the way from the first of them to the last they only come together by
+   turning back.  For the rest the line is halved again and again, each part a chord and how far its
+   nodes are from it; of two parts whose chords are far apart against that no link is asked.
+
+   What is told depends on where the line is and on nothing else, for it is kept in its state.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "contact/self_search.h"
+
+enum
+{
+  LEAF = 4, /* links in the smallest part */
+  FEW = 8   /* links: those of more are told by the second way */
+};
+
+#define PIECES 8.0 /* of a piece: no more is told */
+#define LEAST 0.3  /* of a rest length: a link that soon turns back is of no stretch */
+#define ROUGH 0.25 /* of their distance: parts that are so thin are not halved */
+
+/* Links FROM to TO, less one, and the place of their chord among all.  */
+typedef struct part
+{
+  int at, from, to;
+} part;
+
+typedef struct look
+{
+  const bt__line_job *k;
+  bt__capsule *chord; /* of each part: its radius is how far its nodes are from it, at most */
+  double keep;        /* m: axes farther apart do not touch */
+  double turned, apart;
+} look;
+
+static void
+lower (double *a, double b)
+{
+  *a = bt__self_lower (*a, b);
+}
+
+/* ---- Parts ---- */
+
+static part
+half_of (part p, int second)
+{
+  int middle = p.from + (p.to - p.from + 1) / 2;
+  return (part){ 2 * p.at + second, second ? middle : p.from, second ? p.to : middle };
+}
+
+static int
+is_leaf (part p)
+{
+  return p.to - p.from <= LEAF;
+}
+
+static double
+distance_to (bt_vec3 p, const bt__capsule *chord)
+{
+  bt_vec3 d = bt__sub (chord->b, chord->a), r = bt__sub (p, chord->a);
+  double t = bt__share (bt__dot (r, d), bt__dot (d, d));
+  return bt__norm (bt__axpy (r, -t, d));
+}
+
+static void
+measure_parts (look *s, part p)
+{
+  const bt_vec3 *x = s->k->x;
+  bt__capsule *c = s->chord + p.at;
+  *c = (bt__capsule){ x[p.from], x[p.to], 0 };
+  if (is_leaf (p))
+    {
+      for (int i = p.from + 1; i < p.to; i++)
+        c->radius = bt__self_higher (c->radius, distance_to (x[i], c));
+      return;
+    }
+  part one = half_of (p, 0), two = half_of (p, 1);
+  measure_parts (s, one);
+  measure_parts (s, two);
+  c->radius = distance_to (x[one.to], c)
+              + bt__self_higher (s->chord[one.at].radius, s->chord[two.at].radius);
+}
+
+/* ---- What is told ---- */
+
+/* Nonzero if links FROM to TO, less one, run along with their chord and it takes some turning until
+   they do not; that is told.  */
+static int
+is_stretch (look *s, int from, int to)
+{
+  const bt_vec3 *x = s->k->x;
+  const double *rest = bt__dynamic_rest (s->k->d);
+  bt_vec3 u = bt__unit_or (bt__sub (x[to], x[from]), bt__vec (0, 0, 0));
+  double before = bt__dot (u, x[from]), most = INFINITY;
+  for (int j = from; j < to; j++)
+    {
+      double after = bt__dot (u, x[j + 1]);
+      double turns = after - before - BT__SELF_ALONG * rest[j];
+      if (!(turns > LEAST * rest[j]))
+        return 0;
+      most = bt__self_lower (most, turns);
+      before = after;
+    }
+  lower (&s->turned, most);
+  return 1;
+}
+
+/* Links I and J, or parts from I to J, are nearer by no more than GAP until they touch.  */
+static void
+tell (look *s, int i, int j, double gap)
+{
+  int links = j + 1 - i;
+  if (links <= FEW)
+    lower (&s->turned, gap / links);
+  else
+    lower (&s->apart, gap);
+}
+
+/* What more than this away is nearer than others of links I to J, or less, is told already.  */
+static double
+told (const look *s, int i, int j)
+{
+  return j + 1 - i <= FEW ? FEW * s->turned : s->apart;
+}
+
+/* Nonzero if the spheres over chords A to B and C to D, RADIUS wider in all, are GAP apart.  */
+static int
+are_balls_apart (bt_vec3 a, bt_vec3 b, bt_vec3 c, bt_vec3 d, double gap)
+{
+  bt_vec3 e = bt__sub (b, a), f = bt__sub (d, c), r = bt__sub (bt__add (a, b), bt__add (c, d));
+  double far = bt__dot (r, r), balls = bt__dot (e, e) + bt__dot (f, f);
+  /* (|e| + |f|)^2 <= 2 (|e|^2 + |f|^2), and (p + q)^2 <= 2 (p^2 + q^2) */
+  return far > 4 * balls + 8 * gap * gap;
+}
+
+static void
+look_at_links (look *s, part p, part q)
+{
+  for (int i = p.from; i < p.to; i++)
+    for (int j = q.from < i + 2 ? i + 2 : q.from; j < q.to; j++)
+      {
+        const bt_vec3 *x = s->k->x;
+        if (are_balls_apart (x[i], x[i + 1], x[j], x[j + 1], told (s, i, j) + s->keep))
+          continue;
+        bt__link a = bt__line_link (x, (uint32_t)i), b = bt__line_link (x, (uint32_t)j);
+        s->k->report->pairs++;
+        tell (s, i, j, bt__self_distance (&a, &b) - s->keep);
+      }
+}
+
+/* Part P and part Q, which comes after it.  */
+static void
+look_between (look *s, part p, part q)
+{
+  const bt__capsule *a = s->chord + p.at, *b = s->chord + q.at;
+  bt__link c = { a->a, a->b }, d = { b->a, b->b };
+  double thick = a->radius + b->radius, enough = told (s, p.from, q.to - 1) + thick + s->keep;
+  if (are_balls_apart (a->a, a->b, b->a, b->b, enough))
+    return;
+  double distance = bt__self_distance (&c, &d), gap = distance - thick - s->keep;
+  if (distance >= enough)
+    return;
+  if (p.to == q.from && is_stretch (s, p.from, q.to))
+    return;
+  if (thick <= ROUGH * distance && gap > 0)
+    {
+      tell (s, p.from, q.to - 1, gap);
+      return;
+    }
+  if (is_leaf (p) && is_leaf (q))
+    {
+      look_at_links (s, p, q);
+      return;
+    }
+  int first = q.to - q.from <= p.to - p.from; /* the longer of them is halved, the near end first */
+  for (int h = 0; h < 2; h++)
+    if (first)
+      look_between (s, half_of (p, !h), q);
+    else
+      look_between (s, p, half_of (q, h));
+}
+
+static void look_within (look *s, part p);
+
+static void
+look_into (look *s, part p)
+{
+  if (is_leaf (p))
+    {
+      look_at_links (s, p, p);
+      return;
+    }
+  part one = half_of (p, 0), two = half_of (p, 1);
+  look_within (s, one);
+  look_within (s, two);
+  look_between (s, one, two);
+}
+
+static void
+look_within (look *s, part p)
+{
+  if (!is_stretch (s, p.from, p.to))
+    look_into (s, p);
+}
+
+void
+bt__self_look (const bt__line_job *k, double *turned, double *apart)
+{
+  part all = { 1, 0, k->links };
+  double piece = PIECES * k->d->piece;
+  look s = { k, k->w->self.chord, 2 * bt__self_touching (k), piece, piece };
+  if (!is_stretch (&s, 0, k->links))
+    {
+      measure_parts (&s, all);
+      look_into (&s, all);
+    }
+  *turned = (1 - BT__SELF_CLOSE) * s.turned;
+  *apart = (1 - BT__SELF_CLOSE) * s.apart;
+}
