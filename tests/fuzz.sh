@@ -9,7 +9,7 @@ sequences=5000
 if [ "${sanitize:-no}" = yes ]; then
   limit=10
 else
-  limit=2
+  limit=4
   ulimit -v 8000000 # a runaway takes itself down, not the machine
 fi
 

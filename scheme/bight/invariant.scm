@@ -89,12 +89,18 @@ one."
   (let ((view (%vehicle (this-engine 'energy-bounded?) i)))
     (max (assq-ref view 'surge-speed) (norm (assq-ref view 'velocity)))))
 
+(define (most-strain load ea)
+  ;; J/m of a line that parts at LOAD; of one that does not, when it is twice as long.
+  (cond ((not (real? ea)) 0)            ; inextensible
+        ((real? load) (/ (expt load 2) ea))
+        (else ea)))
+
 (define (most-energy t)
   (let ((speed (fold max 1 (cons (norm (current-at '(0 0 -1))) (map vehicle-speed (vehicles)))))
         (fields (tether-properties t)))
     (* (whole-length t)
        (+ (* 1/2 (line-mass t) (expt (* 3 speed) 2))
-          (/ (expt (assq-ref fields 'breaking-load) 2) (assq-ref fields 'ea))))))
+          (most-strain (assq-ref fields 'breaking-load) (assq-ref fields 'ea))))))
 
 (define (moving? t)
   (memq (model-of (name-of 'tether t)) '(dynamic auto)))

@@ -13,19 +13,7 @@
 #endif
 
 #include "collide/bvh.h"
-
-#if defined __x86_64__ && defined __gnu_linux__ && defined __GNUC__ && !defined __clang__          \
-    && !defined __SANITIZE_ADDRESS__ && !defined __SANITIZE_THREAD__
-#define WIDE __attribute__ ((target_clones ("avx2", "default")))
-#else
-#define WIDE
-#endif
-
-#if defined __GNUC__
-#define ALWAYS inline __attribute__ ((always_inline))
-#else
-#define ALWAYS inline
-#endif
+#include "math/wide.h"
 
 #define SLACK 1e-6
 
@@ -58,7 +46,7 @@ make_probe (const bt__bvh *tree, const bt__link *link, probe *p)
 
 /* In bit k of the answer: box k may be within REACH.  In NEAR: how far each box is from the link's
    own box, at least.  */
-static ALWAYS unsigned
+static BT__HOT unsigned
 find_hits (const bt__bvh_node *node, const probe *p, float reach, int nearest,
            float near[BT__BVH_WIDE])
 {
@@ -113,7 +101,7 @@ typedef struct entry
 } entry;
 
 /* The nearest of the children of one node, which begin at BASE, goes on top.  */
-static ALWAYS int
+static BT__HOT int
 push (entry *stack, int base, int depth, entry e, int nearest)
 {
   int at = depth;
@@ -125,7 +113,7 @@ push (entry *stack, int base, int depth, entry e, int nearest)
 }
 
 /* LINK is farther than REACH from the cube about all of TREE.  */
-static ALWAYS int
+static BT__HOT int
 is_outside (const bt__bvh *tree, const bt__link *link, double reach)
 {
   double half = 0.5000001 * tree->extent + reach + 1e-15 * bt__largest (tree->origin);
@@ -141,7 +129,7 @@ as_float (double reach)
   return reach < 1e20 ? (float)(reach * (1 + SLACK)) : 1e20f;
 }
 
-WIDE double
+BT__WIDE double
 bt__bvh_query (const bt__bvh *tree, const bt__link *link, double reach, int nearest,
                bt__visit visit, void *user, bt__count *count)
 {

@@ -46,6 +46,10 @@ holds; hauled in, it stays; the way back through the loop, and nothing else, und
     (expect (collided? 'line 'line))
     (expect (norm (rov-position)) is (below 14))
     (expect (rov-tension) is (above 60))
+    (for-each (lambda (to)              ; no way but the one it was made undoes it
+                (fly to)
+                (expect (knotted?)))
+              '((4 -3 -4) (3 2 -6) (8 4 -6) (-3 3 -9)))
     (restore! loose))
   (apply fly (append (reverse overhand) '((3 2 -6))))
   (expect (knotted?) => #f)
