@@ -1,7 +1,8 @@
 /* Functions compiled more than once: for any machine, and for one with AVX2.
 
-   Which is called is settled when the library is loaded.  AVX2 brings no fused multiplication, and
-   the compiler is told to make none, so that both give the same bits.
+   Which is called is settled when the library is loaded; libtool exports no such function, so a
+   public one calls it.  AVX2 brings no fused multiplication, and the compiler is told to make none,
+   so that both give the same bits.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -101,8 +101,8 @@ deficit (const place *at, bt__four_mask lee, double speed)
   return DEFICIT * bt__four_sqrt (c2) * fade * minus * ends * (across / speed);
 }
 
-BT__WIDE double
-bt_wakes_share (const bt_wakes *wakes, size_t n, bt_vec3 ambient, bt_vec3 p)
+static BT__WIDE double
+share_at (const bt_wakes *wakes, size_t n, bt_vec3 ambient, bt_vec3 p)
 {
   bt__four share = { 1, 1, 1, 1 };
   double speed = bt__norm (ambient);
@@ -114,6 +114,12 @@ bt_wakes_share (const bt_wakes *wakes, size_t n, bt_vec3 ambient, bt_vec3 p)
         share *= 1 - deficit (&at, lee, speed);
     }
   return (share[0] * share[2]) * (share[1] * share[3]);
+}
+
+double
+bt_wakes_share (const bt_wakes *wakes, size_t n, bt_vec3 ambient, bt_vec3 p)
+{
+  return share_at (wakes, n, ambient, p);
 }
 
 double

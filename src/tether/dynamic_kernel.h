@@ -71,7 +71,7 @@ typedef struct bt__link
 typedef struct bt__node
 {
   double cell, wet;     /* m of line it stands for; of them under water */
-  double level;         /* m: the surface above or below it, if the line comes near to it */
+  double level;         /* m: the surface above or below it, if it comes near to it */
   bt_vec3 v0, a0;       /* v = b0 (X - x) + v0, a = b0 v + a0 */
   bt_vec3 current, tau; /* of the water; unit tangent */
 } bt__node;

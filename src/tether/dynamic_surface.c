@@ -37,20 +37,17 @@ void
 bt__dynamic_surface_prepare (bt__dynamic_work *w)
 {
   const bt_water *water = w->in->water;
-  double highest = -HUGE_VAL;
+  double trough = -bt_water_crest (water);
   w->surfaced = 0;
   w->lift = fmax (0, w->m * water->gravity - w->weight);
   for (int i = 0; i <= w->n; i++)
     {
-      w->node[i].wet = w->node[i].cell;
-      highest = w->X[i].z > highest ? w->X[i].z : highest;
-    }
-  if (!w->in->surfaced || !(water->density > 0) || highest <= -bt_water_crest (water))
-    return;
-  w->surfaced = 1;
-  for (int i = 0; i <= w->n; i++)
-    {
       bt__node *k = w->node + i;
+      k->wet = k->cell;
+      k->level = INFINITY; /* deeper than that no wave is asked for */
+      if (!w->in->surfaced || !(water->density > 0) || w->X[i].z <= trough)
+        continue;
+      w->surfaced = 1;
       k->level = bt_water_surface (water, w->X[i]);
       k->wet *= 1 - out_of_water (rise (w->X[i].z, k->level));
     }
