@@ -4,7 +4,8 @@
    wire of 10 mm, a weight on the near end; the error is the mean of T2 / T1 against e^(mu theta),
    the counters say what share of steps was held back or cut, and how far T2 swings.  jacket: a
    pilot who aims through the members: percentiles of the step, towed and with a mass of its own, at
-   0.1, 1 and 3 m/s.  ground: a line on a bottom, by the number of places it touches.  alone: what a
+   0.1, 1 and 3 m/s.  wrap: a line about a drum, by the number of contacts and the drum's radius,
+   beside its capstan.  ground: a line on a bottom, by the number of places it touches.  alone: what a
    scene far away adds to the line's own step.  quiet: the most energy a line that falls over a beam
    gains in a step.  knot: an overhand knot about a beam runs up and is pulled tight; the error is
    by how much the tension ever exceeds the pull.
@@ -21,6 +22,7 @@
 
 #include "calibration.h"
 #include "contact_scene.h"
+#include "contact_wrap.h"
 #include "options.h"
 #include "row.h"
 
@@ -417,6 +419,8 @@ run (long steps, uint64_t seed)
     fly (1, speeds[i], (int)steps, seed, 1);
   for (int i = 0; i < 3; i++)
     fly (0, speeds[i], (int)steps, seed, 1);
+  if (!contact_wrap (&table, steps < 1000))
+    fail ();
   for (int mesh = 0; mesh < 3; mesh++)
     for (int links = 50; links <= 200; links *= 2)
       lie (links, 1, mesh);
