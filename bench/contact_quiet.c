@@ -93,7 +93,7 @@ static int
 rest_on (bench_table *table, bed what, uint64_t seed)
 {
   static stage s;
-  const bt_vec3 shape[] = { { 0, 0, -9 }, { 10, 0, -9.8 }, { 20, 0, -9 } };
+  const bt_vec3 shape[] = { { 0, 0, -9 }, { 9.5, 3.1, -9.8 }, { 19, 6.2, -9 } };
   dice d = dice_new (seed);
   double slip = 0, start = bench_now ();
   if (!reef_open (&s.place))

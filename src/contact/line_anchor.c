@@ -13,6 +13,7 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "contact/line_job.h"
@@ -137,31 +138,57 @@ bt__line_stiffness (const bt__line_job *k, int64_t i, double last)
 
 /* ---- What is remembered ---- */
 
-/* The anchor nearest to row I along the line that no other row has, from *FROM on, or -1; of those
-   at one place, the one of its direction.  */
-static int
-find_anchor (bt__line_job *k, int i, int *from)
+/* How far anchor Q is from row I, along the line and by its direction; INFINITY if it is another's
+   or out of REACH.  */
+static double
+away_of (const bt__line_job *k, int i, int q, double reach)
 {
-  const bt__dynamic_row *r = k->w->row + i;
+  const bt__anchor *a = k->w->old + q;
   const bt__line_row *of = k->w->of + i;
-  double reach = REMEMBER * bt__dynamic_rest (k->d)[r->node], least = reach;
+  double alike = bt__dot (a->normal, k->w->row[i].normal);
+  double away = fabs (a->from_end - of->from_end) + TURNED * reach * (1 - alike);
+  int can = a->state >= 0 && a->mover == (int64_t)of->mover - 1 && alike > ALIKE;
+  return can && away < reach ? away : INFINITY;
+}
+
+static double
+reach_of (const bt__line_job *k, int i)
+{
+  return REMEMBER * bt__dynamic_rest (k->d)[k->w->row[i].node];
+}
+
+/* The anchor nearest to row I that no other row has, from *FROM on, or -1; how far to *LEAST.  */
+static int
+find_anchor (bt__line_job *k, int i, int *from, double *least)
+{
+  double reach = reach_of (k, i), place = k->w->of[i].from_end;
   int best = -1;
-  while (*from < k->olds && k->w->old[*from].from_end > of->from_end + 2 * reach)
+  *least = INFINITY;
+  while (*from < k->olds && k->w->old[*from].from_end > place + 2 * reach)
     ++*from;
-  for (int q = *from; q < k->olds; q++)
+  for (int q = *from; q < k->olds && k->w->old[q].from_end >= place - reach; q++)
     {
-      const bt__anchor *a = k->w->old + q;
-      double alike = bt__dot (a->normal, r->normal);
-      double away = fabs (a->from_end - of->from_end) + TURNED * reach * (1 - alike);
-      if (a->from_end < of->from_end - reach)
-        break;
-      if (a->state >= 0 && away < least && a->mover == (int64_t)of->mover - 1 && alike > ALIKE)
+      double away = away_of (k, i, q, reach);
+      if (away < *least)
         {
           best = q;
-          least = away;
+          *least = away;
         }
     }
   return best;
+}
+
+/* Nonzero if a row beside I, without an anchor yet, is nearer to anchor Q than LEAST.  */
+static int
+is_wanted (const bt__line_job *k, int i, int q, double least)
+{
+  const bt__line_row *of = k->w->of;
+  for (int by = -1; by <= 1; by += 2)
+    for (int r = i + by; r >= 0 && r < k->rows && abs ((int)of[r].link - (int)of[i].link) <= 1;
+         r += by)
+      if (of[r].fresh && of[r].mover != BT__LINE_SELF && away_of (k, r, q, reach_of (k, r)) < least)
+        return 1;
+  return 0;
 }
 
 static void
@@ -178,20 +205,28 @@ inherit (bt__line_job *k, int i, const bt__anchor *a)
   k->w->of[i].fresh = 0;
 }
 
+/* Row I takes the anchor nearest to it; NEAREST: only if none is nearer to that.  */
+static void
+take_anchor (bt__line_job *k, int i, int *from, int nearest)
+{
+  double away;
+  int is_line = k->w->of[i].mover == BT__LINE_SELF;
+  int a = is_line ? bt__self_anchor (k, i) : find_anchor (k, i, from, &away);
+  if (a < 0 || (nearest && !is_line && is_wanted (k, i, a, away)))
+    return;
+  inherit (k, i, k->w->old + a);
+  k->w->old[a].state = -1; /* taken */
+}
+
+/* First the pairs that are nearest to each other: else a row that bears nothing would take what
+   friction is at one that does.  */
 void
 bt__line_inherit (bt__line_job *k)
 {
-  int from = 0;
-  for (int i = 0; i < k->rows; i++)
-    {
-      int is_line = k->w->of[i].mover == BT__LINE_SELF;
-      int a = is_line ? bt__self_anchor (k, i) : find_anchor (k, i, &from);
-      if (a >= 0)
-        {
-          inherit (k, i, k->w->old + a);
-          k->w->old[a].state = -1; /* taken */
-        }
-    }
+  for (int nearest = 1; nearest >= 0; nearest--)
+    for (int i = 0, from = 0; i < k->rows; i++)
+      if (k->w->of[i].fresh)
+        take_anchor (k, i, &from, nearest);
 }
 
 void
@@ -217,6 +252,14 @@ slide_of (const bt__line_job *k, const bt__dynamic_row *r)
 {
   bt_vec3 d = bt__self_move (k, r);
   return bt__axpy (d, -bt__dot (d, r->normal), r->normal);
+}
+
+/* What row R does to the line by its load, and by friction that is whole where it is dragged by
+   SLIP: STICK.  (What it did in the last iteration is of the places before that.)  */
+static bt_vec3
+force_of (const bt__dynamic_row *r, bt_vec3 stick)
+{
+  return bt__scale (r->load, bt__axpy (r->normal, -r->friction / r->slip, stick));
 }
 
 static bt__anchor
@@ -246,7 +289,7 @@ anchor_of (const bt__line_job *k, int i)
                        .speed = bt__norm (slide) / k->h,
                        .point = of->point,
                        .normal = r->normal,
-                       .force = r->force,
+                       .force = force_of (r, stick),
                        .stick = stick };
 }
 

@@ -25,6 +25,8 @@
 #define COPLANAR 0.9999
 #define RECOVERY 0.2 /* m/s: a line that was pressed in is let out so fast */
 #define GHOST 1e-6   /* sine of the angle at which a neighbour counts as nearer */
+#define CREST 1e-3   /* sine of the angle at which the surface falls away beyond an edge, ... */
+#define LEVEL 0.05   /* ... and up to which it may rise before it */
 
 /* ---- Edges that a mesh hides ---- */
 
@@ -50,13 +52,13 @@ rises_from_corner (const bt__triangle *t, int i, bt_vec3 n)
   return 0;
 }
 
-/* The same from its edge between corners I and J.  */
-static int
-rises_from_edge (const bt__triangle *t, int i, int j, bt_vec3 n)
+/* By how much it rises from its edge between corners I and J: the sine of an angle.  */
+static double
+rise_from_edge (const bt__triangle *t, int i, int j, bt_vec3 n)
 {
   bt_vec3 a = t->v[i], e = bt__sub (t->v[j], a), c = bt__sub (t->v[3 - i - j], a);
   bt_vec3 in = bt__axpy (c, -bt__dot (c, e) / bt__dot (e, e), e);
-  return bt__dot (n, in) > GHOST * bt__norm (in);
+  return bt__dot (n, in) / bt__norm (in);
 }
 
 static int
@@ -66,7 +68,7 @@ is_hidden_by (const bt__triangle *own, int feature, bt_vec3 n, const bt__triangl
   if (feature > 3)
     return a && rises_from_corner (other, a - 1, n);
   int b = is_corner (other, own->v[feature % 3]);
-  return a && b && rises_from_edge (other, a - 1, b - 1, n);
+  return a && b && rise_from_edge (other, a - 1, b - 1, n) > GHOST;
 }
 
 /* Nonzero if the nearest point W of the triangle NEAR is on an edge or corner where another listed
@@ -90,6 +92,33 @@ is_ghost (const bt__line_job *k, uint32_t j, const bt__near *near, const bt__wit
         return 1;
     }
   return 0;
+}
+
+/* Nonzero if the surface falls away from edge E of the triangle OWN, that of NEAR, on either side,
+   as seen from normal N.  */
+static int
+is_crest (const bt__line_job *k, uint32_t j, const bt__near *near, const bt__triangle *own, int e,
+          bt_vec3 n)
+{
+  const bt__near *other = bt__line_near (k, j);
+  const bt__mesh *mesh = bt__line_scene (k, near)->object[near->object].shape.mesh;
+  double most = rise_from_edge (own, e, (e + 1) % 3, n), least = most;
+  int is_free = 1;
+  for (uint32_t i = 0; most <= LEVEL && i < k->w->watch[j].found; i++)
+    {
+      if (other[i].link != near->link || other[i].object != near->object
+          || other[i].slot == near->slot)
+        continue;
+      bt__triangle t = bt__mesh_triangle (mesh, other[i].slot);
+      int a = is_corner (&t, own->v[e]), b = is_corner (&t, own->v[(e + 1) % 3]);
+      if (!a || !b)
+        continue;
+      double rise = rise_from_edge (&t, a - 1, b - 1, n);
+      most = fmax (most, rise);
+      least = fmin (least, rise);
+      is_free = 0;
+    }
+  return most <= LEVEL && (is_free || least < -CREST);
 }
 
 /* ---- Rows ---- */
@@ -144,20 +173,23 @@ height_of (const bt__line_job *k, const bt__dynamic_row *r)
   return bt__dot (r->normal, at) - r->offset;
 }
 
-/* Take the row just set unless there is one like it; of both, the lower stays.  */
+/* Take the row just set unless there is one like it; of both, the lower stays, or that at a node:
+   else they would change places with every step.  */
 static void
 take_row (bt__line_job *k, int flat)
 {
   bt__dynamic_row *row = k->w->row, *r = row + k->rows;
-  k->w->of[k->rows].flat = flat;
+  bt__line_row *of = k->w->of;
+  of[k->rows].flat = flat;
   for (int i = k->rows - 1; i >= 0 && row[i].node + 1 >= r->node; i--)
     if (fabs (place_of (row + i) - place_of (r)) < SAME
         && bt__dot (row[i].normal, r->normal) > ALIKE)
       {
-        if (height_of (k, r) < height_of (k, row + i))
+        double ahead = NEAREST * k->config->radius * ((flat == 1) - (of[i].flat == 1));
+        if (height_of (k, r) < height_of (k, row + i) + ahead)
           {
             row[i] = *r;
-            k->w->of[i] = k->w->of[k->rows];
+            of[i] = of[k->rows];
           }
         return;
       }
@@ -296,7 +328,41 @@ is_over (const bt__triangle *t, bt_vec3 at, double *height, bt_vec3 *normal)
   return bt__dot (n, n) > 0;
 }
 
-/* A triangle: nodes over its face, else the nearest place of the link.  */
+/* Where LINK passes over the edge of T from corner E; zero if it does not.  */
+static int
+pass_edge (const bt__triangle *t, int e, const bt__link *link, bt__witness *w)
+{
+  bt_vec3 along = bt__sub (link->b, link->a), edge = bt__sub (t->v[(e + 1) % 3], t->v[e]);
+  double u;
+  bt__closest_segments (bt__sub (link->a, t->v[e]), along, edge, &w->s, &u);
+  w->point = bt__axpy (t->v[e], u, edge);
+  bt_vec3 away = bt__sub (bt__along (link, w->s), w->point);
+  w->distance = bt__norm (away);
+  w->normal = bt__unit_or (away, bt__vec (0, 0, 0));
+  w->feature = e + 1;
+  return w->s > 0 && w->s < 1 && u > 0 && u < 1;
+}
+
+/* A link rests on as many as two edges of a triangle, one of them the nearest, which HAS a row: on
+   that alone it would see-saw.  */
+static void
+touch_crests (bt__line_job *k, uint32_t j, const pass *p, const bt__triangle *t, int has)
+{
+  double touch = k->config->radius + k->margin;
+  for (int e = 0; e < 3; e++)
+    {
+      bt__witness now, w;
+      if (has == e + 1 || k->rows >= k->w->rows_max || !pass_edge (t, e, &p->from, &now)
+          || now.distance >= touch || !is_crest (k, j, p->near, t, e, now.normal))
+        continue;
+      int other = !pass_edge (t, e, &p->to, &w) || !(w.distance > k->core)
+                  || !(bt__dot (w.normal, now.normal) > TURNED);
+      set_row (k, k->rows, j, other ? now.s : w.s, p->near, other ? &now : &w, now.distance);
+      take_row (k, 2 * lies_along (k, &p->from, &now));
+    }
+}
+
+/* A triangle: nodes over its face, else the nearest place of the link, and edges it passes.  */
 static void
 touch_facet (bt__line_job *k, uint32_t j, const bt__near *near)
 {
@@ -323,11 +389,12 @@ touch_facet (bt__line_job *k, uint32_t j, const bt__near *near)
       set_row (k, k->rows, j, e, near, &w, w.distance);
       take_row (k, 1);
     }
-  if (over < 2 && !is_nearest)
-    {
-      pass p = pass_of (k, j, near);
-      touch_between (k, j, &p, 0);
-    }
+  if (over == 2)
+    return;
+  pass p = pass_of (k, j, near);
+  if (!is_nearest)
+    touch_between (k, j, &p, 0);
+  touch_crests (k, j, &p, &t, is_nearest ? 0 : near->w.feature);
 }
 
 /* Nonzero if the obstacle is sharp where it is nearest to the link's end E: what is beyond its
