@@ -18,11 +18,11 @@ typedef enum ground
 } ground;
 
 static void
-lay (reef *r, rope *p, ground g)
+lay (reef *r, rope *p, ground g, uint64_t seed)
 {
   double z = g == BEAM ? -4 : -1, deep = g == BEAM ? -4 : -8;
   const bt_vec3 shape[] = { { 0, 0, z }, { 10, 0, deep }, { 20, 0, z } };
-  dice d = dice_new (3);
+  dice d = dice_new (seed);
   assert_true (reef_open (r));
   if (g == PLANE)
     reef_plane (r, -10);
@@ -36,13 +36,14 @@ lay (reef *r, rope *p, ground g)
   p->line.mass += 0.5 / 9.81;
 }
 
+/* SLIP: m/s in the last 5 s.  */
 static void
-rests (ground g, const char *what, double seconds)
+rests (ground g, uint64_t seed, const char *what, double seconds, double least)
 {
   static reef r;
   static rope p;
   double slip = 0, lowest = INFINITY;
-  lay (&r, &p, g);
+  lay (&r, &p, g, seed);
   for (int i = 0; i < seconds * 60; i++)
     {
       assert_true (rope_step (&p, frame, 0));
@@ -54,7 +55,7 @@ rests (ground g, const char *what, double seconds)
   print_message ("# %s: slip %.3g m/s, %d touches, %.2f solves a step\n", what, slip,
                  p.touch.touches, (double)p.solves / (double)p.steps);
   assert_true (p.touch.touches >= (g == BEAM ? 1 : 20));
-  assert_below (slip, 1e-4, what);
+  assert_below (slip, least, what);
   assert_true (g == BEAM || g == ROUGH_MESH || fabs (lowest + 10 - 0.005) < 1e-4);
   assert_int_equal (p.truncated, 0);
   rope_close (&p);
@@ -65,9 +66,17 @@ static void
 comes_to_rest (void **state)
 {
   (void)state;
-  rests (PLANE, "a plane", 60);
-  rests (FLAT_MESH, "a flat mesh", 180);
-  rests (BEAM, "a beam", 40);
+  rests (PLANE, 1, "a plane", 60, 1e-4);
+  rests (FLAT_MESH, 1, "a flat mesh", 60, 1e-4);
+  rests (BEAM, 1, "a beam", 40, 1e-4);
+}
+
+static void
+rests_on_crests (void **state)
+{
+  (void)state;
+  for (uint64_t seed = 1; seed <= 5; seed++)
+    rests (ROUGH_MESH, seed, "a rough mesh", 90, 1e-3);
 }
 
 /* ---- Movers ---- */
@@ -210,7 +219,7 @@ tells_touches (void **state)
   static reef r;
   static rope p;
   bt__touch touch[100];
-  lay (&r, &p, PLANE);
+  lay (&r, &p, PLANE, 1);
   for (int i = 0; i < 3600; i++)
     assert_true (rope_step (&p, frame, 0));
   int n = bt__line_touches (p.d, p.anchors, touch, 100);
@@ -234,8 +243,8 @@ int
 main (void)
 {
   const struct CMUnitTest tests[]
-      = { cmocka_unit_test (comes_to_rest), cmocka_unit_test (is_pushed),
-          cmocka_unit_test (is_the_line_alone), cmocka_unit_test (remembers_nothing),
-          cmocka_unit_test (tells_touches) };
+      = { cmocka_unit_test (comes_to_rest),     cmocka_unit_test (rests_on_crests),
+          cmocka_unit_test (is_pushed),         cmocka_unit_test (is_the_line_alone),
+          cmocka_unit_test (remembers_nothing), cmocka_unit_test (tells_touches) };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
