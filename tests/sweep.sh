@@ -130,7 +130,7 @@ cat >bad.scm <<'SCM'
   (at-most 0.4)
   (fly (case what
          ((raises) (run -1))
-         ((breaks) (kill (getpid) SIGSEGV))
+         ((breaks) (kill (getpid) SIGABRT))
          ((hangs) (let loop () (loop)))
          ((murders) (unless (file-exists? "murdered")
                       (close-port (open-file "murdered" "w"))
@@ -147,7 +147,7 @@ result $? 'the first is told'
 bight sweep --rows bad.db >bad.csv
 grep -q '^2,failed,domain,"\{0,1\}run: ' bad.csv
 result $? 'an error keeps its kind and its words'
-grep -q '^3,failed,crash,.*signal 11,' bad.csv && grep -q '^6,failed,crash,.*status 7,' bad.csv
+grep -q '^3,failed,crash,.*signal 6,' bad.csv && grep -q '^6,failed,crash,.*status 7,' bad.csv
 result $? 'so does a breakdown'
 grep -q '^4,timed out,limit,.*(at-most 0.4) seconds' bad.csv
 result $? 'a case that hangs is timed out'
