@@ -230,24 +230,43 @@ bt__self_move (const bt__line_job *k, const bt__dynamic_row *r)
 
 /* ---- What lasts ---- */
 
+/* How far row I is along both lines from what anchor A is of, m; INFINITY: it is of something else.
+ */
+static double
+away_from (const bt__line_job *k, int i, const bt__anchor *a)
+{
+  const bt__line_row *of = k->w->of + i;
+  if (a->mover != BT__ANCHOR_LINE || a->object != of->id
+      || !(bt__dot (a->normal, k->w->row[i].normal) > ALIKE))
+    return INFINITY;
+  return fabs (a->from_end - of->from_end) + fabs (a->other - of->other);
+}
+
+/* Nonzero if a row after I is nearer to A than AWAY.  */
+static int
+is_of_later (const bt__line_job *k, int i, const bt__anchor *a, double away)
+{
+  for (int q = i + 1; q < k->rows; q++)
+    if (k->w->of[q].mover == BT__LINE_SELF && away_from (k, q, a) < away)
+      return 1;
+  return 0;
+}
+
+/* Where links of a knot touch there are several rows in the length of one, and some of them bear
+   nothing: to each what is nearest to it and to no other.  */
 int
 bt__self_anchor (const bt__line_job *k, int i)
 {
-  const bt__dynamic_row *r = k->w->row + i;
-  const bt__line_row *of = k->w->of + i;
-  double reach = REMEMBER * bt__dynamic_rest (k->d)[r->node], least = 2 * reach;
+  double reach = REMEMBER * bt__dynamic_rest (k->d)[k->w->row[i].node], least = 2 * reach;
   int best = -1;
   for (int q = 0; q < k->olds; q++)
     {
       const bt__anchor *a = k->w->old + q;
-      if (a->mover != BT__ANCHOR_LINE || a->object != of->id || a->state < 0)
+      double away = a->state < 0 ? INFINITY : away_from (k, i, a);
+      if (!(away < least) || is_of_later (k, i, a, away))
         continue;
-      double away = fabs (a->from_end - of->from_end) + fabs (a->other - of->other);
-      if (away < least && bt__dot (a->normal, r->normal) > ALIKE)
-        {
-          best = q;
-          least = away;
-        }
+      best = q;
+      least = away;
     }
   return best;
 }
