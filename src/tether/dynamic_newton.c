@@ -22,13 +22,15 @@ enum
   PRESSED = 3,  /* iterations more, for the loads */
   SWINGING = 2, /* iterations before an update is held back */
   /* With contacts: a step that needs more is better restarted.  */
-  QUICK_TOUCHING = 30,
-  SAFE_TOUCHING = 40
+  QUICK_TOUCHING = 60,
+  SAFE_TOUCHING = 40,
+  FOLLOWING = 4 /* iterations of the safe way until friction follows the loads */
 };
 
 #define LOST 1e3          /* of the length: an update that has left every shape */
 #define FRONT 5e-4        /* m: what a front of tension may still move in the last iteration */
-#define LOST_TOUCHING 0.3 /* m: an update that has left what it touches */
+#define LOST_TOUCHING 1e3 /* m: the same among contacts */
+#define REACH 0.1         /* m: what is taken at most of one among contacts, see quick */
 #define LEAST_SHARE 0.3   /* of an update that is held back */
 #define MORE 2.0         /* times that, when updates do not go back that differ by as much as ... */
 #define WALKS_LEAST 2e-3 /* m: ... fronts that walk, at least ... */
@@ -120,7 +122,11 @@ calm (bt__dynamic_work *w, double share)
    thrown up in every step, unless the loads are too; but they need not settle at all costs.
 
    Among contacts tension walks along a slack line an interval at a time, each time by less: what is
-   left of that is taken for solved.  */
+   left of that is taken for solved.
+
+   Where a loop runs tight within the step the load of a place that is solved for may be many times
+   what it will be; without its fellows the next update then throws the line metres away.  Of that
+   only the direction is good: taken a little way it changes who bears.  */
 static int
 quick (bt__dynamic_work *w, bt__dynamic_report *report)
 {
@@ -140,7 +146,7 @@ quick (bt__dynamic_work *w, bt__dynamic_report *report)
         return 0;
       if (touches)
         {
-          share = i < SWINGING ? 1 : calm (w, share);
+          share = fmin (i < SWINGING ? 1 : calm (w, share), REACH / most);
           memcpy (w->last, w->d, (size_t)(w->n + 1) * sizeof *w->d);
         }
       int settled = take (w, share);
@@ -227,6 +233,8 @@ softer (double now)
   return now > 1e-3 ? now / 10 : 0;
 }
 
+/* Friction follows the loads now and then only: on the way down a place may press with a hundred
+   times what it will, and friction after that would hold the line where it is.  */
 static int
 safe (bt__dynamic_work *w, bt__dynamic_report *report)
 {
@@ -235,7 +243,7 @@ safe (bt__dynamic_work *w, bt__dynamic_report *report)
   if (touches)
     bt__dynamic_contact_load (w, 1);
   double phi = start (w);
-  int settled = 0;
+  int settled = 0, followed = !touches;
   for (int i = 0; i < last && !settled; i++)
     {
       bt__dynamic_assemble (w, BT__SAFE);
@@ -246,13 +254,15 @@ safe (bt__dynamic_work *w, bt__dynamic_report *report)
           report->update = NAN;
           return 0;
         }
-      settled = report->update <= w->tolerance && !(w->stiffen > 0);
+      int small = report->update <= w->tolerance && !(w->stiffen > 0);
+      settled = small && followed;
       double next = descend (w, report->update, phi);
       if (!(next <= phi) && w->stiffen >= 1)
         break;
       w->stiffen = next <= phi ? softer (w->stiffen) : stiffer (w->stiffen);
       phi = next <= phi ? next : phi;
-      if (touches) /* friction follows the loads from one iteration to the next */
+      followed = !touches || small || i % FOLLOWING == 0;
+      if (touches && followed)
         {
           bt__dynamic_contact_load (w, 0);
           phi = bt__dynamic_potential (w);
