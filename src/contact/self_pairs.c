@@ -193,14 +193,24 @@ list_itself (bt__line_job *k, bt__self_search *s, const bt__dynamic_drift *drift
   return s->dropped;
 }
 
-/* About where the line is and where it is to go, as far as its links look.  */
+/* How far what went so far in the last step is expected to go against other lines, which have
+   stepped already or are to wait: an end that is only pulled must be known to be so before the line
+   comes to what it hits.  */
+static double
+expected (const bt__line_job *k, double went)
+{
+  return k->config->strands > 0 ? AHEAD * went : 0;
+}
+
+/* About where the line is and where it is to go, or is expected to, as far as its links look.  */
 static bt__aabb
 way_of (const bt__line_job *k, const bt_vec3 *to)
 {
   bt__aabb b = bt__no_box;
+  double more = to ? 0 : expected (k, k->d->step.way);
   for (int i = 0; i <= k->links; i++)
     {
-      bt__self_add_point (&b, k->x[i], bt__self_touching (k));
+      bt__self_add_point (&b, k->x[i], bt__self_touching (k) + more);
       if (to)
         bt__self_add_point (&b, to[i], bt__self_touching (k));
     }
@@ -263,7 +273,7 @@ int
 bt__self_is_far (bt__line_job *k, bt__dynamic_drift *may)
 {
   k->w->self.clear = 1;
-  bt__self_asks (k, bt__self_touching (k));
+  bt__self_asks (k, bt__self_touching (k) + expected (k, k->d->step.way));
   if (!bt__self_counts (k))
     return 1;
   k->w->self.clear = is_clear (k);
@@ -297,7 +307,7 @@ bt__self_watch (bt__line_job *k)
   bt__self *self = &k->w->self;
   self->pairs = 0;
   self->clear = 1;
-  bt__self_asks (k, bt__self_touching (k));
+  bt__self_asks (k, bt__self_touching (k) + expected (k, k->d->step.way));
   if (!bt__self_counts (k))
     return 0;
   self->clear = is_clear (k);
@@ -306,7 +316,8 @@ bt__self_watch (bt__line_job *k)
   int known = self->clear || know (k);
   if (!self->clear && known && none_touches (self, &self->drift) && are_others_far (k, NULL))
     return 0;
-  memset (self->move, 0, (size_t)(k->links + 1) * sizeof *self->move);
+  for (int i = 0; i <= k->links; i++)
+    self->move[i] = expected (k, bt__norm (bt__dynamic_dx (k->d)[i]));
   list (k, NULL, known ? &self->drift : NULL); /* of what finds no room there is no row */
   return self->pairs > 0;
 }
