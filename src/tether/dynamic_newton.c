@@ -21,9 +21,11 @@ enum
   WALKING = 1,  /* iterations before fronts of tension are sent ahead */
   PRESSED = 3,  /* iterations more, for the loads */
   SWINGING = 2, /* iterations before an update is held back */
-  /* With contacts: a step that needs more is better restarted.  */
+  /* With contacts: a step that needs more is better restarted, but for LINKS fronts have so far to
+     walk.  */
   QUICK_TOUCHING = 60,
   SAFE_TOUCHING = 40,
+  LINKS = 120,
   FOLLOWING = 4 /* iterations of the safe way until friction follows the loads */
 };
 
@@ -36,6 +38,13 @@ enum
 #define WALKS_LEAST 2e-3 /* m: ... fronts that walk, at least ... */
 #define WALKS_MOST 2e-2  /* ... and at most */
 #define STRIDE 0.3       /* m: what is taken at most of one in the safe way */
+
+/* The most iterations among contacts: FEW for LINKS intervals, and more for more.  */
+static int
+touching (const bt__dynamic_work *w, int few)
+{
+  return w->n > LINKS ? few * w->n / LINKS : few;
+}
 
 /* Take over SHARE of the update: the multipliers and the places.  Nonzero if that hardly changed
    what presses.  */
@@ -130,7 +139,7 @@ calm (bt__dynamic_work *w, double share)
 static int
 quick (bt__dynamic_work *w, bt__dynamic_report *report)
 {
-  int touches = bt__dynamic_touches (w), last = touches ? QUICK_TOUCHING : QUICK;
+  int touches = bt__dynamic_touches (w), last = touches ? touching (w, QUICK_TOUCHING) : QUICK;
   double lost = touches ? LOST_TOUCHING : LOST / 1e-5 * w->tolerance;
   double share = 1;
   int pressed = 0;
@@ -238,7 +247,7 @@ softer (double now)
 static int
 safe (bt__dynamic_work *w, bt__dynamic_report *report)
 {
-  int touches = bt__dynamic_touches (w), last = touches ? SAFE_TOUCHING : SAFE;
+  int touches = bt__dynamic_touches (w), last = touches ? touching (w, SAFE_TOUCHING) : SAFE;
   keep_tangents (w);
   if (touches)
     bt__dynamic_contact_load (w, 1);
