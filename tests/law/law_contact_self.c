@@ -91,16 +91,24 @@ length_of (const bt_vec3 *p, int n)
   return sum;
 }
 
+/* ASIDE: the held end is so far aside, m.  */
 static void
-tie (rope *p, reef *r, int links, double beam, double mu)
+tie_aside (rope *p, reef *r, int links, double beam, double mu, double aside)
 {
   bt_vec3 path[TURN + 8];
   int n = overhand (path, beam + 0.25, 0.13, 4);
+  path[0].y += aside;
   assert_true (reef_open (r));
   reef_cylinder (r, bt__vec (0, 0, -3), bt__vec (0, 0, 3), beam);
   assert_true (reef_raise (r));
   assert_true (rope_open (p, r, links, path, n, 1.001 * length_of (path, n), mu));
   set_itself (p);
+}
+
+static void
+tie (rope *p, reef *r, int links, double beam, double mu)
+{
+  tie_aside (p, r, links, beam, mu, 0);
 }
 
 static void
@@ -158,6 +166,85 @@ knot_holds (void **state)
   (void)state;
   pull_tight (120, 60);
   pull_tight (120, 300);
+}
+
+/* ---- How hard it stops what pulls ---- */
+
+/* What came of knots that ran up.  */
+typedef struct stops
+{
+  long steps, unsolved, solves;
+  double end, line; /* the most tension, at the end and anywhere, of what it may be */
+} stops;
+
+/* A body of MASS that FORCE pulls at SPEED when it is stopped by LENGTH of the line of P, whose
+   share of what moves is a third: the most tension of a mass on a spring.  */
+static double
+snap_load (const rope *p, double length, double mass, double force, double speed)
+{
+  double k = p->line.ea / length, m = mass + length * p->line.mass / 3;
+  return force + sqrt (force * force + k * m * speed * speed);
+}
+
+/* The same knot run up by FORCE on a body of MASS, the held end ASIDE.  Any place of the line may
+   besides meet what comes at it with the SPEED of the end, a wave of v sqrt (EA m), which is
+   doubled where it is stopped.  */
+static void
+run_up (double force, double mass, double aside, stops *s)
+{
+  static reef r;
+  static rope p;
+  witness w = { .nearest = 1 };
+  double speed = 0, end = 0, beyond = 0;
+  tie_aside (&p, &r, 120, 0.15, 0.3, aside);
+  pull (&p, force);
+  p.in.end[1].body.mass = mass;
+  for (int i = 0; i < 300; i++)
+    {
+      step (&p, &w, 0);
+      const bt_vec3 *x = bt__dynamic_x (p.d);
+      end = fmax (end, bt__dynamic_tension (p.d)[p.d->n - 1]);
+      speed = fmax (speed, bt__norm (bt__dynamic_v (p.d)[p.d->n]));
+      beyond = hypot (x[p.d->n].x, x[p.d->n].y); /* of the beam */
+    }
+  double pulls = bt__norm (p.in.end[1].body.force),
+         snap = snap_load (&p, beyond, mass, pulls, speed);
+  s->end = fmax (s->end, end / snap);
+  s->line = fmax (s->line, p.tension / (snap + 2 * speed * sqrt (p.line.ea * p.line.mass)));
+  s->unsolved += p.unconverged;
+  s->solves += p.solves;
+  s->steps += p.steps;
+  untie (&p, &r);
+}
+
+/* However it runs up, a knot stops what pulls no harder than its line would if its end beyond the
+   beam were held; hardly a step is not solved, and at rest it is solved at once.  */
+static void
+knot_stops_as_its_line_does (void **state)
+{
+  (void)state;
+  static const double force[] = { 60, 300 }, mass[] = { 20, 0.2 };
+  stops all = { 0 };
+  int ways = is_long () ? 60 : 8;
+  for (int k = 0; k < 4; k++)
+    {
+      stops s = { 0 };
+      for (int i = 1; i <= ways; i++)
+        run_up (force[k & 1], mass[k >> 1], 0.4 * i / ways, &s);
+      print_message ("# %.0f N, %.1f kg: %ld of %ld steps unsolved, %.1f solves each; of the snap "
+                     "load %.2f at the end, %.2f anywhere\n",
+                     force[k & 1], mass[k >> 1], s.unsolved, s.steps,
+                     (double)s.solves / (double)s.steps, s.end, s.line);
+      all.end = fmax (all.end, s.end);
+      all.line = fmax (all.line, s.line);
+      all.unsolved += s.unsolved;
+      all.solves += s.solves;
+      all.steps += s.steps;
+    }
+  assert_below (all.end, 1, "tension at the end, of the snap load");
+  assert_below (all.line, 1.2, "tension anywhere, of that and of two waves");
+  assert_below ((double)all.unsolved, 1e-3 * (double)all.steps, "steps that are not solved");
+  assert_below ((double)all.solves / (double)all.steps, 8, "solves of a step");
 }
 
 /* Without contact with itself the line goes through, and the witness says so.  */
@@ -325,7 +412,7 @@ bights_hook (void **state)
   static rope p, q;
   witness w = { .nearest = 1 };
   long crossings = 0;
-  double nearest = 1, seconds = 5;
+  double nearest = 1, seconds = 5, off = 0;
   bt_vec3 a = { 0, 0, 0 }, b = { 0, 0, 0 };
   bt_vec3 one[] = { { -3, -0.5, 0 }, { 0.3, 0, 0 }, { -3, 0.5, 0 } };
   bt_vec3 two[] = { { 3, 0, -0.5 }, { -0.3, 0, 0 }, { 3, 0, 0.5 } };
@@ -357,6 +444,7 @@ bights_hook (void **state)
       nearest = fmin (nearest, meet_clearance (x, 41, y, 41, 0, 0.05));
       if (i < 2400 - seconds / frame)
         continue;
+      off = fmax (off, fabs (force_on (&p).x - 100));
       a = bt__axpy (a, frame / seconds, force_on (&p));
       b = bt__axpy (b, frame / seconds, force_on (&q));
     }
@@ -369,6 +457,7 @@ bights_hook (void **state)
   assert_true (nearest >= CORE);
   assert_near (bt__norm (bt__add (a, b)), 0, 0.02 * bt__norm (b), "force and reaction");
   assert_near (a.x, 100, 2, "the pull of the ends");
+  assert_below (off, 10, "what any step is off that");
   assert_near (now, 2 * RADIUS, 0.2 * RADIUS, "the distance of the axes");
   rope_close (&q);
   untie (&p, &r);
@@ -411,10 +500,13 @@ gains_no_energy (void **state)
 int
 main (void)
 {
-  const struct CMUnitTest tests[]
-      = { cmocka_unit_test (knot_holds),     cmocka_unit_test (knot_runs_through),
-          cmocka_unit_test (junk),           cmocka_unit_test (straight_line_asks_nothing),
-          cmocka_unit_test (bights_hook),    cmocka_unit_test (remembers_nothing),
-          cmocka_unit_test (gains_no_energy) };
+  const struct CMUnitTest tests[] = { cmocka_unit_test (knot_holds),
+                                      cmocka_unit_test (knot_stops_as_its_line_does),
+                                      cmocka_unit_test (knot_runs_through),
+                                      cmocka_unit_test (junk),
+                                      cmocka_unit_test (straight_line_asks_nothing),
+                                      cmocka_unit_test (bights_hook),
+                                      cmocka_unit_test (remembers_nothing),
+                                      cmocka_unit_test (gains_no_energy) };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
