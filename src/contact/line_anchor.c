@@ -136,6 +136,15 @@ bt__line_stiffness (const bt__line_job *k, int64_t i, double last)
   return fmax (stiff, YIELD * load / (c->radius - c->core));
 }
 
+/* Row I of an obstacle.  */
+static void
+harden (bt__line_job *k, int i)
+{
+  bt__dynamic_row *r = k->w->row + i;
+  r->stiffness = bt__line_stiffness (k, r->node, 0);
+  bt__line_press (k, i);
+}
+
 /* ---- What is remembered ---- */
 
 /* How far anchor Q is from row I, along the line and by its direction; INFINITY if it is another's
@@ -239,8 +248,10 @@ bt__line_harden (bt__line_job *k)
         continue;
       r->slip = BT__LINE_SLIP;
       r->friction = coefficient (k, i);
-      r->stiffness = k->w->of[i].mover == BT__LINE_SELF ? bt__self_stiffness (k, i)
-                                                        : bt__line_stiffness (k, r->node, r->load);
+      if (k->w->of[i].mover == BT__LINE_SELF)
+        r->stiffness = bt__self_stiffness (k, i);
+      else
+        harden (k, i);
     }
 }
 

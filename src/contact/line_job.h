@@ -75,11 +75,13 @@ typedef struct bt__line_row
   int64_t id; /* of the obstacle */
   int flat;   /* the line lies along the plane there */
   int fresh;  /* the contact is new */
+  int wedged; /* the link is between two obstacles */
   double from_end;
-  double other;  /* of a line: the same there */
-  int64_t age;   /* steps so far */
-  double work;   /* J so far */
-  bt_vec3 point; /* on the obstacle, at the end of the step */
+  double other;    /* of a line: the same there */
+  double distance; /* m: of the link from the obstacle, as the step starts */
+  int64_t age;     /* steps so far */
+  double work;     /* J so far */
+  bt_vec3 point;   /* on the obstacle, at the end of the step */
 } bt__line_row;
 
 struct bt__line_work
@@ -118,6 +120,7 @@ typedef struct bt__line_job
   const bt__line_config *config;
   bt__anchors *anchors;
   int links, rows, olds, bents;
+  int wedged;          /* of the link whose rows are made: see bt__line_is_wedged */
   double core, margin; /* m: a little more than asked for, for rounding; of what touches */
   double h;
   const bt_vec3 *x; /* at the start */
@@ -176,6 +179,15 @@ void bt__line_rows (bt__line_job *k);
    as W says, in the frame of what it met.  Return the row's number or -1.  */
 int bt__line_add_hit (bt__line_job *k, uint32_t j, const bt__near *near, const bt__witness *w,
                       double t);
+
+/* ---- Between two obstacles (line_wedge.c) ---- */
+
+/* Nonzero if link J is near to two obstacles that push it toward each other.  */
+int bt__line_is_wedged (const bt__line_job *k, uint32_t j);
+
+/* Make row I, whose stiffness is that of a light touch, that of a line pressed in as far as link
+   and obstacle are.  */
+void bt__line_press (const bt__line_job *k, int i);
 
 /* ---- Where the line runs about an edge (line_bend.c) ---- */
 

@@ -160,7 +160,9 @@ set_row (bt__line_job *k, int number, uint32_t j, double s, const bt__near *near
     .triangle = near->triangle,
     .id = bt__line_scene (k, near)->object[near->object].id,
     .fresh = 1,
+    .wedged = k->wedged,
     .from_end = (1 - s) * k->w->from_end[j] + s * k->w->from_end[j + 1],
+    .distance = near->w.distance,
     .point = point,
   };
 }
@@ -181,7 +183,7 @@ take_row (bt__line_job *k, int flat)
   bt__dynamic_row *row = k->w->row, *r = row + k->rows;
   bt__line_row *of = k->w->of;
   of[k->rows].flat = flat;
-  for (int i = k->rows - 1; i >= 0 && row[i].node + 1 >= r->node; i--)
+  for (int i = k->rows - 1; i >= 0 && row[i].node + !k->wedged >= r->node; i--)
     if (fabs (place_of (row + i) - place_of (r)) < SAME
         && bt__dot (row[i].normal, r->normal) > ALIKE)
       {
@@ -407,6 +409,18 @@ is_sharp (const bt__line_job *k, const pass *p, int e)
   return more > FLAT * k->config->radius && beyond_plane (k, p, 0.5, &w) > SHARP * more;
 }
 
+/* Nonzero if link J comes nearer to what NEAR is of than NEAR does.  */
+static int
+comes_nearer (const bt__line_job *k, int64_t j, const bt__near *near)
+{
+  const bt__near *its = bt__line_near (k, (uint32_t)j);
+  double nearest = near->w.distance - NEAREST * k->config->radius;
+  for (uint32_t i = 0; i < k->w->watch[j].found; i++)
+    if (its[i].link == near->link && its[i].object == near->object && its[i].w.distance < nearest)
+      return 1;
+  return 0;
+}
+
 /* Nonzero if link J's end E is at a sharp edge, and beyond it the line comes nearer yet: the next
    link bears, and the plane of the end would bar the way of the node over the edge.  */
 static int
@@ -420,7 +434,7 @@ bars_the_way (const bt__line_job *k, uint32_t j, int e, const pass *p)
   if (m)
     n = bt__out_of (&m->motion.from, n);
   return bt__dot (n, bt__sub (k->x[next], k->x[i])) < -NEAREST * k->config->radius
-         && is_sharp (k, p, e);
+         && comes_nearer (k, e ? i : next, p->near) && is_sharp (k, p, e);
 }
 
 static void
@@ -435,7 +449,7 @@ touch_part (bt__line_job *k, uint32_t j, const bt__near *near)
   double length = bt__distance (p.from.a, p.from.b);
   pass_end end[2] = { pass_end_of (k, &p, 0, length), pass_end_of (k, &p, 1, length) };
   double nearest = near->w.distance + NEAREST * k->config->radius, raise = 0;
-  int both = end[0].round && end[1].round;
+  int both = end[0].round && end[1].round && !k->wedged;
   if (both)
     {
       double about = end[0].lever > end[1].lever ? end[0].radius : end[1].radius;
@@ -505,6 +519,7 @@ bt__line_rows (bt__line_job *k)
     {
       const bt__near *near = bt__line_near (k, j);
       int first = k->rows;
+      k->wedged = bt__line_is_wedged (k, j);
       for (uint32_t i = 0; i < k->w->watch[j].found; i++)
         if (near[i].w.distance < touch)
           touch_part (k, j, near + i);
@@ -547,6 +562,7 @@ bt__line_add_hit (bt__line_job *k, uint32_t j, const bt__near *near, const bt__w
   int at = row_for_hit (k, j, near, w->s, n);
   if (at >= k->w->rows_max)
     return -1;
+  k->wedged = bt__line_is_wedged (k, j);
   set_row (k, at, j, w->s, near, w, near->w.distance);
   bt__dynamic_row *r = k->w->row + at;
   bt_vec3 a = bt__sub (k->X[j], k->x[j]), b = bt__sub (k->X[j + 1], k->x[j + 1]);
