@@ -23,6 +23,7 @@
 #define TURNED 1.0    /* of that: a normal that is at right angles counts like a place so far */
 #define STIFF 30.0    /* times EA over a link's length: of contacts, ... */
 #define STIFFEST 1e9  /* N/m: ... at most, but for the load */
+#define HARDER 30.0   /* times stiffer is what is hit although it pushes */
 #define YIELD 20.0    /* the part of the way to the core that the load may press a contact in */
 
 /* ---- The block ---- */
@@ -132,7 +133,7 @@ bt__line_stiffness (const bt__line_job *k, int64_t i, double last)
   const double *rest = bt__dynamic_rest (k->d), *tension = bt__dynamic_tension (k->d);
   const bt__line_config *c = k->config;
   double ea = k->in->line->ea, load = fmax (tension[i], last);
-  double stiff = fmin (STIFF * ea / rest[i], STIFFEST);
+  double stiff = fmin (STIFF * ea / fmax (rest[i], k->d->piece), STIFFEST);
   return fmax (stiff, YIELD * load / (c->radius - c->core));
 }
 
@@ -141,7 +142,8 @@ static void
 harden (bt__line_job *k, int i)
 {
   bt__dynamic_row *r = k->w->row + i;
-  r->stiffness = bt__line_stiffness (k, r->node, 0);
+  double stiff = bt__line_stiffness (k, r->node, 0);
+  r->stiffness = fmin (stiff * pow (HARDER, k->w->of[i].again), fmax (stiff, STIFFEST));
   bt__line_press (k, i);
 }
 
@@ -247,7 +249,7 @@ bt__line_harden (bt__line_job *k)
       if (r->stiffness > 0)
         continue;
       r->slip = BT__LINE_SLIP;
-      r->friction = coefficient (k, i);
+      r->friction = k->bents > 0 && bt__line_is_bent_about (k, i) ? 0 : coefficient (k, i);
       if (k->w->of[i].mover == BT__LINE_SELF)
         r->stiffness = bt__self_stiffness (k, i);
       else

@@ -76,6 +76,7 @@ typedef struct bt__line_row
   int flat;   /* the line lies along the plane there */
   int fresh;  /* the contact is new */
   int wedged; /* the link is between two obstacles */
+  int again;  /* times it was hit although a row was there */
   double from_end;
   double other;    /* of a line: the same there */
   double distance; /* m: of the link from the obstacle, as the step starts */

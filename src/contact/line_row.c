@@ -562,8 +562,10 @@ bt__line_add_hit (bt__line_job *k, uint32_t j, const bt__near *near, const bt__w
   int at = row_for_hit (k, j, near, w->s, n);
   if (at >= k->w->rows_max)
     return -1;
+  int again = at < k->rows ? k->w->of[at].again + 1 : 0;
   k->wedged = bt__line_is_wedged (k, j);
   set_row (k, at, j, w->s, near, w, near->w.distance);
+  k->w->of[at].again = again;
   bt__dynamic_row *r = k->w->row + at;
   bt_vec3 a = bt__sub (k->X[j], k->x[j]), b = bt__sub (k->X[j + 1], k->x[j + 1]);
   bt_vec3 moved = bt__sub (bt__axpy (bt__scale (1 - r->s, a), r->s, b), r->drift);

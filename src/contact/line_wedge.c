@@ -46,7 +46,7 @@ bt__line_press (const bt__line_job *k, int i)
   bt__dynamic_row *r = k->w->row + i;
   double way = k->config->radius - k->config->core, easy = EASY * way;
   double beyond = k->config->radius - k->w->of[i].distance - easy;
-  if (!(beyond > 0))
+  if (!k->w->of[i].wedged || !(beyond > 0))
     return;
   double y = fmin (beyond / (way - easy), HARDEST), left = 1 - y;
   beyond = y * (way - easy);
