@@ -8,8 +8,9 @@
    between two, they are with tanh (mu D/2) / tan (D/2); with one on every link, turning D at every
    node, with sinh (mu D) / sin D.
 
-   The stiffness follows the load: what a contact gives way must be small against the way from the
-   radius to the core, or the guard would bear the load and nothing slid.
+   The stiffness follows the tension: what a contact gives way must be small against the way from the
+   radius to the core, or the guard would bear the load and nothing slid.  It does not follow the
+   load: in a crotch (line_wedge.c) and beside held nodes contacts press on each other.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -14,9 +14,9 @@
 
 #include "contact/line_job.h"
 
-#define OPPOSED (-0.5) /* product of two normals: less, and they make a wedge */
-#define EASY 0.25      /* of the way to the core: so far a contact is a spring, ... */
-#define HARDEST 0.9    /* ... and so far beyond it gets stiffer */
+#define OPPOSED (-0.25) /* product of two normals: less, and they make a wedge */
+#define EASY 0.25       /* of the way to the core: so far a contact is a spring, ... */
+#define HARDEST 0.7     /* ... and so far beyond it gets stiffer */
 
 /* The direction out of NEAR in the world.  */
 static bt_vec3
