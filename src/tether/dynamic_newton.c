@@ -31,7 +31,8 @@ enum
 
 #define LOST 1e3          /* of the length: an update that has left every shape */
 #define FRONT 5e-4        /* m: what a front of tension may still move in the last iteration */
-#define LOST_TOUCHING 1e3 /* m: the same among contacts */
+#define LOST_TOUCHING 1e3 /* m: the same among contacts, ... */
+#define LOST_HELD 0.3     /* ... and where an end is held */
 #define REACH 0.1         /* m: what is taken at most of one among contacts, see quick */
 #define LEAST_SHARE 0.3   /* of an update that is held back */
 #define MORE 2.0         /* times that, when updates do not go back that differ by as much as ... */
@@ -135,12 +136,13 @@ calm (bt__dynamic_work *w, double share)
 
    Where a loop runs tight within the step the load of a place that is solved for may be many times
    what it will be; without its fellows the next update then throws the line metres away.  Of that
-   only the direction is good: taken a little way it changes who bears.  */
+   only the direction is good: taken a little way it changes who bears.  Not so where an end is
+   held, which has mass only when it is pulled: thrown far it would not come back.  */
 static int
 quick (bt__dynamic_work *w, bt__dynamic_report *report)
 {
   int touches = bt__dynamic_touches (w), last = touches ? touching (w, QUICK_TOUCHING) : QUICK;
-  double lost = touches ? LOST_TOUCHING : LOST / 1e-5 * w->tolerance;
+  double lost = w->hold ? LOST_HELD : touches ? LOST_TOUCHING : LOST / 1e-5 * w->tolerance;
   double share = 1;
   int pressed = 0;
   for (int i = 0; i < last; i++)
