@@ -199,7 +199,7 @@ run_up (double force, double mass, double aside, stops *s)
   tie_aside (&p, &r, 120, 0.15, 0.3, aside);
   pull (&p, force);
   p.in.end[1].body.mass = mass;
-  for (int i = 0; i < 300; i++)
+  for (int i = 0; i < 600; i++)
     {
       step (&p, &w, 0);
       const bt_vec3 *x = bt__dynamic_x (p.d);
@@ -244,7 +244,7 @@ knot_stops_as_its_line_does (void **state)
   assert_below (all.end, 1, "tension at the end, of the snap load");
   assert_below (all.line, 1.2, "tension anywhere, of that and of two waves");
   assert_below ((double)all.unsolved, 1e-3 * (double)all.steps, "steps that are not solved");
-  assert_below ((double)all.solves / (double)all.steps, 8, "solves of a step");
+  assert_below ((double)all.solves / (double)all.steps, 6, "solves of a step");
 }
 
 /* Without contact with itself the line goes through, and the witness says so.  */
