@@ -856,11 +856,27 @@
     (close-port (cdr ends))
     (cons pid (car ends))))
 
-(define (next-line port)
-  ;; The next line of PORT, or #f after a long silence.
-  (if (or (char-ready? port) (pair? (car (select (list port) '() '() patience))))
-      (read-line port)
-      #f))
+(define ticks-per-second 100)           ; of /proc, on every Linux
+
+(define (usage pid)
+  ;; What process PID is at, a letter, and the seconds of processor time it has used.
+  (let* ((line (call-with-input-file (simple-format #f "/proc/~a/stat" pid) read-line))
+         (fields (string-split (string-drop line (+ 2 (string-rindex line #\)))) #\space)))
+    (cons (car fields)
+          (/ (+ (string->number (list-ref fields 11)) (string->number (list-ref fields 12)))
+             (exact->inexact ticks-per-second)))))
+
+(define (next-line child)
+  ;; The next line of CHILD; or, after a long silence, what it was at.  On a busy machine a child may be
+  ;; silent for long: it is waited for while it gets on, and has not used as much time as it may.
+  (let* ((pid (car child)) (port (cdr child)) (began (cdr (usage pid))))
+    (let wait ((before began))
+      (if (or (char-ready? port) (pair? (car (select (list port) '() '() patience))))
+          (read-line port)
+          (let* ((now (usage pid)) (used (- (cdr now) began)))
+            (if (< before (cdr now) (+ began patience))
+                (wait (cdr now))
+                (list (car now) used)))))))
 
 (define (watch file seed first n more)
   "Run N sequences from FIRST in a child and tell what it found.  Return the sequence it was in at its
@@ -873,7 +889,7 @@ end (#f if it came to the end), and the counts of calls and findings."
                                   more)))
             (port (cdr child)))
        (let loop ((at first) (done #f) (found 0))
-         (let* ((line (next-line port))
+         (let* ((line (next-line child))
                 (word (and (string? line) (car (string-split line #\space))))
                 (rest (if word (string-drop line (min (string-length line) (+ 1 (string-length word)))) "")))
            (cond ((eof-object? line)
@@ -885,10 +901,13 @@ end (#f if it came to the end), and the counts of calls and findings."
                                                     (simple-format #f "signal ~a" (status:term-sig status))
                                                     (simple-format #f "status ~a" (status:exit-val status))))
                               found))))
-                 ((not line)
+                 ((pair? line)
                   (kill (car child) SIGKILL)
                   (waitpid (car child))
-                  (list at "was silent and had to be killed" found))
+                  (list at
+                        (simple-format #f "was silent, in state ~a after ~a s, and had to be killed"
+                                       (car line) (cadr line))
+                        found))
                  ((string=? word "at") (loop (string->number rest) done found))
                  ((string=? word "done")
                   (loop at (string->number (car (string-split rest #\space))) found))
