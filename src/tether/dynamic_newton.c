@@ -245,7 +245,8 @@ softer (double now)
 }
 
 /* Friction follows the loads now and then only: on the way down a place may press with a hundred
-   times what it will, and friction after that would hold the line where it is.  */
+   times what it will, and friction after that would hold the line where it is.  Where nothing but
+   fronts of tension walks, and friction has followed in between, that is taken for solved.  */
 static int
 safe (bt__dynamic_work *w, bt__dynamic_report *report)
 {
@@ -254,7 +255,7 @@ safe (bt__dynamic_work *w, bt__dynamic_report *report)
   if (touches)
     bt__dynamic_contact_load (w, 1);
   double phi = start (w);
-  int settled = 0, followed = !touches;
+  int settled = 0, followed = !touches, fronts = 0;
   for (int i = 0; i < last && !settled; i++)
     {
       bt__dynamic_assemble (w, BT__SAFE);
@@ -266,7 +267,8 @@ safe (bt__dynamic_work *w, bt__dynamic_report *report)
           return 0;
         }
       int small = report->update <= w->tolerance && !(w->stiffen > 0);
-      settled = small && followed;
+      fronts = touches && report->update <= FRONT && !(w->stiffen > 0) ? fronts + 1 : 0;
+      settled = (small && followed) || fronts > FOLLOWING;
       double next = descend (w, report->update, phi);
       if (!(next <= phi) && w->stiffen >= 1)
         break;
