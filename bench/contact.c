@@ -5,11 +5,12 @@
    the counters say what share of steps was held back or cut, and how far T2 swings.  jacket: a
    pilot who aims through the members: percentiles of the step, towed and with a mass of its own, at
    0.1, 1 and 3 m/s.  wrap: a line about a drum, by the number of contacts and the drum's radius,
-   beside its capstan.  ground: a line on a bottom, by the number of places it touches.  alone: what a
-   scene far away adds to the line's own step.  quiet: the most energy a line that falls over a beam
-   gains in a step, and how fast contacts of lines at rest slip.  knot: an overhand knot about a beam
-   runs up and is pulled tight, laid 20 ways; the error is the most tension at the end against that
-   of a mass stopped by a spring.
+   beside its capstan.  ground: a line on a bottom, by the number of places it touches.  alone: how
+   many times its own step a line takes that has a scene far away to look out for, or itself,
+   hanging, folded, in a coil (contact_alone.c).  quiet: the most energy a line that falls over a
+   beam gains in a step, and how fast contacts of lines at rest slip.  knot: an overhand knot about
+   a beam runs up and is pulled tight, laid 20 ways; the error is the most tension at the end
+   against that of a mass stopped by a spring.
 
    Crossings are counted by an outside judge; times leave him out.  Times are CPU; the calibration
    ratio is per step.
@@ -22,6 +23,7 @@
 #include <stdlib.h>
 
 #include "calibration.h"
+#include "contact_alone.h"
 #include "contact_quiet.h"
 #include "contact_scene.h"
 #include "contact_wrap.h"
@@ -279,47 +281,6 @@ lie (int links, double height, int mesh)
   close_scene ();
 }
 
-/* ---- Alone ---- */
-
-static double
-fly_alone (int obstacles)
-{
-  const bt_vec3 shape[] = { { 0, 0, 0 }, { 25, 3, -4 }, { 50, 0, 0 } };
-  enum
-  {
-    ROUNDS = 25,
-    STEPS = 400
-  };
-  double rounds[ROUNDS];
-  if (!reef_open (&place))
-    fail ();
-  if (obstacles)
-    reef_box (&place, bt__vec (10, 0, -60), bt__vec (1, 1, 1), 0);
-  if (!reef_raise (&place) || !rope_open (&line, &place, LINKS, shape, 3, 58, 0.3))
-    fail ();
-  for (int k = 0; k < ROUNDS; k++)
-    {
-      double start = bench_now ();
-      for (int i = 0; i < STEPS; i++)
-        {
-          double t = frame * (k * STEPS + i);
-          line.in.end[1].at = bt__vec (50 + sin (t), cos (1.3 * t), sin (0.7 * t));
-          if (obstacles >= 0)
-            rope_step (&line, frame, 0);
-        }
-      rounds[k] = (bench_now () - start) / STEPS;
-    }
-  close_scene ();
-  return bench_median (rounds, ROUNDS);
-}
-
-static void
-alone (void)
-{
-  double none = fly_alone (0), far = fly_alone (1);
-  row ("alone", "a scene far away", "more than the line's own", far / none - 1, far, "");
-}
-
 /* ---- Knotted ---- */
 
 /* Lay an overhand knot of LINKS about a beam, its held end ASIDE, pulled by FORCE on a body of
@@ -424,7 +385,7 @@ knot (int links, double force, double mass)
 /* ---- ---- */
 
 static int
-run (long steps, uint64_t seed)
+run (long steps, uint64_t seed, int rounds)
 {
   static const double speeds[] = { 0.1, 1, 3 };
   bench_open (&table);
@@ -441,8 +402,7 @@ run (long steps, uint64_t seed)
     for (int links = 50; links <= 200; links *= 2)
       lie (links, 1, mesh);
   lie (100, 5, 0);
-  alone ();
-  if (!contact_quiet (&table, steps < 1000))
+  if (!contact_alone (&table, rounds) || !contact_quiet (&table, steps < 1000))
     fail ();
   knot (120, 60, 20);
   knot (120, 300, 20);
@@ -454,13 +414,14 @@ run (long steps, uint64_t seed)
 int
 main (int argc, char **argv)
 {
-  long steps = 6000, seed = 3;
+  long steps = 6000, seed = 3, rounds = 41;
   const bench_option options[] = {
     { "steps", &steps, 1, MOST_STEPS, 900, "steps of a pilot in the jacket" },
     { "seed", &seed, 0, LONG_MAX, 0, "seed of the jacket and the pilot" },
+    { "rounds", &rounds, 1, 201, 11, "rounds of lines that touch nothing" },
   };
   const bench_program program
-      = { "contact", "Measure the moving line among obstacles", options, 2 };
+      = { "contact", "Measure the moving line among obstacles", options, 3 };
   int status = bench_options (&program, argc, argv);
-  return status == BENCH_GO_ON ? run (steps, (uint64_t)seed) : status;
+  return status == BENCH_GO_ON ? run (steps, (uint64_t)seed, (int)rounds) : status;
 }

@@ -12,7 +12,8 @@ part_work (const bt_profile *p, int parts)
     part of;
     uint64_t work;
   } table[] = {
-    { PART_MOVING_LINE, p->chain_steps + p->chain_solves + p->chain_sleeps + p->chain_remeshes },
+    { PART_MOVING_LINE,
+      p->chain_steps + p->chain_solves + p->chain_sleeps + p->chain_remeshes + p->line_pairs },
     { PART_STATIC_LINE, p->search_iterations + p->shots + p->marches + p->relaxations },
     { PART_THESIS, p->span_solves + p->span_skips },
     { PART_OBSTACLES, p->links_asked + p->boxes_visited + p->pairs_measured + p->links_clear

@@ -27,6 +27,19 @@ typedef struct bt__aabb
   bt_vec3 lo, hi;
 } bt__aabb;
 
+/* BOX with P in it.  */
+static inline bt__aabb
+bt__box_with (bt__aabb box, bt_vec3 p)
+{
+  box.lo.x = p.x < box.lo.x ? p.x : box.lo.x;
+  box.lo.y = p.y < box.lo.y ? p.y : box.lo.y;
+  box.lo.z = p.z < box.lo.z ? p.z : box.lo.z;
+  box.hi.x = p.x > box.hi.x ? p.x : box.hi.x;
+  box.hi.y = p.y > box.hi.y ? p.y : box.hi.y;
+  box.hi.z = p.z > box.hi.z ? p.z : box.hi.z;
+  return box;
+}
+
 /* Eight children: where count is 0 first is a node, else the first of count items in leaf order.  A
    missing child has a negative half size.  */
 typedef struct bt__bvh_node

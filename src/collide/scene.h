@@ -90,6 +90,10 @@ void bt__scene_free (bt__scene *scene); /* NULL is nothing */
 /* The box about an obstacle; a plane's has no end.  */
 bt__aabb bt__obstacle_box (const bt__obstacle *obstacle);
 
+/* How far BOX is from everything in SCENE, at least, m, whatever is switched off: by the cube about
+   all of it.  Less than 0 says nothing; INFINITY: there is nothing.  */
+double bt__scene_apart (const bt__scene *scene, const bt__aabb *box);
+
 /* The distance of LINK to an obstacle that is not a mesh.  */
 void bt__obstacle_pair (const bt__obstacle *obstacle, const bt__link *link, bt__witness *out);
 

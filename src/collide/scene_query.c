@@ -138,6 +138,33 @@ bt__nears_has (const bt__nears *list, uint32_t link, uint32_t object, double rea
   return 0;
 }
 
+/* ---- All of it ---- */
+
+static double
+gap_between (double lo, double hi, double centre, double half)
+{
+  return fmax (lo - (centre + half), centre - half - hi);
+}
+
+double
+bt__scene_apart (const bt__scene *scene, const bt__aabb *box)
+{
+  bt_vec3 lo = box->lo, hi = box->hi, o = scene->tree.origin;
+  bt_vec3 middle = bt__scale (0.5, bt__add (lo, hi)), reach = bt__scale (0.5, bt__sub (hi, lo));
+  double half = 0.5000001 * scene->tree.extent + 1e-15 * bt__largest (o), gap = INFINITY;
+  if (scene->solids > 0)
+    gap = fmax (gap_between (lo.x, hi.x, o.x, half),
+                fmax (gap_between (lo.y, hi.y, o.y, half), gap_between (lo.z, hi.z, o.z, half)));
+  for (uint32_t i = 0; i < scene->planes; i++)
+    {
+      const bt__plane *p = &scene->object[scene->plane[i]].shape.plane;
+      bt_vec3 n = p->normal;
+      gap = fmin (gap, bt__dot (n, middle) - p->offset - fabs (n.x) * reach.x - fabs (n.y) * reach.y
+                           - fabs (n.z) * reach.z);
+    }
+  return gap;
+}
+
 /* ---- One link ---- */
 
 typedef struct question

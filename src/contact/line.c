@@ -333,24 +333,35 @@ tell_ends (bt__line_job *k, const bt__dynamic_input *input)
     }
 }
 
+/* Nonzero if there is but the line, which is clear of itself: what it meets cannot be why it is not
+   solved.  */
+static int
+is_alone (const bt__line_job *k)
+{
+  return k->scene->n == 0 && k->movers == 0 && k->config->strands == 0 && k->w->self.clear;
+}
+
 /* The step of a line that is far from everything while it drifts by no more than MAY; else *DONE is
    zero and nothing has happened.  */
 static bt_status
 step_far (bt__line_job *k, const bt__dynamic_drift *may, bt__dynamic_report *report, int *done,
           bt_error *error)
 {
+  bt__dynamic_watch watch;
   bt_status status = bt__dynamic_begin (k->d, k->kernel, k->in, report, error);
   *done = 1;
+  if (status == BT_OK)
+    status = bt__dynamic_iterate_free (k->d, k->kernel, &watch, report, error);
   if (status)
     return status;
-  bt__dynamic_iterate (k->kernel, NULL, 0, NULL, report);
   k->X = bt__dynamic_proposal (k->kernel);
-  *done = isfinite (report->update) && bt__self_stays_far (k);
+  *done = is_alone (k) || (isfinite (report->update) && bt__self_stays_far (k));
   if (*done)
     status = bt__dynamic_finish_within (k->d, k->kernel, may, done, report, error);
   if (!*done || status)
     return status;
-  bt__self_note_near (k);
+  bt__dynamic_note_free (k->d, k->kernel, &watch);
+  bt__self_note (k);
   k->anchors->n = 0;
   return BT_OK;
 }
@@ -384,7 +395,7 @@ step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
     return status;
   bt__line_store (k);
   bt__line_note_near (k, beside);
-  bt__self_note_near (k);
+  bt__self_note (k);
   bt__line_rebend (k);
   if (k->in->pay != 0 || k->d->owed != 0)
     bt__line_wind (k);

@@ -244,16 +244,17 @@ bt__self_asks_more (const bt__line_job *k, double way)
   k->w->asked += way;
 }
 
-/* self_pairs.c: nonzero if no link can meet one of the line itself while it drifts by no more than
-   MAY, nor one of another line as the step starts; nonzero if none of another line in the proposed
-   move.  List the pairs that could meet in the step; return nonzero if there are any.  The same for
-   the proposed move, which is shortened if there is no room for all.  After a step in which there
-   were some.  */
-int bt__self_is_far (bt__line_job *k, bt__dynamic_drift *may);
-int bt__self_stays_far (const bt__line_job *k);
+/* self_pairs.c: list the pairs that could meet in the step, of the line itself and of others;
+   return nonzero if there are any.  The same for the proposed move, which is shortened if there is
+   no room for all.  Keep for the next step what there was.  */
 int bt__self_watch (bt__line_job *k);
 void bt__self_watch_moves (bt__line_job *k);
-void bt__self_note_near (bt__line_job *k);
+void bt__self_note (bt__line_job *k);
+
+/* Nonzero if there are none, and *MAY is how far the line may drift for it to stay so, no farther
+   than it was; nonzero if then none can meet in the proposed move.  */
+int bt__self_is_far (bt__line_job *k, bt__dynamic_drift *may);
+int bt__self_stays_far (bt__line_job *k);
 
 /* How far each node may go with the line clear of itself and others whatever they do, m, up to a
    share of an interval.  */

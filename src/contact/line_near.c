@@ -184,37 +184,13 @@ clear_by (bt__line_job *k, uint32_t j, double least)
   return k->w->watch[j].clear;
 }
 
-static double
-gap_between (double lo, double hi, double centre, double half)
+static bt__aabb
+box_of (const bt__line_job *k)
 {
-  return fmax (lo - (centre + half), centre - half - hi);
-}
-
-/* How far the line is from everything that stands, at least, by the box about it.  */
-static double
-distance_of_all (const bt__line_job *k)
-{
-  const bt__scene *s = k->scene;
-  bt_vec3 lo = k->x[0], hi = lo, o = s->tree.origin;
-  double half = 0.5 * s->tree.extent * (1 + CLOSE), gap = INFINITY;
+  bt__aabb b = { k->x[0], k->x[0] };
   for (int i = 1; i <= k->links; i++)
-    {
-      bt_vec3 p = k->x[i];
-      lo = bt__vec (p.x < lo.x ? p.x : lo.x, p.y < lo.y ? p.y : lo.y, p.z < lo.z ? p.z : lo.z);
-      hi = bt__vec (p.x > hi.x ? p.x : hi.x, p.y > hi.y ? p.y : hi.y, p.z > hi.z ? p.z : hi.z);
-    }
-  if (s->solids > 0)
-    gap = fmax (gap_between (lo.x, hi.x, o.x, half),
-                fmax (gap_between (lo.y, hi.y, o.y, half), gap_between (lo.z, hi.z, o.z, half)));
-  bt_vec3 middle = bt__scale (0.5, bt__add (lo, hi)), reach = bt__scale (0.5, bt__sub (hi, lo));
-  for (uint32_t i = 0; i < s->planes; i++)
-    {
-      const bt__plane *p = &s->object[s->plane[i]].shape.plane;
-      bt_vec3 n = p->normal;
-      gap = fmin (gap, bt__dot (n, middle) - p->offset - fabs (n.x) * reach.x - fabs (n.y) * reach.y
-                           - fabs (n.z) * reach.z);
-    }
-  return gap;
+    b = bt__box_with (b, k->x[i]);
+  return b;
 }
 
 /* How clear the line is of what stands, at least: by the box about it if that is far, else the
@@ -223,7 +199,8 @@ distance_of_all (const bt__line_job *k)
 static double
 clearance (bt__line_job *k)
 {
-  double least = FAR, known = INFINITY, all = distance_of_all (k);
+  bt__aabb box = box_of (k);
+  double least = FAR, known = INFINITY, all = bt__scene_apart (k->scene, &box);
   uint32_t nearest = 0;
   if (all > FAR)
     return all;
@@ -271,12 +248,22 @@ check_spare (bt__line_job *k)
   k->d->seen = seal;
 }
 
-/* What a link needs is no more than what the fastest node does.  */
+/* Nonzero if what is CLEAR of the whole line is more than what touches, and than what the fastest
+   node needs: no link needs more.  */
+static int
+is_enough (const bt__line_job *k, double clear)
+{
+  double fast = k->h * k->d->fastest;
+  if (!(clear > k->config->radius + k->margin))
+    return 0;
+  return clear > AHEAD * BT__LINE_STRIDE + k->core
+         || clear > AHEAD * fmin (fmax (fast, move_of_ends (k)), BT__LINE_STRIDE) + k->core;
+}
+
 int
 bt__line_is_far (bt__line_job *k, double *may)
 {
   bt__dynamic *d = k->d;
-  double touch = k->config->radius + k->margin, ends = move_of_ends (k);
   check_spare (k);
   *may = INFINITY;
   if (k->movers > 0)
@@ -285,10 +272,9 @@ bt__line_is_far (bt__line_job *k, double *may)
     return 1;
   for (int looked = 0;; looked++)
     {
-      double move = fmin (fmax (k->h * d->fastest, ends), BT__LINE_STRIDE);
       double clear = (1 - CLOSE) * d->spare.way;
       *may = clear - k->core;
-      if (clear > fmax (touch, AHEAD * move + k->core))
+      if (is_enough (k, clear))
         return 1;
       if (looked || d->spare.way < 0)
         return 0;

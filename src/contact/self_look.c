@@ -16,8 +16,9 @@
 
 enum
 {
-  LEAF = 4, /* links in the smallest part */
-  FEW = 8   /* links: those of more are told by the second way */
+  LEAF = 4,   /* links in the smallest part */
+  FEWEST = 3, /* links that are told by the first way, those of more by the second: so many ... */
+  FEW = 16    /* ... or as many as the line last went apart by times what its links did */
 };
 
 #define PIECES 8.0 /* of a piece: no more is told */
@@ -35,6 +36,7 @@ typedef struct look
   const bt__line_job *k;
   bt__capsule *chord; /* of each part: its radius is how far its nodes are from it, at most */
   double keep;        /* m: axes farther apart do not touch */
+  int few;            /* see FEW */
   double turned, apart;
 } look;
 
@@ -115,7 +117,7 @@ static void
 tell (look *s, int i, int j, double gap)
 {
   int links = j + 1 - i;
-  if (links <= FEW)
+  if (links <= s->few)
     lower (&s->turned, gap / links);
   else
     lower (&s->apart, gap);
@@ -125,17 +127,18 @@ tell (look *s, int i, int j, double gap)
 static double
 told (const look *s, int i, int j)
 {
-  return j + 1 - i <= FEW ? FEW * s->turned : s->apart;
+  return j + 1 - i <= s->few ? s->few * s->turned : s->apart;
 }
 
-/* Nonzero if the spheres over chords A to B and C to D, RADIUS wider in all, are GAP apart.  */
+/* Nonzero if chords from A to B and from C to D are seen to be GAP apart from the line through
+   their middles.  */
 static int
-are_balls_apart (bt_vec3 a, bt_vec3 b, bt_vec3 c, bt_vec3 d, double gap)
+are_seen_apart (bt_vec3 a, bt_vec3 b, bt_vec3 c, bt_vec3 d, double gap)
 {
-  bt_vec3 e = bt__sub (b, a), f = bt__sub (d, c), r = bt__sub (bt__add (a, b), bt__add (c, d));
-  double far = bt__dot (r, r), balls = bt__dot (e, e) + bt__dot (f, f);
-  /* (|e| + |f|)^2 <= 2 (|e|^2 + |f|^2), and (p + q)^2 <= 2 (p^2 + q^2) */
-  return far > 4 * balls + 8 * gap * gap;
+  bt_vec3 r = bt__sub (bt__add (a, b), bt__add (c, d)); /* twice */
+  double square = bt__dot (r, r);
+  double clear = square - fabs (bt__dot (bt__sub (b, a), r)) - fabs (bt__dot (bt__sub (d, c), r));
+  return clear > 0 && clear * clear > 4 * gap * gap * square;
 }
 
 static void
@@ -145,7 +148,7 @@ look_at_links (look *s, part p, part q)
     for (int j = q.from < i + 2 ? i + 2 : q.from; j < q.to; j++)
       {
         const bt_vec3 *x = s->k->x;
-        if (are_balls_apart (x[i], x[i + 1], x[j], x[j + 1], told (s, i, j) + s->keep))
+        if (are_seen_apart (x[i], x[i + 1], x[j], x[j + 1], told (s, i, j) + s->keep))
           continue;
         bt__link a = bt__line_link (x, (uint32_t)i), b = bt__line_link (x, (uint32_t)j);
         s->k->report->pairs++;
@@ -160,7 +163,7 @@ look_between (look *s, part p, part q)
   const bt__capsule *a = s->chord + p.at, *b = s->chord + q.at;
   bt__link c = { a->a, a->b }, d = { b->a, b->b };
   double thick = a->radius + b->radius, enough = told (s, p.from, q.to - 1) + thick + s->keep;
-  if (are_balls_apart (a->a, a->b, b->a, b->b, enough))
+  if (are_seen_apart (a->a, a->b, b->a, b->b, enough))
     return;
   double distance = bt__self_distance (&c, &d), gap = distance - thick - s->keep;
   if (distance >= enough)
@@ -212,8 +215,14 @@ void
 bt__self_look (const bt__line_job *k, double *turned, double *apart)
 {
   part all = { 1, 0, k->links };
-  double piece = PIECES * k->d->piece;
-  look s = { k, k->w->self.chord, 2 * bt__self_touching (k), piece, piece };
+  const bt__dynamic_drift *step = &k->d->step;
+  double piece = PIECES * k->d->piece, few = step->turned > 0 ? step->apart / step->turned : FEW;
+  look s = { .k = k,
+             .chord = k->w->self.chord,
+             .keep = 2 * bt__self_touching (k),
+             .few = (int)bt__clamp (few, FEWEST, FEW),
+             .turned = piece,
+             .apart = piece };
   if (!is_stretch (&s, 0, k->links))
     {
       measure_parts (&s, all);

@@ -22,6 +22,7 @@
 enum
 {
   WAIT = 12,   /* steps after a look that found more than it could list */
+  AGAIN = 8,   /* steps until a line that can go on clear for no longer than a step is looked at */
   SHORTER = 12 /* times a move is halved for want of room */
 };
 
@@ -55,30 +56,27 @@ is_ahead (const bt__line_job *k)
 }
 
 /* Nonzero if it is clear of itself, and for longer than the step that starts is expected to go.
-   What was not in the last step is not looked at.  */
+   What lately was not is not looked at.  */
 static int
 is_clear (bt__line_job *k)
 {
   bt__dynamic *d = k->d;
   if (!k->config->itself || is_ahead (k))
     return 1;
-  if (d->spare.turned < 0 || d->spare.apart < 0)
+  if (d->wait > 0)
     return 0;
   bt__self_look (k, &d->spare.turned, &d->spare.apart);
   return is_ahead (k);
 }
 
 void
-bt__self_note_near (bt__line_job *k)
+bt__self_note (bt__line_job *k)
 {
-  bt__dynamic_drift *spare = &k->d->spare;
-  if (k->w->self.clear)
-    {
-      spare->turned = fmax (spare->turned, 0);
-      spare->apart = fmax (spare->apart, 0);
-    }
-  else
-    spare->turned = spare->apart = k->w->self.pairs > 0 ? -1 : 0;
+  const bt__self *self = &k->w->self;
+  bt__dynamic *d = k->d;
+  d->spare.turned = self->clear ? fmax (d->spare.turned, 0) : 0;
+  d->spare.apart = self->clear ? fmax (d->spare.apart, 0) : 0;
+  d->wait = self->clear ? 0 : self->pairs > 0 ? 1 : d->wait > 0 ? d->wait - 1 : AGAIN;
 }
 
 /* ---- What is known of a line and itself ---- */
@@ -269,57 +267,46 @@ list (bt__line_job *k, const bt_vec3 *to, const bt__dynamic_drift *drift)
 
 /* ---- A step ---- */
 
-int
-bt__self_is_far (bt__line_job *k, bt__dynamic_drift *may)
-{
-  k->w->self.clear = 1;
-  bt__self_asks (k, bt__self_touching (k) + expected (k, k->d->step.way));
-  if (!bt__self_counts (k))
-    return 1;
-  k->w->self.clear = is_clear (k);
-  if (k->config->itself)
-    {
-      bt__dynamic_drift own = allowed (k);
-      may->turned = own.turned;
-      may->apart = own.apart;
-    }
-  return k->w->self.clear && are_others_far (k, NULL);
-}
-
-/* Other lines that come as near as that to where this one was may be met in its move.  */
-static void
-ask_moved (const bt__line_job *k)
-{
-  if (k->config->strands > 0)
-    bt__self_asks (k, bt__self_touching (k) + bt__dynamic_stray (k->X, k->x, k->links + 1));
-}
-
-int
-bt__self_stays_far (const bt__line_job *k)
-{
-  ask_moved (k);
-  return are_others_far (k, k->X);
-}
-
-int
-bt__self_watch (bt__line_job *k)
+/* Nonzero if nothing need be listed as the step starts.  */
+static int
+is_far (bt__line_job *k)
 {
   bt__self *self = &k->w->self;
   self->pairs = 0;
   self->clear = 1;
   bt__self_asks (k, bt__self_touching (k) + expected (k, k->d->step.way));
   if (!bt__self_counts (k))
-    return 0;
+    return 1;
   self->clear = is_clear (k);
-  if (self->clear && are_others_far (k, NULL))
+  return (self->clear || (know (k) && none_touches (self, &self->drift)))
+         && are_others_far (k, NULL);
+}
+
+int
+bt__self_watch (bt__line_job *k)
+{
+  bt__self *self = &k->w->self;
+  if (is_far (k))
     return 0;
-  int known = self->clear || know (k);
-  if (!self->clear && known && none_touches (self, &self->drift) && are_others_far (k, NULL))
-    return 0;
+  int known = self->clear || self->still > 0;
   for (int i = 0; i <= k->links; i++)
     self->move[i] = expected (k, bt__norm (bt__dynamic_dx (k->d)[i]));
   list (k, NULL, known ? &self->drift : NULL); /* of what finds no room there is no row */
   return self->pairs > 0;
+}
+
+int
+bt__self_is_far (bt__line_job *k, bt__dynamic_drift *may)
+{
+  if (bt__self_watch (k))
+    return 0;
+  if (k->config->itself && k->w->self.clear)
+    {
+      bt__dynamic_drift own = allowed (k);
+      may->turned = own.turned;
+      may->apart = own.apart;
+    }
+  return 1;
 }
 
 /* What is known to hold for all of the proposed move, or NULL: a straight move differs from how the
@@ -388,6 +375,14 @@ stays_clear (bt__line_job *k)
   return drift.turned <= may.turned && drift.apart <= may.apart;
 }
 
+/* Other lines that come as near as that to where this one was may be met in its move.  */
+static void
+ask_moved (const bt__line_job *k)
+{
+  if (k->config->strands > 0)
+    bt__self_asks (k, bt__self_touching (k) + bt__dynamic_stray (k->X, k->x, k->links + 1));
+}
+
 static int
 keeps_listed (bt__line_job *k)
 {
@@ -403,6 +398,29 @@ keeps_listed (bt__line_job *k)
   return are_others_far (k, k->X);
 }
 
+/* List the pairs that could meet in the proposed move; zero if there is no room for all.  */
+static int
+list_moves (bt__line_job *k)
+{
+  bt__self *self = &k->w->self;
+  bt__dynamic_drift drift = { 0 };
+  for (int i = 0; i <= k->links; i++)
+    self->move[i] = bt__distance (k->x[i], k->X[i]) * (1 + BT__SELF_CLOSE);
+  return list (k, k->X, know_move (k, &drift));
+}
+
+/* A line that is clear is held against what it may go when it has gone.  */
+int
+bt__self_stays_far (bt__line_job *k)
+{
+  if (k->w->self.clear)
+    {
+      ask_moved (k);
+      return are_others_far (k, k->X);
+    }
+  return keeps_listed (k) || (list_moves (k) && k->w->self.pairs == 0);
+}
+
 static void
 shorten (bt__line_job *k, double share)
 {
@@ -413,20 +431,12 @@ shorten (bt__line_job *k, double share)
 void
 bt__self_watch_moves (bt__line_job *k)
 {
-  bt__self *self = &k->w->self;
-  bt__dynamic_drift drift = { 0 };
   if (keeps_listed (k))
     return;
-  for (int n = 0;; n++)
+  for (int n = 0; !list_moves (k) && n <= SHORTER; n++)
     {
-      for (int i = 0; i <= k->links; i++)
-        self->move[i] = bt__distance (k->x[i], k->X[i]) * (1 + BT__SELF_CLOSE);
-      if (list (k, k->X, know_move (k, &drift)))
-        return;
       k->report->overflows++;
       shorten (k, n < SHORTER ? 0.5 : 0);
-      if (n >= SHORTER)
-        return;
     }
 }
 

@@ -138,8 +138,7 @@ bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, i
   tether->tension_max = 0;
   for (int k = 0; k < n; k++)
     tether->tension_max = fmax (tether->tension_max, bt__dynamic_tension (chain)[k]);
-  if (bt__has_obstacles (dive))
-    bt__anchors_init (bt__dive_anchors (dive, state, i, 0), bt__anchor_room (def));
+  bt__anchors_init (bt__dive_anchors (dive, state, i, 0), bt__anchor_room (dive->model, def));
   memset (&tether->shape, 0, sizeof tether->shape);
   tether->shape.form = BT__FORM_CHAIN;
   tether->shape.a = ends->a;
@@ -193,6 +192,7 @@ shift_part (bt__dynamic *chain, bt_vec3 from, bt_vec3 to)
   bt_vec3 way = bt__sub (to, from), *x = bt__dynamic_x (chain);
   for (int64_t k = 0; k <= chain->n; k++)
     x[k] = bt__add (x[k], way);
+  chain->spare = (bt__dynamic_drift){ 0, 0, 0 };
 }
 
 static int
@@ -236,6 +236,8 @@ bt__part_chain (bt_dive *dive, bt__state *state, int i, int interval)
   bt__dynamic *whole = bt__dive_chain (dive, state, i, 0),
               *far = bt__dive_chain (dive, state, i, 1);
   bt__dynamic_cut (whole, interval, whole, far);
+  bt__anchors_init (bt__dive_anchors (dive, state, i, 1),
+                    bt__anchor_room (dive->model, &dive->model->tethers[i]));
   tether->parted = 1;
   tether->length = bt__dynamic_length (whole);
   tether->winch_rate = 0;

@@ -35,26 +35,14 @@ bt_status bt__trace_rest (bt_dive *dive, bt__state *state, int i, const bt__ends
 bt_status bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int n,
                            const double *share, bt_error *error);
 
-/* As bt__dynamic_step for a PART of tether I, among the obstacles of its world (chain_touch.c).  */
+/* As bt__dynamic_step for a PART of tether I, which touches itself and, in a world with obstacles,
+   those and other lines (chain_touch.c).  */
 bt_status bt__step_among (bt_dive *dive, bt__state *state, int i, int part,
                           const bt__dynamic_input *input, bt__dynamic_report *report,
                           bt_error *error);
 
 /* Put the tethers of a world with obstacles in the order in which they step.  */
 void bt__order_tethers (bt_dive *dive, bt__state *state);
-
-/* BOX with P in it.  */
-static inline bt__aabb
-bt__box_with (bt__aabb box, bt_vec3 p)
-{
-  box.lo.x = p.x < box.lo.x ? p.x : box.lo.x;
-  box.lo.y = p.y < box.lo.y ? p.y : box.lo.y;
-  box.lo.z = p.z < box.lo.z ? p.z : box.lo.z;
-  box.hi.x = p.x > box.hi.x ? p.x : box.hi.x;
-  box.hi.y = p.y > box.hi.y ? p.y : box.hi.y;
-  box.hi.z = p.z > box.hi.z ? p.z : box.hi.z;
-  return box;
-}
 
 /* Draw the boxes about all moving lines as tethers begin to be resolved; draw those of tether I
    anew if it is no longer in them, and return nonzero (chain_box.c).  */

@@ -27,10 +27,7 @@ static bt_status
 step_part (bt_dive *dive, bt__state *state, int i, int part, const bt__dynamic_input *input,
            bt__dynamic_report *report, bt_error *error)
 {
-  bt_status status = bt__has_obstacles (dive)
-                         ? bt__step_among (dive, state, i, part, input, report, error)
-                         : bt__dynamic_step (bt__dive_chain (dive, state, i, part), dive->work,
-                                             input, report, error);
+  bt_status status = bt__step_among (dive, state, i, part, input, report, error);
   if (status == BT_OK && bt__has_obstacles (dive))
     bt__wear_chain (dive, state, i, part);
   dive->profile.chain_steps++;

@@ -1,7 +1,8 @@
-/* A step of the moving line among obstacles.
+/* A step of the moving line among obstacles, or with but itself to touch.
 
    The step is contact/line.h's; here it is given what surrounds the line and how rough that is, and
-   what it met is noted.
+   what it met is noted.  In a world without obstacles a line meets itself alone, and no more is
+   noted of it than where.
 
    Tethers step one after another, each among the others as they are by then: those before it where
    they came to, those after it where they were.  So no two of them move at once, and what each
@@ -22,7 +23,7 @@ static double
 pull_at (const bt_dive *dive, bt__state *state, int i, int k)
 {
   int vehicle = dive->model->ends[i][k].vehicle;
-  if (vehicle < 0 || dive->shore.pin[vehicle].how == BT__PIN_HARD)
+  if (vehicle < 0 || (dive->shore.pin && dive->shore.pin[vehicle].how == BT__PIN_HARD))
     return INFINITY;
   return bt__dive_vehicle (dive, state, vehicle)->pull;
 }
@@ -81,17 +82,22 @@ gather_strands (const bt_dive *dive, bt__state *state, int i, int part)
 static bt__line_config
 config_of (const bt_dive *dive, bt__state *state, int i, int part)
 {
-  const bt_tether_props *props = &bt__dive_tether (dive, state, i)->props;
-  return (bt__line_config){ .radius = props->diameter / 2,
-                            .core = bt__core (props->diameter),
-                            .friction = props->friction,
-                            .rough = bt__dive_roughness (dive, state),
-                            .obstacles = dive->model->n_obstacles,
-                            .pull = { pull_at (dive, state, i, 0), pull_at (dive, state, i, 1) },
-                            .itself = may_touch (dive, state, i, i),
-                            .id = dive->model->n_obstacles + i,
-                            .strand = dive->shore.strand,
-                            .strands = gather_strands (dive, state, i, part) };
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  const bt_tether_props *props = &tether->props;
+  bt__line_config config = { .radius = props->diameter / 2,
+                             .core = bt__core (props->diameter),
+                             .friction = props->friction,
+                             .pull = { pull_at (dive, state, i, 0), pull_at (dive, state, i, 1) },
+                             .itself = !tether->through,
+                             .id = dive->model->n_obstacles + i };
+  if (!bt__has_obstacles (dive))
+    return config;
+  config.rough = bt__dive_roughness (dive, state);
+  config.obstacles = dive->model->n_obstacles;
+  config.itself = may_touch (dive, state, i, i);
+  config.strand = dive->shore.strand;
+  config.strands = gather_strands (dive, state, i, part);
+  return config;
 }
 
 /* The workspace knows one line at a time.  */
@@ -138,7 +144,9 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
                 bt__dynamic_report *report, bt_error *error)
 {
   bt__anchors *anchors = bt__dive_anchors (dive, state, i, part);
-  bt__surroundings around = bt__surround (dive, state, BT_PART_TETHER, i);
+  int among = bt__has_obstacles (dive);
+  bt__surroundings around
+      = among ? bt__surround (dive, state, BT_PART_TETHER, i) : (bt__surroundings){ .scene = NULL };
   bt__line_config config = config_of (dive, state, i, part);
   bt__line_report touch = { 0 };
   bt_status status;
@@ -149,7 +157,8 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
   if (status != BT_OK)
     return status;
   bt__around_done (dive);
-  note_meetings (dive, state, i, anchors);
+  if (among)
+    note_meetings (dive, state, i, anchors);
   bring_ends (dive, state, i, part, &touch);
   add_up (&dive->profile, &touch);
   return BT_OK;

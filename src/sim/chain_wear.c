@@ -52,6 +52,8 @@ bt__wear_chain (bt_dive *dive, bt__state *state, int i, int part)
 {
   const bt__anchors *anchors = bt__dive_anchors (dive, state, i, part);
   const bt__anchor *anchor = bt__anchors_at (anchors);
+  if (anchors->n == 0)
+    return;
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, part);
   int parted = bt__dive_tether (dive, state, i)->parted != 0;
   double far = parted && part == 0 ? bt__dynamic_length (bt__dive_chain (dive, state, i, 1)) : 0;

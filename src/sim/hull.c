@@ -122,8 +122,17 @@ turn_body (bt__vehicle *v, const bt__vehicle *before, double share)
   v->body.heading = bt__heading_follow (before->body.heading, v->body.attitude);
 }
 
-bt_vec3
-bt__hull_reach (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
+/* Nonzero if nothing can meet VEHICLE on its way to WANTED, however it turns.  */
+static int
+is_far (const bt_dive *dive, bt_vec3 from, bt_vec3 wanted, int vehicle)
+{
+  bt__aabb way = bt__box_with ((bt__aabb){ from, from }, wanted);
+  double radius = 0.5 * bt__norm (dive->model->vehicles[vehicle].size) + BT__HULL_GAP;
+  return dive->model->n_carried == 0 && bt__scene_apart (dive->model->scene, &way) > radius;
+}
+
+static bt_vec3
+reach_among (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
 {
   const bt__vehicle *before = bt__dive_vehicle (dive, dive->now, vehicle);
   bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
@@ -149,4 +158,12 @@ bt__hull_reach (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
   if (v->rigid)
     turn_body (v, before, share);
   return frame.origin;
+}
+
+bt_vec3
+bt__hull_reach (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
+{
+  bt_vec3 before = bt__dive_vehicle (dive, dive->now, vehicle)->position;
+  return is_far (dive, before, wanted, vehicle) ? wanted
+                                                : reach_among (dive, state, vehicle, wanted);
 }

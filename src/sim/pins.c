@@ -12,6 +12,12 @@
 
 #define SAME 1e-9 /* m */
 
+static int
+is_at (bt_vec3 p, bt_vec3 q)
+{
+  return (p.x == q.x && p.y == q.y && p.z == q.z) || bt__distance (p, q) <= SAME;
+}
+
 static bt_vec3
 place_before (const bt_dive *dive, int vehicle)
 {
@@ -33,6 +39,17 @@ stand (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 p)
     v->velocity = bt__scale (1 / BT__TIME_STEP, way);
 }
 
+/* Let PIN, of V, be at P.  */
+static void
+put_pin (bt__pin *pin, const bt__vehicle *v, bt_vec3 p)
+{
+  pin->at = p;
+  if (!v->rigid)
+    return;
+  pin->body = v->body;
+  pin->body.position = p;
+}
+
 /* How far the hull of VEHICLE comes toward WANTED without leaving the reach of its tethers: it may
    have slid out of that.  */
 static bt_vec3
@@ -42,9 +59,7 @@ reach_within (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
   for (int k = 0; k < 2; k++)
     {
       bt_vec3 p = bt__hull_reach (dive, state, vehicle, wanted);
-      double share = bt__distance (p, wanted) > SAME
-                         ? bt__reach_along (dive, dive->now, vehicle, before, p)
-                         : 1;
+      double share = is_at (p, wanted) ? 1 : bt__reach_along (dive, dive->now, vehicle, before, p);
       if (share >= 1)
         return p;
       wanted = bt__axpy (before, share, bt__sub (p, before));
@@ -59,10 +74,8 @@ come (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
 {
   bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
   bt_vec3 reach = reach_within (dive, state, vehicle, wanted);
-  dive->shore.pin[vehicle].at = reach;
-  dive->shore.pin[vehicle].body = v->body;
-  dive->shore.pin[vehicle].body.position = reach;
-  if (bt__distance (reach, v->position) <= SAME)
+  put_pin (&dive->shore.pin[vehicle], v, reach);
+  if (is_at (reach, v->position))
     return;
   stand (dive, state, vehicle, reach);
   v->held = 1;
@@ -103,7 +116,8 @@ bt__unpin_vehicles (bt_dive *dive, bt__state *state)
   for (int i = 0; i < dive->model->n_vehicles; i++)
     {
       const bt__vehicle *v = bt__dive_vehicle (dive, state, i);
-      dive->shore.pin[i] = (bt__pin){ BT__PIN_OFF, v->position, v->body };
+      dive->shore.pin[i].how = BT__PIN_OFF;
+      put_pin (&dive->shore.pin[i], v, v->position);
     }
 }
 
@@ -141,18 +155,18 @@ bt__bring_end (const bt_dive *dive, bt__state *state, int i, int k, bt_vec3 p)
 static bt_vec3
 end_of (const bt_dive *dive, bt__state *state, int i, int k)
 {
-  bt__line line = bt__line_of (dive, state, i);
-  if (line.chain)
-    return k == 0 ? bt__dynamic_x (line.chain)[0]
-                  : bt__dynamic_x (line.far_chain)[line.far_chain->n];
-  return k == 0 ? line.tether->shape.a : line.tether->shape.b;
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  if (tether->shape.form != BT__FORM_CHAIN)
+    return k == 0 ? tether->shape.a : tether->shape.b;
+  const bt__dynamic *part = bt__dive_chain (dive, state, i, k == 1 && tether->parted);
+  return bt__dynamic_x (part)[k == 0 ? 0 : part->n];
 }
 
 /* Take *AT back to P if that is less far from BEFORE; return nonzero if P is another place.  */
 static int
 draw_back (bt_vec3 p, bt_vec3 before, bt_vec3 *at)
 {
-  if (bt__distance (p, *at) <= SAME)
+  if (is_at (p, *at))
     return 0;
   if (bt__distance (p, before) < bt__distance (*at, before))
     *at = p;
@@ -182,7 +196,7 @@ agrees (bt_dive *dive, bt__state *state, int vehicle)
   bt_vec3 before = place_before (dive, vehicle), at = v->position;
   int differ = draw_back_to_ends (dive, state, vehicle, before, &at);
   int turned = v->rigid && memcmp (&pin->body.attitude, &v->body.attitude, sizeof (bt__quat)) != 0;
-  if (turned || bt__distance (pin->at, v->position) > SAME) /* its hull has not gone there yet */
+  if (turned || !is_at (pin->at, v->position)) /* its hull has not gone there yet */
     differ |= draw_back (bt__hull_reach (dive, state, vehicle, v->position), before, &at);
   if (differ)
     {

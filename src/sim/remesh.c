@@ -131,6 +131,15 @@ lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
   return BT_OK;
 }
 
+/* Nonzero if the line is so near to itself that it must keep its nodes, in a world without
+   obstacles.  */
+static int
+is_near_itself (const bt_dive *dive, bt__state *state, int i, const bt__dynamic *chain)
+{
+  return !bt__has_obstacles (dive)
+         && (chain->wait > 0 || bt__dive_anchors (dive, state, i, 0)->n > 0);
+}
+
 bt_status
 bt__remesh_chain (bt_dive *dive, bt__state *state, int i, bt_error *error)
 {
@@ -140,5 +149,7 @@ bt__remesh_chain (bt_dive *dive, bt__state *state, int i, bt_error *error)
   int m = wanted (n, bt__chain_error (chain), tether->props.accuracy, room);
   if (bt__has_obstacles (dive))
     m = multiple (n, m, room);
-  return tether->parted || m == n ? BT_OK : lay_anew (dive, state, i, m, error);
+  return tether->parted || m == n || is_near_itself (dive, state, i, chain)
+             ? BT_OK
+             : lay_anew (dive, state, i, m, error);
 }

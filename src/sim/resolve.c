@@ -121,6 +121,13 @@ resolve_moving (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, in
   return status == BT_OK && passes ? bt__step_chain (dive, state, i, ends, error) : status;
 }
 
+/* Nonzero if tethers could meet each other: where there is one it has no place among others.  */
+static int
+are_others (const bt_dive *dive)
+{
+  return bt__has_obstacles (dive) && dive->model->n_tethers > 1;
+}
+
 bt_status
 bt__resolve_tether (bt_dive *dive, bt__state *state, int i, int passes, bt_error *error)
 {
@@ -128,7 +135,7 @@ bt__resolve_tether (bt_dive *dive, bt__state *state, int i, int passes, bt_error
   bt_status status = bt__is_moving_model (bt__dive_tether (dive, state, i))
                          ? resolve_moving (dive, state, i, &ends, passes, error)
                          : resolve_static (dive, state, i, &ends, error);
-  if (bt__has_obstacles (dive) && bt__box_line (dive, state, i) && dive->lane)
+  if (are_others (dive) && bt__box_line (dive, state, i) && dive->lane)
     dive->lane->refused = 1; /* others were told that it is where it was */
   return status;
 }
@@ -137,7 +144,7 @@ bt_status
 bt__resolve_tethers (bt_dive *dive, bt__state *state, int passes, bt_error *error)
 {
   bt_status status = BT_OK;
-  int among = bt__has_obstacles (dive);
+  int among = are_others (dive);
   if (among)
     {
       bt__order_tethers (dive, state);

@@ -27,9 +27,10 @@ bt__dynamic_work_free (bt__dynamic_work *w)
 {
   if (!w)
     return;
-  void *arrays[] = { w->X,         w->d,        w->rhs,      w->keep,  w->last,  w->lam,    w->link,
-                     w->node,      w->extra,    w->diag,     w->off,   w->up,    w->up2,    w->pivot, w->bend,
-                     w->bend_diag, w->bend_off, w->bend_far, w->whole, w->spare, w->by_flow };
+  void *arrays[]
+      = { w->X,    w->d,         w->rhs,      w->keep,     w->last,  w->lam,   w->link,
+          w->node, w->extra,     w->diag,     w->off,      w->up,    w->up2,   w->pivot,
+          w->bend, w->bend_diag, w->bend_off, w->bend_far, w->whole, w->spare, w->by_flow };
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
     free (arrays[i]);
   free (w);
@@ -52,7 +53,8 @@ bt__dynamic_work_new (int n_max)
         && (w->link = calloc (n, sizeof *w->link)) && (w->node = calloc (n, sizeof *w->node))
         && (w->extra = calloc (n, sizeof *w->extra)) && (w->diag = calloc (n, sizeof *w->diag))
         && (w->off = calloc (n, sizeof *w->off)) && (w->up = calloc (n, sizeof *w->up))
-        && (w->up2 = calloc (n, sizeof *w->up2)) && (w->pivot = calloc (n, sizeof *w->pivot)) && (w->bend = calloc (n, sizeof *w->bend))
+        && (w->up2 = calloc (n, sizeof *w->up2)) && (w->pivot = calloc (n, sizeof *w->pivot))
+        && (w->bend = calloc (n, sizeof *w->bend))
         && (w->bend_diag = calloc (n, sizeof *w->bend_diag))
         && (w->bend_off = calloc (n, sizeof *w->bend_off))
         && (w->bend_far = calloc (n, sizeof *w->bend_far))
@@ -184,30 +186,41 @@ solve_alone (bt__dynamic *d, bt__dynamic_work *w, double most, bt__dynamic_repor
 }
 
 bt_status
+bt__dynamic_iterate_free (bt__dynamic *d, bt__dynamic_work *w, bt__dynamic_watch *watch,
+                          bt__dynamic_report *report, bt_error *error)
+{
+  *watch = (bt__dynamic_watch){ .alone = bt__dynamic_is_alone (d, w->in) };
+  if (watch->alone)
+    {
+      watch->most = bt__dynamic_most (d, w);
+      return solve_alone (d, w, watch->most, report, &watch->slowed, error);
+    }
+  report->converged = bt__dynamic_newton (w, report);
+  return BT_OK;
+}
+
+void
+bt__dynamic_note_free (bt__dynamic *d, const bt__dynamic_work *w, const bt__dynamic_watch *watch)
+{
+  if (watch->alone)
+    bt__dynamic_note (d, w, watch->most);
+  if (watch->slowed)
+    d->history = 0;
+}
+
+bt_status
 bt__dynamic_step (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *in,
                   bt__dynamic_report *report, bt_error *error)
 {
-  int alone = 0, slowed = 0;
-  double most = 0;
+  bt__dynamic_watch watch;
   bt_status status = bt__dynamic_begin (d, w, in, report, error);
-  if (status)
-    return status;
-  alone = bt__dynamic_is_alone (d, in);
-  if (alone)
-    {
-      most = bt__dynamic_most (d, w);
-      status = solve_alone (d, w, most, report, &slowed, error);
-    }
-  else
-    report->converged = bt__dynamic_newton (w, report);
+  if (!status)
+    status = bt__dynamic_iterate_free (d, w, &watch, report, error);
   if (!status)
     status = bt__dynamic_finish (d, w, NULL, report, error);
   if (status)
     return status;
-  if (alone)
-    bt__dynamic_note (d, w, most);
-  if (slowed)
-    d->history = 0;
+  bt__dynamic_note_free (d, w, &watch);
   if (in->pay != 0 || d->owed != 0)
     bt__dynamic_wind (d);
   return BT_OK;

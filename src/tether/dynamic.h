@@ -57,7 +57,8 @@ typedef struct bt__dynamic
   bt__dynamic_drift spare; /* m: what it may go until it must be looked at.  Contact gives it, a
                               step takes what it goes, what else alters the line takes all.  */
   double fastest;          /* m/s: no node is faster, if there is some spare way */
-  int64_t seen;            /* what the spare was given for, see contact/line.h */
+  int64_t seen;            /* what the spare was given for, and ... */
+  int64_t wait;            /* ... in how many steps it is asked again, see contact/line.h */
 } bt__dynamic;
 
 /* Return the size in bytes of a block with room for N_MAX intervals.  */

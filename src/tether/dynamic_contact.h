@@ -108,6 +108,21 @@ bt_vec3 *bt__dynamic_proposal (bt__dynamic_work *work);
 int bt__dynamic_iterate (bt__dynamic_work *work, bt__dynamic_row *rows, int n,
                          bt__dynamic_hold *hold, bt__dynamic_report *report);
 
+/* What is watched in a step of a line that nothing moves, see dynamic_energy.c.  */
+typedef struct bt__dynamic_watch
+{
+  double most; /* J */
+  int alone, slowed;
+} bt__dynamic_watch;
+
+/* Solve with nothing that is touched, as bt__dynamic_step does; what it does when the solution has
+   been taken over.  */
+bt_status bt__dynamic_iterate_free (bt__dynamic *d, bt__dynamic_work *work,
+                                    bt__dynamic_watch *watch, bt__dynamic_report *report,
+                                    bt_error *error);
+void bt__dynamic_note_free (bt__dynamic *d, const bt__dynamic_work *work,
+                            const bt__dynamic_watch *watch);
+
 /* Return no less than the longest of the N vectors A, less B: cheap, and up to sqrt (3) too large.
  */
 double bt__dynamic_stray (const bt_vec3 *a, const bt_vec3 *b, int n);
@@ -121,7 +136,8 @@ void bt__dynamic_drifted (const bt_vec3 *a, const bt_vec3 *b, int n, bt__dynamic
 bt_status bt__dynamic_finish (bt__dynamic *d, bt__dynamic_work *work, const uint8_t *restart,
                               bt__dynamic_report *report, bt_error *error);
 
-/* The same if the step's drift is no more than MOST; else *TAKEN is zero and D as it was.  */
+/* The same if the step's drift is no more than MOST; else *TAKEN is zero, there is no error and D
+   is as it was.  */
 bt_status bt__dynamic_finish_within (bt__dynamic *d, bt__dynamic_work *work,
                                      const bt__dynamic_drift *most, int *taken,
                                      bt__dynamic_report *report, bt_error *error);

@@ -263,8 +263,11 @@ bt__dynamic_finish_within (bt__dynamic *d, bt__dynamic_work *w, const bt__dynami
   bt_vec3 pull[2];
   bt_status status = judge (w, NULL, pull, report, error);
   const bt__dynamic_drift *is = &report->drift;
+  *taken = 1;
+  if (status)
+    return status;
   *taken = is->way <= most->way && is->turned <= most->turned && is->apart <= most->apart;
-  if (status == BT_OK && *taken)
+  if (*taken)
     take_over (d, w, NULL, pull, report);
-  return status;
+  return BT_OK;
 }

@@ -69,7 +69,7 @@ all_touches (const bt_dive *dive, int i, int *n)
 {
   bt__touch *touch = NULL;
   *n = i < 0 || i >= dive->model->n_tethers ? -1 : 0;
-  if (*n < 0 || dive->model->n_obstacles == 0)
+  if (*n < 0)
     return NULL;
   touch = malloc (sizeof *touch * TOUCHES_MAX);
   if (touch)
@@ -311,10 +311,21 @@ bt_vehicle_clearance (const bt_dive *dive, int i, int obstacle, bt_clearance *ou
   return BT_OK;
 }
 
+/* Nonzero if tether I touches itself.  */
+static int
+touches_itself (const bt_dive *dive, int i)
+{
+  bt__line line = bt__line_of (dive, dive->now, i);
+  int n = 0;
+  for (int part = 0; line.chain && part <= (line.tether->parted != 0); part++)
+    n += bt__dive_anchors (dive, dive->now, i, part)->n > 0;
+  return n > 0;
+}
+
 int
 bt_dive_collided (const bt_dive *dive, bt_part part, int i, int obstacle)
 {
   if (dive->model->n_obstacles == 0)
-    return 0;
+    return part == BT_PART_TETHER && obstacle == i && touches_itself (dive, i);
   return bt__meets (dive->now, bt__dive_subject (dive, dive->now, part, i), obstacle);
 }

@@ -88,7 +88,8 @@ make_rows (bt_dive *dive, bt_error *error)
   return whole ? BT_OK : bt__fail (error, BT_ERR_LIMIT, "no memory for the parts of a dive");
 }
 
-/* What obstacles need, for the longest tether and all the movers.  */
+/* What a line needs that has but itself to touch; then what obstacles need, for the longest tether
+   and all the movers.  */
 static bt_status
 make_shore (bt_dive *dive, bt_error *error)
 {
@@ -96,8 +97,6 @@ make_shore (bt_dive *dive, bt_error *error)
   bt__shore *shore = &dive->shore;
   int chain = 0, room = 0;
   bt_status status;
-  if (model->n_obstacles == 0)
-    return BT_OK;
   for (int i = 0; i < model->n_tethers; i++)
     {
       chain = chain > bt__chain_room (&model->tethers[i]) ? chain
@@ -105,17 +104,21 @@ make_shore (bt_dive *dive, bt_error *error)
       room = room > bt__polyline_room (&model->tethers[i]) ? room
                                                            : bt__polyline_room (&model->tethers[i]);
     }
+  shore->line = bt__line_work_new (chain + 1);
+  if (!shore->line)
+    return bt__fail (error, BT_ERR_LIMIT, "no memory for what the lines of a dive touch");
+  if (model->n_obstacles == 0)
+    return BT_OK;
   shore->mover = calloc ((size_t)model->n_carried + 1, sizeof *shore->mover);
   shore->course = calloc ((size_t)model->n_carried + 1, sizeof *shore->course);
-  shore->line = bt__line_work_new (chain + 1);
   shore->strand = calloc (2 * (size_t)model->n_tethers + 1, sizeof *shore->strand);
   shore->box = calloc (2 * (size_t)model->n_tethers + 1, sizeof *shore->box);
   shore->line_of = -1;
   shore->safe_of = -1;
   shore->node = calloc ((size_t)chain + 1, sizeof *shore->node);
   shore->share = calloc ((size_t)chain + 1, sizeof *shore->share);
-  if (!shore->mover || !shore->course || !shore->line || !shore->strand || !shore->box
-      || !shore->node || !shore->share)
+  if (!shore->mover || !shore->course || !shore->strand || !shore->box || !shore->node
+      || !shore->share)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the obstacles of a dive");
   status = bt__polyline_work_new ((uint32_t)room + 1, (uint32_t)model->n_carried, &shore->polyline,
                                   error);
@@ -138,6 +141,20 @@ free_shore (bt__shore *shore)
   bt__line_work_free (shore->line);
   bt__polyline_work_free (shore->polyline);
   bt__safe_free (shore->safe);
+}
+
+static bt_status
+make_layout (bt_dive *dive, bt_error *error)
+{
+  const bt_model *model = dive->model;
+  dive->size = bt__state_size (model);
+  dive->layout = bt__layout_of (model);
+  dive->line = calloc ((size_t)model->n_tethers + 1, sizeof *dive->line);
+  if (!dive->line)
+    return bt__fail (error, BT_ERR_LIMIT, "no memory for the tethers of a dive");
+  for (int i = 0; i < model->n_tethers; i++)
+    dive->line[i] = bt__line_size_of (model, i);
+  return BT_OK;
 }
 
 static void
@@ -163,13 +180,13 @@ make_dive (bt_model *model, size_t now, size_t next, bt_dive **out, bt_error *er
   if (!dive)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for a dive");
   dive->model = bt_model_retain (model);
-  dive->size = bt__state_size (model);
+  status = make_layout (dive, error);
   dive->now = now > 0 ? calloc (1, now) : NULL;
   dive->next = calloc (1, next);
   dive->sea = calloc (2, sizeof *dive->sea);
   if ((now > 0 && !dive->now) || !dive->next || !dive->sea)
     status = bt__fail (error, BT_ERR_LIMIT, "no memory for a state of %zu bytes", dive->size);
-  else
+  if (status == BT_OK)
     status = make_tools (dive, error);
   if (status == BT_OK)
     status = make_shore (dive, error);
@@ -230,6 +247,7 @@ bt_dive_free (bt_dive *dive)
   free (dive->along);
   free (dive->driven);
   free (dive->sea);
+  free (dive->line);
   free_shore (&dive->shore);
   bt__watch_free_all (dive->watch);
   bt__lanes_free (dive->lanes);

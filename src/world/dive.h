@@ -63,7 +63,7 @@ typedef struct bt__driven
   bt__grip grip;
 } bt__driven;
 
-/* What a world with obstacles needs in a step; else all of it is NULL.  */
+/* What a world with obstacles needs in a step; else all but LINE is NULL.  */
 typedef struct bt__shore
 {
   bt__mover *mover;
@@ -97,12 +97,30 @@ typedef struct bt__lane
   int refused; /* what it was given cannot be done apart */
 } bt__lane;
 
+/* Where the parts of a state lie, in bytes after its head: vehicles, then ...  */
+typedef struct bt__layout
+{
+  size_t tethers;
+  size_t section;           /* what is known of obstacles: movers, roughness, then ... */
+  size_t subjects, subject; /* ... subjects, each of so many bytes */
+  size_t stores;
+} bt__layout;
+
+/* What a moving line takes of its store, in bytes.  */
+typedef struct bt__line_size
+{
+  size_t chain; /* of either part, ... */
+  size_t part;  /* ... with what that touches */
+} bt__line_size;
+
 struct bt_dive
 {
   bt_model *model;
-  size_t size;     /* of a state */
-  bt__state *now;  /* what questions read */
-  bt__state *next; /* what an operation or a step works on */
+  size_t size; /* of a state */
+  bt__layout layout;
+  bt__line_size *line; /* of each tether */
+  bt__state *now;      /* what questions read */
+  bt__state *next;     /* what an operation or a step works on */
   bt__shape_tools tools;
   bt__dynamic_work *work; /* of the moving line */
   bt_vec3 *polyline;      /* room for the points of any tether */
@@ -129,9 +147,26 @@ bt__state *bt__dive_begin (bt_dive *dive);
 /* Take dive->next over as the present.  */
 void bt__dive_commit (bt_dive *dive);
 
-/* Views into STATE, a state of DIVE.  */
-bt__vehicle *bt__dive_vehicle (const bt_dive *dive, bt__state *state, int i);
-bt__tether *bt__dive_tether (const bt_dive *dive, bt__state *state, int i);
+/* What follows the head of STATE, a state of DIVE: of a lane it is another's.  */
+static inline char *
+bt__state_body (const bt_dive *dive, bt__state *state)
+{
+  return dive->lane && state == dive->next ? dive->lane->body : (char *)(state + 1);
+}
+
+/* Views into STATE.  */
+static inline bt__vehicle *
+bt__dive_vehicle (const bt_dive *dive, bt__state *state, int i)
+{
+  return (bt__vehicle *)(void *)bt__state_body (dive, state) + i;
+}
+
+static inline bt__tether *
+bt__dive_tether (const bt_dive *dive, bt__state *state, int i)
+{
+  return (bt__tether *)(void *)(bt__state_body (dive, state) + dive->layout.tethers) + i;
+}
+
 /* Where the tethers of VEHICLE are made fast.  */
 bt_vec3 bt__attachment (const bt_dive *dive, bt__state *state, int vehicle);
 bt_vec3 *bt__dive_nodes (const bt_dive *dive, bt__state *state, int tether);

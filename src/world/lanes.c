@@ -131,7 +131,7 @@ void
 bt__lane_enter (bt__lane *lane, const bt_dive *dive, bt__state *next)
 {
   bt_dive *own = lane->dive;
-  lane->body = bt__body (dive, next);
+  lane->body = bt__state_body (dive, next);
   lane->refused = 0;
   own->now = dive->now;
   memcpy (own->next, next, offsetof (bt__state, events));

@@ -20,11 +20,22 @@ _Static_assert(sizeof (bt__subject) == (2 + 2 * BT__MEETINGS_MAX) * 8, "nor in b
 _Static_assert(sizeof (bt__state) % 8 == 0, "whole words in bt__state");
 _Static_assert(sizeof (bt__tether) % 8 == 0, "whole words in bt__tether");
 
-static size_t
-fixed_size (const bt_model *model)
+bt__layout
+bt__layout_of (const bt_model *model)
 {
-  return sizeof (bt__state) + sizeof (bt__vehicle) * (size_t)model->n_vehicles
-         + sizeof (bt__tether) * (size_t)model->n_tethers + bt__obstacles_size (model);
+  bt__layout l = { .tethers = sizeof (bt__vehicle) * (size_t)model->n_vehicles };
+  l.section = l.tethers + sizeof (bt__tether) * (size_t)model->n_tethers;
+  l.subjects = l.section + bt__subjects_at (model);
+  l.subject = bt__subject_size (model);
+  l.stores = l.section + bt__obstacles_size (model);
+  return l;
+}
+
+/* Bytes before the stores.  */
+static size_t
+fixed_size (const bt_dive *dive)
+{
+  return sizeof (bt__state) + dive->layout.stores;
 }
 
 /* ---- The store of a tether ---- */
@@ -57,24 +68,21 @@ arrays_size (const bt_tether_def *tether)
   return 2 * sizeof (bt_vec3) * (size_t)node_points (tether);
 }
 
-static size_t
-chain_size (const bt_tether_def *tether)
-{
-  return bt__dynamic_size (bt__chain_room (tether));
-}
-
+/* A line that has but itself to touch does so in few places.  */
 int
-bt__anchor_room (const bt_tether_def *tether)
+bt__anchor_room (const bt_model *model, const bt_tether_def *tether)
 {
-  return 2 * bt__chain_room (tether) + 64;
+  int chain = bt__chain_room (tether);
+  return 64 + (model->n_obstacles > 0 ? 2 * chain : chain / 4);
 }
 
-/* A part of a moving line and, among obstacles, what it touches.  */
-static size_t
-part_size (const bt_model *model, const bt_tether_def *tether)
+bt__line_size
+bt__line_size_of (const bt_model *model, int i)
 {
-  size_t anchors = model->n_obstacles > 0 ? bt__anchors_size (bt__anchor_room (tether)) : 0;
-  return chain_size (tether) + anchors;
+  const bt_tether_def *tether = &model->tethers[i];
+  bt__line_size size = { .chain = bt__dynamic_size (bt__chain_room (tether)) };
+  size.part = size.chain + bt__anchors_size (bt__anchor_room (model, tether));
+  return size;
 }
 
 /* The polyline of a static line, split or held.  */
@@ -90,10 +98,11 @@ drape_size (const bt_model *model, const bt_tether_def *tether)
 
 /* Where its shape, still or moving, ends and its wear begins.  */
 static size_t
-shape_size (const bt_model *model, const bt_tether_def *tether)
+shape_size (const bt_model *model, int i)
 {
+  const bt_tether_def *tether = &model->tethers[i];
   size_t still = arrays_size (tether) + drape_size (model, tether);
-  size_t moving = 2 * part_size (model, tether);
+  size_t moving = 2 * bt__line_size_of (model, i).part;
   return still > moving ? still : moving;
 }
 
@@ -107,31 +116,19 @@ size_t
 bt__store_size (const bt_model *model, int i)
 {
   const bt_tether_def *tether = &model->tethers[i];
-  return shape_size (model, tether) + (model->n_obstacles > 0 ? wear_size (tether) : 0);
+  return shape_size (model, i) + (model->n_obstacles > 0 ? wear_size (tether) : 0);
 }
 
 size_t
 bt__state_size (const bt_model *model)
 {
-  size_t size = fixed_size (model);
+  size_t size = sizeof (bt__state) + bt__layout_of (model).stores;
   for (int i = 0; i < model->n_tethers; i++)
     size += bt__store_size (model, i);
   return size;
 }
 
 /* ---- Views ---- */
-
-bt__vehicle *
-bt__dive_vehicle (const bt_dive *dive, bt__state *state, int i)
-{
-  return (bt__vehicle *)(void *)bt__body (dive, state) + i;
-}
-
-bt__tether *
-bt__dive_tether (const bt_dive *dive, bt__state *state, int i)
-{
-  return (bt__tether *)(void *)bt__dive_vehicle (dive, state, dive->model->n_vehicles) + i;
-}
 
 bt_vec3
 bt__attachment (const bt_dive *dive, bt__state *state, int vehicle)
@@ -144,8 +141,7 @@ static char *
 store_of (const bt_dive *dive, const bt__state *state, int i)
 {
   const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
-  return bt__body (dive, (bt__state *)state) + fixed_size (dive->model) - sizeof *state
-         + tether->store_at;
+  return bt__state_body (dive, (bt__state *)state) + dive->layout.stores + tether->store_at;
 }
 
 bt_vec3 *
@@ -163,7 +159,7 @@ bt__dive_tensions (const bt_dive *dive, bt__state *state, int i)
 bt__dynamic *
 bt__dive_chain (const bt_dive *dive, bt__state *state, int i, int part)
 {
-  size_t offset = part ? part_size (dive->model, &dive->model->tethers[i]) : 0;
+  size_t offset = part ? dive->line[i].part : 0;
   return (bt__dynamic *)(void *)(store_of (dive, state, i) + offset);
 }
 
@@ -171,14 +167,14 @@ bt__anchors *
 bt__dive_anchors (const bt_dive *dive, bt__state *state, int i, int part)
 {
   char *chain = (char *)bt__dive_chain (dive, state, i, part);
-  return (bt__anchors *)(void *)(chain + chain_size (&dive->model->tethers[i]));
+  return (bt__anchors *)(void *)(chain + dive->line[i].chain);
 }
 
 bt__wear
 bt__dive_wear (const bt_dive *dive, bt__state *state, int i)
 {
   const bt_tether_def *tether = &dive->model->tethers[i];
-  char *at = store_of (dive, state, i) + shape_size (dive->model, tether);
+  char *at = store_of (dive, state, i) + shape_size (dive->model, i);
   return (bt__wear){ (double *)(void *)at, bt__wear_spots (tether->length),
                      bt__wear_width (tether->length) };
 }
@@ -211,16 +207,13 @@ static int
 chain_extents (const bt_dive *dive, const bt__state *state, int i, extent *out)
 {
   const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
-  const bt_tether_def *def = &dive->model->tethers[i];
   int n = 0;
   for (int part = 0; part <= (tether->parted != 0); part++)
     {
-      size_t at = (size_t)part * part_size (dive->model, def), chain = chain_size (def);
+      size_t at = (size_t)part * dive->line[i].part, chain = dive->line[i].chain;
+      size_t anchors = bt__anchors_live (bt__dive_anchors (dive, (bt__state *)state, i, part));
       out[n++] = (extent){ at, chain };
-      if (dive->model->n_obstacles > 0)
-        out[n++]
-            = (extent){ at + chain,
-                        bt__anchors_live (bt__dive_anchors (dive, (bt__state *)state, i, part)) };
+      out[n++] = (extent){ at + chain, anchors };
     }
   return n;
 }
@@ -245,12 +238,12 @@ live_extents (const bt_dive *dive, const bt__state *state, int i, extent *out)
 {
   const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
   const bt_tether_def *def = &dive->model->tethers[i];
-  size_t arrays = arrays_size (def);
   int n = 0;
   if (tether->wear != 0)
-    out[n++] = (extent){ shape_size (dive->model, def), wear_size (def) };
+    out[n++] = (extent){ shape_size (dive->model, i), wear_size (def) };
   if (tether->shape.form == BT__FORM_CHAIN)
     return n + chain_extents (dive, state, i, out + n);
+  size_t arrays = arrays_size (def);
   if (tether->shape.form == BT__FORM_NODES)
     out[n++] = (extent){ 0, arrays };
   if (tether->drape)
@@ -262,7 +255,7 @@ void
 bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from)
 {
   extent live[EXTENTS];
-  memcpy (to, from, fixed_size (dive->model));
+  memcpy (to, from, fixed_size (dive));
   for (int i = 0; i < dive->model->n_tethers; i++)
     for (int k = live_extents (dive, from, i, live); k-- > 0;)
       memcpy (store_of (dive, to, i) + live[k].at, store_of (dive, from, i) + live[k].at,
@@ -273,7 +266,7 @@ uint64_t
 bt__hash_state (const bt_dive *dive, const bt__state *state)
 {
   extent live[EXTENTS];
-  uint64_t h = bt__hash (state, fixed_size (dive->model), 0);
+  uint64_t h = bt__hash (state, fixed_size (dive), 0);
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       int n = live_extents (dive, state, i, live);

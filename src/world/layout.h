@@ -7,19 +7,18 @@
 
 #include "world/dive.h"
 
-/* What follows the head of STATE: of a lane it is another's.  */
-static inline char *
-bt__body (const bt_dive *dive, bt__state *state)
-{
-  return dive->lane && state == dive->next ? dive->lane->body : (char *)(state + 1);
-}
+/* Where everything lies in a state of MODEL.  */
+bt__layout bt__layout_of (const bt_model *model);
+
+/* What its tether I takes of its store as a moving line.  */
+bt__line_size bt__line_size_of (const bt_model *model, int i);
 
 /* Bytes of a state of MODEL, and of the store of its tether I.  */
 size_t bt__state_size (const bt_model *model);
 size_t bt__store_size (const bt_model *model, int i);
 
 /* How many places a chain of TETHER may touch.  */
-int bt__anchor_room (const bt_tether_def *tether);
+int bt__anchor_room (const bt_model *model, const bt_tether_def *tether);
 
 /* Copy what is live of FROM to TO; hash it.  */
 void bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from);

@@ -31,8 +31,8 @@ off_size (const bt_model *model)
   return ((size_t)bt__objects (model) + 7) / 8 * 8;
 }
 
-static size_t
-subject_size (const bt_model *model)
+size_t
+bt__subject_size (const bt_model *model)
 {
   return sizeof (bt__subject) + off_size (model);
 }
@@ -50,18 +50,24 @@ roughness_size (const bt_model *model)
 }
 
 size_t
+bt__subjects_at (const bt_model *model)
+{
+  return movers_size (model) + roughness_size (model);
+}
+
+size_t
 bt__obstacles_size (const bt_model *model)
 {
   size_t subjects = (size_t)(model->n_vehicles + model->n_tethers);
   if (model->n_obstacles == 0)
     return 0;
-  return movers_size (model) + roughness_size (model) + subjects * subject_size (model);
+  return bt__subjects_at (model) + subjects * bt__subject_size (model);
 }
 
 static char *
 section (const bt_dive *dive, bt__state *state)
 {
-  return (char *)bt__dive_tether (dive, state, dive->model->n_tethers);
+  return bt__state_body (dive, state) + dive->layout.section;
 }
 
 bt__mover_state *
@@ -79,10 +85,9 @@ bt__dive_roughness (const bt_dive *dive, bt__state *state)
 bt__subject *
 bt__dive_subject (const bt_dive *dive, bt__state *state, bt_part part, int i)
 {
-  const bt_model *model = dive->model;
-  size_t k = (size_t)(part == BT_PART_VEHICLE ? i : model->n_vehicles + i);
-  return (bt__subject *)(void *)(section (dive, state) + movers_size (model)
-                                 + roughness_size (model) + k * subject_size (model));
+  size_t k = (size_t)(part == BT_PART_VEHICLE ? i : dive->model->n_vehicles + i);
+  return (bt__subject *)(void *)(bt__state_body (dive, state) + dive->layout.subjects
+                                 + k * dive->layout.subject);
 }
 
 uint8_t *
@@ -221,6 +226,8 @@ void
 bt__note_partings (bt__state *state, bt__subject *subject, bt_part part, int i)
 {
   int64_t kept = 0;
+  if (subject->n == 0)
+    return;
   for (int64_t k = 0; k < subject->n; k++)
     {
       bt__meeting meeting = subject->meeting[k];

@@ -9,8 +9,11 @@
 #include "contact/touch.h"
 #include "world/dive.h"
 
-/* Return the bytes that the obstacles of MODEL add to a state; 0 if it has none.  */
+/* Return the bytes that the obstacles of MODEL add to a state; 0 if it has none.  The first of
+   those of a subject, and how many a subject has.  */
 size_t bt__obstacles_size (const bt_model *model);
+size_t bt__subjects_at (const bt_model *model);
+size_t bt__subject_size (const bt_model *model);
 
 /* Put everything in its place for the start of a dive.  */
 void bt__obstacles_init (const bt_dive *dive, bt__state *state);

@@ -90,6 +90,7 @@ typedef struct bt__tether
   int64_t kinked;
   int64_t caught;  /* steps for which it was pulled and held its vehicle fast */
   int64_t relaid;  /* it was laid anew, straight */
+  int64_t through; /* in a world without obstacles: it passes through itself */
   int64_t drape;   /* bt__drape: what its store holds besides, in a world with obstacles */
   int64_t blocked; /* an obstacle holds a static line off its shape */
   double wear;     /* J/m: the most of any spot; 0: its spots are not in use */
