@@ -273,7 +273,11 @@ solve (bt__line_job *k, int held, bt__dynamic_report *report)
 {
   bt__dynamic_hold *hold = held ? k->w->hold : NULL;
   const bt__line_hook *hook = k->config->hook;
-  bt__dynamic_iterate (k->kernel, k->w->row, k->rows, hold, report);
+  k->watch = (bt__dynamic_watch){ 0 };
+  if (k->rows > 0 || k->bents > 0 || held)
+    bt__dynamic_iterate (k->kernel, k->w->row, k->rows, hold, report);
+  else /* what begins once begins again */
+    bt__dynamic_iterate_free (k->d, k->kernel, &k->watch, report, NULL);
   if (!isfinite (report->update))
     bt__dynamic_stay (k->d, k->kernel, report);
   if (hook && hook->spoil)
@@ -347,11 +351,10 @@ static bt_status
 step_far (bt__line_job *k, const bt__dynamic_drift *may, bt__dynamic_report *report, int *done,
           bt_error *error)
 {
-  bt__dynamic_watch watch;
   bt_status status = bt__dynamic_begin (k->d, k->kernel, k->in, report, error);
   *done = 1;
   if (status == BT_OK)
-    status = bt__dynamic_iterate_free (k->d, k->kernel, &watch, report, error);
+    status = bt__dynamic_iterate_free (k->d, k->kernel, &k->watch, report, error);
   if (status)
     return status;
   k->X = bt__dynamic_proposal (k->kernel);
@@ -360,7 +363,7 @@ step_far (bt__line_job *k, const bt__dynamic_drift *may, bt__dynamic_report *rep
     status = bt__dynamic_finish_within (k->d, k->kernel, may, done, report, error);
   if (!*done || status)
     return status;
-  bt__dynamic_note_free (k->d, k->kernel, &watch);
+  bt__dynamic_note_free (k->d, k->kernel, &k->watch);
   bt__self_note (k);
   k->anchors->n = 0;
   return BT_OK;
@@ -393,6 +396,8 @@ step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
   status = bt__dynamic_finish (k->d, k->kernel, k->w->restart, report, error);
   if (status)
     return status;
+  if (!k->report->truncated)
+    bt__dynamic_note_free (k->d, k->kernel, &k->watch);
   bt__line_store (k);
   bt__line_note_near (k, beside);
   bt__self_note (k);

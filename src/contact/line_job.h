@@ -124,8 +124,9 @@ typedef struct bt__line_job
   int wedged;          /* of the link whose rows are made: see bt__line_is_wedged */
   double core, margin; /* m: a little more than asked for, for rounding; of what touches */
   double h;
-  const bt_vec3 *x; /* at the start */
-  bt_vec3 *X;       /* proposed */
+  const bt_vec3 *x;        /* at the start */
+  bt_vec3 *X;              /* proposed */
+  bt__dynamic_watch watch; /* over a line that nothing touches */
   bt__line_report *report;
   bt__count *count;
 } bt__line_job;

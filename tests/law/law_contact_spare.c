@@ -290,6 +290,68 @@ is_of_the_state (void **state)
     }
 }
 
+/* What two lines have but for what contact has told of them.  */
+static int
+are_alike (const bt__dynamic *a, const bt__dynamic *b)
+{
+  bt__dynamic head = *a;
+  head.spare = b->spare;
+  head.seen = b->seen;
+  head.wait = b->wait;
+  return memcmp (&head, b, sizeof head) == 0
+         && memcmp (a + 1, b + 1, bt__dynamic_size ((int)a->n_max) - sizeof *a) == 0;
+}
+
+/* How a line is flown that never nears itself.  */
+typedef struct flown
+{
+  const char *name;
+  double wide, pay, density; /* m; m/s, out and in by turns; kg/m3 */
+} flown;
+
+/* Until they touch themselves lines go as their own step leads them, to the last bit, whether they
+   look out for themselves or not: led gently, jerked, paid out and hauled in, and alone in a
+   vacuum, where their energy is watched.  */
+static void
+a_clear_line_goes_its_own_way (void **state)
+{
+  (void)state;
+  static reef r;
+  static rope p, q;
+  const flown how[] = {
+    { "led", 1, 0, 1025 }, { "jerked", 6, 0, 1025 }, { "wound", 1, 0.8, 1025 }, { "alone", 0, 0, 0 }
+  };
+  assert_true (reef_open (&r) && reef_raise (&r));
+  long looked = 0;
+  for (size_t h = 0; h < sizeof how / sizeof *how; h++)
+    for (int kind = 0; kind < COILED; kind++)
+      {
+        int steps = 0;
+        begin (&p, &r, (shape_kind)kind, 1);
+        begin (&q, &r, (shape_kind)kind, 1);
+        q.config.itself = 0;
+        p.water.density = q.water.density = how[h].density;
+        bt_vec3 about = p.in.end[1].at;
+        for (; steps < 600; steps++)
+          {
+            p.in.pay = q.in.pay = steps % 240 < 120 ? how[h].pay : -how[h].pay;
+            fly (&p, about, steps, how[h].wide);
+            fly (&q, about, steps, how[h].wide);
+            if (p.touch.rows > 0)
+              break;
+            looked += p.touch.pairs;
+            if (!are_alike (p.d, q.d))
+              fail_msg ("shape %d, %s, differs at step %d", kind, how[h].name, steps);
+          }
+        print_message ("# shape %d, %s: alike for %d steps\n", kind, how[h].name, steps);
+        assert_true (steps >= (kind == HANGING ? 600 : 4));
+        rope_close (&p);
+        rope_close (&q);
+      }
+  assert_true (looked > 0);
+  reef_close (&r);
+}
+
 /* Lines that are clear ask only now and then.  */
 static void
 asks_seldom (void **state)
@@ -317,9 +379,11 @@ asks_seldom (void **state)
 int
 main (void)
 {
-  const struct CMUnitTest tests[]
-      = { cmocka_unit_test (pairs_stay_apart), cmocka_unit_test (false_spare_goes_through),
-          cmocka_unit_test (obstacles_stay_away), cmocka_unit_test (is_of_the_state),
-          cmocka_unit_test (asks_seldom) };
+  const struct CMUnitTest tests[] = { cmocka_unit_test (pairs_stay_apart),
+                                      cmocka_unit_test (false_spare_goes_through),
+                                      cmocka_unit_test (obstacles_stay_away),
+                                      cmocka_unit_test (is_of_the_state),
+                                      cmocka_unit_test (a_clear_line_goes_its_own_way),
+                                      cmocka_unit_test (asks_seldom) };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }

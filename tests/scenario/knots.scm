@@ -99,6 +99,56 @@ leave it a knot about the pile, the way it was made leaves a line that is neithe
   (expect (null? (windings))))
 
 
+;;; With nothing else in the world.
+
+(define open-water
+  (world (sea (depth 20))
+         (rov (named minnow) (at 3 2 -6) (surge-speed 1))
+         (tether (named line) (type fathom) (wet-weight 0) (model dynamic) (nodes 60) (friction 0.2)
+                 (breaking-load 1e9) (from 8 2 -6) (to minnow) (length 8))))
+
+(define (tie-and-draw)
+  ;; The same flight with no pile in it; then away, as far as the line lets it.
+  (pay-out! 22 #:rate 0.35)
+  (apply fly overhand)
+  (move! '(40 -30 -6) #:speed 0.5)
+  (run 90))
+
+(define-scenario a-line-in-open-water-does-not-go-through-itself
+  "Laid in a loop and drawn through it, far from everything, a line is knotted: it bears on itself and takes up some
+of the line, however long it is pulled; so it does in a fork and from a checkpoint, to the last bit."
+  (in open-water)
+  (tie-and-draw)
+  (expect (knotted?))
+  (expect (collided? 'line 'line))
+  (expect (any on-itself? (contacts)))
+  (expect (distance '(8 2 -6) (rov-position)) is (below 29.8))
+  (expect (rov-tension) is (above 60))
+  (let* ((here (checkpoint))
+         (forked (what-if (run 5) (state-hash))))
+    (run 5)
+    (let ((there (state-hash)))
+      (expect forked => there)
+      (run 20)
+      (restore! here)
+      (run 5)
+      (expect (state-hash) => there)))
+  (expect (knotted?)))
+
+(define-scenario switched-off-it-does
+  "The same flight with the line's own contact off: it comes straight."
+  (in open-water)
+  (collide! 'line 'line #f)
+  (tie-and-draw)
+  (expect (knotted?) => #f)
+  (expect (collided? 'line 'line) => #f)
+  (expect (contacts) => '())
+  (expect (distance '(8 2 -6) (rov-position)) is (above 29.9))
+  (collide! #:all #t)
+  (run 1)
+  (expect (knotted?) => #f))
+
+
 ;;; Two tethers.
 
 (define crossed
