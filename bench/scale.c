@@ -96,6 +96,7 @@ steps_for (double work, double of)
   return (int)fmax (5, fmin (600, of / work));
 }
 
+/* The line sinks: one that floats lies crumpled on the surface, and its links on each other.  */
 static void
 scale_nodes (bench_table *t, long most, double work)
 {
@@ -104,7 +105,7 @@ scale_nodes (bench_table *t, long most, double work)
     {
       scene_clear (&s);
       scene_vehicle (&s, bt__vec (0, 25, -20));
-      scene_line (&s, bt__vec (0, -25, 0), 60, (int)n);
+      scene_line (&s, bt__vec (0, -25, 0), 60, (int)n)->props.mass = 0.05;
       size z = measure (&s, 1, steps_for ((double)n, work));
       say (t, "nodes", n, "intervals", z.model + z.dive, &z);
     }

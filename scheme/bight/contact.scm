@@ -183,7 +183,8 @@ none is within 1000 m."
 (define-verb (collide! #:rest (setting setting))
   "Switch the pair of a vehicle or a tether A and an obstacle B on or off, as in (collide! 'line 'leg-a1
 #f); likewise two tethers, or a tether and itself, as in (collide! 'line 'line #f); all pairs with
-(collide! #:all #f).  A pair that is off passes through each other.  Return whether it is on."
+(collide! #:all #f).  A pair that is off passes through each other; at first all are on, a moving line and
+itself in open water too.  Return whether it is on."
   (let ((on? (and (pair? setting) (last setting))))
     (cond ((and (= 2 (length setting)) (eq? #:all (car setting)) (boolean? on?))
            (switch! #f 0 -1 on?))

@@ -69,8 +69,9 @@ bt__anchor *bt__anchors_at (const bt__anchors *anchors);
 
 typedef struct bt__line_work bt__line_work;
 
-/* Return a workspace for lines of up to N_MAX intervals, or NULL when memory is out.  */
-bt__line_work *bt__line_work_new (int n_max);
+/* Return a workspace for lines of up to N_MAX intervals, or NULL when memory is out; with room for
+   what is AMONG them, or for a line and itself alone.  */
+bt__line_work *bt__line_work_new (int n_max, int among);
 void bt__line_work_free (bt__line_work *work); /* NULL is nothing */
 
 /* Forget what is known to be clear: another line, another scene of the same serial.  It costs time

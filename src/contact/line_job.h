@@ -11,10 +11,8 @@
 
 enum
 {
-  BT__LINE_ROOM = 48,  /* parts near a link */
-  BT__LINE_ROWS = 4,   /* half-spaces an interval, on average */
+  BT__LINE_ROOM = 48,  /* parts near a link, if there are any */
   BT__LINE_ROUNDS = 4, /* times a step is solved again */
-  BT__SELF_ROOM = 24   /* pairs of links that could meet, on average a link */
 };
 
 /* Two links that could meet in the step: I of this line and J of this or of another.  */
@@ -92,7 +90,8 @@ struct bt__line_work
   const uint8_t *off;       /* ... and their place */
   bt__safe *safe;
   bt__link_watch *watch;
-  bt__near *near; /* BT__LINE_ROOM a link */
+  uint32_t room; /* parts near a link: */
+  bt__near *near;
   bt__dynamic_row *row;
   bt__line_row *of; /* what ROW is of */
   bt__anchor *old;  /* anchors of the last step, then of this */
@@ -150,7 +149,7 @@ void bt__line_watch_moves (bt__line_job *k);
 static inline bt__near *
 bt__line_near (const bt__line_job *k, uint32_t link)
 {
-  return k->w->near + (size_t)link * BT__LINE_ROOM;
+  return k->w->near + (size_t)link * k->w->room;
 }
 
 static inline bt__link

@@ -113,7 +113,7 @@ static void
 list_link (bt__line_job *k, uint32_t j, double need)
 {
   bt__link_watch *s = k->w->watch + j;
-  bt__nears list = { bt__line_near (k, j), 0, BT__LINE_ROOM, INFINITY };
+  bt__nears list = { bt__line_near (k, j), 0, k->w->room, INFINITY };
   s->full = 0;
   s->reach = WIDER * need;
   if (k->scene->n > 0)

@@ -104,7 +104,7 @@ make_shore (bt_dive *dive, bt_error *error)
       room = room > bt__polyline_room (&model->tethers[i]) ? room
                                                            : bt__polyline_room (&model->tethers[i]);
     }
-  shore->line = bt__line_work_new (chain + 1);
+  shore->line = bt__line_work_new (chain + 1, model->n_obstacles > 0);
   if (!shore->line)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for what the lines of a dive touch");
   if (model->n_obstacles == 0)

@@ -73,7 +73,7 @@ int
 bt__anchor_room (const bt_model *model, const bt_tether_def *tether)
 {
   int chain = bt__chain_room (tether);
-  return 64 + (model->n_obstacles > 0 ? 2 * chain : chain / 4);
+  return model->n_obstacles > 0 ? 64 + 2 * chain : 24 + chain / 4;
 }
 
 bt__line_size
