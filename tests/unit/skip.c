@@ -87,7 +87,8 @@ test_present_parts_are_counted (void **state)
     }
 }
 
-/* Of a scene far from everything no box is looked into, no pair measured.  */
+/* Of a scene far from everything no box is looked into, no pair measured, no link asked: the line
+   is held against the cube about all of it.  */
 static void
 test_far_obstacles_are_not_looked_at (void **state)
 {
@@ -95,7 +96,54 @@ test_far_obstacles_are_not_looked_at (void **state)
   flight f = fly (case_called ("and 64 obstacles so far"));
   assert_int_equal (f.after.pairs_measured, f.before.pairs_measured);
   assert_int_equal (f.after.boxes_visited, f.before.boxes_visited);
+  assert_int_equal (f.after.links_asked, f.before.links_asked);
+  assert_int_equal (f.after.links_clear, f.before.links_clear);
   assert_int_equal (f.after.casts, f.before.casts);
+}
+
+/* A line that is clear of itself measures a few pairs of its links now and then, and is solved as
+   often as one that does not look.  */
+static void
+test_a_clear_line_hardly_looks_at_itself (void **state)
+{
+  (void)state;
+  bt_error error;
+  const double off[] = { BT_PART_TETHER, 0, 0 };
+  bt_profile p[2];
+  for (int k = 0; k < 2; k++)
+    {
+      bt_dive *dive = skip_begin (case_called ("bare"), 0);
+      if (k)
+        scene_must (bt_dive_do (dive, BT_OP_COLLIDE, 0, off, 3, &error), &error);
+      scene_fly (dive, 1, 0, 2 * STEPS);
+      bt_dive_profile (dive, p + k);
+      bt_dive_free (dive);
+    }
+  assert_true (p[0].line_pairs > 0 && p[0].line_pairs < STEPS / 4);
+  assert_int_equal (p[1].line_pairs, 0);
+  assert_int_equal (p[0].chain_solves, p[1].chain_solves);
+}
+
+/* The points of the line of C after a flight.  */
+static void
+end_of_flight (const skip_case *c, bt_vec3 *points)
+{
+  bt_error error;
+  bt_dive *dive = skip_begin (c, WARM);
+  scene_fly (dive, c->flown, WARM, STEPS);
+  scene_must (bt_tether_points (dive, 0, SKIP_NODES + 1, points, &error), &error);
+  bt_dive_free (dive);
+}
+
+/* What is far away changes no bit.  */
+static void
+test_far_obstacles_change_nothing (void **state)
+{
+  (void)state;
+  bt_vec3 bare[SKIP_NODES + 1], far[SKIP_NODES + 1];
+  end_of_flight (case_called ("bare"), bare);
+  end_of_flight (case_called ("and 64 obstacles so far"), far);
+  assert_memory_equal (bare, far, sizeof bare);
 }
 
 static void
@@ -135,6 +183,8 @@ main (void)
   const struct CMUnitTest tests[] = { cmocka_unit_test (test_absent_parts_do_nothing),
                                       cmocka_unit_test (test_present_parts_are_counted),
                                       cmocka_unit_test (test_far_obstacles_are_not_looked_at),
+                                      cmocka_unit_test (test_a_clear_line_hardly_looks_at_itself),
+                                      cmocka_unit_test (test_far_obstacles_change_nothing),
                                       cmocka_unit_test (test_a_sleeping_line_is_not_solved),
                                       cmocka_unit_test (test_one_of_two_sleeps),
                                       cmocka_unit_test (test_a_still_shape_is_not_solved_again) };
