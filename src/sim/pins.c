@@ -178,13 +178,18 @@ draw_back (bt_vec3 p, bt_vec3 before, bt_vec3 *at)
 static int
 draw_back_to_ends (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 before, bt_vec3 *at)
 {
+  bt_vec3 here = bt__attachment (dive, state, vehicle);
   int differ = 0;
   for (int i = 0; i < dive->model->n_tethers; i++)
     for (int k = 0; k < 2; k++)
-      if (dive->model->ends[i][k].vehicle == vehicle
-          && !(k == 1 && bt__carried_vehicle (dive, state, i) == vehicle))
-        differ
-            |= draw_back (place_for (dive, state, vehicle, end_of (dive, state, i, k)), before, at);
+      {
+        if (dive->model->ends[i][k].vehicle != vehicle
+            || (k == 1 && bt__carried_vehicle (dive, state, i) == vehicle))
+          continue;
+        bt_vec3 end = end_of (dive, state, i, k);
+        if (!is_at (end, here))
+          differ |= draw_back (place_for (dive, state, vehicle, end), before, at);
+      }
   return differ;
 }
 
