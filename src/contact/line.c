@@ -381,11 +381,11 @@ step_far (bt__line_job *k, const bt__dynamic_drift *may, bt__dynamic_report *rep
   return BT_OK;
 }
 
+/* Propose where the line is at the end of the step.  */
 static bt_status
-step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
+try_step (bt__line_job *k, int near, int held, bt__dynamic_report *report, bt_error *error)
 {
   const bt__line_hook *hook = k->config->hook;
-  int beside = bt__line_watch (k), near = bt__self_watch (k) | beside, held = near && hold_ends (k);
   bt_status status = bt__dynamic_begin (k->d, k->kernel, k->in, report, error);
   if (status)
     return status;
@@ -401,6 +401,35 @@ step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
       bt__line_harden (k);
     }
   propose (k, near, held, report);
+  return BT_OK;
+}
+
+/* The same; corners about round members are left to half-spaces where they keep it from being
+   solved.  */
+static bt_status
+try_both (bt__line_job *k, int near, int held, bt__dynamic_report *report, bt_error *error)
+{
+  bt__dynamic_hold before[2];
+  memcpy (before, k->w->hold, sizeof before);
+  bt_status status = try_step (k, near, held, report, error);
+  if (status || report->converged || !bt__line_is_laid_round (k))
+    return status;
+  memcpy (k->w->hold, before, sizeof before);
+  k->plain = 1;
+  k->rows = 0;
+  k->report->rounds = k->report->truncated = 0;
+  prepare (k);
+  return try_step (k, near, held, report, error);
+}
+
+static bt_status
+step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
+{
+  const bt__line_hook *hook = k->config->hook;
+  int beside = bt__line_watch (k), near = bt__self_watch (k) | beside, held = near && hold_ends (k);
+  bt_status status = try_both (k, near, held, report, error);
+  if (status)
+    return status;
   if (k->report->truncated || (hook && hook->spoil))
     bt__dynamic_bent_follow (k->kernel);
   mark_fresh (k);
@@ -411,6 +440,7 @@ step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
   if (!k->report->truncated)
     bt__dynamic_note_free (k->d, k->kernel, &k->watch);
   bt__line_store (k);
+  k->unsolved = !report->converged || k->report->truncated;
   bt__line_note_near (k, beside);
   bt__self_note (k);
   bt__line_rebend (k);

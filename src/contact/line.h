@@ -37,14 +37,28 @@ typedef struct bt__anchor
   bt_vec3 force;    /* N on the line: load and friction */
   bt_vec3 stick;    /* m: how far the line is dragged from where it stuck */
   int64_t age;      /* steps since the contact was made */
-  int64_t bent;     /* nonzero: a node about which the line runs, held at an edge; then: */
+  int64_t bent;     /* bt__bent_kind: a node about which the line runs is held there; then: */
   double drag;      /* m: STICK along the line, ... */
   double side;      /* ... and along the edge */
   double flow;      /* m/s of rest length that runs through, toward node n */
   double thick;     /* m: radius of the edge */
+  double span;      /* m of the line that lie on it */
   bt_vec3 axis;     /* unit: of the edge */
+  bt_vec3 held;     /* m: where the node was held, ... */
+  double away;      /* ... from the middle of the edge, ... */
+  bt_vec3 lag;      /* m: ... and what it had yet to go round */
+  bt_vec3 after;    /* unit, across AXIS: of the next interval, if its other end is held at the same
+                       member; else 0 */
+  int64_t unsolved; /* steps on end that were not solved */
   double other;     /* MOVER is BT__ANCHOR_LINE: m of rest length from the end of what it touches */
 } bt__anchor;
+
+typedef enum bt__bent_kind
+{
+  BT__BENT_NOT = 0,
+  BT__BENT_EDGE, /* at an edge */
+  BT__BENT_ROUND /* at the side of a cylinder or a capsule */
+} bt__bent_kind;
 
 enum
 {

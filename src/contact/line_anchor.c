@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "contact/line_job.h"
+#include "contact/line_bend.h"
 
 #define REMEMBER 0.75 /* of a link: the farthest a contact goes along the line in a step */
 #define ALIKE 0.8     /* product of the normals */
@@ -347,7 +347,7 @@ bt__line_keep (bt__line_job *k)
     }
   for (int i = 0; i < k->bents; i++)
     {
-      if (!(k->w->bent[i].load > 0))
+      if (!bt__bend_bears (k, i))
         continue;
       bt__anchor a = bt__line_bent_anchor (k, i);
       k->report->bends++;

@@ -1,157 +1,66 @@
-/* Where a line runs about something thin: a wire, an edge.
+/* Where a line runs about something thin against its links: a wire, an edge, a round member.
 
-   Links that pass over an edge of a radius far below their length would feel every node: the line
-   would turn now at one, now at the next.  So a node is put where the line turns, and stays there
-   while line runs through it (tether/dynamic_bent.c).  It comes where a link bears on an edge, on
-   the link's chord, so that the line's shape stays; it goes when it bears no more; on the way its
-   neighbours go from one side to the other, each taken out before it gets there and put in behind.
+   Links that pass over it would feel every node: the line would turn now at one, now at the next,
+   and a polygon that is drawn round a drum jerks as a chain does on a sprocket.  So nodes are put
+   where the line turns, and stay there while line runs through them (tether/dynamic_bent.c).  Of
+   an edge or a wire one is enough; about a round member there are as many as the line turns there,
+   the corners of a polygon about it (line_turn.c): only the first and the last side follow the
+   line, those between stay as they came.
 
-   It is held so far out that the links on either side pass the edge at the line's radius.  They are
-   links like others: nothing here touches the promise that none passes through.  A node is taken
-   out only if the way of the links to their new place is clear; else it waits.
+   The links are tangents at the line's radius.  They are links like others: nothing here touches
+   the promise that none passes through.
 
-   What an edge is, is felt: of points about the link those nearest on the obstacle go along with
-   them in one direction, and stay in the other.
+   What slides is the line at the tangents, not at the corner: a corner that moves on as the line is
+   laid round lets line flow through it that does not slide.
+
+   Where a corner is to be depends on where its neighbours will be, and those on the corner: a stiff
+   line that is pulled by a corner that went too far out turns more, and so on.  A corner that goes
+   round between its links, as far from the axis as it was, changes the line's length by nothing at
+   first order.  So it goes round half the way in a step, but out and in slowly; and as sides that
+   are not tangents yet would cut into the member, it is pushed out as far as they need.
+
+   Nodes come and go in line_rebend.c.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
-#include <string.h>
+#include "contact/line_bend.h"
 
-#include "contact/line_job.h"
-
-#define THIN 0.25      /* of a link: an edge of a radius so large is round */
-#define FEEL 0.1       /* of the distance: how far is felt for the directions of an edge, ... */
-#define LONG 0.8       /* ... what goes along with that on an edge, at least */
-#define WIDE 0.2       /* of a link: how far is felt for its sharpness, ... */
-#define SHARP 0.82     /* ... the most of the product of the normals there */
-#define ALONG 0.9      /* product of line and edge: more, and the line lies along it */
-#define SAME_EDGE 0.5  /* of the line's radius: how far an edge may be from where it was */
-#define LEAST_COS 0.25 /* of half the turn: what a node is held out for at most */
-#define STRAIGHT 1e-3  /* sine of half the turn: less has no direction */
-#define PASS 0.25      /* of a piece: a node nearer to the edge passes, ... */
-#define FORESIGHT 2.5  /* steps ... or one that is there so soon; ... */
-#define SPLIT 1.6      /* ... an interval so long is split; ... */
-#define LEAST 0.06     /* ... with so little left the line runs over the edge as it can */
-#define SPARE 1.3      /* of a piece: a node between two intervals no longer than this is spare */
-#define FROM_NODE 0.1  /* of a piece: nearer to a node no other is put; ... */
-#define CROWDED 0.01   /* ... nearer to the next one none is bent */
+#define FORETOLD 0.2 /* m: a neighbour that moves more in the step is where it is */
+#define TURNED 0.3   /* radians: a corner that turns back by more is none */
+#define DISTURBS 2.0 /* times the line's radius: how near what else is there may be */
+#define HALFWAY 0.5  /* of the way to where it should be does a corner go in a step, ... */
+#define FOLLOWS 1.0  /* m/s: ... but no faster; ... */
+#define RISES 0.3    /* m/s: nor does one come out faster, as the line turns more, ... */
+#define SINKS 0.02   /* ... or in, as it turns less */
+#define UNEVEN                                                                                     \
+  1.2 /* times the most a corner turns: one that turns more shares with the next, ... */
+#define EVENING 0.5 /* radians/s: ... so fast */
 
 enum
 {
-  TRIED = 12,  /* steps from one try to hold a node at an edge to the next */
-  TANGENTS = 4 /* iterations for where they meet */
+  SHARES = 2, /* times the corners of a side share what it lacks, from either end */
+  KNOTTED = 4 /* links: nor may the line touch itself so near */
 };
 
-/* ---- What the line runs about ---- */
-
-typedef struct edge
+/* A node that was held in the last step and is still.  */
+typedef struct corner
 {
-  bt_vec3 axis, point, normal; /* unit; on the obstacle; unit, to the line */
-  double radius, distance;
-} edge;
+  bt__anchor anchor;
+  int node;
+  bt__edge edge;
+  bt__turn turn;
+  bt_vec3 lag, place; /* m: what it has yet to go round; where it is held */
+  double away;        /* m from the axis, but for LAG */
+} corner;
 
-/* The obstacle, in the frame it is asked in.  */
-typedef struct asked
+typedef struct corners
 {
-  const bt__line_job *k;
-  const bt__scene *scene;
-  const bt__switches *on;
-  int64_t id;
-  uint32_t object; /* its place in the scene; none if it is the number of obstacles */
-  double cap;
-} asked;
+  int n;
+  corner at[BT__BENTS];
+} corners;
 
-static int
-nearest (const asked *q, bt_vec3 p, bt__witness *w)
-{
-  bt__link point = { p, p };
-  bt__near near;
-  if (q->object == q->scene->n || !bt__is_on (q->on, q->object))
-    return 0;
-  if (q->scene->object[q->object].kind != BT__OBSTACLE_MESH)
-    {
-      bt__obstacle_pair (q->scene->object + q->object, &point, w);
-      return w->distance <= q->cap;
-    }
-  if (!bt__scene_nearest (q->scene, q->on, &point, q->cap, &near, q->k->count)
-      || q->scene->object[near.object].id != q->id)
-    return 0;
-  *w = near.w;
-  return 1;
-}
-
-/* How the nearest point goes along when P goes by STEP either way: to A and B.  */
-static int
-follow (const asked *q, bt_vec3 p, bt_vec3 step, bt__witness *a, bt__witness *b)
-{
-  return nearest (q, bt__add (p, step), a) && nearest (q, bt__sub (p, step), b);
-}
-
-/* Nonzero if the normals about P turn by much ACROSS.  */
-static int
-is_sharp (const asked *q, bt_vec3 p, bt_vec3 across)
-{
-  bt__witness a, b;
-  return follow (q, p, bt__scale (WIDE * q->k->d->piece, across), &a, &b)
-         && bt__dot (a.normal, b.normal) < SHARP;
-}
-
-/* Feel for an edge about P, to E.  */
-static int
-feel (const asked *q, bt_vec3 p, edge *e)
-{
-  bt__witness w, a, b;
-  if (!nearest (q, p, &w) || !(w.distance > 0))
-    return 0;
-  double step = FEEL * w.distance, m[2][2];
-  bt_vec3 n = w.normal, least = fabs (n.x) < 0.6 ? bt__vec (1, 0, 0) : bt__vec (0, 1, 0);
-  bt_vec3 side[2];
-  side[0] = bt__unit_or (bt__cross (n, least), least);
-  side[1] = bt__cross (n, side[0]);
-  for (int i = 0; i < 2; i++)
-    {
-      if (!follow (q, p, bt__scale (step, side[i]), &a, &b))
-        return 0;
-      bt_vec3 gone = bt__scale (0.5 / step, bt__sub (a.point, b.point));
-      m[0][i] = bt__dot (side[0], gone);
-      m[1][i] = bt__dot (side[1], gone);
-    }
-  double turn = 0.5 * atan2 (m[0][1] + m[1][0], m[0][0] - m[1][1]);
-  bt_vec3 axis = bt__axpy (bt__scale (cos (turn), side[0]), sin (turn), side[1]);
-  bt_vec3 across = bt__cross (n, axis);
-  if (!follow (q, p, bt__scale (step, across), &a, &b))
-    return 0;
-  double there = bt__dot (across, bt__sub (a.point, w.point)),
-         back = -bt__dot (across, bt__sub (b.point, w.point));
-  double goes = fmax (fmin (there, back) / step, 0);
-  if (!(goes < LONG) || !follow (q, p, bt__scale (step, axis), &a, &b)
-      || !(bt__dot (axis, bt__sub (a.point, b.point)) > 2 * LONG * step))
-    return 0;
-  *e = (edge){ axis, w.point, n, w.distance * goes / (1 - goes), w.distance };
-  return e->radius + q->k->config->radius <= THIN * q->k->d->piece && is_sharp (q, p, across);
-}
-
-static asked
-ask (const bt__line_job *k, int64_t mover, int64_t id)
-{
-  const bt__mover *m = mover < 0 ? NULL : k->mover + mover;
-  const bt__scene *scene = m ? m->body : k->scene;
-  uint32_t at = id >= 0 && id < scene->n && scene->object[id].id == id ? (uint32_t)id : 0;
-  while (at < scene->n && scene->object[at].id != id)
-    at++;
-  return (asked){ .k = k,
-                  .scene = scene,
-                  .on = m ? m->on : k->on,
-                  .id = id,
-                  .object = at,
-                  .cap = 2 * THIN * k->d->piece };
-}
-
-/* ---- Nodes that were bent before this step ---- */
-
-/* The node that is FROM_END from the end, or -1.  */
-static int
-node_of (const bt__line_job *k, double from_end)
+int
+bt__bend_node (const bt__line_job *k, double from_end)
 {
   double near = 1e-9 * (1 + k->w->from_end[0]);
   for (int i = 1; i < k->links; i++)
@@ -160,148 +69,278 @@ node_of (const bt__line_job *k, double from_end)
   return -1;
 }
 
-/* The edge of A as it is about its node now, in the world at the end of the step; FROM is where its
-   nearest point was.  Zero if there is none.  */
-static int
-find_edge (const bt__line_job *k, const bt__anchor *a, int i, edge *e, bt_vec3 *drift)
+/* ---- Where they are held in this step ---- */
+
+static void
+gather (bt__line_job *k, corners *s)
 {
-  const bt__mover *m = a->mover < 0 ? NULL : k->mover + a->mover;
-  asked q;
-  bt__witness w;
-  if (a->mover >= (int64_t)k->movers)
-    return 0;
-  q = ask (k, a->mover, a->object);
-  bt_vec3 p = k->x[i], axis = a->axis, was = bt__axpy (a->point, -a->thick, a->normal);
-  if (m)
+  s->n = 0;
+  for (int q = 0; q < k->olds && s->n < BT__BENTS; q++)
     {
-      p = bt__to_local (&m->motion.from, p);
-      axis = bt__into (&m->motion.from, axis);
-      was = bt__to_local (&m->motion.from, was);
+      bt__anchor *a = k->w->old + q;
+      corner *c = s->at + s->n;
+      c->node = a->bent ? bt__bend_node (k, a->from_end) : -1;
+      if (c->node < 0 || !bt__edge_again (k, a, k->x[c->node], &c->edge))
+        continue;
+      c->anchor = *a;
+      c->anchor.bent = c->edge.round ? BT__BENT_ROUND : BT__BENT_EDGE;
+      s->n++;
     }
-  if (!nearest (&q, p, &w) || !(w.distance > 0))
-    return 0;
-  *e = (edge){ axis, w.point, w.normal, a->thick, w.distance };
-  bt_vec3 gone = bt__sub (bt__axpy (w.point, -a->thick, w.normal), was);
-  if (!(bt__norm (bt__axpy (gone, -bt__dot (axis, gone), axis)) < SAME_EDGE * k->config->radius)
-      && !feel (&q, p, e))
-    return 0;
-  *drift = bt__vec (0, 0, 0);
-  if (m)
-    {
-      bt__frame to = bt__motion_at (&m->motion, 1);
-      bt_vec3 before = bt__to_world (&m->motion.from, e->point);
-      e->axis = bt__out_of (&to, e->axis);
-      e->normal = bt__out_of (&to, e->normal);
-      e->point = bt__to_world (&to, e->point);
-      *drift = bt__sub (e->point, before);
-    }
-  return 1;
 }
 
-/* How the line runs about an edge.  */
-typedef struct turn
+/* Nonzero if corner C and the next are of one member.  */
+static int
+goes_on (const corners *s, int c)
 {
-  bt_vec3 at, normal;
-  double angle;
-} turn;
+  return c >= 0 && c + 1 < s->n && s->at[c].node + 1 == s->at[c + 1].node
+         && bt__bend_goes_on (&s->at[c].anchor, &s->at[c + 1].anchor);
+}
 
-/* The directions from node I's place AT to its neighbours: A, B, and across the edge PA, PB.  */
-typedef struct legs
+static int
+is_thin (const bt__line_job *k, const corner *c)
 {
-  bt_vec3 a, b, pa, pb;
-} legs;
+  return bt__edge_is_thin (k, &c->edge);
+}
 
+/* Where node I is expected, a neighbour of C: at what is thin the turn changes little with that,
+   but how far out the node is held with the turn.  */
 static bt_vec3
-across (bt_vec3 axis, bt_vec3 v)
+expected (const bt__line_job *k, const corner *c, int i)
 {
-  return bt__axpy (v, -bt__dot (axis, v), axis);
+  return !is_thin (k, c) && bt__distance (k->X[i], k->x[i]) <= FORETOLD ? k->X[i] : k->x[i];
 }
 
-static legs
-legs_of (const bt__line_job *k, int i, bt_vec3 axis, bt_vec3 at)
-{
-  bt_vec3 none = { 0, 0, 0 };
-  legs l = { .a = bt__unit_or (bt__sub (k->x[i - 1], at), none),
-             .b = bt__unit_or (bt__sub (k->x[i + 1], at), none) };
-  l.pa = bt__unit_or (across (axis, l.a), none);
-  l.pb = bt__unit_or (across (axis, l.b), none);
-  return l;
-}
-
-/* The turn of the line at node I about E, where the tangents from both neighbours meet: the links
-   pass it at the line's radius.  Zero if the line does not run about it: lies along it, or turns
-   away.  */
 static int
-turn_about (const bt__line_job *k, const edge *e, int i, turn *t)
+turn_of (const bt__line_job *k, corners *s, int c)
 {
-  bt_vec3 axis = e->axis, centre = bt__axpy (e->point, -e->radius, e->normal);
-  centre = bt__axpy (centre, bt__dot (axis, bt__sub (k->X[i], centre)), axis);
-  double out = e->radius + k->config->radius;
-  t->normal = e->normal;
-  t->at = k->X[i];
-  for (int q = 0; q < TANGENTS; q++)
+  corner *q = s->at + c;
+  const bt_vec3 p[]
+      = { expected (k, q, q->node - 1), expected (k, q, q->node), expected (k, q, q->node + 1) };
+  int is_last = !goes_on (s, c), is_first = !goes_on (s, c - 1);
+  int turns = bt__turn_find (k, &q->edge, p, is_first ? NULL : &q[-1].anchor.after,
+                             is_last ? NULL : &q->anchor.after, &q->turn);
+  return turns && q->turn.angle > (is_first && is_last ? 0 : -TURNED);
+}
+
+/* Turn the side after corner C, so that the one that turns by too much shares with the other.  */
+static void
+even_out (const bt__line_job *k, corners *s, int c)
+{
+  corner *a = s->at + c, *b = a + 1;
+  double most = UNEVEN * BT__TURN_MOST, more = b->turn.angle - a->turn.angle;
+  if (fmax (a->turn.angle, b->turn.angle) <= most)
+    return;
+  double by = fmin (fmax (0.25 * more, -EVENING * k->h), EVENING * k->h);
+  bt_vec3 n = a->anchor.after;
+  a->anchor.after = bt__axpy (bt__scale (cos (by), n), sin (by), bt__cross (a->edge.axis, n));
+}
+
+static int
+is_by_link (uint32_t i, uint32_t j)
+{
+  return i < j + KNOTTED && j < i + KNOTTED;
+}
+
+/* Nonzero if anything but obstacle ID is nearer to link J than WAY.  */
+static int
+is_disturbed (const bt__line_job *k, uint32_t j, int64_t id, double way)
+{
+  const bt__near *near = bt__line_near (k, j);
+  for (uint32_t i = 0; i < k->w->watch[j].found; i++)
+    if (near[i].w.distance < way
+        && (near[i].link || bt__line_scene (k, near + i)->object[near[i].object].id != id))
+      return 1;
+  for (int i = 0; i < k->w->self.pairs; i++)
     {
-      legs l = legs_of (k, i, axis, t->at);
-      bt_vec3 sum = bt__add (l.pa, l.pb);
-      double sine = fmin (0.5 * bt__norm (sum), 1);
-      if (sine > STRAIGHT)
-        t->normal = bt__scale (-0.5 / sine, sum);
-      if (!(bt__dot (t->normal, e->normal) > 0))
-        return 0;
-      double cosine = fmax (sqrt (1 - sine * sine), LEAST_COS);
-      t->at = bt__axpy (centre, out / cosine, t->normal);
+      const bt__self_pair *p = k->w->self.pair + i;
+      int is_by = is_by_link (p->i, j) || (p->strand < 0 && is_by_link (p->j, j));
+      if (is_by && p->w.distance < 2 * way)
+        return 1;
     }
-  legs l = legs_of (k, i, axis, t->at);
-  t->angle = 2 * asin (fmin (0.5 * bt__norm (bt__add (l.a, l.b)), 1));
-  return fabs (bt__dot (axis, l.a)) < ALONG && fabs (bt__dot (axis, l.b)) < ALONG;
+  return 0;
+}
+
+int
+bt__bend_is_calm (const bt__line_job *k, int64_t node, int64_t id, double share)
+{
+  double way = share * DISTURBS * k->config->radius;
+  return !is_disturbed (k, (uint32_t)node, id, way)
+         && !is_disturbed (k, (uint32_t)node - 1, id, way);
+}
+
+/* Which corners are to be held.  Where something else is near a round member, half-spaces do better
+   than nodes that stay where they are: than all of the member.  */
+static void
+choose (const bt__line_job *k, const corners *s, int *may)
+{
+  for (int c = 0; c < s->n; c++)
+    may[c] = is_thin (k, s->at + c)
+             || (!k->plain && bt__bend_is_calm (k, s->at[c].node, s->at[c].anchor.object, 1));
+  for (int c = 0; c + 1 < s->n; c++)
+    may[c + 1] &= may[c] || !goes_on (s, c);
+  for (int c = s->n - 2; c >= 0; c--)
+    may[c] &= may[c + 1] || !goes_on (s, c);
+}
+
+/* V, shorter by BY.  */
+static bt_vec3
+shortened (bt_vec3 v, double by)
+{
+  double size = bt__norm (v);
+  return size > by ? bt__scale (1 - by / size, v) : bt__vec (0, 0, 0);
+}
+
+/* What it has yet to go round to where it should be.  That depends on where its neighbours are
+   foretold to be, and they go with it: so it goes half the way in a step.  */
+static bt_vec3
+lag_of (const bt__line_job *k, const corner *c)
+{
+  if (is_thin (k, c))
+    return bt__vec (0, 0, 0);
+  bt_vec3 should = bt__axpy (c->turn.centre, c->anchor.away, c->turn.normal);
+  bt_vec3 lag = bt__off_axis (c->edge.axis, bt__sub (c->anchor.held, should));
+  return shortened (lag, fmin (HALFWAY * bt__norm (lag), FOLLOWS * k->h));
+}
+
+/* How far from the axis it is held.  */
+static double
+away_of (const bt__line_job *k, const corner *c)
+{
+  double more = c->turn.reach - c->anchor.away;
+  if (is_thin (k, c))
+    return c->turn.reach;
+  return c->anchor.away + fmin (fmax (more, -SINKS * k->h), RISES * k->h);
 }
 
 static void
-bend_at (bt__line_job *k, const bt__anchor *a, int i, const edge *e, const turn *t, bt_vec3 drift)
+place (const bt__line_job *k, corner *c)
 {
+  c->lag = lag_of (k, c);
+  c->away = away_of (k, c);
+  c->place = bt__add (bt__axpy (c->turn.centre, c->away, c->turn.normal), c->lag);
+}
+
+/* Where the next node on SIDE (-1, 1) of corner C will be.  */
+static bt_vec3
+beside (const bt__line_job *k, const corners *s, int c, int side)
+{
+  return goes_on (s, side > 0 ? c : c - 1) ? s->at[c + side].place
+                                           : expected (k, s->at + c, s->at[c].node + side);
+}
+
+/* How much nearer to the axis than it may the line comes between corner C and that.  */
+static double
+lack_of (const bt__line_job *k, const corners *s, int c, int side)
+{
+  const corner *q = s->at + c;
+  return bt__turn_lack (q->edge.axis, q->turn.centre, q->place, beside (k, s, c, side),
+                        q->edge.radius + k->config->radius);
+}
+
+/* A side that does not go as it should yet must not cut into the member: its corners are farther
+   out.  */
+static void
+push_out (const bt__line_job *k, corners *s)
+{
+  for (int i = 0; i < 2 * SHARES; i++)
+    {
+      int c = i < SHARES ? 0 : s->n - 1, by = i < SHARES ? 1 : -1;
+      for (; c >= 0 && c < s->n; c += by)
+        {
+          corner *q = s->at + c;
+          if (is_thin (k, q))
+            continue;
+          double more = fmax (lack_of (k, s, c, -1), lack_of (k, s, c, 1));
+          q->away += more;
+          q->place = bt__axpy (q->place, more, q->turn.normal);
+        }
+    }
+}
+
+/* How far it goes across the axis in the step, as the line is laid round: what a node at something
+   thin goes from where it was taken is not that.  */
+static bt_vec3
+gone_round (const bt__line_job *k, const corner *c)
+{
+  bt_vec3 gone = bt__sub (c->place, c->anchor.held);
+  return bt__off_axis (c->edge.axis, is_thin (k, c) ? bt__add (gone, c->anchor.lag) : gone);
+}
+
+static void
+hold (bt__line_job *k, const corners *s, int i)
+{
+  const corner *c = s->at + i;
   int at = k->bents++;
-  double mu = bt__line_friction (k, a->object);
-  double stiff = bt__line_stiffness (k, i, a->load);
-  k->w->bent[at] = (bt__dynamic_bent){ .node = i,
-                                       .at = t->at,
-                                       .axis = e->axis,
-                                       .normal = t->normal,
-                                       .drift = drift,
-                                       .stiffness = stiff,
-                                       .wrap = mu * t->angle,
-                                       .friction = mu,
-                                       .slip = BT__LINE_SLIP,
-                                       .drag = a->drag,
-                                       .side = a->side,
-                                       .flow = a->flow * k->h,
-                                       .load = a->load };
-  k->w->bend[at] = *a;
-  k->w->bend[at].axis = e->axis;
-  k->w->bend[at].point = e->point;
-  k->w->bend[at].normal = e->normal;
-  k->w->bend[at].thick = e->radius;
+  bt_vec3 none = { 0, 0, 0 }, a_side = bt__unit_or (bt__sub (c->place, beside (k, s, i, -1)), none),
+          b_side = bt__unit_or (bt__sub (beside (k, s, i, 1), c->place), none);
+  double turn = 2 * asin (fmin (0.5 * bt__distance (a_side, b_side), 1));
+  double mu = bt__line_friction (k, c->anchor.object);
+  bt_vec3 gone = gone_round (k, c);
+  k->w->bent[at]
+      = (bt__dynamic_bent){ .node = c->node,
+                            .at = c->place,
+                            .axis = c->edge.axis,
+                            .normal = c->turn.normal,
+                            .stiffness = bt__line_stiffness (k, c->node, c->anchor.load),
+                            .wrap = c->turn.angle > 0 ? mu * turn : 0,
+                            .friction = mu,
+                            .slip = BT__LINE_SLIP,
+                            .drag = c->anchor.drag + 0.5 * bt__dot (bt__add (a_side, b_side), gone),
+                            .side = c->anchor.side,
+                            .flow = c->anchor.flow * k->h,
+                            .load = c->anchor.load };
+  bt__anchor *a = k->w->bend + at;
+  *a = c->anchor;
+  a->held = c->place;
+  a->away = c->away;
+  a->lag = c->lag;
+  a->axis = c->edge.axis;
+  a->point = c->edge.point;
+  a->normal = c->edge.normal;
+  a->thick = c->edge.radius;
+  a->span = (c->edge.radius + k->config->radius) * fmax (c->turn.angle, 0);
 }
 
 void
 bt__line_bends (bt__line_job *k)
 {
+  corners s;
+  int may[BT__BENTS];
   k->bents = 0;
-  for (int q = 0; q < k->olds && k->bents < BT__BENTS; q++)
+  gather (k, &s);
+  for (int c = 0; c < s.n; c++)
+    turn_of (k, &s, c);
+  for (int c = 0; c < s.n; c++)
+    if (goes_on (&s, c))
+      even_out (k, &s, c);
+  choose (k, &s, may);
+  for (int c = 0; c < s.n; c++)
     {
-      bt__anchor *a = k->w->old + q;
-      edge e;
-      turn t;
-      bt_vec3 drift;
-      int i = a->bent ? node_of (k, a->from_end) : -1;
-      if (i < 0 || !find_edge (k, a, i, &e, &drift) || !turn_about (k, &e, i, &t))
-        continue;
-      bend_at (k, a, i, &e, &t, drift);
-      a->state = -1; /* taken */
+      may[c] &= turn_of (k, &s, c);
+      place (k, s.at + c);
     }
+  push_out (k, &s);
+  for (int c = 0; c < s.n; c++)
+    if (may[c])
+      hold (k, &s, c);
+  for (int q = 0; q < k->olds; q++) /* taken, or gone */
+    k->w->old[q].state = k->w->old[q].bent ? -1 : k->w->old[q].state;
   bt__dynamic_bend (k->kernel, k->w->bent, k->bents);
 }
 
-/* Nonzero if row Q is of an edge about which the line is bent.  */
+int
+bt__line_is_laid_round (const bt__line_job *k)
+{
+  for (int i = 0; i < k->bents; i++)
+    {
+      bt__edge e = { .radius = k->w->bend[i].thick };
+      if (!bt__edge_is_thin (k, &e))
+        return 1;
+    }
+  return 0;
+}
+
+/* Nonzero if row Q is of what the line runs about there.  */
 int
 bt__line_is_bent_about (const bt__line_job *k, int q)
 {
@@ -315,327 +354,8 @@ bt__line_is_bent_about (const bt__line_job *k, int q)
       if (a->object != of->id || a->mover != (int64_t)of->mover - 1)
         continue;
       bt_vec3 away = bt__sub (of->point, bt__axpy (a->point, -a->thick, a->normal));
-      if (bt__norm (bt__axpy (away, -bt__dot (a->axis, away), a->axis))
-          < a->thick + 2 * k->config->radius)
+      if (bt__norm (bt__off_axis (a->axis, away)) < a->thick + 2 * k->config->radius)
         return 1;
     }
   return 0;
-}
-
-/* ---- What is kept of them ---- */
-
-bt__anchor
-bt__line_bent_anchor (const bt__line_job *k, int i)
-{
-  const bt__dynamic_bent *b = k->w->bent + i;
-  bt__anchor a = k->w->bend[i];
-  double drag = b->drag + b->flow, side = b->side_now, size = hypot (drag, side);
-  double keep = size > BT__LINE_SLIP ? BT__LINE_SLIP / size : 1;
-  double pull = fabs (b->pull[1] - b->pull[0]);
-  a.state = size > BT__LINE_SLIP ? BT__TOUCH_SLIDE : BT__TOUCH_STICK;
-  a.step_work = (1 - keep) * (pull * fabs (drag) + b->friction * b->load * fabs (side));
-  a.work += a.step_work;
-  a.drag = keep * drag;
-  a.side = keep * side;
-  a.flow = b->flow / k->h;
-  a.speed = hypot (b->flow, side - b->side) / k->h;
-  a.load = b->load;
-  a.force = b->force;
-  a.from_end = k->w->from_end[b->node] + b->flow;
-  a.stick = bt__vec (0, 0, 0);
-  return a;
-}
-
-/* ---- Nodes that come and go ---- */
-
-/* The anchors of bent nodes and their nodes, as they are while nodes come and go.  */
-typedef struct bends
-{
-  int n;
-  bt__anchor *anchor[BT__BENTS];
-  int64_t node[BT__BENTS];
-} bends;
-
-static int
-is_bent (const bends *s, int64_t i)
-{
-  for (int k = 0; k < s->n; k++)
-    if (s->node[k] == i)
-      return 1;
-  return 0;
-}
-
-static void
-shift_bends (bends *s, int64_t from, int by)
-{
-  for (int k = 0; k < s->n; k++)
-    s->node[k] += s->node[k] >= from ? by : 0;
-}
-
-static void
-show (const bt__line_job *k, int64_t i, int by)
-{
-  const bt__line_hook *hook = k->config->hook;
-  if (hook && hook->see)
-    hook->see (hook->witness, (int)i, by, bt__dynamic_x (k->d), (int)k->d->n + 1);
-}
-
-static void
-put_in (bt__line_job *k, bends *s, int64_t j, double u, int64_t from)
-{
-  bt__dynamic_insert (k->d, j, u, from);
-  shift_bends (s, j + 1, 1);
-  show (k, j + 1, 1);
-}
-
-/* Take out node I if its links are clear on their way to the chord.  */
-static int
-take_out (bt__line_job *k, bends *s, int64_t i)
-{
-  const bt_vec3 *p = bt__dynamic_x (k->d) + i - 1;
-  const double *rest = bt__dynamic_rest (k->d) + i - 1;
-  double u = rest[0] / (rest[0] + rest[1]);
-  bt_vec3 to = bt__axpy (bt__scale (1 - u, p[0]), u, p[2]);
-  if (i < 1 || i >= k->d->n || is_bent (s, i) || !bt__line_may_move (k, p, bt__sub (to, p[1])))
-    return 0;
-  bt__dynamic_remove (k->d, i);
-  shift_bends (s, i, -1);
-  show (k, i, -1);
-  return 1;
-}
-
-/* Line runs out of the interval on one side of bent node Q, at FLOW a step, into that on the other:
-   the next nodes pass.  Zero if they cannot and nothing is left.  */
-static int
-pass_nodes (bt__line_job *k, bends *s, int q, double flow)
-{
-  double piece = k->d->piece, size = fabs (flow), least = fmax (PASS * piece, FORESIGHT * size);
-  for (int i = 0; i < 4; i++)
-    {
-      int64_t node = s->node[q], from = flow > 0 ? node - 1 : node,
-              next = flow > 0 ? node - 1 : node + 1;
-      double left = bt__dynamic_rest (k->d)[from];
-      if (left >= least)
-        break;
-      if (is_bent (s, next))
-        return left > LEAST * piece;
-      if (!take_out (k, s, next))
-        return left > LEAST * piece + size;
-    }
-  int64_t node = s->node[q], into = flow > 0 ? node : node - 1,
-          far = flow > 0 ? node + 1 : node - 1;
-  double rest = bt__dynamic_rest (k->d)[into];
-  if (rest > fmax (SPLIT * piece, least + 1.1 * piece) && k->d->n < k->d->n_max)
-    put_in (k, s, into, flow > 0 ? (rest - piece) / rest : piece / rest,
-            far > node ? into + 1 : into);
-  return 1;
-}
-
-/* A node that is bent no more goes on with the line.  */
-static void
-let_go (bt__line_job *k, int64_t i)
-{
-  bt_vec3 *arrays[] = { bt__dynamic_v (k->d), bt__dynamic_vp (k->d), bt__dynamic_dx (k->d) };
-  for (int q = 0; q < 3; q++)
-    {
-      bt_vec3 *v = arrays[q] + i;
-      v[0] = bt__scale (0.5, bt__add (v[-1], v[1]));
-    }
-}
-
-static void
-let_go_idle (bt__line_job *k)
-{
-  for (int q = 0; q < k->bents; q++)
-    if (!(k->w->bent[q].load > 0))
-      let_go (k, k->w->bent[q].node);
-}
-
-static void
-drop (bt__line_job *k, bends *s, int q)
-{
-  s->anchor[q]->bent = 0;
-  let_go (k, s->node[q]);
-  s->n--;
-  for (int i = q; i < s->n; i++)
-    {
-      s->anchor[i] = s->anchor[i + 1];
-      s->node[i] = s->node[i + 1];
-    }
-}
-
-static void
-measure (bt__line_job *k)
-{
-  const double *rest = bt__dynamic_rest (k->d);
-  k->links = (int)k->d->n;
-  k->w->from_end[k->links] = 0;
-  for (int j = k->links - 1; j >= 0; j--)
-    k->w->from_end[j] = k->w->from_end[j + 1] + rest[j];
-}
-
-static void
-gather (bt__line_job *k, bends *s)
-{
-  bt__anchor *a = bt__anchors_at (k->anchors);
-  s->n = 0;
-  for (int64_t q = 0; q < k->anchors->n && s->n < BT__BENTS; q++)
-    {
-      int i = a[q].bent ? node_of (k, a[q].from_end) : -1;
-      a[q].bent = i > 0;
-      if (i <= 0)
-        continue;
-      s->anchor[s->n] = a + q;
-      s->node[s->n++] = i;
-    }
-}
-
-/* ---- New ones ---- */
-
-/* Nonzero if the obstacle of row Q is too round for an edge; cheap.  */
-static int
-is_round (const bt__line_job *k, const bt__line_row *of)
-{
-  const bt__scene *scene = of->mover ? k->mover[of->mover - 1].body : k->scene;
-  const bt__obstacle *o = scene->object + of->object;
-  double most = THIN * k->d->piece - k->config->radius;
-  switch (o->kind)
-    {
-    case BT__OBSTACLE_PLANE:
-    case BT__OBSTACLE_SPHERE:
-      return 1;
-    case BT__OBSTACLE_CAPSULE:
-      return o->shape.capsule.radius > most;
-    case BT__OBSTACLE_CYLINDER:
-      return o->shape.cylinder.radius > most;
-    default:
-      return 0;
-    }
-}
-
-/* The node that is there already where R bears, or -1.  */
-static int64_t
-node_near (const bt__line_job *k, const bt__dynamic_row *r)
-{
-  double rest = bt__dynamic_rest (k->d)[r->node], near = FROM_NODE * k->d->piece;
-  return r->s * rest < near ? r->node : (1 - r->s) * rest < near ? r->node + 1 : -1;
-}
-
-/* Nonzero if one of node I's intervals is too short for it to be bent.  */
-static int
-is_crowded (const bt__line_job *k, int64_t i)
-{
-  const double *rest = bt__dynamic_rest (k->d) + i;
-  return i < 1 || i >= k->d->n || fmin (rest[-1], rest[0]) < CROWDED * k->d->piece;
-}
-
-/* Nonzero if the line may be bent where row Q bears; E is the edge then.  */
-static int
-may_bend (const bt__line_job *k, const bends *s, int q, edge *e)
-{
-  const bt__dynamic_row *r = k->w->row + q;
-  const bt__line_row *of = k->w->of + q;
-  const bt_vec3 *x = bt__dynamic_x (k->d) + r->node;
-  if (!(r->load > 0) || of->age % TRIED != 0 || of->flat == 1 || of->mover || s->n >= BT__BENTS
-      || k->d->n >= k->d->n_max || !(bt__dynamic_tension (k->d)[r->node] > 0) || is_round (k, of))
-    return 0;
-  int64_t own = node_near (k, r);
-  if (own >= 0 && (is_crowded (k, own) || is_bent (s, own)))
-    return 0;
-  asked a = ask (k, (int64_t)of->mover - 1, of->id);
-  bt_vec3 p = bt__axpy (bt__scale (1 - r->s, x[0]), r->s, x[1]);
-  bt_vec3 t = bt__unit_or (bt__sub (x[1], x[0]), bt__vec (0, 0, 0));
-  return feel (&a, p, e) && fabs (bt__dot (t, e->axis)) < ALONG;
-}
-
-/* The row that bears most of those where the line may be bent, or -1.  */
-static int
-find_new (const bt__line_job *k, const bends *s, edge *e)
-{
-  for (int q = 0; q < k->rows; q++)
-    if (may_bend (k, s, q, e))
-      return q;
-  return -1;
-}
-
-/* The anchor of row Q, which becomes a bent node's.  */
-static bt__anchor *
-anchor_of (bt__line_job *k, int q)
-{
-  bt__anchor *a = bt__anchors_at (k->anchors);
-  for (int64_t i = 0; i < k->anchors->n; i++)
-    if (!a[i].bent && a[i].from_end == k->w->of[q].from_end && a[i].object == k->w->of[q].id)
-      return a + i;
-  return NULL;
-}
-
-static void
-bend_new (bt__line_job *k, bends *s)
-{
-  edge e;
-  int q = find_new (k, s, &e);
-  bt__anchor *a = q < 0 ? NULL : anchor_of (k, q);
-  if (!a)
-    return;
-  const bt__dynamic_row *r = k->w->row + q;
-  int64_t j = r->node;
-  bt_vec3 *x = bt__dynamic_x (k->d), *v = bt__dynamic_v (k->d);
-  bt_vec3 t = bt__unit_or (bt__sub (x[j + 1], x[j]), bt__vec (0, 0, 0));
-  a->bent = 1;
-  a->flow = bt__dot (t, bt__axpy (bt__scale (1 - r->s, v[j]), r->s, v[j + 1]));
-  a->drag = fmin (fmax (bt__dot (t, a->stick), -BT__LINE_SLIP), BT__LINE_SLIP);
-  a->side = bt__dot (e.axis, a->stick);
-  a->axis = e.axis;
-  a->thick = e.radius;
-  a->point = e.point;
-  a->normal = e.normal;
-  int64_t node = node_near (k, r);
-  if (node < 0)
-    {
-      node = j + 1;
-      put_in (k, s, j, r->s, j);
-    }
-  bt_vec3 *arrays[] = { v, bt__dynamic_vp (k->d), bt__dynamic_dx (k->d) };
-  for (int i = 0; i < 3; i++)
-    arrays[i][node] = bt__scale (bt__dot (e.axis, arrays[i][node]), e.axis);
-  int at = s->n++;
-  for (; at > 0 && s->node[at - 1] > node; at--)
-    {
-      s->anchor[at] = s->anchor[at - 1];
-      s->node[at] = s->node[at - 1];
-    }
-  s->anchor[at] = a;
-  s->node[at] = node;
-}
-
-/* ---- Spare ones ---- */
-
-/* Take out one node that nothing needs any more.  */
-static void
-take_spare (bt__line_job *k, bends *s)
-{
-  const double *rest = bt__dynamic_rest (k->d);
-  for (int64_t i = 2; i < k->d->n; i++)
-    if (rest[i - 1] + rest[i] < SPARE * k->d->piece && !is_bent (s, i) && !is_bent (s, i - 1)
-        && !is_bent (s, i + 1) && take_out (k, s, i))
-      return;
-}
-
-void
-bt__line_rebend (bt__line_job *k)
-{
-  bends s;
-  show (k, 0, 0);
-  let_go_idle (k);
-  measure (k);
-  gather (k, &s);
-  if (!(k->config->hook && k->config->hook->no_bends))
-    bend_new (k, &s);
-  for (int q = s.n - 1; q >= 0; q--)
-    if (!pass_nodes (k, &s, q, s.anchor[q]->flow * k->h))
-      drop (k, &s, q);
-  take_spare (k, &s);
-  measure (k);
-  for (int q = 0; q < s.n; q++)
-    s.anchor[q]->from_end = k->w->from_end[s.node[q]];
 }

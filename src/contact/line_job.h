@@ -126,6 +126,8 @@ typedef struct bt__line_job
   const bt_vec3 *x;        /* at the start */
   bt_vec3 *X;              /* proposed */
   bt__dynamic_watch watch; /* over a line that nothing touches */
+  int plain;               /* nonzero: no node is held at a round member */
+  int unsolved;            /* nonzero: what the step found is no solution, or not what was taken */
   bt__line_report *report;
   bt__count *count;
 } bt__line_job;
@@ -190,19 +192,22 @@ int bt__line_is_wedged (const bt__line_job *k, uint32_t j);
    and obstacle are.  */
 void bt__line_press (const bt__line_job *k, int i);
 
-/* ---- Where the line runs about an edge (line_bend.c) ---- */
+/* ---- What the line runs about (line_bend.c) ---- */
 
-/* Hold the nodes at edges that were there in the last step and are still; before the rows.  */
+/* Hold the nodes that were held in the last step, where they still are to be; before the rows.  */
 void bt__line_bends (bt__line_job *k);
 
-/* Nonzero if row Q says what a node held at an edge does.  */
+/* Nonzero if nodes are held at a round member that is not thin.  */
+int bt__line_is_laid_round (const bt__line_job *k);
+
+/* Nonzero if row Q says what a node that is held does.  */
 int bt__line_is_bent_about (const bt__line_job *k, int q);
 
-/* What is to be kept of the I-th node held at an edge.  */
+/* What is to be kept of the I-th node held.  */
 bt__anchor bt__line_bent_anchor (const bt__line_job *k, int i);
 
-/* After the step: nodes come and go where the line runs about edges, the line staying where it is
-   but for those that are taken out.  */
+/* After the step (line_rebend.c): nodes come and go where the line runs about something, the line
+   staying where it is but for those that are taken out.  */
 void bt__line_rebend (bt__line_job *k);
 
 /* ---- What sticks (line_anchor.c) ---- */

@@ -7,12 +7,12 @@
 
 #include "sim/chain.h"
 
-/* The material that one contact stands for: a link's length, but where the line runs about an edge
+/* The material that one contact stands for: a link's length, but where the line runs about something
    only what lies on it.  */
 static double
 span_of (const bt__dynamic *chain, const bt__anchor *anchor)
 {
-  return anchor->bent ? 0 : bt__dynamic_length (chain) / (double)chain->n;
+  return anchor->bent ? anchor->span : bt__dynamic_length (chain) / (double)chain->n;
 }
 
 /* A tether is no rougher than steel.  */

@@ -3,9 +3,11 @@
    Such a node is held in place across the edge, and line runs through it: FLOW metres of rest
    length in the step go from the interval before it to the one after.  That is one more unknown a
    node, and one more equation: the tensions are as the capstan has it,
-     T_b = T_a exp (wrap k),   k = drag / max (|drag, side|, slip),
+     T_b + c = (T_a + c) exp (wrap k),   k = drag / max (|drag, side|, slip),
    where DRAG is how far the line has been drawn from where it stuck: friction grows with it to the
-   whole at SLIP, as in every other contact.
+   whole at SLIP, as in every other contact.  C is a hundredth of a newton: a slack line would hold
+   nothing however often it is wound round, and one that is all but slack would hold anything in one
+   step and nothing in the next.
 
    The equations of the nodes stay symmetric and tridiagonal: the flows border them.  With y for the
    update without flow and z for that of a metre of it, a small full system gives the flows.  It is
@@ -20,9 +22,12 @@
 
 #include "tether/dynamic_kernel.h"
 
-#define LEAST 0.02    /* of an interval: what line leaves of it in a step */
-#define SOFT 1e-6     /* of the stiffness: what resists the flow between slack intervals */
-#define FOLLOWS 60    /* iterations for a flow that follows the places */
+#define LEAST 0.02 /* of an interval: what line leaves of it in a step */
+#define CLING                                                                                      \
+  0.01             /* N: what a line that is slack holds on by: nothing would amplify to nothing   \
+                    */
+#define SOFT 1e-6  /* of the stiffness: what resists the flow between slack intervals */
+#define FOLLOWS 60 /* iterations for a flow that follows the places */
 #define SETTLED 1e-13 /* m */
 
 /* ---- The intervals before and after ---- */
@@ -162,8 +167,8 @@ border_of (const bt__dynamic_work *w, const bt__dynamic_bent *b)
   border r = { .a = leg_of (w, b->node - 1), .b = leg_of (w, b->node) };
   double slope, k = share_of (b, b->drag + b->flow, &slope);
   r.e = exp (b->wrap * k);
-  r.slope = r.a.tension * r.e * b->wrap * slope;
-  r.lack = r.b.tension - r.e * r.a.tension;
+  r.slope = (r.a.tension + CLING) * r.e * b->wrap * slope;
+  r.lack = r.b.tension + CLING - r.e * (r.a.tension + CLING);
   return r;
 }
 
@@ -330,18 +335,21 @@ lack_at (const bt__dynamic_bent *b, const share *s, double more, double *slope)
   double ra = s->rest_a - more, rb = s->rest_b + more;
   double ta = s->unit * s->zero_a * (s->a / ra - 1), tb = s->unit * s->zero_b * (s->b / rb - 1);
   *slope = -s->unit * (s->zero_b * s->b / (rb * rb) + e * s->zero_a * s->a / (ra * ra))
-           - ta * e * b->wrap * bends;
-  return tb - e * ta;
+           - (ta + CLING) * e * b->wrap * bends;
+  return tb + CLING - e * (ta + CLING);
 }
 
 /* What must flow at B so that the tensions are right where the nodes are.  Both legs are taut, or
-   neither is: then they share what is slack.  */
+   neither is: then they share what is slack,
+   or friction keeps it.  */
 static double
 wanted_flow (const bt__dynamic_work *w, const bt__dynamic_bent *b)
 {
   share s = share_out (w, b);
   double even = (s.rest_a * s.b - s.rest_b * s.a) / (s.a + s.b);
   double low = s.rest_a - s.a, high = s.b - s.rest_b, f = even, slope;
+  if (!(low < high) && b->wrap > 0)
+    return fmin (fmax (-b->drag - b->flow, high), low);
   if (!(low < high))
     return isfinite (even) ? even : 0;
   for (int i = 0; i < FOLLOWS; i++)

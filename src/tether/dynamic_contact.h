@@ -59,7 +59,7 @@ typedef struct bt__dynamic_hold
 
 enum
 {
-  BT__BENTS = 8 /* bent nodes a line has at most */
+  BT__BENTS = 24 /* bent nodes a line has at most */
 };
 
 /* A node about which the line runs, see dynamic_bent.c: held in the plane across AXIS, and line

@@ -22,18 +22,18 @@ enum
   CORNERS = 402
 };
 
-/* A line about TURNS of a drum, its links SHARE of the drum's radius, a weight on the near end.  */
+/* A line about TURNS of a drum, its links SHARE of the drum's radius, R from the axis, a weight on
+   the near end, LEG m off.  */
 static void
-wind (capstan *c, double share, double mu, double turns)
+wind_wider (capstan *c, double share, double mu, double turns, double r, double leg)
 {
   static bt_vec3 shape[CORNERS + 1];
-  double link = share * DRUM, rise = turns > 0.75 ? 0.15 * turns : 0;
-  double r = 1.0001 * (DRUM + 0.005) / cos (share / 2), length = 0;
+  double link = share * DRUM, rise = turns > 0.75 ? 0.15 * turns : 0, length = 0;
   c->theta = 2 * BT__PI * turns;
   assert_true (reef_open (&c->reef));
   reef_cylinder (&c->reef, bt__vec (0, -5, 0), bt__vec (0, 5, 0), DRUM);
   assert_true (reef_raise (&c->reef));
-  shape[0] = bt__vec (-r, 0, -LEG);
+  shape[0] = bt__vec (-r, 0, -leg);
   for (int i = 1; i < CORNERS; i++)
     {
       double u = (i - 1) / (CORNERS - 2.0), a = BT__PI - c->theta * u;
@@ -41,7 +41,9 @@ wind (capstan *c, double share, double mu, double turns)
     }
   double a = BT__PI - c->theta;
   c->along = bt__vec (sin (a), 0, -cos (a));
-  c->at = shape[CORNERS] = bt__axpy (shape[CORNERS - 1], LEG + 0.5, c->along);
+  bt_vec3 out = bt__vec (cos (a), 0, sin (a));
+  c->at = bt__axpy (shape[CORNERS - 1], DRUM + 0.005 - r, out);
+  c->at = shape[CORNERS] = bt__axpy (c->at, leg + 0.5, c->along);
   for (int i = 0; i < CORNERS; i++)
     length += bt__distance (shape[i], shape[i + 1]);
   assert_true (
@@ -52,15 +54,21 @@ wind (capstan *c, double share, double mu, double turns)
   c->rope.config.pull[1] = INFINITY;
 }
 
-/* Haul for STEPS; return the ratio of the tensions over the second half.  */
+static void
+wind (capstan *c, double share, double mu, double turns)
+{
+  wind_wider (c, share, mu, turns, 1.0001 * (DRUM + 0.005) / cos (share / 2), LEG);
+}
+
+/* Haul for STEPS at SPEED; return the ratio of the tensions over the second half.  */
 static double
-haul (capstan *c, int steps)
+haul_at (capstan *c, int steps, double speed)
 {
   const double *t = bt__dynamic_tension (c->rope.d);
   double low = 0, high = 0;
   for (int i = 0; i < steps; i++)
     {
-      c->at = bt__axpy (c->at, SPEED * frame * fmin (1, i / 60.0), c->along);
+      c->at = bt__axpy (c->at, speed * frame * fmin (1, i / 60.0), c->along);
       c->rope.in.end[1].at = c->at;
       assert_true (rope_step (&c->rope, frame, 0));
       if (i >= steps / 2)
@@ -70,6 +78,12 @@ haul (capstan *c, int steps)
         }
     }
   return high / low;
+}
+
+static double
+haul (capstan *c, int steps)
+{
+  return haul_at (c, steps, SPEED);
 }
 
 static void
@@ -90,6 +104,49 @@ check (double share, double mu, double turns)
   assert_near (ratio / wanted, 1, 0.01, "the ratio of tensions");
   assert_int_equal (c.rope.truncated, 0);
   unwind (&c);
+}
+
+/* Links as long as the drum is thick, or longer, are held where they turn: no ripple either.  */
+static void
+check_long (double share, double mu, double turns, double speed)
+{
+  static capstan c;
+  double link = share * DRUM, around = DRUM + 0.005;
+  wind_wider (&c, share, mu, turns, 1.001 * sqrt (around * around + link * link / 4), 4 + 3 * link);
+  double ratio = haul_at (&c, 1500, speed), wanted = exp (mu * c.theta);
+  const double *t = bt__dynamic_tension (c.rope.d);
+  double least = INFINITY, most = 0;
+  for (int i = 0; i < 120; i++)
+    {
+      c.at = bt__axpy (c.at, speed * frame, c.along);
+      c.rope.in.end[1].at = c.at;
+      assert_true (rope_step (&c.rope, frame, 1));
+      least = fmin (least, t[c.rope.d->n - 1]);
+      most = fmax (most, t[c.rope.d->n - 1]);
+    }
+  print_message (
+      "# link %.2f R, mu %.1f, %.2f turns, %.1f m/s: %.4f, exactly %.4f; ripple %.2f %%; "
+      "%.2f solves a step\n",
+      share, mu, turns, speed, ratio, wanted, 100 * (most / least - 1),
+      (double)c.rope.solves / (double)c.rope.steps);
+  assert_near (ratio / wanted, 1, 0.01, "the ratio of tensions");
+  assert_below (most / least, 1.03, "the ripple");
+  assert_true (c.rope.touch.bends > 2);
+  assert_kept (&c.rope, "long links about a drum");
+  unwind (&c);
+}
+
+static void
+long_links (void **state)
+{
+  (void)state;
+  const double share[] = { 0.5, 0.7, 1, 1.5, 2 };
+  for (int i = 0; i < 5; i++)
+    {
+      check_long (share[i], 0.3, 0.5, SPEED);
+      check_long (share[i], 0.6, 0.5, SPEED);
+      check_long (share[i], 0.3, 1, SPEED);
+    }
 }
 
 static void
@@ -185,8 +242,9 @@ sticks (void **state)
 int
 main (void)
 {
-  const struct CMUnitTest tests[]
-      = { cmocka_unit_test (half_a_turn), cmocka_unit_test (a_turn), cmocka_unit_test (no_friction),
-          cmocka_unit_test (no_ripple), cmocka_unit_test (sticks) };
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test (half_a_turn), cmocka_unit_test (long_links), cmocka_unit_test (a_turn),
+    cmocka_unit_test (no_friction), cmocka_unit_test (no_ripple),  cmocka_unit_test (sticks)
+  };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }

@@ -1,0 +1,148 @@
+/* Where the line runs about an edge, a wire, a round member: what the files about it share.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_CONTACT_LINE_BEND_H
+#define BT_CONTACT_LINE_BEND_H
+
+#include "contact/line_job.h"
+
+/* ---- What the line runs about (line_edge.c) ---- */
+
+typedef struct bt__edge
+{
+  bt_vec3 axis, point, normal; /* unit; on the obstacle; unit, to the line */
+  double radius, distance;     /* m: of the edge; of the line's axis from POINT */
+  int round;                   /* nonzero: the side of a cylinder or a capsule */
+} bt__edge;
+
+/* The edge of the standing obstacle ID about P, to E; zero if there is none, or too round a one. */
+int bt__edge_find (const bt__line_job *k, int64_t id, bt_vec3 p, bt__edge *e);
+
+/* The edge that A knows, as it is about P; zero if there is none.  */
+int bt__edge_again (const bt__line_job *k, const bt__anchor *a, bt_vec3 p, bt__edge *e);
+
+/* Nonzero if the obstacle of row OF has no edges that count; cheap.  */
+int bt__edge_has_none (const bt__line_job *k, const bt__line_row *of);
+
+/* Nonzero if E is so thin against the line's links that one node is enough for it.  */
+int bt__edge_is_thin (const bt__line_job *k, const bt__edge *e);
+
+/* The part of V across AXIS.  */
+static inline bt_vec3
+bt__off_axis (bt_vec3 axis, bt_vec3 v)
+{
+  return bt__axpy (v, -bt__dot (axis, v), axis);
+}
+
+/* ---- How it runs about that (line_turn.c) ---- */
+
+/* The line comes to a node along a tangent of the edge and leaves it along another.  */
+typedef struct bt__turn
+{
+  bt_vec3 before, after; /* unit, across the axis: from it to where the tangents touch */
+  bt_vec3 centre, at;    /* m: the edge's middle there; where they meet */
+  bt_vec3 normal;        /* unit, across the axis, from the one to the other */
+  double reach;          /* m between them */
+  double angle;          /* radians about the axis, positive the way the line winds */
+  double turn;           /* radians in space */
+  double zone;           /* m from AT along a tangent to where it touches */
+  bt_vec3 sliding;       /* half the sum of the line's directions: how much of a move of AT it is */
+} bt__turn;
+
+/* The turn at node 1 of P about E; *BEFORE, *AFTER: the normal there if its other end is held too,
+   else NULL.  Zero if the line does not run about it: lies along it, or turns away.  */
+int bt__turn_find (const bt__line_job *k, const bt__edge *e, const bt_vec3 *p,
+                   const bt_vec3 *before, const bt_vec3 *after, bt__turn *t);
+
+/* How much nearer than OUT a line from A to B comes to the axis through CENTRE on its way, m.  */
+double bt__turn_lack (bt_vec3 axis, bt_vec3 centre, bt_vec3 a, bt_vec3 b, double out);
+
+#define BT__BEND_BEHIND                                                                            \
+  0.1                     /* of the way from the axis: how far one may have to go round, at most */
+#define BT__TURN_MOST 1.0 /* radians: of a corner about a round member that is not thin */
+
+/* The normal of the interval from P[0] to P[1] about an axis.  */
+static inline bt_vec3
+bt__turn_normal (bt_vec3 axis, const bt_vec3 *p)
+{
+  bt_vec3 none = { 0, 0, 0 };
+  return bt__cross (bt__unit_or (bt__off_axis (axis, bt__sub (p[1], p[0])), none), axis);
+}
+
+/* Nonzero if nodes A and B, the next, are held at the same member, the interval between them along
+   a tangent.  */
+static inline int
+bt__bend_goes_on (const bt__anchor *a, const bt__anchor *b)
+{
+  return a->bent == BT__BENT_ROUND && b->bent == BT__BENT_ROUND && a->object == b->object
+         && bt__dot (a->after, a->after) > 0;
+}
+
+/* ---- Nodes that are held (line_bend.c) ---- */
+
+/* The node that is FROM_END from the end, or -1.  */
+int bt__bend_node (const bt__line_job *k, double from_end);
+
+/* Nonzero if nothing but obstacle ID is near the links of NODE, nor the line itself; SHARE: how
+   near, of what keeps it from being held about a round member.  */
+int bt__bend_is_calm (const bt__line_job *k, int64_t node, int64_t id, double share);
+
+/* line_bend_keep.c: nonzero if the I-th node held bears, or one that it goes on to.  */
+int bt__bend_bears (const bt__line_job *k, int i);
+
+/* ---- Nodes that come and go (line_rebend.c) ---- */
+
+/* The nodes held, in order, while nodes come and go; their anchors are not among the others.  */
+typedef struct bt__bends
+{
+  int n;
+  bt__anchor anchor[BT__BENTS];
+  int64_t node[BT__BENTS];
+} bt__bends;
+
+/* line_bend_list.c: take them out of the anchors, or put them back in order; of row Q take the
+   anchor out of these, to A, zero if it has none.  */
+void bt__bends_gather (bt__line_job *k, bt__bends *s);
+void bt__bends_scatter (bt__line_job *k, bt__bends *s);
+int bt__bends_take_anchor (bt__line_job *k, int q, bt__anchor *a);
+
+/* Nonzero if node I is held; if bend Q and the next are of one member.  */
+int bt__bends_has (const bt__bends *s, int64_t i);
+int bt__bends_goes_on (const bt__bends *s, int q);
+
+/* Hold NODE too, as A says: return its place in the list; hold bend Q no more; the same, and let
+   its node go.  */
+int bt__bends_add (bt__bends *s, const bt__anchor *a, int64_t node);
+void bt__bends_lose (bt__bends *s, int q);
+void bt__bends_drop (bt__line_job *k, bt__bends *s, int q);
+
+/* Put a node at the share U of interval J's chord, see bt__dynamic_insert; take node I out if its
+   links are clear on their way to the chord, or return zero.  */
+void bt__bends_put_in (bt__line_job *k, bt__bends *s, int64_t j, double u, int64_t from);
+int bt__bends_take_out (bt__line_job *k, bt__bends *s, int64_t i);
+
+/* Node I goes on with the line; stays, but for along AXIS.  */
+void bt__bends_let_go (bt__line_job *k, int64_t i);
+void bt__bends_take_hold (bt__line_job *k, int64_t i, bt_vec3 axis);
+
+/* Show the line to a hook that looks, see bt__line_hook.  */
+void bt__bends_show (const bt__line_job *k, int64_t i, int by);
+
+/* The nodes have changed: where they are along the line.  */
+void bt__bends_measure (bt__line_job *k);
+
+/* Where a node is to be held: a row's edge, a node or -1 for a new one.  */
+typedef struct bt__bend_place
+{
+  int row;
+  int64_t node;
+  bt__edge edge;
+} bt__bend_place;
+
+/* line_hold.c: find one more place, zero if there is none; hold the line there.  A new node changes
+   the numbers of those that the rows know.  */
+int bt__bends_find (const bt__line_job *k, const bt__bends *s, bt__bend_place *p);
+void bt__bends_hold (bt__line_job *k, bt__bends *s, const bt__bend_place *p);
+
+#endif

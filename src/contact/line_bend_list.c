@@ -1,0 +1,196 @@
+/* The nodes that are held, while nodes come and go: the list of them, and the line's nodes.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "contact/line_bend.h"
+
+int
+bt__bends_has (const bt__bends *s, int64_t i)
+{
+  for (int q = 0; q < s->n; q++)
+    if (s->node[q] == i)
+      return 1;
+  return 0;
+}
+
+/* Nonzero if bend Q and the next are of one member.  */
+int
+bt__bends_goes_on (const bt__bends *s, int q)
+{
+  return q >= 0 && q + 1 < s->n && s->node[q] + 1 == s->node[q + 1]
+         && bt__bend_goes_on (s->anchor + q, s->anchor + q + 1);
+}
+
+static void
+shift_bends (bt__bends *s, int64_t from, int by)
+{
+  for (int q = 0; q < s->n; q++)
+    s->node[q] += s->node[q] >= from ? by : 0;
+}
+
+/* Put A at NODE among the bends.  */
+int
+bt__bends_add (bt__bends *s, const bt__anchor *a, int64_t node)
+{
+  int at = s->n++;
+  for (; at > 0 && s->node[at - 1] > node; at--)
+    {
+      s->anchor[at] = s->anchor[at - 1];
+      s->node[at] = s->node[at - 1];
+    }
+  s->anchor[at] = *a;
+  s->node[at] = node;
+  return at;
+}
+
+void
+bt__bends_lose (bt__bends *s, int q)
+{
+  if (bt__bends_goes_on (s, q - 1))
+    s->anchor[q - 1].after = bt__vec (0, 0, 0);
+  s->n--;
+  for (int i = q; i < s->n; i++)
+    {
+      s->anchor[i] = s->anchor[i + 1];
+      s->node[i] = s->node[i + 1];
+    }
+}
+
+/* ---- The line's nodes ---- */
+
+void
+bt__bends_show (const bt__line_job *k, int64_t i, int by)
+{
+  const bt__line_hook *hook = k->config->hook;
+  if (hook && hook->see)
+    hook->see (hook->witness, (int)i, by, bt__dynamic_x (k->d), (int)k->d->n + 1);
+}
+
+void
+bt__bends_put_in (bt__line_job *k, bt__bends *s, int64_t j, double u, int64_t from)
+{
+  bt__dynamic_insert (k->d, j, u, from);
+  shift_bends (s, j + 1, 1);
+  bt__bends_show (k, j + 1, 1);
+}
+
+/* Take out node I if its links are clear on their way to the chord.  */
+int
+bt__bends_take_out (bt__line_job *k, bt__bends *s, int64_t i)
+{
+  const bt_vec3 *p = bt__dynamic_x (k->d) + i - 1;
+  const double *rest = bt__dynamic_rest (k->d) + i - 1;
+  if (i < 1 || i >= k->d->n || bt__bends_has (s, i))
+    return 0;
+  double u = rest[0] / (rest[0] + rest[1]);
+  bt_vec3 to = bt__axpy (bt__scale (1 - u, p[0]), u, p[2]);
+  if (!bt__line_may_move (k, p, bt__sub (to, p[1])))
+    return 0;
+  bt__dynamic_remove (k->d, i);
+  shift_bends (s, i, -1);
+  bt__bends_show (k, i, -1);
+  return 1;
+}
+
+/* A node that is bent no more goes on with the line; one that is stays, but for along AXIS.  */
+void
+bt__bends_let_go (bt__line_job *k, int64_t i)
+{
+  bt_vec3 *arrays[] = { bt__dynamic_v (k->d), bt__dynamic_vp (k->d), bt__dynamic_dx (k->d) };
+  for (int q = 0; q < 3; q++)
+    {
+      bt_vec3 *v = arrays[q] + i;
+      v[0] = bt__scale (0.5, bt__add (v[-1], v[1]));
+    }
+}
+
+void
+bt__bends_take_hold (bt__line_job *k, int64_t i, bt_vec3 axis)
+{
+  bt_vec3 *arrays[] = { bt__dynamic_v (k->d), bt__dynamic_vp (k->d), bt__dynamic_dx (k->d) };
+  for (int q = 0; q < 3; q++)
+    arrays[q][i] = bt__scale (bt__dot (axis, arrays[q][i]), axis);
+}
+
+void
+bt__bends_drop (bt__line_job *k, bt__bends *s, int q)
+{
+  int64_t node = s->node[q];
+  bt__bends_lose (s, q);
+  bt__bends_let_go (k, node);
+}
+
+void
+bt__bends_measure (bt__line_job *k)
+{
+  const double *rest = bt__dynamic_rest (k->d);
+  k->links = (int)k->d->n;
+  k->w->from_end[k->links] = 0;
+  for (int j = k->links - 1; j >= 0; j--)
+    k->w->from_end[j] = k->w->from_end[j + 1] + rest[j];
+}
+
+/* ---- Their anchors ---- */
+
+/* Take the anchors of nodes that are held out of the list.  */
+void
+bt__bends_gather (bt__line_job *k, bt__bends *s)
+{
+  bt__anchor *a = bt__anchors_at (k->anchors);
+  int64_t n = 0;
+  s->n = 0;
+  for (int64_t q = 0; q < k->anchors->n; q++)
+    {
+      int i = a[q].bent && s->n < BT__BENTS ? bt__bend_node (k, a[q].from_end) : -1;
+      if (i > 0)
+        bt__bends_add (s, a + q, i);
+      else
+        {
+          a[n] = a[q];
+          a[n++].bent = 0;
+        }
+    }
+  k->anchors->n = n;
+}
+
+/* Put A where it belongs in the list, if there is room.  */
+static void
+put_back (bt__anchors *list, const bt__anchor *a)
+{
+  bt__anchor *at = bt__anchors_at (list);
+  if (list->n >= list->room)
+    return;
+  int64_t i = list->n++;
+  for (; i > 0 && at[i - 1].from_end < a->from_end; i--)
+    at[i] = at[i - 1];
+  at[i] = *a;
+}
+
+void
+bt__bends_scatter (bt__line_job *k, bt__bends *s)
+{
+  for (int q = 0; q < s->n; q++)
+    {
+      s->anchor[q].from_end = k->w->from_end[s->node[q]];
+      put_back (k->anchors, s->anchor + q);
+    }
+}
+
+/* Take the anchor of row Q out of the list, to A; zero if it has none.  */
+int
+bt__bends_take_anchor (bt__line_job *k, int q, bt__anchor *a)
+{
+  bt__anchor *at = bt__anchors_at (k->anchors);
+  const bt__line_row *of = k->w->of + q;
+  int64_t i = 0;
+  while (i < k->anchors->n && !(at[i].from_end == of->from_end && at[i].object == of->id))
+    i++;
+  if (i == k->anchors->n)
+    return 0;
+  *a = at[i];
+  k->anchors->n--;
+  memmove (at + i, at + i + 1, (size_t)(k->anchors->n - i) * sizeof *at);
+  return 1;
+}

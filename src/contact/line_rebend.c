@@ -1,0 +1,321 @@
+/* Nodes come and go where a line runs about something.
+
+   A node comes where a link bears on an edge, on the link's chord, so that the line's shape stays,
+   or it is there already: a link's end between two tangents of a round member.  Where the line
+   turns by too much at one corner of a member, the next comes on the side that follows the line,
+   where it touches: there the line does not turn yet, and so the shape stays again.  A corner goes
+   the same way when the line turns there no more, and all go when none bears.
+
+   On the way the neighbours go from one side to the other, each taken out before it gets where the
+   line turns, and put in behind.  A node is taken out only if the way of the links to their new
+   place is clear; else it waits.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "contact/line_bend.h"
+
+#define PASS 0.25     /* of a piece: a node nearer to where the line touches passes, ... */
+#define FORESIGHT 2.5 /* steps ... or one that is there so soon, ... */
+#define CLEAR 2.2     /* times the line's radius: ... or is no farther from touching */
+#define SPLIT 1.6     /* of a piece: an interval so long is split; ... */
+#define LEAST 0.06    /* ... with so little left the line runs over the edge as it can, ... */
+#define INSIDE 0.8    /* of the way to where it touches: ... or with so little */
+#define SPARE 1.3     /* of a piece: a node between two intervals no longer than this is spare */
+#define ROOM 0.99     /* of an interval: the farthest along it that a corner comes */
+#define MORE 0.05     /* radians: by what a corner turns too much for the next to come, ... */
+#define BACK 0.02     /* ... and turns back to go */
+#define TURNS 0.05    /* radians: a node that turns less is no corner */
+
+enum
+{
+  FAILURES = 2, /* steps on end that are not solved: too many */
+  IDLE = 6      /* steps without load, after which a corner goes where the line hardly turns */
+};
+
+/* Nodes of one member, one after the other, that were not known to be: the side between stays.  */
+static void
+join (bt__line_job *k, bt__bends *s)
+{
+  for (int q = 0; q < s->n; q++)
+    {
+      bt__anchor *a = s->anchor + q, *b = a + 1;
+      bt_vec3 none = { 0, 0, 0 };
+      bt__edge e = { .radius = a->thick };
+      if (q + 1 == s->n || s->node[q] + 1 != s->node[q + 1] || a->object != b->object
+          || bt__edge_is_thin (k, &e))
+        a->after = none;
+      else if (a->bent == BT__BENT_ROUND && b->bent == BT__BENT_ROUND && !bt__bends_goes_on (s, q)
+               && bt__dot (a->axis, b->axis) > 0)
+        a->after = bt__turn_normal (a->axis, bt__dynamic_x (k->d) + s->node[q]);
+    }
+}
+
+/* ---- Corners of a member that come and go ---- */
+
+/* The turn at bend Q as it is now.  */
+static bt__turn
+turn_of (const bt__line_job *k, const bt__bends *s, int q, bt__edge *e)
+{
+  const bt__anchor *a = s->anchor + q;
+  bt__turn t;
+  *e = (bt__edge){ a->axis, a->point, a->normal, a->thick, 0, a->bent == BT__BENT_ROUND };
+  bt__turn_find (k, e, bt__dynamic_x (k->d) + s->node[q] - 1,
+                 bt__bends_goes_on (s, q - 1) ? &s->anchor[q - 1].after : NULL,
+                 bt__bends_goes_on (s, q) ? &a->after : NULL, &t);
+  return t;
+}
+
+/* Take out the corner at either end of a member's where the line turns no more.  */
+static void
+take_corner (bt__line_job *k, bt__bends *s, int q)
+{
+  bt__edge e;
+  if (bt__bends_goes_on (s, q - 1) == bt__bends_goes_on (s, q))
+    return;
+  double least = s->anchor[q].age < IDLE ? -BACK : BACK;
+  if (turn_of (k, s, q, &e).angle > least)
+    return;
+  int64_t node = s->node[q];
+  bt__bends_lose (s, q);
+  if (!bt__bends_take_out (k, s, node))
+    bt__bends_let_go (k, node);
+}
+
+/* How far bend Q has to go round, and its distance from the axis, to *AWAY.  */
+static bt_vec3
+lag_of (const bt__line_job *k, const bt__bends *s, int q, double *away)
+{
+  bt__edge e;
+  bt_vec3 x = bt__dynamic_x (k->d)[s->node[q]];
+  bt__turn t = turn_of (k, s, q, &e);
+  *away = bt__dot (t.normal, bt__sub (x, t.centre));
+  return bt__off_axis (e.axis, bt__sub (x, bt__axpy (t.centre, *away, t.normal)));
+}
+
+static int
+is_new (const bt__bends *s, int q)
+{
+  return !isfinite (s->anchor[q].lag.x);
+}
+
+/* Nonzero if bend Q is new, and too far from where it should be.  */
+static int
+is_behind (const bt__line_job *k, const bt__bends *s, int q)
+{
+  bt__edge e = { .radius = s->anchor[q].thick };
+  double away;
+  return is_new (s, q) && !bt__edge_is_thin (k, &e)
+         && bt__norm (lag_of (k, s, q, &away)) > BT__BEND_BEHIND * away;
+}
+
+/* A node that is newly held starts from where it is.  */
+static void
+settle (const bt__line_job *k, bt__bends *s, int q)
+{
+  bt__anchor *a = s->anchor + q;
+  if (!is_new (s, q))
+    return;
+  a->held = bt__dynamic_x (k->d)[s->node[q]];
+  a->lag = lag_of (k, s, q, &a->away);
+}
+
+/* The same, or it is not held.  */
+static int
+settle_or_drop (bt__line_job *k, bt__bends *s, int q)
+{
+  int behind = is_behind (k, s, q);
+  if (behind)
+    bt__bends_drop (k, s, q);
+  else
+    settle (k, s, q);
+  return !behind;
+}
+
+/* All that are new; one that goes changes how the line runs at the others.  */
+static void
+settle_all (bt__line_job *k, bt__bends *s)
+{
+  for (int q = 0; q < s->n; q++)
+    if (is_behind (k, s, q))
+      {
+        bt__bends_drop (k, s, q);
+        q = -1;
+      }
+  for (int q = 0; q < s->n; q++)
+    settle (k, s, q);
+}
+
+/* Let another corner come on SIDE (-1, 1) of bend Q, where the line touches.  */
+static int
+add_corner (bt__line_job *k, bt__bends *s, int q, int side, const bt__turn *t)
+{
+  int64_t node = s->node[q], j = side > 0 ? node : node - 1;
+  const bt_vec3 *x = bt__dynamic_x (k->d) + j;
+  double share = t->zone / fmax (bt__distance (x[0], x[1]), 1e-9);
+  if (bt__bends_goes_on (s, side > 0 ? q : q - 1) || !(share < ROOM) || s->n >= BT__BENTS
+      || k->d->n >= k->d->n_max)
+    return 0;
+  bt__bends_put_in (k, s, j, side > 0 ? share : 1 - share, j);
+  bt__anchor a = s->anchor[q];
+  a.load = a.work = a.step_work = 0;
+  a.force = bt__vec (0, 0, 0);
+  a.age = 0;
+  a.lag = bt__vec (INFINITY, 0, 0);
+  if (side > 0)
+    s->anchor[q].after = t->after;
+  else
+    a.after = t->before;
+  bt__bends_take_hold (k, j + 1, a.axis);
+  return settle_or_drop (k, s, bt__bends_add (s, &a, j + 1));
+}
+
+static void
+grow (bt__line_job *k, bt__bends *s, int q)
+{
+  bt__edge e;
+  bt__turn t = turn_of (k, s, q, &e);
+  if (!e.round || bt__edge_is_thin (k, &e) || t.angle <= BT__TURN_MOST + MORE)
+    return;
+  const double *rest = bt__dynamic_rest (k->d) + s->node[q];
+  int longer = rest[0] >= rest[-1] ? 1 : -1;
+  if (!add_corner (k, s, q, longer, &t))
+    add_corner (k, s, q, -longer, &t);
+}
+
+/* A node next to bend Q on SIDE cannot pass: it is on the member already, and is held too.  */
+static int
+extend (bt__line_job *k, bt__bends *s, int q, int side)
+{
+  int64_t i = s->node[q] + side;
+  bt__anchor a = s->anchor[q];
+  const bt_vec3 *x = bt__dynamic_x (k->d) + i - 1;
+  bt__edge e = { .radius = a.thick };
+  if (a.bent != BT__BENT_ROUND || bt__edge_is_thin (k, &e) || i < 1 || i >= k->d->n
+      || s->n >= BT__BENTS)
+    return 0;
+  bt_vec3 before = bt__turn_normal (a.axis, x), after = bt__turn_normal (a.axis, x + 1);
+  if (!(bt__dot (a.axis, bt__cross (before, after)) > TURNS))
+    return 0;
+  a.load = a.work = a.step_work = 0;
+  a.force = bt__vec (0, 0, 0);
+  a.age = 0;
+  a.lag = bt__vec (INFINITY, 0, 0);
+  if (side > 0)
+    s->anchor[q].after = before;
+  else
+    a.after = after;
+  bt__bends_take_hold (k, i, a.axis);
+  return settle_or_drop (k, s, bt__bends_add (s, &a, i));
+}
+
+/* ---- Nodes that pass ---- */
+
+/* The next nodes on SIDE (-1, 1) of bend Q pass if they are nearer than NEED, and one comes where
+   there is much line: more than would pass if it ran in as it may run out, MOST.  Zero if they
+   cannot pass and no more than LEFT m is left.  */
+static int
+pass_on (bt__line_job *k, bt__bends *s, int q, int side, double need, double most, double left)
+{
+  double piece = k->d->piece;
+  for (int i = 0; i < 4; i++)
+    {
+      int64_t node = s->node[q], next = node + side;
+      double rest = bt__dynamic_rest (k->d)[side > 0 ? node : node - 1];
+      if (rest >= need)
+        break;
+      if (bt__bends_has (s, next))
+        return rest > left;
+      if (!bt__bends_take_out (k, s, next))
+        return extend (k, s, q, side) || rest > left;
+    }
+  int64_t node = s->node[q], j = side > 0 ? node : node - 1;
+  double rest = bt__dynamic_rest (k->d)[j];
+  if (rest > fmax (SPLIT * piece, most + 1.1 * piece) && k->d->n < k->d->n_max)
+    bt__bends_put_in (k, s, j, side > 0 ? (rest - piece) / rest : piece / rest,
+                      side > 0 ? j + 1 : j);
+  return 1;
+}
+
+/* Line runs out of the interval on one side of bend Q into that on the other.  Zero if nodes cannot
+   pass and nothing is left.  */
+static int
+pass_nodes (bt__line_job *k, bt__bends *s, int q)
+{
+  bt__edge e;
+  double flow = s->anchor[q].flow * k->h, piece = k->d->piece, size = fabs (flow);
+  double zone = turn_of (k, s, q, &e).zone, r = k->config->radius;
+  double clear = zone + sqrt (2 * (e.radius + r) * CLEAR * r);
+  int passed = 1;
+  for (int side = -1; side < 2; side += 2)
+    {
+      int comes = side * flow < 0;
+      double most = clear + fmax (PASS * piece, FORESIGHT * size), need = comes ? most : clear;
+      double left = fmax (LEAST * piece + (comes ? size : 0), INSIDE * zone);
+      if (!bt__bends_goes_on (s, side > 0 ? q : q - 1))
+        passed &= pass_on (k, s, q, side, need, most, left);
+    }
+  return passed;
+}
+
+/* Take out one node that nothing needs any more.  */
+static void
+take_spare (bt__line_job *k, bt__bends *s)
+{
+  const double *rest = bt__dynamic_rest (k->d);
+  for (int64_t i = 2; i < k->d->n; i++)
+    if (rest[i - 1] + rest[i] < SPARE * k->d->piece && !bt__bends_has (s, i)
+        && !bt__bends_has (s, i - 1) && !bt__bends_has (s, i + 1) && bt__bends_take_out (k, s, i))
+      return;
+}
+
+/* Half-spaces get a line out of places where held nodes hold it: those about round members go when
+   steps are not solved, all when one was cut.  */
+static void
+drop_failed (bt__line_job *k, bt__bends *s)
+{
+  for (int q = s->n - 1; q >= 0; q--)
+    {
+      bt__edge e = { .radius = s->anchor[q].thick };
+      int64_t *failed = &s->anchor[q].unsolved;
+      *failed = k->unsolved ? *failed + 1 : 0;
+      if (k->report->truncated || (*failed >= FAILURES && !bt__edge_is_thin (k, &e)))
+        bt__bends_drop (k, s, q);
+    }
+}
+
+static void
+let_go_idle (bt__line_job *k)
+{
+  for (int q = 0; q < k->bents; q++)
+    if (!bt__bend_bears (k, q))
+      bt__bends_let_go (k, k->w->bent[q].node);
+}
+
+void
+bt__line_rebend (bt__line_job *k)
+{
+  int no_bends = k->config->hook && k->config->hook->no_bends;
+  bt__bends s;
+  bt__bend_place p;
+  bt__bends_show (k, 0, 0);
+  let_go_idle (k);
+  bt__bends_measure (k);
+  bt__bends_gather (k, &s);
+  drop_failed (k, &s);
+  p.node = no_bends || k->unsolved ? -1
+                                   : 0; /* a new one would change the numbers of the rows' nodes */
+  while (p.node >= 0 && bt__bends_find (k, &s, &p))
+    bt__bends_hold (k, &s, &p);
+  join (k, &s);
+  settle_all (k, &s);
+  for (int q = s.n - 1; q >= 0; q--)
+    take_corner (k, &s, q);
+  for (int q = s.n - 1; q >= 0; q--)
+    grow (k, &s, q);
+  for (int q = s.n - 1; q >= 0; q--)
+    if (!pass_nodes (k, &s, q))
+      bt__bends_drop (k, &s, q);
+  take_spare (k, &s);
+  bt__bends_measure (k);
+  bt__bends_scatter (k, &s);
+}

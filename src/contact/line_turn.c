@@ -1,0 +1,63 @@
+/* How a line runs about an edge.
+
+   Across the axis the edge is a circle, larger by the line's radius, and the line a polygon about
+   it: every side a tangent, every corner a node that is held where two tangents meet.  A line that
+   comes to a corner along the tangent of normal a and leaves along that of normal b turns by the
+   angle from a to b; the turns of all corners of a member add up to that of the line, wherever they
+   are, and so do the exponents of the capstan: T_b / T_a = e^(mu (turn_1 + turn_2 + ...)).
+
+   A corner is out / cos (angle / 2) from the axis, its tangents touch out tan (angle / 2) from it.
+   From a point u away from the axis, D = |u|, the tangents have the normals
+     (out u -+ sqrt (D^2 - out^2) axis x u) / D^2.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "contact/line_bend.h"
+
+#define ALONG 0.9      /* product of line and edge: more, and the line lies along it */
+#define LEAST_COS 0.25 /* of half the turn: what a node is held out for at most */
+
+/* The normal of the tangent from U: of the line that comes from there, SIGN 1, or goes there, -1.
+ */
+static bt_vec3
+tangent (bt_vec3 axis, bt_vec3 u, double out, double sign)
+{
+  double square = bt__dot (u, u), way = sqrt (fmax (square - out * out, 0));
+  if (!(way > 0))
+    return bt__unit_or (u, bt__vec (0, 0, 0));
+  return bt__scale (1 / square, bt__axpy (bt__scale (out, u), sign * way, bt__cross (axis, u)));
+}
+
+double
+bt__turn_lack (bt_vec3 axis, bt_vec3 centre, bt_vec3 a, bt_vec3 b, double out)
+{
+  bt_vec3 p = bt__off_axis (axis, bt__sub (a, centre)), d = bt__off_axis (axis, bt__sub (b, a));
+  double square = bt__dot (d, d), s = square > 0 ? -bt__dot (p, d) / square : 0;
+  return s > 0 && s < 1 ? fmax (out - bt__norm (bt__axpy (p, s, d)), 0) : 0;
+}
+
+int
+bt__turn_find (const bt__line_job *k, const bt__edge *e, const bt_vec3 *p, const bt_vec3 *before,
+               const bt_vec3 *after, bt__turn *t)
+{
+  bt_vec3 axis = e->axis, centre = bt__axpy (e->point, -e->radius, e->normal), none = { 0, 0, 0 };
+  double out = e->radius + k->config->radius;
+  t->before
+      = before ? *before : tangent (axis, bt__off_axis (axis, bt__sub (p[0], centre)), out, 1);
+  t->after = after ? *after : tangent (axis, bt__off_axis (axis, bt__sub (p[2], centre)), out, -1);
+  bt_vec3 sum = bt__add (t->before, t->after);
+  t->normal = bt__unit_or (sum, e->normal);
+  t->angle = atan2 (bt__dot (axis, bt__cross (t->before, t->after)), bt__dot (t->before, t->after));
+  double cosine = fmax (0.5 * bt__norm (sum), LEAST_COS);
+  t->zone = out * sqrt (fmax (1 / (cosine * cosine) - 1, 0));
+  centre = bt__axpy (centre, bt__dot (axis, bt__sub (p[1], centre)), axis);
+  t->centre = centre;
+  t->reach = out / cosine;
+  t->at = bt__axpy (centre, t->reach, t->normal);
+  bt_vec3 a = bt__unit_or (bt__sub (t->at, p[0]), none),
+          b = bt__unit_or (bt__sub (p[2], t->at), none);
+  t->turn = 2 * asin (fmin (0.5 * bt__norm (bt__sub (b, a)), 1));
+  t->sliding = bt__scale (0.5, bt__add (a, b));
+  return bt__dot (t->normal, e->normal) > 0 && fabs (bt__dot (axis, a)) < ALONG
+         && fabs (bt__dot (axis, b)) < ALONG;
+}
