@@ -8,7 +8,8 @@
 
 enum
 {
-  PATIENCE = 6 /* steps: for so long a slack line is held */
+  PATIENCE = 6, /* steps: for so long a slack line is held, ... */
+  AT_ONCE = 1   /* ... and about an edge */
 };
 
 /* Nonzero if the I-th node held and the next are of one member.  */
@@ -21,16 +22,17 @@ is_followed (const bt__line_job *k, int i)
   return b[0].node + 1 == b[1].node && bt__bend_goes_on (k->w->bend + i, k->w->bend + i + 1);
 }
 
-/* A line that is slack for a moment, and is not drawn off, will bear there again; about a wire it
-   is soon held again anyway.  */
+/* A line that is slack for a moment, and is not drawn off, will bear there again; about a wire
+   it is soon held again anyway.  */
 static int
 is_slack (const bt__line_job *k, int i)
 {
   const bt__dynamic_bent *b = k->w->bent + i;
   const bt__anchor *a = k->w->bend + i;
   bt__edge e = { .radius = a->thick };
-  int is_wire = a->bent == BT__BENT_ROUND && bt__edge_is_thin (k, &e);
-  return !is_wire && a->age < PATIENCE && fmax (b->pull[0], b->pull[1]) < SLACK;
+  int is_thin = bt__edge_is_thin (k, &e);
+  int patience = !is_thin ? PATIENCE : a->bent == BT__BENT_ROUND ? 0 : AT_ONCE;
+  return a->age < patience && fmax (b->pull[0], b->pull[1]) < SLACK;
 }
 
 int
