@@ -8,9 +8,9 @@
    between two, they are with tanh (mu D/2) / tan (D/2); with one on every link, turning D at every
    node, with sinh (mu D) / sin D.
 
-   The stiffness follows the tension: what a contact gives way must be small against the way from the
-   radius to the core, or the guard would bear the load and nothing slid.  It does not follow the
-   load: in a crotch (line_wedge.c) and beside held nodes contacts press on each other.
+   The stiffness follows the tension: what a contact gives way must be small against the way from
+   the radius to the core, or the guard would bear the load and nothing slid.  It does not follow
+   the load: in a crotch (line_wedge.c) and beside held nodes contacts press on each other.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -129,13 +129,12 @@ coefficient (const bt__line_job *k, int i)
 }
 
 double
-bt__line_stiffness (const bt__line_job *k, int64_t i, double last)
+bt__line_stiffness (const bt__line_job *k, int64_t i)
 {
   const double *rest = bt__dynamic_rest (k->d), *tension = bt__dynamic_tension (k->d);
   const bt__line_config *c = k->config;
-  double ea = k->in->line->ea, load = fmax (tension[i], last);
-  double stiff = fmin (STIFF * ea / fmax (rest[i], k->d->piece), STIFFEST);
-  return fmax (stiff, YIELD * load / (c->radius - c->core));
+  double stiff = fmin (STIFF * k->in->line->ea / fmax (rest[i], k->d->piece), STIFFEST);
+  return fmax (stiff, YIELD * tension[i] / (c->radius - c->core));
 }
 
 /* Row I of an obstacle.  */
@@ -143,7 +142,7 @@ static void
 harden (bt__line_job *k, int i)
 {
   bt__dynamic_row *r = k->w->row + i;
-  double stiff = bt__line_stiffness (k, r->node, 0);
+  double stiff = bt__line_stiffness (k, r->node);
   r->stiffness = fmin (stiff * pow (HARDER, k->w->of[i].again), fmax (stiff, STIFFEST));
   bt__line_press (k, i);
 }

@@ -281,7 +281,7 @@ hold (bt__line_job *k, const corners *s, int i)
                             .at = c->place,
                             .axis = c->edge.axis,
                             .normal = c->turn.normal,
-                            .stiffness = bt__line_stiffness (k, c->node, 0),
+                            .stiffness = bt__line_stiffness (k, c->node),
                             .wrap = c->turn.angle > 0 ? mu * turn : 0,
                             .friction = mu,
                             .slip = BT__LINE_SLIP,

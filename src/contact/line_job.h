@@ -212,9 +212,9 @@ void bt__line_rebend (bt__line_job *k);
 
 /* ---- What sticks (line_anchor.c) ---- */
 
-/* The coefficient of obstacle ID; the stiffness of a contact at node I that bears LOAD.  */
+/* The coefficient of obstacle ID; the stiffness of a light touch at interval I, N/m.  */
 double bt__line_friction (const bt__line_job *k, int64_t id);
-double bt__line_stiffness (const bt__line_job *k, int64_t i, double load);
+double bt__line_stiffness (const bt__line_job *k, int64_t i);
 
 /* Give the rows what is known from the last step: load, drag and work.  */
 void bt__line_inherit (bt__line_job *k);

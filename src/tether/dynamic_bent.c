@@ -22,13 +22,11 @@
 
 #include "tether/dynamic_kernel.h"
 
-#define LEAST 0.02 /* of an interval: what line leaves of it in a step */
-#define CLING                                                                                      \
-  0.01              /* N: what a line that is slack holds on by: nothing would amplify to nothing  \
-                     */
-#define SOFT 1e-6   /* of the stiffness: what resists the flow between slack intervals */
-#define FOLLOWS 60  /* iterations for a flow that follows the places */
-#define DAMPING 1.0 /* times the step's drag along the edge: what sticks must not ring */
+#define LEAST 0.02    /* of an interval: what line leaves of it in a step */
+#define CLING 0.01    /* N: what a slack line holds on by */
+#define SOFT 1e-6     /* of the stiffness: what resists the flow between slack intervals */
+#define FOLLOWS 60    /* iterations for a flow that follows the places */
+#define DAMPING 1.0   /* times the step's drag along the edge: what sticks must not ring */
 #define SETTLED 1e-13 /* m */
 
 /* ---- The intervals before and after ---- */
