@@ -1,125 +1,26 @@
 /* Which half-spaces keep a line out of what it touches.
 
    A part within touch of a link gives some: at the ends of the link where it is flat or so round
-   that the line lies along it, else at the nearest point.  A mesh's triangle gives none where its
-   neighbour is nearer, at an edge that the surface around it hides.
+   that the line lies along it, else at the nearest point.  A mesh's triangles: line_facet.c.
 
    A line that has been pressed nearer than its radius is let out slowly.  What moves takes its
    half-space along.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
-#include "contact/line_job.h"
+#include "contact/line_row.h"
 
 #define ROUND 2.2     /* links: an obstacle of this radius along the line is touched by nodes */
 #define EVENLY 0.15   /* of what is beyond the plane, half way out: less and it is an edge */
 #define SHARP 0.4     /* ... half way out: more and it is sharp */
-#define NEAREST 0.01  /* of the radius: an end that is so little farther is as near */
 #define FLAT 0.1      /* of the radius: a link no steeper lies along a plane */
 #define SAME 0.15     /* of a link: places so near are one, ... */
 #define SAME_HIT 0.25 /* ... of hits, ... */
 #define ALIKE 0.995   /* ... if their normals' product is more, ... */
 #define ALIKE_HIT 0.7 /* ... of hits */
-#define TURNED 0.9    /* the same of a normal now and at the end of the step */
 #define AHEAD 0.2     /* m: a line that moves more in a step is not foretold */
 #define COPLANAR 0.9999
 #define RECOVERY 0.2 /* m/s: a line that was pressed in is let out so fast */
-#define GHOST 1e-6   /* sine of the angle at which a neighbour counts as nearer */
-#define CREST 1e-3   /* sine of the angle at which the surface falls away beyond an edge, ... */
-#define LEVEL 0.05   /* ... and up to which it may rise before it */
-
-/* ---- Edges that a mesh hides ---- */
-
-static int
-is_corner (const bt__triangle *t, bt_vec3 p)
-{
-  for (int i = 0; i < 3; i++)
-    if (t->v[i].x == p.x && t->v[i].y == p.y && t->v[i].z == p.z)
-      return i + 1;
-  return 0;
-}
-
-/* Nonzero if triangle T rises to the side of normal N from its corner I.  */
-static int
-rises_from_corner (const bt__triangle *t, int i, bt_vec3 n)
-{
-  for (int k = 1; k < 3; k++)
-    {
-      bt_vec3 e = bt__sub (t->v[(i + k) % 3], t->v[i]);
-      if (bt__dot (n, e) > GHOST * bt__norm (e))
-        return 1;
-    }
-  return 0;
-}
-
-/* By how much it rises from its edge between corners I and J: the sine of an angle.  */
-static double
-rise_from_edge (const bt__triangle *t, int i, int j, bt_vec3 n)
-{
-  bt_vec3 a = t->v[i], e = bt__sub (t->v[j], a), c = bt__sub (t->v[3 - i - j], a);
-  bt_vec3 in = bt__axpy (c, -bt__dot (c, e) / bt__dot (e, e), e);
-  return bt__dot (n, in) / bt__norm (in);
-}
-
-static int
-is_hidden_by (const bt__triangle *own, int feature, bt_vec3 n, const bt__triangle *other)
-{
-  int a = is_corner (other, own->v[feature > 3 ? feature - 4 : feature - 1]);
-  if (feature > 3)
-    return a && rises_from_corner (other, a - 1, n);
-  int b = is_corner (other, own->v[feature % 3]);
-  return a && b && rise_from_edge (other, a - 1, b - 1, n) > GHOST;
-}
-
-/* Nonzero if the nearest point W of the triangle NEAR is on an edge or corner where another listed
-   triangle is nearer.  */
-static int
-is_ghost (const bt__line_job *k, uint32_t j, const bt__near *near, const bt__witness *w)
-{
-  const bt__scene *scene = bt__line_scene (k, near);
-  const bt__near *other = bt__line_near (k, j);
-  if (near->slot == BT__NO_TRIANGLE || w->feature == 0)
-    return 0;
-  const bt__mesh *mesh = scene->object[near->object].shape.mesh;
-  bt__triangle own = bt__mesh_triangle (mesh, near->slot);
-  for (uint32_t i = 0; i < k->w->watch[j].found; i++)
-    {
-      if (other[i].link != near->link || other[i].object != near->object
-          || other[i].slot == near->slot)
-        continue;
-      bt__triangle t = bt__mesh_triangle (mesh, other[i].slot);
-      if (is_hidden_by (&own, w->feature, w->normal, &t))
-        return 1;
-    }
-  return 0;
-}
-
-/* Nonzero if the surface falls away from edge E of the triangle OWN, that of NEAR, on either side,
-   as seen from normal N.  */
-static int
-is_crest (const bt__line_job *k, uint32_t j, const bt__near *near, const bt__triangle *own, int e,
-          bt_vec3 n)
-{
-  const bt__near *other = bt__line_near (k, j);
-  const bt__mesh *mesh = bt__line_scene (k, near)->object[near->object].shape.mesh;
-  double most = rise_from_edge (own, e, (e + 1) % 3, n), least = most;
-  int is_free = 1;
-  for (uint32_t i = 0; most <= LEVEL && i < k->w->watch[j].found; i++)
-    {
-      if (other[i].link != near->link || other[i].object != near->object
-          || other[i].slot == near->slot)
-        continue;
-      bt__triangle t = bt__mesh_triangle (mesh, other[i].slot);
-      int a = is_corner (&t, own->v[e]), b = is_corner (&t, own->v[(e + 1) % 3]);
-      if (!a || !b)
-        continue;
-      double rise = rise_from_edge (&t, a - 1, b - 1, n);
-      most = fmax (most, rise);
-      least = fmin (least, rise);
-      is_free = 0;
-    }
-  return most <= LEVEL && (is_free || least < -CREST);
-}
 
 /* ---- Rows ---- */
 
@@ -130,11 +31,9 @@ place_of (const bt__dynamic_row *r)
   return (double)r->node + r->s;
 }
 
-/* The place S of link J is pushed off NEAR, as W says in its frame; START is how near it was at the
-   start of the step.  To be added as the row NUMBER.  */
-static void
-set_row (bt__line_job *k, int number, uint32_t j, double s, const bt__near *near,
-         const bt__witness *w, double start)
+void
+bt__row_set (bt__line_job *k, int number, uint32_t j, double s, const bt__near *near,
+             const bt__witness *w, double start)
 {
   const bt__mover *m = bt__line_mover (k, near);
   bt_vec3 point = w->point, normal = w->normal, drift = { 0, 0, 0 };
@@ -175,10 +74,8 @@ height_of (const bt__line_job *k, const bt__dynamic_row *r)
   return bt__dot (r->normal, at) - r->offset;
 }
 
-/* Take the row just set unless there is one like it; of both, the lower stays, or that at a node:
-   else they would change places with every step.  */
-static void
-take_row (bt__line_job *k, int flat)
+void
+bt__row_take (bt__line_job *k, int flat)
 {
   bt__dynamic_row *row = k->w->row, *r = row + k->rows;
   bt__line_row *of = k->w->of;
@@ -187,7 +84,7 @@ take_row (bt__line_job *k, int flat)
     if (fabs (place_of (row + i) - place_of (r)) < SAME
         && bt__dot (row[i].normal, r->normal) > ALIKE)
       {
-        double ahead = NEAREST * k->config->radius * ((flat == 1) - (of[i].flat == 1));
+        double ahead = BT__ROW_NEAREST * k->config->radius * ((flat == 1) - (of[i].flat == 1));
         if (height_of (k, r) < height_of (k, row + i) + ahead)
           {
             row[i] = *r;
@@ -198,36 +95,28 @@ take_row (bt__line_job *k, int flat)
   k->rows++;
 }
 
-/* Link J against NEAR, in its frame: as the step starts, and as it is expected to end.  */
-typedef struct pass
-{
-  const bt__near *near;
-  bt__link from, to;
-  bt__witness w; /* of TO */
-} pass;
-
 /* The half-space of FROM's nearest point turns as the line moves on, so that of TO serves better:
    that of FROM drags the line back by its speed times the step over the radius.  Unless the line
    would be inside by then, or over the next triangle.  */
 static void
-look_ahead (const bt__line_job *k, const pass *p, const bt__link *from, const bt__link *to,
+look_ahead (const bt__line_job *k, const bt__pass *p, const bt__link *from, const bt__link *to,
             const bt__witness *now, bt__witness *w)
 {
   *w = *now;
   if (fmax (bt__distance (from->a, to->a), bt__distance (from->b, to->b)) > AHEAD)
     return;
   bt__scene_pair (bt__line_scene (k, p->near), p->near, to, w);
-  int turned = !(bt__dot (w->normal, now->normal) > TURNED);
+  int turned = !(bt__dot (w->normal, now->normal) > BT__ROW_TURNED);
   int other = p->near->slot != BT__NO_TRIANGLE && w->feature != now->feature;
   if (!(w->distance > k->core) || turned || other)
     *w = *now;
 }
 
-static pass
-pass_of (const bt__line_job *k, uint32_t j, const bt__near *near)
+bt__pass
+bt__row_pass (const bt__line_job *k, uint32_t j, const bt__near *near)
 {
   const bt__mover *m = bt__line_mover (k, near);
-  pass p = { .near = near, .from = bt__line_link (k->x, j), .to = bt__line_link (k->X, j) };
+  bt__pass p = { .near = near, .from = bt__line_link (k->x, j), .to = bt__line_link (k->X, j) };
   if (m)
     {
       bt__frame end = bt__motion_at (&m->motion, 1);
@@ -251,7 +140,7 @@ typedef struct pass_end
 /* What is farther from the obstacle than from the plane of its nearest point, of the link's place S
    in the frame of P: a half of the square of the way over the radius, if it is round.  */
 static double
-beyond_plane (const bt__line_job *k, const pass *p, double s, bt__witness *w)
+beyond_plane (const bt__line_job *k, const bt__pass *p, double s, bt__witness *w)
 {
   const bt__witness *found = &p->near->w;
   bt_vec3 at = bt__along (&p->from, s);
@@ -261,7 +150,7 @@ beyond_plane (const bt__line_job *k, const pass *p, double s, bt__witness *w)
 }
 
 static pass_end
-pass_end_of (const bt__line_job *k, const pass *p, int e, double length)
+pass_end_of (const bt__line_job *k, const bt__pass *p, int e, double length)
 {
   bt_vec3 at = e ? p->from.b : p->from.a, to = e ? p->to.b : p->to.a;
   bt__link from = { at, at }, then = { to, to };
@@ -281,128 +170,39 @@ pass_end_of (const bt__line_job *k, const pass *p, int e, double length)
 /* The row of end E of link J: the nodes of a line about something round are so high that the links
    between them are not inside.  */
 static void
-touch_end (bt__line_job *k, uint32_t j, int e, const pass *p, const pass_end *end, double raise)
+touch_end (bt__line_job *k, uint32_t j, int e, const bt__pass *p, const pass_end *end, double raise)
 {
-  if (end->from.distance - raise >= k->config->radius + k->margin
-      || is_ghost (k, j, p->near, &end->from) || k->rows >= k->w->rows_max)
+  if (end->from.distance - raise >= k->config->radius + k->margin || k->rows >= k->w->rows_max)
     return;
-  set_row (k, k->rows, j, e, p->near, &end->w, end->from.distance - raise);
+  bt__row_set (k, k->rows, j, e, p->near, &end->w, end->from.distance - raise);
   k->w->row[k->rows].offset += raise;
-  take_row (k, 1);
+  bt__row_take (k, 1);
 }
 
-/* Nonzero if LINK lies along the plane of W.  */
-static int
-lies_along (const bt__line_job *k, const bt__link *link, const bt__witness *w)
+int
+bt__row_lies_along (const bt__line_job *k, const bt__link *link, const bt__witness *w)
 {
   double slope = bt__dot (w->normal, bt__sub (link->b, link->a));
   return fabs (slope) <= FLAT * k->config->radius;
 }
 
-static void
-touch_between (bt__line_job *k, uint32_t j, const pass *p, double radius)
+void
+bt__row_between (bt__line_job *k, uint32_t j, const bt__pass *p, double radius)
 {
   bt_vec3 along = bt__sub (p->to.b, p->to.a);
-  if (k->rows >= k->w->rows_max || is_ghost (k, j, p->near, &p->near->w))
+  if (k->rows >= k->w->rows_max)
     return;
-  set_row (k, k->rows, j, p->w.s, p->near, &p->w, p->near->w.distance);
+  bt__row_set (k, k->rows, j, p->w.s, p->near, &p->w, p->near->w.distance);
   bt__dynamic_row *r = k->w->row + k->rows;
   r->roll = radius / fmax (bt__dot (along, along), 1e-12);
   r->tilt = bt__dot (p->w.normal, along); /* the same in either frame */
-  take_row (k, 2 * lies_along (k, &p->from, &p->near->w));
-}
-
-/* Nonzero if node AT is over the face of T, HEIGHT from it, on the side of NORMAL.  */
-static int
-is_over (const bt__triangle *t, bt_vec3 at, double *height, bt_vec3 *normal)
-{
-  bt_vec3 n = bt__unit_or (bt__cross (bt__sub (t->v[1], t->v[0]), bt__sub (t->v[2], t->v[0])),
-                           bt__vec (0, 0, 0));
-  double h = bt__dot (n, bt__sub (at, t->v[0]));
-  for (int i = 0; i < 3; i++)
-    {
-      bt_vec3 e = bt__sub (t->v[(i + 1) % 3], t->v[i]);
-      if (!(bt__dot (bt__cross (n, e), bt__sub (at, t->v[i])) >= 0))
-        return 0;
-    }
-  *height = fabs (h);
-  *normal = h < 0 ? bt__scale (-1, n) : n;
-  return bt__dot (n, n) > 0;
-}
-
-/* Where LINK passes over the edge of T from corner E; zero if it does not.  */
-static int
-pass_edge (const bt__triangle *t, int e, const bt__link *link, bt__witness *w)
-{
-  bt_vec3 along = bt__sub (link->b, link->a), edge = bt__sub (t->v[(e + 1) % 3], t->v[e]);
-  double u;
-  bt__closest_segments (bt__sub (link->a, t->v[e]), along, edge, &w->s, &u);
-  w->point = bt__axpy (t->v[e], u, edge);
-  bt_vec3 away = bt__sub (bt__along (link, w->s), w->point);
-  w->distance = bt__norm (away);
-  w->normal = bt__unit_or (away, bt__vec (0, 0, 0));
-  w->feature = e + 1;
-  return w->s > 0 && w->s < 1 && u > 0 && u < 1;
-}
-
-/* A link rests on as many as two edges of a triangle, one of them the nearest, which HAS a row: on
-   that alone it would see-saw.  */
-static void
-touch_crests (bt__line_job *k, uint32_t j, const pass *p, const bt__triangle *t, int has)
-{
-  double touch = k->config->radius + k->margin;
-  for (int e = 0; e < 3; e++)
-    {
-      bt__witness now, w;
-      if (has == e + 1 || k->rows >= k->w->rows_max || !pass_edge (t, e, &p->from, &now)
-          || now.distance >= touch || !is_crest (k, j, p->near, t, e, now.normal))
-        continue;
-      int other = !pass_edge (t, e, &p->to, &w) || !(w.distance > k->core)
-                  || !(bt__dot (w.normal, now.normal) > TURNED);
-      set_row (k, k->rows, j, other ? now.s : w.s, p->near, other ? &now : &w, now.distance);
-      take_row (k, 2 * lies_along (k, &p->from, &now));
-    }
-}
-
-/* A triangle: nodes over its face, else the nearest place of the link, and edges it passes.  */
-static void
-touch_facet (bt__line_job *k, uint32_t j, const bt__near *near)
-{
-  const bt__mover *m = bt__line_mover (k, near);
-  bt__triangle t
-      = bt__mesh_triangle (bt__line_scene (k, near)->object[near->object].shape.mesh, near->slot);
-  bt__link link = bt__line_link (k->x, j);
-  double nearest = near->w.distance + NEAREST * k->config->radius;
-  int over = 0, is_nearest = 0;
-  if (m)
-    link = (bt__link){ bt__to_local (&m->motion.from, link.a),
-                       bt__to_local (&m->motion.from, link.b) };
-  for (int e = 0; e < 2; e++)
-    {
-      bt_vec3 at = e ? link.b : link.a;
-      bt__witness w = { 0 };
-      if (!is_over (&t, at, &w.distance, &w.normal))
-        continue;
-      over++;
-      is_nearest |= w.distance <= nearest;
-      w.point = bt__axpy (at, -w.distance, w.normal);
-      if (w.distance >= k->config->radius + k->margin || k->rows >= k->w->rows_max)
-        continue;
-      set_row (k, k->rows, j, e, near, &w, w.distance);
-      take_row (k, 1);
-    }
-  if (over == 2)
-    return;
-  pass p = pass_of (k, j, near);
-  if (!is_nearest)
-    touch_between (k, j, &p, 0);
-  touch_crests (k, j, &p, &t, is_nearest ? 0 : near->w.feature);
+  bt__row_take (k, 2 * bt__row_lies_along (k, &p->from, &p->near->w));
 }
 
 /* Nonzero if the obstacle is sharp where it is nearest to the link's end E: what is beyond its
    plane grows as the way from there, not as its square.  */
 static int
-is_sharp (const bt__line_job *k, const pass *p, int e)
+is_sharp (const bt__line_job *k, const bt__pass *p, int e)
 {
   bt__witness w;
   double more = beyond_plane (k, p, !e, &w);
@@ -414,7 +214,7 @@ static int
 comes_nearer (const bt__line_job *k, int64_t j, const bt__near *near)
 {
   const bt__near *its = bt__line_near (k, (uint32_t)j);
-  double nearest = near->w.distance - NEAREST * k->config->radius;
+  double nearest = near->w.distance - BT__ROW_NEAREST * k->config->radius;
   for (uint32_t i = 0; i < k->w->watch[j].found; i++)
     if (its[i].link == near->link && its[i].object == near->object && its[i].w.distance < nearest)
       return 1;
@@ -424,7 +224,7 @@ comes_nearer (const bt__line_job *k, int64_t j, const bt__near *near)
 /* Nonzero if link J's end E is at a sharp edge, and beyond it the line comes nearer yet: the next
    link bears, and the plane of the end would bar the way of the node over the edge.  */
 static int
-bars_the_way (const bt__line_job *k, uint32_t j, int e, const pass *p)
+bars_the_way (const bt__line_job *k, uint32_t j, int e, const bt__pass *p)
 {
   int64_t i = (int64_t)j + e, next = e ? i + 1 : i - 1;
   const bt__mover *m = bt__line_mover (k, p->near);
@@ -433,7 +233,7 @@ bars_the_way (const bt__line_job *k, uint32_t j, int e, const pass *p)
     return 0;
   if (m)
     n = bt__out_of (&m->motion.from, n);
-  return bt__dot (n, bt__sub (k->x[next], k->x[i])) < -NEAREST * k->config->radius
+  return bt__dot (n, bt__sub (k->x[next], k->x[i])) < -BT__ROW_NEAREST * k->config->radius
          && comes_nearer (k, e ? i : next, p->near) && is_sharp (k, p, e);
 }
 
@@ -442,13 +242,13 @@ touch_part (bt__line_job *k, uint32_t j, const bt__near *near)
 {
   if (near->slot != BT__NO_TRIANGLE)
     {
-      touch_facet (k, j, near);
+      bt__row_facet (k, j, near);
       return;
     }
-  pass p = pass_of (k, j, near);
+  bt__pass p = bt__row_pass (k, j, near);
   double length = bt__distance (p.from.a, p.from.b);
   pass_end end[2] = { pass_end_of (k, &p, 0, length), pass_end_of (k, &p, 1, length) };
-  double nearest = near->w.distance + NEAREST * k->config->radius, raise = 0;
+  double nearest = near->w.distance + BT__ROW_NEAREST * k->config->radius, raise = 0;
   int both = end[0].round && end[1].round && !k->wedged;
   if (both)
     {
@@ -462,7 +262,7 @@ touch_part (bt__line_job *k, uint32_t j, const bt__near *near)
         && !(is_nearest[e] && !is_nearest[!e] && bars_the_way (k, j, e, &p)))
       touch_end (k, j, e, &p, end + e, raise);
   if (!both && !is_nearest[0] && !is_nearest[1])
-    touch_between (k, j, &p, fmin (end[0].radius, end[1].radius));
+    bt__row_between (k, j, &p, fmin (end[0].radius, end[1].radius));
 }
 
 /* Nonzero if one of the rows from FIRST on, at node I, says what R says.  */
@@ -564,7 +364,7 @@ bt__line_add_hit (bt__line_job *k, uint32_t j, const bt__near *near, const bt__w
     return -1;
   int again = at < k->rows ? k->w->of[at].again + 1 : 0;
   k->wedged = bt__line_is_wedged (k, j);
-  set_row (k, at, j, w->s, near, w, near->w.distance);
+  bt__row_set (k, at, j, w->s, near, w, near->w.distance);
   k->w->of[at].again = again;
   bt__dynamic_row *r = k->w->row + at;
   bt_vec3 a = bt__sub (k->X[j], k->x[j]), b = bt__sub (k->X[j + 1], k->x[j + 1]);

@@ -1,0 +1,195 @@
+/* Which half-spaces a mesh's triangle gives.
+
+   Nodes over its face are borne by that.  A link is borne where it is nearest, unless the surface
+   around hides that edge: a neighbour is nearer there.  And where it passes a crest, though another
+   place be nearer: a link lies on two edges of a triangle, and on one alone would see-saw.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "contact/line_row.h"
+
+#define GHOST 1e-6 /* sine of the angle at which a neighbour counts as nearer */
+#define CREST 1e-3 /* sine of the angle at which the surface falls away beyond an edge, ... */
+#define LEVEL 0.05 /* ... and up to which it may rise before it */
+
+/* ---- Edges that a mesh hides ---- */
+
+static int
+is_corner (const bt__triangle *t, bt_vec3 p)
+{
+  for (int i = 0; i < 3; i++)
+    if (t->v[i].x == p.x && t->v[i].y == p.y && t->v[i].z == p.z)
+      return i + 1;
+  return 0;
+}
+
+/* Nonzero if triangle T rises to the side of normal N from its corner I.  */
+static int
+rises_from_corner (const bt__triangle *t, int i, bt_vec3 n)
+{
+  for (int k = 1; k < 3; k++)
+    {
+      bt_vec3 e = bt__sub (t->v[(i + k) % 3], t->v[i]);
+      if (bt__dot (n, e) > GHOST * bt__norm (e))
+        return 1;
+    }
+  return 0;
+}
+
+/* By how much it rises from its edge between corners I and J: the sine of an angle.  */
+static double
+rise_from_edge (const bt__triangle *t, int i, int j, bt_vec3 n)
+{
+  bt_vec3 a = t->v[i], e = bt__sub (t->v[j], a), c = bt__sub (t->v[3 - i - j], a);
+  bt_vec3 in = bt__axpy (c, -bt__dot (c, e) / bt__dot (e, e), e);
+  return bt__dot (n, in) / bt__norm (in);
+}
+
+static int
+is_hidden_by (const bt__triangle *own, int feature, bt_vec3 n, const bt__triangle *other)
+{
+  int a = is_corner (other, own->v[feature > 3 ? feature - 4 : feature - 1]);
+  if (feature > 3)
+    return a && rises_from_corner (other, a - 1, n);
+  int b = is_corner (other, own->v[feature % 3]);
+  return a && b && rise_from_edge (other, a - 1, b - 1, n) > GHOST;
+}
+
+/* Nonzero if the nearest point W of the triangle NEAR is on an edge or corner where another listed
+   triangle is nearer.  */
+static int
+is_ghost (const bt__line_job *k, uint32_t j, const bt__near *near, const bt__witness *w)
+{
+  const bt__scene *scene = bt__line_scene (k, near);
+  const bt__near *other = bt__line_near (k, j);
+  if (near->slot == BT__NO_TRIANGLE || w->feature == 0)
+    return 0;
+  const bt__mesh *mesh = scene->object[near->object].shape.mesh;
+  bt__triangle own = bt__mesh_triangle (mesh, near->slot);
+  for (uint32_t i = 0; i < k->w->watch[j].found; i++)
+    {
+      if (other[i].link != near->link || other[i].object != near->object
+          || other[i].slot == near->slot)
+        continue;
+      bt__triangle t = bt__mesh_triangle (mesh, other[i].slot);
+      if (is_hidden_by (&own, w->feature, w->normal, &t))
+        return 1;
+    }
+  return 0;
+}
+
+/* Nonzero if the surface falls away from edge E of the triangle OWN, that of NEAR, on either side,
+   as seen from normal N.  */
+static int
+is_crest (const bt__line_job *k, uint32_t j, const bt__near *near, const bt__triangle *own, int e,
+          bt_vec3 n)
+{
+  const bt__near *other = bt__line_near (k, j);
+  const bt__mesh *mesh = bt__line_scene (k, near)->object[near->object].shape.mesh;
+  double most = rise_from_edge (own, e, (e + 1) % 3, n), least = most;
+  int is_free = 1;
+  for (uint32_t i = 0; most <= LEVEL && i < k->w->watch[j].found; i++)
+    {
+      if (other[i].link != near->link || other[i].object != near->object
+          || other[i].slot == near->slot)
+        continue;
+      bt__triangle t = bt__mesh_triangle (mesh, other[i].slot);
+      int a = is_corner (&t, own->v[e]), b = is_corner (&t, own->v[(e + 1) % 3]);
+      if (!a || !b)
+        continue;
+      double rise = rise_from_edge (&t, a - 1, b - 1, n);
+      most = fmax (most, rise);
+      least = fmin (least, rise);
+      is_free = 0;
+    }
+  return most <= LEVEL && (is_free || least < -CREST);
+}
+
+/* ---- Rows ---- */
+
+/* Nonzero if node AT is over the face of T, HEIGHT from it, on the side of NORMAL.  */
+static int
+is_over (const bt__triangle *t, bt_vec3 at, double *height, bt_vec3 *normal)
+{
+  bt_vec3 n = bt__unit_or (bt__cross (bt__sub (t->v[1], t->v[0]), bt__sub (t->v[2], t->v[0])),
+                           bt__vec (0, 0, 0));
+  double h = bt__dot (n, bt__sub (at, t->v[0]));
+  for (int i = 0; i < 3; i++)
+    {
+      bt_vec3 e = bt__sub (t->v[(i + 1) % 3], t->v[i]);
+      if (!(bt__dot (bt__cross (n, e), bt__sub (at, t->v[i])) >= 0))
+        return 0;
+    }
+  *height = fabs (h);
+  *normal = h < 0 ? bt__scale (-1, n) : n;
+  return bt__dot (n, n) > 0;
+}
+
+/* Where LINK passes over the edge of T from corner E; zero if it does not.  */
+static int
+pass_edge (const bt__triangle *t, int e, const bt__link *link, bt__witness *w)
+{
+  bt_vec3 along = bt__sub (link->b, link->a), edge = bt__sub (t->v[(e + 1) % 3], t->v[e]);
+  double u;
+  bt__closest_segments (bt__sub (link->a, t->v[e]), along, edge, &w->s, &u);
+  w->point = bt__axpy (t->v[e], u, edge);
+  bt_vec3 away = bt__sub (bt__along (link, w->s), w->point);
+  w->distance = bt__norm (away);
+  w->normal = bt__unit_or (away, bt__vec (0, 0, 0));
+  w->feature = e + 1;
+  return w->s > 0 && w->s < 1 && u > 0 && u < 1;
+}
+
+/* A link rests on as many as two edges of a triangle, one of them the nearest, which HAS a row: on
+   that alone it would see-saw.  */
+static void
+touch_crests (bt__line_job *k, uint32_t j, const bt__pass *p, const bt__triangle *t, int has)
+{
+  double touch = k->config->radius + k->margin;
+  for (int e = 0; e < 3; e++)
+    {
+      bt__witness now, w;
+      if (has == e + 1 || k->rows >= k->w->rows_max || !pass_edge (t, e, &p->from, &now)
+          || now.distance >= touch || !is_crest (k, j, p->near, t, e, now.normal))
+        continue;
+      int other = !pass_edge (t, e, &p->to, &w) || !(w.distance > k->core)
+                  || !(bt__dot (w.normal, now.normal) > BT__ROW_TURNED);
+      bt__row_set (k, k->rows, j, other ? now.s : w.s, p->near, other ? &now : &w, now.distance);
+      bt__row_take (k, 2 * bt__row_lies_along (k, &p->from, &now));
+    }
+}
+
+/* A triangle: nodes over its face, else the nearest place of the link, and edges it passes.  */
+void
+bt__row_facet (bt__line_job *k, uint32_t j, const bt__near *near)
+{
+  const bt__mover *m = bt__line_mover (k, near);
+  bt__triangle t
+      = bt__mesh_triangle (bt__line_scene (k, near)->object[near->object].shape.mesh, near->slot);
+  bt__link link = bt__line_link (k->x, j);
+  double nearest = near->w.distance + BT__ROW_NEAREST * k->config->radius;
+  int over = 0, is_nearest = 0;
+  if (m)
+    link = (bt__link){ bt__to_local (&m->motion.from, link.a),
+                       bt__to_local (&m->motion.from, link.b) };
+  for (int e = 0; e < 2; e++)
+    {
+      bt_vec3 at = e ? link.b : link.a;
+      bt__witness w = { 0 };
+      if (!is_over (&t, at, &w.distance, &w.normal))
+        continue;
+      over++;
+      is_nearest |= w.distance <= nearest;
+      w.point = bt__axpy (at, -w.distance, w.normal);
+      if (w.distance >= k->config->radius + k->margin || k->rows >= k->w->rows_max)
+        continue;
+      bt__row_set (k, k->rows, j, e, near, &w, w.distance);
+      bt__row_take (k, 1);
+    }
+  if (over == 2)
+    return;
+  bt__pass p = bt__row_pass (k, j, near);
+  if (!is_nearest && !is_ghost (k, j, near, &near->w))
+    bt__row_between (k, j, &p, 0);
+  touch_crests (k, j, &p, &t, is_nearest ? 0 : near->w.feature);
+}
