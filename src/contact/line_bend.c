@@ -168,14 +168,23 @@ bt__bend_is_calm (const bt__line_job *k, int64_t node, int64_t id, double share)
          && !is_disturbed (k, (uint32_t)node - 1, id, way);
 }
 
+int
+bt__bend_is_wedged (const bt__line_job *k, int64_t node, double share)
+{
+  return bt__line_is_wedged (k, (uint32_t)node, share)
+         || bt__line_is_wedged (k, (uint32_t)node - 1, share);
+}
+
 /* Which corners are to be held.  Where something else is near a round member, half-spaces do better
-   than nodes that stay where they are: than all of the member.  */
+   than nodes that stay where they are: than all of the member.  So they do in a crotch, where the
+   other member bears against a node that cannot give way.  */
 static void
 choose (const bt__line_job *k, const corners *s, int *may)
 {
   for (int c = 0; c < s->n; c++)
     may[c] = is_thin (k, s->at + c)
-             || (!k->plain && bt__bend_is_calm (k, s->at[c].node, s->at[c].anchor.object, 1));
+                 ? !bt__bend_is_wedged (k, s->at[c].node, 1)
+                 : !k->plain && bt__bend_is_calm (k, s->at[c].node, s->at[c].anchor.object, 1);
   for (int c = 0; c + 1 < s->n; c++)
     may[c + 1] &= may[c] || !goes_on (s, c);
   for (int c = s->n - 2; c >= 0; c--)

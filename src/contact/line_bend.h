@@ -88,6 +88,9 @@ int bt__bend_node (const bt__line_job *k, double from_end);
    near, of what keeps it from being held about a round member.  */
 int bt__bend_is_calm (const bt__line_job *k, int64_t node, int64_t id, double share);
 
+/* Nonzero if one of the links of NODE is in a crotch, see bt__line_is_wedged.  */
+int bt__bend_is_wedged (const bt__line_job *k, int64_t node, double share);
+
 /* line_bend_keep.c: nonzero if the I-th node held bears, or one that it goes on to.  */
 int bt__bend_bears (const bt__line_job *k, int i);
 

@@ -104,6 +104,15 @@ is_held_near (const bt__line_job *k, const bt__bends *s, int q)
   return 0;
 }
 
+/* Nonzero if row Q is of a link in a crotch, or next to one.  */
+static int
+is_wedged (const bt__line_job *k, int q)
+{
+  int64_t j = k->w->row[q].node;
+  return (j > 0 && bt__bend_is_wedged (k, j, CALM))
+         || (j + 1 < k->links && bt__bend_is_wedged (k, j + 1, CALM));
+}
+
 /* Nonzero if the line may be bent where row Q bears.  */
 static int
 may_bend (const bt__line_job *k, const bt__bends *s, int q, bt__bend_place *p)
@@ -122,7 +131,7 @@ may_bend (const bt__line_job *k, const bt__bends *s, int q, bt__bend_place *p)
     p->edge.axis = bt__scale (-1, p->edge.axis);
   if (p->edge.round && is_held_near (k, s, q))
     return 0;
-  return bt__edge_is_thin (k, &p->edge) ? k->w->of[q].flat != 1
+  return bt__edge_is_thin (k, &p->edge) ? k->w->of[q].flat != 1 && !is_wedged (k, q)
                                         : is_settled (k, q) && !has_company (k, q);
 }
 

@@ -185,8 +185,9 @@ int bt__line_add_hit (bt__line_job *k, uint32_t j, const bt__near *near, const b
 
 /* ---- Between two obstacles (line_wedge.c) ---- */
 
-/* Nonzero if link J is near to two obstacles that push it toward each other.  */
-int bt__line_is_wedged (const bt__line_job *k, uint32_t j);
+/* Nonzero if link J is near to two obstacles that push it toward each other; SHARE: how near, of
+   what touches.  */
+int bt__line_is_wedged (const bt__line_job *k, uint32_t j, double share);
 
 /* Make row I, whose stiffness is that of a light touch, that of a line pressed in as far as link
    and obstacle are.  */

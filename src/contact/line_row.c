@@ -319,7 +319,7 @@ bt__line_rows (bt__line_job *k)
     {
       const bt__near *near = bt__line_near (k, j);
       int first = k->rows;
-      k->wedged = bt__line_is_wedged (k, j);
+      k->wedged = bt__line_is_wedged (k, j, 1);
       for (uint32_t i = 0; i < k->w->watch[j].found; i++)
         if (near[i].w.distance < touch)
           touch_part (k, j, near + i);
@@ -363,7 +363,7 @@ bt__line_add_hit (bt__line_job *k, uint32_t j, const bt__near *near, const bt__w
   if (at >= k->w->rows_max)
     return -1;
   int again = at < k->rows ? k->w->of[at].again + 1 : 0;
-  k->wedged = bt__line_is_wedged (k, j);
+  k->wedged = bt__line_is_wedged (k, j, 1);
   bt__row_set (k, at, j, w->s, near, w, near->w.distance);
   k->w->of[at].again = again;
   bt__dynamic_row *r = k->w->row + at;

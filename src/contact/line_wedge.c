@@ -27,10 +27,10 @@ way_out (const bt__line_job *k, const bt__near *near)
 }
 
 int
-bt__line_is_wedged (const bt__line_job *k, uint32_t j)
+bt__line_is_wedged (const bt__line_job *k, uint32_t j, double share)
 {
   const bt__near *near = bt__line_near (k, j);
-  double touch = k->config->radius + k->margin;
+  double touch = share * (k->config->radius + k->margin);
   uint32_t found = k->w->watch[j].found;
   for (uint32_t i = 1; i < found; i++)
     for (uint32_t q = 0; q < i && near[i].w.distance < touch; q++)
