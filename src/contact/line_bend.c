@@ -227,6 +227,8 @@ place (const bt__line_job *k, corner *c)
   c->lag = lag_of (k, c);
   c->away = away_of (k, c);
   c->place = bt__add (bt__axpy (c->turn.centre, c->away, c->turn.normal), c->lag);
+  double along = bt__dot (c->edge.axis, bt__sub (k->x[c->node], c->place));
+  c->place = bt__axpy (c->place, along, c->edge.axis); /* along the member it starts where it is */
 }
 
 /* Where the next node on SIDE (-1, 1) of corner C will be.  */
@@ -275,6 +277,18 @@ gone_round (const bt__line_job *k, const corner *c)
   return bt__off_axis (c->edge.axis, is_thin (k, c) ? bt__add (gone, c->anchor.lag) : gone);
 }
 
+/* The direction in which corner C slides sideways, the line running along ALONG there: across the
+   line, not along the member, or friction would bear what the line draws obliquely over it; what
+   friction does along the line is in the tensions.  A node at something thin would leave it.  */
+static bt_vec3
+sideways (const bt__line_job *k, const corner *c, bt_vec3 along)
+{
+  if (is_thin (k, c))
+    return c->edge.axis;
+  bt_vec3 aside = bt__unit_or (bt__cross (c->turn.normal, along), c->edge.axis);
+  return bt__dot (aside, c->edge.axis) < 0 ? bt__scale (-1, aside) : aside;
+}
+
 static void
 hold (bt__line_job *k, const corners *s, int i)
 {
@@ -282,22 +296,23 @@ hold (bt__line_job *k, const corners *s, int i)
   int at = k->bents++;
   bt_vec3 none = { 0, 0, 0 }, a_side = bt__unit_or (bt__sub (c->place, beside (k, s, i, -1)), none),
           b_side = bt__unit_or (bt__sub (beside (k, s, i, 1), c->place), none);
-  double turn = 2 * asin (fmin (0.5 * bt__distance (a_side, b_side), 1));
+  double bears = bt__dot (c->turn.normal, bt__sub (a_side, b_side));
+  double turn = 2 * asin (fmin (0.5 * fmax (bears, 0), 1));
   double mu = bt__line_friction (k, c->anchor.object);
-  bt_vec3 gone = gone_round (k, c);
-  k->w->bent[at]
-      = (bt__dynamic_bent){ .node = c->node,
-                            .at = c->place,
-                            .axis = c->edge.axis,
-                            .normal = c->turn.normal,
-                            .stiffness = bt__line_stiffness (k, c->node),
-                            .wrap = c->turn.angle > 0 ? mu * turn : 0,
-                            .friction = mu,
-                            .slip = BT__LINE_SLIP,
-                            .drag = c->anchor.drag + 0.5 * bt__dot (bt__add (a_side, b_side), gone),
-                            .side = c->anchor.side,
-                            .flow = c->anchor.flow * k->h,
-                            .load = c->anchor.load };
+  bt_vec3 gone = gone_round (k, c), sum = bt__add (a_side, b_side);
+  bt_vec3 aside = sideways (k, c, sum);
+  k->w->bent[at] = (bt__dynamic_bent){ .node = c->node,
+                                       .at = c->place,
+                                       .axis = aside,
+                                       .normal = c->turn.normal,
+                                       .stiffness = bt__line_stiffness (k, c->node),
+                                       .wrap = c->turn.angle > 0 ? mu * turn : 0,
+                                       .friction = mu,
+                                       .slip = BT__LINE_SLIP,
+                                       .drag = c->anchor.drag + 0.5 * bt__dot (sum, gone),
+                                       .side = c->anchor.side + bt__dot (aside, gone),
+                                       .flow = c->anchor.flow * k->h,
+                                       .load = c->anchor.load };
   bt__anchor *a = k->w->bend + at;
   *a = c->anchor;
   a->held = c->place;
