@@ -289,6 +289,14 @@ sideways (const bt__line_job *k, const corner *c, bt_vec3 along)
   return bt__dot (aside, c->edge.axis) < 0 ? bt__scale (-1, aside) : aside;
 }
 
+/* How far it went round as it slid ASIDE in the last step; it goes back along the line.  */
+static bt_vec3
+slid_round (const bt__line_job *k, const corner *c, bt_vec3 aside)
+{
+  double slid = bt__dot (aside, bt__sub (k->x[c->node], c->anchor.held));
+  return is_thin (k, c) ? bt__vec (0, 0, 0) : bt__off_axis (c->edge.axis, bt__scale (slid, aside));
+}
+
 static void
 hold (bt__line_job *k, const corners *s, int i)
 {
@@ -301,6 +309,7 @@ hold (bt__line_job *k, const corners *s, int i)
   double mu = bt__line_friction (k, c->anchor.object);
   bt_vec3 gone = gone_round (k, c), sum = bt__add (a_side, b_side);
   bt_vec3 aside = sideways (k, c, sum);
+  gone = bt__sub (gone, slid_round (k, c, aside));
   k->w->bent[at] = (bt__dynamic_bent){ .node = c->node,
                                        .at = c->place,
                                        .axis = aside,
@@ -310,7 +319,7 @@ hold (bt__line_job *k, const corners *s, int i)
                                        .friction = mu,
                                        .slip = BT__LINE_SLIP,
                                        .drag = c->anchor.drag + 0.5 * bt__dot (sum, gone),
-                                       .side = c->anchor.side + bt__dot (aside, gone),
+                                       .side = c->anchor.side,
                                        .flow = c->anchor.flow * k->h,
                                        .load = c->anchor.load };
   bt__anchor *a = k->w->bend + at;

@@ -62,7 +62,6 @@ bt__line_bent_anchor (const bt__line_job *k, int i)
   a.work += a.step_work;
   a.drag = keep * drag;
   a.side = keep * side;
-  a.held = bt__axpy (a.held, side - b->side, b->axis);
   a.flow = b->flow / k->h;
   a.speed = hypot (slid, side - b->side) / k->h;
   a.load = b->load;
