@@ -11,7 +11,9 @@
    the promise that none passes through.
 
    What slides is the line at the tangents, not at the corner: a corner that moves on as the line is
-   laid round lets line flow through it that does not slide.
+   laid round lets line flow through it that does not slide.  Sideways it slides across itself,
+   whatever the angle at which it crosses the member; by what a corner so went round it is put back
+   in the next step, and that is no sliding either.
 
    Where a corner is to be depends on where its neighbours will be, and those on the corner: a stiff
    line that is pulled by a corner that went too far out turns more, and so on.  A corner that goes
@@ -277,16 +279,13 @@ gone_round (const bt__line_job *k, const corner *c)
   return bt__off_axis (c->edge.axis, is_thin (k, c) ? bt__add (gone, c->anchor.lag) : gone);
 }
 
-/* The direction in which corner C slides sideways, the line running along ALONG there: across the
-   line, not along the member, or friction would bear what the line draws obliquely over it; what
-   friction does along the line is in the tensions.  A node at something thin would leave it.  */
-static bt_vec3
-sideways (const bt__line_job *k, const corner *c, bt_vec3 along)
+bt_vec3
+bt__bend_aside (const bt__line_job *k, const bt__edge *e, bt_vec3 normal, bt_vec3 along)
 {
-  if (is_thin (k, c))
-    return c->edge.axis;
-  bt_vec3 aside = bt__unit_or (bt__cross (c->turn.normal, along), c->edge.axis);
-  return bt__dot (aside, c->edge.axis) < 0 ? bt__scale (-1, aside) : aside;
+  if (bt__edge_is_thin (k, e))
+    return e->axis;
+  bt_vec3 aside = bt__unit_or (bt__cross (normal, along), e->axis);
+  return bt__dot (aside, e->axis) < 0 ? bt__scale (-1, aside) : aside;
 }
 
 /* How far it went round as it slid ASIDE in the last step; it goes back along the line.  */
@@ -308,7 +307,7 @@ hold (bt__line_job *k, const corners *s, int i)
   double turn = 2 * asin (fmin (0.5 * fmax (bears, 0), 1));
   double mu = bt__line_friction (k, c->anchor.object);
   bt_vec3 gone = gone_round (k, c), sum = bt__add (a_side, b_side);
-  bt_vec3 aside = sideways (k, c, sum);
+  bt_vec3 aside = bt__bend_aside (k, &c->edge, c->turn.normal, sum);
   gone = bt__sub (gone, slid_round (k, c, aside));
   k->w->bent[at] = (bt__dynamic_bent){ .node = c->node,
                                        .at = c->place,

@@ -6,6 +6,7 @@
 #include "contact/line_bend.h"
 
 #define ALONG 0.9     /* product of line and edge: more, and the line lies along it */
+#define STEEP 0.8     /* ... less for a corner of a round member, or it would be let go at once */
 #define FROM_NODE 0.1 /* of a piece: nearer to a node no other is put; ... */
 #define CROWDED 0.01  /* ... nearer to the next one none is bent */
 #define TAUT 5.0      /* N: a line under less has no corners about round members */
@@ -58,6 +59,16 @@ is_corner (const bt__line_job *k, int64_t i, bt__edge *e)
          && lb < bt__distance (x[1], x[2]) + slack;
 }
 
+/* Nonzero if both links of node I cross E, and do not go along it.  */
+static int
+is_steep (const bt__line_job *k, int64_t i, const bt__edge *e)
+{
+  const bt_vec3 *x = bt__dynamic_x (k->d) + i;
+  bt_vec3 none = { 0, 0, 0 }, a = bt__unit_or (bt__sub (x[0], x[-1]), none),
+          b = bt__unit_or (bt__sub (x[1], x[0]), none);
+  return fabs (bt__dot (a, e->axis)) < STEEP && fabs (bt__dot (b, e->axis)) < STEEP;
+}
+
 /* Nonzero if row Q has borne for a while, a line that is taut enough and near nothing else.  */
 static int
 is_settled (const bt__line_job *k, int q)
@@ -77,7 +88,8 @@ may_corner (const bt__line_job *k, const bt__bends *s, int q, int64_t i, bt__ben
   p->node = i;
   return is_settled (k, q) && i >= 1 && i < k->d->n && !bt__bends_has (s, i) && !is_crowded (k, i)
          && bt__edge_find (k, k->w->of[q].id, x[i], &p->edge) && p->edge.round
-         && !bt__edge_is_thin (k, &p->edge) && is_corner (k, i, &p->edge);
+         && !bt__edge_is_thin (k, &p->edge) && is_steep (k, i, &p->edge)
+         && is_corner (k, i, &p->edge);
 }
 
 /* Nonzero if another row of the obstacle of row Q is on a link next to its link.  */
@@ -131,8 +143,9 @@ may_bend (const bt__line_job *k, const bt__bends *s, int q, bt__bend_place *p)
     p->edge.axis = bt__scale (-1, p->edge.axis);
   if (p->edge.round && is_held_near (k, s, q))
     return 0;
-  return bt__edge_is_thin (k, &p->edge) ? k->w->of[q].flat != 1 && !is_wedged (k, q)
-                                        : is_settled (k, q) && !has_company (k, q);
+  return bt__edge_is_thin (k, &p->edge)
+             ? k->w->of[q].flat != 1 && !is_wedged (k, q)
+             : is_settled (k, q) && !has_company (k, q) && fabs (bt__dot (t, p->edge.axis)) < STEEP;
 }
 
 static int
@@ -176,7 +189,7 @@ bt__bends_hold (bt__line_job *k, bt__bends *s, const bt__bend_place *p)
   a.age = 0;
   a.flow = flow;
   a.drag = fmin (fmax (bt__dot (t, a.stick), -BT__LINE_SLIP), BT__LINE_SLIP);
-  a.side = bt__dot (p->edge.axis, a.stick);
+  a.side = bt__dot (bt__bend_aside (k, &p->edge, p->edge.normal, t), a.stick);
   a.axis = p->edge.axis;
   a.thick = p->edge.radius;
   a.point = p->edge.point;
