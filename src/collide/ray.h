@@ -31,8 +31,8 @@ typedef struct bt__ray_hit
 /* Return nonzero and *OUT, the first thing RAY meets in SCENE (NULL: nothing is there).  Ranges are
    good to 1e-12 of the largest length involved but for grazing rays: no point of the ray before the
    range is deeper in a solid than that.  A ray that is not finite meets nothing.  */
-int bt__scene_ray (const bt__scene *scene, const bt__switches *on, const bt__ray *ray, bt__ray_hit *out,
-                   bt__count *count);
+int bt__scene_ray (const bt__scene *scene, const bt__switches *on, const bt__ray *ray,
+                   bt__ray_hit *out, bt__count *count);
 
 /* The same with movers, each where the share DONE of its motion brings it.  */
 int bt__ray_cast (const bt__scene *scene, const bt__switches *on, const bt__mover *mover,

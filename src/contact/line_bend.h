@@ -91,9 +91,10 @@ int bt__bend_is_calm (const bt__line_job *k, int64_t node, int64_t id, double sh
 /* Nonzero if one of the links of NODE is in a crotch, see bt__line_is_wedged.  */
 int bt__bend_is_wedged (const bt__line_job *k, int64_t node, double share);
 
-/* The unit direction in which a node at E slides sideways where the line, pressed on against NORMAL,
-   runs along ALONG: across the line, not along the member, or the place where it is held would bear
-   what draws the line obliquely over it.  At what is thin along it, or the node would leave it.  */
+/* The unit direction in which a node at E slides sideways where the line, pressed on against
+   NORMAL, runs along ALONG: across the line, not along the member, or the place where it is held
+   would bear what draws the line obliquely over it.  At what is thin along it, or the node would
+   leave it.  */
 bt_vec3 bt__bend_aside (const bt__line_job *k, const bt__edge *e, bt_vec3 normal, bt_vec3 along);
 
 /* line_bend_keep.c: nonzero if the I-th node held bears, or one that it goes on to.  */

@@ -7,8 +7,8 @@
 
 #include "sim/chain.h"
 
-/* The material that one contact stands for: a link's length, but where the line runs about something
-   only what lies on it.  */
+/* The material that one contact stands for: a link's length, but where the line runs about
+   something only what lies on it.  */
 static double
 span_of (const bt__dynamic *chain, const bt__anchor *anchor)
 {

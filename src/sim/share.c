@@ -10,10 +10,10 @@
 
    That groups had nothing to do with each other is supposed before the step and known after it: no
    line asked for others so far off that there was one or left its box (chain_box.c), nobody held an
-   obstacle back, nobody moved what other groups hang on, nothing failed.  Otherwise the try is made again by one thread, as it
-   would have been; so what comes of a step is always what one thread makes of it.  The margins go
-   by what the lines asked for last, and when tries are refused one after another it is waited
-   longer and longer until the next.
+   obstacle back, nobody moved what other groups hang on, nothing failed.  Otherwise the try is made
+   again by one thread, as it would have been; so what comes of a step is always what one thread
+   makes of it.  The margins go by what the lines asked for last, and when tries are refused one
+   after another it is waited longer and longer until the next.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -118,8 +118,7 @@ assemble_bent (bt__dynamic_work *w, bt__dynamic_bent *b)
 {
   b->side_now = side_of (w, b);
   double answered = b->side_now + DAMPING * (b->side_now - b->side);
-  double size = hypot (b->drag + b->flow, answered),
-         most = b->load > 0 ? b->friction * b->load : 0;
+  double size = hypot (b->drag + b->flow, answered), most = b->load > 0 ? b->friction * b->load : 0;
   double ks = most / fmax (size, b->slip), part = answered / size;
   double slope = (1 + DAMPING) * (size > b->slip ? ks * fmax (1 - part * part, 0) : ks);
   b->force = bt__axpy (spring_of (w, b), -ks * answered, b->axis);

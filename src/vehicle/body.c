@@ -336,7 +336,7 @@ advance (job *j, const bt__vehicle_type *type, const bt__rigid *body, const bt__
 
 bt_status
 bt__rigid_step (const bt__vehicle_type *type, bt__rigid *body, const bt__rigid_input *in,
-               bt_error *error)
+                bt_error *error)
 {
   job j;
   bt__rigid next;
@@ -377,7 +377,7 @@ invert (const bt_vec3 *c, double (*k)[3])
 
 bt_status
 bt__rigid_grip (const bt__vehicle_type *type, const bt__rigid *body, const bt__rigid_input *in,
-               bt__grip *grip, bt_error *error)
+                bt__grip *grip, bt_error *error)
 {
   job j;
   bt__rigid next;

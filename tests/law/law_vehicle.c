@@ -193,11 +193,11 @@ test_terminal_speed (void **state)
         bt_vec3 way[3] = { { 0, 1, 0 }, { 1, 0, 0 }, { 0, 0, 1 } };
         bt__rigid_place (&body, bt__vec (0, 0, -50), 0, 0, 0);
         bt__rigid_input in = { .h = STEP,
-                              .density = 1025,
-                              .gravity = G,
-                              .surface = INFINITY,
-                              .force = bt__scale (force, way[axis]),
-                              .flow = { 0.2, -0.3, 0.1 } };
+                               .density = 1025,
+                               .gravity = G,
+                               .surface = INFINITY,
+                               .force = bt__scale (force, way[axis]),
+                               .flow = { 0.2, -0.3, 0.1 } };
         body.velocity = in.flow;
         run (&type, &body, &in, 6000);
         double v = bt__dot (bt__sub (bt__rigid_point_velocity (&body, bt__vec (0, 0, 0)), in.flow),
@@ -273,11 +273,11 @@ test_current_and_acceleration (void **state)
     {
       bt_vec3 flow = bt__scale ((i + 0.5) * STEP, a);
       bt__rigid_input in = { .h = STEP,
-                            .density = 1025,
-                            .gravity = G,
-                            .surface = INFINITY,
-                            .flow = flow,
-                            .flow_acceleration = a };
+                             .density = 1025,
+                             .gravity = G,
+                             .surface = INFINITY,
+                             .flow = flow,
+                             .flow_acceleration = a };
       run (&type, &body, &in, 1);
     }
   bt_vec3 v = bt__rigid_point_velocity (&body, bt__vec (0, 0, 0));
