@@ -163,18 +163,14 @@ touch_crests (bt__line_job *k, uint32_t j, const bt__pass *p, const bt__triangle
 void
 bt__row_facet (bt__line_job *k, uint32_t j, const bt__near *near)
 {
-  const bt__mover *m = bt__line_mover (k, near);
   bt__triangle t
       = bt__mesh_triangle (bt__line_scene (k, near)->object[near->object].shape.mesh, near->slot);
-  bt__link link = bt__line_link (k->x, j);
+  bt__pass p = bt__row_pass (k, j, near);
   double nearest = near->w.distance + BT__ROW_NEAREST * k->config->radius;
   int over = 0, is_nearest = 0;
-  if (m)
-    link = (bt__link){ bt__to_local (&m->motion.from, link.a),
-                       bt__to_local (&m->motion.from, link.b) };
   for (int e = 0; e < 2; e++)
     {
-      bt_vec3 at = e ? link.b : link.a;
+      bt_vec3 at = e ? p.from.b : p.from.a;
       bt__witness w = { 0 };
       if (!is_over (&t, at, &w.distance, &w.normal))
         continue;
@@ -188,7 +184,6 @@ bt__row_facet (bt__line_job *k, uint32_t j, const bt__near *near)
     }
   if (over == 2)
     return;
-  bt__pass p = bt__row_pass (k, j, near);
   if (!is_nearest && !is_ghost (k, j, near, &near->w))
     bt__row_between (k, j, &p, 0);
   touch_crests (k, j, &p, &t, is_nearest ? 0 : near->w.feature);

@@ -124,7 +124,6 @@ bt__row_pass (const bt__line_job *k, uint32_t j, const bt__near *near)
                            bt__to_local (&m->motion.from, p.from.b) };
       p.to = (bt__link){ bt__to_local (&end, p.to.a), bt__to_local (&end, p.to.b) };
     }
-  look_ahead (k, &p, &p.from, &p.to, &near->w, &p.w);
   return p;
 }
 
@@ -192,10 +191,12 @@ bt__row_between (bt__line_job *k, uint32_t j, const bt__pass *p, double radius)
   bt_vec3 along = bt__sub (p->to.b, p->to.a);
   if (k->rows >= k->w->rows_max)
     return;
-  bt__row_set (k, k->rows, j, p->w.s, p->near, &p->w, p->near->w.distance);
+  bt__witness w;
+  look_ahead (k, p, &p->from, &p->to, &p->near->w, &w);
+  bt__row_set (k, k->rows, j, w.s, p->near, &w, p->near->w.distance);
   bt__dynamic_row *r = k->w->row + k->rows;
   r->roll = radius / fmax (bt__dot (along, along), 1e-12);
-  r->tilt = bt__dot (p->w.normal, along); /* the same in either frame */
+  r->tilt = bt__dot (w.normal, along); /* the same in either frame */
   bt__row_take (k, 2 * bt__row_lies_along (k, &p->from, &p->near->w));
 }
 

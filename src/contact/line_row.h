@@ -15,7 +15,6 @@ typedef struct bt__pass
 {
   const bt__near *near;
   bt__link from, to;
-  bt__witness w; /* of TO */
 } bt__pass;
 
 bt__pass bt__row_pass (const bt__line_job *k, uint32_t j, const bt__near *near);
