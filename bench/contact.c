@@ -117,9 +117,7 @@ open_corner (corner k, double mu)
       shape[i + 1] = bt__vec (-r * cos (a), 0, r * sin (a));
     }
   shape[11] = bt__vec (15, 0, shape[10].z);
-  double length = 0;
-  for (int i = 0; i < 11; i++)
-    length += bt__distance (shape[i], shape[i + 1]);
+  double length = bt__length (shape, 12);
   if (!reef_raise (&place) || !rope_open (&line, &place, LINKS, shape, 12, length, mu))
     fail ();
   line.line.cdt = 0;
@@ -288,35 +286,8 @@ lie (int links, double height, int mesh)
 static void
 tie (int links, double force, double mass, double aside)
 {
-  enum
-  {
-    TURN = 48
-  };
-  bt_vec3 path[TURN + 5];
-  double beam = 0.15, ring = beam + 0.25, thick = 0.13, cut = 0.22, length = 0;
-  int n = 0;
-  path[n++] = bt__vec (4, 1.5 + aside, 0.3);
-  path[n++] = bt__vec (ring + 2.5 * thick, 0.4, 0.1);
-  for (int i = 0; i <= TURN; i++)
-    {
-      double t = cut + (2 * BT__PI - 2 * cut) * i / TURN, r = ring + thick * cos (3 * t);
-      path[n++] = bt__vec (r * cos (2 * t), r * sin (2 * t), thick * sin (3 * t));
-    }
-  path[n++] = bt__vec (ring + 2.5 * thick, -0.4, -0.1);
-  path[n++] = bt__vec (4, -1.5, -0.3);
-  for (int i = 0; i + 1 < n; i++)
-    length += bt__distance (path[i], path[i + 1]);
-  if (!reef_open (&place))
+  if (!rope_tie (&line, &place, links, 0.15, 0.3, aside))
     fail ();
-  reef_cylinder (&place, bt__vec (0, 0, -3), bt__vec (0, 0, 3), beam);
-  if (!reef_raise (&place) || !rope_open (&line, &place, links, path, n, 1.001 * length, 0.3))
-    fail ();
-  line.line.diameter = 0.02;
-  line.line.mass = 0.32;
-  line.config.radius = 0.01;
-  line.config.core = bt__core (0.02);
-  line.config.itself = 1;
-  line.config.id = 1000;
   line.in.end[1] = (bt__dynamic_end){
     .free = 1, .body = { .mass = mass, .quadratic = 60, .force = { force, -0.3 * force, 0 } }
   };

@@ -94,9 +94,7 @@ open_twin (twin *t, const scene *s, int looks)
 {
   bt_vec3 p[POINTS];
   int n = s->lay (p);
-  double length = 0;
-  for (int i = 0; i + 1 < n; i++)
-    length += bt__distance (p[i], p[i + 1]);
+  double length = bt__length (p, (uint32_t)n);
   *t = (twin){ .end = p[n - 1] };
   if (!reef_open (&t->place))
     return 0;

@@ -268,6 +268,45 @@ rope_close (rope *p)
 }
 
 void
+rope_set_itself (rope *p)
+{
+  p->line.diameter = 0.02;
+  p->line.mass = 0.32;
+  p->config.radius = 0.01;
+  p->config.core = bt__core (0.02);
+  p->config.itself = 1;
+  p->config.id = 1000;
+}
+
+int
+rope_tie (rope *p, reef *r, int n, double beam, double mu, double aside)
+{
+  enum
+  {
+    TURN = 48
+  };
+  bt_vec3 path[TURN + 5];
+  double ring = beam + 0.25, thick = 0.13, cut = 0.22;
+  path[0] = bt__vec (4, 1.5 + aside, 0.3);
+  path[1] = bt__vec (ring + 2.5 * thick, 0.4, 0.1);
+  for (int i = 0; i <= TURN; i++)
+    {
+      double t = cut + (2 * BT__PI - 2 * cut) * i / TURN, out = ring + thick * cos (3 * t);
+      path[i + 2] = bt__vec (out * cos (2 * t), out * sin (2 * t), thick * sin (3 * t));
+    }
+  path[TURN + 3] = bt__vec (ring + 2.5 * thick, -0.4, -0.1);
+  path[TURN + 4] = bt__vec (4, -1.5, -0.3);
+  if (!reef_open (r))
+    return 0;
+  reef_cylinder (r, bt__vec (0, 0, -3), bt__vec (0, 0, 3), beam);
+  if (!reef_raise (r)
+      || !rope_open (p, r, n, path, TURN + 5, 1.001 * bt__length (path, TURN + 5), mu))
+    return 0;
+  rope_set_itself (p);
+  return 1;
+}
+
+void
 rope_tow (rope *p, bt_vec3 target, double speed, double h)
 {
   bt_vec3 x = bt__dynamic_x (p->d)[p->d->n], way = bt__sub (target, x);

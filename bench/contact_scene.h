@@ -114,6 +114,14 @@ typedef struct rope
 int rope_open (rope *p, reef *r, int n, const bt_vec3 *shape, int m, double length, double mu);
 void rope_close (rope *p);
 
+/* Let P be of 20 mm and touch itself.  */
+void rope_set_itself (rope *p);
+
+/* Raise R, a beam along z of radius BEAM, and lay P of N intervals about it in an overhand knot:
+   two turns about the beam and three about a ring; it touches itself.  The ends lead away along x,
+   the held one ASIDE metres aside.  Nonzero on success.  */
+int rope_tie (rope *p, reef *r, int n, double beam, double mu, double aside);
+
 /* One step, judged if JUDGED.  Zero if it was refused.  */
 int rope_step (rope *p, double h, int judged);
 

@@ -43,7 +43,7 @@ typedef struct hauled
 static double
 shape_of (const winding *w, bt_vec3 *p)
 {
-  double theta = 2 * BT__PI * w->turns, out = w->radius + 0.005, length = 0;
+  double theta = 2 * BT__PI * w->turns, out = w->radius + 0.005;
   double leg = LEG + 2 * w->share * w->radius, r = out / cos (fmin (w->share / 2, 1));
   p[0] = bt__vec (-r, 0, -leg);
   for (int i = 1; i < CORNERS; i++)
@@ -53,9 +53,7 @@ shape_of (const winding *w, bt_vec3 *p)
     }
   double a = BT__PI - theta;
   p[CORNERS] = bt__axpy (p[CORNERS - 1], leg, bt__vec (sin (a), 0, -cos (a)));
-  for (int i = 0; i < CORNERS; i++)
-    length += bt__distance (p[i], p[i + 1]);
-  return length;
+  return bt__length (p, CORNERS + 1);
 }
 
 static int

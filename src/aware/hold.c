@@ -6,15 +6,6 @@
 
 #define LEAST_ANGLE 1e-4
 
-double
-bt__length (const bt_vec3 *p, uint32_t n)
-{
-  double sum = 0;
-  for (uint32_t i = 0; i + 1 < n; i++)
-    sum += bt__distance (p[i], p[i + 1]);
-  return sum;
-}
-
 /* The angle between directions A and B, good for small ones too.  */
 static double
 angle_between (bt_vec3 a, bt_vec3 b)

@@ -46,7 +46,4 @@ double bt__holds_lock (const bt__holds *list);
    for their tangents stay.  */
 double bt__holds_length (const bt__holds *list, const bt_vec3 *p, uint32_t n);
 
-/* Return the length of a polyline.  */
-double bt__length (const bt_vec3 *p, uint32_t n);
-
 #endif

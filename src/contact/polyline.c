@@ -60,15 +60,6 @@ bt__polyline_work_new (uint32_t room, uint32_t movers, bt__polyline_work **out, 
 
 /* ---- Laying ---- */
 
-static double
-way_length (const bt_vec3 *points, uint32_t n)
-{
-  double sum = 0;
-  for (uint32_t i = 0; i + 1 < n; i++)
-    sum += bt__distance (points[i], points[i + 1]);
-  return sum;
-}
-
 static void
 append (bt__polyline *line, bt_vec3 x, double u)
 {
@@ -96,7 +87,7 @@ bt_status
 bt__polyline_lay (bt__polyline *line, uint32_t room, const bt_vec3 *points, uint32_t n,
                   double length, uint32_t nodes, bt_error *error)
 {
-  double way = way_length (points, n), u = 0;
+  double way = bt__length (points, n), u = 0;
   if (n < 2 || nodes < 1 || !isfinite (way) || !(length > 0 && isfinite (length))
       || way > length * (1 + SAME))
     return bt__fail (error, BT_ERR_DOMAIN, "a tether of %g m cannot lie along a way of %g m",

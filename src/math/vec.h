@@ -6,6 +6,7 @@
 #define BT_MATH_VEC_H
 
 #include <math.h>
+#include <stdint.h>
 
 #include <bight/vec.h>
 
@@ -71,6 +72,16 @@ static inline double
 bt__distance (bt_vec3 a, bt_vec3 b)
 {
   return bt__norm (bt__sub (a, b));
+}
+
+/* The length of the polyline of the N points P.  */
+static inline double
+bt__length (const bt_vec3 *p, uint32_t n)
+{
+  double sum = 0;
+  for (uint32_t i = 0; i + 1 < n; i++)
+    sum += bt__distance (p[i], p[i + 1]);
+  return sum;
 }
 
 static inline int

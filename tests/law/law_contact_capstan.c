@@ -28,7 +28,7 @@ static void
 wind_wider (capstan *c, double share, double mu, double turns, double r, double leg)
 {
   static bt_vec3 shape[CORNERS + 1];
-  double link = share * DRUM, rise = turns > 0.75 ? 0.15 * turns : 0, length = 0;
+  double link = share * DRUM, rise = turns > 0.75 ? 0.15 * turns : 0;
   c->theta = 2 * BT__PI * turns;
   assert_true (reef_open (&c->reef));
   reef_cylinder (&c->reef, bt__vec (0, -5, 0), bt__vec (0, 5, 0), DRUM);
@@ -44,8 +44,7 @@ wind_wider (capstan *c, double share, double mu, double turns, double r, double 
   bt_vec3 out = bt__vec (cos (a), 0, sin (a));
   c->at = bt__axpy (shape[CORNERS - 1], DRUM + 0.005 - r, out);
   c->at = shape[CORNERS] = bt__axpy (c->at, leg + 0.5, c->along);
-  for (int i = 0; i < CORNERS; i++)
-    length += bt__distance (shape[i], shape[i + 1]);
+  double length = bt__length (shape, CORNERS + 1);
   assert_true (
       rope_open (&c->rope, &c->reef, (int)(length / link + 0.5), shape, CORNERS + 1, length, mu));
   c->rope.line.cdt = 0;
@@ -86,6 +85,29 @@ haul (capstan *c, int steps)
   return haul_at (c, steps, SPEED);
 }
 
+/* The least and the most tension, N.  */
+typedef struct spread
+{
+  double least, most;
+} spread;
+
+/* Haul on for STEPS at SPEED; the tension of the link FROM_END from the hauled end.  */
+static spread
+haul_on (capstan *c, int steps, double speed, int from_end, int judged)
+{
+  const double *t = bt__dynamic_tension (c->rope.d);
+  spread s = { INFINITY, 0 };
+  for (int i = 0; i < steps; i++)
+    {
+      c->at = bt__axpy (c->at, speed * frame, c->along);
+      c->rope.in.end[1].at = c->at;
+      assert_true (rope_step (&c->rope, frame, judged));
+      s.least = fmin (s.least, t[c->rope.d->n - from_end]);
+      s.most = fmax (s.most, t[c->rope.d->n - from_end]);
+    }
+  return s;
+}
+
 static void
 unwind (capstan *c)
 {
@@ -114,23 +136,14 @@ check_long (double share, double mu, double turns, double speed)
   double link = share * DRUM, around = DRUM + 0.005;
   wind_wider (&c, share, mu, turns, 1.001 * sqrt (around * around + link * link / 4), 4 + 3 * link);
   double ratio = haul_at (&c, 1500, speed), wanted = exp (mu * c.theta);
-  const double *t = bt__dynamic_tension (c.rope.d);
-  double least = INFINITY, most = 0;
-  for (int i = 0; i < 120; i++)
-    {
-      c.at = bt__axpy (c.at, speed * frame, c.along);
-      c.rope.in.end[1].at = c.at;
-      assert_true (rope_step (&c.rope, frame, 1));
-      least = fmin (least, t[c.rope.d->n - 1]);
-      most = fmax (most, t[c.rope.d->n - 1]);
-    }
+  spread t = haul_on (&c, 120, speed, 1, 1);
   print_message (
       "# link %.2f R, mu %.1f, %.2f turns, %.1f m/s: %.4f, exactly %.4f; ripple %.2f %%; "
       "%.2f solves a step\n",
-      share, mu, turns, speed, ratio, wanted, 100 * (most / least - 1),
+      share, mu, turns, speed, ratio, wanted, 100 * (t.most / t.least - 1),
       (double)c.rope.solves / (double)c.rope.steps);
   assert_near (ratio / wanted, 1, 0.01, "the ratio of tensions");
-  assert_below (most / least, 1.03, "the ripple");
+  assert_below (t.most / t.least, 1.03, "the ripple");
   assert_true (c.rope.touch.bends > 2);
   assert_kept (&c.rope, "long links about a drum");
   unwind (&c);
@@ -197,18 +210,9 @@ no_ripple (void **state)
   static capstan c;
   wind (&c, 0.3, 0.3, 0.5);
   haul (&c, 300);
-  const double *t = bt__dynamic_tension (c.rope.d);
-  double least = INFINITY, most = 0;
-  for (int i = 0; i < 200; i++)
-    {
-      c.at = bt__axpy (c.at, SPEED * frame, c.along);
-      c.rope.in.end[1].at = c.at;
-      assert_true (rope_step (&c.rope, frame, 0));
-      least = fmin (least, t[c.rope.d->n - 2]);
-      most = fmax (most, t[c.rope.d->n - 2]);
-    }
-  print_message ("# tension from %.2f to %.2f N\n", least, most);
-  assert_below (most / least, 1.05, "the ripple");
+  spread t = haul_on (&c, 200, SPEED, 2, 0);
+  print_message ("# tension from %.2f to %.2f N\n", t.least, t.most);
+  assert_below (t.most / t.least, 1.05, "the ripple");
   unwind (&c);
 }
 

@@ -26,17 +26,6 @@ typedef struct witness
   double nearest;
 } witness;
 
-static void
-set_itself (rope *p)
-{
-  p->line.diameter = 2 * RADIUS;
-  p->line.mass = 0.32;
-  p->config.radius = RADIUS;
-  p->config.core = bt__core (2 * RADIUS);
-  p->config.itself = 1;
-  p->config.id = 1000;
-}
-
 /* A step of P, held against its own crossings if JUDGED.  */
 static void
 step (rope *p, witness *w, int judged)
@@ -63,52 +52,10 @@ knot_of (const rope *p)
   return v;
 }
 
-/* The path of an overhand knot round a beam along z: two turns about it and three about a ring of
-   RING metres.  Ends lead away along x.  */
-static int
-overhand (bt_vec3 *path, double ring, double thick, double away)
-{
-  int n = 0;
-  double cut = 0.22;
-  path[n++] = bt__vec (away, 1.5, 0.3);
-  path[n++] = bt__vec (ring + 2.5 * thick, 0.4, 0.1);
-  for (int i = 0; i <= TURN; i++)
-    {
-      double t = cut + (2 * BT__PI - 2 * cut) * i / TURN, r = ring + thick * cos (3 * t);
-      path[n++] = bt__vec (r * cos (2 * t), r * sin (2 * t), thick * sin (3 * t));
-    }
-  path[n++] = bt__vec (ring + 2.5 * thick, -0.4, -0.1);
-  path[n++] = bt__vec (away, -1.5, -0.3);
-  return n;
-}
-
-static double
-length_of (const bt_vec3 *p, int n)
-{
-  double sum = 0;
-  for (int i = 0; i + 1 < n; i++)
-    sum += bt__distance (p[i], p[i + 1]);
-  return sum;
-}
-
-/* ASIDE: the held end is so far aside, m.  */
-static void
-tie_aside (rope *p, reef *r, int links, double beam, double mu, double aside)
-{
-  bt_vec3 path[TURN + 8];
-  int n = overhand (path, beam + 0.25, 0.13, 4);
-  path[0].y += aside;
-  assert_true (reef_open (r));
-  reef_cylinder (r, bt__vec (0, 0, -3), bt__vec (0, 0, 3), beam);
-  assert_true (reef_raise (r));
-  assert_true (rope_open (p, r, links, path, n, 1.001 * length_of (path, n), mu));
-  set_itself (p);
-}
-
 static void
 tie (rope *p, reef *r, int links, double beam, double mu)
 {
-  tie_aside (p, r, links, beam, mu, 0);
+  assert_true (rope_tie (p, r, links, beam, mu, 0));
 }
 
 static void
@@ -196,7 +143,7 @@ run_up (double force, double mass, double aside, stops *s)
   static rope p;
   witness w = { .nearest = 1 };
   double speed = 0, end = 0, beyond = 0;
-  tie_aside (&p, &r, 120, 0.15, 0.3, aside);
+  assert_true (rope_tie (&p, &r, 120, 0.15, 0.3, aside));
   pull (&p, force);
   p.in.end[1].body.mass = mass;
   for (int i = 0; i < 600; i++)
@@ -330,7 +277,7 @@ straight_line_asks_nothing (void **state)
   bt_vec3 shape[] = { { 0, 0, 0 }, { 20, 0, -2 }, { 40, 10, 0 } };
   assert_true (reef_open (&r) && reef_raise (&r));
   assert_true (rope_open (&p, &r, 120, shape, 3, 44, 0.3));
-  set_itself (&p);
+  rope_set_itself (&p);
   for (int i = 0; i < 300; i++)
     {
       rope_tow (&p, bt__vec (43, 12, 1), 1.5, frame);
@@ -356,7 +303,7 @@ remembers_nothing (void **state)
     step (&p, &w, 0);
   bt_vec3 any[] = { { 50, 0, 0 }, { 60, 0, 0 } };
   assert_true (rope_open (&q, &r, 60, any, 2, 10, 0.3));
-  set_itself (&q);
+  rope_set_itself (&q);
   memcpy (q.d, p.d, bt__dynamic_size ((int)p.d->n_max));
   memcpy (q.anchors, p.anchors, bt__anchors_live (p.anchors));
   q.in.end[0] = p.in.end[0];
@@ -419,8 +366,8 @@ bights_hook (void **state)
   assert_true (reef_open (&r) && reef_raise (&r));
   assert_true (rope_open (&p, &r, 40, one, 3, 6.7, 0.3)
                && rope_open (&q, &r, 40, two, 3, 6.7, 0.3));
-  set_itself (&p);
-  set_itself (&q);
+  rope_set_itself (&p);
+  rope_set_itself (&q);
   q.config.id = 1001;
   for (int e = 0; e < 2; e++)
     q.in.end[e] = (bt__dynamic_end){ .free = 1, .body = { .mass = 10, .quadratic = 60 } };

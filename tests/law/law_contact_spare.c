@@ -54,15 +54,6 @@ lay (shape_kind kind, dice *d, bt_vec3 *p)
   return n;
 }
 
-static double
-length_of (const bt_vec3 *p, int n)
-{
-  double sum = 0;
-  for (int i = 0; i + 1 < n; i++)
-    sum += bt__distance (p[i], p[i + 1]);
-  return sum;
-}
-
 /* A line of KIND in R, which touches itself.  */
 static void
 begin (rope *p, reef *r, shape_kind kind, uint64_t seed)
@@ -70,7 +61,7 @@ begin (rope *p, reef *r, shape_kind kind, uint64_t seed)
   bt_vec3 path[CORNERS];
   dice d = dice_new (seed);
   int n = lay (kind, &d, path);
-  assert_true (rope_open (p, r, LINKS, path, n, length_of (path, n), 0.3));
+  assert_true (rope_open (p, r, LINKS, path, n, bt__length (path, (uint32_t)n), 0.3));
   p->config.itself = 1;
   p->config.id = 1000;
   p->config.pull[1] = 150;
@@ -180,7 +171,7 @@ draw_across (double false_spare)
   bt_vec3 before[LINKS + 1], target = { 3, -3, -3 };
   long crossings = 0;
   assert_true (reef_open (&r) && reef_raise (&r));
-  assert_true (rope_open (&p, &r, LINKS, path, 4, length_of (path, 4), 0.3));
+  assert_true (rope_open (&p, &r, LINKS, path, 4, bt__length (path, 4), 0.3));
   p.config.itself = 1;
   for (int i = 0; i < 400; i++)
     {

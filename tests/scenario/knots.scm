@@ -31,6 +31,18 @@
 (define overhand
   '((-2 2 -6) (-2 -2 -6) (3 -2 -6) (4 -2 -4.5) (4 3 -4.5) (4 3 -7.5) (1.05 0.35 -7.5) (1.05 0.35 -4) (4 -3 -4)))
 
+(define (goes-on-the-same)
+  ;; From here on a fork and a checkpoint go where the dive itself goes.
+  (let* ((here (checkpoint))
+         (forked (what-if (run 5) (state-hash))))
+    (run 5)
+    (let ((there (state-hash)))
+      (expect forked => there)
+      (run 20)
+      (restore! here)
+      (run 5)
+      (expect (state-hash) => there))))
+
 (define-scenario an-overhand-knot-holds-and-is-freed-by-the-way-it-was-made
   "Flown round a pile and through its own loop, a line is knotted; pulled, the knot runs up to the pile and
 holds; hauled in, it stays; the way back through the loop, and nothing else, undoes it."
@@ -124,15 +136,7 @@ of the line, however long it is pulled; so it does in a fork and from a checkpoi
   (expect (any on-itself? (contacts)))
   (expect (distance '(8 2 -6) (rov-position)) is (below 29.8))
   (expect (rov-tension) is (above 60))
-  (let* ((here (checkpoint))
-         (forked (what-if (run 5) (state-hash))))
-    (run 5)
-    (let ((there (state-hash)))
-      (expect forked => there)
-      (run 20)
-      (restore! here)
-      (run 5)
-      (expect (state-hash) => there)))
+  (goes-on-the-same)
   (expect (knotted?)))
 
 (define-scenario switched-off-it-does
@@ -224,15 +228,7 @@ the engine knew of them before."
   (move! 'two '(0 14 -3) #:speed 0.5)
   (run 15)
   (expect (collided? 'first 'second))
-  (let* ((here (checkpoint))
-         (forked (what-if (run 5) (state-hash))))
-    (run 5)
-    (let ((there (state-hash)))
-      (expect forked => there)
-      (run 20)
-      (restore! here)
-      (run 5)
-      (expect (state-hash) => there))))
+  (goes-on-the-same))
 
 (define-scenario two-tethers-that-are-switched-off
   "Two tethers whose pair is off go through each other."
