@@ -329,7 +329,7 @@ step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
   bt__line_note_near (k, beside);
   bt__self_note (k);
   bt__line_rebend (k);
-  if (k->in->pay != 0 || k->d->owed != 0)
+  if (bt__dynamic_is_wound (k->d, k->in))
     bt__line_wind (k);
   return BT_OK;
 }
@@ -384,7 +384,7 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
           prepare (&k);
           status = step (&k, report, error);
         }
-      else if (status == BT_OK && (k.in->pay != 0 || d->owed != 0))
+      else if (status == BT_OK && bt__dynamic_is_wound (d, k.in))
         bt__line_wind (&k);
     }
   if (status == BT_OK)

@@ -126,9 +126,10 @@ int bt__bends_add (bt__bends *s, const bt__anchor *a, int64_t node);
 void bt__bends_lose (bt__bends *s, int q);
 void bt__bends_drop (bt__line_job *k, bt__bends *s, int q);
 
-/* Put a node at the share U of interval J's chord, see bt__dynamic_insert; take node I out if its
-   links are clear on their way to the chord, or return zero.  */
+/* Put a node at the share U of interval J's chord, see bt__dynamic_insert; node I was put in
+   otherwise; take node I out if its links are clear on their way to the chord, or return zero.  */
 void bt__bends_put_in (bt__line_job *k, bt__bends *s, int64_t j, double u, int64_t from);
+void bt__bends_came (bt__line_job *k, bt__bends *s, int64_t i);
 int bt__bends_take_out (bt__line_job *k, bt__bends *s, int64_t i);
 
 /* Node I goes on with the line; stays, but for along AXIS.  */

@@ -72,8 +72,14 @@ void
 bt__bends_put_in (bt__line_job *k, bt__bends *s, int64_t j, double u, int64_t from)
 {
   bt__dynamic_insert (k->d, j, u, from);
-  shift_bends (s, j + 1, 1);
-  bt__bends_show (k, j + 1, 1);
+  bt__bends_came (k, s, j + 1);
+}
+
+void
+bt__bends_came (bt__line_job *k, bt__bends *s, int64_t i)
+{
+  shift_bends (s, i, 1);
+  bt__bends_show (k, i, 1);
 }
 
 /* Take out node I if its links are clear on their way to the chord.  */

@@ -1,4 +1,4 @@
-/* What a line must not pass through: casts, the safe step, and the winch that splits and joins.
+/* What a line must not pass through: casts and the safe step.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -140,7 +140,7 @@ bt__line_truncate (bt__line_job *k)
     k->report->pinched += k->mover[m].done < 1;
 }
 
-/* ---- The winch ---- */
+/* ---- One node alone ---- */
 
 int
 bt__line_may_move (bt__line_job *k, const bt_vec3 *p, bt_vec3 move)
@@ -174,29 +174,4 @@ bt__line_may_move (bt__line_job *k, const bt_vec3 *p, bt_vec3 move)
         }
     }
   return bt__self_may_move (k, p - bt__dynamic_x (k->d) + 1, move);
-}
-
-/* A joined pair is as its middle node gone to the chord; a split one as a new node gone from there
-   to the curve, never farther than half its length.  */
-void
-bt__line_wind (bt__line_job *k)
-{
-  const double *rest = bt__dynamic_rest (k->d);
-  const bt_vec3 *x = bt__dynamic_x (k->d);
-  int way = bt__dynamic_winding (k->d);
-  bt__link first = bt__line_link (x, 0);
-  bt__near unused;
-  if (way < 0)
-    {
-      double share = rest[0] / (rest[0] + rest[1]);
-      bt_vec3 to = bt__axpy (bt__scale (1 - share, x[0]), share, x[2]);
-      if (!bt__line_may_move (k, x, bt__sub (to, x[1])))
-        return;
-    }
-  int straight = k->movers > 0
-                 || (way > 0
-                     && (bt__scene_nearest (k->scene, k->on, &first, 0.5 * rest[0] + k->core,
-                                            &unused, k->count)
-                         || !bt__self_is_clear (k, 0, 0.5 * rest[0])));
-  bt__dynamic_wind_once (k->d, way, straight);
 }

@@ -328,7 +328,8 @@ void bt__line_truncate (bt__line_job *k);
    meets nothing.  */
 int bt__line_may_move (bt__line_job *k, const bt_vec3 *p, bt_vec3 move);
 
-/* Wind D, one interval at the most, if it passes through nothing on the way.  */
+/* As bt__dynamic_wind, for as many nodes as can come and go without the line passing through
+   anything (line_winch.c).  */
 void bt__line_wind (bt__line_job *k);
 
 #endif

@@ -187,7 +187,7 @@ static const bt_field tether_fields[] = {
   PROP (wear_limit, "wear-limit", "", 1, 0, 1, 1, NULL,
         "share of the jacket worn at which the event `worn' comes"),
   COUNT (bt_tether_def, props.nodes, "nodes", "", 64, 2, BT_NODES_MAX, 0,
-         "intervals of the models that have nodes"),
+         "intervals of the models that have nodes, of the length that is laid"),
   OTHER (bt_tether_def, props.model, "model", "", BT_FIELD_WORD, BT_MODEL_STEADY, models, 1,
          "how its shape is found"),
   OTHER (bt_tether_def, props.depth_rule, "depth-rule", "", BT_FIELD_WORD, BT_DEPTH_SAG,
@@ -195,7 +195,8 @@ static const bt_field tether_fields[] = {
   PROP (sag_buoyancy, "sag-buoyancy", "", BT_SAG_AUTO, -1, 1, 0, automatic,
         "the thesis' buoyancy for rule `sag': -1 sinks, 1 floats"),
   PROP (accuracy, "accuracy", "m", 0.05, 0, 100, 1, NULL,
-        "the error in position that model `auto' keeps"),
+        "the error in position that nodes come and go for: always in model `auto', in `dynamic' "
+        "once its winch has turned"),
   PROP (max_current, "max-current", "m/s", 1, 0, 100, 1, NULL,
         "the thesis' maximum allowed current, for rule `sag'"),
   PROP (thesis_length_factor, "thesis-length-factor", "", 1, 0.5, 1, 0, NULL,

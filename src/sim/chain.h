@@ -25,6 +25,10 @@ void bt__fasten (const bt_dive *dive, int i, double from, double to, bt__dynamic
 /* Let the vehicle that tether I carries follow its last node.  */
 bt_status bt__bring_vehicle (const bt_dive *dive, bt__state *state, int i, bt_error *error);
 
+/* What the number of intervals of tether I keeps to in a step (remesh.c).  */
+bt__dynamic_mesh bt__chain_mesh (const bt_dive *dive, const bt__state *state,
+                                 const bt__tether *tether, int i);
+
 /* How many intervals a chain of TETHER begins with.  Put N + 1 points of its shape, or of its
    equilibrium when it has none, on the dive's polyline and the tensions along it.  Begin a chain of
    N intervals from there, at rest; with SHARE each has that share of the length, and no tension

@@ -87,6 +87,7 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
     }
   bt__fasten (dive, i, far_length, INFINITY, &input, lumps);
   input.pay = pay_of (tether, chain);
+  input.mesh = bt__chain_mesh (dive, state, tether, i);
   status = step_part (dive, state, i, 0, &input, &report, error);
   if (status != BT_OK)
     return status;

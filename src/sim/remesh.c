@@ -1,8 +1,9 @@
-/* Model `auto': the moving line with as many nodes as its accuracy wants.
+/* How many nodes the moving line has: what the winch keeps to, and model `auto'.
 
-   The error that comes of the number of nodes is estimated from the bends of the line, and falls
-   with its square.  The line is laid anew on more nodes when the estimate exceeds what is accepted,
-   and on fewer when it is far below, the gap between keeping it from going to and fro.
+   Model `auto' has as many nodes as its accuracy wants.  The error that comes of the number of
+   nodes is estimated from the bends of the line, and falls with its square.  The line is laid anew
+   on more nodes when the estimate exceeds what is accepted, and on fewer when it is far below, the
+   gap between keeping it from going to and fro.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -28,6 +29,24 @@ enum
 {
   FEWEST = 8
 };
+
+/* The winch leaves some room to the nodes that contact puts in.  */
+#define WINCH_SHARE 0.875
+#define WINCH_AIM 0.5 /* of the accuracy: what the nodes that come and go are judged by */
+
+/* A line that keeps the length it was laid with keeps its nodes too.  */
+bt__dynamic_mesh
+bt__chain_mesh (const bt_dive *dive, const bt__state *state, const bt__tether *tether, int i)
+{
+  const bt_tether_def *def = &dive->model->tethers[i];
+  int adapts = tether->props.model == BT_MODEL_AUTO;
+  int fewest = adapts ? FEWEST : (int)tether->props.nodes;
+  return (bt__dynamic_mesh){ .fewest = fewest,
+                             .most = (int)fmax (fewest, WINCH_SHARE * bt__chain_room (def)),
+                             .error = WINCH_AIM * tether->props.accuracy / BT__CHAIN_ERROR,
+                             .idle = !adapts && tether->length != def->length
+                                     && state->step % BT__REMESH_EVERY == 0 };
+}
 
 /* How many intervals the chain of N with the estimated ERROR should have, at most ROOM.  */
 static int

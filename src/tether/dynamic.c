@@ -221,7 +221,7 @@ bt__dynamic_step (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *
   if (status)
     return status;
   bt__dynamic_note_free (d, w, &watch);
-  if (in->pay != 0 || d->owed != 0)
-    bt__dynamic_wind (d);
+  if (bt__dynamic_is_wound (d, in))
+    bt__dynamic_wind (d, &in->mesh);
   return BT_OK;
 }

@@ -48,7 +48,8 @@ typedef struct bt__dynamic
   int64_t n_max;           /* intervals there is room for */
   int64_t history;         /* steps behind that may be differenced; 0: the next is backward Euler */
   double h;                /* s: the last step */
-  double piece;            /* m: rest length the winch gives a new interval */
+  double piece;            /* m: rest length the winch gives a new interval: the mean one's where
+                              nodes have come or gone along the line */
   double owed;             /* m: line that is out but not yet in the chain, see bt__dynamic_wind */
   bt_vec3 pull[2];         /* N: force of the line on its ends */
   double most;             /* J: of a line alone, the energy it may have, if it still has ... */
@@ -124,6 +125,15 @@ typedef struct bt__dynamic_end
   bt_vec3 direction;      /* unit, from node 0 toward node n */
 } bt__dynamic_end;
 
+/* What the number of intervals keeps to while a winch turns; all zero: as many as there is room
+   for.  */
+typedef struct bt__dynamic_mesh
+{
+  int fewest, most; /* intervals; MOST 0: the room of the block */
+  double error;     /* m: the bt__dynamic_space_error that is aimed at; 0: none */
+  int idle;         /* true: one node may come or go in this step though the winch stands */
+} bt__dynamic_mesh;
+
 typedef struct bt__dynamic_input
 {
   const bt_tether_props *line; /* diameter, mass, wet_weight, ea, ei, ba, cdn, cdt, ca */
@@ -137,6 +147,7 @@ typedef struct bt__dynamic_input
                        1/60 s */
   int surfaced;     /* nonzero: what is above the surface of the water is in air */
   int order;        /* 4: fourth order in space by deferred correction; else second */
+  bt__dynamic_mesh mesh;
 } bt__dynamic_input;
 
 typedef struct bt__dynamic_report
@@ -155,17 +166,18 @@ typedef struct bt__dynamic_report
 
 /* Step D by INPUT->h.  BT_ERR_DIVERGED (saying node, time and quantity) and BT_ERR_DOMAIN leave *D
    as it was.  A step that is not solved to the tolerance is taken all the same, bounded, with
-   REPORT->converged = 0.  Nodes come and go at the winch end when INPUT->pay asks for it and there
-   is room.  */
+   REPORT->converged = 0.  Nodes come and go when INPUT->pay asks for it, at the winch end and, to
+   keep to INPUT->mesh, along the line.  */
 bt_status bt__dynamic_step (bt__dynamic *d, bt__dynamic_work *work, const bt__dynamic_input *input,
                             bt__dynamic_report *report, bt_error *error);
 
 /* ---- Winch and knife ---- */
 
-/* Split the first interval of D when it has grown, or join it with the second when it has shrunk.
-   The tension is kept: the rest lengths follow it, and what that leaves over is owed and comes out
-   with the next half second of steps.  Called by the step.  */
-void bt__dynamic_wind (bt__dynamic *d);
+/* Split the first interval of D when it has grown, or join it with the second when it has shrunk,
+   and keep the number of intervals to MESH (dynamic_mesh.c).  The tension is kept: the rest lengths
+   follow it, and what that leaves over is owed and comes out with the next half second of steps.
+   Called by the step.  */
+void bt__dynamic_wind (bt__dynamic *d, const bt__dynamic_mesh *mesh);
 
 /* Return the length of D that is out, m.  */
 double bt__dynamic_length (const bt__dynamic *d);
@@ -178,7 +190,8 @@ void bt__dynamic_cut (const bt__dynamic *d, int j, bt__dynamic *a, bt__dynamic *
 /* ---- Questions ---- */
 
 /* Return the point, or the velocity, of D at U metres of rest length from node 0 (clamped), by the
-   cubic through four nodes.  */
+   cubic through four nodes.  The point is no farther from either node of its interval than there
+   is line between.  */
 bt_vec3 bt__dynamic_point (const bt__dynamic *d, double u);
 bt_vec3 bt__dynamic_velocity (const bt__dynamic *d, double u);
 

@@ -142,11 +142,51 @@ bt_status bt__dynamic_finish_within (bt__dynamic *d, bt__dynamic_work *work,
                                      const bt__dynamic_drift *most, int *taken,
                                      bt__dynamic_report *report, bt_error *error);
 
-/* Return 1 if winding would split the first interval of D, -1 if it would join it, else 0.  */
+/* Return 1 if the winch is to split the first interval of D, -1 if it is to join it, else 0.  */
 int bt__dynamic_winding (const bt__dynamic *d);
 
 /* Split or join the first interval of D once.  STRAIGHT: the new node lies on the chord.  */
 void bt__dynamic_wind_once (bt__dynamic *d, int way, int straight);
+
+/* Put a node at the share U of interval J: on the curve, or with STRAIGHT or where the interval is
+   slack on the chord.  The tension stays; what the rest lengths lose is owed.  There must be room.
+ */
+void bt__dynamic_split (bt__dynamic *d, int64_t j, double u, int straight);
+
+/* ---- The number of intervals (dynamic_mesh.c) ---- */
+
+/* True if nodes of D may come or go after a step by INPUT.  */
+static inline int
+bt__dynamic_is_wound (const bt__dynamic *d, const bt__dynamic_input *input)
+{
+  return input->pay != 0 || d->owed != 0 || input->mesh.idle;
+}
+
+/* True if MESH lets D have one interval more.  */
+int bt__dynamic_is_open (const bt__dynamic *d, const bt__dynamic_mesh *mesh);
+
+/* Return the inner node of D whose removal changes its shape least, of those from 2 on that KEPT (a
+   flag a node, or NULL) does not name; 0 if there is none.  Return the interval that stands for
+   most of the shape; of those from 1 on whose ends KEPT does not name; 0 if there is none.  */
+int64_t bt__dynamic_spare_node (const bt__dynamic *d, const uint8_t *kept);
+int64_t bt__dynamic_worst_interval (const bt__dynamic *d, const uint8_t *kept);
+
+/* Return 1 if D should have one interval more to keep to MESH, -1 if one fewer, else 0.  */
+int bt__dynamic_wants (const bt__dynamic *d, const bt__dynamic_mesh *mesh);
+
+/* Let the winch of D go on with the mean length of its intervals: nodes have come or gone along the
+   line.  */
+void bt__dynamic_refit (bt__dynamic *d);
+
+/* Take out node I, 0 is none, and refit; take out or put in what bt__dynamic_wants.  That is asked
+   so many times for each interval that the winch adds or takes, for the mesh to get better faster
+   than the winch makes it worse.  */
+enum
+{
+  BT__DYNAMIC_TUNES = 2
+};
+void bt__dynamic_take_out (bt__dynamic *d, int64_t i);
+void bt__dynamic_tune (bt__dynamic *d, const bt__dynamic_mesh *mesh);
 
 /* Put a node at the share U of interval J's chord, with what it has between its ends; FLOWS:
    interval J runs through one of its ends, and the new node goes along with the other, FROM.  There

@@ -4,6 +4,8 @@
 
 #include "tether/dynamic_kernel.h"
 
+#define MOST_TURN 0.5 /* radians in an interval: a line that turns more is not smooth there */
+
 /* The largest of their components, two by two, times the root of three.  */
 double
 bt__dynamic_stray (const bt_vec3 *a, const bt_vec3 *b, int n)
@@ -97,17 +99,27 @@ bt__dynamic_drifted (const bt_vec3 *a, const bt_vec3 *b, int n, bt__dynamic_drif
   drift->apart = bt__norm (bt__add (top, bottom));
 }
 
+/* The interval that is U metres of rest length from node 0, and to *START where it begins.  */
+static int
+interval_at (const bt__dynamic *d, double u, double *start)
+{
+  const double *rest = bt__dynamic_rest (d);
+  int n = (int)d->n, j = 0;
+  *start = 0;
+  while (j < n - 1 && u > *start + rest[j])
+    *start += rest[j++];
+  return j;
+}
+
 /* The value of the node array A at U metres of rest length, by the cubic through the four nodes
    about it (fewer if there are fewer).  */
 static bt_vec3
 interpolate (const bt__dynamic *d, const bt_vec3 *a, double u)
 {
   const double *rest = bt__dynamic_rest (d);
-  int n = (int)d->n, j = 0;
-  double start = 0;
+  double start;
   u = fmin (fmax (u, 0), bt__dynamic_length (d));
-  while (j < n - 1 && u > start + rest[j])
-    start += rest[j++];
+  int n = (int)d->n, j = interval_at (d, u, &start);
   int first = j > 0 ? j - 1 : 0, count = n < 3 ? n + 1 : 4;
   if (first + count > n + 1)
     first = n + 1 - count;
@@ -128,10 +140,51 @@ interpolate (const bt__dynamic *d, const bt_vec3 *a, double u)
   return bt__add (sum, a[first]);
 }
 
+/* The share of the way from C, on a chord, to C + OFF that stays within R of A, where C is.  */
+static double
+share_within (bt_vec3 a, double r, bt_vec3 c, bt_vec3 off)
+{
+  bt_vec3 p = bt__sub (c, a);
+  double q = bt__dot (off, off), b = bt__dot (p, off), f = r * r - bt__dot (p, p);
+  if (!(q + 2 * b > f))
+    return 1;
+  return f > 0 ? (sqrt (b * b + q * f) - b) / q : 0;
+}
+
+/* How much longer, of the length of interval J, a smooth line may be between two of its points than
+   they are apart, judged by its curvature at either node: a smooth cubic through nodes whose chords
+   have the length of the line is longer by about a 24th of the square of its turn.  */
+static double
+arc_allowance (const bt__dynamic *d, int j)
+{
+  const bt_vec3 *x = bt__dynamic_x (d);
+  const double *rest = bt__dynamic_rest (d);
+  double most = 0;
+  for (int i = j < 1 ? 1 : j; i <= j + 1 && i < d->n; i++)
+    {
+      bt_vec3 turn = bt__axpy (bt__scale (1 / rest[i], bt__sub (x[i + 1], x[i])), -1 / rest[i - 1],
+                               bt__sub (x[i], x[i - 1]));
+      most = fmax (most, 2 * rest[j] / (rest[i - 1] + rest[i]) * bt__norm (turn));
+    }
+  most = fmin (most, MOST_TURN);
+  return most * most / 16;
+}
+
+/* A cubic swings out beside nodes that lie unevenly or slack: its point is taken toward the chord
+   as far as the line on either side of the point asks for.  */
 bt_vec3
 bt__dynamic_point (const bt__dynamic *d, double u)
 {
-  return interpolate (d, bt__dynamic_x (d), u);
+  const bt_vec3 *x = bt__dynamic_x (d);
+  double start;
+  int j = interval_at (d, u, &start);
+  double rest = bt__dynamic_rest (d)[j], at = fmin (fmax (u - start, 0), rest);
+  bt_vec3 chord = bt__sub (x[j + 1], x[j]), c = bt__axpy (x[j], at / rest, chord);
+  bt_vec3 off = bt__sub (interpolate (d, x, u), c);
+  double reach = fmax (1, bt__norm (chord) / rest) * (1 + arc_allowance (d, j));
+  double before = share_within (x[j], at * reach, c, off),
+         after = share_within (x[j + 1], (rest - at) * reach, c, off);
+  return bt__axpy (c, fmin (before, after), off);
 }
 
 bt_vec3
@@ -149,35 +202,53 @@ bt__dynamic_node_tension (const bt__dynamic *d, int i)
   return (t[i - 1] * rest[i] + t[i] * rest[i - 1]) / (rest[i - 1] + rest[i]);
 }
 
-/* The difference between the arc and the chord of interval J, along and across: minus a 24th of the
-   second difference of the chords, extended to the ends.  */
+/* The third derivative by arc length of the polynomial through nodes K - 1 to K + 2, of the second
+   order: six times Newton's divided difference.  */
 static bt_vec3
-arc_defect (const bt_vec3 *x, int n, int j)
+third_derivative (const bt__dynamic *d, int k)
 {
-  int k = j < 1 ? 1 : j > n - 2 ? n - 2 : j;
-  bt_vec3 mid = bt__sub (x[k + 1], x[k]), wide = bt__sub (x[k + 2], x[k - 1]);
-  bt_vec3 defect = bt__scale (-1.0 / 24, bt__axpy (wide, -3, mid));
-  if (k == j || n < 4)
-    return defect;
-  bt_vec3 next = arc_defect (x, n, j < 1 ? 2 : n - 3);
-  return bt__axpy (bt__scale (2, defect), -1, next);
+  const bt_vec3 *x = bt__dynamic_x (d) + k - 1;
+  const double *h = bt__dynamic_rest (d) + k - 1;
+  bt_vec3 first[3], second[2];
+  for (int i = 0; i < 3; i++)
+    first[i] = bt__scale (1 / h[i], bt__sub (x[i + 1], x[i]));
+  for (int i = 0; i < 2; i++)
+    second[i] = bt__scale (1 / (h[i] + h[i + 1]), bt__sub (first[i + 1], first[i]));
+  return bt__scale (6 / (h[0] + h[1] + h[2]), bt__sub (second[1], second[0]));
+}
+
+/* The difference between the arc and the chord of interval J, along and across: minus a 24th of the
+   third derivative and the cubed length; the derivative is extended to the ends.  */
+static bt_vec3
+arc_defect (const bt__dynamic *d, int j)
+{
+  int n = (int)d->n, k = j < 1 ? 1 : j > n - 2 ? n - 2 : j;
+  double h = bt__dynamic_rest (d)[j];
+  bt_vec3 third = third_derivative (d, k);
+  if (k != j && n >= 4)
+    third = bt__axpy (bt__scale (2, third), -1, third_derivative (d, j < 1 ? 2 : n - 3));
+  return bt__scale (-h * h * h / 24, third);
 }
 
 double
 bt__dynamic_space_error (const bt__dynamic *d)
 {
   int n = (int)d->n;
-  const bt_vec3 *x = bt__dynamic_x (d);
+  const double *rest = bt__dynamic_rest (d);
   bt_vec3 all = { 0, 0, 0 }, sum = { 0, 0, 0 };
-  double most = 0;
+  double most = 0, length = 0, s = 0;
   if (n < 3)
     return bt__dynamic_length (d) / 8;
   for (int j = 0; j < n; j++)
-    all = bt__add (all, arc_defect (x, n, j));
+    {
+      all = bt__add (all, arc_defect (d, j));
+      length += rest[j];
+    }
   for (int j = 0; j < n; j++)
     {
-      sum = bt__add (sum, arc_defect (x, n, j));
-      most = fmax (most, bt__norm (bt__axpy (sum, -(j + 1.0) / n, all)));
+      sum = bt__add (sum, arc_defect (d, j));
+      s += rest[j];
+      most = fmax (most, bt__norm (bt__axpy (sum, -s / length, all)));
     }
   return most;
 }

@@ -12,8 +12,8 @@
 #include "math/vec.h"
 #include "tether/dynamic_contact.h"
 
-#define SPLIT 1.6 /* of a piece: the first interval is split beyond, ... */
-#define JOIN 0.4  /* ... and joined below; far apart, so that neither undoes the other */
+#define SPLIT 1.6 /* of a piece: the first interval is split beyond this, ... */
+#define JOIN 0.4  /* ... and joined below this; far apart, so that neither undoes the other */
 
 enum
 {
@@ -55,39 +55,62 @@ between (const bt_vec3 *a, double u)
   return bt__axpy (bt__scale (1 - u, a[0]), u, a[2]);
 }
 
-/* A point of the curve, not of the chord: the line goes on bending as it does at the next node.  */
+/* The curvature vector of the line at node I, 1/m: zero at an end and beside a slack interval.  */
 static bt_vec3
-bow (const bt_vec3 *x, const double *rest, double a, double b)
+curvature (const bt__dynamic *d, int64_t i)
 {
-  bt_vec3 c0 = bt__scale (1 / (a + b), bt__sub (x[2], x[0])),
-          c1 = bt__scale (1 / rest[2], bt__sub (x[3], x[2]));
-  double cell = 0.5 * (a + b + rest[2]);
-  return bt__scale (-0.5 * a * b / cell, bt__sub (c1, c0));
+  const bt_vec3 *x = bt__dynamic_x (d) + i;
+  const double *rest = bt__dynamic_rest (d) + i, *t = bt__dynamic_tension (d) + i;
+  if (i < 1 || i >= d->n || !(t[-1] > 0 && t[0] > 0))
+    return bt__vec (0, 0, 0);
+  bt_vec3 before = bt__scale (1 / rest[-1], bt__sub (x[0], x[-1])),
+          after = bt__scale (1 / rest[0], bt__sub (x[1], x[0]));
+  return bt__scale (2 / (rest[-1] + rest[0]), bt__sub (after, before));
 }
 
-static void
-split (bt__dynamic *d, int straight)
+/* How far the curve lies off the chord of interval J where the chord is divided into lengths A and
+   B: the line bends there as it does, on the mean, at the inner nodes of the interval.  */
+static bt_vec3
+bow (const bt__dynamic *d, int64_t j, double a, double b)
 {
-  double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d);
-  bt_vec3 *x = bt__dynamic_x (d);
-  double whole = rest[0], a = whole - d->piece, b = d->piece, u = a / whole;
-  int taut = bt__dynamic_tension (d)[0] > 0;
-  shift_all (d, 1, 1);
+  int inner = (j > 0) + (j + 1 < d->n);
+  bt_vec3 sum = bt__add (curvature (d, j), curvature (d, j + 1));
+  return bt__scale (inner > 0 ? -0.5 * a * b / inner : 0, sum);
+}
+
+/* Give the new node I at the share U of its interval the motion that the line has there.  The winch
+   end stands while line runs out of it: where the first interval is TAUT, all of it goes along the
+   line as its far end does.  */
+static void
+set_moving (bt__dynamic *d, int64_t i, double u, int taut)
+{
+  const bt_vec3 *x = bt__dynamic_x (d);
   bt_vec3 *nodes[] = { bt__dynamic_v (d), bt__dynamic_dx (d), bt__dynamic_vp (d) };
+  bt_vec3 along = bt__unit_or (bt__sub (x[i + 1], x[i - 1]), bt__vec (0, 0, 0));
   for (int k = 0; k < 3; k++)
-    nodes[k][1] = between (nodes[k], u);
-  x[1] = between (x, u);
-  bt__dynamic_load (d)[1] = bt__vec (0, 0, 0);
-  bt__dynamic_chord (d)[0] = bt__dynamic_chord (d)[1] = bt__vec (0, 0, 0);
-  rest[0] = a;
-  rest[1] = b;
-  if (!taut)
-    return;
-  if (!straight && d->n > 2 && bt__dynamic_tension (d)[2] > 0)
-    x[1] = bt__add (x[1], bow (x, rest, a, b));
-  rest[0] = bt__distance (x[0], x[1]) / e[0];
-  rest[1] = bt__distance (x[1], x[2]) / e[1];
-  d->owed += whole - rest[0] - rest[1];
+    {
+      bt_vec3 *a = nodes[k], v = between (a + i - 1, u);
+      double lag = i == 1 && taut ? bt__dot (along, bt__sub (a[2], v)) : 0;
+      a[i] = bt__axpy (v, lag, along);
+    }
+}
+
+void
+bt__dynamic_split (bt__dynamic *d, int64_t j, double u, int straight)
+{
+  int64_t i = j + 1;
+  double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d), whole = rest[j];
+  int taut = bt__dynamic_tension (d)[j] > 0;
+  bt_vec3 *x = bt__dynamic_x (d), none = { 0, 0, 0 },
+          off = straight || !taut ? none : bow (d, j, u * whole, (1 - u) * whole);
+  shift_all (d, i, 1);
+  set_moving (d, i, u, taut);
+  x[i] = bt__add (between (x + j, u), off);
+  bt__dynamic_load (d)[i] = none;
+  bt__dynamic_chord (d)[j] = bt__dynamic_chord (d)[i] = none;
+  rest[j] = taut ? bt__distance (x[j], x[i]) / e[j] : u * whole;
+  rest[i] = taut ? bt__distance (x[i], x[i + 1]) / e[i] : whole - rest[j];
+  d->owed += taut ? whole - rest[j] - rest[i] : 0;
 }
 
 void
@@ -108,12 +131,6 @@ bt__dynamic_remove (bt__dynamic *d, int64_t i)
   rest[0] = taut ? chord / mean[1] : whole;
   e[0] = chord / rest[0];
   d->owed += whole - rest[0];
-}
-
-static void
-join (bt__dynamic *d)
-{
-  bt__dynamic_remove (d, 1);
 }
 
 /* A node between two others, one of which line runs through, moves along the line as the other.  */
@@ -146,27 +163,35 @@ int
 bt__dynamic_winding (const bt__dynamic *d)
 {
   double rest = bt__dynamic_rest (d)[0];
-  return d->n < d->n_max && rest > SPLIT * d->piece         ? 1
-         : d->n > LEAST_INTERVALS && rest < JOIN * d->piece ? -1
-                                                            : 0;
+  return rest > SPLIT * d->piece ? 1 : d->n > LEAST_INTERVALS && rest < JOIN * d->piece ? -1 : 0;
 }
 
 void
 bt__dynamic_wind_once (bt__dynamic *d, int way, int straight)
 {
+  double rest = bt__dynamic_rest (d)[0];
   if (way > 0)
-    split (d, straight);
+    bt__dynamic_split (d, 0, (rest - d->piece) / rest, straight);
   else if (way < 0)
-    join (d);
+    bt__dynamic_remove (d, 1);
 }
 
 void
-bt__dynamic_wind (bt__dynamic *d)
+bt__dynamic_wind (bt__dynamic *d, const bt__dynamic_mesh *mesh)
 {
-  while (bt__dynamic_winding (d) > 0)
-    split (d, 0);
-  while (bt__dynamic_winding (d) < 0)
-    join (d);
+  int way;
+  while ((way = bt__dynamic_winding (d)) != 0)
+    {
+      if (way > 0 && !bt__dynamic_is_open (d, mesh))
+        bt__dynamic_take_out (d, bt__dynamic_spare_node (d, NULL));
+      if (way > 0 && d->n >= d->n_max)
+        break;
+      bt__dynamic_wind_once (d, way, 0);
+      for (int t = 0; t < BT__DYNAMIC_TUNES; t++)
+        bt__dynamic_tune (d, mesh);
+    }
+  if (mesh->idle)
+    bt__dynamic_tune (d, mesh);
 }
 
 /* ---- The knife ---- */

@@ -122,7 +122,9 @@ make_shore (bt_dive *dive, bt_error *error)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the obstacles of a dive");
   status = bt__polyline_work_new ((uint32_t)room + 1, (uint32_t)model->n_carried, &shore->polyline,
                                   error);
-  return status == BT_OK ? bt__safe_new ((uint32_t)room + 1, BT__PARTS_MAX, &shore->safe, error)
+  /* A chain is taken by the safe step to where it is laid, as a polyline is.  */
+  return status == BT_OK ? bt__safe_new ((uint32_t)(chain > room ? chain : room) + 1, BT__PARTS_MAX,
+                                         &shore->safe, error)
                          : status;
 }
 

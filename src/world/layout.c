@@ -40,13 +40,14 @@ fixed_size (const bt_dive *dive)
 
 /* ---- The store of a tether ---- */
 
-/* Intervals for all that is on the drum; where that is not told, the winch may double the line
-   before the first of them grows longer.  */
+/* Room for four times the intervals that the world asks for, of coarse lines for more and of fine
+   ones for twice as many: what a longer line, or one that bends more than the world's, may want.
+   However much is on the drum, the mesh follows what is out (tether/dynamic_mesh.c).  */
 int
 bt__chain_room (const bt_tether_def *tether)
 {
-  double n = (double)tether->props.nodes, all = ceil (n * tether->drum / tether->length);
-  return (int)fmax (2 * n, isfinite (all) ? fmin (all, 2 * BT_NODES_MAX) : 0);
+  double n = (double)tether->props.nodes;
+  return (int)fmax (2 * n, fmin (fmax (4 * n, 128), 2048));
 }
 
 int

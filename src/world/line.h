@@ -38,6 +38,7 @@ double bt__line_tension (const bt__line *line, double s);
 
 /* Return an upper estimate of the error in position that comes of the nodes of CHAIN, m: the
    estimator of bt__dynamic_space_error times the most it was seen to fall short by.  */
+#define BT__CHAIN_ERROR 2.5
 double bt__chain_error (const bt__dynamic *chain);
 
 /* The force of LINE on what its far end is fastened to, N.  */

@@ -310,7 +310,7 @@ a_clear_line_goes_its_own_way (void **state)
   static reef r;
   static rope p, q;
   const flown how[] = {
-    { "led", 1, 0, 1025 }, { "jerked", 6, 0, 1025 }, { "wound", 1, 0.8, 1025 }, { "alone", 0, 0, 0 }
+    { "led", 1, 0, 1025 }, { "jerked", 6, 0, 1025 }, { "wound", 1, 0.4, 1025 }, { "alone", 0, 0, 0 }
   };
   assert_true (reef_open (&r) && reef_raise (&r));
   long looked = 0;

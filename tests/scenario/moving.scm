@@ -219,20 +219,72 @@ water there, four times the drag.)"
   (run 20)
   (expect (tether-length) => 15))
 
-(define-scenario links-for-all-on-the-drum
-  "A moving line of which the world tells the drum has links for all of it: none grows longer."
-  (in (world (sea) (rov (named minnow) (at 0 4 -5))
-             (tether (named line) (type fathom) (wet-weight 0) (from 0 0 -5) (to minnow) (length 4.4)
-                     (drum 20) (nodes 8) (model dynamic))))
-  (drive! #:surge 0.5)
-  (pay-out! 15 #:rate 1)
-  (run 20)
-  (define p (tether-points))
-  (define (link i)
-    (apply distance (map (lambda (i) (list (array-ref p i 0) (array-ref p i 1) (array-ref p i 2)))
-                         (list i (+ i 1)))))
-  (expect (tether-length) is (about 19.4 #:within 0.01))
-  (expect (apply max (map link (iota (- (array-length p) 1)))) is (below 1)))
+;;; The mesh follows what is out: however short the line was laid, paid out it is the line of that length.
+
+(define* (reach length #:key (model 'dynamic) (far 40) (drum 'none))
+  ;; LENGTH of line in a current, whose vehicle is FAR away; the bed and a post are too far off to touch.
+  (world (sea (depth 100) (current 0.25 90))
+         (seabed)
+         (cylinder (named post) (from -60 0 1) (to -60 0 -100) (radius 0.5))
+         (rov (named minnow) (at 0 far (- -12 (* 0.2 far))))
+         (tether (named line) (type fathom) (wet-weight 0.1) (from 0 0 -12) (to minnow) (length length)
+                 (drum drum) (model ,model))))
+
+(define (told)
+  ;; What is compared: forces at both ends, N, and eight points of the line.
+  (list (anchor-tension) (rov-tension) (tether-force)
+        (map (lambda (k) (point-at (* k 1/8 (tether-length)))) (iota 9))))
+
+(define (told-of world)
+  (enter! world)
+  (settle! #:within 0.001 #:at-most 900)
+  (told))
+
+(define (far-apart a b)
+  ;; The largest distance, m, of the points of A and B.
+  (apply max (map distance (cadddr a) (cadddr b))))
+
+(define (wind-to! out)
+  ;; Pay out or haul in to OUT metres while the vehicle goes to its place.
+  (let ((more (- out (tether-length))))
+    (if (positive? more) (pay-out! more #:rate 1) (haul-in! (- more) #:rate 1))
+    (move! '(0 40 -20) #:speed (/ (distance (rov-position) '(0 40 -20)) (abs more)))
+    (run-until (lambda () (and (arrived?) (not (spooling?)))) #:at-most 300)))
+
+(define-scenario (paid-out-is-laid-whole laid model)
+  "A line that was paid out, or hauled in, pulls within a hundredth of the same line laid whole, and lies
+where that lies."
+  #:for ((laid 2 10 44 90) (model 'dynamic 'auto))
+  (define whole (told-of (reach 45 #:model model)))
+  (define bound (* 0.01 (cadr whole)))
+  (enter! (reach laid #:model model #:far (min 39 (* 0.9 laid))))
+  (wind-to! 45)
+  (settle! #:within 0.001 #:at-most 900)
+  (define wound (told))
+  (expect (car wound) is (about (car whole) #:within bound))
+  (expect (cadr wound) is (about (cadr whole) #:within bound))
+  (expect (distance (caddr wound) (caddr whole)) is (below bound))
+  (expect (far-apart wound whole) is (below 0.1))
+  (expect (accurate?)))
+
+(define-scenario the-drum-costs-nothing
+  "What is on the drum is no line yet: whatever it is, a dive does the same with the same work."
+  (define (flown drum)
+    (enter! (reach 10 #:far 9 #:drum drum))
+    (wind-to! 40)
+    (list (told) (assq-ref (profile) 'chain-solves) (array-dimensions (tether-points))))
+  (expect (flown 1000) => (flown 40)))
+
+(define-scenario a-coarse-line-is-told
+  "Where a line bends more sharply than its nodes can follow, status says so."
+  (in (world (sea (depth 60) (current 0.6 90))
+             (rov (named minnow) (at 0 10 -20))
+             (tether (named line) (type fathom) (wet-weight 0) (from 0 0 -20) (to minnow) (length 40) (nodes 4)
+                     (model dynamic))))
+  (run 30)
+  (expect (error-estimate) is (above 0.05))
+  (expect (not (accurate?)))
+  (expect (string-contains (object->string (status)) "shape uncertain")))
 
 
 ;;; What is fastened to the line.

@@ -465,7 +465,7 @@ one_thread_is_as_it_was (void **state)
   int before = threads_alive ();
   (void)state;
   begin_fleet (&f);
-  add_rovs (&f, 16, 8, 0);
+  add_rovs (&f, 24, 8, 0);
   dive = launch (&f, 1);
   drive_all (dive);
   run (dive, 20);
@@ -619,7 +619,7 @@ a_child_of_the_process (void **state)
   pid_t child;
   (void)state;
   begin_fleet (&f);
-  add_rovs (&f, 16, 8, 0);
+  add_rovs (&f, 24, 8, 0);
   dive = launch (&f, 3);
   drive_all (dive);
   run (dive, 20);
@@ -666,7 +666,7 @@ live_with_threads (void **state)
   bt_live *live;
   (void)state;
   begin_fleet (&f);
-  add_rovs (&f, 16, 8, 0);
+  add_rovs (&f, 24, 8, 0);
   one = launch (&f, 1);
   many = launch (&f, 3);
   drive_all (one);

@@ -1,0 +1,211 @@
+/* The nodes of a line among obstacles that come and go while a winch turns.
+
+   Taking a node out moves the line: as if the node went straight to the chord of its neighbours.
+   Putting one in moves the line too, if the node is put on the curve: as if the node went there
+   from the chord.  So a node is taken out only if that way is clear, and put on the chord where
+   anything is near.  Nodes about which the line runs, and their neighbours, stay.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "contact/line_bend.h"
+
+enum
+{
+  TURNS = 16, /* intervals that the winch adds or takes in a step */
+  TRIES = 4,  /* nodes that are asked whether they can be taken out */
+  ABOUT = 4   /* nodes on either side of a held one, whose places contact chooses, not the mesh */
+};
+
+/* What the line has to keep to beside the nodes that contact put in.  */
+static bt__dynamic_mesh
+mesh_of (const bt__line_job *k, const bt__bends *s)
+{
+  bt__dynamic_mesh mesh = k->in->mesh;
+  mesh.fewest += mesh.fewest > 0 ? ABOUT * s->n : 0;
+  return mesh;
+}
+
+/* What is upstream of NODE goes with the line, which became longer by MORE between there and the
+   far end.  */
+static void
+shift_anchors (bt__line_job *k, double from, double more)
+{
+  bt__anchor *a = bt__anchors_at (k->anchors);
+  for (int64_t q = 0; q < k->anchors->n; q++)
+    {
+      int itself = a[q].mover == BT__ANCHOR_LINE && a[q].object == k->config->id;
+      a[q].from_end += a[q].from_end > from ? more : 0;
+      a[q].other += itself && a[q].other > from ? more : 0;
+    }
+}
+
+/* Note that the line's nodes have changed, whose inner length was INNER; the far part of what
+   changed begins FROM the end.  */
+static void
+note_change (bt__line_job *k, double from, double inner)
+{
+  bt__bends_measure (k);
+  shift_anchors (k, from, k->w->from_end[1] - inner);
+  k->w->self.still = 0;
+}
+
+static int
+take_out (bt__line_job *k, bt__bends *s, int64_t i)
+{
+  double from = k->w->from_end[i], inner = k->w->from_end[1];
+  if (!bt__bends_take_out (k, s, i))
+    return 0;
+  if (i > 1)
+    note_change (k, from, inner);
+  else
+    note_change (k, INFINITY, inner);
+  return 1;
+}
+
+/* True if nothing is so near to interval J that its curve could meet it.  */
+static int
+is_clear (bt__line_job *k, int64_t j)
+{
+  const double *rest = bt__dynamic_rest (k->d);
+  bt__link link = bt__line_link (bt__dynamic_x (k->d), (uint32_t)j);
+  bt__near unused;
+  return k->movers == 0
+         && !bt__scene_nearest (k->scene, k->on, &link, 0.5 * rest[j] + k->core, &unused, k->count)
+         && bt__self_is_clear (k, j, 0.5 * rest[j]);
+}
+
+static void
+put_in (bt__line_job *k, bt__bends *s, int64_t j, double u)
+{
+  double from = k->w->from_end[j + 1], inner = k->w->from_end[1];
+  bt__dynamic_split (k->d, j, u, !is_clear (k, j));
+  bt__bends_came (k, s, j + 1);
+  note_change (k, j > 0 ? from : INFINITY, inner);
+}
+
+static void
+flag (uint8_t *kept, int64_t first, int64_t last, int64_t n)
+{
+  for (int64_t i = first < 0 ? 0 : first; i <= last && i <= n; i++)
+    kept[i] = 1;
+}
+
+/* Flag in KEPT the nodes that are held and the next WIDE to either side.  */
+static void
+keep_held (const bt__line_job *k, const bt__bends *s, int wide, uint8_t *kept)
+{
+  memset (kept, 0, (size_t)k->d->n + 1);
+  for (int q = 0; q < s->n; q++)
+    flag (kept, s->node[q] - wide, s->node[q] + wide, k->d->n);
+}
+
+/* The same for the nodes of intervals that touch: what a contact remembers is of its place, and is
+   lost in part where a node comes.  */
+static void
+keep_touching (const bt__line_job *k, int wide, uint8_t *kept)
+{
+  const bt__anchor *a = bt__anchors_at (k->anchors);
+  int64_t i = 0;
+  for (int64_t q = 0; q < k->anchors->n; q++)
+    {
+      while (i + 1 < k->d->n && k->w->from_end[i + 1] >= a[q].from_end)
+        i++;
+      flag (kept, i - wide, i + 1 + wide, k->d->n);
+    }
+}
+
+/* Take out the node that is spared best of those that touch nothing, or with TOUCHING of all, if
+   its way is clear; the first few are tried.  */
+static int
+spare_one (bt__line_job *k, bt__bends *s, int touching)
+{
+  uint8_t *kept = k->w->restart; /* of the step, which is over */
+  keep_held (k, s, 1, kept);
+  if (!touching)
+    keep_touching (k, 1, kept);
+  for (int t = 0; t < TRIES; t++)
+    {
+      int64_t i = bt__dynamic_spare_node (k->d, kept);
+      if (i == 0)
+        return 0;
+      if (take_out (k, s, i))
+        {
+          bt__dynamic_refit (k->d);
+          return 1;
+        }
+      kept[i] = 1;
+    }
+  return 0;
+}
+
+/* Halve the interval that stands for most of the shape, away from all that touches.  */
+static void
+halve_one (bt__line_job *k, bt__bends *s)
+{
+  uint8_t *kept = k->w->restart;
+  keep_held (k, s, ABOUT, kept);
+  keep_touching (k, ABOUT, kept);
+  int64_t j = bt__dynamic_worst_interval (k->d, kept);
+  if (j == 0)
+    return;
+  put_in (k, s, j, 0.5);
+  bt__dynamic_refit (k->d);
+}
+
+static void
+tune (bt__line_job *k, bt__bends *s)
+{
+  bt__dynamic_mesh mesh = mesh_of (k, s);
+  int wants = bt__dynamic_wants (k->d, &mesh);
+  if (wants < 0)
+    spare_one (k, s, 0);
+  else if (wants > 0)
+    halve_one (k, s);
+}
+
+/* Turn the winch by one interval.  */
+static int
+turn (bt__line_job *k, bt__bends *s, int way)
+{
+  if (way < 0)
+    return take_out (k, s, 1);
+  if (!bt__dynamic_is_open (k->d, &k->in->mesh) && !spare_one (k, s, 0))
+    spare_one (k, s, 1);
+  if (k->d->n >= k->d->n_max)
+    return 0;
+  double rest = bt__dynamic_rest (k->d)[0];
+  put_in (k, s, 0, (rest - k->d->piece) / rest);
+  return 1;
+}
+
+/* Turn the winch on WAY as far as the first interval asks for.  */
+static void
+turn_all (bt__line_job *k, bt__bends *s, int way)
+{
+  for (int t = 0; t < TURNS && way != 0; t++)
+    {
+      if (!turn (k, s, way))
+        return;
+      for (int u = 0; u < BT__DYNAMIC_TUNES; u++)
+        tune (k, s);
+      way = bt__dynamic_winding (k->d);
+    }
+}
+
+void
+bt__line_wind (bt__line_job *k)
+{
+  bt__bends s;
+  int way = bt__dynamic_winding (k->d);
+  if (way == 0 && !k->in->mesh.idle)
+    return;
+  bt__bends_measure (k);
+  bt__bends_gather (k, &s);
+  turn_all (k, &s, way);
+  if (k->in->mesh.idle)
+    tune (k, &s);
+  bt__bends_measure (k);
+  bt__bends_scatter (k, &s);
+}

@@ -1,0 +1,151 @@
+/* The moving line: how many intervals it has while a winch turns, and where.
+
+   Line that is paid out would be one long interval when no more nodes can come, and line that is
+   hauled in would be left with few.  So nodes go where they are spared best, and come where they
+   are missed most.
+
+   What an interval of length h stands for is judged by (kappa^2 + kappa0^2) h^3, kappa the
+   curvature of the line there: the arc is longer than its chord by kappa^2 h^3 / 24.  Merging the
+   intervals of least weight and halving those of most makes all weigh alike, so that nodes are as
+   dense as (kappa^2 + kappa0^2)^(1/3) (equidistribution, C. de Boor 1973).  kappa0, a few radians
+   over the whole length, keeps nodes on straight reaches, which may bend soon.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+
+#include "math/vec.h"
+#include "tether/dynamic_contact.h"
+
+#define LEAST_BEND 4.0 /* radians over the whole line: what a straight reach counts as bent by */
+#define STEEPEST 2.5   /* times as long as its neighbour: the most that a merged interval is */
+#define GOOD 0.5       /* of the error aimed at: a better mesh can spare nodes */
+
+int
+bt__dynamic_is_open (const bt__dynamic *d, const bt__dynamic_mesh *mesh)
+{
+  return d->n < (mesh->most > 0 && mesh->most < d->n_max ? mesh->most : d->n_max);
+}
+
+/* The square of the curvature at inner node I, and of the least that counts, 1/m2.  */
+static double
+bend_at (const bt__dynamic *d, int64_t i, double least)
+{
+  const bt_vec3 *x = bt__dynamic_x (d) + i;
+  const double *rest = bt__dynamic_rest (d) + i;
+  if (i < 1 || i >= d->n)
+    return least;
+  bt_vec3 before = bt__scale (1 / rest[-1], bt__sub (x[0], x[-1])),
+          after = bt__scale (1 / rest[0], bt__sub (x[1], x[0]));
+  bt_vec3 turn = bt__sub (after, before);
+  double cell = 0.5 * (rest[-1] + rest[0]);
+  return bt__dot (turn, turn) / (cell * cell) + least;
+}
+
+static double
+least_bend (const bt__dynamic *d)
+{
+  double least = LEAST_BEND / bt__dynamic_length (d);
+  return least * least;
+}
+
+/* True if the intervals about node I may become one, which their neighbours are not much shorter
+   than.  */
+static int
+is_graded (const bt__dynamic *d, int64_t i)
+{
+  const double *rest = bt__dynamic_rest (d);
+  double whole = rest[i - 1] + rest[i], before = i > 2 ? rest[i - 2] : whole,
+         after = i + 1 < d->n ? rest[i + 1] : whole;
+  return whole <= STEEPEST * fmin (before, after);
+}
+
+static int64_t
+spare_node (const bt__dynamic *d, const uint8_t *kept, int graded)
+{
+  const double *rest = bt__dynamic_rest (d);
+  double least = least_bend (d), lightest = INFINITY;
+  int64_t found = 0;
+  for (int64_t i = 2; i < d->n; i++)
+    {
+      double whole = rest[i - 1] + rest[i], weight = bend_at (d, i, least) * whole * whole * whole;
+      if (weight < lightest && !(kept && kept[i]) && (!graded || is_graded (d, i)))
+        {
+          lightest = weight;
+          found = i;
+        }
+    }
+  return found;
+}
+
+int64_t
+bt__dynamic_spare_node (const bt__dynamic *d, const uint8_t *kept)
+{
+  int64_t i = spare_node (d, kept, 1);
+  return i > 0 ? i : spare_node (d, kept, 0);
+}
+
+int64_t
+bt__dynamic_worst_interval (const bt__dynamic *d, const uint8_t *kept)
+{
+  const double *rest = bt__dynamic_rest (d);
+  double least = least_bend (d), heaviest = 0;
+  int64_t found = 0;
+  for (int64_t j = 1; j < d->n; j++)
+    {
+      double bend = fmax (bend_at (d, j, least), bend_at (d, j + 1, least));
+      double weight = bend * rest[j] * rest[j] * rest[j];
+      if (weight > heaviest && !(kept && (kept[j] || kept[j + 1])))
+        {
+          heaviest = weight;
+          found = j;
+        }
+    }
+  return found;
+}
+
+int
+bt__dynamic_wants (const bt__dynamic *d, const bt__dynamic_mesh *mesh)
+{
+  int open = bt__dynamic_is_open (d, mesh);
+  if (d->n < mesh->fewest)
+    return open;
+  if (!(mesh->error > 0))
+    return 0;
+  double error = bt__dynamic_space_error (d);
+  return error > mesh->error ? open : error < GOOD * mesh->error && d->n > mesh->fewest ? -1 : 0;
+}
+
+void
+bt__dynamic_refit (bt__dynamic *d)
+{
+  d->piece = bt__dynamic_length (d) / (double)d->n;
+}
+
+void
+bt__dynamic_take_out (bt__dynamic *d, int64_t i)
+{
+  if (i < 1)
+    return;
+  bt__dynamic_remove (d, i);
+  bt__dynamic_refit (d);
+}
+
+static void
+halve (bt__dynamic *d, int64_t j)
+{
+  if (j < 1)
+    return;
+  bt__dynamic_split (d, j, 0.5, 0);
+  bt__dynamic_refit (d);
+}
+
+void
+bt__dynamic_tune (bt__dynamic *d, const bt__dynamic_mesh *mesh)
+{
+  int wants = bt__dynamic_wants (d, mesh);
+  if (wants > 0)
+    halve (d, bt__dynamic_worst_interval (d, NULL));
+  else if (wants < 0)
+    bt__dynamic_take_out (d, bt__dynamic_spare_node (d, NULL));
+}
