@@ -33,7 +33,7 @@
      tether-points tether-tail point-at tangent-at tensions tension-at
      anchor-tension rov-tension max-tension tether-force
      tether-length straight-distance taut-length free-length slack excess
-     taut? parted? asleep? settled? model-of energy error-estimate tightest-bend equilibria
+     taut? parted? asleep? settled? model-of energy error-estimate accurate? tightest-bend equilibria
      deviation deviation? deviation-rms deviation-mean deviation-max deviation-worst
      events profile parts)))
 

@@ -108,6 +108,10 @@
   "The tether is nearly straight: ask for a little more before it stops you."
   (and (not (taut?)) (< (slack) 0.02) (thrusting?)))
 
+(define-coach-rule shape-uncertain #:urgency 1 #:lasting 10
+  "Where your tether lies is known less exactly than this world asks: keep farther off what it could touch."
+  (not (accurate?)))
+
 (define-coach-rule down-current-of-what-you-pass #:urgency 1 #:lasting 4
   "You are close. Come up to it from down-current, so that the water carries your tether clear."
   (< (rov-clearance) 0.5))

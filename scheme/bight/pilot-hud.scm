@@ -91,7 +91,8 @@
                      (when-true (ask 'stuck? tether) "STUCK")
                      (let ((why (ask 'foul-reason tether)))
                        (when-true (and why (ask 'fouled? tether))
-                                  "FOULED: " (simple-format #f "~a" why))))
+                                  "FOULED: " (simple-format #f "~a" why)))
+                     (when-true (not (answer (accurate? tether))) "SHAPE UNCERTAIN"))
                '())
            (if vehicle (list (when-true (answer (held? vehicle)) "HELD BACK")) '()))))
 

@@ -20,7 +20,7 @@
             tether-points point-at tangent-at
             tensions tension-at anchor-tension rov-tension max-tension tether-force
             tether-length straight-distance taut-length free-length slack excess
-            taut? parted? asleep? settled? model-of energy error-estimate tightest-bend equilibria
+            taut? parted? asleep? settled? model-of energy error-estimate accurate? tightest-bend equilibria
             places-of deviation deviation-rms deviation-mean deviation-max deviation-worst deviation?
             events profile parts find-part tether-properties obstacle-properties))
 
@@ -218,6 +218,15 @@ Raise unsupported for static models."
                      "the model ~a does not estimate its error; dynamic and auto do"
                      (assq-ref (tether-properties t) 'model))
         error)))
+
+;; What the user asked for is kept by the mesh where it can be; where it cannot, status, the pilot's view
+;; and the coach say so.
+(define-verb (accurate? #:subject (t tether))
+  "Return #t if the shape of the tether is as exact as its world asks: if the estimate of the error in
+position that comes of its nodes, `error-estimate', is at most the tether's `accuracy'.  Static models
+are."
+  (let ((error (assq-ref (tether-view 'accurate? t) 'error)))
+    (or (nan? error) (<= error (assq-ref (tether-properties t) 'accuracy)))))
 
 (define-verb (equilibria #:subject (t tether))
   "Return the distinct shapes in which the tether could rest with its ends where they are, polylines, the

@@ -517,6 +517,10 @@ sea bed.  The drawing is COLUMNS wide, by default as wide as the terminal.  Retu
     (and (real? most) (real? limit) (> most (* tension-alarm limit))
          (string-append "tension at " (fixed (* 100 (/ most limit)) 0) " % of the breaking load"))))
 
+(define (inexactness name)
+  (and (not (answer (accurate? name)))
+       (string-append "shape uncertain by " (fixed (error-estimate name) 2) " m")))
+
 (define (tether-warnings name)
   (map (lambda (text) (simple-format #f "~a ~a" name text))
        (filter identity
@@ -525,6 +529,7 @@ sea bed.  The drawing is COLUMNS wide, by default as wide as the terminal.  Retu
                      (and (ask 'stuck? name) "stuck")
                      (foul-warning name)
                      (overload name)
+                     (inexactness name)
                      (and (answer (spooling? name)) "spooling")))))
 
 (define (broken->string fault)
