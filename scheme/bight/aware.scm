@@ -163,9 +163,9 @@ when it may slip off or be lifted off; #f when it is not fouled."
                          (at-most positive 600.0))
   "Haul the tether in on a fork, its vehicle dead, at RATE m/s with no more than PULL newtons, for AT-MOST
 seconds.  Return an alist: home?, seconds, left (m still out), object and hull? (what holds it, and whether
-by the vehicle's hull), at (where the vehicle came to)."
+by the vehicle's hull), at (where the vehicle came to), parted? (whether the tether broke)."
   (let ((v (%haul (this-engine 'haul-trial) t rate pull at-most)))
-    (map cons '(home? seconds left object hull? at) (vector->list v))))
+    (map cons '(home? seconds left object hull? at parted?) (vector->list v))))
 
 (define-verb (free-to-haul? #:subject (t tether) #:key (rate positive 0.4) (pull positive 150.0))
   "Return #t if the dead vehicle comes home when the tether is hauled at RATE m/s with no more than PULL

@@ -174,19 +174,24 @@ the sticks are forces and moments alone.  Return ON."
 ;;; The winch.
 
 (define-verb (pay-out! #:subject (t tether) (metres non-negative) #:key (rate positive 0.5))
-  "Let METRES more of the tether out at RATE m/s; time passes in `run'.  Return the length out when the
-winch will stop, m."
+  "Let METRES more of the tether out at RATE m/s, or as fast as its winch turns if that is less
+(winch-rate); time passes in `run'.  Return the length out when the winch will stop, m."
   (operate! 'pay-out! t metres rate)
-  (+ (%length t) metres))
+  (%target t))
 
 (define-verb (haul-in! #:subject (t tether) (metres non-negative) #:key (rate positive 0.5))
-  "Haul METRES of the tether in at RATE m/s; the winch stalls on a taut tether.  Return the length out
-when the winch will stop, m."
+  "Haul METRES of the tether in at RATE m/s, or as fast as its winch turns if that is less (winch-rate).
+The winch stalls, and draws nothing more in, when the tether pulls as hard as it can (winch-pull).  Of a
+cut tether no more comes in than is left: then its end hangs from the winch.  Return the length out when
+the winch will stop, m."
   (operate! 'haul-in! t metres rate)
-  (- (%length t) metres))
+  (%target t))
 
 (define (%length t)
   (assq-ref (%tether (this-engine 'tether-length) t) 'length))
+
+(define (%target t)
+  (assq-ref (%tether (this-engine 'tether-length) t) 'target))
 
 (define-verb (spooling? #:subject (t tether))
   "Return #t while the tether's winch turns."

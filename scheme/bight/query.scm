@@ -140,7 +140,7 @@ what is out."
 (define-tether-question (rov-tension tension-end)
   "Return the tension of the tether at the vehicle, N.")
 (define-tether-question (max-tension tension-max)
-  "Return the largest tension along the tether now, N.")
+  "Return the largest tension along the tether now, its ends included, N: the one it parts by.")
 (define-tether-question (tether-force force)
   "Return the force of the tether on the vehicle, N, a vector.")
 
@@ -150,7 +150,7 @@ what is out."
 (define-tether-question (tether-length length)
   "Return how much tether is out, m.")
 (define-tether-question (straight-distance chord)
-  "Return the straight distance between the ends of the tether, m.")
+  "Return the straight distance between the ends of the tether, m; of a parted one to its new end.")
 (define (open-water? engine)
   ;; Nothing could hold a tether: the chord is all.
   (null? (%names engine 'obstacle)))
@@ -168,9 +168,12 @@ distance."
     (if (open-water? engine) (assq-ref (%tether engine t) 'chord) (%free-length engine t))))
 
 (define-verb (slack #:subject (t tether))
-  "Return the share of the tether that is slack, (out - taut) / out."
-  (let ((out (assq-ref (tether-view 'slack t) 'length)))
-    (max 0.0 (- 1 (/ (taut-length (tether-called t)) out)))))
+  "Return the share of the tether that is slack, (out - taut) / out: 1 when it has parted, for nothing
+holds its end."
+  (let* ((view (tether-view 'slack t)) (out (assq-ref view 'length)))
+    (if (assq-ref view 'parted?)
+        1.0
+        (max 0.0 (- 1 (/ (taut-length (tether-called t)) out))))))
 
 (define-verb (excess #:subject (t tether))
   "Return by how much the taut length exceeds the free length, m; in open water 0."

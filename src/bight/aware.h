@@ -140,6 +140,7 @@ typedef struct bt_haul
   double left;    /* m of tether still out */
   int object;     /* stuck: the obstacle at its hull or, failing that, at its tether; or -1 */
   int hull;       /* nonzero: at its hull */
+  int parted;     /* nonzero: the tether parted, and the vehicle stays where it is */
   bt_vec3 at;     /* m: where the vehicle came to */
 } bt_haul;
 

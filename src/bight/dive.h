@@ -188,6 +188,7 @@ typedef struct bt_tether_view
 {
   bt_tether_props props;
   double length, drum;                             /* paid out, and the most that can be, m */
+  double target;                                   /* paid out when the winch will stop, m */
   double chord;                                    /* straight distance between the ends, m */
   double tension_anchor, tension_end, tension_max; /* N */
   bt_vec3 force;                                   /* on what the far end is fastened to, N */

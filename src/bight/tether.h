@@ -51,6 +51,9 @@ typedef enum bt_stick_by
 /* The value of sag_buoyancy that means `from the real weight and the real drag'.  */
 #define BT_SAG_AUTO 2.0
 
+/* The value of winch_pull that means `500 N, or half of what parts the line if that is less'.  */
+#define BT_WINCH_AUTO 0.0
+
 /* Flat; no padding.  Numbers that count or choose are kept as doubles so that one table of fields
    can set them all.  */
 typedef struct bt_tether_props
@@ -81,6 +84,10 @@ typedef struct bt_tether_props
   double stick_count;          /* INFINITY: never */
   double stick_by;             /* bt_stick_by */
   double sliding;              /* 0: it sticks wherever it touches */
+  double winch_pull;           /* N: the most it is hauled with, or BT_WINCH_AUTO */
+  double winch_brake;          /* N: what its winch holds while it does not haul; INFINITY: all */
+  double winch_rate;           /* m/s: the fastest its winch turns */
+  double winch_lag;            /* s: in which a moving line follows its winch */
 } bt_tether_props;
 
 BT_END_DECLS

@@ -188,14 +188,14 @@ prospect (SCM object, SCM index, SCM winch)
   return v;
 }
 
-/* #(home? seconds left object hull? at) */
+/* #(home? seconds left object hull? at parted?) */
 static SCM
 haul (SCM object, SCM index, SCM rate, SCM winch, SCM seconds)
 {
   bt_dive *dive = bt__to_dive (object);
   bt_haul h;
   bt_error error;
-  SCM v = scm_c_make_vector (6, SCM_BOOL_F);
+  SCM v = scm_c_make_vector (7, SCM_BOOL_F);
   bt__check ("free-to-haul?",
              bt_tether_haul (dive, scm_to_int (index), scm_to_double (rate), scm_to_double (winch),
                              scm_to_double (seconds), &h, &error),
@@ -206,6 +206,7 @@ haul (SCM object, SCM index, SCM rate, SCM winch, SCM seconds)
   scm_c_vector_set_x (v, 3, bt__obstacle_name (dive, h.object));
   scm_c_vector_set_x (v, 4, scm_from_bool (h.hull));
   scm_c_vector_set_x (v, 5, bt__from_point (h.at));
+  scm_c_vector_set_x (v, 6, scm_from_bool (h.parted));
   return v;
 }
 

@@ -104,6 +104,7 @@ tether (SCM object, SCM index)
   list = with ("tension-end", scm_from_double (t.tension_end), list);
   list = with ("tension-anchor", scm_from_double (t.tension_anchor), list);
   list = with ("chord", scm_from_double (t.chord), list);
+  list = with ("target", scm_from_double (t.target), list);
   return with ("length", scm_from_double (t.length), list);
 }
 

@@ -16,6 +16,7 @@ static const bt_word inextensible[] = { { "inextensible", INFINITY }, { NULL, 0 
 static const bt_word unbreakable[] = { { "none", INFINITY }, { NULL, 0 } };
 static const bt_word unlimited[] = { { "none", INFINITY }, { NULL, 0 } };
 static const bt_word automatic[] = { { "auto", BT_SAG_AUTO }, { NULL, 0 } };
+static const bt_word usual[] = { { "auto", BT_WINCH_AUTO }, { NULL, 0 } };
 static const bt_word never[] = { { "none", INFINITY }, { NULL, 0 } };
 static const bt_word yes_no[] = { { "yes", 1 }, { "no", 0 }, { NULL, 0 } };
 static const bt_word responses[]
@@ -213,6 +214,16 @@ static const bt_field tether_fields[] = {
          stick_rules, 1, "response `thesis': which of the two makes it stick"),
   OTHER (bt_tether_def, props.sliding, "sliding", "", BT_FIELD_WORD, 1, yes_no, 1,
          "response `thesis': may it slide; else it sticks wherever it touches"),
+  PROP (winch_pull, "winch-pull", "N", BT_WINCH_AUTO, 0, 1e9, 1, usual,
+        "the most that its winch hauls with, which stalls it; `auto': 500, or half of the "
+        "breaking-load if that is less"),
+  PROP (winch_brake, "winch-brake", "N", INFINITY, 0, 1e9, 1, unlimited,
+        "what its winch holds while it does not haul: a moving line that pulls harder draws line "
+        "off the drum"),
+  PROP (winch_rate, "winch-rate", "m/s", INFINITY, 0, 1000, 1, unlimited,
+        "the fastest that its winch turns, whatever rate is asked of it"),
+  PROP (winch_lag, "winch-lag", "s", 0.25, 0, 100, 0, NULL,
+        "time constant in which a moving line follows its winch"),
 };
 
 #define LUMP_PLACE                                                                                 \

@@ -135,9 +135,6 @@ bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, i
     }
   else
     tense (dive, chain, n);
-  tether->tension_max = 0;
-  for (int k = 0; k < n; k++)
-    tether->tension_max = fmax (tether->tension_max, bt__dynamic_tension (chain)[k]);
   bt__anchors_init (bt__dive_anchors (dive, state, i, 0), bt__anchor_room (dive->model, def));
   memset (&tether->shape, 0, sizeof tether->shape);
   tether->shape.form = BT__FORM_CHAIN;
@@ -243,4 +240,5 @@ bt__part_chain (bt_dive *dive, bt__state *state, int i, int interval)
   tether->winch_rate = 0;
   tether->quiet = 0;
   bt__raise_event (state, BT_EVENT_PARTED, i);
+  bt__note_taut (state, tether, i, 0);
 }

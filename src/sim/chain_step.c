@@ -12,8 +12,12 @@
 #include "sim/chain.h"
 
 /* How the chain follows the winch.  */
-#define WINCH_LAG 0.25  /* s */
-#define WINCH_REST 1e-5 /* m */
+#define WINCH_REST 1e-5 /* m: what the lag leaves at last is paid in one step */
+#define TURNS 0.1       /* of its rate: a winch that turns more slowly may be stalling */
+enum
+{
+  STALLED_AFTER = 30 /* steps for which it hardly turned: a jerk alone stalls no winch */
+};
 
 static int
 may_sleep_on (const bt_dive *dive, const bt__state *state, const bt__tether *tether,
@@ -46,7 +50,6 @@ step_far_part (bt_dive *dive, bt__state *state, int i, bt__dynamic_input input, 
   bt__dynamic_report report = { 0 };
   bt__fasten (dive, i, 0, bt__dynamic_length (chain), &input, lumps);
   input.end[0] = (bt__dynamic_end){ .free = 1 };
-  input.pay = 0;
   return step_part (dive, state, i, 1, &input, &report, error);
 }
 
@@ -56,7 +59,64 @@ static double
 pay_of (const bt__tether *tether, const bt__dynamic *chain)
 {
   double owed = tether->length - bt__dynamic_length (chain);
-  return owed / (fabs (owed) < WINCH_REST ? BT__TIME_STEP : WINCH_LAG);
+  double lag = fabs (owed) < WINCH_REST ? 0 : tether->props.winch_lag;
+  return owed / fmax (lag, BT__TIME_STEP);
+}
+
+/* True if TETHER is hauled by PAY, which is no rest that the lag left.  */
+static int
+is_hauled (const bt__tether *tether, double pay)
+{
+  return pay < 0 && (tether->winch_rate < 0 || -pay * BT__TIME_STEP > WINCH_REST);
+}
+
+/* Give INPUT what the winch of tether I does with its CHAIN.  It hauls with no more than its pull,
+   and then draws in less, or nothing; standing or paying out, it holds with its brake, and gives
+   what is left on its drum.  */
+static void
+set_winch (const bt_dive *dive, bt__state *state, int i, const bt__tether *tether,
+           const bt__dynamic *chain, bt__dynamic_input *input)
+{
+  double out = fmax (tether->length, bt__dynamic_length (chain));
+  input->pay = pay_of (tether, chain);
+  input->hold = tether->props.winch_brake;
+  input->room = fmax (0, bt__most_out (dive, state, i) - out - input->pay * input->h);
+  if (is_hauled (tether, input->pay))
+    {
+      input->hold = bt__winch_pull (&tether->props);
+      input->room = -input->pay * input->h;
+    }
+  if (!isfinite (input->hold))
+    input->hold = 0;
+}
+
+/* A winch was held back as it hauled CHAIN from BEFORE metres: it goes on from the speed it had,
+   and stalls when it has hardly turned for a while.  */
+static void
+hold_back (bt__state *state, int i, bt__tether *tether, const bt__dynamic *chain, double before)
+{
+  double length = fmin (bt__dynamic_length (chain), before);
+  double speed = (before - length) / BT__TIME_STEP, rate = -tether->winch_rate;
+  tether->length = fmax (tether->length, length - speed * tether->props.winch_lag);
+  tether->stalling
+      = speed < TURNS * fmin (rate, tether->props.winch_rate) ? tether->stalling + 1 : 0;
+  if (tether->stalling > STALLED_AFTER || tether->winch_rate == 0)
+    bt__stall_winch (state, tether, i, length);
+}
+
+/* After a step from BEFORE metres of CHAIN: a winch that hauls was held back if it was pulled as
+   hard as it can, or drew nothing in; one that does not haul counts what was drawn off its drum. */
+static void
+heed_winch (const bt_dive *dive, bt__state *state, int i, const bt__dynamic *chain, double before,
+            const bt__dynamic_input *input, const bt__dynamic_report *report)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  if (!is_hauled (tether, input->pay))
+    tether->length = fmin (tether->length + report->given, bt__most_out (dive, state, i));
+  else if (report->given > 0 || bt__dynamic_length (chain) >= before)
+    hold_back (state, i, tether, chain, before);
+  else
+    tether->stalling = 0;
 }
 
 bt_status
@@ -68,7 +128,7 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
   bt__dynamic_input input = bt__chain_input (dive, state, i, &water, ends);
   bt__dynamic_lump lumps[BT_LUMPS_MAX];
   bt__dynamic_report report = { 0 };
-  double far_length = 0;
+  double far_length = 0, before = bt__dynamic_length (chain);
   bt__ends here; /* where obstacles let the ends come */
   bt_status status;
   bt__watch_twist (dive, state, tether, i); /* a sleeping line can be twisted too */
@@ -86,11 +146,12 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
       input.end[1] = (bt__dynamic_end){ .free = 1 };
     }
   bt__fasten (dive, i, far_length, INFINITY, &input, lumps);
-  input.pay = pay_of (tether, chain);
+  set_winch (dive, state, i, tether, chain, &input);
   input.mesh = bt__chain_mesh (dive, state, tether, i);
   status = step_part (dive, state, i, 0, &input, &report, error);
   if (status != BT_OK)
     return status;
+  heed_winch (dive, state, i, chain, before, &input, &report);
   here = bt__tether_ends (dive, state, i);
   tether->shape.a = here.a;
   tether->shape.b = here.b;

@@ -96,7 +96,6 @@ void
 bt__watch_step (const bt_dive *dive, bt__state *state, bt__tether *tether, int i,
                 const bt__dynamic_report *report)
 {
-  tether->tension_max = report->tension;
   note_rest (dive, state, tether, i, report);
   note_snap (state, tether, i, report->tension);
   note_kink (state, tether, i, report->bend_radius);

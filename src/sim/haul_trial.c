@@ -1,8 +1,8 @@
 /* A haul on a fork: the dead vehicle at the end of the moving line, the winch that pulls no more
    than it can.
 
-   What goes where it is told is a dead weight in the trial.  The winch turns while the tension at
-   it is below its limit and stands while it is above.
+   What goes where it is told is a dead weight in the trial.  The winch holds its limit by itself
+   (winch.c); stalled, it is turned again when the line pulls less.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -19,6 +19,7 @@
 
 #define HOME_WITHIN 1.5 /* m, beyond the hull */
 #define LEAST_OUT 0.5   /* m */
+#define RESUMES 0.9     /* of the limit: the winch turns again when the line pulls less */
 #define STUCK_WAY 0.15  /* m: less ... */
 #define STUCK_TIME 20.0 /* s: ... in so long is stuck */
 #define AT_HULL 0.03    /* m: so near to the hull it is what holds it */
@@ -44,7 +45,7 @@ make_moving (bt_dive *fork, int i, bt_error *error)
 }
 
 static bt_status
-make_trial (const bt_dive *dive, int i, bt_dive **out, bt_error *error)
+make_trial (const bt_dive *dive, int i, double winch, bt_dive **out, bt_error *error)
 {
   int vehicle = dive->model->ends[i][1].vehicle;
   bt_status status = bt_dive_fork (dive, out, error);
@@ -59,6 +60,7 @@ make_trial (const bt_dive *dive, int i, bt_dive **out, bt_error *error)
       return status;
     }
   bt__deaden_vehicle (bt__dive_vehicle (*out, (*out)->now, vehicle));
+  bt__dive_tether (*out, (*out)->now, i)->props.winch_pull = winch;
   return BT_OK;
 }
 
@@ -86,14 +88,15 @@ line_of (const trial *t)
   return bt__line_of (t->fork, t->fork->now, t->tether);
 }
 
-/* Turn the winch if it can; at its limit it stands.  */
+/* Turn the winch again when it stands and the line pulls less.  */
 static bt_status
 turn (const trial *t, bt_error *error)
 {
   bt__line line = line_of (t);
-  double out = line.tether->length, metres = fmax (out - LEAST_OUT, 0);
-  if (bt__line_tension (&line, 0) > t->winch)
-    metres = 0;
+  double metres = line.tether->length - LEAST_OUT;
+  if (line.tether->winch_rate != 0 || !(metres > 0)
+      || bt__line_tension (&line, 0) > RESUMES * t->winch)
+    return BT_OK;
   return do_number (t->fork, BT_OP_HAUL_IN, t->tether, metres, t->rate, 2, error);
 }
 
@@ -102,6 +105,12 @@ is_home (const trial *t)
 {
   bt__line line = line_of (t);
   return bt__distance (bt__line_node (&line, 0), vehicle_at (t)) < t->least;
+}
+
+static int
+is_parted (const trial *t)
+{
+  return line_of (t).tether->parted != 0;
 }
 
 static int
@@ -147,7 +156,7 @@ haul (trial *t, double seconds, bt_haul *out, bt_error *error)
   double begin = bt_dive_time (t->fork), now = 0;
   t->there = vehicle_at (t);
   out->home = is_home (t);
-  while (!out->home && now < seconds)
+  while (!out->home && !out->parted && now < seconds)
     {
       status = turn (t, error);
       if (status == BT_OK)
@@ -156,6 +165,7 @@ haul (trial *t, double seconds, bt_haul *out, bt_error *error)
         return status;
       now = bt_dive_time (t->fork) - begin;
       out->home = is_home (t);
+      out->parted = is_parted (t);
       if (is_slack (t))
         t->since = now;
       if (is_stuck (t, now))
@@ -196,7 +206,7 @@ bt_tether_haul (const bt_dive *dive, int i, double rate, double winch, double se
   bt_status status = check (dive, i, rate, winch, seconds, error);
   trial t = { .tether = i, .rate = rate, .winch = winch };
   if (status == BT_OK)
-    status = make_trial (dive, i, &t.fork, error);
+    status = make_trial (dive, i, winch, &t.fork, error);
   if (status != BT_OK)
     return status;
   t.vehicle = dive->model->ends[i][1].vehicle;

@@ -2,24 +2,31 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <math.h>
+
 #include "sim/ops.h"
+#include "sim/sim.h"
 
 static bt_status
 spool (const bt__call *c, double sign)
 {
   bt__tether *tether = bt__dive_tether (c->dive, c->state, c->subject);
   double target = tether->length + sign * c->args[0];
-  double drum = c->dive->model->tethers[c->subject].drum;
+  double most = bt__most_out (c->dive, c->state, c->subject);
   if (bt__check_range (c, 0, "metres to spool", 0, 1e6) != BT_OK
       || bt__check_range (c, 1, "a rate in m/s", 1e-6, 1000) != BT_OK)
     return BT_ERR_DOMAIN;
-  if (target > drum)
-    return bt__fail (c->error, BT_ERR_DOMAIN, "%g m are out: the drum holds %g m", tether->length,
-                     drum);
-  if (target <= 0 || target > 1e6)
+  if (target > most)
+    return bt__fail (c->error, BT_ERR_DOMAIN,
+                     "%g m are out: of all that was on the drum, %g m can be", tether->length,
+                     most);
+  if (sign < 0 && tether->parted) /* no more comes in than there is */
+    target = fmax (target, fmin (tether->length, BT__HOME_LENGTH));
+  if (target <= 0)
     return bt__fail (c->error, BT_ERR_DOMAIN, "%g m are out: it cannot be made %g m",
                      tether->length, target);
   tether->winch_target = target;
+  tether->stalling = 0;
   tether->winch_rate = target == tether->length ? 0 : sign * c->args[1];
   return BT_OK;
 }

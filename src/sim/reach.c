@@ -153,7 +153,8 @@ bt__hold_at_tethers (const bt_dive *dive, const bt__state *from, bt__state *stat
       bt__tether *tether = bt__dive_tether (dive, state, i);
       if (tether->drape != BT__DRAPE_SPANS) /* that knows by itself */
         bt__note_taut (state, tether, i,
-                       bt__distance (ends.a, ends.b) >= tether->length * (1 - 1e-9));
+                       !tether->parted
+                           && bt__distance (ends.a, ends.b) >= tether->length * (1 - 1e-9));
     }
 }
 

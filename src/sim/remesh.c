@@ -30,6 +30,9 @@ enum
   FEWEST = 8
 };
 
+/* A line hauled in is not cut into shorter intervals than this, m.  */
+#define SHORTEST 0.05
+
 /* The winch leaves some room to the nodes that contact puts in.  */
 #define WINCH_SHARE 0.875
 #define WINCH_AIM 0.5 /* of the accuracy: what the nodes that come and go are judged by */
@@ -40,9 +43,10 @@ bt__chain_mesh (const bt_dive *dive, const bt__state *state, const bt__tether *t
 {
   const bt_tether_def *def = &dive->model->tethers[i];
   int adapts = tether->props.model == BT_MODEL_AUTO;
-  int fewest = adapts ? FEWEST : (int)tether->props.nodes;
+  int wanted = adapts ? FEWEST : (int)tether->props.nodes;
+  int fewest = (int)fmax (1, fmin (wanted, tether->length / SHORTEST));
   return (bt__dynamic_mesh){ .fewest = fewest,
-                             .most = (int)fmax (fewest, WINCH_SHARE * bt__chain_room (def)),
+                             .most = (int)fmax (wanted, WINCH_SHARE * bt__chain_room (def)),
                              .error = WINCH_AIM * tether->props.accuracy / BT__CHAIN_ERROR,
                              .idle = !adapts && tether->length != def->length
                                      && state->step % BT__REMESH_EVERY == 0 };

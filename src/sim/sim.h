@@ -62,6 +62,18 @@ bt__is_spring (const bt__tether *tether)
 /* Turn the winches of STATE by one step (winch.c).  */
 void bt__turn_winches (const bt_dive *dive, bt__state *state);
 
+/* Return the most that the winch of a tether of PROPS hauls with, N; stop the winch of tether I,
+   stalled, with LENGTH out (winch.c).  */
+double bt__winch_pull (const bt_tether_props *props);
+void bt__stall_winch (bt__state *state, bt__tether *tether, int i, double length);
+
+/* Return the most that tether I may have out, m: all that was on its drum, less what it has lost by
+   parting (winch.c).  */
+double bt__most_out (const bt_dive *dive, bt__state *state, int i);
+
+/* A cut line is home with so much of it out, m: its end hangs from the winch.  */
+#define BT__HOME_LENGTH 0.1
+
 /* Hold the vehicles of STATE, which moved from where they are in FROM, at the ends of their tethers
    (reach.c).  */
 void bt__hold_at_tethers (const bt_dive *dive, const bt__state *from, bt__state *state);

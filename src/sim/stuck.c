@@ -13,6 +13,16 @@
 #define SLOW 0.02 /* m/s */
 #define PULL 1.0
 
+/* A parted line is stuck where its winch hauls and its new end stays.  */
+static int
+stands_parted (const bt_dive *dive, bt__state *state, int i)
+{
+  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  bt__line line = bt__line_of (dive, state, i);
+  return bt__dive_tether (dive, state, i)->winch_rate < 0 && bt__line_tension (&line, 0) > PULL
+         && bt__norm (bt__dynamic_v (chain)[chain->n]) < SLOW;
+}
+
 /* Nonzero if somebody at the far end of tether I, or its winch, pulls.  */
 static int
 is_pulled (const bt_dive *dive, bt__state *state, int i)
@@ -45,7 +55,10 @@ bt__note_stuck (const bt_dive *dive, bt__state *state)
     {
       bt__tether *tether = bt__dive_tether (dive, state, i);
       int caught = bt__dive_subject (dive, state, BT_PART_TETHER, i)->n > 0;
-      int stands = caught && hardly_moves (dive, state, i) && is_pulled (dive, state, i);
+      int stands
+          = caught
+            && (tether->parted ? stands_parted (dive, state, i)
+                               : hardly_moves (dive, state, i) && is_pulled (dive, state, i));
       tether->caught = stands ? tether->caught + 1 : 0;
       if (tether->caught == BT__STUCK_AFTER)
         bt__raise_event (state, BT_EVENT_STUCK, i);

@@ -1,5 +1,8 @@
-/* The winch: pays out and hauls in at its rate, exactly as much as it was told, and stalls on a
-   taut tether.
+/* The winch: pays out and hauls in at its rate, exactly as much as it was told, and stalls where
+   the line pulls as hard as it can.
+
+   It turns here, and a static line follows at once.  A moving line follows in its own step, with a
+   lag and by force (chain_step.c).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -9,11 +12,30 @@
 #include "sim/sim.h"
 #include "world/line.h"
 
-/* What a winch pulls at most: N, and a share of what parts the line.  */
-#define MOST_PULL 500.0
+/* What a winch hauls with that was not told otherwise: N, and a share of what parts the line.  */
+#define USUAL_PULL 500.0
 #define BREAKING_SHARE 0.5
 
-/* Nonzero if tether I is a moving line with a vehicle at its end that it pulls along.  */
+#define MOST_OUT 1e6 /* m */
+
+double
+bt__winch_pull (const bt_tether_props *props)
+{
+  return props->winch_pull != BT_WINCH_AUTO
+             ? props->winch_pull
+             : fmin (USUAL_PULL, BREAKING_SHARE * props->breaking_load);
+}
+
+double
+bt__most_out (const bt_dive *dive, bt__state *state, int i)
+{
+  double drum = dive->model->tethers[i].drum;
+  if (bt__dive_tether (dive, state, i)->parted)
+    drum -= bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
+  return fmin (drum, MOST_OUT);
+}
+
+/* True if tether I is a moving line with a vehicle at its end that it pulls along.  */
 static int
 draws_a_body (const bt_dive *dive, bt__state *state, int i)
 {
@@ -22,65 +44,100 @@ draws_a_body (const bt_dive *dive, bt__state *state, int i)
          && bt__carrier (dive, state, vehicle) == i;
 }
 
-/* The shortest length of tether I that the pull of its vehicles still lets reach between its ends;
-   a body is drawn along.  */
+/* What the ends of tether I hold against: the pull of its vehicles, or, between points, anything.
+ */
+static double
+held_with (const bt_dive *dive, bt__state *state, int i)
+{
+  const bt__end *end = dive->model->ends[i];
+  return end[0].vehicle < 0 && end[1].vehicle < 0 ? INFINITY : bt__pull_on (dive, state, i);
+}
+
+/* The shortest length of tether I that winch and vehicles, as hard as they pull, still let reach
+   between its ends; a body is drawn along, and so is an end that is free.  */
 static double
 shortest (const bt_dive *dive, bt__state *state, int i)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   bt__ends ends = bt__tether_ends (dive, state, i);
-  double pull = bt__pull_on (dive, state, i);
-  if (draws_a_body (dive, state, i))
+  double pull = fmin (held_with (dive, state, i), bt__winch_pull (&tether->props));
+  if (tether->parted || draws_a_body (dive, state, i))
     return 0;
   return bt__distance (ends.a, ends.b) / bt__longest_chord (&tether->props, 1, pull);
 }
 
-/* Nonzero if the winch of tether I, which draws a body along, pulls as hard as it can.  */
+/* True if LINE, a static shape, pulls at its winch harder than that can; a moving line tells in its
+   step.  */
 static int
-is_overloaded (const bt_dive *dive, bt__state *state, int i)
+is_overloaded (const bt__line *line)
 {
-  bt__line line = bt__line_of (dive, state, i);
-  double most = fmin (MOST_PULL, BREAKING_SHARE * line.tether->props.breaking_load);
-  return draws_a_body (dive, state, i) && bt__line_tension (&line, 0) > most;
+  return !line->chain && bt__line_tension (line, 0) > bt__winch_pull (&line->tether->props);
 }
 
 static void
 stop (bt__state *state, bt__tether *tether, int i, bt_event_kind why)
 {
   tether->winch_rate = 0;
+  tether->stalling = 0;
   bt__raise_event (state, why, i);
 }
 
+void
+bt__stall_winch (bt__state *state, bt__tether *tether, int i, double length)
+{
+  tether->length = length;
+  stop (state, tether, i, BT_EVENT_STALLED);
+}
+
+/* Stop, for WHY, with LENGTH out; a moving line has yet to follow.  */
 static void
-turn_winch (const bt_dive *dive, bt__state *state, int i)
+stop_at (const bt_dive *dive, bt__state *state, int i, double length, bt_event_kind why)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  double length = tether->length + tether->winch_rate * BT__TIME_STEP;
-  int past
-      = tether->winch_rate > 0 ? length >= tether->winch_target : length <= tether->winch_target;
-  double floor = tether->winch_rate < 0 ? fmin (tether->length, shortest (dive, state, i)) : 0;
-  if (past)
-    length = tether->winch_target;
-  if (tether->winch_rate < 0 && is_overloaded (dive, state, i))
-    {
-      stop (state, tether, i, BT_EVENT_STALLED);
-      return;
-    }
-  if (length < floor)
-    {
-      tether->length = floor;
-      stop (state, tether, i, BT_EVENT_STALLED);
-      return;
-    }
+  bt__line line;
   tether->length = length;
-  if (past)
-    stop (state, tether, i, BT_EVENT_SPOOLED);
+  line = bt__line_of (dive, state, i);
+  if (bt__line_has_followed (&line))
+    stop (state, tether, i, why);
+}
+
+static void
+haul (const bt_dive *dive, bt__state *state, int i, double length)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt__line line = bt__line_of (dive, state, i);
+  double floor = fmin (tether->length, shortest (dive, state, i));
+  if (is_overloaded (&line))
+    bt__stall_winch (state, tether, i, bt__line_out (&line));
+  else if (fmax (length, tether->winch_target) < floor)
+    stop_at (dive, state, i, floor, BT_EVENT_STALLED);
+  else if (length <= tether->winch_target)
+    stop_at (dive, state, i, tether->winch_target, BT_EVENT_SPOOLED);
+  else
+    tether->length = length;
+}
+
+/* A line that draws more off the drum than it was to be paid has it.  */
+static void
+pay (const bt_dive *dive, bt__state *state, int i, double length)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  if (length >= tether->winch_target)
+    stop_at (dive, state, i, fmax (tether->length, tether->winch_target), BT_EVENT_SPOOLED);
+  else
+    tether->length = length;
 }
 
 void
 bt__turn_winches (const bt_dive *dive, bt__state *state)
 {
   for (int i = 0; i < dive->model->n_tethers; i++)
-    if (bt__dive_tether (dive, state, i)->winch_rate != 0)
-      turn_winch (dive, state, i);
+    {
+      bt__tether *tether = bt__dive_tether (dive, state, i);
+      double speed = fmin (fabs (tether->winch_rate), tether->props.winch_rate);
+      if (tether->winch_rate < 0)
+        haul (dive, state, i, tether->length - speed * BT__TIME_STEP);
+      else if (tether->winch_rate > 0)
+        pay (dive, state, i, tether->length + speed * BT__TIME_STEP);
+    }
 }

@@ -12,7 +12,8 @@
    difference of a growing step gains energy, though it is stable up to 1 + sqrt (2).  */
 #define HISTORY_RATIO 1.02
 #define OWED_TIME 0.5   /* s in which the winch pays what it owes */
-#define LEAST_REST 0.05 /* of a piece: the shortest an interval is hauled to */
+#define LEAST_REST 0.05 /* of a piece: the shortest an interval is hauled to, ... */
+#define STUB 0.05       /* m: ... and the last of all */
 /* Of the length, in steps of a sixtieth of a second and longer; what a step may leave undone must
    shrink with it, or short steps add it up.  */
 #define DEFAULT_TOLERANCE 1e-5
@@ -94,12 +95,14 @@ check_input (const bt__dynamic *d, const bt__dynamic_work *w, const bt__dynamic_
   return BT_OK;
 }
 
-/* Return the rest length of the first interval at the end of the step; *OWED what is then left.  */
+/* Return the rest length of the first interval at the end of the step; *OWED what is then left. The
+   only interval may be hauled in until it is a stub.  */
 static double
 wind_first (const bt__dynamic *d, const bt__dynamic_input *in, double *owed)
 {
   double rest = bt__dynamic_rest (d)[0], part = d->owed * fmin (1, in->h / OWED_TIME);
-  double next = fmax (rest + in->pay * in->h + part, fmin (rest, LEAST_REST * d->piece));
+  double least = d->n > 1 ? LEAST_REST * d->piece : fmin (LEAST_REST * d->piece, STUB);
+  double next = fmax (rest + in->pay * in->h + part, fmin (rest, least));
   *owed = d->owed - part;
   return next;
 }
@@ -128,6 +131,7 @@ bt__dynamic_begin (const bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_
   w->b2 = r * r / ((1 + r) * in->h);
   w->b1 = -(w->b0 + w->b2);
   bt__dynamic_prepare (w, d, in, rest0);
+  w->given = 0;
   return BT_OK;
 }
 
@@ -146,7 +150,7 @@ bt__dynamic_iterate (bt__dynamic_work *w, bt__dynamic_row *rows, int n, bt__dyna
   w->hold = hold;
   if (bt__dynamic_touches (w))
     w->tolerance = fmin (w->tolerance, TOUCHING_TOLERANCE);
-  report->converged = bt__dynamic_newton (w, report);
+  report->converged = bt__dynamic_settle (w, report);
   return report->converged;
 }
 
@@ -156,6 +160,7 @@ bt__dynamic_stay (const bt__dynamic *d, bt__dynamic_work *w, bt__dynamic_report 
   memcpy (w->X, w->x, (size_t)(w->n + 1) * sizeof *w->X);
   memcpy (w->lam, bt__dynamic_tension (d), (size_t)w->n * sizeof *w->lam);
   bt__dynamic_bent_stop (w);
+  bt__dynamic_give_nothing (w);
   for (int j = 0; j < w->n; j++)
     w->link[j].t = bt__unit_or (bt__sub (w->x[j + 1], w->x[j]), bt__vec (0, 0, -1));
   report->converged = 0;
@@ -169,7 +174,7 @@ solve_alone (bt__dynamic *d, bt__dynamic_work *w, double most, bt__dynamic_repor
              int *slowed, bt_error *error)
 {
   int64_t history = d->history;
-  report->converged = bt__dynamic_newton (w, report);
+  report->converged = bt__dynamic_settle (w, report);
   if (!bt__dynamic_gains (d, w, most))
     return BT_OK;
   int solves = report->solves;
@@ -179,7 +184,7 @@ solve_alone (bt__dynamic *d, bt__dynamic_work *w, double most, bt__dynamic_repor
   if (status)
     return status;
   w->tolerance = fmin (w->tolerance, ALONE_TOLERANCE * bt__dynamic_length (d));
-  report->converged = bt__dynamic_newton (w, report);
+  report->converged = bt__dynamic_settle (w, report);
   report->solves += solves;
   *slowed = bt__dynamic_slow_down (d, w, most, report);
   return BT_OK;
@@ -195,7 +200,7 @@ bt__dynamic_iterate_free (bt__dynamic *d, bt__dynamic_work *w, bt__dynamic_watch
       watch->most = bt__dynamic_most (d, w);
       return solve_alone (d, w, watch->most, report, &watch->slowed, error);
     }
-  report->converged = bt__dynamic_newton (w, report);
+  report->converged = bt__dynamic_settle (w, report);
   return BT_OK;
 }
 

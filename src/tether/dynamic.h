@@ -60,7 +60,13 @@ typedef struct bt__dynamic
   double fastest;          /* m/s: no node is faster, if there is some spare way */
   int64_t seen;            /* what the spare was given for, and ... */
   int64_t wait;            /* ... in how many steps it is asked again, see contact/line.h */
+  int64_t least;           /* intervals that the winch leaves: of a cut line all but its last */
 } bt__dynamic;
+
+enum
+{
+  BT__LEAST_INTERVALS = 2 /* of a line that is held at both ends */
+};
 
 /* Return the size in bytes of a block with room for N_MAX intervals.  */
 size_t bt__dynamic_size (int n_max);
@@ -141,8 +147,10 @@ typedef struct bt__dynamic_input
   bt__dynamic_end end[2];
   const bt__dynamic_lump *lumps;
   int n_lumps;
-  double h;         /* s */
-  double pay;       /* m/s of line through the winch end, out positive */
+  double h;    /* s */
+  double pay;  /* m/s of line through the winch end, out positive */
+  double hold; /* N: what the winch holds; a line that pulls harder draws line from it; 0: all */
+  double room; /* m: how much it may draw in the step, beyond PAY */
   double tolerance; /* of the length: last update of a solved step; 0: 1e-5, less in steps below
                        1/60 s */
   int surfaced;     /* nonzero: what is above the surface of the water is in air */
@@ -157,7 +165,8 @@ typedef struct bt__dynamic_report
   int safeguarded;            /* nonzero: the quick iteration failed and descent took over */
   double update;              /* m: last update */
   double speed, acceleration; /* the largest of any node, for the caller's sleep */
-  double tension;             /* N: the largest ... */
+  double given;               /* m: line that was drawn from the winch, beyond what was paid out */
+  double tension;             /* N: the largest, along the line and at what holds its ends, ... */
   int at;                     /* ... and its interval, to be held against the breaking load */
   double bend_radius;         /* m: the tightest, INFINITY if straight */
   int bend_at;                /* its node */

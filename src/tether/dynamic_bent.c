@@ -58,9 +58,8 @@ leg_of (const bt__dynamic_work *w, int64_t j)
                 .t = k->t };
 }
 
-/* Give interval J so much more rest length.  */
-static void
-lengthen (bt__dynamic_work *w, int64_t j, double more)
+void
+bt__dynamic_lengthen (bt__dynamic_work *w, int64_t j, double more)
 {
   bt__link *k = w->link + j;
   double ratio = (k->rest + more) / k->rest;
@@ -75,8 +74,8 @@ let_flow (bt__dynamic_work *w, bt__dynamic_bent *b, double more)
 {
   double before = w->link[b->node - 1].rest, after = w->link[b->node].rest;
   more = fmin (fmax (more, -(1 - LEAST) * after), (1 - LEAST) * before);
-  lengthen (w, b->node - 1, -more);
-  lengthen (w, b->node, more);
+  bt__dynamic_lengthen (w, b->node - 1, -more);
+  bt__dynamic_lengthen (w, b->node, more);
   b->flow += more;
   return more;
 }

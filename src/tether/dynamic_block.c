@@ -145,6 +145,7 @@ bt__dynamic_init (bt__dynamic *d, int n_max, int n, const bt_vec3 *shape, int m,
   memset (d, 0, bt__dynamic_size (n_max));
   d->n = n;
   d->n_max = n_max;
+  d->least = BT__LEAST_INTERVALS;
   d->piece = length / n;
   double along = 0;
   for (int i = 0; i + 1 < m; i++)

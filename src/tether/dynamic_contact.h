@@ -159,7 +159,7 @@ void bt__dynamic_split (bt__dynamic *d, int64_t j, double u, int straight);
 static inline int
 bt__dynamic_is_wound (const bt__dynamic *d, const bt__dynamic_input *input)
 {
-  return input->pay != 0 || d->owed != 0 || input->mesh.idle;
+  return input->pay != 0 || input->hold > 0 || d->owed != 0 || input->mesh.idle;
 }
 
 /* True if MESH lets D have one interval more.  */

@@ -82,7 +82,7 @@ int
 bt__dynamic_is_alone (const bt__dynamic *d, const bt__dynamic_input *in)
 {
   const bt_vec3 *x = bt__dynamic_x (d);
-  if (in->water->density > 0 || in->pay != 0 || d->owed != 0)
+  if (in->water->density > 0 || in->pay != 0 || in->hold > 0 || d->owed != 0)
     return 0;
   for (int k = 0; k < 2; k++)
     {

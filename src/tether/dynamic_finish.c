@@ -204,6 +204,30 @@ commit_links (bt__dynamic *d, const bt__dynamic_work *w, bt__dynamic_report *rep
     bt__dynamic_rest (d)[j] = w->link[j].rest;
 }
 
+/* True if something holds end K: what pulls there is its tension.  */
+static int
+is_fast (const bt__dynamic_work *w, int k)
+{
+  const bt__dynamic_end *end = w->in->end + k;
+  return !end->free || end->gripped || end->body.mass > 0 || (w->hold && w->hold[k].on);
+}
+
+/* What holds an end bears the loads on half an interval too, which the tensions of the intervals
+   lack.  A free end pulls at nothing.  */
+static void
+commit_ends (bt__dynamic *d, const bt__dynamic_work *w, const bt_vec3 *pull,
+             bt__dynamic_report *report)
+{
+  for (int k = 0; k < 2; k++)
+    {
+      d->pull[k] = is_fast (w, k) ? pull[k] : bt__vec (0, 0, 0);
+      if (!(bt__norm (d->pull[k]) > report->tension))
+        continue;
+      report->tension = bt__norm (d->pull[k]);
+      report->at = k ? w->n - 1 : 0;
+    }
+}
+
 /* ---- All ---- */
 
 static void
@@ -220,12 +244,12 @@ static void
 take_over (bt__dynamic *d, bt__dynamic_work *w, const uint8_t *restart, const bt_vec3 *pull,
            bt__dynamic_report *report)
 {
-  d->pull[0] = pull[0];
-  d->pull[1] = pull[1];
   if (w->in->order == 4)
     bt__dynamic_correct (d, w);
   commit_nodes (d, w, w->keep, restart);
   commit_links (d, w, report);
+  commit_ends (d, w, pull, report);
+  report->given = w->given;
   take_from_spare (d, report);
   d->h = w->in->h;
   d->history = report->converged;

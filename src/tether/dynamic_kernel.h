@@ -124,6 +124,7 @@ struct bt__dynamic_work
   double soft, inertia;             /* of ka, N/m2: what resists a change of length is the less */
   double tolerance;                 /* m */
   double owed;                      /* m: line out, not in the chain, after the step */
+  double given;                     /* m: line that was drawn from the winch */
   const bt_vec3 *x;                 /* positions at the start */
   const bt_vec3 *chord, *load;      /* fourth-order parts, NULL if none */
   bt__dynamic_row *row;             /* the caller's half-spaces, ... */
@@ -186,6 +187,15 @@ void bt__dynamic_solve_again (bt__dynamic_work *w, bt_vec3 *column, int count, i
 
 /* Iterate X to the solution.  Return nonzero if it is one; on return zero X may hold anything.  */
 int bt__dynamic_newton (bt__dynamic_work *w, bt__dynamic_report *report);
+
+/* The same, and let the winch give way where the line pulls harder than it holds.  */
+int bt__dynamic_settle (bt__dynamic_work *w, bt__dynamic_report *report);
+
+/* Take back what the winch gave in this step.  */
+void bt__dynamic_give_nothing (bt__dynamic_work *w);
+
+/* Give interval J so much more rest length.  */
+void bt__dynamic_lengthen (bt__dynamic_work *w, int64_t j, double more);
 
 /* The surface: note what is near to it, and how much is wet; add its forces and blocks at the
    iterate X; their potential.  */

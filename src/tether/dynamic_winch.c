@@ -15,11 +15,6 @@
 #define SPLIT 1.6 /* of a piece: the first interval is split beyond this, ... */
 #define JOIN 0.4  /* ... and joined below this; far apart, so that neither undoes the other */
 
-enum
-{
-  LEAST_INTERVALS = 2
-};
-
 /* Make room for, or remove, element AT of an array of N.  */
 static void
 shift (void *array, size_t size, int64_t at, int64_t n, int by)
@@ -163,7 +158,7 @@ int
 bt__dynamic_winding (const bt__dynamic *d)
 {
   double rest = bt__dynamic_rest (d)[0];
-  return rest > SPLIT * d->piece ? 1 : d->n > LEAST_INTERVALS && rest < JOIN * d->piece ? -1 : 0;
+  return rest > SPLIT * d->piece ? 1 : d->n > d->least && rest < JOIN * d->piece ? -1 : 0;
 }
 
 void
@@ -249,6 +244,7 @@ bt__dynamic_cut (const bt__dynamic *d, int j, bt__dynamic *a, bt__dynamic *b)
   if (a)
     {
       a->n = j + 1;
+      a->least = 1;
       new_end (a, j, j + 1);
     }
 }

@@ -43,8 +43,9 @@ bt_tether_is_taut (const bt_dive *dive, int i, int *taut, bt_error *error)
   bt_status status = bt__watch_look (dive, i, &g, error);
   if (status != BT_OK)
     return status;
-  *taut = bt__dive_tether (dive, dive->now, i)->taut != 0;
-  if (*taut || g->open)
+  const bt__tether *tether = bt__dive_tether (dive, dive->now, i);
+  *taut = tether->taut != 0;
+  if (*taut || g->open || tether->parted) /* nothing holds the end of a parted one */
     return BT_OK;
   status = bt__watch_gaze (dive, i, &g, error);
   if (status == BT_OK)

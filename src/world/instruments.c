@@ -63,7 +63,7 @@ look_at_ship (const bt_dive *dive, int tether, bt__truth *truth)
   line = bt__line_of (dive, dive->now, tether);
   truth->ship = bt__line_node (&line, 0);
   truth->tension = bt__line_tension (&line, 0);
-  truth->payout = line.tether->length;
+  truth->payout = bt__line_out (&line);
 }
 
 bt_status

@@ -7,6 +7,8 @@
 #include "math/vec.h"
 #include "world/line.h"
 
+#define FOLLOWED 1e-4 /* m: a line so near to where its winch stands has followed it */
+
 bt__line
 bt__line_of (const bt_dive *dive, bt__state *state, int i)
 {
@@ -40,6 +42,18 @@ bt__line_length (const bt__line *line)
   if (line->split)
     return line->split->length;
   return line->chain ? bt__dynamic_length (line->chain) : line->tether->shape.length;
+}
+
+int
+bt__line_has_followed (const bt__line *line)
+{
+  return !line->chain || fabs (bt__dynamic_length (line->chain) - line->tether->length) <= FOLLOWED;
+}
+
+double
+bt__line_out (const bt__line *line)
+{
+  return bt__line_has_followed (line) ? line->tether->length : bt__dynamic_length (line->chain);
 }
 
 /* ---- Anywhere along the line ---- */
@@ -101,6 +115,27 @@ bt__line_tension (const bt__line *line, double s)
   if (line->split)
     return bt__thesis_tension (line->split, s);
   return bt__shape_tension (&line->tether->shape, line->nodes, line->tensions, s);
+}
+
+static double
+largest_of (const bt__dynamic *chain)
+{
+  const double *t = bt__dynamic_tension (chain);
+  double most = 0;
+  for (int64_t j = 0; j < chain->n; j++)
+    most = fmax (most, t[j]);
+  return most;
+}
+
+/* The ends of a moving line bear the loads on half an interval more than its intervals do.  */
+double
+bt__line_tension_max (const bt__line *line)
+{
+  double ends;
+  if (!line->chain)
+    return line->tether->tension_max;
+  ends = fmax (bt__line_tension (line, 0), bt__norm (bt__line_force (line)));
+  return fmax (ends, fmax (largest_of (line->chain), largest_of (line->far_chain)));
 }
 
 /* ---- The model's own points ---- */

@@ -26,6 +26,11 @@ bt__line bt__line_tail (const bt__line *line);
 /* Arc length from the anchor to the far end, or to where the line has parted, m.  */
 double bt__line_length (const bt__line *line);
 
+/* What is out, m: of a moving line what has come through its winch so far, which it follows with a
+   lag; true if it has followed.  */
+double bt__line_out (const bt__line *line);
+int bt__line_has_followed (const bt__line *line);
+
 /* The model's own points: how many there are, and place and tension of the K-th.  */
 int bt__line_nodes (const bt__line *line);
 bt_vec3 bt__line_node (const bt__line *line, int k);
@@ -35,6 +40,9 @@ double bt__line_node_tension (const bt__line *line, int k);
 bt_vec3 bt__line_point (const bt__line *line, double s);
 bt_vec3 bt__line_tangent (const bt__line *line, double s);
 double bt__line_tension (const bt__line *line, double s);
+
+/* The largest tension anywhere along LINE, its ends included, N; of a parted one in either part. */
+double bt__line_tension_max (const bt__line *line);
 
 /* Return an upper estimate of the error in position that comes of the nodes of CHAIN, m: the
    estimator of bt__dynamic_space_error times the most it was seen to fall short by.  */

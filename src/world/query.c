@@ -96,6 +96,15 @@ is_stuck (const bt__line *line)
                      : line->tether->caught >= BT__STUCK_AFTER;
 }
 
+/* The straight distance between the ends of LINE: a parted one ends where it has parted.  */
+static double
+chord_of (const bt__line *line)
+{
+  const bt__shape *shape = &line->tether->shape;
+  bt_vec3 end = line->tether->parted ? bt__line_node (line, bt__line_nodes (line) - 1) : shape->b;
+  return bt__distance (shape->a, end);
+}
+
 bt_status
 bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *error)
 {
@@ -106,17 +115,18 @@ bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *erro
     return status;
   t = line.tether;
   *view = (bt_tether_view){ .props = t->props,
-                            .length = t->length,
+                            .length = bt__line_out (&line),
                             .drum = dive->model->tethers[i].drum,
-                            .chord = bt__distance (t->shape.a, t->shape.b),
+                            .target = t->winch_rate != 0 ? t->winch_target : t->length,
+                            .chord = chord_of (&line),
                             .tension_anchor = bt__line_tension (&line, 0),
                             .tension_end = bt__norm (bt__line_force (&line)),
-                            .tension_max = t->tension_max,
+                            .tension_max = bt__line_tension_max (&line),
                             .force = bt__line_force (&line),
                             .vehicle = dive->model->ends[i][1].vehicle,
                             .taut = t->taut != 0,
                             .parted = t->parted != 0,
-                            .spooling = t->winch_rate != 0,
+                            .spooling = t->winch_rate != 0 || !bt__line_has_followed (&line),
                             .stuck = is_stuck (&line),
                             .blocked = t->blocked != 0,
                             .settled = t->settled != 0,

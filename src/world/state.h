@@ -77,10 +77,11 @@ typedef struct bt__tether
   double length;       /* paid out, m */
   double winch_rate;   /* m/s, signed; 0: the winch stands */
   double winch_target; /* m */
-  double tension_max;
-  double pull;      /* N: of the vehicle that it holds, as last solved */
-  int64_t store_at; /* offset of its store behind the tethers, bytes */
-  int64_t stale;    /* must be solved though its ends did not move */
+  int64_t stalling; /* steps for which the winch has hauled with all its pull, and hardly turned */
+  double tension_max; /* of a static shape; a moving line is asked */
+  double pull;        /* N: of the vehicle that it holds, as last solved */
+  int64_t store_at;   /* offset of its store behind the tethers, bytes */
+  int64_t stale;      /* must be solved though its ends did not move */
   int64_t settled;
   int64_t taut;
   int64_t parted;   /* the line is in two: a second chain hangs from the far end */

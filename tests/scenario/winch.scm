@@ -1,0 +1,136 @@
+;;; The winch as one sees it: its fields, what it hauls, what it says when it cannot, and a cut line.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(use-modules (srfi srfi-1))
+
+(define (kinds)
+  (map car (events)))
+
+(define (most-while seconds)
+  ;; The largest tension anywhere while SECONDS pass.
+  (let ((most 0.0))
+    (run-until (lambda () (set! most (max most (max-tension))) #f) #:at-most seconds)
+    most))
+
+(define-scenario the-fields-of-a-winch
+  "Pull, brake, rate and lag are fields of the tether, live ones, each with its range."
+  (in (world (sea (depth 60)) (rov (named minnow) (at 30 0 -5) (pull 1e5))
+             (tether (named line) (type fathom) (wet-weight 0) (from 0 0 -5) (to minnow) (length 31)
+                     (model dynamic) (winch-pull 300) (winch-rate 0.25))))
+  (define (winch-field name)
+    (string-contains (simple-format #f "~a" (describe 'line)) (symbol->string name)))
+  (for-each (lambda (name) (expect (winch-field name)))
+            '(winch-pull winch-brake winch-rate winch-lag))
+  (haul-in! 0.5 #:rate 100)
+  (run 1)
+  (expect (tether-length) is (about 30.81 #:within 0.02)) ; 0.25 m/s, less 0.25 s of lag
+  (run-until (lambda () (not (spooling?))) #:at-most 10)
+  (expect (tether-length) is (about 30.5 #:within 1e-9))
+  (alter! 'line #:winch-rate 'none #:winch-pull 200)
+  (haul-in! 5)
+  (expect (most-while 10) is (between 195 210))
+  (expect (memq 'stalled (kinds)))
+  (let ((out (tether-length)))
+    (expect (anchor-tension) is (between 150 200))
+    (run 5)
+    (expect (tether-length) => out)
+    (alter! 'line #:winch-brake 80)
+    (run 5)
+    (expect (anchor-tension) is (between 20 81))
+    (expect (tether-length) is (above out)))
+  (expect (alter! 'line #:winch-pull 0) raises domain)
+  (expect (alter! 'line #:winch-lag -1) raises domain)
+  (expect (alter! 'line #:winch-brake 'auto) raises name)
+  (expect (alter! 'line #:winch-pull 'auto) => 'line))
+
+(define-scenario hands-have-a-limit-too
+  "Wound twice round a pile, the line to a vehicle that goes where it is told is hauled until the winch
+stalls; it does not part."
+  (in 'pile)
+  (for-each (lambda (p)
+              (fly-to! p #:speed 0.5)
+              (run-until arrived? #:at-most 60))
+            '((4 -6 -5) (4 4 -5) (-4 4 -5) (-4 -4 -5) (4 -6 -5) (4 4 -5) (-4 4 -5) (-4 -4 -5) (4 -6 -5)))
+  (haul-in! 20 #:rate 1)
+  (expect (most-while 20) is (between 450 700)) ; a step stretches 22 m by 150 N
+  (expect (memq 'stalled (kinds)))
+  (expect (parted?) => #f))
+
+(define-scenario a-trial-says-that-it-parts
+  "A haul that breaks the line says so, and does not go on; with less pull it comes home."
+  (in (world (sea (depth 60))
+             (rov (named minnow) (mass 20) (volume neutral) (size .4 .4 .4) (at 0 20 -10)
+                  (quadratic-drag (400 400 400) (5 5 5)))
+             (tether (named line) (type fathom) (wet-weight 0) (from 0 0 -10) (to minnow) (length 21)
+                     (breaking-load 50) (model dynamic))))
+  (let ((strong (haul-trial #:rate 1 #:pull 400)))
+    (expect (assq-ref strong 'parted?) => #t)
+    (expect (assq-ref strong 'home?) => #f)
+    (expect (assq-ref strong 'seconds) is (below 20)))
+  (let ((weak (haul-trial #:rate 1 #:pull 20)))
+    (expect (assq-ref weak 'parted?) => #f)
+    (expect (assq-ref weak 'home?) => #t))
+  (expect (parted?) => #f))
+
+(define (check-free-end)
+  (expect (taut?) => #f)
+  (expect (slack) => 1.0)
+  (expect (straight-distance) is (about (distance (point-at 0) (point-at (tether-length))) #:within 1e-6))
+  (expect (max-tension) is (lambda (t) (>= t (max (anchor-tension) (rov-tension))))))
+
+(define-scenario (a-cut-line-comes-home place)
+  "What is left at the winch has a free end: it comes in whole, no further, and goes out again."
+  #:for ((place 'open 'pile))
+  (in (world (sea (depth 60) (current .2 90))
+             (splice (if (eq? place 'pile)
+                         (list (part seabed)
+                               (part cylinder (named pile) (from 10 3 0) (to 10 3 -60) (radius .3)))
+                         '()))
+             (rov (named minnow) (at 30 0 -20))
+             (rov (named other) (at -30 0 -20))
+             (tether (named line) (wet-weight .3) (from 0 0 0) (to minnow) (length 50) (nodes 32) (drum 80)
+                     (model dynamic))
+             (tether (named second) (wet-weight .3) (from -5 0 0) (to other) (length 50) (nodes 32)
+                     (model dynamic))))
+  (run 3)
+  (expect (haul-in! 'line 100) raises domain)
+  (cut-tether! 'line #:at 20)
+  (expect (pay-out! 'line 40) raises domain) ; 30 m are left on the drum
+  (let ((left (tether-length 'line)) (hung (tether-length 'second)) (c (checkpoint)))
+    (expect (haul-in! 'line 100 #:rate 2) => 0.1)
+    (run 5)
+    (expect (tether-length 'line) is (below left))
+    (let ((there (state-hash)))
+      (restore! c)
+      (haul-in! 'line 100 #:rate 2)
+      (run 5)
+      (expect (state-hash) => there))
+    (run 20)
+    (expect (spooling? 'line) => #f)
+    (expect (tether-length 'line) => 0.1)
+    (expect (distance (point-at 'line 0) (point-at 'line 0.1)) is (below 0.12))
+    (expect (anchor-tension 'line) is (below 1))
+    (expect (haul-in! 'line 1) => 0.1)
+    (expect (what-if (run 2) (tether-length 'line)) => 0.1)
+    (expect (memq 'spooled (kinds)))
+    (pay-out! 'line 10 #:rate 1)
+    (run 15)
+    (expect (tether-length 'line) is (about 10.1 #:within 1e-3))
+    (expect (z (point-at 'line 10)) is (below -5))
+    (expect (tether-length 'second) => hung)
+    (expect (parted? 'second) => #f)))
+
+(define-scenario a-free-end-is-known
+  "taut?, slack and the straight distance are those of the line that is left."
+  (in (world (sea (depth 60)) (rov (named minnow) (at 19 0 -5) (pull 300))
+             (tether (named line) (wet-weight .5) (from 0 0 -5) (to minnow) (length 20) (model dynamic))))
+  (drive! #:sway 1)
+  (run 5)
+  (expect (taut?))
+  (cut-tether! #:at 10)
+  (check-free-end)
+  (run 90)
+  (check-free-end)
+  (expect (memq 'slack (kinds)))
+  (expect (z (point-at (tether-length))) is (about -15 #:within 0.5)))
