@@ -79,7 +79,7 @@ bt__scene_ray (const bt__scene *s, const bt__switches *on, const bt__ray *ray, b
 {
   question q = { .scene = s, .on = on, .ray = *ray, .out = out, .count = count };
   double reach = ray->range;
-  if (!s || s->n == 0)
+  if (s->n == 0)
     {
       count->skipped_empty++;
       return 0;
@@ -104,7 +104,7 @@ bt__ray_cast (const bt__scene *scene, const bt__switches *on, const bt__mover *m
 {
   bt__ray left = *ray;
   int found = 0;
-  if (scene && bt__scene_ray (scene, on, ray, out, count))
+  if (bt__scene_ray (scene, on, ray, out, count))
     {
       found = 1;
       left.range = out->range;
@@ -168,7 +168,7 @@ bt__scene_contains (const bt__scene *s, const bt__switches *on, bt_vec3 point, d
                     bt__near *out, bt__count *count)
 {
   inside q = { s, on, { point, point }, -depth, 0, out, count };
-  if (!s || s->n == 0)
+  if (s->n == 0)
     {
       count->skipped_empty++;
       return 0;

@@ -28,7 +28,7 @@ typedef struct bt__ray_hit
   uint32_t triangle;     /* its id, or BT__NO_TRIANGLE */
 } bt__ray_hit;
 
-/* Return nonzero and *OUT, the first thing RAY meets in SCENE (NULL: nothing is there).  Ranges are
+/* Return nonzero and *OUT, the first thing RAY meets in SCENE.  Ranges are
    good to 1e-12 of the largest length involved but for grazing rays: no point of the ray before the
    range is deeper in a solid than that.  A ray that is not finite meets nothing.  */
 int bt__scene_ray (const bt__scene *scene, const bt__switches *on, const bt__ray *ray,

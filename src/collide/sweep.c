@@ -127,7 +127,7 @@ static double
 run (sweep *s)
 {
   s->best = 1;
-  if (!s->scene || s->scene->n == 0)
+  if (s->scene->n == 0)
     {
       s->count->skipped_empty++;
       return 1;
@@ -258,7 +258,7 @@ bt__body_nearest (const bt__body *body, const bt__frame *frame, double cap, cons
                   const bt__switches *on, const bt__mover *mover, uint32_t movers, bt__stop *stop,
                   bt__count *count)
 {
-  int found = scene && ask (body, frame, cap, scene, on, &world, UINT32_MAX, stop, count);
+  int found = ask (body, frame, cap, scene, on, &world, UINT32_MAX, stop, count);
   for (uint32_t m = 0; m < movers; m++)
     {
       bt__frame at = bt__motion_at (&mover[m].motion, mover[m].done);

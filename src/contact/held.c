@@ -63,7 +63,7 @@ bt__held_touches (const bt__polyline *line, const bt__way *way, double diameter,
 {
   const bt__scene *scene = way->around->scene;
   bt__nears list = { way->work->near, 0, BT__PARTS_MAX, INFINITY };
-  if (!scene || scene->n == 0)
+  if (scene->n == 0)
     return 0;
   bt__scene_near_line (scene, way->around->on, bt__polyline_x ((bt__polyline *)line),
                        (uint32_t)line->n, diameter / 2, &list, way->count);

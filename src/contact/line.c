@@ -24,9 +24,6 @@
 #define HOLDING 10.0     /* times EA over a link's length: what holds an end in its place, ... */
 #define HOLDING_MOST 1e9 /* N/m: ... at most */
 
-/* Where nothing stands.  */
-static const bt__scene nothing;
-
 /* ---- The parts of a step ---- */
 
 static bt_status
@@ -344,7 +341,7 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
                      .d = d,
                      .kernel = work,
                      .in = input,
-                     .scene = around->scene ? around->scene : &nothing,
+                     .scene = around->scene,
                      .on = around->on,
                      .mover = around->mover,
                      .movers = around->movers,

@@ -24,15 +24,7 @@ enum
 #define EVEN 1e-9      /* of its arc: a link is no longer than it by more */
 #define ROUNDING 4e-14 /* of the coordinates: likewise */
 
-static const bt__scene nothing = { 0 };
-
 /* ---- Surroundings ---- */
-
-static const bt__scene *
-scene_of (const bt__way *way)
-{
-  return way->around->scene ? way->around->scene : &nothing;
-}
 
 void
 bt__polyline_let_pass (bt__polyline *line, const bt__way *way)
@@ -44,7 +36,7 @@ bt__polyline_let_pass (bt__polyline *line, const bt__way *way)
     return;
   bt_vec3 *x = bt__polyline_x (line), *want = way->work->want;
   memcpy (want, x, (size_t)line->n * sizeof *x);
-  bt__safe_step (way->safe, &config, scene_of (way), s->on, s->mover, s->movers, x, want,
+  bt__safe_step (way->safe, &config, s->scene, s->on, s->mover, s->movers, x, want,
                  (uint32_t)line->n, &report, way->count);
   for (uint32_t m = 0; m < s->movers; m++)
     {
@@ -63,7 +55,7 @@ arrives (const bt__way *way, const bt_vec3 *x, const bt_vec3 *to, uint32_t n)
   bt__safe_config config = { way->core, INFINITY, 1 };
   bt__safe_report report;
   memcpy (way->work->trial, x, n * sizeof *x);
-  bt__safe_step (way->safe, &config, scene_of (way), way->around->on, way->work->still,
+  bt__safe_step (way->safe, &config, way->around->scene, way->around->on, way->work->still,
                  way->around->movers, way->work->trial, to, n, &report, way->count);
   return report.held == 0;
 }
@@ -89,7 +81,7 @@ cast_link (leg *l, uint32_t j, uint32_t m, const bt__nears *list)
 {
   const bt__mover *mover = m ? l->way->work->still + m - 1 : NULL;
   bt__link link = link_after (l, j, 0);
-  bt__cast c = { .scene = mover ? mover->body : scene_of (l->way),
+  bt__cast c = { .scene = mover ? mover->body : l->way->around->scene,
                  .motion = mover ? &mover->motion : NULL,
                  .link = link,
                  .core = l->core };
@@ -111,7 +103,7 @@ static void
 meet (leg *l, uint32_t j, uint32_t m)
 {
   const bt__mover *mover = m ? l->way->work->still + m - 1 : NULL;
-  const bt__scene *scene = mover ? mover->body : scene_of (l->way);
+  const bt__scene *scene = mover ? mover->body : l->way->around->scene;
   bt__link link = link_after (l, j, 0);
   double move = fmax (bt__distance (l->to[j], link.a), bt__distance (l->to[j + 1], link.b));
   double need = l->share * move + l->core;
@@ -139,7 +131,7 @@ look_at_hit (leg *l)
     return;
   if (!h->mover)
     {
-      bt__scene_pair (scene_of (l->way), &h->near, &link, &h->near.w);
+      bt__scene_pair (l->way->around->scene, &h->near, &link, &h->near.w);
       return;
     }
   const bt__mover *mover = l->way->work->still + h->mover - 1;
@@ -253,7 +245,7 @@ bt__polyline_move (bt__polyline *line, const bt__way *way, bt__hit *hit)
   *hit = (bt__hit){ 0 };
   if (!is_good (way->work->want, arc, n))
     return 0;
-  if (scene_of (way)->n == 0 && way->around->movers == 0)
+  if (way->around->scene->n == 0 && way->around->movers == 0)
     {
       way->count->skipped_empty++;
       commit (way, x, way->work->want, n);

@@ -60,7 +60,7 @@ is_near (bt__thesis_job *j, uint32_t mover, bt_vec3 p, double reach, int64_t obj
   if (mover)
     p = bt__to_local (&j->way->work->still[mover - 1].motion.from, p);
   bt__link point = { p, p };
-  if (!scene || scene->n == 0)
+  if (scene->n == 0)
     return 0;
   bt__scene_near (scene, on, &point, 0, reach, &list, j->way->count);
   for (uint32_t i = 0; i < list.n; i++)

@@ -14,7 +14,7 @@
    objects, which are their numbers in the model.  */
 typedef struct bt__surroundings
 {
-  const bt__scene *scene; /* NULL: nothing stands there */
+  const bt__scene *scene; /* empty, not NULL, where nothing stands */
   const bt__switches *on; /* of SCENE's objects, for this tether */
   bt__mover *mover;
   uint32_t movers;

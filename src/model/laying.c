@@ -26,7 +26,7 @@ meets (const bt__scene *scene, const bt__link *link, double cap, int *obstacle)
 {
   bt__count count = { 0 };
   bt__near near;
-  if (!scene || !bt__scene_nearest (scene, NULL, link, fmax (cap, HAIR), &near, &count)
+  if (!bt__scene_nearest (scene, NULL, link, fmax (cap, HAIR), &near, &count)
       || !(near.w.distance < cap - HAIR || near.w.distance <= 0))
     return 0;
   *obstacle = (int)scene->object[near.object].id;

@@ -54,7 +54,7 @@ struct bt_model
   int n_obstacles, n_carried;
   bt_obstacle_def *obstacles; /* their numbers and names; what they borrowed is in the scenes */
   int *where;                 /* of each: its place in SCENE, or -1 - its place in CARRIED */
-  bt__scene *scene;           /* what stands still, ids its numbers; NULL: nothing does */
+  bt__scene *scene;           /* what stands still, ids its numbers; empty: nothing does */
   bt__carried *carried;       /* what does not */
 };
 
@@ -67,13 +67,6 @@ double bt__longest_chord (const bt_tether_props *props, double length, double pu
 int bt__lay_points (const bt_model *model, int i, bt_vec3 *points);
 
 /* ---- Obstacles ---- */
-
-/* What stands still, or NULL.  */
-static inline const bt__scene *
-bt__model_scene (const bt_model *model)
-{
-  return model->scene;
-}
 
 /* The number of the obstacle called NAME, or BT__NO_OBSTACLE.  */
 int bt__model_obstacle (const bt_model *model, const char *name);

@@ -123,7 +123,7 @@ compile_still (bt_model *model, bt__obstacle *still, bt_error *error)
 {
   uint32_t n = 0;
   bt_status status = draw_all (model, still, &n, error);
-  if (status == BT_OK && n > 0)
+  if (status == BT_OK)
     status = bt__scene_new (still, n, 0, &model->scene, error);
   for (uint32_t i = 0; status != BT_OK && i < n; i++)
     bt__free_shape (&still[i]);
@@ -136,8 +136,10 @@ bt__compile_obstacles (bt_model *model, const bt_world *world, bt_error *error)
   size_t n = (size_t)world->n_obstacles;
   bt__obstacle *still;
   bt_status status = check_counts (world, error);
-  if (status != BT_OK || world->n_obstacles == 0)
+  if (status != BT_OK)
     return status;
+  if (n == 0)
+    return bt__scene_new (NULL, 0, 0, &model->scene, error);
   still = malloc (n * sizeof *still);
   model->obstacles = malloc (n * sizeof *model->obstacles);
   model->where = calloc (n, sizeof *model->where);
@@ -171,8 +173,7 @@ bt__release_obstacles (bt_model *model)
 void
 bt__number_scenes (bt_model *model)
 {
-  if (model->scene)
-    model->scene->serial = model->id;
+  model->scene->serial = model->id;
   for (int k = 0; k < model->n_carried; k++)
     model->carried[k].body->serial = model->id + 1 + (uint64_t)k;
 }

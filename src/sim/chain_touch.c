@@ -146,7 +146,7 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
   bt__anchors *anchors = bt__dive_anchors (dive, state, i, part);
   int among = bt__has_obstacles (dive);
   bt__surroundings around
-      = among ? bt__surround (dive, state, BT_PART_TETHER, i) : (bt__surroundings){ .scene = NULL };
+      = among ? bt__surround (dive, state, BT_PART_TETHER, i) : (bt__surroundings){ .scene = dive->model->scene };
   bt__line_config config = config_of (dive, state, i, part);
   bt__line_report touch = { 0 };
   bt_status status;

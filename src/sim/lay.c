@@ -37,8 +37,7 @@ static double
 clearance (bt_dive *dive, const bt__surroundings *around, const bt__link *link, double cap,
            bt__near *near)
 {
-  if (around->scene
-      && bt__scene_nearest (around->scene, around->on, link, cap, near, &dive->shore.count))
+  if (bt__scene_nearest (around->scene, around->on, link, cap, near, &dive->shore.count))
     cap = near->w.distance;
   for (uint32_t k = 0; k < around->movers; k++)
     {
@@ -138,7 +137,7 @@ name_near (const bt_dive *dive, const bt__surroundings *around, const bt__link *
   const bt_model *model = dive->model;
   bt__count count = { 0 };
   bt__near near;
-  if (around->scene && bt__scene_nearest (around->scene, around->on, link, cap, &near, &count))
+  if (bt__scene_nearest (around->scene, around->on, link, cap, &near, &count))
     return model->obstacles[around->scene->object[near.object].id].name;
   for (uint32_t k = 0; k < around->movers; k++)
     {

@@ -237,7 +237,7 @@ nearest (const bt_dive *dive, const look *look, const bt__link *link, double *ca
   bt__count *count = &((bt_dive *)dive)->shore.count;
   const bt__scene *scene = look->around.scene;
   int found = 0;
-  if (scene && bt__scene_nearest (scene, look->around.on, link, *cap, near, count))
+  if (bt__scene_nearest (scene, look->around.on, link, *cap, near, count))
     {
       *cap = near->w.distance;
       out->object = (int)scene->object[near->object].id;

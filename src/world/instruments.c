@@ -171,7 +171,7 @@ bt_dive_sonar (const bt_dive *dive, int i, const bt_sonar *sonar, double *range,
 {
   bt_status status = bt__check_part (dive, BT_PART_VEHICLE, i, error);
   const bt__vehicle *v = bt__dive_vehicle (dive, dive->now, i);
-  bt__surroundings around = { 0 };
+  bt__surroundings around = { .scene = dive->model->scene };
   bt__count count = { 0 };
   bt__sonar head;
   if (status != BT_OK)
@@ -243,7 +243,9 @@ bt_dive_sight (const bt_dive *dive, int i, const bt_eye *camera, int tether, bt_
         && camera->height / 2 < half && camera->sight > 0 && isfinite (camera->tilt)))
     return bt__fail (error, BT_ERR_DOMAIN,
                      "a camera sees less than 180 degrees, and some metres far");
-  l = (lens){ .camera = camera, .attitude = attitude_of (v) };
+  l = (lens){ .camera = camera,
+              .attitude = attitude_of (v),
+              .around = { .scene = dive->model->scene } };
   l.eye = bt__add (v->position, bt__turn_out (l.attitude, bow_of (dive, i)));
   if (dive->model->n_obstacles > 0)
     l.around = bt__standing (dive, dive->now, BT_PART_VEHICLE, i);

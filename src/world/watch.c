@@ -126,7 +126,7 @@ make_gaze_room (const struct bt__watch *w, bt__gaze *g)
 static int
 is_open (const bt__scene *scene, const bt__switches *on)
 {
-  for (uint32_t k = 0; scene && k < scene->solids; k++)
+  for (uint32_t k = 0; k < scene->solids; k++)
     if (bt__is_on (on, scene->solid[k]))
       return 0;
   return 1;

@@ -196,6 +196,7 @@ anywhere (void **state)
 static void
 unguarded (void **state)
 {
+  static const bt__scene nothing;
   (void)state;
   long crossings = 0;
   for (uint64_t seed = 0; seed < 4; seed++)
@@ -203,7 +204,7 @@ unguarded (void **state)
       dice d;
       sweep_triangle sheet[64];
       rig *r = random_rig (seed, &d, sheet);
-      r->around.scene = NULL;
+      r->around.scene = &nothing;
       for (int i = 0; i < 50; i++)
         rig_step (r, dice_point (&d, 5));
       crossings += r->crossings;

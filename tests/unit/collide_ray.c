@@ -25,6 +25,8 @@ enum
 
 static bt__hull *hulls[HULLS];
 
+static const bt__scene nothing;
+
 static int
 make_hulls (void **state)
 {
@@ -348,7 +350,7 @@ movers_where_they_stand (void **state)
           if (bt__scene_ray (s, NULL, &local, &own, &count))
             best = fmin (best, own.range);
         }
-      int found = bt__ray_cast (NULL, NULL, mover, 2, &ray, &hit, &count);
+      int found = bt__ray_cast (&nothing, NULL, mover, 2, &ray, &hit, &count);
       assert_int_equal (found, best < INFINITY);
       if (!found)
         continue;
@@ -439,7 +441,7 @@ ground_is_solid_and_meshes_are_not (void **state)
       bt_vec3 p = dice_point (&d, 20);
       assert_int_equal (bt__scene_contains (s, NULL, p, 0, &near, &count), p.z < -5);
     }
-  assert_false (bt__scene_contains (NULL, NULL, bt__vec (0, 0, -9), 0, &near, &count));
+  assert_false (bt__scene_contains (&nothing, NULL, bt__vec (0, 0, -9), 0, &near, &count));
   bt__scene_free (s);
 }
 

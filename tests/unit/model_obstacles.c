@@ -195,7 +195,7 @@ no_obstacles_no_scene (void **state)
   stage *s = new_stage ();
   bt_model *model = compile (s);
   (void)state;
-  assert_null (bt__model_scene (model));
+  assert_int_equal (model->scene->n, 0);
   assert_null (model->obstacles);
   assert_null (model->where);
   assert_null (model->carried);
