@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight progress)
+  #:use-module ((bight engine) #:select (%set-reporter!))
   #:use-module ((srfi srfi-1) #:select (first second third))
   #:export (with-progress with-telling tell-events))
 
@@ -27,17 +28,30 @@
   (simple-format port "\r~a\r" (make-string (+ width 10) #\space))
   (force-output port))
 
-(define (with-bar port n work)
-  (let ((begun (clock)) (drawn #f))
-    (define (report done)
+(define (make-bar)
+  ;; A procedure that draws a bar on PORT once what it is of has lasted, or, with the share #f, clears it.
+  (let ((begun #f) (drawn #f))
+    (lambda (port share)
       (let ((t (clock)))
-        (when (and (> (- t begun) patience) (or (not drawn) (> (- t drawn) 0.1)))
-          (set! drawn t)
-          (draw port (/ (exact->inexact done) n)))))
+        (cond ((not share)
+               (when (and port drawn) (clear port))
+               (set! begun #f)
+               (set! drawn #f))
+              ((not begun) (set! begun t))
+              ((and port (> (- t begun) patience) (or (not drawn) (> (- t drawn) 0.1)))
+               (set! drawn t)
+               (draw port share)))))))
+
+(define (with-bar port n work)
+  (let ((bar (make-bar)))
     (dynamic-wind
-      (lambda () #f)
-      (lambda () (work report))
-      (lambda () (when drawn (clear port) (set! drawn #f))))))
+      (lambda () (bar port 0))
+      (lambda () (work (lambda (done) (bar port (/ (exact->inexact done) n)))))
+      (lambda () (bar port #f)))))
+
+;; One call of the engine that lasts, such as `enter!' or `place!', tells how far it is.
+(let ((bar (make-bar)))
+  (%set-reporter! (lambda (share) (bar (terminal) share))))
 
 (define (at-prompt?)
   ;; Does a person type at a prompt?

@@ -11,8 +11,8 @@ const char *
 bt_status_name (bt_status status)
 {
   static const char *const names[]
-      = { "ok",       "domain", "name",   "stale",   "def",        "limit",
-          "diverged", "io",     "format", "version", "unsupported" };
+      = { "ok",       "domain", "name",   "stale",   "def",         "limit",
+          "diverged", "io",     "format", "version", "unsupported", "interrupted" };
   unsigned i = (unsigned)status;
   return i < sizeof names / sizeof *names ? names[i] : "unknown";
 }

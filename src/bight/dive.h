@@ -20,11 +20,23 @@ BT_BEGIN_DECLS
 
 typedef struct bt_dive bt_dive;
 
+/* What a call that may last asks between pieces of its work, each much shorter than a tenth of a
+   second: SHARE of it, 0 to 1, is done as far as that can be told.  Nonzero: give up; the call then
+   fails by BT_ERR_INTERRUPTED and has changed nothing.  */
+typedef int (*bt_poll) (void *user, double share);
+
 /* Start a dive in MODEL (kept by the dive): vehicles in place, tethers laid.  FUNCTION and USER
    serve a current of kind BT_CURRENT_FUNCTION, else NULL; USER is borrowed.  */
 bt_status bt_dive_new (bt_model *model, bt_current_function function, void *user, bt_dive **dive,
                        bt_error *error);
+/* The same, asking POLL, with POLL_USER, while tethers are laid and from then on.  */
+bt_status bt_dive_new_polled (bt_model *model, bt_current_function function, void *user,
+                              bt_poll poll, void *poll_user, bt_dive **dive, bt_error *error);
 void bt_dive_free (bt_dive *dive);
+
+/* Let POLL be asked by all that is done with DIVE, in the thread that does it; NULL: nobody.  A
+   fork asks nobody.  */
+void bt_dive_set_poll (bt_dive *dive, bt_poll poll, void *user);
 
 /* Make *COPY a second dive on the same model in the same state; the two then know nothing of each
    other.  */

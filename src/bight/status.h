@@ -23,7 +23,8 @@ typedef enum bt_status
   BT_ERR_IO,         /* a file that cannot be read or written */
   BT_ERR_FORMAT,     /* a file whose content is wrong */
   BT_ERR_VERSION,    /* data written by another version */
-  BT_ERR_UNSUPPORTED /* the chosen model has no answer to this */
+  BT_ERR_UNSUPPORTED, /* the chosen model has no answer to this */
+  BT_ERR_INTERRUPTED  /* who called gave up: see bt_poll */
 } bt_status;
 
 enum

@@ -196,10 +196,10 @@ haul (SCM object, SCM index, SCM rate, SCM winch, SCM seconds)
   bt_haul h;
   bt_error error;
   SCM v = scm_c_make_vector (7, SCM_BOOL_F);
-  bt__check ("free-to-haul?",
-             bt_tether_haul (dive, scm_to_int (index), scm_to_double (rate), scm_to_double (winch),
-                             scm_to_double (seconds), &h, &error),
-             &error);
+  bt__check_long ("free-to-haul?", bt__to_handle (object),
+                  bt_tether_haul (dive, scm_to_int (index), scm_to_double (rate),
+                                  scm_to_double (winch), scm_to_double (seconds), &h, &error),
+                  &error);
   scm_c_vector_set_x (v, 0, scm_from_bool (h.home));
   scm_c_vector_set_x (v, 1, scm_from_double (h.seconds));
   scm_c_vector_set_x (v, 2, scm_from_double (h.left));

@@ -63,6 +63,9 @@ bt__new_handle (SCM function)
   handle->flown = NULL;
   handle->edition = 0;
   handle->host = SCM_BOOL_F;
+  handle->thrown = SCM_BOOL_F;
+  handle->looked = 0;
+  handle->told = 0;
   return handle;
 }
 
@@ -110,6 +113,7 @@ fork_dive (SCM object)
   int asks = scm_is_true (scm_procedure_p (origin->function));
   scm_run_finalizers (); /* forks come and go by the thousand */
   bt__check ("what-if", bt_dive_fork (bt__to_dive (object), &copy->dive, &error), &error);
+  bt_dive_set_poll (copy->dive, bt__ask_guile, copy);
   copy->journal = origin->journal;
   copy->serial = origin->serial;
   bt_dive_set_current_function (copy->dive, asks ? bt__call_current : NULL, copy);
@@ -149,7 +153,7 @@ step_dive (SCM object, SCM count)
   scm_run_finalizers ();
   for (int64_t i = 0; i < n; i++)
     {
-      bt__check ("run", bt_dive_step (dive, &error), &error);
+      bt__check_long ("run", bt__to_handle (object), bt_dive_step (dive, &error), &error);
       SCM_TICK;
     }
   scm_remember_upto_here_1 (object);

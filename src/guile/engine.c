@@ -55,4 +55,5 @@ bight_guile_init (void)
   bt__define_aware ();
   bt__define_outlines ();
   bt__define_instruments ();
+  bt__define_patience ();
 }

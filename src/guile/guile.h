@@ -35,6 +35,7 @@ void bt__define_contacts (void);
 void bt__define_aware (void);
 void bt__define_outlines (void);
 void bt__define_instruments (void);
+void bt__define_patience (void);
 
 /* Raise ERROR as a &bight-error on behalf of the Scheme procedure WHO.  Does not return.  */
 void bt__raise (const char *who, const bt_error *error) SCM_NORETURN;
@@ -54,7 +55,15 @@ typedef struct bt__handle
   bt_dive *flown;   /* the dive itself while it is live: the thread's */
   uint64_t edition; /* of what DIVE is a copy of */
   SCM host;         /* the handle whose live dive this one shares, or #f */
+  SCM thrown;       /* (KEY . ARGS) while the engine gives up what was interrupted, else #f */
+  double looked;    /* s: when it was last looked whether something waits */
+  int told;         /* nonzero: how far the present call is was told */
 } bt__handle;
+
+/* A bt_poll for the dive of a handle.  Raise what it was interrupted by, or ERROR unless STATUS is
+   BT_OK, at the end of a call that asked it.  */
+int bt__ask_guile (void *handle, double share);
+void bt__check_long (const char *who, bt__handle *handle, bt_status status, const bt_error *error);
 
 bt_dive *bt__to_dive (SCM object);
 /* The same, but raise `def' while its current is being asked: it is not to be changed then.  */

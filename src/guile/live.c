@@ -71,6 +71,7 @@ go_live (SCM object, SCM pace)
   if (status != BT_OK)
     bt_dive_free (view);
   bt__check (who, status, &error);
+  bt_dive_set_poll (view, bt__ask_guile, handle);
   handle->flown = handle->dive;
   handle->dive = view;
   handle->edition = 0;
@@ -91,6 +92,7 @@ freeze (SCM object)
   status = bt_live_stop (handle->live, &error);
   bt_dive_free (handle->dive);
   handle->dive = handle->flown;
+  bt_dive_set_poll (handle->dive, bt__ask_guile, handle);
   handle->flown = NULL;
   handle->live = NULL;
   bt__unlock_sharing ();

@@ -80,7 +80,7 @@ bt__operate (const char *who, bt__handle *handle, bt_op op, int subject, const d
   int64_t step = bt_dive_steps (handle->dive);
   bt_status status = handle->live ? operate_live (handle, op, subject, args, n, &step, &error)
                                   : bt_dive_do (handle->dive, op, subject, args, n, &error);
-  bt__check (who, status, &error);
+  bt__check_long (who, handle, status, &error);
   note_down (scm_is_true (handle->host) ? bt__to_handle (handle->host) : handle, step, op, subject,
              args, n);
 }

@@ -312,9 +312,10 @@ make_dive (SCM parts)
   bt_error error;
   bt_status status;
   bt__check (who, bt_model_new (&r.world, &model, &error), &error);
-  status = bt_dive_new (model, asks ? bt__call_current : NULL, handle, &handle->dive, &error);
+  status = bt_dive_new_polled (model, asks ? bt__call_current : NULL, handle, bt__ask_guile, handle,
+                               &handle->dive, &error);
   bt_model_release (model);
-  bt__check (who, status, &error);
+  bt__check_long (who, handle, status, &error);
   scm_remember_upto_here_1 (parts);
   return bt__from_handle (handle);
 }

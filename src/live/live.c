@@ -80,6 +80,7 @@ bt_live_start (bt_dive *dive, const bt_live_options *options, bt_live **out, bt_
   if (!live)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for a live dive");
   live->dive = dive;
+  bt_dive_set_poll (dive, NULL, NULL); /* who asked is in another thread */
   live->options = chosen;
   live->steps = bt_dive_steps (dive);
   live->holders = 1;

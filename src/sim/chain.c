@@ -56,6 +56,8 @@ settle_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
     {
       uint64_t unsettled = dive->counts.unsettled;
       bt_status status = bt__solve_shape (dive, state, i, ends, props, 0, error);
+      if (status == BT_OK)
+        status = bt__poll (dive, (double)k / SETTLE_TRIES, error);
       if (status != BT_OK || dive->counts.unsettled == unsettled || k == SETTLE_TRIES)
         return status;
     }
@@ -80,7 +82,7 @@ rest_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_err
   props.model = BT_MODEL_STEADY;
   props.nodes = bt__rest_nodes (dive, tether, i);
   status = settle_shape (dive, state, i, ends, &props, error);
-  if (status == BT_OK)
+  if (status == BT_OK || status == BT_ERR_INTERRUPTED)
     return status;
   props.model = BT_MODEL_CATENARY;
   props.depth_rule = BT_DEPTH_SAG;

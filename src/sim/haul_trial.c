@@ -51,6 +51,7 @@ make_trial (const bt_dive *dive, int i, double winch, bt_dive **out, bt_error *e
   bt_status status = bt_dive_fork (dive, out, error);
   if (status != BT_OK)
     return status;
+  bt_dive_set_poll (*out, dive->poll, dive->poll_user);
   status = do_number (*out, BT_OP_RELEASE, vehicle, 0, 0, 0, error);
   if (status == BT_OK)
     status = make_moving (*out, i, error);
@@ -161,6 +162,8 @@ haul (trial *t, double seconds, bt_haul *out, bt_error *error)
       status = turn (t, error);
       if (status == BT_OK)
         status = bt_dive_step (t->fork, error);
+      if (status == BT_OK)
+        status = bt__poll (t->fork, now / seconds, error);
       if (status != BT_OK)
         return status;
       now = bt_dive_time (t->fork) - begin;

@@ -12,15 +12,9 @@
 #include "sim/lay.h"
 #include "world/obstacles.h"
 
-/* A line that falls into place is given so long, and rests below so much.  */
-#define FALL 20.0      /* s */
-#define AT_REST 5e-3   /* m/s */
-#define DRAG_SPEED 3.0 /* m/s */
-enum
-{
-  DRAG_TRIES = 30 /* steps without getting nearer */
-};
-#define DRAG_LEAST 1e-4 /* m a step */
+#define KEPT_OFF 1.1 /* times the core: what is left of a line is as far from obstacles */
+#define ENOUGH 0.4   /* of its length: a line that is as long as this need not be led on */
+#define WASTE 0.05   /* of an interval: what the line may shorten by at a corner left out */
 
 /* ---- Corners ---- */
 
@@ -32,10 +26,9 @@ to_mover (const bt__mover *mover, const bt__link *link)
   return (bt__link){ bt__to_local (&frame, link->a), bt__to_local (&frame, link->b) };
 }
 
-/* The distance of LINK to the nearest of what stands around, at most CAP.  */
-static double
-clearance (bt_dive *dive, const bt__surroundings *around, const bt__link *link, double cap,
-           bt__near *near)
+double
+bt__room_about (bt_dive *dive, const bt__surroundings *around, const bt__link *link, double cap,
+                bt__near *near)
 {
   if (bt__scene_nearest (around->scene, around->on, link, cap, near, &dive->shore.count))
     cap = near->w.distance;
@@ -49,16 +42,16 @@ clearance (bt_dive *dive, const bt__surroundings *around, const bt__link *link, 
   return cap;
 }
 
-/* Nonzero if nothing is in the triangle A B C, nor within CORE of it.  */
+/* Nonzero if nothing is in the triangle A B C, nor within KEEP of it.  */
 static int
-is_clear (bt_dive *dive, const bt__surroundings *around, double core, bt_vec3 a, bt_vec3 b,
+is_clear (bt_dive *dive, const bt__surroundings *around, double keep, bt_vec3 a, bt_vec3 b,
           bt_vec3 c)
 {
   bt__link link = { a, c };
   bt__near near;
   bt__witness w;
   bt__pair_point (b, &link, &w);
-  return clearance (dive, around, &link, w.distance + 2 * core, &near) >= w.distance + 1.1 * core;
+  return bt__room_about (dive, around, &link, w.distance + 2 * keep, &near) >= w.distance + keep;
 }
 
 int
@@ -83,21 +76,28 @@ bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n)
           off = fmax (off, w.distance);
         }
       if (off >= spare
-          || clearance (dive, &around, &link, off + 2 * core, &near) < off + 1.1 * core)
+          || bt__room_about (dive, &around, &link, off + 2 * core, &near) < off + 1.1 * core)
         return 0;
     }
   return 1;
 }
 
-/* Leave out of the N corners P what is not needed; return how many are left.  */
+/* Leave out of the N corners P what is not needed to keep off obstacles by KEEP, where the line
+   gets shorter by no more than LOSS at each; return how many are left.  */
 static int
-simplify (bt_dive *dive, const bt__surroundings *around, double core, bt_vec3 *p, int n)
+simplify (bt_dive *dive, const bt__surroundings *around, double keep, double loss, bt_vec3 *p,
+          int n)
 {
   int kept = 1;
   for (int k = 1; k < n; k++)
     {
-      while (kept > 1 && is_clear (dive, around, core, p[kept - 2], p[kept - 1], p[k]))
-        kept--;
+      for (; kept > 1; kept--)
+        {
+          bt_vec3 a = p[kept - 2], b = p[kept - 1], c = p[k];
+          if (bt__distance (a, b) + bt__distance (b, c) - bt__distance (a, c) > loss
+              || !is_clear (dive, around, keep, a, b, c))
+            break;
+        }
       p[kept++] = p[k];
     }
   return kept;
@@ -158,7 +158,7 @@ check_way (bt_dive *dive, const bt__surroundings *around, int i, int n, bt_error
   for (int k = 0; k + 1 < n; k++)
     {
       bt__link link = { dive->polyline[k], dive->polyline[k + 1] };
-      if (clearance (dive, around, &link, radius, &near) < radius)
+      if (bt__room_about (dive, around, &link, radius, &near) < radius)
         return bt__fail (error, BT_ERR_DOMAIN,
                          "tether `%s' cannot be laid straight to (%g %g %g): `%s' is in the way",
                          def->name, link.b.x, link.b.y, link.b.z,
@@ -178,7 +178,7 @@ bt__corners (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int *
       *n = lay_corners (dive, state, i, ends);
       return check_way (dive, &around, i, *n, error);
     }
-  *n = simplify (dive, &around, core, dive->polyline, *n);
+  *n = simplify (dive, &around, KEPT_OFF * core, INFINITY, dive->polyline, *n);
   return *n <= 2 * BT__SPLITS_MAX
              ? BT_OK
              : bt__fail (error, BT_ERR_LIMIT, "tether `%s' has more than %d corners",
@@ -188,9 +188,9 @@ bt__corners (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int *
 /* ---- A chain along corners ---- */
 
 /* Share N intervals out to the legs between M corners P, by length and at least one to each, and
-   write the nodes to X and the chords' shares of the whole to SHARE.  */
+   write the nodes to X.  */
 static void
-allot (const bt_vec3 *p, int m, bt_vec3 *x, double *share, int n)
+allot (const bt_vec3 *p, int m, bt_vec3 *x, int n)
 {
   double whole = 0, gone = 0;
   int from = 0;
@@ -199,128 +199,39 @@ allot (const bt_vec3 *p, int m, bt_vec3 *x, double *share, int n)
   x[0] = p[0];
   for (int k = 0; k + 1 < m; k++)
     {
-      double leg = bt__distance (p[k], p[k + 1]);
       int least = from + 1, most = n - (m - 2 - k);
-      int to = (int)lround (n * (gone += leg) / fmax (whole, 1e-12));
+      int to = (int)lround (n * (gone += bt__distance (p[k], p[k + 1])) / fmax (whole, 1e-12));
       to = k + 2 == m ? n : to < least ? least : to > most ? most : to;
       for (int j = from; j < to; j++)
-        {
-          x[j + 1]
-              = bt__axpy (p[k], (double)(j + 1 - from) / (to - from), bt__sub (p[k + 1], p[k]));
-          share[j] = whole > 0 ? leg / (to - from) / whole : 1.0 / n;
-        }
+        x[j + 1] = bt__axpy (p[k], (double)(j + 1 - from) / (to - from), bt__sub (p[k + 1], p[k]));
       from = to;
     }
 }
 
-/* Nonzero if the line gets from the nodes FROM to those on the dive's polyline unhindered.  */
-static int
-gets_there (bt_dive *dive, bt__state *state, int i, bt_vec3 *from, int n)
+/* Let the chain of N intervals of tether I begin along the nodes X, which crowd where they were
+   held up: as many more on the rest, and each interval with the chord's share of the length.  */
+static void
+take_nodes (bt_dive *dive, bt__state *state, int i, bt_vec3 *x, int n)
 {
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
   bt__surroundings around = bt__surround (dive, state, BT_PART_TETHER, i);
-  bt__safe_config config = { .core = bt__core (bt__dive_tether (dive, state, i)->props.diameter),
-                             .stride = 1,
-                             .rounds = 200 };
-  bt__safe_report report;
-  bt__safe_forget (dive->shore.safe);
-  dive->shore.safe_of = -1;
-  bt__safe_step (dive->shore.safe, &config, around.scene, around.on, around.mover, around.movers,
-                 from, dive->polyline, (uint32_t)n + 1, &report, &dive->shore.count);
-  return report.held == 0 && report.overlaps == 0;
-}
-
-/* ---- Falling into place ---- */
-
-static void
-pin_ends (bt_dive *dive, bt__state *state, int i, int how)
-{
-  for (int k = 0; k < 2; k++)
-    {
-      int vehicle = dive->model->ends[i][k].vehicle;
-      if (vehicle >= 0)
-        {
-          const bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
-          dive->shore.pin[vehicle] = (bt__pin){ how, v->position, v->body };
-        }
-    }
-}
-
-/* Take what the ends of tether I are pinned by from KEPT, or with TAKE zero put it there.  */
-static void
-keep_pins (bt_dive *dive, int i, bt__pin kept[2], int take)
-{
-  for (int k = 0; k < 2; k++)
-    {
-      int vehicle = dive->model->ends[i][k].vehicle;
-      if (vehicle >= 0 && take)
-        dive->shore.pin[vehicle] = kept[k];
-      else if (vehicle >= 0)
-        kept[k] = dive->shore.pin[vehicle];
-    }
-}
-
-/* The part of a parted line that hangs from the far end.  */
-static bt_status
-step_far (bt_dive *dive, bt__state *state, int i, bt__dynamic_input input,
-          bt__dynamic_report *report, bt_error *error)
-{
-  bt__dynamic_lump lumps[BT_LUMPS_MAX];
-  double length = bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
-  bt__fasten (dive, i, 0, length, &input, lumps);
-  input.end[0] = (bt__dynamic_end){ .free = 1 };
-  return bt__step_among (dive, state, i, 1, &input, report, error);
-}
-
-static bt_status
-step_to (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt__dynamic_report *report,
-         bt_error *error)
-{
-  bt_water water = bt__dive_water (dive, state);
-  bt__dynamic_lump lumps[BT_LUMPS_MAX];
-  bt__dynamic_input input = bt__chain_input (dive, state, i, &water, ends);
-  bt__dynamic_report far = { 0 };
-  double from = 0;
-  bt_status status = BT_OK;
-  if (bt__dive_tether (dive, state, i)->parted)
-    {
-      from = bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
-      status = step_far (dive, state, i, input, &far, error);
-      input.end[1] = (bt__dynamic_end){ .free = 1 };
-    }
-  bt__fasten (dive, i, from, INFINITY, &input, lumps);
-  if (status == BT_OK)
-    status = bt__step_among (dive, state, i, 0, &input, report, error);
-  report->speed = fmax (report->speed, far.speed);
-  return status;
-}
-
-static bt_status
-fall (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
-{
-  bt__tether *tether = bt__dive_tether (dive, state, i);
-  bt__pin kept[2];
-  bt__dynamic_report report = { .speed = INFINITY };
-  bt_status status = BT_OK;
-  int steps = (int)(FALL / BT__TIME_STEP);
-  keep_pins (dive, i, kept, 0);
-  pin_ends (dive, state, i, BT__PIN_HARD);
-  for (int k = 0; status == BT_OK && k < steps && report.speed > AT_REST; k++)
-    status = step_to (dive, state, i, ends, &report, error);
-  keep_pins (dive, i, kept, 1);
-  for (int part = 0; part <= (tether->parted != 0); part++)
-    bt__dynamic_still (bt__dive_chain (dive, state, i, part));
-  tether->shape.a = ends->a;
-  tether->shape.b = ends->b;
-  tether->quiet = 0;
-  return status;
+  double keep = KEPT_OFF * bt__core (tether->props.diameter);
+  double whole, loss = WASTE * tether->length / n;
+  int m = simplify (dive, &around, keep, loss, x, n + 1);
+  allot (x, m, dive->polyline, n);
+  x = dive->polyline;
+  whole = bt__length (x, (uint32_t)n + 1);
+  for (int k = 0; k < n; k++)
+    dive->shore.share[k] = whole > 0 ? bt__distance (x[k], x[k + 1]) / whole : 1.0 / n;
 }
 
 bt_status
 bt__lay_chain_among (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  bt_vec3 *corner = dive->motion, *node = dive->shore.node;
-  int m = 0, n = bt__rest_nodes (dive, tether, i), there;
+  bt_vec3 *corner = dive->corner, *node = dive->shore.node;
+  int m = 0, n = bt__rest_nodes (dive, tether, i), there = 0;
+  double whole;
   bt_status status = bt__corners (dive, state, i, ends, &m, error);
   if (status != BT_OK)
     return status;
@@ -331,53 +242,15 @@ bt__lay_chain_among (bt_dive *dive, bt__state *state, int i, const bt__ends *end
   status = bt__trace_rest (dive, state, i, ends, n, error);
   if (status != BT_OK)
     return status;
-  allot (corner, m, node, dive->shore.share, n);
-  there = gets_there (dive, state, i, node, n);
+  allot (corner, m, node, n);
+  whole = bt__length (node, (uint32_t)n + 1);
+  status = bt__lead_to_rest (dive, state, i, node, n, &there, error);
+  if (status != BT_OK)
+    return status;
+  if (!there && whole > ENOUGH * tether->length)
+    allot (corner, m, node, n);
   if (!there)
-    allot (corner, m, dive->polyline, dive->shore.share, n);
+    take_nodes (dive, state, i, node, n);
   status = bt__begin_chain (dive, state, i, ends, n, there ? NULL : dive->shore.share, error);
-  return status == BT_OK && !there ? fall (dive, state, i, ends, error) : status;
-}
-
-/* ---- Dragging ---- */
-
-static bt_vec3
-toward (bt_vec3 from, bt_vec3 to)
-{
-  double way = bt__distance (from, to), most = DRAG_SPEED * BT__TIME_STEP;
-  return way <= most ? to : bt__axpy (from, most / way, bt__sub (to, from));
-}
-
-static double
-way_left (const bt__ends *at, const bt__ends *to)
-{
-  return bt__distance (at->a, to->a) + bt__distance (at->b, to->b);
-}
-
-bt_status
-bt__drag_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
-{
-  bt__tether *tether = bt__dive_tether (dive, state, i);
-  bt__ends at = { tether->shape.a, tether->shape.b };
-  bt__dynamic_report report;
-  bt_status status = BT_OK;
-  bt__pin kept[2];
-  double least = INFINITY, left;
-  int idle = 0;
-  keep_pins (dive, i, kept, 0);
-  for (int k = 0; k < 2; k++)
-    bt__bring_end (dive, state, i, k, k == 0 ? at.a : at.b);
-  pin_ends (dive, state, i, BT__PIN_SOFT);
-  while (status == BT_OK && idle < DRAG_TRIES && (left = way_left (&at, ends)) > 0)
-    {
-      idle = left > least - DRAG_LEAST ? idle + 1 : 0;
-      least = fmin (least, left);
-      bt__ends next = { toward (at.a, ends->a), toward (at.b, ends->b) };
-      bt__bring_end (dive, state, i, 0, next.a);
-      bt__bring_end (dive, state, i, 1, next.b);
-      status = step_to (dive, state, i, &next, &report, error);
-      at = bt__tether_ends (dive, state, i);
-    }
-  keep_pins (dive, i, kept, 1);
-  return status == BT_OK ? fall (dive, state, i, &at, error) : status;
+  return status == BT_OK && !there ? bt__fall (dive, state, i, ends, error) : status;
 }

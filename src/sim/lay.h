@@ -5,6 +5,7 @@
 #ifndef BT_SIM_LAY_H
 #define BT_SIM_LAY_H
 
+#include "contact/touch.h"
 #include "sim/sim.h"
 
 /* Put the corners of tether I on the dive's polyline: of the shape it has, a corner left out where
@@ -16,6 +17,19 @@ bt_status bt__corners (bt_dive *dive, bt__state *state, int i, const bt__ends *e
 /* Nonzero if nothing is between the moving line of tether I and the N + 1 points on the dive's
    polyline, equally spaced along it.  */
 int bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n);
+
+/* The distance of LINK to the nearest of what is AROUND, at most CAP; *NEAR: what that is, if it is
+   nearer.  */
+double bt__room_about (bt_dive *dive, const bt__surroundings *around, const bt__link *link,
+                       double cap, bt__near *near);
+
+/* Lead the N + 1 nodes X of tether I toward the points on the dive's polyline, and no farther than
+   they are as long as the tether; *THERE: true if they came to all of them (lay_way.c).  */
+bt_status bt__lead_to_rest (bt_dive *dive, bt__state *state, int i, bt_vec3 *x, int n, int *there,
+                            bt_error *error);
+
+/* Let the moving line of tether I fall into place between ENDS, the clock standing (lay_fall.c). */
+bt_status bt__fall (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error);
 
 /* Lay the moving line of tether I along its corners and let it fall into place, the clock
    standing.  */

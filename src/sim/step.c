@@ -105,8 +105,8 @@ fill (const bt_dive *dive, bt__state *state)
 }
 
 bt_status
-bt_dive_new (bt_model *model, bt_current_function function, void *user, bt_dive **out,
-             bt_error *error)
+bt_dive_new_polled (bt_model *model, bt_current_function function, void *user, bt_poll poll,
+                    void *poll_user, bt_dive **out, bt_error *error)
 {
   bt_dive *dive;
   bt_status status;
@@ -117,6 +117,7 @@ bt_dive_new (bt_model *model, bt_current_function function, void *user, bt_dive 
     return status;
   dive->function = function;
   dive->user = user;
+  bt_dive_set_poll (dive, poll, poll_user);
   fill (dive, bt__dive_begin (dive));
   bt__hold_at_tethers (dive, dive->next, dive->next);
   if (bt__has_obstacles (dive))
@@ -130,6 +131,13 @@ bt_dive_new (bt_model *model, bt_current_function function, void *user, bt_dive 
   bt__dive_commit (dive);
   *out = dive;
   return BT_OK;
+}
+
+bt_status
+bt_dive_new (bt_model *model, bt_current_function function, void *user, bt_dive **out,
+             bt_error *error)
+{
+  return bt_dive_new_polled (model, function, user, NULL, NULL, out, error);
 }
 
 /* ---- Step ---- */

@@ -67,8 +67,9 @@ make_tools (bt_dive *dive, bt_error *error)
   dive->polyline = calloc (points, sizeof *dive->polyline);
   dive->along = calloc (points, sizeof *dive->along);
   dive->motion = calloc (points, sizeof *dive->motion);
+  dive->corner = calloc (points, sizeof *dive->corner);
   if (!dive->tools.search || !dive->tools.steady || !dive->work || !dive->polyline || !dive->motion
-      || !dive->along)
+      || !dive->corner || !dive->along)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the solvers of a dive");
   return BT_OK;
 }
@@ -246,6 +247,7 @@ bt_dive_free (bt_dive *dive)
   bt__dynamic_work_free (dive->work);
   free (dive->polyline);
   free (dive->motion);
+  free (dive->corner);
   free (dive->along);
   free (dive->driven);
   free (dive->sea);
@@ -286,6 +288,21 @@ bt_dive_set_current_function (bt_dive *dive, bt_current_function function, void 
 {
   dive->function = function;
   dive->user = user;
+}
+
+void
+bt_dive_set_poll (bt_dive *dive, bt_poll poll, void *user)
+{
+  dive->poll = poll;
+  dive->poll_user = user;
+}
+
+bt_status
+bt__poll (const bt_dive *dive, double share, bt_error *error)
+{
+  if (!dive->poll || !dive->poll (dive->poll_user, share))
+    return BT_OK;
+  return bt__fail (error, BT_ERR_INTERRUPTED, "interrupted; nothing has changed");
 }
 
 int

@@ -125,6 +125,7 @@ struct bt_dive
   bt__dynamic_work *work; /* of the moving line */
   bt_vec3 *polyline;      /* room for the points of any tether */
   bt_vec3 *motion;        /* room for a velocity at each */
+  bt_vec3 *corner;        /* room for as many points again */
   double *along;          /* room for a number at each */
   bt_sea *sea;            /* beside the current: in the next state, and in the present */
   bt__driven *driven;     /* of each vehicle */
@@ -133,6 +134,8 @@ struct bt_dive
   bt_profile profile;
   bt_current_function function;
   void *user;
+  bt_poll poll; /* asked in long calls; NULL: nobody is */
+  void *poll_user;
   double wished; /* s: time asked for and not yet stepped */
   int n_tracks;
   bt__track *tracks[BT__TRACKS_MAX];
@@ -153,6 +156,9 @@ bt__state_body (const bt_dive *dive, bt__state *state)
 {
   return dive->lane && state == dive->next ? dive->lane->body : (char *)(state + 1);
 }
+
+/* Ask whoever called whether to go on, SHARE of the work being done; BT_ERR_INTERRUPTED.  */
+bt_status bt__poll (const bt_dive *dive, double share, bt_error *error);
 
 /* Views into STATE.  */
 static inline bt__vehicle *

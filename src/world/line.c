@@ -9,6 +9,16 @@
 
 #define FOLLOWED 1e-4 /* m: a line so near to where its winch stands has followed it */
 
+/* The polyline of tether I, held, if the line is not where its shape has it; or if other points
+   than the shape's own were kept clear of obstacles.  */
+static const bt__polyline *
+held_line (const bt_dive *dive, bt__state *state, int i)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  const bt__polyline *held = bt__dive_held (dive, state, i);
+  return tether->blocked || held->n != tether->props.nodes + 1 ? held : NULL;
+}
+
 bt__line
 bt__line_of (const bt_dive *dive, bt__state *state, int i)
 {
@@ -21,8 +31,8 @@ bt__line_of (const bt_dive *dive, bt__state *state, int i)
     }
   if (line.tether->drape == BT__DRAPE_SPANS)
     line.split = bt__dive_thesis (dive, state, i);
-  else if (line.tether->drape == BT__DRAPE_HELD && line.tether->blocked)
-    line.held = bt__dive_held (dive, state, i);
+  else if (line.tether->drape == BT__DRAPE_HELD)
+    line.held = held_line (dive, state, i);
   line.nodes = bt__dive_nodes (dive, state, i);
   line.tensions = bt__dive_tensions (dive, state, i);
   return line;

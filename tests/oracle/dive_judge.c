@@ -305,7 +305,9 @@ static void
 judge_stretch (judge *j, const bt_dive *dive, int i)
 {
   bt__line line = bt__line_of (dive, dive->now, i);
-  const bt__polyline *p = line.split ? bt__thesis_line (line.split) : line.held;
+  const bt__polyline *p = line.split             ? bt__thesis_line (line.split)
+                          : line.tether->blocked ? line.held
+                                                 : NULL; /* the shape may still be looked for */
   double most = 0;
   for (int64_t k = 0; p && k + 1 < p->n; k++)
     {
@@ -314,7 +316,7 @@ judge_stretch (judge *j, const bt_dive *dive, int i)
       most = fmax (most, (bt__distance (x[k], x[k + 1]) - 1e-9) / fmax (u[k + 1] - u[k], 1e-12));
     }
   j->stretch = fmax (j->stretch, most);
-  j->stretched += most > 1.01;
+  j->stretched += most > j->most_stretch;
 }
 
 static int
@@ -385,6 +387,7 @@ begin_judging (judge *j, const scene *s, const bt_dive *dive)
   j->is = calloc (1, sizeof *j->is);
   assert_non_null (j->was);
   assert_non_null (j->is);
+  j->most_stretch = 1.01;
   j->least = j->least_hull = INFINITY;
   look (dive, j->is);
 }

@@ -35,7 +35,7 @@ typedef struct judge
   uint8_t excused_hull[2][OBSTACLES];
   long looks, crossings, stretched, apart, not_finite;
   double least, least_hull; /* m: beyond half the radius; beyond touch */
-  double stretch;
+  double stretch, most_stretch; /* of a link; what is allowed */
   int in_step; /* not an operation */
 } judge;
 

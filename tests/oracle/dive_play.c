@@ -49,6 +49,8 @@ do_something (bt_dive *dive, judge *j, dice *d, habits h)
   int v = dice_below (d, bt_dive_count (dive, BT_PART_VEHICLE));
   int t = dice_below (d, bt_dive_count (dive, BT_PART_TETHER));
   bt_vec3 p = somewhere (j, d);
+  if (h.models > 1 && dice_below (d, h.models) == 0)
+    take_model (dive, t, (bt_model_kind)dice_below (d, BT_MODEL_AUTO + 1));
   switch (dice_below (d, 9))
     {
     case 0:
@@ -119,6 +121,8 @@ fly (const scene *s, uint64_t seed, habits h, int acts, int steps, const char *n
   dice d = dice_new (seed + other_seeds ());
   judge j;
   begin_judging (&j, s, dive);
+  if (h.models > 1)
+    j.most_stretch = INFINITY; /* links of a shape that is still looked for may be any length */
   live (dive, &j, &d, h, acts * longer (), steps);
   print_message ("# %s: %ld looks, clearance beyond the core %.3g m, hull %.3g m, stretch %.6g\n",
                  name, j.looks, j.least, j.least_hull, j.stretch);

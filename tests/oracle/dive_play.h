@@ -8,7 +8,8 @@
 #include "dive_judge.h"
 
 /* What he does besides driving, moving at 20 m/s and flying to places: jumps of 20 m, the winch,
-   other models, cuts, pairs off and on (which the judge then leaves alone).  */
+   other models, N above 1: before one act in N besides, cuts, pairs off and on (which the judge
+   then leaves alone).  */
 typedef struct habits
 {
   int jumps, winch, models, cut, pairs;

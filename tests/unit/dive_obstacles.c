@@ -107,6 +107,28 @@ other_models_while_wound (void **state)
     }
 }
 
+/* Members as thin as ropes among which a line of few nodes changes its model in flight: its new
+   shape is nowhere near its old one.  */
+static void
+other_models_with_few_nodes (void **state)
+{
+  static const int nodes[] = { 2, 3, 4, 6, 8, 16, 32, 64 };
+  (void)state;
+  for (size_t k = 0; k < sizeof nodes / sizeof *nodes; k++)
+    for (int model = 0; model <= BT_MODEL_AUTO; model++)
+      {
+        scene s;
+        begin_scene (&s, (bt_model_kind)model);
+        add_post (&s, "capsule", "rope", bt__vec (0, -5, -7), bt__vec (1, 0, 0), 0.02);
+        add_post (&s, "cylinder", "rod", bt__vec (1, -2, 0), bt__vec (0, 0, 1), 0.05);
+        add_post (&s, "capsule", "stay", bt__vec (-3, 0, -9), bt__vec (0.6, 0, 0.8), 0.03);
+        s.tether[0].props.nodes = nodes[k];
+        s.tether[0].props.wet_weight = 2 * ((int)k % 3 - 1);
+        fly (&s, 5700 + 8 * k + (uint64_t)model,
+             (habits){ .winch = 1, .models = 3, .jumps = model % 2 }, 24, 12, model_names[model]);
+      }
+}
+
 /* ---- A yard: walls, boxes, balls, a bed, triangles ---- */
 
 static const bt_vec3 sheet_point[]
@@ -287,6 +309,7 @@ main (void)
     cmocka_unit_test (masses),
     cmocka_unit_test (two_tethers),
     cmocka_unit_test (other_models_while_wound),
+    cmocka_unit_test (other_models_with_few_nodes),
     cmocka_unit_test (yard),
     cmocka_unit_test (taut_along_a_wall),
   };

@@ -1,0 +1,159 @@
+/* A moving line that falls into place, or is dragged there through the water, the clock standing.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+
+#include "math/vec.h"
+#include "sim/around.h"
+#include "sim/chain.h"
+#include "sim/lay.h"
+
+/* A line that falls into place is given so long, or so many steps of a node if that is less, and
+   rests below so much.  */
+#define FALL 20.0     /* s */
+#define FALL_WORK 2e5 /* steps times nodes */
+#define AT_REST 5e-3  /* m/s */
+
+#define DRAG_SPEED 3.0 /* m/s */
+enum
+{
+  DRAG_TRIES = 30 /* steps without getting nearer */
+};
+#define DRAG_LEAST 1e-4 /* m a step */
+
+/* ---- Falling into place ---- */
+
+static void
+pin_ends (bt_dive *dive, bt__state *state, int i, int how)
+{
+  for (int k = 0; k < 2; k++)
+    {
+      int vehicle = dive->model->ends[i][k].vehicle;
+      if (vehicle >= 0)
+        {
+          const bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
+          dive->shore.pin[vehicle] = (bt__pin){ how, v->position, v->body };
+        }
+    }
+}
+
+/* Take what the ends of tether I are pinned by from KEPT, or with TAKE zero put it there.  */
+static void
+keep_pins (bt_dive *dive, int i, bt__pin kept[2], int take)
+{
+  for (int k = 0; k < 2; k++)
+    {
+      int vehicle = dive->model->ends[i][k].vehicle;
+      if (vehicle >= 0 && take)
+        dive->shore.pin[vehicle] = kept[k];
+      else if (vehicle >= 0)
+        kept[k] = dive->shore.pin[vehicle];
+    }
+}
+
+/* The part of a parted line that hangs from the far end.  */
+static bt_status
+step_far (bt_dive *dive, bt__state *state, int i, bt__dynamic_input input,
+          bt__dynamic_report *report, bt_error *error)
+{
+  bt__dynamic_lump lumps[BT_LUMPS_MAX];
+  double length = bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
+  bt__fasten (dive, i, 0, length, &input, lumps);
+  input.end[0] = (bt__dynamic_end){ .free = 1 };
+  return bt__step_among (dive, state, i, 1, &input, report, error);
+}
+
+static bt_status
+step_to (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt__dynamic_report *report,
+         bt_error *error)
+{
+  bt_water water = bt__dive_water (dive, state);
+  bt__dynamic_lump lumps[BT_LUMPS_MAX];
+  bt__dynamic_input input = bt__chain_input (dive, state, i, &water, ends);
+  bt__dynamic_report far = { 0 };
+  double from = 0;
+  bt_status status = BT_OK;
+  if (bt__dive_tether (dive, state, i)->parted)
+    {
+      from = bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
+      status = step_far (dive, state, i, input, &far, error);
+      input.end[1] = (bt__dynamic_end){ .free = 1 };
+    }
+  bt__fasten (dive, i, from, INFINITY, &input, lumps);
+  if (status == BT_OK)
+    status = bt__step_among (dive, state, i, 0, &input, report, error);
+  report->speed = fmax (report->speed, far.speed);
+  return status;
+}
+
+bt_status
+bt__fall (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt__pin kept[2];
+  bt__dynamic_report report = { .speed = INFINITY };
+  bt_status status = BT_OK;
+  int64_t nodes = bt__dive_chain (dive, state, i, 0)->n + 1;
+  int steps = (int)fmin (FALL / BT__TIME_STEP, ceil (FALL_WORK / (double)nodes));
+  keep_pins (dive, i, kept, 0);
+  pin_ends (dive, state, i, BT__PIN_HARD);
+  for (int k = 0; status == BT_OK && k < steps && report.speed > AT_REST; k++)
+    {
+      status = step_to (dive, state, i, ends, &report, error);
+      if (status == BT_OK)
+        status = bt__poll (dive, (double)k / steps, error);
+    }
+  keep_pins (dive, i, kept, 1);
+  for (int part = 0; part <= (tether->parted != 0); part++)
+    bt__dynamic_still (bt__dive_chain (dive, state, i, part));
+  tether->shape.a = ends->a;
+  tether->shape.b = ends->b;
+  tether->quiet = 0;
+  return status;
+}
+
+/* ---- Dragging ---- */
+
+static bt_vec3
+toward (bt_vec3 from, bt_vec3 to)
+{
+  double way = bt__distance (from, to), most = DRAG_SPEED * BT__TIME_STEP;
+  return way <= most ? to : bt__axpy (from, most / way, bt__sub (to, from));
+}
+
+static double
+way_left (const bt__ends *at, const bt__ends *to)
+{
+  return bt__distance (at->a, to->a) + bt__distance (at->b, to->b);
+}
+
+bt_status
+bt__drag_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt__ends at = { tether->shape.a, tether->shape.b };
+  bt__dynamic_report report;
+  bt_status status = BT_OK;
+  bt__pin kept[2];
+  double whole = way_left (&at, ends), least = INFINITY, left;
+  int idle = 0;
+  keep_pins (dive, i, kept, 0);
+  for (int k = 0; k < 2; k++)
+    bt__bring_end (dive, state, i, k, k == 0 ? at.a : at.b);
+  pin_ends (dive, state, i, BT__PIN_SOFT);
+  while (status == BT_OK && idle < DRAG_TRIES && (left = way_left (&at, ends)) > 0)
+    {
+      idle = left > least - DRAG_LEAST ? idle + 1 : 0;
+      least = fmin (least, left);
+      bt__ends next = { toward (at.a, ends->a), toward (at.b, ends->b) };
+      bt__bring_end (dive, state, i, 0, next.a);
+      bt__bring_end (dive, state, i, 1, next.b);
+      status = step_to (dive, state, i, &next, &report, error);
+      if (status == BT_OK)
+        status = bt__poll (dive, 1 - left / whole, error);
+      at = bt__tether_ends (dive, state, i);
+    }
+  keep_pins (dive, i, kept, 1);
+  return status == BT_OK ? bt__fall (dive, state, i, &at, error) : status;
+}
