@@ -153,14 +153,18 @@ is asked before the first step and after each.  Return its value, or #f when it 
   "Let time pass until no tether moves more than WITHIN metres in a second, at most AT-MOST seconds.
 Return #t when it came to rest."
   (let* ((engine (this-engine 'settle!))
-         (second (steps-in engine 1)))
-    (let loop ((left (steps-in engine at-most)) (before (shapes engine)))
-      (if (< left second)
-          #f
-          (begin
-            (advance! 'settle! second)
-            (let* ((engine (this-engine 'settle!)) ; a pilot may wake up in a fork
-                   (after (shapes engine)))
-              (if (and (all-settled? engine) (<= (largest-move before after) within))
-                  #t
-                  (loop (- left second) after))))))))
+         (second (steps-in engine 1))
+         (most (steps-in engine at-most)))
+    (with-progress most
+      (lambda (report)
+        (let loop ((left most) (before (shapes engine)))
+          (report (- most left))
+          (if (< left second)
+              #f
+              (begin
+                (advance! 'settle! second)
+                (let* ((engine (this-engine 'settle!)) ; a pilot may wake up in a fork
+                       (after (shapes engine)))
+                  (if (and (all-settled? engine) (<= (largest-move before after) within))
+                      #t
+                      (loop (- left second) after))))))))))

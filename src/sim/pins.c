@@ -10,7 +10,8 @@
 #include "sim/chain.h"
 #include "world/line.h"
 
-#define SAME 1e-9 /* m */
+#define SAME 1e-9   /* m */
+#define AT_END 5e-6 /* m: as near to its vehicle as the step of a moving line holds its end */
 
 static int
 is_at (bt_vec3 p, bt_vec3 q)
@@ -173,6 +174,15 @@ draw_back (bt_vec3 p, bt_vec3 before, bt_vec3 *at)
   return 1;
 }
 
+/* True if tether I, a moving line, has its end at END for HERE: so near to its vehicle that the
+   step need not be taken again.  */
+static int
+holds_end (const bt_dive *dive, bt__state *state, int i, bt_vec3 end, bt_vec3 here)
+{
+  return bt__dive_tether (dive, state, i)->shape.form == BT__FORM_CHAIN
+         && bt__distance (end, here) <= AT_END;
+}
+
 /* Draw *AT back to where the ends of the tethers of VEHICLE let it be; nonzero if that is another
    place.  Where a body follows a line they are as near as the step is exact.  */
 static int
@@ -187,7 +197,7 @@ draw_back_to_ends (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 b
             || (k == 1 && bt__carried_vehicle (dive, state, i) == vehicle))
           continue;
         bt_vec3 end = end_of (dive, state, i, k);
-        if (!is_at (end, here))
+        if (!is_at (end, here) && !holds_end (dive, state, i, end, here))
           differ |= draw_back (place_for (dive, state, vehicle, end), before, at);
       }
   return differ;

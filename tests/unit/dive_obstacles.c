@@ -260,6 +260,38 @@ taut_along_a_wall (void **state)
     }
 }
 
+/* A moving line that pulls a vehicle about among posts is solved once a step, but where it is held
+   back.  */
+static void
+solved_once (void **state)
+{
+  (void)state;
+  for (int model = BT_MODEL_DYNAMIC; model <= BT_MODEL_AUTO; model++)
+    {
+      scene s;
+      bt_profile work;
+      dice d = dice_new (5);
+      begin_scene (&s, (bt_model_kind)model);
+      plant_wood (&s);
+      give_hull (&s, 0, bt__vec (0.5, 0.8, 0.4));
+      s.tether[0].props.response = BT_RESPONSE_PHYSICAL;
+      bt_dive *dive = enter (&s);
+      for (int k = 0; k < 20; k++)
+        {
+          bt_vec3 p = dice_point (&d, 8);
+          operate (dive, BT_OP_MOVE, 0, 4, (double[]){ p.x, p.y, p.z - 8, 1.5 });
+          for (int i = 0; i < 60; i++)
+            assert_true (step (dive));
+        }
+      bt_dive_profile (dive, &work);
+      print_message ("# %s: solved %.3f times a step\n", model_names[model],
+                     (double)work.chain_steps / (double)work.steps);
+      assert_true (work.chain_steps + work.chain_sleeps >= work.steps);
+      assert_true ((double)work.chain_steps < 1.25 * (double)work.steps);
+      bt_dive_free (dive);
+    }
+}
+
 /* ---- Mutants ---- */
 
 static void
@@ -312,6 +344,7 @@ main (void)
     cmocka_unit_test (other_models_with_few_nodes),
     cmocka_unit_test (yard),
     cmocka_unit_test (taut_along_a_wall),
+    cmocka_unit_test (solved_once),
   };
   return cmocka_run_group_tests_name ("dive_obstacles", tests, NULL, NULL);
 }
