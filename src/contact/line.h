@@ -79,6 +79,11 @@ size_t bt__anchors_live (const bt__anchors *anchors);
 void bt__anchors_init (bt__anchors *anchors, int room);
 bt__anchor *bt__anchors_at (const bt__anchors *anchors);
 
+extern const bt__record bt__anchor_record, bt__anchors_record;
+
+/* Judge ANCHORS, which were allotted room for ROOM and come from outside.  */
+bt_status bt__anchors_judge (bt__judge *judge, const bt__anchors *anchors, int room);
+
 /* ---- A step ---- */
 
 typedef struct bt__line_work bt__line_work;

@@ -15,6 +15,7 @@
 
 #include <bight/status.h>
 
+#include "base/record.h"
 #include "contact/touch.h"
 
 /* Flat; X[room], then U[room] follow the head.  What is beyond N is zero.  */
@@ -80,6 +81,11 @@ bt__polyline_u (bt__polyline *line)
 {
   return (double *)(bt__polyline_x (line) + line->room);
 }
+
+extern const bt__record bt__polyline_record;
+
+/* Judge LINE, which was allotted ROOM nodes and comes from outside.  */
+bt_status bt__polyline_judge (bt__judge *judge, const bt__polyline *line, uint32_t room);
 
 /* BT_ERR_LIMIT.  */
 bt_status bt__polyline_work_new (uint32_t room, uint32_t movers, bt__polyline_work **out,

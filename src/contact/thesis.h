@@ -151,6 +151,11 @@ bt__span *bt__thesis_spans (const bt__thesis *state); /* state->spans of them */
 bt_status bt__thesis_lay (bt__thesis *state, uint32_t nodes, const bt_vec3 *points, uint32_t n,
                           double length, bt_error *error);
 
+extern const bt__record bt__split_record, bt__span_record, bt__thesis_record;
+
+/* Judge S, which was allotted bt__thesis_size (NODES) bytes and comes from outside.  */
+bt_status bt__thesis_judge (bt__judge *judge, const bt__thesis *s, uint32_t nodes);
+
 /* ---- The step ---- */
 
 /* Bring STATE as near to INPUT as the obstacles let it.  On failure, which only the solving of a

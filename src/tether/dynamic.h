@@ -31,6 +31,8 @@
 #include <bight/vec.h>
 #include <bight/water.h>
 
+#include "base/record.h"
+
 /* ---- The state ---- */
 
 /* How far a line went, or may go: no less than the most that ...  */
@@ -96,6 +98,12 @@ bt__stiffness (double ea)
    BT_ERR_DOMAIN.  */
 bt_status bt__dynamic_init (bt__dynamic *d, int n_max, int n, const bt_vec3 *shape, int m,
                             double length, double ea, bt_error *error);
+
+extern const bt__record bt__dynamic_record;
+
+/* Judge the block D, which was allotted room for ROOM intervals and comes from outside; tell the
+   whole of it as seen.  What the functions above need of a block holds if it is sound.  */
+bt_status bt__dynamic_judge (bt__judge *judge, const bt__dynamic *d, int room);
 
 /* Take all motion out of D and forget its history.  */
 void bt__dynamic_still (bt__dynamic *d);

@@ -15,6 +15,8 @@
 #include <bight/tether.h>
 #include <bight/water.h>
 
+#include "base/record.h"
+
 typedef enum bt__form
 {
   BT__FORM_STRAIGHT = 0,
@@ -62,6 +64,14 @@ typedef struct bt__shape_memory
   double search_a, search_xs; /* last answer of the thesis' search; search_a = 0: none */
   bt_vec3 pull;               /* last tension vector at the anchor (steady); zero: none */
 } bt__shape_memory;
+
+extern const bt__record bt__shape_record, bt__shape_memory_record;
+
+/* Judge what the tables do not know of SHAPE, whose members were judged, with nodes for ROOM
+   intervals; those nodes and their tensions.  */
+bt_status bt__shape_judge (bt__judge *judge, const bt__shape *shape, int64_t room);
+bt_status bt__shape_judge_nodes (bt__judge *judge, const bt_vec3 *nodes, const bt_vec3 *tensions,
+                                 int64_t room);
 
 /* Workspaces a solve may use; each is NULL unless the scene has a tether that needs it.  */
 typedef struct bt__shape_tools

@@ -29,6 +29,7 @@
 
 #include <stdint.h>
 
+#include "base/record.h"
 #include "vehicle/frame.h"
 #include "vehicle/type.h"
 
@@ -43,6 +44,8 @@ typedef struct bt__rigid
   double thrust[BT__THRUSTERS_MAX]; /* N: now */
   bt_vec3 pull; /* N: F of the last step; at the start that of the line as it was laid */
 } bt__rigid;
+
+extern const bt__record bt__quat_record, bt__rigid_record;
 
 /* What surrounds it in a step.  All zero: nothing does.  */
 typedef struct bt__rigid_input

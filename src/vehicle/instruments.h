@@ -11,6 +11,7 @@
 
 #include <bight/instruments.h>
 
+#include "base/record.h"
 #include "vehicle/frame.h"
 
 /* The instruments of a vehicle: flat.  Noises are standard deviations; zero is a perfect one.  */
@@ -29,6 +30,8 @@ typedef struct bt__instruments
   double tension_noise;  /* N */
   double counter_noise;  /* m */
 } bt__instruments;
+
+extern const bt__record bt__instruments_record;
 
 /* The truth that they look at.  */
 typedef struct bt__truth

@@ -15,6 +15,7 @@
 
 #include <stdint.h>
 
+#include "base/record.h"
 #include "vehicle/frame.h"
 #include "vehicle/type.h"
 
@@ -48,6 +49,8 @@ typedef struct bt__pilot
   double sum[BT__AXES];      /* integrals: N along x, y, z of the world, N m of roll, pitch, yaw */
   int64_t full;              /* nonzero: the thrusters gave all they could in the last step */
 } bt__pilot;
+
+extern const bt__record bt__pilot_record;
 
 /* What a pilot knows of the vehicle: from its state, or from its instruments.  */
 typedef struct bt__fix

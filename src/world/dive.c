@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "world/judge.h"
 #include "world/lanes.h"
 #include "world/layout.h"
 #include "world/watch.h"
@@ -368,6 +369,7 @@ bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error)
 {
   bt__state *next = dive->next;
   uint64_t checksum;
+  bt_status status;
   if (size != dive->size)
     return bt__fail (error, BT_ERR_STALE, "a state of this dive has %zu bytes, not %zu", dive->size,
                      size);
@@ -377,10 +379,14 @@ bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error)
   if (next->magic != magic || next->size != size || !bt__layout_fits (dive, next)
       || checksum != bt__hash_state (dive, next))
     return bt__fail (error, BT_ERR_FORMAT, "these bytes are not a state as it was saved");
-  if (next->model_id != dive->model->id || !knows_tracks (dive, next))
+  if (next->model_id != dive->model->id)
     return bt__fail (error, BT_ERR_STALE, "this checkpoint belongs to another dive");
-  bt__dive_commit (dive);
-  return BT_OK;
+  status = bt__state_judge (dive, next, error);
+  if (status == BT_OK && !knows_tracks (dive, next))
+    status = bt__fail (error, BT_ERR_STALE, "this checkpoint belongs to another dive");
+  if (status == BT_OK)
+    bt__dive_commit (dive);
+  return status;
 }
 
 /* ---- Parts ---- */

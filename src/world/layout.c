@@ -277,6 +277,17 @@ bt__hash_state (const bt_dive *dive, const bt__state *state)
   return h;
 }
 
+size_t
+bt__live_size (const bt_dive *dive, const bt__state *state)
+{
+  extent live[EXTENTS];
+  size_t size = fixed_size (dive);
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    for (int k = live_extents (dive, state, i, live); k-- > 0;)
+      size += live[k].size;
+  return size;
+}
+
 int
 bt__layout_fits (const bt_dive *dive, const bt__state *state)
 {

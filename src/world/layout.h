@@ -24,6 +24,9 @@ int bt__anchor_room (const bt_model *model, const bt_tether_def *tether);
 void bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from);
 uint64_t bt__hash_state (const bt_dive *dive, const bt__state *state);
 
+/* Return how many bytes that are.  */
+size_t bt__live_size (const bt_dive *dive, const bt__state *state);
+
 /* Nonzero if all that STATE says is live lies within it: to be asked before it is hashed, of bytes
    that came from elsewhere.  */
 int bt__layout_fits (const bt_dive *dive, const bt__state *state);

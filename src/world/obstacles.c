@@ -117,6 +117,14 @@ bt__obstacle_slot (const bt_model *model, int obstacle)
   return where >= 0 ? where : model->n_obstacles - model->n_carried + (-1 - where);
 }
 
+/* Equal bytes, equal versions: whoever keeps what it knows of a scene goes by it.  */
+uint64_t
+bt__pairs_version (const bt_model *model, const uint8_t *off)
+{
+  size_t n = (size_t)bt__objects (model);
+  return memchr (off, 1, n) ? bt__hash (off, n, 1) | 1 : 0;
+}
+
 void
 bt__switch_pair (const bt_dive *dive, bt__state *state, bt_part part, int i, int obstacle, int on)
 {
@@ -128,8 +136,7 @@ bt__switch_pair (const bt_dive *dive, bt__state *state, bt_part part, int i, int
     memset (off, !on, n);
   else
     off[bt__obstacle_slot (model, obstacle)] = (uint8_t)!on;
-  /* Equal bytes, equal versions: whoever keeps what it knows of a scene goes by it.  */
-  subject->version = memchr (off, 1, n) ? bt__hash (off, n, 1) | 1 : 0;
+  subject->version = bt__pairs_version (model, off);
 }
 
 /* ---- Surroundings ---- */

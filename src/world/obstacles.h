@@ -48,6 +48,9 @@ double bt__dive_altitude (const bt_dive *dive, bt__state *state, int vehicle, bt
 void bt__switch_pair (const bt_dive *dive, bt__state *state, bt_part part, int i, int obstacle,
                       int on);
 
+/* Return the version of the bytes OFF, one for each object: a hash, 0 if all are on.  */
+uint64_t bt__pairs_version (const bt_model *model, const uint8_t *off);
+
 /* Note that the subject meets OBSTACLE in this step; forget what it has not met for a while, with
    the events `touched' and `left'.  */
 void bt__note_meeting (bt__state *state, bt__subject *subject, bt_part part, int i, int obstacle);
