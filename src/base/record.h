@@ -11,6 +11,7 @@
 #ifndef BT_BASE_RECORD_H
 #define BT_BASE_RECORD_H
 
+#include <float.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -98,10 +99,10 @@ typedef struct bt__record
     what, sizeof (s), table, sizeof (table) / sizeof *(table)                                      \
   }
 
-/* What no place, length or way in a dive comes near to, m; what no number of it does; how far
-   counts go, all of them whole doubles.  */
+/* What no place, length or way in a dive comes near to, m; all that is finite; how far counts go,
+   all of them whole doubles.  */
 #define BT__FAR 1e9
-#define BT__HUGE 1e300
+#define BT__HUGE DBL_MAX
 #define BT__MANY 9007199254740992.0
 
 /* Whoever judges a state: what its world has, whose part it is, and how much was looked at.  */

@@ -107,7 +107,7 @@ bt__thesis_aim (bt__thesis_job *j)
     {
       double size = j->span[k].length / even;
       int64_t have = bt__thesis_last (j, k) - bt__thesis_first (j, k), spares = 0;
-      int64_t ask = (int64_t)fmax (1, round (size));
+      int64_t ask = (int64_t)fmin (fmax (1, round (size)), j->line->room);
       if (size > COARSE * (double)have)
         refine (j, k, ask);
       else if (size < FINE * (double)have && ask < have)

@@ -45,6 +45,7 @@ redo (SCM object, SCM name, SCM subject, SCM args)
 {
   static const char *const who = "replay";
   bt_error unknown = { BT_ERR_NAME, "there is no such operation" };
+  SCM_ASSERT_TYPE (scm_is_true (scm_f64vector_p (args)), args, SCM_ARG4, who, "f64vector");
   size_t n = scm_c_array_length (args);
   const double *numbers = (const double *)SCM_BYTEVECTOR_CONTENTS (args);
   char *wanted = scm_to_utf8_string (scm_symbol_to_string (name));
@@ -98,6 +99,7 @@ add_track (SCM object, SCM rows)
 {
   bt_error error;
   int index;
+  SCM_ASSERT_TYPE (scm_is_true (scm_f64vector_p (rows)), rows, SCM_ARG2, "load-dive", "f64vector");
   bt__check ("load-dive",
              bt_dive_add_track (bt__to_idle_dive ("load-dive", object),
                                 (const double *)SCM_BYTEVECTOR_CONTENTS (rows),

@@ -2,6 +2,8 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <math.h>
+
 #include "sim/ops.h"
 #include "world/obstacles.h"
 
@@ -17,11 +19,16 @@ static bt_status
 check_numbers (const bt__call *c)
 {
   double part = c->args[0];
+  int objects = bt__objects (c->dive->model);
   if (part != BT_PART_SEA && part != BT_PART_VEHICLE && part != BT_PART_TETHER)
     return bt__fail (c->error, BT_ERR_NAME, "a vehicle or a tether meets obstacles, not a part %g",
                      part);
   if (c->args[2] != 0 && c->args[2] != 1)
     return bt__fail (c->error, BT_ERR_DOMAIN, "a pair is on, 1, or off, 0, not %g", c->args[2]);
+  if (!(c->args[1] >= -1 && c->args[1] < objects) || c->args[1] != floor (c->args[1]))
+    return bt__fail (c->error, BT_ERR_NAME,
+                     "what is met is an obstacle or a tether, 0 to %d, or all of them, -1, not %g",
+                     objects - 1, c->args[1]);
   if (part != BT_PART_SEA && bt__check_part (c->dive, (bt_part)part, c->subject, c->error) != BT_OK)
     return BT_ERR_NAME;
   if (tether_of (c) >= 0)
@@ -55,10 +62,11 @@ switch_itself (const bt__call *c)
 bt_status
 bt__op_collide (const bt__call *c)
 {
-  bt_part part = (bt_part)c->args[0];
   bt_status status = check_numbers (c);
+  bt_part part;
   if (status != BT_OK)
     return status;
+  part = (bt_part)c->args[0];
   if (c->dive->model->n_obstacles == 0)
     {
       switch_itself (c);

@@ -26,12 +26,25 @@ bt_current_pack (const bt_current *current, double *args)
   return n;
 }
 
+/* What a state keeps is finite, whether its kind looks at it or not.  */
+static bt_status
+check_finite (const bt__call *c, const char *what)
+{
+  for (int i = 0; i < c->n; i++)
+    if (!isfinite (c->args[i]))
+      return bt__fail (c->error, BT_ERR_DOMAIN, "number %d of %s is %g; all are finite", i + 1,
+                       what, c->args[i]);
+  return BT_OK;
+}
+
 static bt_status
 unpack_current (const bt__call *c, bt_current *current)
 {
   int kind = c->args[0] >= 0 && c->args[0] <= BT_CURRENT_GRID ? (int)c->args[0] : -1;
   if (kind < 0 || kind != c->args[0] || c->n % 4 != 0)
     return bt__fail (c->error, BT_ERR_FORMAT, "these %d numbers are not a current", c->n);
+  if (check_finite (c, "a current") != BT_OK)
+    return BT_ERR_DOMAIN;
   memset (current, 0, sizeof *current);
   current->kind = kind;
   current->turn_rate = c->args[1];
@@ -69,8 +82,12 @@ bt__op_waves (const bt__call *c)
   bt_status status;
   if (!(a[0] >= BT_WAVE_NONE && a[0] <= BT_WAVE_JONSWAP && fabs (a[7]) <= 1e15))
     return bt__fail (c->error, BT_ERR_FORMAT, "these numbers are not waves");
+  if (check_finite (c, "waves") != BT_OK)
+    return BT_ERR_DOMAIN;
   def.kind = (int64_t)a[0];
   def.seed = (int64_t)a[7];
+  if (def.kind == BT_WAVE_NONE)
+    memset (&def, 0, sizeof def);
   status = bt_waves_make (&def, c->state->depth, c->state->gravity, &waves, c->error);
   if (status != BT_OK)
     return status;

@@ -77,8 +77,8 @@ bt__op_fault (const bt__call *c)
   int on = c->args[1] != 0;
   if (!bt_fault_name ((bt_fault)fault))
     return bt__fail (c->error, BT_ERR_NAME, "there is no fault number %g", c->args[0]);
-  if (!isfinite (c->args[2]))
-    return bt__fail (c->error, BT_ERR_DOMAIN, "a fault of %g", c->args[2]);
+  if (bt__check_range (c, 2, "the value of a fault", -1e6, 1e6) != BT_OK)
+    return BT_ERR_DOMAIN;
   if (fault == BT_FAULT_THRUSTER)
     return break_thruster (c, on, c->args[2]);
   if (fault == BT_FAULT_COMPASS && on)

@@ -22,12 +22,12 @@ const bt__record bt__current_record = BT__RECORD (bt_current, "current", current
 
 static const bt__member wave[] = {
   BT__WITHIN (bt_wave_def, kind, BT_WAVE_NONE, BT_WAVE_JONSWAP),
-  BT__WITHIN (bt_wave_def, height, 0, BT__FAR),
-  BT__WITHIN (bt_wave_def, period, 0, BT__FAR),
-  BT__WITHIN (bt_wave_def, toward, -BT__FAR, BT__FAR),
-  BT__WITHIN (bt_wave_def, phase, -BT__FAR, BT__FAR),
-  BT__WITHIN (bt_wave_def, gamma, 0, BT__FAR),
-  BT__WITHIN (bt_wave_def, components, 0, BT_WAVES_MAX),
+  BT__WITHIN (bt_wave_def, height, -BT__HUGE, BT__HUGE),
+  BT__WITHIN (bt_wave_def, period, -BT__HUGE, BT__HUGE),
+  BT__WITHIN (bt_wave_def, toward, -BT__HUGE, BT__HUGE),
+  BT__WITHIN (bt_wave_def, phase, -BT__HUGE, BT__HUGE),
+  BT__WITHIN (bt_wave_def, gamma, -BT__HUGE, BT__HUGE),
+  BT__WITHIN (bt_wave_def, components, -BT__HUGE, BT__HUGE),
   BT__WITHIN (bt_wave_def, seed, -BT__MANY, BT__MANY),
 };
 const bt__record bt__wave_record = BT__RECORD (bt_wave_def, "waves as asked for", wave);
@@ -42,7 +42,7 @@ static const bt__member waves[] = {
   BT__WITHIN (bt_waves, amplitude, 0, BT__FAR),
   BT__WITHIN (bt_waves, speed, 0, BT__FAR),
   BT__WITHIN (bt_waves, bed, 0, 1),
-  BT__WITHIN (bt_waves, phase, -BT__FAR, BT__FAR),
+  BT__WITHIN (bt_waves, phase, -BT__HUGE, BT__HUGE),
 };
 const bt__record bt__waves_record = BT__RECORD (bt_waves, "waves", waves);
 
