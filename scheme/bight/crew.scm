@@ -11,6 +11,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight crew)
+  #:use-module ((bight datum) #:select (text->datum))
   #:use-module (bight record)
   #:use-module ((ice-9 rdelim) #:select (read-line))
   #:use-module (srfi srfi-1)
@@ -34,7 +35,7 @@
   (let ((line (read-line port)))
     (if (eof-object? line)
         line
-        (false-if-exception (call-with-input-string line read)))))
+        (text->datum line))))
 
 (define (open-pipe)
   ;; The two ends (IN . OUT) of a pipe for lines.

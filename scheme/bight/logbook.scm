@@ -8,6 +8,7 @@
 
 (define-module (bight logbook)
   #:use-module (bight database)
+  #:use-module ((bight datum) #:select (text->datum))
   #:use-module (bight dive)
   #:use-module (bight engine)
   #:use-module (bight errors)
@@ -165,7 +166,7 @@ what else is to be known.  Return the number of the entry."
 (define (row->entry row)
   (make-log-entry (first row) (string->symbol (second row)) (third row) (fourth row) (fifth row)
                   (sixth row)
-                  (call-with-input-string (seventh row) read)))
+                  (text->datum (seventh row))))
 
 (define-verb (logbook #:key (trainee (or-false string) #f)
                       (kind (or-false (one-of dive lesson probe)) #f))

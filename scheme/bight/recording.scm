@@ -403,19 +403,34 @@ when the world or the current is given by a procedure, io when a file cannot be 
                    (reverse hashes))))
     (if odd (car odd) otherwise)))
 
+(define most-steps 1000000)             ; that a recording takes without telling what came of them
+
+(define (check-step n last)
+  ;; Nothing vouches for N steps that follow LAST but the file: it could ask for more than a life has.
+  (unless (and (exact-integer? n) (<= 0 n (+ last most-steps)))
+    (bight-raise 'format 'replay "a line of the recording is at step ~s; from ~a it goes on to ~a at most"
+                 n last (+ last most-steps))))
+
 (define (replay-lines engine world lines)
   ;; Go through LINES; return #f, or the first difference.
-  (let ((hashes '()) (steps #f))
+  (let ((hashes '()) (steps #f) (told (%dive-steps engine)))
     (define (step-to! n)
+      (check-step n told)
       (let loop ()
         (when (< (%dive-steps engine) n)
           (%step-dive! engine 1)
           (set! hashes (acons (%dive-steps engine) (short-hash engine) hashes))
           (loop))))
+    (define (forget!)
+      ;; What came of the steps so far was told.
+      (set! hashes '())
+      (set! steps #f)
+      (set! told (%dive-steps engine)))
     (define (difference step what)
       (let ((step (first-odd-step steps hashes step)))
         (make-difference step (* step (%dive-time-step engine)) what)))
     (define (redo line)
+      (check-step (second line) told)
       (guard (e ((bight-error? e)
                  (difference (second line)
                              (list (simple-format #f "~a was done then and is refused now: ~a"
@@ -432,8 +447,7 @@ when the world or the current is given by a procedure, io when a file cannot be 
                            (differences (filter pair? (cdddr line))
                                         (if (eq? 'end (car line)) '() (quantities engine)))))
               (else
-               (set! hashes '())
-               (set! steps #f)
+               (forget!)
                #f))))
     (define (take-line line)
       (case (car line)
@@ -441,9 +455,8 @@ when the world or the current is given by a procedure, io when a file cannot be 
         ((second end) (compare line))
         ((steps) (set! steps line) #f)
         ((state)
-         (set! hashes '())
-         (set! steps #f)
          (restore-line! 'replay engine line)
+         (forget!)
          #f)
         (else #f)))
     (or-map take-line lines)))

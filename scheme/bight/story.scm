@@ -20,6 +20,7 @@
 
 (define-module (bight story)
   #:use-module (bight assembly)
+  #:use-module ((bight datum) #:select (text->datum))
   #:use-module (bight dive)
   #:use-module (bight engine)
   #:use-module (bight errors)
@@ -137,6 +138,19 @@
                              (all-fields part)))
                (world-parts world))))
 
+(define most-bytes (* 1024 1024 1024))  ; of a file that is read whole
+
+(define (check-readable proc name path)
+  ;; A device may have no end, and a pipe no beginning.
+  (let ((status (stat path)))
+    (case (stat:type status)
+      ((regular)
+       (when (> (stat:size status) most-bytes)
+         (bight-raise 'limit proc "~s has ~a bytes; at most ~a are read" name (stat:size status)
+                      most-bytes)))
+      ((directory) (bight-raise 'io proc "~s is a folder" name))
+      (else (bight-raise 'io proc "~s is a device, not a file" name)))))
+
 (define (file-bytes path)
   (let ((bytes (call-with-input-file path get-bytevector-all #:binary #t)))
     (if (eof-object? bytes) (make-bytevector 0) bytes)))
@@ -212,11 +226,8 @@ hold it."
 
 (define (parse bytes)
   ;; The datum of a line, or #f.
-  (guard (e (#t #f))
-    (call-with-input-string (utf8->string bytes)
-      (lambda (port)
-        (let ((datum (read port)))
-          (and (pair? datum) (list? datum) (symbol? (car datum)) datum))))))
+  (let ((datum (guard (e (#t #f)) (text->datum (utf8->string bytes)))))
+    (and (pair? datum) (list? datum) (symbol? (car datum)) datum)))
 
 (define (vouching? datum)
   ;; Does DATUM end in a checksum?
@@ -279,10 +290,7 @@ when it cannot be read, format when it is something else, cut off before it begi
 altered, version when it is of another version."
   (let ((bytes (catching-io proc file
                  (begin
-                   (when (file-is-directory? file)
-                     (bight-raise 'io proc "~s is a folder" file))
-                   (unless (eq? 'regular (stat:type (stat file))) ; a device may have no end
-                     (bight-raise 'io proc "~s is a device, not a file" file))
+                   (check-readable proc file file)
                    (file-bytes file)))))
     (first-datum proc file kind bytes)
     (call-with-values
@@ -300,19 +308,38 @@ altered, version when it is of another version."
   (take-while (lambda (line) (not (eq? 'begin (cadr line)))) (story-lines story)))
 
 (define (check-file proc world name size sum)
-  (let ((bytes (file-bytes (find-beside proc world name))))
-    (unless (and (eqv? size (bytevector-length bytes)) (equal? sum (hex (%checksum bytes 0))))
+  ;; It is read only if it has the size it had.
+  (let ((path (find-beside proc world name)))
+    (catching-io proc name (check-readable proc name path))
+    (unless (and (eqv? size (stat:size (stat path)))
+                 (equal? sum (hex (%checksum (file-bytes path) 0))))
       (bight-raise 'version proc "~s is not the file it was then" name))))
+
+(define (check-told proc story world)
+  ;; A file of which the story tells no checksum would be believed whatever it is, or never end.
+  (let ((told (map cadr (lines-of story 'file))))
+    (for-each (lambda (name)
+                (unless (member name told)
+                  (bight-raise 'format proc "it names the file ~s, and tells no checksum of it" name)))
+              (named-files world))))
 
 (define (the-line story head)
   ;; What follows HEAD in the only line of STORY's beginning that it leads.
   (cdr (first (lines-of story head))))
 
+(define (check-head proc told)
+  ;; The name of a world, what it is, and its file, each of which there may be none of.
+  (unless (and (= 3 (length told)) (every (lambda (is? value) (or (not value) (is? value)))
+                                          (list symbol? string? string?) told))
+    (bight-raise 'format proc "a world is told by its name, what it is and its file, not by ~s" told)))
+
 (define (told-world proc story)
-  (let* ((told (the-line story 'world))
-         (world (data->world (first told) (second told) (third told) (lines-of story 'part))))
-    (for-each (lambda (line) (apply check-file proc world (cdr line))) (lines-of story 'file))
-    world))
+  (let ((told (the-line story 'world)))
+    (check-head proc told)
+    (let ((world (data->world (first told) (second told) (third told) (lines-of story 'part))))
+      (check-told proc story world)
+      (for-each (lambda (line) (apply check-file proc world (cdr line))) (lines-of story 'file))
+      world)))
 
 (define (check-fresh proc story engine)
   ;; The same world must begin as it began then.
@@ -329,7 +356,7 @@ altered, version when it is of another version."
     (unless bytes
       (bight-raise 'version proc "its states are not those of bight ~a" (%version)))
     (guard (e ((bight-error? e)
-               (bight-raise 'version proc "its states are not those of bight ~a: ~a" (%version)
+               (bight-raise 'format proc "it holds no state that a dive can be in: ~a"
                             (bight-error-message e))))
       (%restore-dive! engine bytes))))
 

@@ -13,6 +13,7 @@
 
 (define-module (bight sweep-result)
   #:use-module (bight database)
+  #:use-module ((bight datum) #:select (text->datum))
   #:use-module (bight errors)
   #:use-module ((bight programs) #:select (check-writable))
   #:use-module (bight record)
@@ -111,7 +112,7 @@ x real, y real, z real" (columns (plan-fact plan 'measures)) ", primary key (key
 (define (found-plan database)
   "Return the plan of the result DATABASE."
   (make-plan (map (lambda (row)
-                    (cons (string->symbol (first row)) (call-with-input-string (second row) read)))
+                    (cons (string->symbol (first row)) (text->datum (second row))))
                   (%query database "select name, value from study order by rowid" '()))))
 
 (define (open-named file statements)

@@ -11,6 +11,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight sweep-worker)
+  #:use-module ((bight datum) #:select (text->datum))
   #:use-module ((bight expect) #:select (exception->line raised-kind))
   #:use-module (bight record)
   #:use-module (bight study-case)
@@ -82,7 +83,7 @@ or error and message."
 
 (define (written text)
   ;; What the process wrote, if it wrote all of it.
-  (let ((datum (false-if-exception (call-with-input-string text read))))
+  (let ((datum (text->datum text)))
     (and (list? datum) (every pair? datum) (assq 'status datum) datum)))
 
 (define (verdict study text status)

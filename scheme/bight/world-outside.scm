@@ -6,6 +6,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight world-outside)
+  #:use-module ((bight datum) #:select (text->datum))
   #:use-module (bight errors)
   #:use-module ((bight sandbox) #:select (ending-text))
   #:use-module (bight world-data)
@@ -31,9 +32,7 @@
                  (set-port-encoding! port "UTF-8")
                  (get-string-n port most-characters)))
          (status (close-pipe port)))
-    (values (catch #t
-              (lambda () (call-with-input-string (if (string? text) text "") read))
-              (const #f))
+    (values (text->datum (if (string? text) text ""))
             status)))
 
 (define (silent-end proc file status)
