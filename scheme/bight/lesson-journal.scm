@@ -5,8 +5,10 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson-journal)
+  #:use-module ((bight datum) #:select (plain-text?))
   #:use-module ((bight folders) #:select (ensure-folder! state-folder))
   #:use-module (bight lesson-order)
+  #:use-module ((ice-9 textual-ports) #:select (get-string-all))
   #:export (write-datum! the-end journal-file journal-inputs open-journal drop-journal!))
 
 (define (write-datum! datum port)
@@ -44,14 +46,19 @@
         (stat:size (stat (order-file order)))
         (seed-of (order-given order)) (level-of (order-given order))))
 
-(define (read-all file)
-  (call-with-input-file file
+(define (datums-of text)
+  ;; As far as they are whole: the last may be cut off.
+  (call-with-input-string text
     (lambda (port)
       (let loop ((all '()))
-        (let ((datum (catch 'read-error (lambda () (read port)) (const the-end))))
+        (let ((datum (catch #t (lambda () (read port)) (const the-end))))
           (if (eof-object? datum)
               (reverse all)
               (loop (cons datum all))))))))
+
+(define (read-all file)
+  (let ((text (call-with-input-file file get-string-all #:encoding "UTF-8")))
+    (if (plain-text? text) (datums-of text) '())))
 
 (define (journal-inputs order)
   "Return the inputs of the journal that fits ORDER, or none."

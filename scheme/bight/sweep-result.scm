@@ -109,11 +109,31 @@ x real, y real, z real" (columns (plan-fact plan 'measures)) ", primary key (key
   (%insert database "insert or replace into study values (?, ?)"
            (map (lambda (fact) (list (car fact) (object->string (cdr fact)))) (plan-facts plan))))
 
+(define (names? value)
+  (and (list? value) (every symbol? value)))
+
+(define (size? value)
+  (and (exact-integer? value) (<= 0 value 1000000000)))
+
+(define shapes                          ; what is built upon, and must be what it was written as
+  `((name . ,symbol?) (file . ,string?) (version . ,string?) (variables . ,names?) (measures . ,names?)
+    (legs . ,list?) (cases . ,size?)))
+
+(define (check-shapes plan)
+  (for-each (lambda (shape)
+              (let ((value (plan-fact plan (car shape))))
+                (unless ((cdr shape) value)
+                  (bight-raise 'format 'sweep "this result says of its study that its ~a is ~s, which no study has"
+                               (car shape) value))))
+            shapes)
+  plan)
+
 (define (found-plan database)
-  "Return the plan of the result DATABASE."
-  (make-plan (map (lambda (row)
-                    (cons (string->symbol (first row)) (text->datum (second row))))
-                  (%query database "select name, value from study order by rowid" '()))))
+  "Return the plan of the result DATABASE.  Raise format when it holds none."
+  (check-shapes
+   (make-plan (map (lambda (row)
+                     (cons (string->symbol (first row)) (text->datum (second row))))
+                   (%query database "select name, value from study order by rowid" '())))))
 
 (define (open-named file statements)
   ;; What SQLite says of a file does not name it.

@@ -91,8 +91,10 @@ int bt_dive_track (const bt_dive *dive, int i, const double **rows);
 size_t bt_dive_state_size (const bt_dive *dive); /* bytes */
 /* Copy the whole state to STATE, bt_dive_state_size bytes.  */
 void bt_dive_save (const bt_dive *dive, void *state);
-/* Return to STATE of SIZE bytes, saved from this dive or a fork.  BT_ERR_STALE when it is of
-   another model, BT_ERR_FORMAT when its bytes are not as saved.  */
+/* Return to STATE of SIZE bytes, saved from this dive or a fork, or read from a file that anybody
+   may have written: every member of it is judged before it is used.  BT_ERR_STALE when it is of
+   another model, or follows a track or a function that this dive does not have; BT_ERR_FORMAT when
+   its bytes are not as saved, or when a member is nothing that it can be: the text says which.  */
 bt_status bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error);
 /* Return a 64-bit hash of the whole state: equal states, equal hashes.  */
 uint64_t bt_dive_hash (const bt_dive *dive);

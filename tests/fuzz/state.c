@@ -13,6 +13,7 @@
 
 #include <bight/bight.h>
 
+#include "render/scene_of_dive.h"
 #include "state_worlds.h"
 #include "targets.h"
 #include "world/layout.h"
@@ -331,6 +332,20 @@ ask_deeply (const bt_dive *d, int i, size_t which)
     }
 }
 
+/* A picture of it, without a renderer.  */
+static void
+ask_view (const bt_dive *d, choices *c)
+{
+  bt__show show = { .paint = (bt__paint)choose (c, BT__PAINTS), .more = (unsigned)choose (c, 16) };
+  bt_view *view;
+  show.level = (int)choose (c, 3) - 1;
+  if (bt_view_new (&view, NULL) != BT_OK)
+    return;
+  bt__scene_of_dive (d, &show, view, NULL);
+  bt__scene_ghost (d, view, NULL);
+  bt_view_free (view);
+}
+
 static void
 ask (const bt_dive *d, choices *c)
 {
@@ -340,6 +355,8 @@ ask (const bt_dive *d, choices *c)
   for (int i = 0; i < bt_dive_count (d, BT_PART_VEHICLE); i++)
     ask_vehicle (d, i);
   ask_world (d);
+  if (choose (c, 8) == 0)
+    ask_view (d, c);
   if (choose (c, 16) == 0)
     ask_deeply (d, (int)choose (c, (size_t)tethers), choose (c, 8));
 }

@@ -25,7 +25,7 @@
 
 enum
 {
-  RUNS = 20000,
+  RUNS = 4000,
   CHOICES = 96,
   SLOW = 60 /* s of processor time: no state is worth more */
 };
@@ -105,6 +105,50 @@ what_a_dive_comes_to_is_believed (void **state)
     }
 }
 
+/* ---- What is said ---- */
+
+/* Restore DIVE to KEPT, whose checksum is made anew; return what is said.  */
+static const char *
+said_of (bt_dive *dive, bt__state *kept)
+{
+  static bt_error e;
+  e.text[0] = 0;
+  kept->checksum = 0;
+  kept->checksum = bt__hash_state (dive, kept);
+  bt_dive_restore (dive, kept, bt_dive_state_size (dive), &e);
+  return e.text;
+}
+
+/* A refusal names the part, the member, what it is and what it may be.  */
+static void
+refusals_teach (void **state)
+{
+  bt_dive *dive = state_world (6); /* a moving line in waves, a vehicle with mass */
+  bt__state *kept = malloc (bt_dive_state_size (dive));
+  (void)state;
+  assert_non_null (kept);
+  bt_dive_save (dive, kept);
+  bt__vehicle *v = bt__dive_vehicle (dive, kept, 0);
+  bt__dynamic *chain = bt__dive_chain (dive, kept, 0, 0);
+  bt__tether *tether = bt__dive_tether (dive, kept, 0);
+  assert_string_equal (said_of (dive, kept), "");
+  v->goal = 99;
+  assert_string_equal (said_of (dive, kept),
+                       "vehicle `minnow': `goal' of its state is 99, not 0 to 3");
+  v->goal = 0;
+  chain->n = 1 << 20;
+  assert_non_null (strstr (said_of (dive, kept), "tether `line' has 1048576 intervals, not 1 to "));
+  chain->n = 12;
+  tether->props.diameter = -1;
+  assert_non_null (strstr (said_of (dive, kept), "tether `line': `diameter' is above 0"));
+  tether->props.diameter = dive->model->tethers[0].props.diameter;
+  tether->props.nodes = 13;
+  assert_string_equal (said_of (dive, kept),
+                       "tether `line': its `nodes' is 13, and in its world 12");
+  free (kept);
+  bt_dive_free (dive);
+}
+
 /* ---- Spoilt states ---- */
 
 /* The I-th choices, whatever was tried before.  */
@@ -166,9 +210,8 @@ int
 main (void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test (every_byte_has_a_member),
-    cmocka_unit_test (gaps_are_found),
-    cmocka_unit_test (what_a_dive_comes_to_is_believed),
+    cmocka_unit_test (every_byte_has_a_member),          cmocka_unit_test (gaps_are_found),
+    cmocka_unit_test (what_a_dive_comes_to_is_believed), cmocka_unit_test (refusals_teach),
     cmocka_unit_test (spoilt_states_do_no_harm),
   };
   if (getenv ("BIGHT_RUNS"))
