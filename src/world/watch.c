@@ -16,7 +16,8 @@ enum
   TAUT_STEPS = 400, /* of a string from the tether's own shape */
   FREE_STEPS = 200,
   FINE_STEPS = 60, /* more, with a finer mesh: corners become arcs */
-  ROOM_LEAST = 256
+  ROOM_LEAST = 256,
+  ROOM_MOST = 1 << 18 /* nodes: a gigabyte is no answer */
 };
 
 #define STRAIGHT 1e-9   /* share of the chord: no longer is straight */
@@ -190,8 +191,12 @@ make_ready (const bt_dive *dive, int i, struct bt__watch *w, bt__gaze *g, double
   if (status != BT_OK)
     return status;
   g->config = config_of (g->ways, dive->model->scene, g->out, diameter);
-  uint32_t room = ROOM_LEAST + 2 * g->n + 3 * (uint32_t)(g->out / (FINER * g->config.mesh));
-  return make_room (w, room) && make_gaze_room (w, g) ? BT_OK : no_memory (error);
+  double wanted = ROOM_LEAST + 2.0 * g->n + 3 * floor (g->out / (FINER * g->config.mesh));
+  if (!(wanted <= ROOM_MOST))
+    return bt__fail (error, BT_ERR_LIMIT,
+                     "the taut string of %g m of tether would have %g nodes; at most %d are solved",
+                     g->out, wanted, ROOM_MOST);
+  return make_room (w, (uint32_t)wanted) && make_gaze_room (w, g) ? BT_OK : no_memory (error);
 }
 
 /* Solve the string of tether I.  */
