@@ -29,6 +29,7 @@ static const bt__member dynamic[] = {
   BT__WITHIN (bt__dynamic, fastest, 0, INFINITY),
   BT__ANY (bt__dynamic, seen),
   BT__WITHIN (bt__dynamic, wait, 0, BT__MANY),
+  BT__WITHIN (bt__dynamic, least, 1, BT__LEAST_INTERVALS),
 };
 const bt__record bt__dynamic_record = BT__RECORD (bt__dynamic, "chain", dynamic);
 

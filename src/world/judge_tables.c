@@ -119,6 +119,7 @@ static const bt__member tether[] = {
   BT__WITHIN (bt__tether, length, 0, BT__FAR),
   BT__WITHIN (bt__tether, winch_rate, -BT__FAR, BT__FAR),
   BT__WITHIN (bt__tether, winch_target, 0, BT__FAR),
+  BT__WITHIN (bt__tether, stalling, 0, BT__MANY),
   BT__WITHIN (bt__tether, tension_max, -BT__HUGE, BT__HUGE),
   BT__WITHIN (bt__tether, pull, -BT__HUGE, BT__HUGE),
   BT__WITHIN (bt__tether, store_at, 0, BT__MANY),
