@@ -52,12 +52,8 @@ while [ $i -lt "$kills" ]; do
   "$bight" bight "$scratch/dive.scm" "$file" >"$file.said" 2>"$file.err" &
   diver=$!
   # Two of three are under way; the third dies any time after it was started.
-  tries=0
-  while [ $((i % 3)) -ne 0 ] && [ ! -s "$file.said" ] && [ $tries -lt 300 ]; do
-    sleep 0.02
-    tries=$((tries + 1))
-  done
-  sleep "0.$((i * 7 % 5))$((1 + i * 3 % 9))"
+  [ $((i % 3)) -eq 0 ] || await has_lines 1 "$file.said"
+  moment $((i * 7 % 5))
   kill -9 $diver
   wait $diver 2>/dev/null
   i=$((i + 1))

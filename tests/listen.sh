@@ -8,34 +8,26 @@ XDG_RUNTIME_DIR=$scratch/run
 export XDG_RUNTIME_DIR
 mkdir -m 700 "$XDG_RUNTIME_DIR"
 house=
-trap '[ -z "$house" ] || kill "$house" 2>/dev/null; rm -rf "$scratch"' EXIT
+looping=
+trap 'kill $house $looping 2>/dev/null; rm -rf "$scratch"' EXIT
 
-# say SOCKET SECONDS EXPR: what the prompt there answers within that time.
+# say SOCKET EXPR: what the prompt there answers.
 cat >"$scratch/say.scm" <<'SCM'
 (use-modules (ice-9 rdelim))
 (define arguments (cdr (program-arguments)))
 (define s (socket PF_UNIX SOCK_STREAM 0))
-(define (elapsed from) (/ (- (get-internal-real-time) from) internal-time-units-per-second 1.0))
 (connect s AF_UNIX (list-ref arguments 0))
-(display (list-ref arguments 2) s)
-(newline s)
+(display (list-ref arguments 1) s)
+(display "\n'all-is-said\n" s)
 (force-output s)
-(define begun (get-internal-real-time))
-(define seconds (string->number (list-ref arguments 1)))
-;; Until the prompt is there again, after the one at the beginning.
-(define prompt "scheme@(guile-user)> ")
-(define (prompts text)
-  (let loop ((from 0) (n 0))
-    (let ((i (string-contains text prompt from)))
-      (if i (loop (+ i 1) (+ n 1)) n))))
+;; Until it has answered what was sent last, and waits for more.
 (let loop ((text ""))
-  (let ((left (- seconds (elapsed begun))))
-    (if (or (<= left 0) (>= (prompts text) 2))
-        (display text)
-        (if (pair? (car (select (list s) '() '() 0 (inexact->exact (floor (* 1e6 (min left 0.2)))))))
-            (let ((c (read-char s)))
-              (if (eof-object? c) (display text) (loop (string-append text (string c)))))
-            (loop text)))))
+  (unless (and (string-contains text "all-is-said") (string-suffix? "scheme@(guile-user)> " text))
+    (let ((c (read-char s)))
+      (unless (eof-object? c)
+        (display c)
+        (force-output)
+        (loop (string-append text (string c)))))))
 (newline)
 SCM
 
@@ -44,58 +36,45 @@ say ()
   "$pre" "$GUILE" -s "$scratch/say.scm" "$@"
 }
 
-wait_for ()
-{
-  left=100
-  until [ -S "$1" ] || [ $left -eq 0 ]; do
-    left=$((left - 1))
-    sleep 0.1
-  done
-  [ -S "$1" ]
-}
-
-# The house lets a dive go live, and tells twice a second how far it is.
+# The house lets a dive go live, and tells again and again how far it is.
 cat >"$scratch/house.scm" <<'SCM'
 (enter! 'pile)
 (live!)
-(let loop ((i 0))
-  (when (< i 600)
-    (write (list (now) (sticks)))
-    (newline)
-    (force-output)
-    (usleep 250000)
-    (loop (+ i 1))))
+(let loop ()
+  (write (list (now) (sticks)))
+  (newline)
+  (force-output)
+  (usleep 100000)
+  (loop))
 SCM
 
 socket=$scratch/socket
 "$pre" bight --listen="$socket" "$scratch/house.scm" >"$scratch/told" 2>"$scratch/err" &
 house=$!
-wait_for "$socket"
+await test -S "$socket"
 result $? 'a socket is there'
 [ "$(stat -c %a "$socket")" = 600 ]
 result $? 'for its owner alone'
-left=100
-until [ -s "$scratch/told" ] || [ $left -eq 0 ]; do
-  left=$((left - 1))
-  sleep 0.1
-done
-say "$socket" 10 "(drive! #:surge 0.5)" >"$scratch/out"
+await has_lines 1 "$scratch/told"
+say "$socket" "(drive! #:surge 0.5)" >"$scratch/out"
 grep -q 'scheme@(guile-user)> ' "$scratch/out" && grep -q '#f64(0.5 ' "$scratch/out"
 driven=$?
 result $driven 'the live dive is driven from there, at the prompt that editors know'
 [ $driven -eq 0 ] || diag "$(cat "$scratch/out")"
-sleep 0.6
-tail -1 "$scratch/told" | grep -q '0.5'
+await grep -q ' #f64(0.5 ' "$scratch/told"
 result $? 'and the house sees it'
-say "$socket" 1 "(let loop () (loop))" >/dev/null
-before=$(wc -l <"$scratch/told")
-sleep 1
-[ "$(wc -l <"$scratch/told")" -gt "$before" ]
+"$pre" "$GUILE" -s "$scratch/say.scm" "$socket" "(begin (display 'round) (force-output) (let loop () (loop)))" \
+  >"$scratch/loop" &
+looping=$!
+await grep -q round "$scratch/loop"
+await has_lines $(($(wc -l <"$scratch/told") + 5)) "$scratch/told"
 result $? 'an endless loop there holds up nobody'
-say "$socket" 10 "(> (now) 1)" >"$scratch/out"
+say "$socket" "(> (now) 0)" >"$scratch/out"
 grep -q '#t' "$scratch/out"
 result $? 'nor another session'
-say "$socket" 10 "(freeze!)" >"$scratch/out"
+kill $looping
+looping=
+say "$socket" "(freeze!)" >"$scratch/out"
 grep -q 'frozen there alone' "$scratch/out"
 result $? 'the house alone freezes its dive'
 "$pre" bight --listen="$socket" -c 1 >"$scratch/out" 2>&1

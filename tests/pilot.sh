@@ -25,14 +25,18 @@ result $? 'and shows how much tether is out'
 see 'depth *4.00 m'
 result $? 'and how deep the vehicle is'
 
+# A shell whose child is killed may read before the terminal is given back: a read without a byte would be
+# the end of its input.
+stty -F "$(pane display-message -p '#{pane_tty}')" -a | grep -q 'min = 1; time = 0;'
+result $? 'a read of the terminal waits for a key'
+
 keys W
 see 'surge +0.1'
 result $? 'a key with shift nudges a stick'
 keys W W W W W
 see ' in [0-9]* s '
 result $? 'what is to come is foretold'
-keys d d
-see 'yaw +1.0'
+prod 'yaw +1.0' d d
 result $? 'a key holds its stick'
 see 'yaw  0.0'
 result $? 'and lets it go'
@@ -49,10 +53,9 @@ keys '?'
 see 'ahead, astern'
 result $? 'there is help'
 keys '?' ']'
-see ' out *35.[1-9]'
+see ' out *\(35.[1-9]\|36\)'
 result $? 'the winch pays out'
-keys h
-see 'holding heading'
+prod 'holding heading' h
 result $? 'an autopilot holds'
 keys p
 see PAUSED
@@ -60,8 +63,7 @@ result $? 'a dive is paused'
 keys p g
 see 'what if'
 result $? 'a fork runs ahead'
-keys u
-see 'back at'
+prod 'back at' u
 result $? 'time goes back'
 
 keys :
@@ -75,10 +77,10 @@ see 'heave +1.0'
 result $? 'and what was said there holds'
 
 pane resize-window -x 250 -y 80
-see '^.\{200\}' 10
+see '^.\{200\}'
 result $? 'a larger window is filled'
 pane resize-window -x 80 -y 24
-see ' depth .* m ' 10
+see ' depth .* m '
 result $? 'and a smaller one'
 [ "$(screen | grep -c .)" -le 24 ]
 result $? 'within its lines'
@@ -133,7 +135,7 @@ begin 80 24 BIGHT_GL=none
 fly
 see 'from above'
 result $? 'so it is without a graphics library'
-see 'pictures are drawn by osmesa or egl' 3
+prod 'pictures are drawn by osmesa or egl' x
 result $? 'and a line says why'
 keys q
 sane >/dev/null
@@ -150,11 +152,6 @@ begin 80 24 COLORTERM=
 fly
 pid=$(the_pid)
 pane kill-server
-left=50
-while kill -0 "$pid" 2>/dev/null && [ $left -gt 0 ]; do
-  left=$((left - 1))
-  sleep 0.1
-done
-! kill -0 "$pid" 2>/dev/null
+await gone "$pid"
 result $? 'a terminal that is closed ends the flight'
 finish

@@ -134,7 +134,7 @@ result $? 'and no world has written a file'
 for endless in /dev/zero "$scratch/pipe"; do
   [ -e "$endless" ] || mkfifo "$endless"
   echo "(define-world w \"W.\" (sea (depth 9)) (seabed (grid \"$endless\")))" >"$scratch/world.scm"
-  timeout 20 "$pre" bight -c "(enter! \"$scratch/world.scm\")" >"$scratch/out" 2>"$scratch/err" </dev/null
+  timeout "$patience" "$pre" bight -c "(enter! \"$scratch/world.scm\")" >"$scratch/out" 2>"$scratch/err" </dev/null
   [ $? -eq 1 ] && grep -q '^bight: enter!: .*file' "$scratch/err"
   result $? "a world has no sea bed from $(basename "$endless")"
 done

@@ -48,6 +48,45 @@ empty ()
   fi
 }
 
+# How long a test waits for what has to come, s.  However slow the machine is, what comes is waited for:
+# only what never comes takes so long.
+patience=${BIGHT_PATIENCE:-300}
+
+# await COMMAND...: wait until COMMAND succeeds.  No other line of a test waits (tests/waits.sh): neither for
+# a time after which something should have happened, nor for less than a loaded machine may take.
+await ()
+{
+  await_end=$(($(date +%s) + patience))
+  until "$@"; do
+    [ "$(date +%s)" -lt "$await_end" ] || return 1
+    sleep 0.1
+  done
+}
+
+# has_lines N FILE: FILE has N lines or more.
+has_lines ()
+{
+  [ "$(cat "$2" 2>/dev/null | wc -l)" -ge "$1" ]
+}
+
+# gone PROCESS...: none of them is there any more, or only its status is.
+gone ()
+{
+  for gone_process; do
+    case $(ps -o stat= -p "$gone_process" 2>/dev/null) in
+      '' | Z*) ;;
+      *) return 1 ;;
+    esac
+  done
+}
+
+# moment TENTHS: let so many tenths of a second pass, for what may happen at any time.  What a test expects
+# afterwards must be true however long it was.
+moment ()
+{
+  sleep "$(($1 / 10)).$(($1 % 10))"
+}
+
 skip ()
 {
   tests=$((tests + 1))

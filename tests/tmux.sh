@@ -41,19 +41,18 @@ screen ()
   pane capture-pane -p
 }
 
-# see PATTERN [SECONDS]: wait until the screen shows it.
+shows ()
+{
+  screen | grep -q -- "$1"
+}
+
+# see PATTERN: wait until the screen shows it.
 see ()
 {
-  left=$((5 * ${2:-15}))
-  until screen | grep -q -- "$1"; do
-    left=$((left - 1))
-    if [ "$left" -le 0 ]; then
-      diag "not seen: $1"
-      diag "$(screen | cut -c1-79 | tail -5)"
-      return 1
-    fi
-    sleep 0.2
-  done
+  await shows "$1" && return 0
+  diag "not seen: $1"
+  diag "$(screen | cut -c1-79 | tail -5)"
+  return 1
 }
 
 keys ()
@@ -61,12 +60,43 @@ keys ()
   pane send-keys "$@"
 }
 
-# The terminal is as a shell wants it: what is typed is seen, and a line is a line.
+# pressed PATTERN KEY...: press KEY, and look for a while whether the screen shows PATTERN.
+pressed ()
+{
+  pressed_pattern=$1
+  shift
+  keys "$@"
+  for look in 1 2 3 4 5 6 7 8 9 10; do
+    shows "$pressed_pattern" && return 0
+    moment 1
+  done
+  return 1
+}
+
+# prod PATTERN KEY...: press KEY until the screen shows PATTERN, which it does only for a while: on a loaded
+# machine that while may be over before anybody looks.
+prod ()
+{
+  await pressed "$@" && return 0
+  diag "not seen after $2: $1"
+  diag "$(screen | cut -c1-79 | tail -5)"
+  return 1
+}
+
+given_back ()
+{
+  [ "$(pane display-message -p '#{alternate_on} #{cursor_flag}')" = '0 1' ]
+}
+
+# The terminal is as a shell wants it: what is typed is seen, and a line is a line.  A shell whose child is
+# killed prompts at once, perhaps still on the other page; so it is asked for another prompt.
 sane ()
 {
-  see 'shell>$' 10 || return 1
+  await given_back || return 1
+  keys Enter
+  see 'shell>$' || return 1
   keys "stty -a | grep -c ' echo ' | sed 's/^/echoes /'" Enter
-  see '^echoes 1' 10 || return 1
+  see '^echoes 1' || return 1
   keys "stty -a | grep -c ' icanon ' | sed 's/^/lines /'" Enter
-  see '^lines 1' 10 && [ "$(pane display-message -p '#{alternate_on} #{cursor_flag}')" = '0 1' ]
+  see '^lines 1' && given_back
 }

@@ -64,11 +64,12 @@ put (const char *bytes, size_t n)
     }
 }
 
+/* The settings first: whoever sees the page come back finds them back too.  */
 static void
 give_back (void)
 {
-  put (giving, sizeof giving - 1);
   tcsetattr (STDIN_FILENO, TCSAFLUSH, &the.before);
+  put (giving, sizeof giving - 1);
 }
 
 static void
@@ -211,7 +212,9 @@ bt__terminal_enter (bt_error *error)
   catch_signals ();
   raw = the.before;
   cfmakeraw (&raw);
-  raw.c_cc[VMIN] = 0;
+  /* A read waits for a byte.  After kill -9 the shell may read before the guardian gave the settings
+     back, and where a read returns without a byte, it takes that for the end of its input.  */
+  raw.c_cc[VMIN] = 1;
   raw.c_cc[VTIME] = 0;
   tcsetattr (STDIN_FILENO, TCSAFLUSH, &raw);
   put (taking, sizeof taking - 1);

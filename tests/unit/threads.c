@@ -628,7 +628,7 @@ a_child_of_the_process (void **state)
   if (child == 0)
     {
       bt_error e;
-      alarm (60);
+      alarm (600);
       for (int i = 0; i < 20; i++)
         bt_dive_step (dive, &e);
       hash = profile_of (dive).threads == 4 ? bt_dive_hash (dive) : 0;
@@ -643,7 +643,7 @@ a_child_of_the_process (void **state)
   child = fork (); /* one that only frees it */
   if (child == 0)
     {
-      alarm (60);
+      alarm (600);
       bt_dive_free (dive);
       _exit (0);
     }
