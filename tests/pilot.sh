@@ -140,6 +140,20 @@ result $? 'and a line says why'
 keys q
 sane >/dev/null
 
+# ---- A stranger's world ----
+
+printf '(define-world #{w\033]0;owned\007}# "W." (sea (depth 20))
+  (rov (at 1 5 -5)) (tether (wet-weight 0) (from 1 0 -2) (length 12)))' >"$scratch/world.scm"
+begin 90 30 COLORTERM=
+title=$(pane display-message -p '#{pane_title}')
+keys "bight pilot $scratch/world.scm" Enter
+see ' depth .* m '
+result $? 'a world from outside is flown'
+[ "$(pane display-message -p '#{pane_title}')" = "$title" ]
+result $? 'and its name does not name the window'
+keys q
+sane >/dev/null
+
 # ---- No terminal ----
 
 "$top_builddir/pre-inst-env" bight pilot pier </dev/null >"$scratch/out" 2>"$scratch/err"

@@ -9,8 +9,9 @@
 
 (define-module (bight bench-plot)
   #:use-module (bight bench-row)
+  #:use-module ((bight markup) #:select (as-xml))
   #:use-module (srfi srfi-1)
-  #:export (escape-xml plots-of plot-file call-with-svg color-of draw-line draw-text tenth))
+  #:export (plots-of plot-file call-with-svg color-of draw-line draw-text tenth))
 
 (define width 760)
 (define height 440)
@@ -25,15 +26,6 @@
   "Return the color of the I-th of what is drawn together."
   (list-ref colors (modulo i (length colors))))
 
-(define (escape-xml text)
-  "Return TEXT as it stands in XML."
-  (string-concatenate
-   (map (lambda (c)
-          (case c
-            ((#\&) "&amp;") ((#\<) "&lt;") ((#\>) "&gt;") ((#\") "&quot;")
-            (else (string c))))
-        (string->list text))))
-
 (define (tenth x)
   "Return X to a tenth, as it stands in SVG."
   (number->string (/ (round (* 10 (exact->inexact x))) 10)))
@@ -43,7 +35,7 @@
 (define (draw-text port x y words . attributes)
   "Write WORDS at X and Y to PORT, with ATTRIBUTES of their element."
   (simple-format port "<text x='~a' y='~a' ~a>~a</text>~%" (tenth x) (tenth y)
-                 (string-join attributes) (escape-xml words)))
+                 (string-join attributes) (as-xml words)))
 
 (define (draw-line port x1 y1 x2 y2 style)
   "Write a line from X1 and Y1 to X2 and Y2 to PORT, its attributes STYLE."
@@ -114,7 +106,7 @@ fill='white'/>~%"
               (simple-format port "<circle cx='~a' cy='~a' r='4' fill='~a' fill-opacity='0.8'><title>~a\
 </title></circle>~%"
                              (tenth (x (row-ratio row))) (tenth (y (row-error row))) (color-of i)
-                             (escape-xml (string-append model ", " (row-setting row)))))
+                             (as-xml (string-append model ", " (row-setting row)))))
             (filter (lambda (row) (string=? model (row-model row))) rows))
   (let ((at (+ top 10 (* 18 i))))
     (simple-format port "<circle cx='~a' cy='~a' r='4' fill='~a'/>~%" (- width right -14) at (color-of i))
@@ -202,7 +194,7 @@ fill='white'/>~%"
 </title></rect>~%"
                                    (tenth (place-x (cdar pair))) (tenth (place-y (cdadr pair)))
                                    (tenth dx) (tenth dy) (shade (share-of (row-error row) low high))
-                                   (escape-xml (row-setting row)) (row-error row)))
+                                   (as-xml (row-setting row)) (row-error row)))
                   rows pairs)
         (for-each (lambda (x)
                     (draw-text port (+ (place-x (car x)) (/ dx 2)) (- height bottom -16)

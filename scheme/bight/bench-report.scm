@@ -8,6 +8,7 @@
   #:use-module (bight bench-row)
   #:use-module ((bight engine) #:select (%version))
   #:use-module (bight errors)
+  #:use-module ((bight markup) #:select (as-xml csv-line))
   #:use-module (bight record)
   #:use-module ((ice-9 rdelim) #:select (read-line))
   #:use-module ((ice-9 threads) #:select (total-processor-count))
@@ -241,7 +242,7 @@ white-space:pre-wrap}svg{max-width:100%;height:auto}summary{cursor:pointer;margi
 (define (write-html-table port rows)
   (define (cells tag row)
     (string-concatenate
-     (map (lambda (cell) (string-append "<" tag ">" (escape-xml cell) "</" tag ">")) row)))
+     (map (lambda (cell) (string-append "<" tag ">" (as-xml cell) "</" tag ">")) row)))
   (simple-format port "<table><tr>~a</tr>~%" (cells "th" titles))
   (for-each (lambda (row)
               (simple-format port "<tr~a>~a</tr>~%" (if (row-front? row) " class='front'" "")
@@ -253,7 +254,7 @@ white-space:pre-wrap}svg{max-width:100%;height:auto}summary{cursor:pointer;margi
   (simple-format port "<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>bight bench\
 </title><style>~a</style></head><body><h1>Run time against error</h1>~%<pre>~a</pre>~%<p>~a</p>~%"
                  style
-                 (escape-xml (call-with-output-string (lambda (port) (print-head port report))))
+                 (as-xml (call-with-output-string (lambda (port) (print-head port report))))
                  (string-join (map (lambda (bench) (simple-format #f "<a href='#~a'>~a</a>" bench bench))
                                    (report-benches report))
                               " &middot; "))

@@ -13,7 +13,7 @@
   #:use-module (bight record)
   #:use-module (srfi srfi-1)
   #:export (median spread
-            read-csv csv-line
+            read-csv
             gather-rows
             row? row-bench row-case row-model row-setting row-metric row-error row-reference
             row-uncertainty row-cpus row-ratios row-counters row-front?
@@ -61,18 +61,6 @@
            (let ((cells (split-line line)))
              (map cons names (append cells (make-list (max 0 (- (length names) (length cells))) "")))))
          (cdr lines))))
-
-(define (csv-line cells)
-  "Return CELLS, strings, numbers or #f, as a line of CSV."
-  (define (quoted text)
-    (string-append "\"" (string-join (string-split text #\") "\"\"") "\""))
-  (string-join (map (lambda (cell)
-                      (cond ((number? cell) (number->string cell))
-                            ((not cell) "")
-                            ((string-any (char-set #\, #\" #\newline) cell) (quoted cell))
-                            (else cell)))
-                    cells)
-               ","))
 
 
 ;;; Rows.

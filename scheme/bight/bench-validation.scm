@@ -8,10 +8,11 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight bench-validation)
-  #:use-module ((bight bench-plot) #:select (call-with-svg color-of draw-line draw-text escape-xml
+  #:use-module ((bight bench-plot) #:select (call-with-svg color-of draw-line draw-text
                                        (tenth . in-tenths)))
   #:use-module (bight bench-report)
   #:use-module (bight bench-row)
+  #:use-module ((bight markup) #:select (as-xml))
   #:use-module ((ice-9 rdelim) #:select (read-line))
   #:use-module (srfi srfi-1)
   #:export (read-curves verdict-of write-validation))
@@ -243,7 +244,7 @@ pre{background:#f6f8fa;padding:1em;white-space:pre-wrap}svg{max-width:100%;heigh
                        ((and (row-error row) (not (agrees? row))) " class='off'")
                        (else ""))
                  (string-concatenate
-                  (map (lambda (cell) (string-append "<td>" (escape-xml cell) "</td>"))
+                  (map (lambda (cell) (string-append "<td>" (as-xml cell) "</td>"))
                        (list (row-setting row) (row-metric row) (short-number (row-error row))
                              (short-number (row-uncertainty row)) (short-number (counter row "own"))
                              (row-reference row) (verdict-of row))))))
@@ -259,8 +260,8 @@ pre{background:#f6f8fa;padding:1em;white-space:pre-wrap}svg{max-width:100%;heigh
          (judged (filter judged? rows))
          (why (case-ref name 3)))
     (simple-format port "<h2 id='~a'>~a</h2><p>~a</p><p><b>~a</b> ~a</p>~%" name
-                   (escape-xml (case-ref name 1)) (escape-xml (case-ref name 2)) (case-verdict judged)
-                   (if (every agrees? judged) "" (escape-xml why)))
+                   (as-xml (case-ref name 1)) (as-xml (case-ref name 2)) (case-verdict judged)
+                   (if (every agrees? judged) "" (as-xml why)))
     (for-each (lambda (chart)
                 (display (chart-svg (case-ref name 1) (second (car chart)) (cdr chart)) port))
               (filter (lambda (chart) (string=? name (caar chart))) charts))
@@ -285,7 +286,7 @@ What differs is marked, with what is known of why. Grey rows vary what a referen
 </pre>~%<p>~a</p>~%"
                    style (length names) (length judged) (count agrees? judged)
                    (length (remove agrees? judged))
-                   (escape-xml (call-with-output-string (lambda (port) (print-head port report))))
+                   (as-xml (call-with-output-string (lambda (port) (print-head port report))))
                    (string-join (map (lambda (name) (simple-format #f "<a href='#~a'>~a</a>" name name)) names)
                                 " &middot; "))
     (for-each (lambda (name)
@@ -296,8 +297,8 @@ What differs is marked, with what is known of why. Grey rows vary what a referen
       (unless (null? missing)
         (display "<h2>Left out</h2><p>Their files are not in the folder of the data:</p><ul>\n" port)
         (for-each (lambda (row)
-                    (simple-format port "<li>~a: ~a</li>~%" (escape-xml (case-ref (row-case row) 1))
-                                   (escape-xml (row-setting row))))
+                    (simple-format port "<li>~a: ~a</li>~%" (as-xml (case-ref (row-case row) 1))
+                                   (as-xml (row-setting row))))
                   missing)
         (display "</ul>\n" port)))
     (display "</body></html>\n" port)))

@@ -16,6 +16,7 @@
   #:use-module ((bight engine) #:select (%programs-folder))
   #:use-module (bight errors)
   #:use-module ((bight folders) #:select (ensure-folder!))
+  #:use-module ((bight outlet) #:select (control watched?))
   #:use-module ((ice-9 ftw) #:select (scandir))
   #:use-module (ice-9 popen)
   #:use-module ((ice-9 rdelim) #:select (read-line))
@@ -106,8 +107,8 @@
 (define (say-progress text . values)
   ;; At a terminal, in place of what was said before.
   (let ((port (current-error-port)))
-    (when (and (file-port? port) (isatty? port))
-      (display "\r\x1b[K" port)
+    (when (watched? port)
+      (control "\r\x1b[K" port)
       (display (apply simple-format #f text values) port)
       (force-output port))))
 

@@ -3,16 +3,11 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight catalogue)
+  #:use-module ((bight markup) #:select (as-xml))
   #:use-module ((bight programs) #:select (check-writable))
   #:use-module (bight tap)
   #:use-module (srfi srfi-1)
   #:export (write-catalogue))
-
-(define (html text)
-  (string-concatenate
-   (map (lambda (c)
-          (case c ((#\&) "&amp;") ((#\<) "&lt;") ((#\>) "&gt;") ((#\") "&quot;") (else (string c))))
-        (string->list text))))
 
 (define style "
 body { max-width: 60em; margin: 2em auto; padding: 0 1em; font-family: sans-serif; line-height: 1.4 }
@@ -28,9 +23,9 @@ img { max-width: 100% }
   (let ((lines (first view)) (picture (second view)))
     (when picture
       (simple-format port "<p><img src=\"~a\" alt=\"the dive at its end\" loading=\"lazy\"></p>~%"
-                     (html picture)))
+                     (as-xml picture)))
     (unless (every string-null? lines)
-      (simple-format port "<pre>~a</pre>~%" (html (string-join lines "\n"))))))
+      (simple-format port "<pre>~a</pre>~%" (as-xml (string-join lines "\n"))))))
 
 (define (status-words point)
   (case (point-status point)
@@ -40,20 +35,20 @@ img { max-width: 100% }
 
 (define (print-section point port)
   (simple-format port "<section>~%<h3>~a~a</h3>~%<p>~a</p>~%"
-                 (html (or (point-label point) (basename (point-file point))))
+                 (as-xml (or (point-label point) (basename (point-file point))))
                  (status-words point)
-                 (html (point-sentence point)))
+                 (as-xml (point-sentence point)))
   (when (point-location point)
-    (simple-format port "<p class=\"where\">~a</p>~%" (html (point-location point))))
+    (simple-format port "<p class=\"where\">~a</p>~%" (as-xml (point-location point))))
   (when (eq? 'fail (point-status point))
     (simple-format port "<pre class=\"fail\">~a</pre>~%"
-                   (html (string-join (point-details point) "\n"))))
+                   (as-xml (string-join (point-details point) "\n"))))
   (when (point-view point)
     (print-view (point-view point) port))
   (display "</section>\n" port))
 
 (define (print-group title points port)
-  (simple-format port "<h2>~a</h2>~%" (html title))
+  (simple-format port "<h2>~a</h2>~%" (as-xml title))
   (for-each (lambda (point) (print-section point port)) points))
 
 (define (without-location world)

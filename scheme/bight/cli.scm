@@ -8,6 +8,7 @@
 
 (define-module (bight cli)
   #:use-module (bight errors)
+  #:use-module (bight outlet)
   #:use-module (bight usage)
   #:use-module (srfi srfi-1)
   #:export (main
@@ -477,4 +478,5 @@ could not be written, is told in one line on the standard error."
 
 (define (main arguments)
   "Do what ARGUMENTS, the command line as a list of strings, ask for, and return the exit status."
+  (guard-outputs!)
   (exit-status (lambda () (run-command (cdr arguments)))))

@@ -14,6 +14,7 @@
   #:use-module (bight database)
   #:use-module (bight engine)
   #:use-module (bight errors)
+  #:use-module ((bight markup) #:select (csv-line))
   #:use-module (bight sqlite)
   #:use-module (bight verb)
   #:use-module (srfi srfi-1)
@@ -101,16 +102,6 @@ y real, z real, tension real)"
 
 ;;; For other programs.
 
-(define (csv-line row)
-  (string-append
-   (string-join (map (lambda (v)
-                       (cond ((not v) "")
-                             ((number? v) (number->string v))
-                             (else v)))
-                     row)
-                ",")
-   "\n"))
-
 (define-verb (export-csv (frames string) (file string))
   "Write the FRAMES of a recording, the file that `record!' was given, to FILE, comma-separated: time,
 part, node, x, y, z, tension; a vehicle has neither node nor tension.  Return how many lines there are."
@@ -127,7 +118,7 @@ order by 1, 2, 3" '())))
         (call-with-output-file file
           (lambda (port)
             (display "time,part,node,x,y,z,tension\n" port)
-            (for-each (lambda (row) (display (csv-line row) port)) rows))))
+            (for-each (lambda (row) (display (csv-line row) port) (newline port)) rows))))
       (lambda args
         (bight-raise 'io 'export-csv "~s: ~a" file (strerror (system-error-errno args)))))
     (length rows)))

@@ -15,6 +15,7 @@
   #:use-module (bight lesson-order)
   #:use-module (bight lesson-play)
   #:use-module (bight lesson-terminal)
+  #:use-module ((bight outlet) #:select (watched?))
   #:use-module (bight sandbox)
   #:use-module (bight terminal)
   #:use-module (srfi srfi-1)
@@ -70,9 +71,9 @@
         (min 1 (/ (apply + (map (lambda (e) (or (assq-ref e 'total) 0)) last-three))
                   (* 100 (length last-three)))))))
 
-(define (take-by-person lesson order inputs tell)
+(define (take-by-person lesson order inputs shown-before tell)
   (let* ((given (order-given order))
-         (by-keys? (and (terminal-state) (isatty? (current-output-port))
+         (by-keys? (and (terminal-state) (watched? (current-output-port))
                         (not (option given "--typed" #f))
                         (not (member (getenv "TERM") '(#f "" "dumb")))))
          (keep (merging-passes tell)))
@@ -88,7 +89,7 @@
         (let ((report (call (lambda ()
                               (take-lesson lesson guide #:seed (seed-of given) #:level (level-of given)
                                            #:coach (and (not (option given "--quiet" #f))
-                                                        (make-coach #:competence (competence given))))))))
+                                                        (make-coach #:competence shown-before)))))))
           (keep #f)
           (newline)
           (display (report-text report))
@@ -125,8 +126,10 @@
 (define (in-child order journal tell)
   "Read the lesson and do what ORDER asks, with JOURNAL to begin with; TELL the parent.  Return the
 exit status."
+  ;; The logbook is read before nothing but the lesson's own can be.
+  (define shown-before (competence (order-given order)))
   (when (order-outside? order)
-    (enclose!)
+    (enclose! #:reading (readable-paths (order-file order)))
     (breathing breathe!))
   (let* ((given (order-given order))
          (lesson (load-lesson (order-file order)
@@ -136,6 +139,6 @@ exit status."
           (else
            (call-with-interrupts
             (lambda ()
-              (let ((report (take-by-person lesson order journal tell)))
+              (let ((report (take-by-person lesson order journal shown-before tell)))
                 (tell (list 'report (report-entry report lesson given)))
                 0)))))))

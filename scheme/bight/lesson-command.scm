@@ -13,6 +13,7 @@
   #:use-module (bight lesson-listing)
   #:use-module (bight lesson-log)
   #:use-module (bight lesson-order)
+  #:use-module ((bight outlet) #:select (control))
   #:use-module (bight sandbox)
   #:use-module (bight terminal)
   #:use-module (srfi srfi-1)
@@ -61,7 +62,7 @@
               (sigaction signal
                 (lambda (signal)
                   (false-if-exception (kill pid SIGKILL))
-                  (when state (display screen-back) (force-output))
+                  (when state (control screen-back))
                   (restore-terminal! state)
                   (primitive-exit (+ 128 signal)))))
             (list SIGTERM SIGHUP)))
@@ -77,7 +78,7 @@
       (restore-terminal! state)))
   (let ((status (cdr (waitpid pid))))
     (when (and state (status:term-sig status))
-      (display screen-back))
+      (control screen-back))
     (restore-terminal! state)
     (status->exit status order)))
 

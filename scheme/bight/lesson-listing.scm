@@ -7,6 +7,7 @@
   #:use-module (bight lesson-journal)
   #:use-module (bight lesson-log)
   #:use-module (bight lesson-order)
+  #:use-module ((bight markup) #:select (csv-line))
   #:use-module (srfi srfi-1)
   #:export (lessons-command))
 
@@ -71,17 +72,16 @@
 
 (define columns '(who group lesson level seed total passed? seconds hints rewinds))
 
-(define (csv-cell value)
-  (let ((text (cond ((not value) "") ((eq? value #t) "1") (else (simple-format #f "~a" value)))))
-    (if (string-any (char-set #\, #\" #\newline) text)
-        (string-append "\"" (string-join (string-split text #\") "\"\"") "\"")
-        text)))
+(define (csv-value value)
+  (cond ((eq? value #t) 1)
+        ((or (not value) (number? value)) value)
+        (else (simple-format #f "~a" value))))
 
 (define (list-csv given)
   (simple-format #t "~a~%" (string-join (map symbol->string columns) ","))
   (for-each (lambda (result)
               (simple-format #t "~a~%"
-                             (string-join (map (lambda (c) (csv-cell (assq-ref result c))) columns) ",")))
+                             (csv-line (map (lambda (c) (csv-value (assq-ref result c))) columns))))
             (results-of given)))
 
 (define (lessons-command words)

@@ -12,6 +12,7 @@
   #:use-module (bight dive)
   #:use-module (bight engine)
   #:use-module (bight errors)
+  #:use-module ((bight outlet) #:select (outlet))
   #:use-module ((ice-9 threads) #:select (call-with-new-thread current-thread))
   #:use-module ((bight repl) #:select (set-manners!))
   #:use-module ((system repl server) #:select (make-unix-domain-server-socket))
@@ -103,10 +104,12 @@
 ;; Guile's own server of prompts complains on the terminal whenever a client leaves.
 
 (define (serve client)
-  (parameterize ((current-input-port client) (current-output-port client)
-                 (current-error-port client) (current-warning-port client))
-    (with-fluids ((*repl-stack* '()))
-      (start-repl))))
+  (let ((out (outlet client)))
+    (parameterize ((current-input-port client) (current-output-port out)
+                   (current-error-port out) (current-warning-port out))
+      (with-fluids ((*repl-stack* '()))
+        (start-repl)))
+    (close-port out)))
 
 (define (serve-or-forget client)
   ;; Whatever ends a session is its client's affair.

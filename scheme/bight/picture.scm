@@ -11,6 +11,7 @@
   #:use-module (bight dive)
   #:use-module ((bight errors)
                 #:select (bight-raise bight-error? bight-error-kind bight-error-message nearest))
+  #:use-module ((bight outlet) #:select (control watched?))
   #:use-module (bight record)
   #:use-module (bight verb)
   #:use-module ((bight world) #:select (world-name))
@@ -275,12 +276,9 @@ is one alone), or a list of several; TRANSPARENT leaves out water and ground."
 (define-syntax-rule (from module name)
   (module-ref (resolve-interface 'module) 'name))
 
-(define (watched?)
-  (and (file-port? (current-output-port)) (isatty? (current-output-port))))
-
 (define (best-way)
   ;; kitty, sixel, symbols, or plain.
-  (let ((ask (and (watched?) (not (member (getenv "TERM") '(#f "" "dumb")))
+  (let ((ask (and (watched? (current-output-port)) (not (member (getenv "TERM") '(#f "" "dumb")))
                   (extension '(bight chafa) '%terminal-mode))))
     (or (and ask (extension '(bight render) '%draw) (ask)) 'plain)))
 
@@ -290,7 +288,7 @@ is one alone), or a list of several; TRANSPARENT leaves out water and ground."
     (cons columns (max 6 (round (/ (* columns 9) 32))))))
 
 (define (show-text text)
-  (display text)
+  (control text)
   (newline)
   (force-output))
 

@@ -4,6 +4,7 @@
 
 (define-module (bight progress)
   #:use-module ((bight engine) #:select (%set-reporter!))
+  #:use-module ((bight outlet) #:select (control watched?))
   #:use-module ((srfi srfi-1) #:select (first second third))
   #:export (with-progress with-telling tell-events))
 
@@ -16,17 +17,17 @@
 (define (terminal)
   ;; The error port if a person watches it, else #f.
   (let ((port (current-error-port)))
-    (and (file-port? port) (isatty? port) port)))
+    (and (watched? port) port)))
 
 (define (draw port share)
   (let ((full (inexact->exact (floor (* width share)))))
-    (simple-format port "\r[~a~a] ~a %" (make-string full #\=) (make-string (- width full) #\space)
+    (control "\r" port)
+    (simple-format port "[~a~a] ~a %" (make-string full #\=) (make-string (- width full) #\space)
                    (inexact->exact (floor (* 100 share))))
     (force-output port)))
 
 (define (clear port)
-  (simple-format port "\r~a\r" (make-string (+ width 10) #\space))
-  (force-output port))
+  (control (string-append "\r" (make-string (+ width 10) #\space) "\r") port))
 
 (define (make-bar)
   ;; A procedure that draws a bar on PORT once what it is of has lasted, or, with the share #f, clears it.

@@ -9,6 +9,7 @@
 (define-module (bight repl)
   #:use-module ((bight dive) #:select (served?))
   #:use-module (bight errors)
+  #:use-module ((bight outlet) #:select (behind))
   #:use-module ((bight folders) #:select (ensure-folder! state-folder))
   #:use-module (bight verb)
   #:use-module ((ice-9 regex) #:select (regexp-quote))
@@ -108,7 +109,10 @@ parts and of worlds; keywords after #:; Guile's own names if there are none of t
 
 (define (call-with-line-editing thunk)
   ;; Call THUNK with readline on, if this Guile has it.
-  (let ((readline (false-if-exception (resolve-interface '(ice-9 readline)))))
+  (let ((readline (false-if-exception
+                   ;; It writes to a file of the C library.
+                   (parameterize ((current-output-port (behind (current-output-port))))
+                     (resolve-interface '(ice-9 readline))))))
     (if readline
         (let ((from-readline (lambda (name) (module-ref readline name))))
           (setenv "GUILE_HISTORY" (or (history-file) "/dev/null"))

@@ -8,6 +8,7 @@
 
 (define-module (bight risk)
   #:use-module (bight errors)
+  #:use-module ((bight markup) #:select (csv-line))
   #:use-module (bight record)
   #:use-module (bight sweep-result)
   #:use-module (bight verb)
@@ -260,14 +261,9 @@ with its interval; none when no case is done."
        (newline))
      rows)))
 
-(define (csv-cell text)
-  (if (string-any (lambda (c) (memv c '(#\, #\" #\newline))) text)
-      (string-append "\"" (string-join (string-split text #\") "\"\"") "\"")
-      text))
-
 (define (print-csv rows)
   "Print ROWS, lists of strings, comma-separated."
   (for-each (lambda (row)
-              (display (string-join (map csv-cell row) ","))
+              (display (csv-line row))
               (newline))
             rows))

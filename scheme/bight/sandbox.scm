@@ -10,13 +10,16 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight sandbox)
+  #:use-module ((bight atlas) #:select (worlds-path))
   #:use-module (bight errors)
+  #:use-module ((bight files) #:select (limit-reading!))
   #:use-module ((bight landlock) #:select (close-paths!))
   #:use-module (bight lesson)
   #:use-module ((bight lesson-play) #:select (untrusted?))
   #:use-module (ice-9 sandbox)
   #:use-module (srfi srfi-1)
   #:export (enclose!
+            readable-paths
             breathe!
             ending-text
             sandbox-module
@@ -258,10 +261,21 @@ wrong in it."
   ;; The address space that this process has taken, bytes.
   (* page (or (false-if-exception (call-with-input-file "/proc/self/statm" read)) 0)))
 
+(define (readable-paths file)
+  "Return the folders and files that a process may read in which FILE, from outside, is read: those beside it,
+the worlds and lessons that may be named, and what the language itself may still have to load."
+  (filter file-exists?
+          (map (lambda (path) (if (absolute-file-name? path) path (string-append (getcwd) "/" path)))
+               (cons (dirname file)
+                     (append (worlds-path) %load-path %load-compiled-path
+                             '("/usr/lib" "/lib" "/proc/self" "/dev/null"))))))
+
 (define* (enclose! #:key reading)
   "Take from this process, for good, what a lesson from outside has no use for: writing to any path,
 starting programs, more than so much memory or processor time; reading, too, if READING is a list of the
 folders and files that still may be read.  Return `kernel' if the kernel watches the paths, else `limits'."
+  (when reading
+    (limit-reading! reading))
   (chdir "/")                           ; no folder of worlds lies here
   (limit! 'fsize (* 16 1024 1024))      ; standard output may be a file
   (limit! 'core 0)

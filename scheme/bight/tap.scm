@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight tap)
+  #:use-module ((bight markup) #:select (as-xml))
   #:use-module (bight record)
   #:use-module (srfi srfi-1)
   #:export (make-point
@@ -80,7 +81,9 @@
 
 (define (print-comments lines)
   "Print LINES as comments of the report."
-  (for-each (lambda (line) (simple-format #t "# ~a~%" line)) lines))
+  ;; A line of a text that has several would be a result.
+  (for-each (lambda (line) (simple-format #t "# ~a~%" line))
+            (append-map (lambda (text) (string-split text #\newline)) lines)))
 
 (define (print-point point number)
   "Print POINT, the one of that NUMBER."
@@ -91,7 +94,7 @@
                  (if (eq? 'skip (point-status point))
                      (string-append " # SKIP " (one-line (or (point-note point) "")))
                      ""))
-  (for-each (lambda (line) (simple-format #t "#   ~a~%" line)) (point-details point))
+  (print-comments (map (lambda (line) (string-append "  " line)) (point-details point)))
   (force-output))
 
 (define (count-of status points)
@@ -107,23 +110,14 @@
 
 ;;; JUnit XML.
 
-(define (xml text)
-  ;; TEXT fit to stand in XML, in an attribute too.
-  (string-concatenate
-   (map (lambda (c)
-          (case c
-            ((#\&) "&amp;") ((#\<) "&lt;") ((#\>) "&gt;") ((#\") "&quot;") ((#\newline) "&#10;")
-            (else (if (or (char>=? c #\space) (char=? c #\tab)) (string c) "?"))))
-        (string->list text))))
-
 (define (milliseconds seconds)
   ;; SECONDS to three decimals, never with an exponent.
   (/ (round (* 1000 seconds)) 1000.))
 
 (define (print-case point port)
   (simple-format port "    <testcase classname=\"~a\" name=\"~a\" time=\"~a\">"
-                 (xml (point-file point))
-                 (xml (string-append (if (point-label point)
+                 (as-xml (point-file point))
+                 (as-xml (string-append (if (point-label point)
                                          (string-append (point-label point) ": ")
                                          "")
                                      (one-line (point-sentence point))))
@@ -131,14 +125,14 @@
   (case (point-status point)
     ((fail)
      (simple-format port "<failure message=\"~a\">~a</failure>"
-                    (xml (if (pair? (point-details point)) (car (point-details point)) "failed"))
-                    (xml (string-join (point-details point) "\n"))))
-    ((skip) (simple-format port "<skipped message=\"~a\"/>" (xml (or (point-note point) "")))))
+                    (as-xml (if (pair? (point-details point)) (car (point-details point)) "failed"))
+                    (as-xml (string-join (point-details point) "\n"))))
+    ((skip) (simple-format port "<skipped message=\"~a\"/>" (as-xml (or (point-note point) "")))))
   (display "</testcase>\n" port))
 
 (define (print-suite file points port)
   (simple-format port "  <testsuite name=\"~a\" tests=\"~a\" failures=\"~a\" skipped=\"~a\" time=\"~a\">~%"
-                 (xml file) (length points) (count-of 'fail points) (count-of 'skip points)
+                 (as-xml file) (length points) (count-of 'fail points) (count-of 'skip points)
                  (milliseconds (apply + (map point-seconds points))))
   (for-each (lambda (point) (print-case point port)) points)
   (display "  </testsuite>\n" port))

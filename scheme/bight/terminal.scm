@@ -5,6 +5,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight terminal)
+  #:use-module ((bight outlet) #:select (control))
   #:use-module (rnrs bytevectors)
   #:use-module (system foreign)
   #:export (terminal-state
@@ -49,11 +50,10 @@ no terminal."
   "Call THUNK while keys come one by one, on the screen's other page with the cursor hidden; put everything
 back afterwards."
   (let ((state (terminal-state)))
-    (define (put text) (display text) (force-output))
     (dynamic-wind
-      (lambda () (restore-terminal! (raw-state state)) (put "\x1b[?1049h\x1b[?25l"))
+      (lambda () (restore-terminal! (raw-state state)) (control "\x1b[?1049h\x1b[?25l"))
       thunk
-      (lambda () (put "\x1b[?25h\x1b[?1049l") (restore-terminal! state)))))
+      (lambda () (control "\x1b[?25h\x1b[?1049l") (restore-terminal! state)))))
 
 (define (key-within? seconds)
   (pair? (car (select (list (current-input-port)) '() '()

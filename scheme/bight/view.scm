@@ -12,6 +12,7 @@
   #:use-module (bight dive)
   #:use-module (bight engine)
   #:use-module (bight errors)
+  #:use-module ((bight outlet) #:select (watched?))
   #:use-module (bight query)
   #:use-module (bight record)
   #:use-module (bight time)
@@ -45,7 +46,7 @@
 
 (define (stty-columns)
   ;; The width that the terminal itself reports, or #f.
-  (and (isatty? (current-output-port))
+  (and (watched? (current-output-port))
        (false-if-exception
         (let* ((open (module-ref (resolve-interface '(ice-9 popen)) 'open-input-pipe))
                (close (module-ref (resolve-interface '(ice-9 popen)) 'close-pipe))

@@ -6,8 +6,9 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight world-child)
-  #:use-module (bight atlas)
+  #:use-module ((bight atlas) #:select (last-remembered))
   #:use-module (bight errors)
+  #:use-module ((bight outlet) #:select (behind))
   #:use-module (bight part)
   #:use-module (bight sandbox)
   #:use-module (bight world-data)
@@ -30,16 +31,9 @@
       (refuse file "this world"))
     (list 'world (world-name-of world) (world-documentation-of world) (world->data world))))
 
-(define (readable-paths)
-  ;; What the language itself may still have to load, and the worlds that may be named.
-  (filter file-exists?
-          (map (lambda (path) (if (absolute-file-name? path) path (string-append (getcwd) "/" path)))
-               (append (worlds-path) %load-path %load-compiled-path
-                       '("/usr/lib" "/lib" "/proc/self" "/dev/null")))))
-
 (define (read-enclosed port file)
   (let ((module (sandbox-module)))
-    (enclose! #:reading (readable-paths))
+    (enclose! #:reading (readable-paths file))
     (last-remembered (lambda () (evaluate-inside port file module noop))))) ; one breath for all of it
 
 (define (answer file)
@@ -62,7 +56,9 @@
   (let ((nothing (open "/dev/null" O_RDWR)))
     (dup2 (fileno nothing) 0)
     (dup2 (fileno nothing) 2))
-  (set-port-encoding! (current-output-port) "UTF-8")
-  (write (answer file))
-  (force-output)
+  ;; The parent reads data: nothing of them is to be escaped.
+  (let ((out (behind (current-output-port))))
+    (set-port-encoding! out "UTF-8")
+    (write (answer file) out)
+    (force-output out))
   (primitive-_exit 0))

@@ -48,6 +48,7 @@ typedef struct reader
   const char *name;
   const char *at, *end;
   long line;
+  int is_grid;    /* the header has begun: only then is anything of the file quoted */
   locale_t plain; /* a point in numbers, whatever the user's language */
   bt_error *error;
 } reader;
@@ -73,10 +74,13 @@ next_word (reader *r)
   return w;
 }
 
-/* W as it may be shown in a sentence.  */
+/* W as it may be shown in a sentence: nothing of a file that is no grid, since a world may name any
+   file there is.  */
 static const char *
-show (const word *w, char text[SHOWN + 4])
+show (const reader *r, const word *w, char text[SHOWN + 4])
 {
+  if (!r->is_grid)
+    return strcpy (text, "...");
   size_t n = w->n < SHOWN ? w->n : SHOWN;
   for (size_t i = 0; i < n; i++)
     text[i] = w->at[i] >= ' ' && w->at[i] < 127 ? w->at[i] : '?';
@@ -112,7 +116,7 @@ fail_number (const reader *r, const word *w, const char *wanted)
     return bt__fail (r->error, BT_ERR_FORMAT, "%s, line %ld: the file ends where %s was expected",
                      r->name, w->line, wanted);
   return bt__fail (r->error, BT_ERR_FORMAT, "%s, line %ld: `%s' where %s was expected%s", r->name,
-                   w->line, show (w, text), wanted, hint);
+                   w->line, show (r, w, text), wanted, hint);
 }
 
 /* ---- The header ---- */
@@ -199,12 +203,17 @@ read_keys (reader *r, header *h)
           *r = before;
           return BT_OK;
         }
+      if (k < 0 && !r->is_grid)
+        return bt__fail (r->error, BT_ERR_FORMAT,
+                         "%s, line %ld: it is no ASCII grid: one begins with ncols and a number",
+                         r->name, w.line);
       if (k < 0)
         return bt__fail (r->error, BT_ERR_FORMAT,
                          "%s, line %ld: `%s' where ncols, nrows, xllcorner or xllcenter, yllcorner "
                          "or yllcenter, cellsize (or dx and dy), NODATA_value or a height was "
                          "expected",
-                         r->name, w.line, show (&w, text));
+                         r->name, w.line, show (r, &w, text));
+      r->is_grid |= k != DX && k != DY; /* words of other files too */
       if (h->given[k])
         return bt__fail (r->error, BT_ERR_FORMAT, "%s, line %ld: %s is given twice", r->name,
                          w.line, rules[k].name);
@@ -342,7 +351,7 @@ bt__grid_parse (const char *name, const char *text, size_t n, bt_heights_data **
 {
   static const char mark[] = "\xef\xbb\xbf"; /* what some editors put before UTF-8 */
   bt_heights_data *data = calloc (1, sizeof *data);
-  reader r = { name, text, text + n, 1, newlocale (LC_ALL_MASK, "C", (locale_t)0), error };
+  reader r = { name, text, text + n, 1, 0, newlocale (LC_ALL_MASK, "C", (locale_t)0), error };
   bt_status s;
   *out = NULL;
   if (n >= 3 && memcmp (text, mark, 3) == 0)

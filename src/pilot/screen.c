@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/letter.h"
 #include "pilot/screen.h"
 
 enum
@@ -222,8 +223,8 @@ bt__screen_picture (bt__screen *s, const uint32_t *pixels)
       }
 }
 
-/* The letter at TEXT, of at most LEFT bytes, and how many it takes; a stray byte is a question
- * mark. */
+/* The letter at TEXT, of at most LEFT bytes, and how many it takes; a stray byte, and what a
+   terminal would obey, is a question mark.  */
 static int
 decode (const char *text, size_t left, uint32_t *letter)
 {
@@ -235,7 +236,7 @@ decode (const char *text, size_t left, uint32_t *letter)
   *letter = n == 1 ? lead : lead & (0x7fU >> n);
   for (int i = 1; i < n; i++)
     *letter = *letter << 6 | ((unsigned char)text[i] & 0x3fU);
-  if (*letter < ' ')
+  if (bt__is_control (*letter))
     *letter = '?';
   return n;
 }

@@ -115,7 +115,7 @@ bad_headers (void **state)
 {
   (void)state;
   refused ("", "ncols");
-  refused ("hello", "line 1: `hello' where ncols, nrows");
+  refused ("hello", "line 1: it is no ASCII grid");
   refused ("1 2 3 4", "ncols");
   refused ("ncols 3\n1 2 3\n", "it must give nrows");
   refused ("ncols", "line 1: the file ends where a whole number from 2 on");
