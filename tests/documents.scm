@@ -184,7 +184,8 @@
 ;;; Shell and C.
 
 (define (output-and-status command)
-  (let* ((port (open-input-pipe (string-append "{ " command "\n} 2>&1 </dev/null")))
+  ;; Each of several commands must succeed.
+  (let* ((port (open-input-pipe (string-append "set -e\n{ " command "\n} 2>&1 </dev/null")))
          (text (get-string-all port)))
     (values text (status:exit-val (close-pipe port)))))
 

@@ -306,7 +306,7 @@ begins with FILE and the line."
             '("--quiet" "without the coach")
             '("--trust" "let a FILE from outside do all that you may")
             '("--pilot P" "show it flown by its pilot P, such as expert")
-            '("--check" "prove it: its own pilot finishes it, every hint can be reached"))
+            '("--check" "prove it: its pilots fly it, the careless one in vain; every hint can be reached"))
    (command "bench" run-benches "[NAME...]"
             '("measure run time against error: all families, short, in five minutes, or the whole of some;"
               "other options go to the one bench that is named")

@@ -7,6 +7,7 @@
 
 (define-module (bight lesson-child)
   #:use-module (bight coach)
+  #:use-module ((bight errors) #:select (words->string))
   #:use-module (bight lesson)
   #:use-module (bight lesson-check)
   #:use-module (bight lesson-file)
@@ -112,8 +113,9 @@
     (for-each (lambda (text) (simple-format #t "not ok: ~a~%" text)) wrong)
     (if (null? wrong)
         (begin
-          (simple-format #t "ok: ~a, ~a: flown by its demonstration, the same twice, every hint heard~%"
-                         (lesson-name lesson) (lesson-title lesson))
+          (simple-format #t "ok: ~a, ~a: flown by ~a, the same twice, every hint heard~%"
+                         (lesson-name lesson) (lesson-title lesson)
+                         (words->string (lesson-pilots lesson)))
           0)
         1)))
 

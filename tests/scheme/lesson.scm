@@ -143,6 +143,21 @@
             => '("nobody can hear the hint: Never heard."))
     (expect (wrong? "does not pass"
                     (define-lesson bad "x" (in small) (task "t" (done-when #f) (at-most 1)) (pilot expert "x"))))
+    (expect (wrong? "its careless pilot passes it"
+                    (define-lesson bad "x" (in small) (task "t" (done-when (> (now) 1)) (at-most 3))
+                      (pilot expert "x") (pilot careless "x"))))
+    (expect (wrong? "careless"
+                    (define-lesson good "x" (in small)
+                      (task "t" (done-when (> (abs (rov-speed)) 0.05)) (at-most 5))
+                      (pilot expert "x" (flies (drive! #:surge 1))) (pilot careless "x")))
+            => #f)
+    (expect (wrong? "its pilot expert does not pass it"
+                    (define-lesson bad "x" (in small)
+                      (task "t" (done-when (> (abs (rov-speed)) 0.05)) (at-most 5))
+                      (pilot demonstration "x" (flies (drive! #:surge 1))) (pilot expert "x"))))
+    (expect (wrong? "its pilot hasty breaks down (seed 1): run: "
+                    (define-lesson bad "x" (in small) (task "t" (done-when (> (now) 1)) (at-most 3))
+                      (pilot expert "x") (pilot hasty "x" (flies (run -1))))))
     (expect (wrong? "doing nothing"
                     (define-lesson bad "x" (in small) (task "t" (done-when #t)) (task "u" (done-when #t))
                       (pilot expert "x"))))
