@@ -145,10 +145,10 @@ SCM
 bight sweep bad.scm -o bad.db -j 2 >out 2>err
 [ $? -eq 1 ] && grep -q 'bad.db: 6 cases: 2 done, 4 failed' out
 result $? 'a case that goes wrong takes nothing with it, and the status says so'
-grep -q '^bight: sweep: 4 cases failed; the first, case 2: run: ' err
+grep -q '^bight: sweep: 4 cases failed; the first, case 2: bad.scm:[67]: run: ' err
 result $? 'the first is told'
 bight sweep --rows bad.db >bad.csv
-grep -q '^2,failed,domain,"\{0,1\}run: ' bad.csv
+grep -q '^2,failed,domain,"\{0,1\}bad.scm:[67]: run: ' bad.csv
 result $? 'an error keeps its kind and its words'
 grep -q '^3,failed,crash,.*signal 6,' bad.csv && grep -q '^6,failed,crash,.*status 7,' bad.csv
 result $? 'so does a breakdown'

@@ -80,23 +80,33 @@ files."
        (find file-exists?
              (map (lambda (folder) (string-append folder "/" text ".scm")) (worlds-path)))))
 
-(define (refuse-file proc file key arguments)
-  (if (memq key '(bight-error quit user-interrupt))
-      (apply throw key arguments)
-      (bight-raise (if (eq? key 'system-error) 'io 'format) proc "~a: ~a" file
-                   (string-trim-both
-                    (call-with-output-string
-                      (lambda (port) (print-exception port #f key arguments)))))))
+(define-syntax-rule (from module name)
+  (module-ref (resolve-interface 'module) 'name))
+
+(define (refuse-file proc file exception)
+  ;; Raise what EXCEPTION says, after its place; an error of the reader tells that itself.
+  (let ((kind (exception-kind exception))
+        (text ((from (bight expect) exception->placed-line) exception)))
+    (when (memq kind '(quit signal user-interrupt))
+      (raise-exception exception))
+    (raise-engine-error (cond ((bight-error? exception) (bight-error-kind exception))
+                              ((eq? kind 'system-error) 'io)
+                              (else 'format))
+                        proc
+                        (if (or ((from (bight expect) raised-at) exception)
+                                (string-prefix? (string-append file ":") text))
+                            text
+                            (string-append file ": " text)))))
 
 (define (load-world proc file)
   ;; The last world that FILE defines; it is not made known, so that a changed file is read again.
   (or (last-remembered
        (lambda ()
-         (catch #t
+         (with-exception-handler
+             (lambda (exception) (refuse-file proc file exception))
            (lambda ()
-             (call-in-language (lambda () (primitive-load file))))
-           (lambda (key . arguments)
-             (refuse-file proc file key arguments)))))
+             (call-in-language (lambda () ((from (bight place) load-marked) file))))
+           #:unwind? #t)))
       (bight-raise 'format proc "~a defines no world" file)))
 
 (define (regular-file? text)

@@ -8,6 +8,7 @@
 
 (define-module (bight cli)
   #:use-module (bight errors)
+  #:use-module ((bight here) #:select (noting-places))
   #:use-module (bight outlet)
   #:use-module (bight usage)
   #:use-module (srfi srfi-1)
@@ -50,7 +51,7 @@
         (name (string-append (port-filename port) ":")))
     (cond ((string-prefix? name text)
            (string-append (or file "expression") ":" (substring text (string-length name))))
-          (place
+          ((and place (not (equal? (car place) "expression")))
            (string-append ((from (bight expect) location->string) place) ": " text))
           (file
            (string-append file ":" (number->string line) ": " text))
@@ -64,7 +65,7 @@
          (if (memq (exception-kind exception) '(quit signal))
              exception
              (make-program-error (located port file line exception)))))
-    thunk
+    (lambda () (noting-places thunk))
     #:unwind? #t))
 
 (define (line-of form)
@@ -78,7 +79,10 @@
       (unless (eof-object? form)
         (let ((line (line-of form)))
           (call-at port file line
-                   (lambda () (call-with-values (lambda () (primitive-eval form)) see)))
+                   (lambda ()
+                     (call-with-values
+                         (lambda () ((from (bight place) evaluate-marked) form (port-filename port)))
+                       see)))
           (loop line))))))
 
 (define (skip-first-line! port)
@@ -464,8 +468,8 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
           (lambda (exception)
             (cond ((program-error? exception) (complain (program-error-text exception)))
                   ((memq (exception-kind exception) '(quit)) (raise-exception exception))
-                  (else (complain ((from (bight expect) exception->line) exception)))))
-        thunk
+                  (else (complain ((from (bight expect) exception->placed-line) exception)))))
+        (lambda () (noting-places thunk))
         #:unwind? #t))
     (lambda (key . arguments) (status-of arguments))))
 

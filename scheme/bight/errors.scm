@@ -8,6 +8,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight errors)
+  #:use-module ((bight here) #:select (note-place!))
   #:use-module (ice-9 exceptions)
   #:use-module (srfi srfi-1)
   #:export (&bight-error
@@ -76,11 +77,12 @@
 
 (define (raise-sentence kind proc text given)
   (raise-exception
-   (make-exception (make-bight-error kind proc text given)
-                   (make-exception-with-message text)
-                   (make-exception-with-origin proc)
-                   (make-exception-with-irritants '())
-                   (make-exception-from-throw 'bight-error (list proc text kind given)))))
+   (note-place!
+    (make-exception (make-bight-error kind proc text given)
+                    (make-exception-with-message text)
+                    (make-exception-with-origin proc)
+                    (make-exception-with-irritants '())
+                    (make-exception-from-throw 'bight-error (list proc text kind given))))))
 
 (define (bight-raise kind proc format-string . args)
   "Raise a &bight-error of KIND, a symbol, from PROC, a symbol or #f.  Its sentence is FORMAT-STRING

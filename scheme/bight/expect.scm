@@ -8,6 +8,7 @@
 
 (define-module (bight expect)
   #:use-module (bight errors)
+  #:use-module ((bight here) #:select (place-of))
   #:use-module (bight record)
   #:use-module (bight verb)
   #:use-module ((ice-9 control) #:select (call/ec))
@@ -38,6 +39,7 @@
             source-location
             location->string
             exception->line
+            exception->placed-line
             raised-at
             raised-kind
             code->string
@@ -114,12 +116,12 @@
 
 (define (raised-at exception)
   "Return the place (FILE . LINE) that EXCEPTION itself tells of, as errors of syntax and failed
-expectations do, or #f."
+expectations do, or where it was raised, or #f."
   (let ((arguments (exception-args exception)))
     (case (exception-kind exception)
       ((syntax-error) (source->location (or (third arguments) '())))
       ((failed-expectation) (second arguments))
-      (else #f))))
+      (else (place-of exception)))))
 
 (define (syntax-error->line who what where form subform)
   (string-append (if who (simple-format #f "~a: " who) "")
@@ -131,6 +133,12 @@ expectations do, or #f."
   (if (eq? 'syntax-error (exception-kind exception))
       (apply syntax-error->line (exception-args exception))
       (printed-exception exception)))
+
+(define (exception->placed-line exception)
+  "Return what EXCEPTION says on one line, after its place, if that is known: FILE:LINE: PROCEDURE: MESSAGE."
+  (let ((place (raised-at exception)))
+    (string-append (if place (string-append (location->string place) ": ") "")
+                   (exception->line exception))))
 
 (define (printed-exception exception)
   (let ((text (call-with-output-string

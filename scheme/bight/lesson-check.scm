@@ -10,6 +10,7 @@
 
 (define-module (bight lesson-check)
   #:use-module (bight errors)
+  #:use-module ((bight here) #:select (noting-places))
   #:use-module (bight lesson)
   #:use-module (srfi srfi-1)
   #:export (check-lesson
@@ -103,9 +104,11 @@
         (if (memq (exception-kind e) '(quit signal))
             (raise-exception e)
             (simple-format #f "its pilot ~a breaks down (seed ~a): ~a" name seed
-                           ((module-ref (resolve-interface '(bight expect)) 'exception->line) e))))
+                           ((module-ref (resolve-interface '(bight expect)) 'exception->placed-line) e))))
     (lambda ()
-      (take-lesson lesson (scripted-guide (pilot-named lesson name)) #:who name #:seed seed))
+      (noting-places
+       (lambda ()
+         (take-lesson lesson (scripted-guide (pilot-named lesson name)) #:who name #:seed seed))))
     #:unwind? #t))
 
 (define (judged-flight lesson name seed)

@@ -13,9 +13,11 @@
   #:use-module ((bight atlas) #:select (worlds-path))
   #:use-module (bight errors)
   #:use-module ((bight files) #:select (limit-reading!))
+  #:use-module ((bight here) #:select (noting-places place-of))
   #:use-module ((bight landlock) #:select (close-paths!))
   #:use-module (bight lesson)
   #:use-module ((bight lesson-play) #:select (untrusted?))
+  #:use-module ((bight place) #:select (evaluate-marked))
   #:use-module (ice-9 sandbox)
   #:use-module (srfi srfi-1)
   #:export (enclose!
@@ -197,11 +199,14 @@
 
 (define (refused-at file line exception)
   ;; Raise what EXCEPTION says, after its place; the reader tells that itself.
-  (let ((text ((module-ref (resolve-interface '(bight expect)) 'exception->line) exception)))
+  (let ((text ((module-ref (resolve-interface '(bight expect)) 'exception->line) exception))
+        (place (place-of exception)))
     (raise-engine-error (if (bight-error? exception) (bight-error-kind exception) 'def) #f
                         (string-append (if (string-prefix? (string-append file ":") text)
                                            ""
-                                           (string-append file ":" (number->string line) ": "))
+                                           (string-append file ":"
+                                                          (number->string (if place (cdr place) line))
+                                                          ": "))
                                        text
                                        (cure exception)))))
 
@@ -209,12 +214,19 @@
   "Evaluate the forms in PORT, from FILE, in MODULE, one from `sandbox-module'; call BETWEEN before each.
 Raise a &bight-error that begins with FILE and the line for whatever goes wrong."
   (define (at line thunk)
-    (with-exception-handler (lambda (e) (refused-at file line e)) thunk #:unwind? #t))
+    (with-exception-handler (lambda (e) (refused-at file line e))
+      (lambda () (noting-places thunk))
+      #:unwind? #t))
   (let loop ((line 1))
     (let ((form (at line (lambda () (read-syntax port)))))
       (unless (eof-object? form)
         (between)
-        (at (line-of form) (lambda () (eval form module)))
+        (at (line-of form)
+            (lambda ()
+              (save-module-excursion
+               (lambda ()
+                 (set-current-module module)
+                 (evaluate-marked form file)))))
         (loop (line-of form))))))
 
 (define (read-lessons-inside file)

@@ -12,7 +12,8 @@
 
 (define-module (bight sweep-worker)
   #:use-module ((bight datum) #:select (text->datum))
-  #:use-module ((bight expect) #:select (exception->line raised-kind))
+  #:use-module ((bight expect) #:select (exception->line raised-at raised-kind))
+  #:use-module ((bight here) #:select (noting-places))
   #:use-module (bight record)
   #:use-module (bight study-case)
   #:use-module ((ice-9 binary-ports) #:select (get-bytevector-some))
@@ -31,10 +32,14 @@
 
 ;;; The process that flies one case.
 
+(define (place->text place)
+  ;; Without its folder, which another machine has elsewhere.
+  (if place (simple-format #f "~a:~a: " (basename (car place)) (cdr place)) ""))
+
 (define (failure e)
   (list (cons 'status "failed")
         (cons 'error (object->string (raised-kind e) display))
-        (cons 'message (exception->line e))))
+        (cons 'message (string-append (place->text (raised-at e)) (exception->line e)))))
 
 (define (case-outcome study number)
   "Return what comes of the case NUMBER, from 0, of STUDY: an alist of status, cpu and hash, measures, legs,
@@ -43,7 +48,7 @@ or error and message."
          (outcome
           (with-exception-handler failure
             (lambda ()
-              (let ((found (fly-case study number)))
+              (let ((found (noting-places (lambda () (fly-case study number)))))
                 (list '(status . "done")
                       (cons 'hash (object->string (third found) display))
                       (cons 'measures (first found))

@@ -9,6 +9,7 @@
   #:use-module (bight dive)
   #:use-module (bight errors)
   #:use-module (bight expect)
+  #:use-module ((bight here) #:select (noting-places))
   #:use-module ((bight query) #:select (events))
   #:use-module ((bight scratch) #:select (call-with-scratch))
   #:use-module ((bight time) #:select (now))
@@ -100,7 +101,7 @@
 (define (unexpected exception)
   (make-failure '... "no error"
                 (simple-format #f "~a error: ~a" (raised-kind exception) (exception->line exception))
-                (variable-ref (current-location))))
+                (or (raised-at exception) (variable-ref (current-location)))))
 
 (define (call-catching thunk fail)
   ;; Call THUNK; FAIL with the exception it raises, but let (exit) and ^C through.
@@ -109,7 +110,7 @@
         (if (memq (exception-kind exception) '(quit signal))
             (raise-exception exception)
             (fail exception)))
-    thunk
+    (lambda () (noting-places thunk))
     #:unwind? #t))
 
 (define epilogue
