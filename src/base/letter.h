@@ -8,8 +8,8 @@
 #include <stdint.h>
 
 /* Return true if a terminal obeys U rather than showing it: the control characters of ASCII and of
-   Latin 1, and what turns the direction of a line or ends it, so that it reads as another.  Line feed
-   and tabulator are among them.  */
+   Latin 1, and what turns the direction of a line or ends it, so that it reads as another.  Line
+   feed and tabulator are among them.  */
 static inline int
 bt__is_control (uint32_t u)
 {

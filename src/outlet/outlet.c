@@ -1,10 +1,10 @@
 /* The way out to a terminal: a port through which text of whatever origin can be written.
 
    A terminal obeys some characters instead of showing them: they move its cursor, name its window,
-   fill its clipboard.  A name, a sentence or an error message may hold them, as the file had them that
-   it comes from.  An outlet writes its text to another port with each such character escaped, \x1b or
-   \u202e; line feed, tabulator and the carriage return before a line feed pass.  What is meant for the
-   terminal to obey is written to the port behind the outlet.
+   fill its clipboard.  A name, a sentence or an error message may hold them, as the file had them
+   that it comes from.  An outlet writes its text to another port with each such character escaped,
+   \x1b or \u202e; line feed, tabulator and the carriage return before a line feed pass.  What is
+   meant for the terminal to obey is written to the port behind the outlet.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -34,8 +34,8 @@ static scm_t_port_type *outlet_type;
 
 /* ---- Letters ---- */
 
-/* The letter that begins at TEXT, of N bytes, and how many it takes; none when it is not whole yet; -1
-   for a byte that is no UTF-8.  */
+/* The letter that begins at TEXT, of N bytes, and how many it takes; none when it is not whole yet;
+   -1 for a byte that is no UTF-8.  */
 static int
 decode (const unsigned char *text, size_t n, uint32_t *letter)
 {
@@ -56,8 +56,8 @@ decode (const unsigned char *text, size_t n, uint32_t *letter)
   return *letter >= least[size] && *letter <= 0x10ffff && *letter >> 11 != 27 ? size : -1;
 }
 
-/* Write the SIZE bytes at TEXT, the letter U or a stray byte, to OUT as they may be shown; return how many
-   that are.  */
+/* Write the SIZE bytes at TEXT, the letter U or a stray byte, to OUT as they may be shown; return
+   how many that are.  */
 static size_t
 show (const unsigned char *text, size_t size, int stray, uint32_t u, char *out)
 {
@@ -183,8 +183,7 @@ bight_outlet_init (void)
       "Return a port whose text goes to PORT with what a terminal would obey escaped." },
     { "%behind", 1, 0, (scm_t_subr)port_behind,
       "Return the port that the outlet PORT writes to; any other port itself." },
-    { "%shown", 1, 0, (scm_t_subr)shown,
-      "Return STRING as an outlet writes it." },
+    { "%shown", 1, 0, (scm_t_subr)shown, "Return STRING as an outlet writes it." },
   };
   outlet_type = scm_make_port_type ((char *)"outlet", NULL, write_outlet);
   scm_set_port_needs_close_on_gc (outlet_type, 1); /* so that it is flushed at the end */

@@ -155,7 +155,7 @@
                     (define-lesson bad "x" (in small)
                       (task "t" (done-when (> (abs (rov-speed)) 0.05)) (at-most 5))
                       (pilot demonstration "x" (flies (drive! #:surge 1))) (pilot expert "x"))))
-    (expect (wrong? "its pilot hasty breaks down (seed 1): run: "
+    (expect (wrong? "its pilot hasty breaks down (seed 1): "
                     (define-lesson bad "x" (in small) (task "t" (done-when (> (now) 1)) (at-most 3))
                       (pilot expert "x") (pilot hasty "x" (flies (run -1))))))
     (expect (wrong? "doing nothing"
