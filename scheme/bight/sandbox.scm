@@ -252,7 +252,7 @@ wrong in it."
     (setitimer ITIMER_PROF 0 0 breath 0)
     ;; A collector that finds no memory may wait for ever, and then takes no processor time.  A machine
     ;; with much else to do is slow, and no reason to end anything.
-    (setitimer ITIMER_REAL 0 0 (if busy? (+ 30 (* 10 breath)) 0) 0)))
+    (setitimer ITIMER_REAL 0 0 (if busy? (+ 240 (* 10 breath)) 0) 0)))
 
 (define heap-share 0.6)                 ; of the memory: what the lesson's own data may take
 
