@@ -47,33 +47,8 @@ bt__shape_remembered (const bt__shape_job *j)
   return bt__unit_or (j->memory->load_direction, down);
 }
 
-/* The angle of the load over the horizontal: thesis 2.4.2, or from the real forces.  */
-static double
-sag_angle (const bt__shape_job *j)
-{
-  const bt_tether_props *p = j->props;
-  if (p->sag_buoyancy == BT_SAG_AUTO)
-    return atan2 (-p->wet_weight, j->drag);
-  double sag = p->sag_buoyancy * (1 - j->speed / p->max_current);
-  return fmin (fmax (sag, -1), 1) * (BT__PI / 2);
-}
-
-static bt_vec3
-sagging_direction (const bt__shape_job *j)
-{
-  double weight = j->props->wet_weight;
-  if (is_flowing (j))
-    {
-      double phi = sag_angle (j);
-      return bt__axpy (bt__scale (cos (phi), j->current), sin (phi), up);
-    }
-  if (j->props->sag_buoyancy == BT_SAG_AUTO && weight != 0)
-    return weight > 0 ? down : up;
-  return bt__shape_remembered (j);
-}
-
-/* With the linear depth rule the load is horizontal.  Without a current: the last direction, else
-   to the left of the chord, else east.  */
+/* The load's level part, all of it with the linear depth rule.  Without a current: the last
+   direction, else to the left of the chord, else east.  */
 static bt_vec3
 level_direction (const bt__shape_job *j)
 {
@@ -83,6 +58,33 @@ level_direction (const bt__shape_job *j)
   bt_vec3 aside = bt__unit_or (bt__vec (-c.y, c.x, 0), bt__vec (1, 0, 0));
   last.z = 0;
   return bt__norm (last) > 1e-6 ? bt__unit_or (last, aside) : aside;
+}
+
+/* The angle of the load over the horizontal: from the real forces, or by thesis 2.4.2, whose
+   relative current magnitude ends at 1: beyond the maximum allowed current nothing sags.  */
+static double
+sag_angle (const bt__shape_job *j)
+{
+  const bt_tether_props *p = j->props;
+  if (p->sag_buoyancy == BT_SAG_AUTO)
+    return atan2 (-p->wet_weight, j->drag);
+  return p->sag_buoyancy * (1 - fmin (j->speed / p->max_current, 1)) * (BT__PI / 2);
+}
+
+/* A given buoyancy sags in still water too, where the level part of the load is the last one's.
+   With neither current nor buoyancy nothing says where to.  */
+static bt_vec3
+sagging_direction (const bt__shape_job *j)
+{
+  double weight = j->props->wet_weight, buoyancy = j->props->sag_buoyancy;
+  if (is_flowing (j) || (buoyancy != BT_SAG_AUTO && buoyancy != 0))
+    {
+      double phi = sag_angle (j);
+      return bt__axpy (bt__scale (cos (phi), level_direction (j)), sin (phi), up);
+    }
+  if (buoyancy == BT_SAG_AUTO && weight != 0)
+    return weight > 0 ? down : up;
+  return bt__shape_remembered (j);
 }
 
 /* ---- The plane ---- */

@@ -373,10 +373,35 @@ depth_rule_sag (void **state)
   s.props.sag_buoyancy = -0.5;
   solve_well (&s);
   assert_true (fabs (tangent (&s, 0).z) > fabs (tangent (&s, 39.9).z));
-  /* Beyond the largest current the factor turns, and is held to -1 .. 1.  */
-  flow (&s, 9, 0);
-  solve_well (&s);
-  near_point ("load", s.memory.load_direction, 0, 0, 1, 1e-15);
+}
+
+/* The share U / Umax ends at 1, where the sag is 0; in still water the sag is the buoyancy. */
+static void
+depth_rule_sag_has_ends (void **state)
+{
+  (void)state;
+  for (int b = -4; b <= 4; b++)
+    for (int k = 0; k <= 12; k++)
+      {
+        scene s;
+        double buoyancy = b / 4.0, speed = 0.25 * k; /* of at most 2 m/s */
+        double phi = buoyancy * fmax (0, 1 - speed / 2) * BT__PI / 2;
+        begin (&s, BT_MODEL_CATENARY, 40, bt__vec (0, 20, -4));
+        s.props.sag_buoyancy = buoyancy;
+        flow (&s, 0.5, 0); /* which way is the last one's in still water */
+        solve_well (&s);
+        flow (&s, speed, 0);
+        solve_well (&s);
+        is_sound (&s);
+        near_point ("load", bt__scale (-1, s.shape.against), cos (phi), 0, sin (phi), 1e-15);
+        if (b == 0 && k == 0)
+          continue; /* neither current nor buoyancy: no load */
+        begin (&s, BT_MODEL_CATENARY, 40, bt__vec (0, 20, -4));
+        s.props.sag_buoyancy = buoyancy;
+        flow (&s, speed, 0);
+        solve_well (&s);
+        near ("sag of the first answer", -s.shape.against.z, sin (phi), 1e-15);
+      }
 }
 
 /* With the real weight and drag the load is their sum.  */
@@ -662,6 +687,7 @@ main (void)
                                       cmocka_unit_test (depth_rule_linear),
                                       cmocka_unit_test (depth_rule_thesis_linear),
                                       cmocka_unit_test (depth_rule_sag),
+                                      cmocka_unit_test (depth_rule_sag_has_ends),
                                       cmocka_unit_test (depth_rule_sag_auto),
                                       cmocka_unit_test (still_and_weightless),
                                       cmocka_unit_test (heavy_line_hangs),
