@@ -28,7 +28,7 @@
     ((bight checkpoint) checkpoint checkpoint? restore! rewind! what-if state-hash)
     ((bight command))
     ((bight query)
-     rov-position rov-velocity rov-heading rov-pitch rov-roll rov-depth rov-altitude rov-speed
+     rov-position rov-velocity rov-heading rov-pitch rov-roll rov-depth rov-altitude rov-over rov-speed
      net-turns sticks held? range-to bearing-to current-at sea-depth
      tether-points tether-tail point-at tangent-at tensions tension-at
      anchor-tension rov-tension max-tension tether-force

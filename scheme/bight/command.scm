@@ -161,7 +161,8 @@ the sticks are forces and moments alone.  Return ON."
   depth)
 
 (define-verb (hold-altitude! #:subject (v vehicle) (altitude non-negative))
-  "Keep the vehicle ALTITUDE metres above the bottom until `release!'.  Return it."
+  "Keep the vehicle ALTITUDE metres above what is below it, as `rov-altitude' tells it, until `release!'.
+Return it."
   (operate! 'hold-altitude! v altitude)
   altitude)
 

@@ -7,6 +7,7 @@
 
 (define-module (bight dive)
   #:use-module ((bight atlas) #:select (world-called))
+  #:use-module (bight bed)
   #:use-module (bight engine)
   #:use-module (bight errors)
   #:use-module ((bight files) #:select (engine-parts))
@@ -130,11 +131,14 @@
 (define-verb (enter! (world world-or-name) #:key (trust flag #f))
   "Start a dive in WORLD: a world, a symbol naming one in worlds/, or a file name.  The dive becomes the
 current one and is returned.  A file that lies in no folder of worlds is enclosed: it has the language of
-worlds and cannot touch anything; with TRUST it may do all that you may."
+worlds and cannot touch anything; with TRUST it may do all that you may.  A warning tells of a bed that the
+dive is beside of."
   (check-not-running 'enter! (current-dive))
   (let* ((world (world-called 'enter! world trust))
          (dive (begin-dive (%make-dive (engine-parts 'enter! world)) world)))
     (current-dive dive)
+    (and=> (beside-bed (engine-of dive))
+           (lambda (text) (simple-format (current-warning-port) "bight: enter!: ~a~%" text)))
     dive))
 
 (define (begin-dive engine world)

@@ -34,7 +34,7 @@ payout (m) at the winch."
 (define-instrument (depth-sensor depth)
   "Return what the depth sensor of the vehicle shows, m.")
 (define-instrument (altimeter altitude)
-  "Return the height above what is below the vehicle that its altimeter shows, m.")
+  "Return the height above what is below the vehicle that its altimeter shows, m; see `rov-altitude'.")
 (define-instrument (turn-counter turns)
   "Return the turns that the vehicle has made by its own count, clockwise positive.")
 (define-instrument (ship-range range)

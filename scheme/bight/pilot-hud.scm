@@ -42,12 +42,13 @@
     (and variable (answer (apply (variable-ref variable) arguments)))))
 
 (define-record <figures>
-  (make-figures heading depth speed altitude turns out tension breaking spooling?)
+  (make-figures heading depth speed altitude over turns out tension breaking spooling?)
   figures?
   (heading figures-heading)
   (depth figures-depth)
   (speed figures-speed)
   (altitude figures-altitude)
+  (over figures-over)                   ; what the altitude is above, #f: the sea's depth
   (turns figures-turns)
   (out figures-out)
   (tension figures-tension)
@@ -60,6 +61,7 @@
                 (and vehicle (rov-depth vehicle))
                 (and vehicle (rov-speed vehicle))
                 (and vehicle (answer (rov-altitude vehicle)))
+                (and vehicle (answer (rov-over vehicle)))
                 (and vehicle (net-turns vehicle))
                 (and tether (tether-length tether))
                 (and tether (answer (max-tension tether)))
@@ -183,7 +185,7 @@ most two.  This takes milliseconds."
 
 (define (left-rows f)
   (list (row "depth" (figure (figures-depth f) 2 "m"))
-        (row "above" (figure (figures-altitude f) 2 "m"))
+        (row (if (figures-over f) "above" "no bed") (figure (figures-altitude f) 2 "m"))
         (row "speed" (figure (figures-speed f) 2 "m/s"))
         (row "turns" (figure (figures-turns f) 2 ""))))
 

@@ -14,7 +14,7 @@
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
-  #:export (tether-tail rov-position rov-velocity rov-heading rov-pitch rov-roll rov-depth rov-altitude rov-speed
+  #:export (tether-tail rov-position rov-velocity rov-heading rov-pitch rov-roll rov-depth rov-altitude rov-over rov-speed
             net-turns sticks held? range-to bearing-to
             current-at sea-depth
             tether-points point-at tangent-at
@@ -65,8 +65,17 @@
   (- (z (rov-position-of 'rov-depth v))))
 
 (define-verb (rov-altitude #:subject (v vehicle))
-  "Return the height of the vehicle above the bottom, m."
-  (+ (sea-depth) (z (rov-position-of 'rov-altitude v))))
+  "Return the height of the vehicle above what is straight below it, m: a level seabed, one of a grid or a
+mesh, an obstacle on it.  Where `rov-over' says that nothing is, the height above the depth of the sea."
+  (car (below 'rov-altitude v)))
+
+(define-verb (rov-over #:subject (v vehicle))
+  "Return the name of what is straight below the vehicle, #f where nothing is: a sea has no bed without the
+part `seabed'."
+  (cdr (below 'rov-over v)))
+
+(define (below proc v)
+  (%altitude (this-engine proc) (rov-position-of proc v)))
 
 (define-verb (rov-speed #:subject (v vehicle))
   "Return the speed of the vehicle over ground, m/s."

@@ -8,6 +8,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight view)
+  #:use-module (bight bed)
   #:use-module ((bight command) #:select (spooling?))
   #:use-module (bight dive)
   #:use-module (bight engine)
@@ -16,6 +17,7 @@
   #:use-module (bight query)
   #:use-module (bight record)
   #:use-module (bight time)
+  #:use-module ((bight units) #:select (vec))
   #:use-module (bight verb)
   #:use-module (srfi srfi-1)
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
@@ -239,7 +241,7 @@
 ;;; What there is to draw: a scene is read once from the dive.
 
 (define-record <scene>
-  (make-scene lines tails outlines names vehicles headings current floor)
+  (make-scene lines tails outlines names vehicles headings current bed)
   scene?
   (lines scene-lines)                   ; of each tether its points, lists (x y z), from the anchor
   (tails scene-tails)                   ; of each parted one, those of the other part
@@ -248,7 +250,7 @@
   (vehicles scene-vehicles)             ; a list (x y z) each
   (headings scene-headings)             ; degrees each
   (current scene-current)               ; at the first vehicle, a list of components
-  (floor scene-floor))                  ; height of the sea bed
+  (bed scene-bed))                      ; a procedure: the height of the sea bed at X Y, #f: there is none
 
 (define (read-scene)
   (let ((vehicles (vehicles 'look))
@@ -262,7 +264,18 @@
                 (map (lambda (name) (point->list (rov-position name))) vehicles)
                 (map rov-heading vehicles)
                 (point->list (current-at (rov-position (car vehicles))))
-                (- (sea-depth)))))
+                (bed-of 'look))))
+
+(define sky 1000)                       ; m: the bed is looked for from here down
+
+(define (bed-of proc)
+  (let* ((engine (this-engine proc))
+         (bed (bed-number engine))
+         (name (and bed (list-ref (%names engine 'obstacle) bed))))
+    (lambda (x y)
+      (and name
+           (let ((hit (%altitude engine (vec x y sky))))
+             (and (eq? (cdr hit) name) (- sky (car hit))))))))
 
 (define (outlines proc)
   (let ((engine (this-engine proc)))
@@ -323,13 +336,13 @@
        finest-step))
 
 (define (near-levels scene places)
-  ;; The levels, surface and sea bed, that are near enough to be shown with PLACES.
+  ;; The levels, surface and sea bed below the first vehicle, that are near enough to be shown with PLACES.
   (let* ((heights (map cdr places))
          (reach (max 3 (extent heights) (* 1/2 (extent (map car places))))))
     (filter (lambda (level)
               (and level
                    (< (- (apply min heights) reach) level (+ (apply max heights) reach))))
-            (list 0 (scene-floor scene)))))
+            (list 0 (apply (scene-bed scene) (take (car (scene-vehicles scene)) 2))))))
 
 (define (with-levels levels places)
   (append (map (lambda (level) (cons (car (car places)) level)) levels) places))
@@ -379,12 +392,22 @@
     (draw-scene! canvas scene from-above heading-mark)
     (frame "from above, north up" (canvas->lines canvas) columns)))
 
+(define (draw-bed! canvas scene bearing)
+  ;; The bed along the plane of `from-the-side'.
+  (let ((origin (car (scene-points scene))))
+    (for-each (lambda (column)
+                (let* ((s (+ (canvas-left canvas) (* (canvas-step canvas) (+ column 1/2))))
+                       (height ((scene-bed scene) (+ (first origin) (* s (sin (* radian bearing))))
+                                                  (+ (second origin) (* s (cos (* radian bearing)))))))
+                  (when height
+                    (put! canvas (cons column (cdr (cell-of canvas (cons s height)))) #\=))))
+              (iota (canvas-columns canvas)))))
+
 (define (side-panel scene places levels project bearing columns rows step)
   (let ((canvas (make-canvas columns rows (middle-of (with-levels levels places)) step)))
     (when (memv 0 levels)
       (put-row! canvas 0 #\~))
-    (when (memv (scene-floor scene) levels)
-      (put-row! canvas (scene-floor scene) #\=))
+    (draw-bed! canvas scene bearing)
     (draw-scene! canvas scene project (side-mark bearing))
     (frame (string-append "from the side, toward " (bearing->string bearing))
            (canvas->lines canvas) columns)))
@@ -395,7 +418,8 @@
            (if (pair? (scene-lines scene)) '("A anchor") '())
            (map (lambda (name heading) (simple-format #f "~a ~a" (heading-mark heading) name))
                 (scene-names scene) (scene-headings scene))
-           (list (string-append "current " (current->string (scene-current scene)))))
+           (list (string-append "current " (current->string (scene-current scene))))
+           (if (answer (rov-over (car (scene-names scene)))) '() '("no bed below")))
    "   "))
 
 (define panel-rows 18)
@@ -418,7 +442,7 @@
 (define-verb (look #:key (columns (or-false (between 40 400))))
   "Draw the present dive in plain characters, from above (north up) and from the side, on one scale in
 both: A is the anchor, ^ > v < the vehicle and where it heads, # an obstacle, ~ the surface, = the
-sea bed.  The drawing is COLUMNS wide, by default as wide as the terminal.  Return a picture, which prints as text."
+sea bed, where there is one.  The drawing is COLUMNS wide, by default as wide as the terminal.  Return a picture, which prints as text."
   (let ((width (inexact->exact (floor (or columns (max 40 (min 160 (terminal-columns))))))))
     (lines->picture (draw (read-scene) width))))
 
@@ -455,6 +479,7 @@ sea bed.  The drawing is COLUMNS wide, by default as wide as the terminal.  Retu
                     (point->list (sticks name))))
         (row "attitude"
              (cell "altitude" (figure (answer (rov-altitude name)) 2) "m")
+             (cell "" (over->string (ask 'rov-over name)))
              (cell "pitch" (figure (rov-pitch name) 1))
              (cell "roll" (figure (rov-roll name) 1))
              (let ((all (ask 'thrusts name)))
@@ -463,6 +488,12 @@ sea bed.  The drawing is COLUMNS wide, by default as wide as the terminal.  Retu
                           "N"))))
         (row "current"
              (cell "" (current->string (point->list (current-at (rov-position name))))))))
+
+(define (over->string below)
+  ;; What is below, unless that is the bed.
+  (cond ((not below) "no bed: counted from the sea's depth")
+        ((eq? below 'seabed) #f)
+        (else (simple-format #f "over ~a" below))))
 
 (define (tether-rows name)
   (list (row (symbol->string name)
@@ -546,6 +577,8 @@ sea bed.  The drawing is COLUMNS wide, by default as wide as the terminal.  Retu
   (map (lambda (text) (simple-format #f "~a ~a" name text))
        (filter identity
                (list (and (answer (held? name)) "held back")
+                     (and (not (over-bed? (this-engine 'status) (rov-position name)))
+                          "is beyond the edge of the bed")
                      (and (near-props? name) "has a tether near its thrusters")
                      (let ((broken (or (ask 'faults name) '())))
                        (and (pair? broken)

@@ -39,6 +39,12 @@ typedef struct bt_readings
 /* Read the instruments of vehicle I.  The ship is where the anchor of its first tether is.  */
 bt_status bt_dive_instruments (const bt_dive *dive, int i, bt_readings *readings, bt_error *error);
 
+/* Write to *ALTITUDE how far it is from P straight down to the bed or to what is above it, m, and
+   to *OBSTACLE the number of what that is.  Where nothing is below, -1, and the altitude is that
+   above the depth of the sea: negative farther down.  BT_ERR_DOMAIN for a P that is not finite.  */
+bt_status bt_dive_altitude (const bt_dive *dive, bt_vec3 p, double *altitude, int *obstacle,
+                            bt_error *error);
+
 /* Return the faults of vehicle I, a sum of bt_fault, and in *LOST which thrusters are dead, by
    bit.  */
 int64_t bt_dive_faults (const bt_dive *dive, int i, int64_t *lost);

@@ -46,6 +46,21 @@ instruments (SCM object, SCM index)
 }
 
 static SCM
+altitude (SCM object, SCM point)
+{
+  bt_dive *dive = bt__to_dive (object);
+  double above;
+  int obstacle;
+  bt_error error;
+  bt__check (
+      "rov-altitude",
+      bt_dive_altitude (dive, bt__to_point ("rov-altitude", point), &above, &obstacle, &error),
+      &error);
+  return scm_cons (scm_from_double (above),
+                   obstacle < 0 ? SCM_BOOL_F : bt__obstacle_name (dive, obstacle));
+}
+
+static SCM
 fault_names (void)
 {
   SCM list = SCM_EOL;
@@ -127,6 +142,10 @@ bt__define_instruments (void)
   static const bt__procedure table[] = {
     { "%instruments", 2, 0, (scm_t_subr)instruments,
       "Return what the instruments of the INDEX-th vehicle of DIVE show, an alist; #f: nothing." },
+    { "%altitude", 2, 0, (scm_t_subr)altitude,
+      "Return (METRES . NAME): how high the point P of DIVE is above what is below it, and what "
+      "that "
+      "is; #f: nothing, and the metres are above the depth of the sea." },
     { "%fault-names", 0, 0, (scm_t_subr)fault_names,
       "Return the faults there are, an alist from names to what the operation takes." },
     { "%faults", 2, 0, (scm_t_subr)faults,

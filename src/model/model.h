@@ -56,6 +56,8 @@ struct bt_model
   int *where;                 /* of each: its place in SCENE, or -1 - its place in CARRIED */
   bt__scene *scene;           /* what stands still, ids its numbers; empty: nothing does */
   bt__carried *carried;       /* what does not */
+  double lowest;              /* m: nothing that stands still reaches below; +inf: nothing does */
+  int n_floors;               /* 1: the last of SCENE is the bottom beyond the edge of a seabed */
 };
 
 /* The longest chord that LENGTH metres of a tether with PROPS span when pulled with at most PULL

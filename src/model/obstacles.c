@@ -96,11 +96,36 @@ forget_borrowed (bt_obstacle_def *def)
   memset (&def->track, 0, sizeof def->track);
 }
 
-/* Draw every obstacle; those that stand still into STILL, *N of them.  */
+#define BELOW_BED 1.0 /* m: a bed and the bottom about it never touch a line at once */
+
+/* A bed of a grid or a mesh has an edge, and holes: beyond them the bottom is level, at the depth
+   of the sea or so far below the bed's lowest point.  Return zero if SHAPE needs none.  */
+static int
+floor_about (const bt_obstacle_def *def, const bt__obstacle *bed, double depth, bt__obstacle *out)
+{
+  if (def->kind != BT_OBSTACLE_SEABED || bed->kind == BT__OBSTACLE_PLANE)
+    return 0;
+  double level = fmin (-depth, bt__obstacle_box (bed).lo.z - BELOW_BED);
+  *out = (bt__obstacle){ .kind = BT__OBSTACLE_PLANE,
+                         .id = bed->id,
+                         .friction = bed->friction,
+                         .shape.plane = { { 0, 0, 1 }, level } };
+  return 1;
+}
+
+static double
+lowest_of (const bt__obstacle *shape)
+{
+  return shape->kind == BT__OBSTACLE_PLANE ? shape->shape.plane.offset
+                                           : bt__obstacle_box (shape).lo.z;
+}
+
+/* Draw every obstacle; those that stand still into STILL, *N of them, the floor last.  */
 static bt_status
 draw_all (bt_model *model, bt__obstacle *still, uint32_t *n, bt_error *error)
 {
   bt_status status = BT_OK;
+  bt__obstacle bottom;
   for (int i = 0; status == BT_OK && i < model->n_obstacles; i++)
     {
       bt_obstacle_def *def = &model->obstacles[i];
@@ -112,9 +137,15 @@ draw_all (bt_model *model, bt__obstacle *still, uint32_t *n, bt_error *error)
         {
           model->where[i] = (int)*n;
           still[(*n)++] = shape;
+          model->n_floors |= floor_about (def, &shape, model->sea.depth, &bottom);
         }
       forget_borrowed (def);
     }
+  if (status == BT_OK && model->n_floors)
+    still[(*n)++] = bottom;
+  model->lowest = INFINITY;
+  for (uint32_t i = 0; i < *n; i++)
+    model->lowest = fmin (model->lowest, lowest_of (&still[i]));
   return status;
 }
 
@@ -140,7 +171,7 @@ bt__compile_obstacles (bt_model *model, const bt_world *world, bt_error *error)
     return status;
   if (n == 0)
     return bt__scene_new (NULL, 0, 0, &model->scene, error);
-  still = malloc (n * sizeof *still);
+  still = malloc ((n + 1) * sizeof *still); /* and a floor */
   model->obstacles = malloc (n * sizeof *model->obstacles);
   model->where = calloc (n, sizeof *model->where);
   model->carried = calloc (n, sizeof *model->carried);

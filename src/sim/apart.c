@@ -200,9 +200,7 @@ tethers_meet (const bt_dive *dive, bt__state *state, const bt__lanes *l, int i, 
 static int
 may_touch (const bt_dive *dive, bt__state *state, int i, int j)
 {
-  int n = dive->model->n_obstacles;
-  return !bt__dive_off (dive, state, BT_PART_TETHER, i)[n + j]
-         || !bt__dive_off (dive, state, BT_PART_TETHER, j)[n + i];
+  return !bt__passes_tether (dive, state, i, j) || !bt__passes_tether (dive, state, j, i);
 }
 
 /* Nonzero if tethers I and J, which go or ask as far as WAY says, have to do with each other.  */

@@ -169,8 +169,7 @@ fix_of (const bt_dive *dive, bt__state *state, int vehicle)
                     .velocity = v->velocity,
                     .attitude = v->body.attitude,
                     .spin = v->body.spin,
-                    .altitude
-                    = wanted ? bt__dive_altitude (dive, state, vehicle, v->position) : NAN };
+                    .altitude = wanted ? bt__dive_altitude (dive, state, v->position, NULL) : NAN };
 }
 
 /* A flight that has arrived goes on as a stay.  */

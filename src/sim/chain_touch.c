@@ -32,7 +32,7 @@ pull_at (const bt_dive *dive, bt__state *state, int i, int k)
 static int
 may_touch (const bt_dive *dive, bt__state *state, int i, int j)
 {
-  return !bt__dive_off (dive, state, BT_PART_TETHER, i)[dive->model->n_obstacles + j];
+  return !bt__passes_tether (dive, state, i, j);
 }
 
 static double

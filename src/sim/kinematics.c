@@ -6,6 +6,7 @@
 
 #include "math/vec.h"
 #include "sim/sim.h"
+#include "world/obstacles.h"
 
 enum
 {
@@ -55,18 +56,31 @@ turn (const bt__vehicle *v)
 
 /* ---- Position ---- */
 
+/* The way up of this step to the depth or the altitude that is held, the latter above what is below
+   the end of the LEVEL way.  */
+static double
+held_way (const bt_dive *dive, bt__state *state, const bt__vehicle *v, bt_vec3 level)
+{
+  double most = v->speeds[HEAVE] * BT__TIME_STEP;
+  if (v->hold_depth.on)
+    return limited (-v->hold_depth.value - v->position.z, most);
+  if (!(v->pilot.holds & BT__HOLD_ALTITUDE))
+    return 0;
+  bt_vec3 there = bt__add (v->position, level);
+  return limited (v->pilot.altitude - bt__dive_altitude (dive, state, there, NULL), most);
+}
+
 /* The way of this step by the sticks, heading in the middle of the turn.  */
 static bt_vec3
-stick_way (const bt__vehicle *v, double heading)
+stick_way (const bt_dive *dive, bt__state *state, const bt__vehicle *v, double heading)
 {
   double ahead = v->sticks[SURGE] * v->speeds[SURGE] * BT__TIME_STEP;
   double aside = v->sticks[SWAY] * v->speeds[SWAY] * BT__TIME_STEP;
   double up = v->sticks[HEAVE] * v->speeds[HEAVE] * BT__TIME_STEP;
-  double most = v->speeds[HEAVE] * BT__TIME_STEP;
-  if (v->sticks[HEAVE] == 0 && v->hold_depth.on)
-    up = limited (-v->hold_depth.value - v->position.z, most);
-  return bt__vec (ahead * sin (heading) + aside * cos (heading),
-                  ahead * cos (heading) - aside * sin (heading), up);
+  bt_vec3 way = bt__vec (ahead * sin (heading) + aside * cos (heading),
+                         ahead * cos (heading) - aside * sin (heading), 0);
+  way.z = v->sticks[HEAVE] == 0 ? held_way (dive, state, v, way) : up;
+  return way;
 }
 
 static void
@@ -137,7 +151,7 @@ move (const bt_dive *dive, bt__state *state, bt__vehicle *v)
       to = along_track (dive, state, v);
       break;
     default:
-      to = bt__add (from, stick_way (v, v->heading + angle / 2));
+      to = bt__add (from, stick_way (dive, state, v, v->heading + angle / 2));
     }
   v->heading += angle;
   v->position = to;

@@ -243,10 +243,11 @@ bt_status
 bt__op_hold_altitude (const bt__call *c)
 {
   bt__vehicle *v = vehicle_of (c);
-  bt_status status = bt__check_range (c, 0, "an altitude in m", 0, c->state->depth);
+  bt_status status
+      = bt__check_range (c, 0, "an altitude in m", 0, bt__dive_altitude_max (c->dive, c->state));
   if (status != BT_OK)
     return status;
-  v->hold_depth = (bt__hold){ 1, c->state->depth - c->args[0] };
+  v->hold_depth.on = 0;
   v->pilot.altitude = c->args[0];
   hold (v, BT__HOLD_ALTITUDE, BT__HOLD_DEPTH);
   return BT_OK;

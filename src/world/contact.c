@@ -212,12 +212,13 @@ look_at (const bt_dive *dive, bt_part part, int i, int obstacle, look *look, bt_
   if (status != BT_OK || model->n_obstacles == 0)
     return status;
   look->around = bt__standing (dive, dive->now, part, i);
-  look->off = malloc ((size_t)model->n_obstacles);
+  size_t n = (size_t)bt__objects (model);
+  look->off = malloc (n);
   if (!look->off)
     return bt__fail (error, BT_ERR_LIMIT, "no memory to look at obstacles");
-  memset (look->off, obstacle >= 0, (size_t)model->n_obstacles);
+  memset (look->off, obstacle >= 0, n);
   if (obstacle >= 0)
-    look->off[bt__obstacle_slot (model, obstacle)] = 0;
+    bt__switch_slot (model, look->off, obstacle, 1);
   look->only.off = look->off;
   look->around.on = &look->only;
   for (uint32_t k = 0; k < look->around.movers; k++)

@@ -71,8 +71,7 @@ steer (bt__ghost *g, bt__rigid_input *in)
           .velocity = v->velocity,
           .attitude = v->body.attitude,
           .spin = v->body.spin,
-          .altitude
-          = wanted ? bt__dive_altitude (g->dive, g->dive->now, g->vehicle, v->position) : NAN };
+          .altitude = wanted ? bt__dive_altitude (g->dive, g->dive->now, v->position, NULL) : NAN };
   memcpy (v->pilot.sticks, v->sticks, sizeof v->pilot.sticks);
   v->pilot.yaw_rate = v->speeds[3];
   bt__pilot_steer (&model->types[g->vehicle], &model->rigs[g->vehicle], &v->pilot, &fix, in->h,

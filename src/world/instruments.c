@@ -83,7 +83,7 @@ bt_dive_instruments (const bt_dive *dive, int i, bt_readings *readings, bt_error
   truth.attitude = attitude_of (v);
   truth.turned = v->heading;
   truth.turned_from = v->heading0;
-  truth.altitude = bt__dive_altitude (dive, dive->now, i, v->position);
+  truth.altitude = bt__dive_altitude (dive, dive->now, v->position, NULL);
   look_at_ship (dive, tether, &truth);
   if (tether >= 0 && bt__dive_tether (dive, dive->now, tether)->parted)
     in.faults |= BT_FAULT_TELEMETRY;

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/hash.h"
-#include "collide/ray.h"
 #include "math/vec.h"
 #include "world/obstacles.h"
 
@@ -22,7 +21,7 @@ enum
 int
 bt__objects (const bt_model *model)
 {
-  return model->n_obstacles + model->n_tethers;
+  return model->n_obstacles + model->n_floors + model->n_tethers;
 }
 
 static size_t
@@ -108,13 +107,30 @@ bt__obstacles_init (const bt_dive *dive, bt__state *state)
 
 /* ---- Pairs ---- */
 
+/* How many shapes the scene has.  */
+static int
+still_of (const bt_model *model)
+{
+  return model->n_obstacles - model->n_carried + model->n_floors;
+}
+
 int
 bt__obstacle_slot (const bt_model *model, int obstacle)
 {
   if (obstacle >= model->n_obstacles)
-    return obstacle;
-  int where = model->where[obstacle];
-  return where >= 0 ? where : model->n_obstacles - model->n_carried + (-1 - where);
+    return obstacle + model->n_floors;
+  int where = model->where[obstacle], still = still_of (model);
+  return where >= 0 ? where : still + (-1 - where);
+}
+
+/* A seabed and the bottom about it are one obstacle.  */
+void
+bt__switch_slot (const bt_model *model, uint8_t *off, int obstacle, int on)
+{
+  off[bt__obstacle_slot (model, obstacle)] = (uint8_t)!on;
+  if (model->n_floors && obstacle < model->n_obstacles
+      && model->obstacles[obstacle].kind == BT_OBSTACLE_SEABED)
+    off[still_of (model) - 1] = (uint8_t)!on;
 }
 
 /* Equal bytes, equal versions: whoever keeps what it knows of a scene goes by it.  */
@@ -135,8 +151,15 @@ bt__switch_pair (const bt_dive *dive, bt__state *state, bt_part part, int i, int
   if (obstacle < 0)
     memset (off, !on, n);
   else
-    off[bt__obstacle_slot (model, obstacle)] = (uint8_t)!on;
+    bt__switch_slot (model, off, obstacle, on);
   subject->version = bt__pairs_version (model, off);
+}
+
+int
+bt__passes_tether (const bt_dive *dive, bt__state *state, int i, int j)
+{
+  int slot = bt__obstacle_slot (dive->model, dive->model->n_obstacles + j);
+  return bt__dive_off (dive, state, BT_PART_TETHER, i)[slot];
 }
 
 /* ---- Surroundings ---- */
@@ -148,21 +171,21 @@ part_of (const bt__motion *motion, double share)
   return share < 1 ? bt__motion_between (&motion->from, &to) : *motion;
 }
 
+/* OFF is what does not count.  */
 static bt__surroundings
-surround (const bt_dive *dive, bt__state *state, bt_part part, int i, int standing)
+surround (const bt_dive *dive, bt__state *state, bt__switches off, int standing)
 {
   const bt_model *model = dive->model;
   bt__shore *shore = &((bt_dive *)dive)->shore;
-  const bt__subject *subject = bt__dive_subject (dive, state, part, i);
-  const uint8_t *off = subject->version ? bt__dive_off (dive, state, part, i) : NULL;
-  shore->on = (bt__switches){ off, subject->version };
+  shore->on = off;
   for (int k = 0; k < model->n_carried; k++)
     {
       const bt__carried *carried = &model->carried[k];
       const bt__frame *here = &bt__dive_movers (dive, state)[k].frame;
       bt__course *course = &shore->course[k];
-      course->on = (bt__switches){ off ? off + bt__obstacle_slot (model, carried->obstacle) : NULL,
-                                   subject->version };
+      course->on
+          = (bt__switches){ off.off ? off.off + bt__obstacle_slot (model, carried->obstacle) : NULL,
+                            off.version };
       shore->mover[k] = (bt__mover){ .body = carried->body,
                                      .on = &course->on,
                                      .motion = standing ? bt__motion_between (here, here)
@@ -176,32 +199,30 @@ surround (const bt_dive *dive, bt__state *state, bt_part part, int i, int standi
                              .movers = (uint32_t)model->n_carried };
 }
 
+static bt__switches
+switches_of (const bt_dive *dive, bt__state *state, bt_part part, int i)
+{
+  const bt__subject *subject = bt__dive_subject (dive, state, part, i);
+  return (bt__switches){ subject->version ? bt__dive_off (dive, state, part, i) : NULL,
+                         subject->version };
+}
+
 bt__surroundings
 bt__surround (const bt_dive *dive, bt__state *state, bt_part part, int i)
 {
-  return surround (dive, state, part, i, 0);
+  return surround (dive, state, switches_of (dive, state, part, i), 0);
 }
 
 bt__surroundings
 bt__standing (const bt_dive *dive, bt__state *state, bt_part part, int i)
 {
-  return surround (dive, state, part, i, 1);
+  return surround (dive, state, switches_of (dive, state, part, i), 1);
 }
 
-double
-bt__dive_altitude (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 p)
+bt__surroundings
+bt__all_standing (const bt_dive *dive, bt__state *state)
 {
-  double most = fmax (0, p.z + state->depth);
-  bt__ray down = { p, { 0, 0, -1 }, most };
-  bt__surroundings around;
-  bt__count unused = { 0 };
-  bt__ray_hit hit;
-  if (dive->model->n_obstacles == 0 || most == 0)
-    return most;
-  around = bt__standing (dive, state, BT_PART_VEHICLE, vehicle);
-  return bt__ray_cast (around.scene, around.on, around.mover, around.movers, &down, &hit, &unused)
-             ? hit.range
-             : most;
+  return surround (dive, state, (bt__switches){ 0 }, 1);
 }
 
 /* ---- Meetings ---- */

@@ -30,6 +30,12 @@ int bt__objects (const bt_model *model);
    carried, then tethers.  */
 int bt__obstacle_slot (const bt_model *model, int obstacle);
 
+/* True if tether I passes through tether J, which may be I.  */
+int bt__passes_tether (const bt_dive *dive, bt__state *state, int i, int j);
+
+/* Write to the bytes OFF whether OBSTACLE is on.  */
+void bt__switch_slot (const bt_model *model, uint8_t *off, int obstacle, int on);
+
 /* The I-th vehicle or tether, by PART, and its byte for each object, by slot.  */
 bt__subject *bt__dive_subject (const bt_dive *dive, bt__state *state, bt_part part, int i);
 uint8_t *bt__dive_off (const bt_dive *dive, bt__state *state, bt_part part, int i);
@@ -39,9 +45,16 @@ uint8_t *bt__dive_off (const bt_dive *dive, bt__state *state, bt_part part, int 
 bt__surroundings bt__surround (const bt_dive *dive, bt__state *state, bt_part part, int i);
 bt__surroundings bt__standing (const bt_dive *dive, bt__state *state, bt_part part, int i);
 
-/* Return how far it is from P, where VEHICLE is, down to the bottom or to an obstacle above it, m.
- */
-double bt__dive_altitude (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 p);
+/* The same of whatever there is, switched off or not.  */
+bt__surroundings bt__all_standing (const bt_dive *dive, bt__state *state);
+
+/* Return how far it is from P straight down to the bed or to what is above it, m, and in *OBSTACLE,
+   unless it is NULL, what that is.  Where no obstacle is below, BT__NO_OBSTACLE: then it is the
+   height above the depth of the sea, negative below that.  */
+double bt__dive_altitude (const bt_dive *dive, bt__state *state, bt_vec3 p, int *obstacle);
+
+/* Return the greatest altitude that there is under water in STATE, m.  */
+double bt__dive_altitude_max (const bt_dive *dive, bt__state *state);
 
 /* Switch the pair of a subject and the object OBSTACLE, or with OBSTACLE -1 all of its pairs, on or
    off.  */
