@@ -1,13 +1,15 @@
-;;; (bight track) --- measured tracks: files with columns t x y z.
+;;; (bight track) --- measured tracks: files with columns t x y z, in that order or by their names.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight track)
+  #:use-module (bight columns)
   #:use-module (bight errors)
   #:use-module (bight verb)
   #:use-module (ice-9 rdelim)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
+  #:use-module (srfi srfi-11)
   #:export (read-track
             read-columns
             type:track))
@@ -24,16 +26,16 @@
               (map (lambda (word) (or (string->number word 10) 'none))
                    (string-tokenize line (char-set-complement separators)))))
 
-(define (data-line? line)
-  (not (or (string-null? (string-trim-both line separators))
-           (string-prefix? "#" (string-trim line)))))
+(define (remark? line)
+  (string-prefix? "#" (string-trim line)))
 
 (define (read-lines port)
+  ;; The lines of PORT that are not blank, each with its number.
   (let loop ((number 1) (lines '()))
     (let ((line (read-line port)))
       (cond ((eof-object? line) (reverse! lines))
-            ((data-line? line) (loop (+ number 1) (acons number line lines)))
-            (else (loop (+ number 1) lines))))))
+            ((string-null? (string-trim-both line separators)) (loop (+ number 1) lines))
+            (else (loop (+ number 1) (acons number line lines)))))))
 
 (define (refuse-device proc file)
   ;; What has no end is no track.
@@ -56,15 +58,46 @@
         (bight-raise 'format proc "line ~a of ~a has ~a numbers where ~a are wanted"
                      (car entry) file (length numbers) n))))
 
+(define (table-parts proc file)
+  ;; What names the columns of FILE, a line or #f, and the rows behind it, numbered lines.
+  (let*-values (((remarks rest) (span (lambda (entry) (remark? (cdr entry))) (open-lines proc file)))
+                ((named?) (and (pair? rest) (null? (line-numbers (cdar rest)))))
+                ((rows) (remove (lambda (entry) (remark? (cdr entry))) (if named? (cdr rest) rest))))
+    (when (null? rows)
+      (bight-raise 'format proc "~a has no rows of numbers" file))
+    (values (if named? (cdar rest) (naming-remark remarks (cdar rows))) rows)))
+
+(define (naming-remark remarks row)
+  ;; The last of REMARKS without its sign if it names the columns of ROW, else #f.
+  (let ((line (and (pair? remarks)
+                   (string-trim (cdr (last remarks)) (char-set-adjoin char-set:blank #\#)))))
+    (and line (header? (split-cells line) (length (split-cells row))) line)))
+
 (define (read-columns proc file n)
-  "Return the first N numbers of every line of FILE, a list of lists.  Lines that begin with # and one
-line of column names are passed over; commas, semicolons and blanks part the columns.  Raise a
-&bight-error from PROC of kind io or format."
-  (let* ((lines (open-lines proc file))
-         (rows (if (and (pair? lines) (null? (line-numbers (cdar lines)))) (cdr lines) lines)))
-    (if (null? rows)
-        (bight-raise 'format proc "~a has no rows of numbers" file)
-        (map (lambda (entry) (first-columns proc file n entry)) rows))))
+  "Return the first N numbers of every line of FILE, a list of lists, whatever names they have.  Lines that
+begin with # and one line of column names are passed over; commas, semicolons and blanks part the columns.
+Raise a &bight-error from PROC of kind io or format."
+  (let-values (((names rows) (table-parts proc file)))
+    (map (lambda (entry) (first-columns proc file n entry)) rows)))
+
+(define (column-value proc file entry cells column)
+  (let* ((cell (and (< (column-index column) (length cells)) (list-ref cells (column-index column))))
+         (number (and cell (string->number cell 10))))
+    (if (real? number)
+        (exact->inexact (* number (column-factor column)))
+        (bight-raise 'format proc "line ~a of ~a has no number in column ~a" (car entry) file
+                     (+ 1 (column-index column))))))
+
+(define (read-track-file proc file)
+  ;; Rows (t x y z): of the columns with these names; of the first four where none have names.
+  (let-values (((names rows) (table-parts proc file)))
+    (if names
+        (let ((columns (named-columns proc file (split-cells names))))
+          (map (lambda (entry)
+                 (let ((cells (split-cells (cdr entry))))
+                   (map (lambda (c) (column-value proc file entry cells c)) columns)))
+               rows))
+        (map (lambda (entry) (first-columns proc file 4 entry)) rows))))
 
 (define (track-row proc row)
   (let ((row (if (array? row) (array->list row) row)))
@@ -80,7 +113,7 @@ line of column names are passed over; commas, semicolons and blanks part the col
 (define (read-track proc track)
   "Return the rows of TRACK, a file name or a list of rows (t x y z), as one f64vector.  Raise a
 &bight-error from PROC of kind io or format."
-  (let ((rows (if (string? track) (read-columns proc track 4) (list-rows proc track))))
+  (let ((rows (if (string? track) (read-track-file proc track) (list-rows proc track))))
     (if (< (length rows) 2)
         (bight-raise 'format proc "a track has at least two rows")
         (list->f64vector (concatenate rows)))))

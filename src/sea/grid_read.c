@@ -6,6 +6,7 @@
 
 #include <bight/sea.h>
 
+#include <ctype.h>
 #include <errno.h>
 #include <locale.h>
 #include <stdio.h>
@@ -19,6 +20,13 @@ enum
   COLUMNS = 7,
   LINE_MAX_BYTES = 1024,
   ROWS_MAX = 1 << 26
+};
+
+enum
+{
+  UNNAMED,
+  NAMED,
+  MISNAMED
 };
 
 typedef struct table
@@ -73,6 +81,28 @@ append (table *t, const double *row, bt_error *error)
   return BT_OK;
 }
 
+/* Nonzero if LINE names a current's columns in their order, with or without units behind them.  */
+static int
+names_columns (const char *line)
+{
+  const char *name = "xyztuvw";
+  for (; *name; name++)
+    {
+      while (is_blank (*line) || *line == ',' || *line == ';')
+        line++;
+      if ((*line | 32) != *name || isalnum ((unsigned char)line[1]))
+        return 0;
+      while (*line && !is_blank (*line) && *line != ',' && *line != ';')
+        line++;
+      while (is_blank (*line))
+        line++;
+      if (*line == '(' || *line == '[')
+        while (*line && *line++ != ')' && line[-1] != ']')
+          ;
+    }
+  return 1;
+}
+
 /* The first line with anything on it may name the columns.  */
 static bt_status
 take_line (table *t, const char *file, size_t number, const char *line, int *named, bt_error *error)
@@ -84,11 +114,17 @@ take_line (table *t, const char *file, size_t number, const char *line, int *nam
   if (*p == 0 || *p == '#')
     return BT_OK;
   int n = parse (t, p, row);
+  if (n == COLUMNS && *named == MISNAMED)
+    return bt__fail (
+        error, BT_ERR_FORMAT,
+        "%.200s has other names for its columns than those of a current, x y z t u v w "
+        "in this order (m, s and m/s)",
+        file);
   if (n == COLUMNS)
     return append (t, row, error);
-  if (n < 0 && t->n == 0 && !*named)
+  if (n < 0 && t->n == 0 && *named == UNNAMED)
     {
-      *named = 1;
+      *named = names_columns (p) ? NAMED : MISNAMED;
       return BT_OK;
     }
   if (n < 0)
@@ -102,7 +138,7 @@ static bt_status
 read_rows (FILE *stream, const char *file, table *t, bt_error *error)
 {
   char line[LINE_MAX_BYTES];
-  int named = 0;
+  int named = UNNAMED;
   for (size_t number = 1; fgets (line, sizeof line, stream); number++)
     {
       if (!strchr (line, '\n') && !feof (stream))

@@ -132,7 +132,8 @@ test_file (void **state)
   (void)state;
   bt_current_grid *grid;
   bt_error error;
-  const char *text = "# measured\nx, y, z, t, u, v, w\n0,0,0,0, 1,0,0\n\n0 0 -10 0 0.5 0 0\n";
+  const char *text
+      = "# measured\nx (m), Y_m, z[m], t, u, v, w (m/s)\n0,0,0,0, 1,0,0\n\n0 0 -10 0 0.5 0 0\n";
   assert_int_equal (read_text (text, &grid, &error), BT_OK);
   bt_vec3 v = bt_current_grid_velocity (grid, bt__vec (7, 8, -4), 99);
   assert_close (v.x, 0.8, 1e-15, "read");
@@ -153,6 +154,9 @@ test_bad_files (void **state)
     { "", "no rows", BT_ERR_FORMAT },
     { "0 0 0 0 1 0\n", "line 1: 6 numbers", BT_ERR_FORMAT },
     { "x y z t u v w\n0 0 0 0 1 0 0\n0 0 0 fast 1 0 0\n", "line 3", BT_ERR_FORMAT },
+    { "t x y z u v w\n0 0 0 0 1 0 0\n", "x y z t u v w", BT_ERR_FORMAT },
+    { "lon,lat,depth,time,u,v,w\n0,0,0,0,1,0,0\n", "x y z t u v w", BT_ERR_FORMAT },
+    { "x y z t u v\n0 0 0 0 1 0 0\n", "x y z t u v w", BT_ERR_FORMAT },
     { "a\nb\n0 0 0 0 1 0 0\n", "line 2", BT_ERR_FORMAT },
     { "0 0 0 0 1 0 0\n1 1 0 0 1 0 0\n1 0 0 0 1 0 0\n", "x 0, y 1, z 0, t 0", BT_ERR_FORMAT },
     { "0 0 0 0 1 0 0\n0 0 0 0 1 0 0\n", "two rows", BT_ERR_FORMAT },
