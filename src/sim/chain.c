@@ -95,6 +95,7 @@ bt__trace_rest (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, in
                 bt_error *error)
 {
   bt_status status = BT_OK;
+  bt_water water;
   if (bt__dive_tether (dive, state, i)->shape.length == 0)
     status = rest_shape (dive, state, i, ends, error);
   if (status != BT_OK)
@@ -102,6 +103,8 @@ bt__trace_rest (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, in
   trace (dive, state, i, n);
   dive->polyline[0] = ends->a;
   dive->polyline[n] = ends->b;
+  water = bt__dive_water (dive, state);
+  bt__lay_afloat (dive->polyline, n, bt__dive_tether (dive, state, i)->length, &water);
   return BT_OK;
 }
 

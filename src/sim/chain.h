@@ -29,6 +29,11 @@ bt_status bt__bring_vehicle (const bt_dive *dive, bt__state *state, int i, bt_er
 bt__dynamic_mesh bt__chain_mesh (const bt_dive *dive, const bt__state *state,
                                  const bt__tether *tether, int i);
 
+/* Lay what stands out of the water of a line of LENGTH with the N + 1 nodes X on it; return true if
+   anything did.  The same of the still shape of tether I, which then is AFLOAT (afloat.c).  */
+int bt__lay_afloat (bt_vec3 *x, int n, double length, const bt_water *water);
+void bt__lay_shape_afloat (bt_dive *dive, bt__state *state, int i);
+
 /* How many intervals a chain of TETHER begins with.  Put N + 1 points of its shape, or of its
    equilibrium when it has none, on the dive's polyline and the tensions along it.  Begin a chain of
    N intervals from there, at rest; with SHARE each has that share of the length, and no tension

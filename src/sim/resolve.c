@@ -10,6 +10,11 @@
 #include "sim/chain.h"
 #include "sim/share.h"
 
+enum
+{
+  AFLOAT_TRIES = 20
+};
+
 int
 bt__is_unchanged (const bt_dive *dive, const bt__state *state, const bt__tether *tether,
                   const bt__ends *ends)
@@ -24,7 +29,7 @@ bt__is_unchanged (const bt_dive *dive, const bt__state *state, const bt__tether 
 static double
 largest_tension (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions)
 {
-  int n = shape->form == BT__FORM_NODES ? (int)shape->n : 2;
+  int n = bt__has_nodes (shape->form) ? (int)shape->n : 2;
   double most = 0;
   for (int k = 0; k <= n; k++)
     {
@@ -39,7 +44,7 @@ static int
 is_good (const bt__shape *shape, const bt__tether *tether, const bt_vec3 *nodes)
 {
   int good = isfinite (tether->tension_max);
-  for (int k = 0; shape->form == BT__FORM_NODES && k <= shape->n; k++)
+  for (int k = 0; bt__has_nodes (shape->form) && k <= shape->n; k++)
     good = good && bt__is_finite (nodes[k]);
   return good;
 }
@@ -68,19 +73,45 @@ pull_of (const bt_dive *dive, bt__state *state, int i)
   return bt__dive_tether (dive, state, i)->taut ? bt__pull_on (dive, state, i) : 0;
 }
 
+/* Those models know no surface.  The thesis' are as the thesis has them.  */
+static int
+may_float (const bt__tether *tether)
+{
+  int model = (int)tether->props.model;
+  return (model == BT_MODEL_ELASTIC || model == BT_MODEL_STEADY) && tether->props.wet_weight < 0;
+}
+
+/* What was laid on the water is no shape to go on from: the equilibrium is found whole again.  */
+static bt_status
+solve (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, double pull, bt_error *error)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  int tries = tether->shape.form == BT__FORM_AFLOAT ? AFLOAT_TRIES : 1;
+  uint64_t before;
+  bt_status status;
+  do
+    {
+      before = dive->counts.unsettled;
+      status = bt__solve_shape (dive, state, i, ends, &tether->props, pull, error);
+    }
+  while (status == BT_OK && --tries > 0 && dive->counts.unsettled != before);
+  tether->settled = dive->counts.unsettled == before;
+  return status;
+}
+
 bt_status
 bt__solve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
   double pull = pull_of (dive, state, i);
   bt_vec3 *nodes = bt__dive_nodes (dive, state, i);
-  uint64_t unsettled = dive->counts.unsettled;
-  bt_status status = bt__solve_shape (dive, state, i, ends, &tether->props, pull, error);
+  bt_status status = solve (dive, state, i, ends, pull, error);
   if (status != BT_OK)
     return status;
+  if (may_float (tether))
+    bt__lay_shape_afloat (dive, state, i);
   tether->tension_max = largest_tension (&tether->shape, nodes, bt__dive_tensions (dive, state, i));
   tether->pull = pull;
-  tether->settled = dive->counts.unsettled == unsettled;
   tether->stale = !tether->settled; /* a shape that still moves goes on next step */
   if (!is_good (&tether->shape, tether, nodes))
     return bt__fail (error, BT_ERR_DIVERGED, "the shape of tether `%s' is not finite at t = %g s",

@@ -24,9 +24,17 @@ typedef enum bt__form
   BT__FORM_CATENARY,
   BT__FORM_ELASTIC,
   BT__FORM_NODES, /* positions and tension vectors in arrays beside the shape */
-  BT__FORM_CHAIN  /* the moving line: a bt__dynamic beside the shape; not asked through this header
+  BT__FORM_CHAIN, /* the moving line: a bt__dynamic beside the shape; not asked through this header
                    */
+  BT__FORM_AFLOAT /* as NODES, laid on the water: no solver goes on from there */
 } bt__form;
+
+/* True if FORM has arrays beside the shape.  */
+static inline int
+bt__has_nodes (int64_t form)
+{
+  return form == BT__FORM_NODES || form == BT__FORM_AFLOAT;
+}
 
 /* Flat; no padding.  Arc lengths run from the anchor A to the end B, unstretched.  */
 typedef struct bt__shape

@@ -172,7 +172,7 @@ bt__shape_point (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *te
   s = clamped (shape, s);
   if (shape->form == BT__FORM_STRAIGHT)
     return bt__axpy (shape->a, s / shape->length, bt__sub (shape->b, shape->a));
-  if (shape->form == BT__FORM_NODES)
+  if (bt__has_nodes (shape->form))
     return nodes_point (shape, nodes, tensions, s);
   bt_point2 p = plane_point (shape, s * plane_ratio (shape));
   bt_vec3 r = bt__axpy (bt__axpy (shape->a, p.x, shape->across), p.y, shape->against);
@@ -185,7 +185,7 @@ bt__shape_tangent (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *
   s = clamped (shape, s);
   if (shape->form == BT__FORM_STRAIGHT)
     return bt__unit_or (bt__sub (shape->b, shape->a), down);
-  if (shape->form == BT__FORM_NODES)
+  if (bt__has_nodes (shape->form))
     return nodes_tangent (shape, nodes, tensions, s);
   double ratio = plane_ratio (shape);
   bt_point2 t = plane_tangent (shape, s * ratio);
@@ -205,6 +205,7 @@ bt__shape_tension (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *
     case BT__FORM_ELASTIC:
       return bt_elastic_tension (&shape->elastic, s);
     case BT__FORM_NODES:
+    case BT__FORM_AFLOAT:
       return nodes_tension (shape, tensions, s);
     default:
       return shape->t1;

@@ -245,7 +245,7 @@ live_extents (const bt_dive *dive, const bt__state *state, int i, extent *out)
   if (tether->shape.form == BT__FORM_CHAIN)
     return n + chain_extents (dive, state, i, out + n);
   size_t arrays = arrays_size (def);
-  if (tether->shape.form == BT__FORM_NODES)
+  if (bt__has_nodes (tether->shape.form))
     out[n++] = (extent){ 0, arrays };
   if (tether->drape)
     out[n++] = (extent){ arrays, drape_live (dive, state, i) };

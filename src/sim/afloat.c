@@ -1,0 +1,184 @@
+/* A line that floats is laid on the water: see chain.h.
+
+   The equilibria know no surface: a slack line lighter than water stands on it as an arch.  Each
+   arch is laid down: between the points where it comes up it is turned about the line that joins
+   them, down to the side that the current sets to.  So it keeps its length and its bend.  An arch
+   from an end above the water hangs from there instead.
+
+   Between two nodes a line is a cubic, which may rise above both: the nodes are laid so much
+   deeper.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <string.h>
+
+#include "math/vec.h"
+#include "sim/chain.h"
+
+/* Between which nodes an arch stands, and where it begins and ends.  */
+typedef struct arch
+{
+  int first, last; /* nodes above the water */
+  bt_vec3 from, to;
+  int stands; /* true if it is out of the water anywhere */
+  int hangs;  /* true if one of its feet is */
+} arch;
+
+#define HAIR 1e-9  /* m: what rounding lifts out of the water stands in no air */
+#define DEEPER 0.1 /* of the length between nodes: more than cubics rise above them */
+
+static const bt_vec3 up = { 0, 0, 1 };
+
+static int
+is_out (bt_vec3 p)
+{
+  return p.z > HAIR;
+}
+
+/* The point between P and Q, one above LEVEL and one not, where the line crosses it.  */
+static bt_vec3
+crossing (bt_vec3 p, bt_vec3 q, double level)
+{
+  bt_vec3 c = bt__axpy (p, (p.z - level) / (p.z - q.z), bt__sub (q, p));
+  c.z = level;
+  return c;
+}
+
+/* Write the first arch over LEVEL of the N + 1 nodes X at or behind node K to *A; return zero if
+   there is none.  */
+static int
+next_arch (const bt_vec3 *x, int n, int k, double level, arch *a)
+{
+  while (k <= n && !(x[k].z > level))
+    k++;
+  if (k > n)
+    return 0;
+  a->first = k;
+  a->stands = is_out (x[k]);
+  while (k < n && x[k + 1].z > level)
+    a->stands |= is_out (x[++k]);
+  a->last = k;
+  a->from = a->first == 0 ? x[0] : crossing (x[a->first - 1], x[a->first], level);
+  a->to = a->last == n ? x[n] : crossing (x[a->last], x[a->last + 1], level);
+  a->hangs = is_out (a->from) || is_out (a->to);
+  return 1;
+}
+
+/* The direction of the arch's feet from each other; where they are one, that of its middle.  */
+static bt_vec3
+along (const bt_vec3 *x, const arch *a)
+{
+  bt_vec3 far = bt__sub (a->to, a->from);
+  if (bt__norm (far) > 1e-9)
+    return bt__unit_or (far, far);
+  far = bt__sub (x[(a->first + a->last) / 2], a->from);
+  far.z = 0;
+  return bt__unit_or (far, bt__vec (1, 0, 0));
+}
+
+static void
+lay_down (bt_vec3 *x, const arch *a, bt_vec3 downstream)
+{
+  bt_vec3 e = along (x, a), side = bt__unit_or (bt__cross (up, e), bt__vec (1, 0, 0));
+  if (bt__dot (side, downstream) < 0)
+    side = bt__scale (-1, side);
+  for (int k = a->first; k <= a->last; k++)
+    {
+      bt_vec3 foot = bt__axpy (a->from, bt__dot (bt__sub (x[k], a->from), e), e);
+      bt_vec3 off = bt__sub (x[k], foot);
+      if (!a->hangs)
+        x[k] = bt__axpy (foot, bt__norm (off), side);
+      else if (off.z > 0)
+        x[k] = bt__sub (foot, off);
+    }
+}
+
+int
+bt__lay_afloat (bt_vec3 *x, int n, double length, const bt_water *water)
+{
+  arch a;
+  double level = -DEEPER * length / n;
+  int laid = 0;
+  bt_vec3 first = x[0], last = x[n], downstream = bt_water_velocity (water, x[n / 2]);
+  for (int k = 0; next_arch (x, n, k, level, &a); k = a.last + 1)
+    if (a.stands)
+      {
+        lay_down (x, &a, downstream);
+        laid = 1;
+      }
+  x[0] = first;
+  x[n] = last;
+  return laid;
+}
+
+/* ---- Still shapes ---- */
+
+/* True if one of N points along SHAPE stands out of the water between ends that do not.  */
+static int
+stands (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, int n)
+{
+  if (is_out (shape->a) || is_out (shape->b))
+    return 0;
+  for (int k = 1; k < n; k++)
+    if (is_out (bt__shape_point (shape, nodes, tensions, shape->length * k / n)))
+      return 1;
+  return 0;
+}
+
+static bt_vec3
+tension_at (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, double s)
+{
+  return bt__scale (bt__shape_tension (shape, nodes, tensions, s),
+                    bt__shape_tangent (shape, nodes, tensions, s));
+}
+
+/* Turn the tensions of those of the N + 1 nodes X that are not where they WERE, and of those beside
+   them, along the line.  */
+static void
+turn_tensions (const bt_vec3 *x, const bt_vec3 *were, bt_vec3 *tension, int n)
+{
+  for (int k = 0; k <= n; k++)
+    {
+      bt_vec3 way = bt__sub (x[k < n ? k + 1 : n], x[k > 0 ? k - 1 : 0]);
+      int moved = 0;
+      for (int j = k > 0 ? k - 1 : 0; j <= k + 1 && j <= n; j++)
+        moved |= bt__distance (x[j], were[j]) > 0;
+      if (moved)
+        tension[k] = bt__scale (bt__norm (tension[k]), bt__unit_or (way, tension[k]));
+    }
+}
+
+/* Give SHAPE, solved in closed form, N intervals.  */
+static void
+divide (bt__shape *shape, bt_vec3 *nodes, bt_vec3 *tensions, int n)
+{
+  for (int k = 0; k <= n; k++)
+    {
+      double s = shape->length * k / n;
+      nodes[k] = bt__shape_point (shape, NULL, NULL, s);
+      tensions[k] = tension_at (shape, NULL, NULL, s);
+    }
+  nodes[0] = shape->a;
+  nodes[n] = shape->b;
+}
+
+void
+bt__lay_shape_afloat (bt_dive *dive, bt__state *state, int i)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt__shape *shape = &tether->shape;
+  bt_vec3 *nodes = bt__dive_nodes (dive, state, i), *tensions = bt__dive_tensions (dive, state, i);
+  bt_vec3 *were = dive->polyline;
+  int n = (int)tether->props.nodes;
+  bt_water water = bt__dive_water (dive, state);
+  if (!stands (shape, nodes, tensions, n))
+    return;
+  if (shape->form != BT__FORM_NODES)
+    divide (shape, nodes, tensions, n);
+  memcpy (were, nodes, sizeof *nodes * (size_t)(n + 1));
+  bt__lay_afloat (nodes, n, shape->length, &water);
+  turn_tensions (nodes, were, tensions, n);
+  shape->form = BT__FORM_AFLOAT;
+  shape->n = n;
+}
