@@ -12,8 +12,8 @@ BT_BEGIN_DECLS
 
 enum
 {
-  BT_MESH_TRIANGLES_MAX = 10000000, /* of one mesh */
-  BT_HEIGHTS_POSTS_MAX = 5000000    /* of one grid */
+  BT_MESH_TRIANGLES_MAX = 10000000,   /* of one mesh */
+  BT_HEIGHTS_POSTS_MAX = BT_POSTS_MAX /* of one grid */
 };
 
 /* The axis that points up in the numbers of a mesh file.  glTF's is y; OBJ, STL and PLY do not say;

@@ -23,11 +23,14 @@ enum
   BT_VEHICLES_MAX = 64,
   BT_THRUSTERS_MAX = 12,
   BT_TETHERS_MAX = 64,
-  BT_NODES_MAX = 10000, /* intervals of one tether */
-  BT_LUMPS_MAX = 32,    /* clumps and floats on one tether */
-  BT_VIA_MAX = 32,      /* points that one tether is laid through */
+  BT_NODES_MAX = 10000,     /* intervals of one tether */
+  BT_NODES_SUM_MAX = 50000, /* of all tethers of a world */
+  BT_LENGTH_MAX = 100000,   /* m: of a tether, and of what is on its drum */
+  BT_LUMPS_MAX = 32,        /* clumps and floats on one tether */
+  BT_VIA_MAX = 32,          /* points that one tether is laid through */
   BT_OBSTACLES_MAX = 100000,
-  BT_TRIANGLES_MAX = 1 << 28 /* of one mesh */
+  BT_POSTS_MAX = 5000000,     /* of a grid */
+  BT_TRIANGLES_MAX = 20000000 /* of all meshes and grids of a world */
 };
 
 /* The water and its current.  */

@@ -284,9 +284,9 @@ bt_def_set_grid (const bt_field *field, void *def, const bt_heights *grid, bt_er
   if (grid->nx < 2 || grid->ny < 2 || !grid->z)
     return bt__fail (error, BT_ERR_DOMAIN, "`%s' has %zu by %zu posts; two each way is the least",
                      field->name, grid->nx, grid->ny);
-  if (grid->nx > BT_TRIANGLES_MAX / 2 / grid->ny)
+  if (grid->nx > BT_POSTS_MAX / grid->ny)
     return bt__fail (error, BT_ERR_LIMIT, "`%s' has %zu by %zu posts; at most %d are allowed",
-                     field->name, grid->nx, grid->ny, BT_TRIANGLES_MAX / 2);
+                     field->name, grid->nx, grid->ny, BT_POSTS_MAX);
   if (!is_spacing (field, grid->dx) || !is_spacing (field, grid->dy) || !isfinite (grid->x)
       || !isfinite (grid->y))
     return bt__fail (error, BT_ERR_DOMAIN,

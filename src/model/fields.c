@@ -46,6 +46,7 @@ static const bt_word depth_rules[] = { { "sag", BT_DEPTH_SAG },
                                        { NULL, 0 } };
 
 #define FAR 1e7 /* metres: no sea is larger */
+#define LONG BT_LENGTH_MAX
 
 /* NUMBER (struct, member, name, unit, default, min, max, min excluded, live, words, text) */
 #define NUMBER(s, m, n, u, d, lo, hi, above, live, words, t)                                       \
@@ -160,19 +161,20 @@ static const bt_field tether_fields[] = {
          "the far end: a vehicle, or a fixed point"),
   OTHER (bt_tether_def, via, "via", "m", BT_FIELD_VIA, 0, NULL, 0,
          "points that it is laid through from its anchor to its far end"),
-  NUMBER (bt_tether_def, length, "length", "m", NAN, 0, 1e6, 1, 0, NULL,
+  NUMBER (bt_tether_def, length, "length", "m", NAN, 0, LONG, 1, 0, NULL,
           "paid out; pay-out! and haul-in! change it"),
-  NUMBER (bt_tether_def, drum, "drum", "m", INFINITY, 0, 1e6, 1, 0, unlimited,
+  NUMBER (bt_tether_def, drum, "drum", "m", INFINITY, 0, LONG, 1, 0, unlimited,
           "the most that can be out"),
   { "ride", "",
     "shares of the water's heave, surge and sway that an anchor at a point takes in waves",
     BT_FIELD_POINT, offsetof (bt_tether_def, ride), 0, 0, 2, 0, NULL, 0 },
-  PROP (diameter, "diameter", "m", 0.0076, 0, 2, 1, NULL, "outer"),
-  PROP (mass, "mass", "kg/m", NAN, 0, 1e4, 1, NULL,
+  /* Half a metre of lead weighs 2.2 t/m, of steel it stretches by 4e10 N.  */
+  PROP (diameter, "diameter", "m", 0.0076, 0, 0.5, 1, NULL, "outer"),
+  PROP (mass, "mass", "kg/m", NAN, 0, 3e3, 1, NULL,
         "in air; follows from wet-weight when not given"),
-  PROP (wet_weight, "wet-weight", "N/m", NAN, -1e5, 1e5, 0, NULL,
+  PROP (wet_weight, "wet-weight", "N/m", NAN, -3e4, 3e4, 0, NULL,
         "in the water, sinking positive; follows from mass when not given"),
-  PROP (ea, "ea", "N", 2e5, 0, 1e12, 1, inextensible, "axial stiffness"),
+  PROP (ea, "ea", "N", 2e5, 0, 1e11, 1, inextensible, "axial stiffness"),
   PROP (ei, "ei", "N m2", 0, 0, 1e9, 0, NULL, "bending stiffness"),
   PROP (gj, "gj", "N m2", 0, 0, 1e9, 0, NULL, "torsional stiffness"),
   PROP (ba, "ba", "N s", 20, 0, 1e9, 0, NULL, "internal damping"),
@@ -227,9 +229,9 @@ static const bt_field tether_fields[] = {
 };
 
 #define LUMP_PLACE                                                                                 \
-  NUMBER (bt_lump, at, "at", "m", NAN, 0, 1e6, 0, 0, NULL,                                         \
+  NUMBER (bt_lump, at, "at", "m", NAN, 0, LONG, 0, 0, NULL,                                        \
           "arc length of its middle from the anchor when the dive begins"),                        \
-      NUMBER (bt_lump, span, "span", "m", 0, 0, 1e6, 0, 0, NULL, "the length of line it covers")
+      NUMBER (bt_lump, span, "span", "m", 0, 0, LONG, 0, 0, NULL, "the length of line it covers")
 
 static const bt_field clump_fields[] = {
   LUMP_PLACE,

@@ -26,6 +26,21 @@ bt_tether_props_complete (bt_tether_props *props, double density, double gravity
         = fmax (displaced + (gravity > 0 ? props->wet_weight / gravity : 0), 0.01 * displaced);
 }
 
+bt_status
+bt__check_buoyancy (const bt_tether_props *props, double density, double gravity, const char *name,
+                    bt_error *error)
+{
+  double area = BT__PI / 4 * props->diameter * props->diameter;
+  double most = fmax (density, 1025) * area * fmax (gravity, 9.80665);
+  if (props->wet_weight >= -most)
+    return BT_OK;
+  return bt__fail (
+      error, BT_ERR_DOMAIN,
+      "tether `%s' weighs %g N/m in water, but with a diameter of %g m it displaces no "
+      "more than %.3g N/m of it",
+      name, props->wet_weight, props->diameter, most);
+}
+
 /* ---- The parts together ---- */
 
 static int
@@ -149,6 +164,30 @@ check_lumps (const bt_tether_def *tether, bt_error *error)
   return BT_OK;
 }
 
+#define STRETCH_MAX 10.0 /* times its length that its own weight may make a line longer */
+#define NODES_ANYWAY 200 /* that a line may have however short it is */
+
+/* What no line can be, though each of its figures may.  */
+static bt_status
+check_figures (const bt_tether_def *tether, bt_error *error)
+{
+  const bt_tether_props *p = &tether->props;
+  double weight = fabs (p->wet_weight) * tether->length;
+  double most = fmax (NODES_ANYWAY, floor (tether->length / p->diameter));
+  if (weight > STRETCH_MAX * p->ea)
+    return bt__fail (
+        error, BT_ERR_DOMAIN,
+        "%g m of tether `%s' weigh %.3g N in water, which stretches an `ea' of %g N to "
+        "more than %g times its length",
+        tether->length, tether->name, weight, p->ea, STRETCH_MAX);
+  if (p->nodes > most)
+    return bt__fail (error, BT_ERR_LIMIT,
+                     "%g `nodes' divide %g m of tether `%s' more finely than it is thick, %g m; at "
+                     "most %g are allowed",
+                     p->nodes, tether->length, tether->name, p->diameter, most);
+  return BT_OK;
+}
+
 static bt_status
 compile_tether (bt_model *model, int i, bt_error *error)
 {
@@ -161,6 +200,11 @@ compile_tether (bt_model *model, int i, bt_error *error)
       bt_tether_props_complete (&tether->props, model->sea.density, model->sea.gravity);
       status = bt__check_def (bt_head_find ("tether"), tether->name, tether, error);
     }
+  if (status == BT_OK)
+    status = bt__check_buoyancy (&tether->props, model->sea.density, model->sea.gravity,
+                                 tether->name, error);
+  if (status == BT_OK)
+    status = check_figures (tether, error);
   if (status == BT_OK)
     status = resolve_end (model, tether, &tether->from, "from", &model->ends[i][0], error);
   if (status == BT_OK)
@@ -214,6 +258,21 @@ content_id (const bt_model *model, const bt_world *world)
 }
 
 static bt_status
+check_nodes (const bt_world *world, bt_error *error)
+{
+  double sum = 0;
+  for (int i = 0; i < world->n_tethers; i++)
+    sum += world->tethers[i].props.nodes;
+  if (!(sum > BT_NODES_SUM_MAX))
+    return BT_OK;
+  return bt__fail (
+      error, BT_ERR_LIMIT,
+      "the tethers of a world have at most %d `nodes' together, not %g: it would not fit "
+      "into memory",
+      BT_NODES_SUM_MAX, sum);
+}
+
+static bt_status
 check_counts (const bt_world *world, bt_error *error)
 {
   if (world->n_vehicles < 0 || world->n_vehicles > BT_VEHICLES_MAX)
@@ -222,7 +281,7 @@ check_counts (const bt_world *world, bt_error *error)
   if (world->n_tethers < 0 || world->n_tethers > BT_TETHERS_MAX)
     return bt__fail (error, BT_ERR_LIMIT, "a world has at most %d tethers, not %d", BT_TETHERS_MAX,
                      world->n_tethers);
-  return BT_OK;
+  return check_nodes (world, error);
 }
 
 /* Copy N items of SIZE bytes; a copy of none is one unused byte, so that NULL means no memory.  */

@@ -70,6 +70,34 @@ add_carried (bt_model *model, const bt_obstacle_def *def, int i, bt__obstacle *s
 
 /* ---- All of them ---- */
 
+/* What is too large by itself is refused by itself, and counts as none.  */
+static size_t
+triangles_of (const bt_obstacle_def *def)
+{
+  const bt_heights *grid = &def->grid;
+  int of_grid = def->kind == BT_OBSTACLE_SEABED && grid->z && grid->ny > 0;
+  if (of_grid)
+    return grid->nx <= BT_POSTS_MAX / grid->ny ? 2 * grid->nx * grid->ny : 0;
+  if (def->kind != BT_OBSTACLE_MESH && def->kind != BT_OBSTACLE_SEABED)
+    return 0;
+  return def->mesh.triangles <= BT_TRIANGLES_MAX ? def->mesh.triangles : 0;
+}
+
+/* Each may be as large as it may, but a machine has one memory.  */
+static bt_status
+check_triangles (const bt_world *world, bt_error *error)
+{
+  size_t n = 0;
+  for (int i = 0; i < world->n_obstacles; i++)
+    n += triangles_of (&world->obstacles[i]);
+  if (n <= BT_TRIANGLES_MAX)
+    return BT_OK;
+  return bt__fail (error, BT_ERR_LIMIT,
+                   "the meshes and grids of a world have at most %d triangles together, two for a "
+                   "post of a grid; a coarser `spacing' or mesh has fewer",
+                   BT_TRIANGLES_MAX);
+}
+
 static bt_status
 check_counts (const bt_world *world, bt_error *error)
 {
@@ -81,7 +109,7 @@ check_counts (const bt_world *world, bt_error *error)
     seabeds += world->obstacles[i].kind == BT_OBSTACLE_SEABED;
   if (seabeds > 1)
     return bt__fail (error, BT_ERR_DEF, "a world has one seabed, not %d", seabeds);
-  return BT_OK;
+  return check_triangles (world, error);
 }
 
 /* What a def borrowed is in the scenes by now.  A carried one is where its track has it.  */

@@ -22,7 +22,7 @@ spool (const bt__call *c, double sign)
                      most);
   if (sign < 0 && tether->parted) /* no more comes in than there is */
     target = fmax (target, fmin (tether->length, BT__HOME_LENGTH));
-  if (target <= 0)
+  if (target <= 0 || target > BT_LENGTH_MAX)
     return bt__fail (c->error, BT_ERR_DOMAIN, "%g m are out: it cannot be made %g m",
                      tether->length, target);
   tether->winch_target = target;

@@ -234,13 +234,15 @@ bt_tether_tensions (const bt_dive *dive, int i, int n, double *tensions, bt_erro
   return status;
 }
 
-/* The radius of the circle through A, B and C.  */
+#define STRAIGHT 1e-9 /* rad: what rounding turns a straight line by */
+
+/* The radius of the circle through A, B and C; infinite where they are on a straight line.  */
 static double
 circle (bt_vec3 a, bt_vec3 b, bt_vec3 c)
 {
   bt_vec3 u = bt__sub (b, a), v = bt__sub (c, b);
-  double twice = bt__norm (bt__cross (u, v));
-  return twice > 0 ? bt__norm (u) * bt__norm (v) * bt__distance (a, c) / (2 * twice) : INFINITY;
+  double twice = bt__norm (bt__cross (u, v)), sides = bt__norm (u) * bt__norm (v);
+  return twice > STRAIGHT * sides ? sides * bt__distance (a, c) / (2 * twice) : INFINITY;
 }
 
 bt_status

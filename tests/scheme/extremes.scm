@@ -1,0 +1,153 @@
+;;; Every number that the schema allows is answered: each field of each part at its ends, alone and
+;;; together, flown for a moment.  What is refused is refused with a reason.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(use-modules (bight errors) (bight schema) (rnrs exceptions) (srfi srfi-1))
+
+(define random-numbers (seed->random-state (or (and=> (getenv "BIGHT_SEED") string->number) 3)))
+
+(define (one-of list)
+  (list-ref list (random (length list) random-numbers)))
+
+;;; A world as a list of parts, each a head and its clauses.
+
+(define parts
+  '((sea (depth 60) (current 0.3 90))
+    (seabed)
+    (box (named block) (at 20 20 -50) (size 4 4 4))
+    (sphere (named ball) (at -20 20 -40) (radius 1))
+    (cylinder (named pile) (from -20 -20 -60) (to -20 -20 -30) (radius 1))
+    (rov (named minnow) (at 10 0 -20))
+    (tether (named line) (type fathom) (from 0 0 -10) (to minnow) (length 30) (model dynamic))))
+
+(define (with-clause parts head name value)
+  (map (lambda (part)
+         (if (eq? head (car part))
+             (append (remove (lambda (clause) (and (pair? clause) (eq? name (car clause)))) part)
+                     (list (list name value)))
+             part))
+       parts))
+
+(define (ends field)
+  ;; The least and the greatest number FIELD allows, and two between.
+  (let ((low (field-min field)) (high (field-max field)))
+    (delete-duplicates
+     (list (if (field-above-min? field) (+ low (* 1e-12 (- high low))) low)
+           (if (eq? 'count (field-kind field)) (+ low 1) (+ low (* 1e-6 (- high low))))
+           (if (eq? 'count (field-kind field)) (quotient (inexact->exact (+ low high)) 2)
+               (/ (+ low high) 1000.0))
+           high))))
+
+(define cases
+  ;; All of them: (head field value).
+  (append-map
+   (lambda (head)
+     (append-map (lambda (field)
+                   (if (and (memq (field-kind field) '(number count)) (field-min field) (field-max field))
+                       (map (lambda (value) (list head (field-name field) value)) (ends field))
+                       '()))
+                 (head-fields head)))
+   (delete-duplicates (map car parts))))
+
+(define (changed cases parts)
+  (fold (lambda (c parts) (apply with-clause parts c)) parts cases))
+
+
+;;; Flying.
+
+(define language
+  (let ((module (make-fresh-user-module)))
+    (module-use! module (resolve-interface '(bight)))
+    module))
+
+(define (finite-number? x)
+  (and (real? x) (not (nan? x)) (not (inf? x))))
+
+(define (small? x)
+  (and (finite-number? x) (< (abs x) 1e14)))
+
+(define (cpu-seconds)
+  (let ((all (times)))
+    (/ (+ (tms:utime all) (tms:stime all)) 1.0 internal-time-units-per-second)))
+
+(define (megabytes)
+  ;; That this process has, 0 where nobody tells.
+  (if (file-exists? "/proc/self/statm")
+      (/ (* 4096 (call-with-input-file "/proc/self/statm" (lambda (port) (read port) (read port)))) 1e6)
+      0))
+
+(define most-seconds 20)
+(define most-megabytes 1500)
+
+(define (asked thunk)
+  ;; What THUNK returns, #f where it is refused.
+  (guard (e ((bight-error? e) #f)) (thunk)))
+
+(define (answers)
+  ;; The numbers of the present dive that must be finite and of a size that means something.
+  (append (append-map (lambda (p) (list (x p) (y p) (z p))) (array->list (tether-points)))
+          (list (anchor-tension) (rov-tension) (max-tension) (slack) (rov-altitude) (rov-speed))
+          (map cdr (or (asked energy) '()))))
+
+(define (fly parts)
+  ;; #t if the world of PARTS answers, #f if it is refused; else what is wrong.
+  (let ((begun (cpu-seconds)))
+    (guard (e ((bight-error? e) #f))
+      (enter! (eval (cons 'world parts) language))
+      (asked (lambda () (drive! #:surge 0.5 #:yaw 0.1) (run 0.5)))
+      (asked (lambda () (pay-out! 2 #:rate 1) (run 0.5)))
+      (asked (lambda () (place! '(13 3 -17))))
+      (let ((odd (remove small? (answers))) (bend (tightest-bend)))
+        (cond ((pair? odd) (list 'answers odd))
+              ((or (nan? bend) (and (not (inf? bend)) (> bend 1e12))) (list 'bend bend))
+              ((> (- (cpu-seconds) begun) most-seconds) (list 'took (- (cpu-seconds) begun)))
+              ((> (megabytes) most-megabytes) (list 'memory (megabytes)))
+              (else #t))))))
+
+(define (fly-all lists parts most-refused)
+  ;; Fly the worlds of PARTS changed by each of LISTS of cases.
+  (let ((said (map (lambda (cases) (cons (fly (changed cases parts)) cases)) lists)))
+    (expect (remove (lambda (entry) (boolean? (car entry))) said) => '())
+    (expect (/ (count not (map car said)) (length said)) is (below most-refused))))
+
+(define-scenario (each-alone vehicle)
+  "Each field of each part at each of its ends."
+  #:for ((vehicle 'kinematic 'bluerov2-heavy))
+  (expect (> (length cases) 150))
+  (fly-all (map list cases) (with-clause parts 'rov 'type vehicle) 1/5))
+
+(define-scenario (some-together model)
+  "Three or more of them at once, under every model that moves or hangs."
+  #:for ((model 'dynamic 'auto 'steady 'elastic 'catenary 'v-shape))
+  (fly-all (map (lambda (k) (map (lambda (j) (one-of cases)) (iota (+ 3 (random 3 random-numbers)))))
+                (iota 25))
+           (with-clause parts 'tether 'model model)
+           3/4))
+
+
+;;; What would not fit into a machine.
+
+(define (many-tethers n nodes)
+  (map (lambda (k)
+         (part tether (named ,(string->symbol (simple-format #f "t~a" k))) (from 0 k -10) (to 10 k -10) (length 100) (nodes nodes) (model dynamic)))
+       (iota n)))
+
+(define-scenario too-much-for-memory
+  "The sum of nodes, the posts of a grid and how finely a line is divided have ends, which are told."
+  (define (says? what thunk)
+    (let ((said (guard (e ((bight-error? e) (bight-error-message e))) (thunk) "")))
+      (->bool (string-contains said what))))
+  (define-syntax-rule (told what world) (expect (says? what (lambda () (enter! world)))))
+  (told "nodes' together" (world (sea (depth 60)) (splice (many-tethers 20 10000)) (rov (at 0 0 -5))))
+  (told "more finely than it is thick"
+        (world (rov (named minnow) (at 5 0 -5))
+               (tether (type fathom) (from 0 0 -5) (to minnow) (length 8) (nodes 2000))))
+  (told "posts"
+        (world (seabed (grid (lambda (x y) -50) (from 0 0) (to 4000 4000) (spacing 1))) (rov (at 0 0 -5))))
+  (told "displaces"
+        (world (rov (named minnow) (at 5 0 -5))
+               (tether (type fathom) (from 0 0 -5) (to minnow) (length 8) (wet-weight -5))))
+  (told "stretches"
+        (world (rov (named minnow) (at 5 0 -5))
+               (tether (from 0 0 -5) (to minnow) (length 1e5) (diameter 0.5) (mass 3000) (ea 1e5)))))
