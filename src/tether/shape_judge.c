@@ -39,7 +39,7 @@ static const bt__member elastic[] = {
 static const bt__record elastic_record = BT__RECORD (bt_elastic, "elastic catenary", elastic);
 
 static const bt__member shape[] = {
-  BT__WITHIN (bt__shape, form, BT__FORM_STRAIGHT, BT__FORM_CHAIN),
+  BT__WITHIN (bt__shape, form, BT__FORM_STRAIGHT, BT__FORM_AFLOAT),
   BT__WITHIN (bt__shape, n, 0, BT__MANY),
   BT__WITHIN (bt__shape, a, -BT__FAR, BT__FAR),
   BT__WITHIN (bt__shape, b, -BT__FAR, BT__FAR),
@@ -70,7 +70,7 @@ bt_status
 bt__shape_judge (bt__judge *judge, const bt__shape *shape, int64_t room)
 {
   bt_status status = bt__judge_that (judge, shape->length > 0, "its shape has a length");
-  if (status == BT_OK && shape->form == BT__FORM_NODES)
+  if (status == BT_OK && bt__has_nodes (shape->form))
     status = bt__judge_count (judge, "intervals", shape->n, 1, room);
   return status;
 }

@@ -199,7 +199,7 @@ judge_store (bt__judge *judge, const bt_dive *dive, bt__state *state, int i)
     status = AND (status, judge_part (judge, dive, state, i, part));
   if (tether->shape.form == BT__FORM_CHAIN)
     return status;
-  if (tether->shape.form == BT__FORM_NODES)
+  if (bt__has_nodes (tether->shape.form))
     status = AND (status, bt__shape_judge_nodes (judge, bt__dive_nodes (dive, state, i),
                                                  bt__dive_tensions (dive, state, i), room));
   if (tether->drape != BT__DRAPE_SPANS) /* which has a shape for each span */
