@@ -17,6 +17,7 @@
   #:use-module (bight verb)
   #:use-module ((bight world) #:select (part-all-fields part-head world-part))
   #:use-module (srfi srfi-1)
+  #:use-module ((srfi srfi-11) #:select (let-values))
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:export (winding turns wrap-angle capstan-lock
             homotopy-class homotopy-class? class-decided? class-free?
@@ -27,22 +28,52 @@
             follow-string
             windings
             ;; For (bight homing).
-            vehicle-of unwind-said))
+            vehicle-of unwind-said
+            ;; For panels.
+            windings->strings))
 
 (define degree (/ (acos -1) 180))
 
 
 ;;; Turns.
 
+(define (structure-of name)
+  ;; The structure that the obstacle NAME is a member of: `tower' of tower/leg-1; or #f.
+  (let* ((text (symbol->string name)) (slash (string-index text #\/)))
+    (and slash (string->symbol (substring text 0 slash)))))
+
+(define (members-of name)
+  ;; The numbers of the members of the structure NAME; of the obstacle NAME, if it is one.
+  (let* ((names (%names (this-engine 'winding) 'obstacle))
+         (members (if (memq name names)
+                      '()
+                      (filter-map (lambda (other i) (and other (eq? name (structure-of other)) i))
+                                  names (iota (length names))))))
+    (if (null? members) (list (obstacle-index 'winding name)) members)))
+
+(define (in-all turns)
+  ;; Of the TURNS about the members of a structure: how many, with the sign of most, of the first if both
+  ;; signs are as many.  0 only if all are.
+  (let* ((turns (filter (negate zero?) turns)) (sum (fold + 0 turns)))
+    (if (null? turns)
+        0
+        (* (fold + 0 (map abs turns)) (if (negative? (if (zero? sum) (car turns) sum)) -1 1)))))
+
 (define-verb (winding #:subject (t tether) (object name))
-  "Return how often the tether, closed by the straight chord back to its anchor, winds about OBJECT, a whole
-number: clockwise looking along its axis (down, for a pile and for what has none) is positive; 0 for a line
-that merely passes."
-  (%winding (this-engine 'winding) t (obstacle-index 'winding object)))
+  "Return how many whole turns the tether is caught about OBJECT: how often the line that goes out along the
+tether, drawn tight, and home by the free way goes about it and cannot be drawn off.  Clockwise looking along
+the object's axis, from its `from' to its `to' (down, for what has no axis), is positive.  It is 0 wherever
+the class is the free way, for a line that merely passes, and for what ends in the water, since a line can be
+drawn off its end.  Where members meet in joints it is the fewest turns that stand for the class.  OBJECT may
+be a structure, such as the group `tower' of tower/leg-1: then it is how many turns there are about its
+members, with the sign of most.  `turns' is the raw angle."
+  (let ((engine (this-engine 'winding)))
+    (in-all (map (lambda (i) (%winding engine t i)) (members-of object)))))
 
 (define-verb (turns #:subject (t tether) (object name))
   "Return the signed turns of the tether about OBJECT from its anchor to its end, a number that grows
-steadily as the vehicle goes round; clockwise, as for `winding', is positive."
+steadily as the vehicle goes round; clockwise, as for `winding', is positive.  The object's axis is taken to
+have no ends: a line that passes above a stub turns about it too.  `winding' says what is caught."
   (%turns (this-engine 'turns) t (obstacle-index 'turns object)))
 
 (define-verb (wrap-angle #:subject (t tether) (object name))
@@ -55,8 +86,49 @@ theta) over all it bends round; 1 when it touches nothing."
   (%capstan-lock (this-engine 'capstan-lock) t))
 
 (define-verb (windings #:subject (t tether))
-  "Return what the tether winds about, an alist from the name of the object to the windings."
-  (%windings (this-engine 'windings) t))
+  "Return what the tether is caught on, an alist from the name of the object to its `winding', which is not
+0.  A structure comes before its members."
+  (append-map (lambda (group)
+                (if (car group)
+                    (acons (car group) (in-all (map cdr (cdr group))) (cdr group))
+                    (cdr group)))
+              (by-structure (%windings (this-engine 'windings) t))))
+
+(define (by-structure windings)
+  ;; ((STRUCTURE ENTRY ...) ...) of the entries of WINDINGS in their order; what is no member alone, under #f.
+  (let loop ((left windings) (groups '()))
+    (if (null? left)
+        (reverse! groups)
+        (let ((structure (structure-of (caar left))))
+          (if structure
+              (let-values (((members others)
+                            (partition (lambda (e) (eq? structure (structure-of (car e)))) left)))
+                (loop others (cons (cons structure members) groups)))
+              (loop (cdr left) (cons (list #f (car left)) groups)))))))
+
+(define most-members 3)
+
+(define (signed n)
+  (string-append (if (positive? n) "+" "") (number->string n)))
+
+(define (members->string structure members)
+  (define (own-name name)
+    (substring (symbol->string name) (+ 1 (string-length (symbol->string structure)))))
+  (let ((more (- (length members) most-members)))
+    (string-append
+     (symbol->string structure) ": "
+     (string-join (map (lambda (e) (string-append (own-name (car e)) " " (signed (cdr e))))
+                       (if (positive? more) (take members most-members) members))
+                  ", ")
+     (if (positive? more) (simple-format #f " and ~a more" more) ""))))
+
+(define (windings->strings t)
+  "Return what tether number T is caught on, in words: a string for each object and each structure."
+  (map (lambda (group)
+         (if (car group)
+             (members->string (car group) (cdr group))
+             (string-append (symbol->string (caadr group)) " " (signed (cdadr group)))))
+       (by-structure (%windings (this-engine 'windings) t))))
 
 
 ;;; Classes.

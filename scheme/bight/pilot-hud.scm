@@ -8,6 +8,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight pilot-hud)
+  #:use-module ((bight aware) #:select (windings->strings))
   #:use-module (bight dive)
   #:use-module (bight engine)
   #:use-module (bight errors)
@@ -74,14 +75,9 @@
 (define most-named 3)
 
 (define (windings tether)
-  ;; Up to three obstacles that the tether winds about, as words.
-  (let ((wound (filter-map (lambda (object)
-                             (let ((n (ask 'winding tether object)))
-                               (and n (not (zero? n)) (cons object n))))
-                           (filter identity (%names (this-engine 'pilot!) 'obstacle)))))
-    (map (lambda (entry)
-           (simple-format #f "~a ~a~a" (car entry) (if (positive? (cdr entry)) "+" "") (cdr entry)))
-         (take wound (min most-named (length wound))))))
+  ;; What the tether is caught on, in words: up to three.
+  (let ((wound (or (answer (windings->strings (subject-of tether))) '())))
+    (take wound (min most-named (length wound)))))
 
 (define (warnings vehicle tether)
   (define (when-true what . text) (and what (string-concatenate text)))

@@ -8,6 +8,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight view)
+  #:use-module ((bight aware) #:select (windings->strings))
   #:use-module (bight bed)
   #:use-module ((bight command) #:select (spooling?))
   #:use-module (bight dive)
@@ -518,10 +519,6 @@ sea bed, where there is one.  The drawing is COLUMNS wide, by default as wide as
 (define (among-obstacles?)
   (pair? (%names (this-engine 'status) 'obstacle)))
 
-(define (winding->string entry)
-  (string-append (symbol->string (car entry)) " " (if (positive? (cdr entry)) "+" "")
-                 (number->string (cdr entry))))
-
 (define (awareness-rows name)
   ;; What the tether is doing among obstacles; nothing in open water.
   (if (among-obstacles?)
@@ -529,7 +526,8 @@ sea bed, where there is one.  The drawing is COLUMNS wide, by default as wide as
                  (cell "taut" (figure (answer (taut-length name)) 2) "m")
                  (cell "free way" (figure (answer (free-length name)) 2) "m")
                  (cell "excess" (figure (answer (excess name)) 2) "m"))
-            (apply row "windings" (map winding->string (or (ask 'windings name) '()))))
+            (apply row "windings"
+                   (or (answer (windings->strings (subject-index 'status 'tether name))) '())))
       '()))
 
 (define (foul-warning name)

@@ -100,6 +100,10 @@ medium (bt__graph_job *k, bt_vec3 p, double radius)
     return BT__GROUND;
   if (k->c->depth > 0 && p.z <= -k->c->depth)
     return BT__GROUND;
+  ground.off = k->solid;
+  if (k->undescribed > 0
+      && bt__scene_nearest (k->scene, &ground, &link, radius + k->c->gap, &near, &k->count))
+    return BT__MESH;
   return p.z >= k->c->surface ? BT__AIR : BT__WATER;
 }
 
@@ -189,32 +193,73 @@ middle_of (const bt__obstacle *o)
   return bt__scale (1.0 / o->shape.hull->vertices, sum);
 }
 
-/* What O reaches into: what any point that stands for its surface does.  */
-static uint8_t
+/* The I-th point that stands for the surface of O, a box or a hull.  */
+static bt_vec3
+corner_of (const bt__obstacle *o, int i)
+{
+  const bt__box *b = &o->shape.box;
+  if (o->kind != BT__OBSTACLE_BOX)
+    return o->shape.hull->v[i];
+  return bt__to_world (&b->frame,
+                       bt__vec (i & 1 ? b->half.x : -b->half.x, i & 2 ? b->half.y : -b->half.y,
+                                i & 4 ? b->half.z : -b->half.z));
+}
+
+/* What joint O reaches into: a bit for each medium.  */
+static unsigned
 reaches_into (bt__graph_job *k, const bt__obstacle *o)
 {
-  if (o->kind == BT__OBSTACLE_SPHERE)
-    return medium (k, o->shape.sphere.centre, o->shape.sphere.radius);
+  int corners = o->kind == BT__OBSTACLE_BOX      ? 8
+                : o->kind == BT__OBSTACLE_CONVEX ? o->shape.hull->vertices
+                                                 : 0;
+  unsigned media = 0;
+  for (int i = 0; i < corners; i++)
+    media |= 1u << medium (k, corner_of (o, i), 0);
   if (o->kind == BT__OBSTACLE_BOX)
     {
       const bt__box *b = &o->shape.box;
-      for (int i = 0; i < 8; i++)
-        {
-          bt_vec3 c = bt__vec (i & 1 ? b->half.x : -b->half.x, i & 2 ? b->half.y : -b->half.y,
-                               i & 4 ? b->half.z : -b->half.z);
-          uint8_t what = medium (k, bt__to_world (&b->frame, c), 0);
-          if (what != BT__WATER)
-            return what;
-        }
-      return medium (k, b->frame.origin, fmin (b->half.x, fmin (b->half.y, b->half.z)));
+      double least = fmin (b->half.x, fmin (b->half.y, b->half.z));
+      media |= 1u << medium (k, b->frame.origin, least);
     }
-  for (int i = 0; i < o->shape.hull->vertices; i++)
+  if (o->kind == BT__OBSTACLE_SPHERE)
     {
-      uint8_t what = medium (k, o->shape.hull->v[i], 0);
-      if (what != BT__WATER)
-        return what;
+      bt_vec3 up = bt__vec (0, 0, o->shape.sphere.radius);
+      media |= 1u << medium (k, o->shape.sphere.centre, o->shape.sphere.radius);
+      media |= 1u << medium (k, bt__add (o->shape.sphere.centre, up), 0);
     }
-  return BT__WATER;
+  return media;
+}
+
+/* Joint I stands in the ground and rises out of the water: a member from its top to its foot, whose
+   middle is the joint.  Return the middle.  */
+static uint32_t
+add_pillar (bt__graph_job *k, uint32_t i)
+{
+  bt_vec3 middle = middle_of (k->scene->object + i);
+  bt__aabb box = bt__obstacle_box (k->scene->object + i);
+  uint32_t top = add_point (k, i, 0, bt__vec (middle.x, middle.y, box.hi.z), 0.1);
+  uint32_t foot = add_point (k, i, 1, bt__vec (middle.x, middle.y, box.lo.z), 0.1);
+  if (!k->failed)
+    {
+      k->p[top].boundary = BT__AIR;
+      k->p[foot].boundary = BT__GROUND;
+    }
+  return add_point (k, i, 0.5, middle, 0.1);
+}
+
+static void
+add_joint (bt__graph_job *k, uint32_t i)
+{
+  unsigned media = reaches_into (k, k->scene->object + i);
+  if (media & 1u << BT__GROUND && media & 1u << BT__AIR)
+    {
+      k->middle[i] = add_pillar (k, i);
+      return;
+    }
+  k->middle[i] = add_point (k, BT__NO_MEMBER, 0, middle_of (k->scene->object + i), 0.1);
+  for (uint8_t what = BT__GROUND; what <= BT__MESH && !k->failed; what++)
+    if (media & 1u << what)
+      k->p[k->middle[i]].boundary = what;
 }
 
 /* Member I ends in, or goes through, joint J.  */
@@ -251,9 +296,34 @@ join_joints (bt__graph_job *k, uint32_t i, uint32_t j)
   uint32_t x = k->middle[i], y = k->middle[j];
   if (!covered)
     return;
-  if (bt__joint_of (k, x) == bt__joint_of (k, y) || (k->p[x].boundary && k->p[y].boundary))
+  int pillar = k->p[x].member != BT__NO_MEMBER || k->p[y].member != BT__NO_MEMBER;
+  if (pillar || bt__joint_of (k, x) == bt__joint_of (k, y)
+      || (k->p[x].boundary && k->p[y].boundary))
     k->undescribed++;
   bt__unite (k, x, y);
+}
+
+static int
+may_meet (const bt__graph_job *k, uint32_t i, uint32_t j)
+{
+  const bt__aabb *a = &k->box[i], *b = &k->box[j];
+  return a->lo.x <= b->hi.x && b->lo.x <= a->hi.x && a->lo.y <= b->hi.y && b->lo.y <= a->hi.y
+         && a->lo.z <= b->hi.z && b->lo.z <= a->hi.z;
+}
+
+/* Join obstacles I and J if they meet.  */
+static void
+meet (bt__graph_job *k, uint32_t i, uint32_t j)
+{
+  int a = is_member (k->scene->object + i), b = is_member (k->scene->object + j);
+  if (a && b)
+    join_members (k, i, j);
+  else if (a && k->middle[j] != BT__NO_MEMBER)
+    join_to_joint (k, i, j);
+  else if (b && k->middle[i] != BT__NO_MEMBER)
+    join_to_joint (k, j, i);
+  else if (k->middle[i] != BT__NO_MEMBER && k->middle[j] != BT__NO_MEMBER)
+    join_joints (k, i, j);
 }
 
 static void
@@ -262,44 +332,42 @@ find_meetings (bt__graph_job *k)
   uint32_t n = k->scene->n;
   for (uint32_t i = 0; i < n; i++)
     for (uint32_t j = i + 1; j < n && !k->failed; j++)
-      {
-        if (!counts (k, i) || !counts (k, j))
-          continue;
-        int a = is_member (k->scene->object + i), b = is_member (k->scene->object + j);
-        if (a && b)
-          join_members (k, i, j);
-        else if (a && k->middle[j] != BT__NO_MEMBER)
-          join_to_joint (k, i, j);
-        else if (b && k->middle[i] != BT__NO_MEMBER)
-          join_to_joint (k, j, i);
-        else if (k->middle[i] != BT__NO_MEMBER && k->middle[j] != BT__NO_MEMBER)
-          join_joints (k, i, j);
-      }
+      if (may_meet (k, i, j) && counts (k, i) && counts (k, j))
+        meet (k, i, j);
+}
+
+/* Say what is ground and what is a mesh, and put a box about everything.  */
+static void
+sort_out (bt__graph_job *k)
+{
+  bt_vec3 gap = bt__vec (k->c->gap, k->c->gap, k->c->gap);
+  for (uint32_t i = 0; i < k->scene->n; i++)
+    {
+      const bt__obstacle *o = k->scene->object + i;
+      int mesh = o->kind == BT__OBSTACLE_MESH && counts (k, i);
+      k->off[i] = !is_ground (k, i) || !bt__is_on (k->c->on, i);
+      k->solid[i] = !mesh;
+      k->undescribed += mesh;
+      k->middle[i] = BT__NO_MEMBER;
+      k->box[i] = bt__obstacle_box (o);
+      k->box[i].lo = bt__sub (k->box[i].lo, gap);
+      k->box[i].hi = bt__add (k->box[i].hi, gap);
+    }
 }
 
 static void
 start (bt__graph_job *k)
 {
-  for (uint32_t i = 0; i < k->scene->n; i++)
-    {
-      k->off[i] = !is_ground (k, i) || !bt__is_on (k->c->on, i);
-      k->middle[i] = BT__NO_MEMBER;
-    }
+  sort_out (k);
   for (uint32_t i = 0; i < k->scene->n && !k->failed; i++)
     {
       const bt__obstacle *o = k->scene->object + i;
-      if (!counts (k, i))
+      if (!counts (k, i) || o->kind == BT__OBSTACLE_MESH)
         continue;
-      if (o->kind == BT__OBSTACLE_MESH)
-        k->undescribed++;
-      else if (is_member (o))
+      if (is_member (o))
         add_member (k, i);
       else
-        {
-          k->middle[i] = add_point (k, BT__NO_MEMBER, 0, middle_of (o), 0.1);
-          if (!k->failed)
-            k->p[k->middle[i]].boundary = reaches_into (k, o);
-        }
+        add_joint (k, i);
     }
 }
 
@@ -309,8 +377,10 @@ bt__graph_new (const bt__graph_config *config, bt__graph *graph, bt_error *error
   bt__graph_job k = { .c = config, .scene = config->scene };
   memset (graph, 0, sizeof *graph);
   k.off = calloc (k.scene->n + 1, 1);
+  k.solid = calloc (k.scene->n + 1, 1);
   k.middle = malloc ((k.scene->n + 1) * sizeof *k.middle);
-  k.failed = !k.off || !k.middle;
+  k.box = malloc ((k.scene->n + 1) * sizeof *k.box);
+  k.failed = !k.off || !k.solid || !k.middle || !k.box;
   if (!k.failed)
     start (&k);
   if (!k.failed)
@@ -320,7 +390,9 @@ bt__graph_new (const bt__graph_config *config, bt__graph *graph, bt_error *error
   graph->undescribed = (uint32_t)k.undescribed;
   free (k.p);
   free (k.off);
+  free (k.solid);
   free (k.middle);
+  free (k.box);
   if (!k.failed)
     return BT_OK;
   bt__graph_free (graph);

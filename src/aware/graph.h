@@ -1,9 +1,11 @@
 /* What can hold a line for good, as a graph: the axes of members, joined where members overlap, cut
    where they enter the ground or leave the water.
 
-   Members are capsules and cylinders; boxes, balls and hulls are joints where members end in them.
-   A member that lies on the ground holds nothing there.  Meshes are ground if said so, else they
-   are not described: `undescribed' counts them.  Obstacles that move do not belong in the scene.
+   Members are capsules and cylinders; boxes, balls and hulls are joints where members end in them,
+   and, from the ground to the air, pillars with an upright axis.  A member that lies on the ground
+   holds nothing there.  Meshes are ground if said so, else they are not described: `undescribed'
+   counts them, and members end where they meet them.  Obstacles that move do not belong in the
+   scene.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -14,10 +16,11 @@
 
 typedef struct bt__graph
 {
-  uint32_t vertices, edges;
+  uint32_t vertices, edges, own; /* the first OWN edges are of members, the others lead away from
+                                    where those end */
   bt_vec3 *v;
   double *radius;    /* m: of the thinnest member at the vertex */
-  uint8_t *boundary; /* in the ground or out of the water */
+  uint8_t *boundary; /* in the ground, out of the water, or at a mesh */
   uint32_t (*edge)[2];
   uint32_t *object; /* of each edge: its member's place in the scene */
   uint32_t undescribed;

@@ -86,7 +86,7 @@ lead_away (bt__graph *g)
     for (int end = 0; end < 2; end++)
       {
         uint32_t v = g->edge[e][end], far = g->vertices;
-        if (g->boundary[v] == BT__WATER || v >= vertices)
+        if (g->boundary[v] == BT__WATER || g->boundary[v] == BT__MESH || v >= vertices)
           continue;
         g->v[far] = bt__vec (g->v[v].x, g->v[v].y, g->boundary[v] == BT__AIR ? high : low);
         g->radius[far] = g->radius[v];
@@ -119,6 +119,7 @@ bt__graph_build (bt__graph_job *k, bt__graph *g)
       settle (k, at, n);
       place_vertices (k, g, vertex);
       lay_edges (k, g, at, n, vertex);
+      g->own = g->edges;
       lead_away (g);
     }
   free (at);

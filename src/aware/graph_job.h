@@ -12,7 +12,8 @@ enum
 {
   BT__WATER,
   BT__GROUND,
-  BT__AIR
+  BT__AIR,
+  BT__MESH
 };
 
 /* A point on a member, at share S of its axis, or the middle of a joint (member BT__NO_MEMBER).  */
@@ -33,6 +34,8 @@ typedef struct bt__graph_job
   uint32_t n, room;
   bt__point *p;
   uint8_t *off;     /* all but the ground */
+  uint8_t *solid;   /* all but meshes that are no ground */
+  bt__aabb *box;    /* about each obstacle, and what the gap adds */
   uint32_t *middle; /* of object i, if it is a joint: its point, else BT__NO_MEMBER */
   bt__count count;
   int failed, undescribed;

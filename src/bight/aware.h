@@ -3,8 +3,8 @@
    Every answer is of the present state alone: equal states, equal answers, whoever asked before.
    Nothing is computed unless asked; several questions about one state share one taut string.  What
    depends on the world alone (the tree of free ways, the table of words) is made when first asked
-   for and shared by forks.  Obstacles on tracks are left out of strings, ways and words: they hold
-   nothing for good; turns about them are counted.
+   for and shared by forks.  Obstacles on tracks are left out of strings, ways, words and windings:
+   they hold nothing for good; turns about them are counted.
 
    The string of a world in which nothing stands but level ground is the straight line; nothing is
    solved then.  Every function gives BT_ERR_NAME when there is no such part and BT_ERR_LIMIT when
@@ -49,10 +49,17 @@ bt_status bt_tether_contact_length (const bt_dive *dive, int i, int obstacle, in
 /* ---- Turns ---- */
 
 /* Signed turns of tether I about OBSTACLE, continuous; clockwise looking along its axis is positive
-   (down, where it has none).  The tether closed by its chord winds about it a whole number of
-   times.  BT_ERR_UNSUPPORTED for level ground, which has no axis.  */
+   (down, where it has none).  The axis has no ends.  BT_ERR_UNSUPPORTED for level ground, which has
+   no axis.  */
 bt_status bt_tether_turns (const bt_dive *dive, int i, int obstacle, double *turns,
                            bt_error *error);
+
+/* Whole turns, with the same sign, that tether I is caught about OBSTACLE: of the line that goes
+   out along the taut string and home by the free way, how often it goes about the obstacle and
+   cannot be drawn off.  0 for every obstacle where the class is the free way's; 0 for what ends in
+   the water, or lies there, since a line can be drawn off its end; 0 for what moves.  Of what meets
+   in joints the fewest turns that stand for the class, about what the string bends at if there is a
+   choice.  */
 bt_status bt_tether_winding (const bt_dive *dive, int i, int obstacle, int *winding,
                              bt_error *error);
 

@@ -125,36 +125,23 @@ axis_of (const bt_dive *dive, int obstacle, bt__axis *axis, bt_error *error)
 }
 
 /* The tether's own nodes are enough: no string is solved.  */
-static bt_status
-nodes_and_axis (const bt_dive *dive, int i, int obstacle, bt__axis *axis, bt_vec3 **node,
-                uint32_t *n, bt_error *error)
-{
-  bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
-  if (status == BT_OK)
-    status = axis_of (dive, obstacle, axis, error);
-  if (status != BT_OK)
-    return status;
-  bt__line line = bt__line_of (dive, dive->now, i);
-  *n = (uint32_t)bt__line_nodes (&line);
-  *node = malloc (*n * sizeof **node);
-  if (!*node)
-    return bt__fail (error, BT_ERR_LIMIT, "no memory for the nodes of a tether");
-  for (uint32_t k = 0; k < *n; k++)
-    (*node)[k] = bt__line_node (&line, (int)k);
-  return BT_OK;
-}
-
 bt_status
 bt_tether_turns (const bt_dive *dive, int i, int obstacle, double *turns, bt_error *error)
 {
   bt__axis axis;
-  bt_vec3 *node;
-  uint32_t n;
-  bt_status status = nodes_and_axis (dive, i, obstacle, &axis, &node, &n, error);
+  bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
+  if (status == BT_OK)
+    status = axis_of (dive, obstacle, &axis, error);
   if (status != BT_OK)
     return status;
-  *turns = bt__turns (&axis, node, n);
-  free (node);
+  bt__line line = bt__line_of (dive, dive->now, i);
+  bt_vec3 ends[2] = { bt__line_node (&line, 0) };
+  *turns = 0;
+  for (int k = 1; k < bt__line_nodes (&line); k++, ends[0] = ends[1])
+    {
+      ends[1] = bt__line_node (&line, k);
+      *turns += bt__turns (&axis, ends, 2);
+    }
   return BT_OK;
 }
 
@@ -162,14 +149,15 @@ bt_status
 bt_tether_winding (const bt_dive *dive, int i, int obstacle, int *winding, bt_error *error)
 {
   bt__axis axis;
-  bt_vec3 *node;
-  uint32_t n;
-  bt_status status = nodes_and_axis (dive, i, obstacle, &axis, &node, &n, error);
-  if (status != BT_OK)
-    return status;
-  *winding = bt__winding (&axis, node, n);
-  free (node);
-  return BT_OK;
+  bt__gaze *g;
+  bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
+  if (status == BT_OK)
+    status = axis_of (dive, obstacle, &axis, error);
+  if (status == BT_OK)
+    status = bt__watch_wound (dive, i, &g, error);
+  if (status == BT_OK)
+    *winding = g->wound[obstacle];
+  return status;
 }
 
 bt_status
@@ -269,21 +257,6 @@ bt_tether_knotted (const bt_dive *dive, int i, int *knotted, bt_error *error)
 
 /* ---- Fouled ---- */
 
-/* Where words are not decided, winding about something tells of it too.  */
-static int
-is_wound (const bt_dive *dive, int i, const bt__gaze *g)
-{
-  if (g->word.decided && !g->word.lost)
-    return g->word.n > 0;
-  for (int k = 0; k < dive->model->n_obstacles; k++)
-    {
-      int winding = 0;
-      if (bt_tether_winding (dive, i, k, &winding, NULL) == BT_OK && winding != 0)
-        return 1;
-    }
-  return 0;
-}
-
 bt_status
 bt_tether_fouled (const bt_dive *dive, int i, bt_foul *foul, bt_error *error)
 {
@@ -293,8 +266,11 @@ bt_tether_fouled (const bt_dive *dive, int i, bt_foul *foul, bt_error *error)
   if (status != BT_OK
       || !(g->taut_length - g->free_length > fmax (FOULED_BY, FOULED_SHARE * g->free_length)))
     return status;
-  status = bt__watch_class (dive, i, &g, error);
+  status = bt__watch_wound (dive, i, &g, error);
+  if (status == BT_OK && !g->is_wound) /* words see what windings do not */
+    status = bt__watch_class (dive, i, &g, error);
+  int wound = g->is_wound || (g->word.decided && !g->word.lost && g->word.n > 0);
   if (status == BT_OK)
-    *foul = is_wound (dive, i, g) ? BT_FOUL_WOUND : BT_FOUL_HUNG;
+    *foul = wound ? BT_FOUL_WOUND : BT_FOUL_HUNG;
   return status;
 }

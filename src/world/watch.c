@@ -14,7 +14,6 @@
 enum
 {
   TAUT_STEPS = 400, /* of a string from the tether's own shape */
-  FREE_STEPS = 200,
   FINE_STEPS = 60, /* more, with a finer mesh: corners become arcs */
   ROOM_LEAST = 256,
   ROOM_MOST = 1 << 18 /* nodes: a gigabyte is no answer */
@@ -34,8 +33,10 @@ free_gaze (bt__gaze *g)
   free (g->shortest);
   free (g->live);
   free (g->hold);
+  free (g->wound);
   bt__chart_release (g->ways);
   bt__chart_release (g->words);
+  bt__chart_release (g->frame);
 }
 
 void
@@ -60,6 +61,13 @@ watch_of (const bt_dive *dive)
   return dive->watch;
 }
 
+static void
+retain (bt__chart *chart)
+{
+  if (chart)
+    atomic_fetch_add (&chart->references, 1);
+}
+
 void
 bt__watch_share (const bt_dive *dive, bt_dive *fork)
 {
@@ -69,10 +77,10 @@ bt__watch_share (const bt_dive *dive, bt_dive *fork)
       bt__gaze *from = &dive->watch->gaze[i], *to = &w->gaze[i];
       to->ways = from->ways;
       to->words = from->words;
-      if (to->ways)
-        atomic_fetch_add (&to->ways->references, 1);
-      if (to->words)
-        atomic_fetch_add (&to->words->references, 1);
+      to->frame = from->frame;
+      retain (to->ways);
+      retain (to->words);
+      retain (to->frame);
     }
 }
 
@@ -241,7 +249,7 @@ bt__watch_look (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
     return BT_OK;
   bt__line line = bt__line_of (dive, dive->now, i);
   g->change = 0;
-  g->has_taut = g->has_free = g->has_class = 0;
+  g->has_taut = g->has_free = g->has_class = g->has_wound = 0;
   g->out = bt__line_length (&line);
   if (!take_nodes (g, &line))
     return no_memory (error);
@@ -289,7 +297,7 @@ bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
   if (status != BT_OK)
     return status;
   if (!straight && g->ways->tree)
-    length = bt__free_length (g->ways->tree, w->taut, &g->config, far, FREE_STEPS, g->shortest,
+    length = bt__free_length (g->ways->tree, w->taut, &g->config, far, BT__FREE_STEPS, g->shortest,
                               &w->count);
   if (!(length < g->taut_length))
     {

@@ -12,6 +12,7 @@
 #include <bight/aware.h>
 
 #include "aware/free.h"
+#include "aware/graph.h"
 #include "aware/haul.h"
 #include "aware/shadow.h"
 #include "aware/voxel.h"
@@ -25,8 +26,13 @@ bt__is_taut (double length, double out)
   return length >= (1 - BT_TAUT_SLACK) * out;
 }
 
+enum
+{
+  BT__FREE_STEPS = 200 /* by which a free way is tightened */
+};
+
 /* What the world is like for a tether.  The tree of free ways is of one anchor and of what its
-   reach comes to; the words are of one gap.  */
+   reach comes to; the graph and the words are of one gap.  */
 typedef struct bt__chart
 {
   atomic_int references;
@@ -37,6 +43,7 @@ typedef struct bt__chart
   uint8_t *off;
   bt__switches on;
   bt__free *tree; /* NULL: nothing is within reach */
+  bt__graph graph;
   bt__shadow *shadow;
   bt__voxels *voxels;
 } bt__chart;
@@ -46,7 +53,7 @@ typedef struct bt__gaze
 {
   uint64_t change; /* the dive's count then, plus 1; 0: never */
   int open;        /* nothing stands in its water: the string is the chord */
-  int has_taut, has_free, has_class;
+  int has_taut, has_free, has_class, has_wound;
   uint32_t n, node_room;
   uint32_t followed; /* calls since the live string was last seeded */
   bt_vec3 *node;     /* the tether's own */
@@ -57,7 +64,9 @@ typedef struct bt__gaze
   bt__holds holds;
   double taut_length, free_length;
   bt__word word; /* the tether's, then the free way back */
-  bt__chart *ways, *words;
+  int32_t *wound; /* windings about each obstacle; NULL: never asked for */
+  int is_wound;   /* true if one of them is not 0 */
+  bt__chart *ways, *words, *frame; /* frame: the graph */
 } bt__gaze;
 
 struct bt__watch
@@ -79,6 +88,9 @@ bt_status bt__watch_gaze (const bt_dive *dive, int i, bt__gaze **out, bt_error *
 bt_status bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
 bt_status bt__watch_class (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
 
+/* The same, with the windings; the string and the way only where they are needed.  */
+bt_status bt__watch_wound (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
+
 /* A new string with the room of those of the watch; NULL: no memory.  */
 bt__string *bt__watch_string (const bt_dive *dive);
 
@@ -87,9 +99,11 @@ void bt__watch_free_all (struct bt__watch *watch); /* NULL is nothing */
 /* Let FORK share the charts of DIVE.  Without memory it makes its own.  */
 void bt__watch_share (const bt_dive *dive, bt_dive *fork);
 
-/* watch_chart.c: have GAZE's chart of ways, without its tree; with its tree; its chart of words. */
+/* watch_chart.c: have GAZE's chart of ways, without its tree; with its tree; its graph; its chart of
+   words.  */
 bt_status bt__chart_ways (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
 bt_status bt__chart_grow (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
+bt_status bt__chart_frame (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
 bt_status bt__chart_words (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
 void bt__chart_release (bt__chart *chart); /* NULL is nothing */
 

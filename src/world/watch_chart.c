@@ -28,6 +28,7 @@ bt__chart_release (bt__chart *c)
   if (!c || atomic_fetch_sub (&c->references, 1) != 1)
     return;
   bt__free_free (c->tree);
+  bt__graph_free (&c->graph);
   bt__shadow_free (c->shadow);
   bt__voxels_free (c->voxels);
   free (c->off);
@@ -182,19 +183,51 @@ bt__chart_grow (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 
 /* ---- The words ---- */
 
-/* Nonzero if what counts is members and what they end in; GROUND is filled.  */
+/* Make the graph of what counts.  */
 static bt_status
-describe (const bt_dive *dive, bt__chart *c, uint8_t *ground, bt__graph *graph, bt_error *error)
+describe (const bt_dive *dive, bt__chart *c, bt_error *error)
 {
   const bt__scene *scene = dive->model->scene;
+  uint8_t *ground = calloc (scene->n, 1);
+  if (!ground)
+    return no_memory (error);
   for (uint32_t k = 0; k < scene->n; k++)
     ground[k] = dive->model->obstacles[scene->object[k].id].kind == BT_OBSTACLE_SEABED;
-  return bt__graph_new (&(bt__graph_config){ .scene = scene,
-                                             .on = &c->on,
-                                             .ground = ground,
-                                             .depth = dive->now->depth,
-                                             .gap = c->gap },
-                        graph, error);
+  bt_status status = bt__graph_new (&(bt__graph_config){ .scene = scene,
+                                                         .on = &c->on,
+                                                         .ground = ground,
+                                                         .depth = dive->now->depth,
+                                                         .gap = c->gap },
+                                    &c->graph, error);
+  free (ground);
+  return status;
+}
+
+static double
+gap_of (const bt_dive *dive, int i)
+{
+  return fmax (GAP_LEAST, bt__dive_tether (dive, dive->now, i)->props.diameter);
+}
+
+bt_status
+bt__chart_frame (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+{
+  double gap = gap_of (dive, i);
+  if (is_of (dive, i, g->frame) && g->frame->gap == gap)
+    return BT_OK;
+  bt__chart *c = new_chart (dive, i);
+  if (!c)
+    return no_memory (error);
+  c->gap = gap;
+  bt_status status = describe (dive, c, error);
+  if (status != BT_OK)
+    {
+      bt__chart_release (c);
+      return status;
+    }
+  bt__chart_release (g->frame);
+  g->frame = c;
+  return BT_OK;
 }
 
 static bt_status
@@ -206,25 +239,15 @@ make_voxels (const bt_dive *dive, bt__chart *c, bt_vec3 anchor, bt_error *error)
   return bt__voxels_new (&config, &c->voxels, error);
 }
 
+/* By the graph where it says all, else by voxels.  */
 static bt_status
-make_words (const bt_dive *dive, bt__chart *c, bt_vec3 anchor, bt_error *error)
+make_words (const bt_dive *dive, bt__chart *c, const bt__graph *graph, bt_vec3 anchor,
+            bt_error *error)
 {
-  bt__graph graph;
-  uint8_t *ground = calloc (dive->model->scene->n, 1);
-  if (!ground)
-    return no_memory (error);
-  bt_status status = describe (dive, c, ground, &graph, error);
-  if (status == BT_OK)
-    {
-      status = graph.undescribed
-                   ? make_voxels (dive, c, anchor, error)
-                   : bt__shadow_new (&graph, &(bt__shadow_config){ JITTER, DIRECTIONS }, &c->shadow,
-                                     error);
-      bt__graph_free (&graph);
-    }
-  free (ground);
   ((bt_dive *)dive)->profile.charts++;
-  return status;
+  if (graph->undescribed)
+    return make_voxels (dive, c, anchor, error);
+  return bt__shadow_new (graph, &(bt__shadow_config){ JITTER, DIRECTIONS }, &c->shadow, error);
 }
 
 /* Words among members are of the whole world.  Voxels are of what is within reach of the anchor. */
@@ -240,16 +263,19 @@ has_words (const bt_dive *dive, int i, const bt__gaze *g, double gap)
 bt_status
 bt__chart_words (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 {
-  double gap = fmax (GAP_LEAST, bt__dive_tether (dive, dive->now, i)->props.diameter);
+  double gap = gap_of (dive, i);
   if (has_words (dive, i, g, gap))
     return BT_OK;
+  bt_status status = bt__chart_frame (dive, i, g, error);
+  if (status != BT_OK)
+    return status;
   bt__chart *c = new_chart (dive, i);
   if (!c)
     return no_memory (error);
   c->gap = gap;
   c->reach = reach_of (g);
   c->anchor = g->node[0];
-  bt_status status = make_words (dive, c, c->anchor, error);
+  status = make_words (dive, c, &g->frame->graph, c->anchor, error);
   if (status != BT_OK)
     {
       bt__chart_release (c);

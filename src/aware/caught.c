@@ -1,0 +1,224 @@
+/* The sum with the fewest loops: a loop about every edge that goes through a surface, slid over
+   vertices while that leaves less.
+
+   Each inner vertex has a number, how many loops slide over it; vertices at the boundary have 0.
+   What is left about an edge is |loops + number at its first - number at its second|, and the cost,
+   a weighted sum of these, is least where no set of vertices gains by one more or one less (Murota
+   2003; Kolmogorov and Shioura 2009).  The best set is a least cut, found by augmenting paths.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "aware/caught.h"
+#include "base/error.h"
+
+/* Costs of a loop.  One loop less outweighs what is favoured, and that what breaks a tie.  */
+enum
+{
+  COST = 1 << 20,
+  FAVOUR = 1 << 8, /* less for an edge that is favoured */
+  APART = 1 << 26, /* more for the edge that leads away from where a member ends */
+  TIES = 1 << 6
+};
+
+typedef struct job
+{
+  const bt__graph *g;
+  int32_t *loops;
+  int64_t *cost;  /* of a loop about each edge */
+  uint32_t *at;   /* of each vertex: where its edges begin in ... */
+  uint32_t *edge; /* ... this list */
+  int64_t *gain;  /* of each vertex: what its one step more gains; less than 0: it costs */
+  int64_t *flow;  /* along each edge */
+  uint32_t *from; /* of each vertex: the edge by which a path reaches it */
+  uint32_t *queue;
+  uint8_t *seen;
+} job;
+
+#define NOWHERE UINT32_MAX
+#define START (UINT32_MAX - 1)
+
+static void
+free_job (job *k)
+{
+  free (k->cost);
+  free (k->at);
+  free (k->edge);
+  free (k->gain);
+  free (k->flow);
+  free (k->from);
+  free (k->queue);
+  free (k->seen);
+}
+
+static int
+new_job (job *k)
+{
+  size_t v = (size_t)k->g->vertices + 2, e = (size_t)k->g->edges + 1;
+  k->cost = malloc (e * sizeof *k->cost);
+  k->at = calloc (v, sizeof *k->at);
+  k->edge = malloc (2 * e * sizeof *k->edge);
+  k->gain = malloc (v * sizeof *k->gain);
+  k->flow = malloc (e * sizeof *k->flow);
+  k->from = malloc (v * sizeof *k->from);
+  k->queue = malloc (v * sizeof *k->queue);
+  k->seen = malloc (v);
+  return k->cost && k->at && k->edge && k->gain && k->flow && k->from && k->queue && k->seen;
+}
+
+/* Make the lists of edges at each vertex.  */
+static void
+list_edges (job *k)
+{
+  const bt__graph *g = k->g;
+  for (uint32_t e = 0; e < g->edges; e++)
+    for (int end = 0; end < 2; end++)
+      k->at[g->edge[e][end] + 1]++;
+  for (uint32_t v = 0; v < g->vertices; v++)
+    k->at[v + 1] += k->at[v];
+  for (uint32_t e = g->edges; e-- > 0;)
+    for (int end = 0; end < 2; end++)
+      k->edge[--k->at[g->edge[e][end] + 1]] = e;
+  /* each list now begins one place later in AT than its vertex */
+  memmove (k->at, k->at + 1, g->vertices * sizeof *k->at);
+  k->at[g->vertices] = 2 * g->edges;
+}
+
+static void
+set_costs (job *k, const uint8_t *favoured)
+{
+  for (uint32_t e = 0; e < k->g->edges; e++)
+    k->cost[e] = COST - (favoured && favoured[e] ? FAVOUR : 0) + (e < k->g->own ? 0 : APART)
+                 + (int64_t)((e * 2654435761u) >> 26) % TIES;
+}
+
+/* ---- The best set of vertices ---- */
+
+/* The gain of each vertex if it goes WAY, 1 or -1, and its neighbours do not, from the edges that
+   have loops; an edge without is a cost either way and stays for the cut.  */
+static void
+set_gains (job *k, int way)
+{
+  const bt__graph *g = k->g;
+  memset (k->gain, 0, g->vertices * sizeof *k->gain);
+  memset (k->flow, 0, g->edges * sizeof *k->flow);
+  for (uint32_t e = 0; e < g->edges; e++)
+    {
+      int64_t by = k->loops[e] > 0 ? -way * k->cost[e] : k->loops[e] < 0 ? way * k->cost[e] : 0;
+      k->gain[g->edge[e][0]] += by;
+      k->gain[g->edge[e][1]] -= by;
+    }
+}
+
+/* What can still flow along edge E out of vertex V.  */
+static int64_t
+left_out_of (const job *k, uint32_t e, uint32_t v)
+{
+  if (k->loops[e] != 0)
+    return 0;
+  return k->cost[e] - (k->g->edge[e][0] == v ? k->flow[e] : -k->flow[e]);
+}
+
+static uint32_t
+other_end (const job *k, uint32_t e, uint32_t v)
+{
+  return k->g->edge[e][0] == v ? k->g->edge[e][1] : k->g->edge[e][0];
+}
+
+/* Look from all vertices with gains for one that takes them; return it, or NOWHERE.  */
+static uint32_t
+find_path (job *k)
+{
+  const bt__graph *g = k->g;
+  uint32_t n = 0;
+  memset (k->seen, 0, g->vertices);
+  for (uint32_t v = 0; v < g->vertices; v++)
+    if (k->gain[v] > 0 && !g->boundary[v])
+      {
+        k->seen[v] = 1;
+        k->from[v] = START;
+        k->queue[n++] = v;
+      }
+  for (uint32_t i = 0; i < n; i++)
+    for (uint32_t j = k->at[k->queue[i]]; j < k->at[k->queue[i] + 1]; j++)
+      {
+        uint32_t v = k->queue[i], e = k->edge[j], w = other_end (k, e, v);
+        if (k->seen[w] || left_out_of (k, e, v) <= 0)
+          continue;
+        k->seen[w] = 1;
+        k->from[w] = e;
+        if (g->boundary[w] || k->gain[w] < 0)
+          return w;
+        k->queue[n++] = w;
+      }
+  return NOWHERE;
+}
+
+/* Let flow what can along the path to END.  */
+static void
+augment (job *k, uint32_t end)
+{
+  int64_t most = k->g->boundary[end] ? INT64_MAX : -k->gain[end];
+  uint32_t v = end;
+  for (; k->from[v] != START; v = other_end (k, k->from[v], v))
+    {
+      int64_t left = left_out_of (k, k->from[v], other_end (k, k->from[v], v));
+      most = left < most ? left : most;
+    }
+  most = k->gain[v] < most ? k->gain[v] : most;
+  k->gain[v] -= most;
+  if (!k->g->boundary[end])
+    k->gain[end] += most;
+  for (v = end; k->from[v] != START; v = other_end (k, k->from[v], v))
+    k->flow[k->from[v]] += k->g->edge[k->from[v]][1] == v ? most : -most;
+}
+
+/* Slide loops by WAY over the set of vertices that gains most; return true if one does.  */
+static int
+slide (job *k, int way)
+{
+  const bt__graph *g = k->g;
+  uint32_t end;
+  int gained = 0;
+  set_gains (k, way);
+  while ((end = find_path (k)) != NOWHERE)
+    augment (k, end);
+  for (uint32_t v = 0; v < g->vertices; v++)
+    gained |= k->seen[v];
+  for (uint32_t e = 0; gained && e < g->edges; e++)
+    k->loops[e] += way * (k->seen[g->edge[e][0]] - k->seen[g->edge[e][1]]);
+  return gained;
+}
+
+bt_status
+bt__caught_new (const bt__graph *graph, const bt_vec3 *p, uint32_t n, const bt_vec3 *q, uint32_t m,
+                const uint8_t *favoured, bt__caught *out, bt_error *error)
+{
+  *out = (bt__caught){ .edges = graph->edges };
+  out->loops = malloc (((size_t)graph->edges + 1) * sizeof *out->loops);
+  job k = { .g = graph, .loops = out->loops };
+  int ok = out->loops != NULL;
+  if (ok && bt__caught_crossings (graph, p, n, q, m, out->loops) && (ok = new_job (&k)))
+    {
+      list_edges (&k);
+      set_costs (&k, favoured);
+      while (slide (&k, 1) || slide (&k, -1))
+        ;
+      for (uint32_t e = 0; e < graph->edges; e++)
+        out->any |= out->loops[e] != 0;
+    }
+  free_job (&k);
+  if (ok)
+    return BT_OK;
+  bt__caught_free (out);
+  return bt__fail (error, BT_ERR_LIMIT, "no memory for what a tether goes about");
+}
+
+void
+bt__caught_free (bt__caught *c)
+{
+  free (c->loops);
+  *c = (bt__caught){ 0 };
+}

@@ -1,0 +1,209 @@
+/* A surface between two lines with the same ends, and the edges of a graph that go through it.
+
+   The surface is a strip of triangles; its rungs lead from one line to the other.  Blocks of
+   triangles have boxes, so that an edge far away costs one comparison.  A side of a triangle that
+   two triangles share is tested by one expression, so that an edge goes through exactly one of
+   them, however it lies.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+
+#include "aware/caught.h"
+#include "math/vec.h"
+
+enum
+{
+  BLOCK = 16,     /* triangles of a box */
+  BLOCKS_MAX = 64 /* boxes; of a longer strip each covers more */
+};
+
+/* The strip: triangle T has the points P[I[T]] and Q[J[T]] and the next on one of the lines; where
+   the strip stands after T triangles is found by walking on from the block's first.  */
+typedef struct place
+{
+  uint32_t i, j;
+  double s, t; /* m along P and Q */
+} place;
+
+typedef struct strip
+{
+  const bt_vec3 *p, *q;
+  uint32_t n, m;
+  double along, back; /* m: lengths of P and Q */
+  uint32_t block;     /* triangles of a block */
+  uint32_t blocks;
+  place first[BLOCKS_MAX];
+  bt__aabb box[BLOCKS_MAX], all;
+} strip;
+
+static double
+length_of (const bt_vec3 *p, uint32_t n)
+{
+  double sum = 0;
+  for (uint32_t i = 1; i < n; i++)
+    sum += bt__distance (p[i - 1], p[i]);
+  return sum;
+}
+
+/* True if the triangle at AT goes on along P.  */
+static int
+goes_along (const strip *s, const place *at)
+{
+  if (at->i + 1 >= s->n || at->j + 1 >= s->m)
+    return at->i + 1 < s->n;
+  double next = at->s + bt__distance (s->p[at->i], s->p[at->i + 1]);
+  double other = at->t + bt__distance (s->q[at->j], s->q[at->j + 1]);
+  return next * s->back <= other * s->along;
+}
+
+static void
+go_on (const strip *s, place *at)
+{
+  if (goes_along (s, at))
+    {
+      at->s += bt__distance (s->p[at->i], s->p[at->i + 1]);
+      at->i++;
+    }
+  else
+    {
+      at->t += bt__distance (s->q[at->j], s->q[at->j + 1]);
+      at->j++;
+    }
+}
+
+static void
+stretch (bt__aabb *box, bt_vec3 p)
+{
+  box->lo = bt__vec (fmin (box->lo.x, p.x), fmin (box->lo.y, p.y), fmin (box->lo.z, p.z));
+  box->hi = bt__vec (fmax (box->hi.x, p.x), fmax (box->hi.y, p.y), fmax (box->hi.z, p.z));
+}
+
+static bt__aabb
+empty_box (void)
+{
+  return (bt__aabb){ bt__vec (INFINITY, INFINITY, INFINITY),
+                     bt__vec (-INFINITY, -INFINITY, -INFINITY) };
+}
+
+static uint32_t
+triangles_of (const strip *s)
+{
+  return s->n + s->m - 2;
+}
+
+static void
+lay_strip (strip *s)
+{
+  uint32_t count = triangles_of (s);
+  place at = { 0, 0, 0, 0 };
+  s->along = length_of (s->p, s->n);
+  s->back = length_of (s->q, s->m);
+  s->block = BLOCK > count / BLOCKS_MAX + 1 ? BLOCK : count / BLOCKS_MAX + 1;
+  s->blocks = 0;
+  s->all = empty_box ();
+  for (uint32_t k = 0; k < count; k++)
+    {
+      uint32_t b = k / s->block;
+      if (k % s->block == 0)
+        {
+          s->first[b] = at;
+          s->box[b] = empty_box ();
+          s->blocks++;
+        }
+      stretch (&s->box[b], s->p[at.i]);
+      stretch (&s->box[b], s->q[at.j]);
+      go_on (s, &at);
+      stretch (&s->box[b], s->p[at.i]);
+      stretch (&s->box[b], s->q[at.j]);
+    }
+  for (uint32_t b = 0; b < s->blocks; b++)
+    {
+      stretch (&s->all, s->box[b].lo);
+      stretch (&s->all, s->box[b].hi);
+    }
+}
+
+/* ---- Crossings ---- */
+
+/* Six times the volume of the tetrahedron A, B, C, D: positive if D is where the normal of A, B, C
+   points.  */
+static double
+volume (bt_vec3 a, bt_vec3 b, bt_vec3 c, bt_vec3 d)
+{
+  return bt__dot (bt__cross (bt__sub (b, a), bt__sub (c, a)), bt__sub (d, a));
+}
+
+static int
+sign_of (double x)
+{
+  return x >= 0 ? 1 : -1;
+}
+
+/* On which side the line from X to Y passes the rung from P to Q.  */
+static int
+passes_rung (bt_vec3 x, bt_vec3 y, bt_vec3 p, bt_vec3 q)
+{
+  return sign_of (volume (x, y, p, q));
+}
+
+/* 1 or -1 if the edge X to Y goes through the triangle of S at AT, along its normal or against it;
+   else 0.  */
+static int
+through (const strip *s, const place *at, bt_vec3 x, bt_vec3 y)
+{
+  bt_vec3 p = s->p[at->i], q = s->q[at->j];
+  int along = goes_along (s, at);
+  bt_vec3 next = along ? s->p[at->i + 1] : s->q[at->j + 1];
+  bt_vec3 b = along ? next : q, c = along ? q : p, a = along ? p : next;
+  int from = sign_of (volume (a, b, c, x)), to = sign_of (volume (a, b, c, y));
+  if (from == to)
+    return 0;
+  int first = passes_rung (x, y, p, q);
+  int last = along ? passes_rung (x, y, next, q) : passes_rung (x, y, p, next);
+  int rim = along ? sign_of (volume (x, y, p, next)) : sign_of (volume (x, y, next, q));
+  return last == rim && first == -rim ? to : 0;
+}
+
+static int
+overlap (const bt__aabb *a, const bt__aabb *b)
+{
+  return a->lo.x <= b->hi.x && b->lo.x <= a->hi.x && a->lo.y <= b->hi.y && b->lo.y <= a->hi.y
+         && a->lo.z <= b->hi.z && b->lo.z <= a->hi.z;
+}
+
+static int
+crossings_in_block (const strip *s, uint32_t b, bt_vec3 x, bt_vec3 y)
+{
+  uint32_t last = (b + 1) * s->block;
+  place at = s->first[b];
+  int sum = 0;
+  last = last < triangles_of (s) ? last : triangles_of (s);
+  for (uint32_t k = b * s->block; k < last; k++, go_on (s, &at))
+    sum += through (s, &at, x, y);
+  return sum;
+}
+
+int
+bt__caught_crossings (const bt__graph *graph, const bt_vec3 *p, uint32_t n, const bt_vec3 *q,
+                      uint32_t m, int32_t *loops)
+{
+  strip s = { .p = p, .q = q, .n = n, .m = m };
+  int any = 0;
+  lay_strip (&s);
+  for (uint32_t e = 0; e < graph->edges; e++)
+    {
+      bt_vec3 x = graph->v[graph->edge[e][0]], y = graph->v[graph->edge[e][1]];
+      bt__aabb box = empty_box ();
+      stretch (&box, x);
+      stretch (&box, y);
+      loops[e] = 0;
+      if (!overlap (&box, &s.all))
+        continue;
+      for (uint32_t b = 0; b < s.blocks; b++)
+        if (overlap (&box, &s.box[b]))
+          loops[e] += crossings_in_block (&s, b, x, y);
+      any |= loops[e] != 0;
+    }
+  return any;
+}

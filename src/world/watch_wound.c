@@ -1,0 +1,275 @@
+/* What a tether is caught on: the windings of its class about every obstacle.
+
+   The line that goes out along the tether and home along the free way is closed; the loops about
+   members that it cannot be drawn free of (caught.h) are the windings.  A mesh is no member: what
+   is caught on one is told by the word of the class, and how often by the string's turns about the
+   upright through the mesh, where the string is as high as the mesh is.
+
+   A line with nothing in the way of its chord, or that is drawn free of everything on the tree's
+   way, needs no taut string to be found free.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "aware/caught.h"
+#include "aware/turns.h"
+#include "base/error.h"
+#include "math/vec.h"
+#include "world/obstacles.h"
+#include "world/watch.h"
+
+#define HELD_ANGLE 1e-3 /* radians: a string that bends so much at something is held by it */
+
+static bt_status
+no_memory (bt_error *error)
+{
+  return bt__fail (error, BT_ERR_LIMIT, "no memory for what a tether is wound about");
+}
+
+/* ---- Members ---- */
+
+/* Add the LOOPS about the members of G's graph to its windings.  */
+static void
+add_loops (const bt_dive *dive, bt__gaze *g, const bt__caught *loops)
+{
+  const bt__graph *graph = &g->frame->graph;
+  for (uint32_t e = 0; e < graph->own; e++)
+    if (loops->loops[e] != 0)
+      {
+        g->wound[dive->model->scene->object[graph->object[e]].id] += loops->loops[e];
+        g->is_wound = 1;
+      }
+}
+
+/* Mark in FAVOURED the edges of what holds the string.  */
+static void
+favour (const bt__gaze *g, uint8_t *favoured)
+{
+  const bt__graph *graph = &g->frame->graph;
+  for (uint32_t e = 0; e < graph->own; e++)
+    favoured[e] = bt__holds_wrap (&g->holds, graph->object[e]) > HELD_ANGLE;
+}
+
+/* The loops about members of the taut string and the free way back.  */
+static bt_status
+wind_about_members (const bt_dive *dive, bt__gaze *g, bt_error *error)
+{
+  bt__caught loops;
+  uint8_t *favoured = calloc (g->frame->graph.edges + 1, 1);
+  if (!favoured)
+    return no_memory (error);
+  favour (g, favoured);
+  bt_status status = bt__caught_new (&g->frame->graph, g->taut->x, g->taut->n, g->shortest->x,
+                                     g->shortest->n, favoured, &loops, error);
+  if (status == BT_OK)
+    {
+      add_loops (dive, g, &loops);
+      bt__caught_free (&loops);
+    }
+  free (favoured);
+  return status;
+}
+
+/* Lay the way home into G's free string without looking at its taut string: the chord where it is
+   clear, else the tree's way; set *FOUND if there is one.  */
+static bt_status
+quick_way (const bt_dive *dive, int i, bt__gaze *g, int *found, bt_error *error)
+{
+  struct bt__watch *w = dive->watch;
+  bt_vec3 ends[2] = { g->node[0], g->node[g->n - 1] };
+  bt__link chord = { ends[0], ends[1] };
+  bt__near near;
+  *found = 1;
+  g->has_free = 0; /* its string is borrowed */
+  bt__string_lay (g->shortest, ends, 2);
+  if (!bt__scene_nearest (g->config.scene, g->config.on, &chord, g->config.core, &near, &w->count))
+    return BT_OK;
+  bt_status status = bt__chart_grow (dive, i, g, error);
+  if (status != BT_OK)
+    return status;
+  *found = g->ways->tree
+           && isfinite (bt__free_length (g->ways->tree, w->taut, &g->config, ends[1],
+                                         BT__FREE_STEPS, g->shortest, &w->count));
+  return BT_OK;
+}
+
+/* Set *LOOSE if the tether itself, and the quick way back, go about no member.  */
+static bt_status
+look_for_loops (const bt_dive *dive, int i, bt__gaze *g, int *loose, bt_error *error)
+{
+  bt__caught loops;
+  int found;
+  *loose = g->frame->graph.edges == 0 || g->has_free;
+  if (*loose)
+    {
+      *loose = g->frame->graph.edges == 0;
+      return BT_OK;
+    }
+  bt_status status = quick_way (dive, i, g, &found, error);
+  if (status != BT_OK || !found)
+    return status;
+  status = bt__caught_new (&g->frame->graph, g->node, g->n, g->shortest->x, g->shortest->n, NULL,
+                           &loops, error);
+  if (status != BT_OK)
+    return status;
+  *loose = !loops.any;
+  bt__caught_free (&loops);
+  return BT_OK;
+}
+
+/* ---- Meshes ---- */
+
+/* The heights between which a line is beside the obstacle at PLACE, without end where it goes into
+   the ground or out of the water.  */
+static void
+heights_of (const bt_dive *dive, uint32_t place, double *low, double *high)
+{
+  bt__aabb box = bt__obstacle_box (&dive->model->scene->object[place]);
+  double depth = dive->now->depth;
+  *low = depth > 0 && box.lo.z <= -depth + 0.01 ? -INFINITY : box.lo.z;
+  *high = box.hi.z >= 0 ? INFINITY : box.hi.z;
+}
+
+static bt_vec3
+at_height (bt_vec3 a, bt_vec3 b, double z)
+{
+  return bt__axpy (a, (z - a.z) / (b.z - a.z), bt__sub (b, a));
+}
+
+/* Put what is between LOW and HIGH of the link from A to B into OUT; return true if something is.
+ */
+static int
+clip (bt_vec3 a, bt_vec3 b, double low, double high, bt_vec3 out[2])
+{
+  if ((a.z < low && b.z < low) || (a.z > high && b.z > high))
+    return 0;
+  out[0] = a.z < low ? at_height (a, b, low) : a.z > high ? at_height (a, b, high) : a;
+  out[1] = b.z < low ? at_height (a, b, low) : b.z > high ? at_height (a, b, high) : b;
+  return 1;
+}
+
+/* How often the string P of N points, where it is between LOW and HIGH, goes about AXIS, every part
+   closed by its chord.  WORK has room for 2 N points.  */
+static int
+wind_between (const bt__axis *axis, const bt_vec3 *p, uint32_t n, double low, double high,
+              bt_vec3 *work)
+{
+  int sum = 0;
+  uint32_t m = 0;
+  for (uint32_t k = 0; k + 1 < n; k++)
+    {
+      bt_vec3 part[2];
+      int in = clip (p[k], p[k + 1], low, high, part);
+      if (!in || (m > 0 && bt__distance (work[m - 1], part[0]) > 0))
+        {
+          sum += bt__winding (axis, work, m);
+          m = 0;
+        }
+      if (in && m == 0)
+        work[m++] = part[0];
+      if (in)
+        work[m++] = part[1];
+    }
+  return sum + bt__winding (axis, work, m);
+}
+
+/* The mesh at PLACE, if G's string is held by it and its class is not the free way's.  */
+static bt_status
+wind_about_mesh (const bt_dive *dive, int i, bt__gaze *g, uint32_t place, bt_error *error)
+{
+  const bt__obstacle *mesh = &dive->model->scene->object[place];
+  bt__axis axis;
+  double low, high;
+  if (!bt__axis_of (mesh, &axis) || bt__winding (&axis, g->node, g->n) == 0)
+    return BT_OK;
+  bt_status status = bt__watch_free (dive, i, &g, error);
+  if (status != BT_OK || bt__holds_wrap (&g->holds, place) < HELD_ANGLE)
+    return status;
+  status = bt__watch_class (dive, i, &g, error);
+  if (status != BT_OK || (g->word.n == 0 && !g->word.lost))
+    return status;
+  bt_vec3 *work = malloc (2 * (size_t)g->taut->n * sizeof *work);
+  if (!work)
+    return no_memory (error);
+  heights_of (dive, place, &low, &high);
+  int windings = wind_between (&axis, g->taut->x, g->taut->n, low, high, work);
+  g->wound[mesh->id] = windings;
+  g->is_wound |= windings != 0;
+  free (work);
+  return BT_OK;
+}
+
+static bt_status
+wind_about_meshes (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+{
+  const bt__scene *scene = dive->model->scene;
+  bt_status status = BT_OK;
+  for (uint32_t k = 0; k < scene->solids && status == BT_OK; k++)
+    {
+      const bt__obstacle *o = &scene->object[scene->solid[k]];
+      if (o->kind == BT__OBSTACLE_MESH && bt__is_on (g->config.on, scene->solid[k])
+          && dive->model->obstacles[o->id].kind != BT_OBSTACLE_SEABED)
+        status = wind_about_mesh (dive, i, g, scene->solid[k], error);
+    }
+  return status;
+}
+
+/* ---- All ---- */
+
+static int
+forget (const bt_dive *dive, bt__gaze *g)
+{
+  size_t n = (size_t)dive->model->n_obstacles;
+  if (!g->wound)
+    g->wound = calloc (n + 1, sizeof *g->wound);
+  else if (g->is_wound)
+    memset (g->wound, 0, n * sizeof *g->wound);
+  g->is_wound = 0;
+  return g->wound != NULL;
+}
+
+/* Where meshes stand a class without a letter is the free way's, whatever members say.  */
+static bt_status
+doubt (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+{
+  if (!g->is_wound || g->frame->graph.undescribed == 0)
+    return BT_OK;
+  bt_status status = bt__watch_class (dive, i, &g, error);
+  if (status == BT_OK && g->word.n == 0 && !g->word.lost)
+    status = forget (dive, g) ? BT_OK : no_memory (error);
+  return status;
+}
+
+static bt_status
+wind (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+{
+  int loose = 1;
+  bt_status status = bt__chart_frame (dive, i, g, error);
+  if (status == BT_OK)
+    status = look_for_loops (dive, i, g, &loose, error);
+  if (status == BT_OK && !loose)
+    status = bt__watch_free (dive, i, &g, error);
+  if (status == BT_OK && !loose)
+    status = wind_about_members (dive, g, error);
+  if (status == BT_OK && g->frame->graph.undescribed > 0)
+    status = wind_about_meshes (dive, i, g, error);
+  return status == BT_OK ? doubt (dive, i, g, error) : status;
+}
+
+bt_status
+bt__watch_wound (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
+{
+  bt_status status = bt__watch_look (dive, i, out, error);
+  bt__gaze *g = *out;
+  if (status != BT_OK || g->has_wound)
+    return status;
+  if (!forget (dive, g))
+    return no_memory (error);
+  if (!g->open)
+    status = wind (dive, i, g, error);
+  g->has_wound = status == BT_OK;
+  return status;
+}
