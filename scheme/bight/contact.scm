@@ -205,8 +205,8 @@ tether and itself."
     (%collided? (this-engine 'collided?) (if (eq? kind 'vehicle) 'rov 'tether) index obstacle)))
 
 (define-verb (stuck? #:subject (t tether))
-  "Return #t if the tether is pulled and what it touches has held it fast for 5 s (less than 2 cm/s); in
-the response of the thesis, if its rules say so."
+  "Return #t if the tether is pulled, by its vehicle or its winch, and its end has moved less than 2 cm/s for 5
+s, whatever holds it; in the response of the thesis, if its rules say so."
   (assq-ref (%tether (this-engine 'stuck?) t) 'stuck?))
 
 

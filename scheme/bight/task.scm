@@ -12,28 +12,29 @@
   #:use-module (bight errors)
   #:use-module (bight record)
   #:use-module (bight verb)
-  #:use-module ((srfi srfi-1) #:select (append-map delete-duplicates filter iota remove))
+  #:use-module ((srfi srfi-1) #:select (remove))
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:export (every every-seconds on cancel!
-            add-task! remove-task! task-state set-task-state!
+            add-task! remove-task! steered? task-state set-task-state!
             add-step-watcher! remove-step-watcher!
             idle? run-tasks!
             copy-tasks! tasks-state restore-tasks!))
 
 (define-record <task>
-  (%make-task name poll state origin)
+  (%make-task name poll state origin steers)
   task?
   (name task-name)                      ; a string
   (poll task-poll)                      ; called with the task after each step
   (state task-state set-task-state!)
-  (origin task-origin))                 ; the task it is a copy of, or #f
+  (origin task-origin)                  ; the task it is a copy of, or #f
+  (steers task-steers))                 ; the vehicle that it steers until it is done, or #f
 
-(define (make-task name poll state)
-  (%make-task name poll state #f))
+(define (make-task name poll state steers)
+  (%make-task name poll state #f steers))
 
 (define (copy-task task state)
   ;; TASK for another dive or another time, in STATE.
-  (%make-task (task-name task) (task-poll task) state (original task)))
+  (%make-task (task-name task) (task-poll task) state (original task) (task-steers task)))
 
 (define (original task)
   (or (task-origin task) task))
@@ -49,11 +50,12 @@
   "what `every' or `on' returned"
   (if (task? value) value refused))
 
-(define (add-task! proc name poll state)
+(define* (add-task! proc name poll state #:optional (steers #f))
   "Call POLL with the new task after each step of the current dive.  NAME, a string, shows it; STATE is
-what it begins with.  Return the task.  Raise a &bight-error from PROC when there is no dive."
+what it begins with; STEERS is the vehicle that is on its way until the task is done.  Return the task.  Raise
+a &bight-error from PROC when there is no dive."
   (let ((dive (this-dive proc))
-        (task (make-task name poll state)))
+        (task (make-task name poll state steers)))
     (set-dive-tasks! dive (append (dive-tasks dive) (list task)))
     task))
 
@@ -63,6 +65,10 @@ what it begins with.  Return the task.  Raise a &bight-error from PROC when ther
          (others (remove (lambda (other) (same-task? task other)) tasks)))
     (set-dive-tasks! dive others)
     (< (length others) (length tasks))))
+
+(define (steered? vehicle)
+  "Return #t if a task of the current dive steers VEHICLE, a name."
+  (and (memq vehicle (map task-steers (dive-tasks (this-dive 'arrived?)))) #t))
 
 
 ;;; The tasks a user knows.
@@ -105,54 +111,18 @@ what it begins with.  Return the task.  Raise a &bight-error from PROC when ther
                   (procedure event)))
               events)))
 
-;; What no step notes, since it would cost every step: a tether has wound once more about something, or
-;; has come free of it.
-
-(define watched-kinds '(wrapped freed))
-
-(define look-every 30)                  ; steps
-
-(define (all-windings engine)
-  ;; ((TETHER . OBJECT) . WINDINGS) of all tethers and what they wind about.
-  (append-map (lambda (tether t)
-                (map (lambda (entry) (cons (cons tether (car entry)) (cdr entry))) (%windings engine t)))
-              (%names engine 'tether) (iota (length (%names engine 'tether)))))
-
-(define (changed before after more?)
-  ;; The pairs whose windings in AFTER are MORE? than in BEFORE, an entry that is not there being 0.
-  (let ((of (lambda (all pair) (abs (or (assoc-ref all pair) 0)))))
-    (filter (lambda (pair) (more? (of after pair) (of before pair)))
-            (map car (append after before)))))
-
-(define (run-on-windings task kind procedure)
-  (let ((engine (this-engine 'on)))
-    (when (zero? (modulo (%dive-steps engine) look-every))
-      (let ((before (task-state task)) (after (all-windings engine)))
-        (set-task-state! task after)
-        (for-each (lambda (pair)
-                    (procedure (list kind (%dive-time engine) (car pair) (cdr pair))))
-                  (delete-duplicates
-                   (changed before after
-                            (if (eq? kind 'wrapped)
-                                >
-                                (lambda (now then) (and (zero? now) (> then 0)))))))))))
-
 (define-verb (on (kind name) (procedure procedure))
   "Call PROCEDURE with each event of KIND from now on, between steps: taut slack arrived spooled stalled
-parted snapped hockled kinked touched left stuck pinched; wrapped and freed, which are looked for twice a
-second once somebody wants to know.  An event is a list (KIND TIME SUBJECT [OBJECT]).  Return a handle for
-`cancel!'."
-  (unless (memq kind (append watched-kinds event-kinds))
-    (unknown-name 'on "a dive" kind (append watched-kinds event-kinds) "event"))
+parted snapped hockled kinked touched left stuck pinched prop-danger worn, and wrapped and freed, which are
+looked for twice a second: what `(events)' lists.  An event is a list (KIND TIME SUBJECT [OBJECT]).  Return a
+handle for `cancel!'."
+  (unless (memq kind event-kinds)
+    (unknown-name 'on "a dive" kind event-kinds "event"))
   (unless (takes? procedure 1)
     (bight-raise 'domain 'on "the procedure must take one argument, the event; ~s does not" procedure))
-  (if (memq kind watched-kinds)
-      (add-task! 'on (simple-format #f "on ~a" kind)
-                 (lambda (task) (run-on-windings task kind procedure))
-                 (all-windings (this-engine 'on)))
-      (add-task! 'on (simple-format #f "on ~a" kind)
-                 (lambda (task) (run-on-events task kind procedure))
-                 (%event-count (this-engine 'on)))))
+  (add-task! 'on (simple-format #f "on ~a" kind)
+             (lambda (task) (run-on-events task kind procedure))
+             (%event-count (this-engine 'on))))
 
 (define-verb (cancel! (handle task))
   "Stop what `every' or `on' started.  Return #t if it was still registered in this dive."

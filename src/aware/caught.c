@@ -23,56 +23,16 @@ enum
   TIES = 1 << 6
 };
 
-typedef struct job
-{
-  const bt__graph *g;
-  int32_t *loops;
-  int64_t *cost;  /* of a loop about each edge */
-  uint32_t *at;   /* of each vertex: where its edges begin in ... */
-  uint32_t *edge; /* ... this list */
-  int64_t *gain;  /* of each vertex: what its one step more gains; less than 0: it costs */
-  int64_t *flow;  /* along each edge */
-  uint32_t *from; /* of each vertex: the edge by which a path reaches it */
-  uint32_t *queue;
-  uint8_t *seen;
-} job;
+typedef bt__caught job;
 
 #define NOWHERE UINT32_MAX
 #define START (UINT32_MAX - 1)
-
-static void
-free_job (job *k)
-{
-  free (k->cost);
-  free (k->at);
-  free (k->edge);
-  free (k->gain);
-  free (k->flow);
-  free (k->from);
-  free (k->queue);
-  free (k->seen);
-}
-
-static int
-new_job (job *k)
-{
-  size_t v = (size_t)k->g->vertices + 2, e = (size_t)k->g->edges + 1;
-  k->cost = malloc (e * sizeof *k->cost);
-  k->at = calloc (v, sizeof *k->at);
-  k->edge = malloc (2 * e * sizeof *k->edge);
-  k->gain = malloc (v * sizeof *k->gain);
-  k->flow = malloc (e * sizeof *k->flow);
-  k->from = malloc (v * sizeof *k->from);
-  k->queue = malloc (v * sizeof *k->queue);
-  k->seen = malloc (v);
-  return k->cost && k->at && k->edge && k->gain && k->flow && k->from && k->queue && k->seen;
-}
 
 /* Make the lists of edges at each vertex.  */
 static void
 list_edges (job *k)
 {
-  const bt__graph *g = k->g;
+  const bt__graph *g = k->graph;
   for (uint32_t e = 0; e < g->edges; e++)
     for (int end = 0; end < 2; end++)
       k->at[g->edge[e][end] + 1]++;
@@ -89,8 +49,8 @@ list_edges (job *k)
 static void
 set_costs (job *k, const uint8_t *favoured)
 {
-  for (uint32_t e = 0; e < k->g->edges; e++)
-    k->cost[e] = COST - (favoured && favoured[e] ? FAVOUR : 0) + (e < k->g->own ? 0 : APART)
+  for (uint32_t e = 0; e < k->graph->edges; e++)
+    k->cost[e] = COST - (favoured && favoured[e] ? FAVOUR : 0) + (e < k->graph->own ? 0 : APART)
                  + (int64_t)((e * 2654435761u) >> 26) % TIES;
 }
 
@@ -101,7 +61,7 @@ set_costs (job *k, const uint8_t *favoured)
 static void
 set_gains (job *k, int way)
 {
-  const bt__graph *g = k->g;
+  const bt__graph *g = k->graph;
   memset (k->gain, 0, g->vertices * sizeof *k->gain);
   memset (k->flow, 0, g->edges * sizeof *k->flow);
   for (uint32_t e = 0; e < g->edges; e++)
@@ -118,20 +78,20 @@ left_out_of (const job *k, uint32_t e, uint32_t v)
 {
   if (k->loops[e] != 0)
     return 0;
-  return k->cost[e] - (k->g->edge[e][0] == v ? k->flow[e] : -k->flow[e]);
+  return k->cost[e] - (k->graph->edge[e][0] == v ? k->flow[e] : -k->flow[e]);
 }
 
 static uint32_t
 other_end (const job *k, uint32_t e, uint32_t v)
 {
-  return k->g->edge[e][0] == v ? k->g->edge[e][1] : k->g->edge[e][0];
+  return k->graph->edge[e][0] == v ? k->graph->edge[e][1] : k->graph->edge[e][0];
 }
 
 /* Look from all vertices with gains for one that takes them; return it, or NOWHERE.  */
 static uint32_t
 find_path (job *k)
 {
-  const bt__graph *g = k->g;
+  const bt__graph *g = k->graph;
   uint32_t n = 0;
   memset (k->seen, 0, g->vertices);
   for (uint32_t v = 0; v < g->vertices; v++)
@@ -160,7 +120,7 @@ find_path (job *k)
 static void
 augment (job *k, uint32_t end)
 {
-  int64_t most = k->g->boundary[end] ? INT64_MAX : -k->gain[end];
+  int64_t most = k->graph->boundary[end] ? INT64_MAX : -k->gain[end];
   uint32_t v = end;
   for (; k->from[v] != START; v = other_end (k, k->from[v], v))
     {
@@ -169,17 +129,17 @@ augment (job *k, uint32_t end)
     }
   most = k->gain[v] < most ? k->gain[v] : most;
   k->gain[v] -= most;
-  if (!k->g->boundary[end])
+  if (!k->graph->boundary[end])
     k->gain[end] += most;
   for (v = end; k->from[v] != START; v = other_end (k, k->from[v], v))
-    k->flow[k->from[v]] += k->g->edge[k->from[v]][1] == v ? most : -most;
+    k->flow[k->from[v]] += k->graph->edge[k->from[v]][1] == v ? most : -most;
 }
 
 /* Slide loops by WAY over the set of vertices that gains most; return true if one does.  */
 static int
 slide (job *k, int way)
 {
-  const bt__graph *g = k->g;
+  const bt__graph *g = k->graph;
   uint32_t end;
   int gained = 0;
   set_gains (k, way);
@@ -192,33 +152,55 @@ slide (job *k, int way)
   return gained;
 }
 
-bt_status
-bt__caught_new (const bt__graph *graph, const bt_vec3 *p, uint32_t n, const bt_vec3 *q, uint32_t m,
-                const uint8_t *favoured, bt__caught *out, bt_error *error)
+void
+bt__caught_find (bt__caught *k, const bt_vec3 *p, uint32_t n, const bt_vec3 *q, uint32_t m,
+                 const uint8_t *favoured)
 {
-  *out = (bt__caught){ .edges = graph->edges };
-  out->loops = malloc (((size_t)graph->edges + 1) * sizeof *out->loops);
-  job k = { .g = graph, .loops = out->loops };
-  int ok = out->loops != NULL;
-  if (ok && bt__caught_crossings (graph, p, n, q, m, out->loops) && (ok = new_job (&k)))
+  k->any = 0;
+  if (!bt__caught_crossings (k->graph, p, n, q, m, k->loops))
+    return;
+  set_costs (k, favoured);
+  while (slide (k, 1) || slide (k, -1))
+    ;
+  for (uint32_t e = 0; e < k->graph->edges; e++)
+    k->any |= k->loops[e] != 0;
+}
+
+bt_status
+bt__caught_new (const bt__graph *graph, bt__caught *k, bt_error *error)
+{
+  size_t v = (size_t)graph->vertices + 2, e = (size_t)graph->edges + 1;
+  *k = (bt__caught){ .graph = graph };
+  k->loops = calloc (e, sizeof *k->loops);
+  k->cost = malloc (e * sizeof *k->cost);
+  k->at = calloc (v, sizeof *k->at);
+  k->edge = malloc (2 * e * sizeof *k->edge);
+  k->gain = malloc (v * sizeof *k->gain);
+  k->flow = malloc (e * sizeof *k->flow);
+  k->from = malloc (v * sizeof *k->from);
+  k->queue = malloc (v * sizeof *k->queue);
+  k->seen = malloc (v);
+  if (k->loops && k->cost && k->at && k->edge && k->gain && k->flow && k->from && k->queue
+      && k->seen)
     {
-      list_edges (&k);
-      set_costs (&k, favoured);
-      while (slide (&k, 1) || slide (&k, -1))
-        ;
-      for (uint32_t e = 0; e < graph->edges; e++)
-        out->any |= out->loops[e] != 0;
+      list_edges (k);
+      return BT_OK;
     }
-  free_job (&k);
-  if (ok)
-    return BT_OK;
-  bt__caught_free (out);
+  bt__caught_free (k);
   return bt__fail (error, BT_ERR_LIMIT, "no memory for what a tether goes about");
 }
 
 void
-bt__caught_free (bt__caught *c)
+bt__caught_free (bt__caught *k)
 {
-  free (c->loops);
-  *c = (bt__caught){ 0 };
+  free (k->loops);
+  free (k->cost);
+  free (k->at);
+  free (k->edge);
+  free (k->gain);
+  free (k->flow);
+  free (k->from);
+  free (k->queue);
+  free (k->seen);
+  *k = (bt__caught){ 0 };
 }

@@ -15,20 +15,30 @@
 
 #include "aware/graph.h"
 
-/* The loops about each edge of a graph: right-handed about it from its first vertex to its second
-   is positive.  */
+/* The loops about each edge of a graph, right-handed about it from its first vertex to its second
+   positive; and the memory to find them in.  */
 typedef struct bt__caught
 {
-  uint32_t edges;
-  int32_t *loops; /* about each */
+  const bt__graph *graph;
+  int32_t *loops; /* about each edge */
   int any;        /* true if one of them is not 0 */
+  int64_t *cost;  /* of a loop about each edge */
+  uint32_t *at;   /* of each vertex: where its edges begin in ... */
+  uint32_t *edge; /* ... this list */
+  int64_t *gain;  /* of each vertex: what its one step more gains; less than 0: it costs */
+  int64_t *flow;  /* along each edge */
+  uint32_t *from; /* of each vertex: the edge by which a path reaches it */
+  uint32_t *queue;
+  uint8_t *seen;
 } bt__caught;
 
-/* Put into *OUT (any bytes) the loops of the line that goes along P, of N points, and back along Q,
-   of M, which has the same ends.  True in FAVOURED (a byte an edge, NULL: none): prefer this edge.
-   BT_ERR_LIMIT.  */
-bt_status bt__caught_new (const bt__graph *graph, const bt_vec3 *p, uint32_t n, const bt_vec3 *q,
-                          uint32_t m, const uint8_t *favoured, bt__caught *out, bt_error *error);
+/* Make *OUT (any bytes) for GRAPH, which must stay.  BT_ERR_LIMIT.  */
+bt_status bt__caught_new (const bt__graph *graph, bt__caught *out, bt_error *error);
+
+/* Find the loops of the line that goes along P, of N points, and back along Q, of M, which has the
+   same ends.  True in FAVOURED (a byte an edge, NULL: none): prefer this edge.  No allocation.  */
+void bt__caught_find (bt__caught *caught, const bt_vec3 *p, uint32_t n, const bt_vec3 *q,
+                      uint32_t m, const uint8_t *favoured);
 
 void bt__caught_free (bt__caught *caught);
 

@@ -210,7 +210,7 @@ typedef struct bt_tether_view
   int taut;
   int parted; /* nonzero: the line is in two; what is asked is the part at the anchor */
   int spooling;
-  int stuck;             /* nonzero: pulled, and held fast by what it touches for 5 s; of the
+  int stuck;             /* true: pulled, and held fast for 5 s, whatever holds it; of the
                             thesis' response: by its rules */
   int blocked;           /* nonzero: an obstacle keeps a static line off its shape */
   int settled;           /* zero: the shape still moves */
@@ -232,10 +232,12 @@ typedef enum bt_event_kind
   BT_EVENT_KINKED,      /* it was bent more tightly than it may be */
   BT_EVENT_TOUCHED,     /* a tether or a vehicle met an obstacle */
   BT_EVENT_LEFT,        /* it has been away from it for half a second */
-  BT_EVENT_STUCK,       /* a tether that touches something has held fast for 5 s against a pull */
+  BT_EVENT_STUCK,       /* a tether has held fast for 5 s against a pull */
   BT_EVENT_PINCHED,     /* a moving obstacle was held back by what it would run into */
   BT_EVENT_PROP_DANGER, /* a tether has come near to a thruster of a vehicle that turns */
-  BT_EVENT_WORN         /* an obstacle has worn a tether's jacket to its limit */
+  BT_EVENT_WORN,        /* an obstacle has worn a tether's jacket to its limit */
+  BT_EVENT_WRAPPED,     /* a tether is wound about an obstacle once more */
+  BT_EVENT_FREED        /* it is not wound about it any more */
 } bt_event_kind;
 
 typedef struct bt_event

@@ -154,7 +154,6 @@ end_among (bt_dive *dive, bt__state *next)
 {
   bt__settle_movers (dive, next);
   bt__note_all_partings (dive, next);
-  bt__note_stuck (dive, next);
 }
 
 static int
@@ -231,10 +230,13 @@ bt_dive_step (bt_dive *dive, bt_error *error)
     }
   if (status != BT_OK)
     return status;
+  bt__note_stuck (dive, dive->next);
   bt__watch_props (dive, dive->next);
   count_work (dive);
   dive->profile.steps++;
   bt__dive_commit (dive);
+  if (bt__has_obstacles (dive))
+    bt__note_windings (dive);
   return BT_OK;
 }
 

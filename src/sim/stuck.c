@@ -1,4 +1,4 @@
-/* Is a tether stuck: it is pulled, touches something, and its vehicle has hardly moved for a while.
+/* Is a tether stuck: it is pulled, and its vehicle has hardly moved for a while.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -7,7 +7,6 @@
 #include "math/vec.h"
 #include "sim/around.h"
 #include "world/line.h"
-#include "world/obstacles.h"
 
 /* What hardly moving is, and what a pull, N.  */
 #define SLOW 0.02 /* m/s */
@@ -54,11 +53,8 @@ bt__note_stuck (const bt_dive *dive, bt__state *state)
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       bt__tether *tether = bt__dive_tether (dive, state, i);
-      int caught = bt__dive_subject (dive, state, BT_PART_TETHER, i)->n > 0;
-      int stands
-          = caught
-            && (tether->parted ? stands_parted (dive, state, i)
-                               : hardly_moves (dive, state, i) && is_pulled (dive, state, i));
+      int stands = tether->parted ? stands_parted (dive, state, i)
+                                  : hardly_moves (dive, state, i) && is_pulled (dive, state, i);
       tether->caught = stands ? tether->caught + 1 : 0;
       if (tether->caught == BT__STUCK_AFTER)
         bt__raise_event (state, BT_EVENT_STUCK, i);

@@ -13,7 +13,7 @@
 #include "world/watch.h"
 
 /* The first bytes of a state: layout version 5.  */
-static const uint64_t magic = 0x3154484749420005ULL;
+static const uint64_t magic = 0x3154484749420006ULL;
 
 double
 bt__state_time (const bt__state *state)

@@ -75,6 +75,10 @@ bt_event_name (bt_event_kind kind)
       return "prop-danger";
     case BT_EVENT_WORN:
       return "worn";
+    case BT_EVENT_WRAPPED:
+      return "wrapped";
+    case BT_EVENT_FREED:
+      return "freed";
     }
   return NULL;
 }

@@ -33,7 +33,7 @@ off_size (const bt_model *model)
 size_t
 bt__subject_size (const bt_model *model)
 {
-  return sizeof (bt__subject) + off_size (model);
+  return sizeof (bt__subject) + 2 * off_size (model);
 }
 
 static size_t
@@ -93,6 +93,12 @@ uint8_t *
 bt__dive_off (const bt_dive *dive, bt__state *state, bt_part part, int i)
 {
   return (uint8_t *)(bt__dive_subject (dive, state, part, i) + 1);
+}
+
+int8_t *
+bt__dive_told (const bt_dive *dive, bt__state *state, int i)
+{
+  return (int8_t *)bt__dive_off (dive, state, BT_PART_TETHER, i) + off_size (dive->model);
 }
 
 void

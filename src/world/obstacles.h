@@ -40,6 +40,9 @@ void bt__switch_slot (const bt_model *model, uint8_t *off, int obstacle, int on)
 bt__subject *bt__dive_subject (const bt_dive *dive, bt__state *state, bt_part part, int i);
 uint8_t *bt__dive_off (const bt_dive *dive, bt__state *state, bt_part part, int i);
 
+/* The windings of tether I about each obstacle, by its number, as they were last looked at.  */
+int8_t *bt__dive_told (const bt_dive *dive, bt__state *state, int i);
+
 /* Return what surrounds the subject, every mover on its way from COURSE K's motion by its share; or
    standing where it is.  Good until the next call.  */
 bt__surroundings bt__surround (const bt_dive *dive, bt__state *state, bt_part part, int i);

@@ -139,10 +139,15 @@ typedef struct bt__meeting
 
 /* A vehicle or a tether among obstacles; behind it a byte for each of them
    and each tether, nonzero: the pair is
-   switched off.  */
+   switched off; then another, a tether's winding about it as it was last looked at.  */
 typedef struct bt__subject
 {
   uint64_t version; /* a hash of the bytes; 0: none is off */
+  int64_t looked;   /* true: its windings were looked at, when its ends were at SEEN ... */
+  uint64_t then;    /* ... and VERSION was that */
+  bt_vec3 seen[2];
+  double string;    /* m: its taut string's, when its windings were last told in full ... */
+  bt_vec3 there[2]; /* ... with its ends here */
   int64_t n;
   bt__meeting meeting[BT__MEETINGS_MAX];
 } bt__subject;

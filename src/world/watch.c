@@ -14,6 +14,7 @@
 enum
 {
   TAUT_STEPS = 400, /* of a string from the tether's own shape */
+  FREE_STEPS = 200,
   FINE_STEPS = 60, /* more, with a finer mesh: corners become arcs */
   ROOM_LEAST = 256,
   ROOM_MOST = 1 << 18 /* nodes: a gigabyte is no answer */
@@ -34,6 +35,8 @@ free_gaze (bt__gaze *g)
   free (g->live);
   free (g->hold);
   free (g->wound);
+  free (g->favoured);
+  bt__caught_free (&g->loops);
   bt__chart_release (g->ways);
   bt__chart_release (g->words);
   bt__chart_release (g->frame);
@@ -279,8 +282,30 @@ bt__watch_gaze (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
 
 /* ---- The free way ---- */
 
-/* The tree's way, or the string itself where that is shorter or there is no other; no tree is grown
-   for a straight string.  */
+bt_status
+bt__watch_way (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error *error)
+{
+  struct bt__watch *w = dive->watch;
+  bt_vec3 ends[2] = { g->node[0], g->node[g->n - 1] };
+  bt__link chord = { ends[0], ends[1] };
+  bt__near near;
+  g->has_free = 0;
+  if (!bt__scene_nearest (g->config.scene, g->config.on, &chord, g->config.core, &near, &w->count))
+    {
+      bt__string_lay (g->shortest, ends, 2);
+      *length = bt__distance (ends[0], ends[1]);
+      return BT_OK;
+    }
+  *length = INFINITY;
+  bt_status status = bt__chart_grow (dive, i, g, error);
+  if (status == BT_OK && g->ways->tree)
+    *length = bt__free_length (g->ways->tree, w->taut, &g->config, ends[1], FREE_STEPS, g->shortest,
+                               &w->count);
+  return status;
+}
+
+/* The way, or the string itself where that is shorter or there is no other; no way is looked for
+   where the string is straight.  */
 bt_status
 bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
 {
@@ -288,21 +313,15 @@ bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
   bt__gaze *g = *out;
   if (status != BT_OK || g->has_free)
     return status;
-  struct bt__watch *w = dive->watch;
-  double length = INFINITY;
-  bt_vec3 far = g->node[g->n - 1];
-  int straight = g->taut_length <= (1 + STRAIGHT) * bt__distance (g->node[0], far);
-  if (!straight)
-    status = bt__chart_grow (dive, i, g, error);
+  double length = INFINITY, chord = bt__distance (g->node[0], g->node[g->n - 1]);
+  if (g->taut_length > (1 + STRAIGHT) * chord)
+    status = bt__watch_way (dive, i, g, &length, error);
   if (status != BT_OK)
     return status;
-  if (!straight && g->ways->tree)
-    length = bt__free_length (g->ways->tree, w->taut, &g->config, far, BT__FREE_STEPS, g->shortest,
-                              &w->count);
   if (!(length < g->taut_length))
     {
       memcpy (g->shortest, g->taut, bt__string_size (g->taut->n));
-      g->shortest->room = w->room;
+      g->shortest->room = dive->watch->room;
       length = g->taut_length;
     }
   g->free_length = length;

@@ -11,8 +11,8 @@
 
 #include <bight/aware.h>
 
+#include "aware/caught.h"
 #include "aware/free.h"
-#include "aware/graph.h"
 #include "aware/haul.h"
 #include "aware/shadow.h"
 #include "aware/voxel.h"
@@ -25,11 +25,6 @@ bt__is_taut (double length, double out)
 {
   return length >= (1 - BT_TAUT_SLACK) * out;
 }
-
-enum
-{
-  BT__FREE_STEPS = 200 /* by which a free way is tightened */
-};
 
 /* What the world is like for a tether.  The tree of free ways is of one anchor and of what its
    reach comes to; the graph and the words are of one gap.  */
@@ -63,10 +58,12 @@ typedef struct bt__gaze
   bt__corner *hold;
   bt__holds holds;
   double taut_length, free_length;
-  bt__word word; /* the tether's, then the free way back */
-  int32_t *wound; /* windings about each obstacle; NULL: never asked for */
-  int is_wound;   /* true if one of them is not 0 */
+  bt__word word;                   /* the tether's, then the free way back */
+  int32_t *wound;                  /* windings about each obstacle; NULL: never asked for */
+  int is_wound;                    /* true if one of them is not 0 */
   bt__chart *ways, *words, *frame; /* frame: the graph */
+  bt__caught loops;                /* about its edges */
+  uint8_t *favoured;               /* which of them hold the string */
 } bt__gaze;
 
 struct bt__watch
@@ -84,12 +81,28 @@ bt_status bt__watch_look (const bt_dive *dive, int i, bt__gaze **out, bt_error *
 /* The same, with its string solved.  */
 bt_status bt__watch_gaze (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
 
-/* The same, with the free way; and with the word.  */
+/* Put the shortest way home that is known without the string into that of G, a tether looked at:
+   the chord where it is clear, else the tree's way; *LENGTH, m, is INFINITY if there is none.  */
+bt_status bt__watch_way (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error *error);
+
+/* As bt__watch_gaze, with the free way; and with the word.  */
 bt_status bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
 bt_status bt__watch_class (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
 
 /* The same, with the windings; the string and the way only where they are needed.  */
 bt_status bt__watch_wound (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
+
+/* A winding as a state keeps it, in a byte.  */
+static inline int8_t
+bt__told (int32_t winding)
+{
+  return (int8_t)(winding > 127 ? 127 : winding < -127 ? -127 : winding);
+}
+
+/* Set *SAME if the windings are those TOLD, one an obstacle, as far as can be said without a
+   string; its length is LEAST at least, m.  */
+bt_status bt__watch_wound_still (const bt_dive *dive, int i, const int8_t *told, double least,
+                                 int *same, bt_error *error);
 
 /* A new string with the room of those of the watch; NULL: no memory.  */
 bt__string *bt__watch_string (const bt_dive *dive);
@@ -99,8 +112,8 @@ void bt__watch_free_all (struct bt__watch *watch); /* NULL is nothing */
 /* Let FORK share the charts of DIVE.  Without memory it makes its own.  */
 void bt__watch_share (const bt_dive *dive, bt_dive *fork);
 
-/* watch_chart.c: have GAZE's chart of ways, without its tree; with its tree; its graph; its chart of
-   words.  */
+/* watch_chart.c: have GAZE's chart of ways, without its tree; with its tree; its graph; its chart
+   of words.  */
 bt_status bt__chart_ways (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
 bt_status bt__chart_grow (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
 bt_status bt__chart_frame (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);

@@ -31,15 +31,15 @@ no_memory (bt_error *error)
 
 /* ---- Members ---- */
 
-/* Add the LOOPS about the members of G's graph to its windings.  */
+/* Add the loops found about the members of G's graph to its windings.  */
 static void
-add_loops (const bt_dive *dive, bt__gaze *g, const bt__caught *loops)
+add_loops (const bt_dive *dive, bt__gaze *g)
 {
   const bt__graph *graph = &g->frame->graph;
-  for (uint32_t e = 0; e < graph->own; e++)
-    if (loops->loops[e] != 0)
+  for (uint32_t e = 0; g->loops.any && e < graph->own; e++)
+    if (g->loops.loops[e] != 0)
       {
-        g->wound[dive->model->scene->object[graph->object[e]].id] += loops->loops[e];
+        g->wound[dive->model->scene->object[graph->object[e]].id] += g->loops.loops[e];
         g->is_wound = 1;
       }
 }
@@ -53,71 +53,53 @@ favour (const bt__gaze *g, uint8_t *favoured)
     favoured[e] = bt__holds_wrap (&g->holds, graph->object[e]) > HELD_ANGLE;
 }
 
-/* The loops about members of the taut string and the free way back.  */
+/* Have memory for loops about what G's tether is among.  */
 static bt_status
-wind_about_members (const bt_dive *dive, bt__gaze *g, bt_error *error)
+make_loops (bt__gaze *g, bt_error *error)
 {
-  bt__caught loops;
-  uint8_t *favoured = calloc (g->frame->graph.edges + 1, 1);
-  if (!favoured)
-    return no_memory (error);
-  favour (g, favoured);
-  bt_status status = bt__caught_new (&g->frame->graph, g->taut->x, g->taut->n, g->shortest->x,
-                                     g->shortest->n, favoured, &loops, error);
-  if (status == BT_OK)
-    {
-      add_loops (dive, g, &loops);
-      bt__caught_free (&loops);
-    }
-  free (favoured);
+  if (g->loops.graph == &g->frame->graph)
+    return BT_OK;
+  bt__caught_free (&g->loops);
+  free (g->favoured);
+  g->favoured = calloc (g->frame->graph.edges + 1, 1);
+  return g->favoured ? bt__caught_new (&g->frame->graph, &g->loops, error) : no_memory (error);
+}
+
+/* Add the loops about members of the taut string and the free way back.  */
+static void
+wind_about_members (const bt_dive *dive, bt__gaze *g)
+{
+  favour (g, g->favoured);
+  bt__caught_find (&g->loops, g->taut->x, g->taut->n, g->shortest->x, g->shortest->n, g->favoured);
+  add_loops (dive, g);
+}
+
+/* Find the loops about members of the tether itself and a way home that needs no string; *LENGTH is
+   of that way, INFINITY if there is none.  */
+static bt_status
+quick_loops (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error *error)
+{
+  g->loops.any = 0;
+  *length = 0;
+  if (g->frame->graph.edges == 0)
+    return BT_OK;
+  bt_status status = bt__watch_way (dive, i, g, length, error);
+  if (status == BT_OK && isfinite (*length))
+    bt__caught_find (&g->loops, g->node, g->n, g->shortest->x, g->shortest->n, NULL);
   return status;
 }
 
-/* Lay the way home into G's free string without looking at its taut string: the chord where it is
-   clear, else the tree's way; set *FOUND if there is one.  */
-static bt_status
-quick_way (const bt_dive *dive, int i, bt__gaze *g, int *found, bt_error *error)
-{
-  struct bt__watch *w = dive->watch;
-  bt_vec3 ends[2] = { g->node[0], g->node[g->n - 1] };
-  bt__link chord = { ends[0], ends[1] };
-  bt__near near;
-  *found = 1;
-  g->has_free = 0; /* its string is borrowed */
-  bt__string_lay (g->shortest, ends, 2);
-  if (!bt__scene_nearest (g->config.scene, g->config.on, &chord, g->config.core, &near, &w->count))
-    return BT_OK;
-  bt_status status = bt__chart_grow (dive, i, g, error);
-  if (status != BT_OK)
-    return status;
-  *found = g->ways->tree
-           && isfinite (bt__free_length (g->ways->tree, w->taut, &g->config, ends[1],
-                                         BT__FREE_STEPS, g->shortest, &w->count));
-  return BT_OK;
-}
-
-/* Set *LOOSE if the tether itself, and the quick way back, go about no member.  */
+/* Set *LOOSE if the tether is about no member, as far as can be told without a string.  */
 static bt_status
 look_for_loops (const bt_dive *dive, int i, bt__gaze *g, int *loose, bt_error *error)
 {
-  bt__caught loops;
-  int found;
-  *loose = g->frame->graph.edges == 0 || g->has_free;
-  if (*loose)
-    {
-      *loose = g->frame->graph.edges == 0;
-      return BT_OK;
-    }
-  bt_status status = quick_way (dive, i, g, &found, error);
-  if (status != BT_OK || !found)
-    return status;
-  status = bt__caught_new (&g->frame->graph, g->node, g->n, g->shortest->x, g->shortest->n, NULL,
-                           &loops, error);
-  if (status != BT_OK)
-    return status;
-  *loose = !loops.any;
-  bt__caught_free (&loops);
-  return BT_OK;
+  double length;
+  *loose = g->frame->graph.edges == 0;
+  if (*loose || g->has_free)
+    return BT_OK;
+  bt_status status = quick_loops (dive, i, g, &length, error);
+  *loose = isfinite (length) && !g->loops.any;
+  return status;
 }
 
 /* ---- Meshes ---- */
@@ -176,6 +158,15 @@ wind_between (const bt__axis *axis, const bt_vec3 *p, uint32_t n, double low, do
   return sum + bt__winding (axis, work, m);
 }
 
+/* True if the tether's own nodes, closed by their chord, go about the mesh at PLACE.  */
+static int
+goes_about (const bt_dive *dive, const bt__gaze *g, uint32_t place)
+{
+  bt__axis axis;
+  return bt__axis_of (&dive->model->scene->object[place], &axis)
+         && bt__winding (&axis, g->node, g->n) != 0;
+}
+
 /* The mesh at PLACE, if G's string is held by it and its class is not the free way's.  */
 static bt_status
 wind_about_mesh (const bt_dive *dive, int i, bt__gaze *g, uint32_t place, bt_error *error)
@@ -183,7 +174,7 @@ wind_about_mesh (const bt_dive *dive, int i, bt__gaze *g, uint32_t place, bt_err
   const bt__obstacle *mesh = &dive->model->scene->object[place];
   bt__axis axis;
   double low, high;
-  if (!bt__axis_of (mesh, &axis) || bt__winding (&axis, g->node, g->n) == 0)
+  if (!goes_about (dive, g, place))
     return BT_OK;
   bt_status status = bt__watch_free (dive, i, &g, error);
   if (status != BT_OK || bt__holds_wrap (&g->holds, place) < HELD_ANGLE)
@@ -194,6 +185,7 @@ wind_about_mesh (const bt_dive *dive, int i, bt__gaze *g, uint32_t place, bt_err
   bt_vec3 *work = malloc (2 * (size_t)g->taut->n * sizeof *work);
   if (!work)
     return no_memory (error);
+  bt__axis_of (mesh, &axis);
   heights_of (dive, place, &low, &high);
   int windings = wind_between (&axis, g->taut->x, g->taut->n, low, high, work);
   g->wound[mesh->id] = windings;
@@ -202,18 +194,23 @@ wind_about_mesh (const bt_dive *dive, int i, bt__gaze *g, uint32_t place, bt_err
   return BT_OK;
 }
 
+/* True if the obstacle at PLACE is a mesh that may hold G's tether.  */
+static int
+is_mesh (const bt_dive *dive, const bt__gaze *g, uint32_t place)
+{
+  const bt__obstacle *o = &dive->model->scene->object[place];
+  return o->kind == BT__OBSTACLE_MESH && bt__is_on (g->config.on, place)
+         && dive->model->obstacles[o->id].kind != BT_OBSTACLE_SEABED;
+}
+
 static bt_status
 wind_about_meshes (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 {
   const bt__scene *scene = dive->model->scene;
   bt_status status = BT_OK;
   for (uint32_t k = 0; k < scene->solids && status == BT_OK; k++)
-    {
-      const bt__obstacle *o = &scene->object[scene->solid[k]];
-      if (o->kind == BT__OBSTACLE_MESH && bt__is_on (g->config.on, scene->solid[k])
-          && dive->model->obstacles[o->id].kind != BT_OBSTACLE_SEABED)
-        status = wind_about_mesh (dive, i, g, scene->solid[k], error);
-    }
+    if (is_mesh (dive, g, scene->solid[k]))
+      status = wind_about_mesh (dive, i, g, scene->solid[k], error);
   return status;
 }
 
@@ -249,11 +246,13 @@ wind (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
   int loose = 1;
   bt_status status = bt__chart_frame (dive, i, g, error);
   if (status == BT_OK)
+    status = make_loops (g, error);
+  if (status == BT_OK)
     status = look_for_loops (dive, i, g, &loose, error);
   if (status == BT_OK && !loose)
     status = bt__watch_free (dive, i, &g, error);
   if (status == BT_OK && !loose)
-    status = wind_about_members (dive, g, error);
+    wind_about_members (dive, g);
   if (status == BT_OK && g->frame->graph.undescribed > 0)
     status = wind_about_meshes (dive, i, g, error);
   return status == BT_OK ? doubt (dive, i, g, error) : status;
@@ -272,4 +271,62 @@ bt__watch_wound (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
     status = wind (dive, i, g, error);
   g->has_wound = status == BT_OK;
   return status;
+}
+
+/* ---- Is it as it was? ---- */
+
+static int
+is_as (const bt_dive *dive, const bt__gaze *g, const int8_t *told)
+{
+  for (int k = 0; k < dive->model->n_obstacles; k++)
+    if (told[k] != bt__told (g->wound[k]))
+      return 0;
+  return 1;
+}
+
+static int
+goes_about_a_mesh (const bt_dive *dive, const bt__gaze *g)
+{
+  const bt__scene *scene = dive->model->scene;
+  for (uint32_t k = 0; g->frame->graph.undescribed > 0 && k < scene->solids; k++)
+    if (is_mesh (dive, g, scene->solid[k]) && goes_about (dive, g, scene->solid[k]))
+      return 1;
+  return 0;
+}
+
+/* Without a string: by the tether itself and the quick way home.  A way longer than the string may
+   be is not the shortest: then nothing is said.  */
+static bt_status
+look_again (const bt_dive *dive, int i, bt__gaze *g, const int8_t *told, double least, int *same,
+            bt_error *error)
+{
+  double length;
+  bt_status status = bt__chart_frame (dive, i, g, error);
+  if (status == BT_OK)
+    status = make_loops (g, error);
+  if (status != BT_OK || goes_about_a_mesh (dive, g))
+    return status;
+  status = quick_loops (dive, i, g, &length, error);
+  if (status != BT_OK || !isfinite (length))
+    return status;
+  add_loops (dive, g);
+  *same = is_as (dive, g, told) && (!g->loops.any || length <= least);
+  return BT_OK;
+}
+
+bt_status
+bt__watch_wound_still (const bt_dive *dive, int i, const int8_t *told, double least, int *same,
+                       bt_error *error)
+{
+  bt__gaze *g;
+  bt_status status = bt__watch_look (dive, i, &g, error);
+  *same = 0;
+  if (status != BT_OK)
+    return status;
+  if (!g->has_wound && !forget (dive, g))
+    return no_memory (error);
+  if (!g->has_wound && !g->open)
+    return look_again (dive, i, g, told, least, same, error);
+  *same = is_as (dive, g, told);
+  return BT_OK;
 }

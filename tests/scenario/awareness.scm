@@ -157,18 +157,22 @@ the line is wound all the same."
   (expect (assq-ref (profile) 'strings) => 0))
 
 (define-scenario nothing-for-nothing
-  "A dive that asks nothing has nothing solved for it; one that asks twice of a state solves once."
+  "A dive that asks nothing has a string solved when its tether is wound, for the events, and else none; one that asks twice of a state solves once."
   (in (alone 'dynamic))
-  (go-round)
+  (go '(3 -3 -5) '(-3 -3 -5))
   (expect (assq-ref (profile) 'strings) => 0)
   (expect (assq-ref (profile) 'charts) => 0)
+  (go '(-3 3 -5) '(3 3 -5) '(3 -3 -5))
+  (expect (map car (events)) is (lambda (kinds) (memq 'wrapped kinds)))
+  (define strings (assq-ref (profile) 'strings))
+  (expect strings is (between 1 6))
   (taut-length) (excess) (fouled?) (capstan-lock) (slack)
-  (expect (assq-ref (profile) 'strings) => 1)
-  (expect (assq-ref (profile) 'charts) => 2)
+  (expect (assq-ref (profile) 'strings) => (+ strings 1))
+  (define charts (assq-ref (profile) 'charts))
   (run 1)
   (taut-length) (fouled?)
-  (expect (assq-ref (profile) 'strings) => 2)
-  (expect (assq-ref (profile) 'charts) => 2))
+  (expect (assq-ref (profile) 'strings) => (+ strings 2))
+  (expect (assq-ref (profile) 'charts) => charts))
 
 (define (all-answers)
   (list (taut-length) (free-length) (wrap-angle 'p1) (capstan-lock) (homotopy-class) (foul-reason)
@@ -206,7 +210,42 @@ the line is wound all the same."
   (go-round)
   (go-back)
   (run 1)
-  (expect (reverse told) => '((wrapped p1) (freed p1))))
+  (expect (reverse told) => '((wrapped p1) (freed p1)))
+  (expect (filter (lambda (event) (memq (car event) '(wrapped freed))) (events))
+          is (lambda (all) (equal? (map (lambda (e) (list (car e) (cadddr e))) all) (reverse told)))))
+
+(define (winding-events)
+  (filter (lambda (event) (memq (car event) '(wrapped freed))) (events)))
+
+(define-scenario events-are-kept
+  "Nobody listens: the dive holds `wrapped' and `freed' all the same, with tether, object and time; so do what is
+restored, a fork, and a recording flown again. A line that is laid wound has not been wrapped; laid anew it is
+freed."
+  (in (alone 'dynamic))
+  (define file (tmpnam))
+  (record! file)
+  (go-round)
+  (define there (checkpoint))
+  (go-back)
+  (run 1)
+  (define all (winding-events))
+  (expect (map (lambda (e) (cons (car e) (cddr e))) all) => '((wrapped line p1) (freed line p1)))
+  (expect (apply < (map cadr all)))
+  (stop-recording!)
+  (replay file)
+  (expect (winding-events) => all)
+  (delete-file file)
+  (restore! there)
+  (expect (winding-events) => (list (car all)))
+  (expect (what-if (go-back) (run 1) (winding-events)) => all)
+  (place! '(6 -6 -5) #:fresh #t)
+  (run 1)
+  (expect (map car (winding-events)) => '(wrapped freed))
+  (in (among (list (pile 'p1 0 0)) '(-6 -6 -5) 75 '((6 -3 -5) (4 4 -5) (-4 4 -5) (-4 -4 -5) (4 -4 -5)) 'dynamic
+             '(4 4 -5)))
+  (run 2)
+  (expect (winding 'p1) is (lambda (n) (not (zero? n))))
+  (expect (winding-events) => '()))
 
 ;;; Ways.
 

@@ -91,6 +91,42 @@ is, whole turns, the class is another."
 (define (negated all)
   (map (lambda (entries) (map (lambda (e) (cons (car e) (- (cdr e)))) entries)) all))
 
+(define (by-object all)
+  ;; The entries of windings that are of obstacles, not of structures.
+  (filter (lambda (entry) (memq (car entry) (parts))) all))
+
+(define-scenario events-tell-what-watchers-see
+  "Flown among piles and frames at random, looked at twice a second: whenever the turns about something become more
+the dive holds `wrapped', when they become none `freed', and nothing else."
+  (let ((seen 0))
+    (define (watch)
+      ;; Look at every step at which the dive does; what it must tell.
+      (let ((before (by-object (windings))) (told '()))
+        (every 0.5
+          (let ((after (by-object (windings))))
+            (for-each (lambda (name)
+                        (let ((was (abs (or (assq-ref before name) 0))) (is (abs (or (assq-ref after name) 0))))
+                          (cond ((> is was) (set! told (cons (list 'wrapped name) told)))
+                                ((and (zero? is) (> was 0)) (set! told (cons (list 'freed name) told))))))
+                      (filter (lambda (n) (or (assq n before) (assq n after))) (parts)))
+            (set! before after)))
+        (lambda () (reverse told))))
+    (for-each (lambda (draw)
+                (for-each (lambda (seed)
+                            (let ((places (drawn draw seed 1)))
+                              (when places
+                                (run 0.5)
+                                (let ((told (watch)))
+                                  (fly places (const #t))
+                                  (run 0.5)
+                                  (set! seen (+ seen (length (told))))
+                                  (expect (map (lambda (e) (list (car e) (cadddr e)))
+                                               (filter (lambda (e) (memq (car e) '(wrapped freed))) (events)))
+                                          => (told))))))
+                          (iota 5)))
+              kinds)
+    (expect seen is (above 8))))
+
 (define-scenario mirrored
   "In a mirror, the same with the other sign: piles at random, and a flight among them."
   (let ((any 0))

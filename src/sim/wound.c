@@ -1,0 +1,84 @@
+/* What a tether is wound about, looked at twice a second for the events `wrapped' and `freed'.
+
+   The ends alone change what a line is wound about, since it passes through nothing: where neither
+   has moved nothing is looked at.  Else the line itself and the way home that lies at hand are
+   mostly enough to see that nothing has changed; where they are not the question is asked in full.
+   A taut string is no shorter than it was by more than its ends have moved.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "math/vec.h"
+#include "sim/around.h"
+#include "world/line.h"
+#include "world/obstacles.h"
+#include "world/watch.h"
+
+enum
+{
+  LOOK_EVERY = 30 /* steps */
+};
+
+/* Note where the ends of tether I are; return true if they, or what counts for it, have changed
+   since they were last noted.  */
+static int
+has_moved (const bt_dive *dive, bt__subject *subject, int i)
+{
+  bt__line line = bt__line_of (dive, dive->now, i);
+  bt_vec3 ends[2] = { bt__line_node (&line, 0), bt__line_node (&line, bt__line_nodes (&line) - 1) };
+  if (subject->looked && subject->then == subject->version
+      && memcmp (ends, subject->seen, sizeof ends) == 0)
+    return 0;
+  memcpy (subject->seen, ends, sizeof ends);
+  subject->then = subject->version;
+  return 1;
+}
+
+/* What the string of SUBJECT's tether measures at least.  */
+static double
+least_string (const bt__subject *s)
+{
+  return s->string - bt__distance (s->seen[0], s->there[0])
+         - bt__distance (s->seen[1], s->there[1]);
+}
+
+/* Tell what tether I of DIVE is wound about now, and raise the events unless SILENT.  */
+static void
+tell (bt_dive *dive, int i, bt__subject *subject, int8_t *told, int silent)
+{
+  bt__gaze *g;
+  if (bt__watch_wound (dive, i, &g, NULL) != BT_OK)
+    return;
+  subject->string = g->has_taut ? g->taut_length : 0;
+  memcpy (subject->there, subject->seen, sizeof subject->there);
+  for (int k = 0; k < dive->model->n_obstacles; k++)
+    {
+      int8_t now = bt__told (g->wound[k]);
+      int more = (now > 0 ? now : -now) > (told[k] > 0 ? told[k] : -told[k]);
+      if (!silent && more)
+        bt__raise_event_at (dive->now, BT_EVENT_WRAPPED, BT_PART_TETHER, i, k);
+      else if (!silent && now == 0 && told[k] != 0)
+        bt__raise_event_at (dive->now, BT_EVENT_FREED, BT_PART_TETHER, i, k);
+      told[k] = now;
+    }
+}
+
+void
+bt__note_windings (bt_dive *dive)
+{
+  if (dive->now->step % LOOK_EVERY != 0)
+    return;
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    {
+      bt__subject *subject = bt__dive_subject (dive, dive->now, BT_PART_TETHER, i);
+      int8_t *told = bt__dive_told (dive, dive->now, i);
+      int first = !subject->looked, same = 0;
+      if (!has_moved (dive, subject, i))
+        continue;
+      subject->looked = 1;
+      if (bt__watch_wound_still (dive, i, told, least_string (subject), &same, NULL) == BT_OK
+          && !same)
+        tell (dive, i, subject, told, first);
+    }
+}
