@@ -141,9 +141,11 @@ beginning now.  Columns that a file names may be in any order, among others and 
     (- (f64vector-ref rows (- (f64vector-length rows) 4)) (f64vector-ref rows 0))))
 
 (define-verb (arrived? #:subject (v vehicle))
-  "Return #t unless the vehicle is still on its way to a place or along a track.  One with mass in a swell
-may be so for ever: ask `range-to' there."
-  (assq-ref (%vehicle (this-engine 'arrived?) v) 'arrived?))
+  "Return #t unless the vehicle is still on its way to a place, along a track, or home by `fly-home!'.  One
+with mass in a swell may be so for ever: ask `range-to' there."
+  (let ((engine (this-engine 'arrived?)))
+    (and (assq-ref (%vehicle engine v) 'arrived?)
+         (not (steered? (list-ref (%names engine 'rov) v))))))
 
 (define-verb (stabilise! #:subject (v vehicle) #:optional (on flag #t))
   "Keep a vehicle with mass level; its yaw stick then sets a rate.  So it is from the start; with ON #f

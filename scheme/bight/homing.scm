@@ -29,6 +29,8 @@
 (define stuck-way 0.3)                  ; m: no more of the way ...
 (define stuck-time 20)                  ; s: ... in so long is stuck
 (define tightening 20)                  ; s at most
+(define slack-line 5)                   ; N: more is a line that holds him
+(define ease 1)                         ; m
 
 (define (names t)
   ;; Of tether number T and of the vehicle at its far end.
@@ -36,6 +38,29 @@
     (values tether
             (or (vehicle-of t)
                 (bight-raise 'unsupported 'fly-home! "no vehicle is at the far end of `~a'" tether)))))
+
+
+;;; Where home is.
+
+(define shallowest -0.5)                ; m: z of a vehicle at the surface
+
+(define (to-the-water p)
+  (vec (x p) (y p) (min (z p) shallowest)))
+
+(define (home-of tether)
+  ;; At the anchor, or at the surface below one in the air: nobody is lifted by his tether.
+  (to-the-water (point-at tether 0)))
+
+(define (last-line tether)
+  ;; What stays out between the anchor and home, m.
+  (distance (point-at tether 0) (home-of tether)))
+
+(define (from-home tether vehicle)
+  (distance (rov-position vehicle) (home-of tether)))
+
+(define (in-the-water way)
+  ;; The polyline WAY, kept below the surface.
+  (map (lambda (p) (to-the-water (list->f64vector p))) (array->list way)))
 
 
 ;;; What the winch does.  Each is told at every tick.
@@ -55,23 +80,24 @@
           (else (haul-in! tether 0)))))
 
 (define (haul! tether pull)
-  (haul-in! tether (if (> (tension-at tether 0) pull) 0 (max 0 (- (tether-length tether) 0.5)))
+  (haul-in! tether
+            (if (> (tension-at tether 0) pull) 0 (max 0 (- (tether-length tether) (last-line tether) 0.5)))
             #:rate 0.4))
 
 
 ;;; Manners: what to begin with, and what to do at every tick, K ticks on.
 
 (define (retrace! tether vehicle speed)
-  (fly-along! vehicle (way-home tether) #:speed speed))
+  (fly-along! vehicle (in-the-water (way-home tether)) #:speed speed))
 
 (define (follow! tether vehicle speed)
   ;; Fly to where the line is a little farther on.
-  (move! vehicle (point-at tether (max 0 (- (tether-length tether) 1.5))) #:speed speed))
+  (move! vehicle (to-the-water (point-at tether (max 0 (- (tether-length tether) 1.5)))) #:speed speed))
 
 (define (drift! tether vehicle speed pull)
   (haul! tether pull)
-  (when (< (straight-distance tether) last-leg)
-    (move! vehicle (point-at tether 0) #:speed speed)))
+  (when (< (from-home tether vehicle) last-leg)
+    (move! vehicle (home-of tether) #:speed speed)))
 
 (define (act! manner k tether vehicle speed pull)
   (case manner
@@ -112,12 +138,14 @@
 (define trip-place fourth)
 (define trip-since fifth)
 
-(define (home? tether)
-  (< (straight-distance tether) near-home))
+(define (home? tether vehicle)
+  (< (from-home tether vehicle) near-home))
 
 (define (end-trip! task tether vehicle)
-  (haul-in! tether 0)
+  ;; He holds his place himself, on a line with a little slack.
+  (pay-out! tether (if (> (tension-at tether 0) slack-line) ease 0) #:rate 1)
   (release! vehicle)
+  (hold-position! vehicle)
   (remove-task! (this-dive 'fly-home!) task))
 
 (define (next-stage trip due place)
@@ -135,7 +163,7 @@
   (let* ((trip (task-state task)) (step (%dive-steps (this-engine 'fly-home!))))
     (when (>= step (trip-due trip))
       (let ((due (+ step (round (/ tick (time-step))))) (place (rov-position vehicle)))
-        (cond ((home? tether) (end-trip! task tether vehicle))
+        (cond ((home? tether vehicle) (end-trip! task tether vehicle))
               ((< (- (now) (trip-since trip)) (patience trip))
                (unless (negative? (trip-k trip))
                  (act! (car (trip-plan trip)) (inexact->exact (trip-k trip)) tether vehicle speed pull))
@@ -148,7 +176,8 @@
 (define (set-out! plan tether vehicle speed pull)
   (release! vehicle)
   (add-task! 'fly-home! "fly home" (lambda (task) (go-on task tether vehicle speed pull))
-             (make-trip 0 plan 0 (rov-position vehicle) (now))))
+             (make-trip 0 plan 0 (rov-position vehicle) (now))
+             vehicle))
 
 (define (try plan tether vehicle speed pull)
   ;; What PLAN comes to on a fork: (HOME? SECONDS LEFT AT).
@@ -159,7 +188,7 @@
        (when (and (< (- (now) start) most) (memq task (dive-tasks (this-dive 'home-trial))))
          (run 1)
          (loop)))
-     (list (home? tether) (- (now) start) (tether-length tether) (rov-position vehicle)))))
+     (list (home? tether vehicle) (- (now) start) (tether-length tether) (rov-position vehicle)))))
 
 (define (first-home tether vehicle speed pull)
   ;; (PLAN HOME? SECONDS LEFT AT) of the first plan that arrives, or of the one that came nearest.
@@ -182,7 +211,8 @@ seconds, left (m still out), at.  It takes some tenths of a second for each plan
 
 (define-verb (fly-home! #:subject (t tether) #:key (speed positive 0.35) (pull positive 150.0))
   "Bring the vehicle home to the anchor in the way that `home-trial' found to arrive; it flies, and works the
-winch, while time passes in `run', and ends with sticks centred.  Return the plan, or #f, and do nothing,
+winch, while time passes in `run', and is not `arrived?' before it ends: the vehicle then holds its place at the
+anchor, or at the surface below one in the air, on a slack line.  Return the plan, or #f, and do nothing,
 when none arrives."
   (let*-values (((tether vehicle) (names t))
                 ((found) (first-home tether vehicle speed pull)))
