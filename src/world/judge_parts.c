@@ -271,7 +271,8 @@ bt__judge_obstacles (bt__judge *judge, const bt_dive *dive, bt__state *state)
               judge_roughness (judge, bt__dive_roughness (dive, state), model->n_obstacles));
 }
 
-/* The version vouches for the switches: whoever knows a scene goes by it.  */
+/* Behind a subject is a switch for each object, then what it is wound about each; and what pads
+   either, zero.  The version vouches for the switches: whoever knows a scene goes by it.  */
 bt_status
 bt__judge_subject (bt__judge *judge, const bt_dive *dive, bt__state *state, bt_part part, int i)
 {
@@ -279,10 +280,11 @@ bt__judge_subject (bt__judge *judge, const bt_dive *dive, bt__state *state, bt_p
   const uint8_t *off = bt__dive_off (dive, state, part, i);
   size_t bytes = dive->layout.subject - sizeof *subject;
   bt_status status = bt__judge_records (judge, &bt__subject_record, subject, 1);
+  size_t half = bytes / 2, objects = (size_t)bt__objects (dive->model);
   int whole = 1;
   judge->seen += bytes;
-  for (size_t k = 0; k < bytes; k++)
-    whole = whole && off[k] <= (k < (size_t)bt__objects (dive->model));
+  for (size_t k = 0; k < half; k++)
+    whole = whole && off[k] <= (k < objects) && (k < objects || off[half + k] == 0);
   status = AND (status, bt__judge_that (judge, whole, "each of its pairs is on or off"));
   return AND (status,
               bt__judge_that (judge, subject->version == bt__pairs_version (dive->model, off),

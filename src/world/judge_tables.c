@@ -168,6 +168,11 @@ static const bt__record meeting_record = BT__RECORD (bt__meeting, "meeting", mee
 
 static const bt__member subject[] = {
   BT__ANY (bt__subject, version),
+  BT__TRUTH (bt__subject, looked),
+  BT__ANY (bt__subject, then),
+  BT__WITHIN (bt__subject, seen, -BT__FAR, BT__FAR),
+  BT__WITHIN (bt__subject, string, 0, INFINITY),
+  BT__WITHIN (bt__subject, there, -BT__FAR, BT__FAR),
   BT__WITHIN (bt__subject, n, 0, BT__MEETINGS_MAX),
   BT__OF (bt__subject, meeting, meeting_record),
 };
