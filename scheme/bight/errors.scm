@@ -203,7 +203,7 @@ huge data are cut."
     (do ((j 1 (+ j 1)))
         ((> j n) row)
       (let* ((same? (char=? char (string-ref b (- j 1))))
-             (swap? (and two-above (> j 1)
+             (swap? (and (> j 1)
                          (char=? char (string-ref b (- j 2)))
                          (char=? previous (string-ref b (- j 1)))))
              (best (min (+ 1 (vector-ref above j))
@@ -212,14 +212,17 @@ huge data are cut."
         (vector-set! row j (if swap? (min best (+ 1 (vector-ref two-above (- j 2)))) best))))))
 
 (define (edit-distance a b)
-  ;; Insertions, deletions, substitutions and swaps of neighbours (optimal string alignment).
-  (let loop ((i 0) (above (list->vector (iota (+ 1 (string-length b))))) (two-above #f))
-    (if (= i (string-length a))
-        (vector-ref above (string-length b))
-        (loop (+ i 1)
-              (edit-row above two-above (string-ref a i)
-                        (if (zero? i) #\nul (string-ref a (- i 1))) b)
-              above))))
+  ;; Insertions, deletions, substitutions and swaps of neighbours (optimal string alignment).  The row
+  ;; above the first is farther than anything: no swap begins there.
+  (let* ((width (+ 1 (string-length b)))
+         (nowhere (make-vector width (+ width (string-length a)))))
+    (let loop ((i 0) (above (list->vector (iota width))) (two-above nowhere))
+      (if (= i (string-length a))
+          (vector-ref above (string-length b))
+          (loop (+ i 1)
+                (edit-row above two-above (string-ref a i)
+                          (if (zero? i) #\nul (string-ref a (- i 1))) b)
+                above)))))
 
 (define (word-distance a b)
   (let ((a (string-downcase a)) (b (string-downcase b)))

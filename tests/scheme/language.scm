@@ -141,6 +141,31 @@
   (expect (nearest 'zebra '(from to length)) => #f)
   (expect (brief (endless)) => "(1 2 3 1 2 3 1 2 …)"))
 
+(define (slips word)
+  "Return the ways to write WORD with one character lost, doubled, changed, or swapped with the next."
+  (append-map (lambda (i)
+                (let ((head (substring word 0 i))
+                      (char (string (string-ref word i)))
+                      (tail (substring word (+ i 1))))
+                  (append (map (lambda (wrong) (string-append head wrong tail))
+                               (list "" (string-append char char) "?"))
+                          (if (string-null? tail)
+                              '()
+                              (list (string-append head (substring tail 0 1) char (substring tail 1)))))))
+              (iota (string-length word))))
+
+(define-scenario slips-are-understood
+  "Whatever one slip is made in a name of the language, the name is what was meant; with two, too, if it is long."
+  (define (lost? name slip)
+    (not (eq? name (nearest slip (list name)))))
+  (let ((names (language-names)))
+    (expect (> (length names) 200) => #t)
+    (expect (filter (lambda (name) (any (lambda (slip) (lost? name slip)) (slips (symbol->string name))))
+                    names)
+            => '())
+    (expect (any (lambda (slip) (lost? 'heave-compensation slip)) (append-map slips (slips "heave-compensation")))
+            => #f)))
+
 
 ;;; Units and points.
 
