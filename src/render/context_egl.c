@@ -10,8 +10,6 @@
 #include "base/error.h"
 #include "render/gl.h"
 
-#ifdef HAVE_EGL
-
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -139,21 +137,6 @@ find_egl (void *context, const char *name)
   egl *e = context;
   return (bt__gl_function)e->GetProcAddress (name);
 }
-
-#else
-
-static bt_status
-open_egl (void **context, bt_error *error)
-{
-  (void)context;
-  return bt__fail (error, BT_ERR_UNSUPPORTED, "bight was built without it");
-}
-#define use_egl NULL
-#define leave_egl NULL
-#define find_egl NULL
-#define close_egl NULL
-
-#endif
 
 const bt__backend bt__backend_egl
     = { "egl", "EGL", open_egl, use_egl, leave_egl, find_egl, close_egl };

@@ -1,5 +1,6 @@
 /* OSMesa: OpenGL drawn by the processor, without a window system.  The library is opened when the
-   first picture is asked for.
+   first picture is asked for.  Mesa 25.1 and later have it no more: what is used of its header,
+   which changes no more either, is written here, so that no build depends on it.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -11,17 +12,21 @@
 #include "base/error.h"
 #include "render/gl.h"
 
-#ifdef HAVE_OSMESA
-
-#include <GL/osmesa.h>
-
-typedef OSMesaContext create_function (const int *attributes, OSMesaContext sharing);
-typedef GLboolean use_function (OSMesaContext, void *, GLenum, GLsizei, GLsizei);
-typedef OSMESAproc find_function (const char *);
-typedef void destroy_function (OSMesaContext);
+typedef struct osmesa_context *osmesa_context;
+typedef osmesa_context create_function (const int *attributes, osmesa_context sharing);
+typedef GLboolean use_function (osmesa_context, void *, GLenum, GLsizei, GLsizei);
+typedef bt__gl_function find_function (const char *);
+typedef void destroy_function (osmesa_context);
 
 enum
 {
+  /* <GL/osmesa.h> */
+  OSMESA_FORMAT = 0x22,
+  OSMESA_RGBA = GL_RGBA,
+  OSMESA_PROFILE = 0x33,
+  OSMESA_CORE_PROFILE = 0x34,
+  OSMESA_CONTEXT_MAJOR_VERSION = 0x36,
+  OSMESA_CONTEXT_MINOR_VERSION = 0x37,
   SIDE = 16 /* of the buffer that OSMesa insists on; pictures are drawn elsewhere */
 };
 
@@ -32,7 +37,7 @@ typedef struct osmesa
   use_function *use;
   find_function *find;
   destroy_function *destroy;
-  OSMesaContext context;
+  osmesa_context context;
   unsigned char buffer[4 * SIDE * SIDE];
 } osmesa;
 
@@ -109,23 +114,8 @@ static bt__gl_function
 find_osmesa (void *context, const char *name)
 {
   osmesa *o = context;
-  return (bt__gl_function)o->find (name);
+  return o->find (name);
 }
-
-#else
-
-static bt_status
-open_osmesa (void **context, bt_error *error)
-{
-  (void)context;
-  return bt__fail (error, BT_ERR_UNSUPPORTED, "bight was built without it");
-}
-#define use_osmesa NULL
-#define leave_osmesa NULL
-#define find_osmesa NULL
-#define close_osmesa NULL
-
-#endif
 
 const bt__backend bt__backend_osmesa
     = { "osmesa", "OSMesa", open_osmesa, use_osmesa, leave_osmesa, find_osmesa, close_osmesa };

@@ -202,6 +202,6 @@ bt__renderer_new (const char *name, bt__renderer **renderer, bt_error *error)
     return BT_OK;
   return bt__fail (error, BT_ERR_UNSUPPORTED,
                    "no picture can be drawn: OSMesa: %.120s; EGL: %.120s (Debian packages: "
-                   "libosmesa6, libegl1)",
+                   "libegl1, libgl1-mesa-dri)",
                    first.text, second.text);
 }
