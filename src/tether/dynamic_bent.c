@@ -249,7 +249,7 @@ largest (const bt__dynamic_work *w)
       sum += square;
       most = square > most ? square : most;
     }
-  return isfinite (sum) ? sqrt (most) : NAN;
+  return isfinite (sum) ? sqrt (most) : INFINITY;
 }
 
 /* The updates of a metre of each flow.  */
@@ -287,7 +287,7 @@ bt__dynamic_bent_solve (bt__dynamic_work *w)
       m[k][l] = lack_by_flow (w, r, k, l)
                 + lack_by (w->bent + k, r + k, w->by_flow + (size_t)l * nodes);
   if (!eliminate (m, y, w->bents))
-    return NAN;
+    return INFINITY;
   double most = 0;
   for (int l = 0; l < w->bents; l++)
     {
@@ -300,7 +300,7 @@ bt__dynamic_bent_solve (bt__dynamic_work *w)
         w->d[i] = bt__axpy (w->d[i], y[l], z[i]);
     }
   double moved = largest (w);
-  return moved >= most || isnan (moved) ? moved : most;
+  return fmax (moved, most);
 }
 
 /* ---- Flows that follow the places ---- */

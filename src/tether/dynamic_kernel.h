@@ -175,7 +175,7 @@ bt_vec3 bt__dynamic_node_load (bt__dynamic_work *w, int i);
 /* Force of the line on end K (0, 1), N.  */
 bt_vec3 bt__dynamic_end_pull (bt__dynamic_work *w, int k);
 
-/* Solve for the update D; return its largest, NaN if any is not finite.  */
+/* Solve for the update D; return its largest, infinity if any is not finite.  */
 double bt__dynamic_solve (bt__dynamic_work *w);
 
 /* The same without what borders the blocks or couples places, which is to be asked for again; and

@@ -199,7 +199,8 @@ start (bt__dynamic_work *w)
   return here;
 }
 
-/* Move along D until the potential is no larger than PHI; return it, or NaN.  */
+/* Move along D until the potential is no larger than PHI; return it, or infinity, which compares
+   without being an invalid operation, as NaN does not.  */
 static double
 descend (bt__dynamic_work *w, double most, double phi)
 {
@@ -214,7 +215,7 @@ descend (bt__dynamic_work *w, double most, double phi)
         return next;
     }
   move (w, w->keep, 0);
-  return NAN;
+  return INFINITY;
 }
 
 /* The tangents of the present shape: the quick way may have left any.  */
@@ -263,7 +264,7 @@ safe (bt__dynamic_work *w, bt__dynamic_report *report)
       report->solves++;
       if (!isfinite (report->update) || !isfinite (phi))
         {
-          report->update = NAN;
+          report->update = INFINITY;
           return 0;
         }
       int small = report->update <= w->tolerance && !(w->stiffen > 0);

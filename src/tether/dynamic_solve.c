@@ -181,8 +181,8 @@ substitute_pair (const bt__dynamic_work *w, bt_vec3 *to, int i, int j, bt__pair_
   return bt__pair_dot (*v, *v);
 }
 
-/* From the middle back to both ends.  Return the square of the largest update, NaN if any is not
-   finite.  */
+/* From the middle back to both ends.  Return the square of the largest update, infinity if any is
+   not finite.  */
 static BT__HOT double
 substitute_plain (bt__dynamic_work *w)
 {
@@ -200,7 +200,7 @@ substitute_plain (bt__dynamic_work *w)
       most = bt__pair_max (most, square);
       sum += square;
     }
-  return sum[0] + sum[1] <= HUGE_UPDATE ? fmax (most[0], most[1]) : NAN;
+  return sum[0] + sum[1] <= HUGE_UPDATE ? fmax (most[0], most[1]) : INFINITY;
 }
 
 static BT__HOT double
@@ -420,7 +420,7 @@ largest_update (const bt__dynamic_work *w)
       sum += square;
       most = square > most ? square : most;
     }
-  return sum <= HUGE_UPDATE ? most : NAN;
+  return sum <= HUGE_UPDATE ? most : INFINITY;
 }
 
 static BT__HOT double

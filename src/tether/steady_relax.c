@@ -244,7 +244,7 @@ eliminate (chain *c)
     }
 }
 
-/* Substitute back, move the nodes and return the largest motion (NaN if any is not finite).  */
+/* Substitute back, move the nodes and return the largest motion (infinite if any is not finite).  */
 static double
 substitute (chain *c)
 {
@@ -257,7 +257,7 @@ substitute (chain *c)
       double d = bt__norm (w->dx[i]);
       most = d > most || !isfinite (d) ? d : most;
       if (!isfinite (most))
-        return NAN;
+        return INFINITY;
     }
   return most;
 }
@@ -268,7 +268,7 @@ iterate (chain *c)
   eliminate (c);
   double most = substitute (c);
   if (!isfinite (most))
-    return NAN;
+    return INFINITY;
   for (int j = 0; j < c->n; j++)
     update_multiplier (c, j);
   for (int i = 1; i < c->n; i++)
@@ -315,18 +315,18 @@ moved (const chain *c)
 }
 
 /* Iterate from the remembered shape.  Count the iterations into *USED and return the last update,
-   NaN when the shape was lost.  A step need not be solved well: the next one starts from where it
+   infinite when the shape was lost.  A step need not be solved well: the next one starts from where it
    got to, and only a motion that does not come down says that it was too long.  */
 static double
 take_step (chain *c, double tolerance, int at_most, int *used)
 {
-  double update = NAN;
+  double update = INFINITY;
   for (int i = 0; i < at_most; i++)
     {
       ++*used;
       update = iterate (c);
       if (!(update < LOST * c->length))
-        return NAN;
+        return INFINITY;
       if (update <= tolerance)
         break;
     }
