@@ -76,4 +76,17 @@ empty 'and no complaint' "$scratch/err"
 [ "$(env -i PATH="$PATH" "$pre" bight -c '(display "bört")' 2>&1)" = bört ]
 result $? 'any letter is printed in any locale'
 
+# A locale of people who write a decimal comma is made of its description.
+if mkdir "$scratch/locales" && localedef -i de_DE -f UTF-8 "$scratch/locales/de_DE.UTF-8" 2>"$scratch/err"; then
+  tell="(enter! 'cross-current) (run 0.5) (look) (write (max-tension)) (status)
+    (enter! (world (sea (depth 50)) (rov (named m) (at 0 0 -5.5)) (tether (from 0 0 -1) (to m) (length 2.25))))"
+  "$pre" bight -c "$tell" >"$scratch/out" 2>&1
+  env LOCPATH="$scratch/locales" LC_ALL=de_DE.UTF-8 "$pre" bight -c "$tell" >"$scratch/comma" 2>&1
+  [ "$(env LOCPATH="$scratch/locales" LC_ALL=de_DE.UTF-8 locale decimal_point)" = , ] &&
+    grep -q '2\.25 m long' "$scratch/out" && cmp "$scratch/out" "$scratch/comma"
+  result $? 'a decimal point is a point where people write a comma'
+else
+  skip 'there are no locales (Debian package: locales)'
+fi
+
 finish
