@@ -153,6 +153,7 @@ run_rivals (bench *b, const jacket *j, const own_times *own)
   run_rival (b, &rival_bullet_contact, j, own);
   run_rival (b, &rival_bullet_tree, j, own);
 #endif
+  (void)b;
   (void)j;
   (void)own;
 }

@@ -131,7 +131,7 @@ haul (corner k, double mu, double speed)
 {
   open_corner (k, mu);
   bt_vec3 at = line.in.end[1].at;
-  int steps = (int)fmin (9 / speed / frame, 1200), counted = 0;
+  int steps = (int)fmin (9 / speed / frame, 1200);
   double low = 0, high = 0, least = INFINITY, most = 0, sum = 0, under = INFINITY, over = 0;
   for (int i = 0; i < steps; i++)
     {
@@ -147,7 +147,6 @@ haul (corner k, double mu, double speed)
       most = fmax (most, t[line.d->n - 2]);
       under = fmin (under, t[line.d->n - 2] / t[1]);
       over = fmax (over, t[line.d->n - 2] / t[1]);
-      counted++;
     }
   char setting[80], counters[240];
   snprintf (setting, sizeof setting, "%s mu=%g %g m/s", corner_names[k], mu, speed);

@@ -79,8 +79,9 @@ put (FILE *to, const void *data, size_t n, uint64_t *sum)
 static int
 write_soup (FILE *to, const bt__soup_made *soup)
 {
-  bt__mesh_head head = { BT__MESH_MAGIC, BT__MESH_VERSION, soup->vertices, soup->triangles, 0 };
+  bt__mesh_head head = { "", BT__MESH_VERSION, soup->vertices, soup->triangles, 0 };
   uint64_t sum = 0;
+  memcpy (head.magic, BT__MESH_MAGIC, sizeof head.magic);
   return put (to, &head, sizeof head, &sum)
          && put (to, soup->vertex, soup->vertices * sizeof *soup->vertex, &sum)
          && put (to, soup->corner, soup->triangles * sizeof *soup->corner, &sum)

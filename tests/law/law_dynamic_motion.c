@@ -52,7 +52,7 @@ swing (double degrees, double h)
   scene_open (&s, line, 0, 1, shape, 2, 1);
   s.in.end[1].free = 1;
   s.in.end[1].body = (bt__dynamic_lump){ .mass = 1, .wet_weight = 9.81 };
-  for (int i = 0; p.count < 3; i++)
+  while (p.count < 3)
     {
       scene_step (&s, h);
       watch (&p, bt__dynamic_x (s.d)[1].x, s.water.time, h);

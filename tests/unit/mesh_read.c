@@ -372,9 +372,11 @@ typedef struct answer
 static answer
 right_answer (void)
 {
-  return (answer){ { BT__MESH_MAGIC, BT__MESH_VERSION, 3, 1, 0 },
-                   { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } },
-                   { { 0, 1, 2 } } };
+  answer a = { { "", BT__MESH_VERSION, 3, 1, 0 },
+               { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } },
+               { { 0, 1, 2 } } };
+  memcpy (a.head.magic, BT__MESH_MAGIC, sizeof a.head.magic);
+  return a;
 }
 
 /* Write A, with its checksum and OFF, as the file NAME.  */
