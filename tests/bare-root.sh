@@ -56,7 +56,7 @@ check ()
 {
   status=0
   newcomer './bootstrap check' || status=$?
-  grep -rhE '^SKIP: ' --include='*.log' "$root/home/newcomer/bight/build/tests" | sort -u
+  grep -rhE '^SKIP: [^ ]+ .' --include='*.log' "$root/home/newcomer/bight/build/tests" | sort -u
   return $status
 }
 
