@@ -7,6 +7,7 @@
 #include <config.h>
 
 #include <fcntl.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -60,12 +61,28 @@ complain (int status, const char *words)
   return status;
 }
 
+/* The bytes of a file, which may be changed; NULL where it cannot be mapped.  */
+typedef struct mapped
+{
+  char *bytes;
+  size_t n;
+} mapped;
+
+/* A PLY is all in one file; others name files beside them.  */
 static const struct aiScene *
-import (const char *file)
+import (const char *file, const mapped *m)
 {
   struct aiPropertyStore *wishes = aiCreatePropertyStore ();
   /* Up is what we are told, in the numbers of the file.  */
   aiSetImportPropertyInteger (wishes, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
+  if (m->bytes && m->n <= UINT_MAX && bt__is_ply (m->bytes, m->n))
+    {
+      size_t first = bt__ply_without_comments (m->bytes, m->n);
+      return aiImportFileFromMemoryWithProperties (m->bytes + first, (unsigned)(m->n - first),
+                                                   aiProcess_Triangulate, "ply", wishes);
+    }
+  if (m->bytes)
+    munmap (m->bytes, m->n);
   return aiImportFileExWithProperties (file, aiProcess_Triangulate, NULL, wishes);
 }
 
@@ -117,25 +134,23 @@ complain_of (const bt_error *error)
                    error->text);
 }
 
-/* Is all of FILE there?  What cannot be mapped is left for the import to refuse.  */
-static bt_status
-check_whole (const char *file, bt_error *error)
+/* A private copy of FILE, of which only what is changed takes memory.  What cannot be mapped is
+   left for the import to refuse.  */
+static mapped
+map_file (const char *file)
 {
   struct stat st;
-  bt_status s = BT_OK;
+  mapped m = { NULL, 0 };
   int fd = open (file, O_RDONLY);
   if (fd >= 0 && fstat (fd, &st) == 0 && st.st_size > 0)
     {
-      void *bytes = mmap (NULL, (size_t)st.st_size, PROT_READ, MAP_PRIVATE, fd, 0);
+      void *bytes = mmap (NULL, (size_t)st.st_size, PROT_READ | PROT_WRITE, MAP_PRIVATE, fd, 0);
       if (bytes != MAP_FAILED)
-        {
-          s = bt__whole (bytes, (size_t)st.st_size, error);
-          munmap (bytes, (size_t)st.st_size);
-        }
+        m = (mapped){ bytes, (size_t)st.st_size };
     }
   if (fd >= 0)
     close (fd);
-  return s;
+  return m;
 }
 
 static int
@@ -143,9 +158,10 @@ run (const char *up, const char *file, FILE *to)
 {
   bt__soup_made soup;
   bt_error error;
-  if (check_whole (file, &error) != BT_OK)
+  mapped m = map_file (file);
+  if (m.bytes && bt__whole (m.bytes, m.n, &error) != BT_OK)
     return complain_of (&error);
-  const struct aiScene *scene = import (file);
+  const struct aiScene *scene = import (file, &m);
   if (!scene)
     return complain_of_import ();
   bt_mesh_up axis = strcmp (up, "y") == 0 ? BT_MESH_UP_Y : BT_MESH_UP_Z;

@@ -283,7 +283,30 @@ bt__whole (const char *bytes, size_t n, bt_error *error)
   text t = { bytes, bytes + n };
   if (is_text_stl (&t))
     return check_stl (&t, error);
-  if (begins (t.at, t.end, "ply")) /* all that assimp asks for */
+  if (bt__is_ply (bytes, n))
     return check_ply (&t, error);
   return BT_OK;
+}
+
+int
+bt__is_ply (const char *bytes, size_t n)
+{
+  return begins (bytes, bytes + n, "ply"); /* all that assimp asks for */
+}
+
+size_t
+bt__ply_without_comments (char *bytes, size_t n)
+{
+  char *end = bytes + n, *line = bytes, *to = bytes;
+  while (line < end && !begins (line, end, "end_header"))
+    {
+      char *stop = memchr (line, '\n', (size_t)(end - line)), *next = stop ? stop + 1 : end;
+      size_t size = (size_t)(next - line);
+      if (!begins (line, next, "comment"))
+        to = (char *)memmove (to, line, size) + size;
+      line = next;
+    }
+  size_t kept = (size_t)(to - bytes);
+  memmove (line - kept, bytes, kept);
+  return (size_t)(line - bytes) - kept;
 }
