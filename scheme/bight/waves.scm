@@ -31,11 +31,11 @@
 (define type:seed (type:between 0 1000000000))
 
 (define (form-waves proc form clauses)
-  (let ((found (clause-fields proc form
-                              (if (eq? form 'airy)
-                                  '(height period toward phase)
-                                  '(height period toward gamma components seed))
-                              '(height period toward) clauses)))
+  ;; Bare values stand in the order of the canonical form, so that this can be read, too.
+  (let* ((names (if (eq? form 'airy)
+                    '(height period toward phase)
+                    '(height period toward gamma components seed)))
+         (found (clause-fields proc form names names clauses)))
     (define (field name type . default)
       (apply clause-field proc form found name type default))
     (cons* form
