@@ -30,25 +30,27 @@
 (define (name-of kind i)
   (list-ref (%names (this-engine 'parts) kind) i))
 
-(define far 1e4)                        ; m: nothing in a dive is farther off, nor as fast in m/s
+(define far 1e4)                        ; m beyond what is out: nothing is farther off, nor as fast in m/s
 
-(define (sane? x)
-  (and (real? x) (< (abs x) far)))      ; false of NaN too
+(define (far-in engine)
+  ;; Of the dive of ENGINE, m.
+  (apply + far (map (lambda (i) (assq-ref (%tether engine i) 'length)) (tethers))))
 
-(define (all-sane? array)
+(define (all-sane? array most)
+  ;; Are all numbers of ARRAY below MOST?  NaN is not.
   (let ((good #t))
-    (array-for-each (lambda (x) (unless (sane? x) (set! good #f))) array)
+    (array-for-each (lambda (x) (unless (and (real? x) (< (abs x) most)) (set! good #f))) array)
     good))
 
 (define-verb (all-finite?)
   "Return #t if every place, velocity and tension of the dive is a number of a sane size."
-  (let ((engine (this-engine 'all-finite?)))
+  (let* ((engine (this-engine 'all-finite?)) (most (far-in engine)))
     (and (every (lambda (i)
                   (let ((vehicle (%vehicle engine i)))
-                    (and (all-sane? (assq-ref vehicle 'position))
-                         (all-sane? (assq-ref vehicle 'velocity)))))
+                    (and (all-sane? (assq-ref vehicle 'position) most)
+                         (all-sane? (assq-ref vehicle 'velocity) far))))
                 (vehicles))
-         (every (lambda (i) (all-sane? (tether-points (name-of 'tether i)))) (tethers))
+         (every (lambda (i) (all-sane? (tether-points (name-of 'tether i)) most)) (tethers))
          (every (lambda (i)
                   (let ((most (max-tension (name-of 'tether i))))
                     (and (real? most) (< -1 most 1e7))))
@@ -68,8 +70,9 @@ one."
 
 
 ;;; Energy.  What a line can hold: strain up to its breaking load, twice that since it parts only after the step
-;;; that passed it; and the motion of all of it at three times the speed of whoever drags it and of the water,
-;;; or at 3 m/s if that is more.  When it parts, strain becomes motion: the bound is on the sum.
+;;; that passed it; the motion of all of it at three times the speed of whoever drags it and of the water,
+;;; or at 3 m/s if that is more; and what its clumps and floats gain as they fall or rise by as much as it is
+;;; long, up and down.  When it parts, strain becomes motion: the bound is on the sum.
 
 (define water 1025)                     ; kg/m3, for the water that moves with the line
 
@@ -95,12 +98,24 @@ one."
         ((real? load) (/ (expt load 2) ea))
         (else ea)))
 
+(define (lump-weight lump)
+  ;; N: no more than the weight in air of a clump; the buoyancy of a float.
+  (case (car lump)
+    ((clump) (* 10 (assq-ref (cdr lump) 'mass)))
+    ((float) (assq-ref (cdr lump) 'buoyancy))
+    (else 0)))
+
+(define (most-fall t)
+  (let ((fields (part-all-fields (world-part (dive-world (this-dive 'energy-bounded?)) (name-of 'tether t)))))
+    (* 2 (whole-length t) (fold + 0 (map lump-weight fields)))))
+
 (define (most-energy t)
   (let ((speed (fold max 1 (cons (norm (current-at '(0 0 -1))) (map vehicle-speed (vehicles)))))
         (fields (tether-properties t)))
-    (* (whole-length t)
-       (+ (* 1/2 (line-mass t) (expt (* 3 speed) 2))
-          (most-strain (assq-ref fields 'breaking-load) (assq-ref fields 'ea))))))
+    (+ (most-fall t)
+       (* (whole-length t)
+          (+ (* 1/2 (line-mass t) (expt (* 3 speed) 2))
+             (most-strain (assq-ref fields 'breaking-load) (assq-ref fields 'ea)))))))
 
 (define (moving? t)
   (memq (model-of (name-of 'tether t)) '(dynamic auto)))
