@@ -101,7 +101,7 @@ Return all that is broken."
   (%faults (this-engine 'faults) v))
 
 (define-verb (thrusts #:subject (v vehicle))
-  "Return what each thruster of the vehicle pushes with now, N; none without mass."
+  "Return what each thruster of the vehicle pushes with now, N, an f64vector; it is empty without mass."
   (%thrusts (this-engine 'thrusts) v))
 
 

@@ -115,7 +115,7 @@ static const bt_field vehicle_fields[] = {
   OTHER (bt_vehicle_def, buoyancy, "buoyancy-centre", "m", BT_FIELD_POINT, 0, NULL, 0,
          "from the centre of gravity, along its own x, y, z"),
   OTHER (bt_vehicle_def, attached, "tether-point", "m", BT_FIELD_POINT, 0, NULL, 0,
-         "where the tether is made fast, likewise"),
+         "where the tether is made fast, likewise; with mass"),
   SIX (added, "added-mass", "kg, kg m2", 1e6, "of surge sway heave; roll pitch yaw"),
   SIX (linear, "linear-drag", "N s/m, N m s", 1e6, "of surge sway heave; roll pitch yaw"),
   SIX (quadratic, "quadratic-drag", "N s2/m2, N m s2", 1e6, "of surge sway heave; roll pitch yaw"),
