@@ -130,7 +130,8 @@ main (int argc, char **argv)
   const bench_word words[] = {
     { "hours", &hours, "H", "go on for so long, in place of --steps" },
     { "shard", &shard, "I/N", "every N-th case alone, from the I-th on" },
-    { "family", &family, "NAME", "dynamics, statics or contact; dynamics when left out" },
+    { "family", &family, "NAME",
+      "dynamics, statics or contact, dynamics when left out; bight bench flies worlds, too" },
     { "log", &plan.folder, "DIR", "where a summary, as text and JSON, and what fails go" },
     { "replay", &flight, "FILE", "fly what failed, and was cut down, again" },
   };

@@ -305,6 +305,10 @@
       (simple-format #t "~%The page: ~a/validation.html; all rows: ~a/report.csv, .json~%" folder folder))
     (status-of (pair? rows))))
 
+;; A family of the bench stability is flown in the language; it is loaded when it is asked for.
+(define (worlds? names passed)
+  (and (equal? names '("stability")) ((@ (bight bench-worlds) worlds-asked?) passed)))
+
 (define (words? plan)
   ;; Is the one bench asked for something else than rows?
   (let ((passed (plan-ref plan 'arguments)))
@@ -357,7 +361,10 @@
               (old (compare old files names options passed folder))
               (else
                (let ((plan (make-plan names options passed)))
-                 (cond ((words? plan) (print-words plan))
+                 (cond ((worlds? names passed)
+                        ((@ (bight bench-worlds) run-worlds)
+                         (append (if (assoc-ref options "--quick") '("--quick") '()) passed)))
+                       ((words? plan) (print-words plan))
                        ((validation? names)
                         (check-data passed)
                         (validate plan folder))

@@ -15,6 +15,7 @@
   #:export (uniform integer one-of any-of list-of point-in made-of
             generator?
             draw simpler rounder expression value-of
+            magnitudes sometimes
             type:generator))
 
 (define-record <generator>
@@ -142,6 +143,31 @@ nothing simpler will do."
      (lambda (how n) (simplify-number how n low high 0))
      printable)))
 
+;; Sizes of which nobody knows the scale are spread evenly over their logarithms.
+
+(define (two-digits x)
+  ;; X, positive, cut to two significant digits, exact.
+  (let* ((x (inexact->exact x))
+         (unit (expt 10 (- (inexact->exact (floor (log10 x))) 1))))
+    (* unit (max 1 (truncate (/ x unit))))))
+
+(define (magnitudes low high)
+  "Return a generator of numbers from LOW, above 0, to HIGH, spread evenly over their magnitudes, to two
+digits."
+  (let ((bottom (log low)) (top (log high))
+        (low (inexact->exact low)) (high (inexact->exact high)))
+    (define (within x) (max low (min high x)))
+    (make-generator
+     'magnitudes
+     (lambda (state) (within (two-digits (exp (+ bottom (* (- top bottom) (random:uniform state)))))))
+     (lambda (how x)
+       (let ((simple (delete-duplicates (list (within 1) (within (expt 10 (exact-log10 x)))))))
+         (if (or (eq? how 'rounder) (memv x simple)) '() simple)))
+     printable)))
+
+(define (exact-log10 x)
+  (inexact->exact (floor (log10 x))))
+
 
 ;;; Choices.
 
@@ -228,3 +254,18 @@ the expression, as in (made-of (lambda (r) `(part sphere (at 0 0 -5) (radius ,r)
   (define (side i)
     (uniform (array-ref low i) (array-ref high i)))
   (made-of (lambda (x y z) `(vec ,x ,y ,z)) (side 0) (side 1) (side 2)))
+
+(define (sometimes share generator)
+  "Return a generator of a list: of what GENERATOR draws, in the SHARE of the cases from 0 to 1, else empty."
+  (make-generator
+   'sometimes
+   (lambda (state)
+     ;; Both are drawn always, so that what follows does not depend on the choice.
+     (let ((chosen? (< (random:uniform state) share)) (datum (draw generator state)))
+       (and chosen? (list datum))))
+   (lambda (how datum)
+     (if datum
+         (append (if (eq? how 'smaller) '(#f) '())
+                 (map list (simplify how generator (car datum))))
+         '()))
+   (lambda (datum) (if datum (list (expression generator (car datum))) '()))))
