@@ -24,6 +24,7 @@
             judge-tether
             tether-names
             free-class-unwound
+            wound-though-free
             at-rest?
             imbalance))
 
@@ -227,14 +228,20 @@
 
 ;;; Awareness.
 
+(define (wound-though-free name free? windings)
+  "Return #f, or the sentence that says about which object of the alist WINDINGS the tether NAME winds although
+it is FREE?."
+  (let ((wound (and free? (find (lambda (entry) (not (eqv? 0 (cdr entry)))) windings))))
+    (and wound
+         (simple-format #f "~a: it winds ~a times about ~a, but its class is the free one"
+                        name (cdr wound) (car wound)))))
+
 (define (free-class-unwound name)
   "Return #f, or the sentence that says about what the tether NAME winds although its class is that of the
 free way."
   (let ((class (homotopy-class name)))
-    (and (class-free? class) (class-decided? class)
-         (any (lambda (object)
-                (let ((w (if-supported (winding name object)))) ; level ground has no axis
-                  (and w (not (zero? w))
-                       (simple-format #f "~a: it winds ~a times about ~a, but its class is the free one"
-                                      name w object))))
-              (%names (this-engine 'free-class-unwound) 'obstacle)))))
+    (wound-though-free name (and (class-free? class) (class-decided? class))
+                       (map (lambda (object)
+                              ;; Level ground has no axis.
+                              (cons object (or (if-supported (winding name object)) 0)))
+                            (%names (this-engine 'free-class-unwound) 'obstacle)))))
