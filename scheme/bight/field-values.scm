@@ -91,7 +91,7 @@
   (let ((usual (usual-number head field))
         (specials (map car (field-specials field))))
     (apply any-of
-           (append (list usual usual usual)
+           (append (make-list (if wild? 9 3) usual)
                    (if (null? specials) '() (list (apply one-of specials)))
                    (if wild? (list (apply one-of (extreme-numbers head field))) '())))))
 
