@@ -12,7 +12,8 @@
   #:use-module ((bight sandbox) #:select (ending-text))
   #:use-module (bight world-data)
   #:use-module (ice-9 popen)
-  #:use-module ((ice-9 textual-ports) #:select (get-string-n))
+  #:use-module ((ice-9 binary-ports) #:select (get-bytevector-n))
+  #:use-module ((rnrs bytevectors) #:select (bytevector? utf8->string))
   #:use-module (srfi srfi-1)
   #:export (read-world-outside))
 
@@ -23,17 +24,15 @@
         self
         "guile")))
 
-(define most-characters (* 64 1024 1024))
+(define most-bytes (* 64 1024 1024))
 
 (define (answer-of file)
   ;; What the child says of FILE, a datum or an object for the end of a file; and the status it ends with.
   (let* ((port (open-pipe* OPEN_READ (interpreter) "-c"
                            (simple-format #f "((@ (bight world-child) tell-world) ~s)" file)))
-         (text (begin
-                 (set-port-encoding! port "UTF-8")
-                 (get-string-n port most-characters)))
+         (bytes (get-bytevector-n port most-bytes))
          (status (close-pipe port)))
-    (values (text->datum (if (string? text) text ""))
+    (values (text->datum (or (and (bytevector? bytes) (false-if-exception (utf8->string bytes))) ""))
             status)))
 
 (define (silent-end proc file status)

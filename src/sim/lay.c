@@ -54,6 +54,31 @@ is_clear (bt_dive *dive, const bt__surroundings *around, double keep, bt_vec3 a,
   return bt__room_about (dive, around, &link, w.distance + 2 * keep, &near) >= w.distance + keep;
 }
 
+/* The distance from LINK of the farthest point of CHAIN's straight intervals between FROM and TO
+   metres from its beginning; node *J is the first that was not passed, *S metres from there.  */
+static double
+farthest_off (const bt__dynamic *chain, const bt__link *link, double from, double to, int64_t *j,
+              double *s)
+{
+  bt_vec3 ends[2] = { bt__dynamic_chord_point (chain, from), bt__dynamic_chord_point (chain, to) };
+  bt__witness w;
+  double off = 0;
+  for (int k = 0; k < 2; k++)
+    {
+      bt__pair_point (ends[k], link, &w);
+      off = fmax (off, w.distance);
+    }
+  for (; *j <= chain->n && *s <= to; *s += bt__dynamic_rest (chain)[(*j)++])
+    {
+      bt__pair_point (bt__dynamic_x (chain)[*j], link, &w);
+      off = fmax (off, w.distance);
+    }
+  return off;
+}
+
+/* The line goes from its straight intervals to those between the new nodes, each point to that of
+   the same arc length: none of them leaves the capsule about the new interval that holds the old
+   ones.  */
 int
 bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n)
 {
@@ -67,14 +92,8 @@ bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n)
   for (int k = 0; k < n; k++)
     {
       bt__link link = { dive->polyline[k], dive->polyline[k + 1] };
-      double off = 0;
+      double off = farthest_off (chain, &link, length * k / n, length * (k + 1) / n, &j, &s);
       bt__near near;
-      for (; j <= chain->n && s <= length * (k + 1) / n; s += bt__dynamic_rest (chain)[j++])
-        {
-          bt__witness w;
-          bt__pair_point (bt__dynamic_x (chain)[j], &link, &w);
-          off = fmax (off, w.distance);
-        }
       if (off >= spare
           || bt__room_about (dive, &around, &link, off + 2 * core, &near) < off + 1.1 * core)
         return 0;

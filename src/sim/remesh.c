@@ -70,29 +70,16 @@ multiple (int n, int m, int room)
   return m < n ? m : times * n <= room ? times * n : n;
 }
 
-/* Where arc length S is on the straight intervals of CHAIN; *J, *FROM: the interval that the last
-   S, not larger, was in, and where that begins; 0 at first.  */
-static bt_vec3
-point_on_chords (const bt__dynamic *chain, double s, int64_t *j, double *from)
-{
-  const double *rest = bt__dynamic_rest ((bt__dynamic *)chain);
-  const bt_vec3 *x = bt__dynamic_x ((bt__dynamic *)chain);
-  for (; *j < chain->n - 1 && s > *from + rest[*j]; (*j)++)
-    *from += rest[*j];
-  return bt__axpy (x[*j], fmin ((s - *from) / rest[*j], 1), bt__sub (x[*j + 1], x[*j]));
-}
-
 /* The share that the chords must have in the N + 1 points P of CHAIN, LENGTH long, for none of the
    intervals between them to be stretched by STRETCH more than on the chords.  */
 static double
 share_of_chords (const bt__dynamic *chain, double length, const bt_vec3 *p, int n)
 {
-  int64_t j = 0;
-  double from = 0, share = 0, most = (1 + STRETCH) * length / n;
+  double share = 0, most = (1 + STRETCH) * length / n;
   bt_vec3 last = p[0];
   for (int k = 1; k <= n; k++)
     {
-      bt_vec3 next = point_on_chords (chain, length * k / n, &j, &from);
+      bt_vec3 next = bt__dynamic_chord_point (chain, length * k / n);
       double straight = bt__distance (last, next), bent = bt__distance (p[k - 1], p[k]);
       double allowed = fmax (most, straight);
       if (bent > allowed)
@@ -106,11 +93,10 @@ share_of_chords (const bt__dynamic *chain, double length, const bt_vec3 *p, int 
 static void
 straighten (const bt__dynamic *chain, double length, bt_vec3 *p, int n)
 {
-  int64_t j = 0;
-  double from = 0, share = share_of_chords (chain, length, p, n);
+  double share = share_of_chords (chain, length, p, n);
   for (int k = 1; k < n && share > 0; k++)
     {
-      bt_vec3 to = point_on_chords (chain, length * k / n, &j, &from);
+      bt_vec3 to = bt__dynamic_chord_point (chain, length * k / n);
       p[k] = bt__axpy (p[k], share, bt__sub (to, p[k]));
     }
 }

@@ -212,6 +212,9 @@ void bt__dynamic_cut (const bt__dynamic *d, int j, bt__dynamic *a, bt__dynamic *
 bt_vec3 bt__dynamic_point (const bt__dynamic *d, double u);
 bt_vec3 bt__dynamic_velocity (const bt__dynamic *d, double u);
 
+/* Return the point at U metres of rest length from node 0 (clamped) on the straight intervals.  */
+bt_vec3 bt__dynamic_chord_point (const bt__dynamic *d, double u);
+
 /* Return the tension at node I, N; of second order at the ends too.  */
 double bt__dynamic_node_tension (const bt__dynamic *d, int i);
 

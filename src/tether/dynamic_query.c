@@ -111,6 +111,16 @@ interval_at (const bt__dynamic *d, double u, double *start)
   return j;
 }
 
+bt_vec3
+bt__dynamic_chord_point (const bt__dynamic *d, double u)
+{
+  const bt_vec3 *x = bt__dynamic_x (d);
+  double start;
+  int j = interval_at (d, u, &start);
+  double at = fmin (fmax (u - start, 0) / bt__dynamic_rest (d)[j], 1);
+  return bt__axpy (x[j], at, bt__sub (x[j + 1], x[j]));
+}
+
 /* The value of the node array A at U metres of rest length, by the cubic through the four nodes
    about it (fewer if there are fewer).  */
 static bt_vec3

@@ -40,14 +40,14 @@
   (length (%journal (engine-of (this-dive 'test)))))
 
 (define-scenario far-away
-  "A vehicle put a thousand kilometres away among obstacles is dragged there until ^C."
-  (enter-with! 1000000)
+  "A vehicle put a hundred kilometres away among obstacles is dragged there until ^C."
+  (enter-with! 100000)
   (let ((before (state-hash)) (had-done (done)))
-    (expect (call-interrupted (lambda () (place! '(1000000 0 -20)))) => 'interrupted)
+    (expect (call-interrupted (lambda () (place! '(100000 0 -20)))) => 'interrupted)
     (expect (told-how-far?))
     (expect (state-hash) => before)
     (expect (done) => had-done)
-    (expect (call-interrupted (lambda () (what-if (place! '(1000000 0 -20))))) => 'interrupted)
+    (expect (call-interrupted (lambda () (what-if (place! '(100000 0 -20))))) => 'interrupted)
     (expect (state-hash) => before)
     (run 1)
     (expect (> (now) 0.9))))

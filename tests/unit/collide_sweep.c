@@ -341,9 +341,10 @@ static void
 too_near_may_leave (void **state)
 {
   bt__obstacle o = { .kind = BT__OBSTACLE_SPHERE, .shape.sphere = { { 2, 0, 0.05 }, 1.39 } };
-  bt__scene *s = NULL;
+  bt__scene *s = NULL, *empty = NULL;
   bt__stop stop;
   (void)state;
+  assert_int_equal (bt__scene_new (NULL, 0, 0, &empty, NULL), BT_OK);
   assert_int_equal (bt__scene_new (&o, 1, 1, &s, NULL), BT_OK); /* 1 cm off the hull's front */
   bt_vec3 up = { 0, 0, 1 };
   assert_true (one_way (&north, bt__vec (-1, 0, 0), up, 0, s, &stop) == 1);
@@ -354,7 +355,8 @@ too_near_may_leave (void **state)
   in.origin.x = 2;
   assert_true (one_way (&in, bt__vec (-1, 0, 0), up, 0, s, &stop) == 0);
   assert_true (one_way (&north, bt__vec (NAN, 0, 0), up, 0, s, &stop) == 0);
-  assert_true (one_way (&north, bt__vec (5, 0, 0), up, 0, NULL, &stop) == 1);
+  assert_true (one_way (&north, bt__vec (5, 0, 0), up, 0, empty, &stop) == 1);
+  bt__scene_free (empty);
   bt__scene_free (s);
 }
 
@@ -367,13 +369,14 @@ movers_and_body_wait_for_each_other (void **state)
   dice d = dice_new (12);
   solid x = { .kind = SOLID_CAPSULE, .capsule = { { -3, 0, 0 }, { 3, 0, 0 }, 0.05 } };
   bt__obstacle o = { .kind = BT__OBSTACLE_CAPSULE, .shape.capsule = x.capsule };
-  bt__scene *bar = NULL;
+  bt__scene *bar = NULL, *none = NULL;
   bt__body body = bt__body_box (&hull, 0);
   bt__count count = { 0 };
   bt__frame at = north, own = north;
   int held = 0, pinched = 0;
   (void)state;
   assert_int_equal (bt__scene_new (&o, 1, 1, &bar, NULL), BT_OK);
+  assert_int_equal (bt__scene_new (NULL, 0, 0, &none, NULL), BT_OK);
   own.origin = bt__vec (0, 4, 0);
   for (int i = 0; i < 400; i++)
     {
@@ -381,7 +384,7 @@ movers_and_body_wait_for_each_other (void **state)
       m.travel = bt__scale (i % 3 > 0, m.travel);
       bt__mover mover = { bar, NULL, n, 3.06, 1 };
       bt__stop stop;
-      double t = bt__body_sweep (&body, &m, gap, NULL, NULL, &mover, 1, &stop, &count);
+      double t = bt__body_sweep (&body, &m, gap, none, NULL, &mover, 1, &stop, &count);
       held += t < 1;
       pinched += mover.done < 1;
       assert_true ((t < 1) == (mover.done < 1));
@@ -400,11 +403,12 @@ movers_and_body_wait_for_each_other (void **state)
       own = squared (bt__motion_at (&n, mover.done));
       bt__mover there = { bar, NULL, { .from = own, .axis = { 0, 0, 1 } }, 3.06, 1 };
       if (t < 1)
-        assert_true (bt__body_nearest (&body, &at, 1, NULL, NULL, &there, 1, &stop, &count)
+        assert_true (bt__body_nearest (&body, &at, 1, none, NULL, &there, 1, &stop, &count)
                      && stop.mover == 0 && stop.distance < 0.5);
     }
   print_message ("# held %d of 400\n", held);
   assert_true (held > 20 && pinched > 20);
+  bt__scene_free (none);
   bt__scene_free (bar);
 }
 
