@@ -99,8 +99,10 @@ judge_event (bt__judge *judge, const bt_dive *dive, const bt_event *event)
   bt_status status
       = bt__judge_that (judge, event->kind < 1000 && bt_event_name ((bt_event_kind)event->kind),
                         "every event is of a kind there is");
-  return AND (status,
-              bt__judge_count (judge, "for the subject of an event", event->subject, 0, n - 1));
+  status = AND (status,
+                bt__judge_count (judge, "for the subject of an event", event->subject, 0, n - 1));
+  return AND (status, bt__judge_count (judge, "for the object of an event", event->object, -1,
+                                       judge->below[BT__BELOW_OBJECTS] - 1));
 }
 
 static bt_status

@@ -51,7 +51,7 @@ static const bt__member event[] = {
   BT__WITHIN (bt_event, kind, 0, BT__MANY),
   BT__WITHIN (bt_event, part, BT_PART_SEA, BT_PART_OBSTACLE),
   BT__WITHIN (bt_event, subject, -1, BT__MANY),
-  BT__INDEX (bt_event, object, -1, BT__BELOW_OBJECTS),
+  BT__WITHIN (bt_event, object, -1, BT__MANY), /* of those that are kept, see judge_parts.c */
 };
 const bt__record bt__event_record = BT__RECORD (bt_event, "event", event);
 
