@@ -47,7 +47,7 @@
 (define-verb (checkpoint)
   "Return the whole state of the dive, a value that `restore!' goes back to."
   (let* ((dive (this-dive 'checkpoint)) (engine (engine-of dive)))
-    (make-checkpoint (now) (%save-dive engine) (tasks-state dive)
+    (make-checkpoint (now) (%keep-dive engine) (tasks-state dive)
                      (dive-past dive) (%journal engine) (%serial engine) (%carried engine))))
 
 

@@ -74,7 +74,7 @@
   (clock past-clock))                   ; when the newest moment was kept
 
 (define (moment-now engine tasks)
-  (make-moment (%dive-steps engine) (%save-dive engine) tasks (%serial engine)))
+  (make-moment (%dive-steps engine) (%keep-dive engine) tasks (%serial engine)))
 
 (define (new-past engine tasks)
   "Return the past of a dive that begins now: ENGINE its handle, TASKS what runs between its steps."

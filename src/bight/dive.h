@@ -99,6 +99,14 @@ bt_status bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_err
 /* Return a 64-bit hash of the whole state: equal states, equal hashes.  */
 uint64_t bt_dive_hash (const bt_dive *dive);
 
+/* Write STATE, SIZE bytes that bt_dive_save wrote, to PACKED without the room that is not in use, and
+   return how many bytes that takes; with PACKED NULL, return the number alone.  Both are of whole
+   words of eight bytes, and aligned.  True if BYTES are packed so.  Unpack N such bytes to STATE;
+   BT_ERR_STALE when they are not of so large a state.  */
+size_t bt_state_pack (const void *state, size_t size, void *packed);
+int bt_state_is_packed (const void *bytes, size_t size);
+bt_status bt_state_unpack (const void *packed, size_t n, void *state, size_t size, bt_error *error);
+
 /* ---- Parts ---- */
 
 typedef enum bt_part

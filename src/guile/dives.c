@@ -242,6 +242,35 @@ save_dive (SCM object)
   return bytes;
 }
 
+/* The same without the room that is not in use.  */
+static SCM
+keep_dive (SCM object)
+{
+  SCM whole = save_dive (object);
+  const void *state = SCM_BYTEVECTOR_CONTENTS (whole);
+  size_t size = SCM_BYTEVECTOR_LENGTH (whole);
+  SCM bytes = scm_c_make_bytevector (bt_state_pack (state, size, NULL));
+  bt_state_pack (state, size, SCM_BYTEVECTOR_CONTENTS (bytes));
+  scm_remember_upto_here_1 (whole);
+  return bytes;
+}
+
+/* BYTES as bt_dive_save wrote them, whether they are packed or not.  */
+static SCM
+unpacked (bt_dive *dive, SCM bytes)
+{
+  const void *packed = SCM_BYTEVECTOR_CONTENTS (bytes);
+  size_t n = SCM_BYTEVECTOR_LENGTH (bytes), size = bt_dive_state_size (dive);
+  bt_error error;
+  if (!bt_state_is_packed (packed, n))
+    return bytes;
+  SCM whole = scm_c_make_bytevector (size);
+  bt__check ("restore!", bt_state_unpack (packed, n, SCM_BYTEVECTOR_CONTENTS (whole), size, &error),
+             &error);
+  scm_remember_upto_here_1 (bytes);
+  return whole;
+}
+
 static SCM
 restore_dive (SCM object, SCM bytes)
 {
@@ -250,11 +279,13 @@ restore_dive (SCM object, SCM bytes)
   SCM_ASSERT_TYPE (scm_is_bytevector (bytes), bytes, SCM_ARG2, "restore!", "bytevector");
   if (bt__to_handle (object)->live)
     bt__raise ("restore!", &live);
+  bt_dive *dive = bt__to_idle_dive ("restore!", object);
+  bytes = unpacked (dive, bytes);
   bt__check ("restore!",
-             bt_dive_restore (bt__to_idle_dive ("restore!", object),
-                              SCM_BYTEVECTOR_CONTENTS (bytes), SCM_BYTEVECTOR_LENGTH (bytes),
+             bt_dive_restore (dive, SCM_BYTEVECTOR_CONTENTS (bytes), SCM_BYTEVECTOR_LENGTH (bytes),
                               &error),
              &error);
+  scm_remember_upto_here_1 (bytes);
   return SCM_UNSPECIFIED;
 }
 
@@ -283,6 +314,8 @@ bt__define_dives (void)
     { "%threads", 1, 0, (scm_t_subr)threads, "Return how many may." },
     { "%most-threads", 0, 0, (scm_t_subr)most_threads, "Return the most there can be." },
     { "%save-dive", 1, 0, (scm_t_subr)save_dive, "Return the state of DIVE, a bytevector." },
+    { "%keep-dive", 1, 0, (scm_t_subr)keep_dive,
+      "Return the state of DIVE, a bytevector that takes no more than what is in use." },
     { "%restore-dive!", 2, 0, (scm_t_subr)restore_dive, "Return DIVE to the state in BYTES." },
     { "%hash-dive", 1, 0, (scm_t_subr)hash_dive, "Return the 64-bit hash of DIVE's state." },
   };

@@ -250,6 +250,42 @@ foreign_and_damaged_states_are_refused (void **unused)
   bt_dive_free (dive);
 }
 
+/* Packed and unpacked a state is the same; it takes no room for what is not in use; what is no
+   packed state of that size is refused.  */
+static void
+a_state_is_packed (void **unused)
+{
+  bt_dive *dive = begin (BT_MODEL_DYNAMIC);
+  size_t size = bt_dive_state_size (dive);
+  uint64_t *state = calloc (1, size), *again = malloc (size);
+  bt_error e;
+  (void)unused;
+  drive (dive, 0.7, 0.2);
+  step (dive, 50);
+  bt_dive_save (dive, state);
+  size_t n = bt_state_pack (state, size, NULL);
+  uint64_t *packed = malloc (n);
+  assert_int_equal (bt_state_pack (state, size, packed), n);
+  assert_true (n < size / 4 && bt_state_is_packed (packed, n) && !bt_state_is_packed (state, size));
+  memset (again, 1, size);
+  assert_int_equal (bt_state_unpack (packed, n, again, size, &e), BT_OK);
+  assert_memory_equal (state, again, size);
+  for (size_t k = 8; k < n; k += 8)
+    assert_int_equal (bt_state_unpack (packed, k, again, size, &e), BT_ERR_STALE);
+  assert_int_equal (bt_state_unpack (packed, n, again, size - 8, &e), BT_ERR_STALE);
+  for (int k = 1; k < 3; k++)
+    {
+      uint64_t count = packed[k];
+      packed[k] = UINT64_MAX - 1;
+      assert_int_equal (bt_state_unpack (packed, n, again, size, &e), BT_ERR_STALE);
+      packed[k] = count;
+    }
+  free (packed);
+  free (state);
+  free (again);
+  bt_dive_free (dive);
+}
+
 static void
 a_refused_operation_changes_nothing (void **unused)
 {
@@ -492,6 +528,7 @@ main (void)
     cmocka_unit_test (a_fork_goes_on_bit_equal),
     cmocka_unit_test (a_checkpoint_brings_everything_back),
     cmocka_unit_test (foreign_and_damaged_states_are_refused),
+    cmocka_unit_test (a_state_is_packed),
     cmocka_unit_test (a_refused_operation_changes_nothing),
     cmocka_unit_test (what_did_not_change_is_not_solved),
     cmocka_unit_test (still_water_needs_no_shooting),
