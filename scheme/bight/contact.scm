@@ -206,7 +206,7 @@ tether and itself."
 
 (define-verb (stuck? #:subject (t tether))
   "Return #t if the tether is pulled, by its vehicle or its winch, and its end has moved less than 2 cm/s for 5
-s, whatever holds it; in the response of the thesis, if its rules say so."
+s, on the mean, whatever holds it; in the response of the thesis, if its rules say so."
   (assq-ref (%tether (this-engine 'stuck?) t) 'stuck?))
 
 

@@ -1,4 +1,7 @@
-/* Is a tether stuck: it is pulled, and its vehicle has hardly moved for a while.
+/* Is a tether stuck: it is pulled, and its end has hardly moved for a while.
+
+   The speed of the end is the mean over the last 5 to 6 s: a body on a taut line trembles and swings
+   on its way to rest, and what creeps along has left its place all the same.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -12,39 +15,55 @@
 #define SLOW 0.02 /* m/s */
 #define PULL 1.0
 
-/* A parted line is stuck where its winch hauls and its new end stays.  */
+/* A parted line is pulled where its winch hauls at what is left of it.  */
 static int
-stands_parted (const bt_dive *dive, bt__state *state, int i)
+is_pulled_parted (const bt__line *line)
 {
-  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
-  bt__line line = bt__line_of (dive, state, i);
-  return bt__dive_tether (dive, state, i)->winch_rate < 0 && bt__line_tension (&line, 0) > PULL
-         && bt__norm (bt__dynamic_v (chain)[chain->n]) < SLOW;
+  return line->tether->winch_rate < 0 && bt__line_tension (line, 0) > PULL;
 }
 
-/* Nonzero if somebody at the far end of tether I, or its winch, pulls.  */
+/* True if somebody at the far end of tether I, or its winch, pulls.  */
 static int
-is_pulled (const bt_dive *dive, bt__state *state, int i)
+is_pulled (const bt_dive *dive, bt__state *state, const bt__line *line, int i)
 {
-  const bt__tether *tether = bt__dive_tether (dive, state, i);
   int vehicle = dive->model->ends[i][1].vehicle;
   const bt__vehicle *v = vehicle < 0 ? NULL : bt__dive_vehicle (dive, state, vehicle);
-  bt__line line = bt__line_of (dive, state, i);
   int wants = v
               && (v->goal != BT__GOAL_NONE || v->sticks[0] != 0 || v->sticks[1] != 0
                   || v->sticks[2] != 0);
-  return (wants || tether->winch_rate < 0) && bt__norm (bt__line_force (&line)) > PULL;
+  if (line->tether->parted)
+    return is_pulled_parted (line);
+  return (wants || line->tether->winch_rate < 0) && bt__norm (bt__line_force (line)) > PULL;
 }
 
-static int
-hardly_moves (const bt_dive *dive, bt__state *state, int i)
+/* Where tether I ends: a parted one where it has parted.  */
+static bt_vec3
+end_of (const bt_dive *dive, bt__state *state, const bt__line *line, int i)
 {
-  int vehicle = dive->model->ends[i][1].vehicle;
-  if (vehicle < 0)
-    return 1;
-  return bt__distance (bt__dive_vehicle (dive, state, vehicle)->position,
-                       bt__dive_vehicle (dive, dive->now, vehicle)->position)
-         < SLOW * BT__TIME_STEP;
+  return line->tether->parted ? bt__line_node (line, bt__line_nodes (line) - 1)
+                              : bt__tether_ends (dive, state, i).b;
+}
+
+/* True if TETHER, pulled for a while and its end at HERE, hardly moves.  */
+static int
+hardly_moves (const bt__tether *tether, bt_vec3 here)
+{
+  int64_t then = (tether->pulled - BT__STUCK_AFTER) / BT__STUCK_EVERY;
+  double seconds = (double)(tether->pulled - then * BT__STUCK_EVERY) * BT__TIME_STEP;
+  return tether->pulled >= BT__STUCK_AFTER
+         && bt__distance (here, tether->was[then % BT__STUCK_PLACES]) < SLOW * seconds;
+}
+
+static void
+look (bt__state *state, bt__tether *tether, bt_vec3 here, int i)
+{
+  int was_stuck = tether->stuck != 0;
+  if (tether->pulled % BT__STUCK_EVERY == 0)
+    tether->was[tether->pulled / BT__STUCK_EVERY % BT__STUCK_PLACES] = here;
+  tether->stuck = hardly_moves (tether, here);
+  tether->pulled++;
+  if (tether->stuck && !was_stuck)
+    bt__raise_event (state, BT_EVENT_STUCK, i);
 }
 
 void
@@ -53,10 +72,10 @@ bt__note_stuck (const bt_dive *dive, bt__state *state)
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       bt__tether *tether = bt__dive_tether (dive, state, i);
-      int stands = tether->parted ? stands_parted (dive, state, i)
-                                  : hardly_moves (dive, state, i) && is_pulled (dive, state, i);
-      tether->caught = stands ? tether->caught + 1 : 0;
-      if (tether->caught == BT__STUCK_AFTER)
-        bt__raise_event (state, BT_EVENT_STUCK, i);
+      bt__line line = bt__line_of (dive, state, i);
+      if (is_pulled (dive, state, &line, i))
+        look (state, tether, end_of (dive, state, &line, i), i);
+      else
+        tether->pulled = tether->stuck = 0;
     }
 }

@@ -227,9 +227,6 @@ bt__is_shared (const bt_dive *dive, int vehicle)
 
 #define BT__TIME_STEP (1.0 / 60)
 
-/* Steps a tether that is pulled holds its vehicle fast before it is stuck.  */
-#define BT__STUCK_AFTER 300
-
 /* Steps the moving line rests before it sleeps.  */
 #define BT__SLEEP_AFTER 60
 

@@ -92,8 +92,7 @@ ask (const bt_dive *dive, int i, bt__line *line, bt_error *error)
 static int
 is_stuck (const bt__line *line)
 {
-  return line->split ? line->split->stuck != BT__STUCK_NOT
-                     : line->tether->caught >= BT__STUCK_AFTER;
+  return line->split ? line->split->stuck != BT__STUCK_NOT : line->tether->stuck != 0;
 }
 
 /* The straight distance between the ends of LINE: a parted one ends where it has parted.  */

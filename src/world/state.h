@@ -62,6 +62,15 @@ typedef struct bt__vehicle
   bt__pilot pilot;
 } bt__vehicle;
 
+/* A tether is stuck when its end has moved less than 2 cm/s in BT__STUCK_AFTER steps or more, for
+   all of which it was pulled.  Where the end was is kept every BT__STUCK_EVERY steps.  */
+enum
+{
+  BT__STUCK_AFTER = 300,
+  BT__STUCK_EVERY = 60,
+  BT__STUCK_PLACES = BT__STUCK_AFTER / BT__STUCK_EVERY + 1
+};
+
 /* A static tether in a world with obstacles: not laid yet, or a chain; split where it touches; held
    where it touches.  */
 typedef enum bt__drape
@@ -89,7 +98,9 @@ typedef struct bt__tether
   int64_t slack_at; /* DYNAMIC: the step at which it was last slack */
   int64_t hockled;
   int64_t kinked;
-  int64_t caught;  /* steps for which it was pulled and held its vehicle fast */
+  int64_t pulled;  /* steps for which it has been pulled without a break */
+  int64_t stuck;   /* its end has hardly moved meanwhile */
+  bt_vec3 was[BT__STUCK_PLACES]; /* where its end was in those steps, the oldest overwritten */
   int64_t relaid;  /* it was laid anew, straight */
   int64_t through; /* in a world without obstacles: it passes through itself */
   int64_t drape;   /* bt__drape: what its store holds besides, in a world with obstacles */

@@ -3,7 +3,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules ((srfi srfi-1) #:select (first fold map)))
+(use-modules ((srfi srfi-1) #:select (first fold map second)))
 
 
 ;;; What a pilot would count by hand.
@@ -281,6 +281,74 @@ both."
   (expect (memq 'stuck (kinds)))
   (fly '(-1 -6 -6))
   (expect (stuck?) => #f))
+
+
+;; Whatever the contract leaves no doubt about: (PLACE PULLED?) second by second, the newest first.
+(define (stayed? log seconds within)
+  (and (> (length log) seconds)
+       (and-map (lambda (entry) (and (second entry) (<= (distance (first entry) (first (first log))) within)))
+                (list-head log (+ 1 seconds)))))
+
+(define (went? log seconds by)
+  (or (<= (length log) seconds)
+      (not (second (first log)))
+      (>= (distance (first (list-ref log seconds)) (first (first log))) by)))
+
+(define* (expect-stuck-as-told seconds where pulled?)
+  ;; Return how often it was stuck, asked once a second.
+  (let loop ((left seconds) (log (list (list (where) #f))) (times 0))
+    (cond ((zero? left) times)
+          (else
+           (run 1)
+           (let ((log (cons (list (where) (pulled?)) log)))
+             (when (stayed? log 6 0.08)
+               (expect (stuck?)))
+             (when (and (went? log 5 0.13) (went? log 6 0.13))
+               (expect (stuck?) => #f))
+             (loop (- left 1) log (+ times (if (stuck?) 1 0))))))))
+
+(define (leash body? place)
+  ;; A line of 9 m in open water, or round a pile.
+  (world (sea (depth 30))
+         (splice (if (eq? place 'pile)
+                     (part cylinder (named pile) (from -1.5 1 5) (to -1.5 1 -30) (radius 0.5) (friction 0.6))
+                     '()))
+         (splice (if body?
+                     (part rov (named minnow) (type bluerov2-heavy) (at 3 -3 -4))
+                     (part rov (named minnow) (at 3 -3 -4) (pull 60))))
+         (tether (named line) (type fathom) (wet-weight 0) (model dynamic) (from -3 -3 -3) (to minnow) (length 9))))
+
+(define-scenario (stuck-is-what-it-says body? place waves)
+  "Full thrust on a line that is taut: whatever holds it, still water or a ripple, a vehicle with mass or without,
+it is stuck when its end has moved less than 2 cm/s for 5 s, and not before; let go it is not."
+  #:for ((body? #t #f)
+         (place 'open-water 'pile)
+         (waves 'none '(airy (height 0.3) (period 3) (toward 40))))
+  (in (leash body? place))
+  (waves! waves)
+  (drive! #:surge 1)
+  (expect (expect-stuck-as-told 75 rov-position (lambda () (> (rov-tension) 2))) is (above 8))
+  (expect (memq 'stuck (kinds)))
+  (release!)
+  (run 0.1)
+  (expect (stuck?) => #f)
+  (haul-in! 0.05)
+  (run 1)
+  (expect (stuck?) => #f))
+
+(define-scenario (stuck-though-parted rate)
+  "A cut line that the winch hauls at is stuck if its new end hardly moves."
+  #:for ((rate 0.005 0.1))
+  (in (world (sea (depth 60)) (rov (named minnow) (at 0 1 -30))
+             (tether (named line) (type fathom) (wet-weight 0.5) (model dynamic) (from 0 0 0) (to minnow)
+                     (length 32))))
+  (cut-tether! #:at 28)
+  (run 60)
+  (expect (stuck?) => #f)
+  (haul-in! 5 #:rate rate)
+  (define (end) (point-at (tether-length)))
+  (expect (expect-stuck-as-told 20 end (lambda () (> (tension-at 0) 2)))
+          is (if (< rate 0.02) (above 8) (lambda (n) (zero? n)))))
 
 
 ;;; Soups: the real meshes, when they are here.
