@@ -288,7 +288,52 @@ freed."
   (run (assq-ref trial 'seconds))
   (expect (straight-distance) is (below 0.8))
   (expect (rov-position) is (about (assq-ref trial 'at) #:within 1e-9))
-  (expect (spooling?) => #f))
+  (expect (arrived?)))
+
+(define (home-in-the-water)
+  (let ((anchor (point-at 0)))
+    (vec (x anchor) (y anchor) (min -0.5 (z anchor)))))
+
+(define (expect-home-and-held)
+  ;; He is there, in the water, at rest on a slack line, and the winch stands.
+  (expect (arrived?))
+  (expect (distance (rov-position) (home-in-the-water)) is (below 1))
+  (expect (z (rov-position)) is (below 0))
+  (expect (rov-speed) is (below 0.05))
+  (expect (spooling?) => #f)
+  (expect (tension-at 0) is (below 5))
+  (expect (rov-tension) is (below 5)))
+
+(define (expect-to-come-home)
+  (expect (fly-home!))
+  (expect (arrived?) => #f)
+  (run 1)
+  (expect (arrived?) => #f)
+  (run-until arrived? #:at-most 300)
+  (expect (distance (rov-position) (home-in-the-water)) is (below 0.8))
+  (run 5)
+  (expect-home-and-held)
+  (run 30)
+  (expect-home-and-held))
+
+(define-scenario (home-of-any-height body? height)
+  "Home is the anchor, or the surface below one in the air: he is on his way until he is there, and then holds his
+place on a slack line; nobody is lifted by his tether."
+  #:for ((body? #t #f) (height -5 0 3))
+  (in (world (sea (depth 40) (current 0.2 60)) (seabed)
+             (splice (if body?
+                         (part rov (named minnow) (type bluerov2-heavy) (at 8 0 -12))
+                         (part rov (named minnow) (at 8 0 -12))))
+             (tether (named line) (type fathom) (from 0 0 height) (to minnow) (length 25) (model dynamic))))
+  (fly-to! '(12 6 -20) #:speed 0.5)
+  (run-until arrived? #:at-most 60)
+  (expect-to-come-home))
+
+(define-scenario (home-in-every-world name)
+  "From where he begins in the worlds that there are."
+  #:for ((name 'pile 'garage 'wreck 'cage 'under-ice))
+  (in name)
+  (expect-to-come-home))
 
 (define-scenario one-rule-of-taut
   "`taut?' and `foresee' go by one rule: what is foreseen as taut is so then, and not before."
