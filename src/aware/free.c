@@ -53,11 +53,23 @@ point_of (const bt__free *t, uint32_t cell)
 }
 
 static int
-sees (const bt__free *t, bt_vec3 a, bt_vec3 b, double clear, bt__count *count)
+is_clear (const bt__free_config *c, bt_vec3 a, bt_vec3 b, double clear, bt__count *count)
 {
   bt__link link = { a, b };
   bt__near near;
-  return !bt__scene_nearest (t->c.scene, t->c.on, &link, clear, &near, count);
+  return !bt__scene_nearest (c->scene, c->on, &link, clear, &near, count);
+}
+
+static int
+sees (const bt__free *t, bt_vec3 a, bt_vec3 b, double clear, bt__count *count)
+{
+  return is_clear (&t->c, a, b, clear, count);
+}
+
+int
+bt__free_sees (const bt__free_config *config, bt_vec3 a, bt_vec3 b, bt__count *count)
+{
+  return is_clear (config, a, b, config->clear, count);
 }
 
 /* ---- The open cells: a heap ---- */
@@ -341,14 +353,21 @@ bt__string_length (const bt__taut_config *config, const bt__string *s, bt__count
 }
 
 double
+bt__free_length_from (const bt__free *t, bt__taut *taut, const bt__taut_config *config,
+                      bt_vec3 from, bt_vec3 p, uint32_t steps, bt__string *string, bt__count *count)
+{
+  bt_vec3 room[BT__FREE_WAY_MAX + 1] = { from };
+  uint32_t ahead = bt__distance (from, t->anchor) > 0, n = find_way (t, p, room + 1, count);
+  if (n == 0 || !bt__string_lay (string, room + 1 - ahead, n + ahead))
+    return INFINITY;
+  if (n + ahead > 2)
+    bt__taut_relax (taut, config, string, steps, count);
+  return bt__string_length (config, string, count);
+}
+
+double
 bt__free_length (const bt__free *t, bt__taut *taut, const bt__taut_config *config, bt_vec3 p,
                  uint32_t steps, bt__string *string, bt__count *count)
 {
-  bt_vec3 way[BT__FREE_WAY_MAX];
-  uint32_t n = find_way (t, p, way, count);
-  if (n == 0 || !bt__string_lay (string, way, n))
-    return INFINITY;
-  if (n > 2)
-    bt__taut_relax (taut, config, string, steps, count);
-  return bt__string_length (config, string, count);
+  return bt__free_length_from (t, taut, config, t->anchor, p, steps, string, count);
 }

@@ -39,10 +39,19 @@ void bt__free_free (bt__free *tree); /* NULL is nothing */
 /* Grow the tree from ANCHOR; no allocation.  */
 void bt__free_grow (bt__free *tree, bt_vec3 anchor, bt__count *count);
 
+/* True if the straight way from A to B is as free as the tree's ways.  */
+int bt__free_sees (const bt__free_config *config, bt_vec3 a, bt_vec3 b, bt__count *count);
+
 /* Lay STRING along the way to P and tighten it by up to STEPS; return its length in m, with arcs
    for corners at round members, INFINITY if there is no way.  */
 double bt__free_length (const bt__free *tree, bt__taut *taut, const bt__taut_config *config,
                         bt_vec3 p, uint32_t steps, bt__string *string, bt__count *count);
+
+/* The same from FROM, which sees the tree's anchor: of two ways nearly as long it may take that
+   which is the shorter from there.  */
+double bt__free_length_from (const bt__free *tree, bt__taut *taut, const bt__taut_config *config,
+                             bt_vec3 from, bt_vec3 p, uint32_t steps, bt__string *string,
+                             bt__count *count);
 
 /* Return the length of STRING with arcs for corners at round members.  */
 double bt__string_length (const bt__taut_config *config, const bt__string *string,

@@ -1,7 +1,7 @@
 /* Is a tether stuck: it is pulled, and its end has hardly moved for a while.
 
-   The speed of the end is the mean over the last 5 to 6 s: a body on a taut line trembles and swings
-   on its way to rest, and what creeps along has left its place all the same.
+   The speed of the end is the mean over the last 5 to 6 s: a body on a taut line trembles and
+   swings on its way to rest, and what creeps along has left its place all the same.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

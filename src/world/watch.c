@@ -299,8 +299,8 @@ bt__watch_way (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error
   *length = INFINITY;
   bt_status status = bt__chart_grow (dive, i, g, error);
   if (status == BT_OK && g->ways->tree)
-    *length = bt__free_length (g->ways->tree, w->taut, &g->config, ends[1], FREE_STEPS, g->shortest,
-                               &w->count);
+    *length = bt__free_length_from (g->ways->tree, w->taut, &g->config, ends[0], ends[1],
+                                    FREE_STEPS, g->shortest, &w->count);
   return status;
 }
 

@@ -21,6 +21,7 @@ enum
 #define JITTER 0.2
 #define GAP_LEAST 0.01  /* m: a narrower gap between members is no way through */
 #define CLEAR_MOST 0.03 /* m: what free ways keep off */
+#define BERTH 2.0       /* m: charts are made anew when an anchor has moved so far */
 
 void
 bt__chart_release (bt__chart *c)
@@ -140,6 +141,35 @@ reach_of (const bt__gaze *g)
   return exp2 (ceil (log2 (fmax (g->out, 1))));
 }
 
+/* A place near P, which is where the anchor of tether I is: one of a lattice of STEP m about where
+   the anchor was when the dive began.  */
+static bt_vec3
+berth (const bt_dive *dive, int i, bt_vec3 p, double step)
+{
+  const bt__end *end = &dive->model->ends[i][0];
+  bt_vec3 origin = end->vehicle < 0 ? end->at : dive->model->vehicles[end->vehicle].at;
+  bt_vec3 d = bt__scale (1 / step, bt__sub (p, origin));
+  return bt__axpy (origin, step, bt__vec (round (d.x), round (d.y), round (d.z)));
+}
+
+/* Where the charts of tether I begin: the anchor, or, since one that rides on waves or on a vehicle
+   hardly ever stays, the roughest place for it that it sees.  Of the state alone.  */
+static bt_vec3
+root_of (const bt_dive *dive, int i, const bt__gaze *g)
+{
+  bt_vec3 anchor = g->node[0];
+  bt__free_config config = { .scene = dive->model->scene, .on = g->config.on, .clear = CLEAR_MOST };
+  for (double step = BERTH; step > 0.1 * BERTH; step *= 0.5)
+    {
+      bt_vec3 p = berth (dive, i, anchor, step);
+      if (bt__distance (p, anchor) < 1e-9)
+        return p;
+      if (bt__free_sees (&config, anchor, p, &dive->watch->count))
+        return p;
+    }
+  return anchor;
+}
+
 static bt_status
 grow (const bt_dive *dive, bt__chart *c, double core, bt_error *error)
 {
@@ -160,7 +190,7 @@ bt_status
 bt__chart_grow (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 {
   double reach = reach_of (g);
-  bt_vec3 anchor = g->node[0];
+  bt_vec3 anchor = root_of (dive, i, g);
   bt__chart *had = g->ways;
   if (had->reach == reach && bt__distance (had->anchor, anchor) == 0)
     return BT_OK;
@@ -257,7 +287,8 @@ has_words (const bt_dive *dive, int i, const bt__gaze *g, double gap)
   const bt__chart *c = g->words;
   if (!is_of (dive, i, c) || c->gap != gap)
     return 0;
-  return c->shadow || (c->reach == reach_of (g) && bt__distance (c->anchor, g->node[0]) == 0);
+  return c->shadow
+         || (c->reach == reach_of (g) && bt__distance (c->anchor, root_of (dive, i, g)) == 0);
 }
 
 bt_status
@@ -274,7 +305,7 @@ bt__chart_words (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
     return no_memory (error);
   c->gap = gap;
   c->reach = reach_of (g);
-  c->anchor = g->node[0];
+  c->anchor = root_of (dive, i, g);
   status = make_words (dive, c, &g->frame->graph, c->anchor, error);
   if (status != BT_OK)
     {

@@ -174,6 +174,41 @@ the line is wound all the same."
   (expect (assq-ref (profile) 'strings) => (+ strings 2))
   (expect (assq-ref (profile) 'charts) => charts))
 
+;; The shortest way from P to Q round an upright of RADIUS at the origin: a helix and two tangents, unrolled.
+(define (round-an-upright p q radius)
+  (let* ((d (lambda (a) (hypot (x a) (y a))))
+         (tangent (lambda (a) (sqrt (- (* (d a) (d a)) (* radius radius)))))
+         (between (acos (/ (+ (* (x p) (x q)) (* (y p) (y q))) (d p) (d q))))
+         (arc (- between (acos (/ radius (d p))) (acos (/ radius (d q))))))
+    (hypot (+ (tangent p) (tangent q) (* radius arc)) (- (z p) (z q)))))
+
+(define (hypot a b) (sqrt (+ (* a a) (* b b))))
+
+(define-scenario (anchor-that-moves ship?)
+  "An anchor that rides on waves or is carried along has its ways home from a place near it: they are right, but
+for which of two sides that are nearly as long, and of the state alone; and what they go by is not made anew at every
+look."
+  #:for ((ship? #t #f))
+  (in (world (sea (depth 60) (waves (airy (height 1) (period 6) (toward 90)))) (splice (pile 'p1 0 0))
+             (splice (if ship?
+                         (list (part rov (named ship) (at -6 -6 -4))
+                               (part tether (type fathom) (wet-weight 0) (from ship) (to minnow) (length 30)
+                                     (via (0 -4 -5)) (model dynamic)))
+                         (part tether (type fathom) (wet-weight 0) (from -6 -6 -4) (ride 1 1 1) (to minnow)
+                               (length 30) (via (0 -4 -5)) (model dynamic))))
+             (rov (named minnow) (at 6 6 -6))))
+  (when ship?
+    (drive! 'ship #:surge 0.1))
+  (define charts 0)
+  (do ((i 0 (+ i 1))) ((= i 10))
+    (run 2)
+    (expect (free-length)
+            is (about (round-an-upright (point-at 0) (rov-position 'minnow) 0.402) #:within 0.1))
+    (expect (free-length) => (what-if (free-length)))
+    (when (zero? i)
+      (set! charts (assq-ref (profile) 'charts))))
+  (expect (- (assq-ref (profile) 'charts) charts) is (below 3)))
+
 (define (all-answers)
   (list (taut-length) (free-length) (wrap-angle 'p1) (capstan-lock) (homotopy-class) (foul-reason)
         (haul-prospect) (way-home) (unwind-plan) (foresee 20 #:quick #t)))
