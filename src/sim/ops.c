@@ -10,6 +10,7 @@
 #include "math/vec.h"
 #include "sim/around.h"
 #include "sim/ops.h"
+#include "world/watch.h"
 
 /* ---- Checks ---- */
 
@@ -211,7 +212,10 @@ bt_dive_do (bt_dive *dive, bt_op which, int subject, const double *args, int n, 
   bt_error unasked;
   bt_status status = try_op (dive, which, subject, args, n, error ? error : &unasked);
   if (status == BT_OK)
-    bt__dive_commit (dive);
+    {
+      bt__dive_commit (dive);
+      bt__watch_prepare (dive);
+    }
   dive->profile.operations++;
   dive->profile.refused += status != BT_OK;
   return status;

@@ -13,6 +13,7 @@
 #include "sim/around.h"
 #include "sim/share.h"
 #include "world/obstacles.h"
+#include "world/watch.h"
 
 /* ---- Begin ---- */
 
@@ -129,6 +130,7 @@ bt_dive_new_polled (bt_model *model, bt_current_function function, void *user, b
       return status;
     }
   bt__dive_commit (dive);
+  bt__watch_prepare (dive);
   *out = dive;
   return BT_OK;
 }

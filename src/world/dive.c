@@ -384,9 +384,11 @@ bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error)
   status = bt__state_judge (dive, next, error);
   if (status == BT_OK && !knows_tracks (dive, next))
     status = bt__fail (error, BT_ERR_STALE, "this checkpoint belongs to another dive");
-  if (status == BT_OK)
-    bt__dive_commit (dive);
-  return status;
+  if (status != BT_OK)
+    return status;
+  bt__dive_commit (dive);
+  bt__watch_prepare (dive);
+  return BT_OK;
 }
 
 /* ---- Parts ---- */

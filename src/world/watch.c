@@ -78,7 +78,7 @@ bt__watch_share (const bt_dive *dive, bt_dive *fork)
   for (int i = 0; w && i < w->n; i++)
     {
       bt__gaze *from = &dive->watch->gaze[i], *to = &w->gaze[i];
-      to->ways = from->ways;
+      to->ways = from->ways && from->ways->grown ? from->ways : NULL;
       to->words = from->words;
       to->frame = from->frame;
       retain (to->ways);
@@ -145,10 +145,16 @@ is_open (const bt__scene *scene, const bt__switches *on)
 }
 
 /* Links of an eightieth of the tether, near obstacles, within what a string can do well.  */
+static double
+mesh_of (double out, double core)
+{
+  return fmax (fmin (out / 80, 0.6), 8 * core);
+}
+
 static bt__taut_config
 config_of (const bt__chart *chart, const bt__scene *scene, double out, double diameter)
 {
-  double core = bt__core (diameter), mesh = fmax (fmin (out / 80, 0.6), 8 * core);
+  double core = bt__core (diameter), mesh = mesh_of (out, core);
   return (bt__taut_config){ .scene = scene,
                             .on = &chart->on,
                             .core = 0.9 * core,
@@ -157,15 +163,22 @@ config_of (const bt__chart *chart, const bt__scene *scene, double out, double di
                             .margin = fmin (mesh, 0.4) };
 }
 
+/* As many nodes as LINE has, or comes to have while time passes.  */
+static uint32_t
+most_nodes (const bt__line *line)
+{
+  return (uint32_t)(line->chain ? line->chain->n_max + 1 : bt__line_nodes (line));
+}
+
 static int
 take_nodes (bt__gaze *g, const bt__line *line)
 {
-  uint32_t n = (uint32_t)bt__line_nodes (line);
-  if (n > g->node_room)
+  uint32_t n = (uint32_t)bt__line_nodes (line), most = most_nodes (line);
+  if (most > g->node_room)
     {
       free (g->node);
-      g->node = malloc (n * sizeof *g->node);
-      g->node_room = g->node ? n : 0;
+      g->node = malloc (most * sizeof *g->node);
+      g->node_room = g->node ? most : 0;
     }
   for (uint32_t k = 0; g->node && k < n; k++)
     g->node[k] = bt__line_node (line, (int)k);
@@ -193,6 +206,22 @@ no_memory (bt_error *error)
   return bt__fail (error, BT_ERR_LIMIT, "no memory to watch a tether");
 }
 
+double
+bt__watch_longest (const bt_dive *dive, int i)
+{
+  const bt__tether *tether = bt__dive_tether (dive, dive->now, i);
+  bt__line line = bt__line_of (dive, dive->now, i);
+  double out = fmax (bt__line_length (&line), tether->length);
+  return tether->winch_rate > 0 ? fmax (out, tether->winch_target) : out;
+}
+
+/* Nodes that the string of a tether with N of its own and OUT m of line may need.  */
+static double
+nodes_wanted (double n, double out, double diameter)
+{
+  return ROOM_LEAST + 2 * n + 3 * floor (out / (FINER * mesh_of (out, bt__core (diameter))));
+}
+
 /* Have room for the string, and say what it is among.  */
 static bt_status
 make_ready (const bt_dive *dive, int i, struct bt__watch *w, bt__gaze *g, double diameter,
@@ -202,12 +231,15 @@ make_ready (const bt_dive *dive, int i, struct bt__watch *w, bt__gaze *g, double
   if (status != BT_OK)
     return status;
   g->config = config_of (g->ways, dive->model->scene, g->out, diameter);
-  double wanted = ROOM_LEAST + 2.0 * g->n + 3 * floor (g->out / (FINER * g->config.mesh));
+  double wanted = nodes_wanted (g->n, g->out, diameter);
+  double ahead = nodes_wanted (g->node_room, bt__watch_longest (dive, i), diameter);
   if (!(wanted <= ROOM_MOST))
     return bt__fail (error, BT_ERR_LIMIT,
                      "the taut string of %g m of tether would have %g nodes; at most %d are solved",
                      g->out, wanted, ROOM_MOST);
-  return make_room (w, (uint32_t)wanted) && make_gaze_room (w, g) ? BT_OK : no_memory (error);
+  return make_room (w, (uint32_t)fmin (fmax (wanted, ahead), ROOM_MOST)) && make_gaze_room (w, g)
+             ? BT_OK
+             : no_memory (error);
 }
 
 /* Solve the string of tether I.  */
@@ -278,6 +310,28 @@ bt__watch_gaze (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
       (*out)->has_taut = 1;
     }
   return status;
+}
+
+static bt_status
+prepare (const bt_dive *dive, int i)
+{
+  bt__gaze *g;
+  bt_status status = bt__watch_look (dive, i, &g, NULL);
+  if (status == BT_OK)
+    status = bt__watch_wind_ready (dive, i, g, NULL);
+  return status == BT_OK && !g->open && g->frame->graph.edges > 0
+             ? bt__chart_plant (dive, i, g, NULL)
+             : status;
+}
+
+void
+bt__watch_prepare (const bt_dive *dive)
+{
+  /* The last of two rounds has room enough for the strings of all.  */
+  for (int round = 0; round < 2 && dive->model->n_obstacles > 0; round++)
+    for (int i = 0; i < dive->model->n_tethers; i++)
+      if (prepare (dive, i) != BT_OK)
+        return;
 }
 
 /* ---- The free way ---- */

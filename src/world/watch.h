@@ -38,6 +38,7 @@ typedef struct bt__chart
   uint8_t *off;
   bt__switches on;
   bt__free *tree; /* NULL: nothing is within reach */
+  int grown;      /* true if the tree is; until then the chart is not shared */
   bt__graph graph;
   bt__shadow *shadow;
   bt__voxels *voxels;
@@ -89,6 +90,12 @@ bt_status bt__watch_way (const bt_dive *dive, int i, bt__gaze *g, double *length
 bt_status bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
 bt_status bt__watch_class (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
 
+/* The most that tether I has out before its winch is told something else, m.  */
+double bt__watch_longest (const bt_dive *dive, int i);
+
+/* watch_wound.c: have memory for windings about what GAZE's tether is among.  */
+bt_status bt__watch_wind_ready (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
+
 /* The same, with the windings; the string and the way only where they are needed.  */
 bt_status bt__watch_wound (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
 
@@ -104,6 +111,12 @@ bt__told (int32_t winding)
 bt_status bt__watch_wound_still (const bt_dive *dive, int i, const int8_t *told, double least,
                                  int *same, bt_error *error);
 
+/* Have the memory for looks at the windings of every tether, so that none is needed while time
+   passes, but where a winch that hauls or an anchor that moves brings a tether to other charts, or
+   the class of one that goes about a mesh is asked for.  Where there is not enough of it the looks
+   tell nothing.  A fork has none before it is told something: most forks are short.  */
+void bt__watch_prepare (const bt_dive *dive);
+
 /* A new string with the room of those of the watch; NULL: no memory.  */
 bt__string *bt__watch_string (const bt_dive *dive);
 
@@ -112,9 +125,10 @@ void bt__watch_free_all (struct bt__watch *watch); /* NULL is nothing */
 /* Let FORK share the charts of DIVE.  Without memory it makes its own.  */
 void bt__watch_share (const bt_dive *dive, bt_dive *fork);
 
-/* watch_chart.c: have GAZE's chart of ways, without its tree; with its tree; its graph; its chart
-   of words.  */
+/* watch_chart.c: have GAZE's chart of ways, without its tree; with room for its tree; with its
+   tree; its graph; its chart of words.  */
 bt_status bt__chart_ways (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
+bt_status bt__chart_plant (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
 bt_status bt__chart_grow (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
 bt_status bt__chart_frame (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
 bt_status bt__chart_words (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);

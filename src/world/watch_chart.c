@@ -134,11 +134,11 @@ cell_of (bt_vec3 lo, bt_vec3 hi, int cells)
 
 /* ---- The tree of free ways ---- */
 
-/* The power of two that the tether reaches to: so that paying out does not mean growing anew.  */
+/* The power of two that tether I reaches to: so that paying out does not mean growing anew.  */
 static double
-reach_of (const bt__gaze *g)
+reach_of (const bt_dive *dive, int i)
 {
-  return exp2 (ceil (log2 (fmax (g->out, 1))));
+  return exp2 (ceil (log2 (fmax (bt__watch_longest (dive, i), 1))));
 }
 
 /* A place near P, which is where the anchor of tether I is: one of a lattice of STEP m about where
@@ -171,25 +171,20 @@ root_of (const bt_dive *dive, int i, const bt__gaze *g)
 }
 
 static bt_status
-grow (const bt_dive *dive, bt__chart *c, double core, bt_error *error)
+plant (const bt_dive *dive, bt__chart *c, double core, bt_error *error)
 {
-  bt__count count = { 0 };
   bt__free_config config = { .scene = dive->model->scene, .on = &c->on };
   if (!box_of (config.scene, &c->on, c->anchor, c->reach, &config.lo, &config.hi))
     return BT_OK;
   config.cell = cell_of (config.lo, config.hi, TREE_CELLS);
   config.clear = fmax (1.5 * core, fmin (CLEAR_MOST, 0.05 * config.cell));
-  bt_status status = bt__free_new (&config, &c->tree, error);
-  if (status == BT_OK)
-    bt__free_grow (c->tree, c->anchor, &count);
-  ((bt_dive *)dive)->profile.charts++;
-  return status;
+  return bt__free_new (&config, &c->tree, error);
 }
 
 bt_status
-bt__chart_grow (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+bt__chart_plant (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 {
-  double reach = reach_of (g);
+  double reach = reach_of (dive, i);
   bt_vec3 anchor = root_of (dive, i, g);
   bt__chart *had = g->ways;
   if (had->reach == reach && bt__distance (had->anchor, anchor) == 0)
@@ -199,7 +194,7 @@ bt__chart_grow (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
     return no_memory (error);
   c->reach = reach;
   c->anchor = anchor;
-  bt_status status = grow (dive, c, g->config.core, error);
+  bt_status status = plant (dive, c, g->config.core, error);
   if (status != BT_OK)
     {
       bt__chart_release (c);
@@ -208,6 +203,22 @@ bt__chart_grow (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
   g->ways = c;
   g->config.on = &c->on;
   bt__chart_release (had);
+  return BT_OK;
+}
+
+bt_status
+bt__chart_grow (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+{
+  bt__count count = { 0 };
+  bt_status status = bt__chart_plant (dive, i, g, error);
+  if (status != BT_OK || g->ways->grown)
+    return status;
+  if (g->ways->tree)
+    {
+      bt__free_grow (g->ways->tree, g->ways->anchor, &count);
+      ((bt_dive *)dive)->profile.charts++;
+    }
+  g->ways->grown = 1;
   return BT_OK;
 }
 
@@ -288,7 +299,7 @@ has_words (const bt_dive *dive, int i, const bt__gaze *g, double gap)
   if (!is_of (dive, i, c) || c->gap != gap)
     return 0;
   return c->shadow
-         || (c->reach == reach_of (g) && bt__distance (c->anchor, root_of (dive, i, g)) == 0);
+         || (c->reach == reach_of (dive, i) && bt__distance (c->anchor, root_of (dive, i, g)) == 0);
 }
 
 bt_status
@@ -304,7 +315,7 @@ bt__chart_words (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
   if (!c)
     return no_memory (error);
   c->gap = gap;
-  c->reach = reach_of (g);
+  c->reach = reach_of (dive, i);
   c->anchor = root_of (dive, i, g);
   status = make_words (dive, c, &g->frame->graph, c->anchor, error);
   if (status != BT_OK)

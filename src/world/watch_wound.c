@@ -217,15 +217,32 @@ wind_about_meshes (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 /* ---- All ---- */
 
 static int
+has_wound (const bt_dive *dive, bt__gaze *g)
+{
+  if (!g->wound)
+    g->wound = calloc ((size_t)dive->model->n_obstacles + 1, sizeof *g->wound);
+  return g->wound != NULL;
+}
+
+bt_status
+bt__watch_wind_ready (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+{
+  bt_status status = has_wound (dive, g) ? BT_OK : no_memory (error);
+  if (status == BT_OK && !g->open)
+    status = bt__chart_frame (dive, i, g, error);
+  return status == BT_OK && !g->open ? make_loops (g, error) : status;
+}
+
+static int
 forget (const bt_dive *dive, bt__gaze *g)
 {
   size_t n = (size_t)dive->model->n_obstacles;
-  if (!g->wound)
-    g->wound = calloc (n + 1, sizeof *g->wound);
-  else if (g->is_wound)
+  if (!has_wound (dive, g))
+    return 0;
+  if (g->is_wound)
     memset (g->wound, 0, n * sizeof *g->wound);
   g->is_wound = 0;
-  return g->wound != NULL;
+  return 1;
 }
 
 /* Where meshes stand a class without a letter is the free way's, whatever members say.  */
@@ -244,9 +261,7 @@ static bt_status
 wind (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 {
   int loose = 1;
-  bt_status status = bt__chart_frame (dive, i, g, error);
-  if (status == BT_OK)
-    status = make_loops (g, error);
+  bt_status status = bt__watch_wind_ready (dive, i, g, error);
   if (status == BT_OK)
     status = look_for_loops (dive, i, g, &loose, error);
   if (status == BT_OK && !loose)
@@ -301,9 +316,7 @@ look_again (const bt_dive *dive, int i, bt__gaze *g, const int8_t *told, double 
             bt_error *error)
 {
   double length;
-  bt_status status = bt__chart_frame (dive, i, g, error);
-  if (status == BT_OK)
-    status = make_loops (g, error);
+  bt_status status = bt__watch_wind_ready (dive, i, g, error);
   if (status != BT_OK || goes_about_a_mesh (dive, g))
     return status;
   status = quick_loops (dive, i, g, &length, error);

@@ -561,10 +561,54 @@ shared_steps_allocate_nothing (void **state)
   add_shore (&f);
   dive = launch (&f, 3);
   drive_all (dive);
-  run (dive, 90); /* a look at windings makes its memory once */
+  run (dive, 20); /* no look at windings yet */
   before = allocations;
   run (dive, 60);
   assert_true (allocations == before && profile_of (dive).shared_steps > 30);
+  bt_dive_free (dive);
+}
+
+/* Fly the vehicle of DIVE round the post and let line out; no step of it may allocate.  */
+static void
+fly_round_without_memory (bt_dive *dive)
+{
+  static const double corner[][4] = { { 4, -4, -6, 1 }, { 4, 4, -6, 1 }, { -4, 4, -7, 1 } };
+  operate (dive, BT_OP_PAY_OUT, 0, 2, (double[]){ 20, 0.5 });
+  for (int k = 0; k < 3; k++)
+    {
+      operate (dive, BT_OP_MOVE, 0, 4, corner[k]);
+      long before = allocations;
+      run (dive, 480);
+      assert_true (allocations == before);
+    }
+}
+
+/* From its first step on, a look at what the line is wound about among them; on a fork that is told
+   what to do, and after what was restored, too.  */
+static void
+no_step_allocates (void **state)
+{
+  fleet f;
+  bt_dive *dive, *fork;
+  (void)state;
+  begin_fleet (&f);
+  f.world.sea.current.kind = BT_CURRENT_STILL;
+  add_rov (&f, bt__vec (-4, -5, -5), bt__vec (-2, -4, -5), BT_MODEL_DYNAMIC)->length = 14;
+  begin_scene (&f.shore, BT_MODEL_DYNAMIC);
+  add_post (&f.shore, "cylinder", "pile", bt__vec (0, 0, 0), bt__vec (0, 0, 1), 0.4);
+  f.world.obstacles = f.shore.obstacle;
+  f.world.n_obstacles = 1;
+  dive = launch (&f, 1);
+  void *kept = malloc (bt_dive_state_size (dive));
+  bt_dive_save (dive, kept);
+  assert_int_equal (bt_dive_fork (dive, &fork, NULL), BT_OK);
+  fly_round_without_memory (dive);
+  fly_round_without_memory (fork);
+  assert_true (profile_of (dive).charts > 0 && profile_of (dive).strings > 0);
+  assert_int_equal (bt_dive_restore (dive, kept, bt_dive_state_size (dive), NULL), BT_OK);
+  fly_round_without_memory (dive);
+  free (kept);
+  bt_dive_free (fork);
   bt_dive_free (dive);
 }
 #endif
@@ -739,6 +783,7 @@ main (void)
 #ifdef CAN_COUNT
     cmocka_unit_test (memory_running_out_leaves_the_threads_it_had),
     cmocka_unit_test (shared_steps_allocate_nothing),
+    cmocka_unit_test (no_step_allocates),
 #endif
 #ifndef __SANITIZE_THREAD__
     cmocka_unit_test (a_child_of_the_process),
