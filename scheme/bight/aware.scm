@@ -241,12 +241,15 @@ by the vehicle's hull), at (where the vehicle came to), parted? (whether the tet
 
 (define-verb (free-to-haul? #:subject (t tether) #:key (rate positive 0.4) (pull positive 150.0))
   "Return #t if the dead vehicle comes home when the tether is hauled at RATE m/s with no more than PULL
-newtons: a fork of the dive hauls it.  `haul-prospect' answers at once."
+newtons: a fork of the dive hauls it.  `haul-trial' of the same haul says why not: what held it, where, or that
+the tether parted.  `haul-prospect' answers at once, by rules; where the two differ the haul is right, for it knows
+slack, current, the bed, and a body that rolls off."
   (vector-ref (%haul (this-engine 'free-to-haul?) t rate pull 600.0) 0))
 
 (define-verb (haul-prospect #:subject (t tether) #:key (pull positive 150.0))
   "Return at once what hauling the tether with PULL newtons promises, by rules about the taut string: a list
-(ANSWER REASON OBJECT); ANSWER yes, no or unsure, REASON clear, locked (by friction, or by the vehicle's own
+(ANSWER REASON OBJECT); ANSWER yes, no or unsure (the rules then name what may hold it, and `free-to-haul?' or
+`haul-trial' decides), REASON clear, locked (by friction, or by the vehicle's own
 weight or buoyancy), hung (the vehicle's body on it) or wedged, OBJECT a name or #f."
   (let ((v (%haul-prospect (this-engine 'haul-prospect) t pull)))
     (list (vector-ref v 0) (vector-ref v 1) (vector-ref v 2))))

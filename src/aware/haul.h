@@ -36,7 +36,8 @@ typedef enum bt__answer
 typedef enum bt__haul_reason
 {
   BT__HAUL_CLEAR,  /* nothing is in the way; with BT__UNSURE: nothing that seems to hold */
-  BT__HAUL_LOCKED, /* friction round OBJECT and others eats the winch's pull */
+  BT__HAUL_LOCKED, /* friction round OBJECT and others eats the winch's pull; BT__UNSURE: it just
+                      does */
   BT__HAUL_HUNG,   /* the body hangs on OBJECT */
   BT__HAUL_WEDGED  /* the body does not go through at OBJECT */
 } bt__haul_reason;

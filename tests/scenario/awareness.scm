@@ -427,6 +427,24 @@ place on a slack line; nobody is lifted by his tether."
   (expect (take (haul-prospect) 2) => '(no locked))
   (expect (free-to-haul? #:pull 100) => #f))
 
+(define-scenario (rule-and-haul friction pull)
+  "Twice round a pile: where the rule is sure the haul agrees, where it is not it names what the haul then tells of."
+  #:for ((friction 0.05 0.3 1 2) (pull 60 150))
+  (in (world (sea (depth 60)) (splice (pile 'p1 0 0)) (splice (dead-rov '(-6 6 -5)))
+             (tether (type fathom) (wet-weight 0) (friction friction) (from -6 -6 -5) (to minnow) (length 50)
+                     (via (4 -2 -5) (2 2 -5) (-2 2 -5) (-2 -2 -5) (2 -2 -5) (2 2 -5)) (model dynamic))))
+  (define prospect (haul-prospect #:pull pull))
+  (define trial (haul-trial #:pull pull))
+  (define (told key) (assq-ref trial key))
+  (expect (free-to-haul? #:pull pull) => (told 'home?))
+  (case (first prospect)
+    ((yes) (expect (told 'home?)))
+    ((no) (expect (told 'home?) => #f)))
+  (unless (told 'home?)
+    (expect (second prospect) is (lambda (why) (memq why '(locked hung wedged))))
+    (expect (third prospect) => 'p1)
+    (expect (or (told 'parted?) (eq? 'p1 (told 'object))))))
+
 ;;; What is to come.
 
 (define-scenario forecast
