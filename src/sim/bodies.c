@@ -302,6 +302,8 @@ bt__step_bodies (const bt_dive *dive, bt__state *state, bt_error *error)
   return status;
 }
 
+/* The line took the body for a spring that turns no farther than a small angle: where it turned
+   farther its attachment is not quite at X, and the body is put there.  */
 bt_status
 bt__follow_line (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 x, bt_error *error)
 {
@@ -311,6 +313,9 @@ bt__follow_line (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 x, 
   d->in.pull = bt__grip_pull (&d->grip, x);
   status = bt__rigid_step (type_of (dive, vehicle), &v->body, &d->in, error);
   bt__mirror_body (v);
+  if (status == BT_OK)
+    bt__put_vehicle (v, bt__add (v->position, bt__sub (x, bt__attachment (dive, state, vehicle))),
+                     1);
   return status;
 }
 

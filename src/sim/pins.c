@@ -184,7 +184,7 @@ holds_end (const bt_dive *dive, bt__state *state, int i, bt_vec3 end, bt_vec3 he
 }
 
 /* Draw *AT back to where the ends of the tethers of VEHICLE let it be; nonzero if that is another
-   place.  Where a body follows a line they are as near as the step is exact.  */
+   place.  */
 static int
 draw_back_to_ends (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 before, bt_vec3 *at)
 {
@@ -193,8 +193,7 @@ draw_back_to_ends (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 b
   for (int i = 0; i < dive->model->n_tethers; i++)
     for (int k = 0; k < 2; k++)
       {
-        if (dive->model->ends[i][k].vehicle != vehicle
-            || (k == 1 && bt__carried_vehicle (dive, state, i) == vehicle))
+        if (dive->model->ends[i][k].vehicle != vehicle)
           continue;
         bt_vec3 end = end_of (dive, state, i, k);
         if (!is_at (end, here) && !holds_end (dive, state, i, end, here))
