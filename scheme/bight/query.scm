@@ -116,7 +116,8 @@ part `seabed'."
 
 (define-verb (tether-points #:subject (t tether) #:optional (n points-wanted 0))
   "Return the polyline of the tether from its anchor to the vehicle, an n x 3 array: the model's own
-nodes, or N points equally spaced in arc length, both ends included."
+nodes, or N points equally spaced in arc length, both ends included.  Between nodes a line is read off
+a smooth curve, no piece of which is longer than its line by more than 1 % of it."
   (%tether-points (this-engine 'tether-points) t n))
 
 (define-verb (tether-tail #:subject (t tether))

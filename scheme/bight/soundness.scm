@@ -119,7 +119,8 @@
     (+ (* ds (thesis-linear-stretch answers) (+ 1 (/ (max 0 tension) ea)))
        (sqrt (/ (* 2 ds (max 0 (assq-ref answers 'strain-energy))) ea)))))
 
-;; Of a length: what is read between the nodes of a line follows a smooth curve, which a fold lengthens; the thesis' search ends when height and length are right to half as much.
+;; Of a length: what is read between the nodes of a line follows a smooth curve, which a fold lengthens; the
+;; thesis' search ends when height and length are right to half as much.
 (define most-of-interpolation 1/50)
 (define most-of-search 1/100)
 
@@ -128,6 +129,8 @@
   (case (field answers 'model)
     ((dynamic auto) (min (* 2 (or (assq-ref answers 'error) 0)) (* most-of-interpolation ds)))
     ((steady) (* most-of-interpolation ds))
+    ;; In closed form, unless it floats.
+    ((elastic) (if (negative? (field answers 'wet-weight)) (* most-of-interpolation ds) 0))
     ((catenary-simplex) (* most-of-search ds))
     (else 0)))
 

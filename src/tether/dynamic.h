@@ -206,11 +206,15 @@ void bt__dynamic_cut (const bt__dynamic *d, int j, bt__dynamic *a, bt__dynamic *
 
 /* ---- Questions ---- */
 
-/* Return the point, or the velocity, of D at U metres of rest length from node 0 (clamped), by the
-   cubic through four nodes.  The point is no farther from either node of its interval than there
-   is line between.  */
-bt_vec3 bt__dynamic_point (const bt__dynamic *d, double u);
-bt_vec3 bt__dynamic_velocity (const bt__dynamic *d, double u);
+/* Return how far from node 0, in rest lengths of intervals, is the place S metres along D: what is
+   owed counts as line, but is in no interval yet, so all of them are read as so much longer.  */
+double bt__dynamic_along (const bt__dynamic *d, double s);
+
+/* Return the point, or the velocity, of D at S metres along it from node 0 (clamped), by the cubic
+   through four nodes.  No piece of the curve is longer than its line by more than BT__SMOOTH_SPARE
+   of it.  */
+bt_vec3 bt__dynamic_point (const bt__dynamic *d, double s);
+bt_vec3 bt__dynamic_velocity (const bt__dynamic *d, double s);
 
 /* Return the point at U metres of rest length from node 0 (clamped) on the straight intervals.  */
 bt_vec3 bt__dynamic_chord_point (const bt__dynamic *d, double u);

@@ -3,8 +3,7 @@
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include "tether/dynamic_kernel.h"
-
-#define MOST_TURN 0.5 /* radians in an interval: a line that turns more is not smooth there */
+#include "tether/smooth.h"
 
 /* The largest of their components, two by two, times the root of three.  */
 double
@@ -99,6 +98,12 @@ bt__dynamic_drifted (const bt_vec3 *a, const bt_vec3 *b, int n, bt__dynamic_drif
   drift->apart = bt__norm (bt__add (top, bottom));
 }
 
+double
+bt__dynamic_along (const bt__dynamic *d, double s)
+{
+  return d->owed == 0 ? s : s * (1 - d->owed / bt__dynamic_length (d));
+}
+
 /* The interval that is U metres of rest length from node 0, and to *START where it begins.  */
 static int
 interval_at (const bt__dynamic *d, double u, double *start)
@@ -150,57 +155,38 @@ interpolate (const bt__dynamic *d, const bt_vec3 *a, double u)
   return bt__add (sum, a[first]);
 }
 
-/* The share of the way from C, on a chord, to C + OFF that stays within R of A, where C is.  */
-static double
-share_within (bt_vec3 a, double r, bt_vec3 c, bt_vec3 off)
-{
-  bt_vec3 p = bt__sub (c, a);
-  double q = bt__dot (off, off), b = bt__dot (p, off), f = r * r - bt__dot (p, p);
-  if (!(q + 2 * b > f))
-    return 1;
-  return f > 0 ? (sqrt (b * b + q * f) - b) / q : 0;
-}
-
-/* How much longer, of the length of interval J, a smooth line may be between two of its points than
-   they are apart, judged by its curvature at either node: a smooth cubic through nodes whose chords
-   have the length of the line is longer by about a 24th of the square of its turn.  */
-static double
-arc_allowance (const bt__dynamic *d, int j)
+/* What the cubic about interval J, which begins at START, is off its chord at the share F of it. */
+static bt_vec3
+off_chord (const bt__dynamic *d, int j, double start, double f)
 {
   const bt_vec3 *x = bt__dynamic_x (d);
-  const double *rest = bt__dynamic_rest (d);
-  double most = 0;
-  for (int i = j < 1 ? 1 : j; i <= j + 1 && i < d->n; i++)
-    {
-      bt_vec3 turn = bt__axpy (bt__scale (1 / rest[i], bt__sub (x[i + 1], x[i])), -1 / rest[i - 1],
-                               bt__sub (x[i], x[i - 1]));
-      most = fmax (most, 2 * rest[j] / (rest[i - 1] + rest[i]) * bt__norm (turn));
-    }
-  most = fmin (most, MOST_TURN);
-  return most * most / 16;
+  bt_vec3 c = bt__axpy (x[j], f, bt__sub (x[j + 1], x[j]));
+  return bt__sub (interpolate (d, x, start + f * bt__dynamic_rest (d)[j]), c);
 }
 
-/* A cubic swings out beside nodes that lie unevenly or slack: its point is taken toward the chord
-   as far as the line on either side of the point asks for.  */
+/* What a cubic is off its chord is F (1 - F) (A (1 - F) - B F), with A and B what its
+   derivatives at either end have beyond the chord: known from two places.  */
 bt_vec3
-bt__dynamic_point (const bt__dynamic *d, double u)
+bt__dynamic_point (const bt__dynamic *d, double s)
 {
   const bt_vec3 *x = bt__dynamic_x (d);
-  double start;
+  double start, u = bt__dynamic_along (d, s);
   int j = interval_at (d, u, &start);
-  double rest = bt__dynamic_rest (d)[j], at = fmin (fmax (u - start, 0), rest);
-  bt_vec3 chord = bt__sub (x[j + 1], x[j]), c = bt__axpy (x[j], at / rest, chord);
-  bt_vec3 off = bt__sub (interpolate (d, x, u), c);
-  double reach = fmax (1, bt__norm (chord) / rest) * (1 + arc_allowance (d, j));
-  double before = share_within (x[j], at * reach, c, off),
-         after = share_within (x[j + 1], (rest - at) * reach, c, off);
-  return bt__axpy (c, fmin (before, after), off);
+  double rest = bt__dynamic_rest (d)[j], f = fmin (fmax (u - start, 0) / rest, 1);
+  bt_vec3 chord = bt__sub (x[j + 1], x[j]), p = bt__axpy (x[j], f, chord);
+  if (f == 0 || f == 1)
+    return p;
+  bt_vec3 one = bt__scale (4.5, off_chord (d, j, start, 1.0 / 3)),
+          two = bt__scale (4.5, off_chord (d, j, start, 2.0 / 3));
+  bt_vec3 a = bt__axpy (bt__scale (2, one), -1, two), b = bt__axpy (one, -2, two);
+  double share = bt__smooth_share (chord, a, b, rest);
+  return bt__axpy (p, share * f * (1 - f), bt__axpy (bt__scale (1 - f, a), -f, b));
 }
 
 bt_vec3
-bt__dynamic_velocity (const bt__dynamic *d, double u)
+bt__dynamic_velocity (const bt__dynamic *d, double s)
 {
-  return interpolate (d, bt__dynamic_v (d), u);
+  return interpolate (d, bt__dynamic_v (d), bt__dynamic_along (d, s));
 }
 
 double

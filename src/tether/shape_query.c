@@ -7,6 +7,7 @@
 
 #include "math/vec.h"
 #include "tether/shape.h"
+#include "tether/smooth.h"
 
 static const bt_vec3 down = { 0, 0, -1 };
 
@@ -94,8 +95,10 @@ piece_of (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions,
   bt_vec3 along = bt__unit_or (p.chord, down);
   bt_vec3 t = bt__unit_or (tensions[p.i], along), u = bt__unit_or (tensions[p.i + 1], along);
   double turn = bt__distance (t, u), arc = bt__norm (p.chord) * (1 + turn * turn / 24);
-  p.dp = bt__scale (arc, t);
-  p.dq = bt__scale (arc, u);
+  bt_vec3 a = bt__sub (bt__scale (arc, t), p.chord), b = bt__sub (bt__scale (arc, u), p.chord);
+  double share = bt__smooth_share (p.chord, a, b, shape->length / (double)shape->n);
+  p.dp = bt__axpy (p.chord, share, a);
+  p.dq = bt__axpy (p.chord, share, b);
   return p;
 }
 

@@ -109,6 +109,7 @@ chain_tension (const bt__dynamic *chain, double s)
   const double *rest = bt__dynamic_rest (chain);
   int i = 0, last = (int)chain->n - 1;
   double k, t0, t1;
+  s = bt__dynamic_along (chain, s);
   for (; i < last && s > rest[i]; i++)
     s -= rest[i];
   k = fmax (0, fmin (1, s / rest[i]));
