@@ -1,0 +1,103 @@
+;;; The ends of tethers, and what is read between their nodes.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(use-modules (bight soundness)
+             (srfi srfi-1))
+
+(define (unsound-tethers)
+  ;; What the laws of a single tether find in the present dive.
+  (filter-map (lambda (name) (judge-tether (tether-answers name))) (tether-names)))
+
+(define (unsound-while seconds)
+  ;; The same after each step of so many SECONDS, what was found first.
+  (let ((wrong '()))
+    (run-until (lambda () (set! wrong (unsound-tethers)) (pair? wrong)) #:at-most seconds)
+    wrong))
+
+(define-scenario (few-nodes model nodes x)
+  "A line that is folded between few nodes is read no longer than it is."
+  #:for ((model 'dynamic 'auto 'steady) (nodes 2 4 7) (x 1 12))
+  (enter! (world (sea (current 0.3 60))
+                 (rov (named r1) (at x 0 -6))
+                 (tether (named t1) (from 0 0 -5) (to r1) (length 26) (wet-weight 0.4)
+                         (nodes nodes) (model ,model))))
+  (expect (unsound-tethers) => '())
+  (fly-to! 'r1 (vec 4 6 -9) #:speed 2)
+  (expect (unsound-while 3) => '()))
+
+(define-scenario an-arch-that-was-laid-on-the-water
+  "An elastic line that floats is read no longer than it is where it bends down from the water."
+  (enter! (world (sea)
+                 (rov (named r1) (at 6 2 -6))
+                 (tether (named t1) (from 0 0 -5) (to r1) (length 36) (wet-weight -0.17) (model elastic))))
+  (expect (unsound-tethers) => '()))
+
+(define-scenario paid-out-fast
+  "While its winch runs fast a line begins and ends where it is made fast: what its winch owes it yet is read
+along all of it."
+  (enter! (world (sea (current 0.4 180))
+                 (rov (named r1) (at 5 0 -6))
+                 (tether (named t1) (from 0 0 -5) (to r1) (length 20) (model dynamic) (clump (at 8) (mass 0.2)))))
+  (run 1)
+  (pay-out! 't1 20 #:rate 3)
+  (expect (unsound-while 2) => '())
+  (fly-to! 'r1 (vec 25 3 -9) #:speed 3)
+  (expect (unsound-while 5) => '())
+  (haul-in! 't1 20 #:rate 2)
+  (expect (unsound-while 5) => '()))
+
+(define-syntax-rule (with-lines other ...)
+  ;; A line t1 to a vehicle r1, and others.
+  (world (sea)
+         (box (at 3 9 -9) (size 1 1 1))
+         (rov (named r1) (at 0 0 -8) (pull 400))
+         (tether (named t1) (from -6 -3 -7) (to r1) (length 10) (wet-weight 0.3) (model dynamic))
+         other ...))
+
+(define (pulls-in world)
+  ;; The tensions of t1, step by step, while its vehicle goes about and its winch hauls.
+  (enter! world)
+  (let ((pulls '()) (wrong '()))
+    (define (go-on seconds)
+      (run-until (lambda ()
+                   (set! pulls (cons (max-tension 't1) pulls))
+                   (set! wrong (append (unsound-tethers) wrong))
+                   #f)
+                 #:at-most seconds))
+    (go-on 1)
+    (fly-to! 'r1 (vec 1 1 -7) #:speed 1/2)
+    (go-on 3)
+    (haul-in! 't1 1/2 #:rate 1/2)
+    (go-on 2)
+    (expect wrong => '())
+    pulls))
+
+(define-scenario a-vehicle-with-several-lines
+  "Lines that are made fast to one vehicle meet there by being made fast, not by contact: a line pulls as it
+does alone."
+  (define alone (pulls-in (with-lines)))
+  (define beside
+    (pulls-in (with-lines (tether (named t2) (from -6 4 -7) (to r1) (length 11) (wet-weight 0.3) (model dynamic))
+                          (tether (named t3) (from 1 8 -8) (to r1) (length 12) (wet-weight 0.2) (model auto)))))
+  (expect (length beside) => (length alone))
+  (expect (fold max 0 (map (lambda (a b) (abs (- a b))) alone beside)) is (below 0.1)))
+
+(define-scenario an-anchor-of-two-lines
+  "The same of lines that begin at one point."
+  (define alone (pulls-in (with-lines)))
+  (define beside
+    (pulls-in (with-lines (rov (named r2) (at -8 2 -8))
+                          (tether (named t2) (from -6 -3 -7) (to r2) (length 11) (wet-weight 0.3)
+                                  (model dynamic)))))
+  (expect (fold max 0 (map (lambda (a b) (abs (- a b))) alone beside)) is (below 0.1)))
+
+(define-scenario a-body-is-where-its-line-ends
+  "A vehicle with mass that is jerked round by its line stays at the line's end."
+  (enter! (world (sea)
+                 (rov (named r1) (type bluerov2-heavy-wu) (at 0 0 -6))
+                 (tether (named t1) (from -8 0 -5) (to r1) (length 8.5) (model dynamic))))
+  (fly-to! 'r1 (vec 0 3 -6) #:speed 3)
+  (run 2)
+  (haul-in! 't1 4 #:rate 3)
+  (expect (unsound-while 4) => '()))
