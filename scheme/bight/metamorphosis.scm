@@ -125,12 +125,13 @@ its cube; water and gravity stay."
   ;; A place without a heading is turned only if the body is round.
   (unless (or (memq (change-name change) '(moved scaled)) (eq? head 'sphere))
     (unchangeable change (simple-format #f "~a that moves" (head-title head))))
+  (define headings? (not (any (lambda (row) (any nan? row)) (array->list rows))))
   (list->typed-array
    'f64 2
    (map (lambda (row)
           (append (list (changed-number change "s" (first row)))
                   (f64vector->list (changed-point change (row->vec (take (cdr row) 3))))
-                  (list-tail row 4)))
+                  (if headings? (list-tail row 4) '()))) ; a ball turns unseen; rows without a heading have NaN
         (array->list rows))))
 
 (define (changed-file change head value)
