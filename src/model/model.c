@@ -26,21 +26,6 @@ bt_tether_props_complete (bt_tether_props *props, double density, double gravity
         = fmax (displaced + (gravity > 0 ? props->wet_weight / gravity : 0), 0.01 * displaced);
 }
 
-bt_status
-bt__check_buoyancy (const bt_tether_props *props, double density, double gravity, const char *name,
-                    bt_error *error)
-{
-  double area = BT__PI / 4 * props->diameter * props->diameter;
-  double most = fmax (density, 1025) * area * fmax (gravity, 9.80665);
-  if (props->wet_weight >= -most)
-    return BT_OK;
-  return bt__fail (
-      error, BT_ERR_DOMAIN,
-      "tether `%s' weighs %g N/m in water, but with a diameter of %g m it displaces no "
-      "more than %.3g N/m of it",
-      name, props->wet_weight, props->diameter, most);
-}
-
 /* ---- The parts together ---- */
 
 static int
@@ -200,9 +185,6 @@ compile_tether (bt_model *model, int i, bt_error *error)
       bt_tether_props_complete (&tether->props, model->sea.density, model->sea.gravity);
       status = bt__check_def (bt_head_find ("tether"), tether->name, tether, error);
     }
-  if (status == BT_OK)
-    status = bt__check_buoyancy (&tether->props, model->sea.density, model->sea.gravity,
-                                 tether->name, error);
   if (status == BT_OK)
     status = check_figures (tether, error);
   if (status == BT_OK)

@@ -64,11 +64,6 @@ struct bt_model
    newtons: the length, and more if it stretches, up to its breaking load or a tenth.  */
 double bt__longest_chord (const bt_tether_props *props, double length, double pull);
 
-/* Check that a line of PROPS, complete, is not lighter than the water it displaces: of DENSITY, or
-   sea water, under GRAVITY, or the Earth's, whichever is more.  NAME is the tether's.  */
-bt_status bt__check_buoyancy (const bt_tether_props *props, double density, double gravity,
-                              const char *name, bt_error *error);
-
 /* The points of the line that tether I is laid along: its anchor, those of `via', its far end; at
    most BT_VIA_MAX + 2.  Return how many.  */
 int bt__lay_points (const bt_model *model, int i, bt_vec3 *points);

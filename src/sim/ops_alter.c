@@ -81,10 +81,6 @@ alter_tether (const bt__call *c)
                      "the tether has clumps or floats: only `dynamic' and `auto' move it");
   forget_follower (field, &def.props);
   bt_tether_props_complete (&def.props, c->state->density, c->state->gravity);
-  status = bt__check_buoyancy (&def.props, c->state->density, c->state->gravity,
-                               c->dive->model->tethers[c->subject].name, c->error);
-  if (status != BT_OK)
-    return status;
   ends = bt__tether_ends (c->dive, c->state, c->subject);
   if (!tether->parted
       && bt__distance (ends.a, ends.b)

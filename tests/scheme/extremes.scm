@@ -145,9 +145,6 @@
                (tether (type fathom) (from 0 0 -5) (to minnow) (length 8) (nodes 2000))))
   (told "posts"
         (world (seabed (grid (lambda (x y) -50) (from 0 0) (to 4000 4000) (spacing 1))) (rov (at 0 0 -5))))
-  (told "displaces"
-        (world (rov (named minnow) (at 5 0 -5))
-               (tether (type fathom) (from 0 0 -5) (to minnow) (length 8) (wet-weight -5))))
   (told "stretches"
         (world (rov (named minnow) (at 5 0 -5))
                (tether (from 0 0 -5) (to minnow) (length 1e5) (diameter 0.5) (mass 3000) (ea 1e5)))))

@@ -123,7 +123,7 @@ other_models_with_few_nodes (void **state)
         add_post (&s, "cylinder", "rod", bt__vec (1, -2, 0), bt__vec (0, 0, 1), 0.05);
         add_post (&s, "capsule", "stay", bt__vec (-3, 0, -9), bt__vec (0.6, 0, 0.8), 0.03);
         s.tether[0].props.nodes = nodes[k];
-        s.tether[0].props.wet_weight = 0.4 * ((int)k % 3 - 1);
+        s.tether[0].props.wet_weight = 2 * ((int)k % 3 - 1);
         fly (&s, 5700 + 8 * k + (uint64_t)model,
              (habits){ .winch = 1, .models = 3, .jumps = model % 2 }, 24, 12, model_names[model]);
       }
