@@ -16,7 +16,8 @@ enum
 
 #define WITHIN 0.02 /* of what links must keep: nearer, and they are within each other */
 
-/* Metres of line O from its link J to its end E.  */
+/* Metres of line O from its link J to its end E; counted anew, for a line that is far from itself
+   has not noted how far its nodes are from its end.  */
 static double
 way_to_end (const bt__dynamic *o, uint32_t j, int e)
 {
@@ -37,8 +38,7 @@ bt__self_between (const bt__line_job *k, int strand, uint32_t i, uint32_t j)
   const bt__strand *o = k->config->strand + strand;
   for (int e = 0; e < 2; e++)
     if (o->shared[e])
-      least = fmin (least, (e ? from_end[i + 1] : from_end[0] - from_end[i])
-                               + way_to_end (o->line, j, o->shared[e] - 1));
+      least = fmin (least, way_to_end (k->d, i, e) + way_to_end (o->line, j, o->shared[e] - 1));
   return least;
 }
 
