@@ -8,7 +8,8 @@
    come to, and from then on no other can touch; of those listed all are passed over whose distance
    is not yet used up.
 
-   Which pairs are told never depends on when was looked, so that this saves time alone.
+   Which pairs touch and which can meet never depends on when the line was looked at, so that a look
+   saves time alone.
 
    There is room for so many pairs.  Where there are more the whole move is made shorter, until no
    more than there is room for can meet, or nothing moves, which is safe.
@@ -69,6 +70,16 @@ is_clear (bt__line_job *k)
   return is_ahead (k);
 }
 
+/* True if the line met itself or another line in the step.  */
+static int
+met_a_line (const bt__line_job *k)
+{
+  for (int q = 0; q < k->rows; q++)
+    if (k->w->of[q].mover == BT__LINE_SELF)
+      return 1;
+  return 0;
+}
+
 void
 bt__self_note (bt__line_job *k)
 {
@@ -76,7 +87,7 @@ bt__self_note (bt__line_job *k)
   bt__dynamic *d = k->d;
   d->spare.turned = self->clear ? fmax (d->spare.turned, 0) : 0;
   d->spare.apart = self->clear ? fmax (d->spare.apart, 0) : 0;
-  d->wait = self->clear ? 0 : self->pairs > 0 ? 1 : d->wait > 0 ? d->wait - 1 : AGAIN;
+  d->wait = self->clear ? 0 : met_a_line (k) ? 1 : d->wait > 0 ? d->wait - 1 : AGAIN;
 }
 
 /* ---- What is known of a line and itself ---- */
@@ -282,6 +293,18 @@ is_far (bt__line_job *k)
          && are_others_far (k, NULL);
 }
 
+/* True if a listed pair touches, or is of another line.  How many of the line's own pairs are listed
+   that are farther apart depends on when the line was looked at, which no result may depend on.  */
+static int
+is_near_a_line (const bt__line_job *k)
+{
+  const bt__self *self = &k->w->self;
+  for (int n = 0; n < self->pairs; n++)
+    if (self->pair[n].strand >= 0 || self->pair[n].w.distance < 2 * bt__self_touching (k))
+      return 1;
+  return 0;
+}
+
 int
 bt__self_watch (bt__line_job *k)
 {
@@ -292,7 +315,7 @@ bt__self_watch (bt__line_job *k)
   for (int i = 0; i <= k->links; i++)
     self->move[i] = expected (k, bt__norm (bt__dynamic_dx (k->d)[i]));
   list (k, NULL, known ? &self->drift : NULL); /* of what finds no room there is no row */
-  return self->pairs > 0;
+  return is_near_a_line (k);
 }
 
 int
