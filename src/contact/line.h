@@ -131,6 +131,8 @@ typedef struct bt__strand
   double radius, core, friction;
   double inertia; /* kg/m: mass and added mass */
   int yields;     /* nonzero: it has its step yet to come, and will give way */
+  int shared[2];  /* for either end of the line that touches it: 0, or one more than the number of
+                     this one's end that is made fast at the same place */
 } bt__strand;
 
 typedef struct bt__line_config

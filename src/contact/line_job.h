@@ -280,8 +280,13 @@ bt__self_second (const bt__line_job *k, const bt_vec3 *x, const bt__self_pair *p
                         p->j);
 }
 
-/* The least distance that links I and J, I before J, of the line must keep.  */
-double bt__self_floor (const bt__line_job *k, uint32_t i, uint32_t j);
+/* Metres of line between links I and J, I before J, of the line; between its link I and link J of
+   STRAND, if that is not negative: round by an end that both lines have at the same place, infinite
+   if they have none.  */
+double bt__self_between (const bt__line_job *k, int strand, uint32_t i, uint32_t j);
+
+/* The least distance that the same links must keep.  */
+double bt__self_floor (const bt__line_job *k, int strand, uint32_t i, uint32_t j);
 
 /* The same for links that start at DISTANCE.  */
 double bt__self_lowered (double floor, double distance);

@@ -205,7 +205,7 @@ meets (bt__line_job *k, uint32_t j, int e, bt_vec3 move, int strand, uint32_t q)
   meeting m = { .a = bt__line_link (x, j),
                 .b = bt__self_second (k, x, &(bt__self_pair){ .j = q, .strand = strand }) };
   m.da[e] = move;
-  m.floor = strand < 0 ? bt__self_floor (k, p.i, p.j) : k->core + k->config->strand[strand].core;
+  m.floor = bt__self_floor (k, strand, p.i, p.j);
   m.w = bt__self_witness (&m.a, &m.b);
   m.floor = bt__self_lowered (m.floor, m.w.distance);
   return run (&m, k->count) < 1;

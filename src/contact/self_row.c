@@ -14,7 +14,8 @@
    nearest places may be others, and of two that change by turns a knot would never come to rest.
 
    Links with little line between them are bent about each other by that; what keeps those apart is
-   not contact.
+   not contact.  Of two lines that are made fast at one place the line between two links is what
+   leads from the one to that place and from there to the other.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -182,7 +183,7 @@ bt__self_rows (bt__line_job *k)
     {
       const bt__self_pair *p = self->pair + n;
       double touch = k->config->radius + radius_of (k, p) + k->margin;
-      double way = p->strand < 0 ? k->w->from_end[p->i + 1] - k->w->from_end[p->j] : INFINITY;
+      double way = bt__self_between (k, p->strand, p->i, p->j);
       if (!(p->w.distance < touch) || way < APART * k->config->radius)
         continue;
       bt__link second = bt__self_second (k, k->x, p);

@@ -16,10 +16,45 @@ enum
 
 #define WITHIN 0.02 /* of what links must keep: nearer, and they are within each other */
 
-double
-bt__self_floor (const bt__line_job *k, uint32_t i, uint32_t j)
+/* Metres of line O from its link J to its end E; counted anew, for a line that is far from itself
+   has not noted how far its nodes are from its end.  */
+static double
+way_to_end (const bt__dynamic *o, uint32_t j, int e)
 {
-  return fmin (2 * k->core, BT__SELF_ALONG * (k->w->from_end[i + 1] - k->w->from_end[j]));
+  const double *rest = bt__dynamic_rest (o);
+  double sum = 0;
+  for (int64_t q = e ? j + 1 : 0; q < (e ? o->n : (int64_t)j); q++)
+    sum += rest[q];
+  return sum;
+}
+
+double
+bt__self_between (const bt__line_job *k, int strand, uint32_t i, uint32_t j)
+{
+  const double *from_end = k->w->from_end;
+  double least = INFINITY;
+  if (strand < 0)
+    return from_end[i + 1] - from_end[j];
+  const bt__strand *o = k->config->strand + strand;
+  for (int e = 0; e < 2; e++)
+    if (o->shared[e])
+      least = fmin (least, way_to_end (k->d, i, e) + way_to_end (o->line, j, o->shared[e] - 1));
+  return least;
+}
+
+double
+bt__self_floor (const bt__line_job *k, int strand, uint32_t i, uint32_t j)
+{
+  double other = strand < 0 ? k->core : k->config->strand[strand].core * (1 + BT__SELF_CLOSE);
+  return fmin (k->core + other, BT__SELF_ALONG * bt__self_between (k, strand, i, j));
+}
+
+/* True if links I and J of two lines meet at an end that the lines share, as neighbours in one line
+   meet at their node.  */
+static int
+are_neighbours (const bt__self_search *s, int i, int j)
+{
+  return s->strand >= 0 && !(bt__self_between (s->k, s->strand, (uint32_t)i, (uint32_t)j) > 0);
 }
 
 /* Links that start nearer may come nearer yet by half, so that they can get away from each other,
@@ -139,7 +174,7 @@ bt__self_add (bt__self_search *s, int i, int j)
   bt__link a = bt__line_link (s->own.x, (uint32_t)i), b = bt__line_link (s->its.x, (uint32_t)j);
   double reach = reach_of (&s->own, i) + reach_of (&s->its, j);
   k->report->pairs++;
-  if (!(bt__self_distance (&a, &b) <= reach))
+  if (!(bt__self_distance (&a, &b) <= reach) || are_neighbours (s, i, j))
     return;
   if (all->pairs == all->room)
     {
@@ -149,8 +184,7 @@ bt__self_add (bt__self_search *s, int i, int j)
   bt__self_pair *p = all->pair + all->pairs++;
   *p = (bt__self_pair){ .i = (uint32_t)i, .j = (uint32_t)j, .strand = s->strand };
   p->w = bt__self_witness (&a, &b);
-  p->floor = s->strand < 0 ? bt__self_floor (k, p->i, p->j)
-                           : k->core + k->config->strand[s->strand].core * (1 + BT__SELF_CLOSE);
+  p->floor = bt__self_floor (k, s->strand, p->i, p->j);
   k->report->overlaps += p->w.distance < p->floor;
   p->floor = bt__self_lowered (p->floor, p->w.distance);
 }
@@ -186,7 +220,7 @@ look_at (bt__self_search *s, int i, int j)
     bt__self_add (s, i, j);
   else if (s->what == BT__SELF_KNOWN)
     add_known (s, i, j);
-  else
+  else if (!are_neighbours (s, i, j))
     {
       bt__link a = bt__line_link (s->own.x, (uint32_t)i), b = bt__line_link (s->its.x, (uint32_t)j);
       double near = s->strand < 0 ? bt__self_touching (s->k) : s->its.thick;

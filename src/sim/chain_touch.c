@@ -13,6 +13,7 @@
 
 #include <math.h>
 
+#include "math/vec.h"
 #include "sim/around.h"
 #include "sim/chain.h"
 #include "world/obstacles.h"
@@ -51,6 +52,39 @@ yields (const bt_dive *dive, const bt__state *state, int i, int part, const bt__
          && other->quiet < BT__SLEEP_AFTER;
 }
 
+/* True if PART of tether I has the end E of the tether that is made fast.  */
+static int
+has_end (const bt_dive *dive, bt__state *state, int i, int part, int e)
+{
+  return part == (e && bt__dive_tether (dive, state, i)->parted);
+}
+
+/* True if end E of tether I and end F of tether J are made fast at the same place: at one vehicle,
+   or at fixed points no farther apart than the lines are thick.  */
+static int
+are_made_fast_together (const bt_dive *dive, int i, int e, int j, int f)
+{
+  const bt_model *model = dive->model;
+  const bt__end *a = &model->ends[i][e], *b = &model->ends[j][f];
+  const bt_tether_def *p = &model->tethers[i], *q = &model->tethers[j];
+  if (a->vehicle >= 0 || b->vehicle >= 0)
+    return a->vehicle == b->vehicle;
+  return bt__distance (a->at, b->at) <= 0.5 * (p->props.diameter + q->props.diameter)
+         && bt__distance (p->ride, q->ride) == 0;
+}
+
+/* Tell STRAND, which is part K of tether J, which ends it has where PART of tether I has one.  */
+static void
+share_ends (const bt_dive *dive, bt__state *state, int i, int part, int j, int k,
+            bt__strand *strand)
+{
+  for (int e = 0; e < 2; e++)
+    for (int f = 0; f < 2 && i != j; f++)
+      if (has_end (dive, state, i, part, e) && has_end (dive, state, j, k, f)
+          && are_made_fast_together (dive, i, e, j, f))
+        strand->shared[e] = f + 1;
+}
+
 /* Put the moving lines that PART of tether I touches among the dive's strands; return how many
    there are.  */
 static int
@@ -65,16 +99,19 @@ gather_strands (const bt_dive *dive, bt__state *state, int i, int part)
         continue;
       for (int k = 0; k <= (other->parted != 0); k++)
         if (j != i || k != part)
-          dive->shore.strand[n++]
-              = (bt__strand){ .line = bt__dive_chain (dive, from, j, k),
-                              .anchors = bt__dive_anchors (dive, from, j, k),
-                              .box = j == i ? NULL : dive->shore.box + 2 * j + k,
-                              .inertia = inertia_of (state, &other->props),
-                              .yields = yields (dive, state, i, part, other, j, k),
-                              .id = dive->model->n_obstacles + j,
-                              .radius = other->props.diameter / 2,
-                              .core = bt__core (other->props.diameter),
-                              .friction = other->props.friction };
+          {
+            bt__strand *strand = dive->shore.strand + n++;
+            *strand = (bt__strand){ .line = bt__dive_chain (dive, from, j, k),
+                                    .anchors = bt__dive_anchors (dive, from, j, k),
+                                    .box = j == i ? NULL : dive->shore.box + 2 * j + k,
+                                    .inertia = inertia_of (state, &other->props),
+                                    .yields = yields (dive, state, i, part, other, j, k),
+                                    .id = dive->model->n_obstacles + j,
+                                    .radius = other->props.diameter / 2,
+                                    .core = bt__core (other->props.diameter),
+                                    .friction = other->props.friction };
+            share_ends (dive, state, i, part, j, k, strand);
+          }
     }
   return n;
 }
@@ -145,8 +182,8 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
 {
   bt__anchors *anchors = bt__dive_anchors (dive, state, i, part);
   int among = bt__has_obstacles (dive);
-  bt__surroundings around
-      = among ? bt__surround (dive, state, BT_PART_TETHER, i) : (bt__surroundings){ .scene = dive->model->scene };
+  bt__surroundings around = among ? bt__surround (dive, state, BT_PART_TETHER, i)
+                                  : (bt__surroundings){ .scene = dive->model->scene };
   bt__line_config config = config_of (dive, state, i, part);
   bt__line_report touch = { 0 };
   bt_status status;

@@ -47,6 +47,51 @@ along all of it."
   (haul-in! 't1 20 #:rate 2)
   (expect (unsound-while 5) => '()))
 
+(define-syntax-rule (with-lines other ...)
+  ;; A line t1 to a vehicle r1, and others.
+  (world (sea)
+         (box (at 3 9 -9) (size 1 1 1))
+         (rov (named r1) (at 0 0 -8) (pull 400))
+         (tether (named t1) (from -6 -3 -7) (to r1) (length 10) (wet-weight 0.3) (model dynamic))
+         other ...))
+
+(define (pulls-in world)
+  ;; The tensions of t1, step by step, while its vehicle goes about and its winch hauls.
+  (enter! world)
+  (let ((pulls '()) (wrong '()))
+    (define (go-on seconds)
+      (run-until (lambda ()
+                   (set! pulls (cons (max-tension 't1) pulls))
+                   (set! wrong (append (unsound-tethers) wrong))
+                   #f)
+                 #:at-most seconds))
+    (go-on 1)
+    (fly-to! 'r1 (vec 1 1 -7) #:speed 1/2)
+    (go-on 3)
+    (haul-in! 't1 1/2 #:rate 1/2)
+    (go-on 2)
+    (expect wrong => '())
+    pulls))
+
+(define-scenario a-vehicle-with-several-lines
+  "Lines that are made fast to one vehicle meet there by being made fast, not by contact: a line pulls as it
+does alone."
+  (define alone (pulls-in (with-lines)))
+  (define beside
+    (pulls-in (with-lines (tether (named t2) (from -6 4 -7) (to r1) (length 11) (wet-weight 0.3) (model dynamic))
+                          (tether (named t3) (from 1 8 -8) (to r1) (length 12) (wet-weight 0.2) (model auto)))))
+  (expect (length beside) => (length alone))
+  (expect (fold max 0 (map (lambda (a b) (abs (- a b))) alone beside)) is (below 0.1)))
+
+(define-scenario an-anchor-of-two-lines
+  "The same of lines that begin at one point."
+  (define alone (pulls-in (with-lines)))
+  (define beside
+    (pulls-in (with-lines (rov (named r2) (at -8 2 -8))
+                          (tether (named t2) (from -6 -3 -7) (to r2) (length 11) (wet-weight 0.3)
+                                  (model dynamic)))))
+  (expect (fold max 0 (map (lambda (a b) (abs (- a b))) alone beside)) is (below 0.1)))
+
 (define-scenario a-body-is-where-its-line-ends
   "A vehicle with mass that is jerked round by its line stays at the line's end."
   (enter! (world (sea)

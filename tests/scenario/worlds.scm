@@ -21,9 +21,7 @@
 ;; Faults that are known and not mended: (WILD? NUMBER WHY).  The dives are flown nevertheless and what they
 ;; find is printed; one that is sound by now must be taken off the list.
 (define known-faults
-  '((#f 3 "several moving lines at one vehicle: contact pushes them apart at the end they share")
-    (#f 6 "the same: the push gives them energy")
-    (#f 13 "steady: where the current changes all at once, links of a slack neutral line are longer than \
+  '((#f 13 "steady: where the current changes all at once, links of a slack neutral line are longer than \
 their tension explains; why is not known")))
 
 (define (known wild?)
