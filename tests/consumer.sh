@@ -31,6 +31,15 @@ check 'a C11 program compiles' \
 check 'and links' link $CC "$scratch/c.o" -o "$scratch/consumer-c"
 check 'and runs' "$scratch/consumer-c"
 
+check "the manual's program compiles" \
+  $CC -std=c11 $strict "$include" -c "$top_srcdir/tests/consumer/flight.c" -o "$scratch/flight.o"
+check 'and links' link $CC "$scratch/flight.o" -o "$scratch/flight"
+check 'and runs' "$scratch/flight"
+sed -n '/^#include <math/,$p' "$top_srcdir/tests/consumer/flight.c" >"$scratch/flight.c"
+sed -n '/^@example c$/,/^@end example$/{/^@example c$/d;/^@end example$/d;s/@\([@{}]\)/\1/g;p}' \
+  "$top_srcdir/doc/library.texi" >"$scratch/shown.c"
+check 'and is what the manual shows' diff "$scratch/shown.c" "$scratch/flight.c"
+
 if [ -n "$CXX" ]; then
   check 'a C++17 program compiles' \
     $CXX -std=c++17 $strict "$include" -c "$top_srcdir/tests/consumer/consumer.cc" -o "$scratch/cc.o"

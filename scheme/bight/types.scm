@@ -94,43 +94,14 @@
 
 ;;; Types that come with bight.
 
-(define-tether-type fathom
-  "Blue Robotics Fathom R2: 7.6 mm, floats a little in the sea; stiffness, friction, bend estimates."
-  (diameter 0.0076) (mass 0.043) (breaking-load 1557)
-  (cdn 1.2) (cdt 0.01) (ca 1)
-  (ea 1e5) (friction 0.3) (min-bend-radius 0.05))
-
-(define-tether-type fathom-slim
-  "Blue Robotics Fathom Slim: 4 mm, one pair; all but the diameter estimates."
-  (like fathom)
-  (diameter 0.004) (mass 0.014) (breaking-load 785) (ea 5e4) (min-bend-radius 0.03))
-
-(define-tether-type falcon
-  "Seaeye Falcon umbilical: 14.5 mm, neutral; estimates throughout."
-  (like fathom)
-  (diameter 0.0145) (wet-weight 0) (breaking-load 5000) (ea 2e5) (min-bend-radius 0.1))
-
-(define-tether-type cat5e
-  "Direct-burial network cable: 0.0285 N/m weighed in the sea; the rest estimates."
-  (like fathom)
-  (diameter 0.006) (wet-weight 0.0285) (breaking-load 200) (ea 5e4) (min-bend-radius 0.04))
-
-(define-tether-type work-umbilical
-  "Armoured umbilical of a work-class vehicle: 30 mm, 2.5 kg/m; estimates from typical ranges."
-  (diameter 0.030) (mass 2.5) (breaking-load 250000)
-  (cdn 1.5) (cdt 0.01) (ca 1)
-  (ea 1e7) (friction 0.3) (min-bend-radius 0.5))
-
-(define-tether-type leaded-rope
-  "Leaded rope, cable 6 of the Toulon experiments (Filliung 2024), fitted; strength, stiffness estimates."
-  (diameter 0.0035) (mass 0.0517) (wet-weight 0.40) (breaking-load 1000)
-  (cdn 1.3) (cdt 0.01) (ca 1)
-  (ea 5e4) (friction 0.3) (min-bend-radius 0.02))
-
 (define-vehicle kinematic
   "A vehicle without forces: it goes exactly where it is told.")
 
 ;; Those whose figures the engine has.
-(for-each (lambda (type)
-            (add-part-type! (make-part-type 'rov (first type) (second type) (third type))))
-          (%vehicle-types))
+(define (add-types! head types)
+  (for-each (lambda (type)
+              (add-part-type! (make-part-type head (first type) (second type) (third type))))
+            types))
+
+(add-types! 'tether (%tether-types))
+(add-types! 'rov (%vehicle-types))

@@ -17,6 +17,7 @@
 #include <bight/status.h>
 #include <bight/tether.h>
 #include <bight/vec.h>
+#include <bight/verbs.h>
 #include <bight/view.h>
 #include <bight/water.h>
 

@@ -263,6 +263,8 @@ const bt_head *bt_heads (size_t *n);
 /* Return the head or field called NAME, or NULL.  */
 const bt_head *bt_head_find (const char *name);
 const bt_field *bt_field_find (const bt_head *head, const char *name);
+/* Write to *VALUE the number that WORD stands for in FIELD.  BT_ERR_NAME lists the words it takes.  */
+bt_status bt_word_value (const bt_field *field, const char *word, double *value, bt_error *error);
 /* Return the head of obstacles of KIND, or NULL.  */
 const bt_head *bt_obstacle_head (bt_obstacle_kind kind);
 
@@ -288,7 +290,7 @@ bt_status bt_def_set_grid (const bt_field *field, void *def, const bt_heights *g
 /* Copy NAME (1 to BT_NAME_SIZE - 1 bytes) to NAME_FIELD, which has BT_NAME_SIZE bytes.  */
 bt_status bt_def_set_name (char *name_field, const char *name, bt_error *error);
 
-/* ---- Vehicles that come with the engine ---- */
+/* ---- Vehicles and tethers that come with the engine ---- */
 
 /* Return the name of the I-th type of vehicle, what it is and where its figures come from, or
    NULL beyond the last.  */
@@ -298,6 +300,11 @@ const char *bt_vehicle_type_text (int i);
 /* Give DEF the figures of the type called NAME, leaving the rest as it is.  BT_ERR_NAME lists the
    types.  */
 bt_status bt_def_set_vehicle_type (bt_vehicle_def *def, const char *name, bt_error *error);
+
+/* The same for tethers: diameter, weight, stiffness, strength, drag and friction.  */
+const char *bt_tether_type_name (int i);
+const char *bt_tether_type_text (int i);
+bt_status bt_def_set_tether_type (bt_tether_def *def, const char *name, bt_error *error);
 
 /* ---- The model ---- */
 

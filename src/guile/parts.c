@@ -383,6 +383,27 @@ vehicle_types (void)
 }
 
 static SCM
+tether_types (void)
+{
+  const bt_head *tether = bt_head_find ("tether");
+  SCM list = SCM_EOL;
+  for (int i = 0; bt_tether_type_name (i); i++)
+    {
+      bt_tether_def def, born;
+      bt_error error;
+      bt_def_init (tether, &def);
+      born = def;
+      bt__check ("tether-types", bt_def_set_tether_type (&def, bt_tether_type_name (i), &error),
+                 &error);
+      list = scm_cons (scm_list_3 (scm_from_utf8_symbol (bt_tether_type_name (i)),
+                                   scm_from_utf8_string (bt_tether_type_text (i)),
+                                   from_fields (tether, &def, &born, SCM_EOL)),
+                       list);
+    }
+  return scm_reverse_x (list, SCM_EOL);
+}
+
+static SCM
 version (void)
 {
   return scm_from_utf8_string (bt_version ());
@@ -401,6 +422,8 @@ bt__define_parts (void)
       "Return the fields of parts of kind HEAD, a list of vectors #(name kind unit text default "
       "min "
       "max above-min? words specials live?)." },
+    { "%tether-types", 0, 0, (scm_t_subr)tether_types,
+      "Return the types of tether that come with the engine, lists (NAME SENTENCE FIELDS)." },
     { "%vehicle-types", 0, 0, (scm_t_subr)vehicle_types,
       "Return the types of vehicle that come with the engine, lists (NAME SENTENCE FIELDS)." },
     { "%make-dive", 1, 0, (scm_t_subr)make_dive,

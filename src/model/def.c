@@ -3,6 +3,7 @@
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -77,16 +78,40 @@ bt_def_set_number (const bt_field *field, void *def, double value, bt_error *err
   return BT_OK;
 }
 
-bt_status
-bt_def_set_word (const bt_field *field, void *def, const char *word, bt_error *error)
+/* Write the words of FIELD, separated by commas, to TEXT of SIZE bytes.  */
+static void
+list_words (const bt_field *field, char *text, size_t size)
 {
+  size_t used = 0;
+  *text = 0;
+  for (const bt_word *w = field->words; w && w->word && used < size; w++)
+    used += (size_t)snprintf (text + used, size - used, "%s%s", used ? ", " : "", w->word);
+}
+
+bt_status
+bt_word_value (const bt_field *field, const char *word, double *value, bt_error *error)
+{
+  char words[BT_ERROR_TEXT / 2];
   for (const bt_word *w = field->words; w && w->word; w++)
     if (strcmp (w->word, word) == 0)
       {
-        *(double *)member (field, def) = w->value;
+        *value = w->value;
         return BT_OK;
       }
-  return bt__fail (error, BT_ERR_NAME, "`%s' does not take the word `%s'", field->name, word);
+  if (!field->words)
+    return bt__fail (error, BT_ERR_NAME, "`%s' takes no word, such as `%s'", field->name, word);
+  list_words (field, words, sizeof words);
+  return bt__fail (error, BT_ERR_NAME, "`%s' takes %s, not `%s'", field->name, words, word);
+}
+
+bt_status
+bt_def_set_word (const bt_field *field, void *def, const char *word, bt_error *error)
+{
+  double value;
+  bt_status status = bt_word_value (field, word, &value, error);
+  if (status == BT_OK)
+    *(double *)member (field, def) = value;
+  return status;
 }
 
 static int

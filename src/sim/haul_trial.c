@@ -11,6 +11,7 @@
 
 #include <bight/aware.h>
 #include <bight/contact.h>
+#include <bight/verbs.h>
 
 #include "base/error.h"
 #include "math/vec.h"
@@ -27,21 +28,11 @@
 /* ---- The fork ---- */
 
 static bt_status
-do_number (bt_dive *fork, bt_op op, int subject, double a, double b, int n, bt_error *error)
-{
-  double args[2] = { a, b };
-  return bt_dive_do (fork, op, subject, args, n, error);
-}
-
-static bt_status
 make_moving (bt_dive *fork, int i, bt_error *error)
 {
-  const bt_head *head = bt_head_find ("tether");
-  const bt_field *model = bt_field_find (head, "model");
-  double args[3] = { BT_PART_TETHER, (double)(model - head->fields), BT_MODEL_DYNAMIC };
   if (bt__is_moving_model (bt__dive_tether (fork, fork->now, i)))
     return BT_OK;
-  return bt_dive_do (fork, BT_OP_ALTER, i, args, 3, error);
+  return bt_part_choose (fork, BT_PART_TETHER, i, "model", "dynamic", error);
 }
 
 static bt_status
@@ -52,7 +43,7 @@ make_trial (const bt_dive *dive, int i, double winch, bt_dive **out, bt_error *e
   if (status != BT_OK)
     return status;
   bt_dive_set_poll (*out, dive->poll, dive->poll_user);
-  status = do_number (*out, BT_OP_RELEASE, vehicle, 0, 0, 0, error);
+  status = bt_vehicle_release (*out, vehicle, error);
   if (status == BT_OK)
     status = make_moving (*out, i, error);
   if (status != BT_OK)
@@ -98,7 +89,7 @@ turn (const trial *t, bt_error *error)
   if (line.tether->winch_rate != 0 || !(metres > 0)
       || bt__line_tension (&line, 0) > RESUMES * t->winch)
     return BT_OK;
-  return do_number (t->fork, BT_OP_HAUL_IN, t->tether, metres, t->rate, 2, error);
+  return bt_tether_haul_in (t->fork, t->tether, &(bt_spooling){ metres, t->rate }, error);
 }
 
 static int
