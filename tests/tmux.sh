@@ -96,7 +96,7 @@ sane ()
   keys Enter
   see 'shell>$' || return 1
   keys "stty -a | grep -c ' echo ' | sed 's/^/echoes /'" Enter
-  see '^echoes 1' || return 1
+  see 'echoes 1$' || return 1
   keys "stty -a | grep -c ' icanon ' | sed 's/^/lines /'" Enter
-  see '^lines 1' && given_back
+  see 'lines 1$' && given_back
 }
