@@ -19,8 +19,8 @@
 #include "aware/shadow.h"
 #include "aware/turns.h"
 #include "aware/voxel.h"
-#include "calibration.h"
-#include "law_aware_cases.h"
+#include "testbed/calibration.h"
+#include "testbed/aware_cases.h"
 #include "options.h"
 #include "row.h"
 

@@ -5,7 +5,7 @@
 #ifndef BT_BENCH_COLLISION_H
 #define BT_BENCH_COLLISION_H
 
-#include "../tests/oracle/solids.h"
+#include "testbed/solids.h"
 #include "row.h"
 
 enum

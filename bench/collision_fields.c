@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../tests/oracle/play.h"
-#include "calibration.h"
+#include "testbed/play.h"
+#include "testbed/calibration.h"
 #include "collision.h"
 
 enum

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "calibration.h"
+#include "testbed/calibration.h"
 #include "collide/ray.h"
 #include "collide/sweep.h"
 #include "collision.h"

@@ -13,7 +13,7 @@
 #include <ccd/vec3.h>
 #endif
 
-#include "calibration.h"
+#include "testbed/calibration.h"
 #include "collision.h"
 
 enum

@@ -22,10 +22,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "calibration.h"
+#include "testbed/calibration.h"
 #include "contact_alone.h"
 #include "contact_quiet.h"
-#include "contact_scene.h"
+#include "testbed/contact_scene.h"
 #include "contact_wrap.h"
 #include "options.h"
 #include "row.h"

@@ -10,9 +10,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "calibration.h"
+#include "testbed/calibration.h"
 #include "contact_alone.h"
-#include "contact_scene.h"
+#include "testbed/contact_scene.h"
 
 enum
 {

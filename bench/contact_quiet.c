@@ -7,9 +7,9 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "calibration.h"
+#include "testbed/calibration.h"
 #include "contact_quiet.h"
-#include "contact_scene.h"
+#include "testbed/contact_scene.h"
 
 enum
 {

@@ -10,8 +10,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "calibration.h"
-#include "contact_scene.h"
+#include "testbed/calibration.h"
+#include "testbed/contact_scene.h"
 #include "contact_wrap.h"
 
 #define MU 0.05

@@ -12,11 +12,11 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "calibration.h"
+#include "testbed/calibration.h"
 #include "math/vec.h"
 #include "options.h"
 #include "row.h"
-#include "scene.h"
+#include "testbed/scene.h"
 
 enum
 {

@@ -20,7 +20,7 @@
 #include "math/vec.h"
 #include "tether/dynamic.h"
 
-#include "calibration.h"
+#include "testbed/calibration.h"
 #include "moordyn.h"
 #include "options.h"
 #include "row.h"

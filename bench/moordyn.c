@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "moordyn.h"
-#include "outside.h"
-#include "reference.h"
+#include "testbed/outside.h"
+#include "testbed/reference.h"
 
 /* s: an explicit base-line step of 100 nodes on the machine of MoorDyn's table; a
    step of MoorDyn's own rk4 takes 40e-6 there.  */

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "calibration.h"
+#include "testbed/calibration.h"
 #include "math/vec.h"
 #include "options.h"
 #include "pilot/screen.h"

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "calibration.h"
+#include "testbed/calibration.h"
 #include "row.h"
 
 #define FIRST 0.3  /* s of calibration at the start */

@@ -19,12 +19,12 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "calibration.h"
+#include "testbed/calibration.h"
 #include "jacket.h"
 #include "math/vec.h"
 #include "options.h"
 #include "row.h"
-#include "scene.h"
+#include "testbed/scene.h"
 
 enum
 {

@@ -16,11 +16,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "calibration.h"
+#include "testbed/calibration.h"
 #include "child.h"
 #include "options.h"
 #include "row.h"
-#include "skip_scenes.h"
+#include "testbed/skip_scenes.h"
 #include "tether/dynamic.h"
 
 enum

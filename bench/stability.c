@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "campaign.h"
+#include "testbed/campaign.h"
 #include "options.h"
 #include "stability.h"
 

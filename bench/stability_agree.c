@@ -18,8 +18,8 @@
 #include <bight/statics.h>
 
 #include "base/hash.h"
-#include "campaign.h"
-#include "scene.h"
+#include "testbed/campaign.h"
+#include "testbed/scene.h"
 #include "stability_flight.h"
 
 enum

@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "calibration.h"
-#include "campaign.h"
+#include "testbed/calibration.h"
+#include "testbed/campaign.h"
 #include "stability_tell.h"
 
 static bench_table *table;

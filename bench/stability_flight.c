@@ -6,7 +6,7 @@
 
 #include "stability_flight.h"
 #include "base/hash.h"
-#include "calibration.h"
+#include "testbed/calibration.h"
 
 const char *const flight_kind_names[FLIGHT_KINDS]
     = { "jacket", "wreck", "rigging", "canyon", "harm" };

@@ -9,7 +9,7 @@
 #ifndef BT_BENCH_STABILITY_FLIGHT_H
 #define BT_BENCH_STABILITY_FLIGHT_H
 
-#include "contact_scene.h"
+#include "testbed/contact_scene.h"
 #include "stability.h"
 
 enum

@@ -12,8 +12,8 @@
 
 #include "math/vec.h"
 
-#include "calibration.h"
-#include "campaign.h"
+#include "testbed/calibration.h"
+#include "testbed/campaign.h"
 #include "stability.h"
 
 static const double stiffnesses[] = { 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9 };

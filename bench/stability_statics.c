@@ -8,8 +8,8 @@
 
 #include <bight/statics.h>
 
-#include "calibration.h"
-#include "campaign.h"
+#include "testbed/calibration.h"
+#include "testbed/campaign.h"
 #include "stability.h"
 
 enum

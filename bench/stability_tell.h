@@ -5,7 +5,7 @@
 #ifndef BT_BENCH_STABILITY_TELL_H
 #define BT_BENCH_STABILITY_TELL_H
 
-#include "campaign.h"
+#include "testbed/campaign.h"
 #include "stability_flight.h"
 
 /* Tell the case NUMBER, which has FAULT, WHOLE and CUT down, as FAMILY-SEED-NUMBER.scm in the

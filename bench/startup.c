@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "calibration.h"
+#include "testbed/calibration.h"
 #include "child.h"
 #include "options.h"
 #include "row.h"

@@ -19,7 +19,7 @@
 
 #include <bight/statics.h>
 
-#include "calibration.h"
+#include "testbed/calibration.h"
 #include "options.h"
 #include "row.h"
 #include "statics.h"

@@ -8,7 +8,7 @@
 
 #include <bight/statics.h>
 
-#include "calibration.h"
+#include "testbed/calibration.h"
 #include "statics.h"
 
 enum

@@ -16,7 +16,7 @@
 
 #include "moordyn.h"
 #include "options.h"
-#include "outside.h"
+#include "testbed/outside.h"
 #include "validation.h"
 
 /* ---- Rows and curves ---- */

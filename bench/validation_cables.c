@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "outside.h"
+#include "testbed/outside.h"
 #include "validation.h"
 
 #define HALF 2.5 /* s */

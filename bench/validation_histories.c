@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "outside.h"
+#include "testbed/outside.h"
 #include "validation.h"
 
 /* ---- Misses ---- */

@@ -9,9 +9,9 @@
 
 #include <bight/statics.h>
 
-#include "outside.h"
-#include "reference.h"
-#include "rig.h"
+#include "testbed/outside.h"
+#include "testbed/reference.h"
+#include "testbed/rig.h"
 #include "validation.h"
 
 enum

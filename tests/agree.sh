@@ -54,11 +54,10 @@ packages='gsl qhull_r'
 libraries=$($PKG_CONFIG --libs $packages)
 sources=$(sed -n '/^libbight_core_la_SOURCES/,/[^\\]$/p' src/Makefile.am | grep -o '[a-z_/]*\.c' |
   sed 's|^|src/|')
-sources="$sources $(ls bench/stability*.c bench/campaign*.c)"
-for name in contact_judge contact_scene calibration options row scene; do
-  sources="$sources bench/$name.c"
+sources="$sources $(ls bench/stability*.c testbed/campaign*.c) bench/options.c bench/row.c"
+for name in calibration contact_judge contact_scene scene solids sweep; do
+  sources="$sources testbed/$name.c"
 done
-sources="$sources tests/oracle/solids.c tests/oracle/sweep.c"
 
 # build NAME COMPILER FLAG...: the program $folder/NAME/agree; false when that cannot be.
 build ()
@@ -70,7 +69,7 @@ build ()
   # A file of options, for the sake of its quotes.
   cat >"$dir/options" <<EOF
 -std=c11 -g -ffp-contract=off -D_GNU_SOURCE -DBENCH_FLAGS=\\"\\" -DBIGHT_LIBEXEC_DIR=\\"\\"
--Isrc -Ibench -I"$top_builddir" $($PKG_CONFIG --cflags $packages) $*
+-I. -Isrc -Ibench -I"$top_builddir" $($PKG_CONFIG --cflags $packages) $*
 EOF
   export compiler dir
   printf '%s\n' $sources | xargs -n 1 -P "${AGREE_JOBS:-1}" sh -c \

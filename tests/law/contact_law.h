@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-#include "../bench/contact_scene.h"
+#include "testbed/contact_scene.h"
 
 static const double frame = 1.0 / 60;
 

@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-#include "../bench/rig.h"
+#include "testbed/rig.h"
 
 typedef rig scene;
 

@@ -18,7 +18,7 @@
 
 #include "aware/caught.h"
 #include "aware/shadow.h"
-#include "law_aware_cases.h"
+#include "testbed/aware_cases.h"
 
 enum
 {

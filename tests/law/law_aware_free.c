@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "law_aware_cases.h"
+#include "testbed/aware_cases.h"
 
 #define CORE 0.005
 

@@ -13,7 +13,7 @@
 
 #include "aware/haul.h"
 #include "aware/shadow.h"
-#include "law_aware_cases.h"
+#include "testbed/aware_cases.h"
 
 #define CORE 0.005
 

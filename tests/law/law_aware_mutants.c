@@ -20,7 +20,7 @@
 #include "aware/voxel.c"
 
 #include "aware/shadow.h"
-#include "law_aware_cases.h"
+#include "testbed/aware_cases.h"
 
 static stage g;
 static bt_vec3 p[CASE_NODES];

@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "aware/trail.h"
-#include "law_aware_cases.h"
+#include "testbed/aware_cases.h"
 
 enum
 {

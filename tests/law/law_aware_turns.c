@@ -11,8 +11,8 @@
 #include <cmocka.h>
 
 #include "aware/turns.h"
-#include "../oracle/sweep.h"
-#include "law_aware_cases.h"
+#include "testbed/sweep.h"
+#include "testbed/aware_cases.h"
 
 enum
 {

@@ -14,7 +14,7 @@
 
 #include "aware/shadow.h"
 #include "aware/voxel.h"
-#include "law_aware_cases.h"
+#include "testbed/aware_cases.h"
 
 enum
 {

@@ -17,7 +17,7 @@
 #include "aware/shadow.h"
 #include "aware/tietze.h"
 #include "aware/turns.h"
-#include "law_aware_cases.h"
+#include "testbed/aware_cases.h"
 
 #define CORE 0.005
 

@@ -14,8 +14,8 @@
 
 #include <cmocka.h>
 
-#include "outside.h"
-#include "reference.h"
+#include "testbed/outside.h"
+#include "testbed/reference.h"
 
 /* The test is skipped when the data are not there, and fails when a step is refused.  */
 static void

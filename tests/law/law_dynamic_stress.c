@@ -5,7 +5,7 @@
 
 #include "law/dynamic_scene.h"
 
-#include "campaign.h"
+#include "testbed/campaign.h"
 
 /* ---- Energy ---- */
 

@@ -15,7 +15,7 @@
 #include <cmocka.h>
 
 #include "../oracle/dive_scene.h"
-#include "../oracle/solids.h"
+#include "testbed/solids.h"
 #include "contact/wear.h"
 #include "math/vec.h"
 

@@ -6,8 +6,8 @@
 #ifndef BT_LAW_THESIS_RIG_H
 #define BT_LAW_THESIS_RIG_H
 
-#include "../oracle/solids.h"
-#include "../oracle/sweep.h"
+#include "testbed/solids.h"
+#include "testbed/sweep.h"
 #include "contact/held.h"
 #include "contact/thesis.h"
 

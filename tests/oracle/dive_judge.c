@@ -16,7 +16,7 @@
 #include "dive_judge.h"
 #include "math/vec.h"
 #include "sim/sim.h"
-#include "sweep.h"
+#include "testbed/sweep.h"
 #include "world/line.h"
 
 enum

@@ -9,7 +9,7 @@
 
 #include "collide/scene.h"
 #include "dive_scene.h"
-#include "solids.h"
+#include "testbed/solids.h"
 
 /* The safe step finds its way from below, by casts to a hundredth of a micrometre.  */
 #define ROUNDING 1e-9

@@ -11,7 +11,7 @@
 #include <math.h>
 
 #include "math/vec.h"
-#include "sweep.h"
+#include "testbed/sweep.h"
 
 enum
 {

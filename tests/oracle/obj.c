@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "obj.h"
-#include "reference.h"
+#include "testbed/reference.h"
 
 enum
 {

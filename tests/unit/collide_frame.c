@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-#include "../oracle/solids.h"
+#include "testbed/solids.h"
 #include "base/hash.h"
 #include "collide/ray.h"
 #include "collide/sweep.h"

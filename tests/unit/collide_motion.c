@@ -18,8 +18,8 @@
 
 #include <cmocka.h>
 
-#include "../oracle/solids.h"
-#include "../oracle/sweep.h"
+#include "testbed/solids.h"
+#include "testbed/sweep.h"
 #include "collide/cast.h"
 
 __extension__ typedef __float128 quad;

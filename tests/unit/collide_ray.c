@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "../oracle/solids.h"
+#include "testbed/solids.h"
 #include "collide/ray.h"
 #include "collide/ray_pair.h"
 

@@ -17,8 +17,8 @@
 #include <cmocka.h>
 
 #include "../oracle/obj.h"
-#include "../oracle/solids.h"
-#include "../oracle/sweep.h"
+#include "testbed/solids.h"
+#include "testbed/sweep.h"
 #include "collide/safe.h"
 
 enum

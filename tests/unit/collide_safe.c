@@ -16,7 +16,7 @@
 
 #include <cmocka.h>
 
-#include "../oracle/play.h"
+#include "testbed/play.h"
 
 static const double core = 0.0025;
 

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "../oracle/solids.h"
+#include "testbed/solids.h"
 #include "collide/scene.h"
 
 enum

@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-#include "../oracle/solids.h"
+#include "testbed/solids.h"
 #include "collide/sweep.h"
 
 enum

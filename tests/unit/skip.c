@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-#include "skip_scenes.h"
+#include "testbed/skip_scenes.h"
 
 enum
 {

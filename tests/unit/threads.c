@@ -19,7 +19,7 @@
 #include <cmocka.h>
 
 #include "../oracle/dive_scene.h"
-#include "../oracle/solids.h"
+#include "testbed/solids.h"
 #include "base/workers.h"
 #include "math/vec.h"
 

@@ -1,0 +1,143 @@
+/* Lines that others computed or measured, flown here as they did it.  The laws hold the engine to
+   them, the validation page shows both.  All data are read from the folder of the reference data
+   (reference.h); a case whose file is not there, or is cut short, is told as such.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_TESTBED_OUTSIDE_H
+#define BT_TESTBED_OUTSIDE_H
+
+#include "math/vec.h"
+
+enum
+{
+  OUTSIDE_COLUMNS = 70,
+  OUTSIDE_ROWS = 1000,
+  OUTSIDE_STATIONS = 21 /* of case C, evenly along the line */
+};
+
+/* The numbers of a file.  */
+typedef struct outside_table
+{
+  int rows, columns; /* columns: of the last row */
+  double at[OUTSIDE_ROWS][OUTSIDE_COLUMNS];
+} outside_table;
+
+/* Read the rows of FILE that begin with a number.  Return nonzero if there is one, and each has
+   COLUMNS numbers at least.  */
+int outside_load (const char *file, int columns, outside_table *t);
+
+/* What came of a case.  */
+typedef enum outside_result
+{
+  OUTSIDE_DONE,
+  OUTSIDE_NO_DATA,
+  OUTSIDE_FAILED /* a step was refused, or memory is out */
+} outside_result;
+
+/* A quantity over time, theirs and ours at the same moments.  */
+typedef struct outside_history
+{
+  int rows;
+  double t[OUTSIDE_ROWS], ours[OUTSIDE_ROWS], theirs[OUTSIDE_ROWS];
+  double rest[2]; /* ours before it begins: see the case */
+} outside_history;
+
+/* ---- MoorDyn 2.7.1 ---- */
+
+/* A: hung in still water; B: in a current across it.  Both at rest.  */
+typedef struct outside_shape
+{
+  int rows;
+  double s[OUTSIDE_ROWS];                              /* m along it */
+  bt_vec3 ours[OUTSIDE_ROWS], theirs[OUTSIDE_ROWS];    /* m */
+  double pull[OUTSIDE_ROWS], their_pull[OUTSIDE_ROWS]; /* N */
+} outside_shape;
+
+/* Lay case A (WHICH 0) or B (1) with N intervals.  */
+outside_result outside_moordyn_rest (int which, int n, outside_shape *shape);
+
+/* C: B's line, its far end led by up to 20 m and back within a minute.  */
+typedef struct outside_flight
+{
+  int rows;
+  double t[OUTSIDE_ROWS];
+  bt_vec3 at[OUTSIDE_ROWS][OUTSIDE_STATIONS]; /* m */
+  double pull[OUTSIDE_ROWS][2];               /* N, at its ends */
+} outside_flight;
+
+/* How it is to be flown.  */
+typedef struct outside_setting
+{
+  int intervals, per; /* steps in half a second */
+  int order;          /* 4, else 2, in space */
+  double tolerance;   /* of a step; 0: the engine's own */
+} outside_setting;
+
+/* Read what MoorDyn gave for C; fly it ourselves.  *SECONDS, unless it is NULL, receives the CPU
+   seconds of a simulated one.  */
+outside_result outside_moordyn_theirs (outside_flight *theirs);
+outside_result outside_moordyn_ours (const outside_setting *how, outside_flight *ours,
+                                     double *seconds);
+
+/* The flight that COARSE and FINE, of second order with half the step and interval, tend to.  */
+void outside_extrapolate (const outside_flight *coarse, const outside_flight *fine,
+                          outside_flight *best);
+
+/* Rms distance of A to B over every EVERY-th station, m, and, unless PULL is NULL, rms difference
+   of the end tensions relative to that of B.  */
+double outside_apart (const outside_flight *a, const outside_flight *b, int every, double *pull);
+
+/* ---- Lowe and Langley (2006): a flexible jumper ---- */
+
+/* Top tension, kN, of case 1 or 2 (the top moved along x, y by 10 m in 27 s) or 6 (waves of 10 m in
+   10 s across it); the REST is the force at the top along x and z, kN.  N: intervals.  */
+outside_result outside_jumper (int which, int n, outside_history *h);
+
+/* ---- OrcaFlex: a chain on the bottom ---- */
+
+/* What is not said of the reference.  */
+typedef struct outside_bottom
+{
+  int intervals;
+  double stiffness, damping; /* Pa/m, Pa s/m */
+  double along;    /* share of its axial drag coefficient that is ours on the circumference */
+  double friction; /* coefficient, in full from 0.1 m/s on */
+} outside_bottom;
+
+extern const outside_bottom outside_plain_bottom;
+
+/* Fairlead tension, kN, of WD0050 in motion A1 or A2 (WHICH 1, 2); the REST is the tension at the
+   fairlead and at the anchor.  */
+outside_result outside_chain (int which, const outside_bottom *bottom, outside_history *h);
+
+/* ---- Filliung et al. (ICRA 2024): a tether in a tank ---- */
+
+typedef struct outside_tank
+{
+  int rows;
+  double t[OUTSIDE_ROWS];
+  double off[OUTSIDE_ROWS];   /* mm: our mean distance to the 16 markers */
+  double doubt[OUTSIDE_ROWS]; /* mm: the reference's own uncertainty */
+  double plain[OUTSIDE_ROWS]; /* mm: how far off a catenary in still water is, by the reference */
+} outside_tank;
+
+/* Fly cable 6, surge run, with normal drag coefficient CD.  */
+outside_result outside_in_tank (double cd, outside_tank *tank);
+
+/* ---- Chen et al. (CoRL 2024): cables swung in air by two robot arms ---- */
+
+typedef struct outside_swing
+{
+  double stiffness;   /* EI by mass per length, m4/s2: not told */
+  double mass;        /* kg/m: not told, matters against the air alone */
+  int intervals, per; /* steps in a hundredth of a second */
+} outside_swing;
+
+/* Swing the cable of FILE: H's OURS is the mean distance to the markers that are not held, mm.  */
+outside_result outside_cable (const char *file, const outside_swing *how, outside_history *h);
+
+/* A frame moves when a catenary is off by more than 20 mm in it.  */
+#define OUTSIDE_MOVING 20.0
+
+#endif

@@ -1,0 +1,39 @@
+# The measures of the house (measures.scm) keep to their bounds, and tests and bench share by testbed/ alone.
+# Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+. "$top_srcdir/tests/tap.sh"
+
+"$GUILE" --no-auto-compile -s "$top_srcdir/tests/measures.scm" "$top_srcdir" >"$scratch/measures" 2>"$scratch/err"
+result $? 'the house can be measured'
+diag "$(cat "$scratch/err")"
+diag "$(cat "$scratch/measures")"
+
+# within MEASURE TEST BOUND NAME: the measure stands as TEST (-le, -ge) to BOUND, rounded to tenths.
+within ()
+{
+  tenths=$(awk -v name="$1" '$1 == name { printf "%.0f", 10 * $2 }' "$scratch/measures")
+  [ -n "$tenths" ] && [ "$tenths" "$2" "$(awk -v bound="$3" 'BEGIN { printf "%.0f", 10 * bound }')" ]
+  result $? "$4"
+}
+
+# Each bound is what stands; it may only be drawn tighter.
+within function-95 -le 25 'nineteen of twenty functions have at most 25 lines'
+within function-longest -le 55 'and none has more than 55'
+within comment-share -ge 7.8 'the code is explained'
+within shared-static-names -le 12.5 'few static functions share a name with one of another file'
+within static-names-twice-in-a-room -le 78 'hardly any with one of the same room'
+within pointing-words -le 10.3 'long sentences name what they speak of'
+within private-words -le 800 "the field's words are used"
+
+# includes FOLDER PATTERN: the sources of FOLDER that include a header that PATTERN finds.
+includes ()
+{
+  grep -rnE "^#include \"$2" --include='*.[ch]' --include='*.cc' "$top_srcdir/$1"
+}
+includes tests '(\.\./)*bench/' >"$scratch/found"
+empty 'no test includes a header of the bench' "$scratch/found"
+includes bench '(\.\./)*tests/' >"$scratch/found"
+empty 'no bench includes a header of the tests' "$scratch/found"
+includes testbed '(\.\./)*(tests|bench)/' >"$scratch/found"
+empty 'the testbed includes none of either' "$scratch/found"
+finish

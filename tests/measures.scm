@@ -1,0 +1,191 @@
+;;; Measures of the house: guile -s tests/measures.scm [ROOT]
+;;;
+;;; How long functions are, how much of the code is comment, how many static functions share a name, how
+;;; many words of long comment sentences only point at others ("it", "that", "which"), which of the words
+;;; that HACKING.md's glossary replaced are left, and how large the rooms are.  tests/house.sh holds the
+;;; measures to their bounds.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(use-modules (ice-9 format)
+             (ice-9 ftw)
+             (ice-9 regex)
+             (ice-9 textual-ports)
+             (srfi srfi-1)
+             (srfi srfi-13)
+             ((srfi srfi-43) #:select (vector-for-each)))
+
+(define root (or (false-if-exception (cadr (program-arguments))) "."))
+
+(define (files-below folder . endings)
+  ;; The files below FOLDER that end with one of ENDINGS, in order.
+  (define found '())
+  (nftw (string-append root "/" folder)
+        (lambda (name info flag base level)
+          (when (and (eq? 'regular flag) (any (lambda (end) (string-suffix? end name)) endings))
+            (set! found (cons name found)))
+          #t))
+  (sort found string<?))
+
+(define (text-of file)
+  (call-with-input-file file get-string-all #:encoding "UTF-8"))
+
+(define (room-of file)
+  (basename (dirname file)))
+
+(define (percent part whole)
+  (if (zero? whole) 0 (* 100. (/ part whole))))
+
+
+;;; Functions.
+
+;; The name of a function whose definition begins here, at the beginning of a line, and its first brace.
+(define head (make-regexp "^([a-z_][A-Za-z0-9_]*) \\(.*$"))
+
+(define (functions text)
+  ;; Those that TEXT, laid out as .clang-format has it, defines: lists (NAME LINES STATIC?).  A definition is
+  ;; a line with its type, a line that begins with its name, more of its arguments, a line `{' ... a line `}'.
+  (define lines (list->vector (string-split text #\newline)))
+  (define n (vector-length lines))
+  (define (line i) (if (< i n) (vector-ref lines i) ""))
+  (define (find-line i wanted)
+    (cond ((>= i n) #f)
+          ((string=? wanted (line i)) i)
+          (else (find-line (+ i 1) wanted))))
+  (define (opening i)
+    ;; The line `{' of the definition whose name is on line I, or #f: it is none.
+    (cond ((string=? "{" (line i)) i)
+          ((or (>= i n) (string-index (line i) #\;) (string-null? (line i))) #f)
+          (else (opening (+ i 1)))))
+  (let loop ((i 1) (found '()))
+    (if (>= i n)
+        (reverse found)
+        (let* ((m (regexp-exec head (line i)))
+               (open (and m (opening i)))
+               (close (and open (find-line open "}"))))
+          (if close
+              (loop (+ close 1)
+                    (cons (list (match:substring m 1)
+                                (- close open 1)
+                                (string-prefix? "static " (line (- i 1))))
+                          found))
+              (loop (+ i 1) found))))))
+
+
+;;; Comments.
+
+(define (comments text)
+  ;; The comments /* ... */ of TEXT.
+  (let loop ((from 0) (found '()))
+    (let* ((start (string-contains text "/*" from))
+           (end (and start (string-contains text "*/" start))))
+      (if end
+          (loop (+ end 2) (cons (substring text start (+ end 2)) found))
+          (reverse found)))))
+
+(define (lines-in text)
+  (+ 1 (string-count text #\newline)))
+
+(define pointing
+  '("it" "its" "itself" "that" "this" "what" "which" "who" "whom" "whose" "one" "ones" "such" "there"
+    "other" "others" "another" "former" "latter" "they" "them" "their" "those" "these" "so"))
+
+(define (sentences comment)
+  ;; Lists of the words of COMMENT, a list for each sentence.
+  (define text (string-downcase (regexp-substitute/global #f "\\s*\n[ \t*]*" comment 'pre " " 'post)))
+  (map (lambda (sentence) (map match:substring (list-matches "[a-z']+" sentence)))
+       (string-split (regexp-substitute/global #f "([.;:?!]) +" text 'pre 1 "\n" 'post) #\newline)))
+
+(define long-sentence 14)               ; words
+
+(define (pointing-share comments)
+  ;; Of the words of long sentences in COMMENTS, how many only point, per cent.
+  (define words (concatenate (filter (lambda (s) (>= (length s) long-sentence))
+                                     (append-map sentences comments))))
+  (percent (count (lambda (word) (member word pointing)) words) (length words)))
+
+
+;;; The measures.
+
+(define texts (map (lambda (file) (cons file (text-of file))) (files-below "src" ".c" ".h")))
+(define sources (filter (lambda (entry) (string-suffix? ".c" (car entry))) texts))
+
+(define all-functions
+  ;; (FILE NAME LINES STATIC?)
+  (append-map (lambda (entry) (map (lambda (f) (cons (car entry) f)) (functions (cdr entry)))) sources))
+
+(define (quantile sorted share)
+  (list-ref sorted (min (- (length sorted) 1) (inexact->exact (floor (* share (length sorted)))))))
+
+(define static-names (make-hash-table))
+(for-each (lambda (f)
+            (when (fourth f)
+              (hash-set! static-names (second f)
+                         (lset-adjoin string=? (hash-ref static-names (second f) '()) (first f)))))
+          all-functions)
+
+(define (shared-names test)
+  (sort (hash-map->list (lambda (name files) name)
+                        (let ((some (make-hash-table)))
+                          (hash-for-each (lambda (name files)
+                                           (when (test files) (hash-set! some name files)))
+                                         static-names)
+                          some))
+        string<?))
+
+(define (in-two-files? files)
+  (> (length files) 1))
+
+(define (twice-in-a-room? files)
+  (let ((rooms (map room-of files)))
+    (< (length (delete-duplicates rooms)) (length rooms))))
+
+;; Words that the field's replaced.
+(define private-words
+  '("bt__ghost" "bt__lane" "bt__shore" "bt__gaze" "bt__drape" "bt__anchor" "bt__bends" "bt__dynamic_row"
+    "nonzero" "Nonzero"))
+
+(define (occurrences word text)
+  (let loop ((from 0) (n 0))
+    (let ((at (string-contains text word from)))
+      (if at (loop (+ at 1) (+ n 1)) n))))
+
+(define lengths (sort (map third all-functions) <))
+(define all-comments (append-map (lambda (entry) (comments (cdr entry))) texts))
+
+(define (total f entries)
+  (fold + 0 (map f entries)))
+
+(define measures
+  `((lines . ,(total (lambda (entry) (string-count (cdr entry) #\newline)) texts))
+    (function-median . ,(quantile lengths 0.5))
+    (function-95 . ,(quantile lengths 0.95))
+    (function-longest . ,(last lengths))
+    (comment-share . ,(percent (total (lambda (entry) (total lines-in (comments (cdr entry)))) sources)
+                               (total (lambda (entry) (string-count (cdr entry) #\newline)) sources)))
+    (shared-static-names . ,(percent (length (shared-names in-two-files?))
+                                     (hash-count (const #t) static-names)))
+    (static-names-twice-in-a-room . ,(length (shared-names twice-in-a-room?)))
+    (pointing-words . ,(pointing-share all-comments))
+    (private-words . ,(total (lambda (word) (total (lambda (entry) (occurrences word (cdr entry))) texts))
+                             private-words))
+    (flat-modules . ,(length (filter (lambda (name) (string-suffix? ".scm" name))
+                                     (scandir (string-append root "/scheme/bight")))))))
+
+(for-each (lambda (measure)
+            (format #t "~a ~a~%" (car measure)
+                    (let ((value (cdr measure)))
+                      (if (exact? value) value (format #f "~,1f" value)))))
+          measures)
+
+(define (print-rooms)
+  (define rooms (delete-duplicates (map (lambda (entry) (room-of (car entry))) texts)))
+  (for-each (lambda (room)
+              (format #t "room ~a ~a~%" room
+                      (total (lambda (entry)
+                               (if (string=? room (room-of (car entry)))
+                                   (string-count (cdr entry) #\newline)
+                                   0))
+                             texts)))
+            rooms))
+(print-rooms)
