@@ -106,7 +106,7 @@ double_centre (const bt__bvh_item *item, float c[3])
 }
 
 static void
-measure (const bt__bvh *tree, part *p)
+measure_boxes (const bt__bvh *tree, part *p)
 {
   p->box = p->middles = nothing;
   for (uint32_t i = p->first; i < p->first + p->n; i++)
@@ -245,8 +245,8 @@ split (bt__bvh *tree, part *p, part *other, int halve)
     left = p->n / 2;
   *other = (part){ .first = p->first + left, .n = p->n - left };
   p->n = left;
-  measure (tree, p);
-  measure (tree, other);
+  measure_boxes (tree, p);
+  measure_boxes (tree, other);
 }
 
 /* ---- Nodes ---- */
@@ -382,7 +382,7 @@ bt__bvh_build (bt__bvh *tree, uint32_t n, bt__box_of box, const void *user)
       set_item (tree, i, &b);
     }
   part whole = { .n = n };
-  measure (tree, &whole);
+  measure_boxes (tree, &whole);
   tree->nodes = 1;
   make_node (tree, 0, &whole, 0);
   for (uint32_t i = 0; i < n; i++)

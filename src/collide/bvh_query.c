@@ -26,7 +26,7 @@ typedef struct probe
 } probe;
 
 static void
-make_probe (const bt__bvh *tree, const bt__link *link, probe *p)
+probe_of_link (const bt__bvh *tree, const bt__link *link, probe *p)
 {
   bt_vec3 a = bt__sub (link->a, tree->origin), b = bt__sub (link->b, tree->origin);
   bt_vec3 c = bt__scale (0.5, bt__add (a, b)), d = bt__scale (0.5, bt__sub (b, a));
@@ -47,8 +47,8 @@ make_probe (const bt__bvh *tree, const bt__link *link, probe *p)
 /* In bit k of the answer: box k may be within REACH.  In NEAR: how far each box is from the link's
    own box, at least.  */
 static BT__HOT unsigned
-find_hits (const bt__bvh_node *node, const probe *p, float reach, int nearest,
-           float near[BT__BVH_WIDE])
+boxes_within (const bt__bvh_node *node, const probe *p, float reach, int nearest,
+              float near[BT__BVH_WIDE])
 {
   float apart[BT__BVH_WIDE]; /* the largest gap of all axes: positive, no contact */
   float m[3][BT__BVH_WIDE];
@@ -102,7 +102,7 @@ typedef struct entry
 
 /* The nearest of the children of one node, which begin at BASE, goes on top.  */
 static BT__HOT int
-push (entry *stack, int base, int depth, entry e, int nearest)
+push_within (entry *stack, int base, int depth, entry e, int nearest)
 {
   int at = depth;
   if (nearest)
@@ -138,7 +138,7 @@ bt__bvh_query (const bt__bvh *tree, const bt__link *link, double reach, int near
   int depth = 0;
   if (tree->n == 0 || !(reach >= 0) || is_outside (tree, link, reach))
     return reach;
-  make_probe (tree, link, &p);
+  probe_of_link (tree, link, &p);
   stack[depth++] = (entry){ 0, 0 };
   while (depth > 0)
     {
@@ -147,7 +147,7 @@ bt__bvh_query (const bt__bvh *tree, const bt__link *link, double reach, int near
         continue;
       const bt__bvh_node *node = tree->node + e.node;
       float near[BT__BVH_WIDE];
-      unsigned hits = find_hits (node, &p, as_float (reach), nearest, near);
+      unsigned hits = boxes_within (node, &p, as_float (reach), nearest, near);
       int base = depth;
       count->nodes++;
       for (; hits; hits &= hits - 1)
@@ -157,7 +157,7 @@ bt__bvh_query (const bt__bvh *tree, const bt__link *link, double reach, int near
           if (nearest && near[i] > as_float (reach))
             continue;
           if (n == 0 && first > 0) /* else a missing child, met by a link that is not finite */
-            depth = push (stack, base, depth, (entry){ first, near[i] }, nearest);
+            depth = push_within (stack, base, depth, (entry){ first, near[i] }, nearest);
           for (uint32_t k = 0; k < n; k++)
             reach = visit (user, first + k, reach);
         }

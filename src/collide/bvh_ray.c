@@ -29,7 +29,7 @@ slope_of (double d)
 }
 
 static void
-make_probe (const bt__bvh *tree, bt_vec3 from, bt_vec3 direction, probe *p)
+probe_of_ray (const bt__bvh *tree, bt_vec3 from, bt_vec3 direction, probe *p)
 {
   bt_vec3 o = bt__sub (from, tree->origin);
   *p = (probe){ { (float)o.x, (float)o.y, (float)o.z },
@@ -39,7 +39,7 @@ make_probe (const bt__bvh *tree, bt_vec3 from, bt_vec3 direction, probe *p)
 
 /* In bit k of the answer: box k is met before REACH; in ENTER: where.  */
 static unsigned
-find_hits (const bt__bvh_node *node, const probe *p, float reach, float enter[BT__BVH_WIDE])
+boxes_met (const bt__bvh_node *node, const probe *p, float reach, float enter[BT__BVH_WIDE])
 {
   float leave[BT__BVH_WIDE];
   unsigned hits = 0;
@@ -67,7 +67,7 @@ find_hits (const bt__bvh_node *node, const probe *p, float reach, float enter[BT
 
 /* Of the children of one node, which begin at BASE, the nearest goes on top.  */
 static int
-push (entry *stack, int base, int depth, entry e)
+push_met (entry *stack, int base, int depth, entry e)
 {
   int at = depth;
   for (; at > base && stack[at - 1].enter < e.enter; at--)
@@ -85,7 +85,7 @@ bt__bvh_ray (const bt__bvh *tree, bt_vec3 from, bt_vec3 direction, double reach,
   int depth = 0;
   if (tree->n == 0 || !(reach >= 0))
     return reach;
-  make_probe (tree, from, direction, &p);
+  probe_of_ray (tree, from, direction, &p);
   stack[depth++] = (entry){ 0, 0 };
   while (depth > 0)
     {
@@ -94,7 +94,7 @@ bt__bvh_ray (const bt__bvh *tree, bt_vec3 from, bt_vec3 direction, double reach,
       if (e.enter > most)
         continue;
       const bt__bvh_node *node = tree->node + e.node;
-      unsigned hits = find_hits (node, &p, most, enter);
+      unsigned hits = boxes_met (node, &p, most, enter);
       int base = depth;
       count->nodes++;
       for (; hits; hits &= hits - 1)
@@ -102,7 +102,7 @@ bt__bvh_ray (const bt__bvh *tree, bt_vec3 from, bt_vec3 direction, double reach,
           int i = __builtin_ctz (hits);
           uint32_t first = node->first[i], n = node->count[i];
           if (n == 0 && first > 0)
-            depth = push (stack, base, depth, (entry){ first, enter[i] });
+            depth = push_met (stack, base, depth, (entry){ first, enter[i] });
           for (uint32_t k = 0; k < n; k++)
             reach = visit (user, first + k, reach);
         }

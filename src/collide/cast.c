@@ -25,7 +25,7 @@ enum
 /* ---- Motions ---- */
 
 static bt_vec3
-turned (bt_vec3 v, bt_vec3 axis, double angle)
+turned_about (bt_vec3 v, bt_vec3 axis, double angle)
 {
   double c = cos (angle), s = sin (angle);
   bt_vec3 out = bt__axpy (bt__scale (c, v), s, bt__cross (axis, v));
@@ -39,9 +39,9 @@ bt__motion_at (const bt__motion *m, double t)
   f.origin = bt__axpy (f.origin, t, m->travel);
   if (m->angle != 0)
     {
-      f.x = turned (f.x, m->axis, t * m->angle);
-      f.y = turned (f.y, m->axis, t * m->angle);
-      f.z = turned (f.z, m->axis, t * m->angle);
+      f.x = turned_about (f.x, m->axis, t * m->angle);
+      f.y = turned_about (f.y, m->axis, t * m->angle);
+      f.z = turned_about (f.z, m->axis, t * m->angle);
     }
   return f;
 }

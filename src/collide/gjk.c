@@ -59,7 +59,7 @@ try_vertex (const simplex *x, int i, part *best)
 }
 
 static void
-try_edge (const simplex *x, int i, int j, part *best)
+try_simplex_edge (const simplex *x, int i, int j, part *best)
 {
   bt_vec3 a = x->v[i].w, d = bt__sub (x->v[j].w, a);
   double t = -bt__dot (a, d), dd = bt__dot (d, d);
@@ -111,7 +111,7 @@ reduce (simplex *x)
   int last = x->n - 1; /* without it nothing is gained */
   try_vertex (x, last, &best);
   for (int i = 0; i < last; i++)
-    try_edge (x, i, last, &best);
+    try_simplex_edge (x, i, last, &best);
   for (int i = 0; i < last; i++)
     for (int j = i + 1; j < last; j++)
       try_face (x, i, j, last, &best);
@@ -147,7 +147,7 @@ support (const bt__convex *a, const bt__convex *b, bt_vec3 direction, int hint[2
 }
 
 static void
-finish (const simplex *x, double distance, bt__gap *out)
+finish_gap (const simplex *x, double distance, bt__gap *out)
 {
   out->distance = distance;
   out->a = out->b = bt__vec (0, 0, 0);
@@ -163,7 +163,7 @@ static simplex
 collapsed (const simplex *x, bt_vec3 at)
 {
   bt__gap gap;
-  finish (x, 0, &gap);
+  finish_gap (x, 0, &gap);
   return (simplex){ .v = { { at, gap.a, gap.b } }, .weight = { 1 }, .n = 1 };
 }
 
@@ -217,5 +217,5 @@ bt__gjk (const bt__convex *a, const bt__convex *b, bt__gap *out)
       if (!gain (&x, &next, &v, &size))
         break;
     }
-  finish (&x, size > 1e-15 * scale ? size : 0, out);
+  finish_gap (&x, size > 1e-15 * scale ? size : 0, out);
 }

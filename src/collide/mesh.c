@@ -12,7 +12,7 @@
 #define FAR 1e12
 
 static bt_vec3
-turned (const bt__place *place, bt_vec3 d)
+turned_by_place (const bt__place *place, bt_vec3 d)
 {
   double c = cos (place->heading), s = sin (place->heading);
   return bt__vec (c * d.x + s * d.y, c * d.y - s * d.x, d.z);
@@ -21,7 +21,7 @@ turned (const bt__place *place, bt_vec3 d)
 static bt_vec3
 placed (const bt__place *place, bt_vec3 p)
 {
-  return bt__add (place->at, turned (place, bt__scale (place->scale, p)));
+  return bt__add (place->at, turned_by_place (place, bt__scale (place->scale, p)));
 }
 
 void
@@ -75,7 +75,7 @@ check_soup (const bt__soup *s, bt_error *error)
 /* ---- Making ---- */
 
 static void
-box_of (const void *user, uint32_t i, bt__aabb *box)
+box_of_triangle (const void *user, uint32_t i, bt__aabb *box)
 {
   const bt__mesh *m = user;
   bt_vec3 a = m->v[m->corner[i][0]], b = m->v[m->corner[i][1]], c = m->v[m->corner[i][2]];
@@ -146,7 +146,7 @@ bt__mesh_new (const bt__soup *soup, const bt__place *place, bt__mesh **out, bt_e
       bt__mesh_free (m);
       return status;
     }
-  bt__bvh_build (&m->tree, m->triangles, box_of, m);
+  bt__bvh_build (&m->tree, m->triangles, box_of_triangle, m);
   bt__bvh_trim (&m->tree);
   sort_corners (m, soup);
   find_box (m);

@@ -22,7 +22,7 @@ excess (double x, double h)
 }
 
 static double
-slope (const local *k, double t)
+slope_to_box (const local *k, double t)
 {
   double sum = 0;
   for (int i = 0; i < 3; i++)
@@ -45,7 +45,7 @@ root (const local *k, double first, double last)
           double t = (side * k->h[i] - k->p[i]) * inverse;
           if (!(t > lo && t < hi))
             continue;
-          double at = slope (k, t);
+          double at = slope_to_box (k, t);
           if (at < 0)
             {
               lo = t;
@@ -63,12 +63,12 @@ root (const local *k, double first, double last)
 
 /* Where it is nearest.  */
 static double
-nearest (const local *k)
+nearest_to_box (const local *k)
 {
-  double first = slope (k, 0), last;
+  double first = slope_to_box (k, 0), last;
   if (first >= 0)
     return 0;
-  last = slope (k, 1);
+  last = slope_to_box (k, 1);
   return last <= 0 ? 1 : root (k, first, last);
 }
 
@@ -95,7 +95,7 @@ try_sides (const local *k, int i, way_out *best)
 
 /* Leave across an edge along axis I.  */
 static void
-try_edges (const local *k, int i, way_out *best)
+leave_across_edges (const local *k, int i, way_out *best)
 {
   int j = (i + 1) % 3, l = (i + 2) % 3;
   double size = sqrt (k->d[j] * k->d[j] + k->d[l] * k->d[l]);
@@ -149,13 +149,13 @@ code (const double n[3])
 }
 
 static void
-leave (const local *k, const bt__box *box, const bt__link *link, bt__witness *out)
+leave_box (const local *k, const bt__box *box, const bt__link *link, bt__witness *out)
 {
   way_out best = { .depth = INFINITY };
   for (int i = 0; i < 3; i++)
     try_sides (k, i, &best);
   for (int i = 0; i < 3; i++)
-    try_edges (k, i, &best);
+    leave_across_edges (k, i, &best);
   out->s = best.edge ? place_on_edge (k, &best) : place_on_side (k, &best);
   out->distance = -best.depth;
   out->normal = bt__out_of (&box->frame, bt__vec (best.n[0], best.n[1], best.n[2]));
@@ -169,14 +169,14 @@ bt__pair_box (const bt__box *box, const bt__link *link, bt__witness *out)
   bt_vec3 p = bt__to_local (&box->frame, link->a);
   bt_vec3 d = bt__into (&box->frame, bt__sub (link->b, link->a)), h = box->half;
   local k = { { p.x, p.y, p.z }, { d.x, d.y, d.z }, { h.x, h.y, h.z } };
-  double t = nearest (&k), e[3];
+  double t = nearest_to_box (&k), e[3];
   for (int i = 0; i < 3; i++)
     e[i] = excess (k.p[i] + t * k.d[i], k.h[i]);
   bt_vec3 gap = { e[0], e[1], e[2] };
   double distance = bt__norm (gap);
   if (!(distance > BT__TOUCHING * (bt__largest (p) + bt__largest (h))))
     {
-      leave (&k, box, link, out);
+      leave_box (&k, box, link, out);
       return;
     }
   out->s = t;

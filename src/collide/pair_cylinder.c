@@ -35,7 +35,7 @@ square_at (const local *k, double t)
 }
 
 static double
-slope (const local *k, double t)
+slope_to_cylinder (const local *k, double t)
 {
   double x = k->p.x + t * k->d.x, y = k->p.y + t * k->d.y, square = x * x + y * y, g = 0;
   if (square > k->radius * k->radius)
@@ -53,7 +53,7 @@ narrow (const local *k, double t, bracket *x)
 {
   if (!(t > x->lo && t < x->hi))
     return;
-  double g = slope (k, t);
+  double g = slope_to_cylinder (k, t);
   if (g < 0)
     {
       x->lo = t;
@@ -119,12 +119,12 @@ inner_root (const local *k, bracket *x)
 }
 
 static double
-nearest (const local *k)
+nearest_to_cylinder (const local *k)
 {
-  bracket x = { 0, 1, slope (k, 0), 0 };
+  bracket x = { 0, 1, slope_to_cylinder (k, 0), 0 };
   if (x.first >= 0)
     return 0;
-  x.last = slope (k, 1);
+  x.last = slope_to_cylinder (k, 1);
   if (x.last <= 0)
     return 1;
   if (k->d.z != 0)
@@ -150,7 +150,7 @@ frame_of (const bt__cylinder *c, bt__frame *f)
 }
 
 static void
-finish (const bt__frame *f, const bt__link *link, bt__witness *out)
+finish_outside (const bt__frame *f, const bt__link *link, bt__witness *out)
 {
   out->normal = bt__out_of (f, out->normal);
   if (!(out->distance > 0)) /* from the deep case */
@@ -169,7 +169,7 @@ bt__pair_cylinder (const bt__cylinder *cylinder, const bt__link *link, bt__witne
   k.d = bt__into (&f, bt__sub (link->b, link->a));
   k.a = k.d.x * k.d.x + k.d.y * k.d.y;
   k.b = k.p.x * k.d.x + k.p.y * k.d.y;
-  out->s = nearest (&k);
+  out->s = nearest_to_cylinder (&k);
   bt_vec3 on = bt__axpy (k.p, out->s, k.d);
   double rho = sqrt (on.x * on.x + on.y * on.y), beside = rho > k.radius ? rho - k.radius : 0;
   double above = over (on.z, k.half), distance = sqrt (beside * beside + above * above);
@@ -183,5 +183,5 @@ bt__pair_cylinder (const bt__cylinder *cylinder, const bt__link *link, bt__witne
       out->point = bt__axpy (on, -distance, out->normal);
       out->feature = above == 0 ? BT__SIDE : (beside > 0 ? BT__RIM_LOW : BT__CAP_LOW) + (above > 0);
     }
-  finish (&f, link, out);
+  finish_outside (&f, link, out);
 }

@@ -22,7 +22,7 @@ typedef struct deep
 } deep;
 
 static void
-offer (bt__witness *best, double depth, double s, bt_vec3 normal, int feature)
+offer_depth (bt__witness *best, double depth, double s, bt_vec3 normal, int feature)
 {
   if (depth < -best->distance)
     *best = (bt__witness){ -depth, s, normal, normal, feature };
@@ -37,8 +37,8 @@ try_caps (const deep *k, bt__witness *best)
   double s = 0.5, middle = bt__share (-(k->p.x * dx + k->p.y * dy), a);
   if (fabs (k->p.z - k->q.z) <= 1e-14 * (k->half + k->radius))
     s = middle;
-  offer (best, high, s == middle ? s : k->q.z < k->p.z, bt__vec (0, 0, 1), BT__CAP_HIGH);
-  offer (best, low, s == middle ? s : k->q.z > k->p.z, bt__vec (0, 0, -1), BT__CAP_LOW);
+  offer_depth (best, high, s == middle ? s : k->q.z < k->p.z, bt__vec (0, 0, 1), BT__CAP_HIGH);
+  offer_depth (best, low, s == middle ? s : k->q.z > k->p.z, bt__vec (0, 0, -1), BT__CAP_LOW);
 }
 
 /* S, moved to where the link is between the caps: a link along the side touches only there.  */
@@ -70,7 +70,7 @@ try_side (const deep *k, bt__witness *best)
     }
   else if (rho > BT__TOUCHING * k->radius)
     n = bt__vec (x / rho, y / rho, 0);
-  offer (best, k->radius - rho, between_caps (k, s), n, BT__SIDE);
+  offer_depth (best, k->radius - rho, between_caps (k, s), n, BT__SIDE);
 }
 
 /* Return the angle on the ellipse R, B nearest to (U >= 0, V), least distance; see above.  */
@@ -135,7 +135,7 @@ try_rim (const deep *k, bt_vec3 d, double sign, bt__witness *best)
   out = bt__unit_or (out, bt__vec (0, 0, 0));
   bt_vec3 rim = bt__vec (k->radius * out.x, k->radius * out.y, sign * k->half);
   double s = bt__share (bt__dot (bt__sub (rim, k->p), link), bt__dot (link, link));
-  offer (best, depth, s, n, sign < 0 ? BT__RIM_LOW : BT__RIM_HIGH);
+  offer_depth (best, depth, s, n, sign < 0 ? BT__RIM_LOW : BT__RIM_HIGH);
 }
 
 void

@@ -60,7 +60,7 @@ try_outline (const bt__hull *h, const bt__link *link, bt__witness *best)
 }
 
 static void
-leave (const bt__hull *h, const bt__link *link, bt__witness *out)
+leave_hull (const bt__hull *h, const bt__link *link, bt__witness *out)
 {
   out->distance = -INFINITY;
   try_faces (h, link, out);
@@ -78,7 +78,7 @@ bt__pair_hull (const bt__hull *hull, const bt__link *link, bt__witness *out)
   bt__gjk (&a, &b, &gap);
   if (!(gap.distance > 1e-13 * (bt__largest (link->a) + bt__largest (hull->v[0]))))
     {
-      leave (hull, link, out);
+      leave_hull (hull, link, out);
       return;
     }
   out->s = place_on_link (link, gap.a);

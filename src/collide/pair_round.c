@@ -44,7 +44,7 @@ cross_normal (const meeting *m)
 }
 
 static void
-finish (const meeting *m, const bt__link *link, bt__witness *out)
+finish_round (const meeting *m, const bt__link *link, bt__witness *out)
 {
   bt_vec3 on = bt__along (link, m->s), gap = bt__sub (on, m->point), n;
   double distance = bt__norm (gap), size = bt__largest (on) + bt__largest (m->d) + m->radius;
@@ -72,7 +72,7 @@ bt__pair_sphere (const bt__sphere *sphere, const bt__link *link, bt__witness *ou
   m.d = bt__sub (link->b, link->a);
   m.s = bt__share (bt__dot (bt__sub (sphere->centre, link->a), m.d), bt__dot (m.d, m.d));
   out->feature = 0;
-  finish (&m, link, out);
+  finish_round (&m, link, out);
 }
 
 void
@@ -91,7 +91,7 @@ bt__pair_capsule (const bt__capsule *capsule, const bt__link *link, bt__witness 
   bt__closest_segments (bt__sub (link->a, capsule->a), m.d, m.e, &m.s, &m.t);
   m.point = bt__axpy (capsule->a, m.t, m.e);
   out->feature = m.t <= 0 ? BT__CAP_LOW : m.t >= 1 ? BT__CAP_HIGH : BT__SIDE;
-  finish (&m, link, out);
+  finish_round (&m, link, out);
 }
 
 void

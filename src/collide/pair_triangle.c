@@ -62,7 +62,7 @@ is_over (const double w[3])
 }
 
 static void
-offer (found *best, bt_vec3 at, double s, bt_vec3 on, int feature)
+offer_gap (found *best, bt_vec3 at, double s, bt_vec3 on, int feature)
 {
   bt_vec3 gap = bt__sub (at, on);
   double square = bt__dot (gap, gap);
@@ -77,11 +77,11 @@ try_end (const local *k, int end, found *best)
   if (!(k->nn > 0) || !is_over (w))
     return;
   bt_vec3 on = bt__axpy (bt__scale (w[1] / k->nn, k->e1), w[2] / k->nn, k->e2);
-  offer (best, end ? bt__add (k->p, k->d) : k->p, end, on, 0);
+  offer_gap (best, end ? bt__add (k->p, k->d) : k->p, end, on, 0);
 }
 
 static void
-try_edge (const local *k, int i, found *best)
+try_triangle_edge (const local *k, int i, found *best)
 {
   static const bt_vec3 zero = { 0, 0, 0 };
   bt_vec3 from = i == 0 ? zero : i == 1 ? k->e1 : k->e2;
@@ -89,17 +89,17 @@ try_edge (const local *k, int i, found *best)
   double s, t;
   bt__closest_segments (bt__sub (k->p, from), k->d, e, &s, &t);
   int feature = t <= 0 ? 4 + i : t >= 1 ? 4 + (i + 1) % 3 : 1 + i;
-  offer (best, bt__axpy (k->p, s, k->d), s, bt__axpy (from, t, e), feature);
+  offer_gap (best, bt__axpy (k->p, s, k->d), s, bt__axpy (from, t, e), feature);
 }
 
 static void
-try_edges (const local *k, found *best)
+try_all_edges (const local *k, found *best)
 {
   for (int i = 0; i < 3; i++)
     {
       int across = (i + 2) % 3; /* the vertex across edge I */
       if (!(k->fat && k->w[0][across] > 0 && k->w[1][across] > 0))
-        try_edge (k, i, best);
+        try_triangle_edge (k, i, best);
     }
 }
 
@@ -157,7 +157,7 @@ bt__pair_triangle (const bt__triangle *f, const bt__link *link, bt__witness *out
   if (!k.fat || !(best.square < INFINITY) || start * end <= 0)
     {
       try_end (&k, !near, &best);
-      try_edges (&k, &best);
+      try_all_edges (&k, &best);
     }
   double distance = sqrt (best.square);
   if (!(distance > BT__TOUCHING * (bt__largest (k.p) + bt__largest (k.e1) + bt__largest (k.e2))))

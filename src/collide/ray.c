@@ -18,7 +18,7 @@ typedef struct question
 } question;
 
 static double
-take (question *q, const bt__entry *e, uint32_t slot)
+take_hit (question *q, const bt__entry *e, uint32_t slot)
 {
   bt__ray_hit *h = q->out;
   q->found = 1;
@@ -32,18 +32,18 @@ take (question *q, const bt__entry *e, uint32_t slot)
 }
 
 static double
-visit_triangle (void *user, uint32_t slot, double reach)
+cast_at_triangle (void *user, uint32_t slot, double reach)
 {
   question *q = user;
   bt__triangle t = bt__mesh_triangle (q->scene->object[q->object].shape.mesh, slot);
   bt__entry e;
   q->count->pairs++;
-  return bt__ray_triangle (&t, q->ray.from, q->ray.direction, reach, &e) ? take (q, &e, slot)
+  return bt__ray_triangle (&t, q->ray.from, q->ray.direction, reach, &e) ? take_hit (q, &e, slot)
                                                                          : reach;
 }
 
 static double
-visit_object (question *q, uint32_t object, double reach)
+cast_at_object (question *q, uint32_t object, double reach)
 {
   const bt__obstacle *o = q->scene->object + object;
   bt__entry e;
@@ -51,19 +51,19 @@ visit_object (question *q, uint32_t object, double reach)
     return reach;
   q->object = object;
   if (o->kind == BT__OBSTACLE_MESH)
-    return bt__bvh_ray (&o->shape.mesh->tree, q->ray.from, q->ray.direction, reach, visit_triangle,
-                        q, q->count);
+    return bt__bvh_ray (&o->shape.mesh->tree, q->ray.from, q->ray.direction, reach,
+                        cast_at_triangle, q, q->count);
   q->count->pairs++;
   return bt__ray_obstacle (o, q->ray.from, q->ray.direction, reach, &e)
-             ? take (q, &e, BT__NO_TRIANGLE)
+             ? take_hit (q, &e, BT__NO_TRIANGLE)
              : reach;
 }
 
 static double
-visit_solid (void *user, uint32_t slot, double reach)
+cast_at_solid (void *user, uint32_t slot, double reach)
 {
   question *q = user;
-  return visit_object (q, q->scene->solid[q->scene->tree.order[slot]], reach);
+  return cast_at_object (q, q->scene->solid[q->scene->tree.order[slot]], reach);
 }
 
 static int
@@ -88,8 +88,8 @@ bt__scene_ray (const bt__scene *s, const bt__switches *on, const bt__ray *ray, b
     return 0;
   count->links++;
   for (uint32_t i = 0; i < s->planes; i++)
-    reach = visit_object (&q, s->plane[i], reach);
-  bt__bvh_ray (&s->tree, ray->from, ray->direction, reach, visit_solid, &q, count);
+    reach = cast_at_object (&q, s->plane[i], reach);
+  bt__bvh_ray (&s->tree, ray->from, ray->direction, reach, cast_at_solid, &q, count);
   if (q.found)
     {
       out->mover = BT__NO_MOVER;

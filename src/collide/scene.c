@@ -137,7 +137,7 @@ bt__obstacle_box (const bt__obstacle *o)
 
 /* A little larger than computed, for the rounding of directions.  */
 static void
-box_of (const void *user, uint32_t i, bt__aabb *box)
+box_of_solid (const void *user, uint32_t i, bt__aabb *box)
 {
   const bt__scene *s = user;
   bt__aabb b = bt__obstacle_box (s->object + s->solid[i]);
@@ -188,7 +188,7 @@ bt__scene_new (const bt__obstacle *obstacles, uint32_t n, uint64_t serial, bt__s
       else
         s->solid[s->solids++] = i;
     }
-  bt__bvh_build (&s->tree, s->solids, box_of, s);
+  bt__bvh_build (&s->tree, s->solids, box_of_solid, s);
   bt__bvh_trim (&s->tree);
   *out = s;
   return BT_OK;

@@ -101,7 +101,7 @@ typedef struct question
 } question;
 
 static double
-offer (question *q, uint32_t slot, const bt__gap *gap, double distance, double reach)
+take_gap (question *q, uint32_t slot, const bt__gap *gap, double distance, double reach)
 {
   q->count->pairs++;
   if (!(distance + q->radius <= reach))
@@ -118,14 +118,14 @@ offer (question *q, uint32_t slot, const bt__gap *gap, double distance, double r
 }
 
 static double
-visit_triangle (void *user, uint32_t slot, double reach)
+gap_of_triangle (void *user, uint32_t slot, double reach)
 {
   question *q = user;
   bt__triangle t = bt__mesh_triangle (q->scene->object[q->object].shape.mesh, slot);
   bt__convex core = { bt__triangle_support, &t };
   bt__gap gap;
   bt__gjk (q->body, &core, &gap);
-  return offer (q, slot, &gap, gap.distance, reach);
+  return take_gap (q, slot, &gap, gap.distance, reach);
 }
 
 static double
@@ -135,14 +135,14 @@ visit_plane (question *q, const bt__plane *plane, double reach)
   gap.a = q->body->support (q->body->shape, bt__scale (-1, plane->normal), gap.hint);
   gap.distance = bt__dot (plane->normal, gap.a) - plane->offset;
   gap.b = bt__axpy (gap.a, -gap.distance, plane->normal);
-  double before = reach, after = offer (q, BT__NO_TRIANGLE, &gap, gap.distance, reach);
+  double before = reach, after = take_gap (q, BT__NO_TRIANGLE, &gap, gap.distance, reach);
   if (after < before)
     q->out->w.normal = plane->normal;
   return after;
 }
 
 static double
-visit_object (question *q, uint32_t object, double reach)
+gap_of_object (question *q, uint32_t object, double reach)
 {
   const bt__obstacle *o = q->scene->object + object;
   if (!bt__is_on (q->on, object))
@@ -151,19 +151,19 @@ visit_object (question *q, uint32_t object, double reach)
   if (o->kind == BT__OBSTACLE_PLANE)
     return visit_plane (q, &o->shape.plane, reach);
   if (o->kind == BT__OBSTACLE_MESH)
-    return bt__bvh_query (&o->shape.mesh->tree, &q->centre, reach, 1, visit_triangle, q, q->count);
+    return bt__bvh_query (&o->shape.mesh->tree, &q->centre, reach, 1, gap_of_triangle, q, q->count);
   bt__gap gap;
   double radius;
   bt__convex core = bt__obstacle_core (o, &radius);
   bt__gjk (q->body, &core, &gap);
-  return offer (q, BT__NO_TRIANGLE, &gap, fmax (gap.distance - radius, 0), reach);
+  return take_gap (q, BT__NO_TRIANGLE, &gap, fmax (gap.distance - radius, 0), reach);
 }
 
 static double
-visit_solid (void *user, uint32_t slot, double reach)
+gap_of_solid (void *user, uint32_t slot, double reach)
 {
   question *q = user;
-  return visit_object (q, q->scene->solid[q->scene->tree.order[slot]], reach);
+  return gap_of_object (q, q->scene->solid[q->scene->tree.order[slot]], reach);
 }
 
 int
@@ -180,7 +180,7 @@ bt__scene_nearest_to_body (const bt__scene *scene, const bt__switches *on, const
     }
   count->links++;
   for (uint32_t i = 0; i < scene->planes; i++)
-    reach = visit_object (&q, scene->plane[i], reach);
-  bt__bvh_query (&scene->tree, &q.centre, reach, 1, visit_solid, &q, count);
+    reach = gap_of_object (&q, scene->plane[i], reach);
+  bt__bvh_query (&scene->tree, &q.centre, reach, 1, gap_of_solid, &q, count);
   return q.found;
 }

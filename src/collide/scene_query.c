@@ -180,7 +180,7 @@ typedef struct question
 
 /* NOW has been measured.  */
 static double
-take (question *q, double reach)
+take_pair (question *q, double reach)
 {
   q->count->pairs++;
   if (!(q->now.w.distance <= reach))
@@ -206,7 +206,7 @@ is_beyond (double a, double b, double c, double p, double q, double reach)
 }
 
 static double
-visit_triangle (void *user, uint32_t slot, double reach)
+measure_triangle (void *user, uint32_t slot, double reach)
 {
   question *q = user;
   const bt__mesh *m = q->scene->object[q->now.object].shape.mesh;
@@ -219,11 +219,11 @@ visit_triangle (void *user, uint32_t slot, double reach)
   q->now.slot = slot;
   q->now.triangle = m->id[slot];
   bt__pair_triangle (&t, q->link, &q->now.w);
-  return take (q, reach);
+  return take_pair (q, reach);
 }
 
 static double
-visit_object (question *q, uint32_t object, double reach)
+measure_object (question *q, uint32_t object, double reach)
 {
   const bt__obstacle *o = q->scene->object + object;
   if (!bt__is_on (q->on, object))
@@ -231,21 +231,21 @@ visit_object (question *q, uint32_t object, double reach)
   q->now.object = object;
   q->now.slot = q->now.triangle = BT__NO_TRIANGLE;
   if (o->kind == BT__OBSTACLE_MESH)
-    return bt__bvh_query (&o->shape.mesh->tree, q->link, reach, !q->list, visit_triangle, q,
+    return bt__bvh_query (&o->shape.mesh->tree, q->link, reach, !q->list, measure_triangle, q,
                           q->count);
   bt__obstacle_pair (o, q->link, &q->now.w);
-  return take (q, reach);
+  return take_pair (q, reach);
 }
 
 static double
-visit_solid (void *user, uint32_t slot, double reach)
+measure_solid (void *user, uint32_t slot, double reach)
 {
   question *q = user;
-  return visit_object (q, q->scene->solid[q->scene->tree.order[slot]], reach);
+  return measure_object (q, q->scene->solid[q->scene->tree.order[slot]], reach);
 }
 
 static void
-ask (question *q, double reach)
+ask_tree (question *q, double reach)
 {
   const bt__scene *s = q->scene;
   if (s->n == 0)
@@ -255,8 +255,8 @@ ask (question *q, double reach)
     }
   q->count->links++;
   for (uint32_t i = 0; i < s->planes; i++)
-    reach = visit_object (q, s->plane[i], reach);
-  bt__bvh_query (&s->tree, q->link, reach, !q->list, visit_solid, q, q->count);
+    reach = measure_object (q, s->plane[i], reach);
+  bt__bvh_query (&s->tree, q->link, reach, !q->list, measure_solid, q, q->count);
 }
 
 void
@@ -266,7 +266,7 @@ bt__scene_near (const bt__scene *scene, const bt__switches *on, const bt__link *
   question q = {
     .scene = scene, .on = on, .link = link, .list = list, .now.link = number, .count = count
   };
-  ask (&q, reach);
+  ask_tree (&q, reach);
 }
 
 void
@@ -292,7 +292,7 @@ bt__scene_nearest (const bt__scene *scene, const bt__switches *on, const bt__lin
                    bt__near *out, bt__count *count)
 {
   question q = { .scene = scene, .on = on, .link = link, .count = count };
-  ask (&q, cap);
+  ask_tree (&q, cap);
   if (q.found)
     *out = q.best;
   return q.found;

@@ -87,7 +87,7 @@ chase_part (sweep *s, uint32_t slot)
 }
 
 static double
-visit_triangle (void *user, uint32_t slot, double reach)
+sweep_triangle (void *user, uint32_t slot, double reach)
 {
   sweep *s = user;
   bt__triangle t = bt__mesh_triangle (s->scene->object[s->object].shape.mesh, slot);
@@ -98,7 +98,7 @@ visit_triangle (void *user, uint32_t slot, double reach)
 }
 
 static void
-visit_object (sweep *s, uint32_t object)
+sweep_object (sweep *s, uint32_t object)
 {
   const bt__obstacle *o = s->scene->object + object;
   if (!bt__is_on (s->on, object))
@@ -107,7 +107,7 @@ visit_object (sweep *s, uint32_t object)
   s->chase.plane = o->kind == BT__OBSTACLE_PLANE ? &o->shape.plane : NULL;
   if (o->kind == BT__OBSTACLE_MESH)
     {
-      bt__bvh_query (&o->shape.mesh->tree, &s->path, s->reach, 0, visit_triangle, s, s->count);
+      bt__bvh_query (&o->shape.mesh->tree, &s->path, s->reach, 0, sweep_triangle, s, s->count);
       return;
     }
   if (!s->chase.plane)
@@ -116,10 +116,10 @@ visit_object (sweep *s, uint32_t object)
 }
 
 static double
-visit_solid (void *user, uint32_t slot, double reach)
+sweep_solid (void *user, uint32_t slot, double reach)
 {
   sweep *s = user;
-  visit_object (s, s->scene->solid[s->scene->tree.order[slot]]);
+  sweep_object (s, s->scene->solid[s->scene->tree.order[slot]]);
   return reach;
 }
 
@@ -134,8 +134,8 @@ run (sweep *s)
     }
   s->count->links++;
   for (uint32_t i = 0; i < s->scene->planes; i++)
-    visit_object (s, s->scene->plane[i]);
-  bt__bvh_query (&s->scene->tree, &s->path, s->reach, 0, visit_solid, s, s->count);
+    sweep_object (s, s->scene->plane[i]);
+  bt__bvh_query (&s->scene->tree, &s->path, s->reach, 0, sweep_solid, s, s->count);
   return s->best;
 }
 
@@ -237,8 +237,9 @@ keep_nearer (const bt__near *near, const bt__frame *f, double round, uint32_t mo
 
 /* Ask SCENE, standing at AT, of the body at FRAME.  */
 static int
-ask (const bt__body *body, const bt__frame *frame, double cap, const bt__scene *scene,
-     const bt__switches *on, const bt__frame *at, uint32_t mover, bt__stop *stop, bt__count *count)
+nearest_stop (const bt__body *body, const bt__frame *frame, double cap, const bt__scene *scene,
+              const bt__switches *on, const bt__frame *at, uint32_t mover, bt__stop *stop,
+              bt__count *count)
 {
   bt__placed placed = { &body->core,
                         { bt__to_local (at, frame->origin), bt__into (at, frame->x),
@@ -258,12 +259,12 @@ bt__body_nearest (const bt__body *body, const bt__frame *frame, double cap, cons
                   const bt__switches *on, const bt__mover *mover, uint32_t movers, bt__stop *stop,
                   bt__count *count)
 {
-  int found = ask (body, frame, cap, scene, on, &world, UINT32_MAX, stop, count);
+  int found = nearest_stop (body, frame, cap, scene, on, &world, UINT32_MAX, stop, count);
   for (uint32_t m = 0; m < movers; m++)
     {
       bt__frame at = bt__motion_at (&mover[m].motion, mover[m].done);
       cap = found ? fmin (cap, stop->distance) : cap;
-      found |= ask (body, frame, cap, mover[m].body, mover[m].on, &at, m, stop, count);
+      found |= nearest_stop (body, frame, cap, mover[m].body, mover[m].on, &at, m, stop, count);
     }
   return found;
 }

@@ -58,7 +58,7 @@ measure_plane (const bt__chase *c, const bt__placed *body, bt__apart *out)
 }
 
 static void
-measure (const bt__chase *c, double t, bt__apart *out)
+measure_gap (const bt__chase *c, double t, bt__apart *out)
 {
   bt__placed a = { &c->body.core, bt__motion_at (&c->body.motion, t) };
   bt__placed b = { &c->part.core, bt__motion_at (&c->part.motion, t) };
@@ -170,7 +170,7 @@ bt__chase_run (const bt__chase *c, double most, bt__apart *out, bt__count *count
       outlook o = {
         c, bt__motion_at (&c->body.motion, t), bt__motion_at (&c->part.motion, t), { 0, 0, 0 }
       };
-      measure (c, t, out);
+      measure_gap (c, t, out);
       count->cast_steps++;
       o.n = out->normal;
       if (bt__dot (o.n, o.n) == 0)
@@ -187,6 +187,6 @@ bt__chase_run (const bt__chase *c, double most, bt__apart *out, bt__count *count
       if (!(step > least_step))
         break;
     }
-  measure (c, t, out);
+  measure_gap (c, t, out);
   return t;
 }

@@ -255,7 +255,7 @@ check_nodes (const bt_world *world, bt_error *error)
 }
 
 static bt_status
-check_counts (const bt_world *world, bt_error *error)
+check_part_counts (const bt_world *world, bt_error *error)
 {
   if (world->n_vehicles < 0 || world->n_vehicles > BT_VEHICLES_MAX)
     return bt__fail (error, BT_ERR_LIMIT, "a world has at most %d vehicles, not %d",
@@ -303,7 +303,7 @@ bt_status
 bt_model_new (const bt_world *world, bt_model **out, bt_error *error)
 {
   bt_model *model;
-  bt_status status = check_counts (world, error);
+  bt_status status = check_part_counts (world, error);
   if (status != BT_OK)
     return status;
   model = model_of (world);

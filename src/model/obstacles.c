@@ -99,7 +99,7 @@ check_triangles (const bt_world *world, bt_error *error)
 }
 
 static bt_status
-check_counts (const bt_world *world, bt_error *error)
+check_obstacle_counts (const bt_world *world, bt_error *error)
 {
   int seabeds = 0;
   if (world->n_obstacles < 0 || world->n_obstacles > BT_OBSTACLES_MAX)
@@ -194,7 +194,7 @@ bt__compile_obstacles (bt_model *model, const bt_world *world, bt_error *error)
 {
   size_t n = (size_t)world->n_obstacles;
   bt__obstacle *still;
-  bt_status status = check_counts (world, error);
+  bt_status status = check_obstacle_counts (world, error);
   if (status != BT_OK)
     return status;
   if (n == 0)

@@ -261,7 +261,7 @@ bt__screen_text (bt__screen *s, int column, int row, const char *text, size_t n,
 /* ---- Writing ---- */
 
 static void
-put (bt__screen *s, const char *text)
+put_text (bt__screen *s, const char *text)
 {
   size_t n = strlen (text);
   memcpy (s->bytes + s->n, text, n);
@@ -293,7 +293,7 @@ put_color (bt__screen *s, int32_t color, int behind)
   else
     snprintf (text, sizeof text, "\033[%dm",
               (int)(color < 8 ? 30 + color : 82 + color) + (behind ? 10 : 0));
-  put (s, text);
+  put_text (s, text);
 }
 
 static int
@@ -331,7 +331,7 @@ put_cell (bt__screen *s, int i, cell c)
   if (s->at != i)
     {
       snprintf (text, sizeof text, "\033[%d;%dH", i / s->columns + 1, i % s->columns + 1);
-      put (s, text);
+      put_text (s, text);
     }
   if (s->palette != BT__PALETTE_NONE && c.paper != s->paper)
     put_color (s, s->paper = c.paper, 1);
@@ -348,7 +348,7 @@ bt__screen_changes (bt__screen *s, int all, const char **bytes, int *cells)
   s->n = 0;
   s->at = s->ink = s->paper = -1;
   if (all)
-    put (s, "\033[0m\033[2J");
+    put_text (s, "\033[0m\033[2J");
   for (size_t i = 0; i < cells_of (s); i++)
     {
       cell c = on_screen (s, i);
@@ -359,7 +359,7 @@ bt__screen_changes (bt__screen *s, int all, const char **bytes, int *cells)
       changed++;
     }
   if (changed)
-    put (s, "\033[0m");
+    put_text (s, "\033[0m");
   *bytes = s->bytes;
   if (cells)
     *cells = changed;

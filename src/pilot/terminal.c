@@ -52,7 +52,7 @@ static struct
 /* ---- Giving back: all of it may run in a handler ---- */
 
 static void
-put (const char *bytes, size_t n)
+put_bytes (const char *bytes, size_t n)
 {
   while (n > 0)
     {
@@ -69,7 +69,7 @@ static void
 give_back (void)
 {
   tcsetattr (STDIN_FILENO, TCSAFLUSH, &the.before);
-  put (giving, sizeof giving - 1);
+  put_bytes (giving, sizeof giving - 1);
 }
 
 static void
@@ -212,12 +212,13 @@ bt__terminal_enter (bt_error *error)
   catch_signals ();
   raw = the.before;
   cfmakeraw (&raw);
-  /* A read waits for a byte.  After kill -9 the shell may read before the guardian gave the settings
-     back, and where a read returns without a byte, it takes that for the end of its input.  */
+  /* A read waits for a byte.  After kill -9 the shell may read before the guardian gave the
+     settings back, and where a read returns without a byte, it takes that for the end of its input.
+   */
   raw.c_cc[VMIN] = 1;
   raw.c_cc[VTIME] = 0;
   tcsetattr (STDIN_FILENO, TCSAFLUSH, &raw);
-  put (taking, sizeof taking - 1);
+  put_bytes (taking, sizeof taking - 1);
   return BT_OK;
 }
 

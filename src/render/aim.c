@@ -111,7 +111,7 @@ typedef struct box
 } box;
 
 static void
-widen (void *user, bt_vec3 p)
+widen_box (void *user, bt_vec3 p)
 {
   box *b = user;
   if (!b->any)
@@ -132,7 +132,7 @@ static box
 box_of (const bt_thing *t)
 {
   box b = { { 0, 0, 0 }, { 0, 0, 0 }, 0 };
-  visit_thing (t, widen, &b);
+  visit_thing (t, widen_box, &b);
   return b;
 }
 
@@ -143,7 +143,7 @@ must_box (const bt_view *view)
   box b = { { 0, 0, 0 }, { 0, 0, 0 }, 0 };
   for (size_t i = 0; i < view->n; i++)
     if (view->things[i].framing == BT_FRAME_MUST)
-      visit_thing (&view->things[i], widen, &b);
+      visit_thing (&view->things[i], widen_box, &b);
   return b;
 }
 

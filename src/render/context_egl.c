@@ -45,7 +45,7 @@ close_egl (void *context)
 }
 
 static bt_status
-find_symbols (egl *e, bt_error *error)
+load_egl (egl *e, bt_error *error)
 {
   e->library = dlopen ("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
   if (!e->library)
@@ -104,7 +104,7 @@ open_egl (void **context, bt_error *error)
   bt_status status;
   if (!e)
     return bt__fail (error, BT_ERR_LIMIT, "there is no memory left");
-  status = find_symbols (e, error);
+  status = load_egl (e, error);
   if (status == BT_OK)
     status = make_context (e, error);
   if (status != BT_OK)

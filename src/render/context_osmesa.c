@@ -52,7 +52,7 @@ close_osmesa (void *context)
 }
 
 static bt_status
-find_symbols (osmesa *o, bt_error *error)
+load_osmesa (osmesa *o, bt_error *error)
 {
   static const char *const files[] = { "libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so" };
   for (size_t i = 0; !o->library && i < sizeof files / sizeof *files; i++)
@@ -84,7 +84,7 @@ open_osmesa (void **context, bt_error *error)
   bt_status status;
   if (!o)
     return bt__fail (error, BT_ERR_LIMIT, "there is no memory left");
-  status = find_symbols (o, error);
+  status = load_osmesa (o, error);
   if (status == BT_OK && !(o->context = o->create (attributes, NULL)))
     status = bt__fail (error, BT_ERR_UNSUPPORTED, "libOSMesa has no OpenGL 3.3");
   if (status != BT_OK)

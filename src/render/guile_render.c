@@ -178,7 +178,7 @@ show_of (SCM paint, SCM flags)
 
 /* GHOST, another dive, is drawn pale beside the first; or none, for what is no dive.  */
 static void
-gather (sketch *s, const bt_dive *dive, const bt__show *show, SCM ghost, int lamp)
+gather_dive (sketch *s, const bt_dive *dive, const bt__show *show, SCM ghost, int lamp)
 {
   bt_error error;
   bt__check ("snapshot", bt_view_new (&s->view, &error), &error);
@@ -201,7 +201,7 @@ draw_dive (SCM renderer, SCM object, SCM title, SCM aim, SCM size, SCM paint, SC
   scm_dynwind_begin (0);
   scm_dynwind_unwind_handler (free_sketch, s, SCM_F_WIND_EXPLICITLY);
   bt__check ("snapshot", bt__check_size (s->drawing.width, s->drawing.height, &error), &error);
-  gather (s, dive, &show, ghost, has_flag (flags, "lamp"));
+  gather_dive (s, dive, &show, ghost, has_flag (flags, "lamp"));
   set_title (s, title);
   bt__check ("snapshot", aim_camera (s, aim, &error), &error);
   draw (s, renderer, has_flag (flags, "figures"));

@@ -43,7 +43,7 @@ reach_of (const bt__job *j)
 }
 
 static void
-gather (bt__job *j, int sort)
+gather_things (bt__job *j, int sort)
 {
   const bt_view *view = j->view;
   for (size_t i = 0; i < view->n; i++)
@@ -115,12 +115,12 @@ void
 bt__prepare (bt__job *j)
 {
   j->level = -1e30;
-  gather (j, SOLID);
+  gather_things (j, SOLID);
   j->n_cast = j->soup.n_index;
-  gather (j, SIGN);
+  gather_things (j, SIGN);
   j->n_solid = j->soup.n_index;
   if (!j->drawing.transparent)
-    gather (j, GROUND); /* last: most of it is hidden by then */
+    gather_things (j, GROUND); /* last: most of it is hidden by then */
   measure (j);
   set_depths (j);
 }

@@ -20,7 +20,7 @@ set_angles (bt_thing *t, const bt_vec3 axis[3])
 }
 
 static void
-add_level (bt__scene *s, double z)
+add_seabed_level (bt__scene *s, double z)
 {
   bt_thing t = bt_thing_of (BT_THING_LEVEL);
   t.at.z = z;
@@ -37,7 +37,7 @@ count_up (uint32_t *next)
 
 /* The surface of obstacle I as a mesh where it stands.  */
 static void
-add_mesh (bt__scene *s, int i, const bt_obstacle_view *o)
+add_obstacle_mesh (bt__scene *s, int i, const bt_obstacle_view *o)
 {
   enum
   {
@@ -94,9 +94,9 @@ add_obstacle (bt__scene *s, int i, const bt_obstacle_view *o)
 {
   bt_thing t;
   if (o->triangles > 0)
-    add_mesh (s, i, o);
+    add_obstacle_mesh (s, i, o);
   else if (o->kind == BT_OBSTACLE_SEABED)
-    add_level (s, o->centre.z);
+    add_seabed_level (s, o->centre.z);
   else
     {
       t = solid_of (o);
@@ -119,5 +119,5 @@ bt__scene_obstacles (bt__scene *s)
       add_obstacle (s, i, &o);
     }
   if (!bottom)
-    add_level (s, -s->sea.depth);
+    add_seabed_level (s, -s->sea.depth);
 }

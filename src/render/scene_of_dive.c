@@ -131,7 +131,7 @@ current_at (bt__scene *s, bt_vec3 p)
 }
 
 static void
-add_arrow (bt__scene *s, bt_vec3 at, bt_vec3 v, double metres, int told)
+add_current_arrow (bt__scene *s, bt_vec3 at, bt_vec3 v, double metres, int told)
 {
   bt_thing t = bt_thing_of (BT_THING_ARROW);
   char text[40];
@@ -169,7 +169,7 @@ add_current (bt__scene *s)
     }
   for (int i = 0; i < n; i++)
     if (bt__norm (v[i]) > 0.02 * most && most > 1e-3)
-      add_arrow (s, at[i], v[i], 0.14 * span / most, i == fastest);
+      add_current_arrow (s, at[i], v[i], 0.14 * span / most, i == fastest);
 }
 
 /* ---- Words ---- */

@@ -53,7 +53,7 @@ make_room (bt__scene *s)
 }
 
 static void
-widen (bt__scene *s, bt_vec3 p)
+widen_scene (bt__scene *s, bt_vec3 p)
 {
   if (!s->any)
     s->low = s->high = p;
@@ -272,7 +272,7 @@ bt__scene_tethers (bt__scene *s)
       if (s->status == BT_OK)
         set_values (s, i, &t, s->values + s->n, k);
       for (size_t j = 0; j < k && s->status == BT_OK; j++)
-        widen (s, s->points[s->n + j]);
+        widen_scene (s, s->points[s->n + j]);
       s->n += k;
     }
   if (s->status == BT_OK)

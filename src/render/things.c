@@ -60,7 +60,7 @@ add_lines (bt__soup *soup, const bt_thing *t)
 
 /* A shaft and a head, thick enough to be seen.  */
 static void
-add_arrow (bt__soup *soup, const bt_thing *t)
+draw_arrow (bt__soup *soup, const bt_thing *t)
 {
   double length = bt__distance (t->from, t->to);
   double r
@@ -108,7 +108,7 @@ add_round (bt__soup *soup, const bt_thing *t)
 }
 
 static void
-add_mesh (bt__soup *soup, const bt_thing *t)
+draw_mesh (bt__soup *soup, const bt_thing *t)
 {
   bt__pose pose = bt__pose_of (t->at, t->heading, t->pitch, t->roll);
   for (size_t i = 0; i < t->triangles; i++)
@@ -136,14 +136,14 @@ add_solid (bt__soup *soup, const bt_thing *t)
   else if (t->kind == BT_THING_CYLINDER || t->kind == BT_THING_CAPSULE)
     add_round (soup, t);
   else
-    add_mesh (soup, t);
+    draw_mesh (soup, t);
 }
 
 /* ---- Ground ---- */
 
 /* A square of REACH about the point under the camera, in strips that keep the floats exact.  */
 static void
-add_level (bt__soup *soup, const bt_thing *t, double reach)
+draw_level (bt__soup *soup, const bt_thing *t, double reach)
 {
   enum
   {
@@ -227,13 +227,13 @@ bt__add_thing (bt__soup *soup, const bt_view *view, const bt_thing *t, double re
       add_lines (soup, t);
       break;
     case BT_THING_ARROW:
-      add_arrow (soup, t);
+      draw_arrow (soup, t);
       break;
     case BT_THING_MARK:
       add_mark (soup, t);
       break;
     case BT_THING_LEVEL:
-      add_level (soup, t, reach);
+      draw_level (soup, t, reach);
       break;
     case BT_THING_FIELD:
       add_field (soup, t);
