@@ -58,7 +58,7 @@ goes_along (const strip *s, const place *at)
 }
 
 static void
-go_on (const strip *s, place *at)
+go_on_strip (const strip *s, place *at)
 {
   if (goes_along (s, at))
     {
@@ -113,7 +113,7 @@ lay_strip (strip *s)
         }
       stretch (&s->box[b], s->p[at.i]);
       stretch (&s->box[b], s->q[at.j]);
-      go_on (s, &at);
+      go_on_strip (s, &at);
       stretch (&s->box[b], s->p[at.i]);
       stretch (&s->box[b], s->q[at.j]);
     }
@@ -129,7 +129,7 @@ lay_strip (strip *s)
 /* Six times the volume of the tetrahedron A, B, C, D: positive if D is where the normal of A, B, C
    points.  */
 static double
-volume (bt_vec3 a, bt_vec3 b, bt_vec3 c, bt_vec3 d)
+volume_of_tetrahedron (bt_vec3 a, bt_vec3 b, bt_vec3 c, bt_vec3 d)
 {
   return bt__dot (bt__cross (bt__sub (b, a), bt__sub (c, a)), bt__sub (d, a));
 }
@@ -144,7 +144,7 @@ sign_of (double x)
 static int
 passes_rung (bt_vec3 x, bt_vec3 y, bt_vec3 p, bt_vec3 q)
 {
-  return sign_of (volume (x, y, p, q));
+  return sign_of (volume_of_tetrahedron (x, y, p, q));
 }
 
 /* 1 or -1 if the edge X to Y goes through the triangle of S at AT, along its normal or against it;
@@ -156,12 +156,14 @@ through (const strip *s, const place *at, bt_vec3 x, bt_vec3 y)
   int along = goes_along (s, at);
   bt_vec3 next = along ? s->p[at->i + 1] : s->q[at->j + 1];
   bt_vec3 b = along ? next : q, c = along ? q : p, a = along ? p : next;
-  int from = sign_of (volume (a, b, c, x)), to = sign_of (volume (a, b, c, y));
+  int from = sign_of (volume_of_tetrahedron (a, b, c, x)),
+      to = sign_of (volume_of_tetrahedron (a, b, c, y));
   if (from == to)
     return 0;
   int first = passes_rung (x, y, p, q);
   int last = along ? passes_rung (x, y, next, q) : passes_rung (x, y, p, next);
-  int rim = along ? sign_of (volume (x, y, p, next)) : sign_of (volume (x, y, next, q));
+  int rim = along ? sign_of (volume_of_tetrahedron (x, y, p, next))
+                  : sign_of (volume_of_tetrahedron (x, y, next, q));
   return last == rim && first == -rim ? to : 0;
 }
 
@@ -179,7 +181,7 @@ crossings_in_block (const strip *s, uint32_t b, bt_vec3 x, bt_vec3 y)
   place at = s->first[b];
   int sum = 0;
   last = last < triangles_of (s) ? last : triangles_of (s);
-  for (uint32_t k = b * s->block; k < last; k++, go_on (s, &at))
+  for (uint32_t k = b * s->block; k < last; k++, go_on_strip (s, &at))
     sum += through (s, &at, x, y);
   return sum;
 }

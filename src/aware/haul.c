@@ -172,8 +172,8 @@ bt__haul_crotch (const bt__taut_config *config, const bt__string *string, const 
 /* How near STRING comes to anything but within SPARE of its ends, where the body is already, or has
    come.  */
 static bt__route
-measure (const bt__taut_config *config, double spare, double cap, const bt__string *string,
-         bt__count *count)
+measure_route (const bt__taut_config *config, double spare, double cap, const bt__string *string,
+               bt__count *count)
 {
   bt__route way = { string->length, cap, NOTHING, 0 };
   double s = 0;
@@ -208,7 +208,7 @@ push_out (bt__taut *taut, const bt__taut_config *config, double want, bt__string
   wide.mesh = fmin (config->mesh, want);
   bt__string_wake (string);
   bt__taut_relax (taut, &wide, string, PUSH_STEPS, count);
-  return measure (config, want, 10 * want, string, count);
+  return measure_route (config, want, 10 * want, string, count);
 }
 
 static void

@@ -26,7 +26,7 @@ enum
 /* ---- Symmetric blocks ---- */
 
 static bt_vec3
-times (const bt__block *m, bt_vec3 v)
+block_times (const bt__block *m, bt_vec3 v)
 {
   return bt__vec (m->xx * v.x + m->xy * v.y + m->xz * v.z, m->xy * v.x + m->yy * v.y + m->yz * v.z,
                   m->xz * v.x + m->yz * v.y + m->zz * v.z);
@@ -92,7 +92,7 @@ weigh (bt__taut *t, const bt__string *s, double mean)
 }
 
 static void
-eliminate (bt__taut *t, const bt__string *s, double prox, double stiff, uint32_t from)
+eliminate_string (bt__taut *t, const bt__string *s, double prox, double stiff, uint32_t from)
 {
   for (uint32_t j = from; j + 1 < s->n; j++)
     {
@@ -110,7 +110,7 @@ eliminate (bt__taut *t, const bt__string *s, double prox, double stiff, uint32_t
       else
         {
           const bt__block *u = t->inverse + j - 1;
-          r = bt__axpy (r, w, times (u, t->right[j - 1]));
+          r = bt__axpy (r, w, block_times (u, t->right[j - 1]));
           m.xx -= w * w * u->xx;
           m.xy -= w * w * u->xy;
           m.xz -= w * w * u->xz;
@@ -129,7 +129,7 @@ substitute (bt__taut *t, const bt__string *s)
   t->y[0] = s->x[0];
   t->y[s->n - 1] = s->x[s->n - 1];
   for (uint32_t j = s->n - 2; j > 0; j--)
-    t->y[j] = times (t->inverse + j, bt__axpy (t->right[j], t->weight[j], t->y[j + 1]));
+    t->y[j] = block_times (t->inverse + j, bt__axpy (t->right[j], t->weight[j], t->y[j + 1]));
 }
 
 void
@@ -144,7 +144,7 @@ bt__taut_solve (bt__taut *t, const bt__string *s, double prox)
     set_active (t, j, s->x[j], 1e-5 * mean);
   for (int pass = 0; pass < SOLVES && from < s->n; pass++)
     {
-      eliminate (t, s, prox, stiff, from);
+      eliminate_string (t, s, prox, stiff, from);
       substitute (t, s);
       from = s->n;
       for (uint32_t j = s->n - 2; j > 0; j--)
@@ -189,7 +189,7 @@ project (const bt__taut *t, uint32_t j, bt_vec3 x)
 
 /* The share of the way from X, which obeys, to X + D that obeys too.  */
 static double
-share_of (const bt__taut *t, uint32_t j, bt_vec3 x, bt_vec3 d)
+share_that_obeys (const bt__taut *t, uint32_t j, bt_vec3 x, bt_vec3 d)
 {
   double share = 1;
   for (uint32_t k = BT__FIRST_SIDE (t, j); k < t->first[j + 1]; k++)
@@ -213,6 +213,6 @@ bt__taut_obey (bt__taut *t, const bt__string *s)
         d = bt__vec (0, 0, 0);
       else if (size > t->most[j])
         d = bt__scale (t->most[j] / size, d);
-      t->y[j] = bt__axpy (s->x[j], share_of (t, j, s->x[j], d), d);
+      t->y[j] = bt__axpy (s->x[j], share_that_obeys (t, j, s->x[j], d), d);
     }
 }

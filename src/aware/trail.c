@@ -17,7 +17,7 @@ bt__trail_lay (bt__trail *trail, const bt_vec3 *p, uint32_t n)
 
 /* Bring X to within LENGTH of TO; zero if it is already.  */
 static int
-follow (bt_vec3 *x, bt_vec3 to, double length)
+follow_to (bt_vec3 *x, bt_vec3 to, double length)
 {
   bt_vec3 d = bt__sub (*x, to);
   double far = bt__norm (d);
@@ -33,12 +33,12 @@ bt__trail_lead (bt__trail *trail, bt_vec3 end)
   bt_vec3 *x = trail->x, anchor = x[0];
   uint32_t k = trail->n - 1;
   x[k] = end;
-  while (k > 0 && follow (&x[k - 1], x[k], trail->link[k - 1]))
+  while (k > 0 && follow_to (&x[k - 1], x[k], trail->link[k - 1]))
     k--;
   if (k > 0)
     return k - 1;
   x[0] = anchor;
-  for (uint32_t j = 1; j + 1 < trail->n && follow (&x[j], x[j - 1], trail->link[j - 1]); j++)
+  for (uint32_t j = 1; j + 1 < trail->n && follow_to (&x[j], x[j - 1], trail->link[j - 1]); j++)
     ;
   return 0;
 }

@@ -7,7 +7,7 @@
 /* ---- The axis of an obstacle ---- */
 
 static bt_vec3
-middle_of (const bt_vec3 *v, uint32_t n)
+middle_of_box (const bt_vec3 *v, uint32_t n)
 {
   bt_vec3 lo = v[0], hi = v[0];
   for (uint32_t i = 1; i < n; i++)
@@ -39,7 +39,7 @@ bt__axis_of (const bt__obstacle *o, bt__axis *out)
       out->along = bt__unit_or (bt__sub (o->shape.capsule.b, o->shape.capsule.a), down);
       return 1;
     case BT__OBSTACLE_CONVEX:
-      out->at = middle_of (o->shape.hull->v, (uint32_t)o->shape.hull->vertices);
+      out->at = middle_of_box (o->shape.hull->v, (uint32_t)o->shape.hull->vertices);
       return 1;
     case BT__OBSTACLE_MESH:
       out->at = bt__scale (0.5, bt__add (o->shape.mesh->box.lo, o->shape.mesh->box.hi));

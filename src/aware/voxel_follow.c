@@ -145,7 +145,7 @@ arrive (follower *f, uint32_t target, int depth)
 
 /* Follow to Q in pieces of half a cell, finer where that fails.  */
 static int
-follow (follower *f, bt_vec3 q)
+follow_in_pieces (follower *f, bt_vec3 q)
 {
   double piece = 0.5 * f->v->c.cell;
   for (double left = bt__distance (f->p, q); left > 0; left = bt__distance (f->p, q))
@@ -175,7 +175,7 @@ bt__voxels_word (const bt__voxels *v, const bt_vec3 *p, uint32_t n, bt__word *wo
   f.cell = n ? nearest_cell (&f) : BT__NOWHERE;
   int lost = f.cell == BT__NOWHERE;
   for (uint32_t i = 1; i < n && !lost; i++)
-    lost = !follow (&f, p[i]);
+    lost = !follow_in_pieces (&f, p[i]);
   if (!lost)
     {
       /* The same cell at the same end, whatever way led there.  */

@@ -16,7 +16,7 @@ bt__word_begin (bt__word *w, uint64_t world, int decided)
 }
 
 static void
-push (bt__word *w, int32_t letter)
+push_letter (bt__word *w, int32_t letter)
 {
   if (w->n > 0 && w->letter[w->n - 1] == -letter)
     w->n--;
@@ -30,7 +30,7 @@ void
 bt__word_add (bt__word *w, const int32_t *letters, uint32_t n, int inverse)
 {
   for (uint32_t i = 0; i < n; i++)
-    push (w, inverse ? -letters[n - 1 - i] : letters[i]);
+    push_letter (w, inverse ? -letters[n - 1 - i] : letters[i]);
 }
 
 void

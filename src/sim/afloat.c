@@ -67,7 +67,7 @@ next_arch (const bt_vec3 *x, int n, int k, double level, arch *a)
 
 /* The direction of the arch's feet from each other; where they are one, that of its middle.  */
 static bt_vec3
-along (const bt_vec3 *x, const arch *a)
+along_feet (const bt_vec3 *x, const arch *a)
 {
   bt_vec3 far = bt__sub (a->to, a->from);
   if (bt__norm (far) > 1e-9)
@@ -80,7 +80,7 @@ along (const bt_vec3 *x, const arch *a)
 static void
 lay_down (bt_vec3 *x, const arch *a, bt_vec3 downstream)
 {
-  bt_vec3 e = along (x, a), side = bt__unit_or (bt__cross (up, e), bt__vec (1, 0, 0));
+  bt_vec3 e = along_feet (x, a), side = bt__unit_or (bt__cross (up, e), bt__vec (1, 0, 0));
   if (bt__dot (side, downstream) < 0)
     side = bt__scale (-1, side);
   for (int k = a->first; k <= a->last; k++)

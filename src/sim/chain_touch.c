@@ -21,7 +21,7 @@
 /* What pulls end K of tether I to its place: a vehicle with its pull, a fixed point whatever it
    takes.  */
 static double
-pull_at (const bt_dive *dive, bt__state *state, int i, int k)
+most_pull_at (const bt_dive *dive, bt__state *state, int i, int k)
 {
   int vehicle = dive->model->ends[i][k].vehicle;
   if (vehicle < 0 || (dive->shore.pin && dive->shore.pin[vehicle].how == BT__PIN_HARD))
@@ -31,7 +31,7 @@ pull_at (const bt_dive *dive, bt__state *state, int i, int k)
 
 /* Nonzero if tether I touches tether J, which may be I.  */
 static int
-may_touch (const bt_dive *dive, bt__state *state, int i, int j)
+touches_tether (const bt_dive *dive, bt__state *state, int i, int j)
 {
   return !bt__passes_tether (dive, state, i, j);
 }
@@ -95,7 +95,7 @@ gather_strands (const bt_dive *dive, bt__state *state, int i, int part)
     {
       bt__state *from = bt__are_apart (dive, i, j) ? dive->now : state;
       const bt__tether *other = bt__dive_tether (dive, from, j);
-      if (other->shape.form != BT__FORM_CHAIN || !may_touch (dive, state, i, j))
+      if (other->shape.form != BT__FORM_CHAIN || !touches_tether (dive, state, i, j))
         continue;
       for (int k = 0; k <= (other->parted != 0); k++)
         if (j != i || k != part)
@@ -121,17 +121,18 @@ config_of (const bt_dive *dive, bt__state *state, int i, int part)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   const bt_tether_props *props = &tether->props;
-  bt__line_config config = { .radius = props->diameter / 2,
-                             .core = bt__core (props->diameter),
-                             .friction = props->friction,
-                             .pull = { pull_at (dive, state, i, 0), pull_at (dive, state, i, 1) },
-                             .itself = !tether->through,
-                             .id = dive->model->n_obstacles + i };
+  bt__line_config config
+      = { .radius = props->diameter / 2,
+          .core = bt__core (props->diameter),
+          .friction = props->friction,
+          .pull = { most_pull_at (dive, state, i, 0), most_pull_at (dive, state, i, 1) },
+          .itself = !tether->through,
+          .id = dive->model->n_obstacles + i };
   if (!bt__has_obstacles (dive))
     return config;
   config.rough = bt__dive_roughness (dive, state);
   config.obstacles = dive->model->n_obstacles;
-  config.itself = may_touch (dive, state, i, i);
+  config.itself = touches_tether (dive, state, i, i);
   config.strand = dive->shore.strand;
   config.strands = gather_strands (dive, state, i, part);
   return config;
@@ -148,7 +149,7 @@ take_up (bt_dive *dive, int i, int part)
 }
 
 static void
-note_meetings (const bt_dive *dive, bt__state *state, int i, const bt__anchors *anchors)
+note_line_meetings (const bt_dive *dive, bt__state *state, int i, const bt__anchors *anchors)
 {
   bt__subject *subject = bt__dive_subject (dive, state, BT_PART_TETHER, i);
   const bt__anchor *anchor = bt__anchors_at (anchors);
@@ -158,7 +159,8 @@ note_meetings (const bt_dive *dive, bt__state *state, int i, const bt__anchors *
 }
 
 static void
-bring_ends (const bt_dive *dive, bt__state *state, int i, int part, const bt__line_report *report)
+bring_held_ends (const bt_dive *dive, bt__state *state, int i, int part,
+                 const bt__line_report *report)
 {
   int parted = bt__dive_tether (dive, state, i)->parted != 0;
   if (part == 0 && report->held[0])
@@ -195,8 +197,8 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
     return status;
   bt__around_done (dive);
   if (among)
-    note_meetings (dive, state, i, anchors);
-  bring_ends (dive, state, i, part, &touch);
+    note_line_meetings (dive, state, i, anchors);
+  bring_held_ends (dive, state, i, part, &touch);
   add_up (&dive->profile, &touch);
   return BT_OK;
 }

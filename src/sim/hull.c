@@ -29,7 +29,7 @@ note_stop (bt_dive *dive, bt__state *state, int vehicle, const bt__stop *stop)
 
 /* WAY without what leads into the obstacle.  */
 static bt_vec3
-along (bt_vec3 way, bt_vec3 normal)
+along_wall (bt_vec3 way, bt_vec3 normal)
 {
   double into = bt__dot (way, normal);
   return into < 0 ? bt__axpy (way, -into, normal) : way;
@@ -80,7 +80,7 @@ slide (const passage *p, bt__frame *frame, bt_vec3 way, bt__stop *stop)
     {
       bt__frame to = *frame;
       double share;
-      way = along (way, stop->normal);
+      way = along_wall (way, stop->normal);
       if (bt__norm (way) == 0)
         return;
       to.origin = bt__add (frame->origin, way);
@@ -93,7 +93,7 @@ slide (const passage *p, bt__frame *frame, bt_vec3 way, bt__stop *stop)
 
 /* Turn in place as TO is turned; return the share.  */
 static double
-turn (const passage *p, bt__frame *frame, bt__frame to)
+turn_hull (const passage *p, bt__frame *frame, bt__frame to)
 {
   bt__stop stop;
   to.origin = frame->origin;
@@ -153,7 +153,7 @@ reach_among (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
   if (v->rigid)
     strike (&p, v, &stop);
   slide (&p, &frame, bt__scale (1 - share, bt__sub (wanted, before->position)), &stop);
-  share += (1 - share) * turn (&p, &frame, to);
+  share += (1 - share) * turn_hull (&p, &frame, to);
   v->heading = before->heading + share * (v->heading - before->heading);
   if (v->rigid)
     turn_body (v, before, share);

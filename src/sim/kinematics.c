@@ -40,7 +40,7 @@ bearing (bt_vec3 from, bt_vec3 to)
 
 /* The turn of this step: toward what is faced or held, else as the stick says.  */
 static double
-turn (const bt__vehicle *v)
+turn_of_step (const bt__vehicle *v)
 {
   double most = v->speeds[YAW] * BT__TIME_STEP;
   int faces = v->goal == BT__GOAL_FLY
@@ -139,7 +139,7 @@ along_track (const bt_dive *dive, bt__state *state, bt__vehicle *v)
 static void
 move (const bt_dive *dive, bt__state *state, bt__vehicle *v)
 {
-  double angle = turn (v);
+  double angle = turn_of_step (v);
   bt_vec3 from = v->position, to;
   switch (v->goal)
     {

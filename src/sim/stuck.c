@@ -38,7 +38,7 @@ is_pulled (const bt_dive *dive, bt__state *state, const bt__line *line, int i)
 
 /* Where tether I ends: a parted one where it has parted.  */
 static bt_vec3
-end_of (const bt_dive *dive, bt__state *state, const bt__line *line, int i)
+end_of_line (const bt_dive *dive, bt__state *state, const bt__line *line, int i)
 {
   return line->tether->parted ? bt__line_node (line, bt__line_nodes (line) - 1)
                               : bt__tether_ends (dive, state, i).b;
@@ -74,7 +74,7 @@ bt__note_stuck (const bt_dive *dive, bt__state *state)
       bt__tether *tether = bt__dive_tether (dive, state, i);
       bt__line line = bt__line_of (dive, state, i);
       if (is_pulled (dive, state, &line, i))
-        look (state, tether, end_of (dive, state, &line, i), i);
+        look (state, tether, end_of_line (dive, state, &line, i), i);
       else
         tether->pulled = tether->stuck = 0;
     }

@@ -182,7 +182,7 @@ bt_catenary_solve (double h, double v, double s, bt_catenary *c, bt_error *error
 /* ---- Asking ---- */
 
 static double
-clamped (double u, double s)
+within_line (double u, double s)
 {
   return u > 0 ? (u < s ? u : s) : 0;
 }
@@ -190,7 +190,7 @@ clamped (double u, double s)
 bt_point2
 bt_catenary_point (const bt_catenary *c, double u)
 {
-  u = clamped (u, c->s);
+  u = within_line (u, c->s);
   if (isinf (c->a))
     return (bt_point2){ c->h * (u / c->s), c->v * (u / c->s) };
   double a = c->a, p = c->sigma0, q = p + u;
@@ -208,7 +208,7 @@ bt_catenary_point (const bt_catenary *c, double u)
 bt_point2
 bt_catenary_tangent (const bt_catenary *c, double u)
 {
-  double x = c->a, y = c->sigma0 + clamped (u, c->s);
+  double x = c->a, y = c->sigma0 + within_line (u, c->s);
   if (isinf (x))
     {
       x = c->h;

@@ -18,7 +18,7 @@
 #include "tether/dynamic_kernel.h"
 
 static void
-add_row (bt__dynamic_work *w, bt__bend row)
+add_bend (bt__dynamic_work *w, bt__bend row)
 {
   w->bend[w->bends++] = row;
   for (int p = 0; p < row.count; p++)
@@ -41,7 +41,7 @@ add_clamp (bt__dynamic_work *w, int k, double ei)
   double l = w->link[j].rest;
   bt_vec3 d = bt__unit_or (end->direction, bt__vec (0, 0, -1));
   if (end->clamped)
-    add_row (w, (bt__bend){ j, 2, 2 * ei / l, { -1 / l, 1 / l, 0 }, d });
+    add_bend (w, (bt__bend){ j, 2, 2 * ei / l, { -1 / l, 1 / l, 0 }, d });
 }
 
 /* How far interval J has been pushed together beyond what its thrust can hold, m.  */
@@ -81,7 +81,7 @@ bt__dynamic_bend_prepare (bt__dynamic_work *w)
     {
       double q = 1 / w->link[i - 1].rest, p = 1 / w->link[i].rest;
       double k = stiffer_by_thrust (w, i) * ei / w->node[i].cell;
-      add_row (w, (bt__bend){ i - 1, 3, k, { q, -(p + q), p }, { 0, 0, 0 } });
+      add_bend (w, (bt__bend){ i - 1, 3, k, { q, -(p + q), p }, { 0, 0, 0 } });
     }
   add_clamp (w, 0, ei);
   add_clamp (w, 1, ei);

@@ -40,7 +40,7 @@ typedef struct leg
 } leg;
 
 static bt_vec3
-chord_of (const bt__dynamic_work *w, int64_t j)
+chord_at_bend (const bt__dynamic_work *w, int64_t j)
 {
   bt_vec3 c = bt__sub (w->X[j + 1], w->X[j]);
   return w->chord ? bt__add (c, w->chord[j]) : c;
@@ -50,7 +50,7 @@ static leg
 leg_of (const bt__dynamic_work *w, int64_t j)
 {
   const bt__link *k = w->link + j;
-  double length = bt__norm (chord_of (w, j)), active = k->active > 0;
+  double length = bt__norm (chord_at_bend (w, j)), active = k->active > 0;
   return (leg){ .tension = active * k->tension,
                 .along = active * k->ka,
                 .by_rest = active * k->ka * length / k->rest,
@@ -204,7 +204,7 @@ lack_by_flow (const bt__dynamic_work *w, const border *r, int k, int l)
 /* Solve the N equations M x = Y, of BT__BENTS columns, into Y.  Return zero if they are not
    finite.  */
 static int
-eliminate (double m[][BT__BENTS], double *y, int n)
+solve_small (double m[][BT__BENTS], double *y, int n)
 {
   for (int i = 0; i < n; i++)
     {
@@ -240,7 +240,7 @@ eliminate (double m[][BT__BENTS], double *y, int n)
 }
 
 static double
-largest (const bt__dynamic_work *w)
+largest_move (const bt__dynamic_work *w)
 {
   double most = 0, sum = 0;
   for (int i = w->lo; i <= w->hi; i++)
@@ -286,7 +286,7 @@ bt__dynamic_bent_solve (bt__dynamic_work *w)
     for (int k = 0; k < w->bents; k++)
       m[k][l] = lack_by_flow (w, r, k, l)
                 + lack_by (w->bent + k, r + k, w->by_flow + (size_t)l * nodes);
-  if (!eliminate (m, y, w->bents))
+  if (!solve_small (m, y, w->bents))
     return INFINITY;
   double most = 0;
   for (int l = 0; l < w->bents; l++)
@@ -299,7 +299,7 @@ bt__dynamic_bent_solve (bt__dynamic_work *w)
       for (size_t i = 0; i < nodes; i++)
         w->d[i] = bt__axpy (w->d[i], y[l], z[i]);
     }
-  double moved = largest (w);
+  double moved = largest_move (w);
   return fmax (moved, most);
 }
 
@@ -320,8 +320,8 @@ share_out (const bt__dynamic_work *w, const bt__dynamic_bent *b)
   share s = { .rest_a = p->rest, .rest_b = q->rest, .unit = p->ka * p->rest };
   s.zero_a = p->zero / p->rest;
   s.zero_b = q->zero / q->rest;
-  s.a = bt__norm (chord_of (w, b->node - 1)) / s.zero_a;
-  s.b = bt__norm (chord_of (w, b->node)) / s.zero_b;
+  s.a = bt__norm (chord_at_bend (w, b->node - 1)) / s.zero_a;
+  s.b = bt__norm (chord_at_bend (w, b->node)) / s.zero_b;
   return s;
 }
 

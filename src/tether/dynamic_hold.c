@@ -63,7 +63,7 @@ give_more (const bt__dynamic_work *w, const trial *before, const trial *now, dou
 
 /* Between LOW, which pulls too hard, and HIGH, which does not.  */
 static double
-between (const trial *low, const trial *high, double aim, int i)
+flow_between (const trial *low, const trial *high, double aim, int i)
 {
   double next = meet (low, high, aim), margin = 0.01 * (high->given - low->given);
   if (isnan (next) || i % 3 == 2) /* one side may be a corner, from which false position creeps */
@@ -113,7 +113,7 @@ give_way (bt__dynamic_work *w, trial now, bt__dynamic_report *report)
       if (i == 0 && b.bounded)
         now = give (w, 0, report);
       else if (b.bounded)
-        now = give (w, between (&b.low, &b.high, aim, i), report);
+        now = give (w, flow_between (&b.low, &b.high, aim, i), report);
       else
         now = give (w, give_more (w, &b.before, &b.low, aim), report);
     }

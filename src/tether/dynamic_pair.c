@@ -80,7 +80,7 @@ take_back (const bt__dynamic_work *w, const bt_vec3 *p, bt_vec3 *q)
 }
 
 static double
-product (const bt__dynamic_work *w, const bt_vec3 *a, const bt_vec3 *b)
+product_over_window (const bt__dynamic_work *w, const bt_vec3 *a, const bt_vec3 *b)
 {
   double sum = 0;
   for (int i = w->lo; i <= w->hi; i++)
@@ -97,7 +97,7 @@ sum_of (const bt__dynamic_work *w, bt_vec3 *to, const bt_vec3 *a, double share, 
 }
 
 static double
-largest (const bt__dynamic_work *w)
+largest_correction (const bt__dynamic_work *w)
 {
   double most = 0;
   for (int i = w->lo; i <= w->hi; i++)
@@ -112,7 +112,8 @@ bt__dynamic_pair_solve (bt__dynamic_work *w)
 {
   size_t size = (size_t)(w->n + 1) * sizeof *w->d;
   bt_vec3 *sum = w->whole, *p = w->spare, *mp = w->by_flow, *q = mp + w->n + 1;
-  double most = bt__dynamic_solve_blocks (w), rz = product (w, w->rhs, w->d), first = rz;
+  double most = bt__dynamic_solve_blocks (w), rz = product_over_window (w, w->rhs, w->d),
+         first = rz;
   if (w->lo > w->hi || !isfinite (most))
     return most;
   memset (sum, 0, size);
@@ -122,7 +123,7 @@ bt__dynamic_pair_solve (bt__dynamic_work *w)
     {
       memcpy (q, mp, size);
       take_back (w, p, q);
-      double curve = product (w, p, q);
+      double curve = product_over_window (w, p, q);
       if (!(curve > 0))
         break;
       sum_of (w, sum, sum, rz / curve, p);
@@ -131,7 +132,7 @@ bt__dynamic_pair_solve (bt__dynamic_work *w)
         break;
       memcpy (w->d, w->rhs, size);
       bt__dynamic_solve_again (w, w->d, 1, w->lo, w->hi);
-      double next = product (w, w->rhs, w->d);
+      double next = product_over_window (w, w->rhs, w->d);
       if (!(next > ENOUGH * first))
         break;
       sum_of (w, p, w->d, next / rz, p);
@@ -139,5 +140,5 @@ bt__dynamic_pair_solve (bt__dynamic_work *w)
       rz = next;
     }
   memcpy (w->d, sum, size);
-  return largest (w);
+  return largest_correction (w);
 }

@@ -78,7 +78,7 @@ factorize_pair (const bt__pair_sym *a)
 
 /* L^-1 B.  */
 static BT__HOT bt__pair_vec
-descend (const bt__pair_factor *f, bt__pair_vec b)
+solve_lower (const bt__pair_factor *f, bt__pair_vec b)
 {
   b.y -= f->l10 * b.x;
   b.z -= f->l20 * b.x + f->l21 * b.y;
@@ -134,9 +134,9 @@ eliminate_pair (bt__dynamic_work *w, int i, int j, const bt__sym *right, const b
   bt__pair_factor f = factorize_pair (&a);
   if (keep)
     w->pivot[i].two = f;
-  bt__pair_vec y = descend (&f, r), x = descend (&f, (bt__pair_vec){ k.xx, k.xy, k.xz }),
-               u = descend (&f, (bt__pair_vec){ k.xy, k.yy, k.yz }),
-               v = descend (&f, (bt__pair_vec){ k.xz, k.yz, k.zz });
+  bt__pair_vec y = solve_lower (&f, r), x = solve_lower (&f, (bt__pair_vec){ k.xx, k.xy, k.xz }),
+               u = solve_lower (&f, (bt__pair_vec){ k.xy, k.yy, k.yz }),
+               v = solve_lower (&f, (bt__pair_vec){ k.xz, k.yz, k.zz });
   bt__pair_vec dy = weigh (&f, y), dx = weigh (&f, x), du = weigh (&f, u), dv = weigh (&f, v);
   p->a = (bt__pair_sym){ bt__pair_dot (x, dx), bt__pair_dot (x, du), bt__pair_dot (x, dv),
                          bt__pair_dot (u, du), bt__pair_dot (u, dv), bt__pair_dot (v, dv) };
@@ -225,7 +225,7 @@ pass_pair (const bt__dynamic_work *w, bt_vec3 *x, int i, int j, bt__pair_vec *pa
   const bt__pair_factor *f = &w->pivot[i].two;
   const bt__pair_full *g = &w->up[i].two;
   bt__pair_vec r = bt__pair_add (bt__pair_load (x + i, x + j), *passed);
-  bt__pair_store (x + i, x + j, ascend (f, weigh (f, descend (f, r))));
+  bt__pair_store (x + i, x + j, ascend (f, weigh (f, solve_lower (f, r))));
   *passed = (bt__pair_vec){ g->m[0][0] * r.x + g->m[1][0] * r.y + g->m[2][0] * r.z,
                             g->m[0][1] * r.x + g->m[1][1] * r.y + g->m[2][1] * r.z,
                             g->m[0][2] * r.x + g->m[1][2] * r.y + g->m[2][2] * r.z };

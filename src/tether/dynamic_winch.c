@@ -45,7 +45,7 @@ shift_all (bt__dynamic *d, int64_t i, int by)
 }
 
 static bt_vec3
-between (const bt_vec3 *a, double u)
+point_between (const bt_vec3 *a, double u)
 {
   return bt__axpy (bt__scale (1 - u, a[0]), u, a[2]);
 }
@@ -66,7 +66,7 @@ curvature (const bt__dynamic *d, int64_t i)
 /* How far the curve lies off the chord of interval J where the chord is divided into lengths A and
    B: the line bends there as it does, on the mean, at the inner nodes of the interval.  */
 static bt_vec3
-bow (const bt__dynamic *d, int64_t j, double a, double b)
+bow_of_interval (const bt__dynamic *d, int64_t j, double a, double b)
 {
   int inner = (j > 0) + (j + 1 < d->n);
   bt_vec3 sum = bt__add (curvature (d, j), curvature (d, j + 1));
@@ -84,7 +84,7 @@ set_moving (bt__dynamic *d, int64_t i, double u, int taut)
   bt_vec3 along = bt__unit_or (bt__sub (x[i + 1], x[i - 1]), bt__vec (0, 0, 0));
   for (int k = 0; k < 3; k++)
     {
-      bt_vec3 *a = nodes[k], v = between (a + i - 1, u);
+      bt_vec3 *a = nodes[k], v = point_between (a + i - 1, u);
       double lag = i == 1 && taut ? bt__dot (along, bt__sub (a[2], v)) : 0;
       a[i] = bt__axpy (v, lag, along);
     }
@@ -97,10 +97,10 @@ bt__dynamic_split (bt__dynamic *d, int64_t j, double u, int straight)
   double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d), whole = rest[j];
   int taut = bt__dynamic_tension (d)[j] > 0;
   bt_vec3 *x = bt__dynamic_x (d), none = { 0, 0, 0 },
-          off = straight || !taut ? none : bow (d, j, u * whole, (1 - u) * whole);
+          off = straight || !taut ? none : bow_of_interval (d, j, u * whole, (1 - u) * whole);
   shift_all (d, i, 1);
   set_moving (d, i, u, taut);
-  x[i] = bt__add (between (x + j, u), off);
+  x[i] = bt__add (point_between (x + j, u), off);
   bt__dynamic_load (d)[i] = none;
   bt__dynamic_chord (d)[j] = bt__dynamic_chord (d)[i] = none;
   rest[j] = taut ? bt__distance (x[j], x[i]) / e[j] : u * whole;

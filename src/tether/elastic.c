@@ -133,7 +133,7 @@ typedef struct linear
 } linear;
 
 static double
-miss (const bt_elastic *e, linear *f)
+miss_of_end (const bt_elastic *e, linear *f)
 {
   bt_point2 p = bt_elastic_point (e, e->s);
   f->fx = p.x - e->h;
@@ -193,7 +193,7 @@ is_on_the_way (const linear *f, const linear *next, double size)
    across than along) or until rounding is reached.  H is kept positive.  Update *MISSED and the
    miss in F; return the step relative to the forces, 0 when there is no way down.  */
 static double
-take_step (bt_elastic *e, linear *f, double *missed)
+take_newton_step (bt_elastic *e, linear *f, double *missed)
 {
   double dH, dV, H = e->H, V = e->V;
   correction (f, f, &dH, &dV);
@@ -203,7 +203,7 @@ take_step (bt_elastic *e, linear *f, double *missed)
       linear next;
       e->H = H + k * dH;
       e->V = V + k * dV;
-      double now = miss (e, &next);
+      double now = miss_of_end (e, &next);
       if (now < *missed || is_on_the_way (f, &next, size))
         {
           *missed = now;
@@ -221,12 +221,12 @@ static bt_status
 newton (bt_elastic *e, bt_error *error)
 {
   linear f;
-  double scale = e->s + hypot (e->h, e->v), best = miss (e, &f), size = 1;
+  double scale = e->s + hypot (e->h, e->v), best = miss_of_end (e, &f), size = 1;
   /* A small step ends it only with a small miss: near taut the forces hide what the end sees.  */
   for (int i = 0; i < NEWTON_MAX && size > 0 && !(best <= 2e-16 * scale); i++)
     {
       differentiate (e, &f);
-      size = take_step (e, &f, &best);
+      size = take_newton_step (e, &f, &best);
       if (size < 1e-9 && best < 1e-15 * scale)
         break;
     }

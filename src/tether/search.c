@@ -65,7 +65,7 @@ bt_search_new (void)
 
 /* The square of how far IS misses WANTED, relative for WANTED beyond one.  */
 static double
-miss (double is, double wanted)
+squared_miss (double is, double wanted)
 {
   double e = fabs (wanted) > 1 ? 1 - is / wanted : wanted - is;
   return e * e;
@@ -79,8 +79,8 @@ thesis_error (const gsl_vector *at, void *user)
   const target *t = user;
   double a = gsl_vector_get (at, 0), xs = gsl_vector_get (at, 1);
   double end = (t->h - xs) / a, start = -xs / a;
-  double e = miss (a * cosh (end) - a * cosh (start), t->v)
-             + miss (a * (sinh (end) - sinh (start)), t->s);
+  double e = squared_miss (a * cosh (end) - a * cosh (start), t->v)
+             + squared_miss (a * (sinh (end) - sinh (start)), t->s);
   return e < OVERFLOWED ? e : OVERFLOWED;
 }
 
@@ -105,7 +105,7 @@ place_start (bt_search *search, double s, int warm, const bt_search_result *last
 /* Iterate until the error function lies below TOLERANCE squared, that is the relative error below
    TOLERANCE, or no step is left.  Return the steps taken.  */
 static int
-iterate (gsl_multimin_fminimizer *simplex, double tolerance, int iterations)
+iterate_simplex (gsl_multimin_fminimizer *simplex, double tolerance, int iterations)
 {
   int n = 0;
   while (n < iterations && !gsl_multimin_fminimizer_iterate (simplex))
@@ -130,7 +130,7 @@ bt_search_catenary (bt_search *search, double h, double v, double s, double tole
   place_start (search, s, warm, result);
   int steps = 0;
   if (!gsl_multimin_fminimizer_set (simplex, &f, search->start, search->step))
-    steps = iterate (simplex, tolerance, iterations);
+    steps = iterate_simplex (simplex, tolerance, iterations);
   const gsl_vector *x = gsl_multimin_fminimizer_x (simplex);
   *result = (bt_search_result){ gsl_vector_get (x, 0), gsl_vector_get (x, 1), steps, 0 };
   result->converged

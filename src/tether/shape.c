@@ -109,7 +109,7 @@ solve_steady (bt__shape_job *j, int have_shape, bt_vec3 *nodes, bt_vec3 *tension
 /* ---- The whole ---- */
 
 static bt_status
-check_input (const bt__shape_input *in, bt_error *error)
+check_shape_input (const bt__shape_input *in, bt_error *error)
 {
   if (!bt__is_finite (in->a) || !bt__is_finite (in->b))
     return bt__fail (error, BT_ERR_DOMAIN,
@@ -161,7 +161,7 @@ dispatch (bt__shape_job *j, int have_shape, bt_vec3 *nodes, bt_vec3 *tensions)
 
 /* The rubber band and a straight line know no plane; the rest leave theirs for the next shape.  */
 static void
-remember (bt__shape_job *j, bt_vec3 across)
+remember_plane (bt__shape_job *j, bt_vec3 across)
 {
   if (j->props->model == BT_MODEL_RUBBER_BAND)
     return;
@@ -177,7 +177,7 @@ bt__shape_solve (const bt__shape_input *input, bt__shape_tools *tools, bt__shape
 {
   int have_shape = shape->form == BT__FORM_NODES && shape->n == (int64_t)input->props->nodes;
   memset (shape, 0, sizeof *shape);
-  bt_status status = check_input (input, error);
+  bt_status status = check_shape_input (input, error);
   if (status)
     return status;
   bt__shape_job j = { .in = input,
@@ -195,6 +195,6 @@ bt__shape_solve (const bt__shape_input *input, bt__shape_tools *tools, bt__shape
   if ((status = check_rule (&j)) || (status = bt__shape_measure_load (&j))
       || (status = dispatch (&j, have_shape, nodes, tensions)))
     return status;
-  remember (&j, shape->across);
+  remember_plane (&j, shape->across);
   return BT_OK;
 }

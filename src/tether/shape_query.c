@@ -12,7 +12,7 @@
 static const bt_vec3 down = { 0, 0, -1 };
 
 static double
-clamped (const bt__shape *shape, double s)
+within_shape (const bt__shape *shape, double s)
 {
   return s > 0 ? (s < shape->length ? s : shape->length) : 0;
 }
@@ -172,7 +172,7 @@ plane_tangent (const bt__shape *shape, double u)
 bt_vec3
 bt__shape_point (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, double s)
 {
-  s = clamped (shape, s);
+  s = within_shape (shape, s);
   if (shape->form == BT__FORM_STRAIGHT)
     return bt__axpy (shape->a, s / shape->length, bt__sub (shape->b, shape->a));
   if (bt__has_nodes (shape->form))
@@ -185,7 +185,7 @@ bt__shape_point (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *te
 bt_vec3
 bt__shape_tangent (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, double s)
 {
-  s = clamped (shape, s);
+  s = within_shape (shape, s);
   if (shape->form == BT__FORM_STRAIGHT)
     return bt__unit_or (bt__sub (shape->b, shape->a), down);
   if (bt__has_nodes (shape->form))
@@ -200,7 +200,7 @@ double
 bt__shape_tension (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, double s)
 {
   (void)nodes;
-  s = clamped (shape, s);
+  s = within_shape (shape, s);
   switch (shape->form)
     {
     case BT__FORM_V:

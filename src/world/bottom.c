@@ -22,7 +22,7 @@ lowest (const bt_dive *dive, const bt__surroundings *around)
 }
 
 static int
-obstacle_of (const bt_model *model, const bt__ray_hit *hit)
+obstacle_hit (const bt_model *model, const bt__ray_hit *hit)
 {
   return hit->mover == BT__NO_MOVER ? (int)model->scene->object[hit->object].id
                                     : model->carried[hit->mover].obstacle;
@@ -45,7 +45,7 @@ bt__dive_altitude (const bt_dive *dive, bt__state *state, bt_vec3 p, int *obstac
                             &unused);
     }
   if (obstacle)
-    *obstacle = found ? obstacle_of (dive->model, &hit) : BT__NO_OBSTACLE;
+    *obstacle = found ? obstacle_hit (dive->model, &hit) : BT__NO_OBSTACLE;
   return found ? hit.range : p.z + state->depth;
 }
 

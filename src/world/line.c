@@ -172,7 +172,7 @@ bt__line_nodes (const bt__line *line)
 
 /* The arc length of the K-th point of a static shape: the V has one at its bend.  */
 static double
-share (const bt__line *line, int k)
+share_of_point (const bt__line *line, int k)
 {
   const bt__shape *shape = &line->tether->shape;
   if (line->split)
@@ -188,14 +188,15 @@ share (const bt__line *line, int k)
 bt_vec3
 bt__line_node (const bt__line *line, int k)
 {
-  return line->chain ? bt__dynamic_x (line->chain)[k] : bt__line_point (line, share (line, k));
+  return line->chain ? bt__dynamic_x (line->chain)[k]
+                     : bt__line_point (line, share_of_point (line, k));
 }
 
 double
 bt__line_node_tension (const bt__line *line, int k)
 {
   return line->chain ? bt__dynamic_node_tension (line->chain, k)
-                     : bt__line_tension (line, share (line, k));
+                     : bt__line_tension (line, share_of_point (line, k));
 }
 
 /* ---- Errors and forces ---- */

@@ -234,7 +234,7 @@ bt__all_standing (const bt_dive *dive, bt__state *state)
 /* ---- Meetings ---- */
 
 static bt__meeting *
-find (bt__subject *subject, int obstacle)
+find_meeting (bt__subject *subject, int obstacle)
 {
   for (int64_t k = 0; k < subject->n; k++)
     if (subject->meeting[k].object == obstacle)
@@ -245,7 +245,7 @@ find (bt__subject *subject, int obstacle)
 void
 bt__note_meeting (bt__state *state, bt__subject *subject, bt_part part, int i, int obstacle)
 {
-  bt__meeting *meeting = find (subject, obstacle);
+  bt__meeting *meeting = find_meeting (subject, obstacle);
   if (!meeting && subject->n < BT__MEETINGS_MAX)
     {
       meeting = &subject->meeting[subject->n++];
@@ -277,6 +277,6 @@ bt__note_partings (bt__state *state, bt__subject *subject, bt_part part, int i)
 int
 bt__meets (const bt__state *state, const bt__subject *subject, int obstacle)
 {
-  const bt__meeting *meeting = find ((bt__subject *)subject, obstacle);
+  const bt__meeting *meeting = find_meeting ((bt__subject *)subject, obstacle);
   return meeting && meeting->last == state->step;
 }
