@@ -25,6 +25,15 @@ within static-names-twice-in-a-room -le 28 'hardly any with one of the same room
 within pointing-words -le 10.3 'long sentences name what they speak of'
 within private-words -le 800 "the field's words are used"
 
+# The places that HACKING.md names are there.
+for place in $(grep -o '`\(src\|scheme\|tests\|testbed\|bench\)/[A-Za-z_/*.-]*`' "$top_srcdir/HACKING.md" | tr -d '`' | sort -u); do
+  case $place in
+    *NAME*) ;; # of a file that is to be written
+    *) (cd "$top_srcdir" && ls -d $place >/dev/null 2>&1) || echo "$place" ;;
+  esac
+done >"$scratch/missing"
+empty 'what HACKING.md points to is there' "$scratch/missing"
+
 # includes FOLDER PATTERN: the sources of FOLDER that include a header that PATTERN finds.
 includes ()
 {
