@@ -5,8 +5,11 @@
    is symmetric.  The safe way takes load and activity from the gap, and friction from the load of
    the iterate before.
 
-   A held end is stuck to its place by a spring while its multiplier is less than the most it may
-   pull with, else it is pulled by that and has mass: without, a slack line would fly.
+   A held end is stuck to its place while its multiplier is less than the most it may pull with,
+   else it is pulled by that and has mass: without, a slack line would fly.  The quick way sticks it
+   with a spring so firm that the end stands where it is made fast.  The safe way could not descend
+   across so narrow a potential: its spring is softer, and what that lacks is added as a force from
+   one following of the loads to the next (the method of multipliers).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -14,6 +17,7 @@
 
 #define ACTIVITY 0.02 /* of the stiffness: what a gap takes from a multiplier */
 #define HOLDING 0.05  /* the same of a held end */
+#define FIRM 1e4      /* times stiffer sticks an end that does not slip */
 #define DAMPING 1.0   /* times the step's drag: what sticks is a spring that must not ring */
 
 #define LOAD 1.0        /* N: loads that change less in an iteration, ... */
@@ -127,29 +131,34 @@ end_node (const bt__dynamic_work *w, int k)
   return k ? w->n : 0;
 }
 
+/* The pull of the safe way's spring on end K, by however much.  */
+static bt_vec3
+safe_pull (const bt__dynamic_work *w, int k)
+{
+  const bt__dynamic_hold *h = w->hold + k;
+  return bt__axpy (h->lean, h->stiffness, bt__sub (h->at, w->X[end_node (w, k)]));
+}
+
 static void
 assemble_hold (bt__dynamic_work *w, int k, bt__mode mode)
 {
   bt__dynamic_hold *h = w->hold + k;
-  int i = end_node (w, k);
-  bt_vec3 away = bt__sub (h->at, w->X[i]), spring = bt__scale (h->stiffness, away), f = spring;
-  double c = h->stiffness, turn = 0;
-  bt_vec3 urge = spring, along = { 0, 0, 0 };
-  if (mode != BT__SAFE)
-    urge = bt__axpy (h->force, HOLDING, spring);
-  double size = bt__norm (urge);
+  int i = end_node (w, k), safe = mode == BT__SAFE;
+  bt_vec3 away = bt__sub (h->at, w->X[i]), along = { 0, 0, 0 };
+  bt_vec3 urge = safe ? safe_pull (w, k) : bt__axpy (h->force, HOLDING * h->stiffness, away);
+  double size = bt__norm (urge), c = safe ? h->stiffness : FIRM * h->stiffness, turn = 0;
   h->slips = size > h->most;
+  h->force = safe ? urge : bt__scale (c, away);
   if (h->slips)
     {
       along = bt__scale (1 / size, urge);
-      f = bt__scale (h->most, along);
-      c = (mode == BT__SAFE ? 1 : HOLDING) * h->stiffness * h->most / size;
-      turn = mode == BT__SAFE ? 0 : -c; /* the safe way would run off along the pull */
+      h->force = bt__scale (h->most, along);
+      c = (safe ? 1 : HOLDING) * h->stiffness * h->most / size;
+      turn = safe ? 0 : -c; /* the safe way would run off along the pull */
     }
-  h->force = f;
-  w->rhs[i] = bt__add (w->rhs[i], f);
+  w->rhs[i] = bt__add (w->rhs[i], h->force);
   bt__sym_add (w->diag + i, c, turn, along);
-  if (h->slips || mode == BT__SAFE)
+  if (h->slips || safe)
     {
       bt_vec3 a = bt__node_a (w, i, bt__node_v (w, i));
       w->rhs[i] = bt__axpy (w->rhs[i], -h->mass, a);
@@ -208,6 +217,20 @@ ease_rows (bt__dynamic_work *w, int k, double share)
     }
 }
 
+/* End K does not slip: what its place pulls with where SHARE of the update has been taken over.  */
+static void
+take_hold (bt__dynamic_work *w, int k, double share)
+{
+  bt__dynamic_hold *h = w->hold + k;
+  int i = end_node (w, k);
+  bt_vec3 solved = bt__axpy (w->X[i], 1 - share, w->d[i]);
+  bt_vec3 force = bt__scale (FIRM * h->stiffness, bt__sub (h->at, solved));
+  double size = bt__norm (force);
+  h->force = force;
+  if (size > h->most)
+    ease_rows (w, k, h->most / size);
+}
+
 int
 bt__dynamic_contact_take (bt__dynamic_work *w, double share)
 {
@@ -223,17 +246,20 @@ bt__dynamic_contact_take (bt__dynamic_work *w, double share)
       r->load = next;
     }
   for (int k = 0; w->hold && k < 2; k++)
-    {
-      bt__dynamic_hold *h = w->hold + k;
-      if (!h->on || h->slips)
-        continue;
-      h->force = bt__scale (h->stiffness, bt__sub (h->at, w->X[end_node (w, k)]));
-      double size = bt__norm (h->force);
-      if (size > h->most)
-        ease_rows (w, k, h->most / size);
-    }
+    if (w->hold[k].on && !w->hold[k].slips)
+      take_hold (w, k, share);
   bt__dynamic_bent_take (w, share);
   return settled;
+}
+
+/* The safe way's spring of end K leans to its pull, or starts afresh.  */
+static void
+lean (bt__dynamic_work *w, int k, int none)
+{
+  bt__dynamic_hold *h = w->hold + k;
+  bt_vec3 pull = safe_pull (w, k);
+  double size = bt__norm (pull);
+  h->lean = none ? bt__vec (0, 0, 0) : bt__scale (size > h->most ? h->most / size : 1, pull);
 }
 
 void
@@ -248,6 +274,9 @@ bt__dynamic_contact_load (bt__dynamic_work *w, int none)
       bt__dynamic_row *r = w->row + k;
       r->load = none ? 0 : r->stiffness * fmax (-gap_of (r, w->X), 0);
     }
+  for (int k = 0; w->hold && k < 2; k++)
+    if (w->hold[k].on)
+      lean (w, k, none);
 }
 
 static double
@@ -273,7 +302,7 @@ hold_potential (const bt__dynamic_work *w, int k)
   const bt__dynamic_hold *h = w->hold + k;
   int i = end_node (w, k);
   bt_vec3 a = bt__node_a (w, i, bt__node_v (w, i));
-  double away = bt__distance (h->at, w->X[i]), yield = h->most / h->stiffness;
+  double away = bt__norm (safe_pull (w, k)) / h->stiffness, yield = h->most / h->stiffness;
   double pull = away < yield ? 0.5 * h->stiffness * away * away : h->most * (away - 0.5 * yield);
   return pull + 0.5 * h->mass * bt__dot (a, a) / (w->b0 * w->b0);
 }

@@ -50,10 +50,11 @@ typedef struct bt__dynamic_hold
 {
   int64_t on;
   double most;      /* N */
-  double stiffness; /* N/m below that */
+  double stiffness; /* N/m below that, of a spring that may be searched along */
   double mass;      /* kg */
   bt_vec3 at;       /* m */
   bt_vec3 force;    /* N on the end: in a guess, out the solution */
+  bt_vec3 lean;     /* N: with which the safe way's spring pulls in its place; any in */
   int64_t slips;    /* out: nonzero if it is pulled by that and no more */
 } bt__dynamic_hold;
 

@@ -101,3 +101,16 @@ does alone."
   (run 2)
   (haul-in! 't1 4 #:rate 3)
   (expect (unsound-while 4) => '()))
+
+(define-scenario an-end-beside-its-own-line
+  "Where a line is near itself its end is pulled by no more than its vehicle can, and yet ends there, not a
+spring's stretch beside it."
+  (enter! (world (sea)
+                 (rov (named r1) (at 0.03 0 -5))
+                 (tether (named t1) (from 0 0 -5) (to r1) (length 20) (wet-weight 3) (model dynamic))))
+  (define (beside)
+    (norm (vec- (point-at 't1 20) (rov-position 'r1))))
+  (always (< (beside) 1e-7) (run 1))
+  (move! 'r1 '(0.02 0 -2) #:speed 1)
+  (always (< (beside) 1e-7) (run 3))
+  (expect (rov-tension 't1) is (above 30)))
