@@ -61,7 +61,7 @@ number (const bt_dive *dive, bt__lanes *l)
   l->groups = 0;
   for (int p = 0; p < n; p++)
     {
-      int i = bt__has_obstacles (dive) ? dive->shore.order[p] : p, g = of[root[i]];
+      int i = dive->shore.order[p], g = of[root[i]];
       if (g < 0)
         l->first[g = of[root[i]] = l->groups++] = i;
       else

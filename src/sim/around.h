@@ -37,13 +37,14 @@ void bt__around_done (bt_dive *dive);
 /* Nonzero if nobody had to hold a mover back after another had gone by its whole motion.  */
 int bt__around_agrees (const bt_dive *dive);
 
-/* ---- Vehicles that obstacles hold ----
+/* ---- Vehicles that tethers and obstacles hold ----
 
    What moves a vehicle, its tethers and its hull must agree on where it comes to.  Where they do
    not, the step is tried again with the vehicle taken to where all of them may let it, and in the
    end left where it was.  */
 
-/* Start a step, ROUND tries at it having failed: vehicles come as far as their hulls do.  */
+/* Start a step, ROUND tries at it having failed: vehicles come as far as their hulls do.  In a world
+   without obstacles the first try is begun by bt__unpin_vehicles.  */
 void bt__pin_vehicles (bt_dive *dive, bt__state *state, int round);
 
 /* Start an operation that has put vehicles where they may be.  */

@@ -50,8 +50,10 @@ bt_status bt__step_among (bt_dive *dive, bt__state *state, int i, int part,
                           const bt__dynamic_input *input, bt__dynamic_report *report,
                           bt_error *error);
 
-/* Put the tethers of a world with obstacles in the order in which they step.  */
+/* Put the tethers of a world with obstacles in the order in which they press on each other.  Of the
+   order that there is put those first that carry vehicles, and static tethers last (order.c).  */
 void bt__order_tethers (bt_dive *dive, bt__state *state);
+void bt__put_carriers_first (bt_dive *dive, bt__state *state);
 
 /* Draw the boxes about all moving lines as tethers begin to be resolved; draw those of tether I
    anew if it is no longer in them, and return nonzero (chain_box.c).  */

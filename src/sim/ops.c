@@ -170,6 +170,8 @@ apply (bt_dive *dive, const op *o, int round, int subject, const double *args, i
     return status;
   if (bt__has_obstacles (dive))
     place_among (&c, o, round);
+  else
+    bt__unpin_vehicles (dive, c.state);
   if (o->info.subject == BT_PART_VEHICLE)
     wake_lines (&c);
   return bt__resolve_tethers (dive, c.state, 0, error);

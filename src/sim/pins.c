@@ -1,4 +1,4 @@
-/* Vehicles that obstacles hold: see around.h.
+/* Vehicles that tethers and obstacles hold: see around.h.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -210,7 +210,8 @@ agrees (bt_dive *dive, bt__state *state, int vehicle)
   bt_vec3 before = place_before (dive, vehicle), at = v->position;
   int differ = draw_back_to_ends (dive, state, vehicle, before, &at);
   int turned = v->rigid && memcmp (&pin->body.attitude, &v->body.attitude, sizeof (bt__quat)) != 0;
-  if (turned || !is_at (pin->at, v->position)) /* its hull has not gone there yet */
+  if (bt__has_obstacles (dive)
+      && (turned || !is_at (pin->at, v->position))) /* its hull has not gone there yet */
     differ |= draw_back (bt__hull_reach (dive, state, vehicle, v->position), before, &at);
   if (differ)
     {

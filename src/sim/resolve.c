@@ -171,19 +171,28 @@ bt__resolve_tether (bt_dive *dive, bt__state *state, int i, int passes, bt_error
   return status;
 }
 
+/* Say in which order the tethers of STATE are to be resolved.  */
+static void
+line_up (bt_dive *dive, bt__state *state)
+{
+  if (are_others (dive))
+    bt__order_tethers (dive, state);
+  else
+    for (int i = 0; i < dive->model->n_tethers; i++)
+      dive->shore.order[i] = i;
+  bt__put_carriers_first (dive, state);
+}
+
 bt_status
 bt__resolve_tethers (bt_dive *dive, bt__state *state, int passes, bt_error *error)
 {
   bt_status status = BT_OK;
-  int among = are_others (dive);
-  if (among)
-    {
-      bt__order_tethers (dive, state);
-      bt__box_lines (dive, state);
-    }
+  line_up (dive, state);
+  if (are_others (dive))
+    bt__box_lines (dive, state);
   if (passes && dive->lanes && bt__share_tethers (dive, state))
     return BT_OK;
   for (int i = 0; status == BT_OK && i < dive->model->n_tethers; i++)
-    status = bt__resolve_tether (dive, state, among ? dive->shore.order[i] : i, passes, error);
+    status = bt__resolve_tether (dive, state, dive->shore.order[i], passes, error);
   return status;
 }

@@ -46,15 +46,14 @@ pins_size (const bt_dive *dive)
 void
 bt__share_begin (bt_dive *dive)
 {
-  if (bt__has_obstacles (dive))
-    memcpy (dive->lanes->pin, dive->shore.pin, pins_size (dive));
+  memcpy (dive->lanes->pin, dive->shore.pin, pins_size (dive));
   dive->lanes->refused = 0;
 }
 
 int
 bt__share_refused (bt_dive *dive)
 {
-  if (dive->lanes->refused && bt__has_obstacles (dive))
+  if (dive->lanes->refused)
     memcpy (dive->shore.pin, dive->lanes->pin, pins_size (dive));
   return dive->lanes->refused;
 }
@@ -172,7 +171,7 @@ raise_events (const bt_dive *dive, bt__state *state, const bt__lanes *l)
 {
   for (int p = 0; p < dive->model->n_tethers; p++)
     {
-      int i = bt__has_obstacles (dive) ? dive->shore.order[p] : p;
+      int i = dive->shore.order[p];
       const bt__raised *raised = &l->raised[i];
       const bt_event *event = l->lane[raised->lane].dive->next->event;
       for (int64_t k = raised->from; k < raised->to; k++)

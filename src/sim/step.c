@@ -145,13 +145,6 @@ bt_dive_new (bt_model *model, bt_current_function function, void *user, bt_dive 
 /* ---- Step ---- */
 
 static void
-begin_among (bt_dive *dive, bt__state *next, int round)
-{
-  bt__aim_movers (dive, next, round);
-  bt__pin_vehicles (dive, next, round);
-}
-
-static void
 end_among (bt_dive *dive, bt__state *next)
 {
   bt__settle_movers (dive, next);
@@ -162,17 +155,17 @@ static int
 agree (bt_dive *dive, bt__state *next)
 {
   int vehicles = bt__vehicles_agree (dive, next);
-  return bt__around_agrees (dive) && vehicles;
+  return vehicles && (!bt__has_obstacles (dive) || bt__around_agrees (dive));
 }
 
-/* Step the copy; ROUND tries at it did not fit together with the obstacles.  */
+/* Step the copy; after ROUND tries at it tethers, vehicles and obstacles did not fit together.  */
 static bt_status
 try_once (bt_dive *dive, int round, bt_error *error)
 {
   bt__state *next = bt__dive_begin (dive);
   bt_status status;
   next->step++;
-  if (bt__has_obstacles (dive) && round == 0)
+  if (round == 0)
     bt__unpin_vehicles (dive, next);
   bt__move_vehicles (dive, next);
   status = bt__steer_bodies (dive, next, error);
@@ -183,7 +176,9 @@ try_once (bt_dive *dive, int round, bt_error *error)
   bt__turn_winches (dive, next);
   bt__hold_at_tethers (dive, dive->now, next);
   if (bt__has_obstacles (dive))
-    begin_among (dive, next, round);
+    bt__aim_movers (dive, next, round);
+  if (bt__has_obstacles (dive) || round > 0)
+    bt__pin_vehicles (dive, next, round);
   return bt__resolve_tethers (dive, next, 1, error);
 }
 
@@ -223,13 +218,10 @@ bt_status
 bt_dive_step (bt_dive *dive, bt_error *error)
 {
   bt_status status = try_step (dive, 0, error);
+  for (int round = 1; status == BT_OK && round <= BT__TRIES && !agree (dive, dive->next); round++)
+    status = try_step (dive, round, error);
   if (bt__has_obstacles (dive))
-    {
-      for (int round = 1; status == BT_OK && round <= BT__TRIES && !agree (dive, dive->next);
-           round++)
-        status = try_step (dive, round, error);
-      end_among (dive, dive->next);
-    }
+    end_among (dive, dive->next);
   if (status != BT_OK)
     return status;
   bt__note_stuck (dive, dive->next);

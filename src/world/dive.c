@@ -83,10 +83,9 @@ make_rows (bt_dive *dive, bt_error *error)
   bt__shore *shore = &dive->shore;
   size_t vehicles = (size_t)model->n_vehicles + 1, tethers = (size_t)model->n_tethers + 1;
   int whole = (dive->driven = calloc (vehicles, sizeof *dive->driven)) != NULL;
-  if (model->n_obstacles > 0)
-    whole = whole && (shore->pin = calloc (vehicles, sizeof *shore->pin))
-            && (shore->order = calloc (tethers, sizeof *shore->order))
-            && (shore->place = calloc (tethers, sizeof *shore->place));
+  whole = whole && (shore->pin = calloc (vehicles, sizeof *shore->pin))
+          && (shore->order = calloc (tethers, sizeof *shore->order))
+          && (shore->place = calloc (tethers, sizeof *shore->place));
   return whole ? BT_OK : bt__fail (error, BT_ERR_LIMIT, "no memory for the parts of a dive");
 }
 

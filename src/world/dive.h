@@ -63,7 +63,7 @@ typedef struct bt__driven
   bt__grip grip;
 } bt__driven;
 
-/* What a world with obstacles needs in a step; else all but LINE is NULL.  */
+/* What a world with obstacles needs in a step; else all but LINE, PIN, ORDER and PLACE is NULL.  */
 typedef struct bt__shore
 {
   bt__mover *mover;

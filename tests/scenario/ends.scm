@@ -114,3 +114,32 @@ spring's stretch beside it."
   (move! 'r1 '(0.02 0 -2) #:speed 1)
   (always (< (beside) 1e-7) (run 3))
   (expect (rov-tension 't1) is (above 30)))
+
+(define-scenario (a-static-tether-beside-a-moving-one model)
+  "A vehicle that its moving line holds back takes the end of a static tether along, whichever the world
+names first."
+  #:for ((model 'catenary 'v-shape 'elastic 'rubber-band))
+  (enter! (world (sea)
+                 (rov (named r1) (at -6 0 -2))
+                 (tether (named t1) (from -6 0 -1) (to r1) (length 17) (model ,model))
+                 (tether (named t2) (from -6 0 -1) (to r1) (length 9) (model dynamic))))
+  (fly-to! 'r1 (vec -6 9 -1) #:speed 3)
+  (expect (unsound-while 4) => '()))
+
+(define-syntax-rule (three-tethers obstacle ...)
+  ;; A vehicle with mass that the third of its tethers carries.
+  (world (sea (current 0.3 0))
+         obstacle ...
+         (rov (named r1) (type bluerov2-heavy-wu) (at -6 0 -9))
+         (tether (named t1) (from -10 3 -6) (to r1) (length 32) (model steady))
+         (tether (named t2) (from -9 0 -5) (to r1) (length 18) (model rubber-band))
+         (tether (named t3) (from -9 0 -5) (to r1) (length 19) (model dynamic))))
+
+(define-scenario (a-static-tether-beside-the-line-that-carries among?)
+  "A vehicle with mass goes where the line that carries it takes it, and the other tethers' ends with it,
+whichever the world names first; it is not held where it was because they were asked first."
+  #:for ((among? #f #t))
+  (enter! (if among? (three-tethers (sphere (named ball) (at 30 30 -5) (radius 0.2))) (three-tethers)))
+  (fly-to! 'r1 (vec -3 0 -7) #:speed 1)
+  (expect (unsound-while 2) => '())
+  (expect (x (rov-position 'r1)) is (above -5.5)))

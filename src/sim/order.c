@@ -1,0 +1,54 @@
+/* In which order the tethers of a step are resolved: whoever moves a vehicle before whoever has but
+   to follow it.
+
+   A vehicle with mass goes where the line that carries it takes it, and any vehicle may be held
+   back by a moving line.  A tether that was resolved before would end where the vehicle was, so the
+   lines that carry go first, each after the one that carries its own anchor; then what else moves;
+   then the static tethers, which end wherever they are told to.  Within these they keep the order
+   that they have: by their numbers, or among obstacles as they press on each other (chain_touch.c).
+   What does not fit together even so is tried again (pins.c).
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "sim/chain.h"
+
+/* The line, not I, that carries the vehicle at the anchor of tether I, or -1.  */
+static int
+before (const bt_dive *dive, bt__state *state, int i)
+{
+  int vehicle = dive->model->ends[i][0].vehicle;
+  int line = vehicle < 0 ? -1 : bt__carrier (dive, state, vehicle);
+  return line >= 0 && line != i && bt__carried_vehicle (dive, state, line) >= 0 ? line : -1;
+}
+
+/* Tethers of a lower rank go first.  Lines that carry each other in a ring have the highest of
+   those that carry.  */
+static int
+rank_of (const bt_dive *dive, bt__state *state, int i)
+{
+  int most = dive->model->n_vehicles, rank = 0;
+  if (!bt__is_moving_model (bt__dive_tether (dive, state, i)))
+    return most + 2;
+  if (bt__carried_vehicle (dive, state, i) < 0)
+    return most + 1;
+  for (int j = before (dive, state, i); j >= 0 && rank < most; j = before (dive, state, j))
+    rank++;
+  return rank;
+}
+
+void
+bt__put_carriers_first (bt_dive *dive, bt__state *state)
+{
+  int *order = dive->shore.order, n = dive->model->n_tethers, rank[BT_TETHERS_MAX];
+  for (int i = 0; i < n; i++)
+    rank[i] = rank_of (dive, state, i);
+  for (int k = 1; k < n; k++)
+    {
+      int i = order[k], at = k;
+      for (; at > 0 && rank[order[at - 1]] > rank[i]; at--)
+        order[at] = order[at - 1];
+      order[at] = i;
+    }
+  for (int k = 0; k < n; k++)
+    dive->shore.place[order[k]] = k;
+}
