@@ -134,8 +134,9 @@ lay the tether anew.  Return where it is now."
 
 (define-verb (follow! #:subject (v vehicle) (track track))
   "Let the vehicle follow a measured TRACK, a file with columns t x y z (s, m) or a list of such rows,
-beginning now.  Columns that a file names may be in any order, among others and in another unit: `time_min',
-`north (ft)', `depth' in place of z.  Return how many seconds it takes."
+beginning now: where the track begins elsewhere, the vehicle is first placed there as by `place!'.  Columns
+that a file names may be in any order, among others and in another unit: `time_min', `north (ft)', `depth'
+in place of z.  Return how many seconds it takes."
   (let ((rows (read-track 'follow! track)))
     (%operate! (this-engine 'follow!) 'follow! 'follow! v rows)
     (- (f64vector-ref rows (- (f64vector-length rows) 4)) (f64vector-ref rows 0))))

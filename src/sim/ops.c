@@ -177,12 +177,10 @@ apply (bt_dive *dive, const op *o, int round, int subject, const double *args, i
   return bt__resolve_tethers (dive, c.state, 0, error);
 }
 
-/* A track is added once; and what begins to follow one has not moved yet.  */
 static int
-fits (bt_dive *dive, const op *o)
+fits (bt_dive *dive)
 {
-  return !bt__has_obstacles (dive) || o == &ops[BT_OP_FOLLOW]
-         || bt__vehicles_agree (dive, dive->next);
+  return !bt__has_obstacles (dive) || bt__vehicles_agree (dive, dive->next);
 }
 
 static bt_status
@@ -190,7 +188,7 @@ apply_until_it_fits (bt_dive *dive, const op *o, int subject, const double *args
                      bt_error *error)
 {
   bt_status status = apply (dive, o, 0, subject, args, n, error);
-  for (int round = 1; status == BT_OK && round <= BT__TRIES && !fits (dive, o); round++)
+  for (int round = 1; status == BT_OK && round <= BT__TRIES && !fits (dive); round++)
     status = o == &ops[BT_OP_LAY]
                  ? bt__fail (error, BT_ERR_DOMAIN, "the tether cannot be laid to there")
                  : apply (dive, o, round, subject, args, n, error);

@@ -100,20 +100,24 @@ stand_at (bt__vehicle *v, bt_vec3 p)
   v->pilot.holds &= ~(int64_t)(BT__HOLD_WAYPOINT | BT__HOLD_POSITION);
 }
 
+/* Put the subject at P, or as far on the way there as its tethers let it come.  */
+static void
+place_at (const bt__call *c, bt_vec3 p)
+{
+  bt__vehicle *v = vehicle_of (c);
+  double k = bt__reach_along (c->dive, c->state, c->subject, v->position, p);
+  bt_vec3 to = k < 1 ? bt__axpy (v->position, k, bt__sub (p, v->position)) : p;
+  stand_at (v, to);
+  bt__hold_at_tethers (c->dive, c->dive->now, c->state);
+  v->held = bt__distance (to, p) > 0;
+}
+
 bt_status
 bt__op_place (const bt__call *c)
 {
-  bt__vehicle *v = vehicle_of (c);
-  bt_vec3 way, to;
-  double k;
   if (bt__check_point (c) != BT_OK)
     return BT_ERR_DOMAIN;
-  way = bt__sub (bt__point_of (c), v->position);
-  k = bt__reach_along (c->dive, c->state, c->subject, v->position, bt__point_of (c));
-  to = k < 1 ? bt__axpy (v->position, k, way) : bt__point_of (c);
-  stand_at (v, to);
-  bt__hold_at_tethers (c->dive, c->dive->now, c->state);
-  v->held = bt__distance (to, bt__point_of (c)) > 0;
+  place_at (c, bt__point_of (c));
   return BT_OK;
 }
 
@@ -268,6 +272,17 @@ bt__op_hold_position (const bt__call *c)
   return BT_OK;
 }
 
+/* A track that begins elsewhere is begun by being placed there.  What the vehicle goes in a step by
+   itself is no place elsewhere: its tethers go along with that as they move.  */
+static void
+go_to_begin (const bt__call *c, const bt__track *track)
+{
+  const bt__vehicle *v = vehicle_of (c);
+  bt_vec3 begin = bt__vec (track->row[0][1], track->row[0][2], track->row[0][3]);
+  if (bt__distance (v->position, begin) > v->speeds[0] * BT__TIME_STEP)
+    place_at (c, begin);
+}
+
 bt_status
 bt__op_follow (const bt__call *c)
 {
@@ -280,6 +295,7 @@ bt__op_follow (const bt__call *c)
   bt_status status = bt_dive_add_track (c->dive, c->args, c->n, &track, c->error);
   if (status != BT_OK)
     return status;
+  go_to_begin (c, c->dive->tracks[track]);
   v->goal = BT__GOAL_TRACK;
   v->track = track;
   v->track_start = bt__state_time (c->state);

@@ -143,3 +143,29 @@ whichever the world names first; it is not held where it was because they were a
   (fly-to! 'r1 (vec -3 0 -7) #:speed 1)
   (expect (unsound-while 2) => '())
   (expect (x (rov-position 'r1)) is (above -5.5)))
+
+(define-scenario (a-track-that-begins-elsewhere model)
+  "A vehicle that is to follow a track from elsewhere is placed where it begins, which takes no time and
+throws no line: it is not dragged there within a step."
+  #:for ((model 'dynamic 'auto))
+  (enter! (world (sea)
+                 (rov (named r1) (at -8 -7 -4))
+                 (tether (named t1) (from -2 7 -8) (to r1) (length 28) (model ,model))))
+  (run 1)
+  (follow! 'r1 '((0 -1 7 -9) (8 -2 5 -8)))
+  (expect (distance (rov-position 'r1) '(-1 7 -9)) is (below 1e-9))
+  (always (and (pair? (energy 't1)) (< (max-tension 't1) 50)) (run 2))
+  (follow! 'r1 '((0 90 0 -9) (4 90 5 -9)))
+  (expect (distance (rov-position 'r1) '(-2 7 -8)) is (below 28.5))
+  (expect (unsound-while 1) => '()))
+
+(define-scenario a-track-that-begins-here
+  "A line goes on as it moves when its vehicle begins to follow a track from where it is, or nearly so."
+  (enter! (world (sea)
+                 (rov (named r1) (at 8 0 -4))
+                 (tether (named t1) (from 0 0 -8) (to r1) (length 12) (model dynamic))))
+  (fly-to! 'r1 '(8 6 -4) #:speed 1)
+  (run 2)
+  (define moving (assq-ref (energy 't1) 'kinetic))
+  (follow! 'r1 '((0 8 2.01 -4) (4 8 5 -4)))
+  (expect (assq-ref (energy 't1) 'kinetic) => moving))
