@@ -226,6 +226,20 @@ arc_defect (const bt__dynamic *d, int j)
   return bt__scale (-h * h * h / 24, third);
 }
 
+/* The most that a smooth line through the nodes is off their chords: an eighth of the
+   second difference at a node.  */
+static double
+chord_error (const bt__dynamic *d)
+{
+  const bt_vec3 *x = bt__dynamic_x (d);
+  double most = 0;
+  for (int i = 1; i < d->n; i++)
+    most = fmax (most, bt__norm (bt__sub (bt__sub (x[i + 1], x[i]), bt__sub (x[i], x[i - 1]))) / 8);
+  return most;
+}
+
+/* Three intervals have one third derivative: how it changes is not known, and one that does not is
+   none between held ends, be the line folded.  */
 double
 bt__dynamic_space_error (const bt__dynamic *d)
 {
@@ -235,6 +249,8 @@ bt__dynamic_space_error (const bt__dynamic *d)
   double most = 0, length = 0, s = 0;
   if (n < 3)
     return bt__dynamic_length (d) / 8;
+  if (n == 3)
+    return chord_error (d);
   for (int j = 0; j < n; j++)
     {
       all = bt__add (all, arc_defect (d, j));

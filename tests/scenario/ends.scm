@@ -17,7 +17,7 @@
 
 (define-scenario (few-nodes model nodes x)
   "A line that is folded between few nodes is read no longer than it is."
-  #:for ((model 'dynamic 'auto 'steady) (nodes 2 4 7) (x 1 12))
+  #:for ((model 'dynamic 'auto 'steady) (nodes 2 3 4 7) (x 1 3 12))
   (enter! (world (sea (current 0.3 60))
                  (rov (named r1) (at x 0 -6))
                  (tether (named t1) (from 0 0 -5) (to r1) (length 26) (wet-weight 0.4)
