@@ -146,7 +146,8 @@ bt_status bt_steady_shoot (bt_steady *steady, const bt_line *line, const bt_wate
 /* Relax the chain of N links whose present shape is R (N + 1 nodes; its ends are moved to A and B)
    in WATER until it rests, by backward Euler with growing steps and at most SOLVES linear solves. R
    receives the shape, T the tension vectors at the nodes.  The equilibrium found is the one this
-   shape falls into.  REPORT->converged = 0 when it still moves; R is then finite and usable.  */
+   shape falls into.  REPORT->converged = 0 when it still moves; R is then a shape that the line
+   can have.  */
 bt_status bt_steady_relax (bt_steady *steady, const bt_line *line, const bt_water *water, bt_vec3 a,
                            bt_vec3 b, int n, int solves, bt_vec3 *r, bt_vec3 *t,
                            bt_steady_report *report, bt_error *error);

@@ -10,9 +10,10 @@
 #include "sim/chain.h"
 #include "sim/share.h"
 
+/* Calls of a solver that does bounded work in each, where more than one is called for.  */
 enum
 {
-  AFLOAT_TRIES = 20
+  TRIES = 20
 };
 
 int
@@ -81,20 +82,31 @@ may_float (const bt__tether *tether)
   return (model == BT_MODEL_ELASTIC || model == BT_MODEL_STEADY) && tether->props.wet_weight < 0;
 }
 
-/* What was laid on the water is no shape to go on from: the equilibrium is found whole again.  */
+/* An operation takes no time: its answer is the shape at rest.  */
+static int
+is_operation (const bt_dive *dive, const bt__state *state)
+{
+  return state->step == dive->now->step;
+}
+
+/* What was laid on the water is no shape to go on from: the equilibrium is found whole again.  In a
+   step a shape that is not at rest goes on in the next one.  */
 static bt_status
 solve (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, double pull, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  int tries = tether->shape.form == BT__FORM_AFLOAT ? AFLOAT_TRIES : 1;
+  int tries = tether->shape.form == BT__FORM_AFLOAT || is_operation (dive, state) ? TRIES : 1;
   uint64_t before;
   bt_status status;
-  do
+  for (int k = 0;; k++)
     {
       before = dive->counts.unsettled;
       status = bt__solve_shape (dive, state, i, ends, &tether->props, pull, error);
+      if (status != BT_OK || k == tries - 1 || dive->counts.unsettled == before)
+        break;
+      if (is_operation (dive, state) && bt__poll (dive, (double)k / tries, error) != BT_OK)
+        return BT_ERR_INTERRUPTED;
     }
-  while (status == BT_OK && --tries > 0 && dive->counts.unsettled != before);
   tether->settled = dive->counts.unsettled == before;
   return status;
 }

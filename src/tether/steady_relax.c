@@ -38,6 +38,7 @@
 #define TAUT 1e-6       /* a line with less slack than this is stretched */
 #define SLACK 1e-5      /* modulus of a slack link, in units of ea ... */
 #define SLACK_LOAD 1e-2 /* ... and at most this in units of the load */
+#define SPARE 1e-3      /* of a link: stretch that is left to one of a shape that is not at rest */
 #define SETTLED 1e-10   /* of the length: the motion in the longest step that counts as rest */
 
 /* How the steps grow, found by measurement over random shapes, chords and currents; nothing depends
@@ -244,7 +245,7 @@ eliminate (chain *c)
     }
 }
 
-/* Substitute back, move the nodes and return the largest motion (infinite if any is not finite).  */
+/* Substitute back, move the nodes and return the largest motion (infinite if any is not finite). */
 static double
 substitute (chain *c)
 {
@@ -315,8 +316,8 @@ moved (const chain *c)
 }
 
 /* Iterate from the remembered shape.  Count the iterations into *USED and return the last update,
-   infinite when the shape was lost.  A step need not be solved well: the next one starts from where it
-   got to, and only a motion that does not come down says that it was too long.  */
+   infinite when the shape was lost.  A step need not be solved well: the next one starts from where
+   it got to, and only a motion that does not come down says that it was too long.  */
 static double
 take_step (chain *c, double tolerance, int at_most, int *used)
 {
@@ -468,6 +469,18 @@ set_chain (chain *c, bt_steady *steady, const bt_line *line, const bt_water *wat
   memset (steady->bias, 0, (size_t)n * sizeof *steady->bias);
 }
 
+/* What has not come to rest is left as a shape that the line can have, with the tensions of that.
+ */
+static void
+leave_possible (chain *c)
+{
+  double straight = bt__distance (c->x[0], c->x[c->n]) / c->n;
+  if (!bt__steady_shorten (c->x, c->n, (1 + SPARE) * fmax (c->l, straight)))
+    return;
+  memset (c->w->bias, 0, (size_t)c->n * sizeof *c->w->bias);
+  start_multipliers (c);
+}
+
 bt_status
 bt_steady_relax (bt_steady *steady, const bt_line *line, const bt_water *water, bt_vec3 a,
                  bt_vec3 b, int n, int solves, bt_vec3 *r, bt_vec3 *t, bt_steady_report *report,
@@ -484,6 +497,8 @@ bt_steady_relax (bt_steady *steady, const bt_line *line, const bt_water *water, 
   place_ends (r, n, a, b);
   start_multipliers (&c);
   settle (&c, solves, report);
+  if (!report->converged)
+    leave_possible (&c);
   if (!node_tensions (&c, t))
     return bt__fail (error, BT_ERR_DIVERGED, "the current along the line is not finite");
   return BT_OK;

@@ -169,3 +169,20 @@ throws no line: it is not dragged there within a step."
   (define moving (assq-ref (energy 't1) 'kinetic))
   (follow! 'r1 '((0 8 2.01 -4) (4 8 5 -4)))
   (expect (assq-ref (energy 't1) 'kinetic) => moving))
+
+(define-scenario (a-current-that-turns-at-once nodes weight)
+  "A line of the model `steady' whose current changes all at once is on its way to rest for a while; there,
+too, it is no longer than it is, and pulls as much as water can."
+  #:for ((nodes 12 24 60) (weight 0 0.2))
+  (enter! (world (sea (current (power 1 119 (exponent 1))))
+                 (rov (named r1) (at -8.16 -5.7 -6))
+                 (tether (named t1) (from -9.18 -6.3 -6.56) (to r1) (length 37) (wet-weight weight)
+                         (nodes nodes) (model steady))))
+  (define (pulls-soundly?) (< (max-tension 't1) 60))
+  (for-each (lambda (speed toward)
+              (current! speed toward)
+              (expect (unsound-tethers) => '())
+              (expect (pulls-soundly?))
+              (expect (unsound-while 0.1) => '())
+              (expect (pulls-soundly?)))
+            '(1 0.001 0.7 0.02 1) '(0 196 90 300 120)))

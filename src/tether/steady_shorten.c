@@ -1,0 +1,60 @@
+/* A shape that is still on its way to rest, made one that the line can have.
+
+   Relaxation may stop, its work being bounded, where some links are many times as long as the line
+   between their ends.  Such links are drawn in: each node comes within reach of its neighbour, from
+   one end to the other and back, which leaves the rest of the shape where it is.  Each sweep leaves
+   less to draw in as long as the ends are nearer than the line is long.  What is left in the end,
+   of a line that is nearly taut, is taken toward the straight line between the ends: a link of a
+   mean of two shapes is no longer than the mean of their links.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "tether/steady.h"
+
+enum
+{
+  SWEEPS = 40
+};
+
+/* The share of the way to the straight line on which no link of the N + 1 nodes R is longer than
+   REACH; 0 if none is.  */
+static double
+excess (const bt_vec3 *r, int n, double reach)
+{
+  double straight = bt__distance (r[0], r[n]) / n, share = 0;
+  for (int i = 0; i < n; i++)
+    {
+      double length = bt__distance (r[i], r[i + 1]);
+      if (length > reach)
+        share = fmax (share, (length - reach) / (length - straight));
+    }
+  return fmin (share, 1);
+}
+
+/* P, or where it comes on its way to BY within REACH of that.  */
+static bt_vec3
+drawn (bt_vec3 p, bt_vec3 by, double reach)
+{
+  double length = bt__distance (p, by);
+  return length > reach ? bt__axpy (by, reach / length, bt__sub (p, by)) : p;
+}
+
+int
+bt__steady_shorten (bt_vec3 *r, int n, double reach)
+{
+  double share = excess (r, n, reach);
+  if (!(share > 0))
+    return 0;
+  for (int k = 0; k < SWEEPS && share > 0; k++)
+    {
+      for (int i = 1; i < n; i++)
+        r[i] = drawn (r[i], r[i - 1], reach);
+      for (int i = n - 1; i > 0; i--)
+        r[i] = drawn (r[i], r[i + 1], reach);
+      share = excess (r, n, reach);
+    }
+  for (int i = 1; share > 0 && i < n; i++)
+    r[i] = bt__axpy (bt__scale (1 - share, r[i]), share,
+                     bt__axpy (r[0], (double)i / n, bt__sub (r[n], r[0])));
+  return 1;
+}
