@@ -142,6 +142,8 @@ step_held (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, const b
   if (report.held)
     {
       bt__ends here = { report.a, report.b };
+      tether->length
+          = bt__polyline_u (line)[line->n - 1]; /* what came in or went out on that way */
       note_meetings (dive, state, i, touch,
                      bt__held_touches (line, way, tether->props.diameter, touch, TOUCHES_MAX));
       /* The tension is that of the shape between the ends where they are.  */

@@ -1,24 +1,35 @@
 /* In which order the tethers of a step are resolved: whoever moves a vehicle before whoever has but
    to follow it.
 
-   A vehicle with mass goes where the line that carries it takes it, and any vehicle may be held
-   back by a moving line.  A tether that was resolved before would end where the vehicle was, so the
-   lines that carry go first, each after the one that carries its own anchor; then what else moves;
-   then the static tethers, which end wherever they are told to.  Within these they keep the order
-   that they have: by their numbers, or among obstacles as they press on each other (chain_touch.c).
-   What does not fit together even so is tried again (pins.c).
+   A tether that was resolved before its vehicle was moved would end where that was.  A vehicle with
+   mass goes where the line that carries it takes it, and any vehicle may be held back by a moving
+   line, so the lines that carry go first, each after the one that carries its own anchor; then what
+   else moves; then the static tethers, which end wherever they are told to.  But a static tether
+   among obstacles may draw a vehicle along, as when it is hauled in over an edge: it goes before
+   all unless its vehicle is carried.  Among themselves they keep the order that they have: by their
+   numbers, or among obstacles as they press on each other (chain_touch.c).  What does not fit
+   together even so is tried again (pins.c).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include "sim/around.h"
 #include "sim/chain.h"
 
-/* The line, not I, that carries the vehicle at the anchor of tether I, or -1.  */
+/* The line that carries the vehicle at end K of tether I, or -1.  */
 static int
-before (const bt_dive *dive, bt__state *state, int i)
+carrier_at (const bt_dive *dive, bt__state *state, int i, int k)
 {
-  int vehicle = dive->model->ends[i][0].vehicle;
+  int vehicle = dive->model->ends[i][k].vehicle;
   int line = vehicle < 0 ? -1 : bt__carrier (dive, state, vehicle);
-  return line >= 0 && line != i && bt__carried_vehicle (dive, state, line) >= 0 ? line : -1;
+  return line >= 0 && bt__carried_vehicle (dive, state, line) >= 0 ? line : -1;
+}
+
+/* True if static tether I, among obstacles, may draw along what it ends at.  */
+static int
+may_draw (const bt_dive *dive, bt__state *state, int i)
+{
+  return bt__has_obstacles (dive) && carrier_at (dive, state, i, 0) < 0
+         && carrier_at (dive, state, i, 1) < 0;
 }
 
 /* Tethers of a lower rank go first.  Lines that carry each other in a ring have the highest of
@@ -28,10 +39,11 @@ rank_of (const bt_dive *dive, bt__state *state, int i)
 {
   int most = dive->model->n_vehicles, rank = 0;
   if (!bt__is_moving_model (bt__dive_tether (dive, state, i)))
-    return most + 2;
+    return may_draw (dive, state, i) ? -1 : most + 2;
   if (bt__carried_vehicle (dive, state, i) < 0)
     return most + 1;
-  for (int j = before (dive, state, i); j >= 0 && rank < most; j = before (dive, state, j))
+  for (int j = carrier_at (dive, state, i, 0); j >= 0 && rank < most;
+       j = carrier_at (dive, state, j, 0))
     rank++;
   return rank;
 }

@@ -186,3 +186,33 @@ too, it is no longer than it is, and pulls as much as water can."
               (expect (unsound-while 0.1) => '())
               (expect (pulls-soundly?)))
             '(1 0.001 0.7 0.02 1) '(0 196 90 300 120)))
+
+(define-scenario (hauled-while-held model rate)
+  "Of a static tether that an obstacle holds off its shape the winch draws in, or pays out, what the way it
+comes lets it, and the tether ends at its vehicle all the while."
+  #:for ((model 'elastic 'steady 'v-shape) (rate 1 -1))
+  (enter! (world (sea)
+                 (capsule (named o1) (from 0.929 -0.706 -6.434) (to -2.173 -5.314 -3.414) (radius 0.0076))
+                 (rov (named r1) (at -0.82 0.938 -2.633))
+                 (tether (named t1) (from -7.138 -2.982 -9.637) (to r1) (length 20) (model ,model))))
+  (move! 'r1 '(0.6 -2.2 -2.1) #:speed 2)
+  (expect (unsound-while 3) => '())
+  (if (> rate 0) (pay-out! 't1 2 #:rate rate) (haul-in! 't1 2 #:rate (- rate)))
+  (expect (unsound-while 1) => '())
+  (move! 'r1 '(-0.82 0.938 -2.633) #:speed 1)
+  (expect (unsound-while 2) => '()))
+
+(define-scenario (hauled-over-an-edge first)
+  "A static tether that is hauled in over an obstacle draws its vehicle along, and with that the end of a
+moving line, whichever the world names first."
+  #:for ((first 'v-shape 'dynamic))
+  (define second (if (eq? first 'dynamic) 'v-shape 'dynamic))
+  (enter! (world (sea)
+                 (box (named o1) (at 0 0 -5) (size 1 4 1))
+                 (rov (named r1) (at 5 0.2 -5))
+                 (tether (named t1) (from -5 0 -5) (to r1) (via (-0.6 0 -4.3) (0.6 0 -4.3)) (length 12) (model ,first))
+                 (tether (named t2) (from -5 0 -5) (to r1) (via (-0.6 0 -4.3) (0.6 0 -4.3)) (length 12) (model ,second))))
+  (define static (if (eq? first 'dynamic) 't2 't1))
+  (haul-in! static 4 #:rate 0.6)
+  (expect (unsound-while 7) => '())
+  (expect (norm (vec- (rov-position 'r1) '(5 0.2 -5))) is (above 0.5)))
