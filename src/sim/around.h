@@ -12,8 +12,8 @@
 #include "contact/touch.h"
 #include "sim/sim.h"
 
-/* So many tries at a step; in the last all vehicles and movers stand still, with which everybody
-   agrees.  */
+/* So many tries at a step; in the last all vehicles and movers stand still, and winches stall that
+   would draw at a vehicle which something else holds, with which everybody agrees.  */
 enum
 {
   BT__TRIES = 3

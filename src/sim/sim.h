@@ -59,8 +59,10 @@ bt__is_spring (const bt__tether *tether)
   return tether->props.model >= BT_MODEL_ELASTIC && isfinite (tether->props.ea);
 }
 
-/* Turn the winches of STATE by one step (winch.c).  */
+/* Turn the winches of STATE by one step.  Before, stall those that haul a static tether of a vehicle
+   which is taken elsewhere in this try (winch.c).  */
 void bt__turn_winches (const bt_dive *dive, bt__state *state);
+void bt__stall_where_held (const bt_dive *dive, bt__state *state);
 
 /* Return the most that the winch of a tether of PROPS hauls with, N; stop the winch of tether I,
    stalled, with LENGTH out (winch.c).  */

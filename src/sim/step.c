@@ -173,6 +173,8 @@ try_once (bt_dive *dive, int round, bt_error *error)
     status = bt__step_bodies (dive, next, error);
   if (status != BT_OK)
     return status;
+  if (round == BT__TRIES)
+    bt__stall_where_held (dive, next);
   bt__turn_winches (dive, next);
   bt__hold_at_tethers (dive, dive->now, next);
   if (bt__has_obstacles (dive))

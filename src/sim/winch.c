@@ -9,7 +9,7 @@
 #include <math.h>
 
 #include "math/vec.h"
-#include "sim/sim.h"
+#include "sim/around.h"
 #include "world/line.h"
 
 /* What a winch hauls with that was not told otherwise: N, and a share of what parts the line.  */
@@ -126,6 +126,23 @@ pay (const bt_dive *dive, bt__state *state, int i, double length)
     stop_at (dive, state, i, fmax (tether->length, tether->winch_target), BT_EVENT_SPOOLED);
   else
     tether->length = length;
+}
+
+void
+bt__stall_where_held (const bt_dive *dive, bt__state *state)
+{
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    {
+      bt__tether *tether = bt__dive_tether (dive, state, i);
+      int held = 0;
+      for (int k = 0; k < 2; k++)
+        {
+          int vehicle = dive->model->ends[i][k].vehicle;
+          held |= vehicle >= 0 && bt__pinned (dive, vehicle);
+        }
+      if (held && tether->winch_rate < 0 && !bt__is_moving_model (tether))
+        bt__stall_winch (state, tether, i, tether->length);
+    }
 }
 
 void

@@ -49,8 +49,11 @@ bt__line_tail (const bt__line *line)
 double
 bt__line_length (const bt__line *line)
 {
-  if (line->split)
-    return line->split->length;
+  if (line->split) /* as it lies: what is held has yet to come to the length that it is to have */
+    {
+      bt__polyline *way = bt__thesis_line (line->split);
+      return bt__polyline_u (way)[way->n - 1];
+    }
   return line->chain ? bt__dynamic_length (line->chain) : line->tether->shape.length;
 }
 

@@ -216,3 +216,34 @@ moving line, whichever the world names first."
   (haul-in! static 4 #:rate 0.6)
   (expect (unsound-while 7) => '())
   (expect (norm (vec- (rov-position 'r1) '(5 0.2 -5))) is (above 0.5)))
+
+(define-scenario (hauled-over-an-edge-alone model)
+  "A static tether that is hauled in over an edge is read as it lies, also where it is held and has yet to
+come to the length that its winch wants."
+  #:for ((model 'catenary 'catenary-simplex 'v-shape 'rubber-band 'elastic 'steady))
+  (enter! (world (sea)
+                 (box (named o1) (at 0 0 -5) (size 1 4 1))
+                 (rov (named r1) (at 5 0.2 -5))
+                 (tether (named t1) (from -5 0 -5) (to r1) (via (-0.6 0 -4.3) (0.6 0 -4.3)) (length 12)
+                         (model ,model))))
+  (haul-in! 't1 4 #:rate 0.6)
+  (expect (unsound-while 4) => '()))
+
+(define-scenario (a-tug-of-war one other third)
+  "Winches that draw at one vehicle from two sides stall where neither can have more: no step ends with a
+tether beside its vehicle, and the vehicle is not held for ever."
+  #:for ((one 'v-shape 'elastic 'rubber-band) (other 'v-shape 'catenary) (third 'dynamic 'v-shape))
+  (enter! (world (sea)
+                 (box (named o1) (at 0 0 -5) (size 1 4 1))
+                 (box (named o2) (at 10 0 -5) (size 1 4 1))
+                 (rov (named r1) (at 5 0.2 -5))
+                 (tether (named t1) (from -5 0 -5) (to r1) (via (-0.6 0 -4.3) (0.6 0 -4.3)) (length 12)
+                         (model ,one))
+                 (tether (named t3) (from 5 4 -5) (to r1) (length 6) (model ,third))
+                 (tether (named t2) (from 15 0 -5) (to r1) (via (10.6 0 -4.3) (9.4 0 -4.3)) (length 12)
+                         (model ,other))))
+  (haul-in! 't1 4 #:rate 0.6)
+  (haul-in! 't2 4 #:rate 0.6)
+  (expect (unsound-while 5) => '())
+  (expect (tether-length 't1) is (above 9.9))
+  (expect (tether-length 't2) is (above 9.9)))
