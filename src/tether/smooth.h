@@ -15,6 +15,11 @@
    nodes of a smooth line is longer than their chords by a 24th of the square of what it turns.  */
 #define BT__SMOOTH_SPARE 0.01
 
+enum
+{
+  BT__SMOOTH_LOOKS = 12
+};
+
 /* The share of OFF that leaves CHORD + OFF no longer than REACH, which CHORD is not.  */
 static inline double
 bt__share_within (bt_vec3 chord, bt_vec3 off, double reach)
@@ -25,16 +30,21 @@ bt__share_within (bt_vec3 chord, bt_vec3 off, double reach)
 }
 
 /* The share of itself to which a cubic over CHORD, between nodes with REST metres of line, is taken
-   toward the chord.  A and B: what its derivatives at either end, by the share of the interval,
-   have beyond the chord.  It is fastest at an end, in the middle or a third from an end.  */
+   toward the chord.  A and B: what its derivatives at either end, by the share F of the interval,
+   have beyond the chord; at F that is A (1 - 4 F + 3 F F) + B (3 F F - 2 F).  It is looked at
+   BT__SMOOTH_LOOKS times from one end to the other: in between it is faster by at most an eighth of
+   the squared distance times 6 |A + B|, 1 % of a cubic that is twice as fast at its ends as its
+   chord.  */
 static inline double
 bt__smooth_share (bt_vec3 chord, bt_vec3 a, bt_vec3 b, double rest)
 {
   double reach = (1 + BT__SMOOTH_SPARE) * fmax (bt__norm (chord), rest), share = 1;
-  bt_vec3 off[] = { a, b, bt__scale (-1.0 / 3, a), bt__scale (-1.0 / 3, b),
-                    bt__scale (-0.25, bt__add (a, b)) };
-  for (size_t k = 0; k < sizeof off / sizeof *off; k++)
-    share = fmin (share, bt__share_within (chord, off[k], reach));
+  for (int k = 0; k <= BT__SMOOTH_LOOKS; k++)
+    {
+      double f = (double)k / BT__SMOOTH_LOOKS;
+      bt_vec3 off = bt__axpy (bt__scale (1 - 4 * f + 3 * f * f, a), 3 * f * f - 2 * f, b);
+      share = fmin (share, bt__share_within (chord, off, reach));
+    }
   return share;
 }
 

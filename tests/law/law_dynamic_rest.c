@@ -3,6 +3,7 @@
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include "law/dynamic_scene.h"
+#include "tether/smooth.h"
 
 #include <bight/statics.h>
 
@@ -286,6 +287,37 @@ test_error_estimate (void **state)
     }
 }
 
+/* Between nodes a line is read off a cubic nowhere longer than it is by more than 2 %, be its nodes
+   as uneven or slack as can be; and a cubic that is no longer anyway is left as it is.  */
+static void
+test_smooth_is_no_longer (void **state)
+{
+  (void)state;
+  uint64_t seed = 7;
+  for (int k = 0; k < 20000; k++)
+    {
+      double r[9], most = 0;
+      for (int i = 0; i < 9; i++)
+        {
+          seed = seed * 6364136223846793005u + 1442695040888963407u;
+          r[i] = (double)(seed >> 11) / 4503599627370496.0 - 1; /* -1 to 1 */
+        }
+      double fast = k % 3 ? 2 : 0.01;
+      bt_vec3 chord = { r[0], r[1], r[2] }, a = bt__scale (fast, bt__vec (r[3], r[4], r[5])),
+              b = bt__scale (fast, bt__vec (r[6], r[7], r[8]));
+      double rest = bt__norm (chord) * (k % 2 ? 1 : 1.6),
+             share = bt__smooth_share (chord, a, b, rest);
+      for (int i = 0; i <= 200; i++)
+        {
+          double f = i / 200.0;
+          bt_vec3 off = bt__axpy (bt__scale (1 - 4 * f + 3 * f * f, a), 3 * f * f - 2 * f, b);
+          most = fmax (most, bt__norm (bt__axpy (chord, share, off)) / rest);
+        }
+      assert_true (share > 0 && share <= 1 && most < 1.02);
+      assert_true (share == 1 || most > 1 - 1e-9);
+    }
+}
+
 int
 main (void)
 {
@@ -293,7 +325,7 @@ main (void)
     cmocka_unit_test (test_elastica),         cmocka_unit_test (test_tow_angle),
     cmocka_unit_test (test_elastic_catenary), cmocka_unit_test (test_rest_is_steady),
     cmocka_unit_test (test_neutral_line),     cmocka_unit_test (test_error_estimate),
-    cmocka_unit_test (test_point_load),
+    cmocka_unit_test (test_point_load),       cmocka_unit_test (test_smooth_is_no_longer),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
