@@ -30,7 +30,7 @@
         (across (made-of (lambda (x y z) `(vec ,x ,y ,z))
                          (uniform -6 10) (uniform -9 9) (uniform -12 -1))))
     (if wild?
-        (any-of across across near (one-of '(vec 1000 0 -20) '(vec 0 0 5) '(vec 3 2 -9000)))
+        (any-of across across near (one-as-it-is '(vec 1000 0 -20) '(vec 0 0 5) '(vec 3 2 -9000)))
         (any-of across across near))))
 
 
@@ -96,13 +96,13 @@
       (current . ,(made-of (lambda (speed toward) `(current! ,speed ,toward)) (uniform 0 1) bearing))
       (alter . ,(any-alteration wild?))
       (fault . ,(made-of (lambda (do v what) `(,do ,v ',what))
-                         (any-of (one-of-names 'fault! 'mend!)) a-vehicle
-                         (one-of-names 'compass 'depth 'speed 'altitude 'tension 'telemetry 'thruster)))
+                         (any-of (one-as-it-is 'fault! 'mend!)) a-vehicle
+                         (one-as-it-is 'compass 'depth 'speed 'altitude 'tension 'telemetry 'thruster)))
       (threads . ,(verb 'threads! (integer 1 3))))))
 
-(define (one-of-names . names)
-  ;; As `one-of', but of names that stand in the order as they are.
-  (made-of cadr (apply one-of names)))
+(define (one-as-it-is . expressions)
+  ;; As `one-of', but of expressions that stand in the order as they are, unquoted.
+  (made-of cadr (apply one-of expressions)))
 
 (define (timed order)
   ;; An order, and then some seconds.

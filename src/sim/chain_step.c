@@ -70,9 +70,18 @@ is_hauled (const bt__tether *tether, double pay)
   return pay < 0 && (tether->winch_rate < 0 || -pay * BT__TIME_STEP > WINCH_REST);
 }
 
+/* The most that a line of P can draw off its drum in a step, m: nothing runs along a line faster
+   than its sound.  A brake that holds less than the weight of the first metres would give all else.
+ */
+static double
+most_drawn (const bt_tether_props *p)
+{
+  return sqrt (p->ea / p->mass) * BT__TIME_STEP;
+}
+
 /* Give INPUT what the winch of tether I does with its CHAIN.  It hauls with no more than its pull,
    and then draws in less, or nothing; standing or paying out, it holds with its brake, and gives
-   what is left on its drum.  */
+   what is left on its drum, as fast as the line can draw that.  */
 static void
 set_winch (const bt_dive *dive, bt__state *state, int i, const bt__tether *tether,
            const bt__dynamic *chain, bt__dynamic_input *input)
@@ -81,6 +90,7 @@ set_winch (const bt_dive *dive, bt__state *state, int i, const bt__tether *tethe
   input->pay = pay_of (tether, chain);
   input->hold = tether->props.winch_brake;
   input->room = fmax (0, bt__most_out (dive, state, i) - out - input->pay * input->h);
+  input->room = fmin (input->room, most_drawn (&tether->props));
   if (is_hauled (tether, input->pay))
     {
       input->hold = bt__winch_pull (&tether->props);

@@ -134,3 +134,19 @@ stalls; it does not part."
   (check-free-end)
   (expect (memq 'slack (kinds)))
   (expect (z (point-at (tether-length))) is (about -15 #:within 0.5)))
+
+(define-scenario (a-brake-that-holds-nothing mass)
+  "Line runs off a drum that is hardly braked as fast as it can draw it, not all that there is in a step;
+what it weighs and what it moves with grow as it falls."
+  #:for ((mass 3000 100 1))
+  (enter! (world (sea)
+                 (rov (named r1) (at -6 0 -1))
+                 (tether (named t1) (from -6 0 -1) (to r1) (length 17) (mass mass) (ea 2e5)
+                         (model dynamic) (winch-brake 1))))
+  (place! 'r1 '(0 0 -1))
+  (define sound (sqrt (/ 2e5 mass)))
+  (let loop ((out 17) (k 0))
+    (step!)
+    (expect (- (tether-length) out) is (between 0 (+ 1e-9 (/ sound 60))))
+    (when (< k 60) (loop (tether-length) (+ k 1))))
+  (expect (max-tension) is (below 1e6)))
