@@ -328,6 +328,21 @@ keep (bt__line_job *k, const bt__anchor *a)
   report->slip_work += a->step_work;
 }
 
+/* Where a line lies in a heap there may be more pairs than half the rows that there are: each row
+   is kept, and what it does to the other place of its pair as long as there is room.  */
+static void
+keep_reactions (bt__line_job *k)
+{
+  for (int i = 0; i < k->rows && k->olds < k->w->rows_max; i++)
+    {
+      if (!(k->w->row[i].load > 0) || k->w->row[i].pair == 0)
+        continue;
+      bt__anchor a = anchor_of (k, i);
+      a = bt__self_reaction (k, i, &a);
+      keep (k, &a);
+    }
+}
+
 void
 bt__line_keep (bt__line_job *k)
 {
@@ -339,10 +354,6 @@ bt__line_keep (bt__line_job *k)
       bt__anchor a = anchor_of (k, i);
       keep (k, &a);
       k->report->meets += k->w->of[i].mover == BT__LINE_SELF;
-      if (k->w->row[i].pair == 0 || k->olds >= k->w->rows_max)
-        continue;
-      a = bt__self_reaction (k, i, &a);
-      keep (k, &a);
     }
   for (int i = 0; i < k->bents; i++)
     {
@@ -352,6 +363,7 @@ bt__line_keep (bt__line_job *k)
       k->report->bends++;
       keep (k, &a);
     }
+  keep_reactions (k);
 }
 
 void
