@@ -128,6 +128,23 @@ way_left (const bt__ends *at, const bt__ends *to)
   return bt__distance (at->a, to->a) + bt__distance (at->b, to->b);
 }
 
+/* Whether the vehicle at end K of tether I is held back: to WAS, or to true if the end at AT is not
+   where it was wanted.  Dragging brings a vehicle along, which is not to hold it.  */
+static void
+note_held (const bt_dive *dive, bt__state *state, int i, int k, int was, bt_vec3 at, bt_vec3 wanted)
+{
+  int vehicle = dive->model->ends[i][k].vehicle;
+  if (vehicle >= 0 && !bt__is_shared (dive, vehicle))
+    bt__dive_vehicle (dive, state, vehicle)->held = was || bt__distance (at, wanted) > 0;
+}
+
+static int
+is_held (const bt_dive *dive, bt__state *state, int i, int k)
+{
+  int vehicle = dive->model->ends[i][k].vehicle;
+  return vehicle >= 0 && bt__dive_vehicle (dive, state, vehicle)->held;
+}
+
 bt_status
 bt__drag_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
@@ -137,7 +154,7 @@ bt__drag_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
   bt_status status = BT_OK;
   bt__pin kept[2];
   double whole = way_left (&at, ends), least = INFINITY, left;
-  int idle = 0;
+  int idle = 0, was[] = { is_held (dive, state, i, 0), is_held (dive, state, i, 1) };
   keep_pins (dive, i, kept, 0);
   for (int k = 0; k < 2; k++)
     bt__bring_end (dive, state, i, k, k == 0 ? at.a : at.b);
@@ -155,5 +172,7 @@ bt__drag_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
       at = bt__tether_ends (dive, state, i);
     }
   keep_pins (dive, i, kept, 1);
+  note_held (dive, state, i, 0, was[0], at.a, ends->a);
+  note_held (dive, state, i, 1, was[1], at.b, ends->b);
   return status == BT_OK ? bt__fall (dive, state, i, &at, error) : status;
 }

@@ -247,3 +247,15 @@ tether beside its vehicle, and the vehicle is not held for ever."
   (expect (unsound-while 5) => '())
   (expect (tether-length 't1) is (above 9.9))
   (expect (tether-length 't2) is (above 9.9)))
+
+(define-scenario a-vehicle-that-is-placed
+  "A vehicle that is placed drags its line along and is held back by nothing, unless it comes short of the
+place."
+  (in pile)
+  (run 1)
+  (place! '(5 5 -3))
+  (expect (held?) => #f)
+  (place! '(0 60 -3))
+  (expect (held?))
+  (step!)
+  (expect (held?) => #f))
