@@ -192,7 +192,7 @@ shadow_of (const bench *b, double *seconds)
   bt__graph graph;
   bt__shadow *shadow = NULL;
   bt__graph_config config = { .scene = b->g.scene, .surface = 0, .gap = 0.01 };
-  bt__shadow_config how = { 0.2, 24 };
+  bt__shadow_config how = { .jitter = 0.2, .tries = 24 };
   double start = bench_now ();
   if (bt__graph_new (&config, &graph, NULL))
     return NULL;
@@ -295,7 +295,7 @@ voxels (bench *b, int kind)
   bt__voxels *v = NULL;
   bt__voxel_config c = { b->g.scene, NULL, bt__vec (-18, -14, -20), bt__vec (18, 14, 0), 0.5 };
   double start = bench_now ();
-  bt_status status = bt__voxels_new (&c, &v, NULL);
+  bt_status status = bt__voxels_new (&c, NULL, &v, NULL);
   load = bench_now () - start;
   if (shadow && !status)
     {
@@ -356,7 +356,7 @@ free_lengths (bench *b, int kind)
       if (bt__free_new (&f, &tree, NULL))
         return;
       double start = bench_now ();
-      bt__free_grow (tree, b->p[0], &b->count);
+      bt__free_grow (tree, b->p[0], NULL, &b->count);
       build[i] = bench_now () - start;
       for (int k = 0; k < QUERIES; k++)
         {
@@ -401,7 +401,7 @@ hauls (bench *b, int kind)
       bt__taut_relax (b->taut, &c, b->s, 400, &b->count);
       if (bt__free_new (&f, &tree, NULL))
         return;
-      bt__free_grow (tree, b->p[0], &b->count);
+      bt__free_grow (tree, b->p[0], NULL, &b->count);
       bt__free_length (tree, b->taut, &c, b->p[n - 1], 200, b->fine, &b->count);
       double start = bench_now ();
       bt__route w = bt__way_home (b->taut, &c, b->s, 0.32, b->home, &b->count);

@@ -264,7 +264,7 @@ run_mesh (bench *b, jacket *s, uint32_t wanted)
       if (k)
         bt__mesh_free (o.shape.mesh);
       double start = bench_now ();
-      if (bt__mesh_new (&as_mesh, NULL, &o.shape.mesh, NULL))
+      if (bt__mesh_new (&as_mesh, NULL, NULL, &o.shape.mesh, NULL))
         return;
       times[k] = bench_now () - start;
     }

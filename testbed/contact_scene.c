@@ -110,14 +110,14 @@ int
 reef_soup (reef *r, const bt__soup *soup)
 {
   bt__mesh *m = NULL;
-  return bt__mesh_new (soup, NULL, &m, NULL) == BT_OK && add_mesh (r, m);
+  return bt__mesh_new (soup, NULL, NULL, &m, NULL) == BT_OK && add_mesh (r, m);
 }
 
 int
 reef_grid (reef *r, const bt__grid *grid)
 {
   bt__mesh *m = NULL;
-  return bt__mesh_from_grid (grid, NULL, &m, NULL) == BT_OK && add_mesh (r, m);
+  return bt__mesh_from_grid (grid, NULL, NULL, &m, NULL) == BT_OK && add_mesh (r, m);
 }
 
 int

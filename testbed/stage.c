@@ -159,7 +159,7 @@ mesh_of_sheets (const stage *g)
   bt__soup soup = { 3 * (uint32_t)g->sheets, (uint32_t)g->sheets, g->sheet->v,
                     (const uint32_t (*)[3])corner, NULL };
   bt__mesh *m = NULL;
-  return bt__mesh_new (&soup, NULL, &m, NULL) == BT_OK ? m : NULL;
+  return bt__mesh_new (&soup, NULL, NULL, &m, NULL) == BT_OK ? m : NULL;
 }
 
 int

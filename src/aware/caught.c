@@ -143,7 +143,7 @@ slide (job *k, int way)
   uint32_t end;
   int gained = 0;
   set_gains (k, way);
-  while ((end = find_path (k)) != NOWHERE)
+  while (!bt__ask (k->asker) && (end = find_path (k)) != NOWHERE)
     augment (k, end);
   for (uint32_t v = 0; v < g->vertices; v++)
     gained |= k->seen[v];
@@ -160,7 +160,7 @@ bt__caught_find (bt__caught *k, const bt_vec3 *p, uint32_t n, const bt_vec3 *q, 
   if (!bt__caught_crossings (k->graph, p, n, q, m, k->loops))
     return;
   set_costs (k, favoured);
-  while (slide (k, 1) || slide (k, -1))
+  while (!bt__ask (k->asker) && (slide (k, 1) || slide (k, -1)))
     ;
   for (uint32_t e = 0; e < k->graph->edges; e++)
     k->any |= k->loops[e] != 0;

@@ -20,14 +20,15 @@
 typedef struct bt__caught
 {
   const bt__graph *graph;
-  int32_t *loops; /* about each edge */
-  int any;        /* true if one of them is not 0 */
-  int64_t *cost;  /* of a loop about each edge */
-  uint32_t *at;   /* of each vertex: where its edges begin in ... */
-  uint32_t *edge; /* ... this list */
-  int64_t *gain;  /* of each vertex: what its one step more gains; less than 0: it costs */
-  int64_t *flow;  /* along each edge */
-  uint32_t *from; /* of each vertex: the edge by which a path reaches it */
+  bt__asker *asker; /* of the search, or NULL; left, the loops are good for nothing */
+  int32_t *loops;   /* about each edge */
+  int any;          /* true if one of them is not 0 */
+  int64_t *cost;    /* of a loop about each edge */
+  uint32_t *at;     /* of each vertex: where its edges begin in ... */
+  uint32_t *edge;   /* ... this list */
+  int64_t *gain;    /* of each vertex: what its one step more gains; less than 0: it costs */
+  int64_t *flow;    /* along each edge */
+  uint32_t *from;   /* of each vertex: the edge by which a path reaches it */
   uint32_t *queue;
   uint8_t *seen;
 } bt__caught;

@@ -173,8 +173,8 @@ find_parent (bt__free *t, uint32_t cell, const uint32_t *near, uint32_t n, bt__c
   return t->g[cell] < INFINITY;
 }
 
-void
-bt__free_grow (bt__free *t, bt_vec3 anchor, bt__count *count)
+int
+bt__free_grow (bt__free *t, bt_vec3 anchor, bt__asker *asker, bt__count *count)
 {
   uint32_t near[27], n;
   t->anchor = anchor;
@@ -186,7 +186,7 @@ bt__free_grow (bt__free *t, bt_vec3 anchor, bt__count *count)
   n = neighbours (t, anchor, 1, near);
   for (uint32_t i = 0; i < n; i++)
     offer (t, near[i], t->root);
-  while (t->open > 0)
+  while (t->open > 0 && !bt__ask (asker))
     {
       uint32_t cell = pop (t), parent = t->parent[cell];
       bt_vec3 p = point_of (t, cell);
@@ -199,6 +199,7 @@ bt__free_grow (bt__free *t, bt_vec3 anchor, bt__count *count)
         if (!t->closed[near[i]])
           offer (t, near[i], t->parent[cell]);
     }
+  return t->open == 0;
 }
 
 bt_status

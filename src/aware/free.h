@@ -11,6 +11,7 @@
 #define BT_AWARE_FREE_H
 
 #include "aware/taut.h"
+#include "base/ask.h"
 
 typedef struct bt__free bt__free;
 
@@ -36,8 +37,9 @@ bt_status bt__free_new (const bt__free_config *config, bt__free **out, bt_error 
 
 void bt__free_free (bt__free *tree); /* NULL is nothing */
 
-/* Grow the tree from ANCHOR; no allocation.  */
-void bt__free_grow (bt__free *tree, bt_vec3 anchor, bt__count *count);
+/* Grow the tree from ANCHOR; no allocation.  Return 0 if ASKER (NULL: nobody) said to leave it:
+   then it is to be grown again.  */
+int bt__free_grow (bt__free *tree, bt_vec3 anchor, bt__asker *asker, bt__count *count);
 
 /* True if the straight way from A to B is as free as the tree's ways.  */
 int bt__free_sees (const bt__free_config *config, bt_vec3 a, bt_vec3 b, bt__count *count);

@@ -330,7 +330,7 @@ static void
 find_meetings (bt__graph_job *k)
 {
   uint32_t n = k->scene->n;
-  for (uint32_t i = 0; i < n; i++)
+  for (uint32_t i = 0; i < n && !bt__ask (k->c->asker); i++)
     for (uint32_t j = i + 1; j < n && !k->failed; j++)
       if (may_meet (k, i, j) && counts (k, i) && counts (k, j))
         meet (k, i, j);
@@ -359,7 +359,7 @@ static void
 start (bt__graph_job *k)
 {
   sort_out (k);
-  for (uint32_t i = 0; i < k->scene->n && !k->failed; i++)
+  for (uint32_t i = 0; i < k->scene->n && !k->failed && !bt__ask (k->c->asker); i++)
     {
       const bt__obstacle *o = k->scene->object + i;
       if (!counts (k, i) || o->kind == BT__OBSTACLE_MESH)
@@ -393,9 +393,12 @@ bt__graph_new (const bt__graph_config *config, bt__graph *graph, bt_error *error
   free (k.solid);
   free (k.middle);
   free (k.box);
-  if (!k.failed)
+  bt_status left = bt__stopped (config->asker, error);
+  if (!k.failed && left == BT_OK)
     return BT_OK;
   bt__graph_free (graph);
+  if (left != BT_OK)
+    return left;
   return bt__fail (error, BT_ERR_LIMIT, "no memory for the graph of %u obstacles",
                    (unsigned)config->scene->n);
 }

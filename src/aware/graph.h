@@ -12,6 +12,7 @@
 #ifndef BT_AWARE_GRAPH_H
 #define BT_AWARE_GRAPH_H
 
+#include "base/ask.h"
 #include "collide/scene.h"
 
 typedef struct bt__graph
@@ -34,9 +35,10 @@ typedef struct bt__graph_config
   double surface;        /* m: z of the water's surface; INFINITY: none */
   double depth;          /* m: below z = 0 there is ground from there on; 0: only what is ground */
   double gap;            /* m: less than that between two members is no way through */
+  bt__asker *asker;      /* whether to go on; or NULL */
 } bt__graph_config;
 
-/* Make *GRAPH (any bytes).  BT_ERR_LIMIT.  */
+/* Make *GRAPH (any bytes).  BT_ERR_LIMIT, BT_ERR_INTERRUPTED.  */
 bt_status bt__graph_new (const bt__graph_config *config, bt__graph *graph, bt_error *error);
 
 void bt__graph_free (bt__graph *graph);

@@ -27,6 +27,7 @@ typedef struct under
 
 struct bt__knot
 {
+  bt__asker *asker; /* or NULL */
   uint32_t room, n;
   bt_vec3 *p;
   uint32_t crossings;
@@ -117,7 +118,7 @@ make_simpler (bt__knot *k)
   for (uint32_t before = k->n + 1; k->n < before && k->n > 3;)
     {
       before = k->n;
-      for (uint32_t i = 0; i < k->n && k->n > 3;)
+      for (uint32_t i = 0; i < k->n && k->n > 3 && !bt__ask (k->asker);)
         if (can_drop (k, i))
           {
             memmove (k->p + i, k->p + i + 1, (k->n - i - 1) * sizeof *k->p);
@@ -176,9 +177,13 @@ find_crossings (bt__knot *k)
 {
   k->crossings = 0;
   for (uint32_t i = 0; i < k->n; i++)
-    for (uint32_t j = i + 2; j < k->n; j++)
-      if ((i > 0 || j + 1 < k->n) && !add_crossing (k, i, j))
+    {
+      if (bt__ask (k->asker))
         return 0;
+      for (uint32_t j = i + 2; j < k->n; j++)
+        if ((i > 0 || j + 1 < k->n) && !add_crossing (k, i, j))
+          return 0;
+    }
   qsort (k->under, k->crossings, sizeof *k->under, by_place);
   return 1;
 }
@@ -225,7 +230,7 @@ determinant (bt__knot *k)
 {
   uint32_t n = k->crossings - 1;
   uint64_t *m = k->matrix, product = 1;
-  for (uint32_t c = 0; c < n; c++)
+  for (uint32_t c = 0; c < n && !bt__ask (k->asker); c++)
     {
       uint32_t pivot = c;
       while (pivot < n && m[(size_t)pivot * n + c] == 0)
@@ -276,7 +281,7 @@ ask (bt__knot *k, bt__knot_value *v)
   v->at2 = times (polynomial (k, 2), polynomial (k, inverse (2)));
   v->at3 = times (polynomial (k, 3), polynomial (k, inverse (3)));
   v->knotted = v->determinant != 1 || v->at2 != 1 || v->at3 != 1;
-  return 1;
+  return !bt__ask (k->asker);
 }
 
 int
@@ -329,6 +334,12 @@ bt__knot_new (uint32_t nodes, bt__knot **out, bt_error *error)
     }
   *out = k;
   return BT_OK;
+}
+
+void
+bt__knot_ask (bt__knot *k, bt__asker *asker)
+{
+  k->asker = asker;
 }
 
 void

@@ -15,6 +15,7 @@
 
 #include <bight/status.h>
 
+#include "base/ask.h"
 #include "math/vec.h"
 
 typedef struct bt__knot bt__knot;
@@ -37,6 +38,9 @@ enum
 bt_status bt__knot_new (uint32_t nodes, bt__knot **out, bt_error *error);
 
 void bt__knot_free (bt__knot *knot); /* NULL is nothing */
+
+/* Let the questions below ask ASKER whether to go on; left, they return 0.  */
+void bt__knot_ask (bt__knot *knot, bt__asker *asker);
 
 /* Fill *VALUE for the open line P of N points.  Return 0 if it has too many nodes, or crosses
    itself too often.  No allocation.  */

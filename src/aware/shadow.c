@@ -37,7 +37,7 @@ static int
 find_crossings (bt__shadow *x)
 {
   x->crosses = 0;
-  for (uint32_t e = 0; e < x->edges; e++)
+  for (uint32_t e = 0; e < x->edges && !bt__ask (x->asker); e++)
     for (uint32_t f = e + 1; f < x->edges; f++)
       {
         const uint32_t *i = x->edge[e], *j = x->edge[f];
@@ -147,7 +147,7 @@ relate_vertices (bt__shadow *x)
   ray *rays = malloc ((2 * x->edges + 1) * sizeof *rays);
   int32_t *letters = malloc ((2 * x->edges + 1) * sizeof *letters);
   x->group.failed |= !rays || !letters;
-  for (uint32_t v = 0; v < x->vertices && !x->group.failed; v++)
+  for (uint32_t v = 0; v < x->vertices && !x->group.failed && !bt__ask (x->asker); v++)
     if (!x->boundary[v])
       relate_vertex (x, v, rays, letters);
   free (rays);
@@ -168,6 +168,7 @@ look (bt__shadow *x, double angle, bt_error *error)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the shadows of %u edges",
                      (unsigned)x->edges);
   bt__group_begin (&x->group, x->edges + x->crosses);
+  x->group.asker = x->asker;
   for (uint32_t i = 0; i < x->crosses && !x->group.failed; i++)
     relate_crossing (x, x->cross + i);
   relate_vertices (x);
@@ -322,6 +323,7 @@ bt__shadow_new (const bt__graph *graph, const bt__shadow_config *config, bt__sha
                        (unsigned)graph->edges);
   if (!status)
     {
+      x->asker = config->asker;
       jitter (x, graph, config->jitter);
       status = choose (x, config->tries ? config->tries : 1, error);
     }
@@ -334,6 +336,7 @@ bt__shadow_new (const bt__graph *graph, const bt__shadow_config *config, bt__sha
       return status;
     }
   bt__group *g = &x->group;
+  x->asker = g->asker = NULL;
   uint32_t expected = bt__graph_rank (graph);
   x->report = (bt__shadow_report){
     x->crosses,  g->rank,    expected,

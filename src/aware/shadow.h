@@ -23,8 +23,9 @@ typedef struct bt__shadow bt__shadow;
 
 typedef struct bt__shadow_config
 {
-  double jitter;  /* share of the radius: 0.2 */
-  uint32_t tries; /* directions: 24 */
+  double jitter;    /* share of the radius: 0.2 */
+  uint32_t tries;   /* directions: 24 */
+  bt__asker *asker; /* whether to go on; or NULL */
 } bt__shadow_config;
 
 /* How well the group is known.  */
@@ -36,7 +37,7 @@ typedef struct bt__shadow_report
   uint32_t decided;                   /* nothing left over, the rank right, nothing undescribed */
 } bt__shadow_report;
 
-/* Make *OUT for GRAPH, which may be freed.  BT_ERR_LIMIT.  */
+/* Make *OUT for GRAPH, which may be freed.  BT_ERR_LIMIT, BT_ERR_INTERRUPTED.  */
 bt_status bt__shadow_new (const bt__graph *graph, const bt__shadow_config *config, bt__shadow **out,
                           bt_error *error);
 

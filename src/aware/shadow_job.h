@@ -40,6 +40,7 @@ typedef struct bt__area
 
 struct bt__shadow
 {
+  bt__asker *asker; /* while it is made */
   uint32_t vertices, edges;
   bt_vec3 *v;
   uint32_t (*edge)[2];

@@ -63,6 +63,12 @@ bt__taut_free (bt__taut *t)
   free (t);
 }
 
+void
+bt__taut_ask (bt__taut *t, bt__asker *asker)
+{
+  t->asker = asker;
+}
+
 int
 bt__string_lay (bt__string *s, const bt_vec3 *p, uint32_t n)
 {
@@ -82,8 +88,7 @@ bt__string_lay (bt__string *s, const bt_vec3 *p, uint32_t n)
 static double
 step_once (bt__taut *t, const bt__taut_config *c, bt__string *s, bt__count *count)
 {
-  bt__taut_look (t, c, s, count);
-  if (s->n < 3)
+  if (!bt__taut_look (t, c, s, count) || s->n < 3)
     return 0;
   double before = bt__length (s->x, s->n), prox = 2e-3 * (s->n - 1) / fmax (before, 1e-9);
   for (int try = 0; try < 4; try++, prox *= 40)
@@ -104,7 +109,7 @@ bt__taut_relax (bt__taut *t, const bt__taut_config *c, bt__string *s, uint32_t s
                 bt__count *count)
 {
   uint32_t taken = 0;
-  for (; taken < steps && !s->settled; taken++)
+  for (; taken < steps && !s->settled && !bt__ask (t->asker); taken++)
     {
       double gain = step_once (t, c, s, count);
       s->length = bt__length (s->x, s->n);

@@ -19,6 +19,7 @@
 #include <stddef.h>
 
 #include "aware/hold.h"
+#include "base/ask.h"
 
 /* Flat: no pointers, no padding; bt__string_size bytes of it can be copied.  */
 typedef struct bt__string
@@ -50,6 +51,9 @@ size_t bt__string_size (uint32_t room);
 bt_status bt__taut_new (uint32_t room, bt__taut **out, bt_error *error);
 
 void bt__taut_free (bt__taut *taut); /* NULL is nothing */
+
+/* Let the steps of strings ask ASKER, which must stay, whether to go on.  */
+void bt__taut_ask (bt__taut *taut, bt__asker *asker);
 
 /* Lay STRING (its room is set) along the polyline P of N points, as it is.  Return 0 if it has no
    room for it.  */

@@ -31,6 +31,7 @@ typedef struct bt__block
 struct bt__taut
 {
   uint32_t room;
+  bt__asker *asker; /* or NULL */
   bt__near near[BT__NEARS_A_LINK];
   bt__side *side;     /* by link, compact */
   uint8_t *active;    /* of each: at which of its nodes it pushes */
@@ -42,8 +43,9 @@ struct bt__taut
   bt_vec3 *right, *y; /* the eliminated right side, the solution */
 };
 
-/* Look round: split and drop nodes of STRING, find the sides of every link.  */
-void bt__taut_look (bt__taut *t, const bt__taut_config *c, bt__string *s, bt__count *count);
+/* Look round: split and drop nodes of STRING, find the sides of every link.  Return 0 if that was
+   left.  */
+int bt__taut_look (bt__taut *t, const bt__taut_config *c, bt__string *s, bt__count *count);
 
 /* Fill t->y with where the nodes would go; PROX, 1 / m, holds them back.  */
 void bt__taut_solve (bt__taut *t, const bt__string *s, double prox);

@@ -13,6 +13,11 @@
 /* Sides are laid this much outside the core, so that rounding does not eat into it.  */
 #define SPARE 1e-6
 
+enum
+{
+  LINKS_A_QUESTION = 256 /* looked at between two questions whether to go on */
+};
+
 static double
 link_length (const bt__string *s, uint32_t i)
 {
@@ -140,13 +145,15 @@ join_far (bt__taut *t, const bt__taut_config *c, bt__string *s, uint32_t i)
   return 1;
 }
 
-void
+int
 bt__taut_look (bt__taut *t, const bt__taut_config *c, bt__string *s, bt__count *count)
 {
   bt__nears list;
   t->first[0] = 0;
   for (uint32_t i = 0; i + 1 < s->n;)
     {
+      if (i % LINKS_A_QUESTION == 0 && bt__ask (t->asker))
+        return 0;
       while (i + 2 < s->n && can_drop_near (c, s, i + 1, count))
         drop_node (s, i + 1);
       look_about (t, c, s, i, &list, count);
@@ -161,4 +168,5 @@ bt__taut_look (bt__taut *t, const bt__taut_config *c, bt__string *s, bt__count *
     }
   for (uint32_t j = 1; j + 1 < s->n; j++)
     t->most[j] = fmax (0.9 * (fmin (t->unlisted[j - 1], t->unlisted[j]) - c->core - SPARE), 0);
+  return 1;
 }

@@ -134,7 +134,7 @@ log_one (job *k, int32_t letter)
 static void
 apply (job *k, const entry *e)
 {
-  for (uint32_t r = 0; r < k->g->relations; r++)
+  for (uint32_t r = 0; r < k->g->relations && !bt__ask (k->g->asker); r++)
     {
       put_in (k->g, k->g->relation + r, e->letter, &e->word, &k->spare);
       reduce_cyclic (k->g->relation + r);
@@ -276,7 +276,7 @@ nielsen (job *k)
     if (k->total[x] > 0)
       letter[n++] = (int32_t)x + 1;
   for (uint32_t i = 0; i < n && n < NIELSEN_LETTERS && !found; i++)
-    for (uint32_t j = 0; j < 6 * n && !found; j++)
+    for (uint32_t j = 0; j < 6 * n && !found && !bt__ask (k->g->asker); j++)
       {
         int32_t a = letter[i], b = letter[j / 6] * (j % 2 ? 1 : -1);
         if (abs (b) == a)
@@ -311,7 +311,7 @@ resolve (job *k)
         g->origin[g->rank++] = (int32_t)x + 1;
         push (g, g->is + x, (int32_t)g->rank);
       }
-  for (uint32_t i = k->logged; i > 0; i--)
+  for (uint32_t i = k->logged; i > 0 && !bt__ask (g->asker); i--)
     {
       const entry *e = k->log + i - 1;
       bt__letters now = { NULL, 0, 0 };
@@ -365,9 +365,9 @@ simplify (job *k)
   drop_empty (k->g);
   for (int round = 0; k->g->relations > 0 && round < NIELSEN_ROUNDS && !k->g->failed; round++)
     {
-      while (!k->g->failed && find_single (k, &r, &at))
+      while (!k->g->failed && !bt__ask (k->g->asker) && find_single (k, &r, &at))
         eliminate (k, r, at);
-      if (k->g->relations == 0 || !nielsen (k))
+      if (k->g->relations == 0 || bt__ask (k->g->asker) || !nielsen (k))
         break;
     }
 }
@@ -394,9 +394,11 @@ bt__group_simplify (bt__group *g, bt_error *error)
   free (k.total);
   free (k.here);
   free (k.spare.at);
-  return g->failed ? bt__fail (error, BT_ERR_LIMIT, "no memory for the words of %u letters",
-                               (unsigned)g->letters)
-                   : BT_OK;
+  bt_status left = bt__stopped (g->asker, error);
+  if (left != BT_OK || !g->failed)
+    return left;
+  return bt__fail (error, BT_ERR_LIMIT, "no memory for the words of %u letters",
+                   (unsigned)g->letters);
 }
 
 void

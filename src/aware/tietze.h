@@ -14,6 +14,8 @@
 
 #include <bight/status.h>
 
+#include "base/ask.h"
+
 /* Letters of a word, +k or -k for letter k from 1.  */
 typedef struct bt__letters
 {
@@ -31,6 +33,7 @@ typedef struct bt__group
   uint32_t leftover; /* relations left; 0: free on them */
   uint32_t longest;  /* of the words IS */
   int failed;        /* memory ran out */
+  bt__asker *asker;  /* of the simplifying, or NULL: to be set between the calls below */
 } bt__group;
 
 /* Make GROUP (any bytes) that of LETTERS letters without relations.  */
@@ -39,7 +42,8 @@ void bt__group_begin (bt__group *group, uint32_t letters);
 /* Add the relation that the N LETTERS are nothing.  */
 void bt__group_relate (bt__group *group, const int32_t *letters, uint32_t n);
 
-/* Simplify, and fill IS and the rest.  BT_ERR_LIMIT if memory ran out since the beginning.  */
+/* Simplify, and fill IS and the rest.  BT_ERR_LIMIT if memory ran out since the beginning,
+   BT_ERR_INTERRUPTED.  */
 bt_status bt__group_simplify (bt__group *group, bt_error *error);
 
 void bt__group_free (bt__group *group);

@@ -87,7 +87,7 @@ static void
 measure (bt__voxels *v, bt__count *count)
 {
   double cap = 2 * v->c.cell;
-  for (uint32_t i = 0; i < v->cells; i++)
+  for (uint32_t i = 0; i < v->cells && !bt__ask (v->asker); i++)
     {
       bt_vec3 p = bt__voxel_middle (v, i);
       bt__link link = { p, p };
@@ -140,14 +140,14 @@ square_is_clear (const bt__voxels *v, uint32_t cell, int axis, bt__count *count)
 static void
 open_steps (bt__voxels *v, bt__count *count)
 {
-  for (uint32_t i = 0; i < v->cells; i++)
+  for (uint32_t i = 0; i < v->cells && !bt__ask (v->asker); i++)
     for (int a = 0; a < 3; a++)
       {
         uint32_t j = bt__voxel_next (v, i, a, 1);
         if (j != BT__NOWHERE && step_is_clear (v, i, j, count))
           v->open[i] |= (uint8_t)(1 << a);
       }
-  for (uint32_t i = 0; i < v->cells; i++)
+  for (uint32_t i = 0; i < v->cells && !bt__ask (v->asker); i++)
     for (int a = 0; a < 3; a++)
       if (square_is_clear (v, i, a, count))
         v->open[i] |= (uint8_t)(8 << a);
@@ -175,7 +175,7 @@ size_grid (bt__voxels *v, bt_error *error)
 }
 
 bt_status
-bt__voxels_new (const bt__voxel_config *config, bt__voxels **out, bt_error *error)
+bt__voxels_new (const bt__voxel_config *config, bt__asker *asker, bt__voxels **out, bt_error *error)
 {
   bt__voxels *v = calloc (1, sizeof *v);
   bt__count count = { 0 };
@@ -183,6 +183,7 @@ bt__voxels_new (const bt__voxel_config *config, bt__voxels **out, bt_error *erro
   if (!v)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for voxels");
   v->c = *config;
+  v->asker = asker;
   bt_status status = size_grid (v, error);
   if (!status)
     {
@@ -198,7 +199,12 @@ bt__voxels_new (const bt__voxel_config *config, bt__voxels **out, bt_error *erro
     {
       measure (v, &count);
       open_steps (v, &count);
+      status = bt__stopped (v->asker, error);
+    }
+  if (!status)
+    {
       status = bt__voxels_label (v, error);
+      v->asker = v->group.asker = NULL;
     }
   if (status)
     {

@@ -17,6 +17,7 @@
 #define BT_AWARE_VOXEL_H
 
 #include "aware/word.h"
+#include "base/ask.h"
 #include "collide/scene.h"
 
 typedef struct bt__voxels bt__voxels;
@@ -41,9 +42,11 @@ typedef struct bt__voxel_report
   uint32_t leftover;            /* relations left */
 } bt__voxel_report;
 
-/* Make *OUT.  BT_ERR_DOMAIN if the box or the cell makes no sense; BT_ERR_LIMIT if there are too
-   many cells or memory runs out.  */
-bt_status bt__voxels_new (const bt__voxel_config *config, bt__voxels **out, bt_error *error);
+/* Make *OUT, asking ASKER (NULL: nobody) whether to go on.  BT_ERR_INTERRUPTED; BT_ERR_DOMAIN if
+   the box or the cell makes no sense; BT_ERR_LIMIT if there are too many cells or memory runs out.
+ */
+bt_status bt__voxels_new (const bt__voxel_config *config, bt__asker *asker, bt__voxels **out,
+                          bt_error *error);
 
 void bt__voxels_free (bt__voxels *voxels); /* NULL is nothing */
 

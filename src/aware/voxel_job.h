@@ -26,6 +26,7 @@ typedef struct bt__pool
 
 struct bt__voxels
 {
+  bt__asker *asker; /* while it is made */
   bt__voxel_config c;
   uint32_t n[3], cells;
   float *clear;    /* m from each middle to anything, up to twice the cell; 0 or less: blocked */

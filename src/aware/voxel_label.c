@@ -235,7 +235,7 @@ spread (bt__voxels *v, uint32_t step, uint32_t *tail)
 static void
 empty_queue (bt__voxels *v, uint32_t *head, uint32_t *tail)
 {
-  while (*head < *tail && !v->pool.failed)
+  while (*head < *tail && !v->pool.failed && !bt__ask (v->asker))
     spread (v, v->queue[(*head)++], tail);
 }
 
@@ -252,6 +252,8 @@ label_steps (bt__voxels *v)
     {
       if (v->label[i] != BT__UNKNOWN || !(v->open[i / 3] >> i % 3 & 1))
         continue;
+      if (bt__ask (v->asker))
+        break;
       int32_t letter = (int32_t)++generators;
       v->label[i] = number_of (&v->pool, &letter, 1);
       v->queue[tail++] = i;
@@ -265,7 +267,7 @@ static void
 relate_squares (bt__voxels *v)
 {
   int32_t last = 0;
-  for (uint32_t i = 0; i < v->cells && v->group.relations < RELATIONS; i++)
+  for (uint32_t i = 0; i < v->cells && v->group.relations < RELATIONS && !bt__ask (v->asker); i++)
     for (int a = 0; a < 3; a++)
       {
         uint32_t step[4];
@@ -297,12 +299,16 @@ bt__voxels_label (bt__voxels *v, bt_error *error)
   uint32_t generators = seen ? label_steps (v) : 0;
   v->pool.failed |= !seen;
   free (seen);
+  bt_status status = bt__stopped (v->asker, error);
+  if (status != BT_OK)
+    return status;
   if (v->pool.failed)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the labels of %u voxels",
                      (unsigned)v->cells);
   bt__group_begin (&v->group, generators);
+  v->group.asker = v->asker;
   relate_squares (v);
-  bt_status status = bt__group_simplify (&v->group, error);
+  status = bt__group_simplify (&v->group, error);
   v->report.generators = v->group.rank;
   v->report.dropped = generators - v->group.rank;
   v->report.leftover = v->group.leftover + (v->group.relations >= RELATIONS);

@@ -14,13 +14,15 @@
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/workers.h"
 
 enum
 {
-  LOOKS = 200 /* before a worker sleeps: about a tenth of a millisecond when nobody else runs */
+  LOOKS = 200, /* before a worker sleeps: about a tenth of a millisecond when nobody else runs */
+  NOW_AND_THEN = 20000000 /* ns */
 };
 
 /* A thread that waits.  */
@@ -169,8 +171,34 @@ open_round (bt__workers *all, int tasks, void (*duty) (void *user, int w, int k)
   pthread_cond_broadcast (&all->wake);
 }
 
+static struct timespec
+soon (void)
+{
+  struct timespec t;
+  timespec_get (&t, TIME_UTC);
+  t.tv_nsec += NOW_AND_THEN;
+  t.tv_sec += t.tv_nsec / 1000000000;
+  t.tv_nsec %= 1000000000;
+  return t;
+}
+
+/* Wait, with the lock held, until the others may have come to rest.  */
 static void
-close_round (bt__workers *all)
+wait_a_while (bt__workers *all, void (*meanwhile) (void *user))
+{
+  struct timespec then = soon ();
+  if (!meanwhile)
+    pthread_cond_wait (&all->rested, &all->lock);
+  else if (pthread_cond_timedwait (&all->rested, &all->lock, &then) != 0)
+    {
+      pthread_mutex_unlock (&all->lock);
+      meanwhile (all->user);
+      pthread_mutex_lock (&all->lock);
+    }
+}
+
+static void
+close_round (bt__workers *all, void (*meanwhile) (void *user))
 {
   pthread_mutex_lock (&all->lock);
   all->open = 0;
@@ -179,19 +207,26 @@ close_round (bt__workers *all)
     sched_yield ();
   pthread_mutex_lock (&all->lock);
   while (all->busy > 0)
-    pthread_cond_wait (&all->rested, &all->lock);
+    wait_a_while (all, meanwhile);
   pthread_mutex_unlock (&all->lock);
 }
 
 void
-bt__workers_run (bt__workers *all, int tasks, void (*duty) (void *user, int w, int k), void *user)
+bt__workers_run_and (bt__workers *all, int tasks, void (*duty) (void *user, int w, int k),
+                     void (*meanwhile) (void *user), void *user)
 {
   pid_t process = getpid ();
   if (all->process != process)
     begin_in (all, process);
   open_round (all, tasks, duty, user);
   take_part (all, 0);
-  close_round (all);
+  close_round (all, meanwhile);
+}
+
+void
+bt__workers_run (bt__workers *all, int tasks, void (*duty) (void *user, int w, int k), void *user)
+{
+  bt__workers_run_and (all, tasks, duty, NULL, user);
 }
 
 int

@@ -23,6 +23,10 @@ void bt__workers_free (bt__workers *workers);
 void bt__workers_run (bt__workers *workers, int tasks, void (*duty) (void *user, int w, int k),
                       void *user);
 
+/* The same; while the caller waits for the others MEANWHILE (USER) is called by it now and then. */
+void bt__workers_run_and (bt__workers *workers, int tasks, void (*duty) (void *user, int w, int k),
+                          void (*meanwhile) (void *user), void *user);
+
 /* Return how many threads were ever started.  */
 int bt__workers_started (const bt__workers *workers);
 

@@ -20,11 +20,6 @@ BT_BEGIN_DECLS
 
 typedef struct bt_dive bt_dive;
 
-/* What a call that may last asks between pieces of its work, each much shorter than a tenth of a
-   second: SHARE of it, 0 to 1, is done as far as that can be told.  Nonzero: give up; the call then
-   fails by BT_ERR_INTERRUPTED and has changed nothing.  */
-typedef int (*bt_poll) (void *user, double share);
-
 /* Start a dive in MODEL (kept by the dive): vehicles in place, tethers laid.  FUNCTION and USER
    serve a current of kind BT_CURRENT_FUNCTION, else NULL; USER is borrowed.  */
 bt_status bt_dive_new (bt_model *model, bt_current_function function, void *user, bt_dive **dive,
@@ -99,10 +94,10 @@ bt_status bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_err
 /* Return a 64-bit hash of the whole state: equal states, equal hashes.  */
 uint64_t bt_dive_hash (const bt_dive *dive);
 
-/* Write STATE, SIZE bytes that bt_dive_save wrote, to PACKED without the room that is not in use, and
-   return how many bytes that takes; with PACKED NULL, return the number alone.  Both are of whole
-   words of eight bytes, and aligned.  True if BYTES are packed so.  Unpack N such bytes to STATE;
-   BT_ERR_STALE when they are not of so large a state.  */
+/* Write STATE, SIZE bytes that bt_dive_save wrote, to PACKED without the room that is not in use,
+   and return how many bytes that takes; with PACKED NULL, return the number alone.  Both are of
+   whole words of eight bytes, and aligned.  True if BYTES are packed so.  Unpack N such bytes to
+   STATE; BT_ERR_STALE when they are not of so large a state.  */
 size_t bt_state_pack (const void *state, size_t size, void *packed);
 int bt_state_is_packed (const void *bytes, size_t size);
 bt_status bt_state_unpack (const void *packed, size_t n, void *state, size_t size, bt_error *error);

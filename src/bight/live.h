@@ -36,8 +36,9 @@ bt_live_options bt_live_default_options (void);
 bt_status bt_live_start (bt_dive *dive, const bt_live_options *options, bt_live **live,
                          bt_error *error);
 
-/* Stop the thread between two steps; DIVE is its owner's again, and LIVE is let go.  Return what
-   stopped it before, such as BT_ERR_DIVERGED, or BT_OK.  What was not yet due is forgotten.  */
+/* Stop the thread, leaving the step or the command that it is at; DIVE is its owner's again, and
+   LIVE is let go.  Return what stopped it before, such as BT_ERR_DIVERGED, or BT_OK.  What was not
+   yet due is forgotten.  */
 bt_status bt_live_stop (bt_live *live, bt_error *error);
 
 /* Hold LIVE for one who uses it beside its owner, such as another thread with a fork of its own to
@@ -60,6 +61,12 @@ bt_status bt_live_post (bt_live *live, int64_t step, bt_op op, int subject, cons
    the step it was done at.  */
 bt_status bt_live_do (bt_live *live, bt_op op, int subject, const double *args, int n,
                       int64_t *step, bt_error *error);
+
+/* The same, asking POLL with POLL_USER every now and then in the thread that waits.  When it gives
+   up the command is taken back, or left if it is under way: BT_ERR_INTERRUPTED.  One that is done
+   by then stays done.  */
+bt_status bt_live_do_polled (bt_live *live, bt_op op, int subject, const double *args, int n,
+                             bt_poll poll, void *poll_user, int64_t *step, bt_error *error);
 
 /* One command that was done, or refused.  */
 typedef struct bt_live_command

@@ -316,6 +316,9 @@ typedef struct bt_model bt_model;
    obstacle), BT_ERR_DOMAIN for a number outside its range, BT_ERR_LIMIT for too many parts or no
    memory.  */
 bt_status bt_model_new (const bt_world *world, bt_model **model, bt_error *error);
+/* The same, asking POLL with POLL_USER while meshes are sorted: BT_ERR_INTERRUPTED.  */
+bt_status bt_model_new_polled (const bt_world *world, bt_poll poll, void *poll_user,
+                               bt_model **model, bt_error *error);
 bt_model *bt_model_retain (bt_model *model);
 void bt_model_release (bt_model *model);
 

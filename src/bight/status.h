@@ -14,15 +14,15 @@ BT_BEGIN_DECLS
 typedef enum bt_status
 {
   BT_OK = 0,
-  BT_ERR_DOMAIN,     /* a number outside its range, or not finite */
-  BT_ERR_NAME,       /* no such part, field, model, word */
-  BT_ERR_STALE,      /* a handle or checkpoint that belongs to something else */
-  BT_ERR_DEF,        /* a world that does not hold together */
-  BT_ERR_LIMIT,      /* too many, too large, out of memory */
-  BT_ERR_DIVERGED,   /* no finite answer was found */
-  BT_ERR_IO,         /* a file that cannot be read or written */
-  BT_ERR_FORMAT,     /* a file whose content is wrong */
-  BT_ERR_VERSION,    /* data written by another version */
+  BT_ERR_DOMAIN,      /* a number outside its range, or not finite */
+  BT_ERR_NAME,        /* no such part, field, model, word */
+  BT_ERR_STALE,       /* a handle or checkpoint that belongs to something else */
+  BT_ERR_DEF,         /* a world that does not hold together */
+  BT_ERR_LIMIT,       /* too many, too large, out of memory */
+  BT_ERR_DIVERGED,    /* no finite answer was found */
+  BT_ERR_IO,          /* a file that cannot be read or written */
+  BT_ERR_FORMAT,      /* a file whose content is wrong */
+  BT_ERR_VERSION,     /* data written by another version */
   BT_ERR_UNSUPPORTED, /* the chosen model has no answer to this */
   BT_ERR_INTERRUPTED  /* who called gave up: see bt_poll */
 } bt_status;
@@ -40,6 +40,11 @@ typedef struct bt_error
 
 /* Return the lower-case word for STATUS ("domain", "name", ...; "ok" for BT_OK).  Never NULL.  */
 const char *bt_status_name (bt_status status);
+
+/* What a call that may last asks between pieces of its work, each much shorter than a tenth of a
+   second: SHARE of it, 0 to 1, is done as far as that can be told.  Nonzero: give up; the call then
+   fails by BT_ERR_INTERRUPTED and has changed nothing.  */
+typedef int (*bt_poll) (void *user, double share);
 
 /* Return the version of the library, "MAJOR.MINOR.PATCH".  */
 const char *bt_version (void);

@@ -13,6 +13,7 @@
 
 #include <bight/status.h>
 
+#include "base/ask.h"
 #include "collide/pair.h"
 
 enum
@@ -65,6 +66,7 @@ typedef struct bt__bvh
   uint32_t *order; /* leaf order to item number */
   bt__bvh_item *item;
   uint32_t room, node_room;
+  bt__asker *asker; /* while it is built, or NULL; left, the tree is good for nothing */
 } bt__bvh;
 
 /* Work done by queries, added up.  */

@@ -15,7 +15,8 @@ enum
 {
   BINS = 16,
   LEAF = 4,
-  DEEP = 24
+  DEEP = 24,
+  ITEMS_A_QUESTION = 1 << 16
 };
 
 typedef struct bounds
@@ -310,7 +311,7 @@ static void
 make_node (bt__bvh *tree, uint32_t at, const part *whole, int depth)
 {
   part parts[BT__BVH_WIDE] = { *whole };
-  int n = spread (tree, parts, depth > DEEP);
+  int n = bt__ask (tree->asker) ? 0 : spread (tree, parts, depth > DEEP);
   bt__bvh_node *node = tree->node + at;
   for (int i = 0; i < BT__BVH_WIDE; i++)
     if (i < n)
@@ -330,12 +331,14 @@ make_node (bt__bvh *tree, uint32_t at, const part *whole, int depth)
 /* ---- Items ---- */
 
 static bt__aabb
-whole_box (uint32_t n, bt__box_of box, const void *user)
+whole_box (bt__asker *asker, uint32_t n, bt__box_of box, const void *user)
 {
   bt__aabb all = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
   for (uint32_t i = 0; i < n; i++)
     {
       bt__aabb b;
+      if (i % ITEMS_A_QUESTION == 0 && bt__ask (asker))
+        break;
       box (user, i, &b);
       all.lo = bt__vec (fmin (all.lo.x, b.lo.x), fmin (all.lo.y, b.lo.y), fmin (all.lo.z, b.lo.z));
       all.hi = bt__vec (fmax (all.hi.x, b.hi.x), fmax (all.hi.y, b.hi.y), fmax (all.hi.z, b.hi.z));
@@ -373,11 +376,13 @@ bt__bvh_build (bt__bvh *tree, uint32_t n, bt__box_of box, const void *user)
   tree->nodes = 0;
   if (n == 0)
     return;
-  bt__aabb all = whole_box (n, box, user), b;
+  bt__aabb all = whole_box (tree->asker, n, box, user), b;
   tree->origin = bt__scale (0.5, bt__add (all.lo, all.hi));
   tree->extent = bt__largest (bt__sub (all.hi, all.lo));
   for (uint32_t i = 0; i < n; i++)
     {
+      if (i % ITEMS_A_QUESTION == 0 && bt__ask (tree->asker))
+        return;
       box (user, i, &b);
       set_item (tree, i, &b);
     }

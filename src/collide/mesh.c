@@ -128,7 +128,8 @@ find_box (bt__mesh *m)
 }
 
 bt_status
-bt__mesh_new (const bt__soup *soup, const bt__place *place, bt__mesh **out, bt_error *error)
+bt__mesh_new (const bt__soup *soup, const bt__place *place, bt__asker *asker, bt__mesh **out,
+              bt_error *error)
 {
   bt_status status = check_place (place, error);
   if (!status)
@@ -146,7 +147,15 @@ bt__mesh_new (const bt__soup *soup, const bt__place *place, bt__mesh **out, bt_e
       bt__mesh_free (m);
       return status;
     }
+  m->tree.asker = asker;
   bt__bvh_build (&m->tree, m->triangles, box_of_triangle, m);
+  m->tree.asker = NULL;
+  status = bt__stopped (asker, error);
+  if (status)
+    {
+      bt__mesh_free (m);
+      return status;
+    }
   bt__bvh_trim (&m->tree);
   sort_corners (m, soup);
   find_box (m);
@@ -188,7 +197,8 @@ add_field (const bt__grid *g, uint32_t i, uint32_t j, uint32_t (*corner)[3], uin
 }
 
 bt_status
-bt__mesh_from_grid (const bt__grid *g, const bt__place *place, bt__mesh **out, bt_error *error)
+bt__mesh_from_grid (const bt__grid *g, const bt__place *place, bt__asker *asker, bt__mesh **out,
+                    bt_error *error)
 {
   bt_status status = check_grid (g, error);
   if (status)
@@ -208,7 +218,7 @@ bt__mesh_from_grid (const bt__grid *g, const bt__place *place, bt__mesh **out, b
         for (uint32_t i = 0; i + 1 < g->nx; i++)
           n += add_field (g, i, j, corner + n, id + n);
       bt__soup soup = { (uint32_t)posts, n, v, (const uint32_t (*)[3])corner, id };
-      status = bt__mesh_new (&soup, place, out, error);
+      status = bt__mesh_new (&soup, place, asker, out, error);
     }
   free (v);
   free (corner);

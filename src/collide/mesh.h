@@ -33,11 +33,11 @@ typedef struct bt__soup
   const uint32_t *id; /* NULL: 0, 1, 2 ... */
 } bt__soup;
 
-/* Copy SOUP, placed by PLACE (NULL: as it is), into *OUT with its tree.  BT_ERR_DOMAIN if it is
-   empty, a number is not finite, a corner is not one of the vertices, the scale not positive;
-   BT_ERR_LIMIT.  */
-bt_status bt__mesh_new (const bt__soup *soup, const bt__place *place, bt__mesh **out,
-                        bt_error *error);
+/* Copy SOUP, placed by PLACE (NULL: as it is), into *OUT with its tree, asking ASKER (NULL: nobody)
+   whether to go on.  BT_ERR_DOMAIN if it is empty, a number is not finite, a corner is not one of
+   the vertices, the scale not positive; BT_ERR_LIMIT; BT_ERR_INTERRUPTED.  */
+bt_status bt__mesh_new (const bt__soup *soup, const bt__place *place, bt__asker *asker,
+                        bt__mesh **out, bt_error *error);
 
 /* A height field as a mesh: NX by NY posts DX and DY apart, the first at (X, Y), rows to the north;
    triangles 2 (i + j (NX - 1)) and the next are of the field east and north of post (i, j).  */
@@ -48,8 +48,8 @@ typedef struct bt__grid
   const double *z; /* nx * ny, east fastest; NaN: no bottom there */
 } bt__grid;
 
-bt_status bt__mesh_from_grid (const bt__grid *grid, const bt__place *place, bt__mesh **out,
-                              bt_error *error);
+bt_status bt__mesh_from_grid (const bt__grid *grid, const bt__place *place, bt__asker *asker,
+                              bt__mesh **out, bt_error *error);
 
 void bt__mesh_free (bt__mesh *mesh); /* NULL is nothing */
 

@@ -195,7 +195,7 @@ propose (bt__line_job *k, int near, int held, bt__dynamic_report *report)
       if (hook->no_guard)
         return;
       hits = bt__line_hits (k, i < rounds);
-      if (hits == 0 || i == rounds)
+      if (hits == 0 || i == rounds || bt__dynamic_is_left (k->kernel))
         break;
       bt__line_harden (k);
       k->report->rounds++;
@@ -294,7 +294,7 @@ try_both (bt__line_job *k, int near, int held, bt__dynamic_report *report, bt_er
   bt__dynamic_hold before[2];
   memcpy (before, k->w->hold, sizeof before);
   bt_status status = try_step (k, near, held, report, error);
-  if (status || report->converged || !bt__line_is_laid_round (k))
+  if (status || report->converged || !bt__line_is_laid_round (k) || bt__dynamic_is_left (k->kernel))
     return status;
   memcpy (k->w->hold, before, sizeof before);
   k->plain = 1;

@@ -15,6 +15,7 @@
 
 #include <bight/status.h>
 
+#include "base/ask.h"
 #include "base/record.h"
 #include "contact/touch.h"
 
@@ -45,6 +46,7 @@ typedef struct bt__way
   bt__safe *safe;
   bt__polyline_work *work;
   bt__count *count;
+  bt__asker *asker; /* whether to go on; or NULL */
   /* Told of every straight motion that was taken, for whoever keeps watch; may be NULL.  */
   void (*watch) (void *user, const bt_vec3 *from, const bt_vec3 *to, uint32_t n);
   void *user;

@@ -226,6 +226,8 @@ take_legs (const bt__way *way, bt_vec3 *x, uint32_t n, bt__hit *hit)
   legs = legs < 1 ? 1 : legs < LEGS_MAX ? legs : LEGS_MAX;
   for (double k = legs; k >= 1; k--)
     {
+      if (bt__ask (way->asker))
+        return gone;
       between (x, want, 1 / k, way->work->leg, n);
       double t = take_leg (way, x, n, hit);
       gone += t * (1 - gone) / k;

@@ -286,7 +286,7 @@ bt__thesis_step (bt__thesis *state, const bt__thesis_input *input, const bt__way
     }
   begin (&j);
   out->moved = 1;
-  for (int round = 0; more && round < ROUNDS && status == BT_OK; round++)
+  for (int round = 0; more && round < ROUNDS && status == BT_OK && !bt__ask (way->asker); round++)
     {
       status = wish (&j);
       more = status == BT_OK && go (&j);

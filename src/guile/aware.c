@@ -20,9 +20,9 @@ taut_length (SCM object, SCM index)
 {
   double length;
   bt_error error;
-  bt__check ("taut-length",
-             bt_tether_taut_length (bt__to_dive (object), scm_to_int (index), &length, &error),
-             &error);
+  bt__check_long ("taut-length", bt__to_handle (object),
+                  bt_tether_taut_length (bt__to_dive (object), scm_to_int (index), &length, &error),
+                  &error);
   return scm_from_double (length);
 }
 
@@ -31,8 +31,9 @@ is_taut (SCM object, SCM index)
 {
   int taut;
   bt_error error;
-  bt__check ("taut?", bt_tether_is_taut (bt__to_dive (object), scm_to_int (index), &taut, &error),
-             &error);
+  bt__check_long ("taut?", bt__to_handle (object),
+                  bt_tether_is_taut (bt__to_dive (object), scm_to_int (index), &taut, &error),
+                  &error);
   return scm_from_bool (taut);
 }
 
@@ -41,9 +42,9 @@ free_length (SCM object, SCM index)
 {
   double length;
   bt_error error;
-  bt__check ("free-length",
-             bt_tether_free_length (bt__to_dive (object), scm_to_int (index), &length, &error),
-             &error);
+  bt__check_long ("free-length", bt__to_handle (object),
+                  bt_tether_free_length (bt__to_dive (object), scm_to_int (index), &length, &error),
+                  &error);
   return scm_from_double (length);
 }
 
@@ -52,11 +53,11 @@ contact_length (SCM object, SCM index, SCM obstacle, SCM sliding)
 {
   double length;
   bt_error error;
-  bt__check ("contact-length",
-             bt_tether_contact_length (bt__to_dive (object), scm_to_int (index),
-                                       scm_to_int (obstacle), scm_is_true (sliding), &length,
-                                       &error),
-             &error);
+  bt__check_long ("contact-length", bt__to_handle (object),
+                  bt_tether_contact_length (bt__to_dive (object), scm_to_int (index),
+                                            scm_to_int (obstacle), scm_is_true (sliding), &length,
+                                            &error),
+                  &error);
   return scm_from_double (length);
 }
 
@@ -65,10 +66,10 @@ turns (SCM object, SCM index, SCM obstacle)
 {
   double value;
   bt_error error;
-  bt__check ("turns",
-             bt_tether_turns (bt__to_dive (object), scm_to_int (index), scm_to_int (obstacle),
-                              &value, &error),
-             &error);
+  bt__check_long ("turns", bt__to_handle (object),
+                  bt_tether_turns (bt__to_dive (object), scm_to_int (index), scm_to_int (obstacle),
+                                   &value, &error),
+                  &error);
   return scm_from_double (value);
 }
 
@@ -77,10 +78,10 @@ winding (SCM object, SCM index, SCM obstacle)
 {
   int value;
   bt_error error;
-  bt__check ("winding",
-             bt_tether_winding (bt__to_dive (object), scm_to_int (index), scm_to_int (obstacle),
-                                &value, &error),
-             &error);
+  bt__check_long ("winding", bt__to_handle (object),
+                  bt_tether_winding (bt__to_dive (object), scm_to_int (index),
+                                     scm_to_int (obstacle), &value, &error),
+                  &error);
   return scm_from_int (value);
 }
 
@@ -93,7 +94,11 @@ windings (SCM object, SCM index)
   for (int k = bt_dive_count (dive, BT_PART_OBSTACLE); k-- > 0;)
     {
       int value;
-      if (bt_tether_winding (dive, scm_to_int (index), k, &value, NULL) == BT_OK && value != 0)
+      bt_error error;
+      bt_status status = bt_tether_winding (dive, scm_to_int (index), k, &value, &error);
+      bt__check_long ("windings", bt__to_handle (object),
+                      status == BT_ERR_INTERRUPTED ? status : BT_OK, &error);
+      if (status == BT_OK && value != 0)
         list = scm_acons (bt__obstacle_name (dive, k), scm_from_int (value), list);
     }
   return list;
@@ -104,10 +109,10 @@ wrap_angle (SCM object, SCM index, SCM obstacle)
 {
   double radians;
   bt_error error;
-  bt__check ("wrap-angle",
-             bt_tether_wrap_angle (bt__to_dive (object), scm_to_int (index), scm_to_int (obstacle),
-                                   &radians, &error),
-             &error);
+  bt__check_long ("wrap-angle", bt__to_handle (object),
+                  bt_tether_wrap_angle (bt__to_dive (object), scm_to_int (index),
+                                        scm_to_int (obstacle), &radians, &error),
+                  &error);
   return scm_from_double (radians);
 }
 
@@ -116,9 +121,9 @@ capstan_lock (SCM object, SCM index)
 {
   double lock;
   bt_error error;
-  bt__check ("capstan-lock",
-             bt_tether_capstan_lock (bt__to_dive (object), scm_to_int (index), &lock, &error),
-             &error);
+  bt__check_long ("capstan-lock", bt__to_handle (object),
+                  bt_tether_capstan_lock (bt__to_dive (object), scm_to_int (index), &lock, &error),
+                  &error);
   return scm_from_double (lock);
 }
 
@@ -132,7 +137,8 @@ class_of (SCM object, SCM index)
   bt_class *c = scm_gc_malloc_pointerless (sizeof *c, "class");
   bt_error error;
   SCM letters = SCM_EOL, objects = SCM_EOL;
-  bt__check ("homotopy-class", bt_tether_class (dive, scm_to_int (index), c, &error), &error);
+  bt__check_long ("homotopy-class", bt__to_handle (object),
+                  bt_tether_class (dive, scm_to_int (index), c, &error), &error);
   for (int k = c->letters; k-- > 0;)
     {
       letters = scm_cons (scm_from_int32 (c->letter[k]), letters);
@@ -147,9 +153,9 @@ is_knotted (SCM object, SCM index)
 {
   int knotted;
   bt_error error;
-  bt__check ("knotted?",
-             bt_tether_knotted (bt__to_dive (object), scm_to_int (index), &knotted, &error),
-             &error);
+  bt__check_long ("knotted?", bt__to_handle (object),
+                  bt_tether_knotted (bt__to_dive (object), scm_to_int (index), &knotted, &error),
+                  &error);
   return scm_from_bool (knotted);
 }
 
@@ -158,8 +164,9 @@ fouled (SCM object, SCM index)
 {
   bt_foul foul;
   bt_error error;
-  bt__check ("fouled?", bt_tether_fouled (bt__to_dive (object), scm_to_int (index), &foul, &error),
-             &error);
+  bt__check_long ("fouled?", bt__to_handle (object),
+                  bt_tether_fouled (bt__to_dive (object), scm_to_int (index), &foul, &error),
+                  &error);
   return foul == BT_FOUL_NOT ? SCM_BOOL_F
                              : scm_from_utf8_symbol (foul == BT_FOUL_WOUND ? "wound" : "hung");
 }
@@ -176,9 +183,9 @@ prospect (SCM object, SCM index, SCM winch)
   bt_prospect p;
   bt_error error;
   SCM v = scm_c_make_vector (6, SCM_BOOL_F);
-  bt__check ("haul-prospect",
-             bt_tether_prospect (dive, scm_to_int (index), scm_to_double (winch), &p, &error),
-             &error);
+  bt__check_long ("haul-prospect", bt__to_handle (object),
+                  bt_tether_prospect (dive, scm_to_int (index), scm_to_double (winch), &p, &error),
+                  &error);
   scm_c_vector_set_x (v, 0, scm_from_utf8_symbol (answers[p.answer]));
   scm_c_vector_set_x (v, 1, scm_from_utf8_symbol (reasons[p.reason]));
   scm_c_vector_set_x (v, 2, bt__obstacle_name (dive, p.object));
@@ -237,9 +244,9 @@ way_home (SCM object, SCM index)
   bt_route route;
   bt_error error;
   int n = 0;
-  bt__check ("way-home",
-             bt_tether_way_home (dive, scm_to_int (index), points, WAY_MOST, &n, &route, &error),
-             &error);
+  bt__check_long (
+      "way-home", bt__to_handle (object),
+      bt_tether_way_home (dive, scm_to_int (index), points, WAY_MOST, &n, &route, &error), &error);
   return from_route (dive, &route, points, n);
 }
 
@@ -251,9 +258,10 @@ unwind_plan (SCM object, SCM index)
   bt_route route;
   bt_error error;
   int n = 0;
-  bt__check ("unwind-plan",
-             bt_tether_unwind_plan (dive, scm_to_int (index), points, WAY_MOST, &n, &route, &error),
-             &error);
+  bt__check_long (
+      "unwind-plan", bt__to_handle (object),
+      bt_tether_unwind_plan (dive, scm_to_int (index), points, WAY_MOST, &n, &route, &error),
+      &error);
   return from_route (dive, &route, points, n);
 }
 
@@ -269,10 +277,10 @@ foresee (SCM object, SCM index, SCM seconds)
   bt_error error;
   SCM list = SCM_EOL;
   int n = 0;
-  bt__check ("foresee",
-             bt_tether_foresee (dive, scm_to_int (index), scm_to_double (seconds), f, EVENTS_MOST,
-                                &n, &error),
-             &error);
+  bt__check_long ("foresee", bt__to_handle (object),
+                  bt_tether_foresee (dive, scm_to_int (index), scm_to_double (seconds), f,
+                                     EVENTS_MOST, &n, &error),
+                  &error);
   while (n-- > 0)
     list = scm_cons (scm_list_4 (scm_from_utf8_symbol (kinds[f[n].kind - 1]),
                                  bt__obstacle_name (dive, f[n].object),
@@ -287,8 +295,8 @@ follow (SCM object, SCM index)
 {
   bt_follow f;
   bt_error error;
-  bt__check ("follow-string",
-             bt_tether_follow (bt__to_dive (object), scm_to_int (index), &f, &error), &error);
+  bt__check_long ("follow-string", bt__to_handle (object),
+                  bt_tether_follow (bt__to_dive (object), scm_to_int (index), &f, &error), &error);
   return scm_list_3 (scm_from_double (f.length), scm_from_int (f.nodes), scm_from_bool (f.slipped));
 }
 

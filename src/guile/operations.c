@@ -55,7 +55,8 @@ static bt_status
 operate_live (bt__handle *handle, bt_op op, int subject, const double *args, int n, int64_t *step,
               bt_error *error)
 {
-  bt_status status = bt_live_do (handle->live, op, subject, args, n, step, error);
+  bt_status status
+      = bt_live_do_polled (handle->live, op, subject, args, n, bt__ask_guile, handle, step, error);
   int index;
   if (status == BT_OK && op == BT_OP_FOLLOW)
     status = bt_dive_add_track (handle->dive, args, n, &index, error);

@@ -311,7 +311,8 @@ make_dive (SCM parts)
   bt_model *model;
   bt_error error;
   bt_status status;
-  bt__check (who, bt_model_new (&r.world, &model, &error), &error);
+  bt__check_long (who, handle,
+                  bt_model_new_polled (&r.world, bt__ask_guile, handle, &model, &error), &error);
   status = bt_dive_new_polled (model, asks ? bt__call_current : NULL, handle, bt__ask_guile, handle,
                                &handle->dive, &error);
   bt_model_release (model);

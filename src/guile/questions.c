@@ -245,8 +245,8 @@ equilibria (SCM object, SCM index)
   bt_vec3 *shapes = scm_gc_malloc_pointerless (sizeof *shapes * MOST * (size_t)n, "equilibria");
   SCM list = SCM_EOL;
   bt_error error;
-  bt__check (
-      "equilibria",
+  bt__check_long (
+      "equilibria", bt__to_handle (object),
       bt_tether_equilibria (bt__to_dive (object), scm_to_int (index), MOST, shapes, &found, &error),
       &error);
   while (found-- > 0)

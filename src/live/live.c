@@ -11,6 +11,8 @@
 #include "base/error.h"
 #include "live/live.h"
 
+#define PATIENCE 0.02 /* s between two questions whether to go on waiting */
+
 bt_live_options
 bt_live_default_options (void)
 {
@@ -80,7 +82,7 @@ bt_live_start (bt_dive *dive, const bt_live_options *options, bt_live **out, bt_
   if (!live)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for a live dive");
   live->dive = dive;
-  bt_dive_set_poll (dive, NULL, NULL); /* who asked is in another thread */
+  bt_dive_set_poll (dive, bt__live_leaves, live); /* who asked is in another thread */
   live->options = chosen;
   live->steps = bt_dive_steps (dive);
   live->holders = 1;
@@ -89,7 +91,10 @@ bt_live_start (bt_dive *dive, const bt_live_options *options, bt_live **out, bt_
   if (status == BT_OK && start_thread (live))
     status = bt__fail (error, BT_ERR_LIMIT, "the system has no thread for a live dive");
   if (status != BT_OK)
-    free_live (live);
+    {
+      bt_dive_set_poll (dive, NULL, NULL);
+      free_live (live);
+    }
   else
     *out = live;
   return status;
@@ -102,12 +107,13 @@ bt_live_stop (bt_live *live, bt_error *error)
   if (!live)
     return BT_OK;
   pthread_mutex_lock (&live->lock);
-  live->stop = 1;
+  live->stop = live->leave = 1;
   pthread_cond_signal (&live->wake);
   pthread_mutex_unlock (&live->lock);
   pthread_join (live->thread, NULL);
   pthread_mutex_lock (&live->lock);
   live->ended = 1;
+  bt_dive_set_poll (live->dive, NULL, NULL);
   pthread_cond_broadcast (&live->moved);
   pthread_mutex_unlock (&live->lock);
   status = bt_live_status (live, error);
@@ -191,16 +197,48 @@ bt_live_post (bt_live *live, int64_t step, bt_op op, int subject, const double *
   return BT_OK;
 }
 
+/* Ask POLL, with the lock let go meanwhile; what it gives up is left, or taken back.  */
+static void
+ask (bt_live *live, bt__command *command, bt_poll poll, void *poll_user)
+{
+  double share = live->doing == command ? live->share : 0;
+  pthread_mutex_unlock (&live->lock);
+  int given_up = poll (poll_user, share);
+  pthread_mutex_lock (&live->lock);
+  if (!given_up || command->done)
+    return;
+  if (live->doing == command)
+    live->leave = 1;
+  else
+    {
+      bt__queue_remove (&live->queue, command);
+      command->status
+          = bt__fail (&command->error, BT_ERR_INTERRUPTED, "interrupted; nothing has changed");
+      command->done = 1;
+    }
+}
+
+/* Wait, with the lock held, until the dive has moved; with POLL a while at most.  */
+static void
+wait_for (bt_live *live, bt__command *command, bt_poll poll, void *poll_user)
+{
+  struct timespec soon = bt__time_after (bt__time_now (), PATIENCE);
+  if (!poll)
+    pthread_cond_wait (&live->moved, &live->lock);
+  else if (pthread_cond_timedwait (&live->moved, &live->lock, &soon) != 0)
+    ask (live, command, poll, poll_user);
+}
+
 bt_status
-bt_live_do (bt_live *live, bt_op op, int subject, const double *args, int n, int64_t *step,
-            bt_error *error)
+bt_live_do_polled (bt_live *live, bt_op op, int subject, const double *args, int n, bt_poll poll,
+                   void *poll_user, int64_t *step, bt_error *error)
 {
   bt__command *command = post (live, -1, op, subject, args, n, 1, error);
   bt_status status;
   if (!command)
     return error ? error->status : BT_ERR_LIMIT;
   while (!command->done && !live->ended)
-    pthread_cond_wait (&live->moved, &live->lock);
+    wait_for (live, command, poll, poll_user);
   if (!command->done)
     {
       bt__queue_remove (&live->queue, command);
@@ -214,6 +252,13 @@ bt_live_do (bt_live *live, bt_op op, int subject, const double *args, int n, int
     *step = command->step;
   free (command);
   return status;
+}
+
+bt_status
+bt_live_do (bt_live *live, bt_op op, int subject, const double *args, int n, int64_t *step,
+            bt_error *error)
+{
+  return bt_live_do_polled (live, op, subject, args, n, NULL, NULL, step, error);
 }
 
 void

@@ -6,6 +6,7 @@
 #define BT_LIVE_LIVE_H
 
 #include <pthread.h>
+#include <stdatomic.h>
 #include <time.h>
 
 #include <bight/live.h>
@@ -88,6 +89,9 @@ struct bt_live
   pthread_cond_t moved; /* for the others: a step is over, a command done */
   bt__queue queue;
   bt__command *log, *log_end;
+  const bt__command *doing; /* or NULL */
+  atomic_int leave;         /* true: what the thread is at is to be left */
+  _Atomic double share;     /* of it that is done */
   int64_t steps;
   int stop;
   int ended;   /* nonzero: the thread is gone, and what waits shall wait no more */
@@ -97,6 +101,9 @@ struct bt_live
   bt_error error; /* what stopped time */
   bt__shelf shelf;
 };
+
+/* What the dive of the thread asks: is its work to be left?  USER is the bt_live.  */
+int bt__live_leaves (void *user, double share);
 
 /* The body of the thread; DATA is the bt_live.  */
 void *bt__live_thread (void *data);

@@ -1,8 +1,9 @@
 /* The thread of a live dive.
 
    It does what is due, takes a step, publishes, and sleeps until the next step is due.  It never
-   calls back, so that nothing anybody else does can stop it.  When it cannot keep the pace it lets
-   the clock go, rather than hurry afterwards.
+   calls back, so that nothing anybody else does can hold it up; who waits for it says by a flag
+   that it is to leave what it is at.  When it cannot keep the pace it lets the clock go, rather
+   than hurry afterwards.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -46,6 +47,25 @@ bt__time_between (struct timespec from, struct timespec to)
   return (double)(to.tv_sec - from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec);
 }
 
+/* ---- What it is at ---- */
+
+int
+bt__live_leaves (void *user, double share)
+{
+  bt_live *live = user;
+  live->share = share;
+  return live->leave;
+}
+
+/* Begin COMMAND, or a step if it is NULL, with the lock held.  */
+static void
+begin (bt_live *live, const bt__command *command)
+{
+  live->doing = command;
+  live->leave = live->stop;
+  live->share = 0;
+}
+
 /* ---- Commands; each called with the lock held, which is let go while the dive works ---- */
 
 static void
@@ -70,6 +90,7 @@ static void
 do_command (bt_live *live, bt__command *command)
 {
   bt_status status;
+  begin (live, command);
   pthread_mutex_unlock (&live->lock);
   command->step = bt_dive_steps (live->dive);
   status = bt_dive_do (live->dive, command->op, command->subject, command->args, command->n,
@@ -78,6 +99,7 @@ do_command (bt_live *live, bt__command *command)
   if (status == BT_OK)
     bt__shelf_publish (&live->shelf, live->dive);
   pthread_mutex_lock (&live->lock);
+  live->doing = NULL;
   put_away (live, command);
   pthread_cond_broadcast (&live->moved);
 }
@@ -110,8 +132,14 @@ take_step (bt_live *live)
 {
   bt_error error;
   bt_status status;
+  begin (live, NULL);
   pthread_mutex_unlock (&live->lock);
   status = bt_dive_step (live->dive, &error);
+  if (status == BT_ERR_INTERRUPTED) /* it was stopped, and time stands at the step before */
+    {
+      pthread_mutex_lock (&live->lock);
+      return;
+    }
   bt__shelf_publish (&live->shelf, live->dive);
   if (status == BT_OK && is_whole_second (live))
     bt__shelf_keep (&live->shelf, live->dive);

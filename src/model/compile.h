@@ -37,9 +37,9 @@ int bt__has_heading (const bt_obstacle_def *def); /* and pitch and roll */
 int bt__is_carried (const bt_obstacle_def *def);
 
 /* Check DEF, number I of a world in a sea of DEPTH, and draw it in *OUT: free that with
-   bt__free_shape, or give it to a scene.  */
-bt_status bt__draw_obstacle (bt_obstacle_def *def, int i, double depth, bt__obstacle *out,
-                             bt_error *error);
+   bt__free_shape, or give it to a scene.  ASKER, or nobody, is asked whether to go on.  */
+bt_status bt__draw_obstacle (bt_obstacle_def *def, int i, double depth, bt__asker *asker,
+                             bt__obstacle *out, bt_error *error);
 void bt__free_shape (bt__obstacle *shape);
 
 /* Check the obstacles of WORLD and copy them into MODEL, which has its sea.  Nothing is allocated

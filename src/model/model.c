@@ -300,8 +300,10 @@ model_of (const bt_world *world)
 }
 
 bt_status
-bt_model_new (const bt_world *world, bt_model **out, bt_error *error)
+bt_model_new_polled (const bt_world *world, bt_poll poll, void *poll_user, bt_model **out,
+                     bt_error *error)
 {
+  bt__asker asker = { .poll = poll, .user = poll_user };
   bt_model *model;
   bt_status status = check_part_counts (world, error);
   if (status != BT_OK)
@@ -309,7 +311,9 @@ bt_model_new (const bt_world *world, bt_model **out, bt_error *error)
   model = model_of (world);
   if (!model)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for a world");
+  model->asker = &asker;
   status = compile (model, world, error);
+  model->asker = NULL;
   if (status == BT_OK)
     {
       model->id = content_id (model, world);
@@ -319,6 +323,12 @@ bt_model_new (const bt_world *world, bt_model **out, bt_error *error)
   else
     bt_model_release (model);
   return status;
+}
+
+bt_status
+bt_model_new (const bt_world *world, bt_model **out, bt_error *error)
+{
+  return bt_model_new_polled (world, NULL, NULL, out, error);
 }
 
 bt_model *

@@ -40,7 +40,8 @@ typedef struct bt__carried
 struct bt_model
 {
   atomic_int references;
-  uint64_t id; /* hash of the content: equal worlds, equal ids */
+  uint64_t id;      /* hash of the content: equal worlds, equal ids */
+  bt__asker *asker; /* while it is made; or NULL */
   bt_sea_def sea;
   bt_waves waves;
   bt_wakes *wakes; /* of what stands in the current */

@@ -158,7 +158,7 @@ draw_all (bt_model *model, bt__obstacle *still, uint32_t *n, bt_error *error)
     {
       bt_obstacle_def *def = &model->obstacles[i];
       bt__obstacle shape;
-      status = bt__draw_obstacle (def, i, model->sea.depth, &shape, error);
+      status = bt__draw_obstacle (def, i, model->sea.depth, model->asker, &shape, error);
       if (status == BT_OK && bt__is_carried (def))
         status = add_carried (model, def, i, &shape, error);
       else if (status == BT_OK)

@@ -117,7 +117,7 @@ draw_convex (const bt_obstacle_def *def, bt__obstacle *out, bt_error *error)
 }
 
 static bt_status
-draw_mesh (const bt_obstacle_def *def, bt__obstacle *out, bt_error *error)
+draw_mesh (const bt_obstacle_def *def, bt__asker *asker, bt__obstacle *out, bt_error *error)
 {
   const bt_triangles *mesh = &def->mesh;
   bt__frame frame = drawing_frame (def);
@@ -129,29 +129,30 @@ draw_mesh (const bt_obstacle_def *def, bt__obstacle *out, bt_error *error)
   if (!p)
     return no_memory (mesh->vertices, error);
   out->kind = BT__OBSTACLE_MESH;
-  status = bt__mesh_new (&soup, NULL, &out->shape.mesh, error);
+  status = bt__mesh_new (&soup, NULL, asker, &out->shape.mesh, error);
   free (p);
   return status;
 }
 
 static bt_status
-draw_grid (const bt_obstacle_def *def, bt__obstacle *out, bt_error *error)
+draw_grid (const bt_obstacle_def *def, bt__asker *asker, bt__obstacle *out, bt_error *error)
 {
   const bt_heights *h = &def->grid;
   bt__grid grid = { (uint32_t)h->nx, (uint32_t)h->ny, h->x, h->y, h->dx, h->dy, h->z };
   bt__place place = { def->at, 0, 1 };
   out->kind = BT__OBSTACLE_MESH;
-  return bt__mesh_from_grid (&grid, &place, &out->shape.mesh, error);
+  return bt__mesh_from_grid (&grid, &place, asker, &out->shape.mesh, error);
 }
 
 static bt_status
-draw_seabed (const bt_obstacle_def *def, double depth, bt__obstacle *out, bt_error *error)
+draw_seabed (const bt_obstacle_def *def, double depth, bt__asker *asker, bt__obstacle *out,
+             bt_error *error)
 {
   int of_grid = def->grid.z != NULL, of_mesh = def->mesh.triangles > 0;
   if (of_grid && of_mesh)
     return bt__fail (error, BT_ERR_DEF, "it has a grid and a mesh; one of them is enough");
   if (of_grid || of_mesh)
-    return of_grid ? draw_grid (def, out, error) : draw_mesh (def, out, error);
+    return of_grid ? draw_grid (def, asker, out, error) : draw_mesh (def, asker, out, error);
   if (bt__norm (def->at) > 0)
     return bt__fail (error, BT_ERR_DEF,
                      "it is level, at the depth of the sea: `at' is for a grid or a mesh");
@@ -161,12 +162,13 @@ draw_seabed (const bt_obstacle_def *def, double depth, bt__obstacle *out, bt_err
 }
 
 static bt_status
-draw (const bt_obstacle_def *def, double depth, bt__obstacle *out, bt_error *error)
+draw (const bt_obstacle_def *def, double depth, bt__asker *asker, bt__obstacle *out,
+      bt_error *error)
 {
   switch (def->kind)
     {
     case BT_OBSTACLE_SEABED:
-      return draw_seabed (def, depth, out, error);
+      return draw_seabed (def, depth, asker, out, error);
     case BT_OBSTACLE_BOX:
       return draw_box (def, out);
     case BT_OBSTACLE_SPHERE:
@@ -174,7 +176,7 @@ draw (const bt_obstacle_def *def, double depth, bt__obstacle *out, bt_error *err
     case BT_OBSTACLE_CONVEX:
       return draw_convex (def, out, error);
     case BT_OBSTACLE_MESH:
-      return draw_mesh (def, out, error);
+      return draw_mesh (def, asker, out, error);
     default:
       return draw_round (def, out, error);
     }
@@ -202,7 +204,8 @@ check_extent (const bt__obstacle *shape, bt_error *error)
 }
 
 bt_status
-bt__draw_obstacle (bt_obstacle_def *def, int i, double depth, bt__obstacle *out, bt_error *error)
+bt__draw_obstacle (bt_obstacle_def *def, int i, double depth, bt__asker *asker, bt__obstacle *out,
+                   bt_error *error)
 {
   const bt_head *head = bt_obstacle_head (def->kind);
   bt_error here;
@@ -217,7 +220,7 @@ bt__draw_obstacle (bt_obstacle_def *def, int i, double depth, bt__obstacle *out,
     return status;
   out->id = (uint32_t)i;
   out->friction = isnan (def->friction) ? 0 : def->friction;
-  status = draw (def, depth, out, &here);
+  status = draw (def, depth, asker, out, &here);
   if (status == BT_OK)
     status = check_extent (out, &here);
   if (status == BT_OK)

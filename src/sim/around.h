@@ -74,7 +74,7 @@ void bt__note_all_partings (const bt_dive *dive, bt__state *state);
 
 /* Twice a second look at what each tether of the present is wound about, with the events `wrapped'
    and `freed' (wound.c).  */
-void bt__note_windings (bt_dive *dive);
+bt_status bt__note_windings (bt_dive *dive, bt_error *error);
 
 /* Count for how long each tether has been stuck, with the event `stuck' (stuck.c).  */
 void bt__note_stuck (const bt_dive *dive, bt__state *state);

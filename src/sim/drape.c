@@ -37,7 +37,8 @@ way_of (bt_dive *dive, const bt__tether *tether, int i, const bt__surroundings *
                     .core = bt__core (tether->props.diameter),
                     .safe = dive->shore.safe,
                     .work = dive->shore.polyline,
-                    .count = &dive->shore.count };
+                    .count = &dive->shore.count,
+                    .asker = &dive->asker };
 }
 
 /* ---- Laying: from a chain, from the other kind, from the world's line of lay ---- */

@@ -42,7 +42,7 @@ make_trial (const bt_dive *dive, int i, double winch, bt_dive **out, bt_error *e
   bt_status status = bt_dive_fork (dive, out, error);
   if (status != BT_OK)
     return status;
-  bt_dive_set_poll (*out, dive->poll, dive->poll_user);
+  bt_dive_set_poll (*out, dive->asker.poll, dive->asker.user);
   status = bt_vehicle_release (*out, vehicle, error);
   if (status == BT_OK)
     status = make_moving (*out, i, error);

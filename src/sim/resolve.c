@@ -62,9 +62,10 @@ bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
                             .pull = pull,
                             .props = props,
                             .water = &water };
-  return bt__shape_solve (&input, &dive->tools, &dive->counts, &tether->shape, &tether->memory,
-                          bt__dive_nodes (dive, state, i), bt__dive_tensions (dive, state, i),
-                          error);
+  bt_status status = bt__shape_solve (&input, &dive->tools, &dive->counts, &tether->shape,
+                                      &tether->memory, bt__dive_nodes (dive, state, i),
+                                      bt__dive_tensions (dive, state, i), error);
+  return status == BT_OK ? bt__stopped (&dive->asker, error) : status;
 }
 
 /* The pull it is solved with.  */
@@ -180,7 +181,10 @@ bt__resolve_tether (bt_dive *dive, bt__state *state, int i, int passes, bt_error
                          : resolve_static (dive, state, i, &ends, error);
   if (are_others (dive) && bt__box_line (dive, state, i) && dive->lane)
     dive->lane->refused = 1; /* others were told that it is where it was */
-  return status;
+  bt__ask (&dive->asker);
+  /* What an equation left half solved says is no error of the dive.  */
+  bt_status left = dive->lane ? BT_OK : bt__stopped (&dive->asker, error);
+  return left != BT_OK ? left : status;
 }
 
 /* Say in which order the tethers of STATE are to be resolved.  */
@@ -203,7 +207,7 @@ bt__resolve_tethers (bt_dive *dive, bt__state *state, int passes, bt_error *erro
   if (are_others (dive))
     bt__box_lines (dive, state);
   if (passes && dive->lanes && bt__share_tethers (dive, state))
-    return BT_OK;
+    return bt__stopped (&dive->asker, error);
   for (int i = 0; status == BT_OK && i < dive->model->n_tethers; i++)
     status = bt__resolve_tether (dive, state, dive->shore.order[i], passes, error);
   return status;

@@ -135,6 +135,48 @@ step_group (void *user, int w, int g)
     step_tether (l, w, i);
 }
 
+/* ---- Is it to go on? ---- */
+
+/* The caller's thread alone asks whoever called; the others hear what was answered.  */
+static int
+ask_caller (void *user, double share)
+{
+  bt__lanes *l = user;
+  int left = bt__ask (l->asker);
+  (void)share;
+  if (left)
+    l->left = 1;
+  return left;
+}
+
+static void
+ask_meanwhile (void *user)
+{
+  ask_caller (user, 0);
+}
+
+static int
+hear (void *user, double share)
+{
+  const bt__lanes *l = user;
+  (void)share;
+  return l->left;
+}
+
+static void
+run (bt_dive *dive, bt__lanes *l)
+{
+  int asks = dive->asker.poll != NULL;
+  l->asker = &dive->asker;
+  l->left = 0;
+  for (int w = 0; w < l->n; w++)
+    l->lane[w].dive->asker = (bt__asker){ .poll = !asks    ? NULL
+                                                  : w == 0 ? ask_caller
+                                                           : hear,
+                                          .user = l };
+  bt__workers_run_and (l->workers, l->groups, step_group, asks ? ask_meanwhile : NULL, l);
+}
+
 /* ---- Afterwards ---- */
 
 /* Nonzero if LANE had to hold an obstacle back.  */
@@ -233,7 +275,7 @@ bt__share_tethers (bt_dive *dive, bt__state *state)
   dive->profile.shared_steps++;
   for (int w = 0; w < l->n; w++)
     bt__lane_enter (&l->lane[w], dive, state);
-  bt__workers_run (l->workers, l->groups, step_group, l);
+  run (dive, l);
   if (is_done (dive, l))
     take_over (dive, state, l);
   else

@@ -193,7 +193,8 @@ try_step (bt_dive *dive, int round, bt_error *error)
     return try_once (dive, round, error);
   bt__share_begin (dive);
   status = try_once (dive, round, error);
-  return bt__share_refused (dive) ? try_once (dive, round, error) : status;
+  return bt__share_refused (dive) && status != BT_ERR_INTERRUPTED ? try_once (dive, round, error)
+                                                                  : status;
 }
 
 /* What a step had to do with bodies, waves and lee.  */
@@ -229,11 +230,14 @@ bt_dive_step (bt_dive *dive, bt_error *error)
   bt__note_stuck (dive, dive->next);
   bt__watch_props (dive, dive->next);
   count_work (dive);
-  dive->profile.steps++;
   bt__dive_commit (dive);
   if (bt__has_obstacles (dive))
-    bt__note_windings (dive);
-  return BT_OK;
+    status = bt__note_windings (dive, error);
+  if (status != BT_OK)
+    bt__dive_commit (dive); /* the state before it is the present again */
+  else
+    dive->profile.steps++;
+  return status;
 }
 
 int64_t

@@ -44,12 +44,13 @@ least_string (const bt__subject *s)
 }
 
 /* Tell what tether I of DIVE is wound about now, and raise the events unless SILENT.  */
-static void
-tell (bt_dive *dive, int i, bt__subject *subject, int8_t *told, int silent)
+static bt_status
+tell (bt_dive *dive, int i, bt__subject *subject, int8_t *told, int silent, bt_error *error)
 {
   bt__gaze *g;
-  if (bt__watch_wound (dive, i, &g, NULL) != BT_OK)
-    return;
+  bt_status status = bt__watch_wound (dive, i, &g, error);
+  if (status != BT_OK)
+    return status;
   subject->string = g->has_taut ? g->taut_length : 0;
   memcpy (subject->there, subject->seen, sizeof subject->there);
   for (int k = 0; k < dive->model->n_obstacles; k++)
@@ -62,14 +63,17 @@ tell (bt_dive *dive, int i, bt__subject *subject, int8_t *told, int silent)
         bt__raise_event_at (dive->now, BT_EVENT_FREED, BT_PART_TETHER, i, k);
       told[k] = now;
     }
+  return BT_OK;
 }
 
-void
-bt__note_windings (bt_dive *dive)
+/* A look that fails, such as for want of memory, tells nothing; one that is left says so.  */
+bt_status
+bt__note_windings (bt_dive *dive, bt_error *error)
 {
+  bt_status status = BT_OK;
   if (dive->now->step % LOOK_EVERY != 0)
-    return;
-  for (int i = 0; i < dive->model->n_tethers; i++)
+    return BT_OK;
+  for (int i = 0; i < dive->model->n_tethers && status != BT_ERR_INTERRUPTED; i++)
     {
       bt__subject *subject = bt__dive_subject (dive, dive->now, BT_PART_TETHER, i);
       int8_t *told = bt__dive_told (dive, dive->now, i);
@@ -77,8 +81,9 @@ bt__note_windings (bt_dive *dive)
       if (!has_moved (dive, subject, i))
         continue;
       subject->looked = 1;
-      if (bt__watch_wound_still (dive, i, told, least_string (subject), &same, NULL) == BT_OK
-          && !same)
-        tell (dive, i, subject, told, first);
+      status = bt__watch_wound_still (dive, i, told, least_string (subject), &same, error);
+      if (status == BT_OK && !same)
+        status = tell (dive, i, subject, told, first, error);
     }
+  return status == BT_ERR_INTERRUPTED ? status : BT_OK;
 }

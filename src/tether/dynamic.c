@@ -67,6 +67,18 @@ bt__dynamic_work_new (int n_max)
   return NULL;
 }
 
+void
+bt__dynamic_ask (bt__dynamic_work *w, bt__asker *asker)
+{
+  w->asker = asker;
+}
+
+int
+bt__dynamic_is_left (bt__dynamic_work *w)
+{
+  return bt__ask (w->asker);
+}
+
 /* ---- A step ---- */
 
 static bt_status

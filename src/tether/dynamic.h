@@ -31,6 +31,7 @@
 #include <bight/vec.h>
 #include <bight/water.h>
 
+#include "base/ask.h"
 #include "base/record.h"
 
 /* ---- The state ---- */
@@ -116,6 +117,12 @@ typedef struct bt__dynamic_work bt__dynamic_work;
    allocates.  */
 bt__dynamic_work *bt__dynamic_work_new (int n_max);
 void bt__dynamic_work_free (bt__dynamic_work *work);
+
+/* Let the iterations of a step ask ASKER, which must stay, whether to go on; left, a step has not
+   converged.  */
+void bt__dynamic_ask (bt__dynamic_work *work, bt__asker *asker);
+/* True if the step of WORK is to be left.  */
+int bt__dynamic_is_left (bt__dynamic_work *work);
 
 /* Something that is not line: at an end, or along the line.  */
 typedef struct bt__dynamic_lump

@@ -111,6 +111,7 @@ typedef union bt__pivot
 struct bt__dynamic_work
 {
   int n_max;
+  bt__asker *asker; /* of the iterations; or NULL */
   /* ---- of the step ---- */
   const bt__dynamic_input *in;
   int n, lo, hi;     /* unknown nodes LO to HI */

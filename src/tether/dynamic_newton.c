@@ -145,7 +145,7 @@ quick (bt__dynamic_work *w, bt__dynamic_report *report)
   double lost = w->hold ? LOST_HELD : touches ? LOST_TOUCHING : LOST / 1e-5 * w->tolerance;
   double share = 1;
   int pressed = 0;
-  for (int i = 0; i < last; i++)
+  for (int i = 0; i < last && !bt__ask (w->asker); i++)
     {
       int changed = bt__dynamic_assemble (w, i < TURNING ? BT__QUICK : BT__FROZEN);
       double most = bt__dynamic_solve (w);
@@ -257,7 +257,7 @@ safe (bt__dynamic_work *w, bt__dynamic_report *report)
     bt__dynamic_contact_load (w, 1);
   double phi = start (w);
   int settled = 0, followed = !touches, fronts = 0;
-  for (int i = 0; i < last && !settled; i++)
+  for (int i = 0; i < last && !settled && !bt__ask (w->asker); i++)
     {
       bt__dynamic_assemble (w, BT__SAFE);
       report->update = bt__dynamic_solve (w);

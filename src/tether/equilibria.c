@@ -87,7 +87,7 @@ bt_steady_equilibria (bt_steady *steady, const bt_line *line, const bt_water *wa
     return bt__fail (error, BT_ERR_LIMIT, "%d links; the workspace holds 1 to %d", n,
                      steady->n_max);
   set_sides (line, water, a, b, side);
-  for (int i = 0; i < SIDES && *found < max; i++)
+  for (int i = 0; i < SIDES && *found < max && !bt__ask (steady->asker); i++)
     {
       bt_steady_report report;
       bow (a, b, line->length, side[i], n, r);

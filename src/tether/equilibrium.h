@@ -7,6 +7,7 @@
 
 #include <bight/statics.h>
 
+#include "base/ask.h"
 #include "tether/shape.h"
 
 /* Find the equilibrium of LINE in WATER between A and B that the present shape falls into.  NODES
@@ -20,5 +21,9 @@ bt_status bt__equilibrium_solve (bt_steady *steady, const bt_line *line, const b
                                  bt_vec3 a, bt_vec3 b, int n, int have_shape, bt_vec3 fallback,
                                  bt_vec3 *pull, bt_vec3 *nodes, bt_vec3 *tensions,
                                  bt__shape_counts *counts, bt_error *error);
+
+/* Let whoever searches with STEADY ask ASKER whether to go on; it must stay.  Where it is left the
+   shape still moves.  */
+void bt__steady_ask (bt_steady *steady, bt__asker *asker);
 
 #endif

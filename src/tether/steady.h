@@ -9,6 +9,7 @@
 
 #include <bight/statics.h>
 
+#include "base/ask.h"
 #include "math/vec.h"
 
 /* The coefficients of the loads on one unstretched metre, and what a march needs to know.  */
@@ -77,12 +78,14 @@ typedef struct bt__shot
   bt_vec3 a, chord;
   double length, force; /* m; N, the unit of the unknowns */
   int n, marches;
+  bt__asker *asker;
 } bt__shot;
 
 /* The workspace; arrays of n_max + 1 elements each.  */
 struct bt_steady
 {
   int n_max;
+  bt__asker *asker; /* of those who search; or NULL */
   gsl_multiroot_fdfsolver *solver;
   gsl_vector *guess;
   bt__shot shot;

@@ -322,7 +322,7 @@ static double
 take_step (chain *c, double tolerance, int at_most, int *used)
 {
   double update = INFINITY;
-  for (int i = 0; i < at_most; i++)
+  for (int i = 0; i < at_most && !bt__ask (c->w->asker); i++)
     {
       ++*used;
       update = iterate (c);
@@ -360,7 +360,7 @@ settle (chain *c, int solves, bt_steady_report *report)
 {
   double most = LAST_REACH * c->length, least = LEAST_REACH * c->length;
   double reach = FIRST_REACH * c->length, rest = SETTLED * c->length;
-  while (report->integrations < solves && !report->converged)
+  while (report->integrations < solves && !report->converged && !bt__ask (c->w->asker))
     {
       int left = solves - report->integrations;
       double tolerance = fmax (rest, SOLVED * fmin (reach, c->length));

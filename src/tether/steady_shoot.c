@@ -12,6 +12,7 @@
 #include <gsl/gsl_errno.h>
 
 #include "base/error.h"
+#include "tether/equilibrium.h"
 #include "tether/steady.h"
 
 #define TOLERANCE 1e-11 /* of the length: far below the error of any number of steps in use */
@@ -45,7 +46,8 @@ shot_miss (bt__shot *shot, bt_vec3 pull, bt_vec3 *miss)
 {
   bt_vec3 end;
   shot->marches++;
-  if (!bt__march (&shot->loads, shot->a, pull, shot->length, shot->n, &end, NULL, NULL))
+  if (bt__ask (shot->asker)
+      || !bt__march (&shot->loads, shot->a, pull, shot->length, shot->n, &end, NULL, NULL))
     return GSL_EBADFUNC;
   *miss = bt__scale (1 / shot->length, bt__sub (end, shot->chord));
   return GSL_SUCCESS;
@@ -170,6 +172,7 @@ bt_steady_shoot (bt_steady *steady, const bt_line *line, const bt_water *water, 
     return status;
   bt__shot *shot = &steady->shot;
   set_shot (shot, line, water, a, b, n);
+  shot->asker = steady->asker;
   bt_vec3 trial = *pull, end;
   if (!warm)
     bt__steady_guess (line, water, a, b, bt__vec (0, 0, -1), n, NULL, &trial);
@@ -216,6 +219,12 @@ bt_steady_new (int n_max)
       return NULL;
     }
   return steady;
+}
+
+void
+bt__steady_ask (bt_steady *steady, bt__asker *asker)
+{
+  steady->asker = asker;
 }
 
 void

@@ -244,9 +244,13 @@ bt_tether_knotted (const bt_dive *dive, int i, int *knotted, bt_error *error)
     }
   for (int k = 0; k < n; k++)
     node[k] = bt__line_node (&line, k);
+  bt__knot_ask (knot, bt__asker_of (dive));
   known = bt__knot_of (knot, node, (uint32_t)n, &value);
   bt__knot_free (knot);
   free (node);
+  status = bt__stopped (bt__asker_of (dive), error);
+  if (status != BT_OK)
+    return status;
   if (!known)
     return bt__fail (error, BT_ERR_UNSUPPORTED,
                      "the tether crosses itself more than %d times: nobody can tell",

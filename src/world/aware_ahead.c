@@ -68,7 +68,10 @@ bt_tether_follow (const bt_dive *dive, int i, bt_follow *out, bt_error *error)
     out->slipped = seed (dive, g, !led);
   out->length = bt__string_length (&g->config, g->live, &dive->watch->count);
   out->nodes = (int)g->live->n;
-  return BT_OK;
+  status = bt__stopped (bt__asker_of (dive), error);
+  if (status != BT_OK)
+    g->live->n = 0; /* to be seeded again */
+  return status;
 }
 
 /* ---- The forecast ---- */
@@ -308,7 +311,7 @@ run_ahead (forecast *f, int i, double seconds)
   note_bump (f, &ghost, ghost.v.position, 0);
   look_for_leash (f, i, ghost.v.position);
   for (int k = 1; k * AHEAD <= seconds + 1e-9; k++)
-    if (!look_ahead (f, &ghost, k * AHEAD))
+    if (bt__ask (bt__asker_of (f->dive)) || !look_ahead (f, &ghost, k * AHEAD))
       break;
 }
 
@@ -345,5 +348,5 @@ bt_tether_foresee (const bt_dive *dive, int i, double seconds, bt_foresight *out
   free (f.holds.at);
   free (f.trail.x);
   free (f.trail.link);
-  return status;
+  return status == BT_OK ? bt__stopped (bt__asker_of (dive), error) : status;
 }

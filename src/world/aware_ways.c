@@ -97,7 +97,7 @@ look_for_wedges (const bt_dive *dive, bt__gaze *g, const bt__haul_body *body, bt
                                 home, &dive->watch->count);
   bt__haul_wedge (&way, body, p);
   free (home);
-  return BT_OK;
+  return bt__stopped (bt__asker_of (dive), error);
 }
 
 bt_status
@@ -200,7 +200,7 @@ bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n
                      .obstacle = obstacle_of (dive, way.object),
                      .longest = g->taut_length };
   free (home);
-  return BT_OK;
+  return bt__stopped (bt__asker_of (dive), error);
 }
 
 /* The plan of G's loop into LOOP.  */
@@ -244,5 +244,5 @@ bt_tether_unwind_plan (const bt_dive *dive, int i, bt_vec3 *points, int max, int
     *n = put_points (loop, points, max);
   free (loop);
   free (copy);
-  return status;
+  return status == BT_OK ? bt__stopped (bt__asker_of (dive), error) : status;
 }

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "tether/equilibrium.h"
 #include "world/judge.h"
 #include "world/lanes.h"
 #include "world/layout.h"
@@ -72,6 +73,8 @@ make_tools (bt_dive *dive, bt_error *error)
   if (!dive->tools.search || !dive->tools.steady || !dive->work || !dive->polyline || !dive->motion
       || !dive->corner || !dive->along)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the solvers of a dive");
+  bt__steady_ask (dive->tools.steady, &dive->asker);
+  bt__dynamic_ask (dive->work, &dive->asker);
   return BT_OK;
 }
 
@@ -293,16 +296,16 @@ bt_dive_set_current_function (bt_dive *dive, bt_current_function function, void 
 void
 bt_dive_set_poll (bt_dive *dive, bt_poll poll, void *user)
 {
-  dive->poll = poll;
-  dive->poll_user = user;
+  dive->asker = (bt__asker){ .poll = poll, .user = user };
 }
 
 bt_status
 bt__poll (const bt_dive *dive, double share, bt_error *error)
 {
-  if (!dive->poll || !dive->poll (dive->poll_user, share))
-    return BT_OK;
-  return bt__fail (error, BT_ERR_INTERRUPTED, "interrupted; nothing has changed");
+  bt__asker *asker = bt__asker_of (dive);
+  asker->share = share;
+  bt__ask (asker);
+  return bt__stopped (asker, error);
 }
 
 int

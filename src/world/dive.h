@@ -9,6 +9,7 @@
 
 #include <bight/dive.h>
 
+#include "base/ask.h"
 #include "contact/held.h"
 #include "contact/line.h"
 #include "contact/thesis.h"
@@ -134,9 +135,8 @@ struct bt_dive
   bt_profile profile;
   bt_current_function function;
   void *user;
-  bt_poll poll; /* asked in long calls; NULL: nobody is */
-  void *poll_user;
-  double wished; /* s: time asked for and not yet stepped */
+  bt__asker asker; /* asked in long calls; of a lane: tells what the dive was told */
+  double wished;   /* s: time asked for and not yet stepped */
   int n_tracks;
   bt__track *tracks[BT__TRACKS_MAX];
   struct bt__lanes *lanes; /* that share its steps out; NULL: none */
@@ -157,7 +157,15 @@ bt__state_body (const bt_dive *dive, bt__state *state)
   return dive->lane && state == dive->next ? dive->lane->body : (char *)(state + 1);
 }
 
-/* Ask whoever called whether to go on, SHARE of the work being done; BT_ERR_INTERRUPTED.  */
+/* Who is asked in long work with DIVE; questions ask too, and change nothing else.  */
+static inline bt__asker *
+bt__asker_of (const bt_dive *dive)
+{
+  return &((bt_dive *)dive)->asker;
+}
+
+/* Ask whoever called whether to go on, SHARE of the work being done; BT_ERR_INTERRUPTED, also when
+   work was left since the last such question.  */
 bt_status bt__poll (const bt_dive *dive, double share, bt_error *error);
 
 /* Views into STATE.  */

@@ -37,10 +37,12 @@ typedef struct bt__lanes
   bt__raised *raised;     /* of each tether */
   bt__aabb *whole, *box;  /* of each tether; of its leaves, from BOX_AT on */
   int *box_at, *boxes;
-  bt__pin *pin; /* of each vehicle, as a try at the step began */
-  int refused;  /* what was begun cannot be done apart */
-  int alone;    /* steps to come that are not shared out */
-  int patience; /* how many they will be next time */
+  bt__pin *pin;     /* of each vehicle, as a try at the step began */
+  int refused;      /* what was begun cannot be done apart */
+  bt__asker *asker; /* of the dive whose step it is */
+  atomic_int left;  /* true: it said that the step is to be left */
+  int alone;        /* steps to come that are not shared out */
+  int patience;     /* how many they will be next time */
 } bt__lanes;
 
 /* Borrow for LANE what it has of DIVE, of whose NEXT it is to do a part; give it back.  Add what it

@@ -293,9 +293,10 @@ bt_tether_equilibria (const bt_dive *dive, int i, int max, bt_vec3 *shapes, int 
   t = line.tether;
   if (t->props.model != BT_MODEL_STEADY)
     return bt__fail (error, BT_ERR_UNSUPPORTED, "only the model `steady' looks for equilibria");
-  return bt_steady_equilibria (dive->tools.steady,
-                               &(bt_line){ t->length, t->props.diameter, t->props.wet_weight,
-                                           t->props.ea, t->props.cdn, t->props.cdt },
-                               &water, t->shape.a, t->shape.b, (int)t->props.nodes, max, shapes,
-                               found, error);
+  status = bt_steady_equilibria (dive->tools.steady,
+                                 &(bt_line){ t->length, t->props.diameter, t->props.wet_weight,
+                                             t->props.ea, t->props.cdn, t->props.cdt },
+                                 &water, t->shape.a, t->shape.b, (int)t->props.nodes, max, shapes,
+                                 found, error);
+  return status == BT_OK ? bt__stopped (bt__asker_of (dive), error) : status;
 }

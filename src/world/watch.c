@@ -106,7 +106,7 @@ bt__watch_string (const bt_dive *dive)
 
 /* Have room for strings of ROOM nodes.  What the tethers knew is forgotten.  */
 static int
-make_room (struct bt__watch *w, uint32_t room)
+make_room (struct bt__watch *w, uint32_t room, bt__asker *asker)
 {
   if (room <= w->room)
     return 1;
@@ -116,6 +116,7 @@ make_room (struct bt__watch *w, uint32_t room)
     w->gaze[i].change = 0;
   if (bt__taut_new (room, &w->taut, NULL) != BT_OK)
     return 0;
+  bt__taut_ask (w->taut, asker);
   w->room = room;
   return 1;
 }
@@ -237,9 +238,9 @@ make_ready (const bt_dive *dive, int i, struct bt__watch *w, bt__gaze *g, double
     return bt__fail (error, BT_ERR_LIMIT,
                      "the taut string of %g m of tether would have %g nodes; at most %d are solved",
                      g->out, wanted, ROOM_MOST);
-  return make_room (w, (uint32_t)fmin (fmax (wanted, ahead), ROOM_MOST)) && make_gaze_room (w, g)
-             ? BT_OK
-             : no_memory (error);
+  uint32_t room = (uint32_t)fmin (fmax (wanted, ahead), ROOM_MOST);
+  return make_room (w, room, bt__asker_of (dive)) && make_gaze_room (w, g) ? BT_OK
+                                                                           : no_memory (error);
 }
 
 /* Solve the string of tether I.  */
@@ -307,7 +308,8 @@ bt__watch_gaze (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
   if (status == BT_OK && !(*out)->has_taut)
     {
       solve (dive, dive->watch, *out, bt__dive_tether (dive, dive->now, i));
-      (*out)->has_taut = 1;
+      status = bt__stopped (bt__asker_of (dive), error);
+      (*out)->has_taut = status == BT_OK;
     }
   return status;
 }
@@ -355,7 +357,7 @@ bt__watch_way (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error
   if (status == BT_OK && g->ways->tree)
     *length = bt__free_length_from (g->ways->tree, w->taut, &g->config, ends[0], ends[1],
                                     FREE_STEPS, g->shortest, &w->count);
-  return status;
+  return status == BT_OK ? bt__stopped (bt__asker_of (dive), error) : status;
 }
 
 /* The way, or the string itself where that is shorter or there is no other; no way is looked for

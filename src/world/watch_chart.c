@@ -215,7 +215,9 @@ bt__chart_grow (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
     return status;
   if (g->ways->tree)
     {
-      bt__free_grow (g->ways->tree, g->ways->anchor, &count);
+      bt__asker *asker = bt__asker_of (dive);
+      if (!bt__free_grow (g->ways->tree, g->ways->anchor, asker, &count))
+        return bt__stopped (asker, error);
       ((bt_dive *)dive)->profile.charts++;
     }
   g->ways->grown = 1;
@@ -238,7 +240,8 @@ describe (const bt_dive *dive, bt__chart *c, bt_error *error)
                                                          .on = &c->on,
                                                          .ground = ground,
                                                          .depth = dive->now->depth,
-                                                         .gap = c->gap },
+                                                         .gap = c->gap,
+                                                         .asker = bt__asker_of (dive) },
                                     &c->graph, error);
   free (ground);
   return status;
@@ -277,7 +280,7 @@ make_voxels (const bt_dive *dive, bt__chart *c, bt_vec3 anchor, bt_error *error)
   bt__voxel_config config = { .scene = dive->model->scene, .on = &c->on };
   box_of (config.scene, &c->on, anchor, c->reach, &config.lo, &config.hi);
   config.cell = cell_of (config.lo, config.hi, VOXELS);
-  return bt__voxels_new (&config, &c->voxels, error);
+  return bt__voxels_new (&config, bt__asker_of (dive), &c->voxels, error);
 }
 
 /* By the graph where it says all, else by voxels.  */
@@ -288,7 +291,9 @@ make_words (const bt_dive *dive, bt__chart *c, const bt__graph *graph, bt_vec3 a
   ((bt_dive *)dive)->profile.charts++;
   if (graph->undescribed)
     return make_voxels (dive, c, anchor, error);
-  return bt__shadow_new (graph, &(bt__shadow_config){ JITTER, DIRECTIONS }, &c->shadow, error);
+  bt__shadow_config config
+      = { .jitter = JITTER, .tries = DIRECTIONS, .asker = bt__asker_of (dive) };
+  return bt__shadow_new (graph, &config, &c->shadow, error);
 }
 
 /* Words among members are of the whole world.  Voxels are of what is within reach of the anchor. */

@@ -55,14 +55,17 @@ favour (const bt__gaze *g, uint8_t *favoured)
 
 /* Have memory for loops about what G's tether is among.  */
 static bt_status
-make_loops (bt__gaze *g, bt_error *error)
+make_loops (bt__gaze *g, bt__asker *asker, bt_error *error)
 {
   if (g->loops.graph == &g->frame->graph)
     return BT_OK;
   bt__caught_free (&g->loops);
   free (g->favoured);
   g->favoured = calloc (g->frame->graph.edges + 1, 1);
-  return g->favoured ? bt__caught_new (&g->frame->graph, &g->loops, error) : no_memory (error);
+  bt_status status
+      = g->favoured ? bt__caught_new (&g->frame->graph, &g->loops, error) : no_memory (error);
+  g->loops.asker = asker;
+  return status;
 }
 
 /* Add the loops about members of the taut string and the free way back.  */
@@ -86,7 +89,7 @@ quick_loops (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error *
   bt_status status = bt__watch_way (dive, i, g, length, error);
   if (status == BT_OK && isfinite (*length))
     bt__caught_find (&g->loops, g->node, g->n, g->shortest->x, g->shortest->n, NULL);
-  return status;
+  return status == BT_OK ? bt__stopped (bt__asker_of (dive), error) : status;
 }
 
 /* Set *LOOSE if the tether is about no member, as far as can be told without a string.  */
@@ -230,7 +233,7 @@ bt__watch_wind_ready (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
   bt_status status = has_wound (dive, g) ? BT_OK : no_memory (error);
   if (status == BT_OK && !g->open)
     status = bt__chart_frame (dive, i, g, error);
-  return status == BT_OK && !g->open ? make_loops (g, error) : status;
+  return status == BT_OK && !g->open ? make_loops (g, bt__asker_of (dive), error) : status;
 }
 
 static int
@@ -268,6 +271,8 @@ wind (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
     status = bt__watch_free (dive, i, &g, error);
   if (status == BT_OK && !loose)
     wind_about_members (dive, g);
+  if (status == BT_OK)
+    status = bt__stopped (bt__asker_of (dive), error);
   if (status == BT_OK && g->frame->graph.undescribed > 0)
     status = wind_about_meshes (dive, i, g, error);
   return status == BT_OK ? doubt (dive, i, g, error) : status;

@@ -58,7 +58,9 @@ read_scene (int words)
   r.shadow = NULL;
   if (bt__graph_new (&config, &r.graph, &error))
     fail_msg ("%s", error.text);
-  if (words && bt__shadow_new (&r.graph, &(bt__shadow_config){ 0.2, 24 }, &r.shadow, &error))
+  if (words
+      && bt__shadow_new (&r.graph, &(bt__shadow_config){ .jitter = 0.2, .tries = 24 }, &r.shadow,
+                         &error))
     fail_msg ("%s", error.text);
 }
 

@@ -64,7 +64,7 @@ grow (bt_vec3 anchor, double cell)
   bt__free_config c = { r.g.scene, NULL, bt__vec (-18, -14, -20), bt__vec (18, 14, 0), cell, 0.03 };
   bt__free_free (r.tree);
   assert_int_equal (bt__free_new (&c, &r.tree, NULL), BT_OK);
-  bt__free_grow (r.tree, anchor, &r.count);
+  bt__free_grow (r.tree, anchor, NULL, &r.count);
   r.config = (bt__taut_config){
     .scene = r.g.scene, .core = CORE, .want = CORE, .mesh = 0.6, .margin = 0.4
   };

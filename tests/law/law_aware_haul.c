@@ -276,7 +276,7 @@ make_words (void)
 {
   bt__graph graph;
   bt__graph_config config = { .scene = r.g.scene, .surface = 0, .gap = 0.01 };
-  bt__shadow_config how = { 0.2, 12 };
+  bt__shadow_config how = { .jitter = 0.2, .tries = 12 };
   bt__shadow_free (r.shadow);
   r.shadow = NULL;
   assert_int_equal (bt__graph_new (&config, &graph, NULL), BT_OK);
@@ -290,7 +290,7 @@ make_tree (bt_vec3 anchor)
   bt__free_config c = { r.g.scene, NULL, bt__vec (-18, -14, -20), bt__vec (18, 14, 0), 0.75, 0.03 };
   bt__free_free (r.tree);
   assert_int_equal (bt__free_new (&c, &r.tree, NULL), BT_OK);
-  bt__free_grow (r.tree, anchor, &r.count);
+  bt__free_grow (r.tree, anchor, NULL, &r.count);
 }
 
 /* A scene, a string in it, its free way.  */

@@ -31,7 +31,7 @@ shadow_of (void)
   bt__graph graph;
   bt__shadow *shadow = NULL;
   bt__graph_config config = { .scene = g.scene, .surface = 0, .gap = 0.01 };
-  bt__shadow_config how = { 0.2, 24 };
+  bt__shadow_config how = { .jitter = 0.2, .tries = 24 };
   assert_int_equal (bt__graph_new (&config, &graph, NULL), BT_OK);
   assert_int_equal (bt__shadow_new (&graph, &how, &shadow, NULL), BT_OK);
   bt__graph_free (&graph);
@@ -86,7 +86,7 @@ squares_not_looked_into (void **state)
       bt__voxel_report report;
       draw_rings (&g, &d, 3);
       bt__voxel_config c = { g.scene, NULL, bt__vec (-18, -14, -20), bt__vec (18, 14, 0), 0.5 };
-      assert_int_equal (bt__voxels_new (&c, &v, NULL), BT_OK);
+      assert_int_equal (bt__voxels_new (&c, NULL, &v, NULL), BT_OK);
       bt__voxels_report_of (v, &report);
       print_message ("# squares not looked into: %u of 3 rings left\n",
                      (unsigned)report.generators);

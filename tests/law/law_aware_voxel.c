@@ -51,7 +51,7 @@ make_voxels (double cell)
   bt_error error;
   bt__voxel_config c = { r.g.scene, NULL, bt__vec (-18, -14, -20), bt__vec (18, 14, 0), cell };
   bt__voxels_free (r.voxels);
-  if (bt__voxels_new (&c, &r.voxels, &error))
+  if (bt__voxels_new (&c, NULL, &r.voxels, &error))
     fail_msg ("%s", error.text);
   bt__voxels_report_of (r.voxels, &r.report);
 }
@@ -60,7 +60,7 @@ static void
 make_shadow (void)
 {
   bt__graph_config config = { .scene = r.g.scene, .surface = 0, .gap = 0.01 };
-  bt__shadow_config how = { 0.2, 24 };
+  bt__shadow_config how = { .jitter = 0.2, .tries = 24 };
   bt__shadow_free (r.shadow);
   assert_int_equal (bt__graph_new (&config, &r.graph, NULL), BT_OK);
   assert_int_equal (bt__shadow_new (&r.graph, &how, &r.shadow, NULL), BT_OK);
@@ -164,7 +164,7 @@ meshes (void **state)
   bt__soup soup = { LONG * AROUND, n, v, (const uint32_t (*)[3])corner, NULL };
   stage_clear (&r.g);
   r.g.o[0] = (bt__obstacle){ .kind = BT__OBSTACLE_MESH };
-  assert_int_equal (bt__mesh_new (&soup, NULL, &r.g.o[0].shape.mesh, NULL), BT_OK);
+  assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &r.g.o[0].shape.mesh, NULL), BT_OK);
   r.g.n = 1;
   assert_true (stage_make (&r.g));
   make_voxels (0.5);
@@ -206,9 +206,9 @@ refuses_nonsense (void **state)
   bt__voxels *v;
   bt_error error;
   (void)state;
-  assert_int_equal (bt__voxels_new (&c, &v, &error), BT_ERR_DOMAIN);
+  assert_int_equal (bt__voxels_new (&c, NULL, &v, &error), BT_ERR_DOMAIN);
   c.cell = 1e-3;
-  assert_int_equal (bt__voxels_new (&c, &v, &error), BT_ERR_LIMIT);
+  assert_int_equal (bt__voxels_new (&c, NULL, &v, &error), BT_ERR_LIMIT);
 }
 
 int

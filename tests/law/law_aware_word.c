@@ -63,7 +63,7 @@ read_scene (double jitter, int all_boundary)
 {
   bt_error error;
   bt__graph_config config = { .scene = r.g.scene, .surface = 0, .gap = 0.01 };
-  bt__shadow_config how = { jitter, 24 };
+  bt__shadow_config how = { .jitter = jitter, .tries = 24 };
   bt__shadow_free (r.shadow);
   r.shadow = NULL;
   if (bt__graph_new (&config, &r.graph, &error))

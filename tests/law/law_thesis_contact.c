@@ -75,7 +75,7 @@ cube_mesh (bt_vec3 centre, double half)
                                      half * (i & 4 ? 1 : -1)));
   bt__soup soup = { 8, 12, v, cube, NULL };
   bt__mesh *m = NULL;
-  return bt__mesh_new (&soup, NULL, &m, NULL) == BT_OK ? m : NULL;
+  return bt__mesh_new (&soup, NULL, NULL, &m, NULL) == BT_OK ? m : NULL;
 }
 
 /* A link that just touches the upright edge at (1, 1), at any lean of up to 30 degrees.  */

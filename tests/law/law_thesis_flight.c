@@ -128,7 +128,7 @@ litter (rig *r, dice *d, sweep_triangle *sheet, int sheets)
   bt__soup soup
       = { 3 * (uint32_t)sheets, (uint32_t)sheets, sheet->v, (const uint32_t (*)[3])corner, NULL };
   bt__mesh *m = NULL;
-  assert_int_equal (bt__mesh_new (&soup, NULL, &m, NULL), BT_OK);
+  assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &m, NULL), BT_OK);
   rig_mesh (r, m);
   r->sheet = sheet;
   r->sheets = sheets;

@@ -92,7 +92,7 @@ obj_mesh (const char *name)
   assert_true (read_obj (&m, f));
   fclose (f);
   bt__soup soup = { m.vertices, m.triangles, m.v, (const uint32_t (*)[3])m.corner, NULL };
-  if (bt__mesh_new (&soup, NULL, &mesh, &error))
+  if (bt__mesh_new (&soup, NULL, NULL, &mesh, &error))
     fail_msg ("%s: %s", name, error.text);
   free (m.v);
   free (m.corner);

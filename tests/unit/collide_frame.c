@@ -70,7 +70,7 @@ make_ground (dice *d)
   bt__mesh *m = NULL;
   for (int i = 0; i < POSTS * POSTS; i++)
     z[i] = -6 + dice_uniform (d);
-  assert_int_equal (bt__mesh_from_grid (&grid, NULL, &m, NULL), BT_OK);
+  assert_int_equal (bt__mesh_from_grid (&grid, NULL, NULL, &m, NULL), BT_OK);
   return m;
 }
 

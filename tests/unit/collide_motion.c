@@ -151,7 +151,7 @@ cast (const move *m, bt__count *count)
   bt__obstacle o = { .kind = BT__OBSTACLE_MESH };
   bt__scene *s = NULL;
   bt__near near;
-  assert_int_equal (bt__mesh_new (&soup, NULL, &o.shape.mesh, NULL), BT_OK);
+  assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &o.shape.mesh, NULL), BT_OK);
   assert_int_equal (bt__scene_new (&o, 1, 1, &s, NULL), BT_OK);
   assert_true (bt__scene_nearest (s, NULL, &m->link, 1e3, &near, count));
   bt__cast c

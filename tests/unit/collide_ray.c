@@ -178,7 +178,7 @@ draw_mesh (dice *d)
     }
   bt__soup soup = { 3 * TRIANGLES, TRIANGLES, v, (const uint32_t (*)[3])corner, NULL };
   bt__mesh *m = NULL;
-  assert_int_equal (bt__mesh_new (&soup, NULL, &m, NULL), BT_OK);
+  assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &m, NULL), BT_OK);
   return m;
 }
 
@@ -310,7 +310,7 @@ nothing_leaks (void **state)
   bt__soup soup = { ROUND * (UP + 1), n, v, (const uint32_t (*)[3])corner, NULL };
   bt__obstacle o = { .kind = BT__OBSTACLE_MESH };
   bt__scene *s = NULL;
-  assert_int_equal (bt__mesh_new (&soup, NULL, &o.shape.mesh, NULL), BT_OK);
+  assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &o.shape.mesh, NULL), BT_OK);
   assert_int_equal (bt__scene_new (&o, 1, 1, &s, NULL), BT_OK);
   for (int i = 0; i < 30000; i++)
     {

@@ -47,7 +47,7 @@ draw_mesh (dice *d, bt_vec3 far)
   bt__soup soup = { 3 * TRIANGLES, TRIANGLES, v, (const uint32_t (*)[3])corner, id };
   bt__mesh *m = NULL;
   bt_error error;
-  if (bt__mesh_new (&soup, NULL, &m, &error))
+  if (bt__mesh_new (&soup, NULL, NULL, &m, &error))
     fail_msg ("%s", error.text);
   return m;
 }
@@ -288,17 +288,17 @@ refuses_bad_soups (void **state)
   bt__mesh *m = NULL;
   bt_error error;
   (void)state;
-  assert_int_equal (bt__mesh_new (&soup, NULL, &m, &error), BT_ERR_DOMAIN);
+  assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &m, &error), BT_ERR_DOMAIN);
   v[2].y = 1;
   corner[0][1] = 3;
-  assert_int_equal (bt__mesh_new (&soup, NULL, &m, &error), BT_ERR_DOMAIN);
+  assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &m, &error), BT_ERR_DOMAIN);
   corner[0][1] = 1;
   soup.triangles = 0;
-  assert_int_equal (bt__mesh_new (&soup, NULL, &m, &error), BT_ERR_DOMAIN);
+  assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &m, &error), BT_ERR_DOMAIN);
   assert_null (m);
   soup.triangles = 1;
   bt__place place = { { 10, 0, 0 }, 0.5 * BT__PI, 2 };
-  assert_int_equal (bt__mesh_new (&soup, &place, &m, &error), BT_OK);
+  assert_int_equal (bt__mesh_new (&soup, &place, NULL, &m, &error), BT_OK);
   /* Scaled by 2, its north turned to the east.  */
   assert_true (bt__distance (m->v[1], bt__vec (10, -2, 0)) < 1e-14);
   assert_true (bt__distance (m->v[2], bt__vec (12, 0, 0)) < 1e-14);
@@ -312,7 +312,7 @@ grid_has_its_triangles (void **state)
   bt__grid grid = { 3, 2, 10, 20, 2, 3, z };
   bt__mesh *m = NULL;
   (void)state;
-  assert_int_equal (bt__mesh_from_grid (&grid, NULL, &m, NULL), BT_OK);
+  assert_int_equal (bt__mesh_from_grid (&grid, NULL, NULL, &m, NULL), BT_OK);
   assert_int_equal (m->triangles, 1); /* the others touch the missing post */
   assert_int_equal (m->id[0], 2);
   bt__mesh_free (m);

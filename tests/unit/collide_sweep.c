@@ -122,7 +122,7 @@ obstacle_of (const solid *x)
   else if (x->kind == SOLID_TRIANGLE)
     {
       o.kind = BT__OBSTACLE_MESH;
-      assert_int_equal (bt__mesh_new (&soup, NULL, &o.shape.mesh, NULL), BT_OK);
+      assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &o.shape.mesh, NULL), BT_OK);
     }
   return o;
 }

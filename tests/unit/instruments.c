@@ -159,7 +159,7 @@ mesh_wall (double y)
   bt__soup soup = { 4, 2, v, corner, NULL };
   bt__obstacle o = { .kind = BT__OBSTACLE_MESH };
   bt_error error;
-  if (bt__mesh_new (&soup, NULL, &o.shape.mesh, &error) != BT_OK)
+  if (bt__mesh_new (&soup, NULL, NULL, &o.shape.mesh, &error) != BT_OK)
     fail_msg ("%s", error.text);
   return o;
 }

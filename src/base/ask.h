@@ -1,0 +1,44 @@
+/* Whoever called asked whether long work is to go on.
+
+   A dive has one asker, and the workspaces of its solvers point to it: loops that may last ask
+   between pieces of their work, each much shorter than a tenth of a second, and leave when they are
+   told to.  What they leave behind is good for nothing; the nearest caller that returns a status
+   looks by bt__stopped and fails.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_BASE_ASK_H
+#define BT_BASE_ASK_H
+
+#include "base/error.h"
+
+typedef struct bt__asker
+{
+  bt_poll poll; /* NULL: nobody is asked */
+  void *user;
+  double share; /* of the work that was last said to be done */
+  int stopped;  /* true from when POLL said so until bt__stopped tells */
+} bt__asker;
+
+/* Ask ASKER, or nobody if it is NULL; return true if the work is to be left.  */
+static inline int
+bt__ask (bt__asker *asker)
+{
+  if (!asker || !asker->poll)
+    return 0;
+  if (!asker->stopped)
+    asker->stopped = asker->poll (asker->user, asker->share) != 0;
+  return asker->stopped;
+}
+
+/* BT_ERR_INTERRUPTED, once, if work was left since this was last asked.  */
+static inline bt_status
+bt__stopped (bt__asker *asker, bt_error *error)
+{
+  if (!asker || !asker->stopped)
+    return BT_OK;
+  asker->stopped = 0;
+  return bt__fail (error, BT_ERR_INTERRUPTED, "interrupted; nothing has changed");
+}
+
+#endif
