@@ -122,17 +122,24 @@ pop (bt__free *t)
 
 /* ---- Growing ---- */
 
-/* Reach CELL by way of PARENT if that is shorter.  */
+/* Reach the N cells NEAR that are not closed by way of PARENT, those for which that is shorter.  */
 static void
-offer (bt__free *t, uint32_t cell, uint32_t parent)
+offer (bt__free *t, const uint32_t *near, uint32_t n, uint32_t parent)
 {
   double base = parent == t->root ? 0 : t->g[parent];
-  double g = base + bt__distance (point_of (t, parent), point_of (t, cell));
-  if (!(g < t->g[cell]))
-    return;
-  t->g[cell] = g;
-  t->parent[cell] = parent;
-  rise (t, t->place[cell] == NOWHERE ? t->open++ : t->place[cell], cell);
+  bt_vec3 from = point_of (t, parent);
+  for (uint32_t i = 0; i < n; i++)
+    {
+      uint32_t cell = near[i];
+      if (t->closed[cell] || !(base < t->g[cell]))
+        continue;
+      double g = base + bt__distance (from, point_of (t, cell));
+      if (!(g < t->g[cell]))
+        continue;
+      t->g[cell] = g;
+      t->parent[cell] = parent;
+      rise (t, t->place[cell] == NOWHERE ? t->open++ : t->place[cell], cell);
+    }
 }
 
 /* Call the neighbours of P within RADIUS cells, into OUT; return their number.  */
@@ -184,8 +191,7 @@ bt__free_grow (bt__free *t, bt_vec3 anchor, bt__asker *asker, bt__count *count)
   for (uint32_t i = 0; i < t->cells; i++)
     t->g[i] = INFINITY;
   n = neighbours (t, anchor, 1, near);
-  for (uint32_t i = 0; i < n; i++)
-    offer (t, near[i], t->root);
+  offer (t, near, n, t->root);
   while (t->open > 0 && !bt__ask (asker))
     {
       uint32_t cell = pop (t), parent = t->parent[cell];
@@ -195,9 +201,7 @@ bt__free_grow (bt__free *t, bt_vec3 anchor, bt__asker *asker, bt__count *count)
           && !find_parent (t, cell, near, n, count))
         continue;
       t->closed[cell] = 1;
-      for (uint32_t i = 0; i < n; i++)
-        if (!t->closed[near[i]])
-          offer (t, near[i], t->parent[cell]);
+      offer (t, near, n, t->parent[cell]);
     }
   return t->open == 0;
 }
@@ -353,17 +357,30 @@ bt__string_length (const bt__taut_config *config, const bt__string *s, bt__count
   return bt__holds_length (&list, s->x, s->n);
 }
 
+int
+bt__free_way (const bt__free *t, bt_vec3 from, bt_vec3 p, bt__string *string, bt__count *count)
+{
+  bt_vec3 room[BT__FREE_WAY_MAX + 1] = { from };
+  uint32_t ahead = bt__distance (from, t->anchor) > 0, n = find_way (t, p, room + 1, count);
+  return n > 0 && bt__string_lay (string, room + 1 - ahead, n + ahead);
+}
+
+double
+bt__free_tighten (bt__taut *taut, const bt__taut_config *config, uint32_t steps, bt__string *way,
+                  bt__count *count)
+{
+  if (way->n > 2)
+    bt__taut_relax (taut, config, way, steps, count);
+  return bt__string_length (config, way, count);
+}
+
 double
 bt__free_length_from (const bt__free *t, bt__taut *taut, const bt__taut_config *config,
                       bt_vec3 from, bt_vec3 p, uint32_t steps, bt__string *string, bt__count *count)
 {
-  bt_vec3 room[BT__FREE_WAY_MAX + 1] = { from };
-  uint32_t ahead = bt__distance (from, t->anchor) > 0, n = find_way (t, p, room + 1, count);
-  if (n == 0 || !bt__string_lay (string, room + 1 - ahead, n + ahead))
+  if (!bt__free_way (t, from, p, string, count))
     return INFINITY;
-  if (n + ahead > 2)
-    bt__taut_relax (taut, config, string, steps, count);
-  return bt__string_length (config, string, count);
+  return bt__free_tighten (taut, config, steps, string, count);
 }
 
 double

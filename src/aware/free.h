@@ -55,6 +55,13 @@ double bt__free_length_from (const bt__free *tree, bt__taut *taut, const bt__tau
                              bt_vec3 from, bt_vec3 p, uint32_t steps, bt__string *string,
                              bt__count *count);
 
+/* The same in two steps: lay STRING along the way as it is found, 0 if there is none; tighten it.
+ */
+int bt__free_way (const bt__free *tree, bt_vec3 from, bt_vec3 p, bt__string *string,
+                  bt__count *count);
+double bt__free_tighten (bt__taut *taut, const bt__taut_config *config, uint32_t steps,
+                         bt__string *way, bt__count *count);
+
 /* Return the length of STRING with arcs for corners at round members.  */
 double bt__string_length (const bt__taut_config *config, const bt__string *string,
                           bt__count *count);

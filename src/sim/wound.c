@@ -81,6 +81,10 @@ bt__note_windings (bt_dive *dive, bt_error *error)
       if (!has_moved (dive, subject, i))
         continue;
       subject->looked = 1;
+      status = bt__watch_berth (dive, i, &subject->berth, error);
+      if (status != BT_OK)
+        continue;
+      subject->berthed = 1;
       status = bt__watch_wound_still (dive, i, told, least_string (subject), &same, error);
       if (status == BT_OK && !same)
         status = tell (dive, i, subject, told, first, error);

@@ -13,8 +13,8 @@
 #include "world/layout.h"
 #include "world/watch.h"
 
-/* The first bytes of a state: layout version 5.  */
-static const uint64_t magic = 0x3154484749420006ULL;
+/* The first bytes of a state: layout version 7.  */
+static const uint64_t magic = 0x3154484749420007ULL;
 
 double
 bt__state_time (const bt__state *state)

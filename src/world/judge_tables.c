@@ -175,6 +175,8 @@ static const bt__member subject[] = {
   BT__WITHIN (bt__subject, seen, -BT__FAR, BT__FAR),
   BT__WITHIN (bt__subject, string, 0, INFINITY),
   BT__WITHIN (bt__subject, there, -BT__FAR, BT__FAR),
+  BT__TRUTH (bt__subject, berthed),
+  BT__WITHIN (bt__subject, berth, -BT__FAR, BT__FAR),
   BT__WITHIN (bt__subject, n, 0, BT__MEETINGS_MAX),
   BT__OF (bt__subject, meeting, meeting_record),
 };

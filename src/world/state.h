@@ -159,6 +159,8 @@ typedef struct bt__subject
   bt_vec3 seen[2];
   double string;    /* m: its taut string's, when its windings were last told in full ... */
   bt_vec3 there[2]; /* ... with its ends here */
+  int64_t berthed;  /* true: what is made of the world for it, such as ways, ... */
+  bt_vec3 berth;    /* ... begins here, near its anchor, m */
   int64_t n;
   bt__meeting meeting[BT__MEETINGS_MAX];
 } bt__subject;

@@ -339,7 +339,7 @@ bt__watch_prepare (const bt_dive *dive)
 /* ---- The free way ---- */
 
 bt_status
-bt__watch_way (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error *error)
+bt__watch_lay_way (const bt_dive *dive, int i, bt__gaze *g, int *found, bt_error *error)
 {
   struct bt__watch *w = dive->watch;
   bt_vec3 ends[2] = { g->node[0], g->node[g->n - 1] };
@@ -348,16 +348,34 @@ bt__watch_way (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error
   g->has_free = 0;
   if (!bt__scene_nearest (g->config.scene, g->config.on, &chord, g->config.core, &near, &w->count))
     {
-      bt__string_lay (g->shortest, ends, 2);
-      *length = bt__distance (ends[0], ends[1]);
+      *found = bt__string_lay (g->shortest, ends, 2);
       return BT_OK;
     }
-  *length = INFINITY;
   bt_status status = bt__chart_grow (dive, i, g, error);
-  if (status == BT_OK && g->ways->tree)
-    *length = bt__free_length_from (g->ways->tree, w->taut, &g->config, ends[0], ends[1],
-                                    FREE_STEPS, g->shortest, &w->count);
-  return status == BT_OK ? bt__stopped (bt__asker_of (dive), error) : status;
+  *found = status == BT_OK && g->ways->tree
+           && bt__free_way (g->ways->tree, ends[0], ends[1], g->shortest, &w->count);
+  return status;
+}
+
+bt_status
+bt__watch_tighten_way (const bt_dive *dive, bt__gaze *g, double *length, bt_error *error)
+{
+  struct bt__watch *w = dive->watch;
+  *length = g->shortest->n == 2
+                ? bt__distance (g->shortest->x[0], g->shortest->x[1])
+                : bt__free_tighten (w->taut, &g->config, FREE_STEPS, g->shortest, &w->count);
+  return bt__stopped (bt__asker_of (dive), error);
+}
+
+/* Put the shortest way home that is known without the string into that of G, and its length, m,
+   into LENGTH, which is INFINITY if there is none.  */
+static bt_status
+find_way (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error *error)
+{
+  int found;
+  bt_status status = bt__watch_lay_way (dive, i, g, &found, error);
+  *length = INFINITY;
+  return status == BT_OK && found ? bt__watch_tighten_way (dive, g, length, error) : status;
 }
 
 /* The way, or the string itself where that is shorter or there is no other; no way is looked for
@@ -371,7 +389,7 @@ bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
     return status;
   double length = INFINITY, chord = bt__distance (g->node[0], g->node[g->n - 1]);
   if (g->taut_length > (1 + STRAIGHT) * chord)
-    status = bt__watch_way (dive, i, g, &length, error);
+    status = find_way (dive, i, g, &length, error);
   if (status != BT_OK)
     return status;
   if (!(length < g->taut_length))

@@ -82,9 +82,11 @@ bt_status bt__watch_look (const bt_dive *dive, int i, bt__gaze **out, bt_error *
 /* The same, with its string solved.  */
 bt_status bt__watch_gaze (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
 
-/* Put the shortest way home that is known without the string into that of G, a tether looked at:
-   the chord where it is clear, else the tree's way; *LENGTH, m, is INFINITY if there is none.  */
-bt_status bt__watch_way (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error *error);
+/* Lay the shortest way home that is known without the string into that of G, a tether looked at:
+   the chord where it is clear, else the tree's way; *FOUND: true if there is one.  Then tighten it,
+   which changes nothing about its class; *LENGTH is its own, m.  */
+bt_status bt__watch_lay_way (const bt_dive *dive, int i, bt__gaze *g, int *found, bt_error *error);
+bt_status bt__watch_tighten_way (const bt_dive *dive, bt__gaze *g, double *length, bt_error *error);
 
 /* As bt__watch_gaze, with the free way; and with the word.  */
 bt_status bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
@@ -110,6 +112,9 @@ bt__told (int32_t winding)
    string; its length is LEAST at least, m.  */
 bt_status bt__watch_wound_still (const bt_dive *dive, int i, const int8_t *told, double least,
                                  int *same, bt_error *error);
+
+/* Put into BERTH where what is made of the world for tether I begins; for the state to keep.  */
+bt_status bt__watch_berth (const bt_dive *dive, int i, bt_vec3 *berth, bt_error *error);
 
 /* Have the memory for looks at the windings of every tether, so that none is needed while time
    passes, but where a winch that hauls or an anchor that moves brings a tether to other charts, or

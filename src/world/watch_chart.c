@@ -21,7 +21,8 @@ enum
 #define JITTER 0.2
 #define GAP_LEAST 0.01  /* m: a narrower gap between members is no way through */
 #define CLEAR_MOST 0.03 /* m: what free ways keep off */
-#define BERTH 2.0       /* m: charts are made anew when an anchor has moved so far */
+#define BERTH 2.0       /* m: about as near to the anchor charts begin, ... */
+#define ASTRAY 4.0      /* m: ... and are made anew when it is so far from there */
 
 void
 bt__chart_release (bt__chart *c)
@@ -153,12 +154,18 @@ berth (const bt_dive *dive, int i, bt_vec3 p, double step)
 }
 
 /* Where the charts of tether I begin: the anchor, or, since one that rides on waves or on a vehicle
-   hardly ever stays, the roughest place for it that it sees.  Of the state alone.  */
+   hardly ever stays, a place near it that it sees.  The state keeps that place until the anchor has
+   gone astray from it: one that swings about the middle between two places has no use for both.
+   Else it is the roughest place that is seen.  */
 static bt_vec3
 root_of (const bt_dive *dive, int i, const bt__gaze *g)
 {
   bt_vec3 anchor = g->node[0];
   bt__free_config config = { .scene = dive->model->scene, .on = g->config.on, .clear = CLEAR_MOST };
+  const bt__subject *subject = bt__dive_subject (dive, dive->now, BT_PART_TETHER, i);
+  if (subject->berthed && bt__distance (subject->berth, anchor) < ASTRAY
+      && bt__free_sees (&config, anchor, subject->berth, &dive->watch->count))
+    return subject->berth;
   for (double step = BERTH; step > 0.1 * BERTH; step *= 0.5)
     {
       bt_vec3 p = berth (dive, i, anchor, step);
@@ -168,6 +175,16 @@ root_of (const bt_dive *dive, int i, const bt__gaze *g)
         return p;
     }
   return anchor;
+}
+
+bt_status
+bt__watch_berth (const bt_dive *dive, int i, bt_vec3 *berth, bt_error *error)
+{
+  bt__gaze *g;
+  bt_status status = bt__watch_look (dive, i, &g, error);
+  if (status == BT_OK)
+    *berth = g->open ? g->node[0] : root_of (dive, i, g);
+  return status;
 }
 
 static bt_status

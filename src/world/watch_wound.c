@@ -5,8 +5,9 @@
    is caught on one is told by the word of the class, and how often by the string's turns about the
    upright through the mesh, where the string is as high as the mesh is.
 
-   A line with nothing in the way of its chord, or that is drawn free of everything on the tree's
-   way, needs no taut string to be found free.
+   A line that can be drawn straight is wound about no member, whatever stands in the way of its
+   chord: it merely passes.  That and one that is drawn free of everything on the tree's way need no
+   taut string to be found free.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -77,17 +78,26 @@ wind_about_members (const bt_dive *dive, bt__gaze *g)
   add_loops (dive, g);
 }
 
-/* Find the loops about members of the tether itself and a way home that needs no string; *LENGTH is
-   of that way, INFINITY if there is none.  */
+/* True if no member goes through a surface between the tether and its chord: it can be drawn
+   straight as far as members go, and merely passes them.  */
+static int
+merely_passes (bt__gaze *g)
+{
+  bt_vec3 chord[2] = { g->node[0], g->node[g->n - 1] };
+  return !bt__caught_crossings (&g->frame->graph, g->node, g->n, chord, 2, g->loops.loops);
+}
+
+/* Find the loops about members of the tether itself and a way home that needs no string, as it is
+   found; *KNOWN is false if there is none.  */
 static bt_status
-quick_loops (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error *error)
+quick_loops (const bt_dive *dive, int i, bt__gaze *g, int *known, bt_error *error)
 {
   g->loops.any = 0;
-  *length = 0;
-  if (g->frame->graph.edges == 0)
+  *known = 1;
+  if (merely_passes (g))
     return BT_OK;
-  bt_status status = bt__watch_way (dive, i, g, length, error);
-  if (status == BT_OK && isfinite (*length))
+  bt_status status = bt__watch_lay_way (dive, i, g, known, error);
+  if (status == BT_OK && *known)
     bt__caught_find (&g->loops, g->node, g->n, g->shortest->x, g->shortest->n, NULL);
   return status == BT_OK ? bt__stopped (bt__asker_of (dive), error) : status;
 }
@@ -96,12 +106,12 @@ quick_loops (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error *
 static bt_status
 look_for_loops (const bt_dive *dive, int i, bt__gaze *g, int *loose, bt_error *error)
 {
-  double length;
-  *loose = g->frame->graph.edges == 0;
+  int known;
+  *loose = merely_passes (g);
   if (*loose || g->has_free)
     return BT_OK;
-  bt_status status = quick_loops (dive, i, g, &length, error);
-  *loose = isfinite (length) && !g->loops.any;
+  bt_status status = quick_loops (dive, i, g, &known, error);
+  *loose = known && !g->loops.any;
   return status;
 }
 
@@ -320,16 +330,21 @@ static bt_status
 look_again (const bt_dive *dive, int i, bt__gaze *g, const int8_t *told, double least, int *same,
             bt_error *error)
 {
-  double length;
+  int known;
+  double length = 0;
   bt_status status = bt__watch_wind_ready (dive, i, g, error);
   if (status != BT_OK || goes_about_a_mesh (dive, g))
     return status;
-  status = quick_loops (dive, i, g, &length, error);
-  if (status != BT_OK || !isfinite (length))
+  status = quick_loops (dive, i, g, &known, error);
+  if (status != BT_OK || !known)
     return status;
   add_loops (dive, g);
-  *same = is_as (dive, g, told) && (!g->loops.any || length <= least);
-  return BT_OK;
+  if (!is_as (dive, g, told))
+    return BT_OK;
+  if (g->loops.any)
+    status = bt__watch_tighten_way (dive, g, &length, error);
+  *same = status == BT_OK && (!g->loops.any || length <= least);
+  return status;
 }
 
 bt_status

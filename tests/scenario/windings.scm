@@ -214,3 +214,18 @@ alone; what is no part is refused."
     (winding 'block))
   (expect (about 1) => 1)
   (expect (about -3) => 0))
+
+(define-scenario merely-passing
+  "A line that passes beside a pile which stands in the way of its chord is looked at twice a second, and neither a
+string nor a chart is made for that."
+  (enter! (world (sea (depth 60) (current 0.3 0))
+                 (cylinder (named pile) (from 0 0 -60) (to 0 0 0) (radius 2))
+                 (rov (named minnow) (at 12 -0.5 -10))
+                 (tether (named line) (type fathom) (wet-weight 0) (model dynamic) (from -12 -0.5 -10) (to minnow)
+                         (via (0 -4 -10)) (length 28))))
+  (drive! #:surge 0 #:yaw 0.05 #:heave 0.02)
+  (run 10)
+  (let ((counted (profile)))
+    (expect (assq-ref counted 'strings) => 0)
+    (expect (assq-ref counted 'charts) => 0))
+  (expect (windings) => '()))
