@@ -104,20 +104,17 @@ add_obstacle (bt__scene *s, int i, const bt_obstacle_view *o)
     }
 }
 
-/* A sea without a bottom among its obstacles has one to be seen, at its depth.  */
+/* A sea without a bed has none to be seen: nothing would lie on it.  */
 void
 bt__scene_obstacles (bt__scene *s)
 {
-  int n = bt_dive_count (s->dive, BT_PART_OBSTACLE), bottom = 0;
+  int n = bt_dive_count (s->dive, BT_PART_OBSTACLE);
   for (int i = 0; i < n && s->status == BT_OK; i++)
     {
       bt_obstacle_view o;
       s->status = bt_dive_obstacle (s->dive, i, &o, s->error);
       if (s->status != BT_OK)
         return;
-      bottom |= o.kind == BT_OBSTACLE_SEABED;
       add_obstacle (s, i, &o);
     }
-  if (!bottom)
-    add_seabed_level (s, -s->sea.depth);
 }

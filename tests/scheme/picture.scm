@@ -116,6 +116,19 @@
      (expect (equal? bare other) => #f)
      (expect (equal? one other) => #f))))
 
+(define-scenario no-bed-is-drawn-where-there-is-none
+  "A sea without a bed shows none, however deep it says it is; one with a bed shows that."
+  (with-pictures
+   (define (down depth bed?)
+     (enter! (world (sea (depth depth)) (splice (if bed? (list (part seabed)) '()))
+                    (rov (named minnow) (at 5 0 -5))
+                    (tether (named line) (from 0 0 0) (to minnow) (length 9))))
+     (snapshot (scratch-file "bed.png") #:size '(120 90) #:view '(look (0 -8 -5) (3 0 -12)) #:overlay 'none)
+     (file-bytes "bed.png"))
+   (let ((bare (down 14 #f)))
+     (expect (equal? bare (down 20 #f)))
+     (expect (equal? bare (down 14 #t)) => #f))))
+
 (define-scenario more-is-drawn-over
   "Each overlay changes the picture, the same twice; levels of boxes differ; a list is all of its parts."
   (in pile)
