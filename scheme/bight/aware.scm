@@ -235,9 +235,10 @@ when it may slip off or be lifted off; #f when it is not fouled."
                          (at-most positive 600.0))
   "Haul the tether in on a fork, its vehicle dead, at RATE m/s with no more than PULL newtons, for AT-MOST
 seconds.  Return an alist: home?, seconds, left (m still out), object and hull? (what holds it, and whether
-by the vehicle's hull), at (where the vehicle came to), parted? (whether the tether broke)."
+by the vehicle's hull), at (where the vehicle came to), parted? (whether the tether broke), pull (N at the winch
+in the end: where it stalled, what the line held against it)."
   (let ((v (%haul (this-engine 'haul-trial) t rate pull at-most)))
-    (map cons '(home? seconds left object hull? at parted?) (vector->list v))))
+    (map cons '(home? seconds left object hull? at parted? pull) (vector->list v))))
 
 (define-verb (free-to-haul? #:subject (t tether) #:key (rate positive 0.4) (pull positive 150.0))
   "Return #t if the dead vehicle comes home when the tether is hauled at RATE m/s with no more than PULL
@@ -246,12 +247,18 @@ the tether parted.  `haul-prospect' answers at once, by rules; where the two dif
 slack, current, the bed, and a body that rolls off."
   (vector-ref (%haul (this-engine 'free-to-haul?) t rate pull 600.0) 0))
 
-(define-verb (haul-prospect #:subject (t tether) #:key (pull positive 150.0))
+(define-argument-type (share value)
+  "a share above 0 and at most 1"
+  (if (and (real? value) (< 0 value) (<= value 1)) (exact->inexact value) refused))
+
+(define-verb (haul-prospect #:subject (t tether) #:key (pull positive 150.0) (grip share 0.75))
   "Return at once what hauling the tether with PULL newtons promises, by rules about the taut string: a list
 (ANSWER REASON OBJECT); ANSWER yes, no or unsure (the rules then name what may hold it, and `free-to-haul?' or
 `haul-trial' decides), REASON clear, locked (by friction, or by the vehicle's own
-weight or buoyancy), hung (the vehicle's body on it) or wedged, OBJECT a name or #f."
-  (let ((v (%haul-prospect (this-engine 'haul-prospect) t pull)))
+weight or buoyancy), hung (the vehicle's body on it) or wedged, OBJECT a name or #f.  Friction says no only where
+GRIP of the angle by which the string bends would hold too: a line that is hauled unwinds from its end on.  The
+0.75 is not derived: twice round a pile no haul that was tried came home where it says no."
+  (let ((v (%haul-prospect (this-engine 'haul-prospect) t pull grip)))
     (list (vector-ref v 0) (vector-ref v 1) (vector-ref v 2))))
 
 

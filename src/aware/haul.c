@@ -14,7 +14,6 @@ enum
 };
 
 #define LEAST_BEND 0.3 /* radians: a body slides past less */
-#define SURE_GRIP 0.75 /* of the angle: what no less than so much of it holds is held */
 #define SPARE_PULL 1.0 /* N: less does not count as pulling */
 #define TRIM 0.05      /* of the pull: a vehicle in trim weighs less */
 #define FACING 0.5     /* cosine between two outward normals: less is a corner to wedge in */
@@ -113,7 +112,7 @@ bt__haul_prospect (const bt__holds *h, const bt__haul_body *body)
   if (fmax (body->least, weight) > p.pull)
     {
       bend b = worst_bend (h, 2 * body->radius);
-      int sure = fmax (body->least, weight) > pull / pow (p.lock, SURE_GRIP);
+      int sure = fmax (body->least, weight) > pull / pow (p.lock, body->grip);
       say (&p, sure ? BT__NO : BT__UNSURE, BT__HAUL_LOCKED, b.object, b.s);
       return p;
     }

@@ -24,6 +24,7 @@ typedef struct bt__haul_body
   double least;        /* N: what it takes to move it at the least speed that counts */
   double drag1, drag2; /* N s / m, N s^2 / m^2: what it takes at speed v is drag1 v + drag2 v^2 */
   double winch;        /* N: what the winch pulls */
+  double grip;         /* of the angle: where so much of it holds, friction holds for sure */
 } bt__haul_body;
 
 typedef enum bt__answer

@@ -175,7 +175,7 @@ fouled (SCM object, SCM index)
 
 /* #(answer reason object s pull speed) */
 static SCM
-prospect (SCM object, SCM index, SCM winch)
+prospect (SCM object, SCM index, SCM winch, SCM grip)
 {
   static const char *const answers[] = { "no", "yes", "unsure" };
   static const char *const reasons[] = { "clear", "locked", "hung", "wedged" };
@@ -184,7 +184,8 @@ prospect (SCM object, SCM index, SCM winch)
   bt_error error;
   SCM v = scm_c_make_vector (6, SCM_BOOL_F);
   bt__check_long ("haul-prospect", bt__to_handle (object),
-                  bt_tether_prospect (dive, scm_to_int (index), scm_to_double (winch), &p, &error),
+                  bt_tether_prospect_by (dive, scm_to_int (index), scm_to_double (winch),
+                                         scm_to_double (grip), &p, &error),
                   &error);
   scm_c_vector_set_x (v, 0, scm_from_utf8_symbol (answers[p.answer]));
   scm_c_vector_set_x (v, 1, scm_from_utf8_symbol (reasons[p.reason]));
@@ -195,14 +196,14 @@ prospect (SCM object, SCM index, SCM winch)
   return v;
 }
 
-/* #(home? seconds left object hull? at parted?) */
+/* #(home? seconds left object hull? at parted? pull) */
 static SCM
 haul (SCM object, SCM index, SCM rate, SCM winch, SCM seconds)
 {
   bt_dive *dive = bt__to_dive (object);
   bt_haul h;
   bt_error error;
-  SCM v = scm_c_make_vector (7, SCM_BOOL_F);
+  SCM v = scm_c_make_vector (8, SCM_BOOL_F);
   bt__check_long ("free-to-haul?", bt__to_handle (object),
                   bt_tether_haul (dive, scm_to_int (index), scm_to_double (rate),
                                   scm_to_double (winch), scm_to_double (seconds), &h, &error),
@@ -214,6 +215,7 @@ haul (SCM object, SCM index, SCM rate, SCM winch, SCM seconds)
   scm_c_vector_set_x (v, 4, scm_from_bool (h.hull));
   scm_c_vector_set_x (v, 5, bt__from_point (h.at));
   scm_c_vector_set_x (v, 6, scm_from_bool (h.parted));
+  scm_c_vector_set_x (v, 7, scm_from_double (h.pull));
   return v;
 }
 
@@ -331,11 +333,13 @@ bt__define_aware (void)
       "Return #t if the INDEX-th tether of DIVE is knotted." },
     { "%fouled", 2, 0, (scm_t_subr)fouled,
       "Return `wound' or `hung' if the INDEX-th tether of DIVE is fouled, else #f." },
-    { "%haul-prospect", 3, 0, (scm_t_subr)prospect,
-      "Return #(ANSWER REASON OBJECT S PULL SPEED) of hauling with WINCH newtons." },
+    { "%haul-prospect", 4, 0, (scm_t_subr)prospect,
+      "Return #(ANSWER REASON OBJECT S PULL SPEED) of hauling with WINCH newtons, where GRIP of "
+      "the "
+      "angle holds." },
     { "%haul", 5, 0, (scm_t_subr)haul,
       "Haul on a fork at RATE with WINCH newtons for SECONDS: #(HOME? SECONDS LEFT OBJECT HULL? "
-      "AT)." },
+      "AT PARTED? PULL)." },
     { "%way-home", 2, 0, (scm_t_subr)way_home,
       "Return #(POINTS NEEDED? FEASIBLE? LENGTH CLEARANCE OBSTACLE LONGEST LEFT) of the way "
       "home." },

@@ -169,6 +169,7 @@ haul (trial *t, double seconds, bt_haul *out, bt_error *error)
   out->seconds = now;
   out->left = bt__line_length (&line);
   out->at = vehicle_at (t);
+  out->pull = bt__line_tension (&line, 0);
   if (!out->home)
     look_for_culprit (t, out);
   return BT_OK;

@@ -60,7 +60,7 @@ weight_of (const bt_dive *dive, int vehicle)
 }
 
 static bt__haul_body
-body_of (const bt_dive *dive, int vehicle, double winch)
+body_of (const bt_dive *dive, int vehicle, double winch, double grip)
 {
   const bt__hydro *hydro = &dive->model->types[vehicle].hydro;
   double linear = hydro->linear[BT__SURGE], quadratic = hydro->quadratic[BT__SURGE];
@@ -72,7 +72,8 @@ body_of (const bt_dive *dive, int vehicle, double winch)
                          .weight = weight_of (dive, vehicle),
                          .drag1 = slips ? DRAG1 : linear,
                          .drag2 = slips ? DRAG2 : quadratic,
-                         .winch = winch };
+                         .winch = winch,
+                         .grip = grip };
   body.least = body.drag1 * LEAST_SPEED + body.drag2 * LEAST_SPEED * LEAST_SPEED;
   return body;
 }
@@ -101,18 +102,23 @@ look_for_wedges (const bt_dive *dive, bt__gaze *g, const bt__haul_body *body, bt
 }
 
 bt_status
-bt_tether_prospect (const bt_dive *dive, int i, double winch, bt_prospect *out, bt_error *error)
+bt_tether_prospect_by (const bt_dive *dive, int i, double winch, double grip, bt_prospect *out,
+                       bt_error *error)
 {
   bt__gaze *g;
   int vehicle;
   bt_status status = vehicle_of (dive, i, &vehicle, error);
   if (status == BT_OK && !(winch > 0))
     status = bt__fail (error, BT_ERR_DOMAIN, "a winch pulls with more than 0 N, not %g", winch);
+  if (status == BT_OK && !(grip > 0 && grip <= 1))
+    status = bt__fail (error, BT_ERR_DOMAIN,
+                       "the share of the angle that is to hold is above 0 and at most 1, not %g",
+                       grip);
   if (status == BT_OK)
     status = bt__watch_gaze (dive, i, &g, error);
   if (status != BT_OK)
     return status;
-  bt__haul_body body = body_of (dive, vehicle, winch);
+  bt__haul_body body = body_of (dive, vehicle, winch, grip);
   bt__prospect p = bt__haul_prospect (&g->holds, &body);
   if (!g->open && body.radius > 0)
     {
@@ -126,6 +132,12 @@ bt_tether_prospect (const bt_dive *dive, int i, double winch, bt_prospect *out, 
                         .pull = p.pull,
                         .speed = p.speed };
   return status;
+}
+
+bt_status
+bt_tether_prospect (const bt_dive *dive, int i, double winch, bt_prospect *out, bt_error *error)
+{
+  return bt_tether_prospect_by (dive, i, winch, BT_HAUL_GRIP, out, error);
 }
 
 /* ---- Ways ---- */

@@ -11,6 +11,8 @@
 
 #include <cmocka.h>
 
+#include <bight/aware.h>
+
 #include "aware/haul.h"
 #include "aware/shadow.h"
 #include "testbed/aware_cases.h"
@@ -32,8 +34,13 @@ typedef struct rig
 
 static rig r;
 
-static const bt__haul_body body
-    = { .radius = 0.3, .friction = 0.3, .least = 20, .drag1 = 60, .drag2 = 100, .winch = 150 };
+static const bt__haul_body body = { .radius = 0.3,
+                                    .friction = 0.3,
+                                    .least = 20,
+                                    .drag1 = 60,
+                                    .drag2 = 100,
+                                    .winch = 150,
+                                    .grip = BT_HAUL_GRIP };
 
 static void
 near (const char *what, double is, double wanted, double tolerance)

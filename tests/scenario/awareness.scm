@@ -439,7 +439,12 @@ place on a slack line; nobody is lifted by his tether."
   (expect (free-to-haul? #:pull pull) => (told 'home?))
   (case (first prospect)
     ((yes) (expect (told 'home?)))
-    ((no) (expect (told 'home?) => #f)))
+    ((no) (expect (told 'home?) => #f)
+          (expect (first (haul-prospect #:pull pull #:grip 1)) => 'no)))
+  (expect (memq (first (haul-prospect #:pull pull #:grip 0.01)) '(yes unsure)))
+  (expect (told 'pull) is (below (* 1.25 pull))) ; its brake holds more than it pulls
+  (unless (or (told 'home?) (told 'parted?))
+    (expect (told 'pull) is (above (* 0.5 pull))))
   (unless (told 'home?)
     (expect (second prospect) is (lambda (why) (memq why '(locked hung wedged))))
     (expect (third prospect) => 'p1)
