@@ -3,7 +3,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules ((srfi srfi-1) #:select (first fold map second)))
+(use-modules ((srfi srfi-1) #:select (append-map count first fold iota map remove second)))
 
 
 ;;; What a pilot would count by hand.
@@ -387,3 +387,35 @@ it is stuck when its end has moved less than 2 cm/s for 5 s, and not before; let
       (drive! #:surge (- (random 1.8) 0.8) #:sway (- (random 2.0) 1) #:heave (- (random 2.0) 1)
               #:yaw (- (random 2.0) 1))
       (run 5))))
+
+
+;;; Slack lines as they open.
+
+(define (slack-in-a-trough seed)
+  ;; A line much longer than its chord, low between two walls of boxes that bend, on a level bed.
+  (let* ((dice (seed->random-state seed))
+         (between (lambda (low high) (+ low (* (random:uniform dice) (- high low)))))
+         (wide (between 2 6)) (bow (between 0 (* 0.45 wide))) (phase (between 0 6))
+         (middle (lambda (y) (* bow (sin (+ phase (/ y 8))))))
+         (wall (lambda (side k)
+                 (let ((y (+ -24 (* 4 k))))
+                   (part box (named ,(string->symbol (simple-format #f "~a~a" (if (positive? side) 'east 'west) k)))
+                         (at (+ (middle y) (* side (+ wide 4))) y -34) (size 8 4 12)))))
+         (from (list (middle -20) -20 (between -38 -30)))
+         (to (list (middle 18) 18 (between -38 -30))))
+    (world (sea (depth 40) (current (between 0 0.2) (between 0 360))) (seabed (friction 0.5))
+           (splice (append-map (lambda (k) (list (wall 1 k) (wall -1 k))) (iota 13)))
+           (rov (named minnow) (at to))
+           (tether (named line) (type fathom) (model dynamic) (from from) (to minnow)
+                   (length (* 40 (between 1.2 2)))))))
+
+(define (own-contacts)
+  (count (lambda (c) (eq? 'line (contact-object c))) (contacts)))
+
+(define-scenario slack-lines-open
+  "A slack line among walls opens as it would lie there: it meets itself where it crosses itself once or twice, and
+is no ball; in the canyon it does not at all, and bends as wide as it may."
+  (enter! 'canyon)
+  (expect (own-contacts) => 0)
+  (expect (tightest-bend) is (above 0.3))
+  (expect (remove (lambda (seed) (enter! (slack-in-a-trough seed)) (<= (own-contacts) 4)) (iota 40 1)) => '()))
