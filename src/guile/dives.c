@@ -281,10 +281,10 @@ restore_dive (SCM object, SCM bytes)
     bt__raise ("restore!", &live);
   bt_dive *dive = bt__to_idle_dive ("restore!", object);
   bytes = unpacked (dive, bytes);
-  bt__check ("restore!",
-             bt_dive_restore (dive, SCM_BYTEVECTOR_CONTENTS (bytes), SCM_BYTEVECTOR_LENGTH (bytes),
-                              &error),
-             &error);
+  bt__check_long ("restore!", bt__to_handle (object),
+                  bt_dive_restore (dive, SCM_BYTEVECTOR_CONTENTS (bytes),
+                                   SCM_BYTEVECTOR_LENGTH (bytes), &error),
+                  &error);
   scm_remember_upto_here_1 (bytes);
   return SCM_UNSPECIFIED;
 }

@@ -214,7 +214,9 @@ bt_dive_do (bt_dive *dive, bt_op which, int subject, const double *args, int n, 
   if (status == BT_OK)
     {
       bt__dive_commit (dive);
-      bt__watch_prepare (dive);
+      status = bt__watch_prepare (dive, error);
+      if (status != BT_OK)
+        bt__dive_commit (dive); /* the state before it is the present again */
     }
   dive->profile.operations++;
   dive->profile.refused += status != BT_OK;

@@ -130,9 +130,12 @@ bt_dive_new_polled (bt_model *model, bt_current_function function, void *user, b
       return status;
     }
   bt__dive_commit (dive);
-  bt__watch_prepare (dive);
-  *out = dive;
-  return BT_OK;
+  status = bt__watch_prepare (dive, error);
+  if (status == BT_OK)
+    *out = dive;
+  else
+    bt_dive_free (dive);
+  return status;
 }
 
 bt_status

@@ -389,8 +389,10 @@ bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error)
   if (status != BT_OK)
     return status;
   bt__dive_commit (dive);
-  bt__watch_prepare (dive);
-  return BT_OK;
+  status = bt__watch_prepare (dive, error);
+  if (status != BT_OK)
+    bt__dive_commit (dive); /* the state before it is the present again */
+  return status;
 }
 
 /* ---- Parts ---- */

@@ -315,25 +315,26 @@ bt__watch_gaze (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
 }
 
 static bt_status
-prepare (const bt_dive *dive, int i)
+prepare (const bt_dive *dive, int i, bt_error *error)
 {
   bt__gaze *g;
-  bt_status status = bt__watch_look (dive, i, &g, NULL);
+  bt_status status = bt__watch_look (dive, i, &g, error);
   if (status == BT_OK)
-    status = bt__watch_wind_ready (dive, i, g, NULL);
+    status = bt__watch_wind_ready (dive, i, g, error);
   return status == BT_OK && !g->open && g->frame->graph.edges > 0
-             ? bt__chart_plant (dive, i, g, NULL)
+             ? bt__chart_plant (dive, i, g, error)
              : status;
 }
 
-void
-bt__watch_prepare (const bt_dive *dive)
+bt_status
+bt__watch_prepare (const bt_dive *dive, bt_error *error)
 {
+  bt_status status = BT_OK;
   /* The last of two rounds has room enough for the strings of all.  */
   for (int round = 0; round < 2 && dive->model->n_obstacles > 0; round++)
-    for (int i = 0; i < dive->model->n_tethers; i++)
-      if (prepare (dive, i) != BT_OK)
-        return;
+    for (int i = 0; i < dive->model->n_tethers && status == BT_OK; i++)
+      status = prepare (dive, i, error);
+  return status == BT_ERR_INTERRUPTED ? status : BT_OK;
 }
 
 /* ---- The free way ---- */

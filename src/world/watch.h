@@ -119,8 +119,9 @@ bt_status bt__watch_berth (const bt_dive *dive, int i, bt_vec3 *berth, bt_error 
 /* Have the memory for looks at the windings of every tether, so that none is needed while time
    passes, but where a winch that hauls or an anchor that moves brings a tether to other charts, or
    the class of one that goes about a mesh is asked for.  Where there is not enough of it the looks
-   tell nothing.  A fork has none before it is told something: most forks are short.  */
-void bt__watch_prepare (const bt_dive *dive);
+   tell nothing; BT_ERR_INTERRUPTED alone is a failure.  A fork has none before it is told
+   something: most forks are short.  */
+bt_status bt__watch_prepare (const bt_dive *dive, bt_error *error);
 
 /* A new string with the room of those of the watch; NULL: no memory.  */
 bt__string *bt__watch_string (const bt_dive *dive);
