@@ -16,7 +16,8 @@ enum
 {
   NIELSEN_ROUNDS = 200,
   NIELSEN_LETTERS = 40, /* more letters left than this are not tried in pairs */
-  LENGTH_MAX = 1 << 20  /* a word this long counts as out of memory */
+  LENGTH_MAX = 1 << 14, /* letters: a word this long is none that anybody asks for */
+  WORK_MAX = 300000000  /* letters looked at: a group that takes more is not simplified */
 };
 
 /* ---- Words that grow ---- */
@@ -107,6 +108,7 @@ typedef struct job
   uint8_t *gone;   /* letter k - 1 was eliminated */
   uint32_t *total; /* occurrences of letter k - 1 in all relations */
   uint32_t *here;  /* in one relation; zeros between uses */
+  uint64_t work;   /* letters looked at */
   bt__letters spare;
 } job;
 
@@ -134,8 +136,9 @@ log_one (job *k, int32_t letter)
 static void
 apply (job *k, const entry *e)
 {
-  for (uint32_t r = 0; r < k->g->relations && !bt__ask (k->g->asker); r++)
+  for (uint32_t r = 0; r < k->g->relations && (r % 256 || !bt__ask (k->g->asker)); r++)
     {
+      k->work += k->g->relation[r].n;
       put_in (k->g, k->g->relation + r, e->letter, &e->word, &k->spare);
       reduce_cyclic (k->g->relation + r);
     }
@@ -169,8 +172,12 @@ count_all (job *k)
 {
   memset (k->total, 0, k->g->letters * sizeof *k->total);
   for (uint32_t r = 0; r < k->g->relations; r++)
-    for (uint32_t i = 0; i < k->g->relation[r].n; i++)
-      k->total[index_of (k->g->relation[r].at[i])]++;
+    {
+      k->work += k->g->relation[r].n;
+      for (uint32_t i = 0; i < k->g->relation[r].n; i++)
+        k->total[index_of (k->g->relation[r].at[i])]++;
+    }
+  k->g->failed |= k->work > WORK_MAX;
 }
 
 /* Find the cheapest relation *R and place *AT of a letter that occurs once in it.  */
@@ -397,7 +404,9 @@ bt__group_simplify (bt__group *g, bt_error *error)
   bt_status left = bt__stopped (g->asker, error);
   if (left != BT_OK || !g->failed)
     return left;
-  return bt__fail (error, BT_ERR_LIMIT, "no memory for the words of %u letters",
+  return bt__fail (error, BT_ERR_LIMIT,
+                   "the %u letters of this world have words too long, or too many, to tell "
+                   "classes by",
                    (unsigned)g->letters);
 }
 

@@ -150,6 +150,13 @@
   (enter! (among-frames 10))
   (check-pressed 'homotopy-class (lambda () (homotopy-class)) (free-length)))
 
+(define-scenario too-many-members
+  "Where members are too many to tell classes by, that is said in good time."
+  (enter! (among-frames 20))
+  (let ((begun (cpu-seconds)))
+    (expect (homotopy-class) raises limit)
+    (expect (- (cpu-seconds) begun) is (below 20))))
+
 (define-scenario entering
   "A world that is refused its building leaves the dive that was."
   (enter-with! 40)
