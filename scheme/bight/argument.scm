@@ -92,19 +92,33 @@ which may be `refused'."
         (car texts)
         (string-append (string-join (drop-right texts 1) ", ") " or " (last texts)))))
 
-(define (suggestion word words)
-  (let ((near (nearest word words)))
-    (if near
-        (string-append "; did you mean `" (word->string near) "'?")
-        "")))
+;; A value that is written as another kind of value than the one that is taken: a name as a string, a file
+;; without its quotes, a number between quotes.
+(define (spelt-otherwise value)
+  (cond ((string? value) (cons (string->symbol value)
+                               (let ((n (string->number value))) (if n (list n) '()))))
+        ((symbol? value) (list (symbol->string value)))
+        ((keyword? value) (list (keyword->symbol value)))
+        (else '())))
+
+(define (as-typed value)
+  (if (symbol? value) (simple-format #f "'~a" value) (simple-format #f "~s" value)))
+
+(define (other-spelling type value)
+  ;; "; did you mean 'line?", where TYPE takes VALUE written otherwise.
+  (let ((meant (find (lambda (other) (accepts? type other)) (spelt-otherwise value))))
+    (cond (meant (string-append "; did you mean " (as-typed (abbreviate meant)) "?"))
+          ((string? value) (did-you-mean value (argument-type-words type)))
+          (else ""))))
 
 (define (refuse proc argument type value)
   (let ((words (argument-type-words type)))
-    (if (and (pair? words) (symbol? value))
+    (if (and (pair? words) (symbol? value)
+             (or (memq (argument-type-name type) '(one-of or-false overlay)) (nearest value words)))
         (bight-raise 'name proc "~a must be ~a, not `~a'~a"
-                     argument (alternatives->string words) value (suggestion value words))
-        (bight-raise 'domain proc "~a must be ~a, not ~s"
-                     argument (argument-type-sentence type) value))))
+                     argument (alternatives->string words) value (did-you-mean value words))
+        (bight-raise 'domain proc "~a must be ~a, not ~s~a"
+                     argument (argument-type-sentence type) value (other-spelling type value)))))
 
 (define (check-argument proc argument type value)
   "Return the canonical form of VALUE, given to the procedure PROC as ARGUMENT (both symbols), or raise

@@ -129,6 +129,8 @@ files."
              ((module-ref (resolve-interface '(bight world-outside)) 'read-world-outside) proc text)))
         ((world-file-named (if (string-suffix? ".scm" text) (string-drop-right text 4) text))
          => (lambda (file) (load-world proc file)))
+        ((nearest text (worlds))
+         => (lambda (near) (bight-raise 'io proc "there is no file ~s; did you mean '~a?" text near)))
         (else (bight-raise 'io proc "there is no file ~s; known worlds are ~a" text
                            (words->string (worlds))))))
 

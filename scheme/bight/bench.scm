@@ -356,7 +356,8 @@
         (for-each check-name names)
         (when (and old (not (file-exists? old))) (bad "there is no ~a to compare with" old))
         (when (and (pair? passed) (not (= 1 (length names))))
-          (bad "there is no option ~a, unless one bench is named that has it" (car passed)))
+          (bad "there is no option ~a, unless one bench is named that has it~a" (car passed)
+               (did-you-mean (car passed) (append ours flags '("--data")))))
         (cond ((assoc-ref options "--list") (list-benches))
               (old (compare old files names options passed folder))
               (else

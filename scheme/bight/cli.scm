@@ -138,7 +138,7 @@ begins with FILE and the line."
 
 (define (run-script file arguments)
   (unless (file-exists? file)
-    (bad-usage "there is no file ~s~a" file (meant file command-names)))
+    (bad-usage "there is no file ~s~a" file ((from (bight meant) file-meant) file)))
   (when (file-is-directory? file)
     (bad-usage "~s is a folder, not a script" file))
   (set-program-arguments (cons file arguments))
@@ -190,7 +190,7 @@ begins with FILE and the line."
             ((assoc-ref known (car rest)) (bad-usage "~a: ~a needs a value after it" name (car rest)))
             ((member (car rest) names) (loop (cdr rest) others (acons (car rest) #t options)))
             ((and (string-prefix? "-" (car rest)) (> (string-length (car rest)) 1))
-             (bad-usage "~a has no option ~a~a" name (car rest) (meant (car rest) names)))
+             (bad-usage "~a has no option ~a~a" name (car rest) (did-you-mean (without-value (car rest)) names)))
             (else (loop (cdr rest) (cons (car rest) others) options))))))
 
 (define (split-option argument known)
@@ -266,9 +266,11 @@ begins with FILE and the line."
 ;;; bight replay.
 
 (define (run-replay arguments)
-  (unless (= 1 (length arguments))
-    (bad-usage "replay: name one recording, as in bight replay FILE"))
-  (if ((from (bight recording) replay-file) (car arguments)) 0 1))
+  (call-with-values (lambda () (split-arguments "replay" arguments))
+    (lambda (files options)
+      (unless (= 1 (length files))
+        (bad-usage "replay: name one recording, as in bight replay FILE"))
+      (if ((from (bight recording) replay-file) (car files)) 0 1))))
 
 
 ;;; The commands: one entry each, of which all help, the manual page and the options known are made.
@@ -363,6 +365,10 @@ begins with FILE and the line."
 (define command-names
   (map command-name (filter command-run commands)))
 
+;; What may be the first word, to name the one that was meant.
+(define first-words
+  (append (delete "-" command-names) '("--listen")))
+
 (define (command-called word)
   ;; The command that WORD names, or #f.
   (find (lambda (command) (and (command-run command) (string=? word (command-name command))))
@@ -381,7 +387,7 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
         ((string=? (car arguments) "all") (for-each print-help commands))
         ((command-called (car arguments)) => print-help)
         (else (bad-usage "there is no command ~a~a" (car arguments)
-                         (meant (car arguments) command-names))))
+                         (did-you-mean (car arguments) command-names))))
   0)
 
 (define (help-wanted? arguments)
@@ -395,9 +401,9 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
       (print-usage (list (command-name command)))
       ((command-run command) arguments)))
 
-(define (meant word words)
-  (let ((near (nearest word words)))
-    (if near (string-append "; did you mean `" near "'?") "")))
+(define (without-value option)
+  ;; The --NAME of --NAME=VALUE.
+  (car (string-split option #\=)))
 
 (define (file-like? word)
   (or (string-index word #\/)
@@ -429,11 +435,12 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
         ((string=? "-h" (car arguments)) (print-usage (cdr arguments)))
         ((command-called (car arguments)) => (lambda (command) (do-command command (cdr arguments))))
         ((string-prefix? "-" (car arguments))
-         (bad-usage "there is no option ~a~a" (car arguments) (meant (car arguments) command-names)))
+         (bad-usage "there is no option ~a~a" (car arguments) (did-you-mean (without-value (car arguments)) first-words)))
         ((file-like? (car arguments)) (run-script (car arguments) (cdr arguments)))
         (else
          (bad-usage "there is no command and no file ~a~a" (car arguments)
-                    (meant (car arguments) command-names)))))
+                    (let ((command (did-you-mean (car arguments) first-words)))
+                      (if (string-null? command) ((from (bight meant) file-meant) (car arguments)) command))))))
 
 (define (lost-output)
   ;; Why what was written to the standard output cannot go there, a string, or #f.  What is left of it is

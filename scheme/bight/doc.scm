@@ -12,6 +12,7 @@
   #:use-module (bight view)
   #:use-module (srfi srfi-1)
   #:export (help-on
+            usage-of
             docstring-of
             language-ref)
   #:replace (help))
@@ -71,6 +72,15 @@
         ((procedure? value) (list (or (verb-usage value) (plain-usage name value))))
         ((macro? value) (macro-usages name value))
         (else (list (simple-format #f "~a = ~a" name (brief value))))))
+
+(define (usage-of name)
+  "Return how NAME, a symbol, is used, in a line, or #f if the language does not tell."
+  (let* ((value (language-ref name #f))
+         (doc (and value (docstring-of value)))
+         (lines (usage-lines name value doc)))
+    (cond ((pair? lines) (string-join lines " or "))
+          ((and doc (string-prefix? "(" doc)) (car (string-split doc #\:)))
+          (else #f))))
 
 (define (argument-lines value)
   (let ((arguments (verb-arguments value)))

@@ -22,6 +22,7 @@
             raise-engine-error
             unknown-name
             nearest
+            did-you-mean
             word->string
             words->string
             abbreviate
@@ -105,6 +106,19 @@ with ~a, ~s and ~~ filled in from ARGS, which are abbreviated there and kept who
     (display text port)))
 
 (set-exception-printer! 'bight-error print-bight-error)
+
+
+;; A name that nobody defined: what was meant is looked up only then.
+(define (print-unbound port key args default-printer)
+  (let ((name (and (pair? (caddr args)) (car (caddr args)))))
+    (apply simple-format port (cadr args) (caddr args))
+    (when (symbol? name)
+      (display (or (false-if-exception
+                    ((module-ref (resolve-interface '(bight meant)) 'unbound-hint) name))
+                   "")
+               port))))
+
+(set-exception-printer! 'unbound-variable print-unbound)
 
 
 ;;; Showing what was given, however large, deep or circular.
@@ -209,11 +223,12 @@ huge data are cut."
              (best (min (+ 1 (vector-ref above j))
                         (+ 1 (vector-ref row (- j 1)))
                         (+ (if same? 0 1) (vector-ref above (- j 1))))))
-        (vector-set! row j (if swap? (min best (+ 1 (vector-ref two-above (- j 2)))) best))))))
+        (vector-set! row j (if swap? (min best (+ 9/10 (vector-ref two-above (- j 2)))) best))))))
 
 (define (edit-distance a b)
   ;; Insertions, deletions, substitutions and swaps of neighbours (optimal string alignment).  The row
-  ;; above the first is farther than anything: no swap begins there.
+  ;; above the first is farther than anything: no swap begins there.  A swap keeps all letters, so it is a
+  ;; little nearer than a wrong one: `piel' is pile rather than pier.
   (let* ((width (+ 1 (string-length b)))
          (nowhere (make-vector width (+ width (string-length a)))))
     (let loop ((i 0) (above (list->vector (iota width))) (two-above nowhere))
@@ -224,24 +239,40 @@ huge data are cut."
                           (if (zero? i) #\nul (string-ref a (- i 1))) b)
                 above)))))
 
-(define (word-distance a b)
-  (let ((a (string-downcase a)) (b (string-downcase b)))
-    (cond ((or (> (string-length a) longest-word) (> (string-length b) longest-word)) longest-word)
-          ((and (>= (string-length a) 3) (string-prefix? a b)) 1)
+;; What marks a word as an option, or as a keyword, is not part of its spelling.
+(define marks (string->char-set "-#:"))
+
+(define (letters-of word)
+  (let ((letters (string-trim word marks)))
+    (string-downcase (if (string-null? letters) word letters))))
+
+(define (word-distance a b limit)
+  ;; How far B is from A, both as `letters-of' has them; any number above LIMIT when it is farther.
+  (let ((n (string-length a)) (m (string-length b)))
+    (cond ((or (> n longest-word) (> m longest-word)) longest-word)
+          ((and (>= n 3) (string-prefix? a b)) 1)
+          ((> (abs (- n m)) limit) longest-word)
           (else (edit-distance a b)))))
 
 (define (nearest word candidates)
   "Return the member of CANDIDATES spelt most like WORD, or #f when none is near.  Words are symbols,
 keywords or strings."
   (let* ((text (word->string word))
+         (letters (letters-of text))
          (limit (max 1 (quotient (+ 1 (string-length text)) 3))))
     (let loop ((rest candidates) (best #f) (distance (+ limit 1)))
       (if (null? rest)
           best
-          (let ((d (word-distance text (word->string (car rest)))))
+          (let ((d (word-distance letters (letters-of (word->string (car rest))) limit)))
             (if (< d distance)
                 (loop (cdr rest) (car rest) d)
                 (loop (cdr rest) best distance)))))))
+
+(define (did-you-mean word candidates)
+  "Return \"; did you mean `CANDIDATE'?\" about the member of CANDIDATES spelt most like WORD, or the empty
+string when none is near."
+  (let ((near (nearest word candidates)))
+    (if near (string-append "; did you mean `" (word->string near) "'?") "")))
 
 ;; So much of a list that the hint behind it is not cut off at the end of a line.
 (define list-shown 60)
@@ -268,5 +299,5 @@ CANDIDATES, the nearest first.  NOUN, a string, may be left out."
      (string-append what " has no " (if noun (string-append noun " ") "")
                     "`" (word->string given) "'; it has "
                     (if (null? ordered) "none" (list-names ordered))
-                    (if near (string-append "; did you mean `" (word->string near) "'?") ""))
+                    (did-you-mean given candidates))
      (list given))))

@@ -39,6 +39,7 @@
             source-location
             location->string
             exception->line
+            syntax-error->line
             exception->placed-line
             raised-at
             raised-kind
@@ -123,10 +124,19 @@ expectations do, or where it was raised, or #f."
       ((failed-expectation) (second arguments))
       (else (place-of exception)))))
 
+(define (usage-of-macro form)
+  ;; How the macro that FORM uses is used, or #f.
+  (and (pair? form) (symbol? (car form))
+       (false-if-exception ((@ (bight doc) usage-of) (car form)))))
+
 (define (syntax-error->line who what where form subform)
-  (string-append (if who (simple-format #f "~a: " who) "")
-                 what
-                 (if form (string-append " in " (brief form)) "")))
+  (let ((usage (and (string-prefix? "source expression failed to match" what) (usage-of-macro form))))
+    (if usage
+        (simple-format #f "~a: it is used as ~a, not ~a" (car form) usage (code->string (abbreviate form)))
+        (string-append (if who (simple-format #f "~a: " who) "")
+                       what
+                       (if subform (string-append " " (brief subform)) "")
+                       (if form (string-append " in " (brief form)) "")))))
 
 (define (exception->line exception)
   "Return what EXCEPTION says on one line: PROCEDURE: MESSAGE."
@@ -277,7 +287,10 @@ REMARKS are lines that show more of it; #f leaves them to the trial that is told
 
 (define (judge-raise ask kind)
   (define (expected)
-    (if kind (simple-format #f "a ~a error" kind) "an error"))
+    (if kind
+        (simple-format #f "a ~a error~a" kind
+                       (if (memq kind bight-error-kinds) "" (did-you-mean kind bight-error-kinds)))
+        "an error"))
   (attempt ask
            (lambda (value) (cons (expected) (brief value)))
            (lambda (exception)
@@ -319,7 +332,17 @@ REMARKS are lines that show more of it; #f leaves them to the trial that is told
       ((e)
        #'(judge-truth (lambda () e)))
       (_ (syntax-violation
-          #f "say (expect E), (expect E => V), (expect E is P) or (expect E raises KIND), not" stx)))))
+          #f (string-append "say (expect E), (expect E => V), (expect E is P) or (expect E raises KIND)"
+                            (marker-meant clause) ", not")
+          stx))))
+
+  (define (marker-meant clause)
+    ;; Which marker a misspelt one is near to.
+    (syntax-case clause ()
+      ((e word . _)
+       (identifier? #'word)
+       (did-you-mean (syntax->datum #'word) '(=> is raises)))
+      (_ ""))))
 
 (define-syntax claim
   (lambda (stx)

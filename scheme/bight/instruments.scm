@@ -8,6 +8,7 @@
 (define-module (bight instruments)
   #:use-module (bight dive)
   #:use-module (bight engine)
+  #:use-module ((bight argument) #:select (choice))
   #:use-module (bight errors)
   #:use-module ((bight query) #:select (places-of))
   #:use-module (bight verb)
@@ -75,9 +76,7 @@ asked of another model, of another tether or later, how far that lies from what 
 
 (define names (%fault-names))
 
-(define-argument-type (fault value)
-  "one of compass, depth, speed, altitude, tension, telemetry or thruster"
-  (if (assq value names) value refused))
+(define type:fault (choice (map car names)))
 
 (define degree (/ (acos -1) 180))
 

@@ -34,9 +34,8 @@ value #t."
            (when (null? (cdr rest)) (bad-usage "~a: ~a needs a value after it" command (car rest)))
            (loop (cddr rest) plain (acons (car rest) (cadr rest) given)))
           ((string-prefix? "-" (car rest))
-           (let ((near (nearest (car rest) (append flags options))))
-             (bad-usage "~a has no option ~a~a" command (car rest)
-                        (if near (string-append "; did you mean `" near "'?") ""))))
+           (bad-usage "~a has no option ~a~a" command (car rest)
+                      (did-you-mean (car (string-split (car rest) #\=)) (append flags options))))
           (else (loop (cdr rest) (cons (car rest) plain) given)))))
 
 (define (option given name default)

@@ -67,11 +67,11 @@
   "Raise the error about the clause HEAD, which WHERE (lesson, task, pilot) does not have."
   (let* ((all (map car (known-clauses where)))
          (near (nearest head all)))
-    (bight-raise 'name 'define-lesson "~aa ~a has no clause `~a'; it has ~a~a" (place location) where head
-                 (words->string all)
+    (bight-raise 'name 'define-lesson "~aa ~a has no clause `~a'; ~ait has ~a" (place location) where head
                  (if near
-                     (string-append "; did you mean " (car (assq-ref (known-clauses where) near)) "?")
-                     ""))))
+                     (simple-format #f "did you mean ~a?  " (car (assq-ref (known-clauses where) near)))
+                     "")
+                 (words->string all))))
 
 (define (malformed-clause where form location)
   "Raise the error about FORM, a clause with a known head that is written wrong."

@@ -212,14 +212,18 @@ samples, for `plot'."
                   (list (cons "" value))
                   (map (lambda (curve) (cons (object->string (car curve) display) (cdr curve))) value))))
 
-(define-argument-type (plotted value)
-  "what `sample!' returned, tension, depth or curvature (along the tether), the CSV file of a bench, or rows
+(define type:plotted
+  (make-argument-type
+   'plotted
+   (lambda (value)
+     (cond ((samples-record? value) value)
+           ((memq value profiles) value)
+           ((and (string? value) (string-suffix? ".csv" value)) value)
+           ((and (list? value) (pair? value) (or (every row? value) (every curve? value))) value)
+           (else refused)))
+   "what `sample!' returned, tension, depth or curvature (along the tether), the CSV file of a bench, or rows
 (X Y), or a list of (NAME ROW ...)"
-  (cond ((samples-record? value) value)
-        ((memq value profiles) value)
-        ((and (string? value) (string-suffix? ".csv" value)) value)
-        ((and (list? value) (pair? value) (or (every row? value) (every curve? value))) value)
-        (else refused)))
+   profiles))
 
 (define (chart-of value tether)
   (cond ((samples-record? value) (chart-of-samples value))

@@ -8,7 +8,9 @@
 
 (define-module (bight repl)
   #:use-module ((bight dive) #:select (served?))
+  #:use-module (bight comma)
   #:use-module (bight errors)
+  #:use-module ((bight expect) #:select (syntax-error->line))
   #:use-module ((bight outlet) #:select (behind))
   #:use-module ((bight folders) #:select (ensure-folder! state-folder))
   #:use-module (bight verb)
@@ -17,8 +19,7 @@
   #:use-module (rnrs bytevectors)
   #:use-module (srfi srfi-1)
   #:use-module ((system foreign) #:select (string->pointer pointer->bytevector pointer-address sizeof))
-  #:use-module ((system repl command) #:select (define-meta-command))
-  #:use-module ((system repl common) #:select (repl-default-option-set! repl-eval))
+  #:use-module ((system repl common) #:select (repl-default-option-set!))
   #:use-module ((system repl repl) #:select (start-repl))
   #:export (run-prompt
             set-manners!
@@ -126,16 +127,6 @@ parts and of worlds; keywords after #:; Guile's own names if there are none of t
 
 ;;; The loop.
 
-;; Guile's own knows no macros.
-(define-meta-command ((describe #f) repl (form))
-  "describe NAME
-Show the documentation of NAME; (help NAME) tells how it is used too."
-  (let* ((datum (syntax->datum form))
-         (value (if (symbol? datum) (module-ref (current-module) datum) (repl-eval repl form)))
-         (docstring-of (module-ref (resolve-interface '(bight doc)) 'docstring-of)))
-    (display (or (docstring-of value) "There is no documentation."))
-    (newline)))
-
 (define (call-with-interrupts thunk)
   ;; Call THUNK with ^C raising an error, which ends what is running and returns to the prompt.
   (let ((old #f))
@@ -152,15 +143,6 @@ Show the documentation of NAME; (help NAME) tells how it is used too."
                         (lambda (port key args default-printer)
                           (display (cadr args) port)))
 
-;; A name that nobody defined may be a name of the language, misspelt.
-(set-exception-printer! 'unbound-variable
-                        (lambda (port key args default-printer)
-                          (let* ((name (and (pair? (caddr args)) (car (caddr args))))
-                                 (near (and (symbol? name) (nearest name (language-names)))))
-                            (apply simple-format port (cadr args) (caddr args))
-                            (when near
-                              (simple-format port "; did you mean `~a'?" near)))))
-
 (define (prompt-of repl)
   ;; Editors look for Guile's own.
   (if (served?) "scheme@(guile-user)> " "bight> "))
@@ -169,7 +151,13 @@ Show the documentation of NAME; (help NAME) tells how it is used too."
   (repl-default-option-set! 'prompt prompt-of)
   (repl-default-option-set! 'on-error 'report)
   (repl-default-option-set! 'value-history #f) ; a picture must begin in the first column
-  (repl-default-option-set! 'warning-level 0))
+  (repl-default-option-set! 'warning-level 0)
+  (set-exception-printer! 'syntax-error print-syntax-error)
+  (answer-unknown-commands!))
+
+(define (print-syntax-error port key args default-printer)
+  ;; In one line, and without the place in what was typed just now.
+  (display (apply syntax-error->line args) port))
 
 (define (enter-language!)
   (set-current-module (resolve-module '(guile-user)))

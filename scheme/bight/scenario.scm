@@ -235,6 +235,8 @@ combination of the values, the last variable varying fastest."
     (syntax-case stx ()
       ((_ head sentence #:for (row ...) form ...) (string? (syntax->datum #'sentence))
        (expand-scenario stx #'head #'sentence #'(row ...) #'(form ...)))
+      ((_ head sentence word . _) (and (string? (syntax->datum #'sentence)) (keyword? (syntax->datum #'word)))
+       (syntax-violation #f "after the sentence come #:for ((VARIABLE VALUE ...) ...) or forms, not" stx #'word))
       ((_ head sentence form ...) (string? (syntax->datum #'sentence))
        (expand-scenario stx #'head #'sentence '() #'(form ...)))
       (_ (syntax-violation #f "say (define-scenario NAME \"sentence\" FORM ...), not" stx)))))

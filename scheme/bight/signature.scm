@@ -125,8 +125,15 @@ of pairs (NAME . TYPE), REST such a pair or #f."
          (one? (memq name ((current-subject-lister) (signature-name s) (signature-subject s)))))
     (cond (one? (or (> n (signature-least s)) (not first) (not (accepts? (cdr first) name))))
           ((and most (> n most)) #t)
+          ((and first (meant-for? first name)) #f)
           (first (not (accepts? (cdr first) name)))
           (else #t))))
+
+(define (meant-for? parameter name)
+  ;; Is NAME, a symbol that PARAMETER does not take, a slip for a word that it takes?
+  (and (not (accepts? (cdr parameter) name))
+       (nearest name (argument-type-words (cdr parameter)))
+       #t))
 
 (define (usage-error s n)
   (bight-raise 'domain (signature-name s) "it is used as ~a; ~a given" (signature->string s)

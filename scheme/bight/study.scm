@@ -63,8 +63,9 @@
                             (simple-format #f "did you mean ~a?" (car (assq-ref clauses near)))
                             (string-append "it has " (words->string (map car clauses))))))
           (else
-           (bight-raise 'def 'define-study "~aa clause of a study is written (NAME ...), not ~s"
-                        (place location) form)))))
+           (bight-raise 'def 'define-study "~aa clause of a study is written (NAME ...), not ~s~a"
+                        (place location) form
+                        (if (keyword? form) "; #:for ((VARIABLE VALUE ...) ...) stands before them all" ""))))))
 
 (define (draw-of module-name head variable location thunk)
   "Return the draw for VARIABLE whose one value is (HEAD ...): of that kind if HEAD is a draw, else of the

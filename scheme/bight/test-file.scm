@@ -53,7 +53,8 @@
 (define (files-at path)
   "Return the test files that PATH stands for: itself, or all *.scm of a folder, sorted."
   (cond ((not (file-exists? path))
-         (bight-raise 'io 'run-tests "there is no file or folder ~s" path))
+         (bight-raise 'io 'run-tests "there is no file or folder ~s~a" path
+                      ((@ (bight meant) file-meant) path)))
         ((file-is-directory? path)
          (map (lambda (name) (string-append (string-trim-right path #\/) "/" name))
               (or (scandir path scheme-file? string<?) '())))

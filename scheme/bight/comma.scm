@@ -1,0 +1,68 @@
+;;; (bight comma) --- commands of the prompt that begin with a comma.
+;;;
+;;; They are Guile's own, but for those that would say too little of bight.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight comma)
+  #:use-module (bight errors)
+  #:use-module ((ice-9 rdelim) #:select (read-line))
+  #:use-module (srfi srfi-1)
+  #:use-module ((system repl command) #:select (define-meta-command))
+  #:use-module ((system repl common) #:select (repl-eval))
+  #:export (answer-unknown-commands!))
+
+;; Guile's own knows no macros.
+(define-meta-command ((describe #f) repl (form))
+  "describe NAME
+Show the documentation of NAME; (help NAME) tells how it is used too."
+  (let* ((datum (syntax->datum form))
+         (value (if (symbol? datum) (module-ref (current-module) datum) (repl-eval repl form)))
+         (docstring-of (module-ref (resolve-interface '(bight doc)) 'docstring-of)))
+    (display (or (docstring-of value) "There is no documentation."))
+    (newline)))
+
+
+;;; A command that is misspelt: Guile's own reader of commands says no more than that there is none.
+
+(define guiles (resolve-module '(system repl command)))
+
+(define (command-names)
+  (concatenate (append-map cdr (module-ref guiles '*command-table*))))
+
+(define (known? word)
+  ((module-ref guiles 'lookup-command) (string->symbol word)))
+
+(define (ends-word? c)
+  (or (eof-object? c) (char-whitespace? c) (memv c '(#\( #\) #\"))))
+
+(define (next-word)
+  ;; The word that follows on the input, where it stays to be read.
+  (let loop ((chars '()))
+    (if (ends-word? (peek-char))
+        (let ((word (reverse-list->string chars)))
+          (unread-string word (current-input-port))
+          word)
+        (loop (cons (read-char) chars)))))
+
+(define (answer-unknown word)
+  (let ((near (nearest word (command-names))))
+    (read-line)
+    (simple-format #t "There is no command ,~a; ~a,help lists them.~%" word
+                   (if near (simple-format #f "did you mean ,~a?  " near) ""))))
+
+(define (reader-of-commands own)
+  (lambda (repl)
+    (let ((word (next-word)))
+      (if (or (string-null? word) (known? word))
+          (own repl)
+          (answer-unknown word)))))
+
+(define answer-unknown-commands!
+  (let ((own #f))
+    (lambda ()
+      "From now on name the command that was meant when one after a comma is misspelt."
+      (unless own
+        (let ((variable (module-variable guiles 'meta-command)))
+          (set! own (variable-ref variable))
+          (variable-set! variable (reader-of-commands own)))))))

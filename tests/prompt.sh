@@ -1,0 +1,52 @@
+# The prompt, as a person at a terminal meets it: what it says of slips and of what happens, and what Tab gives.
+# Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+. "$top_srcdir/tests/tap.sh"
+. "$top_srcdir/tests/tmux.sh"
+
+# prompts N: the screen shows N prompts or more.
+prompts ()
+{
+  [ "$(screen | grep -c '^bight>')" -ge "$1" ]
+}
+
+# typed LINE: type LINE at the prompt, and wait for the next prompt.
+typed ()
+{
+  typed_before=$(screen | grep -c '^bight>')
+  keys -l -- "$1"
+  keys Enter
+  await prompts $((typed_before + 1))
+}
+
+# told NAME PATTERN COUNT: the screen has so many lines with PATTERN.
+told ()
+{
+  told_found=$(screen | grep -c -- "$2")
+  [ "$told_found" -eq "$3" ]
+  result $? "$1"
+  [ "$told_found" -eq "$3" ] || diag "$told_found lines with: $2" "$(screen | grep -v '^$' | tail -30)"
+}
+
+# at_prompt SETTING...: a prompt in a terminal of its own.
+at_prompt ()
+{
+  begin 100 190 XDG_STATE_HOME="$scratch/state" "$@"
+  keys 'clear; bight' Enter
+  await prompts 1
+}
+
+# ---- Slips ----
+
+at_prompt
+result $? 'there is a prompt'
+typed 'enter! pile'
+told 'a name without its quote' "pile is a world: did you mean 'pile?" 1
+typed ',hlep'
+told 'a command after a comma' 'There is no command ,hlep; did you mean ,help?' 1
+typed ',time (+ 1 1)'
+told 'a command that is known is done' 'real time' 1
+typed "(sample! 'tension)"
+told 'a macro says how it is used' 'sample!: it is used as (sample! ' 1
+
+finish
