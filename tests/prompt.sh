@@ -49,4 +49,20 @@ told 'a command that is known is done' 'real time' 1
 typed "(sample! 'tension)"
 told 'a macro says how it is used' 'sample!: it is used as (sample! ' 1
 
+# ---- What happens is told, once ----
+
+typed "(enter! 'open-water)"
+typed "(define (go) (place! (vec+ (rov-position) '(0 0 -1)) #:fresh #t) (move! (vec+ (rov-position) '(0 0 1))))"
+typed '(begin (go) (run 5))'
+told 'run tells what happens' '^ *[0-9.]* s  [a-z]* arrived$' 1
+typed '(begin (go) (run-until arrived? #:at-most 5))'
+told 'run-until tells it alike' '^ *[0-9.]* s  [a-z]* arrived$' 2
+typed '(begin (go) (settle! #:at-most 5))'
+told 'settle! too' '^ *[0-9.]* s  [a-z]* arrived$' 3
+typed '(what-if (go) (run 5) (run 1) (run-until (lambda () #f) #:at-most 1))'
+told 'what a fork does is told as such' '^ *[0-9.]* s  what if: [a-z]* arrived$' 1
+typed '(run 3)'
+told 'and not as if it had happened' '^ *[0-9.]* s  [a-z]* arrived$' 3
+typed '(begin (go) (home-trial) (run 5))'
+told 'a trial of a verb tells nothing' 'what if: ' 1
 finish

@@ -30,6 +30,7 @@
             house-dive set-house-dive!
             guest-dive
             dive-world
+            dive-fork?
             running-dive
             check-not-running
             dive-tasks set-dive-tasks!
@@ -40,10 +41,11 @@
             type:dive))
 
 (define-record <dive>
-  (make-dive engine world tasks watchers past recorder)
+  (make-dive engine world fork? tasks watchers past recorder)
   %dive-record?
   (engine engine-of)
   (world dive-world)
+  (fork? dive-fork?)                    ; true if it is a copy that goes its own way
   (tasks dive-tasks set-dive-tasks!)
   (watchers dive-watchers set-dive-watchers!)
   (past dive-past set-dive-past!)       ; (bight past), or #f: nothing is remembered
@@ -143,11 +145,11 @@ dive is beside of."
 
 (define (begin-dive engine world)
   "Return a dive in WORLD, of which ENGINE is the handle."
-  (make-dive engine world '() '() (new-past engine '()) #f))
+  (make-dive engine world #f '() '() (new-past engine '()) #f))
 
 (define (guest-dive dive)
   "Return a dive that is the live DIVE for another thread.  It remembers nothing of itself."
-  (make-dive (%share-live (engine-of dive)) (dive-world dive) '() '() #f #f))
+  (make-dive (%share-live (engine-of dive)) (dive-world dive) #f '() '() #f #f))
 
 (define (call-with-dive dive thunk)
   "Call THUNK with DIVE as the current dive, and return what it returns."
@@ -162,6 +164,7 @@ dive is beside of."
   "Return a copy of DIVE that goes its own way, with copies of what runs between its steps."
   (make-dive (%fork-dive (engine-of dive))
              (dive-world dive)
+             #t
              (dive-tasks dive)
              '()
              (dive-past dive)

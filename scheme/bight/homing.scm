@@ -14,6 +14,7 @@
   #:use-module (bight dive)
   #:use-module (bight engine)
   #:use-module (bight errors)
+  #:use-module ((bight progress) #:select (without-telling))
   #:use-module (bight query)
   #:use-module (bight task)
   #:use-module (bight time)
@@ -181,14 +182,19 @@
 
 (define (try plan tether vehicle speed pull)
   ;; What PLAN comes to on a fork: (HOME? SECONDS LEFT AT).
-  (what-if
-   (let ((start (now)) (task (set-out! plan tether vehicle speed pull))
-         (most (+ 120 (/ (* 3 (tether-length tether)) speed))))
-     (let loop ()
-       (when (and (< (- (now) start) most) (memq task (dive-tasks (this-dive 'home-trial))))
-         (run 1)
-         (loop)))
-     (list (home? tether vehicle) (- (now) start) (tether-length tether) (rov-position vehicle)))))
+  (untold-fork
+   (lambda ()
+     (let ((start (now)) (task (set-out! plan tether vehicle speed pull))
+           (most (+ 120 (/ (* 3 (tether-length tether)) speed))))
+       (let loop ()
+         (when (and (< (- (now) start) most) (memq task (dive-tasks (this-dive 'home-trial))))
+           (run 1)
+           (loop)))
+       (list (home? tether vehicle) (- (now) start) (tether-length tether) (rov-position vehicle))))))
+
+(define (untold-fork thunk)
+  ;; What THUNK returns on a fork of the verb's own: what happens there is no news.
+  (without-telling (lambda () (what-if-thunk thunk))))
 
 (define (first-home tether vehicle speed pull)
   ;; (PLAN HOME? SECONDS LEFT AT) of the first plan that arrives, or of the one that came nearest.
@@ -238,12 +244,13 @@ when none arrives."
 
 (define (unwind-flight tether vehicle speed)
   ;; Why the loop, flown on a fork, does not free TETHER: a sentence, or #f.
-  (what-if
-   (fly-along! vehicle (unwind-plan tether) #:speed speed)
-   (let ((arrived (patient-flight! vehicle)))
-     (cond ((is-freed? tether) #f)
-           (arrived "flown on a fork, it does not free the tether")
-           (else "flown on a fork, the vehicle gets stuck")))))
+  (untold-fork
+   (lambda ()
+     (fly-along! vehicle (unwind-plan tether) #:speed speed)
+     (let ((arrived (patient-flight! vehicle)))
+       (cond ((is-freed? tether) #f)
+             (arrived "flown on a fork, it does not free the tether")
+             (else "flown on a fork, the vehicle gets stuck"))))))
 
 (define (with-outcome said why-not)
   (map (lambda (entry)

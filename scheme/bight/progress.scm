@@ -6,7 +6,7 @@
   #:use-module ((bight engine) #:select (%set-reporter!))
   #:use-module ((bight outlet) #:select (control watched?))
   #:use-module ((srfi srfi-1) #:select (first second third))
-  #:export (with-progress with-telling tell-events))
+  #:export (with-progress with-telling without-telling tell-events))
 
 (define patience 1.0)                   ; seconds of waiting before a bar is shown
 (define width 40)
@@ -61,23 +61,32 @@
          (let ((stack (module-variable module '*repl-stack*)))
            (and stack (pair? (or (fluid-ref (variable-ref stack)) '())))))))
 
-(define (event->string event)
-  ;; "   12.35 s  line touched leg-a1"
-  (simple-format #f "~a s  ~a ~a"
+(define (event->string event mark)
+  ;; "   12.35 s  line touched leg-a1", MARK before the line.
+  (simple-format #f "~a s  ~a~a ~a"
                  (string-pad (number->string (/ (round (* 100 (second event))) 100)) 10)
+                 mark
                  (or (third event) "")
                  (string-join (map symbol->string (cons (first event) (cdddr event))))))
 
-(define (tell-events port events)
-  "Tell PORT what happened: EVENTS, lists (KIND TIME SUBJECT OBJECT ...), a line each."
-  (for-each (lambda (event) (display (event->string event) port) (newline port)) events))
+(define* (tell-events port events #:optional (mark ""))
+  "Tell PORT what happened: EVENTS, lists (KIND TIME SUBJECT OBJECT ...), a line each, with MARK before what
+happened."
+  (for-each (lambda (event) (display (event->string event mark) port) (newline port)) events))
 
-(define (with-telling events work)
-  "Return what WORK, a thunk, returns.  Where a person types at a prompt, tell what happened meanwhile:
-what EVENTS, a procedure of the number of events to leave out, then returns."
-  (if (and (terminal) (at-prompt?))
-      (let* ((before (events #f)) (value (work)))
-        (tell-events (terminal) (events before))
+;; What is told by one verb is not told again by the verbs that it calls.
+(define telling? (make-parameter #t))
+
+(define (without-telling work)
+  "Return what WORK, a thunk, returns; of what happens meanwhile nothing is told: it is a trial of a verb's own."
+  (parameterize ((telling? #f)) (work)))
+
+(define (with-telling mark events work)
+  "Return what WORK, a thunk, returns.  Where a person types at a prompt, tell what happened meanwhile, MARK
+before it: what EVENTS, a procedure of the number of events to leave out, then returns."
+  (if (and (telling?) (terminal) (at-prompt?))
+      (let* ((before (events #f)) (value (without-telling work)))
+        (tell-events (terminal) (events before) mark)
         value)
       (work)))
 

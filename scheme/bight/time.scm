@@ -88,6 +88,17 @@
                     (report (+ done k))
                     (loop (+ done k)))))))))))
 
+(define (told proc work)
+  ;; What WORK, which lets time pass for the verb PROC, returns; at a prompt what happened is told, in a fork
+  ;; as what would happen.
+  (let* ((dive (this-dive proc)) (engine (engine-of dive)))
+    (if (piloting?)
+        (work)
+        (with-telling (if (dive-fork? dive) "what if: " "")
+                      (lambda (before)
+                        (if before (%events engine before) (%event-count engine)))
+                      work))))
+
 (define-verb (now)
   "Return the time of the dive, s."
   (%dive-time (this-engine 'now)))
@@ -102,20 +113,18 @@
 
 (define-verb (run (seconds duration))
   "Let SECONDS pass, in whole steps; the remainder is carried to the next `run'.  Return the time.  At a
-prompt it tells what happened meanwhile."
+prompt it tells what happened meanwhile, in a fork as what would happen; so do the others."
   (let ((engine (this-engine 'run)))
     (if (piloting?)
         (wait-steps 'run (/ seconds (%dive-time-step engine)))
         (begin
           (check-not-running 'run (this-dive 'run))
-          (with-telling (lambda (before)
-                          (if before (%events engine before) (%event-count engine)))
-            (lambda () (advance! 'run (%whole-steps! engine seconds))))))
+          (told 'run (lambda () (advance! 'run (%whole-steps! engine seconds))))))
     (now)))
 
 (define-verb (step!)
   "Let one step pass.  Return the time."
-  (advance! 'step! 1)
+  (told 'step! (lambda () (advance! 'step! 1)))
   (now))
 
 (define (steps-in engine seconds)
@@ -125,12 +134,14 @@ prompt it tells what happened meanwhile."
   "Let time pass until CONDITION, a procedure of no arguments, returns true, at most AT-MOST seconds.  It
 is asked before the first step and after each.  Return its value, or #f when it never came true."
   (let ((n (steps-in (this-engine 'run-until) at-most)))
-    (let loop ((i 0))
-      (or (condition)
-          (and (< i n)
-               (begin
-                 (advance! 'run-until 1)
-                 (loop (+ i 1))))))))
+    (told 'run-until
+          (lambda ()
+            (let loop ((i 0))
+              (or (condition)
+                  (and (< i n)
+                       (begin
+                         (advance! 'run-until 1)
+                         (loop (+ i 1))))))))))
 
 
 ;;; Settling.
@@ -155,6 +166,11 @@ Return #t when it came to rest."
   (let* ((engine (this-engine 'settle!))
          (second (steps-in engine 1))
          (most (steps-in engine at-most)))
+    (told 'settle! (lambda () (settle second most within)))))
+
+(define (settle second most within)
+  ;; SECOND and MOST are numbers of steps.
+  (let ((engine (this-engine 'settle!)))
     (with-progress most
       (lambda (report)
         (let loop ((left most) (before (shapes engine)))
