@@ -65,4 +65,65 @@ typed '(run 3)'
 told 'and not as if it had happened' '^ *[0-9.]* s  [a-z]* arrived$' 3
 typed '(begin (go) (home-trial) (run 5))'
 told 'a trial of a verb tells nothing' 'what if: ' 1
+
+# ---- Tab knows where it is ----
+
+# tab LINE PATTERN: type LINE and Tab, and wait until the screen shows PATTERN.
+tab ()
+{
+  keys C-e C-u
+  keys C-l
+  keys -l -- "$1"
+  keys Tab
+  see "$2"
+}
+
+# listed_before FIRST SECOND: the screen has a row with FIRST above the first with SECOND.
+listed_before ()
+{
+  screen | awk -v a="$1" -v b="$2" '$1 == a { seen = 1 } $1 == b { exit !seen } END { exit !seen }'
+}
+
+at_prompt
+typed "(enter! (extend 'pile (sphere (named far) (at 40 0 -5) (radius 1)) (sphere (named by) (at 0 -9 -4) (radius 1))))"
+tab "(winding '" ' far  *a sphere'
+result $? 'after (winding there are obstacles, with what they are'
+listed_before by far && listed_before p1 far
+result $? 'the nearest first'
+tab "(enter! '" ' pile  *One pile in a gentle current'
+result $? 'worlds come with their sentences'
+tab '(drive! #:' '#:yaw  *a number from -1 to 1'
+result $? 'keywords of this verb, with what they take'
+screen | grep -q '#:fresh'
+[ $? -ne 0 ]
+result $? 'and no other'
+tab '(pay-out! 3 #:' "(pay-out! .* #:rate"
+result $? 'a single choice is put in'
+tab "(world (tether (leng" '(world (tether (length'
+result $? 'fields of a part'
+tab "(world (tether (model " ' catenary-simplex$'
+result $? 'words of a field'
+tab '(run ' '^(run SECONDS)$'
+result $? 'where nothing can be completed, how the verb is called'
+keys C-e C-u
+keys -l '(define (double x)'
+keys Enter
+keys -l '(* 2 x))'
+keys Enter
+typed '(double 21)'
+told 'a form of several lines is indented' '^[.]* *   (\* 2 x))$' 1
+told 'and read' '^42$' 1
+keys C-r
+keys -l 'double 2'
+see 'reverse-i-search.*(double 21)'
+result $? 'the history is searched'
+keys C-a
+keys C-k
+
+# ---- A terminal that cannot do any of this ----
+
+at_prompt TERM=dumb
+typed '(+ 20 3)'
+told 'a dumb terminal has a prompt' '^23$' 1
+
 finish

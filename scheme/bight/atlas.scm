@@ -19,6 +19,7 @@
             worlds-path
             worlds
             find-world
+            world-text
             world-called
             the-world
             type:the-world))
@@ -79,6 +80,26 @@ files."
   (and (plain-name? text)
        (find file-exists?
              (map (lambda (folder) (string-append folder "/" text ".scm")) (worlds-path)))))
+
+(define (text-in file)
+  ;; The sentence of the last world that FILE defines, found without running it, or #f.
+  (call-with-input-file file
+    (lambda (port)
+      (set-port-encoding! port "UTF-8")
+      (let loop ((text #f))
+        (let ((form (read port)))
+          (cond ((eof-object? form) text)
+                ((and (list? form) (> (length form) 2) (eq? 'define-world (car form)) (string? (third form)))
+                 (loop (third form)))
+                (else (loop text))))))))
+
+(define (world-text name)
+  "Return the sentence of the world NAME, a symbol, that was defined here or lies in a file, or #f."
+  (let ((known (hashq-ref known-worlds name)))
+    (if known
+        (world-documentation-of known)
+        (and=> (world-file-named (symbol->string name))
+               (lambda (file) (false-if-exception (text-in file)))))))
 
 (define-syntax-rule (from module name)
   (module-ref (resolve-interface 'module) 'name))

@@ -9,120 +9,13 @@
 (define-module (bight repl)
   #:use-module ((bight dive) #:select (served?))
   #:use-module (bight comma)
-  #:use-module (bight errors)
   #:use-module ((bight expect) #:select (syntax-error->line))
-  #:use-module ((bight outlet) #:select (behind))
-  #:use-module ((bight folders) #:select (ensure-folder! state-folder))
-  #:use-module (bight verb)
-  #:use-module ((ice-9 regex) #:select (regexp-quote))
-  #:use-module ((ice-9 session) #:select (apropos-internal))
-  #:use-module (rnrs bytevectors)
-  #:use-module (srfi srfi-1)
-  #:use-module ((system foreign) #:select (string->pointer pointer->bytevector pointer-address sizeof))
+  #:use-module (bight line-editor)
   #:use-module ((system repl common) #:select (repl-default-option-set!))
   #:use-module ((system repl repl) #:select (start-repl))
   #:export (run-prompt
             set-manners!
-            run-inner-prompt
-            completions))
-
-
-;;; Completion.
-
-(define (language-names)
-  ((module-ref (resolve-interface '(bight)) 'language-names)))
-
-(define (language-ref name)
-  (let ((variable (module-variable (resolve-interface '(bight)) name)))
-    (and variable (variable-bound? variable) (variable-ref variable))))
-
-(define (ask-names name)
-  ;; The symbols that the query NAME lists, such as the parts of the dive, or none.
-  (or (false-if-exception (filter symbol? ((language-ref name)))) '()))
-
-(define (local-names)
-  (module-map (lambda (name variable) name) (current-module)))
-
-(define (all-keywords)
-  (delete-duplicates
-   (filter-map (lambda (argument) (and (keyword? (second argument)) (second argument)))
-               (append-map (lambda (name) (verb-arguments (language-ref name))) (language-names)))))
-
-(define (keyword->text keyword)
-  (string-append "#:" (symbol->string (keyword->symbol keyword))))
-
-(define (words-for text)
-  ;; What may stand where TEXT begins, strings.
-  (if (string-prefix? "#:" text)
-      (map keyword->text (all-keywords))
-      (map symbol->string
-           (delete-duplicates (append (language-names) (local-names)
-                                      (ask-names 'parts) (ask-names 'worlds))))))
-
-(define (guile-names text)
-  (map symbol->string (apropos-internal (string-append "^" (regexp-quote text)))))
-
-(define (completions text)
-  "Return the sorted list of the words that begin with TEXT: names of the language, of the user, of
-parts and of worlds; keywords after #:; Guile's own names if there are none of these."
-  (let ((ours (filter (lambda (word) (string-prefix? text word)) (words-for text))))
-    (sort (if (null? ours) (guile-names text) ours) string<?)))
-
-(define (make-completer complete-file)
-  ;; A completer as readline calls it: for the first word with CONTINUE? #f, then for the others.
-  (let ((words '()) (files? #f))
-    (define (next-file text continue?)
-      (set! files? #t)
-      (complete-file text continue?))
-    (define (next-word)
-      (let ((word (car words)))
-        (set! words (cdr words))
-        word))
-    (lambda (text continue?)
-      (unless continue?
-        (set! files? #f)
-        (set! words (if (string-index text #\/) '() (or (false-if-exception (completions text)) '()))))
-      (cond ((pair? words) (next-word))
-            ((and continue? (not files?)) #f)
-            (else (next-file text continue?))))))
-
-
-;; Readline closes a quote after what it completes, and to it the ' of a symbol is one.  Guile offers no
-;; switch, so its variable is set where it lies.
-(define quotes (string->pointer "\""))
-
-(define (set-quotes!)
-  (let ((variable (dynamic-pointer "rl_basic_quote_characters" (dynamic-link "guile-readline"))))
-    (bytevector-uint-set! (pointer->bytevector variable (sizeof '*)) 0 (pointer-address quotes)
-                          (native-endianness) (sizeof '*))))
-
-
-;;; History and line editing.
-
-(define (history-file)
-  ;; Where lines are kept, or #f if there is no such place.
-  (let ((folder (state-folder)))
-    (and folder
-         (false-if-exception
-          (begin
-            (ensure-folder! folder #o700)
-            (string-append folder "/history"))))))
-
-(define (call-with-line-editing thunk)
-  ;; Call THUNK with readline on, if this Guile has it.
-  (let ((readline (false-if-exception
-                   ;; It writes to a file of the C library.
-                   (parameterize ((current-output-port (behind (current-output-port))))
-                     (resolve-interface '(ice-9 readline))))))
-    (if readline
-        (let ((from-readline (lambda (name) (module-ref readline name))))
-          (setenv "GUILE_HISTORY" (or (history-file) "/dev/null"))
-          ((from-readline 'activate-readline))
-          (false-if-exception (set-quotes!))
-          ((from-readline 'with-readline-completion-function)
-           (make-completer (from-readline 'filename-completion-function))
-           thunk))
-        (thunk))))
+            run-inner-prompt))
 
 
 ;;; The loop.

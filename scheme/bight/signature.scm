@@ -9,6 +9,7 @@
   #:use-module (bight argument)
   #:use-module (bight errors)
   #:use-module (bight record)
+  #:use-module ((srfi srfi-1) #:select (first second third fourth))
   #:export (current-subject-lister
             subject-index
 
@@ -21,6 +22,7 @@
 
             verb?
             verb-arguments
+            verb-parameters
             verb-usage))
 
 
@@ -57,7 +59,7 @@ NAME #f, of the only one.  Raise a &bight-error from PROC when there is no such 
 ;;; Signatures, and the arrangement of a call's arguments by them.
 
 (define-record <signature>
-  (%make-signature name subject required optional keys rest least most)
+  (%make-signature name subject required optional keys rest defaults least most)
   signature?
   (name signature-name)
   (subject signature-subject)            ; kind, or #f
@@ -65,16 +67,18 @@ NAME #f, of the only one.  Raise a &bight-error from PROC when there is no such 
   (optional signature-optional)
   (keys signature-keys)                  ; list of (KEYWORD . TYPE)
   (rest signature-rest)                  ; (NAME . TYPE), or #f
+  (defaults signature-defaults)          ; alist, NAME -> the expression for what is left out
   (least signature-least)                ; how many positional arguments it takes
   (most signature-most))                 ; or #f
 
 (define absent (list 'absent))          ; an optional argument that was not given
 
-(define (make-signature name subject required optional keys rest)
+(define (make-signature name subject required optional keys rest defaults)
   "Return the signature of the verb NAME.  SUBJECT is a kind or #f; REQUIRED, OPTIONAL and KEYS are lists
-of pairs (NAME . TYPE), REST such a pair or #f."
+of pairs (NAME . TYPE), REST such a pair or #f; DEFAULTS is an alist from optional arguments and keys, symbols,
+to the expressions that stand for them when they are left out."
   (let ((least (length required)))
-    (%make-signature name subject required optional keys rest
+    (%make-signature name subject required optional keys rest defaults
                      least (and (not rest) (+ least (length optional))))))
 
 (define (takes-keywords? s)
@@ -227,21 +231,45 @@ a verb."
   (let ((s (verb-signature procedure)))
     (and s (signature->string s))))
 
+(define (default-text expression)
+  ;; What EXPRESSION, the default of an argument, tells a reader, a string: a value, or #f when it is computed
+  ;; or says only that nothing was given.
+  (cond ((and (pair? expression) (eq? 'quote (car expression)))
+         (simple-format #f "~a" (cadr expression)))
+        ((or (not expression) (pair? expression) (symbol? expression)) #f)
+        ((and (real? expression) (or (nan? expression) (negative? expression))) #f)
+        (else (simple-format #f "~s" expression))))
+
+(define (verb-parameters procedure)
+  "Return the arguments of PROCEDURE, a verb, as a list of (ROLE NAME TYPE DEFAULT): ROLE and NAME as
+`verb-arguments' has them, TYPE the argument's type or, of a subject, #f, DEFAULT a string or #f."
+  (define s (verb-signature procedure))
+  (define (rows role parameters)
+    (map (lambda (p)
+           (let ((name (if (keyword? (car p)) (keyword->symbol (car p)) (car p))))
+             (list role (car p) (cdr p) (default-text (assq-ref (signature-defaults s) name)))))
+         parameters))
+  (if s
+      (append (if (signature-subject s) (list (list 'subject (signature-subject s) #f #f)) '())
+              (rows 'required (signature-required s))
+              (rows 'optional (signature-optional s))
+              (rows 'key (signature-keys s))
+              (rows 'rest (rest-parameters s)))
+      '()))
+
 (define (verb-arguments procedure)
   "Return the arguments of PROCEDURE, a verb, as a list of (ROLE NAME SENTENCE): ROLE is `subject',
-`required', `optional', `key' or `rest', NAME a symbol or keyword, SENTENCE says what is allowed."
-  (define (rows role parameters)
-    (map (lambda (p) (list role (car p) (argument-type-sentence (cdr p)))) parameters))
-  (let ((s (verb-signature procedure)))
-    (if s
-        (append (if (signature-subject s)
-                    (list (list 'subject (signature-subject s) "its name; left out, the only one"))
-                    '())
-                (rows 'required (signature-required s))
-                (rows 'optional (signature-optional s))
-                (rows 'key (signature-keys s))
-                (rows 'rest (if (signature-rest s) (list (signature-rest s)) '())))
-        '())))
+`required', `optional', `key' or `rest', NAME a symbol or keyword, SENTENCE says what is allowed and what
+stands for it when it is left out."
+  (map (lambda (row)
+         (list (first row) (second row)
+               (if (third row)
+                   (string-append (argument-type-sentence (third row))
+                                  (if (fourth row)
+                                      (simple-format #f "; ~a when left out" (fourth row))
+                                      ""))
+                   "its name; left out, the only one")))
+       (verb-parameters procedure)))
 
 (define (mark-verb! procedure s)
   "Record the signature S of PROCEDURE for `help', and its lambda list where (ice-9 session) looks."

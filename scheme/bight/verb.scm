@@ -37,6 +37,7 @@
                subject-index
                verb?
                verb-arguments
+               verb-parameters
                verb-usage
                type:any type:number type:positive type:non-negative type:between
                type:count type:at-least type:bearing type:flag type:name type:string
@@ -132,7 +133,8 @@ before it; without one it is #f.  A verb with #:rest and no #:key gets keywords 
                                          (list r-parameter ...)
                                          (list (cons 'o-var (argument-type o-type)) ...)
                                          (list (cons 'k-name (argument-type k-type)) ...)
-                                         rest-parameter))
+                                         rest-parameter
+                                         '((d-var . d-default) ...)))
                         (work
                          (lambda (s-var r-var ... d-in ... rest-var)
                            (let* ((d-var (if (eq? d-in absent) d-default d-in)) ...)
