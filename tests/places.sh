@@ -209,4 +209,42 @@ SCM
 [ "$(grep -c end out)" -eq 2 ]
 result $? 'loops take no room'
 [ ! -s err ] || diag "$(cat err)"
+# ---- The chain that led there ----
+
+cat >legs.scm <<'SCM'
+(define (leg surge)
+  (list
+    (drive! #:surge surge)))
+(define (all)
+  (+ 1
+     (car (leg 3))))
+SCM
+cat >main.scm <<'SCM'
+(enter! 'pile)
+(load "legs.scm")
+(define (go)
+  (list (all)))
+(display
+  (go))
+SCM
+"$pre" bight main.scm >out 2>err
+[ "$(cat err)" = "bight: legs.scm:3: drive!: #:surge must be a number from -1 to 1, not 3 \
+(in leg, called from legs.scm:6 in all, called from main.scm:4 in go, called from main.scm:6)" ]
+result $? 'a script tells the procedures and lines that led to an error, also in a file that it loads'
+[ "$(wc -l <err)" -eq 1 ]
+result $? 'in one line'
+
+cat >chained.scm <<'SCM'
+(define (leg surge)
+  (list
+    (drive! #:surge surge)))
+(define-scenario chained
+  "A leg that cannot be flown."
+  (in pile)
+  (leg 3))
+SCM
+"$pre" bight test chained.scm >out 2>err
+grep -q 'drive!: .* (in leg, called from chained.scm:7)$' out
+result $? 'so does a test'
+
 finish

@@ -108,11 +108,10 @@ result $? 'where nothing can be completed, how the verb is called'
 keys C-e C-u
 keys -l '(define (double x)'
 keys Enter
-keys -l '(* 2 x))'
-keys Enter
+typed '(* 2 x))'
 typed '(double 21)'
 told 'a form of several lines is indented' '^[.]* *   (\* 2 x))$' 1
-told 'and read' '^42$' 1
+told 'and read' '= 42$' 1
 keys C-r
 keys -l 'double 2'
 see 'reverse-i-search.*(double 21)'
@@ -120,10 +119,54 @@ result $? 'the history is searched'
 keys C-a
 keys C-k
 
+# ---- Values look like what they mean ----
+
+at_prompt
+typed "(enter! 'pile)"
+typed '(sqrt 2)'
+told 'a number is rounded' '^\$2 = 1.414$' 1
+typed '(write $2)'
+told 'its value keeps its digits' '^1.4142135623730951' 1
+typed '(list $2 $2)'
+told 'a value has a name' '^\$[0-9]* = (1.414 1.414)$' 1
+typed '(tether-points 3)'
+told 'a polyline is a table' '^ *x  *y  *z$' 1
+typed '(define s (sample! 1 (slack)))'
+typed '(run 3)'
+typed 's'
+told 'so is a series in time' '^ *time, s  *(slack)$' 1
+typed '(worlds)'
+told 'worlds come with their sentences' '^  pile  *One pile in a gentle current' 1
+typed '(lessons)'
+told 'lessons with their titles' '^  one-pile  *One pile, out and back' 1
+typed '(status)'
+told 'a panel is as it was' '^minnow    at (6.00 -6.00 -5.00)' 1
+
+# ---- The chain that led to an error ----
+
+cat >"$scratch/leg.scm" <<'SCM'
+(define (leg surge)
+  (list
+   (drive! #:surge surge)))
+(define (all)
+  (+ 1
+     (car (leg 3))))
+SCM
+at_prompt
+typed "(enter! 'open-water)"
+typed "(load \"$scratch/leg.scm\")"
+typed '(list (all))'
+told 'an error is told with the lines that led there' 'at .*leg.scm:3 in leg, called from .*leg.scm:6 in all$' 1
+typed ',bt'
+told 'and ,bt shows these lines' 'leg.scm:6 in all: (car (leg 3))' 1
+typed '(drve! #:surge 3)'
+typed ',bt'
+told 'an error of what is typed has none' '^No line of a file led to the last error' 1
+
 # ---- A terminal that cannot do any of this ----
 
 at_prompt TERM=dumb
 typed '(+ 20 3)'
-told 'a dumb terminal has a prompt' '^23$' 1
+told 'a dumb terminal has a prompt' '= 23$' 1
 
 finish

@@ -12,6 +12,7 @@
   #:use-module ((bight engine) #:select (%worlds-folder))
   #:use-module (bight folders)
   #:use-module (bight language)
+  #:use-module ((bight looks) #:select (with-sentences))
   #:use-module (bight verb)
   #:use-module (srfi srfi-1)
   #:export (remember-world!
@@ -64,12 +65,14 @@ BIGHT_WORLDS, worlds/ here, and bight's own."
 
 (define-verb (worlds)
   "Return the sorted names of the worlds that can be entered by name: those defined here and those in
-files."
-  (sort (delete-duplicates
-         (append (hash-map->list (lambda (name w) name) known-worlds)
-                 (append-map folder-worlds (worlds-path)))
-         eq?)
-        (lambda (a b) (string<? (symbol->string a) (symbol->string b)))))
+files.  At the prompt each comes with its sentence."
+  (with-sentences
+   (sort (delete-duplicates
+          (append (hash-map->list (lambda (name w) name) known-worlds)
+                  (append-map folder-worlds (worlds-path)))
+          eq?)
+         (lambda (a b) (string<? (symbol->string a) (symbol->string b))))
+   world-text))
 
 (define (plain-name? text)
   (not (or (string-null? text) (string-index text #\/) (string-prefix? "." text)

@@ -46,7 +46,8 @@
 
 (define (located port file line exception)
   ;; What EXCEPTION says, after its place: the line it tells of itself, or LINE of FILE.
-  (let ((text ((from (bight expect) exception->line) exception))
+  (let ((text (string-append ((from (bight expect) exception->line) exception)
+                             ((from (bight expect) chain-suffix) exception)))
         (place ((from (bight expect) raised-at) exception))
         (name (string-append (port-filename port) ":")))
     (cond ((string-prefix? name text)
@@ -128,7 +129,8 @@ begins with FILE and the line."
 (define (enter-language!)
   ;; Make a user's module, with the language, the current one.
   (set-current-module (resolve-module '(guile-user)))
-  (process-use-modules '(((bight)))))
+  (process-use-modules '(((bight))))
+  ((from (bight place) mark-what-is-loaded!)))
 
 
 ;;; The commands.  Each takes the list of its arguments and returns the exit status.
@@ -210,6 +212,7 @@ begins with FILE and the line."
       (bad-usage "test: name a file or a folder; there is no folder tests here")))
 
 (define (run-tests arguments)
+  ((from (bight place) mark-what-is-loaded!))
   (call-with-values (lambda () (split-arguments "test" arguments))
     (lambda (paths options)
       ((from (bight test-command) test-command)

@@ -6,11 +6,13 @@
 
 (define-module (bight comma)
   #:use-module (bight errors)
+  #:use-module ((bight expect) #:select (location->string))
   #:use-module ((ice-9 rdelim) #:select (read-line))
   #:use-module (srfi srfi-1)
   #:use-module ((system repl command) #:select (define-meta-command))
   #:use-module ((system repl common) #:select (repl-eval))
-  #:export (answer-unknown-commands!))
+  #:export (answer-unknown-commands!
+            note-chain!))
 
 ;; Guile's own knows no macros.
 (define-meta-command ((describe #f) repl (form))
@@ -21,6 +23,34 @@ Show the documentation of NAME; (help NAME) tells how it is used too."
          (docstring-of (module-ref (resolve-interface '(bight doc)) 'docstring-of)))
     (display (or (docstring-of value) "There is no documentation."))
     (newline)))
+
+(define last-chain '())
+
+(define (note-chain! frames)
+  "Remember the FRAMES that led to the last error."
+  (set! last-chain frames))
+
+(define (read-source-line place)
+  ;; The line that stands at PLACE, (FILE . LINE), or the empty string.
+  (or (false-if-exception
+       (call-with-input-file (car place)
+         (lambda (port)
+           (do ((i 1 (+ i 1)))
+               ((= i (cdr place)) (string-trim-both (read-line port)))
+             (read-line port)))))
+      ""))
+
+;; Guile's own shows the frames of its evaluator.
+(define-meta-command ((backtrace bt) repl)
+  "backtrace
+Show the lines of files that led to the last error, the innermost first."
+  (if (null? last-chain)
+      (display "No line of a file led to the last error.\n")
+      (for-each (lambda (frame)
+                  (simple-format #t "  ~a~a: ~a~%" (location->string (car frame))
+                                 (if (cdr frame) (simple-format #f " in ~a" (cdr frame)) "")
+                                 (read-source-line (car frame))))
+                last-chain)))
 
 
 ;;; A command that is misspelt: Guile's own reader of commands says no more than that there is none.

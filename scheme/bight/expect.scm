@@ -8,7 +8,7 @@
 
 (define-module (bight expect)
   #:use-module (bight errors)
-  #:use-module ((bight here) #:select (place-of))
+  #:use-module ((bight here) #:select (place-of chain-of))
   #:use-module (bight record)
   #:use-module (bight verb)
   #:use-module ((ice-9 control) #:select (call/ec))
@@ -38,6 +38,8 @@
             claim
             source-location
             location->string
+            chain->string
+            chain-suffix
             exception->line
             syntax-error->line
             exception->placed-line
@@ -79,6 +81,24 @@
   (if location
       (string-append (near-name (car location)) ":" (number->string (cdr location)))
       "at the prompt"))
+
+(define (frame->string frame)
+  (string-append "called from " (location->string (car frame))
+                 (if (cdr frame) (simple-format #f " in ~a" (cdr frame)) "")))
+
+(define (chain->string frames)
+  "Return FRAMES, as (bight here) tells them, in words: \"in F, called from FILE:LINE in G, called from FILE:LINE\";
+nothing for a call outside of all procedures."
+  (if (null? frames)
+      ""
+      (string-join (append (if (cdr (car frames)) (list (simple-format #f "in ~a" (cdr (car frames)))) '())
+                           (map frame->string (cdr frames)))
+                   ", ")))
+
+(define (chain-suffix exception)
+  "Return what led to EXCEPTION, in parentheses, to follow what it says on its line, or nothing."
+  (let ((text (chain->string (chain-of exception))))
+    (if (string-null? text) "" (string-append " (" text ")"))))
 
 (define quote-marks '((quote . "'") (quasiquote . "`") (unquote . ",") (unquote-splicing . ",@")))
 
@@ -148,7 +168,8 @@ expectations do, or where it was raised, or #f."
   "Return what EXCEPTION says on one line, after its place, if that is known: FILE:LINE: PROCEDURE: MESSAGE."
   (let ((place (raised-at exception)))
     (string-append (if place (string-append (location->string place) ": ") "")
-                   (exception->line exception))))
+                   (exception->line exception)
+                   (chain-suffix exception))))
 
 (define (printed-exception exception)
   (let ((text (call-with-output-string

@@ -11,6 +11,7 @@
   #:use-module (bight folders)
   #:use-module (bight language)
   #:use-module (bight lesson)
+  #:use-module ((bight looks) #:select (with-sentences))
   #:use-module (bight verb)
   #:use-module (ice-9 ftw)
   #:use-module (srfi srfi-1)
@@ -19,6 +20,7 @@
             lesson-files
             lesson-file
             lesson-file-name
+            lesson-file-title
             load-lesson
             read-lessons))
 
@@ -47,8 +49,23 @@ BIGHT_LESSONS and bight's own."
   (string->symbol (substring (basename file ".scm") 3)))
 
 (define-verb (lessons)
-  "Return the names of the lessons that come with bight, in order.  `bight lesson NAME' takes one."
-  (map lesson-file-name (lesson-files)))
+  "Return the names of the lessons that come with bight, in order; at the prompt each comes with its title.
+`bight lesson NAME' takes one."
+  (with-sentences (map lesson-file-name (lesson-files))
+                  (lambda (name) (lesson-file-title (lesson-file (symbol->string name))))))
+
+(define (lesson-file-title file)
+  "Return the title of the lesson in FILE, found without running it."
+  (call-with-input-file file
+    (lambda (port)
+      (set-port-encoding! port "UTF-8")
+      (let loop ()
+        (let ((form (read port)))
+          (cond ((eof-object? form) "")
+                ((and (list? form) (> (length form) 2) (eq? 'define-lesson (car form))
+                      (string? (third form)))
+                 (third form))
+                (else (loop))))))))
 
 (define (lesson-file designator)
   "Return the file of the lesson that DESIGNATOR, a string, names: by name or number.  Raise a &bight-error

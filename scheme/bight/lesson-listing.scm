@@ -17,18 +17,6 @@
                             results)))
     (and (pair? totals) (apply max totals))))
 
-(define (title-of file)
-  ;; The title in FILE, found without running it.
-  (call-with-input-file file
-    (lambda (port)
-      (let loop ()
-        (let ((form (read port)))
-          (cond ((eof-object? form) "")
-                ((and (list? form) (> (length form) 2) (eq? 'define-lesson (car form))
-                      (string? (third form)))
-                 (third form))
-                (else (loop))))))))
-
 (define (begun? file given)
   (let ((journal (journal-file (make-order file #f given))))
     (and journal (file-exists? journal))))
@@ -45,7 +33,7 @@
                                           ((begun? file given) "begun")
                                           (else "-"))
                                     5)
-                        (title-of file))))
+                        (lesson-file-title file))))
      (lesson-files))))
 
 (define (results-of given)

@@ -138,7 +138,14 @@
   ;; What stands before further lines: as wide as PROMPT, so that columns are those of the form.
   (string-append (make-string (max 0 (- (string-length prompt) 1)) #\.) " "))
 
+(define (end-line! port)
+  ;; What was printed is seen before the prompt, which begins a line.
+  (unless (eqv? 0 (port-column port))
+    (newline port))
+  (force-output port))
+
 (define (read-line-at-terminal input continue?)
+  (end-line! (current-output-port))
   (unless continue?
     (keep-history! (string-trim-right earlier))
     (set! earlier ""))

@@ -13,6 +13,7 @@
   #:use-module (bight record)
   #:use-module ((bight task) #:select (every-seconds))
   #:use-module ((bight time) #:select (now))
+  #:use-module ((bight looks) #:select (prompt-table))
   #:use-module (bight verb)
   #:use-module ((ice-9 rdelim) #:select (read-line))
   #:use-module (rnrs bytevectors)
@@ -84,6 +85,7 @@
   "Call THUNKS every SECONDS of the dive from now on and keep the numbers they return, under NAMES.  Return
 samples, for `plot'."
   (let ((samples (make-samples names '() 0)))
+    (set! (prompt-table samples) (lambda () (cons (cons "time, s" names) (samples-rows samples))))
     (take-sample! samples thunks)
     (every-seconds seconds (lambda () (take-sample! samples thunks)))
     samples))

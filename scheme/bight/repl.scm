@@ -9,8 +9,11 @@
 (define-module (bight repl)
   #:use-module ((bight dive) #:select (served?))
   #:use-module (bight comma)
-  #:use-module ((bight expect) #:select (syntax-error->line))
+  #:use-module ((bight expect) #:select (syntax-error->line location->string chain->string))
+  #:use-module ((bight here) #:select (chain-here))
   #:use-module (bight line-editor)
+  #:use-module ((bight looks) #:select (value->lines))
+  #:use-module ((bight place) #:select (mark-what-is-loaded!))
   #:use-module ((system repl common) #:select (repl-default-option-set!))
   #:use-module ((system repl repl) #:select (start-repl))
   #:export (run-prompt
@@ -43,10 +46,33 @@
 (define (set-manners!)
   (repl-default-option-set! 'prompt prompt-of)
   (repl-default-option-set! 'on-error 'report)
-  (repl-default-option-set! 'value-history #f) ; a picture must begin in the first column
+  (repl-default-option-set! 'value-history #f) ; ours shows pictures and tables, too
+  (repl-default-option-set! 'print show-value)
   (repl-default-option-set! 'warning-level 0)
   (set-exception-printer! 'syntax-error print-syntax-error)
   (answer-unknown-commands!))
+
+;;; Values, as they look at the prompt, are called $1, $2 and so on, in Guile's own module for them.
+
+(define shown-values 0)
+
+(define (remember! value)
+  ;; The name by which VALUE is known from now on.
+  (let ((history (resolve-module '(value-history))))
+    (set! shown-values (+ shown-values 1))
+    (let ((name (string->symbol (simple-format #f "$~a" shown-values))))
+      (module-define! history name value)
+      (module-export! history (list name))
+      (module-use! (current-module) (module-public-interface history))
+      name)))
+
+(define (show-value repl value)
+  (cond ((unspecified? value))
+        ((served?) (write value) (newline)) ; an editor reads it
+        (else
+         (let ((name (remember! value)) (lines (value->lines value)))
+           (simple-format #t "~a =~a" name (if (null? (cdr lines)) " " "\n"))
+           (for-each (lambda (line) (display line) (newline)) lines)))))
 
 (define (print-syntax-error port key args default-printer)
   ;; In one line, and without the place in what was typed just now.
@@ -54,7 +80,18 @@
 
 (define (enter-language!)
   (set-current-module (resolve-module '(guile-user)))
-  (process-use-modules '(((ice-9 session)) ((bight)))))
+  (process-use-modules '(((ice-9 session)) ((bight))))
+  (mark-what-is-loaded!)
+  (add-hook! after-error-hook tell-chain))
+
+(define (tell-chain)
+  ;; Guile reports an error where it is raised: the calls that led there are still under way.
+  (let ((frames (chain-here)))
+    (note-chain! frames)
+    (when (pair? frames)
+      (simple-format (current-error-port) "  at ~a~a~%" (location->string (car (car frames)))
+                     (let ((text (chain->string frames)))
+                       (if (string-null? text) "" (string-append " " text)))))))
 
 (define (print-banner version)
   (simple-format #t "bight ~a, a tether to play with.  (help) is a short tour, ,q leaves.~%" version))

@@ -37,7 +37,7 @@
 
 (define (sentence-of-lesson name)
   "Return the title of the lesson NAME, or the empty string."
-  (or (false-if-exception ((@ (bight lesson-listing) title-of)
+  (or (false-if-exception ((@ (bight lesson-file) lesson-file-title)
                            ((@ (bight lesson-file) lesson-file) (symbol->string name))))
       ""))
 

@@ -100,7 +100,8 @@
 
 (define (unexpected exception)
   (make-failure '... "no error"
-                (simple-format #f "~a error: ~a" (raised-kind exception) (exception->line exception))
+                (simple-format #f "~a error: ~a~a" (raised-kind exception) (exception->line exception)
+                               (chain-suffix exception))
                 (or (raised-at exception) (variable-ref (current-location)))))
 
 (define (call-catching thunk fail)
