@@ -7,6 +7,7 @@
 
 (define-module (bight here)
   #:export (at-place
+            afresh
             note-place!
             place-of
             chain-here
@@ -18,6 +19,10 @@
 (define (at-place frame thunk)
   "Call THUNK, the call that FRAME tells of."
   (with-fluid* here (cons frame (fluid-ref here)) thunk))
+
+(define (afresh thunk)
+  "Call THUNK as if no call were under way: what it does has nothing to do with who calls."
+  (with-fluid* here '() thunk))
 
 (define places (make-weak-key-hash-table)) ; of exceptions
 

@@ -13,6 +13,7 @@
             point-label
             point-sentence
             point-status
+            point-seconds
             point-location
             point-details
             point-view
@@ -47,6 +48,7 @@
  (point-sentence "Return the sentence of POINT.")
  (point-location "Return where the scenario of POINT stands, FILE:LINE, or #f.")
  (point-status "Return pass, fail or skip.")
+ (point-seconds "Return how many seconds POINT took.")
  (point-details "Return the lines that explain POINT.")
  (point-view "Return the lines of a drawing and the name of a picture or #f, a list, or #f."))
 

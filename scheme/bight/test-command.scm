@@ -14,6 +14,7 @@
   #:use-module (bight record)
   #:use-module (bight tap)
   #:use-module (bight test-file)
+  #:use-module (bight test-memory)
   #:use-module (bight verb)
   #:use-module ((ice-9 threads) #:select (current-processor-count))
   #:use-module (srfi srfi-1)
@@ -165,10 +166,10 @@
      (only-failure "could not load" (third told)))
     (else (only-failure "could not load" (ending->string told settings)))))
 
-(define (load-all crew paths settings)
-  ;; The entries of all files of PATHS.
+(define (load-all crew paths wanted? settings)
+  ;; The entries of all files of PATHS that are WANTED?.
   (let* ((groups (map (lambda (path) (cons path (files-at path))) paths))
-         (files (delete-duplicates (append-map cdr groups)))
+         (files (filter wanted? (delete-duplicates (append-map cdr groups))))
          (batches (map (lambda (file told) (batch file told settings))
                        files (open-shops crew files (load-tests settings)))))
     (append (append-map (lambda (group)
@@ -185,14 +186,38 @@
 
 ;;; Choosing.
 
-(define (choose only entries)
-  ;; Those of ENTRIES alone whose name ONLY matches; what failed to load stays.
-  (let ((chosen (filter (lambda (entry)
-                          (or (entry-point entry)
-                              (not only)
-                              (regexp-exec only (known entry 'label))))
-                        entries)))
-    (if (and only (null? chosen))
+(define (words->match text)
+  ;; A predicate of entries for TEXT, words with `and', `or' and `not' between them: those whose file, name or
+  ;; sentence has them.
+  (define (has? entry word)
+    (string-contains-ci (string-append (entry-file entry) " " (known entry 'label) " " (known entry 'sentence))
+                        word))
+  (define (split words at)
+    (call-with-values (lambda () (break (lambda (word) (string-ci=? at word)) words))
+      (lambda (before after) (if (null? after) (list before) (cons before (split (cdr after) at))))))
+  (define (all? entry words)
+    (let loop ((rest (delete "and" words)))
+      (cond ((null? rest) #t)
+            ((and (string-ci=? "not" (car rest)) (pair? (cdr rest)))
+             (and (not (has? entry (cadr rest))) (loop (cddr rest))))
+            (else (and (has? entry (car rest)) (loop (cdr rest)))))))
+  (let ((ways (split (string-tokenize text) "or")))
+    (lambda (entry) (any (lambda (words) (all? entry words)) ways))))
+
+(define (chooser only match failed?)
+  ;; A predicate of entries: the regular expression ONLY, the words MATCH, and, if FAILED?, the last run.
+  (let ((by-words (if match (words->match match) (const #t))))
+    (lambda (entry)
+      (and (or (not only) (regexp-exec only (known entry 'label)))
+           (by-words entry)
+           (or (not failed?)
+               (let ((failed (failed-before (entry-file entry))))
+                 (or (member #f failed) (member (known entry 'label) failed))))))))
+
+(define (choose wanted? all? entries)
+  ;; Those of ENTRIES alone that are WANTED?; what failed to load stays.  ALL? says that nothing was asked for.
+  (let ((chosen (filter (lambda (entry) (or (entry-point entry) (wanted? entry))) entries)))
+    (if (and (not all?) (null? chosen))
         (list (settled-entry (failed-point "tests" "no scenario has a name that was asked for")))
         chosen)))
 
@@ -268,15 +293,50 @@
                 (report entry))
               waiting)))
 
-(define (run-entries crew entries settings)
+(define (not-run entry)
+  ;; What became of ENTRY, which comes after a failure.
+  (make-point (entry-file entry) (known entry 'label) (known entry 'sentence) (known entry 'location)
+              'skip "not run: one before it failed" '() 0. #f))
+
+(define (failed? entry)
+  (eq? 'fail (point-status (entry-point entry))))
+
+(define (run-to-failure crew entries settings report at-once)
+  ;; Run ENTRIES, so many AT-ONCE, until some failed; REPORT all.
+  (let loop ((rest entries))
+    (unless (null? rest)
+      (let* ((n (min at-once (length rest))) (now (take rest n)) (later (drop rest n)))
+        (run-all crew now settings report)
+        (if (any failed? now)
+            (for-each (lambda (entry)
+                        (unless (entry-point entry) (set-entry-point! entry (not-run entry)))
+                        (report entry))
+                      later)
+            (loop later))))))
+
+(define (print-durations points n)
+  ;; The N slowest of POINTS.
+  (let ((slowest (sort points (lambda (a b) (> (point-seconds a) (point-seconds b))))))
+    (print-comments
+     (cons "the slowest:"
+           (map (lambda (point)
+                  (simple-format #f "  ~a s  ~a: ~a"
+                                 (string-pad (number->string (/ (round (* 100 (point-seconds point))) 100)) 8)
+                                 (point-file point) (or (point-label point) (point-sentence point))))
+                (take slowest (min n (length slowest))))))))
+
+(define (run-entries crew entries settings fail-fast at-once durations)
   ;; Run ENTRIES, print each point as it comes, and return the list of points.
   (print-plan (length entries))
-  (let ((number 0))
-    (run-all crew entries settings
-             (lambda (entry)
-               (set! number (+ number 1))
-               (print-point (entry-point entry) number))))
+  (let* ((number 0)
+         (report (lambda (entry)
+                   (set! number (+ number 1))
+                   (print-point (entry-point entry) number))))
+    (if fail-fast
+        (run-to-failure crew entries settings report at-once)
+        (run-all crew entries settings report)))
   (let ((points (map entry-point entries)))
+    (when (positive? durations) (print-durations points durations))
     (print-summary points)
     points))
 
@@ -304,31 +364,84 @@
     (lambda (worlds scenarios)
       ((@ (bight catalogue) write-catalogue) folder worlds scenarios))))
 
+(define (failed-files paths)
+  ;; The files of PATHS that had failures the last time.
+  (filter (lambda (file) (pair? (failed-before file))) (append-map files-at paths)))
+
 (define-verb (run-tests (paths paths)
-                        #:key (junit (or-false string)) (only (or-false regexp))
+                        #:key (junit (or-false string)) (only (or-false regexp)) (match (or-false string))
                         (jobs (at-least 1) (current-processor-count)) (seed count 1)
                         (cases (or-false (at-least 1))) (limit non-negative 600)
-                        (reproducers (or-false string)) (catalogue (or-false string)) (list flag #f))
+                        (reproducers (or-false string)) (catalogue (or-false string)) (list flag #f)
+                        (last-failed flag #f) (fail-fast flag #f) (durations count 0))
   "Run the scenarios of PATHS, a file, a folder whose *.scm files are meant, or a list of such, JOBS at a
 time, and print what became of them as TAP.  #:junit FILE writes JUnit XML too; #:only RE runs the scenarios
-alone whose name matches the regular expression RE; #:seed N is what their random things begin with; #:cases
-N tries every property on N cases; LIMIT is how many seconds of processor time a scenario may take, 0 for no
-limit; #:reproducers and #:catalogue name folders, for the simplest cases that fail and for a page that
-shows all.  With #:list #t nothing is run: the scenarios are listed.  Return #t if nothing failed."
+alone whose name matches the regular expression RE, #:match WORDS those whose file, name or sentence has the
+words, as in \"bow and not slow\"; #:last-failed #t those that failed when they were last run, or all if none did;
+#:fail-fast #t none after one that failed; #:durations N tells the N slowest.  #:seed N is what their random
+things begin with; #:cases N tries every property on N cases; LIMIT is how many seconds of processor time a
+scenario may take, 0 for no limit; #:reproducers and #:catalogue name folders, for the simplest cases that fail
+and for a page that shows all.  With #:list #t nothing is run: the scenarios are listed.  Return #t if nothing
+failed."
   (let* ((limit (and (positive? limit) (inexact->exact limit)))
-         (settings (settings seed cases limit reproducers catalogue)))
+         (settings (settings seed cases limit reproducers catalogue))
+         (failed (if last-failed (failed-files paths) '()))
+         (wanted? (if (null? failed) (const #t) (lambda (file) (member file failed)))))
     (when catalogue (make-folder catalogue))
+    (when (and last-failed (null? failed))
+      (print-comments '("nothing failed the last time: all are run")))
     (call-with-crew jobs (patience limit)
       (lambda (crew)
-        (let ((entries (choose only
-                               (append (load-all crew paths settings)
+        (let ((entries (choose (chooser only match (pair? failed))
+                               (not (or only match (pair? failed)))
+                               (append (load-all crew paths wanted? settings)
                                        (if catalogue (load-worlds crew settings) '())))))
           (if list
               (begin (print-list entries) #t)
-              (let ((points (run-entries crew entries settings)))
+              (let ((points (run-entries crew entries settings fail-fast jobs durations)))
+                (remember-failures! points)
                 (when junit (write-junit junit points))
                 (when catalogue (show-all catalogue points))
                 (zero? (count-of 'fail points)))))))))
+
+
+;;; Again and again: what changed.
+
+(define (state-of file)
+  ;; What is another when FILE was written anew.
+  (let ((s (false-if-exception (stat file))))
+    (and s (list (stat:mtime s) (stat:mtimensec s) (stat:size s) (stat:ino s)))))
+
+(define (states files)
+  (map (lambda (file) (cons file (state-of file))) files))
+
+(define (beside files)
+  ;; The other files of Scheme in the folders of FILES and in worlds here: a change of one may change any test.
+  (lset-difference string=?
+                   (delete-duplicates
+                    (append-map (lambda (folder) (or (false-if-exception (files-at folder)) '()))
+                                (cons "worlds" (delete-duplicates (map dirname files)))))
+                   files))
+
+(define (changed before now)
+  (filter-map (lambda (entry) (and (not (equal? entry (assoc (car entry) before))) (car entry))) now))
+
+(define (wait-for-change paths before)
+  ;; Wait until some of the files of PATHS, or beside them, are others than BEFORE: those that are to be run.
+  (let* ((files (append-map files-at paths))
+         (now (states (append files (beside files))))
+         (new (changed before now)))
+    (cond ((null? new) (usleep 200000) (wait-for-change paths before))
+          (else (values (if (every (lambda (file) (member file files)) new) new files) now)))))
+
+(define (run-again-and-again paths run)
+  ;; RUN the files of PATHS, then those that change, until ^C.
+  (let loop ((files (append-map files-at paths))
+             (before (let ((files (append-map files-at paths))) (states (append files (beside files))))))
+    (run files)
+    (print-comments '("waiting for a change; C-c ends"))
+    (force-output)
+    (call-with-values (lambda () (wait-for-change paths before)) loop)))
 
 
 ;;; The command.
@@ -340,14 +453,22 @@ shows all.  With #:list #t nothing is run: the scenarios are listed.  Return #t 
          (or (string->number text)
              (bight-raise 'domain #f "test: ~a needs a number after it, not ~a" name text)))))
 
+(define (keyword-arguments options)
+  ;; The arguments of `run-tests' that OPTIONS, an alist, ask for.
+  (append-map (lambda (keyword value) (if value (list keyword value) '()))
+              '(#:junit #:only #:match #:jobs #:seed #:cases #:limit #:reproducers #:catalogue #:list
+                #:last-failed #:fail-fast #:durations)
+              (list (assoc-ref options "--junit") (assoc-ref options "--only") (assoc-ref options "-k")
+                    (number-of options "-j") (number-of options "--seed")
+                    (number-of options "--cases") (number-of options "--limit")
+                    (assoc-ref options "--reproducers") (assoc-ref options "--catalogue")
+                    (assoc-ref options "--list") (assoc-ref options "--last-failed")
+                    (assoc-ref options "--fail-fast") (number-of options "--durations"))))
+
 (define (test-command paths options)
   "Do `bight test PATHS' with OPTIONS, an alist; return the exit status."
-  (define (keyword-arguments)
-    (append-map (lambda (keyword value) (if value (list keyword value) '()))
-                '(#:junit #:only #:jobs #:seed #:cases #:limit #:reproducers #:catalogue #:list)
-                (list (assoc-ref options "--junit") (assoc-ref options "--only")
-                      (number-of options "-j") (number-of options "--seed")
-                      (number-of options "--cases") (number-of options "--limit")
-                      (assoc-ref options "--reproducers") (assoc-ref options "--catalogue")
-                      (assoc-ref options "--list"))))
-  (if (apply run-tests paths (keyword-arguments)) 0 1))
+  (define (run paths)
+    (apply run-tests paths (keyword-arguments options)))
+  (cond ((assoc-ref options "--watch") (run-again-and-again paths run))
+        ((run paths) 0)
+        (else 1)))

@@ -10,6 +10,7 @@
   #:use-module (bight dive)
   #:use-module (bight errors)
   #:use-module (bight expect)
+  #:use-module ((bight here) #:select (afresh))
   #:use-module (bight language)
   #:use-module (bight property)
   #:use-module (bight record)
@@ -176,7 +177,7 @@
   ;; The list of the scenarios of FILE; raise &program-error.
   (collect-scenarios
    (lambda ()
-     (call-in-language (lambda () (evaluate-file file))))))
+     (afresh (lambda () (call-in-language (lambda () (evaluate-file file))))))))
 
 (define (scenario->data scenario)
   `((label . ,(scenario-label scenario))

@@ -9,7 +9,7 @@
   #:use-module (bight dive)
   #:use-module (bight errors)
   #:use-module (bight expect)
-  #:use-module ((bight here) #:select (noting-places))
+  #:use-module ((bight here) #:select (afresh noting-places))
   #:use-module ((bight query) #:select (events))
   #:use-module ((bight scratch) #:select (call-with-scratch))
   #:use-module ((bight time) #:select (now))
@@ -111,7 +111,7 @@
         (if (memq (exception-kind exception) '(quit signal))
             (raise-exception exception)
             (fail exception)))
-    (lambda () (noting-places thunk))
+    (lambda () (afresh (lambda () (noting-places thunk))))
     #:unwind? #t))
 
 (define epilogue

@@ -47,6 +47,117 @@
   (and-map (lambda (word) (string-contains text word)) words))
 
 
+;;; Choosing what is run.
+
+(define-syntax-rule (with-memory folder body ...)
+  ;; Evaluate BODY while what failed is remembered in FOLDER.
+  (let ((before (getenv "XDG_STATE_HOME")))
+    (dynamic-wind
+      (lambda () (setenv "XDG_STATE_HOME" (string-append folder "/state")))
+      (lambda () body ...)
+      (lambda () (if before (setenv "XDG_STATE_HOME" before) (unsetenv "XDG_STATE_HOME"))))))
+
+(define some-fail
+  '("(define-scenario bow \"Bows to the east.\" (expect #t))
+     (define-scenario slow-bow \"Bows to the west.\" (expect (file-exists? \"no-such-file\")))
+     (define-scenario knot \"Ties a knot.\" (expect #t))"
+    "(define-scenario other \"Another.\" (expect #t))"))
+
+(define (names-run text)
+  "Return the labels of the scenarios that the report TEXT says were run, in order."
+  (filter-map (lambda (line)
+                (and (or (string-prefix? "ok " line) (string-prefix? "not ok " line))
+                     (not (string-contains line "# SKIP"))
+                     (string->symbol (string-trim-both (list-ref (string-split line #\:) 1)))))
+              (string-split text #\newline)))
+
+(define-scenario chosen-by-words
+  "Words choose scenarios by file, name and sentence, with and, or and not between them."
+  (call-in-folder some-fail
+    (lambda (folder)
+      (with-memory folder
+        (for-each (lambda (entry)
+                    (expect (names-run (report folder #:match (car entry))) => (cdr entry)))
+                  '(("bow" bow slow-bow) ("BOW and not slow" bow) ("knot or other" knot other)
+                    ("not bow" knot other) ("west" slow-bow) ("b.scm" other) ("east or west and slow" bow slow-bow)))
+        (expect (report folder #:match "mast") is (lambda (text) (says text "no scenario has a name")))))))
+
+(define-scenario what-failed-is-run-again
+  "What failed the last time is run alone, until it passes; then all are."
+  (call-in-folder some-fail
+    (lambda (folder)
+      (with-memory folder
+        (expect (report folder #:last-failed #t) is (lambda (text) (says text "nothing failed the last time")))
+        (expect (names-run (report folder #:last-failed #t)) => '(slow-bow))
+        (report folder #:match "knot")   ; what is not run is not forgotten
+        (expect (names-run (report folder #:last-failed #t)) => '(slow-bow))
+        (write-file (string-append folder "/a.scm") "(define-scenario slow-bow \"Bows.\" (expect #t))")
+        (expect (names-run (report folder #:last-failed #t)) => '(slow-bow))
+        (expect (names-run (report folder #:last-failed #t)) => '(slow-bow other))))))
+
+(define-scenario nothing-after-a-failure
+  "With #:fail-fast what follows a failure is skipped, and told so."
+  (call-in-folder some-fail
+    (lambda (folder)
+      (with-memory folder
+        (let ((text (report folder #:fail-fast #t #:jobs 1)))
+          (expect (names-run text) => '(bow slow-bow))
+          (expect text is (lambda (text) (says text "1..4" "ok 3 - a.scm: knot: Ties a knot. # SKIP not run"
+                                               "ok 4 -" "1 passed, 1 failed, 2 skipped"))))
+        (expect (names-run (report (string-append folder "/b.scm") #:fail-fast #t)) => '(other))))))
+
+(define-scenario the-slowest-are-told
+  "With #:durations the slowest are told, so many."
+  (call-in-folder '("(define-scenario quick \"Quick.\" (expect #t))
+                     (define-scenario slow \"Slow.\" (in pile) (run 20) (expect #t))
+                     (define-scenario quick-too \"Quick.\" (expect #t))")
+    (lambda (folder)
+      (with-memory folder
+        (let* ((lines (string-split (report folder #:durations 2) #\newline))
+               (tail (member "# the slowest:" lines)))
+          (expect (list? tail) => #t)
+          (expect (string-suffix? "a.scm: slow" (second tail)) => #t)
+          (expect (string-contains (fourth tail) "passed") is identity))))))
+
+(define (call-watching arguments proc)
+  ;; Call PROC with a thunk that waits until a round of `bight test ARGUMENTS --watch' is over and returns the
+  ;; names of the scenarios that were run in it.
+  (let* ((port (apply open-pipe* OPEN_READ "/bin/sh" "-c" "echo $$; exec \"$@\"" "sh" (guile) "-c" main "test"
+                      "--watch" arguments))
+         (process (string->number (read-line port))))
+    (define (round-over)
+      (let loop ((lines '()))
+        (let ((line (read-line port)))
+          (if (or (eof-object? line) (string-contains line "waiting for a change"))
+              (names-run (string-join (reverse lines) "\n"))
+              (loop (cons line lines))))))
+    (dynamic-wind
+      (const #f)
+      (lambda () (proc round-over))
+      (lambda ()
+        (kill process SIGTERM)
+        (close-pipe port)))))
+
+(define-scenario what-changes-is-run-again
+  "With --watch what is written anew is run, and all when it is a file beside them."
+  (call-in-folder some-fail
+    (lambda (folder)
+      (define (write-anew name text) (write-file (string-append folder "/" name) text))
+      (with-memory folder
+        (call-watching (list folder "-k" "knot or other")
+          (lambda (round-over)
+            (expect (round-over) => '(knot other))
+            (write-anew "b.scm" "(define-scenario other \"Another, longer.\" (expect #f))")
+            (expect (round-over) => '(other))
+            (write-anew "c.scm" "(define-scenario other-too \"New.\" (expect #t))")
+            (expect (round-over) => '(other-too))))
+        (call-watching (list (string-append folder "/a.scm") "-k" "knot")
+          (lambda (round-over)
+            (expect (round-over) => '(knot))
+            (write-anew "b.scm" "1")
+            (expect (round-over) => '(knot))))))))
+
+
 ;;; Processes.
 
 (define slow-and-quick
