@@ -130,3 +130,16 @@
 (set-module-binder! interface look-further)
 (for-each (lambda (name) (hashq-set! (module-replacements interface) name #t))
           in-place-of-guile-s)
+
+;; An alist from the modules to the names that each gives to the language, for (bight topics).
+(set-procedure-property!
+ language-names 'by-module
+ (lambda ()
+   (cons '((bight errors) language-names)
+         (append (map (lambda (entry)
+                        (cons (car entry)
+                              (if (null? (cdr entry))
+                                  (module-map (lambda (name variable) name) (resolve-interface (car entry)))
+                                  (cdr entry))))
+                      at-once)
+                 when-used))))

@@ -49,6 +49,15 @@ told 'a command that is known is done' 'real time' 1
 typed "(sample! 'tension)"
 told 'a macro says how it is used' 'sample!: it is used as (sample! ' 1
 
+# ---- Help ----
+
+typed '(help "tangle")'
+told 'help searches what names say of themselves' '^  fouled?  *Return' 1
+typed ',apropos ^haul-p'
+told ',apropos has a sentence' '^  haul-prospect  *Return' 1
+typed "(describe 'sea)"
+told 'a sea is described without a dive' '^  waves  .*jonswap' 1
+
 # ---- What happens is told, once ----
 
 typed "(enter! 'open-water)"

@@ -7,6 +7,8 @@
 (define-module (bight comma)
   #:use-module (bight errors)
   #:use-module ((bight expect) #:select (location->string))
+  #:use-module ((bight sentence) #:select (sentence-of-variable))
+  #:use-module ((ice-9 session) #:select (apropos-internal))
   #:use-module ((ice-9 rdelim) #:select (read-line))
   #:use-module (srfi srfi-1)
   #:use-module ((system repl command) #:select (define-meta-command))
@@ -23,6 +25,26 @@ Show the documentation of NAME; (help NAME) tells how it is used too."
          (docstring-of (module-ref (resolve-interface '(bight doc)) 'docstring-of)))
     (display (or (docstring-of value) "There is no documentation."))
     (newline)))
+
+;; Guile's own does not see what is loaded only when it is used.
+(define-meta-command ((apropos a) repl regexp)
+  "apropos REGEXP
+Show the names that match REGEXP, bight's with a sentence each, then Scheme's."
+  (let* ((text (object->string regexp display))
+         (pattern (make-regexp text))
+         (matches? (lambda (name) (regexp-exec pattern (symbol->string name))))
+         (ours (filter matches? ((module-ref (resolve-interface '(bight)) 'language-names))))
+         (theirs (remove (lambda (name) (memq name ours)) (apropos-internal text))))
+    (for-each (lambda (name)
+                (simple-format #t "  ~a  ~a~%" (string-pad-right (symbol->string name)
+                                                                 (max 22 (string-length (symbol->string name))))
+                               (sentence-of-variable name)))
+              ours)
+    (unless (null? theirs)
+      (simple-format #t "of Scheme: ~a~%" (string-join (map symbol->string (sort-names theirs)) " ")))))
+
+(define (sort-names names)
+  (sort (delete-duplicates names eq?) (lambda (a b) (string<? (symbol->string a) (symbol->string b)))))
 
 (define last-chain '())
 

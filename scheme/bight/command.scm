@@ -227,6 +227,8 @@ Return the current at the surface, m/s."
     (set-current! 'current! current)
     (%current-at engine (f64vector 0 0 0))))
 
+(set-procedure-property! current! 'more current-help)
+
 (define-verb (waves! #:rest (setting any))
   "Change the waves, as in (waves! '(airy (height 1) (period 6) (toward 90))), (waves! '(jonswap (height
 1.5) (period 7) (toward 90) (seed 3))) or (waves! 'none).  Return them as they are now."

@@ -12,6 +12,7 @@
   #:use-module (bight cursor)
   #:use-module (bight engine)
   #:use-module (bight errors)
+  #:use-module ((bight guide) #:select (unit-of))
   #:use-module (bight meant)
   #:use-module ((bight query) #:select (find-part))
   #:use-module (bight schema)
@@ -110,8 +111,9 @@
 (define (keyword-text keyword)
   (string-append "#:" (symbol->string (keyword->symbol keyword))))
 
-(define (parameter-sentence type default)
-  (string-append (argument-type-sentence type)
+(define (parameter-sentence unit type default)
+  (string-append (if unit (string-append unit "; ") "")
+                 (argument-type-sentence type)
                  (if default (simple-format #f "; ~a when left out" default) "")))
 
 (define (rows-of verb role)
@@ -122,7 +124,8 @@
   (filter-map (lambda (row)
                 (let ((text (keyword-text (second row))))
                   (and (not (member text used))
-                       (candidate text (parameter-sentence (third row) (fourth row))))))
+                       (candidate text (parameter-sentence (unit-of (procedure-name verb) (second row))
+                                                                (third row) (fourth row))))))
               (rows-of verb 'key)))
 
 (define (all-keywords)

@@ -20,6 +20,7 @@
   #:use-module (srfi srfi-4)
   #:export (current-forms
             current-field-names
+            current-help
             parse-current
             clause-fields
             clause-field
@@ -58,7 +59,57 @@
   (check proc "bearing (toward, degrees)" type:bearing value))
 
 
-;;; The forms.
+;; What a current may be, as help tells it: (FORM SENTENCE EXAMPLE) each.
+(define forms
+  `((still "still: no current" 'still)
+    (uniform "SPEED TOWARD: the same everywhere" '(0.5 90))
+    (profile "(profile (Z SPEED TOWARD) ...): rows by height; between them the velocity is linear in z, beyond \
+them constant" '(profile (0 0.6 90) (-30 0.3 80)))
+    (turning "(turning (speed S) (toward B) (degrees-per-metre D)): the set turns with depth"
+             '(turning (speed 0.5) (toward 90) (degrees-per-metre -0.9)))
+    (power "(power (speed S) (toward B) (exponent E)): falls to nothing at the sea bed"
+           '(power (speed 0.5) (toward 90) (exponent 1/7)))
+    (tide "(tide (speed S) (toward B) (period T)): comes and goes" '(tide (speed 0.6) (toward 90) (period (hours 12.42))))
+    (grid "(grid \"FILE\"): measured in space and time, a file of the world; in a dive (grid) goes back to it" #f)
+    (function "a procedure of position and time that returns a velocity: slow"
+              (lambda (position time) (vec 0.3 0.1 0)))))
+
+(define (fields-of-forms)
+  ;; (NAME UNIT TYPE DEFAULT) of each field of these.
+  `((speed "m/s" ,type:speed #f)
+    (toward "degrees, the bearing it sets to" ,type:bearing #f)
+    (z "m, up from the surface" ,type:height #f)
+    (degrees-per-metre "degrees per metre of height" ,type:turn #f)
+    (exponent "" ,type:exponent "1/7")
+    (period "s" ,type:period "12.42 h")))
+
+(define (current-help)
+  "Return lines that tell each form of a current with an example, and what its fields take."
+  (append
+   (list "Forms:")
+   (append-map (lambda (form)
+                 (cons (string-append "  " (second form))
+                       (if (third form) (list (simple-format #f "    (current! ~a)" (brief-example (third form)))) '())))
+               forms)
+   (list "Fields:")
+   (map (lambda (field)
+          (string-append "  " (symbol->string (first field)) ": "
+                         (string-join (remove string-null?
+                                              (list (second field) (argument-type-sentence (third field))
+                                                    (if (fourth field)
+                                                        (string-append (fourth field) " when left out")
+                                                        "")))
+                                      "; ")))
+        (fields-of-forms))))
+
+(define (brief-example datum)
+  ;; As it is typed.
+  (if (and (pair? datum) (eq? 'quote (car datum)))
+      (simple-format #f "'~s" (cadr datum))
+      (simple-format #f "~s" datum)))
+
+
+;;; Reading them.
 
 (define (uniform proc speed toward)
   (list 'uniform (check-speed proc speed) (check-toward proc toward)))

@@ -176,6 +176,20 @@ given, from its type or left to the default, and for each thing inside it."
                       (append (map (lambda (row) (live-row head row live)) rows)
                               (follower-rows head rows live)))))
 
+(define (with-possibilities described head)
+  ;; DESCRIBED, a part that is called as its kind, with what each field may be, and the fields that it has not.
+  (let ((rows (description-rows described)))
+    (define (possible row) (list (first row) "" (second row) "" (fourth row)))
+    (define (told row)
+      (let ((field (assoc (first row) possibilities)))
+        (append row (list (if field (fourth field) "")))))
+    (define possibilities (description-rows (head-description head)))
+    (make-description (description-title described)
+                      (description-sentence described)
+                      (append (map told rows)
+                              (map possible
+                                   (remove (lambda (row) (assoc (first row) rows)) possibilities))))))
+
 (define (live-properties head name)
   ;; What may have changed since the dive began, an alist.
   (cond ((eq? head 'tether) (tether-properties (subject-index 'describe 'tether name)))
@@ -213,7 +227,9 @@ given, from its type or left to the default, and for each thing inside it."
             (worlds))))
 
 (define (describe-name name)
-  (cond ((here-part name) => dive-description)
+  (cond ((and (part-head? name) (here-part name))
+         => (lambda (part) (with-possibilities (dive-description part) name)))
+        ((here-part name) => dive-description)
         ((here-group name) => (lambda (members) (group-description name members)))
         ((or (part-head? name) (inner-head? name)) (head-description name))
         ((type-called name) => type-description)

@@ -222,4 +222,7 @@
         ((and (numbers? value) (positive? (array-length value))) (list (vector->text value)))
         ((string? value) (list (simple-format #f "~s" value)))
         ((verb? value) (list (simple-format #f "~a: this is how it is called" (verb-usage value))))
-        (else (string-split (round-text (simple-format #f "~s" value)) #\newline))))
+        (else
+         (let ((text (simple-format #f "~s" value)))
+           ;; What prints as a page has been laid out already.
+           (if (string-index text #\newline) (string-split text #\newline) (list (round-text text)))))))

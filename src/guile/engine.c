@@ -6,7 +6,7 @@
 
 #include "guile/guile.h"
 
-/* The folder that the environment names, else the installed one.  */
+/* The folder or file that the environment names, else the installed one.  */
 static SCM
 folder (const char *variable, const char *installed)
 {
@@ -21,6 +21,12 @@ worlds_folder (void)
 }
 
 static SCM
+manual_file (void)
+{
+  return folder ("BIGHT_MANUAL", BIGHT_INFO_DIR "/bight.info");
+}
+
+static SCM
 programs_folder (void)
 {
   return folder ("BIGHT_LIBEXEC", BIGHT_LIBEXEC_DIR);
@@ -32,6 +38,8 @@ define_folders (void)
   static const bt__procedure table[] = {
     { "%worlds-folder", 0, 0, (scm_t_subr)worlds_folder,
       "Return the folder of the worlds that come with bight; BIGHT_WORLDS overrides it." },
+    { "%manual-file", 0, 0, (scm_t_subr)manual_file,
+      "Return the manual as an Info file; BIGHT_MANUAL overrides it." },
     { "%programs-folder", 0, 0, (scm_t_subr)programs_folder,
       "Return the folder of the benchmark programs; BIGHT_LIBEXEC overrides it." },
   };

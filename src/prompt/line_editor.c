@@ -1,9 +1,10 @@
 /* What GNU readline knows of the line that is being edited, and a list of completions with their
    meanings.
 
-   Guile's own module (ice-9 readline) reads the lines and calls a completer with the word alone.  The
-   procedures here tell that completer of the whole line, put text into it, and hand the completions that
-   are to be listed to a procedure of Scheme, which returns the text to be shown instead.
+   Guile's own module (ice-9 readline) reads the lines and calls a completer with the word alone.
+   The procedures here tell that completer of the whole line, put text into it, and hand the
+   completions that are to be listed to a procedure of Scheme, which returns the text to be shown
+   instead.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -65,8 +66,8 @@ tell_below (SCM text)
   return SCM_UNSPECIFIED;
 }
 
-/* A quote before a name is no quotation mark, completions come in the order of the completer, and one
-   Tab lists them.  */
+/* A quote before a name is no quotation mark, completions come in the order of the completer, and
+   one Tab lists them.  */
 static SCM
 begin_editing (SCM procedure)
 {
@@ -89,7 +90,8 @@ bight_prompt_init (void)
     { "%line-before-cursor", 0, 0, (scm_t_subr)line_before_cursor,
       "Return the part of the line that is before the cursor." },
     { "%insert-text", 1, 0, (scm_t_subr)insert_text, "Put TEXT into the line at the cursor." },
-    { "%tell-below", 1, 0, (scm_t_subr)tell_below, "Show TEXT below the line, then the line again." },
+    { "%tell-below", 1, 0, (scm_t_subr)tell_below,
+      "Show TEXT below the line, then the line again." },
   };
   bt__define_procedures (table, sizeof table / sizeof *table);
 }

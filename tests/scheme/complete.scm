@@ -88,7 +88,7 @@ what stands for it when it is left out."
   (expect (filter (lambda (entry) (or (string-null? (cdr entry)) (string-index (cdr entry) #\newline)))
                   (append-map meanings-after '("(ha" "(enter! '" "(world (tether (" "(world (" "(winding '")))
           => '())
-  (expect (meanings-after "(pay-out! 3 #:") => '(("#:rate" . "a number above 0 and at most 1e12; 0.5 when left out")))
+  (expect (meanings-after "(pay-out! 3 #:") => '(("#:rate" . "m/s; a number above 0 and at most 1e12; 0.5 when left out")))
   (expect (assoc-ref (meanings-after "(haul-i") "haul-in!") is (lambda (text) (string-prefix? "Haul METRES" text))))
 
 (define (all-text folder)

@@ -2,7 +2,16 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules ((srfi srfi-1) #:hide (every))
+(use-modules (bight argument)
+             (bight guide)
+             (bight topics)
+             ((bight current) #:select (current-help current-forms))
+             ((bight expect) #:select (exception->line))
+             ((bight manual) #:select (manual-sections))
+             ((bight describe) #:select (description-rows))
+             ((bight schema) #:select (head-names))
+             ((bight verb) #:select (verb? verb-parameters))
+             ((srfi srfi-1) #:hide (every))
              ((srfi srfi-1) #:select ((every . all?))))
 
 (define questions
@@ -73,3 +82,127 @@
   (expect (length (filter promise-in questions)) is (above 70))
   (expect (as-told? "Return the depth of the vehicle, m." 'deep) => #f)
   (for-each (lambda (question) (expect (told-and-not-so question) => #f)) questions))
+
+
+;;; What help shows besides.
+
+(define here (current-module))
+
+(define (verbs)
+  (filter-map (lambda (name)
+                (let ((value (module-ref (resolve-interface '(bight)) name)))
+                  (and (verb? value) (cons name value))))
+              (language-names)))
+
+(define (help-text topic)
+  (with-output-to-string (lambda () (display (eval `(help ,topic) here)))))
+
+;; Numbers that count or compare, in no unit.
+(define bare
+  '(low high value n number jobs seed durations least most most-points hits trials components competence surge sway
+    heave yaw score given truth factor v))
+
+(define (bare? name)
+  (memq (if (keyword? name) (keyword->symbol name) name) bare))
+
+(define-scenario units-of-all-numbers
+  "Each argument of a verb that is a number has a unit, or is known to have none."
+  (expect (append-map (lambda (entry)
+                        (filter-map (lambda (row)
+                                      (let ((type (third row)))
+                                        (and type (accepts? type 1/2) (not (accepts? type "x"))
+                                             (not (unit-of (car entry) (second row)))
+                                             (not (bare? (second row)))
+                                             (not (memq (argument-type-name type) '(bearing any flag)))
+                                             (list (car entry) (second row)))))
+                                    (verb-parameters (cdr entry))))
+                      (verbs))
+          => '()))
+
+;; Evaluated by nobody here: they need a terminal, a renderer, another program or an hour.
+(define not-run '(pilot! film run-tests snapshot show run-lesson plot))
+
+(define-scenario each-verb-has-an-example
+  "The help of each verb has an example."
+  (expect (filter-map (lambda (entry)
+                        (and (null? (examples-of (car entry) (cdr entry)))
+                             (not (memq (car entry) in-a-lesson))
+                             (car entry)))
+                      (verbs))
+          => '()))
+
+(define (not-here? name)
+  (or (memq name not-run) (string-prefix? "report-" (symbol->string name))))
+
+(define (stopped form)
+  ;; Why FORM cannot be evaluated in a dive of its own, or #f.
+  (with-exception-handler
+      (lambda (e) (if (and (bight-error? e) (eq? 'unsupported (bight-error-kind e))) #f (exception->line e)))
+    (lambda ()
+      (enter! 'pile)
+      (run 1)
+      (with-output-to-string (lambda () (eval form here)))
+      #f)
+    #:unwind? #t))
+
+(define-scenario (examples-run part)
+  "Each example runs."
+  #:for ((part 0 1 2 3))
+  (let ((folder (dirname (scratch-file "x"))) (before (getcwd)))
+    (setenv "BIGHT_LOGBOOK" (string-append folder "/logbook.db"))
+    (dynamic-wind
+      (lambda () (chdir folder))
+      (lambda ()
+        (for-each (lambda (entry i)
+                    (when (and (= part (modulo i 4)) (not (not-here? (car entry))))
+                      (for-each (lambda (form) (expect (list (car entry) (stopped form)) => (list (car entry) #f)))
+                                (examples-of (car entry) (cdr entry)))))
+                  (verbs) (iota (length (verbs)))))
+      (lambda () (chdir before)))))
+
+(define-scenario topics-hold-all-names
+  "Each name of the language belongs to one topic."
+  (expect (filter (lambda (name) (not (topic-of name))) (language-names)) => '())
+  (let ((all (append-map topic-names (map car (topics)))))
+    (expect (length all) => (length (delete-duplicates all)))
+    (expect (lset-xor eq? all (language-names)) => '()))
+  (for-each (lambda (topic)
+              (expect (string-contains (with-output-to-string (lambda () (display (help)))) (cdr topic))
+                      is identity))
+            (topics)))
+
+(define-scenario help-finds
+  "A word is looked for in names, in what they say, and in the manual; all that is related is named."
+  (expect (string-contains (help-text "tangle") "fouled?") is identity)
+  (expect (string-contains (help-text "autopilot") "release!") is identity)
+  (unless (null? (manual-sections))     ; it is made where makeinfo is
+    (expect (string-contains (help-text "autopilot") "`info bight'") is identity))
+  (expect (string-contains (help-text 'pay-out!) "m/s; a number above 0 and at most 1e12; 0.5 when left out")
+          is identity)
+  (expect (string-contains (help-text 'fouled?) "foul-reason") is identity)
+  (expect (string-contains (help-text "xyzzyx") "There is no") is identity))
+
+(define-scenario help-of-currents
+  "The help of current! shows each form of a current; what it shows can be typed."
+  (in pile)
+  (let ((lines (current-help)))
+    (expect (string-prefix? (string-join lines "\n")
+                            (substring (help-text 'current!) (string-contains (help-text 'current!) "Forms:")))
+            => #t)
+    (expect (length (filter (lambda (line) (string-contains line "(current! ")) lines))
+            => (- (length current-forms) 1)) ; a grid is a file of its world
+    (for-each (lambda (line)
+                (when (string-contains line "(current! ")
+                  (expect (and (stopped (call-with-input-string line read)) line) => #f)))
+              lines)))
+
+(define-scenario a-sea-is-described
+  "What a sea can have is described, whether there is a dive or not."
+  (define (names) (map string->symbol (map first (description-rows (describe 'sea)))))
+  (expect (lset-xor eq? (names) (head-names 'sea)) => '())
+  (enter! 'pile)
+  (expect (lset-xor eq? (names) (head-names 'sea)) => '())
+  (expect (all? (lambda (row) (> (string-length (last row)) 5)) (description-rows (describe 'sea))) => #t)
+  (enter! 'cage)
+  (expect (lset-difference eq? (head-names 'seabed) (map string->symbol (map first (description-rows (describe 'seabed)))))
+          => '()))
