@@ -383,22 +383,24 @@ vehicle_types (void)
   return scm_reverse_x (list, SCM_EOL);
 }
 
+/* What a type says of a tether is what it changes in a struct that no tether can be.  */
 static SCM
 tether_types (void)
 {
   const bt_head *tether = bt_head_find ("tether");
+  bt_tether_def blank;
   SCM list = SCM_EOL;
+  memset (&blank, 0xa5, sizeof blank);
+  blank.props.mass = blank.props.wet_weight = NAN; /* one of these may follow from the other */
   for (int i = 0; bt_tether_type_name (i); i++)
     {
-      bt_tether_def def, born;
+      bt_tether_def def = blank;
       bt_error error;
-      bt_def_init (tether, &def);
-      born = def;
       bt__check ("tether-types", bt_def_set_tether_type (&def, bt_tether_type_name (i), &error),
                  &error);
       list = scm_cons (scm_list_3 (scm_from_utf8_symbol (bt_tether_type_name (i)),
                                    scm_from_utf8_string (bt_tether_type_text (i)),
-                                   from_fields (tether, &def, &born, SCM_EOL)),
+                                   from_fields (tether, &def, &blank, SCM_EOL)),
                        list);
     }
   return scm_reverse_x (list, SCM_EOL);
