@@ -5,9 +5,10 @@
 #   sh over-ssh.sh STUDY.scm node1 node2 node3
 #
 # With GNU parallel (and rsync, which brings the files) it is one line, and a machine that is done takes the
-# next shard; each shard is flown by the cores of one machine, and written to its own file:
+# next shard; each shard is flown by the cores of one machine, and written to its own file.  The files stay on
+# the machines, which go on with them; `--cleanup' would delete the results where the machines share a folder.
 #
-#   parallel -S node1,node2,node3 -j 1 --workdir . --return STUDY.{}-of-12.db --cleanup \
+#   parallel -S node1,node2,node3 -j 1 --workdir . --return STUDY.{}-of-12.db \
 #     bight sweep STUDY.scm -o STUDY.{}-of-12.db --shard {}/12 ::: $(seq 12)
 #   bight sweep --merge STUDY.db STUDY.*-of-12.db
 #
@@ -42,12 +43,15 @@ for flier in $fliers; do
   wait "$flier" || failed=1
 done
 
+# A machine that sees the file made here has written its shard here already.
+mark=.$name.$$.here
+trap 'rm -f "$mark"' EXIT
+: >"$mark"
 i=0
 for machine in "$@"; do
   i=$((i + 1))
   shard=$name.$i-of-$parts.db
-  # On one file system it is here already.
-  [ -e "$shard" ] || $scp "$machine:$here/$shard" "$shard"
+  $ssh "$machine" "test -e '$here/$mark'" || $scp "$machine:$here/$shard" "$shard" || failed=1
 done
 bight sweep --merge "$name.db" "$name".*-of-"$parts".db || failed=1
 exit $failed

@@ -200,7 +200,7 @@ mkdir array
 cp quick.scm array
 (cd array && for task in 1 2; do
    SLURM_ARRAY_TASK_ID=$task SLURM_ARRAY_TASK_COUNT=2 \
-     "$pre" sh "$top_srcdir/studies/slurm-array.sh" quick.scm || echo failed
+     "$pre" sh "$top_srcdir/studies/slurm-array.sh" quick.scm 2 || echo failed
  done >out 2>&1
  "$pre" bight sweep --merge quick.db quick.*-of-2.db >>out 2>&1)
 grep -q "12 done (12 now), fingerprint $one" array/out

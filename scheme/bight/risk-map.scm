@@ -40,7 +40,8 @@
 (define (measure-to-map plan rows wanted)
   ;; The measure WANTED, or the first that is true or false.
   (let ((measures (plan-fact plan 'measures)))
-    (define (fits? name) (probability? (column-of rows (place-of plan name))))
+    (define (fits? name)
+      (eq? 'probability (measure-kind plan name (column-of rows (place-of plan name)))))
     (cond ((not wanted)
            (or (find fits? measures)
                (bight-raise 'domain 'sweep "no measure of ~a is true or false, so there is no probability \

@@ -14,7 +14,7 @@
   #:use-module (bight verb)
   #:use-module (srfi srfi-1)
   #:export (wilson-interval
-            probability?
+            measure-kind
             share-of
             group-rows
             group-variables
@@ -46,8 +46,8 @@ about HITS times in TRIALS."
         (list (if (zero? hits) 0.0 (max 0.0 (- middle half)))
               (if (= hits trials) 1.0 (min 1.0 (+ middle half)))))))
 
-(define (probability? values)
-  "Return #t if all that is known of VALUES is 0 or 1, and something is."
+(define (zero-or-one? values)
+  ;; Is all that is known of VALUES 0 or 1, and something is?
   (let ((known (filter identity values)))
     (and (pair? known)
          (every (lambda (v) (and (number? v) (or (= v 0) (= v 1)))) known))))
@@ -122,11 +122,17 @@ order in which they first come."
                                                         (object->string (car b))))))))
                  ", ")))
 
-(define (measure-kind values)
+(define (measure-kind plan name values)
+  "Return what the measure NAME of PLAN is, whatever its VALUES happen to be: probability, number or text.  The
+result of an older bight does not tell: there the values do."
   (let ((known (filter identity values)))
-    (cond ((probability? values) 'probability)
-          ((and (pair? known) (every number? known)) 'number)
-          (else 'text))))
+    (case (plan-kind plan name)
+      ((boolean) 'probability)
+      ((number text) => identity)
+      (else
+       (cond ((zero-or-one? values) 'probability)
+             ((and (pair? known) (every number? known)) 'number)
+             (else 'text))))))
 
 (define (heads kind name csv?)
   (define (with suffix) (simple-format #f "~a_~a" name suffix))
@@ -186,7 +192,7 @@ order in which they first come."
   (let* ((done (filter done? rows))
          (measures (map (lambda (name)
                           (let ((place (place-of plan name)))
-                            (list name place (measure-kind (column-of done place)))))
+                            (list name place (measure-kind plan name (column-of done place)))))
                         (plan-fact plan 'measures))))
     (define (group->cells group)
       (let ((flown (filter done? (cdr group))))
@@ -222,11 +228,12 @@ of strings, the first their heads."
                         (or (> (cdr a) (cdr b))
                             (and (= (cdr a) (cdr b)) (string<? (car a) (car b)))))))))
 
-(define (summary-rows name values)
+(define (summary-rows name kind values)
   (let ((known (filter identity values)))
-    (case (measure-kind values)
+    (case kind
       ((probability) (list (share-row name "true" (share-of values))))
-      ((number) (list (list name "" (number->string (length known)) (number-summary known))))
+      ((number) (list (list name "" (number->string (length known))
+                            (if (null? known) "-" (number-summary known)))))
       (else (word-rows name known)))))
 
 (define (risk-summary database)
@@ -236,7 +243,8 @@ with its interval; none when no case is done."
     (if (null? done)
         '()
         (append-map (lambda (name)
-                      (summary-rows (symbol->string name) (column-of done (place-of plan name))))
+                      (let ((values (column-of done (place-of plan name))))
+                        (summary-rows (symbol->string name) (measure-kind plan name values) values)))
                     (plan-fact plan 'measures)))))
 
 

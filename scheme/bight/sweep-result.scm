@@ -1,11 +1,11 @@
 ;;; (bight sweep-result) --- what a sweep found, in one SQLite file that anybody can query.
 ;;;
-;;;   study   name, value: the study's name, sentence, text, world, version, variables, measures, ...
+;;;   study   name, value: the study's name, sentence, text, world, version, variables, measures, kinds, ...
 ;;;   cases   number, key, status (done, failed, timed out), error, message, cpu (s), hash, version, and a
 ;;;           column for each variable and each measure
 ;;;   legs    key (of the case), leg (1, 2, ...), name, x, y, z, and a column for each measure
 ;;;
-;;; True and false are 1 and 0.  A case is in the table when it has an outcome, and then in one
+;;; True and false are 1 and 0; which measures are true or false, numbers or words, stands in `kinds'.  A case is in the table when it has an outcome, and then in one
 ;;; transaction with its legs: what is not there is to be flown.  As in: select U, avg(fouled) from cases
 ;;; where status = 'done' group by U;
 ;;;
@@ -25,6 +25,7 @@
             plan-name
             plan-facts
             plan-fact
+            plan-kind
             open-result
             open-found
             close-result!
@@ -32,7 +33,7 @@
             known-keys
             add-case!
             number-cases!
-            forget-unfinished!
+            forget-cases!
             case-rows
             leg-rows
             count-by-status
@@ -54,6 +55,11 @@
   "Return what PLAN says about NAME: name, sentence, text, world, version, variables, spread, measures,
 legs or cases."
   (assq-ref (plan-facts plan) name))
+
+(define (plan-kind plan name)
+  "Return what the values of the measure NAME of PLAN were so far, boolean, number or text, or #f when that is
+not known: no case was flown, or by an older bight."
+  (assq-ref (or (plan-fact plan 'kinds) '()) name))
 
 (define (plan-name plan)
   "Return the name of the study of PLAN."
@@ -115,9 +121,14 @@ x real, y real, z real" (columns (plan-fact plan 'measures)) ", primary key (key
 (define (size? value)
   (and (exact-integer? value) (<= 0 value 1000000000)))
 
+(define (kinds? value)
+  (or (not value)                       ; an older bight tells none
+      (and (list? value)
+           (every (lambda (entry) (and (pair? entry) (memq (cdr entry) '(boolean number text)))) value))))
+
 (define shapes                          ; what is built upon, and must be what it was written as
   `((name . ,symbol?) (file . ,string?) (version . ,string?) (variables . ,names?) (measures . ,names?)
-    (legs . ,list?) (cases . ,size?)))
+    (legs . ,list?) (cases . ,size?) (kinds . ,kinds?)))
 
 (define (check-shapes plan)
   (for-each (lambda (shape)
@@ -135,7 +146,7 @@ x real, y real, z real" (columns (plan-fact plan 'measures)) ", primary key (key
                      (cons (string->symbol (first row)) (text->datum (second row))))
                    (%query database "select name, value from study order by rowid" '())))))
 
-(define (open-named file statements)
+(define (open-named file statements alone?)
   ;; What SQLite says of a file does not name it.
   (with-exception-handler
       (lambda (e)
@@ -143,28 +154,53 @@ x real, y real, z real" (columns (plan-fact plan 'measures)) ", primary key (key
                  (not (eq? 'unsupported (bight-error-kind e))))
             (bight-raise (bight-error-kind e) 'sweep "~s: ~a" file (bight-error-message e))
             (raise-exception e)))
-    (lambda () (open-tables 'sweep file kind version statements))
+    (lambda () (open-tables 'sweep file kind version statements #:alone? alone?))
     #:unwind? #t))
 
 (define (open-result file plan)
   "Open the result FILE, made if there is none, for PLAN.  Raise a &bight-error of kind stale if it is of
-another study, text, world or version."
+another study, text, world or version.  Nobody else can write it until it is closed."
   (check-writable 'sweep file)
-  (let ((database (open-named file (tables plan))))
+  (let ((database (open-named file (tables plan) #t)))
+    (unless database
+      (bight-raise 'io 'sweep "another sweep is writing ~s" file))
     (if (null? (%query database "select name from study limit 1" '()))
-        (write-plan! database plan)
+        (begin
+          (write-kinds! database '())
+          (write-plan! database plan))
         (check-same file plan (found-plan database)))
     database))
 
-(define (open-found file)
-  "Open the result FILE, which must be there."
+(define (check-found file)
   (unless (file-exists? file)
     (bight-raise 'io 'sweep "there is no file ~s" file))
   (when (file-is-directory? file)
     (bight-raise 'io 'sweep "~s is a folder, not the result of a sweep" file))
   (when (zero? (stat:size (stat file)))
-    (bight-raise 'format 'sweep "~s is empty, not the result of a sweep" file))
-  (open-named file '()))
+    (bight-raise 'format 'sweep "~s is empty, not the result of a sweep" file)))
+
+(define (open-found file)
+  "Open the result FILE, which must be there, to look into it: itself, or a copy of it as it is now while a
+sweep is writing it."
+  (check-found file)
+  (or (open-named file '() #t)
+      (let* ((copy (copy-of-database 'sweep file))
+             (database (open-named copy '() #t)))
+        (delete-file copy)              ; what is open stays until it is closed
+        database)))
+
+(define (call-with-settled file proc)
+  ;; Call PROC with the name of a file that holds what FILE, a result, holds, and that nobody is writing.
+  (let ((database (begin (check-found file) (open-named file '() #t))))
+    (if database
+        (begin
+          (close-result! database)
+          (proc file))
+        (let ((copy (copy-of-database 'sweep file)))
+          (dynamic-wind
+            (const #f)
+            (lambda () (proc copy))
+            (lambda () (false-if-exception (delete-file copy))))))))
 
 (define (close-result! database)
   "Close DATABASE.  What it holds is then in one file."
@@ -195,6 +231,42 @@ another study, text, world or version."
   (map (lambda (name) (let ((entry (assq name measures))) (and entry (stored (cdr entry)))))
        (plan-fact plan 'measures)))
 
+(define (kind-of value)
+  (cond ((boolean? value) 'boolean)
+        ((number? value) 'number)
+        (else 'text)))
+
+(define (joined-kind a b)
+  ;; The kind of values of which some are A and some B.
+  (cond ((eq? a b) a)
+        ((or (eq? a 'text) (eq? b 'text)) 'text)
+        (else 'number)))
+
+(define (join-kinds more kinds)
+  ;; KINDS, an alist from measures, widened by MORE.
+  (fold (lambda (entry kinds)
+          (let ((known (assq-ref kinds (car entry))))
+            (acons (car entry) (if known (joined-kind known (cdr entry)) (cdr entry))
+                   (alist-delete (car entry) kinds eq?))))
+        kinds more))
+
+(define (write-kinds! database kinds)
+  (%query database "insert or replace into study values ('kinds', ?)" (list (object->string kinds))))
+
+(define (note-kinds! database more)
+  ;; The kinds of DATABASE become wider by MORE; where none are told, older cases have unknown ones.
+  (let* ((known (plan-fact (found-plan database) 'kinds))
+         (joined (and known (join-kinds more known))))
+    (unless (or (not known) (lset= equal? known joined))
+      (write-kinds! database joined))))
+
+(define (kinds-in outcome)
+  ;; Of all that was measured in OUTCOME, at the end and after the legs.
+  (join-kinds (map (lambda (entry) (cons (car entry) (kind-of (cdr entry))))
+                   (append (or (assq-ref outcome 'measures) '())
+                           (append-map third (or (assq-ref outcome 'legs) '()))))
+              '()))
+
 (define (add-case! database plan number key values outcome)
   "Add to DATABASE the case NUMBER, from 1, with KEY and VALUES of the variables of PLAN.  OUTCOME is an alist
 of status, error, message, cpu, hash, measures and legs."
@@ -205,6 +277,7 @@ of status, error, message, cpu, hash, measures and legs."
                `(,number ,key ,(of 'status) ,(of 'error) ,(of 'message) ,(of 'cpu) ,(of 'hash)
                          ,(plan-fact plan 'version)
                          ,@(map stored values) ,@(measured plan (or (of 'measures) '()))))
+      (note-kinds! database (kinds-in outcome))
       (for-each (lambda (leg i)
                   (insert! database "legs"
                            `(,key ,i ,(first leg) ,@(second leg) ,@(measured plan (third leg)))))
@@ -228,13 +301,16 @@ not mixed: name another result with -o, or move that one away" (length lost)
                              rows))
         (write-plan! database plan)))))
 
-(define (forget-unfinished! database)
-  "Take the cases that failed or were timed out from DATABASE, so that they are flown again."
-  (in-transaction database
-    (lambda ()
-      (%query database
-              "delete from legs where key in (select key from cases where status <> 'done')" '())
-      (%query database "delete from cases where status <> 'done'" '()))))
+(define (forget-cases! database which)
+  "Take cases from DATABASE, so that they are flown again: the `unfinished', which failed or were timed out,
+or of these the `interrupted' alone, which were ended from outside."
+  (let ((those (if (eq? which 'interrupted) "error = 'interrupted'" "status <> 'done'")))
+    (in-transaction database
+      (lambda ()
+        (%query database
+                (string-append "delete from legs where key in (select key from cases where " those ")")
+                '())
+        (%query database (string-append "delete from cases where " those) '())))))
 
 
 ;;; Reading.
@@ -312,10 +388,17 @@ where c.key is null or (c.status <> 'done' and s.status = 'done')"
     (unless (equal? (plan-fact ours 'design) (plan-fact theirs 'design))
       (bight-raise 'stale 'sweep "~s was flown for other cases of ~a than ~s (~a, not ~a)" shard-file
                    (plan-name ours) file (plan-fact theirs 'cases) (plan-fact ours 'cases)))
-    (%query database "attach database ? as shard" (list shard-file))
-    (dynamic-wind
-      (const #f)
-      (lambda ()
-        (check-agreement database shard-file)
-        (in-transaction database (lambda () (copy! database))))
-      (lambda () (%query database "detach database shard" '())))))
+    (call-with-settled shard-file
+      (lambda (settled)
+        (%query database "attach database ? as shard" (list settled))
+        (dynamic-wind
+          (const #f)
+          (lambda ()
+            (check-agreement database shard-file)
+            (in-transaction database
+              (lambda ()
+                (if (plan-fact theirs 'kinds)
+                    (note-kinds! database (plan-fact theirs 'kinds))
+                    (%query database "delete from study where name = 'kinds'" '()))
+                (copy! database))))
+          (lambda () (%query database "detach database shard" '())))))))

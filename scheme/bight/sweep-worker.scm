@@ -5,6 +5,9 @@
 ;;; or how it died.  So no case sees what another did, one that breaks down takes nothing with it, and
 ;;; one that takes too long is ended.  When its master is gone, so is the worker, and the case.
 ;;;
+;;; A process that was ended by a signal which comes from outside, as SIGKILL does when memory is short, says
+;;; nothing about its case: that is `interrupted', and what becomes of the case is for the master to decide.
+;;;
 ;;; Who forks must have one thread: another may hold a lock at that moment, which nobody then opens.  So
 ;;; neither a worker, nor its master before all workers are there, calls `sigaction', which starts one.
 ;;;
@@ -26,6 +29,8 @@
             worker-case
             set-task!
             worker-answer
+            interrupted
+            interrupted?
             stop-worker!
             case-outcome))
 
@@ -86,6 +91,24 @@ or error and message."
 (define (broken-down how)
   `((status . "failed") (error . "crash") (message . ,(string-append "the dive's process " how))))
 
+(define own-signals
+  ;; Those that a process is ended by for what it did itself.  All others come from outside.
+  (list SIGABRT SIGBUS SIGFPE SIGILL SIGSEGV SIGSYS SIGTRAP SIGPIPE SIGALRM SIGVTALRM))
+
+(define (interrupted how)
+  "Return the outcome of a case whose process was ended from outside; HOW says by what."
+  `((status . "failed") (error . "interrupted")
+    (message . ,(string-append "the dive's process was ended from outside, " how))))
+
+(define (interrupted? outcome)
+  "Return #t if OUTCOME says no more than that the case was ended from outside."
+  (equal? "interrupted" (assq-ref outcome 'error)))
+
+(define (signal->string signal)
+  (if (= signal SIGKILL)
+      (simple-format #f "by signal ~a, as when memory is short" signal)
+      (simple-format #f "by signal ~a" signal)))
+
 (define (written text)
   ;; What the process wrote, if it wrote all of it.
   (let ((datum (text->datum text)))
@@ -94,9 +117,10 @@ or error and message."
 (define (verdict study text status)
   ;; What came of a case whose process wrote TEXT and ended with STATUS.
   (let ((signal (status:term-sig status)))
-    (cond ((eqv? signal SIGPROF) (timed-out study))
+    (cond ((written text))              ; however it ended afterwards
+          ((eqv? signal SIGPROF) (timed-out study))
+          ((and signal (not (memv signal own-signals))) (interrupted (signal->string signal)))
           (signal (broken-down (simple-format #f "was ended by signal ~a" signal)))
-          ((written text))
           (else (broken-down (simple-format #f "ended with status ~a" (status:exit-val status)))))))
 
 (define (now) (/ (get-internal-real-time) (exact->inexact internal-time-units-per-second)))

@@ -83,19 +83,6 @@
           (iota (vector-length keys))))
 
 
-;;; One master at a time.
-
-(define (lock! file)
-  ;; A port that holds FILE for us until it is closed, or we are gone.
-  (let ((port (open-file file "r+b")))
-    (catch 'system-error
-      (lambda () (flock port (logior LOCK_EX LOCK_NB)))
-      (lambda arguments
-        (when (eqv? EWOULDBLOCK (system-error-errno arguments))
-          (bight-raise 'io 'sweep "another sweep is writing ~s" file))))
-    port))
-
-
 ;;; Progress.
 
 (define (clock)
@@ -186,28 +173,55 @@
                 (cdr pending))))
         pending workers))
 
-(define (fly-all! workers pending enter!)
-  "Let WORKERS fly the cases PENDING, and call ENTER! with the number and outcome of each.  Return #t if it
-was stopped."
-  (let loop ((workers workers) (pending pending))
-    (let* ((pending (hand-out! workers pending))
+;; A case that was ended from outside has no outcome.  It is flown again after all others and by itself, as
+;; its process may have been ended for want of memory; at the third end it counts as failed, and the next
+;; sweep of the same result flies it again.
+
+(define most-flights 3)
+
+(define (given-up outcome)
+  (assq-set! (copy-tree outcome) 'message
+             (simple-format #f "~a; so it was ~a times, at last flown by itself; the next sweep tries again"
+                            (assq-ref outcome 'message) most-flights)))
+
+(define (settler enter! tell-again)
+  "Return a procedure of the number of a case and what came of it, which enters that, and returns #f, or
+returns the number of a case that is to be flown again."
+  (let ((ends (make-hash-table)))
+    (lambda (number outcome)
+      (let ((n (if (interrupted? outcome) (+ 1 (hashv-ref ends number 0)) 0)))
+        (hashv-set! ends number n)
+        (cond ((zero? n) (enter! number outcome) #f)
+              ((< n most-flights) (tell-again number outcome) number)
+              (else (enter! number (given-up outcome)) #f))))))
+
+(define (take-answers! answering workers again settle!)
+  ;; Settle what those of WORKERS who are ANSWERING say; return the workers left and AGAIN, the cases to be
+  ;; flown again.
+  (if (null? answering)
+      (values workers again)
+      (let* ((worker (car answering))
+             (number (worker-case worker))
+             (answer (worker-answer worker))
+             (left (settle! number (or answer (interrupted "with the worker that flew it")))))
+        (take-answers! (cdr answering) (if answer workers (delq worker workers))
+                       (if left (append again (list left)) again) settle!))))
+
+(define (fly-all! workers pending settle!)
+  "Let WORKERS fly the cases PENDING, and call SETTLE! with the number and outcome of each, and again those
+that it returns, one at a time.  Return #t if it was stopped."
+  (let loop ((workers workers) (pending pending) (again '()))
+    (let* ((alone? (and (null? pending) (pair? again) (not (any worker-case workers))))
+           (pending (hand-out! workers (if alone? (list (car again)) pending)))
+           (again (if alone? (cdr again) again))
            (busy (filter worker-case workers)))
       (cond ((variable-ref (stop-asked)) #t)
-            ((and (null? busy) (null? pending)) #f)
+            ((and (null? busy) (null? pending) (null? again)) #f)
             ((null? busy)
              (bight-raise 'io 'sweep "all workers are gone; start it again and it goes on"))
             (else
-             (let answers ((rest (answered busy)) (workers workers) (pending pending))
-               (if (null? rest)
-                   (loop workers pending)
-                   (let* ((worker (car rest))
-                          (number (worker-case worker))
-                          (outcome (worker-answer worker)))
-                     (when outcome (enter! number outcome))
-                     (if outcome
-                         (answers (cdr rest) workers pending)
-                         ;; A worker that is gone leaves its case to the others.
-                         (answers (cdr rest) (delq worker workers) (cons number pending)))))))))))
+             (call-with-values (lambda () (take-answers! (answered busy) workers again settle!))
+               (lambda (workers again) (loop workers pending again))))))))
 
 (define (first-failure rows)
   ;; (NUMBER MESSAGE) of the first of ROWS that is not done.
@@ -236,7 +250,7 @@ was stopped."
          (flown 0) (failed 0)
          (show (progress-shower)))
     (number-cases! database plan (numbers-of keys))
-    (when again? (forget-unfinished! database))
+    (forget-cases! database (if again? 'unfinished 'interrupted))
     (let* ((pending (missing keys (known-keys database) shard))
            (all (length pending)))
       (define (enter! number outcome)
@@ -244,8 +258,14 @@ was stopped."
         (set! flown (+ flown 1))
         (unless (equal? "done" (assq-ref outcome 'status)) (set! failed (+ failed 1)))
         (show flown all failed))
+      (define (tell-again number outcome)
+        (show #f)
+        (simple-format (current-error-port) "bight: sweep: case ~a: ~a; it is flown again, by itself~%"
+                       (+ number 1) (assq-ref outcome 'message))
+        (force-output (current-error-port)))
       (show 0 all 0)
-      (let ((stopped? (call-with-stop (lambda () (fly-all! workers pending enter!)))))
+      (let ((stopped? (call-with-stop
+                       (lambda () (fly-all! workers pending (settler enter! tell-again))))))
         (show #f)
         (tally-of database plan shard flown stopped?)))))
 
@@ -261,10 +281,8 @@ is (I . N), the I-th of N parts, or #f for all; AGAIN? also flies what failed be
         (const #f)
         (lambda ()
           (let* ((database (open-result result plan))
-                 (lock (lock! result))
                  (tally (fly-missing! study plan database workers shard again?)))
             (close-result! database)
-            (close-port lock)
             tally))
         (lambda () (for-each stop-worker! workers))))))
 
@@ -279,9 +297,7 @@ is (I . N), the I-th of N parts, or #f for all; AGAIN? also flies what failed be
                  (make-plan (map (lambda (fact) (if (eq? 'shard (car fact)) '(shard . #f) fact))
                                  (plan-facts plan)))))
          (database (open-result result plan))
-         (lock (lock! result))
          (merged (apply + (map (lambda (shard) (merge-result! database result shard)) shards)))
          (tally (tally-of database (found-plan database) #f merged #f)))
     (close-result! database)
-    (close-port lock)
     tally))

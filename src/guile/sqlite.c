@@ -1,8 +1,10 @@
 /* The extension for SQLite: fills the module (bight sqlite).  It is loaded when a database is first
    wanted.
 
-   A database is written by whoever comes: it is in WAL mode, a writer waits for another, and what
-   was committed survives the end of the process.
+   A database is in WAL mode: what was committed survives the end of the process.  It is written by
+   whoever comes, a writer waiting for another; or it is opened for this process alone, by SQLite's
+   exclusive locking mode, which needs no memory shared with others and so works on a network file
+   system as well.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -15,7 +17,8 @@
 
 enum
 {
-  PATIENCE = 10000 /* ms that a writer waits for another */
+  PATIENCE = 10000,     /* ms that a writer waits for another */
+  SHORT_PATIENCE = 1000 /* ms that who wants a database for himself waits for who reads it */
 };
 
 static scm_t_bits database_tag;
@@ -50,30 +53,43 @@ raise_sqlite (const char *who, sqlite3 *database, int code)
   bt__raise (who, &error);
 }
 
-static SCM
-open_database (SCM file)
+/* Open NAME and say how it is to be locked; return what SQLite says.  The lock of the exclusive
+   mode is taken by the first statement that reads, and kept until the database is closed.  */
+static int
+open_named (const char *name, int alone, sqlite3 **database)
 {
+  const char *mode = alone ? "pragma locking_mode=exclusive;"
+                             "pragma journal_mode=wal; pragma synchronous=normal;"
+                             "begin immediate; commit;"
+                           : "pragma journal_mode=wal; pragma synchronous=normal;";
+  int code = sqlite3_open_v2 (name, database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, NULL);
+  if (code != SQLITE_OK)
+    return code;
+  sqlite3_extended_result_codes (*database, 0);
+  sqlite3_busy_timeout (*database, alone ? SHORT_PATIENCE : PATIENCE);
+  code = sqlite3_exec (*database, mode, NULL, NULL, NULL);
+  sqlite3_busy_timeout (*database, PATIENCE);
+  return code;
+}
+
+static SCM
+open_database (SCM file, SCM alone)
+{
+  int only = !SCM_UNBNDP (alone) && scm_is_true (alone);
   sqlite3 *database = NULL;
   int code;
   char *name;
   scm_dynwind_begin (0);
   name = scm_to_utf8_string (file);
   scm_dynwind_free (name);
-  code = sqlite3_open_v2 (name, &database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, NULL);
-  if (code == SQLITE_OK)
-    {
-      sqlite3_extended_result_codes (database, 0);
-      sqlite3_busy_timeout (database, PATIENCE);
-      code = sqlite3_exec (database, "pragma journal_mode=wal; pragma synchronous=normal;", NULL,
-                           NULL, NULL);
-    }
-  if (code != SQLITE_OK)
-    {
-      sqlite3_close_v2 (database);
-      raise_sqlite ("database", NULL, code);
-    }
+  code = open_named (name, only, &database);
   scm_dynwind_end ();
-  return scm_new_smob (database_tag, (scm_t_bits)database);
+  if (code == SQLITE_OK)
+    return scm_new_smob (database_tag, (scm_t_bits)database);
+  sqlite3_close_v2 (database);
+  if (!only || code != SQLITE_BUSY)
+    raise_sqlite ("database", NULL, code);
+  return SCM_BOOL_F;
 }
 
 static SCM
@@ -206,8 +222,10 @@ __attribute__ ((visibility ("default"))) void
 bight_sqlite_init (void)
 {
   static const bt__procedure table[] = {
-    { "%open-database", 1, 0, (scm_t_subr)open_database,
-      "Open the database FILE, made if there is none, for many readers and writers." },
+    { "%open-database", 1, 1, (scm_t_subr)open_database,
+      "Open the database FILE, made if there is none, for many readers and writers; or, if ALONE "
+      "is "
+      "true, for this process alone: then return #f if another has it." },
     { "%close-database", 1, 0, (scm_t_subr)close_database, "Close DATABASE." },
     { "%query", 3, 0, (scm_t_subr)query,
       "Do the statement SQL in DATABASE with VALUES for its `?', and return its rows, lists." },
