@@ -11,6 +11,7 @@
   #:use-module (bight sweep)
   #:use-module (bight sweep-file)
   #:use-module (bight sweep-result)
+  #:use-module (bight sweep-slurm)
   #:use-module ((ice-9 threads) #:select (current-processor-count))
   #:use-module (srfi srfi-1)
   #:export (sweep-command))
@@ -35,12 +36,19 @@
   (let ((n (string->number text)))
     (and (exact-integer? n) (<= low n high) n)))
 
-(define (jobs options)
+(define (jobs options otherwise)
   (let ((text (option options "-j")))
     (if text
         (or (whole-number text 1 most-jobs)
             (bad-usage "sweep: -j needs how many dives to fly at a time, 1 or more, not ~a" text))
-        (current-processor-count))))
+        otherwise)))
+
+(define (seconds-to-wait options)
+  (let ((text (option options "--patience")))
+    (if text
+        (or (whole-number text 0 10000000)
+            (bad-usage "sweep: --patience needs seconds, 0 or more, not ~a" text))
+        0)))
 
 (define (shard options)
   ;; (I . N), or #f.
@@ -111,14 +119,18 @@
   (string-join
    (append (list "`bight sweep" word)
            (append-map (lambda (name)
-                         (if (option options name) (list name (option options name)) '()))
-                       '("-j" "-o" "--shard")))
+                         (let ((value (option options name)))
+                           (cond ((not value) '())
+                                 ((string? value) (list name value))
+                                 (else (list name)))))
+                       '("--slurm" "--tasks" "-j" "-o" "--shard")))
    " " 'infix))
 
 (define (fly word options)
   (let* ((file (study-file word))
          (result (result-name file options))
-         (tally (sweep file result (jobs options) (shard options) (option options "--again"))))
+         (tally (sweep file result (jobs options (current-processor-count)) (shard options)
+                       (option options "--again") #:patience (seconds-to-wait options))))
     (tell-tally result tally)
     (tell-summary result)
     (status-of tally (string-append (same-again word options) "'"))))
@@ -144,6 +156,58 @@
     (tell-tally (car words) tally)
     (tell-summary (car words))
     (status-of tally "the same")))
+
+
+;;; With Slurm.
+
+(define (tasks options)
+  (let ((text (option options "--tasks")))
+    (and text
+         (or (whole-number text 1 100000)
+             (bad-usage "sweep: --tasks needs how many parts to fly, 1 or more, not ~a" text)))))
+
+(define (tell-submission result submission)
+  (let ((jobs (string-join (submission-jobs submission) " and ")) (n (submission-parts submission)))
+    (cond ((null? (submission-jobs submission)))
+          ((null? (submission-begun submission))
+           (simple-format #t "~a: jobs ~a are under way~%" result jobs))
+          (else
+           (simple-format #t "~a: jobs ~a fly ~a ~a of ~a and put them together~%" result jobs
+                          (if (= 1 (length (submission-begun submission))) "part" "parts")
+                          (ranges (submission-begun submission)) n)))
+    (force-output)))
+
+(define (status-of-jobs result submission word options)
+  ;; Wait for the jobs of SUBMISSION; the exit status.
+  (call-with-values
+      (lambda () (follow-sweep result submission (lambda () (tell-submission result submission))))
+    (lambda (tally lacking)
+      (define again (string-append (same-again word options) "'"))
+      (cond ((not tally)
+             (complain "jobs ~a go on without us: `scancel' ends them, ~a looks at them again"
+                       (string-join (submission-jobs submission) " and ") again)
+             1)
+            (else
+             (tell-tally result tally)
+             (tell-summary result)
+             (unless (null? lacking)
+               (complain "of ~a parts ~a lack something (what was said is in ~a and so on); ~a flies that"
+                         (submission-parts submission) (ranges lacking)
+                         (part-log result (first lacking) (submission-parts submission)) again))
+             (max (status-of tally again) (if (null? lacking) 0 1)))))))
+
+(define (fly-with-slurm word options)
+  (when (option options "--shard")
+    (bad-usage "sweep: --slurm makes the shards itself: say how many with --tasks, not --shard"))
+  (let* ((file (study-file word))
+         (result (result-name file options))
+         (submission (submit-sweep file result (jobs options 1) (tasks options) (option options "--again")
+                                   (string-tokenize (or (option options "--sbatch") "")))))
+    (if (and (option options "--detach") (pair? (submission-jobs submission)))
+        (begin
+          (tell-submission result submission)
+          0)
+        (status-of-jobs result submission word options))))
 
 
 ;;; Looking.
@@ -205,4 +269,6 @@
            (bight-raise 'unsupported 'sweep
                         "this bight was built without SQLite (Debian package: libsqlite3-dev)"))
           ((pair? asked) ((cdr (first asked)) words options))
+          ((option options "--slurm")
+           (fly-with-slurm (the-one words "study, as in bight sweep STUDY.scm --slurm") options))
           (else (fly (the-one words "study, as in bight sweep STUDY.scm") options)))))

@@ -30,6 +30,7 @@
             open-found
             close-result!
             found-plan
+            check-same
             known-keys
             add-case!
             number-cases!
@@ -37,6 +38,7 @@
             case-rows
             leg-rows
             count-by-status
+            any-interrupted?
             result-fingerprint
             merge-result!))
 
@@ -82,7 +84,7 @@ not known: no case was flown, or by an older bight."
        identity))
 
 (define (check-same file ours theirs)
-  ;; The result FILE of the plan THEIRS can hold cases of OURS.
+  "Raise a &bight-error unless the result FILE, of the plan THEIRS, can hold cases of the plan OURS."
   (let ((other (difference ours theirs)))
     (when other
       (bight-raise 'stale 'sweep "~s is the result of ~a (~a, bight ~a), and is not mixed: \
@@ -157,11 +159,20 @@ x real, y real, z real" (columns (plan-fact plan 'measures)) ", primary key (key
     (lambda () (open-tables 'sweep file kind version statements #:alone? alone?))
     #:unwind? #t))
 
-(define (open-result file plan)
+(define (open-alone file statements patience)
+  ;; The database FILE, for us alone; who has it is waited for, PATIENCE seconds at most, and #f if in vain.
+  (or (open-named file statements #t)
+      (and (positive? patience)
+           (begin
+             (sleep 1)
+             (open-alone file statements (- patience 1))))))
+
+(define* (open-result file plan #:key (patience 0))
   "Open the result FILE, made if there is none, for PLAN.  Raise a &bight-error of kind stale if it is of
-another study, text, world or version.  Nobody else can write it until it is closed."
+another study, text, world or version.  Nobody else can write it until it is closed; who is
+writing it is waited for, PATIENCE seconds at most."
   (check-writable 'sweep file)
-  (let ((database (open-named file (tables plan) #t)))
+  (let ((database (open-alone file (tables plan) patience)))
     (unless database
       (bight-raise 'io 'sweep "another sweep is writing ~s" file))
     (if (null? (%query database "select name from study limit 1" '()))
@@ -339,6 +350,10 @@ name, x, y, z, then the variables and measures of PLAN."
   "Return an alist of status and how many cases of DATABASE have it."
   (map (lambda (row) (cons (first row) (second row)))
        (%query database "select status, count(*) from cases group by status order by status" '())))
+
+(define (any-interrupted? database)
+  "Return #t if a case of DATABASE was ended from outside: the next sweep flies it again."
+  (pair? (%query database "select 1 from cases where error = 'interrupted' limit 1" '())))
 
 (define (result-fingerprint database plan)
   "Return 16 digits by which all outcomes in DATABASE are known, whoever flew them, where and how fast."

@@ -10,15 +10,18 @@
 (define-module (bight sweep)
   #:use-module ((bight engine) #:select (%version))
   #:use-module (bight errors)
-  #:use-module ((bight outlet) #:select (control watched?))
   #:use-module (bight record)
   #:use-module (bight study-case)
   #:use-module (bight sweep-design)
   #:use-module (bight sweep-file)
   #:use-module (bight sweep-result)
+  #:use-module (bight sweep-watch)
   #:use-module (bight sweep-worker)
   #:use-module (srfi srfi-1)
   #:export (sweep
+            plan-of
+            shard-size
+            tally-of
             tally?
             tally-cases
             tally-done
@@ -83,51 +86,6 @@
           (iota (vector-length keys))))
 
 
-;;; Progress.
-
-(define (clock)
-  (/ (get-internal-real-time) (exact->inexact internal-time-units-per-second)))
-
-(define (two-digits n) (string-pad (number->string n) 2 #\0))
-
-(define (duration->string seconds)
-  ;; H:MM:SS, or M:SS.
-  (let* ((s (inexact->exact (ceiling seconds))) (m (quotient s 60)) (h (quotient m 60)))
-    (if (zero? h)
-        (simple-format #f "~a:~a" m (two-digits (remainder s 60)))
-        (simple-format #f "~a:~a:~a" h (two-digits (remainder m 60)) (two-digits (remainder s 60))))))
-
-(define (tenths x) (/ (round (* 10 x)) 10))
-
-(define bar-width 24)
-
-(define (progress-line flown all failed seconds)
-  (let* ((full (quotient (* bar-width flown) (max 1 all)))
-         (rate (/ flown (max 1e-3 seconds))))
-    (string-append
-     "[" (make-string full #\=) (make-string (- bar-width full) #\space) "] "
-     (simple-format #f "~a/~a" flown all)
-     (if (positive? flown)
-         (simple-format #f ", ~a/s, ~a left" (tenths rate) (duration->string (/ (- all flown) rate)))
-         "")
-     (if (positive? failed) (simple-format #f ", ~a failed" failed) ""))))
-
-(define erase-line "\r\x1b[K")
-
-(define (progress-shower)
-  ;; A procedure of what `progress-line' takes that shows it, or, called with #f, clears it.
-  (let ((port (current-error-port)) (begun (clock)) (drawn -1))
-    (if (and (watched? port) (not (equal? "dumb" (getenv "TERM"))))
-        (lambda (flown . rest)
-          (cond ((not flown) (control erase-line port))
-                ((> (- (clock) drawn) 0.1)
-                 (set! drawn (clock))
-                 (control erase-line port)
-                 (display (apply progress-line flown (append rest (list (- drawn begun)))) port)
-                 (force-output port))))
-        (const #f))))
-
-
 ;;; The master.
 
 (define-record <tally>
@@ -140,20 +98,6 @@
   (stopped? tally-stopped?)             ; by ^C
   (fingerprint tally-fingerprint)
   (first-failure tally-first-failure))  ; (NUMBER MESSAGE) or #f
-
-(define stop-asked (make-parameter #f)) ; a variable
-
-(define (call-with-stop thunk)
-  ;; Call THUNK; ^C, or an end that is asked for otherwise, is noted in `stop-asked'.
-  (let* ((stop (make-variable #f))
-         (note (lambda (signal) (variable-set! stop #t)))
-         (signals (list SIGINT SIGTERM SIGHUP))
-         (before (map (lambda (signal) (sigaction signal note)) signals)))
-    (dynamic-wind
-      (const #f)
-      (lambda () (parameterize ((stop-asked stop)) (thunk)))
-      (lambda ()
-        (for-each (lambda (signal old) (sigaction signal (car old) (cdr old))) signals before)))))
 
 (define (answered workers)
   ;; Those of WORKERS who have something to say, after a second at most.
@@ -215,7 +159,7 @@ that it returns, one at a time.  Return #t if it was stopped."
            (pending (hand-out! workers (if alone? (list (car again)) pending)))
            (again (if alone? (cdr again) again))
            (busy (filter worker-case workers)))
-      (cond ((variable-ref (stop-asked)) #t)
+      (cond ((stop-asked?) #t)
             ((and (null? busy) (null? pending) (null? again)) #f)
             ((null? busy)
              (bight-raise 'io 'sweep "all workers are gone; start it again and it goes on"))
@@ -228,12 +172,15 @@ that it returns, one at a time.  Return #t if it was stopped."
   (let ((row (find (lambda (row) (not (equal? "done" (second row)))) rows)))
     (and row (list (first row) (fourth row)))))
 
+(define (shard-size plan shard)
+  "Return how many cases of PLAN belong to SHARD, (I . N), or to all for #f."
+  (count (lambda (i) (in-shard? shard i)) (iota (plan-fact plan 'cases))))
+
 (define (tally-of database plan shard flown stopped?)
+  "Return the tally of what DATABASE, the result of PLAN or of its SHARD, holds; FLOWN of it now."
   (let* ((counts (count-by-status database))
          (done (or (assoc-ref counts "done") 0)))
-    (make-tally (if shard
-                    (count (lambda (i) (in-shard? shard i)) (iota (plan-fact plan 'cases)))
-                    (plan-fact plan 'cases))
+    (make-tally (shard-size plan shard)
                 done
                 (- (apply + (map cdr counts)) done)
                 flown stopped? (result-fingerprint database plan)
@@ -269,9 +216,10 @@ that it returns, one at a time.  Return #t if it was stopped."
         (show #f)
         (tally-of database plan shard flown stopped?)))))
 
-(define (sweep file result jobs shard again?)
+(define* (sweep file result jobs shard again? #:key (patience 0))
   "Fly the cases of the study in FILE that the file RESULT lacks, JOBS at a time, and return a tally.  SHARD
-is (I . N), the I-th of N parts, or #f for all; AGAIN? also flies what failed before."
+is (I . N), the I-th of N parts, or #f for all; AGAIN? also flies what failed before.  Another sweep that is
+writing RESULT is waited for, PATIENCE seconds at most."
   (let* ((study (load-study file))
          (plan (plan-of study file shard)))
     (force-output (current-output-port))
@@ -280,7 +228,7 @@ is (I . N), the I-th of N parts, or #f for all; AGAIN? also flies what failed be
       (dynamic-wind
         (const #f)
         (lambda ()
-          (let* ((database (open-result result plan))
+          (let* ((database (open-result result plan #:patience patience))
                  (tally (fly-missing! study plan database workers shard again?)))
             (close-result! database)
             tally))
