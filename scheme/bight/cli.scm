@@ -371,6 +371,8 @@ begins with FILE and the line."
    (command "--listen[=SOCKET]" #f "[...]"
             '("do the rest, or open the prompt, and serve another prompt on a"
               "unix socket, yours alone, to an editor"))
+   (command "--door[=SOCKET]" #f "[...]"
+            '("the same for another program: a line there is a form or an answer"))
    (command "--version" print-version "" '("print the version"))
    (command "--help" (lambda (arguments) (print-usage arguments)) "[COMMAND|all]"
             '("print this, or the options of a command"))))
@@ -423,16 +425,21 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
       (string-suffix? ".scm" word)
       (file-exists? word)))
 
-(define (listen-option argument)
-  ;; The socket that --listen or --listen=SOCKET names, #t for the usual one; else #f.
-  (cond ((string=? argument "--listen") #t)
-        ((split-option argument '(("--listen" . #t))) => cdr)
+(define doors                           ; options that let others in, and what begins to serve them
+  `(("--listen" . ,(lambda (file) ((from (bight listen) start-listening!) file)))
+    ("--door" . ,(lambda (file) ((from (bight door) open-door!) file)))))
+
+(define (door-option argument)
+  ;; (SERVE . FILE) of --listen, --listen=FILE and the like, FILE #f for the usual one; else #f.
+  (cond ((assoc argument doors) => (lambda (door) (cons (cdr door) #f)))
+        ((split-option argument doors)
+         => (lambda (option) (cons (assoc-ref doors (car option)) (absolute (cdr option)))))
         (else #f)))
 
-(define (listen! socket arguments)
-  ;; Do what ARGUMENTS say, and listen meanwhile; without a terminal that is all there is to do.
+(define (serve! door arguments)
+  ;; Do what ARGUMENTS say, and serve at DOOR meanwhile; without a terminal that is all there is to do.
   (enter-language!)
-  (let ((file ((from (bight listen) start-listening!) (if (string? socket) (absolute socket) #f))))
+  (let ((file ((car door) (cdr door))))
     (simple-format (current-error-port) "bight: listening at ~a~%" file)
     (dynamic-wind
       (const #f)
@@ -444,7 +451,7 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
 
 (define (run-command arguments)
   (cond ((null? arguments) (run-prompt))
-        ((listen-option (car arguments)) => (lambda (socket) (listen! socket (cdr arguments))))
+        ((door-option (car arguments)) => (lambda (door) (serve! door (cdr arguments))))
         ((string=? "-h" (car arguments)) (print-usage (cdr arguments)))
         ((command-called (car arguments)) => (lambda (command) (do-command command (cdr arguments))))
         ((string-prefix? "-" (car arguments))

@@ -1,4 +1,4 @@
-;;; (bight listen) --- a prompt on a socket, for an editor to talk to.
+;;; (bight listen) --- sockets of one's own, and a prompt on one for an editor to talk to.
 ;;;
 ;;; Never on a network: the socket is a file that its owner alone can open, in a folder that he alone can
 ;;; enter.  Each client has a thread of its own, so that an endless loop typed there holds up nothing
@@ -18,10 +18,10 @@
   #:use-module ((system repl server) #:select (make-unix-domain-server-socket))
   #:use-module ((system repl repl) #:select (start-repl))
   #:export (start-listening!
-            stop-listening!
-            usual-socket))
+            start-serving!
+            stop-listening!))
 
-(define the-socket #f)                  ; its file, while there is one
+(define the-sockets '())                ; their files, while there are any
 
 (define (own-folder folder)
   ;; Make FOLDER for its owner alone, or raise.
@@ -39,9 +39,9 @@
         (string-append runtime "/bight")
         (string-append (or (getenv "TMPDIR") "/tmp") "/bight-" (number->string (getuid))))))
 
-(define (usual-socket)
-  "Return the file of the socket when none is named."
-  (string-append (own-folder (runtime-folder)) "/" (number->string (getpid))))
+(define (usual-socket ending)
+  ;; The file of the socket when none is named.
+  (string-append (own-folder (runtime-folder)) "/" (number->string (getpid)) ending))
 
 (define longest-name 107)               ; bytes of a socket's address
 
@@ -103,7 +103,7 @@
 
 ;; Guile's own server of prompts complains on the terminal whenever a client leaves.
 
-(define (serve client)
+(define (serve-prompt client)
   (let ((out (outlet client)))
     (parameterize ((current-input-port client) (current-output-port out)
                    (current-error-port out) (current-warning-port out))
@@ -111,37 +111,42 @@
         (start-repl)))
     (close-port out)))
 
-(define (serve-or-forget client)
+(define (serve-or-forget serve client)
   ;; Whatever ends a session is its client's affair.
   (catch #t (lambda () (serve client)) (const #f))
   (false-if-exception (close-port client)))
 
-(define (serve-all socket)
+(define (serve-all serve socket)
   (let loop ()
     (let ((client (false-if-exception
                    (begin
                      (select (list socket) '() '())
                      (car (accept socket))))))
       (if client
-          (call-with-new-thread (lambda () (serve-or-forget client)))
+          (call-with-new-thread (lambda () (serve-or-forget serve client)))
           (sleep 1))
       (loop))))
 
-(define (start-listening! file)
-  "Listen at FILE, a socket made now, or at the usual one for #f, until this process ends.  Return the
-file's name."
-  (let* ((file (or file (usual-socket))) (socket (open-socket file)))
-    (set! the-socket file)
-    (set-manners!)
-    (sigaction SIGPIPE SIG_IGN)         ; a client that goes is no end of ours
+(define (start-serving! file ending serve)
+  "Listen at FILE, a socket made now, or at the usual one with ENDING for #f, until this process ends, and call
+SERVE with the port of each client, in a thread of its own.  Return the file's name."
+  (let* ((file (or file (usual-socket ending))) (socket (open-socket file)))
+    (when (null? the-sockets)
+      (set-manners!)
+      (sigaction SIGPIPE SIG_IGN)       ; a client that goes is no end of ours
+      (add-hook! exit-hook stop-listening!))
+    (set! the-sockets (cons file the-sockets))
     (listen socket 5)
     (call-in-session
-     (lambda () (call-with-new-thread (lambda () (serve-all socket)))))
-    (add-hook! exit-hook stop-listening!)
+     (lambda () (call-with-new-thread (lambda () (serve-all serve socket)))))
     file))
 
+(define (start-listening! file)
+  "Serve a prompt at FILE, a socket made now, or at the usual one for #f, until this process ends.  Return the
+file's name."
+  (start-serving! file "" serve-prompt))
+
 (define (stop-listening!)
-  "Stop what `start-listening!' began."
-  (when the-socket
-    (false-if-exception (delete-file the-socket))
-    (set! the-socket #f)))
+  "Stop what `start-serving!' and `start-listening!' began."
+  (for-each (lambda (file) (false-if-exception (delete-file file))) the-sockets)
+  (set! the-sockets '()))
