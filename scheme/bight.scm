@@ -86,6 +86,7 @@
      record! stop-recording! recording? replay
      difference? difference-step difference-time difference-quantities)
     ((bight frames) export-csv)
+    ((bight export) export-npz export-vtk)
     ((bight live) live! freeze! live?)
     ((bight threads) threads! threads)
     ((bight logbook)

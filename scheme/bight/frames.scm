@@ -23,6 +23,7 @@
             frame-of
             write-frames!
             close-frames!
+            query-frames
             export-csv))
 
 (define kind #x42474846)                ; "BGHF"
@@ -102,17 +103,24 @@ y real, z real, tension real)"
 
 ;;; For other programs.
 
+(define (query-frames proc file queries)
+  "Return what the database FILE of frames answers to each of QUERIES, lists of rows."
+  (unless (file-exists? file)
+    (bight-raise 'io proc "there is no file ~s" file))
+  (when (file-is-directory? file)
+    (bight-raise 'io proc "~s is a folder, not the frames of a recording" file))
+  (let* ((database (open-tables proc file kind version tables))
+         (answers (map (lambda (sql) (%query database sql '())) queries)))
+    (close-tables! database)
+    answers))
+
 (define-verb (export-csv (frames string) (file string))
   "Write the FRAMES of a recording, the file that `record!' was given, to FILE, comma-separated: time,
 part, node, x, y, z, tension; a vehicle has neither node nor tension.  Return how many lines there are."
-  (unless (file-exists? frames)
-    (bight-raise 'io 'export-csv "there is no file ~s" frames))
-  (let* ((database (open-tables 'export-csv frames kind version tables))
-         (rows (%query database
-                       "select time, name, null, x, y, z, null from vehicles natural join frames
+  (let ((rows (first (query-frames 'export-csv frames
+                                   '("select time, name, null, x, y, z, null from vehicles natural join frames
 union all select time, tether, node, x, y, z, tension from points natural join frames
-order by 1, 2, 3" '())))
-    (close-tables! database)
+order by 1, 2, 3")))))
     (catch 'system-error
       (lambda ()
         (call-with-output-file file

@@ -24,6 +24,7 @@
             sample-every
             samples?
             samples-rows
+            samples-names
             chart?
             ;; For those who draw other things with gnuplot.
             gnuplot-output gnuplot-quoted gnuplot-terminal picture-kind))
