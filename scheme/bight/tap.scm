@@ -116,9 +116,18 @@
   ;; SECONDS to three decimals, never with an exponent.
   (/ (round (* 1000 seconds)) 1000.))
 
+(define (line-of point)
+  ;; The line of its file that POINT begins at, as text, or #f.
+  (let* ((location (point-location point))
+         (colon (and location (string-rindex location #\:)))
+         (line (and colon (substring location (+ colon 1)))))
+    (and line (string->number line 10) line)))
+
 (define (print-case point port)
-  (simple-format port "    <testcase classname=\"~a\" name=\"~a\" time=\"~a\">"
+  (simple-format port "    <testcase classname=\"~a\" file=\"~a\"~a name=\"~a\" time=\"~a\">"
                  (as-xml (point-file point))
+                 (as-xml (point-file point))
+                 (if (line-of point) (simple-format #f " line=\"~a\"" (line-of point)) "")
                  (as-xml (string-append (if (point-label point)
                                          (string-append (point-label point) ": ")
                                          "")

@@ -321,6 +321,8 @@
         (let ((text (call-with-input-file file get-string-all)))
           (expect (string-contains text "tests=\"2\" failures=\"1\" skipped=\"1\""))
           (expect (string-contains text "A &amp; B."))
+          (expect (string-contains text (string-append "file=\"" (car names) "\" line=\"1\"")))
+          (expect (string-contains text (string-append "file=\"" (car names) "\" line=\"2\"")))
           (expect (string-contains text "(expect (&lt; 2 1))"))
           (expect (string-contains text "<skipped message=\"&lt;why&gt;\"/>")))))))
 
