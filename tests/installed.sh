@@ -113,4 +113,7 @@ GUILE_AUTO_COMPILE=1 HOME=$scratch XDG_CACHE_HOME=$scratch LD_PRELOAD=$preload \
   $GUILE -c '(use-modules (bight))' </dev/null 2>"$scratch/err"
 result $? '(use-modules (bight)) works in plain guile'
 empty 'and says nothing on standard error' "$scratch/err"
+check 'plain guile has the language, told what bight --environment says' \
+  sh -c 'eval "$("$1" --environment)" && exec "$2" -c "(use-modules (bight)) (enter! (quote tank))"' \
+  sh "$bindir/bight" "$GUILE"
 finish strictly

@@ -171,6 +171,19 @@ begins with FILE and the line."
       ((from (bight repl) run-prompt) (version))
       (run-input show-values '())))
 
+(define guile-paths '("GUILE_LOAD_PATH" "GUILE_LOAD_COMPILED_PATH" "GUILE_EXTENSIONS_PATH"))
+
+(define (print-environment arguments)
+  ;; What a shell has to know for plain guile to find bight: the first folder of each path, which the program
+  ;; itself has put there.
+  (for-each (lambda (name)
+              (let ((folder (car (string-split (or (getenv name) "") #\:))))
+                (simple-format #t "~a='~a'\"${~a:+:$~a}\"~%" name
+                               (string-join (string-split folder #\') "'\\''") name name)))
+            guile-paths)
+  (simple-format #t "export ~a~%" (string-join guile-paths " "))
+  0)
+
 (define (print-version arguments)
   (simple-format #t "bight ~a~%" (version))
   0)
@@ -373,6 +386,9 @@ begins with FILE and the line."
               "unix socket, yours alone, to an editor"))
    (command "--door[=SOCKET]" #f "[...]"
             '("the same for another program: a line there is a form or an answer"))
+   (command "--environment" print-environment ""
+            '("print what a shell sets for plain guile to find (bight):"
+              "eval \"$(bight --environment)\""))
    (command "--version" print-version "" '("print the version"))
    (command "--help" (lambda (arguments) (print-usage arguments)) "[COMMAND|all]"
             '("print this, or the options of a command"))))
