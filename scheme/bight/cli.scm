@@ -171,6 +171,11 @@ begins with FILE and the line."
       ((from (bight repl) run-prompt) (version))
       (run-input show-values '())))
 
+(define (complete arguments)
+  (unless (and (= 1 (length arguments)) (print-completion commands (car arguments)))
+    (bad-usage "--completion needs a shell after it, bash or zsh"))
+  0)
+
 (define guile-paths '("GUILE_LOAD_PATH" "GUILE_LOAD_COMPILED_PATH" "GUILE_EXTENSIONS_PATH"))
 
 (define (print-environment arguments)
@@ -386,6 +391,8 @@ begins with FILE and the line."
               "unix socket, yours alone, to an editor"))
    (command "--door[=SOCKET]" #f "[...]"
             '("the same for another program: a line there is a form or an answer"))
+   (command "--completion" (lambda (arguments) (complete arguments)) "bash|zsh"
+            '("print what a shell reads to complete words and options"))
    (command "--environment" print-environment ""
             '("print what a shell sets for plain guile to find (bight):"
               "eval \"$(bight --environment)\""))

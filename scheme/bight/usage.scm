@@ -14,6 +14,7 @@
             command-run
             command-options
             print-overview
+            print-completion
             print-help))
 
 (define-record <command>
@@ -75,3 +76,74 @@ list of lines, says what it does; each of OPTIONS is a list of how it is written
   (for-each (lambda (option)
               (print-entry (string-append "  " (car option)) (cdr option) 20))
             (command-option-lines command)))
+
+
+;;; Completion in shells.
+
+(define (words-of commands)
+  ;; What the first word may be: names, without the arguments that a placeholder stands for.
+  (filter-map (lambda (command)
+                (let ((name (car (string-split (command-name command) #\[))))
+                  (and (not (string-null? name)) (not (string-any char-upper-case? name))
+                       (cons name (command-text command)))))
+              commands))
+
+(define (options-of command)
+  (map (lambda (option) (cons (car (string-split (car option) #\space)) (cdr option)))
+       (command-option-lines command)))
+
+(define (quoted text)
+  (string-append "'" (string-join (string-split text #\') "'\\''") "'"))
+
+(define (those-with-options commands)
+  (remove (lambda (command) (null? (command-option-lines command))) commands))
+
+(define (print-bash commands)
+  (define (listed entries) (quoted (string-join (map car entries) " ")))
+  (display "# Completion of bight in bash; made by `bight --completion bash'.
+_bight ()
+{
+  local current=${COMP_WORDS[COMP_CWORD]} words=
+  if [ \"$COMP_CWORD\" -eq 1 ]; then
+    words=")
+  (display (listed (words-of commands)))
+  (display "\n  else\n    case ${COMP_WORDS[1]} in\n")
+  (for-each (lambda (command)
+              (simple-format #t "      ~a) words=~a ;;~%" (command-name command) (listed (options-of command))))
+            (those-with-options commands))
+  (display "    esac
+  fi
+  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\"; compgen -f -- \"$current\")
+}
+complete -o filenames -F _bight bight
+"))
+
+(define (print-zsh commands)
+  ;; NAME:WHAT for `_describe', in which a colon of the name would be escaped; there is none.
+  (define (listed entries)
+    (string-join (map (lambda (entry) (quoted (string-append (car entry) ":" (string-join (cdr entry) " "))))
+                      entries)
+                 " "))
+  (simple-format #t "#compdef bight
+# Completion of bight in zsh; made by `bight --completion zsh'.
+local -a words_of_bight
+if (( CURRENT == 2 )); then
+  words_of_bight=(~a)
+else
+  case $words[2] in
+" (listed (words-of commands)))
+  (for-each (lambda (command)
+              (simple-format #t "    ~a) words_of_bight=(~a) ;;~%" (command-name command)
+                             (listed (options-of command))))
+            (those-with-options commands))
+  (display "  esac
+fi
+_describe 'word' words_of_bight
+_files
+"))
+
+(define (print-completion commands shell)
+  "Print what the SHELL, bash or zsh, reads to complete the words of COMMANDS; return #f if it is another."
+  (cond ((string=? shell "bash") (print-bash commands) #t)
+        ((string=? shell "zsh") (print-zsh commands) #t)
+        (else #f)))
