@@ -184,6 +184,9 @@ result $? 'detached, it waits for nothing'
 bight sweep quick.scm --slurm -o "it's.db" --detach >out 2>err
 [ $? -eq 0 ] && grep -q 'are under way' out
 result $? 'what is under way is not submitted again'
+bight sweep quick.scm --slurm --tasks 5 -o "it's.db" --detach 2>err
+[ $? -eq 1 ] && grep -q 'is being flown in 4 parts' err
+result $? 'and keeps its parts, be there files of them or not'
 "$pre" bight sweep quick.scm --slurm -o "it's.db" >out 2>err &
 follower=$!
 await grep -q 'are under way' out

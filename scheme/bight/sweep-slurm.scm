@@ -178,11 +178,13 @@ package: slurm-client)" name)))
                        '() numbers)))
    ","))
 
-(define (parts-of result note asked size)
-  ;; How many parts RESULT has: as NOTE says if any of its files is there, else as ASKED, or the usual number.
+(define (parts-of result note under-way? asked size)
+  ;; How many parts RESULT has: as NOTE says if its jobs are UNDER-WAY? or any of its files is there, else as
+  ;; ASKED, or the usual number.
   (let* ((noted (and note (assq-ref note 'parts)))
          (begun? (and noted
-                      (any (lambda (i) (file-exists? (part-file result (+ i 1) noted))) (iota noted)))))
+                      (or under-way?
+                          (any (lambda (i) (file-exists? (part-file result (+ i 1) noted))) (iota noted))))))
     (cond ((and begun? asked (not (= asked noted)))
            (bight-raise 'stale 'sweep "~s is being flown in ~a parts: leave --tasks out, or name another result \
 with -o" result noted))
@@ -248,9 +250,10 @@ again.  AGAIN? also flies what failed.  Return a submission."
   (let* ((study (load-study file))
          (plan (plan-of study file #f))
          (note (read-note result))
-         (n (parts-of result note tasks (design-size (study-design study))))
-         (known (if note (assq-ref note 'jobs) '())))
-    (if (and (pair? known) (pair? (queued known)))
+         (known (if note (assq-ref note 'jobs) '()))
+         (under-way? (and (pair? known) (pair? (queued known))))
+         (n (parts-of result note under-way? tasks (design-size (study-design study)))))
+    (if under-way?
         (make-submission plan n known '())
         (let ((lacking (map part-number (filter part-lacking? (standings result plan again? n)))))
           (if (null? lacking)
