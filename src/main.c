@@ -23,7 +23,7 @@ choose_locale (void)
   setlocale (LC_NUMERIC, "C");
 }
 
-/* Return nonzero if DIR is the first folder of the search path PATH.  */
+/* Return true if DIR is the first folder of the search path PATH.  */
 static int
 is_first (const char *path, const char *dir)
 {

@@ -82,7 +82,8 @@ grep -q '^(error domain "drive!: ' "$scratch/out"
 result $? 'with its kind'
 printf '(car 1)\n' | talk "$socket" 1 | grep -q '^(error wrong-type-arg "car: .*")$'
 result $? 'an error of Guile'
-answers 'an unknown name' '(surge)' '(error unbound-variable "Unbound variable: surge")'
+answers 'an unknown name' '(surge)' \
+  '(error unbound-variable "Unbound variable: surge; did you mean #:surge, as in (drive! #:surge ...)?")'
 printf "(throw 'my-key 1)\n" | talk "$socket" 1 | grep -q '^(error my-key ".*")$'
 result $? "a kind of one's own"
 printf '%s\n' '(begin (display "one") (newline) 2)' | talk "$socket" 2 >"$scratch/out"

@@ -12,6 +12,7 @@
 
 (define-module (bight crew)
   #:use-module ((bight datum) #:select (text->datum))
+  #:use-module (bight fork)
   #:use-module (bight record)
   #:use-module ((ice-9 rdelim) #:select (read-line))
   #:use-module (srfi srfi-1)
@@ -156,7 +157,7 @@ PATIENCE seconds unless that is #f.  No process outlives the call."
   ;; Fork; the child calls THUNK and ends.  Return its process.
   (force-output (current-output-port))
   (force-output (current-error-port))
-  (let ((process (primitive-fork)))
+  (let ((process (fork-process)))
     (when (zero? process)
       (catch #t
         (lambda ()

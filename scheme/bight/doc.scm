@@ -309,10 +309,13 @@
          (cadr value))
         (else refused)))
 
+(define (blank? topic)
+  (and (string? topic) (string-null? (string-trim-both topic))))
+
 (define (help-on . topics)
   "Return help on a topic, a symbol or string, or a short tour, as a picture, which prints as text."
   (lines->picture
-   (if (null? topics)
+   (if (or (null? topics) (blank? (car topics)))
        (tour-lines)
        (topic-lines (check-argument 'help 'topic type:topic (car topics))))))
 

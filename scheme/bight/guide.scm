@@ -190,6 +190,10 @@
     (log-probe! (log-probe! "Where is its middle?" #:trainee "Ada" #:score 80))
     (export-csv (begin (record! "dive.rec" #:frames "dive.db") (run 5) (stop-recording!)
                        (export-csv "dive.db" "dive.csv")))
+    (export-npz (begin (record! "dive.rec" #:frames "dive.db") (run 5) (stop-recording!)
+                       (export-npz "dive.db" "dive.npz")))
+    (export-vtk (begin (record! "dive.rec" #:frames "dive.db") (run 5) (stop-recording!)
+                       (export-vtk "dive.db" "dive.pvd")))
     (number-in (number-in "about 12 m"))))
 
 ;; Those that ask something of what another returns.

@@ -8,6 +8,7 @@
 
 (define-module (bight lesson-command)
   #:use-module ((bight cli) #:select (complain exit-status))
+  #:use-module (bight fork)
   #:use-module (bight lesson-child)
   #:use-module (bight lesson-journal)
   #:use-module (bight lesson-listing)
@@ -111,7 +112,7 @@
     (when (personal? order)
       (check-place order inputs))
     (force-output)
-    (let ((pid (primitive-fork)))
+    (let ((pid (fork-process)))
       (if (zero? pid)
           (begin
             (close-port (car ends))

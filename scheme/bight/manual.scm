@@ -44,6 +44,7 @@ there is no manual."
   the-sections)
 
 (define (times word text)
+  ;; How often WORD, which is not empty, stands in TEXT.
   (let loop ((from 0) (n 0))
     (let ((at (string-contains-ci text word from)))
       (if at (loop (+ at (string-length word)) (+ n 1)) n))))

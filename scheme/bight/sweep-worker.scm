@@ -16,6 +16,7 @@
 (define-module (bight sweep-worker)
   #:use-module ((bight datum) #:select (text->datum))
   #:use-module ((bight expect) #:select (exception->line raised-at raised-kind))
+  #:use-module (bight fork)
   #:use-module ((bight here) #:select (noting-places))
   #:use-module (bight record)
   #:use-module (bight study-case)
@@ -160,7 +161,7 @@ or error and message."
 (define (fly-in-process study number orders answers)
   ;; What comes of the case NUMBER, from 0, of STUDY.
   (let* ((ends (open-pipe-utf8))
-         (pid (primitive-fork)))
+         (pid (fork-process)))
     (when (zero? pid)
       (close-port (car ends))
       (close-port orders)
@@ -202,7 +203,7 @@ or error and message."
   "Start a worker for STUDY, beside OTHERS, the workers there are, and return it."
   (let* ((orders (open-pipe-utf8))
          (answers (open-pipe-utf8))
-         (pid (primitive-fork)))
+         (pid (fork-process)))
     (when (zero? pid)
       ;; Else another worker would not hear that its master is gone.
       (for-each (lambda (other)

@@ -8,6 +8,7 @@
   #:use-module (bight engine)
   #:use-module (bight errors)
   #:use-module ((bight expect) #:select (exception->line))
+  #:use-module (bight fork)
   #:use-module (bight invariant)
   #:use-module ((bight programs) #:select (temporary-file))
   #:use-module (bight query)
@@ -128,7 +129,7 @@ sound after one of them or after a step: a list of sentences, empty for a sound 
   (let ((ends (pipe)))
     (force-output (current-output-port))
     (force-output (current-error-port))
-    (let ((process (primitive-fork)))
+    (let ((process (fork-process)))
       (cond ((zero? process)
              (catch #t
                (lambda ()

@@ -134,7 +134,7 @@ bt__haul_wedge (const bt__route *home, const bt__haul_body *body, bt__prospect *
     say (p, BT__UNSURE, BT__HAUL_WEDGED, home->object, fmax (home->length - home->s, 0));
 }
 
-/* Nonzero if two parts in LIST face each other.  */
+/* True if two parts in LIST face each other.  */
 static int
 is_corner (const bt__nears *list)
 {

@@ -130,7 +130,7 @@ next_tangent (const bt__holds *list, const bt__corner *h, uint32_t k, int way)
   return tangent_of (&list->at[k]);
 }
 
-/* Nonzero if the tangents of corner I and its neighbours have room on its links; on a link that
+/* True if the tangents of corner I and its neighbours have room on its links; on a link that
    leads away a corner may take all of it.  */
 static int
 is_resolved (const bt__holds *list, const bt_vec3 *p, uint32_t i)

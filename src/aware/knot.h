@@ -24,7 +24,7 @@ typedef struct bt__knot bt__knot;
 typedef struct bt__knot_value
 {
   uint32_t crossings;   /* of the diagram once simplified */
-  uint32_t knotted;     /* nonzero: not the values of the circle, which are 1 */
+  uint32_t knotted;     /* true: not the values of the circle, which are 1 */
   uint64_t determinant; /* |D (-1)| */
   uint64_t at2, at3;    /* D (2)^2, D (3)^2 */
 } bt__knot_value;

@@ -52,7 +52,7 @@ pass_edge (const bt__shadow *x, bt__flat a, bt__flat b, uint32_t e, passages *li
   insert (list, s, bt__side_of (c, d, b) > bt__side_of (c, d, a) ? letter : -letter);
 }
 
-/* Nonzero if bin (I, J) is the first that areas A and B share: there a pair is looked at.  */
+/* True if bin (I, J) is the first that areas A and B share: there a pair is looked at.  */
 static int
 is_first (const bt__area *a, const bt__area *b, uint32_t i, uint32_t j)
 {

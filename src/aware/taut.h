@@ -25,7 +25,7 @@
 typedef struct bt__string
 {
   uint32_t room, n;        /* nodes */
-  uint32_t still, settled; /* steps in a row that gained nothing; nonzero: enough of them */
+  uint32_t still, settled; /* steps in a row that gained nothing; true: enough of them */
   double length;           /* m, of the polyline */
   bt_vec3 x[];
 } bt__string;
@@ -40,7 +40,7 @@ typedef struct bt__taut_config
   double want;   /* m: pushed out to as far as that where there is room; CORE for a taut string */
   double mesh;   /* m: of the links near obstacles */
   double margin; /* m: how near that is; about MESH */
-  int whole;     /* nonzero: far from obstacles links are split too */
+  int whole;     /* true: far from obstacles links are split too */
 } bt__taut_config;
 
 typedef struct bt__taut bt__taut;
@@ -76,7 +76,7 @@ int bt__taut_step (bt__taut *taut, const bt__taut_config *config, bt__string *st
                    bt_vec3 end, uint32_t steps, bt__count *count);
 
 /* Lay FRESH along the tether P of N points and relax it by up to STEPS; where that is shorter than
-   STRING by more than SLIP of it, or STRING is empty, copy it there.  Return nonzero if a string
+   STRING by more than SLIP of it, or STRING is empty, copy it there.  Return true if a string
    was there and has slipped.  FRESH must have the room of STRING; where P does not fit into it
    nothing happens.  */
 int bt__taut_reseed (bt__taut *taut, const bt__taut_config *config, bt__string *string,

@@ -50,7 +50,7 @@ height (const bt__string *s, uint32_t j)
   return base > near ? area / base : near; /* folded back: no farther than the nearer neighbour */
 }
 
-/* Nonzero if node J can go: its links are short and their triangle is clear.  */
+/* True if node J can go: its links are short and their triangle is clear.  */
 static int
 can_drop_near (const bt__taut_config *c, const bt__string *s, uint32_t j, bt__count *count)
 {

@@ -67,7 +67,7 @@ place_of (const bt__taut *t, uint32_t j, uint32_t k)
   return k < t->first[j] ? BT__ACTIVE_B : BT__ACTIVE_A;
 }
 
-/* Set which sides push at node J when it is at X; return nonzero if that changed.  */
+/* Set which sides push at node J when it is at X; return true if that changed.  */
 static int
 set_active (bt__taut *t, uint32_t j, bt_vec3 x, double slack)
 {

@@ -269,7 +269,7 @@ length_with (job *k, int32_t a, const bt__letters *word, bt__letters *copy)
   return n;
 }
 
-/* Make the first move that shortens; return nonzero if there was one.  */
+/* Make the first move that shortens; return true if there was one.  */
 static int
 nielsen (job *k)
 {

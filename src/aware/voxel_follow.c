@@ -16,7 +16,7 @@ typedef struct follower
   uint32_t cell;
 } follower;
 
-/* Nonzero if the triangle of the middle of CELL, P and Q is clear.  */
+/* True if the triangle of the middle of CELL, P and Q is clear.  */
 static int
 clears (follower *f, uint32_t cell, bt_vec3 p, bt_vec3 q)
 {

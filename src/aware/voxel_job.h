@@ -47,7 +47,7 @@ bt_vec3 bt__voxel_middle (const bt__voxels *v, uint32_t cell);
 /* The cell of P, or the nearest to it.  */
 uint32_t bt__voxel_of (const bt__voxels *v, bt_vec3 p);
 
-/* Nonzero if nothing is in the triangle A, B, C.  */
+/* True if nothing is in the triangle A, B, C.  */
 int bt__voxel_sees (const bt__voxels *v, bt_vec3 a, bt_vec3 b, bt_vec3 c, bt__count *count);
 
 /* Label the steps; the grid is there.  */

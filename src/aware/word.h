@@ -21,8 +21,8 @@ typedef struct bt__word
 {
   uint64_t world;   /* whose generators */
   uint32_t n;       /* letters */
-  uint16_t decided; /* nonzero: unequal words are unequal classes */
-  uint16_t lost;    /* nonzero: longer than there is room for, or the line is where it cannot be */
+  uint16_t decided; /* true: unequal words are unequal classes */
+  uint16_t lost;    /* true: longer than there is room for, or the line is where it cannot be */
   int32_t letter[BT__WORD_MAX]; /* generator g is g, its inverse -g; from 1 */
 } bt__word;
 
@@ -38,7 +38,7 @@ void bt__word_end (bt__word *word);
 /* Make *OUT the word of A and then B backwards: without letters if they are the same way.  */
 void bt__word_relative (const bt__word *a, const bt__word *b, bt__word *out);
 
-/* Nonzero if the words are equal, and not lost.  */
+/* True if the words are equal, and not lost.  */
 int bt__word_equal (const bt__word *a, const bt__word *b);
 
 #endif

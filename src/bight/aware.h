@@ -83,15 +83,15 @@ typedef struct bt_class
 {
   uint64_t world;  /* whose letters */
   int32_t letters; /* how many */
-  int16_t decided; /* nonzero: unequal words are unequal classes */
-  int16_t lost;    /* nonzero: it squeezes where it cannot be followed; equal to nothing */
+  int16_t decided; /* true: unequal words are unequal classes */
+  int16_t lost;    /* true: it squeezes where it cannot be followed; equal to nothing */
   int32_t letter[BT_CLASS_MAX];
   int32_t object[BT_CLASS_MAX]; /* of each letter the obstacle it goes round, -1: not known */
 } bt_class;
 
 bt_status bt_tether_class (const bt_dive *dive, int i, bt_class *out, bt_error *error);
 
-/* Nonzero if A and B are equal and neither is lost.  */
+/* True if A and B are equal and neither is lost.  */
 int bt_class_equal (const bt_class *a, const bt_class *b);
 
 /* Is the line itself knotted?  BT_ERR_UNSUPPORTED if it crosses itself too often to tell.  */
@@ -154,12 +154,12 @@ bt_status bt_tether_prospect_by (const bt_dive *dive, int i, double winch, doubl
 /* By hauling on a fork with the moving line: the engine's own answer.  */
 typedef struct bt_haul
 {
-  int home;       /* nonzero: it came within reach of the anchor */
+  int home;       /* true: it came within reach of the anchor */
   double seconds; /* that it took, or until it was clear that it is stuck */
   double left;    /* m of tether still out */
   int object;     /* stuck: the obstacle at its hull or, failing that, at its tether; or -1 */
-  int hull;       /* nonzero: at its hull */
-  int parted;     /* nonzero: the tether parted, and the vehicle stays where it is */
+  int hull;       /* true: at its hull */
+  int parted;     /* true: the tether parted, and the vehicle stays where it is */
   double pull;    /* N: at the winch in the end; stuck, what the line held against it */
   bt_vec3 at;     /* m: where the vehicle came to */
 } bt_haul;
@@ -172,7 +172,7 @@ bt_status bt_tether_haul (const bt_dive *dive, int i, double rate, double winch,
 typedef struct bt_route
 {
   int needed;       /* zero: there is nothing to unwind, the way is empty */
-  int feasible;     /* nonzero: wide enough, never longer than what is out, free at its end */
+  int feasible;     /* true: wide enough, never longer than what is out, free at its end */
   double length;    /* m */
   double clearance; /* m: how near it comes to OBSTACLE */
   int obstacle;     /* -1: to nothing */
@@ -220,7 +220,7 @@ typedef struct bt_follow
 {
   double length;
   int nodes;
-  int slipped; /* nonzero: it slid off something that could not hold it */
+  int slipped; /* true: it slid off something that could not hold it */
 } bt_follow;
 
 bt_status bt_tether_follow (const bt_dive *dive, int i, bt_follow *out, bt_error *error);

@@ -63,7 +63,7 @@ bt_status bt_tether_clearance (const bt_dive *dive, int i, int obstacle, bt_clea
 bt_status bt_vehicle_clearance (const bt_dive *dive, int i, int obstacle, bt_clearance *clearance,
                                 bt_error *error);
 
-/* Nonzero if the I-th vehicle or tether, by PART, met OBSTACLE in the last step.  */
+/* True if the I-th vehicle or tether, by PART, met OBSTACLE in the last step.  */
 int bt_dive_collided (const bt_dive *dive, bt_part part, int i, int obstacle);
 
 BT_END_DECLS

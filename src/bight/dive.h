@@ -72,7 +72,7 @@ void bt_dive_carry (bt_dive *dive, double seconds);
 
 /* ---- Checkpoints ---- */
 
-/* Return nonzero while the current of DIVE is a function (BT_CURRENT_FUNCTION): what the dive does
+/* Return true while the current of DIVE is a function (BT_CURRENT_FUNCTION): what the dive does
    is then not in its state and its operations alone.  */
 int bt_dive_asks (const bt_dive *dive);
 
@@ -185,7 +185,7 @@ typedef struct bt_sea_view
 {
   double depth, density, gravity;
   bt_wave_def waves;
-  int wake; /* nonzero: the current is less in the lee of obstacles */
+  int wake; /* true: the current is less in the lee of obstacles */
 } bt_sea_view;
 
 typedef struct bt_vehicle_view
@@ -197,8 +197,8 @@ typedef struct bt_vehicle_view
   double turns;                /* signed, clockwise positive, since the dive began */
   double sticks[4];            /* surge sway heave yaw */
   double speeds[4];            /* at full stick: m/s, and rad/s for yaw */
-  int arrived;                 /* nonzero: nowhere left to go */
-  int held;                    /* nonzero: a taut tether stops it */
+  int arrived;                 /* true: nowhere left to go */
+  int held;                    /* true: a taut tether stops it */
 } bt_vehicle_view;
 
 typedef struct bt_tether_view
@@ -211,13 +211,13 @@ typedef struct bt_tether_view
   bt_vec3 force;                                   /* on what the far end is fastened to, N */
   int vehicle; /* index of the vehicle at the far end, -1: a fixed point */
   int taut;
-  int parted; /* nonzero: the line is in two; what is asked is the part at the anchor */
+  int parted; /* true: the line is in two; what is asked is the part at the anchor */
   int spooling;
   int stuck;             /* true: pulled, and held fast for 5 s, whatever holds it; of the
                             thesis' response: by its rules */
-  int blocked;           /* nonzero: an obstacle keeps a static line off its shape */
+  int blocked;           /* true: an obstacle keeps a static line off its shape */
   int settled;           /* zero: the shape still moves */
-  int asleep;            /* nonzero: the moving line rests and is not stepped */
+  int asleep;            /* true: the moving line rests and is not stepped */
   int nodes;             /* points of the model's own polyline */
   double error_estimate; /* m: of the moving line's position, by its nodes; NAN for static shapes */
 } bt_tether_view;

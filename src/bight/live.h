@@ -25,7 +25,7 @@ typedef struct bt_live_options
   double pace;   /* seconds of the dive in a second, at most 1e6; 0: as fast as it goes */
   int64_t until; /* the step at which time stops; -1: never */
   int moments;   /* checkpoints to keep, one for each second of the dive, the newest ones */
-  int log;       /* nonzero: keep what was done for bt_live_drain */
+  int log;       /* true: keep what was done for bt_live_drain */
 } bt_live_options;
 
 /* Real time, without an end; a minute of checkpoints; no log.  */

@@ -40,7 +40,7 @@ typedef struct bt_sea_def
   double density; /* kg/m3 */
   double gravity; /* m/s2 */
   bt_current current;
-  double wake; /* nonzero: the current is less in the lee of what stands in it */
+  double wake; /* true: the current is less in the lee of what stands in it */
   bt_wave_def waves;
   bt_current_grid *grid; /* for a current of kind BT_CURRENT_GRID; borrowed: a model retains it */
 } bt_sea_def;
@@ -240,9 +240,9 @@ typedef struct bt_field
   double fallback;      /* the default number; NAN: must be given or follows from another field,
                            unless NAN is the value of one of WORDS */
   double min, max;      /* allowed range */
-  int above_min;        /* nonzero: MIN itself is not allowed */
+  int above_min;        /* true: MIN itself is not allowed */
   const bt_word *words; /* WORD: the choices; NUMBER: words allowed in place of a number; or NULL */
-  int live;             /* nonzero: may change while a dive runs */
+  int live;             /* true: may change while a dive runs */
 } bt_field;
 
 /* A kind of part.  */

@@ -21,7 +21,7 @@ typedef struct bt_obstacle_view
   bt_vec3 size;      /* m: of a box along its own axes; 0 of others */
   double radius;     /* m: of a sphere, cylinder, capsule; 0 of others */
   bt_vec3 low, high; /* m: its bounding box; infinite for a level seabed */
-  int moves;         /* nonzero: it has a track */
+  int moves;         /* true: it has a track */
   size_t triangles;  /* that bt_obstacle_triangles knows: of meshes, grids and hulls */
 } bt_obstacle_view;
 

@@ -37,7 +37,7 @@ void bt_current_grid_free (bt_current_grid *grid);
 /* Return the velocity of GRID at P and T; not finite where P is not.  */
 bt_vec3 bt_current_grid_velocity (const bt_current_grid *grid, bt_vec3 p, double t);
 
-/* Return nonzero if GRID changes with time.  */
+/* Return true if GRID changes with time.  */
 int bt_current_grid_is_unsteady (const bt_current_grid *grid);
 
 /* ---- Waves ---- */

@@ -122,7 +122,7 @@ void bt_steady_free (bt_steady *steady);
 /* What a solve did and how far it got.  */
 typedef struct bt_steady_report
 {
-  int converged;    /* nonzero: residual within tolerance */
+  int converged;    /* true: residual within tolerance */
   int iterations;   /* Newton iterations (shooting) or relaxation steps */
   int integrations; /* marches along the line, or linear solves */
   double residual;  /* miss of the far end, or fastest node motion times the settling time, m */

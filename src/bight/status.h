@@ -42,7 +42,7 @@ typedef struct bt_error
 const char *bt_status_name (bt_status status);
 
 /* What a call that may last asks between pieces of its work, each much shorter than a tenth of a
-   second: SHARE of it, 0 to 1, is done as far as that can be told.  Nonzero: give up; the call then
+   second: SHARE of it, 0 to 1, is done as far as that can be told.  True: give up; the call then
    fails by BT_ERR_INTERRUPTED and has changed nothing.  */
 typedef int (*bt_poll) (void *user, double share);
 

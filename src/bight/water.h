@@ -84,17 +84,17 @@ double bt_water_surface (const bt_water *water, bt_vec3 p);
 /* Return what no surface of WATER is higher than, and none lower than less that, m.  */
 double bt_water_crest (const bt_water *water);
 
-/* Return nonzero if the velocity of WATER is the same everywhere, at any one time.  */
+/* Return true if the velocity of WATER is the same everywhere, at any one time.  */
 int bt_water_is_uniform (const bt_water *water);
 
-/* Return nonzero if WATER changes with time though nothing else does.  */
+/* Return true if WATER changes with time though nothing else does.  */
 int bt_water_is_unsteady (const bt_water *water);
 
 /* Return the mean velocity of WATER over the straight line from A to B, m/s (5-point Gauss rule;
    the value at A when the current is the same everywhere).  */
 bt_vec3 bt_water_mean_velocity (const bt_water *water, bt_vec3 a, bt_vec3 b);
 
-/* Return nonzero if CURRENT changes with time though nothing else does.  */
+/* Return true if CURRENT changes with time though nothing else does.  */
 int bt_current_is_unsteady (const bt_current *current);
 
 /* Check CURRENT: finite, at most 20 m/s, rows in order, period positive.  BT_ERR_DOMAIN says what

@@ -81,7 +81,7 @@ try_face (const simplex *x, int i, int j, int k, part *best)
   keep_smaller (best, &p, x);
 }
 
-/* Nonzero if 0 is on the same side of the face of X without vertex I as that vertex, and clearly
+/* True if 0 is on the same side of the face of X without vertex I as that vertex, and clearly
    so: by more than the roundings of the vertices make of the face's normal.  */
 static int
 is_inside_of (const simplex *x, int i, double scale)
@@ -167,7 +167,7 @@ collapsed (const simplex *x, bt_vec3 at)
   return (simplex){ .v = { { at, gap.a, gap.b } }, .weight = { 1 }, .n = 1 };
 }
 
-/* Add NEXT to X and reduce; return nonzero if the nearest point, *V at *SIZE, came nearer.  */
+/* Add NEXT to X and reduce; return true if the nearest point, *V at *SIZE, came nearer.  */
 static int
 gain (simplex *x, const vertex *next, bt_vec3 *v, double *size)
 {

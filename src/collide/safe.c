@@ -185,7 +185,7 @@ truncate_moves (bt__job *k)
 
 /* ---- Rounds ---- */
 
-/* Fill the moves; return nonzero if there is one.  */
+/* Fill the moves; return true if there is one.  */
 static int
 aim (bt__job *k, const bt_vec3 *want)
 {

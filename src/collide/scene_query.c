@@ -195,7 +195,7 @@ take_pair (question *q, double reach)
   return q->now.w.distance;
 }
 
-/* Nonzero if P and Q are both farther than REACH on one side of all of A, B, C.  */
+/* True if P and Q are both farther than REACH on one side of all of A, B, C.  */
 static inline int
 is_beyond (double a, double b, double c, double p, double q, double reach)
 {

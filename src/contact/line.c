@@ -231,7 +231,7 @@ tell_ends (bt__line_job *k, const bt__dynamic_input *input)
     }
 }
 
-/* Nonzero if there is but the line, which is clear of itself: what it meets cannot be why it is not
+/* True if there is but the line, which is clear of itself: what it meets cannot be why it is not
    solved.  */
 static int
 is_alone (const bt__line_job *k)

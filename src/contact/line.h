@@ -130,7 +130,7 @@ typedef struct bt__strand
   int64_t id;                 /* as an object */
   double radius, core, friction;
   double inertia; /* kg/m: mass and added mass */
-  int yields;     /* nonzero: it has its step yet to come, and will give way */
+  int yields;     /* true: it has its step yet to come, and will give way */
   int shared[2];  /* for either end of the line that touches it: 0, or one more than the number of
                      this one's end that is made fast at the same place */
 } bt__strand;
@@ -144,7 +144,7 @@ typedef struct bt__line_config
   int64_t obstacles;   /* entries of ROUGH */
   double pull[2];      /* N: what at most takes a prescribed end to its place when obstacles are
                           near; INFINITY: whatever it takes */
-  int itself;          /* nonzero: the line touches itself, ... */
+  int itself;          /* true: the line touches itself, ... */
   int64_t id;          /* ... as the object of this number, which it is to others too */
   const bt__strand *strand;  /* other lines that it touches, none of more intervals than the */
   int strands;               /* workspace has room for */
@@ -154,7 +154,7 @@ typedef struct bt__line_config
 typedef struct bt__line_report
 {
   bt_vec3 end[2];   /* m: where the ends are now */
-  int held[2];      /* nonzero: a prescribed end is not where INPUT wanted it */
+  int held[2];      /* true: a prescribed end is not where INPUT wanted it */
   int touches;      /* places that bear on an obstacle, ... */
   int bends;        /* ... and of these nodes held at an edge */
   int rows;         /* half-spaces in the equations */

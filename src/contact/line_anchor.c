@@ -85,7 +85,7 @@ one_of_many (double mu, double d)
   return d > 1e-6 ? sinh (mu * d) / sin (d) : mu;
 }
 
-/* Nonzero if a row is on link J, of the same obstacle as row I.  */
+/* True if a row is on link J, of the same obstacle as row I.  */
 static int
 has_neighbour (const bt__line_job *k, int i, int64_t j)
 {
@@ -189,7 +189,7 @@ find_anchor (bt__line_job *k, int i, int *from, double *least)
   return best;
 }
 
-/* Nonzero if a row beside I, without an anchor yet, is nearer to anchor Q than LEAST.  */
+/* True if a row beside I, without an anchor yet, is nearer to anchor Q than LEAST.  */
 static int
 is_wanted (const bt__line_job *k, int i, int q, double least)
 {

@@ -90,7 +90,7 @@ gather (bt__line_job *k, corners *s)
     }
 }
 
-/* Nonzero if corner C and the next are of one member.  */
+/* True if corner C and the next are of one member.  */
 static int
 goes_on (const corners *s, int c)
 {
@@ -143,7 +143,7 @@ is_by_link (uint32_t i, uint32_t j)
   return i < j + KNOTTED && j < i + KNOTTED;
 }
 
-/* Nonzero if anything but obstacle ID is nearer to link J than WAY.  */
+/* True if anything but obstacle ID is nearer to link J than WAY.  */
 static int
 is_disturbed (const bt__line_job *k, uint32_t j, int64_t id, double way)
 {
@@ -372,7 +372,7 @@ bt__line_is_laid_round (const bt__line_job *k)
   return 0;
 }
 
-/* Nonzero if row Q is of what the line runs about there.  */
+/* True if row Q is of what the line runs about there.  */
 int
 bt__line_is_bent_about (const bt__line_job *k, int q)
 {

@@ -13,7 +13,7 @@ typedef struct bt__edge
 {
   bt_vec3 axis, point, normal; /* unit; on the obstacle; unit, to the line */
   double radius, distance;     /* m: of the edge; of the line's axis from POINT */
-  int round;                   /* nonzero: the side of a cylinder or a capsule */
+  int round;                   /* true: the side of a cylinder or a capsule */
 } bt__edge;
 
 /* The edge of the standing obstacle ID about P, to E; zero if there is none, or too round a one. */
@@ -22,10 +22,10 @@ int bt__edge_find (const bt__line_job *k, int64_t id, bt_vec3 p, bt__edge *e);
 /* The edge that A knows, as it is about P; zero if there is none.  */
 int bt__edge_again (const bt__line_job *k, const bt__anchor *a, bt_vec3 p, bt__edge *e);
 
-/* Nonzero if the obstacle of row OF has no edges that count; cheap.  */
+/* True if the obstacle of row OF has no edges that count; cheap.  */
 int bt__edge_has_none (const bt__line_job *k, const bt__line_row *of);
 
-/* Nonzero if E is so thin against the line's links that one node is enough for it.  */
+/* True if E is so thin against the line's links that one node is enough for it.  */
 int bt__edge_is_thin (const bt__line_job *k, const bt__edge *e);
 
 /* The part of V across AXIS.  */
@@ -70,7 +70,7 @@ bt__turn_normal (bt_vec3 axis, const bt_vec3 *p)
   return bt__cross (bt__unit_or (bt__off_axis (axis, bt__sub (p[1], p[0])), none), axis);
 }
 
-/* Nonzero if nodes A and B, the next, are held at the same member, the interval between them along
+/* True if nodes A and B, the next, are held at the same member, the interval between them along
    a tangent.  */
 static inline int
 bt__bend_goes_on (const bt__anchor *a, const bt__anchor *b)
@@ -84,11 +84,11 @@ bt__bend_goes_on (const bt__anchor *a, const bt__anchor *b)
 /* The node that is FROM_END from the end, or -1.  */
 int bt__bend_node (const bt__line_job *k, double from_end);
 
-/* Nonzero if nothing but obstacle ID is near the links of NODE, nor the line itself; SHARE: how
+/* True if nothing but obstacle ID is near the links of NODE, nor the line itself; SHARE: how
    near, of what keeps it from being held about a round member.  */
 int bt__bend_is_calm (const bt__line_job *k, int64_t node, int64_t id, double share);
 
-/* Nonzero if one of the links of NODE is in a crotch, see bt__line_is_wedged.  */
+/* True if one of the links of NODE is in a crotch, see bt__line_is_wedged.  */
 int bt__bend_is_wedged (const bt__line_job *k, int64_t node, double share);
 
 /* The unit direction in which a node at E slides sideways where the line, pressed on against
@@ -116,7 +116,7 @@ void bt__bends_gather (bt__line_job *k, bt__bends *s);
 void bt__bends_scatter (bt__line_job *k, bt__bends *s);
 int bt__bends_take_anchor (bt__line_job *k, int q, bt__anchor *a);
 
-/* Nonzero if node I is held; if bend Q and the next are of one member.  */
+/* True if node I is held; if bend Q and the next are of one member.  */
 int bt__bends_has (const bt__bends *s, int64_t i);
 int bt__bends_goes_on (const bt__bends *s, int q);
 

@@ -12,7 +12,7 @@ enum
   AT_ONCE = 1   /* ... and about an edge */
 };
 
-/* Nonzero if the I-th node held and the next are of one member.  */
+/* True if the I-th node held and the next are of one member.  */
 static int
 is_followed (const bt__line_job *k, int i)
 {

@@ -15,7 +15,7 @@ bt__bends_has (const bt__bends *s, int64_t i)
   return 0;
 }
 
-/* Nonzero if bend Q and the next are of one member.  */
+/* True if bend Q and the next are of one member.  */
 int
 bt__bends_goes_on (const bt__bends *s, int q)
 {

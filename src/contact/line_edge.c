@@ -63,7 +63,7 @@ follow (const asked *q, bt_vec3 p, bt_vec3 step, bt__witness *a, bt__witness *b)
   return nearest (q, bt__add (p, step), a) && nearest (q, bt__sub (p, step), b);
 }
 
-/* Nonzero if the normals about P turn by much ACROSS.  */
+/* True if the normals about P turn by much ACROSS.  */
 static int
 is_sharp (const asked *q, bt_vec3 p, bt_vec3 across)
 {

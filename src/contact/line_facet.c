@@ -23,7 +23,7 @@ is_corner (const bt__triangle *t, bt_vec3 p)
   return 0;
 }
 
-/* Nonzero if triangle T rises to the side of normal N from its corner I.  */
+/* True if triangle T rises to the side of normal N from its corner I.  */
 static int
 rises_from_corner (const bt__triangle *t, int i, bt_vec3 n)
 {
@@ -55,7 +55,7 @@ is_hidden_by (const bt__triangle *own, int feature, bt_vec3 n, const bt__triangl
   return a && b && rise_from_edge (other, a - 1, b - 1, n) > GHOST;
 }
 
-/* Nonzero if the nearest point W of the triangle NEAR is on an edge or corner where another listed
+/* True if the nearest point W of the triangle NEAR is on an edge or corner where another listed
    triangle is nearer.  */
 static int
 is_ghost (const bt__line_job *k, uint32_t j, const bt__near *near, const bt__witness *w)
@@ -78,7 +78,7 @@ is_ghost (const bt__line_job *k, uint32_t j, const bt__near *near, const bt__wit
   return 0;
 }
 
-/* Nonzero if the surface falls away from edge E of the triangle OWN, that of NEAR, on either side,
+/* True if the surface falls away from edge E of the triangle OWN, that of NEAR, on either side,
    as seen from normal N.  */
 static int
 is_crest (const bt__line_job *k, uint32_t j, const bt__near *near, const bt__triangle *own, int e,
@@ -107,7 +107,7 @@ is_crest (const bt__line_job *k, uint32_t j, const bt__near *near, const bt__tri
 
 /* ---- Rows ---- */
 
-/* Nonzero if node AT is over the face of T, HEIGHT from it, on the side of NORMAL.  */
+/* True if node AT is over the face of T, HEIGHT from it, on the side of NORMAL.  */
 static int
 is_over (const bt__triangle *t, bt_vec3 at, double *height, bt_vec3 *normal)
 {

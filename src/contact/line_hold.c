@@ -30,7 +30,7 @@ node_near (const bt__line_job *k, const bt__dynamic_row *r)
   return r->s * rest < near ? r->node : (1 - r->s) * rest < near ? r->node + 1 : -1;
 }
 
-/* Nonzero if one of node I's intervals is too short for it to be bent.  */
+/* True if one of node I's intervals is too short for it to be bent.  */
 static int
 is_crowded (const bt__line_job *k, int64_t i)
 {
@@ -38,7 +38,7 @@ is_crowded (const bt__line_job *k, int64_t i)
   return i < 1 || i >= k->d->n || fmin (rest[-1], rest[0]) < CROWDED * k->d->piece;
 }
 
-/* Nonzero if both links of node I are tangents of E, as near as may be, and touch it.  E's axis is
+/* True if both links of node I are tangents of E, as near as may be, and touch it.  E's axis is
    turned the way the line winds.  */
 static int
 is_corner (const bt__line_job *k, int64_t i, bt__edge *e)
@@ -59,7 +59,7 @@ is_corner (const bt__line_job *k, int64_t i, bt__edge *e)
          && lb < bt__distance (x[1], x[2]) + slack;
 }
 
-/* Nonzero if both links of node I cross E, and do not go along it.  */
+/* True if both links of node I cross E, and do not go along it.  */
 static int
 is_steep (const bt__line_job *k, int64_t i, const bt__edge *e)
 {
@@ -69,7 +69,7 @@ is_steep (const bt__line_job *k, int64_t i, const bt__edge *e)
   return fabs (bt__dot (a, e->axis)) < STEEP && fabs (bt__dot (b, e->axis)) < STEEP;
 }
 
-/* Nonzero if row Q has borne for a while, a line that is taut enough and near nothing else.  */
+/* True if row Q has borne for a while, a line that is taut enough and near nothing else.  */
 static int
 is_settled (const bt__line_job *k, int q)
 {
@@ -79,7 +79,7 @@ is_settled (const bt__line_job *k, int q)
          && bt__bend_is_calm (k, j + 1, id, CALM);
 }
 
-/* Nonzero if node I may be held as a corner of what row Q is of.  */
+/* True if node I may be held as a corner of what row Q is of.  */
 static int
 may_corner (const bt__line_job *k, const bt__bends *s, int q, int64_t i, bt__bend_place *p)
 {
@@ -92,7 +92,7 @@ may_corner (const bt__line_job *k, const bt__bends *s, int q, int64_t i, bt__ben
          && is_corner (k, i, &p->edge);
 }
 
-/* Nonzero if another row of the obstacle of row Q is on a link next to its link.  */
+/* True if another row of the obstacle of row Q is on a link next to its link.  */
 static int
 has_company (const bt__line_job *k, int q)
 {
@@ -104,7 +104,7 @@ has_company (const bt__line_job *k, int q)
   return 0;
 }
 
-/* Nonzero if the line is held near row Q at the same member already.  */
+/* True if the line is held near row Q at the same member already.  */
 static int
 is_held_near (const bt__line_job *k, const bt__bends *s, int q)
 {
@@ -116,7 +116,7 @@ is_held_near (const bt__line_job *k, const bt__bends *s, int q)
   return 0;
 }
 
-/* Nonzero if row Q is of a link in a crotch, or next to one.  */
+/* True if row Q is of a link in a crotch, or next to one.  */
 static int
 is_wedged (const bt__line_job *k, int q)
 {
@@ -125,7 +125,7 @@ is_wedged (const bt__line_job *k, int q)
          || (j + 1 < k->links && bt__bend_is_wedged (k, j + 1, CALM));
 }
 
-/* Nonzero if the line may be bent where row Q bears.  */
+/* True if the line may be bent where row Q bears.  */
 static int
 may_bend (const bt__line_job *k, const bt__bends *s, int q, bt__bend_place *p)
 {

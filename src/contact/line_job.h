@@ -46,7 +46,7 @@ typedef struct bt__self
   double turn, way;         /* m: KNOWN is of what parts by less, two in a row and any */
   double least, least_turn; /* m: none of it touches before any, or two in a row, part by this */
   bt__dynamic_drift drift;  /* since then, as the step starts */
-  int clear;                /* nonzero: the spare of the line says that there is none of itself */
+  int clear;                /* true: the spare of the line says that there is none of itself */
   int wait;                 /* steps until the next look */
 } bt__self;
 
@@ -61,7 +61,7 @@ typedef struct bt__link_watch
   double clear;   /* m to what stands, at least, then */
   double reach;   /* m: whatever it can meet with its ends moving less than this is listed */
   uint32_t found; /* parts listed */
-  uint32_t full;  /* nonzero: REACH is so short because the list is full */
+  uint32_t full;  /* true: REACH is so short because the list is full */
 } bt__link_watch;
 
 /* What a row of the equations is of.  */
@@ -126,18 +126,18 @@ typedef struct bt__line_job
   const bt_vec3 *x;        /* at the start */
   bt_vec3 *X;              /* proposed */
   bt__dynamic_watch watch; /* over a line that nothing touches */
-  int plain;               /* nonzero: no node is held at a round member */
-  int unsolved;            /* nonzero: what the step found is no solution, or not what was taken */
+  int plain;               /* true: no node is held at a round member */
+  int unsolved;            /* true: what the step found is no solution, or not what was taken */
   bt__line_report *report;
   bt__count *count;
 } bt__line_job;
 
 /* ---- What is near (line_near.c) ---- */
 
-/* List what every link could meet; return nonzero if anything is so near that it matters.  */
+/* List what every link could meet; return true if anything is so near that it matters.  */
 int bt__line_watch (bt__line_job *k);
 
-/* Nonzero if the whole line is known to be so far from everything that stands that no link need be
+/* True if the whole line is known to be so far from everything that stands that no link need be
    asked while its nodes go no farther than *MAY.  */
 int bt__line_is_far (bt__line_job *k, double *may);
 
@@ -185,7 +185,7 @@ int bt__line_add_hit (bt__line_job *k, uint32_t j, const bt__near *near, const b
 
 /* ---- Between two obstacles (line_wedge.c) ---- */
 
-/* Nonzero if link J is near to two obstacles that push it toward each other; SHARE: how near, of
+/* True if link J is near to two obstacles that push it toward each other; SHARE: how near, of
    what touches.  */
 int bt__line_is_wedged (const bt__line_job *k, uint32_t j, double share);
 
@@ -198,10 +198,10 @@ void bt__line_press (const bt__line_job *k, int i);
 /* Hold the nodes that were held in the last step, where they still are to be; before the rows.  */
 void bt__line_bends (bt__line_job *k);
 
-/* Nonzero if nodes are held at a round member that is not thin.  */
+/* True if nodes are held at a round member that is not thin.  */
 int bt__line_is_laid_round (const bt__line_job *k);
 
-/* Nonzero if row Q says what a node that is held does.  */
+/* True if row Q says what a node that is held does.  */
 int bt__line_is_bent_about (const bt__line_job *k, int q);
 
 /* What is to be kept of the I-th node held.  */
@@ -229,7 +229,7 @@ void bt__line_store (bt__line_job *k);
 
 /* ---- The line and itself, and other lines ---- */
 
-/* Nonzero if they touch at all.  */
+/* True if they touch at all.  */
 static inline int
 bt__self_counts (const bt__line_job *k)
 {
@@ -251,14 +251,14 @@ bt__self_asks_more (const bt__line_job *k, double way)
 }
 
 /* self_pairs.c: list the pairs that could meet in the step, of the line itself and of others;
-   return nonzero if there are any.  The same for the proposed move, which is shortened if there is
+   return true if there are any.  The same for the proposed move, which is shortened if there is
    no room for all.  Keep for the next step what there was.  */
 int bt__self_watch (bt__line_job *k);
 void bt__self_watch_moves (bt__line_job *k);
 void bt__self_note (bt__line_job *k);
 
-/* Nonzero if there are none, and *MAY is how far the line may drift for it to stay so, no farther
-   than it was; nonzero if then none can meet in the proposed move.  */
+/* True if there are none, and *MAY is how far the line may drift for it to stay so, no farther
+   than it was; true if then none can meet in the proposed move.  */
 int bt__self_is_far (bt__line_job *k, bt__dynamic_drift *may);
 int bt__self_stays_far (bt__line_job *k);
 
@@ -305,18 +305,18 @@ double bt__self_stiffness (const bt__line_job *k, int i);
 bt_vec3 bt__self_move (const bt__line_job *k, const bt__dynamic_row *r);
 bt__anchor bt__self_reaction (const bt__line_job *k, int i, const bt__anchor *a);
 
-/* self_guard.c: as bt__line_hits and bt__line_truncate for pairs; nonzero if node I can go straight
+/* self_guard.c: as bt__line_hits and bt__line_truncate for pairs; true if node I can go straight
    by MOVE, the others staying, and meets no other link.  */
 int bt__self_hits (bt__line_job *k, int add);
 void bt__self_truncate (bt__line_job *k);
 int bt__self_may_move (bt__line_job *k, int64_t i, bt_vec3 move);
 
-/* Nonzero if no other link but its neighbours is nearer to link J than WAY and what they keep.  */
+/* True if no other link but its neighbours is nearer to link J than WAY and what they keep.  */
 int bt__self_is_clear (const bt__line_job *k, int64_t j, double way);
 
 /* ---- What must not be hit (line_guard.c) ---- */
 
-/* Make the proposal finite, and no node's move longer than MOST.  Return nonzero if all of it was
+/* Make the proposal finite, and no node's move longer than MOST.  Return true if all of it was
    finite.  */
 int bt__line_bound (bt__line_job *k, double most);
 
@@ -329,7 +329,7 @@ int bt__line_shorten (bt__line_job *k);
 /* Cut the proposal, node by node, to what is safe.  */
 void bt__line_truncate (bt__line_job *k);
 
-/* Nonzero if node 1 of P, nodes of the line, can go straight by MOVE, nodes 0 and 2 staying, and
+/* True if node 1 of P, nodes of the line, can go straight by MOVE, nodes 0 and 2 staying, and
    meets nothing.  */
 int bt__line_may_move (bt__line_job *k, const bt_vec3 *p, bt_vec3 move);
 

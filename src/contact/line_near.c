@@ -125,7 +125,7 @@ list_link (bt__line_job *k, uint32_t j, double need)
 
 /* ---- All links ---- */
 
-/* Nonzero if a part that link J lists is within NEED.  */
+/* True if a part that link J lists is within NEED.  */
 static int
 is_near (const bt__line_job *k, uint32_t j, double need)
 {
@@ -248,7 +248,7 @@ check_spare (bt__line_job *k)
   k->d->seen = seal;
 }
 
-/* Nonzero if what is CLEAR of the whole line is more than what touches, and than what the fastest
+/* True if what is CLEAR of the whole line is more than what touches, and than what the fastest
    node needs: no link needs more.  */
 static int
 is_enough (const bt__line_job *k, double clear)

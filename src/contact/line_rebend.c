@@ -98,7 +98,7 @@ is_new (const bt__bends *s, int q)
   return !isfinite (s->anchor[q].lag.x);
 }
 
-/* Nonzero if bend Q is new, and too far from where it should be.  */
+/* True if bend Q is new, and too far from where it should be.  */
 static int
 is_behind (const bt__line_job *k, const bt__bends *s, int q)
 {

@@ -133,7 +133,7 @@ typedef struct pass_end
   bt__witness from, w; /* as the step starts; at its end */
   double lever;        /* m of link from its nearest point */
   double radius;       /* m: of the obstacle along the link on this side, as seen from the end */
-  int round;           /* nonzero: the obstacle is flat or round there, not sharp */
+  int round;           /* true: the obstacle is flat or round there, not sharp */
 } pass_end;
 
 /* What is farther from the obstacle than from the plane of its nearest point, of the link's place S
@@ -200,7 +200,7 @@ bt__row_between (bt__line_job *k, uint32_t j, const bt__pass *p, double radius)
   bt__row_take (k, 2 * bt__row_lies_along (k, &p->from, &p->near->w));
 }
 
-/* Nonzero if the obstacle is sharp where it is nearest to the link's end E: what is beyond its
+/* True if the obstacle is sharp where it is nearest to the link's end E: what is beyond its
    plane grows as the way from there, not as its square.  */
 static int
 is_sharp (const bt__line_job *k, const bt__pass *p, int e)
@@ -210,7 +210,7 @@ is_sharp (const bt__line_job *k, const bt__pass *p, int e)
   return more > FLAT * k->config->radius && beyond_plane (k, p, 0.5, &w) > SHARP * more;
 }
 
-/* Nonzero if link J comes nearer to what NEAR is of than NEAR does.  */
+/* True if link J comes nearer to what NEAR is of than NEAR does.  */
 static int
 comes_nearer (const bt__line_job *k, int64_t j, const bt__near *near)
 {
@@ -222,7 +222,7 @@ comes_nearer (const bt__line_job *k, int64_t j, const bt__near *near)
   return 0;
 }
 
-/* Nonzero if link J's end E is at a sharp edge, and beyond it the line comes nearer yet: the next
+/* True if link J's end E is at a sharp edge, and beyond it the line comes nearer yet: the next
    link bears, and the plane of the end would bar the way of the node over the edge.  */
 static int
 bars_the_way (const bt__line_job *k, uint32_t j, int e, const bt__pass *p)
@@ -266,7 +266,7 @@ touch_part (bt__line_job *k, uint32_t j, const bt__near *near)
     bt__row_between (k, j, &p, fmin (end[0].radius, end[1].radius));
 }
 
-/* Nonzero if one of the rows from FIRST on, at node I, says what R says.  */
+/* True if one of the rows from FIRST on, at node I, says what R says.  */
 static int
 is_borne (const bt__line_job *k, const bt__dynamic_row *r, int first, double i)
 {

@@ -19,7 +19,7 @@ typedef struct bt__pass
 
 bt__pass bt__row_pass (const bt__line_job *k, uint32_t j, const bt__near *near);
 
-/* Nonzero if LINK lies along the plane of W.  */
+/* True if LINK lies along the plane of W.  */
 int bt__row_lies_along (const bt__line_job *k, const bt__link *link, const bt__witness *w);
 
 /* The place S of link J is pushed off NEAR, as W says in its frame; START is how near it was at the

@@ -48,7 +48,7 @@ bt__polyline_let_pass (bt__polyline *line, const bt__way *way)
 
 /* ---- A leg ---- */
 
-/* Move a copy of X to TO; nonzero if all of it arrives.  */
+/* Move a copy of X to TO; true if all of it arrives.  */
 static int
 arrives (const bt__way *way, const bt_vec3 *x, const bt_vec3 *to, uint32_t n)
 {

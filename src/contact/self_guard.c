@@ -195,7 +195,7 @@ bt__self_truncate (bt__line_job *k)
 
 /* ---- A single node ---- */
 
-/* Nonzero if link J of the line, whose end E goes by MOVE, meets link Q of STRAND.  */
+/* True if link J of the line, whose end E goes by MOVE, meets link Q of STRAND.  */
 static int
 meets (bt__line_job *k, uint32_t j, int e, bt_vec3 move, int strand, uint32_t q)
 {

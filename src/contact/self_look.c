@@ -90,7 +90,7 @@ measure_parts (look *s, part p)
 
 /* ---- What is told ---- */
 
-/* Nonzero if links FROM to TO, less one, run along with their chord and it takes some turning until
+/* True if links FROM to TO, less one, run along with their chord and it takes some turning until
    they do not; that is told.  */
 static int
 is_stretch (look *s, int from, int to)
@@ -130,7 +130,7 @@ told (const look *s, int i, int j)
   return j + 1 - i <= s->few ? s->few * s->turned : s->apart;
 }
 
-/* Nonzero if chords from A to B and from C to D are seen to be GAP apart from the line through
+/* True if chords from A to B and from C to D are seen to be GAP apart from the line through
    their middles.  */
 static int
 are_seen_apart (bt_vec3 a, bt_vec3 b, bt_vec3 c, bt_vec3 d, double gap)

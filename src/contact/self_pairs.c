@@ -56,7 +56,7 @@ is_ahead (const bt__line_job *k)
          && may.apart > AHEAD * d->step.apart;
 }
 
-/* Nonzero if it is clear of itself, and for longer than the step that starts is expected to go.
+/* True if it is clear of itself, and for longer than the step that starts is expected to go.
    What lately was not is not looked at.  */
 static int
 is_clear (bt__line_job *k)
@@ -147,7 +147,7 @@ look (bt__line_job *k)
   memcpy (self->stood, k->x, (size_t)self->still * sizeof *k->x);
 }
 
-/* How the line at X differs from how it was looked at.  Nonzero if what is known still holds.  */
+/* How the line at X differs from how it was looked at.  True if what is known still holds.  */
 static int
 is_known (const bt__line_job *k, const bt_vec3 *x, bt__dynamic_drift *drift)
 {
@@ -158,7 +158,7 @@ is_known (const bt__line_job *k, const bt_vec3 *x, bt__dynamic_drift *drift)
   return drift->turned < self->turn && drift->apart < self->way;
 }
 
-/* Nonzero if the line is looked at, or was and still is as then.  */
+/* True if the line is looked at, or was and still is as then.  */
 static int
 know (bt__line_job *k)
 {
@@ -172,7 +172,7 @@ know (bt__line_job *k)
   return self->still > 0;
 }
 
-/* Nonzero if none of the listed pairs can touch before the line differs by more than DRIFT.  */
+/* True if none of the listed pairs can touch before the line differs by more than DRIFT.  */
 static int
 none_touches (const bt__self *self, const bt__dynamic_drift *drift)
 {
@@ -243,7 +243,7 @@ strand_box (const bt__line_job *k, int i)
   return b;
 }
 
-/* Nonzero if no other line is where this one is and is to go.  */
+/* True if no other line is where this one is and is to go.  */
 static int
 are_others_far (const bt__line_job *k, const bt_vec3 *to)
 {
@@ -278,7 +278,7 @@ list (bt__line_job *k, const bt_vec3 *to, const bt__dynamic_drift *drift)
 
 /* ---- A step ---- */
 
-/* Nonzero if nothing need be listed as the step starts.  */
+/* True if nothing need be listed as the step starts.  */
 static int
 is_far (bt__line_job *k)
 {
@@ -347,7 +347,7 @@ know_move (const bt__line_job *k, bt__dynamic_drift *drift)
   return drift;
 }
 
-/* Nonzero if no two links can meet in the proposed move, those of P apart.  */
+/* True if no two links can meet in the proposed move, those of P apart.  */
 static int
 goes_clear (const bt__line_job *k, const bt__self_known *p)
 {
@@ -370,7 +370,7 @@ is_listed (const bt__self *self, const bt__self_known *p)
   return 0;
 }
 
-/* Nonzero if what is not listed cannot meet while the line differs by no more than DRIFT.  */
+/* True if what is not listed cannot meet while the line differs by no more than DRIFT.  */
 static int
 others_go_clear (const bt__line_job *k, const bt__dynamic_drift *drift)
 {

@@ -84,7 +84,7 @@ resistance_of (const bt__line_job *k, const bt__strand *o, uint32_t j, double t)
   return 2 * sqrt (m * m + 4 * m * tension) / fmax (yield, 1e-9);
 }
 
-/* Nonzero if a row before Q is of anchor I of the same line.  */
+/* True if a row before Q is of anchor I of the same line.  */
 static int
 is_taken (const bt__line_job *k, int q, int64_t i)
 {
@@ -243,7 +243,7 @@ away_from (const bt__line_job *k, int i, const bt__anchor *a)
   return fabs (a->from_end - of->from_end) + fabs (a->other - of->other);
 }
 
-/* Nonzero if a row after I is nearer to A than AWAY.  */
+/* True if a row after I is nearer to A than AWAY.  */
 static int
 is_of_later (const bt__line_job *k, int i, const bt__anchor *a, double away)
 {

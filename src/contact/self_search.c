@@ -146,7 +146,7 @@ bt__self_distance (const bt__link *a, const bt__link *b)
   return bt__norm (bt__axpy (bt__axpy (r, u, d), -v, e));
 }
 
-/* Nonzero if links FROM to TO, less one, go along with the chord of all of them, wherever they
+/* True if links FROM to TO, less one, go along with the chord of all of them, wherever they
  * move.
  */
 static int

@@ -49,7 +49,7 @@ measure (bt__thesis_job *j, const bt__hit *hit, bt__collision *c)
   c->normal = bt__out_of (f, c->normal);
 }
 
-/* Nonzero if something of MOVER, or of the scene for 0, is within REACH of P; OBJECT: of that id
+/* True if something of MOVER, or of the scene for 0, is within REACH of P; OBJECT: of that id
    only, unless negative.  */
 static int
 is_near (bt__thesis_job *j, uint32_t mover, bt_vec3 p, double reach, int64_t object)
@@ -90,7 +90,7 @@ arc_of (const bt__thesis_job *j, uint32_t link, bt_vec3 p)
   return u[0] + bt__share (bt__dot (bt__sub (p, x[0]), d), bt__dot (d, d)) * (u[1] - u[0]);
 }
 
-/* Nonzero if a split at P on span K would be one with what is there.  */
+/* True if a split at P on span K would be one with what is there.  */
 static int
 is_crowded (const bt__thesis_job *j, int64_t k, bt_vec3 p)
 {

@@ -187,7 +187,7 @@ give_in (bt__thesis_job *j, const bt__hit *hit)
   return 1;
 }
 
-/* Move; return nonzero if there is more to do.  */
+/* Move; return true if there is more to do.  */
 static int
 go (bt__thesis_job *j)
 {

@@ -48,7 +48,7 @@ typedef struct bt__handle
 {
   bt_dive *dive;    /* while it is live, a copy to ask, no older than the last question */
   SCM function;     /* or #f */
-  int asking;       /* nonzero while the procedure runs, in the middle of a step or an operation */
+  int asking;       /* true while the procedure runs, in the middle of a step or an operation */
   SCM journal;      /* the operations that were done, the last first, as `%journal' has them */
   int64_t serial;   /* of the last one; never the same twice */
   bt_live *live;    /* or NULL */
@@ -57,7 +57,7 @@ typedef struct bt__handle
   SCM host;         /* the handle whose live dive this one shares, or #f */
   SCM thrown;       /* (KEY . ARGS) while the engine gives up what was interrupted, else #f */
   double looked;    /* s: when it was last looked whether something waits */
-  int told;         /* nonzero: how far the present call is was told */
+  int told;         /* true: how far the present call is was told */
 } bt__handle;
 
 /* A bt_poll for the dive of a handle.  Raise what it was interrupted by, or ERROR unless STATUS is

@@ -209,7 +209,7 @@ read_triple (const char *text, unsigned char *out)
   return n;
 }
 
-/* Read TEXT of LENGTH into OUT, which has room for SIZE bytes; return nonzero if it fills it.  */
+/* Read TEXT of LENGTH into OUT, which has room for SIZE bytes; return true if it fills it.  */
 static int
 read_text (const char *text, size_t length, unsigned char *out, size_t size)
 {

@@ -19,7 +19,7 @@ typedef struct bt__command
   int64_t step; /* at which it is to be done; then, at which it was */
   bt_op op;
   int subject, n;
-  int awaited; /* nonzero: its poster waits, and owns it */
+  int awaited; /* true: its poster waits, and owns it */
   int done;
   bt_status status;
   bt_error error;
@@ -94,7 +94,7 @@ struct bt_live
   _Atomic double share;     /* of it that is done */
   int64_t steps;
   int stop;
-  int ended;   /* nonzero: the thread is gone, and what waits shall wait no more */
+  int ended;   /* true: the thread is gone, and what waits shall wait no more */
   int holders; /* who must let it go before it is freed */
   double late;
   bt_status status;

@@ -76,7 +76,7 @@ no_memory (bt_error *error)
   return bt__fail (error, BT_ERR_LIMIT, "there is no memory for so large a mesh");
 }
 
-/* Make *ARRAY of *ROOM elements of SIZE bytes hold WANTED.  Nonzero when it does.  */
+/* Make *ARRAY of *ROOM elements of SIZE bytes hold WANTED.  True when it does.  */
 static int
 grow (void **array, uint32_t *room, uint64_t wanted, size_t size)
 {

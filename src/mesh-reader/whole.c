@@ -134,7 +134,7 @@ set_format (ply *p, const char *word)
   return 0;
 }
 
-/* One line of the header.  Nonzero when it is understood.  */
+/* One line of the header.  True when it is understood.  */
 static int
 take_header_line (ply *p, char *line, int *over)
 {
@@ -162,7 +162,7 @@ take_count (const ply *p, const char *at, int size)
   return n;
 }
 
-/* Step over one element E of a binary file.  Nonzero when it is there.  */
+/* Step over one element E of a binary file.  True when it is there.  */
 static int
 step_binary (const ply *p, const element *e, text *t)
 {
@@ -181,7 +181,7 @@ step_binary (const ply *p, const element *e, text *t)
   return 1;
 }
 
-/* Step over one word; its value as a count, if it is one.  Nonzero when it is there.  */
+/* Step over one word; its value as a count, if it is one.  True when it is there.  */
 static int
 step_word (text *t, uint64_t *count)
 {
@@ -196,7 +196,7 @@ step_word (text *t, uint64_t *count)
   return 1;
 }
 
-/* Step over one element E of an ASCII file.  Nonzero when it is there.  */
+/* Step over one element E of an ASCII file.  True when it is there.  */
 static int
 step_ascii (const ply *p, const element *e, text *t)
 {

@@ -23,7 +23,7 @@ typedef struct bt__child
   pid_t pid;
   int out, err;    /* our ends of its output and its complaints; -1 once it closed them */
   double deadline; /* s, on the clock that is never set */
-  int late;        /* nonzero: the deadline passed */
+  int late;        /* true: the deadline passed */
   size_t n;
   char words[BT__CHILD_WORDS]; /* the first line of its complaints, ended by NUL at N */
 } bt__child;

@@ -46,7 +46,7 @@ static struct
   pid_t owner;    /* a fork of this process does not own the terminal */
   pid_t guardian; /* or -1 */
   int leash;      /* what it listens to */
-  int at_exit;    /* nonzero: exit gives it back */
+  int at_exit;    /* true: exit gives it back */
 } the;
 
 /* ---- Giving back: all of it may run in a handler ---- */

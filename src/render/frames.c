@@ -53,7 +53,7 @@ free_frames (const bt__gl *gl, bt__frames *f)
   *f = (bt__frames){ .w = 0 };
 }
 
-/* Make frame I of textures COLORS, N of them, and DEPTHS if that is one; nonzero if it can be drawn
+/* Make frame I of textures COLORS, N of them, and DEPTHS if that is one; true if it can be drawn
    to.  */
 static int
 bind_frame (const bt__gl *gl, GLuint frame, const GLuint *colors, GLsizei n, GLuint depths)

@@ -44,8 +44,8 @@ typedef struct bt__drawing
 {
   int width, height; /* pixels */
   int samples;       /* a pixel is the mean of this squared; 2 for stills */
-  int transparent;   /* nonzero: no water and no ground */
-  int quick;         /* nonzero: for a frame of many a second; plainer */
+  int transparent;   /* true: no water and no ground */
+  int quick;         /* true: for a frame of many a second; plainer */
   int tile;          /* most pixels of a side drawn at once; 0: as suits */
 } bt__drawing;
 

@@ -369,7 +369,7 @@ static const char resolve_water[] =
     "  c *= 1.0 - 0.72 * line;\n"
     "  return bare > 0.5 ? vec4 (c, 1) : vec4 (through (c, p, way, z, mod (s.w, 2.0)), 1);\n"
     "}\n"
-    /* Nonzero if one surface, or none, lies around MIDDLE: most pixels, and they are quick.  */
+    /* True if one surface, or none, lies around MIDDLE: most pixels, and they are quick.  */
     "bool is_flat (ivec2 middle, float d, vec4 s)\n"
     "{\n"
     "  float per = breadth (d), most = 0.0, bend = 0.0;\n"

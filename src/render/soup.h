@@ -65,7 +65,7 @@ typedef struct bt__soup
   bt__vertex *vertex;
   uint32_t *index;
   size_t n, room, n_index, room_index;
-  int full;       /* nonzero: there was no memory for all */
+  int full;       /* true: there was no memory for all */
   bt_vec3 origin; /* positions are from here, so that floats suffice */
   bt__lens lens;
   bt__range ghost[BT__GHOSTS]; /* tubes, which show through what hides them */

@@ -16,7 +16,7 @@ typedef struct bt__pen
   cairo_surface_t *surface;
   int width, height;
   double letter; /* height of the letters, pixels */
-  int paper;     /* nonzero: dark on white, else white on water */
+  int paper;     /* true: dark on white, else white on water */
 } bt__pen;
 
 bt_status bt__pen_open (bt__pen *pen, bt__picture *picture, int paper, bt_error *error);

@@ -81,7 +81,7 @@ append (table *t, const double *row, bt_error *error)
   return BT_OK;
 }
 
-/* Nonzero if LINE names a current's columns in their order, with or without units behind them.  */
+/* True if LINE names a current's columns in their order, with or without units behind them.  */
 static int
 names_columns (const char *line)
 {

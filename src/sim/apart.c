@@ -182,7 +182,7 @@ leaves_meet (leaf a, leaf b, double gap)
   return 0;
 }
 
-/* Nonzero if links of tethers I and J are nearer than GAP.  */
+/* True if links of tethers I and J are nearer than GAP.  */
 static int
 tethers_meet (const bt_dive *dive, bt__state *state, const bt__lanes *l, int i, int j, double gap)
 {
@@ -196,14 +196,14 @@ tethers_meet (const bt_dive *dive, bt__state *state, const bt__lanes *l, int i, 
   return 0;
 }
 
-/* Nonzero if either of tethers I and J may touch the other.  */
+/* True if either of tethers I and J may touch the other.  */
 static int
 may_touch (const bt_dive *dive, bt__state *state, int i, int j)
 {
   return !bt__passes_tether (dive, state, i, j) || !bt__passes_tether (dive, state, j, i);
 }
 
-/* Nonzero if tethers I and J, which go or ask as far as WAY says, have to do with each other.  */
+/* True if tethers I and J, which go or ask as far as WAY says, have to do with each other.  */
 static int
 are_close (const bt_dive *dive, bt__state *state, const bt__lanes *l, int i, int j,
            const double *way)

@@ -19,7 +19,7 @@ enum
   BT__TRIES = 3
 };
 
-/* Nonzero if the world of DIVE has obstacles: nothing below is called else.  */
+/* True if the world of DIVE has obstacles: nothing below is called else.  */
 static inline int
 bt__has_obstacles (const bt_dive *dive)
 {
@@ -34,7 +34,7 @@ void bt__rest_movers (bt_dive *dive, bt__state *state);
 /* To be called when a subject has gone its way by what bt__surround gave (world/obstacles.h).  */
 void bt__around_done (bt_dive *dive);
 
-/* Nonzero if nobody had to hold a mover back after another had gone by its whole motion.  */
+/* True if nobody had to hold a mover back after another had gone by its whole motion.  */
 int bt__around_agrees (const bt_dive *dive);
 
 /* ---- Vehicles that tethers and obstacles hold ----
@@ -50,13 +50,13 @@ void bt__pin_vehicles (bt_dive *dive, bt__state *state, int round);
 /* Start an operation that has put vehicles where they may be.  */
 void bt__unpin_vehicles (bt_dive *dive, bt__state *state);
 
-/* Nonzero if VEHICLE is taken to a place whatever moves it.  */
+/* True if VEHICLE is taken to a place whatever moves it.  */
 int bt__pinned (const bt_dive *dive, int vehicle);
 
 /* End K (0 the anchor) of tether I came to P and no farther: its vehicle stands there.  */
 void bt__bring_end (const bt_dive *dive, bt__state *state, int i, int k, bt_vec3 p);
 
-/* Nonzero if every end is where its vehicle is and every hull where it may be; else remember where
+/* True if every end is where its vehicle is and every hull where it may be; else remember where
    to take the vehicles in the next try.  */
 int bt__vehicles_agree (bt_dive *dive, bt__state *state);
 
@@ -66,7 +66,7 @@ bt_vec3 bt__hull_reach (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wa
 
 /* ---- Afterwards ---- */
 
-/* Nonzero if a mover is on its way.  */
+/* True if a mover is on its way.  */
 int bt__movers_move (const bt_dive *dive);
 
 /* Forget what vehicles and tethers met a while ago, with the event `left'.  */

@@ -81,7 +81,7 @@ carried_by (const bt_dive *dive, bt__state *state, int vehicle)
   return bt__pinned (dive, vehicle) ? -1 : bt__carrier (dive, state, vehicle);
 }
 
-/* Nonzero if TETHER, static, is at its end, where reach.c holds a vehicle.  */
+/* True if TETHER, static, is at its end, where reach.c holds a vehicle.  */
 static int
 is_at_its_end (const bt__tether *tether)
 {

@@ -29,7 +29,7 @@ most_pull_at (const bt_dive *dive, bt__state *state, int i, int k)
   return bt__dive_vehicle (dive, state, vehicle)->pull;
 }
 
-/* Nonzero if tether I touches tether J, which may be I.  */
+/* True if tether I touches tether J, which may be I.  */
 static int
 touches_tether (const bt_dive *dive, bt__state *state, int i, int j)
 {
@@ -42,7 +42,7 @@ inertia_of (const bt__state *state, const bt_tether_props *p)
   return p->mass + p->ca * state->density * BT__PI / 4 * p->diameter * p->diameter;
 }
 
-/* Nonzero if PART K of tether J, OTHER, is to step after PART of tether I in the present step.  */
+/* True if PART K of tether J, OTHER, is to step after PART of tether I in the present step.  */
 static int
 yields (const bt_dive *dive, const bt__state *state, int i, int part, const bt__tether *other,
         int j, int k)

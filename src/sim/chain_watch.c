@@ -61,7 +61,7 @@ note_kink (bt__state *state, bt__tether *tether, int i, double radius)
   tether->kinked = kinked;
 }
 
-/* Nonzero if the vehicle that tether I carries rests, and hangs on nothing else that may move it.
+/* True if the vehicle that tether I carries rests, and hangs on nothing else that may move it.
  */
 static int
 vehicle_rests (const bt_dive *dive, bt__state *state, int i)

@@ -117,7 +117,7 @@ is_stuck (trial *t, double now)
   return now - t->since > STUCK_TIME;
 }
 
-/* Nonzero while the line still comes in slack: nothing pulls at the vehicle yet.  */
+/* True while the line still comes in slack: nothing pulls at the vehicle yet.  */
 static int
 is_slack (const trial *t)
 {

@@ -122,7 +122,7 @@ turn_body (bt__vehicle *v, const bt__vehicle *before, double share)
   v->body.heading = bt__heading_follow (before->body.heading, v->body.attitude);
 }
 
-/* Nonzero if nothing can meet VEHICLE on its way to WANTED, however it turns.  */
+/* True if nothing can meet VEHICLE on its way to WANTED, however it turns.  */
 static int
 is_far (const bt_dive *dive, bt_vec3 from, bt_vec3 wanted, int vehicle)
 {

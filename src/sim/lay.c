@@ -42,7 +42,7 @@ bt__room_about (bt_dive *dive, const bt__surroundings *around, const bt__link *l
   return cap;
 }
 
-/* Nonzero if nothing is in the triangle A B C, nor within KEEP of it.  */
+/* True if nothing is in the triangle A B C, nor within KEEP of it.  */
 static int
 is_clear (bt_dive *dive, const bt__surroundings *around, double keep, bt_vec3 a, bt_vec3 b,
           bt_vec3 c)

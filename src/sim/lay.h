@@ -14,7 +14,7 @@
 bt_status bt__corners (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int *n,
                        bt_error *error);
 
-/* Nonzero if nothing is between the moving line of tether I and the N + 1 points on the dive's
+/* True if nothing is between the moving line of tether I and the N + 1 points on the dive's
    polyline, equally spaced along it.  */
 int bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n);
 

@@ -163,7 +163,7 @@ end_of (const bt_dive *dive, bt__state *state, int i, int k)
   return bt__dynamic_x (part)[k == 0 ? 0 : part->n];
 }
 
-/* Take *AT back to P if that is less far from BEFORE; return nonzero if P is another place.  */
+/* Take *AT back to P if that is less far from BEFORE; return true if P is another place.  */
 static int
 draw_back (bt_vec3 p, bt_vec3 before, bt_vec3 *at)
 {
@@ -183,7 +183,7 @@ holds_end (const bt_dive *dive, bt__state *state, int i, bt_vec3 end, bt_vec3 he
          && bt__distance (end, here) <= AT_END;
 }
 
-/* Draw *AT back to where the ends of the tethers of VEHICLE let it be; nonzero if that is another
+/* Draw *AT back to where the ends of the tethers of VEHICLE let it be; true if that is another
    place.  */
 static int
 draw_back_to_ends (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 before, bt_vec3 *at)

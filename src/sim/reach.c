@@ -92,7 +92,7 @@ stop_body (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 u)
     v->pull += SMOOTH * (force - v->pull);
 }
 
-/* Pull VEHICLE back into the ball of tether I and return nonzero if it had left it.  */
+/* Pull VEHICLE back into the ball of tether I and return true if it had left it.  */
 static int
 pull_back (const bt_dive *dive, const bt__state *from, bt__state *state, int i, int vehicle)
 {

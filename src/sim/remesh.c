@@ -140,7 +140,7 @@ lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
   return BT_OK;
 }
 
-/* Nonzero if the line is so near to itself that it must keep its nodes, in a world without
+/* True if the line is so near to itself that it must keep its nodes, in a world without
    obstacles.  */
 static int
 is_near_itself (const bt_dive *dive, bt__state *state, int i, const bt__dynamic *chain)

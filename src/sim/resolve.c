@@ -165,7 +165,7 @@ resolve_moving (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, in
   return status == BT_OK && passes ? bt__step_chain (dive, state, i, ends, error) : status;
 }
 
-/* Nonzero if tethers could meet each other: where there is one it has no place among others.  */
+/* True if tethers could meet each other: where there is one it has no place among others.  */
 static int
 are_others (const bt_dive *dive)
 {
@@ -181,7 +181,8 @@ bt__resolve_tether (bt_dive *dive, bt__state *state, int i, int passes, bt_error
                          : resolve_static (dive, state, i, &ends, error);
   if (are_others (dive) && bt__box_line (dive, state, i) && dive->lane)
     dive->lane->refused = 1; /* others were told that it is where it was */
-  bt__ask (&dive->asker);
+  if (status == BT_OK)
+    bt__ask (&dive->asker);
   /* What an equation left half solved says is no error of the dive.  */
   bt_status left = dive->lane ? BT_OK : bt__stopped (&dive->asker, error);
   return left != BT_OK ? left : status;

@@ -94,7 +94,7 @@ has_work (const bt_dive *dive, bt__state *state)
   return work >= LEAST_WORK;
 }
 
-/* Nonzero if two groups have something to do.  */
+/* True if two groups have something to do.  */
 static int
 can_share (const bt_dive *dive, bt__state *state, const bt__lanes *l)
 {
@@ -179,7 +179,7 @@ run (bt_dive *dive, bt__lanes *l)
 
 /* ---- Afterwards ---- */
 
-/* Nonzero if LANE had to hold an obstacle back.  */
+/* True if LANE had to hold an obstacle back.  */
 static int
 held_back (const bt_dive *dive, const bt__lane *lane)
 {
@@ -189,7 +189,7 @@ held_back (const bt_dive *dive, const bt__lane *lane)
   return 0;
 }
 
-/* Nonzero if a line asked for others farther off than it might.  */
+/* True if a line asked for others farther off than it might.  */
 static int
 asked_too_far (const bt_dive *dive, const bt__lanes *l)
 {

@@ -8,7 +8,7 @@
 #include "sim/sim.h"
 #include "world/lanes.h"
 
-/* Begin a try at a step of DIVE, which has lanes.  Nonzero if it has been refused: the try is to be
+/* Begin a try at a step of DIVE, which has lanes.  True if it has been refused: the try is to be
    made again, which is then not shared out.  */
 void bt__share_begin (bt_dive *dive);
 int bt__share_refused (bt_dive *dive);
@@ -18,7 +18,7 @@ int bt__share_refused (bt_dive *dive);
 int bt__share_tethers (bt_dive *dive, bt__state *state);
 
 /* Sort the tethers of STATE into groups that have nothing to do with each other in the coming step;
-   no two of different groups are nearer than their margins and themselves (apart.c).  Nonzero if
+   no two of different groups are nearer than their margins and themselves (apart.c).  True if
    the groups were right for what was then asked for.  */
 void bt__set_apart (const bt_dive *dive, bt__state *state, bt__lanes *lanes);
 int bt__were_apart (const bt_dive *dive, bt__lanes *lanes);

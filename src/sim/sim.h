@@ -45,14 +45,14 @@ enum
   BT__REMESH_EVERY = 10 /* steps between looks at the error of a line of model `auto' */
 };
 
-/* Nonzero if the model of TETHER is a moving line.  */
+/* True if the model of TETHER is a moving line.  */
 static inline int
 bt__is_moving_model (const bt__tether *tether)
 {
   return tether->props.model == BT_MODEL_DYNAMIC || tether->props.model == BT_MODEL_AUTO;
 }
 
-/* Nonzero if TETHER stretches, so that it holds by force.  */
+/* True if TETHER stretches, so that it holds by force.  */
 static inline int
 bt__is_spring (const bt__tether *tether)
 {
@@ -101,7 +101,7 @@ bt__ends bt__tether_ends (const bt_dive *dive, bt__state *state, int i);
 /* Return the strongest pull of the vehicles at the ends of tether I, N; 0 when both are points.  */
 double bt__pull_on (const bt_dive *dive, bt__state *state, int i);
 
-/* Nonzero if nothing that the line of TETHER depends on has changed since it was last solved or
+/* True if nothing that the line of TETHER depends on has changed since it was last solved or
    stepped: ends, length, properties, current (resolve.c).  */
 int bt__is_unchanged (const bt_dive *dive, const bt__state *state, const bt__tether *tether,
                       const bt__ends *ends);

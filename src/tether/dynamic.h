@@ -142,7 +142,7 @@ typedef struct bt__dynamic_end
   bt__dynamic_lump body;  /* a point mass fastened there; all zero for none */
   int gripped;            /* FREE alone: a spring of STIFFNESS holds it to AT: a vehicle's body */
   double stiffness[3][3]; /* N/m: symmetric, positive definite */
-  int clamped;            /* nonzero: the line leaves along DIRECTION; wants bending stiffness */
+  int clamped;            /* true: the line leaves along DIRECTION; wants bending stiffness */
   bt_vec3 direction;      /* unit, from node 0 toward node n */
 } bt__dynamic_end;
 
@@ -168,7 +168,7 @@ typedef struct bt__dynamic_input
   double room; /* m: how much it may draw in the step, beyond PAY */
   double tolerance; /* of the length: last update of a solved step; 0: 1e-5, less in steps below
                        1/60 s */
-  int surfaced;     /* nonzero: what is above the surface of the water is in air */
+  int surfaced;     /* true: what is above the surface of the water is in air */
   int order;        /* 4: fourth order in space by deferred correction; else second */
   bt__dynamic_mesh mesh;
 } bt__dynamic_input;
@@ -177,7 +177,7 @@ typedef struct bt__dynamic_report
 {
   int converged;
   int solves;                 /* linear solves */
-  int safeguarded;            /* nonzero: the quick iteration failed and descent took over */
+  int safeguarded;            /* true: the quick iteration failed and descent took over */
   double update;              /* m: last update */
   double speed, acceleration; /* the largest of any node, for the caller's sleep */
   double given;               /* m: line that was drawn from the winch, beyond what was paid out */

@@ -85,7 +85,7 @@ measure_links (bt__dynamic_work *w, int i, int j, sides *s)
     }
 }
 
-/* Tension and stiffness of intervals I and J, to S.  Return nonzero if one went slack or taut by
+/* Tension and stiffness of intervals I and J, to S.  Return true if one went slack or taut by
    more than the tolerance would tell.  */
 static BT__HOT int
 assemble_links (bt__dynamic_work *w, int i, int j, int safe, sides *s)

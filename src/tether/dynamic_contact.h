@@ -105,7 +105,7 @@ void bt__dynamic_bent_stop (bt__dynamic_work *work);
 bt_vec3 *bt__dynamic_proposal (bt__dynamic_work *work);
 
 /* Solve with N ROWS, sorted or not, from the proposal on.  HOLD has two, for either end, or is
-   NULL. Return nonzero if it converged; the proposal may then be anything, also not finite.  */
+   NULL. Return true if it converged; the proposal may then be anything, also not finite.  */
 int bt__dynamic_iterate (bt__dynamic_work *work, bt__dynamic_row *rows, int n,
                          bt__dynamic_hold *hold, bt__dynamic_report *report);
 

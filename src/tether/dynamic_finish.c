@@ -98,7 +98,7 @@ drift_of (const most *m)
                               bt__distance (hi, lo) };
 }
 
-/* Moves of the solution to D, its velocities to SPEED; note the largest.  Return nonzero if all is
+/* Moves of the solution to D, its velocities to SPEED; note the largest.  Return true if all is
    finite.  */
 static int
 judge_moves (bt__dynamic_work *w, const uint8_t *restart, bt_vec3 *speed,

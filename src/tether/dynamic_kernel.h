@@ -115,11 +115,11 @@ struct bt__dynamic_work
   /* ---- of the step ---- */
   const bt__dynamic_input *in;
   int n, lo, hi;     /* unknown nodes LO to HI */
-  int bends, lumped; /* rows of bending; nonzero if any node has extras */
+  int bends, lumped; /* rows of bending; true if any node has extras */
   double b0, b1, b2;
   double ea, kn, kt, m, ma, weight; /* N, drag, mass and wet weight per metre */
   double lift;                      /* N/m: buoyancy */
-  int surfaced;                     /* nonzero: the line comes near to the surface */
+  int surfaced;                     /* true: the line comes near to the surface */
   double stiffen;                   /* of ka: the least geometric stiffness, see safe */
   double rho;                       /* N/m2: of the activity test, see prepare_links */
   double soft, inertia;             /* of ka, N/m2: what resists a change of length is the less */
@@ -132,7 +132,7 @@ struct bt__dynamic_work
   int rows, pairs;                  /* ... how many; and of these, how many bear on two places */
   bt__dynamic_hold *hold;           /* of the ends, NULL if none */
   bt__dynamic_bent *bent;           /* nodes about which the line runs, ... */
-  int bents, bordered;              /* ... how many; nonzero if their flows are unknowns */
+  int bents, bordered;              /* ... how many; true if their flows are unknowns */
   /* ---- arrays ---- */
   bt_vec3 *X, *d, *rhs, *keep; /* iterate, update, right-hand side, spare */
   bt_vec3 *last;               /* among contacts: the update before */
@@ -163,7 +163,7 @@ typedef enum bt__mode
 void bt__dynamic_prepare (bt__dynamic_work *w, const bt__dynamic *d, const bt__dynamic_input *in,
                           double rest0);
 
-/* Fill the blocks and right-hand sides at the iterate X.  Return nonzero if an interval went slack
+/* Fill the blocks and right-hand sides at the iterate X.  Return true if an interval went slack
    or taut since the last call.  */
 int bt__dynamic_assemble (bt__dynamic_work *w, bt__mode mode);
 
@@ -186,7 +186,7 @@ double bt__dynamic_solve_blocks (bt__dynamic_work *w);
 void bt__dynamic_solve_again (bt__dynamic_work *w, bt_vec3 *column, int count, int64_t first,
                               int64_t last);
 
-/* Iterate X to the solution.  Return nonzero if it is one; on return zero X may hold anything.  */
+/* Iterate X to the solution.  Return true if it is one; on return zero X may hold anything.  */
 int bt__dynamic_newton (bt__dynamic_work *w, bt__dynamic_report *report);
 
 /* The same, and let the winch give way where the line pulls harder than it holds.  */
@@ -208,15 +208,15 @@ double bt__dynamic_surface_potential (const bt__dynamic_work *w);
 /* Return the energy, J, that a newton of buoyancy at X lacks, for it is above the surface.  */
 double bt__dynamic_out (const bt_water *water, bt_vec3 x);
 
-/* Contacts: add the blocks and forces of the rows and holds at the iterate X, and return nonzero if
-   one changed sides since the last call; take over SHARE of the update D, and return nonzero if
+/* Contacts: add the blocks and forces of the rows and holds at the iterate X, and return true if
+   one changed sides since the last call; take over SHARE of the update D, and return true if
    loads hardly changed; forget the loads, or set them to those of X; their potential.  */
 int bt__dynamic_contact_assemble (bt__dynamic_work *w, bt__mode mode);
 int bt__dynamic_contact_take (bt__dynamic_work *w, double share);
 void bt__dynamic_contact_load (bt__dynamic_work *w, int none);
 double bt__dynamic_contact_potential (const bt__dynamic_work *w);
 
-/* Return nonzero if a held end would run past its place by the update D: it has been put there.  */
+/* Return true if a held end would run past its place by the update D: it has been put there.  */
 int bt__dynamic_hold_arrives (bt__dynamic_work *w);
 
 static inline int
@@ -265,11 +265,11 @@ bt__thrust_of (double ei, double before, double after)
   return ei * BT__THRUST * 0.5 * (before + after);
 }
 
-/* Return nonzero if the step of D that INPUT asks for can only take energy from it.  */
+/* Return true if the step of D that INPUT asks for can only take energy from it.  */
 int bt__dynamic_is_alone (const bt__dynamic *d, const bt__dynamic_input *in);
 
-/* Of a line alone: the most energy it may have, J; nonzero if the solution has more; slow it down
-   until it has not, and return nonzero if it had; after the step, keep in D what the next asks.  */
+/* Of a line alone: the most energy it may have, J; true if the solution has more; slow it down
+   until it has not, and return true if it had; after the step, keep in D what the next asks.  */
 double bt__dynamic_most (const bt__dynamic *d, const bt__dynamic_work *w);
 int bt__dynamic_gains (const bt__dynamic *d, bt__dynamic_work *w, double most);
 int bt__dynamic_slow_down (const bt__dynamic *d, bt__dynamic_work *w, double most,

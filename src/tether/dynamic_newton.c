@@ -47,7 +47,7 @@ touching (const bt__dynamic_work *w, int few)
   return w->n > LINKS ? few * w->n / LINKS : few;
 }
 
-/* Take over SHARE of the update: the multipliers and the places.  Nonzero if that hardly changed
+/* Take over SHARE of the update: the multipliers and the places.  True if that hardly changed
    what presses.  */
 static int
 take (bt__dynamic_work *w, double share)

@@ -12,7 +12,7 @@
 #define EVEN 1e-6  /* of a rest length: intervals no more different are even */
 #define MOST 0.02  /* of a rest length: a larger correction is none */
 
-/* Nonzero if intervals FROM to TO are taut and even.  */
+/* True if intervals FROM to TO are taut and even.  */
 static int
 is_regular (const bt__dynamic_work *w, int from, int to)
 {

@@ -179,7 +179,7 @@ correction (const linear *f, const linear *at, double *dH, double *dV)
   *dV = -(f->xx * at->fy + f->xy * at->fx) / det;
 }
 
-/* Nonzero if the correction after the step has shrunk from SIZE, by the derivatives of F.  */
+/* True if the correction after the step has shrunk from SIZE, by the derivatives of F.  */
 static int
 is_on_the_way (const linear *f, const linear *next, double size)
 {

@@ -56,7 +56,7 @@ is_resolved (const bt_vec3 *r, int n, double length, double share)
   return 1;
 }
 
-/* Shoot from *PULL.  Take the answer and return nonzero if it lies within REACH of NODES.  *STATUS
+/* Shoot from *PULL.  Take the answer and return true if it lies within REACH of NODES.  *STATUS
    is the solver's.  */
 static int
 shoot_near (task *k, double reach, bt_vec3 *pull, bt_vec3 *nodes, bt_vec3 *tensions,

@@ -58,7 +58,7 @@ solve_elastic (bt__shape_job *j)
   return bt_elastic_solve (j->h, j->v, length, j->load, j->props->ea, &s->elastic, j->error);
 }
 
-/* Nonzero if the water rests all along the chord: the mean alone may vanish by chance.  */
+/* True if the water rests all along the chord: the mean alone may vanish by chance.  */
 static int
 is_still (const bt__shape_job *j)
 {

@@ -46,7 +46,7 @@ void bt__shape_span_plane (bt__shape_job *j, bt_vec3 chord);
    length and of the depth.  */
 void bt__shape_pose (bt__shape_job *j);
 
-/* Nonzero if no slack is left in space, and in the plane once it is posed.  */
+/* True if no slack is left in space, and in the plane once it is posed.  */
 int bt__shape_is_taut (const bt__shape_job *j);
 int bt__shape_is_plane_taut (const bt__shape_job *j);
 

@@ -154,7 +154,7 @@ bt__shape_be_straight (bt__shape_job *j, double tension)
   s->t1 = s->t2 = tension;
 }
 
-/* Nonzero if no slack is left.  */
+/* True if no slack is left.  */
 int
 bt__shape_is_taut (const bt__shape_job *j)
 {
@@ -162,7 +162,7 @@ bt__shape_is_taut (const bt__shape_job *j)
   return bt__norm (j->chord) >= j->in->length * (1 - 1e-12);
 }
 
-/* Nonzero if the plane problem has no slack, by the exact excess.  */
+/* True if the plane problem has no slack, by the exact excess.  */
 int
 bt__shape_is_plane_taut (const bt__shape_job *j)
 {

@@ -63,7 +63,7 @@ void bt__steady_guess (const bt_line *line, const bt_water *water, bt_vec3 a, bt
                        bt_vec3 fallback, int n, bt_vec3 *r, bt_vec3 *pull);
 
 /* Draw in what links of the N + 1 nodes R are longer than REACH, which is more than an Nth of the way
-   from the first to the last; return nonzero if any was (steady_shorten.c).  */
+   from the first to the last; return true if any was (steady_shorten.c).  */
 int bt__steady_shorten (bt_vec3 *r, int n, double reach);
 
 typedef struct bt__block

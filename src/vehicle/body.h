@@ -57,7 +57,7 @@ typedef struct bt__rigid_input
   bt_vec3 force, moment;           /* N, N m at the centre of gravity, world, held */
   bt_vec3 pull;                    /* N on the attachment: at the end of the step if GRIPPED, else
                                       held over it */
-  int64_t gripped;                 /* nonzero: PULL is that of an implicit line */
+  int64_t gripped;                 /* true: PULL is that of an implicit line */
   double stiffness;                /* N/m: of that line at its end, EA by the length of a piece */
   double volts;                    /* of the battery; 0: the type's */
   uint64_t lost;                   /* bit K: thruster K is dead */

@@ -47,7 +47,7 @@ typedef struct bt__pilot
   double speed;              /* m/s: the fastest toward PLACE; 0: as it can */
   double yaw_rate;           /* rad/s of a full yaw stick; 0: the stick is a moment */
   double sum[BT__AXES];      /* integrals: N along x, y, z of the world, N m of roll, pitch, yaw */
-  int64_t full;              /* nonzero: the thrusters gave all they could in the last step */
+  int64_t full;              /* true: the thrusters gave all they could in the last step */
 } bt__pilot;
 
 extern const bt__record bt__pilot_record;
@@ -65,7 +65,7 @@ typedef struct bt__fix
 void bt__pilot_steer (const bt__vehicle_type *type, const bt__rig *rig, bt__pilot *pilot,
                       const bt__fix *fix, double h, double *wish);
 
-/* Nonzero when PILOT is within 5 cm of its place at less than 5 cm/s.  */
+/* True when PILOT is within 5 cm of its place at less than 5 cm/s.  */
 int bt__pilot_arrived (const bt__pilot *pilot, const bt__fix *fix);
 
 #endif

@@ -61,7 +61,7 @@ typedef struct bt__vehicle_type
   bt_vec3 attached; /* m: where the tether is made fast, from the centre of gravity */
   bt__hydro hydro;
   double volts;             /* of the battery, for the map */
-  int64_t steers[BT__AXES]; /* nonzero: the thrusters command this axis */
+  int64_t steers[BT__AXES]; /* true: the thrusters command this axis */
   int64_t n;
   bt__thruster thruster[BT__THRUSTERS_MAX];
 } bt__vehicle_type;
@@ -100,7 +100,7 @@ typedef struct bt__rig
 bt_status bt__rig_make (const bt__vehicle_type *type, bt__rig *rig, bt_error *error);
 
 /* The forces, to FORCE, that make WRENCH (in the papers' order), all reduced alike when one would
-   exceed its thruster's stronger way, and each within its own.  Nonzero if anything was reduced. */
+   exceed its thruster's stronger way, and each within its own.  True if anything was reduced. */
 int bt__rig_share (const bt__vehicle_type *type, const bt__rig *rig, const double *wrench,
                    double *force);
 

@@ -33,7 +33,7 @@ enum
 
 /* ---- Live ---- */
 
-/* Seed the live string from the tether; return nonzero if one was there and has slipped.  Without
+/* Seed the live string from the tether; return true if one was there and has slipped.  Without
    FORCE only a shorter one is taken.  */
 static int
 seed (const bt_dive *dive, bt__gaze *g, int force)

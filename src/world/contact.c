@@ -312,7 +312,7 @@ bt_vehicle_clearance (const bt_dive *dive, int i, int obstacle, bt_clearance *ou
   return BT_OK;
 }
 
-/* Nonzero if tether I touches itself.  */
+/* True if tether I touches itself.  */
 static int
 touches_itself (const bt_dive *dive, int i)
 {

@@ -94,7 +94,7 @@ typedef struct bt__lane
   char *body;       /* of the state that is worked on: each lane on tethers of its own */
   const int *group; /* of each tether: who may meet whom */
   const char
-      *shared; /* of each vehicle, nonzero: several groups hang on it, and none may move it */
+      *shared; /* of each vehicle, true: several groups hang on it, and none may move it */
   int refused; /* what it was given cannot be done apart */
 } bt__lane;
 
@@ -205,7 +205,7 @@ bt_water bt__dive_water (const bt_dive *dive, const bt__state *state);
 bt_status bt__dive_alloc (bt_model *model, bt_dive **dive, bt_error *error);
 bt_status bt__dive_alloc_lane (bt_model *model, bt__lane *lane, bt_error *error);
 
-/* Nonzero if tethers I and J are of groups that step at the same time: each sees the other where it
+/* True if tethers I and J are of groups that step at the same time: each sees the other where it
    was.  */
 static inline int
 bt__are_apart (const bt_dive *dive, int i, int j)
@@ -222,7 +222,7 @@ void bt__raise_event_at (bt__state *state, bt_event_kind kind, bt_part part, int
 /* BT_ERR_NAME unless I counts a PART of DIVE.  */
 bt_status bt__check_part (const bt_dive *dive, bt_part part, int i, bt_error *error);
 
-/* Nonzero if VEHICLE cannot be moved, for groups that step at the same time hang on it: then the
+/* True if VEHICLE cannot be moved, for groups that step at the same time hang on it: then the
    step is refused.  */
 static inline int
 bt__is_shared (const bt_dive *dive, int vehicle)

@@ -27,7 +27,7 @@ uint64_t bt__hash_state (const bt_dive *dive, const bt__state *state);
 /* Return how many bytes that are.  */
 size_t bt__live_size (const bt_dive *dive, const bt__state *state);
 
-/* Nonzero if all that STATE says is live lies within it: to be asked before it is hashed, of bytes
+/* True if all that STATE says is live lies within it: to be asked before it is hashed, of bytes
    that came from elsewhere.  */
 int bt__layout_fits (const bt_dive *dive, const bt__state *state);
 

@@ -72,7 +72,7 @@ uint64_t bt__pairs_version (const bt_model *model, const uint8_t *off);
 void bt__note_meeting (bt__state *state, bt__subject *subject, bt_part part, int i, int obstacle);
 void bt__note_partings (bt__state *state, bt__subject *subject, bt_part part, int i);
 
-/* Nonzero if the subject met OBSTACLE in the last step.  */
+/* True if the subject met OBSTACLE in the last step.  */
 int bt__meets (const bt__state *state, const bt__subject *subject, int obstacle);
 
 #endif

@@ -54,9 +54,9 @@ typedef struct bt__vehicle
   int64_t held;
   bt__instruments instruments;
   /* Of one with mass, whose place and motion above are those of BODY.  */
-  int64_t rigid; /* nonzero: it has mass */
+  int64_t rigid; /* true: it has mass */
   int64_t lost;  /* bit K: thruster K is dead */
-  int64_t props; /* nonzero: a tether is near to its thrusters */
+  int64_t props; /* true: a tether is near to its thrusters */
   double volts;  /* of the battery, V */
   bt__rigid body;
   bt__pilot pilot;
@@ -120,7 +120,7 @@ typedef struct bt__state
   int64_t step;
   double depth, density, gravity;
   bt_current current;
-  int64_t wake;     /* nonzero: the current is less in the lee of obstacles */
+  int64_t wake;     /* true: the current is less in the lee of obstacles */
   bt_wave_def wave; /* as they were asked for */
   bt_waves waves;
   int64_t events; /* ever raised */
@@ -149,7 +149,7 @@ typedef struct bt__meeting
 } bt__meeting;
 
 /* A vehicle or a tether among obstacles; behind it a byte for each of them
-   and each tether, nonzero: the pair is
+   and each tether, true: the pair is
    switched off; then another, a tether's winding about it as it was last looked at.  */
 typedef struct bt__subject
 {

@@ -100,7 +100,7 @@
 ;; Numbers that count or compare, in no unit.
 (define bare
   '(low high value n number jobs seed durations least most most-points hits trials components competence surge sway
-    heave yaw score given truth factor v))
+    heave yaw score given truth factor grip v))
 
 (define (bare? name)
   (memq (if (keyword? name) (keyword->symbol name) name) bare))
@@ -170,6 +170,13 @@
               (expect (string-contains (with-output-to-string (lambda () (display (help)))) (cdr topic))
                       is identity))
             (topics)))
+
+(define-scenario help-on-nothing-is-the-tour
+  "Without a word, and with an empty one, help begins at the beginning."
+  (define (said topic)
+    (with-output-to-string (lambda () (display topic))))
+  (expect (said (help "")) => (said (help)))
+  (expect (said (help "  ")) => (said (help))))
 
 (define-scenario help-finds
   "A word is looked for in names, in what they say, and in the manual; all that is related is named."
