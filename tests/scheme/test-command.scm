@@ -282,7 +282,7 @@
 
 (define-scenario a-failure-shows-the-dive
   "Time, last events and a drawing of the dive stand under a failure, in TAP and in JUnit, once."
-  (call-in-folder '("(define-scenario s \"S.\" (in pile) (move! '(0 0 -5) #:speed 4) (run 5)
+  (call-in-folder '("(define-scenario s \"S.\" (in pile) (move! '(0 0 -5) #:speed 2) (run 5)
                        (expect (now) => 1) (expect (now) => 2))")
     (lambda (folder)
       (let* ((junit (string-append folder "/junit.xml"))
