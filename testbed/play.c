@@ -121,16 +121,6 @@ send_mover (stage *g, dice *d, int m)
   g->mover[m] = (bt__mover){ g->bar, NULL, way, g->bar_radius, 1 };
 }
 
-/* A frame made right angled again.  */
-static bt__frame
-squared (bt__frame f)
-{
-  f.z = bt__unit_or (bt__cross (f.x, f.y), f.z);
-  f.x = bt__unit_or (f.x, f.x);
-  f.y = bt__cross (f.z, f.x);
-  return f;
-}
-
 static void
 look_at_movers (stage *g, const bt_vec3 *before, verdict *v)
 {
@@ -138,7 +128,7 @@ look_at_movers (stage *g, const bt_vec3 *before, verdict *v)
     {
       v->crossings += mover_crossings (g, g->mover + m, before, g->x);
       v->pinched += g->mover[m].done < 1;
-      g->at[m] = squared (bt__motion_at (&g->mover[m].motion, g->mover[m].done));
+      g->at[m] = squared_frame (bt__motion_at (&g->mover[m].motion, g->mover[m].done));
     }
 }
 

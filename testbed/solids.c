@@ -310,3 +310,29 @@ solid_support (const solid *x, bt_vec3 n)
   solid_core (x, &radius);
   return bt__dot (n, core_support (x, n, &hint)) + radius;
 }
+
+/* ---- For the engine ---- */
+
+bt__obstacle
+obstacle_of_solid (const solid *x)
+{
+  bt__obstacle o = { .kind = BT__OBSTACLE_SPHERE, .shape.sphere = x->sphere };
+  if (x->kind == SOLID_BOX)
+    o = (bt__obstacle){ .kind = BT__OBSTACLE_BOX, .shape.box = x->box };
+  else if (x->kind == SOLID_CAPSULE)
+    o = (bt__obstacle){ .kind = BT__OBSTACLE_CAPSULE, .shape.capsule = x->capsule };
+  else if (x->kind == SOLID_CYLINDER)
+    o = (bt__obstacle){ .kind = BT__OBSTACLE_CYLINDER, .shape.cylinder = x->cylinder };
+  else if (x->kind == SOLID_HULL)
+    o = (bt__obstacle){ .kind = BT__OBSTACLE_CONVEX, .shape.hull = x->hull };
+  return o;
+}
+
+bt__frame
+squared_frame (bt__frame f)
+{
+  f.z = bt__unit_or (bt__cross (f.x, f.y), f.z);
+  f.x = bt__unit_or (f.x, f.x);
+  f.y = bt__cross (f.z, f.x);
+  return f;
+}

@@ -11,6 +11,7 @@
 #include "collide/gjk.h"
 #include "collide/hull.h"
 #include "collide/pair.h"
+#include "collide/scene.h"
 
 typedef enum solid_kind
 {
@@ -66,5 +67,11 @@ double solid_brute (const solid *x, const bt__link *link);
 /* The core for GJK, and what to subtract.  */
 bt__convex solid_core (const solid *x, double *radius);
 bt__convex solid_link_core (const bt__link *link);
+
+/* X, anything but a triangle, as the obstacle that the engine knows.  */
+bt__obstacle obstacle_of_solid (const solid *x);
+
+/* A frame made right angled again.  */
+bt__frame squared_frame (bt__frame f);
 
 #endif

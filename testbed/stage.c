@@ -52,19 +52,6 @@ add_solid (stage *g, const solid *x)
     }
 }
 
-static bt__obstacle
-obstacle_of (const solid *x)
-{
-  bt__obstacle o = { .kind = BT__OBSTACLE_SPHERE, .shape.sphere = x->sphere };
-  if (x->kind == SOLID_BOX)
-    o = (bt__obstacle){ .kind = BT__OBSTACLE_BOX, .shape.box = x->box };
-  else if (x->kind == SOLID_CAPSULE)
-    o = (bt__obstacle){ .kind = BT__OBSTACLE_CAPSULE, .shape.capsule = x->capsule };
-  else if (x->kind == SOLID_CYLINDER)
-    o = (bt__obstacle){ .kind = BT__OBSTACLE_CYLINDER, .shape.cylinder = x->cylinder };
-  return o;
-}
-
 solid
 capsule_between (bt_vec3 a, bt_vec3 b, double radius)
 {
@@ -168,7 +155,7 @@ raise_stage (stage *g)
   bt__obstacle o[OBSTACLES + 1];
   uint32_t n = 0;
   for (int i = 0; i < g->solids; i++)
-    o[n++] = obstacle_of (g->solid + i);
+    o[n++] = obstacle_of_solid (g->solid + i);
   if (g->sheets)
     {
       bt__mesh *m = mesh_of_sheets (g);
@@ -180,7 +167,7 @@ raise_stage (stage *g)
     return 0;
   if (g->movers)
     {
-      bt__obstacle bar = obstacle_of (&g->bar_solid);
+      bt__obstacle bar = obstacle_of_solid (&g->bar_solid);
       if (bt__scene_new (&bar, 1, 2, &g->bar, NULL))
         return 0;
     }

@@ -2,14 +2,7 @@
 # Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 . "$top_srcdir/tests/tap.sh"
-
-pre=$top_builddir/pre-inst-env
-XDG_RUNTIME_DIR=$scratch/run
-export XDG_RUNTIME_DIR
-mkdir -m 700 "$XDG_RUNTIME_DIR"
-house=
-busy=
-trap 'kill $house $busy 2>/dev/null; rm -rf "$scratch"' EXIT
+. "$top_srcdir/tests/socket.sh"
 
 # talk SOCKET N <LINES: send all LINES, and print the N lines that come.
 cat >"$scratch/talk.scm" <<'SCM'
@@ -37,24 +30,7 @@ talk ()
   "$pre" "$GUILE" -s "$scratch/talk.scm" "$@"
 }
 
-cat >"$scratch/house.scm" <<'SCM'
-(enter! 'pile)
-(live!)
-(let loop ()
-  (write (list (now) (sticks)))
-  (newline)
-  (force-output)
-  (usleep 100000)
-  (loop))
-SCM
-socket=$scratch/socket
-"$pre" bight --door="$socket" "$scratch/house.scm" >"$scratch/told" 2>"$scratch/err" &
-house=$!
-await test -S "$socket"
-result $? 'a socket is there'
-[ "$(stat -c %a "$socket")" = 600 ]
-result $? 'for its owner alone'
-await has_lines 1 "$scratch/told"
+begin_house --door
 
 # ---- A datum in, a datum out ----
 
@@ -102,12 +78,12 @@ answers 'the live dive is driven' '(drive! #:surge 0.5)' '(ok (0.5 0.0 0.0 0.0))
 await grep -q ' #f64(0.5 ' "$scratch/told"
 result $? 'and the house sees it'
 printf '%s\n' '(begin (display "round") (let loop () (loop)))' | talk "$socket" 1 >"$scratch/loop" &
-busy=$!
+talker=$!
 await has_lines $(($(wc -l <"$scratch/told") + 5)) "$scratch/told"
 result $? 'an endless loop holds up nobody'
 answers 'nor another session' '(> (now) 0)' '(ok #t)'
-kill $busy
-busy=
+kill $talker
+talker=
 
 # ---- What comes by itself ----
 
@@ -122,11 +98,11 @@ fast=$(grep -c '^(event 2 2)$' "$scratch/out")
 [ "$slow" -ge 1 ] && [ "$fast" -ge 40 ]
 result $? "each at its rate: $slow at 5 a second, $fast at 50"
 printf '(subscribe 100 1)\n(unsubscribe 1)\n(unsubscribe 1)\n' | talk "$socket" 9 >"$scratch/out" &
-busy=$!
+talker=$!
 await grep -q '^(error name "unsubscribe: there is no subscription 1; there are ()")$' "$scratch/out"
 result $? 'it is ended'
-kill $busy
-busy=
+kill $talker
+talker=
 answers 'at a rate that is none' '(subscribe 0 1)' \
   '(error domain "subscribe: a rate is a number of times a second from 0.01 to 100, not 0")'
 answers 'misused' '(subscribe 1)' \

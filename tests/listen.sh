@@ -2,14 +2,7 @@
 # Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 . "$top_srcdir/tests/tap.sh"
-
-pre=$top_builddir/pre-inst-env
-XDG_RUNTIME_DIR=$scratch/run
-export XDG_RUNTIME_DIR
-mkdir -m 700 "$XDG_RUNTIME_DIR"
-house=
-looping=
-trap 'kill $house $looping 2>/dev/null; rm -rf "$scratch"' EXIT
+. "$top_srcdir/tests/socket.sh"
 
 # say SOCKET EXPR: what the prompt there answers.
 cat >"$scratch/say.scm" <<'SCM'
@@ -36,26 +29,7 @@ say ()
   "$pre" "$GUILE" -s "$scratch/say.scm" "$@"
 }
 
-# The house lets a dive go live, and tells again and again how far it is.
-cat >"$scratch/house.scm" <<'SCM'
-(enter! 'pile)
-(live!)
-(let loop ()
-  (write (list (now) (sticks)))
-  (newline)
-  (force-output)
-  (usleep 100000)
-  (loop))
-SCM
-
-socket=$scratch/socket
-"$pre" bight --listen="$socket" "$scratch/house.scm" >"$scratch/told" 2>"$scratch/err" &
-house=$!
-await test -S "$socket"
-result $? 'a socket is there'
-[ "$(stat -c %a "$socket")" = 600 ]
-result $? 'for its owner alone'
-await has_lines 1 "$scratch/told"
+begin_house --listen
 say "$socket" "(drive! #:surge 0.5)" >"$scratch/out"
 grep -q 'scheme@(guile-user)> ' "$scratch/out" && grep -q '#f64(0.5 ' "$scratch/out"
 driven=$?
@@ -65,15 +39,15 @@ await grep -q ' #f64(0.5 ' "$scratch/told"
 result $? 'and the house sees it'
 "$pre" "$GUILE" -s "$scratch/say.scm" "$socket" "(begin (display 'round) (force-output) (let loop () (loop)))" \
   >"$scratch/loop" &
-looping=$!
+talker=$!
 await grep -q round "$scratch/loop"
 await has_lines $(($(wc -l <"$scratch/told") + 5)) "$scratch/told"
 result $? 'an endless loop there holds up nobody'
 say "$socket" "(> (now) 0)" >"$scratch/out"
 grep -q '#t' "$scratch/out"
 result $? 'nor another session'
-kill $looping
-looping=
+kill $talker
+talker=
 say "$socket" "(freeze!)" >"$scratch/out"
 grep -q 'frozen there alone' "$scratch/out"
 result $? 'the house alone freezes its dive'

@@ -99,7 +99,8 @@ bt_status bt_sea_set_waves (bt_dive *dive, const bt_wave_def *waves, bt_error *e
 
 /* ---- Parts ---- */
 
-/* Change the live field FIELD ("length", "friction") of the I-th PART to VALUE, or to the word WORD
+/* Change the live field FIELD ("friction", "accuracy") of the I-th PART to VALUE, or to the word
+   WORD
    ("dynamic").  BT_ERR_NAME for a field or a word that is none.  */
 bt_status bt_part_alter (bt_dive *dive, bt_part part, int i, const char *field, double value,
                          bt_error *error);

@@ -80,8 +80,8 @@ share_ends (const bt_dive *dive, bt__state *state, int i, int part, int j, int k
 {
   for (int e = 0; e < 2; e++)
     for (int f = 0; f < 2 && i != j; f++)
-      if (has_end (dive, state, i, part, e) && has_end (dive, state, j, k, f)
-          && are_made_fast_together (dive, i, e, j, f))
+      if (are_made_fast_together (dive, i, e, j, f) && has_end (dive, state, i, part, e)
+          && has_end (dive, state, j, k, f))
         strand->shared[e] = f + 1;
 }
 

@@ -53,21 +53,6 @@ drop_hulls (void **state)
   return 0;
 }
 
-static bt__obstacle
-obstacle_of (const solid *x)
-{
-  bt__obstacle o = { .kind = BT__OBSTACLE_SPHERE, .shape.sphere = x->sphere };
-  if (x->kind == SOLID_BOX)
-    o = (bt__obstacle){ .kind = BT__OBSTACLE_BOX, .shape.box = x->box };
-  else if (x->kind == SOLID_CAPSULE)
-    o = (bt__obstacle){ .kind = BT__OBSTACLE_CAPSULE, .shape.capsule = x->capsule };
-  else if (x->kind == SOLID_CYLINDER)
-    o = (bt__obstacle){ .kind = BT__OBSTACLE_CYLINDER, .shape.cylinder = x->cylinder };
-  else if (x->kind == SOLID_HULL)
-    o = (bt__obstacle){ .kind = BT__OBSTACLE_CONVEX, .shape.hull = x->hull };
-  return o;
-}
-
 /* ---- One shape ---- */
 
 /* March a point along RAY; return where it is within NEAR of X, or past the range.  */
@@ -88,7 +73,7 @@ march (const solid *x, const bt__ray *ray, double near)
 static int
 cast_at (const solid *x, const bt__ray *ray, bt__entry *e)
 {
-  bt__obstacle o = obstacle_of (x);
+  bt__obstacle o = obstacle_of_solid (x);
   if (x->kind == SOLID_TRIANGLE)
     return bt__ray_triangle (&x->triangle, ray->from, ray->direction, ray->range, e);
   return bt__ray_obstacle (&o, ray->from, ray->direction, ray->range, e);
@@ -196,7 +181,7 @@ draw_scene (dice *d, bt_vec3 far)
       x.cylinder.centre = bt__add (x.cylinder.centre, at);
       x.capsule.a = bt__add (x.capsule.a, at);
       x.capsule.b = bt__add (x.capsule.b, at);
-      o[i] = obstacle_of (&x);
+      o[i] = obstacle_of_solid (&x);
     }
   o[7] = (bt__obstacle){ .kind = BT__OBSTACLE_PLANE, .shape.plane = { { 0, 0, 1 }, far.z - 19 } };
   o[9] = (bt__obstacle){ .kind = BT__OBSTACLE_MESH, .shape.mesh = draw_mesh (d) };
@@ -401,7 +386,7 @@ points_in_solids (void **state)
       if (kind == SOLID_TRIANGLE)
         kind = SOLID_BOX;
       solid x = solid_draw (&d, (solid_kind)kind, 1, NULL, 0);
-      bt__obstacle o = obstacle_of (&x);
+      bt__obstacle o = obstacle_of_solid (&x);
       bt__scene *s = NULL;
       assert_int_equal (bt__scene_new (&o, 1, 1, &s, NULL), BT_OK);
       bt_vec3 p = dice_point (&d, 0.8);

@@ -112,18 +112,12 @@ move_solid (solid *x, bt_vec3 by)
 static bt__obstacle
 obstacle_of (const solid *x)
 {
-  bt__obstacle o = { .kind = BT__OBSTACLE_SPHERE, .shape.sphere = x->sphere };
+  bt__obstacle o = { .kind = BT__OBSTACLE_MESH };
   uint32_t corner[1][3] = { { 0, 1, 2 } };
   bt__soup soup = { 3, 1, x->triangle.v, (const uint32_t (*)[3])corner, NULL };
-  if (x->kind == SOLID_BOX)
-    o = (bt__obstacle){ .kind = BT__OBSTACLE_BOX, .shape.box = x->box };
-  else if (x->kind == SOLID_CAPSULE)
-    o = (bt__obstacle){ .kind = BT__OBSTACLE_CAPSULE, .shape.capsule = x->capsule };
-  else if (x->kind == SOLID_TRIANGLE)
-    {
-      o.kind = BT__OBSTACLE_MESH;
-      assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &o.shape.mesh, NULL), BT_OK);
-    }
+  if (x->kind != SOLID_TRIANGLE)
+    return obstacle_of_solid (x);
+  assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &o.shape.mesh, NULL), BT_OK);
   return o;
 }
 
@@ -194,16 +188,6 @@ draw_motion (dice *d, const bt__frame *from, double far)
   return m;
 }
 
-/* A frame made right angled again.  */
-static bt__frame
-squared (bt__frame f)
-{
-  f.z = bt__unit_or (bt__cross (f.x, f.y), f.z);
-  f.x = bt__unit_or (f.x, f.x);
-  f.y = bt__cross (f.z, f.x);
-  return f;
-}
-
 /* ---- Random flights ---- */
 
 static void
@@ -236,7 +220,7 @@ fly (place *p, dice *d, int n, double far)
           solid box = { .kind = SOLID_BOX, .box = b };
           assert_true (fabs (solid_point (&box, stop.point) - there) < 1e-9);
         }
-      at = squared (at);
+      at = squared_frame (at);
     }
   print_message ("# held %ld of %d, %ld of them loosely; least %.9g m, %.1f steps a chase\n", held,
                  n, loose, least, (double)count.cast_steps / (double)count.casts);
@@ -283,7 +267,7 @@ judge_fires (void **state)
       if (bt__body_nearest (&body, &end, gap, p->scene, NULL, NULL, 0, &stop, &count))
         continue;
       fired += least_on (p, &m, 1) < gap;
-      at = squared (end);
+      at = squared_frame (end);
     }
   print_message ("# the mutant met %d\n", fired);
   assert_true (fired > 0);
@@ -399,8 +383,8 @@ movers_and_body_wait_for_each_other (void **state)
           if (!(apart >= gap * (1 - 1e-9)))
             fail_msg ("way %d: %.17g m apart", i, apart);
         }
-      at = squared (bt__motion_at (&m, t));
-      own = squared (bt__motion_at (&n, mover.done));
+      at = squared_frame (bt__motion_at (&m, t));
+      own = squared_frame (bt__motion_at (&n, mover.done));
       bt__mover there = { bar, NULL, { .from = own, .axis = { 0, 0, 1 } }, 3.06, 1 };
       if (t < 1)
         assert_true (bt__body_nearest (&body, &at, 1, none, NULL, &there, 1, &stop, &count)
