@@ -7,34 +7,14 @@
 # Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 . "$top_srcdir/tests/tap.sh"
-
-pre=$top_builddir/pre-inst-env
-bight ()
-{
-  "$pre" bight "$@"
-}
-cd "$scratch" || exit 99
+. "$top_srcdir/tests/sweeps.sh"
 
 # A case notes its process; it lasts as long as there is the file `hold'.
-cat >quick.scm <<'SCM'
-(define-study quick
-  "Twelve short dives."
-  #:for ((U 0 0.3) (push 0.2 0.5 0.8) (seed (seeds 2)))
-  (in (with open-water (current U 90)))
-  (fly (let ((port (open-file "flown" "a")))
+begin_study '(let ((port (open-file "flown" "a")))
          (write (list (getpid) (getenv "SLURM_ARRAY_TASK_ID") (getenv "SLURMD_NODENAME")) port)
          (newline port)
          (close-port port))
-       (let loop () (when (file-exists? "hold") (usleep 20000) (loop)))
-       (drive! #:surge push #:yaw (random 0.5))
-       (run 0.25))
-  (measure (slack (slack))))
-SCM
-if bight sweep quick.scm -o one.db 2>&1 | grep -q 'without SQLite'; then
-  skip 'there are no sweeps without SQLite'
-  finish
-fi
-one=$(bight sweep quick.scm -o one.db | sed -n 's/.*12 done (0 now), fingerprint //p')
+       (let loop () (when (file-exists? "hold") (usleep 20000) (loop)))'
 rm -f flown
 bight sweep quick.scm --slurm --tasks 0 2>err
 grep -q -- '--tasks needs' err

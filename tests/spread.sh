@@ -2,29 +2,9 @@
 # Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 . "$top_srcdir/tests/tap.sh"
+. "$top_srcdir/tests/sweeps.sh"
 
-pre=$top_builddir/pre-inst-env
-bight ()
-{
-  "$pre" bight "$@"
-}
-cd "$scratch" || exit 99
-
-cat >quick.scm <<'SCM'
-(define-study quick
-  "Twelve short dives."
-  #:for ((U 0 0.3) (push 0.2 0.5 0.8) (seed (seeds 2)))
-  (in (with open-water (current U 90)))
-  (fly (drive! #:surge push #:yaw (random 0.5)) (run 0.25))
-  (measure (slack (slack))))
-SCM
-if bight sweep quick.scm -o one.db 2>&1 | grep -q 'without SQLite'; then
-  skip 'there are no sweeps without SQLite'
-  finish
-fi
-one=$(bight sweep quick.scm -o one.db | sed -n 's/.*12 done (0 now), fingerprint //p')
-[ -n "$one" ]
-result $? 'a sweep, here, by one process'
+begin_study
 
 # ---- Ended from outside ----
 
