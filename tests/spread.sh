@@ -182,7 +182,11 @@ exec sh -c "$*"
 SH
 chmod +x bin/ssh
 PATH=$scratch/bin:$PATH
-export PATH
+# What GNU parallel takes for granted, as every login sets it.
+HOME=$scratch/home
+SHELL=/bin/sh
+export PATH HOME SHELL
+mkdir -p "$HOME"
 
 sed -n '/^#   parallel /,/^#   bight sweep --merge/s/^#   //p' "$top_srcdir/studies/over-ssh.sh" \
   | sed 's/STUDY/quick/g' >line

@@ -428,11 +428,13 @@ failed."
 
 (define (wait-for-change paths before)
   ;; Wait until some of the files of PATHS, or beside them, are others than BEFORE: those that are to be run.
-  (let* ((files (append-map files-at paths))
-         (now (states (append files (beside files))))
-         (new (changed before now)))
-    (cond ((null? new) (usleep 200000) (wait-for-change paths before))
-          (else (values (if (every (lambda (file) (member file files)) new) new files) now)))))
+  ;; A file that is still being written is waited for: two looks, one after the other, must see the same.
+  (let loop ((last before))
+    (let* ((files (append-map files-at paths))
+           (now (states (append files (beside files))))
+           (new (changed before now)))
+      (cond ((or (null? new) (not (equal? now last))) (usleep 200000) (loop now))
+            (else (values (if (every (lambda (file) (member file files)) new) new files) now))))))
 
 (define (run-again-and-again paths run)
   ;; RUN the files of PATHS, then those that change, until ^C.

@@ -64,12 +64,25 @@ put_bytes (const char *bytes, size_t n)
     }
 }
 
-/* The settings first: whoever sees the page come back finds them back too.  */
+/* The settings first: whoever sees the page come back finds them back too.  WHEN is TCSAFLUSH where
+   the keys not yet read were meant for the flight.  */
 static void
-give_back (void)
+give_back (int when)
 {
-  tcsetattr (STDIN_FILENO, TCSAFLUSH, &the.before);
+  tcsetattr (STDIN_FILENO, when, &the.before);
   put_bytes (giving, sizeof giving - 1);
+}
+
+/* Tell the guardian that the terminal was given back; without that word it would give it back a
+   second time, perhaps after the shell has begun to read.  */
+static void
+release_guardian (void)
+{
+  if (the.guardian < 0)
+    return;
+  while (write (the.leash, "", 1) < 0 && errno == EINTR)
+    ;
+  close (the.leash);
 }
 
 static void
@@ -79,7 +92,8 @@ die_of (int number)
   if (the.taken && getpid () == the.owner)
     {
       the.taken = 0;
-      give_back ();
+      give_back (TCSAFLUSH);
+      release_guardian ();
     }
   memset (&usual, 0, sizeof usual);
   usual.sa_handler = SIG_DFL;
@@ -134,7 +148,7 @@ guard (int leash)
     n = read (leash, &byte, 1);
   while (n < 0 && errno == EINTR);
   if (n == 0)
-    give_back ();
+    give_back (TCSADRAIN); /* what was typed since the parent's end is for the shell */
   _exit (0);
 }
 
@@ -163,9 +177,7 @@ dismiss_guardian (void)
 {
   if (the.guardian < 0)
     return;
-  while (write (the.leash, "", 1) < 0 && errno == EINTR)
-    ;
-  close (the.leash);
+  release_guardian ();
   while (waitpid (the.guardian, NULL, 0) < 0 && errno == EINTR)
     ;
   the.guardian = -1;
@@ -228,7 +240,7 @@ bt__terminal_leave (void)
   if (!the.taken || getpid () != the.owner)
     return;
   the.taken = 0;
-  give_back ();
+  give_back (TCSAFLUSH);
   let_signals_go ();
   dismiss_guardian ();
 }
