@@ -1,9 +1,9 @@
-/* Whoever called asked whether long work is to go on.
+/* Asking the caller whether long work should go on.
 
-   A dive has one asker, and the workspaces of its solvers point to it: loops that may last ask
-   between pieces of their work, each much shorter than a tenth of a second, and leave when they are
-   told to.  What they leave behind is good for nothing; the nearest caller that returns a status
-   looks by bt__stopped and fails.
+   A dive has one asker, and the workspaces of its solvers point to the asker.  A long loop asks
+   between pieces of work, each much shorter than a tenth of a second, and ends early if told to.
+   The unfinished result is invalid; the nearest caller that returns a status asks bt__stopped and
+   fails.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -13,8 +13,8 @@
 #define BT__PRINTF(m, n)
 #endif
 
-/* Fill *ERROR (which may be NULL) with STATUS and the formatted sentence, cut at its capacity, and
-   return STATUS, so that a function can fail in one line.  */
+/* Fill *ERROR (may be NULL) with STATUS and the formatted sentence, cut at the capacity of ERROR,
+   and return STATUS, so that a function can fail in one line.  */
 bt_status bt__fail (bt_error *error, bt_status status, const char *format, ...) BT__PRINTF (3, 4);
 
 #endif

@@ -7,9 +7,9 @@
 
 #include <stdint.h>
 
-/* Return true if a terminal obeys U rather than showing it: the control characters of ASCII and of
-   Latin 1, and what turns the direction of a line or ends it, so that it reads as another.  Line
-   feed and tabulator are among them.  */
+/* Return true if a terminal obeys the character U rather than showing it: the control characters of
+   ASCII and Latin 1, line feed and tabulator included, and the characters of Unicode that turn the
+   direction of a line or end a line.  */
 static inline int
 bt__is_control (uint32_t u)
 {

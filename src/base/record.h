@@ -1,10 +1,10 @@
-/* Flat structs as tables of their members: what each may hold when it comes from outside.
+/* Flat structs as tables of their members, with the values allowed for data from outside.
 
-   The state of a dive can be read from a file, and its checksum has no key: whoever changes a count
-   can make the checksum anew.  So every struct of the state has a table beside its definition that
-   says what each member may be, and nothing of a state from outside is used before all of its bytes
-   were judged by these tables.  A table that leaves a byte of its struct out is found by
-   bt__record_gap, which a test asks of all of them.
+   The state of a dive can be read from a file, and the checksum has no key: an attacker who changes
+   a count can recompute the checksum.  So every struct of the state has, beside its definition, a
+   table of the values allowed for each member, and a state from outside is judged by the tables,
+   byte by byte, before use.  A test asks bt__record_gap of every table, to find members without a
+   row.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -105,7 +105,8 @@ typedef struct bt__record
 #define BT__HUGE DBL_MAX
 #define BT__MANY 9007199254740992.0
 
-/* Whoever judges a state: what its world has, whose part it is, and how much was looked at.  */
+/* Context of a judgement: the counts of the world, the part being judged, the bytes judged so far.
+ */
 typedef struct bt__judge
 {
   int64_t below[BT__BELOW_COUNT];
@@ -129,8 +130,8 @@ bt_status bt__judge_count (bt__judge *judge, const char *what, int64_t n, int64_
 /* BT_ERR_FORMAT unless what holds TRUE_OF all sound states HOLDS.  */
 bt_status bt__judge_that (bt__judge *judge, int holds, const char *true_of);
 
-/* Return the first byte of its struct that RECORD has no member for, or has two, or that is no
-   whole word; the size of the struct if there is none.  */
+/* Return the offset of the first byte of the struct of RECORD that is in no row, in two rows, or in
+   a row that is no whole word; the size of the struct if RECORD is complete.  */
 size_t bt__record_gap (const bt__record *record);
 
 #endif

@@ -1,9 +1,10 @@
 /* Workers: see workers.h.
 
-   A round is open from when its tasks are laid out until the caller finds none left.  A worker that
-   wakes while it is open takes part, and only such a one is waited for: one that wakes late, on a
-   busy machine, holds up nobody.  Rounds that follow each other closely find the workers awake:
-   each looks for a while, giving way to whoever else wants to run, before it sleeps.
+   A round is open from the time its tasks are laid out until the caller finds no task left.  A
+   worker that wakes during an open round takes part, and the caller waits for such workers alone: a
+   worker that wakes late, on a busy machine, delays nobody.  In rounds in close succession the
+   workers are still awake, because each worker polls for a while, yielding the processor, before
+   sleeping.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -115,8 +116,8 @@ start_threads (bt__workers *all)
   all->ever += all->started;
 }
 
-/* A child has the memory of its parent and none of its threads: locks that they may have held are
-   made anew, and whoever waited is forgotten.  */
+/* A child process has the memory of its parent and none of the parent's threads: locks possibly
+   held by a thread are made anew, and waiting threads are forgotten.  */
 static void
 begin_in (bt__workers *all, pid_t process)
 {

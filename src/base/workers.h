@@ -1,7 +1,7 @@
-/* Threads that share out the tasks of one caller: a few that wait, and the caller itself.
+/* A pool of threads for the tasks of one caller, who works too.
 
-   None is started before there are tasks to share.  What a task gives must not depend on which of
-   them does it, nor on when.
+   Threads start with the first shared tasks.  The result of a task must depend neither on the
+   thread that does the task nor on the time.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -17,13 +17,13 @@ bt__workers *bt__workers_new (int count);
 /* End its threads; NULL is nothing.  */
 void bt__workers_free (bt__workers *workers);
 
-/* Do DUTY (USER, W, K) once for every K below TASKS, on worker W below COUNT, each of which does
-   one at a time; return when all are done.  The rest is done with fewer where the system has no
-   thread, and in a child of the process that began them, in which they are not, anew.  */
+/* Do DUTY (USER, W, K) once for every K below TASKS, on worker W below COUNT, one task at a time on
+   each worker; return when all tasks are done.  If the system refuses a thread, fewer workers do
+   the tasks; in a child process, which does not inherit threads, the workers start anew.  */
 void bt__workers_run (bt__workers *workers, int tasks, void (*duty) (void *user, int w, int k),
                       void *user);
 
-/* The same; while the caller waits for the others MEANWHILE (USER) is called by it now and then. */
+/* The same; a caller waiting for its workers calls MEANWHILE (USER) now and then.  */
 void bt__workers_run_and (bt__workers *workers, int tasks, void (*duty) (void *user, int w, int k),
                           void (*meanwhile) (void *user), void *user);
 

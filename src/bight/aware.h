@@ -1,13 +1,13 @@
 /* What a tether is doing: how tight, how wound, how free, and which way out.
 
-   Every answer is of the present state alone: equal states, equal answers, whoever asked before.
-   Nothing is computed unless asked; several questions about one state share one taut string.  What
-   depends on the world alone (the tree of free ways, the table of words) is made when first asked
-   for and shared by forks.  Obstacles on tracks are left out of strings, ways, words and windings:
-   they hold nothing for good; turns about them are counted.
+   An answer depends on the present state alone: equal states give equal answers, whatever was asked
+   before.  Nothing is computed unless asked, and several questions about one state share one taut
+   string.  The tree of free ways and the table of words depend on the world alone; both are made at
+   the first question and shared by forks.  Moving obstacles are left out of strings, ways, words
+   and windings, because no line stays caught on a moving obstacle; turns about them are counted.
 
-   The string of a world in which nothing stands but level ground is the straight line; nothing is
-   solved then.  Every function gives BT_ERR_NAME when there is no such part and BT_ERR_LIMIT when
+   In a world with level ground and no other obstacle the string is the straight line, and nothing
+   is solved.  Every function gives BT_ERR_NAME for a part that does not exist and BT_ERR_LIMIT when
    memory runs out.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
@@ -24,8 +24,8 @@ BT_BEGIN_DECLS
 /* Of the taut string: what tether I shrinks to through nothing, without friction.  */
 bt_status bt_tether_taut_length (const bt_dive *dive, int i, double *length, bt_error *error);
 
-/* Among obstacles a tether is taut with less slack than that share of what is out, round what it
-   touches.  */
+/* Among obstacles a tether is taut if its slack, measured along the taut string, is less than this
+   share of the paid-out length.  */
 #define BT_TAUT_SLACK 0.01
 
 /* Is tether I pulled tight?  Its model says so, as the event `taut' does: its chord is all that is
@@ -39,7 +39,8 @@ bt_status bt_tether_is_taut (const bt_dive *dive, int i, int *taut, bt_error *er
 bt_status bt_tether_taut_string (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n,
                                  bt_error *error);
 
-/* Of the shortest way that is known from its anchor to its far end; never more than the above.  */
+/* Length, m, of the shortest obstacle-free way known from the anchor of tether I to its far end; at
+   most bt_tether_taut_length.  */
 bt_status bt_tether_free_length (const bt_dive *dive, int i, double *length, bt_error *error);
 
 /* Of the tether that lies on OBSTACLE, -1 for any; with SLIDING nonzero only what is dragged.  */
@@ -54,12 +55,12 @@ bt_status bt_tether_contact_length (const bt_dive *dive, int i, int obstacle, in
 bt_status bt_tether_turns (const bt_dive *dive, int i, int obstacle, double *turns,
                            bt_error *error);
 
-/* Whole turns, with the same sign, that tether I is caught about OBSTACLE: of the line that goes
-   out along the taut string and home by the free way, how often it goes about the obstacle and
-   cannot be drawn off.  0 for every obstacle where the class is the free way's; 0 for what ends in
-   the water, or lies there, since a line can be drawn off its end; 0 for what moves.  Of what meets
-   in joints the fewest turns that stand for the class, about what the string bends at if there is a
-   choice.  */
+/* Whole turns, with the sign of bt_tether_turns, by which tether I is caught about OBSTACLE.  The
+   turns are those of the loop out along the taut string and home by the free way, as far as the
+   loop cannot be drawn off the obstacle.  0 for every obstacle if the homotopy class is the free
+   way's; 0 for an obstacle with an end in the water, since a line can be drawn off an end; 0 for a
+   moving obstacle.  For members that meet in joints several answers stand for one class: the answer
+   has the fewest turns, about members at which the string bends where there is a choice.  */
 bt_status bt_tether_winding (const bt_dive *dive, int i, int obstacle, int *winding,
                              bt_error *error);
 
@@ -139,11 +140,10 @@ typedef struct bt_prospect
 bt_status bt_tether_prospect (const bt_dive *dive, int i, double winch, bt_prospect *out,
                               bt_error *error);
 
-/* Of the angle by which the string bends.  A line that is hauled lets go of it from its end on,
-   where the vehicle comes round after it, so that less of it holds than the string has: friction
-   holds for sure where so much of the angle would hold too.  Twice round a pile three quarters was
-   right in every haul that was tried; nothing that is derived says so, which is why it can be asked
-   with another.  */
+/* The share of the string's bending angle that is sure to hold by friction.  A hauled line loses
+   its wrap from the far end on, where the vehicle comes round after the line, so that less than the
+   whole angle holds.  Three quarters was right in every haul tried with two turns round a pile; the
+   value is measured, not derived, so bt_tether_prospect_by takes another.  */
 #define BT_HAUL_GRIP 0.75
 
 /* The same for another share GRIP, above 0 and at most 1: with less of it fewer answers are sure.
@@ -180,9 +180,10 @@ typedef struct bt_route
   double left;      /* m: of the string at the end */
 } bt_route;
 
-/* Put into POINTS, at most MAX, the way that retraces the string of tether I from its vehicle to
-   its anchor; or the loop that frees it, back to where the vehicle is.  *N is how many there are.
-   BT_ERR_UNSUPPORTED when no vehicle is at its far end.  */
+/* Put up to MAX points into POINTS: the way home, which retraces the string of tether I from its
+   vehicle to its anchor; or the way to unwind, a loop from the vehicle back to the vehicle.  *N
+   receives the number of points.  BT_ERR_UNSUPPORTED when the tether has no vehicle at its far end.
+ */
 bt_status bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n,
                               bt_route *out, bt_error *error);
 bt_status bt_tether_unwind_plan (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n,
@@ -206,16 +207,17 @@ typedef struct bt_foresight
   double turns;   /* about it, then */
 } bt_foresight;
 
-/* What tether I will do if the vehicle goes on for SECONDS as it goes now; at most MAX events in
-   their order to OUT, *N of them.  A model without forces: the line as it lies trails behind the
-   vehicle and touches; its string, which turns and is taut, holds it; no current, no weight.  */
+/* Foretell tether I for SECONDS at the vehicle's present velocity: up to MAX events to OUT in the
+   order of time, *N receives their number.  The forecast knows no forces, current or weight: the
+   line trails behind the vehicle as a tractrix and touches obstacles, and the taut string tells
+   turns and the end of slack.  */
 bt_status bt_tether_foresee (const bt_dive *dive, int i, double seconds, bt_foresight *out, int max,
                              int *n, bt_error *error);
 
 /* ---- For a live view ---- */
 
-/* The string as it is led from one call to the next, a step or two each: cheap, and of the history
-   of its calls; no answer above depends on it.  */
+/* The string led on from one call to the next, a step or two apart.  Leading is cheap, but the
+   result depends on the earlier calls; no answer above uses a led string.  */
 typedef struct bt_follow
 {
   double length;

@@ -1,5 +1,5 @@
-/* What a dive tells of contact: where its tethers touch, into which spans that divides them, how
-   near they and the vehicles are to what.
+/* What a dive tells of contact: where its tethers touch, the spans between the places of contact,
+   and the distances of tethers and vehicles from obstacles.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -38,10 +38,10 @@ typedef struct bt_segment
 /* The same for the spans of tether I; one when it touches nothing.  */
 int bt_tether_segments (const bt_dive *dive, int i, bt_segment *segments, int max);
 
-/* Return in *SHARE how far the jacket of tether I is worn by what it slid on, 0 to 1 (worn through)
-   and beyond: the largest share of any spot; or that of the spot S metres of arc length from the
-   anchor.  Only the moving line wears.  BT_ERR_NAME; BT_ERR_DOMAIN if S lies outside the paid-out
-   length.  */
+/* Return in *SHARE the wear of the jacket of tether I by sliding: 0 as new, 1 worn through, more
+   beyond.  bt_tether_wear tells the most worn spot, bt_tether_wear_at the spot S metres of arc
+   length from the anchor.  Only the moving line wears.  BT_ERR_NAME; BT_ERR_DOMAIN if S lies
+   outside the paid-out length.  */
 bt_status bt_tether_wear (const bt_dive *dive, int i, double *share, bt_error *error);
 bt_status bt_tether_wear_at (const bt_dive *dive, int i, double s, double *share, bt_error *error);
 

@@ -29,8 +29,8 @@ bt_status bt_dive_new_polled (bt_model *model, bt_current_function function, voi
                               bt_poll poll, void *poll_user, bt_dive **dive, bt_error *error);
 void bt_dive_free (bt_dive *dive);
 
-/* Let POLL be asked by all that is done with DIVE, in the thread that does it; NULL: nobody.  A
-   fork asks nobody.  */
+/* Let every call on DIVE ask POLL, in the caller's thread, whether to go on; NULL: no asking.  A
+   fork begins without a poll.  */
 void bt_dive_set_poll (bt_dive *dive, bt_poll poll, void *user);
 
 /* Make *COPY a second dive on the same model in the same state; the two then know nothing of each
@@ -42,11 +42,11 @@ enum
   BT_THREADS_MAX = 64
 };
 
-/* Let up to N threads, 1 to BT_THREADS_MAX, the caller of bt_dive_step among them, step the tethers
-   of DIVE; at first it is 1.  What comes of it never depends on N, and it is no part of the state:
-   forks have 1, and what a dive is restored to leaves it alone.  The threads start in the first
-   step that has work for several, in a world whose current is no function, and end with
-   bt_dive_free or another N.  BT_ERR_DOMAIN, BT_ERR_LIMIT: as it was.  */
+/* Let up to N threads, 1 to BT_THREADS_MAX, step the tethers of DIVE; the caller of bt_dive_step
+   counts as one.  A new dive and a fork have N = 1.  N is no part of the state: no result depends
+   on N, and bt_dive_restore leaves N alone.  The threads start in the first step with work for
+   several, unless the current is a function, and end with bt_dive_free or a change of N.
+   BT_ERR_DOMAIN and BT_ERR_LIMIT leave N unchanged.  */
 bt_status bt_dive_set_threads (bt_dive *dive, int n, bt_error *error);
 int bt_dive_threads (const bt_dive *dive);
 
@@ -65,15 +65,15 @@ double bt_dive_time_step (const bt_dive *dive); /* s */
 /* Add SECONDS of wished time to the dive's account and return the whole steps it now holds, which
    the caller takes; the remainder is carried.  0 <= SECONDS <= 1e9, else BT_ERR_DOMAIN.  */
 bt_status bt_dive_whole_steps (bt_dive *dive, double seconds, int64_t *steps, bt_error *error);
-/* Return the remainder, s, and set it.  It is no part of the state: how a time was asked for, in
-   one piece or in many, makes no other dive.  */
+/* Return the remainder, s; set the remainder.  The remainder is no part of the state: a time asked
+   for in pieces makes the same dive as the sum.  */
 double bt_dive_carried (const bt_dive *dive);
 void bt_dive_carry (bt_dive *dive, double seconds);
 
 /* ---- Checkpoints ---- */
 
-/* Return true while the current of DIVE is a function (BT_CURRENT_FUNCTION): what the dive does
-   is then not in its state and its operations alone.  */
+/* Return true while the current of DIVE is a function (BT_CURRENT_FUNCTION); state and operations
+   alone then do not determine the dive.  */
 int bt_dive_asks (const bt_dive *dive);
 
 /* Keep the N numbers ROWS, t x y z of each, as a track of DIVE, and return its number in *INDEX;
@@ -86,18 +86,19 @@ int bt_dive_track (const bt_dive *dive, int i, const double **rows);
 size_t bt_dive_state_size (const bt_dive *dive); /* bytes */
 /* Copy the whole state to STATE, bt_dive_state_size bytes.  */
 void bt_dive_save (const bt_dive *dive, void *state);
-/* Return to STATE of SIZE bytes, saved from this dive or a fork, or read from a file that anybody
-   may have written: every member of it is judged before it is used.  BT_ERR_STALE when it is of
-   another model, or follows a track or a function that this dive does not have; BT_ERR_FORMAT when
-   its bytes are not as saved, or when a member is nothing that it can be: the text says which.  */
+/* Return to STATE of SIZE bytes, saved from this dive or a fork, or read from a file by any author:
+   every member is judged before use.  BT_ERR_STALE if STATE belongs to another model, or follows a
+   track or a function unknown to this dive; BT_ERR_FORMAT if the bytes are not as saved, or if a
+   member has an impossible value, named in the text of the error.  */
 bt_status bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error);
 /* Return a 64-bit hash of the whole state: equal states, equal hashes.  */
 uint64_t bt_dive_hash (const bt_dive *dive);
 
-/* Write STATE, SIZE bytes that bt_dive_save wrote, to PACKED without the room that is not in use,
-   and return how many bytes that takes; with PACKED NULL, return the number alone.  Both are of
-   whole words of eight bytes, and aligned.  True if BYTES are packed so.  Unpack N such bytes to
-   STATE; BT_ERR_STALE when they are not of so large a state.  */
+/* bt_state_pack writes STATE, the SIZE bytes of bt_dive_save, to PACKED without unused room and
+   returns the number of bytes written; with PACKED NULL, the number alone.  STATE and PACKED are
+   whole words of eight bytes, and aligned.  bt_state_is_packed returns true if BYTES were written
+   by bt_state_pack.  bt_state_unpack writes N packed bytes to STATE; BT_ERR_STALE if the packed
+   state has another size.  */
 size_t bt_state_pack (const void *state, size_t size, void *packed);
 int bt_state_is_packed (const void *bytes, size_t size);
 bt_status bt_state_unpack (const void *packed, size_t n, void *state, size_t size, bt_error *error);
@@ -174,8 +175,8 @@ enum
 int bt_waves_pack (const bt_wave_def *waves, double *args);
 
 /* Do OP on the SUBJECT-th part of its kind with N numbers ARGS.  BT_ERR_NAME for an unknown
-   operation or subject, BT_ERR_DOMAIN for numbers outside their range, and what the tether's model
-   says.  */
+   operation or subject, BT_ERR_DOMAIN for numbers outside their range, and any error of the
+   tether's model.  */
 bt_status bt_dive_do (bt_dive *dive, bt_op op, int subject, const double *args, int n,
                       bt_error *error);
 
@@ -264,9 +265,9 @@ typedef struct bt_profile
   uint64_t chain_sleeps;              /* steps it slept through */
   uint64_t chain_remeshes;            /* by model `auto' */
   uint64_t chain_safeguarded, chain_unconverged;
-  /* Of obstacles: links that were asked about, boxes and parts that were looked at, links that were
-     known to be clear, casts; places touched, added up over the steps; steps solved again for a
-     hit; steps in which the guard held nodes back.  All zero in a world without.  */
+  /* Work for obstacles, all zero in a world without: segments asked about, boxes visited, parts
+     measured, segments known to be clear, casts; contacts, added up over the steps; steps solved
+     again after a hit; steps in which continuous collision detection held nodes back.  */
   uint64_t links_asked, boxes_visited, pairs_measured, links_clear, casts;
   uint64_t touches, contact_rounds, truncated;
   uint64_t line_pairs;                /* links of tethers measured against links of tethers */
@@ -283,8 +284,8 @@ typedef struct bt_profile
   uint64_t shared_again; /* ... and those that one had to do again, for tethers that met */
 } bt_profile;
 
-/* Write how the sea, vehicle I, tether I, the water at P are now.  BT_ERR_NAME when there is no
-   such part, BT_ERR_DOMAIN for a place that is not finite.  */
+/* Write the present state of the sea, of vehicle I, of tether I, or of the water at P.  BT_ERR_NAME
+   for a part that does not exist, BT_ERR_DOMAIN for a place that is not finite.  */
 void bt_dive_sea (const bt_dive *dive, bt_sea_view *view);
 bt_status bt_dive_vehicle (const bt_dive *dive, int i, bt_vehicle_view *view, bt_error *error);
 bt_status bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *error);
@@ -303,8 +304,8 @@ bt_status bt_tether_tension (const bt_dive *dive, int i, double s, double *tensi
 bt_status bt_tether_points (const bt_dive *dive, int i, int n, bt_vec3 *points, bt_error *error);
 bt_status bt_tether_tensions (const bt_dive *dive, int i, int n, double *tensions, bt_error *error);
 
-/* Write up to MAX points of the part of a parted tether I that hangs from its far end, from the new
-   end on, to POINTS and return how many there are; 0 when it is whole.  */
+/* Write up to MAX points of the far part of the parted tether I to POINTS, from the new end to the
+   far end, and return the number of points; 0 for a whole tether.  */
 int bt_tether_tail (const bt_dive *dive, int i, bt_vec3 *points, int max);
 
 /* Return in *RADIUS the radius of the tightest bend of tether I, m: the smallest circle through
@@ -332,8 +333,8 @@ enum
 
 /* Return how many events there ever were.  */
 int64_t bt_dive_event_count (const bt_dive *dive);
-/* Copy the events from number FIRST on (0: the first ever) that are still kept, oldest first, to
-   EVENTS, which has room for BT_EVENTS_KEPT, and return how many.  */
+/* Copy the kept events from number FIRST on (0: the first ever), oldest first, to EVENTS, with room
+   for BT_EVENTS_KEPT, and return the number copied.  */
 int bt_dive_events (const bt_dive *dive, int64_t first, bt_event *events);
 /* Return the word for KIND, or NULL when there is no such kind; they count from BT_EVENT_TAUT on.
  */

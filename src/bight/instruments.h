@@ -39,9 +39,10 @@ typedef struct bt_readings
 /* Read the instruments of vehicle I.  The ship is where the anchor of its first tether is.  */
 bt_status bt_dive_instruments (const bt_dive *dive, int i, bt_readings *readings, bt_error *error);
 
-/* Write to *ALTITUDE how far it is from P straight down to the bed or to what is above it, m, and
-   to *OBSTACLE the number of what that is.  Where nothing is below, -1, and the altitude is that
-   above the depth of the sea: negative farther down.  BT_ERR_DOMAIN for a P that is not finite.  */
+/* Write to *ALTITUDE the distance, m, from P straight down to the first surface, bed or obstacle,
+   and to *OBSTACLE the number of the obstacle met.  Where no surface is below P, *OBSTACLE is -1
+   and the altitude is above the depth of the sea, negative below.  BT_ERR_DOMAIN for a P that is
+   not finite.  */
 bt_status bt_dive_altitude (const bt_dive *dive, bt_vec3 p, double *altitude, int *obstacle,
                             bt_error *error);
 
@@ -49,8 +50,8 @@ bt_status bt_dive_altitude (const bt_dive *dive, bt_vec3 p, double *altitude, in
    bit.  */
 int64_t bt_dive_faults (const bt_dive *dive, int i, int64_t *lost);
 
-/* Write what the thrusters of vehicle I, which has mass, push with, N, to THRUST, of
-   BT_THRUSTERS_MAX, and return how many it has.  */
+/* Write the thrust, N, of each thruster of vehicle I, a vehicle with mass, to THRUST, with room for
+   BT_THRUSTERS_MAX, and return the number of thrusters.  */
 int bt_dive_thrusts (const bt_dive *dive, int i, double *thrust);
 
 enum
@@ -72,9 +73,9 @@ typedef struct bt_sonar
 bt_status bt_dive_sonar (const bt_dive *dive, int i, const bt_sonar *sonar, double *range,
                          bt_error *error);
 
-/* Write where N transponders on tether I say that they are, m, equally spaced in arc length, both
-   ends included: each coordinate with Gaussian noise of SIGMA metres, which follows from the seed
-   of the vehicle at its far end (of its anchor, else 1), the step and the transponder alone.
+/* Write the places, m, reported by N transponders on tether I, equally spaced in arc length, both
+   ends included.  Each coordinate has Gaussian noise of SIGMA metres, determined by the seed of the
+   vehicle at the far end (else at the anchor, else 1), the step and the number of the transponder.
    BT_ERR_NAME; BT_ERR_DOMAIN unless N is 2 or more and SIGMA 0 or more.  */
 bt_status bt_dive_transponders (const bt_dive *dive, int i, int n, double sigma, bt_vec3 *points,
                                 bt_error *error);

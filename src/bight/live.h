@@ -1,13 +1,13 @@
-/* A live dive: a thread of its own steps it in real time, whatever its owner does meanwhile.
+/* A live dive: a thread of its own steps the dive in real time, whatever the owner does meanwhile.
 
-   Commands go through one queue, each with the number of the step it is for; between two steps the
-   thread does those that are due, in the order they were posted.  After every step, and after what
-   is done between steps, it publishes a copy of the state for others to read.  The dive itself
-   belongs to the thread from bt_live_start to bt_live_stop: nobody else may touch it, nor may its
-   current ask a function that must not run in another thread.  The same queue leads to the same
+   Commands go through one queue, each with the number of its step; between two steps the thread
+   does the commands that are due, in the order of posting.  After every step, and after the
+   commands between steps, the thread publishes a copy of the state for readers.  From bt_live_start
+   to bt_live_stop the dive belongs to the thread: no other thread may touch the dive, and the
+   current must not ask a function bound to another thread.  The same queue leads to the same
    states, at any pace.
 
-   All of these may be called from any thread, but start and stop by the owner alone.
+   All functions may be called from any thread, but start and stop by the owner alone.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -41,9 +41,9 @@ bt_status bt_live_start (bt_dive *dive, const bt_live_options *options, bt_live 
    yet due is forgotten.  */
 bt_status bt_live_stop (bt_live *live, bt_error *error);
 
-/* Hold LIVE for one who uses it beside its owner, such as another thread with a fork of its own to
-   read; it stays after bt_live_stop until each has let it go.  Once it is stopped commands are
-   refused with BT_ERR_STALE and nothing is waited for.  */
+/* Hold LIVE for a user beside the owner, such as a reading thread with a fork of its own; LIVE
+   stays after bt_live_stop until every holder has let go.  Once LIVE is stopped, commands are
+   refused with BT_ERR_STALE and no call waits.  */
 void bt_live_hold (bt_live *live);
 void bt_live_let_go (bt_live *live);
 /* Return nonzero once LIVE is stopped.  */
@@ -51,20 +51,20 @@ int bt_live_stopped (bt_live *live);
 
 /* ---- Commands ---- */
 
-/* Queue OP with its N numbers ARGS (copied) for STEP: it is done before that step is left, or, when
-   STEP is -1 or has passed, between the present step and the next.  BT_ERR_LIMIT when there is no
-   memory.  Whether it succeeds, bt_live_drain tells.  */
+/* Queue OP with its N numbers ARGS (copied) for STEP.  OP is done before STEP is left, or, if STEP
+   is -1 or has passed, between the present step and the next; bt_live_drain tells of success.
+   BT_ERR_LIMIT when there is no memory.  */
 bt_status bt_live_post (bt_live *live, int64_t step, bt_op op, int subject, const double *args,
                         int n, bt_error *error);
 
-/* Queue OP for now, wait until it was done, and return how it went.  *STEP, unless NULL, receives
-   the step it was done at.  */
+/* Queue OP for now, wait until OP is done, and return its status.  *STEP, unless NULL, receives the
+   step at which OP was done.  */
 bt_status bt_live_do (bt_live *live, bt_op op, int subject, const double *args, int n,
                       int64_t *step, bt_error *error);
 
-/* The same, asking POLL with POLL_USER every now and then in the thread that waits.  When it gives
-   up the command is taken back, or left if it is under way: BT_ERR_INTERRUPTED.  One that is done
-   by then stays done.  */
+/* The same, asking POLL with POLL_USER every now and then in the waiting thread.  If POLL gives up,
+   the command is taken back, or left if under way: BT_ERR_INTERRUPTED.  A command already done
+   stays done.  */
 bt_status bt_live_do_polled (bt_live *live, bt_op op, int subject, const double *args, int n,
                              bt_poll poll, void *poll_user, int64_t *step, bt_error *error);
 
@@ -83,7 +83,7 @@ typedef struct bt_live_command
 void bt_live_drain (bt_live *live, void (*see) (void *user, const bt_live_command *command),
                     void *user);
 
-/* Let time stop at step UNTIL from now on, or at the present one if it has passed; -1: never.  */
+/* Let time stop at step UNTIL from now on, or at once if UNTIL has passed; -1: never.  */
 void bt_live_until (bt_live *live, int64_t until);
 
 /* Wait until step STEP is over or the dive stands still, at most SECONDS (INFINITY:
@@ -96,19 +96,20 @@ int64_t bt_live_wait (bt_live *live, int64_t step, double seconds);
 int64_t bt_live_steps (bt_live *live);
 /* Return a number that grows with every copy that is published.  */
 uint64_t bt_live_edition (bt_live *live);
-/* Bring VIEW, a fork of the dive made before it went live, to the latest copy.  A track that was
-   given to the dive since must have been given to VIEW too.  */
+/* Bring VIEW, a fork made before the dive went live, to the latest copy.  A track given to the dive
+   since the fork must have been given to VIEW too.  */
 bt_status bt_live_read (bt_live *live, bt_dive *view, bt_error *error);
-/* Return BT_OK while time passes, or else fill ERROR with what stopped it.  */
+/* Return BT_OK while time passes, or else fill ERROR with the cause of the stop.  */
 bt_status bt_live_status (bt_live *live, bt_error *error);
 /* Return by how much the thread fell behind real time in all, s.  */
 double bt_live_late (bt_live *live);
 
-/* Return how many checkpoints are kept.  Each was taken as soon as its step was over, before what
-   was done then.  */
+/* Return the number of kept checkpoints.  Each was taken at the end of its step, before the
+   commands between that step and the next.  */
 int bt_live_moments (bt_live *live);
-/* Tell the step and the hash of the I-th checkpoint, oldest first, and copy it to STATE unless that
-   is NULL.  Return the size of a state, or 0 when there is no such.  */
+/* Tell the step and the hash of the I-th checkpoint, oldest first, and copy the checkpoint to
+   STATE, unless STATE is NULL.  Return the size of a state, or 0 if there is no I-th checkpoint.
+ */
 size_t bt_live_moment (bt_live *live, int i, int64_t *step, uint64_t *hash, void *state);
 
 BT_END_DECLS

@@ -1,5 +1,5 @@
-/* What a world is made of: parts as plain structs, one table of fields for each kind of part, and
-   the immutable model that a world compiles to.
+/* A world as data: parts as plain structs, one table of fields for each kind of part, and the
+   immutable model compiled from a world.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -68,8 +68,8 @@ typedef struct bt_thruster_def
   double lag;        /* s: time constant, 0: none */
 } bt_thruster_def;
 
-/* A vehicle.  Without mass it goes exactly where it is told; with mass it is a rigid body that its
-   thrusters, the water and its tethers move.  Its own +y is its front.  */
+/* A vehicle.  Without mass the vehicle is kinematic and goes exactly where told; with mass it is a
+   rigid body moved by thrusters, water and tethers.  +y of the body frame is the front.  */
 typedef struct bt_vehicle_def
 {
   char name[BT_NAME_SIZE];
@@ -292,8 +292,8 @@ bt_status bt_def_set_name (char *name_field, const char *name, bt_error *error);
 
 /* ---- Vehicles and tethers that come with the engine ---- */
 
-/* Return the name of the I-th type of vehicle, what it is and where its figures come from, or
-   NULL beyond the last.  */
+/* Return the name of the I-th type of vehicle; a description of the type with the source of its
+   figures; NULL beyond the last.  */
 const char *bt_vehicle_type_name (int i);
 const char *bt_vehicle_type_text (int i);
 
@@ -311,10 +311,10 @@ bt_status bt_def_set_tether_type (bt_tether_def *def, const char *name, bt_error
 typedef struct bt_model bt_model;
 
 /* Check WORLD and compile it into *MODEL, which is immutable and counted: release it with
-   bt_model_release.  Everything is copied.  BT_ERR_DEF when the parts do not hold together (two of
-   one name, a tether to no vehicle, a tether too short to reach, one whose line of lay meets an
-   obstacle), BT_ERR_DOMAIN for a number outside its range, BT_ERR_LIMIT for too many parts or no
-   memory.  */
+   bt_model_release.  Everything is copied.  BT_ERR_DEF when the parts contradict each other (two
+   parts of the same name, a tether to no vehicle, a tether too short to reach, a line of lay
+   through an obstacle), BT_ERR_DOMAIN for a number outside its range, BT_ERR_LIMIT for too many
+   parts or no memory.  */
 bt_status bt_model_new (const bt_world *world, bt_model **model, bt_error *error);
 /* The same, asking POLL with POLL_USER while meshes are sorted: BT_ERR_INTERRUPTED.  */
 bt_status bt_model_new_polled (const bt_world *world, bt_poll poll, void *poll_user,

@@ -30,7 +30,7 @@ bt_status bt_current_grid_read (const char *file, bt_current_grid **grid, bt_err
 /* The same from N ROWS of seven numbers.  */
 bt_status bt_current_grid_new (const double (*rows)[7], size_t n, bt_current_grid **grid,
                                bt_error *error);
-/* A grid is counted: it is gone when it was freed as often as it was made and retained.  */
+/* A grid is reference-counted: the last bt_current_grid_free frees the memory.  */
 bt_current_grid *bt_current_grid_retain (bt_current_grid *grid);
 void bt_current_grid_free (bt_current_grid *grid);
 
@@ -93,15 +93,17 @@ bt_status bt_waves_make (const bt_wave_def *def, double depth, double gravity, b
 /* Return the wave number of OMEGA (rad/s) in water of DEPTH: omega2 = g k tanh (k depth).  */
 double bt_wave_number (double omega, double depth, double gravity);
 
-/* What follows adds up what the components do, each good to 1e-15 of its most and its phase to
-   5e-16 of the larger of k (x . way) and omega t: 2 microradians in waves of 1.5 s at t = 1e9 s. */
+/* The functions below add up the components.  Each component is good to 1e-15 of its amplitude, its
+   phase to 5e-16 of the larger of k (x . way) and omega t: 2 microradians in waves of 1.5 s at
+   t = 1e9 s.  */
 
 /* Return the height of the surface at (X, Y) and T, m.  */
 double bt_waves_elevation (const bt_waves *waves, double x, double y, double t);
 
 /* Write the velocity and acceleration (either may be NULL) of the water at P and T; not finite
-   where P is not.  Above the still surface they are those at it, below the bottom those there; a
-   component is left out where it is less than 1e-7 of itself.  */
+   where P is not finite.  Above the still surface the values are those of the surface, below the
+   bottom those of the bottom; a component is left out at depths where less than 1e-7 of the
+   component is left.  */
 void bt_waves_motion (const bt_waves *waves, bt_vec3 p, double t, bt_vec3 *velocity,
                       bt_vec3 *acceleration);
 

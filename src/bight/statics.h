@@ -1,5 +1,5 @@
-/* The static shapes of a tether as pure functions: no world, no state, no allocation but where a
-   workspace says so.
+/* The static shapes of a tether as pure functions: no world, no state, and no allocation except in
+   a workspace.
 
    Plane problems are posed with the start at (0, 0), x across and y against the load, so that a
    loaded line sags toward -y.
@@ -144,18 +144,18 @@ bt_status bt_steady_shoot (bt_steady *steady, const bt_line *line, const bt_wate
                            bt_steady_report *report, bt_error *error);
 
 /* Relax the chain of N links whose present shape is R (N + 1 nodes; its ends are moved to A and B)
-   in WATER until it rests, by backward Euler with growing steps and at most SOLVES linear solves. R
-   receives the shape, T the tension vectors at the nodes.  The equilibrium found is the one this
-   shape falls into.  REPORT->converged = 0 when it still moves; R is then a shape that the line
-   can have.  */
+   in WATER to rest, by backward Euler with growing steps and at most SOLVES linear solves.  R
+   receives the shape, T the tension vectors at the nodes.  Where several equilibria exist, the
+   present shape decides.  REPORT->converged = 0 if the chain still moves; R is then a possible
+   shape of the line, not an equilibrium.  */
 bt_status bt_steady_relax (bt_steady *steady, const bt_line *line, const bt_water *water, bt_vec3 a,
                            bt_vec3 b, int n, int solves, bt_vec3 *r, bt_vec3 *t,
                            bt_steady_report *report, bt_error *error);
 
 /* Search for distinct equilibria of LINE in WATER between A and B: the line is relaxed from its own
    catenary, from bows to the other sides, and from above and below.  SHAPES has room for MAX shapes
-   of N + 1 points each, one after another; *FOUND receives how many differ by more than
-   LINE->length / 100. A search that finds one proves nothing about others.  */
+   of N + 1 points each, one after another; *FOUND receives the number of shapes that differ by more
+   than LINE->length / 100.  The search proves nothing about equilibria not found.  */
 bt_status bt_steady_equilibria (bt_steady *steady, const bt_line *line, const bt_water *water,
                                 bt_vec3 a, bt_vec3 b, int n, int max, bt_vec3 *shapes, int *found,
                                 bt_error *error);

@@ -41,9 +41,9 @@ typedef struct bt_error
 /* Return the lower-case word for STATUS ("domain", "name", ...; "ok" for BT_OK).  Never NULL.  */
 const char *bt_status_name (bt_status status);
 
-/* What a call that may last asks between pieces of its work, each much shorter than a tenth of a
-   second: SHARE of it, 0 to 1, is done as far as that can be told.  True: give up; the call then
-   fails by BT_ERR_INTERRUPTED and has changed nothing.  */
+/* A long call asks its poll between pieces of work, each much shorter than a tenth of a second.
+   SHARE, 0 to 1, is the part of the work done so far, as far as known.  A poll that returns true
+   stops the call: the call fails by BT_ERR_INTERRUPTED and changes nothing.  */
 typedef int (*bt_poll) (void *user, double share);
 
 /* Return the version of the library, "MAJOR.MINOR.PATCH".  */

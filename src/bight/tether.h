@@ -51,11 +51,11 @@ typedef enum bt_stick_by
 /* The value of sag_buoyancy that means `from the real weight and the real drag'.  */
 #define BT_SAG_AUTO 2.0
 
-/* The value of winch_pull that means `500 N, or half of what parts the line if that is less'.  */
+/* The value of winch_pull for 500 N or half the breaking load, whichever is less.  */
 #define BT_WINCH_AUTO 0.0
 
-/* Flat; no padding.  Numbers that count or choose are kept as doubles so that one table of fields
-   can set them all.  */
+/* Flat; no padding.  Counts and choices are doubles too, because one table of fields sets every
+   member.  */
 typedef struct bt_tether_props
 {
   double diameter;             /* m */

@@ -1,9 +1,8 @@
-/* What can be done to a dive, a function for each verb.
+/* The verbs of a dive, a function each.
 
-   Each is one call of bt_dive_do with named and typed arguments: it either does the whole of what
-   it says or leaves the dive as it was.  All of them return BT_ERR_NAME for a vehicle, tether or
-   obstacle that the dive does not have, and BT_ERR_DOMAIN for a number outside its range, with what
-   is allowed in ERROR.
+   Each function is one call of bt_dive_do with named and typed arguments, done whole or not at all.
+   All of them return BT_ERR_NAME for a vehicle, tether or obstacle that does not exist, and
+   BT_ERR_DOMAIN for a number outside its range, with the allowed range in ERROR.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -87,8 +86,8 @@ typedef struct bt_spooling
 bt_status bt_tether_pay_out (bt_dive *dive, int t, const bt_spooling *spooling, bt_error *error);
 bt_status bt_tether_haul_in (bt_dive *dive, int t, const bt_spooling *spooling, bt_error *error);
 
-/* Cut tether T at ARC_LENGTH metres from its anchor.  BT_ERR_UNSUPPORTED unless a model with a
-   moving line moves it, and when it has parted already.  */
+/* Cut tether T at ARC_LENGTH metres from its anchor.  BT_ERR_UNSUPPORTED for a model without a
+   moving line, and for a tether that has parted already.  */
 bt_status bt_tether_cut (bt_dive *dive, int t, double arc_length, bt_error *error);
 
 /* ---- The sea ---- */

@@ -117,8 +117,8 @@ void bt_view_free (bt_view *view);
 /* Return a thing of KIND with nothing but a colour.  */
 bt_thing bt_thing_of (bt_thing_kind kind);
 
-/* Put THING and all it points to into VIEW, copied.  BT_ERR_DOMAIN for numbers that are not finite
-   and corners that are not there, BT_ERR_LIMIT without memory.  */
+/* Copy THING, with everything reachable from THING, into VIEW.  BT_ERR_DOMAIN for numbers that are
+   not finite and for indices of corners out of range, BT_ERR_LIMIT without memory.  */
 bt_status bt_view_add (bt_view *view, const bt_thing *thing, bt_error *error);
 
 /* Keep a copy of TEXT as long as VIEW lives; NULL without memory.  */
@@ -144,8 +144,8 @@ typedef enum bt_aim
 /* Return the word for AIM, or NULL.  */
 const char *bt_aim_name (bt_aim aim);
 
-/* Aim the camera of VIEW at its first vehicle, its tubes and what is near, for a picture ASPECT
-   times as wide as high.  BT_ERR_NAME for no such aim, BT_ERR_DEF when there is nothing to see,
+/* Aim the camera of VIEW at its first vehicle, its tubes and the surroundings, for a picture ASPECT
+   times as wide as high.  BT_ERR_NAME for an unknown aim, BT_ERR_DEF when there is nothing to see,
    or, for chase and pilot, no vehicle.  */
 bt_status bt_view_aim (bt_view *view, bt_aim aim, double aspect, bt_error *error);
 

@@ -81,7 +81,7 @@ void bt_water_motion (const bt_water *water, bt_vec3 p, bt_vec3 *velocity, bt_ve
 /* Return the height of the surface of WATER over P, m: 0 without waves.  */
 double bt_water_surface (const bt_water *water, bt_vec3 p);
 
-/* Return what no surface of WATER is higher than, and none lower than less that, m.  */
+/* Return a bound, m, on the height of the surface of WATER above and below its mean.  */
 double bt_water_crest (const bt_water *water);
 
 /* Return true if the velocity of WATER is the same everywhere, at any one time.  */

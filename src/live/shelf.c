@@ -1,8 +1,8 @@
-/* What a live dive publishes.
+/* Triple buffer: the copies of the state that a live dive publishes.
 
-   Three copies of the state: the latest, one that somebody may be reading, and one to write.  The
-   stepping thread takes a lock only to change which is which, so that no reader, however slow,
-   holds it up.
+   One copy is the latest, one is for a reader, and one is for the stepping thread to write.  The
+   stepping thread takes the lock only to exchange roles, so that no reader, however slow, delays a
+   step.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

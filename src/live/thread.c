@@ -1,9 +1,9 @@
 /* The thread of a live dive.
 
-   It does what is due, takes a step, publishes, and sleeps until the next step is due.  It never
-   calls back, so that nothing anybody else does can hold it up; who waits for it says by a flag
-   that it is to leave what it is at.  When it cannot keep the pace it lets the clock go, rather
-   than hurry afterwards.
+   The thread does the commands that are due, takes a step, publishes, and sleeps until the next
+   step is due.  The thread never calls back, so that no caller can hold up the dive; a caller in a
+   hurry sets a flag, and the thread leaves its present work.  A thread too slow for real time lets
+   the clock run on and never hurries to catch up.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -86,8 +86,8 @@ smooth (bt__four u)
   return u * u * (3 - 2 * u);
 }
 
-/* What is lacking there of a current of SPEED, nothing where it does not lie in the LEE.  A current
-   along the axis leaves none: by the share that goes across.  */
+/* The velocity deficit behind a cylinder in a current of SPEED, zero outside the LEE.  Only the
+   component of the current across the axis makes a lee.  */
 static BT__HOT bt__four
 deficit (const place *at, bt__four_mask lee, double speed)
 {

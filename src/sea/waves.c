@@ -99,8 +99,8 @@ frequency_of_cell (double cell)
   return LOWEST + (HIGHEST - LOWEST) * cell / CELLS;
 }
 
-/* Complete component I of W, which has its frequency.  Of the bottom is told only where it is felt
-   at any height at which the component is.  */
+/* Complete component I of W, whose frequency is set.  The bottom enters only where the component
+   feels the bottom at some depth at which the component is not negligible.  */
 static void
 complete (bt_waves *w, int i, double gravity)
 {

@@ -136,7 +136,7 @@ find (forecast *f, uint32_t place)
   return NULL;
 }
 
-/* Note that the line touches PLACE, telling of it if that is new and SECONDS have passed.  */
+/* Note that the line touches PLACE; foretell a new contact if SECONDS have passed.  */
 static void
 note_touch (forecast *f, uint32_t place, double seconds)
 {
@@ -159,7 +159,7 @@ note_trail (forecast *f, uint32_t k, double seconds)
       note_touch (f, near.object, seconds);
 }
 
-/* Note what the string bends at, telling of what is new if SECONDS have passed.  */
+/* Note the obstacles at which the string bends; foretell a new one if SECONDS have passed.  */
 static void
 note_holds (forecast *f, double seconds)
 {
@@ -199,8 +199,8 @@ note_taut (forecast *f, double seconds)
 
 /* ---- The vehicle ahead ---- */
 
-/* Stop GHOST, which has come from FROM, at what stands within RADIUS of its way; tell of it, if
-   SECONDS have passed and it is new.  */
+/* Stop GHOST, coming from FROM, at the first obstacle within RADIUS of its path; foretell a new
+   collision if SECONDS have passed.  */
 static void
 note_bump (forecast *f, bt__ghost *ghost, bt_vec3 from, double seconds)
 {

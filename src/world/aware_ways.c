@@ -1,4 +1,4 @@
-/* What a tether is doing: hauling it by the instant rule, the way home, the loop that frees it.
+/* What a tether is doing: hauling by the instant rule, the way home, the loop that unwinds.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -16,7 +16,7 @@
 #define GAP_ROOM 0.02     /* m, beyond the radius: of what is hauled through a gap */
 #define WAY_ROOM 0.15     /* m, beyond the reach of the hull: corners are not flown exactly */
 
-/* The drag of a vehicle that has none of its own, going where it is told: N s/m, N s2/m2.  */
+/* Drag assumed for a kinematic vehicle, linear and quadratic: N s/m, N s2/m2.  */
 #define DRAG1 60.0
 #define DRAG2 100.0
 

@@ -1,4 +1,4 @@
-/* What is below: the bed, an obstacle on it, or nothing but the depth that the sea is said to have.
+/* The bottom below a place: the bed, an obstacle on the bed, or else the stated depth of the sea.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

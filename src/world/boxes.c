@@ -6,7 +6,7 @@
 
 #include "world/obstacles.h"
 
-/* A walk down to LEVEL that gives the boxes from FIRST on to OUT, as many as there is room for.  */
+/* A walk down the tree to LEVEL; the boxes from number FIRST on go to OUT while there is room.  */
 typedef struct walk
 {
   const bt_dive *dive;

@@ -152,8 +152,8 @@ segment_between (const bt__line *line, double from, double to)
                        bt__line_point (line, to) };
 }
 
-/* Contacts of one object that follow each other within so much arc are one wrap: no span is between
-   them.  */
+/* Greatest arc length, m, between two contacts of one wrap: contacts with the same object so near
+   to each other have no span between them.  */
 static double
 wrap_gap (const bt__line *line)
 {

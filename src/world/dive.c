@@ -353,7 +353,8 @@ bt_dive_save (const bt_dive *dive, void *state)
   memcpy ((char *)state + offsetof (bt__state, checksum), &checksum, sizeof checksum);
 }
 
-/* A state saved by a fork may follow a track that this dive never read.  */
+/* False if STATE follows a track unknown to DIVE: a fork may have read the track and saved STATE.
+ */
 static int
 knows_tracks (const bt_dive *dive, bt__state *state)
 {

@@ -57,7 +57,7 @@ typedef struct bt__pin
   bt__rigid body; /* of a vehicle with mass: all of it there */
 } bt__pin;
 
-/* What a vehicle with mass is given in the present step, and what its line has at its end.  */
+/* Inputs of a vehicle with mass in the present step, and the end values of its tether.  */
 typedef struct bt__driven
 {
   bt__rigid_input in;
@@ -91,11 +91,10 @@ typedef struct bt__shore
 typedef struct bt__lane
 {
   bt_dive *dive;
-  char *body;       /* of the state that is worked on: each lane on tethers of its own */
-  const int *group; /* of each tether: who may meet whom */
-  const char
-      *shared; /* of each vehicle, true: several groups hang on it, and none may move it */
-  int refused; /* what it was given cannot be done apart */
+  char *body;         /* of the state that is worked on: each lane on tethers of its own */
+  const int *group;   /* of each tether: who may meet whom */
+  const char *shared; /* of each vehicle, true: several groups hang on it, and none may move it */
+  int refused;        /* what it was given cannot be done apart */
 } bt__lane;
 
 /* Where the parts of a state lie, in bytes after its head: vehicles, then ...  */
@@ -200,8 +199,8 @@ double bt__state_time (const bt__state *state);
 int bt__chain_room (const bt_tether_def *tether);
 bt_water bt__dive_water (const bt_dive *dive, const bt__state *state);
 
-/* Make a dive with an empty state and the tools that its tethers need; the dive of LANE, with the
-   tools and the head of a state alone.  */
+/* Make a dive with an empty state and the workspaces for its tethers; make the dive of LANE, with
+   workspaces and the head of a state alone.  */
 bt_status bt__dive_alloc (bt_model *model, bt_dive **dive, bt_error *error);
 bt_status bt__dive_alloc_lane (bt_model *model, bt__lane *lane, bt_error *error);
 
@@ -222,8 +221,8 @@ void bt__raise_event_at (bt__state *state, bt_event_kind kind, bt_part part, int
 /* BT_ERR_NAME unless I counts a PART of DIVE.  */
 bt_status bt__check_part (const bt_dive *dive, bt_part part, int i, bt_error *error);
 
-/* True if VEHICLE cannot be moved, for groups that step at the same time hang on it: then the
-   step is refused.  */
+/* True if VEHICLE cannot be moved because several groups, stepping at the same time, hang on the
+   vehicle; the shared step is then refused.  */
 static inline int
 bt__is_shared (const bt_dive *dive, int vehicle)
 {

@@ -1,5 +1,5 @@
-/* What happened, with its time: a ring in the state, so that a restored dive remembers only its own
-   past.
+/* Events with their times, in a ring buffer of the state: a restored dive remembers its own past
+   alone.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

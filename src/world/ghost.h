@@ -1,7 +1,8 @@
-/* A vehicle that goes on as it goes, alone: for a look at what is to come.
+/* Predicted vehicle: a copy of a vehicle moved ahead of the dive, for forecasts and pictures.
 
-   One without mass goes by its sticks, to its goal, or as it moves; one with mass by its thrusters,
-   its autopilot and the water as it is now.  No tether holds it, and it meets nothing.
+   A kinematic vehicle goes on by its sticks, to its goal, or at its velocity; a vehicle with mass
+   by its thrusters, its autopilot and the present water.  The prediction knows neither tethers nor
+   obstacles.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -8,10 +8,10 @@
 #include "base/record.h"
 #include "world/dive.h"
 
-/* Judge STATE, whose layout fits DIVE (bt__layout_fits): every live byte of it by the table of its
-   struct, then what holds between them.  BT_ERR_FORMAT says which part, which member, what it is
-   and what is allowed.  Whatever passes can be stepped and asked: it may be no state that a dive
-   comes to, but every count, index, length and word in it means something.  */
+/* Judge STATE, whose layout fits DIVE (bt__layout_fits): every live byte by the table of its
+   struct, then the relations between members.  BT_ERR_FORMAT names the part, the member, its value
+   and the allowed values.  A state that passes can be stepped and asked.  Perhaps no dive ever
+   comes to such a state, but every count, index, length and word is valid.  */
 bt_status bt__state_judge (bt_dive *dive, bt__state *state, bt_error *error);
 
 /* Return all tables of structs that a state holds, *N of them.  */

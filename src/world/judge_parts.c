@@ -14,7 +14,7 @@
 /* The first of two judgements that is bad.  */
 #define AND(status, next) ((status) == BT_OK ? (next) : (status))
 
-/* Numbers that never change in a dive are its world's, to the last bit.  */
+/* True if A and B are equal to the last bit, as constants of a dive and of its world are.  */
 static int
 is_same (const double *a, const double *b)
 {
@@ -23,7 +23,7 @@ is_same (const double *a, const double *b)
 
 /* ---- The table of fields ---- */
 
-/* What follows from mass, diameter and sea is in no range of its own.  */
+/* True for a field computed from mass, diameter and sea: the computed value has no range.  */
 static int
 follows (const bt_field *field)
 {
@@ -273,8 +273,8 @@ bt__judge_obstacles (bt__judge *judge, const bt_dive *dive, bt__state *state)
               judge_roughness (judge, bt__dive_roughness (dive, state), model->n_obstacles));
 }
 
-/* Behind a subject is a switch for each object, then what it is wound about each; and what pads
-   either, zero.  The version vouches for the switches: whoever knows a scene goes by it.  */
+/* Behind a subject lie a switch for each object, then the windings about each obstacle, both padded
+   with zeros.  The version vouches for the switches: caches of a scene compare versions alone.  */
 bt_status
 bt__judge_subject (bt__judge *judge, const bt_dive *dive, bt__state *state, bt_part part, int i)
 {

@@ -113,7 +113,7 @@ const bt__record bt__vehicle_record = BT__RECORD (bt__vehicle, "state", vehicle)
 
 /* ---- Tethers ---- */
 
-/* Properties are judged by the table of fields, which knows every one of them.  */
+/* The member `props' is judged by the table of fields.  */
 static const bt__member tether[] = {
   BT__ANY (bt__tether, props),
   BT__WITHIN (bt__tether, length, 0, BT__FAR),

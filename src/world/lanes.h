@@ -1,6 +1,6 @@
-/* Lanes: dives that share out the steps of one, each with tools of its own; see sim/share.c.
+/* Worker contexts: partial dives, a workspace each, among which sim/share.c shares out a step.
 
-   They are made when more threads than one are asked for, and a dive that never asks has none.
+   The contexts are made when a dive is given more than one thread.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -45,8 +45,8 @@ typedef struct bt__lanes
   int patience;     /* how many they will be next time */
 } bt__lanes;
 
-/* Borrow for LANE what it has of DIVE, of whose NEXT it is to do a part; give it back.  Add what it
-   did to the counters of DIVE.  */
+/* Borrow the shared members of DIVE for LANE, whose thread does a part of NEXT; give them back; add
+   the counters of LANE to the counters of DIVE.  */
 void bt__lane_enter (bt__lane *lane, const bt_dive *dive, bt__state *next);
 void bt__lane_leave (bt__lane *lane);
 void bt__lane_count (const bt__lane *lane, bt_dive *dive);

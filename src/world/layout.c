@@ -1,4 +1,4 @@
-/* Where everything lies in the flat state of a dive, and which of it is live.
+/* Offsets of all parts in the flat state of a dive, and the extent of the live bytes.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -40,9 +40,10 @@ fixed_size (const bt_dive *dive)
 
 /* ---- The store of a tether ---- */
 
-/* Room for four times the intervals that the world asks for, of coarse lines for more and of fine
-   ones for twice as many: what a longer line, or one that bends more than the world's, may want.
-   However much is on the drum, the mesh follows what is out (tether/dynamic_mesh.c).  */
+/* Room for the intervals of a moving line: four times the number in the world, more for coarse
+   lines and twice the number for fine ones, since a longer or more bent line needs more intervals.
+   The length on the drum has no influence: the mesh follows the paid-out length
+   (tether/dynamic_mesh.c).  */
 int
 bt__chain_room (const bt_tether_def *tether)
 {

@@ -9,8 +9,8 @@
 
 #define FOLLOWED 1e-4 /* m: a line so near to where its winch stands has followed it */
 
-/* The polyline of tether I, held, if the line is not where its shape has it; or if other points
-   than the shape's own were kept clear of obstacles.  */
+/* The polyline by which obstacles hold tether I, if the line deviates from its shape or if points
+   other than the shape's own were kept clear of obstacles; else NULL.  */
 static const bt__polyline *
 held_line (const bt_dive *dive, bt__state *state, int i)
 {
@@ -49,7 +49,8 @@ bt__line_tail (const bt__line *line)
 double
 bt__line_length (const bt__line *line)
 {
-  if (line->split) /* as it lies: what is held has yet to come to the length that it is to have */
+  if (line->split) /* length as it lies: a held polyline approaches its paid-out length step by step
+                    */
     {
       bt__polyline *way = bt__thesis_line (line->split);
       return bt__polyline_u (way)[way->n - 1];

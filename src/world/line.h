@@ -26,8 +26,8 @@ bt__line bt__line_tail (const bt__line *line);
 /* Arc length from the anchor to the far end, or to where the line has parted, m.  */
 double bt__line_length (const bt__line *line);
 
-/* What is out, m: of a moving line what has come through its winch so far, which it follows with a
-   lag; true if it has followed.  */
+/* The paid-out length, m; for a moving line the length that has passed the winch so far, which
+   follows the ordered length with a lag.  True if no lag is left.  */
 double bt__line_out (const bt__line *line);
 int bt__line_has_followed (const bt__line *line);
 

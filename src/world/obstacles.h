@@ -1,5 +1,5 @@
-/* A dive among obstacles: where the movers are, how rough everything is, which pairs count, who
-   meets what.  A world without obstacles has none of it.
+/* A dive among obstacles: places of kinematic obstacles, friction, enabled pairs, and contacts by
+   object.  A world without obstacles has no such data.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -40,20 +40,21 @@ void bt__switch_slot (const bt_model *model, uint8_t *off, int obstacle, int on)
 bt__subject *bt__dive_subject (const bt_dive *dive, bt__state *state, bt_part part, int i);
 uint8_t *bt__dive_off (const bt_dive *dive, bt__state *state, bt_part part, int i);
 
-/* The windings of tether I about each obstacle, by its number, as they were last looked at.  */
+/* The windings of tether I about each obstacle, indexed by obstacle, as of the last look.  */
 int8_t *bt__dive_told (const bt_dive *dive, bt__state *state, int i);
 
-/* Return what surrounds the subject, every mover on its way from COURSE K's motion by its share; or
-   standing where it is.  Good until the next call.  */
+/* Return the surroundings of the subject: kinematic obstacles on their way through the step, each
+   by its share of the motion; or standing at their present places.  Valid until the next call.  */
 bt__surroundings bt__surround (const bt_dive *dive, bt__state *state, bt_part part, int i);
 bt__surroundings bt__standing (const bt_dive *dive, bt__state *state, bt_part part, int i);
 
 /* The same of whatever there is, switched off or not.  */
 bt__surroundings bt__all_standing (const bt_dive *dive, bt__state *state);
 
-/* Return how far it is from P straight down to the bed or to what is above it, m, and in *OBSTACLE,
-   unless it is NULL, what that is.  Where no obstacle is below, BT__NO_OBSTACLE: then it is the
-   height above the depth of the sea, negative below that.  */
+/* Return the distance, m, from P straight down to the first surface, bed or obstacle, and in
+   *OBSTACLE, unless NULL, the number of the obstacle met.  Where no obstacle is below P, *OBSTACLE
+   is BT__NO_OBSTACLE, and the distance is the height above the depth of the sea, negative below.
+ */
 double bt__dive_altitude (const bt_dive *dive, bt__state *state, bt_vec3 p, int *obstacle);
 
 /* Return the greatest altitude that there is under water in STATE, m.  */
@@ -67,8 +68,8 @@ void bt__switch_pair (const bt_dive *dive, bt__state *state, bt_part part, int i
 /* Return the version of the bytes OFF, one for each object: a hash, 0 if all are on.  */
 uint64_t bt__pairs_version (const bt_model *model, const uint8_t *off);
 
-/* Note that the subject meets OBSTACLE in this step; forget what it has not met for a while, with
-   the events `touched' and `left'.  */
+/* Note that the subject meets OBSTACLE in this step, with the event `touched'; forget obstacles not
+   met for a while, with the event `left'.  */
 void bt__note_meeting (bt__state *state, bt__subject *subject, bt_part part, int i, int obstacle);
 void bt__note_partings (bt__state *state, bt__subject *subject, bt_part part, int i);
 

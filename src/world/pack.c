@@ -1,8 +1,8 @@
-/* A saved state without its empty room: runs of zeros are counted, not kept.
+/* Saved states without unused room, by run-length coding of zeros.
 
-   A state has room for all that its tethers may come to; a saved one is zero where that is not in
-   use.  What is packed begins with a mark; then follow, over and over, a count of words of eight
-   bytes that are zero, a count of words that are not, and these.
+   A state has room for the largest meshes of its tethers; in a saved state unused room is zero.
+   The packed form begins with a mark.  Then follow, repeatedly, the number of eight-byte words that
+   are zero, the number of words that are not, and the latter words.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,10 +1,11 @@
-/* The flat state of a dive: all that moves, without a pointer and without padding, so that a copy
-   of its bytes is a checkpoint and a hash of them tells states apart.
+/* The flat state of a dive: everything that moves, without pointers and without padding.  A copy of
+   the bytes is a checkpoint, and a hash of the bytes tells states apart.
 
-   One block: the head, the vehicles, the tethers; in a world with obstacles the movers, the
-   friction of every obstacle and who meets what; then a store for each tether: its node arrays, or
-   its chain and, once it has parted, the chain of the other part, and what it touches; in a world
-   with obstacles then its wear.  Of a store only what is live is copied, hashed or looked at.
+   The state is one block.  First come the head, the vehicles and the tethers; in a world with
+   obstacles then the kinematic obstacles, the friction of every obstacle and the contacts by
+   object.  Behind them each tether has a store: the node arrays of a static shape, or the chain of
+   a moving line, the chain of the other part once the line has parted, the contacts, and in a world
+   with obstacles the wear.  Only the live bytes of a store are copied, hashed or read.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -62,8 +63,8 @@ typedef struct bt__vehicle
   bt__pilot pilot;
 } bt__vehicle;
 
-/* A tether is stuck when its end has moved less than 2 cm/s in BT__STUCK_AFTER steps or more, for
-   all of which it was pulled.  Where the end was is kept every BT__STUCK_EVERY steps.  */
+/* A tether is stuck if it was pulled for BT__STUCK_AFTER steps or more and its end moved at less
+   than 2 cm/s meanwhile.  The place of the end is kept every BT__STUCK_EVERY steps.  */
 enum
 {
   BT__STUCK_AFTER = 300,
@@ -98,11 +99,11 @@ typedef struct bt__tether
   int64_t slack_at; /* DYNAMIC: the step at which it was last slack */
   int64_t hockled;
   int64_t kinked;
-  int64_t pulled;  /* steps for which it has been pulled without a break */
-  int64_t stuck;   /* its end has hardly moved meanwhile */
+  int64_t pulled;                /* steps for which it has been pulled without a break */
+  int64_t stuck;                 /* its end has hardly moved meanwhile */
   bt_vec3 was[BT__STUCK_PLACES]; /* where its end was in those steps, the oldest overwritten */
-  int64_t relaid;  /* it was laid anew, straight */
-  int64_t through; /* in a world without obstacles: it passes through itself */
+  int64_t relaid;                /* it was laid anew, straight */
+  int64_t through;               /* in a world without obstacles: it passes through itself */
   int64_t drape;   /* bt__drape: what its store holds besides, in a world with obstacles */
   int64_t blocked; /* an obstacle holds a static line off its shape */
   double wear;     /* J/m: the most of any spot; 0: its spots are not in use */

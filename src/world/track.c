@@ -1,8 +1,8 @@
 /* Measured tracks that the vehicles of a dive follow.
 
-   They are kept beside the state, which holds the number of one: tracks are large and never change.
-   The same rows are kept once, so that following a track anew, after going back in time, leads to
-   the same state.
+   Tracks are large and never change, so they are kept beside the state, and the state holds the
+   number of a track.  Equal rows are kept once: following a track anew, after going back in time,
+   then leads to the same state.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

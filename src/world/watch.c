@@ -216,7 +216,7 @@ bt__watch_longest (const bt_dive *dive, int i)
   return tether->winch_rate > 0 ? fmax (out, tether->winch_target) : out;
 }
 
-/* Nodes that the string of a tether with N of its own and OUT m of line may need.  */
+/* Bound on the nodes of the taut string of a tether with N intervals and OUT m of line.  */
 static double
 nodes_wanted (double n, double out, double diameter)
 {
@@ -368,8 +368,8 @@ bt__watch_tighten_way (const bt_dive *dive, bt__gaze *g, double *length, bt_erro
   return bt__stopped (bt__asker_of (dive), error);
 }
 
-/* Put the shortest way home that is known without the string into that of G, and its length, m,
-   into LENGTH, which is INFINITY if there is none.  */
+/* Put the shortest way home known without the string into the way of G, and its length, m, into
+ *LENGTH; INFINITY if no such way is known.  */
 static bt_status
 find_way (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error *error)
 {
@@ -379,8 +379,8 @@ find_way (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error *err
   return status == BT_OK && found ? bt__watch_tighten_way (dive, g, length, error) : status;
 }
 
-/* The way, or the string itself where that is shorter or there is no other; no way is looked for
-   where the string is straight.  */
+/* Find the free way: the shorter of the way home and the string.  Where the string is straight, it
+   is the free way, and no other is searched.  */
 bt_status
 bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
 {

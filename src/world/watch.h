@@ -1,8 +1,9 @@
-/* The watch over a dive's tethers: taut strings, free ways and words, made when asked for.
+/* The awareness cache of a dive: taut strings, free ways and words of its tethers, made on demand.
 
-   A watch belongs to a dive and is no part of its state.  It knows of every tether the state it
-   last looked at, by the dive's count of changes; its answers come of that state alone.  Charts are
-   of the world and the switches, immutable once made, and shared by forks.
+   The cache belongs to a dive and is no part of the state.  For each tether it remembers, by the
+   dive's count of changes, for which state the answers were made; the answers depend on the state
+   alone.  A chart depends on the world and the switches, is immutable once made, and is shared by
+   forks.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -18,16 +19,16 @@
 #include "aware/voxel.h"
 #include "world/line.h"
 
-/* The one rule for a tether that is taut among obstacles: its string, of LENGTH, leaves less than
-   BT_TAUT_SLACK of what is OUT.  */
+/* The one rule for a taut tether among obstacles: the slack left by a string of LENGTH m is less
+   than the share BT_TAUT_SLACK of the paid-out length OUT, m.  */
 static inline int
 bt__is_taut (double length, double out)
 {
   return length >= (1 - BT_TAUT_SLACK) * out;
 }
 
-/* What the world is like for a tether.  The tree of free ways is of one anchor and of what its
-   reach comes to; the graph and the words are of one gap.  */
+/* The world as charted for a tether.  A tree of free ways belongs to one anchor and one reach, a
+   graph and its words to one gap.  */
 typedef struct bt__chart
 {
   atomic_int references;
@@ -82,9 +83,10 @@ bt_status bt__watch_look (const bt_dive *dive, int i, bt__gaze **out, bt_error *
 /* The same, with its string solved.  */
 bt_status bt__watch_gaze (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
 
-/* Lay the shortest way home that is known without the string into that of G, a tether looked at:
-   the chord where it is clear, else the tree's way; *FOUND: true if there is one.  Then tighten it,
-   which changes nothing about its class; *LENGTH is its own, m.  */
+/* bt__watch_lay_way puts the shortest way home known without the string into the way of G: the
+   chord where the chord is clear, else the tree's way; *FOUND tells success.
+   bt__watch_tighten_way tightens the way of G within its homotopy class; *LENGTH receives the
+   length, m.  */
 bt_status bt__watch_lay_way (const bt_dive *dive, int i, bt__gaze *g, int *found, bt_error *error);
 bt_status bt__watch_tighten_way (const bt_dive *dive, bt__gaze *g, double *length, bt_error *error);
 
@@ -92,7 +94,7 @@ bt_status bt__watch_tighten_way (const bt_dive *dive, bt__gaze *g, double *lengt
 bt_status bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
 bt_status bt__watch_class (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
 
-/* The most that tether I has out before its winch is told something else, m.  */
+/* The greatest paid-out length, m, of tether I before its winch gets another order.  */
 double bt__watch_longest (const bt_dive *dive, int i);
 
 /* watch_wound.c: have memory for windings about what GAZE's tether is among.  */
@@ -108,19 +110,19 @@ bt__told (int32_t winding)
   return (int8_t)(winding > 127 ? 127 : winding < -127 ? -127 : winding);
 }
 
-/* Set *SAME if the windings are those TOLD, one an obstacle, as far as can be said without a
-   string; its length is LEAST at least, m.  */
+/* Set *SAME if the windings, one per obstacle, are still TOLD, as far as can be decided without a
+   taut string, whose length is at least LEAST m.  */
 bt_status bt__watch_wound_still (const bt_dive *dive, int i, const int8_t *told, double least,
                                  int *same, bt_error *error);
 
 /* Put into BERTH where what is made of the world for tether I begins; for the state to keep.  */
 bt_status bt__watch_berth (const bt_dive *dive, int i, bt_vec3 *berth, bt_error *error);
 
-/* Have the memory for looks at the windings of every tether, so that none is needed while time
-   passes, but where a winch that hauls or an anchor that moves brings a tether to other charts, or
-   the class of one that goes about a mesh is asked for.  Where there is not enough of it the looks
-   tell nothing; BT_ERR_INTERRUPTED alone is a failure.  A fork has none before it is told
-   something: most forks are short.  */
+/* Allocate the memory for looks at the windings of every tether, so that steps need not allocate.
+   Two exceptions remain: a hauling winch or a moving anchor may bring a tether to another chart,
+   and the homotopy class about a mesh has memory of its own.  Without enough memory the looks tell
+   nothing; the only failure is BT_ERR_INTERRUPTED.  A fork, often short-lived, allocates at its
+   first operation.  */
 bt_status bt__watch_prepare (const bt_dive *dive, bt_error *error);
 
 /* A new string with the room of those of the watch; NULL: no memory.  */

@@ -98,8 +98,8 @@ most (bt_vec3 a, bt_vec3 b)
   return bt__vec (fmax (a.x, b.x), fmax (a.y, b.y), fmax (a.z, b.z));
 }
 
-/* The box about the anchor and all that counts within REACH of it, with room to go round; zero if
-   nothing does.  */
+/* The box about ANCHOR and the enabled obstacles within REACH, with room to go round them; returns
+   0 if there are none.  */
 static int
 box_of (const bt__scene *scene, const bt__switches *on, bt_vec3 anchor, double reach, bt_vec3 *lo,
         bt_vec3 *hi)
@@ -153,10 +153,10 @@ berth (const bt_dive *dive, int i, bt_vec3 p, double step)
   return bt__axpy (origin, step, bt__vec (round (d.x), round (d.y), round (d.z)));
 }
 
-/* Where the charts of tether I begin: the anchor, or, since one that rides on waves or on a vehicle
-   hardly ever stays, a place near it that it sees.  The state keeps that place until the anchor has
-   gone astray from it: one that swings about the middle between two places has no use for both.
-   Else it is the roughest place that is seen.  */
+/* The root of the charts of tether I: its anchor, or, for an anchor that rides on waves or on a
+   vehicle, a place in sight of the anchor.  Such a place is the coarsest grid point in sight.  The
+   state keeps the place until the anchor has strayed from it; otherwise an anchor that swings about
+   the middle between two grid points would need the charts of both in turn.  */
 static bt_vec3
 root_of (const bt_dive *dive, int i, const bt__gaze *g)
 {

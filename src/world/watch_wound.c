@@ -1,13 +1,13 @@
 /* What a tether is caught on: the windings of its class about every obstacle.
 
-   The line that goes out along the tether and home along the free way is closed; the loops about
-   members that it cannot be drawn free of (caught.h) are the windings.  A mesh is no member: what
-   is caught on one is told by the word of the class, and how often by the string's turns about the
-   upright through the mesh, where the string is as high as the mesh is.
+   The closed curve out along the tether and home along the free way is drawn tight; the loops about
+   members from which the curve cannot be drawn free (caught.h) are the windings.  A mesh is no
+   member.  The word of the class decides whether the line is caught on a mesh; the number of turns
+   is counted about the vertical through the mesh, over the heights of the mesh.
 
-   A line that can be drawn straight is wound about no member, whatever stands in the way of its
-   chord: it merely passes.  That and one that is drawn free of everything on the tree's way need no
-   taut string to be found free.
+   A line that can be drawn straight is wound about no member, even if members cut its chord: the
+   line merely passes.  Neither such a line nor one drawn free on the tree's way needs a taut
+   string.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -78,8 +78,8 @@ wind_about_members (const bt_dive *dive, bt__gaze *g)
   add_loops (dive, g);
 }
 
-/* True if no member goes through a surface between the tether and its chord: it can be drawn
-   straight as far as members go, and merely passes them.  */
+/* True if no member goes through a surface spanned between the tether and its chord: as far as
+   members go, the line can be drawn straight.  */
 static int
 merely_passes (bt__gaze *g)
 {
@@ -87,8 +87,8 @@ merely_passes (bt__gaze *g)
   return !bt__caught_crossings (&g->frame->graph, g->node, g->n, chord, 2, g->loops.loops);
 }
 
-/* Find the loops about members of the tether itself and a way home that needs no string, as it is
-   found; *KNOWN is false if there is none.  */
+/* Find the loops about members of the curve made of the tether and a way home found without a
+   string; *KNOWN is false if no such way is known.  */
 static bt_status
 quick_loops (const bt_dive *dive, int i, bt__gaze *g, int *known, bt_error *error)
 {
@@ -117,8 +117,8 @@ look_for_loops (const bt_dive *dive, int i, bt__gaze *g, int *loose, bt_error *e
 
 /* ---- Meshes ---- */
 
-/* The heights between which a line is beside the obstacle at PLACE, without end where it goes into
-   the ground or out of the water.  */
+/* The heights between which a line is beside the obstacle at PLACE; infinite where the obstacle
+   goes into the ground or out of the water.  */
 static void
 heights_of (const bt_dive *dive, uint32_t place, double *low, double *high)
 {
@@ -146,7 +146,7 @@ clip (bt_vec3 a, bt_vec3 b, double low, double high, bt_vec3 out[2])
   return 1;
 }
 
-/* How often the string P of N points, where it is between LOW and HIGH, goes about AXIS, every part
+/* The turns about AXIS of the parts between LOW and HIGH of the string P of N points, each part
    closed by its chord.  WORK has room for 2 N points.  */
 static int
 wind_between (const bt__axis *axis, const bt_vec3 *p, uint32_t n, double low, double high,
@@ -180,7 +180,8 @@ goes_about (const bt_dive *dive, const bt__gaze *g, uint32_t place)
          && bt__winding (&axis, g->node, g->n) != 0;
 }
 
-/* The mesh at PLACE, if G's string is held by it and its class is not the free way's.  */
+/* Count the winding about the mesh at PLACE, if the mesh holds the string of G and the class is not
+   the free way's.  */
 static bt_status
 wind_about_mesh (const bt_dive *dive, int i, bt__gaze *g, uint32_t place, bt_error *error)
 {
