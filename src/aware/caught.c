@@ -1,10 +1,11 @@
-/* The sum with the fewest loops: a loop about every edge that goes through a surface, slid over
-   vertices while that leaves less.
+/* The sum with the fewest loops, by steepest descent on an L-natural-convex function.
 
-   Each inner vertex has a number, how many loops slide over it; vertices at the boundary have 0.
-   What is left about an edge is |loops + number at its first - number at its second|, and the cost,
-   a weighted sum of these, is least where no set of vertices gains by one more or one less (Murota
-   2003; Kolmogorov and Shioura 2009).  The best set is a least cut, found by augmenting paths.
+   At first there is a loop about every edge through the surface.  Each inner vertex then gets an
+   integer, the number of loops slid over the vertex; vertices at the boundary have 0.  The loops
+   left about an edge number |loops + integer at the first vertex - integer at the second|.  The
+   cost is a weighted sum over the edges.  The cost is least where no set of vertices gains by
+   raising or lowering its integers by one (Murota 2003; Kolmogorov and Shioura 2009).  The best set
+   is a least cut, found by augmenting paths.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -56,8 +57,9 @@ set_costs (job *k, const uint8_t *favoured)
 
 /* ---- The best set of vertices ---- */
 
-/* The gain of each vertex if it goes WAY, 1 or -1, and its neighbours do not, from the edges that
-   have loops; an edge without is a cost either way and stays for the cut.  */
+/* The gain of each vertex if its integer changes by WAY, 1 or -1, and its neighbours' stay: summed
+   over the edges with loops.  An edge without loops costs for either sign and is left to the cut.
+ */
 static void
 set_gains (job *k, int way)
 {

@@ -1,12 +1,13 @@
-/* How often a closed line goes about the members of a graph (graph.h), when it is drawn free of all
-   that it can be drawn free of.
+/* The turns of a closed line about the members of a graph (graph.h), after the line was drawn free
+   of every member as far as possible.
 
-   The class of a closed line in the first homology of the water is a sum of loops about edges, one
-   about each edge that goes through a surface which the line bounds.  Such a sum is not unique: a
-   loop slides over a vertex from one edge to all the others that meet there, and off an edge that
-   ends in the water.  The sum with the fewest loops is taken: zero exactly where the class is zero,
-   1 at the leg of a frame that the line goes round and 0 at its braces.  Among sums with as few the
-   edges that are favoured, those that hold the line, are taken first.
+   The class of a closed line in the first homology of the water is a sum of loops about edges: one
+   loop about each edge through a surface bounded by the line.  The sum is not unique, because a
+   loop slides over a vertex from one edge to all the other edges of the vertex, and off an edge
+   with an end in the water.  bt__caught_find takes the sum with the fewest loops.  The fewest loops
+   are none exactly if the class is zero; a line round the leg of a frame has 1 about the leg and 0
+   about the braces.  Among sums with equally few loops, favoured edges, at which the line is held,
+   come first.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -15,8 +16,8 @@
 
 #include "aware/graph.h"
 
-/* The loops about each edge of a graph, right-handed about it from its first vertex to its second
-   positive; and the memory to find them in.  */
+/* The loops about each edge of a graph, positive if right-handed about the direction from the first
+   vertex to the second; with the working memory.  */
 typedef struct bt__caught
 {
   const bt__graph *graph;
@@ -36,8 +37,9 @@ typedef struct bt__caught
 /* Make *OUT (any bytes) for GRAPH, which must stay.  BT_ERR_LIMIT.  */
 bt_status bt__caught_new (const bt__graph *graph, bt__caught *out, bt_error *error);
 
-/* Find the loops of the line that goes along P, of N points, and back along Q, of M, which has the
-   same ends.  True in FAVOURED (a byte an edge, NULL: none): prefer this edge.  No allocation.  */
+/* Find the loops of the closed line along P, of N points, and back along Q, of M points; P and Q
+   share both ends.  FAVOURED has a byte for each edge, true to prefer the edge; NULL: none.  No
+   allocation.  */
 void bt__caught_find (bt__caught *caught, const bt_vec3 *p, uint32_t n, const bt_vec3 *q,
                       uint32_t m, const uint8_t *favoured);
 

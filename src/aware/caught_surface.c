@@ -1,9 +1,9 @@
 /* A surface between two lines with the same ends, and the edges of a graph that go through it.
 
-   The surface is a strip of triangles; its rungs lead from one line to the other.  Blocks of
-   triangles have boxes, so that an edge far away costs one comparison.  A side of a triangle that
-   two triangles share is tested by one expression, so that an edge goes through exactly one of
-   them, however it lies.
+   The surface is a strip of triangles with rungs from one line to the other.  Blocks of triangles
+   have boxes, so that a distant edge costs one comparison.  The common side of two triangles is
+   tested by one and the same expression, so that an edge near the side goes through exactly one of
+   the two triangles, whatever the rounding.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -147,8 +147,8 @@ passes_rung (bt_vec3 x, bt_vec3 y, bt_vec3 p, bt_vec3 q)
   return sign_of (volume_of_tetrahedron (x, y, p, q));
 }
 
-/* 1 or -1 if the edge X to Y goes through the triangle of S at AT, along its normal or against it;
-   else 0.  */
+/* 1 or -1 if the edge X to Y goes through the triangle of S at AT, along or against the normal of
+   the triangle; else 0.  */
 static int
 through (const strip *s, const place *at, bt_vec3 x, bt_vec3 y)
 {

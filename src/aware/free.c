@@ -1,6 +1,6 @@
-/* Lazy Theta*: a cell first takes the parent of the cell it is reached from, untested; when its
-   turn comes the sight between them is tested once, and if it is blocked the best neighbour in
-   sight becomes its parent.
+/* Lazy Theta* (Nash, Koenig and Tovey 2010).  A cell first inherits the parent of the cell from
+   which it was reached, untested.  When the cell is expanded, the line of sight to the parent is
+   tested once; if the sight is blocked, the best neighbour in sight becomes the parent.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -122,7 +122,7 @@ pop (bt__free *t)
 
 /* ---- Growing ---- */
 
-/* Reach the N cells NEAR that are not closed by way of PARENT, those for which that is shorter.  */
+/* Give PARENT to each of the N open cells NEAR for which the way by PARENT is shorter.  */
 static void
 offer (bt__free *t, const uint32_t *near, uint32_t n, uint32_t parent)
 {
@@ -282,7 +282,7 @@ add_candidate (const bt__free *t, candidates *c, uint32_t cell, bt_vec3 p)
   c->g[c->n++] = base + bt__distance (point_of (t, cell), p);
 }
 
-/* Return the candidate through which the way is shortest of those P sees, NOWHERE if it sees none.
+/* Return the candidate in sight of P with the shortest way through it; NOWHERE if none is in sight.
  */
 static uint32_t
 best_in_sight (const bt__free *t, candidates *c, bt_vec3 p, double clear, bt__count *count)

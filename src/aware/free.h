@@ -21,8 +21,8 @@ enum
   BT__FREE_WAY_MAX = 256 /* points of a way */
 };
 
-/* The grid: of cells of size CELL in the box from LO to HI; ways keep CLEAR off, a little more than
-   the core of the string that tightens them.  */
+/* The grid has cells of size CELL in the box from LO to HI.  Ways keep the distance CLEAR from
+   obstacles, a little more than the core radius of the string laid along a way.  */
 typedef struct bt__free_config
 {
   const bt__scene *scene;
@@ -44,13 +44,13 @@ int bt__free_grow (bt__free *tree, bt_vec3 anchor, bt__asker *asker, bt__count *
 /* True if the straight way from A to B is as free as the tree's ways.  */
 int bt__free_sees (const bt__free_config *config, bt_vec3 a, bt_vec3 b, bt__count *count);
 
-/* Lay STRING along the way to P and tighten it by up to STEPS; return its length in m, with arcs
-   for corners at round members, INFINITY if there is no way.  */
+/* Lay STRING along the way to P and tighten it by up to STEPS.  Return the length of STRING, m,
+   with arcs for corners at round members; INFINITY if there is no way.  */
 double bt__free_length (const bt__free *tree, bt__taut *taut, const bt__taut_config *config,
                         bt_vec3 p, uint32_t steps, bt__string *string, bt__count *count);
 
-/* The same from FROM, which sees the tree's anchor: of two ways nearly as long it may take that
-   which is the shorter from there.  */
+/* The same from FROM, a place in sight of the tree's anchor: of two ways nearly as long, the one
+   shorter from FROM may be taken.  */
 double bt__free_length_from (const bt__free *tree, bt__taut *taut, const bt__taut_config *config,
                              bt_vec3 from, bt_vec3 p, uint32_t steps, bt__string *string,
                              bt__count *count);

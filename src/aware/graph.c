@@ -1,10 +1,10 @@
 /* From obstacles to a graph.
 
-   Every member is sampled for where it is in the ground, every pair of members for where they meet.
-   Both give points on a member; points that are the same joint are united, whatever lies between
-   two neighbouring ones in the water is an edge.  From where one enters the ground an edge goes on
-   straight down, past everything; from where one leaves the water, up: so that a shadow cast to the
-   side ends at no bed, sloping or not.
+   Every member is sampled for its stretches in the ground, every pair of members for the places
+   where the two meet.  Samples and meetings give points on a member.  Points of one joint are
+   united; a stretch of member in the water between neighbouring points is an edge.  Where a member
+   enters the ground, an edge leads on straight down past everything, and where a member leaves the
+   water, straight up, so that no horizontal shadow ends at a bed, sloping or not.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -122,8 +122,8 @@ shore (bt__graph_job *k, const bt__capsule *m, double a, double b, uint8_t at_a)
   return 0.5 * (a + b);
 }
 
-/* A point of member I at its shore, share S, moved WAY (1 or -1) along it well into what is not
-   water.  */
+/* Add a point of member I at its shore, share S of the member's length, moved along the member by
+   WAY (1 or -1) well out of the water.  */
 static void
 add_shore (bt__graph_job *k, uint32_t i, const bt__capsule *m, double s, int way, uint8_t what)
 {
@@ -134,7 +134,7 @@ add_shore (bt__graph_job *k, uint32_t i, const bt__capsule *m, double s, int way
   k->p[at].dry = way > 0;
 }
 
-/* The ends of member I and where it goes into the ground and out of it.  */
+/* Add the ends of member I and its crossings of ground and surface.  */
 static void
 add_member (bt__graph_job *k, uint32_t i)
 {
@@ -336,7 +336,7 @@ find_meetings (bt__graph_job *k)
         meet (k, i, j);
 }
 
-/* Say what is ground and what is a mesh, and put a box about everything.  */
+/* Sort the objects of the scene into ground, meshes and members, and find the box about all.  */
 static void
 sort_out (bt__graph_job *k)
 {

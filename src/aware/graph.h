@@ -17,8 +17,8 @@
 
 typedef struct bt__graph
 {
-  uint32_t vertices, edges, own; /* the first OWN edges are of members, the others lead away from
-                                    where those end */
+  uint32_t vertices, edges, own; /* the first OWN edges belong to members, the others lead away from
+                                    the members' ends */
   bt_vec3 *v;
   double *radius;    /* m: of the thinnest member at the vertex */
   uint8_t *boundary; /* in the ground, out of the water, or at a mesh */
@@ -43,8 +43,8 @@ bt_status bt__graph_new (const bt__graph_config *config, bt__graph *graph, bt_er
 
 void bt__graph_free (bt__graph *graph);
 
-/* What the group of a graph in the water must have: edges less inner vertices and one more for
-   every part that touches no boundary.  */
+/* Return the rank that the fundamental group of the water about GRAPH must have: the edges, less
+   the inner vertices, plus one for every component that touches no boundary.  */
 uint32_t bt__graph_rank (const bt__graph *graph);
 
 #endif

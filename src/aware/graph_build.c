@@ -1,4 +1,4 @@
-/* From points on members to a graph, and what its group's rank must be.
+/* From points on members to a graph, and the rank of its group.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -19,7 +19,8 @@ by_member_and_s (const void *a, const void *b)
   return *x < *y ? -1 : *x > *y;
 }
 
-/* Give meetings the medium of their stretch, and unite points of a member that are one joint.  */
+/* Give each meeting the medium of its stretch, and unite the points of a member that form one
+   joint.  */
 static void
 settle (bt__graph_job *k, bt__point **at, uint32_t n)
 {

@@ -1,11 +1,11 @@
 /* Can the vehicle be hauled home, and which way does it get free by itself?
 
-   The instant rule looks at the taut string alone.  Capstan friction seldom holds a tether; what
-   stops a haul is mostly the dead vehicle's body: hung on a thin member or an edge that the string
-   bends round, or drawn into the corner between two things that the string passes.  The rule cannot
-   see slack, current or a body that rolls off sideways.  A body's weight or buoyancy adds to the
-   pull it takes, past what it hangs on too; that it may sink to the bed and drag is not looked at.
-   A haul on a fork of the dive is the judge, this the answer at once.
+   The instant rule looks at the taut string alone.  Capstan friction seldom holds a tether.  Mostly
+   the body of the dead vehicle stops a haul: hung on a thin member or an edge round which the
+   string bends, or drawn into the corner between two obstacles beside the string.  The weight or
+   buoyancy of the body adds to the pull, also beyond a member on which the body hangs.  The rule
+   ignores slack, current, a body that rolls off sideways, and a body dragged over the bed.  A haul
+   on a fork of the dive is the judge; the rule gives an answer at once.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -57,8 +57,8 @@ typedef struct bt__prospect
 /* Judge by the HOLDS of the string, its start at the winch.  */
 bt__prospect bt__haul_prospect (const bt__holds *holds, const bt__haul_body *body);
 
-/* A way for a body: a string, how near it comes to anything and to what, its two ends left out,
-   where the body stands or is to come.  */
+/* A way for a body: the length of a string, its least clearance, and the nearest object.  The two
+   ends, the body's place and goal, are left out of the clearance.  */
 typedef struct bt__route
 {
   double length, clearance; /* m */
@@ -66,17 +66,17 @@ typedef struct bt__route
   double s;                 /* m along the way, of the link that is nearest */
 } bt__route;
 
-/* Put into HOME the way back along STRING, from its end to its start, pushed out to WANT (m) from
-   obstacles where there is room.  HOME has at least the room of STRING.  */
+/* Put into HOME the way back along STRING, from end to start, pushed out to the distance WANT, m,
+   from obstacles where there is room.  HOME has at least the room of STRING.  */
 bt__route bt__way_home (bt__taut *taut, const bt__taut_config *config, const bt__string *string,
                         double want, bt__string *home, bt__count *count);
 
 /* If PROSPECT is not bad already and the way home is narrower than the body, make it wedged.  */
 void bt__haul_wedge (const bt__route *home, const bt__haul_body *body, bt__prospect *prospect);
 
-/* If PROSPECT is not bad already and STRING passes within the radius of the body two surfaces whose
-   outward normals are 60 degrees or more apart, it is drawn in between them and wedged.  Not where
-   the string begins: there it is home.  */
+/* Find crotches, unless PROSPECT is bad already.  A body is drawn in and wedged between two
+   surfaces if STRING passes both within the body's radius and their outward normals are 60 degrees
+   or more apart.  The start of STRING is left out: there the body is home.  */
 void bt__haul_crotch (const bt__taut_config *config, const bt__string *string,
                       const bt__haul_body *body, bt__prospect *prospect, bt__count *count);
 

@@ -1,4 +1,5 @@
-/* Holds: a node's turning goes to what is nearest to the halves of its two links.
+/* Holds: the bending angle at a node is credited to the object nearest to the adjacent halves of
+   the node's two links.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -13,7 +14,8 @@ angle_between (bt_vec3 a, bt_vec3 b)
   return atan2 (bt__norm (bt__cross (a, b)), bt__dot (a, b));
 }
 
-/* Nonzero and *OUT, what is nearest to the halves of the links that meet at node P[1].  */
+/* True, with *OUT, if an object is within REACH of the halves next to node P[1] of its two links;
+ *OUT is the nearest.  */
 static int
 nearest_to_corner (const bt__scene *s, const bt__switches *on, const bt_vec3 *p, double reach,
                    bt__near *out, bt__count *count)
@@ -130,8 +132,8 @@ next_tangent (const bt__holds *list, const bt__corner *h, uint32_t k, int way)
   return tangent_of (&list->at[k]);
 }
 
-/* True if the tangents of corner I and its neighbours have room on its links; on a link that
-   leads away a corner may take all of it.  */
+/* True if the tangent lengths of corner I and of its neighbours fit on the links between them; an
+   outer link belongs to its corner alone.  */
 static int
 is_resolved (const bt__holds *list, const bt_vec3 *p, uint32_t i)
 {

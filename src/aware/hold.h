@@ -29,8 +29,9 @@ typedef struct bt__holds
   uint32_t dropped; /* that found no room */
 } bt__holds;
 
-/* Fill LIST with the nodes of the polyline P of N points that turn by more than 1e-4 within REACH
-   of an obstacle, in their order; each goes to the nearest.  CORE, m: the clearance of the line. */
+/* Fill LIST, in order, with the nodes of the polyline P of N points that turn by more than 1e-4
+   within REACH, m, of an obstacle, each with the nearest obstacle.  CORE, m, is the clearance of
+   the line.  */
 void bt__holds_find (const bt__scene *scene, const bt__switches *on, const bt_vec3 *p, uint32_t n,
                      double core, double reach, bt__holds *list, bt__count *count);
 

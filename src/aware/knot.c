@@ -1,10 +1,10 @@
 /* Knots by the Alexander polynomial.
 
-   The closed polygon is made simpler first: a node whose triangle no other link goes through is
-   dropped (Koniaris and Muthukumar 1991).  Then the crossings of one projection: each says, of the
-   arcs of the diagram, out = t in + (1 - t) over, or with in and out exchanged if it is
-   left-handed. A minor of that system is the polynomial but for a sign and a power of t; the power
-   goes by multiplying with the value at 1 / t.
+   The closed polygon is simplified first: a node is dropped if no other link goes through the
+   triangle of the node and its neighbours (Koniaris and Muthukumar 1991).  Then the crossings of
+   one projection give linear equations in the arcs of the diagram: out = t in + (1 - t) over, with
+   in and out exchanged at a left-handed crossing.  A minor of the system is the polynomial, up to
+   sign and a power of t; multiplying by the value at 1 / t removes the power.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -18,7 +18,7 @@
 
 #define PRIME ((UINT64_C (1) << 61) - 1)
 
-/* Where a link goes under another, as a place along the curve, and where the other is then.  */
+/* An undercrossing: the places along the curve of the lower and the upper strand.  */
 typedef struct under
 {
   double at, over; /* number of the link plus the share of it */

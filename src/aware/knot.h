@@ -1,10 +1,10 @@
 /* Is an open line knotted?
 
-   Its ends are led away to a far point on either side and closed there; what is asked of the closed
-   curve is its Alexander polynomial, exactly, at three integers and modulo a large prime.  Knots
-   whose polynomial is 1 (the smallest have 11 crossings) are not told; a line without a knot is
-   never said to have one.  When an end lies deep among the loops, which knot it is said to be can
-   depend on where the end is led: open lines have knots only in this sense.
+   The ends are led to a far point on either side and closed there.  The closed curve is judged by
+   its Alexander polynomial, evaluated exactly at three integers modulo a large prime.  Knots with
+   polynomial 1 (the smallest have 11 crossings) are missed; an unknotted curve is never called
+   knotted.  If an end lies deep among the loops, the knot found can depend on the way along which
+   the end is led out: knots of open lines are defined only up to the closure.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,15 +1,18 @@
 /* Words of lines among members, rings and piles.
 
-   Every edge of the graph of what can hold a line (graph.h) casts a shadow: a strip without end in
-   one horizontal direction.  What is left of the water can be drawn together to a point along that
-   direction, so a line's class is told by the strips it crosses, in order and with sign.  An edge
-   that runs through another's shadow changes its letter there; the relations are those of
-   Wirtinger, one for every such crossing and one for every inner vertex.  They are simplified at
-   load; the direction that leaves the simplest is kept.
+   Method: the Wirtinger presentation of the fundamental group of the complement of a graph.  Every
+   edge of the graph of members (graph.h) casts a shadow, an endless strip in one horizontal
+   direction.  Cut along all shadows, the water contracts to a point along the direction.  So the
+   homotopy class of a line is given by the sequence of shadows crossed, with signs: a word, in
+   which every strip is a letter.  Where an edge runs through the shadow of another edge, the letter
+   of the edge changes.  Each such crossing gives a relation between letters, and each inner vertex
+   another one: the product of the letters round the vertex is 1.  The relations are simplified
+   when the world is loaded (tietze.h), in several directions; the direction with the simplest
+   result is kept.
 
-   The graph must be in general position: vertices are moved by JITTER of the thinnest member's
-   radius at them, at most 3 cm.  Lines must stay out of the members.  Obstacles that move are left
-   out.
+   The graph must be in general position, so every vertex is moved by the share JITTER of the radius
+   of its thinnest member, at most 3 cm.  Lines must stay outside the members.  Moving obstacles are
+   left out.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -48,7 +51,7 @@ void bt__shadow_report_of (const bt__shadow *shadow, bt__shadow_report *out);
 /* Put the word of the polyline P of N points into *WORD.  No allocation.  */
 void bt__shadow_word (const bt__shadow *shadow, const bt_vec3 *p, uint32_t n, bt__word *word);
 
-/* Return the object, its place in the scene, that GENERATOR (from 1, of either sign) goes round. */
+/* Return the object, by its index in the scene, encircled by GENERATOR (from 1, of either sign). */
 uint32_t bt__shadow_object (const bt__shadow *shadow, int32_t generator);
 
 #endif

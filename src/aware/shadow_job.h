@@ -75,8 +75,8 @@ bt__side_of (bt__flat a, bt__flat b, bt__flat c)
   return (b.u - a.u) * (c.z - a.z) - (b.z - a.z) * (c.u - a.u);
 }
 
-/* True if A to B and C to D cross, and then the shares S and T.  A point on a line counts as on
-   its left, the same for all that share it.  */
+/* True if the segments A to B and C to D cross; then S and T are the shares of the crossing.  A
+   point on a line counts as on the left, consistently for all segments through the point.  */
 static inline int
 bt__do_cross (bt__flat a, bt__flat b, bt__flat c, bt__flat d, double *s, double *t)
 {

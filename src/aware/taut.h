@@ -1,15 +1,18 @@
 /* The taut string: the local shortest line that the tether's shape shrinks to, through nothing.
 
-   Kept as a polyline of its own from start to end; its interior never hears of the tether again, so
-   a frame costs a step or two.  A step gives every link and every convex part near it (a solid, a
-   triangle) a plane between them that both ends of the link must respect.  Old and new link are
-   then on one side of it, so the move between them cannot cross: the homotopy class is kept
-   exactly, whatever the step, and nodes slide along the planes freely.  Within the planes the sum
-   of squared link lengths is minimised, weighted by one over the length of before: the length.
+   The string is a polyline of its own from the start to the end of the tether.  Only the two ends
+   follow the tether, so that a frame costs a step or two.
 
-   Several such local minima may share a class; this is the one monotone shrinking reaches.  The
-   string ignores itself, and obstacles that move.  Slow creeping over smooth bodies (a ball) is
-   spread over the frames.
+   A step puts a plane between every link and every convex part (a solid, a triangle) near the link,
+   and both ends of the link must stay on their side of the plane.  The old and the new link, and so
+   the whole move, are then on one side of the part: the string crosses nothing, the homotopy class
+   is kept exactly, whatever the step, and nodes slide freely along the planes.  Within the planes
+   the step minimises the sum of squared link lengths, each weighted by the reciprocal of its old
+   length; at the fixed point the sum is the length.
+
+   A class may have several local minima; monotone shrinking reaches one of them.  The string
+   ignores itself and moving obstacles.  Slow creeping over smooth bodies (a ball) is spread over
+   the frames.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -55,8 +58,8 @@ void bt__taut_free (bt__taut *taut); /* NULL is nothing */
 /* Let the steps of strings ask ASKER, which must stay, whether to go on.  */
 void bt__taut_ask (bt__taut *taut, bt__asker *asker);
 
-/* Lay STRING (its room is set) along the polyline P of N points, as it is.  Return 0 if it has no
-   room for it.  */
+/* Lay STRING, whose room is set, along the polyline P of N points.  Return 0 if the room is too
+   small.  */
 int bt__string_lay (bt__string *string, const bt_vec3 *p, uint32_t n);
 
 /* What it is among has changed: a settled string is to be looked at again.  */
@@ -75,10 +78,10 @@ uint32_t bt__taut_relax (bt__taut *taut, const bt__taut_config *config, bt__stri
 int bt__taut_step (bt__taut *taut, const bt__taut_config *config, bt__string *string, bt_vec3 start,
                    bt_vec3 end, uint32_t steps, bt__count *count);
 
-/* Lay FRESH along the tether P of N points and relax it by up to STEPS; where that is shorter than
-   STRING by more than SLIP of it, or STRING is empty, copy it there.  Return true if a string
-   was there and has slipped.  FRESH must have the room of STRING; where P does not fit into it
-   nothing happens.  */
+/* Lay FRESH along the tether P of N points and relax FRESH by up to STEPS.  If STRING is empty, or
+   longer than FRESH by more than the share SLIP, copy FRESH to STRING.  Return true if STRING was
+   not empty and has slipped.  FRESH must have the room of STRING; if P has too many points, nothing
+   happens.  */
 int bt__taut_reseed (bt__taut *taut, const bt__taut_config *config, bt__string *string,
                      bt__string *fresh, const bt_vec3 *p, uint32_t n, uint32_t steps, double slip,
                      bt__count *count);

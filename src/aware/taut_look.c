@@ -1,8 +1,9 @@
 /* Before a step: the mesh, and the planes between links and what is near.
 
-   Near obstacles links are of about the mesh size, elsewhere as long as they can be.  A node is
-   dropped where the triangle it cuts off is clear: far from everything because both links are
-   farther than it is high, near something by asking for the new link.
+   Near obstacles links are of about the mesh size, elsewhere as long as possible.  A node is
+   dropped if the triangle of the node and its neighbours is clear.  Far from obstacles the distance
+   of both links, compared with the height of the triangle, decides; near an obstacle the new link
+   is tested.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -10,7 +11,7 @@
 
 #include "aware/taut_job.h"
 
-/* Sides are laid this much outside the core, so that rounding does not eat into it.  */
+/* Planes lie farther out than the core by this much, m, so that rounding never enters the core.  */
 #define SPARE 1e-6
 
 enum
@@ -73,7 +74,7 @@ side_of (const bt__taut_config *c, const bt__witness *w, bt_vec3 a, bt_vec3 b)
   return (bt__side){ w->normal, fmin (at + c->core + SPARE, own), at + c->want + SPARE };
 }
 
-/* Add the side at the end of the list unless there is one of that normal in link I's.  */
+/* Add the side at the end of the list, unless link I has a side with the same normal.  */
 static void
 add_side (bt__taut *t, uint32_t i, const bt__side *side)
 {
@@ -131,7 +132,7 @@ look_about (bt__taut *t, const bt__taut_config *c, const bt__string *s, uint32_t
   bt__scene_near (c->scene, c->on, &link, i, c->margin, list, count);
 }
 
-/* Join link I - 1 and link I, both far from everything, if what they cut off is clear too.  */
+/* Join the links I - 1 and I, both far from everything, if their triangle is clear too.  */
 static int
 join_far (bt__taut *t, const bt__taut_config *c, bt__string *s, uint32_t i)
 {

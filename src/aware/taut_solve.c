@@ -1,9 +1,10 @@
 /* The step within the planes: a quadratic programme, block-tridiagonal.
 
-   Minimise half the sum of w_i |x_i+1 - x_i|^2 + prox |x - x_old|^2 + stiff (soft - n . x)^2, the
-   last over the sides that are not respected: which these are is settled by repetition, each time
-   eliminating anew from the first node where they changed.  Then what stiffness left is projected
-   away, and what the projection left is scaled back towards the old place, which obeys.
+   Minimise half the sum of w_i |x_i+1 - x_i|^2 + prox |x - x_old|^2 + stiff (soft - n . x)^2, with
+   the last term over the violated sides: a penalty method with an active set.  Each iteration
+   eliminates anew from the first node whose active sides changed.  Afterwards a projection removes
+   the violation left by the finite stiffness, and a step length towards the old place, which obeys
+   all sides, removes the violation left by the projection.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -59,7 +60,7 @@ add_outer (bt__block *m, double k, bt_vec3 n)
 
 /* ---- Sides of a node ---- */
 
-/* Node J has the sides of the link before it, where it is B, and of the one after, where it is A.
+/* Node J obeys the sides of the link before the node, as end B, and of the link after, as end A.
  */
 static inline uint8_t
 place_of (const bt__taut *t, uint32_t j, uint32_t k)
@@ -187,7 +188,7 @@ project (const bt__taut *t, uint32_t j, bt_vec3 x)
   return x;
 }
 
-/* The share of the way from X, which obeys, to X + D that obeys too.  */
+/* The greatest share of D by which X, a point that obeys all sides, may move and still obey.  */
 static double
 share_that_obeys (const bt__taut *t, uint32_t j, bt_vec3 x, bt_vec3 d)
 {

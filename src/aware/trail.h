@@ -1,8 +1,8 @@
 /* A slack line that trails behind its end, without forces: for a look at what it will touch.
 
-   A neutral line in still water stays where it is until it is pulled, and then each point follows
-   the next one along their link: a chain of tractrices.  It is pushed out of what it meets and
-   slides there.  No weight, no current, no friction; the string says when it is taut.
+   A neutral line in still water stays in place until pulled; then each point follows the next point
+   along their link: a chain of tractrices.  A link that meets an obstacle is pushed out and slides.
+   The model has no weight, current or friction; the taut string tells the end of slack.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -26,8 +26,8 @@ void bt__trail_lay (bt__trail *trail, const bt_vec3 *p, uint32_t n);
    from it on did.  */
 uint32_t bt__trail_lead (bt__trail *trail, bt_vec3 end);
 
-/* Push link K out of what is within RADIUS of it, and return nonzero and *NEAR, that, if there is
-   something.  */
+/* Push link K to the distance RADIUS, m, from the nearest object, and return true, with the object
+   in *NEAR, if an object was nearer.  */
 int bt__trail_meet (bt__trail *trail, uint32_t k, const bt__scene *scene, const bt__switches *on,
                     double radius, bt__near *near, bt__count *count);
 

@@ -1,7 +1,7 @@
-/* How a line goes about an axis or about another line.
+/* Turns of a line about an axis, and linking of two lines.
 
-   Geometry alone: the line is a polyline, an axis has no ends, nothing is said about what holds.
-   Clockwise looking along the axis is positive, so a pile's axis must point down.
+   Pure geometry: the line is a polyline, an axis has no ends, and turns need not hold.  Clockwise
+   in the view along the axis is positive, so the axis of a pile must point down.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -23,9 +23,9 @@ int bt__axis_of (const bt__obstacle *obstacle, bt__axis *out);
    continuous in P while no link meets the axis.  A link through the axis counts nothing.  */
 double bt__turns (const bt__axis *axis, const bt_vec3 *p, uint32_t n);
 
-/* Return how often the polyline, closed by a straight chord, goes about AXIS.  The chord sweeps
-   less than half a turn, so this is the whole number next to the turns; half a turn, where the
-   chord meets the axis, goes to the smaller.  */
+/* Return the winding number about AXIS of the polyline closed by its straight chord.  The chord
+   sweeps less than half a turn, so the winding number is the turns rounded to an integer; half a
+   turn, if the chord meets the axis, is rounded towards zero.  */
 int bt__winding (const bt__axis *axis, const bt_vec3 *p, uint32_t n);
 
 /* Return the linking number of the closed polylines P of N and Q of M points (the last is joined to

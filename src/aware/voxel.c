@@ -98,7 +98,8 @@ measure (bt__voxels *v, bt__count *count)
     }
 }
 
-/* Every point of a step is within half a cell of one of its middles.  */
+/* True if the step between the cells A and B is clear.  Every point of a step is within half a cell
+   of the middle of A or of B.  */
 static int
 step_is_clear (const bt__voxels *v, uint32_t a, uint32_t b, bt__count *count)
 {

@@ -1,15 +1,18 @@
 /* Words of lines among anything, meshes too: labels on the faces of voxels.
 
-   The cells whose middles are clear, the steps between neighbours that are, and the squares of four
-   steps that nothing goes through make a complex whose group stands for the water's.  A tree of
-   steps is labelled with nothing; a square with one step unlabelled says what it is; where no
-   square does, the step is a generator.  Squares that say something else again are relations,
-   simplified as in tietze.h.
+   Method: the edge-path group of a cell complex.  The complex has a vertex for each cell with a
+   clear middle, an edge for each clear step between neighbouring cells, and a face for each square
+   of four steps through which no obstacle goes.  The fundamental group of the complex stands for
+   the group of the water.  The steps of a spanning tree get the empty word as a label.  A square
+   with one unlabelled step determines the label of the step; a step determined by no square is a
+   new generator.  A square whose labels do not cancel is a relation; relations are simplified as in
+   tietze.h.
 
-   A line is followed by cells it can be joined to by a straight line, every triangle between line
-   and cells tested, so its word is that of the line itself; a line that squeezes where no cell can
-   follow is lost.  Gaps narrower than a cell may be closed: equal words always mean deformable,
-   unequal ones in this complex only.  Obstacles that move are left out.
+   A line is followed by cells in sight of the line, and every triangle between line and cells is
+   tested, so the word of the cells is the word of the line.  A line in a gap too narrow for cells
+   is lost.  Gaps narrower than a cell may be closed: equal words always mean that the lines can be
+   deformed into each other; unequal words mean the contrary in the complex only.  Moving obstacles
+   are left out.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,8 +1,10 @@
-/* A homotopy class as a value: a reduced word in the generators of what is round the obstacles.
+/* A homotopy class as a value: a reduced word in the generators of the fundamental group of the
+   water about the obstacles.
 
-   Two lines with the same ends among the same obstacles whose words are equal can be moved into
-   each other.  If the words are decided, unequal ones cannot: then the group was shown to be free.
-   Words of different worlds, of different tables of one world too, are never equal.
+   Two lines with the same ends among the same obstacles can be moved into each other if their words
+   are equal.  If the words are `decided', lines with unequal words cannot be moved into each other;
+   words are decided if the group was shown to be free.  Words of different worlds, or of different
+   tables of one world, are never equal.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -22,7 +24,7 @@ typedef struct bt__word
   uint64_t world;   /* whose generators */
   uint32_t n;       /* letters */
   uint16_t decided; /* true: unequal words are unequal classes */
-  uint16_t lost;    /* true: longer than there is room for, or the line is where it cannot be */
+  uint16_t lost;    /* true: the word exceeds the room, or the line is inside an obstacle */
   int32_t letter[BT__WORD_MAX]; /* generator g is g, its inverse -g; from 1 */
 } bt__word;
 

@@ -17,7 +17,7 @@ bt__to_handle (SCM object)
   return (bt__handle *)SCM_SMOB_DATA (object);
 }
 
-/* Bring what one asks of a live dive up to what it has published.  */
+/* Bring the copy that answers questions of a live dive up to the latest published state.  */
 static void
 catch_up (bt__handle *handle)
 {

@@ -1,6 +1,6 @@
-/* The Guile binding: what its files share.  It uses the installed headers of the engine alone.
+/* Shared declarations of the Guile binding, which uses the installed headers of the engine alone.
 
-   One file for each noun; each declares its procedures in one table, from which they get their
+   The binding has one file for each noun, and each file declares its procedures in one table with
    name, arguments and docstring.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
@@ -43,7 +43,7 @@ void bt__raise (const char *who, const bt_error *error) SCM_NORETURN;
 /* Raise ERROR unless STATUS is BT_OK.  */
 void bt__check (const char *who, bt_status status, const bt_error *error);
 
-/* A dive, the Scheme procedure its current may ask, and what was done to it.  */
+/* A dive, the Scheme procedure of its current, if any, and the journal of its operations.  */
 typedef struct bt__handle
 {
   bt_dive *dive;    /* while it is live, a copy to ask, no older than the last question */
@@ -60,18 +60,19 @@ typedef struct bt__handle
   int told;         /* true: how far the present call is was told */
 } bt__handle;
 
-/* A bt_poll for the dive of a handle.  Raise what it was interrupted by, or ERROR unless STATUS is
-   BT_OK, at the end of a call that asked it.  */
+/* bt__ask_guile is a bt_poll for the dive of a handle.  bt__check_long ends a call that asked the
+   poll: the function raises the exception that interrupted the call, or else ERROR, unless STATUS
+   is BT_OK.  */
 int bt__ask_guile (void *handle, double share);
 void bt__check_long (const char *who, bt__handle *handle, bt_status status, const bt_error *error);
 
 bt_dive *bt__to_dive (SCM object);
 /* The same, but raise `def' while its current is being asked: it is not to be changed then.  */
 bt_dive *bt__to_idle_dive (const char *who, SCM object);
-/* Do OP on the dive of HANDLE, live or not, on behalf of WHO, and note it in the journal.  */
+/* Do OP on the dive of HANDLE, live or not, for the procedure WHO, and note OP in the journal.  */
 void bt__operate (const char *who, bt__handle *handle, bt_op op, int subject, const double *args,
                   int n);
-/* Make a handle without a dive yet, and the Scheme object of one that has it.  */
+/* Make a handle, at first without a dive; make the Scheme object of a handle with a dive.  */
 bt__handle *bt__new_handle (SCM function);
 SCM bt__from_handle (bt__handle *handle);
 bt__handle *bt__to_handle (SCM object);
@@ -103,8 +104,8 @@ bt_part bt__to_part (const char *who, SCM symbol);
 bt_status bt__set_field (const char *who, const bt_field *field, void *def, SCM value,
                          bt_error *error);
 
-/* Set FIELD of DEF, rows, a mesh or a grid, from a Scheme value, which lends it its memory.
-   Return zero if FIELD is of another kind.  */
+/* Set FIELD of DEF, of the kind rows, mesh or grid, from a Scheme value; DEF borrows the memory of
+   the value.  Return false if FIELD is of another kind.  */
 int bt__set_shape (const char *who, const bt_field *field, void *def, SCM value);
 
 /* The word, or else the number, that VALUE of FIELD reads as.  */

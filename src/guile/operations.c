@@ -100,8 +100,8 @@ operate (SCM object, SCM verb, SCM caller, SCM subject, SCM args)
   return SCM_UNSPECIFIED;
 }
 
-/* A change of the procedure that a dive's current asks, taken back unless it is completed: asking
-   the new one may leave by an exception.  */
+/* A change of the procedure of a dive's current, taken back unless completed: the first call of the
+   new procedure may leave by an exception.  */
 typedef struct change
 {
   bt__handle *handle;

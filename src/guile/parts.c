@@ -130,7 +130,8 @@ typedef struct reading
 
 static void read_inner (void *outer, const bt_head *head, SCM fields);
 
-/* The field NAME of parts of kind HEAD, or NULL when it is the kind of something inside them.  */
+/* The field NAME of parts of kind HEAD, or NULL if NAME is the kind of an inner part, put into
+ *INNER.  */
 static const bt_field *
 field_or_inner (const bt_head *head, const char *name, const bt_head **inner)
 {
@@ -335,7 +336,8 @@ from_rows (const double *x, size_t n)
   return array;
 }
 
-/* The fields of DEF, a struct of the kind HEAD, that are not as one is born, in front of LIST.  */
+/* The fields of DEF, a struct of the kind HEAD, with values other than those of a newborn struct,
+   in front of LIST.  */
 static SCM
 from_fields (const bt_head *head, const void *def, const void *born, SCM list)
 {
@@ -383,7 +385,8 @@ vehicle_types (void)
   return scm_reverse_x (list, SCM_EOL);
 }
 
-/* What a type says of a tether is what it changes in a struct that no tether can be.  */
+/* The tether types with their fields.  A type's fields are those that the type changes in a struct
+   filled with impossible values.  */
 static SCM
 tether_types (void)
 {

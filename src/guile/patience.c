@@ -1,8 +1,8 @@
-/* Calls that may last: between pieces of their work ^C and whatever else waits for this thread is
-   let in, and Scheme is told how far they are.
+/* Long calls: between pieces of work the asyncs of this thread, ^C among them, are run, and Scheme
+   is told the progress.
 
-   The engine's frames are never jumped over: what is thrown there is kept, the engine gives up, and
-   the call that returns throws it.
+   No exception jumps over frames of the engine: an exception thrown by an async is kept, the engine
+   gives up, and the returning call throws the exception.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -108,7 +108,7 @@ tether (SCM object, SCM index)
   return with ("length", scm_from_double (t.length), list);
 }
 
-/* The properties of a tether, by the names of the fields that hold them.  */
+/* The properties of a tether, by the names of their fields.  */
 static SCM
 properties (SCM object, SCM index)
 {

@@ -1,10 +1,9 @@
-/* The extension for SQLite: fills the module (bight sqlite).  It is loaded when a database is first
-   wanted.
+/* The extension for SQLite: fills the module (bight sqlite), and is loaded with the first database.
 
-   A database is in WAL mode: what was committed survives the end of the process.  It is written by
-   whoever comes, a writer waiting for another; or it is opened for this process alone, by SQLite's
-   exclusive locking mode, which needs no memory shared with others and so works on a network file
-   system as well.
+   A database is in WAL mode: committed data survives the end of the process.  Usually several
+   processes may write, and a writer waits for another.  A database can also be opened for one
+   process alone, by SQLite's exclusive locking mode, which needs no shared memory and therefore
+   works on a network file system as well.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

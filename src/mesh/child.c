@@ -37,8 +37,8 @@ close_end (int *fd)
 
 /* ---- Starting ---- */
 
-/* A process that was started without standard streams must not get a pipe in their place, which the
-   child is about to fill.  */
+/* Move *FD above the standard streams.  In a process started without standard streams a pipe would
+   take their numbers, which the child process is about to fill.  */
 static int
 above_streams (int *fd)
 {

@@ -1,7 +1,7 @@
-/* A program run beside us for its answer: its standard output is read, the first line of its
-   standard error kept, its standard input is empty.  It is gone when the answer has been taken, in
-   whatever way that went.  Interrupts, a parent that ignores or handles SIGCHLD, and other children
-   are none of its business: no signal of the process is touched.
+/* A child process run for its answer: the standard output is read, the first line of the standard
+   error kept, the standard input empty.  Once the answer has been taken, or has failed, the child
+   is gone.  No signal handler of this process is touched, so that interrupts, a parent that ignores
+   or handles SIGCHLD, and other children go on as before.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,4 +1,4 @@
-/* Opening what a world names, with one sentence for everything that is not a readable file.
+/* Opening a file named by a world, with one sentence of error for all that is no readable file.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

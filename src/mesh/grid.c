@@ -74,8 +74,8 @@ next_word (reader *r)
   return w;
 }
 
-/* W as it may be shown in a sentence: nothing of a file that is no grid, since a world may name any
-   file there is.  */
+/* The word W for an error message.  Of a file that is no grid nothing is shown: a world may name
+   any file, and the message must not leak the file's text.  */
 static const char *
 show (const reader *r, const word *w, char text[SHOWN + 4])
 {
@@ -95,8 +95,8 @@ is_word (const reader *r, const word *w, const char *name)
   return w->n == strlen (name) && strncasecmp_l (w->at, name, w->n, r->plain) == 0;
 }
 
-/* Read W as a finite decimal number.  Words end at white space or at the text's final NUL, so that
-   strtod never runs beyond.  */
+/* Read W as a finite decimal number.  Words end at white space or at the final NUL of the text, so
+   strtod never reads beyond.  */
 static int
 to_number (const reader *r, const word *w, double *value)
 {
@@ -186,8 +186,8 @@ read_value (reader *r, int k, header *h)
   return BT_OK;
 }
 
-/* Read keys and their numbers up to the first word that is none, the first height, which is left to
-   be read.  */
+/* Read keys and their numbers up to the first word that is no key: the first height, left unread.
+ */
 static bt_status
 read_keys (reader *r, header *h)
 {

@@ -9,8 +9,8 @@
 
 #include <bight/mesh.h>
 
-/* Read TEXT, N bytes and a NUL that is not one of them, into *OUT as bt_heights_read does.  NAME
-   begins every error.  */
+/* Read TEXT, N bytes and a further NUL, into *OUT as bt_heights_read does.  NAME begins every
+   error.  */
 bt_status bt__grid_parse (const char *name, const char *text, size_t n, bt_heights_data **out,
                           bt_error *error);
 

@@ -1,5 +1,5 @@
-/* Reading a mesh file: bight-mesh-reader, a process of its own, has the library that knows the
-   formats; here its answer is taken, and its end understood.
+/* Reading a mesh file.  The library of formats runs in bight-mesh-reader, a separate process; this
+   file takes the answer and explains a failure.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

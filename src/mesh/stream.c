@@ -1,5 +1,5 @@
 /* Taking a mesh from the reader's stream.  The reader ran a foreign library on a foreign file, so
-   nothing it says is believed: counts, numbers, indices and the checksum are all looked at.
+   nothing is believed: counts, numbers, indices and checksum are checked.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -72,7 +72,7 @@ new_data (const bt__mesh_head *head)
   return data;
 }
 
-/* Take the body that HEAD announces into DATA, and find the checksum right and nothing after it. */
+/* Take the body announced by HEAD into DATA; check the checksum and the end of the stream.  */
 static bt_status
 take_body (const bt__mesh_source *source, const bt__mesh_head *head, bt_mesh_data *data,
            bt_error *error)

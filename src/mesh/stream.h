@@ -1,5 +1,5 @@
-/* What bight-mesh-reader tells bight: one mesh, written by one build of the two on one machine, so
-   numbers are as the machine has them.
+/* The stream from bight-mesh-reader to bight: one mesh.  Both programs are of one build on one
+   machine, so numbers have the machine's representation.
 
      head | vertices: x y z, m, z up, doubles | corners: three of 32 bits | checksum, 64 bits
 
@@ -22,7 +22,7 @@ enum
   BT__MESH_VERSION = 1
 };
 
-/* How the reader ends, with one line on its standard error unless all went well.  */
+/* Exit statuses of the reader; all but the first come with one line on standard error.  */
 enum
 {
   BT__MESH_EXIT_OK = 0,
@@ -47,9 +47,9 @@ typedef struct bt__mesh_source
   void *user;
 } bt__mesh_source;
 
-/* Take one mesh from SOURCE, and nothing after it, into *OUT (NULL on failure).  Whatever the bytes
-   are, what is handed out is whole and checked.  BT_ERR_FORMAT says what is wrong, BT_ERR_VERSION
-   that the reader is of another build; BT_ERR_LIMIT.  */
+/* Take one mesh from SOURCE, and nothing after it, into *OUT (NULL on failure).  The mesh is
+   complete and checked, whatever the bytes.  BT_ERR_FORMAT tells the fault, BT_ERR_VERSION a reader
+   of another build, BT_ERR_LIMIT a lack of memory.  */
 bt_status bt__mesh_take (const bt__mesh_source *source, bt_mesh_data **out, bt_error *error);
 
 #endif

@@ -14,8 +14,8 @@ bt_status bt__about (const char *head, const char *name, bt_error *error, const 
    others must be complete.  */
 bt_status bt__check_def (const bt_head *head, const char *name, void *def, bt_error *error);
 
-/* Complete DEF and make *TYPE, of a vehicle without mass what it would be as a dead weight, and
- *RIG, of one with mass.  */
+/* Complete DEF and make *TYPE and, for a vehicle with mass, *RIG.  The type of a vehicle without
+   mass describes the dead vehicle as a body.  */
 bt_status bt__compile_vehicle (bt_vehicle_def *def, double density, bt__vehicle_type *type,
                                bt__rig *rig, bt_error *error);
 
@@ -24,7 +24,7 @@ bt_vec3 bt__attached_at (const bt_vehicle_def *def);
 
 bt_status bt__check_name (const char *head, const char *name, bt_error *error);
 
-/* Make the waves of MODEL, and find what of its obstacles casts a lee.  */
+/* Make the waves of MODEL, and find the obstacles of MODEL that cast a lee.  */
 bt_status bt__compile_sea (bt_model *model, bt_error *error);
 
 /* Continue the hash H with SEA.  */
@@ -42,8 +42,8 @@ bt_status bt__draw_obstacle (bt_obstacle_def *def, int i, double depth, bt__aske
                              bt__obstacle *out, bt_error *error);
 void bt__free_shape (bt__obstacle *shape);
 
-/* Check the obstacles of WORLD and copy them into MODEL, which has its sea.  Nothing is allocated
-   for a world without.  */
+/* Check the obstacles of WORLD and copy them into MODEL, whose sea is set.  A world without
+   obstacles allocates nothing.  */
 bt_status bt__compile_obstacles (bt_model *model, const bt_world *world, bt_error *error);
 
 void bt__release_obstacles (bt_model *model);
@@ -54,8 +54,8 @@ void bt__number_scenes (bt_model *model);
 /* Continue the hash H with the obstacles of WORLD.  */
 uint64_t bt__hash_obstacles (const bt_world *world, uint64_t h);
 
-/* Check that anchors, vehicles and the lines along which the tethers of MODEL are laid are clear of
-   its obstacles.  */
+/* Check that the anchors, the vehicles and the lines of lay of the tethers of MODEL are clear of
+   the obstacles of MODEL.  */
 bt_status bt__check_laying (const bt_model *model, bt_error *error);
 
 #endif

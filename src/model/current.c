@@ -1,7 +1,7 @@
-/* The current: what moves the water at a place and a time.
+/* The current: the velocity of the water at a place and a time, without waves and lees.
 
-   A current is plain data (bt_current) that is read, never stepped.  Speeds are limited to 20 m/s,
-   far beyond any sea, so that squares of velocities stay harmless in the solvers.
+   A current is plain data (bt_current), read by the step and never changed.  Speeds are limited to
+   20 m/s, far beyond any sea, so that squares of velocities stay harmless in the solvers.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -21,7 +21,7 @@ bt_set_and_drift (double speed, double toward)
   return bt__vec (speed * sin (toward), speed * cos (toward), 0);
 }
 
-/* Return the row K, 0 <= K < n - 1, such that Z lies between rows K and K + 1.  Z lies within the
+/* Return the row K, 0 <= K < n - 1, with Z between the rows K and K + 1.  Z lies within the
    profile.  */
 static int
 find_row (const bt_current *current, double z)

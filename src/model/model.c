@@ -74,7 +74,7 @@ check_reach (const bt_model *model, int i, bt_error *error)
   double way = 0;
   for (int k = 0; k + 1 < n; k++)
     way += bt__distance (p[k], p[k + 1]);
-  /* A hair of slack, so that a world written with its length equal to its chord is taken.  */
+  /* A rounding's tolerance, so that a world with a length equal to the chord is accepted.  */
   if (way <= bt__longest_chord (&tether->props, tether->length, INFINITY) * (1 + 1e-12))
     return BT_OK;
   if (n > 2)
@@ -266,7 +266,8 @@ check_part_counts (const bt_world *world, bt_error *error)
   return check_nodes (world, error);
 }
 
-/* Copy N items of SIZE bytes; a copy of none is one unused byte, so that NULL means no memory.  */
+/* Copy N items of SIZE bytes.  For N = 0 the copy has one unused byte: NULL always means that
+   memory ran out.  */
 static void *
 copy_of (const void *items, int n, size_t size)
 {

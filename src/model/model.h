@@ -61,8 +61,8 @@ struct bt_model
   int n_floors;               /* 1: the last of SCENE is the bottom beyond the edge of a seabed */
 };
 
-/* The longest chord that LENGTH metres of a tether with PROPS span when pulled with at most PULL
-   newtons: the length, and more if it stretches, up to its breaking load or a tenth.  */
+/* The longest chord, m, of LENGTH metres of a tether with PROPS under a pull of at most PULL
+   newtons: LENGTH plus the elastic stretch, up to the breaking load or a tenth.  */
 double bt__longest_chord (const bt_tether_props *props, double length, double pull);
 
 /* The points of the line that tether I is laid along: its anchor, those of `via', its far end; at

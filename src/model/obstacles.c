@@ -1,5 +1,5 @@
-/* Compile the obstacles of a world: what stands still becomes one scene, what has a track gets one
-   of its own.
+/* Compile the obstacles of a world: all standing obstacles become one scene, each kinematic
+   obstacle gets a scene of its own.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -70,7 +70,7 @@ add_carried (bt_model *model, const bt_obstacle_def *def, int i, bt__obstacle *s
 
 /* ---- All of them ---- */
 
-/* What is too large by itself is refused by itself, and counts as none.  */
+/* The triangles of DEF; 0 for an obstacle too large by itself, refused elsewhere.  */
 static size_t
 triangles_of (const bt_obstacle_def *def)
 {
@@ -83,7 +83,7 @@ triangles_of (const bt_obstacle_def *def)
   return def->mesh.triangles <= BT_TRIANGLES_MAX ? def->mesh.triangles : 0;
 }
 
-/* Each may be as large as it may, but a machine has one memory.  */
+/* Check the sum over all obstacles: each is within its own limit, but they share one memory.  */
 static bt_status
 check_triangles (const bt_world *world, bt_error *error)
 {
@@ -126,8 +126,9 @@ forget_borrowed (bt_obstacle_def *def)
 
 #define BELOW_BED 1.0 /* m: a bed and the bottom about it never touch a line at once */
 
-/* A bed of a grid or a mesh has an edge, and holes: beyond them the bottom is level, at the depth
-   of the sea or so far below the bed's lowest point.  Return zero if SHAPE needs none.  */
+/* A bed from a grid or a mesh has an edge and perhaps holes.  Put into *OUT the level floor beyond
+   edge and holes, at the depth of the sea or below the lowest point of the bed.  Return false if
+   the bed needs no floor.  */
 static int
 floor_about (const bt_obstacle_def *def, const bt__obstacle *bed, double depth, bt__obstacle *out)
 {
