@@ -1,12 +1,12 @@
 /* A line that floats is laid on the water: see chain.h.
 
-   The equilibria know no surface: a slack line lighter than water stands on it as an arch.  Each
-   arch is laid down: between the points where it comes up it is turned about the line that joins
-   them, down to the side that the current sets to.  So it keeps its length and its bend.  An arch
-   from an end above the water hangs from there instead.
+   The equilibrium solvers know no surface: a slack line lighter than water rises above the surface
+   in an arch.  Each arch is laid down by a rotation about the straight line between its two
+   crossings of the surface, down to the side to which the current sets.  The rotation keeps length
+   and curvature.  An arch from an end above the water hangs from the end instead.
 
-   Between two nodes a line is a cubic, which may rise above both: the nodes are laid so much
-   deeper.
+   Between two nodes the line is a cubic and may rise above both nodes: the nodes are laid deeper by
+   the cubic's rise.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -36,7 +36,7 @@ is_out (bt_vec3 p)
   return p.z > HAIR;
 }
 
-/* The point between P and Q, one above LEVEL and one not, where the line crosses it.  */
+/* The crossing with LEVEL of the straight line between P and Q, of which one is above LEVEL.  */
 static bt_vec3
 crossing (bt_vec3 p, bt_vec3 q, double level)
 {
@@ -114,7 +114,7 @@ bt__lay_afloat (bt_vec3 *x, int n, double length, const bt_water *water)
 
 /* ---- Still shapes ---- */
 
-/* True if one of N points along SHAPE stands out of the water between ends that do not.  */
+/* True if one of N points along SHAPE stands out of the water and both ends are in the water.  */
 static int
 stands (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, int n)
 {
@@ -133,8 +133,8 @@ tension_at (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tension
                     bt__shape_tangent (shape, nodes, tensions, s));
 }
 
-/* Turn the tensions of those of the N + 1 nodes X that are not where they WERE, and of those beside
-   them, along the line.  */
+/* Turn the tension vectors along the line at those of the N + 1 nodes X whose place differs from
+   WERE, and at their neighbours.  */
 static void
 turn_tensions (const bt_vec3 *x, const bt_vec3 *were, bt_vec3 *tension, int n)
 {

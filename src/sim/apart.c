@@ -1,8 +1,8 @@
-/* Which tethers have to do with each other in the coming step.
+/* Islands: groups of tethers that may influence each other in the coming step.
 
-   Those do that hang on the same vehicle, if one of them has its far end there and so may carry it;
-   and moving lines that may touch and that are nearer than what both of them may ask for.  The rest
-   are told apart by boxes: about each line, about every few links, then link by link.
+   Tethers form one island if they share a vehicle that one of them may carry by its far end, or if
+   they are moving lines that may touch each other within the reach of their queries.  Distances are
+   bounded by boxes: about each line, about every few links, then link by link.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -48,7 +48,7 @@ join_at_vehicles (const bt_dive *dive, bt__lanes *l)
         join (l, i, j);
 }
 
-/* Number the groups in the order in which their tethers step, and list these.  */
+/* Number the groups in the order of their first tethers, and list the tethers of each group.  */
 static void
 number (const bt_dive *dive, bt__lanes *l)
 {
@@ -124,7 +124,7 @@ box_leaves (const bt_dive *dive, bt__state *state, bt__lanes *l, int i, int part
   l->boxes[i] += leaves_of (chain);
 }
 
-/* The box about all of tether I, a moving line, is that about its parts, which is drawn.  */
+/* Give every moving line the box about its parts, drawn before.  */
 static void
 box_tethers (const bt_dive *dive, bt__state *state, bt__lanes *l)
 {
@@ -203,7 +203,8 @@ may_touch (const bt_dive *dive, bt__state *state, int i, int j)
   return !bt__passes_tether (dive, state, i, j) || !bt__passes_tether (dive, state, j, i);
 }
 
-/* True if tethers I and J, which go or ask as far as WAY says, have to do with each other.  */
+/* True if the tethers I and J may influence each other; WAY has the distance, m, that each tether
+   may move or ask for.  */
 static int
 are_close (const bt_dive *dive, bt__state *state, const bt__lanes *l, int i, int j,
            const double *way)

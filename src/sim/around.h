@@ -1,8 +1,8 @@
-/* What surrounds the parts of a dive in a step: obstacles that stand, obstacles on their way.
+/* The surroundings of vehicles and lines in a step: standing obstacles and kinematic obstacles.
 
-   A mover goes along its track in the same time as vehicles and lines go theirs.  Each of those may
-   hold it back; then all who went before know of it and the step is tried again with less
-   (bt__around_agree).
+   A kinematic obstacle moves along its track at the same time as vehicles and lines.  A vehicle or
+   line may hold the obstacle back.  The parts stepped before then went by too large a motion, and
+   the step is tried again with a smaller one (bt__around_agrees).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -12,8 +12,8 @@
 #include "contact/touch.h"
 #include "sim/sim.h"
 
-/* So many tries at a step; in the last all vehicles and movers stand still, and winches stall that
-   would draw at a vehicle which something else holds, with which everybody agrees.  */
+/* Number of further tries at a step.  In the last try all vehicles and kinematic obstacles stand
+   still, and a winch stalls that hauls at a held vehicle: all parts agree with such a step.  */
 enum
 {
   BT__TRIES = 3
@@ -26,25 +26,26 @@ bt__has_obstacles (const bt_dive *dive)
   return dive->model->n_obstacles > 0;
 }
 
-/* Aim the movers of STATE along their tracks for the step to come, ROUND tries at it having failed;
-   or let them stand, for an operation takes no time.  */
+/* Aim the kinematic obstacles of STATE along their tracks for the coming step, after ROUND failed
+   tries; or let the obstacles stand during an operation, which takes no time.  */
 void bt__aim_movers (bt_dive *dive, bt__state *state, int round);
 void bt__rest_movers (bt_dive *dive, bt__state *state);
 
-/* To be called when a subject has gone its way by what bt__surround gave (world/obstacles.h).  */
+/* Call this after moving a subject within the surroundings of bt__surround (world/obstacles.h).  */
 void bt__around_done (bt_dive *dive);
 
-/* True if nobody had to hold a mover back after another had gone by its whole motion.  */
+/* True unless a kinematic obstacle was held back after another subject had gone by the obstacle's
+   larger motion.  */
 int bt__around_agrees (const bt_dive *dive);
 
 /* ---- Vehicles that tethers and obstacles hold ----
 
-   What moves a vehicle, its tethers and its hull must agree on where it comes to.  Where they do
-   not, the step is tried again with the vehicle taken to where all of them may let it, and in the
-   end left where it was.  */
+   The vehicle's own motion, its tethers and its hull must agree on the vehicle's new place.  In
+   case of disagreement the step is tried again with the vehicle pinned to a place that suits all,
+   and in the last try at its old place.  */
 
-/* Start a step, ROUND tries at it having failed: vehicles come as far as their hulls do.  In a world
-   without obstacles the first try is begun by bt__unpin_vehicles.  */
+/* Start a step, ROUND tries at it having failed: vehicles come as far as their hulls do.  In a
+   world without obstacles the first try is begun by bt__unpin_vehicles.  */
 void bt__pin_vehicles (bt_dive *dive, bt__state *state, int round);
 
 /* Start an operation that has put vehicles where they may be.  */
@@ -56,8 +57,8 @@ int bt__pinned (const bt_dive *dive, int vehicle);
 /* End K (0 the anchor) of tether I came to P and no farther: its vehicle stands there.  */
 void bt__bring_end (const bt_dive *dive, bt__state *state, int i, int k, bt_vec3 p);
 
-/* True if every end is where its vehicle is and every hull where it may be; else remember where
-   to take the vehicles in the next try.  */
+/* True if every end is at its vehicle and every hull at an allowed place; else remember the
+   vehicles' targets for the next try.  */
 int bt__vehicles_agree (bt_dive *dive, bt__state *state);
 
 /* Return how far VEHICLE, on its way to WANTED, comes with its hull; it turns no farther than that

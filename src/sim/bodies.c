@@ -88,7 +88,7 @@ is_at_its_end (const bt__tether *tether)
   return tether->taut && !bt__is_spring (tether);
 }
 
-/* The static line whose far end VEHICLE has and that pulls it by force, or -1.  */
+/* The static line with its far end at VEHICLE that pulls VEHICLE by a force, or -1.  */
 static int
 slack_line (const bt_dive *dive, bt__state *state, int vehicle)
 {
@@ -102,7 +102,7 @@ slack_line (const bt_dive *dive, bt__state *state, int vehicle)
   return -1;
 }
 
-/* The pull of tether I, as it was, on what its end K is fastened to.  */
+/* The pull, N, of tether I at the start of the step on the attachment of its end K.  */
 static bt_vec3
 pull_at (const bt_dive *dive, bt__state *state, int i, int k)
 {
@@ -133,8 +133,9 @@ add_pulls (const bt_dive *dive, bt__state *state, int vehicle, int but, bt__rigi
         }
 }
 
-/* The stiffness of the moving line I at its far end: of its last piece, and of the inertia of its
-   last node, which is that of half a piece and whose acceleration is (1.5 / h)2 of its way.  */
+/* The stiffness, N/m, of the moving line I at its far end: the stiffness of the last interval, plus
+   the inertia of the last node, with the mass of half an interval, whose acceleration is (1.5 / h)2
+   times its displacement.  */
 static double
 stiffness_of (const bt_dive *dive, bt__state *state, int i)
 {
@@ -302,8 +303,8 @@ bt__step_bodies (const bt_dive *dive, bt__state *state, bt_error *error)
   return status;
 }
 
-/* The line took the body for a spring that turns no farther than a small angle: where it turned
-   farther its attachment is not quite at X, and the body is put there.  */
+/* The step of the line took the body for a spring with small rotations.  After a larger rotation
+   the attachment is not quite at X, so the body is moved until it is.  */
 bt_status
 bt__follow_line (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 x, bt_error *error)
 {

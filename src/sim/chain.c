@@ -21,8 +21,8 @@ enum
 
 /* ---- Laying ---- */
 
-/* Put the present shape of tether I, N + 1 points of it, on the dive's polyline, and the tensions
-   in the middle between them along it.  */
+/* Put N + 1 points of the present shape of tether I on the dive's polyline, and the tensions in the
+   middles between the points along the polyline.  */
 static void
 trace (bt_dive *dive, bt__state *state, int i, int n)
 {
@@ -35,7 +35,7 @@ trace (bt_dive *dive, bt__state *state, int i, int n)
     }
 }
 
-/* Give a CHAIN of N intervals the tensions its shape had, to have before its first step.  */
+/* Give a CHAIN of N intervals the tensions of its shape, valid until its first step.  */
 static void
 tense (const bt_dive *dive, bt__dynamic *chain, int n)
 {
@@ -187,7 +187,7 @@ bt__still_chain (bt_dive *dive, bt__state *state, int i)
   tether->shape.n = n;
 }
 
-/* A part of a parted line goes along with its held end as it is.  */
+/* Move a part of a parted line, unchanged in shape, along with its held end.  */
 static void
 shift_part (bt__dynamic *chain, bt_vec3 from, bt_vec3 to)
 {

@@ -1,8 +1,9 @@
-/* Where the moving lines are while tethers are resolved, for each other.
+/* Boxes about the moving lines, for queries of other lines while tethers are resolved.
 
-   A box about a line has room for a step as fast as its fastest node goes, and more.  It is drawn
-   as the tethers are put in order and then stays, while the line stays in it: so whoever asks
-   whether a line is far is told the same before and after its step, and hence by whichever thread.
+   The box of a line has room for a step at the speed of the fastest node, and more.  All boxes are
+   drawn before the first tether is resolved and stay as long as their lines stay inside.  A query
+   for distant lines so has the same answer before and after the other line's step, and in every
+   thread.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

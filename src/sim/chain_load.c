@@ -9,7 +9,7 @@
 #include "sim/around.h"
 #include "sim/chain.h"
 
-/* The vehicle with mass at the far end of tether I, which this line carries, or -1.  */
+/* The vehicle with mass carried by the far end of tether I, or -1.  */
 int
 bt__carried_vehicle (const bt_dive *dive, bt__state *state, int i)
 {
@@ -49,8 +49,8 @@ lump_of (const bt_lump *def, double from_end, const bt_water *water)
                              .quadratic = 0.5 * rho * 0.5 * BT__PI * radius * radius };
 }
 
-/* Give INPUT what is fastened to tether I between FROM and TO metres from its far end, a distance
-   that the winch does not change.  */
+/* Give INPUT the lumps fastened to tether I between FROM and TO metres from its far end; the winch
+   does not change distances from the far end.  */
 void
 bt__fasten (const bt_dive *dive, int i, double from, double to, bt__dynamic_input *input,
             bt__dynamic_lump *lumps)

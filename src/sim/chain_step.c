@@ -63,25 +63,25 @@ pay_of (const bt__tether *tether, const bt__dynamic *chain)
   return owed / fmax (lag, BT__TIME_STEP);
 }
 
-/* True if TETHER is hauled by PAY, which is no rest that the lag left.  */
+/* True if PAY hauls TETHER in and is more than the remainder of the winch's lag.  */
 static int
 is_hauled (const bt__tether *tether, double pay)
 {
   return pay < 0 && (tether->winch_rate < 0 || -pay * BT__TIME_STEP > WINCH_REST);
 }
 
-/* The most that a line of P can draw off its drum in a step, m: nothing runs along a line faster
-   than its sound.  A brake that holds less than the weight of the first metres would give all else.
- */
+/* The greatest length, m, that a line of P can draw off its drum in a step: no change runs along a
+   line faster than its longitudinal wave.  Without this bound a brake weaker than the weight of the
+   first metres would give out the whole drum.  */
 static double
 most_drawn (const bt_tether_props *p)
 {
   return sqrt (p->ea / p->mass) * BT__TIME_STEP;
 }
 
-/* Give INPUT what the winch of tether I does with its CHAIN.  It hauls with no more than its pull,
-   and then draws in less, or nothing; standing or paying out, it holds with its brake, and gives
-   what is left on its drum, as fast as the line can draw that.  */
+/* Give INPUT the action of the winch of tether I on CHAIN.  A hauling winch pulls with at most its
+   greatest pull and then draws in less, or nothing.  A standing or paying-out winch holds with its
+   brake, and beyond the brake gives line from the drum as fast as the line can draw.  */
 static void
 set_winch (const bt_dive *dive, bt__state *state, int i, const bt__tether *tether,
            const bt__dynamic *chain, bt__dynamic_input *input)
@@ -100,8 +100,8 @@ set_winch (const bt_dive *dive, bt__state *state, int i, const bt__tether *tethe
     input->hold = 0;
 }
 
-/* A winch was held back as it hauled CHAIN from BEFORE metres: it goes on from the speed it had,
-   and stalls when it has hardly turned for a while.  */
+/* Note that the winch of TETHER was held back while hauling CHAIN from BEFORE metres: the winch
+   goes on from its actual speed, and stalls when it has hardly turned for a while.  */
 static void
 hold_back (bt__state *state, int i, bt__tether *tether, const bt__dynamic *chain, double before)
 {
@@ -114,8 +114,9 @@ hold_back (bt__state *state, int i, bt__tether *tether, const bt__dynamic *chain
     bt__stall_winch (state, tether, i, length);
 }
 
-/* After a step from BEFORE metres of CHAIN: a winch that hauls was held back if it was pulled as
-   hard as it can, or drew nothing in; one that does not haul counts what was drawn off its drum. */
+/* After a step of CHAIN from BEFORE metres: a hauling winch was held back if the line pulled with
+   the winch's greatest pull, or if nothing came in; any other winch counts the length drawn off its
+   drum.  */
 static void
 heed_winch (const bt_dive *dive, bt__state *state, int i, const bt__dynamic *chain, double before,
             const bt__dynamic_input *input, const bt__dynamic_report *report)

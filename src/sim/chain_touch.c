@@ -1,13 +1,13 @@
-/* A step of the moving line among obstacles, or with but itself to touch.
+/* A step of the moving line with contact: among obstacles, or with itself alone.
 
-   The step is contact/line.h's; here it is given what surrounds the line and how rough that is, and
-   what it met is noted.  In a world without obstacles a line meets itself alone, and no more is
-   noted of it than where.
+   The step itself is in contact/line.h.  This file provides the surroundings of the line and their
+   friction, and notes the contacts afterwards.  In a world without obstacles a line has contact
+   with itself alone, and only the places are noted.
 
-   Tethers step one after another, each among the others as they are by then: those before it where
-   they came to, those after it where they were.  So no two of them move at once, and what each
-   keeps off all keep off.  Of two that go along together pressed to each other the one in front
-   goes first, or it would be in the way of the other.
+   Tethers step one after another.  Each tether sees the tethers before it at their new places and
+   the tethers after it at their old places.  So no two tethers move at once, and if each step
+   passes through nothing, nothing is passed through.  Of two tethers that move together, pressed to
+   each other, the one in front goes first; otherwise it would stand in the other's way.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -73,7 +73,7 @@ are_made_fast_together (const bt_dive *dive, int i, int e, int j, int f)
          && bt__distance (p->ride, q->ride) == 0;
 }
 
-/* Tell STRAND, which is part K of tether J, which ends it has where PART of tether I has one.  */
+/* Note in STRAND, part K of tether J, the ends that coincide with an end of PART of tether I.  */
 static void
 share_ends (const bt_dive *dive, bt__state *state, int i, int part, int j, int k,
             bt__strand *strand)

@@ -31,8 +31,8 @@ note_snap (bt__state *state, bt__tether *tether, int i, double tension)
     }
 }
 
-/* The twist that the vehicle's turns put into the line throws a loop where the torque exceeds what
-   tension, bending and length hold: T < M^2/(4 EI) - pi^2 EI/L^2 (Greenhill 1883).  */
+/* Raise the event `hockled' if the twist of the line, put in by the vehicle's turns, is unstable:
+   T < M^2/(4 EI) - pi^2 EI/L^2 with the torque M (Greenhill 1883).  */
 void
 bt__watch_twist (const bt_dive *dive, bt__state *state, bt__tether *tether, int i)
 {
@@ -61,8 +61,7 @@ note_kink (bt__state *state, bt__tether *tether, int i, double radius)
   tether->kinked = kinked;
 }
 
-/* True if the vehicle that tether I carries rests, and hangs on nothing else that may move it.
- */
+/* True if the vehicle carried by tether I rests, and nothing else that may move hangs on it.  */
 static int
 vehicle_rests (const bt_dive *dive, bt__state *state, int i)
 {

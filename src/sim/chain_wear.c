@@ -7,8 +7,8 @@
 
 #include "sim/chain.h"
 
-/* The material that one contact stands for: a link's length, but where the line runs about
-   something only what lies on it.  */
+/* The length of line, m, represented by one contact: an interval, or at a sliding node only the
+   part in touch with the edge.  */
 static double
 span_of (const bt__dynamic *chain, const bt__anchor *anchor)
 {

@@ -1,7 +1,8 @@
-/* A static tether among obstacles: split where it touches, or held.
+/* A static tether among obstacles: split into spans at contacts, or held.
 
-   The thesis' models are split at what they touch (contact/thesis.h); `elastic' and `steady' have
-   no answer to contact and stop there, their vehicle with them (contact/held.h).
+   The thesis' models are split at each contact (contact/thesis.h).  The models `elastic' and
+   `steady' have no contact forces: the line stops at a contact, and the vehicle with the line
+   (contact/held.h).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,8 +1,7 @@
-/* A haul on a fork: the dead vehicle at the end of the moving line, the winch that pulls no more
-   than it can.
+/* A haul on a fork: a dead vehicle at the end of the moving line, and a winch with limited pull.
 
-   What goes where it is told is a dead weight in the trial.  The winch holds its limit by itself
-   (winch.c); stalled, it is turned again when the line pulls less.
+   A kinematic vehicle becomes a dead body in the trial.  The winch keeps its limit by itself
+   (winch.c); after a stall the winch is turned on again as soon as the line pulls less.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,5 +1,5 @@
-/* The hull of a vehicle against obstacles: it comes as far as they let it, slides along them, and
-   turns as far as it may.
+/* The hull of a vehicle against obstacles: the vehicle moves up to the first contact, slides along
+   the obstacle, and turns as far as the hull stays clear.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -100,8 +100,8 @@ turn_hull (const passage *p, bt__frame *frame, bt__frame to)
   return sweep (p, frame, &to, &stop);
 }
 
-/* A vehicle with mass bounces off what stopped it, and rubs on it as hulls do on steel where that
-   says nothing of friction itself.  */
+/* A vehicle with mass bounces off the obstacle of STOP, with the obstacle's friction, or that of
+   hulls on steel if the obstacle has none.  */
 static void
 strike (const passage *p, bt__vehicle *v, const bt__stop *stop)
 {
@@ -122,7 +122,7 @@ turn_body (bt__vehicle *v, const bt__vehicle *before, double share)
   v->body.heading = bt__heading_follow (before->body.heading, v->body.attitude);
 }
 
-/* True if nothing can meet VEHICLE on its way to WANTED, however it turns.  */
+/* True if VEHICLE can meet no obstacle on its way FROM to WANTED, in any orientation.  */
 static int
 is_far (const bt_dive *dive, bt_vec3 from, bt_vec3 wanted, int vehicle)
 {

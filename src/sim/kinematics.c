@@ -56,8 +56,8 @@ turn_of_step (const bt__vehicle *v)
 
 /* ---- Position ---- */
 
-/* The way up of this step to the depth or the altitude that is held, the latter above what is below
-   the end of the LEVEL way.  */
+/* The vertical part, m, of this step towards the held depth or altitude; an altitude is measured at
+   the end of the LEVEL part of the step.  */
 static double
 held_way (const bt_dive *dive, bt__state *state, const bt__vehicle *v, bt_vec3 level)
 {

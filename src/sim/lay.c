@@ -76,9 +76,9 @@ farthest_off (const bt__dynamic *chain, const bt__link *link, double from, doubl
   return off;
 }
 
-/* The line goes from its straight intervals to those between the new nodes, each point to that of
-   the same arc length: none of them leaves the capsule about the new interval that holds the old
-   ones.  */
+/* True if tether I may change to N intervals without touching.  Each point of the line moves
+   straight to the new point of the same arc length, so no point leaves the capsule about the new
+   interval that contains the old ones.  */
 int
 bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n)
 {

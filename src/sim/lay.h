@@ -8,9 +8,10 @@
 #include "contact/touch.h"
 #include "sim/sim.h"
 
-/* Put the corners of tether I on the dive's polyline: of the shape it has, a corner left out where
-   what it spans with its neighbours is clear, or of the world's line of lay to ENDS.  Return in *N
-   how many.  BT_ERR_DEF if it has none yet and a straight line to its vehicle meets an obstacle. */
+/* Put the corners of tether I on the dive's polyline, and their number in *N: the corners of its
+   shape, without those whose triangle with their neighbours is clear; or of the world's line of lay
+   to ENDS if the tether has no shape yet.  BT_ERR_DEF if a tether without shape and line of lay has
+   no clear straight line to its vehicle.  */
 bt_status bt__corners (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int *n,
                        bt_error *error);
 
@@ -31,8 +32,8 @@ bt_status bt__lead_to_rest (bt_dive *dive, bt__state *state, int i, bt_vec3 *x, 
 /* Let the moving line of tether I fall into place between ENDS, the clock standing (lay_fall.c). */
 bt_status bt__fall (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error);
 
-/* Lay the moving line of tether I along its corners and let it fall into place, the clock
-   standing.  */
+/* Lay the moving line of tether I along its corners and let the line fall into place while the
+   clock stands.  */
 bt_status bt__lay_chain_among (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
                                bt_error *error);
 

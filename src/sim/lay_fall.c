@@ -1,4 +1,5 @@
-/* A moving line that falls into place, or is dragged there through the water, the clock standing.
+/* A moving line falling into place, or dragged into place through the water, while the clock
+   stands.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -9,8 +10,8 @@
 #include "sim/chain.h"
 #include "sim/lay.h"
 
-/* A line that falls into place is given so long, or so many steps of a node if that is less, and
-   rests below so much.  */
+/* Limits of a fall into place: time, and steps times nodes, whichever is reached first; and the
+   speed below which the line rests.  */
 #define FALL 20.0     /* s */
 #define FALL_WORK 2e5 /* steps times nodes */
 #define AT_REST 5e-3  /* m/s */
@@ -38,7 +39,7 @@ pin_ends (bt_dive *dive, bt__state *state, int i, int how)
     }
 }
 
-/* Take what the ends of tether I are pinned by from KEPT, or with TAKE zero put it there.  */
+/* Restore the pins of the ends of tether I from KEPT if TAKE is true, else save them to KEPT.  */
 static void
 keep_pins (bt_dive *dive, int i, bt__pin kept[2], int take)
 {

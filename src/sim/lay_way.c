@@ -1,9 +1,9 @@
-/* How a moving line that is laid among obstacles gets from its corners to where it would rest
-   without them: led there by the safe step, as far as that lets it.
+/* Laying a moving line among obstacles: from its corners towards its equilibrium without obstacles,
+   by the safe step, which stops each node before it would pass through an obstacle.
 
-   What is held up stays where it is, the rest goes on until the line is as long as it should be: so
-   it begins with links that are as long as their chords, or nearly, and has neither to burst apart
-   nor to snap together.
+   Nodes stopped by an obstacle stay; the rest go on until the line has its length.  The line so
+   begins with intervals nearly as long as their chords, and neither bursts apart nor snaps together
+   in its first step.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -34,9 +34,9 @@ longest_way (const bt_vec3 *x, const bt_vec3 *want, int n)
   return most;
 }
 
-/* How far the line X of tether I is led off obstacles: by its radius and a little more, so that it
-   need not be pushed off them and may be laid anew on fewer nodes, but by no more than it is now.
- */
+/* The clearance, m, at which the line X of tether I is led past obstacles: the radius and a little
+   more, so that contact need not push the line off and the line may get fewer nodes; but at most
+   the present clearance.  */
 static double
 keep_off (bt_dive *dive, bt__state *state, int i, const bt_vec3 *x, int n)
 {

@@ -1,7 +1,7 @@
-/* The operations: one table of all that may change a dive besides time.
+/* The operations: one table of all changes to a dive other than the passing of time.
 
-   Every operation works on a copy of the state; bt_dive_do solves what it changed and takes the
-   copy over, or leaves the dive untouched.
+   Every operation works on a copy of the state.  bt_dive_do solves the changed tethers and takes
+   the copy over, or leaves the dive untouched.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -135,7 +135,7 @@ check_call (const bt_dive *dive, const op *o, int subject, const double *args, i
                                         : bt__check_part (dive, o->info.subject, subject, error);
 }
 
-/* Whatever is done to a vehicle wakes the lines that are fastened to it.  */
+/* Wake the lines fastened to the vehicle of the operation.  */
 static void
 wake_lines (const bt__call *c)
 {
@@ -147,8 +147,8 @@ wake_lines (const bt__call *c)
     }
 }
 
-/* Among obstacles a vehicle comes as far as its hull does, and no operation but `lay' goes round
-   them.  */
+/* Among obstacles a vehicle moves up to the first contact of its hull; only the operation `lay'
+   jumps past obstacles.  */
 static void
 place_among (const bt__call *c, const op *o, int round)
 {

@@ -19,7 +19,7 @@ typedef struct bt__call
   bt_error *error; /* never NULL */
 } bt__call;
 
-/* The first three arguments as a point, and BT_ERR_DOMAIN unless they are one.  */
+/* The first three arguments as a point; BT_ERR_DOMAIN unless all three are finite.  */
 bt_vec3 bt__point_of (const bt__call *c);
 bt_status bt__check_point (const bt__call *c);
 

@@ -26,7 +26,7 @@ bt_current_pack (const bt_current *current, double *args)
   return n;
 }
 
-/* What a state keeps is finite, whether its kind looks at it or not.  */
+/* Check that every number is finite, also a number unused by the kind of current or wave.  */
 static bt_status
 check_finite (const bt__call *c, const char *what)
 {

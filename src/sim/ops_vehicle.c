@@ -100,7 +100,7 @@ stand_at (bt__vehicle *v, bt_vec3 p)
   v->pilot.holds &= ~(int64_t)(BT__HOLD_WAYPOINT | BT__HOLD_POSITION);
 }
 
-/* Put the subject at P, or as far on the way there as its tethers let it come.  */
+/* Put the subject at P, or as far towards P as its tethers allow.  */
 static void
 place_at (const bt__call *c, bt_vec3 p)
 {

@@ -1,14 +1,15 @@
-/* In which order the tethers of a step are resolved: whoever moves a vehicle before whoever has but
-   to follow it.
+/* The order in which the tethers of a step are resolved: tethers that move a vehicle come before
+   tethers that follow one.
 
-   A tether that was resolved before its vehicle was moved would end where that was.  A vehicle with
-   mass goes where the line that carries it takes it, and any vehicle may be held back by a moving
-   line, so the lines that carry go first, each after the one that carries its own anchor; then what
-   else moves; then the static tethers, which end wherever they are told to.  But a static tether
-   among obstacles may draw a vehicle along, as when it is hauled in over an edge: it goes before
-   all unless its vehicle is carried.  Among themselves they keep the order that they have: by their
-   numbers, or among obstacles as they press on each other (chain_touch.c).  What does not fit
-   together even so is tried again (pins.c).
+   A tether resolved before its vehicle moves would end at the vehicle's old place.  A vehicle with
+   mass is moved by the line that carries it, and any vehicle may be held back by a moving line.  So
+   carrying lines go first, each after the line that carries its own anchor; then the other moving
+   lines; then the static tethers, which end at any given place.  There is one exception: a static
+   tether among obstacles may draw its vehicle along, for example when hauled in over an edge, so
+   such a tether goes before all others, unless a line carries its vehicle.  Within a rank the order
+   stays: by number, or among obstacles by the direction in which tethers press on each other
+   (chain_touch.c).  If ends and vehicles still do not fit together, the step is tried again
+   (pins.c).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -24,7 +25,7 @@ carrier_at (const bt_dive *dive, bt__state *state, int i, int k)
   return line >= 0 && bt__carried_vehicle (dive, state, line) >= 0 ? line : -1;
 }
 
-/* True if static tether I, among obstacles, may draw along what it ends at.  */
+/* True if the static tether I, among obstacles, may draw its vehicle along.  */
 static int
 may_draw (const bt_dive *dive, bt__state *state, int i)
 {
@@ -32,8 +33,8 @@ may_draw (const bt_dive *dive, bt__state *state, int i)
          && carrier_at (dive, state, i, 1) < 0;
 }
 
-/* Tethers of a lower rank go first.  Lines that carry each other in a ring have the highest of
-   those that carry.  */
+/* The rank of tether I; lower ranks go first.  Lines that carry each other in a ring have the
+   highest rank of carrying lines.  */
 static int
 rank_of (const bt_dive *dive, bt__state *state, int i)
 {

@@ -10,8 +10,9 @@
 #include "sim/chain.h"
 #include "world/line.h"
 
-#define SAME 1e-9   /* m */
-#define AT_END 5e-6 /* m: as near to its vehicle as the step of a moving line holds its end */
+#define SAME 1e-9 /* m */
+#define AT_END                                                                                     \
+  5e-6 /* m: the accuracy with which the step of a moving line holds its end at its vehicle */
 
 static int
 is_at (bt_vec3 p, bt_vec3 q)

@@ -23,7 +23,7 @@ apart2 (bt_vec3 p, bt_vec3 a, bt_vec3 b)
   return bt__dot (d, d);
 }
 
-/* The nearest that the link from A to B comes to a thruster of V that turns, squared.  */
+/* The squared distance, m2, between the link from A to B and the nearest turning thruster of V.  */
 static double
 nearest_prop (const bt__vehicle_type *type, const bt__vehicle *v, bt_vec3 a, bt_vec3 b)
 {
@@ -34,7 +34,7 @@ nearest_prop (const bt__vehicle_type *type, const bt__vehicle *v, bt_vec3 a, bt_
   return least;
 }
 
-/* The nearest that tether I comes to a thruster of V that turns, squared.  */
+/* The squared distance, m2, between tether I and the nearest turning thruster of V.  */
 static double
 nearest_on (const bt_dive *dive, bt__state *state, int i, const bt__vehicle_type *type,
             const bt__vehicle *v)

@@ -1,6 +1,6 @@
-/* A taut tether holds its vehicle: it reaches no farther than its length, more by its stretch.
+/* A taut tether holds its vehicle: the reach is the length of the tether plus its elastic stretch.
 
-   The vehicle is kept inside the balls of its tethers, each round the other end.
+   The vehicle is kept inside a ball for each tether, about the tether's other end.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -92,7 +92,7 @@ stop_body (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 u)
     v->pull += SMOOTH * (force - v->pull);
 }
 
-/* Pull VEHICLE back into the ball of tether I and return true if it had left it.  */
+/* Pull VEHICLE back into the ball of tether I; return true if VEHICLE was outside.  */
 static int
 pull_back (const bt_dive *dive, const bt__state *from, bt__state *state, int i, int vehicle)
 {

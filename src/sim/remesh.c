@@ -1,9 +1,9 @@
-/* How many nodes the moving line has: what the winch keeps to, and model `auto'.
+/* Remeshing: the number of nodes of a moving line, for the winch and for model `auto'.
 
-   Model `auto' has as many nodes as its accuracy wants.  The error that comes of the number of
-   nodes is estimated from the bends of the line, and falls with its square.  The line is laid anew
-   on more nodes when the estimate exceeds what is accepted, and on fewer when it is far below, the
-   gap between keeping it from going to and fro.
+   Model `auto' chooses the number of nodes by the accuracy asked for.  The discretisation error is
+   estimated from the curvature of the line and falls with the square of the number of nodes.  The
+   line gets more nodes if the estimate exceeds the accepted error, and fewer if the estimate is far
+   below; the gap between the two bounds is the hysteresis.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -15,15 +15,16 @@
 #include "sim/lay.h"
 #include "world/line.h"
 
-/* What is aimed at and when nodes are saved, of the accuracy: an error made once is carried on, in
-   still water for long, so the estimate of the moment is kept well below what is accepted.  */
+/* Shares of the accuracy: the error aimed at, and the error below which nodes are saved.  An error
+   once made persists, in still water for long, so the momentary estimate is kept well below the
+   accepted error.  */
 #define AIM 0.3
 #define TOO_GOOD 0.06
 #define SPARE 1.15 /* times the nodes the estimate asks for */
 
-/* A coarse line about a corner is no cubic: one that passes through its nodes swings out beside
-   them, and may be longer than the line by a third.  No interval is laid as stretched as this, of
-   what it was.  */
+/* Greatest strain of a new interval relative to the old line.  A coarse line about a corner is no
+   cubic: a cubic through its nodes swings out beside the corner, and may be longer than the line by
+   a third.  */
 #define STRETCH 0.01
 enum
 {
@@ -37,7 +38,7 @@ enum
 #define WINCH_SHARE 0.875
 #define WINCH_AIM 0.5 /* of the accuracy: what the nodes that come and go are judged by */
 
-/* A line that keeps the length it was laid with keeps its nodes too.  */
+/* The mesh of tether I; a line with its original length keeps its original nodes.  */
 bt__dynamic_mesh
 bt__chain_mesh (const bt_dive *dive, const bt__state *state, const bt__tether *tether, int i)
 {
@@ -70,8 +71,8 @@ multiple (int n, int m, int room)
   return m < n ? m : times * n <= room ? times * n : n;
 }
 
-/* The share that the chords must have in the N + 1 points P of CHAIN, LENGTH long, for none of the
-   intervals between them to be stretched by STRETCH more than on the chords.  */
+/* The weight that the chords must have, in a blend of chords and cubic, so that no interval between
+   the N + 1 points P of CHAIN, of LENGTH m, is strained by more than STRETCH beyond the chords.  */
 static double
 share_of_chords (const bt__dynamic *chain, double length, const bt_vec3 *p, int n)
 {
@@ -89,7 +90,7 @@ share_of_chords (const bt__dynamic *chain, double length, const bt_vec3 *p, int 
   return share;
 }
 
-/* Take back the N + 1 points P of CHAIN, LENGTH long, to its chords as far as that.  */
+/* Blend the N + 1 points P of CHAIN, of LENGTH m, with the chords by the weight above.  */
 static void
 straighten (const bt__dynamic *chain, double length, bt_vec3 *p, int n)
 {
@@ -140,8 +141,7 @@ lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
   return BT_OK;
 }
 
-/* True if the line is so near to itself that it must keep its nodes, in a world without
-   obstacles.  */
+/* True if, in a world without obstacles, the line is too near to itself for a change of nodes.  */
 static int
 is_near_itself (const bt_dive *dive, bt__state *state, int i, const bt__dynamic *chain)
 {

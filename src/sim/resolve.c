@@ -10,7 +10,7 @@
 #include "sim/chain.h"
 #include "sim/share.h"
 
-/* Calls of a solver that does bounded work in each, where more than one is called for.  */
+/* Greatest number of calls, for solvers that do bounded work in each call.  */
 enum
 {
   TRIES = 20
@@ -90,8 +90,9 @@ is_operation (const bt_dive *dive, const bt__state *state)
   return state->step == dive->now->step;
 }
 
-/* What was laid on the water is no shape to go on from: the equilibrium is found whole again.  In a
-   step a shape that is not at rest goes on in the next one.  */
+/* Solve tether I between ENDS.  A shape laid on the surface is no start for the solver, so its
+   equilibrium is found anew.  In a step, a shape not yet at rest goes on relaxing in the next step.
+ */
 static bt_status
 solve (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, double pull, bt_error *error)
 {

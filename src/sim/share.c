@@ -1,19 +1,19 @@
-/* A step's tethers, shared out.
+/* Sharing out the tethers of a step over threads, by speculation on islands.
 
-   Within a step a tether depends on others in three ways: through a vehicle that two of them hang
-   on, through the water between two lines that may touch, and through an obstacle on its way that
-   one holds back for all.  Tethers bound by the first two are a group (apart.c) and step one after
-   another as always; groups step at the same time, on lanes: dives that have tools of their own but
-   work on the one state, each on its tethers and their vehicles alone.  Of other groups a lane sees
-   the present state, which nobody writes to.  Events are kept by the lane and raised afterwards in
-   the order of the tethers; of counters there are only sums.
+   Within a step a tether depends on other tethers in three ways: through a common vehicle, through
+   contact between two lines, and through a kinematic obstacle held back by one tether for all.
+   Tethers bound by the first two ways form a group, an island (apart.c), and step one after
+   another.  Groups step at the same time, each in a worker context: a dive with workspaces of its
+   own that works on the common state, on the tethers and vehicles of its group alone.  Of other
+   groups a worker sees the present state, which nobody writes.  Each worker keeps its events, which
+   are raised afterwards in the order of the tethers; counters are added up.
 
-   That groups had nothing to do with each other is supposed before the step and known after it: no
-   line asked for others so far off that there was one or left its box (chain_box.c), nobody held an
-   obstacle back, nobody moved what other groups hang on, nothing failed.  Otherwise the try is made
-   again by one thread, as it would have been; so what comes of a step is always what one thread
-   makes of it.  The margins go by what the lines asked for last, and when tries are refused one
-   after another it is waited longer and longer until the next.
+   The independence of the groups is assumed before the step and verified afterwards.  The
+   assumption held if no line asked for other lines as far away as a line of another group, no line
+   left its box (chain_box.c), no kinematic obstacle was held back, no vehicle of several groups was
+   moved, and nothing failed.  Otherwise the try is discarded and one thread repeats it: the result
+   of a step is always the result of a single thread.  Margins follow the distances asked for in the
+   last steps, and after consecutive refusals the next attempt is put off longer and longer.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -60,7 +60,7 @@ bt__share_refused (bt_dive *dive)
 
 /* ---- Is it worth while? ---- */
 
-/* About what there is to do for tether I, in intervals of a moving line.  */
+/* An estimate of the work for tether I, in intervals of a moving line.  */
 static int64_t
 work_of (const bt_dive *dive, bt__state *state, int i)
 {

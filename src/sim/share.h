@@ -17,9 +17,9 @@ int bt__share_refused (bt_dive *dive);
    nothing has been done; otherwise it is done or refused.  */
 int bt__share_tethers (bt_dive *dive, bt__state *state);
 
-/* Sort the tethers of STATE into groups that have nothing to do with each other in the coming step;
-   no two of different groups are nearer than their margins and themselves (apart.c).  True if
-   the groups were right for what was then asked for.  */
+/* bt__set_apart sorts the tethers of STATE into groups without influence on each other in the
+   coming step: tethers of different groups are farther apart than their margins (apart.c).
+   bt__were_apart returns true if the groups were right for the distances then asked for.  */
 void bt__set_apart (const bt_dive *dive, bt__state *state, bt__lanes *lanes);
 int bt__were_apart (const bt_dive *dive, bt__lanes *lanes);
 

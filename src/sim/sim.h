@@ -13,12 +13,13 @@
 /* Move the vehicles of STATE by one step as sticks, autopilots and tracks say (kinematics.c).  */
 void bt__move_vehicles (const bt_dive *dive, bt__state *state);
 
-/* Vehicles with mass (bodies.c).  Steer those of STATE, and find what their moving lines have at
-   their ends; step those that no moving line carries.  */
+/* Vehicles with mass (bodies.c).  Steer the vehicles of STATE and find the forces of their moving
+   lines; step the vehicles carried by no moving line.  */
 bt_status bt__steer_bodies (const bt_dive *dive, bt__state *state, bt_error *error);
 bt_status bt__step_bodies (const bt_dive *dive, bt__state *state, bt_error *error);
 
-/* Step VEHICLE with the end of its moving line where the line's step brought it, X.  */
+/* Step VEHICLE with its attachment at X, the place to which the step of its moving line brought the
+   end.  */
 bt_status bt__follow_line (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 x,
                            bt_error *error);
 
@@ -31,10 +32,10 @@ void bt__put_vehicle (bt__vehicle *v, bt_vec3 p, int keeps);
 /* Give V, with mass, the place and motion of its body.  */
 void bt__mirror_body (bt__vehicle *v);
 
-/* Note where a tether has come near to a thruster that turns, with its event (props.c).  */
+/* Note tethers near to a turning thruster, with the event `prop-danger' (props.c).  */
 void bt__watch_props (const bt_dive *dive, bt__state *state);
 
-/* Let V, which goes where it is told, be moved by forces as a dead weight.  */
+/* Turn the kinematic vehicle V into a dead body moved by forces.  */
 void bt__deaden_vehicle (bt__vehicle *v);
 
 /* Remember the pull of tether I, laid anew, on the vehicle it carries.  */
@@ -59,8 +60,8 @@ bt__is_spring (const bt__tether *tether)
   return tether->props.model >= BT_MODEL_ELASTIC && isfinite (tether->props.ea);
 }
 
-/* Turn the winches of STATE by one step.  Before, stall those that haul a static tether of a vehicle
-   which is taken elsewhere in this try (winch.c).  */
+/* bt__turn_winches turns the winches of STATE by one step.  bt__stall_where_held, called before,
+   stalls each winch that hauls the static tether of a vehicle pinned in this try (winch.c).  */
 void bt__turn_winches (const bt_dive *dive, bt__state *state);
 void bt__stall_where_held (const bt_dive *dive, bt__state *state);
 
@@ -69,15 +70,14 @@ void bt__stall_where_held (const bt_dive *dive, bt__state *state);
 double bt__winch_pull (const bt_tether_props *props);
 void bt__stall_winch (bt__state *state, bt__tether *tether, int i, double length);
 
-/* Return the most that tether I may have out, m: all that was on its drum, less what it has lost by
-   parting (winch.c).  */
+/* Return the greatest length, m, that tether I can have out: the length of its drum, less the
+   length lost by parting (winch.c).  */
 double bt__most_out (const bt_dive *dive, bt__state *state, int i);
 
 /* A cut line is home with so much of it out, m: its end hangs from the winch.  */
 #define BT__HOME_LENGTH 0.1
 
-/* Hold the vehicles of STATE, which moved from where they are in FROM, at the ends of their tethers
-   (reach.c).  */
+/* Hold the vehicles of STATE, moved since FROM, within the reach of their tethers (reach.c).  */
 void bt__hold_at_tethers (const bt_dive *dive, const bt__state *from, bt__state *state);
 
 /* Return how far along the straight way from A to B, 0 to 1, vehicle I of STATE gets before a
@@ -101,8 +101,8 @@ bt__ends bt__tether_ends (const bt_dive *dive, bt__state *state, int i);
 /* Return the strongest pull of the vehicles at the ends of tether I, N; 0 when both are points.  */
 double bt__pull_on (const bt_dive *dive, bt__state *state, int i);
 
-/* True if nothing that the line of TETHER depends on has changed since it was last solved or
-   stepped: ends, length, properties, current (resolve.c).  */
+/* True if ends, length, properties and current, all inputs of the line of TETHER, are unchanged
+   since the last solve or step (resolve.c).  */
 int bt__is_unchanged (const bt_dive *dive, const bt__state *state, const bt__tether *tether,
                       const bt__ends *ends);
 
@@ -110,16 +110,16 @@ int bt__is_unchanged (const bt_dive *dive, const bt__state *state, const bt__tet
 bt_status bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
                            const bt_tether_props *props, double pull, bt_error *error);
 
-/* Solve tether I between ENDS as its static model has it, pulled taut by its vehicles (resolve.c).
- */
+/* Solve tether I between ENDS by its static model, pulled taut by its vehicles (resolve.c).  */
 bt_status bt__solve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
                             bt_error *error);
 
-/* Among obstacles bring a tether of a static model to ENDS as far as they let it (drape.c).  */
+/* Among obstacles bring a tether of a static model to ENDS, up to the first contact for models
+   without contact forces (drape.c).  */
 bt_status bt__drape_tether (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
                             bt_error *error);
 
-/* Note that tether I is TAUT or no longer, with its event (reach.c).  */
+/* Note whether tether I is TAUT, with the event `taut' or `slack' (reach.c).  */
 void bt__note_taut (bt__state *state, bt__tether *tether, int i, int taut);
 
 /* The moving line (chain.c): lay tether I from its present shape, or from its equilibrium; go on by

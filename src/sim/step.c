@@ -187,7 +187,8 @@ try_once (bt_dive *dive, int round, bt_error *error)
   return bt__resolve_tethers (dive, next, 1, error);
 }
 
-/* The same, shared out if there are threads for it and that can be done.  */
+/* The same, shared out over the threads of DIVE if there are several.  A refused attempt is
+   repeated by one thread (share.c).  */
 static bt_status
 try_step (bt_dive *dive, int round, bt_error *error)
 {

@@ -1,7 +1,7 @@
-/* Is a tether stuck: it is pulled, and its end has hardly moved for a while.
+/* A tether is stuck if the line is pulled and its end has hardly moved for a while.
 
-   The speed of the end is the mean over the last 5 to 6 s: a body on a taut line trembles and
-   swings on its way to rest, and what creeps along has left its place all the same.
+   The speed of the end is the mean over the last 5 to 6 s.  A shorter mean would see the trembling
+   of a body that comes to rest on a taut line; a creeping end leaves its place all the same.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -15,7 +15,7 @@
 #define SLOW 0.02 /* m/s */
 #define PULL 1.0
 
-/* A parted line is pulled where its winch hauls at what is left of it.  */
+/* True if a winch hauls at the rest of a parted line.  */
 static int
 is_pulled_parted (const bt__line *line)
 {

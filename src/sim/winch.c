@@ -1,8 +1,8 @@
-/* The winch: pays out and hauls in at its rate, exactly as much as it was told, and stalls where
-   the line pulls as hard as it can.
+/* The winch: pays out and hauls in at its rate, by exactly the ordered length, and stalls if the
+   line pulls with the winch's greatest pull.
 
-   It turns here, and a static line follows at once.  A moving line follows in its own step, with a
-   lag and by force (chain_step.c).
+   This file turns the drum.  A static line follows at once; a moving line follows in its own step,
+   with a lag and by force (chain_step.c).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -35,7 +35,7 @@ bt__most_out (const bt_dive *dive, bt__state *state, int i)
   return fmin (drum, MOST_OUT);
 }
 
-/* True if tether I is a moving line with a vehicle at its end that it pulls along.  */
+/* True if tether I is a moving line that pulls the vehicle at its end along.  */
 static int
 draws_a_body (const bt_dive *dive, bt__state *state, int i)
 {
@@ -53,8 +53,8 @@ held_with (const bt_dive *dive, bt__state *state, int i)
   return end[0].vehicle < 0 && end[1].vehicle < 0 ? INFINITY : bt__pull_on (dive, state, i);
 }
 
-/* The shortest length of tether I that winch and vehicles, as hard as they pull, still let reach
-   between its ends; a body is drawn along, and so is an end that is free.  */
+/* The shortest length, m, of tether I that reaches between its ends under the pulls of winch and
+   vehicles; 0 if the line draws a body or a free end along.  */
 static double
 shortest (const bt_dive *dive, bt__state *state, int i)
 {
@@ -66,8 +66,8 @@ shortest (const bt_dive *dive, bt__state *state, int i)
   return bt__distance (ends.a, ends.b) / bt__longest_chord (&tether->props, 1, pull);
 }
 
-/* True if LINE, a static shape, pulls at its winch harder than that can; a moving line tells in its
-   step.  */
+/* True if LINE, a static shape, pulls harder than its winch can; for a moving line the step itself
+   decides.  */
 static int
 is_overloaded (const bt__line *line)
 {
@@ -117,7 +117,8 @@ haul (const bt_dive *dive, bt__state *state, int i, double length)
     tether->length = length;
 }
 
-/* A line that draws more off the drum than it was to be paid has it.  */
+/* Set the paid-out length of tether I to LENGTH; a moving line that drew more off the drum keeps
+   the greater length.  */
 static void
 pay (const bt_dive *dive, bt__state *state, int i, double length)
 {

@@ -1,9 +1,9 @@
-/* What a tether is wound about, looked at twice a second for the events `wrapped' and `freed'.
+/* The windings of a tether, looked at twice a second for the events `wrapped' and `freed'.
 
-   The ends alone change what a line is wound about, since it passes through nothing: where neither
-   has moved nothing is looked at.  Else the line itself and the way home that lies at hand are
-   mostly enough to see that nothing has changed; where they are not the question is asked in full.
-   A taut string is no shorter than it was by more than its ends have moved.
+   A line passes through nothing, so only motion of the ends can change its windings: while both
+   ends rest there is no look.  After motion of an end, the line itself and the last known way home
+   mostly suffice to see that the windings are the same; otherwise the question is asked in full.
+   The taut string becomes shorter by at most the motion of the ends.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -20,8 +20,8 @@ enum
   LOOK_EVERY = 30 /* steps */
 };
 
-/* Note where the ends of tether I are; return true if they, or what counts for it, have changed
-   since they were last noted.  */
+/* Note the places of the ends of tether I; return true if the ends have moved, or the enabled
+   obstacles have changed, since the last note.  */
 static int
 has_moved (const bt_dive *dive, bt__subject *subject, int i)
 {
