@@ -105,7 +105,7 @@ bt__thesis_tension_max (const bt__thesis *s)
   return most;
 }
 
-/* What keeps the break point where it is, against the tension of both spans.  */
+/* The force of the obstacle on the break point, which balances the tension of both spans.  */
 static bt_vec3
 force_at (const bt__span *span)
 {

@@ -1,17 +1,17 @@
 /* The collision response of the thesis (D. Manowitz, chapter 3) for the quasi-static models.
 
-   A tether that meets an obstacle is split there: break points fixed in space, with a span of its
-   own model between each two.  Here are the rules: the averaged collision point and the shift
-   outward (3.4), the back-side and the immediate-collision rule (3.5.1), rejoining at
-   rejoin-angle, sliding at constant total length with the longest span bent, sticking, pay-out
-   without effect while stuck (3.5.2).  What the spans say is only where the tether wants to be:
-   the polyline goes there by the safe step and is what the tether is.
+   A tether that meets an obstacle is split at break points fixed in space; between two break points
+   lies a span, shaped by the tether's own model.  The rules are: the averaged collision point and
+   the shift outward (3.4); the back-side rule and the immediate-collision rule (3.5.1); rejoining
+   at rejoin-angle, sliding at constant total length with the longest span bent, sticking, and
+   pay-out without effect while stuck (3.5.2).  The spans only give the goal of the tether: the
+   polyline moves towards the goal by the safe step, and the polyline is the tether.
 
-   Where we differ: a span has the length it has, so a rubber band never becomes longer than its
-   share, the vehicle is stopped first; the turn of the normals is added up from contact to contact,
-   so that a second turn counts; any number of links may collide in a step, one after another; the
-   bend stays in its span until that is split, where the thesis lets it jump to the longest; a
-   contact that comes back in the step in which it was taken back asks for 5 degrees more.
+   Differences from the thesis: a span never becomes longer than its share of the length, so for the
+   rubber band the vehicle is stopped first.  The turn of the normals is added up from contact to
+   contact, so that a second turn counts.  Any number of links may collide in a step, one after
+   another.  The bend stays in its span until the span is split; in the thesis the bend jumps to the
+   longest span.  A contact rejoined and met again in the same step needs 5 degrees more to rejoin.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

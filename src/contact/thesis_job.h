@@ -75,7 +75,7 @@ void bt__spans_count_cheats (bt__thesis_job *j);
 
 /* ---- thesis_mesh.c: the polyline of the spans ---- */
 
-/* Give every span the nodes that its length asks for, and the work where they are to go.  */
+/* Give every span nodes by its length, and the workspace the goals of the nodes.  */
 void bt__thesis_aim (bt__thesis_job *j);
 
 /* All arrived: let the spare nodes go.  */

@@ -1,4 +1,4 @@
-/* What a polyline among obstacles, and a line split there, may be when they come from outside.
+/* Judging a polyline among obstacles, and a line split at contacts, from outside.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

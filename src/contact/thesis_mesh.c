@@ -1,7 +1,7 @@
 /* The polyline of the spans: equal arcs within a span, a node at every split.
 
-   A span that grew is given nodes in the middle of its longest links, which changes nothing; one
-   that shrank lets nodes go after a move that put them on the line of their neighbours.
+   A span that grew gets nodes in the middle of its longest links, which leaves the curve unchanged.
+   A span that shrank loses nodes after a move that puts them on the chord of their neighbours.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

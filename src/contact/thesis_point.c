@@ -1,11 +1,11 @@
-/* The collision point (thesis 3.4): the points in which a link meets the obstacle's surface and the
-   normals there are averaged; the break point is moved out along the mean normal by the largest
-   distance to the surface's planes and sqrt (2) radii.
+/* The collision point (thesis 3.4): the average of the points in which a link meets the obstacle's
+   surface, and of the normals in these points.  The break point is moved out along the mean normal
+   by the largest distance to the planes of the surface plus sqrt (2) radii.
 
-   The thesis takes the link as it is found, inside the obstacle.  Ours never is: the one that was
-   stopped is pressed in a little, by a copy, and that is measured.  Solids have a surface of their
-   own in place of triangles.  Where a link meets no face, on a rim or lying flat, the nearest point
-   and its normal stand in for the average.
+   The thesis takes the link inside the obstacle.  In this program no link is ever inside, so a copy
+   of the stopped link is pressed in a little and measured.  Solids have a smooth surface in place
+   of triangles.  If a link meets no face, on a rim or lying flat, the nearest point and its normal
+   replace the averages.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -114,7 +114,7 @@ meet_solid (sum *s, const bt__obstacle *o, const bt__link *link)
   cross_surface (s, o, link, in, 1);
 }
 
-/* Every triangle of the mesh that the link goes through, its normal turned to the side of OUT.  */
+/* Add every triangle of MESH that LINK goes through, with its normal turned to the side of OUT.  */
 static void
 meet_mesh (sum *s, const bt__mesh *mesh, uint32_t object, const bt__nears *list,
            const bt__link *link, bt_vec3 out)
@@ -175,8 +175,8 @@ bt__collision_point (const bt__scene *scene, const bt__switches *on, const bt__l
   out->point = bt__axpy (out->contact, shift, mean);
 }
 
-/* How far D rises over the plane square to NORMAL, seen along the way T that the tether takes
-   there: what it does to the side, down a pile or along an edge, is no opening.  */
+/* The angle by which D rises over the plane across NORMAL, in the plane of NORMAL and the tether's
+   direction T: motion to the side, down a pile or along an edge, is no opening.  */
 static double
 rise (bt_vec3 d, bt_vec3 t, bt_vec3 normal)
 {

@@ -1,10 +1,9 @@
 /* Sharing out the length among the spans, and solving those that changed.
 
-   While it slides the tether has one bend: one span, the longest when the bend was last divided,
-   holds all the slack, the others are straight, and the sum is constant (thesis 3.5.2; there it is
-   the longest at any time, and the bend jumps when another becomes it).  Stuck, every span keeps
-   its length; what the winch gives or takes is the first one's, and the vehicle's side does not
-   know.
+   A sliding tether has one bend: one span holds all the slack, the other spans are straight, and
+   the sum of lengths is constant (thesis 3.5.2).  The bent span is the longest at the time of the
+   last split; in the thesis the bend jumps to the longest span at any time.  In a stuck tether
+   every span keeps its length, and the winch changes the length of the first span only.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -104,8 +103,8 @@ within (bt_vec3 p, bt_vec3 c, double reach)
   return d > reach ? bt__axpy (c, reach / d, bt__sub (p, c)) : p;
 }
 
-/* What the spans from the second to the last but one need.  A break point that was moved out takes
-   a little more than there was.  */
+/* The length, m, needed by the spans from the second to the last but one; a break point moved out
+   needs a little more than before.  */
 static double
 need_between (bt__thesis_job *j)
 {
@@ -119,8 +118,8 @@ need_between (bt__thesis_job *j)
   return sum;
 }
 
-/* The anchor's end goes no farther from the first split than there is length for, but it need not
-   come nearer: the winch stops first.  */
+/* Limit the distance of the anchor's end from the first split by the length available.  The end
+   need not come nearer than it is: the winch stops first.  */
 static void
 hold_anchor (bt__thesis_job *j, double between)
 {

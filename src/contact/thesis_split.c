@@ -90,7 +90,7 @@ arc_of (const bt__thesis_job *j, uint32_t link, bt_vec3 p)
   return u[0] + bt__share (bt__dot (bt__sub (p, x[0]), d), bt__dot (d, d)) * (u[1] - u[0]);
 }
 
-/* True if a split at P on span K would be one with what is there.  */
+/* True if a split at P on span K would coincide with an existing split or end.  */
 static int
 is_crowded (const bt__thesis_job *j, int64_t k, bt_vec3 p)
 {
@@ -131,7 +131,7 @@ new_split (bt__thesis_job *j, const bt__hit *hit, const bt__collision *c, int64_
                       .fresh = BT__NEW };
 }
 
-/* Make room for a split after span K, which has WHOLE m of arc now and F of them before it.  */
+/* Make room for a split in span K, of WHOLE m of arc length, F m of it before the split.  */
 static void
 divide (bt__thesis_job *j, int64_t k, double whole, double f, const bt__split *split)
 {

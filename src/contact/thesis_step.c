@@ -1,8 +1,8 @@
 /* A step of the thesis' response, on one page: bt__thesis_step.
 
-   The spans are solved, the polyline moves where they want it; if an obstacle stops it there, it is
-   split there, and again, until it has arrived or nothing helps.  Then it stays as far as it came,
-   and the vehicle with it.
+   The spans are solved, and the polyline moves towards them.  If an obstacle stops the polyline, it
+   is split at the contact, and the step repeats until the polyline has arrived or no split helps.
+   A polyline that cannot arrive stays, and the vehicle with it.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -173,8 +173,8 @@ id_of (const bt__thesis_job *j, const bt__hit *hit)
   return hit->links ? (int64_t)scene->object[hit->near.object].id : -1;
 }
 
-/* Nothing helps against HIT: what can still go goes.  Then the ends stay where they are, and the
-   rest is solved for that.  */
+/* Give in to HIT, against which no split helps: the other nodes move on, then the ends stay, and
+   the spans are solved for these ends.  */
 static int
 give_in (bt__thesis_job *j, const bt__hit *hit)
 {

@@ -9,9 +9,9 @@
 
 #include "collide/safe.h"
 
-/* What a tether can meet in a step: SCENE stands still, the movers go from one place to another and
-   report in DONE how much of that was taken.  Obstacles are known by the ids of their scenes'
-   objects, which are their numbers in the model.  */
+/* The obstacles around a tether in a step: the objects of SCENE stand still; kinematic obstacles
+   move from one place to another, and their DONE receives the share of the motion that was taken.
+   The ids of objects are the numbers of the obstacles in the model.  */
 typedef struct bt__surroundings
 {
   const bt__scene *scene; /* empty, not NULL, where nothing stands */

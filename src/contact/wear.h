@@ -1,9 +1,9 @@
-/* How far a tether's jacket is worn, spot by spot of its material.
+/* Wear of a tether's jacket, in spots along the material.
 
-   A contact that slides does work against friction; that work wears the jacket where the contact is
-   (J. F. Archard, J. Appl. Phys. 24, 1953: the volume worn goes as load times way, which is the
-   work over mu).  Spots lie along the tether by their distance from its far end, which the winch
-   does not change: what is wound in keeps its wear.
+   The friction work of a sliding contact wears the jacket at the contact (J. F. Archard, J. Appl.
+   Phys. 24, 1953: the worn volume is proportional to load times sliding distance, the friction work
+   over mu).  Spots are indexed by the distance from the far end, which the winch does not change,
+   so that line on the drum keeps its wear.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,9 +1,8 @@
 /* Several equilibria of one line: a search from several sides.
 
    The line is bent as a catenary to each of six sides (its own load, the opposite, both sides
-   across, up, down) and relaxed; what comes to rest in a new place is kept.  Bows toward the load
-   mostly fall into the same shape; a line that is slack in a sheared or turning current may have
-   others.
+   across, up, down) and relaxed; every new shape at rest is kept.  Bows toward the load mostly fall
+   into the same shape; a slack line in a sheared or turning current may have further equilibria.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

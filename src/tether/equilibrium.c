@@ -1,10 +1,12 @@
-/* Which equilibrium: shooting where its answer belongs to the present shape, relaxation elsewhere.
+/* The choice among equilibria: shooting if its answer belongs to the present shape, else
+   relaxation.
 
-   Shooting is exact and, warm, costs a few marches; but it knows nothing of the shape the line has,
-   and a slack line in a current may have several equilibria.  So an answer is taken only when it is
-   near the present shape.  Relaxation lands where the shape falls, at second order; where it has
-   come to rest, shooting from its tension polishes it.  The work of one call is bounded: a shape
-   that still moves is returned as it is, counted as unsettled, and continued by the next call.
+   Shooting is exact and, with a warm start, costs a few marches; but shooting ignores the present
+   shape, and a slack line in a current may have several equilibria.  So an answer of shooting is
+   taken only if near the present shape.  Relaxation finds the equilibrium into which the present
+   shape falls, at second order in the mesh; after relaxation, shooting from the tension found
+   polishes the result.  The work of one call is bounded: a shape not yet at rest is returned as it
+   is, counted as unsettled, and relaxed further by the next call.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,4 +1,4 @@
-/* What every plane problem of <bight/statics.h> asks of its numbers, and the taut limit they share.
+/* The checks of numbers common to all plane problems of <bight/statics.h>, and their taut limit.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -28,8 +28,8 @@ bt__plane_check (double h, double v, double s, bt_error *error)
   return good ? BT_OK : bt__plane_refuse (h, v, s, error);
 }
 
-/* Return S^2 - H^2 - V^2, right to about 1e-32 of S^2: its sign says whether a line of length S is
-   taut, and its size how far from it.  */
+/* Return S^2 - H^2 - V^2, accurate to about 1e-32 of S^2: positive for a slack line of length S,
+   zero or negative for a taut one.  */
 double bt__plane_excess (double h, double v, double s);
 
 #endif

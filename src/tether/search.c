@@ -1,8 +1,9 @@
 /* The thesis' own way to a catenary: Nelder and Mead's search on (A, xs), equations 2-2 to 2-4.
 
-   Kept as the base line that the closed equation is measured against, with GSL's nmsimplex2 for the
-   thesis' Matlab routine.  Section 2.3.2 prints that the relative errors are for y1 and s *below*
-   one; they cure errors of long lines, so they belong above one, and that is what is done here.
+   Kept as the base line for measurements of the closed equation, with GSL's nmsimplex2 in place of
+   the thesis' Matlab routine.  Section 2.3.2 prints that relative errors are used for y1 and s
+   *below* one.  Relative errors cure errors of long lines, so they belong above one, and are used
+   above one here.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -18,9 +19,9 @@
 /* What stands for an overflowed error: the simplex must compare numbers.  */
 #define OVERFLOWED 1e200
 
-/* The first simplex reaches this share of each coordinate.  The thesis prints no step.  Of 0.05,
-   0.1, 0.5 and 1 the cold one is the quickest that fails little, of 0.01 to 0.5 the warm one
-   (Matlab's own fmins took 0.05): a base line should be as good as it can be.  */
+/* Size of the first simplex as a share of each coordinate.  The thesis prints no step.  The cold
+   step is the quickest among 0.05, 0.1, 0.5 and 1 with few failures, the warm step among 0.01 to
+   0.5 (Matlab's own fmins took 0.05): a base line should be as good as possible.  */
 #define COLD_STEP 0.5
 #define WARM_STEP 0.05
 
@@ -71,8 +72,8 @@ squared_miss (double is, double wanted)
   return e * e;
 }
 
-/* Equation 2-2.  A is free to turn negative, as it was: the guess does so for lines below a metre,
-   and such an answer lies upside down (who asks must look at the sign).  */
+/* Equation 2-2.  A may turn negative, as in the thesis: the guess is negative for lines below a
+   metre, and the curve of a negative A is upside down, so callers must check the sign.  */
 static double
 thesis_error (const gsl_vector *at, void *user)
 {

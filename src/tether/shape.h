@@ -75,8 +75,8 @@ typedef struct bt__shape_memory
 
 extern const bt__record bt__shape_record, bt__shape_memory_record;
 
-/* Judge what the tables do not know of SHAPE, whose members were judged, with nodes for ROOM
-   intervals; those nodes and their tensions.  */
+/* Judge relations between members of SHAPE, whose single members were judged by the tables, with
+   room for ROOM intervals; judge the nodes and their tensions.  */
 bt_status bt__shape_judge (bt__judge *judge, const bt__shape *shape, int64_t room);
 bt_status bt__shape_judge_nodes (bt__judge *judge, const bt_vec3 *nodes, const bt_vec3 *tensions,
                                  int64_t room);

@@ -1,4 +1,4 @@
-/* One shape solve on its way, shared by the files that take part in it.
+/* One shape solve under way, shared by the files shape*.c.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -10,7 +10,7 @@
 #include "tether/plane.h"
 #include "tether/shape.h"
 
-/* What is asked, where the answer goes, and the plane problem once it is posed.  */
+/* The input, the place of the answer, and the plane problem once posed.  */
 typedef struct bt__shape_job
 {
   const bt__shape_input *in;

@@ -1,4 +1,4 @@
-/* What the shape of a static tether may be when it comes from outside.
+/* Judging the shape of a static tether from outside.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,15 +1,15 @@
 /* Setting a plane problem into space: the load, the plane of the bend, the depth rule.
 
-   The thesis turns the world (sections 2.2 to 2.4) until the current lies along one axis and the
-   far end in one plane, solves there, and turns back.  The same curve comes without angles: it lies
-   in the plane spanned by the chord and the direction of the load, and so that plane is all we
-   need.  The sag factor turns the direction of the load from the current toward the vertical.
+   The thesis rotates the world (sections 2.2 to 2.4) until the current lies along one axis and the
+   far end in one plane, solves there, and rotates back.  The same curve follows without angles: the
+   curve lies in the plane spanned by the chord and the direction of the load.  The sag factor turns
+   the direction of the load from the current toward the vertical.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include "tether/shape_job.h"
 
-/* A chord nearer to the load's direction than this share of the length has no side of its own.  */
+/* A chord closer to the direction of the load than this share of the length defines no plane.  */
 #define ALONG 1e-12
 
 static const bt_vec3 up = { 0, 0, 1 }, down = { 0, 0, -1 };

@@ -6,14 +6,14 @@
 
 #include "tether/shape_job.h"
 
-/* The thesis' own settings of its search (section 2.3.2), and the steps we allow it.  */
+/* The thesis' own tolerance of the search (section 2.3.2), and a bound on its steps.  */
 #define SEARCH_TOLERANCE 0.005
 enum
 {
   SEARCH_STEPS = 500
 };
 
-/* An answer of the search that misses by more than this share of the length is none.  */
+/* The search has failed if its answer misses by more than this share of the length.  */
 #define SEARCH_MISS 0.01
 
 bt_status
@@ -41,9 +41,9 @@ load_bent_links (bt__shape *s, double far, double fx, double fy)
   s->t2 = fmax (half * (fx * e1.y - fy * e1.x) / turn, 0);
 }
 
-/* Thesis 2.4.1: the bend of the flat V keeps its place across, sinks by its share of the depth, and
-   is pulled in along the current so that the first link keeps its length.  The second does not. The
-   two links span a plane of their own, which becomes the plane of the shape.  */
+/* Thesis 2.4.1: the bend of the flat V keeps its place across the current, sinks by its share of
+   the depth, and is pulled in along the current until the first link has its length again.  The
+   second link changes its length.  The two links define the plane of the shape.  */
 static bt_status
 bend_thesis_linear (bt__shape_job *j)
 {
@@ -70,8 +70,8 @@ bend_thesis_linear (bt__shape_job *j)
   return BT_OK;
 }
 
-/* Straight, with the bend where equation 2-1 has its limits: taut against the load it is at the
-   start, with it at the end.  */
+/* The straight line, with the bend at the limits of equation 2-1: at the start for a line taut
+   against the load, at the end for a line taut along the load.  */
 static void
 pull_v_taut (bt__shape_job *j)
 {

@@ -1,8 +1,8 @@
-/* A smooth curve between two nodes of a line that is no longer than the line.
+/* A smooth curve between two nodes, never longer than the line between them.
 
-   Between nodes a line is read off a cubic.  Where the line turns sharply, or its nodes lie
-   unevenly or slack, a cubic swings out beside them and is longer than the line that is there: what
-   it is off the chord is then taken by a share.
+   Between nodes a line is interpolated by a cubic.  At sharp bends, or between uneven or slack
+   nodes, a cubic swings out and is longer than the line: then only a share of the cubic's deviation
+   from the chord is taken.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -11,8 +11,8 @@
 
 #include "math/vec.h"
 
-/* Of an interval: how much longer a cubic may be read anywhere than the line is.  One through the
-   nodes of a smooth line is longer than their chords by a 24th of the square of what it turns.  */
+/* Greatest strain of a cubic relative to the line, anywhere in an interval.  A cubic through nodes
+   of a smooth line is longer than the chord by a 24th of the square of its turning angle.  */
 #define BT__SMOOTH_SPARE 0.01
 
 enum
@@ -20,7 +20,8 @@ enum
   BT__SMOOTH_LOOKS = 12
 };
 
-/* The share of OFF that leaves CHORD + OFF no longer than REACH, which CHORD is not.  */
+/* The largest share of OFF for which CHORD + share OFF is no longer than REACH; CHORD is shorter
+   than REACH.  */
 static inline double
 bt__share_within (bt_vec3 chord, bt_vec3 off, double reach)
 {
@@ -29,12 +30,12 @@ bt__share_within (bt_vec3 chord, bt_vec3 off, double reach)
   return q + 2 * b > left ? (sqrt (b * b + q * left) - b) / q : 1;
 }
 
-/* The share of itself to which a cubic over CHORD, between nodes with REST metres of line, is taken
-   toward the chord.  A and B: what its derivatives at either end, by the share F of the interval,
-   have beyond the chord; at F that is A (1 - 4 F + 3 F F) + B (3 F F - 2 F).  It is looked at
-   BT__SMOOTH_LOOKS times from one end to the other: in between it is faster by at most an eighth of
-   the squared distance times 6 |A + B|, 1 % of a cubic that is twice as fast at its ends as its
-   chord.  */
+/* The share of the deviation from CHORD to be taken of a cubic between nodes with REST metres of
+   line.  A and B are the end derivatives of the cubic with respect to the share F of the interval,
+   less CHORD; at F the deviation of the derivative is A (1 - 4 F + 3 F F) + B (3 F F - 2 F).  The
+   derivative is sampled BT__SMOOTH_LOOKS times; between samples it exceeds the samples by at most
+   an eighth of the squared spacing times 6 |A + B|, which is 1 % for a cubic whose speed at the
+   ends is twice its chord's.  */
 static inline double
 bt__smooth_share (bt_vec3 chord, bt_vec3 a, bt_vec3 b, double rest)
 {

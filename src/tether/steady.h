@@ -12,7 +12,7 @@
 #include "base/ask.h"
 #include "math/vec.h"
 
-/* The coefficients of the loads on one unstretched metre, and what a march needs to know.  */
+/* The coefficients of the loads on one unstretched metre, with the further inputs of a march.  */
 typedef struct bt__loads
 {
   const bt_water *water;
@@ -26,9 +26,9 @@ typedef struct bt__loads
 /* Collect the loads of LINE in WATER.  */
 void bt__loads_set (bt__loads *loads, const bt_line *line, const bt_water *water, bt_vec3 at);
 
-/* Return a force that measures the whole line: its weight and its drag broadside on in the mean
-   current between A and B.  Positive; for an unloaded line, the weight of the water it displaces.
- */
+/* Return the scale of force, N, of the whole line: its weight plus its broadside drag in the mean
+   current between A and B; for an unloaded line, the weight of the displaced water.  Always
+   positive.  */
 double bt__loads_scale (const bt__loads *loads, const bt_line *line, bt_vec3 a, bt_vec3 b);
 
 /* The current at P.  */
@@ -62,8 +62,9 @@ int bt__march (const bt__loads *loads, bt_vec3 origin, bt_vec3 pull, double leng
 void bt__steady_guess (const bt_line *line, const bt_water *water, bt_vec3 a, bt_vec3 b,
                        bt_vec3 fallback, int n, bt_vec3 *r, bt_vec3 *pull);
 
-/* Draw in what links of the N + 1 nodes R are longer than REACH, which is more than an Nth of the way
-   from the first to the last; return true if any was (steady_shorten.c).  */
+/* Draw in the links of the N + 1 nodes R that are longer than REACH, which exceeds an Nth of the
+   distance from the first node to the last; return true if there was such a link
+   (steady_shorten.c).  */
 int bt__steady_shorten (bt_vec3 *r, int n, double reach);
 
 typedef struct bt__block

@@ -38,7 +38,7 @@
 #define TAUT 1e-6       /* a line with less slack than this is stretched */
 #define SLACK 1e-5      /* modulus of a slack link, in units of ea ... */
 #define SLACK_LOAD 1e-2 /* ... and at most this in units of the load */
-#define SPARE 1e-3      /* of a link: stretch that is left to one of a shape that is not at rest */
+#define SPARE 1e-3      /* of a link: strain accepted in a shape not at rest */
 #define SETTLED 1e-10   /* of the length: the motion in the longest step that counts as rest */
 
 /* How the steps grow, found by measurement over random shapes, chords and currents; nothing depends
@@ -120,9 +120,9 @@ product (const bt__block *a, const bt__block *b)
   return c;
 }
 
-/* Invert by cofactors: a diagonal block is near a multiple of a projector plus a multiple of the
-   unit, which this serves well.  A singular block gives values that are not finite; the step sees
-   them.  */
+/* Invert by cofactors, accurate enough because a diagonal block is nearly a multiple of a projector
+   plus a multiple of the unit matrix.  A singular block gives values that are not finite, which the
+   step detects.  */
 static inline bt__block
 inverse (const bt__block *a)
 {
@@ -316,8 +316,8 @@ moved (const chain *c)
 }
 
 /* Iterate from the remembered shape.  Count the iterations into *USED and return the last update,
-   infinite when the shape was lost.  A step need not be solved well: the next one starts from where
-   it got to, and only a motion that does not come down says that it was too long.  */
+   infinite if the shape was lost.  A step need not be solved to convergence, since the next step
+   starts from its result; only an update that does not decrease means a step too long.  */
 static double
 take_step (chain *c, double tolerance, int at_most, int *used)
 {
@@ -334,8 +334,8 @@ take_step (chain *c, double tolerance, int at_most, int *used)
   return update;
 }
 
-/* The reach of the next step after one that moved the nodes by MOTION.  A shape still on its way is
-   followed, one that has nearly arrived is taken to its end.  */
+/* The reach of the next step after a step that moved the nodes by MOTION.  A shape far from rest is
+   followed closely, a shape nearly at rest is taken to rest in long steps.  */
 static double
 next_reach (const chain *c, double reach, double motion, int solved)
 {
@@ -346,8 +346,9 @@ next_reach (const chain *c, double reach, double motion, int solved)
   return reach * (motion > NEARER * c->length ? GROWTH : FASTER);
 }
 
-/* A long step is for arriving: one that carries the nodes far has left the path on which the shape
-   falls.  A short step may, when it lets go of a line that was stretched.  */
+/* The greatest motion allowed in a step of REACH.  Long steps are for the final approach: a long
+   step with a large motion has left the path on which the shape falls.  A short step may move far,
+   for example when a stretched line is released.  */
 static double
 allowed_motion (const chain *c, double reach)
 {
@@ -393,8 +394,8 @@ shape_is_finite (const bt_vec3 *r, int n, double limit)
   return 1;
 }
 
-/* Move the ends to A and B and the nodes between in proportion, so that no single link takes the
-   whole motion.  A shape that is not finite becomes the straight line.  */
+/* Move the ends to A and B and the nodes between in proportion, so that the motion is spread over
+   all links.  A shape that is not finite becomes the straight line.  */
 static void
 place_ends (bt_vec3 *r, int n, bt_vec3 a, bt_vec3 b)
 {
@@ -469,8 +470,7 @@ set_chain (chain *c, bt_steady *steady, const bt_line *line, const bt_water *wat
   memset (steady->bias, 0, (size_t)n * sizeof *steady->bias);
 }
 
-/* What has not come to rest is left as a shape that the line can have, with the tensions of that.
- */
+/* Make a shape not at rest a possible shape of the line, with its tensions.  */
 static void
 leave_possible (chain *c)
 {

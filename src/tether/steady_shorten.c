@@ -1,11 +1,11 @@
-/* A shape that is still on its way to rest, made one that the line can have.
+/* Making an unfinished shape of relaxation a possible shape of the line.
 
-   Relaxation may stop, its work being bounded, where some links are many times as long as the line
-   between their ends.  Such links are drawn in: each node comes within reach of its neighbour, from
-   one end to the other and back, which leaves the rest of the shape where it is.  Each sweep leaves
-   less to draw in as long as the ends are nearer than the line is long.  What is left in the end,
-   of a line that is nearly taut, is taken toward the straight line between the ends: a link of a
-   mean of two shapes is no longer than the mean of their links.
+   The work of relaxation is bounded, so relaxation may stop while some links are many times as long
+   as the line between their ends.  Such links are drawn in by sweeps from one end to the other and
+   back: each node is moved within reach of its neighbour, and the rest of the shape stays.  As long
+   as the ends are nearer than the length of the line, the excess decreases with each sweep.  The
+   excess left in the end, in a nearly taut line, is removed by blending with the straight line
+   between the ends: the links of a mean of two shapes are no longer than the mean of the links.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -31,7 +31,7 @@ excess (const bt_vec3 *r, int n, double reach)
   return fmin (share, 1);
 }
 
-/* P, or where it comes on its way to BY within REACH of that.  */
+/* P, or, if P is farther than REACH from BY, the point at distance REACH from BY towards P.  */
 static bt_vec3
 drawn (bt_vec3 p, bt_vec3 by, double reach)
 {
