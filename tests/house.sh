@@ -20,8 +20,8 @@ within ()
 within function-95 -le 25 'nineteen of twenty functions have at most 25 lines'
 within function-longest -le 55 'and none has more than 55'
 within comment-share -ge 7.8 'the code is explained'
-within shared-static-names -le 10.3 'few static functions share a name with one of another file'
-within static-names-twice-in-a-room -le 28 'hardly any with one of the same room'
+within shared-static-names -le 5.0 'few static functions share a name with one of another file'
+within static-names-twice-in-a-room -le 16 'hardly any with one of the same room'
 within pointing-words -le 7.6 'long sentences name what they speak of'
 within private-words -le 600 "the field's words are used"
 

@@ -139,7 +139,7 @@ augment (job *k, uint32_t end)
 
 /* Slide loops by WAY over the set of vertices that gains most; return true if one does.  */
 static int
-slide (job *k, int way)
+slide_loops (job *k, int way)
 {
   const bt__graph *g = k->graph;
   uint32_t end;
@@ -162,7 +162,7 @@ bt__caught_find (bt__caught *k, const bt_vec3 *p, uint32_t n, const bt_vec3 *q, 
   if (!bt__caught_crossings (k->graph, p, n, q, m, k->loops))
     return;
   set_costs (k, favoured);
-  while (!bt__ask (k->asker) && (slide (k, 1) || slide (k, -1)))
+  while (!bt__ask (k->asker) && (slide_loops (k, 1) || slide_loops (k, -1)))
     ;
   for (uint32_t e = 0; e < k->graph->edges; e++)
     k->any |= k->loops[e] != 0;

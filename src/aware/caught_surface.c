@@ -38,7 +38,7 @@ typedef struct strip
 } strip;
 
 static double
-length_of (const bt_vec3 *p, uint32_t n)
+polyline_length (const bt_vec3 *p, uint32_t n)
 {
   double sum = 0;
   for (uint32_t i = 1; i < n; i++)
@@ -87,7 +87,7 @@ empty_box (void)
 }
 
 static uint32_t
-triangles_of (const strip *s)
+count_triangles (const strip *s)
 {
   return s->n + s->m - 2;
 }
@@ -95,10 +95,10 @@ triangles_of (const strip *s)
 static void
 lay_strip (strip *s)
 {
-  uint32_t count = triangles_of (s);
+  uint32_t count = count_triangles (s);
   place at = { 0, 0, 0, 0 };
-  s->along = length_of (s->p, s->n);
-  s->back = length_of (s->q, s->m);
+  s->along = polyline_length (s->p, s->n);
+  s->back = polyline_length (s->q, s->m);
   s->block = BLOCK > count / BLOCKS_MAX + 1 ? BLOCK : count / BLOCKS_MAX + 1;
   s->blocks = 0;
   s->all = empty_box ();
@@ -180,7 +180,7 @@ crossings_in_block (const strip *s, uint32_t b, bt_vec3 x, bt_vec3 y)
   uint32_t last = (b + 1) * s->block;
   place at = s->first[b];
   int sum = 0;
-  last = last < triangles_of (s) ? last : triangles_of (s);
+  last = last < count_triangles (s) ? last : count_triangles (s);
   for (uint32_t k = b * s->block; k < last; k++, go_on_strip (s, &at))
     sum += through (s, &at, x, y);
   return sum;

@@ -27,7 +27,7 @@ struct bt__free
 /* ---- The grid ---- */
 
 static uint32_t
-number (const bt__free *t, int i, int j, int k)
+cell_number (const bt__free *t, int i, int j, int k)
 {
   if (i < 0 || j < 0 || k < 0 || i >= (int)t->nx || j >= (int)t->ny || k >= (int)t->nz)
     return NOWHERE;
@@ -53,7 +53,7 @@ point_of (const bt__free *t, uint32_t cell)
 }
 
 static int
-is_clear (const bt__free_config *c, bt_vec3 a, bt_vec3 b, double clear, bt__count *count)
+sees_past (const bt__free_config *c, bt_vec3 a, bt_vec3 b, double clear, bt__count *count)
 {
   bt__link link = { a, b };
   bt__near near;
@@ -63,13 +63,13 @@ is_clear (const bt__free_config *c, bt_vec3 a, bt_vec3 b, double clear, bt__coun
 static int
 sees (const bt__free *t, bt_vec3 a, bt_vec3 b, double clear, bt__count *count)
 {
-  return is_clear (&t->c, a, b, clear, count);
+  return sees_past (&t->c, a, b, clear, count);
 }
 
 int
 bt__free_sees (const bt__free_config *config, bt_vec3 a, bt_vec3 b, bt__count *count)
 {
-  return is_clear (config, a, b, config->clear, count);
+  return sees_past (config, a, b, config->clear, count);
 }
 
 /* ---- The open cells: a heap ---- */
@@ -81,18 +81,18 @@ comes_before (const bt__free *t, uint32_t a, uint32_t b)
 }
 
 static void
-put (bt__free *t, uint32_t at, uint32_t cell)
+put_in_heap (bt__free *t, uint32_t at, uint32_t cell)
 {
   t->heap[at] = cell;
   t->place[cell] = at;
 }
 
 static void
-rise (bt__free *t, uint32_t at, uint32_t cell)
+rise_in_heap (bt__free *t, uint32_t at, uint32_t cell)
 {
   for (; at > 0 && comes_before (t, cell, t->heap[(at - 1) / 2]); at = (at - 1) / 2)
-    put (t, at, t->heap[(at - 1) / 2]);
-  put (t, at, cell);
+    put_in_heap (t, at, t->heap[(at - 1) / 2]);
+  put_in_heap (t, at, cell);
 }
 
 static void
@@ -104,10 +104,10 @@ sink (bt__free *t, uint32_t at, uint32_t cell)
         child++;
       if (!comes_before (t, t->heap[child], cell))
         break;
-      put (t, at, t->heap[child]);
+      put_in_heap (t, at, t->heap[child]);
       at = child;
     }
-  put (t, at, cell);
+  put_in_heap (t, at, cell);
 }
 
 static uint32_t
@@ -138,7 +138,7 @@ offer (bt__free *t, const uint32_t *near, uint32_t n, uint32_t parent)
         continue;
       t->g[cell] = g;
       t->parent[cell] = parent;
-      rise (t, t->place[cell] == NOWHERE ? t->open++ : t->place[cell], cell);
+      rise_in_heap (t, t->place[cell] == NOWHERE ? t->open++ : t->place[cell], cell);
     }
 }
 
@@ -153,7 +153,7 @@ neighbours (const bt__free *t, bt_vec3 p, int radius, uint32_t *out)
     for (int j = -radius; j <= radius; j++)
       for (int i = -radius; i <= radius; i++)
         {
-          uint32_t cell = number (t, at[0] + i, at[1] + j, at[2] + k);
+          uint32_t cell = cell_number (t, at[0] + i, at[1] + j, at[2] + k);
           if (cell != NOWHERE)
             out[n++] = cell;
         }
@@ -319,7 +319,7 @@ last_corner (const bt__free *t, bt_vec3 p, double clear, int radius, bt__count *
 /* Put into WAY (BT__FREE_WAY_MAX points of room) the corners of a way from the anchor to P; return
    their number, 0 if none was found.  */
 static uint32_t
-find_way (const bt__free *t, bt_vec3 p, bt_vec3 *way, bt__count *count)
+trace_way (const bt__free *t, bt_vec3 p, bt_vec3 *way, bt__count *count)
 {
   uint32_t corner = NOWHERE, n = 0;
   if (sees (t, t->anchor, p, t->c.clear, count))
@@ -361,7 +361,7 @@ int
 bt__free_way (const bt__free *t, bt_vec3 from, bt_vec3 p, bt__string *string, bt__count *count)
 {
   bt_vec3 room[BT__FREE_WAY_MAX + 1] = { from };
-  uint32_t ahead = bt__distance (from, t->anchor) > 0, n = find_way (t, p, room + 1, count);
+  uint32_t ahead = bt__distance (from, t->anchor) > 0, n = trace_way (t, p, room + 1, count);
   return n > 0 && bt__string_lay (string, room + 1 - ahead, n + ahead);
 }
 

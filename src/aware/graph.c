@@ -39,7 +39,7 @@ counts (const bt__graph_job *k, uint32_t i)
 }
 
 static bt__capsule
-axis_of (const bt__obstacle *o)
+member_axis (const bt__obstacle *o)
 {
   if (o->kind == BT__OBSTACLE_CAPSULE)
     return o->shape.capsule;
@@ -138,7 +138,7 @@ add_shore (bt__graph_job *k, uint32_t i, const bt__capsule *m, double s, int way
 static void
 add_member (bt__graph_job *k, uint32_t i)
 {
-  bt__capsule m = axis_of (k->scene->object + i);
+  bt__capsule m = member_axis (k->scene->object + i);
   bt_vec3 d = bt__sub (m.b, m.a);
   int samples = (int)fmin (SAMPLES, 2 + ceil (bt__norm (d) / 0.5));
   uint8_t before = medium (k, m.a, m.radius);
@@ -168,7 +168,7 @@ add_meeting (bt__graph_job *k, uint32_t i, const bt__capsule *m, double s)
 static void
 join_members (bt__graph_job *k, uint32_t i, uint32_t j)
 {
-  bt__capsule a = axis_of (k->scene->object + i), b = axis_of (k->scene->object + j);
+  bt__capsule a = member_axis (k->scene->object + i), b = member_axis (k->scene->object + j);
   bt_vec3 d = bt__sub (a.b, a.a), e = bt__sub (b.b, b.a);
   double s, t;
   bt__closest_segments (bt__sub (a.a, b.a), d, e, &s, &t);
@@ -181,7 +181,7 @@ join_members (bt__graph_job *k, uint32_t i, uint32_t j)
 }
 
 static bt_vec3
-middle_of (const bt__obstacle *o)
+obstacle_middle (const bt__obstacle *o)
 {
   bt_vec3 sum = bt__vec (0, 0, 0);
   if (o->kind == BT__OBSTACLE_BOX)
@@ -235,7 +235,7 @@ reaches_into (bt__graph_job *k, const bt__obstacle *o)
 static uint32_t
 add_pillar (bt__graph_job *k, uint32_t i)
 {
-  bt_vec3 middle = middle_of (k->scene->object + i);
+  bt_vec3 middle = obstacle_middle (k->scene->object + i);
   bt__aabb box = bt__obstacle_box (k->scene->object + i);
   uint32_t top = add_point (k, i, 0, bt__vec (middle.x, middle.y, box.hi.z), 0.1);
   uint32_t foot = add_point (k, i, 1, bt__vec (middle.x, middle.y, box.lo.z), 0.1);
@@ -256,7 +256,7 @@ add_joint (bt__graph_job *k, uint32_t i)
       k->middle[i] = add_pillar (k, i);
       return;
     }
-  k->middle[i] = add_point (k, BT__NO_MEMBER, 0, middle_of (k->scene->object + i), 0.1);
+  k->middle[i] = add_point (k, BT__NO_MEMBER, 0, obstacle_middle (k->scene->object + i), 0.1);
   for (uint8_t what = BT__GROUND; what <= BT__MESH && !k->failed; what++)
     if (media & 1u << what)
       k->p[k->middle[i]].boundary = what;
@@ -266,7 +266,7 @@ add_joint (bt__graph_job *k, uint32_t i)
 static void
 join_to_joint (bt__graph_job *k, uint32_t i, uint32_t j)
 {
-  bt__capsule m = axis_of (k->scene->object + i);
+  bt__capsule m = member_axis (k->scene->object + i);
   bt__link link = { m.a, m.b };
   bt__witness w;
   bt__obstacle_pair (k->scene->object + j, &link, &w);
@@ -282,7 +282,7 @@ static void
 join_joints (bt__graph_job *k, uint32_t i, uint32_t j)
 {
   const bt__obstacle *a = k->scene->object + i, *b = k->scene->object + j;
-  bt__link link = { middle_of (a), middle_of (b) };
+  bt__link link = { obstacle_middle (a), obstacle_middle (b) };
   int covered = 1;
   for (int n = 0; n <= 32 && covered; n++)
     {
@@ -313,7 +313,7 @@ may_meet (const bt__graph_job *k, uint32_t i, uint32_t j)
 
 /* Join obstacles I and J if they meet.  */
 static void
-meet (bt__graph_job *k, uint32_t i, uint32_t j)
+join_if_meeting (bt__graph_job *k, uint32_t i, uint32_t j)
 {
   int a = is_member (k->scene->object + i), b = is_member (k->scene->object + j);
   if (a && b)
@@ -333,7 +333,7 @@ find_meetings (bt__graph_job *k)
   for (uint32_t i = 0; i < n && !bt__ask (k->c->asker); i++)
     for (uint32_t j = i + 1; j < n && !k->failed; j++)
       if (may_meet (k, i, j) && counts (k, i) && counts (k, j))
-        meet (k, i, j);
+        join_if_meeting (k, i, j);
 }
 
 /* Sort the objects of the scene into ground, meshes and members, and find the box about all.  */
@@ -356,7 +356,7 @@ sort_out (bt__graph_job *k)
 }
 
 static void
-start (bt__graph_job *k)
+begin_graph (bt__graph_job *k)
 {
   sort_out (k);
   for (uint32_t i = 0; i < k->scene->n && !k->failed && !bt__ask (k->c->asker); i++)
@@ -382,7 +382,7 @@ bt__graph_new (const bt__graph_config *config, bt__graph *graph, bt_error *error
   k.box = malloc ((k.scene->n + 1) * sizeof *k.box);
   k.failed = !k.off || !k.solid || !k.middle || !k.box;
   if (!k.failed)
-    start (&k);
+    begin_graph (&k);
   if (!k.failed)
     find_meetings (&k);
   if (!k.failed)

@@ -22,7 +22,7 @@ by_member_and_s (const void *a, const void *b)
 /* Give each meeting the medium of its stretch, and unite the points of a member that form one
    joint.  */
 static void
-settle (bt__graph_job *k, bt__point **at, uint32_t n)
+settle_points (bt__graph_job *k, bt__point **at, uint32_t n)
 {
   for (uint32_t i = 1; i < n; i++)
     {
@@ -117,7 +117,7 @@ bt__graph_build (bt__graph_job *k, bt__graph *g)
       for (uint32_t i = 0; i < n; i++)
         at[i] = k->p + i;
       qsort (at, n, sizeof *at, by_member_and_s);
-      settle (k, at, n);
+      settle_points (k, at, n);
       place_vertices (k, g, vertex);
       lay_edges (k, g, at, n, vertex);
       g->own = g->edges;
@@ -130,7 +130,7 @@ bt__graph_build (bt__graph_job *k, bt__graph *g)
 /* ---- Its rank ---- */
 
 static uint32_t
-root_of (const uint32_t *up, uint32_t v)
+union_root (const uint32_t *up, uint32_t v)
 {
   while (up[v] != v)
     v = up[v];
@@ -145,11 +145,11 @@ bt__graph_rank (const bt__graph *g)
   for (uint32_t v = 0; up && v < g->vertices; v++)
     up[v] = v;
   for (uint32_t e = 0; up && e < g->edges; e++)
-    up[root_of (up, g->edge[e][0])] = root_of (up, g->edge[e][1]);
+    up[union_root (up, g->edge[e][0])] = union_root (up, g->edge[e][1]);
   for (uint32_t v = 0; up && held && v < g->vertices; v++)
     {
       inner += !g->boundary[v];
-      held[root_of (up, v)] |= g->boundary[v];
+      held[union_root (up, v)] |= g->boundary[v];
     }
   for (uint32_t v = 0; up && held && v < g->vertices; v++)
     floating += up[v] == v && !held[v];

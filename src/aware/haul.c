@@ -24,7 +24,7 @@ enum
 
 /* The speed at which what reaches the vehicle is used up.  */
 static double
-speed_at (const bt__haul_body *b, double force)
+hauling_speed (const bt__haul_body *b, double force)
 {
   if (!(force > 0))
     return 0;
@@ -107,7 +107,7 @@ bt__haul_prospect (const bt__holds *h, const bt__haul_body *body)
   bt__prospect p = { .object = NOTHING, .lock = bt__holds_lock (h) };
   double weight = fabs (body->weight), pull = body->winch;
   p.pull = pull / p.lock;
-  p.speed = speed_at (body, p.pull - weight);
+  p.speed = hauling_speed (body, p.pull - weight);
   say (&p, h->n == 0 && weight < TRIM * p.pull ? BT__YES : BT__UNSURE, BT__HAUL_CLEAR, NOTHING, 0);
   if (fmax (body->least, weight) > p.pull)
     {
@@ -136,7 +136,7 @@ bt__haul_wedge (const bt__route *home, const bt__haul_body *body, bt__prospect *
 
 /* True if two parts in LIST face each other.  */
 static int
-is_corner (const bt__nears *list)
+is_crotch (const bt__nears *list)
 {
   for (uint32_t i = 1; i < list->n; i++)
     for (uint32_t j = 0; j < i; j++)
@@ -161,7 +161,7 @@ bt__haul_crotch (const bt__taut_config *config, const bt__string *string, const 
       if (s < HOME_NEAR)
         continue;
       bt__scene_near (config->scene, config->on, &link, i, body->radius, &list, count);
-      if (is_corner (&list))
+      if (is_crotch (&list))
         say (p, BT__UNSURE, BT__HAUL_WEDGED, list.at[0].object, s); /* the last is met first */
     }
 }
@@ -198,8 +198,8 @@ measure_route (const bt__taut_config *config, double spare, double cap, const bt
 
 /* Push STRING out to WANT and measure it.  */
 static bt__route
-push_out (bt__taut *taut, const bt__taut_config *config, double want, bt__string *string,
-          bt__count *count)
+push_string_out (bt__taut *taut, const bt__taut_config *config, double want, bt__string *string,
+                 bt__count *count)
 {
   bt__taut_config wide = *config;
   wide.want = want;
@@ -229,7 +229,7 @@ bt__way_home (bt__taut *taut, const bt__taut_config *config, const bt__string *s
   if (!bt__string_lay (home, string->x, string->n))
     return none;
   reverse (home->x, home->n);
-  return push_out (taut, config, want, home, count);
+  return push_string_out (taut, config, want, home, count);
 }
 
 /* ---- The loop ---- */
@@ -286,7 +286,7 @@ bt__unwind_plan (bt__taut *taut, const bt__taut_config *config, const bt__string
   u.left = u.longest = string->length;
   if (!u.needed)
     return u;
-  u.way = push_out (taut, config, want, loop, count);
+  u.way = push_string_out (taut, config, want, loop, count);
   int flown = preview (taut, config, loop, copy, &u.longest, count);
   u.left = copy->length;
   u.feasible = flown && u.longest <= out && u.way.clearance >= radius + 0.03

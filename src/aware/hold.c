@@ -116,7 +116,7 @@ bt__holds_lock (const bt__holds *list)
 #define SPARE 1.02
 
 static double
-tangent_of (const bt__corner *h)
+tangent_length (const bt__corner *h)
 {
   return h->angle < BT__PI / 2 ? h->bend * tan (0.5 * h->angle) : 0;
 }
@@ -129,17 +129,17 @@ next_tangent (const bt__holds *list, const bt__corner *h, uint32_t k, int way)
   if (k >= list->n || list->at[k].object != h->object
       || (int)list->at[k].node != (int)h->node + way)
     return 0;
-  return tangent_of (&list->at[k]);
+  return tangent_length (&list->at[k]);
 }
 
 /* True if the tangent lengths of corner I and of its neighbours fit on the links between them; an
    outer link belongs to its corner alone.  */
 static int
-is_resolved (const bt__holds *list, const bt_vec3 *p, uint32_t i)
+fits_its_links (const bt__holds *list, const bt_vec3 *p, uint32_t i)
 {
   const bt__corner *h = list->at + i;
   const bt_vec3 *x = p + h->node;
-  double tangent = tangent_of (h);
+  double tangent = tangent_length (h);
   double before = next_tangent (list, h, i - 1, -1), after = next_tangent (list, h, i + 1, 1);
   return tangent > 0 && tangent + before <= SPARE * bt__distance (x[-1], x[0])
          && tangent + after <= SPARE * bt__distance (x[0], x[1]);
@@ -150,10 +150,10 @@ bt__holds_length (const bt__holds *list, const bt_vec3 *p, uint32_t n)
 {
   double length = bt__length (p, n);
   for (uint32_t i = 0; i < list->n; i++)
-    if (is_resolved (list, p, i))
+    if (fits_its_links (list, p, i))
       {
         const bt__corner *h = list->at + i;
-        length -= 2 * tangent_of (h) - h->bend * h->angle;
+        length -= 2 * tangent_length (h) - h->bend * h->angle;
       }
   return length;
 }

@@ -55,7 +55,7 @@ minus (uint64_t a, uint64_t b)
 }
 
 static uint64_t
-inverse (uint64_t a)
+modular_inverse (uint64_t a)
 {
   uint64_t out = 1;
   for (uint64_t e = PRIME - 2; e > 0; e >>= 1, a = times (a, a))
@@ -142,7 +142,7 @@ turn_about (bt__knot *k)
 }
 
 static double
-side (bt_vec3 a, bt_vec3 b, bt_vec3 c)
+side_in_plane (bt_vec3 a, bt_vec3 b, bt_vec3 c)
 {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
@@ -152,7 +152,8 @@ static int
 add_crossing (bt__knot *k, uint32_t i, uint32_t j)
 {
   bt_vec3 a = k->p[i], b = k->p[(i + 1) % k->n], c = k->p[j], d = k->p[(j + 1) % k->n];
-  double ca = side (c, d, a), cb = side (c, d, b), ac = side (a, b, c), ad = side (a, b, d);
+  double ca = side_in_plane (c, d, a), cb = side_in_plane (c, d, b), ac = side_in_plane (a, b, c),
+         ad = side_in_plane (a, b, d);
   if ((ca >= 0) == (cb >= 0) || (ac >= 0) == (ad >= 0))
     return 1;
   if (k->crossings == BT__KNOT_CROSSINGS)
@@ -166,14 +167,14 @@ add_crossing (bt__knot *k, uint32_t i, uint32_t j)
 }
 
 static int
-by_place (const void *a, const void *b)
+by_curve_place (const void *a, const void *b)
 {
   const under *x = a, *y = b;
   return x->at < y->at ? -1 : x->at > y->at;
 }
 
 static int
-find_crossings (bt__knot *k)
+find_knot_crossings (bt__knot *k)
 {
   k->crossings = 0;
   for (uint32_t i = 0; i < k->n; i++)
@@ -184,7 +185,7 @@ find_crossings (bt__knot *k)
         if ((i > 0 || j + 1 < k->n) && !add_crossing (k, i, j))
           return 0;
     }
-  qsort (k->under, k->crossings, sizeof *k->under, by_place);
+  qsort (k->under, k->crossings, sizeof *k->under, by_curve_place);
   return 1;
 }
 
@@ -245,7 +246,7 @@ determinant (bt__knot *k)
         }
       product
           = times (product, pivot == c ? m[(size_t)c * n + c] : minus (0, m[(size_t)c * n + c]));
-      uint64_t by = inverse (m[(size_t)c * n + c]);
+      uint64_t by = modular_inverse (m[(size_t)c * n + c]);
       for (uint32_t i = c + 1; i < n; i++)
         {
           uint64_t factor = times (m[(size_t)i * n + c], by);
@@ -269,17 +270,17 @@ polynomial (bt__knot *k, uint64_t t)
 /* ---- Asking ---- */
 
 static int
-ask (bt__knot *k, bt__knot_value *v)
+ask_polynomial (bt__knot *k, bt__knot_value *v)
 {
   make_simpler (k);
   turn_about (k);
-  if (!find_crossings (k))
+  if (!find_knot_crossings (k))
     return 0;
   uint64_t d = polynomial (k, PRIME - 1);
   v->crossings = k->crossings;
   v->determinant = d > PRIME / 2 ? PRIME - d : d;
-  v->at2 = times (polynomial (k, 2), polynomial (k, inverse (2)));
-  v->at3 = times (polynomial (k, 3), polynomial (k, inverse (3)));
+  v->at2 = times (polynomial (k, 2), polynomial (k, modular_inverse (2)));
+  v->at3 = times (polynomial (k, 3), polynomial (k, modular_inverse (3)));
   v->knotted = v->determinant != 1 || v->at2 != 1 || v->at3 != 1;
   return !bt__ask (k->asker);
 }
@@ -291,7 +292,7 @@ bt__knot_of_closed (bt__knot *k, const bt_vec3 *p, uint32_t n, bt__knot_value *v
     return 0;
   memcpy (k->p, p, n * sizeof *p);
   k->n = n;
-  return ask (k, value);
+  return ask_polynomial (k, value);
 }
 
 int
@@ -314,7 +315,7 @@ bt__knot_of (bt__knot *k, const bt_vec3 *p, uint32_t n, bt__knot_value *value)
   k->p[n + 1] = bt__axpy (middle, 100 * size, c);
   k->p[n + 2] = bt__axpy (p[0], 30 * size, a);
   k->n = n + 3;
-  return ask (k, value);
+  return ask_polynomial (k, value);
 }
 
 bt_status

@@ -34,7 +34,7 @@ share_vertex (const uint32_t *e, const uint32_t *f)
 }
 
 static int
-find_crossings (bt__shadow *x)
+find_shadow_crossings (bt__shadow *x)
 {
   x->crosses = 0;
   for (uint32_t e = 0; e < x->edges && !bt__ask (x->asker); e++)
@@ -156,7 +156,7 @@ relate_vertices (bt__shadow *x)
 
 /* Look along ANGLE; the group is simplified.  */
 static bt_status
-look (bt__shadow *x, double angle, bt_error *error)
+look_along (bt__shadow *x, double angle, bt_error *error)
 {
   x->angle = angle;
   x->cosine = cos (angle);
@@ -164,7 +164,7 @@ look (bt__shadow *x, double angle, bt_error *error)
   for (uint32_t v = 0; v < x->vertices; v++)
     x->at[v] = bt__flatten (x, x->v[v]);
   bt__group_free (&x->group);
-  if (!find_crossings (x) || !make_cuts (x))
+  if (!find_shadow_crossings (x) || !make_cuts (x))
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the shadows of %u edges",
                      (unsigned)x->edges);
   bt__group_begin (&x->group, x->edges + x->crosses);
@@ -188,7 +188,7 @@ stir (uint64_t *seed)
 }
 
 static double
-share_of (uint64_t *seed)
+random_share (uint64_t *seed)
 {
   return (double)(stir (seed) >> 11) * 0x1p-52 - 1; /* -1 to 1 */
 }
@@ -200,7 +200,7 @@ jitter (bt__shadow *x, const bt__graph *g, double share)
   for (uint32_t v = 0; v < x->vertices; v++)
     {
       double size = fmin (share * g->radius[v], 0.03);
-      bt_vec3 by = bt__vec (share_of (&seed), share_of (&seed), share_of (&seed));
+      bt_vec3 by = bt__vec (random_share (&seed), random_share (&seed), random_share (&seed));
       x->v[v] = bt__axpy (g->v[v], size / sqrt (3), by);
     }
 }
@@ -227,14 +227,14 @@ copy (bt__shadow *x, const bt__graph *g)
 
 /* Look along one direction after the other, last along the best.  */
 static bt_status
-choose (bt__shadow *x, uint32_t tries, bt_error *error)
+choose_direction (bt__shadow *x, uint32_t tries, bt_error *error)
 {
   double best = INFINITY, kept = 0;
   bt_status status = BT_OK;
   for (uint32_t i = 0; i < tries && !status; i++)
     {
       double angle = 0.1234567 + BT__PI * i / tries;
-      status = look (x, angle, error);
+      status = look_along (x, angle, error);
       double cost = 1e6 * x->group.leftover + 1e3 * x->group.longest + x->crosses;
       if (cost < best)
         {
@@ -242,11 +242,11 @@ choose (bt__shadow *x, uint32_t tries, bt_error *error)
           kept = angle;
         }
     }
-  return status ? status : look (x, kept, error);
+  return status ? status : look_along (x, kept, error);
 }
 
 static uint8_t
-bin_of (const bt__shadow *x, int axis, double at)
+shadow_bin (const bt__shadow *x, int axis, double at)
 {
   return (uint8_t)bt__clamp (floor ((at - x->lo[axis]) / x->wide[axis]), 0, BT__SHADOW_BINS - 1);
 }
@@ -254,8 +254,8 @@ bin_of (const bt__shadow *x, int axis, double at)
 bt__area
 bt__area_of (const bt__shadow *x, bt__flat a, bt__flat b)
 {
-  return (bt__area){ { bin_of (x, 0, fmin (a.u, b.u)), bin_of (x, 1, fmin (a.z, b.z)) },
-                     { bin_of (x, 0, fmax (a.u, b.u)), bin_of (x, 1, fmax (a.z, b.z)) } };
+  return (bt__area){ { shadow_bin (x, 0, fmin (a.u, b.u)), shadow_bin (x, 1, fmin (a.z, b.z)) },
+                     { shadow_bin (x, 0, fmax (a.u, b.u)), shadow_bin (x, 1, fmax (a.z, b.z)) } };
 }
 
 static void
@@ -279,7 +279,7 @@ size_bins (bt__shadow *x)
 /* Sort the edges into bins: count them, then put them where the counts say; the last pass leaves
    every bin's end where its start must be.  */
 static int
-fill_bins (bt__shadow *x)
+fill_shadow_bins (bt__shadow *x)
 {
   uint32_t bins = BT__SHADOW_BINS * BT__SHADOW_BINS, n = 0;
   size_bins (x);
@@ -325,9 +325,9 @@ bt__shadow_new (const bt__graph *graph, const bt__shadow_config *config, bt__sha
     {
       x->asker = config->asker;
       jitter (x, graph, config->jitter);
-      status = choose (x, config->tries ? config->tries : 1, error);
+      status = choose_direction (x, config->tries ? config->tries : 1, error);
     }
-  if (!status && !fill_bins (x))
+  if (!status && !fill_shadow_bins (x))
     status = bt__fail (error, BT_ERR_LIMIT, "no memory for the shadows of %u edges",
                        (unsigned)graph->edges);
   if (status)

@@ -26,7 +26,7 @@ typedef struct passages
 
 /* Keep them in the order of the link.  */
 static void
-insert (passages *list, double s, int32_t letter)
+insert_passage (passages *list, double s, int32_t letter)
 {
   if (list->n == AT_ONCE)
     {
@@ -41,7 +41,7 @@ insert (passages *list, double s, int32_t letter)
 
 /* What the link from A to B does with edge E.  */
 static void
-pass_edge (const bt__shadow *x, bt__flat a, bt__flat b, uint32_t e, passages *list)
+pass_shadow (const bt__shadow *x, bt__flat a, bt__flat b, uint32_t e, passages *list)
 {
   bt__flat c = x->at[x->edge[e][0]], d = x->at[x->edge[e][1]];
   double s, t;
@@ -49,7 +49,7 @@ pass_edge (const bt__shadow *x, bt__flat a, bt__flat b, uint32_t e, passages *li
       || !(bt__depth_at (a, b, s) > bt__depth_at (c, d, t)))
     return;
   int32_t letter = bt__letter_at (x, e, t);
-  insert (list, s, bt__side_of (c, d, b) > bt__side_of (c, d, a) ? letter : -letter);
+  insert_passage (list, s, bt__side_of (c, d, b) > bt__side_of (c, d, a) ? letter : -letter);
 }
 
 /* True if bin (I, J) is the first that areas A and B share: there a pair is looked at.  */
@@ -71,7 +71,7 @@ pass_link (const bt__shadow *x, bt__flat a, bt__flat b, passages *list)
         const uint32_t *bin = x->bin + i + BT__SHADOW_BINS * j;
         for (uint32_t k = bin[0]; k < bin[1]; k++)
           if (is_first (&r, x->area + x->in[k], i, j))
-            pass_edge (x, a, b, x->in[k], list);
+            pass_shadow (x, a, b, x->in[k], list);
       }
 }
 

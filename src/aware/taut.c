@@ -122,7 +122,7 @@ bt__taut_relax (bt__taut *t, const bt__taut_config *c, bt__string *s, uint32_t s
 /* ---- Leading the ends ---- */
 
 static int
-is_free (const bt__taut_config *c, bt_vec3 from, bt_vec3 to, bt__count *count)
+is_free_chord (const bt__taut_config *c, bt_vec3 from, bt_vec3 to, bt__count *count)
 {
   bt__link way = { from, to };
   bt__near near;
@@ -142,8 +142,8 @@ bt__taut_step (bt__taut *t, const bt__taut_config *c, bt__string *s, bt_vec3 sta
   int lead = differs (start, s->x[0]), trail = differs (end, s->x[s->n - 1]);
   if (s->n + (uint32_t)(lead + trail) > s->room)
     return 0;
-  if ((lead && !is_free (c, start, s->x[0], count))
-      || (trail && !is_free (c, s->x[s->n - 1], end, count)))
+  if ((lead && !is_free_chord (c, start, s->x[0], count))
+      || (trail && !is_free_chord (c, s->x[s->n - 1], end, count)))
     return 0;
   if (lead)
     {

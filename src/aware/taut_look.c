@@ -43,7 +43,7 @@ split_link (bt__string *s, uint32_t i)
 
 /* The height of node J over the chord of its neighbours.  */
 static double
-height (const bt__string *s, uint32_t j)
+node_height (const bt__string *s, uint32_t j)
 {
   bt_vec3 chord = bt__sub (s->x[j + 1], s->x[j - 1]), arm = bt__sub (s->x[j], s->x[j - 1]);
   double base = bt__norm (chord), area = bt__norm (bt__cross (chord, arm));
@@ -59,7 +59,7 @@ can_drop_near (const bt__taut_config *c, const bt__string *s, uint32_t j, bt__co
     return 0;
   bt__link chord = { s->x[j - 1], s->x[j + 1] };
   bt__near near;
-  return !bt__scene_nearest (c->scene, c->on, &chord, height (s, j) + c->core + SPARE, &near,
+  return !bt__scene_nearest (c->scene, c->on, &chord, node_height (s, j) + c->core + SPARE, &near,
                              count);
 }
 
@@ -67,7 +67,7 @@ can_drop_near (const bt__taut_config *c, const bt__string *s, uint32_t j, bt__co
 
 /* The plane of a witness, through the link's own nodes where they are nearer than the core.  */
 static bt__side
-side_of (const bt__taut_config *c, const bt__witness *w, bt_vec3 a, bt_vec3 b)
+side_of_witness (const bt__taut_config *c, const bt__witness *w, bt_vec3 a, bt_vec3 b)
 {
   double at = bt__dot (w->normal, w->point);
   double own = fmin (bt__dot (w->normal, a), bt__dot (w->normal, b));
@@ -117,7 +117,7 @@ take_sides (bt__taut *t, const bt__taut_config *c, const bt__string *s, uint32_t
           unlisted = fmin (unlisted, list->at[k].w.distance);
           break;
         }
-      bt__side side = side_of (c, &list->at[k].w, s->x[i], s->x[i + 1]);
+      bt__side side = side_of_witness (c, &list->at[k].w, s->x[i], s->x[i + 1]);
       add_side (t, i, &side);
     }
   t->unlisted[i] = unlisted;
@@ -138,7 +138,7 @@ join_far (bt__taut *t, const bt__taut_config *c, bt__string *s, uint32_t i)
 {
   if (c->whole || t->first[i - 1] != t->first[i])
     return 0;
-  double clear = fmin (t->unlisted[i - 1], t->unlisted[i]), h = height (s, i);
+  double clear = fmin (t->unlisted[i - 1], t->unlisted[i]), h = node_height (s, i);
   if (!(clear - h > 0.5 * c->margin + c->core))
     return 0;
   drop_node (s, i);

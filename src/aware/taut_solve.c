@@ -48,7 +48,7 @@ inverse_of (const bt__block *m)
 }
 
 static void
-add_outer (bt__block *m, double k, bt_vec3 n)
+add_outer_product (bt__block *m, double k, bt_vec3 n)
 {
   m->xx += k * n.x * n.x;
   m->xy += k * n.x * n.y;
@@ -63,7 +63,7 @@ add_outer (bt__block *m, double k, bt_vec3 n)
 /* Node J obeys the sides of the link before the node, as end B, and of the link after, as end A.
  */
 static inline uint8_t
-place_of (const bt__taut *t, uint32_t j, uint32_t k)
+ends_of_link (const bt__taut *t, uint32_t j, uint32_t k)
 {
   return k < t->first[j] ? BT__ACTIVE_B : BT__ACTIVE_A;
 }
@@ -75,7 +75,7 @@ set_active (bt__taut *t, uint32_t j, bt_vec3 x, double slack)
   int changed = 0;
   for (uint32_t k = BT__FIRST_SIDE (t, j); k < t->first[j + 1]; k++)
     {
-      uint8_t place = place_of (t, j, k);
+      uint8_t place = ends_of_link (t, j, k);
       uint8_t is = bt__dot (t->side[k].normal, x) < t->side[k].soft + slack ? place : 0;
       changed |= (t->active[k] & place) != is;
       t->active[k] = (uint8_t)((t->active[k] & ~place) | is);
@@ -86,7 +86,7 @@ set_active (bt__taut *t, uint32_t j, bt_vec3 x, double slack)
 /* ---- Elimination ---- */
 
 static void
-weigh (bt__taut *t, const bt__string *s, double mean)
+weigh_links (bt__taut *t, const bt__string *s, double mean)
 {
   for (uint32_t i = 0; i + 1 < s->n; i++)
     t->weight[i] = 1 / fmax (bt__distance (s->x[i], s->x[i + 1]), 0.05 * mean);
@@ -101,9 +101,9 @@ eliminate_string (bt__taut *t, const bt__string *s, double prox, double stiff, u
       bt__block m = { d, 0, 0, d, 0, d };
       bt_vec3 r = bt__scale (prox, s->x[j]);
       for (uint32_t k = BT__FIRST_SIDE (t, j); k < t->first[j + 1]; k++)
-        if (t->active[k] & place_of (t, j, k))
+        if (t->active[k] & ends_of_link (t, j, k))
           {
-            add_outer (&m, stiff, t->side[k].normal);
+            add_outer_product (&m, stiff, t->side[k].normal);
             r = bt__axpy (r, stiff * t->side[k].soft, t->side[k].normal);
           }
       if (j == 1)
@@ -125,7 +125,7 @@ eliminate_string (bt__taut *t, const bt__string *s, double prox, double stiff, u
 }
 
 static void
-substitute (bt__taut *t, const bt__string *s)
+substitute_back (bt__taut *t, const bt__string *s)
 {
   t->y[0] = s->x[0];
   t->y[s->n - 1] = s->x[s->n - 1];
@@ -138,7 +138,7 @@ bt__taut_solve (bt__taut *t, const bt__string *s, double prox)
 {
   double mean = bt__length (s->x, s->n) / (s->n - 1), stiff = STIFF / mean;
   uint32_t from = 1;
-  weigh (t, s, mean);
+  weigh_links (t, s, mean);
   for (uint32_t k = 0; k < t->first[s->n - 1]; k++)
     t->active[k] = 0;
   for (uint32_t j = 1; j + 1 < s->n; j++)
@@ -146,7 +146,7 @@ bt__taut_solve (bt__taut *t, const bt__string *s, double prox)
   for (int pass = 0; pass < SOLVES && from < s->n; pass++)
     {
       eliminate_string (t, s, prox, stiff, from);
-      substitute (t, s);
+      substitute_back (t, s);
       from = s->n;
       for (uint32_t j = s->n - 2; j > 0; j--)
         if (set_active (t, j, t->y[j], 0))

@@ -46,7 +46,7 @@ push (bt__group *g, bt__letters *w, int32_t letter)
 }
 
 static void
-append (bt__group *g, bt__letters *w, const bt__letters *more, int inverse)
+append_letters (bt__group *g, bt__letters *w, const bt__letters *more, int inverse)
 {
   for (uint32_t i = 0; i < more->n; i++)
     push (g, w, inverse ? -more->at[more->n - 1 - i] : more->at[i]);
@@ -77,14 +77,14 @@ occurrences (const bt__letters *w, int32_t letter)
 
 /* Put WORD for LETTER in *W; *SPARE is used.  */
 static void
-put_in (bt__group *g, bt__letters *w, int32_t letter, const bt__letters *word, bt__letters *spare)
+put_word (bt__group *g, bt__letters *w, int32_t letter, const bt__letters *word, bt__letters *spare)
 {
   if (occurrences (w, letter) == 0)
     return;
   spare->n = 0;
   for (uint32_t i = 0; i < w->n; i++)
     if (w->at[i] == letter || w->at[i] == -letter)
-      append (g, spare, word, w->at[i] < 0);
+      append_letters (g, spare, word, w->at[i] < 0);
     else
       push (g, spare, w->at[i]);
   bt__letters swap = *w;
@@ -134,12 +134,12 @@ log_one (job *k, int32_t letter)
 
 /* Put the entry's word for its letter in all relations.  */
 static void
-apply (job *k, const entry *e)
+substitute_letter (job *k, const entry *e)
 {
   for (uint32_t r = 0; r < k->g->relations && (r % 256 || !bt__ask (k->g->asker)); r++)
     {
       k->work += k->g->relation[r].n;
-      put_in (k->g, k->g->relation + r, e->letter, &e->word, &k->spare);
+      put_word (k->g, k->g->relation + r, e->letter, &e->word, &k->spare);
       reduce_cyclic (k->g->relation + r);
     }
 }
@@ -162,7 +162,7 @@ drop_empty (bt__group *g)
 /* ---- Elimination ---- */
 
 static uint32_t
-index_of (int32_t letter)
+letter_index (int32_t letter)
 {
   return (uint32_t)abs (letter) - 1;
 }
@@ -175,7 +175,7 @@ count_all (job *k)
     {
       k->work += k->g->relation[r].n;
       for (uint32_t i = 0; i < k->g->relation[r].n; i++)
-        k->total[index_of (k->g->relation[r].at[i])]++;
+        k->total[letter_index (k->g->relation[r].at[i])]++;
     }
   k->g->failed |= k->work > WORK_MAX;
 }
@@ -190,10 +190,10 @@ find_single (job *k, uint32_t *r, uint32_t *at)
     {
       const bt__letters *w = k->g->relation + j;
       for (uint32_t i = 0; i < w->n; i++)
-        k->here[index_of (w->at[i])]++;
+        k->here[letter_index (w->at[i])]++;
       for (uint32_t i = 0; i < w->n; i++)
         {
-          uint32_t x = index_of (w->at[i]);
+          uint32_t x = letter_index (w->at[i]);
           double cost = ((double)w->n - 2) * ((double)k->total[x] - 1);
           if (k->here[x] == 1 && cost < best)
             {
@@ -203,14 +203,14 @@ find_single (job *k, uint32_t *r, uint32_t *at)
             }
         }
       for (uint32_t i = 0; i < w->n; i++)
-        k->here[index_of (w->at[i])] = 0;
+        k->here[letter_index (w->at[i])] = 0;
     }
   return best < INFINITY;
 }
 
 /* The relation is u x v = 1: x is (v u)^-1.  */
 static void
-eliminate (job *k, uint32_t r, uint32_t at)
+eliminate_letter (job *k, uint32_t r, uint32_t at)
 {
   bt__letters *w = k->g->relation + r;
   int32_t letter = w->at[at];
@@ -224,8 +224,8 @@ eliminate (job *k, uint32_t r, uint32_t at)
       push (k->g, &e->word, other);
     }
   w->n = 0;
-  k->gone[index_of (letter)] = 1;
-  apply (k, e);
+  k->gone[letter_index (letter)] = 1;
+  substitute_letter (k, e);
   drop_empty (k->g);
 }
 
@@ -261,8 +261,8 @@ length_with (job *k, int32_t a, const bt__letters *word, bt__letters *copy)
   for (uint32_t r = 0; r < k->g->relations; r++)
     {
       copy->n = 0;
-      append (k->g, copy, k->g->relation + r, 0);
-      put_in (k->g, copy, a, word, &k->spare);
+      append_letters (k->g, copy, k->g->relation + r, 0);
+      put_word (k->g, copy, a, word, &k->spare);
       reduce_cyclic (copy);
       n += copy->n;
     }
@@ -295,8 +295,8 @@ nielsen (job *k)
         found = e != NULL;
         if (e)
           {
-            append (k->g, &e->word, &word, 0);
-            apply (k, e);
+            append_letters (k->g, &e->word, &word, 0);
+            substitute_letter (k, e);
             drop_empty (k->g);
           }
       }
@@ -309,7 +309,7 @@ nielsen (job *k)
 
 /* Read the log backwards: at each entry IS holds what letters were to be from there on.  */
 static void
-resolve (job *k)
+resolve_log (job *k)
 {
   bt__group *g = k->g;
   for (uint32_t x = 0; x < g->letters; x++)
@@ -323,7 +323,7 @@ resolve (job *k)
       const entry *e = k->log + i - 1;
       bt__letters now = { NULL, 0, 0 };
       for (uint32_t j = 0; j < e->word.n; j++)
-        append (g, &now, g->is + index_of (e->word.at[j]), e->word.at[j] < 0);
+        append_letters (g, &now, g->is + letter_index (e->word.at[j]), e->word.at[j] < 0);
       free (g->is[e->letter - 1].at);
       g->is[e->letter - 1] = now;
     }
@@ -366,14 +366,14 @@ bt__group_relate (bt__group *g, const int32_t *letters, uint32_t n)
 }
 
 static void
-simplify (job *k)
+simplify_group (job *k)
 {
   uint32_t r, at;
   drop_empty (k->g);
   for (int round = 0; k->g->relations > 0 && round < NIELSEN_ROUNDS && !k->g->failed; round++)
     {
       while (!k->g->failed && !bt__ask (k->g->asker) && find_single (k, &r, &at))
-        eliminate (k, r, at);
+        eliminate_letter (k, r, at);
       if (k->g->relations == 0 || bt__ask (k->g->asker) || !nielsen (k))
         break;
     }
@@ -390,9 +390,9 @@ bt__group_simplify (bt__group *g, bt_error *error)
     g->failed = 1;
   if (!g->failed)
     {
-      simplify (&k);
+      simplify_group (&k);
       g->leftover = g->relations;
-      resolve (&k);
+      resolve_log (&k);
     }
   for (uint32_t i = 0; i < k.logged; i++)
     free (k.log[i].word.at);

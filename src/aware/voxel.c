@@ -49,7 +49,7 @@ typedef struct corners
 } corners;
 
 static bt_vec3
-support (const void *shape, bt_vec3 direction, int *hint)
+support_square (const void *shape, bt_vec3 direction, int *hint)
 {
   const corners *c = shape;
   int best = 0;
@@ -61,7 +61,7 @@ support (const void *shape, bt_vec3 direction, int *hint)
 }
 
 static int
-is_clear (const bt__voxels *v, const corners *c, bt__count *count)
+is_square_clear (const bt__voxels *v, const corners *c, bt__count *count)
 {
   bt_vec3 middle = bt__vec (0, 0, 0);
   double radius = 0;
@@ -69,7 +69,7 @@ is_clear (const bt__voxels *v, const corners *c, bt__count *count)
     middle = bt__axpy (middle, 1.0 / c->n, c->p[i]);
   for (int i = 0; i < c->n; i++)
     radius = fmax (radius, bt__distance (middle, c->p[i]));
-  bt__convex body = { support, c };
+  bt__convex body = { support_square, c };
   bt__near near;
   bt__gap gap;
   return !bt__scene_nearest_to_body (v->c.scene, v->c.on, &body, middle, radius, CLEAR, &near, &gap,
@@ -80,11 +80,11 @@ int
 bt__voxel_sees (const bt__voxels *v, bt_vec3 a, bt_vec3 b, bt_vec3 c, bt__count *count)
 {
   corners t = { { a, b, c, c }, 3 };
-  return is_clear (v, &t, count);
+  return is_square_clear (v, &t, count);
 }
 
 static void
-measure (bt__voxels *v, bt__count *count)
+measure_cells (bt__voxels *v, bt__count *count)
 {
   double cap = 2 * v->c.cell;
   for (uint32_t i = 0; i < v->cells && !bt__ask (v->asker); i++)
@@ -114,7 +114,7 @@ step_is_clear (const bt__voxels *v, uint32_t a, uint32_t b, bt__count *count)
 
 /* A mutant of the tests takes squares for clear whose sides are.  */
 #ifndef BT__SQUARE_IS_CLEAR
-#define BT__SQUARE_IS_CLEAR(v, c, count) is_clear (v, c, count)
+#define BT__SQUARE_IS_CLEAR(v, c, count) is_square_clear (v, c, count)
 #endif
 
 /* The square across AXIS from CELL, along B and then C.  */
@@ -198,7 +198,7 @@ bt__voxels_new (const bt__voxel_config *config, bt__asker *asker, bt__voxels **o
     }
   if (!status)
     {
-      measure (v, &count);
+      measure_cells (v, &count);
       open_steps (v, &count);
       status = bt__stopped (v->asker, error);
     }

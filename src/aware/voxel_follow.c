@@ -121,7 +121,7 @@ nearest_cell (follower *f)
 
 /* Change to cell TARGET by up to DEPTH steps.  */
 static int
-arrive (follower *f, uint32_t target, int depth)
+arrive_at_cell (follower *f, uint32_t target, int depth)
 {
   uint32_t here = f->cell;
   if (here == target)
@@ -135,7 +135,7 @@ arrive (follower *f, uint32_t target, int depth)
       bt__word before = *f->word;
       walk (f, here, k / 2, k % 2 ? 1 : -1);
       f->cell = to;
-      if (arrive (f, target, depth - 1))
+      if (arrive_at_cell (f, target, depth - 1))
         return 1;
       *f->word = before;
       f->cell = here;
@@ -180,7 +180,7 @@ bt__voxels_word (const bt__voxels *v, const bt_vec3 *p, uint32_t n, bt__word *wo
     {
       /* The same cell at the same end, whatever way led there.  */
       uint32_t last = nearest_cell (&f);
-      lost = last == BT__NOWHERE || !arrive (&f, last, 4);
+      lost = last == BT__NOWHERE || !arrive_at_cell (&f, last, 4);
     }
   word->lost |= lost;
   bt__word_end (word);

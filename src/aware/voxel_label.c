@@ -18,7 +18,7 @@ enum
 /* ---- The pool of words ---- */
 
 static int
-grow (void **at, uint32_t *room, uint32_t need, size_t size)
+grow_array (void **at, uint32_t *room, uint32_t need, size_t size)
 {
   if (need <= *room)
     return 1;
@@ -79,8 +79,8 @@ number_of (bt__pool *p, const int32_t *letters, uint32_t n)
           && (n == 0 || memcmp (p->letter + p->start[i], letters, n * sizeof *letters) == 0))
         return (int32_t)i;
     }
-  if (!grow ((void **)&p->start, &p->room, p->n + 2, sizeof *p->start)
-      || !grow ((void **)&p->letter, &p->letter_room, p->letters + n, sizeof *p->letter))
+  if (!grow_array ((void **)&p->start, &p->room, p->n + 2, sizeof *p->start)
+      || !grow_array ((void **)&p->letter, &p->letter_room, p->letters + n, sizeof *p->letter))
     {
       p->failed = 1;
       return 0;
@@ -216,7 +216,7 @@ grow_trees (bt__voxels *v, uint8_t *seen)
 
 /* Settle the squares about STEP; the steps that get labels go on the queue.  */
 static void
-spread (bt__voxels *v, uint32_t step, uint32_t *tail)
+spread_labels (bt__voxels *v, uint32_t step, uint32_t *tail)
 {
   uint32_t cell = step / 3;
   int a = (int)(step % 3);
@@ -236,7 +236,7 @@ static void
 empty_queue (bt__voxels *v, uint32_t *head, uint32_t *tail)
 {
   while (*head < *tail && !v->pool.failed && !bt__ask (v->asker))
-    spread (v, v->queue[(*head)++], tail);
+    spread_labels (v, v->queue[(*head)++], tail);
 }
 
 /* A step is queued once, when it is labelled: there is room for all.  */

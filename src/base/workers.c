@@ -61,7 +61,7 @@ take_part (bt__workers *all, int w)
 /* Wait for a round after DONE; return its number, 0: there are no more.  Whoever returns takes part
    in it.  */
 static unsigned long long
-join (bt__workers *all, unsigned long long done)
+join_round (bt__workers *all, unsigned long long done)
 {
   unsigned long long round;
   for (int i = 0; i < LOOKS && all->round == done; i++)
@@ -76,7 +76,7 @@ join (bt__workers *all, unsigned long long done)
 }
 
 static void
-leave (bt__workers *all)
+leave_round (bt__workers *all)
 {
   pthread_mutex_lock (&all->lock);
   if (--all->busy == 0)
@@ -89,10 +89,10 @@ live (void *data)
 {
   hand *self = data;
   unsigned long long done = 0;
-  while ((done = join (self->all, done)))
+  while ((done = join_round (self->all, done)))
     {
       take_part (self->all, self->number);
-      leave (self->all);
+      leave_round (self->all);
     }
   return NULL;
 }

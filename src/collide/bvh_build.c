@@ -134,21 +134,22 @@ typedef struct cut
 } cut;
 
 static inline int
-bin_of (float c, float from, float scale)
+item_bin (float c, float from, float scale)
 {
   int b = (int)((c - from) * scale);
   return b < BINS ? b : BINS - 1;
 }
 
 static void
-fill_bins (const bt__bvh *tree, const part *p, int axis, float from, float scale, bin bins[BINS])
+fill_item_bins (const bt__bvh *tree, const part *p, int axis, float from, float scale,
+                bin bins[BINS])
 {
   for (int i = 0; i < BINS; i++)
     bins[i] = (bin){ nothing, 0 };
   for (uint32_t i = p->first; i < p->first + p->n; i++)
     {
       const bt__bvh_item *item = tree->item + i;
-      bin *b = bins + bin_of (item->lo[axis] + item->hi[axis], from, scale);
+      bin *b = bins + item_bin (item->lo[axis] + item->hi[axis], from, scale);
       include (&b->box, item->lo, item->hi);
       b->n++;
     }
@@ -204,7 +205,7 @@ find_cut (const bt__bvh *tree, const part *p, cut *out)
       float scale = (float)BINS * 0.999f / size[k];
       if (!(scale < FLT_MAX))
         continue;
-      fill_bins (tree, p, k, p->middles.lo[k], scale, bins);
+      fill_item_bins (tree, p, k, p->middles.lo[k], scale, bins);
       float cost = best_cut (bins, &at);
       if (cost < best)
         {
@@ -222,7 +223,7 @@ move_apart (bt__bvh *tree, const part *p, const cut *c)
   while (i < j)
     {
       bt__bvh_item *item = tree->item + i;
-      if (bin_of (item->lo[c->axis] + item->hi[c->axis], c->from, c->scale) < c->at)
+      if (item_bin (item->lo[c->axis] + item->hi[c->axis], c->from, c->scale) < c->at)
         i++;
       else
         {
@@ -271,7 +272,7 @@ largest_part (const part *parts, int n, uint32_t least, int halve)
 }
 
 static int
-spread (bt__bvh *tree, part parts[BT__BVH_WIDE], int halve)
+spread_parts (bt__bvh *tree, part parts[BT__BVH_WIDE], int halve)
 {
   int n = 1;
   for (uint32_t least = LEAF;; least = 1)
@@ -311,7 +312,7 @@ static void
 make_node (bt__bvh *tree, uint32_t at, const part *whole, int depth)
 {
   part parts[BT__BVH_WIDE] = { *whole };
-  int n = bt__ask (tree->asker) ? 0 : spread (tree, parts, depth > DEEP);
+  int n = bt__ask (tree->asker) ? 0 : spread_parts (tree, parts, depth > DEEP);
   bt__bvh_node *node = tree->node + at;
   for (int i = 0; i < BT__BVH_WIDE; i++)
     if (i < n)

@@ -66,7 +66,7 @@ bt__motion_between (const bt__frame *from, const bt__frame *to)
 
 /* The link after the share T, in the frame of the part.  */
 static bt__link
-link_at (const bt__cast *c, double t)
+link_at_share (const bt__cast *c, double t)
 {
   bt__link link = { bt__axpy (c->link.a, t, c->da), bt__axpy (c->link.b, t, c->db) };
   if (!c->motion)
@@ -133,7 +133,7 @@ bt__cast_run (const bt__cast *c, bt__count *count)
   for (int i = 0; i < STEPS_MAX; i++)
     {
       double gap = w.distance - c->core;
-      bt__link link = link_at (c, t);
+      bt__link link = link_at_share (c, t);
       if (i > 0 && gap < NEAR * c->core)
         return t;
       double step = gap > FLOOR * c->core ? SAFETY * gap / speed : 0;
@@ -144,7 +144,7 @@ bt__cast_run (const bt__cast *c, bt__count *count)
       if (t + step >= 1)
         return 1;
       t += step;
-      link = link_at (c, t);
+      link = link_at_share (c, t);
       bt__scene_pair (c->scene, c->near, &link, &w);
       count->cast_steps++;
     }

@@ -128,7 +128,7 @@ reduce (simplex *x)
 }
 
 static int
-has (const simplex *x, bt_vec3 w)
+has_vertex (const simplex *x, bt_vec3 w)
 {
   for (int i = 0; i < x->n; i++)
     if (x->v[i].w.x == w.x && x->v[i].w.y == w.y && x->v[i].w.z == w.z)
@@ -137,7 +137,7 @@ has (const simplex *x, bt_vec3 w)
 }
 
 static vertex
-support (const bt__convex *a, const bt__convex *b, bt_vec3 direction, int hint[2])
+support_of_difference (const bt__convex *a, const bt__convex *b, bt_vec3 direction, int hint[2])
 {
   vertex v;
   v.a = a->support (a->shape, direction, hint);
@@ -196,14 +196,14 @@ bt__gjk (const bt__convex *a, const bt__convex *b, bt__gap *out)
 {
   simplex x = { .n = 1, .weight = { 1 } };
   out->hint[0] = out->hint[1] = out->steps = 0;
-  x.v[0] = support (a, b, bt__vec (1, 0, 0), out->hint);
+  x.v[0] = support_of_difference (a, b, bt__vec (1, 0, 0), out->hint);
   bt_vec3 v = x.v[0].w;
   double size = bt__norm (v), scale = size;
   while (out->steps++ < STEPS_MAX && size > 1e-15 * scale)
     {
-      vertex next = support (a, b, bt__scale (-1 / size, v), out->hint);
+      vertex next = support_of_difference (a, b, bt__scale (-1 / size, v), out->hint);
       scale = fmax (scale, bt__norm (next.w));
-      if (size - bt__dot (v, next.w) / size <= 1e-15 * scale || has (&x, next.w))
+      if (size - bt__dot (v, next.w) / size <= 1e-15 * scale || has_vertex (&x, next.w))
         break;
       if (would_hold_zero (&x, &next, scale))
         {

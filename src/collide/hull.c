@@ -81,7 +81,7 @@ typedef struct middle
 } middle;
 
 static middle
-middle_of (const bt_vec3 *p, int n)
+middle_of_points (const bt_vec3 *p, int n)
 {
   bt_vec3 lo = p[0], hi = p[0];
   for (int i = 1; i < n; i++)
@@ -168,7 +168,7 @@ take_vertices (bt__hull *h, const bt_vec3 *points, int n)
 }
 
 static void
-set_plane (const bt__hull *h, int i, bt_vec3 inner)
+set_face_plane (const bt__hull *h, int i, bt_vec3 inner)
 {
   const int *c = h->corner[i];
   bt_vec3 a = h->v[c[0]], e = bt__sub (h->v[c[1]], a), f = bt__sub (h->v[c[2]], a);
@@ -242,12 +242,12 @@ take_tables (bt__hull *h, const bt_vec3 *points, int n)
   for (int i = 0; i < h->vertices; i++)
     inner = bt__axpy (inner, 1.0 / h->vertices, h->v[i]);
   for (int i = 0; i < h->faces; i++)
-    set_plane (h, i, inner);
+    set_face_plane (h, i, inner);
   return 1;
 }
 
 static bt_status
-check (const bt_vec3 *points, int n, bt_error *error)
+check_points (const bt_vec3 *points, int n, bt_error *error)
 {
   if (n < 4 || n > BT__HULL_POINTS_MAX)
     return bt__fail (error, n < 4 ? BT_ERR_DOMAIN : BT_ERR_LIMIT,
@@ -261,10 +261,10 @@ check (const bt_vec3 *points, int n, bt_error *error)
 bt_status
 bt__hull_new (const bt_vec3 *points, int n, bt__hull **out, bt_error *error)
 {
-  bt_status status = check (points, n, error);
+  bt_status status = check_points (points, n, error);
   if (status)
     return status;
-  middle m = middle_of (points, n);
+  middle m = middle_of_points (points, n);
   bt__hull *h = calloc (1, sizeof *h);
   double *x = malloc ((size_t)n * 3 * sizeof *x);
   if (!h || !x)

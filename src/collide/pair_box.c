@@ -16,7 +16,7 @@ typedef struct local
 } local;
 
 static double
-excess (double x, double h)
+beyond_side (double x, double h)
 {
   return x > h ? x - h : x < -h ? x + h : 0;
 }
@@ -26,13 +26,13 @@ slope_to_box (const local *k, double t)
 {
   double sum = 0;
   for (int i = 0; i < 3; i++)
-    sum += k->d[i] * excess (k->p[i] + t * k->d[i], k->h[i]);
+    sum += k->d[i] * beyond_side (k->p[i] + t * k->d[i], k->h[i]);
   return sum;
 }
 
 /* The root of the slope, which is FIRST < 0 at 0 and LAST > 0 at 1.  */
 static double
-root (const local *k, double first, double last)
+slope_root (const local *k, double first, double last)
 {
   double lo = 0, hi = 1;
   for (int i = 0; i < 3; i++)
@@ -69,7 +69,7 @@ nearest_to_box (const local *k)
   if (first >= 0)
     return 0;
   last = slope_to_box (k, 1);
-  return last <= 0 ? 1 : root (k, first, last);
+  return last <= 0 ? 1 : slope_root (k, first, last);
 }
 
 /* ---- Inside ---- */
@@ -171,7 +171,7 @@ bt__pair_box (const bt__box *box, const bt__link *link, bt__witness *out)
   local k = { { p.x, p.y, p.z }, { d.x, d.y, d.z }, { h.x, h.y, h.z } };
   double t = nearest_to_box (&k), e[3];
   for (int i = 0; i < 3; i++)
-    e[i] = excess (k.p[i] + t * k.d[i], k.h[i]);
+    e[i] = beyond_side (k.p[i] + t * k.d[i], k.h[i]);
   bt_vec3 gap = { e[0], e[1], e[2] };
   double distance = bt__norm (gap);
   if (!(distance > BT__TOUCHING * (bt__largest (p) + bt__largest (h))))

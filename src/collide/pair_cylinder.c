@@ -138,7 +138,7 @@ nearest_to_cylinder (const local *k)
 
 /* x, y any two axes that with z are orthonormal.  */
 static void
-frame_of (const bt__cylinder *c, bt__frame *f)
+cylinder_frame (const bt__cylinder *c, bt__frame *f)
 {
   bt_vec3 z = c->axis;
   /* Duff et al. 2017: no square root.  */
@@ -164,7 +164,7 @@ bt__pair_cylinder (const bt__cylinder *cylinder, const bt__link *link, bt__witne
 {
   bt__frame f;
   local k = { .half = cylinder->half, .radius = cylinder->radius };
-  frame_of (cylinder, &f);
+  cylinder_frame (cylinder, &f);
   k.p = bt__to_local (&f, link->a);
   k.d = bt__into (&f, bt__sub (link->b, link->a));
   k.a = k.d.x * k.d.x + k.d.y * k.d.y;

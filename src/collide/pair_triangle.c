@@ -27,7 +27,7 @@ typedef struct found
 } found;
 
 static void
-weigh (const local *k, bt_vec3 p, double w[3])
+weigh_corners (const local *k, bt_vec3 p, double w[3])
 {
   bt_vec3 m = bt__cross (k->n, p);
   w[1] = bt__dot (m, k->e2);
@@ -124,7 +124,7 @@ touch (const local *k, double s, bt_vec3 origin, int feature, bt__witness *out)
 }
 
 static void
-prepare (local *k, const bt__triangle *f, const bt__link *link)
+prepare_triangle (local *k, const bt__triangle *f, const bt__link *link)
 {
   k->p = bt__sub (link->a, f->v[0]);
   k->d = bt__sub (link->b, link->a);
@@ -140,7 +140,7 @@ void
 bt__pair_triangle (const bt__triangle *f, const bt__link *link, bt__witness *out)
 {
   local k;
-  prepare (&k, f, link);
+  prepare_triangle (&k, f, link);
   bt_vec3 q = bt__add (k.p, k.d);
   double start = bt__dot (k.n, k.p), end = bt__dot (k.n, q), s;
   if (crosses (&k, start, end, &s))
@@ -148,8 +148,8 @@ bt__pair_triangle (const bt__triangle *f, const bt__link *link, bt__witness *out
       touch (&k, s, f->v[0], 0, out);
       return;
     }
-  weigh (&k, k.p, k.w[0]);
-  weigh (&k, q, k.w[1]);
+  weigh_corners (&k, k.p, k.w[0]);
+  weigh_corners (&k, q, k.w[1]);
   found best = { .square = INFINITY };
   int near = fabs (end) < fabs (start);
   try_end (&k, near, &best);

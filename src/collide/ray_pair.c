@@ -29,7 +29,7 @@ static const span none = { INFINITY, -INFINITY, { 0, 0, 0 } };
 /* Cut S to the half-space normal N . p <= 0, of which the line is HEIGHT outside at its start and
    goes at SPEED.  */
 static void
-clip (span *s, bt_vec3 n, double height, double speed)
+clip_to_half_space (span *s, bt_vec3 n, double height, double speed)
 {
   if (fabs (speed) <= ALONG)
     {
@@ -51,8 +51,8 @@ clip (span *s, bt_vec3 n, double height, double speed)
 static void
 clip_slab (span *s, bt_vec3 n, double half, double at, double speed)
 {
-  clip (s, n, at - half, speed);
-  clip (s, bt__scale (-1, n), -at - half, -speed);
+  clip_to_half_space (s, n, at - half, speed);
+  clip_to_half_space (s, bt__scale (-1, n), -at - half, -speed);
 }
 
 /* The ball of radius R about a centre from which the line starts at M, seen in the space across
@@ -116,7 +116,7 @@ in_hull (const bt__hull *h, const line *l)
     {
       bt_vec3 n = h->face[i].normal;
       double height = bt__dot (n, bt__sub (l->from, h->v[h->corner[i][0]]));
-      clip (&s, n, height, bt__dot (n, l->d));
+      clip_to_half_space (&s, n, height, bt__dot (n, l->d));
     }
   return s;
 }
@@ -125,7 +125,8 @@ static span
 in_plane (const bt__plane *p, const line *l)
 {
   span s = all;
-  clip (&s, p->normal, bt__dot (p->normal, l->from) - p->offset, bt__dot (p->normal, l->d));
+  clip_to_half_space (&s, p->normal, bt__dot (p->normal, l->from) - p->offset,
+                      bt__dot (p->normal, l->d));
   return s;
 }
 
@@ -220,7 +221,7 @@ sheared (const shear *s, bt_vec3 p)
 }
 
 static double
-side (bt_vec3 p, bt_vec3 q)
+side_of_edge (bt_vec3 p, bt_vec3 q)
 {
   return q.x * p.y - q.y * p.x;
 }
@@ -231,7 +232,7 @@ bt__ray_triangle (const bt__triangle *t, bt_vec3 from, bt_vec3 direction, double
 {
   shear s = shear_of (from, direction);
   bt_vec3 a = sheared (&s, t->v[0]), b = sheared (&s, t->v[1]), c = sheared (&s, t->v[2]);
-  double u = side (b, c), v = side (c, a), w = side (a, b), det = u + v + w;
+  double u = side_of_edge (b, c), v = side_of_edge (c, a), w = side_of_edge (a, b), det = u + v + w;
   if (((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) || det == 0)
     return 0;
   double range = (u * a.z + v * b.z + w * c.z) / det;

@@ -98,7 +98,7 @@ dequeue (bt__job *k)
 /* The share of what is left of its move that link J may take; *HIT is the mover in the way plus 1,
    or 0.  */
 static double
-cast_link (bt__job *k, uint32_t j, uint32_t *hit)
+cast_safe_link (bt__job *k, uint32_t j, uint32_t *hit)
 {
   const bt__safe *s = k->safe;
   double best = 1;
@@ -156,7 +156,7 @@ truncate_moves (bt__job *k)
   while (k->waiting > 0)
     {
       uint32_t j = dequeue (k), hit = 0;
-      double t = cast_link (k, j, &hit);
+      double t = cast_safe_link (k, j, &hit);
       if (t >= 1)
         continue;
       cut++;
@@ -187,7 +187,7 @@ truncate_moves (bt__job *k)
 
 /* Fill the moves; return true if there is one.  */
 static int
-aim (bt__job *k, const bt_vec3 *want)
+set_moves (bt__job *k, const bt_vec3 *want)
 {
   int any = 0;
   for (uint32_t i = 0; i <= k->links; i++)
@@ -205,7 +205,7 @@ aim (bt__job *k, const bt_vec3 *want)
 
 /* Take the moves; return the longest.  */
 static double
-commit (bt__job *k, const bt_vec3 *want)
+take_moves (bt__job *k, const bt_vec3 *want)
 {
   double most = 0;
   for (uint32_t i = 0; i <= k->links; i++)
@@ -223,19 +223,19 @@ commit (bt__job *k, const bt_vec3 *want)
 static int
 round_of (bt__job *k, const bt_vec3 *want)
 {
-  if (!aim (k, want) && !(k->moving && k->movers))
+  if (!set_moves (k, want) && !(k->moving && k->movers))
     return 0;
   for (uint32_t j = 0; j < k->links; j++)
     bt__list_link (k, j);
   truncate_moves (k);
   k->report->rounds++;
-  double most = commit (k, want);
+  double most = take_moves (k, want);
   return most > 0.01 * k->core;
 }
 
 /* Without anything to hit: go.  */
 static void
-go (bt__job *k, const bt_vec3 *want)
+move_freely (bt__job *k, const bt_vec3 *want)
 {
   for (uint32_t i = 0; i <= k->links; i++)
     if (bt__is_finite (want[i]))
@@ -283,7 +283,7 @@ bt__safe_step (bt__safe *safe, const bt__safe_config *config, const bt__scene *s
   if (n < 2 || (scene->n == 0 && movers == 0))
     {
       if (n > 0)
-        go (&k, want);
+        move_freely (&k, want);
       return;
     }
   check_known (&k);

@@ -37,7 +37,7 @@ known_clear (const bt__job *k, uint32_t j)
 }
 
 static void
-remember (bt__job *k, uint32_t j, const bt__nears *list, double reach)
+remember_clearance (bt__job *k, uint32_t j, const bt__nears *list, double reach)
 {
   bt__safe *s = k->safe;
   s->known[2 * j] = k->x[j];
@@ -70,7 +70,7 @@ list_static (bt__job *k, uint32_t j, bt__nears *list)
   bt__link link = bt__job_link (k, j);
   double reach = 1.3 * need + 0.05;
   bt__scene_near (k->scene, k->on, &link, j, reach, list, k->count);
-  remember (k, j, list, reach);
+  remember_clearance (k, j, list, reach);
   yield_to_dropped (k, j, list->dropped, need, 0.999);
 }
 

@@ -149,7 +149,7 @@ box_of_solid (const void *user, uint32_t i, bt__aabb *box)
 /* ---- Making ---- */
 
 static bt_status
-allocate (bt__scene *s, uint32_t n, bt_error *error)
+allocate_scene (bt__scene *s, uint32_t n, bt_error *error)
 {
   size_t some = (size_t)n + 1;
   s->object = malloc (some * sizeof *s->object);
@@ -171,7 +171,7 @@ bt__scene_new (const bt__obstacle *obstacles, uint32_t n, uint64_t serial, bt__s
                        "or axes that are not orthonormal",
                        (unsigned)i);
   bt__scene *s = calloc (1, sizeof *s);
-  bt_status status = s ? allocate (s, n, error)
+  bt_status status = s ? allocate_scene (s, n, error)
                        : bt__fail (error, BT_ERR_LIMIT, "no memory for %u obstacles", (unsigned)n);
   if (status)
     {

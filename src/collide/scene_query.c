@@ -55,7 +55,7 @@ farthest (const bt__nears *list)
 }
 
 static void
-keep (bt__nears *list, const bt__near *near)
+keep_nearest (bt__nears *list, const bt__near *near)
 {
   if (list->n < list->room)
     {
@@ -187,7 +187,7 @@ take_pair (question *q, double reach)
     return reach;
   if (q->list)
     {
-      keep (q->list, &q->now);
+      keep_nearest (q->list, &q->now);
       return reach;
     }
   q->best = q->now;

@@ -124,7 +124,7 @@ sweep_solid (void *user, uint32_t slot, double reach)
 }
 
 static double
-run (sweep *s)
+run_sweep (sweep *s)
 {
   s->best = 1;
   if (s->scene->n == 0)
@@ -160,7 +160,7 @@ sweep_static (const bt__body *body, const bt__motion *motion, double gap, const 
   s.chase = (bt__chase){ .body = flier_of (body, motion),
                          .part.motion = { .from = world, .axis = { 0, 0, 1 } },
                          .gap = gap };
-  return run (&s);
+  return run_sweep (&s);
 }
 
 /* The mover is asked in its own frame at the start; no part of it that is farther than both can go
@@ -182,7 +182,7 @@ sweep_mover (const bt__body *body, const bt__motion *motion, double gap, const b
   s.chase = (bt__chase){ .body = flier_of (body, motion),
                          .part = { .radius = m->radius, .motion = own },
                          .gap = gap };
-  return run (&s);
+  return run_sweep (&s);
 }
 
 static int

@@ -88,7 +88,7 @@ typedef struct outlook
 
 /* The least of SIGN n . p over FLIER, standing at FRAME, the time T later.  */
 static double
-least (const bt__flier *x, const bt__frame *frame, bt_vec3 n, double sign, double t)
+least_support (const bt__flier *x, const bt__frame *frame, bt_vec3 n, double sign, double t)
 {
   int hint = 0;
   double turn = t * x->motion.angle;
@@ -103,8 +103,8 @@ static double
 height_in (const outlook *o, double t)
 {
   const bt__chase *c = o->chase;
-  double body = least (&c->body, &o->a, o->n, 1, t);
-  return body + (c->plane ? -c->plane->offset : least (&c->part, &o->b, o->n, -1, t));
+  double body = least_support (&c->body, &o->a, o->n, 1, t);
+  return body + (c->plane ? -c->plane->offset : least_support (&c->part, &o->b, o->n, -1, t));
 }
 
 /* The longest time, at most LEFT, for which the two stay LIMIT apart: found from below.  HERE is
@@ -139,7 +139,7 @@ time_apart (const outlook *o, double here, double limit, double left)
 
 /* The farthest any point of the two goes.  */
 static double
-way_of (const bt__flier *x)
+farthest_way (const bt__flier *x)
 {
   return bt__norm (x->motion.travel) + fabs (x->motion.angle) * x->radius;
 }
@@ -163,7 +163,7 @@ double
 bt__chase_run (const bt__chase *c, double most, bt__apart *out, bt__count *count)
 {
   double t = 0, goal = c->gap * (1 + MARGIN) + ROUNDING * size_of (c), limit = 0;
-  double least_step = LITTLE * c->gap / (way_of (&c->body) + way_of (&c->part));
+  double least_step = LITTLE * c->gap / (farthest_way (&c->body) + farthest_way (&c->part));
   count->casts++;
   for (int i = 0; i < STEPS_MAX; i++)
     {

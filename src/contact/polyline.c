@@ -61,7 +61,7 @@ bt__polyline_work_new (uint32_t room, uint32_t movers, bt__polyline_work **out, 
 /* ---- Laying ---- */
 
 static void
-append (bt__polyline *line, bt_vec3 x, double u)
+append_point (bt__polyline *line, bt_vec3 x, double u)
 {
   bt__polyline_x (line)[line->n] = x;
   bt__polyline_u (line)[line->n++] = u;
@@ -79,7 +79,7 @@ lay_piece (bt__polyline *line, bt_vec3 p, double u, bt_vec3 q, double v, double 
       if (s >= v - same)
         break;
       if (s > u + same)
-        append (line, bt__axpy (p, (s - u) / (v - u), bt__sub (q, p)), s);
+        append_point (line, bt__axpy (p, (s - u) / (v - u), bt__sub (q, p)), s);
     }
 }
 
@@ -103,11 +103,11 @@ bt__polyline_lay (bt__polyline *line, uint32_t room, const bt_vec3 *points, uint
       double v = way > 0 ? u + d * (length / way) : length * (i + 1) / (n - 1);
       if (i + 2 == n)
         v = length;
-      append (line, points[i], u);
+      append_point (line, points[i], u);
       lay_piece (line, points[i], u, points[i + 1], v, length, nodes);
       u = v;
     }
-  append (line, points[n - 1], length);
+  append_point (line, points[n - 1], length);
   return BT_OK;
 }
 
@@ -115,7 +115,7 @@ bt__polyline_lay (bt__polyline *line, uint32_t room, const bt_vec3 *points, uint
 
 /* The link that holds arc length S, clamped.  */
 static int64_t
-link_at (const bt__polyline *line, double s)
+link_at_arc (const bt__polyline *line, double s)
 {
   const double *u = bt__polyline_u ((bt__polyline *)line);
   int64_t lo = 0, hi = line->n - 1;
@@ -131,7 +131,7 @@ link_at (const bt__polyline *line, double s)
 }
 
 static double
-share_of (const bt__polyline *line, int64_t link, double s)
+share_of_link (const bt__polyline *line, int64_t link, double s)
 {
   const double *u = bt__polyline_u ((bt__polyline *)line) + link;
   return u[1] > u[0] ? bt__clamp ((s - u[0]) / (u[1] - u[0]), 0, 1) : 0;
@@ -142,14 +142,14 @@ bt__polyline_insert (bt__polyline *line, double s, double grain)
 {
   bt_vec3 *x = bt__polyline_x (line);
   double *u = bt__polyline_u (line);
-  int64_t j = link_at (line, s), i = j + 1;
+  int64_t j = link_at_arc (line, s), i = j + 1;
   if (fabs (u[j] - s) <= grain)
     return j;
   if (fabs (u[i] - s) <= grain)
     return i;
   if (line->n >= line->room)
     return -1;
-  bt_vec3 p = bt__axpy (x[j], share_of (line, j, s), bt__sub (x[i], x[j]));
+  bt_vec3 p = bt__axpy (x[j], share_of_link (line, j, s), bt__sub (x[i], x[j]));
   memmove (x + i + 1, x + i, (size_t)(line->n - i) * sizeof *x);
   memmove (u + i + 1, u + i, (size_t)(line->n - i) * sizeof *u);
   x[i] = p;
@@ -175,15 +175,15 @@ bt__polyline_remove (bt__polyline *line, int64_t i)
 bt_vec3
 bt__polyline_point (const bt__polyline *line, double s)
 {
-  int64_t j = link_at (line, s);
+  int64_t j = link_at_arc (line, s);
   const bt_vec3 *x = bt__polyline_x ((bt__polyline *)line) + j;
-  return bt__axpy (x[0], share_of (line, j, s), bt__sub (x[1], x[0]));
+  return bt__axpy (x[0], share_of_link (line, j, s), bt__sub (x[1], x[0]));
 }
 
 bt_vec3
 bt__polyline_tangent (const bt__polyline *line, double s)
 {
-  const bt_vec3 *x = bt__polyline_x ((bt__polyline *)line) + link_at (line, s);
+  const bt_vec3 *x = bt__polyline_x ((bt__polyline *)line) + link_at_arc (line, s);
   return bt__unit_or (bt__sub (x[1], x[0]), bt__vec (0, 0, -1));
 }
 

@@ -100,7 +100,7 @@ cast_link (leg *l, uint32_t j, uint32_t m, const bt__nears *list)
 }
 
 static void
-meet (leg *l, uint32_t j, uint32_t m)
+meet_mover (leg *l, uint32_t j, uint32_t m)
 {
   const bt__mover *mover = m ? l->way->work->still + m - 1 : NULL;
   const bt__scene *scene = mover ? mover->body : l->way->around->scene;
@@ -153,7 +153,7 @@ common_share (const bt__way *way, const bt_vec3 *x, const bt_vec3 *to, uint32_t 
   *hit = (bt__hit){ 0 };
   for (uint32_t j = 0; j + 1 < n; j++)
     for (uint32_t m = 0; m <= way->around->movers; m++)
-      meet (&l, j, m);
+      meet_mover (&l, j, m);
   look_at_hit (&l);
   return l.share;
 }
@@ -167,7 +167,7 @@ commit (const bt__way *way, bt_vec3 *x, const bt_vec3 *to, uint32_t n)
 }
 
 static void
-between (const bt_vec3 *x, const bt_vec3 *to, double t, bt_vec3 *out, uint32_t n)
+interpolate (const bt_vec3 *x, const bt_vec3 *to, double t, bt_vec3 *out, uint32_t n)
 {
   for (uint32_t i = 0; i < n; i++)
     out[i] = t < 1 ? bt__axpy (x[i], t, bt__sub (to[i], x[i])) : to[i];
@@ -186,7 +186,7 @@ take_leg (const bt__way *way, bt_vec3 *x, uint32_t n, bt__hit *hit)
   double t = common_share (way, x, to, n, hit), done = 1;
   for (int k = 0; k < HALVINGS && t * done > 0; k++)
     {
-      between (x, to, t, to, n);
+      interpolate (x, to, t, to, n);
       done *= t;
       if (arrives (way, x, to, n))
         {
@@ -201,7 +201,7 @@ take_leg (const bt__way *way, bt_vec3 *x, uint32_t n, bt__hit *hit)
 /* ---- The move ---- */
 
 static int
-is_good (const bt_vec3 *want, const double *arc, uint32_t n)
+is_usable (const bt_vec3 *want, const double *arc, uint32_t n)
 {
   int good = 1;
   for (uint32_t i = 0; i < n; i++)
@@ -228,7 +228,7 @@ take_legs (const bt__way *way, bt_vec3 *x, uint32_t n, bt__hit *hit)
     {
       if (bt__ask (way->asker))
         return gone;
-      between (x, want, 1 / k, way->work->leg, n);
+      interpolate (x, want, 1 / k, way->work->leg, n);
       double t = take_leg (way, x, n, hit);
       gone += t * (1 - gone) / k;
       if (t < 1)
@@ -245,7 +245,7 @@ bt__polyline_move (bt__polyline *line, const bt__way *way, bt__hit *hit)
   const double *arc = way->work->arc;
   uint32_t n = (uint32_t)line->n;
   *hit = (bt__hit){ 0 };
-  if (!is_good (way->work->want, arc, n))
+  if (!is_usable (way->work->want, arc, n))
     return 0;
   if (way->around->scene->n == 0 && way->around->movers == 0)
     {
@@ -264,7 +264,7 @@ bt__polyline_move (bt__polyline *line, const bt__way *way, bt__hit *hit)
 /* The nodes' shares made even wherever a link would be stretched or turned round: between two
    polylines that do neither a common share does neither.  */
 static void
-even_out (const bt__polyline *line, const bt__polyline_work *w)
+even_shares_out (const bt__polyline *line, const bt__polyline_work *w)
 {
   const bt_vec3 *x = bt__polyline_x ((bt__polyline *)line);
   const double *u = bt__polyline_u ((bt__polyline *)line);
@@ -306,13 +306,13 @@ bt__polyline_creep (bt__polyline *line, const bt__way *way)
   bt_vec3 *x = bt__polyline_x (line);
   double *u = bt__polyline_u (line), most = 0;
   uint32_t n = (uint32_t)line->n;
-  if (!is_good (w->want, w->arc, n))
+  if (!is_usable (w->want, w->arc, n))
     return 0;
   for (uint32_t i = 0; i < n; i++)
     w->share[i] = fmin (1, STRIDE / fmax (bt__distance (x[i], w->want[i]), STRIDE));
   for (int k = 0; k < HALVINGS; k++)
     {
-      even_out (line, w);
+      even_shares_out (line, w);
       for (uint32_t i = 0; i < n; i++)
         w->leg[i] = bt__axpy (x[i], w->share[i], bt__sub (w->want[i], x[i]));
       if (arrives (way, x, w->leg, n))

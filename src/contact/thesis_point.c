@@ -59,7 +59,7 @@ add (sum *s, bt_vec3 point, bt_vec3 normal)
 }
 
 static double
-height (const bt__obstacle *o, const bt__link *link, double t, bt__witness *w)
+height_over (const bt__obstacle *o, const bt__link *link, double t, bt__witness *w)
 {
   bt_vec3 p = bt__along (link, t);
   bt__link point = { p, p };
@@ -76,7 +76,7 @@ deepest (const bt__obstacle *o, const bt__link *link)
   for (int i = 0; i < SEARCH; i++)
     {
       double p = lo + (hi - lo) / 3, q = hi - (hi - lo) / 3;
-      if (height (o, link, p, &w) <= height (o, link, q, &w))
+      if (height_over (o, link, p, &w) <= height_over (o, link, q, &w))
         hi = q;
       else
         lo = p;
@@ -89,17 +89,17 @@ static void
 cross_surface (sum *s, const bt__obstacle *o, const bt__link *link, double in, double out)
 {
   bt__witness w;
-  if (height (o, link, out, &w) <= 0)
+  if (height_over (o, link, out, &w) <= 0)
     return;
   for (int i = 0; i < BISECT; i++)
     {
       double mid = (in + out) / 2;
-      if (height (o, link, mid, &w) > 0)
+      if (height_over (o, link, mid, &w) > 0)
         out = mid;
       else
         in = mid;
     }
-  height (o, link, out, &w);
+  height_over (o, link, out, &w);
   add (s, bt__along (link, out), w.normal);
 }
 
@@ -108,7 +108,7 @@ meet_solid (sum *s, const bt__obstacle *o, const bt__link *link)
 {
   bt__witness w;
   double in = deepest (o, link);
-  if (height (o, link, in, &w) >= 0)
+  if (height_over (o, link, in, &w) >= 0)
     return;
   cross_surface (s, o, link, in, 0);
   cross_surface (s, o, link, in, 1);
@@ -178,7 +178,7 @@ bt__collision_point (const bt__scene *scene, const bt__switches *on, const bt__l
 /* The angle by which D rises over the plane across NORMAL, in the plane of NORMAL and the tether's
    direction T: motion to the side, down a pile or along an edge, is no opening.  */
 static double
-rise (bt_vec3 d, bt_vec3 t, bt_vec3 normal)
+opening_angle (bt_vec3 d, bt_vec3 t, bt_vec3 normal)
 {
   return atan2 (bt__dot (d, normal), fmax (fabs (bt__dot (d, t)), SIDEWAYS));
 }
@@ -189,5 +189,5 @@ bt__split_angle (bt_vec3 d, bt_vec3 e, bt_vec3 normal)
   bt_vec3 way = bt__sub (e, d);
   way = bt__axpy (way, -bt__dot (way, normal), normal);
   bt_vec3 t = bt__unit_or (way, bt__across (normal));
-  return BT__PI + rise (d, t, normal) + rise (e, t, normal);
+  return BT__PI + opening_angle (d, t, normal) + opening_angle (e, t, normal);
 }

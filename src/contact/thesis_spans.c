@@ -190,7 +190,7 @@ bt__spans_share_out (bt__thesis_job *j)
 /* ---- Solving ---- */
 
 static int
-is_straight (const bt__thesis_job *j, int64_t k)
+is_span_straight (const bt__thesis_job *j, int64_t k)
 {
   const bt__thesis *s = j->state;
   return j->span[k].rubber || j->in->props->model == BT_MODEL_RUBBER_BAND
@@ -219,7 +219,7 @@ solve_span (bt__thesis_job *j, int64_t k)
 {
   bt__span *span = j->span + k;
   const bt__thesis *s = j->state;
-  int straight = is_straight (j, k);
+  int straight = is_span_straight (j, k);
   bt_vec3 a = bt__span_start (j, k), b = bt__span_stop (j, k);
   double pull = s->taut && (!s->stuck || k == s->spans - 1) ? j->in->pull : 0;
   if (straight == span->straight && is_as_was (span, a, b) && (straight || pull == span->pull))

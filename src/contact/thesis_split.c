@@ -26,7 +26,7 @@ scene_of (const bt__thesis_job *j, uint32_t mover, const bt__switches **on)
 
 /* In the frame of the part that was hit, and back.  */
 static void
-measure (bt__thesis_job *j, const bt__hit *hit, bt__collision *c)
+measure_collision (bt__thesis_job *j, const bt__hit *hit, bt__collision *c)
 {
   const bt_vec3 *x = bt__polyline_x (j->line) + hit->link;
   const bt__switches *on;
@@ -52,7 +52,7 @@ measure (bt__thesis_job *j, const bt__hit *hit, bt__collision *c)
 /* True if something of MOVER, or of the scene for 0, is within REACH of P; OBJECT: of that id
    only, unless negative.  */
 static int
-is_near (bt__thesis_job *j, uint32_t mover, bt_vec3 p, double reach, int64_t object)
+is_part_near (bt__thesis_job *j, uint32_t mover, bt_vec3 p, double reach, int64_t object)
 {
   const bt__switches *on;
   const bt__scene *scene = scene_of (j, mover, &on);
@@ -70,10 +70,10 @@ is_near (bt__thesis_job *j, uint32_t mover, bt_vec3 p, double reach, int64_t obj
 }
 
 static int
-is_clear (bt__thesis_job *j, bt_vec3 p)
+is_clear_point (bt__thesis_job *j, bt_vec3 p)
 {
   for (uint32_t m = 0; m <= j->way->around->movers; m++)
-    if (is_near (j, m, p, CLEAR * j->way->core, -1))
+    if (is_part_near (j, m, p, CLEAR * j->way->core, -1))
       return 0;
   return 1;
 }
@@ -92,7 +92,7 @@ arc_of (const bt__thesis_job *j, uint32_t link, bt_vec3 p)
 
 /* True if a split at P on span K would coincide with an existing split or end.  */
 static int
-is_crowded (const bt__thesis_job *j, int64_t k, bt_vec3 p)
+is_taken (const bt__thesis_job *j, int64_t k, bt_vec3 p)
 {
   const bt_vec3 *x = bt__polyline_x (j->line);
   int64_t i = bt__thesis_first (j, k), m = bt__thesis_last (j, k);
@@ -125,7 +125,7 @@ new_split (bt__thesis_job *j, const bt__hit *hit, const bt__collision *c, int64_
                       .node = node,
                       .contact = c->contact,
                       .normal = c->normal,
-                      .point = is_clear (j, c->point) ? c->point : here,
+                      .point = is_clear_point (j, c->point) ? c->point : here,
                       .angle = BT__PI,
                       .kept = came_back (j, object),
                       .fresh = BT__NEW };
@@ -133,7 +133,7 @@ new_split (bt__thesis_job *j, const bt__hit *hit, const bt__collision *c, int64_
 
 /* Make room for a split in span K, of WHOLE m of arc length, F m of it before the split.  */
 static void
-divide (bt__thesis_job *j, int64_t k, double whole, double f, const bt__split *split)
+divide_span (bt__thesis_job *j, int64_t k, double whole, double f, const bt__split *split)
 {
   bt__thesis *s = j->state;
   bt__span *span = j->span;
@@ -153,7 +153,7 @@ divide (bt__thesis_job *j, int64_t k, double whole, double f, const bt__split *s
 /* A collision C beside the split at an end of span K is that split's: let it lean there, too, once
    in a step.  */
 static int
-lean (bt__thesis_job *j, int64_t k, const bt__collision *c)
+lean_split (bt__thesis_job *j, int64_t k, const bt__collision *c)
 {
   for (int64_t i = k - 1; i <= k; i++)
     {
@@ -163,7 +163,7 @@ lean (bt__thesis_job *j, int64_t k, const bt__collision *c)
       bt_vec3 n = bt__unit_or (bt__add (s->normal, c->normal), c->normal);
       bt_vec3 out = bt__axpy (c->contact, bt__distance (c->contact, c->point), n);
       double apart = bt__distance (c->contact, bt__polyline_x (j->line)[s->node]);
-      if (s->fresh == BT__LEANT || apart > LOST * j->radius || !is_clear (j, out))
+      if (s->fresh == BT__LEANT || apart > LOST * j->radius || !is_clear_point (j, out))
         continue;
       s->normal = n;
       s->contact = c->contact;
@@ -183,10 +183,10 @@ bt__thesis_split (bt__thesis_job *j, const bt__hit *hit)
   bt__collision c;
   if (j->state->spans > BT__SPLITS_MAX)
     return 0;
-  measure (j, hit, &c);
+  measure_collision (j, hit, &c);
   double s = arc_of (j, hit->link, c.contact);
-  if (is_crowded (j, k, bt__polyline_point (j->line, s)) || is_crowded (j, k, c.point))
-    return lean (j, k, &c);
+  if (is_taken (j, k, bt__polyline_point (j->line, s)) || is_taken (j, k, c.point))
+    return lean_split (j, k, &c);
   int64_t first = bt__thesis_first (j, k), last = bt__thesis_last (j, k);
   double whole = u[last] - u[first], f = (s - u[first]) / whole;
   if (!(fmin (f, 1 - f) * whole > AT_END * j->radius))
@@ -197,7 +197,7 @@ bt__thesis_split (bt__thesis_job *j, const bt__hit *hit)
   for (int64_t i = k; i < j->state->spans - 1; i++)
     j->span[i].end.node += j->line->n - had;
   bt__split split = new_split (j, hit, &c, node);
-  divide (j, k, whole, f, &split);
+  divide_span (j, k, whole, f, &split);
   /* Out first: from there both spans can turn without touching at once.  */
   bt__polyline_nudge (j->line, j->way, node, split.point);
   j->counts->splits++;
@@ -208,7 +208,7 @@ bt__thesis_split (bt__thesis_job *j, const bt__hit *hit)
 
 /* Take back the split after span K.  */
 static void
-take_back (bt__thesis_job *j, int64_t k)
+take_back_split (bt__thesis_job *j, int64_t k)
 {
   bt__thesis *s = j->state;
   bt__span *span = j->span;
@@ -250,7 +250,7 @@ bt__thesis_rejoin_open (bt__thesis_job *j)
         enough = fmax (enough, split->kept + MORE);
       if (split->angle < enough)
         continue;
-      take_back (j, k--);
+      take_back_split (j, k--);
       n++;
     }
   return n;
@@ -270,7 +270,7 @@ bt__thesis_drop_lost (bt__thesis_job *j)
       const bt__split *s = &j->span[k].end;
       double reach = bt__distance (s->contact, s->point) + LOST * j->radius;
       uint32_t mover = (uint32_t)s->mover;
-      if (mover > j->way->around->movers || !is_near (j, mover, s->point, reach, s->object))
-        take_back (j, k--);
+      if (mover > j->way->around->movers || !is_part_near (j, mover, s->point, reach, s->object))
+        take_back_split (j, k--);
     }
 }

@@ -104,7 +104,7 @@ respond (bt__thesis_job *j, const bt__hit *hit)
 /* ---- The step ---- */
 
 static bt_status
-check (const bt__thesis_job *j)
+check_spans (const bt__thesis_job *j)
 {
   const bt__thesis_input *in = j->in;
   int model = (int)in->props->model;
@@ -166,7 +166,7 @@ wish (bt__thesis_job *j)
 }
 
 static int64_t
-id_of (const bt__thesis_job *j, const bt__hit *hit)
+object_hit (const bt__thesis_job *j, const bt__hit *hit)
 {
   const bt__mover *m = hit->mover ? j->way->work->still + hit->mover - 1 : NULL;
   const bt__scene *scene = m ? m->body : j->way->around->scene;
@@ -182,14 +182,14 @@ give_in (bt__thesis_job *j, const bt__hit *hit)
   bt__polyline_creep (j->line, j->way);
   if (j->blocked)
     return 0;
-  j->report->blocker = id_of (j, hit);
+  j->report->blocker = object_hit (j, hit);
   j->blocked = 1;
   return 1;
 }
 
 /* Move; return true if there is more to do.  */
 static int
-go (bt__thesis_job *j)
+move_polyline (bt__thesis_job *j)
 {
   bt__hit hit;
   bt__thesis_aim (j);
@@ -216,7 +216,7 @@ objects_of (const bt__thesis_job *j, int64_t *list)
 }
 
 static int
-holds (const int64_t *list, int n, int64_t object)
+lists_object (const int64_t *list, int n, int64_t object)
 {
   for (int i = 0; i < n; i++)
     if (list[i] == object)
@@ -230,7 +230,7 @@ without (const int64_t *a, int n, const int64_t *b, int m, int64_t *out)
 {
   int found = 0;
   for (int i = 0; i < n && found < BT__THESIS_LIST; i++)
-    if (!holds (b, m, a[i]) && !holds (out, found, a[i]))
+    if (!lists_object (b, m, a[i]) && !lists_object (out, found, a[i]))
       out[found++] = a[i];
   return found;
 }
@@ -271,7 +271,7 @@ bt__thesis_step (bt__thesis *state, const bt__thesis_input *input, const bt__way
   int64_t before[BT__SPLITS_MAX];
   int n = objects_of (&j, before), more = 1;
   *out = (bt__thesis_report){ .blocker = -1 };
-  bt_status status = check (&j);
+  bt_status status = check_spans (&j);
   if (status != BT_OK)
     return status;
   bt__polyline_let_pass (j.line, way);
@@ -289,7 +289,7 @@ bt__thesis_step (bt__thesis *state, const bt__thesis_input *input, const bt__way
   for (int round = 0; more && round < ROUNDS && status == BT_OK && !bt__ask (way->asker); round++)
     {
       status = wish (&j);
-      more = status == BT_OK && go (&j);
+      more = status == BT_OK && move_polyline (&j);
     }
   state->settled = state->settled && !more;
   bt__spans_count_cheats (&j);

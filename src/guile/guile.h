@@ -82,6 +82,9 @@ void bt__unlock_sharing (void);
 /* The bt_current_function that calls a Scheme procedure; USER is the handle.  */
 void bt__call_current (void *user, bt_vec3 p, double t, bt_vec3 *v);
 
+/* Put the association (NAME . VALUE), NAME as a symbol, in front of the list REST.  */
+SCM bt__associate (const char *name, SCM value, SCM rest);
+
 /* Points: an f64vector of three; a polyline of N points: an N x 3 array.  */
 SCM bt__from_point (bt_vec3 p);
 bt_vec3 bt__to_point (const char *who, SCM object);

@@ -17,12 +17,6 @@ shown (double value, double scale)
 }
 
 static SCM
-with (const char *name, SCM value, SCM list)
-{
-  return scm_acons (scm_from_utf8_symbol (name), value, list);
-}
-
-static SCM
 instruments (SCM object, SCM index)
 {
   bt_readings r;
@@ -30,19 +24,19 @@ instruments (SCM object, SCM index)
   SCM list = SCM_EOL;
   bt__check ("instruments",
              bt_dive_instruments (bt__to_dive (object), scm_to_int (index), &r, &error), &error);
-  list = with ("payout", shown (r.payout, 1), list);
-  list = with ("tension", shown (r.tension, 1), list);
-  list = with ("bearing", shown (r.bearing, DEGREES), list);
-  list = with ("range", shown (r.range, 1), list);
-  list = with ("turns", shown (r.turns, 1), list);
-  list = with ("up", shown (r.up, 1), list);
-  list = with ("aside", shown (r.aside, 1), list);
-  list = with ("ahead", shown (r.ahead, 1), list);
-  list = with ("altitude", shown (r.altitude, 1), list);
-  list = with ("depth", shown (r.depth, 1), list);
-  list = with ("roll", shown (r.roll, DEGREES), list);
-  list = with ("pitch", shown (r.pitch, DEGREES), list);
-  return with ("heading", shown (r.heading, DEGREES), list);
+  list = bt__associate ("payout", shown (r.payout, 1), list);
+  list = bt__associate ("tension", shown (r.tension, 1), list);
+  list = bt__associate ("bearing", shown (r.bearing, DEGREES), list);
+  list = bt__associate ("range", shown (r.range, 1), list);
+  list = bt__associate ("turns", shown (r.turns, 1), list);
+  list = bt__associate ("up", shown (r.up, 1), list);
+  list = bt__associate ("aside", shown (r.aside, 1), list);
+  list = bt__associate ("ahead", shown (r.ahead, 1), list);
+  list = bt__associate ("altitude", shown (r.altitude, 1), list);
+  list = bt__associate ("depth", shown (r.depth, 1), list);
+  list = bt__associate ("roll", shown (r.roll, DEGREES), list);
+  list = bt__associate ("pitch", shown (r.pitch, DEGREES), list);
+  return bt__associate ("heading", shown (r.heading, DEGREES), list);
 }
 
 static SCM
@@ -65,7 +59,7 @@ fault_names (void)
 {
   SCM list = SCM_EOL;
   for (int fault = BT_FAULT_THRUSTER; fault > 0; fault /= 2)
-    list = with (bt_fault_name ((bt_fault)fault), scm_from_int (fault), list);
+    list = bt__associate (bt_fault_name ((bt_fault)fault), scm_from_int (fault), list);
   return list;
 }
 

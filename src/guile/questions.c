@@ -22,13 +22,6 @@ symbol (const char *name)
   return scm_from_utf8_symbol (name);
 }
 
-/* An association (NAME . VALUE) in front of LIST.  */
-static SCM
-with (const char *name, SCM value, SCM list)
-{
-  return scm_acons (symbol (name), value, list);
-}
-
 static SCM
 names (SCM object, SCM part)
 {
@@ -48,10 +41,12 @@ sea (SCM object)
   int n;
   bt_dive_sea (bt__to_dive (object), &view);
   n = bt_waves_pack (&view.waves, waves);
-  return with ("depth", scm_from_double (view.depth),
-               with ("density", scm_from_double (view.density),
-                     with ("gravity", scm_from_double (view.gravity),
-                           with ("waves", from_doubles (waves, (size_t)n), SCM_EOL))));
+  return bt__associate (
+      "depth", scm_from_double (view.depth),
+      bt__associate (
+          "density", scm_from_double (view.density),
+          bt__associate ("gravity", scm_from_double (view.gravity),
+                         bt__associate ("waves", from_doubles (waves, (size_t)n), SCM_EOL))));
 }
 
 static SCM
@@ -62,16 +57,16 @@ vehicle (SCM object, SCM index)
   SCM list = SCM_EOL;
   bt__check ("rov-position", bt_dive_vehicle (bt__to_dive (object), scm_to_int (index), &v, &error),
              &error);
-  list = with ("surge-speed", scm_from_double (v.speeds[0]), list);
-  list = with ("held?", scm_from_bool (v.held), list);
-  list = with ("arrived?", scm_from_bool (v.arrived), list);
-  list = with ("sticks", from_doubles (v.sticks, 4), list);
-  list = with ("turns", scm_from_double (v.turns), list);
-  list = with ("roll", scm_from_double (v.roll * DEGREES), list);
-  list = with ("pitch", scm_from_double (v.pitch * DEGREES), list);
-  list = with ("heading", scm_from_double (v.heading * DEGREES), list);
-  list = with ("velocity", bt__from_point (v.velocity), list);
-  return with ("position", bt__from_point (v.position), list);
+  list = bt__associate ("surge-speed", scm_from_double (v.speeds[0]), list);
+  list = bt__associate ("held?", scm_from_bool (v.held), list);
+  list = bt__associate ("arrived?", scm_from_bool (v.arrived), list);
+  list = bt__associate ("sticks", from_doubles (v.sticks, 4), list);
+  list = bt__associate ("turns", scm_from_double (v.turns), list);
+  list = bt__associate ("roll", scm_from_double (v.roll * DEGREES), list);
+  list = bt__associate ("pitch", scm_from_double (v.pitch * DEGREES), list);
+  list = bt__associate ("heading", scm_from_double (v.heading * DEGREES), list);
+  list = bt__associate ("velocity", bt__from_point (v.velocity), list);
+  return bt__associate ("position", bt__from_point (v.position), list);
 }
 
 /* ---- Tethers ---- */
@@ -90,22 +85,22 @@ tether (SCM object, SCM index)
 {
   bt_tether_view t = tether_view ("tether-length", object, index);
   SCM list = SCM_EOL;
-  list = with ("settled?", scm_from_bool (t.settled), list);
-  list = with ("error", scm_from_double (t.error_estimate), list);
-  list = with ("stuck?", scm_from_bool (t.stuck), list);
-  list = with ("blocked?", scm_from_bool (t.blocked), list);
-  list = with ("asleep?", scm_from_bool (t.asleep), list);
-  list = with ("parted?", scm_from_bool (t.parted), list);
-  list = with ("spooling?", scm_from_bool (t.spooling), list);
-  list = with ("taut?", scm_from_bool (t.taut), list);
-  list = with ("vehicle", t.vehicle < 0 ? SCM_BOOL_F : scm_from_int (t.vehicle), list);
-  list = with ("force", bt__from_point (t.force), list);
-  list = with ("tension-max", scm_from_double (t.tension_max), list);
-  list = with ("tension-end", scm_from_double (t.tension_end), list);
-  list = with ("tension-anchor", scm_from_double (t.tension_anchor), list);
-  list = with ("chord", scm_from_double (t.chord), list);
-  list = with ("target", scm_from_double (t.target), list);
-  return with ("length", scm_from_double (t.length), list);
+  list = bt__associate ("settled?", scm_from_bool (t.settled), list);
+  list = bt__associate ("error", scm_from_double (t.error_estimate), list);
+  list = bt__associate ("stuck?", scm_from_bool (t.stuck), list);
+  list = bt__associate ("blocked?", scm_from_bool (t.blocked), list);
+  list = bt__associate ("asleep?", scm_from_bool (t.asleep), list);
+  list = bt__associate ("parted?", scm_from_bool (t.parted), list);
+  list = bt__associate ("spooling?", scm_from_bool (t.spooling), list);
+  list = bt__associate ("taut?", scm_from_bool (t.taut), list);
+  list = bt__associate ("vehicle", t.vehicle < 0 ? SCM_BOOL_F : scm_from_int (t.vehicle), list);
+  list = bt__associate ("force", bt__from_point (t.force), list);
+  list = bt__associate ("tension-max", scm_from_double (t.tension_max), list);
+  list = bt__associate ("tension-end", scm_from_double (t.tension_end), list);
+  list = bt__associate ("tension-anchor", scm_from_double (t.tension_anchor), list);
+  list = bt__associate ("chord", scm_from_double (t.chord), list);
+  list = bt__associate ("target", scm_from_double (t.target), list);
+  return bt__associate ("length", scm_from_double (t.length), list);
 }
 
 /* The properties of a tether, by the names of their fields.  */
@@ -125,7 +120,7 @@ properties (SCM object, SCM index)
       const double *value = (const double *)(const void *)((const char *)&def + field->offset);
       if (field->kind == BT_FIELD_NUMBER || field->kind == BT_FIELD_COUNT
           || field->kind == BT_FIELD_WORD)
-        list = with (field->name, bt__from_field (field, *value), list);
+        list = bt__associate (field->name, bt__from_field (field, *value), list);
     }
   return list;
 }
@@ -228,10 +223,12 @@ energy (SCM object, SCM index)
   bt_error error;
   bt__check ("energy", bt_tether_energy (bt__to_dive (object), scm_to_int (index), &e, &error),
              &error);
-  return with ("kinetic", scm_from_double (e.kinetic),
-               with ("strain", scm_from_double (e.strain),
-                     with ("gravity", scm_from_double (e.gravity),
-                           with ("bending", scm_from_double (e.bending), SCM_EOL))));
+  return bt__associate (
+      "kinetic", scm_from_double (e.kinetic),
+      bt__associate (
+          "strain", scm_from_double (e.strain),
+          bt__associate ("gravity", scm_from_double (e.gravity),
+                         bt__associate ("bending", scm_from_double (e.bending), SCM_EOL))));
 }
 
 static SCM
@@ -312,44 +309,44 @@ profile (SCM object)
   bt_profile p;
   SCM list = SCM_EOL;
   bt_dive_profile (bt__to_dive (object), &p);
-  list = with ("refused", scm_from_uint64 (p.refused), list);
-  list = with ("shared-again", scm_from_uint64 (p.shared_again), list);
-  list = with ("shared-steps", scm_from_uint64 (p.shared_steps), list);
-  list = with ("threads", scm_from_uint64 (p.threads), list);
-  list = with ("words", scm_from_uint64 (p.words), list);
-  list = with ("charts", scm_from_uint64 (p.charts), list);
-  list = with ("strings", scm_from_uint64 (p.strings), list);
-  list = with ("operations", scm_from_uint64 (p.operations), list);
-  list = with ("lee-samples", scm_from_uint64 (p.lee_samples), list);
-  list = with ("wave-samples", scm_from_uint64 (p.wave_samples), list);
-  list = with ("body-steps", scm_from_uint64 (p.body_steps), list);
-  list = with ("span-skips", scm_from_uint64 (p.span_skips), list);
-  list = with ("span-solves", scm_from_uint64 (p.span_solves), list);
-  list = with ("line-pairs", scm_from_uint64 (p.line_pairs), list);
-  list = with ("truncated", scm_from_uint64 (p.truncated), list);
-  list = with ("contact-rounds", scm_from_uint64 (p.contact_rounds), list);
-  list = with ("chafes", scm_from_uint64 (p.chafes), list);
-  list = with ("touches", scm_from_uint64 (p.touches), list);
-  list = with ("casts", scm_from_uint64 (p.casts), list);
-  list = with ("links-clear", scm_from_uint64 (p.links_clear), list);
-  list = with ("pairs-measured", scm_from_uint64 (p.pairs_measured), list);
-  list = with ("boxes-visited", scm_from_uint64 (p.boxes_visited), list);
-  list = with ("links-asked", scm_from_uint64 (p.links_asked), list);
-  list = with ("still-water-shapes", scm_from_uint64 (p.current_samples_skipped), list);
-  list = with ("chain-unconverged", scm_from_uint64 (p.chain_unconverged), list);
-  list = with ("chain-safeguarded", scm_from_uint64 (p.chain_safeguarded), list);
-  list = with ("chain-remeshes", scm_from_uint64 (p.chain_remeshes), list);
-  list = with ("chain-sleeps", scm_from_uint64 (p.chain_sleeps), list);
-  list = with ("chain-solves", scm_from_uint64 (p.chain_solves), list);
-  list = with ("chain-steps", scm_from_uint64 (p.chain_steps), list);
-  list = with ("unsettled", scm_from_uint64 (p.unsettled), list);
-  list = with ("relaxations", scm_from_uint64 (p.relaxations), list);
-  list = with ("marches", scm_from_uint64 (p.marches), list);
-  list = with ("shots", scm_from_uint64 (p.shots), list);
-  list = with ("search-iterations", scm_from_uint64 (p.search_iterations), list);
-  list = with ("shape-skips", scm_from_uint64 (p.shape_skips), list);
-  list = with ("shape-solves", scm_from_uint64 (p.shape_solves), list);
-  return with ("steps", scm_from_uint64 (p.steps), list);
+  list = bt__associate ("refused", scm_from_uint64 (p.refused), list);
+  list = bt__associate ("shared-again", scm_from_uint64 (p.shared_again), list);
+  list = bt__associate ("shared-steps", scm_from_uint64 (p.shared_steps), list);
+  list = bt__associate ("threads", scm_from_uint64 (p.threads), list);
+  list = bt__associate ("words", scm_from_uint64 (p.words), list);
+  list = bt__associate ("charts", scm_from_uint64 (p.charts), list);
+  list = bt__associate ("strings", scm_from_uint64 (p.strings), list);
+  list = bt__associate ("operations", scm_from_uint64 (p.operations), list);
+  list = bt__associate ("lee-samples", scm_from_uint64 (p.lee_samples), list);
+  list = bt__associate ("wave-samples", scm_from_uint64 (p.wave_samples), list);
+  list = bt__associate ("body-steps", scm_from_uint64 (p.body_steps), list);
+  list = bt__associate ("span-skips", scm_from_uint64 (p.span_skips), list);
+  list = bt__associate ("span-solves", scm_from_uint64 (p.span_solves), list);
+  list = bt__associate ("line-pairs", scm_from_uint64 (p.line_pairs), list);
+  list = bt__associate ("truncated", scm_from_uint64 (p.truncated), list);
+  list = bt__associate ("contact-rounds", scm_from_uint64 (p.contact_rounds), list);
+  list = bt__associate ("chafes", scm_from_uint64 (p.chafes), list);
+  list = bt__associate ("touches", scm_from_uint64 (p.touches), list);
+  list = bt__associate ("casts", scm_from_uint64 (p.casts), list);
+  list = bt__associate ("links-clear", scm_from_uint64 (p.links_clear), list);
+  list = bt__associate ("pairs-measured", scm_from_uint64 (p.pairs_measured), list);
+  list = bt__associate ("boxes-visited", scm_from_uint64 (p.boxes_visited), list);
+  list = bt__associate ("links-asked", scm_from_uint64 (p.links_asked), list);
+  list = bt__associate ("still-water-shapes", scm_from_uint64 (p.current_samples_skipped), list);
+  list = bt__associate ("chain-unconverged", scm_from_uint64 (p.chain_unconverged), list);
+  list = bt__associate ("chain-safeguarded", scm_from_uint64 (p.chain_safeguarded), list);
+  list = bt__associate ("chain-remeshes", scm_from_uint64 (p.chain_remeshes), list);
+  list = bt__associate ("chain-sleeps", scm_from_uint64 (p.chain_sleeps), list);
+  list = bt__associate ("chain-solves", scm_from_uint64 (p.chain_solves), list);
+  list = bt__associate ("chain-steps", scm_from_uint64 (p.chain_steps), list);
+  list = bt__associate ("unsettled", scm_from_uint64 (p.unsettled), list);
+  list = bt__associate ("relaxations", scm_from_uint64 (p.relaxations), list);
+  list = bt__associate ("marches", scm_from_uint64 (p.marches), list);
+  list = bt__associate ("shots", scm_from_uint64 (p.shots), list);
+  list = bt__associate ("search-iterations", scm_from_uint64 (p.search_iterations), list);
+  list = bt__associate ("shape-skips", scm_from_uint64 (p.shape_skips), list);
+  list = bt__associate ("shape-solves", scm_from_uint64 (p.shape_solves), list);
+  return bt__associate ("steps", scm_from_uint64 (p.steps), list);
 }
 
 void

@@ -142,12 +142,6 @@ bt__set_shape (const char *who, const bt_field *field, void *def, SCM value)
 /* ---- Obstacles of a dive ---- */
 
 static SCM
-entry (const char *name, SCM value, SCM rest)
-{
-  return scm_acons (scm_from_utf8_symbol (name), value, rest);
-}
-
-static SCM
 obstacle (SCM object, SCM index)
 {
   bt_obstacle_view v;
@@ -155,18 +149,18 @@ obstacle (SCM object, SCM index)
   SCM list = SCM_EOL;
   bt__check ("describe", bt_dive_obstacle (bt__to_dive (object), scm_to_int (index), &v, &error),
              &error);
-  list = entry ("triangles", scm_from_size_t (v.triangles), list);
-  list = entry ("moves", scm_from_bool (v.moves), list);
-  list = entry ("high", bt__from_point (v.high), list);
-  list = entry ("low", bt__from_point (v.low), list);
-  list = entry ("radius", scm_from_double (v.radius), list);
-  list = entry ("size", bt__from_point (v.size), list);
-  list = entry (
+  list = bt__associate ("triangles", scm_from_size_t (v.triangles), list);
+  list = bt__associate ("moves", scm_from_bool (v.moves), list);
+  list = bt__associate ("high", bt__from_point (v.high), list);
+  list = bt__associate ("low", bt__from_point (v.low), list);
+  list = bt__associate ("radius", scm_from_double (v.radius), list);
+  list = bt__associate ("size", bt__from_point (v.size), list);
+  list = bt__associate (
       "axis", v.has_axis ? scm_list_2 (bt__from_point (v.from), bt__from_point (v.to)) : SCM_BOOL_F,
       list);
-  list = entry ("centre", bt__from_point (v.centre), list);
-  list = entry ("friction", scm_from_double (v.friction), list);
-  return entry ("head", scm_from_utf8_symbol (bt_obstacle_head (v.kind)->name), list);
+  list = bt__associate ("centre", bt__from_point (v.centre), list);
+  list = bt__associate ("friction", scm_from_double (v.friction), list);
+  return bt__associate ("head", scm_from_utf8_symbol (bt_obstacle_head (v.kind)->name), list);
 }
 
 void

@@ -48,6 +48,12 @@ bt__to_point (const char *who, SCM object)
 }
 
 SCM
+bt__associate (const char *name, SCM value, SCM rest)
+{
+  return scm_acons (scm_from_utf8_symbol (name), value, rest);
+}
+
+SCM
 bt__from_points (const bt_vec3 *points, int n)
 {
   SCM array = scm_make_typed_array (scm_from_utf8_symbol ("f64"), SCM_UNSPECIFIED,

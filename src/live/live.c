@@ -199,7 +199,7 @@ bt_live_post (bt_live *live, int64_t step, bt_op op, int subject, const double *
 
 /* Ask POLL, with the lock let go meanwhile; what it gives up is left, or taken back.  */
 static void
-ask (bt_live *live, bt__command *command, bt_poll poll, void *poll_user)
+ask_caller (bt_live *live, bt__command *command, bt_poll poll, void *poll_user)
 {
   double share = live->doing == command ? live->share : 0;
   pthread_mutex_unlock (&live->lock);
@@ -226,7 +226,7 @@ wait_for (bt_live *live, bt__command *command, bt_poll poll, void *poll_user)
   if (!poll)
     pthread_cond_wait (&live->moved, &live->lock);
   else if (pthread_cond_timedwait (&live->moved, &live->lock, &soon) != 0)
-    ask (live, command, poll, poll_user);
+    ask_caller (live, command, poll, poll_user);
 }
 
 bt_status

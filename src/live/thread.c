@@ -128,7 +128,7 @@ is_whole_second (const bt_live *live)
 }
 
 static void
-take_step (bt_live *live)
+take_live_step (bt_live *live)
 {
   bt_error error;
   bt_status status;
@@ -197,7 +197,7 @@ bt__live_thread (void *data)
           stand_still (live);
           continue;
         }
-      take_step (live);
+      take_live_step (live);
       if (live->options.pace > 0)
         rest_until (live, due = next_due (live, due));
     }

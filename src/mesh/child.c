@@ -124,7 +124,7 @@ bt__child_start (bt__child *child, const char *program, char *const argv[], doub
 
 /* Keep the first line of what the child complains about, and let the rest go.  */
 static void
-hear (bt__child *child)
+hear_complaint (bt__child *child)
 {
   char some[512];
   ssize_t n = read (child->err, some, sizeof some);
@@ -151,7 +151,7 @@ await (bt__child *child, int *spoke)
   if (n < 0 && errno != EINTR)
     return 0;
   if (n > 0 && ends[1].revents)
-    hear (child);
+    hear_complaint (child);
   *spoke = n > 0 && ends[0].revents;
   return 1;
 }

@@ -77,7 +77,7 @@ next_word (reader *r)
 /* The word W for an error message.  Of a file that is no grid nothing is shown: a world may name
    any file, and the message must not leak the file's text.  */
 static const char *
-show (const reader *r, const word *w, char text[SHOWN + 4])
+show_word (const reader *r, const word *w, char text[SHOWN + 4])
 {
   if (!r->is_grid)
     return strcpy (text, "...");
@@ -116,7 +116,7 @@ fail_number (const reader *r, const word *w, const char *wanted)
     return bt__fail (r->error, BT_ERR_FORMAT, "%s, line %ld: the file ends where %s was expected",
                      r->name, w->line, wanted);
   return bt__fail (r->error, BT_ERR_FORMAT, "%s, line %ld: `%s' where %s was expected%s", r->name,
-                   w->line, show (r, w, text), wanted, hint);
+                   w->line, show_word (r, w, text), wanted, hint);
 }
 
 /* ---- The header ---- */
@@ -212,7 +212,7 @@ read_keys (reader *r, header *h)
                          "%s, line %ld: `%s' where ncols, nrows, xllcorner or xllcenter, yllcorner "
                          "or yllcenter, cellsize (or dx and dy), NODATA_value or a height was "
                          "expected",
-                         r->name, w.line, show (r, &w, text));
+                         r->name, w.line, show_word (r, &w, text));
       r->is_grid |= k != DX && k != DY; /* words of other files too */
       if (h->given[k])
         return bt__fail (r->error, BT_ERR_FORMAT, "%s, line %ld: %s is given twice", r->name,
@@ -224,24 +224,25 @@ read_keys (reader *r, header *h)
 }
 
 static int
-has (const header *h, key k)
+has_key (const header *h, key k)
 {
   return h->given[k];
 }
 
 /* The words for what H lacks, or NULL.  */
 static const char *
-missing (const header *h)
+missing_keys (const header *h)
 {
-  if (!has (h, NCOLS))
+  if (!has_key (h, NCOLS))
     return "ncols";
-  if (!has (h, NROWS))
+  if (!has_key (h, NROWS))
     return "nrows";
-  if (has (h, XCORNER) == has (h, XCENTER))
+  if (has_key (h, XCORNER) == has_key (h, XCENTER))
     return "one of xllcorner and xllcenter";
-  if (has (h, YCORNER) == has (h, YCENTER))
+  if (has_key (h, YCORNER) == has_key (h, YCENTER))
     return "one of yllcorner and yllcenter";
-  if (has (h, CELLSIZE) ? has (h, DX) || has (h, DY) : !has (h, DX) || !has (h, DY))
+  if (has_key (h, CELLSIZE) ? has_key (h, DX) || has_key (h, DY)
+                            : !has_key (h, DX) || !has_key (h, DY))
     return "either cellsize or dx and dy";
   return NULL;
 }
@@ -254,7 +255,7 @@ read_header (reader *r, header *h)
   bt_status s = read_keys (r, h);
   if (s != BT_OK)
     return s;
-  const char *what = missing (h);
+  const char *what = missing_keys (h);
   if (what)
     return bt__fail (r->error, BT_ERR_FORMAT, "%s, line %ld: the header ends; it must give %s",
                      r->name, r->line, what);
@@ -267,14 +268,14 @@ read_header (reader *r, header *h)
 
 /* Posts stand at the centres of cells.  */
 static bt_heights
-place (const header *h)
+place_posts (const header *h)
 {
-  double dx = h->value[has (h, CELLSIZE) ? CELLSIZE : DX];
-  double dy = h->value[has (h, CELLSIZE) ? CELLSIZE : DY];
+  double dx = h->value[has_key (h, CELLSIZE) ? CELLSIZE : DX];
+  double dy = h->value[has_key (h, CELLSIZE) ? CELLSIZE : DY];
   return (bt_heights){ .nx = (size_t)h->value[NCOLS],
                        .ny = (size_t)h->value[NROWS],
-                       .x = has (h, XCENTER) ? h->value[XCENTER] : h->value[XCORNER] + dx / 2,
-                       .y = has (h, YCENTER) ? h->value[YCENTER] : h->value[YCORNER] + dy / 2,
+                       .x = has_key (h, XCENTER) ? h->value[XCENTER] : h->value[XCORNER] + dx / 2,
+                       .y = has_key (h, YCENTER) ? h->value[YCENTER] : h->value[YCORNER] + dy / 2,
                        .dx = dx,
                        .dy = dy };
 }
@@ -297,7 +298,7 @@ read_height (reader *r, double nodata, double *z)
 }
 
 static bt_status
-read_rows (reader *r, const header *h, bt_heights_data *data)
+read_heights (reader *r, const header *h, bt_heights_data *data)
 {
   size_t nx = data->heights.nx, ny = data->heights.ny, known = 0;
   for (size_t row = ny; row-- > 0;)
@@ -319,19 +320,19 @@ read_rows (reader *r, const header *h, bt_heights_data *data)
 }
 
 static bt_status
-parse (reader *r, bt_heights_data *data)
+parse_grid (reader *r, bt_heights_data *data)
 {
   header h;
   bt_status s = read_header (r, &h);
   if (s != BT_OK)
     return s;
-  data->heights = place (&h);
+  data->heights = place_posts (&h);
   data->z = malloc (data->heights.nx * data->heights.ny * sizeof *data->z);
   if (!data->z)
     return bt__fail (r->error, BT_ERR_LIMIT, "%s: no memory for %zu by %zu heights", r->name,
                      data->heights.nx, data->heights.ny);
   data->heights.z = data->z;
-  return read_rows (r, &h, data);
+  return read_heights (r, &h, data);
 }
 
 /* ---- The file ---- */
@@ -357,7 +358,7 @@ bt__grid_parse (const char *name, const char *text, size_t n, bt_heights_data **
   if (n >= 3 && memcmp (text, mark, 3) == 0)
     r.at += 3;
   if (data && r.plain)
-    s = parse (&r, data);
+    s = parse_grid (&r, data);
   else
     s = bt__fail (error, BT_ERR_LIMIT, "%s: no memory", name);
   if (r.plain)

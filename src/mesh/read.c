@@ -46,8 +46,8 @@ find_reader (char path[PATH_SIZE])
 }
 
 static bt_status
-start (bt__child *child, const char *file, bt_mesh_up up, const bt__mesh_limits *limits,
-       bt_error *error)
+start_reader (bt__child *child, const char *file, bt_mesh_up up, const bt__mesh_limits *limits,
+              bt_error *error)
 {
   char program[PATH_SIZE], cpu[NUMBER_SIZE], megabytes[NUMBER_SIZE];
   if (!find_reader (program))
@@ -95,7 +95,7 @@ fail_by_signal (const char *name, int code, bt_error *error)
 
 /* What became of the child that answered with ANSWER (its sentence in ERROR)?  */
 static bt_status
-judge (const char *name, bt__child *child, bt_status answer, bt_error *error)
+judge_child (const char *name, bt__child *child, bt_status answer, bt_error *error)
 {
   int code = 0, stop = answer != BT_OK && child->out >= 0 && !child->late;
   bt__ending ending = bt__child_end (child, stop, &code);
@@ -127,13 +127,13 @@ bt__mesh_read_within (const char *file, bt_mesh_up up, const bt__mesh_limits *li
   if (s != BT_OK)
     return s;
   close (fd); /* it can be read: that is all we wanted of it */
-  s = start (&child, file, up, limits, error);
+  s = start_reader (&child, file, up, limits, error);
   if (s != BT_OK)
     return s;
   s = bt__mesh_take (&(bt__mesh_source){ read_child, &child }, out, &why);
   if (s != BT_OK)
     bt__fail (error, s, "%s: %s", bt__file_tail (file), why.text);
-  s = judge (bt__file_tail (file), &child, s, error);
+  s = judge_child (bt__file_tail (file), &child, s, error);
   if (s != BT_OK)
     {
       bt_mesh_data_free (*out);

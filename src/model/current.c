@@ -123,7 +123,7 @@ open_current (const bt_water *water, bt_vec3 p)
 }
 
 static int
-has_waves (const bt_water *water)
+water_has_waves (const bt_water *water)
 {
   return water->sea && water->sea->waves && water->sea->waves->n > 0;
 }
@@ -142,7 +142,7 @@ bt_vec3
 bt_water_velocity (const bt_water *water, bt_vec3 p)
 {
   bt_vec3 v = bt_water_current (water, p), orbit;
-  if (!has_waves (water))
+  if (!water_has_waves (water))
     return v;
   bt_waves_motion (water->sea->waves, p, water->time, &orbit, NULL);
   return bt__add (v, orbit);
@@ -152,7 +152,7 @@ bt_vec3
 bt_water_acceleration (const bt_water *water, bt_vec3 p)
 {
   bt_vec3 a = still;
-  if (has_waves (water))
+  if (water_has_waves (water))
     bt_waves_motion (water->sea->waves, p, water->time, NULL, &a);
   return a;
 }
@@ -162,7 +162,7 @@ bt_water_motion (const bt_water *water, bt_vec3 p, bt_vec3 *velocity, bt_vec3 *a
 {
   bt_vec3 orbit = still;
   *acceleration = still;
-  if (has_waves (water))
+  if (water_has_waves (water))
     bt_waves_motion (water->sea->waves, p, water->time, &orbit, acceleration);
   *velocity = bt__add (bt_water_current (water, p), orbit);
 }
@@ -170,14 +170,15 @@ bt_water_motion (const bt_water *water, bt_vec3 p, bt_vec3 *velocity, bt_vec3 *a
 double
 bt_water_surface (const bt_water *water, bt_vec3 p)
 {
-  return has_waves (water) ? bt_waves_elevation (water->sea->waves, p.x, p.y, water->time) : 0;
+  return water_has_waves (water) ? bt_waves_elevation (water->sea->waves, p.x, p.y, water->time)
+                                 : 0;
 }
 
 double
 bt_water_crest (const bt_water *water)
 {
   double sum = 0;
-  for (int i = 0; has_waves (water) && i < water->sea->waves->n; i++)
+  for (int i = 0; water_has_waves (water) && i < water->sea->waves->n; i++)
     sum += water->sea->waves->amplitude[i];
   return sum;
 }
@@ -186,7 +187,7 @@ int
 bt_water_is_uniform (const bt_water *water)
 {
   const bt_current *current = water->current;
-  if (has_waves (water) || (water->sea && water->sea->n_wakes > 0))
+  if (water_has_waves (water) || (water->sea && water->sea->n_wakes > 0))
     return 0;
   return !current || current->kind == BT_CURRENT_STILL || current->kind == BT_CURRENT_UNIFORM
          || current->kind == BT_CURRENT_TIDE;
@@ -220,7 +221,7 @@ int
 bt_water_is_unsteady (const bt_water *water)
 {
   const bt_current *current = water->current;
-  if (has_waves (water))
+  if (water_has_waves (water))
     return 1;
   if (current && current->kind == BT_CURRENT_GRID)
     return water->sea && water->sea->grid && bt_current_grid_is_unsteady (water->sea->grid);

@@ -225,7 +225,7 @@ enum
 };
 
 static bt_status
-check_rows (const bt_field *field, const bt_rows *rows, bt_error *error)
+check_field_rows (const bt_field *field, const bt_rows *rows, bt_error *error)
 {
   size_t width = field->kind == BT_FIELD_TRACK ? 5 : 3;
   size_t most = field->kind == BT_FIELD_VIA   ? BT_VIA_MAX
@@ -252,7 +252,7 @@ bt_def_set_rows (const bt_field *field, void *def, const bt_rows *rows, bt_error
   if (field->kind != BT_FIELD_VIA && field->kind != BT_FIELD_POINTS && field->kind != BT_FIELD_TRACK
       && field->kind != BT_FIELD_SIX)
     return bt__fail (error, BT_ERR_NAME, "`%s' does not take rows of numbers", field->name);
-  status = check_rows (field, rows, error);
+  status = check_field_rows (field, rows, error);
   if (status != BT_OK)
     return status;
   if (field->kind == BT_FIELD_VIA)
@@ -349,13 +349,13 @@ set_again (const bt_field *field, void *def, bt_error *error)
         return bt__fail (error, BT_ERR_LIMIT, "`%s' has %g points; at most %d are allowed",
                          field->name, via->n, BT_VIA_MAX);
       rows.n = (size_t)via->n;
-      return check_rows (field, &rows, error);
+      return check_field_rows (field, &rows, error);
     case BT_FIELD_SIX:
       rows = (bt_rows){ p, 2, 3 };
-      return check_rows (field, &rows, error);
+      return check_field_rows (field, &rows, error);
     case BT_FIELD_POINTS:
     case BT_FIELD_TRACK:
-      return check_rows (field, p, error);
+      return check_field_rows (field, p, error);
     case BT_FIELD_MESH:
       return bt_def_set_mesh (field, def, p, error);
     case BT_FIELD_GRID:

@@ -22,7 +22,7 @@ bt__lay_points (const bt_model *model, int i, bt_vec3 *points)
 
 /* What LINK meets first of SCENE, if that is nearer than CAP.  */
 static int
-meets (const bt__scene *scene, const bt__link *link, double cap, int *obstacle)
+meets_first (const bt__scene *scene, const bt__link *link, double cap, int *obstacle)
 {
   bt__count count = { 0 };
   bt__near near;
@@ -39,13 +39,13 @@ static int
 obstacle_near (const bt_model *model, const bt__link *link, double cap)
 {
   int obstacle = BT__NO_OBSTACLE;
-  if (meets (model->scene, link, cap, &obstacle))
+  if (meets_first (model->scene, link, cap, &obstacle))
     return obstacle;
   for (int k = 0; k < model->n_carried; k++)
     {
       bt__frame frame = bt__carried_frame (model, k, 0);
       bt__link own = { bt__to_local (&frame, link->a), bt__to_local (&frame, link->b) };
-      if (meets (model->carried[k].body, &own, cap, &obstacle))
+      if (meets_first (model->carried[k].body, &own, cap, &obstacle))
         return obstacle;
     }
   return BT__NO_OBSTACLE;
@@ -58,7 +58,7 @@ obstacle_at (const bt_model *model, bt_vec3 p, double cap)
 }
 
 static const char *
-kind_of (const bt_model *model, int obstacle)
+obstacle_kind (const bt_model *model, int obstacle)
 {
   return bt_obstacle_head (model->obstacles[obstacle].kind)->name;
 }
@@ -71,7 +71,7 @@ check_vehicle (const bt_model *model, int i, bt_error *error)
   if (k == BT__NO_OBSTACLE)
     return BT_OK;
   return bt__fail (error, BT_ERR_DEF, "rov `%s' is at (%g %g %g), inside %s `%s'",
-                   model->vehicles[i].name, at.x, at.y, at.z, kind_of (model, k),
+                   model->vehicles[i].name, at.x, at.y, at.z, obstacle_kind (model, k),
                    model->obstacles[k].name);
 }
 
@@ -88,7 +88,7 @@ check_end (const bt_model *model, int i, int which, bt_error *error)
                    "the %s of tether `%s', (%g %g %g), lies in %s `%s', or nearer to it than the "
                    "tether's radius, %g m",
                    which == 0 ? "anchor" : "far end", model->tethers[i].name, end->at.x, end->at.y,
-                   end->at.z, kind_of (model, k), model->obstacles[k].name, radius);
+                   end->at.z, obstacle_kind (model, k), model->obstacles[k].name, radius);
 }
 
 static bt_status
@@ -105,7 +105,7 @@ check_line (const bt_model *model, int i, bt_error *error)
                          "tether `%s' cannot be laid straight from (%g %g %g) to (%g %g %g): %s "
                          "`%s' is in the way; (via (x y z) ...) leads it round",
                          model->tethers[i].name, p[j].x, p[j].y, p[j].z, p[j + 1].x, p[j + 1].y,
-                         p[j + 1].z, kind_of (model, k), model->obstacles[k].name);
+                         p[j + 1].z, obstacle_kind (model, k), model->obstacles[k].name);
     }
   return BT_OK;
 }

@@ -204,7 +204,7 @@ compile_tether (bt_model *model, int i, bt_error *error)
 }
 
 static bt_status
-compile (bt_model *model, const bt_world *world, bt_error *error)
+compile_world (bt_model *model, const bt_world *world, bt_error *error)
 {
   bt_status status = bt__check_def (bt_head_find ("sea"), "", &model->sea, error);
   for (int i = 0; status == BT_OK && i < model->n_vehicles; i++)
@@ -313,7 +313,7 @@ bt_model_new_polled (const bt_world *world, bt_poll poll, void *poll_user, bt_mo
   if (!model)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for a world");
   model->asker = &asker;
-  status = compile (model, world, error);
+  status = compile_world (model, world, error);
   model->asker = NULL;
   if (status == BT_OK)
     {

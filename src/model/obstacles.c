@@ -72,7 +72,7 @@ add_carried (bt_model *model, const bt_obstacle_def *def, int i, bt__obstacle *s
 
 /* The triangles of DEF; 0 for an obstacle too large by itself, refused elsewhere.  */
 static size_t
-triangles_of (const bt_obstacle_def *def)
+obstacle_triangles (const bt_obstacle_def *def)
 {
   const bt_heights *grid = &def->grid;
   int of_grid = def->kind == BT_OBSTACLE_SEABED && grid->z && grid->ny > 0;
@@ -89,7 +89,7 @@ check_triangles (const bt_world *world, bt_error *error)
 {
   size_t n = 0;
   for (int i = 0; i < world->n_obstacles; i++)
-    n += triangles_of (&world->obstacles[i]);
+    n += obstacle_triangles (&world->obstacles[i]);
   if (n <= BT_TRIANGLES_MAX)
     return BT_OK;
   return bt__fail (error, BT_ERR_LIMIT,

@@ -86,7 +86,7 @@ collect_lines (bt_current_grid *grid, const double (*rows)[7], size_t n, bt_erro
 }
 
 static size_t
-place_of (const bt_current_grid *grid, const double *row)
+grid_place (const bt_current_grid *grid, const double *row)
 {
   size_t place = 0;
   for (int a = AXES - 1; a >= 0; a--)
@@ -121,7 +121,7 @@ fill (bt_current_grid *grid, const double (*rows)[7], size_t n, size_t points, b
   for (size_t i = 0; i < n; i++)
     {
       const double *r = rows[i];
-      bt_vec3 *v = grid->v + place_of (grid, r);
+      bt_vec3 *v = grid->v + grid_place (grid, r);
       if (!isnan (v->x))
         return bt__fail (error, BT_ERR_FORMAT,
                          "the grid of a current has two rows for x %g, y %g, z %g, t %g", r[0],
@@ -135,7 +135,7 @@ fill (bt_current_grid *grid, const double (*rows)[7], size_t n, size_t points, b
 }
 
 static bt_status
-check_rows (const double (*rows)[7], size_t n, bt_error *error)
+check_grid_rows (const double (*rows)[7], size_t n, bt_error *error)
 {
   if (n == 0)
     return bt__fail (error, BT_ERR_FORMAT, "the grid of a current has no rows");
@@ -178,7 +178,7 @@ build (bt_current_grid *grid, const double (*rows)[7], size_t n, bt_error *error
 bt_status
 bt_current_grid_new (const double (*rows)[7], size_t n, bt_current_grid **out, bt_error *error)
 {
-  bt_status status = check_rows (rows, n, error);
+  bt_status status = check_grid_rows (rows, n, error);
   if (status != BT_OK)
     return status;
   bt_current_grid *grid = calloc (1, sizeof *grid);

@@ -45,7 +45,7 @@ is_blank (char c)
 /* Take the numbers of LINE to ROW; return how many there are, -1 when something else is among
    them.  */
 static int
-parse (const table *t, const char *line, double *row)
+parse_current_grid (const table *t, const char *line, double *row)
 {
   int n = 0;
   for (;;)
@@ -66,7 +66,7 @@ parse (const table *t, const char *line, double *row)
 }
 
 static bt_status
-append (table *t, const double *row, bt_error *error)
+append_row (table *t, const double *row, bt_error *error)
 {
   if (t->n == t->room)
     {
@@ -113,7 +113,7 @@ take_line (table *t, const char *file, size_t number, const char *line, int *nam
     p++;
   if (*p == 0 || *p == '#')
     return BT_OK;
-  int n = parse (t, p, row);
+  int n = parse_current_grid (t, p, row);
   if (n == COLUMNS && *named == MISNAMED)
     return bt__fail (
         error, BT_ERR_FORMAT,
@@ -121,7 +121,7 @@ take_line (table *t, const char *file, size_t number, const char *line, int *nam
         "in this order (m, s and m/s)",
         file);
   if (n == COLUMNS)
-    return append (t, row, error);
+    return append_row (t, row, error);
   if (n < 0 && t->n == 0 && *named == UNNAMED)
     {
       *named = names_columns (p) ? NAMED : MISNAMED;
@@ -135,7 +135,7 @@ take_line (table *t, const char *file, size_t number, const char *line, int *nam
 }
 
 static bt_status
-read_rows (FILE *stream, const char *file, table *t, bt_error *error)
+read_current_rows (FILE *stream, const char *file, table *t, bt_error *error)
 {
   char line[LINE_MAX_BYTES];
   int named = UNNAMED;
@@ -162,7 +162,7 @@ bt_current_grid_read (const char *file, bt_current_grid **grid, bt_error *error)
     return bt__fail (error, BT_ERR_LIMIT, "no memory to read %.200s", file);
   FILE *stream = fopen (file, "r");
   if (stream)
-    status = read_rows (stream, file, &t, error);
+    status = read_current_rows (stream, file, &t, error);
   else
     status = bt__fail (error, BT_ERR_IO, "%.200s cannot be read: %s", file, strerror (errno));
   if (stream)

@@ -43,7 +43,7 @@ bt_wave_number (double omega, double depth, double gravity)
 /* ---- Making them ---- */
 
 static bt_status
-check (const bt_wave_def *def, double depth, double gravity, bt_error *error)
+check_waves (const bt_wave_def *def, double depth, double gravity, bt_error *error)
 {
   if (!(def->period >= PERIOD_LEAST && def->period <= PERIOD_MOST))
     return bt__fail (error, BT_ERR_DOMAIN, "waves of %g s; %g to %g s are allowed", def->period,
@@ -142,7 +142,7 @@ bt_waves_make (const bt_wave_def *def, double depth, double gravity, bt_waves *w
   memset (waves, 0, sizeof *waves);
   if (def->kind == BT_WAVE_NONE)
     return BT_OK;
-  bt_status status = check (def, depth, gravity, error);
+  bt_status status = check_waves (def, depth, gravity, error);
   if (status != BT_OK)
     return status;
   waves->n = def->kind == BT_WAVE_AIRY ? 1 : (int64_t)def->components;
@@ -177,7 +177,7 @@ surface_at (const bt_waves *w, double way, double t)
 }
 
 static double
-way_of (const bt_waves *w, double x, double y)
+wave_way (const bt_waves *w, double x, double y)
 {
   return w->east * x + w->north * y;
 }
@@ -185,7 +185,7 @@ way_of (const bt_waves *w, double x, double y)
 double
 bt_waves_elevation (const bt_waves *w, double x, double y, double t)
 {
-  return surface_at (w, way_of (w, x, y), t).up;
+  return surface_at (w, wave_way (w, x, y), t).up;
 }
 
 void
@@ -193,7 +193,7 @@ bt_waves_motion (const bt_waves *w, bt_vec3 p, double t, bt_vec3 *velocity, bt_v
 {
   double z = p.z < 0 ? bt__clamp (p.z, -w->depth, 0) : 0;
   double lost = 0 * p.x + 0 * p.y + 0 * p.z + 0 * t; /* NaN, where nothing felt would hide it */
-  bt__orbit o = orbit_at (w, way_of (w, p.x, p.y), z, t);
+  bt__orbit o = orbit_at (w, wave_way (w, p.x, p.y), z, t);
   if (velocity)
     *velocity = bt__vec (o.along * w->east, o.along * w->north, o.up + lost);
   if (acceleration)
@@ -203,7 +203,7 @@ bt_waves_motion (const bt_waves *w, bt_vec3 p, double t, bt_vec3 *velocity, bt_v
 bt_vec3
 bt_waves_ride (const bt_waves *w, const bt_rider *rider, bt_vec3 p, double t)
 {
-  bt__orbit o = surface_at (w, way_of (w, p.x, p.y), t);
+  bt__orbit o = surface_at (w, wave_way (w, p.x, p.y), t);
   double ahead_e = sin (rider->yaw), ahead_n = cos (rider->yaw);
   double ahead = rider->surge * o.along * (w->east * ahead_e + w->north * ahead_n);
   double aside = rider->sway * o.along * (w->east * ahead_n - w->north * ahead_e);

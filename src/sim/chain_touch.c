@@ -117,7 +117,7 @@ gather_strands (const bt_dive *dive, bt__state *state, int i, int part)
 }
 
 static bt__line_config
-config_of (const bt_dive *dive, bt__state *state, int i, int part)
+line_config (const bt_dive *dive, bt__state *state, int i, int part)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   const bt_tether_props *props = &tether->props;
@@ -170,7 +170,7 @@ bring_held_ends (const bt_dive *dive, bt__state *state, int i, int part,
 }
 
 static void
-add_up (bt_profile *profile, const bt__line_report *report)
+add_up_report (bt_profile *profile, const bt__line_report *report)
 {
   profile->touches += (uint64_t)report->touches;
   profile->contact_rounds += (uint64_t)report->rounds;
@@ -186,7 +186,7 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
   int among = bt__has_obstacles (dive);
   bt__surroundings around = among ? bt__surround (dive, state, BT_PART_TETHER, i)
                                   : (bt__surroundings){ .scene = dive->model->scene };
-  bt__line_config config = config_of (dive, state, i, part);
+  bt__line_config config = line_config (dive, state, i, part);
   bt__line_report touch = { 0 };
   bt_status status;
   take_up (dive, i, part);
@@ -199,7 +199,7 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
   if (among)
     note_line_meetings (dive, state, i, anchors);
   bring_held_ends (dive, state, i, part, &touch);
-  add_up (&dive->profile, &touch);
+  add_up_report (&dive->profile, &touch);
   return BT_OK;
 }
 
@@ -222,7 +222,7 @@ bt__wake_touched (const bt_dive *dive, bt__state *state, int i, int part)
 
 /* How tether I goes where it presses on tether J: toward that, or from it if less than 0; W.  */
 static double
-push_of (const bt_dive *dive, bt__state *state, int i, int j)
+push_towards (const bt_dive *dive, bt__state *state, int i, int j)
 {
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
   const bt__anchors *anchors = bt__dive_anchors (dive, state, i, 0);
@@ -236,11 +236,11 @@ push_of (const bt_dive *dive, bt__state *state, int i, int j)
 }
 
 static int
-is_behind (const bt_dive *dive, bt__state *state, int i, int j)
+goes_behind (const bt_dive *dive, bt__state *state, int i, int j)
 {
   return bt__dive_tether (dive, state, i)->shape.form == BT__FORM_CHAIN
          && bt__dive_tether (dive, state, j)->shape.form == BT__FORM_CHAIN
-         && push_of (dive, state, i, j) > push_of (dive, state, j, i);
+         && push_towards (dive, state, i, j) > push_towards (dive, state, j, i);
 }
 
 void
@@ -250,7 +250,7 @@ bt__order_tethers (bt_dive *dive, bt__state *state)
   for (int i = 0; i < n; i++)
     {
       int at = i;
-      for (; at > 0 && is_behind (dive, state, order[at - 1], i); at--)
+      for (; at > 0 && goes_behind (dive, state, order[at - 1], i); at--)
         order[at] = order[at - 1];
       order[at] = i;
     }

@@ -29,7 +29,7 @@ is_split_model (const bt__tether *tether)
 
 /* The workspace of safe steps knows one line at a time.  */
 static bt__way
-way_of (bt_dive *dive, const bt__tether *tether, int i, const bt__surroundings *around)
+workspace_for (bt_dive *dive, const bt__tether *tether, int i, const bt__surroundings *around)
 {
   if (dive->shore.safe_of != i)
     bt__safe_forget (dive->shore.safe);
@@ -175,7 +175,7 @@ bt__drape_tether (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, 
       return BT_OK;
     }
   around = bt__surround (dive, state, BT_PART_TETHER, i);
-  way = way_of (dive, tether, i, &around);
+  way = workspace_for (dive, tether, i, &around);
   status = drape == BT__DRAPE_SPANS ? step_spans (dive, state, i, ends, &way, error)
                                     : step_held (dive, state, i, ends, &way, error);
   bt__around_done (dive);

@@ -74,16 +74,16 @@ vehicle_at (const trial *t)
 }
 
 static bt__line
-line_of (const trial *t)
+trial_line (const trial *t)
 {
   return bt__line_of (t->fork, t->fork->now, t->tether);
 }
 
 /* Turn the winch again when it stands and the line pulls less.  */
 static bt_status
-turn (const trial *t, bt_error *error)
+turn_winch_again (const trial *t, bt_error *error)
 {
-  bt__line line = line_of (t);
+  bt__line line = trial_line (t);
   double metres = line.tether->length - LEAST_OUT;
   if (line.tether->winch_rate != 0 || !(metres > 0)
       || bt__line_tension (&line, 0) > RESUMES * t->winch)
@@ -94,18 +94,18 @@ turn (const trial *t, bt_error *error)
 static int
 is_home (const trial *t)
 {
-  bt__line line = line_of (t);
+  bt__line line = trial_line (t);
   return bt__distance (bt__line_node (&line, 0), vehicle_at (t)) < t->least;
 }
 
 static int
 is_parted (const trial *t)
 {
-  return line_of (t).tether->parted != 0;
+  return trial_line (t).tether->parted != 0;
 }
 
 static int
-is_stuck (trial *t, double now)
+trial_is_stuck (trial *t, double now)
 {
   bt_vec3 here = vehicle_at (t);
   if (bt__distance (here, t->there) > STUCK_WAY)
@@ -120,7 +120,7 @@ is_stuck (trial *t, double now)
 static int
 is_slack (const trial *t)
 {
-  bt__line line = line_of (t);
+  bt__line line = trial_line (t);
   return bt__line_tension (&line, 0) < fmin (t->winch, 5) && bt__norm (bt__line_force (&line)) < 1;
 }
 
@@ -141,7 +141,7 @@ look_for_culprit (const trial *t, bt_haul *out)
 }
 
 static bt_status
-haul (trial *t, double seconds, bt_haul *out, bt_error *error)
+haul_until_end (trial *t, double seconds, bt_haul *out, bt_error *error)
 {
   bt_status status = BT_OK;
   double begin = bt_dive_time (t->fork), now = 0;
@@ -149,7 +149,7 @@ haul (trial *t, double seconds, bt_haul *out, bt_error *error)
   out->home = is_home (t);
   while (!out->home && !out->parted && now < seconds)
     {
-      status = turn (t, error);
+      status = turn_winch_again (t, error);
       if (status == BT_OK)
         status = bt_dive_step (t->fork, error);
       if (status == BT_OK)
@@ -161,10 +161,10 @@ haul (trial *t, double seconds, bt_haul *out, bt_error *error)
       out->parted = is_parted (t);
       if (is_slack (t))
         t->since = now;
-      if (is_stuck (t, now))
+      if (trial_is_stuck (t, now))
         break;
     }
-  bt__line line = line_of (t);
+  bt__line line = trial_line (t);
   out->seconds = now;
   out->left = bt__line_length (&line);
   out->at = vehicle_at (t);
@@ -175,7 +175,7 @@ haul (trial *t, double seconds, bt_haul *out, bt_error *error)
 }
 
 static bt_status
-check (const bt_dive *dive, int i, double rate, double winch, double seconds, bt_error *error)
+check_trial (const bt_dive *dive, int i, double rate, double winch, double seconds, bt_error *error)
 {
   bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
   if (status != BT_OK)
@@ -197,7 +197,7 @@ bt_status
 bt_tether_haul (const bt_dive *dive, int i, double rate, double winch, double seconds, bt_haul *out,
                 bt_error *error)
 {
-  bt_status status = check (dive, i, rate, winch, seconds, error);
+  bt_status status = check_trial (dive, i, rate, winch, seconds, error);
   trial t = { .tether = i, .rate = rate, .winch = winch };
   if (status == BT_OK)
     status = make_trial (dive, i, winch, &t.fork, error);
@@ -207,7 +207,7 @@ bt_tether_haul (const bt_dive *dive, int i, double rate, double winch, double se
   t.least = 0.5 * bt__norm (dive->model->vehicles[t.vehicle].size) + HOME_WITHIN;
   memset (out, 0, sizeof *out);
   out->object = -1;
-  status = haul (&t, seconds, out, error);
+  status = haul_until_end (&t, seconds, out, error);
   bt_dive_free (t.fork);
   return status;
 }

@@ -74,7 +74,7 @@ stand_movers (const passage *p)
 
 /* Go on by WAY along what stopped it.  */
 static void
-slide (const passage *p, bt__frame *frame, bt_vec3 way, bt__stop *stop)
+slide_hull (const passage *p, bt__frame *frame, bt_vec3 way, bt__stop *stop)
 {
   for (int k = 1; k < SLIDES; k++)
     {
@@ -103,7 +103,7 @@ turn_hull (const passage *p, bt__frame *frame, bt__frame to)
 /* A vehicle with mass bounces off the obstacle of STOP, with the obstacle's friction, or that of
    hulls on steel if the obstacle has none.  */
 static void
-strike (const passage *p, bt__vehicle *v, const bt__stop *stop)
+strike_obstacle (const passage *p, bt__vehicle *v, const bt__stop *stop)
 {
   const bt_model *model = p->dive->model;
   double rough = bt__dive_roughness (p->dive, p->state)[bt__stop_obstacle (model, stop)];
@@ -124,7 +124,7 @@ turn_body (bt__vehicle *v, const bt__vehicle *before, double share)
 
 /* True if VEHICLE can meet no obstacle on its way FROM to WANTED, in any orientation.  */
 static int
-is_far (const bt_dive *dive, bt_vec3 from, bt_vec3 wanted, int vehicle)
+is_hull_far (const bt_dive *dive, bt_vec3 from, bt_vec3 wanted, int vehicle)
 {
   bt__aabb way = bt__box_with ((bt__aabb){ from, from }, wanted);
   double radius = 0.5 * bt__norm (dive->model->vehicles[vehicle].size) + BT__HULL_GAP;
@@ -151,8 +151,8 @@ reach_among (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
     return wanted;
   stand_movers (&p);
   if (v->rigid)
-    strike (&p, v, &stop);
-  slide (&p, &frame, bt__scale (1 - share, bt__sub (wanted, before->position)), &stop);
+    strike_obstacle (&p, v, &stop);
+  slide_hull (&p, &frame, bt__scale (1 - share, bt__sub (wanted, before->position)), &stop);
   share += (1 - share) * turn_hull (&p, &frame, to);
   v->heading = before->heading + share * (v->heading - before->heading);
   if (v->rigid)
@@ -164,6 +164,6 @@ bt_vec3
 bt__hull_reach (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
 {
   bt_vec3 before = bt__dive_vehicle (dive, dive->now, vehicle)->position;
-  return is_far (dive, before, wanted, vehicle) ? wanted
-                                                : reach_among (dive, state, vehicle, wanted);
+  return is_hull_far (dive, before, wanted, vehicle) ? wanted
+                                                     : reach_among (dive, state, vehicle, wanted);
 }

@@ -84,7 +84,7 @@ stick_way (const bt_dive *dive, bt__state *state, const bt__vehicle *v, double h
 }
 
 static void
-arrive (const bt_dive *dive, bt__state *state, bt__vehicle *v)
+arrive_at_goal (const bt_dive *dive, bt__state *state, bt__vehicle *v)
 {
   v->goal = BT__GOAL_NONE;
   bt__raise_event (state, BT_EVENT_ARRIVED, (int)(v - bt__dive_vehicle (dive, state, 0)));
@@ -97,7 +97,7 @@ toward_target (const bt_dive *dive, bt__state *state, bt__vehicle *v)
   double left = bt__norm (way), most = v->target_speed * BT__TIME_STEP;
   if (left > most)
     return bt__axpy (v->position, most / left, way);
-  arrive (dive, state, v);
+  arrive_at_goal (dive, state, v);
   return v->target;
 }
 
@@ -132,12 +132,12 @@ along_track (const bt_dive *dive, bt__state *state, bt__vehicle *v)
   const bt__track *track = dive->tracks[v->track];
   double t = bt__state_time (state) - v->track_start + track->row[0][0];
   if (t >= track->row[track->n - 1][0])
-    arrive (dive, state, v);
+    arrive_at_goal (dive, state, v);
   return track_point (track, t);
 }
 
 static void
-move (const bt_dive *dive, bt__state *state, bt__vehicle *v)
+move_kinematically (const bt_dive *dive, bt__state *state, bt__vehicle *v)
 {
   double angle = turn_of_step (v);
   bt_vec3 from = v->position, to;
@@ -166,6 +166,6 @@ bt__move_vehicles (const bt_dive *dive, bt__state *state)
     {
       bt__vehicle *v = bt__dive_vehicle (dive, state, i);
       if (!v->rigid)
-        move (dive, state, v);
+        move_kinematically (dive, state, v);
     }
 }

@@ -44,8 +44,8 @@ bt__room_about (bt_dive *dive, const bt__surroundings *around, const bt__link *l
 
 /* True if nothing is in the triangle A B C, nor within KEEP of it.  */
 static int
-is_clear (bt_dive *dive, const bt__surroundings *around, double keep, bt_vec3 a, bt_vec3 b,
-          bt_vec3 c)
+is_triangle_clear (bt_dive *dive, const bt__surroundings *around, double keep, bt_vec3 a, bt_vec3 b,
+                   bt_vec3 c)
 {
   bt__link link = { a, c };
   bt__near near;
@@ -104,8 +104,8 @@ bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n)
 /* Leave out of the N corners P what is not needed to keep off obstacles by KEEP, where the line
    gets shorter by no more than LOSS at each; return how many are left.  */
 static int
-simplify (bt_dive *dive, const bt__surroundings *around, double keep, double loss, bt_vec3 *p,
-          int n)
+leave_out_corners (bt_dive *dive, const bt__surroundings *around, double keep, double loss,
+                   bt_vec3 *p, int n)
 {
   int kept = 1;
   for (int k = 1; k < n; k++)
@@ -114,7 +114,7 @@ simplify (bt_dive *dive, const bt__surroundings *around, double keep, double los
         {
           bt_vec3 a = p[kept - 2], b = p[kept - 1], c = p[k];
           if (bt__distance (a, b) + bt__distance (b, c) - bt__distance (a, c) > loss
-              || !is_clear (dive, around, keep, a, b, c))
+              || !is_triangle_clear (dive, around, keep, a, b, c))
             break;
         }
       p[kept++] = p[k];
@@ -197,7 +197,7 @@ bt__corners (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int *
       *n = lay_corners (dive, state, i, ends);
       return check_way (dive, &around, i, *n, error);
     }
-  *n = simplify (dive, &around, KEPT_OFF * core, INFINITY, dive->polyline, *n);
+  *n = leave_out_corners (dive, &around, KEPT_OFF * core, INFINITY, dive->polyline, *n);
   return *n <= 2 * BT__SPLITS_MAX
              ? BT_OK
              : bt__fail (error, BT_ERR_LIMIT, "tether `%s' has more than %d corners",
@@ -230,13 +230,13 @@ allot (const bt_vec3 *p, int m, bt_vec3 *x, int n)
 /* Let the chain of N intervals of tether I begin along the nodes X, which crowd where they were
    held up: as many more on the rest, and each interval with the chord's share of the length.  */
 static void
-take_nodes (bt_dive *dive, bt__state *state, int i, bt_vec3 *x, int n)
+begin_along_nodes (bt_dive *dive, bt__state *state, int i, bt_vec3 *x, int n)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   bt__surroundings around = bt__surround (dive, state, BT_PART_TETHER, i);
   double keep = KEPT_OFF * bt__core (tether->props.diameter);
   double whole, loss = WASTE * tether->length / n;
-  int m = simplify (dive, &around, keep, loss, x, n + 1);
+  int m = leave_out_corners (dive, &around, keep, loss, x, n + 1);
   allot (x, m, dive->polyline, n);
   x = dive->polyline;
   whole = bt__length (x, (uint32_t)n + 1);
@@ -269,7 +269,7 @@ bt__lay_chain_among (bt_dive *dive, bt__state *state, int i, const bt__ends *end
   if (!there && whole > ENOUGH * tether->length)
     allot (corner, m, node, n);
   if (!there)
-    take_nodes (dive, state, i, node, n);
+    begin_along_nodes (dive, state, i, node, n);
   status = bt__begin_chain (dive, state, i, ends, n, there ? NULL : dive->shore.share, error);
   return status == BT_OK && !there ? bt__fall (dive, state, i, ends, error) : status;
 }

@@ -55,8 +55,8 @@ keep_pins (bt_dive *dive, int i, bt__pin kept[2], int take)
 
 /* The part of a parted line that hangs from the far end.  */
 static bt_status
-step_far (bt_dive *dive, bt__state *state, int i, bt__dynamic_input input,
-          bt__dynamic_report *report, bt_error *error)
+fall_far_part (bt_dive *dive, bt__state *state, int i, bt__dynamic_input input,
+               bt__dynamic_report *report, bt_error *error)
 {
   bt__dynamic_lump lumps[BT_LUMPS_MAX];
   double length = bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
@@ -78,7 +78,7 @@ step_to (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt__dynam
   if (bt__dive_tether (dive, state, i)->parted)
     {
       from = bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
-      status = step_far (dive, state, i, input, &far, error);
+      status = fall_far_part (dive, state, i, input, &far, error);
       input.end[1] = (bt__dynamic_end){ .free = 1 };
     }
   bt__fasten (dive, i, from, INFINITY, &input, lumps);
@@ -140,7 +140,7 @@ note_held (const bt_dive *dive, bt__state *state, int i, int k, int was, bt_vec3
 }
 
 static int
-is_held (const bt_dive *dive, bt__state *state, int i, int k)
+is_end_held (const bt_dive *dive, bt__state *state, int i, int k)
 {
   int vehicle = dive->model->ends[i][k].vehicle;
   return vehicle >= 0 && bt__dive_vehicle (dive, state, vehicle)->held;
@@ -155,7 +155,7 @@ bt__drag_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
   bt_status status = BT_OK;
   bt__pin kept[2];
   double whole = way_left (&at, ends), least = INFINITY, left;
-  int idle = 0, was[] = { is_held (dive, state, i, 0), is_held (dive, state, i, 1) };
+  int idle = 0, was[] = { is_end_held (dive, state, i, 0), is_end_held (dive, state, i, 1) };
   keep_pins (dive, i, kept, 0);
   for (int k = 0; k < 2; k++)
     bt__bring_end (dive, state, i, k, k == 0 ? at.a : at.b);

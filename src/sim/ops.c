@@ -161,8 +161,8 @@ place_among (const bt__call *c, const op *o, int round)
 
 /* Apply O to a copy; ROUND tries at it did not fit together with the obstacles.  */
 static bt_status
-apply (bt_dive *dive, const op *o, int round, int subject, const double *args, int n,
-       bt_error *error)
+apply_operation (bt_dive *dive, const op *o, int round, int subject, const double *args, int n,
+                 bt_error *error)
 {
   bt__call c = { dive, bt__dive_begin (dive), subject, args, n, error };
   bt_status status = o->apply (&c);
@@ -187,11 +187,11 @@ static bt_status
 apply_until_it_fits (bt_dive *dive, const op *o, int subject, const double *args, int n,
                      bt_error *error)
 {
-  bt_status status = apply (dive, o, 0, subject, args, n, error);
+  bt_status status = apply_operation (dive, o, 0, subject, args, n, error);
   for (int round = 1; status == BT_OK && round <= BT__TRIES && !fits (dive); round++)
     status = o == &ops[BT_OP_LAY]
                  ? bt__fail (error, BT_ERR_DOMAIN, "the tether cannot be laid to there")
-                 : apply (dive, o, round, subject, args, n, error);
+                 : apply_operation (dive, o, round, subject, args, n, error);
   return status;
 }
 

@@ -9,7 +9,7 @@
 
 /* The tether that a tether is to meet, or -1: an obstacle.  */
 static int
-tether_of (const bt__call *c)
+other_tether (const bt__call *c)
 {
   int i = (int)c->args[1] - c->dive->model->n_obstacles;
   return i >= 0 && i < c->dive->model->n_tethers ? i : -1;
@@ -31,7 +31,7 @@ check_numbers (const bt__call *c)
                      objects - 1, c->args[1]);
   if (part != BT_PART_SEA && bt__check_part (c->dive, (bt_part)part, c->subject, c->error) != BT_OK)
     return BT_ERR_NAME;
-  if (tether_of (c) >= 0)
+  if (other_tether (c) >= 0)
     return part == BT_PART_TETHER
                ? BT_OK
                : bt__fail (c->error, BT_ERR_NAME, "a tether meets tethers, a vehicle does not");
@@ -52,7 +52,7 @@ switch_itself (const bt__call *c)
 {
   int all = c->args[0] == BT_PART_SEA;
   for (int i = 0; i < c->dive->model->n_tethers; i++)
-    if (all || (c->args[0] == BT_PART_TETHER && i == c->subject && i == tether_of (c)))
+    if (all || (c->args[0] == BT_PART_TETHER && i == c->subject && i == other_tether (c)))
       {
         bt__dive_tether (c->dive, c->state, i)->through = c->args[2] == 0;
         bt__dive_tether (c->dive, c->state, i)->quiet = 0;
@@ -74,8 +74,8 @@ bt__op_collide (const bt__call *c)
     }
   if (part != BT_PART_SEA)
     bt__switch_pair (c->dive, c->state, part, c->subject, (int)c->args[1], c->args[2] != 0);
-  if (part == BT_PART_TETHER && tether_of (c) >= 0) /* the other way round it is the same */
-    bt__switch_pair (c->dive, c->state, part, tether_of (c),
+  if (part == BT_PART_TETHER && other_tether (c) >= 0) /* the other way round it is the same */
+    bt__switch_pair (c->dive, c->state, part, other_tether (c),
                      c->dive->model->n_obstacles + c->subject, c->args[2] != 0);
   if (part == BT_PART_SEA)
     {

@@ -12,7 +12,7 @@
 #include "world/obstacles.h"
 
 static bt__vehicle *
-vehicle_of (const bt__call *c)
+called_vehicle (const bt__call *c)
 {
   return bt__dive_vehicle (c->dive, c->state, c->subject);
 }
@@ -21,7 +21,7 @@ bt_status
 bt__op_drive (const bt__call *c)
 {
   static const char *const names[] = { "surge", "sway", "heave", "yaw" };
-  bt__vehicle *v = vehicle_of (c);
+  bt__vehicle *v = called_vehicle (c);
   for (int i = 0; i < 4; i++)
     if (!isnan (c->args[i]) && bt__check_range (c, i, names[i], -1, 1) != BT_OK)
       return BT_ERR_DOMAIN;
@@ -36,7 +36,7 @@ bt__op_drive (const bt__call *c)
 bt_status
 bt__op_release (const bt__call *c)
 {
-  bt__vehicle *v = vehicle_of (c);
+  bt__vehicle *v = called_vehicle (c);
   memset (v->sticks, 0, sizeof v->sticks);
   v->goal = BT__GOAL_NONE;
   v->hold_heading.on = v->hold_depth.on = 0;
@@ -48,7 +48,7 @@ bt__op_release (const bt__call *c)
 bt_status
 bt__op_stabilise (const bt__call *c)
 {
-  bt__vehicle *v = vehicle_of (c);
+  bt__vehicle *v = called_vehicle (c);
   if (c->args[0] != 0)
     v->pilot.holds |= BT__HOLD_LEVEL;
   else
@@ -61,7 +61,7 @@ static bt_status
 break_thruster (const bt__call *c, int on, double number)
 {
   int n = (int)c->dive->model->types[c->subject].n;
-  bt__vehicle *v = vehicle_of (c);
+  bt__vehicle *v = called_vehicle (c);
   if (!v->rigid || !(number >= 0 && number < n) || number != floor (number))
     return bt__fail (c->error, BT_ERR_DOMAIN, "`%s' has %d thrusters, counted from 0, and no %g",
                      c->dive->model->vehicles[c->subject].name, v->rigid ? n : 0, number);
@@ -72,7 +72,7 @@ break_thruster (const bt__call *c, int on, double number)
 bt_status
 bt__op_fault (const bt__call *c)
 {
-  bt__vehicle *v = vehicle_of (c);
+  bt__vehicle *v = called_vehicle (c);
   int64_t fault = c->args[0] >= 1 && c->args[0] <= BT_FAULT_THRUSTER ? (int64_t)c->args[0] : 0;
   int on = c->args[1] != 0;
   if (!bt_fault_name ((bt_fault)fault))
@@ -104,7 +104,7 @@ stand_at (bt__vehicle *v, bt_vec3 p)
 static void
 place_at (const bt__call *c, bt_vec3 p)
 {
-  bt__vehicle *v = vehicle_of (c);
+  bt__vehicle *v = called_vehicle (c);
   double k = bt__reach_along (c->dive, c->state, c->subject, v->position, p);
   bt_vec3 to = k < 1 ? bt__axpy (v->position, k, bt__sub (p, v->position)) : p;
   stand_at (v, to);
@@ -125,7 +125,7 @@ bt__op_place (const bt__call *c)
 static bt_status
 check_hull (const bt__call *c)
 {
-  const bt__vehicle *v = vehicle_of (c);
+  const bt__vehicle *v = called_vehicle (c);
   bt__frame frame = bt__vehicle_frame (v);
   bt__surroundings around = bt__standing (c->dive, c->state, BT_PART_VEHICLE, c->subject);
   bt__hull_body hull;
@@ -157,7 +157,7 @@ forget_shape (const bt__call *c, int i)
 bt_status
 bt__op_lay (const bt__call *c)
 {
-  bt__vehicle *v = vehicle_of (c);
+  bt__vehicle *v = called_vehicle (c);
   bt_vec3 p;
   if (bt__check_point (c) != BT_OK)
     return BT_ERR_DOMAIN;
@@ -176,7 +176,7 @@ bt__op_lay (const bt__call *c)
 
 /* Let the autopilot of one with mass hold KIND instead of all of INSTEAD.  */
 static void
-hold (bt__vehicle *v, int64_t kind, int64_t instead)
+hold_instead (bt__vehicle *v, int64_t kind, int64_t instead)
 {
   v->pilot.holds = (v->pilot.holds & ~instead) | kind;
 }
@@ -189,9 +189,9 @@ keep_heading (bt__vehicle *v, double heading)
 }
 
 static bt_status
-go (const bt__call *c, bt__goal goal)
+go_to_goal (const bt__call *c, bt__goal goal)
 {
-  bt__vehicle *v = vehicle_of (c);
+  bt__vehicle *v = called_vehicle (c);
   if (bt__check_point (c) != BT_OK || bt__check_range (c, 3, "a speed in m/s", 1e-6, 1000) != BT_OK)
     return BT_ERR_DOMAIN;
   v->goal = goal;
@@ -200,8 +200,8 @@ go (const bt__call *c, bt__goal goal)
   memset (v->sticks, 0, v->rigid ? sizeof v->sticks : 0);
   v->pilot.place = v->target;
   v->pilot.speed = v->target_speed;
-  hold (v, goal == BT__GOAL_FLY ? BT__HOLD_WAYPOINT : BT__HOLD_POSITION,
-        BT__HOLD_WAYPOINT | BT__HOLD_POSITION);
+  hold_instead (v, goal == BT__GOAL_FLY ? BT__HOLD_WAYPOINT : BT__HOLD_POSITION,
+                BT__HOLD_WAYPOINT | BT__HOLD_POSITION);
   if (v->rigid && !(v->pilot.holds & BT__HOLD_HEADING))
     keep_heading (v, v->heading);
   return BT_OK;
@@ -210,13 +210,13 @@ go (const bt__call *c, bt__goal goal)
 bt_status
 bt__op_move (const bt__call *c)
 {
-  return go (c, BT__GOAL_POINT);
+  return go_to_goal (c, BT__GOAL_POINT);
 }
 
 bt_status
 bt__op_fly_to (const bt__call *c)
 {
-  return go (c, BT__GOAL_FLY);
+  return go_to_goal (c, BT__GOAL_FLY);
 }
 
 bt_status
@@ -225,42 +225,42 @@ bt__op_hold_heading (const bt__call *c)
   bt_status status = bt__check_range (c, 0, "a heading in radians", -1e6, 1e6);
   if (status != BT_OK)
     return status;
-  vehicle_of (c)->hold_heading = (bt__hold){ 1, c->args[0] };
-  keep_heading (vehicle_of (c), c->args[0]);
+  called_vehicle (c)->hold_heading = (bt__hold){ 1, c->args[0] };
+  keep_heading (called_vehicle (c), c->args[0]);
   return BT_OK;
 }
 
 bt_status
 bt__op_hold_depth (const bt__call *c)
 {
-  bt__vehicle *v = vehicle_of (c);
+  bt__vehicle *v = called_vehicle (c);
   bt_status status = bt__check_range (c, 0, "a depth in m", -1e7, 1e7);
   if (status != BT_OK)
     return status;
   v->hold_depth = (bt__hold){ 1, c->args[0] };
   v->pilot.height = -c->args[0];
-  hold (v, BT__HOLD_DEPTH, BT__HOLD_ALTITUDE);
+  hold_instead (v, BT__HOLD_DEPTH, BT__HOLD_ALTITUDE);
   return BT_OK;
 }
 
 bt_status
 bt__op_hold_altitude (const bt__call *c)
 {
-  bt__vehicle *v = vehicle_of (c);
+  bt__vehicle *v = called_vehicle (c);
   bt_status status
       = bt__check_range (c, 0, "an altitude in m", 0, bt__dive_altitude_max (c->dive, c->state));
   if (status != BT_OK)
     return status;
   v->hold_depth.on = 0;
   v->pilot.altitude = c->args[0];
-  hold (v, BT__HOLD_ALTITUDE, BT__HOLD_DEPTH);
+  hold_instead (v, BT__HOLD_ALTITUDE, BT__HOLD_DEPTH);
   return BT_OK;
 }
 
 bt_status
 bt__op_hold_position (const bt__call *c)
 {
-  bt__vehicle *v = vehicle_of (c);
+  bt__vehicle *v = called_vehicle (c);
   memset (v->sticks, 0, sizeof v->sticks);
   v->goal = BT__GOAL_NONE;
   v->hold_heading = (bt__hold){ 1, v->heading };
@@ -268,7 +268,7 @@ bt__op_hold_position (const bt__call *c)
   v->pilot.place = v->position;
   v->pilot.speed = 0;
   keep_heading (v, v->heading);
-  hold (v, BT__HOLD_POSITION, BT__HOLD_WAYPOINT);
+  hold_instead (v, BT__HOLD_POSITION, BT__HOLD_WAYPOINT);
   return BT_OK;
 }
 
@@ -277,7 +277,7 @@ bt__op_hold_position (const bt__call *c)
 static void
 go_to_begin (const bt__call *c, const bt__track *track)
 {
-  const bt__vehicle *v = vehicle_of (c);
+  const bt__vehicle *v = called_vehicle (c);
   bt_vec3 begin = bt__vec (track->row[0][1], track->row[0][2], track->row[0][3]);
   if (bt__distance (v->position, begin) > v->speeds[0] * BT__TIME_STEP)
     place_at (c, begin);
@@ -286,7 +286,7 @@ go_to_begin (const bt__call *c, const bt__track *track)
 bt_status
 bt__op_follow (const bt__call *c)
 {
-  bt__vehicle *v = vehicle_of (c);
+  bt__vehicle *v = called_vehicle (c);
   if (v->rigid)
     return bt__fail (
         c->error, BT_ERR_UNSUPPORTED,

@@ -155,7 +155,7 @@ bt__bring_end (const bt_dive *dive, bt__state *state, int i, int k, bt_vec3 p)
 
 /* Where end K of tether I is.  */
 static bt_vec3
-end_of (const bt_dive *dive, bt__state *state, int i, int k)
+place_of_end (const bt_dive *dive, bt__state *state, int i, int k)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   if (tether->shape.form != BT__FORM_CHAIN)
@@ -196,7 +196,7 @@ draw_back_to_ends (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 b
       {
         if (dive->model->ends[i][k].vehicle != vehicle)
           continue;
-        bt_vec3 end = end_of (dive, state, i, k);
+        bt_vec3 end = place_of_end (dive, state, i, k);
         if (!is_at (end, here) && !holds_end (dive, state, i, end, here))
           differ |= draw_back (place_for (dive, state, vehicle, end), before, at);
       }

@@ -67,8 +67,8 @@ bt__pull_on (const bt_dive *dive, bt__state *state, int i)
 /* How far VEHICLE may be from OTHER on tether I: as far as it can pull it, and where it was in
  * FROM.  */
 static double
-reach_of (const bt_dive *dive, const bt__state *from, bt__state *state, int i, int vehicle,
-          bt_vec3 other)
+reach_on_tether (const bt_dive *dive, const bt__state *from, bt__state *state, int i, int vehicle,
+                 bt_vec3 other)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   const bt__vehicle *before = bt__dive_vehicle (dive, (bt__state *)from, vehicle);
@@ -102,7 +102,7 @@ pull_back (const bt_dive *dive, const bt__state *from, bt__state *state, int i, 
   if (!fastened (dive, state, i, vehicle, &other))
     return 0;
   p = bt__attachment (dive, state, vehicle);
-  reach = reach_of (dive, from, state, i, vehicle, other);
+  reach = reach_on_tether (dive, from, state, i, vehicle, other);
   chord = bt__distance (p, other);
   if (chord <= reach)
     return 0;
@@ -181,6 +181,7 @@ bt__reach_along (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 a, 
   b = bt__add (b, arm);
   for (int i = 0; i < dive->model->n_tethers; i++)
     if (fastened (dive, state, i, vehicle, &other))
-      k = fmin (k, ball_exit (a, b, other, reach_of (dive, state, state, i, vehicle, other)));
+      k = fmin (k,
+                ball_exit (a, b, other, reach_on_tether (dive, state, state, i, vehicle, other)));
   return k;
 }

@@ -42,7 +42,7 @@ largest_tension (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *te
 }
 
 static int
-is_good (const bt__shape *shape, const bt__tether *tether, const bt_vec3 *nodes)
+is_good_shape (const bt__shape *shape, const bt__tether *tether, const bt_vec3 *nodes)
 {
   int good = isfinite (tether->tension_max);
   for (int k = 0; bt__has_nodes (shape->form) && k <= shape->n; k++)
@@ -70,7 +70,7 @@ bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
 
 /* The pull it is solved with.  */
 static double
-pull_of (const bt_dive *dive, bt__state *state, int i)
+pull_for_solve (const bt_dive *dive, bt__state *state, int i)
 {
   return bt__dive_tether (dive, state, i)->taut ? bt__pull_on (dive, state, i) : 0;
 }
@@ -94,7 +94,8 @@ is_operation (const bt_dive *dive, const bt__state *state)
    equilibrium is found anew.  In a step, a shape not yet at rest goes on relaxing in the next step.
  */
 static bt_status
-solve (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, double pull, bt_error *error)
+solve_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, double pull,
+             bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
   int tries = tether->shape.form == BT__FORM_AFLOAT || is_operation (dive, state) ? TRIES : 1;
@@ -117,9 +118,9 @@ bt_status
 bt__solve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  double pull = pull_of (dive, state, i);
+  double pull = pull_for_solve (dive, state, i);
   bt_vec3 *nodes = bt__dive_nodes (dive, state, i);
-  bt_status status = solve (dive, state, i, ends, pull, error);
+  bt_status status = solve_shape (dive, state, i, ends, pull, error);
   if (status != BT_OK)
     return status;
   if (may_float (tether))
@@ -127,7 +128,7 @@ bt__solve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, 
   tether->tension_max = largest_tension (&tether->shape, nodes, bt__dive_tensions (dive, state, i));
   tether->pull = pull;
   tether->stale = !tether->settled; /* a shape that still moves goes on next step */
-  if (!is_good (&tether->shape, tether, nodes))
+  if (!is_good_shape (&tether->shape, tether, nodes))
     return bt__fail (error, BT_ERR_DIVERGED, "the shape of tether `%s' is not finite at t = %g s",
                      dive->model->tethers[i].name, bt__state_time (state));
   dive->profile.current_samples_skipped += state->current.kind == BT_CURRENT_STILL;
@@ -146,7 +147,8 @@ resolve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
     return bt__drape_tether (dive, state, i, ends, error);
   if (tether->shape.form == BT__FORM_CHAIN)
     bt__still_chain (dive, state, i);
-  if (tether->pull != pull_of (dive, state, i) || !bt__is_unchanged (dive, state, tether, ends))
+  if (tether->pull != pull_for_solve (dive, state, i)
+      || !bt__is_unchanged (dive, state, tether, ends))
     return bt__solve_static (dive, state, i, ends, error);
   dive->profile.shape_skips++;
   return BT_OK;

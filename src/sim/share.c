@@ -156,7 +156,7 @@ ask_meanwhile (void *user)
 }
 
 static int
-hear (void *user, double share)
+hear_asker (void *user, double share)
 {
   const bt__lanes *l = user;
   (void)share;
@@ -164,7 +164,7 @@ hear (void *user, double share)
 }
 
 static void
-run (bt_dive *dive, bt__lanes *l)
+run_groups (bt_dive *dive, bt__lanes *l)
 {
   int asks = dive->asker.poll != NULL;
   l->asker = &dive->asker;
@@ -172,7 +172,7 @@ run (bt_dive *dive, bt__lanes *l)
   for (int w = 0; w < l->n; w++)
     l->lane[w].dive->asker = (bt__asker){ .poll = !asks    ? NULL
                                                   : w == 0 ? ask_caller
-                                                           : hear,
+                                                           : hear_asker,
                                           .user = l };
   bt__workers_run_and (l->workers, l->groups, step_group, asks ? ask_meanwhile : NULL, l);
 }
@@ -222,7 +222,7 @@ raise_events (const bt_dive *dive, bt__state *state, const bt__lanes *l)
 }
 
 static void
-take_over (bt_dive *dive, bt__state *state, bt__lanes *l)
+take_over_groups (bt_dive *dive, bt__state *state, bt__lanes *l)
 {
   raise_events (dive, state, l);
   for (int w = 0; w < l->n; w++)
@@ -235,7 +235,7 @@ take_over (bt_dive *dive, bt__state *state, bt__lanes *l)
 }
 
 static void
-refuse (bt_dive *dive, bt__lanes *l)
+refuse_sharing (bt_dive *dive, bt__lanes *l)
 {
   l->refused = 1;
   l->alone = l->patience;
@@ -275,11 +275,11 @@ bt__share_tethers (bt_dive *dive, bt__state *state)
   dive->profile.shared_steps++;
   for (int w = 0; w < l->n; w++)
     bt__lane_enter (&l->lane[w], dive, state);
-  run (dive, l);
+  run_groups (dive, l);
   if (is_done (dive, l))
-    take_over (dive, state, l);
+    take_over_groups (dive, state, l);
   else
-    refuse (dive, l);
+    refuse_sharing (dive, l);
   for (int w = 0; w < l->n; w++)
     bt__lane_leave (&l->lane[w]);
   return 1;

@@ -54,7 +54,7 @@ launch (bt__vehicle *v, const bt_vehicle_def *def)
 
 /* What VALUE of speed a steady FORCE makes against drag: lin v + quad v v = force.  */
 static double
-speed_at (double force, double linear, double quadratic)
+terminal_speed (double force, double linear, double quadratic)
 {
   double root = sqrt (linear * linear + 4 * quadratic * force);
   return force > 0 && linear + root > 0 ? fmin (100, 2 * force / (linear + root)) : 0;
@@ -69,7 +69,7 @@ launch_body (bt__vehicle *v, const bt__vehicle_type *type, const bt__rig *rig)
   v->pilot.holds = BT__HOLD_LEVEL;
   v->pull = rig->most[BT__SURGE];
   for (int k = 0; k < 3; k++)
-    v->speeds[k] = speed_at (rig->most[k], type->hydro.linear[k], type->hydro.quadratic[k]);
+    v->speeds[k] = terminal_speed (rig->most[k], type->hydro.linear[k], type->hydro.quadratic[k]);
   bt__rigid_place (&v->body, v->position, v->heading, v->pitch, v->roll);
   bt__mirror_body (v);
   v->heading0 = v->heading;

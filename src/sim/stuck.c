@@ -55,7 +55,7 @@ hardly_moves (const bt__tether *tether, bt_vec3 here)
 }
 
 static void
-look (bt__state *state, bt__tether *tether, bt_vec3 here, int i)
+look_at_end (bt__state *state, bt__tether *tether, bt_vec3 here, int i)
 {
   int was_stuck = tether->stuck != 0;
   if (tether->pulled % BT__STUCK_EVERY == 0)
@@ -74,7 +74,7 @@ bt__note_stuck (const bt_dive *dive, bt__state *state)
       bt__tether *tether = bt__dive_tether (dive, state, i);
       bt__line line = bt__line_of (dive, state, i);
       if (is_pulled (dive, state, &line, i))
-        look (state, tether, end_of_line (dive, state, &line, i), i);
+        look_at_end (state, tether, end_of_line (dive, state, &line, i), i);
       else
         tether->pulled = tether->stuck = 0;
     }

@@ -102,7 +102,7 @@ stop_at (const bt_dive *dive, bt__state *state, int i, double length, bt_event_k
 }
 
 static void
-haul (const bt_dive *dive, bt__state *state, int i, double length)
+haul_in (const bt_dive *dive, bt__state *state, int i, double length)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
   bt__line line = bt__line_of (dive, state, i);
@@ -154,7 +154,7 @@ bt__turn_winches (const bt_dive *dive, bt__state *state)
       bt__tether *tether = bt__dive_tether (dive, state, i);
       double speed = fmin (fabs (tether->winch_rate), tether->props.winch_rate);
       if (tether->winch_rate < 0)
-        haul (dive, state, i, tether->length - speed * BT__TIME_STEP);
+        haul_in (dive, state, i, tether->length - speed * BT__TIME_STEP);
       else if (tether->winch_rate > 0)
         pay (dive, state, i, tether->length + speed * BT__TIME_STEP);
     }

@@ -45,7 +45,8 @@ least_string (const bt__subject *s)
 
 /* Tell what tether I of DIVE is wound about now, and raise the events unless SILENT.  */
 static bt_status
-tell (bt_dive *dive, int i, bt__subject *subject, int8_t *told, int silent, bt_error *error)
+tell_windings (bt_dive *dive, int i, bt__subject *subject, int8_t *told, int silent,
+               bt_error *error)
 {
   bt__gaze *g;
   bt_status status = bt__watch_wound (dive, i, &g, error);
@@ -87,7 +88,7 @@ bt__note_windings (bt_dive *dive, bt_error *error)
       subject->berthed = 1;
       status = bt__watch_wound_still (dive, i, told, least_string (subject), &same, error);
       if (status == BT_OK && !same)
-        status = tell (dive, i, subject, told, first, error);
+        status = tell_windings (dive, i, subject, told, first, error);
     }
   return status == BT_ERR_INTERRUPTED ? status : BT_OK;
 }

@@ -146,7 +146,7 @@ root_of_logarithm (double l)
 }
 
 static inline double
-root (double g, double r)
+root_of_sinh (double g, double r)
 {
   if (g < 4.3)
     return root_of_series (g / (1 + r));
@@ -158,7 +158,7 @@ root (double g, double r)
 static bt_catenary
 slack (double h, double v, double s, double d)
 {
-  double g = d / (h * h), r = sqrt (1 + g), x = root (g, r);
+  double g = d / (h * h), r = sqrt (1 + g), x = root_of_sinh (g, r);
   double sinh_x = x * r, coth_x = sqrt (1 + sinh_x * sinh_x) / sinh_x;
   return (bt_catenary){ h, v, s, h / (2 * x), 0.5 * (v * coth_x - s) };
 }

@@ -63,7 +63,7 @@ set_sides (const bt_line *line, const bt_water *water, bt_vec3 a, bt_vec3 b, bt_
 }
 
 static int
-is_new (const bt_vec3 *r, int n, const bt_vec3 *shapes, int found, double apart)
+is_new_shape (const bt_vec3 *r, int n, const bt_vec3 *shapes, int found, double apart)
 {
   for (int k = 0; k < found; k++)
     {
@@ -94,7 +94,7 @@ bt_steady_equilibria (bt_steady *steady, const bt_line *line, const bt_water *wa
                                           &report, error);
       if (status != BT_OK)
         return status;
-      if (!report.converged || !is_new (r, n, shapes, *found, DISTINCT * line->length))
+      if (!report.converged || !is_new_shape (r, n, shapes, *found, DISTINCT * line->length))
         continue;
       memcpy (shapes + (size_t)*found * ((size_t)n + 1), r, ((size_t)n + 1) * sizeof *r);
       ++*found;

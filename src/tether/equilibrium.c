@@ -50,7 +50,7 @@ largest_distance (const bt_vec3 *p, const bt_vec3 *q, int n)
 
 /* A root of the discrete march whose turns no interval resolves is not a shape of the line.  */
 static int
-is_resolved (const bt_vec3 *r, int n, double length, double share)
+is_resolved_shape (const bt_vec3 *r, int n, double length, double share)
 {
   for (int i = 0; i < n; i++)
     if (!(bt__distance (r[i], r[i + 1]) >= share * length / n))
@@ -70,7 +70,8 @@ shoot_near (task *k, double reach, bt_vec3 *pull, bt_vec3 *nodes, bt_vec3 *tensi
                              &report, k->error);
   k->counts->shots++;
   k->counts->marches += (uint64_t)report.integrations;
-  if (*status != BT_OK || !report.converged || !is_resolved (r, k->n, k->line->length, RESOLVED)
+  if (*status != BT_OK || !report.converged
+      || !is_resolved_shape (r, k->n, k->line->length, RESOLVED)
       || !(largest_distance (r, nodes, k->n) <= reach))
     return 0;
   size_t size = ((size_t)k->n + 1) * sizeof *nodes;
@@ -99,7 +100,7 @@ relax (task *k, int solves, bt_vec3 *pull, bt_vec3 *nodes, bt_vec3 *tensions)
       return BT_OK;
     }
   bt_vec3 trial = tensions[0];
-  if (bt__norm (trial) > 0 && is_resolved (nodes, k->n, k->line->length, POLISHED)
+  if (bt__norm (trial) > 0 && is_resolved_shape (nodes, k->n, k->line->length, POLISHED)
       && shoot_near (k, DRIFT * k->line->length, &trial, nodes, tensions, &status))
     *pull = trial;
   return status;

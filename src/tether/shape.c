@@ -75,7 +75,7 @@ is_still (const bt__shape_job *j)
 }
 
 static bt_line
-line_of (const bt__shape_job *j)
+line_of_job (const bt__shape_job *j)
 {
   const bt_tether_props *p = j->props;
   return (bt_line){ j->in->length, p->diameter, p->wet_weight, p->ea, p->cdn, p->cdt };
@@ -86,7 +86,7 @@ static bt_status
 solve_steady (bt__shape_job *j, int have_shape, bt_vec3 *nodes, bt_vec3 *tensions)
 {
   bt__shape *s = j->shape;
-  bt_line line = line_of (j);
+  bt_line line = line_of_job (j);
   s->plane_length = j->in->length;
   if (j->props->wet_weight == 0 && is_still (j))
     return solve_unloaded (j);

@@ -81,8 +81,8 @@ stretch_plane (plane *p, const bt_line *line, double chord)
 }
 
 static void
-set_plane (plane *p, const bt_line *line, const bt_water *water, bt_vec3 a, bt_vec3 b,
-           bt_vec3 fallback)
+set_load_plane (plane *p, const bt_line *line, const bt_water *water, bt_vec3 a, bt_vec3 b,
+                bt_vec3 fallback)
 {
   bt__loads k;
   bt__loads_set (&k, line, water, a);
@@ -119,7 +119,7 @@ into_space (const plane *p, bt_point2 at)
 }
 
 static bt_vec3
-pull_of (const plane *p, const bt_catenary *c, bt_vec3 ahead)
+pull_at_anchor (const plane *p, const bt_catenary *c, bt_vec3 ahead)
 {
   if (!isfinite (c->a))
     return bt__scale (p->tension, ahead);
@@ -134,11 +134,12 @@ bt__steady_guess (const bt_line *line, const bt_water *water, bt_vec3 a, bt_vec3
   plane p;
   bt_catenary c;
   bt_vec3 chord = bt__sub (b, a);
-  set_plane (&p, line, water, a, b, fallback);
+  set_load_plane (&p, line, water, a, b, fallback);
   bt_status status
       = bt_catenary_solve (opened (p.h, line->length), p.v, line->length * p.stretch, &c, NULL);
   int straight = status != BT_OK || !isfinite (c.a);
-  *pull = straight ? bt__scale (p.tension, bt__unit_or (chord, p.across)) : pull_of (&p, &c, chord);
+  *pull = straight ? bt__scale (p.tension, bt__unit_or (chord, p.across))
+                   : pull_at_anchor (&p, &c, chord);
   if (!bt__is_finite (*pull))
     *pull = bt__vec (0, 0, 0);
   for (int i = 0; r && i <= n; i++)

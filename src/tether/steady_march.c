@@ -53,26 +53,26 @@ slope (const bt__loads *loads, bt_vec3 origin, state s)
 }
 
 static inline state
-advance (state s, double h, state k)
+advance_state (state s, double h, state k)
 {
   return (state){ bt__axpy (s.r, h, k.r), bt__axpy (s.t, h, k.t) };
 }
 
 static inline state
-step (const bt__loads *loads, bt_vec3 origin, state s, double h)
+march_step (const bt__loads *loads, bt_vec3 origin, state s, double h)
 {
   state k1 = slope (loads, origin, s);
-  state k2 = slope (loads, origin, advance (s, h / 2, k1));
-  state k3 = slope (loads, origin, advance (s, h / 2, k2));
-  state k4 = slope (loads, origin, advance (s, h, k3));
-  s = advance (s, h / 6, k1);
-  s = advance (s, h / 3, k2);
-  s = advance (s, h / 3, k3);
-  return advance (s, h / 6, k4);
+  state k2 = slope (loads, origin, advance_state (s, h / 2, k1));
+  state k3 = slope (loads, origin, advance_state (s, h / 2, k2));
+  state k4 = slope (loads, origin, advance_state (s, h, k3));
+  s = advance_state (s, h / 6, k1);
+  s = advance_state (s, h / 3, k2);
+  s = advance_state (s, h / 3, k3);
+  return advance_state (s, h / 6, k4);
 }
 
 static void
-store (bt_vec3 origin, state s, int i, bt_vec3 *r, bt_vec3 *t)
+store_state (bt_vec3 origin, state s, int i, bt_vec3 *r, bt_vec3 *t)
 {
   if (r)
     r[i] = bt__add (origin, s.r);
@@ -86,11 +86,11 @@ bt__march (const bt__loads *loads, bt_vec3 origin, bt_vec3 pull, double length, 
 {
   double h = length / n;
   state s = { { 0, 0, 0 }, pull };
-  store (origin, s, 0, r, t);
+  store_state (origin, s, 0, r, t);
   for (int i = 1; i <= n; i++)
     {
-      s = step (loads, origin, s, h);
-      store (origin, s, i, r, t);
+      s = march_step (loads, origin, s, h);
+      store_state (origin, s, i, r, t);
     }
   /* NaN survives every later step, so one look at the end is enough.  */
   *end = s.r;

@@ -88,7 +88,7 @@ add_outer (bt__block *a, double k, bt_vec3 u, bt_vec3 v)
 }
 
 static inline void
-add_diagonal (bt__block *a, double k)
+add_to_diagonal (bt__block *a, double k)
 {
   for (int i = 0; i < 3; i++)
     a->m[i][i] += k;
@@ -103,7 +103,7 @@ add_block (bt__block *a, double k, const bt__block *b)
 }
 
 static inline bt_vec3
-apply (const bt__block *a, bt_vec3 v)
+block_times (const bt__block *a, bt_vec3 v)
 {
   return bt__vec (a->m[0][0] * v.x + a->m[0][1] * v.y + a->m[0][2] * v.z,
                   a->m[1][0] * v.x + a->m[1][1] * v.y + a->m[1][2] * v.z,
@@ -124,7 +124,7 @@ product (const bt__block *a, const bt__block *b)
    plus a multiple of the unit matrix.  A singular block gives values that are not finite, which the
    step detects.  */
 static inline bt__block
-inverse (const bt__block *a)
+block_inverse (const bt__block *a)
 {
   const double (*m)[3] = a->m;
   bt__block c;
@@ -162,7 +162,7 @@ turn_of_load (const bt__loads *k, bt_vec3 u, bt_vec3 t, double scale, bt__block 
   double speed = bt__norm (un);
   double side = scale * (k->kt * fabs (ut) * ut - k->kn * speed * ut);
   add_outer (d, scale * (2 * k->kt * fabs (ut) - k->kn * speed), t, un);
-  add_diagonal (d, side);
+  add_to_diagonal (d, side);
   add_outer (d, -side, t, t);
   if (speed > 0)
     add_outer (d, -scale * k->kn * ut / speed, un, un);
@@ -170,27 +170,27 @@ turn_of_load (const bt__loads *k, bt_vec3 u, bt_vec3 t, double scale, bt__block 
 
 /* The stretch that decides is the one that makes the tension: from where it would vanish.  */
 static inline int
-is_taut (const chain *c, int j, double length)
+is_taut_link (const chain *c, int j, double length)
 {
   double stretch = length - c->l + c->kept * c->w->bias[j] * c->l / c->ea;
   return c->w->lam[j] + c->kappa * stretch > 0;
 }
 
 static link
-link_at (chain *c, int j)
+relaxed_link (chain *c, int j)
 {
   link k = { { 0, 0, 0 }, { 0, 0, 0 }, { { { 0 } } }, { { { 0 } } } };
   bt_vec3 chord = bt__sub (c->x[j + 1], c->x[j]);
   double length = bt__norm (chord);
   bt_vec3 t = length > 1e-9 * c->l ? bt__scale (1 / length, chord) : c->w->t[j];
   double stretch = length - c->l, lam = c->w->lam[j];
-  int taut = is_taut (c, j, length);
+  int taut = is_taut_link (c, j, length);
   double k_a = (taut ? c->ea : c->slack) / c->l, lever = fmax (length, 0.2 * c->l);
   double k_g = fmax (lam, 0) / lever;
   c->w->t[j] = t;
   c->w->pull[j] = k_a * stretch + (taut ? c->kept * c->w->bias[j] : 0);
   k.force = bt__scale (c->w->pull[j], t);
-  add_diagonal (&k.stiffness, k_g);
+  add_to_diagonal (&k.stiffness, k_g);
   add_outer (&k.stiffness, k_a - k_g, t, t);
   bt_vec3 middle = bt__scale (0.5, bt__add (c->x[j], c->x[j + 1]));
   bt_vec3 u = bt__loads_current (&c->loads, middle);
@@ -204,7 +204,7 @@ static void
 update_multiplier (chain *c, int j)
 {
   bt_vec3 t = c->w->t[j];
-  int taut = is_taut (c, j, bt__distance (c->x[j + 1], c->x[j]));
+  int taut = is_taut_link (c, j, bt__distance (c->x[j + 1], c->x[j]));
   double closing = bt__dot (t, bt__sub (c->w->dx[j + 1], c->w->dx[j]));
   c->w->lam[j] = taut ? c->w->pull[j] + c->ea / c->l * closing : 0;
 }
@@ -214,18 +214,18 @@ update_multiplier (chain *c, int j)
 /* Assemble and eliminate downward in one sweep: dx holds the reduced right-hand side, UP the
    reduced upper blocks.  */
 static void
-eliminate (chain *c)
+eliminate_down (chain *c)
 {
   bt_steady *w = c->w;
-  link left = link_at (c, 0);
+  link left = relaxed_link (c, 0);
   for (int i = 1; i < c->n; i++)
     {
-      link right = link_at (c, i);
+      link right = relaxed_link (c, i);
       bt__block diagonal = left.stiffness, lower = { { { 0 } } }, upper = { { { 0 } } };
       add_block (&diagonal, 1, &right.stiffness);
       add_block (&diagonal, -1, &left.turn);
       add_block (&diagonal, 1, &right.turn);
-      add_diagonal (&diagonal, c->kappa);
+      add_to_diagonal (&diagonal, c->kappa);
       add_block (&lower, -1, &left.stiffness);
       add_block (&lower, 1, &left.turn);
       add_block (&upper, -1, &right.stiffness);
@@ -236,25 +236,25 @@ eliminate (chain *c)
         {
           bt__block fill = product (&lower, &w->up[i - 1]);
           add_block (&diagonal, -1, &fill);
-          rhs = bt__sub (rhs, apply (&lower, w->dx[i - 1]));
+          rhs = bt__sub (rhs, block_times (&lower, w->dx[i - 1]));
         }
-      bt__block pivot = inverse (&diagonal);
+      bt__block pivot = block_inverse (&diagonal);
       w->up[i] = product (&pivot, &upper);
-      w->dx[i] = apply (&pivot, rhs);
+      w->dx[i] = block_times (&pivot, rhs);
       left = right;
     }
 }
 
 /* Substitute back, move the nodes and return the largest motion (infinite if any is not finite). */
 static double
-substitute (chain *c)
+substitute_up (chain *c)
 {
   bt_steady *w = c->w;
   double most = 0;
   w->dx[0] = w->dx[c->n] = bt__vec (0, 0, 0);
   for (int i = c->n - 1; i > 0; i--)
     {
-      w->dx[i] = bt__sub (w->dx[i], apply (&w->up[i], w->dx[i + 1]));
+      w->dx[i] = bt__sub (w->dx[i], block_times (&w->up[i], w->dx[i + 1]));
       double d = bt__norm (w->dx[i]);
       most = d > most || !isfinite (d) ? d : most;
       if (!isfinite (most))
@@ -266,8 +266,8 @@ substitute (chain *c)
 static double
 iterate (chain *c)
 {
-  eliminate (c);
-  double most = substitute (c);
+  eliminate_down (c);
+  double most = substitute_up (c);
   if (!isfinite (most))
     return INFINITY;
   for (int j = 0; j < c->n; j++)
@@ -292,7 +292,7 @@ start_multipliers (chain *c)
 }
 
 static void
-remember (chain *c)
+remember_shape (chain *c)
 {
   for (int i = 0; i <= c->n; i++)
     c->w->x0[i] = c->x[i];
@@ -307,7 +307,7 @@ restore (chain *c)
 }
 
 static double
-moved (const chain *c)
+largest_motion (const chain *c)
 {
   double most = 0;
   for (int i = 1; i < c->n; i++)
@@ -319,7 +319,7 @@ moved (const chain *c)
    infinite if the shape was lost.  A step need not be solved to convergence, since the next step
    starts from its result; only an update that does not decrease means a step too long.  */
 static double
-take_step (chain *c, double tolerance, int at_most, int *used)
+take_relaxation_step (chain *c, double tolerance, int at_most, int *used)
 {
   double update = INFINITY;
   for (int i = 0; i < at_most && !bt__ask (c->w->asker); i++)
@@ -357,7 +357,7 @@ allowed_motion (const chain *c, double reach)
 
 /* Step until at rest or out of SOLVES.  REACH is how far the load would move a free node.  */
 static void
-settle (chain *c, int solves, bt_steady_report *report)
+relax_to_rest (chain *c, int solves, bt_steady_report *report)
 {
   double most = LAST_REACH * c->length, least = LEAST_REACH * c->length;
   double reach = FIRST_REACH * c->length, rest = SETTLED * c->length;
@@ -365,12 +365,12 @@ settle (chain *c, int solves, bt_steady_report *report)
     {
       int left = solves - report->integrations;
       double tolerance = fmax (rest, SOLVED * fmin (reach, c->length));
-      remember (c);
+      remember_shape (c);
       c->kappa = c->force / (c->n * reach);
-      double update
-          = take_step (c, tolerance, left < NEWTON ? left : NEWTON, &report->integrations);
+      double update = take_relaxation_step (c, tolerance, left < NEWTON ? left : NEWTON,
+                                            &report->integrations);
       report->iterations++;
-      double motion = update <= KEPT * c->length ? moved (c) : HUGE_VAL;
+      double motion = update <= KEPT * c->length ? largest_motion (c) : HUGE_VAL;
       int solved = update <= tolerance, kept = motion < allowed_motion (c, reach);
       if (!kept)
         restore (c);
@@ -429,7 +429,7 @@ node_tensions (chain *c, bt_vec3 *t)
   bt_vec3 left = { 0, 0, 0 };
   for (int j = 0; j < c->n; j++)
     {
-      link k = link_at (c, j);
+      link k = relaxed_link (c, j);
       bt_vec3 force = link_force (c, j, &k), load = c->w->lam[j] > 0 ? k.load : bt__vec (0, 0, 0);
       t[j] = j > 0 ? bt__scale (0.5, bt__add (left, force)) : bt__add (force, load);
       if (j == last)
@@ -496,7 +496,7 @@ bt_steady_relax (bt_steady *steady, const bt_line *line, const bt_water *water, 
   set_chain (&c, steady, line, water, a, b, n, r);
   place_ends (r, n, a, b);
   start_multipliers (&c);
-  settle (&c, solves, report);
+  relax_to_rest (&c, solves, report);
   if (!report->converged)
     leave_possible (&c);
   if (!node_tensions (&c, t))

@@ -33,7 +33,7 @@ pull_from (const gsl_vector *x, double force)
 }
 
 static void
-put (gsl_vector *v, bt_vec3 a)
+put_vector (gsl_vector *v, bt_vec3 a)
 {
   gsl_vector_set (v, 0, a.x);
   gsl_vector_set (v, 1, a.y);
@@ -60,7 +60,7 @@ shot_f (const gsl_vector *x, void *user, gsl_vector *f)
   bt_vec3 miss;
   int status = shot_miss (shot, pull_from (x, shot->force), &miss);
   if (status == GSL_SUCCESS)
-    put (f, miss);
+    put_vector (f, miss);
   return status;
 }
 
@@ -102,7 +102,7 @@ shot_fdf (const gsl_vector *x, void *user, gsl_vector *f, gsl_matrix *jacobian)
   int status = shot_miss (shot, pull_from (x, shot->force), &at);
   if (status != GSL_SUCCESS)
     return status;
-  put (f, at);
+  put_vector (f, at);
   return differences (shot, x, at, jacobian);
 }
 
@@ -120,7 +120,7 @@ search (bt_steady *steady, int at_most, bt_vec3 *pull, bt_steady_report *report)
   bt__shot *shot = &steady->shot;
   gsl_multiroot_fdfsolver *solver = steady->solver;
   gsl_multiroot_function_fdf f = { shot_f, shot_df, shot_fdf, 3, shot };
-  put (steady->guess, bt__scale (1 / shot->force, *pull));
+  put_vector (steady->guess, bt__scale (1 / shot->force, *pull));
   if (gsl_multiroot_fdfsolver_set (solver, &f, steady->guess) != GSL_SUCCESS)
     return;
   double miss = miss_of (solver);
@@ -149,7 +149,8 @@ set_shot (bt__shot *shot, const bt_line *line, const bt_water *water, bt_vec3 a,
 }
 
 static bt_status
-check (const bt_steady *steady, const bt_water *water, bt_vec3 a, bt_vec3 b, int n, bt_error *error)
+check_shooting (const bt_steady *steady, const bt_water *water, bt_vec3 a, bt_vec3 b, int n,
+                bt_error *error)
 {
   if (n < 1 || n > steady->n_max)
     return bt__fail (error, BT_ERR_LIMIT, "%d intervals; the workspace holds 1 to %d", n,
@@ -166,7 +167,7 @@ bt_steady_shoot (bt_steady *steady, const bt_line *line, const bt_water *water, 
                  bt_vec3 b, int n, int warm, bt_vec3 *pull, bt_vec3 *r, bt_vec3 *t,
                  bt_steady_report *report, bt_error *error)
 {
-  bt_status status = check (steady, water, a, b, n, error);
+  bt_status status = check_shooting (steady, water, a, b, n, error);
   *report = (bt_steady_report){ 0, 0, 0, line->length };
   if (status != BT_OK)
     return status;
@@ -187,7 +188,7 @@ bt_steady_shoot (bt_steady *steady, const bt_line *line, const bt_water *water, 
 }
 
 static int
-allocate (bt_steady *steady, size_t n)
+allocate_shooting (bt_steady *steady, size_t n)
 {
   bt_vec3 **vectors[] = { &steady->x0, &steady->dx, &steady->t, &steady->shape, &steady->tensions };
   int ok = 1;
@@ -213,7 +214,7 @@ bt_steady_new (int n_max)
   if (!steady)
     return NULL;
   steady->n_max = n_max;
-  if (!allocate (steady, (size_t)n_max + 1))
+  if (!allocate_shooting (steady, (size_t)n_max + 1))
     {
       bt_steady_free (steady);
       return NULL;

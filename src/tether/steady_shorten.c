@@ -19,7 +19,7 @@ enum
 /* The share of the way to the straight line on which no link of the N + 1 nodes R is longer than
    REACH; 0 if none is.  */
 static double
-excess (const bt_vec3 *r, int n, double reach)
+share_to_chord (const bt_vec3 *r, int n, double reach)
 {
   double straight = bt__distance (r[0], r[n]) / n, share = 0;
   for (int i = 0; i < n; i++)
@@ -42,7 +42,7 @@ drawn (bt_vec3 p, bt_vec3 by, double reach)
 int
 bt__steady_shorten (bt_vec3 *r, int n, double reach)
 {
-  double share = excess (r, n, reach);
+  double share = share_to_chord (r, n, reach);
   if (!(share > 0))
     return 0;
   for (int k = 0; k < SWEEPS && share > 0; k++)
@@ -51,7 +51,7 @@ bt__steady_shorten (bt_vec3 *r, int n, double reach)
         r[i] = drawn (r[i], r[i - 1], reach);
       for (int i = n - 1; i > 0; i--)
         r[i] = drawn (r[i], r[i + 1], reach);
-      share = excess (r, n, reach);
+      share = share_to_chord (r, n, reach);
     }
   for (int i = 1; share > 0 && i < n; i++)
     r[i] = bt__axpy (bt__scale (1 - share, r[i]), share,

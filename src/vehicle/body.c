@@ -126,7 +126,7 @@ add_turning (double (*a)[6], double k, bt_vec3 r, bt_vec3 f)
 }
 
 static void
-add_diagonal (double (*a)[6], int at, bt_vec3 d)
+add_diagonal_block (double (*a)[6], int at, bt_vec3 d)
 {
   a[at][at] += d.x;
   a[at + 1][at + 1] += d.y;
@@ -163,7 +163,7 @@ typedef struct scene
 } scene;
 
 static scene
-look (const job *j)
+look_at_iterate (const job *j)
 {
   const bt__vehicle_type *type = j->type;
   const bt__rigid_input *in = j->in;
@@ -189,10 +189,10 @@ assemble (job *j, const scene *s, int turning)
   double rate = 2 / j->in->h;
   motion p = momenta (j, j->mid);
   memset (j->a, 0, sizeof j->a);
-  add_diagonal (j->a, 0, bt__scale (rate, j->mass));
-  add_diagonal (j->a, 3, bt__scale (rate, j->inertia));
-  add_diagonal (j->a, 0, bt__scale (s->wet, damping (j->linear, j->quadratic, j->mid.v)));
-  add_diagonal (j->a, 3, bt__scale (s->wet, damping (j->linear_w, j->quadratic_w, j->mid.w)));
+  add_diagonal_block (j->a, 0, bt__scale (rate, j->mass));
+  add_diagonal_block (j->a, 3, bt__scale (rate, j->inertia));
+  add_diagonal_block (j->a, 0, bt__scale (s->wet, damping (j->linear, j->quadratic, j->mid.v)));
+  add_diagonal_block (j->a, 3, bt__scale (s->wet, damping (j->linear_w, j->quadratic_w, j->mid.w)));
   add_turning (j->a, 1 / rate, j->type->buoyancy, s->buoyancy);
   add_turning (j->a, 1 / rate, j->type->attached, s->pull);
   if (!turning)
@@ -223,7 +223,7 @@ solve_mid (job *j)
   double r[6], d[6], a[6][6];
   for (int i = 0; i < ITERATES; i++)
     {
-      scene s = look (j);
+      scene s = look_at_iterate (j);
       residual (j, &s, r);
       assemble (j, &s, 1);
       memcpy (a, j->a, sizeof a);
@@ -240,7 +240,8 @@ solve_mid (job *j)
 }
 
 static void
-prepare (job *j, const bt__vehicle_type *type, const bt__rigid *body, const bt__rigid_input *in)
+prepare_step (job *j, const bt__vehicle_type *type, const bt__rigid *body,
+              const bt__rigid_input *in)
 {
   const bt__hydro *hydro = &type->hydro;
   double water = in->density > 0;
@@ -301,7 +302,7 @@ lead_of (const job *j)
 }
 
 static void
-move (const job *j, bt__rigid *next)
+move_body (const job *j, bt__rigid *next)
 {
   double h = j->in->h;
   bt__quat q = bt__quat_turned (j->body->attitude, bt__scale (h / 2, j->mid.w));
@@ -318,10 +319,10 @@ move (const job *j, bt__rigid *next)
 
 /* NEXT from BODY with PULL at the end of the step.  J keeps the last iterate.  */
 static int
-advance (job *j, const bt__vehicle_type *type, const bt__rigid *body, const bt__rigid_input *in,
-         bt_vec3 pull, bt__rigid *next)
+advance_body (job *j, const bt__vehicle_type *type, const bt__rigid *body,
+              const bt__rigid_input *in, bt_vec3 pull, bt__rigid *next)
 {
-  prepare (j, type, body, in);
+  prepare_step (j, type, body, in);
   *next = *body;
   run_thrusters (j, next->thrust);
   j->theta = share_of_new (j);
@@ -329,7 +330,7 @@ advance (job *j, const bt__vehicle_type *type, const bt__rigid *body, const bt__
   if (!solve_mid (j))
     return 0;
   next->pull = pull;
-  move (j, next);
+  move_body (j, next);
   return bt__is_finite (next->position) && bt__is_finite (next->velocity)
          && bt__is_finite (next->spin);
 }
@@ -340,7 +341,7 @@ bt__rigid_step (const bt__vehicle_type *type, bt__rigid *body, const bt__rigid_i
 {
   job j;
   bt__rigid next;
-  if (!advance (&j, type, body, in, in->pull, &next))
+  if (!advance_body (&j, type, body, in, in->pull, &next))
     return bt__fail (error, BT_ERR_DIVERGED, "the motion of a vehicle (%s) has no finite answer",
                      type->name);
   *body = next;
@@ -384,10 +385,10 @@ bt__rigid_grip (const bt__vehicle_type *type, const bt__rigid *body, const bt__r
   bt__rigid_input gripped = *in;
   bt_vec3 column[3];
   gripped.gripped = 1;
-  if (!advance (&j, type, body, &gripped, body->pull, &next))
+  if (!advance_body (&j, type, body, &gripped, body->pull, &next))
     return bt__fail (error, BT_ERR_DIVERGED, "the motion of a vehicle (%s) has no finite answer",
                      type->name);
-  scene s = look (&j);
+  scene s = look_at_iterate (&j);
   assemble (&j, &s, 0);
   for (int i = 0; i < 3; i++)
     {

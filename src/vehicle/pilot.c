@@ -57,7 +57,7 @@ drive (loop l, double error, double speed, double h, int full, double *sum)
 }
 
 static int
-is_held (const bt__pilot *p, int64_t kind)
+is_axis_held (const bt__pilot *p, int64_t kind)
 {
   return (p->holds & kind) != 0;
 }
@@ -72,7 +72,7 @@ level (const bt__vehicle_type *type, const bt__rig *rig, bt__pilot *p, const bt_
   bt_vec3 inertia = bt__inertias (type);
   loop roll = loop_of (type, rig, BT__ROLL, LEVEL_FREQUENCY, inertia.y, TURN_RATE);
   loop pitch = loop_of (type, rig, BT__PITCH, LEVEL_FREQUENCY, inertia.x, TURN_RATE);
-  if (!is_held (p, BT__HOLD_LEVEL))
+  if (!is_axis_held (p, BT__HOLD_LEVEL))
     return;
   if (type->steers[BT__ROLL])
     wrench[BT__ROLL]
@@ -87,13 +87,13 @@ static int
 heading_wish (const bt__pilot *p, const bt__fix *fix, double *heading)
 {
   bt_vec3 way = bt__sub (p->place, fix->position);
-  if (is_held (p, BT__HOLD_WAYPOINT) && hypot (way.x, way.y) > FACING)
+  if (is_axis_held (p, BT__HOLD_WAYPOINT) && hypot (way.x, way.y) > FACING)
     {
       *heading = atan2 (way.x, way.y);
       return 1;
     }
   *heading = p->heading;
-  return is_held (p, BT__HOLD_HEADING);
+  return is_axis_held (p, BT__HOLD_HEADING);
 }
 
 static double
@@ -102,8 +102,8 @@ yaw_moment (const bt__vehicle_type *type, const bt__rig *rig, bt__pilot *p, cons
 {
   double inertia = bt__inertias (type).z, rate = -fix->spin.z, stick = p->sticks[3], heading;
   loop l = loop_of (type, rig, BT__YAW, HEADING_FREQUENCY, inertia, TURN_RATE);
-  int damped = is_held (p, BT__HOLD_LEVEL) && p->yaw_rate > 0;
-  if (stick != 0 && is_held (p, BT__HOLD_CAPTURES))
+  int damped = is_axis_held (p, BT__HOLD_LEVEL) && p->yaw_rate > 0;
+  if (stick != 0 && is_axis_held (p, BT__HOLD_CAPTURES))
     p->heading = bt__twist_of (fix->attitude);
   if (stick != 0 && !damped)
     return stick * l.most;
@@ -122,21 +122,21 @@ yaw_moment (const bt__vehicle_type *type, const bt__rig *rig, bt__pilot *p, cons
 static double
 vertical_force (loop l, bt__pilot *p, const bt__fix *fix, double h)
 {
-  int placed = is_held (p, BT__HOLD_POSITION | BT__HOLD_WAYPOINT);
-  int above = is_held (p, BT__HOLD_ALTITUDE) && isfinite (fix->altitude);
+  int placed = is_axis_held (p, BT__HOLD_POSITION | BT__HOLD_WAYPOINT);
+  int above = is_axis_held (p, BT__HOLD_ALTITUDE) && isfinite (fix->altitude);
   double error = above    ? p->altitude - fix->altitude
                  : placed ? p->place.z - fix->position.z
                           : p->height - fix->position.z;
   if (p->sticks[2] != 0)
     {
-      if (is_held (p, BT__HOLD_CAPTURES))
+      if (is_axis_held (p, BT__HOLD_CAPTURES))
         {
           p->height = p->place.z = fix->position.z;
           p->altitude = fix->altitude;
         }
       return 0;
     }
-  if (!above && !placed && !is_held (p, BT__HOLD_DEPTH))
+  if (!above && !placed && !is_axis_held (p, BT__HOLD_DEPTH))
     return 0;
   return drive (l, error, fix->velocity.z, h, p->full, &p->sum[BT__HEAVE]);
 }
@@ -155,11 +155,11 @@ level_force (loop l, bt__pilot *p, const bt__fix *fix, double h)
 {
   bt_vec3 way = bt__sub (p->place, fix->position), v = fix->velocity;
   double speed = l.frequency / 2 * hypot (way.x, way.y), share = fmin (1, l.fastest / speed);
-  if (!is_held (p, BT__HOLD_POSITION | BT__HOLD_WAYPOINT))
+  if (!is_axis_held (p, BT__HOLD_POSITION | BT__HOLD_WAYPOINT))
     return bt__vec (0, 0, 0);
   if (p->sticks[0] != 0 || p->sticks[1] != 0)
     {
-      if (is_held (p, BT__HOLD_CAPTURES))
+      if (is_axis_held (p, BT__HOLD_CAPTURES))
         p->place = bt__vec (fix->position.x, fix->position.y, p->place.z);
       return bt__vec (0, 0, 0);
     }

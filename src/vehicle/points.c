@@ -32,7 +32,7 @@ bt__rigid_energy (const bt__vehicle_type *type, const bt__rigid *body, bt_vec3 f
 
 /* Strike BODY at the point P of the world with IMPULSE, N s.  */
 static void
-strike (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_vec3 impulse)
+strike_body (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_vec3 impulse)
 {
   bt_vec3 r = bt__turn_in (body->attitude, bt__sub (p, body->position));
   bt_vec3 blow = bt__turn_in (body->attitude, impulse);
@@ -92,7 +92,7 @@ bt__rigid_bounce (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_v
   if (work + cost > 0)
     blow = bt__scale (fmax (0, -work / cost), blow);
   blow = bt__turn_out (body->attitude, blow);
-  strike (type, body, p, blow);
+  strike_body (type, body, p, blow);
   return blow;
 }
 

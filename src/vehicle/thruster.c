@@ -126,7 +126,7 @@ static const double t200[PULSES][VOLTAGES] = {
 
 /* Where VALUE lies on a table of N that begins at FIRST: the place, and the share to the next.  */
 static int
-place (double value, double first, double step, int n, double *share)
+place_in_table (double value, double first, double step, int n, double *share)
 {
   double s = fmax (0, fmin (n - 1, (value - first) / step));
   int i = s < n - 2 ? (int)s : n - 2;
@@ -138,7 +138,7 @@ static double
 at_row (int row, double volts)
 {
   double share;
-  int k = place (volts, VOLTS_LEAST, VOLTS_STEP, VOLTAGES, &share);
+  int k = place_in_table (volts, VOLTS_LEAST, VOLTS_STEP, VOLTAGES, &share);
   return (1 - share) * t200[row][k] + share * t200[row][k + 1];
 }
 
@@ -146,7 +146,7 @@ static double
 t200_force (double volts, double command)
 {
   double share;
-  int i = place (command, -1, 2.0 / (PULSES - 1), PULSES, &share);
+  int i = place_in_table (command, -1, 2.0 / (PULSES - 1), PULSES, &share);
   return (1 - share) * at_row (i, volts) + share * at_row (i + 1, volts);
 }
 

@@ -193,7 +193,7 @@ bt__vehicle_type_find (const char *name, bt__vehicle_type *type, bt_error *error
 /* ---- Checks ---- */
 
 static bt_status
-check (int fine, const char *what, double value, bt_error *error)
+check_value (int fine, const char *what, double value, bt_error *error)
 {
   if (fine && isfinite (value))
     return BT_OK;
@@ -203,15 +203,16 @@ check (int fine, const char *what, double value, bt_error *error)
 static bt_status
 check_hydro (const bt__hydro *hydro, bt_error *error)
 {
-  bt_status status = check (hydro->munk >= 0 && hydro->munk <= 1, "a share of Munk's couple",
-                            hydro->munk, error);
+  bt_status status = check_value (hydro->munk >= 0 && hydro->munk <= 1, "a share of Munk's couple",
+                                  hydro->munk, error);
   for (int k = 0; k < BT__AXES && status == BT_OK; k++)
     {
-      status = check (hydro->added[k] >= 0, "an added mass", hydro->added[k], error);
+      status = check_value (hydro->added[k] >= 0, "an added mass", hydro->added[k], error);
       if (status == BT_OK)
-        status = check (hydro->linear[k] >= 0, "a linear drag", hydro->linear[k], error);
+        status = check_value (hydro->linear[k] >= 0, "a linear drag", hydro->linear[k], error);
       if (status == BT_OK)
-        status = check (hydro->quadratic[k] >= 0, "a quadratic drag", hydro->quadratic[k], error);
+        status = check_value (hydro->quadratic[k] >= 0, "a quadratic drag", hydro->quadratic[k],
+                              error);
     }
   return status;
 }
@@ -219,16 +220,16 @@ check_hydro (const bt__hydro *hydro, bt_error *error)
 static bt_status
 check_thruster (const bt__thruster *t, bt_error *error)
 {
-  bt_status status = check (fabs (bt__norm (t->along) - 1) < 1e-4,
-                            "a thruster's direction of length", bt__norm (t->along), error);
+  bt_status status = check_value (fabs (bt__norm (t->along) - 1) < 1e-4,
+                                  "a thruster's direction of length", bt__norm (t->along), error);
   if (status == BT_OK)
-    status = check (t->ahead > 0, "a thruster's force ahead", t->ahead, error);
+    status = check_value (t->ahead > 0, "a thruster's force ahead", t->ahead, error);
   if (status == BT_OK)
-    status = check (t->astern > 0, "a thruster's force astern", t->astern, error);
+    status = check_value (t->astern > 0, "a thruster's force astern", t->astern, error);
   if (status == BT_OK)
-    status = check (t->lag >= 0, "a thruster's lag", t->lag, error);
+    status = check_value (t->lag >= 0, "a thruster's lag", t->lag, error);
   if (status == BT_OK)
-    status = check (bt__norm (t->at) < 100, "a thruster's distance", bt__norm (t->at), error);
+    status = check_value (bt__norm (t->at) < 100, "a thruster's distance", bt__norm (t->at), error);
   return status;
 }
 
@@ -236,20 +237,20 @@ bt_status
 bt__vehicle_type_check (const bt__vehicle_type *type, bt_error *error)
 {
   bt_vec3 j = type->inertia;
-  bt_status status = check (type->mass > 0, "a mass", type->mass, error);
+  bt_status status = check_value (type->mass > 0, "a mass", type->mass, error);
   if (status == BT_OK)
-    status = check (type->volume >= 0, "a volume", type->volume, error);
+    status = check_value (type->volume >= 0, "a volume", type->volume, error);
   if (status == BT_OK)
-    status = check (j.x > 0 && j.y > 0 && j.z > 0, "a least inertia", fmin (j.x, fmin (j.y, j.z)),
-                    error);
+    status = check_value (j.x > 0 && j.y > 0 && j.z > 0, "a least inertia",
+                          fmin (j.x, fmin (j.y, j.z)), error);
   if (status == BT_OK)
-    status = check (bt__norm (type->attached) < 100, "its tether made fast at a distance",
-                    bt__norm (type->attached), error);
+    status = check_value (bt__norm (type->attached) < 100, "its tether made fast at a distance",
+                          bt__norm (type->attached), error);
   if (status == BT_OK)
     status = check_hydro (&type->hydro, error);
   if (status == BT_OK)
-    status = check (type->n >= 0 && type->n <= BT__THRUSTERS_MAX, "a number of thrusters",
-                    (double)type->n, error);
+    status = check_value (type->n >= 0 && type->n <= BT__THRUSTERS_MAX, "a number of thrusters",
+                          (double)type->n, error);
   for (int i = 0; i < type->n && status == BT_OK; i++)
     status = check_thruster (&type->thruster[i], error);
   return status;

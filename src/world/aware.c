@@ -65,7 +65,7 @@ bt_tether_free_length (const bt_dive *dive, int i, double *length, bt_error *err
 
 /* A contact stands for the line to half way to its neighbours, at most an interval.  */
 static double
-length_of (const bt_contact *c, int n, int k, double interval)
+contact_length (const bt_contact *c, int n, int k, double interval)
 {
   double before = k > 0 ? c[k].s - c[k - 1].s : INFINITY;
   double after = k + 1 < n ? c[k + 1].s - c[k].s : INFINITY;
@@ -93,7 +93,7 @@ bt_tether_contact_length (const bt_dive *dive, int i, int obstacle, int sliding,
   n = n < CONTACTS_MAX ? n : CONTACTS_MAX;
   for (int k = 0; k < n; k++)
     if ((obstacle < 0 || c[k].object == obstacle) && (!sliding || c[k].slides))
-      *length += length_of (c, n, k, interval);
+      *length += contact_length (c, n, k, interval);
   free (c);
   return BT_OK;
 }
@@ -102,7 +102,7 @@ bt_tether_contact_length (const bt_dive *dive, int i, int obstacle, int sliding,
 
 /* The axis of OBSTACLE, where it is now.  */
 static bt_status
-axis_of (const bt_dive *dive, int obstacle, bt__axis *axis, bt_error *error)
+obstacle_axis (const bt_dive *dive, int obstacle, bt__axis *axis, bt_error *error)
 {
   bt_status status = bt__check_part (dive, BT_PART_OBSTACLE, obstacle, error);
   if (status != BT_OK)
@@ -131,7 +131,7 @@ bt_tether_turns (const bt_dive *dive, int i, int obstacle, double *turns, bt_err
   bt__axis axis;
   bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
   if (status == BT_OK)
-    status = axis_of (dive, obstacle, &axis, error);
+    status = obstacle_axis (dive, obstacle, &axis, error);
   if (status != BT_OK)
     return status;
   bt__line line = bt__line_of (dive, dive->now, i);
@@ -152,7 +152,7 @@ bt_tether_winding (const bt_dive *dive, int i, int obstacle, int *winding, bt_er
   bt__gaze *g;
   bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
   if (status == BT_OK)
-    status = axis_of (dive, obstacle, &axis, error);
+    status = obstacle_axis (dive, obstacle, &axis, error);
   if (status == BT_OK)
     status = bt__watch_wound (dive, i, &g, error);
   if (status == BT_OK)

@@ -102,7 +102,7 @@ typedef struct forecast
 } forecast;
 
 static void
-tell (forecast *f, bt_foresight_kind kind, uint32_t place, double seconds, double turns)
+tell_foresight (forecast *f, bt_foresight_kind kind, uint32_t place, double seconds, double turns)
 {
   int id = place == UINT32_MAX ? -1 : (int)f->dive->model->scene->object[place].id;
   if (f->n < f->max)
@@ -128,7 +128,7 @@ is_among (const uint32_t *list, uint32_t n, uint32_t place)
 }
 
 static object *
-find (forecast *f, uint32_t place)
+find_object (forecast *f, uint32_t place)
 {
   for (uint32_t k = 0; k < f->objects; k++)
     if (f->object[k].place == place)
@@ -144,7 +144,7 @@ note_touch (forecast *f, uint32_t place, double seconds)
     return;
   f->touched[f->touches++] = place;
   if (seconds > 0)
-    tell (f, BT_FORESEE_TOUCH, place, seconds, turns_about (f, place));
+    tell_foresight (f, BT_FORESEE_TOUCH, place, seconds, turns_about (f, place));
 }
 
 /* Note what the line as it lies touches, from link K on.  */
@@ -170,13 +170,13 @@ note_holds (forecast *f, double seconds)
       uint32_t place = f->holds.at[k].object;
       if (bt__holds_wrap (&f->holds, place) < TOUCH_ANGLE)
         continue;
-      object *known = find (f, place);
+      object *known = find_object (f, place);
       double turns = turns_about (f, place);
       int halves = (int)floor (2 * fabs (turns));
       if (known)
         {
           if (halves > known->halves)
-            tell (f, BT_FORESEE_TURN, place, seconds, turns);
+            tell_foresight (f, BT_FORESEE_TURN, place, seconds, turns);
           known->halves = halves;
         }
       else if (f->objects < OBJECTS)
@@ -193,7 +193,7 @@ note_taut (forecast *f, double seconds)
 {
   int taut = bt__is_taut (f->string->length, f->g->out);
   if (taut && !f->taut)
-    tell (f, BT_FORESEE_TAUT, UINT32_MAX, seconds, 0);
+    tell_foresight (f, BT_FORESEE_TAUT, UINT32_MAX, seconds, 0);
   f->taut = taut;
 }
 
@@ -215,7 +215,7 @@ note_bump (forecast *f, bt__ghost *ghost, bt_vec3 from, double seconds)
       if (f->bumps < OBJECTS)
         f->met[f->bumps++] = near.object;
       if (seconds > 0)
-        tell (f, BT_FORESEE_BUMP, near.object, seconds, 0);
+        tell_foresight (f, BT_FORESEE_BUMP, near.object, seconds, 0);
     }
   bt_vec3 n = near.w.normal, on = near.w.point, to = way.b;
   double in = f->radius - bt__dot (bt__sub (to, on), n);
@@ -269,7 +269,7 @@ rein_in (forecast *f, bt_vec3 vehicle)
 
 /* Lead the string on by a look ahead; zero when it cannot be.  */
 static int
-look_ahead (forecast *f, bt__ghost *ghost, double t)
+lead_string (forecast *f, bt__ghost *ghost, double t)
 {
   bt_vec3 from = ghost->v.position;
   for (int k = 0; k < LOOKS; k++)
@@ -311,7 +311,7 @@ run_ahead (forecast *f, int i, double seconds)
   note_bump (f, &ghost, ghost.v.position, 0);
   look_for_leash (f, i, ghost.v.position);
   for (int k = 1; k * AHEAD <= seconds + 1e-9; k++)
-    if (bt__ask (bt__asker_of (f->dive)) || !look_ahead (f, &ghost, k * AHEAD))
+    if (bt__ask (bt__asker_of (f->dive)) || !lead_string (f, &ghost, k * AHEAD))
       break;
 }
 

@@ -23,7 +23,7 @@
 /* ---- The body ---- */
 
 static bt_status
-vehicle_of (const bt_dive *dive, int i, int *vehicle, bt_error *error)
+vehicle_at_end (const bt_dive *dive, int i, int *vehicle, bt_error *error)
 {
   bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
   if (status != BT_OK)
@@ -37,7 +37,7 @@ vehicle_of (const bt_dive *dive, int i, int *vehicle, bt_error *error)
 }
 
 static double
-radius_of (const bt_dive *dive, int vehicle)
+hull_radius (const bt_dive *dive, int vehicle)
 {
   bt_vec3 size = dive->model->vehicles[vehicle].size;
   return 0.5 * cbrt (size.x * size.y * size.z);
@@ -45,7 +45,7 @@ radius_of (const bt_dive *dive, int vehicle)
 
 /* How far the hull reaches from its middle: what flies turns as it likes.  */
 static double
-reach_of (const bt_dive *dive, int vehicle)
+hull_reach (const bt_dive *dive, int vehicle)
 {
   return 0.5 * bt__norm (dive->model->vehicles[vehicle].size);
 }
@@ -66,7 +66,7 @@ body_of (const bt_dive *dive, int vehicle, double winch, double grip)
   double linear = hydro->linear[BT__SURGE], quadratic = hydro->quadratic[BT__SURGE];
   int slips = linear == 0 && quadratic == 0;
   bt_vec3 size = dive->model->vehicles[vehicle].size;
-  bt__haul_body body = { .radius = radius_of (dive, vehicle),
+  bt__haul_body body = { .radius = hull_radius (dive, vehicle),
                          .reach = 0.5 * fmax (size.x, fmax (size.y, size.z)),
                          .friction = BODY_FRICTION,
                          .weight = weight_of (dive, vehicle),
@@ -107,7 +107,7 @@ bt_tether_prospect_by (const bt_dive *dive, int i, double winch, double grip, bt
 {
   bt__gaze *g;
   int vehicle;
-  bt_status status = vehicle_of (dive, i, &vehicle, error);
+  bt_status status = vehicle_at_end (dive, i, &vehicle, error);
   if (status == BT_OK && !(winch > 0))
     status = bt__fail (error, BT_ERR_DOMAIN, "a winch pulls with more than 0 N, not %g", winch);
   if (status == BT_OK && !(grip > 0 && grip <= 1))
@@ -188,7 +188,7 @@ bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n
 {
   bt__gaze *g;
   int vehicle;
-  bt_status status = vehicle_of (dive, i, &vehicle, error);
+  bt_status status = vehicle_at_end (dive, i, &vehicle, error);
   if (status == BT_OK)
     status = bt__watch_gaze (dive, i, &g, error);
   if (status != BT_OK)
@@ -198,7 +198,7 @@ bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n
       straight_home (g, points, max, n, out);
       return BT_OK;
     }
-  double reach = reach_of (dive, vehicle), want = fmax (reach, LEAST_RADIUS) + WAY_ROOM;
+  double reach = hull_reach (dive, vehicle), want = fmax (reach, LEAST_RADIUS) + WAY_ROOM;
   bt__string *home = bt__watch_string (dive);
   if (!home)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for a way home");
@@ -238,7 +238,7 @@ bt_tether_unwind_plan (const bt_dive *dive, int i, bt_vec3 *points, int max, int
 {
   bt__gaze *g;
   int vehicle;
-  bt_status status = vehicle_of (dive, i, &vehicle, error);
+  bt_status status = vehicle_at_end (dive, i, &vehicle, error);
   if (status == BT_OK)
     status = bt__watch_free (dive, i, &g, error);
   if (status != BT_OK)
@@ -249,7 +249,7 @@ bt_tether_unwind_plan (const bt_dive *dive, int i, bt_vec3 *points, int max, int
     return BT_OK;
   bt__string *loop = bt__watch_string (dive), *copy = bt__watch_string (dive);
   if (loop && copy)
-    *out = plan (dive, g, reach_of (dive, vehicle), loop, copy);
+    *out = plan (dive, g, hull_reach (dive, vehicle), loop, copy);
   else
     status = bt__fail (error, BT_ERR_LIMIT, "no memory for a plan");
   if (status == BT_OK && out->needed)

@@ -17,7 +17,7 @@ typedef struct walk
 } walk;
 
 static void
-give (walk *w, bt_vec3 centre, bt_vec3 half)
+give_box (walk *w, bt_vec3 centre, bt_vec3 half)
 {
   if (w->first > 0)
     {
@@ -37,11 +37,11 @@ give_child (walk *w, const bt__bvh_node *node, int k)
                           (double)node->centre[2][k]);
   bt_vec3 half
       = bt__vec ((double)node->half[0][k], (double)node->half[1][k], (double)node->half[2][k]);
-  give (w, bt__add (w->tree->origin, from), half);
+  give_box (w, bt__add (w->tree->origin, from), half);
 }
 
 static void
-descend (walk *w, uint32_t at, int depth)
+descend_tree (walk *w, uint32_t at, int depth)
 {
   const bt__bvh_node *node = w->tree->node + at;
   for (int k = 0; k < BT__BVH_WIDE && w->n < w->room; k++)
@@ -50,7 +50,7 @@ descend (walk *w, uint32_t at, int depth)
     else if (node->count[k] > 0 || depth == w->level)
       give_child (w, node, k);
     else
-      descend (w, node->first[k], depth + 1);
+      descend_tree (w, node->first[k], depth + 1);
 }
 
 static int
@@ -69,7 +69,7 @@ depth_of (const bt__bvh *tree, uint32_t at)
 
 /* The mesh of obstacle I, or NULL.  */
 static const bt__mesh *
-mesh_of (const bt_dive *dive, int i)
+mesh_of_obstacle (const bt_dive *dive, int i)
 {
   const bt__obstacle *shape;
   if (bt__check_part (dive, BT_PART_OBSTACLE, i, NULL) != BT_OK)
@@ -81,7 +81,7 @@ mesh_of (const bt_dive *dive, int i)
 int
 bt_obstacle_levels (const bt_dive *dive, int i)
 {
-  const bt__mesh *mesh = mesh_of (dive, i);
+  const bt__mesh *mesh = mesh_of_obstacle (dive, i);
   return mesh ? 1 + depth_of (&mesh->tree, 0) : 0;
 }
 
@@ -89,16 +89,16 @@ size_t
 bt_obstacle_boxes (const bt_dive *dive, int i, int level, size_t first, size_t n,
                    bt_tree_box *boxes)
 {
-  const bt__mesh *mesh = mesh_of (dive, i);
+  const bt__mesh *mesh = mesh_of_obstacle (dive, i);
   walk w = { .dive = dive, .level = level, .first = first, .room = n, .out = boxes };
   if (!mesh || level < 0 || n == 0)
     return 0;
   w.tree = &mesh->tree;
   w.carried = bt__model_carried (dive->model, i);
   if (level > 0)
-    descend (&w, 0, 1);
+    descend_tree (&w, 0, 1);
   else
-    give (&w, bt__scale (0.5, bt__add (mesh->box.lo, mesh->box.hi)),
-          bt__scale (0.5, bt__sub (mesh->box.hi, mesh->box.lo)));
+    give_box (&w, bt__scale (0.5, bt__add (mesh->box.lo, mesh->box.hi)),
+              bt__scale (0.5, bt__sub (mesh->box.hi, mesh->box.lo)));
   return w.n;
 }

@@ -38,7 +38,7 @@ contact_of (const bt__touch *touch)
 }
 
 static bt__way
-way_of (const bt_dive *dive, const bt__tether *tether, const bt__surroundings *around)
+way_workspace (const bt_dive *dive, const bt__tether *tether, const bt__surroundings *around)
 {
   return (bt__way){ .around = around,
                     .core = bt__core (tether->props.diameter),
@@ -59,7 +59,7 @@ touches_of (const bt_dive *dive, int i, bt__touch *touch, int room)
   if (!line.held)
     return 0;
   around = bt__standing (dive, dive->now, BT_PART_TETHER, i);
-  way = way_of (dive, line.tether, &around);
+  way = way_workspace (dive, line.tether, &around);
   return bt__held_touches (line.held, &way, line.tether->props.diameter, touch, room);
 }
 
@@ -202,7 +202,8 @@ typedef struct look
 } look;
 
 static bt_status
-look_at (const bt_dive *dive, bt_part part, int i, int obstacle, look *look, bt_error *error)
+look_at_subject (const bt_dive *dive, bt_part part, int i, int obstacle, look *look,
+                 bt_error *error)
 {
   const bt_model *model = dive->model;
   bt_status status = bt__check_part (dive, part, i, error);
@@ -232,8 +233,8 @@ look_at (const bt_dive *dive, bt_part part, int i, int obstacle, look *look, bt_
 
 /* The nearest part within *CAP of LINK; returns nonzero and lowers *CAP.  */
 static int
-nearest (const bt_dive *dive, const look *look, const bt__link *link, double *cap, bt__near *near,
-         bt_clearance *out)
+nearest_part (const bt_dive *dive, const look *look, const bt__link *link, double *cap,
+              bt__near *near, bt_clearance *out)
 {
   bt__count *count = &((bt_dive *)dive)->shore.count;
   const bt__scene *scene = look->around.scene;
@@ -268,7 +269,7 @@ bt_tether_clearance (const bt_dive *dive, int i, int obstacle, bt_clearance *out
   bt__near near;
   double cap = FAR, length;
   int n;
-  bt_status status = look_at (dive, BT_PART_TETHER, i, obstacle, &look, error);
+  bt_status status = look_at_subject (dive, BT_PART_TETHER, i, obstacle, &look, error);
   if (status != BT_OK)
     return status;
   *out = (bt_clearance){ .distance = INFINITY, .object = -1 };
@@ -278,7 +279,7 @@ bt_tether_clearance (const bt_dive *dive, int i, int obstacle, bt_clearance *out
   for (int k = 0; look.off && k < n; k++)
     {
       bt__link link = { bt__line_node (&line, k), bt__line_node (&line, k + 1) };
-      if (!nearest (dive, &look, &link, &cap, &near, out))
+      if (!nearest_part (dive, &look, &link, &cap, &near, out))
         continue;
       out->distance = cap - line.tether->props.diameter / 2;
       out->s = length * (k + near.w.s) / n;
@@ -293,7 +294,7 @@ bt_vehicle_clearance (const bt_dive *dive, int i, int obstacle, bt_clearance *ou
   look look;
   bt__hull_body hull;
   bt__stop stop;
-  bt_status status = look_at (dive, BT_PART_VEHICLE, i, obstacle, &look, error);
+  bt_status status = look_at_subject (dive, BT_PART_VEHICLE, i, obstacle, &look, error);
   if (status != BT_OK)
     return status;
   *out = (bt_clearance){ .distance = INFINITY, .object = -1 };

@@ -179,7 +179,7 @@ lay_out (bt_dive *dive)
 
 /* Make a dive with NOW and NEXT bytes of its states; 0: none.  */
 static bt_status
-make_dive (bt_model *model, size_t now, size_t next, bt_dive **out, bt_error *error)
+make_dive_of_size (bt_model *model, size_t now, size_t next, bt_dive **out, bt_error *error)
 {
   bt_status status = BT_OK;
   bt_dive *dive = calloc (1, sizeof *dive);
@@ -208,7 +208,7 @@ bt__dive_alloc (bt_model *model, bt_dive **out, bt_error *error)
 {
   size_t size = bt__state_size (model);
   bt_dive *dive;
-  bt_status status = make_dive (model, size, size, &dive, error);
+  bt_status status = make_dive_of_size (model, size, size, &dive, error);
   if (status != BT_OK)
     return status;
   status = make_rows (dive, error);
@@ -225,7 +225,7 @@ bt__dive_alloc (bt_model *model, bt_dive **out, bt_error *error)
 bt_status
 bt__dive_alloc_lane (bt_model *model, bt__lane *lane, bt_error *error)
 {
-  bt_status status = make_dive (model, 0, sizeof (bt__state), &lane->dive, error);
+  bt_status status = make_dive_of_size (model, 0, sizeof (bt__state), &lane->dive, error);
   if (status == BT_OK)
     lane->dive->lane = lane;
   return status;

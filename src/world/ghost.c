@@ -61,7 +61,7 @@ go_by_sticks (bt__vehicle *v, double yaw, double seconds)
 /* ---- With mass ---- */
 
 static void
-steer (bt__ghost *g, bt__rigid_input *in)
+steer_ghost (bt__ghost *g, bt__rigid_input *in)
 {
   const bt_model *model = g->dive->model;
   bt__vehicle *v = &g->v;
@@ -98,7 +98,7 @@ step_body (bt__ghost *g, double h)
                          .volts = v->volts,
                          .lost = (uint64_t)v->lost };
   bt_water_motion (&water, v->position, &in.flow, &in.flow_acceleration);
-  steer (g, &in);
+  steer_ghost (g, &in);
   if (bt__rigid_step (&g->dive->model->types[g->vehicle], &v->body, &in, NULL) == BT_OK)
     mirror (v);
 }

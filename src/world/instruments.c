@@ -45,7 +45,7 @@ attitude_of (const bt__vehicle *v)
 
 /* The first tether whose far end VEHICLE has, or -1.  */
 static int
-tether_of (const bt_dive *dive, int vehicle)
+tether_ending_at (const bt_dive *dive, int vehicle)
 {
   for (int i = 0; i < dive->model->n_tethers; i++)
     if (dive->model->ends[i][1].vehicle == vehicle)
@@ -77,7 +77,7 @@ bt_dive_instruments (const bt_dive *dive, int i, bt_readings *readings, bt_error
   if (status != BT_OK)
     return status;
   in = v->instruments;
-  tether = tether_of (dive, i);
+  tether = tether_ending_at (dive, i);
   truth.position = v->position;
   truth.velocity = v->velocity;
   truth.attitude = attitude_of (v);

@@ -16,7 +16,7 @@
 
 /* True if A and B are equal to the last bit, as constants of a dive and of its world are.  */
 static int
-is_same (const double *a, const double *b)
+is_same_bits (const double *a, const double *b)
 {
   return memcmp (a, b, sizeof *a) == 0;
 }
@@ -38,7 +38,7 @@ judge_field (const bt__judge *judge, const bt_field *field, double value, double
   bt_field alone = *field;
   bt_error why;
   alone.offset = 0;
-  if (!field->live && !is_same (&value, &was))
+  if (!field->live && !is_same_bits (&value, &was))
     return bt__fail (judge->error, BT_ERR_FORMAT, "%s: its `%s' is %g, and in its world %g",
                      judge->whose, field->name, value, was);
   if (follows (field) ? fabs (value) <= BT__FAR
@@ -49,7 +49,7 @@ judge_field (const bt__judge *judge, const bt_field *field, double value, double
 }
 
 static double
-number_at (const void *def, size_t offset)
+number_in_def (const void *def, size_t offset)
 {
   double x;
   memcpy (&x, (const char *)def + offset, sizeof x);
@@ -68,8 +68,8 @@ judge_props (const bt__judge *judge, const bt_tether_props *props, const bt_teth
       const bt_field *field = &head->fields[k];
       if (field->offset < from || field->offset >= from + sizeof *props)
         continue;
-      status = judge_field (judge, field, number_at (props, field->offset - from),
-                            number_at (was, field->offset - from));
+      status = judge_field (judge, field, number_in_def (props, field->offset - from),
+                            number_in_def (was, field->offset - from));
       known++;
     }
   if (status == BT_OK && known != sizeof *props / sizeof (double))

@@ -165,7 +165,7 @@ bt__lane_leave (bt__lane *lane)
 
 /* Records of counters and nothing else.  */
 static void
-add_up (void *sum, const void *more, size_t size)
+add_up_counters (void *sum, const void *more, size_t size)
 {
   uint64_t *a = sum;
   const uint64_t *b = more;
@@ -177,8 +177,8 @@ void
 bt__lane_count (const bt__lane *lane, bt_dive *dive)
 {
   const bt_dive *own = lane->dive;
-  add_up (&dive->profile, &own->profile, sizeof dive->profile);
-  add_up (&dive->counts, &own->counts, sizeof dive->counts);
-  add_up (&dive->shore.count, &own->shore.count, sizeof dive->shore.count);
-  add_up (&dive->shore.thesis, &own->shore.thesis, sizeof dive->shore.thesis);
+  add_up_counters (&dive->profile, &own->profile, sizeof dive->profile);
+  add_up_counters (&dive->counts, &own->counts, sizeof dive->counts);
+  add_up_counters (&dive->shore.count, &own->shore.count, sizeof dive->shore.count);
+  add_up_counters (&dive->shore.thesis, &own->shore.thesis, sizeof dive->shore.thesis);
 }

@@ -133,7 +133,7 @@ bt__line_tension (const bt__line *line, double s)
 }
 
 static double
-largest_of (const bt__dynamic *chain)
+largest_tension (const bt__dynamic *chain)
 {
   const double *t = bt__dynamic_tension (chain);
   double most = 0;
@@ -150,7 +150,7 @@ bt__line_tension_max (const bt__line *line)
   if (!line->chain)
     return line->tether->tension_max;
   ends = fmax (bt__line_tension (line, 0), bt__norm (bt__line_force (line)));
-  return fmax (ends, fmax (largest_of (line->chain), largest_of (line->far_chain)));
+  return fmax (ends, fmax (largest_tension (line->chain), largest_tension (line->far_chain)));
 }
 
 /* ---- The model's own points ---- */

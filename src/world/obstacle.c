@@ -10,7 +10,7 @@
 
 /* What its shape is drawn in: the world, or where its track has it now.  */
 static bt__frame
-frame_of (const bt_dive *dive, int i)
+obstacle_frame (const bt_dive *dive, int i)
 {
   int k = bt__model_carried (dive->model, i);
   return k >= 0 ? bt__dive_movers (dive, dive->now)[k].frame
@@ -69,7 +69,7 @@ bt_dive_obstacle (const bt_dive *dive, int i, bt_obstacle_view *view, bt_error *
   if (status != BT_OK)
     return status;
   shape = bt__model_shape (dive->model, i);
-  frame = frame_of (dive, i);
+  frame = obstacle_frame (dive, i);
   box = bt__model_carried (dive->model, i) >= 0 ? bt__framed_box (shape, &frame)
                                                 : bt__obstacle_box (shape);
   memset (view, 0, sizeof *view);
@@ -128,7 +128,7 @@ bt_obstacle_triangles (const bt_dive *dive, int i, size_t first, size_t n, bt_fa
   if (bt__check_part (dive, BT_PART_OBSTACLE, i, NULL) != BT_OK)
     return 0;
   shape = bt__model_shape (dive->model, i);
-  frame = frame_of (dive, i);
+  frame = obstacle_frame (dive, i);
   all = count_triangles (shape);
   for (; first < all && k < n && k < all - first; k++)
     facets[k] = facet_of (shape, &frame, first + k);

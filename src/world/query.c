@@ -81,7 +81,7 @@ bt_dive_vehicle (const bt_dive *dive, int i, bt_vehicle_view *view, bt_error *er
 /* ---- Tethers ---- */
 
 static bt_status
-ask (const bt_dive *dive, int i, bt__line *line, bt_error *error)
+ask_line (const bt_dive *dive, int i, bt__line *line, bt_error *error)
 {
   bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
   if (status == BT_OK)
@@ -90,14 +90,14 @@ ask (const bt_dive *dive, int i, bt__line *line, bt_error *error)
 }
 
 static int
-is_stuck (const bt__line *line)
+line_is_stuck (const bt__line *line)
 {
   return line->split ? line->split->stuck != BT__STUCK_NOT : line->tether->stuck != 0;
 }
 
 /* The straight distance between the ends of LINE: a parted one ends where it has parted.  */
 static double
-chord_of (const bt__line *line)
+end_distance (const bt__line *line)
 {
   const bt__shape *shape = &line->tether->shape;
   bt_vec3 end = line->tether->parted ? bt__line_node (line, bt__line_nodes (line) - 1) : shape->b;
@@ -109,7 +109,7 @@ bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *erro
 {
   bt__line line;
   const bt__tether *t;
-  bt_status status = ask (dive, i, &line, error);
+  bt_status status = ask_line (dive, i, &line, error);
   if (status != BT_OK)
     return status;
   t = line.tether;
@@ -117,7 +117,7 @@ bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *erro
                             .length = bt__line_out (&line),
                             .drum = dive->model->tethers[i].drum,
                             .target = t->winch_rate != 0 ? t->winch_target : t->length,
-                            .chord = chord_of (&line),
+                            .chord = end_distance (&line),
                             .tension_anchor = bt__line_tension (&line, 0),
                             .tension_end = bt__norm (bt__line_force (&line)),
                             .tension_max = bt__line_tension_max (&line),
@@ -126,7 +126,7 @@ bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *erro
                             .taut = t->taut != 0,
                             .parted = t->parted != 0,
                             .spooling = t->winch_rate != 0 || !bt__line_has_followed (&line),
-                            .stuck = is_stuck (&line),
+                            .stuck = line_is_stuck (&line),
                             .blocked = t->blocked != 0,
                             .settled = t->settled != 0,
                             .asleep = t->quiet >= BT__SLEEP_AFTER,
@@ -138,7 +138,7 @@ bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *erro
 static bt_status
 ask_at (const bt_dive *dive, int i, double s, bt__line *line, bt_error *error)
 {
-  bt_status status = ask (dive, i, line, error);
+  bt_status status = ask_line (dive, i, line, error);
   double length = status == BT_OK ? bt__line_length (line) : 0;
   if (status == BT_OK && !(s >= 0 && s <= fmax (length, line->tether->length)))
     return bt__fail (error, BT_ERR_DOMAIN, "an arc length lies in 0 to %g m, which are out, not %g",
@@ -187,7 +187,7 @@ share (const bt__line *line, int k, int n)
 static bt_status
 ask_many (const bt_dive *dive, int i, int n, bt__line *line, int *points, bt_error *error)
 {
-  bt_status status = ask (dive, i, line, error);
+  bt_status status = ask_line (dive, i, line, error);
   if (status != BT_OK)
     return status;
   if (n != 0 && n < 2)
@@ -212,7 +212,7 @@ bt_tether_tail (const bt_dive *dive, int i, bt_vec3 *points, int max)
 {
   bt__line line, tail;
   int n;
-  if (ask (dive, i, &line, NULL) != BT_OK || !line.tether->parted)
+  if (ask_line (dive, i, &line, NULL) != BT_OK || !line.tether->parted)
     return 0;
   tail = bt__line_tail (&line);
   n = bt__line_nodes (&tail);
@@ -248,7 +248,7 @@ bt_status
 bt_tether_tightest_bend (const bt_dive *dive, int i, double *radius, bt_error *error)
 {
   bt__line line;
-  bt_status status = ask (dive, i, &line, error);
+  bt_status status = ask_line (dive, i, &line, error);
   bt_vec3 p[3];
   if (status != BT_OK)
     return status;
@@ -268,7 +268,7 @@ bt_tether_energy (const bt_dive *dive, int i, bt_energy *energy, bt_error *error
   bt__line line;
   bt_water water = bt__dive_water (dive, dive->now);
   bt__dynamic_energy e;
-  bt_status status = ask (dive, i, &line, error);
+  bt_status status = ask_line (dive, i, &line, error);
   if (status != BT_OK)
     return status;
   if (!line.chain)
@@ -287,7 +287,7 @@ bt_tether_equilibria (const bt_dive *dive, int i, int max, bt_vec3 *shapes, int 
   bt__line line;
   const bt__tether *t;
   bt_water water = bt__dive_water (dive, dive->now);
-  bt_status status = ask (dive, i, &line, error);
+  bt_status status = ask_line (dive, i, &line, error);
   if (status != BT_OK)
     return status;
   t = line.tether;

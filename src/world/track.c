@@ -14,7 +14,7 @@
 #include "world/dive.h"
 
 static bt_status
-check_rows (const double *rows, int n, bt_error *error)
+check_track_rows (const double *rows, int n, bt_error *error)
 {
   if (!rows || n < 8 || n % 4 != 0)
     return bt__fail (error, BT_ERR_FORMAT, "a track has rows of t x y z, not %d numbers", n);
@@ -41,7 +41,7 @@ find_track (const bt_dive *dive, const double *rows, int n)
 bt_status
 bt_dive_add_track (bt_dive *dive, const double *rows, int n, int *index, bt_error *error)
 {
-  bt_status status = check_rows (rows, n, error);
+  bt_status status = check_track_rows (rows, n, error);
   size_t bytes = sizeof *rows * (size_t)n;
   bt__track *track;
   if (status != BT_OK)

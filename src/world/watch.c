@@ -106,7 +106,7 @@ bt__watch_string (const bt_dive *dive)
 
 /* Have room for strings of ROOM nodes.  What the tethers knew is forgotten.  */
 static int
-make_room (struct bt__watch *w, uint32_t room, bt__asker *asker)
+make_string_room (struct bt__watch *w, uint32_t room, bt__asker *asker)
 {
   if (room <= w->room)
     return 1;
@@ -147,15 +147,15 @@ is_open (const bt__scene *scene, const bt__switches *on)
 
 /* Links of an eightieth of the tether, near obstacles, within what a string can do well.  */
 static double
-mesh_of (double out, double core)
+string_mesh (double out, double core)
 {
   return fmax (fmin (out / 80, 0.6), 8 * core);
 }
 
 static bt__taut_config
-config_of (const bt__chart *chart, const bt__scene *scene, double out, double diameter)
+string_config (const bt__chart *chart, const bt__scene *scene, double out, double diameter)
 {
-  double core = bt__core (diameter), mesh = mesh_of (out, core);
+  double core = bt__core (diameter), mesh = string_mesh (out, core);
   return (bt__taut_config){ .scene = scene,
                             .on = &chart->on,
                             .core = 0.9 * core,
@@ -172,7 +172,7 @@ most_nodes (const bt__line *line)
 }
 
 static int
-take_nodes (bt__gaze *g, const bt__line *line)
+take_line_nodes (bt__gaze *g, const bt__line *line)
 {
   uint32_t n = (uint32_t)bt__line_nodes (line), most = most_nodes (line);
   if (most > g->node_room)
@@ -201,8 +201,8 @@ set_friction (const bt_dive *dive, const bt__tether *tether, bt__holds *holds)
     }
 }
 
-static bt_status
-no_memory (bt_error *error)
+bt_status
+bt__watch_no_memory (bt_error *error)
 {
   return bt__fail (error, BT_ERR_LIMIT, "no memory to watch a tether");
 }
@@ -220,7 +220,7 @@ bt__watch_longest (const bt_dive *dive, int i)
 static double
 nodes_wanted (double n, double out, double diameter)
 {
-  return ROOM_LEAST + 2 * n + 3 * floor (out / (FINER * mesh_of (out, bt__core (diameter))));
+  return ROOM_LEAST + 2 * n + 3 * floor (out / (FINER * string_mesh (out, bt__core (diameter))));
 }
 
 /* Have room for the string, and say what it is among.  */
@@ -231,7 +231,7 @@ make_ready (const bt_dive *dive, int i, struct bt__watch *w, bt__gaze *g, double
   bt_status status = bt__chart_ways (dive, i, g, error);
   if (status != BT_OK)
     return status;
-  g->config = config_of (g->ways, dive->model->scene, g->out, diameter);
+  g->config = string_config (g->ways, dive->model->scene, g->out, diameter);
   double wanted = nodes_wanted (g->n, g->out, diameter);
   double ahead = nodes_wanted (g->node_room, bt__watch_longest (dive, i), diameter);
   if (!(wanted <= ROOM_MOST))
@@ -239,13 +239,14 @@ make_ready (const bt_dive *dive, int i, struct bt__watch *w, bt__gaze *g, double
                      "the taut string of %g m of tether would have %g nodes; at most %d are solved",
                      g->out, wanted, ROOM_MOST);
   uint32_t room = (uint32_t)fmin (fmax (wanted, ahead), ROOM_MOST);
-  return make_room (w, room, bt__asker_of (dive)) && make_gaze_room (w, g) ? BT_OK
-                                                                           : no_memory (error);
+  return make_string_room (w, room, bt__asker_of (dive)) && make_gaze_room (w, g)
+             ? BT_OK
+             : bt__watch_no_memory (error);
 }
 
 /* Solve the string of tether I.  */
 static void
-solve (const bt_dive *dive, struct bt__watch *w, bt__gaze *g, const bt__tether *tether)
+solve_string (const bt_dive *dive, struct bt__watch *w, bt__gaze *g, const bt__tether *tether)
 {
   const bt__scene *scene = dive->model->scene;
   bt__taut_config fine = g->config;
@@ -279,7 +280,7 @@ bt__watch_look (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
   struct bt__watch *w = watch_of (dive);
   bt__gaze *g = w ? &w->gaze[i] : NULL;
   if (!w)
-    return no_memory (error);
+    return bt__watch_no_memory (error);
   *out = g;
   if (g->change == dive->changes + 1)
     return BT_OK;
@@ -287,8 +288,8 @@ bt__watch_look (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
   g->change = 0;
   g->has_taut = g->has_free = g->has_class = g->has_wound = 0;
   g->out = bt__line_length (&line);
-  if (!take_nodes (g, &line))
-    return no_memory (error);
+  if (!take_line_nodes (g, &line))
+    return bt__watch_no_memory (error);
   const uint8_t *off
       = dive->model->n_obstacles ? bt__dive_off (dive, dive->now, BT_PART_TETHER, i) : NULL;
   g->open = is_open (dive->model->scene, &(bt__switches){ off, 0 });
@@ -307,7 +308,7 @@ bt__watch_gaze (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
   bt_status status = bt__watch_look (dive, i, out, error);
   if (status == BT_OK && !(*out)->has_taut)
     {
-      solve (dive, dive->watch, *out, bt__dive_tether (dive, dive->now, i));
+      solve_string (dive, dive->watch, *out, bt__dive_tether (dive, dive->now, i));
       status = bt__stopped (bt__asker_of (dive), error);
       (*out)->has_taut = status == BT_OK;
     }
@@ -315,7 +316,7 @@ bt__watch_gaze (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
 }
 
 static bt_status
-prepare (const bt_dive *dive, int i, bt_error *error)
+prepare_look (const bt_dive *dive, int i, bt_error *error)
 {
   bt__gaze *g;
   bt_status status = bt__watch_look (dive, i, &g, error);
@@ -333,7 +334,7 @@ bt__watch_prepare (const bt_dive *dive, bt_error *error)
   /* The last of two rounds has room enough for the strings of all.  */
   for (int round = 0; round < 2 && dive->model->n_obstacles > 0; round++)
     for (int i = 0; i < dive->model->n_tethers && status == BT_OK; i++)
-      status = prepare (dive, i, error);
+      status = prepare_look (dive, i, error);
   return status == BT_ERR_INTERRUPTED ? status : BT_OK;
 }
 
@@ -371,7 +372,7 @@ bt__watch_tighten_way (const bt_dive *dive, bt__gaze *g, double *length, bt_erro
 /* Put the shortest way home known without the string into the way of G, and its length, m, into
  *LENGTH; INFINITY if no such way is known.  */
 static bt_status
-find_way (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error *error)
+find_free_way (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error *error)
 {
   int found;
   bt_status status = bt__watch_lay_way (dive, i, g, &found, error);
@@ -390,7 +391,7 @@ bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
     return status;
   double length = INFINITY, chord = bt__distance (g->node[0], g->node[g->n - 1]);
   if (g->taut_length > (1 + STRAIGHT) * chord)
-    status = find_way (dive, i, g, &length, error);
+    status = find_free_way (dive, i, g, &length, error);
   if (status != BT_OK)
     return status;
   if (!(length < g->taut_length))

@@ -94,6 +94,9 @@ bt_status bt__watch_tighten_way (const bt_dive *dive, bt__gaze *g, double *lengt
 bt_status bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
 bt_status bt__watch_class (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
 
+/* Fail for want of memory.  */
+bt_status bt__watch_no_memory (bt_error *error);
+
 /* The greatest paid-out length, m, of tether I before its winch gets another order.  */
 double bt__watch_longest (const bt_dive *dive, int i);
 

@@ -68,12 +68,6 @@ is_of (const bt_dive *dive, int i, const bt__chart *c)
   return c && c->version == bt__dive_subject (dive, dive->now, BT_PART_TETHER, i)->version;
 }
 
-static bt_status
-no_memory (bt_error *error)
-{
-  return bt__fail (error, BT_ERR_LIMIT, "no memory for what a tether is among");
-}
-
 bt_status
 bt__chart_ways (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 {
@@ -81,13 +75,13 @@ bt__chart_ways (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
     return BT_OK;
   bt__chart_release (g->ways);
   g->ways = new_chart (dive, i);
-  return g->ways ? BT_OK : no_memory (error);
+  return g->ways ? BT_OK : bt__watch_no_memory (error);
 }
 
 /* ---- The box in which there is anything ---- */
 
 static bt_vec3
-least (bt_vec3 a, bt_vec3 b)
+least_corner (bt_vec3 a, bt_vec3 b)
 {
   return bt__vec (fmin (a.x, b.x), fmin (a.y, b.y), fmin (a.z, b.z));
 }
@@ -101,8 +95,8 @@ most (bt_vec3 a, bt_vec3 b)
 /* The box about ANCHOR and the enabled obstacles within REACH, with room to go round them; returns
    0 if there are none.  */
 static int
-box_of (const bt__scene *scene, const bt__switches *on, bt_vec3 anchor, double reach, bt_vec3 *lo,
-        bt_vec3 *hi)
+box_about_anchor (const bt__scene *scene, const bt__switches *on, bt_vec3 anchor, double reach,
+                  bt_vec3 *lo, bt_vec3 *hi)
 {
   bt_vec3 far = bt__vec (reach, reach, reach), aside = bt__vec (0, 0, 0);
   bt_vec3 from = bt__sub (anchor, far), to = bt__add (anchor, far);
@@ -111,10 +105,10 @@ box_of (const bt__scene *scene, const bt__switches *on, bt_vec3 anchor, double r
   for (uint32_t k = 0; k < scene->solids; k++)
     {
       bt__aabb b = bt__obstacle_box (&scene->object[scene->solid[k]]);
-      bt_vec3 l = most (b.lo, from), h = least (b.hi, to);
+      bt_vec3 l = most (b.lo, from), h = least_corner (b.hi, to);
       if (!bt__is_on (on, scene->solid[k]) || l.x > h.x || l.y > h.y || l.z > h.z)
         continue;
-      *lo = least (*lo, l);
+      *lo = least_corner (*lo, l);
       *hi = most (*hi, h);
       found = 1;
     }
@@ -137,7 +131,7 @@ cell_of (bt_vec3 lo, bt_vec3 hi, int cells)
 
 /* The power of two that tether I reaches to: so that paying out does not mean growing anew.  */
 static double
-reach_of (const bt_dive *dive, int i)
+chart_reach (const bt_dive *dive, int i)
 {
   return exp2 (ceil (log2 (fmax (bt__watch_longest (dive, i), 1))));
 }
@@ -158,7 +152,7 @@ berth (const bt_dive *dive, int i, bt_vec3 p, double step)
    state keeps the place until the anchor has strayed from it; otherwise an anchor that swings about
    the middle between two grid points would need the charts of both in turn.  */
 static bt_vec3
-root_of (const bt_dive *dive, int i, const bt__gaze *g)
+chart_root (const bt_dive *dive, int i, const bt__gaze *g)
 {
   bt_vec3 anchor = g->node[0];
   bt__free_config config = { .scene = dive->model->scene, .on = g->config.on, .clear = CLEAR_MOST };
@@ -183,7 +177,7 @@ bt__watch_berth (const bt_dive *dive, int i, bt_vec3 *berth, bt_error *error)
   bt__gaze *g;
   bt_status status = bt__watch_look (dive, i, &g, error);
   if (status == BT_OK)
-    *berth = g->open ? g->node[0] : root_of (dive, i, g);
+    *berth = g->open ? g->node[0] : chart_root (dive, i, g);
   return status;
 }
 
@@ -191,7 +185,7 @@ static bt_status
 plant (const bt_dive *dive, bt__chart *c, double core, bt_error *error)
 {
   bt__free_config config = { .scene = dive->model->scene, .on = &c->on };
-  if (!box_of (config.scene, &c->on, c->anchor, c->reach, &config.lo, &config.hi))
+  if (!box_about_anchor (config.scene, &c->on, c->anchor, c->reach, &config.lo, &config.hi))
     return BT_OK;
   config.cell = cell_of (config.lo, config.hi, TREE_CELLS);
   config.clear = fmax (1.5 * core, fmin (CLEAR_MOST, 0.05 * config.cell));
@@ -201,14 +195,14 @@ plant (const bt_dive *dive, bt__chart *c, double core, bt_error *error)
 bt_status
 bt__chart_plant (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 {
-  double reach = reach_of (dive, i);
-  bt_vec3 anchor = root_of (dive, i, g);
+  double reach = chart_reach (dive, i);
+  bt_vec3 anchor = chart_root (dive, i, g);
   bt__chart *had = g->ways;
   if (had->reach == reach && bt__distance (had->anchor, anchor) == 0)
     return BT_OK;
   bt__chart *c = new_chart (dive, i);
   if (!c)
-    return no_memory (error);
+    return bt__watch_no_memory (error);
   c->reach = reach;
   c->anchor = anchor;
   bt_status status = plant (dive, c, g->config.core, error);
@@ -250,7 +244,7 @@ describe (const bt_dive *dive, bt__chart *c, bt_error *error)
   const bt__scene *scene = dive->model->scene;
   uint8_t *ground = calloc (scene->n, 1);
   if (!ground)
-    return no_memory (error);
+    return bt__watch_no_memory (error);
   for (uint32_t k = 0; k < scene->n; k++)
     ground[k] = dive->model->obstacles[scene->object[k].id].kind == BT_OBSTACLE_SEABED;
   bt_status status = bt__graph_new (&(bt__graph_config){ .scene = scene,
@@ -265,7 +259,7 @@ describe (const bt_dive *dive, bt__chart *c, bt_error *error)
 }
 
 static double
-gap_of (const bt_dive *dive, int i)
+chart_gap (const bt_dive *dive, int i)
 {
   return fmax (GAP_LEAST, bt__dive_tether (dive, dive->now, i)->props.diameter);
 }
@@ -273,12 +267,12 @@ gap_of (const bt_dive *dive, int i)
 bt_status
 bt__chart_frame (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 {
-  double gap = gap_of (dive, i);
+  double gap = chart_gap (dive, i);
   if (is_of (dive, i, g->frame) && g->frame->gap == gap)
     return BT_OK;
   bt__chart *c = new_chart (dive, i);
   if (!c)
-    return no_memory (error);
+    return bt__watch_no_memory (error);
   c->gap = gap;
   bt_status status = describe (dive, c, error);
   if (status != BT_OK)
@@ -295,7 +289,7 @@ static bt_status
 make_voxels (const bt_dive *dive, bt__chart *c, bt_vec3 anchor, bt_error *error)
 {
   bt__voxel_config config = { .scene = dive->model->scene, .on = &c->on };
-  box_of (config.scene, &c->on, anchor, c->reach, &config.lo, &config.hi);
+  box_about_anchor (config.scene, &c->on, anchor, c->reach, &config.lo, &config.hi);
   config.cell = cell_of (config.lo, config.hi, VOXELS);
   return bt__voxels_new (&config, bt__asker_of (dive), &c->voxels, error);
 }
@@ -321,13 +315,14 @@ has_words (const bt_dive *dive, int i, const bt__gaze *g, double gap)
   if (!is_of (dive, i, c) || c->gap != gap)
     return 0;
   return c->shadow
-         || (c->reach == reach_of (dive, i) && bt__distance (c->anchor, root_of (dive, i, g)) == 0);
+         || (c->reach == chart_reach (dive, i)
+             && bt__distance (c->anchor, chart_root (dive, i, g)) == 0);
 }
 
 bt_status
 bt__chart_words (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 {
-  double gap = gap_of (dive, i);
+  double gap = chart_gap (dive, i);
   if (has_words (dive, i, g, gap))
     return BT_OK;
   bt_status status = bt__chart_frame (dive, i, g, error);
@@ -335,10 +330,10 @@ bt__chart_words (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
     return status;
   bt__chart *c = new_chart (dive, i);
   if (!c)
-    return no_memory (error);
+    return bt__watch_no_memory (error);
   c->gap = gap;
-  c->reach = reach_of (dive, i);
-  c->anchor = root_of (dive, i, g);
+  c->reach = chart_reach (dive, i);
+  c->anchor = chart_root (dive, i, g);
   status = make_words (dive, c, &g->frame->graph, c->anchor, error);
   if (status != BT_OK)
     {

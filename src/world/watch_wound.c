@@ -24,12 +24,6 @@
 
 #define HELD_ANGLE 1e-3 /* radians: a string that bends so much at something is held by it */
 
-static bt_status
-no_memory (bt_error *error)
-{
-  return bt__fail (error, BT_ERR_LIMIT, "no memory for what a tether is wound about");
-}
-
 /* ---- Members ---- */
 
 /* Add the loops found about the members of G's graph to its windings.  */
@@ -63,8 +57,8 @@ make_loops (bt__gaze *g, bt__asker *asker, bt_error *error)
   bt__caught_free (&g->loops);
   free (g->favoured);
   g->favoured = calloc (g->frame->graph.edges + 1, 1);
-  bt_status status
-      = g->favoured ? bt__caught_new (&g->frame->graph, &g->loops, error) : no_memory (error);
+  bt_status status = g->favoured ? bt__caught_new (&g->frame->graph, &g->loops, error)
+                                 : bt__watch_no_memory (error);
   g->loops.asker = asker;
   return status;
 }
@@ -137,7 +131,7 @@ at_height (bt_vec3 a, bt_vec3 b, double z)
 /* Put what is between LOW and HIGH of the link from A to B into OUT; return true if something is.
  */
 static int
-clip (bt_vec3 a, bt_vec3 b, double low, double high, bt_vec3 out[2])
+clip_to_heights (bt_vec3 a, bt_vec3 b, double low, double high, bt_vec3 out[2])
 {
   if ((a.z < low && b.z < low) || (a.z > high && b.z > high))
     return 0;
@@ -157,7 +151,7 @@ wind_between (const bt__axis *axis, const bt_vec3 *p, uint32_t n, double low, do
   for (uint32_t k = 0; k + 1 < n; k++)
     {
       bt_vec3 part[2];
-      int in = clip (p[k], p[k + 1], low, high, part);
+      int in = clip_to_heights (p[k], p[k + 1], low, high, part);
       if (!in || (m > 0 && bt__distance (work[m - 1], part[0]) > 0))
         {
           sum += bt__winding (axis, work, m);
@@ -198,7 +192,7 @@ wind_about_mesh (const bt_dive *dive, int i, bt__gaze *g, uint32_t place, bt_err
     return status;
   bt_vec3 *work = malloc (2 * (size_t)g->taut->n * sizeof *work);
   if (!work)
-    return no_memory (error);
+    return bt__watch_no_memory (error);
   bt__axis_of (mesh, &axis);
   heights_of (dive, place, &low, &high);
   int windings = wind_between (&axis, g->taut->x, g->taut->n, low, high, work);
@@ -241,7 +235,7 @@ has_wound (const bt_dive *dive, bt__gaze *g)
 bt_status
 bt__watch_wind_ready (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 {
-  bt_status status = has_wound (dive, g) ? BT_OK : no_memory (error);
+  bt_status status = has_wound (dive, g) ? BT_OK : bt__watch_no_memory (error);
   if (status == BT_OK && !g->open)
     status = bt__chart_frame (dive, i, g, error);
   return status == BT_OK && !g->open ? make_loops (g, bt__asker_of (dive), error) : status;
@@ -267,7 +261,7 @@ doubt (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
     return BT_OK;
   bt_status status = bt__watch_class (dive, i, &g, error);
   if (status == BT_OK && g->word.n == 0 && !g->word.lost)
-    status = forget (dive, g) ? BT_OK : no_memory (error);
+    status = forget (dive, g) ? BT_OK : bt__watch_no_memory (error);
   return status;
 }
 
@@ -297,7 +291,7 @@ bt__watch_wound (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
   if (status != BT_OK || g->has_wound)
     return status;
   if (!forget (dive, g))
-    return no_memory (error);
+    return bt__watch_no_memory (error);
   if (!g->open)
     status = wind (dive, i, g, error);
   g->has_wound = status == BT_OK;
@@ -358,7 +352,7 @@ bt__watch_wound_still (const bt_dive *dive, int i, const int8_t *told, double le
   if (status != BT_OK)
     return status;
   if (!g->has_wound && !forget (dive, g))
-    return no_memory (error);
+    return bt__watch_no_memory (error);
   if (!g->has_wound && !g->open)
     return look_again (dive, i, g, told, least, same, error);
   *same = is_as (dive, g, told);
