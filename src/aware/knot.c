@@ -78,7 +78,7 @@ is_apart (double a, double b, double c, double p, double q)
   return fmax (fmax (a, b), c) < fmin (p, q) || fmin (fmin (a, b), c) > fmax (p, q);
 }
 
-/* Nonzero unless the segment P to Q surely misses the triangle A, B, C.  */
+/* True unless the segment P to Q surely misses the triangle A, B, C.  */
 static int
 may_pierce (bt_vec3 p, bt_vec3 q, const bt_vec3 *v)
 {

@@ -15,7 +15,7 @@ typedef struct bt__axis
   bt_vec3 at, along; /* along: unit */
 } bt__axis;
 
-/* Return nonzero and *OUT, the axis of an obstacle: from end to end of a capsule, along a cylinder,
+/* Return true and *OUT, the axis of an obstacle: from end to end of a capsule, along a cylinder,
    down through the middle of what has none.  A plane has no middle: 0.  */
 int bt__axis_of (const bt__obstacle *obstacle, bt__axis *out);
 

@@ -46,7 +46,7 @@ bt_status bt_live_stop (bt_live *live, bt_error *error);
    refused with BT_ERR_STALE and no call waits.  */
 void bt_live_hold (bt_live *live);
 void bt_live_let_go (bt_live *live);
-/* Return nonzero once LIVE is stopped.  */
+/* Return true once LIVE is stopped.  */
 int bt_live_stopped (bt_live *live);
 
 /* ---- Commands ---- */

@@ -59,7 +59,7 @@ bt_search *bt_search_new (void);
 void bt_search_free (bt_search *search);
 
 /* Search the catenary from (0, 0) to (H, V) with arc length S until the relative error is below
-   TOLERANCE (the thesis: 0.005), at most ITERATIONS.  Starts from *RESULT when WARM is nonzero,
+   TOLERANCE (the thesis: 0.005), at most ITERATIONS.  Starts from *RESULT when WARM is true,
    else from the thesis' guess xs = ((3 log10 S + log2 S)/4)^3, A = xs/2.  The relative forms of the
    errors are used where |V| or S exceeds one.  Returns BT_ERR_DOMAIN as bt_catenary_solve, and
    BT_OK with RESULT->converged = 0 when it does not settle.  */
@@ -136,7 +136,7 @@ bt_status bt_steady_march (const bt_line *line, const bt_water *water, bt_vec3 s
 
 /* Find the equilibrium of LINE in WATER between A and B by shooting over N intervals (GSL's hybrid
    root finder on the tension at A).  *PULL is the tension vector at A: the guess when WARM is
-   nonzero, and the answer.  Cold, the guess is the catenary under the mean load.  R, T as above.
+   true, and the answer.  Cold, the guess is the catenary under the mean load.  R, T as above.
    Returns BT_OK with REPORT->converged = 0 when it did not converge (then R and T are unspecified).
  */
 bt_status bt_steady_shoot (bt_steady *steady, const bt_line *line, const bt_water *water, bt_vec3 a,

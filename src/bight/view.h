@@ -30,7 +30,7 @@ typedef enum bt_thing_kind
 {
   BT_THING_TUBE = 0, /* a polyline POINTS of RADIUS, painted by VALUES if there are any */
   BT_THING_MESH,     /* triangles CORNER among POINTS, turned and put AT, SCALE times as large; of
-                        GROUND nonzero it is looked at as the bottom of the sea is */
+                        GROUND true it is looked at as the bottom of the sea is */
   BT_THING_BOX,      /* of SIZE, turned, its centre AT */
   BT_THING_SPHERE,   /* of RADIUS, AT */
   BT_THING_CYLINDER, /* of RADIUS, FROM one end TO the other */

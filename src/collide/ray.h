@@ -28,7 +28,7 @@ typedef struct bt__ray_hit
   uint32_t triangle;     /* its id, or BT__NO_TRIANGLE */
 } bt__ray_hit;
 
-/* Return nonzero and *OUT, the first thing RAY meets in SCENE.  Ranges are
+/* Return true and *OUT, the first thing RAY meets in SCENE.  Ranges are
    good to 1e-12 of the largest length involved but for grazing rays: no point of the ray before the
    range is deeper in a solid than that.  A ray that is not finite meets nothing.  */
 int bt__scene_ray (const bt__scene *scene, const bt__switches *on, const bt__ray *ray,
@@ -38,7 +38,7 @@ int bt__scene_ray (const bt__scene *scene, const bt__switches *on, const bt__ray
 int bt__ray_cast (const bt__scene *scene, const bt__switches *on, const bt__mover *mover,
                   uint32_t movers, const bt__ray *ray, bt__ray_hit *out, bt__count *count);
 
-/* Return nonzero and *OUT, the part with the shortest way out (its distance is minus that way), if
+/* Return true and *OUT, the part with the shortest way out (its distance is minus that way), if
    POINT is more than DEPTH (m, 0 or more) below the surface of a solid: box, sphere, cylinder,
    capsule, convex, or the ground under a plane; of several solids the one it is deepest in.  */
 int bt__scene_contains (const bt__scene *scene, const bt__switches *on, bt_vec3 point, double depth,

@@ -14,7 +14,7 @@ typedef struct bt__entry
   bt_vec3 normal; /* unit, of the surface; against the ray if it starts inside */
 } bt__entry;
 
-/* Return nonzero and *OUT if the ray from FROM along DIRECTION, unit, enters the obstacle, which is
+/* Return true and *OUT if the ray from FROM along DIRECTION, unit, enters the obstacle, which is
    no mesh, no farther than REACH.  */
 int bt__ray_obstacle (const bt__obstacle *obstacle, bt_vec3 from, bt_vec3 direction, double reach,
                       bt__entry *out);

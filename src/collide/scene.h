@@ -42,7 +42,7 @@ typedef struct bt__obstacle
   } shape;
 } bt__obstacle;
 
-/* OFF[i] nonzero: obstacle i does not count.  VERSION changes with every change of OFF.  NULL in
+/* OFF[i] true: obstacle i does not count.  VERSION changes with every change of OFF.  NULL in
    place of a bt__switches: all count.  */
 typedef struct bt__switches
 {
@@ -110,7 +110,7 @@ void bt__scene_near (const bt__scene *scene, const bt__switches *on, const bt__l
 void bt__scene_near_line (const bt__scene *scene, const bt__switches *on, const bt_vec3 *p,
                           uint32_t n, double reach, bt__nears *list, bt__count *count);
 
-/* Return nonzero and *OUT, the nearest part within CAP of LINK, if there is one.  */
+/* Return true and *OUT, the nearest part within CAP of LINK, if there is one.  */
 int bt__scene_nearest (const bt__scene *scene, const bt__switches *on, const bt__link *link,
                        double cap, bt__near *out, bt__count *count);
 
@@ -120,7 +120,7 @@ void bt__nears_by_object (bt__nears *list);
 /* Return true if LIST says that link LINK is within REACH of obstacle OBJECT.  */
 int bt__nears_has (const bt__nears *list, uint32_t link, uint32_t object, double reach);
 
-/* Return nonzero and *OUT, *GAP for the part nearest to the convex BODY, inside a ball about CENTRE
+/* Return true and *OUT, *GAP for the part nearest to the convex BODY, inside a ball about CENTRE
    of RADIUS, if it is within CAP.  Distances are 0 where they meet; planes may give less.  */
 int bt__scene_nearest_to_body (const bt__scene *scene, const bt__switches *on,
                                const bt__convex *body, bt_vec3 centre, double radius, double cap,

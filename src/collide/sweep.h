@@ -47,7 +47,7 @@ double bt__body_sweep (const bt__body *body, const bt__motion *motion, double ga
                        const bt__scene *scene, const bt__switches *on, bt__mover *mover,
                        uint32_t movers, bt__stop *stop, bt__count *count);
 
-/* Return nonzero and *STOP, the part nearest to BODY standing at FRAME, if it is within CAP; movers
+/* Return true and *STOP, the part nearest to BODY standing at FRAME, if it is within CAP; movers
    stand where the share DONE of their motion brings them.  */
 int bt__body_nearest (const bt__body *body, const bt__frame *frame, double cap,
                       const bt__scene *scene, const bt__switches *on, const bt__mover *mover,

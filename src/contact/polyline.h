@@ -107,7 +107,7 @@ double bt__polyline_move (bt__polyline *line, const bt__way *way, bt__hit *hit);
 
 /* The same, each node by its own share, as far as that stretches no link: what is slack goes on
    where something holds it elsewhere.  For a move that was stopped and cannot be helped.  Return
-   nonzero if anything moved.  */
+   true if anything moved.  */
 int bt__polyline_creep (bt__polyline *line, const bt__way *way);
 
 /* Move the inner node I alone toward TO, as far as is safe and as draws none of its links longer

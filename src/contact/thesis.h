@@ -198,7 +198,7 @@ void bt__collision_point (const bt__scene *scene, const bt__switches *on, const 
                           const bt__near *near, double depth, double radius, bt__near *parts,
                           bt__collision *out, bt__count *count);
 
-/* Nonzero and *T if LINK meets TRIANGLE, at the share T (thesis 3.4, with the test of alpha and
+/* True and *T if LINK meets TRIANGLE, at the share T (thesis 3.4, with the test of alpha and
    beta put right).  */
 int bt__meets_triangle (const bt__link *link, const bt__triangle *triangle, double *t);
 

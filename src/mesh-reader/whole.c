@@ -59,7 +59,7 @@ typedef struct ply
   int elements, properties;
 } ply;
 
-/* Take the next line, without its end, cut to fit LINE.  Nonzero unless the text is over.  */
+/* Take the next line, without its end, cut to fit LINE.  True unless the text is over.  */
 static int
 next_line (text *t, char line[LINE])
 {

@@ -135,7 +135,7 @@ hear_complaint (bt__child *child)
       child->words[child->n++] = some[i];
 }
 
-/* Wait until the child said something on either stream, or closed both: nonzero while it may say
+/* Wait until the child said something on either stream, or closed both: true while it may say
    more.  */
 static int
 await (bt__child *child, int *spoke)
@@ -181,7 +181,7 @@ rest (void)
   nanosleep (&(struct timespec){ 0, 1000000 }, NULL);
 }
 
-/* Collect the child's status: nonzero when there is nothing more to wait for.  */
+/* Collect the child's status: true when there is nothing more to wait for.  */
 static int
 collected (bt__child *child, int options, int *status)
 {

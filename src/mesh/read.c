@@ -32,7 +32,7 @@ static const uint64_t most_bytes = 2000000000;
 /* ---- The program ---- */
 
 /* BIGHT_MESH_READER names it, BIGHT_LIBEXEC its folder; else it is where it was installed.  Return
-   nonzero when it fits PATH.  */
+   true when it fits PATH.  */
 static int
 find_reader (char path[PATH_SIZE])
 {

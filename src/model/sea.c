@@ -19,7 +19,7 @@ block_wake (bt_vec3 at, double width, double height)
   return bt_wake_of (bt__sub (at, up), bt__add (at, up), width / 2);
 }
 
-/* Nonzero and *WAKE if DEF stands in the current.  */
+/* True and *WAKE if DEF stands in the current.  */
 static int
 wake_of (const bt_obstacle_def *def, bt_wake *wake)
 {

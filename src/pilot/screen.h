@@ -52,7 +52,7 @@ void bt__screen_text (bt__screen *screen, int column, int row, const char *text,
                       int32_t ink, int32_t paper);
 
 /* Write to *BYTES, the screen's own memory, what brings a terminal that shows what was written last
-   to the present; all of it when ALL is nonzero.  Return how many bytes; *CELLS, unless NULL,
+   to the present; all of it when ALL is true.  Return how many bytes; *CELLS, unless NULL,
    receives how many cells.  */
 size_t bt__screen_changes (bt__screen *screen, int all, const char **bytes, int *cells);
 

@@ -55,7 +55,7 @@ bt_status bt__render (bt__renderer *renderer, const bt_view *view, const bt__dra
                       bt__picture *picture, bt_error *error);
 
 /* Draw what is read, not seen, over PICTURE of VIEW: title, labels, scale, compass, depth, legend
-   (overlay.c); dark for PAPER nonzero, else bright.  */
+   (overlay.c); dark for PAPER true, else bright.  */
 bt_status bt__overlay (const bt_view *view, bt__picture *picture, int paper, bt_error *error);
 
 /* Draw VIEW as a plan on paper into PICTURE, made here: no context is needed (plan.c).  */

@@ -85,7 +85,7 @@ void bt__hold_at_tethers (const bt_dive *dive, const bt__state *from, bt__state 
 double bt__reach_along (const bt_dive *dive, bt__state *state, int i, bt_vec3 a, bt_vec3 b);
 
 /* Solve the tethers of STATE whose ends, length, properties or current changed, and, when PASSES is
-   nonzero, let the moving lines go on by a step (resolve.c).  */
+   true, let the moving lines go on by a step (resolve.c).  */
 bt_status bt__resolve_tethers (bt_dive *dive, bt__state *state, int passes, bt_error *error);
 
 /* The same of tether I alone, whose turn it is.  */

@@ -51,7 +51,7 @@ bt__loads_at (const bt__loads *loads, bt_vec3 u, bt_vec3 t)
 }
 
 /* March from ORIGIN with PULL over LENGTH in N Runge-Kutta steps.  *END receives the far end
-   relative to ORIGIN (small numbers keep their digits).  R and T may be NULL.  Return nonzero on
+   relative to ORIGIN (small numbers keep their digits).  R and T may be NULL.  Return true on
    success, zero when the tension vanishes or a value is not finite.  */
 int bt__march (const bt__loads *loads, bt_vec3 origin, bt_vec3 pull, double length, int n,
                bt_vec3 *end, bt_vec3 *r, bt_vec3 *t);

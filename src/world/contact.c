@@ -231,7 +231,7 @@ look_at_subject (const bt_dive *dive, bt_part part, int i, int obstacle, look *l
   return BT_OK;
 }
 
-/* The nearest part within *CAP of LINK; returns nonzero and lowers *CAP.  */
+/* The nearest part within *CAP of LINK; returns true and lowers *CAP.  */
 static int
 nearest_part (const bt_dive *dive, const look *look, const bt__link *link, double *cap,
               bt__near *near, bt_clearance *out)
