@@ -142,26 +142,17 @@ bt_wake bt_wake_of (bt_vec3 a, bt_vec3 b, double radius);
    the root of the way), whose momentum is that of a drag coefficient of 1.25.  */
 double bt_wake_share (const bt_wake *wake, bt_vec3 ambient, bt_vec3 p);
 
-enum
-{
-  BT_WAKES_WIDE = 4
-};
+/* The wakes of a sea.  A place asks only the wakes near by, whatever the number of all.  */
+typedef struct bt_lees bt_lees;
 
-/* Wakes side by side, as water asks them; with a radius of 0 where there is none.  */
-typedef struct bt_wakes
-{
-  double a[3][BT_WAKES_WIDE], axis[3][BT_WAKES_WIDE];
-  double length[BT_WAKES_WIDE], radius[BT_WAKES_WIDE];
-} bt_wakes;
+/* Make *OUT of the N WAKES; NULL if N is 0.  BT_ERR_LIMIT without memory.  Free *OUT with
+   bt_lees_free (NULL is allowed).  */
+bt_status bt_lees_new (const bt_wake *wakes, size_t n, bt_lees **out, bt_error *error);
+void bt_lees_free (bt_lees *lees);
 
-/* How many of these N wakes fill.  */
-#define BT_WAKES_BLOCKS(n) (((n) + BT_WAKES_WIDE - 1) / BT_WAKES_WIDE)
-
-/* Make WAKE number I of WAKES, which were zero.  */
-void bt_wakes_put (bt_wakes *wakes, size_t i, const bt_wake *wake);
-
-/* Return the share of AMBIENT that all N of WAKES leave at P: the product of theirs.  */
-double bt_wakes_share (const bt_wakes *wakes, size_t n, bt_vec3 ambient, bt_vec3 p);
+/* Return the share of the current AMBIENT left at P by all wakes of LEES: the product of their
+   shares.  */
+double bt_lees_share (const bt_lees *lees, bt_vec3 ambient, bt_vec3 p);
 
 /* ---- All of it ---- */
 
@@ -170,8 +161,7 @@ typedef struct bt_sea
 {
   const bt_current_grid *grid; /* for BT_CURRENT_GRID */
   const bt_waves *waves;       /* or NULL */
-  const bt_wakes *wakes;
-  size_t n_wakes; /* single ones */
+  const bt_lees *lees;         /* or NULL */
 } bt_sea;
 
 BT_END_DECLS

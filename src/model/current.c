@@ -133,9 +133,9 @@ bt_water_current (const bt_water *water, bt_vec3 p)
 {
   bt_vec3 v = open_current (water, p);
   const bt_sea *sea = water->sea;
-  if (!sea || sea->n_wakes == 0 || (v.x == 0 && v.y == 0 && v.z == 0))
+  if (!sea || !sea->lees || (v.x == 0 && v.y == 0 && v.z == 0))
     return v;
-  return bt__scale (bt_wakes_share (sea->wakes, sea->n_wakes, v, p), v);
+  return bt__scale (bt_lees_share (sea->lees, v, p), v);
 }
 
 bt_vec3
@@ -187,7 +187,7 @@ int
 bt_water_is_uniform (const bt_water *water)
 {
   const bt_current *current = water->current;
-  if (water_has_waves (water) || (water->sea && water->sea->n_wakes > 0))
+  if (water_has_waves (water) || (water->sea && water->sea->lees))
     return 0;
   return !current || current->kind == BT_CURRENT_STILL || current->kind == BT_CURRENT_UNIFORM
          || current->kind == BT_CURRENT_TIDE;

@@ -345,7 +345,7 @@ bt_model_release (bt_model *model)
   if (!model || atomic_fetch_sub (&model->references, 1) > 1)
     return;
   bt_current_grid_free (model->sea.grid);
-  free (model->wakes);
+  bt_lees_free (model->lees);
   free (model->vehicles);
   free (model->types);
   free (model->rigs);

@@ -44,8 +44,7 @@ struct bt_model
   bt__asker *asker; /* while it is made; or NULL */
   bt_sea_def sea;
   bt_waves waves;
-  bt_wakes *wakes; /* of what stands in the current */
-  size_t n_wakes;
+  bt_lees *lees; /* of the obstacles that stand in the current; NULL: none */
   int n_vehicles, n_tethers;
   bt_vehicle_def *vehicles;
   bt__vehicle_type *types; /* of each; of one without mass what it would be as a dead weight */

@@ -41,20 +41,22 @@ wake_of (const bt_obstacle_def *def, bt_wake *wake)
 }
 
 static bt_status
-find_wakes (bt_model *model, bt_error *error)
+find_lees (bt_model *model, bt_error *error)
 {
+  size_t n = 0;
+  bt_status status;
+  bt_wake *wakes;
   if (model->n_obstacles == 0)
     return BT_OK;
-  model->wakes = calloc (BT_WAKES_BLOCKS ((size_t)model->n_obstacles), sizeof *model->wakes);
-  if (!model->wakes)
+  wakes = malloc ((size_t)model->n_obstacles * sizeof *wakes);
+  if (!wakes)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the lee of obstacles");
   for (int i = 0; i < model->n_obstacles; i++)
-    {
-      bt_wake wake;
-      if (bt__model_carried (model, i) < 0 && wake_of (&model->obstacles[i], &wake))
-        bt_wakes_put (model->wakes, model->n_wakes++, &wake);
-    }
-  return BT_OK;
+    if (bt__model_carried (model, i) < 0 && wake_of (&model->obstacles[i], &wakes[n]))
+      n++;
+  status = bt_lees_new (wakes, n, &model->lees, error);
+  free (wakes);
+  return status;
 }
 
 /* ---- All of it ---- */
@@ -69,7 +71,7 @@ bt__compile_sea (bt_model *model, bt_error *error)
     return bt__about ("sea", "", error, &inner);
   if (sea->current.kind == BT_CURRENT_GRID && !sea->grid)
     return bt__fail (error, BT_ERR_DEF, "this world's current is a grid, and none was given");
-  return find_wakes (model, error);
+  return find_lees (model, error);
 }
 
 uint64_t

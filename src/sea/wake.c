@@ -4,10 +4,13 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <math.h>
+
 #include <bight/sea.h>
 
 #include "math/four.h"
 #include "math/vec.h"
+#include "sea/lees.h"
 
 /* In diameters.  */
 #define CLOSE 3.0
@@ -26,18 +29,16 @@ bt_wake_of (bt_vec3 a, bt_vec3 b, double radius)
 }
 
 void
-bt_wakes_put (bt_wakes *wakes, size_t i, const bt_wake *wake)
+bt__wakes_put (bt__wakes *block, size_t i, const bt_wake *wake)
 {
-  bt_wakes *block = wakes + i / BT_WAKES_WIDE;
-  size_t k = i % BT_WAKES_WIDE;
-  block->a[0][k] = wake->a.x;
-  block->a[1][k] = wake->a.y;
-  block->a[2][k] = wake->a.z;
-  block->axis[0][k] = wake->axis.x;
-  block->axis[1][k] = wake->axis.y;
-  block->axis[2][k] = wake->axis.z;
-  block->length[k] = wake->length;
-  block->radius[k] = wake->radius;
+  block->a[0][i] = wake->a.x;
+  block->a[1][i] = wake->a.y;
+  block->a[2][i] = wake->a.z;
+  block->axis[0][i] = wake->axis.x;
+  block->axis[1][i] = wake->axis.y;
+  block->axis[2][i] = wake->axis.z;
+  block->length[i] = wake->length;
+  block->radius[i] = wake->radius;
 }
 
 /* A place among four wakes.  */
@@ -49,7 +50,7 @@ typedef struct place
 } place;
 
 static BT__HOT place
-find_place (const bt_wakes *w, bt_vec3 u, bt_vec3 p)
+find_place (const bt__wakes *w, bt_vec3 u, bt_vec3 p)
 {
   bt__four x = p.x - bt__four_load (w->a[0]), y = p.y - bt__four_load (w->a[1]),
            z = p.z - bt__four_load (w->a[2]);
@@ -101,31 +102,59 @@ deficit (const place *at, bt__four_mask lee, double speed)
   return DEFICIT * bt__four_sqrt (c2) * fade * minus * ends * (across / speed);
 }
 
-static BT__WIDE double
-share_at (const bt_wakes *wakes, size_t n, bt_vec3 ambient, bt_vec3 p)
+/* The four shares left by the blocks of wakes from BLOCK to END.  */
+static BT__HOT bt__four
+share_of_blocks (const bt__wakes *block, const bt__wakes *end, bt_vec3 ambient, double speed,
+                 bt_vec3 p)
 {
   bt__four share = { 1, 1, 1, 1 };
-  double speed = bt__norm (ambient);
-  for (size_t i = 0; i < n; i += BT_WAKES_WIDE, wakes++)
+  for (; block < end; block++)
     {
-      place at = find_place (wakes, ambient, p);
+      place at = find_place (block, ambient, p);
       bt__four_mask lee = is_in_lee (&at, speed * speed);
       if (bt__four_which (lee))
         share *= 1 - deficit (&at, lee, speed);
+    }
+  return share;
+}
+
+static BT__HOT int
+is_in_box (const bt__lee_node *node, bt_vec3 p)
+{
+  return p.x >= node->low[0] && p.x <= node->high[0] && p.y >= node->low[1] && p.y <= node->high[1]
+         && p.z >= node->low[2] && p.z <= node->high[2];
+}
+
+static BT__WIDE double
+share_at (const bt_lees *lees, bt_vec3 ambient, bt_vec3 p)
+{
+  bt__four share = { 1, 1, 1, 1 };
+  double speed = bt__norm (ambient);
+  for (uint32_t i = 0; i < lees->nodes;)
+    {
+      const bt__lee_node *node = lees->node + i;
+      int inside = is_in_box (node, p);
+      i = inside ? i + 1 : node->skip;
+      if (inside && node->blocks > 0)
+        share *= share_of_blocks (lees->block + node->first,
+                                  lees->block + node->first + node->blocks, ambient, speed, p);
     }
   return (share[0] * share[2]) * (share[1] * share[3]);
 }
 
 double
-bt_wakes_share (const bt_wakes *wakes, size_t n, bt_vec3 ambient, bt_vec3 p)
+bt_lees_share (const bt_lees *lees, bt_vec3 ambient, bt_vec3 p)
 {
-  return share_at (wakes, n, ambient, p);
+  return share_at (lees, ambient, p);
 }
 
 double
 bt_wake_share (const bt_wake *wake, bt_vec3 ambient, bt_vec3 p)
 {
-  bt_wakes alone = { 0 };
-  bt_wakes_put (&alone, 0, wake);
-  return bt_wakes_share (&alone, 1, ambient, p);
+  bt__wakes block = { 0 };
+  bt__lee_node all
+      = { { -INFINITY, -INFINITY, -INFINITY }, { INFINITY, INFINITY, INFINITY }, 0, 1, 1 };
+  bt_lees alone = { 1, 1, &all, &block };
+  bt__wakes_put (&block, 0, wake);
+  return share_at (&alone, ambient, p);
 }

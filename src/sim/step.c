@@ -218,7 +218,7 @@ count_work (bt_dive *dive)
     }
   dive->profile.body_steps += bodies;
   dive->profile.wave_samples += state->waves.n > 0 ? bodies + places : 0;
-  dive->profile.lee_samples += state->wake && model->n_wakes > 0 ? bodies + places : 0;
+  dive->profile.lee_samples += state->wake && model->lees ? bodies + places : 0;
 }
 
 bt_status

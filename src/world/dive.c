@@ -30,9 +30,8 @@ sea_of (const bt_dive *dive, const bt__state *state)
   const bt_model *model = dive->model;
   *sea = (bt_sea){ .grid = model->sea.grid,
                    .waves = state->waves.n > 0 ? &state->waves : NULL,
-                   .wakes = model->wakes,
-                   .n_wakes = state->wake ? model->n_wakes : 0 };
-  return sea->grid || sea->waves || sea->n_wakes > 0 ? sea : NULL;
+                   .lees = state->wake ? model->lees : NULL };
+  return sea->grid || sea->waves || sea->lees ? sea : NULL;
 }
 
 bt_water

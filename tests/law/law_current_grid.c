@@ -236,17 +236,24 @@ test_lee_is_smooth (void **state)
   assert_true (bt_wake_share (&pile, bt__vec (0, 0, 1), bt__vec (2, 0, -9)) == 1);
 }
 
+static bt_lees *
+lees_of (const bt_wake *wakes, size_t n)
+{
+  bt_error error;
+  bt_lees *lees;
+  assert_int_equal (bt_lees_new (wakes, n, &lees, &error), BT_OK);
+  return lees;
+}
+
 /* The water behind two piles has both their lees, a turned scene the same ones.  */
 static void
 test_lees_in_water (void **state)
 {
   (void)state;
   bt_wake other = bt_wake_of (bt__vec (4, 0, 0), bt__vec (4, 0, -30), 0.5);
-  bt_wakes two = { 0 };
-  bt_wakes_put (&two, 0, &pile);
-  bt_wakes_put (&two, 1, &other);
+  bt_lees *two = lees_of ((bt_wake[]){ pile, other }, 2);
   bt_current current = { .kind = BT_CURRENT_UNIFORM, .velocity = { { 0.6, 0, 0 } } };
-  bt_sea sea = { NULL, NULL, &two, 2 };
+  bt_sea sea = { NULL, NULL, two };
   bt_water water = { 1025, 9.81, 40, 0, &current, NULL, NULL, &sea };
   bt_vec3 p = { 6, 0.2, -8 };
   double expected = 0.6 * share (6, 0.2, -8) * bt_wake_share (&other, east, p);
@@ -257,6 +264,7 @@ test_lees_in_water (void **state)
   bt_wake turned = bt_wake_of (bt__vec (0, 2 * s, 2 * c), bt__vec (0, -30 * s, -30 * c), 0.5);
   bt_vec3 q = bt__vec (2, 0.3 * c - 9 * s, -0.3 * s - 9 * c);
   assert_close (bt_wake_share (&turned, east, q), share (2, 0.3, -9), 1e-12, "turned");
+  bt_lees_free (two);
 }
 
 /* In [-1, 1), from *SEED, which goes on.  */
@@ -307,27 +315,26 @@ test_many_lees (void **state)
   (void)state;
   enum
   {
-    MOST = 11
+    MOST = 70
   };
   uint64_t seed = 11;
   int felt = 0, asked = 0;
   for (int round = 0; round < 3000; round++)
     {
-      bt_wakes wakes[BT_WAKES_BLOCKS (MOST)] = { 0 };
       bt_wake one[MOST];
-      size_t n = (size_t)round % (MOST + 1);
+      size_t n = 1 + (size_t)round % (round % 10 ? 11 : MOST);
       for (size_t i = 0; i < n; i++)
         {
           bt_vec3 a = draw_vec (&seed, 10);
           double length = round % 7 ? pow (10, 2 * draw (&seed)) : 0;
           one[i]
               = bt_wake_of (a, bt__add (a, draw_vec (&seed, length)), exp (2 * draw (&seed)) / 3);
-          bt_wakes_put (wakes, i, &one[i]);
         }
-      bt_vec3 flow = round % 5 || n == 0 ? draw_vec (&seed, 1) : one[0].axis;
+      bt_lees *lees = lees_of (one, n);
+      bt_vec3 flow = round % 5 ? draw_vec (&seed, 1) : one[0].axis;
       for (int k = 0; k < 40; k++)
         {
-          bt_vec3 p = draw_vec (&seed, 15);
+          bt_vec3 p = draw_vec (&seed, round % 3 ? 15 : 60);
           double product = 1;
           for (size_t i = 0; i < n; i++)
             {
@@ -336,11 +343,12 @@ test_many_lees (void **state)
               product *= one_share;
             }
           feclearexcept (FE_ALL_EXCEPT);
-          assert_close (bt_wakes_share (wakes, n, flow, p), product, 1e-14, "many");
+          assert_close (bt_lees_share (lees, flow, p), product, 1e-14, "many");
           assert_false (fetestexcept (FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW));
           felt += product < 1;
           asked++;
         }
+      bt_lees_free (lees);
     }
   assert_true (felt > asked / 10 && felt < asked * 9 / 10);
 }
