@@ -130,6 +130,29 @@ heed_winch (const bt_dive *dive, bt__state *state, int i, const bt__dynamic *cha
     tether->stalling = 0;
 }
 
+/* The interval of CHAIN with the greatest tension, the first or the last if an end pulls harder.
+   The report of the step tells an interval of the mesh before nodes came or went.  */
+static int
+most_tense (const bt__dynamic *chain)
+{
+  const double *tension = bt__dynamic_tension (chain);
+  double most = -INFINITY;
+  int at = 0;
+  for (int j = 0; j < chain->n; j++)
+    if (tension[j] > most)
+      {
+        most = tension[j];
+        at = j;
+      }
+  for (int k = 0; k < 2; k++)
+    if (bt__norm (chain->pull[k]) > most)
+      {
+        most = bt__norm (chain->pull[k]);
+        at = k ? (int)chain->n - 1 : 0;
+      }
+  return at;
+}
+
 bt_status
 bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
@@ -177,7 +200,7 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
       bt__wake_touched (dive, state, i, part);
   /* The tensions of a step that did not converge prove nothing.  */
   if (!tether->parted && report.converged && report.tension > tether->props.breaking_load)
-    bt__part_chain (dive, state, i, report.at);
+    bt__part_chain (dive, state, i, most_tense (chain));
   else if (tether->props.model == BT_MODEL_AUTO && state->step % BT__REMESH_EVERY == 0)
     return bt__remesh_chain (dive, state, i, error);
   return BT_OK;

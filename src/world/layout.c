@@ -195,27 +195,26 @@ bt__dive_held (const bt_dive *dive, bt__state *state, int i)
 
 /* ---- What is live ---- */
 
-typedef struct extent
-{
-  size_t at, size;
-} extent;
-
+/* Of a store: its wear, and of both parts of a line the chain and its contacts.  */
 enum
 {
-  EXTENTS = 5
+  EXTENTS = 1 + 2 * (BT__DYNAMIC_RANGES + 1)
 };
 
 static int
-chain_extents (const bt_dive *dive, const bt__state *state, int i, extent *out)
+chain_extents (const bt_dive *dive, const bt__state *state, int i, bt__range *out)
 {
   const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
-  int n = 0;
+  int n = 0, room = bt__chain_room (&dive->model->tethers[i]);
   for (int part = 0; part <= (tether->parted != 0); part++)
     {
       size_t at = (size_t)part * dive->line[i].part, chain = dive->line[i].chain;
       size_t anchors = bt__anchors_live (bt__dive_anchors (dive, (bt__state *)state, i, part));
-      out[n++] = (extent){ at, chain };
-      out[n++] = (extent){ at + chain, anchors };
+      int first = n;
+      n += bt__dynamic_live (bt__dive_chain (dive, (bt__state *)state, i, part), room, out + n);
+      for (int k = first; k < n; k++)
+        out[k].at += at;
+      out[n++] = (bt__range){ at + chain, anchors };
     }
   return n;
 }
@@ -236,27 +235,27 @@ drape_live (const bt_dive *dive, const bt__state *state, int i)
 
 /* The parts of the store of tether I that are in use.  */
 static int
-live_extents (const bt_dive *dive, const bt__state *state, int i, extent *out)
+live_extents (const bt_dive *dive, const bt__state *state, int i, bt__range *out)
 {
   const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
   const bt_tether_def *def = &dive->model->tethers[i];
   int n = 0;
   if (tether->wear != 0)
-    out[n++] = (extent){ shape_size (dive->model, i), wear_size (def) };
+    out[n++] = (bt__range){ shape_size (dive->model, i), wear_size (def) };
   if (tether->shape.form == BT__FORM_CHAIN)
     return n + chain_extents (dive, state, i, out + n);
   size_t arrays = arrays_size (def);
   if (bt__has_nodes (tether->shape.form))
-    out[n++] = (extent){ 0, arrays };
+    out[n++] = (bt__range){ 0, arrays };
   if (tether->drape)
-    out[n++] = (extent){ arrays, drape_live (dive, state, i) };
+    out[n++] = (bt__range){ arrays, drape_live (dive, state, i) };
   return n;
 }
 
 void
 bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from)
 {
-  extent live[EXTENTS];
+  bt__range live[EXTENTS];
   memcpy (to, from, fixed_size (dive));
   for (int i = 0; i < dive->model->n_tethers; i++)
     for (int k = live_extents (dive, from, i, live); k-- > 0;)
@@ -267,7 +266,7 @@ bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from)
 uint64_t
 bt__hash_state (const bt_dive *dive, const bt__state *state)
 {
-  extent live[EXTENTS];
+  bt__range live[EXTENTS];
   uint64_t h = bt__hash (state, fixed_size (dive), 0);
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
@@ -281,7 +280,7 @@ bt__hash_state (const bt_dive *dive, const bt__state *state)
 size_t
 bt__live_size (const bt_dive *dive, const bt__state *state)
 {
-  extent live[EXTENTS];
+  bt__range live[EXTENTS];
   size_t size = fixed_size (dive);
   for (int i = 0; i < dive->model->n_tethers; i++)
     for (int k = live_extents (dive, state, i, live); k-- > 0;)
@@ -292,7 +291,7 @@ bt__live_size (const bt_dive *dive, const bt__state *state)
 int
 bt__layout_fits (const bt_dive *dive, const bt__state *state)
 {
-  extent live[EXTENTS];
+  bt__range live[EXTENTS];
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       size_t store = bt__store_size (dive->model, i);
