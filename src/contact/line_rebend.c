@@ -257,11 +257,14 @@ pass_nodes (bt__line_job *k, bt__bends *s, int q)
   return passed;
 }
 
-/* Take out one node that nothing needs any more.  */
+/* Take out one node that nothing needs any more.  A mesh that keeps to an error judges that
+   itself: it wants short intervals where the line bends.  */
 static void
 take_spare (bt__line_job *k, bt__bends *s)
 {
   const double *rest = bt__dynamic_rest (k->d);
+  if (k->in->mesh.error > 0)
+    return;
   for (int64_t i = 2; i < k->d->n; i++)
     if (rest[i - 1] + rest[i] < SPARE * k->d->piece && !bt__bends_has (s, i)
         && !bt__bends_has (s, i - 1) && !bt__bends_has (s, i + 1) && bt__bends_take_out (k, s, i))

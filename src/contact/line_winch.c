@@ -92,11 +92,12 @@ flag (uint8_t *kept, int64_t first, int64_t last, int64_t n)
     kept[i] = 1;
 }
 
-/* Flag in KEPT the nodes that are held and the next WIDE to either side.  */
+/* Flag in KEPT the nodes that are held and the next WIDE to either side, and those about lumps.  */
 static void
 keep_held (const bt__line_job *k, const bt__bends *s, int wide, uint8_t *kept)
 {
   memset (kept, 0, (size_t)k->d->n + 1);
+  bt__dynamic_keep_lumps (k->d, k->in, wide == 1, kept);
   for (int q = 0; q < s->n; q++)
     flag (kept, s->node[q] - wide, s->node[q] + wide, k->d->n);
 }
@@ -147,18 +148,30 @@ halve_one (bt__line_job *k, bt__bends *s)
   uint8_t *kept = k->w->restart;
   keep_held (k, s, ABOUT, kept);
   keep_touching (k, ABOUT, kept);
-  int64_t j = bt__dynamic_worst_interval (k->d, kept);
+  int64_t j = bt__dynamic_worst_interval (k->d, &k->in->mesh, kept);
   if (j == 0)
     return;
   put_in (k, s, j, 0.5);
   bt__dynamic_refit (k->d);
 }
 
+/* The nodes at which lumps make corners of the line, or NULL.  */
+static const uint8_t *
+corners (const bt__line_job *k)
+{
+  uint8_t *kept = k->w->restart;
+  if (k->in->n_lumps == 0)
+    return NULL;
+  memset (kept, 0, (size_t)k->d->n + 1);
+  bt__dynamic_keep_lumps (k->d, k->in, 0, kept);
+  return kept;
+}
+
 static void
 tune (bt__line_job *k, bt__bends *s)
 {
   bt__dynamic_mesh mesh = mesh_of (k, s);
-  int wants = bt__dynamic_wants (k->d, &mesh);
+  int wants = bt__dynamic_wants (k->d, &mesh, corners (k));
   if (wants < 0)
     spare_one (k, s, 0);
   else if (wants > 0)

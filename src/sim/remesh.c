@@ -31,26 +31,28 @@ enum
   FEWEST = 8
 };
 
-/* A line hauled in is not cut into shorter intervals than this, m.  */
+/* A line hauled in, or crumpled, is not cut into shorter intervals than this, m.  */
 #define SHORTEST 0.05
 
 /* The winch leaves some room to the nodes that contact puts in.  */
 #define WINCH_SHARE 0.875
 #define WINCH_AIM 0.5 /* of the accuracy: what the nodes that come and go are judged by */
 
-/* The mesh of tether I; a line with its original length keeps its original nodes.  */
+/* The mesh of tether I; a line with its original length keeps its original nodes: its mesh has no
+   error to keep to.  */
 bt__dynamic_mesh
 bt__chain_mesh (const bt_dive *dive, const bt__state *state, const bt__tether *tether, int i)
 {
   const bt_tether_def *def = &dive->model->tethers[i];
-  int adapts = tether->props.model == BT_MODEL_AUTO;
+  int adapts = tether->props.model == BT_MODEL_AUTO, wound = tether->length != def->length;
   int wanted = adapts ? FEWEST : (int)tether->props.nodes;
   int fewest = (int)fmax (1, fmin (wanted, tether->length / SHORTEST));
   return (bt__dynamic_mesh){ .fewest = fewest,
                              .most = (int)fmax (wanted, WINCH_SHARE * bt__chain_room (def)),
-                             .error = WINCH_AIM * tether->props.accuracy / BT__CHAIN_ERROR,
-                             .idle = !adapts && tether->length != def->length
-                                     && state->step % BT__REMESH_EVERY == 0 };
+                             .error
+                             = wound ? WINCH_AIM * tether->props.accuracy / BT__CHAIN_ERROR : 0,
+                             .shortest = SHORTEST,
+                             .idle = !adapts && wound && state->step % BT__REMESH_EVERY == 0 };
 }
 
 /* How many intervals the chain of N with the estimated ERROR should have, at most ROOM.  */

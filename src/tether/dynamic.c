@@ -29,9 +29,9 @@ bt__dynamic_work_free (bt__dynamic_work *w)
   if (!w)
     return;
   void *arrays[]
-      = { w->X,    w->d,         w->rhs,      w->keep,     w->last,  w->lam,   w->link,
-          w->node, w->extra,     w->diag,     w->off,      w->up,    w->up2,   w->pivot,
-          w->bend, w->bend_diag, w->bend_off, w->bend_far, w->whole, w->spare, w->by_flow };
+      = { w->X,        w->d,        w->rhs,   w->keep,  w->last,    w->lam,   w->link, w->node,
+          w->extra,    w->diag,     w->off,   w->up,    w->up2,     w->pivot, w->bend, w->bend_diag,
+          w->bend_off, w->bend_far, w->whole, w->spare, w->by_flow, w->kept };
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
     free (arrays[i]);
   free (w);
@@ -60,7 +60,8 @@ bt__dynamic_work_new (int n_max)
         && (w->bend_off = calloc (n, sizeof *w->bend_off))
         && (w->bend_far = calloc (n, sizeof *w->bend_far))
         && (w->whole = calloc (n, sizeof *w->whole)) && (w->spare = calloc (n, sizeof *w->spare))
-        && (w->by_flow = calloc (BT__BENTS * n, sizeof *w->by_flow));
+        && (w->by_flow = calloc (BT__BENTS * n, sizeof *w->by_flow))
+        && (w->kept = calloc (n, sizeof *w->kept));
   if (whole)
     return w;
   bt__dynamic_work_free (w);
@@ -239,6 +240,6 @@ bt__dynamic_step (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *
     return status;
   bt__dynamic_note_free (d, w, &watch);
   if (bt__dynamic_is_wound (d, in))
-    bt__dynamic_wind (d, &in->mesh);
+    bt__dynamic_wind (d, w, in);
   return BT_OK;
 }

@@ -168,7 +168,9 @@ typedef struct bt__dynamic_mesh
 {
   int fewest, most; /* intervals; MOST 0: the room of the block */
   double error;     /* m: the bt__dynamic_space_error that is aimed at; 0: none */
-  int idle;         /* true: one node may come or go in this step though the winch stands */
+  double shortest; /* m: no interval is halved to less: a line that lies crumpled is not smooth, and
+                      would be halved for good */
+  int idle;        /* true: one node may come or go in this step though the winch stands */
 } bt__dynamic_mesh;
 
 typedef struct bt__dynamic_input
@@ -214,10 +216,10 @@ bt_status bt__dynamic_step (bt__dynamic *d, bt__dynamic_work *work, const bt__dy
 /* ---- Winch and knife ---- */
 
 /* Split the first interval of D when it has grown, or join it with the second when it has shrunk,
-   and keep the number of intervals to MESH (dynamic_mesh.c).  The tension is kept: the rest lengths
-   follow it, and what that leaves over is owed and comes out with the next half second of steps.
-   Called by the step.  */
-void bt__dynamic_wind (bt__dynamic *d, const bt__dynamic_mesh *mesh);
+   and keep the number of intervals to the mesh of INPUT (dynamic_mesh.c).  The tension is kept: the
+   rest lengths follow it, and what that leaves over is owed and comes out with the next half second
+   of steps. Called by the step.  */
+void bt__dynamic_wind (bt__dynamic *d, bt__dynamic_work *work, const bt__dynamic_input *input);
 
 /* Return the length of D that is out, m.  */
 double bt__dynamic_length (const bt__dynamic *d);
@@ -255,7 +257,8 @@ typedef struct bt__dynamic_energy
 bt__dynamic_energy bt__dynamic_energies (const bt__dynamic *d, const bt__dynamic_input *input);
 
 /* Estimate the error in position that comes of the number of nodes, m: the true one is 1.3 to 2.5
-   times as large.  */
-double bt__dynamic_space_error (const bt__dynamic *d);
+   times as large.  At the nodes that CORNER flags (or NULL) the line is not smooth, and more nodes
+   would not help: nothing is made of differences there.  */
+double bt__dynamic_space_error (const bt__dynamic *d, const uint8_t *corner);
 
 #endif

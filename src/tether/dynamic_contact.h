@@ -168,26 +168,30 @@ int bt__dynamic_is_open (const bt__dynamic *d, const bt__dynamic_mesh *mesh);
 
 /* Return the inner node of D whose removal changes its shape least, of those from 2 on that KEPT (a
    flag a node, or NULL) does not name; 0 if there is none.  Return the interval that stands for
-   most of the shape; of those from 1 on whose ends KEPT does not name; 0 if there is none.  */
+   most of the shape; of those from 1 on that MESH lets be halved and whose ends KEPT does not name;
+   0 if there is none.  */
 int64_t bt__dynamic_spare_node (const bt__dynamic *d, const uint8_t *kept);
-int64_t bt__dynamic_worst_interval (const bt__dynamic *d, const uint8_t *kept);
+int64_t bt__dynamic_worst_interval (const bt__dynamic *d, const bt__dynamic_mesh *mesh,
+                                    const uint8_t *kept);
 
-/* Return 1 if D should have one interval more to keep to MESH, -1 if one fewer, else 0.  */
-int bt__dynamic_wants (const bt__dynamic *d, const bt__dynamic_mesh *mesh);
+/* Flag in KEPT the nodes of D about the point lumps of INPUT, and the next WIDE to either side.  */
+void bt__dynamic_keep_lumps (const bt__dynamic *d, const bt__dynamic_input *input, int wide,
+                             uint8_t *kept);
+
+/* Return 1 if D should have one interval more to keep to MESH, -1 if one fewer, else 0.  CORNER is
+   that of bt__dynamic_space_error.  */
+int bt__dynamic_wants (const bt__dynamic *d, const bt__dynamic_mesh *mesh, const uint8_t *corner);
 
 /* Let the winch of D go on with the mean length of its intervals: nodes have come or gone along the
    line.  */
 void bt__dynamic_refit (bt__dynamic *d);
 
-/* Take out node I, 0 is none, and refit; take out or put in what bt__dynamic_wants.  That is asked
-   so many times for each interval that the winch adds or takes, for the mesh to get better faster
-   than the winch makes it worse.  */
+/* What bt__dynamic_wants is asked so many times for each interval that the winch adds or takes, for
+   the mesh to get better faster than the winch makes it worse.  */
 enum
 {
   BT__DYNAMIC_TUNES = 2
 };
-void bt__dynamic_take_out (bt__dynamic *d, int64_t i);
-void bt__dynamic_tune (bt__dynamic *d, const bt__dynamic_mesh *mesh);
 
 /* Put a node at the share U of interval J's chord, with what it has between its ends; FLOWS:
    interval J runs through one of its ends, and the new node goes along with the other, FROM.  There

@@ -140,6 +140,7 @@ struct bt__dynamic_work
   bt__link *link;
   bt__node *node;
   bt__extra *extra;
+  uint8_t *kept;       /* flags of nodes, between steps */
   bt__sym *diag, *off; /* off-diagonal blocks are minus OFF */
   bt__factors *up;     /* eliminated: to the next node, ... */
   bt__full *up2;       /* ... and with bending to the one after it */

@@ -10,16 +10,46 @@
    dense as (kappa^2 + kappa0^2)^(1/3) (equidistribution, C. de Boor 1973).  kappa0, a few radians
    over the whole length, keeps nodes on straight reaches, which may bend soon.
 
+   A lump at a point is shared out between the two nodes of its interval, and the line has a corner
+   there.  Were one of these nodes to go, or another to come between them, the load would jump from
+   node to node, and the tension with it.  So both stay, and so do the next to either side, from
+   which the mesh grows coarser.  A corner is no curvature: what it does to differences is no reason
+   for a node.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
+#include <string.h>
 
 #include "math/vec.h"
-#include "tether/dynamic_contact.h"
+#include "tether/dynamic_kernel.h"
 
 #define LEAST_BEND 4.0 /* radians over the whole line: what a straight reach counts as bent by */
 #define STEEPEST 2.5   /* times as long as its neighbour: the most that a merged interval is */
-#define GOOD 0.5       /* of the error aimed at: a better mesh can spare nodes */
+#define GOOD 0.25      /* of the error aimed at: a better mesh can spare nodes */
+
+/* The interval of D in which the point FROM_END metres from the far end lies.  */
+static int64_t
+interval_of (const bt__dynamic *d, double from_end)
+{
+  const double *rest = bt__dynamic_rest (d);
+  int64_t j = d->n - 1;
+  while (j > 0 && from_end > rest[j])
+    from_end -= rest[j--];
+  return j;
+}
+
+void
+bt__dynamic_keep_lumps (const bt__dynamic *d, const bt__dynamic_input *in, int wide, uint8_t *kept)
+{
+  for (int k = 0; k < in->n_lumps; k++)
+    {
+      int64_t j = interval_of (d, in->lumps[k].from_end);
+      for (int64_t i = j - wide; i <= j + 1 + wide && in->lumps[k].span == 0; i++)
+        if (i >= 0 && i <= d->n)
+          kept[i] = 1;
+    }
+}
 
 int
 bt__dynamic_is_open (const bt__dynamic *d, const bt__dynamic_mesh *mesh)
@@ -86,7 +116,7 @@ bt__dynamic_spare_node (const bt__dynamic *d, const uint8_t *kept)
 }
 
 int64_t
-bt__dynamic_worst_interval (const bt__dynamic *d, const uint8_t *kept)
+bt__dynamic_worst_interval (const bt__dynamic *d, const bt__dynamic_mesh *mesh, const uint8_t *kept)
 {
   const double *rest = bt__dynamic_rest (d);
   double least = least_bend (d), heaviest = 0;
@@ -95,7 +125,7 @@ bt__dynamic_worst_interval (const bt__dynamic *d, const uint8_t *kept)
     {
       double bend = fmax (bend_at (d, j, least), bend_at (d, j + 1, least));
       double weight = bend * rest[j] * rest[j] * rest[j];
-      if (weight > heaviest && !(kept && (kept[j] || kept[j + 1])))
+      if (weight > heaviest && rest[j] >= 2 * mesh->shortest && !(kept && (kept[j] || kept[j + 1])))
         {
           heaviest = weight;
           found = j;
@@ -105,14 +135,14 @@ bt__dynamic_worst_interval (const bt__dynamic *d, const uint8_t *kept)
 }
 
 int
-bt__dynamic_wants (const bt__dynamic *d, const bt__dynamic_mesh *mesh)
+bt__dynamic_wants (const bt__dynamic *d, const bt__dynamic_mesh *mesh, const uint8_t *corner)
 {
   int open = bt__dynamic_is_open (d, mesh);
   if (d->n < mesh->fewest)
     return open;
   if (!(mesh->error > 0))
     return 0;
-  double error = bt__dynamic_space_error (d);
+  double error = bt__dynamic_space_error (d, corner);
   return error > mesh->error ? open : error < GOOD * mesh->error && d->n > mesh->fewest ? -1 : 0;
 }
 
@@ -122,8 +152,8 @@ bt__dynamic_refit (bt__dynamic *d)
   d->piece = bt__dynamic_length (d) / (double)d->n;
 }
 
-void
-bt__dynamic_take_out (bt__dynamic *d, int64_t i)
+static void
+take_out (bt__dynamic *d, int64_t i)
 {
   if (i < 1)
     return;
@@ -140,12 +170,49 @@ halve (bt__dynamic *d, int64_t j)
   bt__dynamic_refit (d);
 }
 
-void
-bt__dynamic_tune (bt__dynamic *d, const bt__dynamic_mesh *mesh)
+/* Flag in the spare flags of W what bt__dynamic_keep_lumps does, and return them; NULL if nothing
+   is lumped.  */
+static const uint8_t *
+lumped (const bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *in, int wide)
 {
-  int wants = bt__dynamic_wants (d, mesh);
+  if (in->n_lumps == 0)
+    return NULL;
+  memset (w->kept, 0, (size_t)d->n + 1);
+  bt__dynamic_keep_lumps (d, in, wide, w->kept);
+  return w->kept;
+}
+
+static void
+spare_one (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *in)
+{
+  take_out (d, bt__dynamic_spare_node (d, lumped (d, w, in, 1)));
+}
+
+static void
+tune (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *in)
+{
+  const uint8_t *corner = lumped (d, w, in, 0);
+  int wants = bt__dynamic_wants (d, &in->mesh, corner);
   if (wants > 0)
-    halve (d, bt__dynamic_worst_interval (d, NULL));
+    halve (d, bt__dynamic_worst_interval (d, &in->mesh, corner));
   else if (wants < 0)
-    bt__dynamic_take_out (d, bt__dynamic_spare_node (d, NULL));
+    spare_one (d, w, in);
+}
+
+void
+bt__dynamic_wind (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *in)
+{
+  int way;
+  while ((way = bt__dynamic_winding (d)) != 0)
+    {
+      if (way > 0 && !bt__dynamic_is_open (d, &in->mesh))
+        spare_one (d, w, in);
+      if (way > 0 && d->n >= d->n_max)
+        break;
+      bt__dynamic_wind_once (d, way, 0);
+      for (int t = 0; t < BT__DYNAMIC_TUNES; t++)
+        tune (d, w, in);
+    }
+  if (in->mesh.idle)
+    tune (d, w, in);
 }

@@ -214,12 +214,15 @@ third_derivative (const bt__dynamic *d, int k)
 }
 
 /* The difference between the arc and the chord of interval J, along and across: minus a 24th of the
-   third derivative and the cubed length; the derivative is extended to the ends.  */
+   third derivative and the cubed length; the derivative is extended to the ends.
+   Nothing is known of it at a CORNER.  */
 static bt_vec3
-arc_defect (const bt__dynamic *d, int j)
+arc_defect (const bt__dynamic *d, int j, const uint8_t *corner)
 {
   int n = (int)d->n, k = j < 1 ? 1 : j > n - 2 ? n - 2 : j;
   double h = bt__dynamic_rest (d)[j];
+  if (corner && (corner[k] || corner[k + 1]))
+    return bt__vec (0, 0, 0);
   bt_vec3 third = third_derivative (d, k);
   if (k != j && n >= 4)
     third = bt__axpy (bt__scale (2, third), -1, third_derivative (d, j < 1 ? 2 : n - 3));
@@ -241,7 +244,7 @@ chord_error (const bt__dynamic *d)
 /* Three intervals have one third derivative: how it changes is not known, and one that does not is
    none between held ends, be the line folded.  */
 double
-bt__dynamic_space_error (const bt__dynamic *d)
+bt__dynamic_space_error (const bt__dynamic *d, const uint8_t *corner)
 {
   int n = (int)d->n;
   const double *rest = bt__dynamic_rest (d);
@@ -253,12 +256,12 @@ bt__dynamic_space_error (const bt__dynamic *d)
     return chord_error (d);
   for (int j = 0; j < n; j++)
     {
-      all = bt__add (all, arc_defect (d, j));
+      all = bt__add (all, arc_defect (d, j, corner));
       length += rest[j];
     }
   for (int j = 0; j < n; j++)
     {
-      sum = bt__add (sum, arc_defect (d, j));
+      sum = bt__add (sum, arc_defect (d, j, corner));
       s += rest[j];
       most = fmax (most, bt__norm (bt__axpy (sum, -s / length, all)));
     }

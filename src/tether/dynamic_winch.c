@@ -171,24 +171,6 @@ bt__dynamic_wind_once (bt__dynamic *d, int way, int straight)
     bt__dynamic_remove (d, 1);
 }
 
-void
-bt__dynamic_wind (bt__dynamic *d, const bt__dynamic_mesh *mesh)
-{
-  int way;
-  while ((way = bt__dynamic_winding (d)) != 0)
-    {
-      if (way > 0 && !bt__dynamic_is_open (d, mesh))
-        bt__dynamic_take_out (d, bt__dynamic_spare_node (d, NULL));
-      if (way > 0 && d->n >= d->n_max)
-        break;
-      bt__dynamic_wind_once (d, way, 0);
-      for (int t = 0; t < BT__DYNAMIC_TUNES; t++)
-        bt__dynamic_tune (d, mesh);
-    }
-  if (mesh->idle)
-    bt__dynamic_tune (d, mesh);
-}
-
 /* ---- The knife ---- */
 
 /* Copy what D has of nodes FIRST on, COUNT intervals of it, to TO.  */

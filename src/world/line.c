@@ -208,7 +208,7 @@ bt__line_node_tension (const bt__line *line, int k)
 double
 bt__chain_error (const bt__dynamic *chain)
 {
-  return BT__CHAIN_ERROR * bt__dynamic_space_error (chain);
+  return BT__CHAIN_ERROR * bt__dynamic_space_error (chain, NULL);
 }
 
 bt_vec3

@@ -115,8 +115,9 @@ test_full_block (void **state)
   scene_close (&s);
 }
 
-/* The most that a tension at an end of S changes in a step, once the start of the winch is over, as
-   it turns by PAY until WAY metres have run; *CHANGES: steps in which nodes came or went.  */
+/* The most that a tension at an end of S changes in a step, of the larger of both, once the start
+   of the winch is over, as it turns by PAY until WAY metres have run; *CHANGES: steps in which
+   nodes came or went.  */
 static double
 largest_jump (scene *s, double pay, double way, int *changes)
 {
@@ -131,7 +132,7 @@ largest_jump (scene *s, double pay, double way, int *changes)
       scene_step (s, STEP);
       *changes += s->d->n != n || s->d->piece != piece;
       for (int end = 0; end < 2 && i * STEP > start; end++)
-        most = fmax (most, fabs (bt__norm (s->d->pull[end]) / was[end] - 1));
+        most = fmax (most, fabs (bt__norm (s->d->pull[end]) - was[end]) / fmax (was[0], was[1]));
     }
   return most;
 }
@@ -152,6 +153,60 @@ test_no_jump (void **state)
       double most = largest_jump (&s, pay[k], pay[k] < 0 ? 6 : 15, &changes);
       assert_true (changes > 5);
       assert_close (most, 0, 0.02, "jump of a tension");
+      scene_close (&s);
+    }
+}
+
+/* ---- Lumps ---- */
+
+/* LENGTH of line that hangs in a current between ends half as far apart, with a lump of each WEIGHT
+   in water FROM_END metres from the far end; MASS is steel's, or that of a float.  */
+static void
+lay_lumps (scene *s, double length, bt__dynamic_lump *lumps, int n)
+{
+  lay (s, length);
+  s->in.end[1].at = bt__vec (0.55 * length, 0.2 * length, -10);
+  for (int k = 0; k < n; k++)
+    {
+      double heavy = fabs (lumps[k].wet_weight) / 9.81;
+      lumps[k].mass = 1.15 * heavy;
+      lumps[k].added = 0.5 * heavy;
+      lumps[k].quadratic = 5 * heavy;
+    }
+  s->in.lumps = lumps;
+  s->in.n_lumps = n;
+  scene_settle (s);
+}
+
+/* Whatever is fastened to the line, and however the winch turns, nothing jumps as nodes come and
+   go, by 2 % of the larger tension at an end; and no more come and go than the winch has to add or
+   take, and another elsewhere for each.  */
+static void
+test_lumps (void **state)
+{
+  (void)state;
+  const double pay[] = { -0.2, -0.05, 0.05, 0.4 };
+  const bt__dynamic_lump fastened[][3] = {
+    { { .from_end = 6, .wet_weight = 17 } },
+    { { .from_end = 20.3, .wet_weight = 100 } },
+    { { .from_end = 11.1, .wet_weight = -8 } },
+    { { .from_end = 25, .wet_weight = 0.5 } },
+    { { .from_end = 3, .wet_weight = 5 },
+      { .from_end = 3.2, .wet_weight = 5 },
+      { .from_end = 17, .wet_weight = -15 } },
+  };
+  for (size_t k = 0; k < 4 * sizeof fastened / sizeof *fastened; k++)
+    {
+      scene s;
+      bt__dynamic_lump lumps[3];
+      int changes = 0, n = fastened[k / 4][1].from_end > 0 ? 3 : 1;
+      double rate = pay[k % 4], way = rate < 0 ? 6 : 15;
+      memcpy (lumps, fastened[k / 4], sizeof lumps);
+      lay_lumps (&s, 40, lumps, n);
+      s.in.mesh.error = 0.02;
+      double piece = s.d->piece, most = largest_jump (&s, rate, way, &changes);
+      assert_close (most, 0, 0.02, "jump of a tension");
+      assert_in_range (changes, 5, 2 * way / piece);
       scene_close (&s);
     }
 }
@@ -220,6 +275,7 @@ main (void)
     cmocka_unit_test (test_as_laid_whole),
     cmocka_unit_test (test_full_block),
     cmocka_unit_test (test_no_jump),
+    cmocka_unit_test (test_lumps),
     cmocka_unit_test (test_energy),
     cmocka_unit_test (test_points_are_within_reach),
   };
