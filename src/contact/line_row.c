@@ -167,10 +167,14 @@ pass_end_of (const bt__line_job *k, const bt__pass *p, int e, double length)
 }
 
 /* The row of end E of link J: the nodes of a line about something round are so high that the links
-   between them are not inside.  */
+   between them are not inside.  A node that is not there yet is let out slowly, as from the
+   obstacle itself; an end of the line, which may be held where it is, not at all.  */
 static void
 touch_end (bt__line_job *k, uint32_t j, int e, const bt__pass *p, const pass_end *end, double raise)
 {
+  double above = fmax (end->from.distance - k->config->radius, 0);
+  int64_t i = (int64_t)j + e;
+  raise = fmin (raise, above + (i > 0 && i < k->links ? RECOVERY * k->h : 0));
   if (end->from.distance - raise >= k->config->radius + k->margin || k->rows >= k->w->rows_max)
     return;
   bt__row_set (k, k->rows, j, e, p->near, &end->w, end->from.distance - raise);
@@ -238,6 +242,15 @@ bars_the_way (const bt__line_job *k, uint32_t j, int e, const bt__pass *p)
          && comes_nearer (k, e ? i : next, p->near) && is_sharp (k, p, e);
 }
 
+/* By how much an end of a link about something round is raised whose other end is HIGH above it, of
+   the RAISE of both for a link that lies along it.  From four times that on the link comes no
+   nearer than its end.  */
+static double
+raise_below (double raise, double high)
+{
+  return raise > 0 ? raise * fmin (fmax (2 - 0.5 * high / raise, 0), 1) : 0;
+}
+
 static void
 touch_part (bt__line_job *k, uint32_t j, const bt__near *near)
 {
@@ -261,7 +274,8 @@ touch_part (bt__line_job *k, uint32_t j, const bt__near *near)
   for (int e = 0; e < 2; e++)
     if ((both || is_nearest[e])
         && !(is_nearest[e] && !is_nearest[!e] && bars_the_way (k, j, e, &p)))
-      touch_end (k, j, e, &p, end + e, raise);
+      touch_end (k, j, e, &p, end + e,
+                 raise_below (raise, end[!e].from.distance - k->config->radius));
   if (!both && !is_nearest[0] && !is_nearest[1])
     bt__row_between (k, j, &p, fmin (end[0].radius, end[1].radius));
 }

@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight soundness)
+             (srfi srfi-11)
              (srfi srfi-1))
 
 (define (unsound-tethers)
@@ -259,3 +260,39 @@ place."
   (expect (held?))
   (step!)
   (expect (held?) => #f))
+
+
+;;; What stands in the way of a vehicle.
+
+(define (restless seconds)
+  ;; How far the vehicle goes back in a step of so many SECONDS, at the most, m, and the largest load of a
+  ;; contact, N.
+  (let ((last (rov-position)) (before (vec 0 0 0)) (back 0) (load 0))
+    (run-until (lambda ()
+                 (let ((way (vec- (rov-position) last)))
+                   (when (< (norm (vec+ way before)) (norm (vec- way before))) (set! back (max back (norm way))))
+                   (set! before way)
+                   (set! last (rov-position))
+                   (set! load (fold (lambda (c most) (max most (norm (contact-force c)))) load (contacts)))
+                   #f))
+               #:at-most seconds)
+    (values back load)))
+
+(define-scenario (driven-into obstacle from)
+  "A vehicle that is told to go where something is comes to rest there, or slides along it, whatever that is
+and however it comes: it does not tremble, and the end of its line is pressed on by what pulls it, no more."
+  #:for ((obstacle (part cylinder (from 0 0 1) (to 0 0 -15) (radius 0.45))
+                   (part cylinder (from -6 0 -5) (to 6 0 -5) (radius 0.2))
+                   (part sphere (at 0 0 -5) (radius 1.5))
+                   (part box (at 0 0 -5) (size 2 2 6))
+                   (part capsule (from -2 1 -8) (to 2 -1 -2) (radius 0.3)))
+         (from '(6 -6 -5) '(-5 -5 -4) '(0 7 -9) '(3 -6 -5.5)))
+  (enter! (world (sea (depth 15) (current 0.25 90)) (splice obstacle)
+                 (rov (named r1) (at from) (pull 100))
+                 (tether (named line) (type fathom) (wet-weight 0) (model dynamic)
+                         (from 9 3 -3) (to r1) (length 40))))
+  (move! (vec 0 (* 0.05 (abs (z from))) -5.2) #:speed 2)
+  (run 16)
+  (let-values (((back load) (restless 2)))
+    (expect back is (below 1e-3))
+    (expect load is (below 160))))
