@@ -108,6 +108,9 @@ bt_tether_prospect_by (const bt_dive *dive, int i, double winch, double grip, bt
   bt__gaze *g;
   int vehicle;
   bt_status status = vehicle_at_end (dive, i, &vehicle, error);
+  if (status == BT_OK && bt__dive_tether (dive, dive->now, i)->parted)
+    status = bt__fail (error, BT_ERR_UNSUPPORTED, "`%s' has parted: nothing hangs from its winch",
+                       dive->model->tethers[i].name);
   if (status == BT_OK && !(winch > 0))
     status = bt__fail (error, BT_ERR_DOMAIN, "a winch pulls with more than 0 N, not %g", winch);
   if (status == BT_OK && !(grip > 0 && grip <= 1))

@@ -82,3 +82,13 @@ misses is printed in the long form."
                    (length stuck) missed false-alarms agreed))
   (expect (share agreed all) is (between 3/4 1))
   (expect (share false-alarms free) is (between 0 1/2)))
+
+(define-scenario nothing-hangs-from-a-winch
+  "Of a line that was cut each question about its haul says that nothing hangs from its winch."
+  (enter! (world (sea (depth 30)) (rov (named r1) (at 0 10 -5))
+                 (tether (named t1) (from 0 0 -5) (to r1) (length 20) (model dynamic))))
+  (expect (car (haul-prospect)) => 'yes)
+  (cut-tether! #:at 10)
+  (expect (haul-prospect) raises unsupported)
+  (expect (haul-trial) raises unsupported)
+  (expect (free-to-haul?) raises unsupported))
