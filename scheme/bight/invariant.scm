@@ -70,9 +70,10 @@ one."
 
 
 ;;; Energy.  What a line can hold: strain up to its breaking load, twice that since it parts only after the step
-;;; that passed it; the motion of all of it at three times the speed of whoever drags it and of the water,
-;;; or at 3 m/s if that is more; and what its clumps and floats gain as they fall or rise by as much as it is
-;;; long, up and down.  When it parts, strain becomes motion: the bound is on the sum.
+;;; that passed it, or up to its own weight in water, under which it is laid whatever it bears; the motion of
+;;; all of it at three times the speed of whoever drags it and of the water, or at 3 m/s if that is more; and
+;;; what its clumps and floats gain as they fall or rise by as much as it is long, up and down.  When it parts,
+;;; strain becomes motion: the bound is on the sum.
 
 (define water 1025)                     ; kg/m3, for the water that moves with the line
 
@@ -98,6 +99,9 @@ one."
         ((real? load) (/ (expt load 2) ea))
         (else ea)))
 
+(define (max-load breaking-load weight)
+  (if (real? breaking-load) (max breaking-load weight) breaking-load))
+
 (define (lump-weight lump)
   ;; N: no more than the weight in air of a clump; the buoyancy of a float.
   (case (car lump)
@@ -109,13 +113,17 @@ one."
   (let ((fields (part-all-fields (world-part (dive-world (this-dive 'energy-bounded?)) (name-of 'tether t)))))
     (* 2 (whole-length t) (fold + 0 (map lump-weight fields)))))
 
+(define (own-weight t)
+  ;; N, in water.
+  (* (abs (assq-ref (tether-properties t) 'wet-weight)) (whole-length t)))
+
 (define (most-energy t)
   (let ((speed (fold max 1 (cons (norm (current-at '(0 0 -1))) (map vehicle-speed (vehicles)))))
         (fields (tether-properties t)))
     (+ (most-fall t)
        (* (whole-length t)
           (+ (* 1/2 (line-mass t) (expt (* 3 speed) 2))
-             (most-strain (assq-ref fields 'breaking-load) (assq-ref fields 'ea)))))))
+             (most-strain (max-load (assq-ref fields 'breaking-load) (own-weight t)) (assq-ref fields 'ea)))))))
 
 (define (moving? t)
   (memq (model-of (name-of 'tether t)) '(dynamic auto)))

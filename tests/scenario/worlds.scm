@@ -127,3 +127,13 @@
   (expect (finding? (fly-in-child (list world '(run 1)))) => #f)
   (expect (fly-in-child (list world '(kill (getpid) SIGSEGV))) => (list 'died SIGSEGV))
   (expect (car (fly-in-child (list world '(let loop () (loop))) #:seconds 1)) => 'died))
+
+(define-scenario (laid-under-more-than-it-bears weight)
+  "A line is laid whole whatever its own weight, or lift, and parts in the first step that finds it too much."
+  #:for ((weight 30000.0 -30000.0))
+  (enter! (world (sea)
+                 (rov (named r1) (at -6 0 -1))
+                 (tether (named t1) (from 0 0 -1) (to r1) (length 17) (mass 1) (wet-weight weight)
+                         (breaking-load 50) (model dynamic))))
+  (expect (watched (step!)) => '())
+  (expect (parted?)))
