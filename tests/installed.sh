@@ -90,6 +90,14 @@ else
   skip 'there is no reader of mesh files'
   skip 'there is no reader of mesh files'
 fi
+if [ -x "$pkglibexecdir/bight-geo-reader" ]; then
+  printf '10.3 63.5 -30\n10.4 63.5 -30\n10.5 63.5 -30\n10.3 63.4 -30\n10.4 63.4 -30\n10.5 63.4 -30\n' >"$scratch/bed.xyz"
+  run -c '(enter! (world (sea (depth 50)) (seabed (grid "bed.xyz") (origin 63.45 10.4)) (rov (at 0 9 -9))
+    (tether (from 0 0 0) (length 20)))) (rov-altitude)'
+  result $? 'geographic files are read'
+else
+  skip 'there is no reader of geographic files'
+fi
 if [ -f "$extensiondir/bight-render.so" ]; then
   run snapshot open-water -o bow.png --size 64x48
   result $? 'pictures are drawn'

@@ -33,8 +33,8 @@
       (and (eq? head 'tether) (memq (field-name field) '(to model)))))
 
 (define (drawn-fields head)
-  ;; Names are given by the world.
-  (remove (lambda (field) (eq? 'name (field-kind field))) (head-fields head)))
+  ;; The world gives names; the files of scene-files are in local metres, and so without an origin.
+  (remove (lambda (field) (or (eq? 'name (field-kind field)) (map-field? field))) (head-fields head)))
 
 (define (clauses head field wild?)
   ;; A generator of no clause or one.

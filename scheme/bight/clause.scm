@@ -124,6 +124,19 @@
      (list-of (cons (quoted #'form) (map current-clause #'(item ...)))))
     (_ (expression stx))))
 
+(define (from-part? stx)
+  (syntax-case stx ()
+    ((name . _) (datum? #'name 'from))
+    (_ #f)))
+
+(define (from-part stx)
+  ;; (from FILE CLAUSE ...) of a current, or a clause of it: (at LATITUDE LONGITUDE), (start TIME).
+  (syntax-case stx ()
+    ((name value ...)
+     (apply datum? #'name from-clause-names)
+     (list-of (cons (quoted #'name) (map from-part #'(value ...)))))
+    (_ (expression stx))))
+
 (define (waves-part stx)
   ;; none, or (airy (height 1) ...).
   (syntax-case stx ()
@@ -147,7 +160,9 @@
 (define (arguments field stxs)
   (case (field-kind field)
     ((word name type) (map word stxs))
-    ((current) (map current-part stxs))
+    ((current) (if (and (pair? stxs) (from-part? (car stxs)))
+                   (map from-part stxs)
+                   (map current-part stxs)))
     ((waves) (map waves-part stxs))
     ((points) (map (row '(3)) stxs))
     ((track) (map (row '(4 5)) stxs))
@@ -228,7 +243,8 @@
           ((= n 1) (car values))
           ((and (eq? kind 'grid) (> n 1)) values)
           ((and (memq kind '(point end)) (= n 3)) values)
-          ((and (eq? kind 'current) (= n 2)) values)
+          ((and (eq? kind 'current) (or (= n 2) (and (= n 3) (pair? (car values))))) values)
+          ((and (eq? kind 'origin) (= n 2)) values)
           (else (wrong-arguments proc head name values)))))
 
 (define (read-inner proc head clauses)

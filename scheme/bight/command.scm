@@ -8,6 +8,7 @@
   #:use-module (bight dive)
   #:use-module (bight engine)
   #:use-module (bight errors)
+  #:use-module ((bight files) #:select (world-origin))
   #:use-module (bight query)
   #:use-module (bight schema)
   #:use-module (bight task)
@@ -136,8 +137,8 @@ lay the tether anew.  Return where it is now."
   "Let the vehicle follow a measured TRACK, a file with columns t x y z (s, m) or a list of such rows,
 beginning now: where the track begins elsewhere, the vehicle is first placed there as by `place!'.  Columns
 that a file names may be in any order, among others and in another unit: `time_min', `north (ft)', `depth'
-in place of z.  Return how many seconds it takes."
-  (let ((rows (read-track 'follow! track)))
+in place of z; and `lat' and `lon' in place of x and y where the world has an origin.  Return how many seconds it takes."
+  (let ((rows (read-track 'follow! track (world-origin 'follow! (dive-world (current-dive))))))
     (%operate! (this-engine 'follow!) 'follow! 'follow! v rows)
     (- (f64vector-ref rows (- (f64vector-length rows) 4)) (f64vector-ref rows 0))))
 
@@ -212,9 +213,9 @@ left out).  Both parts go on moving.  Return the length left at the anchor, m."
 ;;; The sea, and the parts' fields.
 
 (define (set-current! proc current)
-  (when (and (eq? 'grid (car current)) (pair? (cdr current)))
+  (when (and (memq (car current) '(grid from)) (pair? (cdr current)))
     (bight-raise 'unsupported proc
-                 "a dive has the grid of its world, (grid); another file needs another dive"))
+                 "a dive has the file of its world, (current! '(grid)); another file needs another dive"))
   (%set-current! (this-engine proc) current))
 
 (define-verb (current! #:rest (setting any))

@@ -8,18 +8,21 @@
 ;;;   (power SPEED TOWARD (exponent E))                       falls to nothing at the sea bed
 ;;;   (tide (speed S) (toward B) (period T))                  comes and goes
 ;;;   (grid FILE)                                             measured in space and time
+;;;   (from FILE (at LATITUDE LONGITUDE) (start TIME))        of an ocean model or an ADCP, in time and depth
 ;;;   still, or a procedure of position and time
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight current)
   #:use-module (bight argument)
+  #:use-module (bight earth)
   #:use-module (bight errors)
   #:use-module (bight units)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:export (current-forms
             current-field-names
+            from-clause-names
             current-help
             parse-current
             clause-fields
@@ -27,7 +30,9 @@
             current->string))
 
 (define current-forms
-  '(still uniform profile turning power tide function grid))
+  '(still uniform profile turning power tide function grid from))
+
+(define from-clause-names '(from at start))
 
 (define current-field-names
   '(speed toward degrees-per-metre exponent period))
@@ -71,6 +76,9 @@ them constant" '(profile (0 0.6 90) (-30 0.3 80)))
            '(power (speed 0.5) (toward 90) (exponent 1/7)))
     (tide "(tide (speed S) (toward B) (period T)): comes and goes" '(tide (speed 0.6) (toward 90) (period (hours 12.42))))
     (grid "(grid \"FILE\"): measured in space and time, a file of the world; in a dive (grid) goes back to it" #f)
+    (from "(from \"FILE\" (at LATITUDE LONGITUDE) (start \"2025-03-01T06:00Z\")): the column of an ocean model \
+(NetCDF) at a place, the world's origin if none is given, or an ADCP's table (columns time, depth, speed and \
+direction), from a time on, the file's first if none is given; of a world" #f)
     (function "a procedure of position and time that returns a velocity: slow"
               (lambda (position time) (vec 0.3 0.1 0)))))
 
@@ -215,6 +223,33 @@ POSITIONAL in order.  Raise a &bight-error from PROC for a name that is not ALLO
                  (cons 'grid arguments)))
   (cons 'grid arguments))
 
+(define (start-time proc value)
+  ;; Seconds since 1970 of VALUE, a text or such a number.
+  (or (and (real? value) (< (abs value) 1e11) (exact->inexact value))
+      (and (string? value) (parse-instant value))
+      (bight-raise 'domain proc "a current starts at a time such as \"2025-03-01T06:00Z\", not ~s" value)))
+
+(define (from-clause proc clause)
+  (case (and (list? clause) (pair? clause) (car clause))
+    ((at) (list 'at (parse-origin proc (if (and (= 2 (length clause)) (list? (second clause)))
+                                           (second clause)
+                                           (cdr clause)))))
+    ((start)
+     (unless (= 2 (length clause))
+       (bight-raise 'domain proc "(start ...) of a current takes one time, not ~s" (cdr clause)))
+     (list 'start (start-time proc (second clause))))
+    (else (bight-raise 'domain proc "a current from a file is (from FILE), with (at LATITUDE LONGITUDE) and (start \
+TIME) if wanted, not ~s" clause))))
+
+(define (from proc arguments)
+  ;; (from FILE CLAUSE ...), each clause at most once, in their order.
+  (unless (and (pair? arguments) (string? (car arguments)) (not (string-null? (car arguments))))
+    (bight-raise 'domain proc "a current from a file is (from \"FILE\"), not ~s" (cons 'from arguments)))
+  (let ((clauses (map (lambda (clause) (from-clause proc clause)) (cdr arguments))))
+    (unless (= (length clauses) (length (delete-duplicates (map car clauses))))
+      (bight-raise 'domain proc "a clause of (from ...) is given twice"))
+    (cons* 'from (car arguments) (filter-map (lambda (name) (assq name clauses)) '(at start)))))
+
 (define (form-current proc form arguments)
   (case form
     ((still) (list 'still))
@@ -229,18 +264,19 @@ POSITIONAL in order.  Raise a &bight-error from PROC for a name that is not ALLO
     ((tide) (fielded proc form '(speed toward period) 'period type:period tidal-period arguments))
     ((function) (function proc arguments))
     ((grid) (grid proc arguments))
+    ((from) (from proc arguments))
     (else (unknown-name proc "the sea" form
                         (delq 'function (list-copy current-forms))
                         "current"))))
 
 (define (refuse-current proc datum)
   (bight-raise 'domain proc
-               "a current is SPEED TOWARD, still, a procedure, or one of (profile ...) (turning ...) (power ...) (tide ...) (grid ...), not ~s"
+               "a current is SPEED TOWARD, still, a procedure, or one of (profile ...) (turning ...) (power ...) (tide ...) (grid ...) (from ...), not ~s"
                datum))
 
 (define (parse-current proc datum)
   "Return the canonical form of the current that DATUM describes, for the engine: (still), (uniform SPEED
-TOWARD), (grid FILE), (profile (Z SPEED TOWARD) ...) from the top down, (turning SPEED TOWARD DEGREES-PER-METRE),
+TOWARD), (grid FILE), (from FILE (at PLACE) (start SECONDS)), (profile (Z SPEED TOWARD) ...) from the top down, (turning SPEED TOWARD DEGREES-PER-METRE),
 (power SPEED TOWARD EXPONENT), (tide SPEED TOWARD PERIOD) or (function PROCEDURE).  Raise a &bight-error
 from PROC when it describes none."
   (let ((items (and (pair? datum) (bounded-list datum 1000))))
@@ -249,10 +285,22 @@ from PROC when it describes none."
           ((and (number? datum) (zero? datum)) (list 'still))
           ((symbol? datum) (form-current proc datum '()))
           ((not items) (refuse-current proc datum))
+          ((and (pair? (car items)) (eq? 'from (caar items)) (list? (car items)))
+           (from proc (append (cdar items) (cdr items))))
           ((and (symbol? (car items)) (not (assq (car items) units)))
            (form-current proc (car items) (cdr items)))
           ((= 2 (length items)) (uniform proc (first items) (second items)))
           (else (refuse-current proc datum)))))
+
+(define (from->string current)
+  (string-append (simple-format #f "(from ~s" (second current))
+                 (string-concatenate
+                  (map (lambda (clause)
+                         (if (eq? 'at (car clause))
+                             (simple-format #f " (at ~a ~a)" (first (second clause)) (second (second clause)))
+                             (simple-format #f " (start ~s)" (instant->string (second clause)))))
+                       (cddr current)))
+                 ")"))
 
 (define (current->string current)
   "Return the canonical CURRENT as it would be written in a world."
@@ -260,4 +308,5 @@ from PROC when it describes none."
     ((still) "still")
     ((uniform) (simple-format #f "~a m/s toward ~a" (second current) (third current)))
     ((function) "a procedure of position and time (slow)")
+    ((from) (from->string current))
     (else (brief current))))

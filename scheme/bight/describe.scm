@@ -12,8 +12,10 @@
                 #:select (tether-properties obstacle-properties (find-part . index-of-part)))
   #:use-module ((bight record) #:select (document))
   #:use-module (bight schema)
+  #:use-module ((bight units) #:select (vec-))
   #:use-module (bight verb)
   #:use-module (srfi srfi-1)
+  #:use-module (srfi srfi-4)
   #:export (describe
             head-description
             type-description
@@ -165,6 +167,21 @@ given, from its type or left to the default, and for each thing inside it."
                      (value-row head entry "follows")))
               live))
 
+(define (corner->string corner)
+  ;; A tenth of a metre tells where a body is.
+  (string-join (map (lambda (x) (number->string (/ (round (* 10 x)) 10))) (f64vector->list corner))))
+
+(define (read-rows head name)
+  ;; Rows for what was read from a file or given as heights: how many triangles, and the box they fill.
+  (let* ((found (if (memq head '(mesh seabed)) (obstacle-view name) '()))
+         (n (or (assq-ref found 'triangles) 0)))
+    (if (zero? n)
+        '()
+        (let ((low (assq-ref found 'low)) (high (assq-ref found 'high)))
+          (list (list "triangles" (number->string n) "" "read")
+                (list "box" (string-append (corner->string low) " to " (corner->string high)) "m" "read")
+                (list "extent" (corner->string (vec- high low)) "m" "read"))))))
+
 (define (dive-description part)
   ;; The description of a PART of the current dive; fields of tethers and obstacles as they are now.
   (let* ((described (part-description part))
@@ -174,7 +191,8 @@ given, from its type or left to the default, and for each thing inside it."
     (make-description (description-title described)
                       (description-sentence described)
                       (append (map (lambda (row) (live-row head row live)) rows)
-                              (follower-rows head rows live)))))
+                              (follower-rows head rows live)
+                              (read-rows head (part-name-of part))))))
 
 (define (with-possibilities described head)
   ;; DESCRIBED, a part that is called as its kind, with what each field may be, and the fields that it has not.
@@ -190,13 +208,16 @@ given, from its type or left to the default, and for each thing inside it."
                               (map possible
                                    (remove (lambda (row) (assoc (first row) rows)) possibilities))))))
 
+(define (obstacle-view name)
+  ;; The alist of what the obstacle NAME of the present dive is.
+  (call-with-values (lambda () (index-of-part 'describe name))
+    (lambda (kind index) (obstacle-properties 'describe index))))
+
 (define (live-properties head name)
   ;; What may have changed since the dive began, an alist.
   (cond ((eq? head 'tether) (tether-properties (subject-index 'describe 'tether name)))
         ((obstacle-head? head)
-         (call-with-values (lambda () (index-of-part 'describe name))
-           (lambda (kind index)
-             (list (assq 'friction (obstacle-properties 'describe index))))))
+         (list (assq 'friction (obstacle-view name))))
         (else '())))
 
 (define (group-description name members)

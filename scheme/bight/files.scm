@@ -7,15 +7,21 @@
 
 (define-module (bight files)
   #:use-module (bight atlas)
+  #:use-module (bight earth)
   #:use-module (bight engine)
   #:use-module (bight errors)
+  #:use-module (bight flow-table)
   #:use-module (bight schema)
   #:use-module (bight world)
   #:use-module (bight waves)
+  #:use-module (ice-9 binary-ports)
+  #:use-module (rnrs bytevectors)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:export (engine-parts
             find-beside
+            named-files
+            world-origin
             limit-reading!
             check-files-beside))
 
@@ -78,25 +84,57 @@ among the worlds.  Raise a &bight-error from PROC when there is none."
 
 (define most-kept 8)
 
-(define kept '())                       ; ((PATH TIME SIZE UP) . OBJECT), the last used first
+(define kept '())                       ; ((PATH TIME SIZE HOW) . OBJECT), the last used first
 
-(define (identity-of path up)
+(define (identity-of path how)
   (let ((status (stat path)))
-    (list path (stat:mtime status) (stat:mtimensec status) (stat:size status) up)))
+    (list path (stat:mtime status) (stat:mtimensec status) (stat:size status) how)))
 
-(define (read-once path up read)
+(define (read-once path how read)
   ;; What READ returns for PATH, or returned the last time.
-  (let* ((key (identity-of path up))
+  (let* ((key (identity-of path how))
          (object (or (assoc-ref kept key) (read)))
          (others (alist-delete key kept)))
     (set! kept (acons key object (take others (min (length others) (- most-kept 1)))))
     object))
 
-(define (read-field proc w kind name up)
-  (let ((path (find-beside proc w name)))
-    (if (eq? kind 'mesh)
-        (read-once path up (lambda () (%read-mesh path up)))
-        (read-once path 'grid (lambda () (%read-heights path))))))
+(define (world-origin proc w)
+  "Return the origin of the world W, (LATITUDE LONGITUDE), or #f.  Raise a &bight-error from PROC if it has two."
+  (origin-of-parts proc (map third (world->parts w))))
+
+(define signatures
+  ;; How files begin that are read in the coordinates of a map alone.
+  (map (lambda (entry) (cons (u8-list->bytevector (car entry)) (cdr entry)))
+       '(((73 73 42 0) . "GeoTIFF") ((77 77 0 42) . "GeoTIFF") ((73 73 43 0) . "GeoTIFF")
+         ((67 68 70 1) . "NetCDF") ((67 68 70 2) . "NetCDF") ((67 68 70 5) . "NetCDF")
+         ((137 72 68 70) . "NetCDF"))))
+
+(define (signature-of path)
+  ;; The name of the format that PATH begins as, or #f.
+  (let ((bytes (false-if-exception
+                (and (eq? 'regular (stat:type (stat path)))
+                     (call-with-input-file path (lambda (port) (get-bytevector-n port 4)) #:binary #t)))))
+    (and (bytevector? bytes) (assoc-ref signatures bytes))))
+
+(define bed-only '(system variable positive reach))
+
+(define (refuse-without-origin proc path fields)
+  ;; What only a bed in the coordinates of a map can have.
+  (let ((field (find (lambda (name) (assq name fields)) bed-only))
+        (format (signature-of path)))
+    (when (or field format)
+      (bight-raise 'def proc "~a: ~a needs to know where the world's (0, 0) is: (origin LATITUDE LONGITUDE) of the \
+sea or the seabed" path (if field (simple-format #f "(~a ...)" field) (simple-format #f "a ~a file" format))))))
+
+(define (read-bed proc path fields origin)
+  ;; The heights in PATH, for a bed with FIELDS in a world with ORIGIN.
+  (define (given name) (assq-ref fields name))
+  (cond ((and origin (not (equal? "local" (given 'system))))
+         (let ((how (list origin (or (given 'reach) 0.) (given 'positive) (given 'system) (given 'variable))))
+           (read-once path how (lambda () (apply %read-geo-heights path how)))))
+        (else
+         (refuse-without-origin proc path (if origin '() fields))
+         (read-once path 'grid (lambda () (%read-heights path))))))
 
 (define (read-flow proc w names)
   ;; The current in the one file of NAMES.
@@ -105,31 +143,58 @@ among the worlds.  Raise a &bight-error from PROC when there is none."
   (let ((path (find-beside proc w (car names))))
     (read-once path 'flow (lambda () (%read-current-grid path)))))
 
-(define (read-part proc w part)
-  ;; PART, (HEAD NAME FIELDS), with what is in its files.
-  (let* ((head (first part)) (fields (third part)) (up (or (assq-ref fields 'up) 'z)))
-    (define (read-entry entry)
-      (let* ((field (head-field head (car entry))) (kind (and field (field-kind field))))
-        (cond ((and (memq kind '(mesh grid)) (string? (cdr entry)))
-               (cons (car entry) (read-field proc w kind (cdr entry) up)))
-              ((and (eq? kind 'current) (pair? (cdr entry)) (eq? 'grid (cadr entry)))
-               (list (car entry) 'grid (read-flow proc w (cddr entry))))
-              ((eq? kind 'waves)
-               (cons (car entry) (list->f64vector (waves->numbers (cdr entry)))))
-              (else entry))))
-    (list head (second part) (map read-entry (alist-delete 'up fields eq?)))))
+(define (read-column proc w file clauses origin)
+  ;; The current in FILE, of an ocean model or an ADCP.
+  (let* ((path (find-beside proc w file))
+         (start (and=> (assq-ref clauses 'start) car))
+         (at (or (and=> (assq-ref clauses 'at) car) origin)))
+    (cond ((not (signature-of path))
+           (read-once path (list 'table start) (lambda () (%current-of-rows (read-flow-table proc path start)))))
+          ((not at)
+           (bight-raise 'def proc "~a: a current of an ocean model is taken at a place: (at LATITUDE LONGITUDE) of \
+the current, or (origin LATITUDE LONGITUDE) of the sea" path))
+          (else
+           (read-once path (list 'column at start) (lambda () (%read-geo-current path at start)))))))
 
-(define (names-in part)
-  ;; The files that PART, (HEAD NAME FIELDS), names.
-  (filter-map (lambda (entry)
-                (let* ((field (head-field (first part) (car entry)))
-                       (kind (and field (field-kind field))))
-                  (cond ((and (memq kind '(mesh grid)) (string? (cdr entry))) (cdr entry))
-                        ((and (eq? kind 'current) (pair? (cdr entry)) (eq? 'grid (cadr entry))
-                              (pair? (cddr entry)))
-                         (caddr entry))
-                        (else #f))))
-              (third part)))
+(define (read-entry proc w head fields origin entry)
+  ;; ENTRY of a part with HEAD and FIELDS, with what is in its file.
+  (let* ((field (head-field head (car entry))) (kind (and field (field-kind field))))
+    (cond ((and (eq? kind 'mesh) (string? (cdr entry)))
+           (let ((path (find-beside proc w (cdr entry))) (up (or (assq-ref fields 'up) 'z)))
+             (cons (car entry) (read-once path up (lambda () (%read-mesh path up))))))
+          ((and (eq? kind 'grid) (string? (cdr entry)))
+           (cons (car entry) (read-bed proc (find-beside proc w (cdr entry)) fields origin)))
+          ((and (eq? kind 'current) (pair? (cdr entry)) (eq? 'grid (cadr entry)))
+           (list (car entry) 'grid (read-flow proc w (cddr entry))))
+          ((and (eq? kind 'current) (pair? (cdr entry)) (eq? 'from (cadr entry)))
+           (list (car entry) 'grid (read-column proc w (caddr entry) (cdddr entry) origin)))
+          ((eq? kind 'waves)
+           (cons (car entry) (list->f64vector (waves->numbers (cdr entry)))))
+          (else entry))))
+
+(define (read-part proc w part origin)
+  ;; PART, (HEAD NAME FIELDS), with what is in its files, and without what is the language's alone.
+  (let ((head (first part)) (fields (third part)))
+    (list head (second part)
+          (filter-map (lambda (entry)
+                        (and (not (eq? 'up (car entry)))
+                             (not (map-field? (head-field head (car entry))))
+                             (read-entry proc w head fields origin entry)))
+                      fields))))
+
+(define (named-files w)
+  "Return the names of the files that the world W names."
+  (define (names-in part)
+    (filter-map (lambda (entry)
+                  (let* ((field (head-field (first part) (car entry)))
+                         (kind (and field (field-kind field))))
+                    (cond ((and (memq kind '(mesh grid)) (string? (cdr entry))) (cdr entry))
+                          ((and (eq? kind 'current) (pair? (cdr entry)) (memq (cadr entry) '(grid from))
+                                (pair? (cddr entry)))
+                           (caddr entry))
+                          (else #f))))
+                (third part)))
+  (delete-duplicates (append-map names-in (world->parts w))))
 
 (define (check-files-beside proc w)
   "Raise a &bight-error from PROC if the world W, which comes from outside, names a file that is there but
@@ -144,9 +209,10 @@ lies neither beside W's own file nor among the worlds."
                (bight-raise 'unsupported proc
                             "~a: the file ~s lies elsewhere; --trust, or #:trust #t, reads it"
                             (or (world-file w) "a world") name))))))
-     (append-map names-in (world->parts w)))))
+     (named-files w))))
 
 (define (engine-parts proc w)
   "Return what the engine makes a dive in the world W from: as `world->parts' has it, with what is in the
 files of meshes and grids.  Raise a &bight-error from PROC when one is missing or wrong."
-  (map (lambda (part) (read-part proc w part)) (world->parts w)))
+  (let ((origin (world-origin proc w)))
+    (map (lambda (part) (read-part proc w part origin)) (world->parts w))))

@@ -25,6 +25,7 @@
             head-names
             find-field
             required-fields
+            map-field?
 
             field?
             field-name
@@ -62,7 +63,7 @@
   field?
   (name field-name)                     ; symbol
   (kind field-kind)                     ; number count flag point points word end current name type
-                                        ; track grid mesh
+                                        ; track grid mesh origin text
   (unit field-unit)                     ; "m", "deg", ... or ""
   (text field-text)                     ; a sentence
   (default field-default)               ; canonical, or #f: must be given, or follows from others
@@ -77,7 +78,8 @@
  (field? "Return true if OBJECT is a field of a kind of part.")
  (field-name "Return the name of FIELD, a symbol.")
  (field-kind
-  "Return the kind of FIELD: number count flag point points word end current name type track grid mesh.")
+  "Return the kind of FIELD: number count flag point points word end current name type track grid mesh
+origin text.")
  (field-unit "Return the unit of FIELD, as \"m\", or \"\".")
  (field-text "Return what FIELD is, in a few words.")
  (field-default "Return the canonical default of FIELD, or #f when it must be given or follows.")
@@ -102,6 +104,20 @@
 
 (define up-field
   (make-field 'up 'word "" "the axis that points up in its file" 'z #f #f #f '(z y) '() #f))
+
+(define origin-field
+  (make-field 'origin 'origin "deg" "latitude and longitude of the world's (0, 0)" #f #f #f #f '() '() #f))
+
+;; Of a bed from a file in the coordinates of a map.
+(define bed-fields
+  (list origin-field
+        (language-field 'system 'text
+                        "coordinates of its grid where the file does not say: \"EPSG:NUMBER\", or \"local\"")
+        (language-field 'variable 'text "which variable of a NetCDF file is its grid")
+        (make-field 'positive 'word "" "which way the numbers of its grid count, where the file does not say"
+                    #f #f #f #f '(up down) '() #f)
+        (make-field 'reach 'number "m" "how far from the origin its grid is read; left out: all of it"
+                    #f 1 250000 #f '() '() #f)))
 
 (define titles
   '((sea . "the sea")
@@ -144,7 +160,9 @@
   ;; What the engine does not know of a part with HEAD.
   (case head
     ((rov tether) (list named-field type-field))
-    ((mesh seabed) (list named-field up-field))
+    ((sea) (list origin-field))
+    ((mesh) (list named-field up-field))
+    ((seabed) (cons* named-field up-field bed-fields))
     ((group) group-fields)
     (else (if (obstacle-head? head) (list named-field) '()))))
 
@@ -165,6 +183,10 @@
                            '()
                            (map vector->field (%part-fields (car entry)))))))
        nests))
+
+(define (map-field? field)
+  "Return true if FIELD says where on the earth a world or what it reads is; the engine knows none of that."
+  (and (memq field bed-fields) #t))
 
 (define (part-heads)
   "Return the heads of parts, symbols: sea, rov, tether, ..."

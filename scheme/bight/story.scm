@@ -127,17 +127,6 @@
     (unless (comes-back? world)
       (bight-raise 'unsupported proc "this world cannot be written as data"))))
 
-(define (named-files world)
-  ;; The names of the files that WORLD names.
-  (delete-duplicates
-   (append-map (lambda (part)
-                 (filter-map (lambda (entry)
-                               (let ((field (head-field (part-head-of part) (car entry))))
-                                 (and field (memq (field-kind field) '(mesh grid)) (string? (cdr entry))
-                                      (cdr entry))))
-                             (all-fields part)))
-               (world-parts world))))
-
 (define most-bytes (* 1024 1024 1024))  ; of a file that is read whole
 
 (define (check-readable proc name path)

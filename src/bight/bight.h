@@ -8,6 +8,7 @@
 #include <bight/aware.h>
 #include <bight/contact.h>
 #include <bight/dive.h>
+#include <bight/geo.h>
 #include <bight/instruments.h>
 #include <bight/live.h>
 #include <bight/mesh.h>

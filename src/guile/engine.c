@@ -54,6 +54,7 @@ bight_guile_init (void)
   define_folders ();
   bt__define_parts ();
   bt__define_shapes ();
+  bt__define_geo ();
   bt__define_dives ();
   bt__define_operations ();
   bt__define_times ();

@@ -26,6 +26,7 @@ void bt__define_procedures (const bt__procedure *table, size_t n);
 /* The tables, one for each file.  */
 void bt__define_parts (void);
 void bt__define_shapes (void);
+void bt__define_geo (void);
 void bt__define_dives (void);
 void bt__define_operations (void);
 void bt__define_times (void);

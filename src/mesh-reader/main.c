@@ -1,4 +1,4 @@
-/* bight-mesh-reader UP CPU-SECONDS MEGABYTES FILE: read a mesh file of any format that assimp knows
+/* bight-mesh-reader CPU-SECONDS MEGABYTES FILE UP: read a mesh file of any format that assimp knows
    and write it to standard output as src/mesh/stream.h says.  bight runs it for each mesh file of a
    world, so that the library and what it makes of a file have a process of their own.
 
@@ -12,7 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -20,46 +19,11 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 
-#include "base/hash.h"
 #include "mesh-reader/convert.h"
+#include "mesh-reader/enclosed.h"
 #include "mesh-reader/whole.h"
+#include "mesh/reader.h"
 #include "mesh/stream.h"
-
-/* The sanitizers reserve terabytes of addresses.  */
-#if defined __SANITIZE_ADDRESS__
-#define CAN_LIMIT_MEMORY 0
-#else
-#define CAN_LIMIT_MEMORY 1
-#endif
-
-static void
-limit (int resource, rlim_t most)
-{
-  struct rlimit now;
-  if (getrlimit (resource, &now) != 0)
-    return;
-  now.rlim_cur = now.rlim_max < most ? now.rlim_max : most;
-  setrlimit (resource, &now);
-}
-
-static void
-limit_all (const char *cpu, const char *megabytes)
-{
-  limit (RLIMIT_CORE, 0);
-  limit (RLIMIT_CPU, strtoul (cpu, NULL, 10));
-  if (CAN_LIMIT_MEMORY)
-    limit (RLIMIT_AS, (rlim_t)strtoul (megabytes, NULL, 10) << 20);
-}
-
-/* One line of complaint, whatever characters are in it.  */
-static int
-complain (int status, const char *words)
-{
-  for (; *words; words++)
-    fputc ((unsigned char)*words < ' ' ? ' ' : *words, stderr);
-  fputc ('\n', stderr);
-  return status;
-}
 
 /* The bytes of a file, which may be changed; NULL where it cannot be mapped.  */
 typedef struct mapped
@@ -87,31 +51,15 @@ import (const char *file, const mapped *m)
 }
 
 static int
-put (FILE *to, const void *data, size_t n, uint64_t *sum)
-{
-  *sum = bt__hash (data, n, *sum);
-  return fwrite (data, 1, n, to) == n;
-}
-
-static int
 write_soup (FILE *to, const bt__soup_made *soup)
 {
   bt__mesh_head head = { "", BT__MESH_VERSION, soup->vertices, soup->triangles, 0 };
   uint64_t sum = 0;
   memcpy (head.magic, BT__MESH_MAGIC, sizeof head.magic);
-  return put (to, &head, sizeof head, &sum)
-         && put (to, soup->vertex, soup->vertices * sizeof *soup->vertex, &sum)
-         && put (to, soup->corner, soup->triangles * sizeof *soup->corner, &sum)
-         && fwrite (&sum, 1, sizeof sum, to) == sizeof sum && fflush (to) == 0;
-}
-
-/* Our own answer, out of reach of a library that prints.  */
-static FILE *
-take_output (void)
-{
-  int fd = dup (STDOUT_FILENO);
-  dup2 (STDERR_FILENO, STDOUT_FILENO);
-  return fd < 0 ? NULL : fdopen (fd, "wb");
+  return bt__enclosed_put (to, &head, sizeof head, &sum)
+         && bt__enclosed_put (to, soup->vertex, soup->vertices * sizeof *soup->vertex, &sum)
+         && bt__enclosed_put (to, soup->corner, soup->triangles * sizeof *soup->corner, &sum)
+         && bt__enclosed_finish (to, sum);
 }
 
 static int
@@ -119,19 +67,14 @@ complain_of_import (void)
 {
   const char *why = aiGetErrorString ();
   if (!why || !*why)
-    return complain (BT__MESH_EXIT_FORMAT, "it is not a mesh");
+    return bt__enclosed_complain (BT__READER_EXIT_FORMAT, "it is not a mesh");
   if (strstr (why, "bad_alloc"))
-    return complain (BT__MESH_EXIT_LIMIT, "reading it takes more memory than is allowed");
+    return bt__enclosed_complain (BT__READER_EXIT_LIMIT,
+                                  "reading it takes more memory than is allowed");
   if (strstr (why, "No suitable reader"))
-    return complain (BT__MESH_EXIT_FORMAT, "it is in no format that the mesh reader knows");
-  return complain (BT__MESH_EXIT_FORMAT, why);
-}
-
-static int
-complain_of (const bt_error *error)
-{
-  return complain (error->status == BT_ERR_LIMIT ? BT__MESH_EXIT_LIMIT : BT__MESH_EXIT_FORMAT,
-                   error->text);
+    return bt__enclosed_complain (BT__READER_EXIT_FORMAT,
+                                  "it is in no format that the mesh reader knows");
+  return bt__enclosed_complain (BT__READER_EXIT_FORMAT, why);
 }
 
 /* A private copy of FILE, of which only what is changed takes memory.  What cannot be mapped is
@@ -160,29 +103,29 @@ run (const char *up, const char *file, FILE *to)
   bt_error error;
   mapped m = map_file (file);
   if (m.bytes && bt__whole (m.bytes, m.n, &error) != BT_OK)
-    return complain_of (&error);
+    return bt__enclosed_complain_of (&error);
   const struct aiScene *scene = import (file, &m);
   if (!scene)
     return complain_of_import ();
   bt_mesh_up axis = strcmp (up, "y") == 0 ? BT_MESH_UP_Y : BT_MESH_UP_Z;
   if (bt__soup_from_scene (scene, axis, &soup, &error) != BT_OK)
-    return complain_of (&error);
+    return bt__enclosed_complain_of (&error);
   if (!write_soup (to, &soup))
-    return complain (BT__MESH_EXIT_IO, "the triangles cannot be handed over");
-  return BT__MESH_EXIT_OK;
+    return bt__enclosed_complain (BT__READER_EXIT_IO, "the triangles cannot be handed over");
+  return BT__READER_EXIT_OK;
 }
 
 int
 main (int argc, char **argv)
 {
-  if (argc != 5 || (strcmp (argv[1], "y") != 0 && strcmp (argv[1], "z") != 0))
-    return complain (EXIT_FAILURE,
-                     "usage: bight-mesh-reader y|z CPU-SECONDS MEGABYTES FILE >TRIANGLES");
-  FILE *to = take_output ();
+  if (argc != 5 || (strcmp (argv[4], "y") != 0 && strcmp (argv[4], "z") != 0))
+    return bt__enclosed_complain (
+        EXIT_FAILURE, "usage: bight-mesh-reader CPU-SECONDS MEGABYTES FILE y|z >TRIANGLES");
+  FILE *to = bt__enclosed_output ();
   if (!to)
-    return complain (BT__MESH_EXIT_IO, "there is no standard output");
-  limit_all (argv[2], argv[3]);
-  int status = run (argv[1], argv[4], to);
+    return bt__enclosed_complain (BT__READER_EXIT_IO, "there is no standard output");
+  bt__enclosed_limit (argv[1], argv[2]);
+  int status = run (argv[4], argv[3], to);
   fflush (stderr);
   _exit (status); /* the memory goes with the process */
 }

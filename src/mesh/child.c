@@ -173,6 +173,12 @@ bt__child_read (bt__child *child, void *to, size_t n)
   return got;
 }
 
+size_t
+bt__child_read_as (void *child, void *to, size_t n)
+{
+  return bt__child_read (child, to, n);
+}
+
 /* ---- Ending ---- */
 
 static void

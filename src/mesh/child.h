@@ -45,6 +45,9 @@ bt_status bt__child_start (bt__child *child, const char *program, char *const ar
 /* Read N bytes of its output to TO; fewer at its end or at the deadline.  */
 size_t bt__child_read (bt__child *child, void *to, size_t n);
 
+/* The same, for an answer (mesh/answer.h): CHILD is a bt__child.  */
+size_t bt__child_read_as (void *child, void *to, size_t n);
+
 /* Collect the child.  With STOP it is killed at once; else it may finish what it has to say until
    the deadline.  *CODE is the exit status or the signal.  */
 bt__ending bt__child_end (bt__child *child, int stop, int *code);

@@ -7,15 +7,9 @@
 
 #include <bight/mesh.h>
 
-/* What reading one mesh may cost.  */
-typedef struct bt__mesh_limits
-{
-  double seconds;     /* of the clock */
-  unsigned cpu;       /* s of the reader */
-  unsigned megabytes; /* of the reader's address space */
-} bt__mesh_limits;
+#include "mesh/reader.h"
 
-bt_status bt__mesh_read_within (const char *file, bt_mesh_up up, const bt__mesh_limits *limits,
+bt_status bt__mesh_read_within (const char *file, bt_mesh_up up, const bt__reader_limits *limits,
                                 bt_mesh_data **out, bt_error *error);
 
 #endif

@@ -22,17 +22,6 @@ bt_mesh_data_free (bt_mesh_data *data)
 }
 
 static bt_status
-take_bytes (const bt__mesh_source *source, void *to, size_t n, const char *what, bt_error *error)
-{
-  size_t got = source->read (source->user, to, n);
-  if (got < n)
-    return bt__fail (error, BT_ERR_FORMAT,
-                     "the mesh reader's answer is cut short: %zu of the %zu bytes of its %s", got,
-                     n, what);
-  return BT_OK;
-}
-
-static bt_status
 check_head (const bt__mesh_head *head, bt_error *error)
 {
   if (memcmp (head->magic, BT__MESH_MAGIC, sizeof head->magic) != 0 || head->spare != 0)
@@ -74,30 +63,19 @@ new_data (const bt__mesh_head *head)
 
 /* Take the body announced by HEAD into DATA; check the checksum and the end of the stream.  */
 static bt_status
-take_body (const bt__mesh_source *source, const bt__mesh_head *head, bt_mesh_data *data,
-           bt_error *error)
+take_mesh_body (const bt__answer *answer, const bt__mesh_head *head, bt_mesh_data *data,
+                bt_error *error)
 {
   size_t vertices = head->vertices * sizeof *data->vertex;
   size_t corners = head->triangles * sizeof *data->corner;
-  uint64_t sum, told;
-  char more;
-  bt_status s = take_bytes (source, data->vertex, vertices, "vertices", error);
+  bt_status s = bt__answer_take (answer, data->vertex, vertices, "vertices", error);
   if (s == BT_OK)
-    s = take_bytes (source, data->corner, corners, "corners", error);
-  if (s == BT_OK)
-    s = take_bytes (source, &told, sizeof told, "checksum", error);
+    s = bt__answer_take (answer, data->corner, corners, "corners", error);
   if (s != BT_OK)
     return s;
-  sum = bt__hash (head, sizeof *head, 0);
+  uint64_t sum = bt__hash (head, sizeof *head, 0);
   sum = bt__hash (data->vertex, vertices, sum);
-  sum = bt__hash (data->corner, corners, sum);
-  if (sum != told)
-    return bt__fail (error, BT_ERR_FORMAT,
-                     "the mesh reader's answer is damaged: its checksum is "
-                     "wrong");
-  if (source->read (source->user, &more, 1) != 0)
-    return bt__fail (error, BT_ERR_FORMAT, "the mesh reader's answer goes on after its end");
-  return BT_OK;
+  return bt__answer_finish (answer, bt__hash (data->corner, corners, sum), error);
 }
 
 static bt_status
@@ -121,12 +99,12 @@ check_body (const bt_triangles *mesh, bt_error *error)
 }
 
 bt_status
-bt__mesh_take (const bt__mesh_source *source, bt_mesh_data **out, bt_error *error)
+bt__mesh_take (const bt__answer *answer, bt_mesh_data **out, bt_error *error)
 {
   bt__mesh_head head;
   bt_mesh_data *data;
   *out = NULL;
-  bt_status s = take_bytes (source, &head, sizeof head, "head", error);
+  bt_status s = bt__answer_take (answer, &head, sizeof head, "head", error);
   if (s == BT_OK)
     s = check_head (&head, error);
   if (s != BT_OK)
@@ -135,7 +113,7 @@ bt__mesh_take (const bt__mesh_source *source, bt_mesh_data **out, bt_error *erro
   if (!data)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for a mesh of %u triangles",
                      (unsigned)head.triangles);
-  s = take_body (source, &head, data, error);
+  s = take_mesh_body (answer, &head, data, error);
   if (s == BT_OK)
     s = check_body (&data->mesh, error);
   if (s == BT_OK)

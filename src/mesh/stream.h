@@ -1,5 +1,5 @@
-/* The stream from bight-mesh-reader to bight: one mesh.  Both programs are of one build on one
-   machine, so numbers have the machine's representation.
+/* What bight-mesh-reader tells bight: one mesh, written by one build of the two on one machine, so
+   numbers are as the machine has them.
 
      head | vertices: x y z, m, z up, doubles | corners: three of 32 bits | checksum, 64 bits
 
@@ -15,20 +15,13 @@
 
 #include <bight/mesh.h>
 
+#include "mesh/answer.h"
+
 #define BT__MESH_MAGIC "bt-mesh\n"
 
 enum
 {
   BT__MESH_VERSION = 1
-};
-
-/* Exit statuses of the reader; all but the first come with one line on standard error.  */
-enum
-{
-  BT__MESH_EXIT_OK = 0,
-  BT__MESH_EXIT_FORMAT = 10,
-  BT__MESH_EXIT_LIMIT,
-  BT__MESH_EXIT_IO
 };
 
 typedef struct bt__mesh_head
@@ -40,16 +33,9 @@ typedef struct bt__mesh_head
   uint32_t spare;     /* 0 */
 } bt__mesh_head;
 
-/* Where bytes come from.  READ returns how many it got, fewer than N only at the end.  */
-typedef struct bt__mesh_source
-{
-  size_t (*read) (void *user, void *to, size_t n);
-  void *user;
-} bt__mesh_source;
-
-/* Take one mesh from SOURCE, and nothing after it, into *OUT (NULL on failure).  The mesh is
+/* Take one mesh from ANSWER, and nothing after it, into *OUT (NULL on failure).  The mesh is
    complete and checked, whatever the bytes.  BT_ERR_FORMAT tells the fault, BT_ERR_VERSION a reader
    of another build, BT_ERR_LIMIT a lack of memory.  */
-bt_status bt__mesh_take (const bt__mesh_source *source, bt_mesh_data **out, bt_error *error);
+bt_status bt__mesh_take (const bt__answer *answer, bt_mesh_data **out, bt_error *error);
 
 #endif

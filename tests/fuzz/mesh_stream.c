@@ -84,7 +84,7 @@ fuzz_mesh_stream (const uint8_t *bytes, size_t n)
   if (bytes[0] & 2)
     set_sum (answer, n - 1);
   tape t = { answer, n - 1 };
-  bt_status s = bt__mesh_take (&(bt__mesh_source){ play, &t }, &data, &e);
+  bt_status s = bt__mesh_take (&(bt__answer){ play, &t, "the mesh reader" }, &data, &e);
   fuzz_check ((s == BT_OK) == (data != NULL));
   if (data)
     check (data);

@@ -46,7 +46,7 @@
   (expect (remove (lambda (head) (hash-ref drawn head)) heads) => '())
   (expect (append-map (lambda (head)
                         (filter (lambda (name) (not (hash-ref drawn (cons head name))))
-                                (map field-name (remove (lambda (f) (eq? 'named (field-name f)))
+                                (map field-name (remove (lambda (f) (or (eq? 'named (field-name f)) (map-field? f)))
                                                         (head-fields head)))))
                       heads)
           => '()))

@@ -197,7 +197,7 @@
                             (substring (help-text 'current!) (string-contains (help-text 'current!) "Forms:")))
             => #t)
     (expect (length (filter (lambda (line) (string-contains line "(current! ")) lines))
-            => (- (length current-forms) 1)) ; a grid is a file of its world
+            => (- (length current-forms) 2)) ; grid and from are files of a world
     (for-each (lambda (line)
                 (when (string-contains line "(current! ")
                   (expect (and (stopped (call-with-input-string line read)) line) => #f)))

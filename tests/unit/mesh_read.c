@@ -265,7 +265,7 @@ real_meshes (void **state)
 /* ---- Bad files ---- */
 
 static void
-refused (const char *file, const bt__mesh_limits *limits, bt_status status, const char *words)
+refused (const char *file, const bt__reader_limits *limits, bt_status status, const char *words)
 {
   bt_mesh_data *data = (bt_mesh_data *)(uintptr_t)1;
   bt_error e = { 0 };
@@ -401,7 +401,7 @@ little_memory (void **state)
 #ifdef __SANITIZE_ADDRESS__
   skip ();
 #endif
-  static const bt__mesh_limits small = { 60, 60, 64 };
+  static const bt__reader_limits small = { 60, 60, 64 };
   enum
   {
     N = 400000
@@ -548,7 +548,7 @@ slow_readers (void **state)
   static const char *const scripts[]
       = { "exec sleep 600", "sleep 600; :", "exec >&- 2>&-; exec sleep 600",
           "cat right; exec sleep 600", "yes >&2 & sleep 600; :" };
-  static const bt__mesh_limits brief = { 0.2, 60, 1000 };
+  static const bt__reader_limits brief = { 0.2, 60, 1000 };
   struct timespec from, to;
   char path[2 * PATH];
   (void)state;

@@ -1,0 +1,55 @@
+/* A reader program: a process of its own for a library that others wrote, which reads a foreign
+   file and answers with a stream.  Here the program is found and started, and its end understood.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#ifndef BT_MESH_READER_H
+#define BT_MESH_READER_H
+
+#include <bight/status.h>
+
+#include "mesh/child.h"
+
+/* How a reader ends, with one line on its standard error unless all went well.  */
+enum
+{
+  BT__READER_EXIT_OK = 0,
+  BT__READER_EXIT_FORMAT = 10,
+  BT__READER_EXIT_LIMIT,
+  BT__READER_EXIT_IO
+};
+
+/* One kind of reader.  */
+typedef struct bt__reader
+{
+  const char *program;  /* its name where it is installed */
+  const char *variable; /* of the environment: another program in its place */
+  const char *title;    /* as a sentence calls it: "the mesh reader" */
+  const char *files;    /* what it reads: "mesh files" */
+  const char *library;  /* what it is made of, and the Debian package of that */
+} bt__reader;
+
+/* What reading one file may cost.  */
+typedef struct bt__reader_limits
+{
+  double seconds;     /* of the clock */
+  unsigned cpu;       /* s of the reader */
+  unsigned megabytes; /* of the reader's address space */
+} bt__reader_limits;
+
+enum
+{
+  BT__READER_ARGUMENTS = 10 /* of a reader at most, after those that all have */
+};
+
+/* Start READER for FILE: PROGRAM CPU-SECONDS MEGABYTES FILE ARGUMENT..., the last of ARGUMENTS
+   before a NULL.  BT_ERR_UNSUPPORTED when bight was built without it, BT_ERR_IO.  */
+bt_status bt__reader_start (const bt__reader *reader, const char *file, char *const *arguments,
+                            const bt__reader_limits *limits, bt__child *child, bt_error *error);
+
+/* Collect CHILD, a READER of FILE that answered with ANSWER (its sentence in ERROR); return what
+   became of it all.  */
+bt_status bt__reader_end (const bt__reader *reader, const char *file, bt__child *child,
+                          bt_status answer, bt_error *error);
+
+#endif
