@@ -243,6 +243,9 @@ Return the current at the surface, m/s."
   (when (memq field (inner-heads head))
     (bight-raise 'unsupported proc "each ~a of ~a stays as its world has it while the dive runs"
                  field (head-title head)))
+  (when (map-field? (head-field head field))
+    (bight-raise 'unsupported proc "`~a' of ~a stays as its world has it: it says how files are read" field
+                 (head-title head)))
   (let ((value (check-field proc head field value)))
     (case field
       ((current) (set-current! proc value))
