@@ -87,6 +87,7 @@
      difference? difference-step difference-time difference-quantities)
     ((bight frames) export-csv)
     ((bight export) export-npz export-vtk)
+    ((bight moordyn) import-moordyn export-moordyn)
     ((bight live) live! freeze! live?)
     ((bight threads) threads! threads)
     ((bight logbook)

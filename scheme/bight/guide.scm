@@ -194,6 +194,8 @@
                        (export-npz "dive.db" "dive.npz")))
     (export-vtk (begin (record! "dive.rec" #:frames "dive.db") (run 5) (stop-recording!)
                        (export-vtk "dive.db" "dive.pvd")))
+    (export-moordyn (export-moordyn (find-world 'pile) "pile.txt"))
+    (import-moordyn (begin (export-moordyn (find-world 'pile) "pile.txt") (import-moordyn "pile.txt")))
     (number-in (number-in "about 12 m"))))
 
 ;; Those that ask something of what another returns.
