@@ -88,6 +88,7 @@
     ((bight frames) export-csv)
     ((bight export) export-npz export-vtk)
     ((bight moordyn) import-moordyn export-moordyn)
+    ((bight orcaflex) import-orcaflex)
     ((bight live) live! freeze! live?)
     ((bight threads) threads! threads)
     ((bight logbook)

@@ -196,6 +196,28 @@
                        (export-vtk "dive.db" "dive.pvd")))
     (export-moordyn (export-moordyn (find-world 'pile) "pile.txt"))
     (import-moordyn (begin (export-moordyn (find-world 'pile) "pile.txt") (import-moordyn "pile.txt")))
+    (import-orcaflex
+     (begin
+       (call-with-output-file "riser.yml"
+         (lambda (port)
+           (display "Environment:
+  WaterDepth: 50
+LineTypes:
+  - Name: Wire
+    OD: 0.02
+    MassPerUnitLength: 0.001
+    EA: 900
+    Cd: [1.2, ~, 0.01]
+    Ca: [1, ~, 0]
+Lines:
+  - Name: Riser
+    Connection, ConnectionX, ConnectionY, ConnectionZ:
+      - [Fixed, 0, 0, -5]
+      - [Anchored, 20, 0, 0]
+    LineType, Length, TargetSegmentLength:
+      - [Wire, 60, 2]
+" port)))
+       (import-orcaflex "riser.yml")))
     (number-in (number-in "about 12 m"))))
 
 ;; Those that ask something of what another returns.

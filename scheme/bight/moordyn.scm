@@ -13,15 +13,11 @@
   #:use-module (bight errors)
   #:use-module (bight schema)
   #:use-module ((bight shape) #:select (type:file-name))
+  #:use-module ((bight table) #:select (file-lines))
   #:use-module (bight verb)
-  #:use-module (ice-9 rdelim)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:export (import-moordyn export-moordyn))
-
-(define most-lines 10000)
-(define longest-line 2000)
-
 
 ;;; Sections: (NAME (NUMBER . WORDS) ...), the name in capitals.
 
@@ -31,28 +27,14 @@
 (define (section-name line)
   (string-join (string-tokenize (string-upcase line) char-set:letter)))
 
-(define (read-lines proc file)
-  (let ((type (false-if-exception (stat:type (stat file)))))
-    (unless (eq? 'regular type)
-      (bight-raise 'io proc "cannot read ~s: ~a" file (if type (simple-format #f "it is a ~a" type) "there is no such file")))
-    (call-with-input-file file
-      (lambda (port)
-        (let loop ((lines '()) (n 0))
-          (let ((line (read-line port)))
-            (cond ((eof-object? line) (reverse! lines))
-                  ((or (= n most-lines) (> (string-length line) longest-line))
-                   (bight-raise 'limit proc "~a has more than ~a lines, or one longer than ~a" file most-lines
-                                longest-line))
-                  (else (loop (cons line lines) (+ n 1)))))))
-      #:encoding "ISO-8859-1")))
-
 (define (sections lines)
-  (let loop ((rest lines) (number 1) (found '()))
+  ;; Of LINES, (NUMBER . TEXT).
+  (let loop ((rest lines) (found '()))
     (cond ((null? rest) (reverse (map (lambda (s) (cons (car s) (reverse (cdr s)))) found)))
-          ((rule? (car rest)) (loop (cdr rest) (+ number 1) (cons (list (section-name (car rest))) found)))
-          ((or (null? found) (null? (string-tokenize (car rest)))) (loop (cdr rest) (+ number 1) found))
-          (else (loop (cdr rest) (+ number 1)
-                      (cons (cons* (caar found) (cons number (string-tokenize (car rest))) (cdar found))
+          ((rule? (cdar rest)) (loop (cdr rest) (cons (list (section-name (cdar rest))) found)))
+          ((null? found) (loop (cdr rest) found))
+          (else (loop (cdr rest)
+                      (cons (cons* (caar found) (cons (caar rest) (string-tokenize (cdar rest))) (cdar found))
                             (cdr found)))))))
 
 (define (section all . names)
@@ -179,7 +161,7 @@
 point-N for each coupled point, still water and a level bed.  What MoorDyn adds to a line's mass along itself (CaAx) is
 left out; its bed's stiffness is bight's own."
   (let* ((proc 'import-moordyn)
-         (all (sections (read-lines proc file)))
+         (all (sections (file-lines proc file)))
          (settings (options all))
          (types (table (section all "LINE TYPES" "LINE DICTIONARY")))
          (lines (table (section all "LINES" "LINE PROPERTIES" "LINE LIST")))

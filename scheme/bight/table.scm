@@ -12,7 +12,8 @@
   #:export (read-table
             table-numbers
             first-columns
-            read-columns))
+            read-columns
+            file-lines))
 
 (define separators (char-set #\, #\; #\space #\tab #\return))
 
@@ -39,7 +40,8 @@
     (unless (memq type '(regular fifo))
       (bight-raise 'io proc "cannot read ~s: it is a ~a" file type))))
 
-(define (open-lines proc file)
+(define (file-lines proc file)
+  "Return the lines of FILE that are not blank, (NUMBER . TEXT).  Raise a &bight-error from PROC of kind io."
   (catch 'system-error
     (lambda ()
       (refuse-device proc file)
@@ -59,7 +61,7 @@
   "Return two values: the names of the columns of FILE, strings, or #f, and its rows, lines with their numbers.
 Lines that begin with # and one line of column names are passed over.  Raise a &bight-error from PROC of kind
 io or format."
-  (let*-values (((remarks rest) (span (lambda (entry) (remark? (cdr entry))) (open-lines proc file)))
+  (let*-values (((remarks rest) (span (lambda (entry) (remark? (cdr entry))) (file-lines proc file)))
                 ((named?) (and (pair? rest) (null? (line-numbers (cdar rest)))))
                 ((rows) (remove (lambda (entry) (remark? (cdr entry))) (if named? (cdr rest) rest))))
     (when (null? rows)

@@ -19,7 +19,7 @@
     (ask "ask of the vehicle, the sea and the tether" query instruments)
     (touch "contact, wear and clearance" contact)
     (aware "what a tether is doing: caught, fouled, the way home" aware foresight probe coach)
-    (moments "time as a value: checkpoints, forks, files" checkpoint saving recording frames export moordyn)
+    (moments "time as a value: checkpoints, forks, files" checkpoint saving recording frames export moordyn orcaflex)
     (see "see it: panels, pictures, plots, films" view picture pilot-view film plot)
     (points "points and units" units)
     (test "scenarios, properties and what they claim"
