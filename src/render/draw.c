@@ -86,7 +86,6 @@ set_common (const bt__job *j, GLuint program)
   set_vector (j, program, "up", j->optics.up);
   set_vector (j, program, "ahead", j->optics.ahead);
   set_vector (j, program, "sun", j->view->sun);
-  set_number (j, program, "perspective", j->optics.perspective);
   set_number (j, program, "surface", fmin (j->view->surface, 1e9));
   set_number (j, program, "visibility", bt__visibility (j));
   set_number (j, program, "lamp", j->view->lamp);
@@ -141,18 +140,6 @@ draw_ghosts (const bt__job *j)
 }
 
 static void
-use_program (const bt__job *j, GLuint program, const float clip[16])
-{
-  const bt__gl *gl = j->gl;
-  set_common (j, program);
-  gl->UniformMatrix4fv (spot (j, program, "clip"), 1, GL_FALSE, clip);
-  gl->UniformMatrix4fv (spot (j, program, "sunward"), 1, GL_FALSE, j->cast);
-  gl->Uniform1i (spot (j, program, "shadow"), 0);
-  set_number (j, program, "texel", 1.0 / shadows_of (j)->side);
-  set_number (j, program, "jitter", j->drawing.samples > 1);
-}
-
-static void
 draw_scene (bt__job *j, const bt__window *window)
 {
   static const GLfloat nothing[] = { 0, 0, 0, 0 }, far[] = { 1 };
@@ -165,13 +152,9 @@ draw_scene (bt__job *j, const bt__window *window)
   gl->ClearBufferfv (GL_COLOR, 0, nothing);
   gl->ClearBufferfv (GL_COLOR, 1, nothing);
   gl->ClearBufferfv (GL_DEPTH, 0, far);
-  gl->ActiveTexture (GL_TEXTURE0);
-  gl->BindTexture (GL_TEXTURE_2D, shadows_of (j)->map);
-  use_program (j, j->r->scene, clip);
-  draw_corners (j, 0, j->n_solid);
-  use_program (j, j->r->ground, clip); /* last: most of it is hidden by then */
-  draw_corners (j, j->n_solid, j->soup.n_index - j->n_solid);
   gl->UseProgram (j->r->scene);
+  gl->UniformMatrix4fv (spot (j, j->r->scene, "clip"), 1, GL_FALSE, clip);
+  draw_corners (j, 0, j->soup.n_index); /* the ground last: most of it is hidden by then */
   draw_ghosts (j);
 }
 
@@ -196,7 +179,6 @@ set_tile (const bt__job *j, GLuint program, int x, int y)
   const bt__gl *gl = j->gl;
   set_common (j, program);
   bind_buffers (j, program);
-  gl->Uniform1i (spot (j, program, "samples"), j->drawing.samples);
   gl->Uniform1i (spot (j, program, "margin"), j->margin);
   gl->Uniform2f (spot (j, program, "tile"), (float)x, (float)y);
   gl->Uniform2f (spot (j, program, "size"), (float)j->drawing.width, (float)j->drawing.height);
@@ -211,7 +193,17 @@ set_tile (const bt__job *j, GLuint program, int x, int y)
   set_number (j, program, "bare", j->drawing.transparent);
   gl->UniformMatrix4fv (spot (j, program, "sunward"), 1, GL_FALSE, j->cast);
   set_number (j, program, "texel", 1.0 / shadows_of (j)->side);
+  set_number (j, program, "wide", 0.5 / j->radius);
   set_number (j, program, "grid", bt__grid_step (j));
+}
+
+/* True if the picture can show the surface of the sea from below.  */
+static int
+sees_surface (const bt__job *j)
+{
+  const bt__optics *o = &j->optics;
+  return o->perspective && j->view->surface > o->eye.z
+         && o->ahead.z + o->half_width * fabs (o->right.z) + o->half_height * fabs (o->up.z) > 0;
 }
 
 /* Sort the pixels, then make those of each kind.  */
@@ -223,14 +215,14 @@ resolve (const bt__job *j, int x, int y, int w, int h)
   gl->DepthFunc (GL_ALWAYS);
   gl->BindFramebuffer (GL_FRAMEBUFFER, j->frames->frame[2]);
   gl->Viewport (0, 0, bt__cells (w), bt__cells (h));
-  set_tile (j, j->r->resolve[BT__RESOLVE_SKY], x, y);
+  set_tile (j, j->resolve[BT__RESOLVE_SKY], x, y);
   gl->DrawArrays (GL_TRIANGLES, 0, 3);
   gl->BindFramebuffer (GL_FRAMEBUFFER, j->frames->frame[1]);
   gl->Viewport (0, 0, w, h);
-  for (int i = 0; i < BT__RESOLVE_SKY; i++)
+  for (int i = 0; i < (sees_surface (j) ? BT__RESOLVE_SKY : BT__RESOLVE_HIGH); i++)
     {
-      set_tile (j, j->r->resolve[i], x, y);
-      set_number (j, j->r->resolve[i], "layer", i / 8.0);
+      set_tile (j, j->resolve[i], x, y);
+      set_number (j, j->resolve[i], "layer", i / 8.0);
       gl->DrawArrays (GL_TRIANGLES, 0, 3);
       gl->DepthFunc (GL_EQUAL);
       gl->DepthMask (GL_FALSE);
@@ -300,9 +292,15 @@ draw_alone (bt__job *j, bt__picture *picture, bt_error *error)
     return status;
   j->gl->Enable (GL_DEPTH_TEST);
   j->gl->PixelStorei (GL_PACK_ALIGNMENT, 4);
+  j->resolve = bt__renderer_resolve (j->r, j->drawing.samples, j->optics.perspective, error);
   upload (j);
-  draw_shadows (j);
-  status = draw_tiles (j, picture, error);
+  if (j->resolve)
+    {
+      draw_shadows (j);
+      status = draw_tiles (j, picture, error);
+    }
+  else
+    status = BT_ERR_UNSUPPORTED;
   j->gl->DeleteBuffers (2, j->buffer);
   j->gl->DeleteVertexArrays (1, &j->array);
   bt__frames_leave (j);

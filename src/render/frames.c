@@ -72,8 +72,8 @@ static bt_status
 make_frames (const bt__gl *gl, bt__frames *f, bt_error *error)
 {
   int w = f->w, h = f->h, bw = samples_of (f, w), bh = samples_of (f, h), ok;
-  f->colors = new_texture (gl, GL_RGBA16F, bw, bh, GL_RGBA, GL_HALF_FLOAT);
-  f->shapes = new_texture (gl, GL_RGBA16F, bw, bh, GL_RGBA, GL_HALF_FLOAT);
+  f->colors = new_texture (gl, GL_RGBA8, bw, bh, GL_RGBA, GL_UNSIGNED_BYTE);
+  f->shapes = new_texture (gl, GL_RGB10_A2, bw, bh, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV);
   f->depths = new_depths (gl, bw, bh);
   f->pixels = new_texture (gl, GL_RGBA8, w, h, GL_RGBA, GL_UNSIGNED_BYTE);
   f->kinds = new_depths (gl, w, h);

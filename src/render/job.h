@@ -25,7 +25,8 @@ typedef struct bt__job
   int margin;   /* pixels around a tile */
   float cast[16];
   GLuint array, buffer[2];
-  bt__frames *frames; /* the renderer's, once they are had */
+  bt__frames *frames;    /* the renderer's, once they are had */
+  const GLuint *resolve; /* the programs of the passes, likewise */
 } bt__job;
 
 /* Gather the triangles of JOB's view, and from them what its light and its camera span.  */

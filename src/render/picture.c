@@ -12,9 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cairo.h>
-
 #include "base/error.h"
+#include "render/png.h"
 #include "render/render.h"
 
 bt_status
@@ -45,22 +44,6 @@ bt__picture_put (bt__picture *whole, const bt__picture *part, int x, int y)
             part->pixels + (size_t)i * (size_t)part->width, (size_t)w * sizeof *part->pixels);
 }
 
-static cairo_status_t
-write_bytes (void *file, const unsigned char *bytes, unsigned n)
-{
-  return fwrite (bytes, 1, n, file) == n ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
-}
-
-static cairo_status_t
-write_stream (const bt__picture *p, FILE *stream)
-{
-  cairo_surface_t *surface = cairo_image_surface_create_for_data (
-      (unsigned char *)(void *)p->pixels, CAIRO_FORMAT_ARGB32, p->width, p->height, 4 * p->width);
-  cairo_status_t status = cairo_surface_write_to_png_stream (surface, write_bytes, stream);
-  cairo_surface_destroy (surface);
-  return status;
-}
-
 static bt_status
 cannot_write (const char *file, int why, bt_error *error)
 {
@@ -74,18 +57,17 @@ write_part (const bt__picture *picture, const char *part, const char *file, bt_e
 {
   FILE *stream = fopen (part, "wb");
   const char *name = file ? file : part;
-  cairo_status_t drawn;
-  int why;
+  int ok, why;
   if (!stream)
     return cannot_write (name, errno, error);
   errno = 0;
-  drawn = write_stream (picture, stream);
+  ok = bt__png_write (picture, stream);
   why = errno;
-  if (fclose (stream) != 0 && drawn == CAIRO_STATUS_SUCCESS)
-    drawn = CAIRO_STATUS_WRITE_ERROR, why = errno;
-  if (drawn == CAIRO_STATUS_SUCCESS && file && rename (part, file) != 0)
-    drawn = CAIRO_STATUS_WRITE_ERROR, why = errno;
-  if (drawn == CAIRO_STATUS_SUCCESS)
+  if (fclose (stream) != 0 && ok)
+    ok = 0, why = errno;
+  if (ok && file && rename (part, file) != 0)
+    ok = 0, why = errno;
+  if (ok)
     return BT_OK;
   if (file)
     unlink (part);

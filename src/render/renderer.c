@@ -63,15 +63,34 @@ build_programs (bt__renderer *r, bt_error *error)
   bt_status status
       = link_program (&r->gl, bt__shader_scene_vertex, bt__shader_scene_fragment, &r->scene, error);
   if (status == BT_OK)
-    status = link_program (&r->gl, bt__shader_scene_vertex, bt__shader_ground_fragment, &r->ground,
-                           error);
-  if (status == BT_OK)
     status = link_program (&r->gl, bt__shader_shadow_vertex, bt__shader_shadow_fragment, &r->shadow,
                            error);
-  for (int i = 0; status == BT_OK && i < BT__RESOLVE_PASSES; i++)
-    status = link_program (&r->gl, bt__shader_resolve_vertex, bt__shader_resolve_fragment[i],
-                           &r->resolve[i], error);
   return status;
+}
+
+static bt_status
+build_pass (const bt__gl *gl, int pass, int samples, int perspective, GLuint *program,
+            bt_error *error)
+{
+  const char *text[BT__SHADER_PARTS];
+  char constants[100];
+  snprintf (constants, sizeof constants,
+            "#define PASS %d\n#define SAMPLES %d\n#define PERSPECTIVE %d\n", pass, samples,
+            perspective);
+  bt__shader_pixels (pass, constants, text);
+  return link_program (gl, bt__shader_resolve_vertex, text, program, error);
+}
+
+/* Linked when they are wanted: a process that draws one picture pays for its own alone.  */
+const GLuint *
+bt__renderer_resolve (bt__renderer *r, int samples, int perspective, bt_error *error)
+{
+  GLuint *program = r->resolve[samples > 1][perspective != 0];
+  bt_status status = BT_OK;
+  for (int i = 0; status == BT_OK && i < BT__RESOLVE_PASSES; i++)
+    if (!program[i])
+      status = build_pass (&r->gl, i, samples > 1 ? 2 : 1, perspective != 0, &program[i], error);
+  return status == BT_OK ? program : NULL;
 }
 
 /* ---- Shadow maps ---- */
@@ -82,8 +101,8 @@ build_shadows (const bt__gl *gl, int side, bt__shadows *s, bt_error *error)
   s->side = side;
   gl->GenTextures (1, &s->map);
   gl->BindTexture (GL_TEXTURE_2D, s->map);
-  gl->TexImage2D (GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, side, side, 0, GL_DEPTH_COMPONENT,
-                  GL_FLOAT, NULL);
+  gl->TexImage2D (GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT16, side, side, 0, GL_DEPTH_COMPONENT,
+                  GL_UNSIGNED_SHORT, NULL);
   gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl->TexParameteri (GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

@@ -38,13 +38,19 @@ struct bt__renderer
   const bt__backend *backend;
   void *context;
   bt__gl gl;
-  GLuint scene, ground, shadow; /* programs */
-  GLuint resolve[BT__RESOLVE_PASSES];
+  GLuint scene, shadow; /* programs */
+  /* For one sample a pixel or two squared, without perspective or with it; 0 until they are wanted.
+   */
+  GLuint resolve[2][2][BT__RESOLVE_PASSES];
   bt__shadows still, quick;
   bt__frames frames;    /* of the last picture; W 0: there are none */
   pthread_mutex_t lock; /* of the context: a picture at a time */
   GLuint empty;         /* a vertex array for what has no vertices */
   char name[200];
 };
+
+/* Have the programs that make pixels of SAMPLES squared, 1 or 2, for PERSPECTIVE or none; the
+   context is current.  NULL: they are not to be had, and ERROR says why.  */
+const GLuint *bt__renderer_resolve (bt__renderer *r, int samples, int perspective, bt_error *error);
 
 #endif

@@ -8,18 +8,24 @@
 /* Pieces; each NULL-terminated list is one shader.  */
 extern const char *const bt__shader_scene_vertex[];
 extern const char *const bt__shader_scene_fragment[];
-extern const char *const bt__shader_ground_fragment[]; /* the scene's, for the ground alone */
 extern const char *const bt__shader_shadow_vertex[];
 extern const char *const bt__shader_shadow_fragment[];
 extern const char *const bt__shader_resolve_vertex[];
+extern const char bt__shader_version[], bt__shader_common[], bt__shader_lighting[];
 
-/* To sort the pixels; then for those with nothing in them, one surface, edges, ground: the K-th of
-   these is drawn at the depth K / 8.  */
+/* The passes that make pixels: to sort them; then for those with nothing in them, one solid, edges,
+   ground, the surface from below, edges before that: the K-th of these is drawn at the depth K / 8.
+ */
 enum
 {
-  BT__RESOLVE_SKY = 5, /* before these */
-  BT__RESOLVE_PASSES = 6
+  BT__RESOLVE_HIGH = 5, /* the first of those that show the surface */
+  BT__RESOLVE_SKY = 7,  /* before these */
+  BT__RESOLVE_PASSES = 8,
+  BT__SHADER_PARTS = 10
 };
-extern const char *const bt__shader_resolve_fragment[BT__RESOLVE_PASSES][8];
+
+/* Fill TEXT with the pieces of the shader of PASS, NULL after them; CONSTANTS defines PASS, SAMPLES
+   and PERSPECTIVE.  */
+void bt__shader_pixels (int pass, const char *constants, const char *text[BT__SHADER_PARTS]);
 
 #endif

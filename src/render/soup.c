@@ -11,8 +11,9 @@
 
 enum
 {
-  ROUND = 40, /* sides of a cylinder */
-  SPAN = 16   /* rings of a ball */
+  ROUND = 40,    /* sides of what is round, at most */
+  FEWEST = 8,    /* and at least */
+  TUBE_LEAST = 6 /* of a tube */
 };
 
 void
@@ -33,6 +34,15 @@ double
 bt__stroke (const bt__lens *lens)
 {
   return fmax (lens->rows / 720.0, 0.4);
+}
+
+/* Sides of a circle of RADIUS about AT, LEAST or more: so many that the chords are nowhere off it
+   by more than 0.15 of a pixel, since every triangle costs as much as many pixels.  */
+static int
+sides_of (const bt__soup *soup, bt_vec3 at, double radius, int least)
+{
+  double pixels = radius / bt__pixel_at (&soup->lens, at), n = 5.8 * sqrt (fmax (pixels, 0));
+  return n < least ? least : n > ROUND ? ROUND : (int)ceil (n / 2) * 2;
 }
 
 void
@@ -144,20 +154,21 @@ bt__add_box (bt__soup *soup, const bt__pose *pose, bt_vec3 size)
 void
 bt__add_sphere (bt__soup *soup, bt_vec3 at, double radius)
 {
-  uint32_t first = (uint32_t)soup->n;
-  for (int i = 0; i <= SPAN; i++)
-    for (int j = 0; j <= ROUND; j++)
+  uint32_t first = (uint32_t)soup->n, round = (uint32_t)sides_of (soup, at, radius, FEWEST);
+  uint32_t span = round / 2;
+  for (uint32_t i = 0; i <= span; i++)
+    for (uint32_t j = 0; j <= round; j++)
       {
-        double t = BT__PI * i / SPAN, u = 2 * BT__PI * j / ROUND;
+        double t = BT__PI * i / span, u = 2 * BT__PI * j / round;
         bt_vec3 n = bt__vec (sin (t) * cos (u), sin (t) * sin (u), cos (t));
         bt__add_vertex (soup, bt__axpy (at, radius, n), n);
       }
-  for (uint32_t i = 0; i < SPAN; i++)
-    for (uint32_t j = 0; j < ROUND; j++)
+  for (uint32_t i = 0; i < span; i++)
+    for (uint32_t j = 0; j < round; j++)
       {
-        uint32_t k = first + i * (ROUND + 1) + j;
-        bt__add_triangle (soup, k, k + ROUND + 1, k + 1);
-        bt__add_triangle (soup, k + 1, k + ROUND + 1, k + ROUND + 2);
+        uint32_t k = first + i * (round + 1) + j;
+        bt__add_triangle (soup, k, k + round + 1, k + 1);
+        bt__add_triangle (soup, k + 1, k + round + 1, k + round + 2);
       }
 }
 
@@ -178,12 +189,12 @@ around (bt_vec3 u, bt_vec3 v, int i, int n)
 }
 
 static void
-add_disc (bt__soup *soup, bt_vec3 at, bt_vec3 normal, bt_vec3 u, bt_vec3 v, double r)
+add_disc (bt__soup *soup, bt_vec3 at, bt_vec3 normal, bt_vec3 u, bt_vec3 v, double r, int sides)
 {
   uint32_t middle = bt__add_vertex (soup, at, normal);
-  for (int i = 0; i <= ROUND; i++)
+  for (int i = 0; i <= sides; i++)
     {
-      uint32_t k = bt__add_vertex (soup, bt__axpy (at, r, around (u, v, i, ROUND)), normal);
+      uint32_t k = bt__add_vertex (soup, bt__axpy (at, r, around (u, v, i, sides)), normal);
       if (i)
         bt__add_triangle (soup, middle, k - 1, k);
     }
@@ -194,10 +205,13 @@ bt__add_cone (bt__soup *soup, bt_vec3 from, bt_vec3 to, double r0, double r1, in
 {
   bt_vec3 axis = bt__unit_or (bt__sub (to, from), bt__vec (0, 0, 1)), u, v;
   double length = bt__distance (from, to), lean = length > 0 ? (r0 - r1) / length : 0;
+  int from_sides = sides_of (soup, from, fmax (r0, r1), FEWEST);
+  int to_sides = sides_of (soup, to, fmax (r0, r1), FEWEST);
+  int sides = from_sides > to_sides ? from_sides : to_sides;
   cross_axes (axis, &u, &v);
-  for (int i = 0; i <= ROUND; i++)
+  for (int i = 0; i <= sides; i++)
     {
-      bt_vec3 out = around (u, v, i, ROUND);
+      bt_vec3 out = around (u, v, i, sides);
       bt_vec3 normal = bt__unit_or (bt__axpy (out, lean, axis), out);
       uint32_t k = bt__add_vertex (soup, bt__axpy (from, r0, out), normal);
       bt__add_vertex (soup, bt__axpy (to, r1, out), normal);
@@ -208,9 +222,9 @@ bt__add_cone (bt__soup *soup, bt_vec3 from, bt_vec3 to, double r0, double r1, in
         }
     }
   if (caps && r0 > 0)
-    add_disc (soup, from, bt__scale (-1, axis), u, v, r0);
+    add_disc (soup, from, bt__scale (-1, axis), u, v, r0, sides);
   if (caps && r1 > 0)
-    add_disc (soup, to, axis, u, v, r1);
+    add_disc (soup, to, axis, u, v, r1, sides);
 }
 
 void
@@ -224,11 +238,6 @@ bt__add_ring (bt__soup *soup, bt_vec3 at, bt_vec3 axis, double radius, double th
 }
 
 /* ---- Tubes ---- */
-
-enum
-{
-  SIDES = 10
-};
 
 /* The direction of the polyline at point I.  */
 static bt_vec3
@@ -244,8 +253,11 @@ bt__add_tube (bt__soup *soup, const bt_vec3 *points, size_t n, double radius, do
               const bt_color *color)
 {
   bt_vec3 along = bt__vec (1, 0, 0), u, v;
+  int sides = TUBE_LEAST;
   if (n < 2)
     return;
+  for (size_t i = 0; i < n; i++)
+    sides = sides_of (soup, points[i], radius, sides);
   along = direction (points, n, 0, along);
   cross_axes (along, &u, &v);
   for (size_t i = 0; i < n; i++)
@@ -256,14 +268,14 @@ bt__add_tube (bt__soup *soup, const bt_vec3 *points, size_t n, double radius, do
       v = bt__cross (along, u);
       if (color)
         bt__stuff_color (&soup->stuff, color[i]);
-      for (int k = 0; k < SIDES; k++)
+      for (int k = 0; k < sides; k++)
         {
-          bt_vec3 out = around (u, v, k, SIDES);
+          bt_vec3 out = around (u, v, k, sides);
           bt__add_vertex (soup, bt__axpy (points[i], r, out), out);
         }
-      for (uint32_t k = 0; i && k < SIDES; k++)
+      for (uint32_t k = 0, m = (uint32_t)sides; i && k < m; k++)
         {
-          uint32_t next = (k + 1) % SIDES, top = (uint32_t)soup->n - SIDES, low = top - SIDES;
+          uint32_t next = (k + 1) % m, top = (uint32_t)soup->n - m, low = top - m;
           bt__add_triangle (soup, low + k, low + next, top + k);
           bt__add_triangle (soup, top + k, low + next, top + next);
         }

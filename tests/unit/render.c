@@ -15,11 +15,13 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <cairo.h>
 #include <cmocka.h>
 
 #include "math/vec.h"
 #include "render/camera.h"
 #include "render/render.h"
+#include "render/soup.h"
 
 /* What the graphics libraries keep to themselves is no leak of ours.  */
 const char *__lsan_default_suppressions (void);
@@ -574,6 +576,70 @@ files (void **state)
   bt__picture_free (&p);
 }
 
+/* What is read back is what was written, opaque or not, for any colours and sizes.  */
+static void
+read_back (void **state)
+{
+  char name[] = "/tmp/bight-render-XXXXXX";
+  int fd = mkstemp (name);
+  uint32_t seed = 1;
+  (void)state;
+  assert_true (fd >= 0);
+  close (fd);
+  for (int i = 0; i < 40; i++)
+    {
+      bt__picture p;
+      cairo_surface_t *s;
+      assert_int_equal (bt__picture_new (&p, 16 + i, 56 - i, NULL), BT_OK);
+      for (int k = 0; k < p.width * p.height; k++)
+        {
+          uint32_t a = (seed = seed * 1664525u + 1013904223u) >> 24, pixel;
+          a = i & 1 ? a : 255; /* every other picture is opaque */
+          pixel = a << 24 | (seed >> 16 & 255) * a / 255 << 16 | (seed >> 8 & 255) * a / 255 << 8;
+          p.pixels[k] = pixel | (seed & 255) * a / 255;
+        }
+      assert_int_equal (bt__picture_write (&p, name, NULL), BT_OK);
+      s = cairo_image_surface_create_from_png (name);
+      assert_int_equal (cairo_surface_status (s), CAIRO_STATUS_SUCCESS);
+      assert_int_equal (cairo_image_surface_get_width (s), p.width);
+      assert_int_equal (cairo_image_surface_get_height (s), p.height);
+      for (int y = 0; y < p.height; y++)
+        for (int x = 0; x < p.width; x++)
+          {
+            uint32_t got, want = p.pixels[y * p.width + x];
+            memcpy (&got,
+                    cairo_image_surface_get_data (s) + y * cairo_image_surface_get_stride (s)
+                        + 4 * x,
+                    4);
+            assert_int_equal (got & (i & 1 ? 0xffffffff : 0xffffff),
+                              want & (i & 1 ? 0xffffffff : 0xffffff));
+          }
+      cairo_surface_destroy (s);
+      bt__picture_free (&p);
+    }
+  unlink (name);
+}
+
+/* What is smaller in the picture is drawn with fewer triangles, down to what still looks round.  */
+static void
+small_is_cheap (void **state)
+{
+  size_t last = SIZE_MAX, first = 0;
+  (void)state;
+  for (double away = 1; away < 2000; away *= 2)
+    {
+      bt__soup soup = { .n = 0 };
+      soup.lens = (bt__lens){ { 0, -away, 0 }, { 0, 1, 0 }, 0.001, 1, 720 };
+      bt__add_cone (&soup, bt__vec (0, 0, 0), bt__vec (0, 0, 1), 0.3, 0.3, 1);
+      bt__add_sphere (&soup, bt__vec (0, 0, 0), 0.3);
+      assert_true (soup.n_index <= last && soup.n_index >= 3 * 8);
+      last = soup.n_index;
+      first = first ? first : last;
+      bt__soup_free (&soup);
+    }
+  assert_true (last < first / 10);
+}
+
 int
 main (void)
 {
@@ -593,6 +659,8 @@ main (void)
     cmocka_unit_test (unknown_back_end),
     cmocka_unit_test (plan),
     cmocka_unit_test (files),
+    cmocka_unit_test (read_back),
+    cmocka_unit_test (small_is_cheap),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
