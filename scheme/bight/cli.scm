@@ -254,14 +254,15 @@ begins with FILE and the line."
 (define (take-snapshot arguments)
   (call-with-values (lambda () (split-arguments "snapshot" arguments))
     (lambda (worlds options)
-      (unless (= 1 (length worlds))
-        (bad-usage "snapshot: name one world or file, as in bight snapshot WORLD -o FILE.png"))
+      (when (null? worlds)
+        (bad-usage "snapshot: name a world or file, as in bight snapshot WORLD -o FILE.png"))
       (unless (assoc-ref options "-o")
         (bad-usage "snapshot: say where to, as in bight snapshot ~a -o FILE.png" (car worlds)))
-      (show-values ((from (bight picture) snapshot-world)
-                    (world-argument (car worlds))
-                    (assoc-ref options "-o")
-                    options))
+      (for-each show-values
+                ((from (bight picture) snapshot-worlds)
+                 (map world-argument worlds)
+                 (assoc-ref options "-o")
+                 options))
       0)))
 
 
@@ -350,14 +351,17 @@ begins with FILE and the line."
             '("--rounds N" "repeat it so often")
             '("--compare OLD" "a report.json, or the programs' folder of another build: run again and say"
               "what is better, worse or noise; with a second .json compare the two; exit 1 if an error grew"))
-   (command "snapshot" take-snapshot "WORLD"
-            '("write a picture of a world")
-            '("-o FILE" "the picture, a PNG")
+   (command "snapshot" take-snapshot "WORLD..."
+            '("write a picture of a world, or of several worlds or times into a folder")
+            '("-o FILE" "the picture, a PNG; the folder of several")
             '("--view V" "chase, pilot, top, side, north, east, overview or plan")
             '("--size WxH" "in pixels")
             '("--paint P" "colour tethers plain, by tension, curvature or model")
             '("--overlay O" "figures, none, contacts, turns, taut-string, bvh; or several, with commas")
-            '("--run S" "as it is S seconds into a dive")
+            '("--at X,Y,Z" "with this point in the middle")
+            '("--extent M" "so many metres across")
+            '("--zoom N" "so many times nearer")
+            '("--run S" "as it is S seconds into a dive; several with commas")
             '("--trust" "let a file from outside do all that you may"))
    (command "pilot" fly "WORLD"
             '("fly a world live from the keyboard; ? there shows the keys")

@@ -11,6 +11,7 @@
   #:use-module (bight dive)
   #:use-module ((bight errors)
                 #:select (bight-raise bight-error? bight-error-kind bight-error-message nearest))
+  #:use-module ((bight folders) #:select (ensure-folder!))
   #:use-module ((bight outlet) #:select (control watched?))
   #:use-module (bight record)
   #:use-module (bight verb)
@@ -21,7 +22,7 @@
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:export (snapshot
             show
-            snapshot-world
+            snapshot-worlds
             renderer-name
             renderer
             picture-pixels
@@ -182,7 +183,14 @@
 ;;; Drawing.
 
 (define (view-name view)
-  (if (symbol? view) (symbol->string view) "look"))
+  (let ((view (if (pair? view) (car view) view)))
+    (if (symbol? view) (symbol->string view) "look")))
+
+(define (moved views at extent zoom)
+  ;; VIEWS, their cameras moved as the keywords of `snapshot' say: lists as the renderer takes them.
+  (if (or at extent zoom)
+      (map (lambda (view) (list view at (or extent 0.) (or zoom 1.))) views)
+      views))
 
 (define (title-of view)
   (let ((name (world-name (dive-world (this-dive 'snapshot)))))
@@ -190,7 +198,7 @@
 
 (define (draw-view proc view size paint flags)
   ;; The pixels of one view of SIZE, a pair.
-  ((renders proc '%draw) (and (not (eq? view 'plan)) (renderer proc))
+  ((renders proc '%draw) (and (not (string=? "plan" (view-name view))) (renderer proc))
                          (this-engine proc) (title-of view) view size paint flags))
 
 (define (put! whole width part size column row)
@@ -257,6 +265,7 @@
                        #:key (view views '(overview)) (size pixels '(1280 . 720))
                        (paint (one-of plain tension curvature model) 'plain)
                        (overlay overlay '(figures))
+                       (at (or-false point)) (extent (or-false positive)) (zoom (or-false positive))
                        (transparent flag #f))
   "Write a picture of the dive as it is now to FILE, a PNG, and return its name and size.  VIEW is chase,
 pilot, top, side, north, east, overview (the default), plan (a drawing on paper), (look FROM AT), or a
@@ -264,9 +273,11 @@ list of these for a sheet; SIZE is (WIDTH HEIGHT) in pixels; PAINT colours tethe
 curvature or by model; OVERLAY is figures (title, scale, compass, legend) or none, or more than the
 figures: contacts (each with its force), turns about what, taut-string (what the tether would shrink to),
 bvh (the boxes about obstacles that collisions are looked for in, the first levels of them; (bvh LEVEL)
-is one alone), or a list of several; TRANSPARENT leaves out water and ground."
+is one alone), or a list of several.  A view chooses where to look; AT is another point for the middle,
+EXTENT how many metres across are seen there, ZOOM how many times nearer to go.  TRANSPARENT leaves out
+water and ground."
   (check-file 'snapshot file)
-  (let ((pixels (draw 'snapshot view size paint (flags-of overlay transparent))))
+  (let ((pixels (draw 'snapshot (moved view at extent zoom) size paint (flags-of overlay transparent))))
     (write-picture 'snapshot pixels size file)
     (caption view file ", " (number->string (car size)) " x " (number->string (cdr size)) " pixels")))
 
@@ -292,8 +303,8 @@ is one alone), or a list of several; TRANSPARENT leaves out water and ground."
   (newline)
   (force-output))
 
-(define (show-plainly)
-  (write ((from (bight view) look)))
+(define (show-plainly at extent zoom)
+  (write ((from (bight view) look) #:at at #:extent extent #:zoom (or zoom 1)))
   (newline)
   (make-caption "plain characters, from above and from the side"))
 
@@ -310,15 +321,16 @@ is one alone), or a list of several; TRANSPARENT leaves out water and ground."
 (define-verb (show #:key (view views '(overview)) (size (or-false cells))
                    (paint (one-of plain tension curvature model) 'plain)
                    (overlay overlay '(figures))
+                   (at (or-false point)) (extent (or-false positive)) (zoom (or-false positive))
                    (as (or-false (one-of kitty sixel symbols plain))))
-  "Put a picture of the dive as it is now in the terminal, as `snapshot' draws it: VIEW, PAINT and
-OVERLAY are the same; SIZE is (COLUMNS ROWS) in characters.  AS is kitty, sixel, symbols or plain, by
+  "Put a picture of the dive as it is now in the terminal, as `snapshot' draws it: VIEW, PAINT, OVERLAY,
+AT, EXTENT and ZOOM are the same; SIZE is (COLUMNS ROWS) in characters.  AS is kitty, sixel, symbols or plain, by
 default the best that the terminal can; plain is what `look' draws.  Return what was shown."
   (let ((way (or as (best-way))))
     (this-dive 'show)
     (if (eq? way 'plain)
-        (show-plainly)
-        (show-pixels view (or size (usual-cells)) paint overlay way))))
+        (show-plainly at extent zoom)
+        (show-pixels (moved view at extent zoom) (or size (usual-cells)) paint overlay way))))
 
 
 ;;; From the command line.
@@ -335,6 +347,14 @@ default the best that the terminal can; plain is what `look' draws.  Return what
   (let ((views (map option->symbol (string-split text #\,))))
     (if (null? (cdr views)) (car views) views)))
 
+(define (option->number text)
+  (or (string->number text) text))
+
+(define (option->point text)
+  ;; "0,6,-9" as (0 6 -9), or TEXT itself, to be refused.
+  (let ((numbers (map string->number (string-split text #\,))))
+    (if (every identity numbers) numbers text)))
+
 (define (option->overlay text)
   (map option->symbol (string-split text #\,)))
 
@@ -343,21 +363,60 @@ default the best that the terminal can; plain is what `look' draws.  Return what
   `(("--view" #:view ,option->views)
     ("--size" #:size ,option->size)
     ("--paint" #:paint ,option->symbol)
-    ("--overlay" #:overlay ,option->overlay)))
+    ("--overlay" #:overlay ,option->overlay)
+    ("--at" #:at ,option->point)
+    ("--extent" #:extent ,option->number)
+    ("--zoom" #:zoom ,option->number)))
 
-(define (option->seconds text)
-  (or (string->number text)
-      (bight-raise 'domain 'snapshot "--run must be a number of seconds, not ~s" text)))
+(define (option->times text)
+  ;; "10,20" as (10 20): the seconds into the dive of each picture, in order.
+  (let ((times (map string->number (string-split text #\,))))
+    (unless (and (every (lambda (t) (and (real? t) (>= t 0))) times) (apply <= times))
+      (bight-raise 'domain 'snapshot
+                   "--run must be seconds, such as 60 or, for several pictures, 10,20,60, not ~s" text))
+    times))
 
-(define (snapshot-world world file options)
-  "Start a dive in WORLD, a name or a file, let it run as OPTIONS say, an alist of the command line, and
-write a picture of it to FILE.  Return what `snapshot' returns."
+(define (file-for folder world time)
+  ;; Where the picture of WORLD at TIME, or of its beginning for #f, goes in FOLDER.
+  (string-append folder "/" (basename (if (symbol? world) (symbol->string world) world) ".scm")
+                 (if time (string-append "-" (number->string time) "s") "") ".png"))
+
+(define (have-folder folder)
+  (catch 'system-error
+    (lambda () (ensure-folder! folder))
+    (lambda details
+      (bight-raise 'io 'snapshot "cannot make the folder ~s: ~a" folder
+                   (strerror (system-error-errno details)))))
+  (unless (file-is-directory? folder)
+    (bight-raise 'io 'snapshot "several pictures go into a folder, and ~s is a file" folder)))
+
+(define (keywords-of options)
+  (append-map (lambda (entry)
+                (let ((text (assoc-ref options (first entry))))
+                  (if text (list (second entry) ((third entry) text)) '())))
+              command-options))
+
+(define (snapshots-of world times name-file options)
+  ;; Write a picture of WORLD at each of TIMES, numbers or one #f, to what NAME-FILE makes of the time.
   ((from (bight dive) enter!) world #:trust (assoc-ref options "--trust"))
-  (let ((seconds (assoc-ref options "--run")))
-    (when seconds
-      ((from (bight time) run) (option->seconds seconds))))
-  (apply snapshot file
-         (append-map (lambda (entry)
-                       (let ((text (assoc-ref options (first entry))))
-                         (if text (list (second entry) ((third entry) text)) '())))
-                     command-options)))
+  (let loop ((now 0) (times times) (done '()))
+    (if (null? times)
+        (reverse done)
+        (let ((time (car times)))
+          (when (and time (> time now))
+            ((from (bight time) run) (- time now)))
+          (loop (or time now) (cdr times)
+                (cons (apply snapshot (name-file time) (keywords-of options)) done))))))
+
+(define (snapshot-worlds worlds to options)
+  "Start a dive in each of WORLDS, names or files, let it run as OPTIONS say, an alist of the command line,
+and write pictures: one to the file TO, several into the folder TO.  Return what `snapshot' returns of each."
+  (let* ((run (assoc-ref options "--run"))
+         (times (if run (option->times run) '(#f))))
+    (if (and (null? (cdr worlds)) (null? (cdr times)))
+        (snapshots-of (car worlds) times (const to) options)
+        (begin
+          (have-folder to)
+          (append-map (lambda (world)
+                        (snapshots-of world times (lambda (time) (file-for to world (and run time))) options))
+                      worlds)))))

@@ -406,8 +406,7 @@
 
 (define (side-panel scene places levels project bearing columns rows step)
   (let ((canvas (make-canvas columns rows (middle-of (with-levels levels places)) step)))
-    (when (memv 0 levels)
-      (put-row! canvas 0 #\~))
+    (put-row! canvas 0 #\~)
     (draw-bed! canvas scene bearing)
     (draw-scene! canvas scene project (side-mark bearing))
     (frame (string-append "from the side, toward " (bearing->string bearing))
@@ -425,27 +424,74 @@
 
 (define panel-rows 18)
 
-(define (draw scene width)
+;; What a drawing is of: the tethers and vehicles, and the structure beside them, as far as it is no
+;; further off than a sixth of their size, or than the nearest of it.
+
+(define (box-of points)
+  ;; The least and the greatest coordinates of POINTS.
+  (map (lambda (pick) (apply map (lambda xs (apply pick xs)) points)) (list min max)))
+
+(define (gap-to box point)
+  (sqrt (apply + (map (lambda (low high x) (expt (max 0 (- low x) (- x high)) 2))
+                      (first box) (second box) point))))
+
+(define (clamped box reach point)
+  (map (lambda (low high x) (max (- low reach) (min (+ high reach) x))) (first box) (second box) point))
+
+(define (size-of box)
+  (sqrt (apply + (map (lambda (low high) (expt (- high low) 2)) (first box) (second box)))))
+
+(define (places-of-structure scene)
+  ;; Points of the structure that belong in a drawing of SCENE.
+  (let* ((box (box-of (scene-points scene)))
+         (size (max 1 (size-of box)))
+         (lines (filter pair? (scene-outlines scene)))
+         (gaps (map (lambda (line) (apply min (map (lambda (p) (gap-to box p)) line))) lines)))
+    (if (null? lines)
+        '()
+        (let* ((nearest (apply min gaps))
+               (line (list-ref lines (list-index (lambda (gap) (= gap nearest)) gaps)))
+               (reach (if (< (/ size 6) nearest size)
+                          (+ nearest (min (size-of (box-of line)) (/ size 2)))
+                          (/ size 6))))
+          (append-map (lambda (line gap)
+                        (if (<= gap reach) (map (lambda (p) (clamped box reach p)) line) '()))
+                      lines gaps)))))
+
+(define (draw scene width at extent zoom)
   ;; The lines of both panels, side by side in WIDTH columns.
   (let* ((columns (- (quotient (- width 1) 2) 2))
          (bearing (main-direction scene))
          (project (from-the-side bearing (car (scene-points scene))))
-         (above (map from-above (scene-points scene)))
-         (beside (map project (scene-points scene)))
-         (levels (near-levels scene beside))
-         (step (max (step-for above columns panel-rows)
-                    (step-for (with-levels levels beside) columns panel-rows))))
+         (points (if at (list at) (append (scene-points scene) (places-of-structure scene))))
+         (above (map from-above points))
+         (beside (map project points))
+         (levels (if (or at extent) '() (near-levels scene beside)))
+         (step (/ (if extent
+                      (/ extent columns)
+                      (step-to-fit scene project columns levels))
+                  zoom)))
     (append (map (lambda (left right) (string-append left " " right))
                  (top-panel scene above columns panel-rows step)
                  (side-panel scene beside levels project bearing columns panel-rows step))
             (list (string-append " " (legend scene step columns))))))
 
-(define-verb (look #:key (columns (or-false (between 40 400))))
+(define (step-to-fit scene project columns levels)
+  ;; The metres a column spans when all of SCENE is drawn.
+  (let ((points (append (scene-points scene) (places-of-structure scene))))
+    (max (step-for (map from-above points) columns panel-rows)
+         (step-for (with-levels levels (map project points)) columns panel-rows))))
+
+(define-verb (look #:key (columns (or-false (between 40 400)))
+                   (at (or-false point)) (extent (or-false positive)) (zoom positive 1))
   "Draw the present dive in plain characters, from above (north up) and from the side, on one scale in
 both: A is the anchor, ^ > v < the vehicle and where it heads, # an obstacle, ~ the surface, = the
-sea bed, where there is one.  The drawing is COLUMNS wide, by default as wide as the terminal.  Return a picture, which prints as text."
+sea bed, where there is one.  The tethers, the vehicles and the structure beside them are in it; AT is
+another point for the middle, EXTENT how many metres each drawing spans, ZOOM how many times nearer it
+is.  The drawing is COLUMNS wide, by default as wide as the terminal.  Return a picture, which prints as
+text."
   (let ((width (inexact->exact (floor (or columns (max 40 (min 160 (terminal-columns))))))))
-    (lines->picture (draw (read-scene) width))))
+    (lines->picture (draw (read-scene) width (and at (array->list at)) extent zoom))))
 
 
 ;;; The panel of figures.  A row is a title and its cells; what the dive cannot tell is left out.

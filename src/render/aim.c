@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "math/vec.h"
+#include "render/sight.h"
 
 #define DEGREE (BT__PI / 180)
 
@@ -147,8 +148,8 @@ must_box (const bt_view *view)
   return b;
 }
 
-/* Call VISIT for what must be in the picture, and for the part of what is near that lies within a
-   third of its size of it.  */
+/* Call VISIT for what must be in the picture, and for the part of what is near that lies within
+   reach of it.  */
 typedef struct clip
 {
   box all;
@@ -168,11 +169,39 @@ visit_clipped (void *user, bt_vec3 p)
   c->visit (c->user, p);
 }
 
+static double
+gap_between (const box *a, const box *b)
+{
+  double x = fmax (fmax (a->low.x - b->high.x, b->low.x - a->high.x), 0);
+  double y = fmax (fmax (a->low.y - b->high.y, b->low.y - a->high.y), 0);
+  double z = fmax (fmax (a->low.z - b->high.z, b->low.z - a->high.z), 0);
+  return sqrt (x * x + y * y + z * z);
+}
+
+/* The distance from the box ALL within which near things are framed: a sixth of its size, or enough
+   to show the nearest thing if the picture grows to three times the size at most.  */
+static double
+reach_about (const bt_view *view, const box *all)
+{
+  double size = bt__distance (all->low, all->high), reach = size / 6, least = INFINITY, more = 0;
+  for (size_t i = 0; i < view->n; i++)
+    {
+      box b;
+      double gap;
+      if (view->things[i].framing != BT_FRAME_NEAR || view->things[i].kind == BT_THING_ARROW
+          || (b = box_of (&view->things[i]), !b.any) || !((gap = gap_between (all, &b)) < least))
+        continue;
+      least = gap;
+      more = gap + fmin (bt__distance (b.low, b.high), size / 2);
+    }
+  return least > reach && least < size ? more : reach;
+}
+
 static void
 visit_all (const bt_view *view, visit_point *visit, void *user)
 {
   clip c = { must_box (view), 0, visit, user };
-  c.gap = bt__distance (c.all.low, c.all.high) / 6;
+  c.gap = reach_about (view, &c.all);
   for (size_t i = 0; i < view->n; i++)
     {
       const bt_thing *t = &view->things[i];
@@ -304,16 +333,59 @@ across (const bt_view *view)
   return d.y < -1e-9 || (fabs (d.y) <= 1e-9 && d.x < 0) ? bt__scale (-1, d) : d;
 }
 
-/* From above and aside: across the tube, a little turned.  */
+/* The share of what the dive is about, its tubes and vehicles, that the camera sees.  */
+static double
+share_seen (const bt_view *view)
+{
+  enum
+  {
+    SPOTS = 12 /* of a tube, and as many times counts a vehicle */
+  };
+  int all = 0, seen = 0;
+  for (size_t i = 0; i < view->n; i++)
+    {
+      const bt_thing *t = &view->things[i];
+      int tube = t->kind == BT_THING_TUBE && t->n > 0;
+      if (t->framing != BT_FRAME_MUST || (!tube && t->kind != BT_THING_VEHICLE))
+        continue;
+      for (int k = 0; k < (tube ? SPOTS : 1); k++)
+        {
+          bt_vec3 p = tube ? t->points[(t->n - 1) * (size_t)k / (SPOTS - 1)] : t->at;
+          int weight = tube ? 1 : SPOTS;
+          all += weight;
+          seen += bt__hidden (view, view->camera.from, p) ? 0 : weight;
+        }
+    }
+  return all ? (double)seen / all : 1;
+}
+
 static void
-aim_overview (bt_view *view, double aspect)
+aim_about (bt_view *view, double turn, double dip, double aspect)
 {
   bt_vec3 a = across (view);
-  double turn = 28 * DEGREE, dip = 24 * DEGREE;
   bt_vec3 level
       = bt__vec (a.x * cos (turn) + a.y * sin (turn), a.y * cos (turn) - a.x * sin (turn), 0);
   bt_vec3 ahead = bt__axpy (bt__scale (cos (dip), level), -sin (dip), above);
   aim_perspective (view, ahead, 42 * DEGREE, aspect);
+}
+
+/* From above and aside: across the tube, a little turned.  Where solids such as ice hide the dive,
+   the first direction with enough of the dive in sight, or else the best direction.  */
+static void
+aim_overview (bt_view *view, double aspect)
+{
+  static const double dips[] = { 24, 4, -14, 55 }, enough = 0.7;
+  double best = -1, best_turn = 0, best_dip = 0;
+  for (size_t d = 0; d < sizeof dips / sizeof *dips && best < enough; d++)
+    for (int k = 0; k < 4 && best < enough; k++)
+      {
+        double turn = (28 + 90 * k) * DEGREE, dip = dips[d] * DEGREE, share;
+        aim_about (view, turn, dip, aspect);
+        share = share_seen (view);
+        if (share > best + 1e-9)
+          best = share, best_turn = turn, best_dip = dip;
+      }
+  aim_about (view, best_turn, best_dip, aspect);
 }
 
 static void
@@ -384,5 +456,25 @@ bt_view_look (bt_view *view, bt_vec3 from, bt_vec3 at, bt_error *error)
   view->camera = (bt_camera){ .from = from, .at = at, .up = above, .angle = 50 * DEGREE };
   if (hypot (way.x, way.y) < 1e-6 * bt__norm (way))
     view->camera.up = north;
+  return BT_OK;
+}
+
+bt_status
+bt_view_move (bt_view *view, const bt_vec3 *at, double extent, double zoom, double aspect,
+              bt_error *error)
+{
+  bt_camera *c = &view->camera;
+  bt_vec3 way = bt__sub (c->from, c->at);
+  double across = 2 * tan (c->angle / 2) * aspect * bt__norm (way), factor = 1 / zoom;
+  if (!(zoom > 0) || !(extent >= 0) || !isfinite (zoom) || !isfinite (extent)
+      || (at && !bt__is_finite (*at)))
+    return bt__fail (error, BT_ERR_DOMAIN, "a camera moves to a point, nearer by a number above 0");
+  if (c->angle <= 0)
+    across = c->height * aspect;
+  if (extent > 0)
+    factor *= extent / across;
+  c->at = at ? *at : c->at;
+  c->height *= factor;
+  c->from = bt__axpy (c->at, c->angle > 0 ? factor : 1, way);
   return BT_OK;
 }

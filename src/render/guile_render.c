@@ -100,9 +100,8 @@ free_sketch (void *data)
 
 /* AIM is the name of a view, or an f64vector of six numbers: from, at.  */
 static bt_status
-aim_camera (sketch *s, SCM aim, bt_error *error)
+aim_still (sketch *s, SCM aim, double aspect, bt_error *error)
 {
-  double aspect = (double)s->drawing.width / s->drawing.height;
   const double *x;
   if (scm_is_symbol (aim))
     {
@@ -112,6 +111,28 @@ aim_camera (sketch *s, SCM aim, bt_error *error)
     }
   x = (const double *)SCM_BYTEVECTOR_CONTENTS (aim);
   return bt_view_look (s->view, (bt_vec3){ x[0], x[1], x[2] }, (bt_vec3){ x[3], x[4], x[5] },
+                       error);
+}
+
+/* AIM is what aim_still takes; or a list of that, the point to look at, an f64vector or false, how
+   many metres to see there, and how many times nearer to go.  */
+static bt_status
+aim_camera (sketch *s, SCM aim, bt_error *error)
+{
+  double aspect = (double)s->drawing.width / s->drawing.height;
+  int moved = scm_is_pair (aim);
+  bt_status status = aim_still (s, moved ? scm_car (aim) : aim, aspect, error);
+  const double *x;
+  bt_vec3 at = { 0, 0, 0 };
+  if (status != BT_OK || !moved)
+    return status;
+  if (scm_is_true (scm_cadr (aim)))
+    {
+      x = (const double *)SCM_BYTEVECTOR_CONTENTS (scm_cadr (aim));
+      at = (bt_vec3){ x[0], x[1], x[2] };
+    }
+  return bt_view_move (s->view, scm_is_true (scm_cadr (aim)) ? &at : NULL,
+                       scm_to_double (scm_caddr (aim)), scm_to_double (scm_cadddr (aim)), aspect,
                        error);
 }
 
@@ -211,6 +232,37 @@ draw_dive (SCM renderer, SCM object, SCM title, SCM aim, SCM size, SCM paint, SC
   return bytes;
 }
 
+/* What stands over a picture, as a list of lists X Y WIDTH HEIGHT; nothing is drawn.  */
+static SCM
+written_boxes (SCM object, SCM title, SCM aim, SCM size, SCM paint, SCM flags)
+{
+  enum
+  {
+    MOST = 96
+  };
+  const bt_dive *dive = to_dive (object);
+  const bt__show show = show_of (paint, flags);
+  sketch *s = scm_gc_calloc (sizeof *s, "sketch");
+  bt__box box[MOST];
+  bt_error error;
+  SCM list = SCM_EOL;
+  int n;
+  set_drawing (&s->drawing, size, flags);
+  scm_dynwind_begin (0);
+  scm_dynwind_unwind_handler (free_sketch, s, SCM_F_WIND_EXPLICITLY);
+  gather_dive (s, dive, &show, SCM_UNDEFINED, 0);
+  set_title (s, title);
+  bt__check ("snapshot", aim_camera (s, aim, &error), &error);
+  n = bt__written (s->view, s->drawing.width, s->drawing.height, s->paper, box, MOST);
+  while (n-- > 0)
+    list = scm_cons (scm_list_4 (scm_from_double (box[n].x), scm_from_double (box[n].y),
+                                 scm_from_double (box[n].w), scm_from_double (box[n].h)),
+                     list);
+  scm_dynwind_end ();
+  scm_remember_upto_here_2 (object, s);
+  return list;
+}
+
 /* ---- Files ---- */
 
 static SCM
@@ -249,6 +301,9 @@ bight_render_init (void)
       "SIZE (WIDTH . HEIGHT), tethers painted by PAINT; FLAGS are of figures, transparent, quick, "
       "lamp, contacts, turns, taut-string, bvh, a level of boxes; GHOST, another dive, is drawn "
       "pale beside it." },
+    { "%written", 6, 0, (scm_t_subr)written_boxes,
+      "Return the boxes (X Y WIDTH HEIGHT) that words and figures take over the picture that %draw "
+      "would make of the same DIVE TITLE AIM SIZE PAINT FLAGS." },
     { "%write-picture", 4, 0, (scm_t_subr)write_picture,
       "Write BYTES, the pixels of a picture of WIDTH by HEIGHT, to FILE as PNG." },
   };

@@ -1,4 +1,4 @@
-/* What is read on a picture: title, labels, scale bar, compass, depths, legend.
+/* What is read on a picture: title, scale bar, compass, depths, legend.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -7,74 +7,6 @@
 
 #include "math/vec.h"
 #include "render/text.h"
-
-/* ---- Labels ---- */
-
-static bt_vec3
-label_place (const bt_thing *t)
-{
-  return t->kind == BT_THING_ARROW ? t->to : t->at;
-}
-
-/* Where labels are already.  */
-typedef struct labels
-{
-  int n;
-  struct
-  {
-    double x, y, w;
-  } at[64];
-} labels;
-
-static int
-is_free (const labels *l, double x, double y, double w, double h)
-{
-  for (int i = 0; i < l->n; i++)
-    if (x < l->at[i].x + l->at[i].w && l->at[i].x < x + w && fabs (y - l->at[i].y) < h)
-      return 0;
-  return 1;
-}
-
-/* The nearest free line above or below Y, within four.  */
-static double
-free_line (const labels *l, double x, double y, double w, double h)
-{
-  for (int i = 0; i < 9; i++)
-    {
-      double at = y + (i & 1 ? (i + 1) / 2 : -i / 2) * h;
-      if (is_free (l, x, at, w, h))
-        return at;
-    }
-  return y;
-}
-
-static void
-write_label (bt__pen *pen, const bt__optics *optics, const bt_thing *t, labels *done)
-{
-  double x, y, w = bt__pen_width (pen, t->text), gap = 0.7 * pen->letter;
-  if (!bt__project (optics, label_place (t), pen->width, pen->height, &x, &y))
-    return;
-  if (x < 0 || x > pen->width || y < 0 || y > pen->height)
-    return;
-  x += x + gap + w > pen->width ? -gap - w : gap; /* or to the other side */
-  y = free_line (done, x, y - 0.45 * pen->letter, w, 1.25 * pen->letter);
-  if (done->n < (int)(sizeof done->at / sizeof *done->at))
-    {
-      done->at[done->n].x = x;
-      done->at[done->n].y = y;
-      done->at[done->n++].w = w;
-    }
-  bt__pen_text (pen, x, y, 0, t->text);
-}
-
-static void
-write_labels (bt__pen *pen, const bt_view *view, const bt__optics *optics)
-{
-  labels done = { .n = 0 };
-  for (size_t i = 0; i < view->n; i++)
-    if (view->things[i].text)
-      write_label (pen, optics, &view->things[i], &done);
-}
 
 /* ---- The scale bar ---- */
 
@@ -167,6 +99,7 @@ static void
 write_compass (bt__pen *pen, const bt__optics *o)
 {
   double r = 2.1 * pen->letter, cx = pen->width - 2 * r, cy = 1.7 * r, x, y;
+  int before = pen->n_taken;
   for (int i = 0; i <= 48; i++)
     {
       compass_point (o, 2 * BT__PI * i / 48, r, &x, &y);
@@ -178,6 +111,8 @@ write_compass (bt__pen *pen, const bt__optics *o)
   compass_needle (pen, o, cx, cy, r);
   compass_point (o, 0, 1.42 * r, &x, &y);
   bt__pen_text (pen, cx + x, cy + y + 0.36 * pen->letter, 0.5, "N");
+  pen->n_taken = before; /* the N is part of it */
+  bt__pen_take (pen, &(bt__box){ cx - 1.6 * r, cy - 1.6 * r, 3.2 * r, 3.2 * r });
 }
 
 /* ---- Depths, beside a level view ---- */
@@ -220,6 +155,7 @@ write_bar (bt__pen *pen, const bt_scale *scale, double x, double y, double w, do
     }
   cairo_rectangle (pen->cr, x, y, w, h);
   bt__pen_stroke (pen, fmax (0.7, 0.05 * pen->letter));
+  bt__pen_take (pen, &(bt__box){ x, y, w, h });
 }
 
 static void
@@ -255,6 +191,7 @@ write_word_scale (bt__pen *pen, const bt_scale *scale)
       bt__pen_color (pen, bt__scale_color (scale, i));
       cairo_rectangle (pen->cr, x, y - 0.75 * e, 0.9 * e, 0.9 * e);
       cairo_fill (pen->cr);
+      bt__pen_take (pen, &(bt__box){ x, y - 0.75 * e, 0.9 * e, 0.9 * e });
       bt__pen_text (pen, x + 1.4 * e, y, 0, scale->word[i]);
     }
 }
@@ -304,11 +241,11 @@ bt__write_figures (bt__pen *pen, const bt_view *view, const bt__optics *o)
   if (small)
     return;
   write_title (pen, view);
-  write_labels (pen, view, o);
   write_compass (pen, o);
   if (!o->perspective && fabs (o->ahead.z) < 0.3)
     write_depths (pen, view, o);
   write_legend (pen, &view->scale);
+  bt__write_labels (pen, view, o); /* last: they make way for all the others */
 }
 
 bt_status
@@ -321,4 +258,25 @@ bt__overlay (const bt_view *view, bt__picture *picture, int paper, bt_error *err
     return status;
   bt__write_figures (&pen, view, &optics);
   return bt__pen_close (&pen, error);
+}
+
+int
+bt__written (const bt_view *view, int width, int height, int paper, bt__box *box, int most)
+{
+  bt__optics optics = bt__optics_of (&view->camera, (double)width / height);
+  bt__picture picture;
+  bt__pen pen;
+  int n = -1;
+  if (bt__picture_new (&picture, width, height, NULL) != BT_OK)
+    return n;
+  if (bt__pen_open (&pen, &picture, paper, NULL) == BT_OK)
+    {
+      bt__write_figures (&pen, view, &optics);
+      n = pen.n_taken;
+      for (int i = 0; i < n && i < most; i++)
+        box[i] = pen.taken[i];
+      bt__pen_close (&pen, NULL);
+    }
+  bt__picture_free (&picture);
+  return n;
 }

@@ -1,8 +1,8 @@
-/* PNG, quickly: a picture of water has a step of noise in every pixel, over which a searching
-   compressor spends four fifths of its time for a seventh of the size.
+/* PNG, quickly: a picture of water has a step of noise in every pixel.  zlib's usual level spends
+   four fifths of its time searching the noise, for a seventh of the size.
 
-   Each byte is written as its difference from that of the pixel before (PNG's filter 1), and
-   compressed by zlib at its first level.  An opaque picture is written without its alpha.
+   Each byte is the difference from the pixel before (PNG's filter 1), compressed at zlib's first
+   level.  An opaque picture has no alpha.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -58,6 +58,16 @@ bt_status bt__render (bt__renderer *renderer, const bt_view *view, const bt__dra
    (overlay.c); dark for PAPER true, else bright.  */
 bt_status bt__overlay (const bt_view *view, bt__picture *picture, int paper, bt_error *error);
 
+/* A part of a picture, pixels from its upper left corner.  */
+typedef struct bt__box
+{
+  double x, y, w, h;
+} bt__box;
+
+/* Return how many boxes the words and figures over a picture of VIEW take, up to MOST of them into
+   BOX; -1 without memory.  */
+int bt__written (const bt_view *view, int width, int height, int paper, bt__box *box, int most);
+
 /* Draw VIEW as a plan on paper into PICTURE, made here: no context is needed (plan.c).  */
 bt_status bt__plan (const bt_view *view, const bt__drawing *drawing, bt__picture *picture,
                     bt_error *error);

@@ -67,8 +67,24 @@ add_vehicles (bt__scene *s)
 
 /* ---- What tethers come from ---- */
 
-/* A boat whose stern is over the tether's end, its bow turned away from the rest of it.  */
-static void
+/* True if a boat of LENGTH at AT would be in an obstacle: under ice, or inside a jacket.  */
+static int
+is_built_over (bt__scene *s, bt_vec3 at, double length)
+{
+  int n = bt_dive_count (s->dive, BT_PART_OBSTACLE), found = 0;
+  double r = length / 2;
+  for (int i = 0; i < n && !found; i++)
+    {
+      bt_obstacle_view o;
+      found = bt_dive_obstacle (s->dive, i, &o, NULL) == BT_OK && o.kind != BT_OBSTACLE_SEABED
+              && at.x + r > o.low.x && at.x - r < o.high.x && at.y + r > o.low.y
+              && at.y - r < o.high.y && o.high.z > -1 && o.low.z < 1;
+    }
+  return found;
+}
+
+/* A boat with its stern over the tether's end and its bow turned away; false without room.  */
+static int
 add_boat (bt__scene *s, bt_vec3 end, bt_vec3 middle)
 {
   bt_thing t = bt_thing_of (BT_THING_SHIP), line = bt_thing_of (BT_THING_LINES);
@@ -78,12 +94,15 @@ add_boat (bt__scene *s, bt_vec3 end, bt_vec3 middle)
   t.at = bt__axpy (bt__vec (end.x, end.y, 0), 0.52 * t.size.y, away);
   t.heading = atan2 (away.x, away.y);
   t.framing = BT_FRAME_MUST;
+  if (is_built_over (s, t.at, t.size.y))
+    return 0;
   bt__scene_add (s, &t);
   line.points = drop;
   line.n = 2;
   line.radius = 0.01;
   line.color = (bt_color){ 0.45F, 0.47F, 0.5F };
   bt__scene_add (s, &line);
+  return 1;
 }
 
 static void
@@ -107,9 +126,7 @@ add_anchors (bt__scene *s)
       s->status = bt_tether_point (s->dive, i, 0, &end, s->error);
       if (s->status != BT_OK)
         return;
-      if (end.z > -4 && s->sea.depth > 8)
-        add_boat (s, end, middle);
-      else
+      if (!(end.z > -4 && s->sea.depth > 8 && add_boat (s, end, middle)))
         add_anchor (s, end);
     }
 }

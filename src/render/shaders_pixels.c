@@ -1,13 +1,13 @@
 /* The shaders that make pixels of the buffers of the scene: light, outlines where depth or normal
    jump, darker corners, then the water's fog, averaging the samples of a pixel in linear light.
 
-   A first pass sorts the pixels: nothing there, one surface, ground, or an edge.  The sort of a
-   pixel goes to a depth buffer, so that each sort has a shader of its own that runs for no others:
-   a processor that draws takes every branch of a shader for every pixel, though it leaves a loop
-   when none of the pixels beside each other goes on.  So what few pixels need is in loops here.
+   A first pass sorts the pixels: water, one solid, ground, or an edge.  The sort of a pixel goes to a
+   depth buffer, and a shader runs for the pixels of one sort: llvmpipe takes both branches of every
+   condition for every pixel.  Loops end early, when no neighbouring pixel goes on; hence loops for
+   rare work.
 
-   A pixel on an edge is lit for at most two of its samples, the nearest and the one that is least
-   like it; each other sample takes the light of the one that it is more like.
+   A pixel on an edge is lit for at most two samples: the nearest, and the sample least like the
+   nearest.  The remaining samples take the light of the more similar of the two.
 
    Depth in a buffer with perspective is affine in 1/z, which is affine over a plane in the picture:
    its second difference is zero on every plane however steep, and not at an outline.

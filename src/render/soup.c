@@ -36,8 +36,8 @@ bt__stroke (const bt__lens *lens)
   return fmax (lens->rows / 720.0, 0.4);
 }
 
-/* Sides of a circle of RADIUS about AT, LEAST or more: so many that the chords are nowhere off it
-   by more than 0.15 of a pixel, since every triangle costs as much as many pixels.  */
+/* Sides of a circle of RADIUS about AT, LEAST or more: the chords are off the circle by at most
+   0.15 of a pixel.  A triangle costs as much as many pixels.  */
 static int
 sides_of (const bt__soup *soup, bt_vec3 at, double radius, int least)
 {

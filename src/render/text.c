@@ -54,16 +54,60 @@ halo (bt__pen *pen)
     cairo_set_source_rgba (pen->cr, 0, 0.08, 0.12, 0.55);
 }
 
-void
-bt__pen_text (bt__pen *pen, double x, double y, double align, const char *text)
+/* How far letters reach above and below their base line, of their size.  */
+#define ASCENT 0.82
+#define DESCENT 0.24
+
+bt__box
+bt__pen_box (bt__pen *pen, double x, double y, const char *text)
 {
-  cairo_move_to (pen->cr, x - align * bt__pen_width (pen, text), y);
+  cairo_matrix_t m;
+  cairo_get_font_matrix (pen->cr, &m);
+  return (bt__box){ x, y - ASCENT * m.yy, bt__pen_width (pen, text), (ASCENT + DESCENT) * m.yy };
+}
+
+void
+bt__pen_take (bt__pen *pen, const bt__box *box)
+{
+  if (pen->n_taken < BT__BOXES)
+    pen->taken[pen->n_taken++] = *box;
+}
+
+/* Nothing is free for a pen that cannot remember more.  */
+int
+bt__pen_free (const bt__pen *pen, const bt__box *b)
+{
+  double gap = 0.15 * pen->letter;
+  int ok = pen->n_taken < BT__BOXES && b->x >= 0 && b->y >= 0 && b->x + b->w <= pen->width
+           && b->y + b->h <= pen->height;
+  for (int i = 0; ok && i < pen->n_taken; i++)
+    {
+      const bt__box *t = &pen->taken[i];
+      ok = b->x > t->x + t->w + gap || t->x > b->x + b->w + gap || b->y > t->y + t->h + gap
+           || t->y > b->y + b->h + gap;
+    }
+  return ok;
+}
+
+void
+bt__pen_text_in (bt__pen *pen, const bt__box *box, const char *text)
+{
+  cairo_move_to (pen->cr, box->x, box->y + box->h * ASCENT / (ASCENT + DESCENT));
   cairo_text_path (pen->cr, text);
   halo (pen);
   cairo_set_line_width (pen->cr, 0.2 * pen->letter);
   cairo_stroke_preserve (pen->cr);
   ink (pen);
   cairo_fill (pen->cr);
+  bt__pen_take (pen, box);
+}
+
+void
+bt__pen_text (bt__pen *pen, double x, double y, double align, const char *text)
+{
+  bt__box box = bt__pen_box (pen, x, y, text);
+  box.x -= align * box.w;
+  bt__pen_text_in (pen, &box, text);
 }
 
 double

@@ -10,13 +10,20 @@
 #include "render/camera.h"
 #include "render/render.h"
 
+enum
+{
+  BT__BOXES = 96
+};
+
 typedef struct bt__pen
 {
   cairo_t *cr;
   cairo_surface_t *surface;
   int width, height;
-  double letter; /* height of the letters, pixels */
-  int paper;     /* true: dark on white, else white on water */
+  double letter;            /* height of the letters, pixels */
+  int paper;                /* true: dark on white, else white on water */
+  bt__box taken[BT__BOXES]; /* what is written already */
+  int n_taken;
 } bt__pen;
 
 bt_status bt__pen_open (bt__pen *pen, bt__picture *picture, int paper, bt_error *error);
@@ -27,12 +34,22 @@ bt_status bt__pen_close (bt__pen *pen, bt_error *error);
 void bt__pen_text (bt__pen *pen, double x, double y, double align, const char *text);
 double bt__pen_width (bt__pen *pen, const char *text);
 
+/* The box that TEXT takes with its left end at X, its base line at Y; text in a box; whether
+   BOX is in the picture and nothing is written there; take it for what is no text.  */
+bt__box bt__pen_box (bt__pen *pen, double x, double y, const char *text);
+void bt__pen_text_in (bt__pen *pen, const bt__box *box, const char *text);
+int bt__pen_free (const bt__pen *pen, const bt__box *box);
+void bt__pen_take (bt__pen *pen, const bt__box *box);
+
 /* Strokes: the path is drawn WIDTH pixels wide in the pen's ink, with a halo on water.  */
 void bt__pen_stroke (bt__pen *pen, double width);
 void bt__pen_color (bt__pen *pen, bt_color color);
 
 /* 1, 2 or 5 times a power of ten, not above X.  */
 double bt__round_step (double x);
+
+/* The words beside things, where there is room (labels.c).  */
+void bt__write_labels (bt__pen *pen, const bt_view *view, const bt__optics *optics);
 
 /* All that is read, with the pen: what bt__overlay and bt__plan share.  */
 void bt__write_figures (bt__pen *pen, const bt_view *view, const bt__optics *optics);

@@ -210,3 +210,70 @@
            (expect (->bool (string-index text #\esc)) => #t))
          (let ((text (with-output-to-string (lambda () (show #:as 'sixel #:size '(20 8))))))
            (expect (->bool (string-contains text "\x1bP")) => #t)))))
+
+;;; What is written on a picture.
+
+(define (overlap? a b)
+  ;; Do the boxes A and B, (X Y WIDTH HEIGHT), share more than a hair?
+  (define (share x w y v) (- (min (+ x w) (+ y v)) (max x y)))
+  (and (> (share (first a) (third a) (first b) (third b)) 0.01)
+       (> (share (second a) (fourth a) (second b) (fourth b)) 0.01)))
+
+(define (outside? box size)
+  (or (< (first box) 0) (< (second box) 0)
+      (> (+ (first box) (third box)) (car size)) (> (+ (second box) (fourth box)) (cdr size))))
+
+(define (collisions boxes)
+  (append-map (lambda (rest)
+                (filter-map (lambda (other) (and (overlap? (car rest) other) (list (car rest) other)))
+                            (cdr rest)))
+              (filter pair? (map (lambda (i) (list-tail boxes i)) (iota (length boxes))))))
+
+(define written
+  ;; (DIVE TITLE AIM SIZE PAINT FLAGS) -> boxes; #f where there is no renderer.
+  (false-if-exception (module-ref (resolve-interface '(bight render)) '%written)))
+
+(define-scenario nothing-written-overlaps
+  "In every world, at every size and with all that can be told, no words overlap or leave the picture."
+  (in open-water)
+  (if (not written)
+      (skip "there is no renderer")
+      (for-each
+       (lambda (world)
+         (enter! world)
+         (run 0.2)
+         (for-each
+          (lambda (size paint)
+            (for-each
+             (lambda (aim)
+               (let ((boxes (written ((@ (bight dive) this-engine) 'test) (symbol->string world) aim size paint
+                                     '(figures contacts turns))))
+                 (expect (cons world (collisions boxes)) => (list world))
+                 (expect (cons world (filter (lambda (box) (outside? box size)) boxes)) => (list world))))
+             '(overview side top)))
+          '((1280 . 720) (640 . 360) (400 . 800) (96 . 64)) '(plain tension model curvature)))
+       (worlds))))
+
+(define-scenario a-camera-is-moved
+  "EXTENT says how many metres are seen, AT what is in the middle, ZOOM how much nearer; errors teach."
+  (in box)
+  (with-pictures
+   (define (bytes . keys)
+     (apply snapshot (scratch-file "m.png") #:size '(160 90) #:overlay 'none keys)
+     (file-bytes "m.png"))
+   (expect (equal? (bytes #:view 'top) (bytes #:view 'top #:zoom 1)) => #t)
+   (expect (equal? (bytes #:view 'top #:at '(0 0 -9) #:extent 20)
+                   (bytes #:view 'top #:at '(0 0 -9) #:extent 40 #:zoom 2)) => #t)
+   (expect (equal? (bytes #:view 'top #:at '(0 0 -9) #:extent 20)
+                   (bytes #:view 'top #:at '(4 0 -9) #:extent 20)) => #f))
+  (expect (snapshot (scratch-file "m.png") #:zoom 0) raises domain)
+  (expect (look #:extent -3) raises domain))
+
+(define-scenario looking-shows-the-structure
+  "What stands beside the dive is in the drawing of `look'; an extent and a middle choose what is."
+  (in box)
+  (define (signs char text) (string-count text char))
+  (define (text . keys) (shown (apply look #:columns 100 keys)))
+  (expect (>= (signs #\# (text)) 10))
+  (expect (>= (signs #\# (text #:at '(0 0 -10.7) #:extent 12)) (signs #\# (text))))
+  (expect (signs #\# (text #:at '(0 100 -9) #:extent 5)) => 0))

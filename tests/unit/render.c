@@ -21,6 +21,7 @@
 #include "math/vec.h"
 #include "render/camera.h"
 #include "render/render.h"
+#include "render/sight.h"
 #include "render/soup.h"
 
 /* What the graphics libraries keep to themselves is no leak of ours.  */
@@ -576,6 +577,61 @@ files (void **state)
   bt__picture_free (&p);
 }
 
+/* What stands beside the dive is in the picture, though it is further off than the dive is large;
+   what is far away is not.  */
+static void
+beside_the_dive (void **state)
+{
+  (void)state;
+  for (int i = 0; i < 2; i++)
+    {
+      bt_view *view = new_view ();
+      double away = i ? 500 : 6;
+      bt__optics o;
+      double x, y;
+      add_tube (view, bt__vec (-4, 0, -5), bt__vec (4, 0, -5), 0.01);
+      add_box (view, bt__vec (0, away, -5), 2, (bt_color){ 1, 0, 0 });
+      assert_int_equal (bt_view_aim (view, BT_AIM_TOP, 1.5, NULL), BT_OK);
+      o = bt__optics_of (&view->camera, 1.5);
+      bt__project (&o, bt__vec (0, away, -5), 600, 400, &x, &y);
+      assert_int_equal (y > 0 && y < 400, !i);
+      bt_view_free (view);
+    }
+}
+
+/* A lid over a dive, of any thing that hides: the camera goes where it sees the dive.  */
+static void
+under_a_lid (void **state)
+{
+  static const bt_thing_kind kinds[] = { BT_THING_BOX, BT_THING_SPHERE, BT_THING_MESH };
+  (void)state;
+  for (int i = 0; i < 3; i++)
+    {
+      static const bt_vec3 corner[4]
+          = { { -60, -60, 0 }, { 60, -60, 0 }, { 60, 60, 0 }, { -60, 60, 0 } };
+      static const uint32_t both[2][3] = { { 0, 1, 2 }, { 0, 2, 3 } };
+      bt_view *view = new_view ();
+      bt_thing lid = bt_thing_of (kinds[i]);
+      bt_vec3 way;
+      lid.at = bt__vec (0, 0, i == 1 ? 18 : -2);
+      lid.size = bt__vec (120, 120, 2);
+      lid.radius = 20;
+      lid.points = corner;
+      lid.n = i == 2 ? 4 : 0;
+      lid.corner = both;
+      lid.triangles = i == 2 ? 2 : 0;
+      add (view, &lid);
+      add_tube (view, bt__vec (-2, 0, -5), bt__vec (2, 1, -6), 0.01);
+      assert_int_equal (bt_view_aim (view, BT_AIM_OVERVIEW, 1.5, NULL), BT_OK);
+      way = bt__sub (view->camera.from, bt__vec (0, 0.5, -5.5));
+      if (i != 1) /* a ball hides little from aside */
+        assert_true (view->camera.from.z < -2);
+      assert_true (bt__norm (way) > 1);
+      assert_false (bt__hidden (view, view->camera.from, bt__vec (0, 0.5, -5.5)));
+      bt_view_free (view);
+    }
+}
+
 /* What is read back is what was written, opaque or not, for any colours and sizes.  */
 static void
 read_back (void **state)
@@ -659,6 +715,8 @@ main (void)
     cmocka_unit_test (unknown_back_end),
     cmocka_unit_test (plan),
     cmocka_unit_test (files),
+    cmocka_unit_test (beside_the_dive),
+    cmocka_unit_test (under_a_lid),
     cmocka_unit_test (read_back),
     cmocka_unit_test (small_is_cheap),
   };

@@ -1,0 +1,170 @@
+/* Labels: where the words beside things stand.  No label overlaps words or figures, or leaves the
+   picture.
+
+   The five most important labels stand beside their things, with a line from a distant thing.  The
+   remaining labels are numbers, explained by a list under the title as far as the list has room.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "math/vec.h"
+#include "render/text.h"
+
+enum
+{
+  WRITTEN = 5,   /* labels beside their things */
+  NUMBERED = 9,  /* and in the list */
+  DIRECTIONS = 8 /* in which a label is tried */
+};
+
+typedef struct label
+{
+  const bt_thing *thing;
+  double x, y; /* what it is beside */
+  int rank;    /* the lower the more it matters */
+  size_t turn; /* among those of one rank */
+} label;
+
+static bt_vec3
+label_place (const bt_thing *t)
+{
+  return t->kind == BT_THING_ARROW ? t->to : t->at;
+}
+
+static int
+rank_of (const bt_thing *t)
+{
+  switch (t->kind)
+    {
+    case BT_THING_VEHICLE:
+      return 0;
+    case BT_THING_LABEL:
+      return 1;
+    case BT_THING_MARK:
+      return 2;
+    default:
+      return 3;
+    }
+}
+
+static int
+by_rank (const void *a, const void *b)
+{
+  const label *p = a, *q = b;
+  if (p->rank != q->rank)
+    return p->rank - q->rank;
+  return (p->turn > q->turn) - (p->turn < q->turn);
+}
+
+static size_t
+gather_labels (const bt__pen *pen, const bt_view *view, const bt__optics *optics, label *found)
+{
+  size_t n = 0;
+  for (size_t i = 0; i < view->n; i++)
+    {
+      label l = { .thing = &view->things[i], .turn = i };
+      if (!l.thing->text || !*l.thing->text
+          || !bt__project (optics, label_place (l.thing), pen->width, pen->height, &l.x, &l.y)
+          || l.x < 0 || l.x > pen->width || l.y < 0 || l.y > pen->height)
+        continue;
+      l.rank = rank_of (l.thing);
+      found[n++] = l;
+    }
+  qsort (found, n, sizeof *found, by_rank);
+  return n;
+}
+
+/* The box of TEXT in the K-th direction from (X, Y), GAP away.  */
+static bt__box
+box_beside (bt__pen *pen, double x, double y, const char *text, double gap, int k)
+{
+  /* right, left, and the more awkward ones */
+  static const double way[DIRECTIONS][2]
+      = { { 1, -0.2 },    { -1, -0.2 },  { 0.7, -0.9 }, { 0.7, 0.9 },
+          { -0.7, -0.9 }, { -0.7, 0.9 }, { 0, -1 },     { 0, 1 } };
+  bt__box b = bt__pen_box (pen, 0, 0, text);
+  double cx = x + gap * way[k][0], cy = y + gap * way[k][1];
+  b.x = way[k][0] > 0.1 ? cx : way[k][0] < -0.1 ? cx - b.w : cx - b.w / 2;
+  b.y = cy - b.h / 2 + (fabs (way[k][1]) > 0.5 ? way[k][1] * b.h / 2 : 0);
+  return b;
+}
+
+/* From the label's thing to the nearest point of its box.  */
+static void
+draw_leader (bt__pen *pen, double x, double y, const bt__box *b)
+{
+  double tx = fmin (fmax (x, b->x), b->x + b->w), ty = fmin (fmax (y, b->y), b->y + b->h);
+  double d = hypot (tx - x, ty - y), e = pen->letter;
+  if (d < 1.6 * e)
+    return;
+  cairo_move_to (pen->cr, x + (tx - x) * 0.4 * e / d, y + (ty - y) * 0.4 * e / d);
+  cairo_line_to (pen->cr, tx - (tx - x) * 0.2 * e / d, ty - (ty - y) * 0.2 * e / d);
+  bt__pen_stroke (pen, fmax (0.7, 0.05 * e));
+}
+
+static int
+are_apart (const bt__box *a, const bt__box *b)
+{
+  return a->x > b->x + b->w || b->x > a->x + a->w || a->y > b->y + b->h || b->y > a->y + a->h;
+}
+
+/* Write TEXT beside (X, Y) where there is room, near first, but not on KEPT, if that is a box; true
+   if there was room.  */
+static int
+write_beside (bt__pen *pen, double x, double y, const char *text, const bt__box *kept)
+{
+  static const double gap[] = { 0.7, 1.7, 3, 4.6, 6.5 };
+  for (size_t i = 0; i < sizeof gap / sizeof *gap; i++)
+    for (int k = 0; k < DIRECTIONS; k++)
+      {
+        bt__box b = box_beside (pen, x, y, text, gap[i] * pen->letter, k);
+        if (!bt__pen_free (pen, &b) || (kept && !are_apart (&b, kept)))
+          continue;
+        draw_leader (pen, x, y, &b);
+        bt__pen_text_in (pen, &b, text);
+        return 1;
+      }
+  return 0;
+}
+
+/* Number the label L as the I-th of the list, if there is room for both the number and the entry.
+ */
+static int
+write_numbered (bt__pen *pen, const label *l, int i)
+{
+  char number[16], entry[160];
+  double e = pen->letter;
+  bt__box b;
+  snprintf (number, sizeof number, "%d", i + 1);
+  snprintf (entry, sizeof entry, "%d  %.140s", i + 1, l->thing->text);
+  b = bt__pen_box (pen, 1.2 * e, (5 + 1.35 * i) * e, entry);
+  if (b.y + b.h > 0.75 * pen->height || !bt__pen_free (pen, &b))
+    return 0;
+  if (!write_beside (pen, l->x, l->y, number, &b))
+    return 0;
+  bt__pen_text_in (pen, &b, entry);
+  return 1;
+}
+
+void
+bt__write_labels (bt__pen *pen, const bt_view *view, const bt__optics *optics)
+{
+  label *found = malloc ((view->n + 1) * sizeof *found);
+  size_t n = found ? gather_labels (pen, view, optics, found) : 0;
+  int written = 0, entries = 0;
+  for (size_t i = 0; i < n; i++)
+    {
+      if (written < WRITTEN
+          && write_beside (pen, found[i].x, found[i].y, found[i].thing->text, NULL))
+        {
+          written++;
+          continue;
+        }
+      if (entries < NUMBERED)
+        entries += write_numbered (pen, &found[i], entries);
+    }
+  free (found);
+}
