@@ -6,8 +6,10 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight plot)
+  #:use-module (bight chart)
   #:use-module ((bight errors) #:select (bight-raise bight-error?))
   #:use-module (bight dive)
+  #:use-module ((bight engine) #:select (%events))
   #:use-module (bight programs)
   #:use-module (bight query)
   #:use-module (bight record)
@@ -15,6 +17,7 @@
   #:use-module ((bight time) #:select (now))
   #:use-module ((bight looks) #:select (prompt-table))
   #:use-module (bight verb)
+  #:use-module ((bight world) #:select (world-name))
   #:use-module ((ice-9 rdelim) #:select (read-line))
   #:use-module (rnrs bytevectors)
   #:use-module (srfi srfi-1)
@@ -25,26 +28,17 @@
             samples?
             samples-rows
             samples-names
-            chart?
-            ;; For those who draw other things with gnuplot.
-            gnuplot-output gnuplot-quoted gnuplot-terminal picture-kind))
-
-(define-record <chart>
-  (make-chart title x y log curves)
-  chart?
-  (title chart-title)
-  (x chart-x)                           ; words
-  (y chart-y)
-  (log chart-log)                       ; "", "x", "y" or "xy"
-  (curves chart-curves))                ; an alist of names, strings, and rows (x y)
+            chart?)
+  #:re-export (gnuplot-output gnuplot-quoted gnuplot-terminal picture-kind))
 
 
 ;;; Over time: numbers are gathered while the dive runs.
 
 (define-record <samples>
-  (make-samples names rows count)
+  (make-samples names dive rows count)
   samples-record?
   (names samples-names)
+  (dive samples-dive)                   ; whose they are
   (rows %samples-rows set-samples-rows!) ; (TIME NUMBER ...), the newest first
   (count samples-count set-samples-count!))
 
@@ -85,7 +79,7 @@
 (define (sample-every seconds names thunks)
   "Call THUNKS every SECONDS of the dive from now on and keep the numbers they return, under NAMES.  Return
 samples, for `plot'."
-  (let ((samples (make-samples names '() 0)))
+  (let ((samples (make-samples names (this-dive 'sample!) '() 0)))
     (set! (prompt-table samples) (lambda () (cons (cons "time, s" names) (samples-rows samples))))
     (take-sample! samples thunks)
     (every-seconds seconds (lambda () (take-sample! samples thunks)))
@@ -97,15 +91,39 @@ samples, for `plot'."
                 (map (lambda (datum) (object->string datum display)) '(expression expression* ...))
                 (list (lambda () expression) (lambda () expression*) ...)))
 
-(define (chart-of-samples samples)
+(define (curves-of samples prefix)
+  ;; The curves of SAMPLES, PREFIX before their names.
   (let ((rows (samples-rows samples)))
-    (make-chart #f "time, s" "" ""
-                (map (lambda (name i)
-                       (cons name
-                             (filter-map (lambda (row)
-                                           (let ((y (list-ref row i))) (and y (list (car row) y))))
-                                         rows)))
-                     (samples-names samples) (iota (length (samples-names samples)) 1)))))
+    (map (lambda (name i)
+           (cons (string-append prefix name)
+                 (filter-map (lambda (row)
+                               (let ((y (list-ref row i))) (and y (list (car row) y))))
+                             rows)))
+         (samples-names samples) (iota (length (samples-names samples)) 1))))
+
+(define (world-words samples)
+  (let ((name (world-name (dive-world (samples-dive samples)))))
+    (if name (symbol->string name) "a dive")))
+
+(define (events-of samples)
+  ;; What happened in the dive of SAMPLES while they were gathered: (TIME . WORDS).
+  (let ((times (map car (samples-rows samples))))
+    (filter-map (lambda (event)
+                  (and (<= (first times) (second event) (last times))
+                       (cons (second event) (symbol->string (first event)))))
+                (%events (engine-of (samples-dive samples)) 0))))
+
+(define (chart-of-samples samples)
+  (make-chart (world-words samples) "time, s" "" "" (curves-of samples "") (events-of samples)))
+
+(define (chart-of-dives dives)
+  ;; DIVES is an alist of names and samples.
+  (make-chart (string-join (delete-duplicates (map (lambda (dive) (world-words (cdr dive))) dives)) ", ")
+              "time, s" "" ""
+              (append-map (lambda (dive)
+                            (curves-of (cdr dive) (simple-format #f "~a " (car dive))))
+                          dives)
+              '()))
 
 
 ;;; Along a tether.
@@ -150,7 +168,8 @@ samples, for `plot'."
                                         (case what
                                           ((tension) (list->vector (array->list (tensions name profile-points))))
                                           ((depth) (depths (tether-points name profile-points)))
-                                          ((curvature) (curvatures (tether-points name profile-points))))))))))
+                                          ((curvature) (curvatures (tether-points name profile-points)))))))
+                '())))
 
 (define (first-tether)
   (let ((tethers (filter (lambda (name) (false-if-exception (tether-length name))) (parts))))
@@ -197,7 +216,8 @@ samples, for `plot'."
                        (cons name (sort (filter-map (lambda (row) (and (string=? name (car row)) (cdr row)))
                                                     rows)
                                         (lambda (a b) (< (car a) (car b))))))
-                     (delete-duplicates (map car rows))))))
+                     (delete-duplicates (map car rows)))
+                '())))
 
 
 ;;; Numbers of one's own.
@@ -213,7 +233,12 @@ samples, for `plot'."
   (make-chart #f "" "" ""
               (if (every row? value)
                   (list (cons "" value))
-                  (map (lambda (curve) (cons (object->string (car curve) display) (cdr curve))) value))))
+                  (map (lambda (curve) (cons (object->string (car curve) display) (cdr curve))) value))
+              '()))
+
+(define (dive? value)
+  ;; Is VALUE a name and the samples of one of several dives?
+  (and (pair? value) (or (string? (car value)) (symbol? (car value))) (samples-record? (cdr value))))
 
 (define type:plotted
   (make-argument-type
@@ -222,9 +247,10 @@ samples, for `plot'."
      (cond ((samples-record? value) value)
            ((memq value profiles) value)
            ((and (string? value) (string-suffix? ".csv" value)) value)
-           ((and (list? value) (pair? value) (or (every row? value) (every curve? value))) value)
+           ((and (list? value) (pair? value) (or (every row? value) (every curve? value) (every dive? value)))
+            value)
            (else refused)))
-   "what `sample!' returned, tension, depth or curvature (along the tether), the CSV file of a bench, or rows
+   "what `sample!' returned, or a list of (NAME . SAMPLES) of several dives, tension, depth or curvature (along the tether), the CSV file of a bench, or rows
 (X Y), or a list of (NAME ROW ...)"
    profiles))
 
@@ -232,89 +258,21 @@ samples, for `plot'."
   (cond ((samples-record? value) (chart-of-samples value))
         ((symbol? value) (chart-along value tether))
         ((string? value) (chart-of-bench value))
+        ((dive? (car value)) (chart-of-dives value))
         (else (chart-of-numbers value))))
 
-
-;;; gnuplot.
-
-(define (gnuplot-quoted text)
-  "Return TEXT as gnuplot reads it, between single quotes."
-  (string-append "'" (string-join (string-split (string-delete #\newline text) #\') "''") "'"))
-
-(define (gnuplot-terminal kind size)
-  "Return the words with which gnuplot draws a picture of KIND (svg, png, text), SIZE (WIDTH . HEIGHT)."
-  (case kind
-    ((svg) (simple-format #f "svg size ~a,~a dynamic background rgb 'white'" (car size) (cdr size)))
-    ((png) (simple-format #f "pngcairo size ~a,~a" (car size) (cdr size)))
-    (else (simple-format #f "dumb size ~a,~a noenhanced" (car size) (cdr size)))))
-
-(define (print-script chart kind size port)
-  (simple-format port "set term ~a\nset encoding utf8\nset grid\n" (gnuplot-terminal kind size))
-  (when (chart-title chart)
-    (simple-format port "set title ~a noenhanced\n" (gnuplot-quoted (chart-title chart))))
-  (simple-format port "set xlabel ~a noenhanced\nset ylabel ~a noenhanced\n"
-                 (gnuplot-quoted (chart-x chart)) (gnuplot-quoted (chart-y chart)))
-  (unless (string-null? (chart-log chart))
-    (simple-format port "set logscale ~a\nset format ~a '%.0e'\n" (chart-log chart) (chart-log chart)))
-  (when (> (length (chart-curves chart)) 1)
-    (display (if (eq? kind 'text) "set key below noenhanced\n" "set key outside noenhanced\n") port))
-  (simple-format port "plot ~a\n"
-                 (string-join
-                  (map (lambda (curve)
-                         (simple-format #f "'-' ~a with ~a"
-                                        (if (string-null? (car curve)) "notitle"
-                                            (string-append "title " (gnuplot-quoted (car curve))))
-                                        (if (string-null? (chart-log chart)) "lines lw 2" "linespoints")))
-                       (chart-curves chart))
-                  ", "))
-  (for-each (lambda (curve)
-              (for-each (lambda (row)
-                          (simple-format port "~a ~a\n" (exact->inexact (first row))
-                                         (exact->inexact (second row))))
-                        (cdr curve))
-              (display "e\n" port))
-            (chart-curves chart)))
-
-(define (gnuplot-output proc print)
-  "Return the bytes that gnuplot makes of the script that PRINT, a procedure of a port, prints.  Raise a
-&bight-error from PROC if it makes none."
-  (unless (program? "gnuplot")
-    (bight-raise 'unsupported proc "plots are drawn by gnuplot (Debian package: gnuplot-nox), which is missing"))
-  (let ((script (temporary-file)) (log (temporary-file)))
-    (dynamic-wind
-      (const #f)
-      (lambda ()
-        (call-with-output-file script print #:encoding "UTF-8")
-        (or (program-output log "gnuplot" script)
-            (bight-raise 'io proc "gnuplot failed: ~a" (or (last-line log) "it says nothing"))))
-      (lambda ()
-        (false-if-exception (delete-file script))
-        (false-if-exception (delete-file log))))))
-
-(define (draw chart kind size)
-  ;; The bytes that gnuplot makes of CHART.
-  (gnuplot-output 'plot (lambda (port) (print-script chart kind size port))))
-
-(define (kind-of file)
-  (if file (picture-kind file) 'text))
-
-(define (picture-kind file)
-  "Return the kind of picture, svg or png, that the name FILE asks for."
-  (cond ((string-suffix-ci? ".svg" file) 'svg)
-        ((string-suffix-ci? ".png" file) 'png)
-        (else (bight-raise 'domain 'plot "a plot is written as SVG or PNG, by the end of its name, not ~s"
-                           file))))
 
 (define (check-curves chart)
   (when (every (lambda (curve) (null? (cdr curve))) (chart-curves chart))
     (bight-raise 'def 'plot "there is nothing to plot yet"))
   (make-chart (chart-title chart) (chart-x chart) (chart-y chart) (chart-log chart)
-              (remove (lambda (curve) (null? (cdr curve))) (chart-curves chart))))
+              (remove (lambda (curve) (null? (cdr curve))) (chart-curves chart))
+              (chart-events chart)))
 
 (define (with-words chart title x y log)
   (make-chart (or title (chart-title chart)) (or x (chart-x chart)) (or y (chart-y chart))
               (case log ((#f) (chart-log chart)) ((none) "") (else (symbol->string log)))
-              (chart-curves chart)))
+              (chart-curves chart) (chart-events chart)))
 
 (define-argument-type (plot-size value)
   "(WIDTH HEIGHT): pixels in a file, characters in the terminal, from 10 to 8192"
@@ -331,7 +289,8 @@ samples, for `plot'."
                    #:key (to (or-false string)) (of (or-false name)) (title (or-false string))
                    (x (or-false string)) (y (or-false string)) (log (or-false (one-of none x y xy)))
                    (size (or-false plot-size)))
-  "Draw WHAT as lines: samples (see `sample!') over time; tension, depth or curvature along the tether OF
+  "Draw WHAT as lines: samples (see `sample!') over time, with what happened as marks, an axis for each
+unit; those of several dives, a list of (NAME . SAMPLES); tension, depth or curvature along the tether OF
 that name, the only one when left out; run time against error of the CSV file that a bench wrote; or rows
 of numbers.  It goes to the file TO, an SVG or PNG by its name, or as characters to the terminal.  TITLE, X
 and Y are words to put there, LOG the axes with a logarithmic scale, SIZE (WIDTH HEIGHT).  Return what was
@@ -340,9 +299,9 @@ written, or the text."
          (chart (with-words (check-curves (chart-of what of)) title x y log))
          (size (or size (if (eq? kind 'text) (terminal-size) '(800 . 600)))))
     (when to (check-writable 'plot to))
-    (let ((bytes (draw chart kind size)))
+    (let ((bytes (draw-chart chart kind size)))
       (if to
           (begin
             (write-bytes 'plot bytes to)
             (written-note to ", " (number->string (bytevector-length bytes)) " bytes"))
-          (written-note (string-trim-both (utf8->string bytes) (lambda (c) (memv c '(#\newline #\page)))))))))
+          (written-note (string-trim-both (string-delete #\page (utf8->string bytes)) #\newline))))))

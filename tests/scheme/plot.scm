@@ -129,3 +129,41 @@
            => '("h-00001.png" "h-00002.png" "h-00003.png"))
    (expect (film (scratch-file "no/h.png") #:for 1) raises io)
    (expect (film (scratch-file "h.png") #:for 0) raises domain)))
+
+(define-scenario an-axis-for-each-unit
+  "Curves of one unit share an axis, others have their own; events are marks; several dives are told apart."
+  (in pile)
+  (define s (sample! 1 (max-tension) (rov-depth) (rov-tension)))
+  (drive! #:surge 1)
+  (run 20)
+  (define (script what)
+    ;; What gnuplot would read.
+    (call-with-output-string
+      (lambda (port) ((@@ (bight chart) print-script) ((@@ (bight plot) chart-of) what #f) 'svg '(800 . 600) port))))
+  (define (times word text) (- (length (string-split* text word)) 1))
+  (let ((one (script s)) (two (script (list (cons 'a s) (cons 'b s)))))
+    (expect (times "plot '-'" one) => 2)
+    (expect (->bool (string-contains one "set ylabel 'N'")) => #t)
+    (expect (->bool (string-contains one "set ylabel '(rov-depth), m'")) => #t)
+    (expect (->bool (string-contains one "set title")) => #f)
+    (expect (->bool (string-contains one "title 'pile'")) => #t)
+    (expect (times "\nset arrow" one) => (* 2 (length (filter (lambda (e) (<= (second e) 20)) (events)))))
+    (expect (>= (length (events)) 1))
+    (expect (times "'a (max-tension)'" two) => 1)
+    (expect (times "'b (max-tension)'" two) => 1)
+    ;; A dive has one colour in all panels.
+    (expect (delete-duplicates
+             (filter-map (lambda (line)
+                           (and=> (string-contains line "title 'b (rov-depth)'")
+                                  (lambda (i) (substring line (string-contains line "#" i)
+                                                         (+ 7 (string-contains line "#" i))))))
+                         (string-split two #\newline)))
+            => '("#d55e00"))))
+
+(define (string-split* text word)
+  ;; TEXT between the places where WORD is.
+  (let ((i (string-contains text word)))
+    (if i
+        (cons (substring text 0 i) (string-split* (substring text (+ i (string-length word))) word))
+        (list text))))
+
