@@ -1,8 +1,9 @@
 ;;; (bight bench-plot) --- measurements as SVG: error against cost with its front, and maps.
 ;;;
 ;;; A plot has the rows of one case and metric: cost in multiples of the calibration kernel to the right,
-;;; error upwards, both logarithmic; a colour for each model, a ring and a line for the front, whose points
-;;; name their settings.  An error of nothing lies on the floor.  A map has the two numbers of its settings,
+;;; error upwards, both logarithmic; a ring and a line for the front, whose points name their settings.  A model
+;;; has one colour and one shape in all plots of a report.  What errs by nothing stands in a strip of its own
+;;; below, for a logarithm has no zero.  A map has the two numbers of its settings,
 ;;; "X=1;Y=2", for its sides, and the error for its colour.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
@@ -11,7 +12,7 @@
   #:use-module (bight bench-row)
   #:use-module ((bight markup) #:select (as-xml))
   #:use-module (srfi srfi-1)
-  #:export (plots-of plot-file call-with-svg color-of draw-line draw-text tenth))
+  #:export (plots-of plot-file plot-sentence call-with-svg color-of draw-line draw-text tenth))
 
 (define width 760)
 (define height 440)
@@ -96,20 +97,29 @@ fill='white'/>~%"
 
 ;;; Fronts.
 
-(define (floor-of rows)
-  ;; Where an error of nothing is drawn: a decade below the smallest other.
-  (let ((errors (filter positive? (map row-error rows))))
-    (if (null? errors) 1e-17 (/ (apply min errors) 10))))
+(define strip 26)                       ; the height of the strip of what errs by nothing
 
-(define (draw-series port rows model i x y)
+(define (positive-errors rows)
+  (filter positive? (map row-error rows)))
+
+(define (draw-mark port number px py words)
+  ;; The mark of the model of that NUMBER, at PX and PY: a circle, a square or a diamond, as the colours go round.
+  (let ((shape (modulo (quotient number (length colors)) 3)))
+    (if (zero? shape)
+        (simple-format port "<circle cx='~a' cy='~a' r='4' " (tenth px) (tenth py))
+        (simple-format port "<rect x='~a' y='~a' width='7' height='7' transform='rotate(~a ~a ~a)' "
+                       (tenth (- px 3.5)) (tenth (- py 3.5)) (if (= shape 1) 0 45) (tenth px) (tenth py)))
+    (simple-format port "fill='~a' fill-opacity='0.8'><title>~a</title></~a>~%" (color-of number)
+                   (as-xml words) (if (zero? shape) "circle" "rect"))))
+
+(define (draw-series port rows model number i x y)
+  ;; The ROWS of MODEL, which has that NUMBER in the report, and its entry, the I-th of the legend.
   (for-each (lambda (row)
-              (simple-format port "<circle cx='~a' cy='~a' r='4' fill='~a' fill-opacity='0.8'><title>~a\
-</title></circle>~%"
-                             (tenth (x (row-ratio row))) (tenth (y (row-error row))) (color-of i)
-                             (as-xml (string-append model ", " (row-setting row)))))
+              (draw-mark port number (x (row-ratio row)) (y (row-error row))
+                         (string-append model ", " (row-setting row))))
             (filter (lambda (row) (string=? model (row-model row))) rows))
   (let ((at (+ top 10 (* 18 i))))
-    (simple-format port "<circle cx='~a' cy='~a' r='4' fill='~a'/>~%" (- width right -14) at (color-of i))
+    (draw-mark port number (- width right -14) at model)
     (draw-text port (- width right -24) (+ at 4) model)))
 
 (define (draw-front port rows x y)
@@ -131,21 +141,67 @@ fill='white'/>~%"
           -100
           front)))
 
-(define (front-svg rows)
-  (let* ((floor-error (floor-of rows))
-         (clamp (lambda (e) (max e floor-error)))
+(define (draw-strip port y)
+  (draw-line port left (- height bottom strip) (- width right) (- height bottom strip) "stroke='#57606a'")
+  (draw-text port (- left 6) (+ y 4) "exact" "text-anchor='end'"))
+
+(define (front-svg rows models)
+  ;; MODELS are those of the whole report: the place there of a model is its colour and shape.
+  (let* ((errors (positive-errors rows))
+         (exact? (< (length errors) (length rows)))
+         (low (if exact? (- height bottom strip) (- height bottom)))
          (xs (decades (map row-ratio rows)))
-         (ys (decades (map (lambda (row) (clamp (row-error row))) rows)))
+         (ys (decades (if (null? errors) '(1) errors)))
          (x (scale xs left (- width right)))
-         (y-of (scale ys (- height bottom) top))
-         (y (lambda (e) (y-of (clamp e)))))
+         (y-of (scale ys low top))
+         (strip-y (- height bottom (/ strip 2)))
+         (y (lambda (e) (if (positive? e) (y-of e) strip-y))))
     (call-with-svg (string-join (list (row-bench (car rows)) (row-case (car rows))) ", ")
       (lambda (port)
         (draw-axes port xs ys x y (row-metric (car rows)))
-        (let ((models (delete-duplicates (map row-model rows))))
-          (for-each (lambda (model i) (draw-series port rows model i x y))
-                    models (iota (length models))))
+        (when exact? (draw-strip port strip-y))
+        (let ((here (filter (lambda (model) (any (lambda (row) (string=? model (row-model row))) rows)) models)))
+          (for-each (lambda (model i)
+                      (draw-series port rows model (list-index (lambda (m) (string=? m model)) models) i x y))
+                    here (iota (length here))))
         (draw-front port rows x y)))))
+
+
+;;; What a plot says, in words.
+
+(define (round-number x)
+  ;; Two figures are enough for a sentence.
+  (cond ((zero? x) "0")
+        ((<= 0.01 (abs x) 99999)
+         (let ((unit (expt 10. (- 1 (inexact->exact (floor (log10 (abs x))))))))
+           (let ((text (number->string (/ (round (* x unit)) unit))))
+             (if (string-suffix? ".0" text) (string-drop-right text 2) text))))
+        (else
+         (let* ((k (inexact->exact (floor (log10 (abs x))))) (digits (/ (round (* 10 (/ x (expt 10. k)))) 10)))
+           (simple-format #f "~ae~a" digits k)))))
+
+(define rounding 1e-14)                 ; the errors of double precision
+
+(define (point-words row)
+  (simple-format #f "~a~a: ~a in ~a calibration steps" (row-model row)
+                 (if (string-null? (row-setting row)) "" (string-append " (" (row-setting row) ")"))
+                 (if (< (row-error row) rounding) "no error but rounding" (string-append "an error of " (round-number (row-error row))))
+                 (round-number (row-ratio row))))
+
+(define (plot-sentence rows)
+  "Return what the plot of ROWS says, a sentence or two for who sees it for the first time."
+  (let ((front (sort (filter row-front? rows) (lambda (a b) (< (row-ratio a) (row-ratio b)))))
+        (models (delete-duplicates (map row-model rows))))
+    (cond ((row-map? (car rows)) "The darker a field, the larger the error at these settings; rest on one for the number.")
+          ((null? front) "Lower is more exact, further left is faster.")
+          ((null? (cdr front))
+           (string-append "Lower is more exact, further left is faster. Nothing beats " (point-words (car front)) "."))
+          (else
+           (simple-format #f "Lower is more exact, further left is faster. Of ~a settings~a, ~a are worth having \
+(dashed): from the fastest, ~a, to the most exact, ~a."
+                          (length rows)
+                          (if (null? (cdr models)) "" (simple-format #f " of ~a models" (length models)))
+                          (length front) (point-words (car front)) (point-words (last front)))))))
 
 
 ;;; Maps.
@@ -235,7 +291,7 @@ fill='white'/>~%"
 (define (plots-of rows)
   "Return an alist from those lists of ROWS that are worth a plot, or a map, to the SVG, a string."
   (append
-   (map (lambda (group) (cons group (front-svg group)))
+   (map (lambda (group) (cons group (front-svg group (delete-duplicates (map row-model rows)))))
         (filter worth?
                 (alike (filter (lambda (row) (and (row-judged? row) (< (row-error row) +inf.0))) rows))))
    (map (lambda (group) (cons group (map-svg group)))

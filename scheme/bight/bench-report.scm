@@ -237,7 +237,8 @@
 (define style "body{font:14px/1.4 sans-serif;margin:2em auto;max-width:1100px;padding:0 1em;color:#24292f}\
 table{border-collapse:collapse;font-size:12px}td,th{padding:2px 8px;text-align:left;\
 border-bottom:1px solid #d0d7de}tr.front{background:#fff8c5}pre{background:#f6f8fa;padding:1em;\
-white-space:pre-wrap}svg{max-width:100%;height:auto}summary{cursor:pointer;margin:1em 0}")
+white-space:pre-wrap}figure{margin:1.5em 0}figcaption{max-width:760px;color:#57606a}\
+table.glance td{font-size:14px}svg{max-width:100%;height:auto}summary{cursor:pointer;margin:1em 0}")
 
 (define (write-html-table port rows)
   (define (cells tag row)
@@ -250,10 +251,46 @@ white-space:pre-wrap}svg{max-width:100%;height:auto}summary{cursor:pointer;margi
             rows)
   (display "</table>\n" port))
 
+(define (best-under rows share)
+  ;; The fastest of ROWS whose error is at most SHARE of the greatest, or #f.
+  (let* ((most (apply max 0 (map row-error rows)))
+         (good (filter (lambda (row) (<= (row-error row) (* share most))) rows)))
+    (and (pair? good) (positive? most)
+         (car (sort good (lambda (a b) (< (row-ratio a) (row-ratio b))))))))
+
+(define (summary-html report plots)
+  ;; What one sees first: what was asked, and of each plot the fastest, and the fastest that is good.
+  (define (cell row)
+    (if row
+        (string-append "<td>" (as-xml (row-model row)) "<br><small>" (as-xml (row-setting row)) "</small></td><td>"
+                       (duration (row-cpu row)) "</td>")
+        "<td></td><td></td>"))
+  (define lines
+    (filter-map
+     (lambda (plot)
+       (let ((rows (car plot)))
+         (and (not (row-map? (car rows)))
+              (simple-format #f "<tr><td><a href='#~a'>~a, ~a</a></td>~a~a</tr>" (plot-file rows)
+                             (as-xml (row-bench (car rows))) (as-xml (row-case (car rows)))
+                             (cell (car (sort rows (lambda (a b) (< (row-ratio a) (row-ratio b))))))
+                             (cell (best-under rows 0.01))))))
+     plots))
+  (string-append
+   "<p>bight computes how a tether moves. Every computation can be made faster and less exact, or slower and more \
+exact: here each was run in many ways, its error was measured against a known answer, and its time on this machine. \
+A model is a way to compute; a setting says how finely.</p>"
+   (if (null? lines)
+       ""
+       (string-append
+        "<h2>At a glance</h2><table class='glance'><tr><th>what was computed</th><th>fastest way</th><th>CPU</th>\
+<th>fastest of those with at most a hundredth of the largest error</th><th>CPU</th></tr>"
+        (string-concatenate lines) "</table>"))))
+
 (define (write-html port report plots)
   (simple-format port "<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>bight bench\
-</title><style>~a</style></head><body><h1>Run time against error</h1>~%<pre>~a</pre>~%<p>~a</p>~%"
+</title><style>~a</style></head><body><h1>Run time against error</h1>~%~a<pre>~a</pre>~%<p>~a</p>~%"
                  style
+                 (summary-html report plots)
                  (as-xml (call-with-output-string (lambda (port) (print-head port report))))
                  (string-join (map (lambda (bench) (simple-format #f "<a href='#~a'>~a</a>" bench bench))
                                    (report-benches report))
@@ -262,7 +299,8 @@ white-space:pre-wrap}svg{max-width:100%;height:auto}summary{cursor:pointer;margi
               (simple-format port "<h2 id='~a'>~a</h2>~%" bench bench)
               (for-each (lambda (plot)
                           (when (string=? bench (row-bench (caar plot)))
-                            (display (cdr plot) port)))
+                            (simple-format port "<figure id='~a'>~a<figcaption>~a</figcaption></figure>~%"
+                                           (plot-file (car plot)) (cdr plot) (as-xml (plot-sentence (car plot))))))
                         plots)
               (simple-format port "<details><summary>~a rows</summary>~%" (length (rows-of report bench)))
               (write-html-table port (rows-of report bench))

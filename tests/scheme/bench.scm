@@ -75,6 +75,38 @@
       (expect (plot-file (caar plots)) => "play-a-e.svg")
       (expect (string-prefix? "<svg" (cdar plots))))))
 
+(define-scenario plots-are-alike
+  "A model has one colour and shape in all plots, however many there are; no error stands on the axis of decades,
+but in its strip; each plot says in words what it shows."
+  (let* ((names (map (lambda (i) (string-append "m" (number->string i))) (iota 20)))
+         (lines (append (map (lambda (name i) (simple-format #f "a,~a,1,e,~a,r,,1,~a," name (+ 0.1 i) (+ i 1)))
+                             names (iota 20))
+                        (map (lambda (name i) (simple-format #f "b,~a,1,e,~a,r,,1,~a," name i (+ i 1)))
+                             (reverse names) (iota 20))))
+         (rows (gather (apply rows-from lines)))
+         (plots (plots-of rows)))
+    (define (marks svg)
+      ;; (MODEL . LOOKS): the element without its place, of what is titled after it.
+      (filter-map (lambda (line)
+                    (let ((title (string-contains line "<title>")) (fill (string-contains line "fill='#")))
+                      (and title fill
+                           (let ((end (string-index line #\, title)))
+                             (and end
+                                  (list (substring line (+ title 7) end)
+                                        (substring line 1 5)
+                                        (and=> (string-contains line "rotate(") (lambda (i) (substring line i (+ i 9))))
+                                        (substring line fill (+ fill 14))))))))
+                  (string-split svg #\newline)))
+    (expect (length plots) => 2)
+    (let ((a (marks (cdr (first plots)))) (b (marks (cdr (second plots)))))
+      (expect (length a) => 20)
+      (expect (lset-xor equal? a b) => '())
+      (expect (length (delete-duplicates (map cdr a))) => 20))
+    (expect (->bool (string-contains (cdr (first plots)) ">exact<")) => #f)
+    (expect (->bool (string-contains (cdr (second plots)) ">exact<")) => #t)
+    (expect (->bool (string-contains (cdr (second plots)) "1e-17")) => #f)
+    (for-each (lambda (plot) (expect (> (string-length (plot-sentence (car plot))) 40))) plots)))
+
 (define-scenario json-comes-back
   "What is written is read again; what is no JSON is refused."
   (let ((value `(("a" . #(1 2.5 -0.25 1e-17 null)) ("b" . "x\"\\\n\u00e9") ("c" . #t) ("d" . #f))))
