@@ -114,8 +114,16 @@ if (makeinfo --version) >/dev/null 2>&1; then
   empty 'makeinfo has nothing to say about it' "$scratch/said"
   [ -s "$scratch/html/index.html" ]
   result $? 'and makes pages'
+  "$pre" bight "$doc/search-index.scm" "$scratch/html" >"$scratch/index.js" 2>"$scratch/err"
+  pages=$(find "$scratch/html" -name '*.html' | wc -l)
+  named=$(grep -oE '[[]"[^"]*[.]html","[^"]+","[^"]+"' "$scratch/index.js" | wc -l)
+  [ "$pages" -gt 100 ] && [ "$pages" -eq "$named" ] && [ ! -s "$scratch/err" ]
+  result $? 'each of them can be found by its title and its words'
+  empty 'what is found is text' "$(grep -oE '<(div|a|p|span)[ >]' "$scratch/index.js" >"$scratch/tags"; echo "$scratch/tags")"
 else
   skip 'there is no makeinfo (Debian package: texinfo)'
+  skip 'there is no makeinfo'
+  skip 'there is no makeinfo'
   skip 'there is no makeinfo'
 fi
 
