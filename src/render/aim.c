@@ -170,7 +170,7 @@ visit_clipped (void *user, bt_vec3 p)
 }
 
 static double
-gap_between (const box *a, const box *b)
+box_gap (const box *a, const box *b)
 {
   double x = fmax (fmax (a->low.x - b->high.x, b->low.x - a->high.x), 0);
   double y = fmax (fmax (a->low.y - b->high.y, b->low.y - a->high.y), 0);
@@ -189,7 +189,7 @@ reach_about (const bt_view *view, const box *all)
       box b;
       double gap;
       if (view->things[i].framing != BT_FRAME_NEAR || view->things[i].kind == BT_THING_ARROW
-          || (b = box_of (&view->things[i]), !b.any) || !((gap = gap_between (all, &b)) < least))
+          || (b = box_of (&view->things[i]), !b.any) || !((gap = box_gap (all, &b)) < least))
         continue;
       least = gap;
       more = gap + fmin (bt__distance (b.low, b.high), size / 2);
@@ -369,13 +369,18 @@ aim_about (bt_view *view, double turn, double dip, double aspect)
   aim_perspective (view, ahead, 42 * DEGREE, aspect);
 }
 
-/* From above and aside: across the tube, a little turned.  Where solids such as ice hide the dive,
-   the first direction with enough of the dive in sight, or else the best direction.  */
+/* From above and aside: across the tube, a little turned.  Where solids such as ice hide most of
+   the dive, the first direction with most of the dive in sight, or else the best direction.
+   Between the two shares the camera stays: a film does not jump.  */
 static void
 aim_overview (bt_view *view, double aspect)
 {
-  static const double dips[] = { 24, 4, -14, 55 }, enough = 0.7;
-  double best = -1, best_turn = 0, best_dip = 0;
+  static const double dips[] = { 24, 4, -14, 55 }, least = 0.4, enough = 0.7;
+  double best, best_turn = 28 * DEGREE, best_dip = 24 * DEGREE;
+  aim_about (view, best_turn, best_dip, aspect);
+  best = share_seen (view);
+  if (best >= least)
+    return;
   for (size_t d = 0; d < sizeof dips / sizeof *dips && best < enough; d++)
     for (int k = 0; k < 4 && best < enough; k++)
       {

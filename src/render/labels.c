@@ -35,7 +35,7 @@ label_place (const bt_thing *t)
 }
 
 static int
-rank_of (const bt_thing *t)
+label_rank (const bt_thing *t)
 {
   switch (t->kind)
     {
@@ -51,7 +51,7 @@ rank_of (const bt_thing *t)
 }
 
 static int
-by_rank (const void *a, const void *b)
+by_label_rank (const void *a, const void *b)
 {
   const label *p = a, *q = b;
   if (p->rank != q->rank)
@@ -70,10 +70,10 @@ gather_labels (const bt__pen *pen, const bt_view *view, const bt__optics *optics
           || !bt__project (optics, label_place (l.thing), pen->width, pen->height, &l.x, &l.y)
           || l.x < 0 || l.x > pen->width || l.y < 0 || l.y > pen->height)
         continue;
-      l.rank = rank_of (l.thing);
+      l.rank = label_rank (l.thing);
       found[n++] = l;
     }
-  qsort (found, n, sizeof *found, by_rank);
+  qsort (found, n, sizeof *found, by_label_rank);
   return n;
 }
 

@@ -31,7 +31,7 @@ is_opaque (const bt__picture *p)
 }
 
 static void
-put_word (unsigned char *to, uint32_t x)
+put_big_endian (unsigned char *to, uint32_t x)
 {
   for (int i = 0; i < 4; i++)
     to[i] = (unsigned char)(x >> (24 - 8 * i));
@@ -42,9 +42,9 @@ write_chunk (FILE *stream, const char *name, const unsigned char *bytes, size_t 
 {
   unsigned char head[8], tail[4];
   uLong sum = crc32 (0, (const Bytef *)name, 4);
-  put_word (head, (uint32_t)n);
+  put_big_endian (head, (uint32_t)n);
   memcpy (head + 4, name, 4);
-  put_word (tail, (uint32_t)crc32_z (sum, bytes, n));
+  put_big_endian (tail, (uint32_t)crc32_z (sum, bytes, n));
   return fwrite (head, 1, 8, stream) == 8 && fwrite (bytes, 1, n, stream) == n
          && fwrite (tail, 1, 4, stream) == 4;
 }
@@ -54,8 +54,8 @@ write_head (FILE *stream, const bt__picture *p, int opaque)
 {
   static const unsigned char signature[] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
   unsigned char head[13] = { [8] = 8, [9] = (unsigned char)(opaque ? RGB : RGBA) };
-  put_word (head, (uint32_t)p->width);
-  put_word (head + 4, (uint32_t)p->height);
+  put_big_endian (head, (uint32_t)p->width);
+  put_big_endian (head + 4, (uint32_t)p->height);
   return fwrite (signature, 1, sizeof signature, stream) == sizeof signature
          && write_chunk (stream, "IHDR", head, sizeof head);
 }

@@ -12,7 +12,8 @@
 
 enum
 {
-  PLACES = 64 /* along a line of sight */
+  PLACES = 64,      /* along a line of sight */
+  TRIANGLES = 20000 /* a finer mesh is left out: the search would take longer than the picture */
 };
 
 /* The line FROM TO.  */
@@ -116,7 +117,7 @@ mesh_hides (const bt_thing *m, const ray *r)
                      bt__vec (bt__dot (d, axis[0]), bt__dot (d, axis[1]), bt__dot (d, axis[2])));
       *(i ? &own.to : &own.from) = d;
     }
-  for (size_t i = 0; i < m->triangles && !hides; i++)
+  for (size_t i = 0; i < m->triangles && m->triangles <= TRIANGLES && !hides; i++)
     {
       for (int k = 0; k < 3; k++)
         p[k] = m->points[m->corner[i][k]];

@@ -106,7 +106,7 @@ void
 bt__pen_text (bt__pen *pen, double x, double y, double align, const char *text)
 {
   bt__box box = bt__pen_box (pen, x, y, text);
-  box.x -= align * box.w;
+  box.x = fmax (0, fmin (box.x - align * box.w, pen->width - box.w)); /* all of it can be read */
   bt__pen_text_in (pen, &box, text);
 }
 
