@@ -68,12 +68,13 @@
      winding turns windings wrap-angle capstan-lock
      homotopy-class homotopy-class? class-decided? class-free?
      knotted? fouled? foul-reason free-to-haul? haul-trial haul-prospect
-     way-home way-home-preview unwind-plan
+     way-home way-home-preview unwind-plan slack-to-reach
      contact-length seabed-length bend-ratio snap-count thrust-share follow-string)
     ((bight homing) fly-home! home-trial unwind-preview)
     ((bight foresight)
      foresee foresight? foresight-kind foresight-object foresight-seconds foresight-confidence
      foresight-turns)
+    ((bight in-words) in-words)
     ((bight probe)
      awareness-probes probe-question probe-level probe-truth probe-stable? probe-error probe-score)
     ((bight coach) make-coach coach-looks! coach-log coach-rules define-coach-rule)

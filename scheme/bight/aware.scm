@@ -10,6 +10,7 @@
   #:use-module (bight dive)
   #:use-module (bight engine)
   #:use-module (bight errors)
+  #:use-module (bight plain-words)
   #:use-module (bight query)
   #:use-module (bight record)
   #:use-module ((bight schema) #:select (field-default head-field reference? reference-name))
@@ -23,7 +24,7 @@
             homotopy-class homotopy-class? class-decided? class-free?
             knotted? fouled? foul-reason
             free-to-haul? haul-trial haul-prospect
-            way-home way-home-preview unwind-plan
+            way-home way-home-preview unwind-plan slack-to-reach
             contact-length seabed-length bend-ratio snap-count thrust-share
             follow-string
             windings
@@ -36,11 +37,6 @@
 
 
 ;;; Turns.
-
-(define (structure-of name)
-  ;; The structure that the obstacle NAME is a member of: `tower' of tower/leg-1; or #f.
-  (let* ((text (symbol->string name)) (slash (string-index text #\/)))
-    (and slash (string->symbol (substring text 0 slash)))))
 
 (define (members-of name)
   ;; The numbers of the members of the structure NAME; of the obstacle NAME, if it is one.
@@ -87,12 +83,16 @@ theta) over all it bends round; 1 when it touches nothing."
 
 (define-verb (windings #:subject (t tether))
   "Return what the tether is caught on, an alist from the name of the object to its `winding', which is not
-0.  A structure comes before its members."
+0.  A structure comes before its members.  The prompt says it in words."
+  (let ((entries (%windings (this-engine 'windings) t)))
+    (with-words 'windings (with-structures entries) (lambda () (windings-said entries)))))
+
+(define (with-structures entries)
   (append-map (lambda (group)
                 (if (car group)
                     (acons (car group) (in-all (map cdr (cdr group))) (cdr group))
                     (cdr group)))
-              (by-structure (%windings (this-engine 'windings) t))))
+              (by-structure entries)))
 
 (define (by-structure windings)
   ;; ((STRUCTURE ENTRY ...) ...) of the entries of WINDINGS in their order; what is no member alone, under #f.
@@ -194,10 +194,12 @@ unequal ones need not.  A level bed or a ball in open water holds no line: the c
 way."
   (let* ((engine (this-engine 'homotopy-class))
          (v (%class engine t))
-         (lost? (vector-ref v 4)))
-    (make-class (vector-ref v 0) (vector-ref v 1) (vector-ref v 2)
-                (and (vector-ref v 3) (not lost?))
-                (and lost? (%hash-dive engine)))))
+         (lost? (vector-ref v 4))
+         (c (make-class (vector-ref v 0) (vector-ref v 1) (vector-ref v 2)
+                        (and (vector-ref v 3) (not lost?))
+                        (and lost? (%hash-dive engine)))))
+    (with-words 'homotopy-class c
+                (lambda () (class-said (class-objects c) lost? (%decided? c))))))
 
 (define-verb (homotopy-class? (object any))
   "Return #t if OBJECT is a homotopy class."
@@ -245,7 +247,12 @@ in the end: where it stalled, what the line held against it)."
 newtons: a fork of the dive hauls it.  `haul-trial' of the same haul says why not: what held it, where, or that
 the tether parted.  `haul-prospect' answers at once, by rules; where the two differ the haul is right, for it knows
 slack, current, the bed, and a body that rolls off."
-  (vector-ref (%haul (this-engine 'free-to-haul?) t rate pull 600.0) 0))
+  (let ((v (%haul (this-engine 'free-to-haul?) t rate pull 600.0)))
+    (with-words 'free-to-haul? (vector-ref v 0)
+                (lambda ()
+                  (apply (lambda (home? seconds left object hull? at parted? pull)
+                           (haul-said home? seconds left object hull? parted? pull))
+                         (vector->list v))))))
 
 (define-argument-type (share value)
   "a share above 0 and at most 1"
@@ -259,7 +266,9 @@ weight or buoyancy), hung (the vehicle's body on it) or wedged, OBJECT a name or
 GRIP of the angle by which the string bends would hold too: a line that is hauled unwinds from its end on.  The
 0.75 is not derived: twice round a pile no haul that was tried came home where it says no."
   (let ((v (%haul-prospect (this-engine 'haul-prospect) t pull grip)))
-    (list (vector-ref v 0) (vector-ref v 1) (vector-ref v 2))))
+    (let ((answer (vector-ref v 0)) (reason (vector-ref v 1)) (object (vector-ref v 2)))
+      (with-words 'haul-prospect (list answer reason object)
+                  (lambda () (prospect-said answer reason object pull))))))
 
 
 ;;; Ways.
@@ -269,8 +278,8 @@ GRIP of the angle by which the string bends would hold too: a line that is haule
   (let ((clearance (vector-ref v 4)) (object (vector-ref v 5)))
     (cond ((vector-ref v 2) #f)
           ((zero? (vector-ref v 3)) "no way was found")
-          (object (simple-format #f "it comes within ~a m of ~a, or the tether does not allow it"
-                                 (/ (round (* 100 clearance)) 100) object))
+          (object (simple-format #f "it comes within ~a of ~a, or the tether does not allow it"
+                                 (metres (max 0 clearance)) (objects-said (list object))))
           (else "the tether does not allow it"))))
 
 (define (preview v)
@@ -283,24 +292,87 @@ GRIP of the angle by which the string bends would hold too: a line that is haule
         (cons 'longest (vector-ref v 6))
         (cons 'left (vector-ref v 7))))
 
+(define corner-within 0.3)              ; m: what a way is told to
+
+(define (marked-corners engine t points)
+  ;; The corners of the way along POINTS but for its ends, each with what is nearest: (POINT OBJECT NEAREST).
+  (let ((corners (corners-of points corner-within)))
+    (filter-map (lambda (p)
+                  (let ((near (%point-clearance engine t p)))
+                    (and near (list p (second near) (fourth near)))))
+                (if (> (length corners) 2) (drop-right (cdr corners) 1) '()))))
+
+(define (points-of way)
+  (map list->f64vector (array->list way)))
+
+(define (with-way-home engine t v)
+  ;; What V, of `%way-home', says of the water and of what is passed is of now.
+  (let* ((points (points-of (vector-ref v 0)))
+         (corners (marked-corners engine t points))
+         (to (last points))
+         (from (if (null? corners) (first points) (first (last corners))))
+         (current (%current-at engine (vec* 0.5 (vec+ from to))))
+         (spare (- (vector-ref v 3) (assq-ref (%tether engine t) 'length)))
+         (why (why-not v)))
+    (with-words 'way-home (vector-ref v 0)
+                (lambda () (way-said corners from to current spare why)))))
+
 (define-verb (way-home #:subject (t tether))
   "Return the way that retraces the tether, drawn tight, from the vehicle to the anchor: a polyline that
-`fly-along!' can fly.  A slack line may hook where its string does not: `fly-home!' tries before it flies."
-  (vector-ref (%way-home (this-engine 'way-home) t) 0))
+`fly-along!' can fly.  The prompt says it in words: what is passed on which side, and the last leg.  A slack line
+may hook where its string does not: `fly-home!' tries before it flies."
+  (let ((engine (this-engine 'way-home)))
+    (with-way-home engine t (%way-home engine t))))
 
 (define-verb (way-home-preview #:subject (t tether))
   "Return what is known of the way home before it is flown, an alist: feasible?, why-not, length, clearance,
 nearest."
   (preview (%way-home (this-engine 'way-home-preview) t)))
 
+(define (with-loop engine t v)
+  (let ((corners (marked-corners engine t (points-of (vector-ref v 0))))
+        (spare (- (vector-ref v 6) (assq-ref (%tether engine t) 'length)))
+        (why (why-not v)))
+    (with-words 'unwind-plan (vector-ref v 0)
+                (lambda () (unwind-said-plainly corners (vector-ref v 3) spare why)))))
+
 (define-verb (unwind-plan #:subject (t tether))
   "Return the loop that the vehicle must fly to free its tether, a polyline back to where it is, or #f when
-nothing needs to be unwound.  `unwind-preview' says whether it can be flown."
-  (vector-ref (%unwind-plan (this-engine 'unwind-plan) t) 0))
+nothing needs to be unwound.  The prompt says it in words.  `unwind-preview' says whether it can be flown."
+  (let* ((engine (this-engine 'unwind-plan)) (v (%unwind-plan engine t)))
+    (if (vector-ref v 0)
+        (with-loop engine t v)
+        (with-words 'unwind-plan #f (const "Nothing needs to be unwound.")))))
 
 (define (unwind-said t)
   "Return what the string says of the unwinding loop of tether number T, an alist, see `unwind-preview'."
   (preview (%unwind-plan (this-engine 'unwind-preview) t)))
+
+
+;;; How far the tether reaches.
+
+(define (rounded-by engine t points)
+  ;; The names of what the string along POINTS goes round.
+  (delete-duplicates (map second (marked-corners engine t points))))
+
+(define-verb (slack-to-reach #:subject (t tether) (p point))
+  "Return what a straight flight to the point P takes of the tether by the way it would then lie, drawn tight
+round what it lies against: an alist with free? (whether nothing is in the way), needed (m of tether), out (m now),
+more (m to be paid out, 0 or more), enough? (whether the drum has them), round (names) and blocked (the name of what
+is in the way, or #f).  The prompt says it in words.  A current that bows the line takes more."
+  (let* ((engine (this-engine 'slack-to-reach))
+         (found (%taut-to engine t p))
+         (out (assq-ref (%tether engine t) 'length))
+         (drum (let ((most (assq-ref (tether-properties t) 'drum))) (if (real? most) most +inf.0)))
+         (needed (and (pair? found) (car found)))
+         (objects (if needed (rounded-by engine t (points-of (cdr found))) '()))
+         (blocked (and (not needed) found)))
+    (with-words 'slack-to-reach
+                `((free? . ,(and needed #t)) (needed . ,needed) (out . ,out)
+                  (more . ,(and needed (max 0.0 (- needed out))))
+                  (enough? . ,(and needed (<= needed drum)))
+                  (round . ,objects) (blocked . ,blocked))
+                (lambda () (reach-said p needed out drum objects blocked)))))
 
 
 ;;; Figures.

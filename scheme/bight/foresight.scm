@@ -9,6 +9,7 @@
 (define-module (bight foresight)
   #:use-module (bight dive)
   #:use-module (bight engine)
+  #:use-module (bight plain-words)
   #:use-module (bight record)
   #:use-module (bight verb)
   #:use-module (srfi srfi-1)
@@ -26,27 +27,13 @@
   (confidence %confidence)
   (turns %turns-then))
 
-(define (rounded x)
-  (/ (round (* 10 x)) 10))
-
 (define (foresight->string f)
-  (let ((object (%object f)))
-    (simple-format #f "~a in ~a s"
-                   (case (%kind f)
-                     ((touch) (simple-format #f "tether touches ~a" object))
-                     ((turn) (simple-format #f "~a turns about ~a" (rounded (%turns-then f)) object))
-                     ((taut) "tether taut")
-                     ((bump) (if object
-                                 (simple-format #f "vehicle meets ~a" object)
-                                 "vehicle meets something"))
-                     (else (simple-format #f "tether ~a" (%kind f))))
-                   (rounded (%seconds f)))))
+  (foresight-said (%kind f) (%object f) (%seconds f) (%turns-then f) (= 1 (%confidence f))))
 
 (set-record-type-printer!
  <foresight>
  (lambda (f port)
-   (simple-format port "#<~a, ~a>" (foresight->string f)
-                  (if (< (%confidence f) 1) "perhaps" "surely"))))
+   (simple-format port "#<foresight: ~a>" (foresight->string f))))
 
 (define-argument-type (foresight value)
   "what `foresee' lists"
@@ -159,9 +146,11 @@
   "Return what will happen within SECONDS if the sticks stay as they are, soonest first: a list of
 foresights, each with kind, object, seconds and confidence.  The line and its string are led on first,
 without forces; then a fork of the dive is run; what the fork does is sure.  With QUICK there is no fork:
-that takes milliseconds.  A tether is taut by the rule of `taut?'."
+that takes milliseconds.  A tether is taut by the rule of `taut?'.  The prompt says it in words."
   (let* ((engine (this-engine 'foresee))
          (guess (by-string engine t seconds))
          (sure (if quick '() (by-fork engine t seconds))))
-    (sort (append sure (remove (lambda (f) (told-by? sure f)) guess))
-          (lambda (a b) (< (%seconds a) (%seconds b))))))
+    (let ((all (sort (append sure (remove (lambda (f) (told-by? sure f)) guess))
+                     (lambda (a b) (< (%seconds a) (%seconds b))))))
+      (with-words 'foresee all
+                  (lambda () (foresights-said (map foresight->string all) seconds))))))

@@ -5,6 +5,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight looks)
+  #:use-module ((bight plain-words) #:select (words-of words-of-answer))
   #:use-module ((bight verb) #:select (verb? verb-usage))
   #:use-module (ice-9 regex)
   #:use-module (srfi srfi-1)
@@ -213,8 +214,26 @@
 (define (immediate? value)
   (or (number? value) (boolean? value) (null? value) (char? value)))
 
-(define (value->lines value)
-  "Return the lines in which the prompt shows VALUE."
+(define width 78)                       ; of lines of words
+
+(define (filled text)
+  ;; TEXT as lines of WIDTH at most, but for longer words.
+  (let loop ((words (string-tokenize text)) (line #f) (lines '()))
+    (cond ((null? words) (reverse (if line (cons line lines) lines)))
+          ((not line) (loop (cdr words) (car words) lines))
+          ((<= (+ (string-length line) 1 (string-length (car words))) width)
+           (loop (cdr words) (string-append line " " (car words)) lines))
+          (else (loop (cdr words) (car words) (cons line lines))))))
+
+(define* (value->lines value #:optional question)
+  "Return the lines in which the prompt shows VALUE, the answer to QUESTION if that, a symbol, is what was asked."
+  (cond ((and (boolean? value) (words-of-answer question value))
+         => (lambda (text) (filled (string-append (if value "#t" "#f") ": " text))))
+        ((words-of-answer question value) => filled)
+        (else (plain-lines value))))
+
+(define (plain-lines value)
+  ;; The lines of a VALUE that has no words of its own.
   (cond ((table-of value)
          => (lambda (table)
               (if (null? (cdr table)) (list "a table without rows") (table->lines (car table) (cdr table)))))

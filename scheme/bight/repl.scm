@@ -48,9 +48,18 @@
   (repl-default-option-set! 'on-error 'report)
   (repl-default-option-set! 'value-history #f) ; ours shows pictures and tables, too
   (repl-default-option-set! 'print show-value)
+  (remove-hook! before-eval-hook note-what-is-asked!)
+  (add-hook! before-eval-hook note-what-is-asked!)
   (repl-default-option-set! 'warning-level 0)
   (set-exception-printer! 'syntax-error print-syntax-error)
   (answer-unknown-commands!))
+
+;; What was typed last, if it is a call: the name of what is called, else #f.  An answer such as #t is said in
+;; words where it is asked for, not where it comes up among other things.
+(define asked #f)
+
+(define (note-what-is-asked! form)
+  (set! asked (and (pair? form) (symbol? (car form)) (car form))))
 
 ;;; Values, as they look at the prompt, are called $1, $2 and so on, in Guile's own module for them.
 
@@ -70,7 +79,7 @@
   (cond ((unspecified? value))
         ((served?) (write value) (newline)) ; an editor reads it
         (else
-         (let ((name (remember! value)) (lines (value->lines value)))
+         (let ((name (remember! value)) (lines (value->lines value asked)))
            (simple-format #t "~a =~a" name (if (null? (cdr lines)) " " "\n"))
            (for-each (lambda (line) (display line) (newline)) lines)))))
 

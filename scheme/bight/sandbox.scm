@@ -155,6 +155,7 @@
     ((bight homing))
     ((bight instruments))
     ((bight foresight))
+    ((bight in-words))
     ((bight probe))))
 
 (define single-names

@@ -18,7 +18,7 @@
     (fly "fly, spool, change the sea" command homing)
     (ask "ask of the vehicle, the sea and the tether" query instruments)
     (touch "contact, wear and clearance" contact)
-    (aware "what a tether is doing: caught, fouled, the way home" aware foresight probe coach)
+    (aware "what a tether is doing: caught, fouled, the way home" aware foresight in-words probe coach)
     (moments "time as a value: checkpoints, forks, files" checkpoint saving recording frames export moordyn orcaflex)
     (see "see it: panels, pictures, plots, films" view picture pilot-view film plot)
     (points "points and units" units)

@@ -189,6 +189,13 @@ bt_status bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int m
 bt_status bt_tether_unwind_plan (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n,
                                  bt_route *out, bt_error *error);
 
+/* Put into POINTS, at most MAX, the taut string of tether I when its end has been led straight from
+   where it is to P, as a flight there leads it; *N is how many there are, *LENGTH its length, m.
+   BT_ERR_DOMAIN when P is not finite; BT_ERR_UNSUPPORTED when the straight way there is not free,
+   with in *OBSTACLE what is in it, or -1.  */
+bt_status bt_tether_taut_to (const bt_dive *dive, int i, bt_vec3 p, bt_vec3 *points, int max,
+                             int *n, double *length, int *obstacle, bt_error *error);
+
 /* ---- What is to come ---- */
 
 typedef enum bt_foresight_kind

@@ -63,6 +63,10 @@ bt_status bt_tether_clearance (const bt_dive *dive, int i, int obstacle, bt_clea
 bt_status bt_vehicle_clearance (const bt_dive *dive, int i, int obstacle, bt_clearance *clearance,
                                 bt_error *error);
 
+/* How near the point P comes to anything that tether I can meet.  BT_ERR_NAME.  */
+bt_status bt_point_clearance (const bt_dive *dive, int i, bt_vec3 p, bt_clearance *clearance,
+                              bt_error *error);
+
 /* True if the I-th vehicle or tether, by PART, met OBSTACLE in the last step.  */
 int bt_dive_collided (const bt_dive *dive, bt_part part, int i, int obstacle);
 

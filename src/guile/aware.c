@@ -267,6 +267,24 @@ unwind_plan (SCM object, SCM index)
   return from_route (dive, &route, points, n);
 }
 
+/* (LENGTH . POINTS), or what is in the way: a name, or #f.  */
+static SCM
+taut_to (SCM object, SCM index, SCM point)
+{
+  bt_dive *dive = bt__to_dive (object);
+  bt_vec3 *points = scm_gc_malloc_pointerless (sizeof *points * WAY_MOST, "way");
+  bt_error error;
+  double length;
+  int n, obstacle;
+  bt_status status
+      = bt_tether_taut_to (dive, scm_to_int (index), bt__to_point ("slack-to-reach", point), points,
+                           WAY_MOST, &n, &length, &obstacle, &error);
+  if (status == BT_ERR_UNSUPPORTED)
+    return bt__obstacle_name (dive, obstacle);
+  bt__check_long ("slack-to-reach", bt__to_handle (object), status, &error);
+  return scm_cons (scm_from_double (length), bt__from_points (points, n));
+}
+
 /* ---- What is to come ---- */
 
 /* Lists (KIND OBJECT SECONDS TURNS).  */
@@ -345,6 +363,10 @@ bt__define_aware (void)
       "home." },
     { "%unwind-plan", 2, 0, (scm_t_subr)unwind_plan,
       "Return the same of the loop that frees the INDEX-th tether of DIVE." },
+    { "%taut-to", 3, 0, (scm_t_subr)taut_to,
+      "Return (LENGTH . POINTS) of the string of the INDEX-th tether led straight to POINT; or "
+      "what "
+      "is in the way there, a name or #f." },
     { "%foresee", 3, 0, (scm_t_subr)foresee,
       "Return lists (KIND OBJECT SECONDS TURNS) of what the string will do within SECONDS." },
     { "%follow-string", 2, 0, (scm_t_subr)follow,

@@ -87,6 +87,15 @@ wear (SCM object, SCM index, SCM s)
 }
 
 static SCM
+from_clearance (bt_dive *dive, const bt_clearance *c)
+{
+  return c->object < 0
+             ? SCM_BOOL_F
+             : scm_list_4 (scm_from_double (c->distance), bt__obstacle_name (dive, c->object),
+                           scm_from_double (c->s), bt__from_point (c->position));
+}
+
+static SCM
 clearance (SCM object, SCM part, SCM index, SCM obstacle)
 {
   bt_dive *dive = bt__to_dive (object);
@@ -97,10 +106,20 @@ clearance (SCM object, SCM part, SCM index, SCM obstacle)
       = vehicle ? bt_vehicle_clearance (dive, scm_to_int (index), scm_to_int (obstacle), &c, &error)
                 : bt_tether_clearance (dive, scm_to_int (index), scm_to_int (obstacle), &c, &error);
   bt__check ("clearance", status, &error);
-  return c.object < 0
-             ? SCM_BOOL_F
-             : scm_list_4 (scm_from_double (c.distance), bt__obstacle_name (dive, c.object),
-                           scm_from_double (c.s), bt__from_point (c.position));
+  return from_clearance (dive, &c);
+}
+
+static SCM
+point_clearance (SCM object, SCM index, SCM point)
+{
+  bt_dive *dive = bt__to_dive (object);
+  bt_clearance c;
+  bt_error error;
+  bt__check (
+      "clearance",
+      bt_point_clearance (dive, scm_to_int (index), bt__to_point ("clearance", point), &c, &error),
+      &error);
+  return from_clearance (dive, &c);
 }
 
 static SCM
@@ -125,6 +144,8 @@ bt__define_contacts (void)
     { "%clearance", 4, 0, (scm_t_subr)clearance,
       "Return (METRES OBJECT S POSITION) of what is nearest to the INDEX-th PART of DIVE, or #f; "
       "OBSTACLE -1 stands for all." },
+    { "%point-clearance", 3, 0, (scm_t_subr)point_clearance,
+      "Return the same of the point P, among what the INDEX-th tether of DIVE can meet." },
     { "%collided?", 4, 0, (scm_t_subr)collided,
       "Return #t if the INDEX-th PART of DIVE met OBSTACLE in the last step." },
   };

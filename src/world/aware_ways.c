@@ -16,6 +16,16 @@
 #define GAP_ROOM 0.02     /* m, beyond the radius: of what is hauled through a gap */
 #define WAY_ROOM 0.15     /* m, beyond the reach of the hull: corners are not flown exactly */
 
+/* A string whose end is led somewhere: m at a time, pieces at most, and steps after each and after
+   the last.  */
+#define LEAD 0.25
+enum
+{
+  LEAD_MOST = 256,
+  LED_STEPS = 2,
+  SETTLE_STEPS = 400
+};
+
 /* Drag assumed for a kinematic vehicle, linear and quadratic: N s/m, N s2/m2.  */
 #define DRAG1 60.0
 #define DRAG2 100.0
@@ -166,6 +176,79 @@ bt_tether_taut_string (const bt_dive *dive, int i, bt_vec3 *points, int max, int
   else
     for (*n = 0; *n < 2 && *n < max; ++*n)
       points[*n] = g->node[*n ? g->n - 1 : 0];
+  return BT_OK;
+}
+
+/* Lead the end of STRING straight to P, by pieces of at most LEAD.  Return 0 where that is not
+ * free. */
+static int
+lead_to (const bt_dive *dive, const bt__gaze *g, bt__string *string, bt_vec3 p)
+{
+  bt_vec3 from = string->x[string->n - 1];
+  uint32_t pieces = (uint32_t)fmin (ceil (bt__distance (from, p) / LEAD), LEAD_MOST);
+  for (uint32_t k = 1; k <= pieces; k++)
+    {
+      bt_vec3 end = k < pieces ? bt__axpy (from, (double)k / pieces, bt__sub (p, from)) : p;
+      if (!bt__taut_step (dive->watch->taut, &g->config, string, string->x[0], end,
+                          k < pieces ? LED_STEPS : SETTLE_STEPS, &dive->watch->count))
+        return 0;
+    }
+  return 1;
+}
+
+/* What is nearest to the straight way from the end of G's tether to P.  */
+static int
+in_the_way (const bt_dive *dive, const bt__gaze *g, bt_vec3 p)
+{
+  bt__link link = { g->node[g->n - 1], p };
+  bt__near near;
+  return bt__scene_nearest (g->config.scene, g->config.on, &link, g->config.core, &near,
+                            &dive->watch->count)
+             ? obstacle_of (dive, near.object)
+             : -1;
+}
+
+static bt_status
+taut_among (const bt_dive *dive, const bt__gaze *g, bt_vec3 p, bt_vec3 *points, int max, int *n,
+            double *length, int *obstacle, bt_error *error)
+{
+  bt__string *string = bt__watch_string (dive);
+  bt_status status = BT_OK;
+  if (!string)
+    return bt__fail (error, BT_ERR_LIMIT, "no memory to lead a string");
+  if (!bt__string_lay (string, g->taut->x, g->taut->n) || !lead_to (dive, g, string, p))
+    {
+      *obstacle = in_the_way (dive, g, p);
+      status = bt__fail (
+          error, BT_ERR_UNSUPPORTED, "the straight way there is not free: `%s' is in it",
+          *obstacle < 0 ? "something" : bt_dive_name (dive, BT_PART_OBSTACLE, *obstacle));
+    }
+  else
+    {
+      *length = bt__string_length (&g->config, string, &dive->watch->count);
+      *n = put_points (string, points, max);
+    }
+  free (string);
+  return status == BT_OK ? bt__stopped (bt__asker_of (dive), error) : status;
+}
+
+bt_status
+bt_tether_taut_to (const bt_dive *dive, int i, bt_vec3 p, bt_vec3 *points, int max, int *n,
+                   double *length, int *obstacle, bt_error *error)
+{
+  bt__gaze *g;
+  *n = 0;
+  *obstacle = -1;
+  if (!isfinite (p.x) || !isfinite (p.y) || !isfinite (p.z))
+    return bt__fail (error, BT_ERR_DOMAIN, "a point has three finite numbers");
+  bt_status status = bt__watch_gaze (dive, i, &g, error);
+  if (status != BT_OK)
+    return status;
+  if (!g->open)
+    return taut_among (dive, g, p, points, max, n, length, obstacle, error);
+  *length = bt__distance (g->node[0], p);
+  for (; *n < 2 && *n < max; ++*n)
+    points[*n] = *n ? p : g->node[0];
   return BT_OK;
 }
 

@@ -313,6 +313,23 @@ bt_vehicle_clearance (const bt_dive *dive, int i, int obstacle, bt_clearance *ou
   return BT_OK;
 }
 
+bt_status
+bt_point_clearance (const bt_dive *dive, int i, bt_vec3 p, bt_clearance *out, bt_error *error)
+{
+  look look;
+  bt__near near;
+  bt__link link = { p, p };
+  double cap = FAR;
+  bt_status status = look_at_subject (dive, BT_PART_TETHER, i, -1, &look, error);
+  if (status != BT_OK)
+    return status;
+  *out = (bt_clearance){ .distance = INFINITY, .object = -1 };
+  if (look.off && nearest_part (dive, &look, &link, &cap, &near, out))
+    out->distance = cap;
+  free (look.off);
+  return BT_OK;
+}
+
 /* True if tether I touches itself.  */
 static int
 touches_itself (const bt_dive *dive, int i)
