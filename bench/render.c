@@ -179,7 +179,7 @@ measure_flight (bench *b, bt_aim aim)
   bt__screen *screen;
   bt_error error;
   char setting[60], counters[60];
-  check (bt__screen_new (COLUMNS, ROWS, BT__PALETTE_TRUE, &screen, &error), &error);
+  check (bt__screen_new (COLUMNS, ROWS, BT__PALETTE_TRUE, 0, &screen, &error), &error);
   for (int i = 0; i < b->frames; i++)
     x[i] = fly_frame (b, aim, i, screen, &bytes);
   bt__screen_free (screen);

@@ -13,6 +13,7 @@
   #:use-module (bight engine)
   #:use-module (bight errors)
   #:use-module (bight foresight)
+  #:use-module (bight pilot-desk)
   #:use-module (bight query)
   #:use-module (bight record)
   #:use-module ((bight command) #:select (spooling?))
@@ -21,9 +22,10 @@
             figures?
             slow-figures
             forecast
+            unseen?
             heading-tape
             draw-hud
-            draw-lines))
+            white pale yellow red amber green))
 
 
 ;;; Asking.  What a dive cannot tell is #f.
@@ -37,10 +39,16 @@
 (define-syntax-rule (answer expression)
   (call-or-false (lambda () expression)))
 
+;; Of a verb: does the pilot not see what it tells?  So it is in some lessons.
+(define unseen? (make-parameter (const #f)))
+
+(define-syntax-rule (seen verb expression)
+  (and (not ((unseen?) 'verb)) (answer expression)))
+
 (define (ask name . arguments)
-  ;; As `answer', for a query that the language may not have.
+  ;; As `seen', for a query that the language may not have.
   (let ((variable (module-variable (resolve-interface '(bight)) name)))
-    (and variable (answer (apply (variable-ref variable) arguments)))))
+    (and variable (not ((unseen?) name)) (answer (apply (variable-ref variable) arguments)))))
 
 (define-record <figures>
   (make-figures heading depth speed altitude over turns out tension breaking spooling?)
@@ -64,8 +72,8 @@
                 (and vehicle (answer (rov-altitude vehicle)))
                 (and vehicle (answer (rov-over vehicle)))
                 (and vehicle (net-turns vehicle))
-                (and tether (tether-length tether))
-                (and tether (answer (max-tension tether)))
+                (and tether (seen tether-length (tether-length tether)))
+                (and tether (seen tensions (seen rov-tension (max-tension tether))))
                 (and tether (assq-ref (tether-properties (subject-of tether)) 'breaking-load))
                 (and tether (answer (spooling? tether)))))
 
@@ -76,7 +84,7 @@
 
 (define (windings tether)
   ;; What the tether is caught on, in words: up to three.
-  (let ((wound (or (answer (windings->strings (subject-of tether))) '())))
+  (let ((wound (or (seen windings (seen status (windings->strings (subject-of tether)))) '())))
     (take wound (min most-named (length wound)))))
 
 (define (warnings vehicle tether)
@@ -85,7 +93,7 @@
           (append
            (if tether
                (list (when-true (ask 'parted? tether) "TETHER PARTED")
-                     (when-true (answer (taut? tether)) "TAUT")
+                     (when-true (seen taut? (taut? tether)) "TAUT")
                      (when-true (ask 'stuck? tether) "STUCK")
                      (let ((why (ask 'foul-reason tether)))
                        (when-true (and why (ask 'fouled? tether))
@@ -96,7 +104,7 @@
 
 (define (slow-figures vehicle tether)
   "Return what costs something to ask, an alist: slack, windings, contacts, warnings."
-  `((slack . ,(and tether (answer (slack tether))))
+  `((slack . ,(and tether (seen slack (slack tether))))
     (windings . ,(if tether (windings tether) '()))
     (contacts . ,(and tether (and=> (ask 'contacts tether) length)))
     (warnings . ,(warnings vehicle tether))))
@@ -119,7 +127,7 @@
 (define (forecast tether)
   "Return what TETHER, a name or #f, will soon do if nobody touches the sticks, strings, soonest first: at
 most two.  This takes milliseconds."
-  (let ((all (or (and tether (answer (foresee tether horizon #:quick #t))) '())))
+  (let ((all (or (and tether (seen foresee (foresee tether horizon #:quick #t))) '())))
     (map foretold (take all (min most-foretold (length all))))))
 
 
@@ -205,13 +213,7 @@ most two.  This takes milliseconds."
 (define yellow #xffd84a)
 (define red #xb01818)
 (define amber #xe0a820)
-
-(define (draw-lines put column row lines ink paper)
-  "Put LINES, strings, one below the other by PUT from COLUMN and ROW on."
-  (for-each (lambda (line i) (put column (+ row i) line ink paper)) lines (iota (length lines))))
-
-(define (centred put columns row text ink paper)
-  (put (quotient (max 0 (- columns (string-length text))) 2) row text ink paper))
+(define green #x60e080)
 
 (define (stick-text name value)
   (string-append name " " (if (negative? value) "-" (if (zero? value) " " "+")) (fixed (abs value) 1)))
@@ -219,38 +221,98 @@ most two.  This takes milliseconds."
 (define (sticks-line values)
   (string-join (map stick-text '("surge" "sway" "heave" "yaw") values) "  "))
 
-(define (draw-tape put columns f)
-  (when (figures-heading f)
-    (let ((width (min 61 (- columns 44))))
-      (when (> width 8)
-        (centred put columns 0 (heading-tape (figures-heading f) width) white #f))
-      (centred put columns 1
-               (string-append "^ " (string-pad (fixed (floor (figures-heading f)) 0) 3 #\0) " ^")
-               yellow #f))))
+(define (short-sticks values)
+  (string-join (map (lambda (name value) (string-append name (if (negative? value) "-" "+") (fixed (abs value) 1)))
+                    '("s" "w" "h" "y") values)))
 
-(define (draw-warnings put columns now ahead)
-  ;; What is, and below it what is to come.
+(define least-tape 9)
+
+(define (draw-tape put columns f left right)
+  ;; Between what stands LEFT and RIGHT on the first row.
+  (when (figures-heading f)
+    (let ((width (min 61 (- columns (* 2 (max left right)) 2))))
+      (when (>= width least-tape)
+        (put-centred put columns 0 (heading-tape (figures-heading f) width) white #f))
+      (put-centred put columns 1
+                   (string-append "^ " (string-pad (fixed (floor (figures-heading f)) 0) 3 #\0) " ^")
+                   yellow #f))))
+
+(define (draw-warnings put columns row now ahead)
+  ;; What is, and below it what is to come, from ROW on.
   (for-each (lambda (text ink paper i)
-              (centred put columns (+ 3 i) (string-append "  " text "  ") ink paper))
+              (put-centred put columns (+ row i) (string-append "  " text "  ") ink paper))
             (append now ahead)
             (append (map (const #xffffff) now) (map (const #x201800) ahead))
             (append (map (const red) now) (map (const amber) ahead))
             (iota (+ (length now) (length ahead)))))
 
+(define (short name value places unit)
+  (string-append name " " (if (and (real? value) (< (abs value) 1e9)) (fixed value places) "-") unit))
+
+(define (short-figures f slow)
+  ;; The figures as words, the most wanted first.
+  (let ((s (assq-ref slow 'slack)))
+    (append (list (short "depth" (figures-depth f) 1 "m") (short "out" (figures-out f) 1 "m")
+                  (short "slack" (and s (* 100 s)) 0 "%") (short "turns" (figures-turns f) 1 "")
+                  (short "tension" (figures-tension f) 0 "N") (short "speed" (figures-speed f) 1 "m/s")
+                  (short "altitude" (figures-altitude f) 1 "m"))
+            (assq-ref slow 'windings))))
+
+(define (flowed words columns)
+  ;; WORDS, strings, on lines of COLUMNS with two blanks between them.
+  (let loop ((words words) (line "") (lines '()))
+    (cond ((null? words) (reverse (if (string-null? line) lines (cons line lines))))
+          ((string-null? line) (loop (cdr words) (cut (string-append " " (car words)) columns) lines))
+          ((<= (+ (string-length line) 2 (string-length (car words))) columns)
+           (loop (cdr words) (string-append line "  " (car words)) lines))
+          (else (loop words "" (cons line lines))))))
+
+(define most-short-rows 3)
+
+(define (draw-short put columns rows top f slow)
+  ;; On a small screen the figures stand in a line or two above the sticks.
+  (let* ((room (max 1 (min most-short-rows (quotient (- rows 4 top) 2))))
+         (lines (flowed (short-figures f slow) columns))
+         (lines (if (> (length lines) room) (take lines room) lines)))
+    (put-lines put 0 (- rows 2 (length lines)) lines white #f)
+    (- rows 2 (length lines))))
+
+(define block-width 22)
+
+(define (draw-blocks put columns rows left right)
+  (put-lines put 0 (- rows 3 (length left)) left white #f)
+  (put-lines put (- columns block-width) (- rows 3 (length right)) right white #f)
+  (- rows 3))
+
+(define (draw-words put columns row words top blocks?)
+  ;; The answers in words, above ROW and below TOP, between the blocks if there are.
+  (let* ((width (- columns (if blocks? (* 2 (+ block-width 1)) 2)))
+         (lines (if (and words (>= width 24)) (wrap words width) '())))
+    (when (and (pair? lines) (> (- row (length lines)) (+ top 3)))
+      (put-lines put (quotient (- columns width) 2) (- row (length lines)) lines pale #f))))
+
 (define (draw-hud put columns rows f slow state)
-  "Draw the display of the figures F and SLOW on a screen of COLUMNS and ROWS by PUT, a procedure of a
-column, a row, a string, its colour and that behind it (#f: dimmed).  STATE is an alist of strings: title,
-right, message; of sticks, a list; and of ahead, a list of strings."
-  (let ((left (left-rows f)) (right (right-rows f slow)))
-    (put 0 0 (string-append " " (assq-ref state 'title) " ") white #f)
-    (let ((text (string-append " " (assq-ref state 'right) " ")))
-      (put (max 0 (- columns (string-length text))) 0 text pale #f))
-    (draw-tape put columns f)
-    (draw-warnings put columns (assq-ref slow 'warnings) (or (assq-ref state 'ahead) '()))
-    (when (and (> rows 12) (>= columns 46))
-      (draw-lines put 0 (- rows 3 (length left)) left white #f)
-      (draw-lines put (- columns 22) (- rows 3 (length right)) right white #f))
-    (centred put columns (- rows 2) (sticks-line (assq-ref state 'sticks)) white #f)
+  "Draw the display of the figures F and SLOW on a screen of COLUMNS and ROWS by PUT, such as that of a desk: a
+procedure of a column, a row, a string, its colour and that behind it (#f: dimmed).  STATE is an alist of strings:
+title, right, message, and words or #f; of sticks, a list; of ahead, a list of strings; and of top, the row that what
+is drawn above the display ends at."
+  (let* ((title (cut (string-append " " (assq-ref state 'title) " ") columns))
+         (right (string-append " " (assq-ref state 'right) " "))
+         (top (or (assq-ref state 'top) 2))
+         (left-block (left-rows f)) (right-block (right-rows f slow))
+         (blocks? (and (> (- rows 3 (max (length left-block) (length right-block))) (+ top 3)) (>= columns 46)))
+         (sticks (assq-ref state 'sticks))
+         (sticks-text (sticks-line sticks)))
     (put 0 (- rows 1)
-         (string-pad-right (string-append " " (assq-ref state 'message)) columns)
-         (if (assq-ref state 'urgent?) yellow pale) #f)))
+         (string-pad-right (cut (string-append " " (assq-ref state 'message)) columns) columns)
+         (if (assq-ref state 'urgent?) yellow pale) #f)
+    (put 0 0 title white #f)
+    (put-right put columns 0 right pale #f)
+    (put-centred put columns (- rows 2)
+                 (if (<= (string-length sticks-text) columns) sticks-text (short-sticks sticks)) white #f)
+    (let ((row (if blocks?
+                   (draw-blocks put columns rows left-block right-block)
+                   (draw-short put columns rows top f slow))))
+      (draw-warnings put columns (+ top 1) (assq-ref slow 'warnings) (or (assq-ref state 'ahead) '()))
+      (draw-tape put columns f (string-length title) (string-length right))
+      (draw-words put columns row (assq-ref state 'words) top blocks?))))

@@ -12,7 +12,7 @@
   #:use-module (srfi srfi-1)
   #:export (bytes->keys
             new-sticks press nudge centre settle stick-values sticks?
-            stick-of-key nudge-of-key
+            stick-of-key nudge-of-key act-of-key
             key-lines))
 
 
@@ -110,6 +110,15 @@ down left right escape."
        (let ((stick (assv-ref holding (char-downcase key))))
          (and stick (cons (car stick) (* 1/10 (cdr stick)))))))
 
+(define acts
+  '((#\space release) (#\[ winch -1) (#\] winch 1) (#\{ winch -5) (#\} winch 5)
+    (#\h hold heading) (#\b hold depth) (#\n hold altitude) (#\m hold place)
+    (#\u back) (#\p pause) (#\g ghost) (#\e hint) (#\t tell) (#\: prompt) (#\q leave) (#\etx leave)))
+
+(define (act-of-key key)
+  "Return what KEY asks for besides the sticks and the view, a list such as (winch 1), or #f."
+  (assv-ref acts key))
+
 (define key-lines
   '("w s     ahead, astern          hold them; with shift"
     "a d     turn                   a key nudges its stick,"
@@ -120,7 +129,9 @@ down left right escape."
     "[ ]     winch: in, out a metre      { } five"
     "v 1-5   view: chase camera top side overview"
     "o x     colour of the tether; picture or plain"
+    "z f     map; the way home in words"
     "y       lights       g   what if: 5 s from now"
-    "p       pause        u   back 5 s"
-    ":       the prompt; (bight goes on), ,q comes back"
+    "p       pause        u   back"
+    "e t     in a lesson: a hint; tell the tender"
+    ":       the prompt (,q comes back)"
     "? q     this; leave"))

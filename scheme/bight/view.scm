@@ -27,6 +27,7 @@
             picture?
             picture-lines
             lines->picture
+            plan-lines
             terminal-columns
             scene?
             canvas?))
@@ -392,6 +393,19 @@
   (let ((canvas (make-canvas columns rows (middle-of places) step)))
     (draw-scene! canvas scene from-above heading-mark)
     (frame "from above, north up" (canvas->lines canvas) columns)))
+
+(define (plan-lines columns rows marks)
+  "Return the present dive from above, north up, as ROWS lines of COLUMNS, the last with the scale; MARKS is a list of
+(CHARACTER . POINT) that are in it."
+  (let* ((scene (read-scene))
+         (spots (map (lambda (mark) (from-above (point->list (cdr mark)))) marks))
+         (places (append (map from-above (scene-points scene)) spots))
+         (step (step-for places columns (- rows 1)))
+         (canvas (make-canvas columns (- rows 1) (middle-of places) step)))
+    (draw-scene! canvas scene from-above heading-mark)
+    (for-each (lambda (mark spot) (put! canvas (cell-of canvas spot) (car mark))) marks spots)
+    (append (canvas->lines canvas)
+            (list (string-pad-right (string-append "N up " (scale-bar step columns)) columns)))))
 
 (define (draw-bed! canvas scene bearing)
   ;; The bed along the plane of `from-the-side'.

@@ -83,7 +83,7 @@ free_screen (void *screen)
 }
 
 static SCM
-make_screen (SCM columns, SCM rows, SCM palette)
+make_screen (SCM columns, SCM rows, SCM palette, SCM ascii)
 {
   bt__screen *screen = NULL;
   bt_error error;
@@ -92,10 +92,10 @@ make_screen (SCM columns, SCM rows, SCM palette)
          && !scm_is_eq (palette, scm_from_utf8_symbol (bt__palette_name ((bt__palette)i))))
     i++;
   SCM_ASSERT (i < BT__PALETTES, palette, SCM_ARG3, "%make-screen");
-  bt__check (
-      who,
-      bt__screen_new (scm_to_int (columns), scm_to_int (rows), (bt__palette)i, &screen, &error),
-      &error);
+  bt__check (who,
+             bt__screen_new (scm_to_int (columns), scm_to_int (rows), (bt__palette)i,
+                             !SCM_UNBNDP (ascii) && scm_is_true (ascii), &screen, &error),
+             &error);
   return scm_from_pointer (screen, free_screen);
 }
 
@@ -163,8 +163,10 @@ bight_pilot_init (void)
       "Return the columns and rows of the terminal, a pair." },
     { "%terminal-keys", 1, 0, (scm_t_subr)keys,
       "Return the bytes that came within SECONDS, a list, or #f when the terminal is gone." },
-    { "%make-screen", 3, 0, (scm_t_subr)make_screen,
-      "Return a blank screen of COLUMNS and ROWS in PALETTE: none, few, many or true." },
+    { "%make-screen", 3, 1, (scm_t_subr)make_screen,
+      "Return a blank screen of COLUMNS and ROWS in PALETTE: none, few, many or true; with ASCII "
+      "true "
+      "nothing else is written to it." },
     { "%screen-clear!", 1, 0, (scm_t_subr)clear, "Blank SCREEN." },
     { "%screen-picture!", 2, 0, (scm_t_subr)picture,
       "Fill SCREEN with PIXELS, a bytevector, two to a cell." },

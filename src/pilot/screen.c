@@ -9,6 +9,7 @@
 
 #include <config.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,6 +25,10 @@ enum
   UPPER_HALF = 0x2580
 };
 
+#define DITHER                                                                                     \
+  5.0 /* of 255, a step of the matrix: sixteen of them are most of what lies between two colours   \
+       */
+
 typedef struct cell
 {
   uint32_t letter; /* Unicode */
@@ -34,6 +39,8 @@ struct bt__screen
 {
   int columns, rows;
   bt__palette palette;
+  int ascii;
+  double dark, light; /* of pictures in sixteen colours so far, 0 to 255 */
   cell *wanted, *shown;
   char *bytes;
   size_t n;
@@ -57,7 +64,8 @@ cells_of (const bt__screen *s)
 }
 
 bt_status
-bt__screen_new (int columns, int rows, bt__palette palette, bt__screen **screen, bt_error *error)
+bt__screen_new (int columns, int rows, bt__palette palette, int ascii, bt__screen **screen,
+                bt_error *error)
 {
   bt__screen *s;
   if (columns < 1 || rows < 1 || columns > SIDE_MAX || rows > SIDE_MAX)
@@ -69,6 +77,8 @@ bt__screen_new (int columns, int rows, bt__palette palette, bt__screen **screen,
       s->columns = columns;
       s->rows = rows;
       s->palette = palette;
+      s->ascii = ascii;
+      s->light = -1;
       s->wanted = calloc (cells_of (s), sizeof *s->wanted);
       s->shown = calloc (cells_of (s), sizeof *s->shown);
       s->bytes = malloc (cells_of (s) * CELL_BYTES + CELL_BYTES);
@@ -208,18 +218,88 @@ letter_for (int light)
   return (uint32_t)ramp[light * (int)(sizeof ramp - 1) / 256];
 }
 
+/* ---- Sixteen colours: the sea is dark and blue, and would be two of them ---- */
+
+/* The brightness that SHARE of the N pixels stay below.  */
+static int
+light_below (const size_t count[256], size_t n, double share)
+{
+  size_t sum = 0;
+  int light = 0;
+  while (light < 255 && (double)(sum += count[light]) < share * (double)n)
+    light++;
+  return light;
+}
+
+/* Look how dark and how light PIXELS are, and follow slowly, so that a picture does not flicker. */
+static void
+look_at_light (bt__screen *s, const uint32_t *pixels)
+{
+  size_t n = 2 * cells_of (s), count[256] = { 0 };
+  for (size_t i = 0; i < n; i++)
+    count[light_of ((int32_t)(pixels[i] & 0xffffff))]++;
+  double dark = light_below (count, n, 0.02), light = light_below (count, n, 0.995);
+  double share = s->light < 0 ? 1 : 0.1; /* the first look is believed */
+  s->dark += share * (dark - s->dark);
+  s->light += share * (light - s->light);
+}
+
+/* COLOR stretched, and moved by AWAY, a share of what lies between two colours.  */
+static int32_t
+stretched (const bt__screen *s, int32_t color, double away)
+{
+  double scale = 255 / fmax (s->light - s->dark, 24);
+  int32_t out = 0;
+  for (int shift = 16; shift >= 0; shift -= 8)
+    {
+      double v = (channel (color, shift) - s->dark) * scale + away;
+      out |= (int32_t)fmin (fmax (v, 0), 255) << shift;
+    }
+  return out;
+}
+
+/* The pixel at X, Y of the terminal's picture: ordered dither by Bayer's matrix of four.  */
+static int32_t
+pixel_for (const bt__screen *s, uint32_t pixel, int x, int y)
+{
+  static const int bayer[4][4]
+      = { { 0, 8, 2, 10 }, { 12, 4, 14, 6 }, { 3, 11, 1, 9 }, { 15, 7, 13, 5 } };
+  int32_t color = (int32_t)(pixel & 0xffffff);
+  if (s->palette != BT__PALETTE_16)
+    return color;
+  return stretched (s, color, (bayer[y & 3][x & 3] - 7.5) * DITHER);
+}
+
+/* The mean of two colours.  */
+static int32_t
+between (int32_t a, int32_t b)
+{
+  return ((a >> 1) & 0x7f7f7f) + ((b >> 1) & 0x7f7f7f);
+}
+
+static cell
+picture_cell (const bt__screen *s, int32_t above, int32_t below)
+{
+  cell c = { UPPER_HALF, above, below };
+  if (s->palette == BT__PALETTE_NONE)
+    c.letter = letter_for ((light_of (above) + light_of (below)) / 2);
+  else if (s->ascii)
+    c = (cell){ ' ', above, between (above, below) };
+  return c;
+}
+
 void
 bt__screen_picture (bt__screen *s, const uint32_t *pixels)
 {
+  if (s->palette == BT__PALETTE_16)
+    look_at_light (s, pixels);
   for (int row = 0; row < s->rows; row++)
     for (int column = 0; column < s->columns; column++)
       {
         const uint32_t *p = pixels + (size_t)(2 * row) * (size_t)s->columns + column;
-        int32_t above = (int32_t)(p[0] & 0xffffff), below = (int32_t)(p[s->columns] & 0xffffff);
-        cell c = { UPPER_HALF, above, below };
-        if (s->palette == BT__PALETTE_NONE)
-          c.letter = letter_for ((light_of (above) + light_of (below)) / 2);
-        s->wanted[row * s->columns + column] = c;
+        int32_t above = pixel_for (s, p[0], column, 2 * row);
+        int32_t below = pixel_for (s, p[s->columns], column, 2 * row + 1);
+        s->wanted[row * s->columns + column] = picture_cell (s, above, below);
       }
 }
 
@@ -254,7 +334,7 @@ bt__screen_text (bt__screen *s, int column, int row, const char *text, size_t n,
       cell *c = &s->wanted[row * s->columns + column];
       c->paper = paper == BT__DIMMED ? dimmed (c->paper) : paper;
       c->ink = ink;
-      c->letter = letter;
+      c->letter = s->ascii && letter > 126 ? '?' : letter;
     }
 }
 

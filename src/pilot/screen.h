@@ -32,9 +32,10 @@ enum
 
 typedef struct bt__screen bt__screen;
 
-/* Make a blank screen.  BT_ERR_LIMIT without memory or for absurd sizes.  */
-bt_status bt__screen_new (int columns, int rows, bt__palette palette, bt__screen **screen,
-                          bt_error *error);
+/* Make a blank screen; with ASCII true nothing but ASCII is ever written to it, for a terminal
+   whose letters are not UTF-8.  BT_ERR_LIMIT without memory or for absurd sizes.  */
+bt_status bt__screen_new (int columns, int rows, bt__palette palette, int ascii,
+                          bt__screen **screen, bt_error *error);
 void bt__screen_free (bt__screen *screen);
 int bt__screen_columns (const bt__screen *screen);
 int bt__screen_rows (const bt__screen *screen);
@@ -43,7 +44,8 @@ int bt__screen_rows (const bt__screen *screen);
 void bt__screen_clear (bt__screen *screen);
 
 /* Fill it with PIXELS, rows from the top, red, green and blue in the low 24 bits: COLUMNS by twice
-   ROWS of them.  */
+   ROWS of them.  Where there are sixteen colours the picture is stretched to all of its light and
+   dark, and what lies between two colours is shown by cells of both.  */
 void bt__screen_picture (bt__screen *screen, const uint32_t *pixels);
 
 /* Put TEXT, UTF-8 of N bytes, each letter one cell wide, at COLUMN and ROW; what falls outside is

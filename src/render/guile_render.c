@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "guile/guile.h"
+#include "render/camera.h"
 #include "render/render.h"
 #include "render/scene_of_dive.h"
 
@@ -136,6 +137,18 @@ aim_camera (sketch *s, SCM aim, bt_error *error)
                        error);
 }
 
+/* MARKS, an f64vector of points, x y z one after another, is told where each falls in the picture:
+   x and y in pixels from the upper left, and 1, or 0 for what lies behind the camera.  */
+static void
+place_marks (const sketch *s, SCM marks)
+{
+  double w = s->drawing.width, h = s->drawing.height;
+  const bt__optics optics = bt__optics_of (&s->view->camera, w / h);
+  double *p = (double *)SCM_BYTEVECTOR_CONTENTS (marks);
+  for (size_t k = 0; k + 3 <= SCM_BYTEVECTOR_LENGTH (marks) / sizeof *p; k += 3)
+    p[k + 2] = bt__project (&optics, (bt_vec3){ p[k], p[k + 1], p[k + 2] }, w, h, &p[k], &p[k + 1]);
+}
+
 static void
 draw (sketch *s, SCM renderer, int figures)
 {
@@ -211,7 +224,8 @@ gather_dive (sketch *s, const bt_dive *dive, const bt__show *show, SCM ghost, in
 }
 
 static SCM
-draw_dive (SCM renderer, SCM object, SCM title, SCM aim, SCM size, SCM paint, SCM flags, SCM ghost)
+draw_dive (SCM renderer, SCM object, SCM title, SCM aim, SCM size, SCM paint, SCM flags, SCM ghost,
+           SCM marks)
 {
   const bt_dive *dive = to_dive (object);
   const bt__show show = show_of (paint, flags);
@@ -225,6 +239,8 @@ draw_dive (SCM renderer, SCM object, SCM title, SCM aim, SCM size, SCM paint, SC
   gather_dive (s, dive, &show, ghost, has_flag (flags, "lamp"));
   set_title (s, title);
   bt__check ("snapshot", aim_camera (s, aim, &error), &error);
+  if (!SCM_UNBNDP (marks) && scm_is_true (marks))
+    place_marks (s, marks);
   draw (s, renderer, has_flag (flags, "figures"));
   bytes = pixels_of (&s->picture);
   scm_dynwind_end ();
@@ -295,12 +311,13 @@ bight_render_init (void)
       "Return a renderer by the back end NAME, osmesa or egl, or by the first that works for #f." },
     { "%renderer-name", 1, 0, (scm_t_subr)renderer_name, "Return what draws for RENDERER." },
     { "%views", 0, 0, (scm_t_subr)views, "Return the names of the views." },
-    { "%draw", 7, 1, (scm_t_subr)draw_dive,
+    { "%draw", 7, 2, (scm_t_subr)draw_dive,
       "Return the pixels, a bytevector, of a picture by RENDERER of DIVE with TITLE, seen by AIM, "
-      "of "
-      "SIZE (WIDTH . HEIGHT), tethers painted by PAINT; FLAGS are of figures, transparent, quick, "
+      "of SIZE (WIDTH . HEIGHT), tethers painted by PAINT; FLAGS are of figures, transparent, "
+      "quick, "
       "lamp, contacts, turns, taut-string, bvh, a level of boxes; GHOST, another dive, is drawn "
-      "pale beside it." },
+      "pale beside it; MARKS, an f64vector of points, receives where they fall in the picture: x y "
+      "and 1, or 0 behind the camera." },
     { "%written", 6, 0, (scm_t_subr)written_boxes,
       "Return the boxes (X Y WIDTH HEIGHT) that words and figures take over the picture that %draw "
       "would make of the same DIVE TITLE AIM SIZE PAINT FLAGS." },

@@ -3,6 +3,8 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight cells)
+             (bight cockpit)
+             (bight pilot-desk)
              (bight pilot-hud)
              (bight pilot-keys)
              (bight pilot-view)
@@ -94,8 +96,11 @@
   "In 256 and in 16 colours each is the nearest; without, light and dark are letters."
   (in open-water)
   (define (bytes-in palette color)
+    ;; In sixteen colours a picture is stretched; what stands behind a word is not.
     (let ((screen (%make-screen 2 1 palette)))
-      (%screen-picture! screen (pixels 2 1 (lambda (x y) color)))
+      (if (eq? palette 'few)
+          (%screen-text! screen 0 0 "  " #xffffff color)
+          (%screen-picture! screen (pixels 2 1 (lambda (x y) color))))
       (%screen-bytes screen #t)))
   (expect (->bool (string-contains (bytes-in 'many #xff0000) "\x1b[48;5;196m")) => #t)
   (expect (->bool (string-contains (bytes-in 'many #x808080) "\x1b[48;5;244m")) => #t)
@@ -103,6 +108,71 @@
   (expect (->bool (string-contains (bytes-in 'few #x0000e0) "\x1b[44m")) => #t)
   (expect (->bool (string-contains (bytes-in 'none #xffffff) "@@")) => #t)
   (expect (string-match "\x1b\\[[0-9;]*[1-9]m" (bytes-in 'none #xffffff)) => #f))
+
+;; A jacket in the sea as it is drawn: greys and blues of a quarter of the light there could be.
+(define (murky x y)
+  (if (< 3 x 7) #x3a4446 #x0b2a38))
+
+(define-scenario sixteen-colors-show-what-stands-in-murky-water
+  "What is hardly lighter than the sea has other cells than the sea, and the sea is not black."
+  (in open-water)
+  (let ((screen (%make-screen 12 4 'few)))
+    (%screen-picture! screen (pixels 12 4 murky))
+    (let* ((rows (cdr (string-split (%screen-bytes screen #t) #\H)))
+           (leg (map match:substring (list-matches "\x1b\\[[0-9]*m" (car rows)))))
+      (expect (length (delete-duplicates leg)) is (above 2)))))
+
+(define-scenario ascii-terminals-get-ascii
+  "Where letters are not UTF-8 nothing else is written, in whatever colours."
+  (in open-water)
+  (for-each
+   (lambda (palette)
+     (let ((screen (%make-screen 30 8 palette #t)))
+       (%screen-picture! screen (pixels 30 8 half?))
+       (%screen-text! screen 2 2 "längs ▀" #xffffff #f)
+       (expect (string-every char-set:ascii (%screen-bytes screen #t)))))
+   '(none few many true)))
+
+;; What a display of a lesson has above it, and the worst that a flight can tell of.
+(define busy-slow
+  '((slack . 0.123) (windings "jacket: leg-a1 +1, leg-a2 -1 and 3 more" "p1 +2" "p2 -1") (contacts . 3)
+    (warnings "TETHER PARTED" "FOULED: wound round it" "HELD BACK")))
+
+(define busy-state
+  `((title . "a-world-with-a-long-name  1234.5 s") (right . "PAUSED  what if  lights  overview  tension  30/s")
+    (message . ,(make-string 200 #\m)) (urgent? . #t) (sticks . (0.5 0.0 -1.0 0.0))
+    (words . "Home: north and east round leg-a2 of jacket, then straight south-west 17 m, across the current; pay out 3 m first.")
+    (ahead "string touches jacket/leg-a1 in 3 s" "tether taut in 12 s") (top . 2)))
+
+(define (writes-on columns rows through)
+  "Return how often the cell written most often is, and the texts; THROUGH makes the procedure that puts texts."
+  (let ((cells (make-array 0 rows columns)) (texts '()))
+    (draw-hud (through (lambda (column row text ink paper)
+                         (set! texts (cons text texts))
+                         (do ((i 0 (+ i 1))) ((= i (string-length text)))
+                           (when (array-in-bounds? cells row (+ column i))
+                             (array-set! cells (+ 1 (array-ref cells row (+ column i))) row (+ column i))))))
+              columns rows (read-figures 'minnow 'line) busy-slow busy-state)
+    (list (apply max (concatenate (array->list cells))) texts)))
+
+(define-scenario no-text-is-written-over-another
+  "In any window from 30 by 8 up every cell is written once at most; the message, the title and the depth are always there."
+  (in pier)
+  (define (by-desk columns rows) (lambda (put) (desk columns rows put)))
+  (for-each
+   (lambda (columns)
+     (for-each
+      (lambda (rows)
+        (let ((written (writes-on columns rows (by-desk columns rows))))
+          (require (first written) => 1)
+          (require (any (lambda (text) (string-prefix? " mmm" text)) (second written)))
+          (require (any (lambda (text) (string-prefix? " a-world" text)) (second written)))
+          (require (any (lambda (text) (string-contains text "depth")) (second written)))
+          (require (any (lambda (text) (string-contains text "TETHER PARTED")) (second written)))))
+      (append (iota 30 8) '(50 80))))
+   (append (iota 70 30 2) '(200 250)))
+  ;; Without a desk there are such.
+  (expect (first (writes-on 40 10 (lambda (put) put))) is (above 1)))
 
 (define (draw-on columns rows)
   "Return the lines of a display of the present dive."
