@@ -8,12 +8,14 @@ little tether and it stops you; too much and it drifts, drags and finds somethin
   (fork-and-show "Watch what happens to one who leaves and pays nothing out."
     (fly-to! '(0 48 -8) #:speed 0.4) (run 60))
   (task "Fly forty metres north, to within 1.5 m of (0 48 -8), keeping 5 to 20 % of the tether slack."
+        (target "north" '(0 48 -8))
         (done-when (< (range-to '(0 48 -8)) 1.5))
         (hint-after 30 "(slack) is the share that is slack: keep it near 0.12.  Pay out as fast as you fly.")
         (hint-after 90 "(fly-to! '(0 48 -8) #:speed 0.3) (pay-out! 45 #:rate 0.33), and look now and then.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 300))
   (task "Now home, to within 1.5 m of (0 8 -6): take in what comes loose."
+        (target "home" '(0 8 -6))
         (done-when (< (range-to '(0 8 -6)) 1.5))
         (hint-after 60 "Haul in as fast as you come: (haul-in! 40 #:rate 0.28).")
         (fail-when (parted?) "The tether has parted.")

@@ -5,6 +5,8 @@
 and loops hang on things.  Count, take the shorter way only when it is the way back, and come home with none.")
   (task "Inspect the four sides: fly to within 1 m of (6 14 -6), (-6 14 -6), (-6 6 -6) and (6 6 -6), in any
 order, then to the dock at (0 10 -6)."
+        (target "side 1" '(6 14 -6)) (target "side 2" '(-6 14 -6))
+        (target "side 3" '(-6 6 -6)) (target "side 4" '(6 6 -6)) (target "dock" '(0 10 -6))
         (done-when (and (all-sides-seen?) (< (range-to '(0 10 -6)) 1)))
         (hint-after 60 "(net-turns) counts for you, clockwise +.")
         (hint-after 120 "If you go round by the right three times, go round by the left three times too.")

@@ -6,6 +6,7 @@
 your tether goes round it too, and what is wound does not come off by pulling.")
   (show)
   (task "Fly to the far side of the pile, to within a metre of (0 5 -5)."
+        (target "far side" '(0 5 -5))
         (done-when (< (range-to '(0 5 -5)) 1))
         (hint-after 60 "Choose a side and keep it: (fly-to! '(4 0 -5)), then (fly-to! '(0 5 -5)).")
         (fail-when (parted?) "The tether has parted.")
@@ -18,6 +19,7 @@ your tether goes round it too, and what is wound does not come off by pulling.")
                   '((4 3 -5) (4 -4 -5) (-4 -4 -5) (-4 0 -5))
                   '((-4 3 -5) (-4 -4 -5) (4 -4 -5) (6 -6 -5)))))
   (task "Come home to within a metre of (6 -6 -5), with no turn round the pile."
+        (target "home" '(6 -6 -5))
         (done-when (and (< (range-to '(6 -6 -5)) 1) (= 0 (winding 'p1))))
         (hint-after 60 "Go back the way you came: by the same side, along your tether.")
         (hint-after 120 "(winding 'p1) tells how often the tether goes round the pile: + is clockwise.")

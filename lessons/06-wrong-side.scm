@@ -7,6 +7,7 @@ pile, and notice when your tether begins to bend round it.")
   (show)
   (task "Go all the way round the pile, clockwise as seen from above, and back to (6 -6 -5).  As soon as the
 tether bends round it by a quarter turn, tell the tender so: t wrapped, or (tell! 'tender \"wrapped\")."
+        (target "start" '(6 -6 -5))
         (done-when (and (note-bend!) (= 1 (winding 'p1)) (pair? (messages)) (< (range-to '(6 -6 -5)) 2)))
         (hint-after 60 "From the south go west of the pile, then north, east, and home.")
         (hint-after 120 "Have you told the tender? t wrapped.")
@@ -19,6 +20,7 @@ tether bends round it by a quarter turn, tell the tender so: t wrapped, or (tell
   (probe "Which way must you go round the pile to take the turn off, as seen from above?"
          (if (> (winding 'p1) 0) 'anticlockwise 'clockwise) #:choices (clockwise anticlockwise))
   (task "Take the turn off and come back to within 2 m of (6 -6 -5), without ever pulling hard."
+        (target "home" '(6 -6 -5))
         (done-when (and (= 0 (winding 'p1)) (< (abs (turns 'p1)) 0.4) (< (range-to '(6 -6 -5)) 2)))
         (hint-after 60 "Retrace your way: east, north, west, south of the pile, and slack behind you.")
         (hint-after 120 "(turns 'p1) must go to 0: watch it.")

@@ -35,6 +35,7 @@ pull, and do not let anybody haul.")
         (at-most 90))
   (probe "What is it that holds your tether?" 'post #:choices (post strut seabed))
   (task "Follow it to the snag: to within 2 m of the post at the depth of your tether."
+        (target "post" '(0.8 0.5 -5))
         (done-when (< (range-to '(0.8 0.5 -5)) 2))
         (hint-after 40 "It leads north-west to the post: fly slowly, with the slack behind you.")
         (fail-when (> (max-tension) 300) "You pulled with more than 300 N: never pull to clear a snag.")

@@ -11,6 +11,7 @@ tender sees the counter and the load cell of the winch, 12 m out now, and nothin
 tell it: \"give 5\", \"take 5\"; to \"out?\" it answers; \"range 20\" lets it know how far away you are.  You may
 send ten messages.  Too little holds you back; too much lies on the legs, down-current.")
   (task "Between the two southern legs to the work inside the jacket: within a metre of (3.5 2 -8)."
+        (target "work" '(3.5 2 -8))
         (done-when (< (range-to '(3.5 2 -8)) 1))
         (held-for 3)
         (hint-after 20 "You will be 25 m from the ship: 13 or 14 m more than are out, a tenth of it to spare.")
@@ -20,6 +21,7 @@ send ten messages.  Too little holds you back; too much lies on the legs, down-c
   (probe "Pilot: how many metres of tether are out?" (tether-length) #:ratio 0.1)
   (probe "Tender: how many metres away is the vehicle?" (ship-range) #:ratio 0.1 #:answer (tender-thinks))
   (task "Home by the same way, to within 1.5 m of (-2 -14 -8), and no more than 14 m left out."
+        (target "home" '(-2 -14 -8))
         (done-when (and (< (range-to '(-2 -14 -8)) 1.5) (< (tether-length) 14)
                         (= 0 (winding 'jacket/leg-b2)) (= 0 (winding 'jacket/leg-b1))))
         (hint-after 40 "Have it taken in as you come: t take 6, twice, and not at once.")

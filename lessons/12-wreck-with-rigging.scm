@@ -8,12 +8,14 @@ of her, the current sets west.  You are to look at her stem: the place is (3 18 
   (probe "The current sets west.  On which side of her do you go, so that your tether is carried clear?"
          'west #:choices (west over east))
   (task "Fly to within 1.5 m of (3 18 -19), off her stem, and look for five seconds."
+        (target "stem" '(3 18 -19))
         (done-when (< (range-to '(3 18 -19)) 1.5))
         (held-for 5)
         (hint-after 60 "Stay 8 m west of her: (-10 4 -18), (-4 17 -19), then east to the stem.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 240))
   (task "Home to within 1.5 m of (-10 -8 -16), beside your tether."
+        (target "home" '(-10 -8 -16))
         (done-when (< (range-to '(-10 -8 -16)) 1.5))
         (hint-after 90 "Go back as you came: (-4 17 -19), (-10 4 -18), home.")
         (fail-when (parted?) "The tether has parted.")

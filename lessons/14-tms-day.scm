@@ -11,6 +11,7 @@ south.  The winch of the garage holds your slack; what the tide does with your t
   (probe "And after the turn, where does it lay a tether that leads north of the riser?"
          'on-the-riser #:choices (clear on-the-riser))
   (task "Out to the valve, to within 1.5 m of (92 8 -75), and look at it for ten seconds."
+        (target "valve" '(92 8 -75))
         (done-when (< (range-to '(92 8 -75)) 1.5))
         (held-for 10)
         (fault-after 60 "The ship: the tide is early.  It turns at 270 s, not at 360.")
@@ -20,6 +21,7 @@ south.  The winch of the garage holds your slack; what the tide does with your t
   (probe "It turns at 270 s; you make 0.8 m/s.  By what time, at the latest, must you leave to be at the
 garage by then?" (- 270 (/ (range-to '(-6 1 -67.5)) 0.8)) #:within 25)
   (task "Home into the garage: within 1.2 m of (-6 1 -67.5), less than 6 m of tether out, no turn left in it."
+        (target "garage" '(-6 1 -67.5))
         (done-when (and (< (range-to '(-6 1 -67.5)) 1.2) (< (tether-length) 6)
                         (< (abs (turns 'wellhead/riser)) 0.5) (< (abs (net-turns)) 1)))
         (hint-after 60 "The way you came, north of the riser, before the tide turns.")

@@ -12,6 +12,7 @@ time: tell the tender, t abort, or (tell! 'tender \"abort\").  Nothing shows you
   (probe "The tide sets west.  Where does it lay your tether, while you are at the node?"
          'on-the-leg #:choices (clear on-the-leg on-the-bed))
   (task "Survey: stay within 2 m of (9 4 -8) for a minute or more, and break off in time."
+        (target "survey" '(9 4 -8))
         (first (pay-out! 11 #:rate 0.6))
         (done-when (and (note-survey!) (pair? (messages))))
         (fault-after 80 "The ship: the tide is making." (current! 0.35 270))
@@ -24,6 +25,7 @@ time: tell the tender, t abort, or (tell! 'tender \"abort\").  Nothing shows you
   (probe "What wears your tether most, now: the tide by itself, the swell, or your thrusters?" 'swell
          #:choices (tide swell thrusters))
   (task "Home: to within 2 m of (-2 -14 -8), with the tether off the leg."
+        (target "home" '(-2 -14 -8))
         (done-when (and (< (range-to '(-2 -14 -8)) 2) (< (abs (turns 'mussels)) 0.2)))
         (hint-after 40 "Back along your tether, east of the leg: (11 -4 -8), (9 -11 -8), home.")
         (hint-after 90 "Never pull it round the leg: what is taut saws.  Up to it, past it, then home.")

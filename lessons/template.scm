@@ -23,6 +23,7 @@
 
   ;; What to do.  Hints come by themselves, or when h is pressed; at-most is in seconds of the dive.
   (task "Fly to within a metre of (8 18 -8)."
+        (target "work" '(8 18 -8))
         (done-when (< (range-to '(8 18 -8)) 1))
         (hint-after 20 "(fly-to! '(8 18 -8) #:speed 0.4) flies there.")
         (fail-when (taut?) "Your tether came taut.")

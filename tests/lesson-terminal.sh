@@ -1,5 +1,5 @@
-# The first lesson in a terminal, by the keys of a tmux, as somebody takes it who has read nothing but the
-# README: what the screen says, a wrong key, leaving and going on, flying, marks, and how it is left.
+# The first lesson in terminals of several kinds, by the keys of a tmux, as somebody takes it who has read nothing but
+# the README: what the screen says, a wrong key, leaving and going on, flying, marks, and how it is left.
 # Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 . "$top_srcdir/tests/tap.sh"
@@ -12,71 +12,133 @@ line ()
   keys Enter
 }
 
-begin 100 40 "BIGHT_LOGBOOK='$scratch/logbook.db'" "XDG_STATE_HOME='$scratch/state'" BIGHT_TRAINEE=ann COLORTERM=
-line 'bight lesson 1'
-see '^You are the pilot of a small vehicle'
-result $? 'the first lesson begins'
-see '^(Enter goes on)' && screen | grep -q 'A anchor   ^ minnow   current none'
-result $? 'its first picture can be looked at'
+# answer LINE: type the answer to a probe, once it is asked.
+answer ()
+{
+  see '^ \(a bearing, degrees\|left, right\)> _' && line "$1"
+}
+
+# take_seat COLUMNS ROWS SETTING...: a terminal, and the first lesson in it by somebody new.
+seats=0
+take_seat ()
+{
+  seats=$((seats + 1))
+  columns_of_seat=$1
+  rows_of_seat=$2
+  shift 2
+  begin "$columns_of_seat" "$rows_of_seat" "BIGHT_LOGBOOK='$scratch/logbook$seats.db'" \
+    "XDG_STATE_HOME='$scratch/state$seats'" BIGHT_TRAINEE=ann "$@"
+  line 'bight lesson 1'
+  see 'You are the pilot of' && see '^ Enter goes on'
+}
+
+# The line lies elsewhere when a vehicle comes: fly there again until it is done.
+fly_to_the_bow ()
+{
+  see '^ e hint' && keys : && see '^ bight> _' || return 1
+  line '(let on () (fly-to! (point-at (/ (tether-length) 2)) #:speed 0.8) (run 1) (on))'
+  see 'Done\.' && keys Enter && see '^read-the-bow: [0-9]* out of 100, passed'
+}
+
+# ---- All of it, in a large terminal with all colours ----
+
+check 'the first lesson begins in the cockpit' take_seat 120 40 COLORTERM=truecolor LC_ALL=C.UTF-8
+see '+ A' && see '+ minnow' && see 'N up |'
+result $? 'its first picture has names and a map'
 keys Enter
-see 'current 0.25 m/s --> 090'
+see 'bears 180 from you'
 result $? 'then the second'
 keys Enter
-see '  a number>'
-result $? 'it asks'
+see '^ a bearing, degrees> _'
+result $? 'it asks over the picture'
 line 'west'
-see 'a number, such as 45; q leaves'
+see 'a number, such as 45'
 result $? 'who answers wide of the question is told how'
-line '211'
+line '400'
+see 'a bearing is from 0, north'
+result $? 'and who answers out of range'
+keys -l 2199
+keys BSpace BSpace Left BSpace End C-e
+line '1'
 see 'it was 2[01].; asked within 25'
-result $? 'an answer is judged'
-see '  left, right>'
-line q
-check 'q leaves a terminal as it was' sane
+result $? 'a line can be edited, and an answer is judged'
+see '^ left, right> _'
+keys C-c
+check 'leaving gives the terminal back' sane
 line 'clear; bight lesson 1'
-see '^Going on where you left' && see '  left, right>'
+see '^ left, right> _'
 result $? 'and the lesson goes on at the same question'
-line right
-see 'Right: said right, it was right'
-result $? 'a word is an answer too'
-line '215'
-see 'it was 21.; asked'
-line '300'
-see 'it was 30.; asked' && see '  left, right>$'
-line left
-see '(Enter goes on)'
+line ri
+see 'Right: said right, it was right' && see 'So it was'
+result $? 'a word is answered by its beginning, and how it was is shown'
 keys Enter
-see 'north-east, .* a number>\|  a number>$'
-line '98'
-see '(Enter begins)'
+answer 215
+see 'it was 21.; asked'
+keys Enter
+answer 300
+see 'it was 30.; asked'
+answer left
+see 'So it was, with the anchor'
+result $? 'what the lesson shows itself is shown once'
+keys Enter
+answer 98
+see 'So it was'
+keys Enter
+see 'Last, use it'
+keys Enter
+see 'TASK: Fly to within a metre' && see '^ Enter begins'
 result $? 'after the last question there is a task'
 keys Enter
-see '^w s ahead  a d turn'
-result $? 'the dive goes on, and the keys are shown'
+see '^ e hint' && see 'depth *8.00 m' && see '^ Fly to within a metre'
+result $? 'it is flown in the cockpit, under its words'
 keys p
-see '^PAUSED'
+see PAUSED
 result $? 'p stops time'
-keys w w
-see 'sticks +0.40'
-result $? 'keys fly'
-keys h
-see '^Hint: Turn toward the bow'
-result $? 'h gives a hint'
-keys p
-see '^[0-9.]* s   heading'
-result $? 'and lets it go on'
-
-# The line lies elsewhere when one comes: fly there again until it is done.
+keys W W
+see 'surge +0.2'
+result $? 'keys fly as in free flight'
+keys e
+see '^ Hint: Turn toward the bow' && see 'hints 1'
+result $? 'e gives a hint, which is counted'
 keys :
-see '^scheme>'
-line '(let on () (fly-to! (point-at (/ (tether-length) 2)) #:speed 0.8) (run 1) (on))'
-see '^read-the-bow: [0-9]* out of 100'
-result $? 'a line of Scheme flies too, and the marks come at the end'
-screen | grep -q ', passed'
-result $? 'it is passed'
+see '^ bight> _'
+line '(list 1 (+ 1 1))'
+see '^ (1 2)'
+result $? 'what is typed at the prompt is answered in the panel'
+keys '?'
+see 'ahead, astern'
+result $? 'there is help'
+keys '?' p
+check 'a line of Scheme flies too, and the marks come at the end' fly_to_the_bow
 check 'the terminal is as it was' sane
 line 'clear; bight lessons'
 see '^01  read-the-bow  *\(100\|[7-9][0-9]\)  Read the bow'
 result $? 'and the marks are in the list'
 
+# ---- From start to mark in lesser ones ----
+
+# take_all: the lesson from its first page to its marks.
+take_all ()
+{
+  keys Enter
+  see 'bears 180 from you' && keys Enter && answer 211 && answer right && see 'So it was' && keys Enter &&
+    answer 215 && see 'it was 21.; asked' && keys Enter && answer 300 && answer right &&
+    see 'So it was, with the anchor' && keys Enter && answer 98 && see 'So it was' && keys Enter &&
+    see 'Last, use it' && keys Enter && see 'TASK' && keys Enter && fly_to_the_bow
+}
+
+check 'it begins in 256 colours' take_seat 80 24 COLORTERM= TERM=screen-256color LC_ALL=C.UTF-8
+keys q
+sane >/dev/null
+check 'it begins in sixteen colours' take_seat 80 24 COLORTERM= TERM=screen LC_ALL=C
+screen | LC_ALL=C grep -q '[^ -~]'
+[ $? -ne 0 ]
+result $? 'in letters that are all ASCII where the locale has no others'
+check 'and is taken to its marks' take_all
+check 'it begins in a tiny window' take_seat 30 8 COLORTERM= TERM=screen LC_ALL=C
+keys Enter
+see 'do next'
+result $? 'where a page goes on at the next'
+keys q
+check 'and which is left as it was' sane
 finish

@@ -33,7 +33,7 @@
             set-targets! set-panel! set-labels!
             tell! call-or-tell trying
             clock frame look-anew! ask-anew! palette-of ascii-terminal? this-palette
-            draw-frame! draw-page! view-key! frame-pixels
+            draw-frame! draw-page! pages view-key! frame-pixels
             target))
 
 (define-syntax-rule (from module name)
@@ -424,19 +424,35 @@ fall in it."
     (draw-marks! put marks)
     (write-frame! c new?)))
 
+(define (widest-drawing lines)
+  ;; Of lines that are drawings the width; running text is wrapped.
+  (apply max 0 (map string-length (filter (lambda (line) (string-contains line "  ")) lines))))
+
+(define (fitted-lines lines columns)
+  ;; LINES for a box on a screen of COLUMNS.
+  (let ((width (min (- columns 4) (max 76 (widest-drawing lines)))))
+    (append-map (lambda (line) (if (<= (string-length line) width) (list line) (wrap line width))) lines)))
+
+(define (pages c lines)
+  "Return LINES, a list of strings, as pages for the screen of C: lists of lines that fit."
+  (let* ((size (%screen-size)) (room (max 1 (- (cdr size) 3))))
+    (let loop ((rest (fitted-lines lines (car size))) (all '()))
+      (if (<= (length rest) room)
+          (reverse (cons rest all))
+          (loop (list-tail rest room) (cons (list-head rest room) all))))))
+
 (define (draw-page! c lines last-line)
   "Draw the dive of C, or nothing where it has none, with LINES, a list of strings, over it, and LAST-LINE below."
   (let* ((new? (fit-screen! c)) (put (new-desk c)) (columns (car (cockpit-size c))) (rows (cdr (cockpit-size c)))
          (marks (draw-scene! c (plain-put c)))
-         (width (min 78 (- columns 2)))
-         (shown (append-map (lambda (line) (if (string-null? line) '("") (wrap line (- width 2)))) lines))
-         (room (max 1 (- rows 3))))
+         (shown (fitted-lines lines columns))
+         (shown (list-head shown (min (length shown) (max 1 (- rows 3)))))
+         (width (min (- columns 4) (apply max 76 (map string-length shown)))))
     (put 0 (- rows 1) (string-pad-right (cut (string-append " " last-line) columns) columns) yellow #x102028)
     (put 0 0 (cut (string-append " " (title c) " ") columns) white #f)
     (when (pair? shown)
-      (put-box put (quotient (- columns width) 2) 2
-               (map (lambda (line) (string-pad-right line (- width 2)))
-                    (if (> (length shown) room) (take-right shown room) shown))
+      (put-box put (quotient (- columns width 2) 2) 2
+               (map (lambda (line) (string-pad-right line width)) shown)
                white #x102028))
     (draw-map! c put (+ 3 (length shown)))
     (draw-marks! put marks)

@@ -56,12 +56,16 @@
                    (report-marks report)))
     (coached . ,(report-coached report))))
 
-(define (print-banner lesson order by-keys?)
+(define (print-banner lesson order)
   (simple-format #t "~%~a~%~a~%" (lesson-title lesson)
                  (make-string (string-length (lesson-title lesson)) #\=))
-  (unless by-keys?
-    (display "(? tells what may be typed)\n"))
+  (display "(? tells what may be typed)\n")
   (force-output))
+
+(define (cockpit-wanted? given)
+  (and (terminal-state) (watched? (current-output-port))
+       (not (option given "--typed" #f))
+       (not (member (getenv "TERM") '(#f "" "dumb")))))
 
 (define (competence given)
   ;; What the pupil has shown before: the mean of his last three results.
@@ -74,18 +78,18 @@
 
 (define (take-by-person lesson order inputs shown-before tell)
   (let* ((given (order-given order))
-         (by-keys? (and (terminal-state) (watched? (current-output-port))
-                        (not (option given "--typed" #f))
-                        (not (member (getenv "TERM") '(#f "" "dumb")))))
+         (cockpit? (cockpit-wanted? given))
          (keep (merging-passes tell)))
     (define (leave)
       (keep #f)
       (tell '(left))
       (throw 'quit 0))
-    (print-banner lesson order by-keys?)
-    (unless (null? inputs)
-      (display "Going on where you left.\n"))
-    (call-with-values (lambda () (person-guide keep inputs leave by-keys?))
+    (unless cockpit?
+      (print-banner lesson order)
+      (unless (null? inputs)
+        (display "Going on where you left.\n")))
+    ;; No graphics library is let into the enclosure of a lesson from outside.
+    (call-with-values (lambda () (person-guide keep inputs leave cockpit? #:plain? (order-outside? order)))
       (lambda (guide call)
         (let ((report (call (lambda ()
                               (take-lesson lesson guide #:seed (seed-of given) #:level (level-of given)

@@ -171,6 +171,16 @@
       ((heave) (drive! #:heave new))
       (else (drive! #:yaw new)))))
 
+(define (sticks! values)
+  (drive! #:surge (first values) #:sway (second values) #:heave (third values) #:yaw (fourth values)))
+
+(define (hold! what)
+  (case what
+    ((heading) (hold-heading! (rov-heading)))
+    ((depth) (hold-depth! (rov-depth)))
+    ((altitude) (hold-altitude! (rov-altitude)))
+    (else (hold-position!))))
+
 (define (winch! metres)
   (if (positive? metres) (pay-out! metres) (haul-in! (- metres))))
 
@@ -179,6 +189,8 @@
   (case (car input)
     ((pass) (run (* (second input) (time-step))) '())
     ((stick) (catching (lambda () (stick! (second input) (third input)) '())))
+    ((sticks) (catching (lambda () (sticks! (cdr input)) '())))
+    ((hold) (catching (lambda () (hold! (second input)) '())))
     ((release) (catching (lambda () (release!) '())))
     ((winch) (catching (lambda () (winch! (second input)) '())))
     ((hint) (if (ask-for-hint!) '() '("There is no further hint.")))

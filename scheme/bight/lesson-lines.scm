@@ -6,20 +6,12 @@
   #:use-module (bight lesson-input)
   #:use-module (bight lesson-play)
   #:use-module (bight lesson-score)
+  #:use-module ((bight pilot-desk) #:select (wrap))
   #:use-module (bight time)
   #:use-module (bight view)
   #:use-module (ice-9 rdelim)
   #:use-module (srfi srfi-1)
-  #:export (ask-line leaving wrap catch-up! fly-by-lines))
-
-(define (wrap text width)
-  "Return TEXT as lines of at most WIDTH characters."
-  (let loop ((words (string-tokenize text)) (line "") (lines '()))
-    (cond ((null? words) (reverse (if (string-null? line) lines (cons line lines))))
-          ((string-null? line) (loop (cdr words) (car words) lines))
-          ((<= (+ 1 (string-length line) (string-length (car words))) width)
-           (loop (cdr words) (string-append line " " (car words)) lines))
-          (else (loop (cdr words) (car words) (cons line lines))))))
+  #:export (ask-line leaving catch-up! fly-by-lines))
 
 (define (prompt text)
   (unless (replaying?)
@@ -92,7 +84,7 @@
   (if (eq? 'form (car input)) (append input '(again)) input))
 
 (define (catch-up!)
-  "Do what is left of the journal, and say where that has led."
+  "Do what is left of the journal."
   (when (replaying?)
     (let loop ()
       (when (replaying?)
@@ -100,12 +92,13 @@
                (input (marked-as-replayed (next-input noop))))
           (parameterize ((silent? #t))
             (apply-input! input))
-          (unless last? (loop)))))
-    (for-each print (wrap (string-append "TASK: " (task-text)) 78))))
+          (unless last? (loop)))))))
 
 (define (fly-by-lines n seconds)
   "Let the pupil fly task N by typed lines until it is over."
-  (catch-up!)
+  (when (replaying?)
+    (catch-up!)
+    (for-each print (wrap (string-append "TASK: " (task-text)) 78)))
   (let loop ()
     (for-each print (apply-input! (next-input ask-input)))
     (loop)))

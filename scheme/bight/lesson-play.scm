@@ -28,7 +28,8 @@
             begin-dive! say-as say-text show-picture put-probe last-answer run-task watch-fork repeat-steps
             untrusted? breathing
             ;; For guides.
-            task-text next-hint! save-point! go-back! recent-points ask-for-hint!
+            asked-in-degrees?
+            task-text task-targets task-counters task-seconds next-hint! save-point! go-back! recent-points ask-for-hint!
             session-marks add-mark!))
 
 (define-record <guide>
@@ -151,6 +152,9 @@
     (bight-raise 'domain 'probe "~a of a probe is a number above 0, how near an answer must come, not ~s; \
 for one right answer of several say #:choices (A B ...)" what value)))
 
+;; True while a probe is asked whose answer is a bearing.
+(define asked-in-degrees? (make-parameter #f))
+
 (define* (put-probe question truth bearing? #:key (within (if bearing? 25 #f)) choices (degrees bearing?)
                     ratio answer)
   "Ask QUESTION, whose answer TRUTH, a thunk, knows: within WITHIN, or by RATIO of the truth, or one of
@@ -163,7 +167,9 @@ what somebody else than the pupil says, who is asked in his place."
          (within (cond (choices #f) (ratio (max 1e-9 (abs (* ratio truth)))) (else (or within 1)))))
     (tally-set! 'probes n)
     (log-line! 'probe question)
-    (let* ((answer (or answer ((guide-probe (this-guide)) question truth choices)))
+    (let* ((answer (or answer
+                       (parameterize ((asked-in-degrees? (and degrees (not choices))))
+                         ((guide-probe (this-guide)) question truth choices))))
            (mark (probe-mark (simple-format #f "probe ~a" n) answer truth choices within degrees)))
       (add-mark! mark)
       (tally-set! 'answer answer)
@@ -176,7 +182,7 @@ what somebody else than the pupil says, who is asked in his place."
 
 
 ;;; Tasks.  CONDITIONS are lists: (done THUNK) (fail THUNK TEXT) (hint SECONDS TEXT) (at-most SECONDS)
-;;; (held SECONDS) (first THUNK) (fault-after SECONDS TEXT THUNK) (fault-when THUNK TEXT THUNK).
+;;; (held SECONDS) (target NAME THUNK) (first THUNK) (fault-after SECONDS TEXT THUNK) (fault-when THUNK TEXT THUNK).
 
 (define (all-of kind conditions)
   (filter-map (lambda (c) (and (eq? kind (car c)) (cdr c))) conditions))
@@ -206,6 +212,23 @@ what somebody else than the pupil says, who is asked in his place."
 (define current-task (make-parameter #f)) ; its text and its conditions
 
 (define (task-text) (car (current-task)))
+
+(define (task-seconds)
+  "Return how long the task has been going on, s."
+  (task-time))
+
+(define (task-targets)
+  "Return where the task that is going on leads, a list of (NAME . POINT), as far as that is known now."
+  (filter-map (lambda (entry)
+                (let ((p (false-if-exception ((second entry)))))
+                  (and p (cons (first entry) p))))
+              (all-of 'target (cdr (current-task)))))
+
+(define (task-counters)
+  "Return what is counted in the lesson, an alist from names to how often."
+  (append (map (lambda (entry) (cons (car entry) (counter (car entry)))) (plan-counts (current-plan)))
+          (filter (lambda (entry) (positive? (cdr entry)))
+                  `((hints . ,(tally-ref 'hints-given 0)) (back . ,(tally-ref 'rewinds 0))))))
 
 (define (begin-task! conditions)
   (tally-set! 'task-begun (now))
