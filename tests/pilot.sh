@@ -140,6 +140,26 @@ result $? 'and a line says why'
 keys q
 sane >/dev/null
 
+# ---- A recording ----
+
+"$top_builddir/pre-inst-env" bight -c "(begin (enter! 'pile) (record! \"$scratch/a.rec\") (move! '(6 -4 -5) #:speed 1)
+  (run 20) (stop-recording!))" >/dev/null
+begin 100 30 COLORTERM= TERM=screen-256color
+keys "bight watch $scratch/a.rec --ghost $scratch/a.rec" Enter
+see '0:0[0-9] / 0:20'
+result $? 'a recording is watched'
+keys n
+see 'arrived minnow' && see PAUSED
+result $? 'from event to event'
+keys 0
+see '0:00 / 0:20'
+result $? 'from its beginning'
+keys ']' Left
+see '0:09 / 0:20'
+result $? 'and scrubbed'
+keys q
+check 'and left as it was' sane
+
 # ---- A stranger's world ----
 
 printf '(define-world #{w\033]0;owned\007}# "W." (sea (depth 20))

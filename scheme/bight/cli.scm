@@ -278,6 +278,18 @@ begins with FILE and the line."
       0)))
 
 
+;;; bight watch.
+
+(define (watch arguments)
+  (call-with-values (lambda () (split-arguments "watch" arguments))
+    (lambda (files options)
+      (unless (= 1 (length files))
+        (bad-usage "watch: name one recording, as in bight watch FILE"))
+      (enter-language!)
+      ((from (bight watch) watch-file) (car files) options)
+      0)))
+
+
 ;;; bight sweep.
 
 (define (run-sweep arguments)
@@ -390,6 +402,12 @@ begins with FILE and the line."
             '("--csv" "as comma-separated values"))
    (command "replay" run-replay "FILE"
             '("do again what was recorded; exit 1 if it comes out otherwise"))
+   (command "watch" watch "FILE"
+            '("watch a recording in the terminal: play, pause, back and forth, from event to event; ? shows keys")
+            '("--ghost OTHER" "with another recording pale beside it, such as the expert's")
+            '("--film OUT" "write a film of it, or of a stretch, instead")
+            '("--from S" "where the stretch begins, in seconds of the recording")
+            '("--to S" "where it ends"))
    (command "--listen[=SOCKET]" #f "[...]"
             '("do the rest, or open the prompt, and serve another prompt on a"
               "unix socket, yours alone, to an editor"))

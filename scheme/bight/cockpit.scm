@@ -28,7 +28,7 @@
             cockpit-dive cockpit-vehicle cockpit-tether cockpit-sticks set-sticks!
             cockpit-paused? set-paused! cockpit-done? set-done!
             cockpit-sent set-sent! cockpit-live? set-live! cockpit-stepped set-stepped!
-            look-ahead! toggle-ghost! drop-ghost! set-ghost!
+            look-ahead! toggle-ghost! drop-ghost! cockpit-ghost set-ghost!
             cockpit-plain? set-plain! cockpit-view set-view! cockpit-size cockpit-map? set-map!
             set-targets! set-panel! set-labels!
             tell! call-or-tell trying

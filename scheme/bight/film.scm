@@ -16,7 +16,8 @@
   #:use-module (bight verb)
   #:use-module ((ice-9 binary-ports) #:select (put-bytevector))
   #:use-module (ice-9 popen)
-  #:export (film))
+  #:export (film
+            pass-time))
 
 (define-argument-type (film-file value)
   "the name of a file to write, such as \"dive.mp4\""
@@ -104,6 +105,9 @@
 (define (frames-of seconds rate speed)
   (max 1 (inexact->exact (round (/ (* seconds rate) speed)))))
 
+;; How so many seconds pass between two frames; a recording that is filmed goes on otherwise.
+(define pass-time (make-parameter (lambda (seconds) (run seconds))))
+
 (define (shot view size paint overlay rate speed n)
   ;; A procedure that lets time pass and calls KEEP with the number and the pixels of each frame.
   (lambda (keep)
@@ -112,7 +116,7 @@
         (do ((i 0 (+ i 1)))
             ((= i n))
           (keep i (picture-pixels 'film view size paint overlay))
-          (run (/ speed rate))
+          ((pass-time) (/ speed rate))
           (report (+ i 1)))))))
 
 (define-verb (film (file film-file)

@@ -31,6 +31,7 @@
   #:use-module (srfi srfi-4)
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:export (record! stop-recording! recording? recorder? replay replay-file
+            redo-line! after-beginning     ; for (bight reel)
             difference? difference-step difference-time difference-quantities))
 
 (define second-long 60)                 ; steps

@@ -1,0 +1,89 @@
+;;; A recording watched: brought to any place of it, back and forth, it is what it was; and what stands above it fits.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(use-modules ((bight dive) #:select (engine-of))
+             ((bight engine) #:select (%hash-dive %dive-steps))
+             ((bight pilot-desk) #:select (desk))
+             (bight reel)
+             ((bight watch) #:select (film-stretch watch-panel))
+             ((srfi srfi-1) #:select (concatenate first last)))
+
+(define (hash-of reel) (%hash-dive (engine-of (reel-dive reel))))
+
+(define (recorded pilot)
+  "Return the file of a recording of what PILOT, a thunk, does to the present dive, and the hash at its end."
+  (let ((file (scratch-file "flight.rec")))
+    (record! file)
+    (pilot)
+    (stop-recording!)
+    (cons file (state-hash))))
+
+(define-property any-place-is-what-it-was
+  "Whatever was flown: a reel brought to places at random has the state there that it had when it went there straight; its
+end is that of the dive."
+  #:for ((scene (random-world #:models '(dynamic rubber-band)))
+         (pilot (random-pilot #:most 4 #:seconds 3 #:does '(drive fly pay-out haul-in current)))
+         (first-place (uniform 0 1)) (second-place (uniform 0 1)))
+  #:cases 8
+  (in scene)
+  (let* ((it (recorded pilot)) (straight (open-reel (car it))) (reel (open-reel (car it)))
+         (place (lambda (share) (inexact->exact (floor (* share (reel-length reel)))))))
+    (wind! reel (reel-length reel))
+    (expect (hash-of reel) => (cdr it))
+    (for-each (lambda (share)
+                (wind! reel (place share))
+                (wind! straight 0)
+                (wind! straight (place share))
+                (expect (hash-of reel) => (hash-of straight)))
+              (list first-place second-place 0 1))))
+
+(define-scenario a-dive-taken-back-goes-on-in-its-recording
+  "What was taken back is watched too: the recording is as long as all that was flown, and ends where the dive did."
+  (in pile)
+  (let* ((it (recorded (lambda () (drive! #:surge 0.5) (run 6) (rewind! 4) (drive! #:surge -0.4) (run 3))))
+         (reel (open-reel (car it))))
+    (expect (reel-length reel) => 540)
+    (wind! reel 360)
+    (expect (%dive-steps (engine-of (reel-dive reel))) is (between 120 360))
+    (wind! reel 540)
+    (expect (hash-of reel) => (cdr it))
+    (wind! reel 100)
+    (wind! reel 540)
+    (expect (hash-of reel) => (cdr it))))
+
+(define-scenario events-are-gone-to
+  "From event to event, forth and back."
+  (in pile)
+  (let* ((it (recorded (lambda () (move! '(6 -4 -5) #:speed 1) (run 5) (move! '(6 0 -5) #:speed 1) (run 6))))
+         (reel (open-reel (car it))))
+    (let* ((one (next-event-place reel)) (two (next-event-place reel)))
+      (expect one is (between 1 (- two 1)))
+      (expect two is (between one (reel-length reel)))
+      (wind! reel (reel-length reel))
+      (expect (event-before reel) is (about two #:within 2))
+      (expect (event-before reel) is (about one #:within 2))
+      (expect (event-before reel) => 0)
+      (expect (open-reel "no-such-file") raises io))))
+
+(define-scenario the-bar-fits
+  "What stands above a recording is within the window, whatever its size."
+  (in open-water)
+  (for-each
+   (lambda (columns)
+     (let ((texts '()))
+       ((watch-panel 70 100 1/60 2 '((touched 1.5 line p1) (wrapped 2.5 line a-very-long-name/of-a-part 3)))
+        (desk columns 10 (lambda (column row text ink paper) (set! texts (cons text texts))))
+        columns 10)
+       (require (length texts) => 2)
+       (require (apply max (map string-length texts)) is (between 1 columns))))
+   (iota 60 30 3)))
+
+(define-scenario a-stretch-is-filmed
+  "As many pictures as the stretch has, and no stretch that ends before it begins."
+  (in pile)
+  (let* ((it (recorded (lambda () (drive! #:surge 0.5) (run 2)))) (reel (open-reel (car it))))
+    (expect (film-stretch reel (scratch-file "stretch.png") 2 1) raises domain)
+    (when (false-if-exception (snapshot (scratch-file "try.png")))
+      (film-stretch reel (scratch-file "stretch.png") 1 1.2)
+      (expect (reel-place reel) => 72))))
