@@ -3,6 +3,11 @@
 ;;
 ;; One sentence here says what the lesson teaches, and which rule it comes from.
 (define-lesson template "What the list of lessons calls it"
+  ;; Where it stands on the path of lessons: from 1 for beginners to 4, and what it trains and needs.
+  (grade 1)
+  (trains slack)
+  (needs bow)
+
   ;; A number that depends on the difficulty: easy, normal, hard.  (setting 'set) is its value.
   (setting set 0.1 0.2 0.3)
 
@@ -38,7 +43,8 @@
 
   ;; Marks: a measure, and the band it should be in; by the share of the time (as here), or by its value
   ;; at the end, or the most, least or mean.
-  (score (slack 0.05 0.5 #:share 0.8)
+  ;; #:as names the mark, and #:why tells who lost it what he should have known.
+  (score (slack 0.05 0.5 #:share 0.8 #:as "share that is slack" #:why "Too little holds you, too much drifts.")
          (max-tension 0 50 #:by most))
 
   ;; Who shows it.  `answers' are to probes, each `flies' is for one task.

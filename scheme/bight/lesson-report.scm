@@ -62,6 +62,13 @@ how it came about."
 (define-verb (report-seconds (r report)) "Return how long the lesson's dives lasted, s."
   (%report-seconds r))
 
+(define (mark-lines m)
+  ;; How the mark M came about, and, if anything of it was lost, what it teaches.
+  (cons (mark-line m)
+        (if (or (mark-passed? m) (not (mark-why m)))
+            '()
+            (list (string-append (make-string 8 #\space) (mark-why m))))))
+
 (define (mark-line m)
   (string-append (if (mark-passed? m) "  [x] " "  [ ] ")
                  (string-pad-right (mark-label m) 24) " "
@@ -72,7 +79,7 @@ how it came about."
   (append
    (list (simple-format #f "~a: ~a out of 100, ~a" (lesson-name (report-lesson r)) (%report-total r)
                         (if (%report-passed? r) "passed" "not passed yet")))
-   (map mark-line (report-mark-list r))
+   (append-map mark-lines (report-mark-list r))
    (list (simple-format #f "  ~a s under water, ~a hints, ~a steps back" (figure (%report-seconds r))
                         (%report-hints r) (%report-rewinds r)))
    (report-charts r)))

@@ -15,32 +15,38 @@
   #:export (make-row row? row-label row-low row-high
             sample-rows! row-samples
             judge-row
-            make-mark mark? mark-label mark-credit mark-weight mark-detail mark-passed?
+            make-mark mark? mark-label mark-credit mark-weight mark-detail mark-passed? mark-why
             total-of
             figure
             strip-chart))
 
 (define-record <row>
-  (%make-row label ask low high by share over weight)
+  (%make-row label ask low high by share over weight why)
   row?
   (label row-label)                     ; a string
   (ask row-ask)                         ; a thunk
   (low row-low) (high row-high)
   (by row-by) (share row-share)
   (over row-over)                       ; how far outside nothing is left of the mark
-  (weight row-weight))
+  (weight row-weight)
+  (why row-why))                        ; what a pilot who lost this mark should know, a string, or #f
 
 (define ways '(share end most least mean rms))
 
-(define* (make-row label ask low high #:key (by 'share) (share 0.8) over (weight 1))
-  "Return the row of a score called LABEL, whose measure ASK, a thunk, should lie from LOW to HIGH."
+(define* (make-row label ask low high #:key (by 'share) (share 0.8) over (weight 1) (as label) why)
+  "Return the row of a score called LABEL, or AS, whose measure ASK, a thunk, should lie from LOW to HIGH.
+WHY tells one who lost the mark what he should have known."
   (unless (memq by ways)
     (unknown-name 'score "a row of a score" by ways "way of judging"))
   (unless (and (real? low) (real? high) (<= low high))
     (bight-raise 'domain 'score "the band of ~a is two numbers, the lower first, not ~a ~a" label low high))
   (unless (and (real? share) (< 0 share) (<= share 1))
     (bight-raise 'domain 'score "the share of ~a is more than 0 and at most 1, not ~a" label share))
-  (%make-row label ask low high by share (or over (default-over low high)) weight))
+  (for-each (lambda (key text)
+              (unless (or (not text) (string? text))
+                (bight-raise 'domain 'score "~a of ~a is a text, not ~s" key label text)))
+            '(#:as #:why) (list as why))
+  (%make-row as ask low high by share (or over (default-over low high)) weight why))
 
 (define (default-over low high)
   (cond ((and (finite? low) (finite? high) (< low high)) (- high low))
@@ -80,13 +86,19 @@
 ;;; Marks.
 
 (define-record <mark>
-  (make-mark label credit weight passed? detail)
+  (%make-mark label credit weight passed? detail why)
   mark?
   (label mark-label)
   (credit mark-credit)                  ; 0 to 1
   (weight mark-weight)
   (passed? mark-passed?)
-  (detail mark-detail))
+  (detail mark-detail)
+  (why mark-why))                       ; or #f
+
+(define* (make-mark label credit weight passed? detail #:optional why)
+  "Return the mark called LABEL: CREDIT of 1, which counts WEIGHT; whether it PASSED?; in DETAIL how it came
+about; and WHY it matters, or #f."
+  (%make-mark label credit weight passed? detail why))
 
 (define (figure x)
   "Return the number X as a person reads it, a string."
@@ -134,18 +146,20 @@
   "Return the mark of ROW, one of ROWS."
   (let ((values (map cdr (row-samples rows row))))
     (cond ((null? values)
-           (make-mark (row-label row) 0 (row-weight row) #f "was never measured"))
+           (make-mark (row-label row) 0 (row-weight row) #f "was never measured" (row-why row)))
           ((eq? 'share (row-by row))
            (let* ((part (share-inside row values))
                   (credit (min 1 (/ part (row-share row)))))
              (make-mark (row-label row) credit (row-weight row) (>= part (- (row-share row) 1e-9))
                         (string-append (percent part) " of the time " (band row) "; asked "
-                                       (percent (row-share row))))))
+                                       (percent (row-share row)))
+                        (row-why row))))
           (else
            (let* ((v (key-value row values)) (off (outside row v)))
              (make-mark (row-label row) (max 0 (- 1 (/ off (row-over row)))) (row-weight row) (zero? off)
                         (simple-format #f "~a ~a; asked ~a" (way->string (row-by row)) (figure v)
-                                       (band row))))))))
+                                       (band row))
+                        (row-why row)))))))
 
 (define (way->string way)
   (assq-ref '((end . "at the end") (most . "at most") (least . "at least") (mean . "on average")

@@ -9,6 +9,7 @@
   #:use-module (bight errors)
   #:use-module (bight record)
   #:use-module (bight shelf)
+  #:use-module (bight skill)
   #:use-module (bight verb)
   #:use-module (srfi srfi-1)
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
@@ -44,6 +45,7 @@
   (let ((lesson (make-lesson name title code location declarations steps)))
     (check-settings lesson)
     (check-limits lesson)
+    (check-place lesson)
     (shelve! shelf lesson-name name (list lesson))
     lesson))
 
@@ -56,6 +58,16 @@
               (unless (and (exact-integer? (car d)) (>= (car d) 0))
                 (bight-raise 'def 'define-lesson "(message-limit N) takes a whole number, not ~s" (car d))))
             (declared 'message-limit lesson)))
+
+(define (check-place lesson)
+  ;; Its place on the path: a grade, and skills that there are.
+  (for-each (lambda (d)
+              (unless (memv (car d) grades)
+                (bight-raise 'def 'define-lesson "(grade N) takes a whole number from 1 to ~a, not ~s"
+                             (last grades) (car d))))
+            (declared 'grade lesson))
+  (for-each check-skill
+            (concatenate (append (declared 'trains lesson) (declared 'needs lesson)))))
 
 (define (check-settings lesson)
   (for-each (lambda (s)

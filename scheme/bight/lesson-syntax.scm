@@ -32,12 +32,16 @@
     (repeat "(repeat N CLAUSE ...)")
     (fork-and-show "(fork-and-show \"text\" FORM ...)")
     (set-up "(set-up FORM ...)")
-    (score "(score (MEASURE LOW HIGH #:by WAY #:share S #:over W #:weight W) ...)")
+    (score "(score (MEASURE LOW HIGH #:by WAY #:share S #:over W #:weight W #:as \"words\" #:why \"words\") ...)")
     (count "(count NAME E)")
     (setting "(setting NAME EASY NORMAL HARD)")
     (pilot "(pilot NAME \"sentence\" (answers (TRUTH CHOICES) E) (flies FORM ...) ...)")
     (tender "(tender \"sentence\" FORM ...)")
     (message-limit "(message-limit N)")
+    (grade "(grade N), N from 1 to 4")
+    (trains "(trains SKILL ...)")
+    (needs "(needs SKILL ...)")
+    (yours "(yours VEHICLE TETHER)")
     (hides "(hides VERB ...)")))
 
 (define task-clauses
@@ -105,7 +109,8 @@
                           (source-location #,clause))
         (wrong where clause)))
 
-  (define declaring '(score count setting pilot tender message-limit hides))
+  (define declaring
+    '(score count setting pilot tender message-limit hides grade trains needs yours))
 
   (define (declaring? clause) (memq (head-of clause) declaring))
 
@@ -223,6 +228,13 @@
       ((_ sentence form ...) (and (eq? 'tender (head-of clause)) (text? #'sentence))
        #'(list 'tender sentence (lambda () form ... #t)))
       ((_ n) (eq? 'message-limit (head-of clause)) #'(list 'message-limit n))
+      ((_ n) (eq? 'grade (head-of clause)) #'(list 'grade n))
+      ((_ vehicle tether)
+       (and (eq? 'yours (head-of clause)) (identifier? #'vehicle) (identifier? #'tether))
+       #'(list 'yours 'vehicle 'tether))
+      ((_ skill skill* ...)
+       (and (memq (head-of clause) '(trains needs)) (every identifier? #'(skill skill* ...)))
+       #`(list '#,(datum->syntax #'here (head-of clause)) 'skill 'skill* ...))
       ((_ verb verb* ...)
        (and (eq? 'hides (head-of clause)) (every identifier? #'(verb verb* ...)))
        #'(list 'hides 'verb 'verb* ...))
@@ -235,7 +247,8 @@ its own pilots with (run-lesson 'NAME #:pilot 'expert).  The CLAUSEs, in the ord
 (in WORLD), (say TEXT VALUE ...), (show), (probe QUESTION TRUTH ...), (task TEXT CONDITION ...),
 (branch (E CLAUSE ...) ...), (when E CLAUSE ...), (repeat N CLAUSE ...), (fork-and-show TEXT FORM ...) and
 (set-up FORM ...); those about the whole are (score ROW ...), (count NAME E), (setting NAME EASY NORMAL
-HARD), (pilot NAME TEXT ...), (tender TEXT FORM ...), (message-limit N) and (hides VERB ...)."
+HARD), (pilot NAME TEXT ...), (tender TEXT FORM ...), (message-limit N), (hides VERB ...), (grade N),
+(trains SKILL ...), (needs SKILL ...) and, where there are several vehicles, (yours VEHICLE TETHER)."
     (syntax-case stx ()
       ((_ name title clause ...) (and (identifier? #'name) (text? #'title))
        (let ((declarations (filter declaring? #'(clause ...)))

@@ -21,6 +21,7 @@
   #:use-module (bight lesson-tally)
   #:use-module (bight lesson-way)
   #:use-module (bight pilot)
+  #:use-module ((bight signature) #:select (own-subjects))
   #:use-module (bight time)
   #:use-module (bight verb)
   #:use-module ((ice-9 control) #:select (call/ec))
@@ -99,12 +100,14 @@
                  (make-session (declared 'setting lesson) level guide coach
                                (lambda (why) (return (current-session) (current-dive) why)) seed
                                (limits-of lesson)))
-                (current-dive #f))
+                (current-dive #f)
+                (own-subjects (concatenate (declared 'yours lesson))))
              (let ((rows (make-rows lesson)))
                (call-with-plan rows (counts-of lesson) (tender-of lesson) (lesson-steps lesson))
                (values (current-session) (current-dive) #f))))))
     (lambda (session dive ended)
-      (parameterize ((current-session session) (current-dive dive))
+      (parameterize ((current-session session) (current-dive dive)
+                     (own-subjects (concatenate (declared 'yours lesson))))
         (report-on lesson who seed level (make-rows lesson) ended)))))
 
 

@@ -11,6 +11,7 @@
   #:use-module (bight record)
   #:use-module ((srfi srfi-1) #:select (first second third fourth))
   #:export (current-subject-lister
+            own-subjects
             subject-index
 
             make-signature
@@ -36,6 +37,17 @@
   ;; the order of their indices, or raises a &bight-error when there is no dive.
   (make-parameter no-subjects))
 
+(define own-subjects
+  ;; Names of the vehicle and the tether that are meant where a dive has several and none is named: a
+  ;; pupil's own among those that others fly.
+  (make-parameter '()))
+
+(define (own-among names)
+  ;; The index in NAMES of the one of them that is one's own, or #f.
+  (let loop ((own (own-subjects)))
+    (and (pair? own)
+         (or (position (car own) names) (loop (cdr own))))))
+
 (define (position name names)
   (let loop ((rest names) (i 0))
     (cond ((null? rest) #f)
@@ -44,13 +56,14 @@
 
 (define (subject-index proc kind name)
   "Return the index of the subject NAME of KIND (`vehicle', `tether', ...) in the present dive; with
-NAME #f, of the only one.  Raise a &bight-error from PROC when there is no such thing, or several."
+NAME #f, of the only one, or of one's own.  Raise a &bight-error from PROC when there is no such thing, or several."
   (let ((names ((current-subject-lister) proc kind)))
     (cond (name (or (position name names)
                     (unknown-name proc "this dive" name names (symbol->string kind))))
           ((null? names)
            (bight-raise 'name proc "this dive has no ~a" kind))
           ((null? (cdr names)) 0)
+          ((own-among names))
           (else
            (bight-raise 'name proc "this dive has ~a ~as, ~a; say which: (~a '~a ...)"
                         (length names) kind (words->string names) proc (car names))))))

@@ -127,6 +127,12 @@
                                          (pilot expert "x")))))
   (expect (says? "whole number" (define-lesson a "x" (message-limit 1.5))))
   (expect (says? "say (hides VERB ...)" (define-lesson a "x" (hides))))
+  (expect (says? "from 1 to 4" (define-lesson a "x" (grade 5))))
+  (expect (says? "did you mean `slack'" (define-lesson a "x" (trains slak))))
+  (expect (says? "did you mean `route'" (define-lesson a "x" (needs bow roue))))
+  (expect (says? "say (yours VEHICLE TETHER)" (define-lesson a "x" (yours m))))
+  (expect (says? "#:why of slack is a text" (run-lesson (define-lesson a "x" (in small) (score (slack 0 1 #:why 3))
+                                                         (pilot expert "x")))))
   (expect (says? "say (define-lesson" (define-lesson "x")))
   (expect (says? "has no way of judging" (run-lesson (define-lesson a "x" (in small) (score (slack 0 1 #:by alwys))
                                           (pilot expert "x")))))
@@ -170,6 +176,35 @@
     (let ((n 0))
       (expect (wrong? "the same"
                       (define-lesson bad "x" (in small) (set-up (set! n (+ n 1)) (run n)) (pilot expert "x")))))))
+
+(define-scenario a-lost-mark-is-explained
+  "A row has a name that people read; who lost its mark is told what he should have known, and nobody else."
+  (let ((told (lambda (high)
+                (report-text
+                 (run-lesson (define-lesson explained "x" (in small)
+                               (task "t" (done-when (> (now) 1)) (at-most 5))
+                               (score (tether-length 0 high #:by most #:as "tether out, m" #:why "Less is more."))
+                               (pilot expert "x")))))))
+    (expect (string-contains (told 20) "tether out, m"))
+    (expect (string-contains (told 20) "Less is more.") => #f)
+    (expect (string-contains (told 5) "Less is more."))))
+
+(define pair-at-work
+  (extend small
+          (rov (named other) (at 5 5 -5))
+          (tether (named other-line) (wet-weight 0) (from 5 0 -2) (to other) (length 12))))
+
+(define-scenario a-lesson-among-several-vehicles
+  "The verbs of a lesson that says which are the pupil's own mean those; the others are flown by name."
+  (let* ((flies (lambda (lesson) (texts 'say (run-lesson lesson))))
+         (lesson (define-lesson several "x" (yours m line) (in pair-at-work)
+                   (task "Ahead." (done-when (> (y (rov-position)) 6)) (at-most 20))
+                   (say "~a ~a" (round (x (rov-position))) (round (x (rov-position 'other))))
+                   (tender "Flies the other." (drive! 'other #:sway 0.5) (run 100))
+                   (pilot expert "x" (flies (drive! #:surge 0.5))))))
+    (expect (flies lesson) is (lambda (said) (string-prefix? "0" (car said))))
+    (expect (report-passed? (run-lesson lesson)))
+    (expect (begin (enter! pair-at-work) (rov-position)) raises name)))
 
 (define-lesson few-words "Messages between pilot and tender"
   (message-limit 2)
