@@ -1,5 +1,7 @@
 ;; Where does the tether lie?  In a current it bows down-current, whatever the way between its ends.
 (define-lesson read-the-bow "Read the bow: where is your tether?"
+  (grade 1)
+  (trains bow)
   (setting within 40 25 15)
 
   (in (with open-water (current 'still) (minnow (at 0 20 -8))))

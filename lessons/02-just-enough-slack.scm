@@ -1,5 +1,7 @@
 ;; The vehicle pulls its tether to the site; the tender gives just enough.
 (define-lesson just-enough-slack "Just enough slack: forty metres out"
+  (grade 1)
+  (trains slack)
   (setting set 0.1 0.2 0.3)
   (in (with open-water (current (setting 'set) (+ 90 (jitter 20))) (minnow (at 0 8 -6)) (line (length 9))))
   (say "Today you are pilot and tender in one: + pays a metre out, - hauls one in; or (pay-out! 5).  Too

@@ -1,5 +1,7 @@
 ;; Each turn of the vehicle is a turn in its tether.  Take off what you put on.
 (define-lesson count-your-turns "Count your turns"
+  (grade 1)
+  (trains turns)
   (in (with open-water (current 0.05 90) (minnow (at 0 10 -6)) (line (length 20) (model catenary))))
   (say "Every time your heading goes once round, your tether has one turn more in it.  Twist makes loops,
 and loops hang on things.  Count, take the shorter way only when it is the way back, and come home with none.")

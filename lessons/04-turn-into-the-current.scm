@@ -1,5 +1,8 @@
 ;; A vehicle that is held at its stern cannot bring its bow into the current: back up first.
 (define-lesson turn-into-the-current "Turn into the current from a taut tether"
+  (grade 1)
+  (trains handling)
+  (needs slack)
   (setting speed 0.3 0.4 0.45)
   (in (with open-water (current (setting 'speed) (+ 0 (jitter 5))) (minnow (at 0 21 -6) (heading 0))
             (line (length 22))))

@@ -1,5 +1,8 @@
 ;; Out round a pile and back by the same side: what goes round must come back round.
 (define-lesson one-pile "One pile, out and back"
+  (grade 1)
+  (trains route)
+  (needs slack)
   (setting set 0.05 0.15 0.25)
   (in (with pile (current (setting 'set) (+ 90 (jitter 20)))))
   (say "There is one pile here, and there is work on the far side of it.  Every time you go round a pile

@@ -1,5 +1,8 @@
 ;; Wrap the tether on purpose, feel it, say it, and take it off again without pulling.
 (define-lesson wrong-side "The wrong side, on purpose"
+  (grade 2)
+  (trains unwrapping crew)
+  (needs route)
   (setting set 0.15 0.25 0.3)
   (in (with pile (current (setting 'set) (+ 90 (jitter 15)))))
   (say "Sooner or later you will be on the wrong side of something.  Today on purpose: go once round the

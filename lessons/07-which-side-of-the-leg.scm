@@ -1,5 +1,8 @@
 ;; Come to a vertical from down-current, so that the water carries the tether clear of it.
 (define-lesson which-side-of-the-leg "Which side of the leg?"
+  (grade 2)
+  (trains route bow)
+  (needs bow route)
   (setting set 0.15 0.25 0.35)
   (in (with jacket (current (setting 'set) (+ 90 (jitter 10)))))
   (say "A platform stands on four legs.  You are to look at the south-east leg, leg-b2, from the north: the

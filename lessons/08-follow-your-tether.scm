@@ -1,5 +1,8 @@
 ;; Home along the tether when nothing else can be seen: it knows the way that you have forgotten.
 (define-lesson follow-your-tether "Follow your tether home"
+  (grade 2)
+  (trains blind route)
+  (needs route)
   (setting sight 4 3 2)
   (in (with debris (current 0.1 (+ 90 (jitter 15)))))
   (say "You worked here among what a platform dropped, and now the silt is up: you see ~a m, and nothing

@@ -10,6 +10,9 @@
             (via (-1.5 -1.5 -5) (-1.2 1.2 -5.5) (1 1.2 -5) (1.5 -1.5 -5)) (length 29)))
 
 (define-lesson snag-drill "The snag drill"
+  (grade 2)
+  (trains unwrapping)
+  (needs slack route)
   (setting set 0 0.1 0.2)
   (in (with frame (current (setting 'set) (+ 90 (jitter 20)))))
   (say "Your tether is held by something behind you.  The drill: thrust ahead until it is taut, so that you

@@ -10,6 +10,9 @@
           (from 0 -14 -5) (to minnow) (length 22)))
 
 (define-lesson clump-and-float "Clump or float: under the ledge"
+  (grade 2)
+  (trains trim)
+  (needs bow)
   (setting set 0.05 0.1 0.15)
   (in (with quay (current (setting 'set) (+ 0 (jitter 15)))))
   (say "You are to look at the wall under a ledge.  This line is neutral in fresh water and floats in the

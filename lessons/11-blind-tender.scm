@@ -1,5 +1,8 @@
 ;; Pilot and tender each see only their own: what the other must know has to be said, and in few words.
 (define-lesson blind-tender "Blind tender"
+  (grade 3)
+  (trains crew blind slack)
+  (needs slack route)
   (setting most-slack 0.35 0.3 0.25)
   (message-limit 10)
   (hides look status tether-length tether-points point-at slack excess taut? taut-length free-length

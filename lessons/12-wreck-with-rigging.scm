@@ -1,5 +1,8 @@
 ;; Beside a wreck and below its mast tops, never over it and never through its rigging.
 (define-lesson wreck-with-rigging "A wreck with rigging: never over, never through"
+  (grade 3)
+  (trains route)
+  (needs bow route)
   (setting set 0.1 0.2 0.3)
   (in (with wreck (current (setting 'set) (+ 290 (jitter 10)))))
   (say "She lies on her side with masts and stays standing; stays are wires you may not see.  You are west

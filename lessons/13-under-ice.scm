@@ -1,5 +1,8 @@
 ;; Under ice there is one hole: go out beside the tether by which you came in.
 (define-lesson under-ice "Under ice: out beside your tether"
+  (grade 3)
+  (trains route trim)
+  (needs route trim)
   (setting set 0.03 0.06 0.1)
   (say "Two metres of ice, keels four metres deep, and one hole.  You go 45 m in, under two keels, to a
 mooring at (4 45 -8), and come out by the same way.  A line that floats lies against the ice and behind the

@@ -1,5 +1,8 @@
 ;; A day from the garage: the tide that carries the tether clear on the way out lays it on the riser later.
 (define-lesson tms-day "A day from the garage"
+  (grade 3)
+  (trains tide route)
+  (needs bow route)
   (setting speed 0.25 0.35 0.45)
   (in (with garage (current (tide (speed (setting 'speed)) (toward (+ 0 (jitter 10))) (period 1080)))))
   (say "Your garage hangs 20 m above the blow-out preventer, 7 m west of its riser.  The work is a valve 100 m

@@ -1,5 +1,8 @@
 ;; After a vehicle lost on a jacket, its tether chafed through in the tide: break off while you still can.
 (define-lesson the-tide-makes "The tide makes, and the tether chafes"
+  (grade 4)
+  (trains tide crew)
+  (needs tide unwrapping)
   (setting tide 0.45 0.55 0.65)
   (hides wear wear-profile)
   (in (with tidal-jacket (current 0.15 (+ 270 (jitter 10)))))

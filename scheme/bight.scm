@@ -93,7 +93,7 @@
     ((bight live) live! freeze! live?)
     ((bight threads) threads! threads)
     ((bight logbook)
-     log-dive! log-lesson! log-probe! logbook logbook-file
+     log-dive! log-lesson! log-probe! logbook logbook-file merge-logbook!
      log-entry? log-entry-kind log-entry-when log-entry-trainee log-entry-what log-entry-score
      log-entry-data)
     ((bight view) look status)

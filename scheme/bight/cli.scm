@@ -337,11 +337,14 @@ begins with FILE and the line."
    (command "lessons" (lambda (arguments) ((from (bight lesson-command) lessons-command) arguments)) ""
             '("list the lessons with marks, or the marks of a group")
             '("--trainee WHO" "whose marks")
+            '("--skills" "how well he has each skill, estimated from all marks, with intervals")
+            '("--merge FILE" "take over what the logbook FILE, of another machine, has and yours has not")
             '("--group G" "the marks of all in the group")
             '("--csv" "as comma-separated values"))
    (command "lesson" (lambda (arguments) ((from (bight lesson-command) lesson-command) arguments))
-            "NAME|FILE"
-            '("take a lesson, or go on with it; a FILE from outside is enclosed")
+            "[NAME|FILE]"
+            '("take a lesson, or go on with it; a FILE from outside is enclosed; without one: which is next,"
+              "and why")
             '("--trainee WHO" "who takes it")
             '("--group G" "the group he belongs to")
             '("--level L" "easy, normal or hard")

@@ -190,6 +190,7 @@
     (log-dive! (log-dive! #:trainee "Ada" #:world "pile"))
     (log-lesson! (log-lesson! 'one-pile #:trainee "Ada" #:score 80))
     (log-probe! (log-probe! "Where is its middle?" #:trainee "Ada" #:score 80))
+    (merge-logbook! (begin (log-dive! #:trainee "Ada" #:world "pile") (merge-logbook! (logbook-file))))
     (export-csv (begin (record! "dive.rec" #:frames "dive.db") (run 5) (stop-recording!)
                        (export-csv "dive.db" "dive.csv")))
     (export-npz (begin (record! "dive.rec" #:frames "dive.db") (run 5) (stop-recording!)

@@ -21,6 +21,7 @@
             lesson-file
             lesson-file-name
             lesson-file-title
+            lesson-file-clause
             load-lesson
             read-lessons))
 
@@ -54,18 +55,29 @@ BIGHT_LESSONS and bight's own."
   (with-sentences (map lesson-file-name (lesson-files))
                   (lambda (name) (lesson-file-title (lesson-file (symbol->string name))))))
 
-(define (lesson-file-title file)
-  "Return the title of the lesson in FILE, found without running it."
+(define (lesson-form file)
+  ;; The form (define-lesson NAME "title" CLAUSE ...) in FILE, found without running it, or #f.
   (call-with-input-file file
     (lambda (port)
       (set-port-encoding! port "UTF-8")
       (let loop ()
         (let ((form (read port)))
-          (cond ((eof-object? form) "")
+          (cond ((eof-object? form) #f)
                 ((and (list? form) (> (length form) 2) (eq? 'define-lesson (car form))
                       (string? (third form)))
-                 (third form))
+                 form)
                 (else (loop))))))))
+
+(define (lesson-file-title file)
+  "Return the title of the lesson in FILE, found without running it."
+  (let ((form (lesson-form file)))
+    (if form (third form) "")))
+
+(define (lesson-file-clause file head)
+  "Return what stands in the clause HEAD of the lesson in FILE, a list, empty without one; it is not run."
+  (let ((clause (find (lambda (c) (and (list? c) (pair? c) (eq? head (car c))))
+                      (cdddr (or (lesson-form file) '(#f #f #f))))))
+    (if clause (cdr clause) '())))
 
 (define (lesson-file designator)
   "Return the file of the lesson that DESIGNATOR, a string, names: by name or number.  Raise a &bight-error

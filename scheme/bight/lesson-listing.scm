@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson-listing)
+  #:use-module (bight lesson-advice)
   #:use-module (bight lesson-file)
   #:use-module (bight lesson-journal)
   #:use-module (bight lesson-log)
@@ -72,13 +73,20 @@
                              (csv-line (map (lambda (c) (csv-value (assq-ref result c))) columns))))
             (results-of given)))
 
+(define (merge file)
+  ;; (bight logbook) is loaded when it is needed: it needs SQLite.
+  (let ((n ((module-ref (resolve-interface '(bight logbook)) 'merge-logbook!) file)))
+    (simple-format #t "~a entr~a taken over from ~a~%" n (if (= n 1) "y" "ies") file)))
+
 (define (lessons-command words)
   "Do what `bight lessons WORDS' asks, and return the exit status."
   (call-with-values (lambda () (read-words "lessons" words))
     (lambda (plain given)
       (unless (null? plain)
         (bad-usage "lessons: only lists; `bight lesson ~a' takes one" (car plain)))
-      (cond ((option given "--csv" #f) (list-csv given))
+      (cond ((option given "--merge" #f) => merge)
+            ((option given "--skills" #f) (list-skills given))
+            ((option given "--csv" #f) (list-csv given))
             ((option given "--group" #f) (list-group given))
             (else (list-lessons given)))
       0)))

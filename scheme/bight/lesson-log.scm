@@ -1,7 +1,7 @@
 ;;; (bight lesson-log) --- what came of lessons, in the logbook.
 ;;;
 ;;; A result is an association list with the keys lesson title who group seed level total passed? seconds
-;;; hints rewinds marks coached; the logbook keeps it as the data of an entry, and its total as the score.
+;;; hints rewinds marks coached, and when as it is read; the logbook keeps it as the data of an entry, and its total as the score.
 ;;; Probes get entries of their own.  The logbook is a module that is loaded when it is needed, and a bight
 ;;; without it, or without a place to keep it, teaches all the same.
 ;;;
@@ -11,7 +11,8 @@
   #:use-module (bight errors)
   #:use-module (srfi srfi-1)
   #:export (log-result!
-            logged-results))
+            logged-results
+            why-no-record))
 
 (define (logbook-ref name)
   ;; The procedure NAME of the logbook, or #f if there is none.
@@ -46,8 +47,23 @@
 
 (define (logged-results who)
   "Return the results in the logbook of WHO, a string, or of all if it is #f, oldest first."
-  (let ((logbook (logbook-ref 'logbook)) (data (logbook-ref 'log-entry-data)))
-    (if (and logbook data)
-        (filter (lambda (result) (and (pair? result) (assq 'lesson result)))
-                (trying '() (lambda () (map data (logbook #:trainee who #:kind 'lesson)))))
+  (let ((logbook (logbook-ref 'logbook)) (data (logbook-ref 'log-entry-data))
+        (when-logged (logbook-ref 'log-entry-when)))
+    (if logbook
+        (filter-map (lambda (entry)
+                      (let ((result (data entry)))
+                        (and (pair? result) (every pair? result) (assq 'lesson result)
+                             (acons 'when (when-logged entry) result))))
+                    (trying '() (lambda () (logbook #:trainee who #:kind 'lesson))))
         '())))
+
+(define (why-no-record)
+  "Return why there is no logbook to read results from, a sentence, or #f if there is one."
+  (with-exception-handler
+      (lambda (e) (if (bight-error? e) (bight-error-message e) (raise-exception e)))
+    (lambda ()
+      (let ((logbook (logbook-ref 'logbook)))
+        (if logbook
+            (begin (logbook #:trainee "" #:kind 'lesson) #f)
+            "the logbook cannot be loaded")))
+    #:unwind? #t))

@@ -15,8 +15,8 @@
   "Raise the &bight-error TEXT, filled with VALUES: the command line is written wrong."
   (apply bight-raise 'domain #f text values))
 
-(define flags '("--check" "--typed" "--trust" "--fresh" "--quiet" "--csv"))
-(define options '("--trainee" "--group" "--seed" "--level" "--pilot"))
+(define flags '("--check" "--typed" "--trust" "--fresh" "--quiet" "--csv" "--skills"))
+(define options '("--trainee" "--group" "--seed" "--level" "--pilot" "--merge"))
 
 (define (split-option word)
   (let ((i (string-index word #\=)))

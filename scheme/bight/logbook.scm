@@ -21,7 +21,7 @@
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:use-module (srfi srfi-19)
   #:export (log-dive! log-lesson! log-probe!
-            logbook logbook-file
+            logbook logbook-file merge-logbook!
             log-entry? log-entry-kind log-entry-when log-entry-trainee log-entry-what log-entry-score
             log-entry-data))
 
@@ -117,6 +117,46 @@ to be known.  What is left out is taken of the present dive.  Return the number 
   "Enter how TRAINEE answered QUESTION: SCORE, and in DATA, such as ((truth 3) (answer 2) (seconds 4.1)),
 what else is to be known.  Return the number of the entry."
   (log! 'log-probe! 'probe trainee question score data))
+
+
+;;; Merging.
+
+(define (rows-of file)
+  ;; The entries of the logbook FILE, which another process may have open.
+  (unless (and (file-exists? file) (eq? 'regular (stat:type (stat file))))
+    (bight-raise 'io 'merge-logbook! "there is no file ~s" file))
+  (let* ((copy (copy-of-database 'merge-logbook! file))
+         (database (open-tables 'merge-logbook! copy kind version tables))
+         (rows (%query database "select kind, time, trainee, what, score, data from entries order by id" '())))
+    (close-tables! database)
+    (delete-file copy)
+    rows))
+
+(define (count-entries database)
+  (caar (%query database "select count(*) from entries" '())))
+
+(define (take-over! database rows)
+  ;; Enter those of ROWS that are not there; return how many.
+  (in-transaction database
+    (lambda ()
+      (let ((before (count-entries database)))
+        (for-each
+         (lambda (row)
+           (%query database
+                   "insert into entries (kind, time, trainee, what, score, data)
+select ?1, ?2, ?3, ?4, ?5, ?6 where not exists (select 1 from entries where
+kind = ?1 and time = ?2 and trainee = ?3 and what = ?4 and score is ?5 and data = ?6)"
+                   row))
+         rows)
+        (- (count-entries database) before)))))
+
+(define-verb (merge-logbook! (file string))
+  "Take over what another logbook, in FILE, has and this one has not, as from another machine: entries are
+the same when all that they say is, the time to the second among it.  Return how many were taken over.  In
+whatever order logbooks are merged, and however often, the entries are the same in the end."
+  (let ((rows (rows-of file)))
+    (call-with-logbook 'merge-logbook!
+      (lambda (database) (take-over! database rows)))))
 
 
 ;;; Reading.
