@@ -89,6 +89,39 @@ result $? 'a lesson that cannot be passed does not check'
 cp "$top_srcdir/lessons/11-blind-tender.scm" "$scratch/outside.scm"
 "$pre" bight lesson --check "$scratch/outside.scm" >"$scratch/out" 2>"$scratch/err"
 result $? 'a lesson with messages checks from outside as well'
+for pilot in expert ordinary careless; do
+  for seed in 1 2; do
+    grep "^$pilot, seed $seed: [0-9]* out of 100, " "$scratch/out"
+  done
+done >"$scratch/flights"
+[ "$(grep -c '^expert.* passed$' "$scratch/flights")" -eq 2 ] && [ "$(grep -c '^ordinary' "$scratch/flights")" -eq 2 ] &&
+  [ "$(grep -c '^careless.* not passed$' "$scratch/flights")" -eq 2 ]
+result $? 'and all of its pilots are flown, each twice, and told'
+
+# Which comes next, and why.
+"$pre" bight lesson --trainee newcomer >"$scratch/out" 2>"$scratch/err"
+if grep -q '^There is no record' "$scratch/out"; then
+  grep -q '^bight lesson read-the-bow$' "$scratch/out"
+  result $? 'without a record the first lesson is proposed'
+else
+  grep -q '^Next: read-the-bow' "$scratch/out" && grep -q 'trains bow' "$scratch/out"
+  result $? 'bight lesson alone proposes the next and says why'
+fi
+
+# An experiment: consent, the draw, the first step.
+if grep -q '^There is no record' "$scratch/out"; then
+  skip 'consent: no logbook here'
+  skip 'the first step: no logbook here'
+else
+  echo no | "$pre" bight experiment --trainee p1 >"$scratch/out" 2>"$scratch/err"
+  grep -q '^Taking part is voluntary' "$scratch/out" && grep -q '^Nothing is kept of you' "$scratch/out" &&
+    "$pre" bight experiment --table | grep -q '^0 took part'
+  result $? 'who does not consent takes no part'
+  echo yes | "$pre" bight experiment --trainee p1 >"$scratch/out" 2>"$scratch/err"
+  grep -q '^Step 1 of 5: which-side-of-the-leg' "$scratch/out" && grep -q 'You fly without' "$scratch/out" &&
+    "$pre" bight experiment --table | grep -q '^1 took part'
+  result $? 'who does flies the test first, without a display'
+fi
 
 # What a lesson hides is hidden at its prompt.
 "$pre" bight lesson blind-tender --typed --quiet --trainee eve >"$scratch/out" 2>"$scratch/err" <<END

@@ -340,6 +340,7 @@ begins with FILE and the line."
             '("--skills" "how well he has each skill, estimated from all marks, with intervals")
             '("--merge FILE" "take over what the logbook FILE, of another machine, has and yours has not")
             '("--group G" "the marks of all in the group")
+            '("--group" "all groups compared, with intervals")
             '("--csv" "as comma-separated values"))
    (command "lesson" (lambda (arguments) ((from (bight lesson-command) lesson-command) arguments))
             "[NAME|FILE]"
@@ -349,12 +350,19 @@ begins with FILE and the line."
             '("--group G" "the group he belongs to")
             '("--level L" "easy, normal or hard")
             '("--seed N" "begin what is random in it with N; 1 when left out")
+            '("--display D" "which views are shown: three, plan or none; three when left out")
             '("--typed" "fly by what is typed, not by keys")
             '("--fresh" "from its beginning, not from where it was left")
             '("--quiet" "without the coach")
             '("--trust" "let a FILE from outside do all that you may")
             '("--pilot P" "show it flown by its pilot P, such as expert")
             '("--check" "prove it: its pilots fly it, the careless one in vain; every hint can be reached"))
+   (command "experiment"
+            (lambda (arguments) ((from (bight experiment-command) experiment-command) arguments)) ""
+            '("take part in an experiment: what does one learn who sees his tether not, from above, or in"
+              "three dimensions?  consent, the draw of a group, then step by step each time")
+            '("--trainee WHO" "who takes part")
+            '("--table" "marks of the groups, with intervals"))
    (command "bench" run-benches "[NAME...]"
             '("measure run time against error: all families, short, in five minutes, or the whole of some;"
               "other options go to the one bench that is named")

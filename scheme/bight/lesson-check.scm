@@ -111,9 +111,10 @@
          (take-lesson lesson (scripted-guide (pilot-named lesson name)) #:who name #:seed seed))))
     #:unwind? #t))
 
-(define (judged-flight lesson name seed)
+(define (judged-flight lesson name seed told)
   ;; What is wrong with that, a sentence, or #f.
   (let ((report (report-of lesson name seed)))
+    (unless (string? report) (told name seed report))
     (cond ((string? report) report)
           ((and (eq? 'careless name) (report-passed? report))
            (simple-format #f "its careless pilot passes it (seed ~a): what it does wrong is not marked:\n~a"
@@ -122,8 +123,8 @@
            (simple-format #f "its pilot ~a does not pass it (seed ~a):\n~a" name seed (report-text report)))
           (else #f))))
 
-(define (check-pilots lesson)
-  (filter-map (lambda (name) (any (lambda (seed) (judged-flight lesson name seed)) seeds))
+(define (check-pilots lesson told)
+  (filter-map (lambda (name) (any (lambda (seed) (judged-flight lesson name seed told)) seeds))
               (lesson-pilots lesson)))
 
 (define (check-machine words)
@@ -136,14 +137,14 @@
     (map (lambda (verb) (simple-format #f "its pilots see what it hides from the pupil: ~a" verb))
          (filter (lambda (verb) (memq verb flown)) hidden))))
 
-(define* (check-lesson lesson #:optional (words (words-in (lesson-code lesson))))
+(define* (check-lesson lesson #:optional (words (words-in (lesson-code lesson))) #:key (told noop))
   "Return what is wrong with LESSON, a list of sentences, empty if it is proved.  WORDS are the symbols of
-the file it is in."
+the file it is in.  TOLD is called with each pilot's name, the seed and the report of that flight."
   (let* ((report (fly lesson #f))
          (again (fly lesson #f))
          (idles (idle-reports lesson report)))
     (append (check-demonstration report)
-            (check-pilots lesson)
+            (check-pilots lesson told)
             (check-same report again)
             (check-hints lesson report idles)
             (check-idle idles)

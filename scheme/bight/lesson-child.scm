@@ -48,7 +48,7 @@
 (define (report-entry report lesson given)
   `((lesson . ,(lesson-name lesson)) (title . ,(lesson-title lesson))
     (who . ,(who-of given)) (group . ,(option given "--group" #f))
-    (seed . ,(seed-of given)) (level . ,(level-of given))
+    (seed . ,(seed-of given)) (level . ,(level-of given)) (display . ,(display-of given))
     (total . ,(report-total report)) (passed? . ,(report-passed? report))
     (seconds . ,(report-seconds report)) (hints . ,(report-hints report))
     (rewinds . ,(report-rewinds report))
@@ -93,6 +93,7 @@
       (lambda (guide call)
         (let ((report (call (lambda ()
                               (take-lesson lesson guide #:seed (seed-of given) #:level (level-of given)
+                                           #:display (display-of given)
                                            #:coach (and (not (option given "--quiet" #f))
                                                         (make-coach #:competence shown-before)))))))
           (keep #f)
@@ -112,8 +113,13 @@
     (newline)
     0))
 
+(define (print-flight name seed report)
+  (simple-format #t "~a, seed ~a: ~a out of 100, ~a~%" name seed (report-total report)
+                 (if (report-passed? report) "passed" "not passed"))
+  (force-output))
+
 (define (print-check lesson file)
-  (let ((wrong (check-lesson lesson (file-words file))))
+  (let ((wrong (check-lesson lesson (file-words file) #:told print-flight)))
     (for-each (lambda (text) (simple-format #t "not ok: ~a~%" text)) wrong)
     (if (null? wrong)
         (begin

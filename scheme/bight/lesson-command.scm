@@ -93,6 +93,7 @@
           (let ((order (order-of plain given)))
             (seed-of given)
             (level-of given)
+            (display-of given)
             (run-order order))))))
 
 (define (check-place order inputs)

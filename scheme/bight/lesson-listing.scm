@@ -5,6 +5,7 @@
 (define-module (bight lesson-listing)
   #:use-module (bight lesson-advice)
   #:use-module (bight lesson-file)
+  #:use-module (bight lesson-groups)
   #:use-module (bight lesson-journal)
   #:use-module (bight lesson-log)
   #:use-module (bight lesson-order)
@@ -41,7 +42,8 @@
   ;; The results that are meant: those of a group, or of one pupil.
   (let ((group (option given "--group" #f)))
     (if group
-        (filter (lambda (result) (equal? group (assq-ref result 'group))) (logged-results #f))
+        (filter (lambda (result) (if (eq? #t group) (assq-ref result 'group) (equal? group (assq-ref result 'group))))
+                (logged-results #f))
         (logged-results (who-of given)))))
 
 (define (list-group given)
@@ -60,6 +62,9 @@
      pupils)))
 
 (define columns '(who group lesson level seed total passed? seconds hints rewinds))
+
+(define (compare-groups)
+  (for-each (lambda (line) (display line) (newline)) (group-lines (logged-results #f))))
 
 (define (csv-value value)
   (cond ((eq? value #t) 1)
@@ -87,6 +92,7 @@
       (cond ((option given "--merge" #f) => merge)
             ((option given "--skills" #f) (list-skills given))
             ((option given "--csv" #f) (list-csv given))
+            ((eq? #t (option given "--group" #f)) (compare-groups))
             ((option given "--group" #f) (list-group given))
             (else (list-lessons given)))
       0)))

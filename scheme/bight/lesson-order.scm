@@ -8,20 +8,24 @@
   #:use-module (bight lesson-tally)
   #:use-module (bight record)
   #:use-module (srfi srfi-1)
-  #:export (bad-usage read-words option seed-of level-of who-of
+  #:export (bad-usage read-words option seed-of level-of display-of who-of
             make-order is-order? order-of order-file order-outside? order-given))
 
 (define (bad-usage text . values)
   "Raise the &bight-error TEXT, filled with VALUES: the command line is written wrong."
   (apply bight-raise 'domain #f text values))
 
-(define flags '("--check" "--typed" "--trust" "--fresh" "--quiet" "--csv" "--skills"))
-(define options '("--trainee" "--group" "--seed" "--level" "--pilot" "--merge"))
+(define flags '("--check" "--typed" "--trust" "--fresh" "--quiet" "--csv" "--skills" "--table"))
+(define options '("--trainee" "--group" "--seed" "--level" "--pilot" "--merge" "--display"))
 
 (define (split-option word)
   (let ((i (string-index word #\=)))
     (and i (member (substring word 0 i) options)
          (cons (substring word 0 i) (substring word (+ i 1))))))
+
+(define (pair-of-words? words)
+  ;; Is the first of WORDS, an option, followed by a value?
+  (and (pair? (cdr words)) (not (string-prefix? "--" (cadr words)))))
 
 (define (read-words command words)
   "Return the plain words of WORDS, what COMMAND was given, and an alist of options; a flag has the
@@ -31,8 +35,10 @@ value #t."
           ((member (car rest) flags) (loop (cdr rest) plain (acons (car rest) #t given)))
           ((split-option (car rest)) => (lambda (pair) (loop (cdr rest) plain (cons pair given))))
           ((member (car rest) options)
-           (when (null? (cdr rest)) (bad-usage "~a: ~a needs a value after it" command (car rest)))
-           (loop (cddr rest) plain (acons (car rest) (cadr rest) given)))
+           (cond ((pair-of-words? rest) (loop (cddr rest) plain (acons (car rest) (cadr rest) given)))
+                 ((and (equal? command "lessons") (equal? (car rest) "--group"))
+                  (loop (cdr rest) plain (acons (car rest) #t given))) ; all groups, compared
+                 (else (bad-usage "~a: ~a needs a value after it" command (car rest)))))
           ((string-prefix? "-" (car rest))
            (bad-usage "~a has no option ~a~a" command (car rest)
                       (did-you-mean (car (string-split (car rest) #\=)) (append flags options))))
@@ -54,6 +60,13 @@ value #t."
     (if (memq level levels)
         level
         (unknown-name 'lesson "a lesson" level levels "level"))))
+
+(define (display-of given)
+  "Return what of the dive's views the pupil may see, a symbol: three, plan or none; three when nothing is said."
+  (let ((shown (string->symbol (option given "--display" "three"))))
+    (if (memq shown displays)
+        shown
+        (unknown-name 'lesson "a lesson" shown displays "display"))))
 
 (define (who-of given)
   "Return the name of the pupil, a string."

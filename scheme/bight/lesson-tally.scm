@@ -29,10 +29,18 @@
             time-or-0
             tick-counters!
             levels
+            displays display-allowed
             ;; The language of lessons.
             counter count! setting jitter))
 
 (define levels '(easy normal hard))
+
+;; What of its views a lesson may show: all, the view from above alone, none.
+(define displays '(three plan none))
+
+(define (display-allowed)
+  "Return what of its views the lesson that is going on may show: three, plan or none."
+  (or (assq-ref (session-limits (this-session 'lesson)) 'display) 'three))
 
 (define-record <session>
   (%make-session settings level guide coach stop limits tally log)
@@ -42,13 +50,14 @@
   (guide session-guide)
   (coach session-coach)                 ; or #f
   (stop session-stop)                   ; ends the lesson, called with why
-  (limits session-limits)               ; an alist: messages, how many; hidden, verbs
+  (limits session-limits)               ; an alist: messages, how many; hidden, verbs; display
   (tally session-tally set-session-tally!)
   (log session-log set-session-log!))   ; (TIME KIND TEXT), the last first
 
 (define* (make-session settings level guide coach stop seed #:optional (limits '()))
   "Return a session that has only begun; SEED is a whole number that its random numbers come from.  LIMITS
-is an alist: `messages', how many the pilot may send, and `hidden', the verbs that the pupil has not."
+is an alist: `messages', how many the pilot may send, `hidden', the verbs that the pupil has not, and
+`display', which views he sees."
   (%make-session settings level guide coach stop limits `((random . ,(scramble seed))) '()))
 
 (define current-session (make-parameter #f))

@@ -55,9 +55,14 @@
     (and (pair? all)
          (make-pilot 'tender (first (last all)) (second (last all))))))
 
-(define (limits-of lesson)
+;; What shows or tells where the tether lies.
+(define views '(look tether-points point-at way-home segments))
+
+(define (limits-of lesson display)
   (append (map (lambda (d) (cons 'messages (car d))) (reverse (declared 'message-limit lesson)))
-          (list (cons 'hidden (concatenate (declared 'hides lesson))))))
+          (list (cons 'display display)
+                (cons 'hidden (append (if (eq? 'none display) views '())
+                                      (concatenate (declared 'hides lesson)))))))
 
 (define (tasks-in code)
   ;; How many tasks CODE, the data of clauses, sets.
@@ -89,8 +94,9 @@
                  (if (session-coach s) (coach-log (session-coach s)) '())
                  (and (current-dive) (state-hash)))))
 
-(define* (take-lesson lesson guide #:key (who 'pupil) (seed 0) (level 'normal) (coach #f))
-  "Take LESSON with GUIDE, a dive of its own for each (in WORLD), and return the report."
+(define* (take-lesson lesson guide #:key (who 'pupil) (seed 0) (level 'normal) (coach #f) (display 'three))
+  "Take LESSON with GUIDE, a dive of its own for each (in WORLD), and return the report.  DISPLAY says which
+views are shown: three, plan or none."
   (call-with-values
       (lambda ()
         (call/ec
@@ -99,7 +105,7 @@
                ((current-session
                  (make-session (declared 'setting lesson) level guide coach
                                (lambda (why) (return (current-session) (current-dive) why)) seed
-                               (limits-of lesson)))
+                               (limits-of lesson display)))
                 (current-dive #f)
                 (own-subjects (concatenate (declared 'yours lesson))))
              (let ((rows (make-rows lesson)))

@@ -472,8 +472,8 @@
                         (if (<= gap reach) (map (lambda (p) (clamped box reach p)) line) '()))
                       lines gaps)))))
 
-(define (draw scene width at extent zoom)
-  ;; The lines of both panels, side by side in WIDTH columns.
+(define (draw scene width side? at extent zoom)
+  ;; The lines of both panels, or of the left one alone unless SIDE?, side by side in WIDTH columns.
   (let* ((columns (- (quotient (- width 1) 2) 2))
          (bearing (main-direction scene))
          (project (from-the-side bearing (car (scene-points scene))))
@@ -485,9 +485,12 @@
                       (/ extent columns)
                       (step-to-fit scene project columns levels))
                   zoom)))
-    (append (map (lambda (left right) (string-append left " " right))
-                 (top-panel scene above columns panel-rows step)
-                 (side-panel scene beside levels project bearing columns panel-rows step))
+    (append (let ((top (top-panel scene above columns panel-rows step)))
+              (if side?
+                  (map (lambda (left right) (string-append left " " right))
+                       top
+                       (side-panel scene beside levels project bearing columns panel-rows step))
+                  top))
             (list (string-append " " (legend scene step columns))))))
 
 (define (step-to-fit scene project columns levels)
@@ -496,16 +499,16 @@
     (max (step-for (map from-above points) columns panel-rows)
          (step-for (with-levels levels (map project points)) columns panel-rows))))
 
-(define-verb (look #:key (columns (or-false (between 40 400)))
+(define-verb (look #:key (columns (or-false (between 40 400))) (side flag #t)
                    (at (or-false point)) (extent (or-false positive)) (zoom positive 1))
-  "Draw the present dive in plain characters, from above (north up) and from the side, on one scale in
-both: A is the anchor, ^ > v < the vehicle and where it heads, # an obstacle, ~ the surface, = the
+  "Draw the present dive in plain characters, from above (north up) and, unless SIDE is #f, from the side,
+on one scale in both: A is the anchor, ^ > v < the vehicle and where it heads, # an obstacle, ~ the surface, = the
 sea bed, where there is one.  The tethers, the vehicles and the structure beside them are in it; AT is
 another point for the middle, EXTENT how many metres each drawing spans, ZOOM how many times nearer it
 is.  The drawing is COLUMNS wide, by default as wide as the terminal.  Return a picture, which prints as
 text."
   (let ((width (inexact->exact (floor (or columns (max 40 (min 160 (terminal-columns))))))))
-    (lines->picture (draw (read-scene) width (and at (array->list at)) extent zoom))))
+    (lines->picture (draw (read-scene) width side (and at (array->list at)) extent zoom))))
 
 
 ;;; The panel of figures.  A row is a title and its cells; what the dive cannot tell is left out.
