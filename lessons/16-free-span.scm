@@ -17,13 +17,13 @@ comes home over it has put your tether round the pipe, and no winch takes that o
         (held-for 5)
         (hint-after 30 "Down and north-east from the garage, west of the pipe all the way.")
         (fail-when (parted?) "The tether has parted.")
-        (at-most 150))
+        (at-most 300))
   (task "The far side: look at it from (2.5 6 -78), within a metre, for five seconds."
         (done-when (< (range-to '(2.5 6 -78)) 1))
         (held-for 5)
         (hint-after 30 "Up to 75 m, east over the pipe, and down again on the far side.")
         (fail-when (parted?) "The tether has parted.")
-        (at-most 150))
+        (at-most 300))
   (probe "You hang east of the pipe.  If the tender hauled now, what would the tether do?"
          (if (< (abs (winding 'pipeline/pipe)) 1) 'come-home 'hold) #:choices (come-home hold))
   (task "Home into the garage: within 1.2 m of (-11 -5 -69), and less than 8 m of tether out."
@@ -31,7 +31,7 @@ comes home over it has put your tether round the pipe, and no winch takes that o
         (hint-after 60 "The way you came: up, over the pipe, and then down-slope to the garage.")
         (hint-after 120 "The winch does not get it in?  Then it is round something: go back, and over or under again.")
         (fail-when (parted?) "The tether has parted.")
-        (at-most 200))
+        (at-most 260))
   (tender "The winch of the garage: gives and takes a metre at a time."
     (let tend ()
       (cond ((or (< (loose) (+ 1 (* 0.06 (tether-length)))) (taut?)) (pay-out! 1 #:rate 1.1))

@@ -19,7 +19,7 @@ difference to you, and all the difference to your tether: by what side of a line
         (held-for 8)
         (hint-after 40 "Over mooring 5 well out from the pen, where it is deep: (-18 -12 -5), then (-15 -6 -6).")
         (fail-when (parted?) "The tether has parted.")
-        (at-most 180))
+        (at-most 300))
   (probe "Which mooring does your tether cross on its way home?" 'mooring-5
          #:choices (mooring-4 mooring-5 mooring-6))
   (task "Home to within 1.5 m of (-8 -16 -5), your tether off every mooring."
@@ -27,7 +27,7 @@ difference to you, and all the difference to your tether: by what side of a line
         (hint-after 50 "Back over mooring 5, where you came, and only then east to the boat.")
         (hint-after 120 "Held?  (contacts) tells by what.  Go back round it the way you came; do not pull.")
         (fail-when (parted?) "The tether has parted.")
-        (at-most 180))
+        (at-most 240))
   (tender "A deck hand with the tether in his hands: a metre at a time, hand-tight."
     (let tend ()
       (cond ((or (< (loose) 1.5) (taut?)) (pay-out! 1 #:rate 1))

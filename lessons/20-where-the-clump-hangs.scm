@@ -29,14 +29,14 @@ stands up to 54 m.  Too high, and you drag the sail yourself.  Too low, and your
         (held-for 10)
         (hint-after 30 "Over the manifold at 51 m, then down to the valve.  Mind that the clump stays above 54 m.")
         (fail-when (parted?) "The tether has parted.")
-        (at-most 150))
+        (at-most 300))
   (probe "Where does your tether leave you to?  Its bearing, five metres from you."
          (bearing-to (point-at (- (tether-length) 5))) #:within 25)
   (task "Back to below the ship: within 2 m of (2 3 -48)."
         (done-when (< (range-to '(2 3 -48)) 2))
         (hint-after 40 "Up first: your tether goes over the manifold, and so do you.")
         (fail-when (parted?) "The tether has parted.")
-        (at-most 150))
+        (at-most 240))
   (score ((if (pair? (contacts)) 1 0) 0 0 #:share 0.9 #:weight 4
           #:as "tether off the manifold"
           #:why "A clump below the top of what you cross leads your tether through it.")

@@ -26,7 +26,7 @@ down-line should be; then you were north of it, and then you came round to the s
         (hint-after 30 "Half ahead is enough: (drive! #:surge 0.3), heading 240; watch (rov-tension).")
         (hint-after 60 "Do you feel it?  Centre the sticks, and t held, or (tell! 'tender \"held\").")
         (fail-when (> (max-tension) 250) "You pulled with more than 250 N at something that you do not know.")
-        (at-most 120))
+        (at-most 240))
   (probe "Taut, there are 29 m out.  How far is the ship, straight through the water, m?" (ship-range) #:within 2)
   (probe "So what holds you?" 'round-something #:choices (round-something at-the-end a-turn-of-the-winch))
   (task "Free it by the way you came, and stand 2 m from (5 -9 -6), south-east of the wire, free to be hauled."
@@ -36,7 +36,7 @@ side, east of it, and south.")
         (hint-after 70 "The counter says 29 m, the ship is near, and nothing pulls: that is what free feels like.")
         (fail-when (> (max-tension) 250) "You pulled with more than 250 N: a wire cuts.")
         (fail-when (parted?) "The tether has parted.")
-        (at-most 200))
+        (at-most 240))
   (tender "Answers that he holds, and does not haul."
     (run-until (lambda () (told 'tender)))
     (tell! 'pilot "Held, understood.  I do not haul."))

@@ -94,6 +94,9 @@
                  (if (session-coach s) (coach-log (session-coach s)) '())
                  (and (current-dive) (state-hash)))))
 
+(define (hides? lesson verb display)
+  (memq verb (assq-ref (limits-of lesson display) 'hidden)))
+
 (define* (take-lesson lesson guide #:key (who 'pupil) (seed 0) (level 'normal) (coach #f) (display 'three))
   "Take LESSON with GUIDE, a dive of its own for each (in WORLD), and return the report.  DISPLAY says which
 views are shown: three, plan or none."
@@ -103,7 +106,9 @@ views are shown: three, plan or none."
          (lambda (return)
            (parameterize
                ((current-session
-                 (make-session (declared 'setting lesson) level guide coach
+                 (make-session (declared 'setting lesson) level guide
+                              ;; A coach who sees more than the pupil would tell him what the lesson hides.
+                              (and coach (not (hides? lesson 'look display)) coach)
                                (lambda (why) (return (current-session) (current-dive) why)) seed
                                (limits-of lesson display)))
                 (current-dive #f)

@@ -194,6 +194,18 @@
           (rov (named other) (at 5 5 -5))
           (tether (named other-line) (wet-weight 0) (from 5 0 -2) (to other) (length 12))))
 
+(define-scenario a-coach-does-not-tell-what-is-hidden
+  "He who runs into the end of his tether is told so, unless the lesson hides where it lies."
+  (let ((coached (lambda (lesson) (length (report-coached (run-lesson lesson #:pilot 'hasty #:coached #t))))))
+    (expect (coached (define-lesson open "x" (in small)
+                       (task "t" (done-when #f) (at-most 30))
+                       (pilot hasty "x" (flies (drive! #:surge 1)))))
+            is (above 0))
+    (expect (coached (define-lesson closed "x" (hides look) (in small)
+                       (task "t" (done-when #f) (at-most 30))
+                       (pilot hasty "x" (flies (drive! #:surge 1)))))
+            => 0)))
+
 (define-scenario a-lesson-among-several-vehicles
   "The verbs of a lesson that says which are the pupil's own mean those; the others are flown by name."
   (let* ((flies (lambda (lesson) (texts 'say (run-lesson lesson))))
