@@ -3,7 +3,6 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight experiment-command)
-  #:use-module (bight errors)
   #:use-module (bight experiment)
   #:use-module (bight lesson-command)
   #:use-module (bight lesson-log)

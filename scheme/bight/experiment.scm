@@ -9,7 +9,6 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight experiment)
-  #:use-module (bight errors)
   #:use-module (bight lesson-groups)
   #:use-module (srfi srfi-1)
   #:export (consent-text

@@ -108,18 +108,15 @@
   (show-allowed (or thunk look)))
 
 (define (show-allowed thunk)
-  ;; What of the picture that THUNK returns the pupil may see.
-  (case (display-allowed)
-    ((none) (say-as 'say "(Here others see a picture.  You fly without.)"))
-    ((plan) ((guide-picture (this-guide)) (if (eq? thunk look) look-from-above thunk)))
-    (else ((guide-picture (this-guide)) thunk))))
-
-(define (look-from-above) (look #:side #f))
+  ;; The picture that THUNK returns, for a pupil who may see one.
+  (if (eq? 'none (display-allowed))
+      (say-as 'say "(Here others see a picture.  You fly without.)")
+      ((guide-picture (this-guide)) thunk)))
 
 (define (watch-fork text thunk)
   "Say TEXT, call THUNK on a fork of the dive, and show what became of it; the dive is as before."
   (say-as 'say text)
-  (let ((seen (what-if-thunk (lambda () (thunk) (if (eq? 'plan (display-allowed)) (look-from-above) (look))))))
+  (let ((seen (what-if-thunk (lambda () (thunk) (look)))))
     (show-allowed (lambda () seen))))
 
 (define (repeat-steps n thunk)

@@ -22,6 +22,7 @@
   #:use-module (bight lesson-way)
   #:use-module (bight pilot)
   #:use-module ((bight signature) #:select (own-subjects))
+  #:use-module ((bight view) #:select (side-shown?))
   #:use-module (bight time)
   #:use-module (bight verb)
   #:use-module ((ice-9 control) #:select (call/ec))
@@ -112,7 +113,8 @@ views are shown: three, plan or none."
                                (lambda (why) (return (current-session) (current-dive) why)) seed
                                (limits-of lesson display)))
                 (current-dive #f)
-                (own-subjects (concatenate (declared 'yours lesson))))
+                (own-subjects (concatenate (declared 'yours lesson)))
+                (side-shown? (not (eq? 'plan display))))
              (let ((rows (make-rows lesson)))
                (call-with-plan rows (counts-of lesson) (tender-of lesson) (lesson-steps lesson))
                (values (current-session) (current-dive) #f))))))

@@ -22,7 +22,7 @@
   #:use-module (bight verb)
   #:use-module (srfi srfi-1)
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
-  #:export (look
+  #:export (look side-shown?
             status
             picture?
             picture-lines
@@ -499,6 +499,9 @@
     (max (step-for (map from-above points) columns panel-rows)
          (step-for (with-levels levels (map project points)) columns panel-rows))))
 
+;; False where a pupil is to see the view from above alone, whatever he asks for.
+(define side-shown? (make-parameter #t))
+
 (define-verb (look #:key (columns (or-false (between 40 400))) (side flag #t)
                    (at (or-false point)) (extent (or-false positive)) (zoom positive 1))
   "Draw the present dive in plain characters, from above (north up) and, unless SIDE is #f, from the side,
@@ -508,7 +511,7 @@ another point for the middle, EXTENT how many metres each drawing spans, ZOOM ho
 is.  The drawing is COLUMNS wide, by default as wide as the terminal.  Return a picture, which prints as
 text."
   (let ((width (inexact->exact (floor (or columns (max 40 (min 160 (terminal-columns))))))))
-    (lines->picture (draw (read-scene) width side (and at (array->list at)) extent zoom))))
+    (lines->picture (draw (read-scene) width (and side (side-shown?)) (and at (array->list at)) extent zoom))))
 
 
 ;;; The panel of figures.  A row is a title and its cells; what the dive cannot tell is left out.
