@@ -90,7 +90,7 @@ before; how far off beliefs are is what they say."
             (length abilities) (share abilities) (miss abilities) (deviation abilities)
             (length difficulties) (share difficulties) (miss difficulties) (deviation difficulties))
     (expect (share abilities) is (between 0.87 0.93))
-    (expect (share difficulties) is (between 0.8 0.98))
+    (expect (share difficulties) is (between 0.83 0.97))
     (expect (miss abilities) is (below 0.72))
     (expect (miss difficulties) is (below 0.3))
     (expect (/ (miss abilities) (deviation abilities)) is (between 0.9 1.1))))
