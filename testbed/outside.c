@@ -211,6 +211,9 @@ outside_apart (const outside_flight *a, const outside_flight *b, int every, doub
 #define JUMPER_BEFORE 81.0
 #define JUMPER_WAVES 60.0
 
+/* m: their waves are those of deep water, k = w^2 / g, although the sea is 100 m deep.  */
+#define WAVES_DEPTH 1000.0
+
 static double
 between (const outside_table *data, double t)
 {
@@ -263,7 +266,7 @@ outside_jumper (int which, int n, outside_history *history)
       history->rest[1] = r.d->pull[0].z / -1e3;
     }
   const double before = which == 6 ? JUMPER_WAVES : JUMPER_BEFORE, h = JUMPER_STEP;
-  if (which == 6 && bt_waves_make (&swell, 100, r.water.gravity, &waves, NULL) == BT_OK)
+  if (which == 6 && bt_waves_make (&swell, WAVES_DEPTH, r.water.gravity, &waves, NULL) == BT_OK)
     r.water.sea = &sea;
   r.water.time = -before;
   history->rows = 0;

@@ -106,21 +106,6 @@ prepare (bt__line_job *k)
   memset (w->restart, 0, (size_t)k->links + 1);
 }
 
-/* What pulled end E in the last step: all that the line and what it touches there did not.  */
-static bt_vec3
-pull_of (const bt__line_job *k, int e, double rest)
-{
-  bt_vec3 sum = bt__scale (-1, k->d->pull[e]);
-  for (int i = 0; i < k->olds; i++)
-    {
-      const bt__anchor *a = k->w->old + i;
-      double away = fabs (a->from_end - (e ? 0 : k->w->from_end[0]));
-      if (away < rest)
-        sum = bt__axpy (sum, away / rest - 1, a->force);
-    }
-  return sum;
-}
-
 /* Let the prescribed ends be pulled.  */
 static int
 hold_ends (bt__line_job *k)
@@ -136,7 +121,7 @@ hold_ends (bt__line_job *k)
       if (end->free || !isfinite (most))
         continue;
       double last = rest[e ? k->links - 1 : 0];
-      bt_vec3 pull = pull_of (k, e, last);
+      bt_vec3 pull = bt__scale (-1, k->d->pull[e]); /* of what held it in the last step */
       double now = bt__norm (pull);
       k->w->hold[e] = (bt__dynamic_hold){ .on = 1, .most = fmax (most, 1e-9) };
       k->w->hold[e].stiffness = fmin (HOLDING * k->in->line->ea / last, HOLDING_MOST);

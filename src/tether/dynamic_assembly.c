@@ -275,20 +275,33 @@ assemble_line (bt__dynamic_work *w, bt__mode mode)
 
 /* ---- What is lumped at nodes ---- */
 
+bt__past
+bt__dynamic_past (const bt__dynamic_work *w, int i)
+{
+  bt_vec3 v = bt__node_v (w, i), rel = bt__sub (w->node[i].current, v);
+  return (bt__past){ .v = v, .rel = rel, .speed = bt__norm (rel) };
+}
+
+bt_vec3
+bt__dynamic_lump_force (const bt__dynamic_work *w, int i, const bt__extra *e, const bt__past *p)
+{
+  bt_vec3 f = bt__axpy (e->force, e->linear + e->quadratic * p->speed, p->rel);
+  f = bt__axpy (f, -e->mass, bt__node_a (w, i, p->v));
+  f.z -= e->weight;
+  return f;
+}
+
 static void
 assemble_lumps (bt__dynamic_work *w)
 {
   for (int i = w->lo; i <= w->hi; i++)
     {
       const bt__extra *e = w->extra + i;
-      bt_vec3 v = bt__node_v (w, i), rel = bt__sub (w->node[i].current, v);
-      double s = bt__norm (rel), k = e->linear + e->quadratic * s;
-      bt_vec3 f = bt__axpy (e->force, k, rel);
-      f = bt__axpy (f, -e->mass, bt__node_a (w, i, v));
-      f.z -= e->weight;
-      w->rhs[i] = bt__add (w->rhs[i], f);
+      bt__past p = bt__dynamic_past (w, i);
+      double k = e->linear + e->quadratic * p.speed;
+      w->rhs[i] = bt__add (w->rhs[i], bt__dynamic_lump_force (w, i, e, &p));
       bt__sym_add (w->diag + i, w->b0 * (w->b0 * e->mass + k),
-                   s > 1e-10 ? w->b0 * e->quadratic / s : 0, rel);
+                   p.speed > 1e-10 ? w->b0 * e->quadratic / p.speed : 0, p.rel);
     }
 }
 
@@ -343,7 +356,8 @@ bt__dynamic_node_load (bt__dynamic_work *w, int i)
   flows s = { .tau = bt__pair_load (&w->node[i].tau, &w->node[i].tau) };
   flow_past (w, i, i, &s);
   bt__pair_vec f = node_loads (w, i, i, &s, &unused);
-  return bt__vec (f.x[0], f.y[0], f.z[0] - bt__dynamic_surface_load (w, i));
+  double lost = w->lift * w->node[i].cell * bt__dynamic_out_of_water (w, i);
+  return bt__vec (f.x[0], f.y[0], f.z[0] - lost);
 }
 
 int
@@ -404,22 +418,9 @@ bt__dynamic_potential (const bt__dynamic_work *w)
       const bt__link *k = w->link + j;
       double stretch = bt__norm (chord_of (w, j)) - k->zero;
       double change = stretch + k->zero - k->start;
-      double slack = fmin (w->soft * k->ka, w->inertia * k->rest);
+      double slack = bt__dynamic_slack (w, j);
       sum += 0.5 * (stretch > 0 ? k->ka : 0) * stretch * stretch - k->thrust * stretch
              + 0.5 * slack * change * change;
     }
   return bt__dynamic_touches (w) ? sum + bt__dynamic_contact_potential (w) : sum;
-}
-
-/* ---- The ends ---- */
-
-bt_vec3
-bt__dynamic_end_pull (bt__dynamic_work *w, int k)
-{
-  int i = k ? w->n : 0, j = k ? w->n - 1 : 0;
-  bt_vec3 c = chord_of (w, j), t = bt__unit_or (c, w->link[j].t);
-  double lam = w->lam[j] - w->link[j].thrust;
-  bt_vec3 f = bt__scale (k ? -lam : lam, t);
-  f = bt__add (f, bt__dynamic_node_load (w, i));
-  return w->load ? bt__add (f, w->load[i]) : f;
 }

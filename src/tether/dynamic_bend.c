@@ -125,6 +125,28 @@ bt__dynamic_bend_force (bt__dynamic_work *w)
     }
 }
 
+/* Add what row ROW does on node I, if it is of that node.  */
+static bt_vec3
+add_row_on (const bt__dynamic_work *w, int row, int i, bt_vec3 sum)
+{
+  const bt__bend *b = w->bend + row;
+  int p = i - b->first;
+  return p >= 0 && p < b->count ? bt__axpy (sum, -b->k * b->c[p], turn_of (b, w->X)) : sum;
+}
+
+/* Inner node I has row I - 1; clamps have the last.  */
+bt_vec3
+bt__dynamic_bend_on (const bt__dynamic_work *w, int i)
+{
+  bt_vec3 sum = { 0, 0, 0 };
+  int inner = w->n - 1, from = i > 2 ? i - 2 : 0, to = i < inner ? i + 1 : inner;
+  for (int k = from; k < to; k++)
+    sum = add_row_on (w, k, i, sum);
+  for (int k = inner; k < w->bends; k++)
+    sum = add_row_on (w, k, i, sum);
+  return sum;
+}
+
 double
 bt__dynamic_bend_energy (const bt__dynamic_work *w, const bt_vec3 *X)
 {

@@ -65,16 +65,19 @@ tilt_of (const bt__dynamic_work *w, const bt__dynamic_row *r)
   return bt__dot (r->normal, bt__sub (w->X[r->node + 1], w->X[r->node])) - r->tilt;
 }
 
-/* Add what the load does by having wandered along the link, to its ends at most.  */
+/* How far the load has wandered along the link by TILT, in links, to its ends at most.  */
+static double
+shift_of (const bt__dynamic_row *r, double tilt)
+{
+  return fmin (fmax (-r->roll * tilt, -r->s), 1 - r->s);
+}
+
+/* Add what the load does by having wandered.  */
 static void
 add_roll (bt__dynamic_work *w, bt__dynamic_row *r)
 {
-  double load = r->load > 0 ? r->load : 0, shift = -r->roll * tilt_of (w, r), k = load * r->roll;
-  if (shift < -r->s || shift > 1 - r->s)
-    {
-      shift = shift < 0 ? -r->s : 1 - r->s;
-      k = 0;
-    }
+  double load = r->load > 0 ? r->load : 0, tilt = tilt_of (w, r), shift = shift_of (r, tilt);
+  double k = shift == -r->roll * tilt ? load * r->roll : 0;
   bt__sym *p = w->diag + r->node;
   bt__sym_add (p, 0, k, r->normal);
   bt__sym_add (p + 1, 0, k, r->normal);
@@ -104,16 +107,23 @@ add_row (bt__dynamic_work *w, bt__dynamic_row *r, double kn, double ks, double k
   w->rhs[r->node + 1] = bt__axpy (w->rhs[r->node + 1], b, r->force);
 }
 
+/* The stiffness of friction of R, N/m, under LOAD and a drag of SIZE.  */
+static double
+grip_of (const bt__dynamic_row *r, double load, double size)
+{
+  return (load > 0 ? r->friction * load : 0) / fmax (size, r->slip);
+}
+
 static int
 assemble_row (bt__dynamic_work *w, bt__dynamic_row *r, bt__mode mode)
 {
   double gap = gap_of (r, w->X), urge = -ACTIVITY * r->stiffness * gap;
   urge = mode == BT__SAFE ? -gap : r->load + urge;
   double active = urge > 0, was = r->active;
-  double kn = active * r->stiffness, most = r->load > 0 ? r->friction * r->load : 0;
+  double kn = active * r->stiffness;
   r->active = active;
   r->drag = drag_of (w, r);
-  double size = bt__norm (r->drag), ks = most / fmax (size, r->slip), kt = (1 + DAMPING) * ks;
+  double size = bt__norm (r->drag), ks = grip_of (r, r->load, size), kt = (1 + DAMPING) * ks;
   int slides = size > r->slip;
   bt_vec3 d = slides ? bt__scale (1 / size, r->drag) : bt__vec (0, 0, 0);
   r->force = bt__axpy (bt__scale (-kn * gap, r->normal), -ks, r->drag);
@@ -121,6 +131,45 @@ assemble_row (bt__dynamic_work *w, bt__dynamic_row *r, bt__mode mode)
   if (r->roll > 0)
     add_roll (w, r);
   return active != was && fabs (gap) > w->tolerance;
+}
+
+/* ---- The force of rows on a node ---- */
+
+/* The share of node I in a place at S between NODE and the next.  */
+static double
+share_at (int64_t node, double s, int64_t i)
+{
+  return i == node ? 1 - s : i == node + 1 ? s : 0;
+}
+
+/* The force of R at the solution.  A step that was cut short may have left the place of R far above
+   the half-space: an active row pulls by no more than the tolerance of settled loads.  */
+static bt_vec3
+force_of (const bt__dynamic_work *w, const bt__dynamic_row *r)
+{
+  bt_vec3 drag = drag_of (w, r);
+  double load = r->active > 0 ? fmax (-r->stiffness * gap_of (r, w->X), -LOAD) : 0;
+  return bt__axpy (bt__scale (load, r->normal), -grip_of (r, r->load, bt__norm (drag)), drag);
+}
+
+bt_vec3
+bt__dynamic_contact_on (const bt__dynamic_work *w, int i)
+{
+  bt_vec3 sum = { 0, 0, 0 };
+  for (int k = 0; k < w->rows; k++)
+    {
+      const bt__dynamic_row *r = w->row + k;
+      double share = share_at (r->node, r->s, i);
+      int64_t next = r->node + 1;
+      if (r->pair > 0)
+        share -= share_at (r->pair - 1, r->t, i);
+      if (share != 0)
+        sum = bt__axpy (sum, share, force_of (w, r));
+      if (r->roll > 0 && r->load > 0 && (i == r->node || i == next))
+        sum = bt__axpy (sum, (i == next ? 1 : -1) * r->load * shift_of (r, tilt_of (w, r)),
+                        r->normal);
+    }
+  return sum;
 }
 
 /* ---- Held ends ---- */

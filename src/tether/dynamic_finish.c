@@ -212,8 +212,8 @@ is_fast (const bt__dynamic_work *w, int k)
   return !end->free || end->gripped || end->body.mass > 0 || (w->hold && w->hold[k].on);
 }
 
-/* What holds an end bears the loads on half an interval too, which the tensions of the intervals
-   lack.  A free end pulls at nothing.  */
+/* The holder of an end bears the whole equation of the end node (dynamic_ends.c), more than the
+   tension of the last interval.  A free end pulls at nothing.  */
 static void
 commit_ends (bt__dynamic *d, const bt__dynamic_work *w, const bt_vec3 *pull,
              bt__dynamic_report *report)

@@ -171,11 +171,37 @@ int bt__dynamic_assemble (bt__dynamic_work *w, bt__mode mode);
 /* The incremental potential of which the right-hand side in SAFE mode is minus the gradient, J.  */
 double bt__dynamic_potential (const bt__dynamic_work *w);
 
+/* The resistance of interval J to a change of length in a step, N/m, see prepare_links.  */
+static inline double
+bt__dynamic_slack (const bt__dynamic_work *w, int j)
+{
+  return fmin (w->soft * w->link[j].ka, w->inertia * w->link[j].rest);
+}
+
+/* Lumps: the motion of node I and of the water past the node; the force, N, of E at node I; add
+   SHARE of LUMP to E.  */
+typedef struct bt__past
+{
+  bt_vec3 v, rel; /* m/s */
+  double speed;   /* m/s, of REL */
+} bt__past;
+
+bt__past bt__dynamic_past (const bt__dynamic_work *w, int i);
+bt_vec3 bt__dynamic_lump_force (const bt__dynamic_work *w, int i, const bt__extra *e,
+                                const bt__past *p);
+void bt__dynamic_lump_add (const bt__dynamic_work *w, bt__extra *e, const bt__dynamic_lump *lump,
+                           double share);
+
 /* Drag, weight, inertia and lost buoyancy of the line about node I, N.  */
 bt_vec3 bt__dynamic_node_load (bt__dynamic_work *w, int i);
 
-/* Force of the line on end K (0, 1), N.  */
+/* Force of the line on end K (0, 1), N: the sum of all forces on the end node but the holder's
+   (dynamic_ends.c).  */
 bt_vec3 bt__dynamic_end_pull (bt__dynamic_work *w, int k);
+
+/* The forces of the rows of bending, and of the caller's half-spaces, on node I, N.  */
+bt_vec3 bt__dynamic_bend_on (const bt__dynamic_work *w, int i);
+bt_vec3 bt__dynamic_contact_on (const bt__dynamic_work *w, int i);
 
 /* Solve for the update D; return its largest, infinity if any is not finite.  */
 double bt__dynamic_solve (bt__dynamic_work *w);
@@ -202,7 +228,7 @@ void bt__dynamic_lengthen (bt__dynamic_work *w, int64_t j, double more);
 /* The surface: note what is near to it, and how much is wet; add its forces and blocks at the
    iterate X; their potential.  */
 void bt__dynamic_surface_prepare (bt__dynamic_work *w);
-double bt__dynamic_surface_load (const bt__dynamic_work *w, int i); /* N: of the line alone */
+double bt__dynamic_out_of_water (const bt__dynamic_work *w, int i); /* the share at node I */
 void bt__dynamic_surface_force (bt__dynamic_work *w);
 double bt__dynamic_surface_potential (const bt__dynamic_work *w);
 

@@ -87,11 +87,10 @@ sample_current (bt__dynamic_work *w)
     w->node[i].current = same ? u : bt_water_velocity (water, w->X[i]);
 }
 
-/* Add SHARE of LUMP to node I.  */
-static void
-lump_at (bt__dynamic_work *w, int i, const bt__dynamic_lump *lump, double share)
+void
+bt__dynamic_lump_add (const bt__dynamic_work *w, bt__extra *e, const bt__dynamic_lump *lump,
+                      double share)
 {
-  bt__extra *e = w->extra + i;
   e->mass += share * (lump->mass + lump->added);
   e->weight += share * lump->wet_weight;
   e->lift += share * (lump->mass * w->in->water->gravity - lump->wet_weight);
@@ -108,8 +107,8 @@ lump_between (bt__dynamic_work *w, const bt__dynamic_lump *lump, double u, doubl
   while (j > 0 && u > w->link[j].rest)
     u -= w->link[j--].rest;
   double at = fmin (fmax (u / w->link[j].rest, 0), 1);
-  lump_at (w, j, lump, share * at);
-  lump_at (w, j + 1, lump, share * (1 - at));
+  bt__dynamic_lump_add (w, w->extra + j, lump, share * at);
+  bt__dynamic_lump_add (w, w->extra + j + 1, lump, share * (1 - at));
 }
 
 /* Water that is accelerated pushes on what it displaces, any way, for the tension is the effective
@@ -144,7 +143,7 @@ prepare_lumps (bt__dynamic_work *w)
   memset (w->extra, 0, (size_t)(w->n + 1) * sizeof *w->extra);
   for (int k = 0; k < 2; k++)
     if (in->end[k].free)
-      lump_at (w, k ? w->n : 0, &in->end[k].body, 1);
+      bt__dynamic_lump_add (w, w->extra + (k ? w->n : 0), &in->end[k].body, 1);
   for (int k = 0; k < in->n_lumps; k++)
     {
       const bt__dynamic_lump *lump = in->lumps + k;

@@ -54,10 +54,9 @@ bt__dynamic_surface_prepare (bt__dynamic_work *w)
 }
 
 double
-bt__dynamic_surface_load (const bt__dynamic_work *w, int i)
+bt__dynamic_out_of_water (const bt__dynamic_work *w, int i)
 {
-  const bt__node *k = w->node + i;
-  return w->surfaced ? w->lift * k->cell * out_of_water (rise (w->X[i].z, k->level)) : 0;
+  return w->surfaced ? out_of_water (rise (w->X[i].z, w->node[i].level)) : 0;
 }
 
 static double

@@ -142,7 +142,7 @@ largest_tension (const bt__dynamic *chain)
   return most;
 }
 
-/* The ends of a moving line bear the loads on half an interval more than its intervals do.  */
+/* The ends of a moving line bear the loads of half an interval more than the last tension.  */
 double
 bt__line_tension_max (const bt__line *line)
 {

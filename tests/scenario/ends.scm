@@ -296,3 +296,50 @@ and however it comes: it does not tremble, and the end of its line is pressed on
   (let-values (((back load) (restless 2)))
     (expect back is (below 1e-3))
     (expect load is (below 160))))
+;;; ---- The forces at both ends balance what acts between them. ----
+
+(define (imbalance load)
+  ;; How far what anchor and vehicle pull with is from holding a line at rest under LOAD in all.
+  (abs (- (anchor-tension) (norm (vec- load (tether-force))))))
+
+(define (metre-by-metre length of)
+  ;; The sum of OF over a line of LENGTH: the force on a metre whose tangent is given.
+  (let* ((n 1000) (ds (/ length n)))
+    (fold (lambda (k sum) (vec+ sum (vec* ds (of (tangent-at (* ds (+ k 1/2)))))))
+          (vec 0 0 0) (iota n))))
+
+(define (wet-weight-of-steel mass)
+  (* mass 9.80665 (- 1 (/ 1025 7850))))
+
+(define-scenario (a-clump-anywhere at bending)
+  "A clump weighs on what holds the line wherever it is fastened, also within the last interval and at the
+very ends."
+  #:for ((at 0 0.1 12 24.5 24.75 24.9 24.99 25) (bending 0 0.5))
+  (enter! (world (sea (depth 200))
+                 (rov (named r1) (at 20 0 -10))
+                 (tether (named t1) (from 0 0 -10) (to r1) (length 25) (wet-weight 0.2) (ei bending)
+                         (model dynamic) (clump (at at) (mass 10)))))
+  (settle! #:within 1e-4 #:at-most 300)
+  (expect (imbalance (vec 0 0 (- (+ (* 25 0.2) (wet-weight-of-steel 10))))) is (below 0.05))
+  (expect (>= (max-tension) (max (anchor-tension) (rov-tension))))
+  (when (>= at 24.5)
+    (expect (- (z (tether-force))) is (between 87.5 88))))
+
+(define-scenario (models-at-rest model weight speed)
+  "The same of the models that find the equilibrium: weight and drag, added up along the shape."
+  #:for ((model 'elastic 'steady) (weight -0.3 0 0.4) (speed 0 0.5))
+  (define current (vec speed 0 0))
+  (define (on-a-metre tangent)
+    (let* ((along (fold + 0 (map * (array->list current) (array->list tangent))))
+           (across (vec- current (vec* along tangent))))
+      (vec+ (vec 0 0 (- weight))
+            (vec+ (vec* (* 1/2 1025 1.2 0.01 (norm across)) across)
+                  (vec* (* 1/2 1025 0.02 (acos -1) 0.01 (abs along) along) tangent)))))
+  (enter! (world (sea (depth 200) (current speed 90))
+                 (rov (named r1) (at 0 30 -30))
+                 (tether (named t1) (from 0 0 -10) (to r1) (length 42) (wet-weight weight) (diameter 0.01)
+                         (cdn 1.2) (cdt 0.02) (ea 1e5) (model ,model))))
+  (expect (imbalance (if (eq? model 'steady) ; the other knows no current
+                         (metre-by-metre 42 on-a-metre)
+                         (vec 0 0 (* -42 weight))))
+          is (below 1e-4)))
