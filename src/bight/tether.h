@@ -65,6 +65,7 @@ typedef struct bt_tether_props
   double ei;                   /* N m2 */
   double gj;                   /* N m2 */
   double ba;                   /* internal damping, N s */
+  double bending_damping;      /* N m2 s: of a change of curvature */
   double cdn, cdt, ca;         /* drag on D, on pi D; added mass per displaced mass */
   double friction;             /* Coulomb */
   double breaking_load;        /* N */

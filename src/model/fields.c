@@ -178,6 +178,8 @@ static const bt_field tether_fields[] = {
   PROP (ei, "ei", "N m2", 0, 0, 1e9, 0, NULL, "bending stiffness"),
   PROP (gj, "gj", "N m2", 0, 0, 1e9, 0, NULL, "torsional stiffness"),
   PROP (ba, "ba", "N s", 20, 0, 1e9, 0, NULL, "internal damping"),
+  PROP (bending_damping, "bending-damping", "N m2 s", 0, 0, 1e9, 0, NULL,
+        "internal damping of bending, of the moving line"),
   PROP (cdn, "cdn", "", 1.2, 0, 20, 0, NULL, "normal drag coefficient, on the diameter"),
   PROP (cdt, "cdt", "", 0.01, 0, 5, 0, NULL, "tangential drag coefficient, on the circumference"),
   PROP (ca, "ca", "", 1, 0, 10, 0, NULL, "normal added mass per displaced mass"),

@@ -93,7 +93,8 @@ check_input (const bt__dynamic *d, const bt__dynamic_work *w, const bt__dynamic_
   if (!(in->h > 0 && isfinite (in->h)))
     return bt__fail (error, BT_ERR_DOMAIN, "a step of %g s; it must be positive and finite", in->h);
   if (!(p->mass > 0 && isfinite (p->mass) && p->ea > 0 && p->ei >= 0 && isfinite (p->ei)
-        && p->ba >= 0 && isfinite (p->ba) && p->diameter >= 0 && isfinite (p->diameter)
+        && p->ba >= 0 && isfinite (p->ba) && p->bending_damping >= 0
+        && isfinite (p->bending_damping) && p->diameter >= 0 && isfinite (p->diameter)
         && isfinite (p->wet_weight) && p->cdn >= 0 && p->cdt >= 0 && p->ca >= 0))
     return bt__fail (
         error, BT_ERR_DOMAIN,

@@ -175,7 +175,8 @@ typedef struct bt__dynamic_mesh
 
 typedef struct bt__dynamic_input
 {
-  const bt_tether_props *line; /* diameter, mass, wet_weight, ea, ei, ba, cdn, cdt, ca */
+  const bt_tether_props *line; /* diameter, mass, wet_weight, ea, ei, ba,
+                                  bending_damping, cdn, cdt, ca */
   const bt_water *water;       /* TIME at the end of the step; density 0: no water */
   bt__dynamic_end end[2];
   const bt__dynamic_lump *lumps;

@@ -11,6 +11,11 @@
    thrust beside its tension, and goes slack only below it; the thrust is held while a step is
    solved.
 
+   Damping of bending adds D dw/dt / cell to the moment of a node.  The backward difference of w is
+   linear in the positions, so a damped row is a row again: stiffer by D b0, about another turn.
+   Any D is stable.  The half cell at a clamp has no damping: the rate at which the clamp's
+   direction turns is not given.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <string.h>
@@ -65,13 +70,38 @@ stiffer_by_thrust (const bt__dynamic_work *w, int i)
   return 1 + 2 * BT__THRUST * far / w->node[i].cell;
 }
 
+/* The turn of ROW with places or velocities P in place of X, not counting D.  */
+static inline bt_vec3
+bend_sum (const bt__bend *row, const bt_vec3 *p)
+{
+  bt_vec3 sum = { 0, 0, 0 };
+  for (int k = 0; k < row->count; k++)
+    sum = bt__axpy (sum, row->c[k], bt__sub (p[k], p[0]));
+  return sum;
+}
+
+/* ROW with a DAMPING of its turn, N m s.  */
+static bt__bend
+damped (const bt__dynamic_work *w, bt__bend row, double damping)
+{
+  bt_vec3 v0[3];
+  for (int p = 0; p < row.count; p++)
+    v0[p] = w->node[row.first + p].v0;
+  double k = row.k + w->b0 * damping;
+  bt_vec3 still = bt__axpy (bt__scale (w->b0, bend_sum (&row, w->x + row.first)), -1,
+                            bend_sum (&row, v0)); /* b0 times the turn that does not change */
+  row.d = bt__scale (1 / k, bt__axpy (bt__scale (row.k, row.d), damping, still));
+  row.k = k;
+  return row;
+}
+
 void
 bt__dynamic_bend_prepare (bt__dynamic_work *w)
 {
-  double ei = w->in->line->ei;
+  double ei = w->in->line->ei, damping = w->in->line->bending_damping;
   size_t size = (size_t)(w->n + 1) * sizeof (double);
   w->bends = 0;
-  if (!(ei > 0))
+  if (!(ei > 0 || damping > 0))
     return;
   bt__dynamic_bend_thrust (w);
   memset (w->bend_diag, 0, size);
@@ -81,7 +111,8 @@ bt__dynamic_bend_prepare (bt__dynamic_work *w)
     {
       double q = 1 / w->link[i - 1].rest, p = 1 / w->link[i].rest;
       double k = stiffer_by_thrust (w, i) * ei / w->node[i].cell;
-      add_bend (w, (bt__bend){ i - 1, 3, k, { q, -(p + q), p }, { 0, 0, 0 } });
+      bt__bend row = { i - 1, 3, k, { q, -(p + q), p }, { 0, 0, 0 } };
+      add_bend (w, damping > 0 ? damped (w, row, damping / w->node[i].cell) : row);
     }
   add_clamp (w, 0, ei);
   add_clamp (w, 1, ei);

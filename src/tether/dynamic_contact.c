@@ -137,7 +137,7 @@ assemble_row (bt__dynamic_work *w, bt__dynamic_row *r, bt__mode mode)
 
 /* The share of node I in a place at S between NODE and the next.  */
 static double
-share_at (int64_t node, double s, int64_t i)
+node_share (int64_t node, double s, int64_t i)
 {
   return i == node ? 1 - s : i == node + 1 ? s : 0;
 }
@@ -145,7 +145,7 @@ share_at (int64_t node, double s, int64_t i)
 /* The force of R at the solution.  A step that was cut short may have left the place of R far above
    the half-space: an active row pulls by no more than the tolerance of settled loads.  */
 static bt_vec3
-force_of (const bt__dynamic_work *w, const bt__dynamic_row *r)
+row_press (const bt__dynamic_work *w, const bt__dynamic_row *r)
 {
   bt_vec3 drag = drag_of (w, r);
   double load = r->active > 0 ? fmax (-r->stiffness * gap_of (r, w->X), -LOAD) : 0;
@@ -159,12 +159,12 @@ bt__dynamic_contact_on (const bt__dynamic_work *w, int i)
   for (int k = 0; k < w->rows; k++)
     {
       const bt__dynamic_row *r = w->row + k;
-      double share = share_at (r->node, r->s, i);
+      double share = node_share (r->node, r->s, i);
       int64_t next = r->node + 1;
       if (r->pair > 0)
-        share -= share_at (r->pair - 1, r->t, i);
+        share -= node_share (r->pair - 1, r->t, i);
       if (share != 0)
-        sum = bt__axpy (sum, share, force_of (w, r));
+        sum = bt__axpy (sum, share, row_press (w, r));
       if (r->roll > 0 && r->load > 0 && (i == r->node || i == next))
         sum = bt__axpy (sum, (i == next ? 1 : -1) * r->load * shift_of (r, tilt_of (w, r)),
                         r->normal);
