@@ -24,23 +24,32 @@ typedef struct tether_type
 #define ADDED_MASS 1.0
 #define FRICTION 0.3
 
+/* Every text says where the figures come from: published by the maker, measured, fitted to a
+   measurement, or assumed.  No source tells a bending stiffness or a bending damping.  */
+#define UNBENT " No figure of bending: ei and bending-damping are 0."
+
 static const tether_type types[] = {
   { "fathom",
-    "Blue Robotics Fathom R2: 7.6 mm, floats a little in the sea; stiffness, friction, bend "
-    "estimates.",
+    "Blue Robotics Fathom R2, floats a little in the sea. Published (docs.bluerobotics.com): "
+    "diameter, mass, breaking load. Assumed: ea, min-bend-radius, drag, friction." UNBENT,
     0.0076, 0.043, NAN, 1e5, 1557, 0.05, 1.2 },
-  { "fathom-slim", "Blue Robotics Fathom Slim: 4 mm, one pair; all but the diameter estimates.",
+  { "fathom-slim",
+    "Blue Robotics Fathom Slim, one pair. Published: diameter. Assumed: all the rest." UNBENT,
     0.004, 0.014, NAN, 5e4, 785, 0.03, 1.2 },
-  { "falcon", "Seaeye Falcon umbilical: 14.5 mm, neutral; estimates throughout.", 0.0145, NAN, 0,
+  { "falcon", "Like a Seaeye Falcon umbilical, neutral. Assumed: all of it." UNBENT, 0.0145, NAN, 0,
     2e5, 5000, 0.1, 1.2 },
-  { "cat5e", "Direct-burial network cable: 0.0285 N/m weighed in the sea; the rest estimates.",
+  { "cat5e",
+    "Direct-burial network cable. Measured: the weight of 200 ft in the sea "
+    "(submarineboat.com). Assumed: all the rest." UNBENT,
     0.006, NAN, 0.0285, 5e4, 200, 0.04, 1.2 },
   { "work-umbilical",
-    "Armoured umbilical of a work-class vehicle: 30 mm, 2.5 kg/m; estimates from typical ranges.",
+    "Like the armoured umbilical of a work-class vehicle. Assumed, from typical ranges: all of "
+    "it." UNBENT,
     0.030, 2.5, NAN, 1e7, 250000, 0.5, 1.5 },
   { "leaded-rope",
-    "Leaded rope, cable 6 of the Toulon experiments (Filliung 2024), fitted; strength, stiffness "
-    "estimates.",
+    "Leaded rope, cable 6 of the Toulon experiments (Filliung 2024). Measured: diameter, mass, "
+    "wet-weight. Fitted to a run: cdn. Assumed: ea, breaking-load, min-bend-radius, "
+    "friction." UNBENT,
     0.0035, 0.0517, 0.40, 5e4, 1000, 0.02, 1.3 },
 };
 

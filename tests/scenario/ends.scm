@@ -296,6 +296,17 @@ and however it comes: it does not tremble, and the end of its line is pressed on
   (let-values (((back load) (restless 2)))
     (expect back is (below 1e-3))
     (expect load is (below 160))))
+(define-scenario (a-held-vehicle-stays ea weight)
+  "A vehicle that pulls harder than its line stays where it is while the line touches something."
+  #:for ((ea 1e5 1e7) (weight 100 1500))
+  (enter! (world (sea (depth 35))
+                 (seabed)
+                 (rov (named r1) (at 10 0 -20) (pull 1e6))
+                 (tether (named t1) (from -12 0 -10) (to r1) (length 60) (wet-weight weight) (ea ea)
+                         (model dynamic))))
+  (always (< (distance (rov-position) '(10 0 -20)) 1e-6) (run 10))
+  (expect (rov-tension) is (above (* 13 weight))))
+
 ;;; ---- The forces at both ends balance what acts between them. ----
 
 (define (imbalance load)

@@ -480,6 +480,15 @@
   (expect (check-field 'alter! 'tether 'nodes 2.5) raises domain)
   (expect (check-field 'alter! 'tether 'size 3) raises name))
 
+(define-scenario (where-the-figures-of-a-tether-come-from type)
+  "Each type of tether that is built in says which of its figures are measured, published or assumed, bending
+included."
+  #:for ((type 'fathom 'fathom-slim 'cat5e 'work-umbilical 'leaded-rope))
+  (define sentence (description-sentence (describe type)))
+  (expect (any (lambda (word) (string-contains sentence word)) '("Published" "Measured" "all of it")))
+  (expect (string-contains sentence "bending-damping"))
+  (expect (string-contains sentence "Assumed")))
+
 (define-scenario descriptions
   "Kinds of parts, types, worlds and their parts describe themselves from the same table."
   (expect (length (description-rows (describe 'tether))) => (length (head-names 'tether)))
