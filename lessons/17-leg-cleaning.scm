@@ -26,6 +26,7 @@ leg while the jet shakes you is a tether that is sawn.  Choose which leg first, 
   (probe "The jet is on, the leg is half clean, and the tide turns.  What then?" 'move-off
          #:choices (finish-first move-off ask-for-slack))
   (task "Clean both legs: half a minute in all within 1.2 m of (-7.6 -6 -9), and half a minute of (7.6 -6 -9)."
+        (target "west leg" '(-7.6 -6 -9)) (target "east leg" '(7.6 -6 -9))
         (done-when (and (note-work!) (>= (counter 'west) 30) (>= (counter 'east) 30)))
         (hint-after 40 "The face that the water leaves: what it carries off the leg, it carries off your tether too.")
         (hint-after 170 "By now stand off to the south, and wait out the turn there: (0 -13 -9).")
@@ -33,6 +34,7 @@ leg while the jet shakes you is a tether that is sawn.  Choose which leg first, 
         (fail-when (parted?) "The tether has parted.")
         (at-most 400))
   (task "Home to the boat: to within 1.5 m of (0 -13 -9), the tether clear of both legs."
+        (target "boat" '(0 -13 -9))
         (done-when (and (< (range-to '(0 -13 -9)) 1.5) (null? (contacts))))
         (hint-after 40 "Away from the leg first, south, and then across.")
         (fail-when (parted?) "The tether has parted.")

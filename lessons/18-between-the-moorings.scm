@@ -15,6 +15,7 @@ difference to you, and all the difference to your tether: by what side of a line
   (probe "You go to the hole over mooring 5, well out from the pen.  How do you come home?"
          'above-it #:choices (above-it under-it round-the-pen))
   (task "To the hole in the net: to within a metre of (-10.6 -4.4 -6), and look for eight seconds."
+        (target "hole" '(-10.6 -4.4 -6))
         (done-when (< (range-to '(-10.6 -4.4 -6)) 1))
         (held-for 8)
         (hint-after 40 "Over mooring 5 well out from the pen, where it is deep: (-18 -12 -5), then (-15 -6 -6).")
@@ -23,6 +24,7 @@ difference to you, and all the difference to your tether: by what side of a line
   (probe "Which mooring does your tether cross on its way home?" 'mooring-5
          #:choices (mooring-4 mooring-5 mooring-6))
   (task "Home to within 1.5 m of (-8 -16 -5), your tether off every mooring."
+        (target "home" '(-8 -16 -5))
         (done-when (and (< (range-to '(-8 -16 -5)) 1.5) (< (excess) 0.5) (< (tether-length) 18)))
         (hint-after 50 "Back over mooring 5, where you came, and only then east to the boat.")
         (hint-after 120 "Held?  (contacts) tells by what.  Go back round it the way you came; do not pull.")

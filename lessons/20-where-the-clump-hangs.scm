@@ -25,6 +25,7 @@ stands up to 54 m.  Too high, and you drag the sail yourself.  Too low, and your
             (else (manifold-with 47 22))))
   (show)
   (task "To the valve: within 1.2 m of (0 16 -53), and look at it for ten seconds."
+        (target "valve" '(0 16 -53))
         (done-when (< (range-to '(0 16 -53)) 1.2))
         (held-for 10)
         (hint-after 30 "Over the manifold at 51 m, then down to the valve.  Mind that the clump stays above 54 m.")
@@ -33,6 +34,7 @@ stands up to 54 m.  Too high, and you drag the sail yourself.  Too low, and your
   (probe "Where does your tether leave you to?  Its bearing, five metres from you."
          (bearing-to (point-at (- (tether-length) 5))) #:within 25)
   (task "Back to below the ship: within 2 m of (2 3 -48)."
+        (target "below the ship" '(2 3 -48))
         (done-when (< (range-to '(2 3 -48)) 2))
         (hint-after 40 "Up first: your tether goes over the manifold, and so do you.")
         (fail-when (parted?) "The tether has parted.")

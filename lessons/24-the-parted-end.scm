@@ -39,6 +39,7 @@ down-current.")
         (fail-when (parted?) "Your own tether has parted.")
         (at-most 300))
   (task "With the position noted, home: within 1.5 m of (2 -14 -9), your tether free of everything."
+        (target "home" '(2 -14 -9))
         (done-when (and (< (range-to '(2 -14 -9)) 1.5) (< (excess) 0.4)))
         (hint-after 40 "East first, away from it, then south, then home.")
         (fail-when (parted?) "Your own tether has parted.")

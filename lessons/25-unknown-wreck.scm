@@ -14,12 +14,14 @@ that you have not seen.  Two halves, each out and back by the same side, cost te
   (probe "West and north are seen.  You are off the bow: how do you come to the east side?" 'back-and-round-the-south
          #:choices (on-round-the-bow back-and-round-the-south over-her))
   (task "See it from all four sides, and come back to within 2 m of (-10 -14 -16)."
+        (target "back" '(-10 -14 -16))
         (done-when (and (all-seen?) (< (range-to '(-10 -14 -16)) 2)))
         (hint-after 40 "West, then north; then back along her west side and by the south to her east side.")
         (hint-after 200 "Seen: west, north, south, east?  The rest of the way home is the way you came.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 420))
   (task "Hand over: the tether free to haul, and no turn in it, within 2 m of (-10 -14 -16)."
+        (target "hand over" '(-10 -14 -16))
         (done-when (and (< (range-to '(-10 -14 -16)) 2) (< (excess) 0.5) (< (abs (net-turns)) 0.5)))
         (held-for 3)
         (hint-after 20 "Excess tether means that it lies round something; turns are taken off against them.")

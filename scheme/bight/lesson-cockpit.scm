@@ -52,6 +52,15 @@
 (define (hard?)
   (and (current-session) (eq? 'hard (session-level (current-session)))))
 
+(define (from-above-alone?)
+  (and (current-session) (eq? 'plan (display-allowed))))
+
+(define (one-view)
+  ;; The one view that the lesson lets its pupil fly by; #f: any.
+  (cond ((from-above-alone?) 'top)
+        ((hard?) 'pilot)
+        (else #f)))
+
 (define (hidden-in-lesson? verb)
   (and (current-session) (hidden? verb)))
 
@@ -99,8 +108,12 @@ characters for a picture."
 (define (view-key-here! key)
   ;; Change how things look as far as the level lets a pupil.
   (let ((c (this-cockpit)))
-    (if (and (hard?) (memv key '(#\v #\1 #\2 #\3 #\4 #\5 #\z)))
-        (begin (tell! c "at this level you see what the camera sees") #t)
+    (if (or (and (one-view) (memv key '(#\v #\1 #\2 #\3 #\4 #\5))) (and (hard?) (eqv? key #\z)))
+        (begin
+          (tell! c (if (from-above-alone?)
+                       "you fly by the view from above alone"
+                       "at this level you see what the camera sees"))
+          #t)
         (view-key! c key))))
 
 (define (draw-still lines last-line)
@@ -211,7 +224,7 @@ characters for a picture."
       (unless (replaying?)
         (board! (this-cockpit) (how-dive how))
         (parameterize ((current-dive (how-dive how)))
-          (with-look 'overview
+          (with-look (if (from-above-alone?) 'top 'overview)
                      (append (labels-now) (if (how-bearings how) (bearing-labels (how-bearings how)) '()))
                      (lambda ()
                        (show-page! (append (reverse (how-verdict how)) '("So it was."))
@@ -255,7 +268,7 @@ characters for a picture."
       (set-pending! seat #f)            ; this picture tells it
       (set-texts! seat '())
       (if (eq? thunk look)
-          (with-look (if (hard?) 'pilot 'overview) (labels-now)
+          (with-look (or (one-view) 'overview) (labels-now)
                      (lambda ()
                        (show-page! (in-order texts) "Enter goes on   v other views   q leaves"))
                      #:map? (not (hard?)))
@@ -531,7 +544,7 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
 
 (define (take-seat! c)
   (keep-up!)
-  (set-view! c (if (hard?) 'pilot (seat-view (the-seat))))
+  (set-view! c (or (one-view) (seat-view (the-seat))))
   (set-map! c (not (hard?)))
   (set-sticks! c (new-sticks))
   (set-sent! c (stick-values (new-sticks)))
@@ -554,7 +567,7 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
           (let loop ()
             (show-result! c (apply-input! (next-input ask)))
             (loop))))
-      (lambda () (set-seat-view! (the-seat) (if (hard?) 'chase (cockpit-view c)))))))
+      (lambda () (set-seat-view! (the-seat) (if (one-view) 'chase (cockpit-view c)))))))
 
 
 ;;; A task that failed.
