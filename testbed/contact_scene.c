@@ -238,14 +238,14 @@ rope_open (rope *p, reef *r, int n, const bt_vec3 *shape, int m, double length, 
   p->d = calloc (1, bt__dynamic_size (n + SPARE));
   p->work = bt__dynamic_work_new (n + SPARE);
   p->contact = bt__line_work_new (n + SPARE, 1);
-  p->anchors = malloc (bt__anchors_size (REEF_ANCHORS));
+  p->anchors = malloc (bt__contacts_size (REEF_ANCHORS));
   p->before = malloc ((size_t)(n + 1 + SPARE) * sizeof *p->before);
   p->after = malloc ((size_t)(n + 2 + SPARE) * sizeof *p->after);
   p->room = n + 1 + SPARE;
   p->shown = malloc (ROPE_PARTS * (size_t)p->room * sizeof *p->shown);
   if (!p->after || !p->shown || !p->d || !p->work || !p->contact || !p->anchors || !p->before)
     return 0;
-  bt__anchors_init (p->anchors, REEF_ANCHORS);
+  bt__contacts_init (p->anchors, REEF_ANCHORS);
   p->water = (bt_water){ 1025, 9.81, 1000, 0, NULL, NULL, NULL, NULL };
   p->config = (bt__line_config){
     .radius = 0.005, .core = bt__core (0.01), .friction = mu, .pull = { INFINITY, 150 }

@@ -94,7 +94,7 @@ typedef struct rope
   bt__dynamic *d;
   bt__dynamic_work *work;
   bt__line_work *contact;
-  bt__anchors *anchors;
+  bt__contacts *anchors;
   bt__dynamic_report report;
   bt__line_report touch;
   bt__count count;

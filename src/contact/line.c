@@ -102,7 +102,7 @@ prepare (bt__line_job *k)
   for (int j = k->links - 1; j >= 0; j--)
     w->from_end[j] = w->from_end[j + 1] + rest[j];
   k->olds = k->anchors->n < w->rows_max ? (int)k->anchors->n : w->rows_max;
-  memcpy (w->old, bt__anchors_at (k->anchors), (size_t)k->olds * sizeof *w->old);
+  memcpy (w->old, bt__contacts_at (k->anchors), (size_t)k->olds * sizeof *w->old);
   memset (w->restart, 0, (size_t)k->links + 1);
 }
 
@@ -196,7 +196,7 @@ mark_fresh (bt__line_job *k)
 {
   for (int i = 0; i < k->rows; i++)
     {
-      const bt__dynamic_row *r = k->w->row + i;
+      const bt__constraint *r = k->w->row + i;
       if (!k->w->of[i].fresh || !(r->load > 0))
         continue;
       k->w->restart[r->node] = k->w->restart[r->node + 1] = 1;
@@ -319,7 +319,7 @@ step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
 bt_status
 bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
                const bt__dynamic_input *input, const bt__surroundings *around,
-               const bt__line_config *config, bt__anchors *anchors, bt__dynamic_report *report,
+               const bt__line_config *config, bt__contacts *anchors, bt__dynamic_report *report,
                bt__line_report *line_report, bt__count *count, bt_error *error)
 {
   bt__line_job k = { .w = w,

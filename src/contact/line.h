@@ -5,7 +5,7 @@
    taken farther than the safe step allows: from a clear start no link's axis comes nearer than the
    core to an obstacle, standing or moving, whatever the solver gave.
 
-   What lasts from step to step is in the bt__dynamic and in the bt__anchors beside it: both flat,
+   What lasts from step to step is in the bt__dynamic and in the bt__contacts beside it: both flat,
    both copied with memcpy.  A workspace holds nothing that changes a result.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
@@ -21,7 +21,7 @@
 /* ---- What lasts ---- */
 
 /* A place of the line that touches an obstacle, or touched it in the last step.  */
-typedef struct bt__anchor
+typedef struct bt__contact
 {
   int64_t object;   /* the obstacle's id */
   int64_t triangle; /* its id on a mesh, or -1 */
@@ -50,8 +50,8 @@ typedef struct bt__anchor
   bt_vec3 after;    /* unit, across AXIS: of the next interval, if its other end is held at the same
                        member; else 0 */
   int64_t unsolved; /* steps on end that were not solved */
-  double other;     /* MOVER is BT__ANCHOR_LINE: m of rest length from the end of what it touches */
-} bt__anchor;
+  double other; /* MOVER is BT__CONTACT_LINE: m of rest length from the end of what it touches */
+} bt__contact;
 
 typedef enum bt__bent_kind
 {
@@ -62,27 +62,27 @@ typedef enum bt__bent_kind
 
 enum
 {
-  BT__ANCHOR_LINE = -2 /* for a mover: OBJECT is a line, this one or another */
+  BT__CONTACT_LINE = -2 /* for a mover: OBJECT is a line, this one or another */
 };
 
 /* The head of a flat block; N anchors follow, in order from node 0 to node n.  */
-typedef struct bt__anchors
+typedef struct bt__contacts
 {
   int64_t n, room;
-} bt__anchors;
+} bt__contacts;
 
 /* Return the bytes of a block with room for ROOM anchors, and of the part of ANCHORS in use.
    Room for four an interval is never too little; what finds no room is forgotten: it starts anew
    in the next step.  */
-size_t bt__anchors_size (int room);
-size_t bt__anchors_live (const bt__anchors *anchors);
-void bt__anchors_init (bt__anchors *anchors, int room);
-bt__anchor *bt__anchors_at (const bt__anchors *anchors);
+size_t bt__contacts_size (int room);
+size_t bt__contacts_live (const bt__contacts *anchors);
+void bt__contacts_init (bt__contacts *anchors, int room);
+bt__contact *bt__contacts_at (const bt__contacts *anchors);
 
-extern const bt__record bt__anchor_record, bt__anchors_record;
+extern const bt__record bt__contact_record, bt__contacts_record;
 
 /* Judge ANCHORS, which were allotted room for ROOM and come from outside.  */
-bt_status bt__anchors_judge (bt__judge *judge, const bt__anchors *anchors, int room);
+bt_status bt__contacts_judge (bt__judge *judge, const bt__contacts *anchors, int room);
 
 /* ---- A step ---- */
 
@@ -125,9 +125,9 @@ typedef struct bt__line_hook
 typedef struct bt__strand
 {
   const bt__dynamic *line;
-  const bt__anchors *anchors; /* of its last step, or NULL */
-  const bt__aabb *box;        /* that its nodes are in, or NULL: it is looked for */
-  int64_t id;                 /* as an object */
+  const bt__contacts *anchors; /* of its last step, or NULL */
+  const bt__aabb *box;         /* that its nodes are in, or NULL: it is looked for */
+  int64_t id;                  /* as an object */
   double radius, core, friction;
   double inertia; /* kg/m: mass and added mass */
   int yields;     /* true: it has its step yet to come, and will give way */
@@ -182,12 +182,12 @@ typedef struct bt__line_report
    they are nearer by themselves, but never do they pass through each other.  */
 bt_status bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *contact_work,
                          const bt__dynamic_input *input, const bt__surroundings *around,
-                         const bt__line_config *config, bt__anchors *anchors,
+                         const bt__line_config *config, bt__contacts *anchors,
                          bt__dynamic_report *report, bt__line_report *contact_report,
                          bt__count *count, bt_error *error);
 
 /* Fill OUT, of ROOM, with what touches: the anchors that bear load, in order from node 0.  Return
    how many there are.  S is in metres of arc length from node 0 as it lies.  */
-int bt__line_touches (const bt__dynamic *d, const bt__anchors *anchors, bt__touch *out, int room);
+int bt__line_touches (const bt__dynamic *d, const bt__contacts *anchors, bt__touch *out, int room);
 
 #endif

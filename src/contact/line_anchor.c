@@ -30,27 +30,27 @@
 /* ---- The block ---- */
 
 size_t
-bt__anchors_size (int room)
+bt__contacts_size (int room)
 {
-  return sizeof (bt__anchors) + (size_t)room * sizeof (bt__anchor);
+  return sizeof (bt__contacts) + (size_t)room * sizeof (bt__contact);
 }
 
 size_t
-bt__anchors_live (const bt__anchors *a)
+bt__contacts_live (const bt__contacts *a)
 {
-  return bt__anchors_size ((int)a->n);
+  return bt__contacts_size ((int)a->n);
 }
 
-bt__anchor *
-bt__anchors_at (const bt__anchors *a)
+bt__contact *
+bt__contacts_at (const bt__contacts *a)
 {
-  return (bt__anchor *)(a + 1);
+  return (bt__contact *)(a + 1);
 }
 
 void
-bt__anchors_init (bt__anchors *a, int room)
+bt__contacts_init (bt__contacts *a, int room)
 {
-  memset (a, 0, bt__anchors_size (room));
+  memset (a, 0, bt__contacts_size (room));
   a->room = room;
 }
 
@@ -109,7 +109,7 @@ bt__line_friction (const bt__line_job *k, int64_t id)
 static double
 coefficient (const bt__line_job *k, int i)
 {
-  const bt__dynamic_row *r = k->w->row + i;
+  const bt__constraint *r = k->w->row + i;
   const bt__line_row *of = k->w->of + i;
   if (of->mover == BT__LINE_SELF)
     return bt__self_friction (k, i);
@@ -141,7 +141,7 @@ bt__line_stiffness (const bt__line_job *k, int64_t i)
 static void
 harden (bt__line_job *k, int i)
 {
-  bt__dynamic_row *r = k->w->row + i;
+  bt__constraint *r = k->w->row + i;
   double stiff = bt__line_stiffness (k, r->node);
   r->stiffness = fmin (stiff * pow (HARDER, k->w->of[i].again), fmax (stiff, STIFFEST));
   bt__line_press (k, i);
@@ -154,7 +154,7 @@ harden (bt__line_job *k, int i)
 static double
 away_of (const bt__line_job *k, int i, int q, double reach)
 {
-  const bt__anchor *a = k->w->old + q;
+  const bt__contact *a = k->w->old + q;
   const bt__line_row *of = k->w->of + i;
   double alike = bt__dot (a->normal, k->w->row[i].normal);
   double away = fabs (a->from_end - of->from_end) + TURNED * reach * (1 - alike);
@@ -203,9 +203,9 @@ is_wanted (const bt__line_job *k, int i, int q, double least)
 }
 
 static void
-inherit (bt__line_job *k, int i, const bt__anchor *a)
+inherit (bt__line_job *k, int i, const bt__contact *a)
 {
-  bt__dynamic_row *r = k->w->row + i;
+  bt__constraint *r = k->w->row + i;
   if (!(r->stiffness > 0))
     {
       r->load = a->load;
@@ -245,7 +245,7 @@ bt__line_harden (bt__line_job *k)
 {
   for (int i = 0; i < k->rows; i++)
     {
-      bt__dynamic_row *r = k->w->row + i;
+      bt__constraint *r = k->w->row + i;
       if (r->stiffness > 0)
         continue;
       r->slip = BT__LINE_SLIP;
@@ -261,7 +261,7 @@ bt__line_harden (bt__line_job *k)
 
 /* The move of the line along the obstacle at row R.  */
 static bt_vec3
-slide_of (const bt__line_job *k, const bt__dynamic_row *r)
+slide_of (const bt__line_job *k, const bt__constraint *r)
 {
   bt_vec3 d = bt__self_move (k, r);
   return bt__axpy (d, -bt__dot (d, r->normal), r->normal);
@@ -270,15 +270,15 @@ slide_of (const bt__line_job *k, const bt__dynamic_row *r)
 /* What row R does to the line by its load, and by friction that is whole where it is dragged by
    SLIP: STICK.  (What it did in the last iteration is of the places before that.)  */
 static bt_vec3
-force_of (const bt__dynamic_row *r, bt_vec3 stick)
+force_of (const bt__constraint *r, bt_vec3 stick)
 {
   return bt__scale (r->load, bt__axpy (r->normal, -r->friction / r->slip, stick));
 }
 
-static bt__anchor
+static bt__contact
 anchor_of (const bt__line_job *k, int i)
 {
-  const bt__dynamic_row *r = k->w->row + i;
+  const bt__constraint *r = k->w->row + i;
   const bt__line_row *of = k->w->of + i;
   bt_vec3 slide = slide_of (k, r), stick = bt__add (r->stick, slide);
   double drag = bt__norm (stick), over = fmax (drag - r->slip, 0);
@@ -288,29 +288,29 @@ anchor_of (const bt__line_job *k, int i)
   int is_line = of->mover == BT__LINE_SELF;
   if (r->pair > 0) /* half of it goes into either side */
     work *= 0.5;
-  return (bt__anchor){ .object = of->id,
-                       .triangle
-                       = is_line || of->triangle == BT__NO_TRIANGLE ? -1 : (int64_t)of->triangle,
-                       .mover = is_line ? BT__ANCHOR_LINE : (int64_t)of->mover - 1,
-                       .other = of->other,
-                       .state = over > 0 ? BT__TOUCH_SLIDE : BT__TOUCH_STICK,
-                       .from_end = of->from_end,
-                       .load = r->load,
-                       .age = of->age,
-                       .work = of->work + work,
-                       .step_work = work,
-                       .speed = bt__norm (slide) / k->h,
-                       .point = of->point,
-                       .normal = r->normal,
-                       .force = force_of (r, stick),
-                       .stick = stick };
+  return (bt__contact){ .object = of->id,
+                        .triangle
+                        = is_line || of->triangle == BT__NO_TRIANGLE ? -1 : (int64_t)of->triangle,
+                        .mover = is_line ? BT__CONTACT_LINE : (int64_t)of->mover - 1,
+                        .other = of->other,
+                        .state = over > 0 ? BT__TOUCH_SLIDE : BT__TOUCH_STICK,
+                        .from_end = of->from_end,
+                        .load = r->load,
+                        .age = of->age,
+                        .work = of->work + work,
+                        .step_work = work,
+                        .speed = bt__norm (slide) / k->h,
+                        .point = of->point,
+                        .normal = r->normal,
+                        .force = force_of (r, stick),
+                        .stick = stick };
 }
 
 /* Put A where it belongs in the order of the line.  */
 static void
-insert (bt__line_job *k, const bt__anchor *a)
+insert (bt__line_job *k, const bt__contact *a)
 {
-  bt__anchor *at = k->w->old;
+  bt__contact *at = k->w->old;
   int i = k->olds++;
   for (; i > 0 && at[i - 1].from_end < a->from_end; i--)
     at[i] = at[i - 1];
@@ -318,7 +318,7 @@ insert (bt__line_job *k, const bt__anchor *a)
 }
 
 static void
-keep (bt__line_job *k, const bt__anchor *a)
+keep (bt__line_job *k, const bt__contact *a)
 {
   bt__line_report *report = k->report;
   insert (k, a);
@@ -337,7 +337,7 @@ keep_reactions (bt__line_job *k)
     {
       if (!(k->w->row[i].load > 0) || k->w->row[i].pair == 0)
         continue;
-      bt__anchor a = anchor_of (k, i);
+      bt__contact a = anchor_of (k, i);
       a = bt__self_reaction (k, i, &a);
       keep (k, &a);
     }
@@ -351,7 +351,7 @@ bt__line_keep (bt__line_job *k)
     {
       if (!(k->w->row[i].load > 0))
         continue;
-      bt__anchor a = anchor_of (k, i);
+      bt__contact a = anchor_of (k, i);
       keep (k, &a);
       k->report->meets += k->w->of[i].mover == BT__LINE_SELF;
     }
@@ -359,7 +359,7 @@ bt__line_keep (bt__line_job *k)
     {
       if (!bt__bend_bears (k, i))
         continue;
-      bt__anchor a = bt__line_bent_anchor (k, i);
+      bt__contact a = bt__line_bent_anchor (k, i);
       k->report->bends++;
       keep (k, &a);
     }
@@ -369,19 +369,19 @@ bt__line_keep (bt__line_job *k)
 void
 bt__line_store (bt__line_job *k)
 {
-  bt__anchors *to = k->anchors;
+  bt__contacts *to = k->anchors;
   to->n = k->olds < to->room ? k->olds : to->room;
-  memcpy (bt__anchors_at (to), k->w->old, (size_t)to->n * sizeof *k->w->old);
+  memcpy (bt__contacts_at (to), k->w->old, (size_t)to->n * sizeof *k->w->old);
 }
 
 /* ---- What is told ---- */
 
 int
-bt__line_touches (const bt__dynamic *d, const bt__anchors *anchors, bt__touch *out, int room)
+bt__line_touches (const bt__dynamic *d, const bt__contacts *anchors, bt__touch *out, int room)
 {
   const double *rest = bt__dynamic_rest (d);
   const bt_vec3 *x = bt__dynamic_x (d);
-  const bt__anchor *a = bt__anchors_at (anchors);
+  const bt__contact *a = bt__contacts_at (anchors);
   int n = anchors->n < room ? (int)anchors->n : room;
   double arc = 0, from_end = bt__dynamic_length (d);
   int64_t j = 0;

@@ -47,7 +47,7 @@ enum
 /* A node that was held in the last step and is still.  */
 typedef struct corner
 {
-  bt__anchor anchor;
+  bt__contact anchor;
   int node;
   bt__edge edge;
   bt__turn turn;
@@ -79,7 +79,7 @@ gather (bt__line_job *k, corners *s)
   s->n = 0;
   for (int q = 0; q < k->olds && s->n < BT__BENTS; q++)
     {
-      bt__anchor *a = k->w->old + q;
+      bt__contact *a = k->w->old + q;
       corner *c = s->at + s->n;
       c->node = a->bent ? bt__bend_node (k, a->from_end) : -1;
       if (c->node < 0 || !bt__edge_again (k, a, k->x[c->node], &c->edge))
@@ -321,7 +321,7 @@ hold (bt__line_job *k, const corners *s, int i)
                                        .side = c->anchor.side,
                                        .flow = c->anchor.flow * k->h,
                                        .load = c->anchor.load };
-  bt__anchor *a = k->w->bend + at;
+  bt__contact *a = k->w->bend + at;
   *a = c->anchor;
   a->held = c->place;
   a->away = c->away;
@@ -379,7 +379,7 @@ bt__line_is_bent_about (const bt__line_job *k, int q)
   const bt__line_row *of = k->w->of + q;
   for (int i = 0; i < k->bents; i++)
     {
-      const bt__anchor *a = k->w->bend + i;
+      const bt__contact *a = k->w->bend + i;
       int64_t node = k->w->bent[i].node;
       if ((int64_t)of->link != node && (int64_t)of->link != node - 1)
         continue;

@@ -20,7 +20,7 @@ typedef struct bt__edge
 int bt__edge_find (const bt__line_job *k, int64_t id, bt_vec3 p, bt__edge *e);
 
 /* The edge that A knows, as it is about P; zero if there is none.  */
-int bt__edge_again (const bt__line_job *k, const bt__anchor *a, bt_vec3 p, bt__edge *e);
+int bt__edge_again (const bt__line_job *k, const bt__contact *a, bt_vec3 p, bt__edge *e);
 
 /* True if the obstacle of row OF has no edges that count; cheap.  */
 int bt__edge_has_none (const bt__line_job *k, const bt__line_row *of);
@@ -73,7 +73,7 @@ bt__turn_normal (bt_vec3 axis, const bt_vec3 *p)
 /* True if nodes A and B, the next, are held at the same member, the interval between them along
    a tangent.  */
 static inline int
-bt__bend_goes_on (const bt__anchor *a, const bt__anchor *b)
+bt__bend_goes_on (const bt__contact *a, const bt__contact *b)
 {
   return a->bent == BT__BENT_ROUND && b->bent == BT__BENT_ROUND && a->object == b->object
          && bt__dot (a->after, a->after) > 0;
@@ -103,44 +103,44 @@ int bt__bend_bears (const bt__line_job *k, int i);
 /* ---- Nodes that come and go (line_rebend.c) ---- */
 
 /* The nodes held, in order, while nodes come and go; their anchors are not among the others.  */
-typedef struct bt__bends
+typedef struct bt__sliding
 {
   int n;
-  bt__anchor anchor[BT__BENTS];
+  bt__contact anchor[BT__BENTS];
   int64_t node[BT__BENTS];
-} bt__bends;
+} bt__sliding;
 
 /* line_bend_list.c: take them out of the anchors, or put them back in order; of row Q take the
    anchor out of these, to A, zero if it has none.  */
-void bt__bends_gather (bt__line_job *k, bt__bends *s);
-void bt__bends_scatter (bt__line_job *k, bt__bends *s);
-int bt__bends_take_anchor (bt__line_job *k, int q, bt__anchor *a);
+void bt__sliding_gather (bt__line_job *k, bt__sliding *s);
+void bt__sliding_scatter (bt__line_job *k, bt__sliding *s);
+int bt__sliding_take_anchor (bt__line_job *k, int q, bt__contact *a);
 
 /* True if node I is held; if bend Q and the next are of one member.  */
-int bt__bends_has (const bt__bends *s, int64_t i);
-int bt__bends_goes_on (const bt__bends *s, int q);
+int bt__sliding_has (const bt__sliding *s, int64_t i);
+int bt__sliding_goes_on (const bt__sliding *s, int q);
 
 /* Hold NODE too, as A says: return its place in the list; hold bend Q no more; the same, and let
    its node go.  */
-int bt__bends_add (bt__bends *s, const bt__anchor *a, int64_t node);
-void bt__bends_lose (bt__bends *s, int q);
-void bt__bends_drop (bt__line_job *k, bt__bends *s, int q);
+int bt__sliding_add (bt__sliding *s, const bt__contact *a, int64_t node);
+void bt__sliding_lose (bt__sliding *s, int q);
+void bt__sliding_drop (bt__line_job *k, bt__sliding *s, int q);
 
 /* Put a node at the share U of interval J's chord, see bt__dynamic_insert; node I was put in
    otherwise; take node I out if its links are clear on their way to the chord, or return zero.  */
-void bt__bends_put_in (bt__line_job *k, bt__bends *s, int64_t j, double u, int64_t from);
-void bt__bends_came (bt__line_job *k, bt__bends *s, int64_t i);
-int bt__bends_take_out (bt__line_job *k, bt__bends *s, int64_t i);
+void bt__sliding_put_in (bt__line_job *k, bt__sliding *s, int64_t j, double u, int64_t from);
+void bt__sliding_came (bt__line_job *k, bt__sliding *s, int64_t i);
+int bt__sliding_take_out (bt__line_job *k, bt__sliding *s, int64_t i);
 
 /* Node I goes on with the line; stays, but for along AXIS.  */
-void bt__bends_let_go (bt__line_job *k, int64_t i);
-void bt__bends_take_hold (bt__line_job *k, int64_t i, bt_vec3 axis);
+void bt__sliding_let_go (bt__line_job *k, int64_t i);
+void bt__sliding_take_hold (bt__line_job *k, int64_t i, bt_vec3 axis);
 
 /* Show the line to a hook that looks, see bt__line_hook.  */
-void bt__bends_show (const bt__line_job *k, int64_t i, int by);
+void bt__sliding_show (const bt__line_job *k, int64_t i, int by);
 
 /* The nodes have changed: where they are along the line.  */
-void bt__bends_measure (bt__line_job *k);
+void bt__sliding_measure (bt__line_job *k);
 
 /* Where a node is to be held: a row's edge, a node or -1 for a new one.  */
 typedef struct bt__bend_place
@@ -152,7 +152,7 @@ typedef struct bt__bend_place
 
 /* line_hold.c: find one more place, zero if there is none; hold the line there.  A new node changes
    the numbers of those that the rows know.  */
-int bt__bends_find (const bt__line_job *k, const bt__bends *s, bt__bend_place *p);
-void bt__bends_hold (bt__line_job *k, bt__bends *s, const bt__bend_place *p);
+int bt__sliding_find (const bt__line_job *k, const bt__sliding *s, bt__bend_place *p);
+void bt__sliding_hold (bt__line_job *k, bt__sliding *s, const bt__bend_place *p);
 
 #endif

@@ -28,7 +28,7 @@ static int
 is_slack (const bt__line_job *k, int i)
 {
   const bt__dynamic_bent *b = k->w->bent + i;
-  const bt__anchor *a = k->w->bend + i;
+  const bt__contact *a = k->w->bend + i;
   bt__edge e = { .radius = a->thick };
   int is_thin = bt__edge_is_thin (k, &e);
   int patience = !is_thin ? PATIENCE : a->bent == BT__BENT_ROUND ? 0 : AT_ONCE;
@@ -49,11 +49,11 @@ bt__bend_bears (const bt__line_job *k, int i)
   return 0;
 }
 
-bt__anchor
+bt__contact
 bt__line_bent_anchor (const bt__line_job *k, int i)
 {
   const bt__dynamic_bent *b = k->w->bent + i;
-  bt__anchor a = k->w->bend[i];
+  bt__contact a = k->w->bend[i];
   double drag = b->drag + b->flow, side = b->side_now, size = hypot (drag, side);
   double keep = size > BT__LINE_SLIP ? BT__LINE_SLIP / size : 1;
   double pull = fabs (b->pull[1] - b->pull[0]), slid = drag - a.drag;

@@ -7,7 +7,7 @@
 #include "contact/line_bend.h"
 
 int
-bt__bends_has (const bt__bends *s, int64_t i)
+bt__sliding_has (const bt__sliding *s, int64_t i)
 {
   for (int q = 0; q < s->n; q++)
     if (s->node[q] == i)
@@ -17,14 +17,14 @@ bt__bends_has (const bt__bends *s, int64_t i)
 
 /* True if bend Q and the next are of one member.  */
 int
-bt__bends_goes_on (const bt__bends *s, int q)
+bt__sliding_goes_on (const bt__sliding *s, int q)
 {
   return q >= 0 && q + 1 < s->n && s->node[q] + 1 == s->node[q + 1]
          && bt__bend_goes_on (s->anchor + q, s->anchor + q + 1);
 }
 
 static void
-shift_bends (bt__bends *s, int64_t from, int by)
+shift_bends (bt__sliding *s, int64_t from, int by)
 {
   for (int q = 0; q < s->n; q++)
     s->node[q] += s->node[q] >= from ? by : 0;
@@ -32,7 +32,7 @@ shift_bends (bt__bends *s, int64_t from, int by)
 
 /* Put A at NODE among the bends.  */
 int
-bt__bends_add (bt__bends *s, const bt__anchor *a, int64_t node)
+bt__sliding_add (bt__sliding *s, const bt__contact *a, int64_t node)
 {
   int at = s->n++;
   for (; at > 0 && s->node[at - 1] > node; at--)
@@ -46,9 +46,9 @@ bt__bends_add (bt__bends *s, const bt__anchor *a, int64_t node)
 }
 
 void
-bt__bends_lose (bt__bends *s, int q)
+bt__sliding_lose (bt__sliding *s, int q)
 {
-  if (bt__bends_goes_on (s, q - 1))
+  if (bt__sliding_goes_on (s, q - 1))
     s->anchor[q - 1].after = bt__vec (0, 0, 0);
   s->n--;
   for (int i = q; i < s->n; i++)
@@ -61,7 +61,7 @@ bt__bends_lose (bt__bends *s, int q)
 /* ---- The line's nodes ---- */
 
 void
-bt__bends_show (const bt__line_job *k, int64_t i, int by)
+bt__sliding_show (const bt__line_job *k, int64_t i, int by)
 {
   const bt__line_hook *hook = k->config->hook;
   if (hook && hook->see)
@@ -69,26 +69,26 @@ bt__bends_show (const bt__line_job *k, int64_t i, int by)
 }
 
 void
-bt__bends_put_in (bt__line_job *k, bt__bends *s, int64_t j, double u, int64_t from)
+bt__sliding_put_in (bt__line_job *k, bt__sliding *s, int64_t j, double u, int64_t from)
 {
   bt__dynamic_insert (k->d, j, u, from);
-  bt__bends_came (k, s, j + 1);
+  bt__sliding_came (k, s, j + 1);
 }
 
 void
-bt__bends_came (bt__line_job *k, bt__bends *s, int64_t i)
+bt__sliding_came (bt__line_job *k, bt__sliding *s, int64_t i)
 {
   shift_bends (s, i, 1);
-  bt__bends_show (k, i, 1);
+  bt__sliding_show (k, i, 1);
 }
 
 /* Take out node I if its links are clear on their way to the chord.  */
 int
-bt__bends_take_out (bt__line_job *k, bt__bends *s, int64_t i)
+bt__sliding_take_out (bt__line_job *k, bt__sliding *s, int64_t i)
 {
   const bt_vec3 *p = bt__dynamic_x (k->d) + i - 1;
   const double *rest = bt__dynamic_rest (k->d) + i - 1;
-  if (i < 1 || i >= k->d->n || bt__bends_has (s, i))
+  if (i < 1 || i >= k->d->n || bt__sliding_has (s, i))
     return 0;
   double u = rest[0] / (rest[0] + rest[1]);
   bt_vec3 to = bt__axpy (bt__scale (1 - u, p[0]), u, p[2]);
@@ -96,13 +96,13 @@ bt__bends_take_out (bt__line_job *k, bt__bends *s, int64_t i)
     return 0;
   bt__dynamic_remove (k->d, i);
   shift_bends (s, i, -1);
-  bt__bends_show (k, i, -1);
+  bt__sliding_show (k, i, -1);
   return 1;
 }
 
 /* A node that is bent no more goes on with the line; one that is stays, but for along AXIS.  */
 void
-bt__bends_let_go (bt__line_job *k, int64_t i)
+bt__sliding_let_go (bt__line_job *k, int64_t i)
 {
   bt_vec3 *arrays[] = { bt__dynamic_v (k->d), bt__dynamic_vp (k->d), bt__dynamic_dx (k->d) };
   for (int q = 0; q < 3; q++)
@@ -113,7 +113,7 @@ bt__bends_let_go (bt__line_job *k, int64_t i)
 }
 
 void
-bt__bends_take_hold (bt__line_job *k, int64_t i, bt_vec3 axis)
+bt__sliding_take_hold (bt__line_job *k, int64_t i, bt_vec3 axis)
 {
   bt_vec3 *arrays[] = { bt__dynamic_v (k->d), bt__dynamic_vp (k->d), bt__dynamic_dx (k->d) };
   for (int q = 0; q < 3; q++)
@@ -121,15 +121,15 @@ bt__bends_take_hold (bt__line_job *k, int64_t i, bt_vec3 axis)
 }
 
 void
-bt__bends_drop (bt__line_job *k, bt__bends *s, int q)
+bt__sliding_drop (bt__line_job *k, bt__sliding *s, int q)
 {
   int64_t node = s->node[q];
-  bt__bends_lose (s, q);
-  bt__bends_let_go (k, node);
+  bt__sliding_lose (s, q);
+  bt__sliding_let_go (k, node);
 }
 
 void
-bt__bends_measure (bt__line_job *k)
+bt__sliding_measure (bt__line_job *k)
 {
   const double *rest = bt__dynamic_rest (k->d);
   k->links = (int)k->d->n;
@@ -142,16 +142,16 @@ bt__bends_measure (bt__line_job *k)
 
 /* Take the anchors of nodes that are held out of the list.  */
 void
-bt__bends_gather (bt__line_job *k, bt__bends *s)
+bt__sliding_gather (bt__line_job *k, bt__sliding *s)
 {
-  bt__anchor *a = bt__anchors_at (k->anchors);
+  bt__contact *a = bt__contacts_at (k->anchors);
   int64_t n = 0;
   s->n = 0;
   for (int64_t q = 0; q < k->anchors->n; q++)
     {
       int i = a[q].bent && s->n < BT__BENTS ? bt__bend_node (k, a[q].from_end) : -1;
       if (i > 0)
-        bt__bends_add (s, a + q, i);
+        bt__sliding_add (s, a + q, i);
       else
         {
           a[n] = a[q];
@@ -163,9 +163,9 @@ bt__bends_gather (bt__line_job *k, bt__bends *s)
 
 /* Put A where it belongs in the list, if there is room.  */
 static void
-put_back (bt__anchors *list, const bt__anchor *a)
+put_back (bt__contacts *list, const bt__contact *a)
 {
-  bt__anchor *at = bt__anchors_at (list);
+  bt__contact *at = bt__contacts_at (list);
   if (list->n >= list->room)
     return;
   int64_t i = list->n++;
@@ -175,7 +175,7 @@ put_back (bt__anchors *list, const bt__anchor *a)
 }
 
 void
-bt__bends_scatter (bt__line_job *k, bt__bends *s)
+bt__sliding_scatter (bt__line_job *k, bt__sliding *s)
 {
   for (int q = 0; q < s->n; q++)
     {
@@ -186,9 +186,9 @@ bt__bends_scatter (bt__line_job *k, bt__bends *s)
 
 /* Take the anchor of row Q out of the list, to A; zero if it has none.  */
 int
-bt__bends_take_anchor (bt__line_job *k, int q, bt__anchor *a)
+bt__sliding_take_anchor (bt__line_job *k, int q, bt__contact *a)
 {
-  bt__anchor *at = bt__anchors_at (k->anchors);
+  bt__contact *at = bt__contacts_at (k->anchors);
   const bt__line_row *of = k->w->of + q;
   int64_t i = 0;
   while (i < k->anchors->n && !(at[i].from_end == of->from_end && at[i].object == of->id))

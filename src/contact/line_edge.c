@@ -161,7 +161,7 @@ bt__edge_find (const bt__line_job *k, int64_t id, bt_vec3 p, bt__edge *e)
 }
 
 int
-bt__edge_again (const bt__line_job *k, const bt__anchor *a, bt_vec3 p, bt__edge *e)
+bt__edge_again (const bt__line_job *k, const bt__contact *a, bt_vec3 p, bt__edge *e)
 {
   asked q = ask (k, a->object);
   bt__witness w;

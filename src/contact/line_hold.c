@@ -24,7 +24,7 @@ enum
 
 /* The node that is there already where R bears, or -1.  */
 static int64_t
-node_near (const bt__line_job *k, const bt__dynamic_row *r)
+node_near (const bt__line_job *k, const bt__constraint *r)
 {
   double rest = bt__dynamic_rest (k->d)[r->node], near = FROM_NODE * k->d->piece;
   return r->s * rest < near ? r->node : (1 - r->s) * rest < near ? r->node + 1 : -1;
@@ -81,12 +81,12 @@ is_settled (const bt__line_job *k, int q)
 
 /* True if node I may be held as a corner of what row Q is of.  */
 static int
-may_corner (const bt__line_job *k, const bt__bends *s, int q, int64_t i, bt__bend_place *p)
+may_corner (const bt__line_job *k, const bt__sliding *s, int q, int64_t i, bt__bend_place *p)
 {
   const bt_vec3 *x = bt__dynamic_x (k->d);
   p->row = q;
   p->node = i;
-  return is_settled (k, q) && i >= 1 && i < k->d->n && !bt__bends_has (s, i) && !is_crowded (k, i)
+  return is_settled (k, q) && i >= 1 && i < k->d->n && !bt__sliding_has (s, i) && !is_crowded (k, i)
          && bt__edge_find (k, k->w->of[q].id, x[i], &p->edge) && p->edge.round
          && !bt__edge_is_thin (k, &p->edge) && is_steep (k, i, &p->edge)
          && is_corner (k, i, &p->edge);
@@ -106,7 +106,7 @@ has_company (const bt__line_job *k, int q)
 
 /* True if the line is held near row Q at the same member already.  */
 static int
-is_held_near (const bt__line_job *k, const bt__bends *s, int q)
+is_held_near (const bt__line_job *k, const bt__sliding *s, int q)
 {
   const bt__line_row *of = k->w->of + q;
   for (int i = 0; i < s->n; i++)
@@ -127,15 +127,15 @@ is_wedged (const bt__line_job *k, int q)
 
 /* True if the line may be bent where row Q bears.  */
 static int
-may_bend (const bt__line_job *k, const bt__bends *s, int q, bt__bend_place *p)
+may_bend (const bt__line_job *k, const bt__sliding *s, int q, bt__bend_place *p)
 {
-  const bt__dynamic_row *r = k->w->row + q;
+  const bt__constraint *r = k->w->row + q;
   const bt_vec3 *x = bt__dynamic_x (k->d) + r->node;
   bt_vec3 at = bt__axpy (bt__scale (1 - r->s, x[0]), r->s, x[1]);
   bt_vec3 t = bt__unit_or (bt__sub (x[1], x[0]), bt__vec (0, 0, 0));
   p->row = q;
   p->node = node_near (k, r);
-  if (p->node >= 0 && (is_crowded (k, p->node) || bt__bends_has (s, p->node)))
+  if (p->node >= 0 && (is_crowded (k, p->node) || bt__sliding_has (s, p->node)))
     return 0;
   if (!bt__edge_find (k, k->w->of[q].id, at, &p->edge) || fabs (bt__dot (t, p->edge.axis)) >= ALONG)
     return 0;
@@ -151,14 +151,14 @@ may_bend (const bt__line_job *k, const bt__bends *s, int q, bt__bend_place *p)
 static int
 is_candidate (const bt__line_job *k, int q)
 {
-  const bt__dynamic_row *r = k->w->row + q;
+  const bt__constraint *r = k->w->row + q;
   const bt__line_row *of = k->w->of + q;
   return r->load > 0 && of->age % TRIED == 0 && !of->mover
          && bt__dynamic_tension (k->d)[r->node] > 0 && !bt__edge_has_none (k, of);
 }
 
 int
-bt__bends_find (const bt__line_job *k, const bt__bends *s, bt__bend_place *p)
+bt__sliding_find (const bt__line_job *k, const bt__sliding *s, bt__bend_place *p)
 {
   if (s->n >= BT__BENTS || k->d->n >= k->d->n_max)
     return 0;
@@ -175,16 +175,16 @@ bt__bends_find (const bt__line_job *k, const bt__bends *s, bt__bend_place *p)
 
 /* Hold the line at P.  */
 void
-bt__bends_hold (bt__line_job *k, bt__bends *s, const bt__bend_place *p)
+bt__sliding_hold (bt__line_job *k, bt__sliding *s, const bt__bend_place *p)
 {
-  const bt__dynamic_row *r = k->w->row + p->row;
+  const bt__constraint *r = k->w->row + p->row;
   int64_t j = r->node, node = p->node;
   bt_vec3 *x = bt__dynamic_x (k->d), *v = bt__dynamic_v (k->d);
   bt_vec3 t = bt__unit_or (bt__sub (x[j + 1], x[j]), bt__vec (0, 0, 0));
   double flow = bt__dot (t, bt__axpy (bt__scale (1 - r->s, v[j]), r->s, v[j + 1]));
-  bt__anchor a;
-  if (!bt__bends_take_anchor (k, p->row, &a))
-    a = (bt__anchor){ .object = k->w->of[p->row].id, .triangle = -1, .mover = -1 };
+  bt__contact a;
+  if (!bt__sliding_take_anchor (k, p->row, &a))
+    a = (bt__contact){ .object = k->w->of[p->row].id, .triangle = -1, .mover = -1 };
   a.bent = p->edge.round ? BT__BENT_ROUND : BT__BENT_EDGE;
   a.age = 0;
   a.flow = flow;
@@ -198,10 +198,10 @@ bt__bends_hold (bt__line_job *k, bt__bends *s, const bt__bend_place *p)
   if (node < 0)
     {
       node = j + 1;
-      bt__bends_put_in (k, s, j, r->s, j);
+      bt__sliding_put_in (k, s, j, r->s, j);
     }
   a.held = bt__dynamic_x (k->d)[node];
   a.lag = bt__vec (INFINITY, 0, 0);
-  bt__bends_take_hold (k, node, a.axis);
-  bt__bends_add (s, &a, node);
+  bt__sliding_take_hold (k, node, a.axis);
+  bt__sliding_add (s, &a, node);
 }

@@ -92,9 +92,9 @@ struct bt__line_work
   bt__link_watch *watch;
   uint32_t room; /* parts near a link: */
   bt__near *near;
-  bt__dynamic_row *row;
+  bt__constraint *row;
   bt__line_row *of; /* what ROW is of */
-  bt__anchor *old;  /* anchors of the last step, then of this */
+  bt__contact *old; /* anchors of the last step, then of this */
   bt_vec3 *to;
   double *from_end; /* m of rest length from each node to node n */
   uint8_t *restart;
@@ -104,7 +104,7 @@ struct bt__line_work
   bt__dynamic_input in;             /* of a step in which ends are not where they are wanted */
   bt__dynamic_hold hold[2];         /* what holds them */
   bt__dynamic_bent bent[BT__BENTS]; /* nodes held at edges, ... */
-  bt__anchor bend[BT__BENTS];       /* ... and what they are held at */
+  bt__contact bend[BT__BENTS];      /* ... and what they are held at */
 };
 
 typedef struct bt__line_job
@@ -118,7 +118,7 @@ typedef struct bt__line_job
   bt__mover *mover;
   uint32_t movers;
   const bt__line_config *config;
-  bt__anchors *anchors;
+  bt__contacts *anchors;
   int links, rows, olds, bents;
   int wedged;          /* of the link whose rows are made: see bt__line_is_wedged */
   double core, margin; /* m: a little more than asked for, for rounding; of what touches */
@@ -205,7 +205,7 @@ int bt__line_is_laid_round (const bt__line_job *k);
 int bt__line_is_bent_about (const bt__line_job *k, int q);
 
 /* What is to be kept of the I-th node held.  */
-bt__anchor bt__line_bent_anchor (const bt__line_job *k, int i);
+bt__contact bt__line_bent_anchor (const bt__line_job *k, int i);
 
 /* After the step (line_rebend.c): nodes come and go where the line runs about something, the line
    staying where it is but for those that are taken out.  */
@@ -302,8 +302,8 @@ void bt__self_add_hit (bt__line_job *k, const bt__self_pair *p, const bt__witnes
 int bt__self_anchor (const bt__line_job *k, int i);
 double bt__self_friction (const bt__line_job *k, int i);
 double bt__self_stiffness (const bt__line_job *k, int i);
-bt_vec3 bt__self_move (const bt__line_job *k, const bt__dynamic_row *r);
-bt__anchor bt__self_reaction (const bt__line_job *k, int i, const bt__anchor *a);
+bt_vec3 bt__self_move (const bt__line_job *k, const bt__constraint *r);
+bt__contact bt__self_reaction (const bt__line_job *k, int i, const bt__contact *a);
 
 /* self_guard.c: as bt__line_hits and bt__line_truncate for pairs; true if node I can go straight
    by MOVE, the others staying, and meets no other link.  */

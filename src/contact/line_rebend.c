@@ -34,17 +34,17 @@ enum
 
 /* Nodes of one member, one after the other, that were not known to be: the side between stays.  */
 static void
-join (bt__line_job *k, bt__bends *s)
+join (bt__line_job *k, bt__sliding *s)
 {
   for (int q = 0; q < s->n; q++)
     {
-      bt__anchor *a = s->anchor + q, *b = a + 1;
+      bt__contact *a = s->anchor + q, *b = a + 1;
       bt_vec3 none = { 0, 0, 0 };
       bt__edge e = { .radius = a->thick };
       if (q + 1 == s->n || s->node[q] + 1 != s->node[q + 1] || a->object != b->object
           || bt__edge_is_thin (k, &e))
         a->after = none;
-      else if (a->bent == BT__BENT_ROUND && b->bent == BT__BENT_ROUND && !bt__bends_goes_on (s, q)
+      else if (a->bent == BT__BENT_ROUND && b->bent == BT__BENT_ROUND && !bt__sliding_goes_on (s, q)
                && bt__dot (a->axis, b->axis) > 0)
         a->after = bt__turn_normal (a->axis, bt__dynamic_x (k->d) + s->node[q]);
     }
@@ -54,36 +54,36 @@ join (bt__line_job *k, bt__bends *s)
 
 /* The turn at bend Q as it is now.  */
 static bt__turn
-turn_of (const bt__line_job *k, const bt__bends *s, int q, bt__edge *e)
+turn_of (const bt__line_job *k, const bt__sliding *s, int q, bt__edge *e)
 {
-  const bt__anchor *a = s->anchor + q;
+  const bt__contact *a = s->anchor + q;
   bt__turn t;
   *e = (bt__edge){ a->axis, a->point, a->normal, a->thick, 0, a->bent == BT__BENT_ROUND };
   bt__turn_find (k, e, bt__dynamic_x (k->d) + s->node[q] - 1,
-                 bt__bends_goes_on (s, q - 1) ? &s->anchor[q - 1].after : NULL,
-                 bt__bends_goes_on (s, q) ? &a->after : NULL, &t);
+                 bt__sliding_goes_on (s, q - 1) ? &s->anchor[q - 1].after : NULL,
+                 bt__sliding_goes_on (s, q) ? &a->after : NULL, &t);
   return t;
 }
 
 /* Take out the corner at either end of a member's where the line turns no more.  */
 static void
-take_corner (bt__line_job *k, bt__bends *s, int q)
+take_corner (bt__line_job *k, bt__sliding *s, int q)
 {
   bt__edge e;
-  if (bt__bends_goes_on (s, q - 1) == bt__bends_goes_on (s, q))
+  if (bt__sliding_goes_on (s, q - 1) == bt__sliding_goes_on (s, q))
     return;
   double least = s->anchor[q].age < IDLE ? -BACK : BACK;
   if (turn_of (k, s, q, &e).angle > least)
     return;
   int64_t node = s->node[q];
-  bt__bends_lose (s, q);
-  if (!bt__bends_take_out (k, s, node))
-    bt__bends_let_go (k, node);
+  bt__sliding_lose (s, q);
+  if (!bt__sliding_take_out (k, s, node))
+    bt__sliding_let_go (k, node);
 }
 
 /* How far bend Q has to go round, and its distance from the axis, to *AWAY.  */
 static bt_vec3
-lag_of (const bt__line_job *k, const bt__bends *s, int q, double *away)
+lag_of (const bt__line_job *k, const bt__sliding *s, int q, double *away)
 {
   bt__edge e;
   bt_vec3 x = bt__dynamic_x (k->d)[s->node[q]];
@@ -93,14 +93,14 @@ lag_of (const bt__line_job *k, const bt__bends *s, int q, double *away)
 }
 
 static int
-is_new (const bt__bends *s, int q)
+is_new (const bt__sliding *s, int q)
 {
   return !isfinite (s->anchor[q].lag.x);
 }
 
 /* True if bend Q is new, and too far from where it should be.  */
 static int
-is_behind (const bt__line_job *k, const bt__bends *s, int q)
+is_behind (const bt__line_job *k, const bt__sliding *s, int q)
 {
   bt__edge e = { .radius = s->anchor[q].thick };
   double away;
@@ -110,9 +110,9 @@ is_behind (const bt__line_job *k, const bt__bends *s, int q)
 
 /* A node that is newly held starts from where it is.  */
 static void
-settle (const bt__line_job *k, bt__bends *s, int q)
+settle (const bt__line_job *k, bt__sliding *s, int q)
 {
-  bt__anchor *a = s->anchor + q;
+  bt__contact *a = s->anchor + q;
   if (!is_new (s, q))
     return;
   a->held = bt__dynamic_x (k->d)[s->node[q]];
@@ -121,11 +121,11 @@ settle (const bt__line_job *k, bt__bends *s, int q)
 
 /* The same, or it is not held.  */
 static int
-settle_or_drop (bt__line_job *k, bt__bends *s, int q)
+settle_or_drop (bt__line_job *k, bt__sliding *s, int q)
 {
   int behind = is_behind (k, s, q);
   if (behind)
-    bt__bends_drop (k, s, q);
+    bt__sliding_drop (k, s, q);
   else
     settle (k, s, q);
   return !behind;
@@ -133,12 +133,12 @@ settle_or_drop (bt__line_job *k, bt__bends *s, int q)
 
 /* All that are new; one that goes changes how the line runs at the others.  */
 static void
-settle_all (bt__line_job *k, bt__bends *s)
+settle_all (bt__line_job *k, bt__sliding *s)
 {
   for (int q = 0; q < s->n; q++)
     if (is_behind (k, s, q))
       {
-        bt__bends_drop (k, s, q);
+        bt__sliding_drop (k, s, q);
         q = -1;
       }
   for (int q = 0; q < s->n; q++)
@@ -147,16 +147,16 @@ settle_all (bt__line_job *k, bt__bends *s)
 
 /* Let another corner come on SIDE (-1, 1) of bend Q, where the line touches.  */
 static int
-add_corner (bt__line_job *k, bt__bends *s, int q, int side, const bt__turn *t)
+add_corner (bt__line_job *k, bt__sliding *s, int q, int side, const bt__turn *t)
 {
   int64_t node = s->node[q], j = side > 0 ? node : node - 1;
   const bt_vec3 *x = bt__dynamic_x (k->d) + j;
   double share = t->zone / fmax (bt__distance (x[0], x[1]), 1e-9);
-  if (bt__bends_goes_on (s, side > 0 ? q : q - 1) || !(share < ROOM) || s->n >= BT__BENTS
+  if (bt__sliding_goes_on (s, side > 0 ? q : q - 1) || !(share < ROOM) || s->n >= BT__BENTS
       || k->d->n >= k->d->n_max)
     return 0;
-  bt__bends_put_in (k, s, j, side > 0 ? share : 1 - share, j);
-  bt__anchor a = s->anchor[q];
+  bt__sliding_put_in (k, s, j, side > 0 ? share : 1 - share, j);
+  bt__contact a = s->anchor[q];
   a.load = a.work = a.step_work = 0;
   a.force = bt__vec (0, 0, 0);
   a.age = 0;
@@ -165,12 +165,12 @@ add_corner (bt__line_job *k, bt__bends *s, int q, int side, const bt__turn *t)
     s->anchor[q].after = t->after;
   else
     a.after = t->before;
-  bt__bends_take_hold (k, j + 1, a.axis);
-  return settle_or_drop (k, s, bt__bends_add (s, &a, j + 1));
+  bt__sliding_take_hold (k, j + 1, a.axis);
+  return settle_or_drop (k, s, bt__sliding_add (s, &a, j + 1));
 }
 
 static void
-grow (bt__line_job *k, bt__bends *s, int q)
+grow (bt__line_job *k, bt__sliding *s, int q)
 {
   bt__edge e;
   bt__turn t = turn_of (k, s, q, &e);
@@ -184,10 +184,10 @@ grow (bt__line_job *k, bt__bends *s, int q)
 
 /* A node next to bend Q on SIDE cannot pass: it is on the member already, and is held too.  */
 static int
-extend (bt__line_job *k, bt__bends *s, int q, int side)
+extend (bt__line_job *k, bt__sliding *s, int q, int side)
 {
   int64_t i = s->node[q] + side;
-  bt__anchor a = s->anchor[q];
+  bt__contact a = s->anchor[q];
   const bt_vec3 *x = bt__dynamic_x (k->d) + i - 1;
   bt__edge e = { .radius = a.thick };
   if (a.bent != BT__BENT_ROUND || bt__edge_is_thin (k, &e) || i < 1 || i >= k->d->n
@@ -204,8 +204,8 @@ extend (bt__line_job *k, bt__bends *s, int q, int side)
     s->anchor[q].after = before;
   else
     a.after = after;
-  bt__bends_take_hold (k, i, a.axis);
-  return settle_or_drop (k, s, bt__bends_add (s, &a, i));
+  bt__sliding_take_hold (k, i, a.axis);
+  return settle_or_drop (k, s, bt__sliding_add (s, &a, i));
 }
 
 /* ---- Nodes that pass ---- */
@@ -214,7 +214,7 @@ extend (bt__line_job *k, bt__bends *s, int q, int side)
    there is much line: more than would pass if it ran in as it may run out, MOST.  Zero if they
    cannot pass and no more than LEFT m is left.  */
 static int
-pass_on (bt__line_job *k, bt__bends *s, int q, int side, double need, double most, double left)
+pass_on (bt__line_job *k, bt__sliding *s, int q, int side, double need, double most, double left)
 {
   double piece = k->d->piece;
   for (int i = 0; i < 4; i++)
@@ -223,23 +223,23 @@ pass_on (bt__line_job *k, bt__bends *s, int q, int side, double need, double mos
       double rest = bt__dynamic_rest (k->d)[side > 0 ? node : node - 1];
       if (rest >= need)
         break;
-      if (bt__bends_has (s, next))
+      if (bt__sliding_has (s, next))
         return rest > left;
-      if (!bt__bends_take_out (k, s, next))
+      if (!bt__sliding_take_out (k, s, next))
         return extend (k, s, q, side) || rest > left;
     }
   int64_t node = s->node[q], j = side > 0 ? node : node - 1;
   double rest = bt__dynamic_rest (k->d)[j];
   if (rest > fmax (SPLIT * piece, most + 1.1 * piece) && k->d->n < k->d->n_max)
-    bt__bends_put_in (k, s, j, side > 0 ? (rest - piece) / rest : piece / rest,
-                      side > 0 ? j + 1 : j);
+    bt__sliding_put_in (k, s, j, side > 0 ? (rest - piece) / rest : piece / rest,
+                        side > 0 ? j + 1 : j);
   return 1;
 }
 
 /* Line runs out of the interval on one side of bend Q into that on the other.  Zero if nodes cannot
    pass and nothing is left.  */
 static int
-pass_nodes (bt__line_job *k, bt__bends *s, int q)
+pass_nodes (bt__line_job *k, bt__sliding *s, int q)
 {
   bt__edge e;
   double flow = s->anchor[q].flow * k->h, piece = k->d->piece, size = fabs (flow);
@@ -251,7 +251,7 @@ pass_nodes (bt__line_job *k, bt__bends *s, int q)
       int comes = side * flow < 0;
       double most = clear + fmax (PASS * piece, FORESIGHT * size), need = comes ? most : clear;
       double left = fmax (LEAST * piece + (comes ? size : 0), INSIDE * zone);
-      if (!bt__bends_goes_on (s, side > 0 ? q : q - 1))
+      if (!bt__sliding_goes_on (s, side > 0 ? q : q - 1))
         passed &= pass_on (k, s, q, side, need, most, left);
     }
   return passed;
@@ -260,21 +260,22 @@ pass_nodes (bt__line_job *k, bt__bends *s, int q)
 /* Take out one node that nothing needs any more.  A mesh that keeps to an error judges that
    itself: it wants short intervals where the line bends.  */
 static void
-take_spare (bt__line_job *k, bt__bends *s)
+take_spare (bt__line_job *k, bt__sliding *s)
 {
   const double *rest = bt__dynamic_rest (k->d);
   if (k->in->mesh.error > 0)
     return;
   for (int64_t i = 2; i < k->d->n; i++)
-    if (rest[i - 1] + rest[i] < SPARE * k->d->piece && !bt__bends_has (s, i)
-        && !bt__bends_has (s, i - 1) && !bt__bends_has (s, i + 1) && bt__bends_take_out (k, s, i))
+    if (rest[i - 1] + rest[i] < SPARE * k->d->piece && !bt__sliding_has (s, i)
+        && !bt__sliding_has (s, i - 1) && !bt__sliding_has (s, i + 1)
+        && bt__sliding_take_out (k, s, i))
       return;
 }
 
 /* Half-spaces get a line out of places where held nodes hold it: those about round members go when
    steps are not solved, all when one was cut.  */
 static void
-drop_failed (bt__line_job *k, bt__bends *s)
+drop_failed (bt__line_job *k, bt__sliding *s)
 {
   for (int q = s->n - 1; q >= 0; q--)
     {
@@ -282,7 +283,7 @@ drop_failed (bt__line_job *k, bt__bends *s)
       int64_t *failed = &s->anchor[q].unsolved;
       *failed = k->unsolved ? *failed + 1 : 0;
       if (k->report->truncated || (*failed >= FAILURES && !bt__edge_is_thin (k, &e)))
-        bt__bends_drop (k, s, q);
+        bt__sliding_drop (k, s, q);
     }
 }
 
@@ -291,24 +292,24 @@ let_go_idle (bt__line_job *k)
 {
   for (int q = 0; q < k->bents; q++)
     if (!bt__bend_bears (k, q))
-      bt__bends_let_go (k, k->w->bent[q].node);
+      bt__sliding_let_go (k, k->w->bent[q].node);
 }
 
 void
 bt__line_rebend (bt__line_job *k)
 {
   int no_bends = k->config->hook && k->config->hook->no_bends;
-  bt__bends s;
+  bt__sliding s;
   bt__bend_place p;
-  bt__bends_show (k, 0, 0);
+  bt__sliding_show (k, 0, 0);
   let_go_idle (k);
-  bt__bends_measure (k);
-  bt__bends_gather (k, &s);
+  bt__sliding_measure (k);
+  bt__sliding_gather (k, &s);
   drop_failed (k, &s);
   p.node = no_bends || k->unsolved ? -1
                                    : 0; /* a new one would change the numbers of the rows' nodes */
-  while (p.node >= 0 && bt__bends_find (k, &s, &p))
-    bt__bends_hold (k, &s, &p);
+  while (p.node >= 0 && bt__sliding_find (k, &s, &p))
+    bt__sliding_hold (k, &s, &p);
   join (k, &s);
   settle_all (k, &s);
   for (int q = s.n - 1; q >= 0; q--)
@@ -317,8 +318,8 @@ bt__line_rebend (bt__line_job *k)
     grow (k, &s, q);
   for (int q = s.n - 1; q >= 0; q--)
     if (!pass_nodes (k, &s, q))
-      bt__bends_drop (k, &s, q);
+      bt__sliding_drop (k, &s, q);
   take_spare (k, &s);
-  bt__bends_measure (k);
-  bt__bends_scatter (k, &s);
+  bt__sliding_measure (k);
+  bt__sliding_scatter (k, &s);
 }

@@ -26,7 +26,7 @@
 
 /* The place of a row along the line, in links.  */
 static double
-place_of (const bt__dynamic_row *r)
+place_of (const bt__constraint *r)
 {
   return (double)r->node + r->s;
 }
@@ -45,12 +45,12 @@ bt__row_set (bt__line_job *k, int number, uint32_t j, double s, const bt__near *
       drift = bt__sub (point, bt__to_world (&m->motion.from, w->point));
     }
   double out = fmin (k->config->radius, fmax (start, k->core) + RECOVERY * k->h);
-  k->w->row[number] = (bt__dynamic_row){ .node = (int64_t)j,
-                                         .s = s,
-                                         .normal = normal,
-                                         .offset = bt__dot (normal, point) + out,
-                                         .drift = drift,
-                                         .active = -1 };
+  k->w->row[number] = (bt__constraint){ .node = (int64_t)j,
+                                        .s = s,
+                                        .normal = normal,
+                                        .offset = bt__dot (normal, point) + out,
+                                        .drift = drift,
+                                        .active = -1 };
   k->w->of[number] = (bt__line_row){
     .link = j,
     .mover = near->link,
@@ -67,7 +67,7 @@ bt__row_set (bt__line_job *k, int number, uint32_t j, double s, const bt__near *
 }
 
 static double
-height_of (const bt__line_job *k, const bt__dynamic_row *r)
+height_of (const bt__line_job *k, const bt__constraint *r)
 {
   const bt_vec3 *p = k->x + r->node;
   bt_vec3 at = bt__axpy (bt__scale (1 - r->s, p[0]), r->s, p[1]);
@@ -77,7 +77,7 @@ height_of (const bt__line_job *k, const bt__dynamic_row *r)
 void
 bt__row_take (bt__line_job *k, int flat)
 {
-  bt__dynamic_row *row = k->w->row, *r = row + k->rows;
+  bt__constraint *row = k->w->row, *r = row + k->rows;
   bt__line_row *of = k->w->of;
   of[k->rows].flat = flat;
   for (int i = k->rows - 1; i >= 0 && row[i].node + !k->wedged >= r->node; i--)
@@ -198,7 +198,7 @@ bt__row_between (bt__line_job *k, uint32_t j, const bt__pass *p, double radius)
   bt__witness w;
   look_ahead (k, p, &p->from, &p->to, &p->near->w, &w);
   bt__row_set (k, k->rows, j, w.s, p->near, &w, p->near->w.distance);
-  bt__dynamic_row *r = k->w->row + k->rows;
+  bt__constraint *r = k->w->row + k->rows;
   r->roll = radius / fmax (bt__dot (along, along), 1e-12);
   r->tilt = bt__dot (w.normal, along); /* the same in either frame */
   bt__row_take (k, 2 * bt__row_lies_along (k, &p->from, &p->near->w));
@@ -282,11 +282,11 @@ touch_part (bt__line_job *k, uint32_t j, const bt__near *near)
 
 /* True if one of the rows from FIRST on, at node I, says what R says.  */
 static int
-is_borne (const bt__line_job *k, const bt__dynamic_row *r, int first, double i)
+is_borne (const bt__line_job *k, const bt__constraint *r, int first, double i)
 {
   for (int q = first; q < k->rows; q++)
     {
-      const bt__dynamic_row *o = k->w->row + q;
+      const bt__constraint *o = k->w->row + q;
       if (k->w->of[q].flat == 1 && place_of (o) == i && bt__dot (o->normal, r->normal) > COPLANAR)
         return 1;
     }
@@ -301,7 +301,7 @@ drop_between (bt__line_job *k, uint32_t j, int first, int before)
   int n = first;
   for (int q = first; q < k->rows; q++)
     {
-      const bt__dynamic_row *r = k->w->row + q;
+      const bt__constraint *r = k->w->row + q;
       if (k->w->of[q].flat == 2 && is_borne (k, r, before, j) && is_borne (k, r, before, j + 1.0))
         continue;
       k->w->row[n] = *r;
@@ -354,7 +354,7 @@ row_for_hit (const bt__line_job *k, uint32_t j, const bt__near *near, double s, 
 {
   for (int i = 0; i < k->rows; i++)
     {
-      const bt__dynamic_row *r = k->w->row + i;
+      const bt__constraint *r = k->w->row + i;
       const bt__line_row *of = k->w->of + i;
       if (of->link == j && of->mover == near->link && of->object == near->object
           && of->slot == near->slot && fabs (r->s - s) < SAME_HIT
@@ -381,7 +381,7 @@ bt__line_add_hit (bt__line_job *k, uint32_t j, const bt__near *near, const bt__w
   k->wedged = bt__line_is_wedged (k, j, 1);
   bt__row_set (k, at, j, w->s, near, w, near->w.distance);
   k->w->of[at].again = again;
-  bt__dynamic_row *r = k->w->row + at;
+  bt__constraint *r = k->w->row + at;
   bt_vec3 a = bt__sub (k->X[j], k->x[j]), b = bt__sub (k->X[j + 1], k->x[j + 1]);
   bt_vec3 moved = bt__sub (bt__axpy (bt__scale (1 - r->s, a), r->s, b), r->drift);
   r->stick = bt__scale (-t, bt__axpy (moved, -bt__dot (moved, r->normal), r->normal));

@@ -43,7 +43,7 @@ bt__line_is_wedged (const bt__line_job *k, uint32_t j, double share)
 void
 bt__line_press (const bt__line_job *k, int i)
 {
-  bt__dynamic_row *r = k->w->row + i;
+  bt__constraint *r = k->w->row + i;
   double way = k->config->radius - k->config->core, easy = EASY * way;
   double beyond = k->config->radius - k->w->of[i].distance - easy;
   if (!k->w->of[i].wedged || !(beyond > 0))

@@ -20,7 +20,7 @@ enum
 
 /* What the line has to keep to beside the nodes that contact put in.  */
 static bt__dynamic_mesh
-mesh_of (const bt__line_job *k, const bt__bends *s)
+mesh_of (const bt__line_job *k, const bt__sliding *s)
 {
   bt__dynamic_mesh mesh = k->in->mesh;
   mesh.fewest += mesh.fewest > 0 ? ABOUT * s->n : 0;
@@ -32,10 +32,10 @@ mesh_of (const bt__line_job *k, const bt__bends *s)
 static void
 shift_anchors (bt__line_job *k, double from, double more)
 {
-  bt__anchor *a = bt__anchors_at (k->anchors);
+  bt__contact *a = bt__contacts_at (k->anchors);
   for (int64_t q = 0; q < k->anchors->n; q++)
     {
-      int itself = a[q].mover == BT__ANCHOR_LINE && a[q].object == k->config->id;
+      int itself = a[q].mover == BT__CONTACT_LINE && a[q].object == k->config->id;
       a[q].from_end += a[q].from_end > from ? more : 0;
       a[q].other += itself && a[q].other > from ? more : 0;
     }
@@ -46,16 +46,16 @@ shift_anchors (bt__line_job *k, double from, double more)
 static void
 note_change (bt__line_job *k, double from, double inner)
 {
-  bt__bends_measure (k);
+  bt__sliding_measure (k);
   shift_anchors (k, from, k->w->from_end[1] - inner);
   k->w->self.still = 0;
 }
 
 static int
-take_out (bt__line_job *k, bt__bends *s, int64_t i)
+take_out (bt__line_job *k, bt__sliding *s, int64_t i)
 {
   double from = k->w->from_end[i], inner = k->w->from_end[1];
-  if (!bt__bends_take_out (k, s, i))
+  if (!bt__sliding_take_out (k, s, i))
     return 0;
   if (i > 1)
     note_change (k, from, inner);
@@ -77,11 +77,11 @@ is_clear (bt__line_job *k, int64_t j)
 }
 
 static void
-put_in (bt__line_job *k, bt__bends *s, int64_t j, double u)
+put_in (bt__line_job *k, bt__sliding *s, int64_t j, double u)
 {
   double from = k->w->from_end[j + 1], inner = k->w->from_end[1];
   bt__dynamic_split (k->d, j, u, !is_clear (k, j));
-  bt__bends_came (k, s, j + 1);
+  bt__sliding_came (k, s, j + 1);
   note_change (k, j > 0 ? from : INFINITY, inner);
 }
 
@@ -94,7 +94,7 @@ flag (uint8_t *kept, int64_t first, int64_t last, int64_t n)
 
 /* Flag in KEPT the nodes that are held and the next WIDE to either side, and those about lumps.  */
 static void
-keep_held (const bt__line_job *k, const bt__bends *s, int wide, uint8_t *kept)
+keep_held (const bt__line_job *k, const bt__sliding *s, int wide, uint8_t *kept)
 {
   memset (kept, 0, (size_t)k->d->n + 1);
   bt__dynamic_keep_lumps (k->d, k->in, wide == 1, kept);
@@ -107,7 +107,7 @@ keep_held (const bt__line_job *k, const bt__bends *s, int wide, uint8_t *kept)
 static void
 keep_touching (const bt__line_job *k, int wide, uint8_t *kept)
 {
-  const bt__anchor *a = bt__anchors_at (k->anchors);
+  const bt__contact *a = bt__contacts_at (k->anchors);
   int64_t i = 0;
   for (int64_t q = 0; q < k->anchors->n; q++)
     {
@@ -120,7 +120,7 @@ keep_touching (const bt__line_job *k, int wide, uint8_t *kept)
 /* Take out the node that is spared best of those that touch nothing, or with TOUCHING of all, if
    its way is clear; the first few are tried.  */
 static int
-spare_one (bt__line_job *k, bt__bends *s, int touching)
+spare_one (bt__line_job *k, bt__sliding *s, int touching)
 {
   uint8_t *kept = k->w->restart; /* of the step, which is over */
   keep_held (k, s, 1, kept);
@@ -143,7 +143,7 @@ spare_one (bt__line_job *k, bt__bends *s, int touching)
 
 /* Halve the interval that stands for most of the shape, away from all that touches.  */
 static void
-halve_one (bt__line_job *k, bt__bends *s)
+halve_one (bt__line_job *k, bt__sliding *s)
 {
   uint8_t *kept = k->w->restart;
   keep_held (k, s, ABOUT, kept);
@@ -168,7 +168,7 @@ corners (const bt__line_job *k)
 }
 
 static void
-tune (bt__line_job *k, bt__bends *s)
+tune (bt__line_job *k, bt__sliding *s)
 {
   bt__dynamic_mesh mesh = mesh_of (k, s);
   int wants = bt__dynamic_wants (k->d, &mesh, corners (k));
@@ -180,7 +180,7 @@ tune (bt__line_job *k, bt__bends *s)
 
 /* Turn the winch by one interval.  */
 static int
-turn (bt__line_job *k, bt__bends *s, int way)
+turn (bt__line_job *k, bt__sliding *s, int way)
 {
   if (way < 0)
     return take_out (k, s, 1);
@@ -195,7 +195,7 @@ turn (bt__line_job *k, bt__bends *s, int way)
 
 /* Turn the winch on WAY as far as the first interval asks for.  */
 static void
-turn_all (bt__line_job *k, bt__bends *s, int way)
+turn_all (bt__line_job *k, bt__sliding *s, int way)
 {
   for (int t = 0; t < TURNS && way != 0; t++)
     {
@@ -210,15 +210,15 @@ turn_all (bt__line_job *k, bt__bends *s, int way)
 void
 bt__line_wind (bt__line_job *k)
 {
-  bt__bends s;
+  bt__sliding s;
   int way = bt__dynamic_winding (k->d);
   if (way == 0 && !k->in->mesh.idle)
     return;
-  bt__bends_measure (k);
-  bt__bends_gather (k, &s);
+  bt__sliding_measure (k);
+  bt__sliding_gather (k, &s);
   turn_all (k, &s, way);
   if (k->in->mesh.idle)
     tune (k, &s);
-  bt__bends_measure (k);
-  bt__bends_scatter (k, &s);
+  bt__sliding_measure (k);
+  bt__sliding_scatter (k, &s);
 }

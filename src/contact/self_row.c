@@ -101,13 +101,13 @@ static int64_t
 their_anchor (const bt__line_job *k, const bt__strand *o, int q)
 {
   const bt__line_row *of = k->w->of + q;
-  const bt__anchor *a = o->anchors ? bt__anchors_at (o->anchors) : NULL;
+  const bt__contact *a = o->anchors ? bt__contacts_at (o->anchors) : NULL;
   double least = bt__dynamic_rest (k->d)[of->link] + bt__dynamic_rest (o->line)[of->slot];
   int64_t best = -1;
   for (int64_t i = 0; a && i < o->anchors->n; i++)
     {
       double away = fabs (a[i].from_end - of->other) + fabs (a[i].other - of->from_end);
-      if (a[i].mover != BT__ANCHOR_LINE || a[i].object != k->config->id || !(away < least)
+      if (a[i].mover != BT__CONTACT_LINE || a[i].object != k->config->id || !(away < least)
           || !(bt__dot (a[i].normal, k->w->row[q].normal) < -ALIKE) || is_taken (k, q, i))
         continue;
       least = away;
@@ -120,11 +120,11 @@ their_anchor (const bt__line_job *k, const bt__strand *o, int q)
 static void
 feel (bt__line_job *k, int q)
 {
-  bt__dynamic_row *r = k->w->row + q;
+  bt__constraint *r = k->w->row + q;
   bt__line_row *of = k->w->of + q;
   const bt__strand *o = k->config->strand + of->object - 1;
   int64_t at = their_anchor (k, o, q);
-  const bt__anchor *a = at < 0 ? NULL : bt__anchors_at (o->anchors) + at;
+  const bt__contact *a = at < 0 ? NULL : bt__contacts_at (o->anchors) + at;
   double load = a ? a->load : 0;
   r->load = load;
   r->stiffness = fmin (resistance_of (k, o, of->slot, r->t), bt__self_stiffness (k, q));
@@ -152,14 +152,14 @@ set_row (bt__line_job *k, int q, const bt__self_pair *p, const bt__link *second,
   double out = fmin (whole, fmax (p->w.distance, p->floor) + RECOVERY * k->h);
   double stands = p->strand < 0 ? 0 : bt__dot (w->normal, w->point);
   int64_t id = p->strand < 0 ? k->config->id : k->config->strand[p->strand].id;
-  k->w->row[q] = (bt__dynamic_row){ .node = p->i,
-                                    .s = w->s,
-                                    .pair = p->strand < 0 ? (int64_t)p->j + 1 : 0,
-                                    .t = t,
-                                    .normal = w->normal,
-                                    .offset = out + stands,
-                                    .drift = drift_of (k, p, t),
-                                    .active = -1 };
+  k->w->row[q] = (bt__constraint){ .node = p->i,
+                                   .s = w->s,
+                                   .pair = p->strand < 0 ? (int64_t)p->j + 1 : 0,
+                                   .t = t,
+                                   .normal = w->normal,
+                                   .offset = out + stands,
+                                   .drift = drift_of (k, p, t),
+                                   .active = -1 };
   k->w->of[q] = (bt__line_row){ .link = p->i,
                                 .mover = BT__LINE_SELF,
                                 .object = (uint32_t)(p->strand + 1),
@@ -215,7 +215,7 @@ bt__self_add_hit (bt__line_job *k, const bt__self_pair *p, const bt__witness *w,
 }
 
 bt_vec3
-bt__self_move (const bt__line_job *k, const bt__dynamic_row *r)
+bt__self_move (const bt__line_job *k, const bt__constraint *r)
 {
   const bt_vec3 *x = k->x + r->node, *X = k->X + r->node;
   bt_vec3 a = bt__sub (X[0], x[0]), b = bt__sub (X[1], x[1]);
@@ -234,10 +234,10 @@ bt__self_move (const bt__line_job *k, const bt__dynamic_row *r)
 /* How far row I is along both lines from what anchor A is of, m; INFINITY: it is of something else.
  */
 static double
-away_from (const bt__line_job *k, int i, const bt__anchor *a)
+away_from (const bt__line_job *k, int i, const bt__contact *a)
 {
   const bt__line_row *of = k->w->of + i;
-  if (a->mover != BT__ANCHOR_LINE || a->object != of->id
+  if (a->mover != BT__CONTACT_LINE || a->object != of->id
       || !(bt__dot (a->normal, k->w->row[i].normal) > ALIKE))
     return INFINITY;
   return fabs (a->from_end - of->from_end) + fabs (a->other - of->other);
@@ -245,7 +245,7 @@ away_from (const bt__line_job *k, int i, const bt__anchor *a)
 
 /* True if a row after I is nearer to A than AWAY.  */
 static int
-is_of_later (const bt__line_job *k, int i, const bt__anchor *a, double away)
+is_of_later (const bt__line_job *k, int i, const bt__contact *a, double away)
 {
   for (int q = i + 1; q < k->rows; q++)
     if (k->w->of[q].mover == BT__LINE_SELF && away_from (k, q, a) < away)
@@ -262,7 +262,7 @@ bt__self_anchor (const bt__line_job *k, int i)
   int best = -1;
   for (int q = 0; q < k->olds; q++)
     {
-      const bt__anchor *a = k->w->old + q;
+      const bt__contact *a = k->w->old + q;
       double away = a->state < 0 ? INFINITY : away_from (k, i, a);
       if (!(away < least) || is_of_later (k, i, a, away))
         continue;
@@ -283,7 +283,7 @@ bt__self_friction (const bt__line_job *k, int i)
 double
 bt__self_stiffness (const bt__line_job *k, int i)
 {
-  const bt__dynamic_row *r = k->w->row + i;
+  const bt__constraint *r = k->w->row + i;
   uint32_t strand = k->w->of[i].object;
   const bt__strand *o = strand ? k->config->strand + strand - 1 : NULL;
   double way
@@ -292,10 +292,10 @@ bt__self_stiffness (const bt__line_job *k, int i)
   return fmax (stiff, YIELD * r->load / way);
 }
 
-bt__anchor
-bt__self_reaction (const bt__line_job *k, int i, const bt__anchor *a)
+bt__contact
+bt__self_reaction (const bt__line_job *k, int i, const bt__contact *a)
 {
-  bt__anchor b = *a;
+  bt__contact b = *a;
   b.from_end = a->other;
   b.other = a->from_end;
   b.point = bt__axpy (a->point, -2 * k->config->radius, a->normal);

@@ -19,7 +19,7 @@
 
 /* The first tether of the group of I: until they are numbered a group points to earlier ones.  */
 static int
-root_of (const bt__lanes *l, int i)
+root_of (const bt__contexts *l, int i)
 {
   while (l->group[i] != i)
     i = l->group[i];
@@ -27,7 +27,7 @@ root_of (const bt__lanes *l, int i)
 }
 
 static void
-join (bt__lanes *l, int i, int j)
+join (bt__contexts *l, int i, int j)
 {
   int a = root_of (l, i), b = root_of (l, j);
   if (a < b)
@@ -37,7 +37,7 @@ join (bt__lanes *l, int i, int j)
 }
 
 static void
-join_at_vehicles (const bt_dive *dive, bt__lanes *l)
+join_at_vehicles (const bt_dive *dive, bt__contexts *l)
 {
   const bt_model *model = dive->model;
   for (int i = 0; i < model->n_tethers; i++)
@@ -50,7 +50,7 @@ join_at_vehicles (const bt_dive *dive, bt__lanes *l)
 
 /* Number the groups in the order of their first tethers, and list the tethers of each group.  */
 static void
-number (const bt_dive *dive, bt__lanes *l)
+number (const bt_dive *dive, bt__contexts *l)
 {
   int n = dive->model->n_tethers, root[BT_TETHERS_MAX], of[BT_TETHERS_MAX];
   for (int i = 0; i < n; i++)
@@ -61,7 +61,7 @@ number (const bt_dive *dive, bt__lanes *l)
   l->groups = 0;
   for (int p = 0; p < n; p++)
     {
-      int i = dive->shore.order[p], g = of[root[i]];
+      int i = dive->contact_work.order[p], g = of[root[i]];
       if (g < 0)
         l->first[g = of[root[i]] = l->groups++] = i;
       else
@@ -73,7 +73,7 @@ number (const bt_dive *dive, bt__lanes *l)
 }
 
 static void
-mark_shared (const bt_dive *dive, bt__lanes *l)
+mark_shared (const bt_dive *dive, bt__contexts *l)
 {
   int of[BT_VEHICLES_MAX];
   for (int v = 0; v < dive->model->n_vehicles; v++)
@@ -109,7 +109,7 @@ leaves_of (const bt__dynamic *chain)
 
 /* Boxes about the leaves of PART of tether I.  */
 static void
-box_leaves (const bt_dive *dive, bt__state *state, bt__lanes *l, int i, int part)
+box_leaves (const bt_dive *dive, bt__state *state, bt__contexts *l, int i, int part)
 {
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, part);
   const bt_vec3 *x = bt__dynamic_x (chain);
@@ -126,12 +126,12 @@ box_leaves (const bt_dive *dive, bt__state *state, bt__lanes *l, int i, int part
 
 /* Give every moving line the box about its parts, drawn before.  */
 static void
-box_tethers (const bt_dive *dive, bt__state *state, bt__lanes *l)
+box_tethers (const bt_dive *dive, bt__state *state, bt__contexts *l)
 {
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       const bt__tether *tether = bt__dive_tether (dive, state, i);
-      const bt__aabb *part = dive->shore.box + 2 * i;
+      const bt__aabb *part = dive->contact_work.box + 2 * i;
       l->boxes[i] = 0;
       if (tether->shape.form != BT__FORM_CHAIN)
         continue;
@@ -184,7 +184,8 @@ leaves_meet (leaf a, leaf b, double gap)
 
 /* True if links of tethers I and J are nearer than GAP.  */
 static int
-tethers_meet (const bt_dive *dive, bt__state *state, const bt__lanes *l, int i, int j, double gap)
+tethers_meet (const bt_dive *dive, bt__state *state, const bt__contexts *l, int i, int j,
+              double gap)
 {
   const bt__aabb *a = l->box + l->box_at[i], *b = l->box + l->box_at[j];
   for (int m = 0; m < l->boxes[i]; m++)
@@ -206,7 +207,7 @@ may_touch (const bt_dive *dive, bt__state *state, int i, int j)
 /* True if the tethers I and J may influence each other; WAY has the distance, m, that each tether
    may move or ask for.  */
 static int
-are_close (const bt_dive *dive, bt__state *state, const bt__lanes *l, int i, int j,
+are_close (const bt_dive *dive, bt__state *state, const bt__contexts *l, int i, int j,
            const double *way)
 {
   double gap = way[i] + way[j] + bt__dive_tether (dive, state, i)->props.diameter
@@ -216,7 +217,7 @@ are_close (const bt_dive *dive, bt__state *state, const bt__lanes *l, int i, int
 }
 
 static void
-join_near (const bt_dive *dive, bt__state *state, bt__lanes *l)
+join_near (const bt_dive *dive, bt__state *state, bt__contexts *l)
 {
   int n = dive->model->n_tethers;
   box_tethers (dive, state, l);
@@ -227,7 +228,7 @@ join_near (const bt_dive *dive, bt__state *state, bt__lanes *l)
 }
 
 int
-bt__were_apart (const bt_dive *dive, bt__lanes *l)
+bt__were_apart (const bt_dive *dive, bt__contexts *l)
 {
   int n = dive->model->n_tethers;
   for (int i = 0; i < n; i++)
@@ -238,7 +239,7 @@ bt__were_apart (const bt_dive *dive, bt__lanes *l)
 }
 
 void
-bt__set_apart (const bt_dive *dive, bt__state *state, bt__lanes *l)
+bt__set_apart (const bt_dive *dive, bt__state *state, bt__contexts *l)
 {
   for (int i = 0; i < dive->model->n_tethers; i++)
     l->group[i] = i;

@@ -12,7 +12,7 @@ aim (bt_dive *dive, bt__state *state, int k, double seconds)
 {
   const bt__mover_state *now = &bt__dive_movers (dive, state)[k];
   bt__frame to = bt__carried_frame (dive->model, k, now->clock + seconds);
-  bt__course *course = &dive->shore.course[k];
+  bt__course *course = &dive->contact_work.course[k];
   course->whole = bt__motion_between (&now->frame, seconds > 0 ? &to : &now->frame);
   course->seconds = seconds;
 }
@@ -20,10 +20,10 @@ aim (bt_dive *dive, bt__state *state, int k, double seconds)
 void
 bt__aim_movers (bt_dive *dive, bt__state *state, int round)
 {
-  dive->shore.disagree = 0;
+  dive->contact_work.disagree = 0;
   for (int k = 0; k < dive->model->n_carried; k++)
     {
-      bt__course *course = &dive->shore.course[k];
+      bt__course *course = &dive->contact_work.course[k];
       /* What a try before came to is as far as this one aims.  */
       course->share = round == 0 ? 1 : round < BT__TRIES ? course->share : 0;
       course->gone = 0;
@@ -34,11 +34,11 @@ bt__aim_movers (bt_dive *dive, bt__state *state, int round)
 void
 bt__rest_movers (bt_dive *dive, bt__state *state)
 {
-  dive->shore.disagree = 0;
+  dive->contact_work.disagree = 0;
   for (int k = 0; k < dive->model->n_carried; k++)
     {
-      dive->shore.course[k].share = 0;
-      dive->shore.course[k].gone = 0;
+      dive->contact_work.course[k].share = 0;
+      dive->contact_work.course[k].gone = 0;
       aim (dive, state, k, 0);
     }
 }
@@ -48,9 +48,9 @@ bt__around_done (bt_dive *dive)
 {
   for (int k = 0; k < dive->model->n_carried; k++)
     {
-      bt__course *course = &dive->shore.course[k];
-      double done = dive->shore.mover[k].done;
-      dive->shore.disagree |= done < 1 && course->gone;
+      bt__course *course = &dive->contact_work.course[k];
+      double done = dive->contact_work.mover[k].done;
+      dive->contact_work.disagree |= done < 1 && course->gone;
       course->share *= done;
       course->gone = course->share > 0;
     }
@@ -59,7 +59,7 @@ bt__around_done (bt_dive *dive)
 int
 bt__around_agrees (const bt_dive *dive)
 {
-  return !dive->shore.disagree;
+  return !dive->contact_work.disagree;
 }
 
 void
@@ -67,7 +67,7 @@ bt__settle_movers (bt_dive *dive, bt__state *state)
 {
   for (int k = 0; k < dive->model->n_carried; k++)
     {
-      const bt__course *course = &dive->shore.course[k];
+      const bt__course *course = &dive->contact_work.course[k];
       bt__mover_state *mover = &bt__dive_movers (dive, state)[k];
       int pinched = course->share < 1;
       mover->frame = bt__motion_at (&course->whole, course->share);
@@ -83,7 +83,7 @@ bt__movers_move (const bt_dive *dive)
 {
   for (int k = 0; k < dive->model->n_carried; k++)
     {
-      const bt__course *course = &dive->shore.course[k];
+      const bt__course *course = &dive->contact_work.course[k];
       int moves = bt__norm (course->whole.travel) > 0 || course->whole.angle != 0;
       if (moves && course->share > 0)
         return 1;

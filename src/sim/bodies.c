@@ -295,7 +295,7 @@ bt__step_bodies (const bt_dive *dive, bt__state *state, bt_error *error)
       if (!v->rigid)
         continue;
       if (bt__pinned (dive, i))
-        v->body = dive->shore.pin[i].body;
+        v->body = dive->contact_work.pin[i].body;
       else if (carried_by (dive, state, i) < 0)
         status = step_free (dive, state, i, error);
       bt__mirror_body (v);

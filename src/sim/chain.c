@@ -140,13 +140,13 @@ bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, i
     }
   else
     tense (dive, chain, n);
-  bt__anchors_init (bt__dive_anchors (dive, state, i, 0), bt__anchor_room (dive->model, def));
+  bt__contacts_init (bt__dive_anchors (dive, state, i, 0), bt__contact_room (dive->model, def));
   memset (&tether->shape, 0, sizeof tether->shape);
   tether->shape.form = BT__FORM_CHAIN;
   tether->shape.a = ends->a;
   tether->shape.b = ends->b;
   tether->shape.length = tether->length;
-  tether->drape = BT__DRAPE_NONE;
+  tether->contact_form = BT__CONTACT_FORM_NONE;
   tether->parted = tether->quiet = tether->settled = tether->blocked = 0;
   vehicle = bt__carried_vehicle (dive, state, i);
   if (vehicle >= 0)
@@ -238,8 +238,8 @@ bt__part_chain (bt_dive *dive, bt__state *state, int i, int interval)
   bt__dynamic *whole = bt__dive_chain (dive, state, i, 0),
               *far = bt__dive_chain (dive, state, i, 1);
   bt__dynamic_cut (whole, interval, whole, far);
-  bt__anchors_init (bt__dive_anchors (dive, state, i, 1),
-                    bt__anchor_room (dive->model, &dive->model->tethers[i]));
+  bt__contacts_init (bt__dive_anchors (dive, state, i, 1),
+                     bt__contact_room (dive->model, &dive->model->tethers[i]));
   tether->parted = 1;
   tether->length = bt__dynamic_length (whole);
   tether->winch_rate = 0;

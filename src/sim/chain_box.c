@@ -86,7 +86,7 @@ bt__box_line (bt_dive *dive, bt__state *state, int i)
   int left = 0;
   for (int part = 0; part < parts_of (dive, state, i); part++)
     {
-      bt__aabb *known = &dive->shore.box[2 * i + part];
+      bt__aabb *known = &dive->contact_work.box[2 * i + part];
       bt__aabb box = box_of (bt__dive_chain (dive, state, i, part));
       if (holds (known, &box))
         continue;
@@ -103,7 +103,7 @@ bt__box_lines (bt_dive *dive, bt__state *state)
       = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
-      dive->shore.box[2 * i] = dive->shore.box[2 * i + 1] = none;
+      dive->contact_work.box[2 * i] = dive->contact_work.box[2 * i + 1] = none;
       bt__box_line (dive, state, i);
     }
 }

@@ -24,7 +24,8 @@ static double
 most_pull_at (const bt_dive *dive, bt__state *state, int i, int k)
 {
   int vehicle = dive->model->ends[i][k].vehicle;
-  if (vehicle < 0 || (dive->shore.pin && dive->shore.pin[vehicle].how == BT__PIN_HARD))
+  if (vehicle < 0
+      || (dive->contact_work.pin && dive->contact_work.pin[vehicle].how == BT__PIN_HARD))
     return INFINITY;
   return bt__dive_vehicle (dive, state, vehicle)->pull;
 }
@@ -47,7 +48,7 @@ static int
 yields (const bt_dive *dive, const bt__state *state, int i, int part, const bt__tether *other,
         int j, int k)
 {
-  int later = i == j ? k < part : dive->shore.place[j] > dive->shore.place[i];
+  int later = i == j ? k < part : dive->contact_work.place[j] > dive->contact_work.place[i];
   return later && state->step != dive->now->step && bt__is_moving_model (other)
          && other->quiet < BT__SLEEP_AFTER;
 }
@@ -100,10 +101,10 @@ gather_strands (const bt_dive *dive, bt__state *state, int i, int part)
       for (int k = 0; k <= (other->parted != 0); k++)
         if (j != i || k != part)
           {
-            bt__strand *strand = dive->shore.strand + n++;
+            bt__strand *strand = dive->contact_work.strand + n++;
             *strand = (bt__strand){ .line = bt__dive_chain (dive, from, j, k),
                                     .anchors = bt__dive_anchors (dive, from, j, k),
-                                    .box = j == i ? NULL : dive->shore.box + 2 * j + k,
+                                    .box = j == i ? NULL : dive->contact_work.box + 2 * j + k,
                                     .inertia = inertia_of (state, &other->props),
                                     .yields = yields (dive, state, i, part, other, j, k),
                                     .id = dive->model->n_obstacles + j,
@@ -133,7 +134,7 @@ line_config (const bt_dive *dive, bt__state *state, int i, int part)
   config.rough = bt__dive_roughness (dive, state);
   config.obstacles = dive->model->n_obstacles;
   config.itself = touches_tether (dive, state, i, i);
-  config.strand = dive->shore.strand;
+  config.strand = dive->contact_work.strand;
   config.strands = gather_strands (dive, state, i, part);
   return config;
 }
@@ -143,16 +144,16 @@ static void
 take_up (bt_dive *dive, int i, int part)
 {
   int line = 2 * i + part;
-  if (dive->shore.line_of != line)
-    bt__line_work_forget (dive->shore.line);
-  dive->shore.line_of = line;
+  if (dive->contact_work.line_of != line)
+    bt__line_work_forget (dive->contact_work.line);
+  dive->contact_work.line_of = line;
 }
 
 static void
-note_line_meetings (const bt_dive *dive, bt__state *state, int i, const bt__anchors *anchors)
+note_line_meetings (const bt_dive *dive, bt__state *state, int i, const bt__contacts *anchors)
 {
   bt__subject *subject = bt__dive_subject (dive, state, BT_PART_TETHER, i);
-  const bt__anchor *anchor = bt__anchors_at (anchors);
+  const bt__contact *anchor = bt__contacts_at (anchors);
   for (int64_t k = 0; k < anchors->n; k++)
     if (anchor[k].load > 0)
       bt__note_meeting (state, subject, BT_PART_TETHER, i, (int)anchor[k].object);
@@ -182,7 +183,7 @@ bt_status
 bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dynamic_input *input,
                 bt__dynamic_report *report, bt_error *error)
 {
-  bt__anchors *anchors = bt__dive_anchors (dive, state, i, part);
+  bt__contacts *anchors = bt__dive_anchors (dive, state, i, part);
   int among = bt__has_obstacles (dive);
   bt__surroundings around = among ? bt__surround (dive, state, BT_PART_TETHER, i)
                                   : (bt__surroundings){ .scene = dive->model->scene };
@@ -190,9 +191,9 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
   bt__line_report touch = { 0 };
   bt_status status;
   take_up (dive, i, part);
-  status
-      = bt__line_step (bt__dive_chain (dive, state, i, part), dive->work, dive->shore.line, input,
-                       &around, &config, anchors, report, &touch, &dive->shore.count, error);
+  status = bt__line_step (bt__dive_chain (dive, state, i, part), dive->work,
+                          dive->contact_work.line, input, &around, &config, anchors, report, &touch,
+                          &dive->contact_work.count, error);
   if (status != BT_OK)
     return status;
   bt__around_done (dive);
@@ -206,14 +207,14 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
 void
 bt__wake_touched (const bt_dive *dive, bt__state *state, int i, int part)
 {
-  const bt__anchors *anchors = bt__dive_anchors (dive, state, i, part);
-  const bt__anchor *anchor = bt__anchors_at (anchors);
+  const bt__contacts *anchors = bt__dive_anchors (dive, state, i, part);
+  const bt__contact *anchor = bt__contacts_at (anchors);
   for (int64_t k = 0; k < anchors->n; k++)
     {
       int j = (int)anchor[k].object - dive->model->n_obstacles;
-      if (anchor[k].mover == BT__ANCHOR_LINE && bt__are_apart (dive, i, j))
-        dive->lane->refused = 1;
-      else if (anchor[k].mover == BT__ANCHOR_LINE)
+      if (anchor[k].mover == BT__CONTACT_LINE && bt__are_apart (dive, i, j))
+        dive->context->refused = 1;
+      else if (anchor[k].mover == BT__CONTACT_LINE)
         bt__dive_tether (dive, state, j)->quiet = 0;
     }
 }
@@ -225,11 +226,11 @@ static double
 push_towards (const bt_dive *dive, bt__state *state, int i, int j)
 {
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
-  const bt__anchors *anchors = bt__dive_anchors (dive, state, i, 0);
-  const bt__anchor *a = bt__anchors_at (anchors);
+  const bt__contacts *anchors = bt__dive_anchors (dive, state, i, 0);
+  const bt__contact *a = bt__contacts_at (anchors);
   double sum = 0, length = bt__dynamic_length (chain);
   for (int64_t k = 0; k < anchors->n; k++)
-    if (a[k].mover == BT__ANCHOR_LINE && a[k].object == dive->model->n_obstacles + j)
+    if (a[k].mover == BT__CONTACT_LINE && a[k].object == dive->model->n_obstacles + j)
       sum -= a[k].load
              * bt__dot (a[k].normal, bt__dynamic_velocity (chain, length - a[k].from_end));
   return sum;
@@ -246,7 +247,7 @@ goes_behind (const bt_dive *dive, bt__state *state, int i, int j)
 void
 bt__order_tethers (bt_dive *dive, bt__state *state)
 {
-  int *order = dive->shore.order, n = dive->model->n_tethers;
+  int *order = dive->contact_work.order, n = dive->model->n_tethers;
   for (int i = 0; i < n; i++)
     {
       int at = i;
@@ -255,5 +256,5 @@ bt__order_tethers (bt_dive *dive, bt__state *state)
       order[at] = i;
     }
   for (int i = 0; i < n; i++)
-    dive->shore.place[order[i]] = i;
+    dive->contact_work.place[order[i]] = i;
 }

@@ -10,7 +10,7 @@
 /* The length of line, m, represented by one contact: an interval, or at a sliding node only the
    part in touch with the edge.  */
 static double
-span_of (const bt__dynamic *chain, const bt__anchor *anchor)
+span_of (const bt__dynamic *chain, const bt__contact *anchor)
 {
   return anchor->bent ? anchor->span : bt__dynamic_length (chain) / (double)chain->n;
 }
@@ -35,7 +35,7 @@ note_worn (bt__state *state, bt__tether *tether, int i, int64_t object)
 
 static void
 chafe (bt_dive *dive, bt__state *state, int i, double from_end, double span,
-       const bt__anchor *anchor)
+       const bt__contact *anchor)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
   bt__wear wear = bt__dive_wear (dive, state, i);
@@ -50,8 +50,8 @@ chafe (bt_dive *dive, bt__state *state, int i, double from_end, double span,
 void
 bt__wear_chain (bt_dive *dive, bt__state *state, int i, int part)
 {
-  const bt__anchors *anchors = bt__dive_anchors (dive, state, i, part);
-  const bt__anchor *anchor = bt__anchors_at (anchors);
+  const bt__contacts *anchors = bt__dive_anchors (dive, state, i, part);
+  const bt__contact *anchor = bt__contacts_at (anchors);
   if (anchors->n == 0)
     return;
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, part);

@@ -52,7 +52,7 @@ sweep (const passage *p, bt__frame *frame, const bt__frame *to, bt__stop *stop)
   bt__motion motion = bt__motion_between (frame, to);
   double share
       = bt__body_sweep (&p->hull.body, &motion, BT__HULL_GAP, p->around.scene, p->around.on,
-                        p->around.mover, p->around.movers, stop, &p->dive->shore.count);
+                        p->around.mover, p->around.movers, stop, &p->dive->contact_work.count);
   *frame = share < 1 ? bt__motion_at (&motion, share) : *to;
   if (share < 1)
     note_stop (p->dive, p->state, p->vehicle, stop);

@@ -30,13 +30,13 @@ double
 bt__room_about (bt_dive *dive, const bt__surroundings *around, const bt__link *link, double cap,
                 bt__near *near)
 {
-  if (bt__scene_nearest (around->scene, around->on, link, cap, near, &dive->shore.count))
+  if (bt__scene_nearest (around->scene, around->on, link, cap, near, &dive->contact_work.count))
     cap = near->w.distance;
   for (uint32_t k = 0; k < around->movers; k++)
     {
       const bt__mover *mover = &around->mover[k];
       bt__link there = to_mover (mover, link);
-      if (bt__scene_nearest (mover->body, mover->on, &there, cap, near, &dive->shore.count))
+      if (bt__scene_nearest (mover->body, mover->on, &there, cap, near, &dive->contact_work.count))
         cap = near->w.distance;
     }
   return cap;
@@ -87,7 +87,7 @@ bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n)
   double core = bt__core (bt__dive_tether (dive, state, i)->props.diameter);
   double length = bt__dynamic_length (chain), s = 0;
   /* It has just stepped; where lines touch, nodes stay.  */
-  double spare = bt__line_work_spare (dive->shore.line, chain);
+  double spare = bt__line_work_spare (dive->contact_work.line, chain);
   int64_t j = 0;
   for (int k = 0; k < n; k++)
     {
@@ -127,12 +127,12 @@ static int
 own_corners (bt_dive *dive, bt__state *state, int i)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
-  bt__polyline *line = tether->drape == BT__DRAPE_SPANS
+  bt__polyline *line = tether->contact_form == BT__CONTACT_FORM_SPANS
                            ? bt__thesis_line (bt__dive_thesis (dive, state, i))
                            : bt__dive_held (dive, state, i);
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
   int moves = tether->shape.form == BT__FORM_CHAIN;
-  int n = moves ? (int)chain->n + 1 : tether->drape ? (int)line->n : 0;
+  int n = moves ? (int)chain->n + 1 : tether->contact_form ? (int)line->n : 0;
   const bt_vec3 *x = moves ? bt__dynamic_x (chain) : bt__polyline_x (line);
   memcpy (dive->polyline, x, sizeof *x * (size_t)n);
   return n;
@@ -241,14 +241,14 @@ begin_along_nodes (bt_dive *dive, bt__state *state, int i, bt_vec3 *x, int n)
   x = dive->polyline;
   whole = bt__length (x, (uint32_t)n + 1);
   for (int k = 0; k < n; k++)
-    dive->shore.share[k] = whole > 0 ? bt__distance (x[k], x[k + 1]) / whole : 1.0 / n;
+    dive->contact_work.share[k] = whole > 0 ? bt__distance (x[k], x[k + 1]) / whole : 1.0 / n;
 }
 
 bt_status
 bt__lay_chain_among (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  bt_vec3 *corner = dive->corner, *node = dive->shore.node;
+  bt_vec3 *corner = dive->corner, *node = dive->contact_work.node;
   int m = 0, n = bt__rest_nodes (dive, tether, i), there = 0;
   double whole;
   bt_status status = bt__corners (dive, state, i, ends, &m, error);
@@ -270,6 +270,7 @@ bt__lay_chain_among (bt_dive *dive, bt__state *state, int i, const bt__ends *end
     allot (corner, m, node, n);
   if (!there)
     begin_along_nodes (dive, state, i, node, n);
-  status = bt__begin_chain (dive, state, i, ends, n, there ? NULL : dive->shore.share, error);
+  status
+      = bt__begin_chain (dive, state, i, ends, n, there ? NULL : dive->contact_work.share, error);
   return status == BT_OK && !there ? bt__fall (dive, state, i, ends, error) : status;
 }

@@ -34,7 +34,7 @@ pin_ends (bt_dive *dive, bt__state *state, int i, int how)
       if (vehicle >= 0)
         {
           const bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
-          dive->shore.pin[vehicle] = (bt__pin){ how, v->position, v->body };
+          dive->contact_work.pin[vehicle] = (bt__pin){ how, v->position, v->body };
         }
     }
 }
@@ -47,9 +47,9 @@ keep_pins (bt_dive *dive, int i, bt__pin kept[2], int take)
     {
       int vehicle = dive->model->ends[i][k].vehicle;
       if (vehicle >= 0 && take)
-        dive->shore.pin[vehicle] = kept[k];
+        dive->contact_work.pin[vehicle] = kept[k];
       else if (vehicle >= 0)
-        kept[k] = dive->shore.pin[vehicle];
+        kept[k] = dive->contact_work.pin[vehicle];
     }
 }
 

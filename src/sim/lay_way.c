@@ -54,8 +54,8 @@ lead (bt_dive *dive, const bt__surroundings *around, const bt__safe_config *conf
       const bt_vec3 *want, int n)
 {
   bt__safe_report report;
-  bt__safe_step (dive->shore.safe, config, around->scene, around->on, around->mover, around->movers,
-                 x, want, (uint32_t)n + 1, &report, &dive->shore.count);
+  bt__safe_step (dive->contact_work.safe, config, around->scene, around->on, around->mover,
+                 around->movers, x, want, (uint32_t)n + 1, &report, &dive->contact_work.count);
 }
 
 bt_status
@@ -72,8 +72,8 @@ bt__lead_to_rest (bt_dive *dive, bt__state *state, int i, bt_vec3 *x, int n, int
                              .stride = fmax (STRIDE_LEAST, 2 * left / ROUNDS),
                              .rounds = 1 };
   bt_status status = BT_OK;
-  bt__safe_forget (dive->shore.safe);
-  dive->shore.safe_of = -1;
+  bt__safe_forget (dive->contact_work.safe);
+  dive->contact_work.safe_of = -1;
   for (int k = 0; status == BT_OK && left > 0 && gone > IDLE * config.stride && k < ROUNDS; k++)
     {
       memcpy (before, x, sizeof *x * (size_t)(n + 1));

@@ -132,7 +132,7 @@ check_hull (const bt__call *c)
   bt__stop stop;
   bt__hull_of (&c->dive->model->vehicles[c->subject], &hull);
   if (!bt__body_nearest (&hull.body, &frame, BT__HULL_GAP, around.scene, around.on, around.mover,
-                         around.movers, &stop, &c->dive->shore.count))
+                         around.movers, &stop, &c->dive->contact_work.count))
     return BT_OK;
   return bt__fail (c->error, BT_ERR_DOMAIN, "`%s' cannot be put at (%g %g %g): `%s' is there",
                    c->dive->model->vehicles[c->subject].name, v->position.x, v->position.y,
@@ -150,7 +150,7 @@ forget_shape (const bt__call *c, int i)
     return;
   memset (&tether->memory, 0, sizeof tether->memory);
   memset (&tether->shape, 0, sizeof tether->shape);
-  tether->drape = BT__DRAPE_NONE;
+  tether->contact_form = BT__CONTACT_FORM_NONE;
   tether->relaid = tether->stale = 1;
 }
 

@@ -52,7 +52,7 @@ rank_of (const bt_dive *dive, bt__state *state, int i)
 void
 bt__put_carriers_first (bt_dive *dive, bt__state *state)
 {
-  int *order = dive->shore.order, n = dive->model->n_tethers, rank[BT_TETHERS_MAX];
+  int *order = dive->contact_work.order, n = dive->model->n_tethers, rank[BT_TETHERS_MAX];
   for (int i = 0; i < n; i++)
     rank[i] = rank_of (dive, state, i);
   for (int k = 1; k < n; k++)
@@ -63,5 +63,5 @@ bt__put_carriers_first (bt_dive *dive, bt__state *state)
       order[at] = i;
     }
   for (int k = 0; k < n; k++)
-    dive->shore.place[order[k]] = k;
+    dive->contact_work.place[order[k]] = k;
 }

@@ -76,7 +76,7 @@ come (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
 {
   bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
   bt_vec3 reach = reach_within (dive, state, vehicle, wanted);
-  put_pin (&dive->shore.pin[vehicle], v, reach);
+  put_pin (&dive->contact_work.pin[vehicle], v, reach);
   if (is_at (reach, v->position))
     return;
   stand (dive, state, vehicle, reach);
@@ -92,7 +92,7 @@ stay (bt_dive *dive, bt__state *state, int vehicle)
   v->heading = before->heading;
   v->body = before->body;
   v->body.velocity = v->body.spin = bt__vec (0, 0, 0);
-  dive->shore.pin[vehicle] = (bt__pin){ BT__PIN_HARD, before->position, v->body };
+  dive->contact_work.pin[vehicle] = (bt__pin){ BT__PIN_HARD, before->position, v->body };
   stand (dive, state, vehicle, before->position);
 }
 
@@ -101,7 +101,7 @@ bt__pin_vehicles (bt_dive *dive, bt__state *state, int round)
 {
   for (int i = 0; i < dive->model->n_vehicles; i++)
     {
-      bt__pin *pin = &dive->shore.pin[i];
+      bt__pin *pin = &dive->contact_work.pin[i];
       const bt__vehicle *v = bt__dive_vehicle (dive, state, i);
       if (round == 0)
         pin->how = BT__PIN_OFF;
@@ -118,15 +118,15 @@ bt__unpin_vehicles (bt_dive *dive, bt__state *state)
   for (int i = 0; i < dive->model->n_vehicles; i++)
     {
       const bt__vehicle *v = bt__dive_vehicle (dive, state, i);
-      dive->shore.pin[i].how = BT__PIN_OFF;
-      put_pin (&dive->shore.pin[i], v, v->position);
+      dive->contact_work.pin[i].how = BT__PIN_OFF;
+      put_pin (&dive->contact_work.pin[i], v, v->position);
     }
 }
 
 int
 bt__pinned (const bt_dive *dive, int vehicle)
 {
-  return dive->shore.pin && dive->shore.pin[vehicle].how;
+  return dive->contact_work.pin && dive->contact_work.pin[vehicle].how;
 }
 
 /* Where VEHICLE is when its tether ends at P.  */
@@ -207,7 +207,7 @@ static int
 agrees (bt_dive *dive, bt__state *state, int vehicle)
 {
   const bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
-  bt__pin *pin = &dive->shore.pin[vehicle];
+  bt__pin *pin = &dive->contact_work.pin[vehicle];
   bt_vec3 before = place_before (dive, vehicle), at = v->position;
   int differ = draw_back_to_ends (dive, state, vehicle, before, &at);
   int turned = v->rigid && memcmp (&pin->body.attitude, &v->body.attitude, sizeof (bt__quat)) != 0;

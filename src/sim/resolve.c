@@ -144,7 +144,7 @@ resolve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
                      "tether `%s' has parted: only the model `dynamic' moves it",
                      dive->model->tethers[i].name);
   if (bt__has_obstacles (dive))
-    return bt__drape_tether (dive, state, i, ends, error);
+    return bt__contact_static (dive, state, i, ends, error);
   if (tether->shape.form == BT__FORM_CHAIN)
     bt__still_chain (dive, state, i);
   if (tether->pull != pull_for_solve (dive, state, i)
@@ -182,12 +182,12 @@ bt__resolve_tether (bt_dive *dive, bt__state *state, int i, int passes, bt_error
   bt_status status = bt__is_moving_model (bt__dive_tether (dive, state, i))
                          ? resolve_moving (dive, state, i, &ends, passes, error)
                          : resolve_static (dive, state, i, &ends, error);
-  if (are_others (dive) && bt__box_line (dive, state, i) && dive->lane)
-    dive->lane->refused = 1; /* others were told that it is where it was */
+  if (are_others (dive) && bt__box_line (dive, state, i) && dive->context)
+    dive->context->refused = 1; /* others were told that it is where it was */
   if (status == BT_OK)
     bt__ask (&dive->asker);
   /* What an equation left half solved says is no error of the dive.  */
-  bt_status left = dive->lane ? BT_OK : bt__stopped (&dive->asker, error);
+  bt_status left = dive->context ? BT_OK : bt__stopped (&dive->asker, error);
   return left != BT_OK ? left : status;
 }
 
@@ -199,7 +199,7 @@ line_up (bt_dive *dive, bt__state *state)
     bt__order_tethers (dive, state);
   else
     for (int i = 0; i < dive->model->n_tethers; i++)
-      dive->shore.order[i] = i;
+      dive->contact_work.order[i] = i;
   bt__put_carriers_first (dive, state);
 }
 
@@ -210,9 +210,9 @@ bt__resolve_tethers (bt_dive *dive, bt__state *state, int passes, bt_error *erro
   line_up (dive, state);
   if (are_others (dive))
     bt__box_lines (dive, state);
-  if (passes && dive->lanes && bt__share_tethers (dive, state))
+  if (passes && dive->contexts && bt__share_tethers (dive, state))
     return bt__stopped (&dive->asker, error);
   for (int i = 0; status == BT_OK && i < dive->model->n_tethers; i++)
-    status = bt__resolve_tether (dive, state, dive->shore.order[i], passes, error);
+    status = bt__resolve_tether (dive, state, dive->contact_work.order[i], passes, error);
   return status;
 }

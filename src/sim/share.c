@@ -46,16 +46,16 @@ pins_size (const bt_dive *dive)
 void
 bt__share_begin (bt_dive *dive)
 {
-  memcpy (dive->lanes->pin, dive->shore.pin, pins_size (dive));
-  dive->lanes->refused = 0;
+  memcpy (dive->contexts->pin, dive->contact_work.pin, pins_size (dive));
+  dive->contexts->refused = 0;
 }
 
 int
 bt__share_refused (bt_dive *dive)
 {
-  if (dive->lanes->refused)
-    memcpy (dive->shore.pin, dive->lanes->pin, pins_size (dive));
-  return dive->lanes->refused;
+  if (dive->contexts->refused)
+    memcpy (dive->contact_work.pin, dive->contexts->pin, pins_size (dive));
+  return dive->contexts->refused;
 }
 
 /* ---- Is it worth while? ---- */
@@ -96,7 +96,7 @@ has_work (const bt_dive *dive, bt__state *state)
 
 /* True if two groups have something to do.  */
 static int
-can_share (const bt_dive *dive, bt__state *state, const bt__lanes *l)
+can_share (const bt_dive *dive, bt__state *state, const bt__contexts *l)
 {
   int busy = 0;
   for (int g = 0; g < l->groups && busy < 2; g++)
@@ -109,29 +109,29 @@ can_share (const bt_dive *dive, bt__state *state, const bt__lanes *l)
   return busy == 2;
 }
 
-/* ---- On the lanes ---- */
+/* ---- On the contexts ---- */
 
 static void
-step_tether (bt__lanes *l, int w, int i)
+step_tether (bt__contexts *l, int w, int i)
 {
-  bt__lane *lane = &l->lane[w];
-  bt_dive *dive = lane->dive;
+  bt__context *context = &l->context[w];
+  bt_dive *dive = context->dive;
   bt_status status;
   bt_error unused;
-  l->raised[i] = (bt__raised){ .lane = w, .from = dive->next->events };
+  l->raised[i] = (bt__raised){ .context = w, .from = dive->next->events };
   status = bt__resolve_tether (dive, dive->next, i, 1, &unused);
   l->raised[i].to = dive->next->events;
-  if (dive->shore.line)
-    l->asked[i] = fmax (l->asked[i], bt__line_work_asked (dive->shore.line));
+  if (dive->contact_work.line)
+    l->asked[i] = fmax (l->asked[i], bt__line_work_asked (dive->contact_work.line));
   if (status != BT_OK || dive->next->events > BT_EVENTS_KEPT)
-    lane->refused = 1;
+    context->refused = 1;
 }
 
 static void
 step_group (void *user, int w, int g)
 {
-  bt__lanes *l = user;
-  for (int i = l->first[g]; i >= 0 && !l->lane[w].refused; i = l->after[i])
+  bt__contexts *l = user;
+  for (int i = l->first[g]; i >= 0 && !l->context[w].refused; i = l->after[i])
     step_tether (l, w, i);
 }
 
@@ -141,7 +141,7 @@ step_group (void *user, int w, int g)
 static int
 ask_caller (void *user, double share)
 {
-  bt__lanes *l = user;
+  bt__contexts *l = user;
   int left = bt__ask (l->asker);
   (void)share;
   if (left)
@@ -158,22 +158,22 @@ ask_meanwhile (void *user)
 static int
 hear_asker (void *user, double share)
 {
-  const bt__lanes *l = user;
+  const bt__contexts *l = user;
   (void)share;
   return l->left;
 }
 
 static void
-run_groups (bt_dive *dive, bt__lanes *l)
+run_groups (bt_dive *dive, bt__contexts *l)
 {
   int asks = dive->asker.poll != NULL;
   l->asker = &dive->asker;
   l->left = 0;
   for (int w = 0; w < l->n; w++)
-    l->lane[w].dive->asker = (bt__asker){ .poll = !asks    ? NULL
-                                                  : w == 0 ? ask_caller
-                                                           : hear_asker,
-                                          .user = l };
+    l->context[w].dive->asker = (bt__asker){ .poll = !asks    ? NULL
+                                                     : w == 0 ? ask_caller
+                                                              : hear_asker,
+                                             .user = l };
   bt__workers_run_and (l->workers, l->groups, step_group, asks ? ask_meanwhile : NULL, l);
 }
 
@@ -181,17 +181,17 @@ run_groups (bt_dive *dive, bt__lanes *l)
 
 /* True if LANE had to hold an obstacle back.  */
 static int
-held_back (const bt_dive *dive, const bt__lane *lane)
+held_back (const bt_dive *dive, const bt__context *context)
 {
   for (int k = 0; k < dive->model->n_carried; k++)
-    if (lane->dive->shore.course[k].share != dive->shore.course[k].share)
+    if (context->dive->contact_work.course[k].share != dive->contact_work.course[k].share)
       return 1;
   return 0;
 }
 
 /* True if a line asked for others farther off than it might.  */
 static int
-asked_too_far (const bt_dive *dive, const bt__lanes *l)
+asked_too_far (const bt_dive *dive, const bt__contexts *l)
 {
   for (int i = 0; i < dive->model->n_tethers; i++)
     if (!(l->asked[i] <= l->margin[i]))
@@ -200,42 +200,42 @@ asked_too_far (const bt_dive *dive, const bt__lanes *l)
 }
 
 static int
-is_done (const bt_dive *dive, bt__lanes *l)
+is_done (const bt_dive *dive, bt__contexts *l)
 {
   for (int w = 0; w < l->n; w++)
-    if (l->lane[w].refused || held_back (dive, &l->lane[w]))
+    if (l->context[w].refused || held_back (dive, &l->context[w]))
       return 0;
   return !asked_too_far (dive, l) || bt__were_apart (dive, l);
 }
 
 static void
-raise_events (const bt_dive *dive, bt__state *state, const bt__lanes *l)
+raise_events (const bt_dive *dive, bt__state *state, const bt__contexts *l)
 {
   for (int p = 0; p < dive->model->n_tethers; p++)
     {
-      int i = dive->shore.order[p];
+      int i = dive->contact_work.order[p];
       const bt__raised *raised = &l->raised[i];
-      const bt_event *event = l->lane[raised->lane].dive->next->event;
+      const bt_event *event = l->context[raised->context].dive->next->event;
       for (int64_t k = raised->from; k < raised->to; k++)
         state->event[state->events++ % BT_EVENTS_KEPT] = event[k];
     }
 }
 
 static void
-take_over_groups (bt_dive *dive, bt__state *state, bt__lanes *l)
+take_over_groups (bt_dive *dive, bt__state *state, bt__contexts *l)
 {
   raise_events (dive, state, l);
   for (int w = 0; w < l->n; w++)
     {
-      bt__lane_count (&l->lane[w], dive);
+      bt__context_count (&l->context[w], dive);
       for (int k = 0; k < dive->model->n_carried; k++)
-        dive->shore.course[k].gone |= l->lane[w].dive->shore.course[k].gone;
+        dive->contact_work.course[k].gone |= l->context[w].dive->contact_work.course[k].gone;
     }
   l->patience = 0;
 }
 
 static void
-refuse_sharing (bt_dive *dive, bt__lanes *l)
+refuse_sharing (bt_dive *dive, bt__contexts *l)
 {
   l->refused = 1;
   l->alone = l->patience;
@@ -245,7 +245,7 @@ refuse_sharing (bt_dive *dive, bt__lanes *l)
 
 /* What a line asked for it may ask for twice; what it did not again shrinks.  */
 static void
-set_margins (const bt_dive *dive, bt__lanes *l)
+set_margins (const bt_dive *dive, bt__contexts *l)
 {
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
@@ -258,7 +258,7 @@ set_margins (const bt_dive *dive, bt__lanes *l)
 int
 bt__share_tethers (bt_dive *dive, bt__state *state)
 {
-  bt__lanes *l = dive->lanes;
+  bt__contexts *l = dive->contexts;
   if (l->refused || state->current.kind == BT_CURRENT_FUNCTION)
     return 0;
   if (l->alone > 0)
@@ -274,13 +274,13 @@ bt__share_tethers (bt_dive *dive, bt__state *state)
     return 0;
   dive->profile.shared_steps++;
   for (int w = 0; w < l->n; w++)
-    bt__lane_enter (&l->lane[w], dive, state);
+    bt__context_enter (&l->context[w], dive, state);
   run_groups (dive, l);
   if (is_done (dive, l))
     take_over_groups (dive, state, l);
   else
     refuse_sharing (dive, l);
   for (int w = 0; w < l->n; w++)
-    bt__lane_leave (&l->lane[w]);
+    bt__context_leave (&l->context[w]);
   return 1;
 }

@@ -193,7 +193,7 @@ static bt_status
 try_step (bt_dive *dive, int round, bt_error *error)
 {
   bt_status status;
-  if (!dive->lanes)
+  if (!dive->contexts)
     return try_once (dive, round, error);
   bt__share_begin (dive);
   status = try_once (dive, round, error);

@@ -48,7 +48,7 @@ static bt_status
 tell_windings (bt_dive *dive, int i, bt__subject *subject, int8_t *told, int silent,
                bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   bt_status status = bt__watch_wound (dive, i, &g, error);
   if (status != BT_OK)
     return status;

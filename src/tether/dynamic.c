@@ -156,7 +156,7 @@ bt__dynamic_proposal (bt__dynamic_work *w)
 }
 
 int
-bt__dynamic_iterate (bt__dynamic_work *w, bt__dynamic_row *rows, int n, bt__dynamic_hold *hold,
+bt__dynamic_iterate (bt__dynamic_work *w, bt__constraint *rows, int n, bt__dynamic_hold *hold,
                      bt__dynamic_report *report)
 {
   w->row = rows;

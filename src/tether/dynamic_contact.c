@@ -32,27 +32,27 @@ between (const bt_vec3 *p, double s)
 }
 
 static bt_vec3
-place_of (const bt__dynamic_row *r, const bt_vec3 *X)
+place_of (const bt__constraint *r, const bt_vec3 *X)
 {
   bt_vec3 p = between (X + r->node, r->s);
   return r->pair > 0 ? bt__sub (p, between (X + r->pair - 1, r->t)) : p;
 }
 
 static double
-gap_of (const bt__dynamic_row *r, const bt_vec3 *X)
+gap_of (const bt__constraint *r, const bt_vec3 *X)
 {
   return bt__dot (r->normal, place_of (r, X)) - r->offset;
 }
 
 static bt_vec3
-tangential (const bt__dynamic_row *r, bt_vec3 v)
+tangential (const bt__constraint *r, bt_vec3 v)
 {
   return bt__axpy (v, -bt__dot (r->normal, v), r->normal);
 }
 
 /* What friction answers.  */
 static bt_vec3
-drag_of (const bt__dynamic_work *w, const bt__dynamic_row *r)
+drag_of (const bt__dynamic_work *w, const bt__constraint *r)
 {
   bt_vec3 moved = bt__sub (place_of (r, w->X), place_of (r, w->x));
   return tangential (r, bt__axpy (r->stick, 1 + DAMPING, bt__sub (moved, r->drift)));
@@ -60,21 +60,21 @@ drag_of (const bt__dynamic_work *w, const bt__dynamic_row *r)
 
 /* How far the next node has risen against the node of R, m.  */
 static double
-tilt_of (const bt__dynamic_work *w, const bt__dynamic_row *r)
+tilt_of (const bt__dynamic_work *w, const bt__constraint *r)
 {
   return bt__dot (r->normal, bt__sub (w->X[r->node + 1], w->X[r->node])) - r->tilt;
 }
 
 /* How far the load has wandered along the link by TILT, in links, to its ends at most.  */
 static double
-shift_of (const bt__dynamic_row *r, double tilt)
+shift_of (const bt__constraint *r, double tilt)
 {
   return fmin (fmax (-r->roll * tilt, -r->s), 1 - r->s);
 }
 
 /* Add what the load does by having wandered.  */
 static void
-add_roll (bt__dynamic_work *w, bt__dynamic_row *r)
+add_roll (bt__dynamic_work *w, bt__constraint *r)
 {
   double load = r->load > 0 ? r->load : 0, tilt = tilt_of (w, r), shift = shift_of (r, tilt);
   double k = shift == -r->roll * tilt ? load * r->roll : 0;
@@ -88,7 +88,7 @@ add_roll (bt__dynamic_work *w, bt__dynamic_row *r)
 
 /* A block kn n n^T + ks (1 - n n^T) - kd d d^T with weights at two nodes, and the force.  */
 static void
-add_row (bt__dynamic_work *w, bt__dynamic_row *r, double kn, double ks, double kd, bt_vec3 d)
+add_row (bt__dynamic_work *w, bt__constraint *r, double kn, double ks, double kd, bt_vec3 d)
 {
   double a = 1 - r->s, b = r->s;
   bt__sym *p = w->diag + r->node, *q = p + 1, *o = w->off + r->node;
@@ -109,13 +109,13 @@ add_row (bt__dynamic_work *w, bt__dynamic_row *r, double kn, double ks, double k
 
 /* The stiffness of friction of R, N/m, under LOAD and a drag of SIZE.  */
 static double
-grip_of (const bt__dynamic_row *r, double load, double size)
+grip_of (const bt__constraint *r, double load, double size)
 {
   return (load > 0 ? r->friction * load : 0) / fmax (size, r->slip);
 }
 
 static int
-assemble_row (bt__dynamic_work *w, bt__dynamic_row *r, bt__mode mode)
+assemble_row (bt__dynamic_work *w, bt__constraint *r, bt__mode mode)
 {
   double gap = gap_of (r, w->X), urge = -ACTIVITY * r->stiffness * gap;
   urge = mode == BT__SAFE ? -gap : r->load + urge;
@@ -145,7 +145,7 @@ node_share (int64_t node, double s, int64_t i)
 /* The force of R at the solution.  A step that was cut short may have left the place of R far above
    the half-space: an active row pulls by no more than the tolerance of settled loads.  */
 static bt_vec3
-row_press (const bt__dynamic_work *w, const bt__dynamic_row *r)
+row_press (const bt__dynamic_work *w, const bt__constraint *r)
 {
   bt_vec3 drag = drag_of (w, r);
   double load = r->active > 0 ? fmax (-r->stiffness * gap_of (r, w->X), -LOAD) : 0;
@@ -158,7 +158,7 @@ bt__dynamic_contact_on (const bt__dynamic_work *w, int i)
   bt_vec3 sum = { 0, 0, 0 };
   for (int k = 0; k < w->rows; k++)
     {
-      const bt__dynamic_row *r = w->row + k;
+      const bt__constraint *r = w->row + k;
       double share = node_share (r->node, r->s, i);
       int64_t next = r->node + 1;
       if (r->pair > 0)
@@ -259,7 +259,7 @@ ease_rows (bt__dynamic_work *w, int k, double share)
 {
   for (int q = 0; q < w->rows; q++)
     {
-      bt__dynamic_row *r = w->row + q;
+      bt__constraint *r = w->row + q;
       int64_t end = k ? w->n - 1 : 0;
       if (r->node == end || r->pair - 1 == end)
         r->load *= share;
@@ -286,7 +286,7 @@ bt__dynamic_contact_take (bt__dynamic_work *w, double share)
   int settled = 1;
   for (int k = 0; k < w->rows; k++)
     {
-      bt__dynamic_row *r = w->row + k;
+      bt__constraint *r = w->row + k;
       double gap = gap_of (r, w->X) + (1 - share) * bt__dot (r->normal, place_of (r, w->d));
       double push = -r->stiffness * gap, load = r->active > 0 ? fmax (push, 0) : 0;
       double next = share < 1 ? r->load + share * (load - r->load) : load;
@@ -320,7 +320,7 @@ bt__dynamic_contact_load (bt__dynamic_work *w, int none)
     bt__dynamic_bent_follow (w);
   for (int k = 0; k < w->rows; k++)
     {
-      bt__dynamic_row *r = w->row + k;
+      bt__constraint *r = w->row + k;
       r->load = none ? 0 : r->stiffness * fmax (-gap_of (r, w->X), 0);
     }
   for (int k = 0; w->hold && k < 2; k++)
@@ -329,14 +329,14 @@ bt__dynamic_contact_load (bt__dynamic_work *w, int none)
 }
 
 static double
-roll_potential (const bt__dynamic_work *w, const bt__dynamic_row *r)
+roll_potential (const bt__dynamic_work *w, const bt__constraint *r)
 {
   double tilt = tilt_of (w, r), most = tilt > 0 ? r->s : 1 - r->s, shift = r->roll * fabs (tilt);
   return shift < most ? 0.5 * shift * fabs (tilt) : most * (fabs (tilt) - 0.5 * most / r->roll);
 }
 
 static double
-row_potential (const bt__dynamic_work *w, const bt__dynamic_row *r)
+row_potential (const bt__dynamic_work *w, const bt__constraint *r)
 {
   double depth = fmax (-gap_of (r, w->X), 0), most = r->friction * r->load;
   double size = bt__norm (drag_of (w, r));

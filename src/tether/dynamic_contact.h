@@ -22,7 +22,7 @@
 
 #include "tether/dynamic.h"
 
-typedef struct bt__dynamic_row
+typedef struct bt__constraint
 {
   int64_t node;     /* the place is at (1 - S) of NODE and S of the next, 0 <= S <= 1; ... */
   double s;         /* ... NODE is not the last */
@@ -42,7 +42,7 @@ typedef struct bt__dynamic_row
   bt_vec3 drag;     /* out, m: the drag that friction answers, not yet shortened to SLIP */
   bt_vec3 force;    /* out, N on the line; of two places on the first */
   double block[6];  /* out, of two places: the stiffness between them */
-} bt__dynamic_row;
+} bt__constraint;
 
 /* An end that is taken to its place by MOST newtons at the most; the end must be free in the input.
    What cannot be taken along goes on as a body of MASS pulled by MOST.  */
@@ -106,7 +106,7 @@ bt_vec3 *bt__dynamic_proposal (bt__dynamic_work *work);
 
 /* Solve with N ROWS, sorted or not, from the proposal on.  HOLD has two, for either end, or is
    NULL. Return true if it converged; the proposal may then be anything, also not finite.  */
-int bt__dynamic_iterate (bt__dynamic_work *work, bt__dynamic_row *rows, int n,
+int bt__dynamic_iterate (bt__dynamic_work *work, bt__constraint *rows, int n,
                          bt__dynamic_hold *hold, bt__dynamic_report *report);
 
 /* What is watched in a step of a line that nothing moves, see dynamic_energy.c.  */

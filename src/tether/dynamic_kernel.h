@@ -128,7 +128,7 @@ struct bt__dynamic_work
   double given;                     /* m: line that was drawn from the winch */
   const bt_vec3 *x;                 /* positions at the start */
   const bt_vec3 *chord, *load;      /* fourth-order parts, NULL if none */
-  bt__dynamic_row *row;             /* the caller's half-spaces, ... */
+  bt__constraint *row;              /* the caller's half-spaces, ... */
   int rows, pairs;                  /* ... how many; and of these, how many bear on two places */
   bt__dynamic_hold *hold;           /* of the ends, NULL if none */
   bt__dynamic_bent *bent;           /* nodes about which the line runs, ... */
@@ -253,7 +253,7 @@ bt__dynamic_touches (const bt__dynamic_work *w)
 }
 
 /* A row of two places: add block K and what pushes; the solution with all pairs.  */
-void bt__dynamic_pair_add (bt__dynamic_work *w, bt__dynamic_row *r, const bt__sym *k);
+void bt__dynamic_pair_add (bt__dynamic_work *w, bt__constraint *r, const bt__sym *k);
 double bt__dynamic_pair_solve (bt__dynamic_work *w);
 
 /* Bent nodes, likewise; the solution with their flows.  */

@@ -38,7 +38,7 @@ add_at (bt__dynamic_work *w, int64_t i, double s, const bt__sym *k, bt_vec3 f)
 }
 
 void
-bt__dynamic_pair_add (bt__dynamic_work *w, bt__dynamic_row *r, const bt__sym *k)
+bt__dynamic_pair_add (bt__dynamic_work *w, bt__constraint *r, const bt__sym *k)
 {
   memcpy (r->block, k, sizeof r->block);
   add_at (w, r->node, r->s, k, r->force);
@@ -67,7 +67,7 @@ take_back (const bt__dynamic_work *w, const bt_vec3 *p, bt_vec3 *q)
 {
   for (int k = 0; k < w->rows; k++)
     {
-      const bt__dynamic_row *r = w->row + k;
+      const bt__constraint *r = w->row + k;
       bt__sym block;
       if (r->pair == 0)
         continue;

@@ -29,7 +29,7 @@ enum
 bt_status
 bt_tether_taut_length (const bt_dive *dive, int i, double *length, bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   bt_status status = bt__watch_gaze (dive, i, &g, error);
   if (status == BT_OK)
     *length = g->taut_length;
@@ -39,7 +39,7 @@ bt_tether_taut_length (const bt_dive *dive, int i, double *length, bt_error *err
 bt_status
 bt_tether_is_taut (const bt_dive *dive, int i, int *taut, bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   bt_status status = bt__watch_look (dive, i, &g, error);
   if (status != BT_OK)
     return status;
@@ -56,7 +56,7 @@ bt_tether_is_taut (const bt_dive *dive, int i, int *taut, bt_error *error)
 bt_status
 bt_tether_free_length (const bt_dive *dive, int i, double *length, bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   bt_status status = bt__watch_free (dive, i, &g, error);
   if (status == BT_OK)
     *length = g->free_length;
@@ -149,7 +149,7 @@ bt_status
 bt_tether_winding (const bt_dive *dive, int i, int obstacle, int *winding, bt_error *error)
 {
   bt__axis axis;
-  bt__gaze *g;
+  bt__awareness *g;
   bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
   if (status == BT_OK)
     status = obstacle_axis (dive, obstacle, &axis, error);
@@ -163,7 +163,7 @@ bt_tether_winding (const bt_dive *dive, int i, int obstacle, int *winding, bt_er
 bt_status
 bt_tether_wrap_angle (const bt_dive *dive, int i, int obstacle, double *radians, bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   bt_status status = bt__watch_gaze (dive, i, &g, error);
   if (status == BT_OK && obstacle >= 0)
     status = bt__check_part (dive, BT_PART_OBSTACLE, obstacle, error);
@@ -182,7 +182,7 @@ bt_tether_wrap_angle (const bt_dive *dive, int i, int obstacle, double *radians,
 bt_status
 bt_tether_capstan_lock (const bt_dive *dive, int i, double *lock, bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   bt_status status = bt__watch_gaze (dive, i, &g, error);
   if (status == BT_OK)
     *lock = bt__holds_lock (&g->holds);
@@ -202,7 +202,7 @@ object_of (const bt_dive *dive, const bt__chart *chart, int32_t letter)
 bt_status
 bt_tether_class (const bt_dive *dive, int i, bt_class *out, bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   bt_status status = bt__watch_class (dive, i, &g, error);
   if (status != BT_OK)
     return status;
@@ -264,7 +264,7 @@ bt_tether_knotted (const bt_dive *dive, int i, int *knotted, bt_error *error)
 bt_status
 bt_tether_fouled (const bt_dive *dive, int i, bt_foul *foul, bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   bt_status status = bt__watch_free (dive, i, &g, error);
   *foul = BT_FOUL_NOT;
   if (status != BT_OK

@@ -10,7 +10,7 @@
 #include "aware/turns.h"
 #include "base/error.h"
 #include "math/vec.h"
-#include "world/ghost.h"
+#include "world/predicted.h"
 #include "world/watch.h"
 
 enum
@@ -36,7 +36,7 @@ enum
 /* Seed the live string from the tether; return true if one was there and has slipped.  Without
    FORCE only a shorter one is taken.  */
 static int
-seed (const bt_dive *dive, bt__gaze *g, int force)
+seed (const bt_dive *dive, bt__awareness *g, int force)
 {
   struct bt__watch *w = dive->watch;
   double before = g->live->n < 2 ? 0 : g->live->length;
@@ -52,7 +52,7 @@ seed (const bt_dive *dive, bt__gaze *g, int force)
 bt_status
 bt_tether_follow (const bt_dive *dive, int i, bt_follow *out, bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   bt_status status = bt__watch_look (dive, i, &g, error);
   if (status != BT_OK)
     return status;
@@ -85,7 +85,7 @@ typedef struct object
 typedef struct forecast
 {
   const bt_dive *dive;
-  const bt__gaze *g;
+  const bt__awareness *g;
   bt__string *string;
   bt__trail trail; /* the line as it lies, which may touch what the string does not */
   bt__holds holds;
@@ -202,7 +202,7 @@ note_taut (forecast *f, double seconds)
 /* Stop GHOST, coming from FROM, at the first obstacle within RADIUS of its path; foretell a new
    collision if SECONDS have passed.  */
 static void
-note_bump (forecast *f, bt__ghost *ghost, bt_vec3 from, double seconds)
+note_bump (forecast *f, bt__predicted *ghost, bt_vec3 from, double seconds)
 {
   bt__near near;
   bt__link way = { from, ghost->v.position };
@@ -219,7 +219,7 @@ note_bump (forecast *f, bt__ghost *ghost, bt_vec3 from, double seconds)
     }
   bt_vec3 n = near.w.normal, on = near.w.point, to = way.b;
   double in = f->radius - bt__dot (bt__sub (to, on), n);
-  bt__ghost_stop (ghost, in > 0 ? bt__axpy (to, in, n) : to, n);
+  bt__predicted_stop (ghost, in > 0 ? bt__axpy (to, in, n) : to, n);
 }
 
 /* A line may pull with slack elsewhere: friction, or its own turns, hold it at its last bend.  Then
@@ -227,7 +227,7 @@ note_bump (forecast *f, bt__ghost *ghost, bt_vec3 from, double seconds)
 static void
 look_for_leash (forecast *f, int i, bt_vec3 vehicle)
 {
-  const bt__gaze *g = f->g;
+  const bt__awareness *g = f->g;
   bt__line line = bt__line_of (f->dive, f->dive->now, i);
   uint32_t nearest = 0;
   double along = 0;
@@ -245,12 +245,12 @@ look_for_leash (forecast *f, int i, bt_vec3 vehicle)
 }
 
 static void
-hold_on_leash (const forecast *f, bt__ghost *ghost)
+hold_on_leash (const forecast *f, bt__predicted *ghost)
 {
   bt_vec3 way = bt__sub (ghost->v.position, f->held);
   double far = bt__norm (way);
   if (far > f->leash)
-    bt__ghost_stop (ghost, bt__axpy (f->held, f->leash / far, way), bt__scale (-1 / far, way));
+    bt__predicted_stop (ghost, bt__axpy (f->held, f->leash / far, way), bt__scale (-1 / far, way));
 }
 
 /* What is out holds the VEHICLE at the string's last bend.  */
@@ -269,12 +269,12 @@ rein_in (forecast *f, bt_vec3 vehicle)
 
 /* Lead the string on by a look ahead; zero when it cannot be.  */
 static int
-lead_string (forecast *f, bt__ghost *ghost, double t)
+lead_string (forecast *f, bt__predicted *ghost, double t)
 {
   bt_vec3 from = ghost->v.position;
   for (int k = 0; k < LOOKS; k++)
     {
-      bt__ghost_go_on (ghost, AHEAD / LOOKS);
+      bt__predicted_go_on (ghost, AHEAD / LOOKS);
       hold_on_leash (f, ghost);
     }
   note_bump (f, ghost, from, t);
@@ -300,7 +300,7 @@ run_ahead (forecast *f, int i, double seconds)
 {
   int vehicle = f->dive->model->ends[i][1].vehicle;
   bt_vec3 size = f->dive->model->vehicles[vehicle].size;
-  bt__ghost ghost = bt__ghost_of (f->dive, vehicle);
+  bt__predicted ghost = bt__predicted_of (f->dive, vehicle);
   f->radius = fmax (0.5 * fmax (size.x, size.y), 2 * f->g->config.core);
   f->taut = bt__is_taut (f->string->length, f->g->out);
   if (!f->g->open)
@@ -319,7 +319,7 @@ bt_status
 bt_tether_foresee (const bt_dive *dive, int i, double seconds, bt_foresight *out, int max, int *n,
                    bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   bt_vec3 ends[2];
   bt_status status = bt__watch_gaze (dive, i, &g, error);
   *n = 0;

@@ -98,7 +98,7 @@ obstacle_of (const bt_dive *dive, uint32_t place)
 
 /* Whether the body fits through, on the way home.  */
 static bt_status
-look_for_wedges (const bt_dive *dive, bt__gaze *g, const bt__haul_body *body, bt__prospect *p,
+look_for_wedges (const bt_dive *dive, bt__awareness *g, const bt__haul_body *body, bt__prospect *p,
                  bt_error *error)
 {
   bt__string *home = bt__watch_string (dive);
@@ -115,7 +115,7 @@ bt_status
 bt_tether_prospect_by (const bt_dive *dive, int i, double winch, double grip, bt_prospect *out,
                        bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   int vehicle;
   bt_status status = vehicle_at_end (dive, i, &vehicle, error);
   if (status == BT_OK && bt__dive_tether (dive, dive->now, i)->parted)
@@ -167,7 +167,7 @@ bt_status
 bt_tether_taut_string (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n,
                        bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   bt_status status = bt__watch_gaze (dive, i, &g, error);
   if (status != BT_OK)
     return status;
@@ -182,7 +182,7 @@ bt_tether_taut_string (const bt_dive *dive, int i, bt_vec3 *points, int max, int
 /* Lead the end of STRING straight to P, by pieces of at most LEAD.  Return 0 where that is not
  * free. */
 static int
-lead_to (const bt_dive *dive, const bt__gaze *g, bt__string *string, bt_vec3 p)
+lead_to (const bt_dive *dive, const bt__awareness *g, bt__string *string, bt_vec3 p)
 {
   bt_vec3 from = string->x[string->n - 1];
   uint32_t pieces = (uint32_t)fmin (ceil (bt__distance (from, p) / LEAD), LEAD_MOST);
@@ -198,7 +198,7 @@ lead_to (const bt_dive *dive, const bt__gaze *g, bt__string *string, bt_vec3 p)
 
 /* What is nearest to the straight way from the end of G's tether to P.  */
 static int
-in_the_way (const bt_dive *dive, const bt__gaze *g, bt_vec3 p)
+in_the_way (const bt_dive *dive, const bt__awareness *g, bt_vec3 p)
 {
   bt__link link = { g->node[g->n - 1], p };
   bt__near near;
@@ -209,8 +209,8 @@ in_the_way (const bt_dive *dive, const bt__gaze *g, bt_vec3 p)
 }
 
 static bt_status
-taut_among (const bt_dive *dive, const bt__gaze *g, bt_vec3 p, bt_vec3 *points, int max, int *n,
-            double *length, int *obstacle, bt_error *error)
+taut_among (const bt_dive *dive, const bt__awareness *g, bt_vec3 p, bt_vec3 *points, int max,
+            int *n, double *length, int *obstacle, bt_error *error)
 {
   bt__string *string = bt__watch_string (dive);
   bt_status status = BT_OK;
@@ -236,7 +236,7 @@ bt_status
 bt_tether_taut_to (const bt_dive *dive, int i, bt_vec3 p, bt_vec3 *points, int max, int *n,
                    double *length, int *obstacle, bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   *n = 0;
   *obstacle = -1;
   if (!isfinite (p.x) || !isfinite (p.y) || !isfinite (p.z))
@@ -254,7 +254,7 @@ bt_tether_taut_to (const bt_dive *dive, int i, bt_vec3 p, bt_vec3 *points, int m
 
 /* In open water the way home is the chord.  */
 static void
-straight_home (const bt__gaze *g, bt_vec3 *points, int max, int *n, bt_route *out)
+straight_home (const bt__awareness *g, bt_vec3 *points, int max, int *n, bt_route *out)
 {
   bt_vec3 ends[2] = { g->node[g->n - 1], g->node[0] };
   for (int k = 0; k < 2 && k < max; k++)
@@ -272,7 +272,7 @@ bt_status
 bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n, bt_route *out,
                     bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   int vehicle;
   bt_status status = vehicle_at_end (dive, i, &vehicle, error);
   if (status == BT_OK)
@@ -303,7 +303,7 @@ bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n
 
 /* The plan of G's loop into LOOP.  */
 static bt_route
-plan (const bt_dive *dive, const bt__gaze *g, double reach, bt__string *loop, bt__string *copy)
+plan (const bt_dive *dive, const bt__awareness *g, double reach, bt__string *loop, bt__string *copy)
 {
   struct bt__watch *w = dive->watch;
   bt__unwind u = bt__unwind_plan (w->taut, &g->config, g->taut, g->shortest,
@@ -322,7 +322,7 @@ bt_status
 bt_tether_unwind_plan (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n, bt_route *out,
                        bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   int vehicle;
   bt_status status = vehicle_at_end (dive, i, &vehicle, error);
   if (status == BT_OK)

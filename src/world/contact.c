@@ -42,8 +42,8 @@ way_workspace (const bt_dive *dive, const bt__tether *tether, const bt__surround
 {
   return (bt__way){ .around = around,
                     .core = bt__core (tether->props.diameter),
-                    .work = dive->shore.polyline,
-                    .count = &((bt_dive *)dive)->shore.count };
+                    .work = dive->contact_work.polyline,
+                    .count = &((bt_dive *)dive)->contact_work.count };
 }
 
 static int
@@ -224,9 +224,9 @@ look_at_subject (const bt_dive *dive, bt_part part, int i, int obstacle, look *l
   look->around.on = &look->only;
   for (uint32_t k = 0; k < look->around.movers; k++)
     {
-      dive->shore.course[k].on
+      dive->contact_work.course[k].on
           = (bt__switches){ look->off + bt__obstacle_slot (model, model->carried[k].obstacle), 0 };
-      dive->shore.mover[k].on = &dive->shore.course[k].on;
+      dive->contact_work.mover[k].on = &dive->contact_work.course[k].on;
     }
   return BT_OK;
 }
@@ -236,7 +236,7 @@ static int
 nearest_part (const bt_dive *dive, const look *look, const bt__link *link, double *cap,
               bt__near *near, bt_clearance *out)
 {
-  bt__count *count = &((bt_dive *)dive)->shore.count;
+  bt__count *count = &((bt_dive *)dive)->contact_work.count;
   const bt__scene *scene = look->around.scene;
   int found = 0;
   if (bt__scene_nearest (scene, look->around.on, link, *cap, near, count))
@@ -303,7 +303,7 @@ bt_vehicle_clearance (const bt_dive *dive, int i, int obstacle, bt_clearance *ou
   if (look.off
       && bt__body_nearest (&hull.body, &frame, FAR, look.around.scene, look.around.on,
                            look.around.mover, look.around.movers, &stop,
-                           &((bt_dive *)dive)->shore.count))
+                           &((bt_dive *)dive)->contact_work.count))
     {
       out->distance = stop.distance;
       out->position = stop.point;

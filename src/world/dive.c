@@ -9,7 +9,7 @@
 #include "base/hash.h"
 #include "tether/equilibrium.h"
 #include "world/judge.h"
-#include "world/lanes.h"
+#include "world/contexts.h"
 #include "world/layout.h"
 #include "world/watch.h"
 
@@ -77,12 +77,12 @@ make_tools (bt_dive *dive, bt_error *error)
   return BT_OK;
 }
 
-/* What a step has of each vehicle and each tether: lanes borrow it.  */
+/* What a step has of each vehicle and each tether: contexts borrow it.  */
 static bt_status
 make_rows (bt_dive *dive, bt_error *error)
 {
   const bt_model *model = dive->model;
-  bt__shore *shore = &dive->shore;
+  bt__contact_work *shore = &dive->contact_work;
   size_t vehicles = (size_t)model->n_vehicles + 1, tethers = (size_t)model->n_tethers + 1;
   int whole = (dive->driven = calloc (vehicles, sizeof *dive->driven)) != NULL;
   whole = whole && (shore->pin = calloc (vehicles, sizeof *shore->pin))
@@ -97,7 +97,7 @@ static bt_status
 make_shore (bt_dive *dive, bt_error *error)
 {
   const bt_model *model = dive->model;
-  bt__shore *shore = &dive->shore;
+  bt__contact_work *shore = &dive->contact_work;
   int chain = 0, room = 0;
   bt_status status;
   for (int i = 0; i < model->n_tethers; i++)
@@ -132,7 +132,7 @@ make_shore (bt_dive *dive, bt_error *error)
 }
 
 static void
-free_shore (bt__shore *shore)
+free_shore (bt__contact_work *shore)
 {
   free (shore->mover);
   free (shore->course);
@@ -222,11 +222,11 @@ bt__dive_alloc (bt_model *model, bt_dive **out, bt_error *error)
 }
 
 bt_status
-bt__dive_alloc_lane (bt_model *model, bt__lane *lane, bt_error *error)
+bt__dive_alloc_lane (bt_model *model, bt__context *context, bt_error *error)
 {
-  bt_status status = make_dive_of_size (model, 0, sizeof (bt__state), &lane->dive, error);
+  bt_status status = make_dive_of_size (model, 0, sizeof (bt__state), &context->dive, error);
   if (status == BT_OK)
-    lane->dive->lane = lane;
+    context->dive->context = context;
   return status;
 }
 
@@ -254,9 +254,9 @@ bt_dive_free (bt_dive *dive)
   free (dive->driven);
   free (dive->sea);
   free (dive->line);
-  free_shore (&dive->shore);
+  free_shore (&dive->contact_work);
   bt__watch_free_all (dive->watch);
-  bt__lanes_free (dive->lanes);
+  bt__contexts_free (dive->contexts);
   free (dive->now);
   free (dive->next);
   bt_model_release (dive->model);

@@ -65,7 +65,7 @@ typedef struct bt__driven
 } bt__driven;
 
 /* What a world with obstacles needs in a step; else all but LINE, PIN, ORDER and PLACE is NULL.  */
-typedef struct bt__shore
+typedef struct bt__contact_work
 {
   bt__mover *mover;
   bt__course *course;
@@ -84,18 +84,18 @@ typedef struct bt__shore
   bt__polyline_work *polyline;
   bt__count count;
   bt__thesis_counts thesis;
-} bt__shore;
+} bt__contact_work;
 
 /* One of several dives that share a step out (sim/share.c): its tools, and of a state the head
    alone.  What it borrows it never frees.  */
-typedef struct bt__lane
+typedef struct bt__context
 {
   bt_dive *dive;
-  char *body;         /* of the state that is worked on: each lane on tethers of its own */
+  char *body;         /* of the state that is worked on: each context on tethers of its own */
   const int *group;   /* of each tether: who may meet whom */
   const char *shared; /* of each vehicle, true: several groups hang on it, and none may move it */
   int refused;        /* what it was given cannot be done apart */
-} bt__lane;
+} bt__context;
 
 /* Where the parts of a state lie, in bytes after its head: vehicles, then ...  */
 typedef struct bt__layout
@@ -129,19 +129,19 @@ struct bt_dive
   double *along;          /* room for a number at each */
   bt_sea *sea;            /* beside the current: in the next state, and in the present */
   bt__driven *driven;     /* of each vehicle */
-  bt__shore shore;
+  bt__contact_work contact_work;
   bt__shape_counts counts;
   bt_profile profile;
   bt_current_function function;
   void *user;
-  bt__asker asker; /* asked in long calls; of a lane: tells what the dive was told */
+  bt__asker asker; /* asked in long calls; of a context: tells what the dive was told */
   double wished;   /* s: time asked for and not yet stepped */
   int n_tracks;
   bt__track *tracks[BT__TRACKS_MAX];
-  struct bt__lanes *lanes; /* that share its steps out; NULL: none */
-  bt__lane *lane;          /* it is the dive of; NULL: of none */
-  uint64_t changes;        /* of the present state: the watch goes by it */
-  struct bt__watch *watch; /* what was asked of the tethers; NULL: nothing yet */
+  struct bt__contexts *contexts; /* that share its steps out; NULL: none */
+  bt__context *context;          /* it is the dive of; NULL: of none */
+  uint64_t changes;              /* of the present state: the watch goes by it */
+  struct bt__watch *watch;       /* what was asked of the tethers; NULL: nothing yet */
 };
 
 /* Copy the present state to dive->next and return it.  */
@@ -149,11 +149,11 @@ bt__state *bt__dive_begin (bt_dive *dive);
 /* Take dive->next over as the present.  */
 void bt__dive_commit (bt_dive *dive);
 
-/* What follows the head of STATE, a state of DIVE: of a lane it is another's.  */
+/* What follows the head of STATE, a state of DIVE: of a context it is another's.  */
 static inline char *
 bt__state_body (const bt_dive *dive, bt__state *state)
 {
-  return dive->lane && state == dive->next ? dive->lane->body : (char *)(state + 1);
+  return dive->context && state == dive->next ? dive->context->body : (char *)(state + 1);
 }
 
 /* Who is asked in long work with DIVE; questions ask too, and change nothing else.  */
@@ -188,7 +188,7 @@ bt_vec3 *bt__dive_tensions (const bt_dive *dive, bt__state *state, int tether);
 bt__dynamic *bt__dive_chain (const bt_dive *dive, bt__state *state, int tether, int part);
 /* Among obstacles: what that part touches; how its jacket is worn; the static tether as a thesis
    line; as a held one.  */
-bt__anchors *bt__dive_anchors (const bt_dive *dive, bt__state *state, int tether, int part);
+bt__contacts *bt__dive_anchors (const bt_dive *dive, bt__state *state, int tether, int part);
 bt__wear bt__dive_wear (const bt_dive *dive, bt__state *state, int tether);
 bt__thesis *bt__dive_thesis (const bt_dive *dive, bt__state *state, int tether);
 bt__polyline *bt__dive_held (const bt_dive *dive, bt__state *state, int tether);
@@ -202,14 +202,14 @@ bt_water bt__dive_water (const bt_dive *dive, const bt__state *state);
 /* Make a dive with an empty state and the workspaces for its tethers; make the dive of LANE, with
    workspaces and the head of a state alone.  */
 bt_status bt__dive_alloc (bt_model *model, bt_dive **dive, bt_error *error);
-bt_status bt__dive_alloc_lane (bt_model *model, bt__lane *lane, bt_error *error);
+bt_status bt__dive_alloc_lane (bt_model *model, bt__context *context, bt_error *error);
 
 /* True if tethers I and J are of groups that step at the same time: each sees the other where it
    was.  */
 static inline int
 bt__are_apart (const bt_dive *dive, int i, int j)
 {
-  return dive->lane && dive->lane->group[i] != dive->lane->group[j];
+  return dive->context && dive->context->group[i] != dive->context->group[j];
 }
 
 /* Add an event to STATE: of the kind of subject that KIND has, or of the PART named, about an
@@ -226,9 +226,9 @@ bt_status bt__check_part (const bt_dive *dive, bt_part part, int i, bt_error *er
 static inline int
 bt__is_shared (const bt_dive *dive, int vehicle)
 {
-  int shared = dive->lane && dive->lane->shared[vehicle];
+  int shared = dive->context && dive->context->shared[vehicle];
   if (shared)
-    dive->lane->refused = 1;
+    dive->context->refused = 1;
   return shared;
 }
 

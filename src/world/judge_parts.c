@@ -167,19 +167,19 @@ judge_part (bt__judge *judge, const bt_dive *dive, bt__state *state, int i, int 
   const bt_tether_def *def = &dive->model->tethers[i];
   bt_status status
       = bt__dynamic_judge (judge, bt__dive_chain (dive, state, i, part), bt__chain_room (def));
-  return AND (status, bt__anchors_judge (judge, bt__dive_anchors (dive, state, i, part),
-                                         bt__anchor_room (dive->model, def)));
+  return AND (status, bt__contacts_judge (judge, bt__dive_anchors (dive, state, i, part),
+                                          bt__contact_room (dive->model, def)));
 }
 
 static bt_status
-judge_drape (bt__judge *judge, const bt_dive *dive, bt__state *state, int i)
+judge_contact_form (bt__judge *judge, const bt_dive *dive, bt__state *state, int i)
 {
   const bt_tether_def *def = &dive->model->tethers[i];
-  switch (bt__dive_tether (dive, state, i)->drape)
+  switch (bt__dive_tether (dive, state, i)->contact_form)
     {
-    case BT__DRAPE_SPANS:
+    case BT__CONTACT_FORM_SPANS:
       return bt__thesis_judge (judge, bt__dive_thesis (dive, state, i), (uint32_t)def->props.nodes);
-    case BT__DRAPE_HELD:
+    case BT__CONTACT_FORM_HELD:
       return bt__polyline_judge (judge, bt__dive_held (dive, state, i),
                                  (uint32_t)bt__polyline_room (def));
     default:
@@ -204,9 +204,9 @@ judge_store (bt__judge *judge, const bt_dive *dive, bt__state *state, int i)
   if (bt__has_nodes (tether->shape.form))
     status = AND (status, bt__shape_judge_nodes (judge, bt__dive_nodes (dive, state, i),
                                                  bt__dive_tensions (dive, state, i), room));
-  if (tether->drape != BT__DRAPE_SPANS) /* which has a shape for each span */
+  if (tether->contact_form != BT__CONTACT_FORM_SPANS) /* which has a shape for each span */
     status = AND (status, bt__shape_judge (judge, &tether->shape, room));
-  return AND (status, judge_drape (judge, dive, state, i));
+  return AND (status, judge_contact_form (judge, dive, state, i));
 }
 
 /* The model, the form of the shape and what the store holds go together.  */
@@ -218,7 +218,7 @@ judge_form (bt__judge *judge, const bt_dive *dive, const bt__tether *tether, int
   bt_status status = bt__judge_that (judge, moves == chain, "a moving model has a chain");
   status = AND (status, bt__judge_that (judge, chain || !tether->parted,
                                         "only a moving line is in two parts"));
-  status = AND (status, bt__judge_that (judge, (!chain && among) || !tether->drape,
+  status = AND (status, bt__judge_that (judge, (!chain && among) || !tether->contact_form,
                                         "only a static line among obstacles is draped"));
   status = AND (
       status, bt__judge_that (judge, among || tether->wear == 0, "only obstacles wear its jacket"));

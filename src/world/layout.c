@@ -72,7 +72,7 @@ arrays_size (const bt_tether_def *tether)
 
 /* A line that has but itself to touch does so in few places.  */
 int
-bt__anchor_room (const bt_model *model, const bt_tether_def *tether)
+bt__contact_room (const bt_model *model, const bt_tether_def *tether)
 {
   int chain = bt__chain_room (tether);
   return model->n_obstacles > 0 ? 64 + 2 * chain : 24 + chain / 4;
@@ -83,13 +83,13 @@ bt__line_size_of (const bt_model *model, int i)
 {
   const bt_tether_def *tether = &model->tethers[i];
   bt__line_size size = { .chain = bt__dynamic_size (bt__chain_room (tether)) };
-  size.part = size.chain + bt__anchors_size (bt__anchor_room (model, tether));
+  size.part = size.chain + bt__contacts_size (bt__contact_room (model, tether));
   return size;
 }
 
 /* The polyline of a static line, split or held.  */
 static size_t
-drape_size (const bt_model *model, const bt_tether_def *tether)
+contact_form_size (const bt_model *model, const bt_tether_def *tether)
 {
   size_t spans = bt__thesis_size ((uint32_t)tether->props.nodes);
   size_t held = bt__polyline_size ((uint32_t)bt__polyline_room (tether));
@@ -103,7 +103,7 @@ static size_t
 shape_size (const bt_model *model, int i)
 {
   const bt_tether_def *tether = &model->tethers[i];
-  size_t still = arrays_size (tether) + drape_size (model, tether);
+  size_t still = arrays_size (tether) + contact_form_size (model, tether);
   size_t moving = 2 * bt__line_size_of (model, i).part;
   return still > moving ? still : moving;
 }
@@ -165,11 +165,11 @@ bt__dive_chain (const bt_dive *dive, bt__state *state, int i, int part)
   return (bt__dynamic *)(void *)(store_of (dive, state, i) + offset);
 }
 
-bt__anchors *
+bt__contacts *
 bt__dive_anchors (const bt_dive *dive, bt__state *state, int i, int part)
 {
   char *chain = (char *)bt__dive_chain (dive, state, i, part);
-  return (bt__anchors *)(void *)(chain + dive->line[i].chain);
+  return (bt__contacts *)(void *)(chain + dive->line[i].chain);
 }
 
 bt__wear
@@ -209,7 +209,7 @@ chain_extents (const bt_dive *dive, const bt__state *state, int i, bt__range *ou
   for (int part = 0; part <= (tether->parted != 0); part++)
     {
       size_t at = (size_t)part * dive->line[i].part, chain = dive->line[i].chain;
-      size_t anchors = bt__anchors_live (bt__dive_anchors (dive, (bt__state *)state, i, part));
+      size_t anchors = bt__contacts_live (bt__dive_anchors (dive, (bt__state *)state, i, part));
       int first = n;
       n += bt__dynamic_live (bt__dive_chain (dive, (bt__state *)state, i, part), room, out + n);
       for (int k = first; k < n; k++)
@@ -220,13 +220,13 @@ chain_extents (const bt_dive *dive, const bt__state *state, int i, bt__range *ou
 }
 
 static size_t
-drape_live (const bt_dive *dive, const bt__state *state, int i)
+contact_form_live (const bt_dive *dive, const bt__state *state, int i)
 {
-  switch (bt__dive_tether (dive, (bt__state *)state, i)->drape)
+  switch (bt__dive_tether (dive, (bt__state *)state, i)->contact_form)
     {
-    case BT__DRAPE_SPANS:
+    case BT__CONTACT_FORM_SPANS:
       return bt__thesis_live (bt__dive_thesis (dive, (bt__state *)state, i));
-    case BT__DRAPE_HELD:
+    case BT__CONTACT_FORM_HELD:
       return bt__polyline_size ((uint32_t)bt__polyline_room (&dive->model->tethers[i]));
     default:
       return 0;
@@ -247,8 +247,8 @@ live_extents (const bt_dive *dive, const bt__state *state, int i, bt__range *out
   size_t arrays = arrays_size (def);
   if (bt__has_nodes (tether->shape.form))
     out[n++] = (bt__range){ 0, arrays };
-  if (tether->drape)
-    out[n++] = (bt__range){ arrays, drape_live (dive, state, i) };
+  if (tether->contact_form)
+    out[n++] = (bt__range){ arrays, contact_form_live (dive, state, i) };
   return n;
 }
 

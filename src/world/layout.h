@@ -18,7 +18,7 @@ size_t bt__state_size (const bt_model *model);
 size_t bt__store_size (const bt_model *model, int i);
 
 /* How many places a chain of TETHER may touch.  */
-int bt__anchor_room (const bt_model *model, const bt_tether_def *tether);
+int bt__contact_room (const bt_model *model, const bt_tether_def *tether);
 
 /* Copy what is live of FROM to TO; hash it.  */
 void bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from);

@@ -29,9 +29,9 @@ bt__line_of (const bt_dive *dive, bt__state *state, int i)
       line.far_chain = bt__dive_chain (dive, state, i, line.tether->parted ? 1 : 0);
       return line;
     }
-  if (line.tether->drape == BT__DRAPE_SPANS)
+  if (line.tether->contact_form == BT__CONTACT_FORM_SPANS)
     line.split = bt__dive_thesis (dive, state, i);
-  else if (line.tether->drape == BT__DRAPE_HELD)
+  else if (line.tether->contact_form == BT__CONTACT_FORM_HELD)
     line.held = held_line (dive, state, i);
   line.nodes = bt__dive_nodes (dive, state, i);
   line.tensions = bt__dive_tensions (dive, state, i);

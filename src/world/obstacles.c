@@ -182,7 +182,7 @@ static bt__surroundings
 surround (const bt_dive *dive, bt__state *state, bt__switches off, int standing)
 {
   const bt_model *model = dive->model;
-  bt__shore *shore = &((bt_dive *)dive)->shore;
+  bt__contact_work *shore = &((bt_dive *)dive)->contact_work;
   shore->on = off;
   for (int k = 0; k < model->n_carried; k++)
     {

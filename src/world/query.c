@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "math/vec.h"
-#include "world/lanes.h"
+#include "world/contexts.h"
 #include "world/line.h"
 
 void
@@ -27,15 +27,15 @@ bt_dive_profile (const bt_dive *dive, bt_profile *profile)
   profile->marches = dive->counts.marches;
   profile->relaxations = dive->counts.relaxations;
   profile->unsettled = dive->counts.unsettled;
-  profile->links_asked = dive->shore.count.links;
-  profile->boxes_visited = dive->shore.count.nodes;
-  profile->pairs_measured = dive->shore.count.pairs;
-  profile->links_clear = dive->shore.count.skipped_clear;
-  profile->casts = dive->shore.count.casts;
-  profile->span_solves = dive->shore.thesis.solves;
-  profile->span_skips = dive->shore.thesis.skips;
-  if (dive->lanes)
-    profile->threads += (uint64_t)bt__workers_started (dive->lanes->workers);
+  profile->links_asked = dive->contact_work.count.links;
+  profile->boxes_visited = dive->contact_work.count.nodes;
+  profile->pairs_measured = dive->contact_work.count.pairs;
+  profile->links_clear = dive->contact_work.count.skipped_clear;
+  profile->casts = dive->contact_work.count.casts;
+  profile->span_solves = dive->contact_work.thesis.solves;
+  profile->span_skips = dive->contact_work.thesis.skips;
+  if (dive->contexts)
+    profile->threads += (uint64_t)bt__workers_started (dive->contexts->workers);
 }
 
 bt_status

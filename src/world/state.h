@@ -74,12 +74,12 @@ enum
 
 /* A static tether in a world with obstacles: not laid yet, or a chain; split where it touches; held
    where it touches.  */
-typedef enum bt__drape
+typedef enum bt__contact_form
 {
-  BT__DRAPE_NONE = 0,
-  BT__DRAPE_SPANS,
-  BT__DRAPE_HELD
-} bt__drape;
+  BT__CONTACT_FORM_NONE = 0,
+  BT__CONTACT_FORM_SPANS,
+  BT__CONTACT_FORM_HELD
+} bt__contact_form;
 
 typedef struct bt__tether
 {
@@ -104,10 +104,11 @@ typedef struct bt__tether
   bt_vec3 was[BT__STUCK_PLACES]; /* where its end was in those steps, the oldest overwritten */
   int64_t relaid;                /* it was laid anew, straight */
   int64_t through;               /* in a world without obstacles: it passes through itself */
-  int64_t drape;   /* bt__drape: what its store holds besides, in a world with obstacles */
-  int64_t blocked; /* an obstacle holds a static line off its shape */
-  double wear;     /* J/m: the most of any spot; 0: its spots are not in use */
-  int64_t worn;    /* that has reached the limit */
+  int64_t
+      contact_form; /* bt__contact_form: what its store holds besides, in a world with obstacles */
+  int64_t blocked;  /* an obstacle holds a static line off its shape */
+  double wear;      /* J/m: the most of any spot; 0: its spots are not in use */
+  int64_t worn;     /* that has reached the limit */
   bt__shape shape;
   bt__shape_memory memory;
 } bt__tether;

@@ -27,7 +27,7 @@ enum
 /* ---- Memory ---- */
 
 static void
-free_gaze (bt__gaze *g)
+free_gaze (bt__awareness *g)
 {
   free (g->node);
   free (g->taut);
@@ -58,7 +58,7 @@ watch_of (const bt_dive *dive)
 {
   size_t n = (size_t)dive->model->n_tethers;
   if (!dive->watch)
-    ((bt_dive *)dive)->watch = calloc (1, sizeof (struct bt__watch) + n * sizeof (bt__gaze));
+    ((bt_dive *)dive)->watch = calloc (1, sizeof (struct bt__watch) + n * sizeof (bt__awareness));
   if (dive->watch)
     dive->watch->n = (int)n;
   return dive->watch;
@@ -77,7 +77,7 @@ bt__watch_share (const bt_dive *dive, bt_dive *fork)
   struct bt__watch *w = dive->watch ? watch_of (fork) : NULL;
   for (int i = 0; w && i < w->n; i++)
     {
-      bt__gaze *from = &dive->watch->gaze[i], *to = &w->gaze[i];
+      bt__awareness *from = &dive->watch->gaze[i], *to = &w->gaze[i];
       to->ways = from->ways && from->ways->grown ? from->ways : NULL;
       to->words = from->words;
       to->frame = from->frame;
@@ -122,7 +122,7 @@ make_string_room (struct bt__watch *w, uint32_t room, bt__asker *asker)
 }
 
 static int
-make_gaze_room (const struct bt__watch *w, bt__gaze *g)
+make_gaze_room (const struct bt__watch *w, bt__awareness *g)
 {
   if (g->taut && g->shortest && g->hold && g->taut->room == w->room)
     return 1;
@@ -172,7 +172,7 @@ most_nodes (const bt__line *line)
 }
 
 static int
-take_line_nodes (bt__gaze *g, const bt__line *line)
+take_line_nodes (bt__awareness *g, const bt__line *line)
 {
   uint32_t n = (uint32_t)bt__line_nodes (line), most = most_nodes (line);
   if (most > g->node_room)
@@ -225,7 +225,7 @@ nodes_wanted (double n, double out, double diameter)
 
 /* Have room for the string, and say what it is among.  */
 static bt_status
-make_ready (const bt_dive *dive, int i, struct bt__watch *w, bt__gaze *g, double diameter,
+make_ready (const bt_dive *dive, int i, struct bt__watch *w, bt__awareness *g, double diameter,
             bt_error *error)
 {
   bt_status status = bt__chart_ways (dive, i, g, error);
@@ -246,7 +246,7 @@ make_ready (const bt_dive *dive, int i, struct bt__watch *w, bt__gaze *g, double
 
 /* Solve the string of tether I.  */
 static void
-solve_string (const bt_dive *dive, struct bt__watch *w, bt__gaze *g, const bt__tether *tether)
+solve_string (const bt_dive *dive, struct bt__watch *w, bt__awareness *g, const bt__tether *tether)
 {
   const bt__scene *scene = dive->model->scene;
   bt__taut_config fine = g->config;
@@ -264,7 +264,7 @@ solve_string (const bt_dive *dive, struct bt__watch *w, bt__gaze *g, const bt__t
 
 /* In open water a string is two nodes, and nothing holds it.  */
 static void
-set_open (bt__gaze *g)
+set_open (bt__awareness *g)
 {
   g->holds.n = 0;
   g->taut_length = g->free_length = bt__distance (g->node[0], g->node[g->n - 1]);
@@ -272,13 +272,13 @@ set_open (bt__gaze *g)
 }
 
 bt_status
-bt__watch_look (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
+bt__watch_look (const bt_dive *dive, int i, bt__awareness **out, bt_error *error)
 {
   bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
   if (status != BT_OK)
     return status;
   struct bt__watch *w = watch_of (dive);
-  bt__gaze *g = w ? &w->gaze[i] : NULL;
+  bt__awareness *g = w ? &w->gaze[i] : NULL;
   if (!w)
     return bt__watch_no_memory (error);
   *out = g;
@@ -303,7 +303,7 @@ bt__watch_look (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
 }
 
 bt_status
-bt__watch_gaze (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
+bt__watch_gaze (const bt_dive *dive, int i, bt__awareness **out, bt_error *error)
 {
   bt_status status = bt__watch_look (dive, i, out, error);
   if (status == BT_OK && !(*out)->has_taut)
@@ -318,7 +318,7 @@ bt__watch_gaze (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
 static bt_status
 prepare_look (const bt_dive *dive, int i, bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   bt_status status = bt__watch_look (dive, i, &g, error);
   if (status == BT_OK)
     status = bt__watch_wind_ready (dive, i, g, error);
@@ -341,7 +341,7 @@ bt__watch_prepare (const bt_dive *dive, bt_error *error)
 /* ---- The free way ---- */
 
 bt_status
-bt__watch_lay_way (const bt_dive *dive, int i, bt__gaze *g, int *found, bt_error *error)
+bt__watch_lay_way (const bt_dive *dive, int i, bt__awareness *g, int *found, bt_error *error)
 {
   struct bt__watch *w = dive->watch;
   bt_vec3 ends[2] = { g->node[0], g->node[g->n - 1] };
@@ -360,7 +360,7 @@ bt__watch_lay_way (const bt_dive *dive, int i, bt__gaze *g, int *found, bt_error
 }
 
 bt_status
-bt__watch_tighten_way (const bt_dive *dive, bt__gaze *g, double *length, bt_error *error)
+bt__watch_tighten_way (const bt_dive *dive, bt__awareness *g, double *length, bt_error *error)
 {
   struct bt__watch *w = dive->watch;
   *length = g->shortest->n == 2
@@ -372,7 +372,7 @@ bt__watch_tighten_way (const bt_dive *dive, bt__gaze *g, double *length, bt_erro
 /* Put the shortest way home known without the string into the way of G, and its length, m, into
  *LENGTH; INFINITY if no such way is known.  */
 static bt_status
-find_free_way (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error *error)
+find_free_way (const bt_dive *dive, int i, bt__awareness *g, double *length, bt_error *error)
 {
   int found;
   bt_status status = bt__watch_lay_way (dive, i, g, &found, error);
@@ -383,10 +383,10 @@ find_free_way (const bt_dive *dive, int i, bt__gaze *g, double *length, bt_error
 /* Find the free way: the shorter of the way home and the string.  Where the string is straight, it
    is the free way, and no other is searched.  */
 bt_status
-bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
+bt__watch_free (const bt_dive *dive, int i, bt__awareness **out, bt_error *error)
 {
   bt_status status = bt__watch_gaze (dive, i, out, error);
-  bt__gaze *g = *out;
+  bt__awareness *g = *out;
   if (status != BT_OK || g->has_free)
     return status;
   double length = INFINITY, chord = bt__distance (g->node[0], g->node[g->n - 1]);
@@ -417,10 +417,10 @@ word_of (const bt__chart *chart, const bt_vec3 *p, uint32_t n, bt__word *word, b
 }
 
 bt_status
-bt__watch_class (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
+bt__watch_class (const bt_dive *dive, int i, bt__awareness **out, bt_error *error)
 {
   bt_status status = bt__watch_free (dive, i, out, error);
-  bt__gaze *g = *out;
+  bt__awareness *g = *out;
   if (status != BT_OK || g->has_class)
     return status;
   bt__word_begin (&g->word, 0, 1);

@@ -46,7 +46,7 @@ typedef struct bt__chart
 } bt__chart;
 
 /* One tether as last looked at.  */
-typedef struct bt__gaze
+typedef struct bt__awareness
 {
   uint64_t change; /* the dive's count then, plus 1; 0: never */
   int open;        /* nothing stands in its water: the string is the chord */
@@ -66,7 +66,7 @@ typedef struct bt__gaze
   bt__chart *ways, *words, *frame; /* frame: the graph */
   bt__caught loops;                /* about its edges */
   uint8_t *favoured;               /* which of them hold the string */
-} bt__gaze;
+} bt__awareness;
 
 struct bt__watch
 {
@@ -74,25 +74,27 @@ struct bt__watch
   bt__taut *taut;
   bt__count count;
   int n;
-  bt__gaze gaze[];
+  bt__awareness gaze[];
 };
 
 /* Return tether I of DIVE as it is now: its nodes, and what it is among.  */
-bt_status bt__watch_look (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
+bt_status bt__watch_look (const bt_dive *dive, int i, bt__awareness **out, bt_error *error);
 
 /* The same, with its string solved.  */
-bt_status bt__watch_gaze (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
+bt_status bt__watch_gaze (const bt_dive *dive, int i, bt__awareness **out, bt_error *error);
 
 /* bt__watch_lay_way puts the shortest way home known without the string into the way of G: the
    chord where the chord is clear, else the tree's way; *FOUND tells success.
    bt__watch_tighten_way tightens the way of G within its homotopy class; *LENGTH receives the
    length, m.  */
-bt_status bt__watch_lay_way (const bt_dive *dive, int i, bt__gaze *g, int *found, bt_error *error);
-bt_status bt__watch_tighten_way (const bt_dive *dive, bt__gaze *g, double *length, bt_error *error);
+bt_status bt__watch_lay_way (const bt_dive *dive, int i, bt__awareness *g, int *found,
+                             bt_error *error);
+bt_status bt__watch_tighten_way (const bt_dive *dive, bt__awareness *g, double *length,
+                                 bt_error *error);
 
 /* As bt__watch_gaze, with the free way; and with the word.  */
-bt_status bt__watch_free (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
-bt_status bt__watch_class (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
+bt_status bt__watch_free (const bt_dive *dive, int i, bt__awareness **out, bt_error *error);
+bt_status bt__watch_class (const bt_dive *dive, int i, bt__awareness **out, bt_error *error);
 
 /* Fail for want of memory.  */
 bt_status bt__watch_no_memory (bt_error *error);
@@ -101,10 +103,10 @@ bt_status bt__watch_no_memory (bt_error *error);
 double bt__watch_longest (const bt_dive *dive, int i);
 
 /* watch_wound.c: have memory for windings about what GAZE's tether is among.  */
-bt_status bt__watch_wind_ready (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
+bt_status bt__watch_wind_ready (const bt_dive *dive, int i, bt__awareness *gaze, bt_error *error);
 
 /* The same, with the windings; the string and the way only where they are needed.  */
-bt_status bt__watch_wound (const bt_dive *dive, int i, bt__gaze **out, bt_error *error);
+bt_status bt__watch_wound (const bt_dive *dive, int i, bt__awareness **out, bt_error *error);
 
 /* A winding as a state keeps it, in a byte.  */
 static inline int8_t
@@ -138,11 +140,11 @@ void bt__watch_share (const bt_dive *dive, bt_dive *fork);
 
 /* watch_chart.c: have GAZE's chart of ways, without its tree; with room for its tree; with its
    tree; its graph; its chart of words.  */
-bt_status bt__chart_ways (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
-bt_status bt__chart_plant (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
-bt_status bt__chart_grow (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
-bt_status bt__chart_frame (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
-bt_status bt__chart_words (const bt_dive *dive, int i, bt__gaze *gaze, bt_error *error);
+bt_status bt__chart_ways (const bt_dive *dive, int i, bt__awareness *gaze, bt_error *error);
+bt_status bt__chart_plant (const bt_dive *dive, int i, bt__awareness *gaze, bt_error *error);
+bt_status bt__chart_grow (const bt_dive *dive, int i, bt__awareness *gaze, bt_error *error);
+bt_status bt__chart_frame (const bt_dive *dive, int i, bt__awareness *gaze, bt_error *error);
+bt_status bt__chart_words (const bt_dive *dive, int i, bt__awareness *gaze, bt_error *error);
 void bt__chart_release (bt__chart *chart); /* NULL is nothing */
 
 #endif

@@ -69,7 +69,7 @@ is_of (const bt_dive *dive, int i, const bt__chart *c)
 }
 
 bt_status
-bt__chart_ways (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+bt__chart_ways (const bt_dive *dive, int i, bt__awareness *g, bt_error *error)
 {
   if (is_of (dive, i, g->ways))
     return BT_OK;
@@ -152,7 +152,7 @@ berth (const bt_dive *dive, int i, bt_vec3 p, double step)
    state keeps the place until the anchor has strayed from it; otherwise an anchor that swings about
    the middle between two grid points would need the charts of both in turn.  */
 static bt_vec3
-chart_root (const bt_dive *dive, int i, const bt__gaze *g)
+chart_root (const bt_dive *dive, int i, const bt__awareness *g)
 {
   bt_vec3 anchor = g->node[0];
   bt__free_config config = { .scene = dive->model->scene, .on = g->config.on, .clear = CLEAR_MOST };
@@ -174,7 +174,7 @@ chart_root (const bt_dive *dive, int i, const bt__gaze *g)
 bt_status
 bt__watch_berth (const bt_dive *dive, int i, bt_vec3 *berth, bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   bt_status status = bt__watch_look (dive, i, &g, error);
   if (status == BT_OK)
     *berth = g->open ? g->node[0] : chart_root (dive, i, g);
@@ -193,7 +193,7 @@ plant (const bt_dive *dive, bt__chart *c, double core, bt_error *error)
 }
 
 bt_status
-bt__chart_plant (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+bt__chart_plant (const bt_dive *dive, int i, bt__awareness *g, bt_error *error)
 {
   double reach = chart_reach (dive, i);
   bt_vec3 anchor = chart_root (dive, i, g);
@@ -218,7 +218,7 @@ bt__chart_plant (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 }
 
 bt_status
-bt__chart_grow (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+bt__chart_grow (const bt_dive *dive, int i, bt__awareness *g, bt_error *error)
 {
   bt__count count = { 0 };
   bt_status status = bt__chart_plant (dive, i, g, error);
@@ -265,7 +265,7 @@ chart_gap (const bt_dive *dive, int i)
 }
 
 bt_status
-bt__chart_frame (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+bt__chart_frame (const bt_dive *dive, int i, bt__awareness *g, bt_error *error)
 {
   double gap = chart_gap (dive, i);
   if (is_of (dive, i, g->frame) && g->frame->gap == gap)
@@ -309,7 +309,7 @@ make_words (const bt_dive *dive, bt__chart *c, const bt__graph *graph, bt_vec3 a
 
 /* Words among members are of the whole world.  Voxels are of what is within reach of the anchor. */
 static int
-has_words (const bt_dive *dive, int i, const bt__gaze *g, double gap)
+has_words (const bt_dive *dive, int i, const bt__awareness *g, double gap)
 {
   const bt__chart *c = g->words;
   if (!is_of (dive, i, c) || c->gap != gap)
@@ -320,7 +320,7 @@ has_words (const bt_dive *dive, int i, const bt__gaze *g, double gap)
 }
 
 bt_status
-bt__chart_words (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+bt__chart_words (const bt_dive *dive, int i, bt__awareness *g, bt_error *error)
 {
   double gap = chart_gap (dive, i);
   if (has_words (dive, i, g, gap))

@@ -28,7 +28,7 @@
 
 /* Add the loops found about the members of G's graph to its windings.  */
 static void
-add_loops (const bt_dive *dive, bt__gaze *g)
+add_loops (const bt_dive *dive, bt__awareness *g)
 {
   const bt__graph *graph = &g->frame->graph;
   for (uint32_t e = 0; g->loops.any && e < graph->own; e++)
@@ -41,7 +41,7 @@ add_loops (const bt_dive *dive, bt__gaze *g)
 
 /* Mark in FAVOURED the edges of what holds the string.  */
 static void
-favour (const bt__gaze *g, uint8_t *favoured)
+favour (const bt__awareness *g, uint8_t *favoured)
 {
   const bt__graph *graph = &g->frame->graph;
   for (uint32_t e = 0; e < graph->own; e++)
@@ -50,7 +50,7 @@ favour (const bt__gaze *g, uint8_t *favoured)
 
 /* Have memory for loops about what G's tether is among.  */
 static bt_status
-make_loops (bt__gaze *g, bt__asker *asker, bt_error *error)
+make_loops (bt__awareness *g, bt__asker *asker, bt_error *error)
 {
   if (g->loops.graph == &g->frame->graph)
     return BT_OK;
@@ -65,7 +65,7 @@ make_loops (bt__gaze *g, bt__asker *asker, bt_error *error)
 
 /* Add the loops about members of the taut string and the free way back.  */
 static void
-wind_about_members (const bt_dive *dive, bt__gaze *g)
+wind_about_members (const bt_dive *dive, bt__awareness *g)
 {
   favour (g, g->favoured);
   bt__caught_find (&g->loops, g->taut->x, g->taut->n, g->shortest->x, g->shortest->n, g->favoured);
@@ -75,7 +75,7 @@ wind_about_members (const bt_dive *dive, bt__gaze *g)
 /* True if no member goes through a surface spanned between the tether and its chord: as far as
    members go, the line can be drawn straight.  */
 static int
-merely_passes (bt__gaze *g)
+merely_passes (bt__awareness *g)
 {
   bt_vec3 chord[2] = { g->node[0], g->node[g->n - 1] };
   return !bt__caught_crossings (&g->frame->graph, g->node, g->n, chord, 2, g->loops.loops);
@@ -84,7 +84,7 @@ merely_passes (bt__gaze *g)
 /* Find the loops about members of the curve made of the tether and a way home found without a
    string; *KNOWN is false if no such way is known.  */
 static bt_status
-quick_loops (const bt_dive *dive, int i, bt__gaze *g, int *known, bt_error *error)
+quick_loops (const bt_dive *dive, int i, bt__awareness *g, int *known, bt_error *error)
 {
   g->loops.any = 0;
   *known = 1;
@@ -98,7 +98,7 @@ quick_loops (const bt_dive *dive, int i, bt__gaze *g, int *known, bt_error *erro
 
 /* Set *LOOSE if the tether is about no member, as far as can be told without a string.  */
 static bt_status
-look_for_loops (const bt_dive *dive, int i, bt__gaze *g, int *loose, bt_error *error)
+look_for_loops (const bt_dive *dive, int i, bt__awareness *g, int *loose, bt_error *error)
 {
   int known;
   *loose = merely_passes (g);
@@ -167,7 +167,7 @@ wind_between (const bt__axis *axis, const bt_vec3 *p, uint32_t n, double low, do
 
 /* True if the tether's own nodes, closed by their chord, go about the mesh at PLACE.  */
 static int
-goes_about (const bt_dive *dive, const bt__gaze *g, uint32_t place)
+goes_about (const bt_dive *dive, const bt__awareness *g, uint32_t place)
 {
   bt__axis axis;
   return bt__axis_of (&dive->model->scene->object[place], &axis)
@@ -177,7 +177,7 @@ goes_about (const bt_dive *dive, const bt__gaze *g, uint32_t place)
 /* Count the winding about the mesh at PLACE, if the mesh holds the string of G and the class is not
    the free way's.  */
 static bt_status
-wind_about_mesh (const bt_dive *dive, int i, bt__gaze *g, uint32_t place, bt_error *error)
+wind_about_mesh (const bt_dive *dive, int i, bt__awareness *g, uint32_t place, bt_error *error)
 {
   const bt__obstacle *mesh = &dive->model->scene->object[place];
   bt__axis axis;
@@ -204,7 +204,7 @@ wind_about_mesh (const bt_dive *dive, int i, bt__gaze *g, uint32_t place, bt_err
 
 /* True if the obstacle at PLACE is a mesh that may hold G's tether.  */
 static int
-is_mesh (const bt_dive *dive, const bt__gaze *g, uint32_t place)
+is_mesh (const bt_dive *dive, const bt__awareness *g, uint32_t place)
 {
   const bt__obstacle *o = &dive->model->scene->object[place];
   return o->kind == BT__OBSTACLE_MESH && bt__is_on (g->config.on, place)
@@ -212,7 +212,7 @@ is_mesh (const bt_dive *dive, const bt__gaze *g, uint32_t place)
 }
 
 static bt_status
-wind_about_meshes (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+wind_about_meshes (const bt_dive *dive, int i, bt__awareness *g, bt_error *error)
 {
   const bt__scene *scene = dive->model->scene;
   bt_status status = BT_OK;
@@ -225,7 +225,7 @@ wind_about_meshes (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 /* ---- All ---- */
 
 static int
-has_wound (const bt_dive *dive, bt__gaze *g)
+has_wound (const bt_dive *dive, bt__awareness *g)
 {
   if (!g->wound)
     g->wound = calloc ((size_t)dive->model->n_obstacles + 1, sizeof *g->wound);
@@ -233,7 +233,7 @@ has_wound (const bt_dive *dive, bt__gaze *g)
 }
 
 bt_status
-bt__watch_wind_ready (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+bt__watch_wind_ready (const bt_dive *dive, int i, bt__awareness *g, bt_error *error)
 {
   bt_status status = has_wound (dive, g) ? BT_OK : bt__watch_no_memory (error);
   if (status == BT_OK && !g->open)
@@ -242,7 +242,7 @@ bt__watch_wind_ready (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 }
 
 static int
-forget (const bt_dive *dive, bt__gaze *g)
+forget (const bt_dive *dive, bt__awareness *g)
 {
   size_t n = (size_t)dive->model->n_obstacles;
   if (!has_wound (dive, g))
@@ -255,7 +255,7 @@ forget (const bt_dive *dive, bt__gaze *g)
 
 /* Where meshes stand a class without a letter is the free way's, whatever members say.  */
 static bt_status
-doubt (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+doubt (const bt_dive *dive, int i, bt__awareness *g, bt_error *error)
 {
   if (!g->is_wound || g->frame->graph.undescribed == 0)
     return BT_OK;
@@ -266,7 +266,7 @@ doubt (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 }
 
 static bt_status
-wind (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
+wind (const bt_dive *dive, int i, bt__awareness *g, bt_error *error)
 {
   int loose = 1;
   bt_status status = bt__watch_wind_ready (dive, i, g, error);
@@ -284,10 +284,10 @@ wind (const bt_dive *dive, int i, bt__gaze *g, bt_error *error)
 }
 
 bt_status
-bt__watch_wound (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
+bt__watch_wound (const bt_dive *dive, int i, bt__awareness **out, bt_error *error)
 {
   bt_status status = bt__watch_look (dive, i, out, error);
-  bt__gaze *g = *out;
+  bt__awareness *g = *out;
   if (status != BT_OK || g->has_wound)
     return status;
   if (!forget (dive, g))
@@ -301,7 +301,7 @@ bt__watch_wound (const bt_dive *dive, int i, bt__gaze **out, bt_error *error)
 /* ---- Is it as it was? ---- */
 
 static int
-is_as (const bt_dive *dive, const bt__gaze *g, const int8_t *told)
+is_as (const bt_dive *dive, const bt__awareness *g, const int8_t *told)
 {
   for (int k = 0; k < dive->model->n_obstacles; k++)
     if (told[k] != bt__told (g->wound[k]))
@@ -310,7 +310,7 @@ is_as (const bt_dive *dive, const bt__gaze *g, const int8_t *told)
 }
 
 static int
-goes_about_a_mesh (const bt_dive *dive, const bt__gaze *g)
+goes_about_a_mesh (const bt_dive *dive, const bt__awareness *g)
 {
   const bt__scene *scene = dive->model->scene;
   for (uint32_t k = 0; g->frame->graph.undescribed > 0 && k < scene->solids; k++)
@@ -322,8 +322,8 @@ goes_about_a_mesh (const bt_dive *dive, const bt__gaze *g)
 /* Without a string: by the tether itself and the quick way home.  A way longer than the string may
    be is not the shortest: then nothing is said.  */
 static bt_status
-look_again (const bt_dive *dive, int i, bt__gaze *g, const int8_t *told, double least, int *same,
-            bt_error *error)
+look_again (const bt_dive *dive, int i, bt__awareness *g, const int8_t *told, double least,
+            int *same, bt_error *error)
 {
   int known;
   double length = 0;
@@ -346,7 +346,7 @@ bt_status
 bt__watch_wound_still (const bt_dive *dive, int i, const int8_t *told, double least, int *same,
                        bt_error *error)
 {
-  bt__gaze *g;
+  bt__awareness *g;
   bt_status status = bt__watch_look (dive, i, &g, error);
   *same = 0;
   if (status != BT_OK)

@@ -82,18 +82,18 @@ add_store (victim *v, int i)
   add_place (v, bt__dive_nodes (d, d->now, i), bt__store_size (d->model, i));
   for (int part = 0; tether->shape.form == BT__FORM_CHAIN && part <= tether->parted; part++)
     {
-      const bt__anchors *anchors = bt__dive_anchors (d, d->now, i, part);
+      const bt__contacts *anchors = bt__dive_anchors (d, d->now, i, part);
       add_place (v, bt__dive_chain (d, d->now, i, part), sizeof (bt__dynamic));
       add_place (v, anchors, sizeof *anchors);
-      add_place (v, anchors, bt__anchors_live (anchors));
+      add_place (v, anchors, bt__contacts_live (anchors));
     }
-  if (tether->drape == BT__DRAPE_SPANS)
+  if (tether->contact_form == BT__CONTACT_FORM_SPANS)
     {
       const bt__thesis *thesis = bt__dive_thesis (d, d->now, i);
       add_place (v, thesis, sizeof *thesis + sizeof (bt__polyline));
       add_place (v, bt__thesis_spans (thesis), (size_t)thesis->spans * sizeof (bt__span));
     }
-  if (tether->drape == BT__DRAPE_HELD)
+  if (tether->contact_form == BT__CONTACT_FORM_HELD)
     add_place (v, bt__dive_held (d, d->now, i), sizeof (bt__polyline));
 }
 

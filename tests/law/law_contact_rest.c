@@ -205,8 +205,8 @@ remembers_nothing (void **state)
   assert_true (p.anchors->n > 0);
   assert_memory_equal (p.d, q.d, bt__dynamic_size ((int)p.d->n_max));
   assert_int_equal (p.anchors->n, q.anchors->n);
-  assert_memory_equal (bt__anchors_at (p.anchors), bt__anchors_at (q.anchors),
-                       (size_t)p.anchors->n * sizeof (bt__anchor));
+  assert_memory_equal (bt__contacts_at (p.anchors), bt__contacts_at (q.anchors),
+                       (size_t)p.anchors->n * sizeof (bt__contact));
   rope_close (&p);
   rope_close (&q);
   reef_close (&r);

@@ -305,7 +305,7 @@ remembers_nothing (void **state)
   assert_true (rope_open (&q, &r, 60, any, 2, 10, 0.3));
   rope_set_itself (&q);
   memcpy (q.d, p.d, bt__dynamic_size ((int)p.d->n_max));
-  memcpy (q.anchors, p.anchors, bt__anchors_live (p.anchors));
+  memcpy (q.anchors, p.anchors, bt__contacts_live (p.anchors));
   q.in.end[0] = p.in.end[0];
   pull (&q, 60);
   q.water.time = p.water.time;
@@ -317,7 +317,7 @@ remembers_nothing (void **state)
   assert_memory_equal (bt__dynamic_x (p.d), bt__dynamic_x (q.d),
                        (size_t)(p.d->n + 1) * sizeof (bt_vec3));
   assert_int_equal (p.anchors->n, q.anchors->n);
-  assert_memory_equal (p.anchors, q.anchors, bt__anchors_live (p.anchors));
+  assert_memory_equal (p.anchors, q.anchors, bt__contacts_live (p.anchors));
   rope_close (&q);
   untie (&p, &r);
 }
@@ -342,9 +342,9 @@ static bt_vec3
 force_on (const rope *p)
 {
   bt_vec3 sum = { 0, 0, 0 };
-  const bt__anchor *a = bt__anchors_at (p->anchors);
+  const bt__contact *a = bt__contacts_at (p->anchors);
   for (int64_t i = 0; i < p->anchors->n; i++)
-    if (a[i].mover == BT__ANCHOR_LINE)
+    if (a[i].mover == BT__CONTACT_LINE)
       sum = bt__add (sum, a[i].force);
   return sum;
 }

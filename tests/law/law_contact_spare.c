@@ -273,7 +273,7 @@ is_of_the_state (void **state)
           fly (&p, about, i, kind == COILED ? 0.1 : 2);
           fly (&q, about, i, kind == COILED ? 0.1 : 2);
           assert_memory_equal (p.d, q.d, bt__dynamic_size ((int)p.d->n_max));
-          assert_memory_equal (p.anchors, q.anchors, bt__anchors_live (p.anchors));
+          assert_memory_equal (p.anchors, q.anchors, bt__contacts_live (p.anchors));
         }
       rope_close (&p);
       rope_close (&q);

@@ -63,7 +63,7 @@ pull (crotch *c, double tight, double out, double more)
 static void
 look (crotch *c)
 {
-  const bt__anchor *a = bt__anchors_at (c->rope.anchors);
+  const bt__contact *a = bt__contacts_at (c->rope.anchors);
   const bt_vec3 *x = bt__dynamic_x (c->rope.d);
   int i = 0;
   c->load[0] = c->load[1] = 0;

@@ -148,7 +148,7 @@ sticks (void **state)
   haul (&r, 400, SPEED);
   for (int i = 0; i < 1200; i++)
     assert_true (rope_step (&r.rope, frame, 0));
-  const bt__anchor *a = bt__anchors_at (r.rope.anchors);
+  const bt__contact *a = bt__contacts_at (r.rope.anchors);
   double held = bt__dynamic_tension (r.rope.d)[r.rope.d->n - 1];
   assert_int_equal (r.rope.touch.bends, 2);
   for (int i = 0; i < 2; i++)
@@ -178,7 +178,7 @@ goes_aside (double mu)
       assert_true (rope_step (&r.rope, frame, 1));
     }
   assert_int_equal (r.rope.touch.bends, 1);
-  const bt__anchor *a = bt__anchors_at (r.rope.anchors);
+  const bt__contact *a = bt__contacts_at (r.rope.anchors);
   double y = a[0].point.y;
   clear (&r);
   return y;

@@ -29,7 +29,7 @@ typedef struct lot
   bt_waves waves;
   bt_sea sea;
   bt__dynamic_lump lump[LUMPS];
-  bt__dynamic_row row[ROWS];
+  bt__constraint row[ROWS];
   int rows, floored;
   bt_vec3 home[2], swing[2]; /* m: of the ends */
 } lot;
@@ -176,14 +176,14 @@ lay_floor (lot *l)
   l->rows = 0;
   for (int k = 0; l->floored && k < 2 * n + 1; k++)
     if (k % 2 == 0 || k % 3 == 0)
-      l->row[l->rows++] = (bt__dynamic_row){ .node = k < 2 * n ? k / 2 : n - 1,
-                                             .s = k < 2 * n ? 0.5 * (k % 2) : 1,
-                                             .normal = { 0, 0, 1 },
-                                             .offset = FLOOR,
-                                             .stiffness = 2e4,
-                                             .friction = 0.3,
-                                             .slip = 1e-3,
-                                             .active = -1 };
+      l->row[l->rows++] = (bt__constraint){ .node = k < 2 * n ? k / 2 : n - 1,
+                                            .s = k < 2 * n ? 0.5 * (k % 2) : 1,
+                                            .normal = { 0, 0, 1 },
+                                            .offset = FLOOR,
+                                            .stiffness = 2e4,
+                                            .friction = 0.3,
+                                            .slip = 1e-3,
+                                            .active = -1 };
 }
 
 static void

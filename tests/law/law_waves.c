@@ -358,7 +358,7 @@ test_water (void **state)
   (void)state;
   bt_waves w = airy (1, 6, 30);
   bt_current current = { .kind = BT_CURRENT_UNIFORM, .velocity = { { 0.3, 0.1, 0 } } };
-  bt_sea sea = { NULL, &w, NULL, 0 };
+  bt_sea sea = { NULL, &w, NULL };
   bt_water water = { 1025, G, 30, 12.5, &current, NULL, NULL, &sea };
   bt_vec3 p = { 1, 2, -3 }, orbit, a;
   bt_waves_motion (&w, p, 12.5, &orbit, &a);

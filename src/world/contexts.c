@@ -1,4 +1,4 @@
-/* The life of lanes: made, lent what they need, freed.
+/* The life of contexts: made, lent what they need, freed.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -7,13 +7,13 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "world/lanes.h"
+#include "world/contexts.h"
 #include "world/layout.h"
 
 /* ---- Life ---- */
 
 static void
-free_arrays (bt__lanes *l)
+free_arrays (bt__contexts *l)
 {
   free (l->group);
   free (l->first);
@@ -31,21 +31,21 @@ free_arrays (bt__lanes *l)
 }
 
 void
-bt__lanes_free (bt__lanes *l)
+bt__contexts_free (bt__contexts *l)
 {
   if (!l)
     return;
   bt__workers_free (l->workers);
-  for (int i = 0; l->lane && i < l->n; i++)
-    bt_dive_free (l->lane[i].dive);
-  free (l->lane);
+  for (int i = 0; l->context && i < l->n; i++)
+    bt_dive_free (l->context[i].dive);
+  free (l->context);
   free_arrays (l);
   free (l);
 }
 
 /* Boxes for both parts of each tether.  */
 static int
-make_boxes (bt__lanes *l, const bt_model *model)
+make_boxes (bt__contexts *l, const bt_model *model)
 {
   int boxes = 0;
   size_t tethers = (size_t)model->n_tethers + 1;
@@ -62,7 +62,7 @@ make_boxes (bt__lanes *l, const bt_model *model)
 }
 
 static int
-make_arrays (bt__lanes *l, const bt_model *model)
+make_arrays (bt__contexts *l, const bt_model *model)
 {
   size_t tethers = (size_t)model->n_tethers + 1, vehicles = (size_t)model->n_vehicles + 1;
   return (l->group = calloc (tethers, sizeof *l->group))
@@ -77,31 +77,31 @@ make_arrays (bt__lanes *l, const bt_model *model)
 }
 
 static bt_status
-make_lanes (bt_model *model, int n, bt__lanes **out, bt_error *error)
+make_lanes (bt_model *model, int n, bt__contexts **out, bt_error *error)
 {
-  bt__lanes *l = calloc (1, sizeof *l);
+  bt__contexts *l = calloc (1, sizeof *l);
   bt_status status = BT_OK;
-  if (l && (l->lane = calloc ((size_t)n, sizeof *l->lane)))
+  if (l && (l->context = calloc ((size_t)n, sizeof *l->context)))
     l->n = n;
   if (!l || l->n == 0 || !(l->workers = bt__workers_new (n)) || !make_arrays (l, model))
     status = bt__fail (error, BT_ERR_LIMIT, "no memory for %d threads", n);
   for (int i = 0; status == BT_OK && i < n; i++)
     {
-      l->lane[i].group = l->group;
-      l->lane[i].shared = l->shared;
-      status = bt__dive_alloc_lane (model, &l->lane[i], error);
+      l->context[i].group = l->group;
+      l->context[i].shared = l->shared;
+      status = bt__dive_alloc_lane (model, &l->context[i], error);
     }
   if (status == BT_OK)
     *out = l;
   else
-    bt__lanes_free (l);
+    bt__contexts_free (l);
   return status;
 }
 
 bt_status
 bt_dive_set_threads (bt_dive *dive, int n, bt_error *error)
 {
-  bt__lanes *lanes = NULL;
+  bt__contexts *contexts = NULL;
   bt_status status = BT_OK;
   if (n < 1 || n > BT_THREADS_MAX)
     return bt__fail (error, BT_ERR_DOMAIN, "a dive is stepped by 1 to %d threads, not %d",
@@ -109,58 +109,58 @@ bt_dive_set_threads (bt_dive *dive, int n, bt_error *error)
   if (n == bt_dive_threads (dive))
     return BT_OK;
   if (n > 1)
-    status = make_lanes (dive->model, n, &lanes, error);
+    status = make_lanes (dive->model, n, &contexts, error);
   if (status != BT_OK)
     return status;
-  if (dive->lanes)
-    dive->profile.threads += (uint64_t)bt__workers_started (dive->lanes->workers);
-  bt__lanes_free (dive->lanes);
-  dive->lanes = lanes;
+  if (dive->contexts)
+    dive->profile.threads += (uint64_t)bt__workers_started (dive->contexts->workers);
+  bt__contexts_free (dive->contexts);
+  dive->contexts = contexts;
   return BT_OK;
 }
 
 int
 bt_dive_threads (const bt_dive *dive)
 {
-  return dive->lanes ? dive->lanes->n : 1;
+  return dive->contexts ? dive->contexts->n : 1;
 }
 
 /* ---- Lending ---- */
 
 void
-bt__lane_enter (bt__lane *lane, const bt_dive *dive, bt__state *next)
+bt__context_enter (bt__context *context, const bt_dive *dive, bt__state *next)
 {
-  bt_dive *own = lane->dive;
-  lane->body = bt__state_body (dive, next);
-  lane->refused = 0;
+  bt_dive *own = context->dive;
+  context->body = bt__state_body (dive, next);
+  context->refused = 0;
   own->now = dive->now;
   memcpy (own->next, next, offsetof (bt__state, events));
   own->next->events = 0;
   own->driven = dive->driven;
-  own->shore.pin = dive->shore.pin;
-  own->shore.place = dive->shore.place;
+  own->contact_work.pin = dive->contact_work.pin;
+  own->contact_work.place = dive->contact_work.place;
   if (dive->model->n_carried > 0)
-    memcpy (own->shore.course, dive->shore.course,
-            sizeof *own->shore.course * (size_t)dive->model->n_carried);
+    memcpy (own->contact_work.course, dive->contact_work.course,
+            sizeof *own->contact_work.course * (size_t)dive->model->n_carried);
   if (dive->model->n_obstacles > 0)
-    memcpy (own->shore.box, dive->shore.box,
-            2 * sizeof *own->shore.box * (size_t)dive->model->n_tethers);
-  own->shore.disagree = 0;
+    memcpy (own->contact_work.box, dive->contact_work.box,
+            2 * sizeof *own->contact_work.box * (size_t)dive->model->n_tethers);
+  own->contact_work.disagree = 0;
   own->profile = (bt_profile){ 0 };
   own->counts = (bt__shape_counts){ 0 };
-  own->shore.count = (bt__count){ 0 };
-  own->shore.thesis = (bt__thesis_counts){ 0 };
+  own->contact_work.count = (bt__count){ 0 };
+  own->contact_work.thesis = (bt__thesis_counts){ 0 };
 }
 
 void
-bt__lane_leave (bt__lane *lane)
+bt__context_leave (bt__context *context)
 {
-  bt_dive *own = lane->dive;
-  lane->body = NULL;
+  bt_dive *own = context->dive;
+  context->body = NULL;
   own->now = NULL;
   own->driven = NULL;
-  own->shore.pin = NULL;
-  own->shore.place = NULL;
+  own->contact_work.pin = NULL;
+  own->contact_work.place = NULL;
 }
 
 /* Records of counters and nothing else.  */
@@ -174,11 +174,13 @@ add_up_counters (void *sum, const void *more, size_t size)
 }
 
 void
-bt__lane_count (const bt__lane *lane, bt_dive *dive)
+bt__context_count (const bt__context *context, bt_dive *dive)
 {
-  const bt_dive *own = lane->dive;
+  const bt_dive *own = context->dive;
   add_up_counters (&dive->profile, &own->profile, sizeof dive->profile);
   add_up_counters (&dive->counts, &own->counts, sizeof dive->counts);
-  add_up_counters (&dive->shore.count, &own->shore.count, sizeof dive->shore.count);
-  add_up_counters (&dive->shore.thesis, &own->shore.thesis, sizeof dive->shore.thesis);
+  add_up_counters (&dive->contact_work.count, &own->contact_work.count,
+                   sizeof dive->contact_work.count);
+  add_up_counters (&dive->contact_work.thesis, &own->contact_work.thesis,
+                   sizeof dive->contact_work.thesis);
 }

@@ -31,14 +31,14 @@ is_split_model (const bt__tether *tether)
 static bt__way
 workspace_for (bt_dive *dive, const bt__tether *tether, int i, const bt__surroundings *around)
 {
-  if (dive->shore.safe_of != i)
-    bt__safe_forget (dive->shore.safe);
-  dive->shore.safe_of = i;
+  if (dive->contact_work.safe_of != i)
+    bt__safe_forget (dive->contact_work.safe);
+  dive->contact_work.safe_of = i;
   return (bt__way){ .around = around,
                     .core = bt__core (tether->props.diameter),
-                    .safe = dive->shore.safe,
-                    .work = dive->shore.polyline,
-                    .count = &dive->shore.count,
+                    .safe = dive->contact_work.safe,
+                    .work = dive->contact_work.polyline,
+                    .count = &dive->contact_work.count,
                     .asker = &dive->asker };
 }
 
@@ -53,9 +53,9 @@ lay (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *err
   bt_status status = bt__corners (dive, state, i, ends, &n, error);
   if (status != BT_OK)
     return status;
-  if (tether->shape.form == BT__FORM_CHAIN || tether->drape)
+  if (tether->shape.form == BT__FORM_CHAIN || tether->contact_form)
     memset (&tether->shape, 0, sizeof tether->shape);
-  tether->drape = split ? BT__DRAPE_SPANS : BT__DRAPE_HELD;
+  tether->contact_form = split ? BT__CONTACT_FORM_SPANS : BT__CONTACT_FORM_HELD;
   tether->blocked = 0;
   tether->stale = 1;
   if (split)
@@ -111,7 +111,8 @@ step_spans (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, const 
                              .counts = &dive->counts };
   bt__thesis_report report;
   bt__touch touch[TOUCHES_MAX];
-  bt_status status = bt__thesis_step (spans, &input, way, &dive->shore.thesis, &report, error);
+  bt_status status
+      = bt__thesis_step (spans, &input, way, &dive->contact_work.thesis, &report, error);
   if (status != BT_OK)
     return status;
   tether->length = report.length;
@@ -157,18 +158,18 @@ step_held (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, const b
 }
 
 bt_status
-bt__drape_tether (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+bt__contact_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  int64_t drape = is_split_model (tether) ? BT__DRAPE_SPANS : BT__DRAPE_HELD;
+  int64_t drape = is_split_model (tether) ? BT__CONTACT_FORM_SPANS : BT__CONTACT_FORM_HELD;
   bt__surroundings around;
   bt__way way;
   bt_status status = BT_OK;
-  if (tether->drape != drape || tether->shape.form == BT__FORM_CHAIN)
+  if (tether->contact_form != drape || tether->shape.form == BT__FORM_CHAIN)
     status = lay (dive, state, i, ends, error);
   if (status != BT_OK)
     return status;
-  if (drape == BT__DRAPE_HELD && bt__is_unchanged (dive, state, tether, ends)
+  if (drape == BT__CONTACT_FORM_HELD && bt__is_unchanged (dive, state, tether, ends)
       && !bt__movers_move (dive))
     {
       dive->profile.shape_skips++;
@@ -176,8 +177,8 @@ bt__drape_tether (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, 
     }
   around = bt__surround (dive, state, BT_PART_TETHER, i);
   way = workspace_for (dive, tether, i, &around);
-  status = drape == BT__DRAPE_SPANS ? step_spans (dive, state, i, ends, &way, error)
-                                    : step_held (dive, state, i, ends, &way, error);
+  status = drape == BT__CONTACT_FORM_SPANS ? step_spans (dive, state, i, ends, &way, error)
+                                           : step_held (dive, state, i, ends, &way, error);
   bt__around_done (dive);
   return status;
 }

@@ -6,26 +6,26 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
-#ifndef BT_WORLD_GHOST_H
-#define BT_WORLD_GHOST_H
+#ifndef BT_WORLD_PREDICTED_H
+#define BT_WORLD_PREDICTED_H
 
 #include "world/dive.h"
 
-typedef struct bt__ghost
+typedef struct bt__predicted
 {
   const bt_dive *dive;
   int vehicle;
   bt__vehicle v;
   double yaw; /* radians/s, of one without mass */
-} bt__ghost;
+} bt__predicted;
 
 /* The ghost of VEHICLE as it is now.  */
-bt__ghost bt__ghost_of (const bt_dive *dive, int vehicle);
+bt__predicted bt__predicted_of (const bt_dive *dive, int vehicle);
 
 /* Let it go on by SECONDS.  */
-void bt__ghost_go_on (bt__ghost *ghost, double seconds);
+void bt__predicted_go_on (bt__predicted *ghost, double seconds);
 
 /* Put it to P, where something with the outward unit NORMAL stops it: it slides on.  */
-void bt__ghost_stop (bt__ghost *ghost, bt_vec3 p, bt_vec3 normal);
+void bt__predicted_stop (bt__predicted *ghost, bt_vec3 p, bt_vec3 normal);
 
 #endif

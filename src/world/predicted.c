@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "math/vec.h"
-#include "world/ghost.h"
+#include "world/predicted.h"
 #include "world/obstacles.h"
 
 #define BODY_STEP 0.05 /* s, of one with mass: its autopilot asks for no less */
@@ -19,10 +19,10 @@ has_goal (const bt__vehicle *v)
   return v->goal == BT__GOAL_POINT || v->goal == BT__GOAL_FLY;
 }
 
-bt__ghost
-bt__ghost_of (const bt_dive *dive, int vehicle)
+bt__predicted
+bt__predicted_of (const bt_dive *dive, int vehicle)
 {
-  bt__ghost ghost
+  bt__predicted ghost
       = { .dive = dive, .vehicle = vehicle, .v = *bt__dive_vehicle (dive, dive->now, vehicle) };
   bt__vehicle *v = &ghost.v;
   double ahead = v->sticks[0] * v->speeds[0], aside = v->sticks[1] * v->speeds[1];
@@ -61,7 +61,7 @@ go_by_sticks (bt__vehicle *v, double yaw, double seconds)
 /* ---- With mass ---- */
 
 static void
-steer_ghost (bt__ghost *g, bt__rigid_input *in)
+steer_ghost (bt__predicted *g, bt__rigid_input *in)
 {
   const bt_model *model = g->dive->model;
   bt__vehicle *v = &g->v;
@@ -87,7 +87,7 @@ mirror (bt__vehicle *v)
 }
 
 static void
-step_body (bt__ghost *g, double h)
+step_body (bt__predicted *g, double h)
 {
   bt__vehicle *v = &g->v;
   bt_water water = bt__dive_water (g->dive, g->dive->now);
@@ -104,7 +104,7 @@ step_body (bt__ghost *g, double h)
 }
 
 void
-bt__ghost_go_on (bt__ghost *g, double seconds)
+bt__predicted_go_on (bt__predicted *g, double seconds)
 {
   if (!g->v.rigid && has_goal (&g->v))
     go_to_goal (&g->v, seconds);
@@ -116,7 +116,7 @@ bt__ghost_go_on (bt__ghost *g, double seconds)
 }
 
 void
-bt__ghost_stop (bt__ghost *g, bt_vec3 p, bt_vec3 normal)
+bt__predicted_stop (bt__predicted *g, bt_vec3 p, bt_vec3 normal)
 {
   bt__vehicle *v = &g->v;
   double into = bt__dot (v->velocity, normal);

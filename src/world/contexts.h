@@ -16,23 +16,23 @@ enum
   BT__LANE_LEAF = 4 /* intervals of a chain in a box */
 };
 
-/* What a tether raised in a step: events FROM to TO, less one, of a lane.  */
+/* What a tether raised in a step: events FROM to TO, less one, of a context.  */
 typedef struct bt__raised
 {
   int64_t from, to;
-  int lane;
+  int context;
 } bt__raised;
 
-typedef struct bt__lanes
+typedef struct bt__contexts
 {
   int n;
-  bt__lane *lane;
+  bt__context *context;
   bt__workers *workers;
   /* Groups of tethers, in the order in which they step: of each group the first, of each tether the
      next one, or -1.  */
   int groups;
   int *group, *first, *after, *last;
-  char *shared;           /* of each vehicle, as in bt__lane */
+  char *shared;           /* of each vehicle, as in bt__context */
   double *margin, *asked; /* of each tether, m: what it may ask for, and what it did */
   bt__raised *raised;     /* of each tether */
   bt__aabb *whole, *box;  /* of each tether; of its leaves, from BOX_AT on */
@@ -43,14 +43,14 @@ typedef struct bt__lanes
   atomic_int left;  /* true: it said that the step is to be left */
   int alone;        /* steps to come that are not shared out */
   int patience;     /* how many they will be next time */
-} bt__lanes;
+} bt__contexts;
 
 /* Borrow the shared members of DIVE for LANE, whose thread does a part of NEXT; give them back; add
    the counters of LANE to the counters of DIVE.  */
-void bt__lane_enter (bt__lane *lane, const bt_dive *dive, bt__state *next);
-void bt__lane_leave (bt__lane *lane);
-void bt__lane_count (const bt__lane *lane, bt_dive *dive);
+void bt__context_enter (bt__context *context, const bt_dive *dive, bt__state *next);
+void bt__context_leave (bt__context *context);
+void bt__context_count (const bt__context *context, bt_dive *dive);
 
-void bt__lanes_free (bt__lanes *lanes); /* NULL is nothing */
+void bt__contexts_free (bt__contexts *contexts); /* NULL is nothing */
 
 #endif
