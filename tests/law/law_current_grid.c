@@ -101,7 +101,7 @@ test_grid (void **state)
   assert_true (bt_current_grid_is_unsteady (grid));
   assert_false (bt__is_finite (bt_current_grid_velocity (grid, bt__vec (0, NAN, 0), 0)));
   bt_current current = { .kind = BT_CURRENT_GRID };
-  bt_sea sea = { grid, NULL, NULL, 0 };
+  bt_sea sea = { grid, NULL, NULL };
   bt_water water = { 1025, 9.81, 40, 300, &current, NULL, NULL, &sea };
   double p[4] = { 1, 2, -3, 300 };
   assert_close (bt__distance (bt_water_velocity (&water, bt__vec (1, 2, -3)), field (p)), 0, 1e-14,
