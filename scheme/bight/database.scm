@@ -101,7 +101,8 @@ version when it is of a later version."
 (define (copy-of-database proc file)
   "Return the name of a new file that holds what is committed in the database FILE now, whoever has it open.
 Raise a &bight-error from PROC if it changes faster than it can be copied."
-  (let ((copy (temporary-file)))
+  (let ((copy (or (false-if-exception (temporary-file))
+                  (bight-raise 'io proc "no temporary file can be made for a copy of ~s" file))))
     (let try ((n 100))
       (cond ((false-if-exception (copied-whole? file copy)))
             ((zero? n)

@@ -59,7 +59,7 @@ its cube; water and gravity stay."
 ;; By which power of the scale of lengths what is measured so changes: forces go with weights.
 (define powers
   '(("" . 0) ("m" . 1) ("m/s" . 1/2) ("m/s2" . 0) ("m3" . 3) ("s" . 1/2) ("deg" . 0) ("deg/s" . -1/2)
-    ("kg" . 3) ("kg/m" . 2) ("kg/m3" . 0) ("kg m2" . 5) ("N" . 3) ("N/m" . 2) ("N m2" . 5) ("N s" . 7/2)
+    ("kg" . 3) ("kg/m" . 2) ("kg/m3" . 0) ("kg m2" . 5) ("N" . 3) ("N/m" . 2) ("N m2" . 5) ("N m2 s" . 11/2) ("N s" . 7/2)
     ("J/m" . 3) ("V" . 0)))
 
 (define (changed-number change unit value)

@@ -18,16 +18,18 @@ node_of (const bt__dynamic_work *w, int k)
   return k ? w->n : 0;
 }
 
-/* What the interval at end K pulls with, out of the end.  */
+/* The pull of the interval at end K, out of the end; with SLOW, the resistance to a change of a
+   slack interval is part of the pull.  */
 static bt_vec3
-interval_pull (const bt__dynamic_work *w, int k)
+interval_pull (const bt__dynamic_work *w, int k, int slow)
 {
   int j = k ? w->n - 1 : 0;
   const bt__link *link = w->link + j;
   bt_vec3 c = bt__sub (w->X[j + 1], w->X[j]);
   c = w->chord ? bt__add (c, w->chord[j]) : c;
-  double slow = bt__dynamic_slack (w, j) * (bt__norm (c) - link->start);
-  double pull = w->lam[j] - link->thrust + slow;
+  double pull = w->lam[j] - link->thrust;
+  if (slow)
+    pull += bt__dynamic_slack (w, j) * (bt__norm (c) - link->start);
   return bt__scale (k ? -pull : pull, bt__unit_or (c, link->t));
 }
 
@@ -51,7 +53,7 @@ bt_vec3
 bt__dynamic_end_pull (bt__dynamic_work *w, int k)
 {
   int i = node_of (w, k);
-  bt_vec3 f = bt__add (interval_pull (w, k), bt__dynamic_node_load (w, i));
+  bt_vec3 f = bt__add (interval_pull (w, k, 1), bt__dynamic_node_load (w, i));
   if (w->load)
     f = bt__add (f, w->load[i]);
   if (w->lumped)
@@ -61,4 +63,11 @@ bt__dynamic_end_pull (bt__dynamic_work *w, int k)
   if (w->rows > 0)
     f = bt__add (f, bt__dynamic_contact_on (w, i));
   return f;
+}
+
+double
+bt__dynamic_drawn (bt__dynamic_work *w)
+{
+  bt_vec3 f = bt__add (interval_pull (w, 0, 0), bt__dynamic_node_load (w, 0));
+  return bt__norm (w->load ? bt__add (f, w->load[0]) : f);
 }

@@ -28,7 +28,7 @@ typedef struct trial
 static trial
 look (bt__dynamic_work *w)
 {
-  return (trial){ w->given, bt__norm (bt__dynamic_end_pull (w, 0)) - w->in->hold };
+  return (trial){ w->given, bt__dynamic_drawn (w) - w->in->hold };
 }
 
 static trial

@@ -199,6 +199,11 @@ bt_vec3 bt__dynamic_node_load (bt__dynamic_work *w, int i);
    (dynamic_ends.c).  */
 bt_vec3 bt__dynamic_end_pull (bt__dynamic_work *w, int k);
 
+/* What line given by the winch can relieve of the pull on the winch, N: tension and the load of
+   half an interval, without the forces of slack resistance, lumps, bending and contacts at the
+   node.  */
+double bt__dynamic_drawn (bt__dynamic_work *w);
+
 /* The forces of the rows of bending, and of the caller's half-spaces, on node I, N.  */
 bt_vec3 bt__dynamic_bend_on (const bt__dynamic_work *w, int i);
 bt_vec3 bt__dynamic_contact_on (const bt__dynamic_work *w, int i);

@@ -3,6 +3,7 @@
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/hash.h"
@@ -301,6 +302,43 @@ bt__layout_fits (const bt_dive *dive, const bt__state *state)
       for (int k = live_extents (dive, state, i, live); k-- > 0;)
         if (live[k].at > store || live[k].size > store - live[k].at)
           return 0;
+    }
+  return 1;
+}
+
+static int
+by_offset (const void *a, const void *b)
+{
+  const bt__range *p = a, *q = b;
+  return p->at < q->at ? -1 : p->at > q->at;
+}
+
+static int
+is_zero (const char *at, size_t n)
+{
+  size_t i = 0;
+  while (i < n && at[i] == 0)
+    i++;
+  return i == n;
+}
+
+int
+bt__spare_is_zero (const bt_dive *dive, const bt__state *state)
+{
+  bt__range live[EXTENTS + 1];
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    {
+      const char *store = store_of (dive, state, i);
+      size_t end = 0;
+      int n = live_extents (dive, state, i, live);
+      live[n++] = (bt__range){ bt__store_size (dive->model, i), 0 };
+      qsort (live, (size_t)n, sizeof *live, by_offset);
+      for (int k = 0; k < n; k++)
+        {
+          if (live[k].at > end && !is_zero (store + end, live[k].at - end))
+            return 0;
+          end = live[k].at + live[k].size;
+        }
     }
   return 1;
 }

@@ -200,7 +200,7 @@
   "A line at rest does not know how it came to be so long."
   #:for ((world one-tether) (share (uniform 0.1 0.9)))
   #:cases 6
-  (define whole (with (world-of-case world) (t1 (model steady) (drum none))))
+  (define whole (with (world-of-case world) (t1 (model steady) (drum none) (winch-rate none))))
   (in-random whole)
   (assume (> (span 't1) 1))
   (define laid (car (answers)))

@@ -136,9 +136,10 @@ refusals_teach (void **state)
   assert_string_equal (said_of (dive, kept),
                        "vehicle `minnow': `goal' of its state is 99, not 0 to 3");
   v->goal = 0;
+  int64_t n = chain->n;
   chain->n = 1 << 20;
   assert_non_null (strstr (said_of (dive, kept), "tether `line' has 1048576 intervals, not 1 to "));
-  chain->n = 12;
+  chain->n = n;
   tether->props.diameter = -1;
   assert_non_null (strstr (said_of (dive, kept), "tether `line': `diameter' is above 0"));
   tether->props.diameter = dive->model->tethers[0].props.diameter;
