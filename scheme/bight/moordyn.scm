@@ -197,7 +197,7 @@ left out; its bed's stiffness is bight's own."
 (define (mass-of tether sea)
   (or (assq-ref (all-fields tether) 'mass)
       (let ((d (value-of tether 'diameter)))
-        (+ (/ (value-of tether 'wet-weight) (value-of sea 'gravity))
+        (+ (/ (or (value-of tether 'wet-weight) 0) (value-of sea 'gravity))
            (* (value-of sea 'density) (acos -1) 1/4 d d)))))
 
 (define stiffest 1e11)                  ; N: in place of a line that does not stretch

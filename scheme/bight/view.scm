@@ -503,7 +503,7 @@
 (define side-shown? (make-parameter #t))
 
 (define-verb (look #:key (columns (or-false (between 40 400))) (side flag #t)
-                   (at (or-false point)) (extent (or-false positive)) (zoom positive 1))
+                   (at (or-false point)) (extent (or-false (between 0.01 1e6))) (zoom (between 1e-3 1e3) 1))
   "Draw the present dive in plain characters, from above (north up) and, unless SIDE is #f, from the side,
 on one scale in both: A is the anchor, ^ > v < the vehicle and where it heads, # an obstacle, ~ the surface, = the
 sea bed, where there is one.  The tethers, the vehicles and the structure beside them are in it; AT is

@@ -74,22 +74,6 @@ enum
 /* Return the size in bytes of a block with room for N_MAX intervals.  */
 size_t bt__dynamic_size (int n_max);
 
-/* A range of bytes in a block.  */
-typedef struct bt__range
-{
-  size_t at, size;
-} bt__range;
-
-enum
-{
-  BT__DYNAMIC_RANGES = 11
-};
-
-/* Put the ranges in use of the block D, with room for N_MAX intervals, into OUT and return their
-   number.  D may come from outside: if its number of intervals does not fit the room, all the room
-   counts as used.  */
-int bt__dynamic_live (const bt__dynamic *d, int n_max, bt__range out[BT__DYNAMIC_RANGES]);
-
 /* Parts of the block.  Node arrays have n + 1 elements, interval arrays n.  */
 bt_vec3 *bt__dynamic_x (const bt__dynamic *d);       /* m: positions */
 bt_vec3 *bt__dynamic_v (const bt__dynamic *d);       /* m/s: velocities */

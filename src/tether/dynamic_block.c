@@ -28,21 +28,6 @@ bt__dynamic_size (int n_max)
   return sizeof (bt__dynamic) + doubles * sizeof (double);
 }
 
-int
-bt__dynamic_live (const bt__dynamic *d, int n_max, bt__range out[BT__DYNAMIC_RANGES])
-{
-  size_t at = sizeof (bt__dynamic), node = sizeof (bt_vec3), interval = sizeof (double);
-  size_t room = (size_t)n_max, n = d->n >= 0 && d->n <= n_max ? (size_t)d->n : room;
-  int count = 0;
-  out[count++] = (bt__range){ 0, at };
-  for (int k = 0; k < NODE_ARRAYS; k++, at += (room + 1) * node)
-    out[count++] = (bt__range){ at, (n + 1) * node };
-  for (int k = 0; k < INTERVAL_ARRAYS; k++, at += room * interval)
-    out[count++] = (bt__range){ at, n * interval };
-  out[count++] = (bt__range){ at, n * node };
-  return count;
-}
-
 static bt_vec3 *
 node_array (const bt__dynamic *d, int k)
 {

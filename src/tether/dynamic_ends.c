@@ -49,11 +49,12 @@ lumps_pull (const bt__dynamic_work *w, int k, int i)
   return f;
 }
 
-bt_vec3
-bt__dynamic_end_pull (bt__dynamic_work *w, int k)
+/* The sum of the forces on the end node at K but the holder's; SLOW as above.  */
+static bt_vec3
+sum_of_forces (bt__dynamic_work *w, int k, int slow)
 {
   int i = node_of (w, k);
-  bt_vec3 f = bt__add (interval_pull (w, k, 1), bt__dynamic_node_load (w, i));
+  bt_vec3 f = bt__add (interval_pull (w, k, slow), bt__dynamic_node_load (w, i));
   if (w->load)
     f = bt__add (f, w->load[i]);
   if (w->lumped)
@@ -65,9 +66,14 @@ bt__dynamic_end_pull (bt__dynamic_work *w, int k)
   return f;
 }
 
+bt_vec3
+bt__dynamic_end_pull (bt__dynamic_work *w, int k)
+{
+  return sum_of_forces (w, k, 1);
+}
+
 double
 bt__dynamic_drawn (bt__dynamic_work *w)
 {
-  bt_vec3 f = bt__add (interval_pull (w, 0, 0), bt__dynamic_node_load (w, 0));
-  return bt__norm (w->load ? bt__add (f, w->load[0]) : f);
+  return bt__norm (sum_of_forces (w, 0, 0));
 }

@@ -379,7 +379,7 @@ bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error)
   checksum = next->checksum;
   next->checksum = 0;
   if (next->magic != magic || next->size != size || !bt__layout_fits (dive, next)
-      || !bt__spare_is_zero (dive, next) || checksum != bt__hash_state (dive, next))
+      || checksum != bt__hash_state (dive, next))
     return bt__fail (error, BT_ERR_FORMAT, "these bytes are not a state as it was saved");
   if (next->model_id != dive->model->id)
     return bt__fail (error, BT_ERR_STALE, "this checkpoint belongs to another dive");

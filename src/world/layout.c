@@ -3,7 +3,6 @@
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/hash.h"
@@ -196,26 +195,29 @@ bt__dive_held (const bt_dive *dive, bt__state *state, int i)
 
 /* ---- What is live ---- */
 
+/* A range of bytes in a store.  */
+typedef struct extent
+{
+  size_t at, size;
+} extent;
+
 /* Of a store: its wear, and of both parts of a line the chain and its contacts.  */
 enum
 {
-  EXTENTS = 1 + 2 * (BT__DYNAMIC_RANGES + 1)
+  EXTENTS = 5
 };
 
 static int
-chain_extents (const bt_dive *dive, const bt__state *state, int i, bt__range *out)
+chain_extents (const bt_dive *dive, const bt__state *state, int i, extent *out)
 {
   const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
-  int n = 0, room = bt__chain_room (&dive->model->tethers[i]);
+  int n = 0;
   for (int part = 0; part <= (tether->parted != 0); part++)
     {
       size_t at = (size_t)part * dive->line[i].part, chain = dive->line[i].chain;
       size_t anchors = bt__contacts_live (bt__dive_anchors (dive, (bt__state *)state, i, part));
-      int first = n;
-      n += bt__dynamic_live (bt__dive_chain (dive, (bt__state *)state, i, part), room, out + n);
-      for (int k = first; k < n; k++)
-        out[k].at += at;
-      out[n++] = (bt__range){ at + chain, anchors };
+      out[n++] = (extent){ at, chain };
+      out[n++] = (extent){ at + chain, anchors };
     }
   return n;
 }
@@ -236,27 +238,27 @@ contact_form_live (const bt_dive *dive, const bt__state *state, int i)
 
 /* The parts of the store of tether I that are in use.  */
 static int
-live_extents (const bt_dive *dive, const bt__state *state, int i, bt__range *out)
+live_extents (const bt_dive *dive, const bt__state *state, int i, extent *out)
 {
   const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
   const bt_tether_def *def = &dive->model->tethers[i];
   int n = 0;
   if (tether->wear != 0)
-    out[n++] = (bt__range){ shape_size (dive->model, i), wear_size (def) };
+    out[n++] = (extent){ shape_size (dive->model, i), wear_size (def) };
   if (tether->shape.form == BT__FORM_CHAIN)
     return n + chain_extents (dive, state, i, out + n);
   size_t arrays = arrays_size (def);
   if (bt__has_nodes (tether->shape.form))
-    out[n++] = (bt__range){ 0, arrays };
+    out[n++] = (extent){ 0, arrays };
   if (tether->contact_form)
-    out[n++] = (bt__range){ arrays, contact_form_live (dive, state, i) };
+    out[n++] = (extent){ arrays, contact_form_live (dive, state, i) };
   return n;
 }
 
 void
 bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from)
 {
-  bt__range live[EXTENTS];
+  extent live[EXTENTS];
   memcpy (to, from, fixed_size (dive));
   for (int i = 0; i < dive->model->n_tethers; i++)
     for (int k = live_extents (dive, from, i, live); k-- > 0;)
@@ -267,7 +269,7 @@ bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from)
 uint64_t
 bt__hash_state (const bt_dive *dive, const bt__state *state)
 {
-  bt__range live[EXTENTS];
+  extent live[EXTENTS];
   uint64_t h = bt__hash (state, fixed_size (dive), 0);
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
@@ -281,7 +283,7 @@ bt__hash_state (const bt_dive *dive, const bt__state *state)
 size_t
 bt__live_size (const bt_dive *dive, const bt__state *state)
 {
-  bt__range live[EXTENTS];
+  extent live[EXTENTS];
   size_t size = fixed_size (dive);
   for (int i = 0; i < dive->model->n_tethers; i++)
     for (int k = live_extents (dive, state, i, live); k-- > 0;)
@@ -292,7 +294,7 @@ bt__live_size (const bt_dive *dive, const bt__state *state)
 int
 bt__layout_fits (const bt_dive *dive, const bt__state *state)
 {
-  bt__range live[EXTENTS];
+  extent live[EXTENTS];
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       size_t store = bt__store_size (dive->model, i);
@@ -302,43 +304,6 @@ bt__layout_fits (const bt_dive *dive, const bt__state *state)
       for (int k = live_extents (dive, state, i, live); k-- > 0;)
         if (live[k].at > store || live[k].size > store - live[k].at)
           return 0;
-    }
-  return 1;
-}
-
-static int
-by_offset (const void *a, const void *b)
-{
-  const bt__range *p = a, *q = b;
-  return p->at < q->at ? -1 : p->at > q->at;
-}
-
-static int
-is_zero (const char *at, size_t n)
-{
-  size_t i = 0;
-  while (i < n && at[i] == 0)
-    i++;
-  return i == n;
-}
-
-int
-bt__spare_is_zero (const bt_dive *dive, const bt__state *state)
-{
-  bt__range live[EXTENTS + 1];
-  for (int i = 0; i < dive->model->n_tethers; i++)
-    {
-      const char *store = store_of (dive, state, i);
-      size_t end = 0;
-      int n = live_extents (dive, state, i, live);
-      live[n++] = (bt__range){ bt__store_size (dive->model, i), 0 };
-      qsort (live, (size_t)n, sizeof *live, by_offset);
-      for (int k = 0; k < n; k++)
-        {
-          if (live[k].at > end && !is_zero (store + end, live[k].at - end))
-            return 0;
-          end = live[k].at + live[k].size;
-        }
     }
   return 1;
 }

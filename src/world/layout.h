@@ -31,8 +31,4 @@ size_t bt__live_size (const bt_dive *dive, const bt__state *state);
    that came from elsewhere.  */
 int bt__layout_fits (const bt_dive *dive, const bt__state *state);
 
-/* True if all room of the stores of STATE that is not in use is zero, as bt_dive_save leaves it.  The
-   hash covers what is in use alone.  */
-int bt__spare_is_zero (const bt_dive *dive, const bt__state *state);
-
 #endif
