@@ -345,7 +345,7 @@ test_brake (void **unused)
         continue; /* a line that cannot be */
       double begin = look (dive).tension_anchor, out = look (dive).length;
       /* The pull has the resistance of slack intervals in it, which no line given relieves.  */
-      double brake = fmax (begin, s.tether.props.winch_brake) * (1 + 1e-3);
+      double brake = fmax (begin, s.tether.props.winch_brake) * 1.05;
       bt_vec3 away = bt__scale (5, s.vehicle.at);
       double to[] = { away.x, away.y, away.z, between (&d, 0.1, 3) };
       assert_int_equal (bt_dive_do (dive, BT_OP_MOVE, 0, to, 4, NULL), BT_OK);
@@ -370,7 +370,7 @@ test_brake (void **unused)
   print_message ("# the brake held %.4f of what it holds at most; %.1f m ran out at most; the drum "
                  "was empty %d times\n",
                  held, ran, at_the_end);
-  assert_true (held > 0.99 && ran > 5 && at_the_end > 0);
+  assert_true (held > 0.94 && ran > 5 && at_the_end > 0);
 }
 
 /* ---- Ends ---- */
