@@ -3,7 +3,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules ((bight lesson-file) #:select (lesson-files lesson-file-name lesson-file-title)))
+(use-modules ((bight lesson file) #:select (lesson-files lesson-file-name lesson-file-title)))
 
 (define (say . parts)
   (for-each display parts)

@@ -6,11 +6,11 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules ((bight describe) #:select (head-description type-description description-sentence
-                                         description-rows))
-             ((bight doc) #:select (docstring-of))
-             ((bight schema) #:select (part-heads inner-heads part-types part-type-name))
-             ((bight verb) #:select (verb? verb-usage verb-arguments))
+(use-modules ((bight world describe) #:select (head-description type-description description-sentence
+                                               description-rows))
+             ((bight shell doc) #:select (docstring-of))
+             ((bight core schema) #:select (part-heads inner-heads part-types part-type-name))
+             ((bight core verb) #:select (verb? verb-usage verb-arguments))
              (ice-9 rdelim)
              (ice-9 regex)
              (srfi srfi-1))
@@ -58,12 +58,15 @@
 
 (define interface (resolve-interface '(bight)))
 
-(define (language-module? file)
-  (string-suffix? ".scm" file))
-
-(define (module-names folder)
-  ;; The names of the modules in FOLDER/bight, whether loaded or not.
-  ((@ (ice-9 ftw) scandir) (string-append folder "/bight") language-module?))
+(define (module-files folder)
+  ;; The files of the modules below FOLDER/bight, whether loaded or not, in order.
+  (define found '())
+  ((@ (ice-9 ftw) nftw) (string-append folder "/bight")
+   (lambda (file info flag base level)
+     (when (string-suffix? ".scm" file)
+       (set! found (cons file found)))
+     #t))
+  (sort found string<?))
 
 (define (source-folder)
   (dirname (%search-load-path "bight.scm")))
@@ -75,14 +78,13 @@
       (let loop ((text ""))
         (let* ((line (read-line port))
                (text (string-append text (string-trim line (lambda (c) (memv c '(#\; #\space)))) " "))
-               (m (string-match "^(\\(bight [a-z-]+\\)) --- ([^.]*)\\." text)))
+               (m (string-match "^(\\(bight [a-z -]+\\)) --- ([^.]*)\\." text)))
           (cond (m (cons (call-with-input-string (match:substring m 1) read) (match:substring m 2)))
                 ((string-prefix? ";;;" line) (loop text))
-                (else (error "no first line as in `;;; (bight doc) --- what it is.'" file))))))))
+                (else (error "no first line as in `;;; (bight shell doc) --- what it is.'" file))))))))
 
 (define titles
-  (map (lambda (file) (title-of (string-append (source-folder) "/bight/" file)))
-       (module-names (source-folder))))
+  (map title-of (module-files (source-folder))))
 
 (define (home-of variable)
   ;; The module that exports VARIABLE, and says what it is.
@@ -124,7 +126,7 @@
         (simple-format #f "~s" (cons name (car patterns))))))
 
 (define (plain-usage name value)
-  (car (string-split ((@@ (bight doc) plain-usage) name value) #\newline)))
+  (car (string-split ((@@ (bight shell doc) plain-usage) name value) #\newline)))
 
 ;; A macro shows how it is used in its own words.
 (define (forms-in doc)

@@ -7,27 +7,27 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight)
-  #:use-module ((bight verb) #:select (define-verb))
+  #:use-module ((bight core verb) #:select (define-verb))
   #:export (language-names))
 
 ;; Modules, each alone if all its names belong to the language, else with the names that do.
 (define at-once
-  '(((bight errors)
+  '(((bight core errors)
      &bight-error bight-error? bight-error-kind bight-error-procedure bight-error-message
      bight-error-given)
-    ((bight units))
-    ((bight types) define-tether-type define-vehicle tether-types vehicle-types)
+    ((bight core units))
+    ((bight world types) define-tether-type define-vehicle tether-types vehicle-types)
     ((bight world)
      world define-world extend without with part worlds find-world
      world? world-name world-documentation world-parts world-file world-part-names world-part
      part? part-head part-name part-fields part-all-fields)
     ((bight dive) enter! with-dive dive? current-dive)
-    ((bight task) every on cancel!)
-    ((bight pilot) define-pilot make-pilot with-pilot)
-    ((bight time) now time-step run run-until step! settle!)
-    ((bight checkpoint) checkpoint checkpoint? restore! rewind! what-if state-hash)
-    ((bight command))
-    ((bight query)
+    ((bight dive task) every on cancel!)
+    ((bight dive pilot) define-pilot make-pilot with-pilot)
+    ((bight dive time) now time-step run run-until step! settle!)
+    ((bight dive checkpoint) checkpoint checkpoint? restore! rewind! what-if state-hash)
+    ((bight dive command))
+    ((bight dive query)
      rov-position rov-velocity rov-heading rov-pitch rov-roll rov-depth rov-altitude rov-over rov-speed
      net-turns sticks held? range-to bearing-to current-at sea-depth
      tether-points tether-tail point-at tangent-at tensions tension-at
@@ -38,71 +38,71 @@
      events profile parts)))
 
 (define when-used
-  '(((bight build)
+  '(((bight world build)
      make-jacket make-pier make-wreck make-hull make-net-pen make-pipeline make-ice-hole make-tunnel
      make-wellhead make-rigging)
-    ((bight contact)
+    ((bight dive contact)
      contacts contact? contact-object contact-triangle contact-position contact-normal
      contact-arc-length contact-force contact-state
      segments segment? segment-model segment-from segment-to segment-length segment-ends
      clearance rov-clearance collide! collided? stuck? wear wear-profile)
-    ((bight scenario)
+    ((bight test scenario)
      define-scenario always never eventually skip run-scenario scenarios test-seed
      expect require about between above below)
-    ((bight scratch) scratch-file)
-    ((bight property) define-property assume)
-    ((bight generator) uniform integer one-of any-of list-of point-in made-of generator?)
-    ((bight random-dive) random-parts random-world random-pilot)
-    ((bight invariant)
+    ((bight core scratch) scratch-file)
+    ((bight test property) define-property assume)
+    ((bight test generator) uniform integer one-of any-of list-of point-in made-of generator?)
+    ((bight world random-dive) random-parts random-world random-pilot)
+    ((bight test invariant)
      all-finite? nothing-crossed? energy-bounded? turns-watcher same-again? always-sound)
     ((bight lesson)
      define-lesson run-lesson last-answer counter count! setting jitter tell! told messages
      messages-left number-in way-flown off-the-way
      report? report-total report-passed? report-marks report-said report-text report-hash
      report-coached report-hints report-rewinds report-seconds)
-    ((bight lesson-file) lessons)
+    ((bight lesson file) lessons)
     ((bight study) define-study)
-    ((bight study-case) study? study-cases run-case)
-    ((bight risk) wilson-interval)
-    ((bight aware)
+    ((bight study case) study? study-cases run-case)
+    ((bight study risk) wilson-interval)
+    ((bight dive aware)
      winding turns windings wrap-angle capstan-lock
      homotopy-class homotopy-class? class-decided? class-free?
      knotted? fouled? foul-reason free-to-haul? haul-trial haul-prospect
      way-home way-home-preview unwind-plan slack-to-reach
      contact-length seabed-length bend-ratio snap-count thrust-share follow-string)
-    ((bight homing) fly-home! home-trial unwind-preview)
-    ((bight foresight)
+    ((bight dive homing) fly-home! home-trial unwind-preview)
+    ((bight dive foresight)
      foresee foresight? foresight-kind foresight-object foresight-seconds foresight-confidence
      foresight-turns)
-    ((bight in-words) in-words)
-    ((bight probe)
+    ((bight dive in-words) in-words)
+    ((bight dive probe)
      awareness-probes probe-question probe-level probe-truth probe-stable? probe-error probe-score)
-    ((bight coach) make-coach coach-looks! coach-log coach-rules define-coach-rule)
-    ((bight test-command) run-tests)
-    ((bight instruments)
+    ((bight cockpit coach) make-coach coach-looks! coach-log coach-rules define-coach-rule)
+    ((bight test command) run-tests)
+    ((bight dive instruments)
      instruments compass depth-sensor altimeter speed-log turn-counter ship-range ship-bearing
      load-cell payout-counter transponders fault! mend! faults thrusts sonar in-view? tether-in-view)
-    ((bight saving) save! load-dive)
-    ((bight recording)
+    ((bight dive saving) save! load-dive)
+    ((bight dive recording)
      record! stop-recording! recording? replay
      difference? difference-step difference-time difference-quantities)
-    ((bight frames) export-csv)
-    ((bight export) export-npz export-vtk)
-    ((bight moordyn) import-moordyn export-moordyn)
-    ((bight orcaflex) import-orcaflex)
-    ((bight live) live! freeze! live?)
-    ((bight threads) threads! threads)
-    ((bight logbook)
+    ((bight dive frames) export-csv)
+    ((bight dive export) export-npz export-vtk)
+    ((bight world moordyn) import-moordyn export-moordyn)
+    ((bight world orcaflex) import-orcaflex)
+    ((bight dive live) live! freeze! live?)
+    ((bight dive threads) threads! threads)
+    ((bight lesson logbook)
      log-dive! log-lesson! log-probe! logbook logbook-file merge-logbook!
      log-entry? log-entry-kind log-entry-when log-entry-trainee log-entry-what log-entry-score
      log-entry-data)
     ((bight view) look status)
-    ((bight picture) snapshot show)
-    ((bight pilot-view) pilot!)
-    ((bight film) film)
-    ((bight plot) plot sample! samples? samples-rows)
-    ((bight describe) describe)
-    ((bight doc) help)))
+    ((bight view picture) snapshot show)
+    ((bight cockpit view) pilot!)
+    ((bight view film) film)
+    ((bight view plot) plot sample! samples? samples-rows)
+    ((bight world describe) describe)
+    ((bight shell doc) help)))
 
 ;; Names that stand for more than those of Guile and its SRFIs.
 (define in-place-of-guile-s '(help every))
@@ -135,11 +135,11 @@
 (for-each (lambda (name) (hashq-set! (module-replacements interface) name #t))
           in-place-of-guile-s)
 
-;; An alist from the modules to the names that each gives to the language, for (bight topics).
+;; An alist from the modules to the names that each gives to the language, for (bight shell topics).
 (set-procedure-property!
  language-names 'by-module
  (lambda ()
-   (cons '((bight errors) language-names)
+   (cons '((bight core errors) language-names)
          (append (map (lambda (entry)
                         (cons (car entry)
                               (if (null? (cdr entry))

@@ -12,8 +12,8 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (tests documents)
-  #:use-module ((bight expect) #:select (exception->line))
-  #:use-module ((bight errors) #:select (bight-error? bight-error-kind))
+  #:use-module ((bight core errors) #:select (bight-error? bight-error-kind))
+  #:use-module ((bight test expect) #:select (exception->line))
   #:use-module (ice-9 popen)
   #:use-module (ice-9 rdelim)
   #:use-module (ice-9 regex)

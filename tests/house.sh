@@ -24,6 +24,7 @@ within shared-static-names -le 5.0 'few static functions share a name with one o
 within static-names-twice-in-a-room -le 16 'hardly any with one of the same room'
 within pointing-words -le 7.6 'long sentences name what they speak of'
 within private-words -le 10 "the field's words are used"
+within flat-modules -le 20 'modules stand in the folders of what they are about'
 
 # The places that HACKING.md names are there.
 for place in $(grep -o '`\(src\|scheme\|tests\|testbed\|bench\)/[A-Za-z_/*.-]*`' "$top_srcdir/HACKING.md" | tr -d '`' | sort -u); do

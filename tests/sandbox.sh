@@ -166,7 +166,7 @@ rm -f "$scratch/stolen"
 
 # What the language does not stop, the kernel does.
 cat >"$scratch/kernel.scm" <<END
-(use-modules (bight sandbox))
+(use-modules (bight core sandbox))
 (display (enclose!))
 (newline)
 (force-output)
@@ -184,7 +184,7 @@ else
 fi
 
 cat >"$scratch/reading.scm" <<END
-(use-modules (bight sandbox))
+(use-modules (bight core sandbox))
 (display (enclose! #:reading (list "$scratch/state")))
 (newline)
 (force-output)

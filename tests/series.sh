@@ -41,8 +41,8 @@ cat >fly.scm <<'SCM'
                        found)))
         (reverse found))))
 (define (file-bytes name) (call-with-input-file name get-bytevector-all #:binary #t))
-(define query (@@ (bight sqlite) %query))
-(define database ((@@ (bight sqlite) %open-database) "dive.db"))
+(define query (@@ (bight core sqlite) %query))
+(define database ((@@ (bight core sqlite) %open-database) "dive.db"))
 (define (asked sql) (concatenate (query database sql '())))
 (define dive (entries (file-bytes "dive.npz")))
 (define (same? name sql) (equal? (cdr (assoc-ref dive name)) (map exact->inexact (asked sql))))
@@ -169,8 +169,8 @@ refused 'a file in the place of the folder' 'is no folder' '(export-vtk "dive.db
 result $? 'and nothing is left of it'
 cp dive.db forged.db
 cat >forge.scm <<'SCM'
-(define database ((@@ (bight sqlite) %open-database) "forged.db"))
-(for-each (lambda (sql) ((@@ (bight sqlite) %query) database sql '()))
+(define database ((@@ (bight core sqlite) %open-database) "forged.db"))
+(for-each (lambda (sql) ((@@ (bight core sqlite) %query) database sql '()))
           '("update points set x = 'many', tension = 1e999, node = 9000000000000000000 - node"
             "update vehicles set name = '../../evil\"<&'"
             "update frames set time = 'now' where frame = 2"))

@@ -65,7 +65,7 @@ bight sweep --rows one.db >one.csv
 [ "$(wc -l <one.csv)" -eq 13 ] && [ "$(sort -u one.csv | wc -l)" -eq 13 ]
 result $? 'twelve cases, no two the same'
 
-bight -c '(use-modules (bight sqlite))
+bight -c '(use-modules (bight core sqlite))
   (%query (%open-database "one.db") "select count(*), sum(cpu) > 0, count(distinct hash) from cases" (list))' >out
 [ "$(cat out)" = '((12 1 12))' ]
 result $? 'each with its processor time and the hash of its own state'

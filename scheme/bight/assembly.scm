@@ -1,19 +1,19 @@
 ;;; (bight assembly) --- how parts become a world.
 ;;;
-;;; A world (bight part) is an immutable list of parts whose fields were checked one by one against the
-;;; schema (bight clause) and whose parts are checked against each other here: one sea, unique names, ends
+;;; A world (bight core part) is an immutable list of parts whose fields were checked one by one against the
+;;; schema (bight core clause) and whose parts are checked against each other here: one sea, unique names, ends
 ;;; that are there, nothing missing.  The forms a person writes are in (bight world).
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight assembly)
-  #:use-module (bight allowance)
-  #:use-module (bight clause)
-  #:use-module (bight errors)
-  #:use-module (bight group)
-  #:use-module (bight part)
-  #:use-module (bight schema)
-  #:use-module (bight types)
+  #:use-module (bight core allowance)
+  #:use-module (bight core clause)
+  #:use-module (bight core errors)
+  #:use-module (bight core part)
+  #:use-module (bight core schema)
+  #:use-module (bight world group)
+  #:use-module (bight world types)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:export (data->part

@@ -8,14 +8,14 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight bench)
-  #:use-module (bight bench-compare)
-  #:use-module (bight bench-report)
-  #:use-module (bight bench-row)
-  #:use-module ((bight bench-plot) #:select (plots-of))
-  #:use-module (bight bench-validation)
+  #:use-module (bight bench compare)
+  #:use-module ((bight bench plot) #:select (plots-of))
+  #:use-module (bight bench report)
+  #:use-module (bight bench row)
+  #:use-module (bight bench validation)
+  #:use-module (bight core errors)
+  #:use-module ((bight core folders) #:select (ensure-folder!))
   #:use-module ((bight engine) #:select (%programs-folder))
-  #:use-module (bight errors)
-  #:use-module ((bight folders) #:select (ensure-folder!))
   #:use-module ((bight outlet) #:select (control watched?))
   #:use-module ((ice-9 ftw) #:select (scandir))
   #:use-module (ice-9 popen)
@@ -307,7 +307,7 @@
 
 ;; A family of the bench stability is flown in the language; it is loaded when it is asked for.
 (define (worlds? names passed)
-  (and (equal? names '("stability")) ((@ (bight bench-worlds) worlds-asked?) passed)))
+  (and (equal? names '("stability")) ((@ (bight bench worlds) worlds-asked?) passed)))
 
 (define (words? plan)
   ;; Is the one bench asked for something else than rows?
@@ -363,7 +363,7 @@
               (else
                (let ((plan (make-plan names options passed)))
                  (cond ((worlds? names passed)
-                        ((@ (bight bench-worlds) run-worlds)
+                        ((@ (bight bench worlds) run-worlds)
                          (append (if (assoc-ref options "--quick") '("--quick") '()) passed)))
                        ((words? plan) (print-words plan))
                        ((validation? names)

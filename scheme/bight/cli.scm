@@ -7,10 +7,10 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight cli)
-  #:use-module (bight errors)
-  #:use-module ((bight here) #:select (noting-places))
+  #:use-module (bight core errors)
+  #:use-module ((bight core here) #:select (noting-places))
   #:use-module (bight outlet)
-  #:use-module (bight usage)
+  #:use-module (bight shell usage)
   #:use-module (srfi srfi-1)
   #:export (main
             evaluate-file
@@ -46,14 +46,14 @@
 
 (define (located port file line exception)
   ;; What EXCEPTION says, after its place: the line it tells of itself, or LINE of FILE.
-  (let ((text (string-append ((from (bight expect) exception->line) exception)
-                             ((from (bight expect) chain-suffix) exception)))
-        (place ((from (bight expect) raised-at) exception))
+  (let ((text (string-append ((from (bight test expect) exception->line) exception)
+                             ((from (bight test expect) chain-suffix) exception)))
+        (place ((from (bight test expect) raised-at) exception))
         (name (string-append (port-filename port) ":")))
     (cond ((string-prefix? name text)
            (string-append (or file "expression") ":" (substring text (string-length name))))
           ((and place (not (equal? (car place) "expression")))
-           (string-append ((from (bight expect) location->string) place) ": " text))
+           (string-append ((from (bight test expect) location->string) place) ": " text))
           (file
            (string-append file ":" (number->string line) ": " text))
           (else text))))
@@ -82,7 +82,7 @@
           (call-at port file line
                    (lambda ()
                      (call-with-values
-                         (lambda () ((from (bight place) evaluate-marked) form (port-filename port)))
+                         (lambda () ((from (bight core place) evaluate-marked) form (port-filename port)))
                        see)))
           (loop line))))))
 
@@ -130,7 +130,7 @@ begins with FILE and the line."
   ;; Make a user's module, with the language, the current one.
   (set-current-module (resolve-module '(guile-user)))
   (process-use-modules '(((bight))))
-  ((from (bight place) mark-what-is-loaded!)))
+  ((from (bight core place) mark-what-is-loaded!)))
 
 
 ;;; The commands.  Each takes the list of its arguments and returns the exit status.
@@ -140,7 +140,7 @@ begins with FILE and the line."
 
 (define (run-script file arguments)
   (unless (file-exists? file)
-    (bad-usage "there is no file ~s~a" file ((from (bight meant) file-meant) file)))
+    (bad-usage "there is no file ~s~a" file ((from (bight shell meant) file-meant) file)))
   (when (file-is-directory? file)
     (bad-usage "~s is a folder, not a script" file))
   (set-program-arguments (cons file arguments))
@@ -168,7 +168,7 @@ begins with FILE and the line."
 
 (define (run-prompt)
   (if (isatty? (current-input-port))
-      ((from (bight repl) run-prompt) (version))
+      ((from (bight shell repl) run-prompt) (version))
       (run-input show-values '())))
 
 (define (complete arguments)
@@ -230,10 +230,10 @@ begins with FILE and the line."
       (bad-usage "test: name a file or a folder; there is no folder tests here")))
 
 (define (run-tests arguments)
-  ((from (bight place) mark-what-is-loaded!))
+  ((from (bight core place) mark-what-is-loaded!))
   (call-with-values (lambda () (split-arguments "test" arguments))
     (lambda (paths options)
-      ((from (bight test-command) test-command)
+      ((from (bight test command) test-command)
        (if (null? paths) (list (default-tests)) paths)
        options))))
 
@@ -259,7 +259,7 @@ begins with FILE and the line."
       (unless (assoc-ref options "-o")
         (bad-usage "snapshot: say where to, as in bight snapshot ~a -o FILE.png" (car worlds)))
       (for-each show-values
-                ((from (bight picture) snapshot-worlds)
+                ((from (bight view picture) snapshot-worlds)
                  (map world-argument worlds)
                  (assoc-ref options "-o")
                  options))
@@ -274,7 +274,7 @@ begins with FILE and the line."
       (unless (= 1 (length worlds))
         (bad-usage "pilot: name one world or file, as in bight pilot WORLD"))
       (enter-language!)
-      ((from (bight pilot-view) pilot-world) (world-argument (car worlds)) options)
+      ((from (bight cockpit view) pilot-world) (world-argument (car worlds)) options)
       0)))
 
 
@@ -286,7 +286,7 @@ begins with FILE and the line."
       (unless (= 1 (length files))
         (bad-usage "watch: name one recording, as in bight watch FILE"))
       (enter-language!)
-      ((from (bight watch) watch-file) (car files) options)
+      ((from (bight cockpit watch) watch-file) (car files) options)
       0)))
 
 
@@ -294,7 +294,7 @@ begins with FILE and the line."
 
 (define (run-sweep arguments)
   (call-with-values (lambda () (split-arguments "sweep" arguments))
-    (from (bight sweep-command) sweep-command)))
+    (from (bight study sweep-command) sweep-command)))
 
 
 ;;; bight replay.
@@ -304,7 +304,7 @@ begins with FILE and the line."
     (lambda (files options)
       (unless (= 1 (length files))
         (bad-usage "replay: name one recording, as in bight replay FILE"))
-      (if ((from (bight recording) replay-file) (car files)) 0 1))))
+      (if ((from (bight dive recording) replay-file) (car files)) 0 1))))
 
 
 ;;; The commands: one entry each, of which all help, the manual page and the options known are made.
@@ -334,7 +334,7 @@ begins with FILE and the line."
             '("--catalogue DIR" "write a page with a sentence and a view of each scenario and"
               "world to DIR")
             '("--list" "run nothing; print the scenarios with their sentences"))
-   (command "lessons" (lambda (arguments) ((from (bight lesson-command) lessons-command) arguments)) ""
+   (command "lessons" (lambda (arguments) ((from (bight lesson command) lessons-command) arguments)) ""
             '("list the lessons with marks, or the marks of a group")
             '("--trainee WHO" "whose marks")
             '("--skills" "how well he has each skill, estimated from all marks, with intervals")
@@ -342,7 +342,7 @@ begins with FILE and the line."
             '("--group G" "the marks of all in the group")
             '("--group" "all groups compared, with intervals")
             '("--csv" "as comma-separated values"))
-   (command "lesson" (lambda (arguments) ((from (bight lesson-command) lesson-command) arguments))
+   (command "lesson" (lambda (arguments) ((from (bight lesson command) lesson-command) arguments))
             "[NAME|FILE]"
             '("take a lesson, or go on with it; a FILE from outside is enclosed; without one: which is next,"
               "and why")
@@ -358,7 +358,7 @@ begins with FILE and the line."
             '("--pilot P" "show it flown by its pilot P, such as expert")
             '("--check" "prove it: its pilots fly it, the careless one in vain; every hint can be reached"))
    (command "experiment"
-            (lambda (arguments) ((from (bight experiment-command) experiment-command) arguments)) ""
+            (lambda (arguments) ((from (bight lesson experiment-command) experiment-command) arguments)) ""
             '("take part in an experiment: what does one learn who sees his tether not, from above, or in"
               "three dimensions?  consent, the draw of a group, then step by step each time")
             '("--trainee WHO" "who takes part")
@@ -482,8 +482,8 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
       (file-exists? word)))
 
 (define doors                           ; options that let others in, and what begins to serve them
-  `(("--listen" . ,(lambda (file) ((from (bight listen) start-listening!) file)))
-    ("--door" . ,(lambda (file) ((from (bight door) open-door!) file)))))
+  `(("--listen" . ,(lambda (file) ((from (bight shell listen) start-listening!) file)))
+    ("--door" . ,(lambda (file) ((from (bight shell door) open-door!) file)))))
 
 (define (door-option argument)
   ;; (SERVE . FILE) of --listen, --listen=FILE and the like, FILE #f for the usual one; else #f.
@@ -503,7 +503,7 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
         (if (and (null? arguments) (not (isatty? (current-input-port))))
             (let loop () (sleep 3600) (loop))
             (run-command arguments)))
-      (from (bight listen) stop-listening!))))
+      (from (bight shell listen) stop-listening!))))
 
 (define (run-command arguments)
   (cond ((null? arguments) (run-prompt))
@@ -516,7 +516,7 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
         (else
          (bad-usage "there is no command and no file ~a~a" (car arguments)
                     (let ((command (did-you-mean (car arguments) first-words)))
-                      (if (string-null? command) ((from (bight meant) file-meant) (car arguments)) command))))))
+                      (if (string-null? command) ((from (bight shell meant) file-meant) (car arguments)) command))))))
 
 (define (lost-output)
   ;; Why what was written to the standard output cannot go there, a string, or #f.  What is left of it is
@@ -551,7 +551,7 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
           (lambda (exception)
             (cond ((program-error? exception) (complain (program-error-text exception)))
                   ((memq (exception-kind exception) '(quit)) (raise-exception exception))
-                  (else (complain ((from (bight expect) exception->placed-line) exception)))))
+                  (else (complain ((from (bight test expect) exception->placed-line) exception)))))
         (lambda () (noting-places thunk))
         #:unwind? #t))
     (lambda (key . arguments) (status-of arguments))))

@@ -2,25 +2,25 @@
 ;;;
 ;;; A cockpit draws a dive in half blocks, of which only the changed ones are written, with a display of
 ;;; figures over it, a map, targets, and whatever its owner adds; and it knows the keys that change how things
-;;; look.  Who owns it lets time pass and does what the other keys say: free flight, (bight pilot-view), a
-;;; lesson, (bight lesson-cockpit), a recording, (bight watch).
+;;; look.  Who owns it lets time pass and does what the other keys say: free flight, (bight cockpit view), a
+;;; lesson, (bight lesson cockpit), a recording, (bight cockpit watch).
 ;;;
 ;;; What can go wrong with the picture does not end the flight: plain characters take its place.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight cockpit)
-  #:use-module (bight cells)
+  #:use-module (bight cockpit cells)
+  #:use-module (bight cockpit desk)
+  #:use-module (bight cockpit hud)
+  #:use-module (bight cockpit keys)
+  #:use-module (bight core errors)
+  #:use-module (bight core record)
+  #:use-module (bight core units)
   #:use-module (bight dive)
+  #:use-module (bight dive query)
+  #:use-module (bight dive time)
   #:use-module (bight engine)
-  #:use-module (bight errors)
-  #:use-module (bight pilot-desk)
-  #:use-module (bight pilot-hud)
-  #:use-module (bight pilot-keys)
-  #:use-module (bight query)
-  #:use-module (bight record)
-  #:use-module (bight time)
-  #:use-module (bight units)
   #:use-module ((bight world) #:select (world-name))
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
@@ -182,7 +182,7 @@ true, many, few or none."
   "Return the pixels, a bytevector, of a quick picture of the dive of ENGINE by VIEW for SIZE, a pair of
 columns and rows; GHOST is the engine of another dive, or #f.  MARKS, an f64vector of points, receives where they
 fall in it."
-  ((from (bight render) %draw) ((from (bight picture) renderer) 'pilot!)
+  ((from (bight view render) %draw) ((from (bight view picture) renderer) 'pilot!)
                                engine "" view
                                (cons (car size) (* 2 (cdr size)))
                                paint (cons 'quick flags) ghost marks))
@@ -353,7 +353,7 @@ fall in it."
   ;; The way home in words, or #f.
   (and (cockpit-words? c) (cockpit-tether c) (not ((unseen?) 'way-home)) (not ((unseen?) 'tether-points))
        (with-exception-handler (const #f)
-         (lambda () ((from (bight in-words) in-words) (cockpit-tether c) 'way-home))
+         (lambda () ((from (bight dive in-words) in-words) (cockpit-tether c) 'way-home))
          #:unwind? #t)))
 
 (define (ask-ahead! c t)

@@ -6,15 +6,15 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight dive)
-  #:use-module ((bight atlas) #:select (world-called))
-  #:use-module (bight bed)
+  #:use-module (bight core errors)
+  #:use-module ((bight core files) #:select (engine-parts))
+  #:use-module (bight core record)
+  #:use-module (bight core verb)
+  #:use-module ((bight dive past) #:select (new-past))
   #:use-module (bight engine)
-  #:use-module (bight errors)
-  #:use-module ((bight files) #:select (engine-parts))
-  #:use-module ((bight past) #:select (new-past))
-  #:use-module (bight record)
-  #:use-module (bight verb)
   #:use-module (bight world)
+  #:use-module ((bight world atlas) #:select (world-called))
+  #:use-module (bight world bed)
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:export (enter!
             with-dive
@@ -48,8 +48,8 @@
   (fork? dive-fork?)                    ; true if it is a copy that goes its own way
   (tasks dive-tasks set-dive-tasks!)
   (watchers dive-watchers set-dive-watchers!)
-  (past dive-past set-dive-past!)       ; (bight past), or #f: nothing is remembered
-  (recorder dive-recorder set-dive-recorder!)) ; (bight recording), or #f
+  (past dive-past set-dive-past!)       ; (bight dive past), or #f: nothing is remembered
+  (recorder dive-recorder set-dive-recorder!)) ; (bight dive recording), or #f
 
 (define-verb (dive? (object any))
   "Return #t if OBJECT is a dive."
@@ -84,7 +84,7 @@
 ;;; Threads beside the house's: they have no current dive, unless they begin one.
 
 (define served?
-  ;; True in a session of (bight listen).
+  ;; True in a session of (bight shell listen).
   (make-parameter #f))
 
 (define session-dive

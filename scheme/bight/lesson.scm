@@ -1,30 +1,30 @@
 ;;; (bight lesson) --- lessons: what to read, to answer and to fly, as plain files anybody can write.
 ;;;
-;;; A lesson is written with `define-lesson', (bight lesson-syntax); what happens in it is in (bight
-;;; lesson-play), how it is marked in (bight lesson-score).  It runs three ways, by who stands behind its
-;;; guide: a person, (bight lesson-terminal); a scripted pilot of the lesson's own, here; a test, which is a
-;;; scripted pilot whose report is looked at.
+;;; A lesson is written with `define-lesson', (bight lesson syntax); what happens in it is in
+;;; (bight lesson play), how it is marked in (bight lesson score).  It runs three ways, by who stands behind
+;;; its guide: a person, (bight lesson terminal); a scripted pilot of the lesson's own, here; a test, which
+;;; is a scripted pilot whose report is looked at.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson)
-  #:use-module (bight checkpoint)
-  #:use-module (bight coach)
+  #:use-module (bight cockpit coach)
+  #:use-module (bight core errors)
+  #:use-module ((bight core signature) #:select (own-subjects))
+  #:use-module (bight core verb)
   #:use-module (bight dive)
-  #:use-module (bight errors)
-  #:use-module (bight lesson-message)
-  #:use-module (bight lesson-play)
-  #:use-module (bight lesson-report)
-  #:use-module (bight lesson-score)
-  #:use-module (bight lesson-shelf)
-  #:use-module (bight lesson-syntax)
-  #:use-module (bight lesson-tally)
-  #:use-module (bight lesson-way)
-  #:use-module (bight pilot)
-  #:use-module ((bight signature) #:select (own-subjects))
+  #:use-module (bight dive checkpoint)
+  #:use-module (bight dive pilot)
+  #:use-module (bight dive time)
+  #:use-module (bight lesson message)
+  #:use-module (bight lesson play)
+  #:use-module (bight lesson report)
+  #:use-module (bight lesson score)
+  #:use-module (bight lesson shelf)
+  #:use-module (bight lesson syntax)
+  #:use-module (bight lesson tally)
+  #:use-module (bight lesson way)
   #:use-module ((bight view) #:select (side-shown?))
-  #:use-module (bight time)
-  #:use-module (bight verb)
   #:use-module ((ice-9 control) #:select (call/ec))
   #:use-module (srfi srfi-1)
   #:re-export (define-lesson lesson-list

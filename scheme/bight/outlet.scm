@@ -8,7 +8,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight outlet)
-  #:use-module (bight escape)
+  #:use-module (bight core escape)
   #:export (outlet
             guard-outputs!
             behind

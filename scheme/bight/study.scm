@@ -1,18 +1,18 @@
 ;;; (bight study) --- studies: the same dive many times, with other currents, pilots, paths.
 ;;;
-;;; `define-study' turns clauses, whose heads are matched by datum, into a design, (bight sweep-design),
-;;; and a procedure that flies one case, (bight study-case).  `bight sweep' flies all of them, (bight sweep).
+;;; `define-study' turns clauses, whose heads are matched by datum, into a design, (bight study sweep-design),
+;;; and a procedure that flies one case, (bight study case).  `bight sweep' flies all of them, (bight study sweep).
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight study)
-  #:use-module ((bight clause) #:select (global-value))
-  #:use-module (bight errors)
-  #:use-module ((bight expect) #:select (source-location location->string))
-  #:use-module ((bight scenario) #:select (world-of))
-  #:use-module (bight shelf)
-  #:use-module (bight study-case)
-  #:use-module (bight sweep-design)
+  #:use-module ((bight core clause) #:select (global-value))
+  #:use-module (bight core errors)
+  #:use-module (bight core shelf)
+  #:use-module (bight study case)
+  #:use-module (bight study sweep-design)
+  #:use-module ((bight test expect) #:select (source-location location->string))
+  #:use-module ((bight test scenario) #:select (world-of))
   #:use-module (srfi srfi-1)
   #:use-module ((system syntax) #:select (syntax-local-binding))
   #:export (define-study

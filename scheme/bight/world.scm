@@ -7,10 +7,10 @@
 
 (define-module (bight world)
   #:use-module (bight assembly)
-  #:use-module (bight atlas)
-  #:use-module (bight clause)
-  #:use-module (bight schema)
-  #:use-module (bight verb)
+  #:use-module (bight core clause)
+  #:use-module (bight core schema)
+  #:use-module (bight core verb)
+  #:use-module (bight world atlas)
   #:export (world define-world extend without with part
             world? world-name world-documentation world-parts world-file
             world-part-names world-part world->parts

@@ -24,7 +24,7 @@ bt__raise (const char *who, const bt_error *error)
 {
   static SCM raise; /* the variable; modules are not collected */
   if (!raise)
-    raise = scm_c_public_lookup ("bight errors", "raise-engine-error");
+    raise = scm_c_public_lookup ("bight core errors", "raise-engine-error");
   scm_call_3 (scm_variable_ref (raise), scm_from_utf8_symbol (bt_status_name (error->status)),
               scm_from_utf8_symbol (who), scm_from_utf8_string (error->text));
   abort (); /* raise-engine-error does not return */

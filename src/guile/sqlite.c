@@ -1,4 +1,4 @@
-/* The extension for SQLite: fills the module (bight sqlite), and is loaded with the first database.
+/* The extension for SQLite: fills the module (bight core sqlite), and is loaded with the first database.
 
    A database is in WAL mode: committed data survives the end of the process.  Usually several
    processes may write, and a writer waits for another.  A database can also be opened for one

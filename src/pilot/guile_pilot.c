@@ -1,4 +1,4 @@
-/* The extension for flying in a terminal: fills the module (bight cells).
+/* The extension for flying in a terminal: fills the module (bight cockpit cells).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

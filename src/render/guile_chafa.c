@@ -1,5 +1,5 @@
 /* The extension that turns pixels into what a terminal shows, by libchafa: fills the module
-   (bight chafa).
+   (bight view chafa).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

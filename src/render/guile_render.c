@@ -1,4 +1,4 @@
-/* The extension for pictures: fills the module (bight render).  It is loaded when the first picture
+/* The extension for pictures: fills the module (bight view render).  It is loaded when the first picture
    is asked for, and opens a graphics library then.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */

@@ -20,11 +20,11 @@
 
 (use-modules (bight)
              ((bight assembly) #:select (data->part build-world))
-             ((bight errors) #:select (abbreviate bight-error-kinds brief))
-             ((bight landlock) #:select (close-paths!))
-             ((bight schema) #:select (part-heads inner-heads head-fields field-name field-kind
-                                  field-words field-live?))
-             ((bight verb) #:select (accepts? argument-type-name current-subject-lister))
+             ((bight core errors) #:select (abbreviate bight-error-kinds brief))
+             ((bight core landlock) #:select (close-paths!))
+             ((bight core schema) #:select (part-heads inner-heads head-fields field-name field-kind
+                                       field-words field-live?))
+             ((bight core verb) #:select (accepts? argument-type-name current-subject-lister))
              (ice-9 exceptions)
              (ice-9 getopt-long)
              (ice-9 rdelim)
@@ -286,12 +286,12 @@
 ;;; Calls.
 
 ;; How a verb's arguments are declared; what the language itself tells of them is for people.
-(define signature-of (@@ (bight signature) verb-signature))
-(define signature-subject (@@ (bight signature) signature-subject))
-(define signature-required (@@ (bight signature) signature-required))
-(define signature-optional (@@ (bight signature) signature-optional))
-(define signature-keys (@@ (bight signature) signature-keys))
-(define signature-rest (@@ (bight signature) signature-rest))
+(define signature-of (@@ (bight core signature) verb-signature))
+(define signature-subject (@@ (bight core signature) signature-subject))
+(define signature-required (@@ (bight core signature) signature-required))
+(define signature-optional (@@ (bight core signature) signature-optional))
+(define signature-keys (@@ (bight core signature) signature-keys))
+(define signature-rest (@@ (bight core signature) signature-rest))
 
 ;; Verbs about the dive are called thrice as often as others.
 (define (worth entry)
@@ -741,8 +741,8 @@
 
 ;;; A sequence, and a run of them: the child.
 
-(define known-worlds (@@ (bight atlas) known-worlds))
-(define type-table (@@ (bight schema) type-table))
+(define known-worlds (@@ (bight world atlas) known-worlds))
+(define type-table (@@ (bight core schema) type-table))
 
 (define (table->list table)
   (hash-map->list cons table))

@@ -101,7 +101,7 @@
   (+ low (* (- high low) (random:uniform random-numbers))))
 
 (define hud-altitude
-  (let ((read (@@ (bight pilot-hud) read-figures)) (altitude (@@ (bight pilot-hud) figures-altitude)))
+  (let ((read (@@ (bight cockpit hud) read-figures)) (altitude (@@ (bight cockpit hud) figures-altitude)))
     (lambda () (altitude (read 'minnow #f)))))
 
 (define (text-of picture)

@@ -3,11 +3,11 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight any-dive)
-             (bight any-flight)
-             (bight any-world)
-             (bight metamorphosis)
-             (bight soundness)
+(use-modules (bight test any-dive)
+             (bight dive any-flight)
+             (bight world any-world)
+             (bight test metamorphosis)
+             (bight test soundness)
              ((srfi srfi-1) #:hide (every))
              ((srfi srfi-1) #:select ((every . all?))))
 

@@ -2,7 +2,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight soundness)
+(use-modules (bight test soundness)
              (srfi srfi-11)
              (srfi srfi-1))
 

@@ -5,9 +5,9 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight lesson)
-             (bight lesson-check)
-             (bight lesson-file)
-             (bight lesson-path)
+             (bight lesson check)
+             (bight lesson file)
+             (bight lesson path)
              ((srfi srfi-1) #:select (any append-map)))
 
 (define long? (equal? "1" (getenv "BIGHT_LONG")))

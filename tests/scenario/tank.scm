@@ -4,7 +4,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight track)
+(use-modules (bight world track)
              ((srfi srfi-1) #:select (filter-map)))
 
 (define folder

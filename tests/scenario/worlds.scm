@@ -3,12 +3,12 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight any-dive)
-             (bight any-flight)
-             (bight any-world)
-             ((bight generator) #:select (draw expression))
-             (bight schema)
-             (bight soundness)
+(use-modules (bight test any-dive)
+             (bight dive any-flight)
+             (bight world any-world)
+             ((bight test generator) #:select (draw expression))
+             (bight core schema)
+             (bight test soundness)
              (bight watched)
              ((srfi srfi-1) #:hide (every)))
 

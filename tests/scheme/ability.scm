@@ -3,11 +3,11 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight ability)
-             (bight lesson-path)
-             (bight logbook)
-             ((bight lesson-log) #:select (logged-results why-no-record))
-             ((bight sqlite) #:select (there?))
+(use-modules (bight lesson ability)
+             (bight lesson path)
+             (bight lesson logbook)
+             ((bight lesson log) #:select (logged-results why-no-record))
+             ((bight core sqlite) #:select (there?))
              (ice-9 format)
              (srfi srfi-1))
 

@@ -3,12 +3,12 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight bench)
-             (bight bench-compare)
-             (bight bench-json)
-             (bight bench-plot)
-             (bight bench-report)
-             (bight bench-row)
-             (bight errors)
+             (bight bench compare)
+             (bight bench json)
+             (bight bench plot)
+             (bight bench report)
+             (bight bench row)
+             (bight core errors)
              (ice-9 textual-ports)
              (srfi srfi-1))
 

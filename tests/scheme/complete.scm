@@ -2,11 +2,11 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight complete)
-             (bight cursor)
-             (bight schema)
+(use-modules (bight shell complete)
+             (bight shell cursor)
+             (bight core schema)
              ((bight engine) #:select (%worlds-folder))
-             ((bight verb) #:select (verb-arguments verb? verb-usage))
+             ((bight core verb) #:select (verb-arguments verb? verb-usage))
              (ice-9 textual-ports)
              ((srfi srfi-1) #:hide (every))
              ((srfi srfi-1) #:select ((every . all?))))

@@ -3,7 +3,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight assembly) (bight earth) (srfi srfi-1) (srfi srfi-4))
+(use-modules (bight assembly) (bight world earth) (srfi srfi-1) (srfi srfi-4))
 
 (define degree (/ (acos -1) 180))
 (define a 6378137.)

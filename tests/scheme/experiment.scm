@@ -3,13 +3,13 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight experiment)
-             (bight experiment-command)
+(use-modules (bight lesson experiment)
+             (bight lesson experiment-command)
              (bight lesson)
-             ((bight lesson-play) #:select (make-guide))
-             ((bight lesson-log) #:select (logged-results))
-             (bight logbook)
-             ((bight sqlite) #:select (there?))
+             ((bight lesson play) #:select (make-guide))
+             ((bight lesson log) #:select (logged-results))
+             (bight lesson logbook)
+             ((bight core sqlite) #:select (there?))
              (srfi srfi-1))
 
 (define-scenario groups-are-drawn-in-blocks

@@ -3,7 +3,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight errors) (bight schema) (rnrs exceptions) (srfi srfi-1))
+(use-modules (bight core errors) (bight core schema) (rnrs exceptions) (srfi srfi-1))
 
 (define random-numbers (seed->random-state (or (and=> (getenv "BIGHT_SEED") string->number) 3)))
 

@@ -1,10 +1,10 @@
 ;;; Bathymetry and currents from files in the coordinates of maps.  The files are made here by their formats'
-;;; specifications; where their numbers are in local metres is told by (bight earth), which projects by a series
+;;; specifications; where their numbers are in local metres is told by (bight world earth), which projects by a series
 ;;; of its own, so that reader and series hold each other.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight assembly) (bight earth) (bight errors) (rnrs bytevectors) (rnrs exceptions) (ice-9 binary-ports) (srfi srfi-1))
+(use-modules (bight assembly) (bight world earth) (bight core errors) (rnrs bytevectors) (rnrs exceptions) (ice-9 binary-ports) (srfi srfi-1))
 
 (primitive-load (string-append (dirname (dirname (current-filename))) "/geo-files.scm"))
 
@@ -111,7 +111,7 @@ which every height is in the air is asked about."
 
 (define (box-of name)
   ;; Its four bounds in x and y, m.
-  (let ((row (find (lambda (row) (string=? "box" (car row))) ((@ (bight describe) description-rows) (describe name)))))
+  (let ((row (find (lambda (row) (string=? "box" (car row))) ((@ (bight world describe) description-rows) (describe name)))))
     (list->f64vector (append-map (lambda (corner) (list-head (map string->number (string-tokenize corner)) 2))
                                  (let* ((text (second row)) (k (string-contains text " to ")))
                                    (list (substring text 0 k) (substring text (+ k 4))))))))

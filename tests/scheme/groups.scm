@@ -2,8 +2,8 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight interval)
-             (bight lesson-groups)
+(use-modules (bight core interval)
+             (bight lesson groups)
              (srfi srfi-1))
 
 (define-scenario quantiles-are-those-of-the-tables

@@ -2,15 +2,15 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight argument)
-             (bight guide)
-             (bight topics)
-             ((bight current) #:select (current-help current-forms))
-             ((bight expect) #:select (exception->line))
-             ((bight manual) #:select (manual-sections))
-             ((bight describe) #:select (description-rows))
-             ((bight schema) #:select (head-names))
-             ((bight verb) #:select (verb? verb-parameters))
+(use-modules (bight core argument)
+             (bight shell guide)
+             (bight shell topics)
+             ((bight world current) #:select (current-help current-forms))
+             ((bight test expect) #:select (exception->line))
+             ((bight shell manual) #:select (manual-sections))
+             ((bight world describe) #:select (description-rows))
+             ((bight core schema) #:select (head-names))
+             ((bight core verb) #:select (verb? verb-parameters))
              ((srfi srfi-1) #:hide (every))
              ((srfi srfi-1) #:select ((every . all?))))
 
@@ -21,7 +21,7 @@
                           (and (memq name (language-names))
                                (not (string-suffix? "!" (symbol->string name)))))
                         (module-map (lambda (name variable) name) (resolve-interface module))))
-              '((bight query) (bight contact) (bight aware) (bight instruments) (bight foresight))))
+              '((bight dive query) (bight dive contact) (bight dive aware) (bight dive instruments) (bight dive foresight))))
 
 (define (says? text . words)
   (any (lambda (word) (string-contains text word)) words))

@@ -2,15 +2,15 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight allowance)
+(use-modules (bight core allowance)
              (bight assembly)
-             (bight current)
-             (bight describe)
-             (bight errors)
-             (bight schema)
-             (bight types)
-             (bight units)
-             (bight verb)
+             (bight world current)
+             (bight world describe)
+             (bight core errors)
+             (bight core schema)
+             (bight world types)
+             (bight core units)
+             (bight core verb)
              (bight world)
              (ice-9 exceptions)
              (srfi srfi-1)

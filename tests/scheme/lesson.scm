@@ -3,9 +3,9 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight lesson)
-             (bight lesson-check)
-             (bight errors)
-             ((bight lesson-play) #:select (make-guide))
+             (bight lesson check)
+             (bight core errors)
+             ((bight lesson play) #:select (make-guide))
              (ice-9 exceptions)
              (srfi srfi-1))
 

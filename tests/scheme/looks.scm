@@ -2,7 +2,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight looks)
+(use-modules (bight view looks)
              (ice-9 regex)
              ((srfi srfi-1) #:hide (every))
              ((srfi srfi-1) #:select ((every . all?)))
@@ -83,4 +83,4 @@
                     (append-map (lambda (module)
                                   (filter (lambda (name) (memq name (language-names)))
                                           (module-map (lambda (name variable) name) (resolve-interface module))))
-                                '((bight query) (bight contact) (bight aware) (bight instruments))))))
+                                '((bight dive query) (bight dive contact) (bight dive aware) (bight dive instruments))))))

@@ -2,12 +2,12 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight errors)
-             (bight expect)
-             (bight meant)
-             (bight schema)
-             (bight usage)
-             ((bight verb) #:select (verb-arguments verb?))
+(use-modules (bight core errors)
+             (bight test expect)
+             (bight shell meant)
+             (bight core schema)
+             (bight shell usage)
+             ((bight core verb) #:select (verb-arguments verb?))
              ((srfi srfi-1) #:hide (every))
              ((srfi srfi-1) #:select ((every . all?))))
 

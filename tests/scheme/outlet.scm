@@ -2,7 +2,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules ((bight markup) #:select (as-xml csv-line))
+(use-modules ((bight core markup) #:select (as-xml csv-line))
              ((bight outlet) #:select (behind control outlet shown))
              ((ice-9 binary-ports) #:select (put-bytevector))
              ((rnrs bytevectors) #:select (string->utf8 bytevector-length u8-list->bytevector))

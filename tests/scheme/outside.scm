@@ -7,7 +7,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight datum)
+(use-modules (bight core datum)
              ((bight engine) #:select (%checksum))
              (ice-9 exceptions)
              (ice-9 textual-ports)

@@ -3,11 +3,11 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight assembly)
-             (bight describe)
+             (bight world describe)
              (bight engine)
-             (bight errors)
-             ((bight query) #:select (obstacle-properties (find-part . index-of-part)))
-             (bight schema)
+             (bight core errors)
+             ((bight dive query) #:select (obstacle-properties (find-part . index-of-part)))
+             (bight core schema)
              (bight world)
              (ice-9 exceptions)
              (srfi srfi-1)

@@ -2,8 +2,8 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight errors)
-             (bight picture)
+(use-modules (bight core errors)
+             (bight view picture)
              (ice-9 exceptions)
              (ice-9 ftw)
              (ice-9 textual-ports)
@@ -231,7 +231,7 @@
 
 (define written
   ;; (DIVE TITLE AIM SIZE PAINT FLAGS) -> boxes; #f where there is no renderer.
-  (false-if-exception (module-ref (resolve-interface '(bight render)) '%written)))
+  (false-if-exception (module-ref (resolve-interface '(bight view render)) '%written)))
 
 (define-scenario nothing-written-overlaps
   "In every world, at every size and with all that can be told, no words overlap or leave the picture."

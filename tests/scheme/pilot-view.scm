@@ -2,12 +2,12 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight cells)
+(use-modules (bight cockpit cells)
              (bight cockpit)
-             (bight pilot-desk)
-             (bight pilot-hud)
-             (bight pilot-keys)
-             (bight pilot-view)
+             (bight cockpit desk)
+             (bight cockpit hud)
+             (bight cockpit keys)
+             (bight cockpit view)
              (ice-9 regex)
              (rnrs bytevectors)
              (srfi srfi-1))

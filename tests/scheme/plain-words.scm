@@ -5,8 +5,8 @@
 
 (use-modules ((bight dive) #:select (this-engine))
              ((bight engine) #:select (%names))
-             ((bight looks) #:select (value->lines))
-             ((bight plain-words) #:select (figure-said corners-of own-name objects-said))
+             ((bight view looks) #:select (value->lines))
+             ((bight dive plain-words) #:select (figure-said corners-of own-name objects-said))
              (ice-9 regex)
              ((srfi srfi-1) #:hide (every))
              ((srfi srfi-1) #:select ((every . all?)))

@@ -2,9 +2,9 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight errors)
-             (bight picture)
-             (bight programs)
+(use-modules (bight core errors)
+             (bight view picture)
+             (bight core programs)
              (ice-9 exceptions)
              (ice-9 ftw)
              (ice-9 textual-ports)
@@ -139,7 +139,7 @@
   (define (script what)
     ;; What gnuplot would read.
     (call-with-output-string
-      (lambda (port) ((@@ (bight chart) print-script) ((@@ (bight plot) chart-of) what #f) 'svg '(800 . 600) port))))
+      (lambda (port) ((@@ (bight view chart) print-script) ((@@ (bight view plot) chart-of) what #f) 'svg '(800 . 600) port))))
   (define (times word text) (- (length (string-split* text word)) 1))
   (let ((one (script s)) (two (script (list (cons 'a s) (cons 'b s)))))
     (expect (times "plot '-'" one) => 2)

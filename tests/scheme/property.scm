@@ -2,10 +2,10 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules ((bight expect) #:select (failure-remarks))
-             ((bight generator) #:select (draw simpler rounder expression value-of))
-             (bight scenario)
-             ((bight property) #:select (call-with-cases show-case))
+(use-modules ((bight test expect) #:select (failure-remarks))
+             ((bight test generator) #:select (draw simpler rounder expression value-of))
+             (bight test scenario)
+             ((bight test property) #:select (call-with-cases show-case))
              (ice-9 textual-ports)
              ((srfi srfi-1) #:hide (every)))
 

@@ -4,9 +4,9 @@
 
 (use-modules ((bight dive) #:select (engine-of))
              ((bight engine) #:select (%hash-dive %dive-steps))
-             ((bight pilot-desk) #:select (desk))
-             (bight reel)
-             ((bight watch) #:select (film-stretch watch-panel))
+             ((bight cockpit desk) #:select (desk))
+             (bight dive reel)
+             ((bight cockpit watch) #:select (film-stretch watch-panel))
              ((srfi srfi-1) #:select (concatenate first last)))
 
 (define (hash-of reel) (%hash-dive (engine-of (reel-dive reel))))

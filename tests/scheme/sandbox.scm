@@ -2,8 +2,8 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight sandbox)
-             ((bight lesson-play) #:select (untrusted?)))
+(use-modules (bight core sandbox)
+             ((bight lesson play) #:select (untrusted?)))
 
 (define (read-inside text)
   ;; The lessons that TEXT, read as a file from outside, defines.

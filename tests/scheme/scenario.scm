@@ -4,8 +4,8 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight scenario)           ; outcome-status and its kin
-             ((bight doc) #:select (docstring-of))
+(use-modules (bight test scenario)           ; outcome-status and its kin
+             ((bight shell doc) #:select (docstring-of))
              (ice-9 popen)
              (ice-9 textual-ports)
              (srfi srfi-1))
@@ -143,7 +143,7 @@
 (define-scenario expect-outside
   "Outside a scenario expect returns #t or raises."
   (define (alone thunk)
-    (parameterize (((@ (bight expect) current-trial) #f)) (thunk)))
+    (parameterize (((@ (bight test expect) current-trial) #f)) (thunk)))
   (expect (alone (lambda () (expect 1 => 1))) => #t)
   (expect (alone (lambda () (expect 1 => 2))) raises failed-expectation))
 
@@ -247,7 +247,7 @@
 (define-scenario run-by-name
   "run-scenario takes the name of a scenario and returns an outcome."
   (define outcome
-    (car ((@ (bight scenario) collect-scenarios)
+    (car ((@ (bight test scenario) collect-scenarios)
           (lambda () (define-scenario inner "Inner." (expect #t) (expect 1 => 2))))))
   (define result (run-scenario outcome))
   (expect (outcome-status result) => 'fail)

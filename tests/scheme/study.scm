@@ -2,7 +2,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight study) (bight study-case) (bight sweep-design) (bight risk) ((srfi srfi-1) #:hide (every)))
+(use-modules (bight study) (bight study case) (bight study sweep-design) (bight study risk) ((srfi srfi-1) #:hide (every)))
 
 ;; Studies are made here as a file makes them, in a module of their own.
 (define (evaluate form)
@@ -124,7 +124,7 @@
 
 (define-scenario published-random-numbers
   "The stream is splitmix64, which is published with its first numbers for the seed 1234567."
-  (expect ((@@ (bight sweep-design) mixed) (+ 1234567 #x9e3779b97f4a7c15)) => 6457827717110365317))
+  (expect ((@@ (bight study sweep-design) mixed) (+ 1234567 #x9e3779b97f4a7c15)) => 6457827717110365317))
 
 (define pi (acos -1))
 

@@ -2,9 +2,9 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight errors)
-             ((bight sqlite) #:select (there?))
-             ((bight story) #:prefix story:)
+(use-modules (bight core errors)
+             ((bight core sqlite) #:select (there?))
+             ((bight dive story) #:prefix story:)
              (ice-9 exceptions)
              (ice-9 textual-ports)
              ((ice-9 binary-ports) #:select (get-bytevector-all put-bytevector))

@@ -2,7 +2,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight track) (rnrs exceptions) (srfi srfi-1) (srfi srfi-4))
+(use-modules (bight world track) (rnrs exceptions) (srfi srfi-1) (srfi srfi-4))
 
 (define random-numbers (seed->random-state (or (and=> (getenv "BIGHT_SEED") string->number) 11)))
 

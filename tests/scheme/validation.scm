@@ -3,9 +3,9 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight bench)
-             (bight bench-report)
-             (bight bench-row)
-             (bight bench-validation)
+             (bight bench report)
+             (bight bench row)
+             (bight bench validation)
              (ice-9 textual-ports)
              (srfi srfi-1))
 

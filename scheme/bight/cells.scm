@@ -1,9 +1,0 @@
-;;; (bight cells) --- the procedures that take a terminal and write a screen to it, by their raw names.
-;;;
-;;; Loaded by (bight pilot-view) when a dive is first flown from the keyboard.
-;;;
-;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
-
-(define-module (bight cells))
-
-(load-extension "bight-pilot" "bight_pilot_init")

@@ -1,0 +1,137 @@
+;;; (bight cockpit keys) --- what the keys of a pilot mean.
+;;;
+;;; A terminal tells of keys that go down, never of keys that come up.  So a key holds its stick as long
+;;; as it repeats: after the first press for as long as a keyboard takes to begin to repeat, then for as
+;;; long as a repeat takes.  With shift it nudges the stick instead, which stays there.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight cockpit keys)
+  #:use-module (bight core record)
+  #:use-module (ice-9 match)
+  #:use-module (srfi srfi-1)
+  #:export (bytes->keys
+            new-sticks press nudge centre settle stick-values sticks?
+            stick-of-key nudge-of-key act-of-key
+            key-lines))
+
+
+;;; Bytes of a terminal as keys: characters and the symbols up down left right.
+
+(define (arrow byte)
+  (assv-ref '((65 . up) (66 . down) (67 . right) (68 . left)) byte))
+
+(define (skip-sequence bytes)
+  ;; What follows an escape sequence of no use to us: it ends with a letter or ~.
+  (let ((rest (drop-while (lambda (b) (<= #x20 b #x3f)) bytes)))
+    (if (pair? rest) (cdr rest) '())))
+
+(define (bytes->keys bytes)
+  "Return the keys that BYTES, a list of what a terminal sent, stand for: characters, and the symbols up
+down left right escape."
+  (match bytes
+    (() '())
+    ((27 (or 91 79) (= arrow (and (? symbol?) key)) . rest) (cons key (bytes->keys rest)))
+    ((27 91 . rest) (bytes->keys (skip-sequence rest)))
+    ((27 . rest) (cons 'escape (bytes->keys rest)))
+    ((byte . rest)
+     (if (< byte 128)
+         (cons (integer->char byte) (bytes->keys rest))
+         (bytes->keys rest)))))           ; no key of ours
+
+
+;;; Sticks: for each axis where it was put, and where a key holds it until when.
+
+(define-record <sticks>
+  (make-sticks put held until)
+  sticks?
+  (put sticks-put)                      ; of each axis a number
+  (held sticks-held)                    ; of each axis a number, or #f
+  (until sticks-until))                 ; seconds of the clock
+
+(define axes 4)                         ; surge sway heave yaw
+
+(define first-hold 0.55)                ; s: longer than keyboards wait before they repeat
+(define next-hold 0.16)
+
+(define (new-sticks)
+  "Return sticks that are centred."
+  (make-sticks (make-list axes 0) (make-list axes #f) (make-list axes 0)))
+
+(define (with-element list i value)
+  (append (take list i) (cons value (drop list (+ i 1)))))
+
+(define (press sticks axis value now)
+  "Return STICKS after a key that holds AXIS at VALUE came at the time NOW, s."
+  (let ((again? (eqv? value (list-ref (sticks-held sticks) axis))))
+    (make-sticks (sticks-put sticks)
+                 (with-element (sticks-held sticks) axis value)
+                 (with-element (sticks-until sticks) axis
+                               (max (list-ref (sticks-until sticks) axis)
+                                    (+ now (if again? next-hold first-hold)))))))
+
+(define (nudge sticks axis step)
+  "Return STICKS with AXIS put STEP further."
+  (let* ((value (+ step (list-ref (sticks-put sticks) axis)))
+         (value (/ (round (* 10 (max -1 (min 1 value)))) 10)))
+    (make-sticks (with-element (sticks-put sticks) axis value)
+                 (sticks-held sticks) (sticks-until sticks))))
+
+(define (centre sticks)
+  "Return STICKS let go."
+  (new-sticks))
+
+(define (settle sticks now)
+  "Return STICKS at the time NOW, s: what no key holds any more is where it was put."
+  (make-sticks (sticks-put sticks)
+               (map (lambda (held until) (and held (< now until) held))
+                    (sticks-held sticks) (sticks-until sticks))
+               (map (lambda (held until) (if (and held (< now until)) until 0))
+                    (sticks-held sticks) (sticks-until sticks))))
+
+(define (stick-values sticks)
+  "Return where STICKS are: surge sway heave yaw, each -1 to 1."
+  (map (lambda (put held) (exact->inexact (or held put))) (sticks-put sticks) (sticks-held sticks)))
+
+
+;;; Which key is which.
+
+(define holding
+  '((#\w 0 . 1) (#\s 0 . -1) (#\d 3 . 1) (#\a 3 . -1) (#\l 1 . 1) (#\j 1 . -1) (#\i 2 . 1) (#\k 2 . -1)
+    (up 2 . 1) (down 2 . -1) (right 1 . 1) (left 1 . -1)))
+
+(define (stick-of-key key)
+  "Return (AXIS . VALUE) if KEY holds a stick, else #f."
+  (assv-ref holding key))
+
+(define (nudge-of-key key)
+  "Return (AXIS . STEP) if KEY nudges a stick, else #f."
+  (and (char? key) (char-upper-case? key)
+       (let ((stick (assv-ref holding (char-downcase key))))
+         (and stick (cons (car stick) (* 1/10 (cdr stick)))))))
+
+(define acts
+  '((#\space release) (#\[ winch -1) (#\] winch 1) (#\{ winch -5) (#\} winch 5)
+    (#\h hold heading) (#\b hold depth) (#\n hold altitude) (#\m hold place)
+    (#\u back) (#\p pause) (#\g ghost) (#\e hint) (#\t tell) (#\: prompt) (#\q leave) (#\etx leave)))
+
+(define (act-of-key key)
+  "Return what KEY asks for besides the sticks and the view, a list such as (winch 1), or #f."
+  (assv-ref acts key))
+
+(define key-lines
+  '("w s     ahead, astern          hold them; with shift"
+    "a d     turn                   a key nudges its stick,"
+    "i k     up, down    (arrows)   which stays there"
+    "j l     sideways    (arrows)"
+    "space   let go of everything"
+    "h b n m hold heading, depth, altitude, place"
+    "[ ]     winch: in, out a metre      { } five"
+    "v 1-5   view: chase camera top side overview"
+    "o x     colour of the tether; picture or plain"
+    "z f     map; the way home in words"
+    "y       lights       g   what if: 5 s from now"
+    "p       pause        u   back"
+    "e t     in a lesson: a hint; tell the tender"
+    ":       the prompt (,q comes back)"
+    "? q     this; leave"))

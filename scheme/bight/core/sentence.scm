@@ -1,0 +1,61 @@
+;;; (bight core sentence) --- what a name means, in a sentence: a verb, a part, a world, a lesson.
+;;;
+;;; The sentences of worlds and lessons in files are read, not run.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight core sentence)
+  #:use-module (bight core part)
+  #:use-module (bight core schema)
+  #:use-module ((bight dive) #:select (current-dive dive-world))
+  #:use-module ((bight world atlas) #:select (world-text))
+  #:use-module (srfi srfi-1)
+  #:export (first-sentence
+            sentence-of-variable
+            sentence-of-name
+            sentence-of-world
+            sentence-of-lesson))
+
+(define (first-sentence text)
+  "Return the first sentence of TEXT on one line."
+  (let* ((line (string-join (string-tokenize text)))
+         (end (string-contains line ". ")))
+    (if end (substring line 0 (+ end 1)) line)))
+
+(define (sentence-of-variable name)
+  "Return the first sentence about the variable NAME of the present module, or the empty string."
+  (let* ((variable (module-variable (current-module) name))
+         (value (and variable (variable-bound? variable) (variable-ref variable))))
+    (or (and value
+             (or (procedure? value) (macro? value))
+             (and=> ((@ (bight shell doc) docstring-of) value) first-sentence))
+        "")))
+
+(define (sentence-of-world name)
+  "Return the sentence of the world NAME, or the empty string."
+  (or (world-text name) ""))
+
+(define (sentence-of-lesson name)
+  "Return the title of the lesson NAME, or the empty string."
+  (or (false-if-exception ((@ (bight lesson file) lesson-file-title)
+                           ((@ (bight lesson file) lesson-file) (symbol->string name))))
+      ""))
+
+(define (here-part name)
+  (let ((world (and (current-dive) (dive-world (current-dive)))))
+    (and world (find-part (world-parts-of world) name))))
+
+(define (part-sentence part)
+  (let ((type (assq-ref (part-fields-of part) 'type)))
+    (if type (part-type-sentence type) (head-title (part-head-of part)))))
+
+(define (type-called name)
+  (find (lambda (type) (eq? name (part-type-name type))) (append-map part-types (part-heads))))
+
+(define (sentence-of-name name)
+  "Return what the quoted NAME stands for in the present dive or the language, or the empty string."
+  (cond ((here-part name) => part-sentence)
+        ((world-text name))
+        ((part-head? name) (head-sentence name))
+        ((type-called name) => part-type-sentence)
+        (else (sentence-of-lesson name))))

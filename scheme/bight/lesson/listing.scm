@@ -1,0 +1,98 @@
+;;; (bight lesson listing) --- bight lessons: which there are, how far one has come, a group, CSV.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight lesson listing)
+  #:use-module ((bight core markup) #:select (csv-line))
+  #:use-module (bight lesson advice)
+  #:use-module (bight lesson file)
+  #:use-module (bight lesson groups)
+  #:use-module (bight lesson journal)
+  #:use-module (bight lesson log)
+  #:use-module (bight lesson order)
+  #:use-module (srfi srfi-1)
+  #:export (lessons-command))
+
+(define (best results name)
+  ;; The best total among RESULTS in the lesson NAME, or #f.
+  (let ((totals (filter-map (lambda (e) (and (eq? name (assq-ref e 'lesson)) (assq-ref e 'total)))
+                            results)))
+    (and (pair? totals) (apply max totals))))
+
+(define (begun? file given)
+  (let ((journal (journal-file (make-order file #f given))))
+    (and journal (file-exists? journal))))
+
+(define (list-lessons given)
+  (let ((results (logged-results (who-of given))))
+    (for-each
+     (lambda (file)
+       (let* ((name (lesson-file-name file)) (total (best results name)))
+         (simple-format #t "~a  ~a ~a  ~a~%"
+                        (substring (basename file) 0 2)
+                        (string-pad-right (symbol->string name) 26)
+                        (string-pad (cond (total (number->string total))
+                                          ((begun? file given) "begun")
+                                          (else "-"))
+                                    5)
+                        (lesson-file-title file))))
+     (lesson-files))))
+
+(define (results-of given)
+  ;; The results that are meant: those of a group, or of one pupil.
+  (let ((group (option given "--group" #f)))
+    (if group
+        (filter (lambda (result) (if (eq? #t group) (assq-ref result 'group) (equal? group (assq-ref result 'group))))
+                (logged-results #f))
+        (logged-results (who-of given)))))
+
+(define (list-group given)
+  ;; A line for each pupil of the group: the best total of each lesson taken.
+  (let* ((results (results-of given))
+         (pupils (sort (delete-duplicates (map (lambda (r) (assq-ref r 'who)) results)) string<?)))
+    (for-each
+     (lambda (who)
+       (let ((own (filter (lambda (r) (equal? who (assq-ref r 'who))) results)))
+         (simple-format #t "~a ~a~%" (string-pad-right who 16)
+                        (string-join
+                         (map (lambda (name)
+                                (simple-format #f "~a ~a" name (best own name)))
+                              (delete-duplicates (map (lambda (r) (assq-ref r 'lesson)) own)))
+                         ", "))))
+     pupils)))
+
+(define columns '(who group lesson level seed total passed? seconds hints rewinds))
+
+(define (compare-groups)
+  (for-each (lambda (line) (display line) (newline)) (group-lines (logged-results #f))))
+
+(define (csv-value value)
+  (cond ((eq? value #t) 1)
+        ((or (not value) (number? value)) value)
+        (else (simple-format #f "~a" value))))
+
+(define (list-csv given)
+  (simple-format #t "~a~%" (string-join (map symbol->string columns) ","))
+  (for-each (lambda (result)
+              (simple-format #t "~a~%"
+                             (csv-line (map (lambda (c) (csv-value (assq-ref result c))) columns))))
+            (results-of given)))
+
+(define (merge file)
+  ;; (bight lesson logbook) is loaded when it is needed: it needs SQLite.
+  (let ((n ((module-ref (resolve-interface '(bight lesson logbook)) 'merge-logbook!) file)))
+    (simple-format #t "~a entr~a taken over from ~a~%" n (if (= n 1) "y" "ies") file)))
+
+(define (lessons-command words)
+  "Do what `bight lessons WORDS' asks, and return the exit status."
+  (call-with-values (lambda () (read-words "lessons" words))
+    (lambda (plain given)
+      (unless (null? plain)
+        (bad-usage "lessons: only lists; `bight lesson ~a' takes one" (car plain)))
+      (cond ((option given "--merge" #f) => merge)
+            ((option given "--skills" #f) (list-skills given))
+            ((option given "--csv" #f) (list-csv given))
+            ((eq? #t (option given "--group" #f)) (compare-groups))
+            ((option given "--group" #f) (list-group given))
+            (else (list-lessons given)))
+      0)))

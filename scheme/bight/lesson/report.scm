@@ -1,0 +1,92 @@
+;;; (bight lesson report) --- what came of a lesson: marks, what was said, each measure over time.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight lesson report)
+  #:use-module (bight core record)
+  #:use-module (bight core verb)
+  #:use-module (bight lesson score)
+  #:use-module (bight lesson shelf)
+  #:use-module (srfi srfi-1)
+  #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
+  #:export (make-report
+            report? report-who report-seed report-level report-total report-passed? report-marks
+            report-said report-text report-hash report-coached report-hints report-rewinds
+            report-seconds))
+
+(define-record <report>
+  (make-report lesson who seed level marks total passed? seconds hints rewinds said charts coached hash)
+  report-record?
+  (lesson report-lesson)
+  (who report-who)                      ; the name of the pilot or the pupil
+  (seed report-seed)
+  (level report-level)
+  (marks report-mark-list)
+  (total %report-total)
+  (passed? %report-passed?)
+  (seconds %report-seconds)             ; of the dive
+  (hints %report-hints)
+  (rewinds %report-rewinds)
+  (said %report-said)                   ; (TIME KIND TEXT), in order
+  (charts report-charts)                ; lines
+  (coached %report-coached)
+  (hash %report-hash))
+
+(define-argument-type (report value)
+  "a report, as `run-lesson' returns"
+  (if (report-record? value) value refused))
+
+(define-verb (report? (object any))
+  "Return #t if OBJECT is the report of a lesson."
+  (report-record? object))
+
+(define-verb (report-total (r report)) "Return the marks of the report R out of 100." (%report-total r))
+(define-verb (report-passed? (r report))
+  "Return #t if all tasks of the report R were done and its total is at least 70."
+  (%report-passed? r))
+(define-verb (report-marks (r report))
+  "Return the marks of the report R: lists of label, credit from 0 to 1, whether it is what was asked, and
+how it came about."
+  (map (lambda (m) (list (mark-label m) (mark-credit m) (mark-passed? m) (mark-detail m)))
+       (report-mark-list r)))
+(define-verb (report-said (r report))
+  "Return what was said in the lesson of the report R, in order: lists of time, kind and text."
+  (%report-said r))
+(define-verb (report-hash (r report)) "Return the hash of the dive as the lesson left it, or #f."
+  (%report-hash r))
+(define-verb (report-coached (r report))
+  "Return what the coach said in the lesson of the report R: lists of time, rule and words."
+  (%report-coached r))
+(define-verb (report-hints (r report)) "Return how many hints were given." (%report-hints r))
+(define-verb (report-rewinds (r report)) "Return how often the pupil went back." (%report-rewinds r))
+(define-verb (report-seconds (r report)) "Return how long the lesson's dives lasted, s."
+  (%report-seconds r))
+
+(define (mark-lines m)
+  ;; How the mark M came about, and, if anything of it was lost, what it teaches.
+  (cons (mark-line m)
+        (if (or (mark-passed? m) (not (mark-why m)))
+            '()
+            (list (string-append (make-string 8 #\space) (mark-why m))))))
+
+(define (mark-line m)
+  (string-append (if (mark-passed? m) "  [x] " "  [ ] ")
+                 (string-pad-right (mark-label m) 24) " "
+                 (string-pad (number->string (inexact->exact (round (* 100 (mark-credit m))))) 4)
+                 "  " (mark-detail m)))
+
+(define (report-lines r)
+  (append
+   (list (simple-format #f "~a: ~a out of 100, ~a" (lesson-name (report-lesson r)) (%report-total r)
+                        (if (%report-passed? r) "passed" "not passed yet")))
+   (append-map mark-lines (report-mark-list r))
+   (list (simple-format #f "  ~a s under water, ~a hints, ~a steps back" (figure (%report-seconds r))
+                        (%report-hints r) (%report-rewinds r)))
+   (report-charts r)))
+
+(define-verb (report-text (r report))
+  "Return the report R as a person reads it: the marks, and each measure over time."
+  (string-join (report-lines r) "\n"))
+
+(set-record-type-printer! <report>
+  (lambda (r port) (display (report-text r) port)))

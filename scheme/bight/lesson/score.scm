@@ -1,0 +1,235 @@
+;;; (bight lesson score) --- marks: measures sampled while a task lasts, judged against a band.
+;;;
+;;; A row of (score ...) names a measure and the band it should be in.  Each row makes one mark between
+;;; 0 and 1: by `share' the part of the time spent in the band against the part asked for, else by how
+;;; far the `end', `most', `least', `mean' or `rms' value lies outside.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight lesson score)
+  #:use-module (bight core errors)
+  #:use-module (bight core record)
+  #:use-module (bight dive time)
+  #:use-module (bight lesson tally)
+  #:use-module (srfi srfi-1)
+  #:export (make-row row? row-label row-low row-high
+            sample-rows! row-samples
+            judge-row
+            make-mark mark? mark-label mark-credit mark-weight mark-detail mark-passed? mark-why
+            total-of
+            figure
+            strip-chart))
+
+(define-record <row>
+  (%make-row label ask low high by share over weight why)
+  row?
+  (label row-label)                     ; a string
+  (ask row-ask)                         ; a thunk
+  (low row-low) (high row-high)
+  (by row-by) (share row-share)
+  (over row-over)                       ; how far outside nothing is left of the mark
+  (weight row-weight)
+  (why row-why))                        ; what a pilot who lost this mark should know, a string, or #f
+
+(define ways '(share end most least mean rms))
+
+(define* (make-row label ask low high #:key (by 'share) (share 0.8) over (weight 1) (as label) why)
+  "Return the row of a score called LABEL, or AS, whose measure ASK, a thunk, should lie from LOW to HIGH.
+WHY tells one who lost the mark what he should have known."
+  (unless (memq by ways)
+    (unknown-name 'score "a row of a score" by ways "way of judging"))
+  (unless (and (real? low) (real? high) (<= low high))
+    (bight-raise 'domain 'score "the band of ~a is two numbers, the lower first, not ~a ~a" label low high))
+  (unless (and (real? share) (< 0 share) (<= share 1))
+    (bight-raise 'domain 'score "the share of ~a is more than 0 and at most 1, not ~a" label share))
+  (for-each (lambda (key text)
+              (unless (or (not text) (string? text))
+                (bight-raise 'domain 'score "~a of ~a is a text, not ~s" key label text)))
+            '(#:as #:why) (list as why))
+  (%make-row as ask low high by share (or over (default-over low high)) weight why))
+
+(define (default-over low high)
+  (cond ((and (finite? low) (finite? high) (< low high)) (- high low))
+        ((and (finite? high) (not (zero? high))) (abs high))
+        ((and (finite? low) (not (zero? low))) (abs low))
+        (else 1)))
+
+
+;;; Samples, kept in the tally: (TIME VALUE ...), the last first.
+
+(define (value-of row)
+  ;; A number, or #f where the dive has no answer.
+  (with-exception-handler
+      (lambda (e) (if (bight-error? e) #f (raise-exception e)))
+    (lambda ()
+      (let ((value ((row-ask row))))
+        (cond ((real? value) (exact->inexact value))
+              (value 1.0)
+              (else 0.0))))
+    #:unwind? #t))
+
+(define (sample-rows! rows)
+  "Note the values of the measures of ROWS now."
+  (unless (null? rows)
+    (tally-set! 'samples (cons (cons (now) (map value-of rows)) (tally-ref 'samples '())))))
+
+(define (row-samples rows row)
+  "Return the values of ROW, one of ROWS, so far, oldest first: pairs of time and value."
+  (let ((i (+ 1 (list-index (lambda (r) (eq? r row)) rows))))
+    (filter cdr
+            (reverse-map (lambda (s) (cons (car s) (list-ref s i))) (tally-ref 'samples '())))))
+
+(define (reverse-map f items)
+  (fold (lambda (item done) (cons (f item) done)) '() items))
+
+
+;;; Marks.
+
+(define-record <mark>
+  (%make-mark label credit weight passed? detail why)
+  mark?
+  (label mark-label)
+  (credit mark-credit)                  ; 0 to 1
+  (weight mark-weight)
+  (passed? mark-passed?)
+  (detail mark-detail)
+  (why mark-why))                       ; or #f
+
+(define* (make-mark label credit weight passed? detail #:optional why)
+  "Return the mark called LABEL: CREDIT of 1, which counts WEIGHT; whether it PASSED?; in DETAIL how it came
+about; and WHY it matters, or #f."
+  (%make-mark label credit weight passed? detail why))
+
+(define (figure x)
+  "Return the number X as a person reads it, a string."
+  (cond ((not (real? x)) "none")
+        ((not (finite? x)) (if (nan? x) "none" "any"))
+        (else
+         (let* ((places (cond ((>= (abs x) 100) 0) ((>= (abs x) 10) 1) (else 2)))
+                (scale (expt 10 places))
+                (n (inexact->exact (round (* scale (abs x))))))
+           (string-append
+            (if (and (negative? x) (positive? n)) "-" "")
+            (number->string (quotient n scale))
+            (if (zero? places)
+                ""
+                (string-append "." (string-pad (number->string (remainder n scale)) places #\0))))))))
+
+(define (percent x)
+  (string-append (number->string (inexact->exact (round (* 100 x)))) " %"))
+
+(define (inside? row v)
+  (<= (row-low row) v (row-high row)))
+
+(define (outside row v)
+  (max 0 (- (row-low row) v) (- v (row-high row))))
+
+(define (share-inside row values)
+  (/ (count (lambda (v) (inside? row v)) values) (exact->inexact (length values))))
+
+(define (band row)
+  (let ((low (row-low row)) (high (row-high row)))
+    (cond ((= low high) (figure low))
+          ((not (finite? high)) (string-append "at least " (figure low)))
+          ((not (finite? low)) (string-append "at most " (figure high)))
+          (else (string-append (figure low) " to " (figure high))))))
+
+(define (key-value row values)
+  (case (row-by row)
+    ((end) (last values))
+    ((most) (apply max values))
+    ((least) (apply min values))
+    ((mean) (/ (apply + values) (length values)))
+    ((rms) (sqrt (/ (apply + (map (lambda (v) (* v v)) values)) (length values))))))
+
+(define (judge-row rows row)
+  "Return the mark of ROW, one of ROWS."
+  (let ((values (map cdr (row-samples rows row))))
+    (cond ((null? values)
+           (make-mark (row-label row) 0 (row-weight row) #f "was never measured" (row-why row)))
+          ((eq? 'share (row-by row))
+           (let* ((part (share-inside row values))
+                  (credit (min 1 (/ part (row-share row)))))
+             (make-mark (row-label row) credit (row-weight row) (>= part (- (row-share row) 1e-9))
+                        (string-append (percent part) " of the time " (band row) "; asked "
+                                       (percent (row-share row)))
+                        (row-why row))))
+          (else
+           (let* ((v (key-value row values)) (off (outside row v)))
+             (make-mark (row-label row) (max 0 (- 1 (/ off (row-over row)))) (row-weight row) (zero? off)
+                        (simple-format #f "~a ~a; asked ~a" (way->string (row-by row)) (figure v)
+                                       (band row))
+                        (row-why row)))))))
+
+(define (way->string way)
+  (assq-ref '((end . "at the end") (most . "at most") (least . "at least") (mean . "on average")
+              (rms . "rms")) way))
+
+(define (total-of marks)
+  "Return the weighted mean of MARKS out of 100, a whole number."
+  (let ((weight (apply + (map mark-weight marks))))
+    (if (zero? weight)
+        100
+        (inexact->exact
+         (round (* 100 (/ (apply + (map (lambda (m) (* (mark-weight m) (mark-credit m))) marks))
+                          weight)))))))
+
+
+;;; A measure over time in plain characters.
+
+(define chart-columns 60)
+(define chart-rows 6)
+
+(define (bin samples columns)
+  ;; The mean value in each of COLUMNS equal spans of time, or #f.
+  (let* ((from (car (first samples))) (to (car (last samples)))
+         (span (max 1e-9 (- to from)))
+         (sums (make-vector columns 0.0)) (counts (make-vector columns 0)))
+    (for-each (lambda (s)
+                (let ((i (min (- columns 1)
+                              (inexact->exact (floor (* columns (/ (- (car s) from) span)))))))
+                  (when (finite? (cdr s))
+                    (vector-set! sums i (+ (vector-ref sums i) (cdr s)))
+                    (vector-set! counts i (+ 1 (vector-ref counts i))))))
+              samples)
+    (map (lambda (i)
+           (let ((n (vector-ref counts i)))
+             (and (positive? n) (/ (vector-ref sums i) n))))
+         (iota columns))))
+
+(define (row-of v bottom top)
+  (let ((i (inexact->exact (round (* (- chart-rows 1) (/ (- top v) (max 1e-12 (- top bottom))))))))
+    (max 0 (min (- chart-rows 1) i))))
+
+(define (strip-chart row samples)
+  "Return the lines of a plot of SAMPLES, pairs of time and value of the measure of ROW, in plain
+characters: * is the measure, . where the band ends."
+  (let ((binned (if (null? samples) '() (bin samples chart-columns))))
+    (if (not (any identity binned))
+        '()
+        (let* ((bounds (filter finite? (list (row-low row) (row-high row))))
+               (shown (append bounds (filter identity binned)))
+               (top (apply max shown)) (bottom (apply min shown))
+               (cells (make-array #\space chart-rows chart-columns)))
+          (for-each (lambda (b)
+                      (for-each (lambda (c) (array-set! cells #\. (row-of b bottom top) c))
+                                (iota chart-columns)))
+                    bounds)
+          (for-each (lambda (v c)
+                      (when v (array-set! cells #\* (row-of v bottom top) c)))
+                    binned (iota chart-columns))
+          (append
+           (list (string-append " " (row-label row)))
+           (map (lambda (line i)
+                  (string-append
+                   (string-pad (cond ((= i 0) (figure top))
+                                     ((= i (- chart-rows 1)) (figure bottom))
+                                     (else ""))
+                               8)
+                   " |" (list->string line)))
+                (array->list cells) (iota chart-rows))
+           (list (string-append (make-string 9 #\space) "+" (make-string chart-columns #\-))
+                 (string-append (make-string 10 #\space)
+                                (string-pad-right (string-append (figure (car (first samples))) " s")
+                                                  (- chart-columns 8))
+                                (string-pad (string-append (figure (car (last samples))) " s") 8))))))))

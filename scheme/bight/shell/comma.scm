@@ -1,0 +1,120 @@
+;;; (bight shell comma) --- commands of the prompt that begin with a comma.
+;;;
+;;; They are Guile's own, but for those that would say too little of bight.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight shell comma)
+  #:use-module (bight core errors)
+  #:use-module ((bight core sentence) #:select (sentence-of-variable))
+  #:use-module ((bight test expect) #:select (location->string))
+  #:use-module ((ice-9 session) #:select (apropos-internal))
+  #:use-module ((ice-9 rdelim) #:select (read-line))
+  #:use-module (srfi srfi-1)
+  #:use-module ((system repl command) #:select (define-meta-command))
+  #:use-module ((system repl common) #:select (repl-eval))
+  #:export (answer-unknown-commands!
+            note-chain!))
+
+;; Guile's own knows no macros.
+(define-meta-command ((describe #f) repl (form))
+  "describe NAME
+Show the documentation of NAME; (help NAME) tells how it is used too."
+  (let* ((datum (syntax->datum form))
+         (value (if (symbol? datum) (module-ref (current-module) datum) (repl-eval repl form)))
+         (docstring-of (module-ref (resolve-interface '(bight shell doc)) 'docstring-of)))
+    (display (or (docstring-of value) "There is no documentation."))
+    (newline)))
+
+;; Guile's own does not see what is loaded only when it is used.
+(define-meta-command ((apropos a) repl regexp)
+  "apropos REGEXP
+Show the names that match REGEXP, bight's with a sentence each, then Scheme's."
+  (let* ((text (object->string regexp display))
+         (pattern (make-regexp text))
+         (matches? (lambda (name) (regexp-exec pattern (symbol->string name))))
+         (ours (filter matches? ((module-ref (resolve-interface '(bight)) 'language-names))))
+         (theirs (remove (lambda (name) (memq name ours)) (apropos-internal text))))
+    (for-each (lambda (name)
+                (simple-format #t "  ~a  ~a~%" (string-pad-right (symbol->string name)
+                                                                 (max 22 (string-length (symbol->string name))))
+                               (sentence-of-variable name)))
+              ours)
+    (unless (null? theirs)
+      (simple-format #t "of Scheme: ~a~%" (string-join (map symbol->string (sort-names theirs)) " ")))))
+
+(define (sort-names names)
+  (sort (delete-duplicates names eq?) (lambda (a b) (string<? (symbol->string a) (symbol->string b)))))
+
+(define last-chain '())
+
+(define (note-chain! frames)
+  "Remember the FRAMES that led to the last error."
+  (set! last-chain frames))
+
+(define (read-source-line place)
+  ;; The line that stands at PLACE, (FILE . LINE), or the empty string.
+  (or (false-if-exception
+       (call-with-input-file (car place)
+         (lambda (port)
+           (do ((i 1 (+ i 1)))
+               ((= i (cdr place)) (string-trim-both (read-line port)))
+             (read-line port)))))
+      ""))
+
+;; Guile's own shows the frames of its evaluator.
+(define-meta-command ((backtrace bt) repl)
+  "backtrace
+Show the lines of files that led to the last error, the innermost first."
+  (if (null? last-chain)
+      (display "No line of a file led to the last error.\n")
+      (for-each (lambda (frame)
+                  (simple-format #t "  ~a~a: ~a~%" (location->string (car frame))
+                                 (if (cdr frame) (simple-format #f " in ~a" (cdr frame)) "")
+                                 (read-source-line (car frame))))
+                last-chain)))
+
+
+;;; A command that is misspelt: Guile's own reader of commands says no more than that there is none.
+
+(define guiles (resolve-module '(system repl command)))
+
+(define (command-names)
+  (concatenate (append-map cdr (module-ref guiles '*command-table*))))
+
+(define (known? word)
+  ((module-ref guiles 'lookup-command) (string->symbol word)))
+
+(define (ends-word? c)
+  (or (eof-object? c) (char-whitespace? c) (memv c '(#\( #\) #\"))))
+
+(define (next-word)
+  ;; The word that follows on the input, where it stays to be read.
+  (let loop ((chars '()))
+    (if (ends-word? (peek-char))
+        (let ((word (reverse-list->string chars)))
+          (unread-string word (current-input-port))
+          word)
+        (loop (cons (read-char) chars)))))
+
+(define (answer-unknown word)
+  (let ((near (nearest word (command-names))))
+    (read-line)
+    (simple-format #t "There is no command ,~a; ~a,help lists them.~%" word
+                   (if near (simple-format #f "did you mean ,~a?  " near) ""))))
+
+(define (reader-of-commands own)
+  (lambda (repl)
+    (let ((word (next-word)))
+      (if (or (string-null? word) (known? word))
+          (own repl)
+          (answer-unknown word)))))
+
+(define answer-unknown-commands!
+  (let ((own #f))
+    (lambda ()
+      "From now on name the command that was meant when one after a comma is misspelt."
+      (unless own
+        (let ((variable (module-variable guiles 'meta-command)))
+          (set! own (variable-ref variable))
+          (variable-set! variable (reader-of-commands own)))))))

@@ -1,0 +1,510 @@
+;;; (bight test expect) --- saying what should be true, and hearing clearly when it is not.
+;;;
+;;; `expect' and `require' judge one claim.  Inside a scenario the verdict goes to the trial that is
+;;; running (see (bight test scenario)); anywhere else a claim that fails raises &failed-expectation.
+;;; `about', `between', `above' and `below' make predicates that can say what they wanted.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight test expect)
+  #:use-module (bight core errors)
+  #:use-module ((bight core here) #:select (place-of chain-of))
+  #:use-module (bight core record)
+  #:use-module (bight core verb)
+  #:use-module ((ice-9 control) #:select (call/ec))
+  #:use-module (ice-9 exceptions)
+  #:use-module (srfi srfi-1)
+  #:export (expect
+            require
+            about
+            between
+            above
+            below
+            same?
+            ;; For (bight test scenario) and the runner.
+            current-trial
+            make-trial
+            trial-stop
+            failure?
+            failure-form
+            failure-expected
+            failure-actual
+            failure-location
+            failure-remarks
+            make-failure
+            with-remarks
+            note-failure!
+            note-success!
+            claim
+            source-location
+            location->string
+            chain->string
+            chain-suffix
+            exception->line
+            syntax-error->line
+            exception->placed-line
+            raised-at
+            raised-kind
+            code->string
+            &failed-expectation
+            trial?
+            ;; What the macros expand to.
+            judge-truth
+            judge-comparison
+            judge-same
+            judge-is
+            judge-raise
+            report-verdict))
+
+
+;;; Where a form was written: a pair (FILE . LINE), or #f for what was typed at the prompt.
+
+(define-syntax source-location
+  (lambda (stx)
+    "(source-location FORM): the constant (FILE . LINE) at which FORM was written, or #f."
+    (syntax-case stx ()
+      ((_ form)
+       (let* ((source (or (syntax-source #'form) '()))
+              (file (assq-ref source 'filename))
+              (line (assq-ref source 'line)))
+         (datum->syntax #'form (and file line (list 'quote (cons file (+ 1 line))))))))))
+
+(define (near-name file)
+  ;; FILE as seen from the present folder, if it is below it.
+  (let ((here (string-append (getcwd) "/")))
+    (if (string-prefix? here file)
+        (substring file (string-length here))
+        file)))
+
+(define (location->string location)
+  "Return LOCATION, a pair (FILE . LINE) or #f, as FILE:LINE."
+  (if location
+      (string-append (near-name (car location)) ":" (number->string (cdr location)))
+      "at the prompt"))
+
+(define (frame->string frame)
+  (string-append "called from " (location->string (car frame))
+                 (if (cdr frame) (simple-format #f " in ~a" (cdr frame)) "")))
+
+(define (chain->string frames)
+  "Return FRAMES, as (bight core here) tells them, in words: \"in F, called from FILE:LINE in G, called from FILE:LINE\";
+nothing for a call outside of all procedures."
+  (if (null? frames)
+      ""
+      (string-join (append (if (cdr (car frames)) (list (simple-format #f "in ~a" (cdr (car frames)))) '())
+                           (map frame->string (cdr frames)))
+                   ", ")))
+
+(define (chain-suffix exception)
+  "Return what led to EXCEPTION, in parentheses, to follow what it says on its line, or nothing."
+  (let ((text (chain->string (chain-of exception))))
+    (if (string-null? text) "" (string-append " (" text ")"))))
+
+(define quote-marks '((quote . "'") (quasiquote . "`") (unquote . ",") (unquote-splicing . ",@")))
+
+(define (code->string code)
+  "Return CODE, a datum, written on one line as a person would type it."
+  (cond ((and (pair? code) (assq (car code) quote-marks) (pair? (cdr code)) (null? (cddr code)))
+         (string-append (assq-ref quote-marks (car code)) (code->string (cadr code))))
+        ((list? code)
+         (string-append "(" (string-join (map code->string code) " ") ")"))
+        ((pair? code)
+         (string-append "(" (code->string (car code)) " . " (code->string (cdr code)) ")"))
+        (else (simple-format #f "~s" code))))
+
+
+;;; What an exception says, on one line.
+
+(define (raised-kind exception)
+  "Return the kind of EXCEPTION, a symbol: a bight kind such as domain, or Guile's own key."
+  (if (bight-error? exception)
+      (bight-error-kind exception)
+      (exception-kind exception)))
+
+(define (tidy-line line)
+  (let ((line (string-trim-both line)))
+    (cond ((string=? line "ERROR:") "")
+          ((string-prefix? "ERROR: " line) (tidy-line (substring line 7)))
+          ((string-prefix? "In procedure fport_write: " line)
+           (string-append "cannot write: " (substring line 26)))
+          ((string-prefix? "In procedure " line) (substring line 13))
+          (else line))))
+
+(define (source->location source)
+  (let ((file (assq-ref source 'filename))
+        (line (assq-ref source 'line)))
+    (and file line (cons file (+ 1 line)))))
+
+(define (raised-at exception)
+  "Return the place (FILE . LINE) that EXCEPTION itself tells of, as errors of syntax and failed
+expectations do, or where it was raised, or #f."
+  (let ((arguments (exception-args exception)))
+    (case (exception-kind exception)
+      ((syntax-error) (source->location (or (third arguments) '())))
+      ((failed-expectation) (second arguments))
+      (else (place-of exception)))))
+
+(define (usage-of-macro form)
+  ;; How the macro that FORM uses is used, or #f.
+  (and (pair? form) (symbol? (car form))
+       (false-if-exception ((@ (bight shell doc) usage-of) (car form)))))
+
+(define (syntax-error->line who what where form subform)
+  (let ((usage (and (string-prefix? "source expression failed to match" what) (usage-of-macro form))))
+    (if usage
+        (simple-format #f "~a: it is used as ~a, not ~a" (car form) usage (code->string (abbreviate form)))
+        (string-append (if who (simple-format #f "~a: " who) "")
+                       what
+                       (if subform (string-append " " (brief subform)) "")
+                       (if form (string-append " in " (brief form)) "")))))
+
+(define (exception->line exception)
+  "Return what EXCEPTION says on one line: PROCEDURE: MESSAGE."
+  (if (eq? 'syntax-error (exception-kind exception))
+      (apply syntax-error->line (exception-args exception))
+      (printed-exception exception)))
+
+(define (exception->placed-line exception)
+  "Return what EXCEPTION says on one line, after its place, if that is known: FILE:LINE: PROCEDURE: MESSAGE."
+  (let ((place (raised-at exception)))
+    (string-append (if place (string-append (location->string place) ": ") "")
+                   (exception->line exception)
+                   (chain-suffix exception))))
+
+(define (printed-exception exception)
+  (let ((text (call-with-output-string
+               (lambda (port)
+                 ;; Guile's printer goes down into circular and deep irritants for ever.
+                 (print-exception port #f (exception-kind exception)
+                                  (map abbreviate (exception-args exception)))))))
+    (string-join (remove string-null? (map tidy-line (string-split text #\newline))) " ")))
+
+
+;;; Failures and the trial that collects them.
+
+(define-record <failure>
+  (%make-failure form expected actual location remarks)
+  failure?
+  (form failure-form)                   ; a datum
+  (expected failure-expected)           ; a string
+  (actual failure-actual)               ; a string
+  (location failure-location)           ; (FILE . LINE) or #f
+  (remarks failure-remarks))            ; lines that show the dive, or what led there; or #f
+
+(define* (make-failure form expected actual location #:optional remarks)
+  "Return the failure of FORM, a datum, at LOCATION: what was EXPECTED and what was ACTUAL, strings.
+REMARKS are lines that show more of it; #f leaves them to the trial that is told of it."
+  (%make-failure form expected actual location remarks))
+
+(define (with-remarks failure lines)
+  "Return FAILURE with LINES for its remarks."
+  (make-failure (failure-form failure) (failure-expected failure) (failure-actual failure)
+                (failure-location failure) lines))
+
+(define-record <trial>
+  (make-trial note stop)
+  trial?
+  (note trial-note)                     ; called with a failure, or #f for a claim that held
+  (stop trial-stop))                    ; called with a status and a reason, does not return
+
+(define current-trial (make-parameter #f))
+
+(define &failed-expectation
+  (make-exception-type '&failed-expectation &error '(failure)))
+
+(define make-failed-expectation (record-constructor &failed-expectation))
+
+(define (failure->line failure)
+  (simple-format #f "~a: expected ~a, got ~a"
+                 (code->string (failure-form failure))
+                 (failure-expected failure)
+                 (failure-actual failure)))
+
+(define (raise-failure failure)
+  (let ((line (failure->line failure)))
+    (raise-exception
+     (make-exception (make-failed-expectation failure)
+                     (make-exception-with-message line)
+                     (make-exception-with-irritants '())
+                     (make-exception-from-throw 'failed-expectation
+                                                (list line (failure-location failure)))))))
+
+(set-exception-printer! 'failed-expectation
+                        (lambda (port key args default-printer)
+                          (display (car args) port)))
+
+(define (note-success!)
+  "Tell the running trial, if any, that a claim held.  Return #t."
+  (when (current-trial)
+    ((trial-note (current-trial)) #f))
+  #t)
+
+(define* (note-failure! failure #:key stop?)
+  "Tell the running trial of FAILURE and return #f, ending the trial if STOP?.  Outside a trial raise
+&failed-expectation."
+  (let ((trial (current-trial)))
+    (unless trial
+      (raise-failure failure))
+    ((trial-note trial) failure)
+    (when stop?
+      ((trial-stop trial) 'fail #f))
+    #f))
+
+
+;;; Judges.  Each returns #f if all is well, else a pair of strings (EXPECTED . ACTUAL).
+
+(define (not-an-error? exception)
+  (memq (exception-kind exception) '(quit signal)))
+
+(define (attempt thunk succeed fail)
+  ;; SUCCEED with the value of THUNK, or FAIL with the exception it raised.
+  ((call/ec
+    (lambda (return)
+      (let ((value (with-exception-handler
+                    (lambda (exception)
+                      (if (not-an-error? exception)
+                          (raise-exception exception)
+                          (return (lambda () (fail exception)))))
+                    thunk)))
+        (lambda () (succeed value)))))))
+
+(define (describe-raise exception)
+  (simple-format #f "~a error: ~a" (raised-kind exception) (exception->line exception)))
+
+(define (judge ask good? expected)
+  ;; EXPECTED is a thunk that gives the text.
+  (attempt (lambda ()
+             (let ((value (ask)))
+               (and (not (good? value)) (list value))))
+           (lambda (wrong) (and wrong (cons (expected) (brief (car wrong)))))
+           (lambda (exception) (cons (expected) (describe-raise exception)))))
+
+(define (judge-truth ask)
+  (judge ask identity (const "true")))
+
+(define (judge-comparison name compare ask)
+  ;; ASK gives the list of the values compared.
+  (attempt (lambda ()
+             (let ((values (ask)))
+               (and (not (apply compare values)) values)))
+           (lambda (unlike)
+             (and unlike
+                  (cons "true" (simple-format #f "(~a ~a)" name
+                                              (string-join (map brief unlike) " ")))))
+           (lambda (exception) (cons "true" (describe-raise exception)))))
+
+(define (judge-same ask wanted)
+  (attempt wanted
+           (lambda (value) (judge ask (lambda (given) (same? value given)) (lambda () (brief value))))
+           (lambda (exception) (cons "a value to compare with" (describe-raise exception)))))
+
+(define (judge-is ask predicate code)
+  (define (judge-by accept?)
+    (if (procedure? accept?)
+        (judge ask accept? (lambda () (describe-predicate accept? code)))
+        (cons "a predicate after `is'" (brief accept?))))
+  (attempt predicate judge-by
+           (lambda (exception) (cons (code->string code) (describe-raise exception)))))
+
+(define (judge-raise ask kind)
+  (define (expected)
+    (if kind
+        (simple-format #f "a ~a error~a" kind
+                       (if (memq kind bight-error-kinds) "" (did-you-mean kind bight-error-kinds)))
+        "an error"))
+  (attempt ask
+           (lambda (value) (cons (expected) (brief value)))
+           (lambda (exception)
+             (and kind
+                  (not (eq? kind (raised-kind exception)))
+                  (cons (expected) (describe-raise exception))))))
+
+(define* (report-verdict form location verdict #:key stop?)
+  (if verdict
+      (note-failure! (make-failure form (car verdict) (cdr verdict) location) #:stop? stop?)
+      (note-success!)))
+
+(eval-when (expand load eval)
+  (define comparators '(= < > <= >= eq? eqv? equal?))
+
+  (define (marker? stx word)
+    (eq? (syntax->datum stx) word))
+
+  (define (comparator? stx)
+    (and (identifier? stx)
+         (memq (syntax->datum stx) comparators)
+         (free-identifier=? stx (datum->syntax #'here (syntax->datum stx)))))
+
+  (define (expand-claim stx clause)
+    ;; The judge's call for CLAUSE, what stands after the head of STX.
+    (syntax-case clause ()
+      ((e arrow v) (marker? #'arrow '=>)
+       #'(judge-same (lambda () e) (lambda () v)))
+      ((e is p) (marker? #'is 'is)
+       #'(judge-is (lambda () e) (lambda () p) 'p))
+      ((e raises (quot kind)) (and (marker? #'raises 'raises) (marker? #'quot 'quote))
+       #'(judge-raise (lambda () e) 'kind))
+      ((e raises kind) (and (marker? #'raises 'raises) (identifier? #'kind))
+       #'(judge-raise (lambda () e) 'kind))
+      ((e raises) (marker? #'raises 'raises)
+       #'(judge-raise (lambda () e) #f))
+      (((compare a b ...)) (comparator? #'compare)
+       #'(judge-comparison 'compare compare (lambda () (list a b ...))))
+      ((e)
+       #'(judge-truth (lambda () e)))
+      (_ (syntax-violation
+          #f (string-append "say (expect E), (expect E => V), (expect E is P) or (expect E raises KIND)"
+                            (marker-meant clause) ", not")
+          stx))))
+
+  (define (marker-meant clause)
+    ;; Which marker a misspelt one is near to.
+    (syntax-case clause ()
+      ((e word . _)
+       (identifier? #'word)
+       (did-you-mean (syntax->datum #'word) '(=> is raises)))
+      (_ ""))))
+
+(define-syntax claim
+  (lambda (stx)
+    "(claim CLAUSE ...): judge CLAUSE as `expect' does.  Return #f, or (EXPECTED . ACTUAL)."
+    (syntax-case stx ()
+      ((_ . clause) (expand-claim stx #'clause)))))
+
+(define-syntax expect
+  (lambda (stx)
+    "(expect E): E should be true.
+(expect E => V): E should be V: numbers by `=', points and polylines number by number, else `equal?'.
+(expect E is P): E should satisfy P, a predicate, such as (about 3 #:within 0.1), (between 1 2),
+(above 0), (below 9) or exact-integer?.
+(expect E raises KIND): E should raise an error of KIND, such as domain, name or unsupported.
+In a scenario a failure is collected and the scenario goes on; elsewhere it raises.  Return #t or #f."
+    (syntax-case stx ()
+      ((_ . clause)
+       #`(report-verdict '#,stx (source-location #,stx) #,(expand-claim stx #'clause))))))
+
+(define-syntax require
+  (lambda (stx)
+    "(require E), (require E => V), (require E is P), (require E raises KIND): as `expect', but a
+failure ends the scenario at once."
+    (syntax-case stx ()
+      ((_ . clause)
+       #`(report-verdict '#,stx (source-location #,stx) #,(expand-claim stx #'clause) #:stop? #t)))))
+
+
+;;; Comparing numbers, points and polylines.
+
+(define (items value)
+  ;; The list of items of a list, vector or array VALUE, or #f.
+  (cond ((list? value) value)
+        ((or (string? value) (bitvector? value)) #f)
+        ((and (array? value) (positive? (array-rank value))) (array->list value))
+        (else #f)))
+
+(define (same? a b)
+  "Return true if A and B are the same: numbers by `=', lists, vectors and arrays item by item and
+whatever their kind, anything else by `equal?'."
+  (if (and (number? a) (number? b))
+      (= a b)
+      (let ((as (items a)) (bs (items b)))
+        (if (and as bs)
+            (and (= (length as) (length bs)) (every same? as bs))
+            (equal? a b)))))
+
+(define (turn-between a b)
+  ;; Degrees from A to B the short way, without sign.
+  (let ((d (abs (- a b))))
+    (abs (- d (* 360 (round (/ d 360)))))))
+
+(define (hypotenuse numbers)
+  (sqrt (apply + (map (lambda (x) (* x x)) numbers))))
+
+(define* (discrepancy a b #:optional (distance (lambda (a b) (abs (- a b)))))
+  ;; How far B is from A: of numbers the DISTANCE, of points the length of the difference, of
+  ;; polylines that of the worst point; #f if they are of different shapes.
+  (if (and (real? a) (real? b))
+      (distance a b)
+      (let ((as (items a)) (bs (items b)))
+        (and as bs
+             (= (length as) (length bs))
+             (let ((each (map (lambda (a b) (discrepancy a b distance)) as bs)))
+               (and (every identity each)
+                    (if (every real? as) (hypotenuse each) (apply max 0 each))))))))
+
+(define (size value)
+  (cond ((real? value) (abs value))
+        ((items value) => (lambda (all)
+                            (if (every real? all) (hypotenuse all) (apply max 0 (map size all)))))
+        (else 0)))
+
+(define (measured? value levels)
+  ;; Whether VALUE is a number, or consists of such LEVELS deep at most.
+  (or (real? value)
+      (and (positive? levels)
+           (let ((all (items value)))
+             (and all (every (lambda (item) (measured? item (- levels 1))) all))))))
+
+(define (default-tolerance value)
+  (let ((hundredth (* 0.01 (size value))))
+    (if (zero? hundredth) 0.01 hundredth)))
+
+
+;;; Predicates that can say what they wanted.
+
+(define (named-predicate accept? text . values)
+  (set-procedure-property! accept? 'wanted (apply simple-format #f text (map brief values)))
+  accept?)
+
+(define (describe-predicate accept? code)
+  (or (procedure-property accept? 'wanted)
+      (code->string code)))
+
+(define (about-options options)
+  ;; Read the tail of a call of `about': two values, the tolerance or #f and whether in degrees.
+  (let loop ((rest options) (within #f) (degrees? #f))
+    (cond ((null? rest) (values within degrees?))
+          ((and (eq? (car rest) #:within) (pair? (cdr rest)) (real? (cadr rest)) (>= (cadr rest) 0))
+           (loop (cddr rest) (cadr rest) degrees?))
+          ((and (eq? (car rest) #:degrees) (pair? (cdr rest)) (real? (cadr rest)))
+           (loop (cddr rest) (cadr rest) #t))
+          ((and (eq? (car rest) #:degrees) (pair? (cdr rest)) (boolean? (cadr rest)))
+           (loop (cddr rest) within (cadr rest)))
+          ((eq? (car rest) #:degrees)
+           (loop (cdr rest) within #t))
+          (else
+           (bight-raise 'domain 'about
+                        "after the value come #:within TOLERANCE and #:degrees, not ~s" (car rest))))))
+
+(define-verb (about (value any) #:rest (options any))
+  "Return a predicate that accepts what is about VALUE: a number, a point or a polyline.
+#:within TOLERANCE is the largest difference (for points the distance), by default a hundredth of
+VALUE's size, or 0.01 if VALUE is zero.  With #:degrees the difference is taken round the compass, by
+default within 1: (about 359 #:within 3 #:degrees), or (about 359 #:degrees 3)."
+  (unless (measured? value 2)
+    (bight-raise 'domain 'about "the value is a number, a point or a polyline, not ~s" value))
+  (call-with-values (lambda () (about-options options))
+    (lambda (within degrees?)
+      (let ((tolerance (or within (if degrees? 1 (default-tolerance value)))))
+        (named-predicate
+         (lambda (given)
+           (let ((off (if degrees?
+                          (discrepancy value given turn-between)
+                          (discrepancy value given))))
+             (and off (<= off tolerance))))
+         (if degrees? "about ~a degrees within ~a" "about ~a within ~a")
+         value tolerance)))))
+
+(define-verb (between (low number) (high number))
+  "Return a predicate that accepts a number from LOW to HIGH, both included."
+  (unless (<= low high)
+    (bight-raise 'domain 'between "the lower bound comes first, not ~a ~a" low high))
+  (named-predicate (lambda (given) (and (real? given) (<= low given high)))
+                   "between ~a and ~a" low high))
+
+(define-verb (above (low number))
+  "Return a predicate that accepts a number greater than LOW."
+  (named-predicate (lambda (given) (and (real? given) (> given low))) "above ~a" low))
+
+(define-verb (below (high number))
+  "Return a predicate that accepts a number less than HIGH."
+  (named-predicate (lambda (given) (and (real? given) (< given high))) "below ~a" high))
