@@ -8,7 +8,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "base/error.h"
 #include "geo/read.h"
@@ -23,11 +22,13 @@ enum
 /* Five million posts take a second or two and a gigabyte.  The libraries themselves take half a
    gigabyte of addresses before they have read anything.  */
 static const bt__reader_limits usual = { 120, 60, 4096 };
-static const uint64_t most_bytes = 20000000000; /* all of GEBCO has 7.5e9 */
-static const double height_max = 1e5;           /* m: farther than any bottom or peak */
-static const bt__reader geo_reader
-    = { "bight-geo-reader", "BIGHT_GEO_READER", "the geographic reader", "geographic files",
-        "GDAL (Debian package: libgdal-dev)" };
+static const double height_max = 1e5; /* m: farther than any bottom or peak */
+static const bt__reader geo_reader = { "bight-geo-reader",
+                                       "BIGHT_GEO_READER",
+                                       "the geographic reader",
+                                       "geographic files",
+                                       "GDAL (Debian package: libgdal-dev)",
+                                       20000000000 /* all of GEBCO has 7.5e9 */ };
 
 /* A number as the reader takes it.  */
 typedef struct text
@@ -56,32 +57,31 @@ check_origin (const bt_geo_origin *at, bt_error *error)
   return BT_OK;
 }
 
-/* Have FILE read with ARGUMENTS into *HEAD and *NUMBERS, at most MOST of them.  */
-static bt_status
-ask_reader (const char *file, char *const *arguments, const bt__reader_limits *limits,
-            uint64_t most, bt__geo_head *head, double **numbers, bt_error *error)
+/* A table that is asked for, and what is read of it.  */
+typedef struct table
 {
-  int fd;
-  uint64_t size;
-  bt__child child;
-  bt_error why;
-  *numbers = NULL;
-  bt_status s = bt__file_open (file, most_bytes, &fd, &size, error);
-  if (s != BT_OK)
-    return s;
-  close (fd); /* the file can be read, which is all that is asked here */
-  s = bt__reader_start (&geo_reader, file, arguments, limits, &child, error);
-  if (s != BT_OK)
-    return s;
-  s = bt__geo_take (&(bt__answer){ bt__child_read_as, &child, geo_reader.title }, most, head,
-                    numbers, &why);
-  if (s != BT_OK)
-    bt__fail (error, s, "%s: %s", bt__file_tail (file), why.text);
-  s = bt__reader_end (&geo_reader, file, &child, s, error);
+  uint64_t most; /* numbers */
+  bt__geo_head head;
+  double *numbers;
+} table;
+
+static bt_status
+take_table (const bt__answer *answer, void *into, bt_error *error)
+{
+  table *t = into;
+  return bt__geo_take (answer, t->most, &t->head, &t->numbers, error);
+}
+
+/* Have FILE read with ARGUMENTS into *T, whose most is given; its numbers are freed by free.  */
+static bt_status
+read_table (const char *file, char *const *arguments, const bt__reader_limits *limits, table *t,
+            bt_error *error)
+{
+  bt_status s = bt__reader_ask (&geo_reader, file, arguments, limits, take_table, t, error);
   if (s != BT_OK)
     {
-      free (*numbers);
-      *numbers = NULL;
+      free (t->numbers);
+      t->numbers = NULL;
     }
   return s;
 }
@@ -117,29 +117,27 @@ bt__geo_heights_read_within (const char *file, const bt_geo_bed *wanted,
                               (char *)(wanted->system ? wanted->system : ""),
                               (char *)(wanted->variable ? wanted->variable : ""),
                               NULL };
-  bt__geo_head head;
-  double *z;
+  table bed = { .most = BT_HEIGHTS_POSTS_MAX };
   *out = NULL;
   bt_status s = check_origin (&wanted->origin, error);
   if (s == BT_OK)
-    s = ask_reader (file, arguments, limits, BT_HEIGHTS_POSTS_MAX, &head, &z, error);
-  if (s != BT_OK)
-    return s;
-  s = check_bed (file, &head, z, error);
+    s = read_table (file, arguments, limits, &bed, error);
+  if (s == BT_OK)
+    s = check_bed (file, &bed.head, bed.numbers, error);
   bt_heights_data *data = s == BT_OK ? calloc (1, sizeof *data) : NULL;
   if (!data)
     {
-      free (z);
+      free (bed.numbers);
       return s != BT_OK ? s : bt__fail (error, BT_ERR_LIMIT, "%s: no memory", bt__file_tail (file));
     }
-  data->z = z;
-  data->heights = (bt_heights){ .nx = head.columns,
-                                .ny = head.rows,
-                                .x = head.x,
-                                .y = head.y,
-                                .dx = head.dx,
-                                .dy = head.dy,
-                                .z = z };
+  data->z = bed.numbers;
+  data->heights = (bt_heights){ .nx = bed.head.columns,
+                                .ny = bed.head.rows,
+                                .x = bed.head.x,
+                                .y = bed.head.y,
+                                .dx = bed.head.dx,
+                                .dy = bed.head.dy,
+                                .z = bed.numbers };
   *out = data;
   return BT_OK;
 }
@@ -161,20 +159,19 @@ bt_geo_current_read (const char *file, const bt_geo_column *wanted, bt_current_g
   char *const arguments[]
       = { "current", to_text (wanted->at.latitude, t), to_text (wanted->at.longitude, t + 1),
           to_text (wanted->start, t + 2), NULL };
-  bt__geo_head head;
-  double *rows = NULL;
+  table flow = { .most = (uint64_t)BT__GEO_FLOW_COLUMNS * BT__GEO_FLOW_ROWS_MAX };
   bt_error why;
   *out = NULL;
   bt_status s = check_origin (&wanted->at, error);
   if (s == BT_OK)
-    s = ask_reader (file, arguments, &usual, (uint64_t)BT__GEO_FLOW_COLUMNS * BT__GEO_FLOW_ROWS_MAX,
-                    &head, &rows, error);
+    s = read_table (file, arguments, &usual, &flow, error);
   if (s != BT_OK)
     return s;
-  if (head.columns != BT__GEO_FLOW_COLUMNS)
+  if (flow.head.columns != BT__GEO_FLOW_COLUMNS)
     s = bt__fail (&why, BT_ERR_FORMAT, "the geographic reader's answer is no current");
   else
-    s = bt_current_grid_new ((const double (*)[BT__GEO_FLOW_COLUMNS])rows, head.rows, out, &why);
-  free (rows);
+    s = bt_current_grid_new ((const double (*)[BT__GEO_FLOW_COLUMNS])flow.numbers, flow.head.rows,
+                             out, &why);
+  free (flow.numbers);
   return s == BT_OK ? s : bt__fail (error, s, "%s: %s", bt__file_tail (file), why.text);
 }

@@ -5,40 +5,31 @@
 
 #include <config.h>
 
-#include <unistd.h>
-
-#include "base/error.h"
-#include "mesh/file.h"
 #include "mesh/read.h"
 #include "mesh/stream.h"
 
 /* A million triangles take a second and half a gigabyte.  */
 static const bt__reader_limits usual = { 180, 60, 8192 };
-static const uint64_t most_bytes = 2000000000;
-static const bt__reader mesh_reader = { "bight-mesh-reader", "BIGHT_MESH_READER", "the mesh reader",
-                                        "mesh files", "assimp (Debian package: libassimp-dev)" };
+static const bt__reader mesh_reader = { "bight-mesh-reader",
+                                        "BIGHT_MESH_READER",
+                                        "the mesh reader",
+                                        "mesh files",
+                                        "assimp (Debian package: libassimp-dev)",
+                                        2000000000 };
+
+static bt_status
+take_mesh (const bt__answer *answer, void *into, bt_error *error)
+{
+  return bt__mesh_take (answer, into, error);
+}
 
 bt_status
 bt__mesh_read_within (const char *file, bt_mesh_up up, const bt__reader_limits *limits,
                       bt_mesh_data **out, bt_error *error)
 {
   char *const arguments[] = { (char *)(up == BT_MESH_UP_Y ? "y" : "z"), NULL };
-  int fd;
-  uint64_t size;
-  bt__child child;
-  bt_error why;
   *out = NULL;
-  bt_status s = bt__file_open (file, most_bytes, &fd, &size, error);
-  if (s != BT_OK)
-    return s;
-  close (fd); /* the file can be read, which is all that is asked here */
-  s = bt__reader_start (&mesh_reader, file, arguments, limits, &child, error);
-  if (s != BT_OK)
-    return s;
-  s = bt__mesh_take (&(bt__answer){ bt__child_read_as, &child, mesh_reader.title }, out, &why);
-  if (s != BT_OK)
-    bt__fail (error, s, "%s: %s", bt__file_tail (file), why.text);
-  s = bt__reader_end (&mesh_reader, file, &child, s, error);
+  bt_status s = bt__reader_ask (&mesh_reader, file, arguments, limits, take_mesh, out, error);
   if (s != BT_OK)
     {
       bt_mesh_data_free (*out);

@@ -8,8 +8,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/error.h"
+#include "mesh/child.h"
 #include "mesh/file.h"
 #include "mesh/reader.h"
 
@@ -35,9 +37,9 @@ find_program (const bt__reader *reader, char path[PATH_SIZE])
   return n > 0 && n < PATH_SIZE;
 }
 
-bt_status
-bt__reader_start (const bt__reader *reader, const char *file, char *const *arguments,
-                  const bt__reader_limits *limits, bt__child *child, bt_error *error)
+static bt_status
+start_reader (const bt__reader *reader, const char *file, char *const *arguments,
+              const bt__reader_limits *limits, bt__child *child, bt_error *error)
 {
   char program[PATH_SIZE], cpu[NUMBER_SIZE], megabytes[NUMBER_SIZE];
   char *argv[OWN_ARGUMENTS + BT__READER_ARGUMENTS + 1] = { program, cpu, megabytes, (char *)file };
@@ -83,9 +85,11 @@ fail_by_signal (const bt__reader *reader, const char *name, int code, bt_error *
                    name, reader->files, strsignal (code));
 }
 
-bt_status
-bt__reader_end (const bt__reader *reader, const char *file, bt__child *child, bt_status answer,
-                bt_error *error)
+/* Collect CHILD, a READER of FILE whose answer was taken with ANSWER (its sentence in ERROR);
+   return what became of it all.  */
+static bt_status
+end_reader (const bt__reader *reader, const char *file, bt__child *child, bt_status answer,
+            bt_error *error)
 {
   const char *name = bt__file_tail (file);
   int code = 0, stop = answer != BT_OK && child->out >= 0 && !child->late;
@@ -97,4 +101,34 @@ bt__reader_end (const bt__reader *reader, const char *file, bt__child *child, bt
   if (!stop && ending == BT__END_EXIT && code != BT__READER_EXIT_OK)
     return fail_by_exit (reader, name, code, child->words, error);
   return answer;
+}
+
+/* ---- All of it ---- */
+
+static bt_status
+check_readable (const bt__reader *reader, const char *file, bt_error *error)
+{
+  int fd;
+  uint64_t size;
+  bt_status s = bt__file_open (file, reader->most_bytes, &fd, &size, error);
+  if (s == BT_OK)
+    close (fd);
+  return s;
+}
+
+bt_status
+bt__reader_ask (const bt__reader *reader, const char *file, char *const *arguments,
+                const bt__reader_limits *limits, bt__reader_take *take, void *into, bt_error *error)
+{
+  bt__child child;
+  bt_error why;
+  bt_status s = check_readable (reader, file, error);
+  if (s == BT_OK)
+    s = start_reader (reader, file, arguments, limits, &child, error);
+  if (s != BT_OK)
+    return s;
+  s = take (&(bt__answer){ bt__child_read_as, &child, reader->title }, into, &why);
+  if (s != BT_OK)
+    bt__fail (error, s, "%s: %s", bt__file_tail (file), why.text);
+  return end_reader (reader, file, &child, s, error);
 }

@@ -1,14 +1,17 @@
 /* A reader program: a process of its own for a library that others wrote, which reads a foreign
-   file and answers with a stream.  Here the program is found and started, and its end understood.
+   file and answers with a stream.  Here the program is found and started, its answer is handed to
+   who knows the stream, and its end understood.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #ifndef BT_MESH_READER_H
 #define BT_MESH_READER_H
 
+#include <stdint.h>
+
 #include <bight/status.h>
 
-#include "mesh/child.h"
+#include "mesh/answer.h"
 
 /* How a reader ends, with one line on its standard error unless all went well.  */
 enum
@@ -27,6 +30,7 @@ typedef struct bt__reader
   const char *title;    /* as a sentence calls it: "the mesh reader" */
   const char *files;    /* what it reads: "mesh files" */
   const char *library;  /* what it is made of, and the Debian package of that */
+  uint64_t most_bytes;  /* of a file */
 } bt__reader;
 
 /* What reading one file may cost.  */
@@ -42,14 +46,15 @@ enum
   BT__READER_ARGUMENTS = 10 /* of a reader at most, after those that all have */
 };
 
-/* Start READER for FILE: PROGRAM CPU-SECONDS MEGABYTES FILE ARGUMENT..., the last of ARGUMENTS
-   before a NULL.  BT_ERR_UNSUPPORTED when bight was built without it, BT_ERR_IO.  */
-bt_status bt__reader_start (const bt__reader *reader, const char *file, char *const *arguments,
-                            const bt__reader_limits *limits, bt__child *child, bt_error *error);
+/* Takes the stream ANSWER into INTO; the sentence in *ERROR does not name the file.  */
+typedef bt_status bt__reader_take (const bt__answer *answer, void *into, bt_error *error);
 
-/* Collect CHILD, a READER of FILE that answered with ANSWER (its sentence in ERROR); return what
-   became of it all.  */
-bt_status bt__reader_end (const bt__reader *reader, const char *file, bt__child *child,
-                          bt_status answer, bt_error *error);
+/* Run READER on FILE within LIMITS, PROGRAM CPU-SECONDS MEGABYTES FILE ARGUMENT..., the last of
+   ARGUMENTS before a NULL, and have TAKE take the answer into INTO.  What TAKE has taken is the
+   caller's to free also when the READER fails after that.  BT_ERR_UNSUPPORTED when bight was built
+   without READER, BT_ERR_IO, BT_ERR_LIMIT, BT_ERR_FORMAT, what TAKE returns.  */
+bt_status bt__reader_ask (const bt__reader *reader, const char *file, char *const *arguments,
+                          const bt__reader_limits *limits, bt__reader_take *take, void *into,
+                          bt_error *error);
 
 #endif

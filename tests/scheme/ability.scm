@@ -10,6 +10,7 @@
              ((bight core sqlite) #:select (there?))
              (ice-9 format)
              (srfi srfi-1))
+(primitive-load (string-append (dirname (dirname (current-filename))) "/other-logbook.scm"))
 
 (define skills-of-lesson '((a) (a) (b) (a b) (c) (b c) (a) (c) (a c) (b) (a b c) (c)))
 
@@ -145,13 +146,6 @@ before; how far off beliefs are is what they say."
 
 
 ;;; Records from several machines.
-
-(define-syntax-rule (with-logbook file body ...)
-  (let ((before (getenv "BIGHT_LOGBOOK")))
-    (dynamic-wind
-      (lambda () (setenv "BIGHT_LOGBOOK" file))
-      (lambda () body ...)
-      (lambda () (if before (setenv "BIGHT_LOGBOOK" before) (unsetenv "BIGHT_LOGBOOK"))))))
 
 (define (all-that-is-said)
   (sort (map (lambda (e) (simple-format #f "~s" (list (log-entry-kind e) (log-entry-when e) (log-entry-trainee e)

@@ -11,6 +11,7 @@
              (bight lesson logbook)
              ((bight core sqlite) #:select (there?))
              (srfi srfi-1))
+(primitive-load (string-append (dirname (dirname (current-filename))) "/other-logbook.scm"))
 
 (define-scenario groups-are-drawn-in-blocks
   "After any multiple of three the groups are of one size, and what comes next in a block is not always the same."
@@ -54,13 +55,6 @@
                       #:data `((lesson . ,(step-lesson step)) (who . ,who) (group . ,group) (seed . ,(step-seed step))
                                (total . ,total) (passed? . ,(>= total 70)) (simulated . #t)))))
      (steps-of-experiment group))))
-
-(define-syntax-rule (with-logbook file body ...)
-  (let ((before (getenv "BIGHT_LOGBOOK")))
-    (dynamic-wind
-      (lambda () (setenv "BIGHT_LOGBOOK" file))
-      (lambda () body ...)
-      (lambda () (if before (setenv "BIGHT_LOGBOOK" before) (unsetenv "BIGHT_LOGBOOK"))))))
 
 (define (numbers-in line)
   (filter-map (lambda (word) (string->number (string-trim-both word (char-set #\( #\)))))

@@ -40,8 +40,11 @@
           (map (lambda (i) (%point-at engine i 0))
                (iota (length (%names engine 'tether))))))
 
+(define (metres x)
+  (/ (round (* 10 x)) 10))
+
 (define (span->string box k)
-  (simple-format #f "~a to ~a" (f64vector-ref (car box) k) (f64vector-ref (cdr box) k)))
+  (simple-format #f "~a to ~a" (metres (f64vector-ref (car box) k)) (metres (f64vector-ref (cdr box) k))))
 
 (define (side box k)
   (- (f64vector-ref (cdr box) k) (f64vector-ref (car box) k)))
