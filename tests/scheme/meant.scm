@@ -83,6 +83,16 @@
   (expect (string-contains (answer-to '(dsiplay 1)) "did you mean `display'?") is identity)
   (expect (answer-to 'xyzzyx) is (lambda (text) (not (string-contains text "did you mean")))))
 
+(define-scenario a-word-of-a-name
+  "Of a single word that is near no name, the names that have it are told, the shortest first."
+  (expect (string-suffix? "; there is `cut-tether!'" (answer-to '(cut!))) => #t)
+  (expect (string-suffix? "; there is `unwind-plan'" (answer-to '(plan))) => #t)
+  (expect (string-contains (answer-to '(quux!)) "there ") => #f))
+
+(define-scenario a-field-written-as-a-name
+  "A field of parts is no variable: which part has it is told."
+  (expect (string-suffix? "; `drum' is a field of `tether': (describe 'tether)" (answer-to '(drum))) => #t))
+
 (define-scenario a-keyword-without-its-mark
   "A keyword written as a variable is known."
   (expect (string-contains (answer-to '(drive! surge 1)) "did you mean #:surge, as in (drive! #:surge ...)?")

@@ -93,15 +93,47 @@ it, or the empty string."
   ;; What NAME stands for when it is quoted, as in "a world", or #f.
   (and=> (find (lambda (entry) (memq name (cdr entry))) (quoted-names)) car))
 
+(define (words-of name)
+  (string-split (string-trim-right (symbol->string name) (char-set #\! #\?)) #\-))
+
+(define (by-a-word name)
+  ;; The names of the language that have the one word of NAME among theirs, as rov-tension has that of tension,
+  ;; the shortest first; none if NAME has several words.
+  (let ((words (words-of name)))
+    (define (has-it? other)
+      (and (null? (cdr words)) (member (car words) (words-of other))))
+    (sort (filter has-it? ((language 'language-names)))
+          (lambda (a b) (< (string-length (symbol->string a)) (string-length (symbol->string b)))))))
+
+(define most-told 4)
+
+(define (by-a-word-hint name)
+  (let ((names (by-a-word name)))
+    (if (null? names)
+        ""
+        (simple-format #f "; there ~a ~a" (if (null? (cdr names)) "is" "are")
+                       (string-join (map (lambda (n) (simple-format #f "`~a'" n))
+                                         (list-head names (min most-told (length names))))
+                                    ", ")))))
+
 (define (nearest-hint name)
   (let* ((quoted (append-map cdr (quoted-names)))
          (near (nearest name (append (known-variables) quoted))))
-    (cond ((not near) "")
+    (cond ((not near) (by-a-word-hint name))
           ((eq? near name) "; (use-modules (bight)) gives that name")
           ((module-variable (current-module) near) (simple-format #f "; did you mean `~a'?" near))
           ((memq near quoted)
            (simple-format #f "; did you mean '~a, ~a?" near (quoted-meaning near)))
           (else (simple-format #f "; did you mean `~a'?" near)))))
+
+(define (parts-with field)
+  ;; The kinds of parts that have FIELD.
+  (filter (lambda (head) (head-field head field)) (part-heads)))
+
+(define (field-hint name)
+  (let ((heads (parts-with name)))
+    (and (pair? heads)
+         (simple-format #f "; `~a' is a field of `~a': (describe '~a)" name (car heads) (car heads)))))
 
 (define (unbound-hint name)
   "Return what is to be added to the news that NAME, a symbol, is no variable: what was meant, or nothing."
@@ -112,4 +144,4 @@ it, or the empty string."
           (verb
            (let ((keyword (as-keyword name)))
              (simple-format #f "; did you mean ~s, as in (~a ~s ...)?" keyword verb keyword)))
-          (else (nearest-hint name)))))
+          (else (or (field-hint name) (nearest-hint name))))))
