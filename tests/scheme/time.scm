@@ -246,6 +246,20 @@ SPARED."
             (kind-of (lambda () (load copy))))
           (iota cuts)))))
 
+(define-scenario a-damaged-last-line
+  "Each byte of the line with the checksum counts, also those between the checksum and what it vouches for."
+  (in pile)
+  (run 0.1)
+  (let ((file (scratch-file "whole.dive")) (copy (scratch-file "damaged")))
+    (save! file)
+    (let* ((bytes (bytes-of file)) (n (bytevector-length bytes)))
+      (do ((at (- n 40) (+ at 1))) ((= at n))
+        (let ((was (bytevector-u8-ref bytes at)))
+          (bytevector-u8-set! bytes at (logxor was 1))
+          (write-bytes! copy bytes n)
+          (bytevector-u8-set! bytes at was)
+          (expect (kind-of (lambda () (load-dive copy))) => 'format))))))
+
 (define-scenario damaged-dives
   "Of a file that was altered or cut off nothing is loaded."
   (in pile)

@@ -98,9 +98,11 @@
   "Write the list DATUM, and at its end the checksum of all that was written before."
   (let ((text (with-output-to-string (lambda () (write datum)))))
     (put-text! teller (substring text 0 (- (string-length text) 1)))
-    (put-text! teller (string-append " \"" (hex (teller-sum teller)) "\")\n"))))
+    (put-text! teller (closing (teller-sum teller)))))
 
-(define checksum-length 21)             ; of what stands after what it vouches for, bytes
+(define (closing sum)
+  ;; The end of a line that ends in the checksum SUM.
+  (string-append " \"" (hex sum) "\")\n"))
 
 (define (teller-flush! teller)
   "Hand what was written to the system."
@@ -222,11 +224,14 @@ hold it."
   ;; Does DATUM end in a checksum?
   (memq (car datum) '(begin second end)))
 
-(define (holds? datum line sum)
-  ;; Does the checksum at the end of LINE, which reads as DATUM, hold, if SUM is that of all before?
-  (let ((n (- (bytevector-length line) checksum-length)))
-    (and (> n 0)
-         (equal? (last datum) (hex (%checksum (slice line (cons 0 n)) sum))))))
+(define closing-length (string-length (closing 0)))
+
+(define (holds? line sum)
+  ;; Does LINE end in its checksum, to the letter, if SUM is that of all before LINE?
+  (let* ((n (bytevector-length line)) (vouched (- n closing-length)))
+    (and (> vouched 0)
+         (bytevector=? (slice line (cons vouched n))
+                       (string->utf8 (closing (%checksum (slice line (cons 0 vouched)) sum)))))))
 
 (define (corrupt proc file number)
   (bight-raise 'format proc "line ~a of ~s is not as it was written" number file))
@@ -264,7 +269,7 @@ hold it."
                      (begin
                        (wrong number)
                        (values (reverse vouched) #t))))
-                ((and (vouching? datum) (not (holds? datum line sum)))
+                ((and (vouching? datum) (not (holds? line sum)))
                  (wrong number)
                  (values (reverse vouched) #t))
                 ((vouching? datum)
