@@ -71,6 +71,9 @@
      way-home way-home-preview unwind-plan slack-to-reach
      contact-length seabed-length bend-ratio snap-count thrust-share follow-string)
     ((bight dive homing) fly-home! home-trial unwind-preview)
+    ((bight dive tour)
+     plan-tour fly-tour! tour-trial
+     tour? tour-names tour-places tour-way tour-length tour-line-needed tour-left-out)
     ((bight dive foresight)
      foresee foresight? foresight-kind foresight-object foresight-seconds foresight-confidence
      foresight-turns)

@@ -189,6 +189,18 @@ bt_status bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int m
 bt_status bt_tether_unwind_plan (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n,
                                  bt_route *out, bt_error *error);
 
+/* Put up to MAX points into POINTS: the way from *FROM to *TO on which the vehicle of tether I
+   takes the tether from the free way of *FROM to the free way of *TO.  The way leads back along the
+   one and out along the other, drawn tight together and pushed out for the hull; whoever flies legs
+   of this kind is wound about nothing at the end of each.  NULL for FROM: from where the vehicle
+   is, with the taut string that the tether has; NULL for TO: to the anchor.  *N receives the number
+   of points, 0 where no way is known to one of the two.  In OUT, feasible means wide enough for the
+   hull, and never longer than what is out or, if the winch pays out, will be; BT_ERR_DOMAIN if a
+   place is not finite, BT_ERR_UNSUPPORTED when the tether has parted, or has no vehicle at its far
+   end.  */
+bt_status bt_tether_leg (const bt_dive *dive, int i, const bt_vec3 *from, const bt_vec3 *to,
+                         bt_vec3 *points, int max, int *n, bt_route *out, bt_error *error);
+
 /* Put into POINTS, at most MAX, the taut string of tether I when its end has been led straight from
    where it is to P, as a flight there leads it; *N is how many there are, *LENGTH its length, m.
    BT_ERR_DOMAIN when P is not finite; BT_ERR_UNSUPPORTED when the straight way there is not free,

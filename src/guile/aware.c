@@ -253,6 +253,25 @@ way_home (SCM object, SCM index)
 }
 
 static SCM
+leg (SCM object, SCM index, SCM from, SCM to)
+{
+  bt_dive *dive = bt__to_dive (object);
+  bt_vec3 *points = scm_gc_malloc_pointerless (sizeof *points * WAY_MOST, "way"), end[2];
+  bt_route route;
+  bt_error error;
+  int n = 0, starts = scm_is_true (from), ends = scm_is_true (to);
+  if (starts)
+    end[0] = bt__to_point ("plan-tour", from);
+  if (ends)
+    end[1] = bt__to_point ("plan-tour", to);
+  bt__check_long ("plan-tour", bt__to_handle (object),
+                  bt_tether_leg (dive, scm_to_int (index), starts ? end : NULL,
+                                 ends ? end + 1 : NULL, points, WAY_MOST, &n, &route, &error),
+                  &error);
+  return from_route (dive, &route, points, n);
+}
+
+static SCM
 unwind_plan (SCM object, SCM index)
 {
   bt_dive *dive = bt__to_dive (object);
@@ -363,6 +382,9 @@ bt__define_aware (void)
       "home." },
     { "%unwind-plan", 2, 0, (scm_t_subr)unwind_plan,
       "Return the same of the loop that frees the INDEX-th tether of DIVE." },
+    { "%leg", 4, 0, (scm_t_subr)leg,
+      "Return as %way-home does the way of the vehicle of the INDEX-th tether from FROM to TO, "
+      "points or #f, from free way to free way." },
     { "%taut-to", 3, 0, (scm_t_subr)taut_to,
       "Return (LENGTH . POINTS) of the string of the INDEX-th tether led straight to POINT; or "
       "what "

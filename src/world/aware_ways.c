@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "math/vec.h"
-#include "world/watch.h"
+#include "world/ways.h"
 
 #define BODY_FRICTION 0.4 /* of a hull on obstacles: caught most in trials */
 #define LEAST_SPEED 0.2   /* m/s: slower is not coming home */
@@ -32,8 +32,8 @@ enum
 
 /* ---- The body ---- */
 
-static bt_status
-vehicle_at_end (const bt_dive *dive, int i, int *vehicle, bt_error *error)
+bt_status
+bt__vehicle_at_end (const bt_dive *dive, int i, int *vehicle, bt_error *error)
 {
   bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
   if (status != BT_OK)
@@ -53,11 +53,16 @@ hull_radius (const bt_dive *dive, int vehicle)
   return 0.5 * cbrt (size.x * size.y * size.z);
 }
 
-/* How far the hull reaches from its middle: what flies turns as it likes.  */
-static double
-hull_reach (const bt_dive *dive, int vehicle)
+double
+bt__way_reach (const bt_dive *dive, int vehicle)
 {
   return 0.5 * bt__norm (dive->model->vehicles[vehicle].size);
+}
+
+double
+bt__way_room (double reach)
+{
+  return fmax (reach, LEAST_RADIUS) + WAY_ROOM;
 }
 
 /* N, in the water as it is; what has no mass has no weight.  */
@@ -88,8 +93,8 @@ body_of (const bt_dive *dive, int vehicle, double winch, double grip)
   return body;
 }
 
-static int
-obstacle_of (const bt_dive *dive, uint32_t place)
+int
+bt__obstacle_at (const bt_dive *dive, uint32_t place)
 {
   return place == UINT32_MAX ? -1 : (int)dive->model->scene->object[place].id;
 }
@@ -117,7 +122,7 @@ bt_tether_prospect_by (const bt_dive *dive, int i, double winch, double grip, bt
 {
   bt__awareness *g;
   int vehicle;
-  bt_status status = vehicle_at_end (dive, i, &vehicle, error);
+  bt_status status = bt__vehicle_at_end (dive, i, &vehicle, error);
   if (status == BT_OK && bt__dive_tether (dive, dive->now, i)->parted)
     status = bt__fail (error, BT_ERR_UNSUPPORTED, "`%s' has parted: nothing hangs from its winch",
                        dive->model->tethers[i].name);
@@ -140,7 +145,7 @@ bt_tether_prospect_by (const bt_dive *dive, int i, double winch, double grip, bt
     }
   *out = (bt_prospect){ .answer = (bt_haul_answer)p.answer,
                         .reason = (bt_haul_reason)p.reason,
-                        .object = obstacle_of (dive, p.object),
+                        .object = bt__obstacle_at (dive, p.object),
                         .s = p.s,
                         .pull = p.pull,
                         .speed = p.speed };
@@ -155,8 +160,8 @@ bt_tether_prospect (const bt_dive *dive, int i, double winch, bt_prospect *out, 
 
 /* ---- Ways ---- */
 
-static int
-put_points (const bt__string *s, bt_vec3 *points, int max)
+int
+bt__put_points (const bt__string *s, bt_vec3 *points, int max)
 {
   for (uint32_t k = 0; k < s->n && (int)k < max; k++)
     points[k] = s->x[k];
@@ -172,7 +177,7 @@ bt_tether_taut_string (const bt_dive *dive, int i, bt_vec3 *points, int max, int
   if (status != BT_OK)
     return status;
   if (!g->open)
-    *n = put_points (g->taut, points, max);
+    *n = bt__put_points (g->taut, points, max);
   else
     for (*n = 0; *n < 2 && *n < max; ++*n)
       points[*n] = g->node[*n ? g->n - 1 : 0];
@@ -204,7 +209,7 @@ in_the_way (const bt_dive *dive, const bt__awareness *g, bt_vec3 p)
   bt__near near;
   return bt__scene_nearest (g->config.scene, g->config.on, &link, g->config.core, &near,
                             &dive->watch->count)
-             ? obstacle_of (dive, near.object)
+             ? bt__obstacle_at (dive, near.object)
              : -1;
 }
 
@@ -226,7 +231,7 @@ taut_among (const bt_dive *dive, const bt__awareness *g, bt_vec3 p, bt_vec3 *poi
   else
     {
       *length = bt__string_length (&g->config, string, &dive->watch->count);
-      *n = put_points (string, points, max);
+      *n = bt__put_points (string, points, max);
     }
   free (string);
   return status == BT_OK ? bt__stopped (bt__asker_of (dive), error) : status;
@@ -274,7 +279,7 @@ bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n
 {
   bt__awareness *g;
   int vehicle;
-  bt_status status = vehicle_at_end (dive, i, &vehicle, error);
+  bt_status status = bt__vehicle_at_end (dive, i, &vehicle, error);
   if (status == BT_OK)
     status = bt__watch_gaze (dive, i, &g, error);
   if (status != BT_OK)
@@ -284,18 +289,18 @@ bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n
       straight_home (g, points, max, n, out);
       return BT_OK;
     }
-  double reach = hull_reach (dive, vehicle), want = fmax (reach, LEAST_RADIUS) + WAY_ROOM;
+  double reach = bt__way_reach (dive, vehicle), want = bt__way_room (reach);
   bt__string *home = bt__watch_string (dive);
   if (!home)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for a way home");
   bt__route way
       = bt__way_home (dive->watch->taut, &g->config, g->taut, want, home, &dive->watch->count);
-  *n = put_points (home, points, max);
+  *n = bt__put_points (home, points, max);
   *out = (bt_route){ .needed = 1,
                      .feasible = way.clearance >= reach && way.length > 0,
                      .length = way.length,
                      .clearance = way.clearance,
-                     .obstacle = obstacle_of (dive, way.object),
+                     .obstacle = bt__obstacle_at (dive, way.object),
                      .longest = g->taut_length };
   free (home);
   return bt__stopped (bt__asker_of (dive), error);
@@ -306,14 +311,13 @@ static bt_route
 plan (const bt_dive *dive, const bt__awareness *g, double reach, bt__string *loop, bt__string *copy)
 {
   struct bt__watch *w = dive->watch;
-  bt__unwind u = bt__unwind_plan (w->taut, &g->config, g->taut, g->shortest,
-                                  fmax (reach, LEAST_RADIUS) + WAY_ROOM, g->out, reach, loop, copy,
-                                  &w->count);
+  bt__unwind u = bt__unwind_plan (w->taut, &g->config, g->taut, g->shortest, bt__way_room (reach),
+                                  g->out, reach, loop, copy, &w->count);
   return (bt_route){ .needed = u.needed,
                      .feasible = u.feasible,
                      .length = u.way.length,
                      .clearance = u.way.clearance,
-                     .obstacle = obstacle_of (dive, u.way.object),
+                     .obstacle = bt__obstacle_at (dive, u.way.object),
                      .longest = u.longest,
                      .left = u.left };
 }
@@ -324,7 +328,7 @@ bt_tether_unwind_plan (const bt_dive *dive, int i, bt_vec3 *points, int max, int
 {
   bt__awareness *g;
   int vehicle;
-  bt_status status = vehicle_at_end (dive, i, &vehicle, error);
+  bt_status status = bt__vehicle_at_end (dive, i, &vehicle, error);
   if (status == BT_OK)
     status = bt__watch_free (dive, i, &g, error);
   if (status != BT_OK)
@@ -335,11 +339,11 @@ bt_tether_unwind_plan (const bt_dive *dive, int i, bt_vec3 *points, int max, int
     return BT_OK;
   bt__string *loop = bt__watch_string (dive), *copy = bt__watch_string (dive);
   if (loop && copy)
-    *out = plan (dive, g, hull_reach (dive, vehicle), loop, copy);
+    *out = plan (dive, g, bt__way_reach (dive, vehicle), loop, copy);
   else
     status = bt__fail (error, BT_ERR_LIMIT, "no memory for a plan");
   if (status == BT_OK && out->needed)
-    *n = put_points (loop, points, max);
+    *n = bt__put_points (loop, points, max);
   free (loop);
   free (copy);
   return status == BT_OK ? bt__stopped (bt__asker_of (dive), error) : status;

@@ -341,31 +341,31 @@ bt__watch_prepare (const bt_dive *dive, bt_error *error)
 /* ---- The free way ---- */
 
 bt_status
-bt__watch_lay_way (const bt_dive *dive, int i, bt__awareness *g, int *found, bt_error *error)
+bt__watch_lay_way (const bt_dive *dive, int i, bt__awareness *g, bt_vec3 p, bt__string *way,
+                   int *found, bt_error *error)
 {
   struct bt__watch *w = dive->watch;
-  bt_vec3 ends[2] = { g->node[0], g->node[g->n - 1] };
+  bt_vec3 ends[2] = { g->node[0], p };
   bt__link chord = { ends[0], ends[1] };
   bt__near near;
-  g->has_free = 0;
   if (!bt__scene_nearest (g->config.scene, g->config.on, &chord, g->config.core, &near, &w->count))
     {
-      *found = bt__string_lay (g->shortest, ends, 2);
+      *found = bt__string_lay (way, ends, 2);
       return BT_OK;
     }
   bt_status status = bt__chart_grow (dive, i, g, error);
   *found = status == BT_OK && g->ways->tree
-           && bt__free_way (g->ways->tree, ends[0], ends[1], g->shortest, &w->count);
+           && bt__free_way (g->ways->tree, ends[0], ends[1], way, &w->count);
   return status;
 }
 
 bt_status
-bt__watch_tighten_way (const bt_dive *dive, bt__awareness *g, double *length, bt_error *error)
+bt__watch_tighten_way (const bt_dive *dive, const bt__awareness *g, bt__string *way, double *length,
+                       bt_error *error)
 {
   struct bt__watch *w = dive->watch;
-  *length = g->shortest->n == 2
-                ? bt__distance (g->shortest->x[0], g->shortest->x[1])
-                : bt__free_tighten (w->taut, &g->config, FREE_STEPS, g->shortest, &w->count);
+  *length = way->n == 2 ? bt__distance (way->x[0], way->x[1])
+                        : bt__free_tighten (w->taut, &g->config, FREE_STEPS, way, &w->count);
   return bt__stopped (bt__asker_of (dive), error);
 }
 
@@ -375,9 +375,11 @@ static bt_status
 find_free_way (const bt_dive *dive, int i, bt__awareness *g, double *length, bt_error *error)
 {
   int found;
-  bt_status status = bt__watch_lay_way (dive, i, g, &found, error);
+  g->has_free = 0;
+  bt_status status = bt__watch_lay_way (dive, i, g, g->node[g->n - 1], g->shortest, &found, error);
   *length = INFINITY;
-  return status == BT_OK && found ? bt__watch_tighten_way (dive, g, length, error) : status;
+  return status == BT_OK && found ? bt__watch_tighten_way (dive, g, g->shortest, length, error)
+                                  : status;
 }
 
 /* Find the free way: the shorter of the way home and the string.  Where the string is straight, it

@@ -83,14 +83,13 @@ bt_status bt__watch_look (const bt_dive *dive, int i, bt__awareness **out, bt_er
 /* The same, with its string solved.  */
 bt_status bt__watch_gaze (const bt_dive *dive, int i, bt__awareness **out, bt_error *error);
 
-/* bt__watch_lay_way puts the shortest way home known without the string into the way of G: the
-   chord where the chord is clear, else the tree's way; *FOUND tells success.
-   bt__watch_tighten_way tightens the way of G within its homotopy class; *LENGTH receives the
-   length, m.  */
-bt_status bt__watch_lay_way (const bt_dive *dive, int i, bt__awareness *g, int *found,
-                             bt_error *error);
-bt_status bt__watch_tighten_way (const bt_dive *dive, bt__awareness *g, double *length,
-                                 bt_error *error);
+/* bt__watch_lay_way puts into WAY the shortest way known from the anchor of tether I, of which G is
+   known, to P: the chord where the chord is clear, else the tree's way; *FOUND tells success.
+   bt__watch_tighten_way tightens WAY within its homotopy class; *LENGTH receives the length, m.  */
+bt_status bt__watch_lay_way (const bt_dive *dive, int i, bt__awareness *g, bt_vec3 p,
+                             bt__string *way, int *found, bt_error *error);
+bt_status bt__watch_tighten_way (const bt_dive *dive, const bt__awareness *g, bt__string *way,
+                                 double *length, bt_error *error);
 
 /* As bt__watch_gaze, with the free way; and with the word.  */
 bt_status bt__watch_free (const bt_dive *dive, int i, bt__awareness **out, bt_error *error);

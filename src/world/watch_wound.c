@@ -90,7 +90,8 @@ quick_loops (const bt_dive *dive, int i, bt__awareness *g, int *known, bt_error 
   *known = 1;
   if (merely_passes (g))
     return BT_OK;
-  bt_status status = bt__watch_lay_way (dive, i, g, known, error);
+  g->has_free = 0;
+  bt_status status = bt__watch_lay_way (dive, i, g, g->node[g->n - 1], g->shortest, known, error);
   if (status == BT_OK && *known)
     bt__caught_find (&g->loops, g->node, g->n, g->shortest->x, g->shortest->n, NULL);
   return status == BT_OK ? bt__stopped (bt__asker_of (dive), error) : status;
@@ -337,7 +338,7 @@ look_again (const bt_dive *dive, int i, bt__awareness *g, const int8_t *told, do
   if (!is_as (dive, g, told))
     return BT_OK;
   if (g->loops.any)
-    status = bt__watch_tighten_way (dive, g, &length, error);
+    status = bt__watch_tighten_way (dive, g, g->shortest, &length, error);
   *same = status == BT_OK && (!g->loops.any || length <= least);
   return status;
 }

@@ -4,7 +4,8 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (ice-9 exceptions)
+(use-modules ((bight test expect) #:select (exception->line))
+             (ice-9 exceptions)
              (srfi srfi-4))
 
 (define-syntax-rule (refused form kind)
@@ -63,6 +64,15 @@
 
 
 ;;; Before there is a dive.
+
+(define-scenario guile-s-own-refusals
+  "What Guile itself refuses is told in a line; Guile 3.0.8 raises some of it with a value that is none."
+  (for-each (lambda (wrong)
+              (expect (guard (e (#t (exception->line e))) (wrong) #f)
+                      is (lambda (line) (string-contains line "out of range: -"))))
+            (list (lambda () (list-ref '(1 2) -1)) (lambda () (make-string -1)) (lambda () (make-hash-table -2))
+                  (lambda () (string-pad "a" -1)) (lambda () (list-set! (list 1) -3 0))
+                  (lambda () (logbit? -1 3)) (lambda () (string-ref "abc" -1)))))
 
 (define-scenario no-dive
   "Without a dive every verb says how to start one."

@@ -20,6 +20,7 @@
             bight-error-kinds
             bight-raise
             raise-engine-error
+            whole-args
             unknown-name
             nearest
             did-you-mean
@@ -119,6 +120,24 @@ with ~a, ~s and ~~ filled in from ARGS, which are abbreviated there and kept who
                port))))
 
 (set-exception-printer! 'unbound-variable print-unbound)
+
+;; Guile 3.0.8 raises what is out of the range of an unsigned number with a first irritant, the least value, that is
+;; no value at all: whoever looks at it dies.
+(define of-a-range "Value out of range ~S to< ~S: ~S")
+
+(define (whole-args args)
+  "Return ARGS of an exception, (PROCEDURE MESSAGE IRRITANTS . REST), with irritants that can be looked at."
+  (if (and (pair? args) (pair? (cdr args)) (equal? of-a-range (cadr args)))
+      (cons* (car args) "Value out of range: ~S; it may be ~S at most" (reverse (cdr (caddr args))) (cdddr args))
+      args))
+
+(define (print-out-of-range port key args default-printer)
+  (let ((args (whole-args args)))
+    (when (car args)
+      (simple-format port "~a: " (car args)))
+    (apply simple-format port (cadr args) (map abbreviate (caddr args)))))
+
+(set-exception-printer! 'out-of-range print-out-of-range)
 
 
 ;;; Showing what was given, however large, deep or circular.

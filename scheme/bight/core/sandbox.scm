@@ -151,8 +151,9 @@
     ((bight dive time))
     ((bight lesson) run-lesson lesson-list lesson-code lesson-location collect-lessons take-lesson
      scripted-guide pilot-named register-lesson! unknown-clause malformed-clause malformed-lesson)
-    ((bight dive aware) vehicle-of unwind-said)
-    ((bight dive homing))
+    ((bight dive aware) vehicle-of unwind-said members-of)
+    ((bight dive homing) untold-fork)
+    ((bight dive tour))
     ((bight dive instruments))
     ((bight dive foresight))
     ((bight dive in-words))

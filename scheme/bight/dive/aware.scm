@@ -30,6 +30,8 @@
             windings
             ;; For (bight dive homing).
             vehicle-of unwind-said
+            ;; For (bight dive tour).
+            members-of
             ;; For panels.
             windings->strings))
 

@@ -22,7 +22,9 @@
   #:use-module ((bight shell progress) #:select (without-telling))
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-11)
-  #:export (fly-home! home-trial unwind-preview))
+  #:export (fly-home! home-trial unwind-preview
+            ;; For (bight dive tour).
+            untold-fork))
 
 (define tick 0.1)                       ; s between looks at winch and vehicle
 (define near-home 0.8)                  ; m of the anchor is home

@@ -176,7 +176,7 @@ expectations do, or where it was raised, or #f."
                (lambda (port)
                  ;; Guile's printer goes down into circular and deep irritants for ever.
                  (print-exception port #f (exception-kind exception)
-                                  (map abbreviate (exception-args exception)))))))
+                                  (map abbreviate (whole-args (exception-args exception))))))))
     (string-join (remove string-null? (map tidy-line (string-split text #\newline))) " ")))
 
 
