@@ -1,5 +1,16 @@
 /* From points on members to a graph, and the rank of its group.
 
+   Points of one member are sorted along its axis.  Neighbouring points with water between them
+   become an edge; a stretch in the ground, in the air or in a mesh becomes none.  Points of one
+   joint are united by union-find (bt__unite, bt__joint_of) and make one vertex.  Boundary vertices,
+   where a member enters the ground or leaves the water, get an edge that leads on far past
+   everything.
+
+   The complement of an unknotted graph has a free group; the rank of the group is the number of
+   edges less the number of inner vertices, plus one for every component that touches no boundary.
+   bt__graph_rank counts this number; shadow.c compares it with the rank that is left after the
+   elimination.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <stdlib.h>
@@ -72,7 +83,7 @@ lay_edges (bt__graph_job *k, bt__graph *g, bt__point **at, uint32_t n, const uin
     }
 }
 
-/* Lead every vertex in the ground straight down, every one in the air straight up.  */
+/* Lead every vertex in the ground straight down, every vertex in the air straight up.  */
 static void
 lead_away (bt__graph *g)
 {

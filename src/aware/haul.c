@@ -1,5 +1,29 @@
 /* Hauling home, the way home, the loop that unwinds.
 
+   The instant rule (bt__haul_prospect) walks the bends of the taut string from the winch to the
+   vehicle.  Behind each bend the pull is less by the capstan factor exp (-mu theta) of Euler and
+   Eytelwein.  Three questions are asked, in this order:
+
+   Locked: the pull at the vehicle, winch over the product of all capstan factors, is less than the
+   vehicle's weight in water or the least force that moves the vehicle.  The rule is sure if the
+   same holds with the share `grip' of the angles alone.
+
+   Hung: at a bend of more than 0.3 rad the vehicle, taken as a ball of radius R, must climb round a
+   member of radius r.  The share of the pull along the contact is s = r / (r + R); friction of the
+   body takes mu_b sqrt (1 - s^2) of the pull.  The body hangs if the remainder is less than its
+   weight and 1 N more.  A share of 0 or less means hung at any pull: a thin member or an edge
+   catches the body.
+
+   Wedged: the string pushed out to the vehicle's radius finds no room (bt__haul_wedge), or the
+   string passes two surfaces within the body's radius that face each other (bt__haul_crotch).
+
+   Ways come from the string itself.  The way home is the taut string reversed, pushed out from
+   obstacles by the planes of the same quadratic programme (taut_solve.c) with a greater distance.
+   The loop that unwinds is the string backwards followed by the free way, drawn tight: its homotopy
+   class is T^-1 F, and flying the loop leaves the tether in the class of the free way. preview
+   leads a copy of the string along the loop in steps of 0.3 m and reports the greatest length on
+   the way.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <string.h>
@@ -22,7 +46,7 @@ enum
 
 /* ---- The instant rule ---- */
 
-/* The speed at which what reaches the vehicle is used up.  */
+/* Return the speed, m/s, at which the drag of the vehicle equals FORCE, N.  */
 static double
 hauling_speed (const bt__haul_body *b, double force)
 {
@@ -81,7 +105,7 @@ say (bt__prospect *p, bt__answer answer, bt__haul_reason reason, uint32_t object
   p->s = s;
 }
 
-/* Where most of the friction is.  */
+/* Return the bend with the most friction, the greatest mu theta.  */
 static bend
 worst_bend (const bt__holds *h, double width)
 {
@@ -168,8 +192,8 @@ bt__haul_crotch (const bt__taut_config *config, const bt__string *string, const 
 
 /* ---- Ways ---- */
 
-/* How near STRING comes to anything but within SPARE of its ends, where the body is already, or has
-   come.  */
+/* Return the clearance of STRING and its place.  The stretches within SPARE of the ends are left
+   out: the body is at one end and arrives at the other.  */
 static bt__route
 measure_route (const bt__taut_config *config, double spare, double cap, const bt__string *string,
                bt__count *count)
@@ -250,7 +274,8 @@ lay_loop (const bt__string *string, const bt__string *free_way, bt__string *loop
   return 1;
 }
 
-/* Lead COPY along LOOP; return 0 if it cannot be.  *LONGEST is how long it became.  */
+/* Lead the end of COPY along LOOP; return 0 if an obstacle stops the end. *LONGEST is the greatest
+   length of COPY on the way.  */
 static int
 preview (bt__taut *taut, const bt__taut_config *config, const bt__string *loop, bt__string *copy,
          double *longest, bt__count *count)

@@ -1,4 +1,4 @@
-/* Can the vehicle be hauled home, and which way does it get free by itself?
+/* Can the vehicle be hauled home, and along which way does the vehicle get free by itself?
 
    The instant rule looks at the taut string alone.  Capstan friction seldom holds a tether.  Mostly
    the body of the dead vehicle stops a haul: hung on a thin member or an edge round which the

@@ -1,6 +1,16 @@
 /* Holds: the bending angle at a node is credited to the object nearest to the adjacent halves of
    the node's two links.
 
+   A taut string bends only where an obstacle pushes it, so angles add up to the angles of contact
+   of the capstan law T_b = T_a exp (mu theta), whatever the mesh: bt__holds_lock is the product of
+   the exponentials.
+
+   A string round a round member is a polygon that touches the member's arc from outside.  At a
+   corner of angle t the polygon is longer than the arc by 2 rho tan (t / 2) - rho t, with rho the
+   radius of the line's arc: the member's radius plus the core, over sin^2 of the angle to the
+   member's axis for a helix. bt__holds_length takes this excess off, provided that the two tangents
+   of a corner fit on its links; a coarser polygon is left as it is.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include "aware/hold.h"

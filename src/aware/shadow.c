@@ -1,5 +1,34 @@
 /* Making shadows: crossings, cuts, relations, the choice of a direction.
 
+   The method is the Wirtinger presentation, as for knots, of a graph of members instead of a closed
+   curve (shadow.h).  Vertices are projected on the plane (u, z) across a horizontal direction; w is
+   the depth along the direction.  Steps of the construction:
+
+   1. jitter moves every vertex a little, from a fixed seed, so that no three edges cross in one
+   point of the picture and no edge lies on another.  Without the jitter the horizontals of a jacket
+   cover each other, and wrong relations are left.
+
+   2. find_shadow_crossings tests all pairs of edges that share no vertex.  At a crossing the edge
+   with the greater depth passes behind.
+
+   3. make_cuts cuts every edge where the edge passes behind another edge.  The pieces are the
+   generators; an edge with k cuts has k + 1 letters in a row, from the edge's first vertex on.
+
+   4. relate_crossing writes, for the edge f in front and the letters g and g' of the edge behind
+   before and after the cut, f g' f^-1 g^-1 = 1, or the mirror image f g^-1 f^-1 g' = 1.
+   relate_vertex writes for every inner vertex that the letters of its edges, sorted by their angle
+   in the picture, multiply to 1; an edge that arrives counts inverted.  A vertex in the ground or
+   in the air (a boundary) gives no relation: a loop cannot be drawn off over such an end.
+
+   5. tietze.c eliminates letters. choose_direction repeats steps 2 to 5 for several angles and
+   keeps the angle with the fewest relations left over, then the shortest words, then the fewest
+   crossings.
+
+   A group without relations left over is free, and reduced words then decide the class.  The rank
+   must be the first Betti number of the graph modulo its boundary; `decided' is true only if rank
+   and relations agree with this and no obstacle went undescribed.  Edges are finally sorted into
+   square bins of the picture, so that a question looks at few of them.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <stdlib.h>
@@ -100,7 +129,8 @@ last_letter (const bt__shadow *x, uint32_t e)
 
 /* ---- Relations ---- */
 
-/* Once round the crossing, counter-clockwise, behind both: nothing.  */
+/* A small loop round the crossing, counter-clockwise and deeper than both edges, encloses nothing:
+   the product of the letters on the way is 1.  */
 static void
 relate_crossing (bt__shadow *x, const bt__crossing *c)
 {

@@ -1,4 +1,14 @@
-/* Asking shadows: the strips a line crosses, link by link, their letters multiplied.
+/* Asking shadows: the strips that a line crosses, link by link, with their letters multiplied.
+
+   A link of the line crosses the shadow of an edge if the two segments cross in the picture (u, z)
+   and the link is deeper there than the edge.  The letter of the edge's piece enters with the sign
+   of the side to which the link goes.  Passages of one link are sorted by their place on the link,
+   then every letter is replaced by its word in the generators that Tietze elimination has left, and
+   the product is reduced freely as the word grows (word.c).
+
+   Time per link is that of the edges in the bins under the link.  An edge and a link may share
+   several bins; the pair is tested in the first of the shared bins alone.  A link that crosses more
+   than 64 shadows makes the word `lost', which equals no word.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -39,7 +49,8 @@ insert_passage (passages *list, double s, int32_t letter)
   list->at[i] = (passage){ s, letter };
 }
 
-/* What the link from A to B does with edge E.  */
+/* Add to LIST the passage of the link from A to B through the shadow of edge E, if the link crosses
+   the shadow.  */
 static void
 pass_shadow (const bt__shadow *x, bt__flat a, bt__flat b, uint32_t e, passages *list)
 {
@@ -52,7 +63,8 @@ pass_shadow (const bt__shadow *x, bt__flat a, bt__flat b, uint32_t e, passages *
   insert_passage (list, s, bt__side_of (c, d, b) > bt__side_of (c, d, a) ? letter : -letter);
 }
 
-/* True if bin (I, J) is the first that areas A and B share: there a pair is looked at.  */
+/* True if bin (I, J) is the first bin that areas A and B share.  A pair is tested in this bin
+   alone.  */
 static int
 is_first (const bt__area *a, const bt__area *b, uint32_t i, uint32_t j)
 {

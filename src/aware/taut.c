@@ -1,5 +1,20 @@
 /* The taut string's state: laid, led by its ends, relaxed, seeded anew.
 
+   One outer step is: look (taut_look.c), solve (taut_solve.c), obey (taut_solve.c), and accept the
+   step if the string got shorter by more than 1e-9 m.  A refused step is tried again with forty
+   times the proximal weight, four tries at most; a large weight keeps the nodes near their places.
+   A string that is to be pushed out from obstacles may grow, and every one of its steps is
+   accepted.
+
+   The string is settled after three steps in a row that each gained less than a millionth of its
+   length.  A settled string costs nothing until an end moves or bt__string_wake is called.
+
+   Ends are led by new nodes: the link from the old to the new end must be clear, then the old end
+   becomes an inner node and relaxes.  So the homotopy class of the string is the class of the
+   tether as long as the tether passes through nothing. bt__taut_reseed lays a fresh string along
+   the tether and takes the fresh string over if it is clearly shorter: the tether then has slipped
+   off an obstacle that does not hold it.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <stdlib.h>

@@ -1,9 +1,17 @@
-/* Before a step: the mesh, and the planes between links and what is near.
+/* Before a step: the mesh, and the planes between links and near obstacles.
 
    Near obstacles links are of about the mesh size, elsewhere as long as possible.  A node is
    dropped if the triangle of the node and its neighbours is clear.  Far from obstacles the distance
    of both links, compared with the height of the triangle, decides; near an obstacle the new link
    is tested.
+
+   For every link the parts within the margin are listed, and each part gives a plane: normal along
+   the shortest way from the part to the link, at the core's distance from the part, or through the
+   link's nearer node where the link is closer already (hard), and at the wanted distance (soft).
+   Since a part is convex and the link lies on one side, the plane separates the two; parts of equal
+   normals share a plane.  A link keeps its 16 nearest planes.  Parts without a plane bound the
+   moves of the link's nodes to 0.9 of their distance less the core (t->most), so no node reaches an
+   unlisted part within the step.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,9 +1,9 @@
 /* A group given by letters and relations, and as few of both as simple moves leave.
 
-   Tietze elimination: a relation in which a letter occurs once says what that letter is; it is put
-   in for it everywhere.  When none is left, Nielsen moves that shorten.  Without relations left the
-   group is free on the letters left, and reduced words in them decide it.  At load only: it
-   allocates.
+   Tietze elimination: a relation in which a letter occurs once expresses the letter by the other
+   letters; this word replaces the letter everywhere.  When no such relation is left, Nielsen moves
+   shorten the relations.  Without relations left the group is free on the remaining letters, and
+   reduced words decide equality.  At load only: it allocates.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,4 +1,9 @@
-/* The trailing line: see trail.h.
+/* The trailing line: a chain of tractrices (trail.h).
+
+   The end is moved, then each point is drawn towards the next point along their straight link until
+   the link has its old length: the discrete tractrix, also known as "follow the leader".  The walk
+   stops at the first link that was not tight.  If the pull reaches the anchor, the same walk runs
+   back from the anchor, so the anchor stays and the end keeps the place it was given.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,5 +1,20 @@
 /* Turns, winding and linking: sums of angles, each by one atan2.
 
+   Turns of a polyline about an axis are the sum, over the links, of the angle between the two ends
+   of the link as seen along the axis.  Each angle is below half a turn and comes from the
+   components of cross and scalar product, so the sum is exact but for rounding, however the line
+   lies.  A link through the axis itself counts as 0.
+
+   The winding is the turns rounded to a whole number, halves towards 0: a straight line past an
+   axis turns by less than half a turn and has winding 0.
+
+   Linking of two closed polylines is Gauss's integral, summed over pairs of links.  The differences
+   between points of two straight links fill a parallelogram, and the integral is the solid angle of
+   the parallelogram seen from the origin, taken as two triangles by the formula of Van Oosterom and
+   Strackee (1983), tan (omega / 2) = a . (b x c) / (|a||b||c| + (a . b) |c| + (b . c) |a| + (c . a)
+   |b|).  The sum over 4 pi is whole for closed lines that do not touch; bt__linking also returns
+   how far the sum was from the whole number.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include "aware/turns.h"
@@ -91,7 +106,8 @@ half_angle (bt_vec3 a, bt_vec3 b, bt_vec3 c)
   return atan2 (volume, x * y * z + bt__dot (a, b) * z + bt__dot (b, c) * x + bt__dot (c, a) * y);
 }
 
-/* Of link A to B and link C to D: Gauss' integral over 2 pi.  */
+/* Half the solid angle of the parallelogram of links A to B and C to D: their part of Gauss's
+   integral.  */
 static double
 half_angle_of_links (bt_vec3 a, bt_vec3 b, bt_vec3 c, bt_vec3 d)
 {

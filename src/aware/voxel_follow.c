@@ -1,4 +1,16 @@
-/* Following a line through the voxels.
+/* Following a line through the voxels: the word of a line that passes between the middles of cells.
+
+   The present point P of the line is joined to the middle of a clear cell by a clear segment.
+   While P moves on to Q, the triangle of the middle, P and Q must be clear; then no obstacle lies
+   between the old and the new segment, and the class is kept.  If the triangle is not clear, the
+   segment changes to a cell up to two steps away, over steps that are clear and in sight of P, and
+   the labels of these steps are multiplied to the word.  Between pieces the segment changes to
+   neighbours nearer to P (come_near), so that segments stay short and most triangles are known to
+   be clear from the distance of the cell.
+
+   Pieces are half a cell long and halved where no cell is found; a line that would need pieces
+   below a fiftieth of a cell is `lost'.  Both ends finish at the cell nearest to them, so that the
+   word depends on the ends and on the class of the line, not on the cells along the way.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -6,7 +18,7 @@
 
 #include "aware/voxel_job.h"
 
-/* The line is at P, joined to the middle of CELL; nothing is in between.  */
+/* The line is at P, joined to the middle of CELL by a clear segment.  */
 typedef struct follower
 {
   const bt__voxels *v;
@@ -50,7 +62,7 @@ can_step (const bt__voxels *v, uint32_t cell, int axis, int way, uint32_t *to)
   return v->open[way > 0 ? cell : *to] >> axis & 1;
 }
 
-/* Change to neighbours nearer to the line while that is clear.  */
+/* Change to neighbours nearer to the line while the way to the neighbour is clear.  */
 static void
 come_near (follower *f)
 {
@@ -72,7 +84,7 @@ come_near (follower *f)
     }
 }
 
-/* The line goes on to Q: with this cell, or with one a step or two away.  */
+/* Move the line on to Q with its present cell or with a cell up to DEPTH steps away.  */
 static int
 go_on (follower *f, bt_vec3 q, int depth)
 {
@@ -143,7 +155,7 @@ arrive_at_cell (follower *f, uint32_t target, int depth)
   return 0;
 }
 
-/* Follow to Q in pieces of half a cell, finer where that fails.  */
+/* Follow the line to Q in pieces of half a cell, in finer pieces where no cell is found.  */
 static int
 follow_in_pieces (follower *f, bt_vec3 q)
 {

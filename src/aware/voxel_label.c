@@ -1,4 +1,25 @@
-/* Labels on the steps between voxels.
+/* Labels on the steps between voxels: generators and relations of the edge-path group.
+
+   The edge-path group of a complex has a generator for every step outside a spanning tree and a
+   relation for every square.  A grid has far more steps than holes, so generators are not written
+   down and eliminated; labels are propagated instead:
+
+   1. grow_trees labels the steps of a spanning tree of every connected part of the water, found
+   breadth first, with the empty word.
+
+   2.  A clear square with exactly one unlabelled step settles the label of the step: the product
+   once round the square is 1.  The settled step is queued, and the squares about the step are
+   looked at next (spread_labels).  Every step is queued once.
+
+   3.  When the queue is empty, the next clear step without a label gets a new letter as its label,
+   and step 2 goes on.  Each new letter stands for a hole, or for a loop that a later square will
+   relate.
+
+   4.  Squares whose four labels do not cancel are relations (relate_squares), gathered until there
+   are 4096; tietze.c eliminates letters by them.
+
+   Labels are numbers of words in a pool with a hash table, since most steps share a few words.  A
+   label longer than 512 letters, or no memory, makes the grid fail as a whole.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -132,7 +153,8 @@ multiply (const bt__voxels *v, stack *s, int32_t label, int inverse)
     }
 }
 
-/* Put into *S what comes after step WHICH once round; all the others are labelled.  */
+/* Put into *S the product of the labels of the three steps after step WHICH, once round the square;
+   the three are labelled.  */
 static void
 round_from (const bt__voxels *v, const uint32_t step[4], int which, stack *s)
 {
@@ -145,7 +167,8 @@ round_from (const bt__voxels *v, const uint32_t step[4], int which, stack *s)
     }
 }
 
-/* If one step of the square has no label, give it; return it, or BT__NOWHERE.  */
+/* If exactly one step of the square has no label, label the step and return its number; else return
+   BT__NOWHERE.  */
 static uint32_t
 settle_square (bt__voxels *v, uint32_t cell, int axis)
 {
@@ -164,7 +187,8 @@ settle_square (bt__voxels *v, uint32_t cell, int axis)
     return BT__NOWHERE;
   round_from (v, step, missing, &s);
   v->pool.failed |= s.full;
-  /* Forwards it is the inverse of what comes after it, backwards that itself.  */
+  /* A step gone forwards is the inverse of the product of the steps after it, a step gone backwards
+     the product itself.  */
   for (uint32_t i = 0; missing < 2 && i < s.n / 2 + s.n % 2; i++)
     {
       int32_t swap = -s.letter[i];
@@ -185,7 +209,8 @@ start_labels (bt__voxels *v)
   number_of (&v->pool, NULL, 0);
 }
 
-/* A tree over the clear cells of every part of the water: its steps are nothing.  */
+/* Grow a tree over the clear cells of every connected part of the water; label 0, the empty word,
+   for its steps.  */
 static void
 grow_trees (bt__voxels *v, uint8_t *seen)
 {
@@ -239,7 +264,8 @@ empty_queue (bt__voxels *v, uint32_t *head, uint32_t *tail)
     spread_labels (v, v->queue[(*head)++], tail);
 }
 
-/* A step is queued once, when it is labelled: there is room for all.  */
+/* Label all steps; return the number of generators.  A step is queued once, when the step gets its
+   label, so the queue has room for all.  */
 static uint32_t
 label_steps (bt__voxels *v)
 {
@@ -262,7 +288,7 @@ label_steps (bt__voxels *v)
   return generators;
 }
 
-/* What squares say beyond their labels.  */
+/* Make relations of the squares whose labels do not cancel.  */
 static void
 relate_squares (bt__voxels *v)
 {
@@ -281,7 +307,8 @@ relate_squares (bt__voxels *v)
         multiply (v, &s, v->label[step[3]], 1);
         if (s.n == 0)
           continue;
-        /* Neighbours say the same: keep what differs from the last.  */
+        /* Neighbouring squares mostly give the same relation: keep a relation only if it differs
+           from the last.  */
         int32_t word = number_of (&v->pool, s.letter, s.n);
         if (word != last)
           bt__group_relate (&v->group, s.letter, s.n);
