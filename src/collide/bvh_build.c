@@ -1,7 +1,7 @@
 /* Building the tree: the items are parted by the surface area heuristic over bins (Wald 2007), the
    largest part of a node first, until the node has its eight children; then each child in turn.
 
-   Below DEEP levels parts are halved, so that no arrangement of boxes makes the tree deep.
+   Below DEEP levels parts are halved: no arrangement of boxes makes the tree deep.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -184,8 +184,8 @@ best_cut (const bin bins[BINS], int *at)
   return best;
 }
 
-/* A small part is tried along all axes, a large one along its longest: there the cuts matter less
-   and the time more.  */
+/* Try the cuts of a small part along all axes, of a part of more than 4096 items along the longest
+   axis alone: the cut of a large part matters less and costs more time.  */
 static int
 find_cut (const bt__bvh *tree, const part *p, cut *out)
 {
@@ -235,7 +235,7 @@ move_apart (bt__bvh *tree, const part *p, const cut *c)
   return i - p->first;
 }
 
-/* Part P in two, neither empty.  */
+/* Split part P in two parts, neither empty.  */
 static void
 split (bt__bvh *tree, part *p, part *other, int halve)
 {
@@ -253,7 +253,7 @@ split (bt__bvh *tree, part *p, part *other, int halve)
 
 /* ---- Nodes ---- */
 
-/* The part to split next: the largest of more than LEAST items, or -1.  */
+/* Return the largest part of more than LEAST items, to be split next, or -1.  */
 static int
 largest_part (const part *parts, int n, uint32_t least, int halve)
 {

@@ -1,7 +1,7 @@
 /* A ray through the tree, nearer boxes first: slabs (Kay and Kajiya 1986), eight boxes at a time.
 
-   The boxes are grown by SLACK of the largest coordinate, which is more than all the roundings of
-   floats in the test come to.
+   The boxes are grown by SLACK of the largest coordinate, more than the sum of all roundings of
+   floats in the test.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -65,7 +65,7 @@ boxes_met (const bt__bvh_node *node, const probe *p, float reach, float enter[BT
   return hits;
 }
 
-/* Of the children of one node, which begin at BASE, the nearest goes on top.  */
+/* Bring the nearest of the children of one node, pushed from BASE on, to the top.  */
 static int
 push_met (entry *stack, int base, int depth, entry e)
 {

@@ -1,13 +1,25 @@
-/* Conservative advancement with planar advance.
+/* Conservative advancement (Mirtich 1996), of a segment against one convex part, with a planar
+   advance.
 
-   At any time the part lies behind the plane through its nearest point across the shortest way to
-   the link (it is convex), and the link before it.  So the ends may go 0.9 of the way to that plane
-   moved by the core; and no point of the link may come nearer than it moves.  The larger of both
-   steps is taken, the distance measured anew, until the move is over or the link is within 2 % of
-   the core radius of the core.  An end at the plane may still move along it or away: links slide.
+   Two bounds on the next share of the move are known after each measurement of the distance:
 
-   A scene that turns has no such planes standing still; there only the second bound serves, with
-   the speed of the link against the scene's origin plus the turn's at the scene's radius.
+   - No point of the segment may move farther than the present gap, distance less core radius; the
+   speed is that of the faster end, and 0.9 of the bound is taken.
+
+   - The part is convex, so at any time the part lies behind the plane through its nearest point
+   across the shortest way, and the segment before the plane.  So each end may go 0.9 of the way to
+   the plane moved by the core radius; an end that moves along the plane or away from the plane is
+   not bounded at all, and segments slide over a surface in one advance.
+
+   The larger bound is taken and the distance measured anew, until the move is over or the segment
+   is within 2 % of the core radius of the core.  If neither end reaches the plane before the end of
+   the move, the whole move is safe without another measurement.
+
+   The planes of a part that turns do not stand still: only the first bound serves, with the turn's
+   speed at the scene's radius added to the speed of the segment.
+
+   Result: a share of the move for which the segment stays the core radius away from the part, 1 for
+   all of it.  Rounding is covered by stopping at 1e-4 of the core radius.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -19,7 +31,7 @@ enum
 };
 
 #define SAFETY 0.9
-#define NEAR 0.02  /* of the core: near enough to stop */
+#define NEAR 0.02  /* of the core: the advance stops here */
 #define FLOOR 1e-4 /* of the core: nearer than this nothing comes nearer */
 
 /* ---- Motions ---- */
@@ -75,7 +87,7 @@ link_at_share (const bt__cast *c, double t)
   return (bt__link){ bt__to_local (&f, link.a), bt__to_local (&f, link.b) };
 }
 
-/* The ends' moves against the part, in its frame; of one that turns, in the frame at the start.  */
+/* The ends' moves against the part, in the part's frame at the start of the motion.  */
 static void
 relative (const bt__cast *c, bt_vec3 *da, bt_vec3 *db)
 {

@@ -1,4 +1,4 @@
-/* Moving a link against one part of a scene until they come near.
+/* How far a link may move against one part of a scene: continuous collision detection.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -19,8 +19,8 @@ typedef struct bt__cast
   double core;
 } bt__cast;
 
-/* Return the largest share of the move that is known to keep the axis of the link CORE away from
-   the part, if it was so at the start; 1 if all of it is.  */
+/* Return a share of the move that keeps the axis of the link CORE away from the part, provided that
+   the start keeps this distance; 1 for the whole move.  */
 double bt__cast_run (const bt__cast *cast, bt__count *count);
 
 #endif

@@ -1,11 +1,17 @@
-/* GJK distance.
+/* GJK distance (Gilbert, Johnson and Keerthi 1988).
 
-   The simplex lives in A - B.  Its point nearest to 0 is sought over all its faces that have the
-   new vertex, each answer a point of the simplex, the smallest wins: slower than walking Voronoi
-   regions, but a nearly flat simplex cannot mislead it: where rounding leaves nothing to gain the
-   simplex is made of its point alone, and grows again.  It ends when the support shows that no
-   point is nearer by more than rounding, when a support repeats, or when even then nothing is
-   gained.
+   The simplex of up to four vertices lives in the Minkowski difference A - B, whose nearest point
+   to 0 gives the distance.  A step asks the support of the difference against the present nearest
+   point, adds the vertex to the simplex, and reduces the simplex to the face with the point nearest
+   to 0.
+
+   The reduction measures all faces that have the new vertex and takes the nearest: slower than
+   walking Voronoi regions, but a nearly flat simplex cannot mislead the reduction.  Where rounding
+   leaves nothing to gain, the simplex is replaced by its nearest point and grows again.
+
+   The iteration ends when the support shows that no point is nearer by more than rounding, when a
+   support repeats, or when even a restart gains nothing.  If 0 lies inside the tetrahedron by more
+   than rounding, the shapes overlap and the distance is 0.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -81,8 +87,8 @@ try_face (const simplex *x, int i, int j, int k, part *best)
   keep_smaller (best, &p, x);
 }
 
-/* True if 0 is on the same side of the face of X without vertex I as that vertex, and clearly
-   so: by more than the roundings of the vertices make of the face's normal.  */
+/* True if 0 and vertex I are on the same side of the opposite face of X, by more than rounding: by
+   more than the roundings of the vertices make of the face's normal.  */
 static int
 is_inside_of (const simplex *x, int i, double scale)
 {
@@ -108,7 +114,7 @@ static bt_vec3
 reduce (simplex *x)
 {
   part best = { .square = INFINITY };
-  int last = x->n - 1; /* without it nothing is gained */
+  int last = x->n - 1; /* without the new vertex nothing is gained */
   try_vertex (x, last, &best);
   for (int i = 0; i < last; i++)
     try_simplex_edge (x, i, last, &best);
@@ -212,7 +218,7 @@ bt__gjk (const bt__convex *a, const bt__convex *b, bt__gap *out)
         }
       if (gain (&x, &next, &v, &size))
         continue;
-      /* Stalled: from the point itself straight towards the new vertex there is a way down.  */
+      /* Stalled: a way down leads from the nearest point straight towards the new vertex.  */
       x = collapsed (&x, v);
       if (!gain (&x, &next, &v, &size))
         break;

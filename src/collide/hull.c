@@ -1,8 +1,8 @@
 /* Convex hulls by Qhull (Barber, Dobkin, Huhdanpaa 1996), its faces cut into triangles.
 
-   Qhull is asked in coordinates about the points' middle and of size 1, so that its tolerances mean
-   the same at every scale; the hull keeps the points as they were given.  Faces that Qhull merges
-   may leave a vertex a rounding outside a plane: the offset of a face is raised to hold them all.
+   Qhull works in coordinates about the middle of the points and of size 1, where its tolerances
+   mean the same at every scale; the hull keeps the given points.  Faces that Qhull merges may leave
+   a vertex a rounding outside a plane: the offset of a face is raised to hold them all.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -189,7 +189,8 @@ by_vertices (const void *a, const void *b)
   return first ? first : second ? second : (e->face[0] > f->face[0]) - (e->face[0] < f->face[0]);
 }
 
-/* Every side of every face, sorted so that the two sides of an edge meet, then joined.  */
+/* Join the two sides of every edge: list the sides of all faces and sort the list, so that the two
+   sides of an edge are neighbours.  */
 static int
 take_edges (bt__hull *h)
 {

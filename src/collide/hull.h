@@ -36,8 +36,8 @@ struct bt__hull
   int *first, *other; /* the neighbours of vertex i: other[first[i]] to other[first[i + 1] - 1] */
 };
 
-/* Return in *OUT the convex hull of N POINTS.  BT_ERR_DOMAIN if a point is not finite or they are
-   (nearly) in one plane; BT_ERR_LIMIT if there are too many or memory runs out.  Free it with
+/* Return in *OUT the convex hull of N POINTS.  BT_ERR_DOMAIN if a point is not finite or all points
+   are (nearly) in one plane; BT_ERR_LIMIT if there are too many or memory runs out.  Free it with
    bt__hull_free.  */
 bt_status bt__hull_new (const bt_vec3 *points, int n, bt__hull **out, bt_error *error);
 

@@ -1,5 +1,18 @@
 /* Triangle soups: checked, placed, sorted into the order of their tree's leaves.
 
+   A soup may come from any file, so every number is checked before use: vertices finite and within
+   1e12 of the origin, corners within the vertices, at most as many triangles as a tree can hold.
+   Nothing is asked of the topology: triangles may be open, cross or have no area, and a mesh has no
+   inside.
+
+   After the tree is built, corners and numbers of triangles are stored in the order of the leaves,
+   so that the few triangles of a leaf lie side by side in memory.  The number of a triangle in the
+   soup is kept as its id; a question answers with both slot (place in leaf order) and id.
+
+   A height field becomes two triangles to each field of four posts, cut along the diagonal from
+   south-west to north-east.  A triangle with a post of NaN is left out: there the bed has a hole.
+   Ids count all triangles of the grid, also those left out.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <stdlib.h>
@@ -179,7 +192,8 @@ check_grid (const bt__grid *g, bt_error *error)
   return BT_OK;
 }
 
-/* Triangles of the field at post (i, j) that have all their corners; ids count all.  */
+/* Add the triangles of the field at post (I, J) that have all their corners; return their number.
+ */
 static uint32_t
 add_field (const bt__grid *g, uint32_t i, uint32_t j, uint32_t (*corner)[3], uint32_t *id)
 {

@@ -34,8 +34,8 @@ typedef struct bt__soup
 } bt__soup;
 
 /* Copy SOUP, placed by PLACE (NULL: as it is), into *OUT with its tree, asking ASKER (NULL: nobody)
-   whether to go on.  BT_ERR_DOMAIN if it is empty, a number is not finite, a corner is not one of
-   the vertices, the scale not positive; BT_ERR_LIMIT; BT_ERR_INTERRUPTED.  */
+   whether to go on.  BT_ERR_DOMAIN if SOUP is empty, a number is not finite, a corner exceeds the
+   number of vertices, the scale is not positive; BT_ERR_LIMIT; BT_ERR_INTERRUPTED.  */
 bt_status bt__mesh_new (const bt__soup *soup, const bt__place *place, bt__asker *asker,
                         bt__mesh **out, bt_error *error);
 

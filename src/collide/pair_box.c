@@ -1,10 +1,13 @@
 /* A link's axis against a solid box.
 
    In the box's frame half the slope of the squared distance along the link is the sum over the axes
-   of d times what the coordinate exceeds the box by: continuous, rising, with a kink where a
-   coordinate passes a side.  The bracket of its root shrinks to between two kinks, where it is
-   linear.  A link that meets the box leaves it along a side's normal or across an edge: the faces
-   of the box plus the link's segment (a zonotope), six directions.
+   of the link's component d times the excess of the coordinate over the box: continuous, rising,
+   with a kink where a coordinate passes a side.  The bracket of its root shrinks to between two
+   kinks, where the slope is linear.
+
+   A link that meets the box leaves the box along a side's normal or across an edge: the faces of
+   the box plus the link's segment (a zonotope), six directions.  The direction of least depth is
+   the normal, and minus the depth the distance.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -61,7 +64,7 @@ slope_root (const local *k, double first, double last)
   return lo + (hi - lo) * (first / (first - last));
 }
 
-/* Where it is nearest.  */
+/* Return the place on the link nearest to the box.  */
 static double
 nearest_to_box (const local *k)
 {
@@ -110,7 +113,7 @@ leave_across_edges (const local *k, int i, way_out *best)
   best->n[l] = turn * nl;
 }
 
-/* Where the link touches the side it leaves by: the end that is deepest, or, of a link along the
+/* Return the place on the link that touches the side: the deepest end, or, of a link along the
    side, a point within the box.  */
 static double
 place_on_side (const local *k, const way_out *way)

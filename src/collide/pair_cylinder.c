@@ -2,12 +2,12 @@
 
    In the cylinder's frame (axis z) the squared distance is convex along the link; half its slope is
 
-     g = max (rho - R, 0) rho' + (excess of z over the caps) z',
+   g = max (rho - R, 0) rho' + (excess of z over the caps) z',
 
    continuous and rising, with kinks where the link passes the side's radius and the caps' planes.
-   The bracket of its root shrinks to between two kinks; there the link is beside the side only
-   (rho' = 0, closed), over a cap only (linear), or over a rim, where Newton's iteration within the
-   bracket finds it in three to five steps.
+   The bracket of its root shrinks to between two kinks; between kinks the link is beside the side
+   only (rho' = 0, closed), over a cap only (linear), or over a rim, where Newton's iteration within
+   the bracket takes three to five steps.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -26,7 +26,8 @@ over (double z, double half)
   return z > half ? z - half : z < -half ? z + half : 0;
 }
 
-/* The square of rho, from the point itself: of a long link a polynomial would lose the radius.  */
+/* The square of rho, computed from the point: a polynomial in T would lose the radius of a long
+   link to rounding.  */
 static double
 square_at (const local *k, double t)
 {

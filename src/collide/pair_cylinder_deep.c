@@ -3,10 +3,10 @@
 
    Those faces are the caps, the side (with the flats of a segment dragged along the axis), and the
    two rims dragged along the segment.  A rim seen along the segment is half of an ellipse with half
-   axes R and R |d_z|; the way to it is the nearest point of that half to the segment, seen as a
-   point: the distance to the ellipse's point at angle w is stationary where
+   axes R and R |d_z|; the segment is seen as a point, and the way out leads to the nearest point of
+   the half ellipse: the distance to the ellipse's point at angle w is stationary where
 
-     F (w) = R u sin w - b v cos w - (R^2 - b^2) sin w cos w = 0,
+   F (w) = R u sin w - b v cos w - (R^2 - b^2) sin w cos w = 0,
 
    u >= 0 and v the segment's place, b = R |d_z|.  From w = pi / 2 downwards the last root is the
    least distance; it is bracketed and found by Newton's iteration within the bracket.

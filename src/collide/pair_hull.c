@@ -1,6 +1,6 @@
-/* A link's axis against a convex solid: outside the GJK distance; inside the nearest face of the
-   solid plus the link's segment, which is a face of the solid or an edge of its outline seen along
-   the link, each of them asked.
+/* A link's axis against a convex solid.  Outside: the GJK distance.  Inside: the nearest face of
+   the Minkowski sum of solid and segment; the candidates, all of them measured, are the faces of
+   the solid and the edges of its outline seen along the link.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,15 +1,15 @@
 /* A link's axis against a point, a sphere, a capsule and a half-space.
 
    Point and segment: the foot, clamped.  Capsule: the closest points of two segments.  The distance
-   to a round shape is that to its core less the radius, also inside: the sum of a ball and a flat
-   set is left the shortest way across the flat set.
+   to a round shape is the distance to its core less the radius.  This holds inside too: the
+   shortest way out of the sum of a ball and a flat set leads straight across the flat set.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include "collide/pair.h"
 
-/* Less than this share of the coordinates apart, the direction between two points has lost digits
-   that the directions of the two shapes still have.  */
+/* If two points are nearer than this share of their coordinates, their difference has lost digits;
+   the directions of the two shapes are then the better normal.  */
 #define CLOSE 1e-3
 
 /* N as it must be where a segment of direction D is met at T: across D, and at an end not towards

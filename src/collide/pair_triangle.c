@@ -2,8 +2,8 @@
 
    Either the link crosses the face, or the nearest pair is an end over the face or a pair of the
    link and an edge.  An edge with the whole link on its inner side is not asked.  Every candidate
-   is a pair of points of the two, so that rounding can only make the answer a rounding too large,
-   also for slivers; a triangle without area has its edges only.
+   is a point of the link with a point of the triangle, so the answer is too large by rounding at
+   most, also for slivers; a triangle without area has its edges only.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -34,7 +34,7 @@ typedef struct bt__ray_hit
 int bt__scene_ray (const bt__scene *scene, const bt__switches *on, const bt__ray *ray,
                    bt__ray_hit *out, bt__count *count);
 
-/* The same with movers, each where the share DONE of its motion brings it.  */
+/* The same with kinematic obstacles, each at the share DONE of its motion.  */
 int bt__ray_cast (const bt__scene *scene, const bt__switches *on, const bt__mover *mover,
                   uint32_t movers, const bt__ray *ray, bt__ray_hit *out, bt__count *count);
 

@@ -1,8 +1,10 @@
-/* A convex solid is met by a line in one interval: the intersection of the intervals of what bounds
-   it, slabs, half-spaces, balls, infinite cylinders.  A capsule is the union of three such.
+/* A line meets a convex solid in one interval, the intersection of its intervals in the slabs,
+   half-spaces, balls and infinite cylinders that bound the solid.  A capsule is the union of three
+   such solids.
 
-   The triangle is that of Woop, Benthin and Wald (2013): the ray is sheared on to an axis, and the
-   side of an edge is told by a product that two triangles with this edge compute alike.
+   Triangles are tested as by Woop, Benthin and Wald (2013): the ray is sheared on to an axis, and
+   two triangles with a common edge compute the side of the edge by the same product, so no ray
+   slips between the triangles.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -26,8 +28,7 @@ typedef struct line
 static const span all = { -INFINITY, INFINITY, { 0, 0, 0 } };
 static const span none = { INFINITY, -INFINITY, { 0, 0, 0 } };
 
-/* Cut S to the half-space normal N . p <= 0, of which the line is HEIGHT outside at its start and
-   goes at SPEED.  */
+/* Cut S to the half-space N . p <= 0.  The line starts at HEIGHT outside and rises at SPEED.  */
 static void
 clip_to_half_space (span *s, bt_vec3 n, double height, double speed)
 {

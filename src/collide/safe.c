@@ -1,9 +1,20 @@
-/* The safe step.
+/* The safe step: continuous collision detection of a whole line, by a work list.
 
-   A round: every link lists what it could reach (safe_list.c).  Then a work list of links: each is
-   cast against its list; what it may not do is cut from the moves of both its ends, and its
-   neighbours are asked again.  It ends, for shares only shrink: after SWEEPS_SOFT rounds of the
-   list offenders stop, after SWEEPS_HARD all do, and not to move is safe.
+   A round has three parts.  Every link lists the parts of obstacles within reach of its move
+   (safe_list.c).  Then the work list: each link is cast against its list (cast.c), both ends' moves
+   are cut to the share found, and the link and its two neighbours are queued again, since a node
+   belongs to two links.  A kinematic obstacle that is met is held back by the same share, and then
+   all links are queued again.  Finally the shares are taken.
+
+   Shares only shrink, and a share below 1/1000 becomes 0, so the list empties.  After 20 casts that
+   cut, per link, offenders stop at once; after 60, all nodes and obstacles do: not to move is safe
+   always.  A round that moved some node by more than 1 % of the core radius is followed by another
+   towards the same goal, so nodes go on from where they were stopped and slide round corners.
+   Kinematic obstacles move in the first round only.
+
+   Guarantee: from a clear start no link's axis comes nearer than the core radius to an obstacle,
+   along the straight paths of the nodes within each round.  The core is widened by a relative
+   margin and by the rounding of the farthest coordinate.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -95,8 +106,8 @@ dequeue (bt__job *k)
   return j;
 }
 
-/* The share of what is left of its move that link J may take; *HIT is the mover in the way plus 1,
-   or 0.  */
+/* Return the share of the remaining move of link J that is safe; *HIT is the kinematic obstacle in
+   the way plus 1, or 0.  */
 static double
 cast_safe_link (bt__job *k, uint32_t j, uint32_t *hit)
 {

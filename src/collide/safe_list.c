@@ -1,9 +1,11 @@
-/* What a link could reach in its move: what lies within the longer move of its ends plus the core,
-   for no point of a link moves farther than one of its ends.  Where the list overflows the ends'
-   moves are cut to what was dropped, so that nothing unlisted can be reached.
+/* Broad phase of the safe step: the parts of obstacles within reach of a link.  The reach is the
+   longer move of the two ends plus the core, since no point of a link moves farther than the
+   farther end.  Where the list overflows, the ends' moves are cut to the distance of the nearest
+   dropped part, so that nothing unlisted can be reached.
 
-   A link whose clearance is known to exceed its move is not asked at all: the clearance found last
-   less what its ends have moved since.
+   A link whose clearance is known to exceed its move needs no query: the known clearance is the
+   clearance measured last, less the way of the ends since.  Static parts are asked for with a reach
+   a third longer than needed, so that a known clearance lasts for some steps.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -26,7 +28,7 @@ bt__cut_move (bt__job *k, uint32_t node, double most)
     k->safe->d[node] = bt__scale (fmax (most, 0) / size, k->safe->d[node]);
 }
 
-/* What is left of the clearance measured last.  */
+/* Return the remainder of the clearance measured last.  */
 static double
 known_clear (const bt__job *k, uint32_t j)
 {
@@ -47,7 +49,7 @@ remember_clearance (bt__job *k, uint32_t j, const bt__nears *list, double reach)
     s->clear[j] = fmin (s->clear[j], list->at[i].w.distance);
 }
 
-/* Cut the ends' moves, so that nothing that was dropped can be reached.  */
+/* Cut the ends' moves, so that no dropped part can be reached.  */
 static void
 yield_to_dropped (bt__job *k, uint32_t j, double dropped, double need, double share)
 {

@@ -1,5 +1,5 @@
-/* Making a scene: obstacles are checked and boxed; those without a box, the planes, stand in a list
-   that every question walks.
+/* Making a scene: obstacles are checked and boxed.  Planes have no box and stand in a list of their
+   own, walked by every question.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -2,8 +2,8 @@
 
    Immutable once made.  Which obstacles count is the caller's: a bt__switches goes with every
    question.  An empty scene answers at once; bt__count shows what was done.  Nothing is allocated
-   in a question; a buffer that is too small keeps the nearest and says how near the nearest
-   dropped one is.
+   in a question; a buffer without room keeps the nearest parts and the distance of the nearest
+   dropped part.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -79,8 +79,8 @@ typedef struct bt__scene
   bt__bvh tree;
 } bt__scene;
 
-/* Make *OUT of N OBSTACLES, in their order, and take over their hulls and meshes; on failure they
-   stay the caller's.  BT_ERR_DOMAIN if a number is not finite, a size not positive, a direction not
+/* Make *OUT of N OBSTACLES, in the given order, and take over the hulls and meshes; on failure the
+   caller keeps them.  BT_ERR_DOMAIN if a number is not finite, a size not positive, a direction not
    unit; BT_ERR_LIMIT.  */
 bt_status bt__scene_new (const bt__obstacle *obstacles, uint32_t n, uint64_t serial,
                          bt__scene **out, bt_error *error);
@@ -110,7 +110,7 @@ void bt__scene_near (const bt__scene *scene, const bt__switches *on, const bt__l
 void bt__scene_near_line (const bt__scene *scene, const bt__switches *on, const bt_vec3 *p,
                           uint32_t n, double reach, bt__nears *list, bt__count *count);
 
-/* Return true and *OUT, the nearest part within CAP of LINK, if there is one.  */
+/* Return true and *OUT, the nearest part of the scene, if a part is within CAP of LINK.  */
 int bt__scene_nearest (const bt__scene *scene, const bt__switches *on, const bt__link *link,
                        double cap, bt__near *out, bt__count *count);
 

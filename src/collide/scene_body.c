@@ -1,5 +1,10 @@
-/* A convex body, the vehicle's hull, asks for its nearest obstacle: the ball about it goes through
-   the trees as a link of no length, GJK measures the cores.
+/* The nearest obstacle to a convex body, such as the hull of a vehicle.
+
+   The ball about the body goes through the trees as a link of no length; GJK (gjk.c) measures the
+   cores of the parts found.  A core is a shape without its radius: the centre of a sphere, the axis
+   of a capsule, a solid box, cylinder, hull or triangle.  The reach shrinks with every nearer part.
+   Where body and part overlap the distance is 0 and the normal arbitrary; below a plane the
+   distance is negative.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -30,7 +35,8 @@ cylinder_support (const void *shape, bt_vec3 d, int *hint)
   const bt__cylinder *c = shape;
   double z = bt__dot (c->axis, d);
   bt_vec3 level = bt__axpy (d, -z, c->axis), p = c->centre;
-  /* Along the axis the difference is rounding, of which a short one is all made.  */
+  /* A direction along the axis leaves a difference of rounding alone, not across the axis: project
+     once more.  */
   level = bt__axpy (level, -bt__dot (c->axis, level), c->axis);
   double size = bt__norm (level);
   if (size > 1e-12 * bt__norm (d))

@@ -1,5 +1,17 @@
 /* A link's questions: the tree over the obstacles, then the tree over a mesh's triangles.
 
+   bt__scene_near lists all parts within a reach, bt__scene_nearest finds the nearest part.  Both
+   walk the planes, then the tree of the scene; a mesh found there is asked for its triangles
+   through the mesh's own tree.  The closest points come from the closed forms of pair.h.
+
+   Lists have a fixed room.  A full list keeps the nearest parts and notes the least distance of the
+   dropped ones, so that a caller knows within which distance the list is complete.  Before a
+   triangle is measured exactly, the three coordinates are compared: most triangles of a leaf lie
+   beyond the reach along one axis.
+
+   bt__scene_apart is the coarse question, asked once for a whole line: a lower bound on the
+   distance from a box to anything in the scene, in the time of one box and the planes.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include "collide/scene.h"
@@ -102,7 +114,7 @@ sift (bt__near *at, uint32_t top, uint32_t n, before is_before)
   at[top] = held;
 }
 
-/* A heap: the library's sort may allocate.  */
+/* Heap sort: qsort of the C library may allocate.  */
 static void
 sort (bt__near *at, uint32_t n, before is_before)
 {
@@ -178,7 +190,7 @@ typedef struct question
   bt__count *count;
 } question;
 
-/* NOW has been measured.  */
+/* Take NOW, a measured pair, if it is within REACH; return the reach from now on.  */
 static double
 take_pair (question *q, double reach)
 {

@@ -1,7 +1,13 @@
-/* A body's way through a scene: what the ball about it sweeps is asked of the trees, and each part
-   found there is chased (sweep_chase.c).
+/* How far a body may go through a scene.
 
-   Against movers the shares of both are cut until nothing more is; not to move is safe.
+   The ball about the body, swept along the path, is asked of the trees; each convex part found is
+   chased (sweep_chase.c), and the least share of all parts counts.  The body may go on from a
+   touch: sweep_chase.c permits motion along and away from a surface.
+
+   A kinematic obstacle is asked in its own frame at the start, with the reach of both motions
+   together.  The shares of body and obstacle are cut by the same factor, obstacle by obstacle,
+   until a pass cuts nothing; after 20 passes that cut, body and obstacles stand still: not to move
+   is safe.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -163,8 +169,8 @@ sweep_static (const bt__body *body, const bt__motion *motion, double gap, const 
   return run_sweep (&s);
 }
 
-/* The mover is asked in its own frame at the start; no part of it that is farther than both can go
-   is met.  */
+/* Sweep BODY against kinematic obstacle M, in the frame of M at the start.  Parts farther away than
+   both motions together are not met.  */
 static double
 sweep_mover (const bt__body *body, const bt__motion *motion, double gap, const bt__mover *m,
              uint32_t number, bt__stop *stop, bt__count *count)

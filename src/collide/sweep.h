@@ -38,8 +38,8 @@ typedef struct bt__stop
 
 /* Return the largest share, 0 to 1, of MOTION (a turn less than pi) that BODY may take, found from
    below: head on the body is held between GAP (m, more than 0) and a hundredth more; SCENE may be
-   NULL.  If it is less than 1, *STOP is what stands in the way, at the place where the body is
-   held.  A motion that is not finite is not taken: 0.
+   NULL.  If the share is less than 1, *STOP tells the part in the way and the closest points at the
+   place where the body is held.  A motion that is not finite is not taken: 0.
 
    A mover takes the share DONE of its motion in the same time; where the two would meet DONE is cut
    as well, by the same factor.  STOP may be NULL.  No allocation.  */

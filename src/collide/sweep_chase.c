@@ -1,16 +1,16 @@
 /* Conservative advancement (Mirtich 1996) of one convex body against another, both on their way.
 
-   Across their shortest distance, along the unit N, the two are apart by the least n . p over the
-   body less the largest over the part.  A time T later every point is where its speed brings it, to
-   within r (w t)^2 / 2 for a turn w t about the origin; so the two are then apart along N by at
+   Let N be the unit vector along the shortest distance.  The gap along N is the least n . p over
+   the body less the largest n . p over the part.  After a time T a point has moved by T times its
+   velocity, to within r (w t)^2 / 2 for a turn w t about the origin; the gap along N is then at
    least
 
-     h(t) = min over body (n . p + t n . v(p)) - max over part (the same) - (r w^2 + r' w'^2) t^2 /
-   2,
+   h(t) = min over body (n . p + t n . v(p)) - max over part (the same) - (r w^2 + r' w'^2) t^2 / 2,
 
-   the linear terms being supports in the direction n + t (n x w).  H is concave: where it is enough
-   now and at T, it is enough in between; and the chord from a time at which it is enough to one at
-   which it is not shows another time at which it is.  Touching bodies part, slide and turn away.
+   the linear terms being supports in the direction n + t (n x w).  H is concave: if h is at least
+   the wanted gap now and at T, so it is in between; and if h is large enough at one time and too
+   small at a later time, the chord between the two gives a later time with h large enough.
+   Touching bodies may part, slide and turn away.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -78,7 +78,7 @@ measure_gap (const bt__chase *c, double t, bt__apart *out)
 
 /* ---- How they stay apart ---- */
 
-/* The pair at one time: how high the body stands over the part along N, from then on.  */
+/* Body and part at one time, to tell the later height of the body over the part along N.  */
 typedef struct outlook
 {
   const bt__chase *chase;
@@ -151,8 +151,8 @@ size_of (const bt__chase *c)
          + c->body.radius;
 }
 
-/* What is to be kept by a body that stands HERE over the part: one that was stopped stays where it
-   was, one that is too near comes no nearer.  */
+/* Return the gap to keep for a body at height HERE over the part.  A body stopped earlier stays
+   where it was; a body nearer than the gap comes no nearer.  */
 static double
 limit_from (double here, double goal, double gap)
 {
