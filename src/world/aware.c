@@ -1,4 +1,13 @@
-/* What a tether is doing: the answers that come of its string and its word.
+/* What a tether is doing: the answers from its taut string, its windings and its word.
+
+   Each question asks the awareness cache (watch.h) for as much as needed: the string for taut
+   length, wrap angle and capstan; the free way for the excess; windings or the word for fouling.
+   Turns need the tether's own nodes only.  Several questions about one state share one string.
+
+   A tether is fouled if its taut string is longer than its free way by 1 m and by 5 %.  Fouled is
+   `wound' if a winding is not 0 or the word relative to the free way is decided and not empty: then
+   only flying back round frees the line.  Otherwise the line is `hung': it may slip or be lifted
+   off.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,4 +1,19 @@
-/* What a tether is doing: the string led along, for a live view and for a forecast.
+/* The string led along: a live view of the taut string, and a forecast.
+
+   Live: bt_tether_follow leads the ends of a string kept from call to call to the ends of the
+   tether, two steps of relaxation a call, and seeds the string anew from the tether's own shape
+   every 300 calls or when an end cannot be led.  A string 0.5 % shorter after seeding has slipped
+   off an obstacle that cannot hold the line.
+
+   Forecast: bt_tether_foresee moves a predicted vehicle (predicted.h) on by half a second at a time
+   and leads two lines after the vehicle: a copy of the taut string, which tells bends, turns and
+   tautness, and a trailing line from the tether's present shape (aware/trail.h), which tells what a
+   slack line will touch.  The vehicle is stopped at obstacles, and held on a leash about the last
+   bend of the string where friction holds the line: by the length beyond the bend if the tether
+   pulls and lies straight there, or by the length paid out once the string is longer.
+
+   The forecast knows neither current on the line, nor weight, nor the winch.  At most 64 obstacles
+   are told apart.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -23,18 +38,18 @@ enum
   OBJECTS = 64 /* told apart in a forecast */
 };
 
-#define SLIP 0.005      /* of its length: a string that is so much shorter has slipped */
+#define SLIP 0.005      /* of its length: a string shorter by more has slipped */
 #define AHEAD 0.5       /* s between looks ahead */
-#define TOUCH_ANGLE 0.1 /* radians: a string that bends so much touches */
+#define TOUCH_ANGLE 0.1 /* radians: a string with more bend touches */
 #define LEASH_PULL 10.0 /* N: less is the drag of a slack line */
-#define LEASH_BOW 1.02  /* of its chord: so straight is a line that is held */
+#define LEASH_BOW 1.02  /* of its chord: a line that is held is no longer */
 #define HOLD_REACH 0.05 /* m */
-#define SKIN 1.3        /* of its core: so near the trailing line touches */
+#define SKIN 1.3        /* of its core: the trailing line touches nearer obstacles */
 
 /* ---- Live ---- */
 
-/* Seed the live string from the tether; return true if one was there and has slipped.  Without
-   FORCE only a shorter one is taken.  */
+/* Seed the live string from the tether; return true if the old string has slipped.  Without FORCE
+   the new string is taken only if it is shorter.  */
 static int
 seed (const bt_dive *dive, bt__awareness *g, int force)
 {
@@ -45,7 +60,7 @@ seed (const bt_dive *dive, bt__awareness *g, int force)
     g->live->n = 0;
   int slipped = bt__taut_reseed (w->taut, &g->config, g->live, g->shortest, g->node, g->n,
                                  SEED_STEPS, SLIP, &w->count);
-  g->has_free = 0; /* its string was borrowed */
+  g->has_free = 0; /* the string of the free way was borrowed */
   return slipped || (before > 0 && g->live->length < (1 - SLIP) * before);
 }
 
@@ -87,7 +102,7 @@ typedef struct forecast
   const bt_dive *dive;
   const bt__awareness *g;
   bt__string *string;
-  bt__trail trail; /* the line as it lies, which may touch what the string does not */
+  bt__trail trail; /* the line as it lies: it may touch more than the string */
   bt__holds holds;
   object object[OBJECTS];
   uint32_t objects, touches, bumps;
@@ -147,7 +162,7 @@ note_touch (forecast *f, uint32_t place, double seconds)
     tell_foresight (f, BT_FORESEE_TOUCH, place, seconds, turns_about (f, place));
 }
 
-/* Note what the line as it lies touches, from link K on.  */
+/* Note the obstacles touched by the line as it lies, from link K on.  */
 static void
 note_trail (forecast *f, uint32_t k, double seconds)
 {
@@ -222,8 +237,9 @@ note_bump (forecast *f, bt__predicted *ghost, bt_vec3 from, double seconds)
   bt__predicted_stop (ghost, in > 0 ? bt__axpy (to, in, n) : to, n);
 }
 
-/* A line may pull with slack elsewhere: friction, or its own turns, hold it at its last bend.  Then
-   the vehicle goes round that.  Look whether it is so, for tether I.  */
+/* A line with slack elsewhere may still pull: friction, or its own turns, hold the line at the last
+   bend, and the vehicle circles the bend.  Set the leash if this is so for tether I: the tether
+   pulls and is straight from the bend on.  */
 static void
 look_for_leash (forecast *f, int i, bt_vec3 vehicle)
 {
@@ -253,7 +269,7 @@ hold_on_leash (const forecast *f, bt__predicted *ghost)
     bt__predicted_stop (ghost, bt__axpy (f->held, f->leash / far, way), bt__scale (-1 / far, way));
 }
 
-/* What is out holds the VEHICLE at the string's last bend.  */
+/* Hold the VEHICLE at the string's last bend if the string is longer than the line paid out.  */
 static void
 rein_in (forecast *f, bt_vec3 vehicle)
 {
@@ -267,7 +283,7 @@ rein_in (forecast *f, bt_vec3 vehicle)
   f->leash = fmax (bt__distance (f->held, vehicle) - over, 0);
 }
 
-/* Lead the string on by a look ahead; zero when it cannot be.  */
+/* Lead the string on by one look ahead; return 0 if the end cannot be led.  */
 static int
 lead_string (forecast *f, bt__predicted *ghost, double t)
 {

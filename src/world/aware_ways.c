@@ -1,4 +1,17 @@
-/* What a tether is doing: hauling by the instant rule, the way home, the loop that unwinds.
+/* Hauling by the instant rule, the way home, the loop that unwinds, the string to another place.
+
+   This file binds the geometry of aware/haul.c to a dive: the dead vehicle is a body with its
+   type's mass, volume and surge drag, its hull's size and a friction of 0.4; a kinematic vehicle
+   without drag takes 60 N s/m and 100 N s2/m2.  The least pull that counts as coming home is the
+   drag at 0.2 m/s.
+
+   The instant rule asks in turn: capstan friction and hang-up along the taut string, surfaces that
+   face each other beside the string, and gaps on the way home too narrow for the body.  A fork of
+   the dive that hauls is the judge; the rule answers at once.
+
+   Ways are for a vehicle that flies and turns as it likes: they keep half the hull's diagonal and
+   15 cm more from obstacles where there is room, and are feasible if the clearance is at least half
+   the diagonal.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -65,7 +78,7 @@ bt__way_room (double reach)
   return fmax (reach, LEAST_RADIUS) + WAY_ROOM;
 }
 
-/* N, in the water as it is; what has no mass has no weight.  */
+/* Weight in the present water, N; 0 for a vehicle without mass.  */
 static double
 weight_of (const bt_dive *dive, int vehicle)
 {
@@ -101,7 +114,7 @@ bt__obstacle_at (const bt_dive *dive, uint32_t place)
 
 /* ---- The instant rule ---- */
 
-/* Whether the body fits through, on the way home.  */
+/* Tell in P if the body does not fit through a gap on the way home.  */
 static bt_status
 look_for_wedges (const bt_dive *dive, bt__awareness *g, const bt__haul_body *body, bt__prospect *p,
                  bt_error *error)
@@ -201,7 +214,7 @@ lead_to (const bt_dive *dive, const bt__awareness *g, bt__string *string, bt_vec
   return 1;
 }
 
-/* What is nearest to the straight way from the end of G's tether to P.  */
+/* The obstacle nearest to the straight way from the end of G's tether to P, or -1.  */
 static int
 in_the_way (const bt_dive *dive, const bt__awareness *g, bt_vec3 p)
 {

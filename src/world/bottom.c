@@ -39,7 +39,7 @@ bt__dive_altitude (const bt_dive *dive, bt__state *state, bt_vec3 p, int *obstac
   if (dive->model->n_obstacles > 0)
     {
       around = bt__all_standing (dive, state);
-      /* A ray that ends where the lowest begins may miss that by rounding.  */
+      /* A ray that ends exactly at the lowest bottom may miss the bottom by rounding.  */
       down.range = fmax (0, p.z - lowest (dive, &around)) + 1;
       found = bt__ray_cast (around.scene, around.on, around.mover, around.movers, &down, &hit,
                             &unused);

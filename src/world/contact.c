@@ -1,4 +1,4 @@
-/* Questions about contact.
+/* Questions about contact: touches, wear, segments between touches, clearances.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -152,8 +152,8 @@ segment_between (const bt__line *line, double from, double to)
                        bt__line_point (line, to) };
 }
 
-/* Greatest arc length, m, between two contacts of one wrap: contacts with the same object so near
-   to each other have no span between them.  */
+/* Greatest arc length, m, between two contacts of one wrap: closer contacts with the same object
+   belong to one wrap, without a span between them.  */
 static double
 wrap_gap (const bt__line *line)
 {
@@ -193,7 +193,8 @@ bt_tether_segments (const bt_dive *dive, int i, bt_segment *segments, int max)
 
 /* ---- Clearance ---- */
 
-/* What is looked at: all obstacles, or one.  */
+/* The obstacles of a clearance: all obstacles or a single one, whether their pairs are switched on
+   or not.  */
 typedef struct look
 {
   bt__surroundings around;

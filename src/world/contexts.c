@@ -1,4 +1,12 @@
-/* The life of contexts: made, lent what they need, freed.
+/* The life of worker contexts: made, lent the state of a step, freed.
+
+   A context is a partial dive with solver workspaces of its own, one for each thread.  For a step a
+   context is lent the state (bt__context_enter): the present buffer is shared and only read; the
+   head of the next buffer is copied, so that events of a context stay apart; vehicles, tethers and
+   stores of the next buffer are shared, since every island is stepped by one context alone.
+
+   Afterwards the counters of all contexts are added up in order (bt__context_count); the sum is the
+   same for any number of threads.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -163,7 +171,7 @@ bt__context_leave (bt__context *context)
   own->contact_work.place = NULL;
 }
 
-/* Records of counters and nothing else.  */
+/* Add to SUM the counters MORE, both records of nothing but 64-bit counters.  */
 static void
 add_up_counters (void *sum, const void *more, size_t size)
 {

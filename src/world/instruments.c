@@ -203,7 +203,7 @@ typedef struct lens
   bt__surroundings around;
 } lens;
 
-/* Return how far P is, or INFINITY if it is not in the picture.  */
+/* Return the distance of P, or INFINITY if P is outside the picture.  */
 static double
 distance_in_view (const lens *l, bt_vec3 p)
 {

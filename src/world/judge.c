@@ -1,5 +1,12 @@
 /* Judging the state of a dive, part by part.
 
+   A state from outside is bytes that nobody may believe.  Each struct of the state has a table with
+   the values allowed for each member (base/record.h); here the tables are walked over a whole
+   state: the sea, the obstacles, every vehicle and every tether with its store and its subject.
+   judge_parts.c adds the rules between members, such as form and contents of a store.  Every judged
+   byte is counted, and the count must equal the live size of the state: a struct without a table
+   fails every state.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <stdio.h>
@@ -66,7 +73,8 @@ bt__state_judge (bt_dive *dive, bt__state *state, bt_error *error)
     status = judge_vehicles (&judge, dive, state);
   if (status == BT_OK)
     status = judge_tethers (&judge, dive, state);
-  /* What no table covers is not believed: whoever gives the state a new struct sees this.  */
+  /* Bytes without a table are not believed: a new struct of the state fails here until it has a
+     table.  */
   if (status == BT_OK && judge.seen != bt__live_size (dive, state))
     status = bt__fail (error, BT_ERR_FORMAT, "%zu of %zu bytes of the state were judged",
                        judge.seen, bt__live_size (dive, state));

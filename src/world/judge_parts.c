@@ -56,7 +56,7 @@ number_in_def (const void *def, size_t offset)
   return x;
 }
 
-/* Every property is a field; none of them is looked at but by its field.  */
+/* Every property is a field and judged by its field alone.  */
 static bt_status
 judge_props (const bt__judge *judge, const bt_tether_props *props, const bt_tether_props *was)
 {
@@ -79,7 +79,7 @@ judge_props (const bt__judge *judge, const bt_tether_props *props, const bt_teth
 
 /* ---- The sea ---- */
 
-/* What is beyond the components is zero; waves that were asked for are there.  */
+/* Room beyond the components is zero; waves asked for are present.  */
 static bt_status
 judge_waves (bt__judge *judge, const bt__state *state)
 {
@@ -209,7 +209,7 @@ judge_store (bt__judge *judge, const bt_dive *dive, bt__state *state, int i)
   return AND (status, judge_contact_form (judge, dive, state, i));
 }
 
-/* The model, the form of the shape and what the store holds go together.  */
+/* The model, the form of the shape and the contents of the store agree.  */
 static bt_status
 judge_form (bt__judge *judge, const bt_dive *dive, const bt__tether *tether, int i)
 {

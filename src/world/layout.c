@@ -1,5 +1,22 @@
 /* Offsets of all parts in the flat state of a dive, and the extent of the live bytes.
 
+   The state is one block (state.h).  Sizes follow from the model alone, so every state of a dive
+   has the same layout, and a pointer to a part is an offset from the block: bt__dive_nodes,
+   bt__dive_chain and their neighbours are the views.
+
+   The store of a tether is shared by forms that exclude each other.  A static shape keeps node and
+   tension arrays there, followed by the polyline of a line that is split or held by obstacles; a
+   moving line keeps its chain and contacts, then chain and contacts of the far part once the line
+   has parted.  The wear of the line stands behind the larger of the two.
+
+   Stores have room for the largest mesh, mostly unused. live_extents lists the ranges in use for
+   the present form; copies, hashes and sizes of checkpoints walk this list alone, and
+   bt__layout_fits checks the list of a state from outside against the size of the store before a
+   byte is copied.
+
+   Two states are the same dive exactly if their live bytes are equal.  The assertions below keep
+   padding out of the structs, since padding would have no defined value.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
@@ -70,7 +87,7 @@ arrays_size (const bt_tether_def *tether)
   return 2 * sizeof (bt_vec3) * (size_t)node_points (tether);
 }
 
-/* A line that has but itself to touch does so in few places.  */
+/* A line in open water can touch only itself, in few places.  */
 int
 bt__contact_room (const bt_model *model, const bt_tether_def *tether)
 {
@@ -98,7 +115,7 @@ contact_form_size (const bt_model *model, const bt_tether_def *tether)
   return spans > held ? spans : held;
 }
 
-/* Where its shape, still or moving, ends and its wear begins.  */
+/* The size of the shape, still or moving; the wear begins behind the shape.  */
 static size_t
 shape_size (const bt_model *model, int i)
 {
@@ -201,7 +218,7 @@ typedef struct extent
   size_t at, size;
 } extent;
 
-/* Of a store: its wear, and of both parts of a line the chain and its contacts.  */
+/* The most live ranges of a store: the wear, and chain and contacts of both parts of a line.  */
 enum
 {
   EXTENTS = 5

@@ -1,5 +1,14 @@
 /* Asking a tether, be it a static shape or the moving line.
 
+   A tether has one of four forms: a static shape with closed formulas, a shape with node arrays, a
+   polyline (split into spans by a thesis model, or held by obstacles), or the chain of the moving
+   line. bt__line_of finds the form once; every question then takes the arc length s, m from the
+   anchor, and asks the form.  Forces and tensions at nodes of a moving line are those of its last
+   step.
+
+   A parted line has two chains.  The near chain answers questions along the line, the far chain
+   tells the force on the vehicle; bt__line_tail makes the far chain a line of its own.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
@@ -9,8 +18,8 @@
 
 #define FOLLOWED 1e-4 /* m: a line so near to where its winch stands has followed it */
 
-/* The polyline by which obstacles hold tether I, if the line deviates from its shape or if points
-   other than the shape's own were kept clear of obstacles; else NULL.  */
+/* The polyline by which obstacles hold tether I; NULL if the line follows its shape and only the
+   shape's own points were kept clear of obstacles.  */
 static const bt__polyline *
 held_line (const bt_dive *dive, bt__state *state, int i)
 {

@@ -1,4 +1,16 @@
-/* What the state of a dive knows of obstacles.
+/* The part of a dive's state that knows of obstacles: layout, switches, surroundings, meetings.
+
+   Pairs: every vehicle and every tether is a subject with one byte for each object that may be
+   switched off.  Shapes of the scene come first, then kinematic obstacles, then tethers, so the
+   bytes can be handed to a scene as they are.  The version of a subject is a hash of its bytes, 0
+   if all are on: caches of clearances and charts are valid as long as the version stays the same.
+
+   Surroundings are the scene, the switches of one subject, and the kinematic obstacles, each with
+   the motion of the present step (bt__surround) or standing (bt__standing).
+
+   Meetings: a subject remembers the obstacles that it touched, with the step of the last touch.
+   The first touch raises the event `touched'; `left' follows after 30 steps without a touch, since
+   a tether that bounces has not left.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -9,7 +21,8 @@
 #include "math/vec.h"
 #include "world/obstacles.h"
 
-/* A tether that bounces has not left: it must be away for so many steps.  */
+/* Steps without a touch before a subject has left an obstacle: a tether that bounces has not left.
+ */
 enum
 {
   LEFT_AFTER = 30
@@ -113,7 +126,7 @@ bt__obstacles_init (const bt_dive *dive, bt__state *state)
 
 /* ---- Pairs ---- */
 
-/* How many shapes the scene has.  */
+/* The number of shapes in the scene.  */
 static int
 still_of (const bt_model *model)
 {
@@ -139,7 +152,7 @@ bt__switch_slot (const bt_model *model, uint8_t *off, int obstacle, int on)
     off[still_of (model) - 1] = (uint8_t)!on;
 }
 
-/* Equal bytes, equal versions: whoever keeps what it knows of a scene goes by it.  */
+/* Equal switches have equal versions, so caches about a scene are kept by version.  */
 uint64_t
 bt__pairs_version (const bt_model *model, const uint8_t *off)
 {
@@ -177,7 +190,7 @@ part_of (const bt__motion *motion, double share)
   return share < 1 ? bt__motion_between (&motion->from, &to) : *motion;
 }
 
-/* OFF is what does not count.  */
+/* Fill the workspace with the surroundings in which the objects of OFF do not count.  */
 static bt__surroundings
 surround (const bt_dive *dive, bt__state *state, bt__switches off, int standing)
 {

@@ -1,8 +1,8 @@
 /* Saved states without unused room, by run-length coding of zeros.
 
    A state has room for the largest meshes of its tethers; in a saved state unused room is zero.
-   The packed form begins with a mark.  Then follow, repeatedly, the number of eight-byte words that
-   are zero, the number of words that are not, and the latter words.
+   The packed form begins with a mark.  Then follow, repeatedly, the number of zero words of eight
+   bytes, the number of other words, and the other words.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -15,7 +15,8 @@
 
 static const uint64_t mark = 0x31306b6361707462; /* "btpack01" */
 
-/* How many words from AT on, of N, are zero, or with ZERO false are not.  */
+/* The number of words from AT on, of N, in a row of zeros, or with ZERO false of words other than
+   0.  */
 static size_t
 run_of (const uint64_t *word, size_t at, size_t n, int zero)
 {

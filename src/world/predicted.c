@@ -1,4 +1,9 @@
-/* A vehicle that goes on as it goes: see ghost.h.
+/* A predicted vehicle, moved ahead without tether and obstacles (predicted.h).
+
+   A kinematic vehicle goes to its goal at its speed, or by its sticks: the velocity turns with the
+   heading, half the turn before the way and half after, so a circle stays a circle for any step
+   (the midpoint rule).  A vehicle with mass is stepped as in the dive (vehicle/body.h), by its
+   thrusters, its autopilot and the water of the present time, in steps of at most 0.05 s.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -9,7 +14,7 @@
 #include "world/predicted.h"
 #include "world/obstacles.h"
 
-#define BODY_STEP 0.05 /* s, of one with mass: its autopilot asks for no less */
+#define BODY_STEP 0.05 /* s, of a vehicle with mass: the least its autopilot asks for */
 
 /* ---- Without mass ---- */
 

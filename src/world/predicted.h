@@ -1,7 +1,7 @@
 /* Predicted vehicle: a copy of a vehicle moved ahead of the dive, for forecasts and pictures.
 
-   A kinematic vehicle goes on by its sticks, to its goal, or at its velocity; a vehicle with mass
-   by its thrusters, its autopilot and the present water.  The prediction knows neither tethers nor
+   A kinematic vehicle moves on by sticks, to a goal, or at constant velocity; a vehicle with mass
+   by thrusters, autopilot and the present water.  The prediction knows neither tethers nor
    obstacles.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */

@@ -63,8 +63,8 @@ typedef struct bt__vehicle
   bt__pilot pilot;
 } bt__vehicle;
 
-/* A tether is stuck if it was pulled for BT__STUCK_AFTER steps or more and its end moved at less
-   than 2 cm/s meanwhile.  The place of the end is kept every BT__STUCK_EVERY steps.  */
+/* A tether is stuck after BT__STUCK_AFTER steps of pulling while its end moves at less than 2 cm/s.
+   The place of the end is kept every BT__STUCK_EVERY steps.  */
 enum
 {
   BT__STUCK_AFTER = 300,
@@ -87,11 +87,11 @@ typedef struct bt__tether
   double length;       /* paid out, m */
   double winch_rate;   /* m/s, signed; 0: the winch stands */
   double winch_target; /* m */
-  int64_t stalling; /* steps for which the winch has hauled with all its pull, and hardly turned */
-  double tension_max; /* of a static shape; a moving line is asked */
-  double pull;        /* N: of the vehicle that it holds, as last solved */
-  int64_t store_at;   /* offset of its store behind the tethers, bytes */
-  int64_t stale;      /* must be solved though its ends did not move */
+  int64_t stalling;    /* steps of hauling with full pull and hardly a turn of the drum */
+  double tension_max;  /* of a static shape; a moving line is asked */
+  double pull;         /* N: of the vehicle that it holds, as last solved */
+  int64_t store_at;    /* offset of its store behind the tethers, bytes */
+  int64_t stale;       /* must be solved though its ends did not move */
   int64_t settled;
   int64_t taut;
   int64_t parted;   /* the line is in two: a second chain hangs from the far end */

@@ -1,4 +1,4 @@
-/* The watch: memory, and one solve for all questions about one state.
+/* The awareness cache: memory, and one solve for all questions about one state.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -20,9 +20,9 @@ enum
   ROOM_MOST = 1 << 18 /* nodes: a gigabyte is no answer */
 };
 
-#define STRAIGHT 1e-9   /* share of the chord: no longer is straight */
+#define STRAIGHT 1e-9   /* share of the chord: a string no longer is straight */
 #define FINER 0.4       /* of the mesh */
-#define HOLD_REACH 0.05 /* m: a corner nearer than that to something is held by it */
+#define HOLD_REACH 0.05 /* m: an obstacle nearer than this holds a corner */
 
 /* ---- Memory ---- */
 
@@ -104,7 +104,7 @@ bt__watch_string (const bt_dive *dive)
   return new_string (&s, dive->watch->room) ? s : NULL;
 }
 
-/* Have room for strings of ROOM nodes.  What the tethers knew is forgotten.  */
+/* Have room for strings of ROOM nodes.  The answers kept for all tethers are forgotten.  */
 static int
 make_string_room (struct bt__watch *w, uint32_t room, bt__asker *asker)
 {
@@ -189,7 +189,7 @@ take_line_nodes (bt__awareness *g, const bt__line *line)
 
 /* ---- The string ---- */
 
-/* The friction of what the holds are at, as it is now.  */
+/* Set the friction of every hold to the present friction of its obstacle, or of the tether.  */
 static void
 set_friction (const bt_dive *dive, const bt__tether *tether, bt__holds *holds)
 {
@@ -223,7 +223,7 @@ nodes_wanted (double n, double out, double diameter)
   return ROOM_LEAST + 2 * n + 3 * floor (out / (FINER * string_mesh (out, bt__core (diameter))));
 }
 
-/* Have room for the string, and say what it is among.  */
+/* Have room for the string, and set the scene and the mesh of the string.  */
 static bt_status
 make_ready (const bt_dive *dive, int i, struct bt__watch *w, bt__awareness *g, double diameter,
             bt_error *error)
@@ -262,7 +262,7 @@ solve_string (const bt_dive *dive, struct bt__watch *w, bt__awareness *g, const 
   ((bt_dive *)dive)->profile.strings++;
 }
 
-/* In open water a string is two nodes, and nothing holds it.  */
+/* In open water the string is the chord, without a hold.  */
 static void
 set_open (bt__awareness *g)
 {
@@ -382,8 +382,8 @@ find_free_way (const bt_dive *dive, int i, bt__awareness *g, double *length, bt_
                                   : status;
 }
 
-/* Find the free way: the shorter of the way home and the string.  Where the string is straight, it
-   is the free way, and no other is searched.  */
+/* Find the free way: the shorter of the way home and the string.  A straight string is the free way
+   itself, and no tree is asked.  */
 bt_status
 bt__watch_free (const bt_dive *dive, int i, bt__awareness **out, bt_error *error)
 {

@@ -1,9 +1,8 @@
 /* The awareness cache of a dive: taut strings, free ways and words of its tethers, made on demand.
 
-   The cache belongs to a dive and is no part of the state.  For each tether it remembers, by the
-   dive's count of changes, for which state the answers were made; the answers depend on the state
-   alone.  A chart depends on the world and the switches, is immutable once made, and is shared by
-   forks.
+   The cache belongs to a dive and is no part of the state.  The dive's count of changes, remembered
+   for each tether, tells the state of the answers; the answers depend on the state alone.  A chart
+   depends on the world and the switches, is immutable once made, and is shared by forks.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -28,7 +27,7 @@ bt__is_taut (double length, double out)
 }
 
 /* The world as charted for a tether.  A tree of free ways belongs to one anchor and one reach, a
-   graph and its words to one gap.  */
+   graph with its words to one gap.  */
 typedef struct bt__chart
 {
   atomic_int references;
@@ -114,12 +113,12 @@ bt__told (int32_t winding)
   return (int8_t)(winding > 127 ? 127 : winding < -127 ? -127 : winding);
 }
 
-/* Set *SAME if the windings, one per obstacle, are still TOLD, as far as can be decided without a
-   taut string, whose length is at least LEAST m.  */
+/* Set *SAME if the windings, one per obstacle, are known to be still TOLD without solving the taut
+   string, of length LEAST m or more.  */
 bt_status bt__watch_wound_still (const bt_dive *dive, int i, const int8_t *told, double least,
                                  int *same, bt_error *error);
 
-/* Put into BERTH where what is made of the world for tether I begins; for the state to keep.  */
+/* Put into BERTH the root of the charts of tether I, for the state to keep.  */
 bt_status bt__watch_berth (const bt_dive *dive, int i, bt_vec3 *berth, bt_error *error);
 
 /* Allocate the memory for looks at the windings of every tether, so that steps need not allocate.

@@ -1,4 +1,24 @@
-/* Charts: what of the world a tether's string, ways and words go by, made once.
+/* Charts: the world as prepared for the questions of one tether, made once.
+
+   Three charts are kept for a tether, each made by the first question that needs the chart:
+
+   - Ways: a tree of free ways from the anchor, over about 50 000 cells of a box about the enabled
+   obstacles within reach (aware/free.c).  The reach is the next power of two above the greatest
+   paid-out length, so that paying out seldom means another tree.
+
+   - Frame: the graph of members (aware/graph.c), of the whole world; gaps below 1 cm or the
+   tether's diameter are closed.
+
+   - Words: shadows of the graph (aware/shadow.c); if the graph leaves an obstacle undescribed, such
+   as a mesh, voxels of the box about the anchor (aware/voxel.c).
+
+   A chart is valid for one set of switches, told by a version that is a hash of the switches, for
+   one gap or reach, and for one root.  The root is the anchor; an anchor that swings on waves or on
+   a vehicle takes a lattice point in sight of the anchor instead, and the state keeps the point
+   until the anchor is 4 m away, so that equal states have equal charts.
+
+   Charts are immutable once made and counted by reference: a fork shares them, and only a tree
+   still growing is not shared.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -20,9 +40,9 @@ enum
 
 #define JITTER 0.2
 #define GAP_LEAST 0.01  /* m: a narrower gap between members is no way through */
-#define CLEAR_MOST 0.03 /* m: what free ways keep off */
-#define BERTH 2.0       /* m: about as near to the anchor charts begin, ... */
-#define ASTRAY 4.0      /* m: ... and are made anew when it is so far from there */
+#define CLEAR_MOST 0.03 /* m: clearance of free ways */
+#define BERTH 2.0       /* m: the coarsest lattice of roots */
+#define ASTRAY 4.0      /* m: an anchor so far from the kept root gets another root */
 
 void
 bt__chart_release (bt__chart *c)
@@ -129,15 +149,16 @@ cell_of (bt_vec3 lo, bt_vec3 hi, int cells)
 
 /* ---- The tree of free ways ---- */
 
-/* The power of two that tether I reaches to: so that paying out does not mean growing anew.  */
+/* The reach of the charts of tether I, m: a power of two, so that paying out seldom means growing
+   the tree anew.  */
 static double
 chart_reach (const bt_dive *dive, int i)
 {
   return exp2 (ceil (log2 (fmax (bt__watch_longest (dive, i), 1))));
 }
 
-/* A place near P, which is where the anchor of tether I is: one of a lattice of STEP m about where
-   the anchor was when the dive began.  */
+/* The point nearest to P, the anchor of tether I, of a lattice of STEP m about the place of the
+   anchor when the dive began.  */
 static bt_vec3
 berth (const bt_dive *dive, int i, bt_vec3 p, double step)
 {
@@ -237,7 +258,7 @@ bt__chart_grow (const bt_dive *dive, int i, bt__awareness *g, bt_error *error)
 
 /* ---- The words ---- */
 
-/* Make the graph of what counts.  */
+/* Make the graph of the enabled obstacles.  */
 static bt_status
 describe (const bt_dive *dive, bt__chart *c, bt_error *error)
 {
@@ -294,7 +315,7 @@ make_voxels (const bt_dive *dive, bt__chart *c, bt_vec3 anchor, bt_error *error)
   return bt__voxels_new (&config, bt__asker_of (dive), &c->voxels, error);
 }
 
-/* By the graph where it says all, else by voxels.  */
+/* Make words by shadows if the graph describes every obstacle, else by voxels.  */
 static bt_status
 make_words (const bt_dive *dive, bt__chart *c, const bt__graph *graph, bt_vec3 anchor,
             bt_error *error)
@@ -307,7 +328,8 @@ make_words (const bt_dive *dive, bt__chart *c, const bt__graph *graph, bt_vec3 a
   return bt__shadow_new (graph, &config, &c->shadow, error);
 }
 
-/* Words among members are of the whole world.  Voxels are of what is within reach of the anchor. */
+/* True if the words of G are still valid.  Words among members hold for the whole world, voxels
+   only within reach of the anchor.  */
 static int
 has_words (const bt_dive *dive, int i, const bt__awareness *g, double gap)
 {

@@ -6,8 +6,8 @@
    is counted about the vertical through the mesh, over the heights of the mesh.
 
    A line that can be drawn straight is wound about no member, even if members cut its chord: the
-   line merely passes.  Neither such a line nor one drawn free on the tree's way needs a taut
-   string.
+   line merely passes.  No taut string is needed for a straight line or a line drawn free on the
+   tree's way.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -22,7 +22,7 @@
 #include "world/obstacles.h"
 #include "world/watch.h"
 
-#define HELD_ANGLE 1e-3 /* radians: a string that bends so much at something is held by it */
+#define HELD_ANGLE 1e-3 /* radians: an obstacle at which a string bends more holds the string */
 
 /* ---- Members ---- */
 
