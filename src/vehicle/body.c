@@ -18,7 +18,7 @@ enum
 /* The last change of a solved step, of the velocity or of LEAST m/s and rad/s.  */
 #define SOLVED 1e-14
 #define LEAST 0.1
-#define LETTING_GO 4.0 /* a pull that falls to less than one part in this in a step */
+#define LETTING_GO 4.0 /* a pull falling to less than a LETTING_GOth in a step counts less */
 #define PROPELLER 0.1  /* m: the height over which a thruster leaves the water */
 #define SOFT 50.0      /* h2 k / m of a line that is neither soft nor stiff */
 
@@ -28,7 +28,7 @@ typedef struct motion
   bt_vec3 v, w;
 } motion;
 
-/* What a step works on.  Forces are in the own axes but for WORLD_*.  */
+/* The data of a step.  Forces are in the own axes but for WORLD_*.  */
 typedef struct job
 {
   const bt__vehicle_type *type;
@@ -44,7 +44,7 @@ typedef struct job
 
 /* ---- Thrusters ---- */
 
-/* The share of thruster K that is under water: out of it, it turns in air.  */
+/* The share of thruster K under water; the rest of the propeller turns in air.  */
 static double
 drowned (const job *j, int k)
 {
@@ -54,7 +54,7 @@ drowned (const job *j, int k)
   return fmax (0, fmin (1, 0.5 + depth / PROPELLER));
 }
 
-/* The force that thruster K settles to.  */
+/* The force of thruster K after its lag.  */
 static double
 settled (const job *j, int k)
 {
@@ -113,8 +113,8 @@ add_skew (double (*a)[6], int row, int column, bt_vec3 p)
   a[row + 2][column + 1] -= p.x;
 }
 
-/* The stiffness against turning of the force F, held in the world, at R; what is negative of it is
-   left out.  */
+/* The stiffness against turning of the force F, fixed in the world, at R; the negative part is left
+   out.  */
 static void
 add_turning (double (*a)[6], double k, bt_vec3 r, bt_vec3 f)
 {
@@ -140,7 +140,7 @@ damping (bt_vec3 linear, bt_vec3 quadratic, bt_vec3 v)
                   linear.z + quadratic.z * fabs (v.z));
 }
 
-/* The momenta that C is made of.  */
+/* The momenta from which C is built.  */
 static motion
 momenta (const job *j, motion m)
 {
@@ -202,7 +202,7 @@ assemble (job *j, const scene *s, int turning)
   add_skew (j->a, 3, 3, p.w);
 }
 
-/* What is left of the equations at the iterate.  */
+/* The residual of the equations at the iterate.  */
 static void
 residual (const job *j, const scene *s, double *r)
 {
@@ -261,7 +261,8 @@ prepare_step (job *j, const bt__vehicle_type *type, const bt__rigid *body,
 
 /* ---- The step ---- */
 
-/* One by the mass that the line has to do with: along its pull, or the least any way.  */
+/* The reciprocal of the mass moved by the line: along its pull, or the least mass in any direction.
+ */
 static double
 lightness (const job *j, bt_vec3 pull)
 {
@@ -282,8 +283,8 @@ share_of_new (const job *j)
   return j->in->gripped ? 0.5 + 0.5 * s / (s + SOFT) : 0.5;
 }
 
-/* The pull of the step.  Of that before a line goes slack the rest is left out: counted in full it
-   would have pulled after it was gone, and made energy.  */
+/* The mean pull of the step.  If the line lets go within the step, the old pull counts in part:
+   counted in full, the line would pull after going slack and make energy.  */
 static bt_vec3
 mean_pull (const job *j, bt_vec3 pull)
 {
@@ -292,7 +293,7 @@ mean_pull (const job *j, bt_vec3 pull)
   return bt__axpy (bt__scale (j->theta, pull), (1 - j->theta) * kept, j->body->pull);
 }
 
-/* What the mean motion of a step with a stiff line has beyond the midpoint's.  */
+/* The excess of the mean motion over the midpoint's, in a step with a stiff line.  */
 static motion
 lead_of (const job *j)
 {
@@ -350,7 +351,7 @@ bt__rigid_step (const bt__vehicle_type *type, bt__rigid *body, const bt__rigid_i
 
 /* ---- The grip ---- */
 
-/* Column C of how the attachment moves with a force on it, world: J S J^T.  */
+/* The velocity of the attachment per FORCE on it, world: a column of J S J^T.  */
 static bt_vec3
 yield (const job *j, bt__quat q, bt_vec3 force)
 {

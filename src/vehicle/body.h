@@ -1,26 +1,30 @@
 /* A rigid body in water, with thrusters and a tether, stepped implicitly.
 
-   After Fossen (Handbook of Marine Craft Hydrodynamics and Motion Control, ch. 6-8), with nu the
-   velocity relative to the water along and about the body's own axes at its centre of gravity,
-     M nu' + C(nu) nu + D(nu) nu + g = tau + (rho V - m) a + J^T F,
-   M the mass with its added mass, a the acceleration of the water, F the pull of the tether on the
-   point it is made fast to.  A step is the midpoint rule, of second order, solved by iterates each
-   of which holds C skew and D positive: whatever the iteration comes to, C does no work, drag takes
-   energy away, and the step is bounded for any h.  Without forces the midpoint rule keeps the
-   kinetic energy, and with the attitude turned by Cayley's transform the momentum in the world.
+   The equations are Fossen's (Handbook of Marine Craft Hydrodynamics and Motion Control, ch. 6-8).
+   Nu is the velocity relative to the water along and about the body's own axes at its centre of
+   gravity:
 
-   The implicit line.  A stiff line must be solved together with the body it pulls.  Over a step the
-   place X of the attachment at its end is a linear function of the pull F there but for terms of
-   higher order, X = AT + Y F, so to the line the body is a spring of stiffness K = Y^-1 to the
-   point AT: bt__rigid_grip gives both.  The line's step then adds K (AT - X) to the force on its
-   end node and K to the node's block, and bt__rigid_step is given what it found, F = K (X - AT).
-   With F0 the pull of the last step, the body takes the impulse h (theta F + (1 - theta) F0), and
-   what changes its velocity counts theta h in the way.  Over S = (2 M/h + D + torques that turn
-   with the body)^-1 that is Y = 2 theta2 h J S J^T, over M alone theta2 h2 J M^-1 J^T.  theta is
-   1/2, of second order, while the line is soft, and goes to 1, which damps all that is too quick
-   for the step, as it grows stiff: theta = 1/2 + 1/2 s/(s + 50), s = h2 k / m, k of the line at its
-   end, m of the body there.  A line that goes slack leaves nothing behind (F0 counts for less as F
-   falls below a quarter of it): a longer memory makes energy at every snap.
+     M nu' + C(nu) nu + D(nu) nu + g = tau + (rho V - m) a + J^T F.
+
+   M is the mass with its added mass, a the acceleration of the water, F the pull of the tether on
+   its attachment.  A step is the midpoint rule, of second order, solved by iterates that hold C
+   skew and D positive: at every iterate C does no work and drag takes energy away, so the step is
+   bounded for any h.  Without forces the midpoint rule keeps the kinetic energy, and with the
+   attitude turned by Cayley's transform the momentum in the world.
+
+   The implicit line.  A stiff line must be solved together with the body that the line pulls.  Over
+   a step the end place X of the attachment is, but for terms of higher order, a linear function of
+   the pull F: X = AT + Y F.  To the line the body is therefore a spring of stiffness K = Y^-1 to the
+   point AT, both found by bt__rigid_grip.  The line's step adds K (AT - X) to the force on its end
+   node and K to the node's block; bt__rigid_step is then given the pull F = K (X - AT).
+
+   With F0 the pull of the last step, the body takes the impulse h (theta F + (1 - theta) F0), and a
+   change of velocity counts theta h in the way.  With S = (2 M/h + D + torques that turn with the
+   body)^-1, Y = 2 theta2 h J S J^T; over M alone, Y = theta2 h2 J M^-1 J^T.  Theta is 1/2, of second
+   order, while the line is soft, and grows to 1, which damps all motion too quick for the step, as
+   the line grows stiff: theta = 1/2 + 1/2 s/(s + 50), s = h2 k / m, k of the line at its end, m of
+   the body there.  F0 counts for less as F falls below a quarter of F0, because a slack line must
+   leave nothing behind: a longer memory makes energy at every snap.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -38,16 +42,16 @@ typedef struct bt__rigid
 {
   bt_vec3 position; /* m: of the centre of gravity */
   bt__quat attitude;
-  bt_vec3 velocity; /* m/s over ground, along its own axes */
-  bt_vec3 spin;     /* rad/s, about its own axes */
-  double heading;   /* rad, never wrapped: it counts the turns, clockwise positive */
+  bt_vec3 velocity; /* m/s over ground, along the own axes */
+  bt_vec3 spin;     /* rad/s, about the own axes */
+  double heading;   /* rad, never wrapped, so turns are counted; clockwise positive */
   double thrust[BT__THRUSTERS_MAX]; /* N: now */
   bt_vec3 pull; /* N: F of the last step; at the start that of the line as it was laid */
 } bt__rigid;
 
 extern const bt__record bt__quat_record, bt__rigid_record;
 
-/* What surrounds it in a step.  All zero: nothing does.  */
+/* Surroundings of the body in a step; all zero: empty space.  */
 typedef struct bt__rigid_input
 {
   double h;                        /* s */
@@ -78,7 +82,7 @@ typedef struct bt__grip
   double stiffness[3][3]; /* N/m: symmetric, positive definite */
 } bt__grip;
 
-/* Return in *GRIP what the line of the coming step has at its end; IN->pull is not looked at.  */
+/* Return in *GRIP the end condition for the line of the coming step; IN->pull is not used.  */
 bt_status bt__rigid_grip (const bt__vehicle_type *type, const bt__rigid *body,
                           const bt__rigid_input *in, bt__grip *grip, bt_error *error);
 
@@ -91,9 +95,9 @@ bt_vec3 bt__grip_pull (const bt__grip *grip, bt_vec3 x);
 bt_vec3 bt__rigid_point (const bt__rigid *body, bt_vec3 p);
 bt_vec3 bt__rigid_point_velocity (const bt__rigid *body, bt_vec3 p);
 
-/* Let BODY bounce at the point P of the world off what has the outward NORMAL: Newton's RESTITUTION
-   (0 to 1), Coulomb's FRICTION; never with more energy than it had.  Return the impulse, N s; zero
-   if it was moving away.  */
+/* Let BODY bounce at the point P of the world off a surface with the outward NORMAL: Newton's
+   RESTITUTION (0 to 1), Coulomb's FRICTION; never with more energy than before.  Return the
+   impulse, N s; zero if P was moving away.  */
 bt_vec3 bt__rigid_bounce (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_vec3 normal,
                           double restitution, double friction);
 
@@ -105,9 +109,9 @@ double bt__rigid_energy (const bt__vehicle_type *type, const bt__rigid *body, bt
 /* Signed turns since the heading was FROM (rad), clockwise positive.  */
 double bt__rigid_turns (const bt__rigid *body, double from);
 
-/* HEADING carried on to that of ATTITUDE by the shorter way: the turn about the vertical left when
-   the tilt is taken out, so that pitch and roll, and loops, leave the count alone.  Within 37 deg
-   of upside down, where it means nothing, HEADING stays.  */
+/* HEADING carried on to the heading of ATTITUDE by the shorter way.  The heading of an attitude is
+   the turn about the vertical that remains without the tilt, so pitch, roll and loops leave the
+   count alone.  Within 37 deg of upside down a heading means nothing, and HEADING stays.  */
 double bt__heading_follow (double heading, bt__quat attitude);
 
 #endif

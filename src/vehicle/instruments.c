@@ -1,4 +1,10 @@
-/* Instruments; see instruments.h.
+/* Instruments: pure functions of the truth, the step, a seed and the faults (instruments.h).
+
+   Noise is Gaussian by the method of Box and Muller, from a hash of seed, step and channel (the
+   finaliser of SplitMix64).  No generator is kept in the state, so a replay of the same steps reads
+   the same values, in any order of reading.  Faults: a compass drifts with time, a depth sensor
+   shows its frozen value, speed and altitude read NaN, tension reads 0; without telemetry only
+   range, bearing, tension and payout, which the ship measures, remain.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

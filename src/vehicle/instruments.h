@@ -1,6 +1,7 @@
-/* What a pilot can read: pure functions of the truth, the step, a seed and what is broken.
+/* Readings of a pilot: pure functions of the truth, the step, a seed and the faults.
 
-   The same step and seed read the same, so a replay does; noise is Gaussian, drawn from a hash.
+   Equal steps and seeds give equal readings, so a replay does; noise is Gaussian, drawn from a
+   hash.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,4 +1,4 @@
-/* What the flat records of a vehicle may be when they come from outside.
+/* The values allowed in the flat records of a vehicle from outside.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

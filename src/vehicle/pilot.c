@@ -1,4 +1,14 @@
-/* Autopilots; the method stands in pilot.h.
+/* Autopilots: cascades of position, speed and force (pilot.h).
+
+   One axis (drive): the wished speed is frequency / 2 times the error, at most the fastest; the
+   force is 2 frequency times the lack of speed times the moving mass, plus the drag expected at the
+   wished speed, plus the integral.  With w the frequency the loop has the poles of s^2 + 2 w s +
+   w^2.  The integral grows only while the wish is below the fastest, and not further while the
+   thrusters have reached their limit (anti-windup).
+
+   Position and waypoint limit the level way and the level force as vectors, so that a vehicle goes
+   straight.  A waypoint more than half a metre away is faced.  Order of the axes: level forces,
+   heave, roll and pitch to level, yaw; the wrench then goes to the allocation of rig.c.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -41,8 +51,8 @@ limited (double value, double most)
   return fmax (-most, fmin (most, value));
 }
 
-/* The force for ERROR at SPEED.  The integral stands where the error is too far for it to mean
-   anything, and does not grow where the thrusters have no more.  */
+/* The force for ERROR at SPEED.  The integral stands still while the error asks for the fastest
+   speed, and does not grow while the thrusters are at their limit.  */
 static double
 drive (loop l, double error, double speed, double h, int full, double *sum)
 {
@@ -82,7 +92,7 @@ level (const bt__vehicle_type *type, const bt__rig *rig, bt__pilot *p, const bt_
         = drive (pitch, -bt__pitch_of (fix->attitude), fix->spin.x, h, 0, &p->sum[BT__PITCH]);
 }
 
-/* The heading to keep, if any: where it goes, or what it was told.  */
+/* Return true and the heading to keep, if any: towards the waypoint, or the held heading.  */
 static int
 heading_wish (const bt__pilot *p, const bt__fix *fix, double *heading)
 {
@@ -141,7 +151,7 @@ vertical_force (loop l, bt__pilot *p, const bt__fix *fix, double h)
   return drive (l, error, fix->velocity.z, h, p->full, &p->sum[BT__HEAVE]);
 }
 
-/* What a level speed WISHed for takes, with the integral on top.  */
+/* The force for the wished level speed WISH, with the integral.  */
 static double
 level_part (loop l, double wish, double size, double speed, double sum)
 {
@@ -149,7 +159,7 @@ level_part (loop l, double wish, double size, double speed, double sum)
   return l.moving * 2 * l.frequency * (wish - speed) + drag + sum;
 }
 
-/* Level forces toward the place: the same cascade, its way and its force limited as one.  */
+/* Level forces toward the place: the same cascade, with way and force limited as vectors.  */
 static bt_vec3
 level_force (loop l, bt__pilot *p, const bt__fix *fix, double h)
 {

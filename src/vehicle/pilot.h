@@ -1,12 +1,12 @@
-/* Autopilots: what the thrusters are asked for, from sticks, what is held, and what is known.
+/* Autopilots: the forces asked of the thrusters, from sticks, held values and measurements.
 
    Every hold is a cascade: the error asks for a speed, limited, and the lack of speed for a force,
-   scaled by the mass or inertia that moves; with critical damping at FREQUENCY rad/s.  An integral
-   takes what remains (current, tether, trim), stands still while a limit is reached or a stick
-   overrides, and is bounded by what the thrusters have.
+   scaled by the mass or inertia in motion, with critical damping at FREQUENCY rad/s.  An integral
+   takes steady loads (current, tether, trim), stands still while a limit is reached or a stick
+   overrides, and is bounded by the force of the thrusters.
 
-   A stick off its centre overrides the hold of its axis for as long.  When it is let go the vehicle
-   returns to what it was told, or, with CAPTURES, keeps what it then has.
+   A stick off its centre overrides the hold of its axis for as long.  When the stick is let go the
+   vehicle returns to the held value, or, with CAPTURES, holds its present value from then on.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,4 +1,9 @@
-/* Points of a rigid body: where they are, how they move, what a blow to one does.  Its heading.
+/* Points of a rigid body: their places and velocities, the impulse of a bounce, the heading.
+
+   The bounce is Newton's law of restitution at one point with Coulomb's friction.  First the
+   impulse that stops the slip at the point is tried (three equations); if its friction exceeds the
+   cone, an impulse on the cone against the slip takes its place.  Friction coupled with the normal
+   direction can make energy under Newton's rule, so the impulse is reduced to do no work in sum.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -40,7 +45,7 @@ strike_body (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_vec3 i
   body->spin = bt__add (body->spin, bt__over (bt__cross (r, blow), bt__inertias (type)));
 }
 
-/* The change of velocity of its point R (own axes) by a blow there, own axes.  */
+/* The change of velocity of the point R by the impulse BLOW at R, own axes.  */
 static bt_vec3
 answer (const bt__vehicle_type *type, bt_vec3 r, bt_vec3 blow)
 {
@@ -48,7 +53,7 @@ answer (const bt__vehicle_type *type, bt_vec3 r, bt_vec3 blow)
   return bt__add (bt__over (blow, bt__masses (type)), bt__cross (spin, r));
 }
 
-/* The blow that takes V to WISH there, by the three equations.  */
+/* The impulse at R for a change of velocity from V to WISH: three linear equations.  */
 static bt_vec3
 blow_to (const bt__vehicle_type *type, bt_vec3 r, bt_vec3 v, bt_vec3 wish)
 {
@@ -59,8 +64,8 @@ blow_to (const bt__vehicle_type *type, bt_vec3 r, bt_vec3 v, bt_vec3 wish)
                   per * bt__dot (d, bt__cross (x, y)));
 }
 
-/* The blow along N, with friction against the slip of V, that changes the velocity along N by one.
-   Without the friction where that would wedge it.  */
+/* The impulse along N, with friction against the slip of V, for a change of velocity along N of 1
+   m/s; without friction where friction would wedge the body.  */
 static bt_vec3
 sliding_blow (const bt__vehicle_type *type, bt_vec3 r, bt_vec3 n, bt_vec3 v, double friction)
 {
@@ -87,7 +92,8 @@ bt__rigid_bounce (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_v
   bt_vec3 rub = bt__axpy (blow, -press, n);
   if (!(press > 0) || bt__norm (rub) > friction * press)
     blow = bt__scale (-(1 + restitution) * into, sliding_blow (type, r, n, v, friction));
-  /* Where friction couples with the normal, Newton's rule may make energy: take that much back.  */
+  /* Where friction couples with the normal, Newton's rule may make energy: reduce the impulse until
+     it makes none.  */
   double work = bt__dot (blow, v), cost = bt__dot (blow, answer (type, r, blow)) / 2;
   if (work + cost > 0)
     blow = bt__scale (fmax (0, -work / cost), blow);

@@ -1,8 +1,8 @@
 /* Allocation: the forces of the thrusters that make a wanted wrench.
 
-   The smallest forces that do it, the pseudo-inverse B^T (B B^T)^-1 of what the thrusters make of
-   them, over the axes that a type steers (T. I. Fossen, Handbook of Marine Craft Hydrodynamics and
-   Motion Control, 12.3).
+   The least forces in the sense of squares: the pseudo-inverse B^T (B B^T)^-1, where column k of B
+   is the wrench of one newton of thruster k, over the steered axes of a type (T. I. Fossen,
+   Handbook of Marine Craft Hydrodynamics and Motion Control, 12.3).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -14,7 +14,7 @@
 #include "vehicle/solve.h"
 #include "vehicle/type.h"
 
-/* What one newton of thruster T does, in the papers' order: yaw is about the axis that looks
+/* The wrench of one newton of thruster T in the papers' order; yaw is about the axis that points
    down.  */
 static void
 effect (const bt__thruster *t, double *column)

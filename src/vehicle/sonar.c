@@ -1,4 +1,8 @@
-/* A sonar; see sonar.h.
+/* A sonar: a fan of rays (collide/ray.h) over a sector, tilted against the own axes.
+
+   Beam i of n points to sector (i / (n - 1) - 1/2) from ahead.  A beam reads the range of its first
+   hit with Gaussian noise, or infinity.  Each beam draws noise from a channel of its own, apart
+   from the channels of the other instruments.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

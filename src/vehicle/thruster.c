@@ -1,8 +1,8 @@
-/* Thrusters: what a command gives, and what command gives it.
+/* Thrusters: the force of a command, and the command for a force.
 
    The T200 is the maker's measurement (Blue Robotics, "T200 thruster: performance charts", static
-   thrust by pulse width at 10 to 20 V), every eighth microsecond, linear between; it holds the
-   dead band.  Any other is a square law, as thrust goes with the square of the revolutions.
+   thrust by pulse width at 10 to 20 V), every eighth microsecond, linear between; it holds the dead
+   band.  Any other is a square law, as thrust goes with the square of the revolutions.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -90,10 +90,10 @@ static const bt__vehicle_type types[] = {
     .steers = { 1, 1, 1, 1, 1, 1 },
     .n = 8,
     .thruster = BLUEROV2_HEAVY_THRUSTERS },
-  /* Six thrusters.  Linear and quadratic drag in surge, sway and heave: Li (2020), read in
-     a later simulator.  Mass, inertia, added mass and angular drag as Wu's, the displacement to
-     float by 2 N: estimates.  Its thrusters cannot hold the pitch, so the level ones are at the
-     height of the centre of gravity, and Munk's couple goes, as it does where the flow separates:
+  /* Six thrusters.  Linear and quadratic drag in surge, sway and heave: Li (2020), read in a later
+     simulator.  Mass, inertia, added mass and angular drag as Wu's, the displacement to float by 2
+     N: estimates.  The thrusters cannot hold the pitch, so the level thrusters are placed at the
+     height of the centre of gravity, and Munk's couple is left out, as in separated flow:
      estimates.  */
   { .name = "bluerov2",
     .mass = 11.5,

@@ -1,7 +1,7 @@
-/* What a vehicle is: masses, drag and thrusters, as plain data.
+/* A vehicle type: masses, drag and thrusters, as plain data.
 
-   Forces and moments come in sixes, along and about the body's own axes at its centre of gravity:
-   x to starboard, y ahead, z up.  The table gives them as the papers do, in the order surge, sway,
+   Forces and moments come in sixes, along and about the body's own axes at its centre of gravity: x
+   to starboard, y ahead, z up.  The table gives them as the papers do, in the order surge, sway,
    heave, roll, pitch, yaw.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
@@ -99,8 +99,9 @@ typedef struct bt__rig
    cannot command one of them alone.  */
 bt_status bt__rig_make (const bt__vehicle_type *type, bt__rig *rig, bt_error *error);
 
-/* The forces, to FORCE, that make WRENCH (in the papers' order), all reduced alike when one would
-   exceed its thruster's stronger way, and each within its own.  True if anything was reduced. */
+/* Put into FORCE the forces for WRENCH (in the papers' order).  All forces are reduced alike if a
+   thruster would exceed its stronger direction, then each is cut to the limit of its direction.
+   Return true if a force was reduced.  */
 int bt__rig_share (const bt__vehicle_type *type, const bt__rig *rig, const double *wrench,
                    double *force);
 
