@@ -1,8 +1,9 @@
 /* Cameras that aim themselves: directions by name, distances by what must be in the picture.
 
-   What must be seen is gathered as points.  Without perspective the picture is the box around them
-   seen along the chosen direction; with it the camera is moved back until the last point is in,
-   which for one point q from the middle, right r, ahead f, is at |q.r| / tan (a) - q.f.
+   The things to be seen are gathered as points.  Without perspective the picture is the box around
+   the points as seen along the chosen direction.  With perspective the camera is moved back until
+   every point is inside: for a point q from the middle, right r, ahead f, half angle a, to |q.r| /
+   tan (a) - q.f behind the middle.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -148,8 +149,8 @@ must_box (const bt_view *view)
   return b;
 }
 
-/* Call VISIT for what must be in the picture, and for the part of what is near that lies within
-   reach of it.  */
+/* Call VISIT for all points of things that must be seen, and for the points of near things, clipped
+   to the box ALL grown by GAP.  */
 typedef struct clip
 {
   box all;
@@ -257,8 +258,8 @@ centre (fit *f)
     f->middle = bt__axpy (f->middle, (f->low[i] + f->high[i]) / 2, f->axis[i]);
 }
 
-/* By how much more is in the picture than must be seen: all round, and of a level view above and
-   below, where the titles are.  */
+/* The share of the picture around the things to be seen: all round, and above and below in a level
+   view, where the titles stand.  */
 #define MARGIN 1.16
 #define HEADROOM 1.36
 
@@ -309,8 +310,8 @@ level_part (bt_vec3 v, bt_vec3 fallback)
   return bt__unit_or (bt__vec (v.x, v.y, 0), fallback);
 }
 
-/* Level and across the first tube: what bulges away from the line between its ends is seen best
-   from the direction in which its points are spread least.  */
+/* Level and across the first tube: the tube bulges most clearly in the direction of least spread of
+   its points.  */
 static bt_vec3
 across (const bt_view *view)
 {
@@ -333,13 +334,13 @@ across (const bt_view *view)
   return d.y < -1e-9 || (fabs (d.y) <= 1e-9 && d.x < 0) ? bt__scale (-1, d) : d;
 }
 
-/* The share of what the dive is about, its tubes and vehicles, that the camera sees.  */
+/* The share of tubes and vehicles in sight of the camera.  */
 static double
 share_seen (const bt_view *view)
 {
   enum
   {
-    SPOTS = 12 /* of a tube, and as many times counts a vehicle */
+    SPOTS = 12 /* of a tube; the weight of a vehicle */
   };
   int all = 0, seen = 0;
   for (size_t i = 0; i < view->n; i++)
@@ -436,7 +437,7 @@ bt_view_aim (bt_view *view, bt_aim aim, double aspect, bt_error *error)
     return aim_by_vehicle (view, aim, error);
   if (!must_box (view).any)
     return bt__fail (error, BT_ERR_DEF, "there is nothing to look at: no vehicle and no tether");
-  if (aim == BT_AIM_TOP) /* shadows fall near what casts them */
+  if (aim == BT_AIM_TOP) /* a high sun: shadows fall near their objects */
     view->sun = bt__unit_or (bt__vec (0.1, -0.08, 1), above);
   if (aim == BT_AIM_OVERVIEW)
     aim_overview (view, aspect);

@@ -1,9 +1,8 @@
 /* Bodies that people know: the vehicle, the boat, the frame a tether hangs from.
 
-   The vehicle is a small open-frame one of the kind that inspects: two dark side plates, bright
-   floats on top with an orange nose, a clear tube with a dome in front, thrusters on its sides.
-   Lengths are in parts of that of the vehicle, as it is built; the whole is then drawn out to the
-   size of its hull.
+   The vehicle is a small open-frame inspection ROV: two dark side plates, bright floats on top with
+   an orange nose, a clear tube with a dome in front, thrusters on its sides.  Lengths are shares of
+   the length of the vehicle; the whole is then stretched to the size of the hull.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -12,8 +11,8 @@
 #include "math/vec.h"
 #include "render/soup.h"
 
-/* A body under construction: its pose, and what one unit is in metres, along its axes and of what
-   is round.  */
+/* A body under construction: The pose of the vehicle, and the metres of one unit: along its axes,
+   and of round parts.  */
 typedef struct builder
 {
   bt__soup *soup;

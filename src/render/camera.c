@@ -1,5 +1,13 @@
 /* Matrices for a camera.
 
+   Optics are eye, three axes (right, up, ahead) and the half sizes of the picture: at distance 1
+   with perspective, in metres without.  Matrices are computed in doubles relative to an origin near
+   the scene and then stored as floats, column by column, as OpenGL reads them.  A window selects a
+   part of the picture, so that tiles of one picture share one camera.
+
+   Without perspective depth is linear between near and far; with perspective it is the usual (f +
+   n) / (f - n) - 2 f n / (f - n) / z, affine in 1/z.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
@@ -36,7 +44,7 @@ set_row (double row[4], bt_vec3 axis, double scale, bt_vec3 offset)
   row[3] = bt__dot (axis, offset) / scale;
 }
 
-/* The rows of depth and of what all is divided by.  */
+/* The rows of depth z and of the divisor w.  */
 static void
 set_depth (double z[4], double w[4], const bt__optics *o, bt_vec3 offset)
 {

@@ -1,8 +1,8 @@
 /* Colours for numbers.
 
-   From violet to yellow, after `plasma': its lightness rises evenly, so that it is read by the
-   colour-blind and in grey; it begins bright enough, and its colours are none of the water's. Words
-   get the colours of Okabe and Ito (2008).
+   From violet to yellow, after `plasma': lightness rises evenly, so the scale can be read by the
+   colour-blind and in grey.  The scale begins bright enough and has none of the colours of water.
+   Words get the colours of Okabe and Ito (2008).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

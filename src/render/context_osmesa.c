@@ -1,6 +1,6 @@
 /* OSMesa: OpenGL drawn by the processor, without a window system.  The library is opened when the
-   first picture is asked for.  Mesa 25.1 and later have it no more: what is used of its header,
-   which changes no more either, is written here, so that no build depends on it.
+   first picture is asked for.  Mesa 25.1 and later lack the library; the few declarations needed of
+   its final header are repeated here, and no build depends on OSMesa.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,8 +1,16 @@
-/* Drawing a view: the scene into buffers at several samples a pixel, then pixels from those, tile
-   by tile, so that the size of a picture is bound by its own memory alone.
+/* Drawing a view, tile by tile, with deferred shading.
 
-   A tile is drawn with a margin as wide as the looks around that shade it, so that its pixels are
-   those of the picture drawn at once.
+   Triangles go to the card once.  For each tile the scene is drawn unlit into buffers at several
+   samples a pixel (colours, normals, depths), then the passes of shaders_pixels.c make the pixels
+   of the tile from the buffers: shadows, outlines, occlusion, fog, averaging.  Only the picture in
+   memory grows with the size of the picture.
+
+   A tile is drawn with a margin as wide as the neighbourhood used in shading, so a tiled picture
+   equals the picture drawn at once.  Shadows come from one map for all tiles, drawn from the sun's
+   side over the box about all bodies.
+
+   Numbers handed to the shaders are relative to the point looked at, the soup's origin, because
+   floats have too few digits for metres of a map.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -74,8 +82,8 @@ set_vector (const bt__job *j, GLuint program, const char *name, bt_vec3 v)
   j->gl->Uniform3f (spot (j, program, name), (float)v.x, (float)v.y, (float)v.z);
 }
 
-/* Heights and places are told to the shaders from the soup's origin on; patterns go on from tile to
-   tile and picture to picture by SHIFT.  */
+/* Set the uniforms common to all shaders.  Heights and places are relative to the soup's origin;
+   SHIFT continues patterns from tile to tile and picture to picture.  */
 static void
 set_common (const bt__job *j, GLuint program)
 {
@@ -118,7 +126,7 @@ draw_shadows (bt__job *j)
   draw_corners (j, j->n_solid, j->soup.n_index - j->n_solid);
 }
 
-/* What hides a tube lets some of it through: it is mixed to the colour in front.  */
+/* Mix hidden tubes into the colour in front of them, so that tubes shine through.  */
 static void
 draw_ghosts (const bt__job *j)
 {

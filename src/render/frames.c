@@ -53,8 +53,8 @@ free_frames (const bt__gl *gl, bt__frames *f)
   *f = (bt__frames){ .w = 0 };
 }
 
-/* Make frame I of textures COLORS, N of them, and DEPTHS if that is one; true if it can be drawn
-   to.  */
+/* Attach the N textures COLORS, and DEPTHS unless 0, to FRAME; return true if the frame is
+   complete.  */
 static int
 bind_frame (const bt__gl *gl, GLuint frame, const GLuint *colors, GLsizei n, GLuint depths)
 {

@@ -1,5 +1,5 @@
-/* What the renderer uses of OpenGL 3.3 core, as pointers that a context hands out: nothing is
-   linked to any GL library.
+/* The functions of OpenGL 3.3 core used by the renderer, as pointers from the context: no GL
+   library is linked.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -81,8 +81,8 @@ views (void)
 
 /* ---- Drawing ---- */
 
-/* What one call draws, and what is to be freed when it is left, by error or not: a current may be
-   a procedure that raises.  */
+/* The data of one call, freed when the call is left, by error or not: a current may be a procedure
+   that raises.  */
 typedef struct sketch
 {
   bt_view *view;

@@ -1,4 +1,4 @@
-/* One picture on its way: what preparing it and drawing it share.
+/* One picture on its way: the data shared by preparing and drawing.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -29,14 +29,15 @@ typedef struct bt__job
   const GLuint *resolve; /* the programs of the passes, likewise */
 } bt__job;
 
-/* Gather the triangles of JOB's view, and from them what its light and its camera span.  */
+/* Gather the triangles of JOB's view; from the triangles follow the frame of the light and the
+   depths of the camera.  */
 void bt__prepare (bt__job *job);
 
-/* frames.c: have buffers for tiles of W by H pixels: those of the last picture, if they are of that
-   size.  Leave them for the next picture, unless they are large.  */
+/* frames.c: have buffers for tiles of W by H pixels; buffers of the last picture are used again if
+   the size agrees.  Leave them for the next picture, unless they are large.  */
 bt_status bt__frames_have (bt__job *job, int w, int h, bt_error *error);
 void bt__frames_leave (bt__job *job);
-/* Cells of two pixels that a side of N pixels needs, with those about it.  */
+/* The number of cells of two pixels along a side of N pixels, with a border.  */
 int bt__cells (int n);
 
 /* How far one sees, m.  */

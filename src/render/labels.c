@@ -1,8 +1,14 @@
 /* Labels: where the words beside things stand.  No label overlaps words or figures, or leaves the
    picture.
 
-   The five most important labels stand beside their things, with a line from a distant thing.  The
-   remaining labels are numbers, explained by a list under the title as far as the list has room.
+   A greedy placement: labels are sorted by rank (vehicles, then labels asked for, marks, all
+   others), and each is tried at eight directions and five distances beside its thing, nearest
+   first.  The first free box is taken and kept as taken by the pen.  The five most important labels
+   stand beside their things, with a line from a distant thing.  The remaining labels are numbers,
+   explained by a list under the title as far as the list has room; labels without room are left
+   out.
+
+   Order of things in the view breaks ties, so equal views give equal pictures.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -111,8 +117,8 @@ are_apart (const bt__box *a, const bt__box *b)
   return a->x > b->x + b->w || b->x > a->x + a->w || a->y > b->y + b->h || b->y > a->y + a->h;
 }
 
-/* Write TEXT beside (X, Y) where there is room, near first, but not on KEPT, if that is a box; true
-   if there was room.  */
+/* Write TEXT in the nearest free box beside (X, Y), but not on the box KEPT (or NULL); return true
+   if a box was free.  */
 static int
 write_beside (bt__pen *pen, double x, double y, const char *text, const bt__box *kept)
 {

@@ -1,4 +1,11 @@
-/* What is read on a picture: title, scale bar, compass, depths, legend.
+/* The figures on a picture: title, scale bar, compass, depths, legend.
+
+   Figures are drawn by cairo on the finished pixels, in sizes of the pen's letter, so a small
+   picture has the same layout as a large one.  Each figure takes its box from the pen; labels come
+   last and make way for all figures (labels.c).  In a small picture only the scale is drawn.
+
+   The scale bar holds at the distance looked at; its length is 1, 2 or 5 times a power of ten.
+   Depths stand at the side of a level view alone, where height on the picture is height in the sea.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

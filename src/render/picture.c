@@ -1,7 +1,7 @@
 /* Pictures: pixels in memory, and as PNG in a file.
 
-   A file is written beside its place and moved there when it is whole, so that a full disk costs
-   nothing that was there.
+   A picture is written to a part file beside its place, and a whole part file then takes the name:
+   a full disk never costs the old picture.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -51,7 +51,7 @@ cannot_write (const char *file, int why, bt_error *error)
                    why ? strerror (why) : "the picture could not be encoded");
 }
 
-/* Write to the file PART, and on success give it the name FILE, unless that is NULL.  */
+/* Write to the file PART, then rename PART to FILE unless FILE is NULL.  */
 static bt_status
 write_part (const bt__picture *picture, const char *part, const char *file, bt_error *error)
 {

@@ -1,6 +1,7 @@
 /* A plan: the scene from above as a drawing on paper, obstacles as outlines, the vehicle as an
-   arrow head.  After the plan view of the trainer in D. Manowitz's thesis.  No graphics library
-   needed.
+   arrow head.  The layout follows the plan view of the trainer in D. Manowitz's thesis.  An outline
+   is the convex hull of the projected points of a body: eight corners of a box, rims of a cylinder.
+   No graphics library is needed.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

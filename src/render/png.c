@@ -1,8 +1,8 @@
 /* Pictures as PNG, by libpng, quickly.
 
-   A picture of water has a step of noise in every pixel.  zlib's usual level spends four fifths of
-   its time searching the noise, for a seventh of the size, so the first level is taken, and of
-   PNG's filters the difference from the pixel before.  An opaque picture has no alpha.
+   A picture of water has a step of noise in every pixel. zlib's usual level spends four fifths of
+   its time searching the noise, for a seventh of the size.  Therefore compression level 1 is used,
+   with PNG's filter `sub', the difference from the pixel before.  An opaque picture has no alpha.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,4 +1,13 @@
-/* Preparing a picture: the triangles of a view, how far the camera and the light reach.
+/* Preparing a picture: the triangles of a view, and the reach of camera and light.
+
+   Things become triangles in an order that drawing relies on: solids, which cast shadows; then
+   signs such as arrows, marks and lines, which cast none; ground last, since solids hide most of it
+   by then.
+
+   The box about the vertices of solids and signs, cut at a multiple of the distance looked at,
+   frames the shadow map.  Near and far depth of the camera come from all vertices, so depth buffers
+   use their digits where the scene is.  A visibility of 0 in the view is replaced by a multiple of
+   the distance looked at.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -7,7 +16,7 @@
 #include "math/vec.h"
 #include "render/job.h"
 
-/* What casts shadows; what is drawn to be read and casts none; what most of the others hide.  */
+/* Bodies that cast shadows; signs to be read, without shadows; ground, mostly hidden by bodies.  */
 enum
 {
   SOLID,
@@ -34,7 +43,7 @@ bt__visibility (const bt__job *j)
   return j->optics.perspective ? fmax (26, 3.8 * away) : fmax (40, 3.5 * c->height);
 }
 
-/* How far level ground goes: beyond where the water hides it.  */
+/* The extent of level ground, m: beyond the visibility of the water.  */
 static double
 reach_of (const bt__job *j)
 {
@@ -56,8 +65,8 @@ gather_things (bt__job *j, int sort)
     }
 }
 
-/* The box of what is no ground, by its vertices, no further off than the camera can be bothered
-   with, gives the light its frame and the camera its depths.  */
+/* Measure the ball about all vertices but those of the ground, cut off far from the camera: the
+   frame of the light.  */
 static void
 measure (bt__job *j)
 {

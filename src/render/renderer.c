@@ -81,7 +81,8 @@ build_pass (const bt__gl *gl, int pass, int samples, int perspective, GLuint *pr
   return link_program (gl, bt__shader_resolve_vertex, text, program, error);
 }
 
-/* Linked when they are wanted: a process that draws one picture pays for its own alone.  */
+/* Link the programs of a picture at its first use: a process that draws one picture pays for one
+   set of programs.  */
 const GLuint *
 bt__renderer_resolve (bt__renderer *r, int samples, int perspective, bt_error *error)
 {
@@ -168,7 +169,7 @@ open_backend (const bt__backend *backend, bt__renderer **renderer, bt_error *err
   return status;
 }
 
-/* What the context holds goes with it.  */
+/* Closing the context frees all its objects.  */
 void
 bt__renderer_free (bt__renderer *r)
 {

@@ -1,5 +1,5 @@
-/* What is drawn over a scene for who wants to look closer: contacts, turns, taut strings, the boxes
-   about obstacles.  No camera aims at any of it.
+/* Additions to a scene for a closer look: contacts, turns, taut strings, the boxes about obstacles.
+   No camera aims at additions.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -12,7 +12,7 @@
 #include "render/scene.h"
 #include "render/soup.h"
 
-/* How long the tethers are across, m: what is drawn beside them is in proportion.  */
+/* The extent of the tethers, m: additions are drawn in proportion.  */
 static double
 span_of (const bt__scene *s)
 {
@@ -115,7 +115,8 @@ nearest_point (bt__scene *s, int i, const axle *a)
   return best;
 }
 
-/* TURNS about the axle as a helix that begins where the tether comes from, an arrow at its end.  */
+/* Draw TURNS about the axle as a helix from the direction of the tether on, with an arrow at the
+   end.  */
 static void
 add_helix (bt__scene *s, const axle *a, int i, double turns)
 {
@@ -248,7 +249,7 @@ add_box (bt__scene *s, const bt_vec3 axis[3], const bt_tree_box *box, bt_color c
   bt__scene_add (s, &line);
 }
 
-/* An obstacle without a tree has the one box about it, or, of a box, itself.  */
+/* An obstacle without a tree has its bounding box alone; a box is its own.  */
 static void
 add_whole (bt__scene *s, const bt_obstacle_view *o, bt_color color)
 {
@@ -277,7 +278,7 @@ add_level_of (bt__scene *s, int i, const bt_obstacle_view *o, int level)
     add_whole (s, o, color);
 }
 
-/* The colours tell the levels, unless they tell something else already.  */
+/* Colours tell the levels, unless the colours of the picture have another meaning already.  */
 static void
 name_levels (bt__scene *s)
 {

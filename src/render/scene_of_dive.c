@@ -83,7 +83,8 @@ is_built_over (bt__scene *s, bt_vec3 at, double length)
   return found;
 }
 
-/* A boat with its stern over the tether's end and its bow turned away; false without room.  */
+/* Add a boat with the stern over the tether's end and the bow turned away; return false without
+   room.  */
 static int
 add_boat (bt__scene *s, bt_vec3 end, bt_vec3 middle)
 {

@@ -22,8 +22,8 @@ typedef enum bt__paint
 enum
 {
   BT__SHOW_CONTACTS = 1, /* every contact, with the force or the normal there */
-  BT__SHOW_TURNS = 2,    /* how often tethers go round what */
-  BT__SHOW_STRING = 4,   /* what the tethers would shrink to */
+  BT__SHOW_TURNS = 2,    /* turns of tethers about obstacles */
+  BT__SHOW_STRING = 4,   /* the taut strings */
   BT__SHOW_BOXES = 8     /* the boxes about the obstacles */
 };
 
@@ -37,8 +37,8 @@ typedef struct bt__show
 /* Return the word for PAINT, or NULL.  */
 const char *bt__paint_name (bt__paint paint);
 
-/* Put what DIVE holds now into VIEW, an empty one: sea and bottom, obstacles, tethers painted,
-   vehicles, where tethers come from, what they touch, the current, and what SHOW wants more.  */
+/* Put the present state of DIVE into VIEW, an empty view: sea and bottom, obstacles, painted
+   tethers with their touches and anchors, vehicles, the current, and the additions of SHOW.  */
 bt_status bt__scene_of_dive (const bt_dive *dive, const bt__show *show, bt_view *view,
                              bt_error *error);
 

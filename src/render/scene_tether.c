@@ -82,7 +82,7 @@ set_curvatures (const bt_vec3 *p, double *value, size_t n)
   value[n - 1] = value[n - 2];
 }
 
-/* The number of the model that is at work on each of the points.  */
+/* The number of the model at work at each of the points.  */
 static void
 set_models (bt__scene *s, int i, const bt_tether_view *t, double *value, size_t n)
 {
@@ -141,7 +141,7 @@ model_word (double model)
   return "unknown";
 }
 
-/* Number the models that are there from 0 on, and name them.  */
+/* Number the models in use from 0 on, and name them.  */
 static void
 set_words (bt__scene *s)
 {
@@ -213,7 +213,7 @@ add_tail (bt__scene *s, int i, const bt_tether_view *t)
   free (points);
 }
 
-/* The name of OBSTACLE, and how often tether I goes round it, if it does.  */
+/* The name of OBSTACLE, with the number of turns of tether I about the obstacle, if any.  */
 static void
 describe_touch (bt__scene *s, int i, int obstacle, char text[static 120])
 {
@@ -226,8 +226,8 @@ describe_touch (bt__scene *s, int i, int obstacle, char text[static 120])
     snprintf (text, 120, "%.60s", name ? name : "");
 }
 
-/* Rings where tether I touches, not two within a hundredth of its length; the first on an obstacle
-   tells its name, unless more is told of it.  */
+/* Rings where tether I touches, not two within a hundredth of its length; the first ring on an
+   obstacle has its name, unless SHOW tells more of the obstacle.  */
 static void
 add_marks (bt__scene *s, int i, const bt_tether_view *t)
 {

@@ -1,7 +1,11 @@
-/* The shaders, as text: the scene, its shadows, and what they share with the pixels.
+/* The shaders, as text: the scene, its shadows, and the parts shared with the passes of pixels.
 
    The scene is drawn unlit and without water into three buffers: colour, gloss and share of fog;
-   normal and kind; depth.  The passes of shaders_pixels.c make pixels of it.
+   normal and kind; depth.  The passes of shaders_pixels.c make pixels of the buffers (deferred
+   shading), so light, outlines and fog are computed once per pixel, not once per triangle.
+
+   The shadow map is drawn by a shader of its own with depth alone.  Noise is a hash of whole
+   numbers, not of sines, so that every driver draws the same pattern.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -13,9 +13,9 @@ extern const char *const bt__shader_shadow_fragment[];
 extern const char *const bt__shader_resolve_vertex[];
 extern const char bt__shader_version[], bt__shader_common[], bt__shader_lighting[];
 
-/* The passes that make pixels: to sort them; then for those with nothing in them, one solid, edges,
-   ground, the surface from below, edges before that: the K-th of these is drawn at the depth K / 8.
- */
+/* The passes that make pixels.  Pass 0 sorts the pixels; each further pass shades one sort: empty
+   water, one solid, edges, ground, the surface from below, edges before the surface.  Sort K has
+   the depth K / 8.  */
 enum
 {
   BT__RESOLVE_HIGH = 5, /* the first of those that show the surface */

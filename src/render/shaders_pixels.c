@@ -265,8 +265,8 @@ static const char surfaces[] =
     "    sum += 0.25 * lit (q, corner (i), slope);\n"
     "  return looks == 1 ? known : sum;\n"
     "}\n"
-    /* How open the sky is, how the waves' light plays, and the direct light, from the four cells about
-       PIXEL, of those that lie no further away from Z than the looks around reach.  */
+    /* Openness of the sky, play of the waves' light, and direct light, from the four cells about
+       PIXEL; cells whose depth differs from Z by more than the reach are left out.  */
     "vec3 around_at (ivec2 pixel_at, float z)\n"
     "{\n"
     "  ivec2 x = pixel_at + odd (), c = x / 2 + 1, side = (x & 1) * 2 - 1;\n"
@@ -313,7 +313,7 @@ static const char surfaces[] =
     "{\n"
     "  return breadth_at (z) / float (SAMPLES) / max (0.05, abs (dot (way, N)));\n"
     "}\n"
-    /* C as it is drawn, of the colour A and what is packed with it, at P with shape S.  */
+    /* The colour drawn at P with shape S, of the sample A with its packed gloss and fog.  */
     "vec3 solid_at (vec4 c, vec3 p, float z, vec3 way, vec4 s, vec3 around)\n"
     "{\n"
     "  vec3 N = normalize (s.xyz), a = pow (c.rgb, vec3 (2.2));\n"
@@ -369,7 +369,7 @@ static const char one_surface[] =
 
 static const char edges[] =
     "int outline (vec4 s) { int k = kind (s); return k == 3 ? 0 : k; }\n"
-    /* A dark seam beside what is bright and thin, where that is in front.  */
+    /* A dark seam beside bright thin things in front.  */
     "float seam (ivec2 at, float d)\n"
     "{\n"
     "  float found = 0.0;\n"

@@ -247,7 +247,7 @@ direction (const bt_vec3 *points, size_t n, size_t i, bt_vec3 last)
   return bt__unit_or (bt__sub (after, before), last);
 }
 
-/* The frame is carried along without turning, so that the tube does not look twisted.  */
+/* The frame is carried along without turning about the tube: no tube looks twisted.  */
 void
 bt__add_tube (bt__soup *soup, const bt_vec3 *points, size_t n, double radius, double least,
               const bt_color *color)

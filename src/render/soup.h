@@ -105,16 +105,16 @@ void bt__add_tube (bt__soup *soup, const bt_vec3 *points, size_t n, double radiu
 bt_vec3 bt__pose_point (const bt__pose *pose, double x, double y, double z);
 bt__pose bt__pose_of (bt_vec3 at, double heading, double pitch, double roll);
 
-/* Add a thing, whatever it is (things.c), and the bodies that stand for parts of a world.  */
+/* Add a thing of any kind (things.c), and the bodies of vehicles, anchors and ships (bodies.c).  */
 void bt__add_thing (bt__soup *soup, const bt_view *view, const bt_thing *thing, double reach);
 void bt__add_vehicle (bt__soup *soup, const bt_thing *thing);
 void bt__add_anchor (bt__soup *soup, const bt_thing *thing);
 void bt__add_ship (bt__soup *soup, const bt_thing *thing);
 
-/* The colour for VALUE on SCALE: bright at both ends, and told apart by the colour-blind.  */
+/* The colour for VALUE on SCALE: bright at both ends, and distinct for the colour-blind.  */
 bt_color bt__scale_color (const bt_scale *scale, double value);
 
-/* How many times its size a vehicle is drawn so that it can be told.  */
+/* The factor by which a vehicle is drawn larger to be recognised.  */
 double bt__vehicle_growth (const bt__lens *lens, const bt_thing *thing);
 
 #endif

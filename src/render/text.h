@@ -22,20 +22,20 @@ typedef struct bt__pen
   int width, height;
   double letter;            /* height of the letters, pixels */
   int paper;                /* true: dark on white, else white on water */
-  bt__box taken[BT__BOXES]; /* what is written already */
+  bt__box taken[BT__BOXES]; /* boxes in use */
   int n_taken;
 } bt__pen;
 
 bt_status bt__pen_open (bt__pen *pen, bt__picture *picture, int paper, bt_error *error);
-/* Finish, and tell whether all was drawn.  */
+/* Finish; fail unless all was drawn.  */
 bt_status bt__pen_close (bt__pen *pen, bt_error *error);
 
-/* Text with its left (ALIGN 0), middle (0.5) or right (1) end at X, its base line at Y.  */
+/* Write TEXT with its left (ALIGN 0), middle (0.5) or right (1) end at X, the base line at Y.  */
 void bt__pen_text (bt__pen *pen, double x, double y, double align, const char *text);
 double bt__pen_width (bt__pen *pen, const char *text);
 
-/* The box that TEXT takes with its left end at X, its base line at Y; text in a box; whether
-   BOX is in the picture and nothing is written there; take it for what is no text.  */
+/* The box of TEXT with the left end at X, the base line at Y; text in a box; true if BOX is in the
+   picture and free; take BOX for a figure.  */
 bt__box bt__pen_box (bt__pen *pen, double x, double y, const char *text);
 void bt__pen_text_in (bt__pen *pen, const bt__box *box, const char *text);
 int bt__pen_free (const bt__pen *pen, const bt__box *box);

@@ -20,7 +20,7 @@ stuff_of (bt_color color, int fog, int edge, int shading, int gloss)
 
 /* ---- Tubes, lines, arrows, marks ---- */
 
-/* The colours of the points of T, or NULL when it has but one.  */
+/* The colours of the points of T, or NULL for a single colour.  */
 static bt_color *
 tube_colors (const bt_view *view, const bt_thing *t)
 {
@@ -85,7 +85,7 @@ add_mark (bt__soup *soup, const bt_thing *t)
 
 /* ---- Solids ---- */
 
-/* What is round and thin, a wire, is drawn no thinner than a tether: it is what one hangs on.  */
+/* Thin round things such as wires are drawn no thinner than a tether: tethers hang on wires.  */
 static double
 thick_at (bt__soup *soup, double radius, bt_vec3 p)
 {
@@ -98,7 +98,7 @@ add_round (bt__soup *soup, const bt_thing *t)
   double r0 = thick_at (soup, t->radius, t->from), r1 = thick_at (soup, t->radius, t->to);
   int ball = t->kind == BT_THING_CAPSULE;
   if (r0 > t->radius || r1 > t->radius)
-    soup->stuff.edge = BT__EDGE_NONE; /* nothing of it would be left between its outlines */
+    soup->stuff.edge = BT__EDGE_NONE; /* the outlines would cover the whole thing */
   bt__add_cone (soup, t->from, t->to, r0, r1, !ball);
   if (ball)
     {

@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "math/vec.h"
 
-/* Every copy hangs on one list, so that freeing needs to know nothing of things.  */
+/* Every copy hangs on one list: freeing knows nothing of the kinds of things.  */
 typedef struct bt_keep
 {
   struct bt_keep *next;
