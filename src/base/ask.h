@@ -16,7 +16,7 @@ typedef struct bt__asker
 {
   bt_poll poll; /* NULL: nobody is asked */
   void *user;
-  double share; /* of the work that was last said to be done */
+  double share; /* of the work reported last */
   int stopped;  /* true from when POLL said so until bt__stopped tells */
 } bt__asker;
 

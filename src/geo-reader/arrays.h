@@ -1,4 +1,4 @@
-/* Arrays of a NetCDF file: numbers with their scale, and NaN where there are none.
+/* Arrays of a NetCDF file: numbers with their scale, NaN for missing values.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

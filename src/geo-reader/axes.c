@@ -1,5 +1,5 @@
-/* Times and levels of an ocean model.  Levels are depths, or follow the bed as ROMS has it (its
-   wiki, "Vertical S-coordinate", transformations 1 and 2, at a still surface).
+/* Times and levels of an ocean model.  Levels are depths, or follow the bed by the s-coordinate of
+   ROMS (ROMS wiki, "Vertical S-coordinate", transformations 1 and 2, at a still surface).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,5 +1,11 @@
-/* A bathymetry on a grid of local metres: which grid, where each of its posts is in the file, and
-   the height there, bilinear between the centres of the file's cells.
+/* A bathymetry on a grid of local metres.
+
+   The grid is chosen along x and y about the origin, as wide as the file or the wanted reach, with
+   posts as far apart as the cells of the file near the middle.  Each post is mapped to a column and
+   row of the file (place.c); its height is bilinear between the centres of the four cells around,
+   and NaN if one of the cells with a share has no number.  Only the window of the file under the
+   grid is read.  Without a reach, no side is longer than the distance over which lengths in local
+   metres are right to 0.1 %.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -48,8 +54,8 @@ typedef struct box
   double low[2], high[2];
 } box;
 
-/* The box of the centres of the file's cells along its four sides, in local metres; not finite
-   where a part of the outline has no place there.  */
+/* The box of the centres of cells along the four sides of the file, in local metres; not finite
+   where a part of the outline has no local place.  */
 static box
 outline_box (const job *j)
 {
@@ -77,7 +83,7 @@ outline_box (const job *j)
   return b;
 }
 
-/* Where posts are wanted: all of the file, or what of it is within reach.  */
+/* The box wanted for posts: the whole file, or the part within reach.  */
 static bt_status
 wanted_box (job *j, box *b)
 {
@@ -99,7 +105,7 @@ wanted_box (job *j, box *b)
   return BT_OK;
 }
 
-/* How far apart the file's cells are along x and y, m, near the middle of what is wanted.  */
+/* The spacing of the file's cells along x and y, m, near the middle of the wanted box.  */
 static void
 spacing (const job *j, const box *b, double step[2])
 {
@@ -149,7 +155,7 @@ choose_grid (job *j)
 
 /* ---- Where in the file ---- */
 
-/* Clamp *AT to the centres 0 to N - 1 of cells; nowhere if it is beyond their edges.  */
+/* Clamp *AT to the centres 0 to N - 1 of cells; nowhere beyond the edges.  */
 static void
 clamp_cell (double *at, int n)
 {
@@ -262,8 +268,7 @@ turn_to_heights (job *j)
   return BT_OK;
 }
 
-/* The height at column U and row V of the file; NaN where one of the cells that have a part in it
-   has none.  */
+/* The height at column U and row V of the file; NaN if a cell with a share has no number.  */
 static double
 height_at (const job *j, double u, double v)
 {

@@ -1,5 +1,12 @@
 /* The current of an ocean model at one place, as rows x y z t u v w.
 
+   The velocity components are found by their CF standard names, else by usual names of variables.
+   Each component has its own place among its cells (spot.c), since some models stagger the
+   components; times and levels (axes.c) are common to both.  Values are means over the cells with a
+   number, weighted by their shares: near a coast some cells are land.  A model on a grid of its own
+   axes has its vectors turned to east and north by its angle.  Levels without water at all times
+   are left out; w is 0.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <config.h>
@@ -80,7 +87,7 @@ choose_name (GDALGroupH group, CSLConstList names, int k)
   return NULL;
 }
 
-/* Which of the dimensions before the last two of PART are time and level.  */
+/* Find time and level among the dimensions of PART before the last two.  */
 static bt_status
 sort_dimensions (job *j, bt__flow_part *part)
 {
@@ -177,7 +184,7 @@ check_start (job *j)
 
 /* ---- The numbers ---- */
 
-/* Read what PART has at cell I of its place to NUMBERS, by time, then level.  */
+/* Read the values of PART at cell I of its place to NUMBERS, by time, then level.  */
 static bt_status
 read_cell (job *j, const bt__flow_part *part, int i, double *numbers)
 {
@@ -226,7 +233,7 @@ read_components (job *j)
   return s == BT_OK ? read_component (j, NORTH) : s;
 }
 
-/* A model whose cells follow a coast gives velocities along its own axes.  */
+/* A model with cells along a coast has velocities along its own axes.  */
 static bt_status
 find_angle (job *j)
 {

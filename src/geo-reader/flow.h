@@ -1,5 +1,5 @@
-/* The current of an ocean model at one place, in parts: where the place is among the model's cells,
-   which times and levels there are.
+/* The current of an ocean model at one place, in parts: the place among the model's cells, the
+   times, the levels.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -23,7 +23,7 @@ typedef struct bt__flow_spot
   double share[BT__FLOW_CELLS];
 } bt__flow_spot;
 
-/* One component of the velocity.  A dimension that it lacks has the number -1.  */
+/* One component of the velocity.  The number of a missing dimension is -1.  */
 typedef struct bt__flow_part
 {
   bt__array array;
@@ -33,8 +33,8 @@ typedef struct bt__flow_part
 
 /* ---- spot.c ---- */
 
-/* Find AT among the cells of PART, whose row and column it finds too: bilinear where latitudes and
-   longitudes are lines of their own, the nearest cell where they are arrays.  BT_ERR_FORMAT.  */
+/* Find AT among the cells of PART, and set row and column of PART: bilinear where latitudes and
+   longitudes are lines, the nearest cell where they are arrays.  BT_ERR_FORMAT.  */
 bt_status bt__flow_find_spot (GDALGroupH group, const bt_geo_origin *at, bt__flow_part *part,
                               bt_error *error);
 
@@ -45,11 +45,11 @@ bt_status bt__flow_find_spot (GDALGroupH group, const bt_geo_origin *at, bt__flo
 double *bt__flow_times (GDALGroupH group, const bt__flow_part *part, bt_error *error);
 
 /* Return the heights z, m, of the levels of PART, freed by free; one 0 where it has none.  NULL on
-   failure.  AT is where levels that follow the bed are asked for.  */
+   failure.  AT is the place at which levels along the bed are wanted.  */
 double *bt__flow_levels (GDALGroupH group, const bt__flow_part *part, const bt_geo_origin *at,
                          bt_error *error);
 
-/* Write the time T to TEXT as people write it, 2025-03-01T06:00Z.  Return TEXT.  */
+/* Write the time T to TEXT in the form 2025-03-01T06:00Z.  Return TEXT.  */
 const char *bt__flow_time_text (double t, char text[BT__FLOW_TIME_TEXT]);
 
 #endif

@@ -1,5 +1,5 @@
-/* Opening: of the two hundred formats of GDAL the four that people have bathymetry in.  GDAL's own
-   words are not passed on, since they may quote a file that is none of these.
+/* Opening files: of the two hundred formats of GDAL, the four in use for bathymetry.  GDAL's error
+   messages are not passed on, since they may quote a file of no such format.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -56,11 +56,11 @@ no_format (bt_error *error)
 
 /* ---- The variables of a NetCDF file ---- */
 
-/* What bathymetry is called, the likeliest first.  */
+/* Names of variables for bathymetry, the likeliest first.  */
 static const char *const usual_names[]
     = { "elevation", "z", "depth", "bathymetry", "bathy", "topo", "h", "Band1", "height", NULL };
 
-/* The variable that the subdataset NAME, `NETCDF:"FILE":VARIABLE', stands for.  */
+/* The variable of the subdataset NAME, `NETCDF:"FILE":VARIABLE'.  */
 static const char *
 variable_of (const char *name)
 {
@@ -123,7 +123,7 @@ is_variable (GDALDatasetH data, const char *name)
   return own && strcmp (own, name) == 0;
 }
 
-/* DATA, or the part of it that holds the bathymetry.  */
+/* DATA, or its subdataset with the bathymetry.  */
 static GDALDatasetH
 choose_part (GDALDatasetH data, const char *wanted, bt_error *error)
 {

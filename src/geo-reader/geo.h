@@ -1,5 +1,5 @@
-/* What the files of the geographic reader share: opening a file by the few formats that are let in,
-   coordinates to the local metres of an origin and back, and the table that is handed over.
+/* Shared by the files of the geographic reader: opening a file in one of the permitted formats,
+   coordinates to the local metres of an origin and back, and the table handed over.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -22,7 +22,7 @@ typedef struct bt__geo_made
   double *numbers;
 } bt__geo_made;
 
-/* What is wanted of a bathymetry, as main understood its arguments.  */
+/* The wanted part of a bathymetry, from the arguments of main.  */
 typedef struct bt__geo_wish
 {
   const char *file;
@@ -31,8 +31,8 @@ typedef struct bt__geo_wish
 
 /* ---- formats.c ---- */
 
-/* Make GDAL know its formats, and forget network, caches and files beside the one that is asked
-   for.  */
+/* Register the permitted formats of GDAL; switch off network, caches and files beside the given
+   file.  */
 void bt__geo_prepare (void);
 
 /* Open the bathymetry that WISH names; NULL on failure: BT_ERR_FORMAT.  */

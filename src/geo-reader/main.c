@@ -1,6 +1,6 @@
-/* bight-geo-reader: read bathymetry or a current in geographic coordinates and write it to standard
-   output as src/geo/stream.h says.  bight runs it for each such file of a world, so that the
-   libraries and what they make of a file have a process of their own.
+/* bight-geo-reader: read bathymetry or a current in geographic coordinates and write a table to
+   standard output in the form of src/geo/stream.h. bight runs one process for each geographic file
+   of a world, so that GDAL, PROJ and damaged files cannot harm the dive.
 
      bight-geo-reader CPU-SECONDS MEGABYTES FILE bed LATITUDE LONGITUDE REACH SIGN SYSTEM VARIABLE
      bight-geo-reader CPU-SECONDS MEGABYTES FILE current LATITUDE LONGITUDE START
@@ -46,7 +46,7 @@ text_or_null (const char *text)
   return *text ? text : NULL;
 }
 
-/* The C locale is in force, and so a point is in numbers.  */
+/* The C locale is in force: numbers have a point.  */
 static bt_status
 make_table (const char *file, char **arguments, bt__geo_made *made, bt_error *error)
 {

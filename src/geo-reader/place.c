@@ -1,7 +1,7 @@
-/* Coordinates: which system the numbers of a file are in, and the way from there to local metres.
+/* Coordinates: the reference system of the numbers in a file, and the way to local metres.
 
-   A file that does not say its system is believed only where the numbers leave one possibility: the
-   origin lies within them as degrees, or as metres of the UTM zone of the origin.
+   A file without a stated system is believed only if its numbers leave one possibility: the origin
+   lies within them as degrees, or as metres of the UTM zone of the origin.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -178,7 +178,7 @@ guessed_system (const bt__geo_wish *wish, const box *b, bt_error *error)
   return NULL;
 }
 
-/* The system of RASTER's numbers; NULL where it is not known.  */
+/* The reference system of RASTER's numbers; NULL if unknown.  */
 static OGRSpatialReferenceH
 system_of (GDALDatasetH raster, const bt__geo_wish *wish, const box *b, bt_error *error)
 {
@@ -212,7 +212,7 @@ make_ways (bt__geo_map *map, OGRSpatialReferenceH system, const bt_geo_origin *o
   return BT_OK;
 }
 
-/* The origin must lie in the file or near it: else something is wrong with one of them.  */
+/* The origin must lie in the file or near it; else origin or file is wrong.  */
 static bt_status
 check_near (const bt__geo_map *map, const bt__geo_wish *wish, const box *b, bt_error *error)
 {

@@ -1,4 +1,10 @@
-/* Where a place is among the cells of a variable.
+/* The place of a point among the cells of a variable of an ocean model.
+
+   Two layouts are known.  Latitude and longitude as lines: the interval of each line is found and
+   the four cells around get bilinear shares; half an interval beyond the ends counts as the end,
+   and longitudes are tried with whole turns.  Latitude and longitude as arrays named by the
+   attribute `coordinates': the cell with the nearest centre gets the whole share, provided that the
+   point is no farther from the centre than 1.4 times the distance to the centre of the cell beside.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -34,8 +40,9 @@ points (const bt__array *a, const char *way)
 
 /* ---- Lines of latitude and longitude ---- */
 
-/* The interval of the line of N numbers, rising or falling, that holds VALUE, and the share to its
-   end.  True if one does; half an interval beyond the ends counts as the end.  */
+/* Find the interval around VALUE on the line of N numbers, rising or falling, and the share to the
+   end of the interval.  Return true if found; half an interval beyond the ends counts as the end.
+ */
 static int
 locate_on_line (const double *line, size_t n, double value, size_t *low, double *share)
 {
@@ -118,7 +125,8 @@ distance2 (const bt_geo_origin *at, double y, double x)
   return north * north + east * east;
 }
 
-/* The nearest cell must be no farther than its neighbours are from it.  */
+/* Find the nearest cell.  The distance to its centre must be at most 1.4 times the distance between
+   the centres of the cell and the cell beside.  */
 static bt_status
 find_nearest (const bt__array field[2], const bt_geo_origin *at, bt__flow_spot *spot,
               bt_error *error)

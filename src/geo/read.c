@@ -1,5 +1,6 @@
-/* Reading bathymetry and currents: bight-geo-reader, a process of its own, has the libraries that
-   know the formats and the coordinates; here its answer is taken, and every number looked at.
+/* Reading bathymetry and currents: the program bight-geo-reader, a separate process, has the
+   libraries for formats and coordinates.  This file takes the answer of the reader and checks every
+   number.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -57,7 +58,7 @@ check_origin (const bt_geo_origin *at, bt_error *error)
   return BT_OK;
 }
 
-/* A table that is asked for, and what is read of it.  */
+/* A table to be read, and the numbers read so far.  */
 typedef struct table
 {
   uint64_t most; /* numbers */

@@ -1,5 +1,5 @@
 /* Taking a table from the reader's stream.  The reader ran a foreign library on a foreign file, so
-   nothing it says is believed.
+   no byte of the answer is believed unchecked.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,7 +1,7 @@
-/* What bight-geo-reader tells bight: one table of numbers, written by one build of the two on one
-   machine, so numbers are as the machine has them.
+/* The answer of bight-geo-reader to bight: one table of numbers.  Writer and reader are one build
+   on one machine, so numbers have the form of the machine.
 
-     head | rows, one after the other, doubles | checksum, 64 bits
+   head | rows, one after the other, doubles | checksum, 64 bits
 
    The checksum is bt__hash of the two parts in turn, each from the hash of the part before.
 
@@ -35,9 +35,9 @@ typedef struct bt__geo_head
   double x, y, dx, dy;    /* m: of heights, the first post and how far apart they are; else 0 */
 } bt__geo_head;
 
-/* Take one table of at most MOST numbers from ANSWER, and nothing after it, into *HEAD and
-   *NUMBERS, which is freed by free and NULL on failure.  Whatever the bytes are, what is handed out
-   is whole; what the numbers say is not looked at.  BT_ERR_FORMAT, BT_ERR_VERSION, BT_ERR_LIMIT. */
+/* Take one table of at most MOST numbers, with nothing behind, from ANSWER into *HEAD and *NUMBERS;
+   free *NUMBERS by free; NULL on failure.  Any bytes give either a whole table or an error; the
+   values of the numbers are not checked.  BT_ERR_FORMAT, BT_ERR_VERSION, BT_ERR_LIMIT.  */
 bt_status bt__geo_take (const bt__answer *answer, uint64_t most, bt__geo_head *head,
                         double **numbers, bt_error *error);
 

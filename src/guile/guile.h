@@ -1,7 +1,6 @@
 /* Shared declarations of the Guile binding, which uses the installed headers of the engine alone.
 
-   The binding has one file for each noun, and each file declares its procedures in one table with
-   name, arguments and docstring.
+   The binding has a file for each noun, with a table of procedures: name, arguments and docstring.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

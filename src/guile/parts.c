@@ -336,8 +336,8 @@ from_rows (const double *x, size_t n)
   return array;
 }
 
-/* The fields of DEF, a struct of the kind HEAD, with values other than those of a newborn struct,
-   in front of LIST.  */
+/* Put in front of LIST the fields of DEF, a struct of the kind HEAD, with values other than the
+   initial values.  */
 static SCM
 from_fields (const bt_head *head, const void *def, const void *born, SCM list)
 {
@@ -385,8 +385,8 @@ vehicle_types (void)
   return scm_reverse_x (list, SCM_EOL);
 }
 
-/* The tether types with their fields.  A type's fields are those that the type changes in a struct
-   filled with impossible values.  */
+/* The tether types with their fields.  The fields of a type are found by filling a struct with
+   impossible values: the type changes its own fields.  */
 static SCM
 tether_types (void)
 {

@@ -1,5 +1,5 @@
-/* Long calls: between pieces of work the asyncs of this thread, ^C among them, are run, and Scheme
-   is told the progress.
+/* Long calls: Between pieces of work the asyncs of the thread are run, ^C among them, and Scheme is
+   told the progress.
 
    No exception jumps over frames of the engine: an exception thrown by an async is kept, the engine
    gives up, and the returning call throws the exception.

@@ -1,9 +1,10 @@
-/* The extension for SQLite: fills the module (bight core sqlite), and is loaded with the first database.
+/* The extension for SQLite: fills the module (bight core sqlite), and is loaded with the first
+   database.
 
    A database is in WAL mode: committed data survives the end of the process.  Usually several
-   processes may write, and a writer waits for another.  A database can also be opened for one
-   process alone, by SQLite's exclusive locking mode, which needs no shared memory and therefore
-   works on a network file system as well.
+   processes may write, and a writer waits for another.  A database can also be opened for a single
+   process, by SQLite's exclusive locking mode, without shared memory and therefore also on a
+   network file system.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

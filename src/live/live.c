@@ -1,5 +1,13 @@
 /* Live dives as their owner sees them: start, stop, commands, the latest copy.
 
+   A live dive is stepped by a thread of its own (thread.c).  The owner posts commands to a queue
+   (queue.c), which the thread carries out between steps in the order of posting, and reads
+   published copies of the state (shelf.c).  Commands may be kept in a log with the number of their
+   step, so that a dive can be repeated step by step to the same hash.
+
+   All waiting is by condition variables on the monotonic clock, in pieces of 20 ms between which
+   the owner's asker may give up the wait.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <config.h>

@@ -1,8 +1,9 @@
 /* Triple buffer: the copies of the state that a live dive publishes.
 
-   One copy is the latest, one is for a reader, and one is for the stepping thread to write.  The
-   stepping thread takes the lock only to exchange roles, so that no reader, however slow, delays a
-   step.
+   Of three copies the first is the latest state, the second belongs to a reader, and the third is
+   written by the stepping thread.  Publishing writes the unused copy without a lock, then makes the
+   copy the latest under the lock; a reader marks the latest copy as read for the time of reading.
+   So the lock is held for an exchange of roles alone, and no reader, however slow, delays a step.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,9 +1,9 @@
 /* The thread of a live dive.
 
    The thread does the commands that are due, takes a step, publishes, and sleeps until the next
-   step is due.  The thread never calls back, so that no caller can hold up the dive; a caller in a
-   hurry sets a flag, and the thread leaves its present work.  A thread too slow for real time lets
-   the clock run on and never hurries to catch up.
+   step is due.  The thread never calls back: no caller can hold up the dive; a caller in a hurry
+   sets a flag, and the thread leaves its present work.  A thread too slow for real time lets the
+   clock run on and never hurries to catch up.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

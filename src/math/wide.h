@@ -17,8 +17,8 @@
 #define BT__WIDE
 #endif
 
-/* What such a function is made of, or it would be left to the lesser machine; and any function of
-   an innermost loop that is worth its place there more than once.  */
+/* For the helpers of a wide function, inlined or else compiled for the lesser machine; and for
+   functions of an innermost loop worth inlining several times.  */
 #if defined __GNUC__
 #define BT__HOT inline __attribute__ ((always_inline))
 #else

@@ -1,6 +1,6 @@
-/* From a scene of assimp to one soup of triangles: a walk through its nodes, each mesh moved to its
-   place in double precision, corners with the same coordinates, bit for bit, welded by a table of
-   places (open addressing, never more than half full).
+/* From a scene of assimp to one soup of triangles.  The walk through the nodes moves each mesh to
+   its place in double precision.  Corners with equal coordinates, bit for bit, are welded by a hash
+   table (open addressing, never more than half full).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

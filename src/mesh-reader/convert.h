@@ -21,9 +21,9 @@ typedef struct bt__soup_made
 } bt__soup_made;
 
 /* Put every triangle of SCENE into *SOUP, which is overwritten and to be released with
-   bt__soup_free even on failure: nodes in their order, placed by their transforms, UP turned to z,
-   corners at the same place made one vertex.  Nothing is assumed of SCENE but that its arrays are
-   as long as it says.  BT_ERR_FORMAT, BT_ERR_LIMIT.  */
+   bt__soup_free even on failure: nodes in order, placed by their transforms, UP turned to z,
+   corners at equal places welded to a vertex.  Nothing is assumed of SCENE but arrays of the stated
+   lengths.  BT_ERR_FORMAT, BT_ERR_LIMIT.  */
 bt_status bt__soup_from_scene (const struct aiScene *scene, bt_mesh_up up, bt__soup_made *soup,
                                bt_error *error);
 void bt__soup_free (bt__soup_made *soup);

@@ -1,4 +1,4 @@
-/* What every reader program does about itself.
+/* The enclosure of every reader program: limits, one line of complaint, a guarded standard output.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

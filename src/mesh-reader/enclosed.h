@@ -1,5 +1,5 @@
-/* What every reader program does about itself: limits on what it may cost, one line of complaint,
-   an answer out of the library's reach.
+/* The enclosure of every reader program: limits on time and memory, one line of complaint, an
+   answer out of the library's reach.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -25,7 +25,8 @@ int bt__enclosed_complain (int status, const char *words);
 /* Say the sentence of ERROR so.  Return the exit status that stands for its kind.  */
 int bt__enclosed_complain_of (const bt_error *error);
 
-/* Return the standard output, which is standard error for all others from now on; or NULL.  */
+/* Return the standard output; for all other code standard output is standard error from now on; or
+   NULL.  */
 FILE *bt__enclosed_output (void);
 
 /* Write N bytes of DATA to TO, and continue the hash *SUM by them.  Return true if all are written.

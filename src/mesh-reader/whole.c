@@ -1,5 +1,5 @@
-/* Is a mesh file all there?  A PLY's header is read and its elements are stepped over: words when
-   it is ASCII, sizes when it is binary.  An ASCII STL ends with a line `endsolid'.
+/* Is a mesh file complete?  The header of a PLY is read and its elements are stepped over: by words
+   in an ASCII file, by sizes in a binary file.  An ASCII STL ends with a line `endsolid'.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

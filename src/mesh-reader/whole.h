@@ -1,5 +1,5 @@
-/* Is a mesh file all there?  Some formats say how much there should be, and assimp does not look:
-   it makes up what a PLY file lacks.
+/* Is a mesh file complete?  Some formats state their amount of data, but assimp does not check: it
+   makes up the missing part of a PLY file.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -10,16 +10,17 @@
 
 #include <bight/status.h>
 
-/* Look through the N bytes of a file.  BT_ERR_FORMAT for a PLY whose header is not understood or
-   promises more than follows, and for an ASCII STL without its last word; BT_OK for all else.  */
+/* Look through the N bytes of a file.  BT_ERR_FORMAT for a PLY with a header not understood or
+   promising more than follows, and for an ASCII STL without its last word; BT_OK for all else.  */
 bt_status bt__whole (const char *bytes, size_t n, bt_error *error);
 
 /* Do the N bytes of a file begin as those of a PLY?  */
 int bt__is_ply (const char *bytes, size_t n);
 
-/* Take the comments out of the header of a PLY: what is kept of it moves up to its end.  Return
-   where the file begins now.  Assimp takes the line after a comment that is empty, or in 5.4 and 6
-   begins with a digit, for a part of it; then a line is lost and every corner moves up by one.  */
+/* Take the comments out of the header of a PLY; the remaining lines move up to the end of the
+   header.  Return the new beginning of the file.  After a comment, assimp takes an empty line, or
+   in 5.4 and 6 a line beginning with a digit, for a part of the comment; then a line is lost and
+   every corner moves up by one.  */
 size_t bt__ply_without_comments (char *bytes, size_t n);
 
 #endif

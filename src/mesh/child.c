@@ -1,5 +1,15 @@
 /* A program run beside us: posix_spawn without a shell, two pipes, one deadline.
 
+   Standard output is the answer, of standard error the first line is kept, standard input is
+   /dev/null.  Pipes are moved above the standard streams, and all descriptors are closed in the
+   child by O_CLOEXEC.  Signals have their defaults in the child, whatever the parent ignores or
+   blocks.
+
+   Reading polls both pipes, so a child that fills standard error never blocks its answer.  Time is
+   the monotonic clock.  A child past its deadline is killed; a child that answered may finish until
+   then.  The status is collected by waitpid for the child's own number alone; no handler of SIGCHLD
+   is set.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <config.h>
@@ -38,7 +48,7 @@ close_end (int *fd)
 /* ---- Starting ---- */
 
 /* Move *FD above the standard streams.  In a process started without standard streams a pipe would
-   take their numbers, which the child process is about to fill.  */
+   take the numbers of the streams, about to be filled by the child process.  */
 static int
 above_streams (int *fd)
 {

@@ -1,7 +1,7 @@
 /* A child process run for its answer: the standard output is read, the first line of the standard
    error kept, the standard input empty.  Once the answer has been taken, or has failed, the child
-   is gone.  No signal handler of this process is touched, so that interrupts, a parent that ignores
-   or handles SIGCHLD, and other children go on as before.
+   is gone.  No signal handler of the process is touched: interrupts, a handled or ignored SIGCHLD
+   and all further children are as before.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,4 +1,4 @@
-/* Opening a file: a name that is missing, a folder, a pipe, empty or absurdly large ends here.
+/* Opening a file: missing names, folders, pipes, empty and absurdly large files end here.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,4 +1,4 @@
-/* Opening a file named by a world, with one sentence of error for all that is no readable file.
+/* Opening a file named by a world, with one sentence of error for anything but a readable file.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

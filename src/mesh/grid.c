@@ -186,8 +186,7 @@ read_value (reader *r, int k, header *h)
   return BT_OK;
 }
 
-/* Read keys and their numbers up to the first word that is no key: the first height, left unread.
- */
+/* Read keys with their numbers up to the first other word: the first height, left unread.  */
 static bt_status
 read_keys (reader *r, header *h)
 {

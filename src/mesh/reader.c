@@ -1,4 +1,12 @@
-/* Reader programs: where they are, and how they end.
+/* Reader programs: where they are found, how they are started, and what their end means.
+
+   The program of a reader is the value of its environment variable, else a file in the folder
+   BIGHT_LIBEXEC, else the installed file.  Its arguments are two limits (CPU seconds, megabytes of
+   addresses), the file, and arguments of the kind of reader.  The parent adds a deadline.
+
+   An end is understood in this order: past the deadline, too much; killed by a signal of a user,
+   interrupted; by SIGXCPU or SIGKILL, too much; by another signal, the library crashed; with an
+   exit status of a kind of error, the sentence on standard error; else the answer's own status.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -85,8 +93,8 @@ fail_by_signal (const bt__reader *reader, const char *name, int code, bt_error *
                    name, reader->files, strsignal (code));
 }
 
-/* Collect CHILD, a READER of FILE whose answer was taken with ANSWER (its sentence in ERROR);
-   return what became of it all.  */
+/* Collect CHILD, a READER of FILE.  ANSWER is the status of its answer, with a sentence in ERROR;
+   return the status of answer and child together.  */
 static bt_status
 end_reader (const bt__reader *reader, const char *file, bt__child *child, bt_status answer,
             bt_error *error)

@@ -1,6 +1,6 @@
-/* A reader program: a process of its own for a library that others wrote, which reads a foreign
-   file and answers with a stream.  Here the program is found and started, its answer is handed to
-   who knows the stream, and its end understood.
+/* A reader program: a separate process for a foreign library that reads a foreign file and answers
+   with a stream.  Here the program is found and started, its answer handed to the function for the
+   stream, and its exit status turned into an error.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -13,7 +13,7 @@
 
 #include "mesh/answer.h"
 
-/* How a reader ends, with one line on its standard error unless all went well.  */
+/* Exit statuses of a reader; after a failure one line stands on the standard error.  */
 enum
 {
   BT__READER_EXIT_OK = 0,
@@ -50,9 +50,9 @@ enum
 typedef bt_status bt__reader_take (const bt__answer *answer, void *into, bt_error *error);
 
 /* Run READER on FILE within LIMITS, PROGRAM CPU-SECONDS MEGABYTES FILE ARGUMENT..., the last of
-   ARGUMENTS before a NULL, and have TAKE take the answer into INTO.  What TAKE has taken is the
-   caller's to free also when the READER fails after that.  BT_ERR_UNSUPPORTED when bight was built
-   without READER, BT_ERR_IO, BT_ERR_LIMIT, BT_ERR_FORMAT, what TAKE returns.  */
+   ARGUMENTS before a NULL, and have TAKE take the answer into INTO.  The caller frees the result of
+   TAKE, also when the READER fails afterwards.  BT_ERR_UNSUPPORTED when bight was built without
+   READER, BT_ERR_IO, BT_ERR_LIMIT, BT_ERR_FORMAT, what TAKE returns.  */
 bt_status bt__reader_ask (const bt__reader *reader, const char *file, char *const *arguments,
                           const bt__reader_limits *limits, bt__reader_take *take, void *into,
                           bt_error *error);

@@ -1,7 +1,7 @@
-/* What bight-mesh-reader tells bight: one mesh, written by one build of the two on one machine, so
-   numbers are as the machine has them.
+/* The answer of bight-mesh-reader to bight: one mesh.  Writer and reader are one build on one
+   machine, so numbers have the form of the machine.
 
-     head | vertices: x y z, m, z up, doubles | corners: three of 32 bits | checksum, 64 bits
+   head | vertices: x y z, m, z up, doubles | corners: three of 32 bits | checksum, 64 bits
 
    The checksum is bt__hash of the three parts in turn, each from the hash of the part before.
 
@@ -33,7 +33,7 @@ typedef struct bt__mesh_head
   uint32_t spare;     /* 0 */
 } bt__mesh_head;
 
-/* Take one mesh from ANSWER, and nothing after it, into *OUT (NULL on failure).  The mesh is
+/* Take one mesh, with nothing behind, from ANSWER into *OUT (NULL on failure).  The mesh is
    complete and checked, whatever the bytes.  BT_ERR_FORMAT tells the fault, BT_ERR_VERSION a reader
    of another build, BT_ERR_LIMIT a lack of memory.  */
 bt_status bt__mesh_take (const bt__answer *answer, bt_mesh_data **out, bt_error *error);

@@ -1,4 +1,6 @@
-/* Obstacles as the rooms above ask for them: by name, their shape, where those on a track are.
+/* Obstacles for the rooms above: by name, by shape, and the frame of a kinematic obstacle on its
+   track at a time.  Positions are linear between the rows of a track, headings turn the shorter
+   way; before the first and after the last row the obstacle stands still.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

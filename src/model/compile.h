@@ -1,4 +1,4 @@
-/* What the files that check a world and compile it share.
+/* Shared by the files that check and compile a world.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

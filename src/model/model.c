@@ -1,4 +1,5 @@
-/* Compile a world into a model.  This is the validator: what it lets through, the engine can run.
+/* Compile a world into a model.  The compiler is the validator: the engine can run every compiled
+   model.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,4 +1,4 @@
-/* Compile the obstacles of a world: all standing obstacles become one scene, each kinematic
+/* Compile the obstacles of a world: All standing obstacles become a single scene, each kinematic
    obstacle gets a scene of its own.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */

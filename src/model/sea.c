@@ -1,4 +1,5 @@
-/* The sea of a model: its waves as components, and what casts a lee.
+/* The sea of a model: waves as components, and the obstacles that cast a lee.  A pile has the lee
+   of its cylinder; a box or a ball has the lee of an upright pile of its mean width.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

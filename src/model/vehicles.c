@@ -1,4 +1,4 @@
-/* Vehicles of a world: the figures they are given, and what the step works with.
+/* Vehicles of a world: from the fields of a definition to the type used by the step.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,10 +1,10 @@
 /* The way out to a terminal: a port through which text of whatever origin can be written.
 
    A terminal obeys some characters instead of showing them: they move its cursor, name its window,
-   fill its clipboard.  A name, a sentence or an error message may hold them, as the file had them
-   that it comes from.  An outlet writes its text to another port with each such character escaped,
-   \x1b or \u202e; line feed, tabulator and the carriage return before a line feed pass.  What is
-   meant for the terminal to obey is written to the port behind the outlet.
+   fill its clipboard.  Names, sentences and error messages may hold these characters, copied from a
+   file.  An outlet writes text to another port with every obeyed character escaped, \x1b or \u202e;
+   line feed, tabulator and the carriage return before a line feed pass.  What is meant for the
+   terminal to obey is written to the port behind the outlet.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -70,8 +70,8 @@ show (const unsigned char *text, size_t size, int stray, uint32_t u, char *out)
                           stray ? text[0] : (unsigned)u);
 }
 
-/* Write the text of N bytes to OUT, which has room for LONGEST for each, as it may be shown.  *LEFT
-   receives how many of its last bytes are not judged yet.  */
+/* Write the text of N bytes to OUT, with room for LONGEST bytes each, in a form safe to show. *LEFT
+   receives the number of last bytes not judged yet.  */
 static size_t
 show_all (const unsigned char *text, size_t n, char *out, size_t *left)
 {

@@ -1,9 +1,16 @@
-/* Screens of characters.
+/* Screens of characters: two layers of cells, wanted and shown, and the difference between them.
 
-   A cell is a letter, its colour and the colour behind it; a picture's cell is the upper half
-   block, so that it shows two pixels.  Colours are first brought to what the terminal has, then
-   compared with what it shows: a cell that would look the same is not written, nor a colour that is
-   set, nor a place where the cursor is.  In true colour a step of three of 256 is the same.
+   A cell is a letter, a colour of the letter and a colour behind.  A picture uses the upper half
+   block as the letter, so a cell shows two pixels.  Colours are first reduced to the palette of the
+   terminal, then compared with the shown cell, so a cell that looks the same is not written, nor a
+   colour already set, nor a move to the present place of the cursor.  In true colour a step of
+   three of 256 counts as the same.
+
+   Palettes: 256 colours are the nearest of xterm's cube of six levels or its 24 greys.  With
+   sixteen colours a picture is stretched to the full range of dark and light, since the sea is dark
+   and blue and would be two colours, and mixed by ordered dither with Bayer's matrix of four.
+   Without colours letters of increasing brightness stand for pixels.  The range of brightness
+   follows the picture slowly, so a film does not flicker.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -20,7 +27,7 @@
 
 enum
 {
-  CELL_BYTES = 64, /* the most that one cell takes: a move, two colours, a letter */
+  CELL_BYTES = 64, /* bytes of a cell at most: a move, two colours, a letter */
   SIDE_MAX = 2000, /* cells */
   UPPER_HALF = 0x2580
 };
@@ -194,7 +201,7 @@ on_terminal (const bt__screen *s, int32_t color)
     }
 }
 
-/* Darker by as much as words need to be read on it.  */
+/* COLOR darkened enough for words to be read on it.  */
 static int32_t
 dimmed (int32_t color)
 {
@@ -231,7 +238,7 @@ light_below (const size_t count[256], size_t n, double share)
   return light;
 }
 
-/* Look how dark and how light PIXELS are, and follow slowly, so that a picture does not flicker. */
+/* Follow the darkest and the lightest of PIXELS slowly: a picture does not flicker.  */
 static void
 look_at_light (bt__screen *s, const uint32_t *pixels)
 {
@@ -244,7 +251,7 @@ look_at_light (bt__screen *s, const uint32_t *pixels)
   s->light += share * (light - s->light);
 }
 
-/* COLOR stretched, and moved by AWAY, a share of what lies between two colours.  */
+/* COLOR stretched, and moved by AWAY, a share of the step between two colours.  */
 static int32_t
 stretched (const bt__screen *s, int32_t color, double away)
 {
@@ -385,7 +392,7 @@ same_color (const bt__screen *s, int32_t a, int32_t b)
          && abs (channel (a, 0) - channel (b, 0)) < 4;
 }
 
-/* The cell at I as the terminal will have it: a half block of one colour is a blank.  */
+/* The cell at I in the colours of the terminal: a half block with equal colours is a blank.  */
 static cell
 on_screen (const bt__screen *s, size_t i)
 {
@@ -418,7 +425,9 @@ put_cell (bt__screen *s, int i, cell c)
   if (s->palette != BT__PALETTE_NONE && c.letter != ' ' && c.ink != s->ink)
     put_color (s, s->ink = c.ink, 0);
   put_letter (s, c.letter);
-  s->at = (i + 1) % s->columns ? i + 1 : -1; /* where the cursor is at a line's end differs */
+  s->at = (i + 1) % s->columns
+              ? i + 1
+              : -1; /* terminals differ in the place of the cursor at a line's end */
 }
 
 size_t

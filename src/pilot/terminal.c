@@ -1,9 +1,16 @@
-/* Taking a terminal and giving it back, whatever happens.
+/* Taking a terminal and giving it back, however the process ends.
 
-   What a signal handler needs lies in one static record: there is no other way to hand it over, and
-   a process has one terminal.  Handlers do nothing but what is safe in them: write, tcsetattr,
-   raise.  Against kill -9 stands a child that holds the end of a pipe: it reads an end of file when
-   its parent is gone, or one byte when the terminal was given back in good order.
+   Four ways lead back, whichever comes first: bt__terminal_leave; exit, by a function of atexit;
+   handlers of the deadly signals; and a guardian, a small child process for the end by kill -9.
+
+   The data of the handlers lie in one static record: a handler has no argument of its own, and a
+   process has one terminal.  Handlers call only async-signal-safe functions: write, tcsetattr,
+   raise.  Signals handled by Guile or a library, or ignored, are left alone.
+
+   The guardian waits at the end of a pipe.  An end of file tells the death of the parent, and the
+   guardian gives the terminal back; one byte tells that the terminal was given back in good order,
+   and the guardian ends.  A fork of the process does not own the terminal (`owner' is compared), so
+   its exit changes nothing.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -29,7 +36,7 @@
 static const char taking[] = "\033[?1049h\033[?25l\033[?7l\033[0m\033[2J";
 static const char giving[] = "\033[0m\033[?7h\033[?25h\033[?1049l";
 
-/* What kills, unless it was handled before.  */
+/* Signals that kill, unless handled before.  */
 static const int deadly[] = { SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGABRT, SIGALRM, SIGXCPU,
                               SIGSEGV, SIGBUS, SIGFPE, SIGILL,  SIGPIPE, SIGUSR1, SIGUSR2 };
 
@@ -45,7 +52,7 @@ static struct
   struct sigaction handlers[DEADLY];
   pid_t owner;    /* a fork of this process does not own the terminal */
   pid_t guardian; /* or -1 */
-  int leash;      /* what it listens to */
+  int leash;      /* its end of the pipe */
   int at_exit;    /* true: exit gives it back */
 } the;
 
@@ -64,8 +71,8 @@ put_bytes (const char *bytes, size_t n)
     }
 }
 
-/* The settings first: whoever sees the page come back finds them back too.  WHEN is TCSAFLUSH where
-   the keys not yet read were meant for the flight.  */
+/* The settings come first: when the page is back, the settings are back too.  WHEN is TCSAFLUSH to
+   drop unread keys meant for the flight.  */
 static void
 give_back (int when)
 {
@@ -73,8 +80,8 @@ give_back (int when)
   put_bytes (giving, sizeof giving - 1);
 }
 
-/* Tell the guardian that the terminal was given back; without that word it would give it back a
-   second time, perhaps after the shell has begun to read.  */
+/* Tell the guardian that the terminal was given back.  An untold guardian would give the terminal
+   back a second time, perhaps after the shell has begun to read.  */
 static void
 release_guardian (void)
 {
@@ -98,10 +105,10 @@ die_of (int number)
   memset (&usual, 0, sizeof usual);
   usual.sa_handler = SIG_DFL;
   sigaction (number, &usual, NULL);
-  raise (number); /* it is delivered when this handler returns */
+  raise (number); /* delivered when the handler returns */
 }
 
-/* Those that Guile or a library handle already are left to them, and so are those ignored.  */
+/* Catch the deadly signals, except signals ignored or handled by Guile or a library.  */
 static void
 catch_signals (void)
 {
@@ -131,7 +138,8 @@ let_signals_go (void)
 
 /* ---- The guardian ---- */
 
-/* In the child: wait for the parent's end.  Only what is safe after a fork of many threads.  */
+/* In the child: wait for the parent's end, with functions that are safe after a fork of many
+   threads.  */
 static void
 guard (int leash)
 {
@@ -148,7 +156,7 @@ guard (int leash)
     n = read (leash, &byte, 1);
   while (n < 0 && errno == EINTR);
   if (n == 0)
-    give_back (TCSADRAIN); /* what was typed since the parent's end is for the shell */
+    give_back (TCSADRAIN); /* keys typed since the parent's end are for the shell */
   _exit (0);
 }
 
@@ -224,9 +232,8 @@ bt__terminal_enter (bt_error *error)
   catch_signals ();
   raw = the.before;
   cfmakeraw (&raw);
-  /* A read waits for a byte.  After kill -9 the shell may read before the guardian gave the
-     settings back, and where a read returns without a byte, it takes that for the end of its input.
-   */
+  /* A read waits for a byte.  After kill -9 the shell may read before the guardian has given the
+     settings back, and a shell takes a read without a byte for the end of its input.  */
   raw.c_cc[VMIN] = 1;
   raw.c_cc[VTIME] = 0;
   tcsetattr (STDIN_FILENO, TCSAFLUSH, &raw);

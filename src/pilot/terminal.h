@@ -10,19 +10,19 @@
 #include <bight/status.h>
 
 /* Take the terminal on standard input and output: keys one by one and unseen, the other page of the
-   screen, no cursor.  However this process ends from here on, the terminal is put back: by
-   bt__terminal_leave, by `exit', by a handler of the signals that kill, and by a small process that
-   waits for this one's end when nothing else could be done.  BT_ERR_UNSUPPORTED when there is no
-   terminal, or its TERM is dumb.  */
+   screen, no cursor.  However the process ends from here on, the terminal is put back: by
+   bt__terminal_leave, by `exit', by handlers of the deadly signals, or else by a small child
+   process that waits for the end of its parent.  BT_ERR_UNSUPPORTED without a terminal, or if TERM
+   is dumb.  */
 bt_status bt__terminal_enter (bt_error *error);
 
-/* Put the terminal back; nothing if it was not taken.  */
+/* Put the terminal back if it was taken.  */
 void bt__terminal_leave (void);
 
-/* Tell its size in characters, 80 by 24 if it does not.  */
+/* Tell the size of the terminal in characters, or 80 by 24.  */
 void bt__terminal_size (int *columns, int *rows);
 
-/* Wait at most SECONDS for keys and write up to ROOM bytes of what came to BYTES.  Return how many,
+/* Wait at most SECONDS for keys and put up to ROOM bytes into BYTES.  Return the number of bytes,
    or -1 when the terminal is gone.  */
 int bt__terminal_keys (double seconds, char *bytes, size_t room);
 

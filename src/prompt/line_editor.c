@@ -1,5 +1,4 @@
-/* What GNU readline knows of the line that is being edited, and a list of completions with their
-   meanings.
+/* The line being edited in GNU readline, and a list of completions with their meanings.
 
    Guile's own module (ice-9 readline) reads the lines and calls a completer with the word alone.
    The procedures here tell that completer of the whole line, put text into it, and hand the
@@ -66,8 +65,8 @@ tell_below (SCM text)
   return SCM_UNSPECIFIED;
 }
 
-/* A quote before a name is no quotation mark, completions come in the order of the completer, and
-   one Tab lists them.  */
+/* A quote before a name is no quotation mark, completions come in the order of the completer, and a
+   single Tab lists all.  */
 static SCM
 begin_editing (SCM procedure)
 {

@@ -1,5 +1,14 @@
 /* A current from a table: points of a grid in space and time, linear between.
 
+   Rows x y z t u v w may come in any order.  The coordinates that occur along each axis, sorted,
+   are the lines of the grid; there must be exactly one row for every crossing of lines, and a
+   missing or double row is an error that names the point.  Coordinates must be below 1e12 in size,
+   speeds at most 20 m/s.
+
+   A question finds the interval on each of the four lines by bisection and interpolates linearly in
+   each direction, a sum over sixteen corners at most.  Beyond the first and the last line the
+   velocity of the boundary holds.  A grid is immutable and counted by reference.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <bight/sea.h>
@@ -41,7 +50,7 @@ by_value (const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* The interval of GRID's axis A that holds VALUE, and the share to its end.  */
+/* The interval around VALUE on GRID's axis A, and the share of the interval.  */
 static size_t
 locate (const bt_current_grid *grid, int a, double value, double *share)
 {

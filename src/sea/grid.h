@@ -1,4 +1,4 @@
-/* What the rooms above need of a current's grid beside asking it.
+/* Functions on a current's grid for the rooms above, beside its questions.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

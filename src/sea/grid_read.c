@@ -81,7 +81,7 @@ append_row (table *t, const double *row, bt_error *error)
   return BT_OK;
 }
 
-/* True if LINE names a current's columns in their order, with or without units behind them.  */
+/* True if LINE names the columns of a current in order, with or without units.  */
 static int
 names_columns (const char *line)
 {

@@ -1,7 +1,7 @@
 /* A tree of boxes over the wakes of a sea, split at medians.
 
-   The lee of a cylinder lies within BT__LEE_REACH diameters of its axis and one diameter beyond its
-   ends, so a place asks only the wakes whose boxes contain the place.  The cost of a place then
+   The lee of a cylinder lies within BT__LEE_REACH diameters of the axis and one diameter beyond the
+   ends.  A question about a place therefore asks only wakes with the place in their boxes; its cost
    grows with the lees near by, not with the number of obstacles.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
@@ -121,8 +121,8 @@ add_leaf (bt_lees *lees, bt__lee_node *leaf, const item *items, size_t n)
   leaf->blocks = lees->blocks - leaf->first;
 }
 
-/* Add the node of N ITEMS and all nodes below.  Halves are whole leaves as far as possible, so that
-   few places of blocks stay unused.  */
+/* Add the node of N ITEMS and all nodes below.  Halves are whole leaves as far as possible: few
+   places of blocks stay unused.  */
 static void
 add_node (bt_lees *lees, item *items, size_t n)
 {

@@ -38,8 +38,8 @@ struct bt_lees
   bt__wakes *block;
 };
 
-/* How far from the axis, in diameters, a wake can leave a lee: a lee ends 60 diameters downstream,
-   where it is 13.4 diameters wide to either side (wake.c), so at a distance of 61.5.  */
+/* How far from the axis, in diameters, a wake can leave a lee: A lee ends 60 diameters downstream
+   with a half width of 13.4 diameters (wake.c), hence at a distance of 61.5 diameters.  */
 #define BT__LEE_REACH 62.0
 
 /* Make WAKE number I, below BT__WAKES_WIDE, of BLOCK, which was zero.  */

@@ -1,4 +1,4 @@
-/* The lee of a pile: how much of a current is left behind it.  The model stands in bight/sea.h.
+/* The lee of a pile: the share of a current left behind the pile.  The model stands in bight/sea.h.
 
    Four wakes at a time.  Most water is in no lee, which is found without a root or a quotient.
 

@@ -1,6 +1,7 @@
 /* Waves: linear theory over a level bottom, one component or many.
 
-   Each is plain data, a table of components; what they do at a place is in waves_sum.h.
+   Waves are plain data, a table of components; surface and velocity at a place are sums of
+   waves_sum.h.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -23,7 +24,7 @@ enum
 #define MICHE 0.142
 #define LOWEST 0.5 /* of the peak frequency */
 #define HIGHEST 4.0
-#define BOTTOMLESS 18.5 /* k times the height at which it does not feel the bottom, to 1e-16 */
+#define BOTTOMLESS 18.5 /* k times height from which on no bottom is felt, to 1e-16 */
 
 double
 bt_wave_number (double omega, double depth, double gravity)

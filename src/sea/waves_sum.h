@@ -1,12 +1,12 @@
-/* What waves do at a place: the sums over their components, four at a time.
+/* Surface and velocity of waves at a place: the sums over the components, four at a time.
 
-   A component of amplitude a, theta = k (x . way) - omega t + phase, over depth d has the surface
-   a cos theta and below it the velocity a omega (C cos theta along its way, S sin theta up), C and
-   S the hyperbolic cosine and sine of k (z + d) by sinh (k d) (R. G. Dean and R. A. Dalrymple,
-   Water Wave Mechanics for Engineers and Scientists, ch. 3): with B = e^(-2 k d),
-   C, S = (e^(k z) +- B e^(-k z)) / (1 - B).
+   A component of amplitude a, theta = k (x . way) - omega t + phase, over depth d has the surface a
+   cos theta and below the surface the velocity a omega (C cos theta along the way, S sin theta up),
+   C and S the hyperbolic cosine and sine of k (z + d) by sinh (k d) (R. G. Dean and R. A.
+   Dalrymple, Water Wave Mechanics for Engineers and Scientists, ch. 3): with B = e^(-2 k d), C, S =
+   (e^(k z) +- B e^(-k z)) / (1 - B).
 
-   Here for those who compile it for more than one machine: waves.c, and the test that compares.
+   In a header because waves.c and its test compile the sums for more than one machine.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
