@@ -57,10 +57,10 @@ bt_status bt_tether_turns (const bt_dive *dive, int i, int obstacle, double *tur
 
 /* Whole turns, with the sign of bt_tether_turns, by which tether I is caught about OBSTACLE.  The
    turns are those of the loop out along the taut string and home by the free way, as far as the
-   loop cannot be drawn off the obstacle.  0 for every obstacle if the homotopy class is the free
+   loop cannot be drawn off the obstacle. 0 for every obstacle if the homotopy class is the free
    way's; 0 for an obstacle with an end in the water, since a line can be drawn off an end; 0 for a
    moving obstacle.  For members that meet in joints several answers stand for one class: the answer
-   has the fewest turns, about members at which the string bends where there is a choice.  */
+   has the fewest turns, in a choice about members at which the string bends.  */
 bt_status bt_tether_winding (const bt_dive *dive, int i, int obstacle, int *winding,
                              bt_error *error);
 
@@ -141,9 +141,9 @@ bt_status bt_tether_prospect (const bt_dive *dive, int i, double winch, bt_prosp
                               bt_error *error);
 
 /* The share of the string's bending angle that is sure to hold by friction.  A hauled line loses
-   its wrap from the far end on, where the vehicle comes round after the line, so that less than the
-   whole angle holds.  Three quarters was right in every haul tried with two turns round a pile; the
-   value is measured, not derived, so bt_tether_prospect_by takes another.  */
+   its wrap from the far end on, where the vehicle follows the line round: less than the whole angle
+   holds.  Three quarters was right in every haul tried with two turns round a pile; the value is
+   measured, not derived, so bt_tether_prospect_by takes another.  */
 #define BT_HAUL_GRIP 0.75
 
 /* The same for another share GRIP, above 0 and at most 1: with less of it fewer answers are sure.
@@ -180,10 +180,9 @@ typedef struct bt_route
   double left;      /* m: of the string at the end */
 } bt_route;
 
-/* Put up to MAX points into POINTS: the way home, which retraces the string of tether I from its
-   vehicle to its anchor; or the way to unwind, a loop from the vehicle back to the vehicle.  *N
-   receives the number of points.  BT_ERR_UNSUPPORTED when the tether has no vehicle at its far end.
- */
+/* Put up to MAX points into POINTS: the way home, the string of tether I retraced from vehicle to
+   anchor; or the way to unwind, a loop from the vehicle back to the vehicle. *N receives the number
+   of points.  BT_ERR_UNSUPPORTED when the tether has no vehicle at its far end.  */
 bt_status bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n,
                               bt_route *out, bt_error *error);
 bt_status bt_tether_unwind_plan (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n,
@@ -201,10 +200,10 @@ bt_status bt_tether_unwind_plan (const bt_dive *dive, int i, bt_vec3 *points, in
 bt_status bt_tether_leg (const bt_dive *dive, int i, const bt_vec3 *from, const bt_vec3 *to,
                          bt_vec3 *points, int max, int *n, bt_route *out, bt_error *error);
 
-/* Put into POINTS, at most MAX, the taut string of tether I when its end has been led straight from
-   where it is to P, as a flight there leads it; *N is how many there are, *LENGTH its length, m.
-   BT_ERR_DOMAIN when P is not finite; BT_ERR_UNSUPPORTED when the straight way there is not free,
-   with in *OBSTACLE what is in it, or -1.  */
+/* Put up to MAX points into POINTS: the taut string of tether I after a straight flight of its end
+   to P. *N receives the number of points, *LENGTH the length, m.  BT_ERR_DOMAIN when P is not
+   finite; BT_ERR_UNSUPPORTED when the straight way to P is not free, with the obstacle in the way,
+   or -1, in *OBSTACLE.  */
 bt_status bt_tether_taut_to (const bt_dive *dive, int i, bt_vec3 p, bt_vec3 *points, int max,
                              int *n, double *length, int *obstacle, bt_error *error);
 

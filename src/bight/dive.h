@@ -1,9 +1,8 @@
 /* A dive: one model and the flat state that moves.
 
-   Every operation works on a copy of the state and is taken over only when it succeeds, so a
-   refused call leaves the dive as it was.  Questions are pure reads.  Nothing is allocated between
-   bt_dive_new and bt_dive_free but by bt_dive_fork, bt_dive_set_threads and the operation
-   `follow'.
+   Every operation works on a copy of the state, taken over only after success: a refused call
+   leaves the dive unchanged.  Questions are pure reads.  Nothing is allocated between bt_dive_new
+   and bt_dive_free but by bt_dive_fork, bt_dive_set_threads and the operation `follow'.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -62,8 +61,9 @@ int64_t bt_dive_steps (const bt_dive *dive);
 double bt_dive_time (const bt_dive *dive);      /* s: steps times the time step */
 double bt_dive_time_step (const bt_dive *dive); /* s */
 
-/* Add SECONDS of wished time to the dive's account and return the whole steps it now holds, which
-   the caller takes; the remainder is carried.  0 <= SECONDS <= 1e9, else BT_ERR_DOMAIN.  */
+/* Add SECONDS of wished time to the dive's account and return the number of whole steps in the
+   account, to be taken by the caller; the remainder is carried. 0 <= SECONDS <= 1e9, else
+   BT_ERR_DOMAIN.  */
 bt_status bt_dive_whole_steps (bt_dive *dive, double seconds, int64_t *steps, bt_error *error);
 /* Return the remainder, s; set the remainder.  The remainder is no part of the state: a time asked
    for in pieces makes the same dive as the sum.  */
@@ -77,8 +77,8 @@ void bt_dive_carry (bt_dive *dive, double seconds);
 int bt_dive_asks (const bt_dive *dive);
 
 /* Keep the N numbers ROWS, t x y z of each, as a track of DIVE, and return its number in *INDEX;
-   the same rows are kept once.  A state that follows a track can be restored only where its number
-   stands for it.  BT_ERR_FORMAT, BT_ERR_LIMIT.  */
+   the same rows are kept once.  A state on a track can be restored only in a dive with the same
+   track under the same number.  BT_ERR_FORMAT, BT_ERR_LIMIT.  */
 bt_status bt_dive_add_track (bt_dive *dive, const double *rows, int n, int *index, bt_error *error);
 /* Return how many numbers the I-th track of DIVE has, and where in *ROWS; 0 when there is none.  */
 int bt_dive_track (const bt_dive *dive, int i, const double **rows);

@@ -2,8 +2,8 @@
    and y north of its origin, in the transverse Mercator projection about the origin (WGS 84, scale
    1 at the origin; lengths within 100 km of it are right to 0.013 %).
 
-   A program of its own does the reading, so that a file that crashes or exhausts the libraries that
-   know the formats is an error here like any other.
+   A separate process reads the file: a file that crashes or exhausts the libraries of the formats
+   is an error like any other.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -41,8 +41,8 @@ typedef struct bt_geo_bed
 } bt_geo_bed;
 
 /* Read the bathymetry in FILE (GeoTIFF, NetCDF, XYZ, ESRI ASCII) into *OUT: heights on a grid along
-   x and y whose posts are as far apart as the file's, bilinear between them, NaN where the file has
-   none.  *OUT is freed by bt_heights_data_free, and NULL on failure: BT_ERR_IO when FILE cannot be
+   x and y with the spacing of the file's posts, bilinear between posts, NaN where the file has no
+   height. *OUT is freed by bt_heights_data_free, and NULL on failure: BT_ERR_IO when FILE cannot be
    read, is a folder or empty; BT_ERR_DOMAIN for an origin that is no place; BT_ERR_FORMAT when FILE
    is no bathymetry, lies elsewhere or crashes the reader; BT_ERR_LIMIT when it is too large, takes
    too long, or memory is short; BT_ERR_UNSUPPORTED when bight was built without it.  */

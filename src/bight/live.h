@@ -104,8 +104,8 @@ bt_status bt_live_status (bt_live *live, bt_error *error);
 /* Return by how much the thread fell behind real time in all, s.  */
 double bt_live_late (bt_live *live);
 
-/* Return the number of kept checkpoints.  Each was taken at the end of its step, before the
-   commands between that step and the next.  */
+/* Return the number of kept checkpoints.  Each was taken at the end of a step, before the commands
+   between the step and the next.  */
 int bt_live_moments (bt_live *live);
 /* Tell the step and the hash of the I-th checkpoint, oldest first, and copy the checkpoint to
    STATE, unless STATE is NULL.  Return the size of a state, or 0 if there is no I-th checkpoint.

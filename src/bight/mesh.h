@@ -35,12 +35,12 @@ typedef struct bt_mesh_data
 
 /* Read the mesh in FILE (OBJ, STL, PLY, glTF, Collada and any other format of assimp) into *OUT:
    faces as triangles, placed by the file's nodes; points and lines are left out.  Coordinates pass
-   through single precision: 24 bits.  A separate process reads the file, so that a file that
-   crashes or exhausts the reader is an error like any other.  *OUT is freed by bt_mesh_data_free,
-   and NULL on failure.  BT_ERR_IO when FILE cannot be read, is a folder or empty.  BT_ERR_FORMAT
-   when FILE is no mesh, has no triangle or a number that is not finite, or crashes the reader.
-   BT_ERR_LIMIT when FILE is too large, takes too long, or memory is short.  BT_ERR_UNSUPPORTED when
-   bight was built without mesh files.  */
+   through single precision: 24 bits.  A separate process reads the file: a file that crashes or
+   exhausts the reader is an error like any other. *OUT is freed by bt_mesh_data_free, and NULL on
+   failure.  BT_ERR_IO when FILE cannot be read, is a folder or empty.  BT_ERR_FORMAT when FILE is
+   no mesh, has no triangle or a number that is not finite, or crashes the reader.  BT_ERR_LIMIT
+   when FILE is too large, takes too long, or memory is short.  BT_ERR_UNSUPPORTED when bight was
+   built without mesh files.  */
 bt_status bt_mesh_read (const char *file, bt_mesh_up up, bt_mesh_data **out, bt_error *error);
 void bt_mesh_data_free (bt_mesh_data *data); /* NULL is nothing */
 

@@ -21,10 +21,10 @@ BT_BEGIN_DECLS
 typedef struct bt_current_grid bt_current_grid;
 
 /* Read *GRID from FILE, a text of rows x y z t u v w (m, s, m/s; separated by commas or blanks;
-   lines that begin with # and a first line of names are passed over), in any order, a row for every
-   point of the grid whose lines are the coordinates that occur.  BT_ERR_IO, BT_ERR_FORMAT (saying
-   the line, or the point that is missing or given twice), BT_ERR_DOMAIN for a speed above 20 m/s,
-   BT_ERR_LIMIT.  */
+   lines beginning with # and a first line of names are passed over).  Rows come in any order.  The
+   coordinates found along each axis are the lines of the grid, with a row for every point of the
+   grid.  BT_ERR_IO, BT_ERR_FORMAT (saying the line, or the point that is missing or given twice),
+   BT_ERR_DOMAIN for a speed above 20 m/s, BT_ERR_LIMIT.  */
 bt_status bt_current_grid_read (const char *file, bt_current_grid **grid, bt_error *error);
 
 /* The same from N ROWS of seven numbers.  */
@@ -135,11 +135,11 @@ bt_wake bt_wake_of (bt_vec3 a, bt_vec3 b, double radius);
 
 /* Return the share of the current AMBIENT that is left at P behind WAKE, 0.5 to 1, smooth in P and
    in AMBIENT.  With D the diameter, s the way downstream of the axis and n across, both in the
-   plane across the axis, 1 - d(s) exp (-n2 / 2 b2),   d = 0.5 c, b = D/2 / c, c = sqrt (min (1, 3
-   D/s)), which sets in over one D about the axis, ends over one D beyond the ends of the axis, and
-   fades from 40 to 60 D: half the current within 3 D, as piles are found to leave, then
+   plane across the axis, 1 - d(s) exp (-n2 / 2 b2), d = 0.5 c, b = D/2 / c, c = sqrt (min (1, 3
+   D/s)).  The lee sets in over one D about the axis, ends over one D beyond the ends of the axis,
+   and fades from 40 to 60 D: half the current within 3 D, as measured behind piles, then
    Schlichting's far wake (Boundary-Layer Theory, ch. 25: the deficit falls and the width grows as
-   the root of the way), whose momentum is that of a drag coefficient of 1.25.  */
+   the root of the way), with the momentum of a drag coefficient of 1.25.  */
 double bt_wake_share (const bt_wake *wake, bt_vec3 ambient, bt_vec3 p);
 
 /* The wakes of a sea.  A place asks only the wakes near by, whatever the number of all.  */

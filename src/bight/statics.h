@@ -1,8 +1,8 @@
 /* The static shapes of a tether as pure functions: no world, no state, and no allocation except in
    a workspace.
 
-   Plane problems are posed with the start at (0, 0), x across and y against the load, so that a
-   loaded line sags toward -y.
+   Plane problems are posed with the start at (0, 0), x across and y against the load: a loaded line
+   sags toward -y.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,8 +1,8 @@
 /* The verbs of a dive, a function each.
 
    Each function is one call of bt_dive_do with named and typed arguments, done whole or not at all.
-   All of them return BT_ERR_NAME for a vehicle, tether or obstacle that does not exist, and
-   BT_ERR_DOMAIN for a number outside its range, with the allowed range in ERROR.
+   Every verb returns BT_ERR_NAME for an unknown vehicle, tether or obstacle, and BT_ERR_DOMAIN for
+   a number out of range, with the allowed range in ERROR.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -152,9 +152,9 @@ bt_status bt_view_aim (bt_view *view, bt_aim aim, double aspect, bt_error *error
 /* Look FROM a point AT another.  BT_ERR_DOMAIN when they are one, or not finite.  */
 bt_status bt_view_look (bt_view *view, bt_vec3 from, bt_vec3 at, bt_error *error);
 
-/* Move the camera that was aimed: to look AT another point, or at the same for NULL, so near that
-   the picture spans EXTENT metres across there, or what it did for 0, and then ZOOM times nearer.
-   BT_ERR_DOMAIN for what is no such number.  */
+/* Move the camera that was aimed: to look AT a point (NULL: the same point as before), from a
+   distance at which the picture is EXTENT metres wide at the point (0: as wide as before), and then
+   ZOOM times nearer.  BT_ERR_DOMAIN for numbers out of range.  */
 bt_status bt_view_move (bt_view *view, const bt_vec3 *at, double extent, double zoom, double aspect,
                         bt_error *error);
 

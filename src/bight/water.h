@@ -32,7 +32,7 @@ typedef enum bt_current_kind
   BT_CURRENT_GRID       /* asked of the grid of bt_water.sea; velocity[0] without one */
 } bt_current_kind;
 
-/* A current as plain data, without pointers, so that it may live in the state of a dive.  */
+/* A current as plain data, without pointers, fit for the state of a dive.  */
 typedef struct bt_current
 {
   int64_t kind;                     /* bt_current_kind */

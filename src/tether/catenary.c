@@ -1,11 +1,11 @@
 /* The inextensible catenary between two points, by one scalar equation.
 
-   With d = s^2 - h^2 - v^2 the whole problem is sinh (x) / x = r, r^2 - 1 = g = d / h^2, for
-   x = h / (2 A).  The taut limit lives in d, so d is formed in double-double; then r - 1 is never
-   formed by a difference and every size, slack and steepness keeps full precision.  A fit and one
-   Newton step give x, in r - 1 or in log r, but for lines so slack that r is above 3000.  Points
-   come from arc lengths alone, without sinh or cosh: nothing can overflow (the thesis met errors of
-   1e84 there, section 2.3.2).
+   With d = s^2 - h^2 - v^2 the whole problem is sinh (x) / x = r, r^2 - 1 = g = d / h^2, for x = h
+   / (2 A).  The taut limit lives in d, so d is formed in double-double; then r - 1 is never formed
+   by a difference and every size, slack and steepness keeps full precision.  A fit and a Newton
+   step give x, in r - 1 or in log r, except for very slack lines with r above 3000.  Points come
+   from arc lengths alone, without sinh or cosh: nothing can overflow (the thesis met errors of 1e84
+   there, section 2.3.2).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

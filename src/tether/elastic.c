@@ -1,11 +1,11 @@
 /* The elastic catenary (Irvine 1981): weight per unstretched metre, Hooke's law, two unknowns.
 
-   The unknowns are the tension across the load H and the force of the support at the start V.  With
-   A = H / w and sigma0 = -V / w the stretched curve is the inextensible one of the same A and
-   sigma0 plus the stretch, so that the stable point formulas of catenary.c serve here too. Newton's
-   iteration is damped; it starts from the inextensible catenary of a length stretched by a tension
-   T that solves e T^3 + (1 - c) T^2 = h^2 / (24 c^2), the parabola's sag with Hooke's stretch (T in
-   weights, e = weight / EA, c = chord / length, h = H / length).
+   The unknowns are the tension across the load H and the force of the support at the start V. With
+   A = H / w and sigma0 = -V / w the stretched curve is the inextensible catenary of equal A and
+   sigma0 plus the stretch, and the stable point formulas of catenary.c serve here too.  Newton's
+   iteration is damped; the first guess is the inextensible catenary of a length stretched by a
+   tension T with e T^3 + (1 - c) T^2 = h^2 / (24 c^2), the parabola's sag with Hooke's stretch (T
+   in weights, e = weight / EA, c = chord / length, h = H / length).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -155,9 +155,9 @@ asinh_minus (double n, double k, double less)
   return n * (sum * y + less);
 }
 
-/* Every difference that vanishes for a taut line is written out, else a steep, nearly straight one
-   would be lost in rounding: with k = a^2 / t, t = tp tq, 1 - k = (a^2 (p^2 + q^2) + p^2 q^2) / (t
-   (t + a^2)).  */
+/* Differences that vanish for a taut line are written out, else the residual of a steep, nearly
+   straight line would be lost in rounding: with k = a^2 / t, t = tp tq, 1 - k = (a^2 (p^2 + q^2) +
+   p^2 q^2) / (t (t + a^2)).  */
 static void
 differentiate (const bt_elastic *e, linear *f)
 {

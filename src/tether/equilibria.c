@@ -1,6 +1,6 @@
 /* Several equilibria of one line: a search from several sides.
 
-   The line is bent as a catenary to each of six sides (its own load, the opposite, both sides
+   The line is bent as a catenary to each of six sides (along the load, against the load, both sides
    across, up, down) and relaxed; every new shape at rest is kept.  Bows toward the load mostly fall
    into the same shape; a slack line in a sheared or turning current may have further equilibria.
 

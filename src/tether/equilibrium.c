@@ -5,8 +5,8 @@
    shape, and a slack line in a current may have several equilibria.  So an answer of shooting is
    taken only if near the present shape.  Relaxation finds the equilibrium into which the present
    shape falls, at second order in the mesh; after relaxation, shooting from the tension found
-   polishes the result.  The work of one call is bounded: a shape not yet at rest is returned as it
-   is, counted as unsettled, and relaxed further by the next call.
+   polishes the result.  The work of one call is bounded: A shape not yet at rest is returned
+   unfinished, counted as unsettled, and relaxed further by the next call.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

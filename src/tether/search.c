@@ -1,9 +1,8 @@
 /* The thesis' own way to a catenary: Nelder and Mead's search on (A, xs), equations 2-2 to 2-4.
 
    Kept as the base line for measurements of the closed equation, with GSL's nmsimplex2 in place of
-   the thesis' Matlab routine.  Section 2.3.2 prints that relative errors are used for y1 and s
-   *below* one.  Relative errors cure errors of long lines, so they belong above one, and are used
-   above one here.
+   the thesis' Matlab routine.  Section 2.3.2 prints relative errors for y1 and s *below* one.
+   Relative errors cure errors of long lines, so relative errors are used above one here.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,7 +1,14 @@
-/* The shape of one tether: which model, with which load, and what is remembered of it.
+/* The shape of one tether: the choice of model, the load, and the memory from shape to shape.
 
-   The thesis' models are in shape_thesis.c, the plane they live in in shape_plane.c; here are the
-   two with weight of their own and the whole.
+   bt__shape_solve checks the input, measures the load (weight and drag of the mean current along
+   the chord, shape_plane.c), and dispatches on the model of the tether: rubber band, V and both
+   catenaries of the thesis (shape_thesis.c); here the elastic catenary (elastic.c) and the steady
+   line in a current (equilibrium.c).  A line without load has closed answers: a catenary without
+   tension while slack, else a straight line, held or stretched.
+
+   Memory: the direction of the last load and of the plane serve a line without load, for which any
+   plane would do; the steady model starts from the last pull and the last nodes.  Answers are flat
+   data without padding, hashed and compared as bytes.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

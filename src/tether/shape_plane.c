@@ -1,9 +1,9 @@
 /* Setting a plane problem into space: the load, the plane of the bend, the depth rule.
 
-   The thesis rotates the world (sections 2.2 to 2.4) until the current lies along one axis and the
-   far end in one plane, solves there, and rotates back.  The same curve follows without angles: the
-   curve lies in the plane spanned by the chord and the direction of the load.  The sag factor turns
-   the direction of the load from the current toward the vertical.
+   The thesis (sections 2.2 to 2.4) rotates the world until the current lies along an axis and the
+   far end in a plane, solves the plane problem, and rotates back.  The same curve follows without
+   angles: the curve lies in the plane spanned by the chord and the direction of the load.  The sag
+   factor turns the direction of the load from the current toward the vertical.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -118,8 +118,8 @@ bt__shape_span_plane (bt__shape_job *j, bt_vec3 chord)
   j->shape->load = j->load;
 }
 
-/* The plane problem of the depth rule.  DEPTH is shared out along the arc length by the linear
-   rule, which leaves sqrt (length^2 - depth^2) for the plane.  */
+/* The plane problem of the depth rule.  The linear rule shares depth out along the arc length, and
+   sqrt (length^2 - depth^2) is left for the plane.  */
 void
 bt__shape_pose (bt__shape_job *j)
 {

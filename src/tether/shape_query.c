@@ -1,7 +1,12 @@
 /* Asking a resolved shape: points, tangents and tensions at an arc length, pure reads.
 
-   Plane curves are asked at the plane's own arc length and set into space; nodes are joined by
-   cubics.
+   Plane curves (V, catenary, elastic) are asked at the plane's own arc length and set into space by
+   the vectors across, against and rise; rise is the depth shared out by the linear rule.
+
+   Nodes of a steady line are joined by cubics of Hermite.  The end tangents have the direction of
+   the tension and the length of the arc, chord (1 + turn^2 / 24), right for a circle to fourth
+   order; a cubic longer than its interval by more than 1 % takes only a share of its deviation from
+   the chord (smooth.h).  Tensions are a cubic through the four nearest nodes.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -82,8 +87,7 @@ interval_of (const bt__shape *shape, double s, double *f)
   return i;
 }
 
-/* The tangents carry the arc's length: the chord's, longer by the square of the turn over 24, which
-   is right for a circle to fourth order.  */
+/* The tangents have the length of the arc: the chord, longer by the square of the turn over 24.  */
 static piece
 piece_of (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, double s)
 {

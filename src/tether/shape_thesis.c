@@ -1,5 +1,15 @@
 /* The thesis' models in space: the rubber band, the V, the catenary by either way.
 
+   The rubber band is the straight line, with the given pull if taut.  The V has its bend where both
+   links lean by the same angle (v_shape.c); half the load acts at the bend and gives the tensions
+   of the links.  With the depth rule `thesis-linear' (section 2.4.1) the bend of the flat V is
+   lowered and drawn in along the current, and the two links define a plane of their own.
+
+   The catenary is solved by the closed equation (catenary.c) or by the thesis' own simplex search
+   (search.c), tried from the last answer and then from the thesis' guess.  An answer of the search
+   is accepted if end and length are met within 1 % of the length; else the model fails with the
+   residual.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <stddef.h>
@@ -13,7 +23,7 @@ enum
   SEARCH_STEPS = 500
 };
 
-/* The search has failed if its answer misses by more than this share of the length.  */
+/* An answer of the search with a larger miss, as a share of the length, is a failure.  */
 #define SEARCH_MISS 0.01
 
 bt_status
@@ -26,7 +36,7 @@ bt__shape_rubber_band (bt__shape_job *j)
 /* ---- The V ---- */
 
 /* Load the bent links, from (0, 0) over the bend to (FAR, 0): half of the load acts at the bend,
-   and (FX, FY) is the part of its unit direction in the plane of the links.  What pulls out of that
+   and (FX, FY) is the part of its unit direction in the plane of the links.  The load across the
    plane is left to the ends.  */
 static void
 load_bent_links (bt__shape *s, double far, double fx, double fy)
@@ -100,7 +110,7 @@ bt__shape_v (bt__shape_job *j)
   s->form = BT__FORM_V;
   if (j->props->depth_rule == BT_DEPTH_THESIS_LINEAR)
     return bend_thesis_linear (j);
-  /* Both links lean by one angle, so the load shares evenly even where one has no length.  */
+  /* Both links lean by the same angle: the load shares evenly even if a link has no length.  */
   double l = s->plane_length, sine = sqrt ((l - j->h) * (l + j->h)) / l;
   s->t1 = s->t2 = 0.5 * s->load * l / (2 * sine);
   return BT_OK;
@@ -132,7 +142,7 @@ bt__shape_catenary (bt__shape_job *j)
   return status;
 }
 
-/* How far R misses end and length, relative to the length; infinite when it is no curve.  */
+/* The miss of R at end and length, relative to the length; infinite if R is no curve.  */
 static double
 search_miss (const bt__shape_job *j, const bt_search_result *r)
 {

@@ -33,9 +33,9 @@ bt__share_within (bt_vec3 chord, bt_vec3 off, double reach)
 /* The share of the deviation from CHORD to be taken of a cubic between nodes with REST metres of
    line.  A and B are the end derivatives of the cubic with respect to the share F of the interval,
    less CHORD; at F the deviation of the derivative is A (1 - 4 F + 3 F F) + B (3 F F - 2 F).  The
-   derivative is sampled BT__SMOOTH_LOOKS times; between samples it exceeds the samples by at most
-   an eighth of the squared spacing times 6 |A + B|, which is 1 % for a cubic whose speed at the
-   ends is twice its chord's.  */
+   derivative is sampled BT__SMOOTH_LOOKS times; between samples the speed exceeds the samples by at
+   most an eighth of the squared spacing times 6 |a + b|: 1 % for a cubic with end speeds of twice
+   the chord.  */
 static inline double
 bt__smooth_share (bt_vec3 chord, bt_vec3 a, bt_vec3 b, double rest)
 {

@@ -26,9 +26,9 @@ typedef struct bt__loads
 /* Collect the loads of LINE in WATER.  */
 void bt__loads_set (bt__loads *loads, const bt_line *line, const bt_water *water, bt_vec3 at);
 
-/* Return the scale of force, N, of the whole line: its weight plus its broadside drag in the mean
-   current between A and B; for an unloaded line, the weight of the displaced water.  Always
-   positive.  */
+/* Return the scale of force, N, of the whole line: The weight plus the broadside drag of the line
+   in the mean current between A and B; for an unloaded line, the weight of the displaced water.
+   Always positive.  */
 double bt__loads_scale (const bt__loads *loads, const bt_line *line, bt_vec3 a, bt_vec3 b);
 
 /* The current at P.  */
@@ -62,9 +62,8 @@ int bt__march (const bt__loads *loads, bt_vec3 origin, bt_vec3 pull, double leng
 void bt__steady_guess (const bt_line *line, const bt_water *water, bt_vec3 a, bt_vec3 b,
                        bt_vec3 fallback, int n, bt_vec3 *r, bt_vec3 *pull);
 
-/* Draw in the links of the N + 1 nodes R that are longer than REACH, which exceeds an Nth of the
-   distance from the first node to the last; return true if there was such a link
-   (steady_shorten.c).  */
+/* Draw in the links longer than REACH of the N + 1 nodes R. REACH exceeds an Nth of the distance
+   from the first node to the last; return true if there was such a link (steady_shorten.c).  */
 int bt__steady_shorten (bt_vec3 *r, int n, double reach);
 
 typedef struct bt__block

@@ -5,11 +5,12 @@
    Between the two the guess takes the resultant load and blends the tensions by the share of the
    weight.
 
-   A line that nearly or fully stretches is lengthened first by the tension of the cubic
+   A line near its full length or stretched is lengthened first by the tension of the cubic
 
-     e T^3 + (1 - c) T^2 = k^2 / (24 c^2),
+   e T^3 + (1 - c) T^2 = k^2 / (24 c^2),
 
-   T in units of the load, c the chord and k its part across, over the length, e = load / ea.
+   T in units of the load, c the chord and k the part of the chord across, over the length, e = load
+   / ea.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -36,8 +37,8 @@ normal_to (bt_vec3 n, bt_vec3 wish)
   return bt__unit_or (bt__axpy (other, -bt__dot (other, n), n), other);
 }
 
-/* Solve the cubic of the head comment: convex beyond its turning points, so Newton from above falls
-   monotonically onto the one positive root.  */
+/* Solve the cubic of the head comment: Convex beyond its turning points: Newton from above falls
+   monotonically onto the only positive root.  */
 static double
 taut_tension (double e, double c, double k)
 {

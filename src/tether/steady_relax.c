@@ -1,31 +1,31 @@
 /* The line in a current brought to rest from a given shape: relaxation of a chain of n links.
 
-   Backward Euler without mass.  Each step solves, for the interior nodes X from x,
-     T_i t_i - T_{i-1} t_{i-1} + loads - kappa (X - x) = 0,
-   a viscous creep toward rest whose resistance KAPPA (N/m) falls as the steps succeed: a large
-   kappa follows the path on which the shape falls, none at all is Newton's method on the
-   equilibrium.
+   Backward Euler without mass.  Each step solves, for the interior nodes X from x, T_i t_i -
+   T_{i-1} t_{i-1} + loads - kappa (X - x) = 0, a viscous creep toward rest whose resistance KAPPA
+   (N/m) falls as the steps succeed: a large kappa follows the path on which the shape falls, none
+   at all is Newton's method on the equilibrium.
 
-   The kernel is a mixed primal-dual active set: every link has a multiplier LAM of
-   its own, the linearised tension, which sets the geometric stiffness and decides with the stretch
-   C whether the link is taut:
+   The kernel is a mixed primal-dual active set: every link has a multiplier LAM, the linearised
+   tension.  LAM sets the geometric stiffness and decides with the stretch C whether the link is
+   taut:
 
-     taut <=> lam + kappa C > 0,  T = ea C/l,  K = k_g 1 + (ea/l - k_g) t t^T,  k_g = lam+ / length.
+   taut <=> lam + kappa C > 0, T = ea C/l, K = k_g 1 + (ea/l - k_g) t t^T, k_g = lam+ / length.
 
-   Deciding by the sign of the stretch alone cycles.  A slack link keeps a small modulus so that no
-   node is free of all forces.
+   Deciding by the sign of the stretch alone cycles.  A slack link keeps a small modulus: no node
+   may be free of all forces.
 
-   A line that is very stiff for its load, or inextensible, gets a moderate modulus e and per link a
+   An inextensible line, or a line very stiff for its load, gets a moderate modulus e and per link a
    bias b, the tension of the last step (augmented Lagrangian):
 
-     T = e C/l + b (1 - e/ea).
+   T = e C/l + b (1 - e/ea).
 
    At rest b = T = ea C/l, the true law, and no step sees a huge modulus.
 
-   The loads turn with the line: half of each link's load acts on each of its nodes, and its
-   derivative to the link's direction is kept, else the last steps converge slowly or not at all
-   where the load exceeds the tension over a link.  It makes the block tridiagonal matrix
-   unsymmetric; kappa keeps it regular, and a step that is lost is repeated with more of it.
+   The loads turn with the line: half of each link's load acts on either node of the link.  The
+   derivative of the load to the link's direction is kept, else the last steps converge slowly or
+   not at all where the load exceeds the tension over a link.  The derivative makes the block
+   tridiagonal matrix unsymmetric; kappa keeps the matrix regular, and a lost step is repeated with
+   a larger kappa.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -394,8 +394,8 @@ shape_is_finite (const bt_vec3 *r, int n, double limit)
   return 1;
 }
 
-/* Move the ends to A and B and the nodes between in proportion, so that the motion is spread over
-   all links.  A shape that is not finite becomes the straight line.  */
+/* Move the ends to A and B and the nodes between in proportion: the motion is spread over all
+   links.  A shape that is not finite becomes the straight line.  */
 static void
 place_ends (bt_vec3 *r, int n, bt_vec3 a, bt_vec3 b)
 {

@@ -2,7 +2,7 @@
 
    Unknown: the tension vector at A, in units of a force near its size; residual: the miss of B over
    the length.  GSL's scaled hybrid method (Powell's dog leg, hybridsj) with a Jacobian by forward
-   differences: three marches once per solve, of the seven or eight that a warm solve takes, since
+   differences: three marches once per solve, of the seven or eight marches of a warm solve, since
    Broyden's updates carry the Jacobian on.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */

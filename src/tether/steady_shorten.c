@@ -1,11 +1,11 @@
 /* Making an unfinished shape of relaxation a possible shape of the line.
 
-   The work of relaxation is bounded, so relaxation may stop while some links are many times as long
-   as the line between their ends.  Such links are drawn in by sweeps from one end to the other and
-   back: each node is moved within reach of its neighbour, and the rest of the shape stays.  As long
-   as the ends are nearer than the length of the line, the excess decreases with each sweep.  The
-   excess left in the end, in a nearly taut line, is removed by blending with the straight line
-   between the ends: the links of a mean of two shapes are no longer than the mean of the links.
+   The work of relaxation is bounded, so relaxation may stop with some links many times as long as
+   their intervals.  Long links are drawn in by sweeps from end to end and back: each node is moved
+   within reach of its neighbour, and the rest of the shape stays.  As long as the ends are nearer
+   than the length of the line, the excess decreases with each sweep.  The excess left in the end,
+   in a nearly taut line, is removed by blending with the straight line between the ends: the links
+   of a mean of two shapes are no longer than the mean of the links.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

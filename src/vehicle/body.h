@@ -14,17 +14,17 @@
 
    The implicit line.  A stiff line must be solved together with the body that the line pulls.  Over
    a step the end place X of the attachment is, but for terms of higher order, a linear function of
-   the pull F: X = AT + Y F.  To the line the body is therefore a spring of stiffness K = Y^-1 to the
-   point AT, both found by bt__rigid_grip.  The line's step adds K (AT - X) to the force on its end
-   node and K to the node's block; bt__rigid_step is then given the pull F = K (X - AT).
+   the pull F: X = AT + Y F.  To the line the body is therefore a spring of stiffness K = Y^-1 to
+   the point AT, both found by bt__rigid_grip.  The line's step adds K (AT - X) to the force on its
+   end node and K to the node's block; bt__rigid_step is then given the pull F = K (X - AT).
 
    With F0 the pull of the last step, the body takes the impulse h (theta F + (1 - theta) F0), and a
    change of velocity counts theta h in the way.  With S = (2 M/h + D + torques that turn with the
-   body)^-1, Y = 2 theta2 h J S J^T; over M alone, Y = theta2 h2 J M^-1 J^T.  Theta is 1/2, of second
-   order, while the line is soft, and grows to 1, which damps all motion too quick for the step, as
-   the line grows stiff: theta = 1/2 + 1/2 s/(s + 50), s = h2 k / m, k of the line at its end, m of
-   the body there.  F0 counts for less as F falls below a quarter of F0, because a slack line must
-   leave nothing behind: a longer memory makes energy at every snap.
+   body)^-1, Y = 2 theta2 h J S J^T; over M alone, Y = theta2 h2 J M^-1 J^T.  Theta is 1/2, of
+   second order, while the line is soft, and grows to 1, which damps all motion too quick for the
+   step, as the line grows stiff: theta = 1/2 + 1/2 s/(s + 50), s = h2 k / m, k of the line at its
+   end, m of the body there.  F0 counts for less as F falls below a quarter of F0, because a slack
+   line must leave nothing behind: a longer memory makes energy at every snap.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
