@@ -157,7 +157,7 @@ draw_body (sheet *s, const bt_thing *t)
 }
 
 static void
-draw_mesh (sheet *s, const bt_thing *t)
+outline_mesh (sheet *s, const bt_thing *t)
 {
   bt__pose pose = bt__pose_of (t->at, t->heading, t->pitch, t->roll);
   cairo_set_source_rgb (s->pen.cr, 0.72, 0.72, 0.69);
@@ -256,7 +256,7 @@ draw_mark (sheet *s, const bt_thing *t)
 }
 
 static void
-draw_arrow (sheet *s, const bt_thing *t)
+outline_arrow (sheet *s, const bt_thing *t)
 {
   cairo_t *cr = s->pen.cr;
   double x0, y0, x1, y1, length, head, ux, uy;
@@ -325,7 +325,7 @@ draw_thing (sheet *s, const bt_thing *t, int layer)
     {
     case BT_THING_MESH:
       if (layer == 0)
-        draw_mesh (s, t);
+        outline_mesh (s, t);
       break;
     case BT_THING_LINES:
       if (layer == 1)
@@ -333,7 +333,7 @@ draw_thing (sheet *s, const bt_thing *t, int layer)
       break;
     case BT_THING_ARROW:
       if (layer == 1)
-        draw_arrow (s, t);
+        outline_arrow (s, t);
       break;
     case BT_THING_TUBE:
       if (layer == 1)

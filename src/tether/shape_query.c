@@ -77,7 +77,7 @@ typedef struct piece
 } piece;
 
 static int64_t
-interval_of (const bt__shape *shape, double s, double *f)
+node_interval (const bt__shape *shape, double s, double *f)
 {
   double x = s / shape->length * (double)shape->n;
   int64_t i = (int64_t)x;
@@ -92,7 +92,7 @@ static piece
 piece_of (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, double s)
 {
   piece p;
-  p.i = interval_of (shape, s, &p.f);
+  p.i = node_interval (shape, s, &p.f);
   p.p = nodes[p.i];
   p.q = nodes[p.i + 1];
   p.chord = bt__sub (p.q, p.p);
@@ -131,7 +131,7 @@ static double
 nodes_tension (const bt__shape *shape, const bt_vec3 *tensions, double s)
 {
   double f;
-  int64_t i = interval_of (shape, s, &f);
+  int64_t i = node_interval (shape, s, &f);
   if (shape->n < 3)
     return bt__norm (bt__axpy (bt__scale (1 - f, tensions[i]), f, tensions[i + 1]));
   int64_t first = i < 1 ? 0 : i > shape->n - 2 ? shape->n - 3 : i - 1;

@@ -39,7 +39,7 @@ bt_status
 bt_tether_taut_length (const bt_dive *dive, int i, double *length, bt_error *error)
 {
   bt__awareness *g;
-  bt_status status = bt__watch_gaze (dive, i, &g, error);
+  bt_status status = bt__watch_taut (dive, i, &g, error);
   if (status == BT_OK)
     *length = g->taut_length;
   return status;
@@ -56,7 +56,7 @@ bt_tether_is_taut (const bt_dive *dive, int i, int *taut, bt_error *error)
   *taut = tether->taut != 0;
   if (*taut || g->open || tether->parted) /* nothing holds the end of a parted one */
     return BT_OK;
-  status = bt__watch_gaze (dive, i, &g, error);
+  status = bt__watch_taut (dive, i, &g, error);
   if (status == BT_OK)
     *taut = bt__is_taut (g->taut_length, g->out);
   return status;
@@ -173,7 +173,7 @@ bt_status
 bt_tether_wrap_angle (const bt_dive *dive, int i, int obstacle, double *radians, bt_error *error)
 {
   bt__awareness *g;
-  bt_status status = bt__watch_gaze (dive, i, &g, error);
+  bt_status status = bt__watch_taut (dive, i, &g, error);
   if (status == BT_OK && obstacle >= 0)
     status = bt__check_part (dive, BT_PART_OBSTACLE, obstacle, error);
   if (status != BT_OK)
@@ -192,7 +192,7 @@ bt_status
 bt_tether_capstan_lock (const bt_dive *dive, int i, double *lock, bt_error *error)
 {
   bt__awareness *g;
-  bt_status status = bt__watch_gaze (dive, i, &g, error);
+  bt_status status = bt__watch_taut (dive, i, &g, error);
   if (status == BT_OK)
     *lock = bt__holds_lock (&g->holds);
   return status;

@@ -214,13 +214,13 @@ note_taut (forecast *f, double seconds)
 
 /* ---- The vehicle ahead ---- */
 
-/* Stop GHOST, coming from FROM, at the first obstacle within RADIUS of its path; foretell a new
+/* Stop PREDICTED, coming from FROM, at the first obstacle within RADIUS of its path; foretell a new
    collision if SECONDS have passed.  */
 static void
-note_bump (forecast *f, bt__predicted *ghost, bt_vec3 from, double seconds)
+note_bump (forecast *f, bt__predicted *predicted, bt_vec3 from, double seconds)
 {
   bt__near near;
-  bt__link way = { from, ghost->v.position };
+  bt__link way = { from, predicted->v.position };
   if (f->g->open
       || !bt__scene_nearest (f->g->config.scene, f->g->config.on, &way, f->radius, &near,
                              &f->dive->watch->count))
@@ -234,7 +234,7 @@ note_bump (forecast *f, bt__predicted *ghost, bt_vec3 from, double seconds)
     }
   bt_vec3 n = near.w.normal, on = near.w.point, to = way.b;
   double in = f->radius - bt__dot (bt__sub (to, on), n);
-  bt__predicted_stop (ghost, in > 0 ? bt__axpy (to, in, n) : to, n);
+  bt__predicted_stop (predicted, in > 0 ? bt__axpy (to, in, n) : to, n);
 }
 
 /* A line with slack elsewhere may still pull: friction, or its own turns, hold the line at the last
@@ -261,12 +261,13 @@ look_for_leash (forecast *f, int i, bt_vec3 vehicle)
 }
 
 static void
-hold_on_leash (const forecast *f, bt__predicted *ghost)
+hold_on_leash (const forecast *f, bt__predicted *predicted)
 {
-  bt_vec3 way = bt__sub (ghost->v.position, f->held);
+  bt_vec3 way = bt__sub (predicted->v.position, f->held);
   double far = bt__norm (way);
   if (far > f->leash)
-    bt__predicted_stop (ghost, bt__axpy (f->held, f->leash / far, way), bt__scale (-1 / far, way));
+    bt__predicted_stop (predicted, bt__axpy (f->held, f->leash / far, way),
+                        bt__scale (-1 / far, way));
 }
 
 /* Hold the VEHICLE at the string's last bend if the string is longer than the line paid out.  */
@@ -285,29 +286,29 @@ rein_in (forecast *f, bt_vec3 vehicle)
 
 /* Lead the string on by one look ahead; return 0 if the end cannot be led.  */
 static int
-lead_string (forecast *f, bt__predicted *ghost, double t)
+lead_string (forecast *f, bt__predicted *predicted, double t)
 {
-  bt_vec3 from = ghost->v.position;
+  bt_vec3 from = predicted->v.position;
   for (int k = 0; k < LOOKS; k++)
     {
-      bt__predicted_go_on (ghost, AHEAD / LOOKS);
-      hold_on_leash (f, ghost);
+      bt__predicted_go_on (predicted, AHEAD / LOOKS);
+      hold_on_leash (f, predicted);
     }
-  note_bump (f, ghost, from, t);
+  note_bump (f, predicted, from, t);
   if (!f->g->open)
-    note_trail (f, bt__trail_lead (&f->trail, ghost->v.position), t);
+    note_trail (f, bt__trail_lead (&f->trail, predicted->v.position), t);
   if (f->g->open)
     {
-      f->string->x[1] = ghost->v.position;
-      f->string->length = bt__distance (f->string->x[0], ghost->v.position);
+      f->string->x[1] = predicted->v.position;
+      f->string->length = bt__distance (f->string->x[0], predicted->v.position);
     }
   else if (bt__taut_step (f->dive->watch->taut, &f->g->config, f->string, f->string->x[0],
-                          ghost->v.position, AHEAD_STEPS, &f->dive->watch->count))
+                          predicted->v.position, AHEAD_STEPS, &f->dive->watch->count))
     note_holds (f, t);
   else
     return 0;
   note_taut (f, t);
-  rein_in (f, ghost->v.position);
+  rein_in (f, predicted->v.position);
   return 1;
 }
 
@@ -316,7 +317,7 @@ run_ahead (forecast *f, int i, double seconds)
 {
   int vehicle = f->dive->model->ends[i][1].vehicle;
   bt_vec3 size = f->dive->model->vehicles[vehicle].size;
-  bt__predicted ghost = bt__predicted_of (f->dive, vehicle);
+  bt__predicted predicted = bt__predicted_of (f->dive, vehicle);
   f->radius = fmax (0.5 * fmax (size.x, size.y), 2 * f->g->config.core);
   f->taut = bt__is_taut (f->string->length, f->g->out);
   if (!f->g->open)
@@ -324,10 +325,10 @@ run_ahead (forecast *f, int i, double seconds)
       note_holds (f, 0);
       note_trail (f, 0, 0);
     }
-  note_bump (f, &ghost, ghost.v.position, 0);
-  look_for_leash (f, i, ghost.v.position);
+  note_bump (f, &predicted, predicted.v.position, 0);
+  look_for_leash (f, i, predicted.v.position);
   for (int k = 1; k * AHEAD <= seconds + 1e-9; k++)
-    if (bt__ask (bt__asker_of (f->dive)) || !lead_string (f, &ghost, k * AHEAD))
+    if (bt__ask (bt__asker_of (f->dive)) || !lead_string (f, &predicted, k * AHEAD))
       break;
 }
 
@@ -337,7 +338,7 @@ bt_tether_foresee (const bt_dive *dive, int i, double seconds, bt_foresight *out
 {
   bt__awareness *g;
   bt_vec3 ends[2];
-  bt_status status = bt__watch_gaze (dive, i, &g, error);
+  bt_status status = bt__watch_taut (dive, i, &g, error);
   *n = 0;
   if (status == BT_OK && !(seconds >= 0 && seconds <= 3600))
     status = bt__fail (error, BT_ERR_DOMAIN, "a forecast is of 0 to 3600 s, not %g", seconds);

@@ -146,7 +146,7 @@ bt_tether_prospect_by (const bt_dive *dive, int i, double winch, double grip, bt
                        "the share of the angle that is to hold is above 0 and at most 1, not %g",
                        grip);
   if (status == BT_OK)
-    status = bt__watch_gaze (dive, i, &g, error);
+    status = bt__watch_taut (dive, i, &g, error);
   if (status != BT_OK)
     return status;
   bt__haul_body body = body_of (dive, vehicle, winch, grip);
@@ -186,7 +186,7 @@ bt_tether_taut_string (const bt_dive *dive, int i, bt_vec3 *points, int max, int
                        bt_error *error)
 {
   bt__awareness *g;
-  bt_status status = bt__watch_gaze (dive, i, &g, error);
+  bt_status status = bt__watch_taut (dive, i, &g, error);
   if (status != BT_OK)
     return status;
   if (!g->open)
@@ -259,7 +259,7 @@ bt_tether_taut_to (const bt_dive *dive, int i, bt_vec3 p, bt_vec3 *points, int m
   *obstacle = -1;
   if (!isfinite (p.x) || !isfinite (p.y) || !isfinite (p.z))
     return bt__fail (error, BT_ERR_DOMAIN, "a point has three finite numbers");
-  bt_status status = bt__watch_gaze (dive, i, &g, error);
+  bt_status status = bt__watch_taut (dive, i, &g, error);
   if (status != BT_OK)
     return status;
   if (!g->open)
@@ -294,7 +294,7 @@ bt_tether_way_home (const bt_dive *dive, int i, bt_vec3 *points, int max, int *n
   int vehicle;
   bt_status status = bt__vehicle_at_end (dive, i, &vehicle, error);
   if (status == BT_OK)
-    status = bt__watch_gaze (dive, i, &g, error);
+    status = bt__watch_taut (dive, i, &g, error);
   if (status != BT_OK)
     return status;
   if (g->open)

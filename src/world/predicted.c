@@ -27,16 +27,16 @@ has_goal (const bt__vehicle *v)
 bt__predicted
 bt__predicted_of (const bt_dive *dive, int vehicle)
 {
-  bt__predicted ghost
+  bt__predicted predicted
       = { .dive = dive, .vehicle = vehicle, .v = *bt__dive_vehicle (dive, dive->now, vehicle) };
-  bt__vehicle *v = &ghost.v;
+  bt__vehicle *v = &predicted.v;
   double ahead = v->sticks[0] * v->speeds[0], aside = v->sticks[1] * v->speeds[1];
   double s = sin (v->heading), c = cos (v->heading);
-  ghost.yaw = has_goal (v) ? 0 : v->sticks[3] * v->speeds[3];
+  predicted.yaw = has_goal (v) ? 0 : v->sticks[3] * v->speeds[3];
   if (!v->rigid && v->goal == BT__GOAL_NONE)
     v->velocity
         = bt__vec (ahead * s + aside * c, ahead * c - aside * s, v->sticks[2] * v->speeds[2]);
-  return ghost;
+  return predicted;
 }
 
 static void
@@ -66,7 +66,7 @@ go_by_sticks (bt__vehicle *v, double yaw, double seconds)
 /* ---- With mass ---- */
 
 static void
-steer_ghost (bt__predicted *g, bt__rigid_input *in)
+steer_predicted (bt__predicted *g, bt__rigid_input *in)
 {
   const bt_model *model = g->dive->model;
   bt__vehicle *v = &g->v;
@@ -103,7 +103,7 @@ step_body (bt__predicted *g, double h)
                          .volts = v->volts,
                          .lost = (uint64_t)v->lost };
   bt_water_motion (&water, v->position, &in.flow, &in.flow_acceleration);
-  steer_ghost (g, &in);
+  steer_predicted (g, &in);
   if (bt__rigid_step (&g->dive->model->types[g->vehicle], &v->body, &in, NULL) == BT_OK)
     mirror (v);
 }

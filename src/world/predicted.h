@@ -19,13 +19,13 @@ typedef struct bt__predicted
   double yaw; /* radians/s, of one without mass */
 } bt__predicted;
 
-/* The ghost of VEHICLE as it is now.  */
+/* The predicted of VEHICLE as it is now.  */
 bt__predicted bt__predicted_of (const bt_dive *dive, int vehicle);
 
 /* Let it go on by SECONDS.  */
-void bt__predicted_go_on (bt__predicted *ghost, double seconds);
+void bt__predicted_go_on (bt__predicted *predicted, double seconds);
 
 /* Put it to P, where something with the outward unit NORMAL stops it: it slides on.  */
-void bt__predicted_stop (bt__predicted *ghost, bt_vec3 p, bt_vec3 normal);
+void bt__predicted_stop (bt__predicted *predicted, bt_vec3 p, bt_vec3 normal);
 
 #endif

@@ -27,7 +27,7 @@ enum
 /* ---- Memory ---- */
 
 static void
-free_gaze (bt__awareness *g)
+free_awareness (bt__awareness *g)
 {
   free (g->node);
   free (g->taut);
@@ -48,7 +48,7 @@ bt__watch_free_all (struct bt__watch *w)
   if (!w)
     return;
   for (int i = 0; i < w->n; i++)
-    free_gaze (&w->gaze[i]);
+    free_awareness (&w->tether[i]);
   bt__taut_free (w->taut);
   free (w);
 }
@@ -77,7 +77,7 @@ bt__watch_share (const bt_dive *dive, bt_dive *fork)
   struct bt__watch *w = dive->watch ? watch_of (fork) : NULL;
   for (int i = 0; w && i < w->n; i++)
     {
-      bt__awareness *from = &dive->watch->gaze[i], *to = &w->gaze[i];
+      bt__awareness *from = &dive->watch->tether[i], *to = &w->tether[i];
       to->ways = from->ways && from->ways->grown ? from->ways : NULL;
       to->words = from->words;
       to->frame = from->frame;
@@ -113,7 +113,7 @@ make_string_room (struct bt__watch *w, uint32_t room, bt__asker *asker)
   bt__taut_free (w->taut);
   w->room = 0;
   for (int i = 0; i < w->n; i++)
-    w->gaze[i].change = 0;
+    w->tether[i].change = 0;
   if (bt__taut_new (room, &w->taut, NULL) != BT_OK)
     return 0;
   bt__taut_ask (w->taut, asker);
@@ -122,7 +122,7 @@ make_string_room (struct bt__watch *w, uint32_t room, bt__asker *asker)
 }
 
 static int
-make_gaze_room (const struct bt__watch *w, bt__awareness *g)
+make_awareness_room (const struct bt__watch *w, bt__awareness *g)
 {
   if (g->taut && g->shortest && g->hold && g->taut->room == w->room)
     return 1;
@@ -239,7 +239,7 @@ make_ready (const bt_dive *dive, int i, struct bt__watch *w, bt__awareness *g, d
                      "the taut string of %g m of tether would have %g nodes; at most %d are solved",
                      g->out, wanted, ROOM_MOST);
   uint32_t room = (uint32_t)fmin (fmax (wanted, ahead), ROOM_MOST);
-  return make_string_room (w, room, bt__asker_of (dive)) && make_gaze_room (w, g)
+  return make_string_room (w, room, bt__asker_of (dive)) && make_awareness_room (w, g)
              ? BT_OK
              : bt__watch_no_memory (error);
 }
@@ -278,7 +278,7 @@ bt__watch_look (const bt_dive *dive, int i, bt__awareness **out, bt_error *error
   if (status != BT_OK)
     return status;
   struct bt__watch *w = watch_of (dive);
-  bt__awareness *g = w ? &w->gaze[i] : NULL;
+  bt__awareness *g = w ? &w->tether[i] : NULL;
   if (!w)
     return bt__watch_no_memory (error);
   *out = g;
@@ -303,7 +303,7 @@ bt__watch_look (const bt_dive *dive, int i, bt__awareness **out, bt_error *error
 }
 
 bt_status
-bt__watch_gaze (const bt_dive *dive, int i, bt__awareness **out, bt_error *error)
+bt__watch_taut (const bt_dive *dive, int i, bt__awareness **out, bt_error *error)
 {
   bt_status status = bt__watch_look (dive, i, out, error);
   if (status == BT_OK && !(*out)->has_taut)
@@ -387,7 +387,7 @@ find_free_way (const bt_dive *dive, int i, bt__awareness *g, double *length, bt_
 bt_status
 bt__watch_free (const bt_dive *dive, int i, bt__awareness **out, bt_error *error)
 {
-  bt_status status = bt__watch_gaze (dive, i, out, error);
+  bt_status status = bt__watch_taut (dive, i, out, error);
   bt__awareness *g = *out;
   if (status != BT_OK || g->has_free)
     return status;

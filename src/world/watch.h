@@ -73,14 +73,14 @@ struct bt__watch
   bt__taut *taut;
   bt__count count;
   int n;
-  bt__awareness gaze[];
+  bt__awareness tether[];
 };
 
 /* Return tether I of DIVE as it is now: its nodes, and what it is among.  */
 bt_status bt__watch_look (const bt_dive *dive, int i, bt__awareness **out, bt_error *error);
 
 /* The same, with its string solved.  */
-bt_status bt__watch_gaze (const bt_dive *dive, int i, bt__awareness **out, bt_error *error);
+bt_status bt__watch_taut (const bt_dive *dive, int i, bt__awareness **out, bt_error *error);
 
 /* bt__watch_lay_way puts into WAY the shortest way known from the anchor of tether I, of which G is
    known, to P: the chord where the chord is clear, else the tree's way; *FOUND tells success.
@@ -90,7 +90,7 @@ bt_status bt__watch_lay_way (const bt_dive *dive, int i, bt__awareness *g, bt_ve
 bt_status bt__watch_tighten_way (const bt_dive *dive, const bt__awareness *g, bt__string *way,
                                  double *length, bt_error *error);
 
-/* As bt__watch_gaze, with the free way; and with the word.  */
+/* As bt__watch_taut, with the free way; and with the word.  */
 bt_status bt__watch_free (const bt_dive *dive, int i, bt__awareness **out, bt_error *error);
 bt_status bt__watch_class (const bt_dive *dive, int i, bt__awareness **out, bt_error *error);
 
@@ -100,8 +100,8 @@ bt_status bt__watch_no_memory (bt_error *error);
 /* The greatest paid-out length, m, of tether I before its winch gets another order.  */
 double bt__watch_longest (const bt_dive *dive, int i);
 
-/* watch_wound.c: have memory for windings about what GAZE's tether is among.  */
-bt_status bt__watch_wind_ready (const bt_dive *dive, int i, bt__awareness *gaze, bt_error *error);
+/* watch_wound.c: have memory for windings about what G's tether is among.  */
+bt_status bt__watch_wind_ready (const bt_dive *dive, int i, bt__awareness *g, bt_error *error);
 
 /* The same, with the windings; the string and the way only where they are needed.  */
 bt_status bt__watch_wound (const bt_dive *dive, int i, bt__awareness **out, bt_error *error);
@@ -136,13 +136,13 @@ void bt__watch_free_all (struct bt__watch *watch); /* NULL is nothing */
 /* Let FORK share the charts of DIVE.  Without memory it makes its own.  */
 void bt__watch_share (const bt_dive *dive, bt_dive *fork);
 
-/* watch_chart.c: have GAZE's chart of ways, without its tree; with room for its tree; with its
+/* watch_chart.c: have G's chart of ways, without its tree; with room for its tree; with its
    tree; its graph; its chart of words.  */
-bt_status bt__chart_ways (const bt_dive *dive, int i, bt__awareness *gaze, bt_error *error);
-bt_status bt__chart_plant (const bt_dive *dive, int i, bt__awareness *gaze, bt_error *error);
-bt_status bt__chart_grow (const bt_dive *dive, int i, bt__awareness *gaze, bt_error *error);
-bt_status bt__chart_frame (const bt_dive *dive, int i, bt__awareness *gaze, bt_error *error);
-bt_status bt__chart_words (const bt_dive *dive, int i, bt__awareness *gaze, bt_error *error);
+bt_status bt__chart_ways (const bt_dive *dive, int i, bt__awareness *g, bt_error *error);
+bt_status bt__chart_plant (const bt_dive *dive, int i, bt__awareness *g, bt_error *error);
+bt_status bt__chart_grow (const bt_dive *dive, int i, bt__awareness *g, bt_error *error);
+bt_status bt__chart_frame (const bt_dive *dive, int i, bt__awareness *g, bt_error *error);
+bt_status bt__chart_words (const bt_dive *dive, int i, bt__awareness *g, bt_error *error);
 void bt__chart_release (bt__chart *chart); /* NULL is nothing */
 
 #endif
