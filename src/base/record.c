@@ -1,5 +1,14 @@
 /* Judging flat structs by the tables of their members.
 
+   A table lists for every member its offset, size, kind and permitted values: doubles within
+   bounds, perhaps NaN; whole numbers within bounds or below a count of the world; structs with
+   tables of their own; words without a rule.  Judging copies each value out of the bytes, never
+   reads through a pointer, and fails at the first bad member with its name and its bounds.
+
+   bt__record_gap proves a table complete: from byte 0 on, each member must begin where the member
+   before has ended, be listed once, and be made of whole words.  A test calls the function for all
+   tables, so a member added to a struct without a row in its table fails the test.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <inttypes.h>

@@ -1,7 +1,10 @@
 /* Coordinates: the reference system of the numbers in a file, and the way to local metres.
 
    A file without a stated system is believed only if its numbers leave one possibility: the origin
-   lies within them as degrees, or as metres of the UTM zone of the origin.
+   lies within the numbers as degrees, or as metres of the UTM zone of the origin.  A stated system,
+   or the system wished for by the world, is taken as it is.  Local metres are a transverse Mercator
+   projection about the origin with scale 1 (PROJ does the sums); a map holds the transformations
+   both ways and the affine map of the file, and longitudes are tried with whole turns.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,5 +1,10 @@
-/* Taking a mesh from the reader's stream.  The reader ran a foreign library on a foreign file, so
-   nothing is believed: counts, numbers, indices and checksum are checked.
+/* Taking a mesh from the reader's stream.
+
+   The reader ran a foreign library on a foreign file, so nothing is believed.  In this order:
+   magic, version and counts of the head, before memory is allocated for them; the body, which must
+   be as long as announced, and a checksum over head and body, with nothing behind; then every
+   coordinate must be finite and every corner an existing vertex.  Only a mesh that passed all
+   checks is returned.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,6 +1,12 @@
 /* Where a dive begins: anchors, vehicles and the lines along which tethers are laid must be clear
    of every obstacle.
 
+   A tether is laid straight from its anchor over its `via' points to its far end, and every
+   straight piece must be at least the tether's radius away from all obstacles, kinematic obstacles
+   at their places at time 0.  An obstacle may be touched within 1e-9 m: a world written to touch
+   may touch.  The contact solvers rely on this start: from a clear line no step passes through an
+   obstacle.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include "base/error.h"
@@ -20,7 +26,7 @@ bt__lay_points (const bt_model *model, int i, bt_vec3 *points)
   return n;
 }
 
-/* What LINK meets first of SCENE, if that is nearer than CAP.  */
+/* Return true and the obstacle nearest to LINK in SCENE if the obstacle is nearer than CAP.  */
 static int
 meets_first (const bt__scene *scene, const bt__link *link, double cap, int *obstacle)
 {

@@ -1,6 +1,12 @@
 /* Compile a world into a model.  The compiler is the validator: the engine can run every compiled
    model.
 
+   Every field of every part is checked by the table of fields (fields.c), then parts together:
+   names unique, ends resolved to vehicles or points, lengths long enough for the laying, figures
+   that no line can have refused, the sum of nodes bounded.  A model is immutable and counted by
+   reference.  Its id is a hash of sea, vehicles, tethers and obstacles; states carry the id and are
+   restored into dives of the same id alone.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
@@ -150,10 +156,10 @@ check_lumps (const bt_tether_def *tether, bt_error *error)
   return BT_OK;
 }
 
-#define STRETCH_MAX 10.0 /* times its length that its own weight may make a line longer */
-#define NODES_ANYWAY 200 /* that a line may have however short it is */
+#define STRETCH_MAX 10.0 /* times the length: the most a line may stretch by its weight */
+#define NODES_ANYWAY 200 /* allowed for any line, however short */
 
-/* What no line can be, though each of its figures may.  */
+/* Refuse combinations of figures that no line can have, though each figure is in range.  */
 static bt_status
 check_figures (const bt_tether_def *tether, bt_error *error)
 {

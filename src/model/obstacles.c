@@ -1,5 +1,13 @@
-/* Compile the obstacles of a world: All standing obstacles become a single scene, each kinematic
-   obstacle gets a scene of its own.
+/* Compile the obstacles of a world.
+
+   All standing obstacles become a single scene with a tree over the obstacles; each kinematic
+   obstacle gets a scene of its own in its own frame, a track, and the radius of a ball about its
+   origin.  A bed from a grid or a mesh has an edge and perhaps holes, so a level floor at the depth
+   of the sea, or 1 m below the lowest point of the bed, goes with it; bed and floor count as one
+   obstacle. where[i] is the place of obstacle i in the scene, or -1 - k for kinematic obstacle k.
+
+   Memory borrowed by definitions (points, meshes, grids, tracks) is copied, and the pointers of the
+   copied definitions are cleared.  Limits hold for each obstacle and for the sum of triangles.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -112,7 +120,8 @@ check_obstacle_counts (const bt_world *world, bt_error *error)
   return check_triangles (world, error);
 }
 
-/* What a def borrowed is in the scenes by now.  A carried one is where its track has it.  */
+/* Clear the pointers to borrowed memory, copied into scenes and tracks by now.  An obstacle with an
+   axis gets its middle as its place.  */
 static void
 forget_borrowed (bt_obstacle_def *def)
 {

@@ -1,5 +1,10 @@
 /* The tethers of a dive as painted tubes, and marks where they touch.
 
+   A tube has twice as many points as the tether has nodes, at least 240, at equal arc lengths.
+   Paint is a number at every point on one scale for all tethers: tension, curvature (of the circle
+   through three neighbouring points), or the model at work.  Scales of curvature, and of a single
+   number, begin at zero; models are numbered from 0 on and named in the legend.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>

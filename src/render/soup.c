@@ -1,5 +1,14 @@
 /* Bodies as triangles.
 
+   A soup is a list of vertices with normals and material, and a list of indices, in floats relative
+   to the point looked at.  Round bodies get as many sides as the picture needs: chords are off the
+   circle by at most 0.15 of a pixel, between 8 and 40 sides.  A failed allocation sets `full' and
+   drops further triangles; the picture then fails as a whole.
+
+   A tube is a ring of vertices at each point of its line, joined by triangles.  The frame of the
+   rings is carried from point to point by taking out the part along the line (parallel transport),
+   so the rings do not turn about the line.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>

@@ -1,4 +1,9 @@
-/* A pen for pictures.
+/* A pen for pictures: text, strokes and boxes on finished pixels, by cairo.
+
+   The size of letters is a fortieth of the picture's height, between 8.5 and 160 pixels.  Text and
+   strokes are drawn twice, a wide halo and then the ink, to be read on any background: white ink on
+   water, dark ink on paper.  The pen remembers the boxes in use, so that labels find free places
+   (labels.c); a pen without memory for another box has no free place left.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

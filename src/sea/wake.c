@@ -1,6 +1,12 @@
 /* The lee of a pile: the share of a current left behind the pile.  The model stands in bight/sea.h.
 
-   Four wakes at a time.  Most water is in no lee, which is found without a root or a quotient.
+   Four wakes at a time, side by side in vectors (math/four.h).  Most water is in no lee, found by
+   products alone: places and speeds are compared squared and multiplied out, and roots, quotients
+   and exponentials are computed only for a block with a lee.  The deficit is a Gaussian across the
+   wake, times factors that fade smoothly at the upstream side, at the far end and beyond the ends
+   of the cylinder.  Shares of several lees multiply.
+
+   Sums and products run in a fixed order, so a place has the same share on any machine and thread.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -67,8 +73,8 @@ find_place (const bt__wakes *w, bt_vec3 u, bt_vec3 p)
                   (x * x + y * y + z * z - along * along) * across2 - way * way };
 }
 
-/* Where it lies in the lee: not beyond an end, before, too far behind nor beside; and the current
-   not along the axis.  */
+/* True where the place lies in the lee: neither beyond an end, nor before, nor too far behind or
+   beside; and the current is not along the axis.  */
 static BT__HOT bt__four_mask
 is_in_lee (const place *at, double speed2)
 {

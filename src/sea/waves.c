@@ -1,7 +1,16 @@
-/* Waves: linear theory over a level bottom, one component or many.
+/* Waves: linear (Airy) theory over a level bottom, one component or many.
 
    Waves are plain data, a table of components; surface and velocity at a place are sums of
-   waves_sum.h.
+   waves_sum.h.  A regular wave has one component.  An irregular sea has the JONSWAP spectrum
+   (Hasselmann et al. 1973) between half and four times the peak frequency, cut into as many parts
+   of equal energy as there are components.  Each component has the amplitude of one part, H / 4
+   sqrt (2 / n), a frequency drawn within its part, so that the sea never repeats, and a random
+   phase.  Numbers are drawn by SplitMix64 from the seed of the sea: equal definitions give equal
+   seas.
+
+   Wave numbers solve omega^2 = g k tanh (k depth).  A wave higher than Miche's limit 0.142 L tanh
+   (k depth) breaks and is refused.  The factor of the bottom, e^(-2 k depth), is kept with each
+   component, or 0 where the component feels no bottom.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
