@@ -1,9 +1,14 @@
-/* A surface between two lines with the same ends, and the edges of a graph that go through it.
+/* A surface between two lines with the same ends, and its crossings by the edges of a graph.
 
-   The surface is a strip of triangles with rungs from one line to the other.  Blocks of triangles
-   have boxes, so that a distant edge costs one comparison.  The common side of two triangles is
-   tested by one and the same expression, so that an edge near the side goes through exactly one of
-   the two triangles, whatever the rounding.
+   The surface is a strip of triangles with rungs from line to line; at each rung the strip goes on
+   along the line that is behind, by shares of the lengths.  An edge that crosses the surface
+   contributes 1 or -1, by the side from which it comes: the crossings of all edges are a sum of
+   loops in the class of the closed curve of both lines (caught.h).
+
+   Crossings are exact as a whole: the side on which an edge passes a rung is the sign of one
+   product, computed by the same expression for both triangles at the rung, so an edge near a rung
+   crosses exactly one of the two triangles, whatever the rounding.  Blocks of triangles have boxes,
+   so a distant edge costs one comparison.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -15,11 +20,11 @@
 enum
 {
   BLOCK = 16,     /* triangles of a box */
-  BLOCKS_MAX = 64 /* boxes; of a longer strip each covers more */
+  BLOCKS_MAX = 64 /* boxes at most; in a long strip a box covers more */
 };
 
-/* The strip: triangle T has the points P[I[T]] and Q[J[T]] and the next on one of the lines; where
-   the strip stands after T triangles is found by walking on from the block's first.  */
+/* A place on the strip: the rung from P[I] to Q[J].  The triangle from there has the next point of
+   P or of Q. Places are found by walking on from the first place of a block.  */
 typedef struct place
 {
   uint32_t i, j;

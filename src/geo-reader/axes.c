@@ -1,5 +1,11 @@
-/* Times and levels of an ocean model.  Levels are depths, or follow the bed by the s-coordinate of
-   ROMS (ROMS wiki, "Vertical S-coordinate", transformations 1 and 2, at a still surface).
+/* Times and levels of an ocean model.
+
+   Times have a unit such as "hours since 1950-01-01 00:00:00" (CF conventions); they become seconds
+   since 1970 in the Gregorian calendar, by H. Hinnant's days_from_civil, and must rise.  Other
+   calendars, such as years of 360 days, are refused.
+
+   Levels are depths, or follow the bed by the s-coordinate of ROMS (ROMS wiki, "Vertical
+   S-coordinate", transformations 1 and 2, at a still surface).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -73,8 +79,8 @@ seconds_of (const char *word)
   return 0;
 }
 
-/* From "hours since 1950-01-01 00:00:00": seconds of the unit, and seconds since 1970 of its
-   beginning.  True if it says so.  */
+/* Parse a unit such as "hours since 1950-01-01 00:00:00": the seconds of the unit, and the
+   beginning in seconds since 1970.  Return true for a unit of this form.  */
 static int
 parse_unit (const char *unit, double *seconds, double *begin)
 {

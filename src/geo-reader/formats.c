@@ -1,5 +1,5 @@
 /* Opening files: of the two hundred formats of GDAL, the four in use for bathymetry.  GDAL's error
-   messages are not passed on, since they may quote a file of no such format.
+   messages are not passed on, since the messages may quote a file of no such format.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,5 +1,11 @@
 /* Live dives: a thread steps them, Scheme asks a copy.
 
+   While a dive is live its handle holds two dives: `flown', stepped by the thread of src/live, and
+   a fork, which answers questions after taking over the latest published copy.  A dive whose
+   current is a Scheme procedure cannot be live, because the stepping thread never enters Scheme.
+   Another thread gets a handle of its own to the same live dive (share_live), with its own fork;
+   only the first handle, the host, can freeze the dive.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <pthread.h>

@@ -1,4 +1,10 @@
-/* Time as a value: the journal of what was done, tracks, and states as text.
+/* Time as a value: the journal of operations, tracks, and states as text.
+
+   The journal of a dive is a list of every operation with its numbers, kept on the Scheme side of
+   the handle; replaying an operation by name and numbers (redo) takes the same way as the first
+   call.  A serial number counts the operations, so that recordings can be joined.  States pass
+   between bytevectors and text without loss: base 64, with runs of zeros as a count between stars.
+   Checksums are the engine's hash.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,5 +1,12 @@
 /* The enclosure of every reader program: limits, one line of complaint, a guarded standard output.
 
+   A reader runs a foreign library on a foreign file.  CPU time and addresses are limited by
+   setrlimit, never above the limits in force; no core is dumped, and after
+   bt__enclosed_write_nothing no file can grow, so only pipes are left to write.  The answer goes to
+   a duplicate of standard output, and standard output itself becomes standard error: words printed
+   by the library cannot mix with the answer.  Control characters are taken out of complaints.
+   Under the address sanitizer, which reserves terabytes, addresses are not limited.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <config.h>

@@ -1,5 +1,12 @@
-/* Is a mesh file complete?  The header of a PLY is read and its elements are stepped over: by words
-   in an ASCII file, by sizes in a binary file.  An ASCII STL ends with a line `endsolid'.
+/* Is a mesh file complete?
+
+   A library that makes up missing data must not be asked about a truncated file.  The header of a
+   PLY is parsed (format, elements, properties, lists), and its elements are stepped over to the
+   end: by words in an ASCII file, by sizes in a binary file of either byte order.  The first
+   element not there is named in the error.  An ASCII STL must end with a line `endsolid'; a binary
+   STL may also begin with `solid', so a text is an STL in ASCII only if facets follow.
+
+   Comments are cut out of the header of a PLY because of an error in the library (whole.h).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

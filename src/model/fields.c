@@ -1,5 +1,8 @@
-/* The one table of every field a part has: parser, defaults, error messages, help and the validator
-   all read it.
+/* The only table of the fields of all parts: parser, defaults, error messages, help, `alter!' and
+   the validator read this table.  A field has a name, a unit, an offset in its struct, a default,
+   bounds, words that stand for values, and a sentence.  Fields with `live' may be changed during a
+   dive.  A default of NaN means: must be given, or follows from another field, unless a word stands
+   for NaN.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

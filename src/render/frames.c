@@ -1,5 +1,6 @@
-/* The buffers that pictures are drawn in, kept from one to the next: fresh memory costs a processor
-   that draws as much as some of the drawing.
+/* The buffers of pictures, kept from picture to picture: with drawing by a processor, fresh memory
+   costs as much as some of the drawing.  Buffers of more than five million samples are freed after
+   the picture.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

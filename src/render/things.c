@@ -30,7 +30,7 @@ tube_colors (const bt_view *view, const bt_thing *t)
   return color;
 }
 
-/* Pixels that a tube is at least wide.  */
+/* The least width of a tube in pixels.  */
 static double
 least_width (const bt__soup *soup)
 {
@@ -78,7 +78,7 @@ add_mark (bt__soup *soup, const bt_thing *t)
 {
   double pixel = bt__stroke (&soup->lens) * bt__pixel_at (&soup->lens, t->at);
   soup->stuff = stuff_of (t->color, 0, BT__EDGE_NEVER, BT__GLOWING, 0);
-  /* In front of what it stands on.  */
+  /* In front of the thing marked.  */
   bt__add_ring (soup, bt__axpy (t->at, -1.5 * t->radius * pixel, soup->lens.ahead),
                 soup->lens.ahead, t->radius * pixel, 0.9 * pixel);
 }

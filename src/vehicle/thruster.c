@@ -1,8 +1,13 @@
 /* Thrusters: the force of a command, and the command for a force.
 
    The T200 is the maker's measurement (Blue Robotics, "T200 thruster: performance charts", static
-   thrust by pulse width at 10 to 20 V), every eighth microsecond, linear between; it holds the dead
-   band.  Any other is a square law, as thrust goes with the square of the revolutions.
+   thrust by pulse width at 10 to 20 V), every eighth microsecond, linear between pulse widths and
+   voltages; the table contains the dead band.  A command of -1 to 1 is a pulse width of 1100 to
+   1900 microseconds.  The inverse is found by bisection on the rows of one voltage, from zero
+   outward.  Any other thruster has a square law, as thrust goes with the square of the revolutions.
+
+   The autopilot computes commands at the nominal voltage of the type; at another voltage of the
+   battery the same command gives another force, as on a real vehicle.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -150,7 +155,7 @@ t200_force (double volts, double command)
   return (1 - share) * at_row (i, volts) + share * at_row (i + 1, volts);
 }
 
-/* By bisection, for the table rises; from zero outward, so that no thrust needs no command.  */
+/* Bisection on the rising table, from zero outward: a force of 0 has the command 0.  */
 static double
 t200_command (double volts, double force)
 {
