@@ -57,7 +57,7 @@ typedef struct bt__range
 
 enum
 {
-  BT__PREDICTED_MAX = 64
+  BT__TUBES_MAX = 64
 };
 
 typedef struct bt__soup
@@ -68,7 +68,7 @@ typedef struct bt__soup
   int full;       /* true: there was no memory for all */
   bt_vec3 origin; /* positions are from here, so that floats suffice */
   bt__lens lens;
-  bt__range ghost[BT__PREDICTED_MAX]; /* tubes: they shine through solids in front */
+  bt__range ghost[BT__TUBES_MAX]; /* tubes: they shine through solids in front */
   int ghosts;
   bt__stuff stuff; /* of what is added next */
 } bt__soup;

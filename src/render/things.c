@@ -45,7 +45,7 @@ add_painted_tube (bt__soup *soup, const bt_view *view, const bt_thing *t)
   soup->stuff = stuff_of (t->color, 70, BT__EDGE_NEVER, BT__GLOWING, 40);
   bt__add_tube (soup, t->points, t->n, t->radius, least_width (soup), color);
   free (color);
-  if (soup->ghosts < BT__PREDICTED_MAX)
+  if (soup->ghosts < BT__TUBES_MAX)
     soup->ghost[soup->ghosts++] = (bt__range){ first, soup->n_index - first };
 }
 
