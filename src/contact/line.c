@@ -1,14 +1,16 @@
 /* A step of the line among obstacles.
 
-   Where nothing is near, the step is the line's own.  Else: half-spaces for what is touched, solve;
-   cast every link along its move; a hit adds a half-space at the place and time of the impact, and
-   the step is solved again, a few times; what still hits is tried as a shorter move of the whole
-   line, and cut by the safe step if that hits too.  Only casts and safe step decide what is taken:
-   nothing the equations say can break the promise.
+   A line far from everything takes the step of open water.  Otherwise: contact constraints
+   (half-spaces) for everything touched, and a solve; then continuous collision detection, a cast of
+   every link along its proposed move.  A hit adds a constraint at the place and time of the impact,
+   and the step is solved again, four times at most.  Hits that remain are answered by a shorter
+   move of the whole line, and if the shorter move hits as well, by the safe step (collide/safe.c).
+   Only casts and safe step decide on the accepted move, so no answer of the equations can break the
+   promise that nothing is passed through.
 
-   An end that is taken somewhere is a place the line must reach, whatever the force; among
-   obstacles there may be no such shape.  So where anything is near the end is pulled there by so
-   much at most.
+   An end with a target is a place that the line must reach, whatever the force; among obstacles the
+   line may have no such shape.  Near anything the end is therefore pulled to its target by a
+   bounded force.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -134,7 +136,7 @@ hold_ends (bt__line_job *k)
   return any;
 }
 
-/* An end that was held back starts from where it is, any other from where it is taken.  */
+/* An end held back starts from its own place, any other end from its target.  */
 static void
 start_ends (bt__line_job *k)
 {
@@ -224,8 +226,8 @@ is_alone (const bt__line_job *k)
   return k->scene->n == 0 && k->movers == 0 && k->config->strands == 0 && k->w->self.clear;
 }
 
-/* The step of a line that is far from everything while it drifts by no more than MAY; else *DONE is
-   zero and nothing has happened.  */
+/* The step of a line that is far from everything for any drift up to MAY; else *DONE is zero and
+   nothing has happened.  */
 static bt_status
 step_far (bt__line_job *k, const bt__dynamic_drift *may, bt__dynamic_report *report, int *done,
           bt_error *error)
@@ -271,8 +273,7 @@ try_step (bt__line_job *k, int near, int held, bt__dynamic_report *report, bt_er
   return BT_OK;
 }
 
-/* The same; corners about round members are left to half-spaces where they keep it from being
-   solved.  */
+/* The same; If corners about round members prevent a solution, half-spaces take their place.  */
 static bt_status
 try_both (bt__line_job *k, int near, int held, bt__dynamic_report *report, bt_error *error)
 {

@@ -1,16 +1,18 @@
-/* What a contact remembers: where the line stuck to the obstacle, how hard it pressed.
+/* Persistent contacts: friction, stiffness, and the warm start from step to step.
 
-   A contact is known again by its place in the line's material and its direction, whatever link,
-   triangle or obstacle it is on now.
+   A contact is recognised by its place in the material of the line and by its direction, whatever
+   link, triangle or obstacle it is on now.  It keeps the stick (the spring of Coulomb friction),
+   the load, the work and its age.
 
-   A chain turns at its nodes, a line all along: with the coefficient itself the tensions before and
-   after a turn D would not be as e^(mu D).  With one contact in a turn, at a node or on a link
-   between two, they are with tanh (mu D/2) / tan (D/2); with one on every link, turning D at every
-   node, with sinh (mu D) / sin D.
+   A chain turns at its nodes, a line all along: with the plain coefficient the tensions before and
+   after a turn D would not have the ratio e^(mu D).  The ratio is right with tanh (mu D/2) / tan
+   (D/2) for a single contact in a turn, at a node or on a link between two nodes, and with sinh (mu
+   D) / sin D for a contact on every link, turning D at every node.
 
-   The stiffness follows the tension: what a contact gives way must be small against the way from
-   the radius to the core, or the guard would bear the load and nothing slid.  It does not follow
-   the load: in a crotch (line_wedge.c) and beside held nodes contacts press on each other.
+   The stiffness follows the tension: the penetration must be small against the way from radius to
+   core, or the collision detection would bear the load and nothing would slide.  The stiffness does
+   not follow the load: between two obstacles (line_wedge.c) and beside sliding nodes contacts press
+   on each other.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -149,8 +151,8 @@ harden (bt__line_job *k, int i)
 
 /* ---- What is remembered ---- */
 
-/* How far anchor Q is from row I, along the line and by its direction; INFINITY if it is another's
-   or out of REACH.  */
+/* The distance of contact Q of the last step from constraint I, along the line and by direction;
+   INFINITY for another obstacle's contact or beyond REACH.  */
 static double
 away_of (const bt__line_job *k, int i, int q, double reach)
 {
@@ -168,7 +170,8 @@ reach_of (const bt__line_job *k, int i)
   return REMEMBER * bt__dynamic_rest (k->d)[k->w->row[i].node];
 }
 
-/* The anchor nearest to row I that no other row has, from *FROM on, or -1; how far to *LEAST.  */
+/* Return the contact of the last step nearest to constraint I and not taken yet, from *FROM on, or
+   -1; *LEAST receives the distance.  */
 static int
 find_anchor (bt__line_job *k, int i, int *from, double *least)
 {
@@ -216,7 +219,8 @@ inherit (bt__line_job *k, int i, const bt__contact *a)
   k->w->of[i].fresh = 0;
 }
 
-/* Row I takes the anchor nearest to it; NEAREST: only if none is nearer to that.  */
+/* Give constraint I the nearest contact of the last step; with NEAREST only if no other constraint
+   is nearer to the contact.  */
 static void
 take_anchor (bt__line_job *k, int i, int *from, int nearest)
 {
@@ -229,8 +233,8 @@ take_anchor (bt__line_job *k, int i, int *from, int nearest)
   k->w->old[a].state = -1; /* taken */
 }
 
-/* First the pairs that are nearest to each other: else a row that bears nothing would take what
-   friction is at one that does.  */
+/* Match the closest pairs first; otherwise an unloaded contact inherits the friction of a loaded
+   neighbour.  */
 void
 bt__line_inherit (bt__line_job *k)
 {
@@ -267,8 +271,8 @@ slide_of (const bt__line_job *k, const bt__constraint *r)
   return bt__axpy (d, -bt__dot (d, r->normal), r->normal);
 }
 
-/* What row R does to the line by its load, and by friction that is whole where it is dragged by
-   SLIP: STICK.  (What it did in the last iteration is of the places before that.)  */
+/* The force of constraint R on the line: its load, and friction by STICK, full at a drag of SLIP.
+   (The force of the last iteration belongs to the places before the iteration.) */
 static bt_vec3
 force_of (const bt__constraint *r, bt_vec3 stick)
 {
@@ -328,8 +332,8 @@ keep (bt__line_job *k, const bt__contact *a)
   report->slip_work += a->step_work;
 }
 
-/* Where a line lies in a heap there may be more pairs than half the rows that there are: each row
-   is kept, and what it does to the other place of its pair as long as there is room.  */
+/* Keep the reactions at the second places of pairs, as long as there is room.  In a heap of line
+   more pairs may touch than half the room; the constraints themselves are all kept.  */
 static void
 keep_reactions (bt__line_job *k)
 {

@@ -1,25 +1,25 @@
-/* Where a line runs about something thin against its links: a wire, an edge, a round member.
+/* Sliding nodes: where a line runs about a wire, an edge or a round member thin against its links.
 
-   Links that pass over it would feel every node: the line would turn now at one, now at the next,
-   and a polygon that is drawn round a drum jerks as a chain does on a sprocket.  So nodes are put
-   where the line turns, and stay there while line runs through them (tether/dynamic_bent.c).  Of
-   an edge or a wire one is enough; about a round member there are as many as the line turns there,
-   the corners of a polygon about it (line_turn.c): only the first and the last side follow the
-   line, those between stay as they came.
+   The idea is that of Eulerian-on-Lagrangian cables (Sueda et al. 2011).  Links passing over a thin
+   member would feel every node: the line would turn now at one node, now at the next, and a polygon
+   drawn round a drum jerks like a chain on a sprocket.  So a node is placed where the line turns,
+   and stays while line flows through the node (tether/dynamic_bent.c).  An edge or a wire needs a
+   single node.  A round member has as many as the turn of the line needs, the corners of a polygon
+   about the member (line_turn.c): the first and the last side follow the line, the sides between
+   keep their directions.  Links beside sliding nodes are tangents at the line's radius, and are
+   guarded like all links.
 
-   The links are tangents at the line's radius.  They are links like others: nothing here touches
-   the promise that none passes through.
+   Sliding is measured at the tangents, not at the corner: as the line is laid round, a corner moves
+   on and line flows through the corner without sliding.  Sideways a corner slides across the line's
+   own direction, at any angle to the member; a part of this motion that goes round the member is
+   undone in the next step and does not count as sliding.
 
-   What slides is the line at the tangents, not at the corner: a corner that moves on as the line is
-   laid round lets line flow through it that does not slide.  Sideways it slides across itself,
-   whatever the angle at which it crosses the member; by what a corner so went round it is put back
-   in the next step, and that is no sliding either.
-
-   Where a corner is to be depends on where its neighbours will be, and those on the corner: a stiff
-   line that is pulled by a corner that went too far out turns more, and so on.  A corner that goes
-   round between its links, as far from the axis as it was, changes the line's length by nothing at
-   first order.  So it goes round half the way in a step, but out and in slowly; and as sides that
-   are not tangents yet would cut into the member, it is pushed out as far as they need.
+   The place of a corner depends on the future places of its neighbours, and theirs on the corner: a
+   stiff line pulled by a corner too far out turns more, and the corner goes farther out.  A corner
+   moving round between its links at a constant distance from the axis leaves the length of the line
+   unchanged at first order.  Therefore a corner goes half the wanted way round in a step, but moves
+   out and in slowly; and since a side not yet tangent would cut into the member, corners are pushed
+   out as far as the sides need.
 
    Nodes come and go in line_rebend.c.
 
@@ -104,8 +104,8 @@ is_thin (const bt__line_job *k, const corner *c)
   return bt__edge_is_thin (k, &c->edge);
 }
 
-/* Where node I is expected, a neighbour of C: at what is thin the turn changes little with that,
-   but how far out the node is held with the turn.  */
+/* The expected place of node I, a neighbour of C. About a thin member the present place is taken:
+   the turn depends little on the neighbour, but the distance from the axis depends on the turn.  */
 static bt_vec3
 expected (const bt__line_job *k, const corner *c, int i)
 {
@@ -124,7 +124,8 @@ turn_of (const bt__line_job *k, corners *s, int c)
   return turns && q->turn.angle > (is_first && is_last ? 0 : -TURNED);
 }
 
-/* Turn the side after corner C, so that the one that turns by too much shares with the other.  */
+/* Turn the side after corner C if a corner of the side turns by too much: the two corners share the
+   turn.  */
 static void
 even_out (const bt__line_job *k, corners *s, int c)
 {
@@ -177,9 +178,9 @@ bt__bend_is_wedged (const bt__line_job *k, int64_t node, double share)
          || bt__line_is_wedged (k, (uint32_t)node - 1, share);
 }
 
-/* Which corners are to be held.  Where something else is near a round member, half-spaces do better
-   than nodes that stay where they are: than all of the member.  So they do in a crotch, where the
-   other member bears against a node that cannot give way.  */
+/* Choose the corners to be held.  With something else near a round member, half-spaces serve better
+   than sliding nodes, and all corners of the member are given up.  The same holds between two
+   members: the other member would bear against a node that cannot give way.  */
 static void
 choose (const bt__line_job *k, const corners *s, int *may)
 {
@@ -201,8 +202,8 @@ shortened (bt_vec3 v, double by)
   return size > by ? bt__scale (1 - by / size, v) : bt__vec (0, 0, 0);
 }
 
-/* What it has yet to go round to where it should be.  That depends on where its neighbours are
-   foretold to be, and they go with it: so it goes half the way in a step.  */
+/* The remaining way round of corner C to its wanted place.  The wanted place depends on predicted
+   neighbours, and the neighbours move with the corner: C goes half the way in a step.  */
 static bt_vec3
 lag_of (const bt__line_job *k, const corner *c)
 {
@@ -241,7 +242,7 @@ beside (const bt__line_job *k, const corners *s, int c, int side)
                                            : expected (k, s->at + c, s->at[c].node + side);
 }
 
-/* How much nearer to the axis than it may the line comes between corner C and that.  */
+/* The excess of nearness to the axis of the line between corner C and the next node on SIDE, m.  */
 static double
 lack_of (const bt__line_job *k, const corners *s, int c, int side)
 {
@@ -250,8 +251,7 @@ lack_of (const bt__line_job *k, const corners *s, int c, int side)
                         q->edge.radius + k->config->radius);
 }
 
-/* A side that does not go as it should yet must not cut into the member: its corners are farther
-   out.  */
+/* Push corners out until no side cuts into the member, though sides are not tangents yet.  */
 static void
 push_out (const bt__line_job *k, corners *s)
 {
@@ -270,8 +270,8 @@ push_out (const bt__line_job *k, corners *s)
     }
 }
 
-/* How far it goes across the axis in the step, as the line is laid round: what a node at something
-   thin goes from where it was taken is not that.  */
+/* The way of corner C across the axis in the step, as the line is laid round; for a thin member
+   without the way from the place where the node was taken.  */
 static bt_vec3
 gone_round (const bt__line_job *k, const corner *c)
 {
@@ -288,7 +288,8 @@ bt__bend_aside (const bt__line_job *k, const bt__edge *e, bt_vec3 normal, bt_vec
   return bt__dot (aside, e->axis) < 0 ? bt__scale (-1, aside) : aside;
 }
 
-/* How far it went round as it slid ASIDE in the last step; it goes back along the line.  */
+/* The part round the axis of the slide ASIDE in the last step; the corner goes back by the same way
+   along the line.  */
 static bt_vec3
 slid_round (const bt__line_job *k, const corner *c, bt_vec3 aside)
 {

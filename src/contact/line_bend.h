@@ -1,4 +1,4 @@
-/* Where the line runs about an edge, a wire, a round member: what the files about it share.
+/* Sliding nodes: shared by the files on lines that run about an edge, a wire or a round member.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -25,7 +25,7 @@ int bt__edge_again (const bt__line_job *k, const bt__contact *a, bt_vec3 p, bt__
 /* True if the obstacle of row OF has no edges that count; cheap.  */
 int bt__edge_has_none (const bt__line_job *k, const bt__line_row *of);
 
-/* True if E is so thin against the line's links that one node is enough for it.  */
+/* True if E is thin enough against the line's links for a single node.  */
 int bt__edge_is_thin (const bt__line_job *k, const bt__edge *e);
 
 /* The part of V across AXIS.  */
@@ -37,7 +37,8 @@ bt__off_axis (bt_vec3 axis, bt_vec3 v)
 
 /* ---- How it runs about that (line_turn.c) ---- */
 
-/* The line comes to a node along a tangent of the edge and leaves it along another.  */
+/* The turn of the line at a node: along a tangent of the edge to the node, along another tangent
+   from the node.  */
 typedef struct bt__turn
 {
   bt_vec3 before, after; /* unit, across the axis: from it to where the tangents touch */
@@ -92,12 +93,13 @@ int bt__bend_is_calm (const bt__line_job *k, int64_t node, int64_t id, double sh
 int bt__bend_is_wedged (const bt__line_job *k, int64_t node, double share);
 
 /* The unit direction in which a node at E slides sideways where the line, pressed on against
-   NORMAL, runs along ALONG: across the line, not along the member, or the place where it is held
-   would bear what draws the line obliquely over it.  At what is thin along it, or the node would
-   leave it.  */
+   NORMAL, runs along ALONG: across the line and not along the member, or the held place would bear
+   a force drawing the line obliquely over the member.  At a thin member along the member, or the
+   node would leave the member.  */
 bt_vec3 bt__bend_aside (const bt__line_job *k, const bt__edge *e, bt_vec3 normal, bt_vec3 along);
 
-/* line_bend_keep.c: nonzero if the I-th node held bears, or one that it goes on to.  */
+/* line_bend_keep.c: true if the I-th sliding node bears, or a corner of the same member next to it.
+ */
 int bt__bend_bears (const bt__line_job *k, int i);
 
 /* ---- Nodes that come and go (line_rebend.c) ---- */
@@ -110,8 +112,8 @@ typedef struct bt__sliding
   int64_t node[BT__BENTS];
 } bt__sliding;
 
-/* line_bend_list.c: take them out of the anchors, or put them back in order; of row Q take the
-   anchor out of these, to A, zero if it has none.  */
+/* line_bend_list.c: take the sliding nodes out of the contacts, or put them back in order; move the
+   contact of constraint Q to A, or return 0 if Q has none.  */
 void bt__sliding_gather (bt__line_job *k, bt__sliding *s);
 void bt__sliding_scatter (bt__line_job *k, bt__sliding *s);
 int bt__sliding_take_anchor (bt__line_job *k, int q, bt__contact *a);
@@ -127,7 +129,7 @@ void bt__sliding_lose (bt__sliding *s, int q);
 void bt__sliding_drop (bt__line_job *k, bt__sliding *s, int q);
 
 /* Put a node at the share U of interval J's chord, see bt__dynamic_insert; node I was put in
-   otherwise; take node I out if its links are clear on their way to the chord, or return zero.  */
+   otherwise; take node I out if the way of its links to the chord is clear, else return 0.  */
 void bt__sliding_put_in (bt__line_job *k, bt__sliding *s, int64_t j, double u, int64_t from);
 void bt__sliding_came (bt__line_job *k, bt__sliding *s, int64_t i);
 int bt__sliding_take_out (bt__line_job *k, bt__sliding *s, int64_t i);

@@ -1,4 +1,4 @@
-/* What is kept of the nodes about which the line runs: whether they bear, load, drag and work.
+/* The persistent contacts of sliding nodes: whether a node bears, its load, drag and work.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -22,8 +22,8 @@ is_followed (const bt__line_job *k, int i)
   return b[0].node + 1 == b[1].node && bt__bend_goes_on (k->w->bend + i, k->w->bend + i + 1);
 }
 
-/* A line that is slack for a moment, and is not drawn off, will bear there again; about a wire
-   it is soon held again anyway.  */
+/* A line slack for a moment and not drawn off will bear at the same node again; about a wire it is
+   soon held again anyway.  */
 static int
 is_slack (const bt__line_job *k, int i)
 {

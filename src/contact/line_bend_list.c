@@ -82,7 +82,7 @@ bt__sliding_came (bt__line_job *k, bt__sliding *s, int64_t i)
   bt__sliding_show (k, i, 1);
 }
 
-/* Take out node I if its links are clear on their way to the chord.  */
+/* Take out node I if the way of its links to the chord is clear.  */
 int
 bt__sliding_take_out (bt__line_job *k, bt__sliding *s, int64_t i)
 {

@@ -1,7 +1,8 @@
-/* What a line can run about: edges, wires, round members.
+/* Features for sliding nodes: edges, wires, round members.
 
-   What an edge is, is felt: of points about the link those nearest on the obstacle go along with
-   them in one direction, and stay in the other.  The side of a cylinder or a capsule is known.
+   An edge is recognised by probing: for points about the link, the nearest points on the obstacle
+   follow in the direction along the edge and stay behind in the direction across.  The side of a
+   cylinder or a capsule is known without probing.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -72,7 +73,7 @@ is_sharp (const asked *q, bt_vec3 p, bt_vec3 across)
          && bt__dot (a.normal, b.normal) < SHARP;
 }
 
-/* The direction across N in which what is nearest to P goes along least with it, for steps of STEP;
+/* The direction across N in which the nearest point follows a move of P least, for steps of STEP;
    zero if it cannot be said.  */
 static int
 stays_along (const asked *q, bt_vec3 p, bt_vec3 n, double step, bt_vec3 *axis)

@@ -1,8 +1,9 @@
-/* Which half-spaces a mesh's triangle gives.
+/* The contact constraints of a mesh's triangle: face, nearest place, and ghost edges.
 
-   Nodes over its face are borne by that.  A link is borne where it is nearest, unless the surface
-   around hides that edge: a neighbour is nearer there.  And where it passes a crest, though another
-   place be nearer: a link lies on two edges of a triangle, and on one alone would see-saw.
+   Nodes over the face are borne by the face.  A link is borne at its nearest place, unless the
+   surrounding surface hides the edge there, because a neighbouring triangle is nearer (a ghost
+   edge).  A link over a crest is borne at the crest as well, even if another place is nearer: a
+   link lying on two edges of a triangle would see-saw on a single edge.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -140,7 +141,7 @@ pass_edge (const bt__triangle *t, int e, const bt__link *link, bt__witness *w)
   return w->s > 0 && w->s < 1 && u > 0 && u < 1;
 }
 
-/* A link rests on as many as two edges of a triangle, one of them the nearest, which HAS a row: on
+/* A link rests on at most two edges of a triangle; the nearest edge has a constraint already: on
    that alone it would see-saw.  */
 static void
 touch_crests (bt__line_job *k, uint32_t j, const bt__pass *p, const bt__triangle *t, int has)

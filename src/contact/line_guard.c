@@ -1,4 +1,5 @@
-/* What a line must not pass through: casts and the safe step.
+/* Continuous collision detection of a line against obstacles: casts along the proposed move,
+   shorter moves, and the safe step.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -47,7 +48,7 @@ cast_of (const bt__line_job *k, uint32_t j, const bt__near *near)
                      .core = k->core };
 }
 
-/* Where link J and NEAR are to one another after the share T of the step.  */
+/* Closest points of link J and NEAR after the share T of the step.  */
 static bt__witness
 witness_at (const bt__cast *c, double t)
 {
@@ -122,7 +123,7 @@ cut_at_obstacles (bt__line_job *k)
   memcpy (k->X, k->w->to, size);
 }
 
-/* Either cut spoils the other's promise, which is of the moves it was given; both make them shorter
+/* Each cut breaks the promise of the other cut, given for the moves before; both make them shorter
    only.  In the end the line stays, with which everybody agrees.  */
 void
 bt__line_truncate (bt__line_job *k)

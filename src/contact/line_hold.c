@@ -1,5 +1,5 @@
-/* Where the line is to be held: at an edge on which a link bears, a new node on the link's chord,
-   so that the line's shape stays; at a round member the ends of links that are tangents of it.
+/* Places for sliding nodes: at an edge that bears a link, a new node on the link's chord, which
+   keeps the line's shape; at a round member, the ends of links tangent to the member.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

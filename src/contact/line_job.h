@@ -1,4 +1,4 @@
-/* Inside a step of the line among obstacles: what its files share.
+/* Inside a step of the line among obstacles: shared by its files.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -44,7 +44,8 @@ typedef struct bt__self
   bt_vec3 *stood;           /* where the nodes were when it was looked ... */
   int still;                /* ... and had so many; 0: it was not */
   double turn, way;         /* m: KNOWN is of what parts by less, two in a row and any */
-  double least, least_turn; /* m: none of it touches before any, or two in a row, part by this */
+  double least, least_turn; /* m: no two links touch before two places, or two neighbouring nodes,
+                               have moved apart by this */
   bt__dynamic_drift drift;  /* since then, as the step starts */
   int clear;                /* true: the spare of the line says that there is none of itself */
   int wait;                 /* steps until the next look */
@@ -137,15 +138,15 @@ typedef struct bt__line_job
 /* List what every link could meet; return true if anything is so near that it matters.  */
 int bt__line_watch (bt__line_job *k);
 
-/* True if the whole line is known to be so far from everything that stands that no link need be
-   asked while its nodes go no farther than *MAY.  */
+/* True if the whole line is far from all standing obstacles: no link need be asked until a node has
+   moved by *MAY.  */
 int bt__line_is_far (bt__line_job *k, double *may);
 
-/* After a step in which that was not so: NEAR says whether anything was.  */
+/* After a step of a line not known to be far: note whether anything was NEAR.  */
 void bt__line_note_near (bt__line_job *k, int near);
 
-/* List more where the proposal goes farther than was listed; shorten its moves where the lists are
-   full.  */
+/* List more parts where the proposed move exceeds the listed reach; shorten moves where the lists
+   are full.  */
 void bt__line_watch_moves (bt__line_job *k);
 
 static inline bt__near *
@@ -178,24 +179,26 @@ bt__line_scene (const bt__line_job *k, const bt__near *near)
 /* Make the rows of what is touched.  */
 void bt__line_rows (bt__line_job *k);
 
-/* Add, or put in place of its like, the row of a hit: link J met NEAR after the share T of its move
-   as W says, in the frame of what it met.  Return the row's number or -1.  */
+/* Add the constraint of a hit, or replace a like constraint: link J met NEAR after the share T of
+   its move, with closest points W in the frame of NEAR.  Return the number of the constraint or -1.
+ */
 int bt__line_add_hit (bt__line_job *k, uint32_t j, const bt__near *near, const bt__witness *w,
                       double t);
 
 /* ---- Between two obstacles (line_wedge.c) ---- */
 
-/* True if link J is near to two obstacles that push it toward each other; SHARE: how near, of
-   what touches.  */
+/* True if two obstacles near link J push the link toward each other; SHARE is the limit of
+   nearness, of the touching distance.  */
 int bt__line_is_wedged (const bt__line_job *k, uint32_t j, double share);
 
-/* Make row I, whose stiffness is that of a light touch, that of a line pressed in as far as link
-   and obstacle are.  */
+/* Raise the stiffness of constraint I from a light touch to the stiffness at the present
+   penetration.  */
 void bt__line_press (const bt__line_job *k, int i);
 
 /* ---- What the line runs about (line_bend.c) ---- */
 
-/* Hold the nodes that were held in the last step, where they still are to be; before the rows.  */
+/* Hold the sliding nodes of the last step where they still serve; call this before bt__line_rows.
+ */
 void bt__line_bends (bt__line_job *k);
 
 /* True if nodes are held at a round member that is not thin.  */
@@ -207,8 +210,8 @@ int bt__line_is_bent_about (const bt__line_job *k, int q);
 /* What is to be kept of the I-th node held.  */
 bt__contact bt__line_bent_anchor (const bt__line_job *k, int i);
 
-/* After the step (line_rebend.c): nodes come and go where the line runs about something, the line
-   staying where it is but for those that are taken out.  */
+/* After the step (line_rebend.c): sliding nodes come and go; the line keeps its place except where
+   a node is taken out.  */
 void bt__line_rebend (bt__line_job *k);
 
 /* ---- What sticks (line_anchor.c) ---- */
@@ -236,8 +239,8 @@ bt__self_counts (const bt__line_job *k)
   return k->config->itself || k->config->strands > 0;
 }
 
-/* Note that others within WAY of where the line was as the step began would have counted; of where
-   it is after its move.  */
+/* Note that other lines within WAY of the place of the line at the start of the step would have
+   counted; WAY more, of the place after the move.  */
 static inline void
 bt__self_asks (const bt__line_job *k, double way)
 {
@@ -250,20 +253,20 @@ bt__self_asks_more (const bt__line_job *k, double way)
   k->w->asked += way;
 }
 
-/* self_pairs.c: list the pairs that could meet in the step, of the line itself and of others;
-   return true if there are any.  The same for the proposed move, which is shortened if there is
-   no room for all.  Keep for the next step what there was.  */
+/* self_pairs.c: list the candidate pairs of the step, of the line with itself and with other lines;
+   return true if a pair was listed.  The same for the proposed move, shortened if the list has no
+   room for all pairs.  Keep the pairs for the next step.  */
 int bt__self_watch (bt__line_job *k);
 void bt__self_watch_moves (bt__line_job *k);
 void bt__self_note (bt__line_job *k);
 
-/* True if there are none, and *MAY is how far the line may drift for it to stay so, no farther
-   than it was; true if then none can meet in the proposed move.  */
+/* bt__self_is_far returns true if no pair can meet and lowers *MAY to the drift up to which this
+   holds; bt__self_stays_far returns true if no pair can meet in the proposed move.  */
 int bt__self_is_far (bt__line_job *k, bt__dynamic_drift *may);
 int bt__self_stays_far (bt__line_job *k);
 
-/* How far each node may go with the line clear of itself and others whatever they do, m, up to a
-   share of an interval.  */
+/* The way, m, that every node may go while the line stays clear of itself and of other lines,
+   whatever their motion; at most a share of an interval.  */
 double bt__self_spare (bt__line_job *k);
 
 /* The links of pair P now.  */
@@ -280,9 +283,9 @@ bt__self_second (const bt__line_job *k, const bt_vec3 *x, const bt__self_pair *p
                         p->j);
 }
 
-/* Metres of line between links I and J, I before J, of the line; between its link I and link J of
-   STRAND, if that is not negative: round by an end that both lines have at the same place, infinite
-   if they have none.  */
+/* Metres of line between links I and J of the line, I before J. With STRAND not negative, between
+   link I and link J of STRAND: by way of a common end of both lines, infinite without a common end.
+ */
 double bt__self_between (const bt__line_job *k, int strand, uint32_t i, uint32_t j);
 
 /* The least distance that the same links must keep.  */
@@ -294,9 +297,9 @@ double bt__self_lowered (double floor, double distance);
 /* Link A against the axis of link B.  */
 bt__witness bt__self_witness (const bt__link *a, const bt__link *b);
 
-/* self_row.c: rows of the pairs that touch; of a hit, of P at W after the share T; what is known of
-   row I from the last step, or -1; move of one place against the other in row R; the anchor that
-   the second place of row I has, A being the first's.  */
+/* self_row.c: constraints of touching pairs; of a hit, of P at W after the share T; the contact of
+   the last step for constraint I, or -1; the move of one place against the other in constraint R;
+   the contact at the second place of constraint I, A being the first's.  */
 void bt__self_rows (bt__line_job *k);
 void bt__self_add_hit (bt__line_job *k, const bt__self_pair *p, const bt__witness *w, double t);
 int bt__self_anchor (const bt__line_job *k, int i);
@@ -305,13 +308,14 @@ double bt__self_stiffness (const bt__line_job *k, int i);
 bt_vec3 bt__self_move (const bt__line_job *k, const bt__constraint *r);
 bt__contact bt__self_reaction (const bt__line_job *k, int i, const bt__contact *a);
 
-/* self_guard.c: as bt__line_hits and bt__line_truncate for pairs; true if node I can go straight
-   by MOVE, the others staying, and meets no other link.  */
+/* self_guard.c: as bt__line_hits and bt__line_truncate for pairs; true if node I can go straight by
+   MOVE, with all other nodes at rest, and meets no link.  */
 int bt__self_hits (bt__line_job *k, int add);
 void bt__self_truncate (bt__line_job *k);
 int bt__self_may_move (bt__line_job *k, int64_t i, bt_vec3 move);
 
-/* True if no other link but its neighbours is nearer to link J than WAY and what they keep.  */
+/* True if no link except the neighbours is nearer to link J than WAY more than the distance kept.
+ */
 int bt__self_is_clear (const bt__line_job *k, int64_t j, double way);
 
 /* ---- What must not be hit (line_guard.c) ---- */

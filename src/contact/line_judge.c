@@ -1,4 +1,4 @@
-/* What the contacts of a moving line may be when they come from outside.
+/* The values allowed in the contacts of a moving line from outside.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

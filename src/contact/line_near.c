@@ -1,9 +1,9 @@
-/* What the links of a line could meet in a step.
+/* Broad phase: the candidate pairs of links and parts of obstacles in a step.
 
-   A link whose clearance, measured once, exceeds what it and the step need is not asked.  For the
-   others all parts within reach are listed, standing and moving; a list that is full shortens the
-   reach, and in the end the move.  Lists and casts see the same parts whether clearances are
-   remembered or not: these save time alone.
+   A link whose clearance, measured once, exceeds the ways of link and step since then is not asked.
+   For the remaining links all parts within reach are listed, standing and moving; a full list
+   shortens the reach, and in the end the move.  Lists and casts see the same parts whether
+   clearances are remembered or not: the memory saves time and changes nothing.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -35,8 +35,8 @@ motion_of (const bt__mover *m)
   return bt__norm (m->motion.travel) + fabs (m->motion.angle) * m->radius;
 }
 
-/* Measure how clear link J is, as far as LOOK.  KNOWN is what is left of what was measured last: by
-   as much as it has lost it may have gained, and it is not likely to be clearer than that.  */
+/* Measure how clear link J is, as far as LOOK.  KNOWN is what is left of what was measured last: A
+   link may have gained as much clearance as it has lost, and hardly more.  */
 static void
 measure_clear (bt__line_job *k, uint32_t j, double known, double look)
 {
@@ -193,9 +193,9 @@ box_of (const bt__line_job *k)
   return b;
 }
 
-/* How clear the line is of what stands, at least: by the box about it if that is far, else the
-   least clearance of a link, at most FAR.  What is remembered spares links that have more, and
-   changes nothing else: this is kept in the state.  */
+/* How clear the line is of what stands, at least: by the box about the line if the box is far, else
+   by the least clearance of a link; at most FAR.  What is remembered spares links that have more,
+   and changes nothing else: this is kept in the state.  */
 static double
 clearance (bt__line_job *k)
 {
@@ -248,8 +248,8 @@ check_spare (bt__line_job *k)
   k->d->seen = seal;
 }
 
-/* True if what is CLEAR of the whole line is more than what touches, and than what the fastest
-   node needs: no link needs more.  */
+/* True if the clearance of the whole line exceeds the touching distance and the way of the fastest
+   node: no link needs more.  */
 static int
 is_enough (const bt__line_job *k, double clear)
 {

@@ -1,14 +1,14 @@
-/* Nodes come and go where a line runs about something.
+/* Sliding nodes come and go where a line runs about something.
 
-   A node comes where a link bears on an edge, on the link's chord, so that the line's shape stays,
-   or it is there already: a link's end between two tangents of a round member.  Where the line
-   turns by too much at one corner of a member, the next comes on the side that follows the line,
-   where it touches: there the line does not turn yet, and so the shape stays again.  A corner goes
-   the same way when the line turns there no more, and all go when none bears.
+   A node comes where a link bears on an edge: on the link's chord, which keeps the line's shape, or
+   an end of a link between two tangents of a round member is taken.  Where the line turns by too
+   much at a corner of a member, the next corner is placed on the side that follows the line, at the
+   touching point: the line does not turn there yet, and the shape is kept again.  A corner goes the
+   same way when the line no longer turns at the corner, and all corners go when none bears.
 
-   On the way the neighbours go from one side to the other, each taken out before it gets where the
-   line turns, and put in behind.  A node is taken out only if the way of the links to their new
-   place is clear; else it waits.
+   As line flows, neighbouring nodes pass from side to side of a sliding node: each is taken out
+   before arriving at the turn and put in behind the turn.  A node is taken out only if the way of
+   the links to their new place is clear; else the node waits.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -32,7 +32,7 @@ enum
   IDLE = 6      /* steps without load, after which a corner goes where the line hardly turns */
 };
 
-/* Nodes of one member, one after the other, that were not known to be: the side between stays.  */
+/* Neighbouring nodes found to belong to the same member: the side between stays.  */
 static void
 join (bt__line_job *k, bt__sliding *s)
 {
@@ -210,9 +210,9 @@ extend (bt__line_job *k, bt__sliding *s, int q, int side)
 
 /* ---- Nodes that pass ---- */
 
-/* The next nodes on SIDE (-1, 1) of bend Q pass if they are nearer than NEED, and one comes where
-   there is much line: more than would pass if it ran in as it may run out, MOST.  Zero if they
-   cannot pass and no more than LEFT m is left.  */
+/* Let the next nodes on SIDE (-1, 1) of bend Q pass if nearer than NEED, and put in a node on a
+   long interval: more than would pass if it ran in as it may run out, MOST.  Zero if they cannot
+   pass and no more than LEFT m is left.  */
 static int
 pass_on (bt__line_job *k, bt__sliding *s, int q, int side, double need, double most, double left)
 {
@@ -236,8 +236,8 @@ pass_on (bt__line_job *k, bt__sliding *s, int q, int side, double need, double m
   return 1;
 }
 
-/* Line runs out of the interval on one side of bend Q into that on the other.  Zero if nodes cannot
-   pass and nothing is left.  */
+/* Let line flow from the interval on one side of bend Q into the interval on the other side.  Zero
+   if nodes cannot pass and nothing is left.  */
 static int
 pass_nodes (bt__line_job *k, bt__sliding *s, int q)
 {
@@ -272,8 +272,8 @@ take_spare (bt__line_job *k, bt__sliding *s)
       return;
 }
 
-/* Half-spaces get a line out of places where held nodes hold it: those about round members go when
-   steps are not solved, all when one was cut.  */
+/* Half-spaces get a line out of places where held nodes hold it: Nodes about round members go when
+   steps are not solved, all sliding nodes when a step was cut.  */
 static void
 drop_failed (bt__line_job *k, bt__sliding *s)
 {

@@ -1,10 +1,14 @@
-/* Which half-spaces keep a line out of what it touches.
+/* Contact constraints: the half-spaces that keep a line out of the touched obstacles.
 
-   A part within touch of a link gives some: at the ends of the link where it is flat or so round
-   that the line lies along it, else at the nearest point.  A mesh's triangles: line_facet.c.
+   A part within touching distance of a link gives constraints: at the ends of the link where the
+   part is flat, or so round that the line lies along it, else at the nearest point of the link.
+   Triangles of a mesh are treated in line_facet.c.  Of two like constraints at the same place the
+   lower is kept.
 
-   A line that has been pressed nearer than its radius is let out slowly.  What moves takes its
-   half-space along.
+   A half-space is placed by the closest points of the expected end of the step, if the line is then
+   outside and over the same feature: the half-space of the start turns with the line and would drag
+   the line back.  A line pressed nearer than its radius is let out slowly, at 0.2 m/s.  A moving
+   obstacle takes its half-spaces along.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -95,9 +99,9 @@ bt__row_take (bt__line_job *k, int flat)
   k->rows++;
 }
 
-/* The half-space of FROM's nearest point turns as the line moves on, so that of TO serves better:
-   that of FROM drags the line back by its speed times the step over the radius.  Unless the line
-   would be inside by then, or over the next triangle.  */
+/* Take the half-space of the closest points at the end of the step, TO.  The half-space at FROM
+   would drag the line back by speed times step over radius.  FROM is kept if the line would be
+   inside by then, or over the next triangle.  */
 static void
 look_ahead (const bt__line_job *k, const bt__pass *p, const bt__link *from, const bt__link *to,
             const bt__witness *now, bt__witness *w)
@@ -136,8 +140,9 @@ typedef struct pass_end
   int round;           /* true: the obstacle is flat or round there, not sharp */
 } pass_end;
 
-/* What is farther from the obstacle than from the plane of its nearest point, of the link's place S
-   in the frame of P: a half of the square of the way over the radius, if it is round.  */
+/* The distance from the obstacle less the distance from the plane of its nearest point, at the
+   place S of the link in the frame of P: half the square of the way over the radius, at a round
+   obstacle.  */
 static double
 beyond_plane (const bt__line_job *k, const bt__pass *p, double s, bt__witness *w)
 {
@@ -166,9 +171,9 @@ pass_end_of (const bt__line_job *k, const bt__pass *p, int e, double length)
   return end;
 }
 
-/* The row of end E of link J: the nodes of a line about something round are so high that the links
-   between them are not inside.  A node that is not there yet is let out slowly, as from the
-   obstacle itself; an end of the line, which may be held where it is, not at all.  */
+/* The constraint at end E of link J. Nodes of a line about a round obstacle are raised, so that no
+   link between them is inside.  A node below the raised height is let out slowly, as from the
+   obstacle itself; an end of the line, perhaps held in place, is not raised.  */
 static void
 touch_end (bt__line_job *k, uint32_t j, int e, const bt__pass *p, const pass_end *end, double raise)
 {
@@ -204,8 +209,8 @@ bt__row_between (bt__line_job *k, uint32_t j, const bt__pass *p, double radius)
   bt__row_take (k, 2 * bt__row_lies_along (k, &p->from, &p->near->w));
 }
 
-/* True if the obstacle is sharp where it is nearest to the link's end E: what is beyond its
-   plane grows as the way from there, not as its square.  */
+/* True if the obstacle is sharp at its point nearest to the link's end E: the distance beyond the
+   plane grows with the way from the point, not with the square of the way.  */
 static int
 is_sharp (const bt__line_job *k, const bt__pass *p, int e)
 {
@@ -242,9 +247,9 @@ bars_the_way (const bt__line_job *k, uint32_t j, int e, const bt__pass *p)
          && comes_nearer (k, e ? i : next, p->near) && is_sharp (k, p, e);
 }
 
-/* By how much an end of a link about something round is raised whose other end is HIGH above it, of
-   the RAISE of both for a link that lies along it.  From four times that on the link comes no
-   nearer than its end.  */
+/* The raise of an end of a link about a round obstacle if the other end is HIGH above; RAISE is the
+   raise of both ends of a link along the obstacle.  From HIGH of four times RAISE on, the link
+   comes no nearer than its end.  */
 static double
 raise_below (double raise, double high)
 {
@@ -280,7 +285,7 @@ touch_part (bt__line_job *k, uint32_t j, const bt__near *near)
     bt__row_between (k, j, &p, fmin (end[0].radius, end[1].radius));
 }
 
-/* True if one of the rows from FIRST on, at node I, says what R says.  */
+/* True if a constraint from FIRST on, at node I, is like R.  */
 static int
 is_borne (const bt__line_job *k, const bt__constraint *r, int first, double i)
 {
@@ -293,8 +298,8 @@ is_borne (const bt__line_job *k, const bt__constraint *r, int first, double i)
   return 0;
 }
 
-/* A link that lies along a plane, whose nodes both bear on it, needs no rows between: drop those of
-   link J, from FIRST on.  */
+/* A link along a plane with both nodes bearing on the plane needs no constraints between: drop
+   those of link J, from FIRST on.  */
 static void
 drop_between (bt__line_job *k, uint32_t j, int first, int before)
 {

@@ -1,4 +1,4 @@
-/* Half-spaces in the making: what the files share that find them.
+/* Contact constraints in the making: shared by the files that find half-spaces.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -22,16 +22,17 @@ bt__pass bt__row_pass (const bt__line_job *k, uint32_t j, const bt__near *near);
 /* True if LINK lies along the plane of W.  */
 int bt__row_lies_along (const bt__line_job *k, const bt__link *link, const bt__witness *w);
 
-/* The place S of link J is pushed off NEAR, as W says in its frame; START is how near it was at the
-   start of the step.  To be added as the row NUMBER.  */
+/* Set the constraint NUMBER: the place S of link J is pushed off NEAR, by the closest points W in
+   the frame of NEAR; START is the distance at the start of the step.  */
 void bt__row_set (bt__line_job *k, int number, uint32_t j, double s, const bt__near *near,
                   const bt__witness *w, double start);
 
-/* Take the row just set unless there is one like it; of both, the lower stays, or that at a node:
-   else they would change places with every step.  */
+/* Take the constraint just set.  Of two like constraints the lower stays, or the constraint at a
+   node: else the two would change places with every step.  */
 void bt__row_take (bt__line_job *k, int flat);
 
-/* The nearest place of link J to what P is about, of RADIUS along the link, m.  */
+/* Add the constraint at the place of link J nearest to the part of P, of RADIUS along the link, m.
+ */
 void bt__row_between (bt__line_job *k, uint32_t j, const bt__pass *p, double radius);
 
 /* line_facet.c: what triangle NEAR of a mesh gives link J.  */

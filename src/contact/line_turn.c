@@ -1,13 +1,14 @@
-/* How a line runs about an edge.
+/* The geometry of a line about an edge.
 
-   Across the axis the edge is a circle, larger by the line's radius, and the line a polygon about
-   it: every side a tangent, every corner a node that is held where two tangents meet.  A line that
-   comes to a corner along the tangent of normal a and leaves along that of normal b turns by the
-   angle from a to b; the turns of all corners of a member add up to that of the line, wherever they
-   are, and so do the exponents of the capstan: T_b / T_a = e^(mu (turn_1 + turn_2 + ...)).
+   Across the axis the edge is a circle, enlarged by the line's radius, and the line a polygon about
+   the circle: every side a tangent, every corner a node held where two tangents meet.  Between the
+   tangents of normals a and b the line turns by the angle from a to b.  The turns of all corners of
+   a member add up to the turn of the line, wherever the corners are, and so do the exponents of the
+   capstan: T_b / T_a = e^(mu (turn_1 + turn_2 + ...)).
 
-   A corner is out / cos (angle / 2) from the axis, its tangents touch out tan (angle / 2) from it.
-   From a point u away from the axis, D = |u|, the tangents have the normals
+   A corner is out / cos (angle / 2) from the axis; its tangents touch at out tan (angle / 2) from
+   the corner.  From a point u away from the axis, D = |u|, the tangents have the normals
+
      (out u -+ sqrt (D^2 - out^2) axis x u) / D^2.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */

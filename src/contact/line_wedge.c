@@ -1,14 +1,14 @@
-/* A line between two obstacles that leave it less room than its diameter: a crotch.
+/* Two-sided contact: a line between two obstacles with less room than its diameter.
 
-   There the contacts press on each other: what one gives way the other takes up.  So a contact's
-   stiffness must not follow its own load, or both would grow in every step; it follows the tension,
-   which does not depend on them, and how near the line has come to its core.  As pressed to the
-   core it can be pressed no further, the load D deep is
+   The contacts on both sides press on each other: penetration given up on one side is taken up on
+   the other.  A contact's stiffness must not follow its own load here, or both would grow in every
+   step; it follows the tension, independent of both, and the penetration towards the core.  As a
+   line pressed to its core can be pressed no further, the load at penetration D is
 
        k D  up to a share E of the way W from radius to core,  then  k (E + (D - E) / (1 - y)),
 
-   y = (D - E) / (W - E): a law of the place alone, so that what goes in comes out, by no more.  A
-   step has it as the tangent at the depth from which it starts.
+   y = (D - E) / (W - E): a law of the place alone, so no contact returns more energy than it took.
+   A step uses the tangent of the law at the penetration from which the step starts.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,9 +1,9 @@
-/* The nodes of a line among obstacles that come and go while a winch turns.
+/* Remeshing of a line among obstacles while a winch turns.
 
-   Taking a node out moves the line: as if the node went straight to the chord of its neighbours.
-   Putting one in moves the line too, if the node is put on the curve: as if the node went there
-   from the chord.  So a node is taken out only if that way is clear, and put on the chord where
-   anything is near.  Nodes about which the line runs, and their neighbours, stay.
+   Taking a node out moves the line, as if the node went straight to the chord of its neighbours.
+   Putting a node on the curve moves the line too, as if the node came from the chord.  So a node is
+   taken out only if its way to the chord is clear, and put on the chord itself where anything is
+   near.  Sliding nodes and their neighbours stay.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -15,7 +15,8 @@ enum
 {
   TURNS = 16, /* intervals that the winch adds or takes in a step */
   TRIES = 4,  /* nodes that are asked whether they can be taken out */
-  ABOUT = 4   /* nodes on either side of a held one, whose places contact chooses, not the mesh */
+  ABOUT = 4   /* nodes on either side of a sliding node: their places are chosen by contact, not by
+                 the mesh */
 };
 
 /* What the line has to keep to beside the nodes that contact put in.  */
@@ -27,8 +28,7 @@ mesh_of (const bt__line_job *k, const bt__sliding *s)
   return mesh;
 }
 
-/* What is upstream of NODE goes with the line, which became longer by MORE between there and the
-   far end.  */
+/* Contacts upstream of NODE go with the line, longer by MORE between NODE and the far end.  */
 static void
 shift_anchors (bt__line_job *k, double from, double more)
 {
@@ -64,7 +64,7 @@ take_out (bt__line_job *k, bt__sliding *s, int64_t i)
   return 1;
 }
 
-/* True if nothing is so near to interval J that its curve could meet it.  */
+/* True if nothing is near enough to interval J to meet the curve of the interval.  */
 static int
 is_clear (bt__line_job *k, int64_t j)
 {
@@ -92,7 +92,8 @@ flag (uint8_t *kept, int64_t first, int64_t last, int64_t n)
     kept[i] = 1;
 }
 
-/* Flag in KEPT the nodes that are held and the next WIDE to either side, and those about lumps.  */
+/* Flag in KEPT the sliding nodes with the next WIDE nodes to either side, and the nodes about
+   lumps.  */
 static void
 keep_held (const bt__line_job *k, const bt__sliding *s, int wide, uint8_t *kept)
 {
@@ -102,8 +103,8 @@ keep_held (const bt__line_job *k, const bt__sliding *s, int wide, uint8_t *kept)
     flag (kept, s->node[q] - wide, s->node[q] + wide, k->d->n);
 }
 
-/* The same for the nodes of intervals that touch: what a contact remembers is of its place, and is
-   lost in part where a node comes.  */
+/* The same for the nodes of intervals that touch: The memory of a contact belongs to its place, and
+   a new node loses a part of the memory.  */
 static void
 keep_touching (const bt__line_job *k, int wide, uint8_t *kept)
 {
@@ -117,8 +118,8 @@ keep_touching (const bt__line_job *k, int wide, uint8_t *kept)
     }
 }
 
-/* Take out the node that is spared best of those that touch nothing, or with TOUCHING of all, if
-   its way is clear; the first few are tried.  */
+/* Take out the most dispensable node among the nodes without contact, or with TOUCHING among all,
+   if its way is clear; the first few are tried.  */
 static int
 spare_one (bt__line_job *k, bt__sliding *s, int touching)
 {
@@ -141,7 +142,7 @@ spare_one (bt__line_job *k, bt__sliding *s, int touching)
   return 0;
 }
 
-/* Halve the interval that stands for most of the shape, away from all that touches.  */
+/* Halve the interval with the largest part of the shape, away from all contacts.  */
 static void
 halve_one (bt__line_job *k, bt__sliding *s)
 {

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "contact/polyline.h"
 
-/* Corners nearer than this share of the length to a node are that node.  */
+/* A corner nearer to a node than this share of the length is the node.  */
 #define SAME 1e-9
 
 /* ---- Scratch ---- */

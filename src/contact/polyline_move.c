@@ -1,8 +1,8 @@
 /* How a polyline moves: all nodes by one share of their way, carried out by the safe step.
 
    A long way is taken in legs.  A leg is first tried as a whole on a copy.  If the safe step cuts
-   it, every link is cast along the common motion, the least share is what all take, and that again
-   is carried out by the safe step: what is committed is never more than it allowed.
+   the leg, every link is cast along the common motion, all nodes take the least share, and the safe
+   step carries the shortened leg out: never is more committed than the safe step allowed.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -75,7 +75,8 @@ link_after (const leg *l, uint32_t j, double t)
   return (bt__link){ bt__axpy (l->x[j], t, da), bt__axpy (l->x[j + 1], t, db) };
 }
 
-/* Cast link J, of which LIST holds what it could meet of mover M - 1 or of the scene.  */
+/* Cast link J against LIST, the parts of kinematic obstacle M - 1, or of the scene, within reach.
+ */
 static void
 cast_link (leg *l, uint32_t j, uint32_t m, const bt__nears *list)
 {

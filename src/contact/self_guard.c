@@ -1,11 +1,11 @@
-/* A line does not pass through itself, nor through another.
+/* Continuous collision detection of links against links: a line does not pass through itself, nor
+   through another line.
 
-   Two links, all of whose ends go straight, are cast against each other as a link and an obstacle
-   are: they may come nearer by no more than their ends' moves differ, whatever they have in common;
-   and as long as the ends of the one stay on their side of the plane through the nearest places,
-   and those of the other on theirs, they do not meet.  The rest is a work list as that of the safe
-   step: what a pair may not do is cut from the moves of its four ends, and every pair of these is
-   asked again.
+   Two links whose ends move straight are cast against each other as a link and an obstacle are
+   (collide/cast.c).  Whatever motion they share, the links approach by no more than the difference
+   of their ends' moves; and as long as the ends of both stay on their sides of the plane through
+   the closest points, the links do not meet.  Then a work list, as in the safe step: an unsafe part
+   is cut from the moves of all four ends, and every pair of these links is asked again.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -39,7 +39,7 @@ moved (const bt__link *link, const bt_vec3 d[2], double t)
   return (bt__link){ bt__axpy (link->a, t, d[0]), bt__axpy (link->b, t, d[1]) };
 }
 
-/* The most that an end of the one moves against one of the other.  */
+/* The greatest move of an end of one link against an end of the other link.  */
 static double
 speed_of (const meeting *m)
 {
@@ -52,8 +52,8 @@ speed_of (const meeting *m)
   return sqrt (most);
 }
 
-/* With the links at A and B: the share of the move that keeps either on its side of the plane
-   between them; INFINITY if they stay there for all of what is LEFT.  */
+/* With the links at A and B: the share of the move that keeps both on their sides of the plane
+   between; INFINITY if both keep their sides for the whole LEFT share.  */
 static double
 planar (const meeting *m, const bt__link *a, const bt__link *b, double left)
 {
@@ -71,7 +71,7 @@ planar (const meeting *m, const bt__link *a, const bt__link *b, double left)
   return best;
 }
 
-/* The largest share of the move that is known to be safe, 1 if all of it is.  */
+/* Return a share of the move known to be safe, 1 for the whole move.  */
 static double
 run (meeting *m, bt__count *count)
 {
@@ -100,7 +100,8 @@ run (meeting *m, bt__count *count)
   return t;
 }
 
-/* Pair P, of whose nodes I takes the share SHARE[I] of its move; NULL: all.  */
+/* The meeting of pair P, with node I taking the share SHARE[I] of its move; NULL: the whole move.
+ */
 static meeting
 meeting_of (const bt__line_job *k, const bt__self_pair *p, const double *share)
 {

@@ -1,14 +1,15 @@
-/* How far the parts of a line may go against each other until any two of its links could touch.
+/* How far the parts of a line may move against each other before any two of its links can touch.
 
-   Told as two ways: what the ends of a link may go apart, and what any two places may.  Of links
-   that have M links between and with them the one goes no farther against the other than M times
-   the first, nor farther than the second.
+   The answer is a pair of ways: the motion of the ends of a link against each other, and of any two
+   places against each other.  For two links with M links between and including them, the relative
+   motion is at most M times the first way, and at most the second.
 
-   Where links run along with the way from the first of them to the last they only come together by
-   turning back.  For the rest the line is halved again and again, each part a chord and how far its
-   nodes are from it; of two parts whose chords are far apart against that no link is asked.
+   Links running along with the direction from the first to the last of them come together only by
+   turning back.  The rest of the line is halved again and again; each part is a chord and a radius
+   that contains its nodes, and two parts with their chords far apart against their radii are not
+   opened.
 
-   What is told depends on where the line is and on nothing else, for it is kept in its state.
+   The answer depends on the place of the line alone, because it is kept in the line's state.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -17,15 +18,15 @@
 enum
 {
   LEAF = 4,   /* links in the smallest part */
-  FEWEST = 3, /* links that are told by the first way, those of more by the second: so many ... */
-  FEW = 16    /* ... or as many as the line last went apart by times what its links did */
+  FEWEST = 3, /* links between, up to which the first way counts: so many ... */
+  FEW = 16    /* ... or as many as the ratio of the two ways in the last motion */
 };
 
 #define PIECES 8.0 /* of a piece: no more is told */
 #define LEAST 0.3  /* of a rest length: a link that soon turns back is of no stretch */
 #define ROUGH 0.25 /* of their distance: parts that are so thin are not halved */
 
-/* Links FROM to TO, less one, and the place of their chord among all.  */
+/* Links FROM to TO, less one, and the index of their chord.  */
 typedef struct part
 {
   int at, from, to;
@@ -90,8 +91,8 @@ measure_parts (look *s, part p)
 
 /* ---- What is told ---- */
 
-/* True if links FROM to TO, less one, run along with their chord and it takes some turning until
-   they do not; that is told.  */
+/* True if links FROM to TO, less one, run along with their chord by a margin; the margin is noted
+   as a way of the first kind.  */
 static int
 is_stretch (look *s, int from, int to)
 {
@@ -123,7 +124,7 @@ tell (look *s, int i, int j, double gap)
     lower (&s->apart, gap);
 }
 
-/* What more than this away is nearer than others of links I to J, or less, is told already.  */
+/* A gap larger than this between links I to J would not lower the ways noted already.  */
 static double
 told (const look *s, int i, int j)
 {

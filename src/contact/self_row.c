@@ -1,21 +1,21 @@
-/* What keeps two links of a line apart, or a link from another line.
+/* Contact constraints of links against links, of one line or of two.
 
-   Of two links that touch, their nearest places push each other: a row of two places, so that force
-   and reaction are one number.
+   Two touching links of the same line push each other at their closest points: one constraint with
+   two places, so action and reaction are a single number.
 
-   Another line stands while this one steps.  Were it a wall to each, two lines would press each
-   other with forces that do not know of each other, and each would stop the other for good.  So
-   only the one that steps later keeps out of the gap.  The one before it feels what the other felt
-   in its last step, and more by what the other resists if it is moved: its inertia and its tension
-   at the place.  Where it resists as much as that or less, force and reaction become the same in a
-   few steps, and two lines together are at most as heavy again as the one.
+   Another line stands still while this line steps.  As rigid walls, two lines would press each
+   other with forces unknown to each other, and each would stop the other for good.  So only the
+   line that steps later keeps out of the gap.  The earlier line feels the reaction of the later
+   line's last step, plus the resistance of the later line to a displacement: its inertia and its
+   tension at the place.  Where the later line resists by no more than this estimate, action and
+   reaction agree after a few steps; two lines together are at most twice as heavy as one.
 
-   The half-space is that of the start of the step: where links are expected to be at its end their
-   nearest places may be others, and of two that change by turns a knot would never come to rest.
+   The half-space is placed at the start of the step.  At the expected end of the step the closest
+   points may be different, and a knot that changes between two pairs would never come to rest.
 
-   Links with little line between them are bent about each other by that; what keeps those apart is
-   not contact.  Of two lines that are made fast at one place the line between two links is what
-   leads from the one to that place and from there to the other.
+   Links with little line between them are kept apart by the bending of that line, not by contact.
+   For two lines fastened at one place, the line between two links leads from one link to the place
+   and on to the other link.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -25,7 +25,7 @@
 #define RECOVERY 0.2  /* m/s: links that were pressed together part so fast */
 #define STIFF 0.1     /* times EA over a link's length: of a touch, ... */
 #define STIFFEST 1e6  /* N/m: ... at most, but for the load */
-#define YIELD 8.0     /* the part of the way to the core that the load may press them */
+#define YIELD 8.0     /* part of the way to the core: the deepest penetration by the load */
 #define ALIKE_HIT 0.7 /* product of the normals: a hit is of the row that is there */
 #define REMEMBER 0.75 /* of a link: the farthest a touch goes along either line in a step */
 #define ALIKE 0.5     /* product of the normals in that */
@@ -36,7 +36,7 @@ radius_of (const bt__line_job *k, const bt__self_pair *p)
   return p->strand < 0 ? k->config->radius : k->config->strand[p->strand].radius;
 }
 
-/* Metres of rest length to the end of what link J of P is of, from T along it.  */
+/* Metres of rest length from the place T on link J of P to the end of its line.  */
 static double
 from_end_of (const bt__line_job *k, const bt__self_pair *p, double t)
 {
@@ -70,9 +70,9 @@ drift_of (const bt__line_job *k, const bt__self_pair *p, double t)
 
 /* ---- Lines that yield ---- */
 
-/* N/m: what line O resists in a step at T along its link J, at most.  A node of a chain that is
-   held by its inertia M and by the tension K of its links yields by 1 / sqrt (M2 + 4 M K); its ends
-   do not.  */
+/* The greatest resistance of line O to a displacement in a step, N/m, at T along its link J. A node
+   of a chain with inertia M and tension K of its links yields by 1 / sqrt (M2 + 4 M K); the ends of
+   the line do not yield.  */
 static double
 resistance_of (const bt__line_job *k, const bt__strand *o, uint32_t j, double t)
 {
@@ -96,7 +96,7 @@ is_taken (const bt__line_job *k, int q, int64_t i)
   return 0;
 }
 
-/* What line O knows of row Q, and no other row has, or -1.  */
+/* The contact of line O that belongs to constraint Q and is not taken, or -1.  */
 static int64_t
 their_anchor (const bt__line_job *k, const bt__strand *o, int q)
 {
@@ -116,7 +116,7 @@ their_anchor (const bt__line_job *k, const bt__strand *o, int q)
   return best;
 }
 
-/* Let row Q, of a line that yields, feel what that line felt.  */
+/* Give constraint Q, against a line that yields, the reaction felt by that line.  */
 static void
 feel (bt__line_job *k, int q)
 {
@@ -253,8 +253,8 @@ is_of_later (const bt__line_job *k, int i, const bt__contact *a, double away)
   return 0;
 }
 
-/* Where links of a knot touch there are several rows in the length of one, and some of them bear
-   nothing: to each what is nearest to it and to no other.  */
+/* In a knot several constraints share the length of a link, and some bear nothing: to each what is
+   nearest to it and to no other.  */
 int
 bt__self_anchor (const bt__line_job *k, int i)
 {

@@ -9,9 +9,9 @@
 
    Differences from the thesis: a span never becomes longer than its share of the length, so for the
    rubber band the vehicle is stopped first.  The turn of the normals is added up from contact to
-   contact, so that a second turn counts.  Any number of links may collide in a step, one after
-   another.  The bend stays in its span until the span is split; in the thesis the bend jumps to the
-   longest span.  A contact rejoined and met again in the same step needs 5 degrees more to rejoin.
+   contact: a second turn counts.  Any number of links may collide in a step, one after another.
+   The bend stays in its span until the span is split; in the thesis the bend jumps to the longest
+   span.  A contact rejoined and met again in the same step needs 5 degrees more to rejoin.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

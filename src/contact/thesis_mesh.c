@@ -1,7 +1,7 @@
 /* The polyline of the spans: equal arcs within a span, a node at every split.
 
-   A span that grew gets nodes in the middle of its longest links, which leaves the curve unchanged.
-   A span that shrank loses nodes after a move that puts them on the chord of their neighbours.
+   A span that grew gets nodes in the middle of its longest links: the curve is unchanged.  A span
+   that shrank loses nodes, each after a move to the chord of its neighbours.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

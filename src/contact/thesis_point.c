@@ -114,7 +114,7 @@ meet_solid (sum *s, const bt__obstacle *o, const bt__link *link)
   cross_surface (s, o, link, in, 1);
 }
 
-/* Add every triangle of MESH that LINK goes through, with its normal turned to the side of OUT.  */
+/* Add every triangle of MESH pierced by LINK, with its normal turned to the side of OUT.  */
 static void
 meet_mesh (sum *s, const bt__mesh *mesh, uint32_t object, const bt__nears *list,
            const bt__link *link, bt_vec3 out)

@@ -10,8 +10,8 @@
 #include "collide/safe.h"
 
 /* The obstacles around a tether in a step: the objects of SCENE stand still; kinematic obstacles
-   move from one place to another, and their DONE receives the share of the motion that was taken.
-   The ids of objects are the numbers of the obstacles in the model.  */
+   move from one place to another, and their DONE receives the share of the motion taken.  The ids
+   of objects are the numbers of the obstacles in the model.  */
 typedef struct bt__surroundings
 {
   const bt__scene *scene; /* empty, not NULL, where nothing stands */

@@ -2,8 +2,8 @@
 
    The friction work of a sliding contact wears the jacket at the contact (J. F. Archard, J. Appl.
    Phys. 24, 1953: the worn volume is proportional to load times sliding distance, the friction work
-   over mu).  Spots are indexed by the distance from the far end, which the winch does not change,
-   so that line on the drum keeps its wear.
+   over mu).  Spots are indexed by the distance from the far end, unchanged by the winch: line on
+   the drum keeps its wear.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
