@@ -16,17 +16,17 @@
 #include "math/vec.h"
 #include "sim/chain.h"
 
-/* Between which nodes an arch stands, and where it begins and ends.  */
+/* An arch: its nodes, and its feet.  */
 typedef struct arch
 {
   int first, last; /* nodes above the water */
   bt_vec3 from, to;
-  int stands; /* true if it is out of the water anywhere */
-  int hangs;  /* true if one of its feet is */
+  int stands; /* true if a point is out of the water */
+  int hangs;  /* true if a foot is out of the water */
 } arch;
 
-#define HAIR 1e-9  /* m: what rounding lifts out of the water stands in no air */
-#define DEEPER 0.1 /* of the length between nodes: more than cubics rise above them */
+#define HAIR 1e-9  /* m: a node lifted out of the water by rounding is not in air */
+#define DEEPER 0.1 /* of the length between nodes: cubics rise less above the nodes */
 
 static const bt_vec3 up = { 0, 0, 1 };
 
@@ -36,7 +36,7 @@ is_out (bt_vec3 p)
   return p.z > HAIR;
 }
 
-/* The crossing with LEVEL of the straight line between P and Q, of which one is above LEVEL.  */
+/* The crossing with LEVEL of the straight line between P and Q, on either side of LEVEL.  */
 static bt_vec3
 crossing (bt_vec3 p, bt_vec3 q, double level)
 {
@@ -133,8 +133,8 @@ tension_at (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tension
                     bt__shape_tangent (shape, nodes, tensions, s));
 }
 
-/* Turn the tension vectors along the line at those of the N + 1 nodes X whose place differs from
-   WERE, and at their neighbours.  */
+/* Turn the tension vectors along the line at the nodes of X, N + 1 in number, moved from WERE, and
+   at their neighbours.  */
 static void
 turn_tensions (const bt_vec3 *x, const bt_vec3 *were, bt_vec3 *tension, int n)
 {

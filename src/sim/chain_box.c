@@ -1,9 +1,9 @@
 /* Boxes about the moving lines, for queries of other lines while tethers are resolved.
 
    The box of a line has room for a step at the speed of the fastest node, and more.  All boxes are
-   drawn before the first tether is resolved and stay as long as their lines stay inside.  A query
-   for distant lines so has the same answer before and after the other line's step, and in every
-   thread.
+   drawn before the first tether is resolved and stay as long as their lines stay inside.  Queries
+   for distant lines therefore have the same answer before and after a step of the distant line, and
+   in every thread.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

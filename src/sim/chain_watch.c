@@ -1,4 +1,4 @@
-/* What a moving line does, told as events: snaps, kinks, loops; and whether it rests.
+/* Events of a moving line: snaps, kinks, loops; and whether the line rests.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -61,7 +61,8 @@ note_kink (bt__state *state, bt__tether *tether, int i, double radius)
   tether->kinked = kinked;
 }
 
-/* True if the vehicle carried by tether I rests, and nothing else that may move hangs on it.  */
+/* True if the vehicle carried by tether I rests, and no other tether that may move is fastened to
+   the vehicle.  */
 static int
 vehicle_rests (const bt_dive *dive, bt__state *state, int i)
 {

@@ -1,4 +1,5 @@
-/* The wear of a moving line in a dive: what its contacts did in a step, added to its spots.
+/* The wear of a moving line in a dive: the sliding of its contacts in a step, added to the spots of
+   its jacket.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

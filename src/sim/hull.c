@@ -1,5 +1,10 @@
-/* The hull of a vehicle against obstacles: the vehicle moves up to the first contact, slides along
-   the obstacle, and turns as far as the hull stays clear.
+/* The hull of a vehicle against obstacles, by continuous collision detection (collide/sweep.h).
+
+   The hull sweeps from its place to the wanted place and attitude up to the first contact.  There a
+   vehicle with mass bounces (vehicle/points.c); then the rest of the way, without the part into the
+   obstacle, is swept again along the obstacle, twice at most, and the rest of the turn is made as
+   far as the hull stays clear.  Kinematic obstacles move with the first sweep and stand afterwards,
+   as far as hull and obstacle let each other go.  A vehicle far from all obstacles skips all this.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -13,7 +18,7 @@
 
 #define HULL_FRICTION 0.3
 
-/* How often it slides in a step.  */
+/* Sweeps of a step, the first included.  */
 enum
 {
   SLIDES = 3
@@ -27,7 +32,7 @@ note_stop (bt_dive *dive, bt__state *state, int vehicle, const bt__stop *stop)
                     bt__stop_obstacle (dive->model, stop));
 }
 
-/* WAY without what leads into the obstacle.  */
+/* WAY without the part into the obstacle.  */
 static bt_vec3
 along_wall (bt_vec3 way, bt_vec3 normal)
 {
@@ -59,7 +64,7 @@ sweep (const passage *p, bt__frame *frame, const bt__frame *to, bt__stop *stop)
   return share;
 }
 
-/* The movers have gone as far as they could with the hull: from now on they stand there.  */
+/* Let the kinematic obstacles stand where they came in the first sweep.  */
 static void
 stand_movers (const passage *p)
 {
@@ -72,7 +77,7 @@ stand_movers (const passage *p)
     }
 }
 
-/* Go on by WAY along what stopped it.  */
+/* Slide by WAY along the obstacles met.  */
 static void
 slide_hull (const passage *p, bt__frame *frame, bt_vec3 way, bt__stop *stop)
 {

@@ -1,4 +1,10 @@
-/* Vehicles that go exactly where they are told: sticks, autopilots, measured tracks.
+/* Vehicles without mass: they go exactly where sticks, autopilots and measured tracks lead.
+
+   A step turns the heading first: by the yaw stick, towards the target of a flight, or towards the
+   held heading, at most at the yaw rate.  Sticks move the vehicle along the heading in the middle
+   of the turn (the midpoint rule, so a circle stays a circle), with a held depth or altitude for
+   the vertical part.  A target is approached straight at the given speed, a track followed linearly
+   between its rows; arrival raises the event `arrived'.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

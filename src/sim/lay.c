@@ -12,9 +12,9 @@
 #include "sim/lay.h"
 #include "world/obstacles.h"
 
-#define KEPT_OFF 1.1 /* times the core: what is left of a line is as far from obstacles */
-#define ENOUGH 0.4   /* of its length: a line that is as long as this need not be led on */
-#define WASTE 0.05   /* of an interval: what the line may shorten by at a corner left out */
+#define KEPT_OFF 1.1 /* times the core: clearance of a line with corners left out */
+#define ENOUGH 0.4   /* of its length: a longer line need not be led on */
+#define WASTE 0.05   /* of an interval: the most a line may shorten at a corner left out */
 
 /* ---- Corners ---- */
 
@@ -77,8 +77,8 @@ farthest_off (const bt__dynamic *chain, const bt__link *link, double from, doubl
 }
 
 /* True if tether I may change to N intervals without touching.  Each point of the line moves
-   straight to the new point of the same arc length, so no point leaves the capsule about the new
-   interval that contains the old ones.  */
+   straight to the new point of equal arc length: no point leaves the capsule about the new interval
+   and the old points.  */
 int
 bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n)
 {
@@ -101,8 +101,8 @@ bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n)
   return 1;
 }
 
-/* Leave out of the N corners P what is not needed to keep off obstacles by KEEP, where the line
-   gets shorter by no more than LOSS at each; return how many are left.  */
+/* Leave out corners of P, N in number, not needed for a clearance of KEEP, if the line gets shorter
+   by no more than LOSS at the corner; return the number of corners left.  */
 static int
 leave_out_corners (bt_dive *dive, const bt__surroundings *around, double keep, double loss,
                    bt_vec3 *p, int n)
@@ -227,8 +227,8 @@ allot (const bt_vec3 *p, int m, bt_vec3 *x, int n)
     }
 }
 
-/* Let the chain of N intervals of tether I begin along the nodes X, which crowd where they were
-   held up: as many more on the rest, and each interval with the chord's share of the length.  */
+/* Let the chain of N intervals of tether I begin along the nodes X. Nodes held up crowd together,
+   so nodes are added on the rest; each interval has its chord's share of the length.  */
 static void
 begin_along_nodes (bt_dive *dive, bt__state *state, int i, bt_vec3 *x, int n)
 {

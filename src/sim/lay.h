@@ -9,9 +9,9 @@
 #include "sim/sim.h"
 
 /* Put the corners of tether I on the dive's polyline, and their number in *N: the corners of its
-   shape, without those whose triangle with their neighbours is clear; or of the world's line of lay
-   to ENDS if the tether has no shape yet.  BT_ERR_DEF if a tether without shape and line of lay has
-   no clear straight line to its vehicle.  */
+   shape, except corners with a clear triangle to their neighbours; or, for a tether without shape,
+   the world's line of lay to ENDS.  BT_ERR_DEF if a tether without shape and line of lay has no
+   clear straight line to its vehicle.  */
 bt_status bt__corners (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int *n,
                        bt_error *error);
 
@@ -19,13 +19,13 @@ bt_status bt__corners (bt_dive *dive, bt__state *state, int i, const bt__ends *e
    polyline, equally spaced along it.  */
 int bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n);
 
-/* The distance of LINK to the nearest of what is AROUND, at most CAP; *NEAR: what that is, if it is
-   nearer.  */
+/* The distance of LINK to the nearest obstacle AROUND, at most CAP; *NEAR receives the part of an
+   obstacle nearer than CAP.  */
 double bt__room_about (bt_dive *dive, const bt__surroundings *around, const bt__link *link,
                        double cap, bt__near *near);
 
-/* Lead the N + 1 nodes X of tether I toward the points on the dive's polyline, and no farther than
-   they are as long as the tether; *THERE: true if they came to all of them (lay_way.c).  */
+/* Lead the N + 1 nodes X of tether I toward the points on the dive's polyline until the line has
+   the length of the tether; *THERE: true if all nodes arrived (lay_way.c).  */
 bt_status bt__lead_to_rest (bt_dive *dive, bt__state *state, int i, bt_vec3 *x, int n, int *there,
                             bt_error *error);
 

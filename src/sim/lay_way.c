@@ -1,9 +1,9 @@
 /* Laying a moving line among obstacles: from its corners towards its equilibrium without obstacles,
-   by the safe step, which stops each node before it would pass through an obstacle.
+   by the safe step: each node stops before passing through an obstacle.
 
-   Nodes stopped by an obstacle stay; the rest go on until the line has its length.  The line so
-   begins with intervals nearly as long as their chords, and neither bursts apart nor snaps together
-   in its first step.
+   Nodes stopped by an obstacle stay; the rest go on until the line has its length.  The line begins
+   with intervals nearly as long as their chords, and neither bursts apart nor snaps together in its
+   first step.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -35,8 +35,8 @@ longest_way (const bt_vec3 *x, const bt_vec3 *want, int n)
 }
 
 /* The clearance, m, at which the line X of tether I is led past obstacles: the radius and a little
-   more, so that contact need not push the line off and the line may get fewer nodes; but at most
-   the present clearance.  */
+   more, so contact need not push the line off, and nodes may be taken out; but at most the present
+   clearance.  */
 static double
 keep_off (bt_dive *dive, bt__state *state, int i, const bt_vec3 *x, int n)
 {

@@ -1,7 +1,7 @@
-/* The operations: one table of all changes to a dive other than the passing of time.
+/* The operations: the table of all changes to a dive except the passing of time.
 
-   Every operation works on a copy of the state.  bt_dive_do solves the changed tethers and takes
-   the copy over, or leaves the dive untouched.
+   Every operation works on a copy of the state. bt_dive_do solves the changed tethers and takes the
+   copy over, or leaves the dive untouched.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

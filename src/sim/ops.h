@@ -1,4 +1,4 @@
-/* The operations, as their files share them: what one is given, and its checks.
+/* Shared by the files of operations: the call of an operation, and its checks.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,4 +1,4 @@
-/* What may be done to the sea: its current.
+/* Operations on the sea: current and waves.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,4 +1,4 @@
-/* What may be done to a tether: the winch and the knife.
+/* Operations on a tether: the winch and the knife.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,4 +1,4 @@
-/* What may be done to a vehicle.
+/* Operations on a vehicle: drive, place, fly, hold, follow a track, faults.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -2,14 +2,13 @@
    tethers that follow one.
 
    A tether resolved before its vehicle moves would end at the vehicle's old place.  A vehicle with
-   mass is moved by the line that carries it, and any vehicle may be held back by a moving line.  So
-   carrying lines go first, each after the line that carries its own anchor; then the other moving
-   lines; then the static tethers, which end at any given place.  There is one exception: a static
-   tether among obstacles may draw its vehicle along, for example when hauled in over an edge, so
-   such a tether goes before all others, unless a line carries its vehicle.  Within a rank the order
-   stays: by number, or among obstacles by the direction in which tethers press on each other
-   (chain_touch.c).  If ends and vehicles still do not fit together, the step is tried again
-   (pins.c).
+   mass is moved by its carrying line, and any vehicle may be held back by a moving line.  So
+   carrying lines go first, each after the carrying line of its own anchor; then the other moving
+   lines; then the static tethers, which end at any given place.  Exception: a static tether among
+   obstacles may draw its vehicle along, for example when hauled in over an edge, and goes before
+   all tethers unless a line carries its vehicle.  Within a rank the order stays: by number, or
+   among obstacles by the direction of pressing of tethers on each other (chain_touch.c).  If ends
+   and vehicles still do not fit together, the step is tried again (pins.c).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,4 +1,14 @@
-/* Vehicles that tethers and obstacles hold: see around.h.
+/* Vehicles held by tethers and obstacles: the agreement of a step.
+
+   A vehicle has up to three opinions on its new place: its own motion, the ends of its tethers, and
+   its hull.  At the beginning of an attempt each vehicle is given a kinematic target, as far along
+   its way as the hull comes (bt__pin_vehicles).  Tethers that stop short bring the vehicle to their
+   ends (bt__bring_end).  At the end bt__vehicles_agree compares ends, vehicle and hull; where they
+   differ, the target is drawn back to a place that suits all, and the step is attempted again.  In
+   the last attempt vehicles stay at their old places, which suit everything.
+
+   The accuracy of the comparison is 1e-9 m, and 5e-6 m at the end of a moving line, the accuracy of
+   its own step.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -26,8 +36,8 @@ place_before (const bt_dive *dive, int vehicle)
   return bt__dive_vehicle (dive, dive->now, vehicle)->position;
 }
 
-/* An operation takes no time: what it moves is at rest.  One with mass has its motion from what it
-   struck.  */
+/* An operation takes no time: a moved vehicle is at rest.  A vehicle with mass has its motion from
+   the bounce.  */
 static void
 stand (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 p)
 {
@@ -52,8 +62,8 @@ put_pin (bt__pin *pin, const bt__vehicle *v, bt_vec3 p)
   pin->body.position = p;
 }
 
-/* How far the hull of VEHICLE comes toward WANTED without leaving the reach of its tethers: it may
-   have slid out of that.  */
+/* How far the hull of VEHICLE comes toward WANTED within the reach of its tethers: a sliding hull
+   may leave the reach.  */
 static bt_vec3
 reach_within (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
 {
@@ -69,8 +79,8 @@ reach_within (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
   return bt__hull_reach (dive, state, vehicle, before);
 }
 
-/* Come to WANTED as far as the hull does; a moving line that carries the vehicle has yet to say
-   where.  */
+/* Bring the vehicle toward WANTED as far as the hull comes; a moving line that carries the vehicle
+   decides later.  */
 static void
 come (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted)
 {

@@ -1,4 +1,7 @@
-/* A tether near the thrusters of a vehicle: what ends a dive if nobody looks.
+/* Tethers near turning thrusters: a line in a propeller ends a dive.  The event `prop-danger' is
+   raised when a tether comes within 0.12 m of the middle of a thruster pushing with more than 1 N,
+   and can be raised again after all tethers have been 0.18 m away.  The last 0.3 m of a tether at
+   the vehicle do not count.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -9,9 +12,9 @@
 #include "world/line.h"
 
 #define NEAR 0.12      /* m from the middle of a thruster */
-#define AWAY 0.18      /* m: farther than this it has gone */
-#define TURNS 1.0      /* N: what a thruster that turns pushes with */
-#define OWN_LENGTH 0.3 /* m of tether that leaves the vehicle in any case */
+#define AWAY 0.18      /* m: a tether farther away is gone */
+#define TURNS 1.0      /* N: the force of a turning thruster */
+#define OWN_LENGTH 0.3 /* m of tether near the vehicle in any case */
 
 /* The squared distance of P from the line between A and B.  */
 static double
@@ -67,7 +70,7 @@ bt__watch_props (const bt_dive *dive, bt__state *state)
         if (bt__dive_tether (dive, state, i)->quiet < BT__SLEEP_AFTER)
           least = fmin (least, nearest_on (dive, state, i, &dive->model->types[vehicle], v));
         else if (v->props)
-          least = 0; /* asleep, it stays where it is */
+          least = 0; /* a sleeping tether stays near */
       if (least < NEAR * NEAR && !v->props)
         bt__raise_event (state, BT_EVENT_PROP_DANGER, vehicle);
       v->props = least < NEAR * NEAR || (v->props && least < AWAY * AWAY);

@@ -120,8 +120,8 @@ bt__note_taut (bt__state *state, bt__tether *tether, int i, int taut)
   tether->taut = taut;
 }
 
-/* Balls that meet are approached by turns; a vehicle on several tethers is rare and two rounds
-   bring it within a millimetre, the next steps the rest.  */
+/* Approach the common part of several balls by turns: two rounds bring a vehicle on several
+   tethers, a rare case, within a millimetre, and the next steps the rest.  */
 static int
 hold_vehicle (const bt_dive *dive, const bt__state *from, bt__state *state, int vehicle)
 {

@@ -36,7 +36,7 @@ enum
 
 /* The winch leaves some room to the nodes that contact puts in.  */
 #define WINCH_SHARE 0.875
-#define WINCH_AIM 0.5 /* of the accuracy: what the nodes that come and go are judged by */
+#define WINCH_AIM 0.5 /* of the accuracy: the standard for nodes that come and go */
 
 /* The mesh of tether I; a line with its original length keeps its original nodes: its mesh has no
    error to keep to.  */
@@ -73,8 +73,9 @@ multiple (int n, int m, int room)
   return m < n ? m : times * n <= room ? times * n : n;
 }
 
-/* The weight that the chords must have, in a blend of chords and cubic, so that no interval between
-   the N + 1 points P of CHAIN, of LENGTH m, is strained by more than STRETCH beyond the chords.  */
+/* The weight of the chords in a blend of chords and cubic: the least weight for which no interval
+   between the N + 1 points P of CHAIN, of LENGTH m, is strained by more than STRETCH beyond the
+   chords.  */
 static double
 share_of_chords (const bt__dynamic *chain, double length, const bt_vec3 *p, int n)
 {

@@ -3,14 +3,14 @@
    Within a step a tether depends on other tethers in three ways: through a common vehicle, through
    contact between two lines, and through a kinematic obstacle held back by one tether for all.
    Tethers bound by the first two ways form a group, an island (apart.c), and step one after
-   another.  Groups step at the same time, each in a worker context: a dive with workspaces of its
-   own that works on the common state, on the tethers and vehicles of its group alone.  Of other
-   groups a worker sees the present state, which nobody writes.  Each worker keeps its events, which
-   are raised afterwards in the order of the tethers; counters are added up.
+   another.  Groups step at the same time, each in a worker context: a dive with its own workspaces,
+   working on the common state, on the tethers and vehicles of a single group.  Of other groups a
+   worker sees the present state, which nobody writes.  Each worker keeps its events until they are
+   raised in the order of the tethers; counters are added up.
 
    The independence of the groups is assumed before the step and verified afterwards.  The
-   assumption held if no line asked for other lines as far away as a line of another group, no line
-   left its box (chain_box.c), no kinematic obstacle was held back, no vehicle of several groups was
+   assumption held if no line asked for lines as far away as a line of another group, no line left
+   its box (chain_box.c), no kinematic obstacle was held back, no vehicle of several groups was
    moved, and nothing failed.  Otherwise the try is discarded and one thread repeats it: the result
    of a step is always the result of a single thread.  Margins follow the distances asked for in the
    last steps, and after consecutive refusals the next attempt is put off longer and longer.

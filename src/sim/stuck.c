@@ -11,7 +11,7 @@
 #include "sim/around.h"
 #include "world/line.h"
 
-/* What hardly moving is, and what a pull, N.  */
+/* Limits of hardly moving, and of a pull, N.  */
 #define SLOW 0.02 /* m/s */
 #define PULL 1.0
 

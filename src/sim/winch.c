@@ -12,7 +12,7 @@
 #include "sim/around.h"
 #include "world/line.h"
 
-/* What a winch hauls with that was not told otherwise: N, and a share of what parts the line.  */
+/* The default pull of a winch: N, and at most a share of the breaking load.  */
 #define USUAL_PULL 500.0
 #define BREAKING_SHARE 0.5
 
@@ -35,7 +35,7 @@ bt__most_out (const bt_dive *dive, bt__state *state, int i)
   return fmin (drum, MOST_OUT);
 }
 
-/* True if tether I is a moving line that pulls the vehicle at its end along.  */
+/* True if tether I is a moving line drawing along the vehicle at its end.  */
 static int
 draws_a_body (const bt_dive *dive, bt__state *state, int i)
 {
@@ -53,7 +53,7 @@ held_with (const bt_dive *dive, bt__state *state, int i)
   return end[0].vehicle < 0 && end[1].vehicle < 0 ? INFINITY : bt__pull_on (dive, state, i);
 }
 
-/* The shortest length, m, of tether I that reaches between its ends under the pulls of winch and
+/* The shortest length, m, of tether I for the distance of its ends under the pulls of winch and
    vehicles; 0 if the line draws a body or a free end along.  */
 static double
 shortest (const bt_dive *dive, bt__state *state, int i)

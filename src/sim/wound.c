@@ -2,8 +2,8 @@
 
    A line passes through nothing, so only motion of the ends can change its windings: while both
    ends rest there is no look.  After motion of an end, the line itself and the last known way home
-   mostly suffice to see that the windings are the same; otherwise the question is asked in full.
-   The taut string becomes shorter by at most the motion of the ends.
+   mostly suffice to prove the windings unchanged; otherwise the question is asked in full.  The
+   taut string becomes shorter by at most the motion of the ends.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -35,7 +35,7 @@ has_moved (const bt_dive *dive, bt__subject *subject, int i)
   return 1;
 }
 
-/* What the string of SUBJECT's tether measures at least.  */
+/* The least length, m, of the string of SUBJECT's tether.  */
 static double
 least_string (const bt__subject *s)
 {
@@ -43,7 +43,7 @@ least_string (const bt__subject *s)
          - bt__distance (s->seen[1], s->there[1]);
 }
 
-/* Tell what tether I of DIVE is wound about now, and raise the events unless SILENT.  */
+/* Note the present windings of tether I of DIVE, and raise the events unless SILENT.  */
 static bt_status
 tell_windings (bt_dive *dive, int i, bt__subject *subject, int8_t *told, int silent,
                bt_error *error)
@@ -67,7 +67,7 @@ tell_windings (bt_dive *dive, int i, bt__subject *subject, int8_t *told, int sil
   return BT_OK;
 }
 
-/* A look that fails, such as for want of memory, tells nothing; one that is left says so.  */
+/* A failed look, such as for want of memory, tells nothing; an interrupted look is reported.  */
 bt_status
 bt__note_windings (bt_dive *dive, bt_error *error)
 {

@@ -1,15 +1,15 @@
-/* The moving line: contacts as rows of its equations.
+/* The moving line: contact constraints in the equations of a step.
 
-   The quick way treats a row as it treats an interval: its multiplier, the linearised load, decides
-   with the gap whether it bears.  Friction takes the load of the iterate before, so that its block
-   is symmetric.  The safe way takes load and activity from the gap, and friction from the load of
-   the iterate before.
+   The quick way treats a constraint like an interval: its multiplier, the linearised load, decides
+   together with the gap whether the constraint bears.  Friction takes the load of the previous
+   iterate, so its block is symmetric.  The safe way takes load and activity from the gap, and
+   friction from the load of the previous iterate.
 
-   A held end is stuck to its place while its multiplier is less than the most it may pull with,
-   else it is pulled by that and has mass: without, a slack line would fly.  The quick way sticks it
-   with a spring so firm that the end stands where it is made fast.  The safe way could not descend
-   across so narrow a potential: its spring is softer, and what that lacks is added as a force from
-   one following of the loads to the next (the method of multipliers).
+   A held end is stuck to its place while its multiplier is less than the greatest pull; else the
+   end is pulled by that force and has mass, because a slack line at an end without mass would fly.
+   The quick way sticks the end with a very firm spring.  The safe way could not descend across so
+   narrow a potential: its spring is softer, and the missing force is added from one update of the
+   loads to the next (the method of multipliers).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -215,8 +215,8 @@ assemble_hold (bt__dynamic_work *w, int k, bt__mode mode)
     }
 }
 
-/* An end that is pulled by a force runs past its place when nothing holds it back: then it gets
-   there with less.  */
+/* An end pulled by a force overshoots its place when nothing holds the end back: then it gets there
+   with less.  */
 int
 bt__dynamic_hold_arrives (bt__dynamic_work *w)
 {

@@ -1,19 +1,21 @@
-/* The moving line: half-spaces it may not enter, and ends that are pulled by so much at most.
+/* The moving line: half-spaces not to be entered, and ends pulled with a bounded force.
 
-   A step in parts, for a caller who knows obstacles: begin, iterate with rows as often as need be,
-   alter the places, finish.  The kernel knows nothing of where rows come from.
+   A step in parts, for a caller who knows obstacles: begin, iterate with constraints as often as
+   needed, alter the places, finish.  The kernel knows nothing of the origin of constraints.
 
-   A row is of a step: its half-space stays.  But on a round obstacle the place it pushes wanders
-   along the link as the link tilts, by ROLL; without that a chain of links shorter than the radius
-   is pushed in the wrong places, each step to the other side.
+   A constraint belongs to a step, and its half-space is fixed for the step.  On a round obstacle,
+   however, the pushed place wanders along the link as the link tilts, by ROLL; otherwise a chain of
+   links shorter than the radius would be pushed in the wrong places, in each step to the other
+   side.
 
-   A row pushes the place between two nodes out of a half-space with STIFFNESS times the depth, and
-   drags it back to where it stuck.  Friction grows with the distance dragged, up to the load times
-   the coefficient where that is SLIP metres: the distance is fixed, not the stiffness, so that
-   heavy contacts are no harder to solve than light ones.
+   A constraint pushes the place between two nodes out of a half-space with STIFFNESS times the
+   penetration, and drags the place back to where it stuck.  Friction grows with the dragged
+   distance, up to the load times the coefficient at SLIP metres.  The distance is fixed, not the
+   stiffness, so heavy contacts are no harder to solve than light ones.
 
-   A row may be of two places of the line instead: its half-space is then about the way from the
-   second to the first, and what pushes the one pushes the other back (dynamic_pair.c).
+   A constraint may have two places of the line instead: its half-space is then about the vector
+   from the second to the first place, and the push on the first acts back on the second
+   (dynamic_pair.c).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -55,7 +57,7 @@ typedef struct bt__dynamic_hold
   bt_vec3 at;       /* m */
   bt_vec3 force;    /* N on the end: in a guess, out the solution */
   bt_vec3 lean;     /* N: with which the safe way's spring pulls in its place; any in */
-  int64_t slips;    /* out: nonzero if it is pulled by that and no more */
+  int64_t slips;    /* out: true if the pull is MOST */
 } bt__dynamic_hold;
 
 enum
@@ -97,7 +99,8 @@ bt_status bt__dynamic_begin (const bt__dynamic *d, bt__dynamic_work *work,
    are kept for the step.  */
 void bt__dynamic_bend (bt__dynamic_work *work, bt__dynamic_bent *bent, int n);
 
-/* Let the line flow so that the tensions suit the proposal, which was altered; or not at all.  */
+/* Let line flow at the sliding nodes until the tensions suit the altered proposal; or not at all.
+ */
 void bt__dynamic_bent_follow (bt__dynamic_work *work);
 void bt__dynamic_bent_stop (bt__dynamic_work *work);
 
@@ -201,7 +204,7 @@ void bt__dynamic_insert (bt__dynamic *d, int64_t j, double u, int64_t from);
 /* Take out node I, not an end: the two intervals become one of the same tension.  */
 void bt__dynamic_remove (bt__dynamic *d, int64_t i);
 
-/* Propose that every node of D stays where it is, and forget what the solver found.  */
+/* Propose that every node of D stays, and forget the answer of the solver.  */
 void bt__dynamic_stay (const bt__dynamic *d, bt__dynamic_work *work, bt__dynamic_report *report);
 
 #endif

@@ -1,4 +1,4 @@
-/* What the block of a moving line may be when it comes from outside.
+/* The values allowed in the block of a moving line from outside.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,20 +1,18 @@
-/* The moving line: how many intervals it has while a winch turns, and where.
+/* The moving line: how many intervals, and where, while a winch turns.
 
-   Line that is paid out would be one long interval when no more nodes can come, and line that is
-   hauled in would be left with few.  So nodes go where they are spared best, and come where they
-   are missed most.
+   Line paid out would be one long interval when no more nodes can come, and line hauled in would be
+   left with few.  So nodes go where they are most dispensable, and come where they are missed most.
 
-   What an interval of length h stands for is judged by (kappa^2 + kappa0^2) h^3, kappa the
-   curvature of the line there: the arc is longer than its chord by kappa^2 h^3 / 24.  Merging the
-   intervals of least weight and halving those of most makes all weigh alike, so that nodes are as
-   dense as (kappa^2 + kappa0^2)^(1/3) (equidistribution, C. de Boor 1973).  kappa0, a few radians
-   over the whole length, keeps nodes on straight reaches, which may bend soon.
+   An interval of length h is weighed by (kappa^2 + kappa0^2) h^3, kappa the curvature of the line:
+   the arc is longer than its chord by kappa^2 h^3 / 24.  Merging the intervals of least weight and
+   halving the intervals of greatest weight makes all weights alike, and nodes as dense as (kappa^2
+   + kappa0^2)^(1/3) (equidistribution, C. de Boor 1973). kappa0, a few radians over the whole
+   length, keeps nodes on straight reaches, which may bend soon.
 
    A lump at a point is shared out between the two nodes of its interval, and the line has a corner
-   there.  Were one of these nodes to go, or another to come between them, the load would jump from
-   node to node, and the tension with it.  So both stay, and so do the next to either side, from
-   which the mesh grows coarser.  A corner is no curvature: what it does to differences is no reason
-   for a node.
+   there.  If one of the nodes went, or a node came between them, the load would jump from node to
+   node, and the tension with it.  So both nodes stay, and so do their neighbours; from there on the
+   mesh grows coarser.  A corner is no curvature: its effect on differences is no reason for a node.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,10 +1,10 @@
 /* The moving line: the iterations of a step.
 
-   The quick way is a mixed primal-dual active set: each interval's multiplier,
-   the linearised tension, sets the geometric stiffness and decides with the stretch whether the
-   interval is taut.  One iteration is enough in ordinary motion.  Where it does not settle, the
-   safe way restarts from the better of predictor and present shape and descends on the incremental
-   potential, so that no step ever gains energy out of nothing.
+   The quick way is a mixed primal-dual active set: each interval's multiplier, the linearised
+   tension, sets the geometric stiffness and decides with the stretch whether the interval is taut.
+   One iteration is enough in ordinary motion.  Where it does not settle, the safe way restarts from
+   the better of predictor and present shape and descends on the incremental potential: no step
+   gains energy out of nothing.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -67,7 +67,8 @@ take (bt__dynamic_work *w, double share)
   return !bt__dynamic_touches (w) || bt__dynamic_contact_take (w, share);
 }
 
-/* The direction of interval J where it is, and what it is longer there than without tension.  */
+/* The direction of interval J at its present place, and its excess over the length without tension.
+ */
 static double
 excess_of (const bt__dynamic_work *w, int j, bt_vec3 *t)
 {

@@ -2,7 +2,8 @@
 
    The arc differs from the chord, and the load of a cell from its middle value, by a 24th of second
    differences.  They follow the shape with a delay, held while a step is solved: taken at once they
-   blow up.  Next to slack intervals and uneven ones, and with lumps and contacts, they fade away.
+   blow up.  Next to slack or uneven intervals, and with lumps and contacts, the corrections fade
+   away.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

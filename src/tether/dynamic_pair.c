@@ -1,13 +1,15 @@
 /* The moving line: two of its places that push each other apart.
 
-   A contact K between places u and v of one line adds K (u - v) to what holds u, and the negative
-   to what holds v: it couples nodes that are no neighbours.  The blocks of the line take up twice
-   K at either place instead, which is nowhere less, for
+   A contact K between places u and v of one line adds K (u - v) to the equation of u, and the
+   negative to the equation of v, and so couples nodes that are not neighbours.  The blocks of the
+   line take up 2 K at either place instead, an upper bound because
+
      (u - v) K (u - v) <= 2 u K u + 2 v K v,
-   and keep their form.  What that is too much, K (u + v) at both, is taken back by conjugate
-   gradients: an iteration is a solution of the blocks, and one or two suffice for a crossing.  Left
-   in, it would not spoil the solution of the step, but two places that go together would be slow to
-   move, as if heavy.
+
+   and keep their form.  The excess, K (u + v) at both places, is taken back by conjugate gradients:
+   an iteration is a solution of the blocks, and a crossing needs one or two.  Left in, the excess
+   would not spoil the solution of the step, but two places moving together would be slow, as if
+   heavy.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

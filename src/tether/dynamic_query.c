@@ -104,7 +104,8 @@ bt__dynamic_along (const bt__dynamic *d, double s)
   return d->owed == 0 ? s : s * (1 - d->owed / bt__dynamic_length (d));
 }
 
-/* The interval that is U metres of rest length from node 0, and to *START where it begins.  */
+/* The interval at U metres of rest length from node 0; *START receives the beginning of the
+   interval.  */
 static int
 interval_at (const bt__dynamic *d, double u, double *start)
 {
@@ -155,7 +156,8 @@ interpolate (const bt__dynamic *d, const bt_vec3 *a, double u)
   return bt__add (sum, a[first]);
 }
 
-/* What the cubic about interval J, which begins at START, is off its chord at the share F of it. */
+/* The deviation from its chord of the cubic about interval J, beginning at START, at the share F.
+ */
 static bt_vec3
 off_chord (const bt__dynamic *d, int j, double start, double f)
 {
@@ -164,8 +166,8 @@ off_chord (const bt__dynamic *d, int j, double start, double f)
   return bt__sub (interpolate (d, x, start + f * bt__dynamic_rest (d)[j]), c);
 }
 
-/* What a cubic is off its chord is F (1 - F) (A (1 - F) - B F), with A and B what its
-   derivatives at either end have beyond the chord: known from two places.  */
+/* The deviation of a cubic from its chord is f (1 - f) (A (1 - f) - B f), with A and B the end
+   derivatives less the chord: known from two places.  */
 bt_vec3
 bt__dynamic_point (const bt__dynamic *d, double s)
 {

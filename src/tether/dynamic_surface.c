@@ -1,10 +1,10 @@
-/* The moving line: where it comes out of the water.
+/* The moving line: where the line comes out of the water.
 
-   A metre of line is borne up by B = m g - w, what it weighs more in air than in water.  What is
-   above the surface has lost that, and is neither dragged by water nor carries any along.  On the
-   surface lies a layer as thick as ripples make it, in which buoyancy goes as 1 - u^2 (3 - 2 u), u
-   from 0 at its bottom to 1 at its top: a force with a potential, which joins the iteration.  What
-   water there is to drag is kept for a step.
+   A metre of line is borne up by B = m g - w, its weight in air less its weight in water.  Line
+   above the surface has lost B, and is neither dragged by water nor carries added mass.  On the
+   surface lies a layer with the thickness of ripples, in which buoyancy goes as 1 - u^2 (3 - 2 u),
+   u from 0 at the bottom of the layer to 1 at its top: a force with a potential, part of the
+   iteration.  The share of water for drag is held for a step.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
