@@ -142,7 +142,7 @@
 
 ;; Words that the field's replaced.
 (define private-words
-  '("bt__ghost" "bt__lane" "bt__shore" "bt__gaze" "bt__drape" "bt__anchor" "bt__bends" "bt__dynamic_row"
+  '("bt__ghost" "bt__lane" "bt__shore" "gaze" "bt__drape" "bt__anchor" "bt__bends" "bt__dynamic_row"
     "nonzero" "Nonzero"))
 
 (define (occurrences word text)

@@ -161,15 +161,15 @@ bt_status
 bt__contact_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  int64_t drape = is_split_model (tether) ? BT__CONTACT_FORM_SPANS : BT__CONTACT_FORM_HELD;
+  int64_t form = is_split_model (tether) ? BT__CONTACT_FORM_SPANS : BT__CONTACT_FORM_HELD;
   bt__surroundings around;
   bt__way way;
   bt_status status = BT_OK;
-  if (tether->contact_form != drape || tether->shape.form == BT__FORM_CHAIN)
+  if (tether->contact_form != form || tether->shape.form == BT__FORM_CHAIN)
     status = lay (dive, state, i, ends, error);
   if (status != BT_OK)
     return status;
-  if (drape == BT__CONTACT_FORM_HELD && bt__is_unchanged (dive, state, tether, ends)
+  if (form == BT__CONTACT_FORM_HELD && bt__is_unchanged (dive, state, tether, ends)
       && !bt__movers_move (dive))
     {
       dive->profile.shape_skips++;
@@ -177,8 +177,8 @@ bt__contact_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends
     }
   around = bt__surround (dive, state, BT_PART_TETHER, i);
   way = workspace_for (dive, tether, i, &around);
-  status = drape == BT__CONTACT_FORM_SPANS ? step_spans (dive, state, i, ends, &way, error)
-                                           : step_held (dive, state, i, ends, &way, error);
+  status = form == BT__CONTACT_FORM_SPANS ? step_spans (dive, state, i, ends, &way, error)
+                                          : step_held (dive, state, i, ends, &way, error);
   bt__around_done (dive);
   return status;
 }

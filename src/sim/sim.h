@@ -115,7 +115,7 @@ bt_status bt__solve_static (bt_dive *dive, bt__state *state, int i, const bt__en
                             bt_error *error);
 
 /* Among obstacles bring a tether of a static model to ENDS, up to the first contact for models
-   without contact forces (drape.c).  */
+   without contact forces (contact_static.c).  */
 bt_status bt__contact_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
                               bt_error *error);
 
