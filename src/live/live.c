@@ -5,8 +5,8 @@
    published copies of the state (shelf.c).  Commands may be kept in a log with the number of their
    step, so that a dive can be repeated step by step to the same hash.
 
-   All waiting is by condition variables on the monotonic clock, in pieces of 20 ms between which
-   the owner's asker may give up the wait.
+   All waiting is by condition variables on the monotonic clock.  A caller with a poll waits in
+   pieces of 20 ms; an interrupted poll takes the command back or stops the work under way.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
