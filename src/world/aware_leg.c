@@ -147,7 +147,7 @@ bt_tether_leg (const bt_dive *dive, int i, const bt_vec3 *from, const bt_vec3 *t
   if (status == BT_OK)
     status = check_leg_end (to, error);
   if (status == BT_OK)
-    status = bt__watch_gaze (dive, i, &g, error);
+    status = bt__watch_taut (dive, i, &g, error);
   if (status != BT_OK)
     return status;
   if (g->open)
