@@ -64,6 +64,11 @@
     ((bight study) define-study)
     ((bight study case) study? study-cases run-case)
     ((bight study risk) wilson-interval)
+    ((bight identify) identify)
+    ((bight identify rehearse) measure!)
+    ((bight identify found)
+     identification? identified identified-correlations identified-covariance identified-score
+     identified-type identified-warnings residuals-in-time residuals-along)
     ((bight dive aware)
      winding turns windings wrap-angle capstan-lock
      homotopy-class homotopy-class? class-decided? class-free?

@@ -297,6 +297,13 @@ begins with FILE and the line."
     (from (bight study sweep-command) sweep-command)))
 
 
+;;; bight identify.
+
+(define (run-identify arguments)
+  (call-with-values (lambda () (split-arguments "identify" arguments))
+    (from (bight identify command) identify-command)))
+
+
 ;;; bight replay.
 
 (define (run-replay arguments)
@@ -411,6 +418,27 @@ begins with FILE and the line."
             '("--by V,..." "group by these variables; those the study lists when left out")
             '("--of MEASURE" "what to map; the first that is true or false when left out")
             '("--csv" "as comma-separated values"))
+   (command "identify" run-identify "RUN.csv..."
+            '("find what is unknown of a real tether from measurements: places of markers and forces over time;"
+              "values with 90 % intervals, a score on what was held out, and a type of tether")
+            '("--unknown U,..." "ea, ei, diameter, mass, wet-weight, cdn, cdt, ca, ba, bending-damping, friction,"
+              "length, current, clock, places")
+            '("--type T" "a type of tether that it is like")
+            '("--known N=V,..." "fields of the tether, as in diameter=0.004,mass=0.05,length=12")
+            '("--places M,..." "where its markers are, in metres from the anchor")
+            '("--clamped" "the first two and last two markers are held")
+            '("--start S" "rest, or moving: along the markers of the first row")
+            '("--hold-out H" "the share of each run that is not looked at; 0.5 when left out")
+            '("--held H" "last, or all-over: of each tenth of a run")
+            '("--loss L" "huber, cauchy or squares")
+            '("--sigma COLUMN" "the column that tells how sure each row is, in metres or the unit it names")
+            '("--density D" "of the water, kg/m3; 1000 when left out")
+            '("--floor Z" "the height of a flat floor, in metres")
+            '("--intervals N" "of the line that is flown; 40 when left out")
+            '("--step S" "of its solver at most, in seconds; 0.01 when left out")
+            '("--plot FILE" "how far off it is over time, and beside that file along the line, SVG or PNG")
+            '("--name NAME" "of the type that is made; identified when left out")
+            '("-o FILE" "write the type there, a script to be loaded, not to the terminal"))
    (command "replay" run-replay "FILE"
             '("do again what was recorded; exit 1 if it comes out otherwise"))
    (command "watch" watch "FILE"

@@ -10,6 +10,7 @@
 #include <bight/dive.h>
 #include <bight/geo.h>
 #include <bight/instruments.h>
+#include <bight/lead.h>
 #include <bight/live.h>
 #include <bight/mesh.h>
 #include <bight/model.h>

@@ -9,7 +9,7 @@
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (srfi srfi-1)
-  #:export (split-cells header? names-quantity? named-columns column? column-quantity column-index
+  #:export (split-cells header? name-words names-quantity? named-columns column? column-quantity column-index
             column-factor))
 
 (define-record <column>
@@ -72,6 +72,16 @@
     (if unit
         (values (drop-right words (length (car unit))) (cdr unit))
         (values words #f))))
+
+(define (name-words name dimension)
+  "Return two values: the words of NAME, of a column, without a unit of DIMENSION (time, length, angle, speed) at
+their end, and by how much its numbers are multiplied to be in s, m, degrees or m/s."
+  (let ((all (words name)))
+    (call-with-values (lambda () (without-unit all))
+      (lambda (words unit)
+        (if (and unit (eq? dimension (first unit)))
+            (values words (second unit))
+            (values all 1))))))
 
 (define (column name index)
   ;; The column called NAME, or #f: it is none that is known.

@@ -32,6 +32,7 @@
           (core scratch) (test command))
     (teach "lessons and the logbook" lesson (lesson file) (lesson logbook))
     (study "studies of many dives" study (study case) (study risk))
+    (identify "the properties of a real line from measurements" identify (identify rehearse) (identify found))
     (errors "mistakes, and the names themselves" (core errors))))
 
 (define (modules-of entry)

@@ -1,0 +1,60 @@
+;;; (bight identify rehearse) --- a dive seen as cameras in a pool would see it: a measurement rehearsed.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight identify rehearse)
+  #:use-module (bight core errors)
+  #:use-module ((bight core programs) #:select (check-writable))
+  #:use-module (bight core verb)
+  #:use-module ((bight dive) #:select (this-dive))
+  #:use-module (bight dive query)
+  #:use-module ((bight dive task) #:select (every-seconds))
+  #:use-module ((bight dive time) #:select (now))
+  #:use-module (srfi srfi-1)
+  #:use-module (srfi srfi-4)
+  #:export (measure!))
+
+(define-argument-type (marker-places value)
+  "a list of places along the tether, in metres from the anchor"
+  (if (and (pair? value) (list? value) (every (lambda (s) (and (real? s) (>= s 0))) value)) value refused))
+
+(define (header n tension?)
+  (string-join
+   (append '("t" "anchor_x" "anchor_y" "anchor_z" "end_x" "end_y" "end_z" "out")
+           (if tension? '("end_tension") '())
+           (append-map (lambda (k) (map (lambda (axis) (simple-format #f "m~a_~a" (+ k 1) axis)) '("x" "y" "z"))) (iota n)))
+   ","))
+
+(define (row at noise tension? dice)
+  (define (seen s) (map (lambda (x) (+ x (* noise (random:normal dice)))) (f64vector->list (point-at s))))
+  (append (list (now)) (f64vector->list (point-at 0)) (f64vector->list (point-at (tether-length))) (list (tether-length))
+          (if tension? (list (rov-tension)) '())
+          (append-map seen at)))
+
+(define (write-line file text mode)
+  (let ((port (open-file file mode)))
+    (display text port)
+    (newline port)
+    (close-port port)))
+
+(define-verb (measure! (file string) #:key (at marker-places) (seconds positive 0.05) (noise non-negative 0.0)
+                       (tension flag #f) (seed count 1))
+  "Write to FILE, from now on and every SECONDS of the dive, what cameras in a pool would see of its tether: the ends,
+the line that is out, and the markers AT these places in metres from the anchor, each coordinate with NOISE, a standard
+deviation in metres drawn from SEED; with TENSION also the pull on the vehicle.  So a measurement is rehearsed before the
+pool is hired: `identify' reads the file.  Return what `cancel!' takes."
+  (this-dive 'measure!)
+  (unless at
+    (bight-raise 'domain 'measure! "where the markers are, is not said: #:at '(METRES ...)"))
+  (let ((beyond (find (lambda (s) (> s (tether-length))) at)) (dice (seed->random-state seed)))
+    (when beyond
+      (bight-raise 'domain 'measure! "a marker is to be ~a m along a tether of ~a m" beyond (tether-length)))
+    (check-writable 'measure! file)
+    (write-line file (header (length at) tension) "w")
+    (let ((look (lambda ()
+                  (write-line file
+                              (string-join (map (lambda (x) (number->string (exact->inexact x))) (row at noise tension dice))
+                                           ",")
+                              "a"))))
+      (look)
+      (every-seconds seconds look))))
