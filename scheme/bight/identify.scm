@@ -119,7 +119,7 @@
                        (hold-out share 0.5) (held (one-of last all-over) 'last)
                        (loss (one-of huber cauchy squares) 'huber)
                        (sigma (or-false string)) (density non-negative 1000.) (gravity positive 9.80665)
-                       (floor (or-false number)) (intervals (at-least 4) 40) (step positive 0.01))
+                       (floor (or-false number)) (intervals (at-least 4) 60) (step positive 0.01))
   "Find what is UNKNOWN of a line: ea, ei, diameter, mass, wet-weight, cdn, cdt, ca, ba, bending-damping, friction,
 length, current, clock (how late the markers' clock is against the ends') or places (of the markers).  RUNS are CSV
 files of what was measured: t; anchor_x ... and end_x ... of its ends; m1_x, m1_y, m1_z ... of markers from the

@@ -1,12 +1,13 @@
 ;;; Properties found from measurements: truths that are known are found again from what a line of them did, in this
 ;;; engine's own steps and in a dive; intervals hold them as often as they say; and what cannot be found is said.
-;;; BIGHT_LONG=1 draws 400 lines instead of 16 for the intervals.
+;;; BIGHT_LONG=1 draws 400 lines instead of 16 for the intervals, and tells how near real lines are.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight identify flight)
              (bight identify measured)
              (ice-9 format)
+             ((ice-9 textual-ports) #:select (get-string-all))
              (srfi srfi-1)
              (srfi srfi-4))
 
@@ -253,3 +254,61 @@
                      #:places (map (lambda (k) (min 2.85 (+ .05 (* .2 k)))) (iota 15)) #:intervals 20 #:step .03)))
     (format #t "# cdn ~,3f; held out ~,1f mm~%" (found i 'cdn) (* 1000 (assq-ref (identified-score i) 'held-out)))
     (expect (found i 'cdn) is (about 1.3 #:within .1))))
+
+;;; The long form: figures that bench/README.md tells.
+
+(define (read-rows file)
+  (call-with-input-file file
+    (lambda (port)
+      (filter-map (lambda (line)
+                    (let ((cells (string-split line #\,)))
+                      (and (string->number (first cells)) (map string->number cells))))
+                  (string-split (get-string-all port) #\newline)))))
+
+(define (mean numbers) (/ (apply + numbers) (length numbers)))
+
+(define (tank-means i)
+  ;; mm over the 16 markers, both ends among them: moving frames, those that are sure to 20 mm, and at rest.
+  (let ((off (map (lambda (row) (* 1000 15/16 (second row))) (cdr (first (residuals-in-time i))))))
+    (map (lambda (in?)
+           (mean (filter-map (lambda (row d) (and (in? (list-ref row 11) (list-ref row 10)) d)) (read-rows tank-file) off)))
+         (list (lambda (plain doubt) (> plain 20)) (lambda (plain doubt) (and (> plain 20) (< doubt 20)))
+               (lambda (plain doubt) (<= plain 20))))))
+
+(define (tank-fit unknown)
+  (identify tank-file #:unknown unknown #:sigma "e_tg_mm" #:held 'all-over #:loss 'squares #:gravity 9.81
+            #:known '((length 2.85) (diameter .0035) (mass .0517) (wet-weight .4) (ea 1e4) (cdt .01) (ca 1) (cdn 1.3))
+            #:places (map (lambda (k) (min 2.85 (+ .05 (* .2 k)))) (iota 15)) #:intervals 57 #:step .03))
+
+(define-scenario what-the-tank-lacks
+  "With water that drifts by some centimetres a second, and no less, a rope in a tank is as near as its measurers are sure."
+  (unless long? (skip "long: BIGHT_LONG=1"))
+  (unless (file-exists? tank-file) (skip "the reference data are not here"))
+  (let ((means (map (lambda (unknown)
+                      (let ((m (tank-means (tank-fit unknown))))
+                        (format #t "# ~a: moving ~,1f, sure ~,2f, at rest ~,1f mm~%" unknown (first m) (second m) (third m))
+                        m))
+                    '((cdn) (cdn ei bending-damping clock) (cdn current) (cdn cdt ca current clock)))))
+    (expect (second (list-ref means 3)) is (below 9.5))
+    (expect (first (list-ref means 3)) is (below 36))
+    (expect (second (first means)) is (above 10))))
+
+(define swung-cables
+  '("deform_dlo1_eval55" "deform_dlo2_eval104" "deform_dlo3_eval106" "deform_dlo4_eval35" "deform_dlo5_eval18"))
+
+(define (cable-off name)
+  ;; mm, on the half that was not looked at.
+  (let ((i (identify (string-append folder "/real/" name ".csv") #:unknown '(ei bending-damping length) #:clamped #t
+                     #:start 'moving #:density 1.2 #:gravity 9.81 #:step .0025 #:intervals 40 #:loss 'squares
+                     #:known '((diameter .01) (mass .05) (ea 1e4) (ba 0) (cdt 0) (ca 0) (ei 1e-3) (bending-damping 1e-4)))))
+    (format #t "# ~a: held out ~,1f mm, ~a~%" name (* 1000 (assq-ref (identified-score i) 'held-out))
+            (map (lambda (row) (list-head row 2)) (identified i)))
+    (* 1000 (assq-ref (identified-score i) 'held-out))))
+
+(define-scenario cables-swung-in-air
+  "Of five cables swung in air (Chen et al. 2024) stiffness, its damping and length are found on half of a swing."
+  (unless long? (skip "long: BIGHT_LONG=1"))
+  (unless (file-exists? tank-file) (skip "the reference data are not here"))
+  (let ((off (mean (map cable-off swung-cables))))
+    (format #t "# mean ~,1f mm~%" off)
+    (expect off is (below 28))))

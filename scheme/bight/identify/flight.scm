@@ -14,7 +14,7 @@
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:export (make-setting setting? setting-known setting-length setting-places setting-clamped? setting-moving?
-            setting-density setting-gravity
+            setting-intervals setting-density setting-gravity
             line-values
             make-flight flight? flight-failed?
             fly-all
@@ -44,6 +44,7 @@
  (setting-places "Return the places of the markers along the line in SETTING, m.")
  (setting-clamped? "Return true if the ends of the line are clamped in SETTING.")
  (setting-moving? "Return true if the line of SETTING begins as it was seen, not at rest.")
+ (setting-intervals "Return how many intervals the line of SETTING has.")
  (setting-density "Return the density of the water of SETTING, kg/m3.")
  (setting-gravity "Return the gravity of SETTING, m/s2."))
 

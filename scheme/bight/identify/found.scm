@@ -252,7 +252,8 @@ M) for each run."
 
 (define-verb (identified-type (i identification) #:optional (name name 'identified))
   "Return the form that makes the line of the identification I a type of tether called NAME, a list that
-`define-tether-type' begins; write it into a file, then say (type NAME) in a world."
+`define-tether-type' begins; write it into a file, then say (type NAME) in a world.  It has as many nodes as the line
+that was flown, for which the values hold."
   (let* ((problem (identification-problem i))
          (fields (line-values (problem-setting problem) (problem-coordinates problem)
                               (fit-x (identification-fit i))))
@@ -265,7 +266,9 @@ M) for each run."
        ,@(filter-map (lambda (field)
                        (and (or (memq field found) (assq field known) (memq field '(mass wet-weight)))
                             (list field (digits (assq-ref fields field) 5))))
-                     of-a-type))))
+                     of-a-type)
+       ;; What is found holds for a line of so many intervals: coarser ones lie elsewhere.
+       (nodes ,(setting-intervals (problem-setting problem))))))
 
 
 ;;; Printing.

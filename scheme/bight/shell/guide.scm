@@ -21,7 +21,7 @@
     (sight . "m") (noise . "m") (east . "m") (north . "m") (up . "m") (beam . "m") (draught . "m") (hole . "m")
     (thickness . "m") (extent . "m") (spacing . "m") (leg-radius . "m") (brace-radius . "m") (radius . "m")
     (stay . "m") (line . "m") (top . "m") (mesh . "m") (span . "m") (height . "m") (wire . "m") (width . "m") (riser . "m")
-    (places . "m") (step . "s") (density . "kg/m3") (gravity . "m/s2") (floor . "m")
+    (places . "m") (step . "s") (density . "kg/m3") (gravity . "m/s2") (floor . "m") (hold-out . "share of a run")
     (rate . "m/s") (speed . "m/s") (pull . "N")
     (seconds . "s") (at-most . "s") (since . "s") (for . "s") (limit . "s of processor time")
     (heading . "degrees") (tilt . "degrees") (sector . "degrees") (bend . "degrees") (list-angle . "degrees")
