@@ -24,7 +24,7 @@
 enum
 {
   SETTLE_STEPS = 600,
-  SETTLE_LONG = 40 /* steps of the greatest length after which a line has settled */
+  SETTLE_LONG = 8 /* steps of the greatest length after which a line has settled */
 };
 
 typedef struct led
@@ -307,6 +307,17 @@ check_led (const bt_lead_line *line, const bt_lead_track *track, const bt_lead_s
   return BT_OK;
 }
 
+/* Intervals there must be room for: as many more as line is paid out, and as many again.  */
+static int
+led_room (const bt_lead_line *line, const bt_lead_track *track)
+{
+  double most = 0;
+  for (int k = 0; track->out && k < track->rows; k++)
+    most = fmax (most, track->out[k]);
+  double share = track->out ? 2 * most / fmax (track->out[0], 1e-6) : 1;
+  return (int)fmin (BT_LEAD_INTERVALS, line->intervals * fmax (share, 1) + (track->out ? 8 : 0));
+}
+
 bt_status
 bt_lead (const bt_lead_line *line, const bt_lead_track *track, const bt_lead_start *start,
          const double *marks, int n, bt_vec3 *places, bt_vec3 *pulls, bt_poll poll, void *user,
@@ -320,7 +331,7 @@ bt_lead (const bt_lead_line *line, const bt_lead_track *track, const bt_lead_sta
   l.current.velocity[0] = line->current;
   l.water = (bt_water){ line->density, line->gravity, 1e4, 0, &l.current, NULL, NULL, NULL };
   l.in = (bt__dynamic_input){ .line = &line->props, .water = &l.water, .tolerance = TOLERANCE };
-  l.room = track->out ? BT_LEAD_INTERVALS : line->intervals;
+  l.room = led_room (line, track);
   l.d = malloc (bt__dynamic_size (l.room));
   l.work = bt__dynamic_work_new (l.room);
   l.rows = calloc ((size_t)l.room + 1, sizeof *l.rows);
