@@ -290,6 +290,18 @@ begins with FILE and the line."
       0)))
 
 
+;;; bight follow.
+
+(define (follow arguments)
+  (call-with-values (lambda () (split-arguments "follow" arguments))
+    (lambda (sources options)
+      (unless (= 1 (length sources))
+        (bad-usage "follow: name one source, as in bight follow udp:14550"))
+      (enter-language!)
+      ((from (bight follow command) follow-source) (car sources) options)
+      0)))
+
+
 ;;; bight sweep.
 
 (define (run-sweep arguments)
@@ -447,6 +459,19 @@ begins with FILE and the line."
             '("--film OUT" "write a film of it, or of a stretch, instead")
             '("--from S" "where the stretch begins, in seconds of the recording")
             '("--to S" "where it ends"))
+   (command "follow" follow "SOURCE"
+            '("let a real vehicle's telemetry drive a dive: udp:PORT of this machine or a .tlog (MAVLink, as of"
+              "ArduSub), or a table with named columns from a file, a pipe, a socket or - ; nothing is sent there")
+            '("--in WORLD" "where it dives: a world or a file; open-water when left out")
+            '("--from-start" "take its first position for the place of the world's vehicle")
+            '("--record FILE" "record the dive, for bight replay and bight watch")
+            '("--keep FILE" "keep what comes, frames as a .tlog, to be followed again")
+            '("--for S" "end after so many seconds of the dive")
+            '("--pace P" "from a file, in the cockpit: seconds in a second; 1 when left out")
+            '("--view V" "which view the cockpit begins with")
+            '("--plain" "in lines, without the cockpit, as where there is no terminal")
+            '("--every S" "in lines: one each so many seconds of the dive; 10 when left out")
+            '("--trust" "let a world from outside do all that you may"))
    (command "--listen[=SOCKET]" #f "[...]"
             '("do the rest, or open the prompt, and serve another prompt on a"
               "unix socket, yours alone, to an editor"))

@@ -12,7 +12,8 @@
 
 typedef void fuzz_target (const uint8_t *bytes, size_t n);
 
-fuzz_target fuzz_state;        /* a saved state of a dive, spoilt by the choices that the bytes are */
+fuzz_target fuzz_state;   /* a saved state of a dive, spoilt by the choices that the bytes are */
+fuzz_target fuzz_mavlink; /* a stream of a vehicle's telemetry, the first byte: stamped or not */
 fuzz_target fuzz_mesh_stream;  /* the answer of the mesh reader */
 fuzz_target fuzz_mesh_grid;    /* an ESRI ASCII grid */
 fuzz_target fuzz_mesh_whole;   /* the look that the mesh reader takes at a file */

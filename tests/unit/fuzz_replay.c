@@ -96,6 +96,13 @@ replay (fuzz_target *target, const char *name)
 }
 
 static void
+mavlink (void **state)
+{
+  (void)state;
+  replay (fuzz_mavlink, "mavlink");
+}
+
+static void
 mesh_stream (void **state)
 {
   (void)state;
@@ -131,6 +138,7 @@ int
 main (void)
 {
   const struct CMUnitTest tests[] = {
+    cmocka_unit_test (mavlink),
     cmocka_unit_test (mesh_stream),
     cmocka_unit_test (mesh_grid),
     cmocka_unit_test (mesh_whole),

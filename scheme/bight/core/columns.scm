@@ -9,16 +9,17 @@
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (srfi srfi-1)
-  #:export (split-cells header? name-words names-quantity? named-columns column? column-quantity column-index
+  #:export (split-cells header? name-words names-quantity? named-columns column columns column? column-quantity
+            column-index
             column-factor))
 
 (define-record <column>
   (make-column quantity plain? index factor)
   column?
-  (quantity column-quantity)            ; t x y z lat lon speed direction
+  (quantity column-quantity)            ; t x y z lat lon speed direction, and what a log of a dive has besides
   (plain? column-plain?)                ; is it called just that
   (index column-index)                  ; from 0
-  (factor column-factor))               ; of its numbers, to s, m up, degrees, m/s
+  (factor column-factor))               ; of its numbers, to s, m up, degrees, m/s, N
 
 (define quantities
   ;; (WORD QUANTITY FACTOR DIMENSION)
@@ -30,7 +31,9 @@
     ("lat" lat 1 angle) ("latitude" lat 1 angle)
     ("lon" lon 1 angle) ("lng" lon 1 angle) ("long" lon 1 angle) ("longitude" lon 1 angle)
     ("speed" speed 1 speed) ("magnitude" speed 1 speed)
-    ("direction" direction 1 angle) ("dir" direction 1 angle) ("toward" direction 1 angle)))
+    ("direction" direction 1 angle) ("dir" direction 1 angle) ("toward" direction 1 angle)
+    ("heading" heading 1 angle) ("yaw" heading 1 angle) ("pitch" pitch 1 angle) ("roll" roll 1 angle)
+    ("payout" payout 1 length) ("tension" tension 1 force)))
 
 (define units
   ;; (WORDS DIMENSION FACTOR); the longest come first.
@@ -41,14 +44,16 @@
     (("s") time 1) (("sec") time 1) (("seconds") time 1) (("ms") time 1/1000) (("min") time 60) (("minutes") time 60)
     (("h") time 3600) (("hours") time 3600) (("utc") time 1)
     (("m") length 1) (("metres") length 1) (("meters") length 1) (("cm") length 1/100) (("mm") length 1/1000)
-    (("km") length 1000) (("ft") length 3048/10000) (("feet") length 3048/10000)))
+    (("km") length 1000) (("ft") length 3048/10000) (("feet") length 3048/10000)
+    (("n") force 1) (("newtons") force 1) (("kn") force 1000) (("kgf") force 980665/100000)
+    (("lbf") force 4448222/1000000)))
 
 (define owners '("rov" "auv" "vehicle" "body" "pos" "position" "p" "point" "local" "world" "nav" "usbl" "true"
-                 "current" "water" "adcp" "bin"))
+                 "current" "water" "adcp" "bin" "tether" "winch"))
 
 ;; What a log of a dive has besides.
 (define others
-  '("alt" "altitude" "heading" "yaw" "pitch" "roll" "course" "tension"))
+  '("alt" "altitude" "course"))
 
 (define (separator line)
   (find (lambda (char) (string-index line char)) '(#\, #\; #\tab)))
@@ -66,35 +71,33 @@
 (define (ends-in? words tail)
   (and (> (length words) (length tail)) (equal? tail (take-right words (length tail)))))
 
-(define (without-unit words)
-  ;; Two values: the words but for a unit at their end, and that unit, (DIMENSION FACTOR), or #f.
-  (let ((unit (find (lambda (unit) (ends-in? words (car unit))) units)))
-    (if unit
-        (values (drop-right words (length (car unit))) (cdr unit))
-        (values words #f))))
+(define (column-in words unit index)
+  ;; The column called WORDS with UNIT at their end, or with none for #f; #f if none is called so.
+  (let* ((words (if unit (drop-right words (length (first unit))) words))
+         (known (and (pair? words) (assoc-ref quantities (last words)))))
+    (and known
+         (every (lambda (word) (member word owners)) (drop-right words 1))
+         (or (not unit) (eq? (second unit) (third known)))
+         (make-column (first known) (equal? words (list (symbol->string (first known)))) index
+                      (* (second known) (if unit (third unit) 1))))))
 
 (define (name-words name dimension)
   "Return two values: the words of NAME, of a column, without a unit of DIMENSION (time, length, angle, speed) at
 their end, and by how much its numbers are multiplied to be in s, m, degrees or m/s."
-  (let ((all (words name)))
-    (call-with-values (lambda () (without-unit all))
-      (lambda (words unit)
-        (if (and unit (eq? dimension (first unit)))
-            (values words (second unit))
-            (values all 1))))))
+  (let* ((all (words name))
+         (unit (find (lambda (unit) (and (eq? dimension (second unit)) (ends-in? all (first unit)))) units)))
+    (if unit
+        (values (drop-right all (length (first unit))) (third unit))
+        (values all 1))))
 
 (define (column name index)
-  ;; The column called NAME, or #f: it is none that is known.
-  (call-with-values (lambda () (without-unit (words name)))
-    (lambda (words unit)
-      (let ((known (and (pair? words) (assoc-ref quantities (last words)))))
-        (and known
-             (every (lambda (word) (member word owners)) (drop-right words 1))
-             (or (not unit) (eq? (first unit) (third known)))
-             (make-column (first known) (equal? words (list (symbol->string (first known)))) index
-                          (* (second known) (if unit (second unit) 1))))))))
+  "Return the column called NAME, the one of INDEX in its table, or #f: the name is none that is known."
+  (let ((words (words name)))
+    (or (any (lambda (unit) (and (ends-in? words (first unit)) (column-in words unit index))) units)
+        (column-in words #f index))))
 
 (define (columns names)
+  "Return the columns that are known among those called NAMES."
   (filter-map column names (iota (length names))))
 
 (define (other? name)

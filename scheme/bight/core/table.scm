@@ -10,10 +10,10 @@
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-11)
   #:export (read-table
-            table-numbers
+            table-numbers cell-number
             first-columns
             read-columns
-            file-lines))
+            file-lines refuse-device))
 
 (define separators (char-set #\, #\; #\space #\tab #\return))
 
@@ -35,7 +35,7 @@
             (else (loop (+ number 1) (acons number line lines)))))))
 
 (define (refuse-device proc file)
-  ;; What has no end is no track.
+  "Raise a &bight-error from PROC if FILE is a device: what has no end is no track."
   (let ((type (stat:type (stat file))))
     (unless (memq type '(regular fifo))
       (bight-raise 'io proc "cannot read ~s: it is a ~a" file type))))
@@ -84,7 +84,7 @@ Raise a &bight-error from PROC of kind io or format."
 
 
 (define (cell-number column cell)
-  ;; What CELL says in COLUMN, a number; #f if it says none.  A time may be a date.
+  "Return what CELL, a string, says in COLUMN, a number; #f if it says none.  A time may be a date."
   (let ((number (string->number cell 10)))
     (cond ((real? number) (exact->inexact (* number (column-factor column))))
           ((eq? 't (column-quantity column)) (parse-instant cell))

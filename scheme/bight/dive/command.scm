@@ -137,7 +137,8 @@ lay the tether anew.  Return where it is now."
   "Let the vehicle follow a measured TRACK, a file with columns t x y z (s, m) or a list of such rows,
 beginning now: where the track begins elsewhere, the vehicle is first placed there as by `place!'.  Columns
 that a file names may be in any order, among others and in another unit: `time_min', `north (ft)', `depth'
-in place of z; and `lat' and `lon' in place of x and y where the world has an origin.  Return how many seconds it takes."
+in place of z; and `lat' and `lon' in place of x and y where the world has an origin.  A file NAME.tlog is a
+log of MAVLink.  Return how many seconds it takes."
   (let ((rows (read-track 'follow! track (world-origin 'follow! (dive-world (current-dive))))))
     (%operate! (this-engine 'follow!) 'follow! 'follow! v rows)
     (- (f64vector-ref rows (- (f64vector-length rows) 4)) (f64vector-ref rows 0))))

@@ -1,5 +1,5 @@
 ;;; (bight world track) --- measured tracks: files with columns t x y z, in that order or by their names, or with
-;;; latitude and longitude.
+;;; latitude and longitude; and logs of MAVLink.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -56,10 +56,46 @@ its sea or seabed; ~a" file teaching))
 
 (define (read-track-file proc file origin)
   ;; Rows (t x y z): of the columns with these names; of the first four where none have names.
-  (let-values (((names rows) (read-table proc file)))
-    (if names
-        (named-rows proc file names rows origin)
-        (map (lambda (entry) (first-columns proc file 4 entry)) rows))))
+  (if (string-suffix-ci? ".tlog" file)  ; as (bight telemetry mavlink) has it, which is not loaded for others
+      (tlog-rows proc file origin)
+      (let-values (((names rows) (read-table proc file)))
+        (if names
+            (named-rows proc file names rows origin)
+            (map (lambda (entry) (first-columns proc file 4 entry)) rows)))))
+
+;;; Logs of MAVLink.
+
+(define-syntax-rule (from module name)
+  ;; The value of NAME in MODULE, loaded now: few tracks are logs.
+  (module-ref (resolve-interface 'module) 'name))
+
+(define (quantity reading) ((from (bight telemetry reading) reading-quantity) reading))
+
+(define (telling-where readings origin)
+  ;; Those of READINGS that say where the vehicle is: in degrees where the world of ORIGIN has a use for them.
+  (let ((degrees? (and origin (find (lambda (r) (eq? 'place (quantity r))) readings))))
+    (filter (lambda (r) (memq (quantity r) (if degrees? '(place) '(place position)))) readings)))
+
+(define (positions readings origin tally)
+  ;; Rows (t x y z) of READINGS about ORIGIN, each later than the one before it.
+  (let ((sieve ((from (bight telemetry sieve) make-sieve) origin #f tally)))
+    (define (row reading)
+      (cons ((from (bight telemetry reading) reading-time) reading)
+            ((from (bight telemetry reading) reading-value) reading)))
+    (fold-right (lambda (row rows) (if (and (pair? rows) (>= (car row) (caar rows))) rows (cons row rows)))
+                '()
+                (filter-map (lambda (reading)
+                              (and=> ((from (bight telemetry sieve) sift!) sieve reading) row))
+                            (telling-where readings origin)))))
+
+(define (tlog-rows proc file origin)
+  (let* ((tally ((from (bight telemetry reading) make-tally)))
+         (rows (positions ((from (bight telemetry mavlink) tlog-readings) proc file tally) origin tally)))
+    (cond ((pair? rows) rows)
+          ((> ((from (bight telemetry reading) tally-of) tally 'homeless) 0)
+           (bight-raise 'format proc "~a tells places in degrees, and the world has no origin: (origin LATITUDE \
+LONGITUDE) of its sea or seabed" file))
+          (else (bight-raise 'format proc "~a has no frame of MAVLink that says where the vehicle is" file)))))
 
 (define (track-row proc row)
   (let ((row (if (array? row) (array->list row) row)))
