@@ -144,6 +144,18 @@ if [ -r /proc/net/udp ]; then
   result $? 'what was kept gives the same bits'
   "$pre" bight replay "$scratch/dive" >"$scratch/replayed" 2>&1
   told "$scratch/replayed" 'identical' 'and so does the recording'
+  port=$(free_port)
+  "$pre" bight follow "udp:$port" --every 100 >"$scratch/out" 2>"$scratch/err" </dev/null &
+  follower=$!
+  await listens
+  python3 "$sub" udp "$port" leave >"$scratch/sent" &
+  feeder=$!
+  await grep -q ' s  at ' "$scratch/out"
+  await gone $feeder
+  kill -INT $follower
+  await gone $follower
+  told "$scratch/out" '^state ' '^C ends it with all that is to be told'
+  empty 'and no error' "$scratch/err"
   if command -v strace >/dev/null 2>&1 && strace -o "$scratch/nothing" true 2>/dev/null; then
     hear strace -f -o "$scratch/calls" -e trace=network,write
     python3 "$sub" udp "$port" >"$scratch/sent"
