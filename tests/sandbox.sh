@@ -81,7 +81,7 @@ cat >"$scratch/pond.scm" <<'END'
 (define-world puddle "Not the last." (sea (depth 1)))
 (define-world pond "A pönd."
   (sea (depth 20) (current (profile (0 .3 90) (-20 .1 45)))) (seabed (grid "bottom.asc"))
-  (splice (row '(0 3))) (rov (named m) (at 1 5 -5))
+  (splice (row '(0 3))) (box (named boat) (size 1 1 1) (track (0 9 9 -1) (9 9 9 -5 30))) (rov (named m) (at 1 5 -5))
   (tether (type string) (wet-weight 0) (from 1 0 -2) (to m) (via (1 1 -3) (1 2 -4)) (length 12)))
 END
 cat >"$scratch/bottom.asc" <<'END'
