@@ -278,9 +278,8 @@ have no say, and where the first position is to be is kept."
 
 (define-scenario round-a-pile
   "A vehicle that was flown round a pile has its tether about it; it is told before, as it happens, and what to do;
-recorded it replays; done again it has the same bits."
-  (let* ((file (string-append (or (getenv "TMPDIR") "/tmp") "/bight-follow-" (number->string (getpid))))
-         (world (find-world 'pile)) (readings (along round-the-pile 1.0))
+done again it has the same bits, and goes back."
+  (let* ((world (find-world 'pile)) (readings (along round-the-pile 1.0))
          (said (heard readings world)) (hash (state-hash)))
     (expect (winding 'p1) => -1)
     (expect (any (lambda (line) (string-contains line "touched p1")) said))
@@ -291,6 +290,38 @@ recorded it replays; done again it has the same bits."
     (let ((before (state-hash)))
       (rewind! 2)
       (expect (not (equal? before (state-hash)))))))
+
+(define-scenario among-others
+  "Beside a boat that moves and another vehicle's tether, with a vehicle that has mass in its world, the dive is where
+the vehicle was, and its recording replays."
+  (let* ((file (string-append (or (getenv "TMPDIR") "/tmp") "/bight-follow-" (number->string (getpid))))
+         (others (world (sea (depth 40) (current 0.25 90)) (seabed)
+                        (box (named boat) (size 2 2 2) (track (0 3 14 -12) (4 3 6 -5) (9 3 0 -5)))
+                        (rov (named minnow) (type bluerov2-heavy) (at 0 6 -5)) (rov (named pike) (at 0 -6 -5))
+                        (tether (named line) (type fathom) (wet-weight 0) (model dynamic) (from 0 0 -2) (to minnow)
+                                (length 25))
+                        (tether (named other) (type fathom) (wet-weight 0) (model dynamic) (from 0 0.5 -2) (to pike)
+                                (length 25))))
+         (readings (along '((0 6 -5) (0 14 -5)) 1.0)))
+    (carry others (take readings 10))
+    (record! file)
+    (move! 'minnow '(0 14 -5) #:speed 1)
+    (run 4)
+    (stop-recording!)
+    (expect (replay file) => 'identical)
+    (delete-file file)
+    (let ((carried (carry others readings)))
+      (expect (carrier-farthest-strayed (car carried)) is (below 1e-9))
+      (expect (parted? 'line) => #f))))
+
+(define-scenario told-once
+  "Of what happens again and again, to the same, is told once in ten seconds."
+  (let ((alarm (make-alarm 'line (const #f))))
+    (define (touch t object) (list 'touched t 'line object))
+    (expect (fresh-events! alarm (list (touch 1. 'p1) (touch 2. 'p1) (touch 3. 'p2) (list 'left 3.5 'line 'p1)
+                                       (list 'arrived 4. 'minnow)))
+            => (list (touch 1. 'p1) (touch 3. 'p2) (list 'left 3.5 'line 'p1)))
+    (expect (map second (fresh-events! alarm (map (lambda (t) (touch t 'p1)) (iota 30 4.5)))) => '(11.5 21.5 31.5))))
 
 (define-scenario readings-as-they-are-come-to
   "Whoever wants the readings is shown each once, in order, at a time that the dive has come to."

@@ -12,31 +12,50 @@
   #:use-module (bight engine)
   #:use-module (bight shell progress)
   #:use-module (srfi srfi-1)
-  #:export (make-alarm alarm? alarms!))
+  #:export (make-alarm alarm? alarms! fresh-events!))
 
 (define horizon 20)                     ; s that are looked ahead
 
 (define-record <alarm>
-  (%make-alarm tether coach seen told under-way?)
+  (%make-alarm tether coach seen events told under-way?)
   alarm?
   (tether alarm-tether)                 ; a name, or #f
   (coach alarm-coach)
   (seen alarm-seen set-alarm-seen!)     ; how many events were told
+  (events alarm-events set-alarm-events!) ; that were told lately, the last first
   (told alarm-told set-alarm-told!)     ; what was foreseen when it looked last: pairs of kind and object
   (under-way? alarm-under-way?))        ; a thunk: does the real vehicle push
 
 (define (make-alarm tether under-way?)
   "Return what watches the current dive, and TETHER in it, a name or #f.  UNDER-WAY?, a thunk, says whether the real
 vehicle is on its way, whose sticks nobody sees."
-  (%make-alarm tether (make-coach) 0 '() under-way?))
+  (%make-alarm tether (make-coach) 0 '() '() under-way?))
+
+(define lately 10)                      ; s within which the same is not told again
+
+(define (same-event? a b)
+  (and (eq? (first a) (first b)) (equal? (cddr a) (cddr b)) (< (- (second a) (second b)) lately)))
+
+(define (worth-telling? a event)
+  (not (or (memq (first event) '(arrived spooled))
+           (any (lambda (before) (same-event? event before)) (alarm-events a)))))
+
+(define (fresh-events! a events)
+  "Return those of EVENTS that A should tell of, and remember them: the same not again within ten seconds."
+  (filter (lambda (event)
+            (and (worth-telling? a event)
+                 (begin
+                   (set-alarm-events! a (cons event (remove (lambda (before)
+                                                              (>= (- (second event) (second before)) lately))
+                                                            (alarm-events a))))
+                   #t)))
+          events))
 
 (define (events-told! a)
   ;; What happened since, lines.
   (let* ((engine (this-engine 'follow)) (events (%events engine (alarm-seen a))))
     (set-alarm-seen! a (%event-count engine))
-    (string-tokenize (call-with-output-string
-                      (lambda (port)
-                        (tell-events port (remove (lambda (e) (memq (car e) '(arrived spooled))) events))))
+    (string-tokenize (call-with-output-string (lambda (port) (tell-events port (fresh-events! a events))))
                      (char-set-complement (char-set #\newline)))))
 
 (define (sign f) (cons (foresight-kind f) (foresight-object f)))
