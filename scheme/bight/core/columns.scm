@@ -9,9 +9,8 @@
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (srfi srfi-1)
-  #:export (split-cells header? name-words names-quantity? named-columns column columns column? column-quantity
-            column-index
-            column-factor))
+  #:export (split-cells header? name-words names-quantity? named-columns column columns column?
+            column-quantity column-index column-factor))
 
 (define-record <column>
   (make-column quantity plain? index factor)
