@@ -94,6 +94,7 @@
     ((bight dive recording)
      record! stop-recording! recording? replay
      difference? difference-step difference-time difference-quantities)
+    ((bight dive flight) keep-flight!)
     ((bight dive frames) export-csv)
     ((bight dive export) export-npz export-vtk)
     ((bight world moordyn) import-moordyn export-moordyn)

@@ -456,6 +456,7 @@ begins with FILE and the line."
    (command "watch" watch "FILE"
             '("watch a recording in the terminal: play, pause, back and forth, from event to event; ? shows keys")
             '("--ghost OTHER" "with another recording pale beside it, such as the expert's")
+            '("--at S" "standing still at this second of the recording, as where a test failed")
             '("--film OUT" "write a film of it, or of a stretch, instead")
             '("--from S" "where the stretch begins, in seconds of the recording")
             '("--to S" "where it ends"))

@@ -38,6 +38,49 @@ end is that of the dive."
                 (expect (hash-of reel) => (hash-of straight)))
               (list first-place second-place 0 1))))
 
+(define-property a-flight-is-kept-after-it-was-flown
+  "Whatever was flown, taken back and gone on with: what the dive remembers of it replays to the last bit, nothing having
+been recorded, and is as long as the dive is."
+  #:for ((scene (random-world #:models '(dynamic rubber-band)))
+         (before (random-pilot #:most 3 #:seconds 3 #:does '(drive fly pay-out haul-in current)))
+         (after (random-pilot #:most 3 #:seconds 3 #:does '(drive pay-out current)))
+         (back (uniform 0 2)))
+  #:cases 6
+  (in scene)
+  (before)
+  (rewind! (min back (now)))
+  (after)
+  (let* ((file (keep-flight! (scratch-file "kept.rec"))) (reel (flight-reel (current-dive))))
+    (expect (replay file) => 'identical)
+    (expect (reel-length reel) => (%dive-steps (engine-of (current-dive))))
+    (wind! reel (reel-length reel))
+    (expect (hash-of reel) => (state-hash))
+    (wind! reel 0)
+    (wind! reel (reel-length reel))
+    (expect (hash-of reel) => (state-hash))))
+
+(define-scenario every-change-of-a-dive-is-in-its-flight
+  "A cut line, a moved end, a track followed, a checkpoint gone back to, a fork, and what a watcher of its own did."
+  (in pile)
+  (drive! #:surge 0.6)
+  (every 1 (alter! 'line #:cdn (+ 1 (/ (now) 10))))
+  (run 3)
+  (let ((here (checkpoint)))
+    (drive! #:surge -1)
+    (run 2)
+    (restore! here))
+  (pay-out! 2)
+  (run 2)
+  (cut-tether! #:at 5)
+  (run 1)
+  (expect (begin (keep-flight! (scratch-file "all.rec")) (replay (scratch-file "all.rec"))) => 'identical)
+  (expect (what-if (run 1) (keep-flight! (scratch-file "fork.rec")) (replay (scratch-file "fork.rec")))
+          => 'identical)
+  (expect (what-if (run 1) (reel-length (flight-reel (current-dive)))) => 420)
+  (live!)
+  (expect (keep-flight! (scratch-file "live.rec")) raises def)
+  (freeze!))
+
 (define-scenario a-dive-taken-back-goes-on-in-its-recording
   "What was taken back is watched too: the recording is as long as all that was flown, and ends where the dive did."
   (in pile)

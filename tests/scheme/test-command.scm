@@ -95,6 +95,33 @@
         (expect (names-run (report folder #:last-failed #t)) => '(slow-bow))
         (expect (names-run (report folder #:last-failed #t)) => '(slow-bow other))))))
 
+(define (watch-lines text)
+  ;; (FILE SECONDS) of each line of the report TEXT that says how a failure is watched.
+  (filter-map (lambda (line)
+                (let ((words (string-tokenize line)))
+                  (and (= 8 (length words)) (equal? '("#" "watch" "it:" "bight" "watch") (take words 5))
+                       (list (list-ref words 5) (string->number (list-ref words 7))))))
+              (string-split text #\newline)))
+
+(define-scenario a-failure-is-kept-to-be-watched
+  "What failed in a dive leaves the flight up to there, and tells the command that shows it; without a dive there is none;
+once it passes the flight is gone."
+  (call-in-folder
+      '("(define-scenario early \"Moves.\" (in pile) (drive! #:surge 1) (run 2) (expect (now) => 3) (run 1) (expect 1 => 2))
+         (define-scenario watched \"Moves.\" (in pile) (drive! #:surge 1) (always (< (now) 1) (run 2)))
+         (define-scenario broken \"Breaks.\" (in pile) (run 1) (car '()))
+         (define-scenario dry \"No dive.\" (expect 1 => 2))
+         (define-scenario good \"Good.\" (in pile) (run 1) (expect 1 => 1))")
+    (lambda (folder)
+      (with-memory folder
+        (let ((kept (watch-lines (report folder #:jobs 2))))
+          (expect (map second kept) => '(2.0 1.0 1.0))
+          (expect (map (lambda (entry) (replay (first entry))) kept) => '(identical identical identical))
+          (write-file (string-append folder "/a.scm")
+                      "(define-scenario early \"Moves.\" (in pile) (run 2) (expect (now) => 2))")
+          (expect (watch-lines (report folder)) => '())
+          (expect (map file-exists? (map first kept)) => '(#f #t #t)))))))
+
 (define-scenario nothing-after-a-failure
   "With #:fail-fast what follows a failure is skipped, and told so."
   (call-in-folder some-fail

@@ -14,7 +14,7 @@
   #:use-module (bight dive reel)
   #:use-module (bight engine)
   #:use-module (srfi srfi-1)
-  #:export (watch-file film-stretch watch-panel show?))
+  #:export (watch-file watch-reel film-stretch watch-panel show?))
 
 (define hint "space play  left right 1 s  [ ] 10 s  n b events  + - speed  0 begin  g ghost  v view  q leave")
 
@@ -202,21 +202,28 @@ the last of its EVENTS."
         (begin
           (display (film-stretch (open-reel file) out (or (seconds "--from") 0) (seconds "--to")))
           (newline))
-        (watch-in-cockpit file options))))
+        (watch-in-cockpit file options (seconds "--at")))))
 
-(define (watch-in-cockpit file options)
-  (let* ((reel (open-reel file))
-         (ghost (and=> (assoc-ref options "--ghost") open-reel))
-         (c (new-cockpit (this-palette) 'chase 'plain))
-         (show (make-show c reel ghost 1 0 (clock))))
+(define* (watch-reel reel at #:key ghost plain?)
+  "Watch REEL in a terminal that was taken, beside GHOST, another reel or #f: from its beginning, or, if AT is a number
+of seconds, standing still there.  PLAIN? wants plain characters for a picture.  Return how it ended: #t, or hung-up."
+  (let* ((c (new-cockpit (this-palette) 'chase 'plain)) (show (make-show c reel ghost 1 0 (clock))))
+    (when plain? (set-plain! c #t))
     (parameterize ((current-dive (reel-dive reel)))
       (board! c (reel-dive reel))
       (when ghost (set-ghost! c (reel-dive ghost)))
-      (dynamic-wind
-        %terminal-enter!
-        (lambda ()
-          (set-drawn! show (clock))
-          (play-frames! show))
-        %terminal-leave!)
-      (when (eq? 'hung-up (cockpit-done? c))
-        (bight-raise 'io 'watch "the terminal is gone")))))
+      (when at
+        (wind-both! show (steps-in show at))
+        (set-paused! c #t))
+      (set-drawn! show (clock))
+      (play-frames! show)
+      (cockpit-done? c))))
+
+(define (watch-in-cockpit file options at)
+  (let ((reel (open-reel file)) (ghost (and=> (assoc-ref options "--ghost") open-reel)) (ended #f))
+    (dynamic-wind
+      %terminal-enter!
+      (lambda () (set! ended (watch-reel reel at #:ghost ghost)))
+      %terminal-leave!)
+    (when (eq? 'hung-up ended)
+      (bight-raise 'io 'watch "the terminal is gone"))))

@@ -19,7 +19,7 @@
             past-with-moment
             past-with-moments
             past-with-tasks
-            past-oldest
+            past-oldest past-oldest-bytes past-oldest-serial
             go-back!
             past? moment? mark?
             entry-serial entry-step entry-operation entry-subject entry-numbers))
@@ -83,6 +83,14 @@
 (define (past-oldest past)
   "Return the first step that one can go back to."
   (moment-step (last (past-moments past))))
+
+(define (past-oldest-bytes past)
+  "Return the state at that step, a bytevector."
+  (moment-bytes (last (past-moments past))))
+
+(define (past-oldest-serial past)
+  "Return the number of the last operation before that state."
+  (moment-serial (last (past-moments past))))
 
 
 ;;; Remembering.

@@ -32,6 +32,7 @@
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:export (record! stop-recording! recording? recorder? replay replay-file
             redo-line! after-beginning     ; for (bight dive reel)
+            entry->line                    ; for (bight dive flight)
             difference? difference-step difference-time difference-quantities))
 
 (define second-long 60)                 ; steps
@@ -69,6 +70,7 @@
           (third numbers))))
 
 (define (entry->line engine world entry)
+  "Return the line of a recording for ENTRY of the journal of ENGINE, a dive in WORLD."
   (let* ((operation (entry-operation entry))
          (head (assq-ref operations operation))
          (subject (entry-subject entry))

@@ -10,11 +10,12 @@
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight dive)
+  #:use-module ((bight dive flight) #:select (flight-beginning flight-lines))
   #:use-module ((bight dive recording) #:select (redo-line! after-beginning))
   #:use-module (bight dive story)
   #:use-module (bight engine)
   #:use-module (srfi srfi-1)
-  #:export (open-reel reel? reel-dive reel-place reel-length reel-cut? wind! next-event-place event-before))
+  #:export (open-reel flight-reel reel? reel-dive reel-place reel-length reel-cut? wind! next-event-place event-before))
 
 (define kept-every 300)                 ; steps
 (define most-at-once 1000000)           ; steps between two lines of a recording, as `replay' has it
@@ -47,15 +48,23 @@
             ((state) (loop (cdr lines) (cadr line) place (acons place line all)))
             (else (loop (cdr lines) step place all)))))))
 
+(define (reel-of dive file lines cut?)
+  ;; A reel at its beginning, where it is in the state of DIVE.
+  (call-with-values (lambda () (plan file lines (%dive-steps (engine-of dive))))
+    (lambda (left length)
+      (let ((reel (make-reel dive length cut? 0 left '())))
+        (keep! reel)
+        reel))))
+
 (define (open-reel file)
   "Return the recording in FILE as a reel, at its beginning."
   (let* ((story (read-story 'watch file 'bight-recording #:salvage? #t))
          (dive (begin-story 'watch file story)))
-    (call-with-values (lambda () (plan file (after-beginning story) (%dive-steps (engine-of dive))))
-      (lambda (left length)
-        (let ((reel (make-reel dive length (story-cut? story) 0 left '())))
-          (keep! reel)
-          reel)))))
+    (reel-of dive file (after-beginning story) (story-cut? story))))
+
+(define (flight-reel dive)
+  "Return what was done to DIVE so far as a reel, at its beginning."
+  (reel-of (flight-beginning 'watch dive) "this flight" (flight-lines 'watch dive) #f))
 
 (define (keep! reel)
   (let ((engine (engine-of (reel-dive reel))))

@@ -174,6 +174,7 @@
     (difference? (begin (record! "dive.rec") (run 1) (stop-recording!) (difference? (replay "dive.rec"))))
     (record! (begin (record! "dive.rec") (run 5) (stop-recording!)))
     (stop-recording! (begin (record! "dive.rec") (run 5) (stop-recording!)))
+    (keep-flight! (begin (drive! #:surge 1) (run 5) (keep-flight! "dive.rec") (replay "dive.rec")))
     (replay (begin (record! "dive.rec") (run 5) (stop-recording!) (replay "dive.rec")))
     (save! (save! "dive.bt"))
     (load-dive (begin (save! "dive.bt") (run 20) (load-dive "dive.bt")))

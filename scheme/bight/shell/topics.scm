@@ -22,7 +22,7 @@
     (aware "what a tether is doing: caught, fouled, the way home"
            (dive aware) (dive foresight) (dive in-words) (dive probe) (cockpit coach))
     (moments "time as a value: checkpoints, forks, files"
-             (dive checkpoint) (dive saving) (dive recording) (dive frames) (dive export)
+             (dive checkpoint) (dive saving) (dive recording) (dive flight) (dive frames) (dive export)
              (world moordyn) (world orcaflex))
     (see "see it: panels, pictures, plots, films"
          view (view picture) (cockpit view) (view film) (view plot))

@@ -10,11 +10,16 @@
   #:use-module (bight core errors)
   #:use-module ((bight core here) #:select (afresh))
   #:use-module (bight core record)
+  #:use-module ((bight core folders) #:select (ensure-folder!))
   #:use-module (bight dive)
+  #:use-module ((bight dive flight) #:select (keep-flight! flown-seconds))
+  #:use-module ((bight dive time) #:select (now))
   #:use-module (bight language)
   #:use-module (bight test expect)
+  #:use-module ((bight test memory) #:select (flight-file))
   #:use-module (bight test property)
   #:use-module (bight test scenario)
+  #:use-module ((bight test trial) #:select (flight-keeper to-the-millisecond))
   #:use-module ((bight view) #:select (look))
   #:use-module (ice-9 ftw)
   #:use-module (srfi srfi-1)
@@ -130,6 +135,28 @@
   ;; LABEL as part of a file's name.
   (string-map (lambda (c) (if (or (char-alphabetic? c) (char-numeric? c)) c #\-)) label))
 
+(define (keeper-in where)
+  ;; A procedure for `flight-keeper': the flight that failed first is kept in the file WHERE.
+  (let ((kept #f))
+    (lambda ()
+      (let ((place (cons (current-dive) (now))))
+        (unless kept
+          (false-if-exception
+           (begin
+             (ensure-folder! (dirname where) #o700)
+             (keep-flight! where)
+             (set! kept place))))
+        (and (equal? place kept)
+             (simple-format #f "watch it: bight watch ~a --at ~a" where
+                            (to-the-millisecond (flown-seconds))))))))
+
+(define (keeper-of scenario file)
+  ;; What keeps the flight of SCENARIO, of FILE, should it fail; what was kept of it before is gone.
+  (let ((where (flight-file file (scenario-label scenario))))
+    (when where
+      (false-if-exception (delete-file where)))
+    (if (and where (not (scenario-cases scenario))) (keeper-in where) (const #f))))
+
 (define (run-and-tell scenario file settings tell)
   (let* ((outcome #f) (view #f)
          (where (and (settings-catalogue settings)
@@ -139,7 +166,8 @@
                                     ".png")))
          (output (with-output-to-string
                    (lambda ()
-                     (parameterize ((epilogue (and where (lambda () (set! view (view-of-dive where))))))
+                     (parameterize ((epilogue (and where (lambda () (set! view (view-of-dive where)))))
+                                    (flight-keeper (keeper-of scenario file)))
                        (set! outcome
                              (call-with-seed (settings-seed settings)
                                              (lambda () (run-scenario scenario)))))))))

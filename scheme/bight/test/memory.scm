@@ -12,7 +12,8 @@
   #:use-module ((ice-9 textual-ports) #:select (get-string-all))
   #:use-module (srfi srfi-1)
   #:export (failed-before
-            remember-failures!))
+            remember-failures!
+            flight-file))
 
 (define (absolute file)
   (or (false-if-exception (canonicalize-path file)) file))
@@ -22,6 +23,12 @@
   (and=> (state-folder)
          (lambda (folder)
            (string-append folder "/tests/" (number->string (string-hash (absolute file) (expt 2 60)) 16)))))
+
+(define (flight-file file label)
+  "Return the name of the recording of how the scenario LABEL of FILE failed, or #f if there is no place for it."
+  (and=> (memory-of file)
+         (lambda (memory)
+           (string-append memory "-" (number->string (string-hash label (expt 2 60)) 16) ".rec"))))
 
 (define (failed-before file)
   "Return the labels of the scenarios of FILE, a file of tests, that failed the last time, strings; one is #f where

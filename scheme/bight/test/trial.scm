@@ -19,6 +19,7 @@
   #:export (run-trial
             reached!
             scene
+            flight-keeper
             to-the-millisecond
             stop-whole-trial!
             epilogue
@@ -48,14 +49,20 @@
   (string-split (string-trim-right (simple-format #f "~a" ((@ (bight view) look) #:columns 76)))
                 #\newline))
 
+(define flight-keeper
+  ;; A procedure that keeps how the present dive came to be what it is, and returns a line that says how that is
+  ;; watched, or #f; it is called when a claim fails.
+  (make-parameter (const #f)))
+
 (define (scene)
   "Return lines that show the present dive, none if there is none."
   (if (current-dive)
-      (let ((happened (last-events)))
+      (let ((happened (last-events)) (kept ((flight-keeper))))
         (append (list (simple-format #f "at ~a s~a" (to-the-millisecond (now))
                                      (if (null? happened) "" ", after")))
                 (map event->string happened)
-                (or (false-if-exception (drawing)) '())))
+                (or (false-if-exception (drawing)) '())
+                (if kept (list kept) '())))
       '()))
 
 
