@@ -32,12 +32,19 @@ take_seat ()
   see 'You are the pilot of' && see '^ Enter goes on'
 }
 
+# The review: w opens the moment at which a mark was lost, standing still; q comes back; Enter goes on to the marks.
+watch_what_was_lost ()
+{
+  see 'Marks were lost here' && keys w && see PAUSED && see '^ 0:[0-9][0-9] / 0:[0-9][0-9] ' && keys Left &&
+    keys q && see 'Marks were lost here' && keys Enter
+}
+
 # The line lies elsewhere when a vehicle comes: fly there again until it is done.
 fly_to_the_bow ()
 {
   see '^ e hint' && keys : && see '^ bight> _' || return 1
   line '(let on () (fly-to! (point-at (/ (tether-length) 2)) #:speed 0.8) (run 1) (on))'
-  see 'Done\.' && keys Enter && see '^read-the-bow: [0-9]* out of 100, passed'
+  see 'Done\.' && keys Enter && watch_what_was_lost && see '^read-the-bow: [0-9]* out of 100, passed'
 }
 
 # ---- All of it, in a large terminal with all colours ----

@@ -5,7 +5,11 @@
 (use-modules (bight lesson)
              (bight lesson check)
              (bight core errors)
+             (bight dive reel)
              ((bight lesson play) #:select (make-guide))
+             ((bight lesson report) #:select (report-lost))
+             ((bight lesson review) #:select (review-lines))
+             ((bight lesson score) #:select (mark-label))
              (ice-9 exceptions)
              (srfi srfi-1))
 
@@ -323,3 +327,35 @@ its reason."
   "A lesson flown by a pilot is coached only when that is asked for."
   (expect (report-coached (run-lesson 'everything)) => '())
   (expect (texts 'coach (run-lesson 'everything)) => '()))
+
+(define-lesson loses-marks "Marks lost in two dives"
+  (in small)
+  (set-up (drive! #:surge 0.2) (run 2))
+  (probe "What is one and one?" 2 #:within 1)
+  (task "Wait a little." (done-when (> (now) 7)))
+  (in small)
+  (task "And again." (at-most 3))
+  (score (rov-depth 0 5.01 #:by most) (net-turns -1 1))
+  (pilot careless "Answers wrong, dives and comes up."
+         (answers (truth choices) 5)
+         (flies (hold-depth! 6) (run 3) (hold-depth! 5) (run 9))
+         (flies (run 3))))
+
+(define-scenario lost-marks-lie-where-they-were-lost
+  "A wrong answer where it was given, a task not done where it ended, a measure where it lay farthest outside, each in its own
+dive; what was right is not among them; and the flight of each is watched up to there."
+  (let* ((report (run-lesson 'loses-marks #:pilot 'careless))
+         (lost (report-lost report)) (dives (map second lost)) (times (map third lost)))
+    (expect (map (lambda (entry) (mark-label (first entry))) lost) => '("probe 1" "task 2" "rov-depth"))
+    (expect (list-ref times 0) => 2.0)
+    (expect (list-ref times 1) is (about 3 #:within 0.25))
+    (expect (list-ref times 2) is (between 3 7))
+    (expect (map (lambda (dive) (eq? dive (first dives))) dives) => '(#t #f #t))
+    (let* ((reel (flight-reel (last dives))) (place (inexact->exact (round (* 60 (last times))))))
+      (define (depth-at place)
+        (wind! reel place)
+        (with-dive (reel-dive reel) (rov-depth)))
+      (let ((worst (depth-at place)))
+        (expect worst is (above 5.01))
+        (expect (apply max (map depth-at (iota 14 30 30))) is (about worst #:within 1e-9))))
+    (expect (any (lambda (line) (string-contains line "2  3.00 s  task 2: not done in time")) (review-lines lost)))))

@@ -15,6 +15,7 @@
   #:use-module (bight dive time)
   #:use-module (bight lesson message)
   #:use-module (bight lesson play)
+  #:use-module (bight lesson points)
   #:use-module (bight lesson score)
   #:use-module (bight lesson tally)
   #:use-module ((bight test expect) #:select (exception->line))

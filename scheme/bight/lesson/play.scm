@@ -17,6 +17,8 @@
   #:use-module (bight dive pilot)
   #:use-module (bight dive task)
   #:use-module (bight dive time)
+  #:use-module (bight lesson lost)
+  #:use-module (bight lesson points)
   #:use-module (bight lesson score)
   #:use-module (bight lesson tally)
   #:use-module (bight lesson way)
@@ -29,8 +31,7 @@
             untrusted? breathing
             ;; For guides.
             asked-in-degrees?
-            task-text task-targets task-counters task-seconds next-hint! save-point! go-back! recent-points ask-for-hint!
-            session-marks add-mark!))
+            task-text task-targets task-counters task-seconds next-hint! ask-for-hint!))
 
 (define-record <guide>
   (make-guide say picture probe fly failed hears-hints?)
@@ -66,14 +67,6 @@
   "Call THUNK, the steps of a lesson that is scored by ROWS, counts COUNTS and has a TENDER or #f."
   (parameterize ((current-plan (make-plan rows counts tender)))
     (thunk)))
-
-(define (session-marks)
-  "Return the marks of probes and tasks so far, in order."
-  (reverse (tally-ref 'marks '())))
-
-(define (add-mark! mark)
-  (tally-set! 'marks (cons mark (tally-ref 'marks '()))))
-
 
 ;;; The plain clauses.
 
@@ -201,7 +194,6 @@ what somebody else than the pupil says, who is asked in his place."
 (define look-time 0.2)
 (define sample-time 0.5)
 (define point-time 5)
-(define points-kept 24)
 
 (define (steps-of seconds)
   (max 1 (inexact->exact (round (/ seconds (time-step))))))
@@ -338,31 +330,6 @@ what somebody else than the pupil says, who is asked in his place."
          (lambda ()
            ((guide-fly (this-guide)) (tally-ref 'tasks) (one-of 'at-most conditions 600))))))
      '(late))))
-
-
-;;; Points to go back to: the dive and the tally together.
-
-(define recent-points (make-parameter #f)) ; a variable with a list, the last first; #f: none are kept
-
-(define (save-point!)
-  "Keep how things are now, if points are kept, to come back to."
-  (when (recent-points)
-    (let ((all (cons (list (now) (checkpoint) (tally)) (variable-ref (recent-points)))))
-      (variable-set! (recent-points) (take all (min points-kept (length all)))))))
-
-(define (go-back! seconds)
-  "Go back to the last point at least SECONDS ago, or to the first there is.  Return the time."
-  (let* ((wanted (- (now) seconds))
-         (all (variable-ref (recent-points)))
-         (point (or (find (lambda (p) (<= (first p) wanted)) all)
-                    (last all))))
-    (variable-set! (recent-points) (memq point all))
-    (let ((rewinds (+ 1 (tally-ref 'rewinds 0))))
-      (restore! (second point))
-      (restore-tally! (third point))
-      (tally-set! 'rewinds rewinds))
-    (now)))
-
 
 
 (define (task-mark n outcome)

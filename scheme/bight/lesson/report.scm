@@ -12,10 +12,10 @@
   #:export (make-report
             report? report-who report-seed report-level report-total report-passed? report-marks
             report-said report-text report-hash report-coached report-hints report-rewinds
-            report-seconds))
+            report-seconds report-lost))
 
 (define-record <report>
-  (make-report lesson who seed level marks total passed? seconds hints rewinds said charts coached hash)
+  (make-report lesson who seed level marks total passed? seconds hints rewinds said charts coached hash lost)
   report-record?
   (lesson report-lesson)
   (who report-who)                      ; the name of the pilot or the pupil
@@ -30,7 +30,8 @@
   (said %report-said)                   ; (TIME KIND TEXT), in order
   (charts report-charts)                ; lines
   (coached %report-coached)
-  (hash %report-hash))
+  (hash %report-hash)
+  (lost report-lost))                   ; as `lost-marks' returns them
 
 (define-argument-type (report value)
   "a report, as `run-lesson' returns"

@@ -9,12 +9,13 @@
 (define-module (bight lesson score)
   #:use-module (bight core errors)
   #:use-module (bight core record)
+  #:use-module ((bight dive) #:select (current-dive))
   #:use-module (bight dive time)
   #:use-module (bight lesson tally)
   #:use-module (srfi srfi-1)
   #:export (make-row row? row-label row-low row-high
             sample-rows! row-samples
-            judge-row
+            judge-row row-worst
             make-mark mark? mark-label mark-credit mark-weight mark-detail mark-passed? mark-why
             total-of
             figure
@@ -71,7 +72,8 @@ WHY tells one who lost the mark what he should have known."
 (define (sample-rows! rows)
   "Note the values of the measures of ROWS now."
   (unless (null? rows)
-    (tally-set! 'samples (cons (cons (now) (map value-of rows)) (tally-ref 'samples '())))))
+    (tally-set! 'samples (cons (cons (now) (map value-of rows)) (tally-ref 'samples '())))
+    (tally-set! 'sampled-in (cons (current-dive) (tally-ref 'sampled-in '())))))
 
 (define (row-samples rows row)
   "Return the values of ROW, one of ROWS, so far, oldest first: pairs of time and value."
@@ -161,6 +163,21 @@ about; and WHY it matters, or #f."
                                        (band row))
                         (row-why row)))))))
 
+(define (row-worst rows row)
+  "Return where the measure of ROW, one of ROWS, lay farthest outside its band, the last place for what is judged at the
+end: (DIVE . TIME), or #f if it was never measured."
+  (let* ((i (+ 1 (list-index (lambda (r) (eq? r row)) rows)))
+         (places (filter-map (lambda (sample dive)
+                               (let ((v (list-ref sample i)))
+                                 (and v (list (outside row v) dive (first sample)))))
+                             (tally-ref 'samples '()) (tally-ref 'sampled-in '()))))
+    (and (pair? places)
+         (let ((worst (if (eq? 'end (row-by row))
+                          (first places)
+                          (fold (lambda (a worst) (if (>= (first a) (first worst)) a worst))
+                                (first places) (cdr places)))))
+           (cons (second worst) (third worst))))))
+
 (define (way->string way)
   (assq-ref '((end . "at the end") (most . "at most") (least . "at least") (mean . "on average")
               (rms . "rms")) way))
@@ -201,10 +218,19 @@ about; and WHY it matters, or #f."
   (let ((i (inexact->exact (round (* (- chart-rows 1) (/ (- top v) (max 1e-12 (- top bottom))))))))
     (max 0 (min (- chart-rows 1) i))))
 
-(define (strip-chart row samples)
-  "Return the lines of a plot of SAMPLES, pairs of time and value of the measure of ROW, in plain
+(define (one-after-another samples)
+  ;; SAMPLES with times that go on where a lesson's next dive begins at 0 again.
+  (let loop ((rest samples) (before 0) (last 0) (all '()))
+    (if (null? rest)
+        (reverse all)
+        (let* ((time (car (car rest))) (before (if (< time last) (+ before last) before)))
+          (loop (cdr rest) before time (acons (+ before time) (cdr (car rest)) all))))))
+
+(define (strip-chart row sampled)
+  "Return the lines of a plot of SAMPLED, pairs of time and value of the measure of ROW, in plain
 characters: * is the measure, . where the band ends."
-  (let ((binned (if (null? samples) '() (bin samples chart-columns))))
+  (let* ((samples (one-after-another sampled))
+         (binned (if (null? samples) '() (bin samples chart-columns))))
     (if (not (any identity binned))
         '()
         (let* ((bounds (filter finite? (list (row-low row) (row-high row))))

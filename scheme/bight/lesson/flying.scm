@@ -1,0 +1,232 @@
+;;; (bight lesson flying) --- a task flown in the cockpit: what its panel says, its keys, and how time passes.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight lesson flying)
+  #:use-module (bight cockpit)
+  #:use-module (bight cockpit desk)
+  #:use-module (bight cockpit hud)
+  #:use-module (bight cockpit keys)
+  #:use-module (bight cockpit line)
+  #:use-module (bight core units)
+  #:use-module (bight dive plain-words)
+  #:use-module (bight dive query)
+  #:use-module (bight dive time)
+  #:use-module (bight lesson asking)
+  #:use-module (bight lesson how-it-was)
+  #:use-module (bight lesson input)
+  #:use-module (bight lesson lines)
+  #:use-module (bight lesson play)
+  #:use-module (bight lesson seat)
+  #:use-module (srfi srfi-1)
+  #:export (fly-in-cockpit lesson-panel show-lines!))
+
+(define (show-lines! lines)
+  "Show LINES as they are, without a picture behind them."
+  (parameterize ((unseen? (lambda (verb) (or (eq? verb 'look) (hidden-in-lesson? verb)))))
+    (show-page! lines "Enter goes on   q leaves")))
+
+
+
+;;; Flying: what the panel says.
+
+(define (target-line target i)
+  (let ((p (cdr target)))
+    (string-append (number->string (+ i 1)) " " (car target) "  " (metres (range-to p)) "  "
+                   (string-pad (number->string (modulo (inexact->exact (round (bearing-to p))) 360)) 3 #\0)
+                   "  " (metres (- (z p))) " deep")))
+
+(define (counters-line)
+  (string-join
+   (append (list (seconds-said (task-seconds)))
+           (map (lambda (entry) (simple-format #f "~a ~a" (car entry) (cdr entry))) (task-counters)))
+   "  "))
+
+(define (lesson-panel task heard targets counters)
+  "Return a panel of a cockpit, a procedure of PUT, columns and rows: the TASK, a string; HEARD, a list of (INK . TEXT),
+the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below."
+  (lambda (put columns rows)
+    (define most (cond ((>= rows 30) 4) ((>= rows 20) 3) (else 1)))
+    (define (shown text)
+      (let ((lines (wrap text (- columns 2))))
+        (if (<= (length lines) most)
+            lines
+            (append (list-head lines (- most 1))
+                    (list (cut (string-append (list-ref lines (- most 1)) " " (list-ref lines most)) (- columns 2)))))))
+    (define (put-all row lines ink)
+      (fold (lambda (line row)
+              (put 0 row (string-pad-right (string-append " " line) columns) ink #x102028)
+              (+ row 1))
+            row lines))
+    (let* ((row (put-all 2 (shown task) white))
+           (lines (fold (lambda (entry lines)
+                          (append (map (lambda (line) (cons (car entry) line)) (shown (cdr entry))) lines))
+                        '() heard))
+           (lines (if (> (length lines) most) (take-right lines most) lines))
+           (row (fold (lambda (entry row) (put-all row (list (cdr entry)) (car entry))) row lines))
+           (room (if (>= rows 20) 9 1))
+           (row (fold (lambda (line row)
+                        (put 0 row (cut (string-append " " line " ") columns) green #f)
+                        (+ row 1))
+                      row (if (> (length targets) room) (list-head targets room) targets))))
+      (fold (lambda (line row)
+              (put 0 row (cut (string-append " " line " ") columns) pale #f)
+              (+ row 1))
+            row counters))))
+
+(define (targets-seen)
+  ;; Where the level lets a pupil have them.
+  (if (hard?) '() (task-targets)))
+
+(define (panel-now put columns rows)
+  (let ((targets (targets-seen)))
+    ((lesson-panel (task-text) (seat-heard (the-seat))
+                   (map target-line targets (iota (length targets)))
+                   (list (counters-line)))
+     put columns rows)))
+
+
+;;; Flying: keys and time.
+
+(define flight-hint "e hint  u back  p pause  t tender  z map  v view  : Scheme  ? keys  q leave, to go on later")
+
+(define most-steps 6)                   ; in a frame: a slow machine flies slower rather than in jumps
+
+(define (steps-due! c)
+  ;; How many steps are due since the last frame.
+  (let* ((t (clock)) (dt (time-step))
+         (n (inexact->exact (floor (/ (- t (cockpit-stepped c)) dt)))))
+    (cond ((> n most-steps) (set-stepped! c t) most-steps)
+          (else (set-stepped! c (+ (cockpit-stepped c) (* n dt))) n))))
+
+(define (stick-input! c)
+  ;; The input of sticks that stand otherwise than before, in a list.
+  (set-sticks! c (settle (cockpit-sticks c) (clock)))
+  (let ((values (stick-values (cockpit-sticks c))))
+    (if (equal? values (cockpit-sent c))
+        '()
+        (begin
+          (set-sent! c values)
+          (list (cons 'sticks values))))))
+
+(define (typed label)
+  ;; A line typed at the foot of the flight, or #f.
+  (let ((c (this-cockpit)) (seat (the-seat)))
+    (waiting
+     (lambda ()
+       (let* ((line (type-in (empty-line (seat-history seat))
+                             (lambda (line)
+                               (draw-flight! c (string-append label (line-shown line (columns-for label)))))))
+              (text (string-trim-both (line-text line))))
+         (and (line-done? line) (not (member text '("" ",q")))
+              (begin
+                (set-history! seat (cons text (seat-history seat)))
+                text)))))))
+
+(define (typed-input label make)
+  (let* ((c (this-cockpit)) (text (typed label)))
+    (set-stepped! c (clock))
+    (if text (list (make text)) '())))
+
+(define (act->inputs c act)
+  ;; What ACT of a key means for the dive: a list of inputs.
+  (case (car act)
+    ((leave) ((leaving)))
+    ((release)
+     (set-sticks! c (new-sticks))
+     (set-sent! c (stick-values (new-sticks)))
+     '((release)))
+    ((winch hold) (list act))
+    ((back hint) (list act))
+    ((ghost) (toggle-ghost! c) '())
+    ((pause) (set-paused! c (not (cockpit-paused? c))) (set-stepped! c (clock)) '())
+    ((prompt) (typed-input "bight> " (lambda (text) (list 'form text))))
+    ((tell) (typed-input "to the tender> " (lambda (text) (list 'tell text))))
+    (else '())))
+
+(define (key->inputs c key)
+  (cond ((stick-of-key key)
+         => (lambda (stick)
+              (set-sticks! c (press (cockpit-sticks c) (car stick) (cdr stick) (clock)))
+              '()))
+        ((nudge-of-key key)
+         => (lambda (step) (set-sticks! c (nudge (cockpit-sticks c) (car step) (cdr step))) '()))
+        ((view-key-here! key) '())
+        ((act-of-key key) => (lambda (act) (act->inputs c act)))
+        (else '())))
+
+(define (draw-flight! c last-line)
+  (set-targets! c targets-seen)
+  (set-panel! c panel-now)
+  (draw-frame! c last-line)
+  (set-panel! c #f)
+  (set-targets! c (const '())))
+
+(define (inputs-until c end)
+  ;; What the keys mean that come before the time END, s of the clock.
+  (let loop ((inputs '()))
+    (let ((key (next-key (- end (clock)))))
+      (cond (key (loop (append inputs (key->inputs c key))))
+            ((< (clock) end) (loop inputs))
+            (else inputs)))))
+
+(define (frame-inputs! c)
+  ;; Draw a frame, take the keys of its time, and return the inputs that came of both.
+  (let ((end (+ (clock) frame)))
+    (look-ahead! c)
+    (draw-flight! c flight-hint)
+    (when (cockpit-done? c) ((leaving)))
+    (let* ((pressed (inputs-until c end))
+           (moved (stick-input! c))
+           (steps (if (cockpit-paused? c) 0 (steps-due! c))))
+      (append pressed moved (if (positive? steps) (list (list 'pass steps)) '())))))
+
+(define (flight-asker c)
+  ;; A procedure that returns the next input of a pupil at the sticks.
+  (let ((waiting '()))
+    (lambda ()
+      (let loop ()
+        (if (pair? waiting)
+            (let ((input (car waiting)))
+              (set! waiting (cdr waiting))
+              input)
+            (begin
+              (set! waiting (frame-inputs! c))
+              (loop)))))))
+
+(define few 2)                          ; lines that are heard; more stand on a page
+
+(define (show-result! c lines)
+  (if (> (length lines) few)
+      (show-lines! lines)
+      (for-each (lambda (line) (hear! #xffffff line)) lines))
+  (when (pair? lines)
+    (ask-anew! c)
+    (set-stepped! c (clock))))
+
+(define (take-seat! c)
+  (keep-up!)
+  (set-view! c (or (one-view) (seat-view (the-seat))))
+  (set-map! c (not (hard?)))
+  (set-sticks! c (new-sticks))
+  (set-sent! c (stick-values (new-sticks)))
+  (drop-ghost! c)
+  (set-paused! c #f)
+  (set-stepped! c (clock)))
+
+(define (fly-in-cockpit n seconds)
+  "Let the pupil fly task N until it is over."
+  (let ((c (this-cockpit)))
+    (catch-up!)
+    (read-what-was-said!)
+    (take-seat! c)
+    (show-page! (list (string-append "TASK: " (task-text))) "Enter begins   ? in flight shows the keys   q leaves")
+    (set-stepped! c (clock))
+    (dynamic-wind
+      (const #t)
+      (lambda ()
+        (let ((ask (flight-asker c)))
+          (let loop ()
+            (show-result! c (apply-input! (next-input ask)))
+            (loop))))
+      (lambda () (set-seat-view! (the-seat) (if (one-view) 'chase (cockpit-view c)))))))
