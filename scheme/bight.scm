@@ -59,7 +59,7 @@
      define-lesson run-lesson last-answer counter count! setting jitter tell! told messages
      messages-left number-in way-flown off-the-way
      report? report-total report-passed? report-marks report-said report-text report-hash
-     report-coached report-hints report-rewinds report-seconds)
+     report-coached report-hints report-rewinds report-seconds report-instructed)
     ((bight lesson file) lessons)
     ((bight study) define-study)
     ((bight study case) study? study-cases run-case)

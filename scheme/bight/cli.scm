@@ -278,6 +278,15 @@ begins with FILE and the line."
       0)))
 
 
+;;; bight instruct.
+
+(define (instruct arguments)
+  (unless (and (= 1 (length arguments)) (not (string-prefix? "-" (car arguments))))
+    (bad-usage "instruct: name the socket of a pupil, as in bight instruct SOCKET"))
+  (enter-language!)
+  ((from (bight shell instruct) instruct) (absolute (car arguments))))
+
+
 ;;; bight watch.
 
 (define (watch arguments)
@@ -372,6 +381,7 @@ begins with FILE and the line."
             '("--display D" "which views are shown: three, plan or none; three when left out")
             '("--typed" "fly by what is typed, not by keys")
             '("--fresh" "from its beginning, not from where it was left")
+            '("--instructor SOCKET" "let an instructor in at SOCKET: bight instruct SOCKET")
             '("--quiet" "without the coach")
             '("--trust" "let a FILE from outside do all that you may")
             '("--pilot P" "show it flown by its pilot P, such as expert")
@@ -410,7 +420,11 @@ begins with FILE and the line."
             '("--view V" "which view it begins with")
             '("--paint P" "colour tethers plain, by tension, curvature or model")
             '("--colors C" "true, many, few or none")
+            '("--instructor SOCKET" "let an instructor in at SOCKET: bight instruct SOCKET")
             '("--trust" "let a file from outside do all that you may"))
+   (command "instruct" instruct "SOCKET"
+            '("an instructor's station: see the dive of a pupil who listens at SOCKET, hand in words, currents,"
+              "faults, a lost light, a stopped clock; without a terminal, orders as lines of standard input"))
    (command "sweep" run-sweep "STUDY|FILE..."
             '("fly all cases of a study into one SQLite result; again, only what is missing")
             '("-j N" "so many dives at a time; when left out, as many as there are cores")

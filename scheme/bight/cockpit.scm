@@ -29,7 +29,7 @@
             cockpit-paused? set-paused! cockpit-done? set-done!
             cockpit-sent set-sent! cockpit-live? set-live! cockpit-stepped set-stepped!
             look-ahead! toggle-ghost! drop-ghost! cockpit-ghost set-ghost!
-            cockpit-plain? set-plain! cockpit-view set-view! cockpit-size cockpit-map? set-map!
+            cockpit-plain? set-plain! cockpit-view set-view! cockpit-size cockpit-map? set-map! cockpit-dark? set-dark!
             set-targets! set-panel! set-labels!
             tell! call-or-tell trying
             clock frame look-anew! ask-anew! palette-of ascii-terminal? this-palette
@@ -55,7 +55,7 @@
 (define-record <cockpit>
   (make-cockpit palette ascii? dive vehicle tether screen size view paint plain? lamp? help? words? map? sticks
                 message message-until slow slow-due ahead words ahead-due plan plan-due
-                paused? ghost ghost-fork done? times targets labels panel sent live? stepped)
+                paused? ghost ghost-fork done? times targets labels panel dark? sent live? stepped)
   cockpit?
   (palette cockpit-palette)
   (ascii? cockpit-ascii?)
@@ -89,6 +89,7 @@
   (targets cockpit-targets set-targets!) ; a thunk: a list of targets
   (labels cockpit-labels set-labels!)   ; a list of targets that have a name alone
   (panel cockpit-panel set-panel!)      ; (PANEL PUT COLUMNS ROWS): draw first; the row it ends at, or #f
+  (dark? cockpit-dark? set-dark!)       ; the camera sees nothing
   ;; For its owner:
   (sent cockpit-sent set-sent!)         ; the stick values that the vehicle was told last, or #f
   (live? cockpit-live? set-live!)       ; #f: the owner's loop steps the dive
@@ -100,7 +101,7 @@
 (define (new-cockpit palette view paint)
   "Return a cockpit without a dive, for a terminal of PALETTE, that shows VIEW with tethers painted by PAINT."
   (make-cockpit palette (ascii-terminal?) #f #f #f #f #f view paint (eq? palette 'none) #f #f #t #f (new-sticks)
-                "" 0 '((windings) (warnings)) 0 '() #f 0 '() 0 #f #f #f #f '() (const '()) '() #f #f #f (clock)))
+                "" 0 '((windings) (warnings)) 0 '() #f 0 '() 0 #f #f #f #f '() (const '()) '() #f #f #f #f (clock)))
 
 (define (board! c dive)
   "Let C show DIVE, and ask of it anew."
@@ -228,7 +229,7 @@ fall in it."
   (tell! c (bight-error-message e)))
 
 (define (blind? c)
-  (or (not (cockpit-dive c)) ((unseen?) 'look)))
+  (or (not (cockpit-dive c)) (cockpit-dark? c) ((unseen?) 'look)))
 
 (define (draw-scene! c put)
   ;; The picture, or plain characters; return the marks in it.
@@ -337,6 +338,7 @@ fall in it."
   (string-join
    (filter identity
            (list (and (cockpit-paused? c) "PAUSED")
+                 (and (cockpit-dark? c) "NO LIGHT")
                  (and (cockpit-ghost c) "what if")
                  (and (cockpit-lamp? c) "lights")
                  (if (cockpit-plain? c) "plain" (symbol->string (cockpit-view c)))

@@ -33,7 +33,7 @@
                tell! told messages messages-left number-in way-flown off-the-way
                report? report-who report-seed report-level report-total report-passed? report-marks
                report-said report-text report-hash report-coached report-hints report-rewinds
-               report-seconds
+               report-seconds report-instructed
                lesson? lesson-name lesson-title lesson-code lesson-location collect-lessons
                ;; What the macro expands to.
                register-lesson! unknown-clause malformed-clause malformed-lesson)

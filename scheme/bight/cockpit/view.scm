@@ -11,6 +11,7 @@
   #:use-module (bight cockpit)
   #:use-module (bight cockpit cells)
   #:use-module (bight cockpit keys)
+  #:use-module ((bight cockpit orders) #:select (answer-order! do-to-dive! call-with-desk next-order! publish!))
   #:use-module (bight core errors)
   #:use-module (bight core verb)
   #:use-module (bight dive)
@@ -167,6 +168,29 @@
         (set-done! c 'hung-up))))
 
 
+;;; An instructor.
+
+(define (obey! c order)
+  ;; Do ORDER, and return what came of it, a list of lines.
+  (case (car order)
+    ((words) (tell! c (string-append "Instructor: " (second order))) '())
+    ((light) (set-dark! c (not (second order))) '())
+    ((clock) (if (second order) (start-time! c) (stop-time! c)) '())
+    ((form) (let ((value (eval (call-with-input-string (second order) read) (resolve-module '(guile-user)))))
+              (if (unspecified? value) '() (list (object->string value)))))
+    (else (do-to-dive! order) '())))
+
+(define (attend-instructor! c)
+  (trying c (publish! (cockpit-dive c) '()))
+  (let ((order (next-order!)))
+    (when order
+      (answer-order!
+       (with-exception-handler
+           (lambda (e) (list ((from (bight test expect) exception->line) e)))
+         (lambda () (obey! c order))
+         #:unwind? #t)))))
+
+
 ;;; The loop.
 
 (define hint "w s a d i k j l sticks  v view  [ ] winch  p pause  ? keys  : prompt  q quit")
@@ -177,6 +201,7 @@
     (unless (cockpit-done? c)
       (pass-time-or-stop! c)
       (look-ahead! c)
+      (attend-instructor! c)
       (draw-frame! c hint)
       (let* ((next (max (clock) (+ due frame))))
         (let wait ()
@@ -217,6 +242,9 @@ at which it was left."
 (define (pilot-world world options)
   "Start a dive in WORLD, a name or a file, and fly it, with OPTIONS of the command line, an alist."
   ((from (bight dive) enter!) world #:trust (assoc-ref options "--trust"))
+  (call-with-desk (assoc-ref options "--instructor") (lambda () (fly-as-asked options))))
+
+(define (fly-as-asked options)
   (apply pilot!
          (append-map (lambda (entry)
                        (let ((text (assoc-ref options (first entry))))

@@ -42,6 +42,7 @@
             read-story
             story-lines story-cut?
             begin-story
+            port-teller
             check-dive
             state-line
             restore-line!
@@ -72,6 +73,10 @@
       (set-port-encoding! port "UTF-8")
       (setvbuf port 'block 65536)
       (%make-teller port 0))))
+
+(define (port-teller port)
+  "Return a teller that writes to PORT, which is somebody else's."
+  (%make-teller port 0))
 
 (define (hex n)
   "Return the whole number N as 16 hexadecimal digits."

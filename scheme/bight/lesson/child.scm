@@ -7,6 +7,7 @@
 
 (define-module (bight lesson child)
   #:use-module (bight cockpit coach)
+  #:use-module ((bight cockpit orders) #:select (call-with-desk))
   #:use-module ((bight core errors) #:select (words->string))
   #:use-module (bight core sandbox)
   #:use-module (bight core terminal)
@@ -54,7 +55,8 @@
     (rewinds . ,(report-rewinds report))
     (marks . ,(map (lambda (m) (list (first m) (exact->inexact (second m)) (third m) (fourth m)))
                    (report-marks report)))
-    (coached . ,(report-coached report))))
+    (coached . ,(report-coached report))
+    (instructed . ,(report-instructed report))))
 
 (define (print-banner lesson order)
   (simple-format #t "~%~a~%~a~%" (lesson-title lesson)
@@ -75,6 +77,15 @@
         0
         (min 1 (/ (apply + (map (lambda (e) (or (assq-ref e 'total) 0)) last-three))
                   (* 100 (length last-three)))))))
+
+(define (instructor-socket order)
+  ;; Where an instructor may connect, or #f if none was asked for.
+  (let ((socket (option (order-given order) "--instructor" #f)))
+    (when socket
+      (cond ((order-outside? order) (bad-usage "lesson: a lesson from outside is enclosed, and lets no instructor in"))
+            ((not (cockpit-wanted? (order-given order)))
+             (bad-usage "lesson: --instructor is for lessons in the cockpit, at a terminal"))))
+    socket))
 
 (define (take-by-person lesson order inputs shown-before tell)
   (let* ((given (order-given order))
@@ -151,6 +162,7 @@ exit status."
           (else
            (call-with-interrupts
             (lambda ()
-              (let ((report (take-by-person lesson order journal shown-before tell)))
+              (let ((report (call-with-desk (instructor-socket order)
+                              (lambda () (take-by-person lesson order journal shown-before tell)))))
                 (tell (list 'report (report-entry report lesson given)))
                 0)))))))

@@ -43,11 +43,11 @@ characters for a picture."
 ;;; What the guide does.
 
 (define titles
-  '((hint . "Hint: ") (coach . "Coach: ") (fault . "! ") (message . "Tender: ")
+  '((hint . "Hint: ") (coach . "Coach: ") (fault . "! ") (message . "Tender: ") (instructor . "Instructor: ")
     (right . "Right: ") (wrong . "Not quite: ")))
 
 (define inks
-  `((hint . ,yellow) (coach . ,yellow) (fault . #xff9060) (message . #xffffff)))
+  `((hint . ,yellow) (coach . ,yellow) (fault . #xff9060) (message . #xffffff) (instructor . ,yellow)))
 
 (define (say-in-cockpit kind text)
   "Say TEXT of KIND to the pupil: while flying in a line of its own, else on the next page."
@@ -57,7 +57,7 @@ characters for a picture."
       (case kind
         ((task)
          (set-heard! seat '()))
-        ((hint coach fault message)
+        ((hint coach fault message instructor)
          (hear! (assq-ref inks kind) line))
         ((right wrong)
          (when how (set-verdict! how (cons line (how-verdict how)))))

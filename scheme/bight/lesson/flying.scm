@@ -8,7 +8,9 @@
   #:use-module (bight cockpit hud)
   #:use-module (bight cockpit keys)
   #:use-module (bight cockpit line)
+  #:use-module ((bight cockpit orders) #:select (answer-order! next-order! publish!))
   #:use-module (bight core units)
+  #:use-module (bight dive)
   #:use-module (bight dive plain-words)
   #:use-module (bight dive query)
   #:use-module (bight dive time)
@@ -18,6 +20,7 @@
   #:use-module (bight lesson lines)
   #:use-module (bight lesson play)
   #:use-module (bight lesson seat)
+  #:use-module (bight lesson tally)
   #:use-module (srfi srfi-1)
   #:export (fly-in-cockpit lesson-panel show-lines!))
 
@@ -170,16 +173,35 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
             ((< (clock) end) (loop inputs))
             (else inputs)))))
 
+(define (publish-flight! c)
+  ;; Let an instructor see the dive, the task and what the pupil hears.
+  (trying c (publish! (current-dive) (cons* (task-text) (counters-line) (map cdr (seat-heard (the-seat)))))))
+
+(define (stopped? c)
+  ;; Whether an instructor has stopped the clock; no time is owed for that then.
+  (and (tally-ref 'stopped)
+       (begin
+         (set-stepped! c (clock))
+         (tell! c "the instructor has stopped the clock")
+         #t)))
+
+(define (orders-now)
+  ;; The input of an instructor's order, in a list.
+  (let ((order (next-order!)))
+    (if order (list (list 'instruct order)) '())))
+
 (define (frame-inputs! c)
   ;; Draw a frame, take the keys of its time, and return the inputs that came of both.
   (let ((end (+ (clock) frame)))
+    (publish-flight! c)
+    (set-dark! c (tally-ref 'dark))
     (look-ahead! c)
     (draw-flight! c flight-hint)
     (when (cockpit-done? c) ((leaving)))
     (let* ((pressed (inputs-until c end))
            (moved (stick-input! c))
-           (steps (if (cockpit-paused? c) 0 (steps-due! c))))
-      (append pressed moved (if (positive? steps) (list (list 'pass steps)) '())))))
+           (steps (if (or (cockpit-paused? c) (stopped? c)) 0 (steps-due! c))))
+      (append (orders-now) pressed moved (if (positive? steps) (list (list 'pass steps)) '())))))
 
 (define (flight-asker c)
   ;; A procedure that returns the next input of a pupil at the sticks.
@@ -227,6 +249,9 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
       (lambda ()
         (let ((ask (flight-asker c)))
           (let loop ()
-            (show-result! c (apply-input! (next-input ask)))
+            (let* ((input (next-input ask)) (lines (apply-input! input)))
+              (if (eq? 'instruct (car input))
+                  (answer-order! lines)
+                  (show-result! c lines)))
             (loop))))
       (lambda () (set-seat-view! (the-seat) (if (one-view) 'chase (cockpit-view c)))))))

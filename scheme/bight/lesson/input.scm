@@ -7,6 +7,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson input)
+  #:use-module ((bight cockpit orders) #:select (do-to-dive! order->text))
   #:use-module (bight core errors)
   #:use-module (bight dive)
   #:use-module (bight dive command)
@@ -182,6 +183,18 @@
     ((altitude) (hold-altitude! (rov-altitude)))
     (else (hold-position!))))
 
+(define (obey! order)
+  ;; What the instructor handed in: it is in the report, and words are said.
+  (case (car order)
+    ((words) (say-as 'instructor (second order)) '())
+    (else
+     (log-line! 'instructor (order->text order))
+     (case (car order)
+       ((light) (tally-set! 'dark (not (second order))) '())
+       ((clock) (tally-set! 'stopped (not (second order))) '())
+       ((form) (evaluate-text (second order)))
+       (else (do-to-dive! order) '())))))
+
 (define (winch! metres)
   (if (positive? metres) (pay-out! metres) (haul-in! (- metres))))
 
@@ -197,6 +210,7 @@
     ((hint) (if (ask-for-hint!) '() '("There is no further hint.")))
     ((back) (go-back! 10) (list (string-append "Back at " (figure (now)) " s.")))
     ((tell) (tell! 'tender (second input)) '())
+    ((instruct) (catching (lambda () (obey! (second input)))))
     ((form) (if (replaying-form? input)
                 (catching (lambda () (evaluate-text (second input))))
                 (evaluate-noting (second input))))

@@ -12,7 +12,7 @@
   #:export (make-report
             report? report-who report-seed report-level report-total report-passed? report-marks
             report-said report-text report-hash report-coached report-hints report-rewinds
-            report-seconds report-lost))
+            report-seconds report-instructed report-lost))
 
 (define-record <report>
   (make-report lesson who seed level marks total passed? seconds hints rewinds said charts coached hash lost)
@@ -76,6 +76,16 @@ how it came about."
                  (string-pad (number->string (inexact->exact (round (* 100 (mark-credit m))))) 4)
                  "  " (mark-detail m)))
 
+(define-verb (report-instructed (r report))
+  "Return what an instructor handed in during the lesson of the report R: lists of time and text."
+  (filter-map (lambda (line) (and (eq? 'instructor (second line)) (list (first line) (third line))))
+              (%report-said r)))
+
+(define (instructor-lines r)
+  ;; Marks beside which an instructor stood say so.
+  (map (lambda (line) (string-append "  at " (figure (first line)) " s the instructor: " (second line)))
+       (report-instructed r)))
+
 (define (report-lines r)
   (append
    (list (simple-format #f "~a: ~a out of 100, ~a" (lesson-name (report-lesson r)) (%report-total r)
@@ -83,6 +93,7 @@ how it came about."
    (append-map mark-lines (report-mark-list r))
    (list (simple-format #f "  ~a s under water, ~a hints, ~a steps back" (figure (%report-seconds r))
                         (%report-hints r) (%report-rewinds r)))
+   (instructor-lines r)
    (report-charts r)))
 
 (define-verb (report-text (r report))

@@ -23,7 +23,7 @@
 ;;; Asking and telling.
 
 (define titles
-  '((task . "TASK: ") (hint . "Hint: ") (coach . "Coach: ") (fault . "! ") (message . "Tender: ")
+  '((task . "TASK: ") (hint . "Hint: ") (coach . "Coach: ") (fault . "! ") (message . "Tender: ") (instructor . "Instructor: ")
     (done . "") (failed . "")
     (right . "Right: ") (wrong . "Not quite: ") (say . "")))
 

@@ -259,7 +259,7 @@ Lines:
        (and (difference? outcome) (NAME outcome)))
      difference-step difference-time difference-quantities)
     ((NAME (run-lesson 'one-pile #:pilot 'expert))
-     report-coached report-hash report-hints report-marks report-passed? report-rewinds report-said
+     report-coached report-hash report-hints report-instructed report-marks report-passed? report-rewinds report-said
      report-seconds report-text report-total)))
 (define (put name datum)
   ;; DATUM with NAME in place of NAME.
