@@ -14,8 +14,8 @@
   #:use-module (bight cockpit desk)
   #:use-module (bight cockpit hud)
   #:use-module (bight cockpit keys)
+  #:use-module (bight cockpit state)
   #:use-module (bight core errors)
-  #:use-module (bight core record)
   #:use-module (bight core units)
   #:use-module (bight dive)
   #:use-module (bight dive query)
@@ -24,147 +24,15 @@
   #:use-module ((bight world) #:select (world-name))
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
-  #:export (new-cockpit cockpit? board!
-            cockpit-dive cockpit-vehicle cockpit-tether cockpit-sticks set-sticks!
-            cockpit-paused? set-paused! cockpit-done? set-done!
-            cockpit-sent set-sent! cockpit-live? set-live! cockpit-stepped set-stepped!
-            look-ahead! toggle-ghost! drop-ghost! cockpit-ghost set-ghost!
-            cockpit-plain? set-plain! cockpit-view set-view! cockpit-size cockpit-map? set-map! cockpit-dark? set-dark!
-            set-targets! set-panel! set-labels!
-            tell! call-or-tell trying
-            clock frame look-anew! ask-anew! palette-of ascii-terminal? this-palette
-            draw-frame! draw-page! pages view-key! frame-pixels
-            target))
+  #:export (draw-frame! draw-page! pages view-key! frame-pixels))
 
 (define-syntax-rule (from module name)
   (module-ref (resolve-interface 'module) 'name))
 
-(define frame 1/30)                     ; s
 (define slow-period 1/2)                ; s: between questions that cost something
 (define forecast-period 1)              ; s: between looks ahead, or longer,
 (define forecast-share 1/50)            ; so that they take no more of the time than this
 (define map-period 1/2)
-
-(define (clock)
-  "Return the time of the machine's clock, s."
-  (/ (get-internal-real-time) (exact->inexact internal-time-units-per-second)))
-
-
-;;; What it knows.
-
-(define-record <cockpit>
-  (make-cockpit palette ascii? dive vehicle tether screen size view paint plain? lamp? help? words? map? sticks
-                message message-until slow slow-due ahead words ahead-due plan plan-due
-                paused? ghost ghost-fork done? times targets labels panel dark? sent live? stepped)
-  cockpit?
-  (palette cockpit-palette)
-  (ascii? cockpit-ascii?)
-  (dive cockpit-dive set-dive!)         ; or #f
-  (vehicle cockpit-vehicle set-vehicle!) ; names, or #f
-  (tether cockpit-tether set-tether!)
-  (screen cockpit-screen set-screen!)
-  (size cockpit-size set-size!)
-  (view cockpit-view set-view!)
-  (paint cockpit-paint set-paint!)
-  (plain? cockpit-plain? set-plain!)    ; no picture
-  (lamp? cockpit-lamp? set-lamp!)
-  (help? cockpit-help? set-help!)
-  (words? cockpit-words? set-words!)
-  (map? cockpit-map? set-map!)
-  (sticks cockpit-sticks set-sticks!)
-  (message cockpit-message set-message!)
-  (message-until cockpit-message-until set-message-until!)
-  (slow cockpit-slow set-slow!)
-  (slow-due cockpit-slow-due set-slow-due!)
-  (ahead cockpit-ahead set-ahead!)      ; what is to come, strings
-  (words cockpit-words set-said!)       ; the way home in words, or #f
-  (ahead-due cockpit-ahead-due set-ahead-due!)
-  (plan cockpit-plan set-plan!)         ; the lines of the map
-  (plan-due cockpit-plan-due set-plan-due!)
-  (paused? cockpit-paused? set-paused!)
-  (ghost cockpit-ghost set-ghost!)      ; a dive to draw pale, #t: one that is not there yet, #f: none
-  (ghost-fork cockpit-ghost-fork set-ghost-fork!) ; (DIVE . STEPS-LEFT) on its way, or #f
-  (done? cockpit-done? set-done!)
-  (times cockpit-times set-times!)      ; when the last frames were drawn, the newest first
-  (targets cockpit-targets set-targets!) ; a thunk: a list of targets
-  (labels cockpit-labels set-labels!)   ; a list of targets that have a name alone
-  (panel cockpit-panel set-panel!)      ; (PANEL PUT COLUMNS ROWS): draw first; the row it ends at, or #f
-  (dark? cockpit-dark? set-dark!)       ; the camera sees nothing
-  ;; For its owner:
-  (sent cockpit-sent set-sent!)         ; the stick values that the vehicle was told last, or #f
-  (live? cockpit-live? set-live!)       ; #f: the owner's loop steps the dive
-  (stepped cockpit-stepped set-stepped!)) ; by that loop, until when
-
-;; A target is its name and where it is.
-(define target cons)
-
-(define (new-cockpit palette view paint)
-  "Return a cockpit without a dive, for a terminal of PALETTE, that shows VIEW with tethers painted by PAINT."
-  (make-cockpit palette (ascii-terminal?) #f #f #f #f #f view paint (eq? palette 'none) #f #f #t #f (new-sticks)
-                "" 0 '((windings) (warnings)) 0 '() #f 0 '() 0 #f #f #f #f '() (const '()) '() #f #f #f #f (clock)))
-
-(define (board! c dive)
-  "Let C show DIVE, and ask of it anew."
-  (let ((names (lambda (head) (let ((all (%names (engine-of dive) head))) (and (pair? all) (car all))))))
-    (set-dive! c dive)
-    (set-vehicle! c (names 'rov))
-    (set-tether! c (names 'tether))
-    (ask-anew! c)))
-
-(define (ask-anew! c)
-  "Let C forget what it knows of its dive."
-  (set-slow! c '((windings) (warnings)))
-  (set-ahead! c '())
-  (set-said! c #f)
-  (set-slow-due! c 0)
-  (set-ahead-due! c 0)
-  (set-plan-due! c 0))
-
-(define (look-anew! c)
-  "Let the next frame be written whole."
-  (set-size! c #f))
-
-(define (tell! c text)
-  "Show TEXT for a while."
-  (set-message! c text)
-  (set-message-until! c (+ 4 (clock))))
-
-(define (call-or-tell c thunk)
-  "Call THUNK; a &bight-error that it raises is shown."
-  (with-exception-handler
-      (lambda (e)
-        (if (bight-error? e)
-            (begin (tell! c (bight-error-message e)) #f)
-            (raise-exception e)))
-    thunk
-    #:unwind? #t))
-
-(define-syntax-rule (trying c body ...)
-  (call-or-tell c (lambda () body ...)))
-
-
-;;; What a terminal shows.
-
-(define (says? text word) (and text (string-contains-ci text word) #t))
-
-(define (palette-of term colorterm no-color)
-  "Return the palette of a terminal whose environment says TERM, COLORTERM and NO_COLOR, strings or #f:
-true, many, few or none."
-  (cond ((and no-color (not (string-null? no-color))) 'none)
-        ((or (member colorterm '("truecolor" "24bit")) (says? term "direct")) 'true)
-        ((says? term "256color") 'many)
-        ((or (not term) (string-prefix? "vt" term) (says? term "mono")) 'none)
-        (else 'few)))
-
-(define (this-palette)
-  "Return the palette of this terminal by its environment."
-  (palette-of (getenv "TERM") (getenv "COLORTERM") (getenv "NO_COLOR")))
-
-(define (ascii-terminal?)
-  "Return #t if the locale of the environment has no UTF-8."
-  (let ((locale (find (lambda (text) (and text (not (string-null? text))))
-                      (map getenv '("LC_ALL" "LC_CTYPE" "LANG")))))
-    (not (or (says? locale "UTF-8") (says? locale "UTF8")))))
 
 (define (fit-screen! c)
   ;; Take the terminal's size as it is now; return #t if all must be written.
@@ -251,45 +119,6 @@ fall in it."
                 (or (put (second mark) (third mark) text green 0)
                     (put (second mark) (third mark) "+" green 0))))
             marks))
-
-
-;;; What if: a fork that runs ahead, a little in every frame.
-
-(define ghost-horizon 5)                ; s
-(define ghost-budget 0.006)             ; s of a frame
-
-(define (advance-ghost! c)
-  (let ((fork (or (cockpit-ghost-fork c)
-                  (cons (fork-dive (cockpit-dive c))
-                        (inexact->exact (round (/ ghost-horizon (time-step))))))))
-    (let loop ((left (cdr fork)) (until (+ (clock) ghost-budget)))
-      (cond ((zero? left)
-             (set-ghost! c (car fork))
-             (set-ghost-fork! c #f))
-            ((> (clock) until) (set-ghost-fork! c (cons (car fork) left)))
-            (else
-             (%step-dive! (engine-of (car fork)) 1)
-             (loop (- left 1) until))))))
-
-(define (drop-ghost! c)
-  "Let C look ahead no more."
-  (set-ghost! c #f)
-  (set-ghost-fork! c #f))
-
-(define (look-ahead! c)
-  "Bring what C looks ahead to a little further, if it does."
-  (when (cockpit-ghost c)
-    (unless (trying c (advance-ghost! c) #t)
-      (drop-ghost! c))))
-
-(define (toggle-ghost! c)
-  "Let C look ahead, or no more."
-  (let ((wanted? (not (cockpit-ghost c))))
-    (drop-ghost! c)
-    (cond ((not wanted?))
-          ((cockpit-plain? c) (tell! c "plain characters show no what-if"))
-          (((unseen?) 'what-if) (tell! c "in this lesson nobody sees what will be"))
-          (else (set-ghost! c #t)))))
 
 
 ;;; The map.

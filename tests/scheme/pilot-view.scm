@@ -3,7 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight cockpit cells)
-             (bight cockpit)
+             (bight cockpit palette)
              (bight cockpit desk)
              (bight cockpit hud)
              (bight cockpit keys)

@@ -8,6 +8,8 @@
   #:use-module (bight cockpit desk)
   #:use-module (bight cockpit hud)
   #:use-module (bight cockpit keys)
+  #:use-module (bight cockpit palette)
+  #:use-module (bight cockpit state)
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight dive)

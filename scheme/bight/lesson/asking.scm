@@ -3,8 +3,8 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson asking)
-  #:use-module (bight cockpit)
   #:use-module (bight cockpit line)
+  #:use-module (bight cockpit state)
   #:use-module (bight lesson how-it-was)
   #:use-module (bight lesson input)
   #:use-module (bight lesson lines)

@@ -8,9 +8,10 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson cockpit)
-  #:use-module (bight cockpit)
   #:use-module (bight cockpit cells)
   #:use-module (bight cockpit hud)
+  #:use-module (bight cockpit palette)
+  #:use-module (bight cockpit state)
   #:use-module (bight core record)
   #:use-module (bight dive plain-words)
   #:use-module (bight lesson flying)

@@ -9,6 +9,8 @@
   #:use-module (bight cockpit keys)
   #:use-module (bight cockpit line)
   #:use-module ((bight cockpit orders) #:select (answer-order! next-order! publish!))
+  #:use-module (bight cockpit state)
+  #:use-module (bight cockpit what-if)
   #:use-module (bight core units)
   #:use-module (bight dive)
   #:use-module (bight dive plain-words)

@@ -3,7 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson how-it-was)
-  #:use-module (bight cockpit)
+  #:use-module (bight cockpit state)
   #:use-module (bight core record)
   #:use-module (bight core units)
   #:use-module (bight dive)

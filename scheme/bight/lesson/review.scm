@@ -3,7 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson review)
-  #:use-module (bight cockpit)
+  #:use-module (bight cockpit state)
   #:use-module (bight cockpit watch)
   #:use-module (bight dive)
   #:use-module (bight dive reel)

@@ -7,6 +7,7 @@
   #:use-module (bight cockpit cells)
   #:use-module (bight cockpit hud)
   #:use-module (bight cockpit keys)
+  #:use-module (bight cockpit state)
   #:use-module (bight core record)
   #:use-module (bight core units)
   #:use-module (bight dive)

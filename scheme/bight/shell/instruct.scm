@@ -14,6 +14,8 @@
   #:use-module (bight cockpit hud)
   #:use-module (bight cockpit keys)
   #:use-module (bight cockpit line)
+  #:use-module (bight cockpit palette)
+  #:use-module (bight cockpit state)
   #:use-module (bight core datum)
   #:use-module (bight core errors)
   #:use-module (bight core record)

@@ -1,0 +1,121 @@
+;;; (bight cockpit state) --- what a cockpit knows: its dive, how that is looked at, and what is told meanwhile.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight cockpit state)
+  #:use-module (bight cockpit keys)
+  #:use-module (bight cockpit palette)
+  #:use-module (bight core errors)
+  #:use-module (bight core record)
+  #:use-module (bight dive)
+  #:use-module (bight engine)
+  #:export (cockpit? new-cockpit board! ask-anew! look-anew! tell! call-or-tell trying clock frame target
+            cockpit-palette cockpit-ascii? cockpit-dive set-dive! cockpit-vehicle set-vehicle! cockpit-tether
+            set-tether! cockpit-screen set-screen! cockpit-size set-size! cockpit-view set-view! cockpit-paint
+            set-paint! cockpit-plain? set-plain! cockpit-lamp? set-lamp! cockpit-help? set-help! cockpit-words?
+            set-words! cockpit-map? set-map! cockpit-sticks set-sticks! cockpit-message set-message!
+            cockpit-message-until set-message-until! cockpit-slow set-slow! cockpit-slow-due set-slow-due!
+            cockpit-ahead set-ahead! cockpit-words set-said! cockpit-ahead-due set-ahead-due! cockpit-plan
+            set-plan! cockpit-plan-due set-plan-due! cockpit-paused? set-paused! cockpit-ghost set-ghost!
+            cockpit-ghost-fork set-ghost-fork! cockpit-done? set-done! cockpit-times set-times! cockpit-targets
+            set-targets! cockpit-labels set-labels! cockpit-panel set-panel! cockpit-dark? set-dark!
+            cockpit-sent set-sent! cockpit-live? set-live! cockpit-stepped set-stepped!))
+
+(define frame 1/30)                     ; s
+
+(define (clock)
+  "Return the time of the machine's clock, s."
+  (/ (get-internal-real-time) (exact->inexact internal-time-units-per-second)))
+
+
+;;; What it knows.
+
+(define-record <cockpit>
+  (make-cockpit palette ascii? dive vehicle tether screen size view paint plain? lamp? help? words? map? sticks
+                message message-until slow slow-due ahead words ahead-due plan plan-due
+                paused? ghost ghost-fork done? times targets labels panel dark? sent live? stepped)
+  cockpit?
+  (palette cockpit-palette)
+  (ascii? cockpit-ascii?)
+  (dive cockpit-dive set-dive!)         ; or #f
+  (vehicle cockpit-vehicle set-vehicle!) ; names, or #f
+  (tether cockpit-tether set-tether!)
+  (screen cockpit-screen set-screen!)
+  (size cockpit-size set-size!)
+  (view cockpit-view set-view!)
+  (paint cockpit-paint set-paint!)
+  (plain? cockpit-plain? set-plain!)    ; no picture
+  (lamp? cockpit-lamp? set-lamp!)
+  (help? cockpit-help? set-help!)
+  (words? cockpit-words? set-words!)
+  (map? cockpit-map? set-map!)
+  (sticks cockpit-sticks set-sticks!)
+  (message cockpit-message set-message!)
+  (message-until cockpit-message-until set-message-until!)
+  (slow cockpit-slow set-slow!)
+  (slow-due cockpit-slow-due set-slow-due!)
+  (ahead cockpit-ahead set-ahead!)      ; what is to come, strings
+  (words cockpit-words set-said!)       ; the way home in words, or #f
+  (ahead-due cockpit-ahead-due set-ahead-due!)
+  (plan cockpit-plan set-plan!)         ; the lines of the map
+  (plan-due cockpit-plan-due set-plan-due!)
+  (paused? cockpit-paused? set-paused!)
+  (ghost cockpit-ghost set-ghost!)      ; a dive to draw pale, #t: one that is not there yet, #f: none
+  (ghost-fork cockpit-ghost-fork set-ghost-fork!) ; (DIVE . STEPS-LEFT) on its way, or #f
+  (done? cockpit-done? set-done!)
+  (times cockpit-times set-times!)      ; when the last frames were drawn, the newest first
+  (targets cockpit-targets set-targets!) ; a thunk: a list of targets
+  (labels cockpit-labels set-labels!)   ; a list of targets that have a name alone
+  (panel cockpit-panel set-panel!)      ; (PANEL PUT COLUMNS ROWS): draw first; the row it ends at, or #f
+  (dark? cockpit-dark? set-dark!)       ; the camera sees nothing
+  ;; For its owner:
+  (sent cockpit-sent set-sent!)         ; the stick values that the vehicle was told last, or #f
+  (live? cockpit-live? set-live!)       ; #f: the owner's loop steps the dive
+  (stepped cockpit-stepped set-stepped!)) ; by that loop, until when
+
+;; A target is its name and where it is.
+(define target cons)
+
+(define (new-cockpit palette view paint)
+  "Return a cockpit without a dive, for a terminal of PALETTE, that shows VIEW with tethers painted by PAINT."
+  (make-cockpit palette (ascii-terminal?) #f #f #f #f #f view paint (eq? palette 'none) #f #f #t #f (new-sticks)
+                "" 0 '((windings) (warnings)) 0 '() #f 0 '() 0 #f #f #f #f '() (const '()) '() #f #f #f #f (clock)))
+
+(define (board! c dive)
+  "Let C show DIVE, and ask of it anew."
+  (let ((names (lambda (head) (let ((all (%names (engine-of dive) head))) (and (pair? all) (car all))))))
+    (set-dive! c dive)
+    (set-vehicle! c (names 'rov))
+    (set-tether! c (names 'tether))
+    (ask-anew! c)))
+
+(define (ask-anew! c)
+  "Let C forget what it knows of its dive."
+  (set-slow! c '((windings) (warnings)))
+  (set-ahead! c '())
+  (set-said! c #f)
+  (set-slow-due! c 0)
+  (set-ahead-due! c 0)
+  (set-plan-due! c 0))
+
+(define (look-anew! c)
+  "Let the next frame be written whole."
+  (set-size! c #f))
+
+(define (tell! c text)
+  "Show TEXT for a while."
+  (set-message! c text)
+  (set-message-until! c (+ 4 (clock))))
+
+(define (call-or-tell c thunk)
+  "Call THUNK; a &bight-error that it raises is shown."
+  (with-exception-handler
+      (lambda (e)
+        (if (bight-error? e)
+            (begin (tell! c (bight-error-message e)) #f)
+            (raise-exception e)))
+    thunk
+    #:unwind? #t))
+
+(define-syntax-rule (trying c body ...)
+  (call-or-tell c (lambda () body ...)))
