@@ -101,6 +101,13 @@
     ((bight world orcaflex) import-orcaflex)
     ((bight dive live) live! freeze! live?)
     ((bight dive threads) threads! threads)
+    ((bight belief)
+     believe! define-belief make-belief belief ask-belief belief? with-belief current-belief
+     observe! mend-belief! belief-doubts effective-size belief-values belief-about fork-belief belief-threads!
+     tether-tube tube-holds?)
+    ((bight belief answer)
+     answer? answer-values answer-weights answer-probability answer-interval answer-quantile answer-mean
+     answer-covariance answer-shares)
     ((bight lesson logbook)
      log-dive! log-lesson! log-probe! logbook logbook-file merge-logbook!
      log-entry? log-entry-kind log-entry-when log-entry-trainee log-entry-what log-entry-score

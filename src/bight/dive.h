@@ -57,6 +57,16 @@ void bt_dive_set_current_function (bt_dive *dive, bt_current_function function, 
 /* Advance by one step of bt_dive_time_step seconds.  On failure (BT_ERR_DIVERGED) the dive stays at
    its last good step.  */
 bt_status bt_dive_step (bt_dive *dive, bt_error *error);
+
+/* Step each of the N DIVES, none of them twice in the list, until STEP steps are taken, on up to
+   THREADS threads, the caller's included: each dive ends as bt_dive_step would leave it, whatever
+   THREADS is.  EACH receives a status for each dive: a dive whose step failed stays at its last
+   good step.  POLL, or NULL, is asked in the caller's thread meanwhile; told to leave, the function
+   returns BT_ERR_INTERRUPTED, and a second call with the same STEP goes on from there.
+   BT_ERR_DOMAIN for THREADS below 1 or above BT_THREADS_MAX; BT_ERR_UNSUPPORTED if the current of a
+   dive is a function.  */
+bt_status bt_dives_step (bt_dive *const *dives, int n, int64_t step, int threads, bt_poll poll,
+                         void *user, bt_status *each, bt_error *error);
 int64_t bt_dive_steps (const bt_dive *dive);
 double bt_dive_time (const bt_dive *dive);      /* s: steps times the time step */
 double bt_dive_time_step (const bt_dive *dive); /* s */
@@ -284,9 +294,10 @@ typedef struct bt_profile
   uint64_t shared_again; /* ... and those that one had to do again, for tethers that met */
 } bt_profile;
 
-/* Write the present state of the sea, of vehicle I, of tether I, or of the water at P.  BT_ERR_NAME
+/* Write the present state of the sea, its current as it was set, of vehicle I, of tether I, or of the water at P.  BT_ERR_NAME
    for a part that does not exist, BT_ERR_DOMAIN for a place that is not finite.  */
 void bt_dive_sea (const bt_dive *dive, bt_sea_view *view);
+void bt_dive_current (const bt_dive *dive, bt_current *current);
 bt_status bt_dive_vehicle (const bt_dive *dive, int i, bt_vehicle_view *view, bt_error *error);
 bt_status bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *error);
 bt_status bt_dive_current_at (const bt_dive *dive, bt_vec3 p, bt_vec3 *velocity, bt_error *error);

@@ -160,6 +160,39 @@ step_dive (SCM object, SCM count)
   return count;
 }
 
+/* The list of N dives as an array, of which the collector knows.  */
+static bt_dive **
+to_dives (SCM list, int *n)
+{
+  bt_dive **dives;
+  *n = scm_to_int (scm_length (list));
+  dives = scm_gc_malloc (sizeof *dives * (size_t)(*n + 1), "dives");
+  for (int i = 0; i < *n; i++, list = scm_cdr (list))
+    dives[i] = bt__to_idle_dive ("run", scm_car (list));
+  return dives;
+}
+
+static SCM
+step_dives (SCM host, SCM list, SCM step, SCM threads)
+{
+  int n;
+  bt_dive **dives = to_dives (list, &n);
+  bt_status *each = scm_gc_malloc_pointerless (sizeof *each * (size_t)(n + 1), "statuses");
+  bt__handle *handle = bt__to_handle (host);
+  SCM lost = SCM_EOL;
+  bt_error error;
+  scm_run_finalizers ();
+  bt__check_long ("run", handle,
+                  bt_dives_step (dives, n, scm_to_int64 (step), scm_to_int (threads),
+                                 bt__ask_guile, handle, each, &error),
+                  &error);
+  for (int i = n; i-- > 0;)
+    if (each[i] != BT_OK)
+      lost = scm_cons (scm_from_int (i), lost);
+  scm_remember_upto_here_2 (host, list);
+  return lost;
+}
+
 static SCM
 whole_steps (SCM object, SCM seconds)
 {
@@ -302,6 +335,9 @@ bt__define_dives (void)
     { "%dive?", 1, 0, (scm_t_subr)is_dive, "Return #t if OBJECT is a dive." },
     { "%fork-dive", 1, 0, (scm_t_subr)fork_dive, "Return a copy of DIVE that goes its own way." },
     { "%step-dive!", 2, 0, (scm_t_subr)step_dive, "Advance DIVE by COUNT steps." },
+    { "%step-dives!", 4, 0, (scm_t_subr)step_dives,
+      "Advance the DIVES of a list to STEP on up to THREADS threads; ^C interrupts as for HOST.  "
+      "Return the places in the list of those that failed." },
     { "%whole-steps!", 2, 0, (scm_t_subr)whole_steps,
       "Add SECONDS to the time asked of DIVE and return the whole steps it holds." },
     { "%carried", 1, 0, (scm_t_subr)carried,

@@ -49,6 +49,16 @@ sea (SCM object)
                          bt__associate ("waves", from_doubles (waves, (size_t)n), SCM_EOL))));
 }
 
+/* The numbers of the operation `current' that set the current of a dive.  */
+static SCM
+current_numbers (SCM object)
+{
+  bt_current current;
+  double args[BT_CURRENT_ARGS];
+  bt_dive_current (bt__to_dive (object), &current);
+  return from_doubles (args, (size_t)bt_current_pack (&current, args));
+}
+
 static SCM
 vehicle (SCM object, SCM index)
 {
@@ -354,6 +364,8 @@ bt__define_questions (void)
 {
   static const bt__procedure table[] = {
     { "%names", 2, 0, (scm_t_subr)names, "Return the names of the parts of kind PART in DIVE." },
+    { "%current-numbers", 1, 0, (scm_t_subr)current_numbers,
+      "Return the current of DIVE as the numbers of the operation `current', an f64vector." },
     { "%sea", 1, 0, (scm_t_subr)sea, "Return depth, density and gravity of DIVE's sea, an alist." },
     { "%vehicle", 2, 0, (scm_t_subr)vehicle, "Return the INDEX-th vehicle of DIVE, an alist." },
     { "%tether", 2, 0, (scm_t_subr)tether, "Return the INDEX-th tether of DIVE, an alist." },

@@ -18,6 +18,12 @@ bt_dive_sea (const bt_dive *dive, bt_sea_view *view)
 }
 
 void
+bt_dive_current (const bt_dive *dive, bt_current *current)
+{
+  *current = dive->now->current;
+}
+
+void
 bt_dive_profile (const bt_dive *dive, bt_profile *profile)
 {
   *profile = dive->profile;

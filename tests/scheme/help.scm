@@ -100,7 +100,7 @@
 ;; Numbers that count or compare, in no unit.
 (define bare
   '(low high value n number jobs seed durations least most most-points hits trials components competence surge sway
-    heave yaw score given truth factor grip v zoom))
+    heave yaw score given truth factor grip share v zoom))
 
 (define (bare? name)
   (memq (if (keyword? name) (keyword->symbol name) name) bare))

@@ -13,7 +13,6 @@
   #:use-module (bight dive query)
   #:use-module (bight dive task)
   #:use-module (bight engine)
-  #:use-module ((bight world) #:select (part-head world-part))
   #:use-module (bight world current)
   #:use-module (bight world track)
   #:use-module (bight world waves)
@@ -263,18 +262,6 @@ Return the current at the surface, m/s."
            (alter-field! 'alter! head index (keyword->symbol (car rest)) (cadr rest))
            (loop (cddr rest))))))
 
-(define (part-to-alter name)
-  ;; The head and the index of the part called NAME.
-  (if (eq? name 'sea)
-      (values 'sea 0)
-      (call-with-values (lambda () (find-part 'alter! name))
-        (lambda (kind index)
-          (values (case kind
-                    ((vehicle) 'rov)
-                    ((obstacle) (part-head (world-part (dive-world (this-dive 'alter!)) name)))
-                    (else kind))
-                  index)))))
-
 (define-verb (alter! (part name) #:rest (settings any))
   "Change fields of the vehicle, tether or obstacle named PART, or of the sea, while the dive runs, as in
 (alter! 'line #:cdn 1.4 #:model 'catenary).  All are changed, or, when one is refused, none.  Return
@@ -289,7 +276,7 @@ PART."
          (%set-journal! engine journal))
        (raise-exception e))
      (lambda ()
-       (call-with-values (lambda () (part-to-alter part))
+       (call-with-values (lambda () (part-to-alter 'alter! part))
          (lambda (head index)
            (alter-fields! head index settings)))
        part))))

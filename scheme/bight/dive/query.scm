@@ -11,6 +11,7 @@
   #:use-module (bight core verb)
   #:use-module (bight dive)
   #:use-module (bight engine)
+  #:use-module ((bight world) #:select (part-head world-part))
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
@@ -22,7 +23,7 @@
             tether-length straight-distance taut-length free-length slack excess
             taut? parted? asleep? settled? model-of energy error-estimate accurate? tightest-bend equilibria
             places-of deviation deviation-rms deviation-mean deviation-max deviation-worst deviation?
-            events profile parts find-part tether-properties obstacle-properties))
+            events profile parts find-part part-to-alter tether-properties obstacle-properties))
 
 (define (vehicle-view proc v)
   (%vehicle (this-engine proc) v))
@@ -378,3 +379,15 @@ from PROC."
           (obstacle (values 'obstacle obstacle))
           (else
            (unknown-name proc "this dive" name (parts) "part")))))
+
+(define (part-to-alter proc name)
+  "Return the head and the index of the part called NAME, or raise a &bight-error from PROC; the sea is one."
+  (if (eq? name 'sea)
+      (values 'sea 0)
+      (call-with-values (lambda () (find-part proc name))
+        (lambda (kind index)
+          (values (case kind
+                    ((vehicle) 'rov)
+                    ((obstacle) (part-head (world-part (dive-world (this-dive proc)) name)))
+                    (else kind))
+                  index)))))

@@ -19,6 +19,9 @@
             draw?
             draw-names
             draw-variable
+            draw-at
+            random?
+            shares
             listed-values
             design
             design?
@@ -80,7 +83,7 @@ name, between 0 and 1, neither included."
         (vector-set! order j kept)))))
 
 (define (shares kind n seed variable)
-  ;; N numbers between 0 and 1 for VARIABLE.
+  "Return N numbers between 0 and 1 for VARIABLE, drawn as KIND, `monte-carlo' or `latin-hypercube', says."
   (let ((stream (number-stream seed variable)))
     (if (eq? kind 'monte-carlo)
         (list-tabulate n stream)
@@ -176,11 +179,11 @@ name, between 0 and 1, neither included."
   (map (lambda (i) (+ from (* i step)))
        (iota (+ 1 (inexact->exact (floor (+ 1e-9 (/ (- to from) step))))))))
 
-(define (make-draw place variable kind values)
-  "Return the draw of KIND, one of `draw-names', with VALUES, for VARIABLE.  Raise a &bight-error that
-begins with PLACE, a string, if there is no such draw."
+(define* (make-draw place variable kind values #:optional (proc 'define-study))
+  "Return the draw of KIND, one of `draw-names', with VALUES, for VARIABLE.  Raise a &bight-error from PROC
+that begins with PLACE, a string, if there is no such draw."
   (unless (fits? kind values)
-    (bight-raise 'domain 'define-study "~a~a is drawn by ~a, of numbers~a, not by ~s" place variable
+    (bight-raise 'domain proc "~a~a is drawn by ~a, of numbers~a, not by ~s" place variable
                  (car (assq-ref usages kind))
                  (case kind
                    ((grid one-of) ", symbols, strings or booleans")
@@ -191,7 +194,9 @@ begins with PLACE, a string, if there is no such draw."
                  (cons kind values)))
   (%make-draw variable kind values))
 
-(define (random? draw) (memq (draw-kind draw) '(uniform normal one-of)))
+(define (random? draw)
+  "Return true if DRAW is of a distribution."
+  (memq (draw-kind draw) '(uniform normal one-of)))
 
 (define (listed-values draw)
   "Return the values that DRAW lists, or #f if it is random."
@@ -202,8 +207,8 @@ begins with PLACE, a string, if there is no such draw."
       ((seeds) (iota (car values) 1))
       (else #f))))
 
-(define (at-share draw share)
-  ;; The value of DRAW, a random one, below which SHARE of its distribution lies.
+(define (draw-at draw share)
+  "Return the value of DRAW, a random one, below which SHARE, between 0 and 1, of its distribution lies."
   (let ((values (draw-values draw)))
     (case (draw-kind draw)
       ((uniform) (+ (first values) (* share (- (second values) (first values)))))
@@ -226,7 +231,7 @@ begins with PLACE, a string, if there is no such draw."
     (if listed
         (cons #t (list->vector listed))
         (cons #f (list->vector
-                  (map (lambda (share) (at-share draw share))
+                  (map (lambda (share) (draw-at draw share))
                        (shares (first sampling) (second sampling) (third sampling)
                                (draw-variable draw))))))))
 

@@ -1,0 +1,105 @@
+;;; (bight belief tube) --- where a tether may be: the tube that holds it with a given probability.
+;;;
+;;; At each of several places along the tether the members' points have a mean and a covariance.  A point lies in
+;;; the tube at that place if its Mahalanobis distance is no more than that of the share of the members, each
+;;; judged by all: as the members and the truth are drawn alike, the share of truths held is the share asked for,
+;;; whatever the distribution (conformal prediction: Vovk, Gammerman and Shafer, Algorithmic Learning in a Random
+;;; World, 2005).
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight belief tube)
+  #:use-module (bight belief answer)
+  #:use-module (srfi srfi-1)
+  #:use-module (srfi srfi-4)
+  #:export (ellipsoid
+            ellipsoid-mean
+            ellipsoid-axes
+            ellipsoid-holds?))
+
+(define least-variance 1e-8)            ; m2: a tenth of a millimetre
+
+;; An ellipsoid is (MEAN INVERSE-COVARIANCE COVARIANCE SQUARE-OF-RADIUS), matrices as lists of rows.
+
+(define ellipsoid-mean first)
+
+(define (minor m i j)
+  (let ((rows (delete i '(0 1 2))) (columns (delete j '(0 1 2))))
+    (define (at r c) (list-ref (list-ref m (list-ref rows r)) (list-ref columns c)))
+    (- (* (at 0 0) (at 1 1)) (* (at 0 1) (at 1 0)))))
+
+(define (inverse m)
+  ;; Of a symmetric matrix of three rows.
+  (let* ((cofactor (lambda (i j) (* (if (even? (+ i j)) 1 -1) (minor m i j))))
+         (determinant (fold (lambda (j sum) (+ sum (* (list-ref (car m) j) (cofactor 0 j)))) 0.0 '(0 1 2))))
+    (map (lambda (i) (map (lambda (j) (/ (cofactor j i) determinant)) '(0 1 2))) '(0 1 2))))
+
+(define (square-distance mean inverse p)
+  (let ((off (map - (f64vector->list p) (f64vector->list mean))))
+    (fold (lambda (row a sum) (+ sum (* a (apply + (map * row off))))) 0.0 inverse off)))
+
+(define (floored covariance)
+  (map (lambda (row i) (map (lambda (v j) (if (= i j) (+ v least-variance) v)) row '(0 1 2)))
+       covariance '(0 1 2)))
+
+(define (weighted-rank pairs share)
+  ;; The least of the values of PAIRS, (VALUE . WEIGHT), at which SHARE of the weight, and one member's more, is
+  ;; reached; one and a half times the greatest where there are too few for that.
+  (let* ((sorted (sort pairs (lambda (a b) (< (car a) (car b)))))
+         (n (/ 1 (apply + (map (lambda (p) (* (cdr p) (cdr p))) pairs))))
+         (wanted (* share (+ 1 (/ 1 n)))))
+    (let loop ((rest sorted) (sum 0.0))
+      (cond ((null? rest) (* 1.5 (car (last sorted))))
+            ((>= (+ sum (cdar rest)) (- wanted 1e-12)) (caar rest))
+            (else (loop (cdr rest) (+ sum (cdar rest))))))))
+
+(define (ellipsoid answer share)
+  "Return the ellipsoid that holds the point of ANSWER with probability SHARE."
+  (let* ((mean (answer-mean answer))
+         (covariance (floored (answer-covariance answer)))
+         (inverse (inverse covariance)))
+    (list mean inverse covariance
+          (weighted-rank (map (lambda (p w) (cons (square-distance mean inverse p) w))
+                              (answer-values answer) (answer-weights answer))
+                         share))))
+
+(define (ellipsoid-holds? ellipsoid p)
+  "Return true if P, a point, lies in ELLIPSOID."
+  (<= (square-distance (first ellipsoid) (second ellipsoid) p) (fourth ellipsoid)))
+
+
+;;; Axes: the eigenvectors of the covariance, by Jacobi's rotations (Golub and Van Loan, Matrix Computations,
+;;; section 8.5).
+
+(define (rotated m v p q)
+  ;; The matrix M with its element (P, Q) turned to zero, and V turned alike: arrays, changed in place.
+  (let ((off (array-ref m p q)))
+    (unless (zero? off)
+      (let* ((theta (/ (- (array-ref m q q) (array-ref m p p)) (* 2 off)))
+             (t (/ (if (< theta 0) -1.0 1.0) (+ (abs theta) (sqrt (+ 1 (* theta theta))))))
+             (c (/ 1 (sqrt (+ 1 (* t t))))) (s (* t c)))
+        (define (turn! a row? k)
+          (let ((x (if row? (array-ref a p k) (array-ref a k p)))
+                (y (if row? (array-ref a q k) (array-ref a k q))))
+            (define (put! value at) (if row? (array-set! a value at k) (array-set! a value k at)))
+            (put! (- (* c x) (* s y)) p)
+            (put! (+ (* s x) (* c y)) q)))
+        (for-each (lambda (k) (turn! m #f k)) '(0 1 2))
+        (for-each (lambda (k) (turn! m #t k)) '(0 1 2))
+        (for-each (lambda (k) (turn! v #f k)) '(0 1 2))))))
+
+(define (ellipsoid-axes ellipsoid)
+  "Return the three half axes of ELLIPSOID, vectors in metres, f64vectors, the longest first."
+  (let ((m (list->typed-array 'f64 2 (third ellipsoid)))
+        (v (list->typed-array 'f64 2 '((1 0 0) (0 1 0) (0 0 1)))))
+    (for-each (lambda (sweep)
+                (for-each (lambda (pq) (rotated m v (car pq) (cadr pq))) '((0 1) (0 2) (1 2))))
+              (iota 12))
+    (sort (map (lambda (k)
+                 (let ((length (sqrt (max 0.0 (* (fourth ellipsoid) (array-ref m k k))))))
+                   (list->f64vector (map (lambda (i) (* length (array-ref v i k))) '(0 1 2)))))
+               '(0 1 2))
+          (lambda (a b) (> (length-of a) (length-of b))))))
+
+(define (length-of v)
+  (sqrt (apply + (map (lambda (c) (* c c)) (f64vector->list v)))))

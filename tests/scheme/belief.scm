@@ -1,0 +1,198 @@
+;;; A belief: a cloud of tethers, what it answers, and what it learns.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(use-modules (srfi srfi-1)
+             (srfi srfi-4)
+             (bight belief cloud)
+             (bight belief tube)
+             (bight belief unknowns))
+
+(define-world slack-water
+  "A kinematic vehicle on a short line of few nodes, beside a post."
+  (sea      (depth 20) (current 0.2 90))
+  (cylinder (named post) (from 3 6 0) (to 3 6 -20) (radius 0.3))
+  (rov      (named minnow) (type kinematic) (at 0 12 -8) (heading 0))
+  (tether   (named line) (type fathom) (wet-weight 0) (model dynamic) (nodes 10) (from 0 0 -2) (to minnow)
+            (length 16)))
+
+(define-belief doubtful
+  "The current, and the drag of the line."
+  (current (error 0.1) (levels 0 -20) (correlation 20))
+  (line (cdn (uniform 1 1.6))))
+
+(define (hashes belief)
+  (map (lambda (m) (in-member m state-hash)) (belief-members belief)))
+
+(define (values-of belief name)
+  (answer-values (assq-ref (belief-values belief) name)))
+
+(define-scenario every-question-is-answered
+  "What is true or false is a probability, a number has quantiles, a point a mean, anything else shares."
+  (in slack-water)
+  (believe! doubtful #:members 16)
+  (run 4)
+  (let ((answers (belief fouled? (slack) (point-at 8) (homotopy-class) (tether-length))))
+    (expect (map answer? answers) => '(#t #t #t #t #t))
+    (expect (answer-probability (first answers)) => 0.0)
+    (expect (second (answer-interval (first answers))) is (between 0.1 0.3))
+    (expect (answer-quantile (second answers) 0.5) is (between 0 1))
+    (expect (<= (answer-quantile (second answers) 0.1) (answer-quantile (second answers) 0.9)) => #t)
+    (expect (distance (answer-mean (third answers)) (point-at 8)) is (below 0.5))
+    (expect (map cdr (answer-shares (fourth answers))) => '(1.0))
+    (expect (answer-interval (fifth answers)) => '(16.0 16.0))
+    (expect (answer-quantile (first answers) 0.5) raises unsupported)
+    (expect (answer-values (belief (rov-position 'line))) => '()))) ; no member has an answer
+
+(define-scenario nothing-uncertain-nothing-spread
+  "A belief of one value alone is the dive itself to the last bit of the line, through all that is done to it."
+  (in slack-water)
+  (believe! (line (gj (one-of 0))) #:members 8)
+  (move! '(5 9 -8) #:speed 0.5) (run 2)
+  (pay-out! 4 #:rate 1) (current! 0.1 0) (run 2)
+  (alter! 'line #:cdn 1.5) (haul-in! 1) (run 2)
+  (expect (delete-duplicates (answer-values (belief (point-at 8)))) => (list (point-at 8)))
+  (expect (delete-duplicates (answer-values (belief (tether-length)))) => (list (tether-length))))
+
+(define-scenario threads-never-show
+  "The same bits for any number of threads, and whether the dive is asked often or once."
+  (in slack-water)
+  (let* ((one (believe! doubtful #:members 8))
+         (two (believe! doubtful #:members 8)))
+    (belief-threads! 1 one)
+    (belief-threads! 3 two)
+    (move! '(5 9 -8) #:speed 0.5)
+    (run 1)
+    (ask-belief one slack)
+    (run 2)
+    (ask-belief one slack)
+    (ask-belief two slack)
+    (expect (hashes one) => (hashes two))
+    (expect (length (delete-duplicates (hashes one))) => 8)))
+
+(define-scenario values-stay-in-range
+  "Each member has its own values; those that are altered by hand keep them."
+  (in slack-water)
+  (let ((b (believe! (line (cdn (uniform 1 1.6)) (friction (normal 0.05 0.5))) (payout (normal 0 0.1)) #:members 16)))
+    (alter! 'line #:cdn 5 #:ei 0.01)
+    (expect (apply max (values-of b 'line.cdn)) is (below 1.6))
+    (expect (apply min (values-of b 'line.friction)) => 0.0)
+    (run 1)
+    (expect (answer-interval (belief (tether-length)) 0.5) is (lambda (i) (< 15.8 (first i) 16 (second i) 16.2)))
+    (expect (delete-duplicates
+             (answer-values (belief (assq-ref ((@@ (bight dive query) tether-properties) 0) 'ei))))
+            => '(0.01))))
+
+(define (twin-learns by)
+  ;; A member of another belief is the truth; return the belief that observed it, and the truth.
+  (let* ((truth (car (belief-members (make-belief (current-dive) doubtful #:members 8 #:seed 9))))
+         (all (make-belief (current-dive) doubtful #:members 8 #:seed 9))
+         (b (believe! doubtful #:members 32 #:by by)))
+    (move! '(6 10 -8) #:speed 0.5)
+    (for-each (lambda (k)
+                (run 1)
+                (catch-up! 'test all)
+                (let ((member (car (belief-members all))))
+                  (observe! b 'transponder (in-member member (lambda () (point-at 8))) #:on 8 #:noise 0.05)
+                  (observe! b 'winch-tension (in-member member anchor-tension) #:noise 0.2)))
+              (iota 8))
+    (values b (unknown-values (belief-unknowns b) (member-latent truth)))))
+
+(define-scenario readings-teach
+  "Readings of a truth draw the belief to it, and narrow it."
+  (in slack-water)
+  (let ((before (belief-values (believe! doubtful #:members 32))))
+    (call-with-values (lambda () (twin-learns 'smoother))
+      (lambda (b truth)
+        (let* ((after (belief-values b))
+               (east (lambda (values) (third (find (lambda (v) (eq? 'current (car v))) values))))
+               (width (lambda (a) (apply - (reverse (answer-interval a))))))
+          (expect (width (east after)) is (below (* 0.5 (width (east before)))))
+          (expect (answer-mean (east after)) is (about (second (car (assq-ref truth 'current))) #:within 0.05))
+          (expect (null? (assq-ref (belief-about b) 'mended)) => #f)
+          (expect (effective-size b) is (between 8 32)))))))
+
+(define-scenario particles-teach
+  "So do they with particles, which are mended at once and never flown again."
+  (in slack-water)
+  (call-with-values (lambda () (twin-learns 'particles))
+    (lambda (b truth)
+      (expect (null? (assq-ref (belief-about b) 'mended)) => #f)
+      (expect (answer-interval (cdr (assq 'line.cdn (belief-values b))))
+              is (lambda (i) (<= 1 (first i) (second i) 1.6))))))
+
+(define-scenario what-cannot-be
+  "Evidence that no member explains is an answer, told of, and changes nothing; what comes too late is late."
+  (in slack-water)
+  (let ((b (believe! doubtful #:members 16)))
+    (run 2)
+    (expect (observe! b 'winch-tension 1e6) => 'impossible)
+    (expect (observe! b 'touched '(not post)) => 'impossible)
+    (expect (observe! b 'seen '(100 100 -5)) => 'impossible)
+    (expect (map second (belief-doubts b)) => '(seen touched winch-tension))
+    (expect (effective-size b) is (about 16 #:within 1e-9))
+    (expect (observe! b 'touched 'post) => 'taken)
+    (expect (observe! b 'depth 8 #:at 1) => 'late)
+    (expect (observe! b 'depth 8 #:at 3) raises domain)
+    (expect (observe! b 'dept 8) raises name)
+    (expect (observe! b 'position 8) raises domain)
+    (expect (observe! b 'transponder '(0 0 0)) raises def)))
+
+(define-scenario going-back
+  "A belief goes back with its dive, and says so where it cannot; a fork of one goes its own way."
+  (in slack-water)
+  (let ((early (checkpoint)))
+    (run 1)
+    (let ((b (believe! doubtful #:members 8)) (start (checkpoint)))
+      (move! '(4 10 -8) #:speed 0.5)
+      (run 2)
+      (ask-belief b slack)
+      (let ((there (hashes b)))
+        (what-if (let ((fork (fork-belief b)))
+                   (run 1)
+                   (ask-belief fork slack)
+                   (expect (equal? (hashes fork) there) => #f)))
+        (ask-belief b slack)
+        (expect (hashes b) => there)
+        (restore! start)
+        (ask-belief b slack)
+        (move! '(4 10 -8) #:speed 0.5)
+        (run 2)
+        (ask-belief b slack)
+        (expect (hashes b) => there))
+      (restore! early)
+      (expect (ask-belief b slack) raises stale))))
+
+(define-scenario clauses-are-checked
+  "What cannot be uncertain is refused, and nothing is believed then."
+  (in slack-water)
+  (expect (belief slack) raises def)
+  (expect (believe!) raises def)
+  (expect (believe! (line (cdm (uniform 1 2)))) raises name)
+  (expect (believe! (lien (cdn (uniform 1 2)))) raises name)
+  (expect (believe! (line (cdn (uniform 2 1)))) raises domain)
+  (expect (make-belief (current-dive) '((line (cdn (gauss 2 1))))) raises name)
+  (expect (make-belief (current-dive) '((line (cdn (grid 2 1))))) raises def)
+  (expect (believe! (line (length (uniform 1 2)))) raises unsupported)
+  (expect (believe! (line (cdn (uniform 1 2))) (line (cdn (uniform 1 2)))) raises def)
+  (expect (believe! (current (errors 0.1))) raises def)
+  (expect (believe! (current (error 0.1)) #:members 3) raises domain)
+  (current! (lambda (p t) (vec 0.1 0 0)))
+  (expect (believe! (line (cdn (uniform 1 2)))) raises unsupported)
+  (expect (current-belief) => #f))
+
+(define-scenario the-tube
+  "The tube holds its share of the members, and its axes are those of its ellipsoid."
+  (in slack-water)
+  (let ((b (believe! doubtful #:members 32)))
+    (run 4)
+    (let* ((lines (answer-values (belief (list (tether-points 5)))))
+           (held (append-map (lambda (line) (tube-holds? (car line) #:belief b)) lines)))
+      (expect (/ (count identity held) (length held)) is (between 0.85 1))
+      (let* ((points (map (lambda (p) (car p)) (answer-values (belief (list (point-at 8))))))
+             (e (ellipsoid (belief (point-at 8)) 0.9)))
+        (for-each (lambda (axis)
+                    (expect (ellipsoid-holds? e (vec+ (ellipsoid-mean e) (vec* 0.99 axis))) => #t)
+                    (expect (ellipsoid-holds? e (vec+ (ellipsoid-mean e) (vec* 1.01 axis))) => #f))
+                  (ellipsoid-axes e))
+        (expect (count (lambda (p) (ellipsoid-holds? e p)) points) is (between 28 31))))))
