@@ -42,7 +42,9 @@
 
 (define (benches)
   "Return the names of the benches there are."
-  (bench-files (%programs-folder)))
+  (sort (cons in-the-language (bench-files (%programs-folder))) string<?))
+
+(define in-the-language "belief")       ; a bench that is no program
 
 (define (check-name name)
   (let ((known (benches)))
@@ -87,7 +89,9 @@
 
 (define (purpose name)
   ;; The second line of its help.
-  (let ((lines (or (output-of (program-of (%programs-folder) name) "--help") '())))
+  (let ((lines (if (equal? name in-the-language)
+                   '("" "How often beliefs are right, and what they cost.")
+                   (or (output-of (program-of (%programs-folder) name) "--help") '()))))
     (if (> (length lines) 1) (second lines) "")))
 
 (define (list-benches)
@@ -309,6 +313,10 @@
 (define (worlds? names passed)
   (and (equal? names '("stability")) ((@ (bight bench worlds) worlds-asked?) passed)))
 
+;; So are beliefs.
+(define (belief? names)
+  (equal? names (list in-the-language)))
+
 (define (words? plan)
   ;; Is the one bench asked for something else than rows?
   (let ((passed (plan-ref plan 'arguments)))
@@ -360,6 +368,9 @@
                (did-you-mean (car passed) (append ours flags '("--data")))))
         (cond ((assoc-ref options "--list") (list-benches))
               (old (compare old files names options passed folder))
+              ((belief? names)
+               ((@ (bight bench belief) run-belief)
+                (append (if (assoc-ref options "--quick") '("--quick") '()) passed)))
               (else
                (let ((plan (make-plan names options passed)))
                  (cond ((worlds? names passed)

@@ -294,8 +294,9 @@ typedef struct bt_profile
   uint64_t shared_again; /* ... and those that one had to do again, for tethers that met */
 } bt_profile;
 
-/* Write the present state of the sea, its current as it was set, of vehicle I, of tether I, or of the water at P.  BT_ERR_NAME
-   for a part that does not exist, BT_ERR_DOMAIN for a place that is not finite.  */
+/* Write the present state of the sea, its current as it was set, of vehicle I, of tether I, or of
+   the water at P.  BT_ERR_NAME for a part that does not exist, BT_ERR_DOMAIN for a place that is
+   not finite.  */
 void bt_dive_sea (const bt_dive *dive, bt_sea_view *view);
 void bt_dive_current (const bt_dive *dive, bt_current *current);
 bt_status bt_dive_vehicle (const bt_dive *dive, int i, bt_vehicle_view *view, bt_error *error);

@@ -183,8 +183,8 @@ step_dives (SCM host, SCM list, SCM step, SCM threads)
   bt_error error;
   scm_run_finalizers ();
   bt__check_long ("run", handle,
-                  bt_dives_step (dives, n, scm_to_int64 (step), scm_to_int (threads),
-                                 bt__ask_guile, handle, each, &error),
+                  bt_dives_step (dives, n, scm_to_int64 (step), scm_to_int (threads), bt__ask_guile,
+                                 handle, each, &error),
                   &error);
   for (int i = n; i-- > 0;)
     if (each[i] != BT_OK)

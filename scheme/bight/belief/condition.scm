@@ -31,7 +31,7 @@
 (define enough 0.25)                    ; of the members, effective: below, a belief is mended
 (define stage-leaves 0.4)               ; of the members, effective, after a stage of the smoother
 (define most-stages 6)
-(define kept-for-weights 0.2)           ; of the evidence
+(define kept-for-weights 0.1)           ; of the evidence, before the smoother and after
 (define jitter 0.2)                     ; of the deviation of the latent numbers
 (define impossible 5.0)                 ; deviations from what any member foretold
 (define growth 0.15)                    ; of the way flown that is flown again, before it is once more
@@ -289,21 +289,25 @@ explain it: then the belief is as it was, but for its doubts."
     share))
 
 (define (choose-by-weights! belief readings)
-  ;; What the smoother left of the evidence of READINGS, or as much of that as leaves a share of the members
-  ;; effective, weighs them: of two members with equal values one may have caught and one slipped off.
+  ;; The part of the evidence of READINGS that is kept for weights, or as much of that as leaves a share of the
+  ;; members effective, weighs them: of two members with equal values one may have caught and one slipped off.
   (let* ((logs (map (lambda (i) (sum-of (lambda (r) (log-chance r (list-ref (reading-predictions r) i))) readings))
                     (iota (length (belief-members belief)))))
          (power (stage-share logs kept-for-weights))
          (most (fold max -inf.0 logs)))
-    (for-each (lambda (member log) (set-member-event-weight! member (* power (- log most))))
+    (for-each (lambda (member log)
+                (set-member-event-weight! member (+ (* power (- log most)) (member-event-weight member))))
               (belief-members belief) logs)))
 
 (define (sum-of f items) (fold (lambda (item sum) (+ sum (f item))) 0.0 items))
 
+(define (pending-numbers belief)
+  (filter (lambda (r) (and (reading-scalars r) (not (reading-done? r)))) (belief-readings belief)))
+
 (define (smooth! belief)
   ;; Return how many stages it took.
-  (let ((pending (filter (lambda (r) (and (reading-scalars r) (not (reading-done? r)))) (belief-readings belief))))
-    (let loop ((left (if (null? pending) 0.0 (- 1 kept-for-weights))) (stage 0))
+  (let ((pending (pending-numbers belief)))
+    (let loop ((left (if (null? pending) 0.0 (- 1 (* 2 kept-for-weights)))) (stage 0))
       (if (< left 1e-9)
           (begin
             (unless (null? pending) (choose-by-weights! belief pending))
@@ -339,8 +343,9 @@ explain it: then the belief is as it was, but for its doubts."
   (shares-of (map member-event-weight (living belief)) 1.0))
 
 (define (mend-by-smoother! belief)
-  ;; What was seen to happen chooses among the members first; numbers then move them.
+  ;; What was seen to happen, and a part of the numbers, choose among the members first; numbers then move them.
   (replace-lost! belief)
+  (choose-by-weights! belief (pending-numbers belief))
   (let* ((n (length (belief-members belief)))
          (shares (event-shares belief)))
     (when (< (effective-number shares) (* 0.999 n))
