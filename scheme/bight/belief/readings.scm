@@ -20,8 +20,7 @@
             check-reading
             usual-noise
             predicted
-            log-chance
-            reading->string))
+            log-chance))
 
 ;; KIND, the noise where none is given, the unit.
 (define kinds
@@ -116,11 +115,3 @@ been."
                 (- sum (* 0.5 off off))))
             0.0 (f64vector->list (reading-scalars reading)) (f64vector->list prediction))
       (log (max 1e-300 (f64vector-ref prediction 0)))))
-
-(define (reading->string reading)
-  "Return READING in words."
-  (simple-format #f "~a ~a" (reading-kind reading)
-                 (let ((value (reading-value reading)))
-                   (cond ((pair? value) (if (cdr value) (car value) (list 'not (car value))))
-                         ((= 1 (f64vector-length value)) (f64vector-ref value 0))
-                         (else (f64vector->list value))))))
