@@ -18,19 +18,34 @@ node_of (const bt__dynamic_work *w, int k)
   return k ? w->n : 0;
 }
 
-/* The pull of the interval at end K, out of the end; with SLOW, the resistance to a change of a
-   slack interval is part of the pull.  */
 static bt_vec3
-interval_pull (const bt__dynamic_work *w, int k, int slow)
+chord_at (const bt__dynamic_work *w, int j)
+{
+  bt_vec3 c = bt__sub (w->X[j + 1], w->X[j]);
+  return w->chord ? bt__add (c, w->chord[j]) : c;
+}
+
+/* The pull of interval J along itself, N: negative if the interval pushes.  */
+static double
+pull_along (const bt__dynamic_work *w, int j)
+{
+  double change = bt__norm (chord_at (w, j)) - w->link[j].start;
+  return w->lam[j] - w->link[j].thrust + bt__dynamic_slack (w, j) * change;
+}
+
+/* The pull of the interval at end K, out of the end.  */
+static bt_vec3
+interval_pull (const bt__dynamic_work *w, int k)
 {
   int j = k ? w->n - 1 : 0;
-  const bt__link *link = w->link + j;
-  bt_vec3 c = bt__sub (w->X[j + 1], w->X[j]);
-  c = w->chord ? bt__add (c, w->chord[j]) : c;
-  double pull = w->lam[j] - link->thrust;
-  if (slow)
-    pull += bt__dynamic_slack (w, j) * (bt__norm (c) - link->start);
-  return bt__scale (k ? -pull : pull, bt__unit_or (c, link->t));
+  double pull = pull_along (w, j);
+  return bt__scale (k ? -pull : pull, bt__unit_or (chord_at (w, j), w->link[j].t));
+}
+
+double
+bt__dynamic_overload (bt__dynamic_work *w)
+{
+  return fmin (bt__norm (bt__dynamic_end_pull (w, 0)) - w->in->hold, pull_along (w, 0));
 }
 
 /* The force of the lumps at node I without the body of end K, which is pulled by the line.  */
@@ -49,12 +64,11 @@ lumps_pull (const bt__dynamic_work *w, int k, int i)
   return f;
 }
 
-/* The sum of the forces on the end node at K but the holder's; SLOW as above.  */
-static bt_vec3
-sum_of_forces (bt__dynamic_work *w, int k, int slow)
+bt_vec3
+bt__dynamic_end_pull (bt__dynamic_work *w, int k)
 {
   int i = node_of (w, k);
-  bt_vec3 f = bt__add (interval_pull (w, k, slow), bt__dynamic_node_load (w, i));
+  bt_vec3 f = bt__add (interval_pull (w, k), bt__dynamic_node_load (w, i));
   if (w->load)
     f = bt__add (f, w->load[i]);
   if (w->lumped)
@@ -64,16 +78,4 @@ sum_of_forces (bt__dynamic_work *w, int k, int slow)
   if (w->rows > 0)
     f = bt__add (f, bt__dynamic_contact_on (w, i));
   return f;
-}
-
-bt_vec3
-bt__dynamic_end_pull (bt__dynamic_work *w, int k)
-{
-  return sum_of_forces (w, k, 1);
-}
-
-double
-bt__dynamic_drawn (bt__dynamic_work *w)
-{
-  return bt__norm (sum_of_forces (w, 0, 0));
 }

@@ -28,13 +28,14 @@ typedef struct trial
 static trial
 look (bt__dynamic_work *w)
 {
-  return (trial){ w->given, bt__dynamic_drawn (w) - w->in->hold };
+  return (trial){ w->given, bt__dynamic_overload (w) };
 }
 
 static trial
 give (bt__dynamic_work *w, double given, bt__dynamic_report *report)
 {
   bt__dynamic_lengthen (w, 0, given - w->given);
+  w->link[0].start += given - w->given;
   w->given = given;
   report->converged = bt__dynamic_newton (w, report);
   return look (w);
@@ -140,5 +141,6 @@ void
 bt__dynamic_give_nothing (bt__dynamic_work *w)
 {
   bt__dynamic_lengthen (w, 0, -w->given);
+  w->link[0].start -= w->given;
   w->given = 0;
 }

@@ -199,10 +199,10 @@ bt_vec3 bt__dynamic_node_load (bt__dynamic_work *w, int i);
    (dynamic_ends.c).  */
 bt_vec3 bt__dynamic_end_pull (bt__dynamic_work *w, int k);
 
-/* What line given by the winch can relieve of the pull on the winch, N: tension and the load of
-   half an interval, without the forces of slack resistance, lumps, bending and contacts at the
-   node.  */
-double bt__dynamic_drawn (bt__dynamic_work *w);
+/* By how much the line draws too hard on the winch, N: the excess of the end pull over what the
+   winch holds, at most the pull of the first interval.  The weight and drag of the half interval at
+   the winch are borne by the winch whether line is given or not; a slack interval draws no line.  */
+double bt__dynamic_overload (bt__dynamic_work *w);
 
 /* The forces of the rows of bending, and of the caller's half-spaces, on node I, N.  */
 bt_vec3 bt__dynamic_bend_on (const bt__dynamic_work *w, int i);
