@@ -8,6 +8,7 @@
    relative velocity, w wet weight, T tension and B bending,
      M a = F(u - v) - w + T_i t_i - T_{i-1} t_{i-1} + B,
      T = max (0, EA (e - 1) + BA de/dt),   e = chord / rest length,
+     T = EA (e - 1) + BA de/dt for a line with bending stiffness, which carries compression,
    where v and a are second-order backward differences of variable step (backward Euler when there
    is no usable history).  Loads, mass and drag act per unstretched metre.
 
@@ -75,12 +76,15 @@ enum
 size_t bt__dynamic_size (int n_max);
 
 /* Parts of the block.  Node arrays have n + 1 elements, interval arrays n.  */
-bt_vec3 *bt__dynamic_x (const bt__dynamic *d);       /* m: positions */
-bt_vec3 *bt__dynamic_v (const bt__dynamic *d);       /* m/s: velocities */
-bt_vec3 *bt__dynamic_dx (const bt__dynamic *d);      /* m: motion in the last step */
-bt_vec3 *bt__dynamic_vp (const bt__dynamic *d);      /* m/s: velocities one step before */
-bt_vec3 *bt__dynamic_load (const bt__dynamic *d);    /* N: fourth-order part of the loads */
-bt_vec3 *bt__dynamic_chord (const bt__dynamic *d);   /* m: fourth-order part of the chords */
+bt_vec3 *bt__dynamic_x (const bt__dynamic *d);     /* m: positions */
+bt_vec3 *bt__dynamic_v (const bt__dynamic *d);     /* m/s: velocities */
+bt_vec3 *bt__dynamic_dx (const bt__dynamic *d);    /* m: motion in the last step */
+bt_vec3 *bt__dynamic_vp (const bt__dynamic *d);    /* m/s: velocities one step before */
+bt_vec3 *bt__dynamic_load (const bt__dynamic *d);  /* N: fourth-order part of the loads */
+bt_vec3 *bt__dynamic_chord (const bt__dynamic *d); /* m: fourth-order part of the chords; of a line
+                                                      of second order that has bending stiffness
+                                                      (crumple, BT__BEARS, 0) */
+#define BT__BEARS 1.0 /* an interval that bears compression, see dynamic_unfold.c */
 double *bt__dynamic_tension (const bt__dynamic *d);  /* N: tensions of the intervals */
 double *bt__dynamic_rest (const bt__dynamic *d);     /* m: rest lengths */
 double *bt__dynamic_stretch (const bt__dynamic *d);  /* chord / rest length */

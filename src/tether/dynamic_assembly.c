@@ -97,13 +97,14 @@ assemble_links (bt__dynamic_work *w, int i, int j, int safe, sides *s)
   bt__pair rho = w->rho * s->rest, slack = bt__pair_min (w->soft * spring, w->inertia * s->rest);
   bt__pair length = s->length, stretch = length - zero;
   bt__pair urge = safe ? stretch : lam + rho * stretch;
-  bt__mask taut = urge > 0;
+  bt__mask taut = urge > w->least;
   bt__pair active = bt__pair_where (taut, (bt__pair){ 1, 1 }), was = { a->active, b->active };
   bt__pair ka = slack + bt__pair_where (taut, spring),
            tension = bt__pair_where (taut, spring * stretch);
   s->pull = tension + slack * (length - from) - thrust;
   bt__pair held = safe ? s->pull : lam - thrust;
-  bt__pair kg = bt__pair_where (held > 0, held * s->per_length), kd = ka - kg;
+  bt__pair kg = bt__pair_max (held, (bt__pair){ w->pushed, w->pushed }) * s->per_length,
+           kd = ka - kg;
   if (w->stiffen > 0) /* at least as stiff in every direction, slack or not */
     {
       kg = bt__pair_max (kg, w->stiffen * spring);
@@ -419,7 +420,7 @@ bt__dynamic_potential (const bt__dynamic_work *w)
       double stretch = bt__norm (chord_of (w, j)) - k->zero;
       double change = stretch + k->zero - k->start;
       double slack = bt__dynamic_slack (w, j);
-      sum += 0.5 * (stretch > 0 ? k->ka : 0) * stretch * stretch - k->thrust * stretch
+      sum += 0.5 * (stretch > w->least ? k->ka : 0) * stretch * stretch - k->thrust * stretch
              + 0.5 * slack * change * change;
     }
   return bt__dynamic_touches (w) ? sum + bt__dynamic_contact_potential (w) : sum;

@@ -6,10 +6,13 @@
    order, at any rotation, and it is quadratic in the positions: forces are linear, the blocks are
    constant multiples of the unit, and bending costs no iteration.
 
-   This energy also falls when a bent interval shortens, as if it were pushed by EI kappa^2 (the
-   multiplier of |r'| = 1 is the tension less EI kappa^2).  So an interval under bending bears that
-   thrust beside its tension, and goes slack only below it; the thrust is held while a step is
-   solved.
+   A line that bends keeps its length: its intervals bear compression as they bear tension, and the
+   line goes aside under it, as a column buckles.  Of the compression the stiffness of a step takes
+   into account as much as leaves every block positive; Newton's way finds the rest.
+
+   The energy of bending also falls when a bent interval shortens, as if it were pushed by EI
+   kappa^2 (the multiplier of |r'| = 1 is the tension less EI kappa^2).  The tension that is told
+   has that thrust in it, as it is at the start of the step.
 
    Damping of bending adds D dw/dt / cell to the moment of a node.  The backward difference of w is
    linear in the positions, so a damped row is a row again: stiffer by D b0, about another turn.
@@ -21,6 +24,12 @@
 #include <string.h>
 
 #include "tether/dynamic_kernel.h"
+
+#define CROOKED 1e-6  /* 1/m: no line under compression is straighter, ... */
+#define ROUGH 1e-4    /* ... and so much of a compression beyond ... */
+#define STRAINED 2e-5 /* ... this strain pushes a node aside, ... */
+#define STRAIGHT 1e-4 /* ... while the line turns there by less */
+#define SAFELY 0.9    /* of the compression at which a block of a step would be singular */
 
 static void
 add_bend (bt__dynamic_work *w, bt__bend row)
@@ -49,27 +58,6 @@ add_clamp (bt__dynamic_work *w, int k, double ei)
     add_bend (w, (bt__bend){ j, 2, 2 * ei / l, { -1 / l, 1 / l, 0 }, d });
 }
 
-/* How far interval J has been pushed together beyond what its thrust can hold, m.  */
-static double
-yielded (const bt__dynamic_work *w, int j)
-{
-  const bt__link *k = w->link + j;
-  return fmax (k->rest - k->start - k->thrust * k->rest / w->ea, 0);
-}
-
-/* A thrust grows with the bend, and so it costs more to bend what has yielded to it: the thrust and
-   this are the gradient of one energy, and neither makes any.  */
-static double
-stiffer_by_thrust (const bt__dynamic_work *w, int i)
-{
-  double before = i > 1 ? 0.5 : 1, after = i + 1 < w->n ? 0.5 : 1;
-  double far = before * yielded (w, i - 1) + after * yielded (w, i);
-  if (!(far > 0)
-      || bt__turn_square (w->x + i, w->link[i - 1].rest, w->link[i].rest) >= BT__SHARPEST)
-    return 1;
-  return 1 + 2 * BT__THRUST * far / w->node[i].cell;
-}
-
 /* The turn of ROW with places or velocities P in place of X, not counting D.  */
 static inline bt_vec3
 bend_sum (const bt__bend *row, const bt_vec3 *p)
@@ -95,23 +83,56 @@ damped (const bt__dynamic_work *w, bt__bend row, double damping)
   return row;
 }
 
+/* A straight line that is pushed would stay straight under any load: nothing tells it to which side
+   to buckle.  So ROW of a node between pushed intervals has a natural curvature, for as long as the
+   line there is straighter, and is pushed out of line by a little of the compression, to this side
+   or to that by the bits of a number: waves of every length grow.  */
+static void
+add_crook (const bt__dynamic_work *w, bt__bend *row)
+{
+  int i = row->first + 1;
+  double cell = w->node[i].cell, turn = CROOKED * cell;
+  double pushed = -fmax (w->lam[i - 1], w->lam[i]);
+  if (pushed < 0
+      || bt__turn_square (w->x + i, w->link[i - 1].rest, w->link[i].rest) > STRAIGHT * STRAIGHT)
+    return;
+  bt_vec3 t = bt__sub (w->x[i + 1], w->x[i - 1]);
+  double aside = ROUGH * fmax (0, pushed - STRAINED * w->ea) * cell / row->k;
+  turn += (uint32_t)i * 2654435769u >> 31 ? aside : -aside;
+  row->d
+      = bt__scale (turn, bt__unit_or (bt__cross (t, bt__vec (t.y, t.z, t.x)), bt__vec (0, 0, 1)));
+}
+
+/* The greatest compression, N, that leaves every block of a step positive, whatever the wave:
+   inertia gives m b0^2 to a wave of any number q, bending EI q^4, and a compression P takes P q^2.
+ */
+static double
+pushed_most (const bt__dynamic_work *w, double ei)
+{
+  double inertia = w->b0 * w->b0 * w->m, l = w->link[w->n - 1].rest;
+  return SAFELY * fmax (2 * sqrt (inertia * ei), inertia * l * l / 4);
+}
+
 void
-bt__dynamic_bend_prepare (bt__dynamic_work *w)
+bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d)
 {
   double ei = w->in->line->ei, damping = w->in->line->bending_damping;
   size_t size = (size_t)(w->n + 1) * sizeof (double);
   w->bends = 0;
+  w->least = ei > 0 ? -INFINITY : 0;
+  w->pushed = ei > 0 ? -pushed_most (w, ei) : 0;
   if (!(ei > 0 || damping > 0))
     return;
   bt__dynamic_bend_thrust (w);
+  bt__dynamic_unfold (w, d);
   memset (w->bend_diag, 0, size);
   memset (w->bend_off, 0, size);
   memset (w->bend_far, 0, size);
   for (int i = 1; i < w->n; i++)
     {
       double q = 1 / w->link[i - 1].rest, p = 1 / w->link[i].rest;
-      double k = stiffer_by_thrust (w, i) * ei / w->node[i].cell;
-      bt__bend row = { i - 1, 3, k, { q, -(p + q), p }, { 0, 0, 0 } };
+      bt__bend row = { i - 1, 3, ei / w->node[i].cell, { q, -(p + q), p }, { 0, 0, 0 } };
+      add_crook (w, &row);
       add_bend (w, damping > 0 ? damped (w, row, damping / w->node[i].cell) : row);
     }
   add_clamp (w, 0, ei);

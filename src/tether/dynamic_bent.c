@@ -50,7 +50,8 @@ static leg
 leg_of (const bt__dynamic_work *w, int64_t j)
 {
   const bt__link *k = w->link + j;
-  double length = bt__norm (chord_at_bend (w, j)), active = k->active > 0;
+  double length = bt__norm (chord_at_bend (w, j));
+  int active = k->active > 0 && (k->tension > 0 || w->least == 0);
   return (leg){ .tension = active * k->tension,
                 .along = active * k->ka,
                 .by_rest = active * k->ka * length / k->rest,

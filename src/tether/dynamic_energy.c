@@ -12,15 +12,12 @@
 
 #define NOTHING 1e-12 /* of what moves, is strained and can fall: no gain */
 
-/* What interval J stores at the stretch E: a line under bending is also pushed together, by THRUST
-   at the most.  */
+/* What an interval stores at the stretch E: one under bending is strained by pushing too.  */
 static double
-strain_energy (double ea, double rest, double e, double thrust)
+strain_energy (double ea, double rest, double e, int bends)
 {
-  double over = e - 1, yield = thrust / ea;
-  if (over >= -yield)
-    return over > 0 || thrust > 0 ? 0.5 * ea * rest * over * over : 0;
-  return thrust * rest * (-over - 0.5 * yield);
+  double over = e - 1;
+  return over > 0 || bends ? 0.5 * ea * rest * over * over : 0;
 }
 
 static double
@@ -43,7 +40,7 @@ energies_at (const bt__dynamic *d, const bt__dynamic_input *in, const bt_vec3 *x
   const bt_vec3 *chord = in->order == 4 ? bt__dynamic_chord (d) : NULL;
   const bt_tether_props *p = in->line;
   double ma = in->water->density * p->ca * BT__PI * p->diameter * p->diameter / 4;
-  double ea = bt__stiffness (p->ea), before = 0;
+  double ea = bt__stiffness (p->ea);
   double lift = in->water->density > 0 ? p->mass * in->water->gravity - p->wet_weight : 0;
   int n = (int)d->n;
   bt__dynamic_energy sum = { 0, 0, 0, bending_energy (x, rest, n, p->ei) };
@@ -59,13 +56,9 @@ energies_at (const bt__dynamic *d, const bt__dynamic_input *in, const bt_vec3 *x
     }
   for (int j = 0; j < n; j++)
     {
-      double after
-          = p->ei > 0 && j + 1 < n ? bt__bend_square (x + j + 1, rest[j], rest[j + 1]) : before;
       bt_vec3 c = bt__sub (x[j + 1], x[j]);
       double e = bt__norm (chord ? bt__add (c, chord[j]) : c) / rest[j];
-      sum.strain
-          += strain_energy (ea, rest[j], e, bt__thrust_of (p->ei, j ? before : after, after));
-      before = after;
+      sum.strain += strain_energy (ea, rest[j], e, p->ei > 0);
     }
   return sum;
 }

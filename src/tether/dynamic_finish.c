@@ -246,6 +246,9 @@ take_over (bt__dynamic *d, bt__dynamic_work *w, const uint8_t *restart, const bt
 {
   if (w->in->order == 4)
     bt__dynamic_correct (d, w);
+  else if (w->in->line->ei > 0)
+    for (int j = 0; j < w->n; j++)
+      bt__dynamic_chord (d)[j] = bt__vec (w->crumple[j], BT__BEARS, 0);
   commit_nodes (d, w, w->keep, restart);
   commit_links (d, w, report);
   commit_ends (d, w, pull, report);

@@ -14,7 +14,6 @@
 #include "tether/dynamic.h"
 #include "tether/dynamic_contact.h"
 
-#define BT__THRUST 1.5   /* of EI kappa^2: the clamp's cell and the held curvature err */
 #define BT__SHARPEST 1.0 /* turn at a node, as a vector: none sharper thrusts more */
 
 /* A symmetric 3 x 3 block.  */
@@ -60,7 +59,7 @@ typedef struct bt__extra
 typedef struct bt__link
 {
   double rest, ka, zero; /* m, N/m, m: length of no tension */
-  double thrust;         /* N: what bending pushes along the line, see dynamic_bend.c */
+  double thrust;         /* N: of bending, in the tension, see dynamic_bend.c */
   double start;          /* m: length at the start */
   double tension;        /* N: of the line */
   bt_vec3 t;             /* unit tangent */
@@ -120,23 +119,27 @@ struct bt__dynamic_work
   double ea, kn, kt, m, ma, weight; /* N, drag, mass and wet weight per metre */
   double lift;                      /* N/m: buoyancy */
   int surfaced;                     /* true: the line comes near to the surface */
-  double stiffen;                   /* of ka: the least geometric stiffness, see safe */
-  double rho;                       /* N/m2: of the activity test, see prepare_links */
-  double soft, inertia;             /* of ka, N/m2: what resists a change of length is the less */
-  double tolerance;                 /* m */
-  double owed;                      /* m: line out, not in the chain, after the step */
-  double given;                     /* m: line that was drawn from the winch */
-  const bt_vec3 *x;                 /* positions at the start */
-  const bt_vec3 *chord, *load;      /* fourth-order parts, NULL if none */
-  bt__constraint *row;              /* the caller's half-spaces, ... */
-  int rows, pairs;                  /* ... how many; and of these, how many bear on two places */
-  bt__dynamic_hold *hold;           /* of the ends, NULL if none */
-  bt__dynamic_bent *bent;           /* nodes about which the line runs, ... */
-  int bents, bordered;              /* ... how many; true if their flows are unknowns */
+  double least;   /* m: an interval bears no tension below this stretch: 0, or with bending
+                     stiffness minus infinity */
+  double pushed;  /* N: the greatest compression in the geometric stiffness, see dynamic_bend.c */
+  double stiffen; /* of ka: the least geometric stiffness, see safe */
+  double rho;     /* N/m2: of the activity test, see prepare_links */
+  double soft, inertia;        /* of ka, N/m2: what resists a change of length is the less */
+  double tolerance;            /* m */
+  double owed;                 /* m: line out, not in the chain, after the step */
+  double given;                /* m: line that was drawn from the winch */
+  const bt_vec3 *x;            /* positions at the start */
+  const bt_vec3 *chord, *load; /* fourth-order parts, NULL if none */
+  bt__constraint *row;         /* the caller's half-spaces, ... */
+  int rows, pairs;             /* ... how many; and of these, how many bear on two places */
+  bt__dynamic_hold *hold;      /* of the ends, NULL if none */
+  bt__dynamic_bent *bent;      /* nodes about which the line runs, ... */
+  int bents, bordered;         /* ... how many; true if their flows are unknowns */
   /* ---- arrays ---- */
   bt_vec3 *X, *d, *rhs, *keep; /* iterate, update, right-hand side, spare */
   bt_vec3 *last;               /* among contacts: the update before */
   double *lam;
+  double *crumple; /* m: with bending stiffness, see dynamic_unfold.c */
   bt__link *link;
   bt__node *node;
   bt__extra *extra;
@@ -201,7 +204,7 @@ bt_vec3 bt__dynamic_end_pull (bt__dynamic_work *w, int k);
 
 /* By how much the line draws too hard on the winch, N: the excess of the end pull over what the
    winch holds, at most the pull of the first interval.  The weight and drag of the half interval at
-   the winch are borne by the winch whether line is given or not; a slack interval draws no line.  */
+   the winch are borne by the winch whether line is given or not; a slack interval draws no line. */
 double bt__dynamic_overload (bt__dynamic_work *w);
 
 /* The forces of the rows of bending, and of the caller's half-spaces, on node I, N.  */
@@ -267,8 +270,11 @@ void bt__dynamic_bent_take (bt__dynamic_work *w, double share);
 double bt__dynamic_bent_potential (const bt__dynamic_work *w);
 double bt__dynamic_bent_solve (bt__dynamic_work *w);
 
+/* Unfold what is crumpled of a line with bending stiffness (dynamic_unfold.c).  */
+void bt__dynamic_unfold (bt__dynamic_work *w, const bt__dynamic *d);
+
 /* Bending: set up the rows, add their forces to RHS, return their energy.  */
-void bt__dynamic_bend_prepare (bt__dynamic_work *w);
+void bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d);
 void bt__dynamic_bend_thrust (bt__dynamic_work *w);
 void bt__dynamic_bend_force (bt__dynamic_work *w);
 double bt__dynamic_bend_energy (const bt__dynamic_work *w, const bt_vec3 *X);
@@ -294,7 +300,7 @@ bt__bend_square (const bt_vec3 *x, double before, double after)
 static inline double
 bt__thrust_of (double ei, double before, double after)
 {
-  return ei * BT__THRUST * 0.5 * (before + after);
+  return ei * 0.5 * (before + after);
 }
 
 /* Return true if the step of D that INPUT asks for can only take energy from it.  */

@@ -183,5 +183,5 @@ bt__dynamic_prepare (bt__dynamic_work *w, const bt__dynamic *d, const bt__dynami
   sample_current (w);
   bt__dynamic_surface_prepare (w);
   prepare_lumps (w);
-  bt__dynamic_bend_prepare (w);
+  bt__dynamic_bend_prepare (w, d);
 }

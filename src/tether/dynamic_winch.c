@@ -50,13 +50,21 @@ point_between (const bt_vec3 *a, double u)
   return bt__axpy (bt__scale (1 - u, a[0]), u, a[2]);
 }
 
+/* True if interval J of D is no slack one: it is in tension, or bears compression.  */
+static int
+is_strained (const bt__dynamic *d, int64_t j)
+{
+  double t = bt__dynamic_tension (d)[j];
+  return t > 0 || (t < 0 && bt__dynamic_chord (d)[j].y == BT__BEARS);
+}
+
 /* The curvature vector of the line at node I, 1/m: zero at an end and beside a slack interval.  */
 static bt_vec3
 curvature (const bt__dynamic *d, int64_t i)
 {
   const bt_vec3 *x = bt__dynamic_x (d) + i;
-  const double *rest = bt__dynamic_rest (d) + i, *t = bt__dynamic_tension (d) + i;
-  if (i < 1 || i >= d->n || !(t[-1] > 0 && t[0] > 0))
+  const double *rest = bt__dynamic_rest (d) + i;
+  if (i < 1 || i >= d->n || !is_strained (d, i - 1) || !is_strained (d, i))
     return bt__vec (0, 0, 0);
   bt_vec3 before = bt__scale (1 / rest[-1], bt__sub (x[0], x[-1])),
           after = bt__scale (1 / rest[0], bt__sub (x[1], x[0]));
@@ -95,7 +103,7 @@ bt__dynamic_split (bt__dynamic *d, int64_t j, double u, int straight)
 {
   int64_t i = j + 1;
   double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d), whole = rest[j];
-  int taut = bt__dynamic_tension (d)[j] > 0;
+  int taut = is_strained (d, j);
   bt_vec3 *x = bt__dynamic_x (d), none = { 0, 0, 0 },
           off = straight || !taut ? none : bow_of_interval (d, j, u * whole, (1 - u) * whole);
   shift_all (d, i, 1);
@@ -117,7 +125,7 @@ bt__dynamic_remove (bt__dynamic *d, int64_t i)
   double whole = rest[0] + rest[1], u = rest[0] / whole, chord;
   double mean[]
       = { u * t[0] + (1 - u) * t[1], u * e[0] + (1 - u) * e[1], u * de[0] + (1 - u) * de[1] };
-  int taut = t[0] > 0 && t[1] > 0;
+  int taut = is_strained (d, j) && is_strained (d, j + 1);
   shift_all (d, i, -1);
   chord = bt__distance (bt__dynamic_x (d)[j], bt__dynamic_x (d)[j + 1]);
   bt__dynamic_chord (d)[j] = bt__vec (0, 0, 0);

@@ -1,0 +1,86 @@
+;;; A line with bending stiffness in a dive: it carries compression, and so keeps its length.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(use-modules (srfi srfi-1))
+
+(define (between-nodes)
+  ;; The sum of the distances between the points of the tether.
+  (let ((points (array->list (tether-points))))
+    (fold (lambda (p q sum) (+ sum (norm (vec- (apply vec p) (apply vec q)))))
+          0 points (cdr points))))
+
+(define (off-its-length)
+  ;; By how much of it.
+  (abs (- (/ (between-nodes) (tether-length)) 1)))
+
+(define (alone ei reach length model)
+  (world (sea (depth 60))
+         (rov (named minnow) (type kinematic) (at reach 0 -20))
+         (tether (named line) (type fathom) (wet-weight 0) (ei ei) (from 0 0 -20) (to minnow) (length length)
+                 (model ,model))))
+
+(define-scenario (two-ends-are-pushed-apart model)
+  "10 m of line between ends 9 m apart pushes with the load of the elastica, a little above Euler's 0.099 N."
+  #:for ((model 'dynamic 'auto))
+  (enter! (alone 1 9 10 model))
+  (run 60)
+  (expect (abs (- (rov-tension) 0.1038)) is (below 1e-3))
+  (expect (abs (- (anchor-tension) 0.1038)) is (below 1e-3))
+  (expect (off-its-length) is (below 1e-4)))
+
+(define-scenario (a-vehicle-backs-off ei)
+  "25 m of line, its vehicle backing off 8 m in still water: the line bows out and stays as long as it is."
+  #:for ((ei 1e-3 0.1 1))
+  (enter! (alone ei 24.9 25 'dynamic))
+  (fly-to! '(17 0 -20))
+  (let ((worst 0))
+    (do ((k 0 (+ k 1))) ((= k 60))
+      (run 1)
+      (set! worst (max worst (off-its-length))))
+    (expect worst is (below 1e-4))))
+
+(define-scenario (a-fold-on-the-floor ei)
+  "A heavy line is pushed together on the bed, along it: a fold rises, or the line goes aside, and none is lost."
+  #:for ((ei 0.1 1))
+  (enter! (world (sea (depth 20)) (seabed)
+                 (rov (named minnow) (type kinematic) (at 9 0 -19.9))
+                 (tether (named line) (type fathom) (wet-weight 0.5) (ei ei) (from 0 0 -19.9) (to minnow) (length 10)
+                         (model dynamic))))
+  (fly-to! '(7 0 -19.9))
+  (run 60)
+  (expect (off-its-length) is (below 1e-4))
+  (expect (fold min 0 (map third (array->list (tether-points)))) is (above -20.01)))
+
+(define-scenario what-becomes-stiff-unfolds
+  "A limp line that lies short does not burst when it is given a stiffness: it comes to its length in time, and the
+same from a checkpoint and in a fork."
+  (enter! (alone 0 24.9 25 'dynamic))
+  (fly-to! '(15 2 -20))
+  (run 60)
+  (let ((lost (off-its-length)))
+    (expect lost is (above 1e-2))
+    (alter! 'line #:ei 0.1)
+    (let ((here (checkpoint)) (fastest 0))
+      (do ((k 0 (+ k 1))) ((= k 60))
+        (run 0.1)
+        (set! fastest (max fastest (max-tension))))
+      (expect fastest is (below 50))
+      (run 24)
+      (expect (off-its-length) is (below 1e-4))
+      (let ((there (state-hash)))
+        (restore! here)
+        (expect (what-if (run 6) (run 24) (state-hash)) => there)))))
+
+(define-scenario paid-out-tenfold-and-hauled
+  "Paid out tenfold in a current, and hauled: its length is kept."
+  (enter! (world (sea (depth 60) (current 0.2 90))
+                 (rov (named minnow) (type kinematic) (at 3 0 -20))
+                 (tether (named line) (type fathom) (ei 0.1) (from 0 0 -20) (to minnow) (length 4) (drum 100)
+                         (model dynamic))))
+  (pay-out! 36 #:rate 1)
+  (run 60)
+  (expect (off-its-length) is (below 1e-4))
+  (haul-in! 20 #:rate 0.5)
+  (run 60)
+  (expect (off-its-length) is (below 2e-4)))
