@@ -237,7 +237,7 @@ rope_open (rope *p, reef *r, int n, const bt_vec3 *shape, int m, double length, 
   p->nodes = n + 1;
   p->d = calloc (1, bt__dynamic_size (n + SPARE));
   p->work = bt__dynamic_work_new (n + SPARE);
-  p->contact = bt__line_work_new (n + SPARE, 1);
+  p->contact = bt__line_work_new (n + SPARE, BT__AMONG_OBSTACLES);
   p->anchors = malloc (bt__contacts_size (REEF_ANCHORS));
   p->before = malloc ((size_t)(n + 1 + SPARE) * sizeof *p->before);
   p->after = malloc ((size_t)(n + 2 + SPARE) * sizeof *p->after);

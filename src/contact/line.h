@@ -88,9 +88,17 @@ bt_status bt__contacts_judge (bt__judge *judge, const bt__contacts *anchors, int
 
 typedef struct bt__line_work bt__line_work;
 
-/* Return a workspace for lines of up to N_MAX intervals, or NULL when memory is out; with room for
-   what is AMONG them, or for a line and itself alone.  */
-bt__line_work *bt__line_work_new (int n_max, int among);
+/* What a line may meet; the later includes the earlier.  */
+typedef enum bt__among
+{
+  BT__AMONG_ITSELF,
+  BT__AMONG_LINES,
+  BT__AMONG_OBSTACLES
+} bt__among;
+
+/* Return a workspace for lines of up to N_MAX intervals, with room for what lies AMONG them, or
+   NULL when memory is out.  */
+bt__line_work *bt__line_work_new (int n_max, bt__among among);
 void bt__line_work_free (bt__line_work *work); /* NULL is nothing */
 
 /* Forget what is known to be clear: another line, another scene of the same serial.  It costs time

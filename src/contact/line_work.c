@@ -12,7 +12,9 @@ typedef struct room
   int parts, pairs, rows;
 } room;
 
-static const room among_others = { BT__LINE_ROOM, 24, 4 }, by_itself = { 0, 8, 1 };
+static const room rooms[] = { [BT__AMONG_ITSELF] = { 0, 8, 1 },
+                              [BT__AMONG_LINES] = { 0, 24, 4 },
+                              [BT__AMONG_OBSTACLES] = { BT__LINE_ROOM, 24, 4 } };
 
 static int
 self_new (bt__self *s, size_t n, int pairs)
@@ -55,9 +57,9 @@ bt__line_work_free (bt__line_work *w)
 }
 
 bt__line_work *
-bt__line_work_new (int n_max, int among)
+bt__line_work_new (int n_max, bt__among among)
 {
-  const room *room = among ? &among_others : &by_itself;
+  const room *room = &rooms[among];
   bt__line_work *w = n_max < 1 ? NULL : calloc (1, sizeof *w);
   if (!w)
     return NULL;

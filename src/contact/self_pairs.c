@@ -33,7 +33,6 @@ enum
 #define LEAST_WAY 0.5
 #define FARTHER 1.4 /* times as far at the next look */
 #define SPARE 0.2   /* of a piece: the most of what a line is said to be clear by */
-#define AHEAD 1.2   /* of the last step's drift: what is expected of this one */
 
 /* ---- A line that is clear of itself ---- */
 
@@ -52,8 +51,8 @@ is_ahead (const bt__line_job *k)
 {
   bt__dynamic_drift may = allowed (k);
   const bt__dynamic *d = k->d;
-  return d->spare.turned > 0 && d->spare.apart > 0 && may.turned > AHEAD * d->step.turned
-         && may.apart > AHEAD * d->step.apart;
+  return d->spare.turned > 0 && d->spare.apart > 0 && may.turned > BT__SELF_AHEAD * d->step.turned
+         && may.apart > BT__SELF_AHEAD * d->step.apart;
 }
 
 /* True if it is clear of itself, and for longer than the step that starts is expected to go.
@@ -202,63 +201,6 @@ list_itself (bt__line_job *k, bt__self_search *s, const bt__dynamic_drift *drift
   return s->dropped;
 }
 
-/* How far what went so far in the last step is expected to go against other lines, which have
-   stepped already or are to wait: an end that is only pulled must be known to be so before the line
-   comes to what it hits.  */
-static double
-expected (const bt__line_job *k, double went)
-{
-  return k->config->strands > 0 ? AHEAD * went : 0;
-}
-
-/* About where the line is and where it is to go, or is expected to, as far as its links look.  */
-static bt__aabb
-way_of (const bt__line_job *k, const bt_vec3 *to)
-{
-  bt__aabb b = bt__no_box;
-  double more = to ? 0 : expected (k, k->d->step.way);
-  for (int i = 0; i <= k->links; i++)
-    {
-      bt__self_add_point (&b, k->x[i], bt__self_touching (k) + more);
-      if (to)
-        bt__self_add_point (&b, to[i], bt__self_touching (k));
-    }
-  return b;
-}
-
-/* About links of line number I, as thick as they are.  */
-static bt__aabb
-strand_box (const bt__line_job *k, int i)
-{
-  const bt__aabb *known = k->config->strand[i].box;
-  bt__self_side s = bt__self_side_of (k, i);
-  bt__aabb b = bt__no_box;
-  for (int j = 0; !known && j <= s.links; j++)
-    bt__self_add_point (&b, s.x[j], s.thick);
-  if (known)
-    {
-      bt__self_add_point (&b, known->lo, s.thick);
-      bt__self_add_point (&b, known->hi, s.thick);
-    }
-  return b;
-}
-
-/* True if no other line is where this one is and is to go.  */
-static int
-are_others_far (const bt__line_job *k, const bt_vec3 *to)
-{
-  if (k->config->strands == 0)
-    return 1;
-  bt__aabb own = way_of (k, to);
-  for (int i = 0; i < k->config->strands; i++)
-    {
-      bt__aabb b = strand_box (k, i);
-      if (!bt__self_are_apart (&b, &own))
-        return 0;
-    }
-  return 1;
-}
-
 /* List the pairs that could meet while the nodes go no farther than MOVE says, on their way TO;
    DRIFT: what is known holds that long.  Zero if there is no room for all.  */
 static int
@@ -273,7 +215,7 @@ list (bt__line_job *k, const bt_vec3 *to, const bt__dynamic_drift *drift)
     self->reach[j] = bt__self_higher (bt__self_touching (k),
                                       k->core + bt__self_higher (self->move[j], self->move[j + 1]));
   return list_itself (k, &s, drift) == 0
-         && (are_others_far (k, to) || bt__self_look_at_others (k, &s) == 0);
+         && (bt__self_others_are_far (k, to) || bt__self_look_at_others (k, &s) == 0);
 }
 
 /* ---- A step ---- */
@@ -285,16 +227,17 @@ is_far (bt__line_job *k)
   bt__self *self = &k->w->self;
   self->pairs = 0;
   self->clear = 1;
-  bt__self_asks (k, bt__self_touching (k) + expected (k, k->d->step.way));
+  bt__self_asks (k, bt__self_touching (k) + bt__self_expected (k, k->d->step.way));
   if (!bt__self_counts (k))
     return 1;
   self->clear = is_clear (k);
   return (self->clear || (know (k) && none_touches (self, &self->drift)))
-         && are_others_far (k, NULL);
+         && bt__self_others_are_far (k, NULL);
 }
 
-/* True if a listed pair touches, or is of another line.  How many of the line's own pairs are listed
-   that are farther apart depends on when the line was looked at, which no result may depend on.  */
+/* True if a listed pair touches, or is of another line.  How many of the line's own pairs are
+   listed that are farther apart depends on when the line was looked at, which no result may depend
+   on.  */
 static int
 is_near_a_line (const bt__line_job *k)
 {
@@ -313,7 +256,7 @@ bt__self_watch (bt__line_job *k)
     return 0;
   int known = self->clear || self->still > 0;
   for (int i = 0; i <= k->links; i++)
-    self->move[i] = expected (k, bt__norm (bt__dynamic_dx (k->d)[i]));
+    self->move[i] = bt__self_expected (k, bt__norm (bt__dynamic_dx (k->d)[i]));
   list (k, NULL, known ? &self->drift : NULL); /* of what finds no room there is no row */
   return is_near_a_line (k);
 }
@@ -418,7 +361,7 @@ keeps_listed (bt__line_job *k)
     self->clear = self->still = 0;
   if (!self->clear && (!know_move (k, &drift) || !others_go_clear (k, &drift)))
     return 0;
-  return are_others_far (k, k->X);
+  return bt__self_others_are_far (k, k->X);
 }
 
 /* List the pairs that could meet in the proposed move; zero if there is no room for all.  */
@@ -439,7 +382,7 @@ bt__self_stays_far (bt__line_job *k)
   if (k->w->self.clear)
     {
       ask_moved (k);
-      return are_others_far (k, k->X);
+      return bt__self_others_are_far (k, k->X);
     }
   return keeps_listed (k) || (list_moves (k) && k->w->self.pairs == 0);
 }

@@ -306,9 +306,14 @@ bt__self_look_at_others (bt__line_job *k, bt__self_search *s)
   if (k->config->strands == 0)
     return 0;
   part all = whole (&s->own);
+  double reach = 0;
+  for (int j = 0; j < s->own.links; j++)
+    reach = bt__self_higher (reach, reach_of (&s->own, j));
   fill_boxes (&s->own, all);
   for (int i = 0; i < k->config->strands; i++)
     {
+      if (bt__self_strand_is_apart (k, i, s->own.box + all.t, NULL, reach))
+        continue;
       s->its = bt__self_side_of (k, i);
       s->strand = i;
       part other = whole (&s->its);

@@ -8,6 +8,7 @@
 #include "contact/line_job.h"
 
 #define BT__SELF_CLOSE 1e-6 /* for rounding */
+#define BT__SELF_AHEAD 1.2  /* of the last step's drift: what is expected of this one */
 
 /* A link that goes so much of its rest length in a direction goes along, ... */
 #define BT__SELF_TELLS 0.25
@@ -98,6 +99,16 @@ double bt__self_toward (uint32_t i, uint32_t j, double turned, double apart);
 
 /* Add links I of the own side and J of the other, if they can meet.  */
 void bt__self_add (bt__self_search *s, int i, int j);
+
+/* Of a line that went by WENT in the last step, the expected move in this one against other lines
+   (self_others.c).  */
+double bt__self_expected (const bt__line_job *k, double went);
+
+/* True if the line, with REACH about it, stays clear of line number I on its way to TO; NULL: where
+   it is.  OWN: a box about all that.  True if it stays clear of all other lines.  */
+int bt__self_strand_is_apart (const bt__line_job *k, int i, const bt__aabb *own, const bt_vec3 *to,
+                              double reach);
+int bt__self_others_are_far (const bt__line_job *k, const bt_vec3 *to);
 
 /* Ask the line, whose nodes go as far as MOVE says and whose links look as far as their REACH, and
    the others.  Return for how many there was no room.  */

@@ -244,8 +244,7 @@ bt__set_apart (const bt_dive *dive, bt__state *state, bt__contexts *l)
   for (int i = 0; i < dive->model->n_tethers; i++)
     l->group[i] = i;
   join_at_vehicles (dive, l);
-  if (bt__has_obstacles (dive))
-    join_near (dive, state, l);
+  join_near (dive, state, l);
   number (dive, l);
   mark_shared (dive, l);
 }

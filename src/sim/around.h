@@ -19,7 +19,7 @@ enum
   BT__TRIES = 3
 };
 
-/* True if the world of DIVE has obstacles: nothing below is called else.  */
+/* True if the world of DIVE has obstacles.  */
 static inline int
 bt__has_obstacles (const bt_dive *dive)
 {

@@ -46,14 +46,13 @@ bt_status bt__trace_rest (bt_dive *dive, bt__state *state, int i, const bt__ends
 bt_status bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int n,
                            const double *share, bt_error *error);
 
-/* As bt__dynamic_step for a PART of tether I, with contact of the line with itself and, in a world
-   with obstacles, with obstacles and other lines (chain_touch.c).  */
+/* As bt__dynamic_step for a PART of tether I, with contact of the line with obstacles, other lines
+   and its own bights (chain_touch.c).  */
 bt_status bt__step_among (bt_dive *dive, bt__state *state, int i, int part,
                           const bt__dynamic_input *input, bt__dynamic_report *report,
                           bt_error *error);
 
-/* bt__order_tethers sorts the tethers of a world with obstacles by the direction in which they
-   press on each other.  bt__put_carriers_first then puts tethers that carry vehicles first and
+/* bt__order_tethers sorts the tethers by the direction in which they press on each other.  bt__put_carriers_first then puts tethers that carry vehicles first and
    static tethers last, and keeps the order otherwise (order.c).  */
 void bt__order_tethers (bt_dive *dive, bt__state *state);
 void bt__put_carriers_first (bt_dive *dive, bt__state *state);
@@ -62,6 +61,9 @@ void bt__put_carriers_first (bt_dive *dive, bt__state *state);
    anew, and return true, if the line has left its boxes (chain_box.c).  */
 void bt__box_lines (bt_dive *dive, bt__state *state);
 int bt__box_line (bt_dive *dive, bt__state *state, int i);
+
+/* Note what PART of tether I touches, with the event `touched'.  A sleeping line touches on.  */
+void bt__note_line_meetings (const bt_dive *dive, bt__state *state, int i, int part);
 
 /* Wake the tethers that PART of tether I, which moves, touches.  */
 void bt__wake_touched (const bt_dive *dive, bt__state *state, int i, int part);

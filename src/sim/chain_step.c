@@ -169,6 +169,8 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
   if (may_sleep_on (dive, state, tether, ends))
     {
       dive->profile.chain_sleeps++;
+      for (int part = 0; part <= (tether->parted != 0); part++)
+        bt__note_line_meetings (dive, state, i, part);
       return BT_OK;
     }
   if (tether->parted)
@@ -195,7 +197,7 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
   if (status != BT_OK)
     return status;
   bt__watch_step (dive, state, tether, i, &report);
-  if (bt__has_obstacles (dive) && tether->quiet == 0)
+  if (tether->quiet == 0)
     for (int part = 0; part <= (tether->parted != 0); part++)
       bt__wake_touched (dive, state, i, part);
   /* The tensions of a step that did not converge prove nothing.  */

@@ -1,8 +1,7 @@
-/* A step of the moving line with contact: among obstacles, or with itself alone.
+/* A step of the moving line with contact: among obstacles, other lines and its own bights.
 
    The step itself is in contact/line.h.  This file provides the surroundings of the line and their
-   friction, and notes the contacts afterwards.  In a world without obstacles a line has contact
-   with itself alone, and only the places are noted.
+   friction, and notes the contacts afterwards.  A world without obstacles is an empty scene.
 
    Tethers step one after another.  Each tether sees the tethers before it at their new places and
    the tethers after it at their old places.  So no two tethers move at once, and if each step
@@ -127,15 +126,12 @@ line_config (const bt_dive *dive, bt__state *state, int i, int part)
           .core = bt__core (props->diameter),
           .friction = props->friction,
           .pull = { most_pull_at (dive, state, i, 0), most_pull_at (dive, state, i, 1) },
-          .itself = !tether->through,
-          .id = dive->model->n_obstacles + i };
-  if (!bt__has_obstacles (dive))
-    return config;
-  config.rough = bt__dive_roughness (dive, state);
-  config.obstacles = dive->model->n_obstacles;
-  config.itself = touches_tether (dive, state, i, i);
-  config.strand = dive->contact_work.strand;
-  config.strands = gather_strands (dive, state, i, part);
+          .rough = bt__dive_roughness (dive, state),
+          .obstacles = dive->model->n_obstacles,
+          .itself = touches_tether (dive, state, i, i),
+          .id = dive->model->n_obstacles + i,
+          .strand = dive->contact_work.strand,
+          .strands = gather_strands (dive, state, i, part) };
   return config;
 }
 
@@ -149,10 +145,11 @@ take_up (bt_dive *dive, int i, int part)
   dive->contact_work.line_of = line;
 }
 
-static void
-note_line_meetings (const bt_dive *dive, bt__state *state, int i, const bt__contacts *anchors)
+void
+bt__note_line_meetings (const bt_dive *dive, bt__state *state, int i, int part)
 {
   bt__subject *subject = bt__dive_subject (dive, state, BT_PART_TETHER, i);
+  const bt__contacts *anchors = bt__dive_anchors (dive, state, i, part);
   const bt__contact *anchor = bt__contacts_at (anchors);
   for (int64_t k = 0; k < anchors->n; k++)
     if (anchor[k].load > 0)
@@ -184,9 +181,7 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
                 bt__dynamic_report *report, bt_error *error)
 {
   bt__contacts *anchors = bt__dive_anchors (dive, state, i, part);
-  int among = bt__has_obstacles (dive);
-  bt__surroundings around = among ? bt__surround (dive, state, BT_PART_TETHER, i)
-                                  : (bt__surroundings){ .scene = dive->model->scene };
+  bt__surroundings around = bt__surround (dive, state, BT_PART_TETHER, i);
   bt__line_config config = line_config (dive, state, i, part);
   bt__line_report touch = { 0 };
   bt_status status;
@@ -197,8 +192,7 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
   if (status != BT_OK)
     return status;
   bt__around_done (dive);
-  if (among)
-    note_line_meetings (dive, state, i, anchors);
+  bt__note_line_meetings (dive, state, i, part);
   bring_held_ends (dive, state, i, part, &touch);
   add_up_report (&dive->profile, &touch);
   return BT_OK;

@@ -46,19 +46,6 @@ switch_all (const bt__call *c, bt_part part, int n)
     bt__switch_pair (c->dive, c->state, part, i, (int)c->args[1], c->args[2] != 0);
 }
 
-/* In a world without obstacles a line has but itself to meet.  */
-static void
-switch_itself (const bt__call *c)
-{
-  int all = c->args[0] == BT_PART_SEA;
-  for (int i = 0; i < c->dive->model->n_tethers; i++)
-    if (all || (c->args[0] == BT_PART_TETHER && i == c->subject && i == other_tether (c)))
-      {
-        bt__dive_tether (c->dive, c->state, i)->through = c->args[2] == 0;
-        bt__dive_tether (c->dive, c->state, i)->quiet = 0;
-      }
-}
-
 bt_status
 bt__op_collide (const bt__call *c)
 {
@@ -67,11 +54,6 @@ bt__op_collide (const bt__call *c)
   if (status != BT_OK)
     return status;
   part = (bt_part)c->args[0];
-  if (c->dive->model->n_obstacles == 0)
-    {
-      switch_itself (c);
-      return BT_OK;
-    }
   if (part != BT_PART_SEA)
     bt__switch_pair (c->dive, c->state, part, c->subject, (int)c->args[1], c->args[2] != 0);
   if (part == BT_PART_TETHER && other_tether (c) >= 0) /* the other way round it is the same */

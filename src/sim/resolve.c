@@ -168,11 +168,11 @@ resolve_moving (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, in
   return status == BT_OK && passes ? bt__step_chain (dive, state, i, ends, error) : status;
 }
 
-/* True if tethers could meet each other: where there is one it has no place among others.  */
+/* True if tethers could meet each other.  */
 static int
 are_others (const bt_dive *dive)
 {
-  return bt__has_obstacles (dive) && dive->model->n_tethers > 1;
+  return dive->model->n_tethers > 1;
 }
 
 bt_status

@@ -101,8 +101,7 @@ fill (const bt_dive *dive, bt__state *state)
       tether->stale = 1;
       tether->slack_at = -1;
     }
-  if (bt__has_obstacles (dive))
-    bt__obstacles_init (dive, state);
+  bt__obstacles_init (dive, state);
 }
 
 bt_status
@@ -146,13 +145,6 @@ bt_dive_new (bt_model *model, bt_current_function function, void *user, bt_dive 
 }
 
 /* ---- Step ---- */
-
-static void
-end_among (bt_dive *dive, bt__state *next)
-{
-  bt__settle_movers (dive, next);
-  bt__note_all_partings (dive, next);
-}
 
 static int
 agree (bt_dive *dive, bt__state *next)
@@ -227,8 +219,8 @@ bt_dive_step (bt_dive *dive, bt_error *error)
   bt_status status = try_step (dive, 0, error);
   for (int round = 1; status == BT_OK && round <= BT__TRIES && !agree (dive, dive->next); round++)
     status = try_step (dive, round, error);
-  if (bt__has_obstacles (dive))
-    end_among (dive, dive->next);
+  bt__settle_movers (dive, dive->next);
+  bt__note_all_partings (dive, dive->next);
   if (status != BT_OK)
     return status;
   bt__note_stuck (dive, dive->next);

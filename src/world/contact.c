@@ -331,21 +331,8 @@ bt_point_clearance (const bt_dive *dive, int i, bt_vec3 p, bt_clearance *out, bt
   return BT_OK;
 }
 
-/* True if tether I touches itself.  */
-static int
-touches_itself (const bt_dive *dive, int i)
-{
-  bt__line line = bt__line_of (dive, dive->now, i);
-  int n = 0;
-  for (int part = 0; line.chain && part <= (line.tether->parted != 0); part++)
-    n += bt__dive_anchors (dive, dive->now, i, part)->n > 0;
-  return n > 0;
-}
-
 int
 bt_dive_collided (const bt_dive *dive, bt_part part, int i, int obstacle)
 {
-  if (dive->model->n_obstacles == 0)
-    return part == BT_PART_TETHER && obstacle == i && touches_itself (dive, i);
   return bt__meets (dive->now, bt__dive_subject (dive, dive->now, part, i), obstacle);
 }

@@ -150,9 +150,8 @@ bt__context_enter (bt__context *context, const bt_dive *dive, bt__state *next)
   if (dive->model->n_carried > 0)
     memcpy (own->contact_work.course, dive->contact_work.course,
             sizeof *own->contact_work.course * (size_t)dive->model->n_carried);
-  if (dive->model->n_obstacles > 0)
-    memcpy (own->contact_work.box, dive->contact_work.box,
-            2 * sizeof *own->contact_work.box * (size_t)dive->model->n_tethers);
+  memcpy (own->contact_work.box, dive->contact_work.box,
+          2 * sizeof *own->contact_work.box * (size_t)dive->model->n_tethers);
   own->contact_work.disagree = 0;
   own->profile = (bt_profile){ 0 };
   own->counts = (bt__shape_counts){ 0 };

@@ -11,10 +11,11 @@
 #include "world/judge.h"
 #include "world/contexts.h"
 #include "world/layout.h"
+#include "world/obstacles.h"
 #include "world/watch.h"
 
-/* The first bytes of a state: layout version 7.  */
-static const uint64_t magic = 0x3154484749420007ULL;
+/* The first bytes of a state: layout version 8.  */
+static const uint64_t magic = 0x3154484749420008ULL;
 
 double
 bt__state_time (const bt__state *state)
@@ -91,8 +92,8 @@ make_rows (bt_dive *dive, bt_error *error)
   return whole ? BT_OK : bt__fail (error, BT_ERR_LIMIT, "no memory for the parts of a dive");
 }
 
-/* What a line needs that has but itself to touch; then what obstacles need, for the longest tether
-   and all the movers.  */
+/* Make the workspaces of contact: for lines with each other; then those for obstacles, for the
+   longest tether and all kinematic obstacles.  */
 static bt_status
 make_shore (bt_dive *dive, bt_error *error)
 {
@@ -107,21 +108,20 @@ make_shore (bt_dive *dive, bt_error *error)
       room = room > bt__polyline_room (&model->tethers[i]) ? room
                                                            : bt__polyline_room (&model->tethers[i]);
     }
-  shore->line = bt__line_work_new (chain + 1, model->n_obstacles > 0);
-  if (!shore->line)
+  shore->line_of = -1;
+  shore->line = bt__line_work_new (chain + 1, bt__model_among (model));
+  shore->strand = calloc (2 * (size_t)model->n_tethers + 1, sizeof *shore->strand);
+  shore->box = calloc (2 * (size_t)model->n_tethers + 1, sizeof *shore->box);
+  if (!shore->line || !shore->strand || !shore->box)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for what the lines of a dive touch");
   if (model->n_obstacles == 0)
     return BT_OK;
   shore->mover = calloc ((size_t)model->n_carried + 1, sizeof *shore->mover);
   shore->course = calloc ((size_t)model->n_carried + 1, sizeof *shore->course);
-  shore->strand = calloc (2 * (size_t)model->n_tethers + 1, sizeof *shore->strand);
-  shore->box = calloc (2 * (size_t)model->n_tethers + 1, sizeof *shore->box);
-  shore->line_of = -1;
   shore->safe_of = -1;
   shore->node = calloc ((size_t)chain + 1, sizeof *shore->node);
   shore->share = calloc ((size_t)chain + 1, sizeof *shore->share);
-  if (!shore->mover || !shore->course || !shore->strand || !shore->box || !shore->node
-      || !shore->share)
+  if (!shore->mover || !shore->course || !shore->node || !shore->share)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the obstacles of a dive");
   status = bt__polyline_work_new ((uint32_t)room + 1, (uint32_t)model->n_carried, &shore->polyline,
                                   error);

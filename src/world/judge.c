@@ -37,7 +37,7 @@ judge_vehicles (bt__judge *judge, bt_dive *dive, bt__state *state)
     {
       name_part (judge, whose, "vehicle", dive->model->vehicles[i].name);
       status = bt__judge_vehicle (judge, dive, state, i);
-      if (status == BT_OK && dive->model->n_obstacles > 0)
+      if (status == BT_OK)
         status = bt__judge_subject (judge, dive, state, BT_PART_VEHICLE, i);
     }
   return status;
@@ -52,7 +52,7 @@ judge_tethers (bt__judge *judge, bt_dive *dive, bt__state *state)
     {
       name_part (judge, whose, "tether", dive->model->tethers[i].name);
       status = bt__judge_tether (judge, dive, state, i);
-      if (status == BT_OK && dive->model->n_obstacles > 0)
+      if (status == BT_OK)
         status = bt__judge_subject (judge, dive, state, BT_PART_TETHER, i);
     }
   return status;
@@ -67,7 +67,7 @@ bt__state_judge (bt_dive *dive, bt__state *state, bt_error *error)
                                  [BT__BELOW_MOVERS] = model->n_carried },
                       .error = error };
   bt_status status = bt__judge_sea (&judge, dive, state);
-  if (status == BT_OK && model->n_obstacles > 0)
+  if (status == BT_OK)
     status = bt__judge_obstacles (&judge, dive, state);
   if (status == BT_OK)
     status = judge_vehicles (&judge, dive, state);

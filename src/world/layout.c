@@ -87,7 +87,7 @@ arrays_size (const bt_tether_def *tether)
   return 2 * sizeof (bt_vec3) * (size_t)node_points (tether);
 }
 
-/* A line in open water can touch only itself, in few places.  */
+/* A line in a world without obstacles can touch only lines, in few places.  */
 int
 bt__contact_room (const bt_model *model, const bt_tether_def *tether)
 {

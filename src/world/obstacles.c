@@ -71,8 +71,6 @@ size_t
 bt__obstacles_size (const bt_model *model)
 {
   size_t subjects = (size_t)(model->n_vehicles + model->n_tethers);
-  if (model->n_obstacles == 0)
-    return 0;
   return bt__subjects_at (model) + subjects * bt__subject_size (model);
 }
 

@@ -1,22 +1,32 @@
-/* A dive among obstacles: places of kinematic obstacles, friction, enabled pairs, and contacts by
-   object.  A world without obstacles has no such data.
+/* What the parts of a dive may meet: places of kinematic obstacles, friction, enabled pairs, and
+   contacts by object.  In a world without obstacles the objects are the tethers alone.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #ifndef BT_WORLD_OBSTACLES_H
 #define BT_WORLD_OBSTACLES_H
 
+#include "contact/line.h"
 #include "contact/touch.h"
 #include "world/dive.h"
 
-/* Return the bytes that the obstacles of MODEL add to a state; 0 if it has none.  The first of
-   those of a subject, and how many a subject has.  */
+/* Return the bytes in a state for what the parts of MODEL may meet; the offset of the first
+   subject; and the bytes of a subject.  */
 size_t bt__obstacles_size (const bt_model *model);
 size_t bt__subjects_at (const bt_model *model);
 size_t bt__subject_size (const bt_model *model);
 
 /* Put everything in its place for the start of a dive.  */
 void bt__obstacles_init (const bt_dive *dive, bt__state *state);
+
+/* What a line of MODEL may meet.  */
+static inline bt__among
+bt__model_among (const bt_model *model)
+{
+  return model->n_obstacles > 0 ? BT__AMONG_OBSTACLES
+         : model->n_tethers > 1 ? BT__AMONG_LINES
+                                : BT__AMONG_ITSELF;
+}
 
 bt__mover_state *bt__dive_movers (const bt_dive *dive, bt__state *state);
 

@@ -103,7 +103,6 @@ typedef struct bt__tether
   int64_t stuck;                 /* its end has hardly moved meanwhile */
   bt_vec3 was[BT__STUCK_PLACES]; /* where its end was in those steps, the oldest overwritten */
   int64_t relaid;                /* it was laid anew, straight */
-  int64_t through;               /* in a world without obstacles: it passes through itself */
   int64_t
       contact_form; /* bt__contact_form: what its store holds besides, in a world with obstacles */
   int64_t blocked;  /* an obstacle holds a static line off its shape */
@@ -150,9 +149,9 @@ typedef struct bt__meeting
   int64_t last;   /* the step */
 } bt__meeting;
 
-/* A vehicle or a tether among obstacles; behind it a byte for each of them
-   and each tether, true: the pair is
-   switched off; then another, a tether's winding about it as it was last looked at.  */
+/* What a vehicle or a tether may meet and meets.  Behind a subject lies a byte for each obstacle
+   and each tether, true: the pair is switched off; then another byte for each, the winding of a
+   tether about the object as of the last look.  */
 typedef struct bt__subject
 {
   uint64_t version; /* a hash of the bytes; 0: none is off */

@@ -134,6 +134,7 @@ of the line, however long it is pulled; so it does in a fork and from a checkpoi
   (tie-and-draw)
   (expect (knotted?))
   (expect (collided? 'line 'line))
+  (expect (any (lambda (e) (and (eq? 'touched (car e)) (equal? '(line line) (cddr e)))) (events)))
   (expect (any on-itself? (contacts)))
   (expect (distance '(8 2 -6) (rov-position)) is (below 29.8))
   (expect (rov-tension) is (above 60))
@@ -158,7 +159,6 @@ of the line, however long it is pulled; so it does in a fork and from a checkpoi
 
 (define crossed
   (world (sea (depth 20))
-         (seabed)
          (rov (named one) (at 5 0 -6) (surge-speed 1))
          (rov (named two) (at 0 5 -6.5) (surge-speed 1))
          (tether (named first) (type fathom) (wet-weight 0) (model dynamic) (nodes 40) (from -5 0 -6) (to one)
@@ -189,10 +189,11 @@ of the line, however long it is pulled; so it does in a fork and from a checkpoi
   (let ((p (corners 'first)) (q (corners 'second)))
     (apply + (append-map (lambda (a b) (map (lambda (c d) (crossing a b c d)) q (cdr q))) p (cdr p)))))
 
-(define-scenario two-vehicles-hook-each-other
+(define-scenario (two-vehicles-hook-each-other bed)
   "One tether lies over the other; its vehicle dives and the other's climbs: they hook, pull alike, hold both
-vehicles back and never pass."
-  (in crossed)
+vehicles back and never pass; in open water as above a bed."
+  #:for ((bed '() (list (part seabed))))
+  (in (extend crossed (splice bed)))
   (define (fly-on seconds)
     (do ((i 0 (+ i 1))) ((= i seconds))
       (run 1)
@@ -255,6 +256,9 @@ the engine knew of them before."
   (run 110)
   (expect (any on-itself? (contacts)))
   (expect (assq-ref (energy) 'kinetic) is (below 1e-6))
-  (let ((before (assq-ref (profile) 'chain-sleeps)))
-    (run 1)
-    (expect (assq-ref (profile) 'chain-sleeps) is (above before))))
+  (let ((before (assq-ref (profile) 'chain-sleeps)) (since (now)))
+    (run 2)
+    (expect (assq-ref (profile) 'chain-sleeps) is (above before))
+    (expect (events #:since since) => '()) ; it has left neither the bed nor itself
+    (expect (collided? 'line 'seabed))
+    (expect (collided? 'line 'line))))

@@ -350,22 +350,21 @@ crowded (void **state)
    flown toward each other at 20 m/s: within a step neither gets to where the other was, but both
    pass.  */
 static void
-suddenly_they_meet (void **state)
+meet_suddenly (int obstacles)
 {
   static const act across[]
       = { { BT_OP_MOVE, 2, 4, { 4, 4, -8, 20 } }, { BT_OP_MOVE, 3, 4, { -2, 4, -8, 20 } } };
   fleet f;
   bt_dive *dive[DIVES];
   bt_profile p;
-  (void)state;
   begin_fleet (&f);
   f.world.sea.current.kind = BT_CURRENT_STILL;
-  for (int i = 0; i < 8; i++)
+  for (int i = 0; i < 20; i++) /* fewer are not worth sharing in open water */
     add_rov (&f, bt__vec (0.5 * i, 0, 0), bt__vec (0.5 * i, 4, -8), BT_MODEL_DYNAMIC)->length = 9;
   begin_scene (&f.shore, BT_MODEL_DYNAMIC);
   add_post (&f.shore, "capsule", "far", bt__vec (0, 90, 0), bt__vec (0, 0, 1), 0.3);
   f.world.obstacles = f.shore.obstacle;
-  f.world.n_obstacles = 1;
+  f.world.n_obstacles = obstacles;
   for (int k = 0; k < DIVES; k++)
     dive[k] = launch (&f, threads_of[k]);
   for (int i = 0; i < 30; i++)
@@ -381,6 +380,14 @@ suddenly_they_meet (void **state)
   assert_true (p.shared_again > 0 && p.touches > 0);
   for (int k = 0; k < DIVES; k++)
     bt_dive_free (dive[k]);
+}
+
+static void
+suddenly_they_meet (void **state)
+{
+  (void)state;
+  meet_suddenly (0);
+  meet_suddenly (1);
 }
 
 static int
