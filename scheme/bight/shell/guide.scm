@@ -35,7 +35,7 @@
     ((in-view? width) . "degrees") ((in-view? height) . "degrees")
     ((observe! on) . "m") ((observe! at) . "s") ((observe! noise) . "the unit of what is read")
     ((tether-in-view width) . "degrees") ((tether-in-view height) . "degrees")
-    ((wear-profile n) . #f)))
+    ((wear-profile n) . #f) ((plan-tour places) . #f)))
 
 (define (unit-of verb argument)
   "Return the unit of ARGUMENT, a symbol or keyword, of the verb called VERB, a string, or #f for a bare number."
@@ -138,6 +138,7 @@
     (tether-points (tether-points) (tether-points 5))
     (tensions (tensions 5))
     (threads! (threads! 2))
+    (tour? (tour? (plan-tour '((3 4 -5)))))
     (tour-left-out (tour-left-out (plan-tour '((3 4 -5) (0 90 -5)))))
     (tour-length (tour-length (plan-tour '((3 4 -5) (4 -3 -8)))))
     (tour-line-needed (tour-line-needed (plan-tour '((3 4 -5) (4 -3 -8)))))
