@@ -21,10 +21,10 @@ within function-95 -le 25 'nineteen of twenty functions have at most 25 lines'
 within function-longest -le 55 'and none has more than 55'
 within comment-share -ge 9.1 'the code is explained'
 within shared-static-names -le 4.5 'few static functions share a name with one of another file'
-within static-names-twice-in-a-room -le 13 'hardly any with one of the same room'
+within static-names-twice-in-a-room -le 0 'hardly any with one of the same room'
 within pointing-words -le 5.2 'long sentences name what they speak of'
 within private-words -le 0 "the field's words are used"
-within flat-modules -le 13 'modules stand in the folders of what they are about'
+within flat-modules -le 15 'modules stand in the folders of what they are about'
 
 # The places that HACKING.md names are there.
 for place in $(grep -o '`\(src\|scheme\|tests\|testbed\|bench\)/[A-Za-z_/*.-]*`' "$top_srcdir/HACKING.md" | tr -d '`' | sort -u); do

@@ -154,7 +154,7 @@ harden (bt__line_job *k, int i)
 /* The distance of contact Q of the last step from constraint I, along the line and by direction;
    INFINITY for another obstacle's contact or beyond REACH.  */
 static double
-away_of (const bt__line_job *k, int i, int q, double reach)
+contact_distance (const bt__line_job *k, int i, int q, double reach)
 {
   const bt__contact *a = k->w->old + q;
   const bt__line_row *of = k->w->of + i;
@@ -165,7 +165,7 @@ away_of (const bt__line_job *k, int i, int q, double reach)
 }
 
 static double
-reach_of (const bt__line_job *k, int i)
+memory_reach (const bt__line_job *k, int i)
 {
   return REMEMBER * bt__dynamic_rest (k->d)[k->w->row[i].node];
 }
@@ -175,14 +175,14 @@ reach_of (const bt__line_job *k, int i)
 static int
 find_anchor (bt__line_job *k, int i, int *from, double *least)
 {
-  double reach = reach_of (k, i), place = k->w->of[i].from_end;
+  double reach = memory_reach (k, i), place = k->w->of[i].from_end;
   int best = -1;
   *least = INFINITY;
   while (*from < k->olds && k->w->old[*from].from_end > place + 2 * reach)
     ++*from;
   for (int q = *from; q < k->olds && k->w->old[q].from_end >= place - reach; q++)
     {
-      double away = away_of (k, i, q, reach);
+      double away = contact_distance (k, i, q, reach);
       if (away < *least)
         {
           best = q;
@@ -200,7 +200,8 @@ is_wanted (const bt__line_job *k, int i, int q, double least)
   for (int by = -1; by <= 1; by += 2)
     for (int r = i + by; r >= 0 && r < k->rows && abs ((int)of[r].link - (int)of[i].link) <= 1;
          r += by)
-      if (of[r].fresh && of[r].mover != BT__LINE_SELF && away_of (k, r, q, reach_of (k, r)) < least)
+      if (of[r].fresh && of[r].mover != BT__LINE_SELF
+          && contact_distance (k, r, q, memory_reach (k, r)) < least)
         return 1;
   return 0;
 }

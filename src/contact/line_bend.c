@@ -113,7 +113,7 @@ expected (const bt__line_job *k, const corner *c, int i)
 }
 
 static int
-turn_of (const bt__line_job *k, corners *s, int c)
+find_corner_turn (const bt__line_job *k, corners *s, int c)
 {
   corner *q = s->at + c;
   const bt_vec3 p[]
@@ -205,7 +205,7 @@ shortened (bt_vec3 v, double by)
 /* The remaining way round of corner C to its wanted place.  The wanted place depends on predicted
    neighbours, and the neighbours move with the corner: C goes half the way in a step.  */
 static bt_vec3
-lag_of (const bt__line_job *k, const corner *c)
+corner_lag (const bt__line_job *k, const corner *c)
 {
   if (is_thin (k, c))
     return bt__vec (0, 0, 0);
@@ -216,7 +216,7 @@ lag_of (const bt__line_job *k, const corner *c)
 
 /* How far from the axis it is held.  */
 static double
-away_of (const bt__line_job *k, const corner *c)
+held_distance (const bt__line_job *k, const corner *c)
 {
   double more = c->turn.reach - c->anchor.away;
   if (is_thin (k, c))
@@ -227,8 +227,8 @@ away_of (const bt__line_job *k, const corner *c)
 static void
 place (const bt__line_job *k, corner *c)
 {
-  c->lag = lag_of (k, c);
-  c->away = away_of (k, c);
+  c->lag = corner_lag (k, c);
+  c->away = held_distance (k, c);
   c->place = bt__add (bt__axpy (c->turn.centre, c->away, c->turn.normal), c->lag);
   double along = bt__dot (c->edge.axis, bt__sub (k->x[c->node], c->place));
   c->place = bt__axpy (c->place, along, c->edge.axis); /* along the member it starts where it is */
@@ -342,14 +342,14 @@ bt__line_bends (bt__line_job *k)
   k->bents = 0;
   gather (k, &s);
   for (int c = 0; c < s.n; c++)
-    turn_of (k, &s, c);
+    find_corner_turn (k, &s, c);
   for (int c = 0; c < s.n; c++)
     if (goes_on (&s, c))
       even_out (k, &s, c);
   choose (k, &s, may);
   for (int c = 0; c < s.n; c++)
     {
-      may[c] &= turn_of (k, &s, c);
+      may[c] &= find_corner_turn (k, &s, c);
       place (k, s.at + c);
     }
   push_out (k, &s);

@@ -66,7 +66,7 @@ follow (const asked *q, bt_vec3 p, bt_vec3 step, bt__witness *a, bt__witness *b)
 
 /* True if the normals about P turn by much ACROSS.  */
 static int
-is_sharp (const asked *q, bt_vec3 p, bt_vec3 across)
+is_edge_sharp (const asked *q, bt_vec3 p, bt_vec3 across)
 {
   bt__witness a, b;
   return follow (q, p, bt__scale (WIDE * q->k->d->piece, across), &a, &b)
@@ -98,7 +98,7 @@ stays_along (const asked *q, bt_vec3 p, bt_vec3 n, double step, bt_vec3 *axis)
 
 /* Feel for an edge about P, whose nearest is W, to E.  */
 static int
-feel (const asked *q, bt_vec3 p, const bt__witness *w, bt__edge *e)
+feel_for_edge (const asked *q, bt_vec3 p, const bt__witness *w, bt__edge *e)
 {
   bt__witness a, b;
   double step = FEEL * w->distance;
@@ -115,7 +115,7 @@ feel (const asked *q, bt_vec3 p, const bt__witness *w, bt__edge *e)
       || !(bt__dot (axis, bt__sub (a.point, b.point)) > 2 * LONG * step))
     return 0;
   *e = (bt__edge){ axis, w->point, w->normal, w->distance * goes / (1 - goes), w->distance, 0 };
-  return bt__edge_is_thin (q->k, e) && is_sharp (q, p, across);
+  return bt__edge_is_thin (q->k, e) && is_edge_sharp (q, p, across);
 }
 
 /* ---- Known ---- */
@@ -150,7 +150,7 @@ find (const asked *q, bt_vec3 p, const bt__witness *w, bt__edge *e)
 {
   if (side_of (q, w, e))
     return e->radius + q->k->config->radius <= ROUNDEST * q->k->d->piece;
-  return feel (q, p, w, e);
+  return feel_for_edge (q, p, w, e);
 }
 
 int

@@ -16,7 +16,7 @@
 /* ---- Edges that a mesh hides ---- */
 
 static int
-is_corner (const bt__triangle *t, bt_vec3 p)
+corner_number (const bt__triangle *t, bt_vec3 p)
 {
   for (int i = 0; i < 3; i++)
     if (t->v[i].x == p.x && t->v[i].y == p.y && t->v[i].z == p.z)
@@ -49,10 +49,10 @@ rise_from_edge (const bt__triangle *t, int i, int j, bt_vec3 n)
 static int
 is_hidden_by (const bt__triangle *own, int feature, bt_vec3 n, const bt__triangle *other)
 {
-  int a = is_corner (other, own->v[feature > 3 ? feature - 4 : feature - 1]);
+  int a = corner_number (other, own->v[feature > 3 ? feature - 4 : feature - 1]);
   if (feature > 3)
     return a && rises_from_corner (other, a - 1, n);
-  int b = is_corner (other, own->v[feature % 3]);
+  int b = corner_number (other, own->v[feature % 3]);
   return a && b && rise_from_edge (other, a - 1, b - 1, n) > GHOST;
 }
 
@@ -95,7 +95,7 @@ is_crest (const bt__line_job *k, uint32_t j, const bt__near *near, const bt__tri
           || other[i].slot == near->slot)
         continue;
       bt__triangle t = bt__mesh_triangle (mesh, other[i].slot);
-      int a = is_corner (&t, own->v[e]), b = is_corner (&t, own->v[(e + 1) % 3]);
+      int a = corner_number (&t, own->v[e]), b = corner_number (&t, own->v[(e + 1) % 3]);
       if (!a || !b)
         continue;
       double rise = rise_from_edge (&t, a - 1, b - 1, n);

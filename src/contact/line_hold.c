@@ -41,7 +41,7 @@ is_crowded (const bt__line_job *k, int64_t i)
 /* True if both links of node I are tangents of E, as near as may be, and touch it.  E's axis is
    turned the way the line winds.  */
 static int
-is_corner (const bt__line_job *k, int64_t i, bt__edge *e)
+is_tangent_corner (const bt__line_job *k, int64_t i, bt__edge *e)
 {
   const bt_vec3 *x = bt__dynamic_x (k->d) + i - 1;
   double out = e->radius + k->config->radius;
@@ -89,7 +89,7 @@ may_corner (const bt__line_job *k, const bt__sliding *s, int q, int64_t i, bt__b
   return is_settled (k, q) && i >= 1 && i < k->d->n && !bt__sliding_has (s, i) && !is_crowded (k, i)
          && bt__edge_find (k, k->w->of[q].id, x[i], &p->edge) && p->edge.round
          && !bt__edge_is_thin (k, &p->edge) && is_steep (k, i, &p->edge)
-         && is_corner (k, i, &p->edge);
+         && is_tangent_corner (k, i, &p->edge);
 }
 
 /* True if another row of the obstacle of row Q is on a link next to its link.  */

@@ -54,7 +54,7 @@ join (bt__line_job *k, bt__sliding *s)
 
 /* The turn at bend Q as it is now.  */
 static bt__turn
-turn_of (const bt__line_job *k, const bt__sliding *s, int q, bt__edge *e)
+sliding_turn (const bt__line_job *k, const bt__sliding *s, int q, bt__edge *e)
 {
   const bt__contact *a = s->anchor + q;
   bt__turn t;
@@ -73,7 +73,7 @@ take_corner (bt__line_job *k, bt__sliding *s, int q)
   if (bt__sliding_goes_on (s, q - 1) == bt__sliding_goes_on (s, q))
     return;
   double least = s->anchor[q].age < IDLE ? -BACK : BACK;
-  if (turn_of (k, s, q, &e).angle > least)
+  if (sliding_turn (k, s, q, &e).angle > least)
     return;
   int64_t node = s->node[q];
   bt__sliding_lose (s, q);
@@ -83,11 +83,11 @@ take_corner (bt__line_job *k, bt__sliding *s, int q)
 
 /* How far bend Q has to go round, and its distance from the axis, to *AWAY.  */
 static bt_vec3
-lag_of (const bt__line_job *k, const bt__sliding *s, int q, double *away)
+sliding_lag (const bt__line_job *k, const bt__sliding *s, int q, double *away)
 {
   bt__edge e;
   bt_vec3 x = bt__dynamic_x (k->d)[s->node[q]];
-  bt__turn t = turn_of (k, s, q, &e);
+  bt__turn t = sliding_turn (k, s, q, &e);
   *away = bt__dot (t.normal, bt__sub (x, t.centre));
   return bt__off_axis (e.axis, bt__sub (x, bt__axpy (t.centre, *away, t.normal)));
 }
@@ -105,7 +105,7 @@ is_behind (const bt__line_job *k, const bt__sliding *s, int q)
   bt__edge e = { .radius = s->anchor[q].thick };
   double away;
   return is_new (s, q) && !bt__edge_is_thin (k, &e)
-         && bt__norm (lag_of (k, s, q, &away)) > BT__BEND_BEHIND * away;
+         && bt__norm (sliding_lag (k, s, q, &away)) > BT__BEND_BEHIND * away;
 }
 
 /* A node that is newly held starts from where it is.  */
@@ -116,7 +116,7 @@ settle (const bt__line_job *k, bt__sliding *s, int q)
   if (!is_new (s, q))
     return;
   a->held = bt__dynamic_x (k->d)[s->node[q]];
-  a->lag = lag_of (k, s, q, &a->away);
+  a->lag = sliding_lag (k, s, q, &a->away);
 }
 
 /* The same, or it is not held.  */
@@ -173,7 +173,7 @@ static void
 grow (bt__line_job *k, bt__sliding *s, int q)
 {
   bt__edge e;
-  bt__turn t = turn_of (k, s, q, &e);
+  bt__turn t = sliding_turn (k, s, q, &e);
   if (!e.round || bt__edge_is_thin (k, &e) || t.angle <= BT__TURN_MOST + MORE)
     return;
   const double *rest = bt__dynamic_rest (k->d) + s->node[q];
@@ -243,7 +243,7 @@ pass_nodes (bt__line_job *k, bt__sliding *s, int q)
 {
   bt__edge e;
   double flow = s->anchor[q].flow * k->h, piece = k->d->piece, size = fabs (flow);
-  double zone = turn_of (k, s, q, &e).zone, r = k->config->radius;
+  double zone = sliding_turn (k, s, q, &e).zone, r = k->config->radius;
   double clear = zone + sqrt (2 * (e.radius + r) * CLEAR * r);
   int passed = 1;
   for (int side = -1; side < 2; side += 2)

@@ -212,7 +212,7 @@ bt__row_between (bt__line_job *k, uint32_t j, const bt__pass *p, double radius)
 /* True if the obstacle is sharp at its point nearest to the link's end E: the distance beyond the
    plane grows with the way from the point, not with the square of the way.  */
 static int
-is_sharp (const bt__line_job *k, const bt__pass *p, int e)
+is_sharp_at (const bt__line_job *k, const bt__pass *p, int e)
 {
   bt__witness w;
   double more = beyond_plane (k, p, !e, &w);
@@ -244,7 +244,7 @@ bars_the_way (const bt__line_job *k, uint32_t j, int e, const bt__pass *p)
   if (m)
     n = bt__out_of (&m->motion.from, n);
   return bt__dot (n, bt__sub (k->x[next], k->x[i])) < -BT__ROW_NEAREST * k->config->radius
-         && comes_nearer (k, e ? i : next, p->near) && is_sharp (k, p, e);
+         && comes_nearer (k, e ? i : next, p->near) && is_sharp_at (k, p, e);
 }
 
 /* The raise of an end of a link about a round obstacle if the other end is HIGH above; RAISE is the

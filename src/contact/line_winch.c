@@ -66,7 +66,7 @@ take_out (bt__line_job *k, bt__sliding *s, int64_t i)
 
 /* True if nothing is near enough to interval J to meet the curve of the interval.  */
 static int
-is_clear (bt__line_job *k, int64_t j)
+is_interval_clear (bt__line_job *k, int64_t j)
 {
   const double *rest = bt__dynamic_rest (k->d);
   bt__link link = bt__line_link (bt__dynamic_x (k->d), (uint32_t)j);
@@ -80,7 +80,7 @@ static void
 put_in (bt__line_job *k, bt__sliding *s, int64_t j, double u)
 {
   double from = k->w->from_end[j + 1], inner = k->w->from_end[1];
-  bt__dynamic_split (k->d, j, u, !is_clear (k, j));
+  bt__dynamic_split (k->d, j, u, !is_interval_clear (k, j));
   bt__sliding_came (k, s, j + 1);
   note_change (k, j > 0 ? from : INFINITY, inner);
 }

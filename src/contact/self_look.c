@@ -50,7 +50,7 @@ lower (double *a, double b)
 /* ---- Parts ---- */
 
 static part
-half_of (part p, int second)
+half_part (part p, int second)
 {
   int middle = p.from + (p.to - p.from + 1) / 2;
   return (part){ 2 * p.at + second, second ? middle : p.from, second ? p.to : middle };
@@ -82,7 +82,7 @@ measure_parts (look *s, part p)
         c->radius = bt__self_higher (c->radius, distance_to (x[i], c));
       return;
     }
-  part one = half_of (p, 0), two = half_of (p, 1);
+  part one = half_part (p, 0), two = half_part (p, 1);
   measure_parts (s, one);
   measure_parts (s, two);
   c->radius = distance_to (x[one.to], c)
@@ -159,7 +159,7 @@ look_at_links (look *s, part p, part q)
 
 /* Part P and part Q, which comes after it.  */
 static void
-look_between (look *s, part p, part q)
+measure_between (look *s, part p, part q)
 {
   const bt__capsule *a = s->chord + p.at, *b = s->chord + q.at;
   bt__link c = { a->a, a->b }, d = { b->a, b->b };
@@ -184,12 +184,12 @@ look_between (look *s, part p, part q)
   int first = q.to - q.from <= p.to - p.from; /* the longer of them is halved, the near end first */
   for (int h = 0; h < 2; h++)
     if (first)
-      look_between (s, half_of (p, !h), q);
+      measure_between (s, half_part (p, !h), q);
     else
-      look_between (s, p, half_of (q, h));
+      measure_between (s, p, half_part (q, h));
 }
 
-static void look_within (look *s, part p);
+static void measure_within (look *s, part p);
 
 static void
 look_into (look *s, part p)
@@ -199,14 +199,14 @@ look_into (look *s, part p)
       look_at_links (s, p, p);
       return;
     }
-  part one = half_of (p, 0), two = half_of (p, 1);
-  look_within (s, one);
-  look_within (s, two);
-  look_between (s, one, two);
+  part one = half_part (p, 0), two = half_part (p, 1);
+  measure_within (s, one);
+  measure_within (s, two);
+  measure_between (s, one, two);
 }
 
 static void
-look_within (look *s, part p)
+measure_within (look *s, part p)
 {
   if (!is_stretch (s, p.from, p.to))
     look_into (s, p);

@@ -58,7 +58,7 @@ is_ahead (const bt__line_job *k)
 /* True if it is clear of itself, and for longer than the step that starts is expected to go.
    What lately was not is not looked at.  */
 static int
-is_clear (bt__line_job *k)
+is_clear_of_itself (bt__line_job *k)
 {
   bt__dynamic *d = k->d;
   if (!k->config->itself || is_ahead (k))
@@ -230,7 +230,7 @@ is_far (bt__line_job *k)
   bt__self_asks (k, bt__self_touching (k) + bt__self_expected (k, k->d->step.way));
   if (!bt__self_counts (k))
     return 1;
-  self->clear = is_clear (k);
+  self->clear = is_clear_of_itself (k);
   return (self->clear || (know (k) && none_touches (self, &self->drift)))
          && bt__self_others_are_far (k, NULL);
 }

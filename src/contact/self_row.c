@@ -86,7 +86,7 @@ resistance_of (const bt__line_job *k, const bt__strand *o, uint32_t j, double t)
 
 /* True if a row before Q is of anchor I of the same line.  */
 static int
-is_taken (const bt__line_job *k, int q, int64_t i)
+is_contact_taken (const bt__line_job *k, int q, int64_t i)
 {
   const bt__line_row *of = k->w->of;
   for (int p = 0; p < k->rows; p++)
@@ -108,7 +108,7 @@ their_anchor (const bt__line_job *k, const bt__strand *o, int q)
     {
       double away = fabs (a[i].from_end - of->other) + fabs (a[i].other - of->from_end);
       if (a[i].mover != BT__CONTACT_LINE || a[i].object != k->config->id || !(away < least)
-          || !(bt__dot (a[i].normal, k->w->row[q].normal) < -ALIKE) || is_taken (k, q, i))
+          || !(bt__dot (a[i].normal, k->w->row[q].normal) < -ALIKE) || is_contact_taken (k, q, i))
         continue;
       least = away;
       best = i;
@@ -118,7 +118,7 @@ their_anchor (const bt__line_job *k, const bt__strand *o, int q)
 
 /* Give constraint Q, against a line that yields, the reaction felt by that line.  */
 static void
-feel (bt__line_job *k, int q)
+feel_reaction (bt__line_job *k, int q)
 {
   bt__constraint *r = k->w->row + q;
   bt__line_row *of = k->w->of + q;
@@ -172,7 +172,7 @@ set_row (bt__line_job *k, int q, const bt__self_pair *p, const bt__link *second,
                                 .other = from_end_of (k, p, t),
                                 .point = bt__axpy (w->point, radius_of (k, p), w->normal) };
   if (p->strand >= 0 && k->config->strand[p->strand].yields)
-    feel (k, q);
+    feel_reaction (k, q);
 }
 
 void

@@ -90,13 +90,13 @@ end_of (const bt__self_side *s, part p)
 }
 
 static part
-half_of (part p, int second)
+half_stretch (part p, int second)
 {
   return (part){ 2 * p.t + second, p.from + second * p.span / 2, p.span / 2 };
 }
 
 static double
-reach_of (const bt__self_side *s, int j)
+search_reach (const bt__self_side *s, int j)
 {
   return s->reach ? s->reach[j] : s->thick;
 }
@@ -108,7 +108,7 @@ fill_boxes (bt__self_side *s, part p)
   int to = end_of (s, p);
   if (p.span > LEAF && p.from < to)
     {
-      part one = half_of (p, 0), two = half_of (p, 1);
+      part one = half_stretch (p, 0), two = half_stretch (p, 1);
       fill_boxes (s, one);
       fill_boxes (s, two);
       b = s->box[one.t];
@@ -120,8 +120,8 @@ fill_boxes (bt__self_side *s, part p)
   else
     for (int j = p.from; j < to; j++)
       {
-        bt__self_add_point (&b, s->x[j], reach_of (s, j));
-        bt__self_add_point (&b, s->x[j + 1], reach_of (s, j));
+        bt__self_add_point (&b, s->x[j], search_reach (s, j));
+        bt__self_add_point (&b, s->x[j + 1], search_reach (s, j));
       }
   s->box[p.t] = b;
 }
@@ -172,7 +172,7 @@ bt__self_add (bt__self_search *s, int i, int j)
   bt__line_job *k = s->k;
   bt__self *all = &k->w->self;
   bt__link a = bt__line_link (s->own.x, (uint32_t)i), b = bt__line_link (s->its.x, (uint32_t)j);
-  double reach = reach_of (&s->own, i) + reach_of (&s->its, j);
+  double reach = search_reach (&s->own, i) + search_reach (&s->its, j);
   k->report->pairs++;
   if (!(bt__self_distance (&a, &b) <= reach) || are_neighbours (s, i, j))
     return;
@@ -231,7 +231,7 @@ look_at (bt__self_search *s, int i, int j)
 
 /* Parts P of the one and Q of the other, which in the same line comes after it.  */
 static void
-look_between (bt__self_search *s, part p, part q)
+search_between (bt__self_search *s, part p, part q)
 {
   int a = end_of (&s->own, p), b = end_of (&s->its, q);
   if (p.from >= a || q.from >= b || bt__self_are_apart (s->own.box + p.t, s->its.box + q.t))
@@ -248,22 +248,22 @@ look_between (bt__self_search *s, part p, part q)
     }
   for (int h = 0; h < 2; h++)
     if (p.span >= q.span)
-      look_between (s, half_of (p, h), q);
+      search_between (s, half_stretch (p, h), q);
     else
-      look_between (s, p, half_of (q, h));
+      search_between (s, p, half_stretch (q, h));
 }
 
 static void
-look_within (bt__self_search *s, part p)
+search_within (bt__self_search *s, part p)
 {
   int to = end_of (&s->own, p);
   if (p.from >= to || is_straight (s, p.from, to))
     return;
   if (p.span > LEAF)
     {
-      look_within (s, half_of (p, 0));
-      look_within (s, half_of (p, 1));
-      look_between (s, half_of (p, 0), half_of (p, 1));
+      search_within (s, half_stretch (p, 0));
+      search_within (s, half_stretch (p, 1));
+      search_between (s, half_stretch (p, 0), half_stretch (p, 1));
       return;
     }
   for (int i = p.from; i < to; i++)
@@ -296,7 +296,7 @@ bt__self_look_at_itself (bt__line_job *k, bt__self_search *s)
   if (!k->config->itself || is_straight (s, 0, k->links))
     return 0;
   fill_boxes (&s->own, all);
-  look_within (s, all);
+  search_within (s, all);
   return s->dropped;
 }
 
@@ -308,7 +308,7 @@ bt__self_look_at_others (bt__line_job *k, bt__self_search *s)
   part all = whole (&s->own);
   double reach = 0;
   for (int j = 0; j < s->own.links; j++)
-    reach = bt__self_higher (reach, reach_of (&s->own, j));
+    reach = bt__self_higher (reach, search_reach (&s->own, j));
   fill_boxes (&s->own, all);
   for (int i = 0; i < k->config->strands; i++)
     {
@@ -318,7 +318,7 @@ bt__self_look_at_others (bt__line_job *k, bt__self_search *s)
       s->strand = i;
       part other = whole (&s->its);
       fill_boxes (&s->its, other);
-      look_between (s, all, other);
+      search_between (s, all, other);
     }
   return s->dropped;
 }

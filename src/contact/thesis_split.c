@@ -92,7 +92,7 @@ arc_of (const bt__thesis_job *j, uint32_t link, bt_vec3 p)
 
 /* True if a split at P on span K would coincide with an existing split or end.  */
 static int
-is_taken (const bt__thesis_job *j, int64_t k, bt_vec3 p)
+is_split_taken (const bt__thesis_job *j, int64_t k, bt_vec3 p)
 {
   const bt_vec3 *x = bt__polyline_x (j->line);
   int64_t i = bt__thesis_first (j, k), m = bt__thesis_last (j, k);
@@ -185,7 +185,7 @@ bt__thesis_split (bt__thesis_job *j, const bt__hit *hit)
     return 0;
   measure_collision (j, hit, &c);
   double s = arc_of (j, hit->link, c.contact);
-  if (is_taken (j, k, bt__polyline_point (j->line, s)) || is_taken (j, k, c.point))
+  if (is_split_taken (j, k, bt__polyline_point (j->line, s)) || is_split_taken (j, k, c.point))
     return lean_split (j, k, &c);
   int64_t first = bt__thesis_first (j, k), last = bt__thesis_last (j, k);
   double whole = u[last] - u[first], f = (s - u[first]) / whole;
