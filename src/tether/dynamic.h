@@ -245,6 +245,11 @@ typedef struct bt__dynamic_energy
 /* Return the energies of the line (not its lumps) as INPUT has it.  */
 bt__dynamic_energy bt__dynamic_energies (const bt__dynamic *d, const bt__dynamic_input *input);
 
+/* Return how much of the strain energy that bt__dynamic_energies counts, J, is of intervals that are
+   shorter than their tension tells: a line under bending that was laid so has crumpled there, and
+   nothing pushes it together (dynamic_unfold.c).  */
+double bt__dynamic_crumple_energy (const bt__dynamic *d, const bt__dynamic_input *input);
+
 /* Estimate the error in position that comes of the number of nodes, m: the true one is 1.3 to 2.5
    times as large.  At the nodes that CORNER flags (or NULL) the line is not smooth, and more nodes
    would not help: nothing is made of differences there.  */

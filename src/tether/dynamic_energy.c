@@ -8,6 +8,8 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <math.h>
+
 #include "tether/dynamic_kernel.h"
 
 #define NOTHING 1e-12 /* of what moves, is strained and can fall: no gain */
@@ -67,6 +69,22 @@ bt__dynamic_energy
 bt__dynamic_energies (const bt__dynamic *d, const bt__dynamic_input *in)
 {
   return energies_at (d, in, bt__dynamic_x (d), bt__dynamic_v (d));
+}
+
+double
+bt__dynamic_crumple_energy (const bt__dynamic *d, const bt__dynamic_input *in)
+{
+  const double *rest = bt__dynamic_rest (d), *tension = bt__dynamic_tension (d);
+  const bt_vec3 *x = bt__dynamic_x (d);
+  double ea = bt__stiffness (in->line->ea), sum = 0;
+  for (int j = 0; j < d->n && in->line->ei > 0; j++)
+    {
+      double e = bt__distance (x[j], x[j + 1]) / rest[j];
+      double pressed = 1 + fmin (tension[j], 0) / ea; /* the stretch that the tension tells */
+      if (e < pressed)
+        sum += strain_energy (ea, rest[j], e, 1) - strain_energy (ea, rest[j], pressed, 1);
+    }
+  return sum;
 }
 
 /* ---- A line alone ---- */

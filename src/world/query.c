@@ -279,9 +279,9 @@ bt_tether_energy (const bt_dive *dive, int i, bt_energy *energy, bt_error *error
     return status;
   if (!line.chain)
     return bt__fail (error, BT_ERR_UNSUPPORTED, "only a moving line has its energies counted");
-  e = bt__dynamic_energies (
-      line.chain,
-      &(bt__dynamic_input){ .line = &line.tether->props, .water = &water, .h = BT__TIME_STEP });
+  bt__dynamic_input input = { .line = &line.tether->props, .water = &water, .h = BT__TIME_STEP };
+  e = bt__dynamic_energies (line.chain, &input);
+  e.strain -= bt__dynamic_crumple_energy (line.chain, &input);
   *energy = (bt_energy){ e.kinetic, e.strain, e.gravity, e.bending };
   return BT_OK;
 }
