@@ -62,7 +62,7 @@ cut_nodes (cutter *k)
 {
   campaign_flight *f = &k->c->flight;
   for (int by = f->nodes / 2; by > 0; by /= 2)
-    for (int kept = 1; kept && f->nodes - by >= 2; kept = keep (k))
+    for (int kept = 1; kept && f->nodes - by >= 3; kept = keep (k)) /* a dive has two intervals */
       f->nodes -= by;
 }
 

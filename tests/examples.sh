@@ -4,6 +4,8 @@
 . "$top_srcdir/tests/tap.sh"
 
 pre=$top_builddir/pre-inst-env
+XDG_STATE_HOME=$scratch/state # not everybody has a home
+export XDG_STATE_HOME
 
 # How a program in C is built and run.
 cat >"$scratch/run-c" <<RUN

@@ -24,7 +24,7 @@ told ()
   [ $failures -eq 0 ] || diag "$(cat "$scratch/out")"
 }
 
-told dynamics 35 100 'a line by itself'
+told dynamics 35 180 'a line by itself'
 told contact 4 150 'a line in rigging'
 
 "$program" --replay "$scratch/flight-1-35.txt" >"$scratch/out" 2>&1

@@ -78,6 +78,8 @@ static void
 share_ends (const bt_dive *dive, bt__state *state, int i, int part, int j, int k,
             bt__strand *strand)
 {
+  if (i == j) /* the two parts of a cut line lie end to end */
+    strand->shared[part == 0] = 1 + (k == 0);
   for (int e = 0; e < 2; e++)
     for (int f = 0; f < 2 && i != j; f++)
       if (are_made_fast_together (dive, i, e, j, f) && has_end (dive, state, i, part, e)

@@ -59,7 +59,7 @@
 (define long-by-request '(run run-until settle! foresee))
 
 ;; Not a procedure of ours: Guile's own parameter, whose count of arguments Guile itself checks.
-(define parameters '(current-dive))
+(define parameters '(current-dive current-belief))
 
 
 ;;; Chance.
@@ -761,6 +761,7 @@
   (set! history '())
   (set! results '())
   (current-dive #f)
+  (current-belief #f)
   (make-workshop!)
   (when (chance? 0.9)
     (enter-something))

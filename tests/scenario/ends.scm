@@ -354,3 +354,12 @@ very ends."
                          (metre-by-metre 42 on-a-metre)
                          (vec 0 0 (* -42 weight))))
           is (below 1e-4)))
+
+(define-scenario cut-in-open-water
+  "The two parts of a line that is cut lie end to end, and are not told to touch there."
+  (in cross-current)
+  (tether-model! 'dynamic)
+  (run 5)
+  (cut-tether!)
+  (run 10)
+  (expect (map car (events)) => '(parted)))

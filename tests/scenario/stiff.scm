@@ -84,3 +84,12 @@ same from a checkpoint and in a fork."
   (haul-in! 20 #:rate 0.5)
   (run 60)
   (expect (off-its-length) is (below 2e-4)))
+
+(define-scenario laid-shorter-than-it-is
+  "A stiff line laid on chords shorter than its length has the energy of its bend, and none of what has crumpled; that of
+its thrust stays small beside the bend's."
+  (enter! (world (sea) (rov (named minnow) (at -6 0 -1))
+                 (tether (named line) (from -9 0 -5) (to minnow) (length 17) (ei 1) (model dynamic))))
+  (expect (assq-ref (energy) 'strain) is (below 1e-6))
+  (expect (assq-ref (energy) 'bending) is (above 1))
+  (always (< (assq-ref (energy) 'strain) 0.1) (run 5)))

@@ -8,6 +8,7 @@
   #:use-module (bight core verb)
   #:use-module ((bight dive) #:select (this-dive))
   #:use-module (bight dive query)
+  #:use-module ((bight dive story) #:select (catching-io))
   #:use-module ((bight dive task) #:select (every-seconds))
   #:use-module ((bight dive time) #:select (now))
   #:use-module (srfi srfi-1)
@@ -32,10 +33,11 @@
           (append-map seen at)))
 
 (define (write-line file text mode)
-  (let ((port (open-file file mode)))
-    (display text port)
-    (newline port)
-    (close-port port)))
+  (catching-io 'measure! file
+               (let ((port (open-file file mode)))
+                 (display text port)
+                 (newline port)
+                 (close-port port))))
 
 (define-verb (measure! (file string) #:key (at marker-places) (seconds positive 0.05) (noise non-negative 0.0)
                        (tension flag #f) (seed count 1))
@@ -43,18 +45,20 @@
 the line that is out, and the markers AT these places in metres from the anchor, each coordinate with NOISE, a standard
 deviation in metres drawn from SEED; with TENSION also the pull on the vehicle.  So a measurement is rehearsed before the
 pool is hired: `identify' reads the file.  Return what `cancel!' takes."
-  (this-dive 'measure!)
   (unless at
     (bight-raise 'domain 'measure! "where the markers are, is not said: #:at '(METRES ...)"))
-  (let ((beyond (find (lambda (s) (> s (tether-length))) at)) (dice (seed->random-state seed)))
+  (let ((host (this-dive 'measure!)) (beyond (find (lambda (s) (> s (tether-length))) at))
+        (dice (seed->random-state seed)))
     (when beyond
       (bight-raise 'domain 'measure! "a marker is to be ~a m along a tether of ~a m" beyond (tether-length)))
     (check-writable 'measure! file)
     (write-line file (header (length at) tension) "w")
     (let ((look (lambda ()
-                  (write-line file
-                              (string-join (map (lambda (x) (number->string (exact->inexact x))) (row at noise tension dice))
-                                           ",")
-                              "a"))))
+                  (when (eq? host (this-dive 'measure!)) ; a fork is not measured
+                    (write-line file
+                                (string-join (map (lambda (x) (number->string (exact->inexact x)))
+                                                  (row at noise tension dice))
+                                             ",")
+                                "a")))))
       (look)
       (every-seconds seconds look))))
