@@ -46,6 +46,8 @@
     (home-trial . "the same")
     (fly-home! . "the same")
     (unwind-preview . "the same")
+    (tour-trial . "the same")
+    (advise . "the same, six times")
     (live! . "time then passes by the clock, and no two runs are the same")
     (film . "draws for as long as it is told to")
     (pilot! . "wants a terminal and somebody at its keys")))
