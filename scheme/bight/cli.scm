@@ -266,16 +266,26 @@ begins with FILE and the line."
       0)))
 
 
+;;; Commands about one thing.
+
+(define (call-with-one command what example arguments proc)
+  ;; Call PROC in the language with the one thing that COMMAND is given among ARGUMENTS, and the options; WHAT
+  ;; there should be, as in EXAMPLE, is said where there is none, or more.
+  (call-with-values (lambda () (split-arguments command arguments))
+    (lambda (given options)
+      (unless (= 1 (length given))
+        (bad-usage "~a: name one ~a, as in bight ~a ~a" command what command example))
+      (enter-language!)
+      (proc (car given) options)
+      0)))
+
+
 ;;; bight pilot.
 
 (define (fly arguments)
-  (call-with-values (lambda () (split-arguments "pilot" arguments))
-    (lambda (worlds options)
-      (unless (= 1 (length worlds))
-        (bad-usage "pilot: name one world or file, as in bight pilot WORLD"))
-      (enter-language!)
-      ((from (bight cockpit view) pilot-world) (world-argument (car worlds)) options)
-      0)))
+  (call-with-one "pilot" "world or file" "WORLD" arguments
+                 (lambda (world options)
+                   ((from (bight cockpit view) pilot-world) (world-argument world) options))))
 
 
 ;;; bight instruct.
@@ -290,25 +300,15 @@ begins with FILE and the line."
 ;;; bight watch.
 
 (define (watch arguments)
-  (call-with-values (lambda () (split-arguments "watch" arguments))
-    (lambda (files options)
-      (unless (= 1 (length files))
-        (bad-usage "watch: name one recording, as in bight watch FILE"))
-      (enter-language!)
-      ((from (bight cockpit watch) watch-file) (car files) options)
-      0)))
+  (call-with-one "watch" "recording" "FILE" arguments
+                 (lambda (file options) ((from (bight cockpit watch) watch-file) file options))))
 
 
 ;;; bight follow.
 
 (define (follow arguments)
-  (call-with-values (lambda () (split-arguments "follow" arguments))
-    (lambda (sources options)
-      (unless (= 1 (length sources))
-        (bad-usage "follow: name one source, as in bight follow udp:14550"))
-      (enter-language!)
-      ((from (bight follow command) follow-source) (car sources) options)
-      0)))
+  (call-with-one "follow" "source" "udp:14550" arguments
+                 (lambda (source options) ((from (bight follow command) follow-source) source options))))
 
 
 ;;; bight sweep.

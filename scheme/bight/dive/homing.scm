@@ -24,7 +24,7 @@
   #:use-module (srfi srfi-11)
   #:export (fly-home! home-trial unwind-preview
             ;; For (bight dive tour).
-            untold-fork))
+            home-of untold-fork))
 
 (define tick 0.1)                       ; s between looks at winch and vehicle
 (define near-home 0.8)                  ; m of the anchor is home
@@ -51,7 +51,8 @@
   (vec (x p) (y p) (min (z p) shallowest)))
 
 (define (home-of tether)
-  ;; At the anchor, or at the surface below one in the air: nobody is lifted by his tether.
+  "Return where the vehicle of TETHER is home: at the anchor, or at the surface below one in the air; nobody is lifted
+by his tether."
   (to-the-water (point-at tether 0)))
 
 (define (last-line tether)

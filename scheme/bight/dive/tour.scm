@@ -20,7 +20,7 @@
   #:use-module (bight dive)
   #:use-module ((bight dive aware) #:select (fouled? members-of vehicle-of))
   #:use-module (bight dive command)
-  #:use-module ((bight dive homing) #:select (fly-home! untold-fork))
+  #:use-module ((bight dive homing) #:select (fly-home! home-of untold-fork))
   #:use-module (bight dive plain-words)
   #:use-module (bight dive query)
   #:use-module ((bight dive task) #:select (add-task! remove-task! task-state set-task-state!))
@@ -143,7 +143,7 @@
       (list (list target (cons target target)))))
 
 
-;;; Legs, each asked once.  A leg is (LENGTH NEEDED POINTS), or a sentence that says why there is none.
+;;; Legs.  A leg is (LENGTH NEEDED POINTS), or a sentence that says why there is none.
 
 (define (ask-leg engine t from to line)
   (let ((v (%leg engine t from to)))
@@ -155,15 +155,15 @@
           (else (list (vector-ref v 3) (vector-ref v 6)
                       (map list->f64vector (array->list (vector-ref v 0))))))))
 
-(define (leg-asker engine t line places)
-  ;; A procedure of the numbers of two places, of which -1 is where the vehicle is, and the last home.
-  (let ((known (make-hash-table)) (n (vector-length places)))
-    (define (place k) (and (< -1 k n) (vector-ref places k)))
-    (lambda (i j)
-      (or (hash-ref known (cons i j))
-          (let ((leg (ask-leg engine t (place i) (place j) line)))
-            (hash-set! known (cons i j) leg)
-            leg)))))
+(define (leg-asker engine t line)
+  ;; A procedure of two stops, (NAME . POINT), that asks each leg once; #f is where the vehicle is, or home.
+  (let ((known (make-hash-table)))
+    (lambda (from to)
+      (let ((key (cons from to)))
+        (or (hash-ref known key)
+            (let ((leg (ask-leg engine t (and from (cdr from)) (and to (cdr to)) line)))
+              (hash-set! known key leg)
+              leg))))))
 
 (define (leg? leg)
   (pair? leg))
@@ -191,33 +191,36 @@
 
 (define too-long 1e6)                   ; m: instead of a leg that cannot be flown
 
-(define (legs-in-order asker order n)
-  (map asker (cons -1 order) (append order (list n))))
+(define (legs-in-order asker stops)
+  (map asker (cons #f stops) (append stops (list #f))))
 
 (define (tour-of tether vehicle stops legs line left-out)
   (make-tour tether vehicle stops (map third legs) (fold + 0 (map first legs))
              (fold max 0 (map second legs)) line left-out))
 
-(define (without stops k)
-  (append (list-head stops k) (list-tail stops (+ k 1))))
+(define (in-best-order asker stops)
+  ;; STOPS in the order of the shortest tour.
+  (let* ((all (list->vector stops)) (n (vector-length all)))
+    (define (stop k) (and (< -1 k n) (vector-ref all k)))
+    (define (cost i j)
+      (let ((leg (asker (stop i) (stop j))))
+        (if (leg? leg) (first leg) too-long)))
+    (map stop (best-order n cost))))
 
-(define (tour-among engine t tether vehicle stops line left-out)
+(define (tour-among asker tether vehicle stops line left-out)
   ;; The tour of STOPS; one that no leg leads to, or away from, is left out.
-  (let* ((n (length stops))
-         (asker (leg-asker engine t line (list->vector (map cdr stops))))
-         (cost (lambda (i j) (let ((leg (asker i j))) (if (leg? leg) (first leg) too-long))))
-         (order (best-order n cost))
-         (legs (legs-in-order asker order n))
+  (let* ((order (in-best-order asker stops))
+         (legs (legs-in-order asker order))
          (bad (list-index (negate leg?) legs)))
     (cond
      ((not bad)
-      (tour-of tether vehicle (map (lambda (k) (list-ref stops k)) order) legs line left-out))
-     ((zero? n)
+      (tour-of tether vehicle order legs line left-out))
+     ((null? order)
       (bight-raise 'unsupported 'plan-tour "no way leads home from where `~a' is: ~a" vehicle (car legs)))
      (else
-      (let ((lost (list-ref order (min bad (- n 1)))))
-        (tour-among engine t tether vehicle (without stops lost) line
-                    (acons (car (list-ref stops lost)) (list-ref legs bad) left-out)))))))
+      (let ((lost (list-ref order (min bad (- (length order) 1)))))
+        (tour-among asker tether vehicle (delq lost stops) line
+                    (acons (car lost) (list-ref legs bad) left-out)))))))
 
 (define (on-a-line tether line thunk)
   ;; What THUNK returns of a fork whose winch has been told to give as much as LINE m: ways are charted so far.
@@ -252,7 +255,7 @@ left out, and said.  The prompt says the tour in words; `tour-trial' flies it on
              (split-choices engine t line
                             (append-map (lambda (target) (choices engine t target stay)) places)))
          (lambda (stops left-out)
-           (tour-among engine t tether vehicle stops line left-out)))))))
+           (tour-among (leg-asker engine t line) tether vehicle stops line left-out)))))))
 
 
 ;;; The flight.
@@ -343,8 +346,7 @@ the tour, m."
 (define home-within 1.5)                ; m of the anchor, or of the surface below it
 
 (define (is-home? tour)
-  (let ((anchor (point-at (%tether-of tour) 0)) (here (rov-position (%vehicle-of tour))))
-    (< (distance here (vec (x anchor) (y anchor) (min shallowest (z anchor)))) home-within)))
+  (< (distance (rov-position (%vehicle-of tour)) (home-of (%tether-of tour))) home-within))
 
 (define-verb (tour-trial (tour tour) #:key (speed positive 0.35))
   "Fly TOUR at SPEED m/s on a fork, where the tether has its slack and the water its current, and return an alist:

@@ -54,19 +54,20 @@ value #t."
     (or (let ((n (string->number text))) (and (exact-integer? n) n))
         (bad-usage "lesson: --seed needs a whole number, not ~a" text))))
 
+(define (word-given given name usual words)
+  ;; What the option --NAME says, one of WORDS, a symbol; USUAL, a string, when nothing is said.
+  (let ((word (string->symbol (option given (string-append "--" name) usual))))
+    (if (memq word words)
+        word
+        (unknown-name 'lesson "a lesson" word words name))))
+
 (define (level-of given)
   "Return the level GIVEN, a symbol, normal when there is none."
-  (let ((level (string->symbol (option given "--level" "normal"))))
-    (if (memq level levels)
-        level
-        (unknown-name 'lesson "a lesson" level levels "level"))))
+  (word-given given "level" "normal" levels))
 
 (define (display-of given)
   "Return what of the dive's views the pupil may see, a symbol: three, plan or none; three when nothing is said."
-  (let ((shown (string->symbol (option given "--display" "three"))))
-    (if (memq shown displays)
-        shown
-        (unknown-name 'lesson "a lesson" shown displays "display"))))
+  (word-given given "display" "three" displays))
 
 (define (who-of given)
   "Return the name of the pupil, a string."
