@@ -181,6 +181,21 @@
   (expect (believe! (line (cdn (uniform 1 2)))) raises unsupported)
   (expect (current-belief) => #f))
 
+(define-scenario two-tethers
+  "A belief in a dive of two tethers asks each, and knows how surely each is fouled."
+  (enter! (world (sea (depth 20))
+                 (cylinder (named post) (from 3 6 0) (to 3 6 -20) (radius 0.3))
+                 (rov (named minnow) (type kinematic) (at 0 12 -8))
+                 (rov (named shiner) (type kinematic) (at 12 0 -8))
+                 (tether (named line) (model dynamic) (nodes 10) (from 0 0 -2) (to minnow) (length 16))
+                 (tether (named other) (model dynamic) (nodes 10) (from 1 0 -2) (to shiner) (length 16))))
+  (believe! doubtful #:members 8)
+  (run 2)
+  (let ((answers (belief (fouled? 'line) (fouled? 'other) (tether-length 'other))))
+    (expect (map answer-probability (list-head answers 2)) => '(0.0 0.0))
+    (expect (answer-interval (third answers)) => '(16.0 16.0)))
+  (current-belief #f))
+
 (define-scenario the-tube
   "The tube holds its share of the members, and its axes are those of its ellipsoid."
   (in slack-water)

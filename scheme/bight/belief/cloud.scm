@@ -185,7 +185,7 @@ conditioned as KIND says."
       (when (%asks? engine)
         (bight-raise 'unsupported 'believe! "the current of this dive is a procedure, which many dives cannot ask \
 at once"))
-      (fouled?)                         ; forks share the charts that the dive has made
+      (for-each fouled? (%names engine 'tether)) ; forks share the charts that the dive has made
       (let* ((state (%save-dive engine))
              (belief (make-belief-record
                       dive unknowns seed kind
