@@ -189,6 +189,21 @@
     (run 1)
     (expect (tether-length) => 2.5)))
 
+(define-scenario what-the-winch-has-hauled-in
+  "A marker that has been hauled in, or cut off, is not seen, the dive goes on, and what was seen is measured."
+  (in pool)
+  (define file (scratch-file "hauled.csv"))
+  (measure! file #:at '(.5 1 2.2) #:seconds .1)
+  (haul-in! 1 #:rate .5)
+  (run 3)
+  (cut-tether! #:at .7)
+  (run 1)
+  (let ((rows (map (lambda (line) (string-split line #\,))
+                   (string-split (string-trim-right (call-with-input-file file get-string-all)) #\newline))))
+    (define (seen row) (map (lambda (k) (not (string=? "nan" (list-ref (list-ref rows row) k)))) '(8 11 14)))
+    (expect (length rows) => 42)
+    (expect (map seen '(1 31 32 41)) => '((#t #t #t) (#t #t #f) (#t #f #f) (#t #f #f)))))
+
 
 ;;; Intervals.
 

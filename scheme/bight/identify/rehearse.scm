@@ -27,10 +27,17 @@
    ","))
 
 (define (row at noise tension? dice)
-  (define (seen s) (map (lambda (x) (+ x (* noise (random:normal dice)))) (f64vector->list (point-at s))))
+  (define (seen s)
+    ;; A marker that has been hauled in, or cut off, is not seen.
+    (if (> s (tether-length))
+        (make-list 3 +nan.0)
+        (map (lambda (x) (+ x (* noise (random:normal dice)))) (f64vector->list (point-at s)))))
   (append (list (now)) (f64vector->list (point-at 0)) (f64vector->list (point-at (tether-length))) (list (tether-length))
           (if tension? (list (rov-tension)) '())
           (append-map seen at)))
+
+(define (cell x)
+  (if (nan? x) "nan" (number->string (exact->inexact x))))
 
 (define (write-line file text mode)
   (catching-io 'measure! file
@@ -43,7 +50,7 @@
                        (tension flag #f) (seed count 1))
   "Write to FILE, from now on and every SECONDS of the dive, what cameras in a pool would see of its tether: the ends,
 the line that is out, and the markers AT these places in metres from the anchor, each coordinate with NOISE, a standard
-deviation in metres drawn from SEED; with TENSION also the pull on the vehicle.  So a measurement is rehearsed before the
+deviation in metres drawn from SEED, `nan' while a marker is not out; with TENSION also the pull on the vehicle.  So a measurement is rehearsed before the
 pool is hired: `identify' reads the file.  Return what `cancel!' takes."
   (unless at
     (bight-raise 'domain 'measure! "where the markers are, is not said: #:at '(METRES ...)"))
@@ -56,9 +63,7 @@ pool is hired: `identify' reads the file.  Return what `cancel!' takes."
     (let ((look (lambda ()
                   (when (eq? host (this-dive 'measure!)) ; a fork is not measured
                     (write-line file
-                                (string-join (map (lambda (x) (number->string (exact->inexact x)))
-                                                  (row at noise tension dice))
-                                             ",")
+                                (string-join (map cell (row at noise tension dice)) ",")
                                 "a")))))
       (look)
       (every-seconds seconds look))))
