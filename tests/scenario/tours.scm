@@ -156,6 +156,28 @@ not change; a cut tether, no place, and a place that is none are refused with th
     (cut-tether! 'line #:at 5)
     (expect (plan-tour places) raises unsupported)))
 
+(define-scenario a-parted-tether-leads-nowhere
+  "What would fly its vehicle home, or plan or measure a way for it, refuses a parted tether; a tour during which the
+tether parts ends with the vehicle not home."
+  (in pile)
+  (let ((tour (plan-tour '((3 4 -5) (4 -3 -8)))))
+    (what-if (cut-tether! 'line #:at 5)
+             (let ((hash (state-hash)))
+               (expect (home-trial) raises unsupported)
+               (expect (fly-home!) raises unsupported)
+               (expect (tour-trial tour) raises unsupported)
+               (expect (fly-tour! tour) raises unsupported)
+               (expect (slack-to-reach '(3 4 -5)) raises unsupported)
+               (expect (state-hash) => hash)))
+    (what-if (every 3 (unless (parted?) (cut-tether! 'line #:at 5)))
+             (expect (assq-ref (tour-trial tour) 'home?) => #f))
+    (fly-tour! tour)
+    (run 3)
+    (cut-tether! 'line #:at 5)
+    (expect (arrived?) => #f)
+    (run 1)
+    (expect (arrived?) => #t)))
+
 (define-scenario inside-an-obstacle
   "A place within an obstacle, and one above the water, are left out."
   (in pile)

@@ -14,7 +14,7 @@
   #:use-module (bight core units)
   #:use-module (bight core verb)
   #:use-module (bight dive)
-  #:use-module ((bight dive aware) #:select (fouled? unwind-plan vehicle-of way-home))
+  #:use-module ((bight dive aware) #:select (fouled? held-vehicle unwind-plan way-home))
   #:use-module (bight dive command)
   #:use-module ((bight dive contact) #:select (stuck?))
   #:use-module ((bight dive homing) #:select (untold-fork))
@@ -140,11 +140,7 @@ first of these after which the tether is least likely fouled, stuck or parted SE
 way has been flown.  Each is flown on the tethers of the current belief, or, without one, on a fork.  The prompt
 says it in words, with the probability of trouble before and after."
   (let* ((tether (list-ref (%names (this-engine 'advise) 'tether) t))
-         (vehicle (vehicle-of t)))
-    (unless vehicle
-      (bight-raise 'unsupported 'advise "no vehicle is at the far end of `~a'" tether))
-    (when (parted? tether)
-      (bight-raise 'unsupported 'advise "`~a' has parted: its vehicle can be advised nothing" tether))
+         (vehicle (held-vehicle 'advise t)))
     (advice-about tether vehicle seconds)))
 
 

@@ -151,7 +151,7 @@
     ((bight dive time))
     ((bight lesson) run-lesson lesson-list lesson-code lesson-location collect-lessons take-lesson
      scripted-guide pilot-named register-lesson! unknown-clause malformed-clause malformed-lesson)
-    ((bight dive aware) vehicle-of unwind-said members-of)
+    ((bight dive aware) held-vehicle unwind-said members-of)
     ((bight dive homing) untold-fork)
     ((bight dive tour))
     ((bight dive instruments))

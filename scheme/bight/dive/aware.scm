@@ -29,7 +29,7 @@
             follow-string
             windings
             ;; For (bight dive homing).
-            vehicle-of unwind-said
+            held-vehicle unwind-said
             ;; For (bight dive tour).
             members-of
             ;; For panels.
@@ -362,6 +362,7 @@ nothing needs to be unwound.  The prompt says it in words.  `unwind-preview' say
 round what it lies against: an alist with free? (whether nothing is in the way), needed (m of tether), out (m now),
 more (m to be paid out, 0 or more), enough? (whether the drum has them), round (names) and blocked (the name of what
 is in the way, or #f).  The prompt says it in words.  A current that bows the line takes more."
+  (refuse-parted 'slack-to-reach t)
   (let* ((engine (this-engine 'slack-to-reach))
          (found (%taut-to engine t p))
          (out (assq-ref (%tether engine t) 'length))
@@ -419,6 +420,20 @@ when it has no least radius."
          (end (assq-ref (own-fields (list-ref (%names engine 'tether) t)) 'to)))
     (find (lambda (name) (eq? name (if (reference? end) (reference-name end) end)))
           (%names engine 'rov))))
+
+(define (refuse-parted who t)
+  ;; Raise unsupported in WHO when tether number T has parted: the rest of it leads its vehicle nowhere.
+  (when (assq-ref (%tether (this-engine who) t) 'parted?)
+    (bight-raise 'unsupported who "`~a' has parted: the rest of it leads its vehicle nowhere"
+                 (list-ref (%names (this-engine who) 'tether) t))))
+
+(define (held-vehicle who t)
+  "Return the name of the vehicle that tether number T holds; raise unsupported in WHO when there is none, or when the
+tether has parted."
+  (refuse-parted who t)
+  (or (vehicle-of t)
+      (bight-raise 'unsupported who "no vehicle is at the far end of `~a'"
+                   (list-ref (%names (this-engine who) 'tether) t))))
 
 (define (full-pull vehicle)
   ;; What VEHICLE, a name, can hold a tether with, N.

@@ -12,7 +12,7 @@
   #:use-module (bight core units)
   #:use-module (bight core verb)
   #:use-module (bight dive)
-  #:use-module ((bight dive aware) #:select (way-home unwind-plan unwind-said vehicle-of))
+  #:use-module ((bight dive aware) #:select (held-vehicle way-home unwind-plan unwind-said))
   #:use-module (bight dive checkpoint)
   #:use-module (bight dive command)
   #:use-module (bight dive query)
@@ -35,12 +35,9 @@
 (define slack-line 5)                   ; N: more is a line that holds him
 (define ease 1)                         ; m
 
-(define (names t)
-  ;; Of tether number T and of the vehicle at its far end.
-  (let ((tether (list-ref (%names (this-engine 'fly-home!) 'tether) t)))
-    (values tether
-            (or (vehicle-of t)
-                (bight-raise 'unsupported 'fly-home! "no vehicle is at the far end of `~a'" tether)))))
+(define (names who t)
+  ;; Of tether number T and of the vehicle that it holds, for the verb WHO.
+  (values (list-ref (%names (this-engine who) 'tether) t) (held-vehicle who t)))
 
 
 ;;; Where home is.
@@ -143,7 +140,7 @@ by his tether."
 (define trip-since fifth)
 
 (define (home? tether vehicle)
-  (< (from-home tether vehicle) near-home))
+  (and (not (parted? tether)) (< (from-home tether vehicle) near-home)))
 
 (define (end-trip! task tether vehicle)
   ;; He holds his place himself, on a line with a little slack.
@@ -167,7 +164,7 @@ by his tether."
   (let* ((trip (task-state task)) (step (%dive-steps (this-engine 'fly-home!))))
     (when (>= step (trip-due trip))
       (let ((due (+ step (round (/ tick (time-step))))) (place (rov-position vehicle)))
-        (cond ((home? tether vehicle) (end-trip! task tether vehicle))
+        (cond ((or (parted? tether) (home? tether vehicle)) (end-trip! task tether vehicle))
               ((< (- (now) (trip-since trip)) (patience trip))
                (unless (negative? (trip-k trip))
                  (act! (car (trip-plan trip)) (inexact->exact (trip-k trip)) tether vehicle speed pull))
@@ -215,7 +212,7 @@ than PULL newtons, the vehicle flying at SPEED m/s.  Return an alist: home?, pla
 in turn when one gets stuck: retrace, flying back along the string; drift, hauled by the winch; tighten,
 retracing with the line kept tight; loose, retracing with the winch at rest; follow, along the line itself),
 seconds, left (m still out), at.  It takes some tenths of a second for each plan that is tried; five are."
-  (let-values (((tether vehicle) (names t)))
+  (let-values (((tether vehicle) (names 'home-trial t)))
     (map cons '(plan home? seconds left at) (first-home tether vehicle speed pull))))
 
 (define-verb (fly-home! #:subject (t tether) #:key (speed positive 0.35) (pull positive 150.0))
@@ -223,7 +220,7 @@ seconds, left (m still out), at.  It takes some tenths of a second for each plan
 winch, while time passes in `run', and is not `arrived?' before it ends: the vehicle then holds its place at the
 anchor, or at the surface below one in the air, on a slack line.  Return the plan, or #f, and do nothing,
 when none arrives."
-  (let*-values (((tether vehicle) (names t))
+  (let*-values (((tether vehicle) (names 'fly-home! t))
                 ((found) (first-home tether vehicle speed pull)))
     (and (second found)
          (begin
@@ -271,5 +268,5 @@ with QUICK it is not."
   (let ((said (unwind-said t)))
     (if (or quick (not (assq-ref said 'needed?)) (not (assq-ref said 'feasible?)))
         said
-        (let-values (((tether vehicle) (names t)))
+        (let-values (((tether vehicle) (names 'unwind-preview t)))
           (with-outcome said (unwind-flight tether vehicle speed))))))

@@ -18,7 +18,7 @@
   #:use-module (bight core units)
   #:use-module (bight core verb)
   #:use-module (bight dive)
-  #:use-module ((bight dive aware) #:select (fouled? members-of vehicle-of))
+  #:use-module ((bight dive aware) #:select (fouled? held-vehicle members-of))
   #:use-module (bight dive command)
   #:use-module ((bight dive homing) #:select (fly-home! home-of untold-fork))
   #:use-module (bight dive plain-words)
@@ -244,8 +244,7 @@ seen from STAY m off its surface; or that of a structure, whose members are all 
 left out, and said.  The prompt says the tour in words; `tour-trial' flies it on a fork, `fly-tour!' flies it."
   (let* ((engine (this-engine 'plan-tour))
          (tether (list-ref (%names engine 'tether) t))
-         (vehicle (or (vehicle-of t)
-                      (bight-raise 'unsupported 'plan-tour "no vehicle is at the far end of `~a'" tether)))
+         (vehicle (held-vehicle 'plan-tour t))
          (line (or line (line-of t tether))))
     (on-a-line
      tether line
@@ -297,7 +296,7 @@ left out, and said.  The prompt says the tour in words; `tour-trial' flies it on
   ;; The last leg, or what is left of one that could not be flown, is flown home as `fly-home!' finds it.
   (release! (%vehicle-of tour))
   (remove-task! (this-dive 'fly-tour!) task)
-  (unless (fly-home! (%tether-of tour))
+  (unless (and (not (parted? (%tether-of tour))) (fly-home! (%tether-of tour)))
     (hold-position! (%vehicle-of tour))))
 
 (define (next-leg task flight due place)
@@ -312,7 +311,8 @@ left out, and said.  The prompt says the tour in words; `tour-trial' flies it on
       (let ((due (+ step (round (/ tick (time-step))))) (place (rov-position vehicle)))
         (tend-line! tour speed)
         (cond ((or (null? (cdr (flight-legs flight)))
-                   (> (- (now) (flight-since flight)) stuck-time))
+                   (> (- (now) (flight-since flight)) stuck-time)
+                   (parted? (%tether-of tour)))
                (end-flight! task tour))
               ((not (flight-begun? flight))
                (fly-along! vehicle (car (flight-legs flight)) #:speed speed)
@@ -320,7 +320,9 @@ left out, and said.  The prompt says the tour in words; `tour-trial' flies it on
               ((at-end? (car (flight-legs flight)) place) (next-leg task flight due place))
               (else (set-task-state! task (moved-on flight due place))))))))
 
-(define (set-out! tour speed)
+(define (set-out! who tour speed)
+  ;; For the verb WHO; return the task.
+  (held-vehicle who (list-index (lambda (name) (eq? name (%tether-of tour))) (%names (this-engine who) 'tether)))
   (release! (%vehicle-of tour))
   (add-task! 'fly-tour! "fly a tour" (lambda (task) (fly-on task tour speed))
              (make-flight 0 (%legs tour) #f 0 (rov-position (%vehicle-of tour)) (now))
@@ -330,12 +332,12 @@ left out, and said.  The prompt says the tour in words; `tour-trial' flies it on
   "Fly TOUR at SPEED m/s while time passes in `run': the winch keeps a little more out than a taut tether takes, and
 from the last place, or where the vehicle gets stuck, it comes home as `fly-home!' does.  Return the length of
 the tour, m."
-  (set-out! tour speed)
+  (set-out! 'fly-tour! tour speed)
   (%length tour))
 
 (define (flown tour speed)
   ;; Fly TOUR in the present dive to its end; how many places were reached.
-  (let* ((task (set-out! tour speed)) (dive (this-dive 'tour-trial))
+  (let* ((task (set-out! 'tour-trial tour speed)) (dive (this-dive 'tour-trial))
          (most (+ 120 (/ (* 3 (+ (%length tour) (%needed tour))) speed))) (start (now)))
     (let loop ()
       (when (and (pair? (dive-tasks dive)) (< (- (now) start) most))
@@ -346,7 +348,8 @@ the tour, m."
 (define home-within 1.5)                ; m of the anchor, or of the surface below it
 
 (define (is-home? tour)
-  (< (distance (rov-position (%vehicle-of tour)) (home-of (%tether-of tour))) home-within))
+  (and (not (parted? (%tether-of tour)))
+       (< (distance (rov-position (%vehicle-of tour)) (home-of (%tether-of tour))) home-within)))
 
 (define-verb (tour-trial (tour tour) #:key (speed positive 0.35))
   "Fly TOUR at SPEED m/s on a fork, where the tether has its slack and the water its current, and return an alist:
