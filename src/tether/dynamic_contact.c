@@ -2,7 +2,8 @@
 
    The quick way treats a constraint like an interval: its multiplier, the linearised load, decides
    together with the gap whether the constraint bears.  Friction takes the load of the previous
-   iterate, so its block is symmetric.  The safe way takes load and activity from the gap, and
+   iterate, so its block is symmetric; dynamic_couple.c adds what friction gains with the load.  The
+   safe way takes load and activity from the gap, and
    friction from the load of the previous iterate.
 
    A held end is stuck to its place while its multiplier is less than the greatest pull; else the

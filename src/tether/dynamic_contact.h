@@ -40,6 +40,7 @@ typedef struct bt__constraint
   bt_vec3 stick;    /* m: the drag at the start of the step */
   bt_vec3 drift;    /* m: motion of the obstacle there in the step */
   double load;      /* N: in a guess, out the solution */
+  double before;    /* N: any value; LOAD while another way is tried */
   double active;    /* out: 1 if it bears, 0 if not; any value in */
   bt_vec3 drag;     /* out, m: the drag that friction answers, not yet shortened to SLIP */
   bt_vec3 force;    /* out, N on the line; of two places on the first */

@@ -131,6 +131,7 @@ struct bt__dynamic_work
   const bt_vec3 *x;            /* positions at the start */
   const bt_vec3 *chord, *load; /* fourth-order parts, NULL if none */
   bt__constraint *row;         /* the caller's half-spaces, ... */
+  int coupled;                 /* true: friction follows the loads within an iteration */
   int rows, pairs;             /* ... how many; and of these, how many bear on two places */
   bt__dynamic_hold *hold;      /* of the ends, NULL if none */
   bt__dynamic_bent *bent;      /* nodes about which the line runs, ... */
@@ -152,6 +153,7 @@ struct bt__dynamic_work
   bt__bend *bend;
   double *bend_diag, *bend_off, *bend_far;
   bt_vec3 *whole, *spare, *by_flow; /* of bent nodes: updates without flow and of each flow */
+  int *exchanged; /* rows of the band, which lies in BY_FLOW, see dynamic_couple.c */
 };
 
 /* Ways to assemble: which tangents, whose activity.  */
@@ -264,11 +266,17 @@ bt__dynamic_touches (const bt__dynamic_work *w)
 void bt__dynamic_pair_add (bt__dynamic_work *w, bt__constraint *r, const bt__sym *k);
 double bt__dynamic_pair_solve (bt__dynamic_work *w);
 
+/* Q less what the blocks have too much of for rows of two places, times P.  */
+void bt__dynamic_pair_take_back (const bt__dynamic_work *w, const bt_vec3 *p, bt_vec3 *q);
+
 /* Bent nodes, likewise; the solution with their flows.  */
 void bt__dynamic_bent_assemble (bt__dynamic_work *w, bt__mode mode);
 void bt__dynamic_bent_take (bt__dynamic_work *w, double share);
 double bt__dynamic_bent_potential (const bt__dynamic_work *w);
 double bt__dynamic_bent_solve (bt__dynamic_work *w);
+
+/* The solution in which friction follows the loads (dynamic_couple.c): no bent nodes, no holds.  */
+double bt__dynamic_couple_solve (bt__dynamic_work *w);
 
 /* Unfold what is crumpled of a line with bending stiffness (dynamic_unfold.c).  */
 void bt__dynamic_unfold (bt__dynamic_work *w, const bt__dynamic *d);

@@ -2,7 +2,10 @@
 
    The quick way is a mixed primal-dual active set: each interval's multiplier, the linearised
    tension, sets the geometric stiffness and decides with the stretch whether the interval is taut.
-   One iteration is enough in ordinary motion.  Where it does not settle, the safe way restarts from
+   One iteration is enough in ordinary motion.  Friction takes the loads of the iterate before, so
+   that the blocks are symmetric; where that runs in a circle, as on a line wound about a pile under
+   load, iterations are tried in which friction follows the loads (dynamic_couple.c: Newton's own).
+   Where neither settles, the safe way restarts from
    the better of predictor and present shape and descends on the incremental potential: no step
    gains energy out of nothing.
 
@@ -26,6 +29,13 @@ enum
   QUICK_TOUCHING = 60,
   SAFE_TOUCHING = 40,
   LINKS = 120,
+  /* Iterations with friction of the loads before, then also such that friction follows the loads
+     within: after every AGAIN, COUPLED of them at most.  Where places of the line push each other
+     apart these cost ten times as much, and the lagging ones mostly settle.  */
+  LAGGING = 8,
+  LAGGING_PAIRS = 30,
+  AGAIN = 4,
+  COUPLED = 7,
   FOLLOWING = 4 /* iterations of the safe way until friction follows the loads */
 };
 
@@ -34,6 +44,7 @@ enum
 #define LOST_TOUCHING 1e3 /* m: the same among contacts, ... */
 #define LOST_HELD 0.3     /* ... and where an end is held */
 #define REACH 0.1         /* m: what is taken at most of one among contacts, see quick */
+#define STRAYS 0.3        /* m: an update of these that is lost */
 #define LEAST_SHARE 0.3   /* of an update that is held back */
 #define MORE 2.0         /* times that, when updates do not go back that differ by as much as ... */
 #define WALKS_LEAST 2e-3 /* m: ... fronts that walk, at least ... */
@@ -129,6 +140,57 @@ calm (bt__dynamic_work *w, double share)
   return size > 0 ? fmin (fmax (-share * along / size, LEAST_SHARE), 1) : 1;
 }
 
+/* What was slack or taut has changed: send fronts of tension ahead from both ends.  */
+static void
+send_fronts (bt__dynamic_work *w)
+{
+  pull_on (w, 0, 1);
+  pull_on (w, w->n - 1, -1);
+}
+
+/* Iterate with friction that follows the loads (dynamic_couple.c).  Return true if that settles;
+   else the iterate is what it was.  */
+static int
+couple (bt__dynamic_work *w, bt__dynamic_report *report)
+{
+  size_t nodes = (size_t)(w->n + 1) * sizeof *w->X, intervals = (size_t)w->n * sizeof *w->lam;
+  int solved = 0;
+  memcpy (w->whole, w->X, nodes);
+  memcpy (w->spare, w->lam, intervals);
+  for (int k = 0; k < w->rows; k++)
+    w->row[k].before = w->row[k].load;
+  w->coupled = 1;
+  for (int i = 0; i < COUPLED && !solved && !bt__ask (w->asker); i++)
+    {
+      int changed = bt__dynamic_assemble (w, BT__FROZEN);
+      double most = bt__dynamic_solve (w);
+      report->solves++;
+      report->update = most;
+      if (!(most <= STRAYS))
+        break;
+      int settled = take (w, fmin (1, REACH / most));
+      if (changed)
+        send_fronts (w);
+      solved = most <= w->tolerance && !changed && settled;
+    }
+  w->coupled = 0;
+  if (solved)
+    return 1;
+  memcpy (w->X, w->whole, nodes);
+  memcpy (w->lam, w->spare, intervals);
+  for (int k = 0; k < w->rows; k++)
+    w->row[k].load = w->row[k].before;
+  return 0;
+}
+
+/* True when the quick way is to be left for `couple' after iteration I.  */
+static int
+lags (const bt__dynamic_work *w, int i)
+{
+  int first = w->pairs > 0 ? LAGGING_PAIRS : LAGGING;
+  return i >= first && i % AGAIN == 0 && w->rows > 0 && w->bents == 0 && !w->hold;
+}
+
 /* Contacts are stiff: places that are solved for may press with too much, and a line that lies be
    thrown up in every step, unless the loads are too; but they need not settle at all costs.
 
@@ -163,10 +225,9 @@ quick (bt__dynamic_work *w, bt__dynamic_report *report)
         }
       int settled = take (w, share);
       if (changed && i >= WALKING)
-        {
-          pull_on (w, 0, 1);
-          pull_on (w, w->n - 1, -1);
-        }
+        send_fronts (w);
+      if (lags (w, i) && couple (w, report))
+        return 1;
       if (!(most <= w->tolerance && (i == 0 || !changed)))
         continue;
       if (settled || ++pressed > PRESSED)

@@ -63,9 +63,8 @@ take_from (bt_vec3 *q, int64_t i, double s, bt_vec3 f)
   q[i + 1] = bt__axpy (q[i + 1], -s, f);
 }
 
-/* Q less what the blocks have too much of, times P.  */
-static void
-take_back (const bt__dynamic_work *w, const bt_vec3 *p, bt_vec3 *q)
+void
+bt__dynamic_pair_take_back (const bt__dynamic_work *w, const bt_vec3 *p, bt_vec3 *q)
 {
   for (int k = 0; k < w->rows; k++)
     {
@@ -124,7 +123,7 @@ bt__dynamic_pair_solve (bt__dynamic_work *w)
   for (int i = 0; i < ITERATIONS; i++)
     {
       memcpy (q, mp, size);
-      take_back (w, p, q);
+      bt__dynamic_pair_take_back (w, p, q);
       double curve = product_over_window (w, p, q);
       if (!(curve > 0))
         break;

@@ -465,5 +465,7 @@ bt__dynamic_solve (bt__dynamic_work *w)
 {
   if (w->bents > 0 && w->bordered)
     return bt__dynamic_bent_solve (w);
+  if (w->coupled)
+    return bt__dynamic_couple_solve (w);
   return w->pairs > 0 ? bt__dynamic_pair_solve (w) : solve (w, 0);
 }
