@@ -139,10 +139,8 @@ def stream(faults):
 
 
 def write_log(name, faults):
-    data = b""
-    for t, frames in stream(faults):
-        for frame in frames:
-            data += struct.pack(">Q", 1700000000000000 + round(t * 1e6)) + frame
+    data = b"".join(struct.pack(">Q", 1700000000000000 + round(t * 1e6)) + frame
+                    for t, frames in stream(faults) for frame in frames)
     if "cut" in faults:
         data = data[:len(data) * 2 // 3 + 5]
     with open(name, "wb") as out:
@@ -165,7 +163,7 @@ def send(port, faults):
     sent = 0
     for _, frames in stream(faults):
         for frame in frames:
-            while (waiting(port) or 0) > 50000:  # no more than the reader has room for
+            while sent % 16 == 0 and (waiting(port) or 0) > 50000:  # no more than the reader has room for
                 time.sleep(0.01)
             vehicle.sendto(frame, ("127.0.0.1", port))
             sent += 1
