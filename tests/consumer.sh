@@ -26,6 +26,16 @@ for header in "$top_srcdir"/src/bight/*.h; do
   fi
 done
 
+# What a program needs to be built with bight is bight alone: nothing else is looked for, such as libgsl-dev.
+flags=$(PKG_CONFIG_PATH='' PKG_CONFIG_LIBDIR=$top_builddir $PKG_CONFIG --cflags --libs bight 2>"$scratch/err")
+result $? 'pkg-config tells of bight where no other library is known to it'
+empty 'and misses none' "$scratch/err"
+case $flags in
+  *gsl* | *qhull*) result 1 "what it tells names no other library: $flags" ;;
+  *-lbight*) result 0 'what it tells names no other library' ;;
+  *) result 1 "what it tells names bight: $flags" ;;
+esac
+
 check 'a C11 program compiles' \
   $CC -std=c11 $strict "$include" -c "$top_srcdir/tests/consumer/consumer.c" -o "$scratch/c.o"
 check 'and links' link $CC "$scratch/c.o" -o "$scratch/consumer-c"

@@ -22,7 +22,7 @@ there "$includedir/bight" "$top_srcdir/src/bight" '*.h'
 there "$moddir/bight" "$top_srcdir/scheme/bight" '*.scm'
 there "$pkgdatadir/worlds" "$top_srcdir/worlds" '*.scm'
 there "$pkgdatadir/lessons" "$top_srcdir/lessons" '*.scm'
-[ -f "$destdir$man1dir/bight.1" ]
+[ -f "$destdir$man1dir/bight.1" ] || [ -f "$destdir$man1dir/bight.1.gz" ] # as packages have it
 result $? 'the manual page is there'
 if [ -f "$top_builddir/doc/bight.info" ]; then
   [ -f "$destdir$infodir/bight.info" ]

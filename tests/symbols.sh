@@ -12,6 +12,20 @@ result $? 'libbight exports something'
 grep -v '^bt_[^_]' "$scratch/exported" >"$scratch/foreign"
 empty 'libbight exports bt_ names alone' "$scratch/foreign"
 
+# What a package says of the library's symbols is what there is; the line that writes it anew is told.
+(
+  echo 'libbight.so.0 libbight0 #MINVER#'
+  sort "$scratch/exported" | sed 's/.*/ &@Base 0.1.0/'
+) >"$scratch/symbols"
+cmp -s "$scratch/symbols" "$top_srcdir/debian/libbight0.symbols"
+listed=$?
+result $listed 'debian/libbight0.symbols lists them'
+if [ $listed -ne 0 ]; then
+  diag "$(diff "$top_srcdir/debian/libbight0.symbols" "$scratch/symbols")"
+  diag "to have it as it is: BIGHT_WRITE=1 make check TESTS=symbols.sh"
+  [ -z "${BIGHT_WRITE:-}" ] || cp "$scratch/symbols" "$top_srcdir/debian/libbight0.symbols"
+fi
+
 $NM -A -u "$core" | sed 's/@.*//' | awk '{ print $1, $NF }' >"$scratch/needed"
 for name in exit _exit _Exit quick_exit abort __assert_fail \
             printf vprintf puts putchar fprintf vfprintf fputs fputc putc fwrite perror psignal \

@@ -49,6 +49,8 @@
 (define (check-name name)
   (let ((known (benches)))
     (unless (member name known)
+      (when (null? (bench-files (%programs-folder)))
+        (bight-raise 'unsupported 'bench "there are no programs here that measure (Debian package: bight-bench)"))
       (unknown-name 'bench "the list of benches" name known))))
 
 

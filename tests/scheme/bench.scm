@@ -49,6 +49,13 @@
       thunk
       (lambda () (if before (setenv "BIGHT_LIBEXEC" before) (unsetenv "BIGHT_LIBEXEC"))))))
 
+(define-scenario programs-may-be-absent
+  "They are a Debian package of their own, whose name is told."
+  (mkdir (in-scratch "empty"))
+  (call-with-programs "empty"
+    (lambda ()
+      (expect (bench-command '("statics")) raises unsupported))))
+
 (define-scenario rows-are-read
   "Cells may hold commas and quotes; empty ones are no numbers; costs are medians over the rounds."
   (let ((row (first (gather (rows-from "a,\"m,\"\"1\"\"\",s,e,0.5,r,,100,2,k=1")
