@@ -4,7 +4,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules ((bight bench json) #:select (write-json))
+(use-modules ((bight core json) #:select (write-json))
              (ice-9 ftw)
              (ice-9 regex)
              (ice-9 textual-ports)

@@ -96,7 +96,7 @@
      difference? difference-step difference-time difference-quantities)
     ((bight dive flight) keep-flight!)
     ((bight dive frames) export-csv)
-    ((bight dive export) export-npz export-vtk)
+    ((bight dive export) export-npz export-vtk export-gltf)
     ((bight world moordyn) import-moordyn export-moordyn)
     ((bight world orcaflex) import-orcaflex)
     ((bight dive live) live! freeze! live?)

@@ -145,7 +145,7 @@ done
 unread 'a mesh elsewhere' '' "(mesh (named m) (file \"$secret.obj\") (at 0 0 -9))"
 unread 'a current elsewhere' "(current (grid \"$secret\"))" ''
 for verb in include load include-from-path open-input-file call-with-input-file follow! read-track load-dive replay \
-            find-world export-csv export-npz export-vtk; do
+            find-world export-csv export-npz export-vtk export-gltf; do
   printf '(define-world w "W." (sea (depth 9)))\n(%s "%s")\n' "$verb" "$secret" >own/world.scm
   "$pre" bight -c '(enter! "own/world.scm") (display "entered")' >out 2>err </dev/null
   [ $? -eq 1 ] && ! grep -q 'topsecret\|secretly\|entered' out err

@@ -1,5 +1,5 @@
-# Time series for other programs: NumPy's .npz and VTK's .vtp and .pvd, read back, and by NumPy and VTK where they
-# are (Debian packages python3-numpy and python3-vtk9).
+# Time series for other programs: NumPy's .npz, VTK's .vtp and .pvd and animated glTF, read back, and by NumPy, VTK and
+# assimp where they are (Debian packages python3-numpy, python3-vtk9 and libassimp-dev).
 # Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 . "$top_srcdir/tests/tap.sh"
@@ -23,6 +23,7 @@ cat >fly.scm <<'SCM'
 (show "names " (export-npz samples "samples.npz"))
 (show "names " (export-npz "dive.db" "dive.npz"))
 (show "frames " (export-vtk "dive.db" "dive.pvd"))
+(show "moments " (export-gltf "dive.db" "dive.glb" #:radius 0.05))
 
 ;; Read back: the archive by its local entries, each stored.
 (define (u bytes at size) (bytevector-uint-ref bytes at (endianness little) size))
@@ -65,6 +66,19 @@ cat >fly.scm <<'SCM'
                           (iota (/ (car points) 8)))
                      (append (asked "select x, y, z from vehicles where frame = 1")
                              (asked "select x, y, z from points where frame = 1 order by node"))))
+;; What an animation has at each key: the vehicle, and both ends of the line.
+(define last-node (apply max (asked "select node from points where frame = 1")))
+(with-output-to-file "keys"
+  (lambda ()
+    (define (keys name sql)
+      (for-each (lambda (row k) (show "key " name " " k " " (string-join (map number->string row) " ")))
+                (query database sql '()) (iota (car (asked "select count(*) from frames")))))
+    (keys "minnow" "select time, x, y, z from frames natural join vehicles order by frame")
+    (keys "line-0" "select time, x, y, z from frames natural join points where node = 0 order by frame")
+    (keys (string-append "line-" (number->string last-node))
+          (string-append "select time, x, y, z from frames natural join points where node = "
+                         (number->string last-node) " order by frame"))))
+(show "nodes " (+ 1 last-node))
 (show "last " (last (asked "select time from frames order by frame")))
 SCM
 bight fly.scm >out 2>err
@@ -146,6 +160,27 @@ else
   skip 'VTK is not here'
 fi
 
+if pkg-config --exists assimp 2>/dev/null && [ "$sanitize" != yes ] &&
+  ${CC:-cc} -o gltf "$top_srcdir/tests/gltf.c" $(pkg-config --cflags --libs assimp) -lm 2>err; then
+  ./gltf dive.glb >read
+  result $? "assimp's reader opens an animation"
+  sort -k 2,3 keys >wanted
+  cut -d ' ' -f 2 keys | sort -u >names
+  awk 'NR == FNR { want[$1]; next } $2 in want' names read | sort -k 2,3 >found
+  paste -d ' ' wanted found | awk '
+    function far(a, b) { return a - b > 1e-4 || b - a > 1e-4 }
+    $2 != $9 || $3 != $10 { wrong++ }
+    { for (i = 4; i <= 7; i++) if (far($i, $(i + 7))) wrong++ }
+    END { exit !(NR > 60 && !wrong) }'
+  moved=$?
+  result $moved 'vehicle and ends of the line are where they were at each key'
+  [ $moved -eq 0 ] || diag "$(paste -d ' ' wanted found | head -5)"
+  grep -qx "tube $(sed -n 's/^nodes //p' out) bones, radius 0.0500" read
+  result $? 'a tube of that radius lies about its joints'
+else
+  skip 'assimp is not here'
+fi
+
 # ---- Mistakes, and files that are not what they seem ----
 
 refused () # NAME TEXT EXPRESSION
@@ -162,6 +197,7 @@ refused 'a text' 'not a database' '(export-vtk "text.db" "x.pvd")'
 refused 'a folder' 'is a folder' '(export-npz "dive" "x.npz")'
 refused 'what is neither' 'it writes samples' '(export-npz 5 "x.npz")'
 refused 'a series without its ending' 'NAME.pvd' '(export-vtk "dive.db" "dive.vtp")'
+refused 'an animation without its ending' 'NAME.glb' '(export-gltf "dive.db" "dive.gltf")'
 refused 'a place that cannot be' 'there is no folder' '(export-npz "dive.db" "/none/x.npz")'
 : >taken
 refused 'a file in the place of the folder' 'is no folder' '(export-vtk "dive.db" "taken.pvd")'
@@ -177,7 +213,8 @@ cat >forge.scm <<'SCM'
 SCM
 bight forge.scm >out 2>err || diag "$(cat err)"
 bight -c '(export-npz "forged.db" "forged.npz")' >out 2>err && grep -q '"evil___.position"' out && \
-  bight -c '(export-vtk "forged.db" "forged.pvd")' >out 2>>err && [ ! -e ../../evil ]
+  bight -c '(export-vtk "forged.db" "forged.pvd")' >out 2>>err && [ ! -e ../../evil ] && \
+  bight -c '(export-gltf "forged.db" "forged.glb")' >out 2>>err && [ "$(cat out)" = "$((frames - 1))" ]
 forged=$?
 result $forged 'what is no number in a forged recording is none in the file, and its names are harmless'
 [ $forged -eq 0 ] || diag "$(cat out err)"

@@ -54,7 +54,7 @@
 
 ;; Calls are made of what others gave, names of files among it.  These write where they are told, and are
 ;; only let loose where the kernel keeps them from whatever is not the fuzzer's.
-(define writers '(record! save! export-csv export-npz export-vtk snapshot plot))
+(define writers '(record! save! export-csv export-npz export-vtk export-gltf snapshot plot))
 
 ;; These let time pass for as long as they are told: a run of 1e9 seconds is no mistake.  What the
 ;; fuzzer asks of them is kept below `longest-run', unless it is refused anyway.

@@ -4,7 +4,7 @@
 
 (use-modules (bight bench)
              (bight bench compare)
-             (bight bench json)
+             (bight core json)
              (bight bench plot)
              (bight bench report)
              (bight bench row)

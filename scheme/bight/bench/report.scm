@@ -3,7 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight bench report)
-  #:use-module (bight bench json)
+  #:use-module (bight core json)
   #:use-module (bight bench plot)
   #:use-module (bight bench row)
   #:use-module (bight core errors)

@@ -8,7 +8,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight bench row)
-  #:use-module (bight bench json)
+  #:use-module (bight core json)
   #:use-module ((bight core errors) #:select (bight-raise))
   #:use-module (bight core record)
   #:use-module (srfi srfi-1)

@@ -1,18 +1,20 @@
-;;; (bight dive export) --- recordings and samples for NumPy and for VTK.
+;;; (bight dive export) --- recordings and samples for NumPy, for VTK and, as glTF, for Blender.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight dive export)
   #:use-module (bight core errors)
+  #:use-module (bight core gltf)
   #:use-module (bight core npz)
   #:use-module ((bight core programs) #:select (check-writable write-bytes))
+  #:use-module ((bight core quaternion) #:select (turn-about-z))
   #:use-module (bight core verb)
   #:use-module (bight core vtk)
   #:use-module ((bight dive frames) #:select (query-frames))
   #:use-module ((bight view plot) #:select (samples? samples-names samples-rows))
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
-  #:export (export-npz export-vtk))
+  #:export (export-npz export-vtk export-gltf))
 
 
 ;;; What a recording holds.  It may be anybody's file: what is no number becomes none, and nodes are counted.
@@ -171,3 +173,80 @@ nodes, a point for each vehicle.  Return how many frames there are."
                        (first recording) (iota (length (first recording)))))
                  file)
     (length (first recording))))
+
+
+;;; For Blender.  A skeleton has as many joints in all frames: lines are drawn through so many points along them.
+
+(define most-joints 200)
+
+(define (rising frames)
+  ;; Those of FRAMES, (FRAME TIME STEP), whose times are numbers that grow.
+  (reverse
+   (fold (lambda (row found)
+           (let ((time (number (second row))))
+             (if (if (null? found) (= time time) (> time (number (second (car found))))) (cons row found) found)))
+         '() frames)))
+
+(define (finite-rows rows width)
+  ;; The first WIDTH numbers of those of ROWS that have no others.
+  (filter (lambda (row) (every (lambda (x) (= x x)) row))
+          (map (lambda (row) (map number (take row width))) rows)))
+
+(define (gap a b) (sqrt (apply + (map (lambda (x y) (* (- x y) (- x y))) a b))))
+
+(define (spread points n)
+  ;; N points equally far along POINTS.
+  (let* ((steps (map gap points (cdr points))) (step (/ (apply + steps) (- n 1))))
+    (let loop ((i 0) (at 0) (points points) (steps steps) (found '()))
+      (cond ((= i n) (reverse found))
+            ((null? steps) (loop (+ i 1) at points steps (cons (car points) found)))
+            ((and (> (* i step) (+ at (car steps))) (pair? (cdr steps)))
+             (loop i (+ at (car steps)) (cdr points) (cdr steps) found))
+            (else
+             (let ((share (if (zero? (car steps)) 0 (min 1 (/ (- (* i step) at) (car steps))))))
+               (loop (+ i 1) at points steps
+                     (cons (map (lambda (a b) (+ a (* share (- b a)))) (first points) (second points)) found))))))))
+
+(define (in-each-frame frames table ready)
+  ;; What READY makes of the rows of each of FRAMES in TABLE; where that is #f, that of the frame before or after.
+  (let* ((made (map (lambda (row) (ready (hash-ref table (first row) '()))) frames)) (first-one (find identity made)))
+    (and first-one
+         (reverse (fold (lambda (one found) (cons (or one (if (null? found) first-one (car found))) found)) '() made)))))
+
+(define (line-of frames entry)
+  ;; (NAME MOMENTS) of the points of a tether, or #f: it has none.
+  (let* ((longest (hash-fold (lambda (frame rows most) (max most (length rows))) 0 (cdr entry)))
+         (moments (in-each-frame frames (cdr entry)
+                                 (lambda (rows)
+                                   (let ((points (finite-rows rows 3)))
+                                     (and (pair? points) (pair? (cdr points))
+                                          (spread points (min longest most-joints))))))))
+    (and moments (list (car entry) moments))))
+
+(define (body-of frames entry)
+  ;; (NAME PLACES TURNS) of a vehicle, or #f.
+  (let ((rows (in-each-frame frames (cdr entry) (lambda (rows)
+                                                  (let ((good (finite-rows rows 4)))
+                                                    (and (pair? good) (car good)))))))
+    (and rows
+         (list (car entry) (map (lambda (row) (take row 3)) rows)
+               (map (lambda (row) (turn-about-z (* -1/180 (acos -1) (fourth row)))) rows)))))
+
+(define-verb (export-gltf (frames string) (file string) #:key (radius positive 0.02))
+  "Write the FRAMES of a recording, a file that `record!' was given, to FILE, a binary glTF (.glb) with an animation,
+as Blender reads: a tube of RADIUS metres for each tether, a small hull for each vehicle.  Return how many frames
+there are."
+  (unless (string-suffix? ".glb" file)
+    (bight-raise 'domain 'export-gltf "binary glTF is a file NAME.glb, not ~s" file))
+  (check-writable 'export-gltf file)
+  (let* ((recording (read-recording 'export-gltf frames)) (moments (rising (first recording)))
+         (lines (filter-map (lambda (entry) (line-of moments entry)) (fourth recording)))
+         (bodies (filter-map (lambda (entry) (body-of moments entry)) (second recording))))
+    (when (and (null? lines) (null? bodies))
+      (bight-raise 'domain 'export-gltf "nothing in ~s has a place" frames))
+    (check-size 'export-gltf (* 7 (length moments) (+ (length bodies) (apply + (map (lambda (line) (length (car (second line))))
+                                                                                    lines)))))
+    (write-bytes 'export-gltf
+                 (glb-bytes (map (lambda (row) (number (second row))) moments) radius lines bodies)
+                 file)
+    (length moments)))

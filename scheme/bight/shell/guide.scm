@@ -233,6 +233,8 @@
                        (export-npz "dive.db" "dive.npz")))
     (export-vtk (begin (record! "dive.rec" #:frames "dive.db") (run 5) (stop-recording!)
                        (export-vtk "dive.db" "dive.pvd")))
+    (export-gltf (begin (record! "dive.rec" #:frames "dive.db") (run 5) (stop-recording!)
+                        (export-gltf "dive.db" "dive.glb")))
     (measure! (begin (measure! "swim.csv" #:at '(10 20 30) #:noise 0.002) (run 5)))
     (identification? (identification? 3))
     (identify (begin (measure! "swim.csv" #:at '(10 20 30)) (drive! #:surge 0.5) (run 5)

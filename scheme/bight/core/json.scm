@@ -1,11 +1,11 @@
-;;; (bight bench json) --- JSON, as much of it as a report of benchmarks needs.
+;;; (bight core json) --- JSON, as much of it as reports of benchmarks and scenes in glTF need.
 ;;;
 ;;; An object is an alist with strings for keys, an array a vector, null the symbol null.  Numbers are read
 ;;; as inexact ones unless they are whole; what is not finite is written as null.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(define-module (bight bench json)
+(define-module (bight core json)
   #:use-module ((bight core errors) #:select (bight-raise))
   #:use-module ((ice-9 textual-ports) #:select (get-string-n lookahead-char))
   #:export (write-json read-json json-ref))
