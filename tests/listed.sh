@@ -29,4 +29,13 @@ listed studies '(' -name '*.scm' -o -name '*.sh' ')'
 listed tests '(' -path './law/*.[ch]' -o -path './unit/*.[ch]' -o -path './sc*/*.scm' -o -name '*.sh' ')'
 listed bench -name '*.[ch]'
 listed doc -path './figures/*.scm'
+
+# What git ignores is there for whoever wrote it, and for nobody else.
+if git rev-parse --is-inside-work-tree >"$scratch/inside" 2>&1 && [ -e .git ]; then
+  git ls-files --others --ignored --exclude-standard -- src scheme worlds lessons studies tests bench testbed doc |
+    grep -E '\.(c|cc|h|scm|sh|py|texi)$' | grep -v '^doc/[a-z-]*\.texi$' >"$scratch/ignored"
+  empty 'and git ignores none of it' "$scratch/ignored"
+else
+  skip 'this is no checkout of git'
+fi
 finish
