@@ -26,7 +26,7 @@ told ()
 }
 
 # world_of NAME ORIGIN: a world for the vehicle with a line that costs little; the line of the world that is taken
-# when none is named moves, and is followed by UDP below.
+# when none is named moves, and is followed by frames of others and tables below.
 world_of ()
 {
   cat >"$scratch/$1.scm" <<SCM
@@ -130,8 +130,8 @@ listens ()
 hear ()
 {
   port=$(free_port)
-  "$@" "$pre" bight follow "udp:$port" --keep "$scratch/kept.tlog" --record "$scratch/dive" --for 20 --every 100 \
-    >"$scratch/out" 2>"$scratch/err" </dev/null &
+  "$@" "$pre" bight follow "udp:$port" --in "$scratch/pool.scm" --keep "$scratch/kept.tlog" \
+    --record "$scratch/dive" --for 20 --every 100 >"$scratch/out" 2>"$scratch/err" </dev/null &
   follower=$!
   await listens
 }
@@ -144,13 +144,13 @@ if [ -r /proc/net/udp ]; then
   result $? 'and ends after so many seconds of the dive'
   told "$scratch/sent" ' back 0$' 'nothing comes back to the vehicle'
   told "$scratch/out" ' 20.1 s  at (10.55 6.0 -9.22) heading 90' 'the dive is where the vehicle was'
-  "$pre" bight follow "$scratch/kept.tlog" --for 20 --every 100 >"$scratch/again" 2>&1
+  "$pre" bight follow "$scratch/kept.tlog" --in "$scratch/pool.scm" --for 20 --every 100 >"$scratch/again" 2>&1
   [ "$(grep '^state' "$scratch/again")" = "$(grep '^state' "$scratch/out")" ]
   result $? 'what was kept gives the same bits'
   "$pre" bight replay "$scratch/dive" >"$scratch/replayed" 2>&1
   told "$scratch/replayed" 'identical' 'and so does the recording'
   port=$(free_port)
-  "$pre" bight follow "udp:$port" --every 100 >"$scratch/out" 2>"$scratch/err" </dev/null &
+  "$pre" bight follow "udp:$port" --in "$scratch/pool.scm" --every 100 >"$scratch/out" 2>"$scratch/err" </dev/null &
   follower=$!
   await listens
   python3 "$sub" udp "$port" leave >"$scratch/sent" &
