@@ -57,6 +57,9 @@ int bt__pinned (const bt_dive *dive, int vehicle);
 /* End K (0 the anchor) of tether I came to P and no farther: its vehicle stands there.  */
 void bt__bring_end (const bt_dive *dive, bt__state *state, int i, int k, bt_vec3 p);
 
+/* True if both ends of tether I are at their vehicles.  */
+int bt__holds_ends (const bt_dive *dive, bt__state *state, int i);
+
 /* True if every end is at its vehicle and every hull at an allowed place; else remember the
    vehicles' targets for the next try.  */
 int bt__vehicles_agree (bt_dive *dive, bt__state *state);

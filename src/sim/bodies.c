@@ -324,7 +324,8 @@ void
 bt__note_pull (const bt_dive *dive, bt__state *state, int i)
 {
   int vehicle = dive->model->ends[i][1].vehicle;
+  if (vehicle < 0 || bt__carrier (dive, state, vehicle) != i)
+    return;
   bt__line line = bt__line_of (dive, state, i);
-  if (vehicle >= 0 && bt__carrier (dive, state, vehicle) == i)
-    bt__dive_vehicle (dive, state, vehicle)->body.pull = bt__line_force (&line);
+  bt__dive_vehicle (dive, state, vehicle)->body.pull = bt__line_force (&line);
 }

@@ -128,6 +128,7 @@ bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, i
   const bt_tether_def *def = &dive->model->tethers[i];
   bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
   int vehicle;
+  bt__store_changes (dive, i);
   bt_status status = bt__dynamic_init (chain, bt__chain_room (def), n, dive->polyline, n + 1,
                                        tether->length, tether->props.ea, error);
   if (status != BT_OK)
@@ -180,6 +181,7 @@ bt__still_chain (bt_dive *dive, bt__state *state, int i)
   bt__tether *tether = bt__dive_tether (dive, state, i);
   int n = bt__rest_nodes (dive, tether, i);
   trace (dive, state, i, n);
+  bt__store_changes (dive, i);
   memcpy (bt__dive_nodes (dive, state, i), dive->polyline, sizeof (bt_vec3) * (size_t)(n + 1));
   memset (bt__dive_tensions (dive, state, i), 0, sizeof (bt_vec3) * (size_t)(n + 1));
   memset (&tether->memory.pull, 0, sizeof tether->memory.pull);
@@ -213,6 +215,7 @@ bt__carry_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, b
   bt_status status;
   if (is_same (before.a, ends->a) && is_same (before.b, ends->b))
     return BT_OK;
+  bt__store_changes (dive, i);
   if (bt__has_obstacles (dive))
     return bt__drag_chain (dive, state, i, ends, error);
   if (tether->parted)
@@ -237,6 +240,7 @@ bt__part_chain (bt_dive *dive, bt__state *state, int i, int interval)
   bt__tether *tether = bt__dive_tether (dive, state, i);
   bt__dynamic *whole = bt__dive_chain (dive, state, i, 0),
               *far = bt__dive_chain (dive, state, i, 1);
+  bt__store_changes (dive, i);
   bt__dynamic_cut (whole, interval, whole, far);
   bt__contacts_init (bt__dive_anchors (dive, state, i, 1),
                      bt__contact_room (dive->model, &dive->model->tethers[i]));

@@ -188,6 +188,7 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
   bt__line_report touch = { 0 };
   bt_status status;
   take_up (dive, i, part);
+  bt__store_changes (dive, i);
   status = bt__line_step (bt__dive_chain (dive, state, i, part), dive->work,
                           dive->contact_work.line, input, &around, &config, anchors, report, &touch,
                           &dive->contact_work.count, error);

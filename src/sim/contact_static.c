@@ -58,6 +58,7 @@ lay (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *err
   tether->contact_form = split ? BT__CONTACT_FORM_SPANS : BT__CONTACT_FORM_HELD;
   tether->blocked = 0;
   tether->stale = 1;
+  bt__store_changes (dive, i);
   if (split)
     return bt__thesis_lay (bt__dive_thesis (dive, state, i), (uint32_t)def->props.nodes,
                            dive->polyline, (uint32_t)n, tether->length, error);
@@ -175,6 +176,7 @@ bt__contact_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends
       dive->profile.shape_skips++;
       return BT_OK;
     }
+  bt__store_changes (dive, i);
   around = bt__surround (dive, state, BT_PART_TETHER, i);
   way = workspace_for (dive, tether, i, &around);
   status = form == BT__CONTACT_FORM_SPANS ? step_spans (dive, state, i, ends, &way, error)

@@ -1,7 +1,8 @@
 /* The operations: the table of all changes to a dive except the passing of time.
 
    Every operation works on a copy of the state. bt_dive_do solves the changed tethers and takes the
-   copy over, or leaves the dive untouched.
+   copy over, or leaves the dive untouched.  Only an order to a vehicle whose dive rests is written
+   to the present state itself (rest.c).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -51,15 +52,18 @@ typedef struct op
 {
   bt_op_info info;
   bt_status (*apply) (const bt__call *c);
+  int order; /* true: it moves nothing, see rest.c */
 } op;
 
 static const op ops[BT_OP_COUNT] = {
   [BT_OP_DRIVE] = { { "drive", BT_PART_VEHICLE, 4, 4, "surge sway heave yaw",
                       "set the sticks, -1 to 1; NAN leaves one as it is" },
-                    bt__op_drive },
+                    bt__op_drive,
+                    1 },
   [BT_OP_RELEASE]
   = { { "release", BT_PART_VEHICLE, 0, 0, "", "centre the sticks and switch the autopilots off" },
-      bt__op_release },
+      bt__op_release,
+      1 },
   [BT_OP_PLACE] = { { "place", BT_PART_VEHICLE, 3, 3, "x y z",
                       "sweep the vehicle there at once, stopping where it is blocked" },
                     bt__op_place },
@@ -67,25 +71,30 @@ static const op ops[BT_OP_COUNT] = {
   = { { "lay", BT_PART_VEHICLE, 3, 3, "x y z", "put the vehicle there and lay the tethers anew" },
       bt__op_lay },
   [BT_OP_MOVE] = { { "move", BT_PART_VEHICLE, 4, 4, "x y z speed", "go there in a straight line" },
-                   bt__op_move },
-  [BT_OP_FLY_TO]
-  = { { "fly-to", BT_PART_VEHICLE, 4, 4, "x y z speed", "fly there, facing it" }, bt__op_fly_to },
+                   bt__op_move,
+                   1 },
+  [BT_OP_FLY_TO] = { { "fly-to", BT_PART_VEHICLE, 4, 4, "x y z speed", "fly there, facing it" },
+                     bt__op_fly_to,
+                     1 },
   [BT_OP_HOLD_HEADING]
   = { { "hold-heading", BT_PART_VEHICLE, 1, 1, "radians", "keep this heading" },
-      bt__op_hold_heading },
+      bt__op_hold_heading,
+      1 },
   [BT_OP_HOLD_DEPTH]
-  = { { "hold-depth", BT_PART_VEHICLE, 1, 1, "depth", "keep this depth" }, bt__op_hold_depth },
+  = { { "hold-depth", BT_PART_VEHICLE, 1, 1, "depth", "keep this depth" }, bt__op_hold_depth, 1 },
   [BT_OP_HOLD_ALTITUDE]
   = { { "hold-altitude", BT_PART_VEHICLE, 1, 1, "altitude", "keep this height above the bottom" },
-      bt__op_hold_altitude },
+      bt__op_hold_altitude,
+      1 },
   [BT_OP_HOLD_POSITION]
-  = { { "hold-position", BT_PART_VEHICLE, 0, 0, "", "stay here" }, bt__op_hold_position },
+  = { { "hold-position", BT_PART_VEHICLE, 0, 0, "", "stay here" }, bt__op_hold_position, 1 },
   [BT_OP_FOLLOW] = { { "follow", BT_PART_VEHICLE, 8, 40000000, "t x y z ...",
                        "follow a measured track, beginning now" },
                      bt__op_follow },
   [BT_OP_STABILISE] = { { "stabilise", BT_PART_VEHICLE, 1, 1, "on",
                           "keep a vehicle with mass level; the yaw stick then sets a rate" },
-                        bt__op_stabilise },
+                        bt__op_stabilise,
+                        1 },
   [BT_OP_PAY_OUT]
   = { { "pay-out", BT_PART_TETHER, 2, 2, "metres rate", "let tether out" }, bt__op_pay_out },
   [BT_OP_HAUL_IN]
@@ -99,7 +108,8 @@ static const op ops[BT_OP_COUNT] = {
   = { { "fault", BT_PART_VEHICLE, 3, 3, "fault on value",
         "break an instrument (a bt_fault) or mend it; value: of the compass its drift in "
         "rad/s, of a thruster its number" },
-      bt__op_fault },
+      bt__op_fault,
+      1 },
   [BT_OP_WAVES] = { { "waves", BT_PART_SEA, BT_WAVES_ARGS, BT_WAVES_ARGS,
                       "kind height period toward phase gamma components seed",
                       "change the waves; kind 0: none, 1: one, 2: a wind sea" },
@@ -135,9 +145,8 @@ check_call (const bt_dive *dive, const op *o, int subject, const double *args, i
                                         : bt__check_part (dive, o->info.subject, subject, error);
 }
 
-/* Wake the lines fastened to the vehicle of the operation.  */
-static void
-wake_lines (const bt__call *c)
+void
+bt__wake_lines (const bt__call *c)
 {
   for (int i = 0; i < c->dive->model->n_tethers; i++)
     {
@@ -173,7 +182,7 @@ apply_operation (bt_dive *dive, const op *o, int round, int subject, const doubl
   else
     bt__unpin_vehicles (dive, c.state);
   if (o->info.subject == BT_PART_VEHICLE)
-    wake_lines (&c);
+    bt__wake_lines (&c);
   return bt__resolve_tethers (dive, c.state, 0, error);
 }
 
@@ -196,6 +205,17 @@ apply_until_it_fits (bt_dive *dive, const op *o, int subject, const double *args
 }
 
 static bt_status
+become_present (bt_dive *dive, bt_error *error)
+{
+  bt_status status;
+  bt__dive_commit (dive);
+  status = bt__watch_prepare (dive, error);
+  if (status != BT_OK)
+    bt__dive_commit (dive); /* the state before it is the present again */
+  return status;
+}
+
+static bt_status
 try_op (bt_dive *dive, bt_op which, int subject, const double *args, int n, bt_error *error)
 {
   const op *o = (unsigned)which < BT_OP_COUNT ? &ops[which] : NULL;
@@ -203,7 +223,12 @@ try_op (bt_dive *dive, bt_op which, int subject, const double *args, int n, bt_e
   if (!o)
     return bt__fail (error, BT_ERR_NAME, "there is no operation number %d", (int)which);
   status = check_call (dive, o, subject, args, n, error);
-  return status == BT_OK ? apply_until_it_fits (dive, o, subject, args, n, error) : status;
+  if (status != BT_OK)
+    return status;
+  if (o->order && bt__all_rest (dive, dive->now))
+    return bt__give_order (&(bt__call){ dive, dive->now, subject, args, n, error }, o->apply);
+  status = apply_until_it_fits (dive, o, subject, args, n, error);
+  return status == BT_OK ? become_present (dive, error) : status;
 }
 
 bt_status
@@ -211,13 +236,6 @@ bt_dive_do (bt_dive *dive, bt_op which, int subject, const double *args, int n, 
 {
   bt_error unasked;
   bt_status status = try_op (dive, which, subject, args, n, error ? error : &unasked);
-  if (status == BT_OK)
-    {
-      bt__dive_commit (dive);
-      status = bt__watch_prepare (dive, error);
-      if (status != BT_OK)
-        bt__dive_commit (dive); /* the state before it is the present again */
-    }
   dive->profile.operations++;
   dive->profile.refused += status != BT_OK;
   return status;

@@ -59,4 +59,13 @@ bt_status bt__op_collide (const bt__call *c);
 /* ops_alter.c */
 bt_status bt__op_alter (const bt__call *c);
 
+/* True if an operation that moves nothing would solve no tether of STATE anew; give the order of
+   the call C, which APPLY writes after its last check, to the present state of such a dive
+   (rest.c).  */
+int bt__all_rest (const bt_dive *dive, bt__state *state);
+bt_status bt__give_order (const bt__call *c, bt_status (*apply) (const bt__call *c));
+
+/* Wake the lines made fast to the vehicle of the operation (ops.c).  */
+void bt__wake_lines (const bt__call *c);
+
 #endif

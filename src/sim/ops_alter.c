@@ -139,6 +139,7 @@ alter_obstacle (const bt__call *c)
   roughness = &bt__dive_roughness (c->dive, c->state)[c->subject];
   def.friction = *roughness;
   status = bt_def_set_number (field, &def, c->args[2], c->error);
+  bt__pairs_change (c->dive);
   *roughness = def.friction;
   bt__mark_all_stale (c);
   return status;

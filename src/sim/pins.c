@@ -194,22 +194,36 @@ holds_end (const bt_dive *dive, bt__state *state, int i, bt_vec3 end, bt_vec3 he
          && bt__distance (end, here) <= AT_END;
 }
 
+/* True if end K of tether I, made fast to a vehicle, is elsewhere than the vehicle: at *END.  */
+static int
+has_left (const bt_dive *dive, bt__state *state, int i, int k, bt_vec3 *end)
+{
+  bt_vec3 here = bt__attachment (dive, state, dive->model->ends[i][k].vehicle);
+  *end = place_of_end (dive, state, i, k);
+  return !is_at (*end, here) && !holds_end (dive, state, i, *end, here);
+}
+
+int
+bt__holds_ends (const bt_dive *dive, bt__state *state, int i)
+{
+  bt_vec3 end;
+  for (int k = 0; k < 2; k++)
+    if (dive->model->ends[i][k].vehicle >= 0 && has_left (dive, state, i, k, &end))
+      return 0;
+  return 1;
+}
+
 /* Draw *AT back to where the ends of the tethers of VEHICLE let it be; true if that is another
    place.  */
 static int
 draw_back_to_ends (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 before, bt_vec3 *at)
 {
-  bt_vec3 here = bt__attachment (dive, state, vehicle);
   int differ = 0;
+  bt_vec3 end;
   for (int i = 0; i < dive->model->n_tethers; i++)
     for (int k = 0; k < 2; k++)
-      {
-        if (dive->model->ends[i][k].vehicle != vehicle)
-          continue;
-        bt_vec3 end = place_of_end (dive, state, i, k);
-        if (!is_at (end, here) && !holds_end (dive, state, i, end, here))
-          differ |= draw_back (place_for (dive, state, vehicle, end), before, at);
-      }
+      if (dive->model->ends[i][k].vehicle == vehicle && has_left (dive, state, i, k, &end))
+        differ |= draw_back (place_for (dive, state, vehicle, end), before, at);
   return differ;
 }
 

@@ -56,6 +56,7 @@ bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
   bt_water water = bt__dive_water (dive, state);
+  bt__store_changes (dive, i);
   bt__shape_input input = { .a = ends->a,
                             .b = ends->b,
                             .length = tether->length,
@@ -68,9 +69,8 @@ bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
   return status == BT_OK ? bt__stopped (&dive->asker, error) : status;
 }
 
-/* The pull it is solved with.  */
-static double
-pull_for_solve (const bt_dive *dive, bt__state *state, int i)
+double
+bt__pull_for_solve (const bt_dive *dive, bt__state *state, int i)
 {
   return bt__dive_tether (dive, state, i)->taut ? bt__pull_on (dive, state, i) : 0;
 }
@@ -118,7 +118,7 @@ bt_status
 bt__solve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  double pull = pull_for_solve (dive, state, i);
+  double pull = bt__pull_for_solve (dive, state, i);
   bt_vec3 *nodes = bt__dive_nodes (dive, state, i);
   bt_status status = solve_shape (dive, state, i, ends, pull, error);
   if (status != BT_OK)
@@ -147,7 +147,7 @@ resolve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
     return bt__contact_static (dive, state, i, ends, error);
   if (tether->shape.form == BT__FORM_CHAIN)
     bt__still_chain (dive, state, i);
-  if (tether->pull != pull_for_solve (dive, state, i)
+  if (tether->pull != bt__pull_for_solve (dive, state, i)
       || !bt__is_unchanged (dive, state, tether, ends))
     return bt__solve_static (dive, state, i, ends, error);
   dive->profile.shape_skips++;

@@ -62,6 +62,8 @@ tell_windings (bt_dive *dive, int i, bt__subject *subject, int8_t *told, int sil
         bt__raise_event_at (dive->now, BT_EVENT_WRAPPED, BT_PART_TETHER, i, k);
       else if (!silent && now == 0 && told[k] != 0)
         bt__raise_event_at (dive->now, BT_EVENT_FREED, BT_PART_TETHER, i, k);
+      if (told[k] != now)
+        bt__pairs_change (dive);
       told[k] = now;
     }
   return BT_OK;

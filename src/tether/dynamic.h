@@ -33,6 +33,7 @@
 #include <bight/water.h>
 
 #include "base/ask.h"
+#include "base/range.h"
 #include "base/record.h"
 
 /* ---- The state ---- */
@@ -74,6 +75,15 @@ enum
 
 /* Return the size in bytes of a block with room for N_MAX intervals.  */
 size_t bt__dynamic_size (int n_max);
+
+/* Write the ranges in use of a block with room for ROOM intervals, N of them in use, to OUT: the
+   head and the beginning of each array.  What lies behind them is never read, and need not be
+   copied.  */
+enum
+{
+  BT__DYNAMIC_RANGES = 11
+};
+void bt__dynamic_in_use (int64_t n, int room, bt__range out[BT__DYNAMIC_RANGES]);
 
 /* Parts of the block.  Node arrays have n + 1 elements, interval arrays n.  */
 bt_vec3 *bt__dynamic_x (const bt__dynamic *d);     /* m: positions */
@@ -245,9 +255,9 @@ typedef struct bt__dynamic_energy
 /* Return the energies of the line (not its lumps) as INPUT has it.  */
 bt__dynamic_energy bt__dynamic_energies (const bt__dynamic *d, const bt__dynamic_input *input);
 
-/* Return how much of the strain energy that bt__dynamic_energies counts, J, is of intervals that are
-   shorter than their tension tells: a line under bending that was laid so has crumpled there, and
-   nothing pushes it together (dynamic_unfold.c).  */
+/* Return how much of the strain energy that bt__dynamic_energies counts, J, is of intervals that
+   are shorter than their tension tells: a line under bending that was laid so has crumpled there,
+   and nothing pushes it together (dynamic_unfold.c).  */
 double bt__dynamic_crumple_energy (const bt__dynamic *d, const bt__dynamic_input *input);
 
 /* Estimate the error in position that comes of the number of nodes, m: the true one is 1.3 to 2.5

@@ -28,6 +28,22 @@ bt__dynamic_size (int n_max)
   return sizeof (bt__dynamic) + doubles * sizeof (double);
 }
 
+/* N from outside may be any number.  */
+void
+bt__dynamic_in_use (int64_t n, int room, bt__range out[BT__DYNAMIC_RANGES])
+{
+  const size_t vector = sizeof (bt_vec3), number = sizeof (double);
+  size_t intervals = n < 0 ? 0 : n > room ? (size_t)room : (size_t)n;
+  size_t at = sizeof (bt__dynamic);
+  int k = 0;
+  out[k++] = (bt__range){ 0, at };
+  for (int i = 0; i < NODE_ARRAYS; i++, at += (size_t)(room + 1) * vector)
+    out[k++] = (bt__range){ at, (intervals + 1) * vector };
+  for (int i = 0; i < INTERVAL_ARRAYS; i++, at += (size_t)room * number)
+    out[k++] = (bt__range){ at, intervals * number };
+  out[k] = (bt__range){ at, intervals * vector };
+}
+
 static bt_vec3 *
 node_array (const bt__dynamic *d, int k)
 {

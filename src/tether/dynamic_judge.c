@@ -33,7 +33,7 @@ static const bt__member dynamic[] = {
 };
 const bt__record bt__dynamic_record = BT__RECORD (bt__dynamic, "chain", dynamic);
 
-/* An array behind the head, for all intervals there is room for.  */
+/* What is in use of an array behind the head.  */
 typedef struct row
 {
   const char *what;
@@ -45,7 +45,7 @@ typedef struct row
 static bt_status
 judge_arrays (bt__judge *judge, const bt__dynamic *d)
 {
-  size_t nodes = 3 * ((size_t)d->n_max + 1), intervals = (size_t)d->n_max;
+  size_t nodes = 3 * ((size_t)d->n + 1), intervals = (size_t)d->n;
   const row rows[] = {
     { "places", &bt__dynamic_x (d)->x, nodes, -BT__FAR, BT__FAR },
     { "velocities", &bt__dynamic_v (d)->x, nodes, -BT__FAR, BT__FAR },

@@ -145,6 +145,7 @@ bt__context_enter (bt__context *context, const bt_dive *dive, bt__state *next)
   memcpy (own->next, next, offsetof (bt__state, events));
   own->next->events = 0;
   own->driven = dive->driven;
+  own->alike = dive->alike;
   own->contact_work.pin = dive->contact_work.pin;
   own->contact_work.place = dive->contact_work.place;
   if (dive->model->n_carried > 0)
@@ -166,6 +167,7 @@ bt__context_leave (bt__context *context)
   context->body = NULL;
   own->now = NULL;
   own->driven = NULL;
+  own->alike = NULL;
   own->contact_work.pin = NULL;
   own->contact_work.place = NULL;
 }

@@ -14,8 +14,8 @@
 #include "world/obstacles.h"
 #include "world/watch.h"
 
-/* The first bytes of a state: layout version 8.  */
-static const uint64_t magic = 0x3154484749420008ULL;
+/* The first bytes of a state: layout version 9.  */
+static const uint64_t magic = 0x3154484749420009ULL;
 
 double
 bt__state_time (const bt__state *state)
@@ -85,7 +85,8 @@ make_rows (bt_dive *dive, bt_error *error)
   const bt_model *model = dive->model;
   bt__contact_work *shore = &dive->contact_work;
   size_t vehicles = (size_t)model->n_vehicles + 1, tethers = (size_t)model->n_tethers + 1;
-  int whole = (dive->driven = calloc (vehicles, sizeof *dive->driven)) != NULL;
+  int whole = (dive->driven = calloc (vehicles, sizeof *dive->driven))
+              && (dive->alike = calloc (BT__STORES + tethers, sizeof *dive->alike));
   whole = whole && (shore->pin = calloc (vehicles, sizeof *shore->pin))
           && (shore->order = calloc (tethers, sizeof *shore->order))
           && (shore->place = calloc (tethers, sizeof *shore->place));
@@ -254,6 +255,7 @@ bt_dive_free (bt_dive *dive)
   free (dive->driven);
   free (dive->sea);
   free (dive->line);
+  free (dive->alike);
   free_shore (&dive->contact_work);
   bt__watch_free_all (dive->watch);
   bt__contexts_free (dive->contexts);
@@ -316,7 +318,7 @@ bt_dive_asks (const bt_dive *dive)
 bt__state *
 bt__dive_begin (bt_dive *dive)
 {
-  bt__copy_state (dive, dive->next, dive->now);
+  bt__level (dive);
   return dive->next;
 }
 
@@ -375,6 +377,7 @@ bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error)
   if (size != dive->size)
     return bt__fail (error, BT_ERR_STALE, "a state of this dive has %zu bytes, not %zu", dive->size,
                      size);
+  memset (dive->alike, 0, BT__STORES + (size_t)dive->model->n_tethers);
   memcpy (next, state, size);
   checksum = next->checksum;
   next->checksum = 0;

@@ -101,8 +101,8 @@ typedef struct bt__context
 typedef struct bt__layout
 {
   size_t tethers;
-  size_t section;           /* what is known of obstacles: movers, roughness, then ... */
-  size_t subjects, subject; /* ... subjects, each of so many bytes */
+  size_t section, roughness; /* what is known of obstacles: movers, roughness, then ... */
+  size_t subjects, subject;  /* ... subjects, each of so many bytes */
   size_t stores;
 } bt__layout;
 
@@ -113,6 +113,14 @@ typedef struct bt__line_size
   size_t part;  /* ... with what that touches */
 } bt__line_size;
 
+/* Parts of a state that mostly stand still: friction and switches of obstacles, with the windings
+   told of them; then the store of each tether.  */
+typedef enum bt__standing_part
+{
+  BT__PAIRS = 0,
+  BT__STORES
+} bt__standing_part;
+
 struct bt_dive
 {
   bt_model *model;
@@ -121,6 +129,7 @@ struct bt_dive
   bt__line_size *line; /* of each tether */
   bt__state *now;      /* what questions read */
   bt__state *next;     /* what an operation or a step works on */
+  uint8_t *alike;      /* of each bt__standing_part, true: both states hold the same there */
   bt__shape_tools tools;
   bt__dynamic_work *work; /* of the moving line */
   bt_vec3 *polyline;      /* room for the points of any tether */
@@ -144,7 +153,21 @@ struct bt_dive
   struct bt__watch *watch;       /* what was asked of the tethers; NULL: nothing yet */
 };
 
-/* Copy the present state to dive->next and return it.  */
+/* Say that either state is about to be written to: in the store of TETHER; in the friction,
+   switches or windings of obstacles.  */
+static inline void
+bt__store_changes (const bt_dive *dive, int tether)
+{
+  dive->alike[BT__STORES + tether] = 0;
+}
+
+static inline void
+bt__pairs_change (const bt_dive *dive)
+{
+  dive->alike[BT__PAIRS] = 0;
+}
+
+/* Make dive->next a copy of the present state and return it.  */
 bt__state *bt__dive_begin (bt_dive *dive);
 /* Take dive->next over as the present.  */
 void bt__dive_commit (bt_dive *dive);

@@ -9,10 +9,14 @@
    moving line keeps its chain and contacts, then chain and contacts of the far part once the line
    has parted.  The wear of the line stands behind the larger of the two.
 
-   Stores have room for the largest mesh, mostly unused. live_extents lists the ranges in use for
-   the present form; copies, hashes and sizes of checkpoints walk this list alone, and
-   bt__layout_fits checks the list of a state from outside against the size of the store before a
-   byte is copied.
+   Stores have room for the largest mesh, mostly unused. live_ranges lists the ranges in use for the
+   present form; copies, hashes and sizes of checkpoints walk this list alone, and bt__layout_fits
+   checks the list of a state from outside against the size of the store before a byte is copied.
+
+   Most of a state stands still from step to step: stores of tethers that sleep, friction and
+   switches of obstacles.  dive->alike tells of each such part whether both buffers hold the same
+   bytes there; whoever writes to a part says so first (bt__store_changes, bt__pairs_change), and
+   bt__level copies the other parts alone.
 
    Two states are the same dive exactly if their live bytes are equal.  The assertions below keep
    padding out of the structs, since padding would have no defined value.
@@ -42,6 +46,7 @@ bt__layout_of (const bt_model *model)
 {
   bt__layout l = { .tethers = sizeof (bt__vehicle) * (size_t)model->n_vehicles };
   l.section = l.tethers + sizeof (bt__tether) * (size_t)model->n_tethers;
+  l.roughness = l.section + bt__roughness_at (model);
   l.subjects = l.section + bt__subjects_at (model);
   l.subject = bt__subject_size (model);
   l.stores = l.section + bt__obstacles_size (model);
@@ -212,20 +217,14 @@ bt__dive_held (const bt_dive *dive, bt__state *state, int i)
 
 /* ---- What is live ---- */
 
-/* A range of bytes in a store.  */
-typedef struct extent
-{
-  size_t at, size;
-} extent;
-
 /* The most live ranges of a store: the wear, and chain and contacts of both parts of a line.  */
 enum
 {
-  EXTENTS = 5
+  RANGES = 1 + 2 * (BT__DYNAMIC_RANGES + 1)
 };
 
 static int
-chain_extents (const bt_dive *dive, const bt__state *state, int i, extent *out)
+chain_ranges (const bt_dive *dive, const bt__state *state, int i, bt__range *out)
 {
   const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
   int n = 0;
@@ -233,8 +232,11 @@ chain_extents (const bt_dive *dive, const bt__state *state, int i, extent *out)
     {
       size_t at = (size_t)part * dive->line[i].part, chain = dive->line[i].chain;
       size_t anchors = bt__contacts_live (bt__dive_anchors (dive, (bt__state *)state, i, part));
-      out[n++] = (extent){ at, chain };
-      out[n++] = (extent){ at + chain, anchors };
+      bt__dynamic_in_use (bt__dive_chain (dive, (bt__state *)state, i, part)->n,
+                          bt__chain_room (&dive->model->tethers[i]), out + n);
+      for (int k = 0; k < BT__DYNAMIC_RANGES; k++)
+        out[n++].at += at;
+      out[n++] = (bt__range){ at + chain, anchors };
     }
   return n;
 }
@@ -255,42 +257,72 @@ contact_form_live (const bt_dive *dive, const bt__state *state, int i)
 
 /* The parts of the store of tether I that are in use.  */
 static int
-live_extents (const bt_dive *dive, const bt__state *state, int i, extent *out)
+live_ranges (const bt_dive *dive, const bt__state *state, int i, bt__range *out)
 {
   const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
   const bt_tether_def *def = &dive->model->tethers[i];
   int n = 0;
   if (tether->wear != 0)
-    out[n++] = (extent){ shape_size (dive->model, i), wear_size (def) };
+    out[n++] = (bt__range){ shape_size (dive->model, i), wear_size (def) };
   if (tether->shape.form == BT__FORM_CHAIN)
-    return n + chain_extents (dive, state, i, out + n);
+    return n + chain_ranges (dive, state, i, out + n);
   size_t arrays = arrays_size (def);
   if (bt__has_nodes (tether->shape.form))
-    out[n++] = (extent){ 0, arrays };
+    out[n++] = (bt__range){ 0, arrays };
   if (tether->contact_form)
-    out[n++] = (extent){ arrays, contact_form_live (dive, state, i) };
+    out[n++] = (bt__range){ arrays, contact_form_live (dive, state, i) };
   return n;
+}
+
+static void
+copy_store (const bt_dive *dive, bt__state *to, const bt__state *from, int i)
+{
+  bt__range live[RANGES];
+  for (int k = live_ranges (dive, from, i, live); k-- > 0;)
+    memcpy (store_of (dive, to, i) + live[k].at, store_of (dive, from, i) + live[k].at,
+            live[k].size);
 }
 
 void
 bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from)
 {
-  extent live[EXTENTS];
   memcpy (to, from, fixed_size (dive));
   for (int i = 0; i < dive->model->n_tethers; i++)
-    for (int k = live_extents (dive, from, i, live); k-- > 0;)
-      memcpy (store_of (dive, to, i) + live[k].at, store_of (dive, from, i) + live[k].at,
-              live[k].size);
+    copy_store (dive, to, from, i);
+}
+
+/* Copy what comes before the stores but for the friction of obstacles, and what a subject's bytes
+   tell of each obstacle.  */
+static void
+copy_without_pairs (const bt_dive *dive, bt__state *to, const bt__state *from)
+{
+  const bt__layout *l = &dive->layout;
+  memcpy (to, from, sizeof (bt__state) + l->roughness);
+  for (size_t at = l->subjects; at < l->stores; at += l->subject)
+    memcpy ((char *)(to + 1) + at, (const char *)(from + 1) + at, sizeof (bt__subject));
+}
+
+void
+bt__level (bt_dive *dive)
+{
+  if (dive->alike[BT__PAIRS])
+    copy_without_pairs (dive, dive->next, dive->now);
+  else
+    memcpy (dive->next, dive->now, fixed_size (dive));
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    if (!dive->alike[BT__STORES + i])
+      copy_store (dive, dive->next, dive->now, i);
+  memset (dive->alike, 1, BT__STORES + (size_t)dive->model->n_tethers);
 }
 
 uint64_t
 bt__hash_state (const bt_dive *dive, const bt__state *state)
 {
-  extent live[EXTENTS];
+  bt__range live[RANGES];
   uint64_t h = bt__hash (state, fixed_size (dive), 0);
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
-      int n = live_extents (dive, state, i, live);
+      int n = live_ranges (dive, state, i, live);
       for (int k = 0; k < n; k++)
         h = bt__hash (store_of (dive, state, i) + live[k].at, live[k].size, h);
     }
@@ -300,10 +332,10 @@ bt__hash_state (const bt_dive *dive, const bt__state *state)
 size_t
 bt__live_size (const bt_dive *dive, const bt__state *state)
 {
-  extent live[EXTENTS];
+  bt__range live[RANGES];
   size_t size = fixed_size (dive);
   for (int i = 0; i < dive->model->n_tethers; i++)
-    for (int k = live_extents (dive, state, i, live); k-- > 0;)
+    for (int k = live_ranges (dive, state, i, live); k-- > 0;)
       size += live[k].size;
   return size;
 }
@@ -311,14 +343,14 @@ bt__live_size (const bt_dive *dive, const bt__state *state)
 int
 bt__layout_fits (const bt_dive *dive, const bt__state *state)
 {
-  extent live[EXTENTS];
+  bt__range live[RANGES];
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       size_t store = bt__store_size (dive->model, i);
       if (bt__dive_tether (dive, (bt__state *)state, i)->store_at
           != bt__dive_tether (dive, dive->now, i)->store_at)
         return 0;
-      for (int k = live_extents (dive, state, i, live); k-- > 0;)
+      for (int k = live_ranges (dive, state, i, live); k-- > 0;)
         if (live[k].at > store || live[k].size > store - live[k].at)
           return 0;
     }

@@ -20,6 +20,9 @@ size_t bt__store_size (const bt_model *model, int i);
 /* How many places a chain of TETHER may touch.  */
 int bt__contact_room (const bt_model *model, const bt_tether_def *tether);
 
+/* Make dive->next what dive->now is.  */
+void bt__level (bt_dive *dive);
+
 /* Copy what is live of FROM to TO; hash it.  */
 void bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from);
 uint64_t bt__hash_state (const bt_dive *dive, const bt__state *state);

@@ -49,8 +49,8 @@ bt__subject_size (const bt_model *model)
   return sizeof (bt__subject) + 2 * off_size (model);
 }
 
-static size_t
-movers_size (const bt_model *model)
+size_t
+bt__roughness_at (const bt_model *model)
 {
   return sizeof (bt__mover_state) * (size_t)model->n_carried;
 }
@@ -64,7 +64,7 @@ roughness_size (const bt_model *model)
 size_t
 bt__subjects_at (const bt_model *model)
 {
-  return movers_size (model) + roughness_size (model);
+  return bt__roughness_at (model) + roughness_size (model);
 }
 
 size_t
@@ -89,7 +89,7 @@ bt__dive_movers (const bt_dive *dive, bt__state *state)
 double *
 bt__dive_roughness (const bt_dive *dive, bt__state *state)
 {
-  return (double *)(void *)(section (dive, state) + movers_size (dive->model));
+  return (double *)(void *)(section (dive, state) + bt__roughness_at (dive->model));
 }
 
 bt__subject *
@@ -118,6 +118,7 @@ bt__obstacles_init (const bt_dive *dive, bt__state *state)
   const bt_model *model = dive->model;
   for (int k = 0; k < model->n_carried; k++)
     bt__dive_movers (dive, state)[k].frame = bt__carried_frame (model, k, 0);
+  bt__pairs_change (dive);
   for (int i = 0; i < model->n_obstacles; i++)
     bt__dive_roughness (dive, state)[i] = model->obstacles[i].friction;
 }
@@ -165,6 +166,7 @@ bt__switch_pair (const bt_dive *dive, bt__state *state, bt_part part, int i, int
   bt__subject *subject = bt__dive_subject (dive, state, part, i);
   uint8_t *off = bt__dive_off (dive, state, part, i);
   size_t n = (size_t)bt__objects (model);
+  bt__pairs_change (dive);
   if (obstacle < 0)
     memset (off, !on, n);
   else

@@ -10,9 +10,10 @@
 #include "contact/touch.h"
 #include "world/dive.h"
 
-/* Return the bytes in a state for what the parts of MODEL may meet; the offset of the first
-   subject; and the bytes of a subject.  */
+/* Return the bytes in a state for what the parts of MODEL may meet; the offsets of the friction and
+   of the first subject; and the bytes of a subject.  */
 size_t bt__obstacles_size (const bt_model *model);
+size_t bt__roughness_at (const bt_model *model);
 size_t bt__subjects_at (const bt_model *model);
 size_t bt__subject_size (const bt_model *model);
 

@@ -335,7 +335,16 @@ bt__watch_prepare (const bt_dive *dive, bt_error *error)
   for (int round = 0; round < 2 && dive->model->n_obstacles > 0; round++)
     for (int i = 0; i < dive->model->n_tethers && status == BT_OK; i++)
       status = prepare_look (dive, i, error);
+  if (dive->watch && status != BT_ERR_INTERRUPTED)
+    dive->watch->ready = 1;
   return status == BT_ERR_INTERRUPTED ? status : BT_OK;
+}
+
+bt_status
+bt__watch_make_ready (const bt_dive *dive, bt_error *error)
+{
+  int ready = dive->model->n_obstacles == 0 || (dive->watch && dive->watch->ready);
+  return ready ? BT_OK : bt__watch_prepare (dive, error);
 }
 
 /* ---- The free way ---- */

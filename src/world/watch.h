@@ -73,6 +73,7 @@ struct bt__watch
   bt__taut *taut;
   bt__count count;
   int n;
+  int ready; /* true: bt__watch_prepare was called */
   bt__awareness tether[];
 };
 
@@ -127,6 +128,8 @@ bt_status bt__watch_berth (const bt_dive *dive, int i, bt_vec3 *berth, bt_error 
    nothing; the only failure is BT_ERR_INTERRUPTED.  A fork, often short-lived, allocates at its
    first operation.  */
 bt_status bt__watch_prepare (const bt_dive *dive, bt_error *error);
+/* The same unless done before: for what changes nothing that the tethers are among.  */
+bt_status bt__watch_make_ready (const bt_dive *dive, bt_error *error);
 
 /* A new string with the room of those of the watch; NULL: no memory.  */
 bt__string *bt__watch_string (const bt_dive *dive);

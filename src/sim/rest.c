@@ -1,0 +1,71 @@
+/* Orders: operations that change what a vehicle is told, and move nothing.
+
+   Sticks, autopilots and faults are members of one vehicle.  While every tether rests, which means
+   that no operation would solve one anew, an order is therefore written to the present state
+   itself: no state is copied, however large the dive is.  While a tether does not rest, as a static
+   shape does not in waves or before it has settled, the order is an operation like all others
+   (ops.c), and solves such tethers.  Both ways leave the same bits.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "sim/around.h"
+#include "sim/ops.h"
+#include "world/watch.h"
+
+static int
+are_same (const bt__ends *ends, const bt__shape *shape)
+{
+  return memcmp (&ends->a, &shape->a, sizeof ends->a) == 0
+         && memcmp (&ends->b, &shape->b, sizeof ends->b) == 0;
+}
+
+static int
+rests (const bt_dive *dive, bt__state *state, int i)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt__ends ends = bt__tether_ends (dive, state, i);
+  if (!are_same (&ends, &tether->shape) || !bt__holds_ends (dive, state, i))
+    return 0;
+  if (bt__is_moving_model (tether))
+    return tether->shape.form == BT__FORM_CHAIN;
+  if (bt__has_obstacles (dive) ? tether->contact_form != BT__CONTACT_FORM_HELD
+                               : tether->pull != bt__pull_for_solve (dive, state, i))
+    return 0;
+  return tether->shape.form != BT__FORM_CHAIN && !tether->parted
+         && bt__is_unchanged (dive, state, tether, &ends);
+}
+
+int
+bt__all_rest (const bt_dive *dive, bt__state *state)
+{
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    if (!rests (dive, state, i))
+      return 0;
+  return 1;
+}
+
+/* What is noted of tethers that an operation leaves as they are.  */
+static void
+note_unmoved (bt_dive *dive, bt__state *state)
+{
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    if (bt__is_moving_model (bt__dive_tether (dive, state, i)))
+      bt__note_pull (dive, state, i);
+    else
+      dive->profile.shape_skips++;
+}
+
+bt_status
+bt__give_order (const bt__call *c, bt_status (*apply) (const bt__call *c))
+{
+  bt_status status = bt__watch_make_ready (c->dive, c->error);
+  if (status == BT_OK)
+    status = apply (c);
+  if (status != BT_OK)
+    return status;
+  bt__wake_lines (c);
+  note_unmoved (c->dive, c->state);
+  return BT_OK;
+}
