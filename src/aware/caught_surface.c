@@ -13,6 +13,7 @@
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
+#include <string.h>
 
 #include "aware/caught.h"
 #include "math/vec.h"
@@ -191,26 +192,45 @@ crossings_in_block (const strip *s, uint32_t b, bt_vec3 x, bt_vec3 y)
   return sum;
 }
 
+/* A count of crossings.  */
+typedef struct crossings
+{
+  const bt__graph *graph;
+  const strip *strip;
+  int32_t *loops; /* of each edge */
+  int any;
+} crossings;
+
+/* Count how often the edge at SLOT of the tree goes through the strip.  */
+static double
+cross_edge (void *user, uint32_t slot, double reach)
+{
+  crossings *c = user;
+  const strip *s = c->strip;
+  uint32_t e = c->graph->tree.order[slot];
+  bt_vec3 x = c->graph->v[c->graph->edge[e][0]], y = c->graph->v[c->graph->edge[e][1]];
+  bt__aabb box = bt__box_with ((bt__aabb){ x, x }, y);
+  if (!overlap (&box, &s->all))
+    return reach;
+  for (uint32_t b = 0; b < s->blocks; b++)
+    if (overlap (&box, &s->box[b]))
+      c->loops[e] += crossings_in_block (s, b, x, y);
+  c->any |= c->loops[e] != 0;
+  return reach;
+}
+
 int
 bt__caught_crossings (const bt__graph *graph, const bt_vec3 *p, uint32_t n, const bt_vec3 *q,
                       uint32_t m, int32_t *loops)
 {
   strip s = { .p = p, .q = q, .n = n, .m = m };
-  int any = 0;
+  crossings c = { .graph = graph, .strip = &s, .loops = loops };
+  bt__count unused = { 0 };
   lay_strip (&s);
-  for (uint32_t e = 0; e < graph->edges; e++)
-    {
-      bt_vec3 x = graph->v[graph->edge[e][0]], y = graph->v[graph->edge[e][1]];
-      bt__aabb box = empty_box ();
-      stretch (&box, x);
-      stretch (&box, y);
-      loops[e] = 0;
-      if (!overlap (&box, &s.all))
-        continue;
-      for (uint32_t b = 0; b < s.blocks; b++)
-        if (overlap (&box, &s.box[b]))
-          loops[e] += crossings_in_block (&s, b, x, y);
-      any |= loops[e] != 0;
-    }
-  return any;
+  bt__link diagonal = { s.all.lo, s.all.hi };
+  /* No point of a box is farther from its diagonal than half of that.  */
+  double reach = 0.5 * bt__distance (s.all.lo, s.all.hi);
+  memset (loops, 0, graph->edges * sizeof *loops);
+  bt__bvh_query (&graph->tree, &diagonal, reach, 0, cross_edge, &c, &unused);
+  return c.any;
 }

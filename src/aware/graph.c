@@ -371,6 +371,27 @@ begin_graph (bt__graph_job *k)
     }
 }
 
+/* The box about edge I of the graph USER.  */
+static void
+edge_box (const void *user, uint32_t i, bt__aabb *box)
+{
+  const bt__graph *g = user;
+  bt_vec3 from = g->v[g->edge[i][0]];
+  *box = bt__box_with ((bt__aabb){ from, from }, g->v[g->edge[i][1]]);
+}
+
+bt_status
+bt__graph_plant (bt__graph *graph, bt_error *error)
+{
+  bt__bvh_free (&graph->tree);
+  bt_status status = bt__bvh_reserve (&graph->tree, graph->edges, error);
+  if (status != BT_OK)
+    return status;
+  bt__bvh_build (&graph->tree, graph->edges, edge_box, graph);
+  bt__bvh_trim (&graph->tree);
+  return BT_OK;
+}
+
 bt_status
 bt__graph_new (const bt__graph_config *config, bt__graph *graph, bt_error *error)
 {
@@ -387,6 +408,8 @@ bt__graph_new (const bt__graph_config *config, bt__graph *graph, bt_error *error
     find_meetings (&k);
   if (!k.failed)
     bt__graph_build (&k, graph);
+  if (!k.failed)
+    k.failed = bt__graph_plant (graph, NULL) != BT_OK;
   graph->undescribed = (uint32_t)k.undescribed;
   free (k.p);
   free (k.off);
@@ -411,5 +434,6 @@ bt__graph_free (bt__graph *g)
   free (g->boundary);
   free (g->edge);
   free (g->object);
+  bt__bvh_free (&g->tree);
   memset (g, 0, sizeof *g);
 }

@@ -24,6 +24,7 @@ typedef struct bt__graph
   uint8_t *boundary; /* in the ground, out of the water, or at a mesh */
   uint32_t (*edge)[2];
   uint32_t *object; /* of each edge: its member's place in the scene */
+  bt__bvh tree;     /* of the edges */
   uint32_t undescribed;
 } bt__graph;
 
@@ -40,6 +41,10 @@ typedef struct bt__graph_config
 
 /* Make *GRAPH (any bytes).  BT_ERR_LIMIT, BT_ERR_INTERRUPTED.  */
 bt_status bt__graph_new (const bt__graph_config *config, bt__graph *graph, bt_error *error);
+
+/* Build the tree of the edges of GRAPH anew; called by bt__graph_new, and to be called by whoever
+   moves a vertex.  BT_ERR_LIMIT.  */
+bt_status bt__graph_plant (bt__graph *graph, bt_error *error);
 
 void bt__graph_free (bt__graph *graph);
 

@@ -267,6 +267,7 @@ a_mirror_turns_the_sign (void **state)
       bt__caught before = caught (r.p, n, r.q, m);
       for (uint32_t v = 0; v < r.graph.vertices; v++)
         r.graph.v[v].x *= -1;
+      assert_int_equal (bt__graph_plant (&r.graph, NULL), BT_OK);
       for (uint32_t i = 0; i < n || i < m; i++)
         {
           r.p[i].x *= i < n ? -1 : 1;
@@ -423,6 +424,7 @@ random_frame (dice *d)
         }
     }
   r.graph.own = r.graph.edges;
+  assert_int_equal (bt__graph_plant (&r.graph, NULL), BT_OK);
 }
 
 static void
@@ -450,6 +452,7 @@ no_sum_is_smaller (void **state)
       assert_true (loops_in_all (&got) <= least);
       more += loops_in_all (&got) > 1;
       slid += loops_in_all (&got) < before;
+      bt__bvh_free (&r.graph.tree);
       bt__caught_free (&got);
     }
   r.graph = (bt__graph){ 0 };
