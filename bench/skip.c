@@ -192,6 +192,7 @@ static const struct
   { "bare", WORLD TIMED },
   { "and a recorder", WORLD "(record! \"dive.story\")" TIMED },
   { "and a task ten times a second", WORLD "(every 0.1 (tether-length))" TIMED },
+  { "and a checkpoint ten times a second", WORLD "(every 0.1 (checkpoint))" TIMED },
   { "and a picture a second", WORLD "(every 1 (snapshot \"dive.png\" #:size '(320 180)))" TIMED },
 };
 

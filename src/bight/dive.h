@@ -96,10 +96,16 @@ int bt_dive_track (const bt_dive *dive, int i, const double **rows);
 size_t bt_dive_state_size (const bt_dive *dive); /* bytes */
 /* Copy the whole state to STATE, bt_dive_state_size bytes.  */
 void bt_dive_save (const bt_dive *dive, void *state);
-/* Return to STATE of SIZE bytes, saved from this dive or a fork, or read from a file by any author:
-   every member is judged before use.  BT_ERR_STALE if STATE belongs to another model, or follows a
-   track or a function unknown to this dive; BT_ERR_FORMAT if the bytes are not as saved, or if a
-   member has an impossible value, named in the text of the error.  */
+/* Write the same to PACKED as bt_state_pack packs it (below), in words of eight bytes, and return
+   the number of bytes written, at most bt_dive_keep_size: room that is not in use is not gone
+   through.
+ */
+size_t bt_dive_keep_size (const bt_dive *dive);
+size_t bt_dive_keep (const bt_dive *dive, void *packed);
+/* Return to STATE of SIZE bytes, packed or not, of this dive or a fork, or read from a file by any
+   author: every member is judged before use.  BT_ERR_STALE if STATE belongs to another model, or
+   follows a track or a function unknown to this dive; BT_ERR_FORMAT if the bytes are not as saved,
+   or if a member has an impossible value, named in the text of the error.  */
 bt_status bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error);
 /* Return a 64-bit hash of the whole state: equal states, equal hashes.  */
 uint64_t bt_dive_hash (const bt_dive *dive);

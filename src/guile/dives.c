@@ -279,29 +279,10 @@ save_dive (SCM object)
 static SCM
 keep_dive (SCM object)
 {
-  SCM whole = save_dive (object);
-  const void *state = SCM_BYTEVECTOR_CONTENTS (whole);
-  size_t size = SCM_BYTEVECTOR_LENGTH (whole);
-  SCM bytes = scm_c_make_bytevector (bt_state_pack (state, size, NULL));
-  bt_state_pack (state, size, SCM_BYTEVECTOR_CONTENTS (bytes));
-  scm_remember_upto_here_1 (whole);
+  bt_dive *dive = bt__to_dive (object);
+  SCM bytes = scm_c_make_bytevector (bt_dive_keep_size (dive));
+  bt_dive_keep (dive, SCM_BYTEVECTOR_CONTENTS (bytes));
   return bytes;
-}
-
-/* BYTES as bt_dive_save wrote them, whether they are packed or not.  */
-static SCM
-unpacked (bt_dive *dive, SCM bytes)
-{
-  const void *packed = SCM_BYTEVECTOR_CONTENTS (bytes);
-  size_t n = SCM_BYTEVECTOR_LENGTH (bytes), size = bt_dive_state_size (dive);
-  bt_error error;
-  if (!bt_state_is_packed (packed, n))
-    return bytes;
-  SCM whole = scm_c_make_bytevector (size);
-  bt__check ("restore!", bt_state_unpack (packed, n, SCM_BYTEVECTOR_CONTENTS (whole), size, &error),
-             &error);
-  scm_remember_upto_here_1 (bytes);
-  return whole;
 }
 
 static SCM
@@ -313,7 +294,6 @@ restore_dive (SCM object, SCM bytes)
   if (bt__to_handle (object)->live)
     bt__raise ("restore!", &live);
   bt_dive *dive = bt__to_idle_dive ("restore!", object);
-  bytes = unpacked (dive, bytes);
   bt__check_long ("restore!", bt__to_handle (object),
                   bt_dive_restore (dive, SCM_BYTEVECTOR_CONTENTS (bytes),
                                    SCM_BYTEVECTOR_LENGTH (bytes), &error),

@@ -368,20 +368,32 @@ knows_tracks (const bt_dive *dive, bt__state *state)
   return 1;
 }
 
+static bt_status
+take_whole (bt_dive *dive, const void *state, size_t size, bt_error *error)
+{
+  if (size != dive->size)
+    return bt__fail (error, BT_ERR_STALE, "a state of this dive has %zu bytes, not %zu", dive->size,
+                     size);
+  memcpy (dive->next, state, size);
+  return BT_OK;
+}
+
 bt_status
 bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error)
 {
   bt__state *next = dive->next;
   uint64_t checksum;
   bt_status status;
-  if (size != dive->size)
-    return bt__fail (error, BT_ERR_STALE, "a state of this dive has %zu bytes, not %zu", dive->size,
-                     size);
   memset (dive->alike, 0, BT__STORES + (size_t)dive->model->n_tethers);
-  memcpy (next, state, size);
+  if (bt_state_is_packed (state, size))
+    status = bt_state_unpack (state, size, next, dive->size, error);
+  else
+    status = take_whole (dive, state, size, error);
+  if (status != BT_OK)
+    return status;
   checksum = next->checksum;
   next->checksum = 0;
-  if (next->magic != magic || next->size != size || !bt__layout_fits (dive, next)
+  if (next->magic != magic || next->size != dive->size || !bt__layout_fits (dive, next)
       || checksum != bt__hash_state (dive, next))
     return bt__fail (error, BT_ERR_FORMAT, "these bytes are not a state as it was saved");
   if (next->model_id != dive->model->id)

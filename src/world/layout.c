@@ -255,22 +255,22 @@ contact_form_live (const bt_dive *dive, const bt__state *state, int i)
     }
 }
 
-/* The parts of the store of tether I that are in use.  */
+/* The parts of the store of tether I that are in use, in the order in which they lie there.  */
 static int
 live_ranges (const bt_dive *dive, const bt__state *state, int i, bt__range *out)
 {
   const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
   const bt_tether_def *def = &dive->model->tethers[i];
-  int n = 0;
+  size_t arrays = arrays_size (def);
+  int n = 0, moves = tether->shape.form == BT__FORM_CHAIN;
+  if (moves)
+    n = chain_ranges (dive, state, i, out);
+  if (!moves && bt__has_nodes (tether->shape.form))
+    out[n++] = (bt__range){ 0, arrays };
+  if (!moves && tether->contact_form)
+    out[n++] = (bt__range){ arrays, contact_form_live (dive, state, i) };
   if (tether->wear != 0)
     out[n++] = (bt__range){ shape_size (dive->model, i), wear_size (def) };
-  if (tether->shape.form == BT__FORM_CHAIN)
-    return n + chain_ranges (dive, state, i, out + n);
-  size_t arrays = arrays_size (def);
-  if (bt__has_nodes (tether->shape.form))
-    out[n++] = (bt__range){ 0, arrays };
-  if (tether->contact_form)
-    out[n++] = (bt__range){ arrays, contact_form_live (dive, state, i) };
   return n;
 }
 
@@ -327,6 +327,23 @@ bt__hash_state (const bt_dive *dive, const bt__state *state)
         h = bt__hash (store_of (dive, state, i) + live[k].at, live[k].size, h);
     }
   return h;
+}
+
+size_t
+bt__walk_live (const bt_dive *dive, const bt__state *state, bt__walk *walk, void *user)
+{
+  bt__range live[RANGES];
+  size_t count = 1;
+  walk (user, 0, state, fixed_size (dive));
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    {
+      const char *store = store_of (dive, state, i);
+      int n = live_ranges (dive, state, i, live);
+      for (int k = 0; k < n; k++, count++)
+        walk (user, (size_t)(store - (const char *)state) + live[k].at, store + live[k].at,
+              live[k].size);
+    }
+  return count;
 }
 
 size_t

@@ -27,6 +27,11 @@ void bt__level (bt_dive *dive);
 void bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from);
 uint64_t bt__hash_state (const bt_dive *dive, const bt__state *state);
 
+/* Call WALK with USER for each range in use of STATE, from the first on: AT bytes from the
+   beginning of the state lie SIZE bytes DATA.  Return the number of ranges.  */
+typedef void bt__walk (void *user, size_t at, const void *data, size_t size);
+size_t bt__walk_live (const bt_dive *dive, const bt__state *state, bt__walk *walk, void *user);
+
 /* Return how many bytes that are.  */
 size_t bt__live_size (const bt_dive *dive, const bt__state *state);
 

@@ -12,6 +12,7 @@
 #include <bight/dive.h>
 
 #include "base/error.h"
+#include "world/layout.h"
 
 static const uint64_t mark = 0x31306b6361707462; /* "btpack01" */
 
@@ -48,6 +49,67 @@ bt_state_pack (const void *state, size_t size, void *packed)
       at += none + some;
     }
   return used * sizeof *word;
+}
+
+/* ---- Packed without a whole state ---- */
+
+enum
+{
+  WORD = sizeof (uint64_t)
+};
+
+/* What is being packed: up to word DONE of the state, in USED words of OUT, or with OUT NULL
+   counted alone.  */
+typedef struct packing
+{
+  uint64_t *out;
+  size_t done, used;
+} packing;
+
+/* Pack the SIZE bytes DATA, AT bytes from the beginning of the state, after zeros up to there.  */
+static void
+pack_range (void *user, size_t at, const void *data, size_t size)
+{
+  packing *p = user;
+  size_t first = at / WORD, words = (size + WORD - 1) / WORD;
+  if (p->out)
+    {
+      p->out[p->used] = first - p->done;
+      p->out[p->used + 1] = words;
+      if (words > 0)
+        p->out[p->used + 1 + words] = 0; /* whose last bytes may be none of DATA */
+      if (words > 0)
+        memcpy (p->out + p->used + 2, data, size);
+    }
+  p->used += 2 + words;
+  p->done = first + words;
+}
+
+/* Pack the present state of DIVE into OUT; return the number of words.  */
+static size_t
+pack_live (const bt_dive *dive, uint64_t *out)
+{
+  packing p = { .out = out, .used = 1 };
+  bt__walk_live (dive, dive->now, pack_range, &p);
+  pack_range (&p, dive->size, NULL, 0);
+  return p.used;
+}
+
+size_t
+bt_dive_keep_size (const bt_dive *dive)
+{
+  return pack_live (dive, NULL) * WORD;
+}
+
+size_t
+bt_dive_keep (const bt_dive *dive, void *packed)
+{
+  uint64_t *out = packed, checksum = bt_dive_hash (dive);
+  out[0] = mark;
+  size_t used = pack_live (dive, out);
+  /* The first range begins with the head, behind the mark and the two numbers of the range.  */
+  memcpy ((char *)(out + 3) + offsetof (bt__state, checksum), &checksum, sizeof checksum);
+  return used * WORD;
 }
 
 int

@@ -267,7 +267,7 @@ Return the current at the surface, m/s."
 (alter! 'line #:cdn 1.4 #:model 'catenary).  All are changed, or, when one is refused, none.  Return
 PART."
   (let* ((engine (this-engine 'alter!))
-         (before (and (not (%live? engine)) (%save-dive engine)))
+         (before (and (not (%live? engine)) (%keep-dive engine)))
          (journal (%journal engine)))
     (with-exception-handler
      (lambda (e)
