@@ -128,6 +128,64 @@ result $? 'the history is searched'
 keys C-a
 keys C-k
 
+# ---- A form of several lines, in colours ----
+
+# coloured NAME PATTERN: the screen shows PATTERN, ESC standing for the escape character.
+coloured ()
+{
+  await coloured_now "$2"
+  result $? "$1"
+}
+
+coloured_now ()
+{
+  pane capture-pane -p -e | sed "s/$(printf '\033')/ESC/g" | grep -q -- "$1"
+}
+
+at_prompt TERM=xterm-256color
+keys -l "(define (twice y) ; 'so"
+see "; 'so"
+coloured 'a macro and a comment' '(ESC\[1mdefineESC.*ESC\[90m; .so'
+keys Enter
+keys -l '(* 3 y))'
+see '(\* 3 y))'
+coloured 'parentheses that match' 'ESC\[1;7m(ESC.*twice'
+keys Up
+keys Home
+keys C-k
+keys -l '(define (twice x)'
+keys Down
+keys End
+keys BSpace BSpace BSpace BSpace BSpace
+keys -l '2 x))'
+keys Enter
+await prompts 2
+typed '(twice 21)'
+told 'earlier lines of a form are edited before it is read' '= 42$' 1
+keys -l "(list 'one"
+keys Enter
+see '^\.\.\.\.\.\. '
+keys C-c
+await prompts 4
+result $? '^C gives a form up'
+typed '(+ 20 3)'
+told 'and the next is read' '= 23$' 1
+keys -l '(begin (display "long: ") (display "0123456789012345678901234567890123456789012345678901234567890123456789"))'
+keys Enter
+await prompts 6
+told 'a line longer than the screen is read' '^long: 0123456789' 1
+keys -l ',q'
+keys Enter
+see 'shell>$'
+at_prompt TERM=xterm-256color NO_COLOR=1
+keys Up Up Up Up Up
+see '^\.\.\.\.\.\. *(\* 2 x))'
+result $? 'the history has whole forms'
+pane capture-pane -p -e | grep -q '[39][0-7]m'
+[ $? -ne 0 ]
+result $? 'no colours where none are wanted'
+keys C-c
+
 # ---- Values look like what they mean ----
 
 at_prompt

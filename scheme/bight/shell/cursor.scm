@@ -1,11 +1,10 @@
 ;;; (bight shell cursor) --- where the cursor is in what is being typed: in which forms, behind which arguments.
 ;;;
-;;; What is typed is no datum yet, so it is read by its characters.
-;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight shell cursor)
   #:use-module (bight core record)
+  #:use-module (bight shell tokens)
   #:use-module (srfi srfi-1)
   #:export (cursor-after
             cursor?
@@ -15,7 +14,8 @@
             frame?
             frame-head
             frame-items
-            indentation-after))
+            indentation-after
+            unfinished?))
 
 (define-record <cursor>
   (make-cursor word mark frames)
@@ -57,59 +57,35 @@
 (define (with-item-in frames item column)
   (if (null? frames) '() (cons (with-item (car frames) item column) (cdr frames))))
 
-(define (ends-word? c)
-  (or (char-whitespace? c) (memv c '(#\( #\) #\[ #\] #\" #\;))))
-
-(define (word-end text from)
-  (or (string-index text ends-word? from) (string-length text)))
-
-(define (string-end text from)
-  ;; Where the string whose text begins at FROM ends, after its quote, or #f.
-  (let loop ((i from))
-    (cond ((>= i (string-length text)) #f)
-          ((char=? #\\ (string-ref text i)) (loop (+ i 2)))
-          ((char=? #\" (string-ref text i)) (+ i 1))
-          (else (loop (+ i 1))))))
-
 (define (column-of text i)
   (- i (+ 1 (or (string-rindex text #\newline 0 i) -1))))
+
+(define (after-token token text mark frames)
+  ;; The FRAMES behind TOKEN, which is complete; MARK is the character right before TOKEN, or #f.
+  (let ((column (column-of text (token-from token))) (written (token-text token text)))
+    (case (token-kind token)
+      ((open) (cons (make-frame column '() #f) frames))
+      ((close) (if (null? frames) '() (with-item-in (cdr frames) "()" (frame-column (car frames)))))
+      ((string) (with-item-in frames written column))
+      ((word) (with-item-in frames (string-append (if mark (string mark) "") written) column))
+      (else frames))))
 
 (define (cursor-after text)
   "Return the cursor that stands after TEXT, what was typed of a form."
   (define end (string-length text))
-  (define (at i mark frames)
-    (if (>= i end)
-        (make-cursor "" mark frames)
-        (let ((c (string-ref text i)))
-          (cond ((char-whitespace? c) (at (+ i 1) #f frames))
-                ((memv c '(#\( #\[))
-                 (at (+ i 1) #f (cons (make-frame (column-of text i) '() #f) frames)))
-                ((memv c '(#\) #\]))
-                 (at (+ i 1) #f
-                     (if (null? frames)
-                         '()
-                         (with-item-in (cdr frames) "()" (frame-column (car frames))))))
-                ((memv c '(#\' #\` #\,)) (at (+ i 1) c frames))
-                ((char=? c #\;)
-                 (let ((line-end (string-index text #\newline i)))
-                   (if line-end (at line-end #f frames) (make-cursor "" #\; frames))))
-                ((char=? c #\") (after-string (+ i 1) frames))
-                (else (after-word i mark frames))))))
-  (define (after-string i frames)
-    (let ((string-end (string-end text i)))
-      (if string-end
-          (at string-end #f (with-item-in frames (substring text (- i 1) string-end) (column-of text (- i 1))))
-          (make-cursor (substring text i) #\" frames))))
-  (define (after-word i mark frames)
-    ;; A character such as #\( is one word.
-    (let* ((from (if (string-prefix? "#\\" (substring text i)) (min end (+ i 3)) i))
-           (word-end (word-end text from))
-           (word (substring text i word-end)))
-      (if (= word-end end)
-          (make-cursor word mark frames)
-          (at word-end #f
-              (with-item-in frames (if mark (string-append (string mark) word) word) (column-of text i))))))
-  (at 0 #f '()))
+  (let loop ((rest (tokens text)) (mark #f) (mark-end 0) (frames '()))
+    (if (null? rest)
+        (make-cursor "" (and (= mark-end end) mark) frames)
+        (let* ((token (car rest)) (last? (= end (token-to token))) (written (token-text token text))
+               (mark (and (= mark-end (token-from token)) mark)))
+          (case (token-kind token)
+            ((mark) (loop (cdr rest) (string-ref written 0) (token-to token) frames))
+            ((open-string) (make-cursor (substring written 1) #\" frames))
+            ((word comment)
+             (cond ((not last?) (loop (cdr rest) #f 0 (after-token token text mark frames)))
+                   ((eq? 'word (token-kind token)) (make-cursor written mark frames))
+                   (else (make-cursor "" #\; frames))))
+            (else (loop (cdr rest) #f 0 (after-token token text mark frames))))))))
 
 ;; The forms whose body is indented by two.
 (define bodies
@@ -127,3 +103,8 @@
                 ((memq (frame-head frame) bodies) (+ 2 (frame-column frame)))
                 ((frame-first-argument frame))
                 (else (+ 1 (frame-column frame))))))))
+
+(define (unfinished? text)
+  "Return true if TEXT ends within a form or a string."
+  (let ((cursor (cursor-after text)))
+    (or (pair? (cursor-frames cursor)) (eqv? #\" (cursor-mark cursor)))))

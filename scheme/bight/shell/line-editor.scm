@@ -1,8 +1,8 @@
 ;;; (bight shell line-editor) --- lines that a person edits at a terminal: readline, with history and completion.
 ;;;
 ;;; Guile's module (ice-9 readline) reads a line; (bight shell readline) tells of the line while it is edited.  A form
-;;; may take several lines: each begins with the indentation that the ones before it ask for, and Tab knows
-;;; them all.
+;;; may take several lines: Enter in an unfinished form begins another, indented as the ones before ask for, and
+;;; all of them can be edited until the form is whole.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -12,6 +12,7 @@
   #:use-module ((bight outlet) #:select (behind watched? shown))
   #:use-module (bight shell complete)
   #:use-module (bight shell cursor)
+  #:use-module (bight shell highlight)
   #:use-module (bight shell readline)
   #:use-module (ice-9 buffered-input)
   #:use-module (srfi srfi-1)
@@ -25,7 +26,8 @@
   (module-ref (resolve-module '(bight shell readline)) 'name))
 
 
-;;; What was typed of the form that is being read, lines before the present one.
+;;; What was typed of the form that is being read before what is edited now: the reader wanted more than Enter
+;;; took to be a whole form, as after a lone quote.
 
 (define earlier "")
 
@@ -106,6 +108,49 @@
             (else #f)))))
 
 
+;;; What the screen shows of the line, and what Enter and Tab make of it.
+
+(define (paint prompt before behind rows columns)
+  ;; As %begin-editing wants it; without BEHIND the line is done, and no parenthesis is marked.
+  (false-if-exception
+   (drawn-rows prompt (string-append before (or behind "")) (string-length before) (own %columns-of) rows columns
+               #:done? (not behind))))
+
+(define reading-form? (make-parameter #f))
+
+(define (indented text)
+  ;; TEXT with its last line indented as the ones before ask for.
+  (let ((start (+ 1 (or (string-rindex text #\newline) -1))))
+    (string-append (substring text 0 start)
+                   (make-string (indentation-after (string-append earlier (substring text 0 start))) #\space)
+                   (string-trim (substring text start)))))
+
+(define (in-string-before? text)
+  (eqv? #\" (cursor-mark (cursor-after (string-append earlier text "\n")))))
+
+(define (last-line text)
+  (substring text (+ 1 (or (string-rindex text #\newline) -1))))
+
+(define (begins-line? text)
+  ;; Is the cursor behind TEXT in the indentation of a further line?
+  (and (string-index text #\newline) (string-every char-whitespace? (last-line text))))
+
+(define (with-new-line text)
+  ;; TEXT, its last line indented anew, and a line below, indented unless it is in a string.
+  (if (in-string-before? text)
+      (string-append text "\n")
+      (indented (string-append (if (string-index text #\newline) (indented text) text) "\n"))))
+
+(define (press key before behind)
+  ;; As %begin-editing wants it.
+  (false-if-exception
+   (case key
+     ((#\newline)
+      (and (reading-form?) (unfinished? (string-append earlier before behind)) (with-new-line before)))
+     (else
+      (and (begins-line? before) (not (in-string-before? before)) (indented before))))))
+
+
 ;;; History.
 
 (define (history-file)
@@ -134,31 +179,32 @@
 
 (define prompt-text (make-parameter "" (lambda (text) (if (procedure? text) (text) text))))
 
-(define (dots prompt)
-  ;; What stands before further lines: as wide as PROMPT, so that columns are those of the form.
-  (string-append (make-string (max 0 (- (string-length prompt) 1)) #\.) " "))
-
 (define (end-line! port)
   ;; What was printed is seen before the prompt, which begins a line.
   (unless (eqv? 0 (port-column port))
     (newline port))
   (force-output port))
 
+(define (edited-line prompt input indentation)
+  ;; A line that a person edits, from INDENTATION on; when that is broken off, the cursor is below it.
+  (dynamic-wind
+    (const #f)
+    (lambda ()
+      ((guiles %readline) prompt input (behind (current-output-port))
+       (lambda ()
+         (when (positive? indentation)
+           ((own %insert-text) (make-string indentation #\space)))
+         (run-hook before-read-hook))))
+    (lambda ()
+      (display (make-string ((own %forget-drawing)) #\newline)))))
+
 (define (read-line-at-terminal input continue?)
   (end-line! (current-output-port))
   (unless continue?
     (keep-history! (string-trim-right earlier))
     (set! earlier ""))
-  (let* ((prompt (prompt-text))
-         (indentation (if continue? (indentation-after earlier) 0))
-         (line ((guiles %readline)
-                (if continue? (dots prompt) prompt)
-                input
-                (behind (current-output-port))
-                (lambda ()
-                  (when (positive? indentation)
-                    ((own %insert-text) (make-string indentation #\space)))
-                  (run-hook before-read-hook)))))
+  (let ((line (edited-line (if continue? (dots (prompt-text)) (prompt-text))
+                           input (if continue? (indentation-after earlier) 0))))
     (when (string? line)
       (set! earlier (string-append earlier line "\n")))
     line))
@@ -167,7 +213,7 @@
   ;; What reads a form at the prompt, in place of BEFORE.
   (lambda* (prompt #:optional (reader (fluid-ref current-reader)))
     (if (eq? port (current-input-port))
-        (parameterize ((prompt-text prompt))
+        (parameterize ((prompt-text prompt) (reading-form? #t))
           (set-buffered-input-continuation?! port #f)
           ((or reader read) port))
         (before prompt reader))))
@@ -176,8 +222,8 @@
 
 (define (begin-editing! input)
   (set! terminal input)
+  ((own %begin-editing) list-words paint press)
   (begin-history!)
-  ((own %begin-editing) list-words)
   (set! (guiles-completer) (make-completer))
   (set! the-port
         (make-line-buffered-input-port (lambda (continue?) (read-line-at-terminal input continue?))))
