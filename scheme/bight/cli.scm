@@ -406,13 +406,15 @@ begins with FILE and the line."
    (command "snapshot" take-snapshot "WORLD..."
             '("write a picture of a world, or of several worlds or times into a folder")
             '("-o FILE" "the picture, a PNG; the folder of several")
-            '("--view V" "chase, pilot, top, side, north, east, overview or plan")
+            '("--view V" "chase, pilot, top, side, north, east, overview, plan or sonar")
             '("--size WxH" "in pixels")
             '("--paint P" "colour tethers plain, by tension, curvature or model")
-            '("--overlay O" "figures, none, contacts, turns, taut-string, bvh; or several, with commas")
+            '("--overlay O" "figures, none, contacts, turns, taut-string, bvh, current; or several, with commas")
             '("--at X,Y,Z" "with this point in the middle")
             '("--extent M" "so many metres across")
             '("--zoom N" "so many times nearer")
+            '("--visibility M" "in turbid water, in which one sees so many metres")
+            '("--lights L" "lights at the camera: on or off")
             '("--run S" "as it is S seconds into a dive; several with commas")
             '("--trust" "let a file from outside do all that you may"))
    (command "pilot" fly "WORLD"

@@ -37,7 +37,7 @@ typedef enum bt_thing_kind
   BT_THING_CAPSULE,  /* the same with round ends */
   BT_THING_LEVEL,    /* level ground at the height of AT, to the horizon */
   BT_THING_FIELD,    /* ground by the heights GRID */
-  BT_THING_ARROW,    /* a current, FROM TO; TEXT stands at its point */
+  BT_THING_ARROW,    /* FROM TO, of RADIUS or more to be seen; TEXT stands at its point */
   BT_THING_LABEL,    /* TEXT AT a point */
   BT_THING_MARK,  /* a ring AT a point, of RADIUS pixels in a picture 720 high, with TEXT: a contact
                    */
@@ -92,6 +92,7 @@ typedef struct bt_scale
   double low, high;
   const char *const *word; /* the words for 0, 1, 2 ..., or NULL: a scale of numbers */
   int words;
+  int cool; /* true: in blue and white, for what is told of the water */
 } bt_scale;
 
 typedef struct bt_view

@@ -17,20 +17,33 @@ mix (bt_color a, bt_color b, double t)
   return (bt_color){ a.r + k * (b.r - a.r), a.g + k * (b.g - a.g), a.b + k * (b.b - a.b) };
 }
 
+/* From STOP[0] to STOP[LAST].  */
 static bt_color
-ramp (double t)
+among (const bt_color *stop, int last, double t)
+{
+  double x = fmin (fmax (t, 0), 1) * last;
+  int i = x < last ? (int)x : last - 1;
+  return mix (stop[i], stop[i + 1], x - i);
+}
+
+/* Of what is told of a tether.  */
+static bt_color
+warm (double t)
 {
   static const bt_color stop[]
       = { { 0.700F, 0.230F, 0.800F }, { 0.835F, 0.290F, 0.680F }, { 0.925F, 0.380F, 0.530F },
           { 0.975F, 0.500F, 0.380F }, { 0.995F, 0.640F, 0.250F }, { 0.990F, 0.795F, 0.210F },
           { 0.960F, 0.970F, 0.330F } };
-  enum
-  {
-    LAST = sizeof stop / sizeof *stop - 1
-  };
-  double x = fmin (fmax (t, 0), 1) * LAST;
-  int i = x < LAST ? (int)x : LAST - 1;
-  return mix (stop[i], stop[i + 1], x - i);
+  return among (stop, sizeof stop / sizeof *stop - 1, t);
+}
+
+/* Of what is told of the water: no colour that a tether has.  */
+static bt_color
+cool (double t)
+{
+  static const bt_color stop[]
+      = { { 0.10F, 0.22F, 0.55F }, { 0.20F, 0.50F, 0.85F }, { 0.45F, 0.80F, 0.95F }, { 1, 1, 1 } };
+  return among (stop, sizeof stop / sizeof *stop - 1, t);
 }
 
 static bt_color
@@ -46,7 +59,8 @@ word_color (int i)
 bt_color
 bt__scale_color (const bt_scale *scale, double value)
 {
+  double range = scale->high - scale->low, t = range > 0 ? (value - scale->low) / range : 0;
   if (scale->word)
     return word_color ((int)lround (value));
-  return ramp (scale->high > scale->low ? (value - scale->low) / (scale->high - scale->low) : 0);
+  return scale->cool ? cool (t) : warm (t);
 }

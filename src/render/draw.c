@@ -82,6 +82,18 @@ set_vector (const bt__job *j, GLuint program, const char *name, bt_vec3 v)
   j->gl->Uniform3f (spot (j, program, name), (float)v.x, (float)v.y, (float)v.z);
 }
 
+/* The share of daylight that comes down to a camera: exp (-K depth), where K = 1.7 / the depth at
+   which a Secchi disc disappears (H. H. Poole and W. R. G. Atkins 1929), taken for the visibility.
+   All of the daylight in water of no known turbidity, and a little in any.  */
+static double
+dusk_of (const bt__job *j)
+{
+  double depth = j->view->surface - j->optics.eye.z;
+  if (!(j->view->visibility > 0) || !j->optics.perspective || !(depth > 0) || !isfinite (depth))
+    return 1;
+  return fmax (0.01, exp (-1.7 * depth / j->view->visibility));
+}
+
 /* Set the uniforms common to all shaders.  Heights and places are relative to the soup's origin;
    SHIFT continues patterns from tile to tile and picture to picture.  */
 static void
@@ -97,6 +109,8 @@ set_common (const bt__job *j, GLuint program)
   set_number (j, program, "surface", fmin (j->view->surface, 1e9));
   set_number (j, program, "visibility", bt__visibility (j));
   set_number (j, program, "lamp", j->view->lamp);
+  set_number (j, program, "dusk", dusk_of (j));
+  set_number (j, program, "murk", j->view->visibility > 0 ? 1 / j->view->visibility : 0);
   set_number (j, program, "time", fmod (j->view->time, 3600));
   set_number (j, program, "plain", j->drawing.transparent);
   set_number (j, program, "height", o.z);

@@ -1,5 +1,5 @@
-/* The extension for pictures: fills the module (bight view render).  It is loaded when the first picture
-   is asked for, and opens a graphics library then.
+/* The extension for pictures: fills the module (bight view render).  It is loaded when the first
+   picture is asked for, and opens a graphics library then.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -10,6 +10,7 @@
 #include "render/camera.h"
 #include "render/render.h"
 #include "render/scene_of_dive.h"
+#include "render/sonar.h"
 
 /* A dive comes from the other extension, which alone knows its type.  */
 static const bt_dive *
@@ -186,6 +187,16 @@ has_flag (SCM flags, const char *name)
   return scm_is_true (scm_memq (scm_from_utf8_symbol (name), flags));
 }
 
+/* Lights are as the view has them, unless FLAGS say.  */
+static void
+set_lights (sketch *s, SCM flags)
+{
+  if (has_flag (flags, "lamp"))
+    s->view->lamp = 1;
+  if (has_flag (flags, "dark"))
+    s->view->lamp = 0;
+}
+
 static void
 set_drawing (bt__drawing *drawing, SCM size, SCM flags)
 {
@@ -200,7 +211,7 @@ set_drawing (bt__drawing *drawing, SCM size, SCM flags)
 static bt__show
 show_of (SCM paint, SCM flags)
 {
-  static const char *const more[] = { "contacts", "turns", "taut-string", "bvh" };
+  static const char *const more[] = { "contacts", "turns", "taut-string", "bvh", "current" };
   bt__show show = { .paint = (bt__paint)index_of (paint, paint_name), .level = -1 };
   for (unsigned i = 0; i < sizeof more / sizeof *more; i++)
     show.more |= has_flag (flags, more[i]) ? 1U << i : 0;
@@ -210,17 +221,26 @@ show_of (SCM paint, SCM flags)
   return show;
 }
 
+/* How far one sees, m, by an entry (visibility . METRES) of FLAGS; 0 without.  */
+static double
+visibility_of (SCM flags)
+{
+  for (; scm_is_pair (flags); flags = scm_cdr (flags))
+    if (scm_is_pair (scm_car (flags)))
+      return scm_to_double (scm_cdar (flags));
+  return 0;
+}
+
 /* GHOST, another dive, is drawn pale beside the first; or none, for what is no dive.  */
 static void
-gather_dive (sketch *s, const bt_dive *dive, const bt__show *show, SCM ghost, int lamp)
+gather_dive (sketch *s, const bt_dive *dive, const bt__show *show, SCM ghost, SCM flags)
 {
   bt_error error;
   bt__check ("snapshot", bt_view_new (&s->view, &error), &error);
   bt__check ("snapshot", bt__scene_of_dive (dive, show, s->view, &error), &error);
   if (!SCM_UNBNDP (ghost) && scm_is_true (ghost))
     bt__check ("snapshot", bt__scene_ghost (to_dive (ghost), s->view, &error), &error);
-  if (lamp)
-    s->view->lamp = 1;
+  s->view->visibility = visibility_of (flags);
 }
 
 static SCM
@@ -236,14 +256,40 @@ draw_dive (SCM renderer, SCM object, SCM title, SCM aim, SCM size, SCM paint, SC
   scm_dynwind_begin (0);
   scm_dynwind_unwind_handler (free_sketch, s, SCM_F_WIND_EXPLICITLY);
   bt__check ("snapshot", bt__check_size (s->drawing.width, s->drawing.height, &error), &error);
-  gather_dive (s, dive, &show, ghost, has_flag (flags, "lamp"));
+  gather_dive (s, dive, &show, ghost, flags);
   set_title (s, title);
   bt__check ("snapshot", aim_camera (s, aim, &error), &error);
+  set_lights (s, flags);
   if (!SCM_UNBNDP (marks) && scm_is_true (marks))
     place_marks (s, marks);
   draw (s, renderer, has_flag (flags, "figures"));
   bytes = pixels_of (&s->picture);
   scm_dynwind_end ();
+  scm_remember_upto_here_2 (object, s);
+  return bytes;
+}
+
+/* What a sonar of the first vehicle hears within RANGE metres.  */
+static SCM
+draw_sonar (SCM object, SCM title, SCM size, SCM range, SCM flags)
+{
+  const bt_dive *dive = to_dive (object);
+  sketch *s = scm_gc_calloc (sizeof *s, "sketch");
+  bt_error error;
+  SCM bytes;
+  char *text;
+  bt_status status;
+  set_drawing (&s->drawing, size, flags);
+  bt__check ("snapshot", bt__check_size (s->drawing.width, s->drawing.height, &error), &error);
+  text = scm_to_utf8_string (title);
+  status = bt__sonar_picture (dive, 0, scm_to_double (range), text, has_flag (flags, "figures"),
+                              &s->drawing, &s->picture, &error);
+  free (text);
+  if (status != BT_OK)
+    bt__picture_free (&s->picture);
+  bt__check ("snapshot", status, &error);
+  bytes = pixels_of (&s->picture);
+  bt__picture_free (&s->picture);
   scm_remember_upto_here_2 (object, s);
   return bytes;
 }
@@ -266,7 +312,7 @@ written_boxes (SCM object, SCM title, SCM aim, SCM size, SCM paint, SCM flags)
   set_drawing (&s->drawing, size, flags);
   scm_dynwind_begin (0);
   scm_dynwind_unwind_handler (free_sketch, s, SCM_F_WIND_EXPLICITLY);
-  gather_dive (s, dive, &show, SCM_UNDEFINED, 0);
+  gather_dive (s, dive, &show, SCM_UNDEFINED, flags);
   set_title (s, title);
   bt__check ("snapshot", aim_camera (s, aim, &error), &error);
   n = bt__written (s->view, s->drawing.width, s->drawing.height, s->paper, box, MOST);
@@ -315,9 +361,13 @@ bight_render_init (void)
       "Return the pixels, a bytevector, of a picture by RENDERER of DIVE with TITLE, seen by AIM, "
       "of SIZE (WIDTH . HEIGHT), tethers painted by PAINT; FLAGS are of figures, transparent, "
       "quick, "
-      "lamp, contacts, turns, taut-string, bvh, a level of boxes; GHOST, another dive, is drawn "
+      "lamp, dark, contacts, turns, taut-string, bvh, current, a level of boxes, (visibility . "
+      "METRES); GHOST, another dive, is drawn "
       "pale beside it; MARKS, an f64vector of points, receives where they fall in the picture: x y "
       "and 1, or 0 behind the camera." },
+    { "%draw-sonar", 5, 0, (scm_t_subr)draw_sonar,
+      "Return the pixels, a bytevector, of what a sonar of the first vehicle of DIVE hears within "
+      "RANGE metres, with TITLE, of SIZE (WIDTH . HEIGHT); FLAGS as of %draw." },
     { "%written", 6, 0, (scm_t_subr)written_boxes,
       "Return the boxes (X Y WIDTH HEIGHT) that words and figures take over the picture that %draw "
       "would make of the same DIVE TITLE AIM SIZE PAINT FLAGS." },

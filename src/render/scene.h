@@ -28,6 +28,7 @@ void bt__scene_add (bt__scene *scene, const bt_thing *thing);
 
 void bt__scene_tethers (bt__scene *scene);   /* scene_tether.c */
 void bt__scene_obstacles (bt__scene *scene); /* scene_obstacle.c */
+void bt__scene_flow (bt__scene *scene);      /* scene_flow.c */
 void bt__scene_more (bt__scene *scene);      /* scene_more.c */
 
 #endif

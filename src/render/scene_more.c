@@ -29,9 +29,10 @@ tethers (const bt__scene *s)
 
 static const bt_color sticks = { 1, 0.36F, 0.28F }, slides = { 0.45F, 0.95F, 0.55F };
 
-/* An arrow along the force on the tether or, of a static model, along the normal.  */
+/* An arrow along the force on the tether, as long as the root of the force; or, of a static model,
+   along the normal.  LENGTH is that of the largest of all forces, MOST, and of a normal.  */
 static void
-add_contact (bt__scene *s, const bt_contact *c, double length, int told)
+add_contact (bt__scene *s, const bt_contact *c, double length, double most, int told)
 {
   bt_thing arrow = bt_thing_of (BT_THING_ARROW);
   const char *name = bt_dive_name (s->dive, BT_PART_OBSTACLE, c->object);
@@ -39,12 +40,35 @@ add_contact (bt__scene *s, const bt_contact *c, double length, int told)
   char text[120];
   arrow.color = c->slides ? slides : sticks;
   arrow.from = c->position;
-  arrow.to
-      = bt__axpy (c->position, length, force > 0 ? bt__scale (1 / force, c->force) : c->normal);
+  if (force > 0)
+    arrow.to = bt__axpy (c->position, length * fmax (sqrt (force / most), 0.15) / force, c->force);
+  else
+    arrow.to = bt__axpy (c->position, length, c->normal);
   snprintf (text, sizeof text, force > 0 ? "%.60s: %s, %.2g N" : "%.60s: %s", name ? name : "",
             c->slides ? "slides" : "sticks", force);
   arrow.text = told ? text : NULL;
   bt__scene_add (s, &arrow);
+}
+
+static double
+largest_force (const bt_contact *c, int n)
+{
+  double most = 0;
+  for (int k = 0; k < n; k++)
+    most = fmax (most, bt__norm (c[k].force));
+  return most;
+}
+
+/* True if none of the N contacts on the obstacle of contact K bears more.  */
+static int
+bears_most (const bt_contact *c, int n, int k)
+{
+  double force = bt__norm (c[k].force);
+  for (int i = 0; i < n; i++)
+    if (c[i].object == c[k].object
+        && (bt__norm (c[i].force) > force || (i < k && bt__norm (c[i].force) >= force)))
+      return 0;
+  return 1;
 }
 
 static void
@@ -54,13 +78,14 @@ add_contacts (bt__scene *s)
   {
     MOST = 2000
   };
-  double length = 0.05 * span_of (s);
+  double length = 0.1 * span_of (s);
   bt_contact *c = malloc (MOST * sizeof *c);
   for (int i = 0; c && i < tethers (s); i++)
     {
       int n = bt_tether_contacts (s->dive, i, c, MOST);
-      for (int k = 0; k < n && k < MOST; k++)
-        add_contact (s, &c[k], length, k == 0 || c[k].object != c[k - 1].object);
+      double most = largest_force (c, n = n < MOST ? n : MOST);
+      for (int k = 0; k < n; k++)
+        add_contact (s, &c[k], length, most, bears_most (c, n, k));
     }
   free (c);
 }

@@ -263,7 +263,10 @@ bt__scene_of_dive (const bt_dive *dive, const bt__show *show, bt_view *view, bt_
   if (s.any)
     {
       add_anchors (&s);
-      add_current (&s);
+      if (show->more & BT__SHOW_FLOW)
+        bt__scene_flow (&s);
+      else
+        add_current (&s);
     }
   bt__scene_more (&s);
   if (s.status == BT_OK)

@@ -24,7 +24,8 @@ enum
   BT__SHOW_CONTACTS = 1, /* every contact, with the force or the normal there */
   BT__SHOW_TURNS = 2,    /* turns of tethers about obstacles */
   BT__SHOW_STRING = 4,   /* the taut strings */
-  BT__SHOW_BOXES = 8     /* the boxes about the obstacles */
+  BT__SHOW_BOXES = 8,    /* the boxes about the obstacles */
+  BT__SHOW_FLOW = 16     /* the current as streamlines */
 };
 
 typedef struct bt__show

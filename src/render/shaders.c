@@ -22,6 +22,8 @@ const char bt__shader_version[] = "#version 330 core\n";
 const char bt__shader_common[] =
     "uniform vec3 eye, right, up, ahead, sun;\n"
     "uniform float surface, visibility, lamp, time, plain;\n"
+    "uniform float dusk, murk;\n" /* DUSK: the share of daylight that comes down; MURK: 1/m, 0 in
+                                      water of no known turbidity */
     "uniform float height;\n" /* z of the origin */
     "uniform vec2 shift;\n"
     "float hash (ivec2 p)\n"
@@ -75,15 +77,15 @@ const char bt__shader_lighting[] =
     "vec4 lighted (vec3 a, vec3 p, vec3 N, vec3 V, float slope, float open, float gloss)\n"
     "{\n"
     "  float depth = max (0.0, surface - height - p.z), away = length (eye - p);\n"
-    "  float direct = slope * open, day = 0.38 + 0.62 * exp (-depth / 55.0);\n"
+    "  float direct = slope * open, day = dusk * (0.38 + 0.62 * exp (-depth / 55.0));\n"
     "  float play = smoothstep (0.0, 0.7, N.z) * exp (-depth / 80.0);\n"
     "  vec3 sky = mix (vec3 (0.10, 0.17, 0.19), vec3 (0.36, 0.56, 0.58), N.z * 0.5 + 0.5);\n"
     "  vec3 beam = day * 1.45 * vec3 (0.90, 1.0, 0.92) * direct;\n"
     "  vec3 light = beam + day * sky\n"
-    "               + vec3 (0.16) * max (0.0, dot (N, V));\n"
+    "               + vec3 (0.16) * dusk * max (0.0, dot (N, V));\n"
     "#if PERSPECTIVE\n"
     "  light += lamp * vec3 (1.3, 1.2, 1.0) * max (0.0, dot (N, V)) / (1.0 + away * away / 14.0)\n"
-    "           * smoothstep (0.60, 0.92, dot (-V, ahead));\n"
+    "           * smoothstep (0.60, 0.92, dot (-V, ahead)) * exp (-1.5 * away * murk);\n"
     "#endif\n"
     "  vec3 H = normalize (sun + V);\n"
     "  float shine = gloss * pow (max (0.0, dot (N, H)), 8.0 + 56.0 * gloss) * open;\n"

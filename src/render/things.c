@@ -63,8 +63,8 @@ static void
 draw_arrow (bt__soup *soup, const bt_thing *t)
 {
   double length = bt__distance (t->from, t->to);
-  double r
-      = fmax (0.012 * length, 1.1 * bt__stroke (&soup->lens) * bt__pixel_at (&soup->lens, t->from));
+  double r = fmax (fmax (0.012 * length, t->radius),
+                   1.1 * bt__stroke (&soup->lens) * bt__pixel_at (&soup->lens, t->from));
   double head = fmin (7 * r, 0.6 * length);
   bt_vec3 way = bt__unit_or (bt__sub (t->to, t->from), bt__vec (1, 0, 0));
   bt_vec3 neck = bt__axpy (t->to, -head, way);

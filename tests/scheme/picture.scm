@@ -168,7 +168,7 @@
   (in open-water)
   (expect (snapshot "x.png" #:view 'topp) raises name)
   (expect (->bool (string-contains (cdr (raised (snapshot "x.png" #:view 'topp)))
-                                   "chase, pilot, top, side, north, east, overview or plan"))
+                                   "chase, pilot, top, side, north, east, overview, plan or sonar"))
           => #t)
   (expect (->bool (string-contains (cdr (raised (snapshot "x.png" #:view 'topp))) "`top'")) => #t)
   (expect (snapshot "x.png" #:view '(look (0 0 0))) raises domain)
@@ -277,3 +277,84 @@
   (expect (>= (signs #\# (text)) 10))
   (expect (>= (signs #\# (text #:at '(0 0 -10.7) #:extent 12)) (signs #\# (text))))
   (expect (signs #\# (text #:at '(0 100 -9) #:extent 5)) => 0))
+
+
+;;; What a camera sees in turbid water, where the current goes, what a sonar hears.
+
+(define (seen view size flags)
+  (picture-pixels 'snapshot (list view) size 'plain flags))
+
+(define (brightness pixels i)
+  ;; Of the pixel number I: the sum of its colours.
+  (+ (bytevector-u8-ref pixels (* 4 i)) (bytevector-u8-ref pixels (+ 1 (* 4 i)))
+     (bytevector-u8-ref pixels (+ 2 (* 4 i)))))
+
+(define (all-brightness pixels)
+  (map (lambda (i) (brightness pixels i)) (iota (quotient (bytevector-length pixels) 4))))
+
+(define (mean numbers) (/ (apply + numbers) (length numbers) 1.))
+
+(define (contrast pixels)
+  (let* ((all (all-brightness pixels)) (middle (mean all)))
+    (sqrt (mean (map (lambda (b) (expt (- b middle) 2)) all)))))
+
+(define-scenario the-current-is-seen-as-streamlines
+  "Where there is a current the overlay draws lines; in still water the picture is what it was."
+  (in (with open-water (current 0.4 90)))
+  (with-pictures
+   (let ((plain (seen 'overview '(160 . 90) '())))
+     (expect (equal? plain (seen 'overview '(160 . 90) '(current))) => #f)
+     (expect (equal? (seen 'overview '(160 . 90) '(current)) (seen 'overview '(160 . 90) '(current))) => #t)
+     (current! 0 0)
+     (expect (equal? (seen 'overview '(160 . 90) '()) (seen 'overview '(160 . 90) '(current))) => #t))))
+
+(define (in-murk metres lights)
+  (seen 'pilot '(160 . 90) (in-water '() lights metres)))
+
+(define-scenario turbid-water-hides-and-darkens
+  "The less one sees, the less contrast; daylight goes, and lights bring some back."
+  (in pier)
+  (with-pictures
+   (let ((pictures (map (lambda (metres) (in-murk metres 'off)) '(40 10 3))))
+     (expect (apply > (map contrast pictures)) => #t)
+     (expect (apply > (map (lambda (p) (mean (all-brightness p))) pictures)) => #t))
+   (expect (mean (all-brightness (in-murk 3 'on))) is (above (* 1.1 (mean (all-brightness (in-murk 3 'off))))))
+   (snapshot (scratch-file "murk.png") #:view 'pilot #:visibility 3 #:lights 'on #:size '(96 64))
+   (expect (png-size "murk.png") => '(96 64))
+   (expect (car (raised (snapshot (scratch-file "murk.png") #:visibility 0))) => 'domain)
+   (expect (car (raised (snapshot (scratch-file "murk.png") #:lights 'onn))) => 'name)))
+
+(define (loudest pixels)
+  ;; The number of the brightest pixel.
+  (let loop ((i 0) (best 0))
+    (cond ((= i (quotient (bytevector-length pixels) 4)) best)
+          ((> (brightness pixels i) (brightness pixels best)) (loop (+ i 1) i))
+          (else (loop (+ i 1) best)))))
+
+(define (heard range)
+  ;; What a sonar hears, in 320 x 180 pixels: the apex is at (160, 171), the range 155 pixels away.
+  (picture-pixels 'snapshot (list (list 'sonar #f range 1.)) '(320 . 180) 'plain '()))
+
+(define-scenario a-sonar-shows-where-a-thing-is
+  "A ball is as bright as the picture goes, at its bearing and range; nothing is seen of what is behind."
+  (in (world (sea (depth 500))
+             (sphere (named ball) (at 5 8.66 -250) (radius 0.5))
+             (rov (named eye) (type kinematic) (at 0 0 -250) (heading 0))))
+  (with-pictures
+   (let* ((pixels (heard 20.)) (i (loudest pixels))
+          (x (- (remainder i 320) 160)) (y (- 171 (quotient i 320)))
+          (echo (* 155 (/ 9.5 20))))
+     (expect (sqrt (+ (* x x) (* y y))) is (about echo #:within 5))
+     (expect (atan (/ x y)) is (about (/ (acos -1) 6) #:within 0.06))
+     (expect (equal? pixels (heard 20.)) => #t)
+     (expect (brightness (heard 5.) (loudest (heard 5.))) is (below (/ (brightness pixels i) 3))))))
+
+(define-scenario a-sonar-hears-a-tether
+  "A line before the vehicle echoes."
+  (in (world (sea (depth 500))
+             (rov (named eye) (type kinematic) (at 0 0 -250) (heading 0))
+             (rov (named far) (type kinematic) (at 3 9 -250))
+             (tether (named line) (type fathom) (wet-weight 0) (from -3 9 -250) (to far) (length 6.2))))
+  (with-pictures
+   (let ((with-line (heard 20.)))
+     (expect (brightness with-line (loudest with-line)) is (above 200)))))

@@ -5,6 +5,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight test scenario)           ; outcome-status and its kin
+             ((bight test expect) #:select (claim))
              ((bight shell doc) #:select (docstring-of))
              (ice-9 popen)
              (ice-9 textual-ports)
@@ -412,3 +413,10 @@
               '((bight) (srfi srfi-1)))
     (expect (eval '(cancel! (every 1 (now))) module) => #t)
     (expect (eval '(every even? '(1 2)) module) raises domain)))
+
+(define-scenario a-predicate-after-the-arrow
+  "Somebody who writes => for is hears of it, and the claim still fails."
+  (let ((verdict (claim 3 => (above 2))))
+    (expect (->bool (string-contains (car verdict) "`is': (expect E is (above 2))")) => #t)
+    (expect (cdr verdict) => "3"))
+  (expect (claim car => car) => #f))

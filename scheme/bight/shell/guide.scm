@@ -19,7 +19,7 @@
 (define units
   '((metres . "m") (length . "m") (depth . "m") (altitude . "m") (at . "m") (within . "m") (s . "m") (range . "m")
     (sight . "m") (noise . "m") (east . "m") (north . "m") (up . "m") (beam . "m") (draught . "m") (hole . "m")
-    (thickness . "m") (extent . "m") (spacing . "m") (leg-radius . "m") (brace-radius . "m") (radius . "m")
+    (thickness . "m") (extent . "m") (visibility . "m") (spacing . "m") (leg-radius . "m") (brace-radius . "m") (radius . "m")
     (stay . "m") (line . "m") (top . "m") (mesh . "m") (span . "m") (height . "m") (wire . "m") (width . "m") (riser . "m")
     (places . "m") (step . "s") (density . "kg/m3") (gravity . "m/s2") (floor . "m") (hold-out . "share of a run")
     (rate . "m/s") (speed . "m/s") (pull . "N")

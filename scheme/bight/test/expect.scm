@@ -293,9 +293,15 @@ REMARKS are lines that show more of it; #f leaves them to the trial that is told
                                               (string-join (map brief unlike) " ")))))
            (lambda (exception) (cons "true" (describe-raise exception)))))
 
-(define (judge-same ask wanted)
+(define (same-as value code)
+  ;; What is expected by a claim that something is VALUE, which CODE gives.
+  (if (procedure? value)
+      (simple-format #f "a procedure; that it holds is said by `is': (expect E is ~a)" (code->string code))
+      (brief value)))
+
+(define (judge-same ask wanted code)
   (attempt wanted
-           (lambda (value) (judge ask (lambda (given) (same? value given)) (lambda () (brief value))))
+           (lambda (value) (judge ask (lambda (given) (same? value given)) (lambda () (same-as value code))))
            (lambda (exception) (cons "a value to compare with" (describe-raise exception)))))
 
 (define (judge-is ask predicate code)
@@ -339,7 +345,7 @@ REMARKS are lines that show more of it; #f leaves them to the trial that is told
     ;; The judge's call for CLAUSE, what stands after the head of STX.
     (syntax-case clause ()
       ((e arrow v) (marker? #'arrow '=>)
-       #'(judge-same (lambda () e) (lambda () v)))
+       #'(judge-same (lambda () e) (lambda () v) 'v))
       ((e is p) (marker? #'is 'is)
        #'(judge-is (lambda () e) (lambda () p) 'p))
       ((e raises (quot kind)) (and (marker? #'raises 'raises) (marker? #'quot 'quote))

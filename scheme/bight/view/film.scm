@@ -123,13 +123,13 @@
                    #:key (for film-length 10) (view views '(chase)) (size pixels '(640 . 360))
                    (paint (one-of plain tension curvature model) 'plain)
                    (overlay overlay '(figures))
-                   (rate rate 25) (speed positive 1.0))
+                   (rate rate 25) (speed positive 1.0) (lights (or-false (one-of on off))) (visibility (or-false positive)))
   "Let FOR seconds pass and write a film of them to FILE through ffmpeg, or numbered PNGs where there is
 none or FILE ends with .png.  RATE is in pictures a second, SPEED in seconds of the dive in a second; VIEW,
-SIZE, PAINT and OVERLAY are those of `snapshot'.  Return what was written."
+SIZE, PAINT, OVERLAY, LIGHTS and VISIBILITY are those of `snapshot'.  Return what was written."
   (this-dive 'film)
   (let* ((n (frames-of for rate speed))
-         (draw-all (shot view size paint overlay rate speed n))
+         (draw-all (shot view size paint (in-water overlay lights visibility) rate speed n))
          (pictures? (or (not (extension file)) (string-ci=? "png" (extension file)))))
     (check-writable 'film file)
     (if (or pictures? (not (program? "ffmpeg")))

@@ -30,6 +30,7 @@
             type:views
             type:pixels
             type:overlay
+            in-water
             caption?))
 
 
@@ -72,7 +73,7 @@
 
 ;;; Arguments.
 
-(define views '(chase pilot top side north east overview plan))
+(define views '(chase pilot top side north east overview plan sonar))
 
 (define (look-from value)
   ;; (look FROM AT) as an f64vector of six numbers, or #f.
@@ -125,7 +126,7 @@
 
 ;; What is drawn over a picture: (bvh LEVEL) is one level of what bvh shows the first of.
 
-(define overlays '(figures none contacts turns taut-string bvh))
+(define overlays '(figures none contacts turns taut-string bvh current))
 
 (define deepest 30)
 
@@ -196,8 +197,20 @@
   (let ((name (world-name (dive-world (this-dive 'snapshot)))))
     (string-append (if name (symbol->string name) "a dive") ": " (view-name view))))
 
+(define usual-range 30.)                ; m, of a sonar
+
+(define (draw-sonar proc view size flags)
+  (let ((extent (if (pair? view) (third view) 0.)))
+    ((renders proc '%draw-sonar) (this-engine proc) (title-of view) size
+                                 (if (zero? extent) usual-range extent) flags)))
+
 (define (draw-view proc view size paint flags)
   ;; The pixels of one view of SIZE, a pair.
+  (if (string=? "sonar" (view-name view))
+      (draw-sonar proc view size flags)
+      (draw-scene proc view size paint flags)))
+
+(define (draw-scene proc view size paint flags)
   ((renders proc '%draw) (and (not (string=? "plan" (view-name view))) (renderer proc))
                          (this-engine proc) (title-of view) view size paint flags))
 
@@ -243,6 +256,12 @@
   "Write PIXELS of SIZE, a pair, to FILE as PNG, on behalf of PROC."
   ((renders proc '%write-picture) pixels (car size) (cdr size) file))
 
+(define (in-water overlay lights visibility)
+  "Return OVERLAY, flags for the renderer, with those for LIGHTS, on or off, and for a VISIBILITY in metres, if any."
+  (append (case lights ((on) '(lamp)) ((off) '(dark)) (else '()))
+          (if visibility (list (cons 'visibility visibility)) '())
+          overlay))
+
 (define (flags-of overlay transparent)
   (if transparent (cons 'transparent overlay) overlay))
 
@@ -266,18 +285,20 @@
                        (paint (one-of plain tension curvature model) 'plain)
                        (overlay overlay '(figures))
                        (at (or-false point)) (extent (or-false positive)) (zoom (or-false positive))
-                       (transparent flag #f))
+                       (transparent flag #f) (lights (or-false (one-of on off))) (visibility (or-false positive)))
   "Write a picture of the dive as it is now to FILE, a PNG, and return its name and size.  VIEW is chase,
-pilot, top, side, north, east, overview (the default), plan (a drawing on paper), (look FROM AT), or a
-list of these for a sheet; SIZE is (WIDTH HEIGHT) in pixels; PAINT colours tethers plain, by tension, by
+pilot, top, side, north, east, overview (the default), plan (a drawing on paper), sonar (what one that
+looks ahead hears, as far as EXTENT or 30 m), (look FROM AT), or a list of these for a sheet; SIZE is (WIDTH HEIGHT) in pixels; PAINT colours tethers plain, by tension, by
 curvature or by model; OVERLAY is figures (title, scale, compass, legend) or none, or more than the
 figures: contacts (each with its force), turns about what, taut-string (what the tether would shrink to),
 bvh (the boxes about obstacles that collisions are looked for in, the first levels of them; (bvh LEVEL)
-is one alone), or a list of several.  A view chooses where to look; AT is another point for the middle,
+is one alone), current (streamlines, their speed in colours), or a list of several.  A view chooses where to look; AT is another point for the middle,
 EXTENT how many metres across are seen there, ZOOM how many times nearer to go.  TRANSPARENT leaves out
-water and ground."
+water and ground.  LIGHTS at the camera are on or off, and VISIBILITY is how many metres one sees in turbid
+water, which also takes the daylight: with the view pilot, what the vehicle's camera sees."
   (check-file 'snapshot file)
-  (let ((pixels (draw 'snapshot (moved view at extent zoom) size paint (flags-of overlay transparent))))
+  (let ((pixels (draw 'snapshot (moved view at extent zoom) size paint
+                      (in-water (flags-of overlay transparent) lights visibility))))
     (write-picture 'snapshot pixels size file)
     (caption view file ", " (number->string (car size)) " x " (number->string (cdr size)) " pixels")))
 
@@ -322,15 +343,17 @@ water and ground."
                    (paint (one-of plain tension curvature model) 'plain)
                    (overlay overlay '(figures))
                    (at (or-false point)) (extent (or-false positive)) (zoom (or-false positive))
-                   (as (or-false (one-of kitty sixel symbols plain))))
+                   (as (or-false (one-of kitty sixel symbols plain)))
+                   (lights (or-false (one-of on off))) (visibility (or-false positive)))
   "Put a picture of the dive as it is now in the terminal, as `snapshot' draws it: VIEW, PAINT, OVERLAY,
-AT, EXTENT and ZOOM are the same; SIZE is (COLUMNS ROWS) in characters.  AS is kitty, sixel, symbols or plain, by
+AT, EXTENT, ZOOM, LIGHTS and VISIBILITY are the same; SIZE is (COLUMNS ROWS) in characters.  AS is kitty, sixel, symbols or plain, by
 default the best that the terminal can; plain is what `look' draws.  Return what was shown."
   (let ((way (or as (best-way))))
     (this-dive 'show)
     (if (eq? way 'plain)
         (show-plainly at extent zoom)
-        (show-pixels (moved view at extent zoom) (or size (usual-cells)) paint overlay way))))
+        (show-pixels (moved view at extent zoom) (or size (usual-cells)) paint
+                     (in-water overlay lights visibility) way))))
 
 
 ;;; From the command line.
@@ -366,7 +389,9 @@ default the best that the terminal can; plain is what `look' draws.  Return what
     ("--overlay" #:overlay ,option->overlay)
     ("--at" #:at ,option->point)
     ("--extent" #:extent ,option->number)
-    ("--zoom" #:zoom ,option->number)))
+    ("--zoom" #:zoom ,option->number)
+    ("--visibility" #:visibility ,option->number)
+    ("--lights" #:lights ,option->symbol)))
 
 (define (option->times text)
   ;; "10,20" as (10 20): the seconds into the dive of each picture, in order.
