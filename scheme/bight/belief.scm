@@ -189,21 +189,31 @@ toward east and north at each level, m/s: (current HEIGHT EAST NORTH)."
   (let ((applied (belief-applied belief)))
     (if (pair? applied) (entry-serial (car applied)) 0)))
 
-(define (beside kind on subject)
-  ;; What a reading is given beside its value: the arc length, or the vehicle's name if it is told.
-  (cond ((eq? kind 'transponder)
-         (unless on
-           (bight-raise 'def 'observe! "where along the tether is the transponder?  Say #:on METRES"))
-         (list on))
-        (subject (list subject))
-        (else '())))
+(define (named-subject proc kind name keyword)
+  ;; The name of the vehicle or tether, as KIND says, called NAME; with #f of the only one.  KEYWORD is how one says which.
+  (list-ref (%names (this-engine proc) (if (eq? kind 'vehicle) 'rov kind))
+            (subject-index proc kind name (lambda (name) (string-append keyword " '" (symbol->string name))))))
+
+(define (tether-of proc belief name)
+  ;; The name of the tether called NAME, or with #f of the only one, of the dive of BELIEF.
+  (call-with-dive (belief-host belief) (lambda () (named-subject proc 'tether name "#:tether"))))
+
+(define (beside kind on vehicle tether)
+  ;; What a reading of KIND is given beside its value: the name of what it was read of, and of a transponder the arc length.
+  (when (and (eq? kind 'transponder) (not on))
+    (bight-raise 'def 'observe! "where along the tether is the transponder?  Say #:on METRES"))
+  (cons (if (of-vehicle? kind)
+            (named-subject 'observe! 'vehicle vehicle "#:subject")
+            (named-subject 'observe! 'tether tether "#:tether"))
+        (if (eq? kind 'transponder) (list on) '())))
 
 (define-verb (observe! (belief maybe-belief) (kind reading-kind) (value any) #:key (at non-negative #f)
                        (noise positive (and (memq kind reading-kinds) (usual-noise kind)))
-                       (on non-negative #f) (subject name #f))
+                       (on non-negative #f) (subject name #f) (tether name #f))
   "Let BELIEF, or the current one if that is #f, go by a reading: KIND payout (m), winch-tension or rov-tension (N),
 position (a point), heading (degrees), depth (m), transponder (a point, ON metres along the tether), seen (a point
-of the tether) or touched (an obstacle, or (not OBSTACLE)).  NOISE is its standard deviation, of `touched' the
+of the tether) or touched (an obstacle, or (not OBSTACLE)).  Where there are several, SUBJECT names the vehicle of a
+position, heading or depth, and TETHER the tether of all others.  NOISE is its standard deviation, of `touched' the
 probability that it is false; AT the time when it was read, s.  Return `taken', `impossible' if no tether explains
 it, which `belief-doubts' tells of, or `late' if the belief is past that time."
   (let ((belief (or belief (this-belief 'observe!))))
@@ -211,7 +221,7 @@ it, which `belief-doubts' tells of, or `late' if the belief is past that time."
      (belief-host belief)
      (lambda ()
        (let* ((value (check-reading kind value))
-              (part (beside kind on subject))
+              (part (beside kind on subject tether))
               (step (step-of belief at)))
          (if (< step (belief-step belief))
              'late
@@ -271,19 +281,21 @@ of it is the same to the last bit.  Return N."
 (define (row polyline i)
   (f64vector (array-ref polyline i 0) (array-ref polyline i 1) (array-ref polyline i 2)))
 
-(define-verb (tether-tube #:key (belief maybe-belief #f) (share (between 0.01 0.99) 0.9) (n station-count 25))
-  "Return the tube that holds the tether of BELIEF with probability SHARE at each of N places, equally spaced in
+(define-verb (tether-tube #:key (belief maybe-belief #f) (share (between 0.01 0.99) 0.9) (n station-count 25)
+                          (tether name #f))
+  "Return the tube that holds the TETHER, by its name where there are several, of BELIEF with probability SHARE at each of N places, equally spaced in
 arc length from the anchor: a list of ellipsoids, each a list of its centre and its three half axes."
-  (map (lambda (e) (cons (ellipsoid-mean e) (ellipsoid-axes e))) (tube-of (ready 'tether-tube belief) share n)))
+  (map (lambda (e) (cons (ellipsoid-mean e) (ellipsoid-axes e))) (tube-of 'tether-tube belief share n tether)))
 
-(define (tube-of belief share n)
-  (let ((lines (answer-values (ask-members belief (lambda () (list (tether-points n)))))))
+(define (tube-of proc belief share n tether)
+  (let* ((belief (ready proc belief)) (tether (tether-of proc belief tether))
+         (lines (answer-values (ask-members belief (lambda () (list (tether-points tether n)))))))
     (map (lambda (i) (ellipsoid (answer-of belief (map (lambda (line) (row (car line) i)) lines)) share))
          (iota n))))
 
-(define-verb (tube-holds? (points points) #:key (belief maybe-belief #f) (share (between 0.01 0.99) 0.9))
-  "Return for each of POINTS, equally spaced along a tether from the anchor on, whether the tube of BELIEF for SHARE
-holds it: a list."
+(define-verb (tube-holds? (points points) #:key (belief maybe-belief #f) (share (between 0.01 0.99) 0.9) (tether name #f))
+  "Return for each of POINTS, equally spaced along a tether from the anchor on, whether the tube of the TETHER of
+BELIEF for SHARE holds it: a list."
   (map (lambda (e i) (ellipsoid-holds? e (row points i)))
-       (tube-of (ready 'tube-holds? belief) share (array-length points))
+       (tube-of 'tube-holds? belief share (array-length points) tether)
        (iota (array-length points))))

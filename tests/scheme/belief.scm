@@ -83,6 +83,42 @@
              (answer-values (belief (assq-ref ((@@ (bight dive query) tether-properties) 0) 'ei))))
             => '(0.01))))
 
+(define (two-lines)
+  ;; A tether of the user's vehicle and another's, both in the uncertain current, one of them pulled twice as far away.
+  (world (sea    (depth 20) (current 0.2 90))
+         (rov    (named minnow) (type kinematic) (at 0 12 -8) (heading 0))
+         (rov    (named other) (type kinematic) (at 20 12 -4) (heading 90))
+         (tether (named line) (type fathom) (wet-weight 0) (model dynamic) (nodes 10) (from 0 0 -2) (to minnow)
+                 (length 16))
+         (tether (named second) (type fathom) (wet-weight 0) (model dynamic) (nodes 10) (from 20 0 -2) (to other)
+                 (length 13))))
+
+(define-scenario readings-name-their-tether
+  "Of two tethers a reading is of the one that is named, whatever it is of; unnamed it is refused, and nothing changes."
+  (in (two-lines))
+  (let ((b (believe! (current (error 0.1)) (line (cdn (uniform 1 1.6))) (payout (normal 0 0.3)) #:members 16)))
+    (run 3)
+    (let ((size (effective-size b)))
+      (for-each (lambda (kind value)
+                  (expect (observe! b kind value) raises name)
+                  (expect (observe! b kind value #:tether 'lime) raises name))
+                '(payout rov-tension winch-tension seen) '(16 1 1 (0 0 -2)))
+      (expect (observe! b 'depth 8) raises name)
+      (expect (tether-tube #:n 5) raises name)
+      (expect (effective-size b) => size))
+    ;; What is true of one line no member has for the other.
+    (expect (observe! b 'seen (point-at 'second 6) #:tether 'second) => 'taken)
+    (expect (observe! b 'seen (point-at 'second 6) #:tether 'line) => 'impossible)
+    (expect (observe! b 'rov-tension (answer-quantile (belief (rov-tension 'second)) 0.5) #:tether 'second) => 'taken)
+    (expect (observe! b 'payout 13 #:tether 'second #:noise 0.01) => 'taken)
+    (expect (observe! b 'payout 13 #:tether 'line #:noise 0.01) => 'impossible)
+    (expect (observe! b 'transponder (answer-mean (belief (point-at 'line 8))) #:on 8 #:tether 'line) => 'taken)
+    (expect (observe! b 'depth 4 #:subject 'other) => 'taken)
+    (expect (observe! b 'depth 4 #:subject 'minnow) => 'impossible)
+    (mend-belief! b)
+    (expect (map (lambda (line) (tube-holds? (tether-points line 5) #:tether line)) '(line second))
+            => '((#t #t #t #t #t) (#t #t #t #t #t)))))
+
 (define (twin-learns by)
   ;; A member of another belief is the truth; return the belief that observed it, and the truth.
   (let* ((truth (car (belief-members (make-belief (current-dive) doubtful #:members 8 #:seed 9))))

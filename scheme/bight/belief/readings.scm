@@ -12,11 +12,14 @@
   #:use-module (bight core errors)
   #:use-module (bight core units)
   #:use-module ((bight dive contact) #:select (contacts contact-object))
+  #:use-module ((bight dive) #:select (engine-of))
   #:use-module (bight dive query)
+  #:use-module (bight engine)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:export (reading-kinds
             event?
+            of-vehicle?
             check-reading
             usual-noise
             predicted
@@ -36,6 +39,10 @@
 (define (event? kind)
   "Return true if a reading of KIND is not of numbers with noise."
   (memq kind '(touched seen)))
+
+(define (of-vehicle? kind)
+  "Return true if a reading of KIND is of a vehicle; others are of a tether."
+  (memq kind '(position heading depth)))
 
 (define (touched-name value)
   ;; (NAME . TRUE) from NAME or (not NAME).
@@ -64,25 +71,31 @@ a pair of a name and what was told.  Raise a &bight-error where a value is of an
 (define (predicted reading member unknowns)
   "Return what READING would have been, without noise, were MEMBER, one with UNKNOWNS, the truth: an f64vector;
 of an event its chance."
-  (let ((subject (reading-part reading)) (value (reading-value reading)))
+  (let ((subject (car (reading-part reading))) (value (reading-value reading)))
     (in-member
      member
      (lambda ()
        (case (reading-kind reading)
-         ((payout) (f64vector (+ (tether-length) (counter-error unknowns (member-latent member)))))
-         ((winch-tension) (f64vector (anchor-tension)))
-         ((rov-tension) (f64vector (rov-tension)))
-         ((position) (apply rov-position subject))
-         ((heading) (f64vector (nearest-turn (apply rov-heading subject) (f64vector-ref value 0))))
-         ((depth) (f64vector (apply rov-depth subject)))
-         ((transponder) (point-at (min (car subject) (tether-length))))
+         ((payout) (f64vector (+ (tether-length subject) (error-counted member unknowns subject))))
+         ((winch-tension) (f64vector (anchor-tension subject)))
+         ((rov-tension) (f64vector (rov-tension subject)))
+         ((position) (rov-position subject))
+         ((heading) (f64vector (nearest-turn (rov-heading subject) (f64vector-ref value 0))))
+         ((depth) (f64vector (rov-depth subject)))
+         ((transponder) (point-at subject (min (cadr (reading-part reading)) (tether-length subject))))
          ((seen) (f64vector (chance-seen reading)))
          ((touched) (f64vector (chance-touched reading))))))))
+
+(define (error-counted member unknowns tether)
+  ;; How much more the counter of the winch of TETHER shows in MEMBER: the clause payout is about the first one's.
+  (if (eq? tether (car (%names (engine-of (member-dive member)) 'tether)))
+      (counter-error unknowns (member-latent member))
+      0.0))
 
 (define (chance-touched reading)
   ;; Of what was told, the noise being how often such a report is false.
   (let* ((told (reading-value reading))
-         (touches? (and (member (car told) (map contact-object (contacts))) #t)))
+         (touches? (and (member (car told) (map contact-object (contacts (car (reading-part reading))))) #t)))
     (if (eq? touches? (cdr told)) (- 1 (reading-noise reading)) (reading-noise reading))))
 
 (define (row polyline i)
@@ -97,13 +110,13 @@ of an event its chance."
          (share (if (zero? square) 0 (max 0 (min 1 (/ (dot (vec- p a) along) square))))))
     (distance p (vec+ a (vec* share along)))))
 
-(define (distance-to-tether p)
-  (let ((line (tether-points)))
+(define (distance-to-tether p tether)
+  (let ((line (tether-points tether)))
     (fold (lambda (i least) (min least (distance-to-segment p (row line i) (row line (+ i 1)))))
           +inf.0 (iota (- (array-length line) 1)))))
 
 (define (chance-seen reading)
-  (let ((off (/ (distance-to-tether (reading-value reading)) (reading-noise reading))))
+  (let ((off (/ (distance-to-tether (reading-value reading) (car (reading-part reading))) (reading-noise reading))))
     (exp (* -0.5 off off))))
 
 (define (log-chance reading prediction)

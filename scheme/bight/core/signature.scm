@@ -54,9 +54,10 @@
           ((eq? name (car rest)) i)
           (else (loop (cdr rest) (+ i 1))))))
 
-(define (subject-index proc kind name)
+(define* (subject-index proc kind name #:optional (named (lambda (name) (simple-format #f "(~a '~a ...)" proc name))))
   "Return the index of the subject NAME of KIND (`vehicle', `tether', ...) in the present dive; with
-NAME #f, of the only one, or of one's own.  Raise a &bight-error from PROC when there is no such thing, or several."
+NAME #f, of the only one, or of one's own.  Raise a &bight-error from PROC when there is no such thing, or several:
+then NAMED, a procedure of a name, shows how one says which."
   (let ((names ((current-subject-lister) proc kind)))
     (cond (name (or (position name names)
                     (unknown-name proc "this dive" name names (symbol->string kind))))
@@ -65,8 +66,8 @@ NAME #f, of the only one, or of one's own.  Raise a &bight-error from PROC when 
           ((null? (cdr names)) 0)
           ((own-among names))
           (else
-           (bight-raise 'name proc "this dive has ~a ~as, ~a; say which: (~a '~a ...)"
-                        (length names) kind (words->string names) proc (car names))))))
+           (bight-raise 'name proc "this dive has ~a ~as, ~a; say which: ~a"
+                        (length names) kind (words->string names) (named (car names)))))))
 
 
 ;;; Signatures, and the arrangement of a call's arguments by them.
