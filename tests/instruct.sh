@@ -9,7 +9,8 @@ pre=$top_builddir/pre-inst-env
 door=$scratch/door
 cat >"$scratch/short.scm" <<'LESSON'
 (define-lesson short "Short"
-  (in open-water)
+  (in (world (sea (depth 60)) (rov (named minnow) (at 0 0 -5)) (sphere (named log) (radius 0.5) (track (0 0 90 -5)))
+             (tether (named line) (type fathom) (from 0 -20 -1) (to minnow) (length 30))))
   (task "Wait for the word." (done-when (positive? (counter 'go))) (at-most 6000))
   (score (rov-depth 0 100)))
 LESSON
@@ -45,6 +46,12 @@ hand '(current 0.4 90)' '(form "(current-at (quote (0 0 -5)))")' | grep -q '#f64
 result $? 'it changes the current, and asks'
 hand '(wait 0.1)' '(see)' | grep -q 'Wait for the word'
 result $? 'and sees the task'
+hand '(drift lug 0.5 180)' | grep -q 'no part .lug.*did you mean .log'
+result $? 'what is not there cannot be set adrift'
+hand '(form "(define (away) (rov-clearance (quote log)))")' '(form "(define was (away))")' '(drift log 2 180)' \
+  '(form "(begin (run 2) (- was (away)))")' >"$scratch/nearer"
+grep -q '^3[.]99\|^4[.]0' "$scratch/nearer"
+result $? 'what waits is set adrift, and comes nearer'
 hand '(current 0.4)' | grep -q 'an order is (words TEXT)'
 result $? 'what is no order is refused, and told what would be one'
 hand '(fault nothing)' | grep -q 'no vehicle .nothing'
@@ -78,6 +85,7 @@ hand '(form "(list (faults) (now))")' | sed 's/.*((compass)/((compass)/' | cmp -
 result $? 'and is where he was, with what was broken'
 hand '(clock #t)' "(form \"(count! 'go)\")" >/dev/null
 see 'Done\.' && keys Enter && see 'the instructor: well flown' && see 'the instructor: fault compass 3' &&
+  see 'the instructor: drift log 2 180' &&
   see 'the instructor: light off'
 result $? 'the marks say what the instructor did'
 [ ! -e "$door" ]

@@ -426,7 +426,7 @@ begins with FILE and the line."
             '("--trust" "let a file from outside do all that you may"))
    (command "instruct" instruct "SOCKET"
             '("an instructor's station: see the dive of a pupil who listens at SOCKET, hand in words, currents,"
-              "faults, a lost light, a stopped clock; without a terminal, orders as lines of standard input"))
+              "obstacles adrift, faults, a lost light, a stopped clock; without a terminal, orders as lines of standard input"))
    (command "sweep" run-sweep "STUDY|FILE..."
             '("fly all cases of a study into one SQLite result; again, only what is missing")
             '("-j N" "so many dives at a time; when left out, as many as there are cores")

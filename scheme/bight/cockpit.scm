@@ -94,7 +94,7 @@ fall in it."
   ;; From now on without.
   (set-plain! c #t)
   (set-ghost! c #f)
-  (tell! c (bight-error-message e)))
+  (announce! c (bight-error-message e)))
 
 (define (blind? c)
   (or (not (cockpit-dive c)) (cockpit-dark? c) ((unseen?) 'look)))
@@ -300,7 +300,7 @@ fall in it."
 
 (define (show-view! c view)
   (set-view! c view)
-  (tell! c (string-append "view: " (symbol->string view))))
+  (announce! c (string-append "view: " (symbol->string view))))
 
 (define (suspend! c)
   ;; As ^Z does elsewhere.

@@ -159,6 +159,7 @@ typedef enum bt_op
   BT_OP_STABILISE,
   BT_OP_WAVES,
   BT_OP_FAULT,
+  BT_OP_DRIFT,
   BT_OP_COUNT
 } bt_op;
 

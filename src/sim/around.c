@@ -7,11 +7,23 @@
 #include "math/vec.h"
 #include "world/obstacles.h"
 
+/* Where the kinematic obstacle K wants to be SECONDS from NOW: on its track, or, adrift, as far as
+   the drift takes it.  */
+static bt__frame
+wanted_frame (const bt_dive *dive, int k, const bt__mover_state *now, double seconds)
+{
+  bt__frame frame = now->frame;
+  if (!now->adrift)
+    return bt__carried_frame (dive->model, k, now->clock + seconds);
+  frame.origin = bt__axpy (frame.origin, seconds, now->drift);
+  return frame;
+}
+
 static void
 aim (bt_dive *dive, bt__state *state, int k, double seconds)
 {
   const bt__mover_state *now = &bt__dive_movers (dive, state)[k];
-  bt__frame to = bt__carried_frame (dive->model, k, now->clock + seconds);
+  bt__frame to = wanted_frame (dive, k, now, seconds);
   bt__course *course = &dive->contact_work.course[k];
   course->whole = bt__motion_between (&now->frame, seconds > 0 ? &to : &now->frame);
   course->seconds = seconds;

@@ -118,6 +118,9 @@ static const op ops[BT_OP_COUNT] = {
                       "change a live field of the subject-th PART (a bt_part), by its place in the "
                       "table of fields" },
                     bt__op_alter },
+  [BT_OP_DRIFT] = { { "drift", BT_PART_OBSTACLE, 3, 3, "vx vy vz",
+                      "set an obstacle that has a track adrift, m/s: it leaves the track for good" },
+                    bt__op_drift },
   [BT_OP_COLLIDE]
   = { { "collide", BT_PART_SEA, 3, 3, "part obstacle on",
         "let the subject-th PART (a bt_part: a vehicle or a tether) and an obstacle meet or not; "

@@ -52,6 +52,7 @@ bt_status bt__op_cut (const bt__call *c);
 /* ops_sea.c */
 bt_status bt__op_current (const bt__call *c);
 bt_status bt__op_waves (const bt__call *c);
+bt_status bt__op_drift (const bt__call *c);
 
 /* ops_collide.c */
 bt_status bt__op_collide (const bt__call *c);

@@ -1,4 +1,4 @@
-/* Operations on the sea: current and waves.
+/* Operations on the sea and on what drifts in it: current, waves, obstacles adrift.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -7,6 +7,7 @@
 
 #include "math/vec.h"
 #include "sim/ops.h"
+#include "world/obstacles.h"
 
 int
 bt_current_pack (const bt_current *current, double *args)
@@ -111,5 +112,27 @@ bt__op_current (const bt__call *c)
                      "this world's sea has no grid: a dive takes one from its world alone");
   c->state->current = current;
   bt__mark_all_stale (c);
+  return BT_OK;
+}
+
+/* Only an obstacle with a track has a scene of its own, and so can move.  */
+bt_status
+bt__op_drift (const bt__call *c)
+{
+  int k = bt__model_carried (c->dive->model, c->subject);
+  bt__mover_state *mover;
+  if (check_finite (c, "a drift") != BT_OK)
+    return BT_ERR_DOMAIN;
+  for (int i = 0; i < 3; i++)
+    if (bt__check_range (c, i, "a part of a drift, m/s,", -BT__DRIFT_MAX, BT__DRIFT_MAX) != BT_OK)
+      return BT_ERR_DOMAIN;
+  if (k < 0)
+    return bt__fail (c->error, BT_ERR_UNSUPPORTED,
+                     "`%s' stands fast: what can drift has a track in its world, such as "
+                     "(track (0 X Y Z)) for one that waits at X Y Z",
+                     bt_dive_name (c->dive, BT_PART_OBSTACLE, c->subject));
+  mover = &bt__dive_movers (c->dive, c->state)[k];
+  mover->adrift = 1;
+  mover->drift = bt__point_of (c);
   return BT_OK;
 }

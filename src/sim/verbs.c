@@ -235,3 +235,10 @@ bt_part_collide (bt_dive *dive, bt_part part, int i, int obstacle, bool on, bt_e
   double args[] = { (double)part, (double)obstacle, on };
   return bt_dive_do (dive, BT_OP_COLLIDE, i, args, 3, error);
 }
+
+bt_status
+bt_obstacle_drift (bt_dive *dive, int i, bt_vec3 velocity, bt_error *error)
+{
+  double args[] = { velocity.x, velocity.y, velocity.z };
+  return bt_dive_do (dive, BT_OP_DRIFT, i, args, 3, error);
+}

@@ -158,6 +158,8 @@ static const bt__member mover[] = {
   BT__OF (bt__mover_state, frame, frame_record),
   BT__WITHIN (bt__mover_state, clock, 0, BT__HUGE),
   BT__TRUTH (bt__mover_state, pinched),
+  BT__TRUTH (bt__mover_state, adrift),
+  BT__WITHIN (bt__mover_state, drift, -BT__DRIFT_MAX, BT__DRIFT_MAX),
 };
 const bt__record bt__mover_record = BT__RECORD (bt__mover_state, "place", mover);
 

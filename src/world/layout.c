@@ -36,7 +36,7 @@ _Static_assert(sizeof (bt__pilot) == 20 * 8, "no padding in bt__pilot");
 _Static_assert(sizeof (bt__instruments) == 13 * 8, "no padding in bt__instruments");
 _Static_assert(sizeof (bt__vehicle) == (35 + 29 + 20 + 13) * 8, "no padding in bt__vehicle");
 _Static_assert(sizeof (bt_event) == 5 * 8, "no padding in bt_event");
-_Static_assert(sizeof (bt__mover_state) == 14 * 8, "no padding in bt__mover_state");
+_Static_assert(sizeof (bt__mover_state) == 18 * 8, "no padding in bt__mover_state");
 _Static_assert(sizeof (bt__subject) == (21 + 2 * BT__MEETINGS_MAX) * 8, "nor in bt__subject");
 _Static_assert(sizeof (bt__state) % 8 == 0, "whole words in bt__state");
 _Static_assert(sizeof (bt__tether) % 8 == 0, "whole words in bt__tether");

@@ -128,6 +128,9 @@ typedef struct bt__state
   bt_event event[BT_EVENTS_KEPT];
 } bt__state;
 
+/* No obstacle drifts faster along any axis, m/s.  */
+#define BT__DRIFT_MAX 10.0
+
 /* An obstacle on a track.  Held back by what it would run into, it goes on later: its clock stands
    meanwhile.  */
 typedef struct bt__mover_state
@@ -135,6 +138,8 @@ typedef struct bt__mover_state
   bt__frame frame;
   double clock;    /* s along its track */
   int64_t pinched; /* held back in the last step */
+  int64_t adrift;  /* off its track for good: it goes on at the velocity `drift' */
+  bt_vec3 drift;   /* m/s */
 } bt__mover_state;
 
 enum

@@ -265,6 +265,68 @@ both."
   (expect (rov-clearance 'boom) is (below 0.1)))
 
 
+;; A block that waits north of the vehicle, and a line stretched across its way further south.
+(define (waiting)
+  (world (sea (depth 30))
+         (box (named log) (size 1 1 8) (track (0 0 10 -5)))
+         (sphere (named rock) (radius 0.5) (at 9 9 -5))
+         (rov (named minnow) (at 3 0 -5) (size 0.4 0.4 0.4))
+         (tether (named line) (type fathom) (wet-weight 0) (model dynamic) (from -3 0 -5) (to minnow) (length 6.001))))
+
+(define (log-north)
+  ;; How far north the log is, by its distance from the line, which lies along the parallel of the origin.
+  (+ 1/2 (clearance 'log)))
+
+(define-scenario what-waits-can-be-set-adrift
+  "An obstacle that has a track leaves it at the velocity told; what stands fast does not, nor does a vehicle."
+  (in (waiting))
+  (run 2)
+  (expect (log-north) is (about 10 #:within 0.005))
+  (expect (drift! 'rock 0.2 180) raises unsupported)
+  (expect (drift! 'minnow 0.2 180) raises domain)
+  (expect (drift! 'log 11 180) raises domain)
+  (expect (drift! 'lug 1 180) raises name)
+  (expect (drift! 'log 0.4 180) => 'log)
+  (run 10)
+  (expect (log-north) is (about 6 #:within 0.005))
+  (drift! 'log 0 0)
+  (run 5)
+  (expect (log-north) is (about 6 #:within 0.005))
+  (drift! 'log 0.4 0 #:rise 1)
+  (run 10)                              ; its foot is at 1 m now; the line may bow by 5 cm
+  (expect (clearance 'log) is (about (sqrt (+ (expt 9.5 2) (expt 6 2))) #:within 0.05)))
+
+(define-scenario what-drifts-is-part-of-the-dive
+  "A fork, a checkpoint and a step back know the drift, to the last bit of what follows."
+  (in (waiting))
+  (run 1)
+  (drift! 'log 0.4 170)
+  (run 3)
+  (let* ((here (checkpoint)) (later (what-if (run 5) (state-hash))))
+    (run 5)
+    (expect (state-hash) => later)
+    (rewind! 5)
+    (run 5)
+    (expect (state-hash) => later)
+    (drift! 'log 1 0)
+    (run 1)
+    (restore! here)
+    (run 5)
+    (expect (state-hash) => later)))
+
+(define-scenario what-drifts-is-held-by-a-line
+  "A taut line between what does not yield holds it back, cut it lets it go; never is the line inside it."
+  (in (waiting))
+  (drift! 'log 1 180)
+  (always (sane?) (run 14))
+  (expect (memq 'pinched (kinds)))
+  (expect (clearance 'log) is (between -0.0019 0.05))
+  (cut-tether! #:at 1)
+  (always (sane?) (run 6))
+  (expect (distance (point-at 0) '(-3 0 -5)) is (below 0.01))
+  (expect (clearance 'log) is (above 1)))
+
+
 ;;; Stuck.
 
 (define-scenario stuck-in-a-wedge

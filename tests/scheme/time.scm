@@ -330,7 +330,7 @@ SPARED."
             (let ((datum (change datum)))
               (if (memq (car datum) '(begin second end))
                   (apply story:tell-with-checksum! teller (drop-right datum 1))
-                  (story:tell! teller datum)))
+                  (story:tell-datum! teller datum)))
             (loop (read port))))))
     (story:teller-close! teller)))
 

@@ -164,7 +164,9 @@ handle (bt_dive *dive)
   run (dive, 10);
   operate (dive, BT_OP_COLLIDE, 0, 3, (double[]){ BT_PART_TETHER, 0, 1 });
   operate (dive, BT_OP_MOVE, 0, 4, (double[]){ 3, -10, -6, 1 });
-  run (dive, 360);
+  run (dive, 180);
+  operate (dive, BT_OP_DRIFT, 0, 3, (double[]){ 0.2, -0.3, -0.1 });
+  run (dive, 180);
 }
 
 static void

@@ -195,6 +195,8 @@ mistakes_teach_and_change_nothing (void **state)
   is_told (e, bt_part_choose (d, BT_PART_TETHER, 0, "length", "long", e), BT_ERR_NAME,
            "takes no word");
   is_told (e, bt_part_alter (d, BT_PART_SEA, 0, "densty", 1, e), BT_ERR_NAME, "densty");
+  is_told (e, bt_obstacle_drift (d, 0, bt__vec (1, 0, 0), e), BT_ERR_UNSUPPORTED, "(track (0 X Y Z))");
+  is_told (e, bt_obstacle_drift (d, 99, bt__vec (1, 0, 0), e), BT_ERR_NAME, "99");
   is_told (e, bt_part_alter (d, BT_PART_OBSTACLE, 99, "friction", 1, e), BT_ERR_NAME, "99");
   assert_true (bt_dive_hash (d) == was);
 }

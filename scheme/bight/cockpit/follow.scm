@@ -37,7 +37,7 @@
 (define (add-alarm! screen text)
   (set-alarms! screen (let ((all (cons text (screen-alarms screen))))
                         (take all (min most-alarms (length all)))))
-  (tell! (screen-cockpit screen) text))
+  (announce! (screen-cockpit screen) text))
 
 (define (follow-panel lines alarms)
   "Return a panel of a cockpit with LINES of what comes, and ALARMS under them, the last first."
@@ -97,7 +97,7 @@
             (let-come! screen until))
           (show-frame! screen)
           (when (session-ended? session)
-            (tell! c "the telemetry has ended; q leaves"))
+            (announce! c "the telemetry has ended; q leaves"))
           (take-keys! c until)
           (loop))))))
 

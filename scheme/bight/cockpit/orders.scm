@@ -9,6 +9,7 @@
 ;;;
 ;;;   (words TEXT)                    the pupil reads them
 ;;;   (current SPEED TOWARD)          as `current!'
+;;;   (drift OBSTACLE SPEED TOWARD)   as `drift!'
 ;;;   (fault WHAT [VALUE])            as `fault!'; (mend WHAT [VALUE])
 ;;;   (light BOOL)                    whether the pupil's camera sees anything
 ;;;   (clock BOOL)                    whether time passes
@@ -66,7 +67,7 @@
 
 ;; What follows the first word of an order: a predicate for each, of which the last may be left out for faults.
 (define orders
-  `((words ,string?) (current ,real? ,real?) (fault ,symbol? ,real?) (mend ,symbol? ,real?)
+  `((words ,string?) (current ,real? ,real?) (drift ,symbol? ,real? ,real?) (fault ,symbol? ,real?) (mend ,symbol? ,real?)
     (light ,boolean?) (clock ,boolean?) (form ,string?)))
 
 (define (well-formed? order)
@@ -78,8 +79,8 @@
 
 (define (check-order order)
   (unless (well-formed? order)
-    (bight-raise 'domain 'hand-in "an order is (words TEXT), (current SPEED TOWARD), (fault WHAT [VALUE]), \
-(mend WHAT [VALUE]), (light BOOL), (clock BOOL) or (form TEXT), not ~s" order)))
+    (bight-raise 'domain 'hand-in "an order is (words TEXT), (current SPEED TOWARD), (drift OBSTACLE SPEED TOWARD), \
+(fault WHAT [VALUE]), (mend WHAT [VALUE]), (light BOOL), (clock BOOL) or (form TEXT), not ~s" order)))
 
 (define patience 5)                     ; s: a pupil who reads a page takes no orders
 
@@ -150,6 +151,7 @@ does not fly at present, `waiting'."
   "Do ORDER, one that changes the dive by a verb of its own."
   (apply (case (car order)
            ((current) current!)
+           ((drift) drift!)
            ((fault) fault!)
            (else mend!))
          (cdr order)))

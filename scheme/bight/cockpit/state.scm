@@ -9,7 +9,7 @@
   #:use-module (bight core record)
   #:use-module (bight dive)
   #:use-module (bight engine)
-  #:export (cockpit? new-cockpit board! ask-anew! look-anew! tell! call-or-tell trying clock frame target
+  #:export (cockpit? new-cockpit board! ask-anew! look-anew! announce! call-or-tell trying clock frame target
             cockpit-palette cockpit-ascii? cockpit-dive set-dive! cockpit-vehicle set-vehicle! cockpit-tether
             set-tether! cockpit-screen set-screen! cockpit-size set-size! cockpit-view set-view! cockpit-paint
             set-paint! cockpit-plain? set-plain! cockpit-lamp? set-lamp! cockpit-help? set-help! cockpit-words?
@@ -102,7 +102,7 @@
   "Let the next frame be written whole."
   (set-size! c #f))
 
-(define (tell! c text)
+(define (announce! c text)
   "Show TEXT for a while."
   (set-message! c text)
   (set-message-until! c (+ 4 (clock))))
@@ -112,7 +112,7 @@
   (with-exception-handler
       (lambda (e)
         (if (bight-error? e)
-            (begin (tell! c (bight-error-message e)) #f)
+            (begin (announce! c (bight-error-message e)) #f)
             (raise-exception e)))
     thunk
     #:unwind? #t))

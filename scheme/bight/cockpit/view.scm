@@ -40,7 +40,7 @@
   (set-stepped! c (clock))
   (set-live! c (or (trying c (go-live! (cockpit-dive c) 1.0) #t) #f))
   (when (eq? #f (cockpit-live? c))
-    (tell! c "a current that is a procedure: the dive is stepped between the frames")))
+    (announce! c "a current that is a procedure: the dive is stepped between the frames")))
 
 (define (stop-time! c)
   (set-paused! c #t)
@@ -73,7 +73,7 @@
         (unless (bight-error? e) (raise-exception e))
         (false-if-exception (stop-time! c))
         (set-paused! c #t)
-        (tell! c (bight-error-message e)))
+        (announce! c (bight-error-message e)))
     (lambda () (pass-time! c))
     #:unwind? #t))
 
@@ -97,14 +97,14 @@
   (set-sent! c (stick-values (cockpit-sticks c)))
   (trying c
     (release! (cockpit-vehicle c))
-    (tell! c "sticks centred, autopilots off")))
+    (announce! c "sticks centred, autopilots off")))
 
 (define (winch! c metres)
   (trying c
     (if (positive? metres)
         (pay-out! (cockpit-tether c) metres)
         (haul-in! (cockpit-tether c) (- metres)))
-    (tell! c (simple-format #f "~a ~a m" (if (positive? metres) "paying out" "hauling in")
+    (announce! c (simple-format #f "~a ~a m" (if (positive? metres) "paying out" "hauling in")
                             (abs metres)))))
 
 (define (toggle-pause! c)
@@ -118,7 +118,7 @@
       (set-sticks! c (new-sticks))
       (set-sent! c (stick-values (cockpit-sticks c)))
       (ask-anew! c)
-      (tell! c (simple-format #f "back at ~a s" (/ (round (* 100 t)) 100))))))
+      (announce! c (simple-format #f "back at ~a s" (/ (round (* 100 t)) 100))))))
 
 (define (visit-prompt! c)
   ;; The screen is the user's meanwhile; the dive goes on.
@@ -141,7 +141,7 @@
         ((depth) (hold-depth! v (rov-depth v)))
         ((altitude) (hold-altitude! v (rov-altitude v)))
         (else (hold-position! v)))
-      (tell! c (string-append "holding " (if (eq? what 'place) "this place" (symbol->string what)))))))
+      (announce! c (string-append "holding " (if (eq? what 'place) "this place" (symbol->string what)))))))
 
 (define (do-act! c act)
   (case (car act)
@@ -153,7 +153,7 @@
     ((pause) (toggle-pause! c))
     ((ghost) (toggle-ghost! c))
     ((prompt) (visit-prompt! c))
-    (else (tell! c "that key is for lessons: bight lesson"))))
+    (else (announce! c "that key is for lessons: bight lesson"))))
 
 (define (do-key! c key)
   (cond ((stick-of-key key)
@@ -176,7 +176,7 @@
 (define (obey! c order)
   ;; Do ORDER, and return what came of it, a list of lines.
   (case (car order)
-    ((words) (tell! c (string-append "Instructor: " (second order))) '())
+    ((words) (announce! c (string-append "Instructor: " (second order))) '())
     ((light) (set-dark! c (not (second order))) '())
     ((clock) (if (second order) (start-time! c) (stop-time! c)) '())
     ((form) (let ((value (eval (call-with-input-string (second order) read) (resolve-module '(guile-user)))))

@@ -116,8 +116,8 @@ the last of its EVENTS."
 
 (define (toggle-ghost-reel! show)
   (let ((c (show-cockpit show)) (ghost (show-ghost show)))
-    (cond ((not ghost) (tell! c "bight watch FILE --ghost OTHER shows another recording beside it"))
-          ((cockpit-plain? c) (tell! c "plain characters show no ghost"))
+    (cond ((not ghost) (announce! c "bight watch FILE --ghost OTHER shows another recording beside it"))
+          ((cockpit-plain? c) (announce! c "plain characters show no ghost"))
           (else (set-ghost! c (and (not (cockpit-ghost c)) (reel-dive ghost)))))))
 
 (define (faster! show factor)

@@ -42,6 +42,6 @@
   (let ((wanted? (not (cockpit-ghost c))))
     (drop-ghost! c)
     (cond ((not wanted?))
-          ((cockpit-plain? c) (tell! c "plain characters show no what-if"))
-          (((unseen?) 'what-if) (tell! c "in this lesson nobody sees what will be"))
+          ((cockpit-plain? c) (announce! c "plain characters show no what-if"))
+          (((unseen?) 'what-if) (announce! c "in this lesson nobody sees what will be"))
           (else (set-ghost! c #t)))))

@@ -20,7 +20,7 @@
   #:export (drive! release! fly-to! fly-along! move! place! follow! arrived?
             stabilise! hold-heading! hold-depth! hold-altitude! hold-position!
             pay-out! haul-in! spooling? cut-tether!
-            current! waves! alter! tether-model! accuracy!))
+            current! waves! drift! alter! tether-model! accuracy!))
 
 (define degree (/ (acos -1) 180))
 
@@ -238,6 +238,30 @@ Return the current at the surface, m/s."
 (define (set-waves! proc waves)
   (%operate! (this-engine proc) 'waves! proc 0 (list->f64vector (waves->numbers waves)))
   waves)
+
+;; As the engine has it for each axis.
+(define-argument-type (drift-speed value)
+  "a speed from 0 to 10 m/s"
+  (if (and (real? value) (<= 0 value 10)) (exact->inexact value) refused))
+
+(define-argument-type (drift-rise value)
+  "a speed from -10 to 10 m/s"
+  (if (and (real? value) (<= -10 value 10)) (exact->inexact value) refused))
+
+(define (obstacle-index proc name)
+  (call-with-values (lambda () (find-part proc name))
+    (lambda (kind index)
+      (if (eq? kind 'obstacle)
+          index
+          (bight-raise 'domain proc "~a is a ~a; what drifts is an obstacle" name kind)))))
+
+(define-verb (drift! (obstacle name) (speed drift-speed) (toward bearing) #:key (rise drift-rise 0.0))
+  "Set OBSTACLE, one that has a track in its world, adrift: from where it is it goes on at SPEED m/s toward the bearing
+TOWARD, rising at RISE m/s, until told otherwise, and leaves its track for good.  Held back by what it would run into,
+it goes on when that yields.  Return OBSTACLE."
+  (let ((index (obstacle-index 'drift! obstacle)) (angle (* degree toward)))
+    (operate! 'drift! index (* speed (sin angle)) (* speed (cos angle)) rise)
+    obstacle))
 
 (define (alter-field! proc head index field value)
   (when (memq field (inner-heads head))

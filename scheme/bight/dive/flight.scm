@@ -50,7 +50,7 @@ or from as far back as it remembers.  Nothing need have been recorded before.  R
     (catching-io 'keep-flight! file
       (let ((teller (make-teller 'keep-flight! file)))
         (tell-beginning! 'keep-flight! teller 'bight-recording (flight-beginning 'keep-flight! dive))
-        (for-each (lambda (line) (tell! teller line)) (drop-right lines 1))
+        (for-each (lambda (line) (tell-datum! teller line)) (drop-right lines 1))
         (apply tell-with-checksum! teller (last lines))
         (teller-close! teller)))
     file))

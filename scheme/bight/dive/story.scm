@@ -35,7 +35,7 @@
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:export (make-teller
-            tell! tell-with-checksum! teller-flush! teller-sync! teller-close!
+            tell-datum! tell-with-checksum! teller-flush! teller-sync! teller-close!
             tell-beginning!
             hex unhex
             teller? story?
@@ -90,7 +90,7 @@
 (define (datum->line datum)
   (with-output-to-string (lambda () (write datum) (newline))))
 
-(define (tell! teller datum)
+(define (tell-datum! teller datum)
   "Write DATUM on a line of its own."
   (put-text! teller (datum->line datum)))
 
@@ -177,16 +177,16 @@
   "Write how a story of KIND, a symbol, about DIVE begins.  Raise unsupported from PROC when a file cannot
 hold it."
   (let* ((engine (engine-of dive)) (world (dive-world dive)) (fresh (fresh-hash proc world)))
-    (tell! teller (list kind version))
-    (tell! teller (list 'engine (%version)))
-    (tell! teller (list 'world (world-name world) (world-documentation world)
+    (tell-datum! teller (list kind version))
+    (tell-datum! teller (list 'engine (%version)))
+    (tell-datum! teller (list 'world (world-name world) (world-documentation world)
                         (absolute (world-file world))))
-    (for-each (lambda (datum) (tell! teller datum)) (world->data world))
-    (for-each (lambda (name) (tell! teller (file-line proc world name))) (named-files world))
-    (for-each (lambda (rows) (tell! teller (list 'track rows))) (%tracks engine))
-    (tell! teller (list 'fresh (hex fresh)))
+    (for-each (lambda (datum) (tell-datum! teller datum)) (world->data world))
+    (for-each (lambda (name) (tell-datum! teller (file-line proc world name))) (named-files world))
+    (for-each (lambda (rows) (tell-datum! teller (list 'track rows))) (%tracks engine))
+    (tell-datum! teller (list 'fresh (hex fresh)))
     (unless (= fresh (%hash-dive engine))
-      (tell! teller (state-line engine)))
+      (tell-datum! teller (state-line engine)))
     (tell-with-checksum! teller 'begin (%dive-steps engine))))
 
 (define (check-dive proc dive)

@@ -184,7 +184,7 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
   (and (tally-ref 'stopped)
        (begin
          (set-stepped! c (clock))
-         (tell! c "the instructor has stopped the clock")
+         (announce! c "the instructor has stopped the clock")
          #t)))
 
 (define (orders-now)

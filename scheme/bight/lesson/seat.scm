@@ -86,7 +86,7 @@
   (let ((c (this-cockpit)))
     (if (or (and (one-view) (memv key '(#\v #\1 #\2 #\3 #\4 #\5))) (and (hard?) (eqv? key #\z)))
         (begin
-          (tell! c (if (from-above-alone?)
+          (announce! c (if (from-above-alone?)
                        "you fly by the view from above alone"
                        "at this level you see what the camera sees"))
           #t)

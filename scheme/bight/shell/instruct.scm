@@ -146,10 +146,11 @@
   (clock station-clock set-clock!)
   (words station-words set-words!))     ; what the pupil reads
 
-(define hint "w words  c current  b break  m mend  l light  t clock  : form  v view  q leave")
+(define hint "w words  c current  d drift  b break  m mend  l light  t clock  : form  v view  q leave")
 
 (define labels
   '((words . "to the pupil> ") (current . "current, m/s and the degrees it sets to> ")
+    (drift . "adrift: an obstacle, m/s and the degrees it drifts to> ")
     (fault . "break (compass 2, depth, telemetry, thruster 1 ...)> ") (mend . "mend> ") (form . "form> ")))
 
 (define (typed->order kind text)
@@ -179,18 +180,18 @@
 (define (hear-answer! s value)
   ;; VALUE answers an order, the question for a dive, or a subscription.
   (let ((c (station-cockpit s)))
-    (cond ((eq? 'done value) (tell! c "done"))
-          ((eq? 'waiting value) (tell! c "the pupil reads a page: it is done when he flies"))
+    (cond ((eq? 'done value) (announce! c "done"))
+          ((eq? 'waiting value) (announce! c "the pupil reads a page: it is done when he flies"))
           ((not (pair? value)) #t)
           ((number? (car value)) (show-dive! s (dive-of (second value))))
-          (else (tell! c (string-join value " "))))))
+          (else (announce! c (string-join value " "))))))
 
 (define (hear! s datum)
   ;; DATUM came from the pupil's process.
   (case (car datum)
     ((event) (see! s (third datum)))
     ((ok) (when (pair? (cdr datum)) (hear-answer! s (second datum))))
-    ((error) (tell! (station-cockpit s) (third datum)))
+    ((error) (announce! (station-cockpit s) (third datum)))
     ((ended) (bight-raise 'io 'instruct "~a" (fourth datum)))))
 
 (define (hear-all! s)
@@ -210,6 +211,7 @@
   (case key
     ((#\w) (type! 'words))
     ((#\c) (type! 'current))
+    ((#\d) (type! 'drift))
     ((#\b) (type! 'fault))
     ((#\m) (type! 'mend))
     ((#\:) (type! 'form))
