@@ -140,6 +140,46 @@ result $? 'and a line says why'
 keys q
 sane >/dev/null
 
+# ---- A controller: a recorded stream ----
+
+cat >"$scratch/events" <<'EVENTS'
+(bight-events 1)
+(0 plugged 0 "Pad of a test" #t)
+(0.5 axis 0 "righty" -0.56)
+(1 button 0 "y" #t)
+EVENTS
+begin 100 30 COLORTERM= TERM=screen-256color
+keys "bight pilot pier --controller $scratch/events" Enter
+see ' pads 1 ' && see 'surge +0.5'
+result $? 'a pad moves the sticks'
+prod 'yaw +1.0' d d && see 'surge +0.5'
+result $? 'and keys do beside it'
+keys q
+sane >/dev/null
+echo '(2 lost 0)' >>"$scratch/events"
+keys "clear; bight pilot pier --controller $scratch/events" Enter
+see 'Pad of a test is lost: sticks centred, holding'
+result $? 'one that is lost is missed'
+see 'surge  0.0' && ! shows ' pads '
+result $? 'and asks for nothing any more'
+keys q
+sane >/dev/null
+cat >"$scratch/lesson.scm" <<'LESSON'
+(define-lesson short "Short"
+  (in open-water)
+  (task "Move." (done-when (> (abs (x (rov-position))) 1000)) (at-most 6000))
+  (score (rov-depth 0 100)))
+LESSON
+printf '(bight-events 1) (0 plugged 0 "Pad" #t) (1 button 0 "a" #t) (2 axis 0 "leftx" -1)' >"$scratch/events"
+keys "clear; bight lesson $scratch/lesson.scm --trust --controller $scratch/events" Enter
+see '^ e hint' && see 'yaw -1.0'
+result $? 'a lesson is begun and flown by it'
+keys q
+sane >/dev/null
+"$top_builddir/pre-inst-env" bight controller --stream "$scratch/events" --for 3 >"$scratch/out"
+grep -q '^0 leftx -1.00   surge +0.00 sway +0.00 heave +0.00 yaw -1.00$' "$scratch/out"
+result $? 'what each axis does is shown'
+
 # ---- A recording ----
 
 "$top_builddir/pre-inst-env" bight -c "(begin (enter! 'pile) (record! \"$scratch/a.rec\") (move! '(6 -4 -5) #:speed 1)

@@ -16,8 +16,8 @@ empty 'and nothing on standard error' "$scratch/err"
 cat "$scratch"/ld.* 2>/dev/null | sed -n 's/.*calling init: //p' | sort -u >"$scratch/loaded"
 grep -q libguile "$scratch/loaded"
 result $? 'the loader names what it loads'
-grep -E '/lib(GL|EGL|GLX|OSMesa|OpenGL|GLdispatch|assimp|gdal|proj|sqlite3|cairo|chafa|readline)[-.0-9]' "$scratch/loaded" >"$scratch/heavy"
-empty 'no GL, mesh, picture, database or line editing library among them' "$scratch/heavy"
+grep -E '/lib(GL|EGL|GLX|OSMesa|OpenGL|GLdispatch|assimp|gdal|proj|sqlite3|cairo|chafa|readline|SDL2)[-.0-9]' "$scratch/loaded" >"$scratch/heavy"
+empty 'no GL, mesh, picture, database, line editing or controller library among them' "$scratch/heavy"
 
 # Told, not judged: the best of seven starts of each.
 best ()

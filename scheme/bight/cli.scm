@@ -288,6 +288,17 @@ begins with FILE and the line."
                    ((from (bight cockpit view) pilot-world) (world-argument world) options))))
 
 
+;;; bight controller.
+
+(define (show-controllers arguments)
+  (call-with-values (lambda () (split-arguments "controller" arguments))
+    (lambda (given options)
+      (unless (null? given)
+        (bad-usage "controller: it takes options alone, not ~a" (car given)))
+      ((from (bight cockpit controller-command) controller-command) options)
+      0)))
+
+
 ;;; bight instruct.
 
 (define (instruct arguments)
@@ -382,6 +393,8 @@ begins with FILE and the line."
             '("--typed" "fly by what is typed, not by keys")
             '("--fresh" "from its beginning, not from where it was left")
             '("--instructor SOCKET" "let an instructor in at SOCKET: bight instruct SOCKET")
+            '("--controller C" "fly by game controllers too: any, or the file of what bight controller recorded")
+            '("--mapping FILE" "what their axes and buttons do")
             '("--quiet" "without the coach")
             '("--trust" "let a FILE from outside do all that you may")
             '("--pilot P" "show it flown by its pilot P, such as expert")
@@ -423,7 +436,15 @@ begins with FILE and the line."
             '("--paint P" "colour tethers plain, by tension, curvature or model")
             '("--colors C" "true, many, few or none")
             '("--instructor SOCKET" "let an instructor in at SOCKET: bight instruct SOCKET")
+            '("--controller C" "fly by game controllers too: any, or the file of what bight controller recorded")
+            '("--mapping FILE" "what their axes and buttons do")
             '("--trust" "let a file from outside do all that you may"))
+   (command "controller" show-controllers ""
+            '("show which game controllers there are, and what each axis and button does as it is moved, until C-c")
+            '("--mapping FILE" "what their axes and buttons do")
+            '("--record FILE" "keep what is done, to be flown again")
+            '("--stream FILE" "show what was recorded, not what is plugged in")
+            '("--for S" "end after so many seconds"))
    (command "instruct" instruct "SOCKET"
             '("an instructor's station: see the dive of a pupil who listens at SOCKET, hand in words, currents,"
               "obstacles adrift, faults, a lost light, a stopped clock; without a terminal, orders as lines of standard input"))

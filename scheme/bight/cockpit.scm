@@ -11,6 +11,7 @@
 
 (define-module (bight cockpit)
   #:use-module (bight cockpit cells)
+  #:use-module (bight cockpit controller)
   #:use-module (bight cockpit desk)
   #:use-module (bight cockpit hud)
   #:use-module (bight cockpit keys)
@@ -170,6 +171,8 @@ fall in it."
                  (and (cockpit-dark? c) "NO LIGHT")
                  (and (cockpit-ghost c) "what if")
                  (and (cockpit-lamp? c) "lights")
+                 (and (current-controllers) (pair? (controller-names (current-controllers)))
+                      (simple-format #f "pads ~a" (length (controller-names (current-controllers)))))
                  (if (cockpit-plain? c) "plain" (symbol->string (cockpit-view c)))
                  (and (not (eq? 'plain (cockpit-paint c))) (symbol->string (cockpit-paint c)))
                  (string-append (number->string (frames-a-second c)) "/s")))

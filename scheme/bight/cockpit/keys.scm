@@ -113,7 +113,7 @@ down left right escape."
 (define acts
   '((#\space release) (#\[ winch -1) (#\] winch 1) (#\{ winch -5) (#\} winch 5)
     (#\h hold heading) (#\b hold depth) (#\n hold altitude) (#\m hold place)
-    (#\u back) (#\p pause) (#\g ghost) (#\e hint) (#\t tell) (#\: prompt) (#\q leave) (#\etx leave)))
+    (#\u back) (#\p pause) (#\g ghost) (#\e hint) (#\t tell) (#\: prompt) (lost lost) (#\q leave) (#\etx leave)))
 
 (define (act-of-key key)
   "Return what KEY asks for besides the sticks and the view, a list such as (winch 1), or #f."
@@ -134,4 +134,5 @@ down left right escape."
     "p       pause        u   back"
     "e t     in a lesson: a hint; tell the tender"
     ":       the prompt (,q comes back)"
+    "pads    bight controller tells what they do"
     "? q     this; leave"))

@@ -102,10 +102,10 @@
   "Let the next frame be written whole."
   (set-size! c #f))
 
-(define (announce! c text)
-  "Show TEXT for a while."
+(define* (announce! c text #:optional (seconds 4))
+  "Show TEXT for a while, or for SECONDS."
   (set-message! c text)
-  (set-message-until! c (+ 4 (clock))))
+  (set-message-until! c (+ seconds (clock))))
 
 (define (call-or-tell c thunk)
   "Call THUNK; a &bight-error that it raises is shown."

@@ -10,6 +10,8 @@
 (define-module (bight cockpit view)
   #:use-module (bight cockpit)
   #:use-module (bight cockpit cells)
+  #:use-module (bight cockpit controller)
+  #:use-module (bight cockpit controls)
   #:use-module (bight cockpit keys)
   #:use-module ((bight cockpit orders) #:select (answer-order! do-to-dive! call-with-desk next-order! publish!))
   #:use-module (bight cockpit palette)
@@ -83,7 +85,7 @@
 (define (send-sticks! c)
   ;; Tell the vehicle when the sticks stand otherwise than it was told.
   (set-sticks! c (settle (cockpit-sticks c) (clock)))
-  (let ((values (stick-values (cockpit-sticks c))))
+  (let ((values (stick-positions c)))
     (when (and (cockpit-vehicle c) (cockpit-sent c) (not (equal? values (cockpit-sent c))))
       (trying c
         (for-each (lambda (keyword value before)
@@ -143,12 +145,18 @@
         (else (hold-position! v)))
       (announce! c (string-append "holding " (if (eq? what 'place) "this place" (symbol->string what)))))))
 
+(define (hold-what-is-left! c)
+  ;; A controller is lost, which was told: its vehicle stays where it is.
+  (send-sticks! c)
+  (trying c (hold-position! (cockpit-vehicle c))))
+
 (define (do-act! c act)
   (case (car act)
     ((leave) (set-done! c #t))
     ((release) (let-go! c))
     ((winch) (winch! c (second act)))
     ((hold) (hold! c (second act)))
+    ((lost) (hold-what-is-left! c))
     ((back) (go-back! c))
     ((pause) (toggle-pause! c))
     ((ghost) (toggle-ghost! c))
@@ -165,6 +173,7 @@
         ((act-of-key key) => (lambda (act) (do-act! c act)))))
 
 (define (take-keys! c seconds)
+  (for-each (lambda (key) (trying c (do-key! c key))) (controller-keys! c))
   (let ((bytes (%terminal-keys (max 0 seconds))))
     (if bytes
         (for-each (lambda (key) (trying c (do-key! c key))) (bytes->keys bytes))
@@ -245,7 +254,9 @@ at which it was left."
 (define (pilot-world world options)
   "Start a dive in WORLD, a name or a file, and fly it, with OPTIONS of the command line, an alist."
   ((from (bight dive) enter!) world #:trust (assoc-ref options "--trust"))
-  (call-with-desk (assoc-ref options "--instructor") (lambda () (fly-as-asked options))))
+  (call-with-controllers (assoc-ref options "--controller") (assoc-ref options "--mapping")
+    (lambda ()
+      (call-with-desk (assoc-ref options "--instructor") (lambda () (fly-as-asked options))))))
 
 (define (fly-as-asked options)
   (apply pilot!

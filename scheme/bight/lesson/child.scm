@@ -7,6 +7,7 @@
 
 (define-module (bight lesson child)
   #:use-module (bight cockpit coach)
+  #:use-module ((bight cockpit controller) #:select (call-with-controllers))
   #:use-module ((bight cockpit orders) #:select (call-with-desk))
   #:use-module ((bight core errors) #:select (words->string))
   #:use-module (bight core sandbox)
@@ -87,6 +88,14 @@
              (bad-usage "lesson: --instructor is for lessons in the cockpit, at a terminal"))))
     socket))
 
+(define (call-as-asked order thunk)
+  ;; Call THUNK with the instructor's socket and the controllers that ORDER asks for.
+  (let* ((given (order-given order)) (controller (option given "--controller" #f)))
+    (when (and controller (order-outside? order))
+      (bad-usage "lesson: a lesson from outside is enclosed, and reads no controllers"))
+    (call-with-desk (instructor-socket order)
+      (lambda () (call-with-controllers controller (option given "--mapping" #f) thunk)))))
+
 (define (take-by-person lesson order inputs shown-before tell)
   (let* ((given (order-given order))
          (cockpit? (cockpit-wanted? given))
@@ -162,7 +171,7 @@ exit status."
           (else
            (call-with-interrupts
             (lambda ()
-              (let ((report (call-with-desk (instructor-socket order)
+              (let ((report (call-as-asked order
                               (lambda () (take-by-person lesson order journal shown-before tell)))))
                 (tell (list 'report (report-entry report lesson given)))
                 0)))))))

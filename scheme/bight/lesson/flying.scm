@@ -4,6 +4,7 @@
 
 (define-module (bight lesson flying)
   #:use-module (bight cockpit)
+  #:use-module (bight cockpit controls)
   #:use-module (bight cockpit desk)
   #:use-module (bight cockpit hud)
   #:use-module (bight cockpit keys)
@@ -107,7 +108,7 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
 (define (stick-input! c)
   ;; The input of sticks that stand otherwise than before, in a list.
   (set-sticks! c (settle (cockpit-sticks c) (clock)))
-  (let ((values (stick-values (cockpit-sticks c))))
+  (let ((values (stick-positions c)))
     (if (equal? values (cockpit-sent c))
         '()
         (begin
@@ -141,6 +142,9 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
      (set-sticks! c (new-sticks))
      (set-sent! c (stick-values (new-sticks)))
      '((release)))
+    ((lost)
+     (set-sent! c (stick-values (new-sticks)))
+     '((release) (hold place)))
     ((winch hold) (list act))
     ((back hint) (list act))
     ((ghost) (toggle-ghost! c) '())

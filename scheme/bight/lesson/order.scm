@@ -16,7 +16,8 @@
   (apply bight-raise 'domain #f text values))
 
 (define flags '("--check" "--typed" "--trust" "--fresh" "--quiet" "--csv" "--skills" "--table"))
-(define options '("--trainee" "--group" "--seed" "--level" "--pilot" "--merge" "--display" "--instructor"))
+(define options '("--trainee" "--group" "--seed" "--level" "--pilot" "--merge" "--display" "--instructor"
+                  "--controller" "--mapping"))
 
 (define (split-option word)
   (let ((i (string-index word #\=)))

@@ -5,6 +5,7 @@
 (define-module (bight lesson seat)
   #:use-module (bight cockpit)
   #:use-module (bight cockpit cells)
+  #:use-module (bight cockpit controls)
   #:use-module (bight cockpit hud)
   #:use-module (bight cockpit keys)
   #:use-module (bight cockpit state)
@@ -63,6 +64,8 @@
 (define (next-key seconds)
   "Return the next key that was pressed, or is within SECONDS; #f if there is none."
   (let ((seat (the-seat)))
+    (when (null? (seat-keys seat))
+      (set-keys! seat (controller-keys! (seat-cockpit seat))))
     (when (null? (seat-keys seat))
       (let ((bytes (%terminal-keys (max 0 seconds))))
         (if bytes (set-keys! seat (bytes->keys bytes)) ((leaving)))))
