@@ -140,6 +140,40 @@ result $? 'and a line says why'
 keys q
 sane >/dev/null
 
+# ---- Keys that come up, and the mouse: the bytes of terminals that tell of them ----
+
+# send TEXT: bytes, each \033 an escape.
+send ()
+{
+  keys -l "$(printf "$1")"
+}
+
+begin 100 30 COLORTERM= TERM=screen-256color
+fly
+send '\033[?7u\033[119;1:1u\033[100;1:1u'
+see 'surge +1.0.*yaw +1.0'
+result $? 'where releases are told two keys hold their sticks at once'
+moment 10
+shows 'surge +1.0.*yaw +1.0'
+result $? 'for longer than a key that says nothing'
+send '\033[119;1:3u' && see 'surge  0.0.*yaw +1.0'
+result $? 'what comes up lets go of its own'
+send '\033[O' && see 'yaw  0.0'
+result $? 'and all does with the focus'
+prod 'the mouse turns the overview' -l "$(printf '\033[<0;10;10M')"
+result $? 'the mouse says where it does something'
+keys 5 && see ' overview '
+screen >"$scratch/before"
+send '\033[<0;10;10M\033[<32;30;12M\033[<0;30;12m' && see '+ N'
+result $? 'it turns the overview, which shows its axes'
+send '\033[<64;10;10M\033[<64;10;10M\033[<64;10;10M' && see '+ up'
+result $? 'and comes nearer'
+keys 5 && see ' overview '
+keys q
+check 'the mouse is given back' sane
+[ "$(pane display-message -p '#{mouse_any_flag}')" = 0 ]
+result $? 'to the terminal'
+
 # ---- A controller: a recorded stream ----
 
 cat >"$scratch/events" <<'EVENTS'

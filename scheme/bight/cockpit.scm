@@ -49,7 +49,7 @@
 ;;; The picture.
 
 (define* (frame-pixels engine view paint size flags ghost #:optional (marks #f))
-  "Return the pixels, a bytevector, of a quick picture of the dive of ENGINE by VIEW for SIZE, a pair of
+  "Return the pixels, a bytevector, of a quick picture of the dive of ENGINE by VIEW, as %draw takes it, for SIZE, a pair of
 columns and rows; GHOST is the engine of another dive, or #f.  MARKS, an f64vector of points, receives where they
 fall in it."
   ((from (bight view render) %draw) ((from (bight view picture) renderer) 'pilot!)
@@ -59,8 +59,25 @@ fall in it."
 
 (define least-side 16)
 
+(define (view-turned c)
+  ;; The view of C as %draw takes it: the overview as the mouse has turned it.
+  (let ((orbit (and (eq? 'overview (cockpit-view c)) (cockpit-orbit c))))
+    (if orbit
+        (list (cockpit-view c) #f 0 (third orbit) (first orbit) (second orbit))
+        (cockpit-view c))))
+
+(define axis-length 3)                  ; m
+
+(define (axes c)
+  ;; The axes of the world at the vehicle, as targets, where the overview was turned.
+  (if (and (eq? 'overview (cockpit-view c)) (cockpit-orbit c) (cockpit-vehicle c))
+      (let ((at (rov-position (cockpit-vehicle c))))
+        (map (lambda (name x y z) (target name (vec+ at (vec* axis-length (vec x y z)))))
+             '("E" "N" "up") '(1 0 0) '(0 1 0) '(0 0 1)))
+      '()))
+
 (define (shown-marks c)
-  (append ((cockpit-targets c)) (cockpit-labels c)))
+  (append ((cockpit-targets c)) (cockpit-labels c) (axes c)))
 
 (define (marks-vector marks)
   (apply f64vector (append-map (lambda (mark) (list (x (cdr mark)) (y (cdr mark)) (z (cdr mark)))) marks)))
@@ -72,7 +89,7 @@ fall in it."
       (bight-raise 'unsupported 'pilot! "the terminal is too small for a picture"))
     (let ((places (marks-vector marks)))
       (%screen-picture! (cockpit-screen c)
-                        (frame-pixels (engine-of (cockpit-dive c)) (cockpit-view c)
+                        (frame-pixels (engine-of (cockpit-dive c)) (view-turned c)
                                       (cockpit-paint c) size
                                       (if (cockpit-lamp? c) '(lamp) '())
                                       (and (dive? ghost) (engine-of ghost))
@@ -301,8 +318,37 @@ fall in it."
 
 (define views '(chase pilot top side overview))
 
+(define a-cell 1.5)                     ; degrees that the mouse turns the overview by for a column; a row is two
+(define nearer 1.15)                    ; by a notch of its wheel
+
+(define (turn-overview! c turn dip zoom)
+  ;; Turn and dip by degrees, and come nearer by the factor ZOOM.
+  (let ((orbit (or (cockpit-orbit c) '(0 0 1))))
+    (set-orbit! c (list (+ (first orbit) turn) (max -90 (min 90 (+ (second orbit) dip)))
+                        (max 1/10 (min 20 (* (third orbit) zoom)))))))
+
+(define (do-mouse! c what column row)
+  (let ((held (cockpit-held-at c)))
+    (case what
+      ((press) (set-held-at! c (cons column row)))
+      ((release) (set-held-at! c #f))
+      ((nearer) (turn-overview! c 0 0 nearer))
+      ((further) (turn-overview! c 0 0 (/ nearer)))
+      ((drag)
+       (when held
+         (turn-overview! c (* a-cell (- column (car held))) (* 2 a-cell (- row (cdr held))) 1))
+       (set-held-at! c (cons column row))))))
+
+(define (mouse-moved! c mouse)
+  ;; MOUSE is (WHAT COLUMN ROW).
+  (if (eq? 'overview (cockpit-view c))
+      (apply do-mouse! c mouse)
+      (when (eq? 'press (car mouse))
+        (announce! c "the mouse turns the overview: 5"))))
+
 (define (show-view! c view)
   (set-view! c view)
+  (set-orbit! c #f)
   (announce! c (string-append "view: " (symbol->string view))))
 
 (define (suspend! c)
@@ -314,6 +360,11 @@ fall in it."
 
 (define (view-key! c key)
   "Do what KEY says if it only changes how things look, and return #t, else #f."
+  (if (and (pair? key) (eq? 'mouse (car key)))
+      (begin (mouse-moved! c (cdr key)) #t)
+      (plain-view-key! c key)))
+
+(define (plain-view-key! c key)
   (case key
     ((#\v) (show-view! c (next-of (cockpit-view c) views)) #t)
     ((#\1 #\2 #\3 #\4 #\5)

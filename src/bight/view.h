@@ -159,6 +159,10 @@ bt_status bt_view_look (bt_view *view, bt_vec3 from, bt_vec3 at, bt_error *error
 bt_status bt_view_move (bt_view *view, const bt_vec3 *at, double extent, double zoom, double aspect,
                         bt_error *error);
 
+/* Carry the camera that was aimed about the point it looks at: by TURN clockwise seen from above,
+   and up by DIP, as far as 85 degrees, radians.  BT_ERR_DOMAIN for numbers that are none.  */
+bt_status bt_view_turn (bt_view *view, double turn, double dip, bt_error *error);
+
 /* Return the axes of a body turned by HEADING, PITCH and ROLL: starboard, ahead, up.  */
 void bt_body_axes (double heading, double pitch, double roll, bt_vec3 axis[3]);
 

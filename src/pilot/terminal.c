@@ -32,9 +32,14 @@
 #include "base/error.h"
 #include "pilot/terminal.h"
 
-/* The other page, no cursor, no wrapping; and all of it back, colours too.  */
-static const char taking[] = "\033[?1049h\033[?25l\033[?7l\033[0m\033[2J";
-static const char giving[] = "\033[0m\033[?7h\033[?25h\033[?1049l";
+/* The other page, no cursor, no wrapping; and all of it back, colours too.  Beside that, for terminals
+   with more: the mouse while its button is down (1002, 1006), word of the window's losing the focus
+   (1004), and keys by kitty's protocol (flags 1, 2 and 4: told apart, with releases, with what shift
+   makes of them), asking whether releases will be told.  */
+static const char taking[] = "\033[?1049h\033[?25l\033[?7l\033[0m\033[2J"
+                             "\033[?1002h\033[?1006h\033[?1004h\033[>7u\033[?u";
+static const char giving[] = "\033[<u\033[?1004l\033[?1006l\033[?1002l"
+                             "\033[0m\033[?7h\033[?25h\033[?1049l";
 
 /* Signals that kill, unless handled before.  */
 static const int deadly[] = { SIGTERM, SIGHUP, SIGINT, SIGQUIT, SIGABRT, SIGALRM, SIGXCPU,
@@ -54,6 +59,8 @@ static struct
   pid_t guardian; /* or -1 */
   int leash;      /* its end of the pipe */
   int at_exit;    /* true: exit gives it back */
+  char half[64];  /* the beginning of an escape sequence that was read */
+  size_t n_half;
 } the;
 
 /* ---- Giving back: all of it may run in a handler ---- */
@@ -276,17 +283,43 @@ wait_for (int fd, short what, double seconds)
   return n == 0 ? 0 : p.revents & what ? 1 : -1;
 }
 
+/* How many of the N BYTES at their end begin an escape sequence whose letter is still to come.  */
+static size_t
+unfinished (const char *bytes, size_t n)
+{
+  size_t k = n;
+  while (k > 0 && bytes[k - 1] >= 0x20 && bytes[k - 1] <= 0x3f)
+    k--;
+  return k >= 2 && bytes[k - 1] == '[' && bytes[k - 2] == '\033' ? n - k + 2 : 0;
+}
+
+/* Keep the end of the N BYTES for the next time, if that is half a sequence; return how many are
+   left.  */
+static int
+keep_unfinished (const char *bytes, size_t n)
+{
+  size_t k = unfinished (bytes, n);
+  if (k > sizeof the.half)
+    return (int)n;
+  memcpy (the.half, bytes + n - k, k);
+  the.n_half = k;
+  return (int)(n - k);
+}
+
 int
 bt__terminal_keys (double seconds, char *bytes, size_t room)
 {
   int ready = wait_for (STDIN_FILENO, POLLIN, seconds);
+  size_t before = ready > 0 && the.n_half < room ? the.n_half : 0;
   ssize_t n;
   if (ready <= 0)
     return ready;
-  n = read (STDIN_FILENO, bytes, room);
+  memcpy (bytes, the.half, before);
+  the.n_half = 0;
+  n = read (STDIN_FILENO, bytes + before, room - before);
   if (n < 0)
     return errno == EINTR || errno == EAGAIN ? 0 : -1;
-  return n == 0 ? -1 : (int)n; /* ready and empty: it was hung up */
+  return n == 0 ? -1 : keep_unfinished (bytes, before + (size_t)n); /* empty: it was hung up */
 }
 
 int

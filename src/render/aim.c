@@ -484,3 +484,20 @@ bt_view_move (bt_view *view, const bt_vec3 *at, double extent, double zoom, doub
   c->from = bt__axpy (c->at, c->angle > 0 ? factor : 1, way);
   return BT_OK;
 }
+
+bt_status
+bt_view_turn (bt_view *view, double turn, double dip, bt_error *error)
+{
+  const double steepest = 85 * DEGREE;
+  bt_camera *c = &view->camera;
+  bt_vec3 way = bt__sub (c->from, c->at);
+  double far = bt__norm (way), along, up;
+  if (!isfinite (turn) || !isfinite (dip) || !(far > 0))
+    return bt__fail (error, BT_ERR_DOMAIN, "a camera turns by angles, not by %g and %g", turn, dip);
+  along = atan2 (way.x, way.y) + turn;
+  up = fmin (fmax (asin (way.z / far) + dip, -steepest), steepest);
+  c->from = bt__axpy (
+      c->at, far, bt__vec (sin (along) * cos (up), cos (along) * cos (up), sin (up)));
+  c->up = above;
+  return BT_OK;
+}

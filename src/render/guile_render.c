@@ -116,8 +116,21 @@ aim_still (sketch *s, SCM aim, double aspect, bt_error *error)
                        error);
 }
 
+static const double degree = 0.017453292519943295;
+
+/* MOVED, a list as aim_camera takes it, may end with how far to turn and dip the camera, degrees.  */
+static bt_status
+turn_camera (sketch *s, SCM moved, bt_error *error)
+{
+  SCM angles = scm_list_tail (moved, scm_from_int (4));
+  if (scm_is_null (angles))
+    return BT_OK;
+  return bt_view_turn (s->view, degree * scm_to_double (scm_car (angles)),
+                       degree * scm_to_double (scm_cadr (angles)), error);
+}
+
 /* AIM is what aim_still takes; or a list of that, the point to look at, an f64vector or false, how
-   many metres to see there, and how many times nearer to go.  */
+   many metres to see there, how many times nearer to go, and what turn_camera takes.  */
 static bt_status
 aim_camera (sketch *s, SCM aim, bt_error *error)
 {
@@ -133,9 +146,10 @@ aim_camera (sketch *s, SCM aim, bt_error *error)
       x = (const double *)SCM_BYTEVECTOR_CONTENTS (scm_cadr (aim));
       at = (bt_vec3){ x[0], x[1], x[2] };
     }
-  return bt_view_move (s->view, scm_is_true (scm_cadr (aim)) ? &at : NULL,
-                       scm_to_double (scm_caddr (aim)), scm_to_double (scm_cadddr (aim)), aspect,
-                       error);
+  status = bt_view_move (s->view, scm_is_true (scm_cadr (aim)) ? &at : NULL,
+                         scm_to_double (scm_caddr (aim)), scm_to_double (scm_cadddr (aim)), aspect,
+                         error);
+  return status == BT_OK ? turn_camera (s, aim, error) : status;
 }
 
 /* MARKS, an f64vector of points, x y z one after another, is told where each falls in the picture:

@@ -7,6 +7,7 @@
              (bight cockpit desk)
              (bight cockpit hud)
              (bight cockpit keys)
+             (bight cockpit sequences)
              (bight cockpit view)
              (ice-9 regex)
              (rnrs bytevectors)
@@ -41,6 +42,29 @@
     (expect (stick-values (settle (press put 3 -1 0) 1)) => '(0.0 0.0 0.0 1.0)))
   (expect (nudge-of-key #\D) => '(3 . 1/10))
   (expect (nudge-of-key #\Q) => #f))
+
+(define-scenario releases-and-the-mouse-are-told-apart
+  "Keys by kitty's protocol with their repeats and releases, the mouse by xterm's, and what is neither."
+  (in open-water)
+  (expect (keys-of "\x1b[119u\x1b[119;1:2u\x1b[119;1:3u") => '(#\w #\w (release #\w)))
+  (expect (keys-of "\x1b[119:87;2:2u\x1b[91:123;2u") => '(#\W #\{))
+  (expect (keys-of "\x1b[119;2u") => '(#\W))
+  (expect (keys-of "\x1b[99;5u\x1b[27u\x1b[13u\x1b[127u") => '(#\etx escape #\return #\delete))
+  (expect (keys-of "\x1b[1;1:1A\x1b[1;1:3D\x1b[A") => '(up (release left) up))
+  (expect (keys-of "\x1b[57441;2u\x1b[;;u\x1b[u\x1b[-1u\x1b[119;0uq") => '(#\q))
+  (expect (keys-of "\x1b[?7u\x1b[?1u\x1b[O\x1b[I") => '(releases unfocused))
+  (expect (keys-of "\x1b[<0;3;5M\x1b[<32;4;6M\x1b[<0;4;6m\x1b[<64;1;1M\x1b[<65;1;1M\x1b[<2;1;1M\x1b[<0;1Mq")
+          => '((mouse press 2 4) (mouse drag 3 5) (mouse release 3 5) (mouse nearer 0 0) (mouse further 0 0) #\q)))
+
+(define-scenario keys-that-are-told-to-come-up-hold-until-then
+  "Two at once, for as long as they are down; what comes up lets go of its own alone; losing the focus lets go of all."
+  (in open-water)
+  (let* ((one (press (new-sticks) 0 1 10 #t)) (two (press one 3 -1 11 #t)))
+    (expect (stick-values (settle two 500)) => '(1.0 0.0 0.0 -1.0))
+    (expect (stick-values (let-up two 0 1)) => '(0.0 0.0 0.0 -1.0))
+    (expect (stick-values (let-up two 0 -1)) => '(1.0 0.0 0.0 -1.0))
+    (expect (stick-values (let-all-up (nudge two 2 1/10))) => '(0.0 0.0 0.1 0.0))
+    (expect (stick-values (settle (press (let-up one 0 1) 0 1 20) 20.6)) => '(0.0 0.0 0.0 0.0))))
 
 (define-scenario the-tape-turns
   "The heading stands in the middle of its tape, whatever it is."

@@ -7,7 +7,22 @@
   #:use-module (bight cockpit keys)
   #:use-module (bight cockpit state)
   #:use-module (srfi srfi-1)
-  #:export (stick-positions controller-keys!))
+  #:export (stick-positions stick-key! controller-keys!))
+
+(define (stick-key! c key)
+  "Let KEY do what it does to the sticks of C, and return #t; #f if it is about something else."
+  (define (hold! proc stick . more)
+    (set-sticks! c (apply proc (cockpit-sticks c) (car stick) (cdr stick) more))
+    #t)
+  (cond ((stick-of-key key) => (lambda (stick) (hold! press stick (clock) (cockpit-releases? c))))
+        ((nudge-of-key key) => (lambda (step) (hold! nudge step)))
+        ((and (pair? key) (eq? 'release (car key)))
+         (let ((stick (stick-of-key (second key))))
+           (when stick (hold! let-up stick)))
+         #t)
+        ((eq? 'releases key) (set-releases! c #t) #t)
+        ((eq? 'unfocused key) (set-sticks! c (let-all-up (cockpit-sticks c))) #t)
+        (else #f)))
 
 (define (stick-positions c)
   "Return where the sticks of C stand: what a key holds goes before what a controller says."

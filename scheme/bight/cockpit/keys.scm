@@ -1,43 +1,18 @@
 ;;; (bight cockpit keys) --- what the keys of a pilot mean.
 ;;;
-;;; A terminal tells of keys that go down, never of keys that come up.  So a key holds its stick as long
+;;; Most terminals tell of keys that go down, never of keys that come up.  There a key holds its stick as long
 ;;; as it repeats: after the first press for as long as a keyboard takes to begin to repeat, then for as
-;;; long as a repeat takes.  With shift it nudges the stick instead, which stays there.
+;;; long as a repeat takes.  Where releases are told, the key holds its stick until then, and several keys hold
+;;; theirs at once.  With shift a key nudges the stick instead, which stays there.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight cockpit keys)
   #:use-module (bight core record)
-  #:use-module (ice-9 match)
   #:use-module (srfi srfi-1)
-  #:export (bytes->keys
-            new-sticks press nudge centre settle stick-values sticks?
+  #:export (new-sticks press let-up let-all-up nudge settle stick-values sticks?
             stick-of-key nudge-of-key act-of-key
             key-lines))
-
-
-;;; Bytes of a terminal as keys: characters and the symbols up down left right.
-
-(define (arrow byte)
-  (assv-ref '((65 . up) (66 . down) (67 . right) (68 . left)) byte))
-
-(define (skip-sequence bytes)
-  ;; What follows an escape sequence of no use to us: it ends with a letter or ~.
-  (let ((rest (drop-while (lambda (b) (<= #x20 b #x3f)) bytes)))
-    (if (pair? rest) (cdr rest) '())))
-
-(define (bytes->keys bytes)
-  "Return the keys that BYTES, a list of what a terminal sent, stand for: characters, and the symbols up
-down left right escape."
-  (match bytes
-    (() '())
-    ((27 (or 91 79) (= arrow (and (? symbol?) key)) . rest) (cons key (bytes->keys rest)))
-    ((27 91 . rest) (bytes->keys (skip-sequence rest)))
-    ((27 . rest) (cons 'escape (bytes->keys rest)))
-    ((byte . rest)
-     (if (< byte 128)
-         (cons (integer->char byte) (bytes->keys rest))
-         (bytes->keys rest)))))           ; no key of ours
 
 
 ;;; Sticks: for each axis where it was put, and where a key holds it until when.
@@ -61,14 +36,26 @@ down left right escape."
 (define (with-element list i value)
   (append (take list i) (cons value (drop list (+ i 1)))))
 
-(define (press sticks axis value now)
-  "Return STICKS after a key that holds AXIS at VALUE came at the time NOW, s."
+(define* (press sticks axis value now #:optional (told? #f))
+  "Return STICKS after a key that holds AXIS at VALUE came at the time NOW, s; TOLD? says that it will be told when the
+key comes up."
   (let ((again? (eqv? value (list-ref (sticks-held sticks) axis))))
     (make-sticks (sticks-put sticks)
                  (with-element (sticks-held sticks) axis value)
                  (with-element (sticks-until sticks) axis
                                (max (list-ref (sticks-until sticks) axis)
-                                    (+ now (if again? next-hold first-hold)))))))
+                                    (cond (told? +inf.0) (again? (+ now next-hold)) (else (+ now first-hold))))))))
+
+(define (let-up sticks axis value)
+  "Return STICKS after the key that holds AXIS at VALUE came up."
+  (if (eqv? value (list-ref (sticks-held sticks) axis))
+      (make-sticks (sticks-put sticks) (with-element (sticks-held sticks) axis #f)
+                   (with-element (sticks-until sticks) axis 0))
+      sticks))
+
+(define (let-all-up sticks)
+  "Return STICKS that no key holds, where they were put."
+  (make-sticks (sticks-put sticks) (make-list axes #f) (make-list axes 0)))
 
 (define (nudge sticks axis step)
   "Return STICKS with AXIS put STEP further."
@@ -76,10 +63,6 @@ down left right escape."
          (value (/ (round (* 10 (max -1 (min 1 value)))) 10)))
     (make-sticks (with-element (sticks-put sticks) axis value)
                  (sticks-held sticks) (sticks-until sticks))))
-
-(define (centre sticks)
-  "Return STICKS let go."
-  (new-sticks))
 
 (define (settle sticks now)
   "Return STICKS at the time NOW, s: what no key holds any more is where it was put."
@@ -127,7 +110,8 @@ down left right escape."
     "space   let go of everything"
     "h b n m hold heading, depth, altitude, place"
     "[ ]     winch: in, out a metre      { } five"
-    "v 1-5   view: chase camera top side overview"
+    "v 1-5   view: chase camera top side overview,"
+    "        which the mouse turns and zooms"
     "o x     colour of the tether; picture or plain"
     "z f     map; the way home in words"
     "y       lights       g   what if: 5 s from now"

@@ -19,7 +19,8 @@
             set-plan! cockpit-plan-due set-plan-due! cockpit-paused? set-paused! cockpit-ghost set-ghost!
             cockpit-ghost-fork set-ghost-fork! cockpit-done? set-done! cockpit-times set-times! cockpit-targets
             set-targets! cockpit-labels set-labels! cockpit-panel set-panel! cockpit-dark? set-dark!
-            cockpit-sent set-sent! cockpit-live? set-live! cockpit-stepped set-stepped!))
+            cockpit-sent set-sent! cockpit-live? set-live! cockpit-stepped set-stepped! cockpit-orbit set-orbit!
+            cockpit-held-at set-held-at! cockpit-releases? set-releases!))
 
 (define frame 1/30)                     ; s
 
@@ -33,7 +34,7 @@
 (define-record <cockpit>
   (make-cockpit palette ascii? dive vehicle tether screen size view paint plain? lamp? help? words? map? sticks
                 message message-until slow slow-due ahead words ahead-due plan plan-due
-                paused? ghost ghost-fork done? times targets labels panel dark? sent live? stepped)
+                paused? ghost ghost-fork done? times targets labels panel dark? orbit held-at releases? sent live? stepped)
   cockpit?
   (palette cockpit-palette)
   (ascii? cockpit-ascii?)
@@ -68,6 +69,9 @@
   (labels cockpit-labels set-labels!)   ; a list of targets that have a name alone
   (panel cockpit-panel set-panel!)      ; (PANEL PUT COLUMNS ROWS): draw first; the row it ends at, or #f
   (dark? cockpit-dark? set-dark!)       ; the camera sees nothing
+  (orbit cockpit-orbit set-orbit!)      ; how the overview is turned and dipped, degrees, and how many times nearer; or #f
+  (held-at cockpit-held-at set-held-at!) ; (COLUMN . ROW) where the mouse was last, its button down; or #f
+  (releases? cockpit-releases? set-releases!) ; the terminal tells when keys come up
   ;; For its owner:
   (sent cockpit-sent set-sent!)         ; the stick values that the vehicle was told last, or #f
   (live? cockpit-live? set-live!)       ; #f: the owner's loop steps the dive
@@ -79,7 +83,7 @@
 (define (new-cockpit palette view paint)
   "Return a cockpit without a dive, for a terminal of PALETTE, that shows VIEW with tethers painted by PAINT."
   (make-cockpit palette (ascii-terminal?) #f #f #f #f #f view paint (eq? palette 'none) #f #f #t #f (new-sticks)
-                "" 0 '((windings) (warnings)) 0 '() #f 0 '() 0 #f #f #f #f '() (const '()) '() #f #f #f #f (clock)))
+                "" 0 '((windings) (warnings)) 0 '() #f 0 '() 0 #f #f #f #f '() (const '()) '() #f #f #f #f #f #f #f (clock)))
 
 (define (board! c dive)
   "Let C show DIVE, and ask of it anew."

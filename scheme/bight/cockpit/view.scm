@@ -15,6 +15,7 @@
   #:use-module (bight cockpit keys)
   #:use-module ((bight cockpit orders) #:select (answer-order! do-to-dive! call-with-desk next-order! publish!))
   #:use-module (bight cockpit palette)
+  #:use-module (bight cockpit sequences)
   #:use-module (bight cockpit state)
   #:use-module (bight cockpit what-if)
   #:use-module (bight core errors)
@@ -164,11 +165,7 @@
     (else (announce! c "that key is for lessons: bight lesson"))))
 
 (define (do-key! c key)
-  (cond ((stick-of-key key)
-         => (lambda (stick)
-              (set-sticks! c (press (cockpit-sticks c) (car stick) (cdr stick) (clock)))))
-        ((nudge-of-key key)
-         => (lambda (step) (set-sticks! c (nudge (cockpit-sticks c) (car step) (cdr step)))))
+  (cond ((stick-key! c key))
         ((view-key! c key))
         ((act-of-key key) => (lambda (act) (do-act! c act)))))
 

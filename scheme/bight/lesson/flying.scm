@@ -154,12 +154,7 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
     (else '())))
 
 (define (key->inputs c key)
-  (cond ((stick-of-key key)
-         => (lambda (stick)
-              (set-sticks! c (press (cockpit-sticks c) (car stick) (cdr stick) (clock)))
-              '()))
-        ((nudge-of-key key)
-         => (lambda (step) (set-sticks! c (nudge (cockpit-sticks c) (car step) (cdr step))) '()))
+  (cond ((stick-key! c key) '())
         ((view-key-here! key) '())
         ((act-of-key key) => (lambda (act) (act->inputs c act)))
         (else '())))

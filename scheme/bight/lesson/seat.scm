@@ -7,7 +7,7 @@
   #:use-module (bight cockpit cells)
   #:use-module (bight cockpit controls)
   #:use-module (bight cockpit hud)
-  #:use-module (bight cockpit keys)
+  #:use-module (bight cockpit sequences)
   #:use-module (bight cockpit state)
   #:use-module (bight core record)
   #:use-module (bight core units)
@@ -72,6 +72,8 @@
     (and (pair? (seat-keys seat))
          (let ((key (car (seat-keys seat))))
            (set-keys! seat (cdr (seat-keys seat)))
+           (when (eq? 'releases key)    ; whatever is asked just now
+             (set-releases! (seat-cockpit seat) #t))
            key))))
 
 (define (waiting thunk)
