@@ -42,9 +42,13 @@
 
 (define (benches)
   "Return the names of the benches there are."
-  (sort (cons in-the-language (bench-files (%programs-folder))) string<?))
+  (sort (append (map first in-the-language) (bench-files (%programs-folder))) string<?))
 
-(define in-the-language "belief")       ; a bench that is no program
+;; Benches that are no programs, each loaded when it is asked for: name, purpose, and a thunk for what runs it.
+(define in-the-language
+  `(("belief" "How often beliefs are right, and what they cost." ,(lambda () (@ (bight bench belief) run-belief)))
+    ("cockpit" "What a frame of the cockpit costs, with a lesson's overlay."
+     ,(lambda () (@ (bight bench cockpit) run-cockpit)))))
 
 (define (check-name name)
   (let ((known (benches)))
@@ -91,8 +95,8 @@
 
 (define (purpose name)
   ;; The second line of its help.
-  (let ((lines (if (equal? name in-the-language)
-                   '("" "How often beliefs are right, and what they cost.")
+  (let ((lines (if (assoc name in-the-language)
+                   (assoc name in-the-language)
                    (or (output-of (program-of (%programs-folder) name) "--help") '()))))
     (if (> (length lines) 1) (second lines) "")))
 
@@ -315,9 +319,9 @@
 (define (worlds? names passed)
   (and (equal? names '("stability")) ((@ (bight bench worlds) worlds-asked?) passed)))
 
-;; So are beliefs.
-(define (belief? names)
-  (equal? names (list in-the-language)))
+;; So is what stands among `in-the-language'.
+(define (told-by-itself names)
+  (and (= 1 (length names)) (assoc-ref in-the-language (car names))))
 
 (define (words? plan)
   ;; Is the one bench asked for something else than rows?
@@ -370,9 +374,9 @@
                (did-you-mean (car passed) (append ours flags '("--data")))))
         (cond ((assoc-ref options "--list") (list-benches))
               (old (compare old files names options passed folder))
-              ((belief? names)
-               ((@ (bight bench belief) run-belief)
-                (append (if (assoc-ref options "--quick") '("--quick") '()) passed)))
+              ((told-by-itself names)
+               => (lambda (entry)
+                    (((second entry)) (append (if (assoc-ref options "--quick") '("--quick") '()) passed))))
               (else
                (let ((plan (make-plan names options passed)))
                  (cond ((worlds? names passed)

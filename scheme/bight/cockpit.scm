@@ -25,7 +25,7 @@
   #:use-module ((bight world) #:select (world-name))
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
-  #:export (draw-frame! draw-page! pages view-key! frame-pixels))
+  #:export (draw-frame! compose-frame! fit-to-size! draw-page! pages view-key! frame-pixels))
 
 (define-syntax-rule (from module name)
   (module-ref (resolve-interface 'module) 'name))
@@ -35,15 +35,19 @@
 (define forecast-share 1/50)            ; so that they take no more of the time than this
 (define map-period 1/2)
 
+(define (fit-to-size! c size)
+  "Let C draw for a screen of SIZE, a pair of columns and rows; return #t if all must be written."
+  (if (equal? size (cockpit-size c))
+      #f
+      (begin
+        (set-size! c size)
+        (set-characters! c '(() . 0))
+        (set-screen! c (%make-screen (car size) (cdr size) (cockpit-palette c) (cockpit-ascii? c)))
+        #t)))
+
 (define (fit-screen! c)
   ;; Take the terminal's size as it is now; return #t if all must be written.
-  (let ((size (%screen-size)))
-    (if (equal? size (cockpit-size c))
-        #f
-        (begin
-          (set-size! c size)
-          (set-screen! c (%make-screen (car size) (cdr size) (cockpit-palette c) (cockpit-ascii? c)))
-          #t))))
+  (fit-to-size! c (%screen-size)))
 
 
 ;;; The picture.
@@ -103,10 +107,14 @@ fall in it."
 (define (cell x)
   (if (< (abs x) 1e5) (inexact->exact (floor x)) -1))
 
+(define plain-period 1/5)               ; s: a drawing of characters costs as much as several pictures
+
 (define (draw-plainly! c put)
-  (let ((columns (max 40 (min 160 (car (cockpit-size c))))))
-    (put-lines put 0 2 ((from (bight view) picture-lines) ((from (bight view) look) #:columns columns))
-               #xd0e0e0 0)))
+  (let ((columns (max 40 (min 160 (car (cockpit-size c))))) (t (clock)))
+    (when (> t (cdr (cockpit-characters c)))
+      (set-characters! c (cons ((from (bight view) picture-lines) ((from (bight view) look) #:columns columns))
+                               (+ t plain-period))))
+    (put-lines put 0 2 (car (cockpit-characters c)) #xd0e0e0 0)))
 
 (define (no-picture! c e)
   ;; From now on without.
@@ -261,9 +269,10 @@ fall in it."
   (lambda (column row text ink paper)
     (%screen-text! (cockpit-screen c) column row text ink paper)))
 
-(define (draw-frame! c hint)
-  "Draw the dive of C with its display; HINT stands in the last line where there is nothing to tell."
-  (let* ((new? (fit-screen! c)) (put (new-desk c)) (marks (draw-scene! c (plain-put c))))
+(define (compose-frame! c hint)
+  "Draw the dive of C with its display on the screen of C, which nobody sees yet; HINT stands in the last line where
+there is nothing to tell."
+  (let* ((put (new-desk c)) (marks (draw-scene! c (plain-put c))))
     (when (cockpit-help? c)
       (draw-help! c put))
     (let ((top (or (and (cockpit-panel c)
@@ -272,7 +281,12 @@ fall in it."
       (trying c (ask-what-is-due! c))
       (draw-map! c put top)
       (trying c (draw-figures! c put top hint)))
-    (draw-marks! put marks)
+    (draw-marks! put marks)))
+
+(define (draw-frame! c hint)
+  "Show the dive of C with its display; HINT is for `compose-frame!'."
+  (let ((new? (fit-screen! c)))
+    (compose-frame! c hint)
     (write-frame! c new?)))
 
 (define (widest-drawing lines)

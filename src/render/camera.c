@@ -29,9 +29,9 @@ bt__optics_of (const bt_camera *camera, double aspect)
 }
 
 bt__lens
-bt__lens_of (const bt__optics *o, int height)
+bt__lens_of (const bt__optics *o, int height, int quick)
 {
-  return (bt__lens){ o->eye, o->ahead, 2 * o->half_height / height, o->perspective, height };
+  return (bt__lens){ o->eye, o->ahead, 2 * o->half_height / height, o->perspective, height, quick };
 }
 
 /* Rows of the view transform scaled to the picture's half sizes.  */

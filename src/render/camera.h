@@ -23,7 +23,7 @@ typedef struct bt__window
 } bt__window;
 
 bt__optics bt__optics_of (const bt_camera *camera, double aspect);
-bt__lens bt__lens_of (const bt__optics *optics, int height);
+bt__lens bt__lens_of (const bt__optics *optics, int height, int quick);
 
 /* Write the matrix, column by column, that takes points relative to ORIGIN to WINDOW of a picture
    of W by H pixels.  */

@@ -351,7 +351,7 @@ bt__render (bt__renderer *r, const bt_view *view, const bt__drawing *drawing, bt
     return status;
   j.optics = bt__optics_of (&view->camera, (double)drawing->width / drawing->height);
   j.soup.origin = view->camera.at;
-  j.soup.lens = bt__lens_of (&j.optics, drawing->height);
+  j.soup.lens = bt__lens_of (&j.optics, drawing->height, drawing->quick);
   j.reach = drawing->height / 50;
   j.margin = j.reach + 4;
   bt__prepare (&j);

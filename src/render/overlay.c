@@ -29,7 +29,7 @@ pixels_per_metre (const bt__pen *pen, const bt_view *view, const bt__optics *o)
 static void
 write_growth (bt__pen *pen, const bt_view *view, const bt__optics *o, double x, double y)
 {
-  bt__lens lens = bt__lens_of (o, pen->height);
+  bt__lens lens = bt__lens_of (o, pen->height, 0);
   char text[80];
   for (size_t i = 0; i < view->n; i++)
     {

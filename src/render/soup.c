@@ -2,7 +2,7 @@
 
    A soup is a list of vertices with normals and material, and a list of indices, in floats relative
    to the point looked at.  Round bodies get as many sides as the picture needs: chords are off the
-   circle by at most 0.15 of a pixel, between 8 and 40 sides.  A failed allocation sets `full' and
+   circle by at most 0.15 of a pixel, between 8 and 40 sides; in quick pictures half a pixel.  A failed allocation sets `full' and
    drops further triangles; the picture then fails as a whole.
 
    A tube is a ring of vertices at each point of its line, joined by triangles.  The frame of the
@@ -21,8 +21,9 @@
 enum
 {
   ROUND = 40,    /* sides of what is round, at most */
-  FEWEST = 8,    /* and at least */
-  TUBE_LEAST = 6 /* of a tube */
+  FEWEST = 8,     /* and at least */
+  TUBE_LEAST = 6, /* of a tube */
+  QUICK_LEAST = 4 /* of either in a quick picture */
 };
 
 void
@@ -46,11 +47,13 @@ bt__stroke (const bt__lens *lens)
 }
 
 /* Sides of a circle of RADIUS about AT, LEAST or more: the chords are off the circle by at most
-   0.15 of a pixel.  A triangle costs as much as many pixels.  */
+   0.15 of a pixel, or, for a quick picture, 0.5.  A triangle costs as much as many pixels.  */
 static int
 sides_of (const bt__soup *soup, bt_vec3 at, double radius, int least)
 {
-  double pixels = radius / bt__pixel_at (&soup->lens, at), n = 5.8 * sqrt (fmax (pixels, 0));
+  least = soup->lens.quick && least > QUICK_LEAST && least <= FEWEST ? QUICK_LEAST : least;
+  double pixels = radius / bt__pixel_at (&soup->lens, at);
+  double n = (soup->lens.quick ? 3.2 : 5.8) * sqrt (fmax (pixels, 0));
   return n < least ? least : n > ROUND ? ROUND : (int)ceil (n / 2) * 2;
 }
 
@@ -209,6 +212,13 @@ add_disc (bt__soup *soup, bt_vec3 at, bt_vec3 normal, bt_vec3 u, bt_vec3 v, doub
     }
 }
 
+/* True if a disc of RADIUS about AT is less than a pixel of a quick picture.  */
+static int
+is_dot (const bt__soup *soup, bt_vec3 at, double radius)
+{
+  return soup->lens.quick && radius < 0.5 * bt__pixel_at (&soup->lens, at);
+}
+
 void
 bt__add_cone (bt__soup *soup, bt_vec3 from, bt_vec3 to, double r0, double r1, int caps)
 {
@@ -230,9 +240,9 @@ bt__add_cone (bt__soup *soup, bt_vec3 from, bt_vec3 to, double r0, double r1, in
           bt__add_triangle (soup, k, k - 1, k + 1);
         }
     }
-  if (caps && r0 > 0)
+  if (caps && r0 > 0 && !is_dot (soup, from, r0))
     add_disc (soup, from, bt__scale (-1, axis), u, v, r0, sides);
-  if (caps && r1 > 0)
+  if (caps && r1 > 0 && !is_dot (soup, to, r1))
     add_disc (soup, to, axis, u, v, r1, sides);
 }
 
@@ -240,10 +250,11 @@ void
 bt__add_ring (bt__soup *soup, bt_vec3 at, bt_vec3 axis, double radius, double thickness)
 {
   bt_vec3 point[ROUND + 1], u, v;
+  int sides = soup->lens.quick ? sides_of (soup, at, radius, FEWEST) : ROUND;
   cross_axes (axis, &u, &v);
-  for (int i = 0; i <= ROUND; i++)
-    point[i] = bt__axpy (at, radius, around (u, v, i, ROUND));
-  bt__add_tube (soup, point, ROUND + 1, thickness, 0, NULL);
+  for (int i = 0; i <= sides; i++)
+    point[i] = bt__axpy (at, radius, around (u, v, i, sides));
+  bt__add_tube (soup, point, (size_t)sides + 1, thickness, 0, NULL);
 }
 
 /* ---- Tubes ---- */
@@ -256,12 +267,19 @@ direction (const bt_vec3 *points, size_t n, size_t i, bt_vec3 last)
   return bt__unit_or (bt__sub (after, before), last);
 }
 
+/* True if the ring about P is not seen to be another one than that about LAST, in a quick picture.  */
+static int
+is_same_ring (const bt__soup *soup, bt_vec3 p, bt_vec3 last)
+{
+  return soup->lens.quick && bt__distance (p, last) < bt__pixel_at (&soup->lens, p);
+}
+
 /* The frame is carried along without turning about the tube: no tube looks twisted.  */
 void
 bt__add_tube (bt__soup *soup, const bt_vec3 *points, size_t n, double radius, double least,
               const bt_color *color)
 {
-  bt_vec3 along = bt__vec (1, 0, 0), u, v;
+  bt_vec3 along = bt__vec (1, 0, 0), u, v, last = { 0, 0, 0 };
   int sides = TUBE_LEAST;
   if (n < 2)
     return;
@@ -272,6 +290,9 @@ bt__add_tube (bt__soup *soup, const bt_vec3 *points, size_t n, double radius, do
   for (size_t i = 0; i < n; i++)
     {
       double r = fmax (radius, least / 2 * bt__pixel_at (&soup->lens, points[i]));
+      if (i && i + 1 < n && is_same_ring (soup, points[i], last))
+        continue;
+      last = points[i];
       along = direction (points, n, i, along);
       u = bt__unit_or (bt__axpy (u, -bt__dot (u, along), along), u);
       v = bt__cross (along, u);

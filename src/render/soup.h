@@ -46,7 +46,8 @@ typedef struct bt__lens
   bt_vec3 from, ahead;
   double pixel; /* m per pixel, at a distance of 1 m when there is perspective */
   int perspective;
-  int rows; /* pixels of the picture's height */
+  int rows;  /* pixels of the picture's height */
+  int quick; /* true: what is not seen at a few pixels' size is left out */
 } bt__lens;
 
 /* Some of the triangles: where they begin in the list of corners, and how many corners.  */

@@ -20,7 +20,8 @@
             cockpit-ghost-fork set-ghost-fork! cockpit-done? set-done! cockpit-times set-times! cockpit-targets
             set-targets! cockpit-labels set-labels! cockpit-panel set-panel! cockpit-dark? set-dark!
             cockpit-sent set-sent! cockpit-live? set-live! cockpit-stepped set-stepped! cockpit-orbit set-orbit!
-            cockpit-held-at set-held-at! cockpit-releases? set-releases!))
+            cockpit-held-at set-held-at! cockpit-releases? set-releases! cockpit-characters
+            set-characters!))
 
 (define frame 1/30)                     ; s
 
@@ -34,7 +35,7 @@
 (define-record <cockpit>
   (make-cockpit palette ascii? dive vehicle tether screen size view paint plain? lamp? help? words? map? sticks
                 message message-until slow slow-due ahead words ahead-due plan plan-due
-                paused? ghost ghost-fork done? times targets labels panel dark? orbit held-at releases? sent live? stepped)
+                paused? ghost ghost-fork done? times targets labels panel dark? orbit held-at releases? characters sent live? stepped)
   cockpit?
   (palette cockpit-palette)
   (ascii? cockpit-ascii?)
@@ -72,6 +73,7 @@
   (orbit cockpit-orbit set-orbit!)      ; how the overview is turned and dipped, degrees, and how many times nearer; or #f
   (held-at cockpit-held-at set-held-at!) ; (COLUMN . ROW) where the mouse was last, its button down; or #f
   (releases? cockpit-releases? set-releases!) ; the terminal tells when keys come up
+  (characters cockpit-characters set-characters!) ; the plain drawing and until when it is shown, a pair
   ;; For its owner:
   (sent cockpit-sent set-sent!)         ; the stick values that the vehicle was told last, or #f
   (live? cockpit-live? set-live!)       ; #f: the owner's loop steps the dive
@@ -83,7 +85,7 @@
 (define (new-cockpit palette view paint)
   "Return a cockpit without a dive, for a terminal of PALETTE, that shows VIEW with tethers painted by PAINT."
   (make-cockpit palette (ascii-terminal?) #f #f #f #f #f view paint (eq? palette 'none) #f #f #t #f (new-sticks)
-                "" 0 '((windings) (warnings)) 0 '() #f 0 '() 0 #f #f #f #f '() (const '()) '() #f #f #f #f #f #f #f (clock)))
+                "" 0 '((windings) (warnings)) 0 '() #f 0 '() 0 #f #f #f #f '() (const '()) '() #f #f #f #f '(() . 0) #f #f #f (clock)))
 
 (define (board! c dive)
   "Let C show DIVE, and ask of it anew."

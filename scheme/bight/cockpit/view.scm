@@ -83,17 +83,20 @@
 
 ;;; Keys.
 
+(define (drive-as! c values)
+  (for-each (lambda (keyword value before)
+              (unless (= value before)
+                (drive! (cockpit-vehicle c) keyword value)))
+            '(#:surge #:sway #:heave #:yaw) values (cockpit-sent c)))
+
 (define (send-sticks! c)
-  ;; Tell the vehicle when the sticks stand otherwise than it was told.
+  ;; Tell the vehicle when the sticks stand otherwise than it was told; what it refused it is told again.
   (set-sticks! c (settle (cockpit-sticks c) (clock)))
   (let ((values (stick-positions c)))
-    (when (and (cockpit-vehicle c) (cockpit-sent c) (not (equal? values (cockpit-sent c))))
-      (trying c
-        (for-each (lambda (keyword value before)
-                    (unless (= value before)
-                      (drive! (cockpit-vehicle c) keyword value)))
-                  '(#:surge #:sway #:heave #:yaw) values (cockpit-sent c))))
-    (set-sent! c values)))
+    (when (or (not (cockpit-sent c))
+              (and (cockpit-vehicle c) (not (equal? values (cockpit-sent c)))
+                   (trying c (drive-as! c values) #t)))
+      (set-sent! c values))))
 
 (define (let-go! c)
   (set-sticks! c (new-sticks))

@@ -25,7 +25,7 @@
   #:use-module (bight lesson seat)
   #:use-module (bight lesson tally)
   #:use-module (srfi srfi-1)
-  #:export (fly-in-cockpit lesson-panel show-lines!))
+  #:export (fly-in-cockpit lesson-panel target-line show-lines!))
 
 (define (show-lines! lines)
   "Show LINES as they are, without a picture behind them."
@@ -37,6 +37,7 @@
 ;;; Flying: what the panel says.
 
 (define (target-line target i)
+  "Return the line of the panel about TARGET, a pair of its name and place, the one with the number I."
   (let ((p (cdr target)))
     (string-append (number->string (+ i 1)) " " (car target) "  " (metres (range-to p)) "  "
                    (string-pad (number->string (modulo (inexact->exact (round (bearing-to p))) 360)) 3 #\0)
