@@ -8,6 +8,7 @@
              (bight cockpit hud)
              (bight cockpit keys)
              (bight cockpit sequences)
+             (bight cockpit state)
              (bight cockpit view)
              (ice-9 regex)
              (rnrs bytevectors)
@@ -55,6 +56,18 @@
   (expect (keys-of "\x1b[?7u\x1b[?1u\x1b[O\x1b[I") => '(releases unfocused))
   (expect (keys-of "\x1b[<0;3;5M\x1b[<32;4;6M\x1b[<0;4;6m\x1b[<64;1;1M\x1b[<65;1;1M\x1b[<2;1;1M\x1b[<0;1Mq")
           => '((mouse press 2 4) (mouse drag 3 5) (mouse release 3 5) (mouse nearer 0 0) (mouse further 0 0) #\q)))
+
+(define-scenario a-cockpit-begins-with-nothing
+  "No terminal is believed to tell of releases before it says so; nothing is turned, sent, dark or left to draw."
+  (in open-water)
+  (let ((c (new-cockpit 'many 'side 'tension)))
+    (expect (list (cockpit-view c) (cockpit-paint c) (cockpit-palette c)) => '(side tension many))
+    (expect (map (lambda (f) (f c)) (list cockpit-releases? cockpit-orbit cockpit-held-at cockpit-sent cockpit-live?
+                                          cockpit-panel cockpit-dark? cockpit-ghost cockpit-paused? cockpit-done?))
+            => (make-list 10 #f))
+    (expect (cockpit-characters c) => '(() . 0))
+    (expect (list (cockpit-labels c) ((cockpit-targets c))) => '(() ()))
+    (expect (cockpit-stepped c) is (above 0))))
 
 (define-scenario keys-that-are-told-to-come-up-hold-until-then
   "Two at once, for as long as they are down; what comes up lets go of its own alone; losing the focus lets go of all."

@@ -85,7 +85,7 @@
 (define (new-cockpit palette view paint)
   "Return a cockpit without a dive, for a terminal of PALETTE, that shows VIEW with tethers painted by PAINT."
   (make-cockpit palette (ascii-terminal?) #f #f #f #f #f view paint (eq? palette 'none) #f #f #t #f (new-sticks)
-                "" 0 '((windings) (warnings)) 0 '() #f 0 '() 0 #f #f #f #f '() (const '()) '() #f #f #f #f '(() . 0) #f #f #f (clock)))
+                "" 0 '((windings) (warnings)) 0 '() #f 0 '() 0 #f #f #f #f '() (const '()) '() #f #f #f #f #f '(() . 0) #f #f (clock)))
 
 (define (board! c dive)
   "Let C show DIVE, and ask of it anew."
