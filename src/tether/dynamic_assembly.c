@@ -357,7 +357,7 @@ bt__dynamic_node_load (bt__dynamic_work *w, int i)
   flows s = { .tau = bt__pair_load (&w->node[i].tau, &w->node[i].tau) };
   flow_past (w, i, i, &s);
   bt__pair_vec f = node_loads (w, i, i, &s, &unused);
-  double lost = w->lift * w->node[i].cell * bt__dynamic_out_of_water (w, i);
+  double lost = w->lift * bt__dynamic_line_out (w, i);
   return bt__vec (f.x[0], f.y[0], f.z[0] - lost);
 }
 

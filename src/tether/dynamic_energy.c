@@ -53,14 +53,14 @@ energies_at (const bt__dynamic *d, const bt__dynamic_input *in, const bt_vec3 *x
       double along = ma > 0 ? bt__dot (v[i], bt__unit_or (tau, bt__vec (0, 0, -1))) : 0;
       sum.kinetic += 0.5 * cell * ((p->mass + ma) * bt__dot (v[i], v[i]) - ma * along * along);
       sum.gravity += p->wet_weight * cell * x[i].z;
-      if (in->surfaced && lift > 0)
-        sum.gravity += lift * cell * bt__dynamic_out (in->water, x[i]);
     }
   for (int j = 0; j < n; j++)
     {
       bt_vec3 c = bt__sub (x[j + 1], x[j]);
       double e = bt__norm (chord ? bt__add (c, chord[j]) : c) / rest[j];
       sum.strain += strain_energy (ea, rest[j], e, p->ei > 0);
+      if (in->surfaced && lift > 0)
+        sum.gravity += lift * bt__dynamic_out (in->water, rest[j], x[j], x[j + 1]);
     }
   return sum;
 }

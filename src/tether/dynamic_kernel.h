@@ -238,12 +238,15 @@ void bt__dynamic_lengthen (bt__dynamic_work *w, int64_t j, double more);
 /* The surface: note what is near to it, and how much is wet; add its forces and blocks at the
    iterate X; their potential.  */
 void bt__dynamic_surface_prepare (bt__dynamic_work *w);
-double bt__dynamic_out_of_water (const bt__dynamic_work *w, int i); /* the share at node I */
+double bt__dynamic_out_of_water (const bt__dynamic_work *w,
+                                 int i);                        /* the share of a lump at node I */
+double bt__dynamic_line_out (const bt__dynamic_work *w, int i); /* m of line that node I bears */
 void bt__dynamic_surface_force (bt__dynamic_work *w);
 double bt__dynamic_surface_potential (const bt__dynamic_work *w);
 
-/* Return the energy, J, that a newton of buoyancy at X lacks, for it is above the surface.  */
-double bt__dynamic_out (const bt_water *water, bt_vec3 x);
+/* Return the energy, J, that an interval of REST metres lacks for each newton of its buoyancy per
+   metre, for it is above the surface.  */
+double bt__dynamic_out (const bt_water *water, double rest, bt_vec3 from, bt_vec3 to);
 
 /* Contacts: add the blocks and forces of the rows and holds at the iterate X, and return true if
    one changed sides since the last call; take over SHARE of the update D, and return true if

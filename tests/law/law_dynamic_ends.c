@@ -236,10 +236,39 @@ acceleration (const lot *l, const motion *m, int i)
 
 /* Into a layer of 0.1 m on the surface buoyancy fades as 1 - 3 u^2 + 2 u^3.  */
 static double
+faded (double u)
+{
+  return u <= 0 ? 0 : u >= 1 ? 1 : u * u * (3 - 2 * u);
+}
+
+static double
+rise_of (const lot *l, bt_vec3 x)
+{
+  return (x.z - bt_water_surface (&l->s.water, x)) / 0.1;
+}
+
+static double
 out_of_water (const lot *l, bt_vec3 x)
 {
-  double u = (x.z - bt_water_surface (&l->s.water, x)) / 0.1;
-  return u <= 0 ? 0 : u >= 1 ? 1 : u * u * (3 - 2 * u);
+  return faded (rise_of (l, x));
+}
+
+/* How much of the interval from X to the node NEXT is out of the water, m of REST, by the lever of
+   X: summed along the straight interval.  */
+static double
+line_out (const lot *l, bt_vec3 x, bt_vec3 next, double rest)
+{
+  enum
+  {
+    POINTS = 2000
+  };
+  double a = rise_of (l, x), b = rise_of (l, next), sum = 0;
+  for (int k = 0; k < POINTS; k++)
+    {
+      double y = (k + 0.5) / POINTS;
+      sum += (1 - y) * faded (a + y * (b - a));
+    }
+  return rest * sum / POINTS;
 }
 
 /* Morison's forces and the weight of the half intervals about node I.  */
@@ -260,7 +289,9 @@ add_line (const lot *l, const motion *m, int i, sum *all)
                            none);
   bt_vec3 a = acceleration (l, m, i);
   bt_water_motion (&l->s.water, x[i], &u, &wave);
-  double out = out_of_water (l, x[i]), wet = cell * (1 - out);
+  double out = (i > 0 ? line_out (l, x[i], x[i - 1], r0) : 0)
+               + (i < n ? line_out (l, x[i], x[i + 1], r1) : 0),
+         wet = cell - out;
   bt_vec3 rel = bt__sub (u, bt__dynamic_v (l->s.d)[i]);
   double along = bt__dot (rel, t), area = BT__PI / 4 * p->diameter * p->diameter;
   bt_vec3 across = bt__axpy (rel, -along, t), behind = bt__axpy (a, -bt__dot (a, t), t);
@@ -274,7 +305,7 @@ add_line (const lot *l, const motion *m, int i, sum *all)
   add (all, bt__scale (1025 * area * wet, wave));
   add (all, bt__scale (ma * wet, ahead));
   add (all, bt__vec (0, 0, -p->wet_weight * cell));
-  add (all, bt__vec (0, 0, -fmax (0, p->mass * 9.81 - p->wet_weight) * cell * out));
+  add (all, bt__vec (0, 0, -fmax (0, p->mass * 9.81 - p->wet_weight) * out));
 }
 
 /* SHARE of lump L as if it were at node I.  */

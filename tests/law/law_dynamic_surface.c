@@ -109,6 +109,76 @@ test_hangs_into_water (void **state)
   scene_close (&s);
 }
 
+/* The weight of a heavy line that hangs through the surface, as it is lifted over N intervals.  It
+   is that in water and the buoyancy of what is in the air: linear, whatever the nodes.  By whole
+   nodes it rose in steps of the buoyancy of an interval.  */
+static void
+check_lifted (int n)
+{
+  scene s;
+  const double length = 100;
+  bt_vec3 shape[2] = { { 0, 0, 5 }, { 0, 0, 5 - length } };
+  bt_tether_props line = floating;
+  line.diameter = 0.03;
+  line.mass = 4;
+  line.wet_weight = 30;
+  line.ea = 1e8;
+  double lift = line.mass * G - line.wet_weight, interval = length / n;
+  scene_open (&s, line, 1025, n, shape, 2, length);
+  s.in.surfaced = 1;
+  s.in.end[1].free = 1;
+  for (int k = 0; k < 9; k++)
+    {
+      double top = 5 + 0.3 * k * interval;
+      s.in.end[0].at.z = top;
+      scene_settle (&s);
+      double weight = 30 * length + lift * (top - LAYER / 2);
+      assert_close (bt__norm (s.d->pull[0]), weight, 1e-5 * weight, "the weight of a lifted line");
+    }
+  scene_close (&s);
+}
+
+static void
+test_lifted (void **state)
+{
+  (void)state;
+  check_lifted (40);
+  check_lifted (320);
+}
+
+/* In waves the surface over a line that hangs through it rises and falls; what it bears follows. */
+static void
+test_pierces_waves (void **state)
+{
+  (void)state;
+  scene s;
+  bt_waves waves;
+  bt_wave_def def = { .kind = BT_WAVE_AIRY, .height = 2, .period = 9 };
+  bt_vec3 shape[2] = { { 0, 0, 5 }, { 0, 0, -35 } };
+  bt_tether_props line = floating;
+  line.mass = 4;
+  line.wet_weight = 30;
+  line.ea = 1e8;
+  line.cdn = line.cdt = line.ca = 0;
+  line.diameter = 1e-4; /* no push of the waves */
+  assert_int_equal (bt_waves_make (&def, 60, G, &waves, NULL), BT_OK);
+  bt_sea sea = { .waves = &waves };
+  scene_open (&s, line, 1025, 16, shape, 2, 40);
+  s.in.surfaced = 1;
+  s.in.end[1].free = 1;
+  scene_settle (&s);
+  s.water.sea = &sea;
+  wait (&s, 2);
+  for (int k = 0; k < 540; k++)
+    {
+      scene_step (&s, 1.0 / 60);
+      double dry = 5 - bt_water_surface (&s.water, shape[0]) - LAYER / 2;
+      double weight = 30 * 40 + (line.mass * G - 30) * dry;
+      assert_close (bt__norm (s.d->pull[0]), weight, 2e-4 * weight, "what waves leave to be borne");
+    }
+  scene_close (&s);
+}
+
 /* In air nothing drags: a line let go falls as a stone does, until it meets the water.  */
 static void
 test_falls_in_air (void **state)
@@ -230,6 +300,7 @@ main (void)
     cmocka_unit_test (test_floats),           cmocka_unit_test (test_hangs_in_air),
     cmocka_unit_test (test_hangs_into_water), cmocka_unit_test (test_falls_in_air),
     cmocka_unit_test (test_energy),           cmocka_unit_test (test_float),
+    cmocka_unit_test (test_lifted),           cmocka_unit_test (test_pierces_waves),
     cmocka_unit_test (test_rides_waves),      cmocka_unit_test (test_deep),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
