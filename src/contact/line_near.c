@@ -286,7 +286,8 @@ bt__line_is_far (bt__line_job *k, double *may)
 void
 bt__line_note_near (bt__line_job *k, int near)
 {
-  k->d->spare.way = near ? -1 : fmax (k->d->spare.way, 0);
+  if (k->scene->n > 0 || k->movers > 0)
+    k->d->spare.way = near ? -1 : fmax (k->d->spare.way, 0);
 }
 
 static void

@@ -281,6 +281,51 @@ is_of_the_state (void **state)
     }
 }
 
+/* A line that hangs in open water in the midst of a ring of line, whose box is about both, has the
+   same state to the last bit as one far from any: what another line does within its box and out of
+   reach tells on nothing.  */
+static void
+far_lines_change_nothing (void **state)
+{
+  (void)state;
+  enum
+  {
+    CORNERS_OF_RING = 48
+  };
+  static reef r;
+  static rope p, q, ring;
+  bt_vec3 shape[CORNERS_OF_RING + 1];
+  for (int i = 0; i <= CORNERS_OF_RING; i++)
+    {
+      double turn = 1.9 * BT__PI * i / CORNERS_OF_RING;
+      shape[i] = bt__vec (40 * cos (turn), 40 * sin (turn), i % 2 ? -40 : 20);
+    }
+  assert_true (reef_open (&r) && reef_raise (&r));
+  assert_true (rope_open (&ring, &r, 2 * CORNERS_OF_RING, shape, CORNERS_OF_RING + 1,
+                          bt__length (shape, CORNERS_OF_RING + 1), 0.3));
+  begin (&p, &r, HANGING, 5);
+  begin (&q, &r, HANGING, 5);
+  bt__strand about_q = { .line = ring.d,
+                         .anchors = ring.anchors,
+                         .id = 7,
+                         .radius = ring.config.radius,
+                         .core = ring.config.core,
+                         .friction = 0.3 };
+  q.config.strand = &about_q;
+  q.config.strands = 1;
+  bt_vec3 about = p.in.end[1].at;
+  for (int i = 0; i < 300; i++)
+    {
+      fly (&p, about, i, 1);
+      fly (&q, about, i, 1);
+      assert_memory_equal (p.d, q.d, bt__dynamic_size ((int)p.d->n_max));
+    }
+  rope_close (&p);
+  rope_close (&q);
+  rope_close (&ring);
+  reef_close (&r);
+}
+
 /* What two lines have but for what contact has told of them.  */
 static int
 are_alike (const bt__dynamic *a, const bt__dynamic *b)
@@ -374,6 +419,7 @@ main (void)
                                       cmocka_unit_test (false_spare_goes_through),
                                       cmocka_unit_test (obstacles_stay_away),
                                       cmocka_unit_test (is_of_the_state),
+                                      cmocka_unit_test (far_lines_change_nothing),
                                       cmocka_unit_test (a_clear_line_goes_its_own_way),
                                       cmocka_unit_test (asks_seldom) };
   return cmocka_run_group_tests (tests, NULL, NULL);
