@@ -226,6 +226,8 @@ typedef struct bt_tether_view
   double target;                                   /* paid out when the winch will stop, m */
   double chord;                                    /* straight distance between the ends, m */
   double tension_anchor, tension_end, tension_max; /* N */
+  double tension_error; /* N: an estimate of its error in the last step, if it is more than the
+                           tether's tension_accuracy asks; else 0 */
   bt_vec3 force;                                   /* on what the far end is fastened to, N */
   int vehicle; /* index of the vehicle at the far end, -1: a fixed point */
   int taut;
@@ -279,6 +281,7 @@ typedef struct bt_profile
   uint64_t shots, marches;            /* of the steady model's shooting */
   uint64_t relaxations, unsettled;
   uint64_t chain_steps, chain_solves; /* of the moving line */
+  uint64_t chain_parts;               /* of steps that were not taken whole */
   uint64_t chain_sleeps;              /* steps it slept through */
   uint64_t chain_remeshes;            /* by model `auto' */
   uint64_t chain_safeguarded, chain_unconverged;

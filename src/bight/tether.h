@@ -77,6 +77,7 @@ typedef struct bt_tether_props
   double depth_rule;           /* bt_depth_rule */
   double sag_buoyancy;         /* -1 sinks ... 1 floats, or BT_SAG_AUTO */
   double accuracy;             /* m: the error in position that nodes come and go for */
+  double tension_accuracy;     /* the error in tension that steps are shortened for, as a share */
   double max_current;          /* m/s: the thesis' maximum allowed current */
   double thesis_length_factor; /* thesis 2.4.1 took 0.95 of the length in its ratio; 1 */
   double response;             /* bt_response */

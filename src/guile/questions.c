@@ -105,6 +105,7 @@ tether (SCM object, SCM index)
   list = bt__associate ("taut?", scm_from_bool (t.taut), list);
   list = bt__associate ("vehicle", t.vehicle < 0 ? SCM_BOOL_F : scm_from_int (t.vehicle), list);
   list = bt__associate ("force", bt__from_point (t.force), list);
+  list = bt__associate ("tension-error", scm_from_double (t.tension_error), list);
   list = bt__associate ("tension-max", scm_from_double (t.tension_max), list);
   list = bt__associate ("tension-end", scm_from_double (t.tension_end), list);
   list = bt__associate ("tension-anchor", scm_from_double (t.tension_anchor), list);
@@ -348,6 +349,7 @@ profile (SCM object)
   list = bt__associate ("chain-remeshes", scm_from_uint64 (p.chain_remeshes), list);
   list = bt__associate ("chain-sleeps", scm_from_uint64 (p.chain_sleeps), list);
   list = bt__associate ("chain-solves", scm_from_uint64 (p.chain_solves), list);
+  list = bt__associate ("chain-parts", scm_from_uint64 (p.chain_parts), list);
   list = bt__associate ("chain-steps", scm_from_uint64 (p.chain_steps), list);
   list = bt__associate ("unsettled", scm_from_uint64 (p.unsettled), list);
   list = bt__associate ("relaxations", scm_from_uint64 (p.relaxations), list);

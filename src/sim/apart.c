@@ -95,13 +95,6 @@ mark_shared (const bt_dive *dive, bt__contexts *l)
 /* ---- Boxes ---- */
 
 static int
-are_near (const bt__aabb *a, const bt__aabb *b, double gap)
-{
-  return a->lo.x <= b->hi.x + gap && b->lo.x <= a->hi.x + gap && a->lo.y <= b->hi.y + gap
-         && b->lo.y <= a->hi.y + gap && a->lo.z <= b->hi.z + gap && b->lo.z <= a->hi.z + gap;
-}
-
-static int
 leaves_of (const bt__dynamic *chain)
 {
   return (int)(chain->n + BT__LANE_LEAF - 1) / BT__LANE_LEAF;
@@ -189,9 +182,9 @@ tethers_meet (const bt_dive *dive, bt__state *state, const bt__contexts *l, int 
 {
   const bt__aabb *a = l->box + l->box_at[i], *b = l->box + l->box_at[j];
   for (int m = 0; m < l->boxes[i]; m++)
-    if (are_near (&a[m], &l->whole[j], gap))
+    if (bt__boxes_are_near (&a[m], &l->whole[j], gap))
       for (int n = 0; n < l->boxes[j]; n++)
-        if (are_near (&a[m], &b[n], gap)
+        if (bt__boxes_are_near (&a[m], &b[n], gap)
             && leaves_meet (leaf_of (dive, state, i, m), leaf_of (dive, state, j, n), gap))
           return 1;
   return 0;
@@ -212,7 +205,7 @@ are_close (const bt_dive *dive, bt__state *state, const bt__contexts *l, int i, 
 {
   double gap = way[i] + way[j] + bt__dive_tether (dive, state, i)->props.diameter
                + bt__dive_tether (dive, state, j)->props.diameter;
-  return l->boxes[i] > 0 && l->boxes[j] > 0 && are_near (&l->whole[i], &l->whole[j], gap)
+  return l->boxes[i] > 0 && l->boxes[j] > 0 && bt__boxes_are_near (&l->whole[i], &l->whole[j], gap)
          && may_touch (dive, state, i, j) && tethers_meet (dive, state, l, i, j, gap);
 }
 

@@ -62,6 +62,13 @@ bt__around_done (bt_dive *dive)
     {
       bt__course *course = &dive->contact_work.course[k];
       double done = dive->contact_work.mover[k].done;
+      if (dive->contact_work.since > 0 || dive->contact_work.left > 0)
+        {
+          dive->contact_work.balked |= done < 1;
+          course->gone
+              |= dive->contact_work.left == 0 && !dive->contact_work.balked && course->share > 0;
+          continue;
+        }
       dive->contact_work.disagree |= done < 1 && course->gone;
       course->share *= done;
       course->gone = course->share > 0;

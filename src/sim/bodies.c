@@ -134,15 +134,15 @@ add_pulls (const bt_dive *dive, bt__state *state, int vehicle, int but, bt__rigi
 }
 
 /* The stiffness, N/m, of the moving line I at its far end: the stiffness of the last interval, plus
-   the inertia of the last node, with the mass of half an interval, whose acceleration is (1.5 / h)2
-   times its displacement.  */
+   the inertia of the last node, with the mass of half an interval, whose acceleration in H seconds
+   is (1.5 / H)2 times its displacement.  */
 static double
-stiffness_of (const bt_dive *dive, bt__state *state, int i)
+stiffness_of (const bt_dive *dive, bt__state *state, int i, double h)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   const bt_tether_props *p = &tether->props;
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, tether->parted ? 1 : 0);
-  double piece = bt__dynamic_rest (chain)[chain->n - 1], rate = 1.5 / BT__TIME_STEP;
+  double piece = bt__dynamic_rest (chain)[chain->n - 1], rate = 1.5 / h;
   double displaced = state->density * BT__PI / 4 * p->diameter * p->diameter;
   return bt__stiffness (p->ea) / piece + rate * rate * (p->mass + p->ca * displaced) * piece / 2;
 }
@@ -201,6 +201,18 @@ steer (const bt_dive *dive, bt__state *state, int vehicle, bt__rigid_input *in)
 }
 
 bt_status
+bt__grip_body (const bt_dive *dive, bt__state *state, int vehicle, int carrier, double h,
+               bt_error *error)
+{
+  bt__driven *d = &dive->driven[vehicle];
+  d->in.h = h;
+  d->in.gripped = 1;
+  d->in.stiffness = stiffness_of (dive, state, carrier, h);
+  return bt__rigid_grip (type_of (dive, vehicle), &bt__dive_vehicle (dive, state, vehicle)->body,
+                         &d->in, &d->grip, error);
+}
+
+bt_status
 bt__steer_bodies (const bt_dive *dive, bt__state *state, bt_error *error)
 {
   bt_status status = BT_OK;
@@ -215,11 +227,8 @@ bt__steer_bodies (const bt_dive *dive, bt__state *state, bt_error *error)
       sample_water (dive, state, v->position, &d->in);
       steer (dive, state, i, &d->in);
       add_pulls (dive, state, i, carrier >= 0 ? carrier : slack_line (dive, state, i), &d->in);
-      if (carrier < 0)
-        continue;
-      d->in.gripped = 1;
-      d->in.stiffness = stiffness_of (dive, state, carrier);
-      status = bt__rigid_grip (type_of (dive, i), &v->body, &d->in, &d->grip, error);
+      if (carrier >= 0)
+        status = bt__grip_body (dive, state, i, carrier, BT__TIME_STEP, error);
     }
   return status;
 }

@@ -52,6 +52,15 @@ bt_status bt__step_among (bt_dive *dive, bt__state *state, int i, int part,
                           const bt__dynamic_input *input, bt__dynamic_report *report,
                           bt_error *error);
 
+/* bt__advance_chain takes tether I on by the part of the step that the contact work of DIVE names;
+   its ends go from FROM to TO in the whole step (chain_step.c).  bt__advance_as_asked takes tether I
+   through the whole step in as many parts as its accuracy asks for, REPORT being of them all
+   (chain_fine.c).  */
+bt_status bt__advance_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *from,
+                             const bt__ends *to, bt__dynamic_report *report, bt_error *error);
+bt_status bt__advance_as_asked (bt_dive *dive, bt__state *state, int i, const bt__ends *to,
+                                bt__dynamic_report *report, bt_error *error);
+
 /* bt__order_tethers sorts the tethers by the direction in which they press on each other.  bt__put_carriers_first then puts tethers that carry vehicles first and
    static tethers last, and keeps the order otherwise (order.c).  */
 void bt__order_tethers (bt_dive *dive, bt__state *state);
@@ -61,6 +70,11 @@ void bt__put_carriers_first (bt_dive *dive, bt__state *state);
    anew, and return true, if the line has left its boxes (chain_box.c).  */
 void bt__box_lines (bt_dive *dive, bt__state *state);
 int bt__box_line (bt_dive *dive, bt__state *state, int i);
+
+/* True if boxes A and B are within GAP of each other; if a box of tether I meets that of another
+   moving line.  */
+int bt__boxes_are_near (const bt__aabb *a, const bt__aabb *b, double gap);
+int bt__is_by_another_line (const bt_dive *dive, int i);
 
 /* Note what PART of tether I touches, with the event `touched'.  A sleeping line touches on.  */
 void bt__note_line_meetings (const bt_dive *dive, bt__state *state, int i, int part);

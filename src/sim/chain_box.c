@@ -52,6 +52,13 @@ widened (bt__aabb box, double way)
   return (bt__aabb){ bt__sub (box.lo, room), bt__add (box.hi, room) };
 }
 
+int
+bt__boxes_are_near (const bt__aabb *a, const bt__aabb *b, double gap)
+{
+  return a->lo.x <= b->hi.x + gap && b->lo.x <= a->hi.x + gap && a->lo.y <= b->hi.y + gap
+         && b->lo.y <= a->hi.y + gap && a->lo.z <= b->hi.z + gap && b->lo.z <= a->hi.z + gap;
+}
+
 static int
 holds (const bt__aabb *box, const bt__aabb *other)
 {
@@ -106,4 +113,15 @@ bt__box_lines (bt_dive *dive, bt__state *state)
       dive->contact_work.box[2 * i] = dive->contact_work.box[2 * i + 1] = none;
       bt__box_line (dive, state, i);
     }
+}
+
+int
+bt__is_by_another_line (const bt_dive *dive, int i)
+{
+  const bt__aabb *box = dive->contact_work.box;
+  for (int k = 0; k < 2 * dive->model->n_tethers; k++)
+    for (int own = 2 * i; own < 2 * i + 2 && k / 2 != i; own++)
+      if (bt__boxes_are_near (&box[own], &box[k], 0))
+        return 1;
+  return 0;
 }

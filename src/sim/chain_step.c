@@ -34,7 +34,7 @@ step_part (bt_dive *dive, bt__state *state, int i, int part, const bt__dynamic_i
   bt_status status = bt__step_among (dive, state, i, part, input, report, error);
   if (status == BT_OK && bt__has_obstacles (dive))
     bt__wear_chain (dive, state, i, part);
-  dive->profile.chain_steps++;
+  dive->profile.chain_parts += dive->contact_work.since > 0 || dive->contact_work.left > 0;
   dive->profile.chain_solves += (uint64_t)report->solves;
   dive->profile.chain_safeguarded += report->safeguarded != 0;
   dive->profile.chain_unconverged += !report->converged;
@@ -54,13 +54,13 @@ step_far_part (bt_dive *dive, bt__state *state, int i, bt__dynamic_input input, 
 }
 
 /* The chain follows the winch with a lag, for a drum that starts or stops at once sends a wave of
-   v sqrt (EA m) along the line.  */
+   v sqrt (EA m) along the line.  TIME is left of the step, s.  */
 static double
-pay_of (const bt__tether *tether, const bt__dynamic *chain)
+pay_of (const bt__tether *tether, const bt__dynamic *chain, double time)
 {
   double owed = tether->length - bt__dynamic_length (chain);
   double lag = fabs (owed) < WINCH_REST ? 0 : tether->props.winch_lag;
-  return owed / fmax (lag, BT__TIME_STEP);
+  return owed / fmax (lag, time);
 }
 
 /* True if PAY hauls TETHER in and is more than the remainder of the winch's lag.  */
@@ -70,13 +70,13 @@ is_hauled (const bt__tether *tether, double pay)
   return pay < 0 && (tether->winch_rate < 0 || -pay * BT__TIME_STEP > WINCH_REST);
 }
 
-/* The greatest length, m, that a line of P can draw off its drum in a step: no change runs along a
-   line faster than its longitudinal wave.  Without this bound a brake weaker than the weight of the
-   first metres would give out the whole drum.  */
+/* The greatest length, m, that a line of P can draw off its drum in H seconds: no change runs along
+   a line faster than its longitudinal wave.  Without this bound a brake weaker than the weight of
+   the first metres would give out the whole drum.  */
 static double
-most_drawn (const bt_tether_props *p)
+most_drawn (const bt_tether_props *p, double h)
 {
-  return sqrt (p->ea / p->mass) * BT__TIME_STEP;
+  return sqrt (p->ea / p->mass) * h;
 }
 
 /* Give INPUT the action of the winch of tether I on CHAIN.  A hauling winch pulls with at most its
@@ -87,10 +87,10 @@ set_winch (const bt_dive *dive, bt__state *state, int i, const bt__tether *tethe
            const bt__dynamic *chain, bt__dynamic_input *input)
 {
   double out = fmax (tether->length, bt__dynamic_length (chain));
-  input->pay = pay_of (tether, chain);
+  input->pay = pay_of (tether, chain, (1 - dive->contact_work.since) * BT__TIME_STEP);
   input->hold = tether->props.winch_brake;
   input->room = fmax (0, bt__most_out (dive, state, i) - out - input->pay * input->h);
-  input->room = fmin (input->room, most_drawn (&tether->props));
+  input->room = fmin (input->room, most_drawn (&tether->props, input->h));
   if (is_hauled (tether, input->pay))
     {
       input->hold = bt__winch_pull (&tether->props);
@@ -100,14 +100,18 @@ set_winch (const bt_dive *dive, bt__state *state, int i, const bt__tether *tethe
     input->hold = 0;
 }
 
-/* Note that the winch of TETHER was held back while hauling CHAIN from BEFORE metres: the winch
-   goes on from its actual speed, and stalls when it has hardly turned for a while.  */
+/* Note that the winch of TETHER was held back while hauling CHAIN from BEFORE metres in H seconds:
+   the winch goes on from its actual speed, and stalls when it has hardly turned for a while, which
+   is counted at the end of a step.  */
 static void
-hold_back (bt__state *state, int i, bt__tether *tether, const bt__dynamic *chain, double before)
+hold_back (bt__state *state, int i, bt__tether *tether, const bt__dynamic *chain, double before,
+           double h, int is_last)
 {
   double length = fmin (bt__dynamic_length (chain), before);
-  double speed = (before - length) / BT__TIME_STEP, rate = -tether->winch_rate;
+  double speed = (before - length) / h, rate = -tether->winch_rate;
   tether->length = fmax (tether->length, length - speed * tether->props.winch_lag);
+  if (!is_last)
+    return;
   tether->stalling
       = speed < TURNS * fmin (rate, tether->props.winch_rate) ? tether->stalling + 1 : 0;
   if (tether->stalling > STALLED_AFTER || tether->winch_rate == 0)
@@ -125,7 +129,7 @@ heed_winch (const bt_dive *dive, bt__state *state, int i, const bt__dynamic *cha
   if (!is_hauled (tether, input->pay))
     tether->length = fmin (tether->length + report->given, bt__most_out (dive, state, i));
   else if (report->given > 0 || bt__dynamic_length (chain) >= before)
-    hold_back (state, i, tether, chain, before);
+    hold_back (state, i, tether, chain, before, input->h, dive->contact_work.left == 0);
   else
     tether->stalling = 0;
 }
@@ -153,17 +157,71 @@ most_tense (const bt__dynamic *chain)
   return at;
 }
 
+/* What the kernel is told of tether I for the present part of the step, which began with its ends
+   at FROM.  */
+static bt_status
+input_of_part (const bt_dive *dive, bt__state *state, int i, const bt__ends *from,
+               const bt__ends *to, bt_water *water, bt__dynamic_input *input, bt_error *error)
+{
+  const bt__contact_work *part = &dive->contact_work;
+  int vehicle = bt__carried_vehicle (dive, state, i);
+  double h = BT__TIME_STEP * (1 - part->since - part->left), gone = 1 - part->left;
+  bt__ends ends = *to;
+  bt_status status = BT_OK;
+  *water = bt__dive_water (dive, state);
+  if (part->left > 0)
+    {
+      water->time -= part->left * BT__TIME_STEP;
+      ends.a = bt__axpy (from->a, gone, bt__sub (to->a, from->a));
+      ends.b = bt__axpy (from->b, gone, bt__sub (to->b, from->b));
+    }
+  if (vehicle >= 0 && (part->since > 0 || dive->driven[vehicle].in.h != h))
+    status = bt__grip_body (dive, state, vehicle, i, h, error);
+  *input = bt__chain_input (dive, state, i, water, &ends);
+  input->h = h;
+  return status;
+}
+
+bt_status
+bt__advance_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *from, const bt__ends *to,
+                   bt__dynamic_report *report, bt_error *error)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  double far_length = 0, before = bt__dynamic_length (chain);
+  bt_water water;
+  bt__dynamic_input input;
+  bt__dynamic_lump lumps[BT_LUMPS_MAX];
+  bt_status status = input_of_part (dive, state, i, from, to, &water, &input, error);
+  if (status == BT_OK && tether->parted)
+    {
+      far_length = bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
+      status = step_far_part (dive, state, i, input, error);
+      input.end[1] = (bt__dynamic_end){ .free = 1 };
+    }
+  if (status != BT_OK)
+    return status;
+  bt__fasten (dive, i, far_length, INFINITY, &input, lumps);
+  set_winch (dive, state, i, tether, chain, &input);
+  input.mesh = bt__chain_mesh (dive, state, tether, i);
+  input.mesh.idle &= dive->contact_work.left == 0;
+  status = step_part (dive, state, i, 0, &input, report, error);
+  if (status != BT_OK)
+    return status;
+  heed_winch (dive, state, i, chain, before, &input, report);
+  bt__ends here = bt__tether_ends (dive, state, i); /* where obstacles let the ends come */
+  tether->shape.a = here.a;
+  tether->shape.b = here.b;
+  tether->shape.length = tether->length;
+  tether->stale = 0;
+  return bt__bring_vehicle (dive, state, i, error);
+}
+
 bt_status
 bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
-  bt_water water = bt__dive_water (dive, state);
-  bt__dynamic_input input = bt__chain_input (dive, state, i, &water, ends);
-  bt__dynamic_lump lumps[BT_LUMPS_MAX];
   bt__dynamic_report report = { 0 };
-  double far_length = 0, before = bt__dynamic_length (chain);
-  bt__ends here; /* where obstacles let the ends come */
   bt_status status;
   bt__watch_twist (dive, state, tether, i); /* a sleeping line can be twisted too */
   if (may_sleep_on (dive, state, tether, ends))
@@ -173,27 +231,7 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
         bt__note_line_meetings (dive, state, i, part);
       return BT_OK;
     }
-  if (tether->parted)
-    {
-      far_length = bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
-      status = step_far_part (dive, state, i, input, error);
-      if (status != BT_OK)
-        return status;
-      input.end[1] = (bt__dynamic_end){ .free = 1 };
-    }
-  bt__fasten (dive, i, far_length, INFINITY, &input, lumps);
-  set_winch (dive, state, i, tether, chain, &input);
-  input.mesh = bt__chain_mesh (dive, state, tether, i);
-  status = step_part (dive, state, i, 0, &input, &report, error);
-  if (status != BT_OK)
-    return status;
-  heed_winch (dive, state, i, chain, before, &input, &report);
-  here = bt__tether_ends (dive, state, i);
-  tether->shape.a = here.a;
-  tether->shape.b = here.b;
-  tether->shape.length = tether->length;
-  tether->stale = 0;
-  status = bt__bring_vehicle (dive, state, i, error);
+  status = bt__advance_as_asked (dive, state, i, ends, &report, error);
   if (status != BT_OK)
     return status;
   bt__watch_step (dive, state, tether, i, &report);
@@ -202,7 +240,7 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
       bt__wake_touched (dive, state, i, part);
   /* The tensions of a step that did not converge prove nothing.  */
   if (!tether->parted && report.converged && report.tension > tether->props.breaking_load)
-    bt__part_chain (dive, state, i, most_tense (chain));
+    bt__part_chain (dive, state, i, most_tense (bt__dive_chain (dive, state, i, 0)));
   else if (tether->props.model == BT_MODEL_AUTO && state->step % BT__REMESH_EVERY == 0)
     return bt__remesh_chain (dive, state, i, error);
   return BT_OK;

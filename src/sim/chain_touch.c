@@ -196,7 +196,8 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
     return status;
   bt__around_done (dive);
   bt__note_line_meetings (dive, state, i, part);
-  bring_held_ends (dive, state, i, part, &touch);
+  if (dive->contact_work.left == 0)
+    bring_held_ends (dive, state, i, part, &touch);
   add_up_report (&dive->profile, &touch);
   return BT_OK;
 }

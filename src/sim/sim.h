@@ -18,6 +18,10 @@ void bt__move_vehicles (const bt_dive *dive, bt__state *state);
 bt_status bt__steer_bodies (const bt_dive *dive, bt__state *state, bt_error *error);
 bt_status bt__step_bodies (const bt_dive *dive, bt__state *state, bt_error *error);
 
+/* Find what the moving line CARRIER has at its end in the coming H seconds: VEHICLE, steered.  */
+bt_status bt__grip_body (const bt_dive *dive, bt__state *state, int vehicle, int carrier, double h,
+                         bt_error *error);
+
 /* Step VEHICLE with its attachment at X, the place to which the step of its moving line brought the
    end.  */
 bt_status bt__follow_line (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 x,

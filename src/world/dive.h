@@ -71,6 +71,9 @@ typedef struct bt__contact_work
   bt__course *course;
   bt__switches on;
   int disagree; /* a mover was held back after somebody had gone by its whole way */
+  double since, left; /* of the step's time: the shares before and after the part of the step that a
+                         line takes */
+  int balked;   /* a mover would be held back in a part of a step */
   bt__pin *pin; /* of each vehicle */
   bt__line_work *line;
   int *order, *place; /* of tethers: which steps when, and when which steps */

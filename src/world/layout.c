@@ -274,8 +274,8 @@ live_ranges (const bt_dive *dive, const bt__state *state, int i, bt__range *out)
   return n;
 }
 
-static void
-copy_store (const bt_dive *dive, bt__state *to, const bt__state *from, int i)
+void
+bt__copy_store (const bt_dive *dive, bt__state *to, const bt__state *from, int i)
 {
   bt__range live[RANGES];
   for (int k = live_ranges (dive, from, i, live); k-- > 0;)
@@ -288,7 +288,7 @@ bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from)
 {
   memcpy (to, from, fixed_size (dive));
   for (int i = 0; i < dive->model->n_tethers; i++)
-    copy_store (dive, to, from, i);
+    bt__copy_store (dive, to, from, i);
 }
 
 /* Copy what comes before the stores but for the friction of obstacles, and what a subject's bytes
@@ -311,7 +311,7 @@ bt__level (bt_dive *dive)
     memcpy (dive->next, dive->now, fixed_size (dive));
   for (int i = 0; i < dive->model->n_tethers; i++)
     if (!dive->alike[BT__STORES + i])
-      copy_store (dive, dive->next, dive->now, i);
+      bt__copy_store (dive, dive->next, dive->now, i);
   memset (dive->alike, 1, BT__STORES + (size_t)dive->model->n_tethers);
 }
 

@@ -23,6 +23,9 @@ int bt__contact_room (const bt_model *model, const bt_tether_def *tether);
 /* Make dive->next what dive->now is.  */
 void bt__level (bt_dive *dive);
 
+/* Copy the live part of the store of tether I from FROM to TO, whose store is as large.  */
+void bt__copy_store (const bt_dive *dive, bt__state *to, const bt__state *from, int i);
+
 /* Copy what is live of FROM to TO; hash it.  */
 void bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from);
 uint64_t bt__hash_state (const bt_dive *dive, const bt__state *state);

@@ -159,6 +159,7 @@ bt__line_tension_max (const bt__line *line)
   if (!line->chain)
     return line->tether->tension_max;
   ends = fmax (bt__line_tension (line, 0), bt__norm (bt__line_force (line)));
+  ends = fmax (ends, line->tether->peak);
   return fmax (ends, fmax (largest_tension (line->chain), largest_tension (line->far_chain)));
 }
 

@@ -41,7 +41,8 @@ bt_vec3 bt__line_point (const bt__line *line, double s);
 bt_vec3 bt__line_tangent (const bt__line *line, double s);
 double bt__line_tension (const bt__line *line, double s);
 
-/* The largest tension anywhere along LINE, its ends included, N; of a parted one in either part. */
+/* The largest tension anywhere along LINE, its ends included, N; of a parted one in either part.
+   Where the last step was taken in several parts, the largest of all of these.  */
 double bt__line_tension_max (const bt__line *line);
 
 /* Return an upper estimate of the error in position that comes of the nodes of CHAIN, m: the

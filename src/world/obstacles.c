@@ -183,11 +183,13 @@ bt__passes_tether (const bt_dive *dive, bt__state *state, int i, int j)
 
 /* ---- Surroundings ---- */
 
+/* MOTION from the share SINCE to the share UNTIL of it.  */
 static bt__motion
-part_of (const bt__motion *motion, double share)
+part_of (const bt__motion *motion, double since, double until)
 {
-  bt__frame to = bt__motion_at (motion, share);
-  return share < 1 ? bt__motion_between (&motion->from, &to) : *motion;
+  bt__frame from = since > 0 ? bt__motion_at (motion, since) : motion->from;
+  bt__frame to = bt__motion_at (motion, until);
+  return since > 0 || until < 1 ? bt__motion_between (&from, &to) : *motion;
 }
 
 /* Fill the workspace with the surroundings in which the objects of OFF do not count.  */
@@ -205,12 +207,14 @@ surround (const bt_dive *dive, bt__state *state, bt__switches off, int standing)
       course->on
           = (bt__switches){ off.off ? off.off + bt__obstacle_slot (model, carried->obstacle) : NULL,
                             off.version };
-      shore->mover[k] = (bt__mover){ .body = carried->body,
-                                     .on = &course->on,
-                                     .motion = standing ? bt__motion_between (here, here)
-                                                        : part_of (&course->whole, course->share),
-                                     .radius = carried->radius,
-                                     .done = 1 };
+      shore->mover[k]
+          = (bt__mover){ .body = carried->body,
+                         .on = &course->on,
+                         .motion = standing ? bt__motion_between (here, here)
+                                            : part_of (&course->whole, course->share * shore->since,
+                                                       course->share * (1 - shore->left)),
+                         .radius = carried->radius,
+                         .done = 1 };
     }
   return (bt__surroundings){ .scene = model->scene,
                              .on = &shore->on,

@@ -81,6 +81,12 @@ typedef enum bt__contact_form
   BT__CONTACT_FORM_HELD
 } bt__contact_form;
 
+/* The step of a moving line is taken in 2^BT__FINEST parts at most.  */
+enum
+{
+  BT__FINEST = 8
+};
+
 typedef struct bt__tether
 {
   bt_tether_props props;
@@ -97,6 +103,9 @@ typedef struct bt__tether
   int64_t parted;   /* the line is in two: a second chain hangs from the far end */
   int64_t quiet;    /* DYNAMIC: steps it has rested; it sleeps when they are enough */
   int64_t slack_at; /* DYNAMIC: the step at which it was last slack */
+  int64_t fine;     /* DYNAMIC: its last step was taken in 2^FINE equal parts, ... */
+  double peak;      /* ... N: in none of which its tension was larger; 0 for a whole step; ... */
+  double unsure;    /* ... N: how far the tension of half as many was off, if by more than asked; else 0 */
   int64_t hockled;
   int64_t kinked;
   int64_t pulled;                /* steps for which it has been pulled without a break */

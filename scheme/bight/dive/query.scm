@@ -151,7 +151,8 @@ what is out."
 (define-tether-question (rov-tension tension-end)
   "Return the tension of the tether at the vehicle, N.")
 (define-tether-question (max-tension tension-max)
-  "Return the largest tension along the tether now, its ends included, N: the one it parts by.")
+  "Return the largest tension along the tether now, its ends included, N: the one it parts by.  Where
+the last step was taken in parts (`tension-accuracy'), it is the largest in all of these.")
 (define-tether-question (tether-force force)
   "Return the force of the tether on the vehicle, N, a vector.")
 
@@ -236,11 +237,13 @@ Raise unsupported for static models."
 ;; What the user asked for is kept by the mesh where it can be; where it cannot, status, the pilot's view
 ;; and the coach say so.
 (define-verb (accurate? #:subject (t tether))
-  "Return #t if the shape of the tether is as exact as its world asks: if the estimate of the error in
-position that comes of its nodes, `error-estimate', is at most the tether's `accuracy'.  Static models
-are."
-  (let ((error (assq-ref (tether-view 'accurate? t) 'error)))
-    (or (nan? error) (<= error (assq-ref (tether-properties t) 'accuracy)))))
+  "Return #t if the tether is as exact as its world asks: if the estimate of the error in position that
+comes of its nodes, `error-estimate', is at most the tether's `accuracy', and the tension of the last step
+was found to its `tension-accuracy'.  Static models are."
+  (let* ((view (tether-view 'accurate? t))
+         (error (assq-ref view 'error)))
+    (and (or (nan? error) (<= error (assq-ref (tether-properties t) 'accuracy)))
+         (zero? (assq-ref view 'tension-error)))))
 
 (define-verb (equilibria #:subject (t tether))
   "Return the distinct shapes in which the tether could rest with its ends where they are, polylines, the

@@ -1,0 +1,272 @@
+/* A step of the dive, taken by a moving line in as many parts as the accuracy of its tension asks.
+
+   The dive's clock stays: sticks, tracks, winches, events and questions know whole steps alone.  A
+   line first takes the step whole.  Where its tension has hardly changed, that is the step.
+   Elsewhere (a snap, a stall, a touch, a release) the line goes back to the present, takes the step
+   in twice as many equal parts, and so on until the tension of one attempt and of the next agree:
+   step doubling (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.4), with
+   the step of the dive as the unit.  What is compared is what parts a line and moves a vehicle: the
+   largest tension in the step, and the mean force at either end.  The finest attempt is kept.  The
+   next step begins with half as many parts, so that the number follows the motion both ways.
+
+   Within a step the ends go straight from place to place; a vehicle with mass on the line is
+   stepped with each part under the forces of the step's start, and so is its thrust; movers go
+   their share of the way; a step in which the winch turns, or may give line, is taken whole, for it
+   draws in no line in a step that ends above its pull, and so is a step that starts with the line
+   touching something, or near another moving line.  Wear is added up over the parts, contacts and
+   sliding nodes are those of the last one.  Where a mover is held back the step is taken whole, for
+   others were told how far the mover goes.
+
+   An attempt begins from the present state of the dive alone, so that the number of threads, and
+   how time is asked for, has no influence; FINE in the state is the only memory.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <string.h>
+
+#include "math/vec.h"
+#include "sim/around.h"
+#include "sim/chain.h"
+#include "world/layout.h"
+#include "world/obstacles.h"
+
+/* N: of a smaller tension the accuracy asks for no more than of so much.  A vehicle without mass
+   that starts at once sends 20 N along a common line, which rings for seconds and parts nothing.
+   */
+#define LEAST_SCALE 250.0
+#define ENTER 5.0     /* errors asked for: a smaller jump is not worth parts, ... */
+#define STAY 1.0      /* ... and after a step in parts, a jump of less than this */
+#define FOLLOWED 1e-5 /* m: a chain so near to the length at its winch is not wound */
+#define SHARE 0.25    /* of the error asked for: that of one step, for those of a snap add up */
+#define MORE 0.125    /* of what was accepted: less is not worth as many parts again */
+
+/* What an attempt at a step has come to.  */
+typedef struct attempt
+{
+  bt__dynamic_report report; /* of all parts: the largest, the tightest */
+  bt_vec3 pull[2];           /* N: the mean force on the ends */
+} attempt;
+
+/* What a line may change in a step beside its store.  */
+typedef struct present
+{
+  bt__tether tether;
+  bt__vehicle vehicle[2];
+  int64_t events;
+} present;
+
+/* ---- Back to the present ---- */
+
+/* The vehicle at end K of tether I that its step may move, or -1: one shared with tethers of other
+   threads stays.  */
+static int
+own_vehicle (const bt_dive *dive, int i, int k)
+{
+  int v = dive->model->ends[i][k].vehicle;
+  return v >= 0 && dive->context && dive->context->shared[v] ? -1 : v;
+}
+
+static void
+keep_present (const bt_dive *dive, bt__state *state, int i, present *p)
+{
+  p->tether = *bt__dive_tether (dive, state, i);
+  p->events = state->events;
+  for (int k = 0; k < 2; k++)
+    if (own_vehicle (dive, i, k) >= 0)
+      p->vehicle[k] = *bt__dive_vehicle (dive, state, own_vehicle (dive, i, k));
+}
+
+static void
+go_back (const bt_dive *dive, bt__state *state, int i, const present *p)
+{
+  for (int64_t k = p->events; k < state->events; k++)
+    state->event[k % BT_EVENTS_KEPT] = dive->now->event[k % BT_EVENTS_KEPT];
+  state->events = p->events;
+  *bt__dive_tether (dive, state, i) = p->tether;
+  bt__copy_store (dive, state, dive->now, i);
+  *bt__dive_subject (dive, state, BT_PART_TETHER, i)
+      = *bt__dive_subject (dive, dive->now, BT_PART_TETHER, i);
+  for (int k = 0; k < 2; k++)
+    if (own_vehicle (dive, i, k) >= 0)
+      *bt__dive_vehicle (dive, state, own_vehicle (dive, i, k)) = p->vehicle[k];
+}
+
+/* ---- Attempts ---- */
+
+/* Add the report of a part of a step to that of the parts before.  */
+static void
+add_report (bt__dynamic_report *sum, const bt__dynamic_report *part)
+{
+  bt__dynamic_report before = *sum;
+  *sum = *part;
+  sum->converged &= before.converged;
+  sum->speed = fmax (part->speed, before.speed);
+  sum->acceleration = fmax (part->acceleration, before.acceleration);
+  sum->tension = fmax (part->tension, before.tension);
+  sum->bend_radius = fmin (part->bend_radius, before.bend_radius);
+}
+
+/* Take tether I through the step in 2^FINE parts.  */
+static bt_status
+try_parts (bt_dive *dive, bt__state *state, int i, const bt__ends *to, int fine, attempt *a,
+           bt_error *error)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt__contact_work *work = &dive->contact_work;
+  bt__ends from = { tether->shape.a, tether->shape.b };
+  int n = 1 << fine;
+  bt_status status = BT_OK;
+  work->balked = 0;
+  *a = (attempt){ .report = { .converged = 1, .bend_radius = HUGE_VAL } };
+  for (int k = 0; k < n && status == BT_OK && !(n > 1 && work->balked); k++)
+    {
+      bt__dynamic_report part = { 0 };
+      work->since = (double)k / n;
+      work->left = 1 - (double)(k + 1) / n;
+      status = bt__advance_chain (dive, state, i, &from, to, &part, error);
+      add_report (&a->report, &part);
+      for (int e = 0; e < 2; e++)
+        a->pull[e] = bt__axpy (a->pull[e], 1.0 / n,
+                               bt__dive_chain (dive, state, i, e && tether->parted)->pull[e]);
+    }
+  work->since = work->left = 0;
+  return status;
+}
+
+/* ---- Is it accurate? ---- */
+
+/* The error in tension, N, that is asked for where the largest tension is TENSION.  */
+static double
+asked (const bt__tether *tether, double tension)
+{
+  return tether->props.tension_accuracy * fmax (tension, LEAST_SCALE);
+}
+
+/* True if the winch of TETHER neither turns nor gives line to CHAIN.  */
+static int
+winch_stands (const bt__tether *tether, const bt__dynamic *chain)
+{
+  return tether->winch_rate == 0 && fabs (tether->length - bt__dynamic_length (chain)) < FOLLOWED
+         && !isfinite (tether->props.winch_brake);
+}
+
+/* True if tether I touches something in STATE: friction that sticks and slips has no tension to
+   converge to, and parts made the steps of a fleet among obstacles several times as dear.  */
+static int
+touches (const bt_dive *dive, bt__state *state, int i)
+{
+  int any = 0;
+  for (int part = 0; part <= (bt__dive_tether (dive, state, i)->parted != 0); part++)
+    any |= bt__dive_anchors (dive, state, i, part)->n > 0;
+  return any;
+}
+
+/* True if tether I may be taken through the step in parts: it moved already in the present, and
+   nothing acts on it but water and what its ends are fastened to.  */
+static int
+may_go_back (const bt_dive *dive, bt__state *state, int i)
+{
+  const bt__tether *now = bt__dive_tether (dive, dive->now, i),
+                   *next = bt__dive_tether (dive, state, i);
+  return isfinite (next->props.tension_accuracy) && now->shape.form == BT__FORM_CHAIN
+         && now->parted == next->parted && winch_stands (next, bt__dive_chain (dive, state, i, 0))
+         && !touches (dive, dive->now, i) && !bt__is_by_another_line (dive, i);
+}
+
+/* True if the tension of tether I changed in a step by more than TIMES what it may be wrong by.  */
+static int
+has_jumped (const bt_dive *dive, bt__state *state, int i, const attempt *a, double times)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  double most = times * asked (tether, a->report.tension);
+  for (int part = 0; part <= (tether->parted != 0); part++)
+    {
+      const bt__dynamic *now = bt__dive_chain (dive, dive->now, i, part),
+                        *next = bt__dive_chain (dive, state, i, part);
+      const double *t0 = bt__dynamic_tension (now), *t1 = bt__dynamic_tension (next);
+      double jump = 0;
+      for (int e = 0; e < 2; e++)
+        jump = fmax (jump, bt__distance (now->pull[e], next->pull[e]));
+      for (int64_t j = 0; j < next->n && now->n == next->n; j++)
+        jump = fmax (jump, fabs (t1[j] - t0[j]));
+      if (jump > most)
+        return 1;
+    }
+  return 0;
+}
+
+/* How far the tensions of two attempts are apart, N.  */
+static double
+apart (const attempt *a, const attempt *b)
+{
+  double off = fabs (a->report.tension - b->report.tension);
+  for (int e = 0; e < 2; e++)
+    off = fmax (off, bt__distance (a->pull[e], b->pull[e]));
+  return off;
+}
+
+/* ---- The step ---- */
+
+/* After the attempt *A in 2^FINE parts, go on until two attempts agree; return the number of the
+   last one's doublings, or -1 where a mover was held back.  *OFF is how far the last two are apart.
+ */
+static int
+refine (bt_dive *dive, bt__state *state, int i, const bt__ends *to, const present *p, int fine,
+        attempt *a, double *off, bt_status *status, bt_error *error)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  while (fine < BT__FINEST && !touches (dive, state, i))
+    {
+      attempt coarse = *a;
+      go_back (dive, state, i, p);
+      *status = try_parts (dive, state, i, to, ++fine, a, error);
+      if (*status != BT_OK || dive->contact_work.balked)
+        return -1;
+      *off = apart (&coarse, a);
+      if (*off <= SHARE * asked (tether, a->report.tension))
+        break;
+    }
+  return fine;
+}
+
+/* The number of doublings for the next step: in the last, of 2^FINE parts, the error was OFF of
+   what was accepted.  */
+static int
+next_fine (int fine, double off)
+{
+  return off < MORE * MORE ? 0 : off < MORE ? (int)fmax (fine - 1, 0) : fine;
+}
+
+bt_status
+bt__advance_as_asked (bt_dive *dive, bt__state *state, int i, const bt__ends *to,
+                      bt__dynamic_report *report, bt_error *error)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  int may = may_go_back (dive, state, i),
+      fine = may && tether->fine > 0 ? (int)tether->fine - 1 : 0;
+  present p;
+  attempt a;
+  double off = 0;
+  bt_status status;
+  keep_present (dive, state, i, &p);
+  status = try_parts (dive, state, i, to, fine, &a, error);
+  if (status == BT_OK && may && !dive->contact_work.balked
+      && (fine > 0 || has_jumped (dive, state, i, &a, ENTER)))
+    fine = refine (dive, state, i, to, &p, fine, &a, &off, &status, error);
+  if (status == BT_OK && (fine < 0 || (fine > 0 && dive->contact_work.balked)))
+    {
+      go_back (dive, state, i, &p);
+      status = try_parts (dive, state, i, to, fine = 0, &a, error);
+    }
+  if (status != BT_OK)
+    return status;
+  *report = a.report;
+  tether->peak = fine > 0 ? a.report.tension : 0;
+  tether->unsure = off > asked (tether, a.report.tension) ? off : 0;
+  tether->fine = fine == 0 || !has_jumped (dive, state, i, &a, STAY)
+                     ? 0
+                     : next_fine (fine, off / (SHARE * asked (tether, a.report.tension)));
+  dive->profile.chain_steps += tether->parted ? 2 : 1;
+  return BT_OK;
+}
