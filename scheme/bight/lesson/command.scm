@@ -7,7 +7,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson command)
-  #:use-module ((bight cli) #:select (complain exit-status))
+  #:use-module ((bight shell status) #:select (complain exit-status))
   #:use-module (bight core fork)
   #:use-module (bight core sandbox)
   #:use-module (bight core terminal)

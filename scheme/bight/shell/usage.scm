@@ -1,6 +1,6 @@
 ;;; (bight shell usage) --- what a command is called with: its help, its options, and the list of all.
 ;;;
-;;; The table of commands is in (bight cli).  From it come `bight --help', `bight COMMAND --help', the
+;;; The table of commands is in (bight shell commands).  From it come `bight --help', `bight COMMAND --help', the
 ;;; manual page, and which options a command knows.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.

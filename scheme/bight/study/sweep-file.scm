@@ -7,7 +7,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight study sweep-file)
-  #:use-module ((bight cli) #:select (evaluate-file))
+  #:use-module ((bight shell program) #:select (evaluate-file))
   #:use-module (bight core errors)
   #:use-module (bight core folders)
   #:use-module ((bight engine) #:select (%worlds-folder))

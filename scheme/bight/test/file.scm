@@ -6,7 +6,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight test file)
-  #:use-module ((bight cli) #:select (evaluate-file program-error? program-error-text))
+  #:use-module ((bight shell program) #:select (evaluate-file program-error? program-error-text))
   #:use-module (bight core errors)
   #:use-module ((bight core here) #:select (afresh))
   #:use-module (bight core record)
