@@ -193,7 +193,7 @@ refused () # NAME TEXT EXPRESSION
 }
 echo 'no database, but long enough to be taken for one by its name alone' >text.db
 refused 'no recording' 'there is no file "none.db"' '(export-npz "none.db" "x.npz")'
-refused 'a text' 'not a database' '(export-vtk "text.db" "x.pvd")'
+refused 'a text' 'not a database of frames; (record!' '(export-vtk "text.db" "x.pvd")'
 refused 'a folder' 'is a folder' '(export-npz "dive" "x.npz")'
 refused 'what is neither' 'it writes samples' '(export-npz 5 "x.npz")'
 refused 'a series without its ending' 'NAME.pvd' '(export-vtk "dive.db" "dive.vtp")'

@@ -12,6 +12,7 @@
   #:use-module (bight core vtk)
   #:use-module ((bight dive frames) #:select (query-frames))
   #:use-module ((bight view plot) #:select (samples? samples-names samples-rows))
+  #:use-module ((ice-9 textual-ports) #:select (get-string-n))
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:export (export-npz export-vtk export-gltf))
@@ -44,8 +45,19 @@
               rows)
     (map (lambda (name) (cons name (by-frame (reverse (hash-ref table name))))) (sort names string<?))))
 
+(define (begins-as-sqlite? file)
+  (let ((head (call-with-input-file file (lambda (port) (get-string-n port 6)) #:encoding "ISO-8859-1")))
+    (and (string? head) (string=? "SQLite" head))))
+
+(define (check-frames proc file)
+  ;; A file that is there is SQLite's: the text of the recording is easily given instead.
+  (when (and (file-exists? file) (eq? 'regular (stat:type (stat file))) (not (begins-as-sqlite? file)))
+    (bight-raise 'format proc "~s is not a database of frames; (record! FILE #:frames NAME) writes one to NAME"
+                 file)))
+
 (define (read-recording proc file)
   ;; (TIMES VEHICLES TETHERS POINTS): (FRAME TIME STEP) for each frame; the others as `named' has them.
+  (check-frames proc file)
   (let ((tables (query-frames proc file
                               '("select frame, time, step from frames order by frame"
                                 "select name, frame, x, y, z, heading, speed from vehicles order by frame"
@@ -109,7 +121,7 @@ order by frame"
          (cons "time" (samples-names samples)) (iota (+ 1 (length (samples-names samples)))))))
 
 (define-verb (export-npz (what any) (file string))
-  "Write WHAT, samples of `sample!' or the frames of a recording, a file that `record!' was given, to FILE as
+  "Write WHAT, samples of `sample!' or the frames of a recording, NAME of (record! FILE #:frames NAME), to FILE as
 NumPy's arrays, .npz: of samples `time' and one for each expression; of a recording `time', `step' and, after the
 name of each part, position, heading, speed, or length, anchor_tension, end_tension, max_tension, points, tension
 and nodes.  What is not known is not a number.  Return the names of the arrays."
@@ -153,7 +165,7 @@ recording's frames, not ~s" what))))
     (bight-raise 'io 'export-vtk "~s is there, and is no folder" folder)))
 
 (define-verb (export-vtk (frames string) (file string))
-  "Write the FRAMES of a recording, a file that `record!' was given, for ParaView: FILE, a .pvd, which lists the
+  "Write the FRAMES of a recording, NAME of (record! FILE #:frames NAME), for ParaView: FILE, a .pvd, which lists the
 times, and beside it a folder of its name with a .vtp for each: a line for each tether with the tension at its
 nodes, a point for each vehicle.  Return how many frames there are."
   (unless (string-suffix? ".pvd" file)
@@ -233,7 +245,7 @@ nodes, a point for each vehicle.  Return how many frames there are."
                (map (lambda (row) (turn-about-z (* -1/180 (acos -1) (fourth row)))) rows)))))
 
 (define-verb (export-gltf (frames string) (file string) #:key (radius positive 0.02))
-  "Write the FRAMES of a recording, a file that `record!' was given, to FILE, a binary glTF (.glb) with an animation,
+  "Write the FRAMES of a recording, NAME of (record! FILE #:frames NAME), to FILE, a binary glTF with an animation,
 as Blender reads: a tube of RADIUS metres for each tether, a small hull for each vehicle.  Return how many frames
 there are."
   (unless (string-suffix? ".glb" file)
