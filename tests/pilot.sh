@@ -213,6 +213,8 @@ sane >/dev/null
 "$top_builddir/pre-inst-env" bight controller --stream "$scratch/events" --for 3 >"$scratch/out"
 grep -q '^0 leftx -1.00   surge +0.00 sway +0.00 heave +0.00 yaw -1.00$' "$scratch/out"
 result $? 'what each axis does is shown'
+"$top_builddir/pre-inst-env" bight controller --for 0 | grep -q 'plugged in later; C-c ends'
+result $? 'who has none is told what is waited for'
 
 # ---- A recording ----
 

@@ -79,4 +79,6 @@
       (print "what is done goes to " record " until C-c")
       (display "(bight-events 1)\n" port)
       (force-output port))
+    (unless (assoc-ref options "--stream")
+      (print "What is moved on a controller is shown, also on one that is plugged in later; C-c ends."))
     (follow all (if file (read-mapping file) '()) port limit)))
