@@ -701,7 +701,6 @@ read_back (void **state)
   unlink (name);
 }
 
-/* What is smaller in the picture is drawn with fewer triangles, down to what still looks round.  */
 /* A post and a ball get no more triangles when they are farther away; return how many they get at
    all distances, QUICK or not.  */
 static size_t
@@ -724,6 +723,8 @@ triangles_grow_rarer (int quick)
   return all;
 }
 
+/* What is smaller in the picture is drawn with fewer triangles, down to what still looks round; in
+   a quick picture with fewer yet.  */
 static void
 small_is_cheap (void **state)
 {
