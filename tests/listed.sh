@@ -28,6 +28,7 @@ listed lessons -name '*.scm'
 listed studies '(' -name '*.scm' -o -name '*.sh' ')'
 listed tests '(' -path './law/*.[ch]' -o -path './unit/*.[ch]' -o -path './sc*/*.scm' -o -name '*.sh' ')'
 listed bench -name '*.[ch]'
+listed testbed -name '*.[ch]'
 listed doc -path './figures/*.scm'
 
 # What git ignores is there for whoever wrote it, and for nobody else.
@@ -35,7 +36,10 @@ if git rev-parse --is-inside-work-tree >"$scratch/inside" 2>&1 && [ -e .git ]; t
   git ls-files --others --ignored --exclude-standard -- src scheme worlds lessons studies tests bench testbed doc |
     grep -E '\.(c|cc|h|scm|sh|py|texi)$' | grep -v '^doc/[a-z-]*\.texi$' >"$scratch/ignored"
   empty 'and git ignores none of it' "$scratch/ignored"
+  git ls-files -- ':(glob)*.c' ':(glob)*.h' ':(glob)*.scm' ':(glob)*.py' ':(glob)*.sh' >"$scratch/stray"
+  empty 'and no source lies in the top folder' "$scratch/stray"
 else
+  skip 'this is no checkout of git'
   skip 'this is no checkout of git'
 fi
 finish
