@@ -17,13 +17,16 @@ empty 'libbight exports bt_ names alone' "$scratch/foreign"
   echo 'libbight.so.0 libbight0 #MINVER#'
   sort "$scratch/exported" | sed 's/.*/ &@Base 0.1.0/'
 ) >"$scratch/symbols"
-cmp -s "$scratch/symbols" "$top_srcdir/debian/libbight0.symbols"
-listed=$?
-result $listed 'debian/libbight0.symbols lists them'
-if [ $listed -ne 0 ]; then
-  diag "$(diff "$top_srcdir/debian/libbight0.symbols" "$scratch/symbols")"
+kept=$top_srcdir/debian/libbight0.symbols
+if [ ! -f "$kept" ]; then
+  skip 'the packaging is not in a distribution'
+elif cmp -s "$scratch/symbols" "$kept"; then
+  result 0 'debian/libbight0.symbols lists them'
+else
+  result 1 'debian/libbight0.symbols lists them'
+  diag "$(diff "$kept" "$scratch/symbols")"
   diag "to have it as it is: BIGHT_WRITE=1 make check TESTS=symbols.sh"
-  [ -z "${BIGHT_WRITE:-}" ] || cp "$scratch/symbols" "$top_srcdir/debian/libbight0.symbols"
+  [ -z "${BIGHT_WRITE:-}" ] || cp "$scratch/symbols" "$kept"
 fi
 
 $NM -A -u "$core" | sed 's/@.*//' | awk '{ print $1, $NF }' >"$scratch/needed"
