@@ -78,13 +78,6 @@ go_on_strip (const strip *s, place *at)
     }
 }
 
-static void
-stretch (bt__aabb *box, bt_vec3 p)
-{
-  box->lo = bt__vec (fmin (box->lo.x, p.x), fmin (box->lo.y, p.y), fmin (box->lo.z, p.z));
-  box->hi = bt__vec (fmax (box->hi.x, p.x), fmax (box->hi.y, p.y), fmax (box->hi.z, p.z));
-}
-
 static bt__aabb
 empty_box (void)
 {
@@ -117,17 +110,12 @@ lay_strip (strip *s)
           s->box[b] = empty_box ();
           s->blocks++;
         }
-      stretch (&s->box[b], s->p[at.i]);
-      stretch (&s->box[b], s->q[at.j]);
+      s->box[b] = bt__box_with (bt__box_with (s->box[b], s->p[at.i]), s->q[at.j]);
       go_on_strip (s, &at);
-      stretch (&s->box[b], s->p[at.i]);
-      stretch (&s->box[b], s->q[at.j]);
+      s->box[b] = bt__box_with (bt__box_with (s->box[b], s->p[at.i]), s->q[at.j]);
     }
   for (uint32_t b = 0; b < s->blocks; b++)
-    {
-      stretch (&s->all, s->box[b].lo);
-      stretch (&s->all, s->box[b].hi);
-    }
+    s->all = bt__box_with (bt__box_with (s->all, s->box[b].lo), s->box[b].hi);
 }
 
 /* ---- Crossings ---- */
@@ -174,13 +162,6 @@ through (const strip *s, const place *at, bt_vec3 x, bt_vec3 y)
 }
 
 static int
-overlap (const bt__aabb *a, const bt__aabb *b)
-{
-  return a->lo.x <= b->hi.x && b->lo.x <= a->hi.x && a->lo.y <= b->hi.y && b->lo.y <= a->hi.y
-         && a->lo.z <= b->hi.z && b->lo.z <= a->hi.z;
-}
-
-static int
 crossings_in_block (const strip *s, uint32_t b, bt_vec3 x, bt_vec3 y)
 {
   uint32_t last = (b + 1) * s->block;
@@ -210,10 +191,10 @@ cross_edge (void *user, uint32_t slot, double reach)
   uint32_t e = c->graph->tree.order[slot];
   bt_vec3 x = c->graph->v[c->graph->edge[e][0]], y = c->graph->v[c->graph->edge[e][1]];
   bt__aabb box = bt__box_with ((bt__aabb){ x, x }, y);
-  if (!overlap (&box, &s->all))
+  if (!bt__boxes_are_near (&box, &s->all, 0))
     return reach;
   for (uint32_t b = 0; b < s->blocks; b++)
-    if (overlap (&box, &s->box[b]))
+    if (bt__boxes_are_near (&box, &s->box[b], 0))
       c->loops[e] += crossings_in_block (s, b, x, y);
   c->any |= c->loops[e] != 0;
   return reach;

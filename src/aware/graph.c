@@ -303,14 +303,6 @@ join_joints (bt__graph_job *k, uint32_t i, uint32_t j)
   bt__unite (k, x, y);
 }
 
-static int
-may_meet (const bt__graph_job *k, uint32_t i, uint32_t j)
-{
-  const bt__aabb *a = &k->box[i], *b = &k->box[j];
-  return a->lo.x <= b->hi.x && b->lo.x <= a->hi.x && a->lo.y <= b->hi.y && b->lo.y <= a->hi.y
-         && a->lo.z <= b->hi.z && b->lo.z <= a->hi.z;
-}
-
 /* Join obstacles I and J if they meet.  */
 static void
 join_if_meeting (bt__graph_job *k, uint32_t i, uint32_t j)
@@ -332,7 +324,7 @@ find_meetings (bt__graph_job *k)
   uint32_t n = k->scene->n;
   for (uint32_t i = 0; i < n && !bt__ask (k->c->asker); i++)
     for (uint32_t j = i + 1; j < n && !k->failed; j++)
-      if (may_meet (k, i, j) && counts (k, i) && counts (k, j))
+      if (bt__boxes_are_near (&k->box[i], &k->box[j], 0) && counts (k, i) && counts (k, j))
         join_if_meeting (k, i, j);
 }
 

@@ -41,6 +41,14 @@ bt__box_with (bt__aabb box, bt_vec3 p)
   return box;
 }
 
+/* True if boxes A and B are within GAP of each other.  */
+static inline int
+bt__boxes_are_near (const bt__aabb *a, const bt__aabb *b, double gap)
+{
+  return a->lo.x <= b->hi.x + gap && b->lo.x <= a->hi.x + gap && a->lo.y <= b->hi.y + gap
+         && b->lo.y <= a->hi.y + gap && a->lo.z <= b->hi.z + gap && b->lo.z <= a->hi.z + gap;
+}
+
 /* Eight children: where count is 0 first is a node, else the first of count items in leaf order.  A
    missing child has a negative half size.  */
 typedef struct bt__bvh_node

@@ -30,21 +30,14 @@ next_event (SCM object)
   if (!bt__controllers_next (scm_to_pointer (object), &event))
     return SCM_BOOL_F;
   scm_remember_upto_here_1 (object);
-  SCM kind = scm_from_utf8_symbol (what[event.what]), id = scm_from_int (event.id);
-  switch (event.what)
-    {
-    case BT__CONTROLLER_PLUGGED:
-      return scm_list_4 (kind, id, scm_from_latin1_string (event.name),
-                         scm_from_bool (event.known));
-    case BT__CONTROLLER_LOST:
-      return scm_list_2 (kind, id);
-    case BT__CONTROLLER_AXIS:
-      return scm_list_4 (kind, id, scm_from_latin1_string (event.name),
-                         scm_from_double (event.value));
-    default:
-      return scm_list_4 (kind, id, scm_from_latin1_string (event.name),
-                         scm_from_bool (event.value != 0));
-    }
+  SCM kind = scm_from_utf8_symbol (what[event.what]), id = scm_from_int (event.id), value;
+  if (event.what == BT__CONTROLLER_LOST)
+    return scm_list_2 (kind, id);
+  if (event.what == BT__CONTROLLER_AXIS)
+    value = scm_from_double (event.value);
+  else
+    value = scm_from_bool (event.what == BT__CONTROLLER_PLUGGED ? event.known : event.value != 0);
+  return scm_list_4 (kind, id, scm_from_latin1_string (event.name), value);
 }
 
 void bight_controller_init (void);
@@ -56,7 +49,8 @@ bight_controller_init (void)
     { "%open-controllers", 0, 0, (scm_t_subr)open_controllers,
       "Listen to the game controllers there are, until what is returned is gone." },
     { "%controller-event", 1, 0, (scm_t_subr)next_event,
-      "Return the next thing that happened, or #f: (plugged ID NAME KNOWN), (lost ID), (axis ID NAME "
+      "Return the next thing that happened, or #f: (plugged ID NAME KNOWN), (lost ID), (axis ID "
+      "NAME "
       "VALUE) or (button ID NAME DOWN)." },
   };
   bt__define_procedures (table, sizeof table / sizeof *table);

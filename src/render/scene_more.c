@@ -83,7 +83,8 @@ add_contacts (bt__scene *s)
   for (int i = 0; c && i < tethers (s); i++)
     {
       int n = bt_tether_contacts (s->dive, i, c, MOST);
-      double most = largest_force (c, n = n < MOST ? n : MOST);
+      n = n < MOST ? n : MOST;
+      double most = largest_force (c, n);
       for (int k = 0; k < n; k++)
         add_contact (s, &c[k], length, most, bears_most (c, n, k));
     }

@@ -200,12 +200,6 @@ shift_part (bt__dynamic *chain, bt_vec3 from, bt_vec3 to)
   chain->spare = (bt__dynamic_drift){ 0, 0, 0 };
 }
 
-static int
-is_same (bt_vec3 a, bt_vec3 b)
-{
-  return memcmp (&a, &b, sizeof a) == 0;
-}
-
 /* An end was put elsewhere in no time: the line takes the equilibrium that it comes to from
    there.  */
 bt_status
@@ -214,7 +208,7 @@ bt__carry_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, b
   bt__tether *tether = bt__dive_tether (dive, state, i);
   bt__ends before = { tether->shape.a, tether->shape.b };
   bt_status status;
-  if (is_same (before.a, ends->a) && is_same (before.b, ends->b))
+  if (bt__are_ends (ends, &tether->shape))
     return BT_OK;
   bt__store_changes (dive, i);
   if (bt__has_obstacles (dive))

@@ -71,9 +71,7 @@ void bt__put_carriers_first (bt_dive *dive, bt__state *state);
 void bt__box_lines (bt_dive *dive, bt__state *state);
 int bt__box_line (bt_dive *dive, bt__state *state, int i);
 
-/* True if boxes A and B are within GAP of each other; if a box of tether I meets that of another
-   moving line.  */
-int bt__boxes_are_near (const bt__aabb *a, const bt__aabb *b, double gap);
+/* True if a box of tether I meets that of another moving line.  */
 int bt__is_by_another_line (const bt_dive *dive, int i);
 
 /* Note what PART of tether I touches, with the event `touched'.  A sleeping line touches on.  */

@@ -52,13 +52,6 @@ widened (bt__aabb box, double way)
   return (bt__aabb){ bt__sub (box.lo, room), bt__add (box.hi, room) };
 }
 
-int
-bt__boxes_are_near (const bt__aabb *a, const bt__aabb *b, double gap)
-{
-  return a->lo.x <= b->hi.x + gap && b->lo.x <= a->hi.x + gap && a->lo.y <= b->hi.y + gap
-         && b->lo.y <= a->hi.y + gap && a->lo.z <= b->hi.z + gap && b->lo.z <= a->hi.z + gap;
-}
-
 static int
 holds (const bt__aabb *box, const bt__aabb *other)
 {

@@ -238,6 +238,24 @@ next_fine (int fine, double off)
   return off < MORE * MORE ? 0 : off < MORE ? (int)fmax (fine - 1, 0) : fine;
 }
 
+/* Take tether I, which may go back, through the step, at first in 2^*FINE parts, until it is
+   accurate; *FINE and *OFF are then as `refine' has them.  */
+static bt_status
+advance_in_parts (bt_dive *dive, bt__state *state, int i, const bt__ends *to, int *fine, attempt *a,
+                  double *off, bt_error *error)
+{
+  present p;
+  keep_present (dive, state, i, &p);
+  bt_status status = try_parts (dive, state, i, to, *fine, a, error);
+  if (status == BT_OK && !dive->contact_work.balked
+      && (*fine > 0 || has_jumped (dive, state, i, a, ENTER)))
+    *fine = refine (dive, state, i, to, &p, *fine, a, off, &status, error);
+  if (status != BT_OK || *fine == 0 || (*fine > 0 && !dive->contact_work.balked))
+    return status;
+  go_back (dive, state, i, &p);
+  return try_parts (dive, state, i, to, *fine = 0, a, error);
+}
+
 bt_status
 bt__advance_as_asked (bt_dive *dive, bt__state *state, int i, const bt__ends *to,
                       bt__dynamic_report *report, bt_error *error)
@@ -245,20 +263,10 @@ bt__advance_as_asked (bt_dive *dive, bt__state *state, int i, const bt__ends *to
   bt__tether *tether = bt__dive_tether (dive, state, i);
   int may = may_go_back (dive, state, i),
       fine = may && tether->fine > 0 ? (int)tether->fine - 1 : 0;
-  present p;
   attempt a;
   double off = 0;
-  bt_status status;
-  keep_present (dive, state, i, &p);
-  status = try_parts (dive, state, i, to, fine, &a, error);
-  if (status == BT_OK && may && !dive->contact_work.balked
-      && (fine > 0 || has_jumped (dive, state, i, &a, ENTER)))
-    fine = refine (dive, state, i, to, &p, fine, &a, &off, &status, error);
-  if (status == BT_OK && (fine < 0 || (fine > 0 && dive->contact_work.balked)))
-    {
-      go_back (dive, state, i, &p);
-      status = try_parts (dive, state, i, to, fine = 0, &a, error);
-    }
+  bt_status status = may ? advance_in_parts (dive, state, i, to, &fine, &a, &off, error)
+                         : try_parts (dive, state, i, to, 0, &a, error);
   if (status != BT_OK)
     return status;
   *report = a.report;

@@ -70,13 +70,13 @@ is_hauled (const bt__tether *tether, double pay)
   return pay < 0 && (tether->winch_rate < 0 || -pay * BT__TIME_STEP > WINCH_REST);
 }
 
-/* The greatest length, m, that a line of P can draw off its drum in H seconds: no change runs along
-   a line faster than its longitudinal wave.  Without this bound a brake weaker than the weight of
-   the first metres would give out the whole drum.  */
+/* The greatest length, m, that a line of P can draw off its drum in a step: no change runs along a
+   line faster than its longitudinal wave.  Without this bound a brake weaker than the weight of the
+   first metres would give out the whole drum.  */
 static double
-most_drawn (const bt_tether_props *p, double h)
+most_drawn (const bt_tether_props *p)
 {
-  return sqrt (p->ea / p->mass) * h;
+  return sqrt (p->ea / p->mass) * BT__TIME_STEP;
 }
 
 /* Give INPUT the action of the winch of tether I on CHAIN.  A hauling winch pulls with at most its
@@ -90,7 +90,7 @@ set_winch (const bt_dive *dive, bt__state *state, int i, const bt__tether *tethe
   input->pay = pay_of (tether, chain, (1 - dive->contact_work.since) * BT__TIME_STEP);
   input->hold = tether->props.winch_brake;
   input->room = fmax (0, bt__most_out (dive, state, i) - out - input->pay * input->h);
-  input->room = fmin (input->room, most_drawn (&tether->props, input->h));
+  input->room = fmin (input->room, most_drawn (&tether->props));
   if (is_hauled (tether, input->pay))
     {
       input->hold = bt__winch_pull (&tether->props);
@@ -100,18 +100,14 @@ set_winch (const bt_dive *dive, bt__state *state, int i, const bt__tether *tethe
     input->hold = 0;
 }
 
-/* Note that the winch of TETHER was held back while hauling CHAIN from BEFORE metres in H seconds:
-   the winch goes on from its actual speed, and stalls when it has hardly turned for a while, which
-   is counted at the end of a step.  */
+/* Note that the winch of TETHER was held back while hauling CHAIN from BEFORE metres: the winch
+   goes on from its actual speed, and stalls when it has hardly turned for a while.  */
 static void
-hold_back (bt__state *state, int i, bt__tether *tether, const bt__dynamic *chain, double before,
-           double h, int is_last)
+hold_back (bt__state *state, int i, bt__tether *tether, const bt__dynamic *chain, double before)
 {
   double length = fmin (bt__dynamic_length (chain), before);
-  double speed = (before - length) / h, rate = -tether->winch_rate;
+  double speed = (before - length) / BT__TIME_STEP, rate = -tether->winch_rate;
   tether->length = fmax (tether->length, length - speed * tether->props.winch_lag);
-  if (!is_last)
-    return;
   tether->stalling
       = speed < TURNS * fmin (rate, tether->props.winch_rate) ? tether->stalling + 1 : 0;
   if (tether->stalling > STALLED_AFTER || tether->winch_rate == 0)
@@ -129,7 +125,7 @@ heed_winch (const bt_dive *dive, bt__state *state, int i, const bt__dynamic *cha
   if (!is_hauled (tether, input->pay))
     tether->length = fmin (tether->length + report->given, bt__most_out (dive, state, i));
   else if (report->given > 0 || bt__dynamic_length (chain) >= before)
-    hold_back (state, i, tether, chain, before, input->h, dive->contact_work.left == 0);
+    hold_back (state, i, tether, chain, before);
   else
     tether->stalling = 0;
 }

@@ -118,9 +118,10 @@ static const op ops[BT_OP_COUNT] = {
                       "change a live field of the subject-th PART (a bt_part), by its place in the "
                       "table of fields" },
                     bt__op_alter },
-  [BT_OP_DRIFT] = { { "drift", BT_PART_OBSTACLE, 3, 3, "vx vy vz",
-                      "set an obstacle that has a track adrift, m/s: it leaves the track for good" },
-                    bt__op_drift },
+  [BT_OP_DRIFT]
+  = { { "drift", BT_PART_OBSTACLE, 3, 3, "vx vy vz",
+        "set an obstacle that has a track adrift, m/s: it leaves the track for good" },
+      bt__op_drift },
   [BT_OP_COLLIDE]
   = { { "collide", BT_PART_SEA, 3, 3, "part obstacle on",
         "let the subject-th PART (a bt_part: a vehicle or a tether) and an obstacle meet or not; "
@@ -208,17 +209,6 @@ apply_until_it_fits (bt_dive *dive, const op *o, int subject, const double *args
 }
 
 static bt_status
-become_present (bt_dive *dive, bt_error *error)
-{
-  bt_status status;
-  bt__dive_commit (dive);
-  status = bt__watch_prepare (dive, error);
-  if (status != BT_OK)
-    bt__dive_commit (dive); /* the state before it is the present again */
-  return status;
-}
-
-static bt_status
 try_op (bt_dive *dive, bt_op which, int subject, const double *args, int n, bt_error *error)
 {
   const op *o = (unsigned)which < BT_OP_COUNT ? &ops[which] : NULL;
@@ -231,7 +221,7 @@ try_op (bt_dive *dive, bt_op which, int subject, const double *args, int n, bt_e
   if (o->order && bt__all_rest (dive, dive->now))
     return bt__give_order (&(bt__call){ dive, dive->now, subject, args, n, error }, o->apply);
   status = apply_until_it_fits (dive, o, subject, args, n, error);
-  return status == BT_OK ? become_present (dive, error) : status;
+  return status == BT_OK ? bt__dive_become (dive, error) : status;
 }
 
 bt_status

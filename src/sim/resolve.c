@@ -17,12 +17,18 @@ enum
 };
 
 int
+bt__are_ends (const bt__ends *ends, const bt__shape *shape)
+{
+  return memcmp (&ends->a, &shape->a, sizeof ends->a) == 0
+         && memcmp (&ends->b, &shape->b, sizeof ends->b) == 0;
+}
+
+int
 bt__is_unchanged (const bt_dive *dive, const bt__state *state, const bt__tether *tether,
                   const bt__ends *ends)
 {
   bt_water water = bt__dive_water (dive, state);
-  return !tether->stale && memcmp (&tether->shape.a, &ends->a, sizeof ends->a) == 0
-         && memcmp (&tether->shape.b, &ends->b, sizeof ends->b) == 0
+  return !tether->stale && bt__are_ends (ends, &tether->shape)
          && tether->shape.length == tether->length && !bt_water_is_unsteady (&water);
 }
 

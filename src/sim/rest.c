@@ -8,25 +8,16 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
-#include <string.h>
-
 #include "sim/around.h"
 #include "sim/ops.h"
 #include "world/watch.h"
-
-static int
-are_same (const bt__ends *ends, const bt__shape *shape)
-{
-  return memcmp (&ends->a, &shape->a, sizeof ends->a) == 0
-         && memcmp (&ends->b, &shape->b, sizeof ends->b) == 0;
-}
 
 static int
 rests (const bt_dive *dive, bt__state *state, int i)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   bt__ends ends = bt__tether_ends (dive, state, i);
-  if (!are_same (&ends, &tether->shape) || !bt__holds_ends (dive, state, i))
+  if (!bt__are_ends (&ends, &tether->shape) || !bt__holds_ends (dive, state, i))
     return 0;
   if (bt__is_moving_model (tether))
     return tether->shape.form == BT__FORM_CHAIN;

@@ -105,6 +105,9 @@ bt__ends bt__tether_ends (const bt_dive *dive, bt__state *state, int i);
 /* Return the strongest pull of the vehicles at the ends of tether I, N; 0 when both are points.  */
 double bt__pull_on (const bt_dive *dive, bt__state *state, int i);
 
+/* True if ENDS are those of SHAPE, to the bit (resolve.c).  */
+int bt__are_ends (const bt__ends *ends, const bt__shape *shape);
+
 /* True if ends, length, properties and current, all inputs of the line of TETHER, are unchanged
    since the last solve or step (resolve.c).  */
 int bt__is_unchanged (const bt_dive *dive, const bt__state *state, const bt__tether *tether,

@@ -240,19 +240,6 @@ solve_small (double m[][BT__BENTS], double *y, int n)
   return isfinite (sum);
 }
 
-static double
-largest_move (const bt__dynamic_work *w)
-{
-  double most = 0, sum = 0;
-  for (int i = w->lo; i <= w->hi; i++)
-    {
-      double square = bt__dot (w->d[i], w->d[i]);
-      sum += square;
-      most = square > most ? square : most;
-    }
-  return isfinite (sum) ? sqrt (most) : INFINITY;
-}
-
 /* The updates of a metre of each flow.  */
 static void
 find_by_flow (bt__dynamic_work *w, const border *r)
@@ -300,7 +287,7 @@ bt__dynamic_bent_solve (bt__dynamic_work *w)
       for (size_t i = 0; i < nodes; i++)
         w->d[i] = bt__axpy (w->d[i], y[l], z[i]);
     }
-  double moved = largest_move (w);
+  double moved = bt__dynamic_largest (w);
   return fmax (moved, most);
 }
 

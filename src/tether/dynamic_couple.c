@@ -121,23 +121,6 @@ solve_with_band (const bt__dynamic_work *w, const bt_vec3 *from, bt_vec3 *to)
 
 /* ---- Pairs ---- */
 
-static double
-inner_product (const bt__dynamic_work *w, const bt_vec3 *a, const bt_vec3 *b)
-{
-  double sum = 0;
-  for (int i = w->lo; i <= w->hi; i++)
-    sum += bt__dot (a[i], b[i]);
-  return sum;
-}
-
-/* Y += K X.  */
-static void
-add_multiple (const bt__dynamic_work *w, bt_vec3 *y, double k, const bt_vec3 *x)
-{
-  for (int i = w->lo; i <= w->hi; i++)
-    y[i] = bt__axpy (y[i], k, x[i]);
-}
-
 static void
 add_pair_gains (const bt__dynamic_work *w, const bt_vec3 *p, bt_vec3 *q)
 {
@@ -174,22 +157,23 @@ solve_with_pairs (bt__dynamic_work *w)
   size_t nodes = (size_t)w->n + 1;
   bt_vec3 *r = (bt_vec3 *)w->up, *p = r + nodes, *v = p + nodes, *ph = v + nodes, *sh = ph + nodes,
           *t = sh + nodes;
-  double rho = inner_product (w, w->rhs, w->rhs), enough = LITTLE * rho;
+  double rho = bt__dynamic_product (w, w->rhs, w->rhs), enough = LITTLE * rho;
   memset (w->up, 0, 6 * nodes * sizeof *r);
   memcpy (r, w->rhs, nodes * sizeof *r);
   memcpy (p, r, nodes * sizeof *r);
   for (int turn = 0; turn < TURNS; turn++)
     {
       multiply (w, p, ph, v);
-      double alpha = rho / inner_product (w, w->rhs, v);
-      add_multiple (w, w->d, alpha, ph);
-      add_multiple (w, r, -alpha, v);
+      double alpha = rho / bt__dynamic_product (w, w->rhs, v);
+      bt__dynamic_sum (w, w->d, w->d, alpha, ph);
+      bt__dynamic_sum (w, r, r, -alpha, v);
       multiply (w, r, sh, t);
-      double size = inner_product (w, t, t), omega = size > 0 ? inner_product (w, t, r) / size : 0;
-      add_multiple (w, w->d, omega, sh);
-      add_multiple (w, r, -omega, t);
-      double next = inner_product (w, w->rhs, r);
-      if (!(inner_product (w, r, r) > enough) || next == 0 || omega == 0)
+      double size = bt__dynamic_product (w, t, t),
+             omega = size > 0 ? bt__dynamic_product (w, t, r) / size : 0;
+      bt__dynamic_sum (w, w->d, w->d, omega, sh);
+      bt__dynamic_sum (w, r, r, -omega, t);
+      double next = bt__dynamic_product (w, w->rhs, r);
+      if (!(bt__dynamic_product (w, r, r) > enough) || next == 0 || omega == 0)
         return;
       double beta = next / rho * alpha / omega;
       for (int i = w->lo; i <= w->hi; i++)
@@ -201,7 +185,6 @@ solve_with_pairs (bt__dynamic_work *w)
 double
 bt__dynamic_couple_solve (bt__dynamic_work *w)
 {
-  double most = 0, sum = 0;
   memset (w->d, 0, (size_t)(w->n + 1) * sizeof *w->d);
   if (w->lo > w->hi)
     return 0;
@@ -210,11 +193,5 @@ bt__dynamic_couple_solve (bt__dynamic_work *w)
     solve_with_pairs (w);
   else
     solve_with_band (w, w->rhs, w->d);
-  for (int i = w->lo; i <= w->hi; i++)
-    {
-      double square = bt__dot (w->d[i], w->d[i]);
-      sum += square;
-      most = fmax (most, square);
-    }
-  return isfinite (sum) ? sqrt (most) : INFINITY;
+  return bt__dynamic_largest (w);
 }

@@ -216,6 +216,14 @@ bt_vec3 bt__dynamic_contact_on (const bt__dynamic_work *w, int i);
 /* Solve for the update D; return its largest, infinity if any is not finite.  */
 double bt__dynamic_solve (bt__dynamic_work *w);
 
+/* That of the update as it is (dynamic_solve.c).  */
+double bt__dynamic_largest (const bt__dynamic_work *w);
+
+/* Of the unknown nodes: the product of A and B; TO = A + SHARE B (dynamic_pair.c).  */
+double bt__dynamic_product (const bt__dynamic_work *w, const bt_vec3 *a, const bt_vec3 *b);
+void bt__dynamic_sum (const bt__dynamic_work *w, bt_vec3 *to, const bt_vec3 *a, double share,
+                      const bt_vec3 *b);
+
 /* The same without what borders the blocks or couples places, which is to be asked for again; and
    again with COUNT other right-hand sides, one behind the other from COLUMN on and solved in place,
    that are zero but for nodes FIRST to LAST.  */

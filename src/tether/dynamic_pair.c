@@ -80,8 +80,8 @@ bt__dynamic_pair_take_back (const bt__dynamic_work *w, const bt_vec3 *p, bt_vec3
     }
 }
 
-static double
-product_over_window (const bt__dynamic_work *w, const bt_vec3 *a, const bt_vec3 *b)
+double
+bt__dynamic_product (const bt__dynamic_work *w, const bt_vec3 *a, const bt_vec3 *b)
 {
   double sum = 0;
   for (int i = w->lo; i <= w->hi; i++)
@@ -89,21 +89,12 @@ product_over_window (const bt__dynamic_work *w, const bt_vec3 *a, const bt_vec3 
   return sum;
 }
 
-/* TO = A + SHARE B.  */
-static void
-sum_of (const bt__dynamic_work *w, bt_vec3 *to, const bt_vec3 *a, double share, const bt_vec3 *b)
+void
+bt__dynamic_sum (const bt__dynamic_work *w, bt_vec3 *to, const bt_vec3 *a, double share,
+                 const bt_vec3 *b)
 {
   for (int i = w->lo; i <= w->hi; i++)
     to[i] = bt__axpy (a[i], share, b[i]);
-}
-
-static double
-largest_correction (const bt__dynamic_work *w)
-{
-  double most = 0;
-  for (int i = w->lo; i <= w->hi; i++)
-    most = fmax (most, bt__dot (w->d[i], w->d[i]));
-  return sqrt (most);
 }
 
 /* The residual is RHS; D, what the blocks make of it, WHOLE the solution so far, SPARE the
@@ -113,7 +104,7 @@ bt__dynamic_pair_solve (bt__dynamic_work *w)
 {
   size_t size = (size_t)(w->n + 1) * sizeof *w->d;
   bt_vec3 *sum = w->whole, *p = w->spare, *mp = w->by_flow, *q = mp + w->n + 1;
-  double most = bt__dynamic_solve_blocks (w), rz = product_over_window (w, w->rhs, w->d),
+  double most = bt__dynamic_solve_blocks (w), rz = bt__dynamic_product (w, w->rhs, w->d),
          first = rz;
   if (w->lo > w->hi || !isfinite (most))
     return most;
@@ -124,22 +115,22 @@ bt__dynamic_pair_solve (bt__dynamic_work *w)
     {
       memcpy (q, mp, size);
       bt__dynamic_pair_take_back (w, p, q);
-      double curve = product_over_window (w, p, q);
+      double curve = bt__dynamic_product (w, p, q);
       if (!(curve > 0))
         break;
-      sum_of (w, sum, sum, rz / curve, p);
-      sum_of (w, w->rhs, w->rhs, -rz / curve, q);
+      bt__dynamic_sum (w, sum, sum, rz / curve, p);
+      bt__dynamic_sum (w, w->rhs, w->rhs, -rz / curve, q);
       if (i + 1 == ITERATIONS)
         break;
       memcpy (w->d, w->rhs, size);
       bt__dynamic_solve_again (w, w->d, 1, w->lo, w->hi);
-      double next = product_over_window (w, w->rhs, w->d);
+      double next = bt__dynamic_product (w, w->rhs, w->d);
       if (!(next > ENOUGH * first))
         break;
-      sum_of (w, p, w->d, next / rz, p);
-      sum_of (w, mp, w->rhs, next / rz, mp);
+      bt__dynamic_sum (w, p, w->d, next / rz, p);
+      bt__dynamic_sum (w, mp, w->rhs, next / rz, mp);
       rz = next;
     }
   memcpy (w->d, sum, size);
-  return largest_correction (w);
+  return bt__dynamic_largest (w);
 }

@@ -410,8 +410,8 @@ solve_stiff_again (const bt__dynamic_work *w, bt_vec3 *x)
   substitute_stiff (w, x);
 }
 
-static double
-largest_update (const bt__dynamic_work *w)
+double
+bt__dynamic_largest (const bt__dynamic_work *w)
 {
   double most = 0, sum = 0;
   for (int i = w->lo; i <= w->hi; i++)
@@ -420,7 +420,7 @@ largest_update (const bt__dynamic_work *w)
       sum += square;
       most = square > most ? square : most;
     }
-  return sum <= HUGE_UPDATE ? most : INFINITY;
+  return sum <= HUGE_UPDATE ? sqrt (most) : INFINITY;
 }
 
 static BT__HOT double
@@ -432,7 +432,7 @@ solve (bt__dynamic_work *w, int keep)
   if (!(w->bends > 0))
     return sqrt (keep ? solve_plain (w, 1) : solve_plain (w, 0));
   solve_stiff (w);
-  return sqrt (largest_update (w));
+  return bt__dynamic_largest (w);
 }
 
 double

@@ -331,6 +331,16 @@ bt__dive_commit (bt_dive *dive)
   dive->changes++;
 }
 
+bt_status
+bt__dive_become (bt_dive *dive, bt_error *error)
+{
+  bt__dive_commit (dive);
+  bt_status status = bt__watch_prepare (dive, error);
+  if (status != BT_OK)
+    bt__dive_commit (dive); /* the state before it is the present again */
+  return status;
+}
+
 /* ---- Checkpoints ---- */
 
 size_t
@@ -401,13 +411,7 @@ bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error)
   status = bt__state_judge (dive, next, error);
   if (status == BT_OK && !knows_tracks (dive, next))
     status = bt__fail (error, BT_ERR_STALE, "this checkpoint belongs to another dive");
-  if (status != BT_OK)
-    return status;
-  bt__dive_commit (dive);
-  status = bt__watch_prepare (dive, error);
-  if (status != BT_OK)
-    bt__dive_commit (dive); /* the state before it is the present again */
-  return status;
+  return status == BT_OK ? bt__dive_become (dive, error) : status;
 }
 
 /* ---- Parts ---- */

@@ -70,11 +70,11 @@ typedef struct bt__contact_work
   bt__mover *mover;
   bt__course *course;
   bt__switches on;
-  int disagree; /* a mover was held back after somebody had gone by its whole way */
+  int disagree;       /* a mover was held back after somebody had gone by its whole way */
   double since, left; /* of the step's time: the shares before and after the part of the step that a
                          line takes */
-  int balked;   /* a mover would be held back in a part of a step */
-  bt__pin *pin; /* of each vehicle */
+  int balked;         /* a mover would be held back in a part of a step */
+  bt__pin *pin;       /* of each vehicle */
   bt__line_work *line;
   int *order, *place; /* of tethers: which steps when, and when which steps */
   bt__strand *strand; /* room for both parts of every tether, ... */
@@ -174,6 +174,9 @@ bt__pairs_change (const bt_dive *dive)
 bt__state *bt__dive_begin (bt_dive *dive);
 /* Take dive->next over as the present.  */
 void bt__dive_commit (bt_dive *dive);
+/* The same with the memory for looks at windings (bt__watch_prepare); on failure the present stays.
+   BT_ERR_INTERRUPTED.  */
+bt_status bt__dive_become (bt_dive *dive, bt_error *error);
 
 /* What follows the head of STATE, a state of DIVE: of a context it is another's.  */
 static inline char *
