@@ -98,9 +98,9 @@ master=$!
 await has_lines 6 flown
 kill -9 $master
 wait $master 2>/dev/null
-touch go
 await gone $(sed 's/^(\([0-9]*\) .*/\1/' flown) && [ "$(wc -l <flown)" -le 7 ]
-result $? 'with its master killed, no worker goes on'
+result $? 'with its master killed, no case goes on'
+touch go
 had=$(($(bight sweep --rows killed.db | wc -l) - 1))
 [ "$had" -ge 3 ] && [ "$had" -le 7 ]
 result $? "half of it ($had cases) is there"
@@ -122,6 +122,21 @@ result $? '^C stops it and tells how to go on'
 bight sweep quick.scm -o stopped.db >out 2>&1
 grep -q "fingerprint $one" out
 result $? 'and so it does'
+
+# The same processes run tests.
+cat >forever.scm <<'SCM'
+(define-scenario forever
+  "It tells its process, and goes on."
+  (call-with-output-file "process" (lambda (port) (write (getpid) port) (newline port)))
+  (let loop () (loop)))
+SCM
+"$pre" bight test forever.scm >out 2>&1 &
+master=$!
+await has_lines 1 process
+kill -9 $master
+wait $master 2>/dev/null
+await gone "$(cat process)"
+result $? 'with `bight test'"'"' killed, no scenario goes on'
 
 # ---- Cases that go wrong ----
 

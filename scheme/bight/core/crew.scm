@@ -1,12 +1,17 @@
-;;; (bight core crew) --- processes that hold files of scenarios and run them, several at a time.
+;;; (bight core crew) --- processes that hold what was loaded and do orders, several at a time.
 ;;;
-;;; For each file there is a shop, a process that has loaded it.  At an order the shop forks a minder,
-;;; which forks the process that does the work and waits for it, so that whatever happens to that one is
-;;; told.  Orders go to a shop through a pipe of its own; what is told comes through the pipes of slots,
-;;; of which there are as many as orders may be under way.  All is said in Scheme data, one line each.
+;;; Tests and sweeps run so.  For each file of scenarios, or for a study, there is a shop, a process that has loaded it.
+;;; At an order the shop forks a process that does the work, a hand, and tells how that ended, so that no order sees
+;;; what another did and whatever happens to a hand is told.  Orders go to a shop through a pipe of its own; what is
+;;; told comes through the pipes of slots, of which there are as many as orders may be under way.  All is said in
+;;; Scheme data, one line each.
 ;;;
-;;; A minder leads a process group, which is killed as a whole: when its order is late, when its work is
-;;; done, and when the crew goes home, be it for ^C.
+;;; A hand leads a process group, which is killed as a whole: when its order is late, when its work is done, and when
+;;; the crew goes home, be it for ^C.  When the process that gives the orders is killed, the pipes of the shops end, and
+;;; every shop ends its hands and itself.
+;;;
+;;; Who forks must have one thread: another may hold a lock at that moment, which nobody then opens.  Guile starts a
+;;; thread at the first `sigaction', so shops are opened before that, and a shop calls none.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -17,7 +22,7 @@
   #:use-module ((ice-9 rdelim) #:select (read-line))
   #:use-module (srfi srfi-1)
   #:export (call-with-crew
-            crew? shop? slot?
+            crew? hand? shop? slot?
             open-shops
             do-orders
             tell))
@@ -48,21 +53,23 @@
 ;;; The crew.
 
 (define-record <slot>
-  (make-slot in out order serial minder deadline)
+  (make-slot in out order shop serial hand deadline)
   slot?
   (in slot-in)
   (out slot-out)
   (order slot-order set-slot-order!)    ; under way here, or #f
+  (shop slot-shop set-slot-shop!)       ; which has that order, or #f
   (serial slot-serial set-slot-serial!) ; of that order: what is told of another comes too late
-  (minder slot-minder set-slot-minder!) ; its process, or #f
+  (hand slot-hand set-slot-hand!)       ; the process that does it, or #f
   (deadline slot-deadline set-slot-deadline!)) ; in internal real time
 
 (define-record <shop>
-  (make-shop file process orders)
+  (make-shop file process orders answer)
   shop?
   (file shop-file)
   (process shop-process)
-  (orders shop-orders))                 ; the port that orders are written to
+  (orders shop-orders)                  ; the port that orders are written to
+  (answer shop-answer))                 ; the port where it told what was loaded; it ends with the shop
 
 (define-record <crew>
   (make-crew slots shops patience)
@@ -76,14 +83,15 @@
 
 (define (send-home! crew)
   (for-each (lambda (slot)
-              (when (slot-minder slot) (kill-quietly (- (slot-minder slot))))
+              (when (slot-hand slot) (kill-quietly (- (slot-hand slot))))
               (close-port (slot-in slot))
               (close-port (slot-out slot)))
             (crew-slots crew))
   (for-each (lambda (shop)
               (kill-quietly (shop-process shop))
               (false-if-exception (waitpid (shop-process shop)))
-              (close-port (shop-orders shop)))
+              (close-port (shop-orders shop))
+              (close-port (shop-answer shop)))
             (crew-shops crew)))
 
 (define deadly (list SIGINT SIGTERM SIGHUP))
@@ -108,7 +116,7 @@
 PATIENCE seconds unless that is #f.  No process outlives the call."
   (let ((crew (make-crew (map (lambda (i)
                                 (let ((ends (open-pipe)))
-                                  (make-slot (car ends) (cdr ends) #f 0 #f 0)))
+                                  (make-slot (car ends) (cdr ends) #f #f 0 #f 0)))
                               (iota n))
                          '() patience))
         (ours (getpid)))
@@ -169,35 +177,74 @@ PATIENCE seconds unless that is #f.  No process outlives the call."
                                1)))))
     process))
 
-(define (mind serial port thunk)
-  ;; Do THUNK in a process, and tell PORT how it ended.
+;; The process of an order, as its shop knows it.
+(define-record <hand>
+  (make-hand process life port serial)
+  hand?
+  (process hand-process)
+  (life hand-life)                      ; a port that ends with the process
+  (port hand-port)                      ; of its slot
+  (serial hand-serial))
+
+;; In a hand, the other end of its life, kept from the collector.
+(define life #f)
+
+(define (fork-hand port serial answer thunk)
+  ;; Fork the process that calls THUNK for the order SERIAL of the slot of PORT; ANSWER is its shop's alone.
+  (let* ((ends (pipe))
+         (process (call-in-child
+                   (lambda ()
+                     (setpgid 0 0)
+                     (close-port answer)
+                     (close-port (car ends))
+                     (set! life (cdr ends))
+                     (fcntl life F_SETFD FD_CLOEXEC)
+                     (tell port (list serial 'began (getpid)))
+                     (thunk)))))
+    (close-port (cdr ends))
+    (make-hand process (car ends) port serial)))
+
+(define (gone? hand flags)
+  ;; Has HAND ended?  If so that is told; with the FLAGS 0 it is waited for.
+  (let ((end (waitpid (hand-process hand) flags)))
+    (and (positive? (car end))
+         (let ((port (hand-port hand)) (status (cdr end)))
+           (close-port (hand-life hand))
+           (newline port)               ; it may have ended within a line
+           (tell port (list (hand-serial hand) 'ended (status:exit-val status) (status:term-sig status)))
+           #t))))
+
+(define (those-left hands ready)
+  ;; HANDS without those that have ended, as the lives among the ports READY say.  A process that a hand left
+  ;; behind may hold its life; so when nothing is ready, all are asked.
+  (remove (lambda (hand)
+            (cond ((memq (hand-life hand) ready) (gone? hand 0))
+                  ((null? ready) (gone? hand WNOHANG))
+                  (else #f)))
+          hands))
+
+(define (kill-hand hand)
+  ;; It may not lead a group yet.
+  (kill-quietly (- (hand-process hand)))
+  (kill-quietly (hand-process hand)))
+
+(define (keep-shop orders answer slots work)
+  ;; Take orders, lists (SLOT SERIAL WHAT), until there are no more.  ^C is for those who give them.
+  (define (begin-hand order)
+    (let ((port (slot-out (list-ref slots (first order)))) (serial (second order)))
+      (fork-hand port serial answer
+                 (lambda () (work (third order) (lambda (datum) (tell port (cons serial datum))))))))
   (setpgid 0 0)
-  (tell port (list serial 'began (getpid)))
-  (let* ((process (call-in-child thunk))
-         (status (cdr (waitpid process))))
-    (newline port)                      ; it may have ended within a line
-    (tell port (list serial 'ended (status:exit-val status) (status:term-sig status)))))
-
-(define (bury-minders)
-  (when (false-if-exception (positive? (car (waitpid WAIT_ANY WNOHANG))))
-    (bury-minders)))
-
-(define (keep-shop orders slots work)
-  ;; Take orders, lists (SLOT SERIAL WHAT), until there are no more.
-  (let loop ()
-    (let ((order (hear orders)))
-      (bury-minders)
-      (when (pair? order)
-        (let ((port (slot-out (list-ref slots (first order))))
-              (serial (second order)))
-          (call-in-child
-           (lambda ()
-             (mind serial port
-                   (lambda () (work (third order) (lambda (datum) (tell port (cons serial datum)))))))))
-        (loop)))))
+  (let loop ((hands '()))
+    (let* ((ready (readable (cons orders (map hand-life hands)) (if (null? hands) #f 1)))
+           (hands (those-left hands ready))
+           (order (and (memq orders ready) (hear orders))))
+      (cond ((eof-object? order) (for-each kill-hand hands))
+            ((pair? order) (loop (cons (begin-hand order) hands)))
+            (else (loop hands))))))
 
 (define (open-shop crew file load)
-  ;; Return the shop for FILE and the port where it tells what LOAD told.
+  ;; Return the shop for FILE, which will tell what LOAD told.
   (let ((answer (open-pipe)) (orders (open-pipe)))
     (let ((process
            (call-in-child
@@ -206,14 +253,13 @@ PATIENCE seconds unless that is #f.  No process outlives the call."
               (for-each (lambda (shop) (close-port (shop-orders shop))) (crew-shops crew))
               (close-port (cdr orders))
               (let ((work (load file (lambda (datum) (tell (cdr answer) datum)))))
-                (close-port (cdr answer))
                 (when work
-                  (keep-shop (car orders) (crew-slots crew) work)))))))
+                  (keep-shop (car orders) (cdr answer) (crew-slots crew) work)))))))
       (close-port (cdr answer))
       (close-port (car orders))
-      (let ((shop (make-shop file process (cdr orders))))
+      (let ((shop (make-shop file process (cdr orders) (car answer))))
         (set-crew-shops! crew (cons shop (crew-shops crew)))
-        (values shop (car answer))))))
+        shop))))
 
 (define (readable ports seconds)
   ;; Those of PORTS that have something to read, within SECONDS.
@@ -222,20 +268,24 @@ PATIENCE seconds unless that is #f.  No process outlives the call."
     (lambda (key . arguments)
       (if (= EINTR (system-error-errno (cons key arguments))) '() (apply throw key arguments)))))
 
-(define (end-of process)
-  ;; How PROCESS, which ends, ended.
-  (let ((status (cdr (waitpid process))))
+(define (close-shop! crew shop)
+  ;; SHOP, whose process ends, is none of CREW any more; return how it ended.
+  (let ((status (cdr (waitpid (shop-process shop)))))
+    (close-port (shop-orders shop))
+    (close-port (shop-answer shop))
+    (set-crew-shops! crew (delq shop (crew-shops crew)))
     (list 'died (status:exit-val status) (status:term-sig status))))
 
-(define (await-shop crew shop port)
+(define (await-shop crew shop)
   ;; What SHOP tells first, or (late) or (died EXIT SIGNAL).
   (let ((deadline (deadline-of crew)))
     (let loop ()
-      (cond ((pair? (readable (list port) 1))
-             (let ((datum (hear port)))
-               (if (pair? datum) datum (end-of (shop-process shop)))))
+      (cond ((pair? (readable (list (shop-answer shop)) 1))
+             (let ((datum (hear (shop-answer shop))))
+               (if (pair? datum) datum (close-shop! crew shop))))
             ((late? deadline)
              (kill-quietly (shop-process shop))
+             (close-shop! crew shop)
              (list 'late))
             (else (loop))))))
 
@@ -249,37 +299,46 @@ stand for what was told by none."
     (if (null? rest)
         (concatenate (reverse told))
         (let* ((n (min (length (crew-slots crew)) (length rest)))
-               (pairs (map-in-order (lambda (file)
-                                      (call-with-values (lambda () (open-shop crew file load)) cons))
-                                    (take rest n)))
-               (answers (map-in-order (lambda (pair) (await-shop crew (car pair) (cdr pair))) pairs)))
-          (for-each (lambda (pair) (close-port (cdr pair))) pairs)
+               (shops (map-in-order (lambda (file) (open-shop crew file load)) (take rest n)))
+               (answers (map-in-order (lambda (shop) (await-shop crew shop)) shops)))
           (loop (drop rest n) (cons answers told))))))
 
 
 ;;; Orders.
 
 (define (shop-for crew file)
-  (find (lambda (shop) (equal? file (shop-file shop))) (crew-shops crew)))
+  ;; The shop of FILE that has the fewest orders under way, or #f.
+  (define (load shop)
+    (count (lambda (slot) (eq? shop (slot-shop slot))) (crew-slots crew)))
+  (reduce (lambda (shop best) (if (< (load shop) (load best)) shop best))
+          #f
+          (filter (lambda (shop) (equal? file (shop-file shop))) (crew-shops crew))))
 
 (define (free-slot! slot)
-  (when (slot-minder slot)
-    (kill-quietly (- (slot-minder slot)))) ; and what it left behind
-  (set-slot-minder! slot #f)
+  (when (slot-hand slot)
+    (kill-quietly (- (slot-hand slot)))) ; and what it left behind
+  (set-slot-hand! slot #f)
+  (set-slot-shop! slot #f)
   (set-slot-order! slot #f))
 
+(define (give-order! crew slot order)
+  ;; Give ORDER, (FILE WHAT), which is that of SLOT, to a shop; return #f if there is none.
+  (let ((shop (shop-for crew (first order)))
+        (number (list-index (lambda (s) (eq? s slot)) (crew-slots crew))))
+    (set-slot-shop! slot shop)
+    (and shop
+         (or (false-if-exception
+              (begin (tell (shop-orders shop) (list number (slot-serial slot) (second order))) #t))
+             (begin
+               (close-shop! crew shop)
+               (give-order! crew slot order))))))
+
 (define (begin-order! crew slot order)
-  ;; ORDER is (FILE WHAT); return #t if it could be given.
+  ;; Return #t if ORDER could be given.
   (set-slot-order! slot order)
   (set-slot-serial! slot (+ 1 (slot-serial slot)))
   (set-slot-deadline! slot (deadline-of crew))
-  (->bool
-   (false-if-exception
-    (begin
-      (tell (shop-orders (shop-for crew (first order)))
-            (list (list-index (lambda (s) (eq? s slot)) (crew-slots crew))
-                  (slot-serial slot) (second order)))
-      #t))))
+  (give-order! crew slot order))
 
 (define (hear-slot! crew slot heard)
   ;; Take one line of what is told of SLOT.
@@ -287,43 +346,57 @@ stand for what was told by none."
     (when (and (pair? datum) (slot-order slot) (eqv? (car datum) (slot-serial slot)))
       (set-slot-deadline! slot (deadline-of crew))
       (case (second datum)
-        ((began) (set-slot-minder! slot (third datum)))
+        ((began) (set-slot-hand! slot (third datum)))
         ((ended)
          (let ((order (slot-order slot)))
            (free-slot! slot)
            (heard order (cdr datum))))
         (else (heard (slot-order slot) (cdr datum)))))))
 
-(define (give-up! slot heard)
+(define (give-up! slot heard why)
   (let ((order (slot-order slot)))
     (free-slot! slot)
     (newline (slot-out slot))
     (force-output (slot-out slot))
-    (heard order '(late))))
+    (heard order (list why))))
 
-(define (do-orders crew orders heard)
+(define* (do-orders crew orders heard #:key (stop? #f))
   "Let the shops of CREW do ORDERS, lists (FILE WHAT), beginning them in order.  Call HEARD with an order and
-what is told of it: all that its work tells, and last (ended EXIT SIGNAL), one of which is #f, (late) or
-(closed), when there is no shop any more.  ^C meanwhile exits with status 130."
-  (call-with-signals crew (lambda () (go-on-with crew orders heard))))
+what is told of it: all that its work tells, and last (ended EXIT SIGNAL), one of which is #f, (late),
+(orphaned), when its shop came to an end, or (closed), when there is no shop any more.  ^C meanwhile exits with
+status 130.  With STOP?, a procedure without arguments, signals are for the caller: as soon as STOP? returns
+true, no more is begun or heard, and what is under way ends with CREW."
+  (if stop?
+      (go-on-with crew orders heard stop?)
+      (call-with-signals crew (lambda () (go-on-with crew orders heard (const #f))))))
 
-(define (go-on-with crew orders heard)
-  (let ((slots (crew-slots crew)))
-    (let loop ((rest orders))
-      (let ((idle (find (lambda (slot) (not (slot-order slot))) slots))
-            (busy (filter slot-order slots)))
-        (cond ((and idle (pair? rest))
-               (unless (begin-order! crew idle (car rest))
-                 (free-slot! idle)
-                 (heard (car rest) '(closed)))
-               (loop (cdr rest)))
-              ((pair? busy)
-               (for-each (lambda (port)
-                           (hear-slot! crew (find (lambda (slot) (eq? port (slot-in slot))) slots)
-                                       heard))
-                         (readable (map slot-in busy) 1))
-               (for-each (lambda (slot)
-                           (when (and (slot-order slot) (late? (slot-deadline slot)))
-                             (give-up! slot heard)))
-                         busy)
-               (loop rest)))))))
+(define (hear-slots! crew busy heard)
+  ;; Take what is told, within a second, of the slots that are BUSY; those that are late are given up, and, when all
+  ;; is heard, those whose shop is gone.
+  (let* ((ready (readable (append (map slot-in busy) (map shop-answer (crew-shops crew))) 1))
+         (gone (filter (lambda (shop)
+                         (and (memq (shop-answer shop) ready) (eof-object? (hear (shop-answer shop)))))
+                       (crew-shops crew))))
+    (for-each (lambda (slot)
+                (cond ((memq (slot-in slot) ready) (hear-slot! crew slot heard))
+                      ((memq (slot-shop slot) gone) (give-up! slot heard 'orphaned))
+                      ((late? (slot-deadline slot)) (give-up! slot heard 'late))))
+              busy)
+    (for-each (lambda (shop)
+                (unless (any (lambda (slot) (eq? shop (slot-shop slot))) busy)
+                  (close-shop! crew shop)))
+              gone)))
+
+(define (go-on-with crew orders heard stop?)
+  (let loop ((rest orders))
+    (let ((idle (find (lambda (slot) (not (slot-order slot))) (crew-slots crew)))
+          (busy (filter slot-order (crew-slots crew))))
+      (cond ((stop?) #f)
+            ((and idle (pair? rest))
+             (unless (begin-order! crew idle (car rest))
+               (free-slot! idle)
+               (heard (car rest) '(closed)))
+             (loop (cdr rest)))
+            ((pair? busy)
+             (hear-slots! crew busy heard)
+             (loop rest))))))

@@ -1,9 +1,9 @@
-;;; (bight study sweep) --- all cases of a study, flown by workers into one result.
+;;; (bight study sweep) --- all cases of a study, each flown in a process of its own, in one result.
 ;;;
-;;; The master alone writes: it hands the number of a case to whoever is idle and enters what came of it,
-;;; each case in a transaction of its own.  What is in the result when the master dies, however it dies, is
-;;; whole, and what is not there is flown when it is started again.  Which case is which does not depend on
-;;; who flies it: the same study gives the same result with any number of workers, shards and deaths.
+;;; This process alone writes: it orders the cases one by one and enters what came of each, in a transaction of its
+;;; own.  What is in the result when this process dies, however it dies, is whole, and what is not there is flown
+;;; when it is started again.  Which case is which does not depend on who flies it: the same study gives the same
+;;; result with any number of processes, shards and deaths.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -14,9 +14,9 @@
   #:use-module (bight study case)
   #:use-module (bight study sweep-design)
   #:use-module (bight study sweep-file)
+  #:use-module (bight study sweep-flight)
   #:use-module (bight study sweep-result)
   #:use-module (bight study sweep-watch)
-  #:use-module (bight study sweep-worker)
   #:use-module (srfi srfi-1)
   #:export (sweep
             plan-of
@@ -86,7 +86,7 @@
           (iota (vector-length keys))))
 
 
-;;; The master.
+;;; Flying them.
 
 (define-record <tally>
   (make-tally cases done failed flown stopped? fingerprint first-failure)
@@ -98,24 +98,6 @@
   (stopped? tally-stopped?)             ; by ^C
   (fingerprint tally-fingerprint)
   (first-failure tally-first-failure))  ; (NUMBER MESSAGE) or #f
-
-(define (answered workers)
-  ;; Those of WORKERS who have something to say, after a second at most.
-  (let ((ready (catch 'system-error
-                 (lambda () (first (select (map worker-port workers) '() '() 1)))
-                 (lambda arguments
-                   (if (eqv? EINTR (system-error-errno arguments)) '() (apply throw arguments))))))
-    (filter (lambda (worker) (memq (worker-port worker) ready)) workers)))
-
-(define (hand-out! workers pending)
-  ;; Give each of WORKERS who is idle a case of PENDING; return those left.
-  (fold (lambda (worker pending)
-          (if (or (worker-case worker) (null? pending))
-              pending
-              (begin
-                (set-task! worker (car pending))
-                (cdr pending))))
-        pending workers))
 
 ;; A case that was ended from outside has no outcome.  It is flown again after all others and by itself, as
 ;; its process may have been ended for want of memory; at the third end it counts as failed, and the next
@@ -139,33 +121,18 @@ returns the number of a case that is to be flown again."
               ((< n most-flights) (tell-again number outcome) number)
               (else (enter! number (given-up outcome)) #f))))))
 
-(define (take-answers! answering workers again settle!)
-  ;; Settle what those of WORKERS who are ANSWERING say; return the workers left and AGAIN, the cases to be
-  ;; flown again.
-  (if (null? answering)
-      (values workers again)
-      (let* ((worker (car answering))
-             (number (worker-case worker))
-             (answer (worker-answer worker))
-             (left (settle! number (or answer (interrupted "with the worker that flew it")))))
-        (take-answers! (cdr answering) (if answer workers (delq worker workers))
-                       (if left (append again (list left)) again) settle!))))
-
-(define (fly-all! workers pending settle!)
-  "Let WORKERS fly the cases PENDING, and call SETTLE! with the number and outcome of each, and again those
+(define (fly-all! crew study pending settle!)
+  "Let CREW fly the cases PENDING of STUDY, and call SETTLE! with the number and outcome of each, and again those
 that it returns, one at a time.  Return #t if it was stopped."
-  (let loop ((workers workers) (pending pending) (again '()))
-    (let* ((alone? (and (null? pending) (pair? again) (not (any worker-case workers))))
-           (pending (hand-out! workers (if alone? (list (car again)) pending)))
-           (again (if alone? (cdr again) again))
-           (busy (filter worker-case workers)))
-      (cond ((stop-asked?) #t)
-            ((and (null? busy) (null? pending) (null? again)) #f)
-            ((null? busy)
-             (bight-raise 'io 'sweep "all workers are gone; start it again and it goes on"))
-            (else
-             (call-with-values (lambda () (take-answers! (answered busy) workers again settle!))
-               (lambda (workers again) (loop workers pending again))))))))
+  (let loop ((now pending) (again '()))
+    (fly-cases crew study now
+               (lambda (number outcome)
+                 (let ((left (settle! number outcome)))
+                   (when left (set! again (append again (list left))))))
+               stop-asked?)
+    (cond ((stop-asked?) #t)
+          ((null? again) #f)
+          (else (loop (list (car again)) (cdr again))))))
 
 (define (first-failure rows)
   ;; (NUMBER MESSAGE) of the first of ROWS that is not done.
@@ -186,13 +153,7 @@ that it returns, one at a time.  Return #t if it was stopped."
                 flown stopped? (result-fingerprint database plan)
                 (first-failure (case-rows database plan)))))
 
-(define (start-workers study n)
-  (let loop ((workers '()))
-    (if (= n (length workers))
-        workers
-        (loop (cons (start-worker study workers) workers)))))
-
-(define (fly-missing! study plan database workers shard again?)
+(define (fly-missing! study plan database crew shard again?)
   (let* ((keys (keys-of study plan))
          (flown 0) (failed 0)
          (show (progress-shower)))
@@ -212,7 +173,7 @@ that it returns, one at a time.  Return #t if it was stopped."
         (force-output (current-error-port)))
       (show 0 all 0)
       (let ((stopped? (call-with-stop
-                       (lambda () (fly-all! workers pending (settler enter! tell-again))))))
+                       (lambda () (fly-all! crew study pending (settler enter! tell-again))))))
         (show #f)
         (tally-of database plan shard flown stopped?)))))
 
@@ -223,16 +184,13 @@ writing RESULT is waited for, PATIENCE seconds at most."
   (let* ((study (load-study file))
          (plan (plan-of study file shard)))
     (force-output (current-output-port))
-    (let ((workers (start-workers study (min jobs (plan-fact plan 'cases)))))
-      (sigaction SIGPIPE SIG_IGN)       ; a worker may be gone when it is written to
-      (dynamic-wind
-        (const #f)
-        (lambda ()
-          (let* ((database (open-result result plan #:patience patience))
-                 (tally (fly-missing! study plan database workers shard again?)))
-            (close-result! database)
-            tally))
-        (lambda () (for-each stop-worker! workers))))))
+    (call-with-flyers study (min jobs (plan-fact plan 'cases))
+      (lambda (crew)
+        (sigaction SIGPIPE SIG_IGN)     ; the process that has read the study may be gone when it is written to
+        (let* ((database (open-result result plan #:patience patience))
+               (tally (fly-missing! study plan database crew shard again?)))
+          (close-result! database)
+          tally)))))
 
 
 ;;; Shards.

@@ -77,7 +77,7 @@
   ;; How a process that told no outcome ended.
   (case (car ended)
     ((late) "its process gave no sign of life for too long, and was killed")
-    ((closed) "the process that had loaded its file is gone")
+    ((orphaned closed) "the process that had loaded its file is gone")
     (else
      (let ((code (second ended)) (signal (third ended)))
        (cond ((and signal (= signal SIGKILL) (settings-limit settings))
