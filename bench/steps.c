@@ -16,6 +16,7 @@
 #include "options.h"
 #include "row.h"
 #include "testbed/impact.h"
+#include "testbed/profile.h"
 
 enum
 {
@@ -28,14 +29,6 @@ static const struct
   const char *name;
   double accuracy;
 } settings[] = { { "none", INFINITY }, { "0.1", 0.1 }, { "0.02", 0.02 }, { "0.005", 0.005 } };
-
-static bt_profile
-profile_of (const bt_dive *dive)
-{
-  bt_profile p;
-  bt_dive_profile (dive, &p);
-  return p;
-}
 
 /* ---- Peaks ---- */
 
@@ -68,15 +61,12 @@ put_peak (bench_table *t, const impact *i, double exact, const char *name, doubl
 static void
 put_peaks (bench_table *t)
 {
-  static const double lengths[] = { 5, 10, 30, 60 }, stiff[] = { 1e5, 1e6 };
-  for (int e = 0; e < 2; e++)
-    for (int l = 0; l < 4; l++)
-      {
-        impact i = { stiff[e], 20, 0.043, lengths[l] };
-        double exact = impact_exact (&i);
-        for (size_t k = 0; k < sizeof settings / sizeof *settings; k++)
-          put_peak (t, &i, exact, settings[k].name, settings[k].accuracy);
-      }
+  for (int i = 0; i < IMPACTS; i++)
+    {
+      double exact = impact_exact (&impacts[i]);
+      for (size_t k = 0; k < sizeof settings / sizeof *settings; k++)
+        put_peak (t, &impacts[i], exact, settings[k].name, settings[k].accuracy);
+    }
 }
 
 /* ---- Flights ---- */

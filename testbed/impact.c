@@ -14,6 +14,13 @@
 #include "vehicle/frame.h"
 #include "world/dive.h"
 
+#define OF(ea, length)                                                                             \
+  {                                                                                                \
+    ea, 20, 0.043, length                                                                          \
+  }
+const impact impacts[IMPACTS] = { OF (1e5, 5), OF (1e5, 10), OF (1e5, 30), OF (1e5, 60),
+                                  OF (1e6, 5), OF (1e6, 10), OF (1e6, 30), OF (1e6, 60) };
+
 /* ---- The exact wave ---- */
 
 double

@@ -15,6 +15,14 @@ typedef struct impact
   double ea, ba, mass, length; /* N, N s, kg/m, m: of the line */
 } impact;
 
+enum
+{
+  IMPACTS = 8
+};
+
+/* Lines of 5 to 60 m, of two stiffnesses.  */
+extern const impact impacts[IMPACTS];
+
 /* Return the time, s, for which the line of I is taut, a little more than half a swing.  */
 double impact_time (const impact *i);
 

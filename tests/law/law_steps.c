@@ -16,33 +16,13 @@
 #include "base/hash.h"
 #include "math/vec.h"
 #include "testbed/impact.h"
+#include "testbed/profile.h"
 
 enum
 {
   NODES = 64,
   FLIGHTS = 20
 };
-
-static const impact lines[]
-    = { { 1e5, 20, 0.043, 5 },  { 1e5, 20, 0.043, 10 }, { 1e5, 20, 0.043, 30 },
-        { 1e5, 20, 0.043, 60 }, { 1e6, 20, 0.043, 5 },  { 1e6, 20, 0.043, 10 },
-        { 1e6, 20, 0.043, 30 }, { 1e6, 20, 0.043, 60 } };
-
-static bt_profile
-profile_of (const bt_dive *dive)
-{
-  bt_profile p;
-  bt_dive_profile (dive, &p);
-  return p;
-}
-
-static void
-run (bt_dive *dive, int steps)
-{
-  bt_error error;
-  for (int k = 0; k < steps; k++)
-    scene_must (bt_dive_step (dive, &error), &error);
-}
 
 /* ---- Peaks ---- */
 
@@ -63,14 +43,14 @@ static void
 test_peaks_are_those_of_the_exact_wave (void **state)
 {
   (void)state;
-  for (size_t k = 0; k < sizeof lines / sizeof *lines; k++)
+  for (size_t k = 0; k < IMPACTS; k++)
     {
-      double exact = impact_exact (&lines[k]);
-      double off = peak_of (&lines[k], 0.02) / exact - 1,
-             whole = peak_of (&lines[k], INFINITY) / exact - 1;
+      double exact = impact_exact (&impacts[k]);
+      double off = peak_of (&impacts[k], 0.02) / exact - 1,
+             whole = peak_of (&impacts[k], INFINITY) / exact - 1;
       if (!(fabs (off) < 0.02) || !(fabs (whole) > 0.05))
-        fail_msg ("EA %g N, %g m: %.4g N, found %+.2f %%, in whole steps %+.2f %%", lines[k].ea,
-                  lines[k].length, exact, 100 * off, 100 * whole);
+        fail_msg ("EA %g N, %g m: %.4g N, found %+.2f %%, in whole steps %+.2f %%", impacts[k].ea,
+                  impacts[k].length, exact, 100 * off, 100 * whole);
     }
 }
 
@@ -116,7 +96,7 @@ test_what_cannot_be_met_is_told (void **state)
       bt_dive *dive = impact_begin (&s);
       for (int n = 0; n < 12; n++)
         {
-          run (dive, 1);
+          scene_run (dive, 1);
           scene_must (bt_dive_tether (dive, 0, &v, &error), &error);
           told += v.tension_error > 0;
         }
@@ -271,8 +251,8 @@ test_the_same_for_any_threads (void **state)
   bt_dive *one = begin_fleet (1), *three = begin_fleet (3);
   for (int k = 0; k < 4 * SNAP; k++)
     {
-      run (one, 1);
-      run (three, 1);
+      scene_run (one, 1);
+      scene_run (three, 1);
       assert_true (bt_dive_hash (one) == bt_dive_hash (three));
     }
   assert_true (profile_of (one).chain_parts > 100);
@@ -286,22 +266,22 @@ test_the_same_from_a_checkpoint (void **state)
 {
   (void)state;
   bt_error error;
-  impact i = lines[0];
+  impact i = impacts[0];
   static scene s;
   impact_scene (&s, &i, NODES);
   bt_dive *dive = impact_begin (&s), *fork;
-  run (dive, 3);
+  scene_run (dive, 3);
   assert_true (profile_of (dive).chain_parts > 0);
   size_t size = bt_dive_state_size (dive);
   void *saved = malloc (size);
   bt_dive_save (dive, saved);
   scene_must (bt_dive_fork (dive, &fork, &error), &error);
-  run (dive, 20);
-  run (fork, 20);
+  scene_run (dive, 20);
+  scene_run (fork, 20);
   uint64_t hash = bt_dive_hash (dive);
   assert_true (bt_dive_hash (fork) == hash);
   scene_must (bt_dive_restore (dive, saved, size, &error), &error);
-  run (dive, 20);
+  scene_run (dive, 20);
   assert_true (bt_dive_hash (dive) == hash);
   free (saved);
   bt_dive_free (fork);
@@ -335,7 +315,7 @@ test_nothing_is_passed_through (void **state)
   for (int k = 0; k < 300; k++)
     {
       bt_clearance c;
-      run (dive, 1);
+      scene_run (dive, 1);
       scene_must (bt_tether_clearance (dive, 0, -1, &c, &error), &error);
       touched += c.distance < 0.001;
       if (!(c.distance > -0.0045))

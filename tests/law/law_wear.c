@@ -15,6 +15,7 @@
 #include <cmocka.h>
 
 #include "../oracle/dive_scene.h"
+#include "testbed/profile.h"
 #include "testbed/solids.h"
 #include "contact/wear.h"
 #include "math/vec.h"
@@ -76,14 +77,6 @@ worn (const bt_dive *dive)
   double share = NAN;
   assert_int_equal (bt_tether_wear (dive, 0, &share, NULL), BT_OK);
   return share;
-}
-
-static bt_profile
-profile_of (const bt_dive *dive)
-{
-  bt_profile p;
-  bt_dive_profile (dive, &p);
-  return p;
 }
 
 /* J done on all that is out.  */

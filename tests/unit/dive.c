@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include <bight/bight.h>
+#include "testbed/profile.h"
 
 /* ---- Counting and refusing allocations ---- */
 
@@ -115,14 +116,6 @@ step (bt_dive *dive, int n)
   bt_error e;
   while (n-- > 0)
     assert_int_equal (bt_dive_step (dive, &e), BT_OK);
-}
-
-static bt_profile
-profile_of (const bt_dive *dive)
-{
-  bt_profile p;
-  bt_dive_profile (dive, &p);
-  return p;
 }
 
 /* ---- Tests ---- */

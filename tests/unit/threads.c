@@ -19,6 +19,7 @@
 #include <cmocka.h>
 
 #include "../oracle/dive_scene.h"
+#include "testbed/profile.h"
 #include "testbed/solids.h"
 #include "base/workers.h"
 #include "math/vec.h"
@@ -163,14 +164,6 @@ launch (const fleet *f, int threads)
     fail_msg ("%s", e.text);
   assert_int_equal (bt_dive_threads (dive), threads);
   return dive;
-}
-
-static bt_profile
-profile_of (const bt_dive *dive)
-{
-  bt_profile p;
-  bt_dive_profile (dive, &p);
-  return p;
 }
 
 /* ---- A pilot who does anything ---- */
