@@ -76,13 +76,33 @@ is_interval_clear (bt__line_job *k, int64_t j)
          && bt__self_is_clear (k, j, 0.5 * rest[j]);
 }
 
+/* Note that a node came to interval J, which began FROM the far end, and was INNER.  */
 static void
-put_in (bt__line_job *k, bt__sliding *s, int64_t j, double u)
+note_node (bt__line_job *k, bt__sliding *s, int64_t j, double from, double inner)
 {
-  double from = k->w->from_end[j + 1], inner = k->w->from_end[1];
-  bt__dynamic_split (k->d, j, u, !is_interval_clear (k, j));
   bt__sliding_came (k, s, j + 1);
   note_change (k, j > 0 ? from : INFINITY, inner);
+}
+
+static void
+put_between (bt__line_job *k, bt__sliding *s, int64_t j)
+{
+  double from = k->w->from_end[j + 1], inner = k->w->from_end[1];
+  bt__dynamic_split (k->d, j, 0.5, !is_interval_clear (k, j));
+  note_node (k, s, j, from, inner);
+}
+
+/* Let a node come out of the winch.  */
+static void
+put_first (bt__line_job *k, bt__sliding *s, const bt__dynamic_turn *next)
+{
+  double inner = k->w->from_end[1];
+  int clear = is_interval_clear (k, 0);
+  if (next->lump && clear)
+    bt__dynamic_split_at_lump (k->d, next->first, k->in);
+  else
+    bt__dynamic_split_first (k->d, next, next->straight || !clear);
+  note_node (k, s, 0, INFINITY, inner);
 }
 
 static void
@@ -152,7 +172,7 @@ halve_one (bt__line_job *k, bt__sliding *s)
   int64_t j = bt__dynamic_worst_interval (k->d, &k->in->mesh, kept);
   if (j == 0)
     return;
-  put_in (k, s, j, 0.5);
+  put_between (k, s, j);
   bt__dynamic_refit (k->d);
 }
 
@@ -181,30 +201,29 @@ tune (bt__line_job *k, bt__sliding *s)
 
 /* Turn the winch by one interval.  */
 static int
-turn (bt__line_job *k, bt__sliding *s, int way)
+turn (bt__line_job *k, bt__sliding *s, const bt__dynamic_turn *next)
 {
-  if (way < 0)
+  if (next->way < 0)
     return take_out (k, s, 1);
   if (!bt__dynamic_is_open (k->d, &k->in->mesh) && !spare_one (k, s, 0))
     spare_one (k, s, 1);
   if (k->d->n >= k->d->n_max)
     return 0;
-  double rest = bt__dynamic_rest (k->d)[0];
-  put_in (k, s, 0, (rest - k->d->piece) / rest);
+  put_first (k, s, next);
   return 1;
 }
 
-/* Turn the winch on WAY as far as the first interval asks for.  */
+/* Do NEXT, and whatever else the first interval asks the winch for then.  */
 static void
-turn_all (bt__line_job *k, bt__sliding *s, int way)
+turn_all (bt__line_job *k, bt__sliding *s, bt__dynamic_turn next)
 {
-  for (int t = 0; t < TURNS && way != 0; t++)
+  for (int t = 0; t < TURNS && next.way != 0; t++)
     {
-      if (!turn (k, s, way))
+      if (!turn (k, s, &next))
         return;
       for (int u = 0; u < BT__DYNAMIC_TUNES; u++)
         tune (k, s);
-      way = bt__dynamic_winding (k->d);
+      next = bt__dynamic_winding (k->d, k->in);
     }
 }
 
@@ -212,12 +231,12 @@ void
 bt__line_wind (bt__line_job *k)
 {
   bt__sliding s;
-  int way = bt__dynamic_winding (k->d);
-  if (way == 0 && !k->in->mesh.idle)
+  bt__dynamic_turn next = bt__dynamic_winding (k->d, k->in);
+  if (next.way == 0 && !k->in->mesh.idle)
     return;
   bt__sliding_measure (k);
   bt__sliding_gather (k, &s);
-  turn_all (k, &s, way);
+  turn_all (k, &s, next);
   if (k->in->mesh.idle)
     tune (k, &s);
   bt__sliding_measure (k);

@@ -52,7 +52,8 @@ bt__chain_mesh (const bt_dive *dive, const bt__state *state, const bt__tether *t
                              .error
                              = wound ? WINCH_AIM * tether->props.accuracy / BT__CHAIN_ERROR : 0,
                              .shortest = SHORTEST,
-                             .idle = !adapts && wound && state->step % BT__REMESH_EVERY == 0 };
+                             .idle = !adapts && wound && state->step % BT__REMESH_EVERY == 0,
+                             .corners = def->n_lumps > 0 };
 }
 
 /* How many intervals the chain of N with the estimated ERROR should have, at most ROOM.  */

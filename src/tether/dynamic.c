@@ -11,9 +11,10 @@
 /* A step that grows by more than this is backward Euler: just after a snap the second-order
    difference of a growing step gains energy, though it is stable up to 1 + sqrt (2).  */
 #define HISTORY_RATIO 1.02
-#define OWED_TIME 0.5   /* s in which the winch pays what it owes */
-#define LEAST_REST 0.05 /* of a piece: the shortest an interval is hauled to, ... */
-#define STUB 0.05       /* m: ... and the last of all */
+#define OWED_TIME 0.5     /* s in which the winch pays what it owes */
+#define LEAST_REST 0.05   /* of a piece: the shortest an interval is hauled to, ... */
+#define LEAST_LUMP 0.0005 /* ... where the node of a lump may be at the winch, ... */
+#define STUB 0.05         /* m: ... and the last of all */
 /* Of the length, in steps of a sixtieth of a second and longer; what a step may leave undone must
    shrink with it, or short steps add it up.  */
 #define DEFAULT_TOLERANCE 1e-5
@@ -117,7 +118,8 @@ static double
 wind_first (const bt__dynamic *d, const bt__dynamic_input *in, double *owed)
 {
   double rest = bt__dynamic_rest (d)[0], part = d->owed * fmin (1, in->h / OWED_TIME);
-  double least = d->n > 1 ? LEAST_REST * d->piece : fmin (LEAST_REST * d->piece, STUB);
+  double least = (in->mesh.corners ? LEAST_LUMP : LEAST_REST) * d->piece;
+  least = d->n > 1 ? least : fmin (least, STUB);
   double next = fmax (rest + in->pay * in->h + part, fmin (rest, least));
   *owed = d->owed - part;
   return next;

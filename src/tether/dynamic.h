@@ -169,6 +169,8 @@ typedef struct bt__dynamic_mesh
   double shortest; /* m: no interval is halved to less: a line that lies crumpled is not smooth, and
                       would be halved for good */
   int idle;        /* true: one node may come or go in this step though the winch stands */
+  int corners;     /* true: the winch looks after the corners of the line at lumps, and lumps may
+                      pass it */
 } bt__dynamic_mesh;
 
 typedef struct bt__dynamic_input

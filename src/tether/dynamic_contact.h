@@ -147,16 +147,30 @@ bt_status bt__dynamic_finish_within (bt__dynamic *d, bt__dynamic_work *work,
                                      const bt__dynamic_drift *most, int *taken,
                                      bt__dynamic_report *report, bt_error *error);
 
-/* Return 1 if the winch is to split the first interval of D, -1 if it is to join it, else 0.  */
-int bt__dynamic_winding (const bt__dynamic *d);
+/* What the winch does next to the nodes of a line.  */
+typedef struct bt__dynamic_turn
+{
+  int way;      /* 1: a node comes; -1: the first inner node goes; 0: nothing */
+  double first; /* m: rest length of the first interval when the node has come; 0: all but a piece,
+                   whatever a piece is then */
+  int straight; /* true if the node that comes lies on the chord */
+  int lump;     /* true if the node comes with a lump: see bt__dynamic_split_at_lump */
+} bt__dynamic_turn;
 
-/* Split or join the first interval of D once.  STRAIGHT: the new node lies on the chord.  */
-void bt__dynamic_wind_once (bt__dynamic *d, int way, int straight);
+/* Return what the winch does next to D, on which INPUT says what is lumped.  */
+bt__dynamic_turn bt__dynamic_winding (const bt__dynamic *d, const bt__dynamic_input *input);
 
 /* Put a node at the share U of interval J: on the curve, or with STRAIGHT or where the interval is
    slack on the chord.  The tension stays; what the rest lengths lose is owed.  There must be room.
  */
 void bt__dynamic_split (bt__dynamic *d, int64_t j, double u, int straight);
+
+/* Put node 1 where NEXT says, on the curve or, with STRAIGHT, on the chord.  There must be room.  */
+void bt__dynamic_split_first (bt__dynamic *d, const bt__dynamic_turn *next, int straight);
+
+/* Put node 1 at a lump that is OUT metres out, in the direction in which D pulls at the winch,
+   which pays out as INPUT has it.  What the rest lengths lose is owed.  There must be room.  */
+void bt__dynamic_split_at_lump (bt__dynamic *d, double out, const bt__dynamic_input *input);
 
 /* ---- The number of intervals (dynamic_mesh.c) ---- */
 

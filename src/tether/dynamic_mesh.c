@@ -197,17 +197,28 @@ tune (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *in)
     spare_one (d, w, in);
 }
 
+static void
+wind_once (bt__dynamic *d, const bt__dynamic_turn *next, const bt__dynamic_input *in)
+{
+  if (next->way < 0)
+    bt__dynamic_remove (d, 1);
+  else if (next->lump)
+    bt__dynamic_split_at_lump (d, next->first, in);
+  else
+    bt__dynamic_split_first (d, next, next->straight);
+}
+
 void
 bt__dynamic_wind (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *in)
 {
-  int way;
-  while ((way = bt__dynamic_winding (d)) != 0)
+  bt__dynamic_turn next;
+  while ((next = bt__dynamic_winding (d, in)).way != 0)
     {
-      if (way > 0 && !bt__dynamic_is_open (d, &in->mesh))
+      if (next.way > 0 && !bt__dynamic_is_open (d, &in->mesh))
         spare_one (d, w, in);
-      if (way > 0 && d->n >= d->n_max)
+      if (next.way > 0 && d->n >= d->n_max)
         break;
-      bt__dynamic_wind_once (d, way, 0);
+      wind_once (d, &next, in);
       for (int t = 0; t < BT__DYNAMIC_TUNES; t++)
         tune (d, w, in);
     }

@@ -5,8 +5,14 @@
    that hangs.  So the rest lengths follow the chords at the stretch there was, and the line's
    length is kept by what is owed, which the winch pays slowly.
 
+   At a lump the line has a corner.  A node that comes beside a lump falls from the chord into the
+   corner, and a corner that goes straightens the line; either is felt at both ends.  So a lump
+   brings its own node, which comes as the lump leaves the winch, in the direction in which the
+   winch is pulled; and the nodes about a lump go only at the winch itself.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <math.h>
 #include <string.h>
 
 #include "math/vec.h"
@@ -14,6 +20,10 @@
 
 #define SPLIT 1.6 /* of a piece: the first interval is split beyond this, ... */
 #define JOIN 0.4  /* ... and joined below this; far apart, so that neither undoes the other */
+
+#define BORN 0.001 /* of a piece: how far a lump is out when its node comes, ... */
+#define GONE 0.008 /* ... and how near to the winch the node of a lump goes */
+#define BENT 0.01  /* of a piece: so far from its neighbours' chord is a node at a corner */
 
 /* Make room for, or remove, element AT of an array of N.  */
 static void
@@ -162,21 +172,81 @@ bt__dynamic_insert (bt__dynamic *d, int64_t j, double u, int64_t from)
   de[j] = de[i];
 }
 
-int
-bt__dynamic_winding (const bt__dynamic *d)
+void
+bt__dynamic_split_first (bt__dynamic *d, const bt__dynamic_turn *next, int straight)
 {
-  double rest = bt__dynamic_rest (d)[0];
-  return rest > SPLIT * d->piece ? 1 : d->n > d->least && rest < JOIN * d->piece ? -1 : 0;
+  double rest = bt__dynamic_rest (d)[0], first = next->first > 0 ? next->first : rest - d->piece;
+  bt__dynamic_split (d, 0, first / rest, straight);
 }
 
 void
-bt__dynamic_wind_once (bt__dynamic *d, int way, int straight)
+bt__dynamic_split_at_lump (bt__dynamic *d, double out, const bt__dynamic_input *in)
 {
-  double rest = bt__dynamic_rest (d)[0];
-  if (way > 0)
-    bt__dynamic_split (d, 0, (rest - d->piece) / rest, straight);
-  else if (way < 0)
-    bt__dynamic_remove (d, 1);
+  bt_vec3 *x = bt__dynamic_x (d), way = bt__unit_or (d->pull[0], bt__sub (x[1], x[0]));
+  double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d), whole = rest[0];
+  shift_all (d, 1, 1);
+  bt__dynamic_v (d)[1] = bt__dynamic_vp (d)[1] = bt__scale (in->pay, way);
+  bt__dynamic_dx (d)[1] = bt__scale (in->pay * in->h, way);
+  bt__dynamic_tension (d)[0] = bt__norm (d->pull[0]);
+  e[0] = 1 + bt__dynamic_tension (d)[0] / bt__stiffness (in->line->ea);
+  rest[0] = out;
+  x[1] = bt__axpy (x[0], out * e[0], way);
+  rest[1] = bt__distance (x[1], x[2]) / e[1];
+  bt__dynamic_load (d)[1] = bt__vec (0, 0, 0);
+  bt__dynamic_chord (d)[0] = bt__dynamic_chord (d)[1] = bt__vec (0, 0, 0);
+  d->owed += whole - rest[0] - rest[1];
+}
+
+/* What of D's first two intervals is lumped.  */
+typedef struct first_lump
+{
+  int corner; /* true if the line has a corner at node 1, or a lump beside it */
+  double out; /* m: of the lump nearest to the winch in the first interval: how far out; 0: none */
+} first_lump;
+
+static int
+is_off_chord (const bt__dynamic *d)
+{
+  const bt_vec3 *x = bt__dynamic_x (d);
+  bt_vec3 a = bt__sub (x[1], x[0]), b = bt__sub (x[2], x[0]);
+  double chord = bt__norm (b);
+  return bt__norm (bt__cross (a, b)) > BENT * d->piece * chord;
+}
+
+static first_lump
+first_lump_of (const bt__dynamic *d, const bt__dynamic_input *in)
+{
+  const double *rest = bt__dynamic_rest (d);
+  double length = bt__dynamic_length (d) - d->owed, edge = BORN * d->piece;
+  double next = rest[0] + (d->n > 1 ? rest[1] : 0);
+  first_lump found = { d->n > 1 && is_off_chord (d), 0 };
+  for (int k = 0; k < in->n_lumps; k++)
+    {
+      double s = length - in->lumps[k].from_end;
+      if (in->lumps[k].span > 0 || s <= 0 || s >= next)
+        continue;
+      found.corner = 1;
+      if (s >= edge && s <= rest[0] - edge && (found.out == 0 || s < found.out))
+        found.out = s;
+    }
+  return found;
+}
+
+bt__dynamic_turn
+bt__dynamic_winding (const bt__dynamic *d, const bt__dynamic_input *in)
+{
+  double rest = bt__dynamic_rest (d)[0], piece = d->piece;
+  first_lump lump = in->mesh.corners ? first_lump_of (d, in) : (first_lump){ 0, 0 };
+  int near = lump.corner ? in->pay < 0 && rest < GONE * piece : rest < JOIN * piece;
+  if (d->n > d->least && near)
+    return (bt__dynamic_turn){ .way = -1 };
+  if (in->pay > 0 && lump.out > 0 && lump.out <= fmax (2 * BORN * piece, 2 * in->pay * in->h))
+    return (bt__dynamic_turn){ .way = 1, .first = lump.out, .lump = 1 };
+  if (rest > SPLIT * piece)
+    return (bt__dynamic_turn){ .way = 1,
+                               .first = lump.out > 0 ? BORN * piece : 0,
+                               .straight = lump.corner };
+  return (bt__dynamic_turn){ .way = 0 };
 }
 
 /* ---- The knife ---- */

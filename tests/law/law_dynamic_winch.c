@@ -176,6 +176,7 @@ lay_lumps (scene *s, double length, bt__dynamic_lump *lumps, int n)
     }
   s->in.lumps = lumps;
   s->in.n_lumps = n;
+  s->in.mesh.corners = 1;
   scene_settle (s);
 }
 
@@ -208,6 +209,61 @@ test_lumps (void **state)
       double piece = s.d->piece, most = largest_jump (&s, rate, way, 1, &changes);
       assert_close (most, 0, 0.02, "jump of a tension");
       assert_in_range (changes, 5, 2 * way / piece);
+      scene_close (&s);
+    }
+}
+
+/* Wind S at RATE for TIME s; LUMP is on the line while it is out.  Return the most that a tension
+   at an end changes in a step with a change of nodes or one of the ten after it, with a share of
+   the larger of both: not while the winch starts, nor as the lump passes it.  */
+static double
+jump_by_lump (scene *s, const bt__dynamic_lump *lump, double rate, double time)
+{
+  const double start = 3;
+  double most = 0;
+  int since = 10;
+  s->in.pay = rate;
+  s->in.mesh.error = 0.02;
+  for (int i = 0; i < (int)(time / STEP); i++)
+    {
+      double was[2] = { bt__norm (s->d->pull[0]), bt__norm (s->d->pull[1]) };
+      int64_t n = s->d->n;
+      double piece = s->d->piece;
+      int on = lump->from_end < bt__dynamic_length (s->d), passes = on != s->in.n_lumps;
+      s->in.n_lumps = on;
+      scene_step (s, STEP);
+      since = s->d->n != n || s->d->piece != piece ? 0 : since + 1;
+      for (int end = 0; end < 2 && since < 10 && i * STEP > start && !passes; end++)
+        most = fmax (most, fabs (bt__norm (s->d->pull[end]) - was[end]) / fmax (was[0], was[1]));
+    }
+  return most;
+}
+
+/* A lump that comes out of the winch, or goes into it, turns the line there: what comes out along
+   the line with the winch's rate U comes out along the new way.  That a wave along the line tells,
+   of U sqrt (EA m) at most.  Beyond that no tension jumps as the nodes of the lump come and go.  */
+static void
+test_lump_passes_the_winch (void **state)
+{
+  (void)state;
+  const double weight[] = { 5, 17, 100, -15 }, rate[] = { 0.02, 0.05 };
+  for (int k = 0; k < 8; k++)
+    {
+      scene s;
+      double w = weight[k / 2], u = rate[k % 2], time = 0.8 / u;
+      bt__dynamic_lump lump = { .from_end = 40 + 6 * u, .wet_weight = w };
+      lay_lumps (&s, 40, &lump, 1);
+      s.in.n_lumps = 0;
+      scene_settle (&s);
+      double wave = u * sqrt (s.line.ea * s.line.mass),
+             bound = 0.02 + wave / bt__norm (s.d->pull[0]);
+      assert_close (jump_by_lump (&s, &lump, u, time), 0, bound, "jump as a lump comes out");
+      assert_int_equal (s.in.n_lumps, 1);
+      s.in.pay = 0;
+      scene_settle (&s);
+      bound = 0.02 + wave / bt__norm (s.d->pull[0]);
+      assert_close (jump_by_lump (&s, &lump, -u, time), 0, bound, "jump as a lump goes in");
+      assert_int_equal (s.in.n_lumps, 0);
       scene_close (&s);
     }
 }
@@ -273,9 +329,13 @@ int
 main (void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test (test_as_laid_whole), cmocka_unit_test (test_full_block),
-    cmocka_unit_test (test_no_jump),       cmocka_unit_test (test_lumps),
-    cmocka_unit_test (test_energy),        cmocka_unit_test (test_points_are_within_reach),
+    cmocka_unit_test (test_as_laid_whole),
+    cmocka_unit_test (test_full_block),
+    cmocka_unit_test (test_no_jump),
+    cmocka_unit_test (test_lumps),
+    cmocka_unit_test (test_energy),
+    cmocka_unit_test (test_points_are_within_reach),
+    cmocka_unit_test (test_lump_passes_the_winch),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
