@@ -86,14 +86,15 @@ damped (const bt__dynamic_work *w, bt__bend row, double damping)
 /* A straight line that is pushed would stay straight under any load: nothing tells it to which side
    to buckle.  So ROW of a node between pushed intervals has a natural curvature, for as long as the
    line there is straighter, and is pushed out of line by a little of the compression, to this side
-   or to that by the bits of a number: waves of every length grow.  */
+   or to that by the bits of a number: waves of every length grow.  A line without stiffness bears
+   no compression, and does not buckle.  */
 static void
 add_crook (const bt__dynamic_work *w, bt__bend *row)
 {
   int i = row->first + 1;
   double cell = w->node[i].cell, turn = CROOKED * cell;
   double pushed = -fmax (w->lam[i - 1], w->lam[i]);
-  if (pushed < 0
+  if (!(row->k > 0) || pushed < 0
       || bt__turn_square (w->x + i, w->link[i - 1].rest, w->link[i].rest) > STRAIGHT * STRAIGHT)
     return;
   bt_vec3 t = bt__sub (w->x[i + 1], w->x[i - 1]);

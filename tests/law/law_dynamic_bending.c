@@ -137,6 +137,31 @@ test_damping_holds_nothing_at_rest (void **state)
   assert_close (bt__distance (tip[0], tip[1]), 0, 1e-5, "tip");
 }
 
+/* A straight line without stiffness, slack in one part and taut in another, is damped as any other.
+ */
+static void
+test_slack_line_is_damped (void **state)
+{
+  (void)state;
+  for (double pull = -0.1; pull < 0.2; pull += 0.1)
+    {
+      scene s;
+      bt_vec3 shape[2] = { { 0, 0, 0 }, { LENGTH, 0, 0 } };
+      bt_tether_props line = {
+        .diameter = 0.01, .mass = MASS, .wet_weight = 0.1, .ea = 1e6, .bending_damping = 0.5
+      };
+      scene_open (&s, line, 1025, INTERVALS, shape, 2, LENGTH);
+      for (int i = 0; i < 120; i++)
+        {
+          s.in.end[1].at.x = LENGTH + (pull > 0 ? 1e-6 : pull) * fmin (1, i / 60.0);
+          scene_step (&s, 1.0 / 60);
+          assert_true (s.report.converged);
+        }
+      assert_true (pull >= 0 || bt__dynamic_x (s.d)[INTERVALS / 2].z < -0.01);
+      scene_close (&s);
+    }
+}
+
 int
 main (void)
 {
@@ -144,6 +169,7 @@ main (void)
     cmocka_unit_test (test_beam_is_damped),
     cmocka_unit_test (test_any_damping_is_stable),
     cmocka_unit_test (test_damping_holds_nothing_at_rest),
+    cmocka_unit_test (test_slack_line_is_damped),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
