@@ -25,10 +25,13 @@
 #define RECOVERY 0.2  /* m/s: links that were pressed together part so fast */
 #define STIFF 0.1     /* times EA over a link's length: of a touch, ... */
 #define STIFFEST 1e6  /* N/m: ... at most, but for the load */
-#define YIELD 8.0     /* part of the way to the core: the deepest penetration by the load */
+#define YIELD 8.0     /* part of the way to the core: the deepest penetration by the load ... */
+#define HARDEST 1e8   /* N/m: ... as far as a touch gives way at all, which held ends do not, ... */
+#define RIGID 100.0   /* times EI over the cube of a link's length: ... or a line that is stiff */
 #define ALIKE_HIT 0.7 /* product of the normals: a hit is of the row that is there */
 #define REMEMBER 0.75 /* of a link: the farthest a touch goes along either line in a step */
 #define ALIKE 0.5     /* product of the normals in that */
+#define LEVER 1e-3    /* of a link: so near to an end that is held nothing else is moved */
 
 static double
 radius_of (const bt__line_job *k, const bt__self_pair *p)
@@ -175,6 +178,23 @@ set_row (bt__line_job *k, int q, const bt__self_pair *p, const bt__link *second,
     feel_reaction (k, q);
 }
 
+/* True if place S of link I of the line is its end, which is held: no constraint there moves it. */
+static int
+is_at_held_end (const bt__line_job *k, uint32_t i, double s)
+{
+  int last = (int64_t)i + 1 == k->d->n;
+  return (i == 0 && s < LEVER && !k->in->end[0].free)
+         || (last && s > 1 - LEVER && !k->in->end[1].free);
+}
+
+/* True if what P says of its closest points W is the matter of those who hold the line there, and
+   not of the line: they may hold two lines at one place.  */
+static int
+is_of_holders (const bt__line_job *k, const bt__self_pair *p, const bt__witness *w, double t)
+{
+  return is_at_held_end (k, p->i, w->s) && (p->strand >= 0 || is_at_held_end (k, p->j, t));
+}
+
 void
 bt__self_rows (bt__line_job *k)
 {
@@ -187,7 +207,8 @@ bt__self_rows (bt__line_job *k)
       if (!(p->w.distance < touch) || way < APART * k->config->radius)
         continue;
       bt__link second = bt__self_second (k, k->x, p);
-      set_row (k, k->rows++, p, &second, &p->w);
+      if (!is_of_holders (k, p, &p->w, share_of (&second, p->w.point)))
+        set_row (k, k->rows++, p, &second, &p->w);
     }
 }
 
@@ -288,8 +309,10 @@ bt__self_stiffness (const bt__line_job *k, int i)
   const bt__strand *o = strand ? k->config->strand + strand - 1 : NULL;
   double way
       = o ? k->config->radius + o->radius - k->core - o->core : 2 * (k->config->radius - k->core);
-  double stiff = fmin (STIFF * k->in->line->ea / bt__dynamic_rest (k->d)[r->node], STIFFEST);
-  return fmax (stiff, YIELD * r->load / way);
+  double rest = bt__dynamic_rest (k->d)[r->node];
+  double stiff = fmin (STIFF * k->in->line->ea / rest, STIFFEST);
+  double hardest = fmax (HARDEST, RIGID * k->in->line->ei / (rest * rest * rest));
+  return fmax (stiff, fmin (YIELD * r->load / way, hardest));
 }
 
 bt__contact

@@ -60,7 +60,7 @@ has_end (const bt_dive *dive, bt__state *state, int i, int part, int e)
 }
 
 /* True if end E of tether I and end F of tether J are made fast at the same place: at one vehicle,
-   or at fixed points no farther apart than the lines are thick.  */
+   or at points no farther apart than the lines are thick, whatever waves do with either.  */
 static int
 are_made_fast_together (const bt_dive *dive, int i, int e, int j, int f)
 {
@@ -69,8 +69,7 @@ are_made_fast_together (const bt_dive *dive, int i, int e, int j, int f)
   const bt_tether_def *p = &model->tethers[i], *q = &model->tethers[j];
   if (a->vehicle >= 0 || b->vehicle >= 0)
     return a->vehicle == b->vehicle;
-  return bt__distance (a->at, b->at) <= 0.5 * (p->props.diameter + q->props.diameter)
-         && bt__distance (p->ride, q->ride) == 0;
+  return bt__distance (a->at, b->at) <= 0.5 * (p->props.diameter + q->props.diameter);
 }
 
 /* Note in STRAND, part K of tether J, the ends that coincide with an end of PART of tether I.  */

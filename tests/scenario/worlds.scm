@@ -137,3 +137,19 @@
                          (breaking-load 50) (model dynamic))))
   (expect (watched (step!)) => '())
   (expect (parted?)))
+
+(define-scenario (two-lines-from-one-place case)
+  "Where their holders take two lines through each other, the force between them is bounded; where they are held
+at one place, they do not press each other there."
+  #:for ((case (list (vec 0.33 0.28 0.22) 0 100) (list (vec 1 0 0) 0.1 1e7)))
+  (enter! (world (sea (waves (airy (height 2) (period 5) (toward 30))))
+                 (rov (named r1) (at 0 0 -1))
+                 (tether (named t1) (from -9 0 -5) (to r1) (length 17) (wet-weight 0) (model dynamic) (nodes 16))
+                 (tether (named t2) (from -9 0 (- -5 (second case))) (to r1) (length 31) (wet-weight 0.14)
+                         (nodes 7) (ride (first case)) (ea inextensible) (model dynamic))))
+  (define greatest 0)
+  (define (note!)
+    (set! greatest (max greatest (max-tension 't1) (max-tension 't2)))
+    #t)
+  (always (note!) (expect (watched (run 4)) => '()))
+  (expect greatest is (below (third case))))
