@@ -121,6 +121,25 @@
   (define after (flown there (map (lambda (order) (changed-order change order)) orders)))
   (expect (same-after? change before after)))
 
+(define-property lines-and-what-moves-are-the-same-elsewhere
+  "So do two moving lines of one vehicle, past a ball on its way."
+  #:for ((from (uniform -8 -5)) (apart (uniform 1 3)) (length (uniform 1.05 1.3)) (speed (uniform 0.2 1))
+         (way (integer 0 3)))
+  #:cases 4
+  (define change (list-ref ways way))
+  (define here
+    (world (sea (depth 60) (current 0.3 70))
+           (sphere (named ball) (radius 0.5) (track (0 0 9 -8) (20 0 3 -8)))
+           (rov (named r1) (at 0 12 -9))
+           (tether (named t1) (from from 0 -4) (to r1) (length (* length 17)) (model dynamic) (nodes 16))
+           (tether (named t2) (from (+ from apart) 0 -14) (to r1) (length (* length 18)) (model dynamic)
+                   (nodes 16))))
+  (define orders `((move! 'r1 (vec 4 10 -7) #:speed ,speed) (run 3) (pay-out! 't1 2 #:rate 1) (run 3)))
+  (define there (changed-or-none change here))
+  (define before (flown here orders))
+  (define after (flown there (map (lambda (order) (changed-order change order)) orders)))
+  (expect (same-after? change before after)))
+
 (define-property froude
   "A line at rest that is so many times as large, in water so much faster, has the same shape."
   #:for ((world one-tether) (by (one-of 2 4 1/4)))
@@ -128,13 +147,28 @@
   (define change (scaled by))
   (define here (world-of-case world))
   (assume (all-of-rest? here))
-  (define there (changed-or-none change here))
+  (define there (or-no-case (lambda () (changed-world change here)))) ; nor what would leave the schema
   (define before (flown here '()))
   (define tension (max-tension 't1))
   (define after (flown there '()))
   (expect (same-after? change before after))
   (expect (max-tension 't1) is (about (changed-number change "N" tension)
                                       #:within (* 1e-6 (+ 1 (changed-number change "N" tension))))))
+
+(define-property a-moving-line-scales
+  "A moving line that another current takes along is where Froude's law has it, a root of the scale later."
+  #:for ((world one-tether) (speed (uniform 0.1 0.8)) (toward (integer 0 359)) (by (one-of 4 1/4)))
+  #:cases 6
+  (define change (scaled by))
+  (define here (with (world-of-case world) (t1 (model dynamic) (nodes 16))))
+  (define there (or-no-case (lambda () (changed-world change here))))
+  (define (swept seconds)
+    `((current! ,speed ,toward) (run ,seconds)))
+  (define before (flown here (swept 4)))
+  (assume (null? (events)))
+  (define after (flown there (map (lambda (order) (changed-order change order))
+                                  (swept (changed-number change "s" 4)))))
+  (expect (same-after? change before after)))
 
 (define (within-accuracy? before after)
   ;; Among obstacles a model of rest lays its nodes along its curve; each line says how exact it is meant to be.
