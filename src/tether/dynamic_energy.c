@@ -68,7 +68,10 @@ energies_at (const bt__dynamic *d, const bt__dynamic_input *in, const bt_vec3 *x
 bt__dynamic_energy
 bt__dynamic_energies (const bt__dynamic *d, const bt__dynamic_input *in)
 {
-  return energies_at (d, in, bt__dynamic_x (d), bt__dynamic_v (d));
+  bt__dynamic_energy now = energies_at (d, in, bt__dynamic_x (d), bt__dynamic_v (d));
+  if (!isfinite (in->line->ea)) /* its strain is what a solved step may leave undone */
+    now.strain = 0;
+  return now;
 }
 
 double
