@@ -10,10 +10,11 @@
 
 #include "testbed/calibration.h"
 #include "statics.h"
+#include "tether/equilibrium.h"
 
 enum
 {
-  FINE = 1024
+  FINE = 4096
 };
 
 typedef struct steady_case
@@ -29,6 +30,8 @@ typedef struct sea
   bt_water water;
   bt_steady *steady;
   int cases;
+  const char *name;
+  int order;          /* of the equal steps: 4, less across the kinks of a profile */
   double uncertainty; /* of the fine solution, of the length */
   bt_vec3 r[FINE + 1], t[FINE + 1];
 } sea;
@@ -39,6 +42,8 @@ static void
 fill_sea (sea *x)
 {
   memset (x, 0, sizeof *x);
+  x->name = "sheared";
+  x->order = 4;
   x->line = (bt_line){ 100, 0.0076, 0.1, 2e5, 1.2, 0.01 };
   x->current.kind = BT_CURRENT_POWER;
   x->current.n = 1;
@@ -46,6 +51,23 @@ fill_sea (sea *x)
   x->current.velocity[0] = (bt_vec3){ 0.6, 0.2, 0 };
   x->water = (bt_water){ .density = 1025, .gravity = 9.81, .depth = 200, .current = &x->current };
   x->steady = bt_steady_new (FINE);
+}
+
+/* The same line in three layers, whose kinks it crosses.  */
+static void
+fill_layers (sea *x)
+{
+  fill_sea (x);
+  x->name = "layers";
+  x->order = 2;
+  x->current.kind = BT_CURRENT_PROFILE;
+  x->current.n = 4;
+  x->current.z[1] = -20;
+  x->current.z[2] = -35;
+  x->current.z[3] = -60;
+  x->current.velocity[0] = (bt_vec3){ 0.6, 0.2, 0 };
+  x->current.velocity[1] = (bt_vec3){ 0.3, 0.4, 0 };
+  x->current.velocity[2] = (bt_vec3){ 0.4, -0.1, 0 };
 }
 
 static const bt_vec3 anchor = { 0, 0, -10 };
@@ -134,26 +156,49 @@ relax (sea *x, bt_vec3 b, int n)
   return status == BT_OK && report.converged;
 }
 
+/* What a dive does: from nothing, or from the shape and the tension of the step before.  */
+static int
+refine (sea *x, const steady_case *c, int n, int warm, bt__reaction *reaction)
+{
+  bt__shape_counts counts = { 0 };
+  bt_vec3 down = { 0, 0, -1 };
+  bt_status status
+      = bt__equilibrium_solve (x->steady, &x->line, &x->water, anchor, warm ? c->moved : c->b, n,
+                               warm, down, reaction, x->r, x->t, &counts, NULL);
+  return status == BT_OK && counts.unsettled == 0;
+}
+
+/* One timed solve of C by MODEL, and what comes before it.  */
+static double
+time_steady (sea *x, const steady_case *c, const char *model, int n, int warm, int *good)
+{
+  int shooting = !strcmp (model, "steady-shoot"), refining = !strcmp (model, "steady");
+  bt__reaction reaction = { 0, { 0, 0, 0 }, { { 0, 0, 0 } } };
+  if (!shooting && !refining)
+    lay (x, c, n);
+  if (refining && warm)
+    refine (x, c, n, 0, &reaction);
+  else if (!shooting && warm)
+    relax (x, c->b, n);
+  double start = bench_now ();
+  *good = refining   ? refine (x, c, n, warm, &reaction)
+          : shooting ? shoot (x, c, n, warm)
+                     : relax (x, warm ? c->moved : c->b, n);
+  return bench_now () - start;
+}
+
 /* Time all cases one by one, each the median of STATICS_ROUNDS, and hand the median and the worst
  * out.  */
 static void
 report_steady (sea *x, const steady_case *c, const char *model, int n, int warm)
 {
   double seconds[STATICS_STEADY_MOST], misses[STATICS_STEADY_MOST], times[STATICS_ROUNDS];
-  int failures = 0, shooting = !strcmp (model, "steady-shoot"), kept = 0;
+  int failures = 0, kept = 0;
   for (int i = 0; i < x->cases; i++)
     {
       int good = 0;
       for (int k = 0; k < STATICS_ROUNDS; k++)
-        {
-          if (!shooting)
-            lay (x, c + i, n);
-          if (!shooting && warm)
-            relax (x, c[i].b, n);
-          double start = bench_now ();
-          good = shooting ? shoot (x, c + i, n, warm) : relax (x, warm ? c[i].moved : c[i].b, n);
-          times[k] = bench_now () - start;
-        }
+        times[k] = time_steady (x, c + i, model, n, warm, &good);
       failures += !good;
       seconds[i] = bench_median (times, STATICS_ROUNDS);
       if (good)
@@ -164,21 +209,48 @@ report_steady (sea *x, const steady_case *c, const char *model, int n, int warm)
   snprintf (counters, sizeof counters, "cases=%d;failures=%d", x->cases, failures);
   double median = kept ? bench_median (misses, kept) : NAN,
          middle = bench_median (seconds, x->cases);
-  statics_row ("sheared", model, setting, "median position/length", median, "shooting n=1024",
+  statics_row (x->name, model, setting, "median position/length", median, "shooting n=4096",
                x->uncertainty, middle, counters);
-  statics_row ("sheared", model, setting, "worst position/length", kept ? misses[kept - 1] : NAN,
-               "shooting n=1024", x->uncertainty, middle, counters);
+  statics_row (x->name, model, setting, "worst position/length", kept ? misses[kept - 1] : NAN,
+               "shooting n=4096", x->uncertainty, middle, counters);
 }
 
-/* The fine solution is fourth order: a fifteenth of how far half as many steps are from it.  */
+/* How far half as many steps are from the fine solution tells its error, by the order.  */
 static double
 worst_doubt (sea *x, const steady_case *c)
 {
   double worst = 0;
   for (int i = 0; i < x->cases; i++)
     if (shoot (x, c + i, FINE / 2, 0))
-      worst = fmax (worst, steady_miss (x, FINE / 2, c[i].fine) / 15);
+      worst = fmax (worst, steady_miss (x, FINE / 2, c[i].fine) / (exp2 (x->order) - 1));
   return worst;
+}
+
+/* A dive's step and the same line by equal steps, one after the other, cold and warm.  */
+static void
+report_pair (sea *x, const steady_case *c)
+{
+  for (int warm = 0; warm < 2; warm++)
+    {
+      report_steady (x, c, "steady-shoot", 64, warm);
+      report_steady (x, c, "steady", 64, warm);
+    }
+}
+
+/* Draw COUNT lines in X; return false where nothing can be measured.  */
+static int
+begin_sea (sea *x, steady_case *cases, int count)
+{
+  char counters[80];
+  x->cases = count;
+  if (!x->steady)
+    return 0;
+  int redrawn = draw_steady (x, cases);
+  x->uncertainty = worst_doubt (x, cases);
+  snprintf (counters, sizeof counters, "cases=%d;redrawn=%d", x->cases, redrawn);
+  statics_row (x->name, "steady-shoot", "cold n=4096", "fine solutions that failed", redrawn,
+               "none", 0, 0, counters);
+  return 1;
 }
 
 void
@@ -187,16 +259,14 @@ statics_steady (int count)
   static sea x;
   static steady_case cases[STATICS_STEADY_MOST];
   static const int shots[] = { 8, 32, 128, 256 }, chains[] = { 16, 128, 512 };
+  fill_layers (&x);
+  if (begin_sea (&x, cases, count))
+    report_pair (&x, cases);
+  bt_steady_free (x.steady);
   fill_sea (&x);
-  x.cases = count;
-  if (!x.steady)
+  if (!begin_sea (&x, cases, count))
     return;
-  int redrawn = draw_steady (&x, cases);
-  x.uncertainty = worst_doubt (&x, cases);
-  char counters[80];
-  snprintf (counters, sizeof counters, "cases=%d;redrawn=%d", x.cases, redrawn);
-  statics_row ("sheared", "steady-shoot", "cold n=1024", "fine solutions that failed", redrawn,
-               "none", 0, 0, counters);
+  report_pair (&x, cases);
   for (size_t k = 0; k < sizeof shots / sizeof *shots; k++)
     for (int warm = 0; warm < 2; warm++)
       report_steady (&x, cases, "steady-shoot", shots[k], warm);

@@ -41,6 +41,12 @@ bt__four_load (const double *a)
   return v;
 }
 
+static BT__HOT void
+bt__four_store (double *a, bt__four v)
+{
+  memcpy (a, &v, sizeof v);
+}
+
 static BT__HOT bt__four
 bt__four_all (double a)
 {

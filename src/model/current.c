@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "math/vec.h"
+#include "model/current.h"
 
 #define SPEED_MAX 20.0
 #define TURN_MAX 1e3 /* rad/m: beyond any meaning, well within the range of sin and cos */
@@ -75,6 +76,95 @@ power_velocity (const bt_current *current, double depth, double z)
   if (share <= 0)
     return still;
   return bt__scale (pow (share, current->exponent), current->velocity[0]);
+}
+
+int
+bt__water_is_layered (const bt_water *water)
+{
+  const bt_current *current = water->current;
+  return current && !(water->sea && (water->sea->lees || water->sea->waves))
+         && (current->kind == BT_CURRENT_PROFILE || current->kind == BT_CURRENT_TURNING
+             || current->kind == BT_CURRENT_POWER);
+}
+
+static int
+is_rising (const bt_current *current)
+{
+  return current->kind != BT_CURRENT_PROFILE || current->z[current->n - 1] > current->z[0];
+}
+
+/* The heights at which the shear leaps, in the order of rows.  */
+static int
+leaps (const bt_current *current, const double **height)
+{
+  static const double surface[] = { 0 };
+  *height = current->kind == BT_CURRENT_POWER ? surface : current->z;
+  return current->kind == BT_CURRENT_POWER     ? 1
+         : current->kind == BT_CURRENT_PROFILE ? (int)current->n
+                                               : 0;
+}
+
+/* Layer K lies between the leaps K - 1 and K.  */
+int
+bt__water_layer_at (const bt_water *water, double z)
+{
+  const double *height;
+  int k = 0, n = leaps (water->current, &height), rising = is_rising (water->current);
+  while (k < n && (rising ? height[k] <= z : height[k] > z))
+    k++;
+  return k;
+}
+
+void
+bt__water_layer_bounds (const bt_water *water, int layer, double *low, double *high)
+{
+  const double *height;
+  int n = leaps (water->current, &height), rising = is_rising (water->current);
+  double before = layer > 0 ? height[layer - 1] : rising ? -INFINITY : INFINITY;
+  double after = layer < n ? height[layer] : rising ? INFINITY : -INFINITY;
+  *low = rising ? before : after;
+  *high = rising ? after : before;
+}
+
+int
+bt__water_next_layer (const bt_water *water, int layer, int up)
+{
+  return layer + (is_rising (water->current) == (up != 0) ? 1 : -1);
+}
+
+static bt_vec3
+in_profile_layer (const bt_current *current, int layer, double z, bt_vec3 *shear)
+{
+  int last = (int)current->n - 1;
+  *shear = still;
+  if (layer == 0 || layer > last)
+    return last < 0 ? still : current->velocity[layer == 0 ? 0 : last];
+  double height = current->z[layer] - current->z[layer - 1];
+  bt_vec3 v = current->velocity[layer - 1];
+  *shear = bt__scale (1 / height, bt__sub (current->velocity[layer], v));
+  return bt__axpy (v, z - current->z[layer - 1], *shear);
+}
+
+bt_vec3
+bt__water_in_layer (const bt_water *water, int layer, double z, bt_vec3 *shear)
+{
+  const bt_current *current = water->current;
+  if (current->kind == BT_CURRENT_PROFILE)
+    return in_profile_layer (current, layer, z, shear);
+  if (current->kind == BT_CURRENT_TURNING)
+    {
+      bt_vec3 v = turning_velocity (current, z);
+      *shear = bt__scale (current->turn_rate, bt__vec (-v.y, v.x, 0));
+      return v;
+    }
+  double share = layer == 0 ? 1 + z / water->depth : 1;
+  *shear = still;
+  if (share <= 0)
+    return still;
+  bt_vec3 v = bt__scale (pow (share, current->exponent), current->velocity[0]);
+  if (layer == 0)
+    *shear = bt__scale (current->exponent / (water->depth + z), v);
+  return v;
 }
 
 static bt_vec3

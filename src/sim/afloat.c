@@ -120,8 +120,9 @@ stands (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, i
 {
   if (is_out (shape->a) || is_out (shape->b))
     return 0;
+  int known = bt__has_nodes (shape->form) && shape->n == n;
   for (int k = 1; k < n; k++)
-    if (is_out (bt__shape_point (shape, nodes, tensions, shape->length * k / n)))
+    if (is_out (known ? nodes[k] : bt__shape_point (shape, nodes, tensions, shape->length * k / n)))
       return 1;
   return 0;
 }

@@ -185,7 +185,7 @@ bt__still_chain (bt_dive *dive, bt__state *state, int i)
   bt__store_changes (dive, i);
   memcpy (bt__dive_nodes (dive, state, i), dive->polyline, sizeof (bt_vec3) * (size_t)(n + 1));
   memset (bt__dive_tensions (dive, state, i), 0, sizeof (bt_vec3) * (size_t)(n + 1));
-  memset (&tether->memory.pull, 0, sizeof tether->memory.pull);
+  memset (&tether->memory.reaction, 0, sizeof tether->memory.reaction);
   tether->shape.form = BT__FORM_NODES;
   tether->shape.n = n;
 }

@@ -36,11 +36,12 @@ bt__is_unchanged (const bt_dive *dive, const bt__state *state, const bt__tether 
 static double
 largest_tension (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions)
 {
-  int n = bt__has_nodes (shape->form) ? (int)shape->n : 2;
+  int known = bt__has_nodes (shape->form), n = known ? (int)shape->n : 2;
   double most = 0;
   for (int k = 0; k <= n; k++)
     {
-      double t = bt__shape_tension (shape, nodes, tensions, shape->length * k / n);
+      double t = known ? bt__norm (tensions[k])
+                       : bt__shape_tension (shape, nodes, tensions, shape->length * k / n);
       if (t > most)
         most = t;
     }

@@ -64,13 +64,22 @@ typedef struct bt__shape_input
   const bt_water *water;
 } bt__shape_input;
 
+/* How the steady line pulls at one of its ends.  */
+typedef struct bt__reaction
+{
+  int64_t at_b; /* true: at the end B; else at the anchor A */
+  bt_vec3 pull; /* tension vector there, toward the other end, N; zero: not known */
+  bt_vec3
+      stiffness[3]; /* rows: how the pull changes as the other end moves, N/m; zero: not known */
+} bt__reaction;
+
 /* What is remembered from shape to shape; part of the state.  */
 typedef struct bt__shape_memory
 {
   bt_vec3 load_direction;     /* unit, of the last load there was; zero at first */
   bt_vec3 across;             /* last across axis: used when the chord runs along the load */
   double search_a, search_xs; /* last answer of the thesis' search; search_a = 0: none */
-  bt_vec3 pull;               /* last tension vector at the anchor (steady); zero: none */
+  bt__reaction reaction;      /* last one (steady) */
 } bt__shape_memory;
 
 extern const bt__record bt__shape_record, bt__shape_memory_record;

@@ -57,12 +57,19 @@ static const bt__member shape[] = {
 };
 const bt__record bt__shape_record = BT__RECORD (bt__shape, "shape", shape);
 
+static const bt__member reaction[] = {
+  BT__TRUTH (bt__reaction, at_b),
+  BT__WITHIN (bt__reaction, pull, -BT__HUGE, BT__HUGE),
+  BT__WITHIN (bt__reaction, stiffness, -BT__HUGE, BT__HUGE),
+};
+static const bt__record reaction_record = BT__RECORD (bt__reaction, "reaction", reaction);
+
 static const bt__member memory[] = {
   BT__WITHIN (bt__shape_memory, load_direction, -2, 2),
   BT__WITHIN (bt__shape_memory, across, -2, 2),
   BT__WITHIN (bt__shape_memory, search_a, -BT__HUGE, BT__HUGE),
   BT__WITHIN (bt__shape_memory, search_xs, -BT__HUGE, BT__HUGE),
-  BT__WITHIN (bt__shape_memory, pull, -BT__HUGE, BT__HUGE),
+  BT__OF (bt__shape_memory, reaction, reaction_record),
 };
 const bt__record bt__shape_memory_record = BT__RECORD (bt__shape_memory, "memory", memory);
 

@@ -10,7 +10,9 @@
 #include <bight/statics.h>
 
 #include "base/ask.h"
+#include "math/four.h"
 #include "math/vec.h"
+#include "tether/equilibrium.h"
 
 /* The coefficients of the loads on one unstretched metre, with the further inputs of a march.  */
 typedef struct bt__loads
@@ -19,7 +21,8 @@ typedef struct bt__loads
   double kn, kt; /* N s2/m3: rho/2 cdn d, rho/2 cdt pi d */
   double w;      /* N/m, sinking positive */
   double inv_ea; /* 1/N, zero when inextensible */
-  int uniform;   /* the current is the same everywhere: it is U */
+  int uniform;   /* the current is the same everywhere: it is U; ... */
+  int layered;   /* ... or depends on the height alone */
   bt_vec3 u;
 } bt__loads;
 
@@ -81,6 +84,46 @@ typedef struct bt__shot
   bt__asker *asker;
 } bt__shot;
 
+/* The errors that a step of a march may make, and what tells their effect on the far end.  */
+typedef struct bt__aim
+{
+  double place, tension, turn; /* m, N, rad */
+  int known;                   /* what follows is known: of a march with about the same pull */
+  bt_vec3 column[3];           /* how the far end moves with the pull at A, m/N */
+  bt_vec3 stiffness[3];        /* rows of the inverse, N/m */
+} bt__aim;
+
+static inline bt_vec3
+bt__stiffness_times (const bt_vec3 stiffness[3], bt_vec3 way)
+{
+  return bt__vec (bt__dot (stiffness[0], way), bt__dot (stiffness[1], way),
+                  bt__dot (stiffness[2], way));
+}
+
+#define BT__PROBE 1e-7 /* of the pull: the difference between lanes */
+
+/* March by steps that fit AIM.  AT receives SHOT->n + 1
+   nodes in four lanes: place from A and tension vector of the line with PULL at A in lane 0; with a
+   little more of it along x, y and z in the others (steady_lanes.c).  Return true if the end is
+   reached.  */
+int bt__fit_march (bt__shot *shot, bt_vec3 pull, const bt__aim *aim, double (*at)[6][BT__FOUR]);
+
+/* Check the shot of LINE in WATER between A and B over N intervals, and set it up
+   (steady_shoot.c).  */
+bt_status bt__shot_begin (bt_steady *steady, const bt_line *line, const bt_water *water, bt_vec3 a,
+                          bt_vec3 b, int n, bt_error *error);
+
+/* Shoot from *REACTION, by steps that make the nodes R and the tensions T of N intervals right to a
+   millionth of the length and of the largest tension (steady_refine.c).  REPORT->converged = 0
+   where nothing is found.  */
+bt_status bt__steady_refine (bt_steady *steady, const bt_line *line, const bt_water *water,
+                             bt_vec3 a, bt_vec3 b, int n, bt__reaction *reaction, bt_vec3 *r,
+                             bt_vec3 *t, bt_steady_report *report, bt_error *error);
+
+/* Bring the pull of REACTION, of a line whose end B has moved by WAY, m, against A, to what it is
+   now.  */
+void bt__steady_follow (bt__reaction *reaction, bt_vec3 way);
+
 /* The workspace; arrays of n_max + 1 elements each.  */
 struct bt_steady
 {
@@ -90,9 +133,10 @@ struct bt_steady
   gsl_vector *guess;
   bt__shot shot;
   bt_vec3 *x0, *dx, *t, *shape,
-      *tensions;             /* start of the step, update, unit tangents, spare shape */
-  double *lam, *pull, *bias; /* of each segment, N: multiplier, tension, see steady_relax.c */
-  bt__block *up;             /* eliminated upper blocks */
+      *tensions;                /* start of the step, update, unit tangents, spare shape */
+  double *lam, *pull, *bias;    /* of each segment, N: multiplier, tension, see steady_relax.c */
+  bt__block *up;                /* eliminated upper blocks */
+  double (*lanes)[6][BT__FOUR]; /* nodes of a march, see steady_lanes.c */
 };
 
 #endif

@@ -8,6 +8,7 @@
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include "base/error.h"
+#include "model/current.h"
 #include "tether/steady.h"
 
 void
@@ -21,6 +22,7 @@ bt__loads_set (bt__loads *loads, const bt_line *line, const bt_water *water, bt_
   loads->inv_ea = 1 / line->ea;
   loads->uniform = !current || current->kind == BT_CURRENT_STILL
                    || current->kind == BT_CURRENT_UNIFORM || current->kind == BT_CURRENT_TIDE;
+  loads->layered = bt__water_is_layered (water);
   loads->u = loads->uniform ? bt_water_velocity (water, at) : bt__vec (0, 0, 0);
 }
 

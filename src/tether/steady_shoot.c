@@ -148,9 +148,9 @@ set_shot (bt__shot *shot, const bt_line *line, const bt_water *water, bt_vec3 a,
   shot->marches = 0;
 }
 
-static bt_status
-check_shooting (const bt_steady *steady, const bt_water *water, bt_vec3 a, bt_vec3 b, int n,
-                bt_error *error)
+bt_status
+bt__shot_begin (bt_steady *steady, const bt_line *line, const bt_water *water, bt_vec3 a, bt_vec3 b,
+                int n, bt_error *error)
 {
   if (n < 1 || n > steady->n_max)
     return bt__fail (error, BT_ERR_LIMIT, "%d intervals; the workspace holds 1 to %d", n,
@@ -159,6 +159,8 @@ check_shooting (const bt_steady *steady, const bt_water *water, bt_vec3 a, bt_ve
     return bt__fail (error, BT_ERR_DOMAIN, "an end of the line is not at a finite place");
   if (!bt__is_finite (bt_water_mean_velocity (water, a, b)))
     return bt__fail (error, BT_ERR_DIVERGED, "the current between the ends is not finite");
+  set_shot (&steady->shot, line, water, a, b, n);
+  steady->shot.asker = steady->asker;
   return BT_OK;
 }
 
@@ -167,13 +169,11 @@ bt_steady_shoot (bt_steady *steady, const bt_line *line, const bt_water *water, 
                  bt_vec3 b, int n, int warm, bt_vec3 *pull, bt_vec3 *r, bt_vec3 *t,
                  bt_steady_report *report, bt_error *error)
 {
-  bt_status status = check_shooting (steady, water, a, b, n, error);
+  bt_status status = bt__shot_begin (steady, line, water, a, b, n, error);
   *report = (bt_steady_report){ 0, 0, 0, line->length };
   if (status != BT_OK)
     return status;
   bt__shot *shot = &steady->shot;
-  set_shot (shot, line, water, a, b, n);
-  shot->asker = steady->asker;
   bt_vec3 trial = *pull, end;
   if (!warm)
     bt__steady_guess (line, water, a, b, bt__vec (0, 0, -1), n, NULL, &trial);
@@ -198,6 +198,7 @@ allocate_shooting (bt_steady *steady, size_t n)
   ok = (steady->pull = calloc (n, sizeof (double))) && ok;
   ok = (steady->bias = calloc (n, sizeof (double))) && ok;
   ok = (steady->up = calloc (n, sizeof (bt__block))) && ok;
+  ok = (steady->lanes = calloc (n, sizeof *steady->lanes)) && ok;
   steady->solver = gsl_multiroot_fdfsolver_alloc (gsl_multiroot_fdfsolver_hybridsj, 3);
   steady->guess = gsl_vector_alloc (3);
   return ok && steady->solver && steady->guess;
@@ -244,5 +245,6 @@ bt_steady_free (bt_steady *steady)
   free (steady->pull);
   free (steady->bias);
   free (steady->up);
+  free (steady->lanes);
   free (steady);
 }

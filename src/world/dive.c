@@ -14,8 +14,8 @@
 #include "world/obstacles.h"
 #include "world/watch.h"
 
-/* The first bytes of a state: layout version 9.  */
-static const uint64_t magic = 0x3154484749420009ULL;
+/* The first bytes of a state: layout version 10.  */
+static const uint64_t magic = 0x315448474942000aULL;
 
 double
 bt__state_time (const bt__state *state)

@@ -13,6 +13,7 @@
 #include <bight/water.h>
 
 #include "math/vec.h"
+#include "model/current.h"
 
 #define DEGREE (BT__PI / 180)
 
@@ -143,6 +144,50 @@ test_power (void **state)
   assert_near (at (&c, 4), c.velocity[0], 0);
   assert_near (at (&c, -100), bt__vec (0, 0, 0), 0);
   assert_near (at (&c, -130), bt__vec (0, 0, 0), 0);
+}
+
+/* In its layers the current is what it is, and between their bounds the shear is its slope.  */
+static void
+assert_layers (const bt_current *current)
+{
+  bt_water water = water_with (current);
+  assert_true (bt__water_is_layered (&water));
+  for (double z = 19.7; z > -95; z -= 0.83)
+    {
+      double low, high, step = 1e-5;
+      bt_vec3 shear, ignored;
+      int layer = bt__water_layer_at (&water, z);
+      bt__water_layer_bounds (&water, layer, &low, &high);
+      assert_true (low <= z && z <= high);
+      assert_near (bt__water_in_layer (&water, layer, z, &shear), at (current, z), 1e-13);
+      bt_vec3 above = bt__water_in_layer (&water, layer, z + step, &ignored);
+      bt_vec3 below = bt__water_in_layer (&water, layer, z - step, &ignored);
+      assert_near (bt__scale (0.5 / step, bt__sub (above, below)), shear, 1e-8);
+      if (isfinite (high))
+        assert_int_equal (bt__water_next_layer (&water, layer, 1),
+                          bt__water_layer_at (&water, high + 1e-9));
+      if (isfinite (low))
+        assert_int_equal (bt__water_next_layer (&water, layer, 0),
+                          bt__water_layer_at (&water, low - 1e-9));
+    }
+}
+
+static void
+test_layers (void **state)
+{
+  (void)state;
+  bt_current falling = { .kind = BT_CURRENT_PROFILE, .n = 4, .z = { 0, -20, -30, -70 } };
+  bt_current rising = { .kind = BT_CURRENT_PROFILE, .n = 3, .z = { -60, -10, 2 } };
+  bt_current power = { .kind = BT_CURRENT_POWER, .exponent = 0.6 };
+  bt_current turning = { .kind = BT_CURRENT_TURNING, .turn_rate = 0.03 };
+  bt_current one_row = { .kind = BT_CURRENT_PROFILE, .n = 1, .z = { -20 } };
+  bt_current *all[] = { &falling, &rising, &power, &turning, &one_row };
+  for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+    {
+      for (int i = 0; i < 4; i++)
+        all[k]->velocity[i] = bt__vec (0.5 - 0.3 * i, 0.1 + 0.2 * i, 0);
+      assert_layers (all[k]);
+    }
 }
 
 static void
@@ -292,6 +337,7 @@ main (void)
     cmocka_unit_test (test_profile),
     cmocka_unit_test (test_turning),
     cmocka_unit_test (test_power),
+    cmocka_unit_test (test_layers),
     cmocka_unit_test (test_tide),
     cmocka_unit_test (test_function),
     cmocka_unit_test (test_mean),

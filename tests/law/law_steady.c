@@ -599,11 +599,13 @@ test_neutral_line_is_a_catenary (void **state)
 
 /* ---- Equilibria from shapes ---- */
 
+static const bt__reaction unknown = { 0, { 0, 0, 0 }, { { 0, 0, 0 } } };
+
 static bt_status
-solve (const scene *s, int n, int have, bt_vec3 *pull, bt__shape_counts *counts)
+solve (const scene *s, int n, int have, bt__reaction *reaction, bt__shape_counts *counts)
 {
   return bt__equilibrium_solve (steady, &s->line, &s->water, s->a, s->b, n, have,
-                                bt__vec (0, 0, -1), pull, r, t, counts, NULL);
+                                bt__vec (0, 0, -1), reaction, r, t, counts, NULL);
 }
 
 /* Whatever slack shape a line has, a few calls bring it to rest, and once there it stays.  */
@@ -617,7 +619,7 @@ test_equilibrium_from_random_shapes (void **state)
     {
       scene s;
       const int n = 16;
-      bt_vec3 pull = { 0, 0, 0 };
+      bt__reaction pull = unknown;
       bt__shape_counts counts = { 0 };
       random_scene (&s, 0.01, 0.95, 1, k % 2 ? INFINITY : 2e5);
       random_shape (&s, n, r);
@@ -625,7 +627,7 @@ test_equilibrium_from_random_shapes (void **state)
         {
           uint64_t before = counts.unsettled;
           assert_int_equal (solve (&s, n, 1, &pull, &counts), BT_OK);
-          assert_true (all_finite (r, n) && all_finite (t, n) && bt__is_finite (pull));
+          assert_true (all_finite (r, n) && all_finite (t, n) && bt__is_finite (pull.pull));
           still = counts.unsettled != before;
           unsettled += call == 11 && still;
         }
@@ -657,7 +659,8 @@ test_equilibrium_follows_the_end (void **state)
     {
       scene s;
       const int n = 32;
-      bt_vec3 pull = { 0, 0, 0 }, way = direction ();
+      bt__reaction pull = unknown;
+      bt_vec3 way = direction ();
       bt__shape_counts counts = { 0 };
       random_scene (&s, 0.5, 0.7, 1, 2e5);
       assert_int_equal (solve (&s, n, 0, &pull, &counts), BT_OK);
@@ -684,7 +687,7 @@ test_equilibrium_follows_the_current (void **state)
   (void)state;
   scene s;
   const int n = 32;
-  bt_vec3 pull = { 0, 0, 0 };
+  bt__reaction pull = unknown;
   bt__shape_counts counts = { 0 };
   bt_line line = { 40, 0.0076, 0.02, INFINITY, 1.2, 0.01 };
   set_scene (&s, line, 1025, BT_CURRENT_UNIFORM, 0, bt__vec (0.5, 0, 0), bt__vec (0, 30, -5));
@@ -694,9 +697,14 @@ test_equilibrium_follows_the_current (void **state)
   for (int call = 0; call < 12; call++)
     assert_int_equal (solve (&s, n, 1, &pull, &counts), BT_OK);
   memcpy (r2, r, sizeof r);
-  assert_true (shoot (&s, n).converged);
+  pull = unknown;
+  for (int call = 0; call < 3; call++)
+    assert_int_equal (solve (&s, n, call > 0, &pull, &counts), BT_OK);
   for (int i = 0; i <= n; i++)
     assert_near (r2[i], r[i], 1e-8 * line.length, "after the turn of the tide");
+  assert_true (shoot (&s, N_MAX).converged);
+  for (int i = 0; i <= n; i++)
+    assert_near (r2[i], r[i * (N_MAX / n)], 1e-6 * line.length, "after the turn, on a fine mesh");
 }
 
 /* ---- Robustness ---- */
@@ -777,6 +785,7 @@ test_current_that_is_not_finite (void **state)
   bt_error error;
   bt__shape_counts counts = { 0 };
   bt_vec3 pull = { 3, 0, -3 };
+  bt__reaction reaction = { 0, pull, { { 0, 0, 0 } } };
   bt_line line = { 30, 0.0076, 0.1, 2e5, 1.2, 0.01 };
   set_scene (&s, line, 1025, BT_CURRENT_FUNCTION, 0, bt__vec (0, 0, 0), bt__vec (10, 0, -15));
   s.water.function = hole;
@@ -789,7 +798,7 @@ test_current_that_is_not_finite (void **state)
   assert_int_equal (
       bt_steady_relax (steady, &s.line, &s.water, s.a, s.b, 32, 50, r, t, &report, &error),
       BT_ERR_DIVERGED);
-  assert_int_equal (solve (&s, 32, 0, &pull, &counts), BT_ERR_DIVERGED);
+  assert_int_equal (solve (&s, 32, 0, &reaction, &counts), BT_ERR_DIVERGED);
   assert_int_equal (bt_steady_march (&s.line, &s.water, s.a, bt__vec (0, 0, 0), 32, r, t, NULL),
                     BT_ERR_DIVERGED);
 }
@@ -802,7 +811,7 @@ test_straight_and_unloaded (void **state)
   (void)state;
   scene s;
   const int n = 16;
-  bt_vec3 pull = { 0, 0, 0 };
+  bt__reaction pull = unknown;
   bt__shape_counts counts = { 0 };
   bt_line line = { 50, 0.0076, 0, 2e5, 1.2, 0.01 };
   set_scene (&s, line, 1025, BT_CURRENT_STILL, 0, bt__vec (0, 0, 0), bt__vec (50.5, 0, 0));
@@ -832,6 +841,7 @@ test_limits_are_refused (void **state)
   bt_steady_report report;
   bt__shape_counts counts = { 0 };
   bt_vec3 pull = { 1, 0, 0 };
+  bt__reaction reaction = { 0, pull, { { 0, 0, 0 } } };
   row_scene (&s, &table[0]);
   static const int bad[] = { 0, -1, N_MAX + 1 };
   for (int i = 0; i < 3; i++)
@@ -843,10 +853,10 @@ test_limits_are_refused (void **state)
       assert_int_equal (
           bt_steady_relax (steady, &s.line, &s.water, s.a, s.b, n, 9, r, t, &report, NULL),
           BT_ERR_LIMIT);
-      assert_int_equal (solve (&s, n, 0, &pull, &counts), BT_ERR_LIMIT);
+      assert_int_equal (solve (&s, n, 0, &reaction, &counts), BT_ERR_LIMIT);
     }
   s.b.x = NAN;
-  assert_int_equal (solve (&s, 8, 0, &pull, &counts), BT_ERR_DOMAIN);
+  assert_int_equal (solve (&s, 8, 0, &reaction, &counts), BT_ERR_DOMAIN);
   assert_null (bt_steady_new (0));
   bt_steady_free (NULL);
 }
@@ -914,7 +924,7 @@ test_equilibrium_keeps_its_shape (void **state)
           const bt_vec3 *mine = shapes + i * (N + 1), *other = shapes + (1 - i) * (N + 1);
           memcpy (r, other, sizeof *r * (N + 1));
           relax (&s, N, 200, r, t);
-          bt_vec3 pull = t[0];
+          bt__reaction pull = { 0, t[0], { { 0, 0, 0 } } };
           memcpy (r, mine, sizeof *r * (N + 1));
           assert_int_equal (solve (&s, N, 1, &pull, &counts), BT_OK);
           for (int j = 0; j <= N; j++)
