@@ -304,6 +304,9 @@ bt_status bt_def_set_vehicle_type (bt_vehicle_def *def, const char *name, bt_err
 /* The same for tethers: diameter, weight, stiffness, strength, drag and friction.  */
 const char *bt_tether_type_name (int i);
 const char *bt_tether_type_text (int i);
+/* Return where the I-th type has its figure of FIELD from, a field that the type sets: "published",
+   "measured", "fitted" (to a measurement) or "assumed"; NULL beyond the last type.  */
+const char *bt_tether_type_origin (int i, const char *field);
 bt_status bt_def_set_tether_type (bt_tether_def *def, const char *name, bt_error *error);
 
 /* ---- The model ---- */

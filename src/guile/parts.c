@@ -385,8 +385,23 @@ vehicle_types (void)
   return scm_reverse_x (list, SCM_EOL);
 }
 
-/* The tether types with their fields.  The fields of a type are found by filling a struct with
-   impossible values: the type changes its own fields.  */
+/* Where the I-th type of tether has each of its FIELDS from: (FIELD . TEXT) ...  */
+static SCM
+origins_of (int i, SCM fields)
+{
+  SCM list = SCM_EOL;
+  for (; scm_is_pair (fields); fields = SCM_CDR (fields))
+    {
+      char *name = scm_to_utf8_string (scm_symbol_to_string (SCM_CAAR (fields)));
+      list = scm_acons (SCM_CAAR (fields), scm_from_utf8_string (bt_tether_type_origin (i, name)),
+                        list);
+      free (name);
+    }
+  return list;
+}
+
+/* The tether types with their fields, and where these come from.  The fields of a type are found by
+   filling a struct with impossible values: the type changes its own fields.  */
 static SCM
 tether_types (void)
 {
@@ -401,9 +416,10 @@ tether_types (void)
       bt_error error;
       bt__check ("tether-types", bt_def_set_tether_type (&def, bt_tether_type_name (i), &error),
                  &error);
-      list = scm_cons (scm_list_3 (scm_from_utf8_symbol (bt_tether_type_name (i)),
-                                   scm_from_utf8_string (bt_tether_type_text (i)),
-                                   from_fields (tether, &def, &blank, SCM_EOL)),
+      SCM fields = from_fields (tether, &def, &blank, SCM_EOL);
+      list = scm_cons (scm_list_4 (scm_from_utf8_symbol (bt_tether_type_name (i)),
+                                   scm_from_utf8_string (bt_tether_type_text (i)), fields,
+                                   origins_of (i, fields)),
                        list);
     }
   return scm_reverse_x (list, SCM_EOL);

@@ -195,7 +195,8 @@ mistakes_teach_and_change_nothing (void **state)
   is_told (e, bt_part_choose (d, BT_PART_TETHER, 0, "length", "long", e), BT_ERR_NAME,
            "takes no word");
   is_told (e, bt_part_alter (d, BT_PART_SEA, 0, "densty", 1, e), BT_ERR_NAME, "densty");
-  is_told (e, bt_obstacle_drift (d, 0, bt__vec (1, 0, 0), e), BT_ERR_UNSUPPORTED, "(track (0 X Y Z))");
+  is_told (e, bt_obstacle_drift (d, 0, bt__vec (1, 0, 0), e), BT_ERR_UNSUPPORTED,
+           "(track (0 X Y Z))");
   is_told (e, bt_obstacle_drift (d, 99, bt__vec (1, 0, 0), e), BT_ERR_NAME, "99");
   is_told (e, bt_part_alter (d, BT_PART_OBSTACLE, 99, "friction", 1, e), BT_ERR_NAME, "99");
   assert_true (bt_dive_hash (d) == was);
@@ -217,6 +218,11 @@ types_of_tether_have_names (void **state)
       assert_true (strlen (bt_tether_type_text (n)) > 20);
     }
   assert_true (n >= 6 && !bt_tether_type_text (n) && !bt_tether_type_name (-1));
+  assert_string_equal (bt_tether_type_origin (0, "diameter"), "published");
+  assert_string_equal (bt_tether_type_origin (0, "ea"), "assumed");
+  assert_string_equal (bt_tether_type_origin (0, "load"), "assumed"); /* no field */
+  assert_string_equal (bt_tether_type_origin (5, "cdn"), "fitted");
+  assert_true (!bt_tether_type_origin (n, "ea") && !bt_tether_type_origin (-1, "ea"));
   bt_def_init (bt_head_find ("tether"), &def);
   assert_int_equal (bt_def_set_tether_type (&def, "fathom", &e), BT_OK);
   assert_true (def.props.diameter == 0.0076 && def.props.breaking_load == 1557);

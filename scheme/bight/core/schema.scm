@@ -51,6 +51,7 @@
             part-type-name
             part-type-sentence
             part-type-fields
+            part-type-origins
             add-part-type!
             find-part-type
             part-types))
@@ -275,20 +276,23 @@ a part must give all that have no default."
 ;;; Types of parts: named sets of fields.
 
 (define-record <part-type>
-  (make-part-type head name sentence fields)
+  (make-part-type head name sentence fields origins)
   part-type?
   (head part-type-head)
   (name part-type-name)
   (sentence part-type-sentence)
-  (fields part-type-fields))            ; alist, name -> canonical value
+  (fields part-type-fields)             ; alist, name -> canonical value
+  (origins part-type-origins))          ; alist, name -> where its value comes from, in a word
 
 (document
- (make-part-type "Return a type of parts with HEAD: its NAME, SENTENCE and alist of canonical FIELDS.")
+ (make-part-type "Return a type of parts with HEAD: its NAME, SENTENCE, alist of canonical FIELDS and alist of the
+ORIGINS of those, words such as published.")
  (part-type? "Return true if OBJECT is a type of part.")
  (part-type-head "Return the head of the parts that TYPE is for.")
  (part-type-name "Return the name of TYPE, a symbol.")
  (part-type-sentence "Return the sentence that says what TYPE is.")
- (part-type-fields "Return the alist of fields that TYPE sets, canonical."))
+ (part-type-fields "Return the alist of fields that TYPE sets, canonical.")
+ (part-type-origins "Return the alist of where fields of TYPE come from: published, measured, fitted or assumed."))
 
 (define type-table (make-hash-table))   ; (HEAD . NAME) -> part type
 

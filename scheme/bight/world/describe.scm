@@ -102,10 +102,12 @@ clump: a row (NAME UNIT DEFAULT TEXT) of strings for each field and each kind of
           source)))
 
 (define (type-description type)
-  "Return the description of TYPE, a part type: a row (NAME VALUE UNIT \"\") for each field it sets."
+  "Return the description of TYPE, a part type: a row (NAME VALUE UNIT ORIGIN) for each field it sets; ORIGIN is
+published, measured, fitted (to a measurement), assumed, or \"\" where none is known."
+  (define (origin entry) (or (assq-ref (part-type-origins type) (car entry)) ""))
   (make-description (simple-format #f "~a, a type of ~a" (part-type-name type) (part-type-head type))
                     (part-type-sentence type)
-                    (map (lambda (entry) (value-row (part-type-head type) entry ""))
+                    (map (lambda (entry) (value-row (part-type-head type) entry (origin entry)))
                          (part-type-fields type))))
 
 (define (default-rows head given)

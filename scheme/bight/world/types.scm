@@ -1,7 +1,7 @@
 ;;; (bight world types) --- types of tethers and vehicles: named sets of fields, and those that come with bight.
 ;;;
-;;; Figures marked `estimate' in a type's sentence were not read in a source; override them when you know
-;;; better.
+;;; Figures of tethers that are `assumed', and those of vehicles that a sentence marks as an `estimate', were not read
+;;; in a source; override them when you know better.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -40,16 +40,17 @@
 (define (like-clause? clause)
   (and (pair? clause) (eq? 'like (car clause))))
 
-(define (base-fields proc head likes)
-  (cond ((null? likes) '())
+(define (base-type proc head likes)
+  ;; What a type is like, or #f.
+  (cond ((null? likes) #f)
         ((and (null? (cdr likes)) (list? (car likes)) (= 2 (length (car likes))))
-         (part-type-fields (find-part-type proc head (second (car likes)))))
+         (find-part-type proc head (second (car likes))))
         (else (bight-raise 'def proc "a type is like one other, as in (like fathom), not ~s" likes))))
 
 (define (define-part-type proc head name sentence clauses)
   "Make the type NAME of parts with HEAD known: SENTENCE says what it is, CLAUSES is a list of data
 (FIELD VALUE ...), and (like OTHER).  Return NAME.  Raise a &bight-error from PROC when a field is wrong."
-  (let* ((likes (filter like-clause? clauses))
+  (let* ((base (base-type proc head (filter like-clause? clauses)))
          (own (read-fields proc head (remove like-clause? clauses)))
          (odd (find (lambda (entry)
                       (or (memq (car entry) never-of-a-type)
@@ -58,7 +59,8 @@
     (when odd
       (bight-raise 'def proc "~a belongs to a part of a world, not to a type" (car odd)))
     (add-part-type!
-     (make-part-type head name sentence (merge-fields own (base-fields proc head likes))))
+     (make-part-type head name sentence (merge-fields own (if base (part-type-fields base) '()))
+                     (remove (lambda (entry) (assq (car entry) own)) (if base (part-type-origins base) '()))))
     name))
 
 (define (malformed-type proc form)
@@ -100,7 +102,8 @@
 ;; Those whose figures the engine has.
 (define (add-types! head types)
   (for-each (lambda (type)
-              (add-part-type! (make-part-type head (first type) (second type) (third type))))
+              (add-part-type! (make-part-type head (first type) (second type) (third type)
+                                              (if (pair? (cdddr type)) (fourth type) '()))))
             types))
 
 (add-types! 'tether (%tether-types))
