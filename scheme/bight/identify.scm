@@ -111,6 +111,8 @@
   (need 'friction floor "there is no floor to rub on, #:floor HEIGHT")
   (need 'places (pair? (setting-places setting)) "there are no markers")
   (need 'length (not (run-out (first runs))) "the line that is out was measured")
+  (need 'set (or (memq 'ei names) (> (or (assq-ref (setting-known setting) 'ei) 0) 0))
+        "it is a bend that stiffness holds, and `ei' is neither known nor sought")
   (need 'ca (> (setting-density setting) 0) "there is no water"))
 
 (define-verb (identify (runs run-files)
@@ -119,9 +121,10 @@
                        (hold-out share 0.5) (held (one-of last all-over) 'last)
                        (loss (one-of huber cauchy squares) 'huber)
                        (sigma (or-false string)) (density non-negative 1000.) (gravity positive 9.80665)
-                       (floor (or-false number)) (intervals (at-least 4) 60) (step positive 0.01))
+                       (floor (or-false number)) (intervals (at-least 4) 60) (set-pieces (at-least 1) 1) (step positive 0.01))
   "Find what is UNKNOWN of a line: ea, ei, diameter, mass, wet-weight, cdn, cdt, ca, ba, bending-damping, friction,
-length, current, clock (how late the markers' clock is against the ends') or places (of the markers).  RUNS are CSV
+length, set (natural curvature, toward two sides, of each of SET-PIECES parts of equal length), current, clock (how
+late the markers' clock is against the ends') or places (of the markers).  RUNS are CSV
 files of what was measured: t; anchor_x ... and end_x ... of its ends; m1_x, m1_y, m1_z ... of markers from the
 anchor on, in metres; end_tension or end_fx ... in newtons; out for line that is paid out.  Without columns for an
 end, the outermost marker is one.
@@ -143,10 +146,10 @@ Return an identification, which prints what was found with 90 % intervals, score
          (chords (longest-chords read))
          (long (exact->inexact (line-length fields read chords)))
          (at (marker-places places markers chords long))
-         (setting (make-setting fields long at clamped (eq? start 'moving) intervals step
+         (setting (make-setting fields long at set-pieces clamped (eq? start 'moving) intervals step
                                 (exact->inexact density) gravity floor)))
     (check-can-tell names read setting floor)
-    (let* ((coordinates (coordinates-of names fields long (length read) at))
+    (let* ((coordinates (coordinates-of names fields long (length read) at set-pieces))
            (problem (make-problem read setting coordinates
                                   (map (lambda (run) (rows-fitted run hold-out held)) read) loss))
            (fit (find-unknown problem))

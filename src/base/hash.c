@@ -18,11 +18,10 @@ mix (uint64_t h, uint64_t word)
   return h ^ (h >> 33);
 }
 
-uint64_t
-bt__hash (const void *data, size_t n, uint64_t seed)
+/* H with N bytes from P on.  */
+static uint64_t
+mix_bytes (uint64_t h, const unsigned char *p, size_t n)
 {
-  const unsigned char *p = data;
-  uint64_t h = mix (seed ^ 0x9e3779b97f4a7c15ULL, n);
   for (; n >= 8; n -= 8, p += 8)
     {
       uint64_t word;
@@ -35,5 +34,27 @@ bt__hash (const void *data, size_t n, uint64_t seed)
       memcpy (&word, p, n);
       h = mix (h, word);
     }
+  return h;
+}
+
+static uint64_t
+start_hash (size_t n, uint64_t seed)
+{
+  return mix (seed ^ 0x9e3779b97f4a7c15ULL, n);
+}
+
+uint64_t
+bt__hash (const void *data, size_t n, uint64_t seed)
+{
+  return mix_bytes (start_hash (n, seed), data, n);
+}
+
+uint64_t
+bt__hash_rows (const void *data, size_t rows, size_t used, size_t stride, uint64_t seed)
+{
+  const unsigned char *p = data;
+  uint64_t h = start_hash (rows * used, seed);
+  for (size_t i = 0; i < rows; i++)
+    h = mix_bytes (h, p + i * stride, used);
   return h;
 }

@@ -13,18 +13,21 @@
 BT_BEGIN_DECLS
 
 /* The line and its water.  Of PROPS count diameter, mass, wet_weight, ea, ei, ba, bending_damping,
-   cdn, cdt, ca and friction.  */
+   cdn, cdt, ca and friction.  Sets count with bending stiffness alone.  */
 typedef struct bt_lead_line
 {
   bt_tether_props props;
-  double length;   /* m, where the track tells no length that is out */
-  int intervals;   /* 2 to BT_LEAD_INTERVALS */
-  int clamped;     /* true: the line leaves its ends along the directions of the track */
-  double density;  /* kg/m3 of the water, 0: none */
-  double gravity;  /* m/s2 */
-  bt_vec3 current; /* m/s, the same everywhere */
-  double floor;    /* m: height of a flat floor, on which the friction acts; NAN: none */
-  double step;     /* s: no step of the solver is longer */
+  double length;      /* m, where the track tells no length that is out */
+  int intervals;      /* 2 to BT_LEAD_INTERVALS */
+  int clamped;        /* true: the line leaves its ends along the directions of the track */
+  double density;     /* kg/m3 of the water, 0: none */
+  double gravity;     /* m/s2 */
+  bt_vec3 current;    /* m/s, the same everywhere */
+  double floor;       /* m: height of a flat floor, on which the friction acts; NAN: none */
+  double step;        /* s: no step of the solver is longer */
+  const bt_set *sets; /* their planes counted at the winch end: 0 is north where the line begins to
+                         be led straight down, and turns with the line the shortest way */
+  int n_sets;
 } bt_lead_line;
 
 /* Where the ends are.  All arrays have ROWS elements, 2 or more.  */

@@ -27,6 +27,7 @@ enum
   BT_NODES_SUM_MAX = 50000, /* of all tethers of a world */
   BT_LENGTH_MAX = 100000,   /* m: of a tether, and of what is on its drum */
   BT_LUMPS_MAX = 32,        /* clumps and floats on one tether */
+  BT_SETS_MAX = 32,         /* natural curvatures of one tether */
   BT_VIA_MAX = 32,          /* points that one tether is laid through */
   BT_OBSTACLES_MAX = 100000,
   BT_POSTS_MAX = 5000000,     /* of a grid */
@@ -134,6 +135,8 @@ typedef struct bt_tether_def
   bt_tether_props props; /* mass or wet_weight may be NAN: it then follows from the other */
   bt_lump lumps[BT_LUMPS_MAX];
   double n_lumps;
+  bt_set sets[BT_SETS_MAX]; /* want `ei' and a model that moves */
+  double n_sets;
 } bt_tether_def;
 
 typedef enum bt_obstacle_kind
@@ -263,7 +266,8 @@ const bt_head *bt_heads (size_t *n);
 /* Return the head or field called NAME, or NULL.  */
 const bt_head *bt_head_find (const char *name);
 const bt_field *bt_field_find (const bt_head *head, const char *name);
-/* Write to *VALUE the number that WORD stands for in FIELD.  BT_ERR_NAME lists the words it takes.  */
+/* Write to *VALUE the number that WORD stands for in FIELD.  BT_ERR_NAME lists the words it takes.
+ */
 bt_status bt_word_value (const bt_field *field, const char *word, double *value, bt_error *error);
 /* Return the head of obstacles of KIND, or NULL.  */
 const bt_head *bt_obstacle_head (bt_obstacle_kind kind);

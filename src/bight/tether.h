@@ -54,6 +54,16 @@ typedef enum bt_stick_by
 /* The value of winch_pull for 500 N or half the breaking load, whichever is less.  */
 #define BT_WINCH_AUTO 0.0
 
+/* A natural curvature of a part of a tether: what a drum or a kink has left in it.  Sets that
+   overlap add up.  */
+typedef struct bt_set
+{
+  double at;        /* m of arc length from the anchor when the dive begins: its middle */
+  double span;      /* m; INFINITY: all of the tether, and what is on the drum */
+  double curvature; /* 1/m */
+  double plane;     /* degrees: the side to which the line bends, counted about the line */
+} bt_set;
+
 /* Flat; no padding.  Counts and choices are doubles too, because one table of fields sets every
    member.  */
 typedef struct bt_tether_props

@@ -222,6 +222,16 @@ read_lump (bt_tether_def *tether, const bt_head *head, SCM fields)
 }
 
 static void
+read_set (bt_tether_def *tether, const bt_head *head, SCM fields)
+{
+  bt_set set;
+  check_room ((int)tether->n_sets, BT_SETS_MAX, "sets of one tether");
+  bt_def_init (head, &set);
+  read_fields (head, &set, fields, NULL);
+  tether->sets[(int)tether->n_sets++] = set;
+}
+
+static void
 read_thruster (bt_vehicle_def *vehicle, const bt_head *head, SCM fields)
 {
   bt_thruster_def thruster;
@@ -237,6 +247,8 @@ read_inner (void *outer, const bt_head *head, SCM fields)
 {
   if (strcmp (head->inside, "rov") == 0)
     read_thruster (outer, head, fields);
+  else if (strcmp (head->name, "set") == 0)
+    read_set (outer, head, fields);
   else
     read_lump (outer, head, fields);
 }

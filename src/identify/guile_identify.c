@@ -70,7 +70,8 @@ enum
   STEP,
   CLOCK,
   LAST,
-  LINE_NUMBERS
+  SETS, /* from here on four numbers for each set */
+  SET_NUMBERS = 4
 };
 
 typedef struct lead_call
@@ -102,8 +103,9 @@ lead_without_guile (void *user)
   return NULL;
 }
 
+/* Of COUNT numbers.  */
 static bt_lead_line
-line_of (const double *n)
+line_of (const double *n, size_t count)
 {
   return (bt_lead_line){ .props = { .diameter = n[DIAMETER],
                                     .mass = n[MASS],
@@ -123,7 +125,9 @@ line_of (const double *n)
                          .gravity = n[GRAVITY],
                          .current = { n[CURRENT_X], n[CURRENT_Y], n[CURRENT_Z] },
                          .floor = n[FLOOR_Z],
-                         .step = n[STEP] };
+                         .step = n[STEP],
+                         .sets = (const bt_set *)(const void *)(n + SETS),
+                         .n_sets = (int)((count - SETS) / SET_NUMBERS) };
 }
 
 static const bt_vec3 *
@@ -158,8 +162,9 @@ static SCM
 lead_line (SCM line, SCM track, SCM start, SCM marks, SCM halt)
 {
   lead_call c = { .marks = doubles (marks), .n = (int)count_of (marks) };
-  SCM_ASSERT (count_of (line) == LINE_NUMBERS, line, SCM_ARG1, "%lead");
-  c.line = line_of (doubles (line));
+  SCM_ASSERT (count_of (line) >= SETS && (count_of (line) - SETS) % SET_NUMBERS == 0, line,
+              SCM_ARG1, "%lead");
+  c.line = line_of (doubles (line), count_of (line));
   read_track (&c, doubles (line), track, start);
   size_t rows = (size_t)(c.track.last > 0 ? c.track.last : c.track.rows);
   SCM places = new_doubles (rows * (size_t)c.n * 3), pulls = new_doubles (rows * 6);

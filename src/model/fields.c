@@ -20,6 +20,7 @@ static const bt_word unbreakable[] = { { "none", INFINITY }, { NULL, 0 } };
 static const bt_word unlimited[] = { { "none", INFINITY }, { NULL, 0 } };
 static const bt_word automatic[] = { { "auto", BT_SAG_AUTO }, { NULL, 0 } };
 static const bt_word usual[] = { { "auto", BT_WINCH_AUTO }, { NULL, 0 } };
+static const bt_word everywhere[] = { { "all", INFINITY }, { NULL, 0 } };
 static const bt_word never[] = { { "none", INFINITY }, { NULL, 0 } };
 static const bt_word yes_no[] = { { "yes", 1 }, { "no", 0 }, { NULL, 0 } };
 static const bt_word responses[]
@@ -251,6 +252,17 @@ static const bt_field float_fields[] = {
   NUMBER (bt_lump, buoyancy, "buoyancy", "N", NAN, 0, 1e6, 1, 0, NULL, "net, upward"),
 };
 
+static const bt_field set_fields[] = {
+  NUMBER (bt_set, at, "at", "m", 0, 0, LONG, 0, 0, NULL,
+          "arc length of its middle from the anchor when the dive begins"),
+  NUMBER (bt_set, span, "span", "m", INFINITY, 0, LONG, 1, 0, everywhere,
+          "the length of line it is on; `all': the whole tether, on the drum too"),
+  NUMBER (bt_set, curvature, "curvature", "1/m", NAN, 0, 1000, 0, 0, NULL,
+          "that the line has where nothing bends it; one by the radius"),
+  NUMBER (bt_set, plane, "plane", "deg", 0, -1e6, 1e6, 0, 0, NULL,
+          "the side it bends to, counted about the line against its other sets"),
+};
+
 /* ---- Obstacles: they share a struct, of which each kind has its own fields ---- */
 
 #define PLACE(t) OTHER (bt_obstacle_def, at, "at", "m", BT_FIELD_POINT, 0, NULL, 0, t)
@@ -339,6 +351,8 @@ static const bt_head heads[] = {
         -1),
   HEAD ("clump", "tether", "a clump weight on a tether", bt_lump, clump_fields, -1),
   HEAD ("float", "tether", "a float or a buoyant section on a tether", bt_lump, float_fields, -1),
+  HEAD ("set", "tether", "a natural curvature that a drum or a kink has left in a tether", bt_set,
+        set_fields, -1),
   OBSTACLE ("seabed", "the bottom: level at the depth of the sea, or a grid or mesh of it",
             seabed_fields, BT_OBSTACLE_SEABED),
   OBSTACLE ("box", "a solid box", box_fields, BT_OBSTACLE_BOX),

@@ -156,6 +156,57 @@ check_lumps (const bt_tether_def *tether, bt_error *error)
   return BT_OK;
 }
 
+#define SET_TURN 1.0 /* radians: the most that a set may turn a line within one interval */
+
+/* A set is an affair of bending, in a line that moves.  */
+bt_status
+bt__bears_sets (const bt_tether_props *p, const char *name, bt_error *error)
+{
+  if (p->model < BT_MODEL_DYNAMIC)
+    return bt__fail (error, BT_ERR_UNSUPPORTED,
+                     "tether `%s' has a set: its model must be `dynamic' or `auto'", name);
+  if (!(p->ei > 0))
+    return bt__fail (error, BT_ERR_UNSUPPORTED,
+                     "tether `%s' has a set, which is a bend that its stiffness holds: it needs an "
+                     "`ei' of more than 0",
+                     name);
+  return BT_OK;
+}
+
+static bt_status
+check_sets (const bt_tether_def *tether, bt_error *error)
+{
+  const bt_tether_props *p = &tether->props;
+  double turn = 0;
+  if (!(tether->n_sets >= 0 && tether->n_sets <= BT_SETS_MAX))
+    return bt__fail (error, BT_ERR_LIMIT, "tether `%s' has at most %d sets", tether->name,
+                     BT_SETS_MAX);
+  if (tether->n_sets > 0)
+    {
+      bt_status status = bt__bears_sets (p, tether->name, error);
+      if (status)
+        return status;
+    }
+  for (int k = 0; k < (int)tether->n_sets; k++)
+    {
+      const bt_set *set = &tether->sets[k];
+      if (!(set->at >= 0 && set->at <= tether->length))
+        return bt__fail (error, BT_ERR_DEF, "a set at %g m does not lie on the %g m of tether `%s'",
+                         set->at, tether->length, tether->name);
+      if (!(set->curvature >= 0 && set->curvature <= 1000 && isfinite (set->plane)
+            && set->span > 0))
+        return bt__fail (error, BT_ERR_DOMAIN,
+                         "a set of tether `%s' has no such curvature or place", tether->name);
+      turn = fmax (turn, set->curvature * fmin (set->span, tether->length / p->nodes));
+    }
+  if (turn > SET_TURN && p->model == BT_MODEL_DYNAMIC)
+    return bt__fail (error, BT_ERR_DEF,
+                     "a set turns tether `%s' by %.3g radians within an interval; at most %g are "
+                     "followed: `nodes' of %g or more",
+                     tether->name, turn, SET_TURN, ceil (turn / SET_TURN * p->nodes));
+  return BT_OK;
+}
+
 #define STRETCH_MAX 10.0 /* times the length: the most a line may stretch by its weight */
 #define NODES_ANYWAY 200 /* allowed for any line, however short */
 
@@ -204,6 +255,8 @@ compile_tether (bt_model *model, int i, bt_error *error)
                        tether->from.part);
   if (status == BT_OK)
     status = check_lumps (tether, error);
+  if (status == BT_OK)
+    status = check_sets (tether, error);
   if (status == BT_OK && tether->length > tether->drum)
     status = bt__fail (error, BT_ERR_DEF, "%g m of tether `%s' are out, of %g m on its drum",
                        tether->length, tether->name, tether->drum);
@@ -242,7 +295,11 @@ content_id (const bt_model *model, const bt_world *world)
 {
   uint64_t h = bt__hash_sea (&model->sea, 0);
   h = bt__hash (model->vehicles, sizeof *model->vehicles * (size_t)model->n_vehicles, h);
-  h = bt__hash (model->tethers, sizeof *model->tethers * (size_t)model->n_tethers, h);
+  h = bt__hash_rows (model->tethers, (size_t)model->n_tethers, offsetof (bt_tether_def, sets),
+                     sizeof *model->tethers, h);
+  for (int i = 0; i < model->n_tethers; i++)
+    if (model->tethers[i].n_sets > 0)
+      h = bt__hash (model->tethers[i].sets, sizeof model->tethers[i].sets, h + (uint64_t)i);
   return bt__hash_obstacles (world, h);
 }
 

@@ -60,6 +60,9 @@ struct bt_model
   int n_floors;               /* 1: the last of SCENE is the bottom beyond the edge of a seabed */
 };
 
+/* BT_OK if a tether of PROPS called NAME can have a set; else BT_ERR_UNSUPPORTED says why not.  */
+bt_status bt__bears_sets (const bt_tether_props *props, const char *name, bt_error *error);
+
 /* The longest chord, m, of LENGTH metres of a tether with PROPS under a pull of at most PULL
    newtons: LENGTH plus the elastic stretch, up to the breaking load or a tenth.  */
 double bt__longest_chord (const bt_tether_props *props, double length, double pull);

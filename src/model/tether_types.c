@@ -81,7 +81,7 @@ bt_tether_type_text (int i)
 
 /* True if NAME is one of the words of LIST.  */
 static int
-is_listed (const char *list, const char *name)
+is_word_of (const char *list, const char *name)
 {
   size_t n = strlen (name);
   for (const char *at = list; (at = strstr (at, name)); at += n)
@@ -95,10 +95,10 @@ bt_tether_type_origin (int i, const char *field)
 {
   if (!(i >= 0 && i < TYPES))
     return NULL;
-  return is_listed (types[i].published, field)  ? "published"
-         : is_listed (types[i].measured, field) ? "measured"
-         : is_listed (types[i].fitted, field)   ? "fitted"
-                                                : "assumed";
+  return is_word_of (types[i].published, field)  ? "published"
+         : is_word_of (types[i].measured, field) ? "measured"
+         : is_word_of (types[i].fitted, field)   ? "fitted"
+                                                 : "assumed";
 }
 
 bt_status

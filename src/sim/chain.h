@@ -13,14 +13,22 @@
 /* The vehicle with mass carried by the far end of tether I, or -1.  */
 int bt__carried_vehicle (const bt_dive *dive, bt__state *state, int i);
 
-/* What the kernel is told of tether I: ends, water, the vehicle it carries; no winch, no lumps.  */
+/* What the kernel is told of tether I: ends, water, the vehicle it carries; no winch, nothing that
+   is fastened to the line or has set in it.  */
 bt__dynamic_input bt__chain_input (const bt_dive *dive, bt__state *state, int i,
                                    const bt_water *water, const bt__ends *ends);
 
-/* Give INPUT the lumps fastened to tether I between FROM and TO metres from its far end; the winch
-   does not change distances from the far end.  LUMPS has room for BT_LUMPS_MAX.  */
+/* What belongs to the material of a line: the winch does not change distances from the far end.  */
+typedef struct bt__fastened
+{
+  bt__dynamic_lump lumps[BT_LUMPS_MAX];
+  bt__dynamic_set sets[BT_SETS_MAX];
+} bt__fastened;
+
+/* Give INPUT what is fastened to tether I between FROM and TO metres from its far end, and its
+   sets; FASTENED keeps them.  */
 void bt__fasten (const bt_dive *dive, int i, double from, double to, bt__dynamic_input *input,
-                 bt__dynamic_lump *lumps);
+                 bt__fastened *fastened);
 
 /* Let the vehicle that tether I carries follow its last node.  */
 bt_status bt__bring_vehicle (const bt_dive *dive, bt__state *state, int i, bt_error *error);
@@ -53,16 +61,17 @@ bt_status bt__step_among (bt_dive *dive, bt__state *state, int i, int part,
                           bt_error *error);
 
 /* bt__advance_chain takes tether I on by the part of the step that the contact work of DIVE names;
-   its ends go from FROM to TO in the whole step (chain_step.c).  bt__advance_as_asked takes tether I
-   through the whole step in as many parts as its accuracy asks for, REPORT being of them all
+   its ends go from FROM to TO in the whole step (chain_step.c).  bt__advance_as_asked takes tether
+   I through the whole step in as many parts as its accuracy asks for, REPORT being of them all
    (chain_fine.c).  */
 bt_status bt__advance_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *from,
                              const bt__ends *to, bt__dynamic_report *report, bt_error *error);
 bt_status bt__advance_as_asked (bt_dive *dive, bt__state *state, int i, const bt__ends *to,
                                 bt__dynamic_report *report, bt_error *error);
 
-/* bt__order_tethers sorts the tethers by the direction in which they press on each other.  bt__put_carriers_first then puts tethers that carry vehicles first and
-   static tethers last, and keeps the order otherwise (order.c).  */
+/* bt__order_tethers sorts the tethers by the direction in which they press on each other.
+   bt__put_carriers_first then puts tethers that carry vehicles first and static tethers last, and
+   keeps the order otherwise (order.c).  */
 void bt__order_tethers (bt_dive *dive, bt__state *state);
 void bt__put_carriers_first (bt_dive *dive, bt__state *state);
 

@@ -49,15 +49,16 @@ lump_of (const bt_lump *def, double from_end, const bt_water *water)
                              .quadratic = 0.5 * rho * 0.5 * BT__PI * radius * radius };
 }
 
-/* Give INPUT the lumps fastened to tether I between FROM and TO metres from its far end; the winch
-   does not change distances from the far end.  */
 void
 bt__fasten (const bt_dive *dive, int i, double from, double to, bt__dynamic_input *input,
-            bt__dynamic_lump *lumps)
+            bt__fastened *fastened)
 {
   const bt_tether_def *def = &dive->model->tethers[i];
+  bt__dynamic_lump *lumps = fastened->lumps;
   input->lumps = lumps;
   input->n_lumps = 0;
+  input->sets = fastened->sets;
+  input->n_sets = bt__place_sets (def->sets, (int)def->n_sets, def->length, from, fastened->sets);
   for (int k = 0; k < (int)def->n_lumps; k++)
     {
       double from_end = def->length - def->lumps[k].at;

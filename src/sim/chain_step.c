@@ -46,9 +46,9 @@ static bt_status
 step_far_part (bt_dive *dive, bt__state *state, int i, bt__dynamic_input input, bt_error *error)
 {
   bt__dynamic *chain = bt__dive_chain (dive, state, i, 1);
-  bt__dynamic_lump lumps[BT_LUMPS_MAX];
+  bt__fastened fastened;
   bt__dynamic_report report = { 0 };
-  bt__fasten (dive, i, 0, bt__dynamic_length (chain), &input, lumps);
+  bt__fasten (dive, i, 0, bt__dynamic_length (chain), &input, &fastened);
   input.end[0] = (bt__dynamic_end){ .free = 1 };
   return step_part (dive, state, i, 1, &input, &report, error);
 }
@@ -187,7 +187,7 @@ bt__advance_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *from,
   double far_length = 0, before = bt__dynamic_length (chain);
   bt_water water;
   bt__dynamic_input input;
-  bt__dynamic_lump lumps[BT_LUMPS_MAX];
+  bt__fastened fastened;
   bt_status status = input_of_part (dive, state, i, from, to, &water, &input, error);
   if (status == BT_OK && tether->parted)
     {
@@ -197,7 +197,7 @@ bt__advance_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *from,
     }
   if (status != BT_OK)
     return status;
-  bt__fasten (dive, i, far_length, INFINITY, &input, lumps);
+  bt__fasten (dive, i, far_length, INFINITY, &input, &fastened);
   set_winch (dive, state, i, tether, chain, &input);
   input.mesh = bt__chain_mesh (dive, state, tether, i);
   input.mesh.idle &= dive->contact_work.left == 0;

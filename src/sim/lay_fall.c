@@ -58,9 +58,9 @@ static bt_status
 fall_far_part (bt_dive *dive, bt__state *state, int i, bt__dynamic_input input,
                bt__dynamic_report *report, bt_error *error)
 {
-  bt__dynamic_lump lumps[BT_LUMPS_MAX];
+  bt__fastened fastened;
   double length = bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
-  bt__fasten (dive, i, 0, length, &input, lumps);
+  bt__fasten (dive, i, 0, length, &input, &fastened);
   input.end[0] = (bt__dynamic_end){ .free = 1 };
   return bt__step_among (dive, state, i, 1, &input, report, error);
 }
@@ -70,7 +70,7 @@ step_to (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt__dynam
          bt_error *error)
 {
   bt_water water = bt__dive_water (dive, state);
-  bt__dynamic_lump lumps[BT_LUMPS_MAX];
+  bt__fastened fastened;
   bt__dynamic_input input = bt__chain_input (dive, state, i, &water, ends);
   bt__dynamic_report far = { 0 };
   double from = 0;
@@ -81,7 +81,7 @@ step_to (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt__dynam
       status = fall_far_part (dive, state, i, input, &far, error);
       input.end[1] = (bt__dynamic_end){ .free = 1 };
     }
-  bt__fasten (dive, i, from, INFINITY, &input, lumps);
+  bt__fasten (dive, i, from, INFINITY, &input, &fastened);
   if (status == BT_OK)
     status = bt__step_among (dive, state, i, 0, &input, report, error);
   report->speed = fmax (report->speed, far.speed);

@@ -29,11 +29,11 @@ bt__dynamic_work_free (bt__dynamic_work *w)
 {
   if (!w)
     return;
-  void *arrays[] = { w->X,     w->d,     w->rhs,     w->keep,      w->last,     w->lam,
-                     w->link,  w->node,  w->extra,   w->diag,      w->off,      w->up,
-                     w->up2,   w->pivot, w->bend,    w->bend_diag, w->bend_off, w->bend_far,
-                     w->whole, w->spare, w->by_flow, w->kept,      w->crumple,
-                     w->exchanged };
+  void *arrays[]
+      = { w->X,    w->d,         w->rhs,       w->keep,     w->last,  w->lam,   w->link,
+          w->node, w->extra,     w->diag,      w->off,      w->up,    w->up2,   w->pivot,
+          w->bend, w->bend_diag, w->bend_off,  w->bend_far, w->whole, w->spare, w->by_flow,
+          w->kept, w->crumple,   w->exchanged, w->natural,  w->twist, w->felt };
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
     free (arrays[i]);
   free (w);
@@ -64,6 +64,8 @@ bt__dynamic_work_new (int n_max)
         && (w->whole = calloc (n, sizeof *w->whole)) && (w->spare = calloc (n, sizeof *w->spare))
         && (w->by_flow = calloc ((BT__BENTS + 1) * n, sizeof *w->by_flow))
         && (w->exchanged = calloc (3 * n, sizeof *w->exchanged))
+        && (w->natural = calloc (n, sizeof *w->natural))
+        && (w->twist = calloc (n, sizeof *w->twist)) && (w->felt = calloc (n, sizeof *w->felt))
         && (w->kept = calloc (n, sizeof *w->kept)) && (w->crumple = calloc (n, sizeof *w->crumple));
   if (whole)
     return w;

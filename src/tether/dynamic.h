@@ -149,6 +149,13 @@ typedef struct bt__dynamic_lump
   bt_vec3 force;            /* N, held over the step */
 } bt__dynamic_lump;
 
+/* A natural curvature of a part of the line (dynamic_set.c).  */
+typedef struct bt__dynamic_set
+{
+  double from, to;     /* m of rest length from node n; they may lie beyond the line */
+  double curvature[2]; /* 1/m, toward the first and second director of the cross-section */
+} bt__dynamic_set;
+
 typedef struct bt__dynamic_end
 {
   int free;               /* zero: taken to AT; else moved by the forces, BODY among them */
@@ -158,6 +165,8 @@ typedef struct bt__dynamic_end
   double stiffness[3][3]; /* N/m: symmetric, positive definite */
   int clamped;            /* true: the line leaves along DIRECTION; wants bending stiffness */
   bt_vec3 direction;      /* unit, from node 0 toward node n */
+  bt_vec3 side;           /* of a clamp at node 0: the first director of the line's cross-section
+                             there; 0: bt__set_side */
 } bt__dynamic_end;
 
 /* What the number of intervals keeps to while a winch turns; all zero: as many as there is room
@@ -181,6 +190,8 @@ typedef struct bt__dynamic_input
   bt__dynamic_end end[2];
   const bt__dynamic_lump *lumps;
   int n_lumps;
+  const bt__dynamic_set *sets; /* want bending stiffness; overlapping sets add up */
+  int n_sets;
   double h;    /* s */
   double pay;  /* m/s of line through the winch end, out positive */
   double hold; /* N: what the winch holds; a line that pulls harder draws line from it; 0: all */
@@ -253,6 +264,16 @@ typedef struct bt__dynamic_energy
   double kinetic, strain, gravity, bending; /* J; added mass moves too; gravity from z = 0; a line
                                                under bending is strained by pushing together too */
 } bt__dynamic_energy;
+
+/* Write to OUT those of N SETS, told for a line of LENGTH metres, that bend: as a part of the line
+   has them beyond whose far end lie BEYOND metres.  Return how many.  */
+int bt__place_sets (const bt_set *sets, int n, double length, double beyond, bt__dynamic_set *out);
+
+/* The first director of a line that leaves along DIRECTION: north if that is straight down, else
+   turned with it the shortest way.  SIDE, across the unit vector FROM, as FROM turns to TO the
+   shortest way.  */
+bt_vec3 bt__set_side (bt_vec3 direction);
+bt_vec3 bt__set_carry (bt_vec3 side, bt_vec3 from, bt_vec3 to);
 
 /* Return the energies of the line (not its lumps) as INPUT has it.  */
 bt__dynamic_energy bt__dynamic_energies (const bt__dynamic *d, const bt__dynamic_input *input);

@@ -19,6 +19,9 @@
    Any D is stable.  The half cell at a clamp has no damping: the rate at which the clamp's
    direction turns is not given.
 
+   A set makes the natural turn of a node other than none (dynamic_set.c): its forces are added at
+   every iterate, and the thrust of an interval is EI kappa . (kappa - the natural curvature).
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <string.h>
@@ -124,6 +127,9 @@ bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d)
   w->pushed = ei > 0 ? -pushed_most (w, ei) : 0;
   if (!(ei > 0 || damping > 0))
     return;
+  w->is_set = w->in->n_sets > 0 && ei > 0;
+  if (w->is_set)
+    bt__dynamic_set_forces (w, w->x);
   bt__dynamic_bend_thrust (w);
   bt__dynamic_unfold (w, d);
   memset (w->bend_diag, 0, size);
@@ -133,11 +139,26 @@ bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d)
     {
       double q = 1 / w->link[i - 1].rest, p = 1 / w->link[i].rest;
       bt__bend row = { i - 1, 3, ei / w->node[i].cell, { q, -(p + q), p }, { 0, 0, 0 } };
-      add_crook (w, &row);
+      if (!w->is_set)
+        add_crook (w, &row);
       add_bend (w, damping > 0 ? damped (w, row, damping / w->node[i].cell) : row);
     }
   add_clamp (w, 0, ei);
   add_clamp (w, 1, ei);
+  for (int i = 1; i < w->n && w->is_set; i++)
+    w->bend_diag[i] += bt__set_hold (w, i);
+}
+
+/* The square of what node I bends by, or with a set its product with what it bends beyond that.  */
+static double
+thrusting_square (const bt__dynamic_work *w, int i)
+{
+  double before = w->link[i - 1].rest, after = w->link[i].rest, cell = w->node[i].cell;
+  if (!w->is_set)
+    return bt__bend_square (w->x + i, before, after);
+  double all = bt__turn_square (w->x + i, before, after),
+         set = bt__dot (bt__turn_of (w->x + i, before, after), w->natural[i]);
+  return fmax (-BT__SHARPEST, fmin (all - set, BT__SHARPEST)) / (cell * cell);
 }
 
 void
@@ -147,7 +168,7 @@ bt__dynamic_bend_thrust (bt__dynamic_work *w)
   for (int j = 0; j < w->n; j++)
     {
       bt__link *k = w->link + j;
-      double after = j + 1 < w->n ? bt__bend_square (w->x + j + 1, k->rest, k[1].rest) : before;
+      double after = j + 1 < w->n ? thrusting_square (w, j + 1) : before;
       k->thrust = bt__thrust_of (w->in->line->ei, j ? before : after, after);
       k->zero -= k->thrust / k->ka;
       before = after;
@@ -176,6 +197,11 @@ bt__dynamic_bend_force (bt__dynamic_work *w)
           *r = bt__axpy (*r, -row->k * row->c[p], turn);
         }
     }
+  if (!w->is_set)
+    return;
+  bt__dynamic_set_forces (w, w->X);
+  for (int i = 0; i <= w->n; i++)
+    w->rhs[i] = bt__add (w->rhs[i], w->twist[i]);
 }
 
 /* Add what row ROW does on node I, if it is of that node.  */
@@ -189,9 +215,13 @@ add_row_on (const bt__dynamic_work *w, int row, int i, bt_vec3 sum)
 
 /* Inner node I has row I - 1; clamps have the last.  */
 bt_vec3
-bt__dynamic_bend_on (const bt__dynamic_work *w, int i)
+bt__dynamic_bend_on (bt__dynamic_work *w, int i)
 {
   bt_vec3 sum = { 0, 0, 0 };
+  if (w->is_set)
+    bt__dynamic_set_forces (w, w->X);
+  if (w->is_set)
+    sum = w->twist[i];
   int inner = w->n - 1, from = i > 2 ? i - 2 : 0, to = i < inner ? i + 1 : inner;
   for (int k = from; k < to; k++)
     sum = add_row_on (w, k, i, sum);
@@ -209,5 +239,5 @@ bt__dynamic_bend_energy (const bt__dynamic_work *w, const bt_vec3 *X)
       bt_vec3 turn = turn_of (w->bend + k, X);
       sum += 0.5 * w->bend[k].k * bt__dot (turn, turn);
     }
-  return sum;
+  return w->is_set ? sum + bt__dynamic_set_potential (w, X) : sum;
 }

@@ -23,9 +23,11 @@ strain_energy (double ea, double rest, double e, int bends)
 }
 
 static double
-bending_energy (const bt_vec3 *x, const double *rest, int n, double ei)
+bending_energy (const bt_vec3 *x, const double *rest, int n, const bt__dynamic_input *in)
 {
-  double sum = 0;
+  double sum = 0, ei = in->line->ei;
+  if (in->n_sets > 0 && ei > 0)
+    return bt__set_energy (in, x, rest, n);
   for (int i = 1; i < n && ei > 0; i++)
     {
       double cell = 0.5 * (rest[i - 1] + rest[i]);
@@ -45,7 +47,7 @@ energies_at (const bt__dynamic *d, const bt__dynamic_input *in, const bt_vec3 *x
   double ea = bt__stiffness (p->ea);
   double lift = in->water->density > 0 ? p->mass * in->water->gravity - p->wet_weight : 0;
   int n = (int)d->n;
-  bt__dynamic_energy sum = { 0, 0, 0, bending_energy (x, rest, n, p->ei) };
+  bt__dynamic_energy sum = { 0, 0, 0, bending_energy (x, rest, n, in) };
   for (int i = 0; i <= n; i++)
     {
       double cell = 0.5 * ((i ? rest[i - 1] : 0) + (i < n ? rest[i] : 0));

@@ -130,6 +130,7 @@ struct bt__dynamic_work
   double given;                /* m: line that was drawn from the winch */
   const bt_vec3 *x;            /* positions at the start */
   const bt_vec3 *chord, *load; /* fourth-order parts, NULL if none */
+  int is_set;                  /* true: the line has a natural curvature, see dynamic_set.c: */
   bt__constraint *row;         /* the caller's half-spaces, ... */
   int coupled;                 /* true: friction follows the loads within an iteration */
   int rows, pairs;             /* ... how many; and of these, how many bear on two places */
@@ -140,7 +141,10 @@ struct bt__dynamic_work
   bt_vec3 *X, *d, *rhs, *keep; /* iterate, update, right-hand side, spare */
   bt_vec3 *last;               /* among contacts: the update before */
   double *lam;
-  double *crumple; /* m: with bending stiffness, see dynamic_unfold.c */
+  bt_vec3 *natural; /* ... turns of nodes, ... */
+  bt_vec3 *twist;   /* ... and forces on nodes, N, as last asked for */
+  bt_vec3 *felt;    /* ... by tangents on the way to the forces, N m */
+  double *crumple;  /* m: with bending stiffness, see dynamic_unfold.c */
   bt__link *link;
   bt__node *node;
   bt__extra *extra;
@@ -210,7 +214,7 @@ bt_vec3 bt__dynamic_end_pull (bt__dynamic_work *w, int k);
 double bt__dynamic_overload (bt__dynamic_work *w);
 
 /* The forces of the rows of bending, and of the caller's half-spaces, on node I, N.  */
-bt_vec3 bt__dynamic_bend_on (const bt__dynamic_work *w, int i);
+bt_vec3 bt__dynamic_bend_on (bt__dynamic_work *w, int i);
 bt_vec3 bt__dynamic_contact_on (const bt__dynamic_work *w, int i);
 
 /* Solve for the update D; return its largest, infinity if any is not finite.  */
@@ -292,19 +296,34 @@ double bt__dynamic_couple_solve (bt__dynamic_work *w);
 /* Unfold what is crumpled of a line with bending stiffness (dynamic_unfold.c).  */
 void bt__dynamic_unfold (bt__dynamic_work *w, const bt__dynamic *d);
 
+/* A set: its forces and natural turns of a line that lies at X, to TWIST and NATURAL; the
+   potential of the forces; the energy of bending, J, of a line with a set; what node I resists
+   more than by its bending, N/m.  */
+void bt__dynamic_set_forces (bt__dynamic_work *w, const bt_vec3 *x);
+double bt__set_hold (const bt__dynamic_work *w, int i);
+double bt__dynamic_set_potential (const bt__dynamic_work *w, const bt_vec3 *x);
+double bt__set_energy (const bt__dynamic_input *in, const bt_vec3 *x, const double *rest, int n);
+
 /* Bending: set up the rows, add their forces to RHS, return their energy.  */
 void bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d);
 void bt__dynamic_bend_thrust (bt__dynamic_work *w);
 void bt__dynamic_bend_force (bt__dynamic_work *w);
 double bt__dynamic_bend_energy (const bt__dynamic_work *w, const bt_vec3 *X);
 
-/* The square of what node X[0] turns by, its intervals BEFORE and AFTER metres long; and of that by
-   its cell, as far as it thrusts.  */
+/* What node X[0] turns by, its intervals BEFORE and AFTER metres long; its square; and that by the
+   square of its cell, as far as it thrusts.  */
+static inline bt_vec3
+bt__turn_of (const bt_vec3 *x, double before, double after)
+{
+  bt_vec3 a = bt__scale (1 / before, bt__sub (x[0], x[-1])),
+          b = bt__scale (1 / after, bt__sub (x[1], x[0]));
+  return bt__sub (b, a);
+}
+
 static inline double
 bt__turn_square (const bt_vec3 *x, double before, double after)
 {
-  bt_vec3 a = bt__scale (1 / before, bt__sub (x[0], x[-1])),
-          b = bt__scale (1 / after, bt__sub (x[1], x[0])), turn = bt__sub (b, a);
+  bt_vec3 turn = bt__turn_of (x, before, after);
   return bt__dot (turn, turn);
 }
 

@@ -40,8 +40,9 @@ typedef struct led
   bt__asker asker;
   bt__constraint *rows; /* of the floor: one for each node */
   bt_vec3 *stick;       /* m: drag of each node at the start of the step */
-  int64_t stuck;        /* intervals that STICK is of */
-  int room;             /* intervals there is memory for */
+  bt__dynamic_set *sets;
+  int64_t stuck; /* intervals that STICK is of */
+  int room;      /* intervals there is memory for */
 } led;
 
 /* ---- The track ---- */
@@ -110,10 +111,14 @@ lead_ends (led *l, double t)
     {
       bt__dynamic_end *end = &l->in.end[e];
       end->at = mix_rows (l->track->end[e] + k, n, weights);
-      end->clamped = l->line->clamped;
-      if (end->clamped)
-        end->direction
-            = bt__unit_or (mix_rows (l->track->direction[e] + k, n, weights), bt__vec (0, 0, 1));
+      if (!l->line->clamped)
+        continue;
+      bt_vec3 was = end->direction;
+      end->direction
+          = bt__unit_or (mix_rows (l->track->direction[e] + k, n, weights), bt__vec (0, 0, 1));
+      end->side = end->clamped ? bt__set_carry (end->side, was, end->direction)
+                               : bt__set_side (end->direction);
+      end->clamped = 1;
     }
 }
 
@@ -269,6 +274,9 @@ lead_all (led *l, const bt_lead_start *start, const double *marks, int n, bt_vec
           bt_vec3 *pulls, bt_error *error)
 {
   int rows = l->track->last > 0 ? l->track->last : l->track->rows;
+  l->in.sets = l->sets;
+  l->in.n_sets
+      = bt__place_sets (l->line->sets, l->line->n_sets, out_at (l, l->track->t[0]), 0, l->sets);
   bt_status status = lay_led (l, start, error);
   if (status == BT_OK && start->n == 0)
     status = settle_led (l, error);
@@ -336,7 +344,8 @@ bt_lead (const bt_lead_line *line, const bt_lead_track *track, const bt_lead_sta
   l.work = bt__dynamic_work_new (l.room);
   l.rows = calloc ((size_t)l.room + 1, sizeof *l.rows);
   l.stick = calloc ((size_t)l.room + 1, sizeof *l.stick);
-  if (l.d && l.work && l.rows && l.stick)
+  l.sets = calloc ((size_t)line->n_sets + 1, sizeof *l.sets);
+  if (l.d && l.work && l.rows && l.stick && l.sets)
     {
       bt__dynamic_ask (l.work, &l.asker);
       status = lead_all (&l, start, marks, n, places, pulls, error);
@@ -349,5 +358,6 @@ bt_lead (const bt_lead_line *line, const bt_lead_track *track, const bt_lead_sta
   bt__dynamic_work_free (l.work);
   free (l.rows);
   free (l.stick);
+  free (l.sets);
   return status;
 }

@@ -224,6 +224,10 @@ judge_form (bt__judge *judge, const bt_dive *dive, const bt__tether *tether, int
       status, bt__judge_that (judge, among || tether->wear == 0, "only obstacles wear its jacket"));
   status = AND (status, bt__judge_that (judge, moves || dive->model->tethers[i].n_lumps == 0,
                                         "a moving model bears its clumps and floats"));
+  status = AND (
+      status,
+      bt__judge_that (judge, (moves && tether->props.ei > 0) || dive->model->tethers[i].n_sets == 0,
+                      "a stiff line that moves bears its sets"));
   return AND (status, bt__judge_that (judge, tether->length > 0, "some of it is out"));
 }
 

@@ -280,7 +280,13 @@ bt_tether_energy (const bt_dive *dive, int i, bt_energy *energy, bt_error *error
     return status;
   if (!line.chain)
     return bt__fail (error, BT_ERR_UNSUPPORTED, "only a moving line has its energies counted");
-  bt__dynamic_input input = { .line = &line.tether->props, .water = &water, .h = BT__TIME_STEP };
+  const bt_tether_def *def = &dive->model->tethers[i];
+  bt__dynamic_set sets[BT_SETS_MAX];
+  bt__dynamic_input input
+      = { .line = &line.tether->props, .water = &water, .h = BT__TIME_STEP, .sets = sets };
+  double beyond
+      = line.tether->parted ? bt__dynamic_length (bt__dive_chain (dive, dive->now, i, 1)) : 0;
+  input.n_sets = bt__place_sets (def->sets, (int)def->n_sets, def->length, beyond, sets);
   e = bt__dynamic_energies (line.chain, &input);
   e.strain -= bt__dynamic_crumple_energy (line.chain, &input);
   *energy = (bt_energy){ e.kinetic, e.strain, e.gravity, e.bending };

@@ -1,8 +1,9 @@
-;;; A line with bending stiffness in a dive: it carries compression, and so keeps its length.
+;;; A line with bending stiffness in a dive: it carries compression, and so keeps its length; it may have a set.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (srfi srfi-1))
+(use-modules (srfi srfi-1)
+             (srfi srfi-4))
 
 (define (between-nodes)
   ;; The sum of the distances between the points of the tether.
@@ -93,3 +94,87 @@ its thrust stays small beside the bend's."
   (expect (assq-ref (energy) 'strain) is (below 1e-6))
   (expect (assq-ref (energy) 'bending) is (above 1))
   (always (< (assq-ref (energy) 'strain) 0.1) (run 5)))
+
+
+;;; A set.
+
+(define here-module (current-module))
+
+(define (coiled model . clauses)
+  ;; A neutral line in still water.
+  (eval `(world (sea (depth 60))
+                (rov (named minnow) (type kinematic) (at 2.8 0 -20))
+                (tether (named line) (type fathom) (wet-weight 0) (ei 0.05) (from 0 0 -20) (to minnow) (length 3)
+                        (drum 30) (model ,model) ,@clauses))
+        here-module))
+
+(define (curvature-at s)
+  ;; Of the circle through three places about S.
+  (define (place s) (point-at s))
+  (let* ((a (place (- s 0.2))) (b (place s)) (c (place (+ s 0.2)))
+         (u (vec- b a)) (v (vec- c b)) (w (vec- c a))
+         (cross (norm (cross-product u v))))
+    (/ (* 2 cross) (* (norm u) (norm v) (norm w)))))
+
+(define (cross-product u v)
+  (let ((at f64vector-ref))
+    (f64vector (- (* (at u 1) (at v 2)) (* (at u 2) (at v 1)))
+               (- (* (at u 2) (at v 0)) (* (at u 0) (at v 2)))
+               (- (* (at u 0) (at v 1)) (* (at u 1) (at v 0))))))
+
+(define-scenario a-drum-has-left-its-set
+  "Cut off at the vehicle a line curls up to the circle of its drum, the same in a fork and from a checkpoint, and it
+stays as long as it is."
+  (enter! (coiled 'dynamic '(set (curvature 1))))
+  (run 1)
+  (cut-tether! #:at 2.9)
+  (let ((here (checkpoint)))
+    (run 60)
+    (expect (curvature-at 1) is (about 1 #:within .03))
+    (expect (curvature-at 2) is (about 1 #:within .03))
+    (expect (off-its-length) is (below 1e-4))
+    (expect (assq-ref (energy) 'bending) is (below 1e-3))
+    (let ((there (state-hash)))
+      (restore! here)
+      (expect (what-if (run 60) (state-hash)) => there))))
+
+(define-scenario a-set-goes-with-its-line
+  "A kink stays where it is in the line while more comes off the drum."
+  (enter! (coiled 'dynamic '(set (at 1) (span 0.5) (curvature 3))))
+  (run 20)
+  (expect (curvature-at 1) is (above 0.8))
+  (pay-out! 6 #:rate 1)
+  (fly-to! '(8.6 0 -20))
+  (run 60)
+  (expect (curvature-at 7) is (above (* 4 (curvature-at 1)))))
+
+(define-scenario no-set-is-none
+  "A set without curvature changes nothing to the last bit; a model that finds its sets of its own nodes has them too."
+  (define (after clauses)
+    (enter! (apply coiled 'dynamic clauses))
+    (fly-to! '(2 1 -20))
+    (run 5)
+    (f64vector->list (point-at 1.5)))
+  (expect (after '((set (curvature 0)))) => (after '()))
+  (enter! (coiled 'auto '(set (curvature 1))))
+  (fly-to! '(1.5 0 -20))
+  (run 60)
+  (expect (off-its-length) is (below 1e-3))
+  (expect (curvature-at 1.5) is (above 1)))
+
+(define-scenario what-cannot-have-a-set
+  "A limp line, a static model, a mesh too coarse and a place beyond the line are refused, by alter! too; the dive goes
+on."
+  (expect (enter! (coiled 'catenary '(set (curvature 1)))) raises unsupported)
+  (expect (enter! (world (sea) (rov (named minnow) (at 2 0 -1))
+                         (tether (from 0 0 -1) (to minnow) (length 3) (model dynamic) (set (curvature 1)))))
+          raises unsupported)
+  (expect (enter! (coiled 'dynamic '(set (curvature 50)))) raises def)
+  (expect (enter! (coiled 'dynamic '(set (curvature 1) (at 4)))) raises def)
+  (expect (enter! (coiled 'dynamic '(set))) raises def)
+  (enter! (coiled 'dynamic '(set (curvature 1))))
+  (expect (alter! 'line #:ei 0) raises unsupported)
+  (expect (alter! 'line #:model 'steady) raises unsupported)
+  (alter! 'line #:ei 0.02)
+  (run 1)
+  (expect (now) is (about 1 #:within 1e-9)))

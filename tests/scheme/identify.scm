@@ -41,8 +41,12 @@
   (let ((file (scratch-file "ends.csv")))
     (write-ends file rows)
     (let ((run (read-run 'test file))
-          (setting (make-setting (map (lambda (clause) (cons (first clause) (second clause))) known)
-                                 length places clamped? #f intervals step density 9.80665 floor)))
+          (setting (make-setting (map (lambda (clause)
+                                     (if (pair? (second clause))
+                                         (cons 'set (map (lambda (entry) (cons (first entry) (second entry))) (cdr clause)))
+                                         (cons (first clause) (second clause))))
+                                   known)
+                                 length places 1 clamped? #f intervals step density 9.80665 floor)))
       (first (fly-all (list (make-flight setting '() (f64vector) run 0 (f64vector-length (run-times run)))))))))
 
 (define* (write-run file rows flown n noise dice #:key (out? #f) (tension? #f) (late 0) (spoil? (const #f)))
@@ -204,6 +208,27 @@
     (expect (length rows) => 42)
     (expect (map seen '(1 31 32 41)) => '((#t #t #t) (#t #t #f) (#t #f #f) (#t #f #f)))))
 
+
+(define cable '((diameter .008) (mass .06) (ea 1e4) (ei 2e-3) (bending-damping 1e-4) (cdt 0) (ca 0) (ba 0)))
+
+(define-scenario a-set-that-a-drum-left
+  "The natural curvature of a line that is swung in air is found with its stiffness, and the type that is made has it."
+  (let* ((truth `(,@cable (set (curvature 2.5) (plane 30))))
+         (rows (list-head swung 30))
+         (file (scratch-file "coiled.csv"))
+         (known `((length 2.5) ,@(but cable '(ei 1e-3)))))
+    (write-run file rows (fly-truth rows marks truth #:density 1.2) 5 1e-4 (seed->random-state 3))
+    (let* ((i (identify file #:unknown '(ei set) #:known known #:places marks #:intervals 20 #:step .05 #:density 1.2))
+           (type (identified-type i 'coiled)) (set (cdr (assq 'set (filter pair? type)))))
+      ;; Ends that are not clamped tell how much it is bent, not to which side.
+      (expect (second (assq 'curvature set)) is (about 2.5 #:within .05))
+      (expect (found i 'ei) is (about 2e-3 #:within 1e-4))
+      (let ((user (make-fresh-user-module)))
+        (module-use! user (resolve-interface '(bight)))
+        (eval type user))
+      (expect (string-contains (format #f "~a" (describe 'coiled)) "curvature 2.") is identity)))
+  (expect (identify (measured-swing rope 0 1) #:unknown '(set) #:known `((length 2.5) ,@rope) #:places marks)
+          raises def))
 
 ;;; Intervals.
 

@@ -331,7 +331,7 @@
 
 (define-scenario inner-things
   "Any number of clumps and floats inside a tether, their fields expressions; they reach the engine."
-  (expect (inner-heads 'tether) => '(clump float))
+  (expect (inner-heads 'tether) => '(clump float set))
   (expect (inner-heads 'rov) => '(thruster))
   (expect (inner-heads 'sea) => '())
   (expect (part-head? 'clump) => #f)

@@ -45,6 +45,7 @@
     ("--density" #:density ,number)
     ("--floor" #:floor ,number)
     ("--intervals" #:intervals ,number)
+    ("--set-pieces" #:set-pieces ,number)
     ("--step" #:step ,number)))
 
 (define (keywords options)

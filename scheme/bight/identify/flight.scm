@@ -13,9 +13,9 @@
                                           make-mutex with-mutex))
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
-  #:export (make-setting setting? setting-known setting-length setting-places setting-clamped? setting-moving?
-            setting-intervals setting-density setting-gravity
-            line-values
+  #:export (make-setting setting? setting-known setting-length setting-places setting-pieces setting-clamped?
+            setting-moving? setting-intervals setting-density setting-gravity
+            line-values line-sets
             make-flight flight? flight-failed?
             fly-all
             place-of pull-of))
@@ -23,11 +23,12 @@
 (define pi (* 4 (atan 1)))
 
 (define-record <setting>
-  (make-setting known length places clamped? moving? intervals step density gravity floor)
+  (make-setting known length places pieces clamped? moving? intervals step density gravity floor)
   setting?
   (known setting-known)                 ; alist of a tether's fields
   (length setting-length)               ; m
   (places setting-places)               ; of the markers along the line, m
+  (pieces setting-pieces)               ; of a set that is unknown, of equal length
   (clamped? setting-clamped?)           ; do the ends leave along directions
   (moving? setting-moving?)             ; does it begin along the markers of the first row, else at rest
   (intervals setting-intervals)
@@ -42,6 +43,7 @@
  (setting-known "Return the fields that are known in SETTING, an alist.")
  (setting-length "Return the length of the line in SETTING, m.")
  (setting-places "Return the places of the markers along the line in SETTING, m.")
+ (setting-pieces "Return of how many pieces of equal length an unknown set is in SETTING.")
  (setting-clamped? "Return true if the ends of the line are clamped in SETTING.")
  (setting-moving? "Return true if the line of SETTING begins as it was seen, not at rest.")
  (setting-intervals "Return how many intervals the line of SETTING has.")
@@ -79,6 +81,30 @@ wet weight is neither known nor sought follows from the other."
       (cdn . ,(get 'cdn 1.2)) (cdt . ,(get 'cdt .01)) (ca . ,(get 'ca 1.)) (friction . ,(get 'friction .3))
       (length . ,(value-of values 'length #f (setting-length setting))))))
 
+(define (known-set fields)
+  ;; (AT SPAN CURVATURE PLANE) of the FIELDS of a set.
+  (map (lambda (name otherwise) (exact->inexact (or (assq-ref fields name) otherwise)))
+       '(at span curvature plane) '(0 +inf.0 0 0)))
+
+(define (found-set piece pieces long across aside)
+  ;; The like of PIECE, of the components of its curvature toward 0 and 90 degrees.
+  (list (* long (/ (+ piece .5) pieces)) (if (= pieces 1) +inf.0 (/ long pieces))
+        (sqrt (+ (* across across) (* aside aside))) (* (/ 180 pi) (atan aside across))))
+
+(define (line-sets setting coordinates x)
+  "Return the sets of the line that COORDINATES at X and SETTING make, lists (AT SPAN CURVATURE PLANE): those that are
+known, and those that are sought."
+  (let* ((values (unknown-values coordinates x)) (pieces (setting-pieces setting))
+         (long (value-of values 'length #f (setting-length setting))))
+    (append (filter-map (lambda (entry) (and (eq? 'set (car entry)) (known-set (cdr entry))))
+                        (setting-known setting))
+            (if (assq 'set values)
+                (map (lambda (piece)
+                       (found-set piece pieces long (value-of values 'set (cons piece 0) 0.)
+                                  (value-of values 'set (cons piece 1) 0.)))
+                     (iota pieces))
+                '()))))
+
 (define (flag x) (if x 1. 0.))
 
 (define (line-numbers setting coordinates x run-index last)
@@ -93,7 +119,8 @@ wet weight is neither known nor sought follows from the other."
                    (or (setting-floor setting) +nan.0)
                    (setting-step setting)
                    (value-of values 'clock run-index 0.)
-                   (exact->inexact last))))))
+                   (exact->inexact last))
+             (concatenate (line-sets setting coordinates x))))))
 
 (define (marks setting coordinates x)
   (let ((values (unknown-values coordinates x)))

@@ -267,6 +267,11 @@ that was flown, for which the values hold."
                        (and (or (memq field found) (assq field known) (memq field '(mass wet-weight)))
                             (list field (digits (assq-ref fields field) 5))))
                      of-a-type)
+       ,@(map (lambda (set)
+                `(set ,@(map (lambda (name value)
+                               (list name (if (= value +inf.0) 'all (digits value 5))))
+                             '(at span curvature plane) set)))
+              (line-sets (problem-setting problem) (problem-coordinates problem) (fit-x (identification-fit i))))
        ;; What is found holds for a line of so many intervals: coarser ones lie elsewhere.
        (nodes ,(setting-intervals (problem-setting problem))))))
 

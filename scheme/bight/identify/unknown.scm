@@ -20,8 +20,8 @@
   (make-coordinate name what which log? start scale low high)
   coordinate?
   (name coordinate-name)                ; symbol, as it is told
-  (what coordinate-what)                ; a field of tethers, length, current, clock or places
-  (which coordinate-which)              ; current: axis; clock: run; places: marker; else #f
+  (what coordinate-what)                ; a field of tethers, length, set, current, clock or places
+  (which coordinate-which)              ; set: (piece . component); current: axis; clock: run; places: marker; else #f
   (log? coordinate-log?)
   (start coordinate-start)
   (scale coordinate-scale)
@@ -41,10 +41,11 @@
   '((ea 1e4) (ei 1e-3) (diameter .005) (mass .05) (wet-weight .1) (cdn 1.2) (cdt .01) (ca 1.) (ba 1.)
     (bending-damping 1e-4) (friction .3)))
 
-(define others '(length current clock places))
+(define others '(length set current clock places))
 
 (define aliases
   '((cn . cdn) (ct . cdt) (weight . wet-weight) (added-mass . ca) (axial-damping . ba) (damping . ba)
+    (natural-curvature . set) (drum-set . set)
     (clock-offset . clock) (marker-places . places) (bending . ei) (mu . friction)))
 
 (define unknown-names
@@ -75,6 +76,7 @@
   "Return the unit of COORDINATE, a string."
   (case (coordinate-what coordinate)
     ((current) "m/s")
+    ((set) "1/m")
     ((clock) "s")
     ((places) "m")
     (else (field-unit (head-field 'tether (coordinate-what coordinate))))))
@@ -92,14 +94,28 @@
                          (exact->inexact (if (and given (> given 0) (< given +inf.0)) given other))
                          1. (max low 1e-12) high))))
 
-(define (coordinates-of names known long runs places)
+(define (set-coordinates pieces)
+  ;; Of each piece, the curvature toward the plane of 0 degrees and toward that of 90.
+  (append-map (lambda (piece)
+                (map (lambda (component)
+                       (make-coordinate (string->symbol
+                                         (if (= pieces 1)
+                                             (simple-format #f "set-~a" (* 90 component))
+                                             (simple-format #f "set-~a-~a" (+ piece 1) (* 90 component))))
+                                        'set (cons piece component) #f 0. 1. -100. 100.))
+                     '(0 1)))
+              (iota pieces)))
+
+(define (coordinates-of names known long runs places pieces)
   "Return the coordinates of NAMES, canonical names of unknowns.  KNOWN is an alist of fields from which a search
-begins, LONG the line's length, RUNS how many runs there are, PLACES those of the markers along the line, m."
+begins, LONG the line's length, RUNS how many runs there are, PLACES those of the markers along the line, m, PIECES of
+how many parts of equal length a set is."
   (append-map
    (lambda (name)
      (case name
        ((length)
         (list (make-coordinate 'length 'length #f #t long 1. (* 0.5 long) (* 2 long))))
+       ((set) (set-coordinates pieces))
        ((current)
         (map (lambda (axis label) (make-coordinate label 'current axis #f 0. .1 -3. 3.))
              '(0 1) '(current-east current-north)))

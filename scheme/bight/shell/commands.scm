@@ -369,6 +369,7 @@
             '("--density D" "of the water, kg/m3; 1000 when left out")
             '("--floor Z" "the height of a flat floor, in metres")
             '("--intervals N" "of the line that is flown; 60 when left out")
+            '("--set-pieces N" "parts of equal length that an unknown set is found of; 1 when left out")
             '("--step S" "of its solver at most, in seconds; 0.01 when left out")
             '("--plot FILE" "how far off it is over time, and beside that file along the line, SVG or PNG")
             '("--name NAME" "of the type that is made; identified when left out")

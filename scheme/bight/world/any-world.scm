@@ -109,15 +109,21 @@ numbers come from all that is allowed."
                  (else clause)))
          tether)))
 
-(define (with-model-for-lumps tether)
-  ;; Only a moving line carries clumps and floats.
-  (if (or (assq 'clump (cdr tether)) (assq 'float (cdr tether)))
-      (map (lambda (clause)
-             (if (and (pair? clause) (eq? 'model (car clause)) (not (memq (cadr clause) '(dynamic auto))))
-                 '(model dynamic)
-                 clause))
-           tether)
-      tether))
+(define (as-a-moving-line tether)
+  (map (lambda (clause)
+         (if (and (pair? clause) (eq? 'model (car clause)) (not (memq (cadr clause) '(dynamic auto))))
+             '(model dynamic)
+             clause))
+       tether))
+
+(define (with-what-things-need tether)
+  ;; Only a moving line carries clumps and floats, and only one with a bending stiffness has a set.
+  (let ((ei (assq 'ei (cdr tether))))
+    (define (stiff tether)
+      (if (and ei (> (cadr ei) 0)) tether `(,(car tether) ,@(delete ei (cdr tether)) (ei 0.05))))
+    (cond ((assq 'set (cdr tether)) (stiff (as-a-moving-line tether)))
+          ((or (assq 'clump (cdr tether)) (assq 'float (cdr tether))) (as-a-moving-line tether))
+          (else tether))))
 
 (define (name-all parts letter)
   (map (lambda (part i) (name-part part letter i)) parts (iota (length parts))))
@@ -126,7 +132,7 @@ numbers come from all that is allowed."
   `(world ,sea ,@bed
           ,@(name-all obstacles "o")
           ,@(name-all vehicles "r")
-          ,@(map (lambda (tether) (with-model-for-lumps (name-ends tether (length vehicles))))
+          ,@(map (lambda (tether) (with-what-things-need (name-ends tether (length vehicles))))
                  (name-all tethers "t"))))
 
 (define (some-parts heads least most wild?)

@@ -50,6 +50,7 @@
     ((tether . length) 17 40) ((tether . drum) 40 400) ((tether . diameter) 1/500 1/25)
     ((tether . nodes) 2 48) ((tether . breaking-load) 50 5000) ((tether . rejoin-angle) 90 360)
     ((clump . at) 1 15) ((float . at) 1 15) ((clump . mass) 1/10 5) ((float . buoyancy) 1 30)
+    ((set . at) 1 15) ((set . span) 1 40) ((set . curvature) 1/1000 1/50)
     ((thruster . ahead) 5 60) ((thruster . dead) 1/100 1/2)))
 
 ;; What a computer must be spared, not the engine: so many nodes are slow, and nobody asks for a longer line.

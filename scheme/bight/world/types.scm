@@ -54,7 +54,7 @@
          (own (read-fields proc head (remove like-clause? clauses)))
          (odd (find (lambda (entry)
                       (or (memq (car entry) never-of-a-type)
-                          (and (eq? head 'tether) (memq (car entry) (inner-heads head)))))
+                          (and (eq? head 'tether) (memq (car entry) '(clump float)))))
                     own)))
     (when odd
       (bight-raise 'def proc "~a belongs to a part of a world, not to a type" (car odd)))
