@@ -110,6 +110,7 @@
       (bight-raise 'def 'identify "~a cannot be found: ~a" name what)))
   (need 'friction floor "there is no floor to rub on, #:floor HEIGHT")
   (need 'places (pair? (setting-places setting)) "there are no markers")
+  (need 'tilt (setting-clamped? setting) "its ends are not clamped, #:clamped #t")
   (need 'length (not (run-out (first runs))) "the line that is out was measured")
   (need 'set (or (memq 'ei names) (> (or (assq-ref (setting-known setting) 'ei) 0) 0))
         "it is a bend that stiffness holds, and `ei' is neither known nor sought")
@@ -123,8 +124,9 @@
                        (sigma (or-false string)) (density non-negative 1000.) (gravity positive 9.80665)
                        (floor (or-false number)) (intervals (at-least 4) 60) (set-pieces (at-least 1) 1) (step positive 0.01))
   "Find what is UNKNOWN of a line: ea, ei, diameter, mass, wet-weight, cdn, cdt, ca, ba, bending-damping, friction,
-length, set (natural curvature, toward two sides, of each of SET-PIECES parts of equal length), current, clock (how
-late the markers' clock is against the ends') or places (of the markers).  RUNS are CSV
+length, set (natural curvature, toward two sides, of each of SET-PIECES parts of equal length), tilt (by which the line
+leaves clamps beside what their markers tell), current, clock (how late the markers' clock is against the ends') or
+places (of the markers).  RUNS are CSV
 files of what was measured: t; anchor_x ... and end_x ... of its ends; m1_x, m1_y, m1_z ... of markers from the
 anchor on, in metres; end_tension or end_fx ... in newtons; out for line that is paid out.  Without columns for an
 end, the outermost marker is one.

@@ -70,7 +70,8 @@ enum
   STEP,
   CLOCK,
   LAST,
-  SETS, /* from here on four numbers for each set */
+  TILT,            /* four numbers */
+  SETS = TILT + 4, /* from here on four numbers for each set */
   SET_NUMBERS = 4
 };
 
@@ -126,6 +127,7 @@ line_of (const double *n, size_t count)
                          .current = { n[CURRENT_X], n[CURRENT_Y], n[CURRENT_Z] },
                          .floor = n[FLOOR_Z],
                          .step = n[STEP],
+                         .tilt = { { n[TILT], n[TILT + 1] }, { n[TILT + 2], n[TILT + 3] } },
                          .sets = (const bt_set *)(const void *)(n + SETS),
                          .n_sets = (int)((count - SETS) / SET_NUMBERS) };
 }

@@ -41,8 +41,9 @@ typedef struct led
   bt__constraint *rows; /* of the floor: one for each node */
   bt_vec3 *stick;       /* m: drag of each node at the start of the step */
   bt__dynamic_set *sets;
-  int64_t stuck; /* intervals that STICK is of */
-  int room;      /* intervals there is memory for */
+  bt_vec3 along[2], side[2]; /* of clamps: the direction that the track tells, the first director */
+  int64_t stuck;             /* intervals that STICK is of */
+  int room;                  /* intervals there is memory for */
 } led;
 
 /* ---- The track ---- */
@@ -102,6 +103,22 @@ out_at (const led *l, double t)
   return out;
 }
 
+/* Turn the clamp of end E to ALONG.  Its directors go with it, and the line leaves it by a tilt. */
+static void
+lead_clamp (led *l, int e, bt_vec3 along)
+{
+  bt__dynamic_end *end = &l->in.end[e];
+  const double *tilt = l->line->tilt[e];
+  bt_vec3 there = bt__unit_or (along, bt__vec (0, 0, 1)), *was = &l->along[e], *side = &l->side[e];
+  *side = end->clamped ? bt__set_carry (*side, *was, there) : bt__set_side (there);
+  *was = there;
+  bt_vec3 leaves = bt__axpy (there, tan (tilt[0]), *side);
+  leaves = bt__axpy (leaves, tan (tilt[1]), bt__cross (there, *side));
+  end->direction = tilt[0] != 0 || tilt[1] != 0 ? bt__unit_or (leaves, there) : there;
+  end->side = bt__set_carry (*side, there, end->direction);
+  end->clamped = 1;
+}
+
 static void
 lead_ends (led *l, double t)
 {
@@ -113,12 +130,7 @@ lead_ends (led *l, double t)
       end->at = mix_rows (l->track->end[e] + k, n, weights);
       if (!l->line->clamped)
         continue;
-      bt_vec3 was = end->direction;
-      end->direction
-          = bt__unit_or (mix_rows (l->track->direction[e] + k, n, weights), bt__vec (0, 0, 1));
-      end->side = end->clamped ? bt__set_carry (end->side, was, end->direction)
-                               : bt__set_side (end->direction);
-      end->clamped = 1;
+      lead_clamp (l, e, mix_rows (l->track->direction[e] + k, n, weights));
     }
 }
 

@@ -126,6 +126,46 @@ at_once (void *user, double share)
   return share >= 0;
 }
 
+/* A line that leaves its clamps by a tilt lies as if the clamps were turned so: toward the first
+   director, which is north turned from straight down, and the second.  */
+static void
+tilts_its_clamps (void **state)
+{
+  enum
+  {
+    N = 12
+  };
+  static led_rows r;
+  static bt_vec3 along[2][N];
+  (void)state;
+  bt_vec3 place[2][N], pull[2 * N], east = { 1, 0, 0 };
+  double mark = 1.2, tilt[2][2] = { { 0.2, -0.3 }, { -0.1, 0.4 } };
+  bt_error error;
+  bt_lead_line line = rope (20);
+  line.clamped = 1;
+  line.props.ei = 0.01;
+  for (int by_tilt = 0; by_tilt < 2; by_tilt++)
+    {
+      make_rows (&r, N, (bt_vec3){ 0, 0, 0 }, (bt_vec3){ 2.4, 0, 0 }, -0.3);
+      for (int e = 0; e < 2; e++)
+        {
+          for (int k = 0; k < N; k++) /* down turned to east: north stays, the second is up */
+            along[e][k] = by_tilt ? east : (bt_vec3){ 1, tan (tilt[e][0]), tan (tilt[e][1]) };
+          r.track.direction[e] = along[e];
+          for (int c = 0; c < 2; c++)
+            line.tilt[e][c] = by_tilt ? tilt[e][c] : 0;
+        }
+      assert_int_equal (
+          bt_lead (&line, &r.track, &at_rest, &mark, 1, place[by_tilt], pull, NULL, NULL, &error),
+          BT_OK);
+    }
+  for (int k = 0; k < N; k++)
+    assert_true (hypot (hypot (place[0][k].x - place[1][k].x, place[0][k].y - place[1][k].y),
+                        place[0][k].z - place[1][k].z)
+                 < 1e-7);
+  assert_true (fabs (place[0][N - 1].y) > 1e-3);
+}
+
 static void
 refuses (void **state)
 {
@@ -155,7 +195,8 @@ main (void)
 {
   const struct CMUnitTest tests[]
       = { cmocka_unit_test (hangs_as_irvine_says), cmocka_unit_test (drags_over_a_floor),
-          cmocka_unit_test (clock_shifts), cmocka_unit_test (refuses) };
+          cmocka_unit_test (clock_shifts), cmocka_unit_test (tilts_its_clamps),
+          cmocka_unit_test (refuses) };
   cmocka_set_message_output (CM_OUTPUT_TAP);
   return cmocka_run_group_tests (tests, NULL, NULL);
 }

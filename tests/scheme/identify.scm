@@ -343,19 +343,26 @@
 (define swung-cables
   '("deform_dlo1_eval55" "deform_dlo2_eval104" "deform_dlo3_eval106" "deform_dlo4_eval35" "deform_dlo5_eval18"))
 
-(define (cable-off name)
+(define (cable-off name unknown)
   ;; mm, on the half that was not looked at.
-  (let ((i (identify (string-append folder "/real/" name ".csv") #:unknown '(ei bending-damping length) #:clamped #t
+  (let ((i (identify (string-append folder "/real/" name ".csv") #:unknown unknown #:clamped #t
                      #:start 'moving #:density 1.2 #:gravity 9.81 #:step .0025 #:intervals 40 #:loss 'squares
                      #:known '((diameter .01) (mass .05) (ea 1e4) (ba 0) (cdt 0) (ca 0) (ei 1e-3) (bending-damping 1e-4)))))
     (format #t "# ~a: held out ~,1f mm, ~a~%" name (* 1000 (assq-ref (identified-score i) 'held-out))
             (map (lambda (row) (list-head row 2)) (identified i)))
     (* 1000 (assq-ref (identified-score i) 'held-out))))
 
-(define-scenario cables-swung-in-air
-  "Of five cables swung in air (Chen et al. 2024) stiffness, its damping and length are found on half of a swing."
+(define (most-off unknown)
+  ;; mm
+  (cond ((memq 'places unknown) 20) ((memq 'tilt unknown) 21) (else 28)))
+
+(define-scenario (cables-swung-in-air unknown)
+  "Of five cables swung in air (Chen et al. 2024) stiffness, its damping and length are found on half of a swing; and
+by how much they leave their clamps beside two markers that are 2 cm apart, which is worth more than anything else."
+  #:for ((unknown '(ei bending-damping length) '(ei bending-damping length tilt)
+                  '(ei bending-damping length tilt places)))
   (unless long? (skip "long: BIGHT_LONG=1"))
   (unless (file-exists? tank-file) (skip "the reference data are not here"))
-  (let ((off (mean (map cable-off swung-cables))))
-    (format #t "# mean ~,1f mm~%" off)
-    (expect off is (below 28))))
+  (let ((off (mean (map (lambda (name) (cable-off name unknown)) swung-cables))))
+    (format #t "# ~a: mean ~,1f mm~%" unknown off)
+    (expect off is (below (most-off unknown)))))

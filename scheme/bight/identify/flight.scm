@@ -120,6 +120,7 @@ known, and those that are sought."
                    (setting-step setting)
                    (value-of values 'clock run-index 0.)
                    (exact->inexact last))
+             (map (lambda (which) (value-of values 'tilt which 0.)) '((0 . 0) (0 . 1) (1 . 0) (1 . 1)))
              (concatenate (line-sets setting coordinates x))))))
 
 (define (marks setting coordinates x)
