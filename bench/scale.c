@@ -6,6 +6,8 @@
    the model and the dive (of triangles, the model) take from the system's allocator, for one of
    what grows; it is the only number here that is not better for being closer to something else.
 
+   The same of what moves the water, waves and lees of piles: scale_sea.h.
+
    The same vehicles stepped by several threads, in open water and each line pressed to a post,
    beside a dive of one thread: by turns, a few steps each.  The error is the number of turns after
    which the states differ; the counters have the speed-up, of the least time that passed, what CPU
@@ -24,6 +26,7 @@
 #include "math/vec.h"
 #include "options.h"
 #include "row.h"
+#include "scale_sea.h"
 #include "testbed/scene.h"
 
 enum
@@ -237,15 +240,17 @@ scale_threads (bench_table *t, long most, double work)
 int
 main (int argc, char **argv)
 {
-  long nodes = 10000, vehicles = 64, triangles = 1000000, work = 60000;
+  long nodes = 10000, vehicles = 64, triangles = 1000000, work = 60000, rounds = 15, piles = 10000;
   const bench_option options[] = {
     { "nodes", &nodes, 2, BT_NODES_MAX, 0, "intervals of the longest line" },
     { "vehicles", &vehicles, 1, BT_VEHICLES_MAX, 0, "vehicles of the fullest scene" },
     { "triangles", &triangles, 1000, 10000000, 100000, "triangles of the finest mesh" },
     { "work", &work, 1, 100000000, 10000, "steps times intervals of a round" },
+    { "piles", &piles, 10, 10000, 100, "piles of the fullest sea" },
+    { "rounds", &rounds, 1, 101, 3, "turns in waves and lees" },
   };
   const bench_program program
-      = { "scale", "Measure how a dive grows with what is in it", options, 4 };
+      = { "scale", "Measure how a dive grows with what is in it", options, 6 };
   int status = bench_options (&program, argc, argv);
   if (status != BENCH_GO_ON)
     return status;
@@ -255,5 +260,7 @@ main (int argc, char **argv)
   scale_vehicles (&table, vehicles, (double)work);
   scale_triangles (&table, triangles, (double)work);
   scale_threads (&table, vehicles, (double)work);
+  scale_waves (&table, (int)rounds);
+  scale_lees (&table, piles, (int)rounds);
   return bench_close (&table);
 }

@@ -99,9 +99,13 @@ scene_current (scene *s, bt_vec3 u)
 void
 scene_waves (scene *s)
 {
-  s->world.sea.waves = (bt_wave_def){
-    .kind = BT_WAVE_JONSWAP, .height = 1.5, .period = 7, .gamma = 3.3, .components = 32, .seed = 3
-  };
+  s->world.sea.waves = (bt_wave_def){ .kind = BT_WAVE_JONSWAP,
+                                      .height = 1.5,
+                                      .period = 7,
+                                      .gamma = 3.3,
+                                      .components = 32,
+                                      .seed = 3,
+                                      .accuracy = 1e-4 };
 }
 
 bt_dive *

@@ -185,7 +185,7 @@ int bt_current_pack (const bt_current *current, double *args);
 
 enum
 {
-  BT_WAVES_ARGS = 8
+  BT_WAVES_ARGS = 9
 };
 
 /* The same for BT_OP_WAVES.  */

@@ -44,7 +44,8 @@ int bt_current_grid_is_unsteady (const bt_current_grid *grid);
 
 enum
 {
-  BT_WAVES_MAX = 64 /* components */
+  BT_WAVES_MAX = 64,   /* components */
+  BT_WAVES_LEVELS = 16 /* depths for which is known how far a series reaches */
 };
 
 typedef enum bt_wave_kind
@@ -65,6 +66,7 @@ typedef struct bt_wave_def
   double gamma;      /* JONSWAP: peakedness, 3.3 usual, 1 is Pierson and Moskowitz */
   double components; /* JONSWAP: 2 to BT_WAVES_MAX */
   int64_t seed;      /* JONSWAP */
+  double accuracy;   /* JONSWAP: of bt_waves_motions, a share; 0: exact */
 } bt_wave_def;
 
 /* The same as components, longest first: plain data that may live in the state of a dive.  Beyond
@@ -80,13 +82,15 @@ typedef struct bt_waves
   double speed[BT_WAVES_MAX];     /* m/s: amplitude omega / (1 - e^(-2 k depth)) */
   double bed[BT_WAVES_MAX];       /* e^(-2 k depth); 0 where the bottom is not felt */
   double phase[BT_WAVES_MAX];     /* rad */
+  double accuracy;                /* of bt_waves_motions, a share; 0: exact */
+  double reach[BT_WAVES_LEVELS];  /* m: of a series, at depths of waves_line.c */
 } bt_waves;
 
 /* Make *WAVES of DEF in water of DEPTH under GRAVITY.  JONSWAP in parts of equal energy between 0.5
    and 4 times the peak frequency, each part's frequency and phase drawn by SEED (K. Hasselmann et
    al., 1973; scaled so that 4 sqrt (m0) is the height).  BT_ERR_DOMAIN for a period outside 0.5 to
    60 s, a height not 0 to 40 m or that breaks (above 0.142 tanh (k depth) of the wave length,
-   Miche), a gamma not 1 to 10.  */
+   Miche), a gamma not 1 to 10, an accuracy neither 0 nor 1e-6 to 0.1.  */
 bt_status bt_waves_make (const bt_wave_def *def, double depth, double gravity, bt_waves *waves,
                          bt_error *error);
 
@@ -106,6 +110,14 @@ double bt_waves_elevation (const bt_waves *waves, double x, double y, double t);
    component is left.  */
 void bt_waves_motion (const bt_waves *waves, bt_vec3 p, double t, bt_vec3 *velocity,
                       bt_vec3 *acceleration);
+
+/* Write the VELOCITY and ACCELERATION of the water at the N places P and T, as bt_waves_motion
+   does. Places that follow each other and lie close together are cheaper by far: they share a
+   series. Velocities are then within the accuracy of WAVES times the sum of the components' speeds,
+   and accelerations within the same share of the sum of theirs; exact if the accuracy is 0, or if
+   there are four components or fewer.  */
+void bt_waves_motions (const bt_waves *waves, const bt_vec3 *p, size_t n, double t,
+                       bt_vec3 *velocity, bt_vec3 *acceleration);
 
 /* ---- How a ship answers ---- */
 

@@ -78,6 +78,11 @@ bt_vec3 bt_water_acceleration (const bt_water *water, bt_vec3 p);
 /* Return both at once, which costs waves but once: VELOCITY and ACCELERATION.  */
 void bt_water_motion (const bt_water *water, bt_vec3 p, bt_vec3 *velocity, bt_vec3 *acceleration);
 
+/* Write the same at the N places P of a line, in order, to VELOCITY and ACCELERATION: waves as
+   bt_waves_motions has them.  */
+void bt_water_motions (const bt_water *water, const bt_vec3 *p, size_t n, bt_vec3 *velocity,
+                       bt_vec3 *acceleration);
+
 /* Return the height of the surface of WATER over P, m: 0 without waves.  */
 double bt_water_surface (const bt_water *water, bt_vec3 p);
 

@@ -155,7 +155,8 @@ to_waves (SCM numbers)
                         .phase = x[4],
                         .gamma = x[5],
                         .components = x[6],
-                        .seed = (int64_t)x[7] };
+                        .seed = (int64_t)x[7],
+                        .accuracy = x[8] };
 }
 
 static void

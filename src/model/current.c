@@ -257,6 +257,17 @@ bt_water_motion (const bt_water *water, bt_vec3 p, bt_vec3 *velocity, bt_vec3 *a
   *velocity = bt__add (bt_water_current (water, p), orbit);
 }
 
+void
+bt_water_motions (const bt_water *water, const bt_vec3 *p, size_t n, bt_vec3 *velocity,
+                  bt_vec3 *acceleration)
+{
+  static const bt_waves none;
+  bt_waves_motions (water_has_waves (water) ? water->sea->waves : &none, p, n, water->time,
+                    velocity, acceleration);
+  for (size_t i = 0; i < n; i++)
+    velocity[i] = bt__add (bt_water_current (water, p[i]), velocity[i]);
+}
+
 double
 bt_water_surface (const bt_water *water, bt_vec3 p)
 {

@@ -20,6 +20,7 @@
 
 #include "base/error.h"
 #include "math/vec.h"
+#include "sea/waves_line.h"
 #include "sea/waves_sum.h"
 
 enum
@@ -31,6 +32,8 @@ enum
 #define PERIOD_MOST 60.0
 #define HEIGHT_MOST 40.0
 #define MICHE 0.142
+#define ACCURACY_LEAST 1e-6
+#define ACCURACY_MOST 0.1
 #define LOWEST 0.5 /* of the peak frequency */
 #define HIGHEST 4.0
 #define BOTTOMLESS 18.5 /* k times height from which on no bottom is felt, to 1e-16 */
@@ -82,6 +85,9 @@ check_waves (const bt_wave_def *def, double depth, double gravity, bt_error *err
   if (!(def->components >= 2 && def->components <= BT_WAVES_MAX))
     return bt__fail (error, BT_ERR_DOMAIN, "a sea of %g components; 2 to %d are allowed",
                      def->components, BT_WAVES_MAX);
+  if (!(def->accuracy == 0 || (def->accuracy >= ACCURACY_LEAST && def->accuracy <= ACCURACY_MOST)))
+    return bt__fail (error, BT_ERR_DOMAIN, "a sea within %g; 0, exact, or %g to %g are allowed",
+                     def->accuracy, ACCURACY_LEAST, ACCURACY_MOST);
   return BT_OK;
 }
 
@@ -169,6 +175,9 @@ bt_waves_make (const bt_wave_def *def, double depth, double gravity, bt_waves *w
     }
   for (int i = 0; i < waves->n; i++)
     complete (waves, i, gravity);
+  if (def->kind == BT_WAVE_JONSWAP)
+    waves->accuracy = def->accuracy;
+  bt__waves_reaches (waves);
   return BT_OK;
 }
 

@@ -111,7 +111,7 @@ static const op ops[BT_OP_COUNT] = {
       bt__op_fault,
       1 },
   [BT_OP_WAVES] = { { "waves", BT_PART_SEA, BT_WAVES_ARGS, BT_WAVES_ARGS,
-                      "kind height period toward phase gamma components seed",
+                      "kind height period toward phase gamma components seed accuracy",
                       "change the waves; kind 0: none, 1: one, 2: a wind sea" },
                     bt__op_waves },
   [BT_OP_ALTER] = { { "alter", BT_PART_SEA, 3, 3, "part field value",

@@ -65,8 +65,8 @@ int
 bt_waves_pack (const bt_wave_def *waves, double *args)
 {
   double all[BT_WAVES_ARGS]
-      = { (double)waves->kind, waves->height, waves->period,     waves->toward,
-          waves->phase,        waves->gamma,  waves->components, (double)waves->seed };
+      = { (double)waves->kind, waves->height,     waves->period,       waves->toward,  waves->phase,
+          waves->gamma,        waves->components, (double)waves->seed, waves->accuracy };
   memcpy (args, all, sizeof all);
   return BT_WAVES_ARGS;
 }
@@ -87,6 +87,7 @@ bt__op_waves (const bt__call *c)
     return BT_ERR_DOMAIN;
   def.kind = (int64_t)a[0];
   def.seed = (int64_t)a[7];
+  def.accuracy = a[8];
   if (def.kind == BT_WAVE_NONE)
     memset (&def, 0, sizeof def);
   status = bt_waves_make (&def, c->state->depth, c->state->gravity, &waves, c->error);

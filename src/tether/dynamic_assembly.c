@@ -295,7 +295,9 @@ bt__dynamic_lump_force (const bt__dynamic_work *w, int i, const bt__extra *e, co
 static void
 assemble_lumps (bt__dynamic_work *w)
 {
-  for (int i = w->lo; i <= w->hi; i++)
+  for (int i = w->lo; !w->bodies && i <= w->hi; i++)
+    w->rhs[i] = bt__add (w->rhs[i], w->extra[i].force);
+  for (int i = w->lo; w->bodies && i <= w->hi; i++)
     {
       const bt__extra *e = w->extra + i;
       bt__past p = bt__dynamic_past (w, i);

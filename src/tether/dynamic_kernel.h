@@ -114,11 +114,13 @@ struct bt__dynamic_work
   /* ---- of the step ---- */
   const bt__dynamic_input *in;
   int n, lo, hi;     /* unknown nodes LO to HI */
-  int bends, lumped; /* rows of bending; true if any node has extras */
+  int bends, lumped; /* rows of bending; true if any node has extras, ... */
+  int bodies;        /* ... and of these more than a force */
   double b0, b1, b2;
   double ea, kn, kt, m, ma, weight; /* N, drag, mass and wet weight per metre */
   double lift;                      /* N/m: buoyancy */
-  int surfaced;                     /* true: the line comes near to the surface */
+  int surfaced;                     /* true: the line comes near to the surface, ... */
+  int near_from, near_to;           /* ... no interval but these */
   double least;   /* m: an interval bears no tension below this stretch: 0, or with bending
                      stiffness minus infinity */
   double pushed;  /* N: the greatest compression in the geometric stiffness, see dynamic_bend.c */

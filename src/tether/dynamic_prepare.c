@@ -81,10 +81,12 @@ sample_current (bt__dynamic_work *w)
   const bt_water *water = w->in->water;
   int same = bt_water_is_uniform (water);
   bt_vec3 u = same ? bt_water_velocity (water, w->x[0]) : bt__vec (0, 0, 0);
-  for (int i = 0; has_waves (water) && i <= w->n; i++)
-    bt_water_motion (water, w->X[i], &w->node[i].current, &w->keep[i]);
-  for (int i = 0; !has_waves (water) && i <= w->n; i++)
-    w->node[i].current = same ? u : bt_water_velocity (water, w->X[i]);
+  if (has_waves (water))
+    bt_water_motions (water, w->X, (size_t)w->n + 1, w->d, w->keep);
+  for (int i = 0; i <= w->n; i++)
+    w->node[i].current = has_waves (water) ? w->d[i]
+                         : same            ? u
+                                           : bt_water_velocity (water, w->X[i]);
 }
 
 void
@@ -137,6 +139,7 @@ prepare_lumps (bt__dynamic_work *w)
   for (int k = 0; k < 2; k++)
     w->lumped
         = w->lumped || (in->end[k].free && memcmp (&in->end[k].body, &none, sizeof none) != 0);
+  w->bodies = w->lumped;
   w->lumped = w->lumped || has_waves (in->water);
   if (!w->lumped)
     return;

@@ -117,19 +117,24 @@ air_in (const bt__dynamic_work *w, int j)
 
 /* ---- What a step knows ---- */
 
-/* Ask for the surface at the nodes of intervals that come near to it; return true if there are any.
- */
+/* Ask for the surface at the nodes of intervals that come near to it, note which these are, and
+   return true if there are any.  */
 static int
 find_levels (bt__dynamic_work *w)
 {
   const bt_water *water = w->in->water;
   double trough = -bt_water_crest (water);
   int any = 0, before = 0;
+  w->near_from = w->near_to = 0;
   for (int i = 0; i <= w->n; i++)
     {
       int near = w->X[i].z > trough, after = i < w->n && w->X[i + 1].z > trough;
       if (near || before || after)
         w->node[i].level = bt_water_surface (water, w->X[i]);
+      if (near && !any)
+        w->near_from = i > 0 ? i - 1 : 0;
+      if (near)
+        w->near_to = i < w->n ? i + 1 : w->n;
       any |= near;
       before = near;
     }
@@ -147,7 +152,7 @@ bt__dynamic_surface_prepare (bt__dynamic_work *w)
       w->node[i].level = INFINITY; /* deeper than that no wave is asked for */
     }
   w->surfaced = w->in->surfaced && water->density > 0 && find_levels (w);
-  for (int i = 0; w->surfaced && i <= w->n; i++)
+  for (int i = w->near_from; w->surfaced && i <= w->near_to; i++)
     w->node[i].wet = fmax (0, w->node[i].cell - bt__dynamic_line_out (w, i));
 }
 
@@ -184,7 +189,7 @@ void
 bt__dynamic_surface_force (bt__dynamic_work *w)
 {
   double out = 0; /* of the interval before, at the node */
-  for (int j = 0; j < w->n; j++)
+  for (int j = w->near_from; j < w->near_to; j++)
     {
       air p = air_in (w, j);
       w->rhs[j].z -= w->lift * (out + p.first);
@@ -193,8 +198,8 @@ bt__dynamic_surface_force (bt__dynamic_work *w)
       w->off[j].zz -= w->lift * p.ab;
       out = p.second;
     }
-  w->rhs[w->n].z -= w->lift * out;
-  if (w->lumped)
+  w->rhs[w->near_to].z -= w->lift * out;
+  if (w->bodies)
     lumps_force (w);
 }
 
@@ -202,9 +207,9 @@ double
 bt__dynamic_surface_potential (const bt__dynamic_work *w)
 {
   double sum = 0;
-  for (int j = 0; j < w->n; j++)
+  for (int j = w->near_from; j < w->near_to; j++)
     sum += w->lift * air_in (w, j).energy;
-  for (int i = w->lo; w->lumped && i <= w->hi; i++)
+  for (int i = w->lo; w->bodies && i <= w->hi; i++)
     sum += w->extra[i].lift * LAYER * out_so_far (rise (w->X[i].z, w->node[i].level));
   return sum;
 }

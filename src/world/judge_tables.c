@@ -29,6 +29,7 @@ static const bt__member wave[] = {
   BT__WITHIN (bt_wave_def, gamma, -BT__HUGE, BT__HUGE),
   BT__WITHIN (bt_wave_def, components, -BT__HUGE, BT__HUGE),
   BT__WITHIN (bt_wave_def, seed, -BT__MANY, BT__MANY),
+  BT__WITHIN (bt_wave_def, accuracy, -BT__HUGE, BT__HUGE),
 };
 const bt__record bt__wave_record = BT__RECORD (bt_wave_def, "waves as asked for", wave);
 
@@ -43,6 +44,8 @@ static const bt__member waves[] = {
   BT__WITHIN (bt_waves, speed, 0, BT__FAR),
   BT__WITHIN (bt_waves, bed, 0, 1),
   BT__WITHIN (bt_waves, phase, -BT__HUGE, BT__HUGE),
+  BT__WITHIN (bt_waves, accuracy, 0, 1),
+  BT__WITHIN (bt_waves, reach, 0, BT__FAR),
 };
 const bt__record bt__waves_record = BT__RECORD (bt_waves, "waves", waves);
 

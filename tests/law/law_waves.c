@@ -15,6 +15,7 @@
 
 #include "clones.h"
 #include "math/vec.h"
+#include "sea/waves_series.h"
 #include "sea/waves_sum.h"
 
 #define G 9.80665
@@ -39,13 +40,13 @@ waves_of (bt_wave_def def, double depth)
 static bt_waves
 airy (double height, double period, double depth)
 {
-  return waves_of ((bt_wave_def){ BT_WAVE_AIRY, height, period, 0.7, 0.3, 0, 0, 0 }, depth);
+  return waves_of ((bt_wave_def){ BT_WAVE_AIRY, height, period, 0.7, 0.3, 0, 0, 0, 0 }, depth);
 }
 
 static bt_waves
 jonswap (double height, double period, int seed)
 {
-  bt_wave_def def = { BT_WAVE_JONSWAP, height, period, 1.2, 0, 3.3, 64, seed };
+  bt_wave_def def = { BT_WAVE_JONSWAP, height, period, 1.2, 0, 3.3, 64, seed, 0 };
   return waves_of (def, 60);
 }
 
@@ -259,6 +260,165 @@ test_clones (void **state)
       }
 }
 
+/* ---- Series ---- */
+
+typedef struct shared
+{
+  double velocity, acceleration; /* the largest error, by what the accuracy allows */
+  int series;                    /* places that differ at all from those asked alone */
+} shared;
+
+enum
+{
+  PLACES = 60
+};
+
+/* Places of a line in the sea W, which go on by STEP metres about a way that bends.  */
+static void
+places_along (const bt_waves *w, double step, int seed, bt_vec3 *p)
+{
+  double turn = seed;
+  p[0] = bt__vec (300 * sin (7.0 * seed), 20 * cos (3.0 * seed),
+                  0.5 - fabs (sin (seed)) * fmin (w->depth, 40));
+  for (int i = 1; i < PLACES; i++)
+    {
+      turn += sin (i * 1.3 * seed) / 3;
+      p[i] = bt__axpy (p[i - 1], step,
+                       bt__vec (cos (turn), 0.5 * sin (turn), 0.5 * sin (1.7 * turn)));
+    }
+}
+
+static void
+compare_shared (const bt_waves *w, const bt_vec3 *p, double t, shared *worst)
+{
+  bt_vec3 v[PLACES], a[PLACES], v0, a0;
+  double speed = 0, gain = 0;
+  for (int i = 0; i < w->n; i++)
+    {
+      speed += w->speed[i];
+      gain += w->speed[i] * w->omega[i];
+    }
+  bt_waves_motions (w, p, PLACES, t, v, a);
+  for (int i = 0; i < PLACES; i++)
+    {
+      bt_waves_motion (w, p[i], t, &v0, &a0);
+      double off = bt__distance (v[i], v0), off2 = bt__distance (a[i], a0);
+      worst->velocity = fmax (worst->velocity, off / (w->accuracy * speed));
+      worst->acceleration = fmax (worst->acceleration, off2 / (w->accuracy * gain));
+      worst->series += off > 0;
+    }
+}
+
+/* Places that share a series are asked within the accuracy, in deep and shallow seas of any
+   accuracy, on lines fine and coarse; and they do share.  */
+static void
+test_shared (void **state)
+{
+  (void)state;
+  static const double accuracy[] = { 0.1, 1e-2, 1e-3, 1e-4, 1e-6 }, depth[] = { 2.5, 12, 60, 2000 };
+  for (int n = 0; n < 5; n++)
+    {
+      shared worst = { 0, 0, 0 };
+      for (int d = 0; d < 4; d++)
+        for (int seed = 1; seed <= 24; seed++)
+          {
+            bt_wave_def def = { BT_WAVE_JONSWAP, seed % 3 ? 0.6 : 0.2, 3 + seed % 9, seed,       0,
+                                1 + seed % 7,    5 + 2 * seed,         seed,         accuracy[n] };
+            bt_waves w = waves_of (def, depth[d]);
+            bt_vec3 p[PLACES];
+            places_along (&w, pow (10, -2 + seed % 4), seed, p);
+            compare_shared (&w, p, 1e3 * seed, &worst);
+          }
+      if (!(worst.velocity <= 1 && worst.acceleration <= 1))
+        fail_msg ("accuracy %g: %g and %g of it", accuracy[n], worst.velocity, worst.acceleration);
+      assert_true (worst.velocity > 1e-3 && worst.acceleration > 1e-3);
+      assert_true (worst.series > 96 * PLACES / 4);
+    }
+}
+
+/* To the bit as asked alone: without an accuracy, of few components, and where a place is alone. */
+static void
+test_exact (void **state)
+{
+  (void)state;
+  bt_wave_def def = { BT_WAVE_JONSWAP, 1, 6, 1, 0, 3.3, 32, 5, 0 }, few = def, fine = def;
+  few.components = 4;
+  few.accuracy = fine.accuracy = 1e-3;
+  bt_waves seas[3] = { waves_of (def, 30), waves_of (few, 30), waves_of (fine, 30) };
+  for (int n = 0; n < 3; n++)
+    {
+      bt_vec3 p[PLACES], v[PLACES], a[PLACES], v0, a0;
+      places_along (&seas[n], n < 2 ? 0.1 : 40, 3, p);
+      bt_waves_motions (&seas[n], p, PLACES, 9, v, a);
+      for (int i = 0; i < PLACES; i++)
+        {
+          bt_waves_motion (&seas[n], p[i], 9, &v0, &a0);
+          assert_memory_equal (&v0, &v[i], sizeof v0);
+          assert_memory_equal (&a0, &a[i], sizeof a0);
+        }
+    }
+  def.accuracy = 0.2;
+  bt_error error;
+  assert_int_equal (bt_waves_make (&def, 30, G, &seas[1], &error), BT_ERR_DOMAIN);
+  def.accuracy = 1e-12;
+  assert_int_equal (bt_waves_make (&def, 30, G, &seas[1], &error), BT_ERR_DOMAIN);
+}
+
+/* A place that is not finite is not hidden by those beside it, nor hides them.  */
+static void
+test_shared_not_finite (void **state)
+{
+  (void)state;
+  bt_wave_def def = { BT_WAVE_JONSWAP, 1, 6, 1, 0, 3.3, 32, 5, 1e-3 };
+  bt_waves w = waves_of (def, 30);
+  double bad[3] = { NAN, INFINITY, -INFINITY };
+  for (int n = 0; n < 9; n++)
+    {
+      bt_vec3 p[PLACES], v[PLACES], a[PLACES];
+      places_along (&w, 0.1, 3, p);
+      *(n / 3 == 0 ? &p[20].x : n / 3 == 1 ? &p[20].y : &p[20].z) = bad[n % 3];
+      bt_waves_motions (&w, p, PLACES, 9, v, a);
+      for (int i = 0; i < PLACES; i++)
+        assert_true (bt__is_finite (v[i]) == (i != 20) && bt__is_finite (a[i]) == (i != 20));
+      bt_waves_motions (&w, p, 1, NAN, v, a);
+      assert_false (bt__is_finite (v[0]) || bt__is_finite (a[0]));
+    }
+}
+
+static BT__HOT bt__orbit
+series (const bt_waves *w, double way, double z, double t)
+{
+  bt__waves_centre at = { way - 0.3, z < -0.4 ? z + 0.2 : z, t, z - 1, fmin (0, z + 1), 9 };
+  bt__waves_terms terms;
+  bt__waves_series s;
+  bt__waves_terms_find (w, &at, &terms);
+  bt__waves_series_make (&terms, &s);
+  return bt__waves_series_at (&s, z - at.z, way - at.way);
+}
+
+CLONES (bt__orbit, series, (const bt_waves *w, double way, double z, double t), (w, way, z, t))
+
+/* Series, too, are to the bit the same on every machine.  */
+static void
+test_series_clones (void **state)
+{
+  (void)state;
+  bt_wave_def def = { BT_WAVE_JONSWAP, 1, 8, 1, 0, 3.3, 31, 5, 1e-3 };
+  bt_waves seas[2] = { waves_of (def, 12), waves_of (def, 3000) };
+  for (int n = 0; n < 2; n++)
+    for (double t = 0; t < 5000; t += 1.7)
+      {
+        double way = 37 * sin (t), z = -fabs (11 * sin (11 * t));
+        bt__orbit o = series_default (&seas[n], way, z, t);
+        for (int c = 1; c < N_CLONES; c++)
+          if (clone_runs (c))
+            {
+              bt__orbit p = series_clones[c](&seas[n], way, z, t);
+              assert_memory_equal (&o, &p, sizeof o);
+            }
+      }
+}
+
 /* 4 sqrt (m0) is the height exactly by the components; by three hours' record within its own
    sampling error, some 3 %.  The peak lies where it was asked for.  */
 static void
@@ -331,7 +491,7 @@ test_rider (void **state)
 static bt_status
 make (double height, double period, double gamma, double components)
 {
-  bt_wave_def def = { BT_WAVE_JONSWAP, height, period, 0, 0, gamma, components, 1 };
+  bt_wave_def def = { BT_WAVE_JONSWAP, height, period, 0, 0, gamma, components, 1, 0 };
   bt_waves w;
   bt_error error;
   return bt_waves_make (&def, 50, G, &w, &error);
@@ -377,12 +537,14 @@ int
 main (void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test (test_dispersion), cmocka_unit_test (test_flow),
-    cmocka_unit_test (test_deep_wave),  cmocka_unit_test (test_sea),
-    cmocka_unit_test (test_seed),       cmocka_unit_test (test_rider),
-    cmocka_unit_test (test_refusals),   cmocka_unit_test (test_water),
-    cmocka_unit_test (test_components), cmocka_unit_test (test_felt),
-    cmocka_unit_test (test_not_finite), cmocka_unit_test (test_clones),
+    cmocka_unit_test (test_dispersion),    cmocka_unit_test (test_flow),
+    cmocka_unit_test (test_deep_wave),     cmocka_unit_test (test_sea),
+    cmocka_unit_test (test_seed),          cmocka_unit_test (test_rider),
+    cmocka_unit_test (test_refusals),      cmocka_unit_test (test_water),
+    cmocka_unit_test (test_components),    cmocka_unit_test (test_felt),
+    cmocka_unit_test (test_not_finite),    cmocka_unit_test (test_clones),
+    cmocka_unit_test (test_shared),        cmocka_unit_test (test_exact),
+    cmocka_unit_test (test_series_clones), cmocka_unit_test (test_shared_not_finite),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }

@@ -2,8 +2,9 @@
 ;;;
 ;;;   (airy (height M) (period S) (toward B) (phase D))        one regular wave; phase in degrees, 0: a
 ;;;                                                            crest at the origin as the dive begins
-;;;   (jonswap (height M) (period S) (toward B) (gamma G) (components N) (seed N))
-;;;                                                            a wind sea: significant height, peak period
+;;;   (jonswap (height M) (period S) (toward B) (gamma G) (components N) (seed N) (accuracy A))
+;;;                                                            a wind sea: significant height, peak period;
+;;;                                                            how exact lines are asked it to be, 0: exact
 ;;;   none
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
@@ -21,7 +22,7 @@
 
 (define wave-forms '(airy jonswap none))
 
-(define wave-field-names '(height period toward phase gamma components seed))
+(define wave-field-names '(height period toward phase gamma components seed accuracy))
 
 (define type:height (type:between 0 40))
 (define type:period (type:between 1/2 60))
@@ -29,12 +30,13 @@
 (define type:gamma (type:between 1 10))
 (define type:components (type:between 2 64))
 (define type:seed (type:between 0 1000000000))
+(define type:accuracy (type:between 0 1/10))
 
 (define (form-waves proc form clauses)
   ;; Bare values stand in the order of the canonical form, so that this can be read, too.
   (let* ((names (if (eq? form 'airy)
                     '(height period toward phase)
-                    '(height period toward gamma components seed)))
+                    '(height period toward gamma components seed accuracy)))
          (found (clause-fields proc form names names clauses)))
     (define (field name type . default)
       (apply clause-field proc form found name type default))
@@ -43,7 +45,7 @@
            (if (eq? form 'airy)
                (list (field 'phase type:phase 0.0))
                (list (field 'gamma type:gamma 3.3) (field 'components type:components 32.0)
-                     (field 'seed type:seed 1.0))))))
+                     (field 'seed type:seed 1.0) (field 'accuracy type:accuracy 1e-4))))))
 
 (define (refuse-waves proc datum)
   (bight-raise 'domain proc
@@ -52,7 +54,7 @@
 
 (define (parse-waves proc datum)
   "Return the canonical form of the waves that DATUM describes: (none), (airy HEIGHT PERIOD TOWARD PHASE)
-or (jonswap HEIGHT PERIOD TOWARD GAMMA COMPONENTS SEED), in metres, seconds and degrees.  Raise a
+or (jonswap HEIGHT PERIOD TOWARD GAMMA COMPONENTS SEED ACCURACY), in metres, seconds and degrees.  Raise a
 &bight-error from PROC when it describes none."
   (let ((items (and (pair? datum) (bounded-list datum 20))))
     (cond ((memq datum '(none #f)) '(none))
@@ -65,14 +67,14 @@ or (jonswap HEIGHT PERIOD TOWARD GAMMA COMPONENTS SEED), in metres, seconds and 
 
 (define (waves->numbers waves)
   "Return the numbers of the canonical WAVES for the engine: kind height period toward phase gamma
-components seed, in radians."
+components seed accuracy, in radians."
   (case (car waves)
     ((airy) (let ((w (cdr waves)))
-              (list 1 (first w) (second w) (* degree (third w)) (* degree (fourth w)) 3.3 2 0)))
+              (list 1 (first w) (second w) (* degree (third w)) (* degree (fourth w)) 3.3 2 0 0)))
     ((jonswap) (let ((w (cdr waves)))
                  (list 2 (first w) (second w) (* degree (third w)) 0
-                       (fourth w) (round (fifth w)) (round (sixth w)))))
-    (else (list 0 0 10 0 0 3.3 2 0))))
+                       (fourth w) (round (fifth w)) (round (sixth w)) (seventh w))))
+    (else (list 0 0 10 0 0 3.3 2 0 0))))
 
 (define (waves->string waves)
   "Return the canonical WAVES as they would be written in a world."

@@ -1,0 +1,198 @@
+/* Waves at the nodes of a line: nodes near each other share a power series.
+
+   Nodes follow each other along a line, so that a run of them lies within a small box in the plane
+   of the waves' way and the vertical.  A run goes on as long as the box about the run is so small
+   that the series about its middle (waves_series.h) fills the accuracy asked of the waves, a share
+   of the speed that all components have together at the surface.  Half of the accuracy is for the
+   terms left out, which the reach of a level (bt__waves_reaches) bounds; a quarter for components
+   left out at a depth, and a quarter for what those have by the bottom.
+
+   Alone, a node is asked as bt_waves_motion asks; so are all where no accuracy is given, and where
+   the components are no more than go side by side.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include "sea/waves_line.h"
+#include "math/vec.h"
+#include "sea/waves_series.h"
+
+#define LEVEL_FIRST 0.5 /* by the greatest wave number: the depth of the second level */
+#define LEVEL_RATIO 1.5 /* of the depths of two levels that follow each other */
+#define FEW 2           /* nodes that cost less alone */
+
+/* k times the depth from which on a component does not count.  */
+static double
+felt_to (const bt_waves *w)
+{
+  return log (4 / w->accuracy);
+}
+
+/* ---- How far a series reaches ---- */
+
+/* A bound on what is left out of a series at 1 m from its centre, at DEPTH: twice the sum of the
+   components' sizes by k^N / N!, of velocities (ORDER 0) or accelerations (1).  What the bottom
+   adds to a component is no more than the component.  */
+static double
+rest_at_one (const bt_waves *w, double depth, int order)
+{
+  double sum = 0;
+  for (int i = 0; i < w->n; i++)
+    sum += w->speed[i] * pow (w->omega[i], order) * pow (w->k[i], BT__WAVES_ORDER)
+           * exp (-w->k[i] * depth) * (w->bed[i] > 0 ? 2 : 1);
+  return 2 * sum / tgamma (BT__WAVES_ORDER + 1);
+}
+
+static double
+sum_at_surface (const bt_waves *w, int order)
+{
+  double sum = 0;
+  for (int i = 0; i < w->n; i++)
+    sum += w->speed[i] * pow (w->omega[i], order);
+  return sum;
+}
+
+/* So far from its centre a series holds for places of DEPTH or more.  Within k reach <= (N + 1) / 2
+   the terms left out are at most twice the first of them.  */
+static double
+reach_at (const bt_waves *w, double depth)
+{
+  double felt = felt_to (w), least = w->k[0];
+  for (int i = 0; i < w->n && w->k[i] * depth < felt; i++)
+    least = w->k[i];
+  double reach = 0.5 * (BT__WAVES_ORDER + 1) / least;
+  for (int order = 0; order < 2; order++)
+    {
+      double asked = 0.5 * w->accuracy * sum_at_surface (w, order);
+      double rest = rest_at_one (w, depth, order);
+      if (rest > 1e-100 * asked)
+        reach = fmin (reach, pow (asked / rest, 1.0 / BT__WAVES_ORDER));
+    }
+  return reach;
+}
+
+void
+bt__waves_reaches (bt_waves *w)
+{
+  double depth = 0;
+  for (int j = 0; w->accuracy > 0 && w->n > BT__FOUR && j < BT_WAVES_LEVELS; j++)
+    {
+      w->reach[j] = reach_at (w, depth);
+      depth = j ? depth * LEVEL_RATIO : LEVEL_FIRST / w->k[w->n - 1];
+    }
+}
+
+/* ---- Runs of nodes ---- */
+
+/* What a run of nodes lies in, and the level above which none of it is.  */
+typedef struct run
+{
+  double low, top, back, front; /* m: heights, and ways along */
+  double depth;                 /* m: of the level */
+  int level;
+} run;
+
+static double
+way_of (const bt_waves *w, bt_vec3 p)
+{
+  return w->east * p.x + w->north * p.y;
+}
+
+static double
+height_of (const bt_waves *w, bt_vec3 p)
+{
+  return p.z < 0 ? bt__clamp (p.z, -w->depth, 0) : 0;
+}
+
+static run
+run_of_one (const bt_waves *w, bt_vec3 p)
+{
+  double z = height_of (w, p), way = way_of (w, p), next = LEVEL_FIRST / w->k[w->n - 1];
+  run r = { z, z, way, way, 0, 0 };
+  while (r.level < BT_WAVES_LEVELS - 1 && -z >= next)
+    {
+      r.depth = next;
+      next *= LEVEL_RATIO;
+      r.level++;
+    }
+  return r;
+}
+
+static run
+run_with (const bt_waves *w, run r, bt_vec3 p)
+{
+  double z = height_of (w, p), way = way_of (w, p);
+  r.low = z < r.low ? z : r.low;
+  r.top = z > r.top ? z : r.top;
+  r.back = way < r.back ? way : r.back;
+  r.front = way > r.front ? way : r.front;
+  while (r.level > 0 && -r.top < r.depth)
+    {
+      r.level--;
+      r.depth = r.level ? r.depth / LEVEL_RATIO : 0;
+    }
+  return r;
+}
+
+/* False for what is not finite, too.  */
+static int
+is_within_reach (const bt_waves *w, const run *r, bt_vec3 last)
+{
+  double high = r->top - r->low, wide = r->front - r->back, reach = 2 * w->reach[r->level];
+  return high * high + wide * wide <= reach * reach && isfinite (last.x + last.y + last.z);
+}
+
+/* The number of the N places P, from the first on, that share a series in the box *R.  */
+static size_t
+run_from (const bt_waves *w, const bt_vec3 *p, size_t n, run *r)
+{
+  size_t count = 1;
+  *r = run_of_one (w, p[0]);
+  if (!isfinite (p[0].x + p[0].y + p[0].z))
+    return 1;
+  for (; count < n; count++)
+    {
+      run wider = run_with (w, *r, p[count]);
+      if (!is_within_reach (w, &wider, p[count]))
+        break;
+      *r = wider;
+    }
+  return count;
+}
+
+static BT__WIDE void
+orbits_in_run (const bt_waves *w, const run *r, double felt, double t, const bt_vec3 *p, size_t n,
+               bt_vec3 *velocity, bt_vec3 *acceleration)
+{
+  bt__waves_centre at
+      = { 0.5 * (r->back + r->front), 0.5 * (r->low + r->top), t, r->low, r->top, felt };
+  bt__waves_terms terms;
+  bt__waves_series s;
+  bt__waves_terms_find (w, &at, &terms);
+  bt__waves_series_make (&terms, &s);
+  for (size_t i = 0; i < n; i++)
+    {
+      double way = w->east * p[i].x + w->north * p[i].y;
+      double z = p[i].z < 0 ? (p[i].z > -w->depth ? p[i].z : -w->depth) : 0;
+      bt__orbit o = bt__waves_series_at (&s, z - at.z, way - at.way);
+      velocity[i] = (bt_vec3){ o.along * w->east, o.along * w->north, o.up };
+      acceleration[i] = (bt_vec3){ o.along2 * w->east, o.along2 * w->north, o.up2 };
+    }
+}
+
+void
+bt_waves_motions (const bt_waves *w, const bt_vec3 *p, size_t n, double t, bt_vec3 *velocity,
+                  bt_vec3 *acceleration)
+{
+  int shared = w->accuracy > 0 && w->n > BT__FOUR && isfinite (t);
+  double felt = shared ? felt_to (w) : 0;
+  for (size_t i = 0, count; i < n; i += count)
+    {
+      run r;
+      count = shared ? run_from (w, p + i, n - i, &r) : 1;
+      if (count > FEW)
+        orbits_in_run (w, &r, felt, t, p + i, count, velocity + i, acceleration + i);
+      else
+        for (size_t k = i; k < i + count; k++)
+          bt_waves_motion (w, p[k], t, velocity + k, acceleration + k);
+    }
+}
