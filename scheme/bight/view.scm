@@ -132,22 +132,22 @@
 ;;; Canvases.
 
 (define-record <canvas>
-  (%make-canvas cells left top step)
+  (%make-canvas rows left top step)
   canvas?
-  (cells canvas-cells)                  ; an array, row by column
+  (rows canvas-rows)                    ; a vector of strings
   (left canvas-left)                    ; metres at the left edge
   (top canvas-top)                      ; metres at the upper edge
   (step canvas-step))                   ; metres a column; a row is twice that
 
 (define (make-canvas columns rows middle step)
   ;; A blank canvas with the point MIDDLE, a pair of metres, in its middle.
-  (%make-canvas (make-array #\space rows columns)
+  (%make-canvas (list->vector (map (lambda (row) (make-string columns #\space)) (iota rows)))
                 (- (car middle) (* 1/2 columns step))
                 (+ (cdr middle) (* rows step))
                 step))
 
 (define (canvas-columns canvas)
-  (second (array-dimensions (canvas-cells canvas))))
+  (string-length (vector-ref (canvas-rows canvas) 0)))
 
 (define (cell-of canvas place)
   ;; The cell, a pair of column and row, at PLACE, a pair of metres.
@@ -156,8 +156,9 @@
           (inexact->exact (floor (/ (- (canvas-top canvas) (cdr place)) (* 2 step)))))))
 
 (define (put! canvas cell char)
-  (when (array-in-bounds? (canvas-cells canvas) (cdr cell) (car cell))
-    (array-set! (canvas-cells canvas) char (cdr cell) (car cell))))
+  (let ((rows (canvas-rows canvas)))
+    (when (and (< -1 (cdr cell) (vector-length rows)) (< -1 (car cell) (canvas-columns canvas)))
+      (string-set! (vector-ref rows (cdr cell)) (car cell) char))))
 
 (define (put-row! canvas height char)
   ;; A level line at HEIGHT metres, behind everything drawn later.
@@ -209,7 +210,7 @@
 (define (clipped canvas a dx dy)
   ;; The shares, a pair, between which the line from A by (DX DY) is on the canvas, or #f.
   (let ((width (* (canvas-columns canvas) (canvas-step canvas)))
-        (height (* 2 (first (array-dimensions (canvas-cells canvas))) (canvas-step canvas))))
+        (height (* 2 (vector-length (canvas-rows canvas)) (canvas-step canvas))))
     (define (cut span start way low high)
       (and span
            (if (zero? way)
@@ -230,7 +231,7 @@
           (loop (car rest) (cdr rest)))))))
 
 (define (canvas->lines canvas)
-  (map list->string (array->list (canvas-cells canvas))))
+  (vector->list (canvas-rows canvas)))
 
 (define (frame title lines columns)
   ;; LINES, each COLUMNS long, in a box under TITLE.
@@ -409,11 +410,10 @@
 
 (define (draw-bed! canvas scene bearing)
   ;; The bed along the plane of `from-the-side'.
-  (let ((origin (car (scene-points scene))))
+  (let ((origin (car (scene-points scene))) (east (sin (* radian bearing))) (north (cos (* radian bearing))))
     (for-each (lambda (column)
                 (let* ((s (+ (canvas-left canvas) (* (canvas-step canvas) (+ column 1/2))))
-                       (height ((scene-bed scene) (+ (first origin) (* s (sin (* radian bearing))))
-                                                  (+ (second origin) (* s (cos (* radian bearing)))))))
+                       (height ((scene-bed scene) (+ (first origin) (* s east)) (+ (second origin) (* s north)))))
                   (when height
                     (put! canvas (cons column (cdr (cell-of canvas (cons s height)))) #\=))))
               (iota (canvas-columns canvas)))))

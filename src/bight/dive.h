@@ -239,7 +239,6 @@ typedef struct bt_tether_view
   int settled;           /* zero: the shape still moves */
   int asleep;            /* true: the moving line rests and is not stepped */
   int nodes;             /* points of the model's own polyline */
-  double error_estimate; /* m: of the moving line's position, by its nodes; NAN for static shapes */
 } bt_tether_view;
 
 typedef enum bt_event_kind
@@ -312,6 +311,10 @@ void bt_dive_current (const bt_dive *dive, bt_current *current);
 bt_status bt_dive_vehicle (const bt_dive *dive, int i, bt_vehicle_view *view, bt_error *error);
 bt_status bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *error);
 bt_status bt_dive_current_at (const bt_dive *dive, bt_vec3 p, bt_vec3 *velocity, bt_error *error);
+
+/* Write an upper estimate of the error in position of moving line I by its nodes, m; NAN for static
+   shapes.  */
+bt_status bt_tether_error_estimate (const bt_dive *dive, int i, double *estimate, bt_error *error);
 
 /* Point, unit tangent (toward the vehicle) and tension (N) of tether I at arc length S metres from
    its anchor.  BT_ERR_DOMAIN if S lies outside the paid-out length.  */

@@ -9,6 +9,7 @@
 
 enum
 {
+  FEW = 16, /* held without room from the collector */
   MOST = 4096
 };
 
@@ -32,8 +33,13 @@ static SCM
 contacts (SCM object, SCM index)
 {
   bt_dive *dive = bt__to_dive (object);
-  bt_contact *contact = scm_gc_malloc_pointerless (sizeof *contact * MOST, "contacts");
-  int n = bt_tether_contacts (dive, scm_to_int (index), contact, MOST);
+  bt_contact few[FEW], *contact = few;
+  int n = bt_tether_contacts (dive, scm_to_int (index), few, FEW);
+  if (n > FEW)
+    {
+      contact = scm_gc_malloc_pointerless (sizeof *contact * MOST, "contacts");
+      n = bt_tether_contacts (dive, scm_to_int (index), contact, MOST);
+    }
   SCM list = SCM_EOL;
   for (n = n < MOST ? n : MOST; n-- > 0;)
     list = scm_cons (from_contact (dive, &contact[n]), list);
@@ -62,8 +68,14 @@ from_segment (const bt_segment *s)
 static SCM
 segments (SCM object, SCM index)
 {
-  bt_segment *segment = scm_gc_malloc_pointerless (sizeof *segment * MOST, "segments");
-  int n = bt_tether_segments (bt__to_dive (object), scm_to_int (index), segment, MOST);
+  bt_dive *dive = bt__to_dive (object);
+  bt_segment few[FEW], *segment = few;
+  int n = bt_tether_segments (dive, scm_to_int (index), few, FEW);
+  if (n > FEW)
+    {
+      segment = scm_gc_malloc_pointerless (sizeof *segment * MOST, "segments");
+      n = bt_tether_segments (dive, scm_to_int (index), segment, MOST);
+    }
   SCM list = SCM_EOL;
   for (n = n < MOST ? n : MOST; n-- > 0;)
     list = scm_cons (from_segment (&segment[n]), list);

@@ -113,6 +113,7 @@ fork_dive (SCM object)
   int asks = scm_is_true (scm_procedure_p (origin->function));
   scm_run_finalizers (); /* forks come and go by the thousand */
   bt__check ("what-if", bt_dive_fork (bt__to_dive (object), &copy->dive, &error), &error);
+  scm_gc_register_allocation (2 * bt_dive_state_size (copy->dive)); /* as if the collector's */
   bt_dive_set_poll (copy->dive, bt__ask_guile, copy);
   copy->journal = origin->journal;
   copy->serial = origin->serial;
@@ -141,22 +142,33 @@ wait_for_steps (SCM object, int64_t n)
   return scm_from_int64 (n);
 }
 
-/* SCM_TICK between the steps lets ^C and the collector in.  */
+/* SCM_TICK between the steps lets ^C and the collector in.  HASHES, a u32vector or nothing, takes
+   32 bits of the state after each step.  */
 static SCM
-step_dive (SCM object, SCM count)
+step_dive (SCM object, SCM count, SCM hashes)
 {
   bt_dive *dive = bt__to_idle_dive ("run", object);
   int64_t n = scm_to_int64 (count);
   bt_error error;
   if (bt__to_handle (object)->live)
     return wait_for_steps (object, n);
+  uint32_t *hash = NULL;
+  if (!SCM_UNBNDP (hashes))
+    {
+      SCM_ASSERT_TYPE (SCM_BYTEVECTOR_P (hashes)
+                           && (int64_t)SCM_BYTEVECTOR_LENGTH (hashes) / 4 >= n,
+                       hashes, SCM_ARG3, "run", "a number for each step");
+      hash = (uint32_t *)(void *)SCM_BYTEVECTOR_CONTENTS (hashes);
+    }
   scm_run_finalizers ();
   for (int64_t i = 0; i < n; i++)
     {
       bt__check_long ("run", bt__to_handle (object), bt_dive_step (dive, &error), &error);
+      if (hash)
+        hash[i] = (uint32_t)bt_dive_hash (dive);
       SCM_TICK;
     }
-  scm_remember_upto_here_1 (object);
+  scm_remember_upto_here_2 (object, hashes);
   return count;
 }
 
@@ -314,7 +326,8 @@ bt__define_dives (void)
   static const bt__procedure table[] = {
     { "%dive?", 1, 0, (scm_t_subr)is_dive, "Return #t if OBJECT is a dive." },
     { "%fork-dive", 1, 0, (scm_t_subr)fork_dive, "Return a copy of DIVE that goes its own way." },
-    { "%step-dive!", 2, 0, (scm_t_subr)step_dive, "Advance DIVE by COUNT steps." },
+    { "%step-dive!", 2, 1, (scm_t_subr)step_dive,
+      "Advance DIVE by COUNT steps, and note 32 bits of the state after each in HASHES." },
     { "%step-dives!", 4, 0, (scm_t_subr)step_dives,
       "Advance the DIVES of a list to STEP on up to THREADS threads; ^C interrupts as for HOST.  "
       "Return the places in the list of those that failed." },

@@ -60,6 +60,12 @@ typedef struct bt__handle
   int told;         /* true: how far the present call is was told */
 } bt__handle;
 
+/* Write the last DIGITS hexadecimal digits of X to TEXT, without a zero behind them.  */
+void bt__hexadecimal (char *text, uint64_t x, int digits);
+
+/* Return the checksum of N BYTES, continued from SEED (0 at first).  */
+uint64_t bt__checksum (const void *bytes, size_t n, uint64_t seed);
+
 /* bt__ask_guile is a bt_poll for the dive of a handle.  bt__check_long ends a call that asked the
    poll: the function raises the exception that interrupted the call, or else ERROR, unless STATUS
    is BT_OK.  */

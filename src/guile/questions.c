@@ -96,7 +96,6 @@ tether (SCM object, SCM index)
   bt_tether_view t = tether_view ("tether-length", object, index);
   SCM list = SCM_EOL;
   list = bt__associate ("settled?", scm_from_bool (t.settled), list);
-  list = bt__associate ("error", scm_from_double (t.error_estimate), list);
   list = bt__associate ("stuck?", scm_from_bool (t.stuck), list);
   list = bt__associate ("blocked?", scm_from_bool (t.blocked), list);
   list = bt__associate ("asleep?", scm_from_bool (t.asleep), list);
@@ -112,6 +111,17 @@ tether (SCM object, SCM index)
   list = bt__associate ("chord", scm_from_double (t.chord), list);
   list = bt__associate ("target", scm_from_double (t.target), list);
   return bt__associate ("length", scm_from_double (t.length), list);
+}
+
+static SCM
+error_estimate (SCM object, SCM index)
+{
+  double estimate;
+  bt_error error;
+  bt__check ("error-estimate",
+             bt_tether_error_estimate (bt__to_dive (object), scm_to_int (index), &estimate, &error),
+             &error);
+  return scm_from_double (estimate);
 }
 
 /* The properties of a tether, by the names of their fields.  */
@@ -153,6 +163,21 @@ tether_points (SCM object, SCM index, SCM count)
   scm_array_handle_release (&handle);
   bt__check ("tether-points", status, &error);
   return array;
+}
+
+/* Of tether INDEX, 16 bits of each node as four hexadecimal digits: those of %checksum.  */
+static SCM
+node_digits (SCM object, SCM index)
+{
+  bt_dive *dive = bt__to_dive (object);
+  int n = tether_view ("record!", object, index).nodes;
+  bt_vec3 *points = scm_gc_malloc_pointerless (sizeof *points * (size_t)(n + 1), "points");
+  char *text = scm_gc_malloc_pointerless (4 * (size_t)n + 1, "digits");
+  bt_error error;
+  bt__check ("record!", bt_tether_points (dive, scm_to_int (index), 0, points, &error), &error);
+  for (int i = 0; i < n; i++)
+    bt__hexadecimal (text + 4 * i, bt__checksum (points + i, sizeof *points, 0), 4);
+  return scm_from_latin1_stringn (text, 4 * (size_t)n);
 }
 
 static SCM
@@ -373,6 +398,10 @@ bt__define_questions (void)
     { "%tether", 2, 0, (scm_t_subr)tether, "Return the INDEX-th tether of DIVE, an alist." },
     { "%tether-properties", 2, 0, (scm_t_subr)properties,
       "Return the properties of the INDEX-th tether of DIVE, an alist by field." },
+    { "%error-estimate", 2, 0, (scm_t_subr)error_estimate,
+      "Return the error in position of tether INDEX of DIVE, m; NaN of a static shape." },
+    { "%node-digits", 2, 0, (scm_t_subr)node_digits,
+      "Return 16 bits of each node of tether INDEX of DIVE, in hexadecimal digits." },
     { "%tether-points", 3, 0, (scm_t_subr)tether_points,
       "Return COUNT points (0: the model's own) of the INDEX-th tether of DIVE, an n x 3 array." },
     { "%tether-tensions", 3, 0, (scm_t_subr)tether_tensions,

@@ -122,19 +122,48 @@ asks (SCM object)
 
 /* ---- Bytes ---- */
 
+void
+bt__hexadecimal (char *text, uint64_t x, int digits)
+{
+  for (int i = digits; i-- > 0; x >>= 4)
+    text[i] = "0123456789abcdef"[x & 15];
+}
+
+/* The first COUNT numbers of the u32vector NUMBERS, eight digits each.  */
+static SCM
+eight_digits (SCM numbers, SCM count)
+{
+  size_t n = scm_to_size_t (count);
+  SCM_ASSERT_TYPE (SCM_BYTEVECTOR_P (numbers) && SCM_BYTEVECTOR_LENGTH (numbers) / 4 >= n, numbers,
+                   SCM_ARG1, "record!", "as many numbers");
+  const uint32_t *x = (const uint32_t *)(const void *)SCM_BYTEVECTOR_CONTENTS (numbers);
+  char *text = scm_gc_malloc_pointerless (8 * n + 1, "digits");
+  for (size_t i = 0; i < n; i++)
+    bt__hexadecimal (text + 8 * i, x[i], 8);
+  scm_remember_upto_here_1 (numbers);
+  return scm_from_latin1_stringn (text, 8 * n);
+}
+
 /* FNV-1a, 64 bits, but 0 for nothing: the sum of what follows continues from that of what went
    before.  */
+uint64_t
+bt__checksum (const void *bytes, size_t n, uint64_t seed)
+{
+  const unsigned char *p = bytes;
+  const uint64_t basis = 0xcbf29ce484222325ULL;
+  uint64_t h = seed ^ basis;
+  for (size_t i = 0; i < n; i++)
+    h = (h ^ p[i]) * 0x100000001b3ULL;
+  return h ^ basis;
+}
+
 static SCM
 checksum (SCM bytes, SCM seed)
 {
-  const unsigned char *p = (const unsigned char *)SCM_BYTEVECTOR_CONTENTS (bytes);
-  size_t n = SCM_BYTEVECTOR_LENGTH (bytes);
-  const uint64_t basis = 0xcbf29ce484222325ULL;
-  uint64_t h = scm_to_uint64 (seed) ^ basis;
-  for (size_t i = 0; i < n; i++)
-    h = (h ^ p[i]) * 0x100000001b3ULL;
+  uint64_t sum = bt__checksum (SCM_BYTEVECTOR_CONTENTS (bytes), SCM_BYTEVECTOR_LENGTH (bytes),
+                               scm_to_uint64 (seed));
   scm_remember_upto_here_1 (bytes);
-  return scm_from_uint64 (h ^ basis);
+  return scm_from_uint64 (sum);
 }
 
 /* Base 64, but a run of zero bytes in threes, of which states are full, is written *COUNT*.  */
@@ -284,6 +313,8 @@ bt__define_times (void)
       "Add ROWS, an f64vector, to the tracks of DIVE." },
     { "%asks?", 1, 0, (scm_t_subr)asks,
       "Return #t if the current of DIVE is now a procedure's answer." },
+    { "%eight-digits", 2, 0, (scm_t_subr)eight_digits,
+      "Return the first COUNT numbers of the u32vector NUMBERS, eight hexadecimal digits each." },
     { "%checksum", 2, 0, (scm_t_subr)checksum,
       "Return the 64-bit checksum of BYTES, continued from SEED, 0 at first." },
     { "%bytes->text", 1, 0, (scm_t_subr)bytes_to_text, "Return BYTES as text." },

@@ -3,6 +3,8 @@
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,10 +49,53 @@ bt__to_point (const char *who, SCM object)
   return (bt_vec3){ x[0], x[1], x[2] };
 }
 
+/* Symbols by the places of their names in memory: to intern one takes twenty times as long.  */
+enum
+{
+  NAMES = 512, /* a power of two */
+  TRIES = 8
+};
+
+static struct
+{
+  _Atomic (const char *) name;
+  SCM symbol;
+} known[NAMES];
+
+static pthread_mutex_t naming = PTHREAD_MUTEX_INITIALIZER;
+
+/* Intern NAME, and keep the symbol at the first free of TRIES places from AT on, if there is one.
+ */
+static SCM
+intern (const char *name, size_t at)
+{
+  SCM symbol = scm_permanent_object (scm_from_utf8_symbol (name));
+  pthread_mutex_lock (&naming);
+  for (size_t i = at; i < at + TRIES; i++)
+    if (!atomic_load (&known[i % NAMES].name))
+      {
+        known[i % NAMES].symbol = symbol;
+        atomic_store (&known[i % NAMES].name, name);
+        break;
+      }
+  pthread_mutex_unlock (&naming);
+  return symbol;
+}
+
+static SCM
+symbol_of (const char *name)
+{
+  size_t at = ((uintptr_t)name * 0x9e3779b1u >> 8) % NAMES;
+  for (size_t i = at; i < at + TRIES; i++)
+    if (atomic_load_explicit (&known[i % NAMES].name, memory_order_acquire) == name)
+      return known[i % NAMES].symbol;
+  return intern (name, at);
+}
+
 SCM
 bt__associate (const char *name, SCM value, SCM rest)
 {
-  return scm_acons (scm_from_utf8_symbol (name), value, rest);
+  return scm_acons (symbol_of (name), value, rest);
 }
 
 SCM

@@ -319,12 +319,12 @@ uint64_t
 bt__hash_state (const bt_dive *dive, const bt__state *state)
 {
   bt__range live[RANGES];
-  uint64_t h = bt__hash (state, fixed_size (dive), 0);
+  uint64_t h = bt__hash_long (state, fixed_size (dive), 0);
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       int n = live_ranges (dive, state, i, live);
       for (int k = 0; k < n; k++)
-        h = bt__hash (store_of (dive, state, i) + live[k].at, live[k].size, h);
+        h = bt__hash_long (store_of (dive, state, i) + live[k].at, live[k].size, h);
     }
   return h;
 }

@@ -137,9 +137,18 @@ bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *erro
                             .blocked = t->blocked != 0,
                             .settled = t->settled != 0,
                             .asleep = t->quiet >= BT__SLEEP_AFTER,
-                            .nodes = bt__line_nodes (&line),
-                            .error_estimate = line.chain ? bt__chain_error (line.chain) : NAN };
+                            .nodes = bt__line_nodes (&line) };
   return BT_OK;
+}
+
+bt_status
+bt_tether_error_estimate (const bt_dive *dive, int i, double *estimate, bt_error *error)
+{
+  bt__line line;
+  bt_status status = ask_line (dive, i, &line, error);
+  if (status == BT_OK)
+    *estimate = line.chain ? bt__chain_error (line.chain) : NAN;
+  return status;
 }
 
 static bt_status

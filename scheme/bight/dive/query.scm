@@ -227,7 +227,7 @@ gravity (from z = 0) and bending, an alist.  Raise unsupported for static models
 (define-verb (error-estimate #:subject (t tether))
   "Return an upper estimate of the error in position of the moving line, m, as it comes of its nodes.
 Raise unsupported for static models."
-  (let ((error (assq-ref (tether-view 'error-estimate t) 'error)))
+  (let ((error (%error-estimate (this-engine 'error-estimate) t)))
     (if (nan? error)
         (bight-raise 'unsupported 'error-estimate
                      "the model ~a does not estimate its error; dynamic and auto do"
@@ -240,10 +240,9 @@ Raise unsupported for static models."
   "Return #t if the tether is as exact as its world asks: if the estimate of the error in position that
 comes of its nodes, `error-estimate', is at most the tether's `accuracy', and the tension of the last step
 was found to its `tension-accuracy'.  Static models are."
-  (let* ((view (tether-view 'accurate? t))
-         (error (assq-ref view 'error)))
+  (let ((error (%error-estimate (this-engine 'accurate?) t)))
     (and (or (nan? error) (<= error (assq-ref (tether-properties t) 'accuracy)))
-         (zero? (assq-ref view 'tension-error)))))
+         (zero? (assq-ref (tether-view 'accurate? t) 'tension-error)))))
 
 (define-verb (equilibria #:subject (t tether))
   "Return the distinct shapes in which the tether could rest with its ends where they are, polylines, the

@@ -114,9 +114,6 @@
   (let ((text (number->string n 16)))
     (string-append (make-string (- width (string-length text)) #\0) text)))
 
-(define (node-digits row)
-  (digits (logand #xffff (%checksum (list->f64vector row) 0)) 4))
-
 (define (rov-quantities engine name i)
   (let ((v (%vehicle engine i)))
     `(rov ,name ,@(f64vector->list (assq-ref v 'position)) ,(assq-ref v 'heading))))
@@ -124,8 +121,7 @@
 (define (tether-quantities engine name i)
   (let ((t (%tether engine i)))
     `(tether ,name ,(assq-ref t 'length) ,(assq-ref t 'tension-anchor) ,(assq-ref t 'tension-end)
-             ,(string-concatenate
-               (map node-digits (array->list (%tether-points engine i 0)))))))
+             ,(%node-digits engine i))))
 
 (define (of-each engine head quantities)
   (let ((names (%names engine head)))
@@ -149,7 +145,7 @@
   (serial recorder-serial set-recorder-serial!) ; of the last operation written
   (second recorder-second set-recorder-second!) ; the step of the last `second' written
   (first recorder-first set-recorder-first!)    ; the step of the first of HASHES
-  (hashes recorder-hashes set-recorder-hashes!) ; the last first
+  (hashes recorder-hashes set-recorder-hashes!) ; 8 digits of each, the last text first
   (synced recorder-synced set-recorder-synced!) ; when the file was last brought to the disk
   (frames recorder-frames)                      ; a database, or #f
   (pending recorder-pending set-recorder-pending!) ; frames not written yet, the last first
@@ -174,7 +170,7 @@
   (unless (null? (recorder-hashes r))
     (tell-datum! (recorder-teller r)
            (list 'steps (recorder-first r)
-                 (string-concatenate (map (lambda (h) (digits h 8)) (reverse (recorder-hashes r))))))
+                 (string-concatenate (reverse (recorder-hashes r)))))
     (set-recorder-hashes! r '())))
 
 (define (write-second! r step hash quantities)
@@ -201,9 +197,30 @@
   (let* ((engine (recorder-engine r)) (step (%dive-steps engine)))
     (when (null? (recorder-hashes r))
       (set-recorder-first! r step))
-    (set-recorder-hashes! r (cons (short-hash engine) (recorder-hashes r)))
+    (set-recorder-hashes! r (cons (digits (short-hash engine) 8) (recorder-hashes r)))
     (when (and (recorder-frames r) (zero? (modulo step frame-every)))
       (take-frame! r engine))))
+
+(define (take-noted-steps! r n)
+  ;; Take N steps with nothing of the language between them, and note each, also when the last is interrupted.
+  (let* ((engine (recorder-engine r)) (before (%dive-steps engine)) (hashes (make-u32vector n)))
+    (when (null? (recorder-hashes r))
+      (set-recorder-first! r (+ before 1)))
+    (dynamic-wind
+      (const #f)
+      (lambda () (%step-dive! engine n hashes))
+      (lambda ()
+        (set-recorder-hashes! r (cons (%eight-digits hashes (- (%dive-steps engine) before))
+                                      (recorder-hashes r)))))))
+
+(define (take-steps! r n)
+  ;; Take N steps between which nothing runs.
+  (if (recorder-frames r)
+      (do ((i 0 (+ i 1)))
+          ((= i n))
+        (%step-dive! (recorder-engine r) 1)
+        (note-step! r))
+      (take-noted-steps! r n)))
 
 (define (pause! r)
   ;; After some steps and what ran between them.
@@ -270,7 +287,7 @@
       ((live) (go-along! r))
       ((freeze) (stop-along! r))
       ((stop) (finish! r))
-      (else r))))
+      (else (take-steps! r event)))))       ; so many
 
 (define (finish! r)
   (let* ((dive (recorder-dive r)) (engine (engine-of dive)) (live? (%live? engine)))

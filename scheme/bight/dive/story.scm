@@ -87,8 +87,28 @@
   "Return the number that TEXT, hexadecimal digits, stands for, or #f."
   (and (string? text) (string->number text 16)))
 
+;; `write' looks at each character of a string and takes a port: too long for what is told each second.
+(define plain-characters (string->char-set "abcdefghijklmnopqrstuvwxyz0123456789-"))
+
+(define (plain? text)
+  ;; Is TEXT, of a string or a symbol, written as it is?
+  (and (not (string-null? text)) (string-every plain-characters text)
+       (char-set-contains? char-set:letter (string-ref text 0))))
+
+(define (datum->text datum)
+  ;; DATUM as `write' has it.
+  (cond ((and (pair? datum) (list? datum))
+         (string-append "(" (string-join (map datum->text datum)) ")"))
+        ((number? datum) (number->string datum))
+        ((string? datum)
+         (if (string-every plain-characters datum)
+             (string-append "\"" datum "\"")
+             (object->string datum)))
+        ((and (symbol? datum) (plain? (symbol->string datum))) (symbol->string datum))
+        (else (object->string datum))))
+
 (define (datum->line datum)
-  (with-output-to-string (lambda () (write datum) (newline))))
+  (string-append (datum->text datum) "\n"))
 
 (define (tell-datum! teller datum)
   "Write DATUM on a line of its own."
@@ -101,7 +121,7 @@
 
 (define (tell-with-checksum! teller . datum)
   "Write the list DATUM, and at its end the checksum of all that was written before."
-  (let ((text (with-output-to-string (lambda () (write datum)))))
+  (let ((text (datum->text datum)))
     (put-text! teller (substring text 0 (- (string-length text) 1)))
     (put-text! teller (closing (teller-sum teller)))))
 
