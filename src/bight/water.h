@@ -78,8 +78,8 @@ bt_vec3 bt_water_acceleration (const bt_water *water, bt_vec3 p);
 /* Return both at once, which costs waves but once: VELOCITY and ACCELERATION.  */
 void bt_water_motion (const bt_water *water, bt_vec3 p, bt_vec3 *velocity, bt_vec3 *acceleration);
 
-/* Write the same at the N places P of a line, in order, to VELOCITY and ACCELERATION: waves as
-   bt_waves_motions has them.  */
+/* Write the same at the N places P of a line, in order, to VELOCITY and, if there are waves, to
+   ACCELERATION: waves as bt_waves_motions has them, lees as bt_lees_shares has them.  */
 void bt_water_motions (const bt_water *water, const bt_vec3 *p, size_t n, bt_vec3 *velocity,
                        bt_vec3 *acceleration);
 

@@ -257,15 +257,48 @@ bt_water_motion (const bt_water *water, bt_vec3 p, bt_vec3 *velocity, bt_vec3 *a
   *velocity = bt__add (bt_water_current (water, p), orbit);
 }
 
+enum
+{
+  CHUNK = 64
+};
+
+/* True if the current is the same everywhere but for what stands in it.  */
+static int
+has_lees_alone (const bt_water *water)
+{
+  const bt_current *current = water->current;
+  return water->sea && water->sea->lees && current
+         && (current->kind == BT_CURRENT_UNIFORM || current->kind == BT_CURRENT_TIDE);
+}
+
+/* The current at N places P, CHUNK at most.  */
+static void
+currents (const bt_water *water, const bt_vec3 *p, size_t n, bt_vec3 *velocity)
+{
+  double share[CHUNK];
+  bt_vec3 v = open_current (water, p[0]);
+  int lees = has_lees_alone (water) && (v.x != 0 || v.y != 0 || v.z != 0);
+  if (lees)
+    bt_lees_shares (water->sea->lees, v, p, n, share);
+  for (size_t i = 0; i < n; i++)
+    velocity[i] = lees ? bt__scale (share[i], v) : bt_water_current (water, p[i]);
+}
+
 void
 bt_water_motions (const bt_water *water, const bt_vec3 *p, size_t n, bt_vec3 *velocity,
                   bt_vec3 *acceleration)
 {
-  static const bt_waves none;
-  bt_waves_motions (water_has_waves (water) ? water->sea->waves : &none, p, n, water->time,
-                    velocity, acceleration);
-  for (size_t i = 0; i < n; i++)
-    velocity[i] = bt__add (bt_water_current (water, p[i]), velocity[i]);
+  bt_vec3 v[CHUNK];
+  int waves = water_has_waves (water);
+  if (waves)
+    bt_waves_motions (water->sea->waves, p, n, water->time, velocity, acceleration);
+  for (size_t i = 0; i < n; i += CHUNK)
+    {
+      size_t count = n - i < CHUNK ? n - i : CHUNK;
+      currents (water, p + i, count, v);
+      for (size_t k = 0; k < count; k++)
+        velocity[i + k] = waves ? bt__add (v[k], velocity[i + k]) : v[k];
+    }
 }
 
 double

@@ -154,6 +154,120 @@ bt_lees_share (const bt_lees *lees, bt_vec3 ambient, bt_vec3 p)
   return share_at (lees, ambient, p);
 }
 
+/* ---- Places near each other ---- */
+
+enum
+{
+  TOGETHER = 8, /* places that are looked at together, ... */
+  NEAR = 96     /* ... and blocks of wakes that may leave a lee at any of them, at most */
+};
+
+/* Blocks of wakes, each with the number of its leaf.  */
+typedef struct nearby
+{
+  int n;
+  const bt__wakes *block[NEAR];
+  uint32_t leaf[NEAR];
+} nearby;
+
+/* True of wakes that may leave a lee within R metres of the place AT.  The bounds are those of
+   is_in_lee, by R and a little more for rounding.  */
+static BT__HOT bt__four_mask
+may_leave_lee (const place *at, double speed2, double r)
+{
+  bt__four_mask some = at->across2 > 1e-12 * speed2;
+  bt__four by = 1 / bt__four_sqrt (bt__four_either (some, at->across2, bt__four_all (1)));
+  bt__four s = at->way * by, more = r + 0.01 * at->d;
+  bt__four n = bt__four_sqrt (bt__four_max (at->side2, bt__four_all (0))) * by;
+  bt__four near = at->d * sqrt (WITHIN), behind = bt__four_max (s + more, bt__four_all (0));
+  bt__four wide = bt__four_sqrt (WITHIN / CLOSE * at->d * behind);
+  return some & (at->along > -at->d - more) & (at->past < at->d + more)
+         & (s > -BEFORE * at->d - more) & (s < GONE * at->d + more)
+         & (n < 1.001 * bt__four_max (near, wide) + more);
+}
+
+static BT__HOT int
+is_near_box (const bt__lee_node *node, bt_vec3 c, double r)
+{
+  bt_vec3 low = bt__vec (node->low[0] - r, node->low[1] - r, node->low[2] - r);
+  bt_vec3 high = bt__vec (node->high[0] + r, node->high[1] + r, node->high[2] + r);
+  return c.x >= low.x && c.x <= high.x && c.y >= low.y && c.y <= high.y && c.z >= low.z
+         && c.z <= high.z;
+}
+
+/* Find the blocks for places within R metres of C, in the order of the tree; false if there are
+   more than NEAR.  */
+static BT__HOT int
+find_nearby (const bt_lees *lees, bt_vec3 ambient, bt_vec3 c, double r, nearby *found)
+{
+  double speed2 = ambient.x * ambient.x + ambient.y * ambient.y + ambient.z * ambient.z;
+  found->n = 0;
+  for (uint32_t i = 0; i < lees->nodes;)
+    {
+      const bt__lee_node *node = lees->node + i;
+      int inside = is_near_box (node, c, r);
+      for (uint32_t k = node->first; inside && k < node->first + node->blocks; k++)
+        {
+          place at = find_place (lees->block + k, ambient, c);
+          if (!bt__four_which (may_leave_lee (&at, speed2, r)))
+            continue;
+          if (found->n == NEAR)
+            return 0;
+          found->leaf[found->n] = i;
+          found->block[found->n++] = lees->block + k;
+        }
+      i = inside ? i + 1 : node->skip;
+    }
+  return 1;
+}
+
+/* The share at P: the factors of share_at that are not 1, multiplied leaf by leaf as there.  */
+static BT__HOT double
+share_of_nearby (const nearby *found, bt_vec3 ambient, double speed, bt_vec3 p)
+{
+  bt__four share = { 1, 1, 1, 1 };
+  for (int i = 0; i < found->n;)
+    {
+      bt__four leaf = { 1, 1, 1, 1 };
+      int k = i;
+      for (; k < found->n && found->leaf[k] == found->leaf[i]; k++)
+        leaf *= share_of_blocks (found->block[k], found->block[k] + 1, ambient, speed, p);
+      share *= leaf;
+      i = k;
+    }
+  return (share[0] * share[2]) * (share[1] * share[3]);
+}
+
+static BT__WIDE int
+shares_together (const bt_lees *lees, bt_vec3 ambient, const bt_vec3 *p, size_t n, double *share)
+{
+  bt_vec3 c = bt__scale (0.5, bt__add (p[0], p[n - 1]));
+  double r = 0, speed = bt__norm (ambient);
+  nearby found;
+  for (size_t i = 0; i < n; i++)
+    {
+      double away = bt__distance (p[i], c);
+      r = away > r || !(away == away) ? away : r;
+    }
+  if (!(r < INFINITY) || !find_nearby (lees, ambient, c, r, &found))
+    return 0;
+  for (size_t i = 0; i < n; i++)
+    share[i] = share_of_nearby (&found, ambient, speed, p[i]);
+  return 1;
+}
+
+void
+bt_lees_shares (const bt_lees *lees, bt_vec3 ambient, const bt_vec3 *p, size_t n, double *share)
+{
+  for (size_t i = 0; i < n; i += TOGETHER)
+    {
+      size_t count = n - i < TOGETHER ? n - i : TOGETHER;
+      if (count == 1 || !shares_together (lees, ambient, p + i, count, share + i))
+        for (size_t k = i; k < i + count; k++)
+          share[k] = share_at (lees, ambient, p[k]);
+    }
+}
+
 double
 bt_wake_share (const bt_wake *wake, bt_vec3 ambient, bt_vec3 p)
 {

@@ -81,12 +81,10 @@ sample_current (bt__dynamic_work *w)
   const bt_water *water = w->in->water;
   int same = bt_water_is_uniform (water);
   bt_vec3 u = same ? bt_water_velocity (water, w->x[0]) : bt__vec (0, 0, 0);
-  if (has_waves (water))
+  if (!same)
     bt_water_motions (water, w->X, (size_t)w->n + 1, w->d, w->keep);
   for (int i = 0; i <= w->n; i++)
-    w->node[i].current = has_waves (water) ? w->d[i]
-                         : same            ? u
-                                           : bt_water_velocity (water, w->X[i]);
+    w->node[i].current = same ? u : w->d[i];
 }
 
 void

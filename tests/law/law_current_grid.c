@@ -353,6 +353,49 @@ test_many_lees (void **state)
   assert_true (felt > asked / 10 && felt < asked * 9 / 10);
 }
 
+/* Of places on a line the shares are those of each alone, to the bit: fine and coarse lines, far
+   too many wakes to note, flows along an axis, places that are not finite.  */
+static void
+test_lees_together (void **state)
+{
+  (void)state;
+  enum
+  {
+    MOST = 900,
+    PLACES = 37
+  };
+  static bt_wake one[MOST];
+  uint64_t seed = 5;
+  int felt = 0;
+  for (int round = 0; round < 400; round++)
+    {
+      size_t n = round % 20 ? 1 + (size_t)round % 90 : MOST;
+      double room = round % 20 ? 15 : 5;
+      for (size_t i = 0; i < n; i++)
+        {
+          bt_vec3 a = draw_vec (&seed, room);
+          one[i] = bt_wake_of (a, bt__add (a, draw_vec (&seed, 10)), exp (2 * draw (&seed)) / 5);
+        }
+      bt_lees *lees = lees_of (one, n);
+      bt_vec3 flow = round % 5 ? draw_vec (&seed, 1) : one[0].axis, p[PLACES];
+      double share[PLACES], step = pow (10, draw (&seed));
+      p[0] = draw_vec (&seed, 20);
+      for (int k = 1; k < PLACES; k++)
+        p[k] = bt__add (p[k - 1], draw_vec (&seed, step));
+      if (round % 30 == 0)
+        p[round % PLACES].y = round % 60 ? NAN : INFINITY;
+      bt_lees_shares (lees, flow, p, PLACES, share);
+      for (int k = 0; k < PLACES; k++)
+        {
+          double alone = bt_lees_share (lees, flow, p[k]);
+          assert_memory_equal (&share[k], &alone, sizeof alone);
+          felt += alone < 1;
+        }
+      bt_lees_free (lees);
+    }
+  assert_true (felt > 400 * PLACES / 5);
+}
+
 int
 main (void)
 {
@@ -360,7 +403,7 @@ main (void)
     cmocka_unit_test (test_grid),          cmocka_unit_test (test_file),
     cmocka_unit_test (test_bad_files),     cmocka_unit_test (test_lee),
     cmocka_unit_test (test_lee_is_smooth), cmocka_unit_test (test_lees_in_water),
-    cmocka_unit_test (test_many_lees),
+    cmocka_unit_test (test_many_lees),     cmocka_unit_test (test_lees_together),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
