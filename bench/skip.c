@@ -8,7 +8,7 @@
    the scene lacks (parts.h).  The row `line alone' is the floor: the same line led along the same
    path by its own step, without a dive around it; what the bare dive costs more is all that a world
    costs that has nothing.  Rows of model `language' are dives run from the language, with and
-   without what goes on between steps.
+   without what goes on between steps, and single calls.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -179,21 +179,41 @@ say_scenes (bench_table *t, int rounds, int steps)
   "(enter! (world (sea (depth 60)) (rov (at 0 12 -20)) (tether (from -1 -12 0) (length 40)"        \
   " (nodes 100) (model dynamic)))) (drive! #:surge 0.3 #:yaw 0.1) (run 1) "
 
-/* Print the CPU nanoseconds of 20 s of a dive.  */
-#define TIMED                                                                                      \
-  "(let ((t (get-internal-run-time))) (run 20)"                                                    \
+/* Print the CPU nanoseconds of evaluating FORM.  */
+#define TIMED_OF(form)                                                                             \
+  "(let ((t (get-internal-run-time))) " form                                                       \
   " (display (round (* 1e9 (/ (- (get-internal-run-time) t) internal-time-units-per-second)))))"   \
   "(newline)"
+#define TIMED TIMED_OF ("(run 20)")
+
+/* The same of 400 calls of FORM.  */
+#define CALLED(form) WORLD TIMED_OF ("(do ((i 0 (+ i 1))) ((= i 400)) " form ")")
+
+enum
+{
+  STEPS = 1200, /* in 20 s */
+  CALLS = 400
+};
 
 static const struct
 {
   const char *name, *expression;
+  int of; /* what the time is shared by */
 } told[] = {
-  { "bare", WORLD TIMED },
-  { "and a recorder", WORLD "(record! \"dive.story\")" TIMED },
-  { "and a task ten times a second", WORLD "(every 0.1 (tether-length))" TIMED },
-  { "and a checkpoint ten times a second", WORLD "(every 0.1 (checkpoint))" TIMED },
-  { "and a picture a second", WORLD "(every 1 (snapshot \"dive.png\" #:size '(320 180)))" TIMED },
+  { "bare", WORLD TIMED, STEPS },
+  { "and a recorder", WORLD "(record! \"dive.story\")" TIMED, STEPS },
+  { "and a task ten times a second", WORLD "(every 0.1 (tether-length))" TIMED, STEPS },
+  { "and a checkpoint ten times a second", WORLD "(every 0.1 (checkpoint))" TIMED, STEPS },
+  { "and a claim after each step",
+    "(use-modules (bight test scenario)) " WORLD TIMED_OF ("(always (< (rov-depth) 100) (run 20))"),
+    STEPS },
+  { "and a picture a second", WORLD "(every 1 (snapshot \"dive.png\" #:size '(320 180)))" TIMED,
+    STEPS },
+  { "one status", CALLED ("(status)"), CALLS },
+  { "one look", CALLED ("(look)"), CALLS },
+  { "one tether-length", CALLED ("(tether-length)"), CALLS },
+  { "one checkpoint", CALLED ("(checkpoint)"), CALLS },
+  { "one what-if", CALLED ("(what-if #t)"), CALLS },
 };
 
 enum
@@ -230,7 +250,7 @@ say_told (bench_table *t, int rounds)
     for (int k = 0; k < TOLD; k++)
       {
         bench_child c = bench_evaluate (folder, told[k].expression);
-        seconds[k][r] = c.status ? NAN : number_in (c.out) * 1e-9 / 1200;
+        seconds[k][r] = c.status ? NAN : number_in (c.out) * 1e-9 / told[k].of;
         bare[r] = seconds[0][r];
       }
   for (int k = 0; k < TOLD; k++)

@@ -96,7 +96,7 @@ run (void *unused, int argc, char **argv)
    works seldom.  Forks of a dive come and go, a megabyte each: memory given back is kept, else the
    kernel clears each page of each fork anew.  */
 static void
-make_room (void)
+make_way_for_forks (void)
 {
   setenv ("GC_INITIAL_HEAP_SIZE", "33554432", 0);
 #if defined __GLIBC__
@@ -110,7 +110,7 @@ main (int argc, char **argv)
 {
   choose_locale ();
   find_modules ();
-  make_room ();
+  make_way_for_forks ();
   setenv ("GUILE_AUTO_COMPILE", "0",
           0); /* A world is a small script: compiling it gains nothing.  */
   scm_boot_guile (argc, argv, run, NULL);
