@@ -9,7 +9,8 @@
 ;;; stages, each as much as leaves a share of the members effective (Iglesias and Yang, Inverse Problems 37,
 ;;; 2021), and the readings are predicted anew after each.  A part of the evidence is kept for weights, which tell
 ;;; apart what no linear model can, a line that caught and one that slipped off (Frei and Kuensch, Biometrika 100,
-;;; 2013).
+;;; 2013): little of it, since what a line does among obstacles is as good as chance to the last newton, and weights
+;;; that go by chance leave few members.
 ;;;
 ;;; `particles': resampling by forks, in proportion to the weights (systematic: Kitagawa, Journal of
 ;;; Computational and Graphical Statistics 5, 1996), and a jitter of the latent numbers that keeps their mean and
@@ -32,6 +33,7 @@
 (define stage-leaves 0.4)               ; of the members, effective, after a stage of the smoother
 (define most-stages 6)
 (define kept-for-weights 0.1)           ; of the evidence, before the smoother and after
+(define weights-leave 0.8)              ; of the members, effective, after these weights
 (define jitter 0.2)                     ; of the deviation of the latent numbers
 (define impossible 5.0)                 ; deviations from what any member foretold
 (define growth 0.15)                    ; of the way flown that is flown again, before it is once more
@@ -254,10 +256,10 @@ explain it: then the belief is as it was, but for its doubts."
          (sum (apply + raw)))
     (list->f64vector (map (lambda (w) (/ w sum)) raw))))
 
-(define (stage-share logs left)
-  ;; How much of the evidence, at most LEFT, leaves a share of the members effective.
+(define (stage-share logs left leaves)
+  ;; How much of the evidence, at most LEFT, leaves the share LEAVES of the members effective.
   (define (fine? share)
-    (>= (effective-number (shares-of logs share)) (* stage-leaves (length logs))))
+    (>= (effective-number (shares-of logs share)) (* leaves (length logs))))
   (if (fine? left)
       left
       (let search ((low 0.0) (high left) (n 30))
@@ -281,7 +283,7 @@ explain it: then the belief is as it was, but for its doubts."
   (let* ((numbers (block-numbers readings))
          (columns (latent-columns belief))
          (linear (linearise columns (map third numbers) (map first numbers) (map second numbers)))
-         (share (if last? left (stage-share (linear-logs linear columns) left))))
+         (share (if last? left (stage-share (linear-logs linear columns) left stage-leaves))))
     (move-columns! linear columns share)
     (set-latents! belief columns)
     (predict-again! belief)
@@ -293,7 +295,7 @@ explain it: then the belief is as it was, but for its doubts."
   ;; members effective, weighs them: of two members with equal values one may have caught and one slipped off.
   (let* ((logs (map (lambda (i) (sum-of (lambda (r) (log-chance r (list-ref (reading-predictions r) i))) readings))
                     (iota (length (belief-members belief)))))
-         (power (stage-share logs kept-for-weights))
+         (power (stage-share logs kept-for-weights weights-leave))
          (most (fold max -inf.0 logs)))
     (for-each (lambda (member log)
                 (set-member-event-weight! member (+ (* power (- log most)) (member-event-weight member))))

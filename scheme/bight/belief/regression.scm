@@ -5,7 +5,14 @@
 ;;; slipped off in one member and caught in the next, is an error of the linear model, correlated between
 ;;; readings, and joins the readings' own noise; else many readings would use up the few members and leave a
 ;;; belief that is surer than it may be.  The covariance of that error is shrunk half way to its diagonal (Ledoit
-;;; and Wolf, Journal of Multivariate Analysis 88, 2004), a coefficient by how sure it is.
+;;; and Wolf, Journal of Multivariate Analysis 88, 2004).
+;;;
+;;; Of few members the regression itself is uncertain.  So the error is estimated with as many degrees of freedom as
+;;; the coefficients leave, and is that of a prediction, not of a fit (Draper and Smith, Applied Regression Analysis,
+;;; 1998, sections 1.4 and 5.1).  A coefficient that chance may have made draws a latent number that nothing was read
+;;; of: each is shrunk toward zero by the positive part of James and Stein's rule, which leaves none below two standard
+;;; errors, as the localisation by correlations of ensemble smoothers does (Luo, Bhakta and Naevdal, SPE Journal 23,
+;;; 2018).
 ;;;
 ;;; The members then move by the square root filter, one decorrelated number after another (Whitaker and Hamill,
 ;;; Monthly Weather Review 130, 2002), which draws nothing at random.
@@ -88,19 +95,23 @@
   (coefficients linear-coefficients)    ; a list of f64vectors
   (offsets linear-offsets))             ; a list: what was read, less what the members foretold in the mean
 
-(define ridge 1.0)                      ; beside a sum of squares of as many terms as there are members
+(define doubtful 4.0)                   ; the square of the standard errors below which a coefficient is chance
+
+(define (freedom n d)
+  ;; Degrees of freedom that D coefficients and a mean leave of N members.
+  (max 1 (- n 1 d)))
 
 (define (coefficients-of off factor inverse-diagonal h)
   ;; Of H, centred, on the centred columns OFF; each shrunk by how sure it is.
   (let* ((n (f64vector-length h))
          (b (solve-upper factor (solve-lower factor (list->f64vector (map (lambda (z) (dot z h)) off)))))
          (left (residual off b h))
-         (variance (/ (dot left left) (max 1 (- n 1 (length off))))))
+         (variance (/ (dot left left) (freedom n (length off)))))
     (tabulated (f64vector-length b)
                (lambda (k)
                  (let* ((value (f64vector-ref b k))
-                        (error (max 1e-300 (* variance (list-ref inverse-diagonal k)))))
-                   (* value (/ (* value value) (+ (* value value) error))))))))
+                        (error (* variance (list-ref inverse-diagonal k))))
+                   (* value (max 0.0 (- 1 (/ (* doubtful error) (max 1e-300 (* value value)))))))))))
 
 (define (residual off b h)
   (tabulated (f64vector-length h)
@@ -112,15 +123,17 @@
 
 (define (unit d k) (tabulated d (lambda (i) (if (= i k) 1.0 0.0))))
 
-(define (noise-factor residuals variances)
-  ;; The lower factor of the covariance of all errors: noise, and what the regression left.
+(define (noise-factor residuals variances d)
+  ;; The lower factor of the covariance of all errors: noise, and what a regression on D numbers left, where it
+  ;; foretells.
   (let* ((left (list->vector residuals))
          (n (f64vector-length (vector-ref left 0)))
+         (more (/ (+ 1 (/ (+ 1.0 d) n)) (freedom n d)))
          (own (list->vector variances)))
     (cholesky!
      (matrix (vector-length left)
              (lambda (i j)
-               (let ((covariance (/ (dot (vector-ref left i) (vector-ref left j)) (- n 1))))
+               (let ((covariance (* more (dot (vector-ref left i) (vector-ref left j)))))
                  (if (= i j) (+ covariance (vector-ref own i)) (* 0.5 covariance))))))))
 
 (define (linearise columns foretold values variances)
@@ -129,11 +142,12 @@ f64vector of all members for each; FORETOLD has, for each reading, what the memb
   (let* ((off (map centred columns))
          (d (length off))
          (z (list->vector off))
-         (factor (cholesky! (matrix d (lambda (i j) (+ (dot (vector-ref z i) (vector-ref z j)) (if (= i j) ridge 0))))))
+         (ridge (+ 1 (/ 1.0 (f64vector-length (car off))))) ; beside as many members, one more
+         (factor (cholesky! (matrix d (lambda (i j) (* (dot (vector-ref z i) (vector-ref z j)) (if (= i j) ridge 1))))))
          (inverse-diagonal (map (lambda (k) (let ((x (solve-lower factor (unit d k)))) (dot x x))) (iota d)))
          (h (map centred foretold))
          (b (map (lambda (h) (coefficients-of off factor inverse-diagonal h)) h))
-         (noise (noise-factor (map (lambda (h b) (residual off b h)) h b) variances))
+         (noise (noise-factor (map (lambda (h b) (residual off b h)) h b) variances d))
          (decorrelated (lambda (numbers) (f64vector->list (solve-lower noise (list->f64vector numbers)))))
          (rows (map (lambda (k) (decorrelated (map (lambda (b) (f64vector-ref b k)) b))) (iota d))))
     (make-linear (apply map f64vector rows)

@@ -1,9 +1,11 @@
 ;;; (bight bench belief) --- `bight bench belief': is a belief as sure as it may be, and what does it cost?
 ;;;
 ;;; Truths are drawn as the members are, from another seed, and flown by the same orders round the head of a post
-;;; that the line may or may not slip over.  Each row is of one number of tethers: the share of the true line that
-;;; the 90 % tube holds, of true values within their 90 % intervals, the Brier score of P(fouled) beside that of
-;;; the dive without a belief, and CPU time.
+;;; that the line may or may not slip over; a shorter way round a lower one where beliefs learn.  Each row is of one
+;;; number of tethers: the share of the true line that the 90 % tube holds, of true values within their 90 % intervals,
+;;; the Brier score of P(fouled) beside that of the dive without a belief, CPU time, and how many truths lie in each
+;;; tenth of the members by rank: as many as there are ranks in it, where the belief is as sure as it may be (Talts, Betancourt, Simpson,
+;;; Vehtari and Gelman, arXiv 1804.06788, 2018).
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -28,7 +30,7 @@
 (define help "bight bench belief: how often beliefs are right, and what they cost
   --truths N    of each number of tethers, 400 when left out, 20 with --quick
   --tethers N   one number of tethers alone; 16, 32, 64 and 128 when left out, 64 with --quick
-  --learn       let each belief go by readings of tension first, which takes a hundred times as long
+  --learn       let each belief go by readings of tension first, on a shorter dive, at 2 s of CPU for 32 tethers
   --by HOW      learn by smoother or by particles
   --cost        the cost of a step alone
 ")
@@ -63,44 +65,62 @@
          (tether (named line) (type fathom) (wet-weight 0) (model dynamic) (nodes 24) (from 0 0 -2) (to minnow)
                  (length 18))))
 
+(define low-post-field
+  (world (sea (depth 20) (current 0.25 90))
+         (seabed (friction 0.5))
+         (cylinder (named post) (from 3 6 -5.15) (to 3 6 -20) (radius 0.3))
+         (rov (named minnow) (type kinematic) (at 3.5 11 -8) (heading 0))
+         (tether (named line) (type fathom) (wet-weight 0) (model dynamic) (nodes 10) (from 0 0 -2) (to minnow)
+                 (length 15))))
+
 (define doubts
   '((current (error 0.1) (levels 0 -20) (correlation 20))
     (line (cdn (uniform 1 1.6)) (wet-weight (normal 0 0.03)))
     (post (friction (uniform 0.1 0.6)))
     (payout (normal 0 0.2))))
 
-(define seconds 30)
+;; A dive: its world, how many seconds it lasts, and orders, each (SECOND PLACE SPEED).
+(define make-dive list)
+(define dive-field first)
+(define dive-seconds second)
+(define dive-orders third)
+
+(define long-dive (make-dive post-field 30 '((0 (9 6 -8) 0.5) (15 (7 2 -8) 0.5))))
+(define short-dive (make-dive low-post-field 9 '((0 (9 6 -8) 1) (5 (7 1.5 -8) 1))))
+
 (define noise 0.3)                      ; N, of both tensions
 (define places 25)                      ; along the line
 
-(define (fly-second! k)
-  ;; The second number K of the dive, from 0.
-  (case k
-    ((0) (move! '(9 6 -8) #:speed 0.5))
-    ((15) (move! '(7 2 -8) #:speed 0.5)))
-  (run 1))
+(define (fly-second! dive k)
+  ;; The second number K of DIVE, from 0.
+  (let ((order (assv k (dive-orders dive))))
+    (when order
+      (move! (second order) #:speed (third order)))
+    (run 1)))
 
 (define (tensions-now)
   (list (anchor-tension) (rov-tension)))
 
-(define (fly-truths n)
-  ;; A list for each of N truths: values of what is uncertain, the line, is it fouled, tensions by the second.
-  (enter! post-field)
+(define (fly-truths dive n)
+  ;; A list for each of N truths: values of what is uncertain, the line, is it fouled, tensions by the second, latent
+  ;; numbers.
+  (enter! (dive-field dive))
   (let ((all (make-belief (current-dive) doubts #:members (max 8 n) #:seed 1001)))
     (let loop ((k 0) (read '()))
-      (if (< k seconds)
+      (if (< k (dive-seconds dive))
           (begin
-            (fly-second! k)
+            (fly-second! dive k)
             (loop (+ k 1) (cons (answer-values (ask-belief all tensions-now)) read)))
           (map (lambda (member i)
                  (list (unknown-values (belief-unknowns all) (member-latent member))
                        (in-member member (lambda () (tether-points places)))
                        (in-member member fouled?)
-                       (map (lambda (second) (list-ref second i)) (reverse read))))
+                       (map (lambda (second) (list-ref second i)) (reverse read))
+                       (member-latent member)))
                (list-head (belief-members all) n) (iota n))))))
 
-(define (believer tethers seed by)
-  (enter! post-field)
+(define (believer dive tethers seed by)
+  (enter! (dive-field dive))
   (make-belief (current-dive) doubts #:members tethers #:seed seed #:by by))
 
 (define (observe-second! belief number tensions)
@@ -110,11 +130,11 @@
                 (observe! belief kind (+ value (* noise (normal-quantile (random i)))) #:noise noise))
               '(winch-tension rov-tension) tensions '(0 1))))
 
-(define (fly-belief! belief truth number learn?)
+(define (fly-belief! dive belief truth number learn?)
   (for-each (lambda (k tensions)
-              (fly-second! k)
+              (fly-second! dive k)
               (when learn? (observe-second! belief number tensions)))
-            (iota seconds) (fourth truth)))
+            (iota (dive-seconds dive)) (fourth truth)))
 
 
 ;;; How right it is.
@@ -125,15 +145,27 @@
 
 (define (current-rows values) (filter (lambda (entry) (eq? 'current (car entry))) values))
 
+(define (ranks belief latent)
+  ;; Of each number of LATENT the share of the members of BELIEF in which it is less.
+  (let ((members (living belief)) (shares (f64vector->list (weights belief))))
+    (map (lambda (k)
+           (fold (lambda (m w sum) (if (< (f64vector-ref (member-latent m) k) (f64vector-ref latent k)) (+ sum w) sum))
+                 0.0 members shares))
+         (iota (f64vector-length latent)))))
+
 (define (judge belief truth)
-  ;; (HELD CURRENT-COVERED CDN-COVERED PROBABILITY FOULED?), the first two lists.
+  ;; (HELD CURRENT-COVERED CDN-COVERED PROBABILITY FOULED? RANKS), the first two and the last lists.
   (let ((values (belief-values belief)) (true (first truth)))
     (list (tube-holds? (second truth) #:belief belief)
           (append-map (lambda (told row) (map covers? (cddr told) (cdr row)))
                       (current-rows values) (assq-ref true 'current))
           (covers? (assq-ref values 'line.cdn) (assq-ref true 'line.cdn))
           (answer-probability (ask-belief belief fouled?))
-          (third truth))))
+          (third truth)
+          (ranks belief (fifth truth)))))
+
+(define (by-tenths shares)
+  (map (lambda (k) (count (lambda (r) (= k (min 9 (inexact->exact (floor (* 10 r)))))) shares)) (iota 10)))
 
 (define (share items)
   (/ (round (* 1000.0 (/ (count identity items) (length items)))) 1000))
@@ -153,26 +185,26 @@
 
 (define (cpu) (/ (get-internal-run-time) (exact->inexact internal-time-units-per-second)))
 
-(define (verdicts tethers truths learn? by)
+(define (verdicts dive tethers truths learn? by)
   (if learn?
       (map (lambda (truth number)
-             (let ((belief (believer tethers (+ 1 number) by)))
-               (fly-belief! belief truth number #t)
+             (let ((belief (believer dive tethers (+ 1 number) by)))
+               (fly-belief! dive belief truth number #t)
                (judge belief truth)))
            truths (iota (length truths)))
-      (let ((belief (believer tethers 1 by)))
-        (fly-belief! belief (car truths) 0 #f)
+      (let ((belief (believer dive tethers 1 by)))
+        (fly-belief! dive belief (car truths) 0 #f)
         (map (lambda (truth) (judge belief truth)) truths))))
 
-(define (say-row tethers truths learn? by)
+(define (say-row dive tethers truths learn? by)
   (let* ((begun (cpu))
-         (all (verdicts tethers truths learn? by))
+         (all (verdicts dive tethers truths learn? by))
          (point (fouled?)))             ; of the dive that nothing is uncertain of
-    (simple-format #t "~a,~a,~a,~a,~a,~a,~a,~a,~a,\"~a\"~%" tethers (length truths) (if learn? by 'nothing)
+    (simple-format #t "~a,~a,~a,~a,~a,~a,~a,~a,~a,\"~a\",\"~a\"~%" tethers (length truths) (if learn? by 'nothing)
                    (share (append-map first all)) (share (append-map second all)) (share (map third all))
                    (brier (map (lambda (v) (cons (fourth v) (fifth v))) all))
                    (brier (map (lambda (v) (cons (if point 1 0) (fifth v))) all))
-                   (/ (round (* 100 (- (cpu) begun))) 100) (reliability all))
+                   (/ (round (* 100 (- (cpu) begun))) 100) (reliability all) (by-tenths (append-map sixth all)))
     (force-output)))
 
 
@@ -210,10 +242,11 @@ second of all takes ~a s of CPU~%"
     (cond ((assoc-ref options "--help") (display help))
           ((assoc-ref options "--cost") (say-cost))
           (else
-           (let ((truths (fly-truths (whole options "--truths" (if quick? 20 400)))))
+           (let* ((learn? (assoc-ref options "--learn")) (dive (if learn? short-dive long-dive))
+                  (truths (fly-truths dive (whole options "--truths" (if quick? 20 400)))))
              (display "tethers,truths,learnt by,held by the 90 % tube,current covered,cdn covered,brier,\
-brier of the dive alone,cpu s,\"reliability: (told true cases) ...\"\n")
-             (for-each (lambda (tethers) (say-row tethers truths (assoc-ref options "--learn") by))
+brier of the dive alone,cpu s,\"reliability: (told true cases) ...\",ranks by tenths\n")
+             (for-each (lambda (tethers) (say-row dive tethers truths learn? by))
                        (if (or quick? (assoc "--tethers" options))
                            (list (whole options "--tethers" 64))
                            '(16 32 64 128))))))

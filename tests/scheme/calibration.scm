@@ -1,0 +1,97 @@
+;;; What a belief makes of readings against what probability says: Kalman's closed form, and ranks of truths.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(use-modules (bight belief regression) (bight study sweep-design) ((srfi srfi-1) #:select (iota fold count append-map filter-map)) (srfi srfi-4))
+
+(define (normals name)
+  ;; A thunk that returns one independent standard normal number after another.
+  (let ((stream (number-stream name)) (at -1))
+    (lambda () (set! at (+ at 1)) (normal-quantile (stream at)))))
+
+(define (times n thunk) (map (lambda (k) (thunk)) (iota n)))
+
+(define (product a b) (fold (lambda (x y sum) (+ sum (* x y))) 0.0 a b))
+
+(define (moved columns foretold values variance share)
+  ;; COLUMNS, lists, as readings VALUES, whose noises have VARIANCE, move them.
+  (let ((columns (map list->f64vector columns)))
+    (move-columns! (linearise columns (map list->f64vector foretold) values (map (const variance) values)) columns share)
+    (map f64vector->list columns)))
+
+(define (moments columns)
+  ;; Means, and the rows of the covariance.
+  (let* ((n (length (car columns))) (means (map (lambda (c) (/ (apply + c) n)) columns))
+         (off (map (lambda (c m) (map (lambda (x) (- x m)) c)) columns means)))
+    (list means (map (lambda (a) (map (lambda (b) (/ (product a b) (- n 1))) off)) off))))
+
+(define (kalman rows values variance)
+  ;; Mean and covariance of standard normal numbers after readings VALUES of ROWS of them (R. E. Kalman, Journal of
+  ;; Basic Engineering 82, 1960), one reading after another.
+  (let loop ((rows rows) (values values) (mean '(0.0 0.0 0.0)) (p '((1.0 0.0 0.0) (0.0 1.0 0.0) (0.0 0.0 1.0))))
+    (if (null? rows)
+        (list mean p)
+        (let* ((ph (map (lambda (row) (product row (car rows))) p))
+               (total (+ variance (product ph (car rows))))
+               (miss (- (car values) (product mean (car rows)))))
+          (loop (cdr rows) (cdr values)
+                (map (lambda (m g) (+ m (/ (* g miss) total))) mean ph)
+                (map (lambda (row g) (map (lambda (x h) (- x (/ (* g h) total))) row ph)) p ph))))))
+
+(define (farthest a b)
+  (cond ((pair? a) (apply max (map farthest a b)))
+        (else (abs (- a b)))))
+
+(define-scenario linear-readings-of-normal-numbers
+  "Of numbers that are normal, by readings that are linear in them, a cloud becomes what Kalman's filter says; and so it
+does by halves of the evidence."
+  (let* ((normal (normals 'kalman)) (n 2000)
+         (columns (times 3 (lambda () (times n normal))))
+         (rows '((1.0 0.5 0.0) (0.0 -1.0 2.0))) (values '(1.2 -0.7)) (variance 0.25)
+         (foretold (lambda (columns)
+                     (map (lambda (row) (apply map (lambda z (product z row)) columns)) rows)))
+         (once (moved columns (foretold columns) values variance 1.0))
+         (half (moved columns (foretold columns) values variance 0.5))
+         (twice (moved half (foretold half) values variance 0.5))
+         (exact (kalman rows values variance)))
+    (expect (farthest (moments once) exact) is (below 0.06))
+    (expect (farthest (moments twice) (moments once)) is (below 0.02))
+    (expect (farthest (moments columns) exact) is (above 0.5)))) ; the readings told something
+
+
+;;; Ranks.  Of truths drawn as the members are, the rank of each truth among the members that went by its readings is as
+;;; likely to be any other (Talts, Betancourt, Simpson, Vehtari and Gelman, arXiv 1804.06788, 2018).
+
+(define members 32)
+(define numbers 5)
+(define readings 10)
+(define noise 0.3)
+(define chance 1.0)                     ; deviation of what no number explains of a reading, as where a line slips
+
+(define (rank-of truth column)
+  (count (lambda (z) (< z truth)) column))
+
+(define (ranks-of-a-truth normal)
+  (let* ((rows (times readings (lambda () (times numbers normal))))
+         (read (lambda (z) (map (lambda (row) (+ (product row z) (* chance (normal)))) rows)))
+         (truth (times numbers normal))
+         (values (map (lambda (h) (+ h (* noise (normal)))) (read truth)))
+         (cloud (times members (lambda () (times numbers normal))))
+         (columns (apply map list cloud))
+         (foretold (apply map list (map read cloud))))
+    (map rank-of truth (moved columns foretold values (* noise noise) 1.0))))
+
+(define (chi-square ranks bins)
+  (let* ((width (/ (+ members 1) bins)) (expected (/ (length ranks) bins)))
+    (fold (lambda (k sum)
+            (+ sum (/ (expt (- (count (lambda (r) (= k (quotient r width))) ranks) expected) 2) expected)))
+          0.0 (iota bins))))
+
+(define-scenario truths-rank-evenly
+  "Where much of each reading is chance, and the members are few, truths lie within the cloud as often as they should:
+ranks are even, and those from 2 to 30 of 32 hold 29 in 33 truths."
+  (let* ((normal (normals 'ranks))
+         (ranks (append-map (lambda (k) (ranks-of-a-truth normal)) (iota 120)))
+         (held (/ (count (lambda (r) (<= 2 r 30)) ranks) (length ranks))))
+    (expect held is (about 29/33 #:within 0.04))
+    (expect (chi-square ranks 11) is (below 29.6)))) ; 10 degrees of freedom: 0.999 of all lie below
