@@ -103,7 +103,7 @@
     ((bight dive threads) threads! threads)
     ((bight belief)
      believe! define-belief make-belief belief ask-belief belief? with-belief current-belief
-     observe! mend-belief! belief-doubts effective-size belief-values belief-about fork-belief belief-threads!
+     observe! mend-belief! belief-doubts effective-size belief-values belief-about belief-hash fork-belief belief-threads!
      tether-tube tube-holds?)
     ((bight belief advise) advise advice? advice-action advice-chances)
     ((bight belief answer)

@@ -21,7 +21,7 @@
   #:export (believe! define-belief make-belief
             belief ask-belief belief? with-belief
             observe! mend-belief! belief-doubts effective-size
-            belief-values belief-about fork-belief belief-threads!
+            belief-values belief-about belief-hash fork-belief belief-threads!
             tether-tube tube-holds?
             ;; What the macros expand to.
             clauses->belief!)
@@ -258,6 +258,16 @@ was mended, lists of how, in how many stages and at which step; and how many rea
       (lost . ,(- (length (belief-members belief)) (length (living belief))))
       (mended . ,(reverse (belief-rounds belief)))
       (doubts . ,(length (belief-doubted belief))))))
+
+(define-verb (belief-hash #:optional (belief maybe-belief #f))
+  "Return a number that tells BELIEF from any other: beliefs have the same one if all their tethers, the values of what
+is uncertain and the weights are the same to the last bit."
+  (let ((belief (flown 'belief-hash belief)))
+    (fold (lambda (member sum)          ; homogeneous vectors are bytevectors, too
+            (fold %checksum sum
+                  (list (member-latent member) (f64vector (member-weight member) (member-event-weight member))
+                        (u64vector (%hash-dive (engine-of (member-dive member)))))))
+          0 (belief-members belief))))
 
 (define-verb (fork-belief #:optional (belief maybe-belief #f))
   "Return a copy of BELIEF that belongs to the current dive: the dive of BELIEF itself, or a fork of it, as within

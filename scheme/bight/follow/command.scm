@@ -7,6 +7,7 @@
   #:use-module (bight dive checkpoint)
   #:use-module (bight dive query)
   #:use-module (bight dive time)
+  #:use-module (bight follow belief)
   #:use-module (bight follow carrier)
   #:use-module (bight follow session)
   #:use-module ((bight outlet) #:select (watched?))
@@ -55,13 +56,35 @@
     (say (where-now session)))
   (for-each say (session-lines session))
   (when (session-time session)
-    (say (string-append "state " (number->string (state-hash) 16)))))
+    (say (string-append "state " (number->string (state-hash) 16))))
+  (let ((hash (and=> (session-watch session) watch-hash)))
+    (when hash
+      (say (string-append "belief " (number->string hash 16))))))
 
 (define (stopper)
   ;; A thunk that returns true once ^C or a request to end has come.
   (let ((stop? #f))
     (for-each (lambda (signal) (sigaction signal (lambda (signal) (set! stop? #t)))) (list SIGINT SIGTERM SIGHUP))
     (lambda () stop?)))
+
+(define (whole-of name text default low high)
+  (let ((n (if text (string->number text) default)))
+    (unless (and (exact-integer? n) (<= low n high))
+      (bight-raise 'domain 'follow "~a is a whole number from ~a to ~a, not ~s" name low high text))
+    n))
+
+(define (newtons-of text default)
+  (let ((n (if text (string->number text) default)))
+    (unless (and (real? n) (finite? n) (> n 0))
+      (bight-raise 'domain 'follow "--tension-noise is newtons, more than 0, not ~s" text))
+    n))
+
+(define (belief-of options)
+  ;; What the session is to believe: (TEXT MEMBERS NOISE), or #f.
+  (let ((text (assoc-ref options "--belief")))
+    (and text
+         (list text (whole-of "--tethers" (assoc-ref options "--tethers") 32 8 4096)
+               (newtons-of (assoc-ref options "--tension-noise") 1.0)))))
 
 (define (session-of name options tell)
   (begin-session name
@@ -70,6 +93,7 @@
                  #:keep (assoc-ref options "--keep") #:record (assoc-ref options "--record")
                  #:from-start? (assoc-ref options "--from-start")
                  #:limit (seconds-of "--for" (assoc-ref options "--for"))
+                 #:belief (belief-of options)
                  #:tell tell))
 
 (define (world-word text)

@@ -11,21 +11,23 @@
   #:use-module (bight dive recording)
   #:use-module (bight dive time)
   #:use-module (bight follow alarm)
+  #:use-module (bight follow belief)
   #:use-module (bight follow carrier)
   #:use-module (bight telemetry sieve)
   #:use-module (bight telemetry reading)
   #:use-module (bight telemetry source)
   #:use-module (srfi srfi-1)
   #:export (begin-session session? session-carrier session-source session-tally session-ended?
-            session-time listen! end-session! session-lines))
+            session-time session-watch listen! end-session! session-lines))
 
 (define-record <session>
-  (%make-session source keep sieve carrier tally record tell alarm looked queue ended? limit)
+  (%make-session source keep sieve carrier watch tally record tell alarm looked queue ended? limit)
   session?
   (source session-source)
   (keep session-keep)                   ; a port that receives what comes, or #f
   (sieve session-sieve)
   (carrier session-carrier)
+  (watch session-watch)                 ; of a belief, or #f
   (tally session-tally)
   (record session-record)               ; the file of a recording, or #f
   (tell session-tell)                   ; called with each alarm, a string
@@ -35,16 +37,26 @@
   (ended? session-ended? set-session-ended!)
   (limit session-limit))                ; s of the dive at most, or #f
 
-(define* (begin-session name world #:key keep record from-start? limit tell)
+(define (carried-by world tally belief)
+  ;; Two values: what carries readings, and what watches the belief that BELIEF, (TEXT MEMBERS NOISE) or #f, tells of.
+  (let* ((watch #f)
+         (carrier (make-carrier world tally (lambda (reading time) (when watch (watch-sees! watch reading time))))))
+    (when belief
+      (set! watch (apply make-watch world (carrier-tether carrier) belief)))
+    (values carrier watch)))
+
+(define* (begin-session name world #:key keep record from-start? limit belief tell)
   "Open the telemetry NAME for a dive in WORLD.  KEEP and RECORD are names of files, or #f: of all that comes, and of
 a recording.  With FROM-START? the first position is taken for the place of the world's vehicle.
-TELL is called with each alarm.  After LIMIT seconds of the dive, if not #f, it ends."
-  (let* ((tally (make-tally)) (carrier (make-carrier world tally))
-         (origin (world-origin 'follow world))
-         (port (and keep (open-keep keep)))
-         (start (and from-start? (take (carrier-start carrier) 2))))
-    (%make-session (open-source name tally port) port (make-sieve (and (not from-start?) origin) start tally)
-                   carrier tally record tell #f 0 '() #f limit)))
+BELIEF, a list of a text as `make-watch' takes it, how many tethers and a noise, has a belief go by what comes; with #f
+there is none.  TELL is called with each alarm.  After LIMIT seconds of the dive, if not #f, it ends."
+  (let ((tally (make-tally)) (origin (world-origin 'follow world)))
+    (call-with-values (lambda () (carried-by world tally belief))
+      (lambda (carrier watch)
+        (let ((port (and keep (open-keep keep)))
+              (start (and from-start? (take (carrier-start carrier) 2))))
+          (%make-session (open-source name tally port) port (make-sieve (and (not from-start?) origin) start tally)
+                         carrier watch tally record tell #f 0 '() #f limit))))))
 
 (define (open-keep file)
   (catch 'system-error
@@ -59,6 +71,8 @@ TELL is called with each alarm.  After LIMIT seconds of the dive, if not #f, it 
 (define (dive-begun! s)
   (set-session-alarm! s (make-alarm (carrier-tether (session-carrier s))
                                    (lambda () (> (carrier-speed (session-carrier s)) 0.1))))
+  (when (session-watch s)
+    (watch-begins! (session-watch s)))
   (when (session-record s)
     (record! (session-record s))))
 
@@ -68,7 +82,9 @@ TELL is called with each alarm.  After LIMIT seconds of the dive, if not #f, it 
     (dive-begun! s))
   (when (and (session-alarm s) (>= (- (now) (session-looked s)) 1))
     (set-session-looked! s (now))
-    (for-each (session-tell s) (alarms! (session-alarm s)))))
+    (for-each (session-tell s) (alarms! (session-alarm s)))
+    (when (session-watch s)
+      (for-each (session-tell s) (watch-alarms! (session-watch s))))))
 
 (define (over? s)
   (and (session-limit s) (session-alarm s) (>= (now) (session-limit s))))
@@ -133,6 +149,7 @@ TELL is called with each alarm.  After LIMIT seconds of the dive, if not #f, it 
              (let ((parts (filter identity (list (measured s 'payout "payout" " m") (measured s 'tension "tension" " N")
                                                  (measured s 'turns "turns" "") (measured s 'voltage "battery" " V")))))
                (and (pair? parts) (string-append "measured: " (string-join parts ", "))))
+             (and (session-watch s) (watch-line (session-watch s)))
              (and (session-alarm s)
                   (string-append (said (carrier-strayed c)) " m from where it says it is, "
                                  (said (carrier-farthest-strayed c)) " m at most"))

@@ -67,6 +67,7 @@
     (belief-about (belief-about (believe! (current (error 0.1)) #:members 8)))
     (belief-doubts (let ((b (believe! (current (error 0.1)) #:members 8)))
                      (observe! b 'depth 900) (belief-doubts b)))
+    (belief-hash (belief-hash (believe! (current (error 0.1)) #:members 8)))
     (belief-threads! (belief-threads! 2 (believe! (current (error 0.1)) #:members 8)))
     (fork-belief (let ((b (believe! (current (error 0.1)) #:members 8)))
                    (what-if (let ((fork (fork-belief b))) (run 5) (ask-belief fork slack)))))
