@@ -244,7 +244,7 @@
 ;;; What there is to draw: a scene is read once from the dive.
 
 (define-record <scene>
-  (make-scene lines tails outlines names vehicles headings current bed)
+  (make-scene lines tails outlines names vehicles headings current bed tubes)
   scene?
   (lines scene-lines)                   ; of each tether its points, lists (x y z), from the anchor
   (tails scene-tails)                   ; of each parted one, those of the other part
@@ -253,9 +253,17 @@
   (vehicles scene-vehicles)             ; a list (x y z) each
   (headings scene-headings)             ; degrees each
   (current scene-current)               ; at the first vehicle, a list of components
-  (bed scene-bed))                      ; a procedure: the height of the sea bed at X Y, #f: there is none
+  (bed scene-bed)                       ; a procedure: the height of the sea bed at X Y, #f: there is none
+  (tubes scene-tubes))                  ; of a belief: (CHARACTER . STATIONS) each, the widest first
 
-(define (read-scene)
+(define (in-tube name)
+  (module-ref (resolve-interface '(bight view tube)) name))
+
+(define (tubes-believed)
+  (append-map (lambda (share mark) (map (lambda (tube) (cons mark tube)) ((in-tube 'believed-tubes) share)))
+              '(0.9 0.5) '(#\. #\:)))
+
+(define* (read-scene #:optional belief?)
   (let ((vehicles (vehicles 'look))
         (tethers (tethers 'look)))
     (when (null? vehicles)
@@ -267,7 +275,8 @@
                 (map (lambda (name) (point->list (rov-position name))) vehicles)
                 (map rov-heading vehicles)
                 (point->list (current-at (rov-position (car vehicles))))
-                (bed-of 'look))))
+                (bed-of 'look)
+                (if belief? (tubes-believed) '()))))
 
 (define sky 1000)                       ; m: the bed is looked for from here down
 
@@ -377,7 +386,16 @@
 (define (draw-outline! canvas places)
   (for-each (lambda (a b) (mark-line! canvas #\# a b)) places (cdr places)))
 
+(define (draw-tube! canvas stations project mark)
+  ((in-tube 'for-each-inside)
+   (lambda (column row) (put! canvas (cons column row) mark))
+   stations (compose project point->list) (canvas-left canvas) (canvas-top canvas)
+   (canvas-step canvas) (* -2 (canvas-step canvas))
+   (canvas-columns canvas) (vector-length (canvas-rows canvas))))
+
 (define (draw-scene! canvas scene project mark)
+  (for-each (lambda (tube) (draw-tube! canvas (cdr tube) project (car tube)))
+            (scene-tubes scene))
   (for-each (lambda (line) (draw-outline! canvas (map project line)))
             (scene-outlines scene))
   (for-each (lambda (line)
@@ -502,16 +520,16 @@
 ;; False where a pupil is to see the view from above alone, whatever he asks for.
 (define side-shown? (make-parameter #t))
 
-(define-verb (look #:key (columns (or-false (between 40 400))) (side flag #t)
+(define-verb (look #:key (columns (or-false (between 40 400))) (side flag #t) (belief flag #f)
                    (at (or-false point)) (extent (or-false (between 0.01 1e6))) (zoom (between 1e-3 1e3) 1))
   "Draw the present dive in plain characters, from above (north up) and, unless SIDE is #f, from the side,
 on one scale in both: A is the anchor, ^ > v < the vehicle and where it heads, # an obstacle, ~ the surface, = the
 sea bed, where there is one.  The tethers, the vehicles and the structure beside them are in it; AT is
 another point for the middle, EXTENT how many metres each drawing spans, ZOOM how many times nearer it
-is.  The drawing is COLUMNS wide, by default as wide as the terminal.  Return a picture, which prints as
+is.  With BELIEF what the current belief holds possible is in it: : where a tether is with 50 %, . with 90 %.  The drawing is COLUMNS wide, by default as wide as the terminal.  Return a picture, which prints as
 text."
   (let ((width (inexact->exact (floor (or columns (max 40 (min 160 (terminal-columns))))))))
-    (lines->picture (draw (read-scene) width (and side (side-shown?)) (and at (array->list at)) extent zoom))))
+    (lines->picture (draw (read-scene belief) width (and side (side-shown?)) (and at (array->list at)) extent zoom))))
 
 
 ;;; The panel of figures.  A row is a title and its cells; what the dive cannot tell is left out.

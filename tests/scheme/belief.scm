@@ -6,7 +6,9 @@
              (srfi srfi-4)
              (bight belief cloud)
              (bight belief tube)
-             (bight belief unknowns))
+             (bight belief unknowns)
+             ((bight view picture) #:select (picture-pixels))
+             (bight view tube))
 
 (define-world slack-water
   "A kinematic vehicle on a short line of few nodes, beside a post."
@@ -247,3 +249,43 @@
                     (expect (ellipsoid-holds? e (vec+ (ellipsoid-mean e) (vec* 1.01 axis))) => #f))
                   (ellipsoid-axes e))
         (expect (count (lambda (p) (ellipsoid-holds? e p)) points) is (between 28 31))))))
+
+(define-scenario an-ellipsoid-is-drawn-as-an-ellipse
+  "Of one place of a tube the cells are those whose middles lie in its outline; between two places no cell is left out."
+  (let* ((half (list (vec 3 0 0) (vec 0 2 0) (vec 0 0 1)))
+         (drawn (lambda (stations)
+                  (let ((cells '()))
+                    (for-each-inside (lambda (column row) (set! cells (cons (list row column) cells)))
+                                     stations (lambda (p) (cons (x p) (y p))) -10 5 0.5 -1 40 10)
+                    (delete-duplicates cells))))
+         (middle (lambda (cell) (list (+ -10 (* 0.5 (+ 0.5 (second cell)))) (- 5 (+ 0.5 (first cell))))))
+         (in? (lambda (cell) (<= (+ (expt (/ (first (middle cell)) 3) 2) (expt (/ (second (middle cell)) 2) 2)) 1)))
+         (all (append-map (lambda (row) (map (lambda (column) (list row column)) (iota 40))) (iota 10)))
+         (sorted (lambda (cells) (sort cells (lambda (a b) (< (+ (* 100 (first a)) (second a)) (+ (* 100 (first b)) (second b))))))))
+    (expect (sorted (drawn (list (cons (vec 0 0 -5) half)))) => (filter in? all))
+    (let ((cells (drawn (list (cons (vec -6 0 -5) half) (cons (vec 6 0 -5) half)))))
+      (for-each (lambda (cell)
+                  (when (and (< (abs (second (middle cell))) 1.9) (< (abs (first (middle cell))) 6))
+                    (expect (and (member cell cells) #t) => #t)))
+                all))))
+
+(define-scenario a-belief-is-drawn
+  "Where a tether may be is in a look and in a picture that are asked for it, and in no other."
+  (in slack-water)
+  (expect (look #:belief #t) raises def)
+  (believe! doubtful #:members 8)
+  (move! '(4 11 -8) #:speed 1) (run 4)
+  (let* ((told (object->string (look #:columns 80 #:belief #t)))
+         (bare (object->string (look #:columns 80)))
+         (added (filter-map (lambda (a b) (and (not (char=? a b)) b)) (string->list bare) (string->list told))))
+    (expect (lset-difference char=? added '(#\. #\:)) => '())
+    (expect (count (lambda (c) (char=? c #\.)) added) is (above 3))
+    (expect (string-length told) => (string-length bare)))
+  (when (false-if-exception (resolve-interface '(bight view render)))
+    (let* ((size '(160 . 120))
+           (bare (picture-pixels 'test '(top) size 'plain '()))
+           (told (picture-pixels 'test '(top) size 'plain '(belief)))
+           (changed (count (lambda (k) (not (= (array-ref bare k) (array-ref told k)))) (iota (* 4 160 120)))))
+      (expect changed is (between 200 30000))
+      (expect (equal? bare (picture-pixels 'test '(top) size 'plain '())) => #t)))
+  (current-belief #f))

@@ -126,7 +126,7 @@
 
 ;; What is drawn over a picture: (bvh LEVEL) is one level of what bvh shows the first of.
 
-(define overlays '(figures none contacts turns taut-string bvh current))
+(define overlays '(figures none contacts turns taut-string bvh current belief))
 
 (define deepest 30)
 
@@ -211,8 +211,12 @@
       (draw-scene proc view size paint flags)))
 
 (define (draw-scene proc view size paint flags)
-  ((renders proc '%draw) (and (not (string=? "plan" (view-name view))) (renderer proc))
-                         (this-engine proc) (title-of view) view size paint flags))
+  (define (draw-it . marks)
+    (apply (renders proc '%draw) (and (not (string=? "plan" (view-name view))) (renderer proc))
+           (this-engine proc) (title-of view) view size paint flags (if (null? marks) '() (cons #f marks))))
+  (if (memq 'belief flags)
+      ((module-ref (resolve-interface '(bight view tube)) 'draw-over) draw-it size)
+      (draw-it)))
 
 (define (put! whole width part size column row)
   ;; Copy PART of SIZE into WHOLE, WIDTH pixels wide, with its first pixel at COLUMN, ROW.
@@ -292,7 +296,8 @@ looks ahead hears, as far as EXTENT or 30 m), (look FROM AT), or a list of these
 curvature or by model; OVERLAY is figures (title, scale, compass, legend) or none, or more than the
 figures: contacts (each with its force), turns about what, taut-string (what the tether would shrink to),
 bvh (the boxes about obstacles that collisions are looked for in, the first levels of them; (bvh LEVEL)
-is one alone), current (streamlines, their speed in colours), or a list of several.  A view chooses where to look; AT is another point for the middle,
+is one alone), current (streamlines, their speed in colours), belief (the tubes that hold the tethers of the current
+belief with 50 and 90 %, and its members by class), or a list of several.  A view chooses where to look; AT is another point for the middle,
 EXTENT how many metres across are seen there, ZOOM how many times nearer to go.  TRANSPARENT leaves out
 water and ground.  LIGHTS at the camera are on or off, and VISIBILITY is how many metres one sees in turbid
 water, which also takes the daylight: with the view pilot, what the vehicle's camera sees."
