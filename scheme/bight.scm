@@ -105,6 +105,7 @@
      believe! define-belief make-belief belief ask-belief belief? with-belief current-belief
      observe! mend-belief! belief-doubts effective-size belief-values belief-about belief-hash fork-belief belief-threads!
      tether-tube tube-holds?)
+    ((bight belief keeping) save-belief! load-belief)
     ((bight belief advise) advise advice? advice-action advice-chances)
     ((bight belief answer)
      answer? answer-values answer-weights answer-probability answer-interval answer-quantile answer-mean

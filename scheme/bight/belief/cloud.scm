@@ -26,6 +26,8 @@
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:export (new-belief member? reading?
             fork-of-belief
+            make-member bare-fork belief-processors member-origin member-origin-error member-engine
+            make-belief-record belief-clauses belief-origin-journal belief-origin-current belief-current
             is-belief?
             belief-host belief-unknowns belief-seed belief-kind
             belief-members belief-step belief-origin-step
@@ -37,10 +39,10 @@
             member-event-weight set-member-event-weight!
             member-weight set-member-weight!
             member-lost? living
-            make-reading reading-step reading-kind reading-value reading-noise reading-part
+            make-reading reading-step reading-serial reading-kind reading-value reading-noise reading-part
             reading-scalars set-reading-scalars! reading-predictions set-reading-predictions!
             reading-done? set-reading-done!
-            catch-up! fly-again! forget-past! copy-member! in-member
+            catch-up! entries-since fly-again! forget-past! copy-member! in-member
             weights effective-number
             current-belief this-belief type:belief))
 
@@ -72,10 +74,11 @@
   (done? reading-done? set-reading-done!)) ; true if the values of what is uncertain go by it already
 
 (define-record <belief>
-  (make-belief-record host unknowns seed kind members step origin-step origin-journal origin-current applied
+  (make-belief-record host clauses unknowns seed kind members step origin-step origin-journal origin-current applied
                       current readings doubted rounds threads)
   is-belief?
   (host belief-host)                    ; the dive
+  (clauses belief-clauses)              ; that say what is uncertain
   (unknowns belief-unknowns)
   (seed belief-seed)
   (kind belief-kind)                    ; smoother or particles
@@ -188,17 +191,21 @@ at once"))
       (for-each fouled? (%names engine 'tether)) ; forks share the charts that the dive has made
       (let* ((state (%save-dive engine))
              (belief (make-belief-record
-                      dive unknowns seed kind
+                      dive clauses unknowns seed kind
                       (map (lambda (latent) (make-member (bare-fork dive) latent 0.0 0.0 #f state 0.0))
                            (latent-draws unknowns members seed))
                       (%dive-steps engine) (%dive-steps engine) (%journal engine)
                       (%current-numbers engine) (%journal engine) (%current-numbers engine)
-                      '() '() '() (current-processor-count))))
+                      '() '() '() (belief-processors))))
         (for-each (lambda (member) (begin-member! belief member)) (belief-members belief))
         belief))))
 
+(define (belief-processors)
+  "Return how many threads step a belief where nobody says."
+  (current-processor-count))
+
 (define (bare-fork dive)
-  ;; What runs between the steps of DIVE shows in its journal.
+  "Return a fork of DIVE for a member: what runs between the steps of DIVE shows in its journal."
   (let ((fork (fork-dive dive)))
     (set-dive-tasks! fork '())
     (set-dive-past! fork #f)
@@ -207,7 +214,7 @@ at once"))
 (define (fork-of-belief belief dive)
   "Return a copy of BELIEF that follows DIVE, a fork of the dive it belongs to, from now on."
   (make-belief-record
-   dive (belief-unknowns belief) (belief-seed belief) (belief-kind belief)
+   dive (belief-clauses belief) (belief-unknowns belief) (belief-seed belief) (belief-kind belief)
    (map (lambda (m)
           (make-member (bare-fork (member-dive m)) (member-latent m) (member-weight m) (member-event-weight m)
                        (member-lost? m) (member-origin m) (member-origin-error m)))
@@ -225,7 +232,7 @@ at once"))
 ;;; Following the dive.
 
 (define (entries-since journal old)
-  ;; The entries of JOURNAL that OLD, an earlier one, lacks, the oldest first; #f if OLD is none.
+  "Return the entries of JOURNAL that OLD, an earlier one, lacks, the oldest first; #f if OLD is none."
   (let loop ((rest journal) (new '()))
     (cond ((eq? rest old) new)
           ((null? rest) #f)

@@ -21,7 +21,7 @@
     (touch "contact, wear and clearance" (dive contact))
     (aware "what a tether is doing: caught, fouled, the way home"
            (dive aware) (dive foresight) (dive in-words) (dive probe) (cockpit coach))
-    (belief "a tether as it may be: what is uncertain, and what is learnt" belief (belief answer) (belief advise))
+    (belief "a tether as it may be: what is uncertain, and what is learnt" belief (belief answer) (belief advise) (belief keeping))
     (moments "time as a value: checkpoints, forks, files"
              (dive checkpoint) (dive saving) (dive recording) (dive flight) (dive frames) (dive export)
              (world moordyn) (world orcaflex))
