@@ -24,6 +24,7 @@
   #:use-module (bight belief readings)
   #:use-module (bight belief regression)
   #:use-module (bight belief unknowns)
+  #:use-module (bight core errors)
   #:use-module (bight study sweep-design)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
@@ -317,9 +318,14 @@ explain it: then the belief is as it was, but for its doubts."
             stage)
           (loop (- left (take-stage! belief pending left (= stage (- most-stages 1)))) (+ stage 1))))))
 
+(define (check-living belief)
+  (when (null? (living belief))
+    (bight-raise 'diverged 'belief "no tether of this belief is left: each one's dive failed, or refused what was done")))
+
 (define (replace-lost! belief)
   ;; Those whose dives failed become copies of others.
-  (unless (or (null? (living belief)) (= (length (living belief)) (length (belief-members belief))))
+  (check-living belief)
+  (unless (= (length (living belief)) (length (belief-members belief)))
     (let ((n (length (living belief))))
       (resample! belief (make-f64vector n (/ 1.0 n))))))
 
@@ -358,7 +364,8 @@ explain it: then the belief is as it was, but for its doubts."
       (forget-past! belief))))
 
 (define (mend! belief)
-  "Move the members of BELIEF to where what it knows lies, so that many bear its weight."
+  "Move the members of BELIEF to where what it knows lies, so that many bear its weight.  Raise diverged if none is left."
+  (check-living belief)
   (if (eq? 'particles (belief-kind belief))
       (mend-by-particles! belief)
       (mend-by-smoother! belief)))

@@ -118,15 +118,11 @@ Raise unsupported when a part of the dive is a procedure, io when the file canno
 
 (define (told-entry engine line first-step last-step)
   (let* ((told (fields line (lambda (n) (and (exact-integer? n) (<= (- (expt 2 53)) n 0))) whole? symbol? whole?
-                       finite-or-endless?))
+                       f64vector?))     ; judged by the engine when it is done again
          (parts (count-of engine (third told))))
     (unless (and parts (< (fourth told) parts) (<= first-step (second told) last-step))
       (wrong "an operation ~a at step ~a that cannot be" (third told) (second told)))
     (list->vector told)))
-
-(define (finite-or-endless? v)
-  ;; Numbers of an operation: the engine judges them when they are done again.
-  (and (f64vector? v) (not (any nan? (f64vector->list v)))))
 
 (define (in-order? numbers) (or (null? numbers) (apply <= numbers)))
 
