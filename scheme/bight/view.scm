@@ -8,6 +8,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight view)
+  #:use-module ((bight core decimal) #:select (fixed))
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module ((bight core units) #:select (vec))
@@ -92,17 +93,6 @@
 
 
 ;;; Numbers as people read them.
-
-(define (fixed x places)
-  ;; X with PLACES decimals.
-  (let* ((scale (expt 10 places))
-         (n (inexact->exact (round (* (abs x) scale))))
-         (sign (if (and (negative? x) (positive? n)) "-" ""))
-         (whole (number->string (quotient n scale))))
-    (if (zero? places)
-        (string-append sign whole)
-        (string-append sign whole "."
-                       (string-pad (number->string (remainder n scale)) places #\0)))))
 
 (define (bearing->string degrees)
   (string-pad (number->string (modulo (inexact->exact (round degrees)) 360)) 3 #\0))

@@ -108,12 +108,19 @@
               (expect (with-files (string-append "(bight-events 1)" events) read-stream) raises format))
             '("(1 axis 0 \"a\" 2)" "(1 axis 0 \"a\")" "(2 lost 0) (1 lost 0)" "(-1 lost 0)" "(1 lost \"a\")" "(1 plugged 0 a #t)" "5"
               "(+nan.0 lost 0)"))
-  (expect (open-controllers "no-such-file" #f) raises io))
+  (expect (open-controllers "no-such-file" #f) raises io)
+  (with-files "(bight-events 1)"
+    (lambda (stream)
+      (expect (open-controllers stream "no-such-mapping") raises io)
+      (expect (open-controllers stream (dirname stream)) raises io)
+      (expect (controller-command `(("--stream" . ,stream) ("--for" . "0")
+                                    ("--record" . ,(string-append (dirname stream) "/no-such-folder/record"))))
+              raises io))))
 
 (define-scenario what-is-done-is-said
   "In words that name the control, what it does, and where the sticks stand."
   (in open-water)
   (let ((all (car (flown (string-append pad "(0 axis 0 \"righty\" -1)")))))
     (expect (event-line '(axis 0 "righty" -1) all) => "0 righty -1.00   surge +1.00 sway +0.00 heave +0.00 yaw +0.00"))
-  (expect (binding-line (first (bindings-for '() "pad" #t))) => "  lefty: heave -1.00, dead zone +0.12")
+  (expect (binding-line (first (bindings-for '() "pad" #t))) => "  lefty: heave -1.00, dead zone 0.12")
   (expect (binding-line (find binding-key (bindings-for '() "pad" #t))) => "  lefttrigger: key ["))

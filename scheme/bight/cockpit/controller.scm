@@ -17,10 +17,9 @@
   #:use-module (bight core datum)
   #:use-module (bight core errors)
   #:use-module (bight core record)
-  #:use-module ((ice-9 textual-ports) #:select (get-string-all))
   #:use-module (srfi srfi-1)
   #:export (open-controllers read-stream check-asked poll-events! note-event! controller-sticks controller-names
-            controllers? device? current-controllers call-with-controllers))
+            controllers-mapping controllers? device? current-controllers call-with-controllers))
 
 (define-record <controllers>
   (make-controllers next mapping devices)
@@ -60,19 +59,14 @@
 
 (define (read-stream file)
   "Return the events of FILE, a list of seconds and event, or raise a &bight-error that says what is wrong with it."
-  (let ((forms (catch #t
-                 (lambda ()
-                   (text->datum (string-append "(" (call-with-input-file file get-string-all #:encoding "UTF-8") "\n)")))
-                 (lambda arguments #f))))
-    (unless (and (pair? forms) (list? forms) (equal? '(bight-events 1) (car forms)))
-      (bad-stream "~a is no stream of a controller that can be read: it begins with (bight-events 1)" file))
+  (let ((forms (read-forms 'controller file '(bight-events 1) "stream of a controller")))
     (fold (lambda (form last)
             (unless (and (pair? form) (real? (car form)) (<= last (car form)) (event? (cdr form)))
               (bad-stream "in ~a stand seconds, none before those above, and an event, as in (1.5 axis 0 \"lefty\" -0.5), \
 not ~s" file form))
             (car form))
-          0 (cdr forms))
-    (cdr forms)))
+          0 forms)
+    forms))
 
 (define (stream-source events)
   ;; A procedure of the clock that returns each of EVENTS when its time, from the first call on, has come.

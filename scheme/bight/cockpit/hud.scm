@@ -9,6 +9,7 @@
 
 (define-module (bight cockpit hud)
   #:use-module (bight cockpit desk)
+  #:use-module (bight core decimal)
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight dive)
@@ -133,15 +134,6 @@ most two.  This takes milliseconds."
 
 ;;; Words.
 
-(define (fixed x places)
-  (let* ((scale (expt 10 places))
-         (n (inexact->exact (round (* (abs x) scale))))
-         (whole (number->string (quotient n scale))))
-    (string-append (if (and (negative? x) (positive? n)) "-" "") whole
-                   (if (zero? places) "" ".")
-                   (if (zero? places) ""
-                       (string-pad (number->string (remainder n scale)) places #\0)))))
-
 (define (figure x places unit)
   (if (and (real? x) (< (abs x) 1e9))
       (string-append (string-pad (fixed x places) 8) " " unit)
@@ -216,13 +208,13 @@ most two.  This takes milliseconds."
 (define green #x60e080)
 
 (define (stick-text name value)
-  (string-append name " " (if (negative? value) "-" (if (zero? value) " " "+")) (fixed (abs value) 1)))
+  (string-append name " " (if (zero? value) " 0.0" (fixed-with-sign value 1))))
 
 (define (sticks-line values)
   (string-join (map stick-text '("surge" "sway" "heave" "yaw") values) "  "))
 
 (define (short-sticks values)
-  (string-join (map (lambda (name value) (string-append name (if (negative? value) "-" "+") (fixed (abs value) 1)))
+  (string-join (map (lambda (name value) (string-append name (fixed-with-sign value 1)))
                     '("s" "w" "h" "y") values)))
 
 (define least-tape 9)

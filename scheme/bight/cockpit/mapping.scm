@@ -17,7 +17,6 @@
   #:use-module (bight core datum)
   #:use-module (bight core errors)
   #:use-module (bight core record)
-  #:use-module ((ice-9 textual-ports) #:select (get-string-all))
   #:use-module (srfi srfi-1)
   #:export (usual-mapping read-mapping bindings-for without-dead-zone
             binding? binding-control binding-stick binding-scale binding-dead binding-key stick-names))
@@ -83,13 +82,7 @@
 
 (define (read-mapping file)
   "Return the mapping in FILE, or raise a &bight-error that says what is wrong with it."
-  (let ((forms (catch #t
-                 (lambda ()
-                   (text->datum (string-append "(" (call-with-input-file file get-string-all #:encoding "UTF-8") "\n)")))
-                 (lambda arguments #f))))
-    (unless (and (pair? forms) (list? forms) (equal? '(bight-mapping 1) (car forms)))
-      (bad "~a is no mapping that can be read: it begins with (bight-mapping 1)" file))
-    (forms->mapping (cdr forms))))
+  (forms->mapping (read-forms 'controller file '(bight-mapping 1) "mapping")))
 
 ;; As ArduSub's usual one: the left stick rises and turns, the right one goes ahead and aside.
 (define usual-pad

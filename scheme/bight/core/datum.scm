@@ -9,7 +9,9 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight core datum)
-  #:export (plain-text? text->datum))
+  #:use-module (bight core errors)
+  #:use-module ((ice-9 textual-ports) #:select (get-string-all))
+  #:export (plain-text? text->datum read-forms))
 
 (define deepest 100)                    ; parentheses within each other
 (define longest-word 1000)              ; characters of a name or a number
@@ -86,3 +88,17 @@ cannot be read."
         (lambda () (call-with-input-string text read))
         (lambda args otherwise))
       otherwise))
+
+(define (text-of proc file)
+  (catch 'system-error
+    (lambda () (call-with-input-file file get-string-all #:encoding "UTF-8"))
+    (lambda args
+      (bight-raise 'io proc "cannot read ~s: ~a" file (strerror (system-error-errno args))))))
+
+(define (read-forms proc file heading what)
+  "Return the data in FILE behind HEADING, the datum with which WHAT, a string such as \"mapping\", begins.  Raise a
+&bight-error from PROC unless FILE can be read, is plain, and begins so."
+  (let ((forms (text->datum (string-append "(" (text-of proc file) "\n)"))))
+    (unless (and (pair? forms) (list? forms) (equal? heading (car forms)))
+      (bight-raise 'format proc "~a is no ~a that can be read: it begins with ~s" file what heading))
+    (cdr forms)))

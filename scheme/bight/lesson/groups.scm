@@ -6,6 +6,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson groups)
+  #:use-module (bight core decimal)
   #:use-module (bight core interval)
   #:use-module ((bight study risk) #:select (wilson-interval))
   #:use-module (srfi srfi-1)
@@ -18,11 +19,7 @@
 
 (define (number-told x)
   "Return the number X with one decimal, a string; - for #f."
-  (if x
-      (let* ((n (inexact->exact (round (* 10 (abs x))))) (whole (quotient n 10)))
-        (string-append (if (and (negative? x) (positive? n)) "-" "") (number->string whole) "."
-                       (number->string (remainder n 10))))
-      "-"))
+  (if x (fixed x 1) "-"))
 
 (define (interval-told interval)
   (simple-format #f "~a (~a to ~a)" (string-pad (number-told (first interval)) 6)

@@ -7,6 +7,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson score)
+  #:use-module (bight core decimal)
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module ((bight dive) #:select (current-dive))
@@ -106,16 +107,7 @@ about; and WHY it matters, or #f."
   "Return the number X as a person reads it, a string."
   (cond ((not (real? x)) "none")
         ((not (finite? x)) (if (nan? x) "none" "any"))
-        (else
-         (let* ((places (cond ((>= (abs x) 100) 0) ((>= (abs x) 10) 1) (else 2)))
-                (scale (expt 10 places))
-                (n (inexact->exact (round (* scale (abs x))))))
-           (string-append
-            (if (and (negative? x) (positive? n)) "-" "")
-            (number->string (quotient n scale))
-            (if (zero? places)
-                ""
-                (string-append "." (string-pad (number->string (remainder n scale)) places #\0))))))))
+        (else (fixed x (cond ((>= (abs x) 100) 0) ((>= (abs x) 10) 1) (else 2))))))
 
 (define (percent x)
   (string-append (number->string (inexact->exact (round (* 100 x)))) " %"))

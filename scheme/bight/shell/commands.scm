@@ -154,15 +154,15 @@
 ;;; Commands about one thing.
 
 (define (call-with-one command what example arguments proc)
-  ;; Call PROC in the language with the one thing that COMMAND is given among ARGUMENTS, and the options; WHAT
-  ;; there should be, as in EXAMPLE, is said where there is none, or more.
+  ;; Call PROC in the language with the one thing that COMMAND is given among ARGUMENTS, and the options, and
+  ;; return the exit status: 1 if PROC returns #f.  WHAT there should be, as in EXAMPLE, is said where there is
+  ;; none, or more.
   (call-with-values (lambda () (split-arguments command arguments))
     (lambda (given options)
       (unless (= 1 (length given))
         (bad-usage "~a: name one ~a, as in bight ~a ~a" command what command example))
       (enter-language!)
-      (proc (car given) options)
-      0)))
+      (if (eq? #f (proc (car given) options)) 1 0))))
 
 
 ;;; bight pilot.
@@ -224,11 +224,8 @@
 ;;; bight replay.
 
 (define (run-replay arguments)
-  (call-with-values (lambda () (split-arguments "replay" arguments))
-    (lambda (files options)
-      (unless (= 1 (length files))
-        (bad-usage "replay: name one recording, as in bight replay FILE"))
-      (if ((from (bight dive recording) replay-file) (car files)) 0 1))))
+  (call-with-one "replay" "recording" "FILE" arguments
+                 (lambda (file options) ((from (bight dive recording) replay-file) file))))
 
 
 ;;; The commands: one entry each, of which all help, the manual page and the options known are made.

@@ -5,6 +5,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight view looks)
+  #:use-module ((bight core decimal) #:select (fixed))
   #:use-module ((bight core verb) #:select (verb? verb-usage))
   #:use-module ((bight dive plain-words) #:select (words-of words-of-answer))
   #:use-module (ice-9 regex)
@@ -38,15 +39,6 @@
 (define (decimals-for size)
   ;; How many decimals numbers of at most SIZE are shown with.
   (if (or (>= size 1) (< size least)) decimals (- figures 1 (magnitude size))))
-
-(define (fixed x places)
-  ;; X with PLACES decimals.
-  (let* ((n (inexact->exact (round (* (abs (inexact->exact x)) (expt 10 places)))))
-         (digits (number->string n))
-         (text (string-pad digits (max (string-length digits) (+ 1 places)) #\0))
-         (dot (- (string-length text) places)))
-    (string-append (if (and (< x 0) (positive? n)) "-" "")
-                   (substring text 0 dot) "." (substring text dot))))
 
 (define (trimmed text)
   ;; TEXT, a number, without zeros at its end, but for the one after its point.

@@ -1,0 +1,26 @@
+;;; (bight core decimal) --- numbers with so many decimals, as people read them.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight core decimal)
+  #:export (fixed fixed-with-sign))
+
+(define (fixed x places)
+  "Return the finite number X with PLACES decimals, a string; what rounds to 0 has no sign."
+  (let* ((n (round (* (abs (inexact->exact x)) (expt 10 places))))
+         (digits (digits-of n (+ 1 places)))
+         (point (- (string-length digits) places)))
+    (string-append (if (and (negative? x) (positive? n)) "-" "")
+                   (substring digits 0 point)
+                   (if (zero? places) "" ".")
+                   (substring digits point))))
+
+(define (digits-of n least)
+  ;; Those of the whole number N, with zeros before them where there are fewer than LEAST.
+  (let ((digits (number->string n)))
+    (string-pad digits (max least (string-length digits)) #\0)))
+
+(define (fixed-with-sign x places)
+  "Return X as `fixed' does, with + before what is not negative."
+  (let ((text (fixed x places)))
+    (if (string-prefix? "-" text) text (string-append "+" text))))
