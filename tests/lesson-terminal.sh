@@ -65,6 +65,17 @@ result $? 'who answers wide of the question is told how'
 line '400'
 see 'a bearing is from 0, north'
 result $? 'and who answers out of range'
+pane resize-window -x 10 -y 3
+see '^ a .*_$'
+pane resize-window -x 120 -y 40
+see '^ a bearing, degrees> _'
+result $? 'a window that was tiny for a while costs nothing'
+printf '2\nq\nxy' >"$scratch/paste"
+pane load-buffer "$scratch/paste"
+pane paste-buffer -p
+see '> 2 q xy_'
+result $? 'what is pasted is one line'
+keys C-u
 keys -l 2199
 keys BSpace BSpace Left BSpace End C-e
 line '1'
@@ -99,6 +110,12 @@ result $? 'after the last question there is a task'
 keys Enter
 see '^ e hint' && see 'depth *8.00 m' && see '^ Fly to within a metre'
 result $? 'it is flown in the cockpit, under its words'
+keys C-z
+sane
+result $? '^Z gives the shell back'
+line fg
+see '^ e hint' && see 'depth *8.00 m'
+result $? 'and the flight goes on'
 keys p
 see PAUSED
 result $? 'p stops time'

@@ -63,8 +63,11 @@ result $? 'a dive is paused'
 keys p g
 see 'what if'
 result $? 'a fork runs ahead'
-prod 'back at' u
-result $? 'time goes back'
+keys Space
+prod 'yaw +1.0' d d d d
+see 'yaw  0.0'
+prod 'back at' u && see 'yaw  0.0'
+result $? 'time goes back, and no stick with it that nobody holds'
 
 keys :
 see 'bight>$'
@@ -84,6 +87,13 @@ see ' depth .* m '
 result $? 'and a smaller one'
 [ "$(screen | grep -c .)" -le 24 ]
 result $? 'within its lines'
+keys 1
+see ' chase .*/s'
+pane resize-window -x 10 -y 3
+see '^ pier  *[0-9.]*$'
+pane resize-window -x 80 -y 24
+see ' chase .*/s'
+result $? 'one too small for a picture costs none later'
 
 keys q
 check 'q leaves a terminal as it was' sane

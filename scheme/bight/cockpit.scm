@@ -23,9 +23,10 @@
   #:use-module (bight dive time)
   #:use-module (bight engine)
   #:use-module ((bight world) #:select (world-name))
+  #:use-module (ice-9 regex)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
-  #:export (draw-frame! compose-frame! fit-to-size! draw-page! pages view-key! frame-pixels))
+  #:export (draw-frame! compose-frame! fit-to-size! draw-page! first-page last-lines view-key! frame-pixels))
 
 (define-syntax-rule (from module name)
   (module-ref (resolve-interface 'module) 'name))
@@ -89,8 +90,6 @@ fall in it."
 (define (draw-picture! c)
   ;; Return the marks with where they fall: lists (NAME COLUMN ROW).
   (let ((ghost (cockpit-ghost c)) (size (cockpit-size c)) (marks (shown-marks c)))
-    (unless (and (>= (car size) least-side) (>= (* 2 (cdr size)) least-side))
-      (bight-raise 'unsupported 'pilot! "the terminal is too small for a picture"))
     (let ((places (marks-vector marks)))
       (%screen-picture! (cockpit-screen c)
                         (frame-pixels (engine-of (cockpit-dive c)) (view-turned c)
@@ -122,8 +121,11 @@ fall in it."
   (set-ghost! c #f)
   (announce! c (bight-error-message e)))
 
+(define (room-for-picture? c)
+  (and (>= (car (cockpit-size c)) least-side) (>= (* 2 (cdr (cockpit-size c))) least-side)))
+
 (define (blind? c)
-  (or (not (cockpit-dive c)) (cockpit-dark? c) ((unseen?) 'look)))
+  (or (not (cockpit-dive c)) (cockpit-dark? c) ((unseen?) 'look) (not (room-for-picture? c))))
 
 (define (draw-scene! c put)
   ;; The picture, or plain characters; return the marks in it.
@@ -189,8 +191,16 @@ fall in it."
                        (string-append "  " (number->string (/ (floor (* 10 (now))) 10)) " s")
                        ""))))
 
+(define (leading-words words room)
+  ;; The first of WORDS that fit into ROOM, with two blanks between them.
+  (fold (lambda (word line)
+          (let ((longer (if (string-null? line) word (string-append line "  " word))))
+            (if (<= (string-length longer) room) longer line)))
+        "" words))
+
 (define (right-text c)
-  (string-join
+  ;; As much of it as there is room for beside the title, the most important first.
+  (leading-words
    (filter identity
            (list (and (cockpit-paused? c) "PAUSED")
                  (and (cockpit-dark? c) "NO LIGHT")
@@ -201,7 +211,7 @@ fall in it."
                  (if (cockpit-plain? c) "plain" (symbol->string (cockpit-view c)))
                  (and (not (eq? 'plain (cockpit-paint c))) (symbol->string (cockpit-paint c)))
                  (string-append (number->string (frames-a-second c)) "/s")))
-   "  "))
+   (- (car (cockpit-size c)) (string-length (title c)) 4)))
 
 (define (sticks-now c)
   (if (cockpit-vehicle c)
@@ -289,36 +299,51 @@ there is nothing to tell."
     (compose-frame! c hint)
     (write-frame! c new?)))
 
-(define (widest-drawing lines)
-  ;; Of lines that are drawings the width; running text is wrapped.
-  (apply max 0 (map string-length (filter (lambda (line) (string-contains line "  ")) lines))))
+(define columned (make-regexp "(^|[^.!?:]) {2}"))
+
+(define (drawing? line)
+  ;; Does LINE stand in columns?  Blanks behind the end of a sentence, and lines that are broken, are running text.
+  (and (not (string-index line #\newline)) (regexp-exec columned line)))
 
 (define (fitted-lines lines columns)
-  ;; LINES for a box on a screen of COLUMNS.
-  (let ((width (min (- columns 4) (max 76 (widest-drawing lines)))))
-    (append-map (lambda (line) (if (<= (string-length line) width) (list line) (wrap line width))) lines)))
+  ;; LINES for a box on a screen of COLUMNS, as wide as the drawings among them; running text is wrapped.
+  (let ((width (max 1 (min (- columns 4) (apply max 76 (map string-length (filter drawing? lines)))))))
+    (append-map (lambda (line)
+                  (if (and (<= (string-length line) width) (not (string-index line #\newline)))
+                      (list line)
+                      (wrap line width)))
+                lines)))
 
-(define (pages c lines)
-  "Return LINES, a list of strings, as pages for the screen of C: lists of lines that fit."
-  (let* ((size (%screen-size)) (room (max 1 (- (cdr size) 3))))
-    (let loop ((rest (fitted-lines lines (car size))) (all '()))
-      (if (<= (length rest) room)
-          (reverse (cons rest all))
-          (loop (list-tail rest room) (cons (list-head rest room) all))))))
+(define (page-rows)
+  (max 1 (- (cdr (%screen-size)) 3)))
+
+(define (first-page lines)
+  "Return two values: what of LINES, strings, fits on the screen as it is now, as lines that fit; and the rest."
+  (let ((fitted (fitted-lines lines (car (%screen-size)))) (room (page-rows)))
+    (if (<= (length fitted) room)
+        (values fitted '())
+        (values (list-head fitted room) (drop-while string-null? (list-tail fitted room))))))
+
+(define (last-lines lines)
+  "Return what of LINES, strings, fits on the screen as it is now, where their end is what matters, as lines that fit."
+  (let ((fitted (fitted-lines lines (car (%screen-size)))))
+    (take-right fitted (min (length fitted) (page-rows)))))
+
+(define (draw-lines! put columns lines)
+  ;; As a box in the middle, two rows below the top.
+  (when (pair? lines)
+    (let ((width (max 1 (min (- columns 4) (apply max 76 (map string-length lines))))))
+      (put-box put (max 0 (quotient (- columns width 2) 2)) 2
+               (map (lambda (line) (string-pad-right line width)) lines)
+               white #x102028))))
 
 (define (draw-page! c lines last-line)
-  "Draw the dive of C, or nothing where it has none, with LINES, a list of strings, over it, and LAST-LINE below."
+  "Draw the dive of C, or nothing where it has none, with the first page of LINES, strings, over it, and LAST-LINE below."
   (let* ((new? (fit-screen! c)) (put (new-desk c)) (columns (car (cockpit-size c))) (rows (cdr (cockpit-size c)))
-         (marks (draw-scene! c (plain-put c)))
-         (shown (fitted-lines lines columns))
-         (shown (list-head shown (min (length shown) (max 1 (- rows 3)))))
-         (width (min (- columns 4) (apply max 76 (map string-length shown)))))
+         (marks (draw-scene! c (plain-put c))) (shown (first-page lines)))
     (put 0 (- rows 1) (string-pad-right (cut (string-append " " last-line) columns) columns) yellow #x102028)
     (put 0 0 (cut (string-append " " (title c) " ") columns) white #f)
-    (when (pair? shown)
-      (put-box put (quotient (- columns width 2) 2) 2
-               (map (lambda (line) (string-pad-right line width)) shown)
-               white #x102028))
+    (draw-lines! put columns shown)
     (draw-map! c put (+ 3 (length shown)))
     (draw-marks! put marks)
     (write-frame! c new?)))
@@ -366,9 +391,9 @@ there is nothing to tell."
   (announce! c (string-append "view: " (symbol->string view))))
 
 (define (suspend! c)
-  ;; As ^Z does elsewhere.
+  ;; As ^Z does elsewhere: all of the job, since a lesson is taken by a process whose parent waits for it.
   (%terminal-leave!)
-  (kill (getpid) SIGSTOP)
+  (kill 0 SIGSTOP)
   (%terminal-enter!)
   (look-anew! c))
 

@@ -39,7 +39,7 @@ size (void)
 typedef struct transfer
 {
   double seconds;
-  char in[256];
+  char in[4096];
   const char *out;
   size_t n;
   int result;

@@ -34,11 +34,11 @@
 
 /* The other page, no cursor, no wrapping; and all of it back, colours too.  Beside that, for terminals
    with more: the mouse while its button is down (1002, 1006), word of the window's losing the focus
-   (1004), and keys by kitty's protocol (flags 1, 2 and 4: told apart, with releases, with what shift
-   makes of them), asking whether releases will be told.  */
+   (1004), marks about what is pasted (2004), and keys by kitty's protocol (flags 1, 2 and 4: told
+   apart, with releases, with what shift makes of them), asking whether releases will be told.  */
 static const char taking[] = "\033[?1049h\033[?25l\033[?7l\033[0m\033[2J"
-                             "\033[?1002h\033[?1006h\033[?1004h\033[>7u\033[?u";
-static const char giving[] = "\033[<u\033[?1004l\033[?1006l\033[?1002l"
+                             "\033[?1002h\033[?1006h\033[?1004h\033[?2004h\033[>7u\033[?u";
+static const char giving[] = "\033[<u\033[?2004l\033[?1004l\033[?1006l\033[?1002l"
                              "\033[0m\033[?7h\033[?25h\033[?1049l";
 
 /* Signals that kill, unless handled before.  */

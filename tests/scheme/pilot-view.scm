@@ -2,11 +2,14 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight cockpit cells)
+(use-modules (bight cockpit)
+             (bight cockpit cells)
              (bight cockpit palette)
              (bight cockpit desk)
              (bight cockpit hud)
+             (bight cockpit keyboard)
              (bight cockpit keys)
+             (bight cockpit line)
              (bight cockpit sequences)
              (bight cockpit state)
              (bight cockpit view)
@@ -56,6 +59,70 @@
   (expect (keys-of "\x1b[?7u\x1b[?1u\x1b[O\x1b[I") => '(releases unfocused))
   (expect (keys-of "\x1b[<0;3;5M\x1b[<32;4;6M\x1b[<0;4;6m\x1b[<64;1;1M\x1b[<65;1;1M\x1b[<2;1;1M\x1b[<0;1Mq")
           => '((mouse press 2 4) (mouse drag 3 5) (mouse release 3 5) (mouse nearer 0 0) (mouse further 0 0) #\q)))
+
+(define-scenario what-is-pasted-is-a-text
+  "Wherever the terminal's answers are cut in two: one line takes all of it, and no key of the flight comes of it."
+  (in open-water)
+  (let* ((text (string-append "(a b)\rq " (make-string 10240 #\x) "\x7f\n:")) (flat (string-append "(a b) q " (make-string 10240 #\x) "   "))
+         (keys (keys-of (string-append "w\x1b[200~" text "\x1b[201~q"))))
+    (define (gathered . chunks)
+      (let loop ((chunks chunks) (within? #f) (all '()))
+        (if (null? chunks)
+            (list all within?)
+            (call-with-values (lambda () (gather-pasted (car chunks) within?))
+              (lambda (keys more?) (loop (cdr chunks) more? (append all keys)))))))
+    (define (pasted keys) (string-concatenate (map second (filter pair? keys))))
+    (for-each
+     (lambda (at)
+       (call-with-values (lambda () (split-at keys at))
+         (lambda (one other)
+           (let ((all (gathered one other)))
+             (expect (second all) => #f)
+             (expect (filter char? (first all)) => '(#\w #\q))
+             (expect (pasted (first all)) => (string-append (string-drop-right flat 1) ":"))))))
+     (list 0 1 2 3 5000 (- (length keys) 2) (- (length keys) 1) (length keys)))
+    (expect (gathered (keys-of "\x1b[200~q")) => '(((pasted "q")) #t))
+    (expect (gathered (keys-of "\x1b[200~q\x03w")) => '(((pasted "q") #\w) #f))
+    (expect (gathered (keys-of "\x1b[201~q")) => '((pasted #\q) #f))
+    (let ((line (edit-line (edit-line (line-of "ab") 'left) (list 'pasted flat))))
+      (expect (line-text line) => (string-append "a" flat "b"))
+      (expect (line-text (edit-line line #\backspace)) => (string-append "a" (string-drop-right flat 1) "b")))))
+
+(define-scenario a-line-is-seen-in-any-width
+  "Label and line never take more than the screen has, the cursor among them from six columns up."
+  (in open-water)
+  (for-each
+   (lambda (label)
+     (for-each
+      (lambda (line)
+        (for-each (lambda (columns)
+                    (let ((shown (prompt-shown label line columns)))
+                      (expect (<= (string-length shown) (max 3 (- columns 2))) => #t)
+                      (expect (or (< columns 6) (string-index shown #\_)) is identity)))
+                  (iota 120)))
+      (list (line-of "") (line-of "(drive! #:surge 0.5)") (edit-line (line-of (make-string 10240 #\x)) #\soh)
+            (line-of (make-string 10240 #\x)))))
+   '("> " "a bearing, degrees> " "adrift: an obstacle, m/s and the degrees it drifts to> ")))
+
+(define-scenario pages-hold-all-that-is-said
+  "In order, on lines that fit; running text is never as wide as a drawing, and the end is seen where it matters."
+  (in open-water)
+  (let* ((drawing "1  43 s  a line in columns, which is as long as it is, and so is this one of eighty columns or more  9")
+         (texts (append (list "First.  Then a sentence behind two blanks,\nand a line\nthat is broken." "" drawing "")
+                        (append-map (lambda (i) (list (simple-format #f "Text ~a of many, which is not long.  But it ends." i) ""))
+                                    (iota 40))))
+         (words (lambda (lines) (append-map string-tokenize lines))))
+    (define (all-pages lines)
+      (call-with-values (lambda () (first-page lines))
+        (lambda (page rest) (if (null? rest) (list page) (cons page (all-pages rest))))))
+    (let ((pages (all-pages texts)))
+      (expect (length pages) is (above 3))
+      (expect (words (concatenate pages)) => (words texts))
+      (when (>= (car (%screen-size)) 80)
+        (expect (first (first pages)) => "First. Then a sentence behind two blanks, and a line that is broken."))
+      (expect (filter (lambda (line) (> (string-length line) (- (car (%screen-size)) 4))) (concatenate pages)) => '())
+      (expect (last (last-lines texts)) => "")
+      (expect (length (last-lines texts)) => (length (first pages))))))
 
 (define-scenario a-cockpit-begins-with-nothing
   "No terminal is believed to tell of releases before it says so; nothing is turned, sent, dark or left to draw."

@@ -7,8 +7,8 @@
   #:use-module (bight cockpit cells)
   #:use-module (bight cockpit desk)
   #:use-module (bight cockpit hud)
+  #:use-module (bight cockpit keyboard)
   #:use-module (bight cockpit palette)
-  #:use-module (bight cockpit sequences)
   #:use-module (bight cockpit state)
   #:use-module (bight cockpit what-if)
   #:use-module (bight core errors)
@@ -71,9 +71,9 @@
 
 (define (take-keys! c until)
   (let loop ()
-    (let ((bytes (%terminal-keys (max 0.001 (- until (clock))))))
-      (if bytes
-          (for-each (lambda (key) (trying c (do-key! c key))) (bytes->keys bytes))
+    (let ((keys (keys-within (max 0.001 (- until (clock))))))
+      (if keys
+          (for-each (lambda (key) (trying c (do-key! c key))) keys)
           (set-done! c 'hung-up))
       (when (and (not (cockpit-done? c)) (< (clock) until))
         (loop)))))

@@ -3,9 +3,10 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight cockpit line)
+  #:use-module ((bight cockpit desk) #:select (cut))
   #:use-module (bight core record)
   #:use-module (srfi srfi-1)
-  #:export (empty-line line-of line? line-text line-done? line-left? line-shown edit-line))
+  #:export (empty-line line-of line? line-text line-done? line-left? line-shown prompt-shown edit-line))
 
 (define-record <line>
   (make-line text at state older newer)
@@ -34,6 +35,12 @@
          (from (max 0 (- (+ 1 (line-at line)) width))))
     (substring text from (min (string-length text) (+ from (max 1 width))))))
 
+(define (prompt-shown label line columns)
+  "Return LABEL, and behind it what is seen of LINE, in COLUMNS; where there is little room the label is cut."
+  (let* ((room (max 1 (- columns 2))) (least (min 16 (quotient (+ room 1) 2)))
+         (label (cut label (- room least))))
+    (string-append label (line-shown line (- room (string-length label))))))
+
 (define* (changed line text at #:optional (state 'editing))
   (make-line text at state (line-older line) (line-newer line)))
 
@@ -57,8 +64,11 @@
 (define (deleted line n)
   (changed line (string-append (before line n) (behind line 0)) (max 0 (- (line-at line) n))))
 
+(define (inserted line text)
+  (changed line (string-append (before line 0) text (behind line 0)) (+ (line-at line) (string-length text))))
+
 (define (edit-line line key)
-  "Return LINE after KEY, a character or up down left right escape."
+  "Return LINE after KEY, a character, up down left right escape, or (pasted TEXT)."
   (let ((text (line-text line)) (at (line-at line)))
     (case key
       ((#\return #\newline) (changed line text at 'done))
@@ -79,6 +89,6 @@
                         (lambda (text newer older)
                           (make-line text (string-length text) 'editing older newer))))
       (else
-       (if (and (char? key) (char<=? #\space key #\~))
-           (changed line (string-append (before line 0) (string key) (behind line 0)) (+ at 1))
-           line)))))
+       (cond ((and (char? key) (char<=? #\space key #\~)) (inserted line (string key)))
+             ((and (pair? key) (eq? 'pasted (car key))) (inserted line (second key)))
+             (else line))))))

@@ -2,8 +2,8 @@
 ;;;
 ;;; What stands for no character comes as an escape sequence: arrows; keys by kitty's protocol, which tells of releases
 ;;; too (sw.kovidgoyal.net/kitty/keyboard-protocol), where a terminal has it; the mouse as xterm's mode 1006 tells it;
-;;; and that the window is looked at no longer, mode 1004.  %terminal-enter! asks for all of these, and a terminal tells
-;;; what it knows.
+;;; that the window is looked at no longer, mode 1004; and where what is pasted begins and ends, mode 2004.
+;;; %terminal-enter! asks for all of these, and a terminal tells what it knows.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -77,13 +77,15 @@
            (if (and flags (odd? (quotient flags 2))) '(releases) '())))
         ((string-any (char-set #\< #\= #\> #\?) parameters) '())
         ((eqv? letter #\u) (kitty-key (numbers parameters)))
+        ((and (eqv? letter #\~) (assoc-ref '(("200" . paste) ("201" . pasted)) parameters)) => list)
         ((and (eqv? letter #\O) (string-null? parameters)) '(unfocused))
         (else '())))
 
 (define (bytes->keys bytes)
   "Return the keys that BYTES, a list of what a terminal sent, stand for: characters; the symbols up down left right
 escape; (release KEY); releases, when the terminal says that it tells of releases, and unfocused, when it tells of
-nothing any more; (mouse press COLUMN ROW), as well with drag, release, nearer or further."
+nothing any more; paste and pasted, about what is pasted; (mouse press COLUMN ROW), as well with drag, release, nearer or
+further."
   (match bytes
     (() '())
     ((27 79 byte . rest) (append (or (and=> (arrow (integer->char byte)) list) '()) (bytes->keys rest)))

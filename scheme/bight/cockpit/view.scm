@@ -12,10 +12,10 @@
   #:use-module (bight cockpit cells)
   #:use-module (bight cockpit controller)
   #:use-module (bight cockpit controls)
+  #:use-module (bight cockpit keyboard)
   #:use-module (bight cockpit keys)
   #:use-module ((bight cockpit orders) #:select (answer-order! do-to-dive! call-with-desk next-order! publish!))
   #:use-module (bight cockpit palette)
-  #:use-module (bight cockpit sequences)
   #:use-module (bight cockpit state)
   #:use-module (bight cockpit what-if)
   #:use-module (bight core errors)
@@ -122,7 +122,7 @@
   (trying c
     (let ((t (rewind! (min 5.0 (now)))))
       (set-sticks! c (new-sticks))
-      (set-sent! c (stick-values (cockpit-sticks c)))
+      (set-sent! c (and (cockpit-vehicle c) (array->list (sticks (cockpit-vehicle c))))) ; as they stood then
       (ask-anew! c)
       (announce! c (simple-format #f "back at ~a s" (/ (round (* 100 t)) 100))))))
 
@@ -174,9 +174,9 @@
 
 (define (take-keys! c seconds)
   (for-each (lambda (key) (trying c (do-key! c key))) (controller-keys! c))
-  (let ((bytes (%terminal-keys (max 0 seconds))))
-    (if bytes
-        (for-each (lambda (key) (trying c (do-key! c key))) (bytes->keys bytes))
+  (let ((keys (keys-within seconds)))
+    (if keys
+        (for-each (lambda (key) (trying c (do-key! c key))) keys)
         (set-done! c 'hung-up))))
 
 

@@ -7,8 +7,8 @@
   #:use-module (bight cockpit cells)
   #:use-module (bight cockpit desk)
   #:use-module (bight cockpit hud)
+  #:use-module (bight cockpit keyboard)
   #:use-module (bight cockpit palette)
-  #:use-module (bight cockpit sequences)
   #:use-module (bight cockpit state)
   #:use-module (bight core errors)
   #:use-module (bight core record)
@@ -142,9 +142,9 @@ the last of its EVENTS."
 
 (define (take-keys! show until)
   (let loop ()
-    (let* ((c (show-cockpit show)) (bytes (%terminal-keys (max 0.001 (- until (clock))))))
-      (if bytes
-          (for-each (lambda (key) (trying c (do-key! show key))) (bytes->keys bytes))
+    (let* ((c (show-cockpit show)) (keys (keys-within (max 0.001 (- until (clock))))))
+      (if keys
+          (for-each (lambda (key) (trying c (do-key! show key))) keys)
           (set-done! c 'hung-up))
       (when (and (not (cockpit-done? c)) (< (clock) until))
         (loop)))))

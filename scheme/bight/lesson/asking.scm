@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson asking)
+  #:use-module ((bight cockpit) #:select (last-lines))
   #:use-module (bight cockpit line)
   #:use-module (bight cockpit state)
   #:use-module (bight lesson how-it-was)
@@ -11,7 +12,7 @@
   #:use-module (bight lesson play)
   #:use-module (bight lesson seat)
   #:use-module (srfi srfi-1)
-  #:export (answer-in type-in columns-for probe-in-cockpit))
+  #:export (answer-in type-in columns-now probe-in-cockpit))
 
 (define (answer-in text choices degrees?)
   "Return the answer that TEXT, what was typed, gives: a number, or one of CHOICES, which its beginning may stand for; or
@@ -41,8 +42,9 @@ a string that says what would be one.  DEGREES? wants a bearing."
     (let* ((key (next-key 0.25)) (line (if key (edit-line line key) line)))
       (if (or (line-done? line) (line-left? line)) line (loop line)))))
 
-(define (columns-for label)
-  (- (car (or (cockpit-size (this-cockpit)) '(80 . 24))) (string-length label) 2))
+(define (columns-now)
+  "Return how wide the screen is."
+  (car (or (cockpit-size (this-cockpit)) '(80 . 24))))
 
 (define (typed-line label lines accept)
   ;; Let the pupil type; return what ACCEPT makes of the text, unless that is a string: then it is shown.
@@ -51,7 +53,7 @@ a string that says what would be one.  DEGREES? wants a bearing."
      (let loop ((lines lines))
        (let ((line (type-in (empty-line)
                             (lambda (line)
-                              (draw-still lines (string-append label (line-shown line (columns-for label))))))))
+                              (draw-still (last-lines lines) (prompt-shown label line (columns-now)))))))
          (if (line-left? line)
              ((leaving))
              (let ((value (accept (line-text line))))
@@ -81,7 +83,8 @@ a string that says what would be one.  DEGREES? wants a bearing."
       (list 'answer
             (with-look 'pilot '()
                        (lambda ()
-                         (typed-line (probe-label choices degrees?) (show-but-last! lines)
+                         (show-but-last! lines)
+                         (typed-line (probe-label choices degrees?) lines
                                      (lambda (text) (answer-in text choices degrees?)))))))))
 
 (define (probe-in-cockpit question truth choices)

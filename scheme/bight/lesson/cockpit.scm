@@ -75,7 +75,7 @@ characters for a picture."
       (if (eq? thunk look)
           (with-look (or (one-view) 'overview) (labels-now)
                      (lambda ()
-                       (show-page! (in-order texts) "Enter goes on   v other views   q leaves"))
+                       (show-page! (in-order texts) "Enter goes on   q leaves   v other views"))
                      #:map? (not (hard?)))
           (show-lines! (append (in-order texts) (value-lines (thunk))))))))
 
@@ -87,16 +87,16 @@ characters for a picture."
 ;;; A task that failed.
 
 (define (ask-what-next)
-  (turn-page (in-order (append '("u: go back ten seconds    a: begin the task again    e: end the lesson")
-                               (seat-texts (the-seat))))
-             "u, a or e   q leaves, to go on later"
-             (lambda (key)
-               (case key
-                 ((#\u) '(failed back))
-                 ((#\a) '(failed again))
-                 ((#\e) '(failed end))
-                 ((#\q #\etx #\eot) ((leaving)))
-                 (else (view-key-here! key) #f)))))
+  (turn-pages (in-order (append '("u: go back ten seconds    a: begin the task again    e: end the lesson")
+                                (seat-texts (the-seat))))
+              "u, a or e   q leaves, to go on later"
+              (lambda (key)
+                (case key
+                  ((#\u) '(failed back))
+                  ((#\a) '(failed again))
+                  ((#\e) '(failed end))
+                  ((#\q #\etx #\eot) ((leaving)))
+                  (else (view-key-here! key) #f)))))
 
 (define (failed-in-cockpit text)
   "Ask the pupil what to do after a task that ended by TEXT."

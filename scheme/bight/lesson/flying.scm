@@ -123,7 +123,7 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
      (lambda ()
        (let* ((line (type-in (empty-line (seat-history seat))
                              (lambda (line)
-                               (draw-flight! c (string-append label (line-shown line (columns-for label)))))))
+                               (draw-flight! c (prompt-shown label line (columns-now))))))
               (text (string-trim-both (line-text line))))
          (and (line-done? line) (not (member text '("" ",q")))
               (begin
@@ -228,12 +228,29 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
     (ask-anew! c)
     (set-stepped! c (clock))))
 
+(define (sticks-now)
+  (array->list (sticks)))
+
+(define (note-sticks!)
+  ;; How the lesson set the sticks for the task; what the pupil does with them comes later.
+  (let ((n (tally-ref 'tasks)))
+    (unless (eqv? n (car (tally-ref 'sticks-set '(#f))))
+      (tally-set! 'sticks-set (cons n (sticks-now))))))
+
+(define (feel-sticks! c)
+  ;; The dive's sticks may stand otherwise than the pupil's, as after a step back in time: then the pupil's are told
+  ;; again, unless the lesson itself set those of the dive.
+  (note-sticks!)
+  (set-sent! c (if (equal? (sticks-now) (cdr (tally-ref 'sticks-set)))
+                   (stick-values (new-sticks))
+                   (sticks-now))))
+
 (define (take-seat! c)
   (keep-up!)
   (set-view! c (or (one-view) (seat-view (the-seat))))
   (set-map! c (not (hard?)))
   (set-sticks! c (new-sticks))
-  (set-sent! c (stick-values (new-sticks)))
+  (feel-sticks! c)
   (drop-ghost! c)
   (set-paused! c #f)
   (set-stepped! c (clock)))
@@ -241,6 +258,7 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
 (define (fly-in-cockpit n seconds)
   "Let the pupil fly task N until it is over."
   (let ((c (this-cockpit)))
+    (note-sticks!)
     (catch-up!)
     (read-what-was-said!)
     (take-seat! c)
@@ -252,8 +270,10 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
         (let ((ask (flight-asker c)))
           (let loop ()
             (let* ((input (next-input ask)) (lines (apply-input! input)))
-              (if (eq? 'instruct (car input))
-                  (answer-order! lines)
-                  (show-result! c lines)))
+              (case (car input)
+                ((instruct) (answer-order! lines))
+                (else
+                 (when (eq? 'back (car input)) (feel-sticks! c))
+                 (show-result! c lines))))
             (loop))))
       (lambda () (set-seat-view! (the-seat) (if (one-view) 'chase (cockpit-view c)))))))

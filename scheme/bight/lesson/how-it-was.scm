@@ -56,7 +56,7 @@
                      (append (labels-now) (if (how-bearings how) (bearing-labels (how-bearings how)) '()))
                      (lambda ()
                        (show-page! (append (reverse (how-verdict how)) '("So it was."))
-                                   "Enter goes on   v other views   q leaves"))
+                                   "Enter goes on   q leaves   v other views"))
                      #:map? (not (hard?))))))))
 
 

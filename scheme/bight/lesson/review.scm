@@ -48,4 +48,4 @@
         (else (enter-turns key))))
     (unless (null? lost)
       (board! c (second (last lost)))
-      (turn-page (show-but-last! (review-lines lost)) "w watches where marks were lost   Enter ends" turn))))
+      (turn-pages (review-lines lost) "w watches where marks were lost   Enter ends" turn))))

@@ -4,10 +4,9 @@
 
 (define-module (bight lesson seat)
   #:use-module (bight cockpit)
-  #:use-module (bight cockpit cells)
   #:use-module (bight cockpit controls)
   #:use-module (bight cockpit hud)
-  #:use-module (bight cockpit sequences)
+  #:use-module (bight cockpit keyboard)
   #:use-module (bight cockpit state)
   #:use-module (bight core record)
   #:use-module (bight core units)
@@ -22,7 +21,7 @@
             seat-view set-seat-view! seat-texts set-texts! seat-heard set-heard! seat-pending set-pending!
             seat-history set-history! seat-keys
             keep-up! next-key waiting
-            view-key-here! draw-still turn-page enter-turns show-page! show-but-last! in-order
+            view-key-here! draw-still turn-pages enter-turns show-page! show-but-last! in-order
             labels-now with-look hear!))
 
 (define-record <seat>
@@ -67,8 +66,8 @@
     (when (null? (seat-keys seat))
       (set-keys! seat (controller-keys! (seat-cockpit seat))))
     (when (null? (seat-keys seat))
-      (let ((bytes (%terminal-keys (max 0 seconds))))
-        (if bytes (set-keys! seat (bytes->keys bytes)) ((leaving)))))
+      (let ((keys (keys-within seconds)))
+        (if keys (set-keys! seat keys) ((leaving)))))
     (and (pair? (seat-keys seat))
          (let ((key (car (seat-keys seat))))
            (set-keys! seat (cdr (seat-keys seat)))
@@ -102,34 +101,46 @@
     (parameterize ((current-dive (or (cockpit-dive c) (current-dive))))
       (draw-page! c lines last-line))))
 
-(define (turn-page lines last-line turn)
-  "Show LINES until TURN, a procedure of a key, returns what is not #f, and return that."
-  (waiting
-   (lambda ()
-     (let loop ()
-       (draw-still lines last-line)
-       (let ((key (next-key 0.25)))
-         (or (and key (turn key)) (loop)))))))
-
 (define (enter-turns key)
   (case key
     ((#\return #\newline #\space) #t)
     ((#\q #\etx #\eot) ((leaving)))
     (else (view-key-here! key) #f)))
 
+(define going-on "Enter goes on   q leaves")
+
+(define (after-page lines)
+  (call-with-values (lambda () (first-page lines)) (lambda (page rest) rest)))
+
+(define (turn-pages lines last-line turn)
+  "Show LINES page by page, as many as the screen needs, until TURN, a procedure of a key that is pressed on the last of
+them, returns what is not #f, and return that.  LAST-LINE stands below the last page."
+  (waiting
+   (lambda ()
+     (let loop ((lines lines))
+       (let* ((rest (after-page lines)) (last? (null? rest)))
+         (draw-still lines (if last? last-line going-on))
+         (let* ((key (next-key 0.25)) (turned (and key ((if last? turn enter-turns) key))))
+           (cond ((not turned) (loop lines))
+                 (last? turned)
+                 (else (loop rest)))))))))
+
 (define (show-page! lines last-line)
   (unless (replaying?)
-    (for-each (lambda (page) (turn-page page last-line enter-turns))
-              (pages (this-cockpit) (without-last-blanks lines)))))
+    (let ((lines (without-last-blanks lines)))
+      (unless (null? lines)
+        (turn-pages lines last-line enter-turns)))))
 
 (define (without-last-blanks lines)
   (reverse (drop-while string-null? (reverse lines))))
 
 (define (show-but-last! lines)
-  "Show LINES; where they need several pages, show all but the last, and return the last."
-  (let ((all (pages (this-cockpit) lines)))
-    (for-each (lambda (page) (turn-page page "Enter goes on   q leaves" enter-turns)) (drop-right all 1))
-    (last all)))
+  "Show LINES page by page, but for the last page."
+  (call-with-values (lambda () (first-page lines))
+    (lambda (page rest)
+      (unless (null? rest)
+        (turn-pages page going-on enter-turns)
+        (show-but-last! rest)))))
 
 (define (in-order texts)
   "Return TEXTS, the last first, as the lines of a page."

@@ -12,9 +12,9 @@
   #:use-module (bight cockpit cells)
   #:use-module (bight cockpit desk)
   #:use-module (bight cockpit hud)
+  #:use-module (bight cockpit keyboard)
   #:use-module (bight cockpit line)
   #:use-module (bight cockpit palette)
-  #:use-module (bight cockpit sequences)
   #:use-module (bight cockpit state)
   #:use-module (bight core datum)
   #:use-module (bight core errors)
@@ -221,9 +221,9 @@
     (else (view-key! (station-cockpit s) key))))
 
 (define (take-keys! s until)
-  (let* ((c (station-cockpit s)) (bytes (%terminal-keys (max 0.001 (- until (clock))))))
-    (if bytes
-        (for-each (lambda (key) (if (station-typing s) (type-key! s key) (do-key! s key))) (bytes->keys bytes))
+  (let* ((c (station-cockpit s)) (keys (keys-within (max 0.001 (- until (clock))))))
+    (if keys
+        (for-each (lambda (key) (if (station-typing s) (type-key! s key) (do-key! s key))) keys)
         (set-done! c 'hung-up))
     (when (and (not (cockpit-done? c)) (< (clock) until))
       (take-keys! s until))))
@@ -239,9 +239,7 @@
 (define (draw! s)
   (let* ((c (station-cockpit s)) (typing (station-typing s))
          (last-line (if typing
-                        (let ((label (assq-ref labels (car typing))))
-                          (string-append label
-                                         (line-shown (cdr typing) (- (car (%screen-size)) (string-length label) 2))))
+                        (prompt-shown (assq-ref labels (car typing)) (cdr typing) (car (%screen-size)))
                         hint)))
     (set-panel! c (station-panel (station-words s)))
     (if (cockpit-dive c)
