@@ -160,6 +160,21 @@ screen | LC_ALL=C grep -q '[^ -~]'
 [ $? -ne 0 ]
 result $? 'in letters that are all ASCII where the locale has no others'
 check 'and is taken to its marks' take_all
+cat >"$scratch/ahead.scm" <<'LESSON'
+(define-lesson ahead "Ahead"
+  (in open-water)
+  (task "Go ahead." (done-when (> (range-to '(0 0 -5)) 1000)) (at-most 2))
+  (task "Never." (done-when #f))
+  (score (rov-depth 0 100))
+  (pilot expert "Goes." (flies (drive! #:surge 1))))
+LESSON
+begin 80 24 COLORTERM= TERM=screen-256color LC_ALL=C.UTF-8
+line "bight lesson $scratch/ahead.scm --trust"
+see '^ Enter begins' && keys Enter && see 'a: begin the task again' && keys e && see 'Marks were lost here' && keys w &&
+  see 'pale: the expert, from where you began' && see PAUSED && see ' expert ' && keys q && see 'Marks were lost here'
+result $? 'beside what was flown the expert flies it'
+keys Enter
+sane >/dev/null
 check 'it begins in a tiny window' take_seat 30 8 COLORTERM= TERM=screen LC_ALL=C
 keys Enter
 see 'do next'

@@ -237,6 +237,9 @@ result $? 'a recording is watched'
 keys n
 see 'arrived minnow' && see PAUSED
 result $? 'from event to event'
+keys t
+see '^ tension, N' && keys t t t && see '^ depth, m'
+result $? 'with a plot of what it does'
 keys 0
 see '0:00 / 0:20'
 result $? 'from its beginning'

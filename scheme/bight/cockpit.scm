@@ -204,7 +204,7 @@ fall in it."
    (filter identity
            (list (and (cockpit-paused? c) "PAUSED")
                  (and (cockpit-dark? c) "NO LIGHT")
-                 (and (cockpit-ghost c) "what if")
+                 (and (cockpit-ghost c) (cockpit-ghost-name c))
                  (and (cockpit-lamp? c) "lights")
                  (and (current-controllers) (pair? (controller-names (current-controllers)))
                       (simple-format #f "pads ~a" (length (controller-names (current-controllers)))))

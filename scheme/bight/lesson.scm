@@ -39,7 +39,7 @@
                register-lesson! unknown-clause malformed-clause malformed-lesson)
   #:export (run-lesson
             ;; For those who run lessons.
-            lesson-pilots take-lesson scripted-guide pilot-named))
+            lesson-pilots take-lesson scripted-guide pilot-named call-in-session))
 
 
 ;;; Running.
@@ -96,10 +96,17 @@
                  (reverse (session-log s)) (charts rows)
                  (if (session-coach s) (coach-log (session-coach s)) '())
                  (and (current-dive) (state-hash))
-                 (lost-marks (session-marks) rows row-marks))))
+                 (lost-marks (session-marks) rows row-marks)
+                 (tally-ref 'set '()))))
 
 (define (hides? lesson verb display)
   (memq verb (assq-ref (limits-of lesson display) 'hidden)))
+
+(define (call-in-session lesson guide seed level thunk)
+  "Call THUNK in a session of LESSON that has only begun, without a coach, taken by GUIDE."
+  (parameterize ((current-session (make-session (declared 'setting lesson) level guide #f (const #f) seed
+                                                (limits-of lesson 'three))))
+    (call-with-plan (make-rows lesson) (counts-of lesson) (tender-of lesson) thunk)))
 
 (define* (take-lesson lesson guide #:key (who 'pupil) (seed 0) (level 'normal) (coach #f) (display 'three))
   "Take LESSON with GUIDE, a dive of its own for each (in WORLD), and return the report.  DISPLAY says which

@@ -5,9 +5,12 @@
 (use-modules (bight lesson)
              (bight lesson check)
              (bight core errors)
+             ((bight dive) #:select (engine-of))
              (bight dive reel)
-             ((bight lesson play) #:select (make-guide))
-             ((bight lesson report) #:select (report-lost))
+             ((bight engine) #:select (%hash-dive %dive-steps))
+             ((bight lesson play) #:select (make-guide task-set-dive task-set-time))
+             ((bight lesson expert) #:select (task-at expert-flight))
+             ((bight lesson report) #:select (report-lost report-tasks))
              ((bight lesson review) #:select (review-lines))
              ((bight lesson score) #:select (mark-label))
              (ice-9 exceptions)
@@ -74,6 +77,34 @@
     (expect (report-hints report) => 1)
     (expect (mark "tether-length" report) is (above 0.99))
     (expect (mark "(counter 'fast)" report) => 1)))
+
+(define (end-of flown)
+  "Return the hash of the dive at the end of FLOWN, as `expert-flight' returns it."
+  (wind! (car flown) (reel-length (car flown)))
+  (%hash-dive (engine-of (reel-dive (car flown)))))
+
+(define-scenario what-was-right-is-flown-again
+  "The expert's flight of a task, from where a pupil began it: of his own flight it is the same to the last bit, faults,
+hints, tender and counters among it; a pupil's dive stays as it was; who has no expert gets none."
+  (for-each
+   (lambda (seed)
+     (let* ((report (run-lesson 'everything #:seed seed)) (again (map (lambda (set) (expert-flight report set)) (report-tasks report))))
+       (expect (map cdr again) => '((done) (done)))
+       (expect (end-of (first again)) => (report-hash report))
+       (expect (+ (task-set-time (second (report-tasks report))) (* 1/60 (reel-length (car (second again)))))
+               is (about (task-set-time (first (report-tasks report)))))))
+   '(1 2))
+  (let* ((report (run-lesson 'everything #:pilot 'lost)) (lost (find (lambda (l) (equal? "task 1" (mark-label (first l)))) (report-lost report)))
+         (set (task-at report (second lost) (third lost))) (flown (expert-flight report set)))
+    (expect (length (report-tasks report)) => 1)
+    (expect (cdr flown) => '(done))
+    (expect (%hash-dive (engine-of (task-set-dive set))) => (report-hash report))
+    (expect (%dive-steps (engine-of (reel-dive (car flown)))) => 0)
+    (expect (cdr (expert-flight report set #:limit (const #t))) => #f)
+    (expect (reel-length (car (expert-flight report set #:limit (const #t)))) => 1)
+    (expect (task-at report (second lost) -1) => #f))
+  (let ((report (run-lesson (define-lesson alone "x" (in small) (task "t" (done-when #f) (at-most 1)) (pilot idle "x")) #:pilot 'idle)))
+    (expect (expert-flight report (first (report-tasks report))) => #f)))
 
 (define-scenario one-who-does-nothing-fails
   "A task that is not done in time ends the flight; what was never begun is no mark."

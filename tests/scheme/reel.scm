@@ -5,9 +5,11 @@
 (use-modules ((bight dive) #:select (engine-of))
              ((bight engine) #:select (%hash-dive %dive-steps))
              ((bight cockpit desk) #:select (desk))
+             (bight cockpit traces)
+             (bight core chart)
              (bight dive reel)
              ((bight cockpit watch) #:select (film-stretch watch-panel))
-             ((srfi srfi-1) #:select (concatenate first last)))
+             (srfi srfi-1))
 
 (define (hash-of reel) (%hash-dive (engine-of (reel-dive reel))))
 
@@ -121,6 +123,45 @@ been recorded, and is as long as the dive is."
        (require (length texts) => 2)
        (require (apply max (map string-length texts)) is (between 1 columns))))
    (iota 60 30 3)))
+
+(define-scenario a-chart-shows-what-it-is-given
+  "Every value in its row and column, levels and the present among them, within the width that was asked for."
+  (in open-water)
+  (let* ((ramp (map (lambda (i) (cons i i)) (iota 40)))
+         (lines (chart-lines "ramp" (list (cons #\* ramp) (cons #\o (map (lambda (s) (cons (car s) 39)) ramp)))
+                             #:levels '(0 +inf.0) #:from 0 #:to 40 #:at 20 #:columns 40 #:rows 40))
+         (cells (map (lambda (line) (string-drop line 10)) (take (cdr lines) 40))))
+    (expect (map (lambda (line) (string-index line #\*)) cells) => (reverse (iota 40)))
+    (expect (string-count (first cells) #\o) => 39)
+    (expect (string-count (last cells) #\.) => 39)
+    (expect (map (lambda (line) (memv (string-ref line 20) '(#\| #\* #\o #\.))) cells) is (lambda (all) (and-map identity all)))
+    (expect (delete-duplicates (map string-length (cdr lines))) is (lambda (all) (and-map (lambda (n) (<= n 50)) all))))
+  (expect (chart-lines "none" '((#\*))) => '())
+  (expect (length (chart-lines "flat" '((#\* (1 . 5) (1 . 5))))) => 9))
+
+(define-scenario traces-do-not-ask-how-one-came-there
+  "What is plotted of a recording is the same, watched straight or back and forth; a ghost's stands where it began."
+  (in pile)
+  (let* ((it (recorded (lambda () (drive! #:surge 0.5) (run 3) (pay-out! 1) (run 5))))
+         (plotted (lambda (places)
+                    (let ((traces (new-traces)) (reel (open-reel (car it))))
+                      (next-trace! traces)
+                      (for-each (lambda (place) (wind-tracing! traces reel place)) places)
+                      (trace-lines traces reel #f 0 60)))))
+    (expect (plotted '(480)) => (plotted '(100 20 350 200 480)))
+    (expect (plotted '(480)) => (plotted '(480 0 7 480)))
+    (expect (plotted '(480)) is (lambda (lines) (= 9 (length lines))))
+    (let ((traces (new-traces)) (reel (open-reel (car it))) (ghost (open-reel (car it))))
+      (define (lines behind) (trace-lines traces reel ghost behind 60))
+      (expect (lines 0) => '())
+      (for-each (lambda (i) (next-trace! traces)) (iota 4))
+      (wind-tracing! traces ghost 480)
+      (expect (any (lambda (line) (string-index line #\*)) (lines 0)) => #f)
+      (expect (apply min (filter-map (lambda (line) (string-index line #\o)) (lines 240)))
+              => (+ 10 25))
+      (next-trace! traces)
+      (next-trace! traces)
+      (expect (lines 0) => '()))))
 
 (define-scenario a-stretch-is-filmed
   "As many pictures as the stretch has, and no stretch that ends before it begins."

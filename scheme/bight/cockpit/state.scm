@@ -17,6 +17,7 @@
             cockpit-message-until set-message-until! cockpit-slow set-slow! cockpit-slow-due set-slow-due!
             cockpit-ahead set-ahead! cockpit-words set-said! cockpit-ahead-due set-ahead-due! cockpit-plan
             set-plan! cockpit-plan-due set-plan-due! cockpit-paused? set-paused! cockpit-ghost set-ghost!
+            cockpit-ghost-name set-ghost-name!
             cockpit-ghost-fork set-ghost-fork! cockpit-done? set-done! cockpit-times set-times! cockpit-targets
             set-targets! cockpit-labels set-labels! cockpit-panel set-panel! cockpit-dark? set-dark!
             cockpit-sent set-sent! cockpit-live? set-live! cockpit-stepped set-stepped! cockpit-orbit set-orbit!
@@ -35,7 +36,7 @@
 (define-record <cockpit>
   (make-cockpit palette ascii? dive vehicle tether screen size view paint plain? lamp? help? words? map? sticks
                 message message-until slow slow-due ahead words ahead-due plan plan-due
-                paused? ghost ghost-fork done? times targets labels panel dark? orbit held-at releases? characters sent live? stepped)
+                paused? ghost ghost-name ghost-fork done? times targets labels panel dark? orbit held-at releases? characters sent live? stepped)
   cockpit?
   (palette cockpit-palette)
   (ascii? cockpit-ascii?)
@@ -63,6 +64,7 @@
   (plan-due cockpit-plan-due set-plan-due!)
   (paused? cockpit-paused? set-paused!)
   (ghost cockpit-ghost set-ghost!)      ; a dive to draw pale, #t: one that is not there yet, #f: none
+  (ghost-name cockpit-ghost-name set-ghost-name!) ; what it is, a string
   (ghost-fork cockpit-ghost-fork set-ghost-fork!) ; (DIVE . STEPS-LEFT) on its way, or #f
   (done? cockpit-done? set-done!)
   (times cockpit-times set-times!)      ; when the last frames were drawn, the newest first
@@ -85,7 +87,7 @@
 (define (new-cockpit palette view paint)
   "Return a cockpit without a dive, for a terminal of PALETTE, that shows VIEW with tethers painted by PAINT."
   (make-cockpit palette (ascii-terminal?) #f #f #f #f #f view paint (eq? palette 'none) #f #f #t #f (new-sticks)
-                "" 0 '((windings) (warnings)) 0 '() #f 0 '() 0 #f #f #f #f '() (const '()) '() #f #f #f #f #f '(() . 0) #f #f (clock)))
+                "" 0 '((windings) (warnings)) 0 '() #f 0 '() 0 #f #f "what if" #f #f '() (const '()) '() #f #f #f #f #f '(() . 0) #f #f (clock)))
 
 (define (board! c dive)
   "Let C show DIVE, and ask of it anew."

@@ -10,22 +10,26 @@
   #:use-module (bight cockpit keyboard)
   #:use-module (bight cockpit palette)
   #:use-module (bight cockpit state)
+  #:use-module (bight cockpit traces)
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight dive)
   #:use-module (bight dive reel)
   #:use-module (bight engine)
   #:use-module (srfi srfi-1)
+  #:use-module ((bight world) #:select (world-name))
   #:export (watch-file watch-reel film-stretch watch-panel show?))
 
-(define hint "space play  left right 1 s  [ ] 10 s  n b events  + - speed  0 begin  g ghost  v view  q leave")
+(define hint "space play  left right 1 s  [ ] 10 s  n b events  t plot  g ghost  + - speed  0 begin  v view  q leave")
 
 (define-record <show>
-  (make-show cockpit reel ghost pace owed drawn)
+  (make-show cockpit reel ghost behind traces pace owed drawn)
   show?
   (cockpit show-cockpit)
   (reel show-reel)
   (ghost show-ghost)                    ; another reel, or #f
+  (behind show-behind)                  ; the place of the reel at which the ghost begins
+  (traces show-traces)                  ; what is plotted of both
   (pace show-pace set-pace!)            ; seconds of the dive in a second
   (owed show-owed set-owed!)            ; steps, and the share of one, that are due
   (drawn show-drawn set-drawn!))        ; s of the clock: when the last frame was drawn
@@ -57,9 +61,9 @@
 
 (define most-events 3)
 
-(define (watch-panel place length dt pace events)
-  "Return a panel of a cockpit that says where a recording of LENGTH steps of DT seconds is, at PLACE, played at PACE, and
-the last of its EVENTS."
+(define* (watch-panel place length dt pace events #:key (plot (const '())))
+  "Return a panel of a cockpit that says where a recording of LENGTH steps of DT seconds is, at PLACE, played at PACE,
+the last of its EVENTS, and, where there is room, what PLOT, a procedure of a width, returns, lines."
   (lambda (put columns rows)
     (let* ((said (string-append (clock-said (* place dt)) " / " (clock-said (* length dt))
                                 (if (= pace 1) "" (simple-format #f "  x~a" pace))))
@@ -68,19 +72,29 @@ the last of its EVENTS."
            (shown (take-right events (min room (fold (lambda (e n) (+ n 1)) 0 events)))))
       (put 0 2 (cut (string-append " " said "  " (bar-of (if (zero? length) 0 (/ place length)) width)) columns)
            white #x102028)
-      (fold (lambda (event row)
-              (put 0 row (cut (string-append " " (event-said event) " ") columns) yellow #f)
-              (+ row 1))
-            3 shown))))
+      (draw-plot put columns rows plot
+                 (fold (lambda (event row)
+                         (put 0 row (cut (string-append " " (event-said event) " ") columns) yellow #f)
+                         (+ row 1))
+                       3 shown)))))
+
+(define widest-plot 60)
+
+(define (draw-plot put columns rows plot row)
+  ;; At the left from ROW on, if the screen has room for it beside the picture; return the row below the events.
+  (when (and (>= columns 60) (>= rows 22))
+    (let ((lines (plot (min widest-plot (quotient columns 2)))))
+      (put-lines put 0 row lines white #x081820)))
+  row)
 
 
 ;;; Playing.
 
 (define (wind-both! show place)
-  (let ((reel (show-reel show)))
-    (wind! reel place)
-    (when (show-ghost show)
-      (wind! (show-ghost show) (reel-place reel)))
+  (let ((reel (show-reel show)) (ghost (show-ghost show)))
+    (wind-tracing! (show-traces show) reel place)
+    (when ghost
+      (wind-tracing! (show-traces show) ghost (- (reel-place reel) (show-behind show))))
     (set-owed! show 0)))
 
 (define (scrub! show seconds)
@@ -137,6 +151,7 @@ the last of its EVENTS."
       ((#\+ #\=) (faster! show 2))
       ((#\-) (faster! show 1/2))
       ((#\g) (toggle-ghost-reel! show))
+      ((#\t) (announce! c (next-trace! (show-traces show))))
       ((#\q #\etx) (set-done! c #t))
       (else (view-key! c key)))))
 
@@ -149,10 +164,16 @@ the last of its EVENTS."
       (when (and (not (cockpit-done? c)) (< (clock) until))
         (loop)))))
 
+(define (ghost-shown show)
+  (and (cockpit-ghost (show-cockpit show)) (show-ghost show)))
+
 (define (draw-show! show)
   (let* ((c (show-cockpit show)) (reel (show-reel show)))
     (set-panel! c (watch-panel (reel-place reel) (reel-length reel) (step-length show) (show-pace show)
-                               (%events (engine-of-reel reel) 0)))
+                               (%events (engine-of-reel reel) 0)
+                               #:plot (lambda (columns)
+                                        (trace-lines (show-traces show) reel (ghost-shown show) (show-behind show)
+                                                     columns))))
     (draw-frame! c hint)))
 
 (define (play-frames! show)
@@ -206,11 +227,14 @@ the last of its EVENTS."
           (newline))
         (watch-in-cockpit file options (seconds "--at")))))
 
-(define* (watch-reel reel at #:key ghost plain?)
-  "Watch REEL in a terminal that was taken, beside GHOST, another reel or #f: from its beginning, or, if AT is a number
-of seconds, standing still there.  PLAIN? wants plain characters for a picture.  Return how it ended: #t, or hung-up."
-  (let* ((c (new-cockpit (this-palette) 'chase 'plain)) (show (make-show c reel ghost 1 0 (clock))))
+(define* (watch-reel reel at #:key ghost (behind 0) (ghost-name "ghost") told plain?)
+  "Watch REEL in a terminal that was taken, from its beginning, or, if AT is a number of seconds, standing still there;
+beside GHOST, another reel or #f, called GHOST-NAME, that begins where REEL is at its place BEHIND.  TOLD, a string or #f,
+is told first.  PLAIN? wants plain characters for a picture.  Return how it ended: #t, or hung-up."
+  (let* ((c (new-cockpit (this-palette) 'chase 'plain)) (show (make-show c reel ghost behind (new-traces) 1 0 (clock))))
     (when plain? (set-plain! c #t))
+    (when told (announce! c told long))
+    (set-ghost-name! c ghost-name)
     (parameterize ((current-dive (reel-dive reel)))
       (board! c (reel-dive reel))
       (when ghost (set-ghost! c (reel-dive ghost)))
@@ -221,11 +245,19 @@ of seconds, standing still there.  PLAIN? wants plain characters for a picture. 
       (play-frames! show)
       (cockpit-done? c))))
 
+(define long 20)                        ; s that something is told
+
+(define (other-world reel ghost)
+  ;; A sentence that the GHOST is in another world than REEL, or #f.
+  (let ((name (lambda (reel) (world-name (dive-world (reel-dive reel))))))
+    (and (not (eq? (name reel) (name ghost)))
+         (simple-format #f "the ghost is in another world, ~a: it is shown where it would be in this one" (name ghost)))))
+
 (define (watch-in-cockpit file options at)
   (let ((reel (open-reel file)) (ghost (and=> (assoc-ref options "--ghost") open-reel)) (ended #f))
     (dynamic-wind
       %terminal-enter!
-      (lambda () (set! ended (watch-reel reel at #:ghost ghost)))
+      (lambda () (set! ended (watch-reel reel at #:ghost ghost #:told (and ghost (other-world reel ghost)))))
       %terminal-leave!)
     (when (eq? 'hung-up ended)
       (bight-raise 'io 'watch "the terminal is gone"))))

@@ -3,7 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight core decimal)
-  #:export (fixed fixed-with-sign))
+  #:export (fixed fixed-with-sign figure))
 
 (define (fixed x places)
   "Return the finite number X with PLACES decimals, a string; what rounds to 0 has no sign."
@@ -24,3 +24,9 @@
   "Return X as `fixed' does, with + before what is not negative."
   (let ((text (fixed x places)))
     (if (string-prefix? "-" text) text (string-append "+" text))))
+
+(define (figure x)
+  "Return the number X as a person reads it, a string."
+  (cond ((not (real? x)) "none")
+        ((not (finite? x)) (if (nan? x) "none" "any"))
+        (else (fixed x (cond ((>= (abs x) 100) 0) ((>= (abs x) 10) 1) (else 2))))))

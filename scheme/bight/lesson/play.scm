@@ -28,6 +28,7 @@
   #:export (make-guide guide? plan? guide-hears-hints?
             call-with-plan plan-rows plan-counts plan-tender
             begin-dive! say-as say-text show-picture put-probe last-answer run-task watch-fork repeat-steps
+            task-set? task-set-dive task-set-time task-set-checkpoint fly-again
             untrusted? breathing
             ;; For guides.
             asked-in-degrees?
@@ -360,6 +361,27 @@ what somebody else than the pupil says, who is asked in his place."
             ((again) (go-back! +inf.0) (attempt! n conditions))
             (else (finish-task! n outcome)))))))
 
+;; A task as it was set: its text and conditions, and how everything stood then, so that it can be flown again.
+(define-record <task-set>
+  (make-task-set dive time task checkpoint tally)
+  task-set?
+  (dive task-set-dive)
+  (time task-set-time)
+  (task task-set-task)                  ; (TEXT . CONDITIONS)
+  (checkpoint task-set-checkpoint)
+  (tally task-set-tally))
+
+(define (note-task!)
+  ;; Tasks are noted in the tally, the last first.
+  (tally-set! 'set (cons (make-task-set (current-dive) (now) (current-task) (checkpoint) (tally)) (tally-ref 'set '()))))
+
+(define (fly-again set)
+  "Let the task SET be flown by the guide of this session until it is over, in a dive that stands where it began.  Return
+how it ended: (done), (failed TEXT) or (late)."
+  (restore-tally! (task-set-tally set))
+  (parameterize ((current-task (task-set-task set)))
+    (fly (cdr (task-set-task set)))))
+
 (define longest-task 36000)             ; s
 
 (define (check-seconds conditions)
@@ -381,4 +403,5 @@ what somebody else than the pupil says, who is asked in his place."
     (parameterize ((current-task (cons text conditions))
                    (recent-points (and (guide-hears-hints? (this-guide)) (make-variable '()))))
       (save-point!)
+      (note-task!)
       (attempt! n conditions))))

@@ -12,10 +12,10 @@
   #:export (make-report
             report? report-who report-seed report-level report-total report-passed? report-marks
             report-said report-text report-hash report-coached report-hints report-rewinds
-            report-seconds report-instructed report-lost))
+            report-seconds report-instructed report-lost report-tasks report-lesson))
 
 (define-record <report>
-  (make-report lesson who seed level marks total passed? seconds hints rewinds said charts coached hash lost)
+  (make-report lesson who seed level marks total passed? seconds hints rewinds said charts coached hash lost tasks)
   report-record?
   (lesson report-lesson)
   (who report-who)                      ; the name of the pilot or the pupil
@@ -31,7 +31,8 @@
   (charts report-charts)                ; lines
   (coached %report-coached)
   (hash %report-hash)
-  (lost report-lost))                   ; as `lost-marks' returns them
+  (lost report-lost)                    ; as `lost-marks' returns them
+  (tasks report-tasks))                 ; as they were set, the last first
 
 (define-argument-type (report value)
   "a report, as `run-lesson' returns"

@@ -8,6 +8,7 @@
   #:use-module (bight dive)
   #:use-module (bight dive reel)
   #:use-module (bight engine)
+  #:use-module (bight lesson expert)
   #:use-module (bight lesson lines)
   #:use-module (bight lesson report)
   #:use-module (bight lesson score)
@@ -25,12 +26,44 @@
                                (if (mark-why mark) (list (string-append "   " (mark-why mark))) '()))))
                      lost (iota (length lost)))))
 
-(define (watch-moment! entry)
-  ;; Watch the flight of ENTRY, (MARK DIVE TIME), standing still at TIME.
-  (let* ((reel (flight-reel (second entry)))
-         (begun (%dive-time (engine-of (reel-dive reel)))))
-    (when (eq? 'hung-up (watch-reel reel (max 0 (- (third entry) begun))
-                                    #:plain? (cockpit-plain? (this-cockpit))))
+(define (told-of outcome)
+  ;; What is said of how the expert, the ghost, came out, (done), (failed TEXT), (late) or #f.
+  (string-append
+   "pale: the expert, from where you began this task: "
+   (case (and outcome (car outcome))
+     ((done) "done")
+     ((failed late) "not done either, for it was lost before")
+     (else "as far as you let him come"))))
+
+(define (enough?)
+  (memv (next-key 0) '(escape #\etx)))
+
+(define (probe-mark? mark) (string-prefix? "probe" (mark-label mark)))
+
+(define (expert-at report dive time)
+  ;; (REEL . OUTCOME) of the task that was going on in DIVE at TIME as the expert flies it, or #f.
+  (let ((set (task-at report dive time)))
+    (and set
+         (begin
+           (draw-still '("The expert flies this task, from where you began it ...") "Esc: no further")
+           (expert-flight report set #:limit enough?)))))
+
+(define (seconds-into dive time)
+  (- time (%dive-time (engine-of dive))))
+
+(define (watch-moment! report entry)
+  ;; Watch the flight of ENTRY, (MARK DIVE TIME), standing still at TIME, beside the expert's.
+  (let* ((dive (second entry)) (reel (flight-reel dive)) (begun (reel-dive reel))
+         (expert (and (not (probe-mark? (first entry))) (expert-at report dive (third entry)))))
+    (when (eq? 'hung-up
+               (watch-reel reel (max 0 (seconds-into begun (third entry)))
+                           #:ghost (and expert (car expert))
+                           #:behind (if expert (- (%dive-steps (engine-of (reel-dive (car expert))))
+                                                  (%dive-steps (engine-of begun)))
+                                        0)
+                           #:ghost-name "expert"
+                           #:told (and expert (told-of (cdr expert)))
+                           #:plain? (cockpit-plain? (this-cockpit))))
       ((leaving)))
     (look-anew! (this-cockpit))))
 
@@ -41,7 +74,7 @@
     (define (turn key)
       (case key
         ((#\w)
-         (trying c (watch-moment! (car next)))
+         (trying c (watch-moment! report (car next)))
          (set! next (cdr next))
          #f)
         ((#\q) #t)

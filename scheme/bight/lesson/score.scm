@@ -7,6 +7,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson score)
+  #:use-module (bight core chart)
   #:use-module (bight core decimal)
   #:use-module (bight core errors)
   #:use-module (bight core record)
@@ -19,8 +20,8 @@
             judge-row row-worst
             make-mark mark? mark-label mark-credit mark-weight mark-detail mark-passed? mark-why
             total-of
-            figure
-            strip-chart))
+            strip-chart)
+  #:re-export (figure))
 
 (define-record <row>
   (%make-row label ask low high by share over weight why)
@@ -103,12 +104,6 @@ WHY tells one who lost the mark what he should have known."
 about; and WHY it matters, or #f."
   (%make-mark label credit weight passed? detail why))
 
-(define (figure x)
-  "Return the number X as a person reads it, a string."
-  (cond ((not (real? x)) "none")
-        ((not (finite? x)) (if (nan? x) "none" "any"))
-        (else (fixed x (cond ((>= (abs x) 100) 0) ((>= (abs x) 10) 1) (else 2))))))
-
 (define (percent x)
   (string-append (number->string (inexact->exact (round (* 100 x)))) " %"))
 
@@ -186,30 +181,6 @@ end: (DIVE . TIME), or #f if it was never measured."
 
 ;;; A measure over time in plain characters.
 
-(define chart-columns 60)
-(define chart-rows 6)
-
-(define (bin samples columns)
-  ;; The mean value in each of COLUMNS equal spans of time, or #f.
-  (let* ((from (car (first samples))) (to (car (last samples)))
-         (span (max 1e-9 (- to from)))
-         (sums (make-vector columns 0.0)) (counts (make-vector columns 0)))
-    (for-each (lambda (s)
-                (let ((i (min (- columns 1)
-                              (inexact->exact (floor (* columns (/ (- (car s) from) span)))))))
-                  (when (finite? (cdr s))
-                    (vector-set! sums i (+ (vector-ref sums i) (cdr s)))
-                    (vector-set! counts i (+ 1 (vector-ref counts i))))))
-              samples)
-    (map (lambda (i)
-           (let ((n (vector-ref counts i)))
-             (and (positive? n) (/ (vector-ref sums i) n))))
-         (iota columns))))
-
-(define (row-of v bottom top)
-  (let ((i (inexact->exact (round (* (- chart-rows 1) (/ (- top v) (max 1e-12 (- top bottom))))))))
-    (max 0 (min (- chart-rows 1) i))))
-
 (define (one-after-another samples)
   ;; SAMPLES with times that go on where a lesson's next dive begins at 0 again.
   (let loop ((rest samples) (before 0) (last 0) (all '()))
@@ -221,33 +192,5 @@ end: (DIVE . TIME), or #f if it was never measured."
 (define (strip-chart row sampled)
   "Return the lines of a plot of SAMPLED, pairs of time and value of the measure of ROW, in plain
 characters: * is the measure, . where the band ends."
-  (let* ((samples (one-after-another sampled))
-         (binned (if (null? samples) '() (bin samples chart-columns))))
-    (if (not (any identity binned))
-        '()
-        (let* ((bounds (filter finite? (list (row-low row) (row-high row))))
-               (shown (append bounds (filter identity binned)))
-               (top (apply max shown)) (bottom (apply min shown))
-               (cells (make-array #\space chart-rows chart-columns)))
-          (for-each (lambda (b)
-                      (for-each (lambda (c) (array-set! cells #\. (row-of b bottom top) c))
-                                (iota chart-columns)))
-                    bounds)
-          (for-each (lambda (v c)
-                      (when v (array-set! cells #\* (row-of v bottom top) c)))
-                    binned (iota chart-columns))
-          (append
-           (list (string-append " " (row-label row)))
-           (map (lambda (line i)
-                  (string-append
-                   (string-pad (cond ((= i 0) (figure top))
-                                     ((= i (- chart-rows 1)) (figure bottom))
-                                     (else ""))
-                               8)
-                   " |" (list->string line)))
-                (array->list cells) (iota chart-rows))
-           (list (string-append (make-string 9 #\space) "+" (make-string chart-columns #\-))
-                 (string-append (make-string 10 #\space)
-                                (string-pad-right (string-append (figure (car (first samples))) " s")
-                                                  (- chart-columns 8))
-                                (string-pad (string-append (figure (car (last samples))) " s") 8))))))))
+  (chart-lines (row-label row) (list (cons #\* (one-after-another sampled)))
+               #:levels (list (row-low row) (row-high row))))
