@@ -36,8 +36,13 @@ begin 150 30 TERM=screen-256color LC_ALL=C.UTF-8 "BIGHT_LOGBOOK='$scratch/logboo
 hand '(words "nobody")' | grep -q 'no pupil listens'
 result $? 'without a pupil an instructor is told so'
 take_lesson
-see '^ Enter begins' && keys Enter && see '^ e hint'
+see '^ Enter begins' && hand '(words "Read well.")' | grep -q '^waiting$'
+result $? 'an order waits for a pupil who reads'
+keys Enter
+see '^ e hint' && see 'Instructor: Read well'
 result $? 'a pupil lets an instructor in'
+hand '(see)' | grep -q 'late: words Read well.: done'
+result $? 'who is told what came of an order for which he did not wait'
 [ "$(stat -c %a "$door")" = 600 ]
 result $? 'at a socket that is his own alone'
 hand '(words "Look behind you.")' | grep -q '^done$' && see 'Instructor: Look behind you'
@@ -48,8 +53,8 @@ hand '(wait 0.1)' '(see)' | grep -q 'Wait for the word'
 result $? 'and sees the task'
 hand '(drift lug 0.5 180)' | grep -q 'no part .lug.*did you mean .log'
 result $? 'what is not there cannot be set adrift'
-hand '(form "(define (away) (rov-clearance (quote log)))")' '(form "(define was (away))")' '(drift log 2 180)' \
-  '(form "(begin (run 2) (- was (away)))")' >"$scratch/nearer"
+hand '(form "(define (away) (rov-clearance (quote log)))")' '(drift log 2 180)' \
+  '(form "(let ((was (away))) (run 2) (- was (away)))")' >"$scratch/nearer"
 grep -q '^3[.]99\|^4[.]0' "$scratch/nearer"
 result $? 'what waits is set adrift, and comes nearer'
 hand '(current 0.4)' | grep -q 'an order is (words TEXT)'

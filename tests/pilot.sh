@@ -150,6 +150,13 @@ result $? 'and a line says why'
 keys q
 sane >/dev/null
 
+begin 90 30 COLORTERM= TERM=screen-256color LC_ALL=C
+keys "bight -c \"(begin (enter! 'pile) (show))\"" Enter
+see 'plain characters, from above'
+screen | LC_ALL=C grep -q '[^ -~]'
+[ $? -ne 0 ]
+result $? 'show writes ASCII alone where the locale has nothing else'
+
 # ---- Keys that come up, and the mouse: the bytes of terminals that tell of them ----
 
 # send TEXT: bytes, each \033 an escape.
@@ -218,6 +225,16 @@ printf '(bight-events 1) (0 plugged 0 "Pad" #t) (1 button 0 "a" #t) (2 axis 0 "l
 keys "clear; bight lesson $scratch/lesson.scm --trust --controller $scratch/events" Enter
 see '^ e hint' && see 'yaw -1.0'
 result $? 'a lesson is begun and flown by it'
+keys q
+sane >/dev/null
+printf '(bight-events 1) (0 plugged 0 "Pad" #t) (1 button 0 "a" #t) (2 axis 0 "righty" -1) (5 lost 0)' >"$scratch/late"
+keys "clear; bight lesson $scratch/lesson.scm --trust --fresh --controller $scratch/late" Enter
+see 'surge +1.0' && keys : && see '^ bight> _' && keys -l '(rov-speed' && see 'Pad is lost: sticks centred' && see '^ bight> (rov-speed_'
+result $? 'one that is lost while a line is typed is told beside it'
+keys C-u Escape
+see '^ e hint\|Pad is lost' && see 'surge  0.0' && keys : && see '^ bight> _' && keys -l '(run 4) (< (rov-speed) 0.1)' && keys Enter &&
+  see '^ #t'
+result $? 'and the vehicle holds its place'
 keys q
 sane >/dev/null
 "$top_builddir/pre-inst-env" bight controller --stream "$scratch/events" --for 3 >"$scratch/out"

@@ -240,14 +240,16 @@ fall in it."
                 (or (not (cockpit-paused? c)) (not (cockpit-words c))))
            (ask-ahead! c t)))))
 
-(define (draw-figures! c put top hint)
+(define (draw-figures! c put top hint typing?)
+  ;; What is told stands in the last line; where a line is typed there, among what is to come.
   (let ((telling? (< (clock) (cockpit-message-until c))))
     (draw-hud put (car (cockpit-size c)) (cdr (cockpit-size c))
               (read-figures (cockpit-vehicle c) (cockpit-tether c))
               (cockpit-slow c)
-              `((title . ,(title c)) (right . ,(right-text c)) (urgent? . ,telling?)
-                (message . ,(if telling? (cockpit-message c) hint))
-                (ahead . ,(cockpit-ahead c)) (words . ,(cockpit-words c)) (top . ,top)
+              `((title . ,(title c)) (right . ,(right-text c)) (urgent? . ,(or telling? typing?))
+                (message . ,(if (and telling? (not typing?)) (cockpit-message c) hint))
+                (ahead . ,(if (and telling? typing?) (cons (cockpit-message c) (cockpit-ahead c)) (cockpit-ahead c)))
+                (words . ,(cockpit-words c)) (top . ,top)
                 (sticks . ,(sticks-now c))))))
 
 (define (draw-help! c put)
@@ -279,9 +281,9 @@ fall in it."
   (lambda (column row text ink paper)
     (%screen-text! (cockpit-screen c) column row text ink paper)))
 
-(define (compose-frame! c hint)
+(define* (compose-frame! c hint #:key typing?)
   "Draw the dive of C with its display on the screen of C, which nobody sees yet; HINT stands in the last line where
-there is nothing to tell."
+there is nothing to tell, or, a line that is TYPING?, whatever is told."
   (let* ((put (new-desk c)) (marks (draw-scene! c (plain-put c))))
     (when (cockpit-help? c)
       (draw-help! c put))
@@ -290,13 +292,13 @@ there is nothing to tell."
                    2)))
       (trying c (ask-what-is-due! c))
       (draw-map! c put top)
-      (trying c (draw-figures! c put top hint)))
+      (trying c (draw-figures! c put top hint typing?)))
     (draw-marks! put marks)))
 
-(define (draw-frame! c hint)
-  "Show the dive of C with its display; HINT is for `compose-frame!'."
+(define* (draw-frame! c hint #:key typing?)
+  "Show the dive of C with its display; HINT and TYPING? are for `compose-frame!'."
   (let ((new? (fit-screen! c)))
-    (compose-frame! c hint)
+    (compose-frame! c hint #:typing? typing?)
     (write-frame! c new?)))
 
 (define columned (make-regexp "(^|[^.!?:]) {2}"))

@@ -9,7 +9,8 @@
              ((bight lesson log) #:select (logged-results why-no-record))
              ((bight core sqlite) #:select (there?))
              (ice-9 format)
-             (srfi srfi-1))
+             (srfi srfi-1)
+             ((srfi srfi-19) #:select (make-time time-utc)))
 (primitive-load (string-append (dirname (dirname (current-filename))) "/other-logbook.scm"))
 
 (define skills-of-lesson '((a) (a) (b) (a b) (c) (b c) (a) (c) (a c) (b) (a b c) (c)))
@@ -172,7 +173,9 @@ before; how far off beliefs are is what they say."
       (expect (first ba) => '(2 2))
       (expect (second ab) => (second ba))
       (expect (second (merge "ab" "ba")) => (second ab))
-      (expect (with-logbook (file "ab") (merge-logbook! (file "nobody"))) raises io))))
+      (expect (with-logbook (file "ab") (merge-logbook! (file "nobody"))) raises io)
+      (expect (with-logbook (file "ab") (entries-ahead)) => 0)
+      (expect (with-logbook (file "ab") (entries-ahead (make-time time-utc 0 1000000000))) => 4))))
 
 (define-scenario no-record-is-told
   "Where no logbook can be written there are no results, and a sentence says why."

@@ -37,3 +37,18 @@
     (expect (number? (string-contains text "-30.0 (")))
     (expect (number? (string-contains text "plan   passed 2 of 2")))
     (expect (number? (string-contains (car (group-lines '())) "two groups yet")))))
+
+(define-scenario one-pupil-gives-no-interval
+  "A group of one is compared by its mean, and it is said why no interval stands beside it."
+  (let ((one (group-lines (list (result "a" "plan" 'one-pile 80 1) (result "c" "none" 'one-pile 50 1))))
+        (more (group-lines (list (result "a" "plan" 'one-pile 80 1) (result "b" "plan" 'one-pile 90 1)
+                                 (result "c" "none" 'one-pile 50 1) (result "d" "none" 'one-pile 60 1))))
+        (said? (lambda (lines) (any (lambda (line) (string-prefix? "- : one pupil alone" line)) lines))))
+    (expect (said? one))
+    (expect (said? more) => #f)))
+
+(define-scenario results-of-one-second-have-an-order
+  "Whichever logbook they were merged into, the first of them is the same."
+  (let ((two (list (result "a" "plan" 'one-pile 80 1) (result "a" "plan" 'one-pile 20 1))))
+    (expect (first-results two) => (first-results (reverse two)))
+    (expect (length (first-results two)) => 1)))

@@ -278,6 +278,17 @@
   ;; Without a desk there are such.
   (expect (first (writes-on 40 10 (lambda (put) put))) is (above 1)))
 
+(define-scenario no-map-hides-a-warning
+  "What to beware of stands beside what was put before it, in the middle or at the left, unless all of the row is taken."
+  (in pier)
+  (let* ((shown '()) (put (desk 80 24 (lambda (column row text ink paper) (set! shown (cons text shown)))))
+         (ahead "string touches jacket/brace-1-2-2 in 7 s"))
+    (do ((row 2 (+ row 1))) ((= row 11)) (put 58 row (make-string 22 #\-) 0 0))
+    (draw-hud put 80 24 (read-figures 'minnow 'line) '((windings) (warnings "FOULED: hung about a leg of the jacket, and wound"))
+              `((title . "t") (right . "r") (message . "m") (urgent? . #f) (sticks . (0 0 0 0)) (ahead . (,ahead "soon"))))
+    (for-each (lambda (text) (expect (any (lambda (s) (string-contains s text)) shown) is identity))
+              (list "FOULED: hung about a leg of the jacket, and wound" ahead "soon"))))
+
 (define (draw-on columns rows)
   "Return the lines of a display of the present dive."
   (let ((lines (map (lambda (i) (make-string columns #\space)) (iota rows))))

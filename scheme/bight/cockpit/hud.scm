@@ -230,9 +230,12 @@ most two.  This takes milliseconds."
                    yellow #f))))
 
 (define (draw-warnings put columns row now ahead)
-  ;; What is, and below it what is to come, from ROW on.
+  ;; What is, and below it what is to come, from ROW on: in the middle, or, where something stands there, such as the
+  ;; map, at the left.
   (for-each (lambda (text ink paper i)
-              (put-centred put columns (+ row i) (string-append "  " text "  ") ink paper))
+              (let ((text (string-append "  " text "  ")))
+                (or (put-centred put columns (+ row i) text ink paper)
+                    (put 0 (+ row i) (cut text columns) ink paper))))
             (append now ahead)
             (append (map (const #xffffff) now) (map (const #x201800) ahead))
             (append (map (const red) now) (map (const amber) ahead))

@@ -30,10 +30,11 @@
   #:export (call-with-desk hand-in! seen beginning next-order! answer-order! publish! do-to-dive! order->text ticket?))
 
 (define-record <ticket>
-  (make-ticket order answer)
+  (make-ticket order answer left?)
   ticket?
   (order ticket-order)
-  (answer ticket-answer set-ticket-answer!)) ; a list of lines, or #f until it is done
+  (answer ticket-answer set-ticket-answer!) ; a list of lines, or #f until it is done
+  (left? ticket-left? set-ticket-left!)) ; nobody waits for the answer any more
 
 (define mutex (make-mutex))
 (define answered (make-condition-variable))
@@ -44,6 +45,7 @@
 (define shown '())                      ; what was published last
 (define shown-at 0)
 (define shown-dive #f)
+(define late '())                       ; what came of orders for which nobody waited: (UNTIL . TEXT), the last first
 (define the-beginning '(0 . ""))        ; (SERIAL . TEXT) of that dive
 
 (define (clock)
@@ -88,20 +90,32 @@
   "Leave ORDER for the pupil's dive and wait until it is done.  Return `done', the lines that came of it, or, if the pupil
 does not fly at present, `waiting'."
   (check-order order)
-  (let ((ticket (make-ticket order #f)))
+  (let ((ticket (make-ticket order #f #f)))
     (with-mutex mutex
       (set! waiting (append waiting (list ticket)))
       (let ((until (+ (current-time) patience)))
         (let loop ()
           (cond ((ticket-answer ticket) => (lambda (lines) (if (null? lines) 'done lines)))
                 ((wait-condition-variable answered mutex until) (loop))
-                (else 'waiting)))))))
+                (else
+                 (set-ticket-left! ticket #t)
+                 'waiting)))))))
 
 (define (seen)
   "Return what was published last: (SERIAL TIME WORDS STATE), or () if nothing was; SERIAL counts the dives."
   (with-mutex mutex
-    (set! looked-until (+ 3 (clock)))
-    shown))
+    (let ((nobody-looked? (< looked-until (clock))) (before shown-at))
+      (set! looked-until (+ 3 (clock)))
+      (when nobody-looked?
+        (await-news! before))
+      shown)))
+
+(define (await-news! before)
+  ;; Nothing is published while nobody looks: wait a little for what is newer than BEFORE, s of the clock.
+  (let ((until (+ 2 (current-time))))
+    (let loop ()
+      (when (and (= shown-at before) (wait-condition-variable answered mutex until))
+        (loop)))))
 
 (define (beginning)
   "Return (SERIAL TEXT) of the dive that is published: the world it is in, as a recording begins."
@@ -121,11 +135,21 @@ does not fly at present, `waiting'."
                 (set! waiting (cdr waiting))
                 (ticket-order taken))))))
 
+(define long 60)                        ; s that what came late is told
+
+(define (note-late! order lines)
+  (set! late (cons (cons (+ (clock) long)
+                         (string-append "late: " (order->text order) ": "
+                                        (if (null? lines) "done" (string-join lines " "))))
+                   (filter (lambda (entry) (> (car entry) (clock))) late))))
+
 (define (answer-order! lines)
   "Say that the order taken last is done, and LINES came of it; nothing if none was, as when a journal is done again."
   (with-mutex mutex
     (when taken
       (set-ticket-answer! taken lines)
+      (when (ticket-left? taken)
+        (note-late! (ticket-order taken) lines))
       (set! taken #f)
       (broadcast-condition-variable answered))))
 
@@ -144,8 +168,12 @@ does not fly at present, `waiting'."
         (when new
           (set! the-beginning (cons (+ 1 (car the-beginning)) new))
           (set! shown-dive dive))
-        (set! shown (list (car the-beginning) (now) words state))
-        (set! shown-at (clock))))))
+        (set! shown (list (car the-beginning) (now) (append words (late-texts)) state))
+        (set! shown-at (clock))
+        (broadcast-condition-variable answered)))))
+
+(define (late-texts)
+  (filter-map (lambda (entry) (and (> (car entry) (clock)) (cdr entry))) late))
 
 (define (do-to-dive! order)
   "Do ORDER, one that changes the dive by a verb of its own."

@@ -189,7 +189,7 @@
     ((light) (set-dark! c (not (second order))) '())
     ((clock) (if (second order) (start-time! c) (stop-time! c)) '())
     ((form) (let ((value (eval (call-with-input-string (second order) read) (resolve-module '(guile-user)))))
-              (if (unspecified? value) '() (list (object->string value)))))
+              (if (unspecified? value) '() ((from (bight view looks) value->lines) value))))
     (else (do-to-dive! order) '())))
 
 (define (attend-instructor! c)

@@ -30,7 +30,7 @@
 characters for a picture."
   (let ((c (new-cockpit (this-palette) 'chase 'plain)))
     (when plain? (set-plain! c #t))
-    (parameterize ((the-seat (make-seat c '() 'chase '() '() #f '())) (unseen? hidden-in-lesson?))
+    (parameterize ((the-seat (make-seat c '() 'chase '() '() #f '() #f)) (unseen? hidden-in-lesson?))
       (dynamic-wind
         %terminal-enter!
         (lambda ()
@@ -80,9 +80,7 @@ characters for a picture."
           (show-lines! (append (in-order texts) (value-lines (thunk))))))))
 
 (define (value-lines value)
-  (cond ((picture? value) (picture-lines value))
-        ((string? value) (string-split value #\newline))
-        (else (string-split (show-value value) #\newline))))
+  (if (string? value) (string-split value #\newline) (shown-lines value)))
 
 ;;; A task that failed.
 

@@ -123,7 +123,7 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
      (lambda ()
        (let* ((line (type-in (empty-line (seat-history seat))
                              (lambda (line)
-                               (draw-flight! c (prompt-shown label line (columns-now))))))
+                               (draw-flight! c (prompt-shown label line (columns-now)) #:typing? #t))))
               (text (string-trim-both (line-text line))))
          (and (line-done? line) (not (member text '("" ",q")))
               (begin
@@ -143,9 +143,6 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
      (set-sticks! c (new-sticks))
      (set-sent! c (stick-values (new-sticks)))
      '((release)))
-    ((lost)
-     (set-sent! c (stick-values (new-sticks)))
-     '((release) (hold place)))
     ((winch hold) (list act))
     ((back hint) (list act))
     ((ghost) (toggle-ghost! c) '())
@@ -160,10 +157,10 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
         ((act-of-key key) => (lambda (act) (act->inputs c act)))
         (else '())))
 
-(define (draw-flight! c last-line)
+(define* (draw-flight! c last-line #:key typing?)
   (set-targets! c targets-seen)
   (set-panel! c panel-now)
-  (draw-frame! c last-line)
+  (draw-frame! c last-line #:typing? typing?)
   (set-panel! c #f)
   (set-targets! c (const '())))
 
@@ -192,6 +189,14 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
   (let ((order (next-order!)))
     (if order (list (list 'instruct order)) '())))
 
+(define (inputs-of-loss! c)
+  ;; What a controller that was lost means, also while a page was read or a line typed: a list of inputs.
+  (cond ((seat-lost? (the-seat))
+         (set-lost! (the-seat) #f)
+         (set-sent! c (stick-values (new-sticks)))
+         '((release) (hold place)))
+        (else '())))
+
 (define (frame-inputs! c)
   ;; Draw a frame, take the keys of its time, and return the inputs that came of both.
   (let ((end (+ (clock) frame)))
@@ -201,9 +206,10 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
     (draw-flight! c flight-hint)
     (when (cockpit-done? c) ((leaving)))
     (let* ((pressed (inputs-until c end))
+           (lost (inputs-of-loss! c))
            (moved (stick-input! c))
            (steps (if (or (cockpit-paused? c) (stopped? c)) 0 (steps-due! c))))
-      (append (orders-now) pressed moved (if (positive? steps) (list (list 'pass steps)) '())))))
+      (append (orders-now) pressed lost moved (if (positive? steps) (list (list 'pass steps)) '())))))
 
 (define (flight-asker c)
   ;; A procedure that returns the next input of a pupil at the sticks.

@@ -8,6 +8,7 @@
 (define-module (bight lesson groups)
   #:use-module (bight core decimal)
   #:use-module (bight core interval)
+  #:use-module ((bight lesson log) #:select (earlier?))
   #:use-module ((bight study risk) #:select (wilson-interval))
   #:use-module (srfi srfi-1)
   #:export (compare-lines
@@ -56,8 +57,6 @@ its interval of 95 %, and each difference, with intervals that hold all together
 
 (define (of key) (lambda (result) (assq-ref result key)))
 
-(define (earlier? a b) (string<? (or ((of 'when) a) "") (or ((of 'when) b) "")))
-
 (define (first-results results)
   "Return of RESULTS, in one lesson, the first of each pupil."
   (delete-duplicates (sort results earlier?)
@@ -93,6 +92,9 @@ its interval of 95 %, and each difference, with intervals that hold all together
         '("No lesson was taken by pupils of two groups yet: bight lesson NAME --group G says in which one is.")
         (append lines
                 '("Means with intervals of 95 %; differences with intervals that hold all together with 95 %.")
+                (if (any (lambda (line) (string-contains line "(- to -)")) lines)
+                    '("- : one pupil alone, or pupils with the same marks, give no interval.")
+                    '())
                 (simulated-lines results)))))
 
 (define (simulated-lines results)

@@ -21,10 +21,11 @@
   #:use-module (bight lesson tally)
   #:use-module ((bight test expect) #:select (exception->line))
   #:use-module (bight view)
+  #:use-module ((bight view looks) #:select (value->lines))
   #:use-module ((ice-9 control) #:select (call/ec))
   #:use-module (srfi srfi-1)
   #:export (replay journal silent? replaying? quiet? next-input
-            print show-value hidden?
+            print shown-lines hidden?
             module
             interrupted? apply-input!))
 
@@ -98,13 +99,16 @@
               (let ((value (eval form (module))))
                 (loop (if (unspecified? value)
                           lines
-                          (append (reverse (string-split (show-value value) #\newline)) lines))))))))))
+                          (append (reverse (shown-lines value (question-of form))) lines))))))))))
 
-(define (show-value value)
-  "Return VALUE as a pupil reads it, a string."
+(define (question-of form)
+  (and (pair? form) (symbol? (car form)) (car form)))
+
+(define* (shown-lines value #:optional question)
+  "Return VALUE, the answer to QUESTION, a symbol, or #f, as a pupil reads it: lines, as at the prompt."
   (if (picture? value)
-      (string-join (picture-lines value) "\n")
-      (call-with-output-string (lambda (port) (write value port)))))
+      (picture-lines value)
+      (value->lines value question)))
 
 (define (steps-now) (inexact->exact (round (/ (now) (time-step)))))
 

@@ -57,9 +57,9 @@
                #t))))))
 
 (define (show-unless-hidden verb thunk)
-  (print (if (hidden? verb)
-             "In this lesson you cannot see that from where you are."
-             (show-value (thunk)))))
+  (for-each print (if (hidden? verb)
+                      '("In this lesson you cannot see that from where you are.")
+                      (shown-lines (thunk)))))
 
 (define (line->input line)
   (let ((word (string-trim-both line)))

@@ -47,8 +47,9 @@
         (logged-results (who-of given)))))
 
 (define (list-group given)
-  ;; A line for each pupil of the group: the best total of each lesson taken.
+  ;; A line for each pupil of the group: the best total of each lesson taken; else which groups there are.
   (let* ((results (results-of given))
+         (known (delete-duplicates (filter-map (lambda (r) (assq-ref r 'group)) (logged-results #f))))
          (pupils (sort (delete-duplicates (map (lambda (r) (assq-ref r 'who)) results)) string<?)))
     (for-each
      (lambda (who)
@@ -59,7 +60,12 @@
                                 (simple-format #f "~a ~a" name (best own name)))
                               (delete-duplicates (map (lambda (r) (assq-ref r 'lesson)) own)))
                          ", "))))
-     pupils)))
+     pupils)
+    (when (null? pupils)
+      (simple-format #t "Nobody of the group ~a is in the logbook, in which ~a.~%" (option given "--group" #f)
+                     (if (null? known)
+                         "no group is"
+                         (string-append "there are " (string-join (sort known string<?) ", ")))))))
 
 (define columns '(who group lesson level seed total passed? seconds hints rewinds))
 
@@ -78,10 +84,17 @@
                              (csv-line (map (lambda (c) (csv-value (assq-ref result c))) columns))))
             (results-of given)))
 
+(define (entries n)
+  (simple-format #f "~a entr~a" n (if (= n 1) "y" "ies")))
+
 (define (merge file)
   ;; (bight lesson logbook) is loaded when it is needed: it needs SQLite.
-  (let ((n ((module-ref (resolve-interface '(bight lesson logbook)) 'merge-logbook!) file)))
-    (simple-format #t "~a entr~a taken over from ~a~%" n (if (= n 1) "y" "ies") file)))
+  (let* ((interface (resolve-interface '(bight lesson logbook)))
+         (n ((module-ref interface 'merge-logbook!) file)) (ahead ((module-ref interface 'entries-ahead))))
+    (simple-format #t "~a taken over from ~a~%" (entries n) file)
+    (when (positive? ahead)
+      (simple-format #t "~a of the logbook: dated in the future by this machine's clock.  Where clocks differ, what was \
+done first may be told wrongly.~%" (entries ahead)))))
 
 (define (lessons-command words)
   "Do what `bight lessons WORDS' asks, and return the exit status."

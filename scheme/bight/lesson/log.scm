@@ -12,6 +12,7 @@
   #:use-module (srfi srfi-1)
   #:export (log-result!
             logged-results
+            earlier?
             why-no-record))
 
 (define (logbook-ref name)
@@ -56,6 +57,16 @@
                              (acons 'when (when-logged entry) result))))
                     (trying '() (lambda () (logbook #:trainee who #:kind 'lesson))))
         '())))
+
+(define (when-of result)
+  (or (assq-ref result 'when) ""))
+
+(define (earlier? a b)
+  "Return #t if the result A came before B.  Results of the same second go by their own text, so that where they were
+written does not matter."
+  (if (string=? (when-of a) (when-of b))
+      (string<? (simple-format #f "~s" a) (simple-format #f "~s" b))
+      (string<? (when-of a) (when-of b))))
 
 (define (why-no-record)
   "Return why there is no logbook to read results from, a sentence, or #f if there is one."

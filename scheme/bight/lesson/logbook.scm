@@ -21,7 +21,7 @@
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:use-module (srfi srfi-19)
   #:export (log-dive! log-lesson! log-probe!
-            logbook logbook-file merge-logbook!
+            logbook logbook-file merge-logbook! entries-ahead
             log-entry? log-entry-kind log-entry-when log-entry-trainee log-entry-what log-entry-score
             log-entry-data))
 
@@ -56,8 +56,11 @@ trainee text not null, what text not null, score real, data text not null)"
   (or (getenv "USER")
       (catch #t (lambda () (passwd:name (getpwuid (getuid)))) (lambda args "somebody"))))
 
+(define (universal time)
+  (date->string (time-utc->date time 0) "~4"))
+
 (define (present)
-  (date->string (current-date 0) "~4"))
+  (universal (current-time time-utc)))
 
 (define (log! proc kind trainee what score data)
   (call-with-logbook proc
@@ -157,6 +160,15 @@ whatever order logbooks are merged, and however often, the entries are the same 
   (let ((rows (rows-of file)))
     (call-with-logbook 'merge-logbook!
       (lambda (database) (take-over! database rows)))))
+
+
+(define small-difference 120)           ; s: clocks that differ by less tell the same time
+
+(define* (entries-ahead #:optional (now (current-time time-utc)))
+  "Return how many entries of the logbook are dated later than NOW, the time of this machine's clock."
+  (let ((soon (universal (add-duration now (make-time time-duration 0 small-difference)))))
+    (call-with-logbook 'logbook
+      (lambda (database) (caar (%query database "select count(*) from entries where time > ?" (list soon)))))))
 
 
 ;;; Reading.

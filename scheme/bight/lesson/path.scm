@@ -10,6 +10,7 @@
   #:use-module (bight core record)
   #:use-module (bight lesson ability)
   #:use-module (bight lesson file)
+  #:use-module ((bight lesson log) #:select (earlier?))
   #:use-module (bight lesson skill)
   #:use-module (srfi srfi-1)
   #:export (catalogue make-place place? place-name place-grade place-trains place-needs
@@ -68,15 +69,6 @@
           (for-each (lambda (s belief) (hash-set! beliefs (list (get 'who) s) belief))
                     (place-trains place) skills)
           (hash-set! beliefs (list (place-name place) level) lesson))))))
-
-(define (when-of result) (or (assq-ref result 'when) ""))
-
-(define (earlier? a b)
-  ;; Results of the same second in the order of their own text, so that where they were written does not
-  ;; matter.
-  (if (string=? (when-of a) (when-of b))
-      (string<? (simple-format #f "~s" a) (simple-format #f "~s" b))
-      (string<? (when-of a) (when-of b))))
 
 (define (beliefs-from results places)
   "Return what is believed after RESULTS, as `logged-results' returns them, of lessons at PLACES."

@@ -19,13 +19,13 @@
   #:use-module (srfi srfi-1)
   #:export (make-seat seat? the-seat this-cockpit hard? from-above-alone? one-view hidden-in-lesson?
             seat-view set-seat-view! seat-texts set-texts! seat-heard set-heard! seat-pending set-pending!
-            seat-history set-history! seat-keys
+            seat-history set-history! seat-keys seat-lost? set-lost!
             keep-up! next-key waiting
             view-key-here! draw-still turn-pages enter-turns show-page! show-but-last! in-order
             labels-now with-look hear!))
 
 (define-record <seat>
-  (make-seat cockpit keys view texts heard pending history)
+  (make-seat cockpit keys view texts heard pending history lost?)
   seat?
   (cockpit seat-cockpit)
   (keys seat-keys set-keys!)            ; that came and were not taken yet
@@ -33,7 +33,8 @@
   (texts seat-texts set-texts!)         ; said, and not read yet; the last first
   (heard seat-heard set-heard!)         ; (INK . TEXT) while flying, the last first
   (pending seat-pending set-pending!)   ; how the last probe was, to be shown, or #f
-  (history seat-history set-history!))  ; lines typed, the last first
+  (history seat-history set-history!)   ; lines typed, the last first
+  (lost? seat-lost? set-lost!))         ; a controller was lost, and the vehicle was not told to hold its place
 
 (define the-seat (make-parameter #f))
 
@@ -71,8 +72,9 @@
     (and (pair? (seat-keys seat))
          (let ((key (car (seat-keys seat))))
            (set-keys! seat (cdr (seat-keys seat)))
-           (when (eq? 'releases key)    ; whatever is asked just now
-             (set-releases! (seat-cockpit seat) #t))
+           (case key                    ; whatever is asked just now
+             ((releases) (set-releases! (seat-cockpit seat) #t))
+             ((lost) (set-lost! seat #t)))
            key))))
 
 (define (waiting thunk)

@@ -68,7 +68,7 @@
 (define (picture thunk)
   (unless (replaying?)
     (let ((value (thunk)))
-      (print (if (or (picture? value) (not (string? value))) (show-value value) value)))))
+      (for-each print (if (string? value) (list value) (shown-lines value))))))
 
 (define* (person-guide keep inputs leave cockpit? #:key (plain? #f))
   "Return a guide for a person at standard input and output, and a procedure that calls a thunk as that

@@ -243,7 +243,7 @@
                         hint)))
     (set-panel! c (station-panel (station-words s)))
     (if (cockpit-dive c)
-        (draw-frame! c last-line)
+        (draw-frame! c last-line #:typing? typing)
         (draw-page! c '("Waiting for the pupil to fly.") last-line))))
 
 (define (sit! port)

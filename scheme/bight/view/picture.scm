@@ -7,6 +7,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight view picture)
+  #:use-module ((bight cockpit palette) #:select (ascii-terminal?))
   #:use-module (bight core argument)
   #:use-module ((bight core errors)
                 #:select (bight-raise bight-error? bight-error-kind bight-error-message nearest))
@@ -314,10 +315,11 @@ water, which also takes the daylight: with the view pilot, what the vehicle's ca
   (module-ref (resolve-interface 'module) 'name))
 
 (define (best-way)
-  ;; kitty, sixel, symbols, or plain.
+  ;; kitty, sixel, symbols, or plain; symbols are beyond ASCII.
   (let ((ask (and (watched? (current-output-port)) (not (member (getenv "TERM") '(#f "" "dumb")))
                   (extension '(bight view chafa) '%terminal-mode))))
-    (or (and ask (extension '(bight view render) '%draw) (ask)) 'plain)))
+    (let ((way (and ask (extension '(bight view render) '%draw) (ask))))
+      (if (and way (not (and (eq? way 'symbols) (ascii-terminal?)))) way 'plain))))
 
 (define (usual-cells)
   ;; As wide as the terminal, in the shape of a snapshot; a cell is twice as high as wide.
