@@ -114,6 +114,12 @@ tab "(world (tether (model " ' catenary-simplex$'
 result $? 'words of a field'
 tab '(run ' '^(run SECONDS)$'
 result $? 'where nothing can be completed, how the verb is called'
+tab '(pay-out! 3 #:' '^RATE: m/s; a number above 0'
+result $? 'while an argument is typed, its unit and default stand below'
+tab "(clearance 'p1) (accuracy! " '^METRES: m; '
+screen | grep -q '^RATE: '
+[ $? -ne 0 ]
+result $? 'and nothing of the argument before'
 keys C-e C-u
 keys -l '(define (double x)'
 keys Enter
@@ -226,9 +232,19 @@ typed '(list (all))'
 told 'an error is told with the lines that led there' 'at .*leg.scm:3 in leg, called from .*leg.scm:6 in all$' 1
 typed ',bt'
 told 'and ,bt shows these lines' 'leg.scm:6 in all: (car (leg 3))' 1
-typed '(drve! #:surge 3)'
+typed '(define (half x)'
+keys -l '  (let ((y (/ x 2)))'
+keys Enter
+typed '(car y)))'
+typed '(list 1 (half 4))'
+told 'a procedure that was typed is told by its line' '^  at prompt.[0-9]*.:3 in half$' 1
 typed ',bt'
-told 'an error of what is typed has none' '^No line of a file led to the last error' 1
+told 'which ,bt shows' ' in half: (car y)))$' 1
+typed '(drve! #:surge 3)'
+told 'a slip in what was typed just now needs no place' 'did you mean .drive!' 1
+told 'and has none' '^  at ' 2
+typed '(free-to-haul?)'
+told 'an answer that was asked for is said in words' '^\$[0-9]* = #t: Yes: ' 1
 
 # ---- A terminal that cannot do any of this ----
 

@@ -104,12 +104,23 @@ draw_line (void)
   draw_with (text_behind ());
 }
 
+/* Draw the line as one that is done, and leave the drawing.  */
+static void
+finish_drawing (void)
+{
+  int at = rl_point;
+  rl_point = rl_end;
+  draw_with (SCM_BOOL_F);
+  rl_point = at;
+  leave_drawing ();
+}
+
 /* Show TEXT below the line, and the line again below that.  */
 static void
 show_below (SCM text)
 {
   char *shown = scm_to_locale_string (text);
-  leave_drawing ();
+  finish_drawing ();
   fprintf (rl_outstream, "\r\n%s", shown);
   free (shown);
   draw_line ();
@@ -155,8 +166,7 @@ press_enter (int count, int key)
   if (is_pressed ('\n'))
     return 0;
   rl_point = rl_end;
-  draw_with (SCM_BOOL_F);
-  leave_drawing ();
+  finish_drawing ();
   fputc ('\n', rl_outstream);
   fflush (rl_outstream);
   rl_done = 1;
@@ -254,9 +264,7 @@ static int
 press_break (int count, int key)
 {
   (void)count, (void)key;
-  rl_point = rl_end;
-  draw_with (SCM_BOOL_F);
-  leave_drawing ();
+  finish_drawing ();
   fputc ('\n', rl_outstream);
   rl_delete_text (0, rl_end);
   rl_point = 0;

@@ -5,6 +5,7 @@
 (use-modules (bight shell complete)
              (bight shell cursor)
              (bight core schema)
+             ((bight core errors) #:select (nearest))
              ((bight engine) #:select (%worlds-folder))
              ((bight core verb) #:select (verb-arguments verb? verb-usage))
              (ice-9 textual-ports)
@@ -123,3 +124,33 @@ what stands for it when it is left out."
   (expect (indentation-after "(list (list 1 2)\n") => 6)
   (expect (indentation-after "(world\n  (tether (length 3)\n") => 10)
   (expect (indentation-after "(\n") => 1))
+
+(define-scenario members-by-their-own-names
+  "What belongs to a group is found by its name in the group, too; the whole name, with its slash, goes on."
+  (in pier)
+  (expect (words-after "(winding 'pile-2-5") => '("pier/pile-2-5"))
+  (expect (words-after "(winding 'pier/pile-2-5") => '("pier/pile-2-5"))
+  (expect (sort (words-after "(winding 'beam") string<?) => '("pier/beam-1" "pier/beam-2"))
+  (expect (nearest 'pile-2-5 '(pier/pile-2-4 pier/pile-2-5 line)) => 'pier/pile-2-5)
+  (expect (nearest 'piel-2-5 '(pier/pile-2-4 pier/pile-2-5 line)) => 'pier/pile-2-5)
+  (expect (nearest 'line '(pier/line line)) => 'line))
+
+(define (hint text)
+  (save-module-excursion (lambda () (set-current-module here) (hint-after text))))
+
+(define-scenario hints-while-typing
+  "Below the line stands what is expected there: the argument with its unit and default, or the field of a part."
+  (in pier)
+  (let ((begins? (lambda (text) (lambda (told) (and told (string-prefix? text told))))))
+    (expect (hint "(run 2") is (begins? "SECONDS: s; "))
+    (expect (hint "(pay-out! 'line ") is (begins? "METRES: m; "))
+    (expect (hint "(pay-out! 5 #:rate ") is (begins? "RATE: m/s; "))
+    (expect (hint "(pay-out! 5 #:rate ") is (lambda (told) (string-contains told "0.5 when left out")))
+    (expect (hint "(world (tether (length ") is (begins? "length: m; "))
+    (expect (hint "(drive! #:sur") => (verb-usage drive!)))
+  (expect (hint "") => #f)
+  (expect (hint "(car ") => #f)
+  (expect (filter-map (lambda (entry)
+                        (and (not (hint (simple-format #f "(~a " (car entry)))) (car entry)))
+                      (verbs))
+          => '()))

@@ -268,21 +268,33 @@ huge data are cut."
 (define (word-distance a b limit)
   ;; How far B is from A, both as `letters-of' has them; any number above LIMIT when it is farther.
   (let ((n (string-length a)) (m (string-length b)))
-    (cond ((or (> n longest-word) (> m longest-word)) longest-word)
+    (cond ((string=? a b) 0)
+          ((or (> n longest-word) (> m longest-word)) longest-word)
           ((and (>= n 3) (string-prefix? a b)) 1)
           ((> (abs (- n m)) limit) longest-word)
           (else (edit-distance a b)))))
 
+(define (own-name letters)
+  ;; What a member of a group is called in the group: LETTERS behind the last slash.
+  (substring letters (+ 1 (or (string-rindex letters #\/) -1))))
+
+(define (distance-to letters candidate limit)
+  ;; How far CANDIDATE is from LETTERS: a member of a group may be meant by its own name.
+  (let* ((whole (letters-of (word->string candidate))) (own (own-name whole)))
+    (if (string=? own whole)
+        (word-distance letters whole limit)
+        (min (word-distance letters whole limit) (+ 1/2 (word-distance letters own limit))))))
+
 (define (nearest word candidates)
   "Return the member of CANDIDATES spelt most like WORD, or #f when none is near.  Words are symbols,
-keywords or strings."
+keywords or strings; of GROUP/NAME, NAME alone may be like WORD."
   (let* ((text (word->string word))
          (letters (letters-of text))
          (limit (max 1 (quotient (+ 1 (string-length text)) 3))))
     (let loop ((rest candidates) (best #f) (distance (+ limit 1)))
       (if (null? rest)
           best
-          (let ((d (word-distance letters (letters-of (word->string (car rest))) limit)))
+          (let ((d (distance-to letters (car rest) limit)))
             (if (< d distance)
                 (loop (cdr rest) (car rest) d)
                 (loop (cdr rest) best distance)))))))

@@ -7,6 +7,7 @@
 (define-module (bight shell comma)
   #:use-module (bight core errors)
   #:use-module ((bight core sentence) #:select (sentence-of-variable))
+  #:use-module (bight shell typed)
   #:use-module ((bight test expect) #:select (location->string))
   #:use-module ((ice-9 session) #:select (apropos-internal))
   #:use-module ((ice-9 rdelim) #:select (read-line))
@@ -54,7 +55,8 @@ Show the names that match REGEXP, bight's with a sentence each, then Scheme's."
 
 (define (read-source-line place)
   ;; The line that stands at PLACE, (FILE . LINE), or the empty string.
-  (or (false-if-exception
+  (or (and=> (typed-line place) string-trim-both)
+      (false-if-exception
        (call-with-input-file (car place)
          (lambda (port)
            (do ((i 1 (+ i 1)))
@@ -65,9 +67,9 @@ Show the names that match REGEXP, bight's with a sentence each, then Scheme's."
 ;; Guile's own shows the frames of its evaluator.
 (define-meta-command ((backtrace bt) repl)
   "backtrace
-Show the lines of files that led to the last error, the innermost first."
+Show the lines that led to the last error, the innermost first."
   (if (null? last-chain)
-      (display "No line of a file led to the last error.\n")
+      (display "No line led to the last error.\n")
       (for-each (lambda (frame)
                   (simple-format #t "  ~a~a: ~a~%" (location->string (car frame))
                                  (if (cdr frame) (simple-format #f " in ~a" (cdr frame)) "")

@@ -25,7 +25,8 @@
   #:export (candidates-after
             candidate-word
             candidate-meaning
-            usage-after))
+            usage-after
+            hint-after))
 
 ;; A candidate is a word and its meaning, a thunk that is called when it is shown.
 (define-syntax-rule (candidate word meaning)
@@ -37,7 +38,7 @@
 
 (define (candidate-meaning candidate)
   "Return what CANDIDATE means, a line, or the empty string."
-  (string-join (string-tokenize (or (false-if-exception ((cdr candidate))) ""))))
+  (first-sentence (or (false-if-exception ((cdr candidate))) "")))
 
 (define (named symbols)
   ;; Candidates for names that are quoted.
@@ -149,26 +150,27 @@
 (define (after-keyword? items)
   (and (pair? items) (string-prefix? "#:" (last items))))
 
-(define (parameter-at verb items)
-  ;; (NAME . TYPE) of what follows ITEMS, the arguments that are there, or #f.
+(define (row-at verb items)
+  ;; The row (ROLE NAME TYPE DEFAULT) of what follows ITEMS, the arguments that are there, or #f.
   (if (after-keyword? items)
-      (let ((row (find (lambda (row) (string=? (last items) (keyword-text (second row)))) (rows-of verb 'key))))
-        (and row (cons (keyword->symbol (second row)) (third row))))
+      (find (lambda (row) (string=? (last items) (keyword-text (second row)))) (rows-of verb 'key))
       (let* ((given (positional items))
              (named? (and (pair? given)
                           (member (car given)
                                   (map (lambda (name) (simple-format #f "'~a" name)) (subjects verb)))))
              (n (length (if named? (cdr given) given)))
-             (rows (append (rows-of verb 'required) (rows-of verb 'optional)))
-             (row (if (< n (length rows))
-                      (list-ref rows n)
-                      (let ((rest (rows-of verb 'rest))) (and (pair? rest) (car rest))))))
-        (and row (cons (second row) (third row))))))
+             (rows (append (rows-of verb 'required) (rows-of verb 'optional))))
+        (if (< n (length rows))
+            (list-ref rows n)
+            (let ((rest (rows-of verb 'rest))) (and (pair? rest) (car rest)))))))
+
+(define (row-name row)
+  (let ((name (second row))) (if (keyword? name) (keyword->symbol name) name)))
 
 (define (names-at verb items)
   ;; What may be quoted after ITEMS: what the parameter takes, then the verb's subjects.
-  (let ((parameter (parameter-at verb items)))
-    (append (if parameter (names-for parameter) '())
+  (let ((row (row-at verb items)))
+    (append (if row (names-for (cons (row-name row) (third row))) '())
             (if (null? items) (named (subjects verb)) '()))))
 
 (define (quoted-candidate entry)
@@ -233,8 +235,17 @@
 
 ;;; All together.
 
+(define (own-name-begins? word name)
+  ;; Does NAME, of a member of a group, begin with WORD behind its last slash?
+  (let ((slash (string-rindex name #\/)))
+    (and slash (string-prefix? word name 0 (string-length word) (+ 1 slash)))))
+
 (define (begin-with word candidates)
-  (filter (lambda (entry) (string-prefix? word (car entry))) candidates))
+  ;; Those of CANDIDATES that begin with WORD, or else those that are called so in their group.
+  (let ((found (filter (lambda (entry) (string-prefix? word (car entry))) candidates)))
+    (if (null? found)
+        (filter (lambda (entry) (own-name-begins? word (car entry))) candidates)
+        found)))
 
 (define (in-form frame around word mark)
   (let* ((head (frame-head frame))
@@ -252,7 +263,7 @@
 
 (define (candidates-after text)
   "Return what may stand at the end of TEXT, what was typed so far: a list of candidates that begin with the word
-there, the likeliest first."
+there, the likeliest first; of the members of groups those too that are called so in their group, if no others are."
   (let* ((cursor (cursor-after text))
          (word (cursor-word cursor))
          (mark (cursor-mark cursor))
@@ -271,3 +282,32 @@ there, the likeliest first."
   (let* ((frames (cursor-frames (cursor-after text)))
          (verb (and (pair? frames) (verb-called (frame-head (car frames))))))
     (and verb (verb-usage verb))))
+
+
+;;; What is told below the line while it is typed.
+
+(define (row-hint verb row)
+  ;; What the argument of ROW of VERB is, with its unit and default.
+  (string-append (string-upcase (symbol->string (row-name row))) ": "
+                 (parameter-sentence (unit-of (procedure-name verb) (second row)) (third row) (fourth row))))
+
+(define (verb-hint verb items word)
+  (let ((row (and (not (string-prefix? "#" word)) (row-at verb items))))
+    (string-append (if row (string-append (row-hint verb row) "   ") "") (verb-usage verb))))
+
+(define (field-hint head name)
+  (let ((field (head-field head name)))
+    (and field (simple-format #f "~a: ~a" name (field-sentence field)))))
+
+(define (hint-after text)
+  "Return what is expected at the end of TEXT, what was typed so far: the argument of a verb or the field of a part,
+with its unit, what it may be and its default, then how the verb is used; or #f."
+  (let* ((cursor (cursor-after text))
+         (frames (cursor-frames cursor))
+         (head (and (pair? frames) (frame-head (car frames))))
+         (around (and (pair? frames) (pair? (cdr frames)) (frame-head (cadr frames))))
+         (verb (verb-called head)))
+    (cond ((eqv? #\; (cursor-mark cursor)) #f)
+          ((and head around (part-like? around)) (field-hint around head))
+          (verb (verb-hint verb (cdr (frame-items (car frames))) (cursor-word cursor)))
+          (else #f))))

@@ -126,10 +126,25 @@ parenthesis beside the cursor at POINT and its partner; wrong, one that closes n
   (let ((first-row (max 0 (min (- (length rows) height) (- (car at) (quotient height 2))))))
     (list (take (drop rows first-row) (min height (length rows))) (- (car at) first-row) (cadr at))))
 
-(define* (drawn-rows prompt text point width-of height width #:key done?)
+(define (hint-row hint width-of width)
+  ;; HINT as a row of at most WIDTH columns, in the colour of comments.
+  (define (fitting chars room)
+    (cond ((null? chars) '())
+          ((> (width-of (visible (car chars))) room) '())
+          (else (acons (visible (car chars)) 'comment
+                       (fitting (cdr chars) (- room (width-of (visible (car chars)))))))))
+  (row->text (reverse (fitting (string->list hint) width))))
+
+(define* (drawn-rows prompt text point width-of height width #:key done? hint)
   "Return what a screen of HEIGHT rows and WIDTH columns shows of TEXT behind PROMPT, with the cursor before the
 character POINT: a list of the rows, strings with what makes the terminal show colours, and of the cursor's row
-and column.  WIDTH-OF tells the columns of a character.  No parentheses match in a TEXT that is DONE?."
+and column.  WIDTH-OF tells the columns of a character.  No parentheses match in a TEXT that is DONE?.  HINT, a string
+or #f, is a last row, if there is room for one."
   (let* ((text-kinds (kinds-of text (if done? -1 point)))
-         (found (rows-of prompt text point text-kinds width-of (max 10 (- width 1)))))
-    (within (car found) (cdr found) (max 1 height))))
+         (room (max 10 (- width 1)))
+         (found (rows-of prompt text point text-kinds width-of room))
+         (hint (and hint (< (length (car found)) height) hint))
+         (drawn (within (car found) (cdr found) (max 1 height))))
+    (if hint
+        (cons (append (car drawn) (list (hint-row hint width-of room))) (cdr drawn))
+        drawn)))

@@ -14,6 +14,7 @@
   #:use-module (bight shell cursor)
   #:use-module (bight shell highlight)
   #:use-module (bight shell readline)
+  #:use-module ((bight shell typed) #:select (keep-typed-text!))
   #:use-module (ice-9 buffered-input)
   #:use-module (srfi srfi-1)
   #:export (call-with-line-editing))
@@ -83,8 +84,9 @@
 ;;; The completer, as readline calls it: for the first word with CONTINUE? #f, then for the others.
 
 (define (find-candidates! text)
+  ;; A name that is quoted may have a slash, in a group.
   (set! found
-        (if (string-index text #\/)
+        (if (and (string-index text #\/) (not (eqv? #\' (cursor-mark (cursor-after (typed-so-far))))))
             '()
             (or (false-if-exception (candidates-after (typed-so-far))) '()))))
 
@@ -111,10 +113,11 @@
 ;;; What the screen shows of the line, and what Enter and Tab make of it.
 
 (define (paint prompt before behind rows columns)
-  ;; As %begin-editing wants it; without BEHIND the line is done, and no parenthesis is marked.
+  ;; As %begin-editing wants it; without BEHIND the line is done, no parenthesis is marked, and nothing told below.
   (false-if-exception
    (drawn-rows prompt (string-append before (or behind "")) (string-length before) (own %columns-of) rows columns
-               #:done? (not behind))))
+               #:done? (not behind)
+               #:hint (and behind (false-if-exception (hint-after (string-append earlier before)))))))
 
 (define reading-form? (make-parameter #f))
 
@@ -215,7 +218,9 @@
     (if (eq? port (current-input-port))
         (parameterize ((prompt-text prompt) (reading-form? #t))
           (set-buffered-input-continuation?! port #f)
-          ((or reader read) port))
+          (let ((form ((or reader read) port)))
+            (keep-typed-text! earlier)
+            form))
         (before prompt reader))))
 
 (define the-port #f)

@@ -12,6 +12,7 @@
   #:use-module ((bight dive) #:select (served?))
   #:use-module (bight shell comma)
   #:use-module (bight shell line-editor)
+  #:use-module (bight shell typed)
   #:use-module ((bight test expect) #:select (syntax-error->line location->string chain->string))
   #:use-module ((bight view looks) #:select (value->lines))
   #:use-module ((system repl common) #:select (repl-default-option-set!))
@@ -59,7 +60,8 @@
 (define asked #f)
 
 (define (note-what-is-asked! form)
-  (set! asked (and (pair? form) (symbol? (car form)) (car form))))
+  (let ((form (syntax->datum form)))
+    (set! asked (and (pair? form) (symbol? (car form)) (car form)))))
 
 ;;; Values, as they look at the prompt, are called $1, $2 and so on, in Guile's own module for them.
 
@@ -95,8 +97,8 @@
 
 (define (tell-chain)
   ;; Guile reports an error where it is raised: the calls that led there are still under way.
-  (let ((frames (chain-here)))
-    (note-chain! frames)
+  (note-chain! (chain-here))
+  (let ((frames (frames-elsewhere (chain-here))))
     (when (pair? frames)
       (simple-format (current-error-port) "  at ~a~a~%" (location->string (car (car frames)))
                      (let ((text (chain->string frames)))
@@ -117,24 +119,26 @@
   (with-fluids ((*repl-stack* (cons 'bight (or (fluid-ref *repl-stack*) '()))))
     (thunk)))
 
+(define (read-and-evaluate)
+  ;; The loop; forms are interpreted, so that their errors know their lines.
+  (repl-default-option-set! 'interp #t)
+  (call-with-interrupts
+   (lambda ()
+     (call-with-line-editing
+      (lambda () (call-with-prompt-below (lambda () (start-repl language-of-prompt))))))))
+
 (define (run-inner-prompt greeting)
   "Say GREETING, and run a prompt within what is going on until the user leaves it."
   (set-manners!)
   (display greeting)
   (newline)
-  (call-with-interrupts
-   (lambda ()
-     (call-with-line-editing
-      (lambda () (call-with-prompt-below (lambda () (start-repl))))))))
+  (read-and-evaluate))
 
 (define (run-prompt version)
   "Run the prompt of bight VERSION, a string, until the user leaves.  Return the exit status."
   (enter-language!)
   (set-manners!)
   (print-banner version)
-  (let ((result (call-with-interrupts
-                 (lambda ()
-                   (call-with-line-editing
-                    (lambda () (call-with-prompt-below (lambda () (start-repl)))))))))
+  (let ((result (read-and-evaluate)))
     (run-hook exit-hook)
     (status-of result)))
