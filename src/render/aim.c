@@ -422,10 +422,20 @@ aim_by_vehicle (bt_view *view, bt_aim aim, bt_error *error)
 {
   const bt_thing *rov = first_of (view, BT_THING_VEHICLE);
   if (!rov)
-    return bt__fail (error, BT_ERR_DEF, "the view %s needs a vehicle, and there is none",
+    return bt__fail (error, BT_ERR_DEF, "the view %s is a vehicle's, and this dive has none: give its world one, as in "
+                     "(rov (named minnow) (at 0 0 -5)), or choose another view",
                      bt_aim_name (aim));
   (aim == BT_AIM_CHASE ? aim_chase : aim_pilot) (view, rov);
   return BT_OK;
+}
+
+/* Let obstacles be what must be seen, in a view without vehicle and tether.  */
+static void
+frame_obstacles (bt_view *view)
+{
+  for (size_t i = 0; i < view->n; i++)
+    if (view->things[i].framing == BT_FRAME_NEAR && view->things[i].kind != BT_THING_ARROW)
+      view->things[i].framing = BT_FRAME_MUST;
 }
 
 bt_status
@@ -436,7 +446,10 @@ bt_view_aim (bt_view *view, bt_aim aim, double aspect, bt_error *error)
   if (aim == BT_AIM_CHASE || aim == BT_AIM_PILOT)
     return aim_by_vehicle (view, aim, error);
   if (!must_box (view).any)
-    return bt__fail (error, BT_ERR_DEF, "there is nothing to look at: no vehicle and no tether");
+    frame_obstacles (view);
+  if (!must_box (view).any)
+    return bt__fail (error, BT_ERR_DEF,
+                     "there is nothing to look at: no vehicle, no tether and no obstacle");
   if (aim == BT_AIM_TOP) /* a high sun: shadows fall near their objects */
     view->sun = bt__unit_or (bt__vec (0.1, -0.08, 1), above);
   if (aim == BT_AIM_OVERVIEW)

@@ -259,7 +259,12 @@ bt__sonar_picture (const bt_dive *dive, int vehicle, double range, const char *t
                    const bt__drawing *d, bt__picture *picture, bt_error *error)
 {
   fan f = { .dive = dive, .vehicle = vehicle, .range = range };
-  bt_status status = bt_dive_vehicle (dive, vehicle, &f.state, error);
+  bt_status status;
+  if (bt_dive_count (dive, BT_PART_VEHICLE) <= vehicle)
+    return bt__fail (error, BT_ERR_DEF,
+                     "the view sonar is a vehicle's, and this dive has none: give its world one, as "
+                     "in (rov (named minnow) (at 0 0 -5))");
+  status = bt_dive_vehicle (dive, vehicle, &f.state, error);
   if (status == BT_OK && !have_fan (&f))
     status = bt__fail (error, BT_ERR_LIMIT, "there is no memory left for the picture");
   bt_body_axes (f.state.heading, f.state.pitch, f.state.roll, f.axis);

@@ -185,6 +185,21 @@
   (expect (show #:as 'telepathy) raises name)
   (expect (file-exists? "x.png") => #f))
 
+(define-scenario obstacles-alone-are-seen
+  "A dive without vehicle and tether shows its obstacles; a view that is a vehicle's says what is missing."
+  (enter! (world (sea (depth 20)) (sphere (named log) (at 40 8 -4) (radius 0.4))))
+  (with-pictures
+   (for-each (lambda (view)
+               (expect (raised (snapshot (scratch-file "x.png") #:size '(64 64) #:view view)) is
+                       (lambda (raised)
+                         (and (eq? 'def (car raised))
+                              (string-contains (cdr raised) "this dive has none: give its world one, as in (rov ")))))
+             '(chase pilot sonar))
+   (for-each (lambda (view)
+               (snapshot (scratch-file "log.png") #:size '(64 64) #:view view)
+               (expect (png-size "log.png") => '(64 64)))
+             '(overview top side plan))))
+
 (define-scenario files-that-cannot-be-written
   "A file that cannot be written is one clear line, and nothing is left behind."
   (in open-water)
