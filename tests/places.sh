@@ -247,4 +247,36 @@ SCM
 grep -q 'drive!: .* (in leg, called from chained.scm:7)$' out
 result $? 'so does a test'
 
+cat >claimed.scm <<'SCM'
+(define (half x)
+  (let ((y (/ x 2)))
+    (car y)))
+(define-scenario claimed
+  "A claim about what cannot be."
+  (expect (+ 1 (half 4)) => 2)
+  (expect (pay-out! 1) => 2))
+SCM
+"$pre" bight test claimed.scm >out 2>err
+grep -q 'car: .* (at claimed.scm:3 in half, called from claimed.scm:6)$' out
+result $? 'and a claim: the line in the procedure that it calls'
+[ "$(grep -c ' (at ' out)" -eq 1 ]
+result $? 'which an error in the claim itself needs not'
+
+if "$pre" bight -c '(logbook)' >/dev/null 2>&1; then
+  cat >claimed-study.scm <<'SCM'
+(define (half x)
+  (let ((y (/ x 2)))
+    (car y)))
+(define-study s "S." #:for ((push 1))
+  (in tank)
+  (fly (list (half push)))
+  (measure (t (now))))
+SCM
+  "$pre" bight sweep claimed-study.scm -o claimed.db >out 2>err </dev/null
+  grep -q 'claimed-study.scm:3: car: .* (in half, called from claimed-study.scm:6)$' err
+  result $? 'and a case of a study'
+else
+  skip 'and a case of a study: built without SQLite'
+fi
+
 finish

@@ -194,6 +194,8 @@ refused () # NAME TEXT EXPRESSION
 echo 'no database, but long enough to be taken for one by its name alone' >text.db
 refused 'no recording' 'there is no file "none.db"' '(export-npz "none.db" "x.npz")'
 refused 'a text' 'not a database of frames; (record!' '(export-vtk "text.db" "x.pvd")'
+refused 'a text as rows' 'not a database of frames; (record!' '(export-csv "text.db" "x.csv")'
+refused 'a device' 'not a database of frames; (record!' '(export-gltf "/dev/null" "x.glb")'
 refused 'a folder' 'is a folder' '(export-npz "dive" "x.npz")'
 refused 'what is neither' 'it writes samples' '(export-npz 5 "x.npz")'
 refused 'a series without its ending' 'NAME.pvd' '(export-vtk "dive.db" "dive.vtp")'

@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight core allowance)
+             ((ice-9 regex) #:select (string-match))
              (bight assembly)
              (bight world current)
              (bight world describe)
@@ -512,3 +513,10 @@ included."
           => '("diameter" "0.0076" "m" "from fathom"))
   (expect (describe 'tehter) raises name)
   (expect (describe 5) raises domain))
+
+(define-scenario what-follows-has-sensible-digits
+  "A field that follows from others is described with five digits."
+  (in pile)
+  (let ((text (object->string (describe 'line) display)))
+    (expect (string-contains text "follows"))
+    (expect (string-match "[0-9][.][0-9]{9}" text) => #f)))

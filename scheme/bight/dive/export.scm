@@ -12,7 +12,6 @@
   #:use-module (bight core vtk)
   #:use-module ((bight dive frames) #:select (query-frames))
   #:use-module ((bight view plot) #:select (samples? samples-names samples-rows))
-  #:use-module ((ice-9 textual-ports) #:select (get-string-n))
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:export (export-npz export-vtk export-gltf))
@@ -45,19 +44,8 @@
               rows)
     (map (lambda (name) (cons name (by-frame (reverse (hash-ref table name))))) (sort names string<?))))
 
-(define (begins-as-sqlite? file)
-  (let ((head (call-with-input-file file (lambda (port) (get-string-n port 6)) #:encoding "ISO-8859-1")))
-    (and (string? head) (string=? "SQLite" head))))
-
-(define (check-frames proc file)
-  ;; A file that is there is SQLite's: the text of the recording is easily given instead.
-  (when (and (file-exists? file) (eq? 'regular (stat:type (stat file))) (not (begins-as-sqlite? file)))
-    (bight-raise 'format proc "~s is not a database of frames; (record! FILE #:frames NAME) writes one to NAME"
-                 file)))
-
 (define (read-recording proc file)
   ;; (TIMES VEHICLES TETHERS POINTS): (FRAME TIME STEP) for each frame; the others as `named' has them.
-  (check-frames proc file)
   (let ((tables (query-frames proc file
                               '("select frame, time, step from frames order by frame"
                                 "select name, frame, x, y, z, heading, speed from vehicles order by frame"

@@ -17,6 +17,7 @@
   #:use-module (bight core sqlite)
   #:use-module (bight core verb)
   #:use-module (bight engine)
+  #:use-module ((ice-9 textual-ports) #:select (get-string-n))
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:export (open-frames
@@ -103,12 +104,23 @@ y real, z real, tension real)"
 
 ;;; For other programs.
 
-(define (query-frames proc file queries)
-  "Return what the database FILE of frames answers to each of QUERIES, lists of rows."
+(define (begins-as-sqlite? file)
+  (let ((head (call-with-input-file file (lambda (port) (get-string-n port 6)) #:encoding "ISO-8859-1")))
+    (and (string? head) (string=? "SQLite" head))))
+
+(define (check-frames proc file)
+  ;; A file that is there is SQLite's: the text of the recording is easily given instead.
   (unless (file-exists? file)
     (bight-raise 'io proc "there is no file ~s" file))
   (when (file-is-directory? file)
     (bight-raise 'io proc "~s is a folder, not the frames of a recording" file))
+  (unless (and (eq? 'regular (stat:type (stat file))) (begins-as-sqlite? file))
+    (bight-raise 'format proc "~s is not a database of frames; (record! FILE #:frames NAME) writes one to NAME"
+                 file)))
+
+(define (query-frames proc file queries)
+  "Return what the database FILE of frames answers to each of QUERIES, lists of rows."
+  (check-frames proc file)
   (let* ((database (open-tables proc file kind version tables))
          (answers (map (lambda (sql) (%query database sql '())) queries)))
     (close-tables! database)

@@ -11,7 +11,7 @@
   #:use-module (bight core errors)
   #:use-module ((bight core here) #:select (noting-places))
   #:use-module (bight study case)
-  #:use-module ((bight test expect) #:select (exception->line raised-at raised-kind))
+  #:use-module ((bight test expect) #:select (chain-suffix exception->line raised-at raised-kind))
   #:use-module (srfi srfi-1)
   #:export (call-with-flyers
             fly-cases
@@ -27,7 +27,7 @@
 (define (failure e)
   (list (cons 'status "failed")
         (cons 'error (object->string (raised-kind e) display))
-        (cons 'message (string-append (place->text (raised-at e)) (exception->line e)))))
+        (cons 'message (string-append (place->text (raised-at e)) (exception->line e) (chain-suffix e)))))
 
 (define (case-outcome study number)
   ;; What comes of the case NUMBER, from 0, of STUDY: an alist of status, cpu and hash, measures, legs, or error and

@@ -8,7 +8,7 @@
 
 (define-module (bight test expect)
   #:use-module (bight core errors)
-  #:use-module ((bight core here) #:select (place-of chain-of))
+  #:use-module ((bight core here) #:select (place-of chain-of note-place!))
   #:use-module (bight core record)
   #:use-module (bight core verb)
   #:use-module ((ice-9 control) #:select (call/ec))
@@ -264,12 +264,21 @@ REMARKS are lines that show more of it; #f leaves them to the trial that is told
                     (lambda (exception)
                       (if (not-an-error? exception)
                           (raise-exception exception)
-                          (return (lambda () (fail exception)))))
+                          (let ((exception (note-place! exception)))
+                            (return (lambda () (fail exception))))))
                     thunk)))
         (lambda () (succeed value)))))))
 
+(define (procedures-on-the-way exception)
+  ;; Where EXCEPTION was raised and what led there, in parentheses, if that is in a procedure of the file.
+  (let ((frames (chain-of exception)))
+    (if (any cdr frames)
+        (simple-format #f " (at ~a ~a)" (location->string (car (car frames))) (chain->string frames))
+        "")))
+
 (define (describe-raise exception)
-  (simple-format #f "~a error: ~a" (raised-kind exception) (exception->line exception)))
+  (simple-format #f "~a error: ~a~a" (raised-kind exception) (exception->line exception)
+                 (procedures-on-the-way exception)))
 
 (define (judge ask good? expected)
   ;; EXPECTED is a thunk that gives the text.

@@ -162,11 +162,18 @@ given, from its type or left to the default, and for each thing inside it."
         (list (first row) text (third row) "now")
         row)))
 
+(define (to-five-digits value)
+  ;; VALUE, if it is a number, with as many digits as what it follows from may have.
+  (if (and (real? value) (inexact? value) (< 1e-9 (abs value) 1e12))
+      (let ((unit (expt 10 (- 4 (inexact->exact (floor (log10 (abs value))))))))
+        (exact->inexact (/ (round (* unit (inexact->exact value))) unit)))
+      value))
+
 (define (follower-rows head rows live)
   ;; Rows for the fields that were left to follow from others.
   (filter-map (lambda (entry)
                 (and (not (assoc (symbol->string (car entry)) rows))
-                     (value-row head entry "follows")))
+                     (value-row head (cons (car entry) (to-five-digits (cdr entry))) "follows")))
               live))
 
 (define (corner->string corner)
