@@ -4,7 +4,8 @@
    An imaging sonar hears no elevation: all that comes back from one bearing and one range falls on
    one spot.  Each beam is therefore cast at several tilts over the vertical aperture, and every
    first echo adds to the spot of its range, by the cosine of the incidence, which follows from the
-   ranges of neighbouring tilts; behind the last echo there is shadow.  Tethers echo where no
+   ranges of neighbouring tilts.  A bed seen at a flat angle lies between the ranges of two tilts:
+   the echo is spread over all of them.  Behind the last echo there is shadow.  Tethers echo where no
    obstacle is before them.  Grain is the hash of the spot and the step: equal dives give equal
    pictures.
 
@@ -51,6 +52,7 @@ row_tilt (int t)
 
 /* ---- Echoes ---- */
 
+/* Beyond the range too: whether a tilt near its end meets a bed shows in the tilts beside it.  */
 static bt_status
 cast (fan *f, bt_error *error)
 {
@@ -58,7 +60,7 @@ cast (fan *f, bt_error *error)
   bt_status status = BT_OK;
   for (int t = 0; status == BT_OK && t < TILTS; t++)
     {
-      bt_sonar sonar = { .sector = sector, .tilt = row_tilt (t), .range = f->range, .beams = BEAMS };
+      bt_sonar sonar = { .sector = sector, .tilt = row_tilt (t), .range = 3 * f->range, .beams = BEAMS };
       status = bt_dive_sonar (f->dive, f->vehicle, &sonar, range, error);
       for (int b = 0; status == BT_OK && b < BEAMS; b++)
         f->reach[b][t] = range[b];
@@ -85,13 +87,60 @@ incidence (const double reach[TILTS], int t)
   return isfinite (slope) ? 1 / sqrt (1 + slope * slope) : 0.5;
 }
 
+/* True if tilt T and the next hit one flat surface: there, the inverse of the range is nearly linear
+   in the tilt, so it is for a tilt beside the two.  */
+static int
+is_one_surface (const double reach[TILTS], int t)
+{
+  double step = fabs (1 / reach[t] - 1 / reach[t + 1]);
+  for (int k = t - 1; k <= t; k++)
+    if (k >= 0 && k + 2 < TILTS
+        && fabs (1 / reach[k] - 2 / reach[k + 1] + 1 / reach[k + 2]) < 0.15 * step)
+      return 1;
+  return 0;
+}
+
+/* True if the echo of tilt T on BEAM is spread up to that of the next tilt.  */
+static int
+is_spread (const fan *f, int beam, int t)
+{
+  const double *reach = f->reach[beam];
+  enum
+  {
+    APART = 3 /* bins that a single echo fills */
+  };
+  return t >= 0 && t + 1 < TILTS && fmax (reach[t], reach[t + 1]) <= 3 * f->range
+         && fmin (reach[t], reach[t + 1]) <= f->range
+         && fabs (reach[t + 1] - reach[t]) > APART * f->range / BINS && is_one_surface (reach, t);
+}
+
+/* An echo over all ranges from A to B on BEAM, together as loud as a single one.  */
+static void
+spread_echo (fan *f, int beam, double a, double b, double loud)
+{
+  static const double single = 2.3; /* bins: the sum of the weights of add_echo */
+  double low = fmin (a, b) / f->range * BINS, high = fmax (a, b) / f->range * BINS;
+  for (int i = (int)low; i < BINS && i < high; i++)
+    f->echo[beam][i]
+        += (float)(loud * single * (fmin (i + 1, high) - fmax (i, low)) / (high - low));
+}
+
+static void
+gather_beam (fan *f, int b)
+{
+  static const double loud = 2.2 / TILTS * 6;
+  for (int t = 0; t < TILTS; t++)
+    if (is_spread (f, b, t))
+      spread_echo (f, b, f->reach[b][t], f->reach[b][t + 1], loud);
+    else if (f->reach[b][t] <= f->range && !is_spread (f, b, t - 1))
+      add_echo (f, b, f->reach[b][t], loud * incidence (f->reach[b], t));
+}
+
 static void
 gather_echoes (fan *f)
 {
   for (int b = 0; b < BEAMS; b++)
-    for (int t = 0; t < TILTS; t++)
-      if (f->reach[b][t] <= f->range)
-        add_echo (f, b, f->reach[b][t], 2.2 / TILTS * incidence (f->reach[b], t) * 6);
+    gather_beam (f, b);
 }
 
 /* True if nothing solid is before a point at RANGE on BEAM with TILT.  */

@@ -373,3 +373,17 @@
   (with-pictures
    (let ((with-line (heard 20.)))
      (expect (brightness with-line (loudest with-line)) is (above 200)))))
+
+(define (row-brightness pixels y)
+  ;; The mean of the middle hundred of 320 pixels in row Y.
+  (mean (map (lambda (x) (brightness pixels (+ (* 320 y) x))) (iota 100 110))))
+
+(define-scenario a-sonar-hears-a-flat-bed-everywhere
+  "A level bed, met at a flat angle, is brighter than the water before it, and no row of it stands out."
+  (in (world (sea (depth 20)) (seabed) (rov (named eye) (type kinematic) (at 0 0 -17) (heading 0))))
+  (with-pictures
+   (let* ((pixels (heard 30.))
+          (bed (map (lambda (y) (row-brightness pixels y)) (iota 40 30)))
+          (water (map (lambda (y) (row-brightness pixels y)) (iota 40 115))))
+     (expect (apply min bed) is (above (apply max water)))
+     (expect (apply max bed) is (below (* 1.5 (mean bed)))))))
