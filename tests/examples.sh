@@ -20,7 +20,7 @@ export RUN_C
 
 # Each document is a session in a folder of its own; what it says is counted here.
 for document in README.md doc/tutorial.texi doc/fly.texi doc/physics.texi doc/language.texi doc/files.texi doc/program.texi doc/sweep.texi \
-                doc/library.texi doc/extending.texi doc/limits.texi doc/thesis.texi doc/jobs.texi doc/editor.texi; do
+                doc/library.texi doc/extending.texi doc/limits.texi doc/beside.texi doc/thesis.texi doc/jobs.texi doc/editor.texi; do
   mkdir -p "$scratch/there"
   (cd "$scratch/there" && "$pre" bight "$top_srcdir/tests/documents.scm" "$top_srcdir/$document") \
     >"$scratch/said" 2>"$scratch/err" </dev/null
