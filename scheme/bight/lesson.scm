@@ -162,12 +162,23 @@ views are shown: three, plan or none."
     (if (third pilot) ((third pilot) truth choices) truth))
   (make-guide say (lambda (thunk) (thunk)) answer fly (const 'end) #f))
 
+(define-syntax-rule (of-files name)
+  ;; What (bight lesson file), which knows this module, calls NAME.
+  (module-ref (resolve-interface '(bight lesson file)) 'name))
+
+(define (lesson-in-file name)
+  ;; The lesson NAME of those that come with bight, or #f.
+  (and (memq name ((of-files lessons)))
+       ((of-files load-lesson) ((of-files lesson-file) (symbol->string name)))))
+
 (define-argument-type (a-lesson value)
-  "a lesson or the name of one that was defined"
+  "a lesson, or the name of one that was defined or comes with bight"
   (cond ((lesson? value) value)
         ((not (symbol? value)) refused)
         ((find (lambda (l) (eq? value (lesson-name l))) (lesson-list)))
-        (else (unknown-name 'run-lesson "the list of lessons" value (map lesson-name (lesson-list))))))
+        ((lesson-in-file value))
+        (else (unknown-name 'run-lesson "the list of lessons" value
+                            (append (map lesson-name (lesson-list)) ((of-files lessons)))))))
 
 (define-argument-type (level value)
   "easy, normal or hard"

@@ -120,7 +120,7 @@
           => '()))
 
 ;; Evaluated by nobody here: they need a terminal, a renderer, another program or an hour.
-(define not-run '(pilot! film run-tests snapshot show run-lesson plot))
+(define not-run '(pilot! film run-tests snapshot show plot))
 
 (define-scenario each-verb-has-an-example
   "The help of each verb has an example."

@@ -124,6 +124,7 @@ hints, tender and counters among it; a pupil's dive stays as it was; who has no 
   (expect (texts 'hint (run-lesson 'everything #:level 'hard)) => '())
   (expect (run-lesson 'everything #:level 'harder) raises)
   (expect (run-lesson 'everythng) raises name)
+  (expect (report? (run-lesson 'one-pile #:pilot 'careless)))
   (expect (run-lesson 'everything #:pilot 'exprt) raises name))
 
 (define-scenario jitter-is-seeded

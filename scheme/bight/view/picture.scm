@@ -292,16 +292,16 @@
                        (at (or-false point)) (extent (or-false positive)) (zoom (or-false positive))
                        (transparent flag #f) (lights (or-false (one-of on off))) (visibility (or-false positive)))
   "Write a picture of the dive as it is now to FILE, a PNG, and return its name and size.  VIEW is chase,
-pilot, top, side, north, east, overview (the default), plan (a drawing on paper), sonar (what one that
-looks ahead hears, as far as EXTENT or 30 m), (look FROM AT), or a list of these for a sheet; SIZE is (WIDTH HEIGHT) in pixels; PAINT colours tethers plain, by tension, by
-curvature or by model; OVERLAY is figures (title, scale, compass, legend) or none, or more than the
-figures: contacts (each with its force), turns about what, taut-string (what the tether would shrink to),
-bvh (the boxes about obstacles that collisions are looked for in, the first levels of them; (bvh LEVEL)
-is one alone), current (streamlines, their speed in colours), belief (the tubes that hold the tethers of the current
-belief with 50 and 90 %, and its members by class), or a list of several.  A view chooses where to look; AT is another point for the middle,
-EXTENT how many metres across are seen there, ZOOM how many times nearer to go.  TRANSPARENT leaves out
-water and ground.  LIGHTS at the camera are on or off, and VISIBILITY is how many metres one sees in turbid
-water, which also takes the daylight: with the view pilot, what the vehicle's camera sees."
+pilot, top, side, north, east, overview (the default), plan (a drawing on paper), sonar (what one that looks
+ahead hears, as far as EXTENT or 30 m), (look FROM AT), or a list of these for a sheet; SIZE is (WIDTH
+HEIGHT) in pixels; PAINT colours tethers plain, by tension, by curvature or by model; OVERLAY is figures
+(title, scale, compass, legend) or none, or more than the figures: contacts (each with its force), turns
+about what, taut-string (what the tether would shrink to), bvh (the boxes about obstacles that collisions
+are looked for in, the first levels of them; (bvh LEVEL) is one alone), current (streamlines, their speed in
+colours), belief (the tubes that hold the tethers of the current belief with 50 and 90 %, and its members by
+class), or a list of several.  A view chooses where to look; AT is another point for the middle, EXTENT how
+many metres across are seen there, ZOOM how many times nearer to go.  TRANSPARENT leaves out water and ground.  LIGHTS at the camera are on or off, and VISIBILITY is how many metres one sees in turbid water,
+which also takes the daylight: with the view pilot, what the vehicle's camera sees."
   (check-file 'snapshot file)
   (let ((pixels (draw 'snapshot (moved view at extent zoom) size paint
                       (in-water (flags-of overlay transparent) lights visibility))))
@@ -352,9 +352,10 @@ water, which also takes the daylight: with the view pilot, what the vehicle's ca
                    (at (or-false point)) (extent (or-false positive)) (zoom (or-false positive))
                    (as (or-false (one-of kitty sixel symbols plain)))
                    (lights (or-false (one-of on off))) (visibility (or-false positive)))
-  "Put a picture of the dive as it is now in the terminal, as `snapshot' draws it: VIEW, PAINT, OVERLAY,
-AT, EXTENT, ZOOM, LIGHTS and VISIBILITY are the same; SIZE is (COLUMNS ROWS) in characters.  AS is kitty, sixel, symbols or plain, by
-default the best that the terminal can; plain is what `look' draws.  Return what was shown."
+  "Put a picture of the dive as it is now in the terminal, as `snapshot' draws it: VIEW, PAINT, OVERLAY, AT,
+EXTENT, ZOOM, LIGHTS and VISIBILITY are the same; SIZE is (COLUMNS ROWS) in characters.  AS is kitty, sixel,
+symbols or plain, by default the best that the terminal can; plain is what `look' draws.  Return what was
+shown."
   (let ((way (or as (best-way))))
     (this-dive 'show)
     (if (eq? way 'plain)
