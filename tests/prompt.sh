@@ -232,8 +232,9 @@ typed '(list (all))'
 told 'an error is told with the lines that led there' 'at .*leg.scm:3 in leg, called from .*leg.scm:6 in all$' 1
 typed ',bt'
 told 'and ,bt shows these lines' 'leg.scm:6 in all: (car (leg 3))' 1
-typed '(define (half x)'
-keys -l '  (let ((y (/ x 2)))'
+keys -l '(define (half x)'
+keys Enter
+keys -l '(let ((y (/ x 2)))'
 keys Enter
 typed '(car y)))'
 typed '(list 1 (half 4))'
