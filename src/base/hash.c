@@ -2,8 +2,8 @@
    Not for secrets: for telling states apart.
 
    One word waits for the word before.  Of long data four lanes, each of every fourth word, are
-   mixed side by side: a lane is xored with its word, multiplied by an odd number and rotated, each
-   of which can be undone, so that two data that differ in one word always differ in a lane.
+   mixed side by side: a lane is xored with the word, multiplied by an odd number and rotated.  Each
+   step can be undone, so two data with one differing word always differ in a lane.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

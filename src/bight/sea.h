@@ -166,8 +166,8 @@ void bt_lees_free (bt_lees *lees);
    shares.  */
 double bt_lees_share (const bt_lees *lees, bt_vec3 ambient, bt_vec3 p);
 
-/* Write the same at the N places P to SHARE, to the last bit.  Places that follow each other and
-   lie close together look for what is near once for all of them.  */
+/* Write the same at the N places P to SHARE, to the last bit.  For places that follow each other
+   and lie close together the obstacles nearby are looked for once.  */
 void bt_lees_shares (const bt_lees *lees, bt_vec3 ambient, const bt_vec3 *p, size_t n,
                      double *share);
 

@@ -187,8 +187,8 @@ is_at_held_end (const bt__line_job *k, uint32_t i, double s)
          || (last && s > 1 - LEVER && !k->in->end[1].free);
 }
 
-/* True if what P says of its closest points W is the matter of those who hold the line there, and
-   not of the line: they may hold two lines at one place.  */
+/* True if both of the closest points W of P are held ends: their holders keep them in place, and
+   may hold two lines at one place.  */
 static int
 is_of_holders (const bt__line_job *k, const bt__self_pair *p, const bt__witness *w, double t)
 {

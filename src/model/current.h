@@ -1,4 +1,4 @@
-/* What a solver that marches through water may know of a current beside its velocity.
+/* What a solver that marches through water may ask of a current beside the velocity.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

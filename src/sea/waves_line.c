@@ -5,7 +5,7 @@
    that the series about its middle (waves_series.h) fills the accuracy asked of the waves, a share
    of the speed that all components have together at the surface.  Half of the accuracy is for the
    terms left out, which the reach of a level (bt__waves_reaches) bounds; a quarter for components
-   left out at a depth, and a quarter for what those have by the bottom.
+   left out at a depth, and a quarter for the share of the bottom in those components.
 
    Alone, a node is asked as bt_waves_motion asks; so are all where no accuracy is given, and where
    the components are no more than go side by side.
@@ -29,7 +29,7 @@ felt_to (const bt_waves *w)
 
 /* ---- How far a series reaches ---- */
 
-/* A bound on what is left out of a series at 1 m from its centre, at DEPTH: twice the sum of the
+/* A bound on the terms left out of a series at 1 m from its centre, at DEPTH: twice the sum of the
    components' sizes by k^N / N!, of velocities (ORDER 0) or accelerations (1).  What the bottom
    adds to a component is no more than the component.  */
 static double
@@ -83,7 +83,7 @@ bt__waves_reaches (bt_waves *w)
 
 /* ---- Runs of nodes ---- */
 
-/* What a run of nodes lies in, and the level above which none of it is.  */
+/* The box about a run of nodes, and the level below which the whole run lies.  */
 typedef struct run
 {
   double low, top, back, front; /* m: heights, and ways along */

@@ -25,8 +25,8 @@ typedef struct bt__fastened
   bt__dynamic_set sets[BT_SETS_MAX];
 } bt__fastened;
 
-/* Give INPUT what is fastened to tether I between FROM and TO metres from its far end, and its
-   sets; FASTENED keeps them.  */
+/* Give INPUT the lumps of tether I between FROM and TO metres from the far end, and the tether's
+   sets; FASTENED keeps both.  */
 void bt__fasten (const bt_dive *dive, int i, double from, double to, bt__dynamic_input *input,
                  bt__fastened *fastened);
 

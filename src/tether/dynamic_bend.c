@@ -149,7 +149,8 @@ bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d)
     w->bend_diag[i] += bt__set_hold (w, i);
 }
 
-/* The square of what node I bends by, or with a set its product with what it bends beyond that.  */
+/* The square of the turn of node I; with a set, the product of the turn and the turn beyond the
+   natural one.  */
 static double
 thrusting_square (const bt__dynamic_work *w, int i)
 {

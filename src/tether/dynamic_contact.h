@@ -157,7 +157,7 @@ typedef struct bt__dynamic_turn
   int lump;     /* true if the node comes with a lump: see bt__dynamic_split_at_lump */
 } bt__dynamic_turn;
 
-/* Return what the winch does next to D, on which INPUT says what is lumped.  */
+/* Return the next deed of the winch on D, whose lumps are in INPUT.  */
 bt__dynamic_turn bt__dynamic_winding (const bt__dynamic *d, const bt__dynamic_input *input);
 
 /* Put a node at the share U of interval J: on the curve, or with STRAIGHT or where the interval is
@@ -165,11 +165,11 @@ bt__dynamic_turn bt__dynamic_winding (const bt__dynamic *d, const bt__dynamic_in
  */
 void bt__dynamic_split (bt__dynamic *d, int64_t j, double u, int straight);
 
-/* Put node 1 where NEXT says, on the curve or, with STRAIGHT, on the chord.  There must be room.  */
+/* Put node 1 where NEXT says, on the curve or, with STRAIGHT, on the chord.  There must be room. */
 void bt__dynamic_split_first (bt__dynamic *d, const bt__dynamic_turn *next, int straight);
 
-/* Put node 1 at a lump that is OUT metres out, in the direction in which D pulls at the winch,
-   which pays out as INPUT has it.  What the rest lengths lose is owed.  There must be room.  */
+/* Put node 1 at a lump OUT metres from the winch, in the direction in which D pulls at the winch,
+   which pays out at the speed in INPUT.  The loss of rest length is owed.  There must be room.  */
 void bt__dynamic_split_at_lump (bt__dynamic *d, double out, const bt__dynamic_input *input);
 
 /* ---- The number of intervals (dynamic_mesh.c) ---- */

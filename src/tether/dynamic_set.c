@@ -1,6 +1,6 @@
 /* The moving line: its set, a natural curvature.
 
-   A line that lay on a drum, or was kinked, is bent where nothing bends it.  A node's natural turn
+   A line that lay on a drum, or was kinked, is bent where no moment acts.  A node's natural turn
    d is the integral of the natural curvature over its cell, and the node stores
    EI |w - d|^2 / (2 cell), w being its turn (dynamic_bend.c).
 
@@ -11,14 +11,14 @@
    node. Where the line is clamped at node 0 the clamp holds the directors; else the line turns
    about itself freely, to where bending stores least: sum k b.(d x w) = 0, b the tangents at nodes.
 
-   Directors follow the tangents of all nodes before them, so what bends at one node pushes there
-   too.  A tangent that sweeps an area on the sphere of directions turns the directors beyond it by
-   that area (holonomy), and the moment about the tangent, which is the derivative of the energy by
-   the angle of the directors, does work.  The forces of a set are the exact gradient of
+   Directors follow the tangents of all nodes before them, a moment at one node pushes at all nodes
+   before.  A tangent that sweeps an area on the sphere of directions turns the directors beyond it
+   by that area (holonomy), and the moment about the tangent, which is the derivative of the energy
+   by the angle of the directors, does work.  The forces of a set are the exact gradient of
    - EI w.d / cell at the present iterate, directors and all.  The blocks of a step have the
    stiffness of bending alone; where the line is long for its set, a turn of the whole line out of
-   the plane is resisted by EI kappa0^4 more, which is added to the blocks of every node, so that
-   the iteration creeps up on its solution instead of passing it.
+   the plane is resisted by EI kappa0^4 more, which is added to the blocks of every node: the
+   iteration creeps up on the solution instead of passing the solution.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -207,7 +207,7 @@ moment_of (const station *at)
   return at->k * bt__dot (at->middle, bt__cross (at->d, at->w));
 }
 
-/* At the start of L, with the angle about itself to which a line turns that no clamp holds.  */
+/* At the start of L, at the angle about its axis to which a line turns without a clamp.  */
 static walk
 set_out_turned (const set_line *l)
 {
@@ -247,8 +247,8 @@ bt__set_energy (const bt__dynamic_input *in, const bt_vec3 *x, const double *res
 
 /* ---- Forces ---- */
 
-/* The derivative of - w.d k of node I by the tangents before and after the node: that of its
-   natural turn, which follows the tangents, and of the moment BEYOND that passes through it.  */
+/* The derivative of - w.d k of node I by the tangents before and after the node: the natural turn
+   follows the tangents, and the moment BEYOND passes through the node.  */
 static void
 push_tangents (bt__dynamic_work *w, int i, const station *at, double beyond)
 {
@@ -294,8 +294,8 @@ push_chords (bt__dynamic_work *w, const set_line *l)
     }
 }
 
-/* The moment that passes a node is that of all the nodes beyond, counted from the far end, which
-   turns freely.  */
+/* The moment that passes a node is the sum over all nodes beyond, from the far end, which turns
+   freely.  */
 void
 bt__dynamic_set_forces (bt__dynamic_work *w, const bt_vec3 *x)
 {

@@ -117,8 +117,8 @@ air_in (const bt__dynamic_work *w, int j)
 
 /* ---- What a step knows ---- */
 
-/* Ask for the surface at the nodes of intervals that come near to it, note which these are, and
-   return true if there are any.  */
+/* Ask for the surface at the nodes of intervals near the surface, note the intervals, and return
+   true if there are any.  */
 static int
 find_levels (bt__dynamic_work *w)
 {

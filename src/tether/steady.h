@@ -84,7 +84,8 @@ typedef struct bt__shot
   bt__asker *asker;
 } bt__shot;
 
-/* The errors that a step of a march may make, and what tells their effect on the far end.  */
+/* The errors allowed in a step of a march, and the derivatives that tell their effect on the far
+   end.  */
 typedef struct bt__aim
 {
   double place, tension, turn; /* m, N, rad */
@@ -120,8 +121,7 @@ bt_status bt__steady_refine (bt_steady *steady, const bt_line *line, const bt_wa
                              bt_vec3 a, bt_vec3 b, int n, bt__reaction *reaction, bt_vec3 *r,
                              bt_vec3 *t, bt_steady_report *report, bt_error *error);
 
-/* Bring the pull of REACTION, of a line whose end B has moved by WAY, m, against A, to what it is
-   now.  */
+/* Correct the pull of REACTION, of a line whose end B has moved by WAY, m, against end A.  */
 void bt__steady_follow (bt__reaction *reaction, bt_vec3 way);
 
 /* The workspace; arrays of n_max + 1 elements each.  */

@@ -6,16 +6,15 @@
    Ordinary Differential Equations I, 1993, II.6).  A calm part of a line costs few steps, however
    many nodes there are.
 
-   The velocity of a profile has kinks.  A step sees the layer of water in which it begins, as if
-   that went on, so that it is smooth and its estimate holds.  If it leaves the layer it ends where
-   it does, on its own continuous extension, and the next step begins there in the next layer. Other
-   kinks, of grids and of the drag, are left to the estimate.
+   The velocity of a profile has kinks.  A step sees the layer of water in which the step begins, as
+   if the layer had no end: so the derivative is smooth and the estimate of the error holds.  A step
+   that leaves the layer is cut, on the continuous extension, at the layer's bound, where the next
+   step begins in the next layer.  Kinks of grids and of the drag are left to the estimate.
 
    The march begins at the end of the shot, which may be either end of the line.  Lane 0 is the
    line; the other lanes begin with a pull a little different along x, y and z, and take the same
    steps.  Their differences are the derivatives of all nodes by the pull.  The lanes are vectors of
-   GNU C: a march mostly waits for its own roots and divisions, so that four lanes cost little more
-   than one.
+   GNU C: a march mostly waits for roots and divisions, so four lanes cost little more than one.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -155,7 +154,7 @@ sum_of_stages (const lanes_march *m, const double weight[STAGES])
 }
 
 /* How far the end of the line moves by errors of the place, OFF, and of the tension, PULL, at the
-   end of the step: as the pull at A moves the end, less as it moves the line so far.  */
+   end of the step: the movement by the pull at A, less the part of the line marched so far.  */
 static BT__HOT bt_vec3
 way_of_end (const lanes_march *m, bt_vec3 off, bt_vec3 pull)
 {
@@ -171,8 +170,8 @@ way_of_end (const lanes_march *m, bt_vec3 off, bt_vec3 pull)
   return off;
 }
 
-/* The estimated error of the step over what it may be: its own, that of the far end, and that of
-   the pull which brings the far end back.  */
+/* The estimated error of the step over the error allowed: the largest of the errors of the step's
+   end, of the far end, and of the pull that brings the far end back.  */
 static BT__HOT double
 error_of_step (const lanes_march *m)
 {
@@ -251,7 +250,7 @@ leaves_layer (const lanes_march *m, double *bound)
   return z > high ? 1 : z < low ? -1 : 0;
 }
 
-/* The share of the step at which it leaves its layer SIDE ward through the height BOUND.  */
+/* The share of the step at which the march leaves the layer on SIDE through the height BOUND.  */
 static BT__HOT double
 share_in_layer (const lanes_march *m, const lanes_curve *c, int side, double bound)
 {
@@ -270,8 +269,8 @@ share_in_layer (const lanes_march *m, const lanes_curve *c, int side, double bou
   return to;
 }
 
-/* End the step just tried at the share F of it, where it leaves its layer on SIDE.  A step that
-   leaves at once only changes the layer; if it would then leave that one, it sees no layers.  */
+/* End the step just tried at its share F, at the bound of the layer on SIDE.  A step that leaves at
+   once only changes the layer; a step that would leave the second layer at once sees no layers.  */
 static BT__HOT int
 end_in_layer (lanes_march *m, const lanes_curve *c, double f, int side)
 {

@@ -3,12 +3,12 @@
 
    Newton's method on the pull at the end where the march begins: each iteration is one march, which
    brings its own derivatives (steady_lanes.c).  The last correction moves all nodes by their
-   derivatives, so that no march is spent on it.  A line whose ends moved a little begins from the
+   derivatives and needs no march.  A line whose ends moved a little begins from the
    last pull, corrected by the stiffness that the line had, and mostly needs one march.
 
    Each step of a march may miss a small part (FINE) of what is asked, at the far end of the line
-   and in the pull that brings the far end back.  So a nearly taut line, whose pull changes much
-   with its end, is marched more accurately.
+   and in the pull that brings the far end back.  The march of a nearly taut line, whose pull
+   changes much with the far end, is therefore more accurate.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
