@@ -14,14 +14,12 @@
 void
 bt__loads_set (bt__loads *loads, const bt_line *line, const bt_water *water, bt_vec3 at)
 {
-  const bt_current *current = water->current;
   loads->water = water;
   loads->kn = water->density / 2 * line->cdn * line->diameter;
   loads->kt = water->density / 2 * line->cdt * BT__PI * line->diameter;
   loads->w = line->wet_weight;
   loads->inv_ea = 1 / line->ea;
-  loads->uniform = !current || current->kind == BT_CURRENT_STILL
-                   || current->kind == BT_CURRENT_UNIFORM || current->kind == BT_CURRENT_TIDE;
+  loads->uniform = bt_water_is_uniform (water);
   loads->layered = bt__water_is_layered (water);
   loads->u = loads->uniform ? bt_water_velocity (water, at) : bt__vec (0, 0, 0);
 }

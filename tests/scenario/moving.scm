@@ -22,6 +22,24 @@
   (expect (tether-force) is (about '(5.4175 -1.0163 0) #:within 0.06))
   (expect (point-at 20) is (about '(8.6038 13.2493 0) #:within 0.02)))
 
+(define-scenario a-lee-shelters-the-middle-of-a-line
+  "Behind a pile the current is less: a line across its lee rests where the moving line does, and is pulled less."
+  (define (across-a-lee sea-part)
+    (world (splice (list sea-part))
+           (cylinder (named pile) (from -3 0 -60) (to -3 0 5) (radius 2))
+           (rov (named minnow) (at 0 -12 -10))
+           (tether (named line) (wet-weight 0.2) (from 0 12 -10) (to minnow) (length 30) (model steady))))
+  (in (across-a-lee (part sea (depth 60) (current 1 90))))
+  (define open-water (rov-tension))
+  (in (across-a-lee (part sea (depth 60) (current 1 90) (wake yes))))
+  (define at-rest (rov-tension))
+  (define middle (point-at 15))
+  (expect at-rest is (below (* 0.8 open-water)))
+  (alter! 'line #:model 'dynamic)
+  (expect (settle! #:within 0.001 #:at-most 600))
+  (expect (rov-tension) is (about at-rest #:within 0.05))
+  (expect (point-at 15) is (about middle #:within 0.01)))
+
 (define-scenario it-bends-as-it-is-towed
   "A moving line lags: its middle trails behind the vehicle's motion, and it pulls harder."
   (in (moving))
