@@ -5,11 +5,10 @@
 
 (use-modules (rnrs exceptions))
 
-(define folder (mkdtemp (string-append (or (getenv "TMPDIR") "/tmp") "/bight-imported-XXXXXX")))
 
 (define (written text)
   ;; A file of its own: scenarios are tried side by side.
-  (let* ((port (mkstemp (string-append folder "/text-XXXXXX"))) (file (port-filename port)))
+  (let* ((port (mkstemp (string-append (scratch-file "text-") "XXXXXX"))) (file (port-filename port)))
     (set-port-encoding! port "UTF-8")
     (display text port)
     (close-port port)

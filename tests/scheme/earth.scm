@@ -77,10 +77,8 @@ the place, 1 + x2 / 2 M N."
 
 ;;; What is read by them.
 
-(define folder (mkdtemp (string-append (or (getenv "TMPDIR") "/tmp") "/bight-earth-XXXXXX")))
-
 (define (written name . lines)
-  (let ((file (string-append folder "/" name)))
+  (let ((file (scratch-file name)))
     (call-with-output-file file (lambda (port) (for-each (lambda (l) (display l port) (newline port)) lines)))
     file))
 
@@ -139,7 +137,7 @@ is refused, and says what to give."
 (define-scenario comes-back
   "Origin and current are told by the world as data, and a save keeps them; another file there is noticed."
   (define table (written "kept.csv" "time,depth,speed,direction" "0,0,0.5,0" "60,0,0.7,0"))
-  (define saved (string-append folder "/kept.bight"))
+  (define saved (scratch-file "kept.bight"))
   (enter! (sea-world '(origin 63.4 10.4) `(current (from ,table) (start 0))))
   (run 1)
   (let ((hash (state-hash)))

@@ -8,9 +8,6 @@
 
 (primitive-load (string-append (dirname (dirname (current-filename))) "/geo-files.scm"))
 
-(define folder (mkdtemp (string-append (or (getenv "TMPDIR") "/tmp") "/bight-geo-XXXXXX")))
-(define (in-folder name) (string-append folder "/" name))
-
 (define latitude 63.45)
 (define longitude 10.4)
 
@@ -63,7 +60,7 @@
   #:for ((format 'ascii 'xyz 'tiff 'netcdf) (way 'east 'north))
   (with-reader
    (define (value x y) (if (eq? way 'east) (east-height x) (north-height y)))
-   (define file (in-folder (simple-format #f "~a-~a" format way)))
+   (define file (scratch-file (simple-format #f "~a-~a" format way)))
    (case format
      ((ascii) (write-ascii file west north 0.001 61 41 value))
      ((xyz) (write-xyz file west north 0.001 61 41 value))
@@ -81,7 +78,7 @@ does, or the numbers leave no other."
   #:for ((format 'tiff 'tiff-without 'ascii 'ascii-told))
   (with-reader
    (let* ((e0 (utm-east latitude longitude)) (n0 (utm-north latitude longitude))
-          (file (in-folder (symbol->string format)))
+          (file (scratch-file (symbol->string format)))
           (value (lambda (e n) (+ -60 (* 0.02 (+ (- e e0) (- n n0))))))
           (grid (list (- (floor e0) 2000) (+ (floor n0) 1500) 50 81 61 value)))
      (case format
@@ -95,7 +92,7 @@ does, or the numbers leave no other."
   "Depths that the file says are depths lie below; numbers that stand for none are holes; a reach is kept; a bed of \
 which every height is in the air is asked about."
   (with-reader
-   (let ((file (in-folder "depths.nc")) (holed (in-folder "holed.tif")))
+   (let ((file (scratch-file "depths.nc")) (holed (scratch-file "holed.tif")))
      (write-bed-netcdf file "depth" '(("positive" . "down")) west north 0.001 61 41 (lambda (x y) 42))
      (enter-bed! `(grid ,file) '(reach 800))
      (expect (height-at latitude longitude) is (about -42 #:within 1e-4))
@@ -104,9 +101,9 @@ which every height is in the air is asked about."
      (enter-bed! `(grid ,holed))
      (expect (height-at latitude (- longitude 0.004)) is (about -30 #:within 1e-4))
      (expect (height-at latitude (+ longitude 0.004)) is (below -499))
-     (write-xyz (in-folder "air.xyz") west north 0.001 61 41 (lambda (x y) 42))
-     (expect (enter-bed! `(grid ,(in-folder "air.xyz"))) raises format)
-     (enter-bed! `(grid ,(in-folder "air.xyz")) '(positive down))
+     (write-xyz (scratch-file "air.xyz") west north 0.001 61 41 (lambda (x y) 42))
+     (expect (enter-bed! `(grid ,(scratch-file "air.xyz"))) raises format)
+     (enter-bed! `(grid ,(scratch-file "air.xyz")) '(positive down))
      (expect (height-at latitude longitude) is (about -42 #:within 1e-4)))))
 
 (define (box-of name)
@@ -127,8 +124,8 @@ goes on."
        #f))
    (define here `(origin ,latitude ,longitude))
    (define grid (list west north 0.001 61 41 (lambda (x y) -30)))
-   (define tiff (apply write-tiff (in-folder "fine.tif") 4326 grid))
-   (define bare (write-ascii (in-folder "bare.asc") 5e6 5e6 10 11 11 (lambda (x y) -30)))
+   (define tiff (apply write-tiff (scratch-file "fine.tif") 4326 grid))
+   (define bare (write-ascii (scratch-file "bare.asc") 5e6 5e6 10 11 11 (lambda (x y) -30)))
    (enter! 'open-water)
    (let ((before (state-hash)))
      (expect (refused? 'def `(grid ,tiff)) => #t)
@@ -137,15 +134,15 @@ goes on."
      (expect (refused? 'format `(grid ,tiff) here '(system "EPSG:32632")) => #t)
      (expect (refused? 'format `(grid ,tiff) here '(system "/etc/passwd")) => #t)
      (expect (refused? 'format `(grid ,bare) here) => #t)
-     (expect (refused? 'format `(grid ,(apply write-tiff (in-folder "wide.tif") 4326
+     (expect (refused? 'format `(grid ,(apply write-tiff (scratch-file "wide.tif") 4326
                                               (append grid (list #:claimed-width 2000000000)))) here) => #t)
-     (expect (refused? 'format `(grid ,(write-tiff (in-folder "nan.tif") 4326 west north 0.001 61 41
+     (expect (refused? 'format `(grid ,(write-tiff (scratch-file "nan.tif") 4326 west north 0.001 61 41
                                                    (lambda (x y) +nan.0))) here) => #t)
-     (expect (refused? 'format `(grid ,(write-tiff (in-folder "peak.tif") 4326 west north 0.001 61 41
+     (expect (refused? 'format `(grid ,(write-tiff (scratch-file "peak.tif") 4326 west north 0.001 61 41
                                                    (lambda (x y) 3e38))) here) => #t)
-     (expect (refused? 'limit `(grid ,(write-tiff (in-folder "world.tif") 4326 -179.5 89.5 1 360 180
+     (expect (refused? 'limit `(grid ,(write-tiff (scratch-file "world.tif") 4326 -179.5 89.5 1 360 180
                                                   (lambda (x y) -30))) here) => #t)
-     (expect (refused? 'format `(grid ,(write-bed-netcdf (in-folder "other.nc") "salinity" '() west north 0.001 61 41
+     (expect (refused? 'format `(grid ,(write-bed-netcdf (scratch-file "other.nc") "salinity" '() west north 0.001 61 41
                                                          (lambda (x y) -30))) here '(variable "elevation")) => #t)
      (expect (refused? 'def `(grid ,tiff) here '(origin 1 2)) => #t)
      (expect (refused? 'domain `(grid ,tiff) '(origin 91 2)) => #t)
@@ -154,17 +151,17 @@ goes on."
 (define-scenario little-memory
   "A reader without memory says so and takes nothing with it."
   (with-reader
-   (let ((program (getenv "BIGHT_GEO_READER")) (wrapper (in-folder "wrapper")))
+   (let ((program (getenv "BIGHT_GEO_READER")) (wrapper (scratch-file "wrapper")))
      (unless program (skip "the reader is where it was installed"))
      (call-with-output-file wrapper
        (lambda (port)
          (simple-format port "#!/bin/sh\nshift 2\nexec '~a' 60 ~a \"$@\"\n" program 60)))
      (chmod wrapper #o755)
-     (write-tiff (in-folder "some.tif") 4326 west north 0.001 61 41 (lambda (x y) -31))
+     (write-tiff (scratch-file "some.tif") 4326 west north 0.001 61 41 (lambda (x y) -31))
      (dynamic-wind
        (lambda () (setenv "BIGHT_GEO_READER" wrapper))
        (lambda () (expect (guard (e ((bight-error? e) (not (string-index (bight-error-message e) #\newline))))
-                            (enter-bed! `(grid ,(in-folder "some.tif")))
+                            (enter-bed! `(grid ,(scratch-file "some.tif")))
                             #f)
                           => #t))
        (lambda () (setenv "BIGHT_GEO_READER" program))))))
@@ -237,7 +234,7 @@ goes on."
 below its bottom it is as at its lowest level."
   #:for ((style 'cmems 'hycom))
   (with-reader
-   (let ((file (write-model style (in-folder (simple-format #f "~a.nc" style))))
+   (let ((file (write-model style (scratch-file (simple-format #f "~a.nc" style))))
          (there (list (+ latitude 0.02) (- longitude 0.03))))
      (enter! (current-world `(from ,file) `(at ,@there) '(start "2025-03-01T07:00Z")))
      (expect (current-miss 1 there) is (below 1e-9))
@@ -281,7 +278,7 @@ below its bottom it is as at its lowest level."
   "With Cs = s its second transformation is z = s h for any hc: the levels are at 72, 40 and 8 m.  Velocities are \
 turned from the cells' axes to east and north."
   (with-reader
-   (enter! (current-world `(from ,(write-roms (in-folder "roms.nc")))))
+   (enter! (current-world `(from ,(write-roms (scratch-file "roms.nc")))))
    (for-each
     (lambda (s)
       (let ((u (+ 0.6 (* 0.1 s))) (v (+ 0.3 (* 0.1 s))))
@@ -304,11 +301,11 @@ turned from the cells' axes to east and north."
     (if (zero? (random 4 random-numbers))
         (let ((short (make-bytevector (random n random-numbers))))
           (bytevector-copy! bytes 0 short 0 (bytevector-length short))
-          (write-bytes (in-folder "damaged") short))
+          (write-bytes (scratch-file "damaged") short))
         (begin
           (for-each (lambda (i) (bytevector-u8-set! bytes (random head random-numbers) (random 256 random-numbers)))
                     (iota (+ 1 (random 4 random-numbers))))
-          (write-bytes (in-folder "damaged") bytes)))))
+          (write-bytes (scratch-file "damaged") bytes)))))
 
 (define (whole-or-refused? thunk)
   (guard (e ((bight-error? e) (not (string-index (bight-error-message e) #\newline))))
@@ -319,11 +316,11 @@ turned from the cells' axes to east and north."
   "A damaged file is a bed or a current all the same, or is refused with one line."
   (with-reader
    (let* ((grid (list west north 0.001 21 11 (lambda (x y) -30)))
-          (beds (list (apply write-tiff (in-folder "d.tif") 4326 grid)
-                      (apply write-bed-netcdf (in-folder "d.nc") "z" '() grid)
-                      (apply write-ascii (in-folder "d.asc") grid)
-                      (apply write-xyz (in-folder "d.xyz") grid)))
-          (flow (write-model 'cmems (in-folder "flow.nc"))))
+          (beds (list (apply write-tiff (scratch-file "d.tif") 4326 grid)
+                      (apply write-bed-netcdf (scratch-file "d.nc") "z" '() grid)
+                      (apply write-ascii (scratch-file "d.asc") grid)
+                      (apply write-xyz (scratch-file "d.xyz") grid)))
+          (flow (write-model 'cmems (scratch-file "flow.nc"))))
      (for-each
       (lambda (k)
         (for-each (lambda (bed)

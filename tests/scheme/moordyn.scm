@@ -74,7 +74,7 @@ TypeName Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx\n(name) (m) (kg/m) (N) (N-s/
   "What is written is read as the same lines, to the last digit."
   (for-each
    (lambda (text)
-     (let* ((w (import-moordyn (written text))) (copy (string-append folder "/copy.txt")))
+     (let* ((w (import-moordyn (written text))) (copy (scratch-file "copy.txt")))
        (expect (export-moordyn w copy) => '())
        (let ((again (import-moordyn copy)))
          (for-each (lambda (name)
@@ -82,7 +82,7 @@ TypeName Diam Mass/m EA BA/-zeta EI Cd Ca CdAx CaAx\n(name) (m) (kg/m) (N) (N-s/
                    '(diameter mass ea ba ei cdn ca cdt length nodes friction from to))
          (expect (fields again 'sea) => (fields w 'sea)))))
    (list hanging chain))
-  (expect (export-moordyn (find-world 'pile) (string-append folder "/pile.txt")) => '(p1 current)))
+  (expect (export-moordyn (find-world 'pile) (scratch-file "pile.txt")) => '(p1 current)))
 
 (define (refused? kind text)
   (import-refused? import-moordyn kind text))

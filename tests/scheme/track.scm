@@ -27,8 +27,7 @@
 
 (define (write-table header parted rows)
   ;; The name of a file with HEADER, a list of names or #f, and ROWS.
-  (let* ((folder (or (getenv "TMPDIR") "/tmp"))
-         (port (mkstemp (string-append folder "/bight-track-XXXXXX")))
+  (let* ((port (mkstemp (string-append (scratch-file "track-") "XXXXXX")))
          (file (port-filename port)))
     (define (line cells) (simple-format port "~a~%" (string-join cells parted)))
     (when header (line header))

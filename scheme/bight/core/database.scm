@@ -114,4 +114,5 @@ Raise a &bight-error from PROC if it changes faster than it can be copied."
     (let ((database (%open-database copy #t)))
       (%query database "pragma journal_mode=delete" '())
       (%close-database database))
+    (false-if-exception (delete-file (string-append copy "-wal")))
     copy))
