@@ -22,6 +22,7 @@ typedef struct bt__self_pair
   int32_t strand; /* its number, or -1: J is of this line */
   double floor;   /* m: no nearer */
   bt__witness w;  /* of I against the axis of J, as the step starts */
+  int touches;    /* of this line: the links are near each other, and not on a straight stretch */
 } bt__self_pair;
 
 /* Two links of the line that may come to touch before the next look.  */

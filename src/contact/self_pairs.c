@@ -243,7 +243,7 @@ is_near_a_line (const bt__line_job *k)
 {
   const bt__self *self = &k->w->self;
   for (int n = 0; n < self->pairs; n++)
-    if (self->pair[n].strand >= 0 || self->pair[n].w.distance < 2 * bt__self_touching (k))
+    if (self->pair[n].touches)
       return 1;
   return 0;
 }

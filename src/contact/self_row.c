@@ -204,7 +204,7 @@ bt__self_rows (bt__line_job *k)
       const bt__self_pair *p = self->pair + n;
       double touch = k->config->radius + radius_of (k, p) + k->margin;
       double way = bt__self_between (k, p->strand, p->i, p->j);
-      if (!(p->w.distance < touch) || way < APART * k->config->radius)
+      if (!p->touches || !(p->w.distance < touch) || way < APART * k->config->radius)
         continue;
       bt__link second = bt__self_second (k, k->x, p);
       if (!is_of_holders (k, p, &p->w, share_of (&second, p->w.point)))

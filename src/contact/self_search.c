@@ -2,7 +2,9 @@
 
    Links that run along with the way from the first of them to the last, all of them and all the
    time, come no nearer to each other than the line between them is long in that direction: of a
-   stretch that is straight so far no pair is asked.  For the rest there are boxes about links,
+   stretch that is straight so far no pair is asked.  The search is told how far nodes may move; the
+   farther, the fewer stretches are straight so far, but contacts are looked for on those alone that
+   are not straight as they lie.  For the rest there are boxes about links,
    about four links, eight, sixteen, and only where boxes meet is looked into them.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
@@ -146,22 +148,77 @@ bt__self_distance (const bt__link *a, const bt__link *b)
   return bt__norm (bt__axpy (bt__axpy (r, u, d), -v, e));
 }
 
-/* True if links FROM to TO, less one, go along with the chord of all of them, wherever they
- * move.
- */
+/* True if parts P and Q, which comes after it, may be of one straight stretch of the line.  */
 static int
-is_straight (const bt__self_search *s, int from, int to)
+are_of_stretch (const bt__self_search *s, part p, part q)
+{
+  return s->strand < 0 && q.from - end_of (&s->own, p) <= 2 * (p.span + q.span);
+}
+
+/* How far nodes FROM and TO may go apart.  */
+static double
+parting (const bt__self_search *s, int from, int to)
+{
+  const bt__self *self = &s->k->w->self;
+  return s->what == BT__SELF_KNOWN
+             ? bt__self_toward ((uint32_t)from, (uint32_t)to - 1, self->turn, self->way)
+             : s->move[from] + s->move[to];
+}
+
+/* True if links FROM to TO, less one, go along with the chord of all of them, wherever their nodes
+   go within SHARE of their moves, with which the chord turns, too.  */
+static int
+is_straight (const bt__self_search *s, double share, int from, int to)
 {
   const bt_vec3 *x = s->own.x;
   const double *rest = bt__dynamic_rest (s->k->d);
-  bt_vec3 u = bt__unit_or (bt__sub (x[to], x[from]), bt__vec (0, 0, 0));
-  double before = bt__dot (u, x[from]);
+  bt_vec3 chord = bt__sub (x[to], x[from]), u = bt__unit_or (chord, bt__vec (0, 0, 0));
+  double length = bt__dot (chord, u), ends = share * parting (s, from, to);
+  double turn = ends > 0 ? ends / (length - ends) : 0;
+  if (!(ends < length))
+    return 0;
   for (int j = from; j < to; j++)
     {
-      double after = bt__dot (u, x[j + 1]);
-      if (!(after - before - s->move[j] - s->move[j + 1] >= BT__SELF_TELLS * rest[j]))
+      bt_vec3 link = bt__sub (x[j + 1], x[j]);
+      double lost = share * (s->move[j] + s->move[j + 1]);
+      double turned = turn > 0 ? turn * (bt__norm (link) + lost) : 0;
+      if (!(bt__dot (u, link) - lost - turned >= BT__SELF_TELLS * rest[j]))
         return 0;
-      before = after;
+    }
+  return 1;
+}
+
+static part
+half_with (part p, int link)
+{
+  return half_stretch (p, link >= p.from + p.span / 2);
+}
+
+/* True if links I and J of the line are on a stretch that is straight as long as nothing moves.
+   Which stretches a search passes over depends on the moves it allows for: a pair that another
+   search would have passed over is no contact, however near its links are.  */
+static int
+are_along (const bt__self_search *s, int i, int j)
+{
+  bt__self_side side = s->own;
+  part p = whole (&side), q = p;
+  while (p.t == q.t)
+    {
+      if (is_straight (s, 0, p.from, end_of (&side, p)))
+        return 1;
+      if (p.span == LEAF)
+        return 0;
+      q = half_with (p, j);
+      p = half_with (p, i);
+    }
+  while (!are_of_stretch (s, p, q) || !is_straight (s, 0, p.from, end_of (&side, q)))
+    {
+      if (p.span == LEAF && q.span == LEAF)
+        return 0;
+      if (p.span >= q.span)
+        p = half_with (p, i);
+      else
+        q = half_with (q, j);
     }
   return 1;
 }
@@ -187,6 +244,8 @@ bt__self_add (bt__self_search *s, int i, int j)
   p->floor = bt__self_floor (k, s->strand, p->i, p->j);
   k->report->overlaps += p->w.distance < p->floor;
   p->floor = bt__self_lowered (p->floor, p->w.distance);
+  p->touches
+      = s->strand >= 0 || (p->w.distance < 2 * bt__self_touching (k) && !are_along (s, i, j));
 }
 
 double
@@ -236,8 +295,7 @@ search_between (bt__self_search *s, part p, part q)
   int a = end_of (&s->own, p), b = end_of (&s->its, q);
   if (p.from >= a || q.from >= b || bt__self_are_apart (s->own.box + p.t, s->its.box + q.t))
     return;
-  int near = s->strand < 0 && q.from - a <= 2 * (p.span + q.span);
-  if (near && is_straight (s, p.from, b))
+  if (are_of_stretch (s, p, q) && is_straight (s, 1, p.from, b))
     return;
   if (p.span == LEAF && q.span == LEAF)
     {
@@ -257,7 +315,7 @@ static void
 search_within (bt__self_search *s, part p)
 {
   int to = end_of (&s->own, p);
-  if (p.from >= to || is_straight (s, p.from, to))
+  if (p.from >= to || is_straight (s, 1, p.from, to))
     return;
   if (p.span > LEAF)
     {
@@ -293,7 +351,7 @@ bt__self_look_at_itself (bt__line_job *k, bt__self_search *s)
   part all = whole (&s->own);
   s->its = s->own;
   s->strand = -1;
-  if (!k->config->itself || is_straight (s, 0, k->links))
+  if (!k->config->itself || is_straight (s, 1, 0, k->links))
     return 0;
   fill_boxes (&s->own, all);
   search_within (s, all);

@@ -8,6 +8,7 @@
 
 #include "../oracle/meet.h"
 #include "aware/knot.h"
+#include "contact/line_job.h"
 #include "contact_law.h"
 
 #define RADIUS 0.01 /* m: of the line */
@@ -322,6 +323,36 @@ remembers_nothing (void **state)
   untie (&p, &r);
 }
 
+/* A slack straight line whose links are half as long as at rest: links with one between them are
+   nearer than touching, but on a straight stretch.  Whether the workspace looked far ahead before
+   or not, they are no contacts.  */
+static void
+looked_far_or_not (void **state)
+{
+  (void)state;
+  static reef r;
+  static rope p[2];
+  bt_vec3 shape[] = { { 0, 0, 0 }, { 1.52, 0, 0 } };
+  assert_true (reef_open (&r) && reef_raise (&r));
+  for (int k = 0; k < 2; k++)
+    {
+      witness w = { .nearest = 1 };
+      assert_true (rope_open (&p[k], &r, 60, shape, 2, 2.76, 0.3));
+      rope_set_itself (&p[k]);
+      p[k].d->wait = 60; /* the line is not said to be clear of itself */
+      p[k].contact->self.turn = k * 0.5 * p[k].d->piece;
+      p[k].contact->self.way = k * 8 * p[k].d->piece;
+      for (int i = 0; i < 30; i++)
+        {
+          step (&p[k], &w, 0);
+          assert_int_equal (p[k].touch.rows, 0);
+        }
+    }
+  assert_memory_equal (bt__dynamic_x (p[0].d), bt__dynamic_x (p[1].d), 61 * sizeof (bt_vec3));
+  rope_close (&p[0]);
+  untie (&p[1], &r);
+}
+
 /* ---- Two lines ---- */
 
 static bt__strand
@@ -454,6 +485,7 @@ main (void)
                                       cmocka_unit_test (straight_line_asks_nothing),
                                       cmocka_unit_test (bights_hook),
                                       cmocka_unit_test (remembers_nothing),
+                                      cmocka_unit_test (looked_far_or_not),
                                       cmocka_unit_test (gains_no_energy) };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
