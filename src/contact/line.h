@@ -114,6 +114,9 @@ double bt__line_work_spare (bt__line_work *work, bt__dynamic *d);
    was done with WORK since this was last called: farther off others may do as they like.  */
 double bt__line_work_asked (bt__line_work *work);
 
+/* Let the line have come, and asked, within WAY of where it was.  */
+void bt__line_work_came (bt__line_work *work, double way);
+
 /* For tests: what is done to the solver's result before it is checked, and what is left undone.  */
 typedef struct bt__line_hook
 {

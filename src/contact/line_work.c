@@ -121,3 +121,9 @@ bt__line_work_asked (bt__line_work *w)
   w->asked = 0;
   return asked;
 }
+
+void
+bt__line_work_came (bt__line_work *w, double way)
+{
+  w->asked = way > w->asked ? way : w->asked;
+}

@@ -206,9 +206,9 @@ static const bt_field tether_fields[] = {
   PROP (accuracy, "accuracy", "m", 0.05, 0, 100, 1, NULL,
         "the error in position that nodes come and go for: always in model `auto', in `dynamic' "
         "once its winch has turned"),
-  PROP (tension_accuracy, "tension-accuracy", "", INFINITY, 1e-4, 1, 0, unlimited,
-        "the error in the tension of a moving line, as a share of it, that its steps are shortened "
-        "for; `none': a step is a sixtieth of a second"),
+  PROP (tension_accuracy, "tension-accuracy", "", 0.02, 1e-4, 1, 0, unlimited,
+        "the error in the tension of a moving line, as a share of it, that its steps are divided "
+        "for; `none': never"),
   PROP (max_current, "max-current", "m/s", 1, 0, 100, 1, NULL,
         "the thesis' maximum allowed current, for rule `sag'"),
   PROP (thesis_length_factor, "thesis-length-factor", "", 1, 0.5, 1, 0, NULL,

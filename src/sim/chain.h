@@ -80,9 +80,6 @@ void bt__put_carriers_first (bt_dive *dive, bt__state *state);
 void bt__box_lines (bt_dive *dive, bt__state *state);
 int bt__box_line (bt_dive *dive, bt__state *state, int i);
 
-/* True if a box of tether I meets that of another moving line.  */
-int bt__is_by_another_line (const bt_dive *dive, int i);
-
 /* Note what PART of tether I touches, with the event `touched'.  A sleeping line touches on.  */
 void bt__note_line_meetings (const bt_dive *dive, bt__state *state, int i, int part);
 

@@ -107,14 +107,3 @@ bt__box_lines (bt_dive *dive, bt__state *state)
       bt__box_line (dive, state, i);
     }
 }
-
-int
-bt__is_by_another_line (const bt_dive *dive, int i)
-{
-  const bt__aabb *box = dive->contact_work.box;
-  for (int k = 0; k < 2 * dive->model->n_tethers; k++)
-    for (int own = 2 * i; own < 2 * i + 2 && k / 2 != i; own++)
-      if (bt__boxes_are_near (&box[own], &box[k], 0))
-        return 1;
-  return 0;
-}

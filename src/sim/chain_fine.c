@@ -11,11 +11,11 @@
 
    Within a step the ends go straight from place to place; a vehicle with mass on the line is
    stepped with each part under the forces of the step's start, and so is its thrust; movers go
-   their share of the way; a step in which the winch turns, or may give line, is taken whole, for it
-   draws in no line in a step that ends above its pull, and so is a step that starts with the line
-   touching something, or near another moving line.  Wear is added up over the parts, contacts and
-   sliding nodes are those of the last one.  Where a mover is held back the step is taken whole, for
-   others were told how far the mover goes.
+   their share of the way; other lines stand where they are, as in a whole step; a step in which the
+   winch turns, or may give line, is taken whole, for it draws in no line in a step that ends above
+   its pull, and so is a step that starts with the line touching something.  Wear is added up over
+   the parts, contacts and sliding nodes are those of the last one.  Where a mover is held back the
+   step is taken whole, for others were told how far the mover goes.
 
    An attempt begins from the present state of the dive alone, so that the number of threads, and
    how time is asked for, has no influence; FINE in the state is the only memory.
@@ -107,7 +107,15 @@ add_report (bt__dynamic_report *sum, const bt__dynamic_report *part)
   sum->bend_radius = fmin (part->bend_radius, before.bend_radius);
 }
 
-/* Take tether I through the step in 2^FINE parts.  */
+/* How far the workspace's line came, and asked for others, since it was asked last; m.  */
+static double
+way_asked (const bt__contact_work *work)
+{
+  return work->line ? bt__line_work_asked (work->line) : 0;
+}
+
+/* Take tether I through the step in 2^FINE parts.  What the parts ask for adds up: each asks about
+   where the one before left the line.  */
 static bt_status
 try_parts (bt_dive *dive, bt__state *state, int i, const bt__ends *to, int fine, attempt *a,
            bt_error *error)
@@ -117,6 +125,7 @@ try_parts (bt_dive *dive, bt__state *state, int i, const bt__ends *to, int fine,
   bt__ends from = { tether->shape.a, tether->shape.b };
   int n = 1 << fine;
   bt_status status = BT_OK;
+  double before = n > 1 ? way_asked (work) : 0, sum = 0;
   work->balked = 0;
   *a = (attempt){ .report = { .converged = 1, .bend_radius = HUGE_VAL } };
   for (int k = 0; k < n && status == BT_OK && !(n > 1 && work->balked); k++)
@@ -125,12 +134,15 @@ try_parts (bt_dive *dive, bt__state *state, int i, const bt__ends *to, int fine,
       work->since = (double)k / n;
       work->left = 1 - (double)(k + 1) / n;
       status = bt__advance_chain (dive, state, i, &from, to, &part, error);
+      sum += n > 1 ? way_asked (work) : 0;
       add_report (&a->report, &part);
       for (int e = 0; e < 2; e++)
         a->pull[e] = bt__axpy (a->pull[e], 1.0 / n,
                                bt__dive_chain (dive, state, i, e && tether->parted)->pull[e]);
     }
   work->since = work->left = 0;
+  if (n > 1 && work->line)
+    bt__line_work_came (work->line, fmax (before, sum));
   return status;
 }
 
@@ -143,12 +155,13 @@ asked (const bt__tether *tether, double tension)
   return tether->props.tension_accuracy * fmax (tension, LEAST_SCALE);
 }
 
-/* True if the winch of TETHER neither turns nor gives line to CHAIN.  */
+/* True if all line that the winch of tether I gave or took was in the chain, or out of it, in the
+   present.  */
 static int
-winch_stands (const bt__tether *tether, const bt__dynamic *chain)
+was_wound (const bt_dive *dive, int i)
 {
-  return tether->winch_rate == 0 && fabs (tether->length - bt__dynamic_length (chain)) < FOLLOWED
-         && !isfinite (tether->props.winch_brake);
+  double in_chain = bt__dynamic_length (bt__dive_chain (dive, dive->now, i, 0));
+  return fabs (bt__dive_tether (dive, dive->now, i)->length - in_chain) < FOLLOWED;
 }
 
 /* True if tether I touches something in STATE: friction that sticks and slips has no tension to
@@ -162,16 +175,17 @@ touches (const bt_dive *dive, bt__state *state, int i)
   return any;
 }
 
-/* True if tether I may be taken through the step in parts: it moved already in the present, and
-   nothing acts on it but water and what its ends are fastened to.  */
+/* True if tether I may be taken through the step in parts, if `was_wound' says so too: it moved
+   already in the present, its winch stands and gives no line, and nothing acts on it but water and
+   what its ends are fastened to.  */
 static int
 may_go_back (const bt_dive *dive, bt__state *state, int i)
 {
   const bt__tether *now = bt__dive_tether (dive, dive->now, i),
                    *next = bt__dive_tether (dive, state, i);
   return isfinite (next->props.tension_accuracy) && now->shape.form == BT__FORM_CHAIN
-         && now->parted == next->parted && winch_stands (next, bt__dive_chain (dive, state, i, 0))
-         && !touches (dive, dive->now, i) && !bt__is_by_another_line (dive, i);
+         && now->parted == next->parted && next->winch_rate == 0
+         && !isfinite (next->props.winch_brake) && !touches (dive, dive->now, i);
 }
 
 /* True if the tension of tether I changed in a step by more than TIMES what it may be wrong by.  */
@@ -185,15 +199,54 @@ has_jumped (const bt_dive *dive, bt__state *state, int i, const attempt *a, doub
       const bt__dynamic *now = bt__dive_chain (dive, dive->now, i, part),
                         *next = bt__dive_chain (dive, state, i, part);
       const double *t0 = bt__dynamic_tension (now), *t1 = bt__dynamic_tension (next);
-      double jump = 0;
-      for (int e = 0; e < 2; e++)
-        jump = fmax (jump, bt__distance (now->pull[e], next->pull[e]));
+      double up = 0, down = 0;
       for (int64_t j = 0; j < next->n && now->n == next->n; j++)
-        jump = fmax (jump, fabs (t1[j] - t0[j]));
-      if (jump > most)
+        {
+          double jump = t1[j] - t0[j];
+          up = jump > up ? jump : up;
+          down = jump < down ? jump : down;
+        }
+      if (up > most || -down > most || bt__distance (now->pull[0], next->pull[0]) > most
+          || bt__distance (now->pull[1], next->pull[1]) > most)
         return 1;
     }
   return 0;
+}
+
+/* True if an end of tether I is held by a vehicle without mass, which may start at once.  */
+static int
+may_jerk (const bt_dive *dive, bt__state *state, int i)
+{
+  for (int k = 0; k < 2; k++)
+    {
+      int v = dive->model->ends[i][k].vehicle;
+      if (v >= 0 && !bt__dive_vehicle (dive, state, v)->rigid)
+        return 1;
+    }
+  return 0;
+}
+
+/* How many times the parts of a step of tether I may be halved.  A vehicle without mass that starts
+   with the speed V at once takes half an interval of length L along within the first part, of H
+   seconds.  The force on that, m L V / (2 H), grows with the number of parts.  It is no more than
+   that of the wave which is sent along the line, m c V with c = sqrt (EA / m), as long as the wave
+   crosses half of the longest interval within a part.  */
+static int
+finest_of (const bt_dive *dive, bt__state *state, int i)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  double longest = 0, speed = sqrt (tether->props.ea / tether->props.mass);
+  if (!may_jerk (dive, state, i))
+    return BT__FINEST;
+  for (int part = 0; part <= (tether->parted != 0); part++)
+    {
+      const bt__dynamic *chain = bt__dive_chain (dive, state, i, part);
+      const double *rest = bt__dynamic_rest (chain);
+      for (int64_t j = 0; j < chain->n; j++)
+        longest = fmax (longest, rest[j]);
+    }
+  double most = floor (log2 (2 * speed * BT__TIME_STEP / longest));
+  return most > 0 ? (int)fmin (most, BT__FINEST) : 0;
 }
 
 /* How far the tensions of two attempts are apart, N.  */
@@ -216,7 +269,8 @@ refine (bt_dive *dive, bt__state *state, int i, const bt__ends *to, const presen
         attempt *a, double *off, bt_status *status, bt_error *error)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
-  while (fine < BT__FINEST && !touches (dive, state, i))
+  int finest = finest_of (dive, state, i);
+  while (fine < finest && !touches (dive, state, i))
     {
       attempt coarse = *a;
       go_back (dive, state, i, p);
@@ -246,9 +300,11 @@ advance_in_parts (bt_dive *dive, bt__state *state, int i, const bt__ends *to, in
 {
   present p;
   keep_present (dive, state, i, &p);
+  if (*fine > 0 && !was_wound (dive, i))
+    *fine = 0;
   bt_status status = try_parts (dive, state, i, to, *fine, a, error);
   if (status == BT_OK && !dive->contact_work.balked
-      && (*fine > 0 || has_jumped (dive, state, i, a, ENTER)))
+      && (*fine > 0 || (has_jumped (dive, state, i, a, ENTER) && was_wound (dive, i))))
     *fine = refine (dive, state, i, to, &p, *fine, a, off, &status, error);
   if (status != BT_OK || *fine == 0 || (*fine > 0 && !dive->contact_work.balked))
     return status;

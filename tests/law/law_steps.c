@@ -105,6 +105,35 @@ test_what_cannot_be_met_is_told (void **state)
     }
 }
 
+/* A vehicle without mass that starts at once sends a wave of the tension m c V along its line,
+   whatever the mesh: the half of an interval that it takes along is no tension.  */
+static void
+test_a_start_at_once (void **state)
+{
+  static const int nodes[] = { 4, 8, 16, 64, 200 };
+  (void)state;
+  for (size_t k = 0; k < sizeof nodes / sizeof *nodes; k++)
+    {
+      static scene s;
+      impact i = { 1e5, 0, 0.043, 60 };
+      bt_tether_view v;
+      bt_error error;
+      impact_scene (&s, &i, nodes[k]);
+      s.vehicle[0].mass = s.vehicle[0].volume = 0;
+      s.vehicle[0].pull = 1e6;
+      s.vehicle[0].heading = 90;
+      s.vehicle[0].surge_speed = IMPACT_SPEED;
+      bt_dive *dive = scene_begin (&s);
+      scene_must (bt_vehicle_drive (dive, 0, &(bt_sticks){ .surge = 1 }, &error), &error);
+      scene_run (dive, 1);
+      scene_must (bt_dive_tether (dive, 0, &v, &error), &error);
+      bt_dive_free (dive);
+      double exact = IMPACT_SPEED * sqrt (i.ea * i.mass);
+      if (!(v.tension_max > 0.75 * exact && v.tension_max < 1.3 * exact))
+        fail_msg ("%d intervals: %g N, of a wave of %g N", nodes[k], v.tension_max, exact);
+    }
+}
+
 /* ---- Flights ---- */
 
 /* A line slack by so much, and the speeds with which its vehicle, without mass, runs it taut.  */
@@ -332,6 +361,7 @@ main (void)
     cmocka_unit_test (test_peaks_are_those_of_the_exact_wave),
     cmocka_unit_test (test_any_stiffness),
     cmocka_unit_test (test_what_cannot_be_met_is_told),
+    cmocka_unit_test (test_a_start_at_once),
     cmocka_unit_test (test_true_error_is_below_what_is_asked),
     cmocka_unit_test (test_calm_is_whole),
     cmocka_unit_test (test_the_same_for_any_threads),

@@ -142,7 +142,7 @@
 (define let-go
   (world (sea (depth 3000) (density 1000) (gravity 10) (current 0.5 270))
          (rov (named rov) (type heavy-rov) (at -511.48 0 -859.07) (heading 90))
-         (tether (named cable) (from 0 0 0) (to rov) (length 1000) (nodes (short-or-long 120 400)) (model dynamic)
+         (tether (named cable) (from 0 0 0) (to rov) (length 1000) (nodes (short-or-long 240 400)) (model dynamic)
                  (diameter 0.0131) (mass 0.3) (wet-weight 2) (ea 1.5e6) (ei 10) (cdn 1) (cdt 0.005) (ca 1))))
 
 (define-scenario a-line-is-let-go
