@@ -212,46 +212,33 @@ check_room (int n, int most, const char *what)
   bt__raise ("enter!", &error);
 }
 
+/* Add a row of SIZE bytes, of kind HEAD with FIELDS, to the *N of MOST in ROWS.  */
 static void
-read_lump (bt_tether_def *tether, const bt_head *head, SCM fields)
+read_row (const bt_head *head, SCM fields, void *rows, size_t size, double *n, int most,
+          const char *what)
 {
-  bt_lump lump;
-  check_room ((int)tether->n_lumps, BT_LUMPS_MAX, "clumps and floats on one tether");
-  bt_def_init (head, &lump);
-  read_fields (head, &lump, fields, NULL);
-  tether->lumps[(int)tether->n_lumps++] = lump;
-}
-
-static void
-read_set (bt_tether_def *tether, const bt_head *head, SCM fields)
-{
-  bt_set set;
-  check_room ((int)tether->n_sets, BT_SETS_MAX, "sets of one tether");
-  bt_def_init (head, &set);
-  read_fields (head, &set, fields, NULL);
-  tether->sets[(int)tether->n_sets++] = set;
-}
-
-static void
-read_thruster (bt_vehicle_def *vehicle, const bt_head *head, SCM fields)
-{
-  bt_thruster_def thruster;
-  check_room ((int)vehicle->n_thrusters, BT_THRUSTERS_MAX, "thrusters on one rov");
-  bt_def_init (head, &thruster);
-  read_fields (head, &thruster, fields, NULL);
-  vehicle->thrusters[(int)vehicle->n_thrusters++] = thruster;
+  void *row = (char *)rows + (size_t)*n * size;
+  check_room ((int)*n, most, what);
+  bt_def_init (head, row);
+  read_fields (head, row, fields, NULL);
+  ++*n;
 }
 
 /* A thing of kind HEAD inside OUTER.  */
 static void
 read_inner (void *outer, const bt_head *head, SCM fields)
 {
+  bt_vehicle_def *vehicle = outer;
+  bt_tether_def *tether = outer;
   if (strcmp (head->inside, "rov") == 0)
-    read_thruster (outer, head, fields);
+    read_row (head, fields, vehicle->thrusters, sizeof *vehicle->thrusters, &vehicle->n_thrusters,
+              BT_THRUSTERS_MAX, "thrusters on one rov");
   else if (strcmp (head->name, "set") == 0)
-    read_set (outer, head, fields);
+    read_row (head, fields, tether->sets, sizeof *tether->sets, &tether->n_sets, BT_SETS_MAX,
+              "sets of one tether");
   else
-    read_lump (outer, head, fields);
+    read_row (head, fields, tether->lumps, sizeof *tether->lumps, &tether->n_lumps, BT_LUMPS_MAX,
+              "clumps and floats on one tether");
 }
 
 static void
