@@ -30,6 +30,20 @@
   (score (slack 0 1)) (count n (taut?)) (tender \"Sleeps.\" (run 1))
   (pilot expert \"Waits.\" (answers (truth choices) truth) (flies (run 1))))")) => 1))
 
+(define-scenario names-are-made-by-format
+  "`format' makes a string, as of names of many parts; it prints nothing.  It was unbound."
+  (expect (length (read-inside "
+(define piles
+  (map (lambda (i) (part cylinder (named ,(string->symbol (format #f \"pile-~a\" i))) (from i 2 0) (to i 2 -9) (radius 0.1)))
+       (iota 3)))
+(define-world yard \"A yard.\" (sea (depth 20)) (splice piles)
+  (rov (named m) (at 1 5 -5)) (tether (wet-weight 0) (from 1 0 -2) (to m) (length 12)))
+(define-lesson yard-lesson \"A yard\"
+  (in yard) (say \"~a\" (simple-format #f \"~a of ~s\" 1 \"3\")) (task \"Wait.\" (done-when (> (now) 1)))
+  (score (winding 'pile-2) 0 1))")) => 1)
+  (expect (read-inside "(format #t \"printed\")") raises domain)
+  (expect (read-inside "(simple-format #t \"printed\")") raises domain))
+
 (define-scenario (the-language-ends form)
   "Files, processes, modules, syntax, clocks, change in place and eval are not part of it."
   #:for ((form "(call-with-output-file \"/tmp/stolen\" write)"

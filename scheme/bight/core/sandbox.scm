@@ -96,8 +96,15 @@
       (when (> n most-items) (too-much name "such a length"))
       (apply proc arguments))))
 
+(define (format-text to text . arguments)
+  ;; `format', to a string alone: a file from outside prints nothing.
+  (when to (bight-raise 'domain 'format "in a file from outside it makes a string: #f, not ~s, comes first" to))
+  (apply simple-format #f text arguments))
+
 (define guarded
   `((expt . ,(power 'expt expt))
+    (format . ,format-text)
+    (simple-format . ,format-text)
     (integer-expt . ,(power 'integer-expt integer-expt))
     (ash . ,(shift 'ash ash))
     (round-ash . ,(shift 'round-ash round-ash))
