@@ -82,7 +82,7 @@ bt__dynamic_crumple_energy (const bt__dynamic *d, const bt__dynamic_input *in)
   const double *rest = bt__dynamic_rest (d), *tension = bt__dynamic_tension (d);
   const bt_vec3 *x = bt__dynamic_x (d);
   double ea = bt__stiffness (in->line->ea), sum = 0;
-  for (int j = 0; j < d->n && in->line->ei > 0; j++)
+  for (int j = 0; j < d->n && in->line->ei > 0 && isfinite (in->line->ea); j++)
     {
       double e = bt__distance (x[j], x[j + 1]) / rest[j];
       double pressed = 1 + fmin (tension[j], 0) / ea; /* the stretch that the tension tells */

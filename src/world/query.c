@@ -297,7 +297,7 @@ bt_tether_energy (const bt_dive *dive, int i, bt_energy *energy, bt_error *error
       = line.tether->parted ? bt__dynamic_length (bt__dive_chain (dive, dive->now, i, 1)) : 0;
   input.n_sets = bt__place_sets (def->sets, (int)def->n_sets, def->length, beyond, sets);
   e = bt__dynamic_energies (line.chain, &input);
-  e.strain -= bt__dynamic_crumple_energy (line.chain, &input);
+  e.strain = fmax (0, e.strain - bt__dynamic_crumple_energy (line.chain, &input));
   *energy = (bt_energy){ e.kinetic, e.strain, e.gravity, e.bending };
   return BT_OK;
 }

@@ -154,12 +154,13 @@ at one place, they do not press each other there."
   (always (note!) (expect (watched (run 4)) => '()))
   (expect greatest is (below (third case))))
 
-(define-scenario what-cannot-stretch-stores-nothing
-  "A line that is inextensible has no energy of strain, whatever a step leaves undone."
+(define-scenario (what-cannot-stretch-stores-nothing stiffness)
+  "A line that is inextensible has no energy of strain, whatever a step leaves undone, stiff or not."
+  #:for ((stiffness 0 1))
   (enter! (world (sea (current 0.5 0))
                  (rov (named r1) (at -6 2 -5))
                  (tether (named t1) (from -9 -4 -5) (to r1) (length 29) (wet-weight -2.8) (ea inextensible)
-                         (model dynamic))))
+                         (ei stiffness) (model dynamic))))
   (always (zero? (assq-ref (energy 't1) 'strain))
     (move! 'r1 '(2 6 -7) #:speed 1)
     (run 3)))
