@@ -105,6 +105,25 @@
   (expect (watched (car '())) is pair?)
   (expect (watched (begin (drive! #:surge 1) (pay-out! -1))) is pair?))
 
+(define (at-once form)
+  ;; FORM in which no time passes.
+  (cond ((not (pair? form)) form)
+        ((eq? 'run (car form)) '(run 0))
+        (else (cons (at-once (car form)) (at-once (cdr form))))))
+
+(define-scenario what-is-refused-halfway-is-gone-back-from
+  "Orders between a checkpoint and the way back to it change nothing, though one in the middle is refused."
+  (enter! (world (sea) (rov (named r1) (at -6 0 -1))
+                 (tether (named t1) (from -6 0 -1) (to r1) (length 17) (model rubber-band))))
+  (define dice (seed->random-state 1004))
+  (define flights (any-flight #:most 1 #:kinds '(restore)))
+  (define refused (list 0))
+  (do ((i 0 (+ i 1))) ((= i 60))
+    (let ((orders (at-once (expression flights (draw flights dice)))))
+      (parameterize ((refusals refused))
+        (expect (evaluated `(watched ,@orders)) => '()))))
+  (expect (car refused) is (above 10)))
+
 (define-scenario what-a-file-forgets-is-noticed
   "What runs between the steps is in no file: a dive that depends on it goes on otherwise when it is loaded."
   (in open-water)

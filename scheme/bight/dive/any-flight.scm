@@ -113,7 +113,11 @@
   (let ((inner (list-of (timed (apply any-of (map cdr (plain-orders wild?))))
                         #:least 1 #:most 3 #:make concatenate)))
     `((fork . ,(made-of (lambda (orders) `((what-if ,@orders))) inner))
-      (restore . ,(made-of (lambda (orders) `((let ((here (checkpoint))) ,@orders (restore! here)))) inner))
+      ;; Gone back to by force: an order that is refused halfway leaves nothing of those before it.
+      (restore . ,(made-of (lambda (orders)
+                             `((let ((here (checkpoint)))
+                                 (dynamic-wind (const #f) (lambda () ,@orders) (lambda () (restore! here))))))
+                           inner))
       (rewind . ,(made-of (lambda (s) `((rewind! ,s))) (uniform 0 4)))
       (save . ,(made-of (lambda (n) `((same-when-loaded! ,n))) (integer 0 60))))))
 
