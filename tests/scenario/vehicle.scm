@@ -139,6 +139,26 @@ centre."
   (expect (rov-tension) is (about 72.74 #:within 0.7))
   (expect (rov-heading) is (about 0 #:within 1e-6)))
 
+(define (hauled-straight nodes cdn)
+  ;; Haul a slack line against a kinematic vehicle of 100 N: the largest tension on the way.
+  (enter! (world (sea (depth 60)) (rov (named minnow) (at 0 30 -5))
+                 (tether (named line) (type fathom) (wet-weight 0) (cdn cdn) (from 0 0 -5) (to minnow) (length 31)
+                         (nodes nodes) (model dynamic))))
+  (haul-in! 10 #:rate 0.5)
+  (let ((most 0))
+    (run-until (lambda () (set! most (max most (max-tension))) #f) #:at-most 8)
+    most))
+
+(define-scenario hands-feel-the-water-that-holds-a-bow
+  "Hauled straight, a line pulls harder than hands of 100 N do at rest: by the water that holds its bow, whatever
+the mesh, and hardly so where the water does not hold it."
+  (let ((coarse (hauled-straight 40 1.2)) (fine (hauled-straight 80 1.2)))
+    (expect (rov-tension) is (about 100 #:within 0.1))
+    (expect (y (rov-position)) is (about 30 #:within 1e-9))
+    (expect fine is (above 300))
+    (expect (/ coarse fine) is (about 1 #:within 0.01))
+    (expect (hauled-straight 80 0.1) is (below 130))))
+
 (define-scenario the-current-carries-the-vehicle
   "Its thrusters off, it drifts down-current until the tether holds it by its drag; it faces the current
 no more than its tether makes it, which is made fast at its stern."
