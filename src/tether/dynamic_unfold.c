@@ -13,15 +13,24 @@
 
 #include "tether/dynamic_kernel.h"
 
-#define ROUNDING 1e-9   /* of the rest length: less is no crumple */
-#define UNFOLD_TIME 0.5 /* s in which a crumple falls to a third */
+#define ROUNDING 1e-9    /* of the rest length: less is no crumple */
+#define UNFOLD_TIME 0.5  /* s in which a crumple falls to a third, ... */
+#define GENTLE_SPEED 0.1 /* m/s: ... but a large one no faster than so, ... */
+#define GENTLE_TIME 20.0 /* s: ... or than in such a time: it pushes line and water aside */
+
+/* What is left of CRUMPLE after H seconds, m.  */
+static double
+left_of_crumple (double crumple, double h)
+{
+  double gentle = fmax (GENTLE_SPEED * h, crumple * (h / GENTLE_TIME));
+  return fmax (fmax (0, 1 - h / UNFOLD_TIME) * crumple, crumple - gentle);
+}
 
 void
 bt__dynamic_unfold (bt__dynamic_work *w, const bt__dynamic *d)
 {
   if (w->in->order == 4 || !(w->in->line->ei > 0))
     return;
-  double left = fmax (0, 1 - w->in->h / UNFOLD_TIME);
   for (int j = 0; j < w->n; j++)
     {
       bt__link *k = w->link + j;
@@ -29,7 +38,7 @@ bt__dynamic_unfold (bt__dynamic_work *w, const bt__dynamic *d)
       double crumple = bt__dynamic_chord (d)[j].x;
       if (d->history == 0 || w->lam[j] == 0)
         crumple = fmax (crumple, shorter);
-      w->crumple[j] = crumple > ROUNDING * k->rest ? left * crumple : 0;
+      w->crumple[j] = crumple > ROUNDING * k->rest ? left_of_crumple (crumple, w->in->h) : 0;
       k->zero -= w->crumple[j] * w->ea / (k->ka * k->rest);
     }
 }
