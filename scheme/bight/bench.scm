@@ -13,6 +13,7 @@
   #:use-module (bight bench report)
   #:use-module (bight bench row)
   #:use-module (bight bench validation)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module ((bight core folders) #:select (ensure-folder!))
   #:use-module ((bight engine) #:select (%programs-folder))
@@ -247,7 +248,7 @@
 (define (number-option options name least)
   (let ((text (assoc-ref options name)))
     (and text
-         (let ((x (string->number text)))
+         (let ((x (text->number text)))
            (if (and (real? x) (>= x least)) x (bad "~a takes a number from ~a on, not ~a" name least text))))))
 
 (define (make-plan names options passed)

@@ -8,7 +8,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight view)
-  #:use-module ((bight core decimal) #:select (fixed))
+  #:use-module ((bight core decimal) #:select (fixed text->number))
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module ((bight core units) #:select (vec))
@@ -63,7 +63,7 @@
 
 (define (terminal-columns)
   "Return the number of columns of the terminal: from the variable COLUMNS, from the terminal, or 80."
-  (let ((columns (or (and=> (getenv "COLUMNS") string->number) (stty-columns))))
+  (let ((columns (or (and=> (getenv "COLUMNS") text->number) (stty-columns))))
     (if (and columns (exact-integer? columns) (> columns 0)) columns 80)))
 
 

@@ -14,6 +14,7 @@
   #:use-module (bight belief answer)
   #:use-module (bight belief cloud)
   #:use-module (bight belief unknowns)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight dive)
   #:use-module ((bight dive aware) #:select (fouled?))
@@ -49,7 +50,7 @@
           (else (loop (cddr rest) (acons (car rest) (cadr rest) found))))))
 
 (define (whole options name default)
-  (let* ((text (assoc-ref options name)) (n (if text (string->number text) default)))
+  (let* ((text (assoc-ref options name)) (n (if text (text->number text) default)))
     (unless (and (exact-integer? n) (> n 0))
       (bight-raise 'domain 'bench "~a takes a whole number above 0, not ~a" name text))
     n))

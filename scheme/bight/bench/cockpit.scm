@@ -11,6 +11,7 @@
   #:use-module (bight cockpit)
   #:use-module (bight cockpit cells)
   #:use-module (bight cockpit state)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight core units)
   #:use-module (bight dive)
@@ -92,7 +93,7 @@
 (define (run-cockpit arguments)
   "Do what ARGUMENTS of `bight bench cockpit' ask for, and return the exit status."
   (let* ((options (read-options arguments))
-         (n (string->number (or (assoc-ref options "--frames") (if (assoc-ref options "--quick") "60" "300")))))
+         (n (text->number (or (assoc-ref options "--frames") (if (assoc-ref options "--quick") "60" "300")))))
     (cond ((assoc-ref options "--help") (display help))
           ((not (and (exact-integer? n) (> n 1))) (bight-raise 'domain 'bench "--frames takes a whole number above 1"))
           (else

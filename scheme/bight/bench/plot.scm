@@ -10,6 +10,7 @@
 
 (define-module (bight bench plot)
   #:use-module (bight bench row)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module ((bight core markup) #:select (as-xml))
   #:use-module (srfi srfi-1)
   #:export (plots-of plot-file plot-sentence call-with-svg color-of draw-line draw-text tenth))
@@ -211,7 +212,7 @@ fill='white'/>~%"
   (map (lambda (word)
          (let ((i (or (string-index word #\=) (string-length word))))
            (cons (substring word 0 i)
-                 (or (string->number (substring word (min (+ i 1) (string-length word)))) 0))))
+                 (or (text->number (substring word (min (+ i 1) (string-length word)))) 0))))
        (string-split setting #\;)))
 
 (define (places numbers)

@@ -8,6 +8,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight bench row)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core json)
   #:use-module ((bight core errors) #:select (bight-raise))
   #:use-module (bight core record)
@@ -114,7 +115,7 @@
 
 (define (number-cell cells . names)
   ;; The finite number in the first of the columns NAMES there is, or #f.
-  (let ((x (any (lambda (name) (and=> (assoc-ref cells name) string->number)) names)))
+  (let ((x (any (lambda (name) (and=> (assoc-ref cells name) text->number)) names)))
     (and (real? x) (< -inf.0 x +inf.0) x)))
 
 (define (error-cell cells)

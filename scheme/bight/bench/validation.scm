@@ -12,6 +12,7 @@
                                        (tenth . in-tenths)))
   #:use-module (bight bench report)
   #:use-module (bight bench row)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module ((bight core markup) #:select (as-xml))
   #:use-module ((ice-9 rdelim) #:select (read-line))
   #:use-module (srfi srfi-1)
@@ -96,7 +97,7 @@ joint and without: two elastic catenaries, to ten digits. The moving line at res
   ;; The number NAME among the counters of ROW, or #f.
   (any (lambda (pair)
          (and (string-prefix? (string-append name "=") pair)
-              (string->number (substring pair (+ 1 (string-length name))))))
+              (text->number (substring pair (+ 1 (string-length name))))))
        (string-split (row-counters row) #\;)))
 
 (define (varied? row)
@@ -146,7 +147,7 @@ points, pairs of numbers; all in the order of the file."
         (order '()))
     (for-each (lambda (row)
                 (let ((key (map cdr (list-head row 3)))
-                      (point (cons (string->number (assoc-ref row "x")) (string->number (assoc-ref row "y")))))
+                      (point (cons (text->number (assoc-ref row "x")) (text->number (assoc-ref row "y")))))
                   (unless (hash-ref table key) (set! order (cons key order)))
                   (when (and (real? (car point)) (real? (cdr point)))
                     (hash-set! table key (cons point (hash-ref table key '()))))))

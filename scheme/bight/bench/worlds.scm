@@ -8,6 +8,7 @@
 
 (define-module (bight bench worlds)
   #:use-module ((bight core argument) #:select (alternatives->string))
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight test any-dive)
   #:use-module ((bight test reproducer) #:select (make-folder))
@@ -52,7 +53,7 @@
           (else (loop (cddr rest) (acons (car rest) (cadr rest) found))))))
 
 (define (whole options name default)
-  (let* ((text (assoc-ref options name)) (n (if text (string->number text) default)))
+  (let* ((text (assoc-ref options name)) (n (if text (text->number text) default)))
     (unless (or (not n) (and (exact-integer? n) (>= n 0)))
       (bad "~a takes a whole number, not ~a" name text))
     n))
@@ -60,7 +61,7 @@
 (define (shard options)
   ;; (I N)
   (let* ((text (or (assoc-ref options "--shard") "1/1"))
-         (numbers (map string->number (string-split text #\/))))
+         (numbers (map text->number (string-split text #\/))))
     (unless (and (= 2 (length numbers)) (and-map exact-integer? numbers) (<= 1 (first numbers) (second numbers)))
       (bad "--shard takes I/N, I from 1 to N, not ~a" text))
     numbers))

@@ -60,7 +60,7 @@
           (loop))))))
 
 (define (limit-of text)
-  (let ((s (and text (string->number text))))
+  (let ((s (and text (text->number text))))
     (cond ((not text) +inf.0)
           ((and s (real? s) (>= s 0)) s)
           (else (bight-raise 'domain 'controller "--for is seconds, 0 or more, not ~s" text)))))

@@ -11,6 +11,7 @@
   #:use-module (bight cockpit palette)
   #:use-module (bight cockpit state)
   #:use-module (bight cockpit what-if)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight dive)
@@ -102,7 +103,7 @@
           (loop))))))
 
 (define (number-of options name default)
-  (let* ((text (assoc-ref options name)) (x (and text (string->number text))))
+  (let* ((text (assoc-ref options name)) (x (and text (text->number text))))
     (cond ((not text) default)
           ((and x (real? x) (<= 1/100 x 1000)) x)
           (else (bight-raise 'domain 'follow "~a is a number from 0.01 to 1000, not ~s" name text)))))

@@ -8,6 +8,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight cockpit sequences)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (ice-9 match)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-11)
@@ -17,7 +18,7 @@
 
 (define (numbers text)
   ;; The numbers of TEXT, such as 97:65;2:3, a list of lists; #f for one that is left out.
-  (map (lambda (part) (map string->number (string-split part #\:))) (string-split text #\;)))
+  (map (lambda (part) (map text->number (string-split part #\:))) (string-split text #\;)))
 
 (define (number-at all i j)
   ;; The Jth number of the Ith list of ALL, or #f.

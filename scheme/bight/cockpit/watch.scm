@@ -11,6 +11,7 @@
   #:use-module (bight cockpit palette)
   #:use-module (bight cockpit state)
   #:use-module (bight cockpit traces)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight dive)
@@ -191,7 +192,7 @@ the last of its EVENTS, and, where there is room, what PLOT, a procedure of a wi
 
 (define (seconds-of name text)
   ;; TEXT, what stands behind the option NAME, as seconds.
-  (let ((s (string->number text)))
+  (let ((s (text->number text)))
     (if (and s (real? s) (finite? s) (>= s 0))
         s
         (bight-raise 'domain 'watch "~a is seconds from the beginning, 0 or more, not ~s" name text))))

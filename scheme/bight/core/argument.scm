@@ -7,6 +7,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight core argument)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (srfi srfi-1)
@@ -96,7 +97,7 @@ which may be `refused'."
 ;; without its quotes, a number between quotes.
 (define (spelt-otherwise value)
   (cond ((string? value) (cons (string->symbol value)
-                               (let ((n (string->number value))) (if n (list n) '()))))
+                               (let ((n (text->number value))) (if n (list n) '()))))
         ((symbol? value) (list (symbol->string value)))
         ((keyword? value) (list (keyword->symbol value)))
         (else '())))

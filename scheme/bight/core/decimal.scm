@@ -1,9 +1,9 @@
-;;; (bight core decimal) --- numbers with so many decimals, as people read them.
+;;; (bight core decimal) --- numbers with so many decimals, as people read them, and numbers out of text.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight core decimal)
-  #:export (fixed fixed-with-sign figure))
+  #:export (fixed fixed-with-sign figure text->number))
 
 (define (fixed x places)
   "Return the finite number X with PLACES decimals, a string; what rounds to 0 has no sign."
@@ -30,3 +30,8 @@
   (cond ((not (real? x)) "none")
         ((not (finite? x)) (if (nan? x) "none" "any"))
         (else (fixed x (cond ((>= (abs x) 100) 0) ((>= (abs x) 10) 1) (else 2))))))
+
+(define* (text->number text #:optional (radix 10))
+  "Return the number that the string TEXT spells with RADIX, or #f: also for one such as 1e9999, at which Guile's
+`string->number' raises."
+  (false-if-exception (string->number text radix)))

@@ -6,6 +6,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight core json)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module ((bight core errors) #:select (bight-raise))
   #:use-module ((ice-9 textual-ports) #:select (get-string-n lookahead-char))
   #:export (write-json read-json json-ref))
@@ -98,7 +99,7 @@
       ((#\r) #\return)
       ((#\b) #\backspace)
       ((#\f) #\page)
-      ((#\u) (let ((code (string->number (get-string-n port 4) 16)))
+      ((#\u) (let ((code (text->number (get-string-n port 4) 16)))
                (if (and code (or (< code #xd800) (> code #xdfff)))
                    (integer->char code)
                    (broken "a bad \\u"))))
@@ -143,7 +144,7 @@
   (cond ((string=? word "true") #t)
         ((string=? word "false") #f)
         ((string=? word "null") 'null)
-        ((string->number word) => (lambda (x) (if (exact? x) x (exact->inexact x))))
+        ((text->number word) => (lambda (x) (if (exact? x) x (exact->inexact x))))
         (else (broken "~s" word))))
 
 (define (read-json port)

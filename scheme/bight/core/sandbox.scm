@@ -10,6 +10,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight core sandbox)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module ((bight core files) #:select (limit-reading!))
   #:use-module ((bight core here) #:select (noting-places place-of))
@@ -30,7 +31,7 @@
 
 (define (limit-from variable default)
   ;; The user, who is not the lesson, may choose other limits.
-  (let ((n (and=> (getenv variable) string->number)))
+  (let ((n (and=> (getenv variable) text->number)))
     (if (and n (exact-integer? n) (positive? n)) n default)))
 
 (define memory-limit                    ; bytes of address space

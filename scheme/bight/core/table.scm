@@ -4,6 +4,7 @@
 
 (define-module (bight core table)
   #:use-module (bight core columns)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight world earth)
   #:use-module (ice-9 rdelim)
@@ -20,7 +21,7 @@
 (define (line-numbers line)
   ;; The numbers of LINE up to the first word that is none.
   (take-while real?
-              (map (lambda (word) (or (string->number word 10) 'none))
+              (map (lambda (word) (or (text->number word 10) 'none))
                    (string-tokenize line (char-set-complement separators)))))
 
 (define (remark? line)
@@ -85,7 +86,7 @@ Raise a &bight-error from PROC of kind io or format."
 
 (define (cell-number column cell)
   "Return what CELL, a string, says in COLUMN, a number; #f if it says none.  A time may be a date."
-  (let ((number (string->number cell 10)))
+  (let ((number (text->number cell 10)))
     (cond ((real? number) (exact->inexact (* number (column-factor column))))
           ((eq? 't (column-quantity column)) (parse-instant cell))
           (else #f))))

@@ -21,6 +21,7 @@
 (define-module (bight dive story)
   #:use-module (bight assembly)
   #:use-module ((bight core datum) #:select (text->datum))
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight core files)
   #:use-module (bight core record)
@@ -85,7 +86,7 @@
 
 (define (unhex text)
   "Return the number that TEXT, hexadecimal digits, stands for, or #f."
-  (and (string? text) (string->number text 16)))
+  (and (string? text) (text->number text 16)))
 
 ;; `write' looks at each character of a string and takes a port: too long for what is told each second.
 (define plain-characters (string->char-set "abcdefghijklmnopqrstuvwxyz0123456789-"))

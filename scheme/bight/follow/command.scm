@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight follow command)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight dive checkpoint)
   #:use-module (bight dive query)
@@ -16,7 +17,7 @@
   #:export (follow-source))
 
 (define (seconds-of name text)
-  (let ((s (and text (string->number text))))
+  (let ((s (and text (text->number text))))
     (cond ((not text) #f)
           ((and (real? s) (finite? s) (> s 0)) s)
           (else (bight-raise 'domain 'follow "~a is seconds, more than 0, not ~s" name text)))))
@@ -68,13 +69,13 @@
     (lambda () stop?)))
 
 (define (whole-of name text default low high)
-  (let ((n (if text (string->number text) default)))
+  (let ((n (if text (text->number text) default)))
     (unless (and (exact-integer? n) (<= low n high))
       (bight-raise 'domain 'follow "~a is a whole number from ~a to ~a, not ~s" name low high text))
     n))
 
 (define (newtons-of text default)
-  (let ((n (if text (string->number text) default)))
+  (let ((n (if text (text->number text) default)))
     (unless (and (real? n) (finite? n) (> n 0))
       (bight-raise 'domain 'follow "--tension-noise is newtons, more than 0, not ~s" text))
     n))

@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight identify command)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module ((bight core programs) #:select (check-writable write-bytes))
   #:use-module (bight identify)
@@ -19,7 +20,7 @@
 (define (words text) (remove string-null? (map string-trim-both (string-split text #\,))))
 
 (define (number name text)
-  (let ((value (string->number text 10)))
+  (let ((value (text->number text 10)))
     (if (real? value) value (bad-usage "identify: ~a needs a number, not ~a" name text))))
 
 (define (clause text)
@@ -28,7 +29,7 @@
     (unless i (bad-usage "identify: --known needs NAME=VALUE,... as in diameter=0.004,mass=0.05, not ~a" text))
     (let ((value (substring text (+ i 1))))
       (list (string->symbol (substring text 0 i))
-            (or (string->number value 10) (string->symbol value))))))
+            (or (text->number value 10) (string->symbol value))))))
 
 ;; (OPTION KEYWORD MEANING): what `identify' takes besides.
 (define meanings

@@ -8,6 +8,7 @@
 
 (define-module (bight identify measured)
   #:use-module (bight core columns)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight core table)
@@ -78,7 +79,7 @@
   ;; (marker NUMBER AXIS FACTOR), or #f.
   (let ((found (regexp-exec marker-name (string-downcase name))))
     (and found
-         (list 'marker (string->number (match:substring found 2))
+         (list 'marker (text->number (match:substring found 2))
                (second (assoc (match:substring found 3) axes))
                (cond ((match:substring found 5)
                       => (lambda (unit) (assoc-ref '(("m" . 1) ("cm" . 1/100) ("mm" . 1/1000)) unit)))
@@ -124,7 +125,7 @@ is paid out; sigma for how sure the places of a row are; a unit may stand behind
 ;;; Cells.
 
 (define (cell-value text factor)
-  (let ((number (string->number text 10)))
+  (let ((number (text->number text 10)))
     (if (real? number) (exact->inexact (* factor number)) +nan.0)))
 
 

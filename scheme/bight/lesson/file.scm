@@ -5,6 +5,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson file)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module ((bight shell program) #:select (evaluate-file))
   #:use-module (bight core errors)
   #:use-module (bight core folders)
@@ -83,10 +84,10 @@ BIGHT_LESSONS and bight's own."
   "Return the file of the lesson that DESIGNATOR, a string, names: by name or number.  Raise a &bight-error
 of kind name when there is none."
   (let* ((files (lesson-files))
-         (number (string->number designator)))
+         (number (text->number designator)))
     (or (find (lambda (file)
                 (or (string=? designator (symbol->string (lesson-file-name file)))
-                    (eqv? number (string->number (substring (basename file) 0 2)))))
+                    (eqv? number (text->number (substring (basename file) 0 2)))))
               files)
         (unknown-name 'lesson "the list of lessons" designator (lessons)))))
 

@@ -6,6 +6,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson message)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core verb)
   #:use-module ((bight lesson play) #:select (say-as))
   #:use-module (bight lesson tally)
@@ -67,7 +68,7 @@ messages were sent so far, or #f when the lesson allows no more: then it was not
   ;; Plain ones only: 1e300000 would be a number too.
   (and (<= (string-length word) most-digits)
        (string-every (string->char-set "+-.0123456789") word)
-       (let ((n (string->number word)))
+       (let ((n (text->number word)))
          (and (real? n) n))))
 
 (define-verb (number-in (text string))

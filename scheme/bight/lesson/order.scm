@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson order)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight lesson file)
@@ -52,7 +53,7 @@ value #t."
 (define (seed-of given)
   "Return the seed GIVEN, 1 when there is none."
   (let ((text (option given "--seed" "1")))
-    (or (let ((n (string->number text))) (and (exact-integer? n) n))
+    (or (let ((n (text->number text))) (and (exact-integer? n) n))
         (bad-usage "lesson: --seed needs a whole number, not ~a" text))))
 
 (define (word-given given name usual words)

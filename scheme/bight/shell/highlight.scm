@@ -7,6 +7,7 @@
 
 (define-module (bight shell highlight)
   #:use-module ((bight cockpit palette) #:select (this-palette))
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module ((bight core verb) #:select (verb?))
   #:use-module (bight shell tokens)
   #:use-module (srfi srfi-1)
@@ -33,7 +34,7 @@
 (define (kind-of-word word before)
   ;; The kind of WORD, which stands right behind the character BEFORE.
   (cond ((string-prefix? "#:" word) 'keyword)
-        ((or (string->number word) (string-prefix? "#" word)) 'number)
+        ((or (text->number word) (string-prefix? "#" word)) 'number)
         ((memv before '(#\' #\` #\,)) 'quoted)
         ((and (memv before '(#\( #\[)) (leads? word)) 'verb)
         (else #f)))

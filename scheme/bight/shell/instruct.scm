@@ -17,6 +17,7 @@
   #:use-module (bight cockpit palette)
   #:use-module (bight cockpit state)
   #:use-module (bight core datum)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight dive)
@@ -158,7 +159,7 @@
   (let ((words (string-tokenize text)))
     (cond ((null? words) #f)
           ((memq kind '(words form)) (list kind text))
-          (else (cons kind (map (lambda (word) (or (string->number word) (string->symbol word))) words))))))
+          (else (cons kind (map (lambda (word) (or (text->number word) (string->symbol word))) words))))))
 
 (define (hand-in! s order)
   (send! (station-port s) (at-the-pupils 'hand-in! order)))

@@ -7,6 +7,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight study risk)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module ((bight core markup) #:select (csv-line))
   #:use-module (bight core record)
@@ -251,7 +252,7 @@ with its interval; none when no case is done."
 ;;; Printing.
 
 (define (numeric? text)
-  (and (not (string-null? text)) (string->number text) #t))
+  (and (not (string-null? text)) (text->number text) #t))
 
 (define (print-columns rows)
   "Print ROWS, lists of strings, in columns, numbers to the right."

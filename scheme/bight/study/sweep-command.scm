@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight study sweep-command)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module ((bight core sqlite) #:select (there?))
   #:use-module (bight study case)
@@ -33,7 +34,7 @@
 
 (define (whole-number text low high)
   ;; The number that TEXT, a string, is, if it is whole and within bounds, else #f.
-  (let ((n (string->number text)))
+  (let ((n (text->number text)))
     (and (exact-integer? n) (<= low n high) n)))
 
 (define (jobs options otherwise)

@@ -12,6 +12,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight study sweep-design)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (srfi srfi-1)
@@ -67,7 +68,7 @@
 (define (number-stream . words)
   "Return a procedure of a number i, 0, 1, ..., that returns the random number i of the stream that WORDS
 name, between 0 and 1, neither included."
-  (let ((start (string->number (fingerprint (object->string words)) 16)))
+  (let ((start (text->number (fingerprint (object->string words)) 16)))
     (lambda (i)
       (/ (+ 0.5 (ash (mixed (logand low-64 (+ start (* (+ i 1) #x9e3779b97f4a7c15)))) -12))
          (expt 2.0 52)))))

@@ -10,6 +10,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight telemetry source)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight telemetry mavlink)
@@ -35,7 +36,7 @@
 (define (loopback-port name)
   ;; The port of NAME, udp:PORT or udp:ADDRESS:PORT, or raise.
   (let* ((parts (cdr (string-split name #\:)))
-         (port (string->number (last parts)))
+         (port (text->number (last parts)))
          (address (if (= 2 (length parts)) (first parts) "127.0.0.1")))
     (unless (and (<= 1 (length parts) 2) (exact-integer? port) (< 0 port 65536))
       (bight-raise 'domain 'follow "a vehicle on UDP is udp:PORT, a port from 1 to 65535, not ~s" name))
@@ -63,7 +64,7 @@ such as MAVProxy send it there" port name))
                      (strerror (system-error-errno args)))))
     (deaf-mute s)))
 
-(define (hex text) (string->number text 16))
+(define (hex text) (text->number text 16))
 
 (define (owners-of-port port table)
   ;; The users who have a socket at PORT, by TABLE of the kernel, or #f where there is none.
@@ -77,7 +78,7 @@ such as MAVProxy send it there" port name))
                    (let ((words (string-tokenize line)))
                      (loop (if (and (> (length words) 7) (string-index (second words) #\:)
                                     (eqv? port (hex (last (string-split (second words) #\:)))))
-                               (cons (string->number (list-ref words 7)) owners)
+                               (cons (text->number (list-ref words 7)) owners)
                                owners))))))))))
 
 (define (trusted-port? port)

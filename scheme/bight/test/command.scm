@@ -9,6 +9,7 @@
 
 (define-module (bight test command)
   #:use-module (bight core crew)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight core verb)
@@ -452,7 +453,7 @@ failed."
   ;; The number that the option NAME gives, #f if it is not there.
   (let ((text (assoc-ref options name)))
     (and text
-         (or (string->number text)
+         (or (text->number text)
              (bight-raise 'domain #f "test: ~a needs a number after it, not ~a" name text)))))
 
 (define (keyword-arguments options)

@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight test tap)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module ((bight core markup) #:select (as-xml))
   #:use-module (bight core record)
   #:use-module (srfi srfi-1)
@@ -121,7 +122,7 @@
   (let* ((location (point-location point))
          (colon (and location (string-rindex location #\:)))
          (line (and colon (substring location (+ colon 1)))))
-    (and line (string->number line 10) line)))
+    (and line (text->number line 10) line)))
 
 (define (print-case point port)
   (simple-format port "    <testcase classname=\"~a\" file=\"~a\"~a name=\"~a\" time=\"~a\">"

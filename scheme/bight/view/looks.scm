@@ -5,7 +5,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight view looks)
-  #:use-module ((bight core decimal) #:select (fixed))
+  #:use-module ((bight core decimal) #:select (fixed text->number))
   #:use-module ((bight core verb) #:select (verb? verb-usage))
   #:use-module ((bight dive plain-words) #:select (words-of words-of-answer))
   #:use-module (ice-9 regex)
@@ -88,7 +88,7 @@
 (define (round-numbers text)
   (define (shorter m)
     (let ((number (match:substring m)))
-      (if (long? number) (rounded (string->number number)) number)))
+      (if (long? number) (rounded (text->number number)) number)))
   (regexp-substitute/global #f long-number text 'pre shorter 'post))
 
 (define (round-text text)

@@ -9,6 +9,7 @@
 (define-module (bight view picture)
   #:use-module ((bight cockpit palette) #:select (ascii-terminal?))
   #:use-module (bight core argument)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module ((bight core errors)
                 #:select (bight-raise bight-error? bight-error-kind bight-error-message nearest))
   #:use-module ((bight core folders) #:select (ensure-folder!))
@@ -371,7 +372,7 @@ shown."
 
 (define (option->size text)
   ;; "1280x720" as (1280 720), or TEXT itself, to be refused.
-  (let ((numbers (map string->number (string-split text #\x))))
+  (let ((numbers (map text->number (string-split text #\x))))
     (if (and (= 2 (length numbers)) (every identity numbers)) numbers text)))
 
 (define (option->views text)
@@ -379,11 +380,11 @@ shown."
     (if (null? (cdr views)) (car views) views)))
 
 (define (option->number text)
-  (or (string->number text) text))
+  (or (text->number text) text))
 
 (define (option->point text)
   ;; "0,6,-9" as (0 6 -9), or TEXT itself, to be refused.
-  (let ((numbers (map string->number (string-split text #\,))))
+  (let ((numbers (map text->number (string-split text #\,))))
     (if (every identity numbers) numbers text)))
 
 (define (option->overlay text)
@@ -403,7 +404,7 @@ shown."
 
 (define (option->times text)
   ;; "10,20" as (10 20): the seconds into the dive of each picture, in order.
-  (let ((times (map string->number (string-split text #\,))))
+  (let ((times (map text->number (string-split text #\,))))
     (unless (and (every (lambda (t) (and (real? t) (>= t 0))) times) (apply <= times))
       (bight-raise 'domain 'snapshot
                    "--run must be seconds, such as 60 or, for several pictures, 10,20,60, not ~s" text))

@@ -6,6 +6,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight view plot)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module ((bight core errors) #:select (bight-raise bight-error?))
   #:use-module (bight core programs)
   #:use-module (bight core record)
@@ -203,7 +204,7 @@ samples, for `plot'."
      (lambda (row)
        (and (= (length row) (length header))
             (let* ((cells (map (lambda (i) (list-ref row i)) places))
-                   (cpu (string->number (fourth cells))) (error (string->number (fifth cells))))
+                   (cpu (text->number (fourth cells))) (error (text->number (fifth cells))))
               (and (real? cpu) (real? error) (> cpu 0) (> (abs error) 0)
                    (list (string-join (list (first cells) (third cells) (second cells)) " ")
                          (* 1e-9 cpu) (abs error))))))

@@ -8,6 +8,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight world earth)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-19)
@@ -115,8 +116,8 @@ longitude from there; #f farther."
   (let ((k (string-length text)))
     (cond ((string-suffix? "Z" text) (cons (substring text 0 (- k 1)) 0))
           ((and (> k 16) (memv (string-ref text (- k 6)) '(#\+ #\-)) (char=? #\: (string-ref text (- k 3))))
-           (let ((hours (string->number (substring text (- k 5) (- k 3))))
-                 (minutes (string->number (substring text (- k 2)))))
+           (let ((hours (text->number (substring text (- k 5) (- k 3))))
+                 (minutes (text->number (substring text (- k 2)))))
              (and hours minutes
                   (cons (substring text 0 (- k 6))
                         (* (if (char=? #\- (string-ref text (- k 6))) -1 1)
@@ -127,7 +128,7 @@ longitude from there; #f farther."
   ;; Two values: TEXT without a fraction of a second, and that.
   (let ((dot (string-index text #\.)))
     (if dot
-        (values (substring text 0 dot) (or (string->number (string-append "0" (substring text dot)) 10) 0))
+        (values (substring text 0 dot) (or (text->number (string-append "0" (substring text dot)) 10) 0))
         (values text 0))))
 
 (define (read-date text)

@@ -9,6 +9,7 @@
 
 (define-module (bight world moordyn)
   #:use-module (bight assembly)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight core schema)
   #:use-module ((bight core table) #:select (file-lines))
@@ -60,7 +61,7 @@
       (bight-raise 'format proc "~a, line ~a has no ~a" file (assq-ref row 'line) (car names))))
 
 (define (cell-number proc file row . names)
-  (let* ((word (apply cell proc file row names)) (number (string->number word 10)))
+  (let* ((word (apply cell proc file row names)) (number (text->number word 10)))
     (if (and (real? number) (< (abs number) 1e15))
         (exact->inexact number)
         (bight-raise 'format proc "~a, line ~a: `~a' is one number here" file (assq-ref row 'line) (car names)))))
@@ -81,7 +82,7 @@
   (filter-map (lambda (row)
                 (let ((words (cdr row)))
                   (and (>= (length words) 2)
-                       (let ((value (string->number (first words) 10)))
+                       (let ((value (text->number (first words) 10)))
                          (and (real? value) (cons (string-downcase (second words)) (exact->inexact value)))))))
               (section all "OPTIONS" "SOLVER OPTIONS")))
 

@@ -7,6 +7,7 @@
 
 (define-module (bight world orcaflex)
   #:use-module (bight assembly)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module ((bight core table) #:select (file-lines))
   #:use-module (bight core verb)
@@ -33,7 +34,7 @@
     (if (vector? all) (filter entry? (vector->list all)) '())))
 
 (define (as-number x)
-  (let ((number (and (string? x) (string->number x 10))))
+  (let ((number (and (string? x) (text->number x 10))))
     (and (real? number) (< (abs number) 1e15) (exact->inexact number))))
 
 (define (first-of x) (if (and (vector? x) (> (vector-length x) 0)) (vector-ref x 0) x))
