@@ -139,69 +139,6 @@ fly_moordyn (validation *v)
     }
 }
 
-/* ---- A tether in a tank ---- */
-
-typedef struct frames
-{
-  int count;
-  double off, doubt, plain; /* mm, means */
-} frames;
-
-static frames
-frames_of (const outside_tank *t, int moving, double surer_than)
-{
-  frames f = { 0, 0, 0, 0 };
-  for (int k = 0; k < t->rows; k++)
-    if ((t->plain[k] > OUTSIDE_MOVING) == moving && t->doubt[k] < surer_than)
-      {
-        f.count++;
-        f.off += t->off[k];
-        f.doubt += t->doubt[k];
-        f.plain += t->plain[k];
-      }
-  return (frames){ f.count, f.off / f.count, f.doubt / f.count, f.plain / f.count };
-}
-
-static void
-put_frames (validation *v, const char *what, frames f)
-{
-  char setting[64];
-  snprintf (setting, sizeof setting, "%s: %d frames", what, f.count);
-  validation_row (v, "tank", setting, "mean distance mm", f.off, "motion capture", f.doubt, NAN);
-}
-
-static void
-draw_tank (validation *v, const outside_tank *t)
-{
-  const char *axes = "mean distance mm over time s";
-  for (int k = 0; k < t->rows; k++)
-    validation_point (v, "tank", axes, "bight", t->t[k], t->off[k]);
-  for (int k = 0; k < t->rows; k++)
-    validation_point (v, "tank", axes, "catenary in still water", t->t[k], t->plain[k]);
-  for (int k = 0; k < t->rows; k++)
-    validation_point (v, "tank", axes, "the measurement's own uncertainty", t->t[k], t->doubt[k]);
-}
-
-static void
-fly_tank (validation *v)
-{
-  static outside_tank tank;
-  if (!validation_counts (v, "tank", outside_in_tank (1.3, &tank),
-                          "real/toulon_cable6_surge_0p6_0031.csv"))
-    return;
-  frames moving = frames_of (&tank, 1, HUGE_VAL);
-  put_frames (v, "moving", moving);
-  put_frames (v, "moving, sure to 20 mm", frames_of (&tank, 1, 20));
-  put_frames (v, "at rest", frames_of (&tank, 0, HUGE_VAL));
-  validation_varied (v, "tank", "moving, a catenary in still water", "mean distance mm",
-                     moving.plain, "motion capture");
-  draw_tank (v, &tank);
-  for (int k = 12; k <= 14 && !v->quick; k += 2)
-    if (outside_in_tank (k / 10.0, &tank) == OUTSIDE_DONE)
-      validation_varied (v, "tank", k == 12 ? "moving, Cd 1.2" : "moving, Cd 1.4",
-                         "mean distance mm", frames_of (&tank, 1, HUGE_VAL).off, "motion capture");
-}
-
 /* ---- ---- */
 
 static int
@@ -223,7 +160,7 @@ run (validation *v)
 {
   bench_open (&v->table);
   v->model = "dynamic";
-  fly_tank (v);
+  validation_tank (v);
   validation_cables (v);
   for (int which = 0; which < 2; which++)
     hang (v, which);

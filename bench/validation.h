@@ -35,6 +35,9 @@ void validation_point (validation *v, const char *name, const char *axes, const 
    so.  A case that failed is a row with an error without bounds.  */
 int validation_counts (validation *v, const char *name, int result, const char *file);
 
+/* A rope in a tank.  */
+void validation_tank (validation *v);
+
 /* Jumpers and chains over time.  */
 void validation_histories (validation *v);
 

@@ -113,17 +113,34 @@ outside_result outside_chain (int which, const outside_bottom *bottom, outside_h
 
 /* ---- Filliung et al. (ICRA 2024): a tether in a tank ---- */
 
+/* What the rope may be; all zero but CD: a limp rope in still water that has no memory.  */
+typedef struct outside_rope
+{
+  double cd;          /* normal drag coefficient */
+  int plumb;          /* true: upward as the rope hung before the vehicle set out, else as told */
+  bt_vec3 drift;      /* m/s of the water */
+  double wake, fades; /* the share of a node's speed that its water takes on, over so many diameters
+                         of way */
+  double ei, curvature; /* N m2; 1/m of a set */
+} outside_rope;
+
+extern const outside_rope outside_plain_rope;
+
+/* All but T in mm, means over the 16 markers.  Their markers are a turned catenary's, the nearest
+   to what was seen.  */
 typedef struct outside_tank
 {
   int rows;
   double t[OUTSIDE_ROWS];
-  double off[OUTSIDE_ROWS];   /* mm: our mean distance to the 16 markers */
-  double doubt[OUTSIDE_ROWS]; /* mm: the reference's own uncertainty */
-  double plain[OUTSIDE_ROWS]; /* mm: how far off a catenary in still water is, by the reference */
+  double off[OUTSIDE_ROWS];    /* our line beside their markers */
+  double drawn[OUTSIDE_ROWS];  /* the turned catenary nearest to our line beside their markers */
+  double misses[OUTSIDE_ROWS]; /* the turned catenary nearest to our line beside our line, ... */
+  double doubt[OUTSIDE_ROWS];  /* ... and theirs beside what was seen */
+  double plain[OUTSIDE_ROWS];  /* a catenary in still water beside their markers */
 } outside_tank;
 
-/* Fly cable 6, surge run, with normal drag coefficient CD.  */
-outside_result outside_in_tank (double cd, outside_tank *tank);
+/* Fly cable 6, surge run.  */
+outside_result outside_in_tank (const outside_rope *rope, outside_tank *tank);
 
 /* ---- Chen et al. (CoRL 2024): cables swung in air by two robot arms ---- */
 
