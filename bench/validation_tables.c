@@ -184,8 +184,19 @@ try_sinking (const double *x, char **f, verdict *v)
   return rig_close (&line);
 }
 
-/* A cable of 1000 ft span with a load of 8 kip at a joint: the second row of its table; the first
-   is without the load, and begins each line here.  */
+/* Let the first nodes of LINE, as many as lie nearest to that, share LEFT metres alike, and the
+   others RIGHT.  */
+static void
+put_joint (rig *line, double left, double right)
+{
+  int n = (int)line->d->n, k = (int)lround (n * left / (left + right));
+  double *rest = bt__dynamic_rest (line->d);
+  for (int j = 0; j < n; j++)
+    rest[j] = j < k ? left / k : right / (n - k);
+}
+
+/* A cable of 1000 ft span with a load of 8 kip at a joint, which is a node: the second row of its
+   table; the first is without the load, and begins each line here.  */
 static int
 try_point_load (const double *x, char **f, verdict *v)
 {
@@ -197,6 +208,8 @@ try_point_load (const double *x, char **f, verdict *v)
   bt__dynamic_lump load = { .from_end = right, .wet_weight = x[0] * lb };
   (void)f;
   rig_open (&line, props, 0, intervals / 64 * 41, shape, 3, left + right);
+  if (line.good)
+    put_joint (&line, left, right);
   line.in.lumps = &load;
   line.in.n_lumps = 1;
   rig_settle (&line);

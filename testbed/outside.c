@@ -225,12 +225,12 @@ between (const outside_table *data, double t)
 }
 
 static void
-open_jumper (rig *r, int n, double density)
+open_jumper (rig *r, int n, double cd, double density)
 {
   const double g = 9.807;
   bt_vec3 shape[3] = { { 0, 0, -5 }, { -40, 0, -95 }, { -100, 0, -55 } };
   bt_tether_props line
-      = { .diameter = 0.396, .mass = 165, .ea = 5e8, .ei = 120.8e3, .cdn = 1, .ca = 1 };
+      = { .diameter = 0.396, .mass = 165, .ea = 5e8, .ei = 120.8e3, .cdn = cd, .ca = 1 };
   line.wet_weight = (165 - density * BT__PI * 0.396 * 0.396 / 4) * g;
   rig_open (r, line, density, n, shape, 3, 170);
   r->water.gravity = g;
@@ -247,7 +247,7 @@ swung (int which, double t, double before)
 }
 
 outside_result
-outside_jumper (int which, int n, outside_history *history)
+outside_jumper (int which, int n, double cd, outside_history *history)
 {
   static outside_table data;
   const bt_wave_def swell = { .kind = BT_WAVE_AIRY, .height = 10, .period = 10 };
@@ -258,7 +258,7 @@ outside_jumper (int which, int n, outside_history *history)
   snprintf (file, sizeof file, "published/lowe_langley_2006_case%d.csv", which);
   if (!outside_load (file, 2, &data))
     return OUTSIDE_NO_DATA;
-  open_jumper (&r, n, 1000);
+  open_jumper (&r, n, cd, 1000);
   rig_settle (&r);
   if (r.good)
     {

@@ -91,8 +91,9 @@ double outside_apart (const outside_flight *a, const outside_flight *b, int ever
 /* ---- Lowe and Langley (2006): a flexible jumper ---- */
 
 /* Top tension, kN, of case 1 or 2 (the top moved along x, y by 10 m in 27 s) or 6 (waves of 10 m in
-   10 s across it); the REST is the force at the top along x and z, kN.  N: intervals.  */
-outside_result outside_jumper (int which, int n, outside_history *h);
+   10 s across it); the REST is the force at the top along x and z, kN.  N: intervals; CD:
+   normal drag coefficient, theirs is 1.  */
+outside_result outside_jumper (int which, int n, double cd, outside_history *h);
 
 /* ---- OrcaFlex: a chain on the bottom ---- */
 
@@ -103,6 +104,7 @@ typedef struct outside_bottom
   double stiffness, damping; /* Pa/m, Pa s/m */
   double along;    /* share of its axial drag coefficient that is ours on the circumference */
   double friction; /* coefficient, in full from 0.1 m/s on */
+  double contact;  /* m: the diameter with which the chain touches */
 } outside_bottom;
 
 extern const outside_bottom outside_plain_bottom;

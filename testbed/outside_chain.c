@@ -9,10 +9,13 @@
 #include "testbed/rig.h"
 
 /* WD0050: 410 m of chain from an anchor 400 m off and 50 m down, half of it at rest on the bottom
-   (MoorDyn's springs of it, by lumps at the nodes), the fairlead heaving.  The reference's own
-   bottom and its friction are not known; here there is none.  Its axial drag is for a diameter of
-   1/pi of the chain's bar, ours for the circumference: so 1/pi of its coefficient.  */
-const outside_bottom outside_plain_bottom = { 164, 1e5, 1e4, 1 / BT__PI, 0 };
+   (springs of 1e5 Pa/m, by lumps at the nodes), the fairlead heaving.  390 kg/m, 1.674e9 N and
+   0.252 m are what OrcaFlex's help ("Chain") makes of studless chain of 0.14 m bar: 19.9 d^2 t/m,
+   0.854e8 d^2 kN and 1.80 d.  By the same table such chain touches the bottom with a diameter of
+   3.35 d, so that its axis lies half of that above the bottom, and its axial drag is for a diameter
+   of d / pi, ours for the circumference: so 1/pi of its coefficient.  The friction of the reference
+   is not known; here there is none.  */
+const outside_bottom outside_plain_bottom = { 164, 1e5, 1e4, 1 / BT__PI, 0, 3.35 * 0.14 };
 
 enum
 {
@@ -21,16 +24,18 @@ enum
 
 #define CHAIN_LENGTH 410.0
 #define CHAIN_STEP 0.02 /* s */
+#define GRAVITY 9.80665
 
 static void
 lie_on_bottom (rig *r, const outside_bottom *b, bt__dynamic_lump *lumps, double bottom)
 {
-  double d = r->line.diameter, l = CHAIN_LENGTH / b->intervals;
+  double l = CHAIN_LENGTH / b->intervals;
   for (int i = 1; i < b->intervals; i++)
     {
       bt_vec3 v = bt__dynamic_v (r->d)[i];
-      double deep = bottom - bt__dynamic_x (r->d)[i].z;
-      double push = fmax (deep > 0 ? b->stiffness * deep - b->damping * v.z : 0, 0) * d * l;
+      double deep = bottom + b->contact / 2 - bt__dynamic_x (r->d)[i].z;
+      double push
+          = fmax (deep > 0 ? b->stiffness * deep - b->damping * v.z : 0, 0) * b->contact * l;
       double drag = b->friction * push / fmax (hypot (v.x, v.y), 0.1);
       lumps[i - 1] = (bt__dynamic_lump){ .from_end = (b->intervals - i) * l,
                                          .force = { -drag * v.x, -drag * v.y, push } };
@@ -50,7 +55,7 @@ open_chain (rig *r, const outside_bottom *b)
                            .cdn = 1.37,
                            .cdt = 0.64 * b->along,
                            .ca = 1 };
-  line.wet_weight = (390 - 1025 * BT__PI * 0.252 * 0.252 / 4) * 9.81;
+  line.wet_weight = (390 - 1025 * BT__PI * 0.252 * 0.252 / 4) * GRAVITY;
   rig_open (r, line, 1025, b->intervals, shape, 3, CHAIN_LENGTH);
   r->in.tolerance = 1e-8;
 }

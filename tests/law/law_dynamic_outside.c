@@ -86,7 +86,7 @@ test_lowe_langley (void **state)
   for (int which = 1; which <= 2; which++)
     {
       double worst = 0, early = 0, sum = 0;
-      must (outside_jumper (which, 100, &h));
+      must (outside_jumper (which, 100, 1, &h));
       printf ("# Lowe & Langley: static %.2f %.2f kN of 11.40 45.71\n", h.rest[0], h.rest[1]);
       for (int k = 0; k < h.rows; k++)
         {
@@ -103,8 +103,8 @@ test_lowe_langley (void **state)
 
 /* ---- OrcaFlex: a chain that lies on the seabed ---- */
 
-/* What the reference's bottom is like is not known, and the large motion leaves a third of the
-   tension at its lowest.  */
+/* At rest to a thousandth, the chain lying as high as chain of its bar does.  The friction of the
+   reference is not known, and the large motion leaves a third of the tension at its lowest.  */
 static void
 test_orcaflex (void **state)
 {
@@ -116,7 +116,7 @@ test_orcaflex (void **state)
       must (outside_chain (which, &outside_plain_bottom, &h));
       printf ("# OrcaFlex chain, static: fairlead %.1f kN of 991.6, anchor %.1f of 826.2\n",
               h.rest[0], h.rest[1]);
-      assert_true (fabs (h.rest[0] / 991.6 - 1) < 0.02 && fabs (h.rest[1] / 826.2 - 1) < 0.02);
+      assert_true (fabs (h.rest[0] / 991.6 - 1) < 1e-3 && fabs (h.rest[1] / 826.2 - 1) < 1e-3);
       for (int k = 0; k < h.rows; k++)
         {
           double off = h.ours[k] - h.theirs[k];
@@ -134,7 +134,7 @@ test_orcaflex (void **state)
           " own, %.1f %% rms; %.0f to %.0f kN of %.0f to %.0f\n",
           which, 100 * most, 100 * worst, 100 * sqrt (sum / scale), lows[0], peaks[0], lows[1],
           peaks[1]);
-      assert_true (h.rows > 150 && most < 0.1 && worst < 0.1);
+      assert_true (h.rows > 150 && most < 0.05 && worst < 0.07);
     }
 }
 

@@ -60,19 +60,19 @@ well a figure is read, theirs is nearer.")
      "As in case 1.")
     ("jumper-6" "The same in waves across it" "Lowe and Langley, case 6: both ends held, a regular wave of 10 m \
 in 10 s across the jumper."
-     "Their waves are said to be Airy's in deep water, but not how high up they are felt nor how they were \
-begun; a shift in time does not mend it. The curve is of 30 s alone, the first period of which is not like the \
-later ones.")
+     "Their waves are told as \"Airy wave A=5 m T=10 s\", \"deep-water k=w^2/g\", and so are ours. The first \
+harmonic of the tension is alike, the second, which drag makes, is a ninth smaller in theirs; a tenth less drag mends \
+it, which in still water would be wrong. How a line that moves feels their waves is not said.")
     ("orcaflex-a1" "A chain on the bottom, its fairlead heaving a little"
      "OrcaFlex, 410 m of chain of 390 kg/m in 50 m of water, half of it on the bottom; as published with \
 MoorDyn's tests."
-     "The reference says nothing of its bottom but a depth, and of how sure it is nothing. At rest an elastic \
-catenary on a hard, smooth bottom would have 1002 kN at the fairlead and 836 at the anchor, against 991.6 and \
-826.2; ours lies in MoorDyn's springs, 0.13 m lower, and each metre of depth is worth 5 %. That offset is \
-most of the difference. The rows below vary what is not said.")
+     "How sure the reference is, it does not say. The chain is what OrcaFlex's help makes of studless chain of \
+0.14 m bar, and lies as high as that has it: half of 3.35 bars above the bottom, in springs of \"1.0e5 Pa/m\". The rows \
+below vary what is not said.")
     ("orcaflex-a2" "The same, heaving hard"
      "As before, with 2.5 times the motion: the tension falls to a third of that at rest."
-     "As before; the worst share is where the chain comes down on the bottom and the tension is lowest.")
+     "As before; the worst share is where the chain comes down on the bottom and the tension is lowest. Half as many \
+intervals move ours by as much.")
     ("table-catenary" "Catenaries" "The inextensible catenary, to 13 digits." "")
     ("table-elastic" "Elastic catenaries" "Irvine's closed form, to 13 digits." "")
     ("table-current" "Lines in uniform, sheared and turning currents" "Both ends held, in three dimensions; \
@@ -85,7 +85,7 @@ the same everywhere: exact." "")
 of 0.2 ms." "")
     ("table-point-load" "A cable with a load on it" "Michalos and Birnstiel's cable of 1000 feet, with 8 kip at a \
 joint and without: two elastic catenaries, to ten digits. The moving line at rest."
-     "The joint lies a 250th of an interval off a node, and a load between nodes rounds its corner off.")))
+     "The line is a chain of straight intervals, of second order.")))
 
 (define (case-ref name k)
   (let ((found (assoc name cases)))
