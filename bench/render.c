@@ -1,9 +1,10 @@
 /* bight-bench-render: what pictures cost, as CSV rows.
 
    A pier of ten piles with a vehicle and its tether, made by hand: the first picture of a process,
-   which compiles the shaders; a still of 1280 by 720 at 2 x 2 samples, without PNG; a frame of the
-   live view, 120 by 40 characters, from the view's things to the bytes for a terminal, while the
-   vehicle swims.  Times are CPU, of all threads.
+   which compiles the shaders; a still of 1280 by 720 at 2 x 2 samples, without PNG; a frame of a
+   film, 640 by 360 at as many samples; a frame of the live view, 120 by 40 characters, from the
+   view's things to the bytes for a terminal, while the vehicle swims.  Times are CPU, of all
+   threads.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -137,9 +138,9 @@ draw (const bench *b, const bt_view *view, const bt__drawing *drawing, bt__pictu
 }
 
 static void
-measure_stills (bench *b, bt_aim aim)
+measure_stills (bench *b, const char *name, int width, bt_aim aim)
 {
-  const bt__drawing still = { .width = 1280, .height = 720, .samples = 2 };
+  const bt__drawing still = { .width = width, .height = width * 9 / 16, .samples = 2 };
   double x[PICTURES_MAX];
   char setting[60];
   for (int i = 0; i < b->stills; i++)
@@ -151,7 +152,7 @@ measure_stills (bench *b, bt_aim aim)
       bt_view_free (view);
     }
   snprintf (setting, sizeof setting, "view=%s", bt_aim_name (aim));
-  row (b, "still-1280x720-2x2", setting, bench_median (x, (int)b->stills), "");
+  row (b, name, setting, bench_median (x, (int)b->stills), "");
 }
 
 /* One frame of the live view; *BYTES grows by what would be written.  */
@@ -218,8 +219,11 @@ main (int argc, char **argv)
     return status;
   bench_open (&b.table);
   measure_first (&b);
-  measure_stills (&b, BT_AIM_OVERVIEW);
-  measure_stills (&b, BT_AIM_CHASE);
+  for (size_t i = 0; i < 2; i++)
+    {
+      measure_stills (&b, "still-1280x720-2x2", 1280, i ? BT_AIM_CHASE : BT_AIM_OVERVIEW);
+      measure_stills (&b, "film-640x360-2x2", 640, i ? BT_AIM_CHASE : BT_AIM_OVERVIEW);
+    }
   for (size_t i = 0; i < sizeof aims / sizeof *aims; i++)
     measure_flight (&b, aims[i]);
   bt__renderer_free (b.renderer);

@@ -5,9 +5,10 @@
    of the tile from the buffers: shadows, outlines, occlusion, fog, averaging.  Only the picture in
    memory grows with the size of the picture.
 
-   A tile is drawn with a margin as wide as the neighbourhood used in shading, so a tiled picture
-   equals the picture drawn at once.  Shadows come from one map for all tiles, drawn from the sun's
-   side over the box about all bodies.
+   Tiles are equal parts of the picture, so that none is a narrow rest, and small, since fresh memory
+   for large buffers costs more than margins do.  A tile is drawn with a margin as wide as the
+   neighbourhood used in shading, so a tiled picture equals the picture drawn at once.  Shadows come
+   from one map for all tiles, drawn from the sun's side over the box about all bodies.
 
    Numbers handed to the shaders are relative to the point looked at, the soup's origin, because
    floats have too few digits for metres of a map.
@@ -24,7 +25,7 @@
 
 enum
 {
-  TILE = 1536 /* pixels */
+  TILE = 640 /* pixels */
 };
 
 /* ---- Triangles ---- */
@@ -274,16 +275,24 @@ smaller (int a, int b)
   return a < b ? a : b;
 }
 
+/* The side of the equal parts, of at most MOST pixels, in which N pixels are drawn.  */
+static int
+part_of (int n, int most)
+{
+  int parts = (n + most - 1) / most;
+  return (n + parts - 1) / parts;
+}
+
 static bt_status
 draw_tiles (bt__job *j, bt__picture *picture, bt_error *error)
 {
-  int side = j->drawing.tile ? j->drawing.tile : TILE;
-  int W = picture->width, H = picture->height, m = j->margin;
-  bt_status status = bt__frames_have (j, smaller (side, W), smaller (side, H), error);
-  for (int y = 0; status == BT_OK && y < H; y += side)
+  int most = j->drawing.tile ? j->drawing.tile : TILE, m = j->margin;
+  int W = picture->width, H = picture->height, side = part_of (W, most), tall = part_of (H, most);
+  bt_status status = bt__frames_have (j, side, tall, error);
+  for (int y = 0; status == BT_OK && y < H; y += tall)
     for (int x = 0; status == BT_OK && x < W; x += side)
       {
-        int w = smaller (side, W - x), h = smaller (side, H - y);
+        int w = smaller (side, W - x), h = smaller (tall, H - y);
         draw_scene (j, &(bt__window){ x - m, y - m, w + 2 * m, h + 2 * m });
         resolve (j, x, y, w, h);
         status = read_back (j, x, y, w, h, picture, error);
