@@ -5,10 +5,10 @@
    of the tile from the buffers: shadows, outlines, occlusion, fog, averaging.  Only the picture in
    memory grows with the size of the picture.
 
-   Tiles are equal parts of the picture, so that none is a narrow rest, and small, since fresh memory
-   for large buffers costs more than margins do.  A tile is drawn with a margin as wide as the
-   neighbourhood used in shading, so a tiled picture equals the picture drawn at once.  Shadows come
-   from one map for all tiles, drawn from the sun's side over the box about all bodies.
+   Tiles are equal parts of the picture, so that none is a narrow rest, and small, since fresh
+   memory for large buffers costs more than margins do.  A tile is drawn with a margin as wide as
+   the neighbourhood used in shading, so a tiled picture equals the picture drawn at once.  Shadows
+   come from one map for all tiles, drawn from the sun's side over the box about all bodies.
 
    Numbers handed to the shaders are relative to the point looked at, the soup's origin, because
    floats have too few digits for metres of a map.
@@ -277,7 +277,7 @@ smaller (int a, int b)
 
 /* The side of the equal parts, of at most MOST pixels, in which N pixels are drawn.  */
 static int
-part_of (int n, int most)
+tile_side (int n, int most)
 {
   int parts = (n + most - 1) / most;
   return (n + parts - 1) / parts;
@@ -287,7 +287,8 @@ static bt_status
 draw_tiles (bt__job *j, bt__picture *picture, bt_error *error)
 {
   int most = j->drawing.tile ? j->drawing.tile : TILE, m = j->margin;
-  int W = picture->width, H = picture->height, side = part_of (W, most), tall = part_of (H, most);
+  int W = picture->width, H = picture->height, side = tile_side (W, most),
+      tall = tile_side (H, most);
   bt_status status = bt__frames_have (j, side, tall, error);
   for (int y = 0; status == BT_OK && y < H; y += tall)
     for (int x = 0; status == BT_OK && x < W; x += side)
