@@ -5,12 +5,13 @@
 (use-modules (bight core argument)
              (bight shell guide)
              (bight shell topics)
+             ((bight shell doc) #:select (related docstring-of))
              ((bight world current) #:select (current-help current-forms))
              ((bight test expect) #:select (exception->line))
              ((bight shell manual) #:select (manual-sections))
              ((bight world describe) #:select (description-rows))
              ((bight core schema) #:select (head-names))
-             ((bight core verb) #:select (verb? verb-parameters))
+             ((bight core verb) #:select (verb? verb-arguments verb-parameters))
              ((srfi srfi-1) #:hide (every))
              ((srfi srfi-1) #:select ((every . all?))))
 
@@ -174,6 +175,51 @@
     (with-output-to-string (lambda () (display topic))))
   (expect (said (help "")) => (said (help)))
   (expect (said (help "  ")) => (said (help))))
+
+(define (names-in-see-also name)
+  ;; What the help of NAME shows as related, and its topic, as symbols.
+  (let* ((text (help-text name)) (at (string-contains text "See also: ")))
+    (if at
+        (map string->symbol (string-tokenize (substring text (+ at 10)) (char-set-complement (string->char-set ", ().\n"))))
+        '())))
+
+(define (quotes? name other)
+  (string-contains (docstring-of (module-ref (resolve-interface '(bight)) name)) (string-append "`" (symbol->string other) "'")))
+
+(define-scenario see-also-leads-on
+  "The help of each verb names others, which there are, and which name it where a text names one of the two."
+  (expect (length (verbs)) is (above 300))
+  (let ((all (map (lambda (name) (cons name (related name))) (language-names)))
+        (known (append '(help) (map car (topics)) (language-names))))
+    (define (leads-back? other name) (memq name (assq-ref all other)))
+    (for-each
+     (lambda (entry)
+       (let* ((name (car entry)) (others (assq-ref all name)) (shown (names-in-see-also name)))
+         (expect (list name (pair? others)) => (list name #t))
+         (expect (list name (lset-difference eq? shown known)) => (list name '()))
+         (expect (list name (lset-difference eq? others shown)) => (list name '()))
+         (expect (list name (remove (lambda (other) (or (not (quotes? name other)) (leads-back? other name))) others))
+                 => (list name '()))
+         (expect (list name (remove (lambda (other) (and (memq other known) (leads-back? other name))) (companions-of name)))
+                 => (list name '()))))
+     (verbs))))
+
+(define (silent-on-absence name verb)
+  ;; The arguments of VERB, called NAME, that are not required, and of which its help does not say what stands for them.
+  (let ((optional (remove (lambda (argument) (eq? 'required (first argument))) (verb-arguments verb))))
+    (if (null? optional)
+        '()
+        (let ((text (help-text name)))
+          (remove (lambda (argument)
+                    (and (says? (third argument) "left out" "; none, one or several")
+                         (string-contains text (third argument))))
+                  optional)))))
+
+(define-scenario what-may-be-left-out-is-said
+  "The help of each verb says of each argument that is not required what becomes of it when it is left out."
+  (for-each (lambda (entry)
+              (expect (list (car entry) (silent-on-absence (car entry) (cdr entry))) => (list (car entry) '())))
+            (verbs)))
 
 (define-scenario help-finds
   "A word is looked for in names, in what they say, and in the manual; all that is related is named."

@@ -271,6 +271,13 @@ a verb."
               (rows 'rest (rest-parameters s)))
       '()))
 
+(define (left-out-text row)
+  ;; What becomes of the argument of ROW, of `verb-parameters', when it is left out, as the end of a sentence.
+  (cond ((eq? 'required (first row)) "")
+        ((eq? 'rest (first row)) "; none, one or several")
+        ((fourth row) (simple-format #f "; ~a when left out" (fourth row)))
+        (else "; may be left out")))
+
 (define (verb-arguments procedure)
   "Return the arguments of PROCEDURE, a verb, as a list of (ROLE NAME SENTENCE): ROLE is `subject',
 `required', `optional', `key' or `rest', NAME a symbol or keyword, SENTENCE says what is allowed and what
@@ -278,10 +285,7 @@ stands for it when it is left out."
   (map (lambda (row)
          (list (first row) (second row)
                (if (third row)
-                   (string-append (argument-type-sentence (third row))
-                                  (if (fourth row)
-                                      (simple-format #f "; ~a when left out" (fourth row))
-                                      ""))
+                   (string-append (argument-type-sentence (third row)) (left-out-text row))
                    "its name; left out, the only one")))
        (verb-parameters procedure)))
 

@@ -20,6 +20,7 @@
   #:export (help-on
             usage-of
             docstring-of
+            related
             language-ref)
   #:replace (help))
 
@@ -45,11 +46,21 @@
   (let ((lines (string-split text #\newline)))
     (cons (car lines) (map string-trim (cdr lines)))))
 
-(define (docstring-of value)
-  "Return what VALUE, also a macro, says of itself, a string, or #f."
+(define docstrings (make-weak-key-hash-table)) ; those read: compiled code is searched for each
+
+(define (read-docstring value)
   (cond ((macro? value) (procedure-documentation (macro-transformer value)))
         ((and (procedure? value) (procedure-documentation value)))
         (else ((module-ref (resolve-interface '(ice-9 documentation)) 'object-documentation) value))))
+
+(define (docstring-of value)
+  "Return what VALUE, also a macro, says of itself, a string, or #f."
+  (let ((known (hashq-ref docstrings value docstrings)))
+    (if (eq? known docstrings)
+        (let ((text (read-docstring value)))
+          (hashq-set! docstrings value text)
+          text)
+        known)))
 
 (define (plain-usage name procedure)
   ;; How a procedure that is not a verb is called.
@@ -113,40 +124,49 @@
 
 (define (mentions name other)
   (let ((doc (docstring-of (language-ref other #f))))
-    (and doc (memq name (quoted-words doc)))))
+    (and doc (string-contains doc (simple-format #f "`~a'" name)))))
 
 (define (words-of name)
   ;; How the words of NAME begin that say what it is about.
   (filter-map (lambda (word) (and (> (string-length word) 3) (substring word 0 4)))
           (string-split (string-trim-right (symbol->string name) (string->char-set "!?")) #\-)))
 
-(define (kin? name other)
-  (pair? (lset-intersection string=? (words-of name) (words-of other))))
+(define (kin name names)
+  ;; Those of NAMES that have a word in common with NAME.
+  (let ((words (words-of name)))
+    (filter (lambda (other)
+              (let ((text (symbol->string other)))
+                (and (any (lambda (word) (string-contains text word)) words)
+                     (pair? (lset-intersection string=? words (words-of other))))))
+            names)))
 
-(define most-related 6)
+(define most-related 6)                 ; of those that a word alone relates
 
-(define (related name doc)
-  ;; What to see besides NAME: what its text DOC names, what names it, what has a word in common with it.
-  (let* ((topic (topic-of name))
-         (fellows (if topic (topic-names topic) '()))
-         (named (filter (lambda (word) (memq word (language-names))) (quoted-words (or doc ""))))
-         (naming (filter (lambda (other) (mentions name other)) fellows))
-         (kin (filter (lambda (other) (kin? name other)) (language-names))))
-    (take-up-to most-related
-                (delete name (delete-duplicates (append named naming kin) eq?)))))
+(define (related name)
+  "Return what to see besides NAME, names of the language: what its text names, what names it, what it is used with, all
+of which name each other; then, while these are few, what has a word in common with it."
+  (let* ((names (delete name (language-names)))
+         (doc (or (docstring-of (language-ref name #f)) ""))
+         (near (delete-duplicates
+                (append (filter (lambda (word) (memq word names)) (quoted-words doc))
+                        (filter (lambda (other) (mentions name other)) names)
+                        (companions-of name))
+                eq?)))
+    (if (>= (length near) most-related)
+        near
+        (append near (take-up-to (- most-related (length near)) (kin name (lset-difference eq? names near)))))))
 
 (define (more-lines value)
   ;; What a verb tells besides, such as the forms of a current.
   (let ((more (and (procedure? value) (procedure-property value 'more))))
     (if more (cons "" (more)) '())))
 
-(define (see-also name doc)
+(define (see-also name)
   (let ((topic (topic-of name)))
     (if topic
         (list ""
               (string-append "See also: "
-                             (string-concatenate (map (lambda (other) (simple-format #f "~a, " other))
-                                                      (related name doc)))
+                             (string-concatenate (map (lambda (other) (simple-format #f "~a, " other)) (related name)))
                              (simple-format #f "(help ~a)." topic)))
         '())))
 
@@ -157,7 +177,7 @@
             (if (procedure? value) (argument-lines name value) '())
             (more-lines value)
             (example-lines name value)
-            (see-also name doc))))
+            (see-also name))))
 
 
 ;;; Other words: parts of a world, and words that mean nothing.

@@ -11,6 +11,7 @@
   #:use-module (srfi srfi-1)
   #:export (unit-of
             examples-of
+            companions-of
             in-a-lesson))
 
 
@@ -325,3 +326,44 @@ Lines:
   (or (assq-ref examples name)
       (let ((shared (family-example name)))
         (if (pair? shared) shared (own-example name verb)))))
+
+
+;;; Companions.
+
+(define groups
+  ;; Names that are used together, or instead of each other, and do not say so in their texts.
+  '((about above below between expect)
+    (any-of generator? integer list-of made-of one-of uniform)
+    (all-finite? energy-bounded? nothing-crossed? same-again?)
+    (alter! describe tether-length)
+    (asleep? settle! settled?)
+    (assume define-property skip)
+    (belief-doubts belief-values effective-size tether-tube)
+    (capstan-lock wrap-angle free-to-haul?)
+    (compass altimeter depth-sensor sonar fault! instruments)
+    (count! counter setting jitter tell! told messages)
+    (current! waves! current-at)
+    (cut-tether! parted? tether-tail)
+    (define-world enter! extend find-world with without world)
+    (drift! follow! move!)
+    (drive! sticks release! pilot!)
+    (equilibria error-estimate tether-model!)
+    (excess slack free-length taut-length)
+    (feet hours inches knots minutes)
+    (held? rov-clearance collided?)
+    (help describe worlds lessons)
+    (in-words way-home unwind-plan)
+    (look show snapshot status)
+    (now run run-until step! time-step)
+    (number-in last-answer)
+    (off-the-way way-flown)
+    (rov-heading rov-pitch rov-roll)
+    (rov-position rov-speed rov-velocity)
+    (pay-out! haul-in! spooling?)
+    (stuck? taut? fouled?)
+    (tangent-at point-at tension-at)
+    (vec vec+ vec- vec* norm distance x y z)))
+
+(define (companions-of name)
+  "Return the names of the language that NAME is used with."
+  (delete name (delete-duplicates (concatenate (filter (lambda (group) (memq name group)) groups)) eq?)))
