@@ -20,6 +20,7 @@ function add(line)
 # How to call it; then lines of what it does, two blanks in; then its options, two blanks in too, and
 # lines about them farther in.
 NR == FNR && /^Usage: / {
+  example = 0
   sub(/^Usage: /, "")
   add(".TP\n.B " escape($0))
   next
@@ -31,6 +32,16 @@ NR == FNR && /^  -/ {
   if (at)
     add(escape(substr($0, at + RLENGTH - 1)))
   add(".RE")
+  next
+}
+NR == FNR && /^For example:/ {
+  add(".br\n" escape($0))
+  example = 1
+  next
+}
+NR == FNR && example && /^  / {
+  sub(/^ +/, "")
+  add(".br\n.B " escape($0))
   next
 }
 NR == FNR {

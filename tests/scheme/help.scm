@@ -8,6 +8,8 @@
              ((bight shell doc) #:select (related docstring-of))
              ((bight world current) #:select (current-help current-forms))
              ((bight test expect) #:select (exception->line))
+             ((bight shell commands) #:select (commands))
+             ((bight shell usage) #:select (command-examples command-name command-options command-run))
              ((bight shell manual) #:select (manual-sections))
              ((bight world describe) #:select (description-rows))
              ((bight core schema) #:select (head-names))
@@ -220,6 +222,28 @@
   (for-each (lambda (entry)
               (expect (list (car entry) (silent-on-absence (car entry) (cdr entry))) => (list (car entry) '())))
             (verbs)))
+
+(define (options-typed line)
+  ;; The words of LINE that name an option of the command.
+  (map (lambda (word) (car (string-split (string-trim-right word (string->char-set ")\"")) #\=)))
+       (filter (lambda (word) (and (string-prefix? "-" word) (> (string-length word) 1)))
+               (string-split line #\space))))
+
+(define-scenario commands-have-examples
+  "The help of each command shows at least one line to type, with options that the command has."
+  (for-each
+   (lambda (command)
+     (let ((name (command-name command)))
+       (unless (string=? name "--version")
+         (expect (list name (length (command-examples command))) is (lambda (told) (positive? (second told)))))
+       (for-each (lambda (line)
+                   (expect (list line (->bool (or (string-contains line (string-append "bight " name)) (string=? name "--environment"))))
+                           => (list line #t))
+                   (expect (list line (lset-difference string=? (options-typed line)
+                                                       (cons name (map car (command-options command)))))
+                           => (list line '())))
+                 (command-examples command))))
+   (filter command-run commands)))
 
 (define-scenario help-finds
   "A word is looked for in names, in what they say, and in the manual; all that is related is named."

@@ -90,6 +90,10 @@
   (expect (plot 'colour) raises domain)
   (expect (plot (scratch-file "missing.csv")) raises io)
   (expect (plot '()) raises domain)
+  (expect (plot '((1 2) (2 0)) #:log 'y #:to (scratch-file "x.svg")) raises domain)
+  (expect (plot '((0 2) (2 1)) #:log 'xy #:to (scratch-file "x.svg")) raises domain)
+  (expect (->bool (string-contains (said (lambda () (plot '((a (1 2) (2 0))) #:log 'y))) "no place for the row (2 0) of \"a\""))
+          => #t)
   (expect (call-with-path (scratch-file "nowhere") (lambda () (plot 'tension))) raises unsupported)
   (let ((bin (make-program! "gnuplot" "echo 'line 1: it hurts' >&2" "exit 1")))
     (expect (said (lambda ()
@@ -149,6 +153,9 @@
     (expect (->bool (string-contains one "title 'pile'")) => #t)
     (expect (times "\nset arrow" one) => (* 2 (length (filter (lambda (e) (<= (second e) 20)) (events)))))
     (expect (>= (length (events)) 1))
+    ;; Of several dives each event says whose it is.
+    (expect (times "\nset arrow" two) => (* 2 (times "\nset arrow" one)))
+    (expect (->bool (string-contains two (string-append "set label 'a: " (symbol->string (first (car (events))))))) => #t)
     (expect (times "'a (max-tension)'" two) => 1)
     (expect (times "'b (max-tension)'" two) => 1)
     ;; A dive has one colour in all panels.

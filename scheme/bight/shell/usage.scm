@@ -13,6 +13,7 @@
             command-name
             command-run
             command-options
+            command-examples
             print-overview
             print-completion
             print-help))
@@ -43,6 +44,32 @@ list of lines, says what it does; each of OPTIONS is a list of how it is written
            (cons (car words) (pair? (cdr words)))))
        (command-option-lines command)))
 
+(define examples
+  ;; Of each command, lines that a newcomer can type: in the folder of a project where files are named.
+  '(("-c" "bight -c \"(enter! 'pile) (run 10) (status)\"")
+    ("-" "echo \"(enter! 'pile) (display (slack))\" | bight -")
+    ("test" "bight test tests/scenario -k \"bow and not slow\"" "bight test --last-failed --fail-fast")
+    ("lessons" "bight lessons --skills")
+    ("lesson" "bight lesson" "bight lesson one-pile --pilot expert")
+    ("experiment" "bight experiment --trainee Ada")
+    ("bench" "bight bench --list" "bight bench statics --quick -o figures")
+    ("snapshot" "bight snapshot jacket -o jacket.png --view top" "bight snapshot box pile --run 10,60 -o stills")
+    ("pilot" "bight pilot jacket --view chase")
+    ("controller" "bight controller --record pad.events")
+    ("instruct" "bight instruct sockets/pupil")
+    ("sweep" "bight sweep studies/jacket-risk.scm -j 4" "bight sweep --table jacket-risk.db")
+    ("identify" "bight identify swing.csv --type fathom --unknown cdn,ea -o mine.scm")
+    ("replay" "bight replay dive.rec")
+    ("watch" "bight watch dive.rec --at 20")
+    ("follow" "bight follow udp:14550 --in pier --record dive.rec" "bight follow dive.tlog --plain")
+    ("--completion" "bight --completion bash >~/.local/share/bash-completion/completions/bight")
+    ("--environment" "eval \"$(bight --environment)\"")
+    ("--help" "bight --help sweep")))
+
+(define (command-examples command)
+  "Return lines that show how COMMAND is typed, or the empty list."
+  (or (assoc-ref examples (command-name command)) '()))
+
 
 ;;; Printing.
 
@@ -70,12 +97,15 @@ list of lines, says what it does; each of OPTIONS is a list of how it is written
             (cons "Usage: " (map (const "       ") (cdr commands)))))
 
 (define (print-help command)
-  "Print how COMMAND is called, what it does, and its options."
+  "Print how COMMAND is called, what it does, its options, and examples."
   (simple-format #t "Usage: ~a~%" (call-of command))
   (for-each (lambda (line) (simple-format #t "  ~a~%" line)) (command-text command))
   (for-each (lambda (option)
               (print-entry (string-append "  " (car option)) (cdr option) 20))
-            (command-option-lines command)))
+            (command-option-lines command))
+  (unless (null? (command-examples command))
+    (simple-format #t "For example:~%")
+    (for-each (lambda (line) (simple-format #t "  ~a~%" line)) (command-examples command))))
 
 
 ;;; Completion in shells.

@@ -117,6 +117,11 @@ samples, for `plot'."
 (define (chart-of-samples samples)
   (make-chart (world-words samples) "time, s" "" "" (curves-of samples "") (events-of samples)))
 
+(define (named-events dive)
+  ;; What happened in DIVE, a name and its samples, with the name before it.
+  (map (lambda (event) (cons (car event) (simple-format #f "~a: ~a" (car dive) (cdr event))))
+       (events-of (cdr dive))))
+
 (define (chart-of-dives dives)
   ;; DIVES is an alist of names and samples.
   (make-chart (string-join (delete-duplicates (map (lambda (dive) (world-words (cdr dive))) dives)) ", ")
@@ -124,7 +129,7 @@ samples, for `plot'."
               (append-map (lambda (dive)
                             (curves-of (cdr dive) (simple-format #f "~a " (car dive))))
                           dives)
-              '()))
+              (sort (append-map named-events dives) (lambda (a b) (< (car a) (car b))))))
 
 
 ;;; Along a tether.
@@ -275,6 +280,21 @@ samples, for `plot'."
               (case log ((#f) (chart-log chart)) ((none) "") (else (symbol->string log)))
               (chart-curves chart) (chart-events chart)))
 
+(define (check-axis chart axis part)
+  ;; A logarithm has no place for 0 and below; were such a row left out in silence, nobody would miss it.
+  (when (string-contains (chart-log chart) axis)
+    (for-each (lambda (curve)
+                (let ((row (find (lambda (row) (<= (part row) 0)) (cdr curve))))
+                  (when row
+                    (bight-raise 'domain 'plot "a logarithmic axis ~a has no place for the row ~s of ~s: leave such rows out, \
+or choose others by #:log: none, x or y" axis row (car curve)))))
+              (chart-curves chart))))
+
+(define (check-logarithms chart)
+  (check-axis chart "x" first)
+  (check-axis chart "y" second)
+  chart)
+
 (define-argument-type (plot-size value)
   "(WIDTH HEIGHT): pixels in a file, characters in the terminal, from 10 to 8192"
   (if (and (list? value) (= 2 (length value))
@@ -291,13 +311,13 @@ samples, for `plot'."
                    (x (or-false string)) (y (or-false string)) (log (or-false (one-of none x y xy)))
                    (size (or-false plot-size)))
   "Draw WHAT as lines: samples (see `sample!') over time, with what happened as marks, an axis for each
-unit; those of several dives, a list of (NAME . SAMPLES); tension, depth or curvature along the tether OF
+unit; those of several dives, a list of (NAME . SAMPLES), a colour for each; tension, depth or curvature along the tether OF
 that name, the only one when left out; run time against error of the CSV file that a bench wrote; or rows
 of numbers.  It goes to the file TO, an SVG or PNG by its name, or as characters to the terminal.  TITLE, X
-and Y are words to put there, LOG the axes with a logarithmic scale, SIZE (WIDTH HEIGHT).  Return what was
+and Y are words to put there, LOG the axes with a logarithmic scale, for numbers above 0, SIZE (WIDTH HEIGHT).  Return what was
 written, or the text."
   (let* ((kind (kind-of to))
-         (chart (with-words (check-curves (chart-of what of)) title x y log))
+         (chart (check-logarithms (with-words (check-curves (chart-of what of)) title x y log)))
          (size (or size (if (eq? kind 'text) (terminal-size) '(800 . 600)))))
     (when to (check-writable 'plot to))
     (let ((bytes (draw-chart chart kind size)))
