@@ -37,6 +37,14 @@
             (run-command arguments)))
       (from (bight shell listen) stop-listening!))))
 
+(define (meant-first word)
+  ;; What may have been meant by WORD, the first of the command line: a command, a file; else where to read on.
+  (let ((command (did-you-mean word first-words)))
+    (if (string-null? command)
+        (let ((file ((from (bight shell meant) file-meant) word)))
+          (if (string-null? file) "; bight --help lists the commands" file))
+        command)))
+
 (define (run-command arguments)
   (cond ((null? arguments) (run-prompt))
         ((door-option (car arguments)) => (lambda (door) (serve! door (cdr arguments))))
@@ -46,9 +54,7 @@
          (bad-usage "there is no option ~a~a" (car arguments) (did-you-mean (without-value (car arguments)) first-words)))
         ((file-like? (car arguments)) (run-script (car arguments) (cdr arguments)))
         (else
-         (bad-usage "there is no command and no file ~a~a" (car arguments)
-                    (let ((command (did-you-mean (car arguments) first-words)))
-                      (if (string-null? command) ((from (bight shell meant) file-meant) (car arguments)) command))))))
+         (bad-usage "there is no command and no file ~a~a" (car arguments) (meant-first (car arguments))))))
 
 (define (main arguments)
   "Do what ARGUMENTS, the command line as a list of strings, ask for, and return the exit status."

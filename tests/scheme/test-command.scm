@@ -426,6 +426,10 @@ once it passes the flight is gone."
   "A word that is no command and no file is answered with the nearest; help names all commands."
   (expect (command "sweeep")
           => (cons 1 "bight: there is no command and no file sweeep; did you mean `sweep'?\n"))
+  (expect (command "qqqqqq")
+          => (cons 1 "bight: there is no command and no file qqqqqq; bight --help lists the commands\n"))
+  (expect (command "snapshot" "box" "-o" "box.png" "--size" "10")
+          => (cons 1 "bight: snapshot: --size is written as in --size 1280x720, pixels across and down, not \"10\"\n"))
   (expect (command "--help" "sweeep")
           => (cons 1 "bight: there is no command sweeep; did you mean `sweep'?\n"))
   (expect (says (cdr (command "--help")) "bight test" "bight sweep" "bight lesson" "bight replay"

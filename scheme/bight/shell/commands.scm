@@ -140,7 +140,8 @@
   (call-with-values (lambda () (split-arguments "snapshot" arguments))
     (lambda (worlds options)
       (when (null? worlds)
-        (bad-usage "snapshot: name a world or file, as in bight snapshot WORLD -o FILE.png"))
+        (bad-usage "snapshot: name a world, of those that bight -c \"(worlds)\" lists, or a file, as in \
+bight snapshot jacket -o jacket.png"))
       (unless (assoc-ref options "-o")
         (bad-usage "snapshot: say where to, as in bight snapshot ~a -o FILE.png" (car worlds)))
       (for-each show-values
@@ -168,7 +169,7 @@
 ;;; bight pilot.
 
 (define (fly arguments)
-  (call-with-one "pilot" "world or file" "WORLD" arguments
+  (call-with-one "pilot" "world, of those that bight -c \"(worlds)\" lists, or file" "jacket" arguments
                  (lambda (world options)
                    ((from (bight cockpit view) pilot-world) (world-argument world) options))))
 
@@ -179,7 +180,7 @@
   (call-with-values (lambda () (split-arguments "controller" arguments))
     (lambda (given options)
       (unless (null? given)
-        (bad-usage "controller: it takes options alone, not ~a" (car given)))
+        (bad-usage "controller: it takes options alone, which bight controller --help tells, not ~a" (car given)))
       ((from (bight cockpit controller-command) controller-command) options)
       0)))
 

@@ -370,22 +370,29 @@ shown."
 (define (option->symbol text)
   (string->symbol text))
 
+(define (refuse-option name example text)
+  (bight-raise 'domain 'snapshot "~a is written as in ~a ~a, not ~s" name name example text))
+
 (define (option->size text)
-  ;; "1280x720" as (1280 720), or TEXT itself, to be refused.
+  ;; "1280x720" as (1280 720).
   (let ((numbers (map text->number (string-split text #\x))))
-    (if (and (= 2 (length numbers)) (every identity numbers)) numbers text)))
+    (if (and (= 2 (length numbers)) (every identity numbers))
+        numbers
+        (refuse-option "--size" "1280x720, pixels across and down" text))))
 
 (define (option->views text)
   (let ((views (map option->symbol (string-split text #\,))))
     (if (null? (cdr views)) (car views) views)))
 
-(define (option->number text)
-  (or (text->number text) text))
+(define (number-option name example)
+  (lambda (text) (or (text->number text) (refuse-option name example text))))
 
 (define (option->point text)
-  ;; "0,6,-9" as (0 6 -9), or TEXT itself, to be refused.
+  ;; "0,6,-9" as (0 6 -9).
   (let ((numbers (map text->number (string-split text #\,))))
-    (if (every identity numbers) numbers text)))
+    (if (and (= 3 (length numbers)) (every identity numbers))
+        numbers
+        (refuse-option "--at" "0,6,-9, metres east, north and up" text))))
 
 (define (option->overlay text)
   (map option->symbol (string-split text #\,)))
@@ -397,9 +404,9 @@ shown."
     ("--paint" #:paint ,option->symbol)
     ("--overlay" #:overlay ,option->overlay)
     ("--at" #:at ,option->point)
-    ("--extent" #:extent ,option->number)
-    ("--zoom" #:zoom ,option->number)
-    ("--visibility" #:visibility ,option->number)
+    ("--extent" #:extent ,(number-option "--extent" "30, metres across"))
+    ("--zoom" #:zoom ,(number-option "--zoom" "2, times nearer"))
+    ("--visibility" #:visibility ,(number-option "--visibility" "4, metres"))
     ("--lights" #:lights ,option->symbol)))
 
 (define (option->times text)
