@@ -208,7 +208,7 @@ add_note (bt__scene *s)
       bt_tether_view t;
       if (bt_dive_tether (s->dive, 0, &t, NULL) == BT_OK)
         snprintf (text + n, sizeof text - (size_t)n, "   tether %.1f m   tension %.3g N", t.length,
-                  t.tension_max);
+                  t.tension_max < 5e-4 ? 0.0 : t.tension_max); /* a slack line's rounding is none */
     }
   s->view->note = bt_view_text (s->view, text);
 }
