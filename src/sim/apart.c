@@ -126,12 +126,12 @@ box_tethers (const bt_dive *dive, bt__state *state, bt__contexts *l)
       const bt__tether *tether = bt__dive_tether (dive, state, i);
       const bt__aabb *part = dive->contact_work.box + 2 * i;
       l->boxes[i] = 0;
-      if (tether->shape.form != BT__FORM_CHAIN)
+      if (!bt__is_cable (tether))
         continue;
       l->whole[i] = part[0];
       if (tether->parted)
         l->whole[i] = bt__box_with (bt__box_with (part[0], part[1].lo), part[1].hi);
-      for (int k = 0; k <= (tether->parted != 0); k++)
+      for (int k = 0; k < bt__chains (tether); k++)
         box_leaves (dive, state, l, i, k);
     }
 }

@@ -67,7 +67,7 @@ bt__carrier (const bt_dive *dive, bt__state *state, int vehicle)
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       const bt__tether *tether = bt__dive_tether (dive, state, i);
-      if (dive->model->ends[i][1].vehicle == vehicle && tether->shape.form == BT__FORM_CHAIN
+      if (dive->model->ends[i][1].vehicle == vehicle && bt__is_cable (tether)
           && bt__is_moving_model (tether))
         return i;
     }
@@ -95,7 +95,7 @@ slack_line (const bt_dive *dive, bt__state *state, int vehicle)
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       const bt__tether *tether = bt__dive_tether (dive, state, i);
-      if (dive->model->ends[i][1].vehicle == vehicle && tether->shape.form != BT__FORM_CHAIN
+      if (dive->model->ends[i][1].vehicle == vehicle && !bt__is_cable (tether)
           && !is_at_its_end (tether))
         return i;
     }
@@ -107,13 +107,9 @@ static bt_vec3
 pull_at (const bt_dive *dive, bt__state *state, int i, int k)
 {
   bt__line line = bt__line_of (dive, state, i);
-  if (is_at_its_end (line.tether) && !line.chain)
+  if (is_at_its_end (line.tether) && !bt__is_cable (line.tether))
     return bt__vec (0, 0, 0);
-  if (k == 1)
-    return bt__line_force (&line);
-  if (line.chain)
-    return line.chain->pull[0];
-  return bt__scale (bt__line_tension (&line, 0), bt__line_tangent (&line, 0));
+  return bt__line_pull (&line, k);
 }
 
 /* Add the pulls of all tethers of VEHICLE but tether BUT at its far end.  */
@@ -254,7 +250,7 @@ pull_of_slack (const bt_dive *dive, bt__state *state, int vehicle, int i, bt_err
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   bt__driven *d = &dive->driven[vehicle];
   bt__line line = bt__line_of (dive, state, i);
-  bt_vec3 force = bt__line_force (&line), x0 = bt__attachment (dive, state, vehicle);
+  bt_vec3 force = bt__line_pull (&line, 1), x0 = bt__attachment (dive, state, vehicle);
   bt__ends ends = bt__tether_ends (dive, state, i);
   bt_vec3 way = bt__sub (x0, ends.a);
   bt_vec3 u = bt__unit_or (way, bt__vec (0, 0, 0));
@@ -336,5 +332,5 @@ bt__note_pull (const bt_dive *dive, bt__state *state, int i)
   if (vehicle < 0 || bt__carrier (dive, state, vehicle) != i)
     return;
   bt__line line = bt__line_of (dive, state, i);
-  bt__dive_vehicle (dive, state, vehicle)->body.pull = bt__line_force (&line);
+  bt__dive_vehicle (dive, state, vehicle)->body.pull = bt__line_pull (&line, 1);
 }

@@ -147,7 +147,7 @@ bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, i
   tether->shape.a = ends->a;
   tether->shape.b = ends->b;
   tether->shape.length = tether->length;
-  tether->contact_form = BT__CONTACT_FORM_NONE;
+  tether->contact_form = BT__TETHER_SHAPE;
   tether->parted = tether->quiet = tether->settled = tether->blocked = tether->fine = 0;
   tether->peak = tether->unsure = 0;
   vehicle = bt__carried_vehicle (dive, state, i);

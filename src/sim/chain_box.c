@@ -59,20 +59,13 @@ holds (const bt__aabb *box, const bt__aabb *other)
          && box->hi.y >= other->hi.y && box->lo.z <= other->lo.z && box->hi.z >= other->hi.z;
 }
 
-static int
-parts_of (const bt_dive *dive, bt__state *state, int i)
-{
-  const bt__tether *tether = bt__dive_tether (dive, state, i);
-  return tether->shape.form == BT__FORM_CHAIN ? 1 + (tether->parted != 0) : 0;
-}
-
 /* About PART of tether I, with room.  */
 static bt__aabb
 box_for (const bt_dive *dive, bt__state *state, int i, int part)
 {
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, part);
   double way = fastest_way (chain);
-  int parts = parts_of (dive, state, i);
+  int parts = bt__chains (bt__dive_tether (dive, state, i));
   if (part == 0)
     way = fmax (way, way_of_end (dive, state, i, chain, 0));
   if (part == parts - 1)
@@ -84,7 +77,7 @@ int
 bt__box_line (bt_dive *dive, bt__state *state, int i)
 {
   int left = 0;
-  for (int part = 0; part < parts_of (dive, state, i); part++)
+  for (int part = 0; part < bt__chains (bt__dive_tether (dive, state, i)); part++)
     {
       bt__aabb *known = &dive->contact_work.box[2 * i + part];
       bt__aabb box = box_of (bt__dive_chain (dive, state, i, part));

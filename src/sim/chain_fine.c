@@ -170,7 +170,7 @@ static int
 touches (const bt_dive *dive, bt__state *state, int i)
 {
   int any = 0;
-  for (int part = 0; part <= (bt__dive_tether (dive, state, i)->parted != 0); part++)
+  for (int part = 0; part < bt__chains (bt__dive_tether (dive, state, i)); part++)
     any |= bt__dive_anchors (dive, state, i, part)->n > 0;
   return any;
 }
@@ -183,7 +183,7 @@ may_go_back (const bt_dive *dive, bt__state *state, int i)
 {
   const bt__tether *now = bt__dive_tether (dive, dive->now, i),
                    *next = bt__dive_tether (dive, state, i);
-  return isfinite (next->props.tension_accuracy) && now->shape.form == BT__FORM_CHAIN
+  return isfinite (next->props.tension_accuracy) && bt__is_cable (now)
          && now->parted == next->parted && next->winch_rate == 0
          && !isfinite (next->props.winch_brake) && !touches (dive, dive->now, i);
 }
@@ -194,7 +194,7 @@ has_jumped (const bt_dive *dive, bt__state *state, int i, const attempt *a, doub
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   double most = times * asked (tether, a->report.tension);
-  for (int part = 0; part <= (tether->parted != 0); part++)
+  for (int part = 0; part < bt__chains (tether); part++)
     {
       const bt__dynamic *now = bt__dive_chain (dive, dive->now, i, part),
                         *next = bt__dive_chain (dive, state, i, part);
@@ -238,7 +238,7 @@ finest_of (const bt_dive *dive, bt__state *state, int i)
   double longest = 0, speed = sqrt (tether->props.ea / tether->props.mass);
   if (!may_jerk (dive, state, i))
     return BT__FINEST;
-  for (int part = 0; part <= (tether->parted != 0); part++)
+  for (int part = 0; part < bt__chains (tether); part++)
     {
       const bt__dynamic *chain = bt__dive_chain (dive, state, i, part);
       const double *rest = bt__dynamic_rest (chain);

@@ -223,7 +223,7 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
   if (may_sleep_on (dive, state, tether, ends))
     {
       dive->profile.chain_sleeps++;
-      for (int part = 0; part <= (tether->parted != 0); part++)
+      for (int part = 0; part < bt__chains (tether); part++)
         bt__note_line_meetings (dive, state, i, part);
       return BT_OK;
     }
@@ -232,7 +232,7 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
     return status;
   bt__watch_step (dive, state, tether, i, &report);
   if (tether->quiet == 0)
-    for (int part = 0; part <= (tether->parted != 0); part++)
+    for (int part = 0; part < bt__chains (tether); part++)
       bt__wake_touched (dive, state, i, part);
   /* The tensions of a step that did not converge prove nothing.  */
   if (!tether->parted && report.converged && report.tension > tether->props.breaking_load)

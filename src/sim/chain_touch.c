@@ -48,8 +48,7 @@ yields (const bt_dive *dive, const bt__state *state, int i, int part, const bt__
         int j, int k)
 {
   int later = i == j ? k < part : dive->contact_work.place[j] > dive->contact_work.place[i];
-  return later && state->step != dive->now->step && bt__is_moving_model (other)
-         && other->quiet < BT__SLEEP_AFTER;
+  return later && state->step != dive->now->step && bt__is_awake (other);
 }
 
 /* True if PART of tether I has the end E of the tether that is made fast.  */
@@ -96,9 +95,9 @@ gather_strands (const bt_dive *dive, bt__state *state, int i, int part)
     {
       bt__state *from = bt__are_apart (dive, i, j) ? dive->now : state;
       const bt__tether *other = bt__dive_tether (dive, from, j);
-      if (other->shape.form != BT__FORM_CHAIN || !touches_tether (dive, state, i, j))
+      if (!bt__is_cable (other) || !touches_tether (dive, state, i, j))
         continue;
-      for (int k = 0; k <= (other->parted != 0); k++)
+      for (int k = 0; k < bt__chains (other); k++)
         if (j != i || k != part)
           {
             bt__strand *strand = dive->contact_work.strand + n++;
@@ -236,8 +235,8 @@ push_towards (const bt_dive *dive, bt__state *state, int i, int j)
 static int
 goes_behind (const bt_dive *dive, bt__state *state, int i, int j)
 {
-  return bt__dive_tether (dive, state, i)->shape.form == BT__FORM_CHAIN
-         && bt__dive_tether (dive, state, j)->shape.form == BT__FORM_CHAIN
+  return bt__is_cable (bt__dive_tether (dive, state, i))
+         && bt__is_cable (bt__dive_tether (dive, state, j))
          && push_towards (dive, state, i, j) > push_towards (dive, state, j, i);
 }
 

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "math/vec.h"
 #include "sim/around.h"
+#include "sim/form_step.h"
 #include "sim/lay.h"
 #include "world/obstacles.h"
 
@@ -20,12 +21,6 @@ enum
   /* Of which the obstacles are noted; a line split more often meets the same ones.  */
   TOUCHES_MAX = 512
 };
-
-static int
-is_split_model (const bt__tether *tether)
-{
-  return tether->props.model < BT_MODEL_ELASTIC;
-}
 
 /* The workspace of safe steps knows one line at a time.  */
 static bt__way
@@ -44,27 +39,48 @@ workspace_for (bt_dive *dive, const bt__tether *tether, int i, const bt__surroun
 
 /* ---- Laying: from a chain, from the other kind, from the world's line of lay ---- */
 
+/* Put the *N corners of tether I on the dive's polyline, forget the shape of the former form, and
+   give tether I FORM.  */
 static bt_status
-lay (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+begin_anew (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt__tether_form form,
+            int *n, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  const bt_tether_def *def = &dive->model->tethers[i];
-  int n = 0, split = is_split_model (tether);
-  bt_status status = bt__corners (dive, state, i, ends, &n, error);
+  bt_status status = bt__corners (dive, state, i, ends, n, error);
   if (status != BT_OK)
     return status;
-  if (tether->shape.form == BT__FORM_CHAIN || tether->contact_form)
+  if (bt__tether_form_of (tether) != BT__TETHER_SHAPE)
     memset (&tether->shape, 0, sizeof tether->shape);
-  tether->contact_form = split ? BT__CONTACT_FORM_SPANS : BT__CONTACT_FORM_HELD;
+  tether->contact_form = form;
   tether->blocked = 0;
   tether->stale = 1;
   bt__store_changes (dive, i);
-  if (split)
-    return bt__thesis_lay (bt__dive_thesis (dive, state, i), (uint32_t)def->props.nodes,
-                           dive->polyline, (uint32_t)n, tether->length, error);
+  return BT_OK;
+}
+
+static bt_status
+lay_spans (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+{
+  int n = 0;
+  bt_status status = begin_anew (dive, state, i, ends, BT__TETHER_SPANS, &n, error);
+  if (status != BT_OK)
+    return status;
+  return bt__thesis_lay (bt__dive_thesis (dive, state, i),
+                         (uint32_t)dive->model->tethers[i].props.nodes, dive->polyline, (uint32_t)n,
+                         bt__dive_tether (dive, state, i)->length, error);
+}
+
+static bt_status
+lay_held (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+{
+  const bt_tether_def *def = &dive->model->tethers[i];
+  int n = 0;
+  bt_status status = begin_anew (dive, state, i, ends, BT__TETHER_HELD, &n, error);
+  if (status != BT_OK)
+    return status;
   return bt__polyline_lay (bt__dive_held (dive, state, i), (uint32_t)bt__polyline_room (def),
-                           dive->polyline, (uint32_t)n, tether->length, (uint32_t)def->props.nodes,
-                           error);
+                           dive->polyline, (uint32_t)n, bt__dive_tether (dive, state, i)->length,
+                           (uint32_t)def->props.nodes, error);
 }
 
 /* ---- Split ---- */
@@ -93,8 +109,8 @@ bring_ends (const bt_dive *dive, bt__state *state, int i, const bt__ends *wanted
 }
 
 static bt_status
-step_spans (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, const bt__way *way,
-            bt_error *error)
+go_split (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, const bt__way *way,
+          bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
   bt__thesis *spans = bt__dive_thesis (dive, state, i);
@@ -127,11 +143,43 @@ step_spans (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, const 
   return BT_OK;
 }
 
+/* Step tether I by GO with the obstacles about it.  */
+static bt_status
+step_among_obstacles (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
+                      bt_status (*go) (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
+                                       const bt__way *way, bt_error *error),
+                      bt_error *error)
+{
+  bt__surroundings around;
+  bt__store_changes (dive, i);
+  around = bt__surround (dive, state, BT_PART_TETHER, i);
+  bt__way way = workspace_for (dive, bt__dive_tether (dive, state, i), i, &around);
+  bt_status status = go (dive, state, i, ends, &way, error);
+  bt__around_done (dive);
+  return status;
+}
+
+static bt_status
+step_spans (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+{
+  return step_among_obstacles (dive, state, i, ends, go_split, error);
+}
+
+/* Spans slide while nothing else moves.  */
+static int
+spans_rest (const bt_dive *dive, bt__state *state, int i, const bt__ends *ends)
+{
+  (void)dive, (void)state, (void)i, (void)ends;
+  return 0;
+}
+
+const bt__form_step bt__step_spans = { lay_spans, step_spans, step_spans, spans_rest };
+
 /* ---- Held ---- */
 
 static bt_status
-step_held (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, const bt__way *way,
-           bt_error *error)
+go_held (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, const bt__way *way,
+         bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
   bt__polyline *line = bt__dive_held (dive, state, i);
@@ -158,29 +206,19 @@ step_held (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, const b
   return status;
 }
 
-bt_status
-bt__contact_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+static int
+held_rests (const bt_dive *dive, bt__state *state, int i, const bt__ends *ends)
 {
-  bt__tether *tether = bt__dive_tether (dive, state, i);
-  int64_t form = is_split_model (tether) ? BT__CONTACT_FORM_SPANS : BT__CONTACT_FORM_HELD;
-  bt__surroundings around;
-  bt__way way;
-  bt_status status = BT_OK;
-  if (tether->contact_form != form || tether->shape.form == BT__FORM_CHAIN)
-    status = lay (dive, state, i, ends, error);
-  if (status != BT_OK)
-    return status;
-  if (form == BT__CONTACT_FORM_HELD && bt__is_unchanged (dive, state, tether, ends)
-      && !bt__movers_move (dive))
-    {
-      dive->profile.shape_skips++;
-      return BT_OK;
-    }
-  bt__store_changes (dive, i);
-  around = bt__surround (dive, state, BT_PART_TETHER, i);
-  way = workspace_for (dive, tether, i, &around);
-  status = form == BT__CONTACT_FORM_SPANS ? step_spans (dive, state, i, ends, &way, error)
-                                          : step_held (dive, state, i, ends, &way, error);
-  bt__around_done (dive);
-  return status;
+  return bt__is_unchanged (dive, state, bt__dive_tether (dive, state, i), ends);
 }
+
+static bt_status
+step_held (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+{
+  if (!held_rests (dive, state, i, ends) || bt__movers_move (dive))
+    return step_among_obstacles (dive, state, i, ends, go_held, error);
+  dive->profile.shape_skips++;
+  return BT_OK;
+}
+
+const bt__form_step bt__step_held = { lay_held, step_held, step_held, held_rests };

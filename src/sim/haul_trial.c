@@ -121,7 +121,8 @@ static int
 is_slack (const trial *t)
 {
   bt__line line = trial_line (t);
-  return bt__line_tension (&line, 0) < fmin (t->winch, 5) && bt__norm (bt__line_force (&line)) < 1;
+  return bt__line_tension (&line, 0) < fmin (t->winch, 5)
+         && bt__norm (bt__line_pull (&line, 1)) < 1;
 }
 
 static void

@@ -10,6 +10,7 @@
 #include "sim/around.h"
 #include "sim/chain.h"
 #include "sim/lay.h"
+#include "world/form.h"
 #include "world/obstacles.h"
 
 #define KEPT_OFF 1.1 /* times the core: clearance of a line with corners left out */
@@ -126,15 +127,10 @@ leave_out_corners (bt_dive *dive, const bt__surroundings *around, double keep, d
 static int
 own_corners (bt_dive *dive, bt__state *state, int i)
 {
-  const bt__tether *tether = bt__dive_tether (dive, state, i);
-  bt__polyline *line = tether->contact_form == BT__CONTACT_FORM_SPANS
-                           ? bt__thesis_line (bt__dive_thesis (dive, state, i))
-                           : bt__dive_held (dive, state, i);
-  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
-  int moves = tether->shape.form == BT__FORM_CHAIN;
-  int n = moves ? (int)chain->n + 1 : tether->contact_form ? (int)line->n : 0;
-  const bt_vec3 *x = moves ? bt__dynamic_x (chain) : bt__polyline_x (line);
-  memcpy (dive->polyline, x, sizeof *x * (size_t)n);
+  int n;
+  const bt_vec3 *x = bt__form_of (bt__dive_tether (dive, state, i))->laid (dive, state, i, &n);
+  if (n > 0)
+    memcpy (dive->polyline, x, sizeof *x * (size_t)n);
   return n;
 }
 

@@ -106,7 +106,7 @@ bt__fall (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error
         status = bt__poll (dive, (double)k / steps, error);
     }
   keep_pins (dive, i, kept, 1);
-  for (int part = 0; part <= (tether->parted != 0); part++)
+  for (int part = 0; part < bt__chains (tether); part++)
     bt__dynamic_still (bt__dive_chain (dive, state, i, part));
   tether->shape.a = ends->a;
   tether->shape.b = ends->b;

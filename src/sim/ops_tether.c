@@ -39,7 +39,7 @@ bt__op_cut (const bt__call *c)
   bt__dynamic *chain = bt__dive_chain (c->dive, c->state, c->subject, 0);
   double s = c->args[0];
   int j = 0;
-  if (tether->shape.form != BT__FORM_CHAIN)
+  if (!bt__is_cable (tether))
     return bt__fail (c->error, BT_ERR_UNSUPPORTED,
                      "only a tether moved by the model `dynamic' can be cut");
   if (tether->parted)

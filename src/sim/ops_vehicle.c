@@ -150,7 +150,7 @@ forget_shape (const bt__call *c, int i)
     return;
   memset (&tether->memory, 0, sizeof tether->memory);
   memset (&tether->shape, 0, sizeof tether->shape);
-  tether->contact_form = BT__CONTACT_FORM_NONE;
+  tether->contact_form = BT__TETHER_SHAPE;
   tether->relaid = tether->stale = 1;
 }
 

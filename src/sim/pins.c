@@ -163,17 +163,6 @@ bt__bring_end (const bt_dive *dive, bt__state *state, int i, int k, bt_vec3 p)
   bt__mirror_body (v);
 }
 
-/* Where end K of tether I is.  */
-static bt_vec3
-place_of_end (const bt_dive *dive, bt__state *state, int i, int k)
-{
-  const bt__tether *tether = bt__dive_tether (dive, state, i);
-  if (tether->shape.form != BT__FORM_CHAIN)
-    return k == 0 ? tether->shape.a : tether->shape.b;
-  const bt__dynamic *part = bt__dive_chain (dive, state, i, k == 1 && tether->parted);
-  return bt__dynamic_x (part)[k == 0 ? 0 : part->n];
-}
-
 /* Take *AT back to P if that is less far from BEFORE; return true if P is another place.  */
 static int
 draw_back (bt_vec3 p, bt_vec3 before, bt_vec3 *at)
@@ -190,8 +179,7 @@ draw_back (bt_vec3 p, bt_vec3 before, bt_vec3 *at)
 static int
 holds_end (const bt_dive *dive, bt__state *state, int i, bt_vec3 end, bt_vec3 here)
 {
-  return bt__dive_tether (dive, state, i)->shape.form == BT__FORM_CHAIN
-         && bt__distance (end, here) <= AT_END;
+  return bt__is_cable (bt__dive_tether (dive, state, i)) && bt__distance (end, here) <= AT_END;
 }
 
 /* True if end K of tether I, made fast to a vehicle, is elsewhere than the vehicle: at *END.  */
@@ -199,7 +187,8 @@ static int
 has_left (const bt_dive *dive, bt__state *state, int i, int k, bt_vec3 *end)
 {
   bt_vec3 here = bt__attachment (dive, state, dive->model->ends[i][k].vehicle);
-  *end = place_of_end (dive, state, i, k);
+  bt__line line = bt__line_of (dive, state, i);
+  *end = bt__line_end (&line, k);
   return !is_at (*end, here) && !holds_end (dive, state, i, *end, here);
 }
 

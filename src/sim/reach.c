@@ -151,7 +151,7 @@ bt__hold_at_tethers (const bt_dive *dive, const bt__state *from, bt__state *stat
     {
       bt__ends ends = bt__tether_ends (dive, state, i);
       bt__tether *tether = bt__dive_tether (dive, state, i);
-      if (tether->contact_form != BT__CONTACT_FORM_SPANS) /* that knows by itself */
+      if (tether->contact_form != BT__TETHER_SPANS) /* spans know by themselves */
         bt__note_taut (state, tether, i,
                        !tether->parted
                            && bt__distance (ends.a, ends.b) >= tether->length * (1 - 1e-9));

@@ -8,6 +8,7 @@
 #include "math/vec.h"
 #include "sim/around.h"
 #include "sim/chain.h"
+#include "sim/form_step.h"
 #include "sim/share.h"
 
 /* Greatest number of calls, for solvers that do bounded work in each call.  */
@@ -142,37 +143,96 @@ bt__solve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, 
   return BT_OK;
 }
 
+/* ---- Forms ---- */
+
+/* The nodes of the chain that tether I was become those of a shape.  */
 static bt_status
-resolve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+lay_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+{
+  (void)ends, (void)error;
+  bt__still_chain (dive, state, i);
+  return BT_OK;
+}
+
+static int
+shape_rests (const bt_dive *dive, bt__state *state, int i, const bt__ends *ends)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
-  if (tether->parted)
-    return bt__fail (error, BT_ERR_UNSUPPORTED,
-                     "tether `%s' has parted: only the model `dynamic' moves it",
-                     dive->model->tethers[i].name);
-  if (bt__has_obstacles (dive))
-    return bt__contact_static (dive, state, i, ends, error);
-  if (tether->shape.form == BT__FORM_CHAIN)
-    bt__still_chain (dive, state, i);
-  if (tether->pull != bt__pull_for_solve (dive, state, i)
-      || !bt__is_unchanged (dive, state, tether, ends))
+  return tether->pull == bt__pull_for_solve (dive, state, i)
+         && bt__is_unchanged (dive, state, tether, ends);
+}
+
+static bt_status
+step_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
+{
+  if (!shape_rests (dive, state, i, ends))
     return bt__solve_static (dive, state, i, ends, error);
   dive->profile.shape_skips++;
   return BT_OK;
 }
 
+const bt__form_step bt__step_shape = { lay_shape, step_shape, step_shape, shape_rests };
+
 static bt_status
-resolve_moving (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int passes,
-                bt_error *error)
+carry_cable (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
-  bt_status status = BT_OK;
-  if (bt__dive_tether (dive, state, i)->shape.form != BT__FORM_CHAIN)
-    status = bt__lay_chain (dive, state, i, ends, error);
-  else if (!passes)
-    status = bt__carry_chain (dive, state, i, ends, error);
-  if (status == BT_OK && !passes)
+  bt_status status = bt__carry_chain (dive, state, i, ends, error);
+  if (status == BT_OK)
     bt__note_pull (dive, state, i);
-  return status == BT_OK && passes ? bt__step_chain (dive, state, i, ends, error) : status;
+  return status;
+}
+
+static int
+cable_rests (const bt_dive *dive, bt__state *state, int i, const bt__ends *ends)
+{
+  (void)dive, (void)state, (void)i, (void)ends;
+  return 1; /* CARRY leaves a line that has its ends where they are to be */
+}
+
+const bt__form_step bt__step_cable = { bt__lay_chain, carry_cable, bt__step_chain, cable_rests };
+
+bt__tether_form
+bt__wanted_form (const bt_dive *dive, const bt__tether *tether)
+{
+  if (bt__is_moving_model (tether))
+    return BT__TETHER_CABLE;
+  if (!bt__has_obstacles (dive))
+    return BT__TETHER_SHAPE;
+  return tether->props.model < BT_MODEL_ELASTIC ? BT__TETHER_SPANS : BT__TETHER_HELD;
+}
+
+const bt__form_step *
+bt__form_step_of (bt__tether_form form)
+{
+  static const bt__form_step *const steps[BT__TETHER_FORMS] = {
+    [BT__TETHER_SHAPE] = &bt__step_shape,
+    [BT__TETHER_SPANS] = &bt__step_spans,
+    [BT__TETHER_HELD] = &bt__step_held,
+    [BT__TETHER_CABLE] = &bt__step_cable,
+  };
+  return steps[form];
+}
+
+/* ---- One tether, all tethers ---- */
+
+/* Give tether I the wanted form and bring the tether to ENDS.  */
+static bt_status
+bring_to_ends (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int passes,
+               bt_error *error)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt__tether_form wanted = bt__wanted_form (dive, tether);
+  const bt__form_step *form = bt__form_step_of (wanted);
+  bt_status status = BT_OK;
+  if (tether->parted && wanted != BT__TETHER_CABLE)
+    return bt__fail (error, BT_ERR_UNSUPPORTED,
+                     "tether `%s' has parted: only the model `dynamic' moves it",
+                     dive->model->tethers[i].name);
+  if (bt__tether_form_of (tether) != wanted)
+    status = form->lay (dive, state, i, ends, error);
+  if (status != BT_OK)
+    return status;
+  return (passes ? form->step : form->carry) (dive, state, i, ends, error);
 }
 
 /* True if tethers could meet each other.  */
@@ -186,9 +246,7 @@ bt_status
 bt__resolve_tether (bt_dive *dive, bt__state *state, int i, int passes, bt_error *error)
 {
   bt__ends ends = bt__tether_ends (dive, state, i);
-  bt_status status = bt__is_moving_model (bt__dive_tether (dive, state, i))
-                         ? resolve_moving (dive, state, i, &ends, passes, error)
-                         : resolve_static (dive, state, i, &ends, error);
+  bt_status status = bring_to_ends (dive, state, i, &ends, passes, error);
   if (are_others (dive) && bt__box_line (dive, state, i) && dive->context)
     dive->context->refused = 1; /* others were told that it is where it was */
   if (status == BT_OK)

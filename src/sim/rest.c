@@ -9,6 +9,7 @@
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include "sim/around.h"
+#include "sim/form_step.h"
 #include "sim/ops.h"
 #include "world/watch.h"
 
@@ -19,13 +20,9 @@ rests (const bt_dive *dive, bt__state *state, int i)
   bt__ends ends = bt__tether_ends (dive, state, i);
   if (!bt__are_ends (&ends, &tether->shape) || !bt__holds_ends (dive, state, i))
     return 0;
-  if (bt__is_moving_model (tether))
-    return tether->shape.form == BT__FORM_CHAIN;
-  if (bt__has_obstacles (dive) ? tether->contact_form != BT__CONTACT_FORM_HELD
-                               : tether->pull != bt__pull_for_solve (dive, state, i))
-    return 0;
-  return tether->shape.form != BT__FORM_CHAIN && !tether->parted
-         && bt__is_unchanged (dive, state, tether, &ends);
+  bt__tether_form wanted = bt__wanted_form (dive, tether);
+  return bt__tether_form_of (tether) == wanted && (wanted == BT__TETHER_CABLE || !tether->parted)
+         && bt__form_step_of (wanted)->rests (dive, state, i, &ends);
 }
 
 int

@@ -65,9 +65,8 @@ static int64_t
 work_of (const bt_dive *dive, bt__state *state, int i)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
-  int moves = tether->shape.form == BT__FORM_CHAIN;
   bt__ends ends;
-  if (moves && tether->quiet < BT__SLEEP_AFTER)
+  if (bt__is_awake (tether))
     return bt__dive_chain (dive, state, i, 0)->n;
   ends = bt__tether_ends (dive, state, i);
   return bt__is_unchanged (dive, state, tether, &ends) ? 0 : dive->model->tethers[i].props.nodes;
@@ -77,7 +76,7 @@ work_of (const bt_dive *dive, bt__state *state, int i)
 static int
 is_to_be_laid (const bt__tether *tether)
 {
-  return bt__is_moving_model (tether) && tether->shape.form != BT__FORM_CHAIN;
+  return bt__is_moving_model (tether) && !bt__is_cable (tether);
 }
 
 static int

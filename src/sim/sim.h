@@ -124,11 +124,6 @@ bt_status bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__end
 bt_status bt__solve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
                             bt_error *error);
 
-/* Among obstacles bring a tether of a static model to ENDS, up to the first contact for models
-   without contact forces (contact_static.c).  */
-bt_status bt__contact_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
-                              bt_error *error);
-
 /* Note whether tether I is TAUT, with the event `taut' or `slack' (reach.c).  */
 void bt__note_taut (bt__state *state, bt__tether *tether, int i, int taut);
 

@@ -205,7 +205,7 @@ count_work (bt_dive *dive)
   for (int i = 0; i < model->n_tethers; i++)
     {
       const bt__tether *tether = bt__dive_tether (dive, state, i);
-      if (tether->shape.form == BT__FORM_CHAIN && tether->quiet < BT__SLEEP_AFTER)
+      if (bt__is_awake (tether))
         places += (uint64_t)bt__dive_chain (dive, state, i, 0)->n + 1;
     }
   dive->profile.body_steps += bodies;

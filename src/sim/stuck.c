@@ -33,7 +33,7 @@ is_pulled (const bt_dive *dive, bt__state *state, const bt__line *line, int i)
                   || v->sticks[2] != 0);
   if (line->tether->parted)
     return is_pulled_parted (line);
-  return (wants || line->tether->winch_rate < 0) && bt__norm (bt__line_force (line)) > PULL;
+  return (wants || line->tether->winch_rate < 0) && bt__norm (bt__line_pull (line, 1)) > PULL;
 }
 
 /* Where tether I ends: a parted one where it has parted.  */

@@ -71,7 +71,8 @@ shortest (const bt_dive *dive, bt__state *state, int i)
 static int
 is_overloaded (const bt__line *line)
 {
-  return !line->chain && bt__line_tension (line, 0) > bt__winch_pull (&line->tether->props);
+  return !bt__is_cable (line->tether)
+         && bt__line_tension (line, 0) > bt__winch_pull (&line->tether->props);
 }
 
 static void

@@ -17,7 +17,7 @@
 
 #include "base/record.h"
 
-typedef enum bt__form
+typedef enum bt__shape_form
 {
   BT__FORM_STRAIGHT = 0,
   BT__FORM_V,
@@ -27,7 +27,7 @@ typedef enum bt__form
   BT__FORM_CHAIN, /* the moving line: a bt__dynamic beside the shape; not asked through this header
                    */
   BT__FORM_AFLOAT /* as NODES, laid on the water: no solver goes on from there */
-} bt__form;
+} bt__shape_form;
 
 /* True if FORM has arrays beside the shape.  */
 static inline int
@@ -39,7 +39,7 @@ bt__has_nodes (int64_t form)
 /* Flat; no padding.  Arc lengths run from the anchor A to the end B, unstretched.  */
 typedef struct bt__shape
 {
-  int64_t form;        /* bt__form */
+  int64_t form;        /* bt__shape_form */
   int64_t n;           /* NODES: intervals */
   bt_vec3 a, b;        /* the ends, m */
   double length;       /* m */

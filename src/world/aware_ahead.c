@@ -248,7 +248,7 @@ look_for_leash (forecast *f, int i, bt_vec3 vehicle)
   uint32_t nearest = 0;
   double along = 0;
   f->leash = INFINITY;
-  if (f->holds.n == 0 || bt__norm (bt__line_force (&line)) < LEASH_PULL)
+  if (f->holds.n == 0 || bt__norm (bt__line_pull (&line, 1)) < LEASH_PULL)
     return;
   f->held = f->string->x[f->holds.at[f->holds.n - 1].node];
   for (uint32_t k = 1; k < g->n; k++)

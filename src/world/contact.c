@@ -12,7 +12,7 @@
 #include "collide/sweep.h"
 #include "math/vec.h"
 #include "world/hull.h"
-#include "world/line.h"
+#include "world/form.h"
 #include "world/obstacles.h"
 
 /* Farther than this nothing is near, m.  */
@@ -37,43 +37,19 @@ contact_of (const bt__touch *touch)
                        .force = touch->force };
 }
 
-static bt__way
-way_workspace (const bt_dive *dive, const bt__tether *tether, const bt__surroundings *around)
-{
-  return (bt__way){ .around = around,
-                    .core = bt__core (tether->props.diameter),
-                    .work = dive->contact_work.polyline,
-                    .count = &((bt_dive *)dive)->contact_work.count };
-}
-
-static int
-touches_of (const bt_dive *dive, int i, bt__touch *touch, int room)
-{
-  bt__line line = bt__line_of (dive, dive->now, i);
-  bt__surroundings around;
-  bt__way way;
-  if (line.chain)
-    return bt__line_touches (line.chain, bt__dive_anchors (dive, dive->now, i, 0), touch, room);
-  if (line.split)
-    return bt__thesis_touches (line.split, touch, room);
-  if (!line.held)
-    return 0;
-  around = bt__standing (dive, dive->now, BT_PART_TETHER, i);
-  way = way_workspace (dive, line.tether, &around);
-  return bt__held_touches (line.held, &way, line.tether->props.diameter, touch, room);
-}
-
 /* All of them in memory of their own; *N is -1 when there is no such tether.  */
 static bt__touch *
 all_touches (const bt_dive *dive, int i, int *n)
 {
   bt__touch *touch = NULL;
+  bt__line line;
   *n = i < 0 || i >= dive->model->n_tethers ? -1 : 0;
   if (*n < 0)
     return NULL;
   touch = malloc (sizeof *touch * TOUCHES_MAX);
+  line = bt__line_of (dive, dive->now, i);
   if (touch)
-    *n = touches_of (dive, i, touch, TOUCHES_MAX);
+    *n = line.form->touches (dive, i, &line, touch, TOUCHES_MAX);
   if (*n > TOUCHES_MAX)
     *n = TOUCHES_MAX;
   return touch;
@@ -166,27 +142,34 @@ is_one_wrap (const bt__touch *a, const bt__touch *b, double gap)
   return a->object == b->object && b->s - a->s < gap;
 }
 
-int
-bt_tether_segments (const bt_dive *dive, int i, bt_segment *segments, int max)
+/* The stretches of LINE between touches; within a wrap there is no stretch.  */
+static int
+free_segments (const bt__line *line, const bt__touch *touch, int touches, bt_segment *out, int max)
 {
-  int touches, n = 0;
+  int n = 0;
   double from = 0;
-  bt__touch *touch = all_touches (dive, i, &touches);
-  bt__line line;
-  if (touches < 0)
-    return -1;
-  line = bt__line_of (dive, dive->now, i);
-  if (line.split)
-    n = thesis_segments (&line, segments, max);
-  for (int k = 0; !line.split && k <= touches; k++)
+  for (int k = 0; k <= touches; k++)
     {
-      double to = k < touches ? touch[k].s : bt__line_length (&line);
-      int inside = k > 0 && k < touches && is_one_wrap (&touch[k - 1], &touch[k], wrap_gap (&line));
+      double to = k < touches ? touch[k].s : bt__line_length (line);
+      int inside = k > 0 && k < touches && is_one_wrap (&touch[k - 1], &touch[k], wrap_gap (line));
       if (!inside && n < max)
-        segments[n] = segment_between (&line, from, to);
+        out[n] = segment_between (line, from, to);
       n += !inside;
       from = to;
     }
+  return n;
+}
+
+int
+bt_tether_segments (const bt_dive *dive, int i, bt_segment *segments, int max)
+{
+  int touches, n;
+  bt__touch *touch = all_touches (dive, i, &touches);
+  if (touches < 0)
+    return -1;
+  bt__line line = bt__line_of (dive, dive->now, i);
+  n = line.split ? thesis_segments (&line, segments, max)
+                 : free_segments (&line, touch, touches, segments, max);
   free (touch);
   return n;
 }

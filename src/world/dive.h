@@ -263,7 +263,4 @@ bt__is_shared (const bt_dive *dive, int vehicle)
 
 #define BT__TIME_STEP (1.0 / 60)
 
-/* Steps the moving line rests before it sleeps.  */
-#define BT__SLEEP_AFTER 60
-
 #endif

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "math/vec.h"
+#include "world/form.h"
 #include "world/judge_tables.h"
 #include "world/layout.h"
 #include "world/obstacles.h"
@@ -161,52 +162,16 @@ bt__judge_vehicle (bt__judge *judge, const bt_dive *dive, bt__state *state, int 
 
 /* ---- Tethers ---- */
 
-static bt_status
-judge_part (bt__judge *judge, const bt_dive *dive, bt__state *state, int i, int part)
-{
-  const bt_tether_def *def = &dive->model->tethers[i];
-  bt_status status
-      = bt__dynamic_judge (judge, bt__dive_chain (dive, state, i, part), bt__chain_room (def));
-  return AND (status, bt__contacts_judge (judge, bt__dive_anchors (dive, state, i, part),
-                                          bt__contact_room (dive->model, def)));
-}
-
-static bt_status
-judge_contact_form (bt__judge *judge, const bt_dive *dive, bt__state *state, int i)
-{
-  const bt_tether_def *def = &dive->model->tethers[i];
-  switch (bt__dive_tether (dive, state, i)->contact_form)
-    {
-    case BT__CONTACT_FORM_SPANS:
-      return bt__thesis_judge (judge, bt__dive_thesis (dive, state, i), (uint32_t)def->props.nodes);
-    case BT__CONTACT_FORM_HELD:
-      return bt__polyline_judge (judge, bt__dive_held (dive, state, i),
-                                 (uint32_t)bt__polyline_room (def));
-    default:
-      return BT_OK;
-    }
-}
-
 /* The store of tether I.  */
 static bt_status
 judge_store (bt__judge *judge, const bt_dive *dive, bt__state *state, int i)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
-  int64_t room = bt__chain_room (&dive->model->tethers[i]);
   bt__wear wear = bt__dive_wear (dive, state, i);
   bt_status status = BT_OK;
   if (tether->wear != 0)
     status = bt__judge_reals (judge, "worn spots", wear.spot, (size_t)wear.n, 0, BT__HUGE);
-  for (int part = 0; tether->shape.form == BT__FORM_CHAIN && part <= tether->parted; part++)
-    status = AND (status, judge_part (judge, dive, state, i, part));
-  if (tether->shape.form == BT__FORM_CHAIN)
-    return status;
-  if (bt__has_nodes (tether->shape.form))
-    status = AND (status, bt__shape_judge_nodes (judge, bt__dive_nodes (dive, state, i),
-                                                 bt__dive_tensions (dive, state, i), room));
-  if (tether->contact_form != BT__CONTACT_FORM_SPANS) /* which has a shape for each span */
-    status = AND (status, bt__shape_judge (judge, &tether->shape, room));
-  return AND (status, judge_contact_form (judge, dive, state, i));
+  return AND (status, bt__form_of (tether)->judge (judge, dive, state, i));
 }
 
 /* The model, the form of the shape and the contents of the store agree.  */
@@ -214,7 +179,7 @@ static bt_status
 judge_form (bt__judge *judge, const bt_dive *dive, const bt__tether *tether, int i)
 {
   int moves = tether->props.model >= BT_MODEL_DYNAMIC, among = dive->model->n_obstacles > 0;
-  int chain = tether->shape.form == BT__FORM_CHAIN;
+  int chain = bt__is_cable (tether);
   bt_status status = bt__judge_that (judge, moves == chain, "a moving model has a chain");
   status = AND (status, bt__judge_that (judge, chain || !tether->parted,
                                         "only a moving line is in two parts"));

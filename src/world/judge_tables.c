@@ -141,7 +141,7 @@ static const bt__member tether[] = {
   BT__TRUTH (bt__tether, stuck),
   BT__WITHIN (bt__tether, was, -BT__FAR, BT__FAR),
   BT__TRUTH (bt__tether, relaid),
-  BT__WITHIN (bt__tether, contact_form, BT__CONTACT_FORM_NONE, BT__CONTACT_FORM_HELD),
+  BT__WITHIN (bt__tether, contact_form, BT__TETHER_SHAPE, BT__TETHER_HELD),
   BT__TRUTH (bt__tether, blocked),
   BT__WITHIN (bt__tether, wear, 0, BT__HUGE),
   BT__TRUTH (bt__tether, worn),

@@ -27,6 +27,7 @@
 #include <string.h>
 
 #include "base/hash.h"
+#include "world/form.h"
 #include "world/layout.h"
 #include "world/obstacles.h"
 
@@ -86,8 +87,8 @@ node_points (const bt_tether_def *tether)
   return bt__chain_room (tether) + 1;
 }
 
-static size_t
-arrays_size (const bt_tether_def *tether)
+size_t
+bt__arrays_size (const bt_tether_def *tether)
 {
   return 2 * sizeof (bt_vec3) * (size_t)node_points (tether);
 }
@@ -125,7 +126,7 @@ static size_t
 shape_size (const bt_model *model, int i)
 {
   const bt_tether_def *tether = &model->tethers[i];
-  size_t still = arrays_size (tether) + contact_form_size (model, tether);
+  size_t still = bt__arrays_size (tether) + contact_form_size (model, tether);
   size_t moving = 2 * bt__line_size_of (model, i).part;
   return still > moving ? still : moving;
 }
@@ -206,7 +207,8 @@ bt__dive_wear (const bt_dive *dive, bt__state *state, int i)
 bt__thesis *
 bt__dive_thesis (const bt_dive *dive, bt__state *state, int i)
 {
-  return (bt__thesis *)(void *)(store_of (dive, state, i) + arrays_size (&dive->model->tethers[i]));
+  return (bt__thesis *)(void *)(store_of (dive, state, i)
+                                + bt__arrays_size (&dive->model->tethers[i]));
 }
 
 bt__polyline *
@@ -217,67 +219,21 @@ bt__dive_held (const bt_dive *dive, bt__state *state, int i)
 
 /* ---- What is live ---- */
 
-/* The most live ranges of a store: the wear, and chain and contacts of both parts of a line.  */
-enum
-{
-  RANGES = 1 + 2 * (BT__DYNAMIC_RANGES + 1)
-};
-
-static int
-chain_ranges (const bt_dive *dive, const bt__state *state, int i, bt__range *out)
-{
-  const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
-  int n = 0;
-  for (int part = 0; part <= (tether->parted != 0); part++)
-    {
-      size_t at = (size_t)part * dive->line[i].part, chain = dive->line[i].chain;
-      size_t anchors = bt__contacts_live (bt__dive_anchors (dive, (bt__state *)state, i, part));
-      bt__dynamic_in_use (bt__dive_chain (dive, (bt__state *)state, i, part)->n,
-                          bt__chain_room (&dive->model->tethers[i]), out + n);
-      for (int k = 0; k < BT__DYNAMIC_RANGES; k++)
-        out[n++].at += at;
-      out[n++] = (bt__range){ at + chain, anchors };
-    }
-  return n;
-}
-
-static size_t
-contact_form_live (const bt_dive *dive, const bt__state *state, int i)
-{
-  switch (bt__dive_tether (dive, (bt__state *)state, i)->contact_form)
-    {
-    case BT__CONTACT_FORM_SPANS:
-      return bt__thesis_live (bt__dive_thesis (dive, (bt__state *)state, i));
-    case BT__CONTACT_FORM_HELD:
-      return bt__polyline_size ((uint32_t)bt__polyline_room (&dive->model->tethers[i]));
-    default:
-      return 0;
-    }
-}
-
 /* The parts of the store of tether I that are in use, in the order in which they lie there.  */
 static int
 live_ranges (const bt_dive *dive, const bt__state *state, int i, bt__range *out)
 {
   const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
-  const bt_tether_def *def = &dive->model->tethers[i];
-  size_t arrays = arrays_size (def);
-  int n = 0, moves = tether->shape.form == BT__FORM_CHAIN;
-  if (moves)
-    n = chain_ranges (dive, state, i, out);
-  if (!moves && bt__has_nodes (tether->shape.form))
-    out[n++] = (bt__range){ 0, arrays };
-  if (!moves && tether->contact_form)
-    out[n++] = (bt__range){ arrays, contact_form_live (dive, state, i) };
+  int n = bt__form_of (tether)->ranges (dive, state, i, out);
   if (tether->wear != 0)
-    out[n++] = (bt__range){ shape_size (dive->model, i), wear_size (def) };
+    out[n++] = (bt__range){ shape_size (dive->model, i), wear_size (&dive->model->tethers[i]) };
   return n;
 }
 
 void
 bt__copy_store (const bt_dive *dive, bt__state *to, const bt__state *from, int i)
 {
-  bt__range live[RANGES];
+  bt__range live[BT__STORE_RANGES];
   for (int k = live_ranges (dive, from, i, live); k-- > 0;)
     memcpy (store_of (dive, to, i) + live[k].at, store_of (dive, from, i) + live[k].at,
             live[k].size);
@@ -318,7 +274,7 @@ bt__level (bt_dive *dive)
 uint64_t
 bt__hash_state (const bt_dive *dive, const bt__state *state)
 {
-  bt__range live[RANGES];
+  bt__range live[BT__STORE_RANGES];
   uint64_t h = bt__hash_long (state, fixed_size (dive), 0);
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
@@ -332,7 +288,7 @@ bt__hash_state (const bt_dive *dive, const bt__state *state)
 size_t
 bt__walk_live (const bt_dive *dive, const bt__state *state, bt__walk *walk, void *user)
 {
-  bt__range live[RANGES];
+  bt__range live[BT__STORE_RANGES];
   size_t count = 1;
   walk (user, 0, state, fixed_size (dive));
   for (int i = 0; i < dive->model->n_tethers; i++)
@@ -349,7 +305,7 @@ bt__walk_live (const bt_dive *dive, const bt__state *state, bt__walk *walk, void
 size_t
 bt__live_size (const bt_dive *dive, const bt__state *state)
 {
-  bt__range live[RANGES];
+  bt__range live[BT__STORE_RANGES];
   size_t size = fixed_size (dive);
   for (int i = 0; i < dive->model->n_tethers; i++)
     for (int k = live_ranges (dive, state, i, live); k-- > 0;)
@@ -360,7 +316,7 @@ bt__live_size (const bt_dive *dive, const bt__state *state)
 int
 bt__layout_fits (const bt_dive *dive, const bt__state *state)
 {
-  bt__range live[RANGES];
+  bt__range live[BT__STORE_RANGES];
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       size_t store = bt__store_size (dive->model, i);

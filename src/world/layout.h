@@ -17,6 +17,9 @@ bt__line_size bt__line_size_of (const bt_model *model, int i);
 size_t bt__state_size (const bt_model *model);
 size_t bt__store_size (const bt_model *model, int i);
 
+/* Bytes of the nodes and tensions of a static shape of TETHER, at the beginning of its store.  */
+size_t bt__arrays_size (const bt_tether_def *tether);
+
 /* How many places a chain of TETHER may touch.  */
 int bt__contact_room (const bt_model *model, const bt_tether_def *tether);
 

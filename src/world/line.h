@@ -7,9 +7,12 @@
 
 #include "world/dive.h"
 
+struct bt__form;
+
 typedef struct bt__line
 {
   const bt__tether *tether;
+  const struct bt__form *form;     /* whose functions answer (world/form.h) */
   const bt_vec3 *nodes, *tensions; /* of a static shape */
   const bt__dynamic *chain;        /* of the moving line, from the anchor on; else NULL */
   const bt__dynamic *far_chain;    /* what hangs from the far end: CHAIN, or its other part */
@@ -50,7 +53,9 @@ double bt__line_tension_max (const bt__line *line);
 #define BT__CHAIN_ERROR 2.5
 double bt__chain_error (const bt__dynamic *chain);
 
-/* The force of LINE on what its far end is fastened to, N.  */
-bt_vec3 bt__line_force (const bt__line *line);
+/* Where end K of LINE is, 0 the anchor and 1 the far end; the force of LINE on what the end is
+   fastened to, N.  */
+bt_vec3 bt__line_end (const bt__line *line, int k);
+bt_vec3 bt__line_pull (const bt__line *line, int k);
 
 #endif

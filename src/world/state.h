@@ -72,19 +72,24 @@ enum
   BT__STUCK_PLACES = BT__STUCK_AFTER / BT__STUCK_EVERY + 1
 };
 
-/* A static tether in a world with obstacles: not laid yet, or a chain; split where it touches; held
-   where it touches.  */
-typedef enum bt__contact_form
+/* How the shape of a tether is kept: as a static shape alone; as spans, split where the line
+   touches; as a polyline, held where the line touches; as the chain of a moving line.  The
+   functions of each form stand in world/form.h.  */
+typedef enum bt__tether_form
 {
-  BT__CONTACT_FORM_NONE = 0,
-  BT__CONTACT_FORM_SPANS,
-  BT__CONTACT_FORM_HELD
-} bt__contact_form;
+  BT__TETHER_SHAPE = 0,
+  BT__TETHER_SPANS,
+  BT__TETHER_HELD,
+  BT__TETHER_CABLE,
+  BT__TETHER_FORMS
+} bt__tether_form;
 
-/* The step of a moving line is taken in 2^BT__FINEST parts at most.  */
+/* The step of a moving line is taken in 2^BT__FINEST parts at most.  The line sleeps once it has
+   rested for BT__SLEEP_AFTER steps.  */
 enum
 {
-  BT__FINEST = 8
+  BT__FINEST = 8,
+  BT__SLEEP_AFTER = 60
 };
 
 typedef struct bt__tether
@@ -105,21 +110,53 @@ typedef struct bt__tether
   int64_t slack_at; /* DYNAMIC: the step at which it was last slack */
   int64_t fine;     /* DYNAMIC: its last step was taken in 2^FINE equal parts, ... */
   double peak;      /* ... N: in none of which its tension was larger; 0 for a whole step; ... */
-  double unsure;    /* ... N: how far the tension of half as many was off, if by more than asked; else 0 */
+  double unsure; /* ... N: how far the tension of half as many was off, if by more than asked; else
+                    0 */
   int64_t hockled;
   int64_t kinked;
   int64_t pulled;                /* steps for which it has been pulled without a break */
   int64_t stuck;                 /* its end has hardly moved meanwhile */
   bt_vec3 was[BT__STUCK_PLACES]; /* where its end was in those steps, the oldest overwritten */
   int64_t relaid;                /* it was laid anew, straight */
-  int64_t
-      contact_form; /* bt__contact_form: what its store holds besides, in a world with obstacles */
-  int64_t blocked;  /* an obstacle holds a static line off its shape */
-  double wear;      /* J/m: the most of any spot; 0: its spots are not in use */
-  int64_t worn;     /* that has reached the limit */
+  int64_t contact_form;          /* bt__tether_form of a static line; SHAPE of a moving one */
+  int64_t blocked;               /* an obstacle holds a static line off its shape */
+  double wear;                   /* J/m: the most of any spot; 0: its spots are not in use */
+  int64_t worn;                  /* that has reached the limit */
   bt__shape shape;
   bt__shape_memory memory;
 } bt__tether;
+
+/* True if TETHER has the form of a moving line.  */
+static inline int
+bt__is_cable (const bt__tether *tether)
+{
+  return tether->shape.form == BT__FORM_CHAIN;
+}
+
+/* The number of chains of TETHER: 0 of a static one, 2 of a moving line that has parted.  */
+static inline int
+bt__chains (const bt__tether *tether)
+{
+  return bt__is_cable (tether) ? 1 + (tether->parted != 0) : 0;
+}
+
+/* True if TETHER is a moving line, and not asleep.  */
+static inline int
+bt__is_awake (const bt__tether *tether)
+{
+  return bt__is_cable (tether) && tether->quiet < BT__SLEEP_AFTER;
+}
+
+/* The form of TETHER, a sound one whatever numbers stand in a state from outside.  */
+static inline bt__tether_form
+bt__tether_form_of (const bt__tether *tether)
+{
+  if (bt__is_cable (tether))
+    return BT__TETHER_CABLE;
+  return tether->contact_form > 0 && tether->contact_form < BT__TETHER_CABLE
+             ? (bt__tether_form)tether->contact_form
+             : BT__TETHER_SHAPE;
+}
 
 typedef struct bt__state
 {

@@ -87,13 +87,13 @@ add_store (victim *v, int i)
       add_place (v, anchors, sizeof *anchors);
       add_place (v, anchors, bt__contacts_live (anchors));
     }
-  if (tether->contact_form == BT__CONTACT_FORM_SPANS)
+  if (tether->contact_form == BT__TETHER_SPANS)
     {
       const bt__thesis *thesis = bt__dive_thesis (d, d->now, i);
       add_place (v, thesis, sizeof *thesis + sizeof (bt__polyline));
       add_place (v, bt__thesis_spans (thesis), (size_t)thesis->spans * sizeof (bt__span));
     }
-  if (tether->contact_form == BT__CONTACT_FORM_HELD)
+  if (tether->contact_form == BT__TETHER_HELD)
     add_place (v, bt__dive_held (d, d->now, i), sizeof (bt__polyline));
 }
 
