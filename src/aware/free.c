@@ -375,17 +375,10 @@ bt__free_tighten (bt__taut *taut, const bt__taut_config *config, uint32_t steps,
 }
 
 double
-bt__free_length_from (const bt__free *t, bt__taut *taut, const bt__taut_config *config,
-                      bt_vec3 from, bt_vec3 p, uint32_t steps, bt__string *string, bt__count *count)
-{
-  if (!bt__free_way (t, from, p, string, count))
-    return INFINITY;
-  return bt__free_tighten (taut, config, steps, string, count);
-}
-
-double
 bt__free_length (const bt__free *t, bt__taut *taut, const bt__taut_config *config, bt_vec3 p,
                  uint32_t steps, bt__string *string, bt__count *count)
 {
-  return bt__free_length_from (t, taut, config, t->anchor, p, steps, string, count);
+  if (!bt__free_way (t, t->anchor, p, string, count))
+    return INFINITY;
+  return bt__free_tighten (taut, config, steps, string, count);
 }

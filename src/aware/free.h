@@ -49,14 +49,9 @@ int bt__free_sees (const bt__free_config *config, bt_vec3 a, bt_vec3 b, bt__coun
 double bt__free_length (const bt__free *tree, bt__taut *taut, const bt__taut_config *config,
                         bt_vec3 p, uint32_t steps, bt__string *string, bt__count *count);
 
-/* The same from FROM, a place in sight of the tree's anchor: of two ways nearly as long, the one
-   shorter from FROM may be taken.  */
-double bt__free_length_from (const bt__free *tree, bt__taut *taut, const bt__taut_config *config,
-                             bt_vec3 from, bt_vec3 p, uint32_t steps, bt__string *string,
-                             bt__count *count);
-
-/* The same in two steps: lay STRING along the way as it is found, 0 if there is none; tighten it.
- */
+/* The same in two steps, from FROM, a place in sight of the tree's anchor: lay STRING along the way
+   as found, 0 if there is no way; tighten STRING.  Of two ways nearly as long, the way shorter from
+   FROM may be taken.  */
 int bt__free_way (const bt__free *tree, bt_vec3 from, bt_vec3 p, bt__string *string,
                   bt__count *count);
 double bt__free_tighten (bt__taut *taut, const bt__taut_config *config, uint32_t steps,

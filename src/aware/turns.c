@@ -1,4 +1,4 @@
-/* Turns, winding and linking: sums of angles, each by one atan2.
+/* Turns and winding: sums of angles, each by one atan2.
 
    Turns of a polyline about an axis are the sum, over the links, of the angle between the two ends
    of the link as seen along the axis.  Each angle is below half a turn and comes from the
@@ -7,13 +7,6 @@
 
    The winding is the turns rounded to a whole number, halves towards 0: a straight line past an
    axis turns by less than half a turn and has winding 0.
-
-   Linking of two closed polylines is Gauss's integral, summed over pairs of links.  The differences
-   between points of two straight links fill a parallelogram, and the integral is the solid angle of
-   the parallelogram seen from the origin, taken as two triangles by the formula of Van Oosterom and
-   Strackee (1983), tan (omega / 2) = a . (b x c) / (|a||b||c| + (a . b) |c| + (b . c) |a| + (c . a)
-   |b|).  The sum over 4 pi is whole for closed lines that do not touch; bt__linking also returns
-   how far the sum was from the whole number.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -93,37 +86,4 @@ bt__winding (const bt__axis *axis, const bt_vec3 *p, uint32_t n)
   double turns = bt__turns (axis, p, n), size = fabs (turns);
   double whole = ceil (size - 0.5 - 1e-9);
   return (int)copysign (fmax (whole, 0), turns);
-}
-
-/* ---- Linking ---- */
-
-/* Half the solid angle of the triangle A, B, C seen from 0.  */
-static double
-half_angle (bt_vec3 a, bt_vec3 b, bt_vec3 c)
-{
-  double x = bt__norm (a), y = bt__norm (b), z = bt__norm (c);
-  double volume = bt__dot (a, bt__cross (b, c));
-  return atan2 (volume, x * y * z + bt__dot (a, b) * z + bt__dot (b, c) * x + bt__dot (c, a) * y);
-}
-
-/* Half the solid angle of the parallelogram of links A to B and C to D: their part of Gauss's
-   integral.  */
-static double
-half_angle_of_links (bt_vec3 a, bt_vec3 b, bt_vec3 c, bt_vec3 d)
-{
-  bt_vec3 ca = bt__sub (c, a), cb = bt__sub (c, b), db = bt__sub (d, b), da = bt__sub (d, a);
-  return half_angle (ca, cb, db) + half_angle (ca, db, da);
-}
-
-int
-bt__linking (const bt_vec3 *p, uint32_t n, const bt_vec3 *q, uint32_t m, double *off)
-{
-  double sum = 0;
-  for (uint32_t i = 0; i < n; i++)
-    for (uint32_t j = 0; j < m; j++)
-      sum += half_angle_of_links (p[i], p[(i + 1) % n], q[j], q[(j + 1) % m]);
-  double lk = sum / (2 * BT__PI), whole = rint (lk);
-  if (off)
-    *off = fabs (lk - whole);
-  return (int)whole;
 }

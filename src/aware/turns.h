@@ -28,10 +28,4 @@ double bt__turns (const bt__axis *axis, const bt_vec3 *p, uint32_t n);
    turn, if the chord meets the axis, is rounded towards zero.  */
 int bt__winding (const bt__axis *axis, const bt_vec3 *p, uint32_t n);
 
-/* Return the linking number of the closed polylines P of N and Q of M points (the last is joined to
-   the first), which must not meet.  Every pair of links sees a parallelogram whose solid angle is
-   summed in two triangles (van Oosterom and Strackee 1983); the sum over 4 pi is a whole number but
-   for rounding, and *OFF (may be NULL) is how far it was from one.  */
-int bt__linking (const bt_vec3 *p, uint32_t n, const bt_vec3 *q, uint32_t m, double *off);
-
 #endif

@@ -117,9 +117,6 @@ int bt__scene_nearest (const bt__scene *scene, const bt__switches *on, const bt_
 /* Reduce LIST to the nearest part of each obstacle, nearest first.  */
 void bt__nears_by_object (bt__nears *list);
 
-/* Return true if LIST says that link LINK is within REACH of obstacle OBJECT.  */
-int bt__nears_has (const bt__nears *list, uint32_t link, uint32_t object, double reach);
-
 /* Return true and *OUT, *GAP for the part nearest to the convex BODY, inside a ball about CENTRE
    of RADIUS, if it is within CAP.  Distances are 0 where they meet; planes may give less.  */
 int bt__scene_nearest_to_body (const bt__scene *scene, const bt__switches *on,

@@ -141,15 +141,6 @@ bt__nears_by_object (bt__nears *list)
   sort (list->at, n, nearer);
 }
 
-int
-bt__nears_has (const bt__nears *list, uint32_t link, uint32_t object, double reach)
-{
-  for (uint32_t i = 0; i < list->n; i++)
-    if (list->at[i].link == link && list->at[i].object == object && list->at[i].w.distance <= reach)
-      return 1;
-  return 0;
-}
-
 /* ---- All of it ---- */
 
 static double

@@ -186,14 +186,3 @@ bt__polyline_tangent (const bt__polyline *line, double s)
   const bt_vec3 *x = bt__polyline_x ((bt__polyline *)line) + link_at_arc (line, s);
   return bt__unit_or (bt__sub (x[1], x[0]), bt__vec (0, 0, -1));
 }
-
-double
-bt__polyline_stretch (const bt__polyline *line)
-{
-  const bt_vec3 *x = bt__polyline_x ((bt__polyline *)line);
-  const double *u = bt__polyline_u ((bt__polyline *)line);
-  double most = 0, dust = 1e-9 * u[line->n - 1];
-  for (int64_t i = 0; i + 1 < line->n; i++)
-    most = fmax (most, (bt__distance (x[i], x[i + 1]) - dust) / fmax (u[i + 1] - u[i], dust));
-  return most;
-}

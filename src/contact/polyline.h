@@ -129,7 +129,4 @@ void bt__polyline_remove (bt__polyline *line, int64_t i);
 bt_vec3 bt__polyline_point (const bt__polyline *line, double s);
 bt_vec3 bt__polyline_tangent (const bt__polyline *line, double s);
 
-/* The largest of length / arc over the links.  */
-double bt__polyline_stretch (const bt__polyline *line);
-
 #endif

@@ -10,10 +10,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include <bight/geo.h>
+
 #include "base/error.h"
-#include "geo/read.h"
 #include "geo/stream.h"
 #include "mesh/file.h"
+#include "mesh/reader.h"
 
 enum
 {
@@ -75,10 +77,9 @@ take_table (const bt__answer *answer, void *into, bt_error *error)
 
 /* Have FILE read with ARGUMENTS into *T, whose most is given; its numbers are freed by free.  */
 static bt_status
-read_table (const char *file, char *const *arguments, const bt__reader_limits *limits, table *t,
-            bt_error *error)
+read_table (const char *file, char *const *arguments, table *t, bt_error *error)
 {
-  bt_status s = bt__reader_ask (&geo_reader, file, arguments, limits, take_table, t, error);
+  bt_status s = bt__reader_ask (&geo_reader, file, arguments, &usual, take_table, t, error);
   if (s != BT_OK)
     {
       free (t->numbers);
@@ -104,9 +105,8 @@ check_bed (const char *file, const bt__geo_head *head, const double *z, bt_error
 }
 
 bt_status
-bt__geo_heights_read_within (const char *file, const bt_geo_bed *wanted,
-                             const bt__reader_limits *limits, bt_heights_data **out,
-                             bt_error *error)
+bt_geo_heights_read (const char *file, const bt_geo_bed *wanted, bt_heights_data **out,
+                     bt_error *error)
 {
   static char *const signs[] = { "told", "up", "down" };
   text t[3];
@@ -122,7 +122,7 @@ bt__geo_heights_read_within (const char *file, const bt_geo_bed *wanted,
   *out = NULL;
   bt_status s = check_origin (&wanted->origin, error);
   if (s == BT_OK)
-    s = read_table (file, arguments, limits, &bed, error);
+    s = read_table (file, arguments, &bed, error);
   if (s == BT_OK)
     s = check_bed (file, &bed.head, bed.numbers, error);
   bt_heights_data *data = s == BT_OK ? calloc (1, sizeof *data) : NULL;
@@ -143,13 +143,6 @@ bt__geo_heights_read_within (const char *file, const bt_geo_bed *wanted,
   return BT_OK;
 }
 
-bt_status
-bt_geo_heights_read (const char *file, const bt_geo_bed *wanted, bt_heights_data **out,
-                     bt_error *error)
-{
-  return bt__geo_heights_read_within (file, wanted, &usual, out, error);
-}
-
 /* ---- Currents ---- */
 
 bt_status
@@ -165,7 +158,7 @@ bt_geo_current_read (const char *file, const bt_geo_column *wanted, bt_current_g
   *out = NULL;
   bt_status s = check_origin (&wanted->at, error);
   if (s == BT_OK)
-    s = read_table (file, arguments, &usual, &flow, error);
+    s = read_table (file, arguments, &flow, error);
   if (s != BT_OK)
     return s;
   if (flow.head.columns != BT__GEO_FLOW_COLUMNS)

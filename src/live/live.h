@@ -75,7 +75,6 @@ bt_status bt__shelf_read (bt__shelf *shelf, bt_dive *view, bt_error *error);
 struct timespec bt__time_now (void);
 /* T plus SECONDS; what is beyond a century is a century.  */
 struct timespec bt__time_after (struct timespec t, double seconds);
-double bt__time_between (struct timespec from, struct timespec to);
 
 /* ---- The whole ---- */
 

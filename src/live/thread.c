@@ -41,8 +41,8 @@ bt__time_after (struct timespec t, double seconds)
   return t;
 }
 
-double
-bt__time_between (struct timespec from, struct timespec to)
+static double
+time_between (struct timespec from, struct timespec to)
 {
   return (double)(to.tv_sec - from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec);
 }
@@ -176,7 +176,7 @@ next_due (bt_live *live, struct timespec due)
   struct timespec now = bt__time_now ();
   double behind;
   due = bt__time_after (due, bt_dive_time_step (live->dive) / live->options.pace);
-  behind = bt__time_between (due, now);
+  behind = time_between (due, now);
   if (behind < 0.1)
     return due;
   live->late += behind;

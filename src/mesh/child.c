@@ -166,8 +166,8 @@ await (bt__child *child, int *spoke)
   return 1;
 }
 
-size_t
-bt__child_read (bt__child *child, void *to, size_t n)
+static size_t
+read_child (bt__child *child, void *to, size_t n)
 {
   size_t got = 0;
   int spoke;
@@ -186,7 +186,7 @@ bt__child_read (bt__child *child, void *to, size_t n)
 size_t
 bt__child_read_as (void *child, void *to, size_t n)
 {
-  return bt__child_read (child, to, n);
+  return read_child (child, to, n);
 }
 
 /* ---- Ending ---- */
@@ -226,7 +226,7 @@ bt__child_end (bt__child *child, int stop, int *code)
 {
   char rest_of_it[4096];
   int status = -1, done = 0;
-  while (!stop && bt__child_read (child, rest_of_it, sizeof rest_of_it) > 0)
+  while (!stop && read_child (child, rest_of_it, sizeof rest_of_it) > 0)
     ;
   for (int spoke; !stop && child->err >= 0 && await (child, &spoke);)
     ;

@@ -42,9 +42,6 @@ typedef enum bt__ending
 bt_status bt__child_start (bt__child *child, const char *program, char *const argv[],
                            double seconds, bt_error *error);
 
-/* Read N bytes of its output to TO; fewer at its end or at the deadline.  */
-size_t bt__child_read (bt__child *child, void *to, size_t n);
-
 /* The same, for an answer (mesh/answer.h): CHILD is a bt__child.  */
 size_t bt__child_read_as (void *child, void *to, size_t n);
 

@@ -150,15 +150,3 @@ bt__framed_box (const bt__obstacle *shape, const bt__frame *frame)
       return turned_box (&own, frame);
     }
 }
-
-bt__aabb
-bt__model_obstacle_box (const bt_model *model, int i, double t)
-{
-  const bt__obstacle *shape = bt__model_shape (model, i);
-  int k = bt__model_carried (model, i);
-  bt__frame frame;
-  if (k < 0)
-    return bt__obstacle_box (shape);
-  frame = bt__carried_frame (model, k, t);
-  return bt__framed_box (shape, &frame);
-}

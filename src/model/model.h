@@ -89,9 +89,6 @@ bt__frame bt__carried_frame (const bt_model *model, int k, double t);
 /* The box about SHAPE, drawn in FRAME; exact but for hulls and meshes that are turned.  */
 bt__aabb bt__framed_box (const bt__obstacle *shape, const bt__frame *frame);
 
-/* The box about obstacle I at the time T; without end for a level seabed.  */
-bt__aabb bt__model_obstacle_box (const bt_model *model, int i, double t);
-
 /* The axes of what is turned by HEADING (compass, clockwise), then bow up by PITCH, then starboard
    down by ROLL, all in degrees; quarter turns are exact.  Its origin is AT.  */
 bt__frame bt__turned (bt_vec3 at, double heading, double pitch, double roll);

@@ -77,8 +77,9 @@ bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
   return status == BT_OK ? bt__stopped (&dive->asker, error) : status;
 }
 
-double
-bt__pull_for_solve (const bt_dive *dive, bt__state *state, int i)
+/* The pull, N, that the static shape of tether I is solved with.  */
+static double
+pull_for_solve (const bt_dive *dive, bt__state *state, int i)
 {
   return bt__dive_tether (dive, state, i)->taut ? bt__pull_on (dive, state, i) : 0;
 }
@@ -126,7 +127,7 @@ bt_status
 bt__solve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  double pull = bt__pull_for_solve (dive, state, i);
+  double pull = pull_for_solve (dive, state, i);
   bt_vec3 *nodes = bt__dive_nodes (dive, state, i);
   bt_status status = solve_shape (dive, state, i, ends, pull, error);
   if (status != BT_OK)
@@ -158,7 +159,7 @@ static int
 shape_rests (const bt_dive *dive, bt__state *state, int i, const bt__ends *ends)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
-  return tether->pull == bt__pull_for_solve (dive, state, i)
+  return tether->pull == pull_for_solve (dive, state, i)
          && bt__is_unchanged (dive, state, tether, ends);
 }
 

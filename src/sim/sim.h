@@ -113,9 +113,6 @@ int bt__are_ends (const bt__ends *ends, const bt__shape *shape);
 int bt__is_unchanged (const bt_dive *dive, const bt__state *state, const bt__tether *tether,
                       const bt__ends *ends);
 
-/* Return the pull, N, that the static shape of tether I is solved with (resolve.c).  */
-double bt__pull_for_solve (const bt_dive *dive, bt__state *state, int i);
-
 /* Solve the static shape of tether I with PROPS, pulled taut with PULL newtons (resolve.c).  */
 bt_status bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
                            const bt_tether_props *props, double pull, bt_error *error);

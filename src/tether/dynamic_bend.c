@@ -117,6 +117,33 @@ pushed_most (const bt__dynamic_work *w, double ei)
   return SAFELY * fmax (2 * sqrt (inertia * ei), inertia * l * l / 4);
 }
 
+/* The square of the turn of node I; with a set, the product of the turn and the turn beyond the
+   natural one.  */
+static double
+thrusting_square (const bt__dynamic_work *w, int i)
+{
+  double before = w->link[i - 1].rest, after = w->link[i].rest, cell = w->node[i].cell;
+  if (!w->is_set)
+    return bt__bend_square (w->x + i, before, after);
+  double all = bt__turn_square (w->x + i, before, after),
+         set = bt__dot (bt__turn_of (w->x + i, before, after), w->natural[i]);
+  return fmax (-BT__SHARPEST, fmin (all - set, BT__SHARPEST)) / (cell * cell);
+}
+
+static void
+prepare_thrust (bt__dynamic_work *w)
+{
+  double before = 0;
+  for (int j = 0; j < w->n; j++)
+    {
+      bt__link *k = w->link + j;
+      double after = j + 1 < w->n ? thrusting_square (w, j + 1) : before;
+      k->thrust = bt__thrust_of (w->in->line->ei, j ? before : after, after);
+      k->zero -= k->thrust / k->ka;
+      before = after;
+    }
+}
+
 void
 bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d)
 {
@@ -130,7 +157,7 @@ bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d)
   w->is_set = w->in->n_sets > 0 && ei > 0;
   if (w->is_set)
     bt__dynamic_set_forces (w, w->x);
-  bt__dynamic_bend_thrust (w);
+  prepare_thrust (w);
   bt__dynamic_unfold (w, d);
   memset (w->bend_diag, 0, size);
   memset (w->bend_off, 0, size);
@@ -147,33 +174,6 @@ bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d)
   add_clamp (w, 1, ei);
   for (int i = 1; i < w->n && w->is_set; i++)
     w->bend_diag[i] += bt__set_hold (w, i);
-}
-
-/* The square of the turn of node I; with a set, the product of the turn and the turn beyond the
-   natural one.  */
-static double
-thrusting_square (const bt__dynamic_work *w, int i)
-{
-  double before = w->link[i - 1].rest, after = w->link[i].rest, cell = w->node[i].cell;
-  if (!w->is_set)
-    return bt__bend_square (w->x + i, before, after);
-  double all = bt__turn_square (w->x + i, before, after),
-         set = bt__dot (bt__turn_of (w->x + i, before, after), w->natural[i]);
-  return fmax (-BT__SHARPEST, fmin (all - set, BT__SHARPEST)) / (cell * cell);
-}
-
-void
-bt__dynamic_bend_thrust (bt__dynamic_work *w)
-{
-  double before = 0;
-  for (int j = 0; j < w->n; j++)
-    {
-      bt__link *k = w->link + j;
-      double after = j + 1 < w->n ? thrusting_square (w, j + 1) : before;
-      k->thrust = bt__thrust_of (w->in->line->ei, j ? before : after, after);
-      k->zero -= k->thrust / k->ka;
-      before = after;
-    }
 }
 
 static inline bt_vec3

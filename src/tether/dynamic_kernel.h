@@ -308,7 +308,6 @@ double bt__set_energy (const bt__dynamic_input *in, const bt_vec3 *x, const doub
 
 /* Bending: set up the rows, add their forces to RHS, return their energy.  */
 void bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d);
-void bt__dynamic_bend_thrust (bt__dynamic_work *w);
 void bt__dynamic_bend_force (bt__dynamic_work *w);
 double bt__dynamic_bend_energy (const bt__dynamic_work *w, const bt_vec3 *X);
 

@@ -112,12 +112,6 @@ bt__heading_follow (double heading, bt__quat q)
   return heading + remainder (bt__twist_of (q) - heading, 2 * BT__PI);
 }
 
-double
-bt__rigid_turns (const bt__rigid *body, double from)
-{
-  return (body->heading - from) / (2 * BT__PI);
-}
-
 void
 bt__rigid_place (bt__rigid *body, bt_vec3 position, double heading, double pitch, double roll)
 {

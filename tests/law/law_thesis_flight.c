@@ -357,7 +357,7 @@ held (void **state)
       bt__held_step (line, &r->way, &shape, NULL, NULL, &report);
       assert_true (report.held == !(report.share == 1));
       assert_true (report.held ? report.object == 0 : bt__distance (report.b, wish) == 0);
-      assert_true (bt__polyline_stretch (line) <= 1.01);
+      assert_true (rig_stretch (line) <= 1.01);
       stopped += report.held;
       late += report.held && i > 220;
       b = report.b;

@@ -140,6 +140,17 @@ watch (void *user, const bt_vec3 *from, const bt_vec3 *to, uint32_t n)
     r->crossings += sweep_sheet (from, to, (int)n, r->sheet + i);
 }
 
+double
+rig_stretch (const bt__polyline *line)
+{
+  const bt_vec3 *x = bt__polyline_x ((bt__polyline *)line);
+  const double *u = bt__polyline_u ((bt__polyline *)line);
+  double most = 0, dust = 1e-9 * u[line->n - 1];
+  for (int64_t i = 0; i + 1 < line->n; i++)
+    most = fmax (most, (bt__distance (x[i], x[i + 1]) - dust) / fmax (u[i + 1] - u[i], dust));
+  return most;
+}
+
 static void
 step (rig *r, int stale)
 {
@@ -156,7 +167,7 @@ step (rig *r, int stale)
   bt_status status = bt__thesis_step (r->state, &in, &r->way, &r->counts, &r->report, &r->error);
   if (status != BT_OK)
     fail_msg ("%s", r->error.text);
-  r->stretch = fmax (r->stretch, bt__polyline_stretch (bt__thesis_line (r->state)));
+  r->stretch = fmax (r->stretch, rig_stretch (bt__thesis_line (r->state)));
 }
 
 void

@@ -92,6 +92,9 @@ void rig_check (const rig *r);
 
 bt__span *rig_span (const rig *r, int k);
 
+/* The largest of length / arc over the links of LINE.  */
+double rig_stretch (const bt__polyline *line);
+
 /* Contacts now.  */
 int rig_contacts (const rig *r);
 

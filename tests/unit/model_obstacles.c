@@ -227,6 +227,19 @@ one_of_each (void)
   return s;
 }
 
+/* The box about obstacle I at the time T; without end for a level seabed.  */
+static bt__aabb
+box_at (const bt_model *model, int i, double t)
+{
+  const bt__obstacle *shape = bt__model_shape (model, i);
+  int k = bt__model_carried (model, i);
+  bt__frame frame;
+  if (k < 0)
+    return bt__obstacle_box (shape);
+  frame = bt__carried_frame (model, k, t);
+  return bt__framed_box (shape, &frame);
+}
+
 static void
 every_kind (void **state)
 {
@@ -251,10 +264,10 @@ every_kind (void **state)
   /* The level bottom, and the mesh three times as large.  */
   assert_float_equal (distance_to (model, (bt_vec3){ 500, 500, -40 }, (bt_vec3){ 500, 501, -40 }),
                       10, 1e-12);
-  bt__aabb box = bt__model_obstacle_box (model, 6, 0);
+  bt__aabb box = box_at (model, 6, 0);
   assert_point (box.lo, (bt_vec3){ 0, -100, -5 }, 0);
   assert_point (box.hi, (bt_vec3){ 3, -97, -5 }, 1e-12);
-  assert_true (isinf (bt__model_obstacle_box (model, 0, 0).hi.x));
+  assert_true (isinf (box_at (model, 0, 0).hi.x));
   bt_model_release (model);
   free (s);
 }
@@ -736,10 +749,10 @@ carried_as_drawn (void **state)
   def = add_round (s, "cylinder", "pipe", (bt_vec3){ 100, 0, 0 }, (bt_vec3){ 100, 0, 6 }, 0.5);
   def->track = (bt_rows){ rows[0], 2, 5 };
   model = compile (s);
-  box = bt__model_obstacle_box (model, 0, 3); /* at (2 50 -5), long from west to east */
+  box = box_at (model, 0, 3); /* at (2 50 -5), long from west to east */
   assert_point (box.lo, (bt_vec3){ -2, 49, -6 }, 1e-9);
   assert_point (box.hi, (bt_vec3){ 6, 51, -4 }, 1e-9);
-  box = bt__model_obstacle_box (model, 1, 3);
+  box = box_at (model, 1, 3);
   assert_point (box.lo, (bt_vec3){ 1.5, 49.5, -8 }, 1e-9);
   assert_point (box.hi, (bt_vec3){ 2.5, 50.5, -2 }, 1e-9);
   assert_float_equal (model->carried[0].radius, sqrt (1 + 16 + 1), 1e-7);
