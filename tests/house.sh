@@ -24,6 +24,9 @@ within shared-static-names -le 4.5 'few static functions share a name with one o
 within static-names-twice-in-a-room -le 0 'hardly any with one of the same room'
 within pointing-words -le 5.2 'long sentences name what they speak of'
 within private-words -le 0 "the field's words are used"
+within lonely-functions -le 20 'few internal functions are named in one file of src alone'
+within line-counts -ge 13 'HACKING.md tells how many lines are written by hand'
+within stale-line-counts -le 0 'and tells it true'
 within flat-modules -le 15 'modules stand in the folders of what they are about'
 
 # The places that HACKING.md names are there.

@@ -2,7 +2,8 @@
 ;;;
 ;;; How long functions are, how much of the code is comment, how many static functions share a name, how
 ;;; many words of long comment sentences only point at others ("it", "that", "which"), which of the words
-;;; that HACKING.md's glossary replaced are left, and how large the rooms are.  tests/house.sh holds the
+;;; that HACKING.md's glossary replaced are left, how many internal functions have no caller in another file of
+;;; src, which counts of lines in HACKING.md are stale, and how large the rooms are.  tests/house.sh holds the
 ;;; measures to their bounds.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
@@ -150,6 +151,70 @@
     (let ((at (string-contains text word from)))
       (if at (loop (+ at 1) (+ n 1)) n))))
 
+;;; Internal functions that no other file of src names: dead, called by tests alone, or to be static.
+
+(define (without-comments text)
+  (let loop ((from 0) (parts '()))
+    (let* ((start (string-contains text "/*" from))
+           (end (and start (string-contains text "*/" start))))
+      (if end
+          (loop (+ end 2) (cons (substring text from start) parts))
+          (string-concatenate-reverse (cons (substring text from) parts))))))
+
+(define internal (make-regexp "bt__[a-z0-9_]+"))
+
+(define namings
+  ;; Of each internal name the files that name it, a file as often as it does.
+  (let ((table (make-hash-table)))
+    (for-each (lambda (file)
+                (for-each (lambda (m)
+                            (let ((name (match:substring m)))
+                              (hash-set! table name (cons file (hash-ref table name '())))))
+                          (list-matches internal (without-comments (text-of file)))))
+              (files-below "src" ".c" ".h" ".cc"))
+    table))
+
+(define (lonely? file name)
+  ;; True if no file of src but FILE calls NAME; a header that names it once declares it.
+  (let ((others (delete file (hash-ref namings name '()))))
+    (null? (filter (lambda (other)
+                     (or (not (string-suffix? ".h" other)) (> (count (lambda (f) (string=? f other)) others) 1)))
+                   others))))
+
+(define lonely-functions
+  (filter (lambda (f)
+            (and (not (fourth f)) (string-prefix? "bt__" (second f)) (lonely? (first f) (second f))))
+          all-functions))
+
+
+;;; Counts of lines in HACKING.md.
+
+(define (source-named text)
+  ;; The files that TEXT, a file or a folder of src or a Scheme module, names.
+  (cond ((string-suffix? "/" text) (files-below (string-drop-right text 1) ".c" ".h"))
+        ((string-index text #\/) (list (string-append root "/" text)))
+        (else (filter (lambda (file) (string=? text (basename file))) (files-below "scheme" ".scm")))))
+
+(define told-count (make-regexp "^ *\\| ([^|]*) \\(([^|)]*)\\) \\| ([0-9]+) \\|"))
+
+(define (line-counts)
+  ;; Lists (ROW TOLD COUNTED) of the rows of tables that tell how many lines the files have that they name.
+  (filter-map
+   (lambda (line)
+     (let ((m (regexp-exec told-count line)))
+       (and m
+            (list (match:substring m 1)
+                  (string->number (match:substring m 3))
+                  (fold (lambda (name sum)
+                          (fold (lambda (file sum) (+ sum (string-count (text-of file) #\newline)))
+                                sum (source-named (match:substring name 1))))
+                        0 (list-matches "`([^`]+)`" (match:substring m 2)))))))
+   (string-split (text-of (string-append root "/HACKING.md")) #\newline)))
+
+(define (stale? row)
+  ;; True if a count is wrong by more than a tenth.
+  (> (abs (- (second row) (third row))) (/ (third row) 10)))
+
 (define lengths (sort (map third all-functions) <))
 (define all-comments (append-map (lambda (entry) (comments (cdr entry))) texts))
 
@@ -169,6 +234,9 @@
     (pointing-words . ,(pointing-share all-comments))
     (private-words . ,(total (lambda (word) (total (lambda (entry) (occurrences word (cdr entry))) texts))
                              private-words))
+    (lonely-functions . ,(length lonely-functions))
+    (line-counts . ,(length (line-counts)))
+    (stale-line-counts . ,(count stale? (line-counts)))
     (flat-modules . ,(length (filter (lambda (name) (string-suffix? ".scm" name))
                                      (scandir (string-append root "/scheme/bight")))))))
 
@@ -189,3 +257,7 @@
                              texts)))
             rooms))
 (print-rooms)
+
+(for-each (lambda (f) (format #t "lonely ~a ~a~%" (second f) (basename (first f)))) lonely-functions)
+(for-each (lambda (row) (format #t "lines ~a: ~a told, ~a counted~%" (first row) (second row) (third row)))
+          (filter stale? (line-counts)))

@@ -213,8 +213,8 @@ close_round (bt__workers *all, void (*meanwhile) (void *user))
 }
 
 void
-bt__workers_run_and (bt__workers *all, int tasks, void (*duty) (void *user, int w, int k),
-                     void (*meanwhile) (void *user), void *user)
+bt__workers_run (bt__workers *all, int tasks, void (*duty) (void *user, int w, int k),
+                 void (*meanwhile) (void *user), void *user)
 {
   pid_t process = getpid ();
   if (all->process != process)
@@ -222,12 +222,6 @@ bt__workers_run_and (bt__workers *all, int tasks, void (*duty) (void *user, int 
   open_round (all, tasks, duty, user);
   take_part (all, 0);
   close_round (all, meanwhile);
-}
-
-void
-bt__workers_run (bt__workers *all, int tasks, void (*duty) (void *user, int w, int k), void *user)
-{
-  bt__workers_run_and (all, tasks, duty, NULL, user);
 }
 
 int

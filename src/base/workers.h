@@ -19,13 +19,10 @@ void bt__workers_free (bt__workers *workers);
 
 /* Do DUTY (USER, W, K) once for every K below TASKS, on worker W below COUNT, one task at a time on
    each worker; return when all tasks are done.  If the system refuses a thread, fewer workers do
-   the tasks; in a child process, which does not inherit threads, the workers start anew.  */
+   the tasks; in a child process, which does not inherit threads, the workers start anew.  A caller
+   waiting for the workers calls MEANWHILE (USER) now and then, unless MEANWHILE is NULL.  */
 void bt__workers_run (bt__workers *workers, int tasks, void (*duty) (void *user, int w, int k),
-                      void *user);
-
-/* The same; a caller waiting for its workers calls MEANWHILE (USER) now and then.  */
-void bt__workers_run_and (bt__workers *workers, int tasks, void (*duty) (void *user, int w, int k),
-                          void (*meanwhile) (void *user), void *user);
+                      void (*meanwhile) (void *user), void *user);
 
 /* Return how many threads were ever started.  */
 int bt__workers_started (const bt__workers *workers);

@@ -81,7 +81,7 @@ bt_dives_step (bt_dive *const *dives, int n, int64_t step, int threads, bt_poll 
   workers = bt__workers_new (threads);
   if (!workers)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for %d threads", threads);
-  bt__workers_run_and (workers, n, step_member, poll ? ask_about_ensemble : NULL, &e);
+  bt__workers_run (workers, n, step_member, poll ? ask_about_ensemble : NULL, &e);
   bt__workers_free (workers);
   return bt__stopped (&asker, error);
 }

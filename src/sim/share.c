@@ -173,7 +173,7 @@ run_groups (bt_dive *dive, bt__contexts *l)
                                                      : w == 0 ? ask_caller
                                                               : hear_asker,
                                              .user = l };
-  bt__workers_run_and (l->workers, l->groups, step_group, asks ? ask_meanwhile : NULL, l);
+  bt__workers_run (l->workers, l->groups, step_group, asks ? ask_meanwhile : NULL, l);
 }
 
 /* ---- Afterwards ---- */

@@ -756,7 +756,7 @@ every_task_once (void **state)
   (void)state;
   assert_int_equal (bt__workers_started (workers), 0);
   for (int round = 0; round < 300; round++)
-    bt__workers_run (workers, round % 7 == 0 ? 0 : TASKS - round, count_task, &t);
+    bt__workers_run (workers, round % 7 == 0 ? 0 : TASKS - round, count_task, NULL, &t);
   for (int k = 0, rounds = 257; k < TASKS - 300; k++)
     assert_int_equal (t.done[k], rounds);
   assert_int_equal (t.clashes, 0);
