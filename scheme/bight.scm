@@ -92,8 +92,9 @@
      load-cell payout-counter transponders fault! mend! faults thrusts sonar in-view? tether-in-view)
     ((bight dive saving) save! load-dive)
     ((bight dive recording)
-     record! stop-recording! recording? replay
-     difference? difference-step difference-time difference-quantities)
+     record! stop-recording! recording?)
+    ((bight dive replay)
+     replay difference? difference-step difference-time difference-quantities)
     ((bight dive flight) keep-flight!)
     ((bight dive frames) export-csv)
     ((bight dive export) export-npz export-vtk export-gltf)

@@ -7,7 +7,7 @@
 
 (define-module (bight core interval)
   #:use-module (srfi srfi-1)
-  #:export (t-quantile mean-of deviation-of mean-interval difference-interval))
+  #:export (t-quantile mean-of mean-interval difference-interval))
 
 (define right-angle (acos 0))
 (define most-freedom 2000)              ; beyond, Student's distribution is the normal one to three digits
@@ -39,10 +39,6 @@
 (define (variance-of values)
   (let ((m (mean-of values)))
     (/ (apply + (map (lambda (v) (* (- v m) (- v m))) values)) (- (length values) 1))))
-
-(define (deviation-of values)
-  "Return the standard deviation of VALUES, two or more, as an estimate of what they were drawn from."
-  (sqrt (variance-of values)))
 
 (define (around middle half)
   (list middle (- middle half) (+ middle half)))

@@ -13,7 +13,6 @@
   #:export (first-sentence
             sentence-of-variable
             sentence-of-name
-            sentence-of-world
             sentence-of-lesson))
 
 (define (first-sentence text)
@@ -30,10 +29,6 @@
              (or (procedure? value) (macro? value))
              (and=> ((@ (bight shell doc) docstring-of) value) first-sentence))
         "")))
-
-(define (sentence-of-world name)
-  "Return the sentence of the world NAME, or the empty string."
-  (or (world-text name) ""))
 
 (define (sentence-of-lesson name)
   "Return the title of the lesson NAME, or the empty string."

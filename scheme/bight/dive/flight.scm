@@ -10,7 +10,7 @@
   #:use-module (bight core verb)
   #:use-module (bight dive)
   #:use-module (bight dive past)
-  #:use-module ((bight dive recording) #:select (entry->line))
+  #:use-module ((bight dive entry) #:select (entry->line))
   #:use-module (bight dive story)
   #:use-module (bight engine)
   #:use-module (srfi srfi-1)

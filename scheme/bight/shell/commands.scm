@@ -226,7 +226,7 @@ bight snapshot jacket -o jacket.png"))
 
 (define (run-replay arguments)
   (call-with-one "replay" "recording" "FILE" arguments
-                 (lambda (file options) ((from (bight dive recording) replay-file) file))))
+                 (lambda (file options) ((from (bight dive replay) replay-file) file))))
 
 
 ;;; The commands: one entry each, of which all help, the manual page and the options known are made.

@@ -23,7 +23,7 @@
            (dive aware) (dive foresight) (dive in-words) (dive probe) (cockpit coach))
     (belief "a tether as it may be: what is uncertain, and what is learnt" belief (belief answer) (belief advise) (belief keeping))
     (moments "time as a value: checkpoints, forks, files"
-             (dive checkpoint) (dive saving) (dive recording) (dive flight) (dive frames) (dive export)
+             (dive checkpoint) (dive saving) (dive recording) (dive replay) (dive flight) (dive frames) (dive export)
              (world moordyn) (world orcaflex))
     (see "see it: panels, pictures, plots, films"
          view (view picture) (cockpit view) (view film) (view plot))
