@@ -11,7 +11,7 @@ typedef struct bench_child
   double seconds; /* CPU of it and of what it waited for */
   double wall;    /* s from its start to its end */
   long memory;    /* bytes: the most it had resident */
-  char out[256];  /* the beginning of its standard output */
+  char out[2000];  /* the beginning of its standard output */
 } bench_child;
 
 /* Run ARGV, found as the shell finds it, in FOLDER (NULL: here), without input, its errors unseen.

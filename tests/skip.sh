@@ -4,7 +4,7 @@
 . "$top_srcdir/tests/tap.sh"
 
 pre=$top_builddir/pre-inst-env
-heavy='/[^ ]*(librender|bight-render|libOSMesa|libGL|libEGL|libassimp|libgdal|libproj|libsqlite3|bight-sqlite|libchafa|bight-chafa|bight-pilot|libSDL2|bight-controller|bight-identify|bight-telemetry)[^ ]*'
+heavy='/[^ ]*(librender|bight-render|libOSMesa|libGL|libEGL|libassimp|libgdal|libproj|libsqlite3|bight-sqlite|libchafa|bight-chafa|bight-pilot|libSDL2|bight-controller|bight-identify|bight-telemetry|bight-sampler)[^ ]*'
 dive="(enter! (world (sea (depth 40) (current 0.3 90) (waves (airy (height 1) (period 6) (toward 90)))) (seabed)
   (box (named block) (at 10 10 -5) (size 2 2 2)) (rov (named rov) (at 0 20 -10))
   (tether (from 0 0 0) (to rov) (length 30) (model dynamic))))

@@ -27,8 +27,8 @@
 (define prefix "bight-bench-")
 
 ;; What a report without names is of, in its order; other benches run only by name.
-(define families '("statics" "dynamics" "collision" "contact" "dive" "awareness" "render" "startup" "skip"
-                   "scale"))
+(define families '("statics" "dynamics" "collision" "contact" "dive" "awareness" "render" "startup" "where"
+                   "skip" "scale"))
 
 (define (program-of folder name)
   (string-append folder "/" prefix name))
@@ -254,6 +254,7 @@
 (define (make-plan names options passed)
   ;; What is to be run: an alist.
   (let* ((all? (null? names))
+         (names (if (and (equal? names '("where")) (null? passed)) '("where" "skip") names)) ; one page
          (rounds (number-option options "--rounds" 1))
          (quick? (or all? (assoc-ref options "--quick")))
          (minutes (or (number-option options "--minutes" 0.1) 5)))
@@ -283,7 +284,7 @@
         (print-fronts (current-output-port) report)
         (for-each (lambda (bench)
                     (simple-format #t "~%~a~%" bench)
-                    (print-table (current-output-port) (rows-of report bench)))
+                    (print-bench (current-output-port) report bench))
                   (report-benches report)))
     (simple-format #t "~%All rows and plots: ~a/report.html, .txt, .csv, .json~%" folder)
     (status-of (every (lambda (name) (pair? (rows-of report name))) (plan-ref plan 'names)))))

@@ -3,12 +3,16 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight bench)
+             (bight bench bars)
              (bight bench compare)
              (bight core json)
              (bight bench plot)
              (bight bench report)
              (bight bench row)
+             (bight bench where)
              (bight core errors)
+             (ice-9 exceptions)
+             ((ice-9 ftw) #:select (scandir))
              (ice-9 textual-ports)
              (srfi srfi-1))
 
@@ -199,3 +203,67 @@ but in its strip; each plot says in words what it shows."
         (with-error-to-string
           (lambda () (set! said (status-and-words "--rounds" "1" "-o" (in-scratch "out5")))))
         (expect (car said) => 1)))))
+
+;;; Where the time goes.
+
+(define where-rows
+  (rows-from "dive,cable,,cpu,,,,750,1,share_percent=75;give_or_take=4.3;samples=75"
+             "dive,sea,,cpu,,,,250,1,share_percent=25;give_or_take=4.3;samples=25"
+             "other dive,cable,,cpu,,,,,,share_percent=0;give_or_take=0;samples=0"
+             "other dive,sea,,cpu,,,,1000,1,share_percent=100;give_or_take=0;samples=50"))
+
+(define-scenario bars-are-as-long-as-their-shares
+  "A dive is a bar; its pieces are as long as the parts' shares of CPU time, and none is drawn of a part without."
+  (let* ((rows (gather-rows (list (list (cons "where" where-rows)))))
+         (svg (bars-svg rows))
+         (pieces (filter (lambda (line) (and (string-contains line "<title>") (string-contains line "width="))) 
+                         (string-split svg #\newline)))
+         (width (lambda (line)
+                  (let ((from (+ 7 (string-contains line "width='"))))
+                    (string->number (substring line from (string-index line #\' from)))))))
+    (expect (map width pieces) => '(480.0 160.0 640.0))
+    (expect (call-with-output-string (lambda (port) (print-where port rows)))
+            => "dive, 0.0 s of CPU, in percent, give or take 4.3: cable 75, sea 25
+other dive, 0.0 s of CPU, in percent, give or take 0: sea 100\n")))
+
+(define (engine-sources)
+  ;; "FOLDER/FILE.c" of all that a dive can run.
+  (let ((src (string-append (or (getenv "top_srcdir") "..") "/src")))
+    (append-map (lambda (folder)
+                  (map (lambda (file) (string-append folder "/" file))
+                       (or (scandir (string-append src "/" folder) (lambda (file) (string-suffix? ".c" file))) '())))
+                '("aware" "base" "collide" "contact" "guile" "live" "math" "model" "sea" "sim" "tether" "vehicle" "world"))))
+
+(define-scenario every-source-has-a-part
+  "Functions of the engine belong to a part, or to whoever calls them; the name of the file decides, for a hash that of
+the function."
+  (let ((sources (engine-sources)))
+    (when (null? sources) (skip "no sources here"))
+    (expect (filter (lambda (file) (equal? "other" (part-of-function (string-append file " f")))) sources) => '()))
+  (expect (part-of-function "tether/dynamic_solve.c bt__dynamic_solve") => "cable")
+  (expect (part-of-function "contact/line_guard.c bt__guard") => "ccd")
+  (expect (part-of-function "collide/pair.c bt__pair") => #f)
+  (expect (part-of-function "world/layout.c bt__hash_state") => "recording")
+  (expect (part-of-function "world/layout.c bt__level") => "copy"))
+
+(define (samples-of thunk)
+  ;; The samples of THUNK, called until there are some.
+  (let loop ((sum '()))
+    (if (>= (fold + 0 (map cdr sum)) 40)
+        sum
+        (loop (map (lambda (entry) (cons (car entry) (+ (cdr entry) (or (assoc-ref sum (car entry)) 0))))
+                   (where-time-goes thunk))))))
+
+(define (largest samples)
+  (car (fold (lambda (entry most) (if (> (cdr entry) (cdr most)) entry most)) '("none" . 0) samples)))
+
+(define-scenario time-is-found-where-it-goes
+  "A dive of nothing but a moving line spends most of its time on the cable, one that is hashed on recording, a count on
+Scheme."
+  (in (world (sea (depth 60)) (rov (at 0 12 -20)) (tether (from -1 -12 0) (length 40) (nodes 100) (model dynamic))))
+  (drive! #:surge 0.3)
+  (guard (e ((and (bight-error? e) (eq? 'unsupported (bight-error-kind e))) (skip (bight-error-message e))))
+    (where-time-goes (lambda () (run 10))))
+  (expect (largest (samples-of (lambda () (run 10)))) => "cable")
+  (expect (largest (samples-of (lambda () (do ((i 0 (+ i 1))) ((= i 3000)) (state-hash))))) => "recording")
+  (expect (largest (samples-of (lambda () (let loop ((i 0)) (when (< i 3000000) (loop (+ i 1))))))) => "scheme"))

@@ -4,6 +4,7 @@
 
 (define-module (bight bench report)
   #:use-module (bight core json)
+  #:use-module ((bight bench bars) #:select (print-where write-where))
   #:use-module (bight bench plot)
   #:use-module (bight bench row)
   #:use-module (bight core errors)
@@ -19,7 +20,7 @@
             calibration-spread
             noise-words
             rows-of
-            print-table
+            print-bench
             print-head
             print-fronts
             short-number
@@ -174,6 +175,10 @@
     (simple-format port "A multiple is CPU time in calibration steps; +- half its spread over the rounds; \
 * on the front.~%")))
 
+(define (print-bench port report bench)
+  "Print to PORT what BENCH found in REPORT."
+  ((if (string=? bench "where") print-where print-table) port (rows-of report bench)))
+
 (define (fronts-in rows)
   ;; The fronts among ROWS, one after another, each from its cheapest point on.
   (let ((front (filter row-front? rows)))
@@ -231,7 +236,7 @@
   (print-head port report)
   (for-each (lambda (bench)
               (simple-format port "~%~a~%~%" (string-upcase bench))
-              (print-table port (rows-of report bench)))
+              (print-bench port report bench))
             (report-benches report)))
 
 (define style "body{font:14px/1.4 sans-serif;margin:2em auto;max-width:1100px;padding:0 1em;color:#24292f}\
@@ -286,6 +291,9 @@ A model is a way to compute; a setting says how finely.</p>"
 <th>fastest of those with at most a hundredth of the largest error</th><th>CPU</th></tr>"
         (string-concatenate lines) "</table>"))))
 
+(define (title-of bench)
+  (if (string=? bench "where") "Where the time goes" bench))
+
 (define (write-html port report plots)
   (simple-format port "<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>bight bench\
 </title><style>~a</style></head><body><h1>Run time against error</h1>~%~a<pre>~a</pre>~%<p>~a</p>~%"
@@ -296,7 +304,9 @@ A model is a way to compute; a setting says how finely.</p>"
                                    (report-benches report))
                               " &middot; "))
   (for-each (lambda (bench)
-              (simple-format port "<h2 id='~a'>~a</h2>~%" bench bench)
+              (simple-format port "<h2 id='~a'>~a</h2>~%" bench (title-of bench))
+              (when (string=? bench "where")
+                (write-where port (rows-of report "where") (rows-of report "skip")))
               (for-each (lambda (plot)
                           (when (string=? bench (row-bench (caar plot)))
                             (simple-format port "<figure id='~a'>~a<figcaption>~a</figcaption></figure>~%"
