@@ -35,6 +35,9 @@ void bt_dive_set_poll (bt_dive *dive, bt_poll poll, void *user);
 /* Make *COPY a second dive on the same model in the same state; the two then know nothing of each
    other.  */
 bt_status bt_dive_fork (const bt_dive *dive, bt_dive **copy, bt_error *error);
+/* Let FORK, any dive on the same model that is no longer needed, be what bt_dive_fork would make of
+   DIVE, in the memory that FORK has.  BT_ERR_STALE if the models differ.  */
+bt_status bt_dive_fork_again (bt_dive *fork, const bt_dive *dive, bt_error *error);
 
 enum
 {

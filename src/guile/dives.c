@@ -10,11 +10,22 @@
 
 static scm_t_bits dive_tag;
 
-bt__handle *
-bt__to_handle (SCM object)
+static void wake (bt__handle *handle);
+
+static bt__handle *
+handle_of (SCM object)
 {
   scm_assert_smob_type (dive_tag, object);
   return (bt__handle *)SCM_SMOB_DATA (object);
+}
+
+bt__handle *
+bt__to_handle (SCM object)
+{
+  bt__handle *handle = handle_of (object);
+  if (scm_is_true (handle->rest))
+    wake (handle);
+  return handle;
 }
 
 /* Bring the copy that answers questions of a live dive up to the latest published state.  */
@@ -62,6 +73,10 @@ bt__new_handle (SCM function)
   handle->live = NULL;
   handle->flown = NULL;
   handle->edition = 0;
+  handle->spare = NULL;
+  handle->rest = SCM_BOOL_F;
+  handle->origin = SCM_BOOL_F;
+  handle->carried = 0;
   handle->host = SCM_BOOL_F;
   handle->thrown = SCM_BOOL_F;
   handle->looked = 0;
@@ -85,6 +100,7 @@ free_dive (SCM object)
   else
     bt_live_stop (handle->live, NULL);
   bt_dive_free (handle->flown);
+  bt_dive_free (handle->spare);
   bt_dive_free (handle->dive);
   return 0;
 }
@@ -105,20 +121,89 @@ is_dive (SCM object)
   return scm_from_bool (SCM_SMOB_PREDICATE (dive_tag, object));
 }
 
+/* ---- Forks ---- */
+
+/* A fork of what ORIGIN has, in the memory that an earlier fork left if there is some.  */
+static bt_dive *
+make_fork (SCM origin)
+{
+  bt_dive *dive = bt__to_dive (origin), *fork = bt__to_handle (origin)->spare;
+  bt_error error;
+  bt__to_handle (origin)->spare = NULL;
+  if (fork && bt_dive_fork_again (fork, dive, &error) == BT_OK)
+    return fork;
+  bt_dive_free (fork);
+  scm_run_finalizers (); /* forks come and go by the thousand */
+  bt__check ("what-if", bt_dive_fork (dive, &fork, &error), &error);
+  scm_gc_register_allocation (2 * bt_dive_state_size (fork)); /* as if the collector's */
+  return fork;
+}
+
+/* Let HANDLE have DIVE, a fork.  */
+static void
+hold (bt__handle *handle, bt_dive *dive)
+{
+  int asks = scm_is_true (scm_procedure_p (handle->function));
+  handle->dive = dive;
+  bt_dive_set_poll (dive, bt__ask_guile, handle);
+  bt_dive_set_current_function (dive, asks ? bt__call_current : NULL, handle);
+}
+
 static SCM
 fork_dive (SCM object)
 {
-  bt_error error;
   bt__handle *origin = bt__to_handle (object), *copy = bt__new_handle (origin->function);
-  int asks = scm_is_true (scm_procedure_p (origin->function));
-  scm_run_finalizers (); /* forks come and go by the thousand */
-  bt__check ("what-if", bt_dive_fork (bt__to_dive (object), &copy->dive, &error), &error);
-  scm_gc_register_allocation (2 * bt_dive_state_size (copy->dive)); /* as if the collector's */
-  bt_dive_set_poll (copy->dive, bt__ask_guile, copy);
   copy->journal = origin->journal;
   copy->serial = origin->serial;
-  bt_dive_set_current_function (copy->dive, asks ? bt__call_current : NULL, copy);
+  hold (copy, make_fork (object));
   return bt__from_handle (copy);
+}
+
+static int
+tracks_of (const bt_dive *dive)
+{
+  const double *rows;
+  int n = 0;
+  while (bt_dive_track (dive, n, &rows) > 0)
+    n++;
+  return n;
+}
+
+/* Only the state of OBJECT is kept; its memory is what the next fork of ORIGIN is made in.  Whoever
+   has a hand on OBJECT still may ask it: it wakes then, its counters begin anew.  What is more than
+   its state, as a live dive is, stays awake.  */
+static SCM
+rest_fork (SCM object, SCM origin)
+{
+  bt__handle *fork = bt__to_handle (object), *from = bt__to_handle (origin);
+  if (fork->live || fork->asking || scm_is_true (fork->host) || bt_dive_threads (fork->dive) > 1
+      || tracks_of (fork->dive) != tracks_of (bt__to_dive (origin)))
+    return SCM_BOOL_F;
+  SCM bytes = scm_c_make_bytevector (bt_dive_keep_size (fork->dive));
+  bt_dive_keep (fork->dive, SCM_BYTEVECTOR_CONTENTS (bytes));
+  fork->carried = bt_dive_carried (fork->dive);
+  fork->rest = bytes;
+  fork->origin = origin;
+  bt_dive_free (from->spare);
+  from->spare = fork->dive;
+  fork->dive = NULL;
+  return SCM_BOOL_T;
+}
+
+static void
+wake (bt__handle *handle)
+{
+  SCM bytes = handle->rest;
+  bt_error error;
+  hold (handle, make_fork (handle->origin));
+  handle->rest = SCM_BOOL_F;
+  bt__check ("what-if",
+             bt_dive_restore (handle->dive, SCM_BYTEVECTOR_CONTENTS (bytes),
+                              SCM_BYTEVECTOR_LENGTH (bytes), &error),
+             &error);
+  bt_dive_carry (handle->dive, handle->carried);
+  handle->origin = SCM_BOOL_F;
+  scm_remember_upto_here_1 (bytes);
 }
 
 /* ---- Time ---- */
@@ -342,6 +427,9 @@ bt__define_dives (void)
     { "%set-threads!", 2, 0, (scm_t_subr)set_threads, "Let up to N threads step DIVE." },
     { "%threads", 1, 0, (scm_t_subr)threads, "Return how many may." },
     { "%most-threads", 0, 0, (scm_t_subr)most_threads, "Return the most there can be." },
+    { "%rest-fork!", 2, 0, (scm_t_subr)rest_fork,
+      "Keep only the state of the fork DIVE of ORIGIN until it is asked again; return #f if it is "
+      "more than its state." },
     { "%save-dive", 1, 0, (scm_t_subr)save_dive, "Return the state of DIVE, a bytevector." },
     { "%keep-dive", 1, 0, (scm_t_subr)keep_dive,
       "Return the state of DIVE, a bytevector that takes no more than what is in use." },

@@ -54,6 +54,10 @@ typedef struct bt__handle
   bt_live *live;    /* or NULL */
   bt_dive *flown;   /* the dive itself while it is live: the thread's */
   uint64_t edition; /* of what DIVE is a copy of */
+  bt_dive *spare;   /* what the next fork may be made in, or NULL */
+  SCM rest;         /* of a fork that rests, DIVE being NULL: its state, a bytevector; else #f */
+  SCM origin;       /* and the dive it is a fork of */
+  double carried;   /* and s of time asked for and not yet stepped */
   SCM host;         /* the handle whose live dive this one shares, or #f */
   SCM thrown;       /* (KEY . ARGS) while the engine gives up what was interrupted, else #f */
   double looked;    /* s: when it was last looked whether something waits */
@@ -87,6 +91,9 @@ void bt__lock_sharing (void);
 void bt__unlock_sharing (void);
 /* The bt_current_function that calls a Scheme procedure; USER is the handle.  */
 void bt__call_current (void *user, bt_vec3 p, double t, bt_vec3 *v);
+
+/* The symbol of NAME, a text that stays where it is.  */
+SCM bt__symbol (const char *name);
 
 /* Put the association (NAME . VALUE), NAME as a symbol, in front of the list REST.  */
 SCM bt__associate (const char *name, SCM value, SCM rest);

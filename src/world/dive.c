@@ -238,13 +238,20 @@ release_track (bt__track *track)
     free (track);
 }
 
+static void
+release_tracks (bt_dive *dive)
+{
+  for (int i = 0; i < dive->n_tracks; i++)
+    release_track (dive->tracks[i]);
+  dive->n_tracks = 0;
+}
+
 void
 bt_dive_free (bt_dive *dive)
 {
   if (!dive)
     return;
-  for (int i = 0; i < dive->n_tracks; i++)
-    release_track (dive->tracks[i]);
+  release_tracks (dive);
   bt_search_free (dive->tools.search);
   bt_steady_free (dive->tools.steady);
   bt__dynamic_work_free (dive->work);
@@ -265,13 +272,10 @@ bt_dive_free (bt_dive *dive)
   free (dive);
 }
 
-bt_status
-bt_dive_fork (const bt_dive *dive, bt_dive **copy, bt_error *error)
+/* Let FORK, whose memory is as that of a new dive, be what DIVE is.  */
+static void
+take_after (bt_dive *fork, const bt_dive *dive)
 {
-  bt_dive *fork;
-  bt_status status = bt__dive_alloc (dive->model, &fork, error);
-  if (status != BT_OK)
-    return status;
   bt__copy_state (dive, fork->now, dive->now);
   fork->function = dive->function;
   fork->user = dive->user;
@@ -283,7 +287,36 @@ bt_dive_fork (const bt_dive *dive, bt_dive **copy, bt_error *error)
       atomic_fetch_add (&fork->tracks[i]->references, 1);
     }
   bt__watch_share (dive, fork);
-  *copy = fork;
+}
+
+bt_status
+bt_dive_fork (const bt_dive *dive, bt_dive **copy, bt_error *error)
+{
+  bt_status status = bt__dive_alloc (dive->model, copy, error);
+  if (status == BT_OK)
+    take_after (*copy, dive);
+  return status;
+}
+
+bt_status
+bt_dive_fork_again (bt_dive *fork, const bt_dive *dive, bt_error *error)
+{
+  if (fork->model != dive->model)
+    return bt__fail (error, BT_ERR_STALE, "a fork of one dive cannot become that of another");
+  bt_status status = bt_dive_set_threads (fork, 1, error);
+  if (status != BT_OK)
+    return status;
+  release_tracks (fork);
+  bt__watch_free_all (fork->watch);
+  fork->watch = NULL;
+  memset (fork->alike, 0, BT__STORES + (size_t)dive->model->n_tethers);
+  memset (&fork->counts, 0, sizeof fork->counts);
+  memset (&fork->profile, 0, sizeof fork->profile);
+  memset (&fork->contact_work.count, 0, sizeof fork->contact_work.count);
+  fork->contact_work.thesis.solves = fork->contact_work.thesis.skips = 0;
+  bt_dive_set_poll (fork, NULL, NULL);
+  fork->changes++;
+  take_after (fork, dive);
   return BT_OK;
 }
 

@@ -473,3 +473,52 @@ SPARED."
   (expect (logbook) raises format)
   (setenv "BIGHT_LOGBOOK" "/dev/null/logbook.db")
   (expect (logbook) raises io))
+
+(define (fly-on! seconds)
+  (drive! #:surge 0.6 #:yaw 0.15)
+  (run seconds)
+  (state-hash))
+
+(define-scenario (forks-are-made-in-the-memory-of-forks place)
+  "What comes of a fork does not depend on what was flown before in its memory: contacts, winches, static lines, waves."
+  #:for ((place 'jacket 'pile 'open-water 'wreck))
+  (in (with place (sea (waves (airy (height 1) (period 6) (toward 90))))))
+  (run 1)
+  (let* ((here (state-hash)) (first (what-if (fly-on! 3))))
+    (what-if (pay-out! 2) (drive! #:surge -1 #:heave -0.5) (run 5))
+    (what-if (expect (state-hash) => here) (what-if (fly-on! 2)) (expect (state-hash) => here))
+    (expect (what-if (fly-on! 3)) => first)
+    (expect (state-hash) => here)
+    (expect (fly-on! 3) => first)))
+
+(define-scenario a-fork-that-rests-can-be-asked
+  "Whoever keeps a fork beyond its what-if finds the fork as it was left, also while another fork is flown in its
+memory: state, remainder of time, journal; and it goes on as if it had never rested."
+  (in pile)
+  (run 1)
+  (let* ((kept '()) (keep! (lambda () (set! kept (cons (current-dive) kept)) (state-hash)))
+         (left (what-if (fly-on! 2) (run 0.01) (keep!)))
+         (other (what-if (drive! #:sway 1) (run 1) (keep!)))
+         (gone-on (what-if (fly-on! 2) (run 0.01) (run 0.01) (fly-on! 1))))
+    (what-if
+     (run 0.5)
+     (let ((mine (state-hash)))
+       (expect (map (lambda (dive) (with-dive dive (state-hash))) kept) => (list other left))
+       (expect (state-hash) => mine)))
+    (with-dive (second kept)
+      (run 0.01)
+      (expect (fly-on! 1) => gone-on)
+      (expect (what-if (run 1) (rewind! 1) (state-hash)) => (state-hash)))
+    (expect (now) is (about 1 #:within 1e-9))))
+
+(define-scenario forks-that-are-more-than-a-state-do-not-rest
+  "A fork with a track of its own, or with threads, is kept as it is."
+  (in open-water)
+  (let ((kept #f))
+    (what-if (follow! '((0 0 15 -8) (10 5 15 -8))) (threads! 2) (run 1) (set! kept (current-dive)))
+    (let ((here (with-dive kept (state-hash))) (next (what-if (run 3) (state-hash))))
+      (expect (with-dive kept (threads)) => 2)
+      (expect (with-dive kept (state-hash)) => here)
+      (with-dive kept (run 1))
+      (run 3)
+      (expect (state-hash) => next))))

@@ -145,10 +145,12 @@ he stood.  Return the time."
 (define-verb (what-if-thunk (thunk thunk))
   "Call THUNK with a fork of the dive as the current one, and return what it returns.  The dive itself is
 untouched."
-  (let ((fork (fork-dive (this-dive 'what-if))))
+  (let* ((dive (this-dive 'what-if)) (fork (fork-dive dive)))
     (copy-tasks! fork)
-    (parameterize ((current-dive fork))
-      (thunk))))
+    (call-with-values (lambda () (parameterize ((current-dive fork)) (thunk)))
+      (lambda results
+        (%rest-fork! (engine-of fork) (engine-of dive))
+        (apply values results)))))
 
 (define-syntax-rule (what-if body body* ...)
   "Evaluate the body on a fork of the dive, and leave the dive itself untouched."
