@@ -297,7 +297,11 @@
          (ys (map second points))
          (mx (mean xs))
          (my (mean ys))
-         (moment (lambda (as ma bs mb) (apply + (map (lambda (a b) (* (- a ma) (- b mb))) as bs))))
+         (moment (lambda (as ma bs mb)
+                   (let loop ((as as) (bs bs) (sum 0))
+                     (if (null? as)
+                         sum
+                         (loop (cdr as) (cdr bs) (+ sum (* (- (car as) ma) (- (car bs) mb))))))))
          (angle (* 1/2 (atan (* 2 (moment xs mx ys my))
                              (- (moment xs mx xs mx) (moment ys my ys my)))))
          (forward (+ (* (cos angle) (- (last xs) (first xs)))
@@ -320,11 +324,19 @@
 
 ;;; Fitting.
 
+(define (call-with-extremes numbers receive)
+  ;; What RECEIVE returns for the least and the greatest of NUMBERS.
+  (let loop ((rest (cdr numbers)) (least (car numbers)) (most (car numbers)))
+    (if (null? rest)
+        (receive least most)
+        (let ((x (car rest)))
+          (loop (cdr rest) (if (< x least) x least) (if (> x most) x most))))))
+
 (define (extent numbers)
-  (- (apply max numbers) (apply min numbers)))
+  (call-with-extremes numbers (lambda (least most) (- most least))))
 
 (define (middle numbers)
-  (/ (+ (apply max numbers) (apply min numbers)) 2))
+  (call-with-extremes numbers (lambda (least most) (/ (+ most least) 2))))
 
 (define (middle-of places)
   (cons (middle (map car places)) (middle (map cdr places))))
@@ -341,10 +353,10 @@
   ;; The levels, surface and sea bed below the first vehicle, that are near enough to be shown with PLACES.
   (let* ((heights (map cdr places))
          (reach (max 3 (extent heights) (* 1/2 (extent (map car places))))))
-    (filter (lambda (level)
-              (and level
-                   (< (- (apply min heights) reach) level (+ (apply max heights) reach))))
-            (list 0 (apply (scene-bed scene) (take (car (scene-vehicles scene)) 2))))))
+    (call-with-extremes heights
+      (lambda (least most)
+        (filter (lambda (level) (and level (< (- least reach) level (+ most reach))))
+                (list 0 (apply (scene-bed scene) (take (car (scene-vehicles scene)) 2))))))))
 
 (define (with-levels levels places)
   (append (map (lambda (level) (cons (car (car places)) level)) levels) places))
@@ -451,7 +463,8 @@
 
 (define (box-of points)
   ;; The least and the greatest coordinates of POINTS.
-  (map (lambda (pick) (apply map (lambda xs (apply pick xs)) points)) (list min max)))
+  (apply map list
+         (map (lambda (coordinate) (call-with-extremes (map coordinate points) list)) (list first second third))))
 
 (define (gap-to box point)
   (sqrt (apply + (map (lambda (low high x) (expt (max 0 (- low x) (- x high)) 2))
@@ -465,13 +478,13 @@
 
 (define (places-of-structure scene)
   ;; Points of the structure that belong in a drawing of SCENE.
-  (let* ((box (box-of (scene-points scene)))
-         (size (max 1 (size-of box)))
-         (lines (filter pair? (scene-outlines scene)))
-         (gaps (map (lambda (line) (apply min (map (lambda (p) (gap-to box p)) line))) lines)))
+  (let ((lines (filter pair? (scene-outlines scene))))
     (if (null? lines)
         '()
-        (let* ((nearest (apply min gaps))
+        (let* ((box (box-of (scene-points scene)))
+               (size (max 1 (size-of box)))
+               (gaps (map (lambda (line) (apply min (map (lambda (p) (gap-to box p)) line))) lines))
+               (nearest (apply min gaps))
                (line (list-ref lines (list-index (lambda (gap) (= gap nearest)) gaps)))
                (reach (if (< (/ size 6) nearest size)
                           (+ nearest (min (size-of (box-of line)) (/ size 2)))
@@ -485,13 +498,14 @@
   (let* ((columns (- (quotient (- width 1) 2) 2))
          (bearing (main-direction scene))
          (project (from-the-side bearing (car (scene-points scene))))
-         (points (if at (list at) (append (scene-points scene) (places-of-structure scene))))
+         (all (append (scene-points scene) (places-of-structure scene)))
+         (points (if at (list at) all))
          (above (map from-above points))
          (beside (map project points))
          (levels (if (or at extent) '() (near-levels scene beside)))
          (step (/ (if extent
                       (/ extent columns)
-                      (step-to-fit scene project columns levels))
+                      (step-to-fit (if at (map from-above all) above) (if at (map project all) beside) columns levels))
                   zoom)))
     (append (let ((top (top-panel scene above columns panel-rows step)))
               (if side?
@@ -501,11 +515,10 @@
                   top))
             (list (string-append " " (legend scene step columns))))))
 
-(define (step-to-fit scene project columns levels)
-  ;; The metres a column spans when all of SCENE is drawn.
-  (let ((points (append (scene-points scene) (places-of-structure scene))))
-    (max (step-for (map from-above points) columns panel-rows)
-         (step-for (with-levels levels (map project points)) columns panel-rows))))
+(define (step-to-fit above beside columns levels)
+  ;; The metres a column spans when the places of both drawings are in them.
+  (max (step-for above columns panel-rows)
+       (step-for (with-levels levels beside) columns panel-rows)))
 
 ;; False where a pupil is to see the view from above alone, whatever he asks for.
 (define side-shown? (make-parameter #t))

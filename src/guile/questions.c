@@ -59,24 +59,73 @@ current_numbers (SCM object)
   return from_doubles (args, (size_t)bt_current_pack (&current, args));
 }
 
+/* What is told of a vehicle, in this order.  */
+static const char *const vehicle_answers[]
+    = { "position", "velocity", "heading",  "pitch", "roll",
+        "turns",    "sticks",   "arrived?", "held?", "surge-speed" };
+
+enum
+{
+  VEHICLE_ANSWERS = sizeof vehicle_answers / sizeof *vehicle_answers
+};
+
 static SCM
-vehicle (SCM object, SCM index)
+vehicle_answer (const bt_vehicle_view *v, int k)
+{
+  switch (k)
+    {
+    case 0:
+      return bt__from_point (v->position);
+    case 1:
+      return bt__from_point (v->velocity);
+    case 2:
+      return scm_from_double (v->heading * DEGREES);
+    case 3:
+      return scm_from_double (v->pitch * DEGREES);
+    case 4:
+      return scm_from_double (v->roll * DEGREES);
+    case 5:
+      return scm_from_double (v->turns);
+    case 6:
+      return from_doubles (v->sticks, 4);
+    case 7:
+      return scm_from_bool (v->arrived);
+    case 8:
+      return scm_from_bool (v->held);
+    default:
+      return scm_from_double (v->speeds[0]);
+    }
+}
+
+static bt_vehicle_view
+vehicle_view (SCM object, SCM index)
 {
   bt_vehicle_view v;
   bt_error error;
-  SCM list = SCM_EOL;
   bt__check ("rov-position", bt_dive_vehicle (bt__to_dive (object), scm_to_int (index), &v, &error),
              &error);
-  list = bt__associate ("surge-speed", scm_from_double (v.speeds[0]), list);
-  list = bt__associate ("held?", scm_from_bool (v.held), list);
-  list = bt__associate ("arrived?", scm_from_bool (v.arrived), list);
-  list = bt__associate ("sticks", from_doubles (v.sticks, 4), list);
-  list = bt__associate ("turns", scm_from_double (v.turns), list);
-  list = bt__associate ("roll", scm_from_double (v.roll * DEGREES), list);
-  list = bt__associate ("pitch", scm_from_double (v.pitch * DEGREES), list);
-  list = bt__associate ("heading", scm_from_double (v.heading * DEGREES), list);
-  list = bt__associate ("velocity", bt__from_point (v.velocity), list);
-  return bt__associate ("position", bt__from_point (v.position), list);
+  return v;
+}
+
+static SCM
+vehicle (SCM object, SCM index)
+{
+  bt_vehicle_view v = vehicle_view (object, index);
+  SCM list = SCM_EOL;
+  for (int k = VEHICLE_ANSWERS; k-- > 0;)
+    list = bt__associate (vehicle_answers[k], vehicle_answer (&v, k), list);
+  return list;
+}
+
+/* One of them: to make all for one takes as long as a third of a step.  */
+static SCM
+vehicle_value (SCM object, SCM index, SCM key)
+{
+  bt_vehicle_view v = vehicle_view (object, index);
+  for (int k = 0; k < VEHICLE_ANSWERS; k++)
+    if (scm_is_eq (key, bt__symbol (vehicle_answers[k])))
+      return vehicle_answer (&v, k);
+  return SCM_BOOL_F;
 }
 
 /* ---- Tethers ---- */
@@ -90,27 +139,75 @@ tether_view (const char *who, SCM object, SCM index)
   return view;
 }
 
+/* What is told of a tether, in this order.  */
+static const char *const tether_answers[]
+    = { "length",        "target",   "chord",   "tension-anchor", "tension-end", "tension-max",
+        "tension-error", "force",    "vehicle", "taut?",          "spooling?",   "parted?",
+        "asleep?",       "blocked?", "stuck?",  "settled?" };
+
+enum
+{
+  TETHER_ANSWERS = sizeof tether_answers / sizeof *tether_answers
+};
+
+static SCM
+tether_answer (const bt_tether_view *t, int k)
+{
+  switch (k)
+    {
+    case 0:
+      return scm_from_double (t->length);
+    case 1:
+      return scm_from_double (t->target);
+    case 2:
+      return scm_from_double (t->chord);
+    case 3:
+      return scm_from_double (t->tension_anchor);
+    case 4:
+      return scm_from_double (t->tension_end);
+    case 5:
+      return scm_from_double (t->tension_max);
+    case 6:
+      return scm_from_double (t->tension_error);
+    case 7:
+      return bt__from_point (t->force);
+    case 8:
+      return t->vehicle < 0 ? SCM_BOOL_F : scm_from_int (t->vehicle);
+    case 9:
+      return scm_from_bool (t->taut);
+    case 10:
+      return scm_from_bool (t->spooling);
+    case 11:
+      return scm_from_bool (t->parted);
+    case 12:
+      return scm_from_bool (t->asleep);
+    case 13:
+      return scm_from_bool (t->blocked);
+    case 14:
+      return scm_from_bool (t->stuck);
+    default:
+      return scm_from_bool (t->settled);
+    }
+}
+
 static SCM
 tether (SCM object, SCM index)
 {
   bt_tether_view t = tether_view ("tether-length", object, index);
   SCM list = SCM_EOL;
-  list = bt__associate ("settled?", scm_from_bool (t.settled), list);
-  list = bt__associate ("stuck?", scm_from_bool (t.stuck), list);
-  list = bt__associate ("blocked?", scm_from_bool (t.blocked), list);
-  list = bt__associate ("asleep?", scm_from_bool (t.asleep), list);
-  list = bt__associate ("parted?", scm_from_bool (t.parted), list);
-  list = bt__associate ("spooling?", scm_from_bool (t.spooling), list);
-  list = bt__associate ("taut?", scm_from_bool (t.taut), list);
-  list = bt__associate ("vehicle", t.vehicle < 0 ? SCM_BOOL_F : scm_from_int (t.vehicle), list);
-  list = bt__associate ("force", bt__from_point (t.force), list);
-  list = bt__associate ("tension-error", scm_from_double (t.tension_error), list);
-  list = bt__associate ("tension-max", scm_from_double (t.tension_max), list);
-  list = bt__associate ("tension-end", scm_from_double (t.tension_end), list);
-  list = bt__associate ("tension-anchor", scm_from_double (t.tension_anchor), list);
-  list = bt__associate ("chord", scm_from_double (t.chord), list);
-  list = bt__associate ("target", scm_from_double (t.target), list);
-  return bt__associate ("length", scm_from_double (t.length), list);
+  for (int k = TETHER_ANSWERS; k-- > 0;)
+    list = bt__associate (tether_answers[k], tether_answer (&t, k), list);
+  return list;
+}
+
+static SCM
+tether_value (SCM object, SCM index, SCM key)
+{
+  bt_tether_view t = tether_view ("tether-length", object, index);
+  for (int k = 0; k < TETHER_ANSWERS; k++)
+    if (scm_is_eq (key, bt__symbol (tether_answers[k])))
+      return tether_answer (&t, k);
+  return SCM_BOOL_F;
 }
 
 static SCM
@@ -395,7 +492,11 @@ bt__define_questions (void)
       "Return the current of DIVE as the numbers of the operation `current', an f64vector." },
     { "%sea", 1, 0, (scm_t_subr)sea, "Return depth, density and gravity of DIVE's sea, an alist." },
     { "%vehicle", 2, 0, (scm_t_subr)vehicle, "Return the INDEX-th vehicle of DIVE, an alist." },
+    { "%vehicle-value", 3, 0, (scm_t_subr)vehicle_value,
+      "Return what KEY is in the alist of the INDEX-th vehicle of DIVE." },
     { "%tether", 2, 0, (scm_t_subr)tether, "Return the INDEX-th tether of DIVE, an alist." },
+    { "%tether-value", 3, 0, (scm_t_subr)tether_value,
+      "Return what KEY is in the alist of the INDEX-th tether of DIVE." },
     { "%tether-properties", 2, 0, (scm_t_subr)properties,
       "Return the properties of the INDEX-th tether of DIVE, an alist by field." },
     { "%error-estimate", 2, 0, (scm_t_subr)error_estimate,

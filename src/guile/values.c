@@ -82,8 +82,8 @@ intern (const char *name, size_t at)
   return symbol;
 }
 
-static SCM
-symbol_of (const char *name)
+SCM
+bt__symbol (const char *name)
 {
   size_t at = ((uintptr_t)name * 0x9e3779b1u >> 8) % NAMES;
   for (size_t i = at; i < at + TRIES; i++)
@@ -95,7 +95,7 @@ symbol_of (const char *name)
 SCM
 bt__associate (const char *name, SCM value, SCM rest)
 {
-  return scm_acons (symbol_of (name), value, rest);
+  return scm_acons (bt__symbol (name), value, rest);
 }
 
 SCM

@@ -25,21 +25,18 @@
             places-of deviation deviation-rms deviation-mean deviation-max deviation-worst deviation?
             events profile parts find-part part-to-alter tether-properties obstacle-properties))
 
-(define (vehicle-view proc v)
-  (%vehicle (this-engine proc) v))
-
 (define (tether-view proc t)
   (%tether (this-engine proc) t))
 
 (define-syntax-rule (define-vehicle-question (name key) doc)
   (define-verb (name #:subject (v vehicle))
     doc
-    (assq-ref (vehicle-view 'name v) 'key)))
+    (%vehicle-value (this-engine 'name) v 'key)))
 
 (define-syntax-rule (define-tether-question (name key) doc)
   (define-verb (name #:subject (t tether))
     doc
-    (assq-ref (tether-view 'name t) 'key)))
+    (%tether-value (this-engine 'name) t 'key)))
 
 
 ;;; The vehicle.
@@ -80,10 +77,10 @@ part `seabed'."
 
 (define-verb (rov-speed #:subject (v vehicle))
   "Return the speed of the vehicle over ground, m/s."
-  (norm (assq-ref (vehicle-view 'rov-speed v) 'velocity)))
+  (norm (%vehicle-value (this-engine 'rov-speed) v 'velocity)))
 
 (define (rov-position-of proc v)
-  (assq-ref (vehicle-view proc v) 'position))
+  (%vehicle-value (this-engine proc) v 'position))
 
 (define-verb (range-to #:subject (v vehicle) (p point))
   "Return the distance from the vehicle to the point P, m."

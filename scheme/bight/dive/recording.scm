@@ -182,7 +182,6 @@
 (define (handler r)
   (lambda (event)
     (case event
-      ((step) (note-step! r))
       ((pause) (pause! r))
       ((jump) (jump! r))
       ((live) (go-along! r))

@@ -12,29 +12,27 @@
   #:use-module (bight core verb)
   #:use-module (bight dive)
   #:use-module (bight engine)
-  #:use-module ((srfi srfi-1) #:select (remove))
+  #:use-module ((srfi srfi-1) #:select (fold remove))
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:export (every every-seconds on cancel!
             add-task! remove-task! steered? task-state set-task-state!
             add-step-watcher! remove-step-watcher!
-            idle? run-tasks!
+            idle? steps-until-due run-tasks!
             copy-tasks! tasks-state restore-tasks!))
 
 (define-record <task>
-  (%make-task name poll state origin steers)
+  (%make-task name poll state origin steers due)
   task?
   (name task-name)                      ; a string
   (poll task-poll)                      ; called with the task after each step
   (state task-state set-task-state!)
   (origin task-origin)                  ; the task it is a copy of, or #f
-  (steers task-steers))                 ; the vehicle that it steers until it is done, or #f
-
-(define (make-task name poll state steers)
-  (%make-task name poll state #f steers))
+  (steers task-steers)                  ; the vehicle that it steers until it is done, or #f
+  (due task-due))                       ; from its state to the step before which it does nothing, or #f
 
 (define (copy-task task state)
   ;; TASK for another dive or another time, in STATE.
-  (%make-task (task-name task) (task-poll task) state (original task) (task-steers task)))
+  (%make-task (task-name task) (task-poll task) state (original task) (task-steers task) (task-due task)))
 
 (define (original task)
   (or (task-origin task) task))
@@ -50,12 +48,12 @@
   "what `every' or `on' returned"
   (if (task? value) value refused))
 
-(define* (add-task! proc name poll state #:optional (steers #f))
-  "Call POLL with the new task after each step of the current dive.  NAME, a string, shows it; STATE is
-what it begins with; STEERS is the vehicle that is on its way until the task is done.  Return the task.  Raise
-a &bight-error from PROC when there is no dive."
+(define* (add-task! proc name poll state #:optional (steers #f) #:key (due #f))
+  "Call POLL with the new task after each step of the current dive; given DUE, after those steps at least from DUE of
+its state on.  NAME, a string, shows it; STATE is what it begins with; STEERS is the vehicle that is on its way until
+the task is done.  Return the task.  Raise a &bight-error from PROC when there is no dive."
   (let ((dive (this-dive proc))
-        (task (make-task name poll state steers)))
+        (task (%make-task name poll state #f steers due)))
     (set-dive-tasks! dive (append (dive-tasks dive) (list task)))
     task))
 
@@ -76,9 +74,13 @@ a &bight-error from PROC when there is no dive."
 ;; A drift of a millionth of a step is rounding, not time.
 (define rounding 1e-6)
 
+(define (step-due at)
+  ;; The first whole step at which a timed task in the state AT runs.
+  (inexact->exact (ceiling (- at rounding))))
+
 (define (run-when-due task thunk period)
   ;; The state of a timed task is the step, perhaps fractional, at which it is due.
-  (when (>= (+ (%dive-steps (this-engine 'every)) rounding) (task-state task))
+  (when (>= (%dive-steps (this-engine 'every)) (step-due (task-state task)))
     (set-task-state! task (+ (task-state task) period))
     (thunk)
     (run-when-due task thunk period)))
@@ -93,7 +95,8 @@ a &bight-error from PROC when there is no dive."
                    (%dive-time-step engine)))
     (add-task! 'every (simple-format #f "every ~a s" seconds)
                (lambda (task) (run-when-due task thunk period))
-               (+ (%dive-steps engine) period))))
+               (+ (%dive-steps engine) period)
+               #:due step-due)))
 
 (define-syntax-rule (every seconds body body* ...)
   "Evaluate the body every SECONDS of dive time from now on, between steps; return a handle."
@@ -148,6 +151,15 @@ handle for `cancel!'."
 (define (idle? dive)
   "Return #t if nothing runs between the steps of DIVE."
   (and (null? (dive-tasks dive)) (null? (dive-watchers dive))))
+
+(define (steps-until-due dive most)
+  "Return how many steps of DIVE to take, 1 to MOST, before something that runs between them has anything to do."
+  (define (steps-of task)
+    (let ((due (task-due task)))
+      (if due (max 1 (- (due (task-state task)) (%dive-steps (engine-of dive)))) 1)))
+  (if (null? (dive-watchers dive))
+      (fold (lambda (task n) (min n (steps-of task))) most (dive-tasks dive))
+      1))
 
 (define (run-tasks! dive)
   "Run what is due after a step of DIVE, the current dive."

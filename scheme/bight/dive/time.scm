@@ -30,25 +30,25 @@
     (when past
       (set-dive-past! dive (past-with-moment past (engine-of dive) (lambda () (tasks-state dive)))))))
 
-(define (step-and-tell! dive recorder)
-  (let ((engine (engine-of dive)))
-    (%step-dive! engine 1)
-    (when recorder (recorder 'step))
-    (unless (idle? dive)
-      (run-tasks! dive)
-      (note-tasks! dive (%dive-steps engine)))))
+(define (take-and-tell! dive n)
+  (let ((recorder (dive-recorder dive)))
+    (if recorder
+        (recorder n)
+        (%step-dive! (engine-of dive) n))))
 
 (define (step-stretch! dive n)
-  (let ((engine (engine-of dive)) (recorder (dive-recorder dive)))
-    (note-tasks! dive (+ 1 (%dive-steps engine)))
-    (cond ((not (idle? dive))
-           (do ((i 0 (+ i 1)))
-               ((= i n))
-             (step-and-tell! dive recorder)))
-          (recorder (recorder n))
-          (else (%step-dive! engine n)))
-    (keep-moment! dive)
-    (when recorder (recorder 'pause))))
+  ;; N steps; what runs between them runs when it is due.
+  (note-tasks! dive (+ 1 (%dive-steps (engine-of dive))))
+  (let loop ((left n))
+    (when (> left 0)
+      (let ((k (if (idle? dive) left (steps-until-due dive left))))
+        (take-and-tell! dive k)
+        (unless (idle? dive)
+          (run-tasks! dive)
+          (note-tasks! dive (%dive-steps (engine-of dive))))
+        (loop (- left k)))))
+  (keep-moment! dive)
+  (when (dive-recorder dive) ((dive-recorder dive) 'pause)))
 
 (define (next-stretch dive left)
   ;; How many of the LEFT steps to take before the next look: to the end of a second.
