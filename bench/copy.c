@@ -4,8 +4,6 @@
    An order to a vehicle is written to the present state; the counter `times_copied' is its cost
    beside that of the same order as an operation on a copy of the whole state, by turns in the same
    run, and the error the number of rounds after which the two dives differ.
-   Obstacles 500 m away are not copied; `times_bare' is the median over the rounds of what a step of
-   the scene `bare' of the bench `skip' among them costs beside the bare one in the same round.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -107,75 +105,21 @@ all_orders (bench_table *t, long most, int rounds)
   say_orders (t, "64 lines of 50", &s, rounds);
 }
 
-/* ---- Obstacles far away ---- */
-
-/* Begin the bare dive among N bars, each by itself, 500 m away and farther.  */
-static bt_dive *
-begin_far (scene *s, int n)
-{
-  bt_obstacle_def *o = calloc ((size_t)n + 1, sizeof *o);
-  if (!o)
-    exit (EXIT_FAILURE);
-  one_line (s, 100);
-  for (int i = 0; i < n; i++)
-    {
-      bt_vec3 at = bt__vec (500 + 10 * (i % 300), 10 * (int)(i / 300), 0);
-      bt_def_init (bt_head_find ("capsule"), &o[i]);
-      snprintf (o[i].name, sizeof o[i].name, "bar-%d", i);
-      o[i].from = bt__add (at, bt__vec (0, 0, -30));
-      o[i].to = at;
-      o[i].radius = 1;
-    }
-  s->world.obstacles = o;
-  s->world.n_obstacles = n;
-  bt_dive *dive = scene_begin (s);
-  free (o);
-  return dive;
-}
-
-static void
-all_obstacles (bench_table *t, long most, int rounds)
-{
-  static scene s;
-  static double ratio[ROUNDS_MAX], seconds[ROUNDS_MAX];
-  char setting[40], counters[80];
-  for (int n = 1; n <= most; n *= 10)
-    {
-      bt_dive *bare = begin_far (&s, 0), *far = begin_far (&s, n);
-      scene_fly (bare, 1, 0, WARM);
-      scene_fly (far, 1, 0, WARM);
-      for (int r = 0; r < rounds; r++)
-        {
-          double alone = scene_fly (bare, 1, WARM + (long)r * TURN, TURN);
-          seconds[r] = scene_fly (far, 1, WARM + (long)r * TURN, TURN);
-          ratio[r] = seconds[r] / alone;
-        }
-      snprintf (setting, sizeof setting, "%d far away", n);
-      snprintf (counters, sizeof counters, "times_bare=%.3f", bench_median (ratio, rounds));
-      bench_put (t, &(bench_row){ "obstacles", "dynamic", setting, "cpu", NAN, NULL, 0,
-                                  bench_median (seconds, rounds), counters });
-      bt_dive_free (bare);
-      bt_dive_free (far);
-    }
-}
-
 int
 main (int argc, char **argv)
 {
-  long rounds = 51, nodes = 10000, obstacles = 100000;
+  long rounds = 51, nodes = 10000;
   const bench_option options[] = {
     { "rounds", &rounds, 1, ROUNDS_MAX, 15, "rounds of each pair" },
     { "nodes", &nodes, 100, 100000, 1000, "most intervals of a line" },
-    { "obstacles", &obstacles, 1, 1000000, 1000, "most obstacles far away" },
   };
   const bench_program program
-      = { "copy", "Measure what is copied of a state, and what is not", options, 3 };
+      = { "copy", "Measure what is copied of a state, and what is not", options, 2 };
   int status = bench_options (&program, argc, argv);
   if (status != BENCH_GO_ON)
     return status;
   bench_table table;
   bench_open (&table);
   all_orders (&table, nodes, (int)rounds);
-  all_obstacles (&table, obstacles, (int)rounds);
   return bench_close (&table);
 }

@@ -6,7 +6,9 @@
    the model and the dive (of triangles, the model) take from the system's allocator, for one of
    what grows; it is the only number here that is not better for being closer to something else.
 
-   The same of what moves the water, waves and lees of piles: scale_sea.h.
+   The same of what moves the water, waves and lees of piles: scale_sea.h; of obstacles far away,
+   contacts, and forks stepped side by side: scale_many.h.  The counter `n' is what a row has so
+   many of; the report draws CPU time over `n', case by case, with the exponent that fits.
 
    The same vehicles stepped by several threads, in open water and each line pressed to a post,
    beside a dive of one thread: by turns, a few steps each.  The error is the number of turns after
@@ -26,6 +28,7 @@
 #include "math/vec.h"
 #include "options.h"
 #include "row.h"
+#include "scale_many.h"
 #include "scale_sea.h"
 #include "testbed/scene.h"
 
@@ -80,14 +83,14 @@ measure (const scene *s, int flown, int steps)
 static void
 say (bench_table *t, const char *name, long n, const char *what, double bytes, const size *z)
 {
-  char setting[60], metric[60], counters[240];
+  char setting[60], metric[60], counters[260];
   snprintf (setting, sizeof setting, "%ld %s", n, what);
   snprintf (metric, sizeof metric, "bytes for one of %s", what);
   snprintf (counters, sizeof counters,
-            "step_ns_each=%.4g;load_ns_each=%.4g;model_kB=%.4g;dive_kB=%.4g;solves=%.2f;"
+            "n=%ld;step_ns_each=%.4g;load_ns_each=%.4g;model_kB=%.4g;dive_kB=%.4g;solves=%.2f;"
             "touches=%.1f",
-            1e9 * z->step / (double)n, 1e9 * z->load / (double)n, 1e-3 * z->model, 1e-3 * z->dive,
-            (double)z->profile.chain_solves / (double)z->profile.steps,
+            n, 1e9 * z->step / (double)n, 1e9 * z->load / (double)n, 1e-3 * z->model,
+            1e-3 * z->dive, (double)z->profile.chain_solves / (double)z->profile.steps,
             (double)z->profile.touches / (double)z->profile.steps);
   bench_put (t, &(bench_row){ name, "dynamic", setting, metric, bytes / (double)n, NULL, 0, z->step,
                               counters });
@@ -99,16 +102,18 @@ steps_for (double work, double of)
   return (int)fmax (5, fmin (600, of / work));
 }
 
-/* The line sinks: one that floats lies crumpled on the surface, and its links on each other.  */
+/* The line sinks: one that floats lies crumpled on the surface, and its links on each other.  No
+   link is shorter than the line is thick.  */
 static void
 scale_nodes (bench_table *t, long most, double work)
 {
   static scene s;
   for (long n = 2; n <= most; n = n == 2 ? 10 : 10 * n)
     {
+      double length = fmax (60, 0.01 * (double)n), reach = 25 * length / 60;
       scene_clear (&s);
-      scene_vehicle (&s, bt__vec (0, 25, -20));
-      scene_line (&s, bt__vec (0, -25, 0), 60, (int)n)->props.mass = 0.05;
+      scene_vehicle (&s, bt__vec (0, reach, -20));
+      scene_line (&s, bt__vec (0, -reach, 0), length, (int)n)->props.mass = 0.05;
       size z = measure (&s, 1, steps_for ((double)n, work));
       say (t, "nodes", n, "intervals", z.model + z.dive, &z);
     }
@@ -240,17 +245,21 @@ scale_threads (bench_table *t, long most, double work)
 int
 main (int argc, char **argv)
 {
-  long nodes = 10000, vehicles = 64, triangles = 1000000, work = 60000, rounds = 15, piles = 10000;
+  long nodes = 10000, vehicles = 64, triangles = 1000000, work = 60000, rounds = 15, piles = 10000,
+       obstacles = 100000, contacts = 1000, members = 1000;
   const bench_option options[] = {
     { "nodes", &nodes, 2, BT_NODES_MAX, 0, "intervals of the longest line" },
     { "vehicles", &vehicles, 1, BT_VEHICLES_MAX, 0, "vehicles of the fullest scene" },
     { "triangles", &triangles, 1000, 10000000, 100000, "triangles of the finest mesh" },
     { "work", &work, 1, 100000000, 10000, "steps times intervals of a round" },
     { "piles", &piles, 10, 10000, 100, "piles of the fullest sea" },
-    { "rounds", &rounds, 1, 101, 3, "turns in waves and lees" },
+    { "obstacles", &obstacles, 1, BT_OBSTACLES_MAX, 1000, "most obstacles far away" },
+    { "contacts", &contacts, 10, BT_NODES_MAX, 100, "intervals of the longest line that lies" },
+    { "members", &members, 1, 10000, 10, "most forks stepped side by side" },
+    { "rounds", &rounds, 1, 101, 3, "turns in waves, lees and beside obstacles" },
   };
   const bench_program program
-      = { "scale", "Measure how a dive grows with what is in it", options, 6 };
+      = { "scale", "Measure how a dive grows with what is in it", options, 9 };
   int status = bench_options (&program, argc, argv);
   if (status != BENCH_GO_ON)
     return status;
@@ -262,5 +271,8 @@ main (int argc, char **argv)
   scale_threads (&table, vehicles, (double)work);
   scale_waves (&table, (int)rounds);
   scale_lees (&table, piles, (int)rounds);
+  scale_obstacles (&table, obstacles, (int)rounds);
+  scale_contacts (&table, contacts, (double)work);
+  scale_members (&table, members, (double)work);
   return bench_close (&table);
 }

@@ -104,11 +104,13 @@ fly_waves (bench_table *t, int components, double accuracy, int rounds)
   join (&f, s);
   take_turns (&f, rounds);
   snprintf (setting, sizeof setting, "%d components within %g", components, accuracy);
-  snprintf (counters, sizeof counters, "times_calm=%.3f;exact_times_calm=%.3f;flown_s=%.0f",
-            times_first (&f, 1, rounds), times_first (&f, 2, rounds), rounds * TURN / 60.0);
-  bench_put (t, &(bench_row){ "waves", "dynamic", setting, "m from the exact sea",
-                              line_apart (f.dive[1], f.dive[2]), "each node by itself", 0,
-                              bench_median (f.seconds[1], rounds), counters });
+  snprintf (counters, sizeof counters, "n=%d;times_calm=%.3f;exact_times_calm=%.3f;flown_s=%.0f",
+            components, times_first (&f, 1, rounds), times_first (&f, 2, rounds),
+            rounds * TURN / 60.0);
+  bench_put (t, &(bench_row){ accuracy == 1e-4 ? "waves" : "waves, other accuracy", "dynamic",
+                              setting, "m from the exact sea", line_apart (f.dive[1], f.dive[2]),
+                              "each node by itself", 0, bench_median (f.seconds[1], rounds),
+                              counters });
   leave (&f);
 }
 
@@ -165,7 +167,7 @@ fly_lees (bench_table *t, long n, int rounds)
   take_turns (&f, rounds);
   snprintf (setting, sizeof setting, "%ld piles with lees", n);
   snprintf (counters, sizeof counters,
-            "times_open=%.3f;without_lees_times_open=%.3f;lees_ns=%.0f;load_s=%.4f",
+            "n=%ld;times_open=%.3f;without_lees_times_open=%.3f;lees_ns=%.0f;load_s=%.4f", n,
             times_first (&f, 2, rounds), times_first (&f, 1, rounds),
             1e9 * (bench_median (f.seconds[2], rounds) - bench_median (f.seconds[1], rounds)),
             f.load[2]);

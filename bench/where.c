@@ -127,8 +127,8 @@ say_account (bench_table *t, const char *dive, const account *a)
       double p = a->part[i].samples / all;
       snprintf (counters, sizeof counters, "share_percent=%.2f;give_or_take=%.2f;samples=%.0f",
                 100 * p, 100 * sqrt (p * (1 - p) / all), a->part[i].samples);
-      bench_put (t, &(bench_row){ dive, a->part[i].name, "", "cpu", NAN, NULL, 0, p * a->cpu,
-                                  counters });
+      bench_put (
+          t, &(bench_row){ dive, a->part[i].name, "", "cpu", NAN, NULL, 0, p * a->cpu, counters });
     }
 }
 
@@ -157,8 +157,7 @@ int
 main (int argc, char **argv)
 {
   long times = 4;
-  const bench_option options[]
-      = { { "times", &times, 1, 1000, 1, "times each dive is flown" } };
+  const bench_option options[] = { { "times", &times, 1, 1000, 1, "times each dive is flown" } };
   const bench_program program
       = { "where", "Tell which part of bight has the CPU time of a dive", options, 1 };
   int status = bench_options (&program, argc, argv), seen = 0;

@@ -5,6 +5,7 @@
 (use-modules (bight bench)
              (bight bench bars)
              (bight bench compare)
+             (bight bench growth)
              (bight core json)
              (bight bench plot)
              (bight bench report)
@@ -267,3 +268,22 @@ Scheme."
   (expect (largest (samples-of (lambda () (run 10)))) => "cable")
   (expect (largest (samples-of (lambda () (do ((i 0 (+ i 1))) ((= i 3000)) (state-hash))))) => "recording")
   (expect (largest (samples-of (lambda () (let loop ((i 0)) (when (< i 3000000) (loop (+ i 1))))))) => "scheme"))
+
+
+;;; Growth.
+
+(define-scenario exponents-are-fitted
+  "The exponent of a power is found, that of what has a fixed cost too is below that of its last sizes; cases without
+three sizes have none."
+  (let ((of (lambda (f sizes) (map (lambda (n) (cons n (f n))) sizes))))
+    (expect (fit-exponent (of (lambda (n) (* 3 (expt n 1.5))) '(1 10 100))) is (about 1.5 #:within 1e-9))
+    (expect (fit-exponent (of (lambda (n) (+ 1000 n)) '(1 10 100 1000 10000))) is (below 0.9)))
+  (let ((rows (gather-rows (list (list (cons "scale" (rows-from "nodes,d,a,cpu,,,,100,1,n=10;solves=1"
+                                                                "nodes,d,b,cpu,,,,10000,1,solves=1;n=1000"
+                                                                "nodes,d,c,cpu,,,,1000,1,n=100"
+                                                                "piles,d,d,cpu,,,,100,1,n=10"
+                                                                "piles,d,e,cpu,,,,100,1,n=20"
+                                                                "threads,d,f,cpu,,,,100,1,speed_up=2")))))))
+    (expect (growth-of rows) => '(("nodes" (10 . 100) (100 . 1000) (1000 . 10000))))
+    (expect (call-with-output-string (lambda (port) (print-growth port rows)))
+            => "nodes, 10 to 1000: exponent 1.0; of the last two sizes 1.0\n")))

@@ -13,7 +13,8 @@
   #:use-module ((bight core decimal) #:select (text->number))
   #:use-module ((bight core markup) #:select (as-xml))
   #:use-module (srfi srfi-1)
-  #:export (plots-of plot-file plot-sentence call-with-svg color-of draw-line draw-text tenth))
+  #:export (plots-of plot-file plot-sentence call-with-svg color-of draw-line draw-text tenth
+            draw-on-decades))
 
 (define width 760)
 (define height 440)
@@ -78,7 +79,7 @@ fill='white'/>~%"
 (define (power k)
   (simple-format #f "1e~a" (inexact->exact k)))
 
-(define (draw-axes port xs ys x y metric)
+(define* (draw-axes port xs ys x y metric #:optional (along "CPU time, in steps of the calibration kernel"))
   (let ((floor-y (- height bottom)) (end-x (- width right)))
     (for-each (lambda (k)
                 (let ((at (x (expt 10 k))))
@@ -90,10 +91,19 @@ fill='white'/>~%"
                   (draw-line port left at end-x at "stroke='#d0d7de'")
                   (draw-text port (- left 6) (+ at 4) (power k) "text-anchor='end'")))
               (tics ys))
-    (draw-text port (/ (+ left end-x) 2) (- height 16) "CPU time, in steps of the calibration kernel"
-          "text-anchor='middle'")
+    (draw-text port (/ (+ left end-x) 2) (- height 16) along "text-anchor='middle'")
     (draw-text port 0 0 metric "text-anchor='middle'"
           (simple-format #f "transform='translate(18 ~a) rotate(-90)'" (tenth (/ (+ top floor-y) 2))))))
+
+(define (draw-on-decades title across up along metric draw)
+  "Return the SVG of axes with decades for the numbers ACROSS, called ALONG, and UP, called METRIC, under TITLE, and of
+what DRAW draws: it is given the port and two procedures, from numbers to their places."
+  (let* ((xs (decades across)) (ys (decades up))
+         (x (scale xs left (- width right))) (y (scale ys (- height bottom) top)))
+    (call-with-svg title
+      (lambda (port)
+        (draw-axes port xs ys x y metric along)
+        (draw port x y)))))
 
 
 ;;; Fronts.

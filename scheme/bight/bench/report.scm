@@ -5,6 +5,7 @@
 (define-module (bight bench report)
   #:use-module (bight core json)
   #:use-module ((bight bench bars) #:select (print-where write-where))
+  #:use-module ((bight bench growth) #:select (print-growth write-growth))
   #:use-module (bight bench plot)
   #:use-module (bight bench row)
   #:use-module (bight core errors)
@@ -177,7 +178,8 @@
 
 (define (print-bench port report bench)
   "Print to PORT what BENCH found in REPORT."
-  ((if (string=? bench "where") print-where print-table) port (rows-of report bench)))
+  ((if (string=? bench "where") print-where print-table) port (rows-of report bench))
+  (print-growth port (rows-of report bench)))
 
 (define (fronts-in rows)
   ;; The fronts among ROWS, one after another, each from its cheapest point on.
@@ -312,6 +314,7 @@ A model is a way to compute; a setting says how finely.</p>"
                             (simple-format port "<figure id='~a'>~a<figcaption>~a</figcaption></figure>~%"
                                            (plot-file (car plot)) (cdr plot) (as-xml (plot-sentence (car plot))))))
                         plots)
+              (write-growth port (rows-of report bench))
               (simple-format port "<details><summary>~a rows</summary>~%" (length (rows-of report bench)))
               (write-html-table port (rows-of report bench))
               (display "</details>\n" port))
