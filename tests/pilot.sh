@@ -98,6 +98,25 @@ result $? 'one too small for a picture costs none later'
 keys q
 check 'q leaves a terminal as it was' sane
 
+# ---- A belief ----
+
+begin 120 40 COLORTERM=truecolor
+keys "bight pilot pile --belief '(current (error 0.1))' --tethers 8" Enter
+see 'P(wound) 0.* of 8 tethers'
+result $? 'what a belief holds is told'
+keys x
+see ':::*.'
+result $? 'and its tubes stand in plain characters'
+keys c
+see 'the belief is not shown'
+result $? 'until they are not wanted'
+keys q
+sane >/dev/null
+begin 100 30 COLORTERM=
+keys "bight pilot pile --belief '(current (eror 0.1))'" Enter
+see 'eror'
+result $? 'a belief that is none is refused, and nothing begins'
+
 # ---- Other ways out ----
 
 begin 80 24 COLORTERM= TERM=screen-256color

@@ -10,6 +10,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight cockpit)
+  #:use-module (bight cockpit believed)
   #:use-module (bight cockpit cells)
   #:use-module (bight cockpit controller)
   #:use-module (bight cockpit desk)
@@ -22,6 +23,7 @@
   #:use-module (bight dive query)
   #:use-module (bight dive time)
   #:use-module (bight engine)
+  #:use-module ((bight view tube) #:select (draw-beneath))
   #:use-module ((bight world) #:select (world-name))
   #:use-module (ice-9 regex)
   #:use-module (srfi srfi-1)
@@ -87,16 +89,23 @@ fall in it."
 (define (marks-vector marks)
   (apply f64vector (append-map (lambda (mark) (list (x (cdr mark)) (y (cdr mark)) (z (cdr mark)))) marks)))
 
+(define (picture-size c)
+  (cons (car (cockpit-size c)) (* 2 (cdr (cockpit-size c)))))
+
+(define (pixels-with c places)
+  ;; The picture; PLACES, an f64vector of points, receives where they fall in it.
+  (let ((ghost (cockpit-ghost c)))
+    (frame-pixels (engine-of (cockpit-dive c)) (view-turned c) (cockpit-paint c) (cockpit-size c)
+                  (if (cockpit-lamp? c) '(lamp) '()) (and (dive? ghost) (engine-of ghost)) places)))
+
 (define (draw-picture! c)
   ;; Return the marks with where they fall: lists (NAME COLUMN ROW).
-  (let ((ghost (cockpit-ghost c)) (size (cockpit-size c)) (marks (shown-marks c)))
+  (let ((marks (shown-marks c)) (drawing (believed-drawing c)) (size (picture-size c)))
     (let ((places (marks-vector marks)))
       (%screen-picture! (cockpit-screen c)
-                        (frame-pixels (engine-of (cockpit-dive c)) (view-turned c)
-                                      (cockpit-paint c) size
-                                      (if (cockpit-lamp? c) '(lamp) '())
-                                      (and (dive? ghost) (engine-of ghost))
-                                      places))
+                        (if drawing
+                            (draw-beneath drawing size places (lambda (places) (pixels-with c places)))
+                            (pixels-with c places)))
       (filter-map (lambda (mark i)
                     (and (= 1 (f64vector-ref places (+ 2 (* 3 i))))
                          (list (car mark) (cell (f64vector-ref places (* 3 i)))
@@ -111,7 +120,7 @@ fall in it."
 (define (draw-plainly! c put)
   (let ((columns (max 40 (min 160 (car (cockpit-size c))))) (t (clock)))
     (when (> t (cdr (cockpit-characters c)))
-      (set-characters! c (cons ((from (bight view) picture-lines) ((from (bight view) look) #:columns columns))
+      (set-characters! c (cons ((from (bight view) scene-lines-with) (believed-drawing c) columns)
                                (+ t plain-period))))
     (put-lines put 0 2 (car (cockpit-characters c)) #xd0e0e0 0)))
 
@@ -168,7 +177,8 @@ fall in it."
            (when (> t (cockpit-plan-due c))
              (set-plan! c (trying c ((from (bight view) plan-lines) (car size) (cdr size)
                                      (map (lambda (target i) (cons (letter-of i) (cdr target)))
-                                          ((cockpit-targets c)) (iota (length ((cockpit-targets c))))))))
+                                          ((cockpit-targets c)) (iota (length ((cockpit-targets c)))))
+                                     (believed-drawing c))))
              (set-plan-due! c (+ t map-period)))
            (let ((lines (or (cockpit-plan c) '())))
              (put-lines put (- (car (cockpit-size c)) (car size)) row lines white #x081820)
@@ -248,7 +258,8 @@ fall in it."
               (cockpit-slow c)
               `((title . ,(title c)) (right . ,(right-text c)) (urgent? . ,(or telling? typing?))
                 (message . ,(if (and telling? (not typing?)) (cockpit-message c) hint))
-                (ahead . ,(if (and telling? typing?) (cons (cockpit-message c) (cockpit-ahead c)) (cockpit-ahead c)))
+                (ahead . ,(append (if (and telling? typing?) (list (cockpit-message c)) '())
+                                  (believed-lines c) (cockpit-ahead c)))
                 (words . ,(cockpit-words c)) (top . ,top)
                 (sticks . ,(sticks-now c))))))
 
@@ -291,6 +302,7 @@ there is nothing to tell, or, a line that is TYPING?, whatever is told."
                         ((cockpit-panel c) put (car (cockpit-size c)) (cdr (cockpit-size c))))
                    2)))
       (trying c (ask-what-is-due! c))
+      (look-at-belief! c)
       (draw-map! c put top)
       (trying c (draw-figures! c put top hint typing?)))
     (draw-marks! put marks)))
@@ -416,6 +428,7 @@ there is nothing to tell, or, a line that is TYPING?, whatever is told."
     ((#\y) (set-lamp! c (not (cockpit-lamp? c))) #t)
     ((#\z) (set-map! c (not (cockpit-map? c))) (set-plan-due! c 0) #t)
     ((#\f) (set-words! c (not (cockpit-words? c))) (set-ahead-due! c 0) (set-said! c #f) #t)
+    ((#\c) (toggle-belief! c) #t)
     ((#\?) (set-help! c (not (cockpit-help? c))) #t)
     ((#\page) (look-anew! c) #t)        ; ^L
     ((#\sub) (suspend! c) #t)

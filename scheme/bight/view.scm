@@ -29,6 +29,7 @@
             picture-lines
             lines->picture
             plan-lines
+            scene-lines-with
             terminal-columns
             scene?
             canvas?))
@@ -249,11 +250,11 @@
 (define (in-tube name)
   (module-ref (resolve-interface '(bight view tube)) name))
 
-(define (tubes-believed)
-  (append-map (lambda (share mark) (map (lambda (tube) (cons mark tube)) ((in-tube 'believed-tubes) share)))
-              '(0.9 0.5) '(#\. #\:)))
+(define (marked-tubes drawing)
+  (map (lambda (tube) (cons (if (> (car tube) 0.5) #\. #\:) (cdr tube))) ((in-tube 'drawing-tubes) drawing)))
 
-(define* (read-scene #:optional belief?)
+(define* (read-scene #:optional drawing)
+  ;; With the tubes of DRAWING, what a belief holds possible, if it is not #f.
   (let ((vehicles (vehicles 'look))
         (tethers (tethers 'look)))
     (when (null? vehicles)
@@ -266,7 +267,7 @@
                 (map rov-heading vehicles)
                 (point->list (current-at (rov-position (car vehicles))))
                 (bed-of 'look)
-                (if belief? (tubes-believed) '()))))
+                (if drawing (marked-tubes drawing) '()))))
 
 (define sky 1000)                       ; m: the bed is looked for from here down
 
@@ -415,10 +416,10 @@
     (draw-scene! canvas scene from-above heading-mark)
     (frame "from above, north up" (canvas->lines canvas) columns)))
 
-(define (plan-lines columns rows marks)
+(define* (plan-lines columns rows marks #:optional drawing)
   "Return the present dive from above, north up, as ROWS lines of COLUMNS, the last with the scale; MARKS is a list of
-(CHARACTER . POINT) that are in it."
-  (let* ((scene (read-scene))
+(CHARACTER . POINT) that are in it, and DRAWING what a belief holds possible, or #f."
+  (let* ((scene (read-scene drawing))
          (spots (map (lambda (mark) (from-above (point->list (cdr mark)))) marks))
          (places (append (map from-above (scene-points scene)) spots))
          (step (step-for places columns (- rows 1)))
@@ -532,7 +533,12 @@ another point for the middle, EXTENT how many metres each drawing spans, ZOOM ho
 is.  With BELIEF what the current belief holds possible is in it: : where a tether is with 50 %, . with 90 %.  The drawing is COLUMNS wide, by default as wide as the terminal.  Return a picture, which prints as
 text."
   (let ((width (inexact->exact (floor (or columns (max 40 (min 160 (terminal-columns))))))))
-    (lines->picture (draw (read-scene belief) width (and side (side-shown?)) (and at (array->list at)) extent zoom))))
+    (lines->picture (draw (read-scene (and belief ((in-tube 'read-drawing) #:lines? #f))) width (and side (side-shown?))
+                          (and at (array->list at)) extent zoom))))
+
+(define (scene-lines-with drawing columns)
+  "Return what `look' draws in COLUMNS, a list of strings, with DRAWING, what a belief holds possible, or #f."
+  (picture-lines (lines->picture (draw (read-scene drawing) columns (side-shown?) #f #f 1))))
 
 
 ;;; The panel of figures.  A row is a title and its cells; what the dive cannot tell is left out.

@@ -22,7 +22,8 @@
             set-targets! cockpit-labels set-labels! cockpit-panel set-panel! cockpit-dark? set-dark!
             cockpit-sent set-sent! cockpit-live? set-live! cockpit-stepped set-stepped! cockpit-orbit set-orbit!
             cockpit-held-at set-held-at! cockpit-releases? set-releases! cockpit-characters
-            set-characters!))
+            set-characters! cockpit-belief? set-belief?! cockpit-believed set-believed! cockpit-believed-due
+            set-believed-due!))
 
 (define frame 1/30)                     ; s
 
@@ -36,7 +37,8 @@
 (define-record <cockpit>
   (make-cockpit palette ascii? dive vehicle tether screen size view paint plain? lamp? help? words? map? sticks
                 message message-until slow slow-due ahead words ahead-due plan plan-due
-                paused? ghost ghost-name ghost-fork done? times targets labels panel dark? orbit held-at releases? characters sent live? stepped)
+                paused? ghost ghost-name ghost-fork done? times targets labels panel dark? orbit held-at releases? characters
+                belief? believed believed-due sent live? stepped)
   cockpit?
   (palette cockpit-palette)
   (ascii? cockpit-ascii?)
@@ -76,6 +78,9 @@
   (held-at cockpit-held-at set-held-at!) ; (COLUMN . ROW) where the mouse was last, its button down; or #f
   (releases? cockpit-releases? set-releases!) ; the terminal tells when keys come up
   (characters cockpit-characters set-characters!) ; the plain drawing and until when it is shown, a pair
+  (belief? cockpit-belief? set-belief?!) ; the belief of the dive is shown, where there is one
+  (believed cockpit-believed set-believed!) ; what that was when it was asked last, or #f
+  (believed-due cockpit-believed-due set-believed-due!)
   ;; For its owner:
   (sent cockpit-sent set-sent!)         ; the stick values that the vehicle was told last, or #f
   (live? cockpit-live? set-live!)       ; #f: the owner's loop steps the dive
@@ -87,7 +92,7 @@
 (define (new-cockpit palette view paint)
   "Return a cockpit without a dive, for a terminal of PALETTE, that shows VIEW with tethers painted by PAINT."
   (make-cockpit palette (ascii-terminal?) #f #f #f #f #f view paint (eq? palette 'none) #f #f #t #f (new-sticks)
-                "" 0 '((windings) (warnings)) 0 '() #f 0 '() 0 #f #f "what if" #f #f '() (const '()) '() #f #f #f #f #f '(() . 0) #f #f (clock)))
+                "" 0 '((windings) (warnings)) 0 '() #f 0 '() 0 #f #f "what if" #f #f '() (const '()) '() #f #f #f #f #f '(() . 0) #t #f 0 #f #f (clock)))
 
 (define (board! c dive)
   "Let C show DIVE, and ask of it anew."
@@ -104,7 +109,9 @@
   (set-said! c #f)
   (set-slow-due! c 0)
   (set-ahead-due! c 0)
-  (set-plan-due! c 0))
+  (set-plan-due! c 0)
+  (set-believed! c #f)
+  (set-believed-due! c 0))
 
 (define (look-anew! c)
   "Let the next frame be written whole."

@@ -8,7 +8,10 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight cockpit view)
+  #:use-module (bight belief)
+  #:use-module (bight belief clauses)
   #:use-module (bight cockpit)
+  #:use-module (bight cockpit believed)
   #:use-module (bight cockpit cells)
   #:use-module (bight cockpit controller)
   #:use-module (bight cockpit controls)
@@ -215,6 +218,7 @@
       (look-ahead! c)
       (attend-instructor! c)
       (draw-frame! c hint)
+      (and=> (belief-alarm! c) (lambda (text) (announce! c text)))
       (let* ((next (max (clock) (+ due frame))))
         (let wait ()
           (take-keys! c (- next (clock)))
@@ -254,9 +258,16 @@ at which it was left."
 (define (pilot-world world options)
   "Start a dive in WORLD, a name or a file, and fly it, with OPTIONS of the command line, an alist."
   ((from (bight dive) enter!) world #:trust (assoc-ref options "--trust"))
+  (believe-as-asked! options)
   (call-with-controllers (assoc-ref options "--controller") (assoc-ref options "--mapping")
     (lambda ()
       (call-with-desk (assoc-ref options "--instructor") (lambda () (fly-as-asked options))))))
+
+(define (believe-as-asked! options)
+  (let ((text (assoc-ref options "--belief")))
+    (when text
+      (current-belief (make-belief (current-dive) (clauses-from 'pilot! text)
+                                   #:members (tethers-from 'pilot! (assoc-ref options "--tethers")))))))
 
 (define (fly-as-asked options)
   (apply pilot!

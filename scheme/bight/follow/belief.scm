@@ -9,8 +9,9 @@
 (define-module (bight follow belief)
   #:use-module (bight belief)
   #:use-module (bight belief answer)
+  #:use-module (bight belief clauses)
+  #:use-module (bight belief level)
   #:use-module (bight belief unknowns)
-  #:use-module ((bight core datum) #:select (text->datum))
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight dive)
@@ -18,7 +19,6 @@
   #:use-module (bight dive in-words)
   #:use-module (bight telemetry reading)
   #:use-module (bight world)
-  #:use-module ((ice-9 textual-ports) #:select (get-string-n))
   #:use-module (srfi srfi-1)
   #:export (make-watch watch? watch-begins! watch-sees! watch-alarms! watch-line watch-hash))
 
@@ -31,30 +31,13 @@
   (tether watch-tether)                 ; a name
   (belief watch-belief set-watch-belief!) ; or #f: the dive has not begun, or the belief has ended
   (end watch-end set-watch-end!)        ; why it ended, a string, or #f
-  (level watch-level set-watch-level!)  ; the highest of `levels' that was reached and told
+  (level watch-level set-watch-level!)  ; that was told last, as (bight belief level) counts
   (last watch-last set-watch-last!)     ; the probability when it was asked last
   (taken watch-taken set-watch-taken!)
   (impossible watch-impossible set-watch-impossible!))
 
 
 ;;; What is uncertain.
-
-(define most-characters 100000)
-
-(define (file-text file)
-  (catch 'system-error
-    (lambda () (call-with-input-file file (lambda (port) (get-string-n port most-characters)) #:encoding "UTF-8"))
-    (lambda args
-      (bight-raise 'io 'follow "cannot read ~s: ~a" file (strerror (system-error-errno args))))))
-
-(define (clauses-from text)
-  ;; The clauses in TEXT, or in the file of that name.
-  (let* ((text (if (string-prefix? "(" (string-trim text)) text (file-text text)))
-         (data (and (string? text) (text->datum (string-append "(" text "\n)")))))
-    (unless (pair? data)
-      (bight-raise 'format 'follow "a belief is told by clauses, such as (current (error 0.1)) \
-(line (cdn (uniform 1 1.6))), or by a file of them"))
-    data))
 
 (define (check-clauses world clauses)
   ;; An error in them is told before anything comes.
@@ -66,7 +49,7 @@
   "Return what will carry a belief of MEMBERS tethers in a dive in WORLD, of what TEXT, clauses or the name of a file of
 them, says is uncertain.  TETHER, a name or #f, is the one whose tension is told, and NOISE the standard deviation of
 that, N.  Raise a &bight-error where TEXT does not fit the world."
-  (let ((clauses (clauses-from text)))
+  (let ((clauses (clauses-from 'follow text)))
     (unless tether
       (bight-raise 'def 'follow "the vehicle of this world has no tether to believe anything of"))
     (check-clauses world clauses)
@@ -104,12 +87,6 @@ that, N.  Raise a &bight-error where TEXT does not fit the world."
 
 ;;; Alarms.
 
-(define levels '(0.1 0.3 0.6 0.9))      ; of the probability that the tether is wound: each is told once on the way up
-
-(define (level-of p) (count (lambda (level) (>= p level)) levels))
-
-(define (hundredths p) (/ (round (* 100 p)) 100.0))
-
 (define (fouled-now watch)
   (answer-probability (ask-belief (watch-belief watch) (lambda () (fouled? (watch-tether watch))))))
 
@@ -128,13 +105,12 @@ that, N.  Raise a &bight-error where TEXT does not fit the world."
       '()))
 
 (define (alarms-at! watch p)
-  (let ((level (level-of p)) (before (watch-level watch)))
+  (let* ((before (watch-level watch)) (after (level-after before p)) (said (level-said before after p)))
     (set-watch-last! watch p)
-    (set-watch-level! watch (if (> level before) level (if (< (* 2 p) (list-ref (cons 0 levels) before)) level before)))
-    (cond ((> (watch-level watch) before)
-           (list (simple-format #f "BELIEF: P(wound) ~a and rising~a" (hundredths p) (way-back watch))))
-          ((< (watch-level watch) before) (list (simple-format #f "BELIEF: P(wound) ~a and falling." (hundredths p))))
-          (else '()))))
+    (set-watch-level! watch after)
+    (cond ((not said) '())
+          ((> after before) (list (string-append "BELIEF: " said (way-back watch))))
+          (else (list (string-append "BELIEF: " said "."))))))
 
 
 ;;; In words.

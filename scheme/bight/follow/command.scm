@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight follow command)
+  #:use-module (bight belief clauses)
   #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight dive checkpoint)
@@ -68,12 +69,6 @@
     (for-each (lambda (signal) (sigaction signal (lambda (signal) (set! stop? #t)))) (list SIGINT SIGTERM SIGHUP))
     (lambda () stop?)))
 
-(define (whole-of name text default low high)
-  (let ((n (if text (text->number text) default)))
-    (unless (and (exact-integer? n) (<= low n high))
-      (bight-raise 'domain 'follow "~a is a whole number from ~a to ~a, not ~s" name low high text))
-    n))
-
 (define (newtons-of text default)
   (let ((n (if text (text->number text) default)))
     (unless (and (real? n) (finite? n) (> n 0))
@@ -84,7 +79,7 @@
   ;; What the session is to believe: (TEXT MEMBERS NOISE), or #f.
   (let ((text (assoc-ref options "--belief")))
     (and text
-         (list text (whole-of "--tethers" (assoc-ref options "--tethers") 32 8 4096)
+         (list text (tethers-from 'follow (assoc-ref options "--tethers"))
                (newtons-of (assoc-ref options "--tension-noise") 1.0)))))
 
 (define (session-of name options tell)

@@ -321,6 +321,8 @@ bight snapshot jacket -o jacket.png"))
             '("--instructor SOCKET" "let an instructor in at SOCKET: bight instruct SOCKET")
             '("--controller C" "fly by game controllers too: any, or the file of what bight controller recorded")
             '("--mapping FILE" "what their axes and buttons do")
+            '("--belief B" "show a belief: clauses as (current (error 0.1)) says them, or a file of these")
+            '("--tethers N" "how many tethers the belief has; 32 when left out")
             '("--trust" "let a file from outside do all that you may"))
    (command "controller" show-controllers ""
             '("show which game controllers there are, and what each axis and button does as it is moved, until C-c")

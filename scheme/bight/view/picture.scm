@@ -217,7 +217,8 @@
     (apply (renders proc '%draw) (and (not (string=? "plan" (view-name view))) (renderer proc))
            (this-engine proc) (title-of view) view size paint flags (if (null? marks) '() (cons #f marks))))
   (if (memq 'belief flags)
-      ((module-ref (resolve-interface '(bight view tube)) 'draw-over) draw-it size)
+      (let ((tube (resolve-interface '(bight view tube))))
+        ((module-ref tube 'draw-over) draw-it size ((module-ref tube 'read-drawing))))
       (draw-it)))
 
 (define (put! whole width part size column row)

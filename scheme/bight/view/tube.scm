@@ -11,6 +11,7 @@
   #:use-module (bight belief)
   #:use-module (bight belief answer)
   #:use-module (bight belief cloud)
+  #:use-module (bight core record)
   #:use-module (bight core units)
   #:use-module ((bight dive aware) #:select (homotopy-class))
   #:use-module (bight dive query)
@@ -19,7 +20,7 @@
   #:use-module (rnrs bytevectors)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
-  #:export (believed-tubes for-each-inside draw-over))
+  #:export (believed-tubes for-each-inside read-drawing drawing? drawing-tubes draw-over draw-beneath))
 
 (define places 40)                      ; along a tether
 
@@ -130,26 +131,64 @@ PROJECT shows it.  A cell is WIDTH by HEIGHT, which may be negative; the first b
   ;; Each centre, and the end of each of its half axes.
   (append-map (lambda (s) (cons (car s) (map (lambda (axis) (vec+ (car s) axis)) (cdr s)))) stations))
 
-(define (draw-over draw size)
-  "Return the pixels that DRAW returns, a picture of SIZE, a pair, with the current belief over it.  DRAW is called with
-an f64vector of points, which it tells where they fall in the picture: x and y in pixels, and 0 for what lies behind."
-  (let* ((tubes (append-map believed-tubes '(0.9 0.5)))
-         (lines (append-map lines-by-class (tethers-believed)))
-         (marks (delete-duplicates (append (append-map points-of tubes) (append-map cdr lines)) eq?))
-         (where (list->f64vector (append-map f64vector->list marks)))
+;; What the current belief holds possible, read once and drawn by any view.
+(define-record <drawing>
+  (make-drawing tubes lines points)
+  drawing?
+  (tubes drawing-tubes)                 ; (SHARE . STATIONS) each, the widest first
+  (lines drawing-lines)                 ; of each member its colour and its points
+  (points drawing-points))              ; all of both, a list
+
+(define (tubes-of share)
+  (map (lambda (stations) (cons share stations)) (believed-tubes share)))
+
+(define* (read-drawing #:key (lines? #t))
+  "Return what the current belief holds possible of its tethers: a drawing, for `draw-over'; the tubes alone unless LINES?."
+  (let ((tubes (append-map tubes-of '(0.9 0.5)))
+        (lines (if lines? (append-map lines-by-class (tethers-believed)) '())))
+    (make-drawing tubes lines
+                  (delete-duplicates (append (append-map (compose points-of cdr) tubes) (append-map cdr lines)) eq?))))
+
+(define (places-shown where points)
+  ;; A table from each of POINTS to its place in the picture, (X . Y), left out where it is behind the camera.
+  (let ((seen (make-hash-table)))
+    (for-each (lambda (p k)
+                (when (positive? (f64vector-ref where (+ 2 (* 3 k))))
+                  (hash-set! seen p (cons (f64vector-ref where (* 3 k)) (f64vector-ref where (+ 1 (* 3 k)))))))
+              points (iota (length points)))
+    seen))
+
+(define (draw-over draw size drawing)
+  "Return the pixels that DRAW returns, a picture of SIZE, a pair, with DRAWING over it.  DRAW is called with an f64vector of
+points, which it tells where they fall in the picture: x and y in pixels, and 0 for what lies behind."
+  (let* ((points (drawing-points drawing))
+         (where (list->f64vector (append-map f64vector->list points)))
          (pixels (draw where))
-         (seen (make-hash-table)))
-    (for-each (lambda (p k) (hash-set! seen p (list (f64vector-ref where (* 3 k)) (f64vector-ref where (+ 1 (* 3 k)))
-                                                    (f64vector-ref where (+ 2 (* 3 k))))))
-              marks (iota (length marks)))
-    (let ((project (lambda (p) (let ((w (hash-ref seen p))) (cons (first w) (second w)))))
-          (before? (lambda (p) (positive? (third (hash-ref seen p))))))
-      (for-each (lambda (stations)
-                  (when (every before? (points-of stations))
-                    (tint! pixels size stations project '(255 150 0) 0.22)))
-                tubes)
-      (for-each (lambda (line)
-                  (when (every before? (cdr line))
-                    (stroke! pixels size (map project (cdr line)) (car line))))
-                lines))
+         (seen (places-shown where points))
+         (project (lambda (p) (hash-ref seen p))))
+    (for-each (lambda (tube)
+                (when (every project (points-of (cdr tube)))
+                  (tint! pixels size (cdr tube) project '(255 150 0) 0.22)))
+              (drawing-tubes drawing))
+    (for-each (lambda (line)
+                (when (every project (cdr line))
+                  (stroke! pixels size (map project (cdr line)) (car line))))
+              (drawing-lines drawing))
     pixels))
+
+(define (f64-append a b) (list->f64vector (append (f64vector->list a) (f64vector->list b))))
+
+(define (fill! to from start)
+  ;; Fill TO with what FROM has from START on.
+  (do ((i 0 (+ i 1))) ((= i (f64vector-length to)))
+    (f64vector-set! to i (f64vector-ref from (+ start i)))))
+
+(define (draw-beneath drawing size places draw)
+  "Return the pixels that DRAW returns, a picture of SIZE with DRAWING over it, as `draw-over' does; PLACES, an f64vector of
+other points, receives where they fall in it."
+  (draw-over (lambda (where)
+               (let* ((all (f64-append places where)) (pixels (draw all)))
+                 (fill! places all 0)
+                 (fill! where all (f64vector-length places))
+                 pixels))
+             size drawing))
