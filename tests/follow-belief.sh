@@ -62,6 +62,80 @@ cmp -s "$scratch/once" "$scratch/out"
 result $? 'the same log followed again, with the clauses in words, says the same, its belief to the last bit'
 says "$scratch/out" '^belief [0-9a-f]*$' 'of which the hash is told'
 
+# ---- MAVLink: the simulated vehicle of tests/follow ----
+
+if command -v python3 >/dev/null 2>&1; then
+  PYTHONDONTWRITEBYTECODE=1
+  export PYTHONDONTWRITEBYTECODE
+  sub=$top_srcdir/tests/follow/ardusub.py
+  cat >"$scratch/pool.scm" <<'SCM'
+(define-world pool
+  "Where the simulated vehicle dives."
+  (sea    (depth 40) (current 0.2 90))
+  (rov    (named minnow) (type kinematic) (at 0 6 -5))
+  (tether (named line) (type fathom) (wet-weight 0) (model dynamic) (nodes 6) (from 0 0 -2) (to minnow) (length 25)))
+SCM
+
+  # believed SOURCE OPTION...: what following it with a belief says, in $scratch/out; its lines of the belief in $scratch/told.
+  believed ()
+  {
+    source=$1
+    shift
+    "$pre" bight follow "$source" --in "$scratch/pool.scm" --every 100 --for 15 --belief "$scratch/doubts.scm" --tethers 8 \
+      --tension-noise 5 "$@" >"$scratch/out" 2>"$scratch/err" </dev/null
+    grep '^belief' "$scratch/out" >"$scratch/told"
+  }
+
+  # log_of FAULT...: the same of the log of a vehicle with these faults.
+  log_of ()
+  {
+    python3 "$sub" tlog "$scratch/log.tlog" "$@"
+    believed "$scratch/log.tlog"
+  }
+  log_of
+  empty 'a log of MAVLink drives a belief' "$scratch/err"
+  says "$scratch/told" '^belief: 8 tethers, P(wound) 0.0, [1-9][0-9]* tensions taken, [1-9][0-9]* that no tether explains$' \
+    'whose tensions are evidence, or told to be none'
+  cp "$scratch/told" "$scratch/first"
+  log_of v1 flood noise foreign
+  cmp -s "$scratch/first" "$scratch/told"
+  result $? 'version 1, a flood, noise and another vehicle give the same belief, to the last bit'
+  log_of checksums outlier absurd late dropout
+  says "$scratch/told" '^belief: 8 tethers, ' 'one that is spoilt is followed, too'
+  awk 'BEGIN { print "t,x,y,z,heading,payout,tension"
+    for (i = 0; i <= 300; i++) {
+      t = i / 10; turned = t < 10 ? 9 * t : 90
+      printf "%.1f,%.2f,6,%.2f,%.1f,%s\n", t, t / 2, -5 - t / 5, turned, i % 5 ? "," : (12 + 0.3 * t) "," (20 + t) } }' \
+    >"$scratch/same.csv"
+  believed "$scratch/same.csv"
+  # A row has its payout behind its place, so that the dive by the table begins with another one, half a second newer.
+  taken_in () { sed -n 's/.*, \([0-9]*\) tensions taken, \([0-9]*\) that.*/\1 \2/p' "$1"; }
+  set -- $(taken_in "$scratch/first") $(taken_in "$scratch/told")
+  [ $# -eq 4 ] && [ $(($1 - $3)) -le 1 ] && [ $(($3 - $1)) -le 1 ] && [ "$2" -eq "$4" ]
+  result $? 'and a table of the same dive teaches the same, but for one tension at the beginning'
+
+  if [ -r /proc/net/udp ]; then
+    port=$(python3 -c 'import socket
+s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
+    listens ()
+    {
+      grep -qi "^ *[0-9]*: 0100007F:$(printf '%04X' "$port") " /proc/net/udp
+    }
+    believed "udp:$port" --keep "$scratch/kept.tlog" &
+    follower=$!
+    await listens
+    python3 "$sub" udp "$port" >"$scratch/sent"
+    await gone $follower
+    cp "$scratch/told" "$scratch/by-udp"
+    says "$scratch/by-udp" '^belief [0-9a-f]*$' 'a stream by UDP drives a belief'
+    believed "$scratch/kept.tlog"
+    cmp -s "$scratch/by-udp" "$scratch/told"
+    result $? 'what was kept of it gives the same belief, to the last bit'
+  fi
+else
+  skip 'there is no python3, in which a vehicle of MAVLink is simulated'
+fi
+
 # refused PATTERN TEXT: a belief of TEXT is refused with PATTERN, before anything is followed.
 refused ()
 {
