@@ -95,3 +95,16 @@ ranks are even, and those from 2 to 30 of 32 hold 29 in 33 truths."
          (held (/ (count (lambda (r) (<= 2 r 30)) ranks) (length ranks))))
     (expect held is (about 29/33 #:within 0.04))
     (expect (chi-square ranks 11) is (below 29.6)))) ; 10 degrees of freedom: 0.999 of all lie below
+
+(define make-answer (@@ (bight belief answer) make-answer))
+
+(define-scenario an-interval-holds-as-often-as-it-says
+  "Of a number drawn as 32 others are, the 90 % interval of these holds nine in ten; the half interval, one in two."
+  (let* ((normal (normals 'intervals)) (n 32) (shares (times n (const (/ 1.0 n))))
+         (held (lambda (share)
+                 (let ((told (times 3000 (lambda ()
+                                           (let ((i (answer-interval (make-answer 'number (times n normal) shares n 0) share)))
+                                             (<= (car i) (normal) (cadr i)))))))
+                   (/ (count identity told) (length told))))))
+    (expect (held 0.9) is (about 0.9 #:within 0.016))
+    (expect (held 0.5) is (about 0.5 #:within 0.03))))

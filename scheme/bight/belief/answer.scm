@@ -116,18 +116,32 @@ answer."
                                (if (= next middle) 1 (/ (- share middle) (- next middle)))))
                    (loop (cdr rest) (caar rest) next next-width))))))))
 
+(define (bound answer share)
+  ;; What is below a truth drawn as the members are with probability SHARE: of n equal members k lie below with (k + 1)
+  ;; chances in n + 1 (E. J. Gumbel, Statistics of Extremes, 1958, section 1.2.7), interpolated.  No bound is beyond all.
+  (let* ((pairs (sort (map cons (answer-list answer) (answer-share-list answer)) (lambda (a b) (< (car a) (car b)))))
+         (wanted (* share (+ 1 (/ 1 (answer-effective answer))))))
+    (let loop ((rest (cdr pairs)) (value (caar pairs)) (sum (cdar pairs)))
+      (if (or (null? rest) (<= wanted sum))
+          value
+          (let ((next (+ sum (cdar rest))))
+            (if (<= wanted next)
+                (+ value (* (- (caar rest) value) (/ (- wanted sum) (- next sum))))
+                (loop (cdr rest) (caar rest) next)))))))
+
 (define-verb (answer-quantile (a answer) (share (between 0 1)))
   "Return the number below which A, an answer that is a number, lies with probability SHARE."
   (check-kind 'answer-quantile a '(number))
   (quantile a share))
 
 (define-verb (answer-interval (a answer) #:optional (share (between 0 1) 0.9))
-  "Return the list (LOW HIGH) that holds the number A with probability SHARE, as much beyond either end; of
-an answer that is true or false Wilson's interval, for 95 % confidence, of its probability."
+  "Return the list (LOW HIGH) that holds the number A with probability SHARE, as much beyond either end, as far as its
+members reach: n of them hold it with (n - 1) / (n + 1) at most; of an answer that is true or false Wilson's interval, for 95 % confidence, of
+its probability."
   (check-kind 'answer-interval a '(number chance))
   (if (eq? 'chance (answer-kind a))
       (wilson (answer-probability a) (answer-effective a))
-      (list (quantile a (/ (- 1 share) 2)) (quantile a (/ (+ 1 share) 2)))))
+      (list (bound a (/ (- 1 share) 2)) (bound a (/ (+ 1 share) 2)))))
 
 
 ;;; Points.
@@ -179,7 +193,7 @@ an answer that is true or false Wilson's interval, for 95 % confidence, of its p
                       (probability->string (first interval)) (probability->string (second interval)))))
     ((number)
      (simple-format #f "~a (90 %: ~a to ~a)" (short (quantile answer 0.5))
-                    (short (quantile answer 0.05)) (short (quantile answer 0.95))))
+                    (short (bound answer 0.05)) (short (bound answer 0.95))))
     ((point)
      (simple-format #f "~a +- ~a m" (map short (f64vector->list (answer-mean answer)))
                     (map short (deviations answer))))
