@@ -49,7 +49,9 @@
 (define in-the-language
   `(("belief" "How often beliefs are right, and what they cost." ,(lambda () (@ (bight bench belief) run-belief)))
     ("cockpit" "What a frame of the cockpit costs, with a lesson's overlay."
-     ,(lambda () (@ (bight bench cockpit) run-cockpit)))))
+     ,(lambda () (@ (bight bench cockpit) run-cockpit)))
+    ("tours" "How often tours come home, how long they are, how soon they are planned."
+     ,(lambda () (@ (bight bench tours) run-tours)))))
 
 (define (check-name name)
   (let ((known (benches)))

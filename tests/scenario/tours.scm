@@ -3,7 +3,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules ((bight dive tour-order) #:select (best-order)) ((srfi srfi-1) #:renamer (lambda (name) (if (eq? name (quote every)) (quote every1) name)))
+(use-modules ((bight bench tours) #:select (run-tours)) ((bight dive tour-order) #:select (best-order)) ((srfi srfi-1) #:renamer (lambda (name) (if (eq? name (quote every)) (quote every1) name)))
              (srfi srfi-11))
 
 (define (structures)
@@ -184,3 +184,26 @@ tether parts ends with the vehicle not home."
   (let ((tour (plan-tour '((0 0 -6) (3 4 -5)))))
     (expect (length (tour-names tour)) => 1)
     (expect (length (tour-left-out tour)) => 1)))
+
+
+;;; Against other tours.
+
+(define (rows-printed . options)
+  ;; What `bight bench tours' prints with OPTIONS, an alist from a tour's name to its cells.
+  (map (lambda (line) (let ((cells (string-split line #\,))) (cons (second cells) (cddr cells))))
+       (cdr (string-tokenize (with-output-to-string (lambda () (run-tours options)))
+                             (char-set-complement (char-set #\newline))))))
+
+(define-scenario a-planned-tour-comes-home-where-a-blind-one-does-not
+  "Among piles the planned tour is flown home in every truth drawn, at most a quarter longer than the shortest tour of a
+vehicle without a tether, which comes home wound in each."
+  (let ((rows (rows-printed "--world" "piles" "--truths" "2" "--nodes" "10")))
+    (define (cell tour k) (string->number (list-ref (assoc-ref rows tour) k)))
+    (expect (map car rows) => '("plan" "greedy" "blind" "bounded"))
+    (expect (cell "plan" 2) => 2)
+    (expect (cell "blind" 2) => 0)
+    (expect (cell "plan" 4) is (between 1 1.25))
+    (expect (cell "bounded" 4) is (between 1 1.25))
+    (expect (cell "greedy" 3) is (above (- (cell "plan" 3) 0.1)))
+    (expect (run-tours '("--world" "moon")) raises name)
+    (expect (run-tours '("--truths" "0")) raises domain)))

@@ -28,9 +28,12 @@
   #:use-module (bight dive tour-order)
   #:use-module (bight engine)
   #:use-module (srfi srfi-1)
+  #:use-module (srfi srfi-4)
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:export (plan-tour fly-tour! tour-trial
-            tour? tour-names tour-places tour-way tour-length tour-line-needed tour-left-out))
+            tour? tour-names tour-places tour-way tour-length tour-line-needed tour-left-out
+            ;; For (bight bench tours).
+            tour-along begin-flight! places-reached (is-home? . at-home?)))
 
 (define-record <tour>
   (make-tour tether vehicle stops legs length needed line left-out)
@@ -198,6 +201,12 @@
   (make-tour tether vehicle stops (map third legs) (fold + 0 (map first legs))
              (fold max 0 (map second legs)) line left-out))
 
+(define (tour-along tether vehicle stops legs length line)
+  "Return the tour of VEHICLE on TETHER, names, to STOPS, lists of three numbers, by LEGS, each a list of points: the last
+is the leg home, which a flight follows to its end.  LENGTH is that of all of them, m, and LINE how much tether there is."
+  (make-tour tether vehicle (map (lambda (p) (let ((p (list->f64vector p))) (cons p p))) stops)
+             (append legs (list (last legs))) length line line '()))
+
 (define (in-best-order asker stops)
   ;; STOPS in the order of the shortest tour.
   (let* ((all (list->vector stops)) (n (vector-length all)))
@@ -328,11 +337,19 @@ left out, and said.  The prompt says the tour in words; `tour-trial' flies it on
              (make-flight 0 (%legs tour) #f 0 (rov-position (%vehicle-of tour)) (now))
              (%vehicle-of tour)))
 
+(define (begin-flight! tour speed)
+  "Let the present dive fly TOUR at SPEED while time passes; return the flight."
+  (set-out! 'fly-tour! tour speed))
+
+(define (places-reached flight)
+  "Return how many places the FLIGHT has come to."
+  (flight-reached (task-state flight)))
+
 (define-verb (fly-tour! (tour tour) #:key (speed positive 0.35))
   "Fly TOUR at SPEED m/s while time passes in `run': the winch keeps a little more out than a taut tether takes, and
 from the last place, or where the vehicle gets stuck, it comes home as `fly-home!' does.  Return the length of
 the tour, m."
-  (set-out! 'fly-tour! tour speed)
+  (begin-flight! tour speed)
   (%length tour))
 
 (define (flown tour speed)
@@ -343,7 +360,7 @@ the tour, m."
       (when (and (pair? (dive-tasks dive)) (< (- (now) start) most))
         (run 1)
         (loop)))
-    (flight-reached (task-state task))))
+    (places-reached task)))
 
 (define home-within 1.5)                ; m of the anchor, or of the surface below it
 

@@ -1,0 +1,307 @@
+;;; (bight bench tours) --- `bight bench tours': do tours bring the vehicle home, of which length, and how soon are they planned?
+;;;
+;;; In each world some obstacles are looked at.  Four tours visit the same points about them:
+;;; `plan', as `plan-tour' finds it; `greedy', the same legs, always to the nearest place left; `blind', the shortest tour
+;;; of a vehicle that drags nothing; and `bounded', the shortest of the blind ones on which the tether drawn tight is never
+;;; longer than a tenth more than `plan' takes of it, the idea of REACT (Amer et al., arXiv 2507.10204, 2025), by search
+;;; over all orders.  Each is
+;;; flown to its end, the leg home with it, in every truth that is drawn from a belief: it counts as home where all
+;;; places were reached, the vehicle is at its anchor, and the tether is not fouled.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(define-module (bight bench tours)
+  #:use-module ((bight assembly) #:select (data->part))
+  #:use-module (bight belief)
+  #:use-module (bight belief cloud)
+  #:use-module (bight core errors)
+  #:use-module (bight core units)
+  #:use-module (bight dive)
+  #:use-module ((bight dive aware) #:select (fouled?))
+  #:use-module ((bight dive homing) #:select (home-of untold-fork))
+  #:use-module (bight dive query)
+  #:use-module (bight dive time)
+  #:use-module (bight dive tour)
+  #:use-module (bight dive tour-order)
+  #:use-module (bight engine)
+  #:use-module (bight world)
+  #:use-module ((bight world build) #:select (make-pipeline))
+  #:use-module (srfi srfi-1)
+  #:use-module (srfi srfi-4)
+  #:export (run-tours))
+
+(define help "bight bench tours: how often tours come home, how long they are, how soon they are planned
+  --truths N    drawn from a belief, in which each tour is flown, 200 when left out, 2 with --quick
+  --world W     one alone of jacket, piles, pier, wreck, cage and pipeline; cage alone with --quick
+  --places N    how many obstacles are looked at, 2 to 8; 5 when left out, 2 with --quick
+  --nodes N     of the tether that is flown, 16 when left out
+")
+
+(define valued '("--truths" "--world" "--places" "--nodes"))
+
+(define (read-options arguments)
+  (let loop ((rest arguments) (found '()))
+    (cond ((null? rest) found)
+          ((member (car rest) '("--quick" "--help")) (loop (cdr rest) (acons (car rest) #t found)))
+          ((not (member (car rest) valued))
+           (bight-raise 'domain 'bench "the bench tours has ~a, not ~a" (string-join (cons "--quick" valued) ", ") (car rest)))
+          ((null? (cdr rest)) (bight-raise 'domain 'bench "~a needs a value after it" (car rest)))
+          (else (loop (cddr rest) (acons (car rest) (cadr rest) found))))))
+
+(define (whole options name default low high)
+  (let* ((text (assoc-ref options name)) (n (if text (string->number text) default)))
+    (unless (and (exact-integer? n) (<= low n high))
+      (bight-raise 'domain 'bench "~a takes a whole number from ~a to ~a, not ~a" name low high text))
+    n))
+
+
+;;; The worlds: those of the catalogue with a kinematic vehicle and a line of few nodes, and two more.
+
+(define piles
+  (world (sea (depth 15) (current 0.25 90))
+         (seabed (friction 0.6))
+         (splice (map (lambda (x y i)
+                        (data->part `(cylinder (named ,(string->symbol (simple-format #f "pile-~a" i)))
+                                               (from ,x ,y 1) (to ,x ,y -15) (radius 0.4))))
+                      '(-5 0 5 -3 3 8) '(0 2 -1 7 8 5) (iota 6 1)))
+         (rov (named minnow) (at -6 -8 -5) (heading 0))
+         (tether (named line) (from -8 -12 -2) (to minnow) (length 45))))
+
+(define pipeline
+  (world (sea (depth 30) (current 0.25 90))
+         (seabed (friction 0.6))
+         (splice (make-pipeline #:at '(0 0 -30) #:length 40 #:radius 0.3 #:span 1.2 #:supports 5))
+         (rov (named minnow) (at -6 -5 -24) (heading 0))
+         (tether (named line) (from -8 -5 -16) (to minnow) (length 45))))
+
+(define (world-of name)
+  (case name
+    ((piles) piles)
+    ((pipeline) pipeline)
+    (else (find-world name))))
+
+(define world-names '(jacket piles pier wreck cage pipeline))
+
+(define (field-of world head name)
+  (assq-ref (part-all-fields (find (lambda (part) (eq? head (part-head part))) (world-parts world))) name))
+
+(define (bare world) (without (without world 'line) 'minnow))
+
+(define (with-line world at line)
+  ;; WORLD with a vehicle AT a place and the tether that the clauses LINE make.
+  (extend (bare world)
+          (splice (list (data->part `(rov (named minnow) (type kinematic) (at ,@at) (heading 0)))
+                        (data->part `(tether (named line) (type fathom) (wet-weight 0) (to minnow) ,@line))))))
+
+(define (flown-world world nodes)
+  (with-line world (f64vector->list (field-of world 'rov 'at))
+             `((friction 0.5) (model dynamic) (nodes ,nodes) (from ,@(f64vector->list (field-of world 'tether 'from)))
+               (length ,(field-of world 'tether 'length)))))
+
+(define (anchored-world world from at via length)
+  ;; The same with an anchor at FROM and a line of LENGTH by VIA to the vehicle, which is AT.
+  (with-line world at
+             `((model rubber-band) (from ,@from) (length ,length) ,@(if (null? via) '() `((via ,@via))))))
+
+(define doubts
+  '((current (error 0.1))
+    (line (cdn (uniform 1 1.6)) (wet-weight (normal 0 0.03)))
+    (payout (normal 0 0.2))))
+
+
+;;; What is looked at: obstacles evenly out of all, and of a pipeline places on either side of it.
+
+(define (beside-the-pipe n)
+  (map (lambda (i) (list (if (even? i) 1.5 -1.5) (- (* 24 (/ (+ i 1/2) n)) 12) -28.5)) (iota n)))
+
+(define (looked-at name n)
+  (if (eq? 'pipeline name) (beside-the-pipe n) (some-obstacles n)))
+
+(define (some-obstacles n)
+  (let* ((all (remove (lambda (name) (memq name '(seabed bed))) (%names (engine-of (current-dive)) 'obstacle)))
+         (k (length all)))
+    (delete-duplicates (map (lambda (i) (list-ref all (quotient (* k (+ 1 (* 2 i))) (* 2 n)))) (iota (min n k))))))
+
+
+;;; Ways of a vehicle that drags nothing.
+
+(define (asker-without-tether world places)
+  ;; A procedure of two of PLACES, lists, that returns (LENGTH . POINTS) of the shortest way between them.
+  (let ((known (make-hash-table)))
+    (lambda (from to)
+      (or (hash-ref known (cons from to))
+          (let ((way (way-between world from to)))
+            (hash-set! known (cons from to) way)
+            way)))))
+
+(define (way-between world from to)
+  (parameterize ((current-dive #f))
+    (enter! (anchored-world world from (map + from '(0 0 0.01)) '() 200))
+    (let* ((v (%leg (engine-of (current-dive)) 0 #f (list->f64vector to))) (points (vector-ref v 0)))
+      (unless points
+        (bight-raise 'unsupported 'bench "no way is known from ~a to ~a" from to))
+      (cons (vector-ref v 3) (map list->f64vector (array->list points))))))
+
+
+;;; The four tours, each (NAME SECONDS TOUR).
+
+(define (clock) (/ (get-internal-run-time) (exact->inexact internal-time-units-per-second)))
+
+(define (timed name thunk)
+  (let* ((begun (clock)) (tour (thunk)))
+    (list name (- (clock) begun) tour)))
+
+(define (along stops legs line)
+  ;; LEGS are (LENGTH . POINTS), the last home.
+  (tour-along 'line 'minnow stops (map cdr legs) (apply + (map car legs)) line))
+
+(define (legs-of ask start stops home)
+  (map ask (cons start stops) (append stops (list home))))
+
+(define (greedy-order cost start stops)
+  (if (null? stops)
+      '()
+      (let ((next (fold (lambda (s best) (if (< (cost start s) (cost start best)) s best)) (car stops) (cdr stops))))
+        (cons next (greedy-order cost next (delete next stops))))))
+
+(define (shortest-order cost start stops home)
+  (let* ((all (list->vector stops)) (n (vector-length all))
+         (at (lambda (i) (cond ((= i -1) start) ((= i n) home) (else (vector-ref all i))))))
+    (map at (best-order n (lambda (i j) (cost (at i) (at j)))))))
+
+(define (all-orders stops)
+  (if (null? stops)
+      '(())
+      (append-map (lambda (s) (map (lambda (rest) (cons s rest)) (all-orders (delete s stops)))) stops)))
+
+;; Legs keep farther than this from what stands there, m.
+(define tolerance 0.1)
+
+(define (off-line p a b)
+  ;; How far P is from the segment from A to B, m.
+  (let* ((dot (lambda (u v) (apply + (map * u v)))) (along (map - b a)) (off (map - p a)) (square (dot along along))
+         (k (if (zero? square) 0 (max 0 (min 1 (/ (dot off along) square)))))
+         (left (map (lambda (o d) (- o (* k d))) off along)))
+    (sqrt (dot left left))))
+
+(define (thinned path)
+  ;; PATH, at most `tolerance' off, with fewer points (U. Ramer, Computer Graphics and Image Processing 1, 1972).
+  (if (< (length path) 3)
+      path
+      (let* ((off (map (lambda (p) (off-line p (first path) (last path))) path)) (most (apply max off))
+             (k (list-index (lambda (d) (= d most)) off)))
+        (if (< most tolerance)
+            (list (first path) (last path))
+            (append (drop-right (thinned (list-head path (+ k 1))) 1) (thinned (list-tail path k)))))))
+
+(define (taut-along world home start legs)
+  ;; The length of the tether drawn tight after it was led from its beginning along LEGS, m.
+  (parameterize ((current-dive #f))
+    (let* ((path (append-map (lambda (leg) (map f64vector->list (cdr leg))) legs))
+           (end (last path)))
+      (enter! (anchored-world world home end (drop-right (cdr (thinned (cons* home start path))) 1) 1000))
+      (taut-length 'line))))
+
+(define (within-bound? world home start legs line)
+  ;; Looked at after each leg but the last, at whose end the vehicle is where its tether begins.
+  (every (lambda (k) (<= (taut-along world home start (list-head legs k)) line))
+         (iota (- (length legs) 1) 1)))
+
+(define (bounded-order world ask start stops home line)
+  ;; The shortest of all orders that keeps within LINE metres, or the shortest of all where none does.
+  (let* ((tours (map (lambda (order) (cons order (legs-of ask start order home))) (all-orders stops)))
+         (long (lambda (tour) (apply + (map car (cdr tour)))))
+         (sorted (sort tours (lambda (a b) (< (long a) (long b)))))
+         (fits (find (lambda (tour) (within-bound? world home start (cdr tour) line)) sorted)))
+    (or fits (car sorted))))
+
+(define (tours world name n)
+  ;; Of the present dive, in WORLD called NAME.
+  (let* ((line (tether-length)) (start (f64vector->list (rov-position))) (home (f64vector->list (point-at 0)))
+         (plan (timed 'plan (lambda () (plan-tour (looked-at name n) #:line line))))
+         (stops (map f64vector->list (tour-places (third plan))))
+         (ask (asker-without-tether world (cons* start home stops)))
+         (cost (lambda (a b) (car (ask a b)))))
+    (list plan
+          (timed 'greedy (lambda () (tour-in-order (third plan) (greedy-order (leg-cost (third plan)) start stops))))
+          (timed 'blind (lambda ()
+                          (let ((order (shortest-order cost start stops home)))
+                            (along order (legs-of ask start order home) line))))
+          (timed 'bounded (lambda ()
+                            (let ((found (bounded-order world ask start stops home
+                                                        (* 1.1 (tour-line-needed (third plan))))))
+                              (along (car found) (cdr found) line)))))))
+
+(define (leg-cost tour)
+  ;; The length of the leg of a tether between two places, or from where the vehicle is.
+  (let ((start (f64vector->list (rov-position))))
+    (lambda (from to)
+      (let ((v (%leg (this-engine 'bench) 0 (and (not (equal? from start)) (list->f64vector from)) (list->f64vector to))))
+        (if (vector-ref v 0) (vector-ref v 3) 1e6)))))
+
+(define (tour-in-order tour order)
+  ;; TOUR with its places in ORDER.
+  (let* ((points (map list->f64vector order))
+         (engine (this-engine 'bench))
+         (legs (map (lambda (from to)
+                      (let ((v (%leg engine 0 from to)))
+                        (cons (vector-ref v 3) (map list->f64vector (array->list (vector-ref v 0))))))
+                    (cons #f points) (append points (list #f)))))
+    (along order legs (tether-length))))
+
+
+;;; Flights.
+
+(define speed 0.5)                      ; m/s
+
+(define (comes-home? tour)
+  ;; Flown in the present dive, a fork, to its end.
+  (let* ((flight (begin-flight! tour speed)) (n (length (tour-places tour)))
+         (most (+ (now) 120 (/ (* 2.5 (tour-length tour)) speed))))
+    (let loop ()
+      (run 1)
+      (cond ((and (>= (places-reached flight) n) (at-home? tour)) (not (fouled? 'line)))
+            ((or (null? (dive-tasks (current-dive))) (> (now) most)) #f)
+            (else (loop))))))
+
+(define (home-in-truth? tour member)
+  ;; A flight that fails for any reason has not come home.
+  (with-exception-handler
+      (lambda (e) (if (bight-error? e) #f (raise-exception e)))
+    (lambda () (in-member member (lambda () (untold-fork (lambda () (comes-home? tour))))))
+    #:unwind? #t))
+
+(define (tenths x) (/ (round (* 10.0 x)) 10))
+(define (hundredths x) (/ (round (* 100.0 x)) 100))
+
+(define (say-tour name truths plan-length row)
+  (let* ((begun (clock)) (tour (third row))
+         (home (count (lambda (m) (home-in-truth? tour m)) truths)))
+    (simple-format #t "~a,~a,~a,~a,~a,~a,~a,~a,~a~%" name (first row) (length (tour-places tour)) (length truths) home
+                   (tenths (tour-length tour)) (hundredths (/ (tour-length tour) plan-length)) (hundredths (second row))
+                   (tenths (- (clock) begun)))
+    (force-output)))
+
+(define (say-world name n truths nodes)
+  (let ((world (world-of name)))
+    (enter! (flown-world world nodes))
+    (let* ((all (tours world name n))
+           (blind (tour-length (third (find (lambda (row) (eq? 'blind (first row))) all))))
+           (belief (make-belief (current-dive) doubts #:members (max 8 truths) #:seed 7)))
+      (for-each (lambda (row) (say-tour name (list-head (belief-members belief) truths) blind row)) all))))
+
+(define (run-tours arguments)
+  "Do what ARGUMENTS of the bench tours ask for, print what came of it and return the exit status."
+  (let* ((options (read-options arguments)) (quick? (assoc-ref options "--quick"))
+         (world (assoc-ref options "--world"))
+         (names (cond (world (list (string->symbol world))) (quick? '(cage)) (else world-names))))
+    (for-each (lambda (name)
+                (unless (memq name world-names) (unknown-name 'bench "the bench tours" name world-names "world")))
+              names)
+    (if (assoc-ref options "--help")
+        (display help)
+        (let ((truths (whole options "--truths" (if quick? 2 200) 1 4096)) (places (whole options "--places" (if quick? 2 5) 2 8))
+              (nodes (whole options "--nodes" 16 4 400)))
+          (display "world,tour,places,truths,home,length m,of the blind one's length,planned in s of CPU,flown in s of CPU\n")
+          (for-each (lambda (name) (say-world name places truths nodes)) names)))
+    0))
