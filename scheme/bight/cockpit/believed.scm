@@ -2,7 +2,7 @@
 ;;; and the tubes that hold the tether.
 ;;;
 ;;; In every frame the belief is flown on after its dive for a short while; once it is there, it is asked, about once a
-;;; second.  A belief that costs more than there is time for stays behind: how far is told, and what is drawn is as old.
+;;; second.  A belief that costs more than there is time for stays behind; how old what is shown is, is told.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -25,7 +25,7 @@
 (define flying 0.008)                   ; s of a frame in which the belief is flown on,
 (define stretch 0.1)                    ; by so many s of the dive at once
 (define period 1)                       ; s at least from question to question,
-(define share 1/10)                     ; which take no more of the time than this
+(define share 1/10)                     ; which take no more CPU time than this share
 (define too-far 1.0)                    ; s behind its dive at which a belief is not asked
 
 (define-record <finding>
@@ -70,15 +70,17 @@
     (and (> (clock) (cockpit-believed-due c)) (< (behind c belief) too-far)
          (not (and finding (= (finding-steps finding) (%dive-steps (engine-here c))))))))
 
+(define (cpu) (/ (get-internal-run-time) (exact->inexact internal-time-units-per-second)))
+
 (define (ask! c belief)
-  (let* ((begun (clock)) (steps (%dive-steps (engine-here c)))
+  (let* ((begun (cpu)) (steps (%dive-steps (engine-here c)))
          (chance (ask-belief belief (lambda () (fouled? (cockpit-tether c)))))
          (p (answer-probability chance))
          (before (let ((last (found c))) (if last (finding-level last) 0)))
          (level (level-after before p)))
     (set-believed! c (make-finding belief steps chance (with-belief belief (read-drawing #:lines? #f)) level
                                    (level-said before level p)))
-    (set-believed-due! c (+ (clock) (max period (/ (- (clock) begun) share))))))
+    (set-believed-due! c (+ (clock) (max period (/ (- (cpu) begun) share))))))
 
 (define (show-no-more! c e)
   ;; Its belief has ended, or begins after where the dive is now.
@@ -117,15 +119,18 @@
     (simple-format #f "P(wound) ~a (~a to ~a) of ~a tethers" (hundredths (answer-probability chance))
                    (hundredths (first interval)) (hundredths (second interval)) members)))
 
+(define old 2)                         ; s of the dive after which the age of what was found is told
+
+(define (age c finding)
+  (* (%dive-time-step (engine-here c)) (- (%dive-steps (engine-here c)) (finding-steps finding))))
+
 (define (believed-lines c)
   "Return what the belief that C shows says, lines: none where there is no belief."
   (let ((finding (found c)))
     (if finding
-        (let* ((belief (finding-belief finding)) (late (behind c belief)))
-          (cons (chance-said (finding-chance finding) (length (belief-members belief)))
-                (if (< late too-far)
-                    '()
-                    (list (simple-format #f "the belief is ~a s behind" (/ (round (* 10 late)) 10))))))
+        (let ((said (chance-said (finding-chance finding) (length (belief-members (finding-belief finding)))))
+              (age (age c finding)))
+          (list (if (< age old) said (simple-format #f "~a, ~a s ago" said (inexact->exact (round age))))))
         '())))
 
 (define (belief-alarm! c)
