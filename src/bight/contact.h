@@ -14,7 +14,8 @@ BT_BEGIN_DECLS
 typedef struct bt_contact
 {
   int object;       /* the obstacle's number; a tether's, itself among them, plus the number of
-                       obstacles */
+                       obstacles; the number of a vehicle whose hull it is, plus those of obstacles
+                       and tethers */
   int64_t triangle; /* its id on a mesh, or -1 */
   int slides;       /* zero: it sticks */
   double s;         /* m of arc length from the anchor */
@@ -55,8 +56,9 @@ typedef struct bt_clearance
   bt_vec3 position; /* m: the nearest point of the obstacle */
 } bt_clearance;
 
-/* How near tether I comes to OBSTACLE, or with OBSTACLE -1 to any; likewise vehicle I with its
-   hull, farther than 1000 m not looked for.  Pairs that are switched off count too.  BT_ERR_NAME.
+/* How near tether I comes to OBSTACLE, or with OBSTACLE -1 to any; or to the hull of a vehicle that
+   the tether is not made fast to, numbered as in bt_contact.  Likewise vehicle I with its hull,
+   farther than 1000 m not looked for.  Pairs that are switched off count too.  BT_ERR_NAME.
  */
 bt_status bt_tether_clearance (const bt_dive *dive, int i, int obstacle, bt_clearance *clearance,
                                bt_error *error);

@@ -134,8 +134,8 @@ typedef enum bt_part
 
 /* Return how many of PART there are.  */
 int bt_dive_count (const bt_dive *dive, bt_part part);
-/* Return the name of the I-th PART, or NULL.  What is touched may be a tether too: after the last
-   obstacle, tethers are counted on.  */
+/* Return the name of the I-th PART, or NULL.  What is touched may be a tether or the hull of a
+   vehicle: after the last obstacle, tethers are counted on, and then vehicles.  */
 const char *bt_dive_name (const bt_dive *dive, bt_part part, int i);
 
 /* ---- Operations: all that changes a dive besides time ---- */
@@ -231,17 +231,17 @@ typedef struct bt_tether_view
   double tension_anchor, tension_end, tension_max; /* N */
   double tension_error; /* N: an estimate of its error in the last step, if it is more than the
                            tether's tension_accuracy asks; else 0 */
-  bt_vec3 force;                                   /* on what the far end is fastened to, N */
-  int vehicle; /* index of the vehicle at the far end, -1: a fixed point */
+  bt_vec3 force;        /* on what the far end is fastened to, N */
+  int vehicle;          /* index of the vehicle at the far end, -1: a fixed point */
   int taut;
   int parted; /* true: the line is in two; what is asked is the part at the anchor */
   int spooling;
-  int stuck;             /* true: pulled, and held fast for 5 s, whatever holds it; of the
-                            thesis' response: by its rules */
-  int blocked;           /* true: an obstacle keeps a static line off its shape */
-  int settled;           /* zero: the shape still moves */
-  int asleep;            /* true: the moving line rests and is not stepped */
-  int nodes;             /* points of the model's own polyline */
+  int stuck;   /* true: pulled, and held fast for 5 s, whatever holds it; of the
+                  thesis' response: by its rules */
+  int blocked; /* true: an obstacle keeps a static line off its shape */
+  int settled; /* zero: the shape still moves */
+  int asleep;  /* true: the moving line rests and is not stepped */
+  int nodes;   /* points of the model's own polyline */
 } bt_tether_view;
 
 typedef enum bt_event_kind
@@ -292,12 +292,14 @@ typedef struct bt_profile
      again after a hit; steps in which continuous collision detection held nodes back.  */
   uint64_t links_asked, boxes_visited, pairs_measured, links_clear, casts;
   uint64_t touches, contact_rounds, truncated;
-  uint64_t line_pairs;                /* links of tethers measured against links of tethers */
-  uint64_t chafes;                    /* of the touches: those that wore the jacket */
-  uint64_t span_solves, span_skips;   /* of the thesis' response */
-  uint64_t current_samples_skipped;   /* shapes solved in still water */
-  uint64_t strings, charts, words;    /* for questions about what a tether is doing */
-  uint64_t body_steps;                /* of vehicles with mass */
+  uint64_t line_pairs;              /* links of tethers measured against links of tethers */
+  uint64_t beside_hulls;            /* moving lines so near the hull of another's vehicle that they
+                                       might meet in the step */
+  uint64_t chafes;                  /* of the touches: those that wore the jacket */
+  uint64_t span_solves, span_skips; /* of the thesis' response */
+  uint64_t current_samples_skipped; /* shapes solved in still water */
+  uint64_t strings, charts, words;  /* for questions about what a tether is doing */
+  uint64_t body_steps;              /* of vehicles with mass */
   uint64_t wave_samples, lee_samples; /* places of moving lines and vehicles where the water was
                                          asked for waves, for the lee of obstacles */
   uint64_t operations, refused;

@@ -443,6 +443,7 @@ profile (SCM object)
   SCM list = SCM_EOL;
   bt_dive_profile (bt__to_dive (object), &p);
   list = bt__associate ("refused", scm_from_uint64 (p.refused), list);
+  list = bt__associate ("beside-hulls", scm_from_uint64 (p.beside_hulls), list);
   list = bt__associate ("shared-again", scm_from_uint64 (p.shared_again), list);
   list = bt__associate ("shared-steps", scm_from_uint64 (p.shared_steps), list);
   list = bt__associate ("threads", scm_from_uint64 (p.threads), list);

@@ -48,6 +48,11 @@ bt_status bt__compile_obstacles (bt_model *model, const bt_world *world, bt_erro
 
 void bt__release_obstacles (bt_model *model);
 
+/* Draw the hulls of the vehicles of MODEL that a tether may meet (hulls.c).  The ends of the
+   tethers are known by now.  */
+bt_status bt__compile_hulls (bt_model *model, bt_error *error);
+void bt__release_hulls (bt_model *model);
+
 /* Give every scene of MODEL a serial from its id.  */
 void bt__number_scenes (bt_model *model);
 

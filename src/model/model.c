@@ -284,6 +284,8 @@ compile_world (bt_model *model, const bt_world *world, bt_error *error)
   for (int i = 0; status == BT_OK && i < model->n_tethers; i++)
     status = compile_tether (model, i, error);
   if (status == BT_OK)
+    status = bt__compile_hulls (model, error);
+  if (status == BT_OK)
     status = check_unique (model, error);
   return status == BT_OK ? bt__check_laying (model, error) : status;
 }
@@ -416,5 +418,6 @@ bt_model_release (bt_model *model)
   free (model->tethers);
   free (model->ends);
   bt__release_obstacles (model);
+  bt__release_hulls (model);
   free (model);
 }

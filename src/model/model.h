@@ -56,8 +56,10 @@ struct bt_model
   int *where;                 /* of each: its place in SCENE, or -1 - its place in CARRIED */
   bt__scene *scene;           /* what stands still, ids its numbers; empty: nothing does */
   bt__carried *carried;       /* what does not */
-  double lowest;              /* m: nothing that stands still reaches below; +inf: nothing does */
-  int n_floors;               /* 1: the last of SCENE is the bottom beyond the edge of a seabed */
+  int n_hulls;      /* n_vehicles if a tether may meet the hull of another's vehicle; else 0 */
+  bt__scene **hull; /* of each of N_HULLS: the vehicle's box in its own frame; NULL: a point */
+  double lowest;    /* m: nothing that stands still reaches below; +inf: nothing does */
+  int n_floors;     /* 1: the last of SCENE is the bottom beyond the edge of a seabed */
 };
 
 /* BT_OK if a tether of PROPS called NAME can have a set; else BT_ERR_UNSUPPORTED says why not.  */
@@ -75,6 +77,21 @@ int bt__lay_points (const bt_model *model, int i, bt_vec3 *points);
 
 /* The number of the obstacle called NAME, or BT__NO_OBSTACLE.  */
 int bt__model_obstacle (const bt_model *model, const char *name);
+
+/* As what a tether touches the hull of VEHICLE: behind the obstacles and the tethers.  */
+static inline int
+bt__hull_number (const bt_model *model, int vehicle)
+{
+  return model->n_obstacles + model->n_tethers + vehicle;
+}
+
+/* True if VEHICLE, one of MODEL's n_hulls, has a hull and tether I is not made fast to VEHICLE.  */
+static inline int
+bt__may_meet_hull (const bt_model *model, int i, int vehicle)
+{
+  return model->hull[vehicle] && model->ends[i][0].vehicle != vehicle
+         && model->ends[i][1].vehicle != vehicle;
+}
 
 /* The shape of obstacle I: in the world if it stands still, else in its own frame.  */
 const bt__obstacle *bt__model_shape (const bt_model *model, int i);

@@ -245,6 +245,9 @@ bt__number_scenes (bt_model *model)
   model->scene->serial = model->id;
   for (int k = 0; k < model->n_carried; k++)
     model->carried[k].body->serial = model->id + 1 + (uint64_t)k;
+  for (int v = 0; v < model->n_hulls; v++)
+    if (model->hull[v])
+      model->hull[v]->serial = model->id + 1 + (uint64_t)(model->n_carried + v);
 }
 
 /* ---- Identity ---- */

@@ -1,8 +1,9 @@
 /* Islands: groups of tethers that may influence each other in the coming step.
 
-   Tethers form one island if they share a vehicle that one of them may carry by its far end, or if
-   they are moving lines that may touch each other within the reach of their queries.  Distances are
-   bounded by boxes: about each line, about every few links, then link by link.
+   Tethers form one island if they share a vehicle that one of them may carry by its far end, if one
+   may meet the hull of a vehicle of the other, or if they are moving lines that may touch each
+   other within the reach of their queries.  Distances are bounded by boxes: about each line, about
+   every few links, then link by link.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -46,6 +47,18 @@ join_at_vehicles (const bt_dive *dive, bt__contexts *l)
           && (model->ends[j][0].vehicle == model->ends[i][1].vehicle
               || model->ends[j][1].vehicle == model->ends[i][1].vehicle))
         join (l, i, j);
+}
+
+/* A line that meets a hull goes after the line that carries the vehicle.  */
+static void
+join_at_hulls (const bt_dive *dive, bt__contexts *l)
+{
+  const bt_model *model = dive->model;
+  for (int i = 0; i < model->n_tethers; i++)
+    for (int j = 0; j < model->n_tethers; j++)
+      for (int k = 0; k < 2; k++)
+        if (model->ends[j][k].vehicle >= 0 && bt__is_by_hull (dive, i, model->ends[j][k].vehicle))
+          join (l, i, j);
 }
 
 /* Number the groups in the order of their first tethers, and list the tethers of each group.  */
@@ -237,6 +250,7 @@ bt__set_apart (const bt_dive *dive, bt__state *state, bt__contexts *l)
   for (int i = 0; i < dive->model->n_tethers; i++)
     l->group[i] = i;
   join_at_vehicles (dive, l);
+  join_at_hulls (dive, l);
   join_near (dive, state, l);
   number (dive, l);
   mark_shared (dive, l);

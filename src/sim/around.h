@@ -68,6 +68,37 @@ int bt__vehicles_agree (bt_dive *dive, bt__state *state);
    may, either.  */
 bt_vec3 bt__hull_reach (bt_dive *dive, bt__state *state, int vehicle, bt_vec3 wanted);
 
+/* ---- Hulls that moving lines meet (hulls.c) ---- */
+
+/* Start a step, ROUND tries at it having failed.  */
+void bt__aim_hulls (bt_dive *dive, int round);
+
+/* Decide which lines may meet which hulls, from the boxes about the lines.  With PASSES false no
+   time passes and no line meets a hull.  */
+void bt__near_hulls (bt_dive *dive, bt__state *state, int passes);
+
+/* True if tether I may meet the hull of VEHICLE in this step; any hull.  */
+int bt__is_by_hull (const bt_dive *dive, int i, int vehicle);
+int bt__is_by_a_hull (const bt_dive *dive, int i);
+
+/* Add to AROUND, of bt__surround for tether I, the hulls that I may meet, behind the movers; call
+   bt__hulls_done after the step of I.  */
+void bt__surround_by_hulls (bt_dive *dive, bt__state *state, int i, bt__surroundings *around);
+void bt__hulls_done (bt_dive *dive, int i);
+
+/* True if every hull that tether I may meet stands in this step.  */
+int bt__hulls_rest (bt_dive *dive, bt__state *state, int i);
+
+/* True if a line could not yield to the hull of VEHICLE in a try at this step.  */
+int bt__is_held_by_line (const bt_dive *dive, int vehicle);
+
+/* Add to IN the contact forces of lines on the hull of VEHICLE in the last step.  */
+void bt__add_line_loads (const bt_dive *dive, bt__state *state, int vehicle, bt__rigid_input *in);
+
+/* True if all lines were shown the motion that each hull made; else remember for the next try where
+   the vehicles came.  */
+int bt__hulls_agree (bt_dive *dive, bt__state *state);
+
 /* ---- Afterwards ---- */
 
 /* True if a mover is on its way.  */

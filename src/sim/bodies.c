@@ -223,6 +223,7 @@ bt__steer_bodies (const bt_dive *dive, bt__state *state, bt_error *error)
       sample_water (dive, state, v->position, &d->in);
       steer (dive, state, i, &d->in);
       add_pulls (dive, state, i, carrier >= 0 ? carrier : slack_line (dive, state, i), &d->in);
+      bt__add_line_loads (dive, state, i, &d->in);
       if (carrier >= 0)
         status = bt__grip_body (dive, state, i, carrier, BT__TIME_STEP, error);
     }

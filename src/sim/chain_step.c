@@ -20,11 +20,12 @@ enum
 };
 
 static int
-may_sleep_on (const bt_dive *dive, const bt__state *state, const bt__tether *tether,
+may_sleep_on (bt_dive *dive, bt__state *state, int i, const bt__tether *tether,
               const bt__ends *ends)
 {
   return tether->quiet >= BT__SLEEP_AFTER && tether->winch_rate == 0
-         && bt__is_unchanged (dive, state, tether, ends) && !bt__movers_move (dive);
+         && bt__is_unchanged (dive, state, tether, ends) && !bt__movers_move (dive)
+         && bt__hulls_rest (dive, state, i);
 }
 
 static bt_status
@@ -220,7 +221,7 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
   bt__dynamic_report report = { 0 };
   bt_status status;
   bt__watch_twist (dive, state, tether, i); /* a sleeping line can be twisted too */
-  if (may_sleep_on (dive, state, tether, ends))
+  if (may_sleep_on (dive, state, i, tether, ends))
     {
       dive->profile.chain_sleeps++;
       for (int part = 0; part < bt__chains (tether); part++)

@@ -182,6 +182,7 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
 {
   bt__contacts *anchors = bt__dive_anchors (dive, state, i, part);
   bt__surroundings around = bt__surround (dive, state, BT_PART_TETHER, i);
+  bt__surround_by_hulls (dive, state, i, &around);
   bt__line_config config = line_config (dive, state, i, part);
   bt__line_report touch = { 0 };
   bt_status status;
@@ -193,6 +194,7 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
   if (status != BT_OK)
     return status;
   bt__around_done (dive);
+  bt__hulls_done (dive, i);
   bt__note_line_meetings (dive, state, i, part);
   if (dive->contact_work.left == 0)
     bring_held_ends (dive, state, i, part, &touch);

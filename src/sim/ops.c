@@ -166,6 +166,7 @@ static void
 place_among (const bt__call *c, const op *o, int round)
 {
   bt__rest_movers (c->dive, c->state);
+  bt__aim_hulls (c->dive, 0);
   if (o == &ops[BT_OP_LAY])
     bt__unpin_vehicles (c->dive, c->state);
   else

@@ -1,4 +1,5 @@
-/* Which pairs of a vehicle or a tether and an obstacle, or of tethers, may meet.
+/* Which pairs of a vehicle or a tether and an obstacle, of tethers, or of a tether and the hull of
+   another's vehicle, may meet.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -15,6 +16,31 @@ other_tether (const bt__call *c)
   return i >= 0 && i < c->dive->model->n_tethers ? i : -1;
 }
 
+/* The vehicle whose hull a tether is to meet, or -1: none.  */
+static int
+met_vehicle (const bt__call *c)
+{
+  double v = c->args[1] - bt__hull_number (c->dive->model, 0);
+  return v >= 0 && v < c->dive->model->n_vehicles && v == floor (v) ? (int)v : -1;
+}
+
+/* BT_ERR_NAME unless the tether can meet the hull of VEHICLE.  */
+static bt_status
+check_meets_hull (const bt__call *c, int vehicle)
+{
+  const bt_model *model = c->dive->model;
+  if (c->args[0] != BT_PART_TETHER)
+    return bt__fail (c->error, BT_ERR_NAME,
+                     "a tether meets the hulls of vehicles, a vehicle does not");
+  if (bt__check_part (c->dive, BT_PART_TETHER, c->subject, c->error) != BT_OK)
+    return BT_ERR_NAME;
+  if (model->n_hulls > 0 && bt__may_meet_hull (model, c->subject, vehicle))
+    return BT_OK;
+  return bt__fail (c->error, BT_ERR_NAME,
+                   "tether `%s' cannot meet `%s', which has no size or is made fast to it",
+                   model->tethers[c->subject].name, model->vehicles[vehicle].name);
+}
+
 static bt_status
 check_numbers (const bt__call *c)
 {
@@ -25,6 +51,8 @@ check_numbers (const bt__call *c)
                      part);
   if (c->args[2] != 0 && c->args[2] != 1)
     return bt__fail (c->error, BT_ERR_DOMAIN, "a pair is on, 1, or off, 0, not %g", c->args[2]);
+  if (met_vehicle (c) >= 0)
+    return check_meets_hull (c, met_vehicle (c));
   if (!(c->args[1] >= -1 && c->args[1] < objects) || c->args[1] != floor (c->args[1]))
     return bt__fail (c->error, BT_ERR_NAME,
                      "what is met is an obstacle or a tether, 0 to %d, or all of them, -1, not %g",

@@ -6,11 +6,14 @@
    carrying lines go first, each after the carrying line of its own anchor; then the other moving
    lines; then the static tethers, which end at any given place.  Exception: a static tether among
    obstacles may draw its vehicle along, for example when hauled in over an edge, and goes before
-   all tethers unless a line carries its vehicle.  Within a rank the order stays: by number, or
-   among obstacles by the direction of pressing of tethers on each other (chain_touch.c).  If ends
-   and vehicles still do not fit together, the step is tried again (pins.c).
+   all tethers unless a line carries its vehicle.  A line beside the hull of another line's vehicle
+   goes after that line (hulls.c).  Within a rank the order stays: by number, or among obstacles by
+   the direction of pressing of tethers on each other (chain_touch.c).  If ends and vehicles still
+   do not fit together, the step is tried again (pins.c).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
 
 #include "sim/around.h"
 #include "sim/chain.h"
@@ -48,6 +51,31 @@ rank_of (const bt_dive *dive, bt__state *state, int i)
   return rank;
 }
 
+/* True if tether I meets the hull of the vehicle at the far end of tether J.  */
+static int
+meets_hull_of (const bt_dive *dive, int i, int j)
+{
+  int vehicle = dive->model->ends[j][1].vehicle;
+  return vehicle >= 0 && bt__is_by_hull (dive, i, vehicle);
+}
+
+/* Put lines beside a hull after the line to the vehicle, unless both are beside the hulls of each
+   other's vehicles.  */
+static void
+put_behind_hulls (const bt_dive *dive)
+{
+  int *order = dive->contact_work.order, n = dive->model->n_tethers;
+  for (int p = 0; p < n && dive->model->n_hulls > 0; p++)
+    for (int q = p + 1; q < n; q++)
+      {
+        int i = order[p], j = order[q];
+        if (!meets_hull_of (dive, i, j) || meets_hull_of (dive, j, i))
+          continue;
+        memmove (order + p + 1, order + p, sizeof *order * (size_t)(q - p));
+        order[p] = j;
+      }
+}
+
 void
 bt__put_carriers_first (bt_dive *dive, bt__state *state)
 {
@@ -61,6 +89,7 @@ bt__put_carriers_first (bt_dive *dive, bt__state *state)
         order[at] = order[at - 1];
       order[at] = i;
     }
+  put_behind_hulls (dive);
   for (int k = 0; k < n; k++)
     dive->contact_work.place[order[k]] = k;
 }

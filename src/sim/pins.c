@@ -115,7 +115,7 @@ bt__pin_vehicles (bt_dive *dive, bt__state *state, int round)
       const bt__vehicle *v = bt__dive_vehicle (dive, state, i);
       if (round == 0)
         pin->how = BT__PIN_OFF;
-      if (round >= BT__TRIES)
+      if (round >= BT__TRIES || bt__is_held_by_line (dive, i))
         stay (dive, state, i);
       else
         come (dive, state, i, pin->how ? pin->at : v->position);

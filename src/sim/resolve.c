@@ -236,11 +236,11 @@ bring_to_ends (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int
   return (passes ? form->step : form->carry) (dive, state, i, ends, error);
 }
 
-/* True if tethers could meet each other.  */
+/* True if tethers could meet each other, or hulls.  */
 static int
 are_others (const bt_dive *dive)
 {
-  return dive->model->n_tethers > 1;
+  return dive->model->n_tethers > 1 || dive->model->n_hulls > 0;
 }
 
 bt_status
@@ -273,9 +273,10 @@ bt_status
 bt__resolve_tethers (bt_dive *dive, bt__state *state, int passes, bt_error *error)
 {
   bt_status status = BT_OK;
-  line_up (dive, state);
   if (are_others (dive))
     bt__box_lines (dive, state);
+  bt__near_hulls (dive, state, passes);
+  line_up (dive, state);
   if (passes && dive->contexts && bt__share_tethers (dive, state))
     return bt__stopped (&dive->asker, error);
   for (int i = 0; status == BT_OK && i < dive->model->n_tethers; i++)

@@ -182,7 +182,7 @@ run_groups (bt_dive *dive, bt__contexts *l)
 static int
 held_back (const bt_dive *dive, const bt__context *context)
 {
-  for (int k = 0; k < dive->model->n_carried; k++)
+  for (int k = 0; k < bt__courses (dive->model); k++)
     if (context->dive->contact_work.course[k].share != dive->contact_work.course[k].share)
       return 1;
   return 0;
@@ -227,8 +227,10 @@ take_over_groups (bt_dive *dive, bt__state *state, bt__contexts *l)
   for (int w = 0; w < l->n; w++)
     {
       bt__context_count (&l->context[w], dive);
-      for (int k = 0; k < dive->model->n_carried; k++)
-        dive->contact_work.course[k].gone |= l->context[w].dive->contact_work.course[k].gone;
+      dive->contact_work.disagree |= l->context[w].dive->contact_work.disagree;
+      for (int k = 0; k < bt__courses (dive->model); k++)
+        if (l->context[w].dive->contact_work.course[k].gone)
+          dive->contact_work.course[k] = l->context[w].dive->contact_work.course[k];
     }
   l->patience = 0;
 }

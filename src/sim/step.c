@@ -150,7 +150,8 @@ static int
 agree (bt_dive *dive, bt__state *next)
 {
   int vehicles = bt__vehicles_agree (dive, next);
-  return vehicles && (!bt__has_obstacles (dive) || bt__around_agrees (dive));
+  int hulls = bt__hulls_agree (dive, next);
+  return vehicles && hulls && bt__around_agrees (dive);
 }
 
 /* Step the copy; after ROUND tries at it tethers, vehicles and obstacles did not fit together.  */
@@ -172,6 +173,7 @@ try_once (bt_dive *dive, int round, bt_error *error)
     bt__stall_where_held (dive, next);
   bt__turn_winches (dive, next);
   bt__hold_at_tethers (dive, dive->now, next);
+  bt__aim_hulls (dive, round);
   if (bt__has_obstacles (dive))
     bt__aim_movers (dive, next, round);
   if (bt__has_obstacles (dive) || round > 0)

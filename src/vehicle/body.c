@@ -145,7 +145,7 @@ static motion
 momenta (const job *j, motion m)
 {
   const bt__hydro *hydro = &j->type->hydro;
-  bt_vec3 added = bt__along (hydro->added);
+  bt_vec3 added = bt__along_axes (hydro->added);
   double mean = (added.x + added.y + added.z) / 3;
   bt_vec3 kept
       = bt__axpy (bt__scale ((1 - hydro->munk) * mean, bt__vec (1, 1, 1)), hydro->munk, added);
@@ -249,8 +249,8 @@ prepare_step (job *j, const bt__vehicle_type *type, const bt__rigid *body,
   *j = (job){ .type = type, .body = body, .in = in };
   j->mass = bt__masses (type);
   j->inertia = bt__inertias (type);
-  j->linear = bt__scale (water, bt__along (hydro->linear));
-  j->quadratic = bt__scale (water, bt__along (hydro->quadratic));
+  j->linear = bt__scale (water, bt__along_axes (hydro->linear));
+  j->quadratic = bt__scale (water, bt__along_axes (hydro->quadratic));
   j->linear_w = bt__scale (water, bt__about (hydro->linear));
   j->quadratic_w = bt__scale (water, bt__about (hydro->quadratic));
   j->start.v = bt__sub (body->velocity, bt__turn_in (body->attitude, begin));

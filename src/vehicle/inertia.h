@@ -10,7 +10,7 @@
 
 /* The papers' six along (first three) and about the own axes.  */
 static inline bt_vec3
-bt__along (const double *six)
+bt__along_axes (const double *six)
 {
   return bt__vec (six[BT__SWAY], six[BT__SURGE], six[BT__HEAVE]);
 }
@@ -37,7 +37,7 @@ bt__over (bt_vec3 a, bt_vec3 b)
 static inline bt_vec3
 bt__masses (const bt__vehicle_type *t)
 {
-  return bt__add (bt__vec (t->mass, t->mass, t->mass), bt__along (t->hydro.added));
+  return bt__add (bt__vec (t->mass, t->mass, t->mass), bt__along_axes (t->hydro.added));
 }
 
 static inline bt_vec3

@@ -176,14 +176,35 @@ bt_tether_segments (const bt_dive *dive, int i, bt_segment *segments, int max)
 
 /* ---- Clearance ---- */
 
-/* The obstacles of a clearance: all obstacles or a single one, whether their pairs are switched on
-   or not.  */
+/* The obstacles of a clearance: all obstacles, a single obstacle or the hull of a vehicle, whether
+   pairs are switched on or not.  AROUND is drawn in the frame AT.  */
 typedef struct look
 {
   bt__surroundings around;
   bt__switches only, only_mover;
   uint8_t *off;
+  bt__frame at;
 } look;
+
+/* What tether I sees of the hull that is number OBJECT.  BT_ERR_NAME if the two never meet.  */
+static bt_status
+look_at_hull (const bt_dive *dive, int i, int object, look *look, bt_error *error)
+{
+  const bt_model *model = dive->model;
+  int vehicle = object - bt__hull_number (model, 0);
+  bt_status status = bt__check_part (dive, BT_PART_TETHER, i, error);
+  if (status == BT_OK)
+    status = bt__check_part (dive, BT_PART_VEHICLE, vehicle, error);
+  if (status != BT_OK)
+    return status;
+  if (model->n_hulls == 0 || !bt__may_meet_hull (model, i, vehicle))
+    return bt__fail (error, BT_ERR_NAME,
+                     "tether `%s' cannot meet `%s', which has no size or is made fast to it",
+                     model->tethers[i].name, model->vehicles[vehicle].name);
+  *look = (struct look){ .around.scene = model->hull[vehicle],
+                         .at = bt__vehicle_frame (bt__dive_vehicle (dive, dive->now, vehicle)) };
+  return BT_OK;
+}
 
 static bt_status
 look_at_subject (const bt_dive *dive, bt_part part, int i, int obstacle, look *look,
@@ -194,6 +215,7 @@ look_at_subject (const bt_dive *dive, bt_part part, int i, int obstacle, look *l
   if (status == BT_OK && obstacle >= 0)
     status = bt__check_part (dive, BT_PART_OBSTACLE, obstacle, error);
   memset (look, 0, sizeof *look);
+  look->at = bt__turned (bt__vec (0, 0, 0), 0, 0, 0);
   if (status != BT_OK || model->n_obstacles == 0)
     return status;
   look->around = bt__standing (dive, dive->now, part, i);
@@ -252,22 +274,25 @@ bt_tether_clearance (const bt_dive *dive, int i, int obstacle, bt_clearance *out
   bt__line line;
   bt__near near;
   double cap = FAR, length;
-  int n;
-  bt_status status = look_at_subject (dive, BT_PART_TETHER, i, obstacle, &look, error);
+  int n, hull = obstacle >= bt__hull_number (dive->model, 0);
+  bt_status status = hull ? look_at_hull (dive, i, obstacle, &look, error)
+                          : look_at_subject (dive, BT_PART_TETHER, i, obstacle, &look, error);
   if (status != BT_OK)
     return status;
   *out = (bt_clearance){ .distance = INFINITY, .object = -1 };
   line = bt__line_of (dive, dive->now, i);
   n = bt__line_nodes (&line) - 1;
   length = bt__line_length (&line);
-  for (int k = 0; look.off && k < n; k++)
+  for (int k = 0; (look.off || hull) && k < n; k++)
     {
-      bt__link link = { bt__line_node (&line, k), bt__line_node (&line, k + 1) };
+      bt__link link = { bt__to_local (&look.at, bt__line_node (&line, k)),
+                        bt__to_local (&look.at, bt__line_node (&line, k + 1)) };
       if (!nearest_part (dive, &look, &link, &cap, &near, out))
         continue;
       out->distance = cap - line.tether->props.diameter / 2;
       out->s = length * (k + near.w.s) / n;
     }
+  out->position = bt__to_world (&look.at, out->position);
   free (look.off);
   return BT_OK;
 }

@@ -148,9 +148,10 @@ bt__context_enter (bt__context *context, const bt_dive *dive, bt__state *next)
   own->alike = dive->alike;
   own->contact_work.pin = dive->contact_work.pin;
   own->contact_work.place = dive->contact_work.place;
-  if (dive->model->n_carried > 0)
-    memcpy (own->contact_work.course, dive->contact_work.course,
-            sizeof *own->contact_work.course * (size_t)dive->model->n_carried);
+  memcpy (own->contact_work.course, dive->contact_work.course,
+          sizeof *own->contact_work.course * (size_t)bt__courses (dive->model));
+  memcpy (own->contact_work.by_hull, dive->contact_work.by_hull,
+          (size_t)dive->model->n_tethers * (size_t)dive->model->n_hulls);
   memcpy (own->contact_work.box, dive->contact_work.box,
           2 * sizeof *own->contact_work.box * (size_t)dive->model->n_tethers);
   own->contact_work.disagree = 0;

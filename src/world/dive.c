@@ -101,6 +101,8 @@ make_shore (bt_dive *dive, bt_error *error)
   const bt_model *model = dive->model;
   bt__contact_work *shore = &dive->contact_work;
   int chain = 0, room = 0;
+  size_t moving = (size_t)bt__courses (model);
+  size_t pairs = (size_t)model->n_tethers * (size_t)model->n_hulls;
   bt_status status;
   for (int i = 0; i < model->n_tethers; i++)
     {
@@ -113,16 +115,18 @@ make_shore (bt_dive *dive, bt_error *error)
   shore->line = bt__line_work_new (chain + 1, bt__model_among (model));
   shore->strand = calloc (2 * (size_t)model->n_tethers + 1, sizeof *shore->strand);
   shore->box = calloc (2 * (size_t)model->n_tethers + 1, sizeof *shore->box);
-  if (!shore->line || !shore->strand || !shore->box)
+  shore->mover = calloc (moving + 1, sizeof *shore->mover);
+  shore->course = calloc (moving + 1, sizeof *shore->course);
+  shore->by_hull = calloc (pairs + 1, sizeof *shore->by_hull);
+  if (!shore->line || !shore->strand || !shore->box || !shore->mover || !shore->course
+      || !shore->by_hull)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for what the lines of a dive touch");
   if (model->n_obstacles == 0)
     return BT_OK;
-  shore->mover = calloc ((size_t)model->n_carried + 1, sizeof *shore->mover);
-  shore->course = calloc ((size_t)model->n_carried + 1, sizeof *shore->course);
   shore->safe_of = -1;
   shore->node = calloc ((size_t)chain + 1, sizeof *shore->node);
   shore->share = calloc ((size_t)chain + 1, sizeof *shore->share);
-  if (!shore->mover || !shore->course || !shore->node || !shore->share)
+  if (!shore->node || !shore->share)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the obstacles of a dive");
   status = bt__polyline_work_new ((uint32_t)room + 1, (uint32_t)model->n_carried, &shore->polyline,
                                   error);
@@ -137,6 +141,7 @@ free_shore (bt__contact_work *shore)
 {
   free (shore->mover);
   free (shore->course);
+  free (shore->by_hull);
   free (shore->pin);
   free (shore->strand);
   free (shore->box);
@@ -470,6 +475,9 @@ const char *
 bt_dive_name (const bt_dive *dive, bt_part part, int i)
 {
   int n = bt_dive_count (dive, part);
+  int lines = bt_dive_count (dive, BT_PART_TETHER);
+  if (part == BT_PART_OBSTACLE && i >= n + lines)
+    return bt_dive_name (dive, BT_PART_VEHICLE, i - n - lines);
   if (part == BT_PART_OBSTACLE && i >= n)
     return bt_dive_name (dive, BT_PART_TETHER, i - n);
   if (i < 0 || i >= n)

@@ -64,11 +64,21 @@ typedef struct bt__driven
   bt__grip grip;
 } bt__driven;
 
-/* What a world with obstacles needs in a step; else all but LINE, PIN, ORDER and PLACE is NULL.  */
+/* How many ways there are in a step: those of movers, then those of hulls.  */
+static inline int
+bt__courses (const bt_model *model)
+{
+  return model->n_carried + model->n_hulls;
+}
+
+/* The workspaces of contact in a step.  NODE, SHARE, SAFE and POLYLINE are NULL in a world without
+   obstacles.  */
 typedef struct bt__contact_work
 {
   bt__mover *mover;
   bt__course *course;
+  uint8_t *by_hull; /* of each tether for each of the model's n_hulls: may both meet in the step? */
+  int wide;         /* true: every tether may meet every hull, after a try that went too far */
   bt__switches on;
   int disagree;       /* a mover was held back after somebody had gone by its whole way */
   double since, left; /* of the step's time: the shares before and after the part of the step that a

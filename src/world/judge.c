@@ -62,10 +62,11 @@ bt_status
 bt__state_judge (bt_dive *dive, bt__state *state, bt_error *error)
 {
   const bt_model *model = dive->model;
-  bt__judge judge = { .whose = "the state",
-                      .below = { [BT__BELOW_OBJECTS] = model->n_obstacles + model->n_tethers,
-                                 [BT__BELOW_MOVERS] = model->n_carried },
-                      .error = error };
+  bt__judge judge
+      = { .whose = "the state",
+          .below = { [BT__BELOW_OBJECTS] = model->n_obstacles + model->n_tethers + model->n_hulls,
+                     [BT__BELOW_MOVERS] = model->n_carried + model->n_hulls },
+          .error = error };
   bt_status status = bt__judge_sea (&judge, dive, state);
   if (status == BT_OK)
     status = bt__judge_obstacles (&judge, dive, state);

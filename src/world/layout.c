@@ -93,12 +93,12 @@ bt__arrays_size (const bt_tether_def *tether)
   return 2 * sizeof (bt_vec3) * (size_t)node_points (tether);
 }
 
-/* A line in a world without obstacles can touch only lines, in few places.  */
+/* A line in a world without obstacles and hulls can touch only lines, in few places.  */
 int
 bt__contact_room (const bt_model *model, const bt_tether_def *tether)
 {
   int chain = bt__chain_room (tether);
-  return model->n_obstacles > 0 ? 64 + 2 * chain : 24 + chain / 4;
+  return bt__model_among (model) == BT__AMONG_OBSTACLES ? 64 + 2 * chain : 24 + chain / 4;
 }
 
 bt__line_size

@@ -34,7 +34,7 @@ enum
 int
 bt__objects (const bt_model *model)
 {
-  return model->n_obstacles + model->n_floors + model->n_tethers;
+  return model->n_obstacles + model->n_floors + model->n_tethers + model->n_hulls;
 }
 
 static size_t
@@ -181,11 +181,17 @@ bt__passes_tether (const bt_dive *dive, bt__state *state, int i, int j)
   return bt__dive_off (dive, state, BT_PART_TETHER, i)[slot];
 }
 
+int
+bt__passes_hull (const bt_dive *dive, bt__state *state, int i, int vehicle)
+{
+  int slot = bt__obstacle_slot (dive->model, bt__hull_number (dive->model, vehicle));
+  return bt__dive_off (dive, state, BT_PART_TETHER, i)[slot];
+}
+
 /* ---- Surroundings ---- */
 
-/* MOTION from the share SINCE to the share UNTIL of it.  */
-static bt__motion
-part_of (const bt__motion *motion, double since, double until)
+bt__motion
+bt__motion_part (const bt__motion *motion, double since, double until)
 {
   bt__frame from = since > 0 ? bt__motion_at (motion, since) : motion->from;
   bt__frame to = bt__motion_at (motion, until);
@@ -210,8 +216,9 @@ surround (const bt_dive *dive, bt__state *state, bt__switches off, int standing)
       shore->mover[k]
           = (bt__mover){ .body = carried->body,
                          .on = &course->on,
-                         .motion = standing ? bt__motion_between (here, here)
-                                            : part_of (&course->whole, course->share * shore->since,
+                         .motion
+                         = standing ? bt__motion_between (here, here)
+                                    : bt__motion_part (&course->whole, course->share * shore->since,
                                                        course->share * (1 - shore->left)),
                          .radius = carried->radius,
                          .done = 1 };

@@ -24,9 +24,9 @@ void bt__obstacles_init (const bt_dive *dive, bt__state *state);
 static inline bt__among
 bt__model_among (const bt_model *model)
 {
-  return model->n_obstacles > 0 ? BT__AMONG_OBSTACLES
-         : model->n_tethers > 1 ? BT__AMONG_LINES
-                                : BT__AMONG_ITSELF;
+  return model->n_obstacles > 0 || model->n_hulls > 0 ? BT__AMONG_OBSTACLES
+         : model->n_tethers > 1                       ? BT__AMONG_LINES
+                                                      : BT__AMONG_ITSELF;
 }
 
 bt__mover_state *bt__dive_movers (const bt_dive *dive, bt__state *state);
@@ -34,15 +34,17 @@ bt__mover_state *bt__dive_movers (const bt_dive *dive, bt__state *state);
 /* Coulomb's coefficient of each obstacle; NaN: the tether's own.  */
 double *bt__dive_roughness (const bt_dive *dive, bt__state *state);
 
-/* What a tether may touch: the obstacles by their numbers, then the tethers, itself among them.  */
+/* What a tether may touch: the obstacles by their numbers, then the tethers, itself among them,
+   then the hulls of vehicles.  */
 int bt__objects (const bt_model *model);
 
 /* Where OBSTACLE stands among the bytes below: those in the scene by their place there, then those
    carried, then tethers.  */
 int bt__obstacle_slot (const bt_model *model, int obstacle);
 
-/* True if tether I passes through tether J, which may be I.  */
+/* True if tether I passes through tether J, which may be I; through the hull of VEHICLE.  */
 int bt__passes_tether (const bt_dive *dive, bt__state *state, int i, int j);
+int bt__passes_hull (const bt_dive *dive, bt__state *state, int i, int vehicle);
 
 /* Write to the bytes OFF whether OBSTACLE is on.  */
 void bt__switch_slot (const bt_model *model, uint8_t *off, int obstacle, int on);
@@ -58,6 +60,9 @@ int8_t *bt__dive_told (const bt_dive *dive, bt__state *state, int i);
    by its share of the motion; or standing at their present places.  Valid until the next call.  */
 bt__surroundings bt__surround (const bt_dive *dive, bt__state *state, bt_part part, int i);
 bt__surroundings bt__standing (const bt_dive *dive, bt__state *state, bt_part part, int i);
+
+/* MOTION from the share SINCE to the share UNTIL of it.  */
+bt__motion bt__motion_part (const bt__motion *motion, double since, double until);
 
 /* The same of whatever there is, switched off or not.  */
 bt__surroundings bt__all_standing (const bt_dive *dive, bt__state *state);

@@ -603,7 +603,9 @@ views (void **state)
   assert_string_equal (bt_dive_name (dive, BT_PART_OBSTACLE, 3), "leg");
   assert_string_equal (bt_dive_name (dive, BT_PART_OBSTACLE, 7),
                        bt_dive_name (dive, BT_PART_TETHER, 0));
-  assert_null (bt_dive_name (dive, BT_PART_OBSTACLE, 8));
+  assert_string_equal (bt_dive_name (dive, BT_PART_OBSTACLE, 8),
+                       bt_dive_name (dive, BT_PART_VEHICLE, 0));
+  assert_null (bt_dive_name (dive, BT_PART_OBSTACLE, 9));
   assert_int_equal (bt_dive_obstacle (dive, 7, &v, &error), BT_ERR_NAME);
   assert_int_equal (bt_dive_obstacle (dive, -1, &v, &error), BT_ERR_NAME);
   assert_int_equal (bt_dive_obstacle (dive, 3, &v, &error), BT_OK);

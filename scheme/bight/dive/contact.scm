@@ -77,8 +77,8 @@
   (if (%slides? c) 'slide 'stick))
 
 (define-verb (contacts #:subject (t tether))
-  "Return where the tether touches obstacles, other tethers and, at either place, itself, from the anchor
-on: a list of contacts."
+  "Return where the tether touches obstacles, other tethers, hulls of vehicles that it is not made fast to
+and, at either place, itself, from the anchor on: a list of contacts."
   (map (lambda (v) (apply make-contact (vector->list v)))
        (%contacts (this-engine 'contacts) t)))
 
@@ -133,11 +133,17 @@ it touches nothing."
     (or (list-index (lambda (other) (eq? name other)) names)
         (unknown-name proc "this dive" name names "obstacle"))))
 
+(define (hull-index proc name)
+  "Return the number of the hull of the vehicle called NAME as what a tether touches, or #f."
+  (let ((v (list-index (lambda (other) (eq? name other)) (%names (this-engine proc) 'rov))))
+    (and v (hull-number proc v))))
+
 (define (nearest proc part index object)
-  (%clearance (this-engine proc) part index (if object (obstacle-index proc object) -1)))
+  (let ((hull (and object (eq? part 'tether) (hull-index proc object))))
+    (%clearance (this-engine proc) part index (cond (hull hull) (object (obstacle-index proc object)) (else -1)))))
 
 (define-argument-type (maybe-name value)
-  "the name of an obstacle"
+  "the name of an obstacle, or of a vehicle"
   (if (or (not value) (symbol? value)) value refused))
 
 (define (clearance-of proc part index object)
@@ -145,8 +151,8 @@ it touches nothing."
     (if near (car near) +inf.0)))
 
 (define-verb (clearance #:subject (t tether) #:optional (object maybe-name #f))
-  "Return the distance between the tether's surface and OBJECT, or the nearest obstacle, m; infinite when
-none is within 1000 m."
+  "Return the distance between the tether's surface and OBJECT, an obstacle or the hull of another's
+vehicle, or the nearest obstacle, m; infinite when none is within 1000 m."
   (clearance-of 'clearance 'tether t object))
 
 (define-verb (rov-clearance #:subject (v vehicle) #:optional (object maybe-name #f))
@@ -165,9 +171,17 @@ none is within 1000 m."
           ((and (eq? kind-a 'tether) (eq? kind-b 'tether))
            (values kind-a a* (+ b* (length (%names (this-engine proc) 'obstacle)))))
           ((and (eq? kind-a 'obstacle) (memq kind-b '(vehicle tether))) (values kind-b b* a*))
+          ((and (eq? kind-a 'tether) (eq? kind-b 'vehicle)) (values kind-a a* (hull-number proc b*)))
+          ((and (eq? kind-a 'vehicle) (eq? kind-b 'tether)) (values kind-b b* (hull-number proc a*)))
           (else
-           (bight-raise 'name proc "a pair is a vehicle or a tether and an obstacle, or two tethers, not ~a and ~a"
+           (bight-raise 'name proc
+                        "a pair is a vehicle or a tether and an obstacle, two tethers, or a tether and a \
+vehicle, not ~a and ~a"
                         a b)))))
+
+(define (hull-number proc v)
+  ;; As what a tether touches, the hull of vehicle number V stands behind the obstacles and the tethers.
+  (+ v (length (%names (this-engine proc) 'obstacle)) (length (%names (this-engine proc) 'tether))))
 
 (define (part-number kind)
   (case kind ((vehicle) 1) ((tether) 2) (else 0)))
@@ -182,8 +196,8 @@ none is within 1000 m."
 
 (define-verb (collide! #:rest (setting setting))
   "Switch the pair of a vehicle or a tether A and an obstacle B on or off, as in (collide! 'line 'leg-a1
-#f); likewise two tethers, or a tether and itself, as in (collide! 'line 'line #f); all pairs with
-(collide! #:all #f).  A pair that is off passes through each other; at first all are on, a moving line and
+#f); likewise two tethers, a tether and itself, as in (collide! 'line 'line #f), or a tether and the hull
+of a vehicle that it is not made fast to; all pairs with (collide! #:all #f).  A pair that is off passes through each other; at first all are on, a moving line and
 itself in open water too.  Return whether it is on."
   (let ((on? (and (pair? setting) (last setting))))
     (cond ((and (= 2 (length setting)) (eq? #:all (car setting)) (boolean? on?))
@@ -199,8 +213,8 @@ itself in open water too.  Return whether it is on."
     on?))
 
 (define-verb (collided? (a name) (b name))
-  "Return #t if the vehicle or tether A and the obstacle B met in the last step; or two tethers, or a
-tether and itself."
+  "Return #t if the vehicle or tether A and the obstacle B met in the last step; or two tethers, a tether
+and itself, or a tether and the hull of another's vehicle."
   (let-values (((kind index obstacle) (pair-of 'collided? a b)))
     (%collided? (this-engine 'collided?) (if (eq? kind 'vehicle) 'rov 'tether) index obstacle)))
 

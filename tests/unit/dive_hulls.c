@@ -1,0 +1,371 @@
+/* A tether never passes through the hull of another's vehicle: random worlds of two tethers and two
+   vehicles, in open water or with kinematic obstacles, where pilots fly their vehicles at each
+   other's lines; kinematic vehicles and vehicles with mass, whole lines and cut ones, one thread
+   and two, straight on and by way of a saved state.  Each step is judged without the engine.  With
+   the pairs switched off the judge must cry out.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "../oracle/dive_play.h"
+#include "math/vec.h"
+#include "world/hull.h"
+
+enum
+{
+  WORLDS = 10,
+  ACTS = 6,
+  STEPS = 40,
+  BETWEEN = 8 /* moments of a step that are looked at */
+};
+
+/* What a world has.  */
+typedef struct kind
+{
+  int movers, mass, cut, off, saved, fine, threads;
+  bt_model_kind model;
+} kind;
+
+/* What the judge saw: steps, steps in which a line touched a hull, steps not judged because nodes
+   came or went, steps with a line in a hull, steps that the guard shortened; where it all ended. */
+typedef struct verdict
+{
+  long steps, touching, unjudged, inside;
+  uint64_t tries, truncated, beside, shared, hash;
+} verdict;
+
+/* Where the hulls are.  A body that is pitched and rolled has another heading than its compass
+   says, so its attitude is read.  */
+typedef struct hulls
+{
+  bt__box box[2];
+  double rest[PARTS][POINTS]; /* m: of the intervals of the lines, too */
+} hulls;
+
+/* ---- The judge ---- */
+
+static void
+look_at_hulls (const scene *s, const bt_dive *dive, const sight *sight, hulls *h)
+{
+  for (int i = 0; i < 2; i++)
+    h->box[i] = (bt__box){ bt__vehicle_frame (bt__dive_vehicle (dive, dive->now, i)),
+                           bt__scale (0.5, s->vehicle[i].size) };
+  for (int p = 0; p < PARTS; p++)
+    if (sight->n[p] > 0)
+      memcpy (h->rest[p], bt__dynamic_rest (bt__dive_chain (dive, dive->now, p / 2, p % 2)),
+              sizeof (double) * (size_t)(sight->n[p] - 1));
+}
+
+/* True if the nodes of part P are the same before and after: a sliding node that comes while
+   another goes leaves their number.  */
+static int
+are_same_nodes (const sight *was, const sight *is, const hulls *before, const hulls *after, int p)
+{
+  const double *a = before->rest[p], *b = after->rest[p];
+  int same = was->n[p] == is->n[p];
+  for (int i = 0; same && i + 1 < is->n[p]; i++)
+    same = fabs (a[i] - b[i]) < 0.2 * a[i];
+  return same;
+}
+
+/* True if the segment from P to Q, in the frame of a box, has a point within HALF.  */
+static int
+enters (bt_vec3 p, bt_vec3 q, bt_vec3 half)
+{
+  const double *a = &p.x, *b = &q.x, *h = &half.x;
+  double from = 0, to = 1;
+  for (int k = 0; k < 3; k++)
+    {
+      double d = b[k] - a[k], s = (-h[k] - a[k]) / d, t = (h[k] - a[k]) / d;
+      if (d == 0 && fabs (a[k]) >= h[k])
+        return 0;
+      if (d == 0)
+        continue;
+      from = fmax (from, fmin (s, t));
+      to = fmin (to, fmax (s, t));
+    }
+  return from < to;
+}
+
+/* P in the frame of the box that goes from A to B, after the share T: straight, with an even turn.
+ */
+static bt_vec3
+in_hull (const bt__box *a, const bt__box *b, double t, bt_vec3 p)
+{
+  bt__motion motion = bt__motion_between (&a->frame, &b->frame);
+  bt__frame f = bt__motion_at (&motion, t);
+  return bt__to_local (&f, p);
+}
+
+/* True if part P of a line is in the box, or was at one of the moments from FIRST on.  */
+static int
+was_inside (const sight *was, const sight *is, int p, const bt__box *a, const bt__box *b, int first)
+{
+  bt_vec3 half = bt__sub (a->half, bt__vec (1e-6, 1e-6, 1e-6));
+  for (int m = first; m <= BETWEEN; m++)
+    for (int i = 0; i + 1 < is->n[p]; i++)
+      {
+        double t = (double)m / BETWEEN;
+        const bt_vec3 *y = is->x[p] + i, *x = m < BETWEEN ? was->x[p] + i : y;
+        if (enters (in_hull (a, b, t, bt__axpy (x[0], t, bt__sub (y[0], x[0]))),
+                    in_hull (a, b, t, bt__axpy (x[1], t, bt__sub (y[1], x[1]))), half))
+          return 1;
+      }
+  return 0;
+}
+
+static void
+judge_step (const bt_dive *dive, const sight *was, const sight *is, const hulls *before,
+            const hulls *after, verdict *v)
+{
+  int first = bt_dive_count (dive, BT_PART_OBSTACLE) + 2;
+  v->steps++;
+  v->touching += bt_dive_collided (dive, BT_PART_TETHER, 0, first + 1)
+                 || bt_dive_collided (dive, BT_PART_TETHER, 1, first);
+  for (int p = 0; p < PARTS; p++)
+    {
+      int same = are_same_nodes (was, is, before, after, p), hull = 1 - p / 2;
+      v->unjudged += !same;
+      if (!was_inside (was, is, p, &before->box[hull], &after->box[hull], same ? 1 : BETWEEN))
+        continue;
+      v->inside++;
+      if (getenv ("BIGHT_TELL"))
+        printf ("# t %.3f part %d is in the hull of vehicle %d\n", bt_dive_time (dive), p, hull);
+    }
+}
+
+/* ---- Worlds and pilots ---- */
+
+/* Two lines across each other, two metres apart.  */
+static void
+draw_world (scene *s, dice *d, kind k)
+{
+  begin_scene (s, k.model);
+  s->world.n_vehicles = s->world.n_tethers = 2;
+  bt_def_set_name (s->tether[1].to.part, "garage", NULL);
+  for (int i = 0; i < 2; i++)
+    {
+      double toward = dice_between (d, 0, 0.5) + i * BT__PI / 2;
+      bt_vec3 u = { cos (toward), sin (toward), 0 };
+      bt_vec3 middle = { 0, 0, -6 - 2 * i - dice_between (d, 0, 0.5) };
+      s->tether[i].from.at = bt__axpy (middle, -6, u);
+      s->vehicle[i].at = bt__axpy (middle, k.mass ? 2 : 6, u);
+      s->tether[i].length = dice_between (d, 12.1, 16) - (k.mass ? 4 : 0);
+      s->tether[i].props.nodes = k.fine ? 240 : 24;
+      s->tether[i].props.wet_weight = dice_between (d, -0.1, 0.3);
+      s->tether[i].props.friction = dice_between (d, 0, 0.6);
+      s->tether[i].props.breaking_load = 1e9;
+      if (k.mass)
+        assert_int_equal (bt_def_set_vehicle_type (&s->vehicle[i], "bluerov2-heavy", NULL), BT_OK);
+      else
+        give_hull (s, i, bt__vec (dice_between (d, 0.2, 1), dice_between (d, 0.2, 1), 0.4));
+    }
+  if (k.movers)
+    add_movers (s);
+}
+
+/* Where a vehicle goes that crosses the line of the other.  */
+static bt_vec3
+across_the_other (const bt_dive *dive, dice *d, int v)
+{
+  static sight seen;
+  bt_vehicle_view view;
+  look (dive, &seen);
+  assert_int_equal (bt_dive_vehicle (dive, v, &view, NULL), BT_OK);
+  int p = 2 * (1 - v);
+  bt_vec3 at = seen.x[p][dice_below (d, seen.n[p])], way = bt__sub (at, view.position);
+  return bt__axpy (at, dice_between (d, 0.2, 3) / fmax (bt__norm (way), 1), way);
+}
+
+static void
+act (bt_dive *dive, dice *d, kind k)
+{
+  int v = dice_below (d, 2);
+  bt_vec3 p = across_the_other (dive, d, v);
+  if (k.cut && dice_below (d, 6) == 0)
+    operate (dive, BT_OP_CUT, v, 1, (double[]){ dice_between (d, 3, 10) });
+  else if (dice_below (d, 4) == 0)
+    operate (dive, BT_OP_DRIVE, v, 4,
+             (double[]){ dice_between (d, -1, 1), dice_between (d, -1, 1), dice_between (d, -1, 1),
+                         dice_between (d, -1, 1) });
+  else if (k.mass)
+    operate (dive, BT_OP_FLY_TO, v, 4, (double[]){ p.x, p.y, p.z, 2 });
+  else
+    operate (dive, BT_OP_MOVE, v, 4, (double[]){ p.x, p.y, p.z, dice_below (d, 3) ? 2 : 20 });
+}
+
+/* Let DIVE go on from its own state, saved and restored.  */
+static void
+save_and_restore (bt_dive *dive)
+{
+  size_t size = bt_dive_state_size (dive);
+  void *state = malloc (size);
+  assert_non_null (state);
+  bt_dive_save (dive, state);
+  bt_error e = { 0 };
+  if (bt_dive_restore (dive, state, size, &e) != BT_OK)
+    fail_msg ("%s", e.text);
+  free (state);
+}
+
+/* True if a line lies in a hull or close to one as the dive begins: that line is let out.  */
+static int
+begins_close (const bt_dive *dive, int hull)
+{
+  for (int i = 0; i < 2; i++)
+    {
+      bt_clearance clearance;
+      assert_int_equal (bt_tether_clearance (dive, i, hull + 1 - i, &clearance, NULL), BT_OK);
+      if (clearance.distance < 0.01)
+        return 1;
+    }
+  return 0;
+}
+
+static void
+fly_and_judge (uint64_t seed, kind k, verdict *v)
+{
+  static sight sights[2];
+  static hulls hulls_seen[2];
+  sight *was = sights, *is = sights + 1;
+  hulls *before = hulls_seen, *after = hulls_seen + 1;
+  scene s;
+  bt_profile work;
+  dice d = dice_new (seed + other_seeds ());
+  if (getenv ("BIGHT_TELL"))
+    printf ("# seed %lu\n", (unsigned long)seed);
+  draw_world (&s, &d, k);
+  bt_dive *dive = enter (&s);
+  int hull = s.world.n_obstacles + 2, begins = begins_close (dive, hull);
+  if (k.threads)
+    assert_int_equal (bt_dive_set_threads (dive, k.threads, NULL), BT_OK);
+  for (int i = 0; i < 2 && k.off; i++)
+    assert_int_equal (
+        operate (dive, BT_OP_COLLIDE, i, 3, (double[]){ BT_PART_TETHER, hull + 1 - i, 0 }), BT_OK);
+  for (int a = 0; a < ACTS && !begins; a++)
+    {
+      act (dive, &d, k);
+      look (dive, was);
+      look_at_hulls (&s, dive, was, before);
+      for (int i = 0; i < (k.mass ? 3 * STEPS : STEPS) && step (dive); i++)
+        {
+          sight *old = was;
+          hulls *old_hulls = before;
+          look (dive, is);
+          look_at_hulls (&s, dive, is, after);
+          judge_step (dive, was, is, before, after, v);
+          was = is;
+          is = old;
+          before = after;
+          after = old_hulls;
+        }
+      if (k.saved)
+        save_and_restore (dive);
+    }
+  bt_dive_profile (dive, &work);
+  v->tries += work.chain_steps;
+  v->truncated += work.truncated;
+  v->beside += work.beside_hulls;
+  v->shared += work.shared_steps;
+  v->hash = v->hash * 31 + bt_dive_hash (dive);
+  bt_dive_free (dive);
+}
+
+static verdict
+fly_worlds (uint64_t seed, int worlds, kind k, const char *name)
+{
+  verdict v = { 0 };
+  if (k.model == 0)
+    k.model = BT_MODEL_DYNAMIC;
+  for (int i = 0; i < worlds; i++)
+    fly_and_judge (seed + (uint64_t)i, k, &v);
+  print_message ("# %s: %ld steps (%g tries each), %ld touching a hull, %ld not judged, %ld with a "
+                 "line in a hull, %lu shortened, %lu times beside, %lu shared\n",
+                 name, v.steps, 0.5 * (double)v.tries / (double)v.steps, v.touching, v.unjudged,
+                 v.inside, (unsigned long)v.truncated, (unsigned long)v.beside,
+                 (unsigned long)v.shared);
+  return v;
+}
+
+static void
+never (uint64_t seed, kind k, const char *name)
+{
+  verdict v = fly_worlds (seed, WORLDS * longer (), k, name);
+  assert_int_equal (v.inside, 0);
+  assert_true (v.touching > v.steps / 50);
+  assert_true (v.unjudged < v.steps / 15);
+}
+
+/* ---- Tests ---- */
+
+static void
+in_open_water (void **state)
+{
+  (void)state;
+  never (1000, (kind){ 0 }, "open water");
+  never (2000, (kind){ .mass = 1 }, "open water, vehicles with mass");
+  never (2500, (kind){ .model = BT_MODEL_AUTO }, "open water, model auto");
+}
+
+static void
+cut_in_open_water (void **state)
+{
+  (void)state;
+  never (3000, (kind){ .cut = 1 }, "open water, lines cut");
+}
+
+static void
+among_movers (void **state)
+{
+  (void)state;
+  never (4000, (kind){ .movers = 1, .cut = 1 }, "kinematic obstacles");
+  never (4500, (kind){ .movers = 1, .mass = 1 }, "kinematic obstacles, vehicles with mass");
+}
+
+static void
+switched_off_they_pass (void **state)
+{
+  (void)state;
+  verdict v = fly_worlds (1000, WORLDS, (kind){ .off = 1 }, "switched off");
+  assert_true (v.inside > WORLDS);
+  assert_int_equal (v.touching, 0);
+  assert_int_equal (v.beside, 0);
+}
+
+/* Whatever the number of threads, and by way of a saved state, the same comes of the same.  */
+static void
+the_same_comes_of_the_same (void **state)
+{
+  (void)state;
+  for (int mass = 0; mass < 2; mass++)
+    {
+      verdict one = fly_worlds (5000, WORLDS / 2, (kind){ .mass = mass }, "one thread");
+      verdict saved = fly_worlds (5000, WORLDS / 2, (kind){ .mass = mass, .saved = 1 }, "saved");
+      assert_true (one.hash == saved.hash);
+      kind fine = { .mass = mass, .fine = 1 }, shared = { .mass = mass, .fine = 1, .threads = 2 };
+      one = fly_worlds (6000, 2, fine, "fine lines");
+      verdict two = fly_worlds (6000, 2, shared, "fine lines, two threads");
+      assert_true (one.hash == two.hash);
+      assert_true (two.shared > 0);
+    }
+}
+
+int
+main (void)
+{
+  const struct CMUnitTest tests[]
+      = { cmocka_unit_test (in_open_water), cmocka_unit_test (cut_in_open_water),
+          cmocka_unit_test (among_movers), cmocka_unit_test (switched_off_they_pass),
+          cmocka_unit_test (the_same_comes_of_the_same) };
+  return cmocka_run_group_tests (tests, NULL, NULL);
+}
