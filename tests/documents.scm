@@ -13,7 +13,7 @@
 
 (define-module (tests documents)
   #:use-module ((bight core errors) #:select (bight-error? bight-error-kind))
-  #:use-module ((bight test expect) #:select (exception->line))
+  #:use-module ((bight core told) #:select (exception->line))
   #:use-module (ice-9 popen)
   #:use-module (ice-9 rdelim)
   #:use-module (ice-9 regex)

@@ -11,7 +11,7 @@
   #:use-module (bight core shelf)
   #:use-module (bight study case)
   #:use-module (bight study sweep-design)
-  #:use-module ((bight test expect) #:select (source-location location->string))
+  #:use-module ((bight core told) #:select (source-location location->string))
   #:use-module ((bight test scenario) #:select (world-of))
   #:use-module (srfi srfi-1)
   #:use-module ((system syntax) #:select (syntax-local-binding))

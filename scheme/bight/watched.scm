@@ -13,7 +13,7 @@
   #:use-module (bight dive task)
   #:use-module (bight dive time)
   #:use-module (bight engine)
-  #:use-module ((bight test expect) #:select (exception->line))
+  #:use-module ((bight core told) #:select (exception->line))
   #:use-module (bight test invariant)
   #:use-module (bight test soundness)
   #:use-module ((ice-9 exceptions) #:select (exception-kind))

@@ -4,7 +4,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules ((bight test expect) #:select (exception->line))
+(use-modules ((bight core told) #:select (exception->line))
              (ice-9 exceptions)
              (srfi srfi-4))
 

@@ -7,7 +7,7 @@
              (bight shell topics)
              ((bight shell doc) #:select (related docstring-of))
              ((bight world current) #:select (current-help current-forms))
-             ((bight test expect) #:select (exception->line))
+             ((bight core told) #:select (exception->line))
              ((bight shell commands) #:select (commands))
              ((bight shell usage) #:select (command-examples command-name command-options command-run))
              ((bight shell manual) #:select (manual-sections))

@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight core errors)
+             (bight core told)
              (bight test expect)
              (bight shell meant)
              (bight core schema)

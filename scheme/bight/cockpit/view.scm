@@ -201,7 +201,7 @@
     (when order
       (answer-order!
        (with-exception-handler
-           (lambda (e) (list ((from (bight test expect) exception->line) e)))
+           (lambda (e) (list ((from (bight core told) exception->line) e)))
          (lambda () (obey! c order))
          #:unwind? #t)))))
 

@@ -209,7 +209,7 @@
 
 (define (refused-at file line exception)
   ;; Raise what EXCEPTION says, after its place; the reader tells that itself.
-  (let ((text ((module-ref (resolve-interface '(bight test expect)) 'exception->line) exception))
+  (let ((text ((module-ref (resolve-interface '(bight core told)) 'exception->line) exception))
         (place (place-of exception)))
     (raise-engine-error (if (bight-error? exception) (bight-error-kind exception) 'def) #f
                         (string-append (if (string-prefix? (string-append file ":") text)

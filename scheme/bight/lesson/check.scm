@@ -104,7 +104,7 @@
         (if (memq (exception-kind e) '(quit signal))
             (raise-exception e)
             (simple-format #f "its pilot ~a breaks down (seed ~a): ~a" name seed
-                           ((module-ref (resolve-interface '(bight test expect)) 'exception->placed-line) e))))
+                           ((module-ref (resolve-interface '(bight core told)) 'exception->placed-line) e))))
     (lambda ()
       (noting-places
        (lambda ()

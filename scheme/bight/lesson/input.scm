@@ -19,7 +19,7 @@
   #:use-module (bight lesson points)
   #:use-module (bight lesson score)
   #:use-module (bight lesson tally)
-  #:use-module ((bight test expect) #:select (exception->line))
+  #:use-module ((bight core told) #:select (exception->line))
   #:use-module (bight view)
   #:use-module ((bight view looks) #:select (value->lines))
   #:use-module ((ice-9 control) #:select (call/ec))

@@ -10,7 +10,7 @@
   #:use-module (bight lesson play)
   #:use-module (bight lesson score)
   #:use-module (bight lesson shelf)
-  #:use-module ((bight test expect) #:select (code->string source-location location->string))
+  #:use-module ((bight core told) #:select (code->string source-location location->string))
   #:use-module ((bight test scenario) #:select (world-of))
   #:use-module (srfi srfi-1)
   #:export (define-lesson

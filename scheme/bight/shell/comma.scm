@@ -8,7 +8,7 @@
   #:use-module (bight core errors)
   #:use-module ((bight core sentence) #:select (sentence-of-variable))
   #:use-module (bight shell typed)
-  #:use-module ((bight test expect) #:select (location->string))
+  #:use-module ((bight core told) #:select (location->string))
   #:use-module ((ice-9 session) #:select (apropos-internal))
   #:use-module ((ice-9 rdelim) #:select (read-line))
   #:use-module (srfi srfi-1)

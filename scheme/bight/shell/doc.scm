@@ -13,7 +13,7 @@
   #:use-module (bight shell guide)
   #:use-module ((bight shell manual) #:select (sections-about))
   #:use-module (bight shell topics)
-  #:use-module ((bight test expect) #:select (code->string))
+  #:use-module ((bight core told) #:select (code->string))
   #:use-module (bight view)
   #:use-module (ice-9 regex)
   #:use-module (srfi srfi-1)

@@ -22,7 +22,7 @@
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight shell listen)
-  #:use-module ((bight test expect) #:select (exception->line raised-kind))
+  #:use-module ((bight core told) #:select (exception->line raised-kind))
   #:use-module (ice-9 binary-ports)
   #:use-module (ice-9 exceptions)
   #:use-module ((ice-9 textual-ports) #:select (get-string-all))

@@ -31,14 +31,14 @@
 
 (define (located port file line exception)
   ;; What EXCEPTION says, after its place: the line it tells of itself, or LINE of FILE.
-  (let ((text (string-append ((from (bight test expect) exception->line) exception)
-                             ((from (bight test expect) chain-suffix) exception)))
-        (place ((from (bight test expect) raised-at) exception))
+  (let ((text (string-append ((from (bight core told) exception->line) exception)
+                             ((from (bight core told) chain-suffix) exception)))
+        (place ((from (bight core told) raised-at) exception))
         (name (string-append (port-filename port) ":")))
     (cond ((string-prefix? name text)
            (string-append (or file "expression") ":" (substring text (string-length name))))
           ((and place (not (equal? (car place) "expression")))
-           (string-append ((from (bight test expect) location->string) place) ": " text))
+           (string-append ((from (bight core told) location->string) place) ": " text))
           (file
            (string-append file ":" (number->string line) ": " text))
           (else text))))

@@ -13,7 +13,7 @@
   #:use-module (bight shell comma)
   #:use-module (bight shell line-editor)
   #:use-module (bight shell typed)
-  #:use-module ((bight test expect) #:select (syntax-error->line location->string chain->string))
+  #:use-module ((bight core told) #:select (syntax-error->line location->string chain->string))
   #:use-module ((bight view looks) #:select (value->lines))
   #:use-module ((system repl common) #:select (repl-default-option-set!))
   #:use-module ((system repl repl) #:select (start-repl))

@@ -41,7 +41,7 @@
           (lambda (exception)
             (cond ((program-error? exception) (complain (program-error-text exception)))
                   ((memq (exception-kind exception) '(quit)) (raise-exception exception))
-                  (else (complain ((from (bight test expect) exception->placed-line) exception)))))
+                  (else (complain ((from (bight core told) exception->placed-line) exception)))))
         (lambda () (noting-places thunk))
         #:unwind? #t))
     (lambda (key . arguments) (status-of arguments))))

@@ -11,7 +11,7 @@
   #:use-module (bight core errors)
   #:use-module ((bight core here) #:select (noting-places))
   #:use-module (bight study case)
-  #:use-module ((bight test expect) #:select (chain-suffix exception->line raised-at raised-kind))
+  #:use-module ((bight core told) #:select (chain-suffix exception->line raised-at raised-kind))
   #:use-module (srfi srfi-1)
   #:export (call-with-flyers
             fly-cases

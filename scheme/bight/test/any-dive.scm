@@ -13,7 +13,7 @@
   #:use-module (bight dive any-flight)
   #:use-module (bight dive time)
   #:use-module (bight language)
-  #:use-module ((bight test expect) #:select (exception->line))
+  #:use-module ((bight core told) #:select (exception->line))
   #:use-module (bight test generator)
   #:use-module ((bight test trial) #:select (random-state-of call-with-seed))
   #:use-module (bight watched)

@@ -11,6 +11,7 @@
   #:use-module ((bight core here) #:select (afresh))
   #:use-module (bight core record)
   #:use-module ((bight core folders) #:select (ensure-folder!))
+  #:use-module (bight core told)
   #:use-module (bight dive)
   #:use-module ((bight dive flight) #:select (keep-flight! flown-seconds))
   #:use-module ((bight dive time) #:select (now))

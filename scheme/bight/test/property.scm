@@ -9,6 +9,7 @@
 (define-module (bight test property)
   #:use-module (bight core errors)
   #:use-module (bight core record)
+  #:use-module (bight core told)
   #:use-module (bight core verb)
   #:use-module (bight test expect)
   #:use-module (bight test generator)

@@ -11,6 +11,7 @@
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight core shelf)
+  #:use-module (bight core told)
   #:use-module (bight core verb)
   #:use-module (bight dive)
   #:use-module (bight dive task)

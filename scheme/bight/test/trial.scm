@@ -9,6 +9,7 @@
   #:use-module (bight core errors)
   #:use-module ((bight core here) #:select (afresh noting-places))
   #:use-module ((bight core scratch) #:select (call-with-scratch))
+  #:use-module (bight core told)
   #:use-module (bight core verb)
   #:use-module (bight dive)
   #:use-module ((bight dive query) #:select (events))

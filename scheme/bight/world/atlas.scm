@@ -109,14 +109,14 @@ files.  At the prompt each comes with its sentence."
 (define (refuse-file proc file exception)
   ;; Raise what EXCEPTION says, after its place; an error of the reader tells that itself.
   (let ((kind (exception-kind exception))
-        (text ((from (bight test expect) exception->placed-line) exception)))
+        (text ((from (bight core told) exception->placed-line) exception)))
     (when (memq kind '(quit signal user-interrupt))
       (raise-exception exception))
     (raise-engine-error (cond ((bight-error? exception) (bight-error-kind exception))
                               ((eq? kind 'system-error) 'io)
                               (else 'format))
                         proc
-                        (if (or ((from (bight test expect) raised-at) exception)
+                        (if (or ((from (bight core told) raised-at) exception)
                                 (string-prefix? (string-append file ":") text))
                             text
                             (string-append file ": " text)))))

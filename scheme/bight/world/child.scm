@@ -42,7 +42,7 @@
       (lambda (e)
         (if (bight-error? e)
             (list 'refused (bight-error-kind e) (bight-error-message e))
-            (list 'refused 'io ((module-ref (resolve-interface '(bight test expect)) 'exception->line) e))))
+            (list 'refused 'io ((module-ref (resolve-interface '(bight core told)) 'exception->line) e))))
     (lambda ()
       (call-with-input-file file
         (lambda (port)
