@@ -324,7 +324,8 @@ draw_alone (bt__job *j, bt__picture *picture, bt_error *error)
     return status;
   j->gl->Enable (GL_DEPTH_TEST);
   j->gl->PixelStorei (GL_PACK_ALIGNMENT, 4);
-  j->resolve = bt__renderer_resolve (j->r, j->drawing.samples, j->optics.perspective, error);
+  j->resolve = bt__renderer_resolve (j->r, j->drawing.samples, j->optics.perspective,
+                                     sees_surface (j), error);
   upload (j);
   if (j->resolve)
     {

@@ -84,12 +84,12 @@ build_pass (const bt__gl *gl, int pass, int samples, int perspective, GLuint *pr
 /* Link the programs of a picture at its first use: a process that draws one picture pays for one
    set of programs.  */
 const GLuint *
-bt__renderer_resolve (bt__renderer *r, int samples, int perspective, bt_error *error)
+bt__renderer_resolve (bt__renderer *r, int samples, int perspective, int surface, bt_error *error)
 {
   GLuint *program = r->resolve[samples > 1][perspective != 0];
   bt_status status = BT_OK;
   for (int i = 0; status == BT_OK && i < BT__RESOLVE_PASSES; i++)
-    if (!program[i])
+    if (!program[i] && (surface || i < BT__RESOLVE_HIGH || i == BT__RESOLVE_SKY))
       status = build_pass (&r->gl, i, samples > 1 ? 2 : 1, perspective != 0, &program[i], error);
   return status == BT_OK ? program : NULL;
 }

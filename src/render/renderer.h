@@ -49,8 +49,10 @@ struct bt__renderer
   char name[200];
 };
 
-/* Have the programs that make pixels of SAMPLES squared, 1 or 2, for PERSPECTIVE or none; the
-   context is current.  NULL: they are not to be had, and ERROR says why.  */
-const GLuint *bt__renderer_resolve (bt__renderer *r, int samples, int perspective, bt_error *error);
+/* Have the programs that make pixels of SAMPLES squared, 1 or 2, for PERSPECTIVE or none, those for
+   the surface of the sea if SURFACE is true; the context is current.  NULL: they are not to be had,
+   and ERROR says why.  */
+const GLuint *bt__renderer_resolve (bt__renderer *r, int samples, int perspective, int surface,
+                                    bt_error *error);
 
 #endif
