@@ -35,8 +35,8 @@ void bt_dive_set_poll (bt_dive *dive, bt_poll poll, void *user);
 /* Make *COPY a second dive on the same model in the same state; the two then know nothing of each
    other.  */
 bt_status bt_dive_fork (const bt_dive *dive, bt_dive **copy, bt_error *error);
-/* Let FORK, any dive on the same model that is no longer needed, be what bt_dive_fork would make of
-   DIVE, in the memory that FORK has.  BT_ERR_STALE if the models differ.  */
+/* Make FORK, a dive no longer needed, a fork of DIVE as bt_dive_fork does, in the memory of FORK.
+   BT_ERR_STALE if FORK has another model than DIVE.  */
 bt_status bt_dive_fork_again (bt_dive *fork, const bt_dive *dive, bt_error *error);
 
 enum

@@ -123,7 +123,7 @@ is_dive (SCM object)
 
 /* ---- Forks ---- */
 
-/* A fork of what ORIGIN has, in the memory that an earlier fork left if there is some.  */
+/* A fork of the dive of ORIGIN, in the memory of an earlier fork if ORIGIN has a spare.  */
 static bt_dive *
 make_fork (SCM origin)
 {
@@ -169,9 +169,9 @@ tracks_of (const bt_dive *dive)
   return n;
 }
 
-/* Only the state of OBJECT is kept; its memory is what the next fork of ORIGIN is made in.  Whoever
-   has a hand on OBJECT still may ask it: it wakes then, its counters begin anew.  What is more than
-   its state, as a live dive is, stays awake.  */
+/* Keep the state of OBJECT alone; the next fork of ORIGIN is made in the memory of OBJECT.  A
+   question to OBJECT wakes OBJECT again, with new counters.  A fork that has more than a state, as
+   a live dive has, stays awake.  */
 static SCM
 rest_fork (SCM object, SCM origin)
 {

@@ -54,10 +54,10 @@ typedef struct bt__handle
   bt_live *live;    /* or NULL */
   bt_dive *flown;   /* the dive itself while it is live: the thread's */
   uint64_t edition; /* of what DIVE is a copy of */
-  bt_dive *spare;   /* what the next fork may be made in, or NULL */
-  SCM rest;         /* of a fork that rests, DIVE being NULL: its state, a bytevector; else #f */
-  SCM origin;       /* and the dive it is a fork of */
-  double carried;   /* and s of time asked for and not yet stepped */
+  bt_dive *spare;   /* memory for the next fork, or NULL */
+  SCM rest;         /* of a fork at rest, DIVE being NULL: the state, a bytevector; else #f */
+  SCM origin;       /* of a fork at rest: the dive forked */
+  double carried;   /* of a fork at rest: s of time asked for and not yet stepped */
   SCM host;         /* the handle whose live dive this one shares, or #f */
   SCM thrown;       /* (KEY . ARGS) while the engine gives up what was interrupted, else #f */
   double looked;    /* s: when it was last looked whether something waits */

@@ -1,11 +1,11 @@
-/* Where a process spends its time: a clock of CPU time that interrupts it, and notes each time
-   which code was running and who had called that.
+/* Where a process spends time: a clock of CPU time interrupts the process, and notes the running
+   function and the callers of the function.
 
-   An extension of its own, loaded by whoever measures: a process that has not loaded it pays
-   nothing.  The kernel's clock of CPU time (ITIMER_PROF) sends SIGPROF as often as its tick
-   allows; the handler writes return addresses to memory that was laid out before, from whatever
-   thread was running.  A stack ends where code without unwinding tables begins, as does the code
-   that Guile makes at run time.
+   The sampler is an extension, loaded by the bench alone: without the extension a process pays
+   nothing.  The kernel's clock of CPU time (ITIMER_PROF) sends SIGPROF as often as the kernel's
+   tick allows; the handler, on the thread that was running, writes return addresses to memory laid
+   out before.  A stack ends where code without unwinding tables begins, such as the code made by
+   Guile at run time.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -277,7 +277,7 @@ bt_dive_free (bt_dive *dive)
   free (dive);
 }
 
-/* Let FORK, whose memory is as that of a new dive, be what DIVE is.  */
+/* Copy to FORK the state of DIVE, tracks and knowledge of the scene.  */
 static void
 take_after (bt_dive *fork, const bt_dive *dive)
 {
