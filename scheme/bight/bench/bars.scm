@@ -8,6 +8,7 @@
 (define-module (bight bench bars)
   #:use-module ((bight bench plot) #:select (call-with-svg color-of draw-text tenth))
   #:use-module (bight bench row)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module ((bight core markup) #:select (as-xml))
   #:use-module ((srfi srfi-1) #:hide (tenth))
   #:export (counter-of
@@ -19,7 +20,7 @@
   "Return the number that the counter NAME of ROW has, or #f."
   (any (lambda (word)
          (and (string-prefix? (string-append name "=") word)
-              (string->number (substring word (+ 1 (string-length name))))))
+              (text->number (substring word (+ 1 (string-length name))))))
        (string-split (row-counters row) #\;)))
 
 (define (share row) (or (counter-of row "share_percent") 0))

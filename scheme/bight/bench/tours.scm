@@ -14,6 +14,7 @@
   #:use-module ((bight assembly) #:select (data->part))
   #:use-module (bight belief)
   #:use-module (bight belief cloud)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight core units)
   #:use-module (bight dive)
@@ -49,7 +50,7 @@
           (else (loop (cddr rest) (acons (car rest) (cadr rest) found))))))
 
 (define (whole options name default low high)
-  (let* ((text (assoc-ref options name)) (n (if text (string->number text) default)))
+  (let* ((text (assoc-ref options name)) (n (if text (text->number text) default)))
     (unless (and (exact-integer? n) (<= low n high))
       (bight-raise 'domain 'bench "~a takes a whole number from ~a to ~a, not ~a" name low high text))
     n))

@@ -9,6 +9,7 @@
 
 (define-module (bight bench where)
   #:use-module (bight bench sampler)
+  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module ((bight core scratch) #:select (call-with-scratch scratch-file))
   #:use-module (ice-9 popen)
@@ -64,7 +65,7 @@
   (let loop ((found '()))
     (let ((char (peek-char port)))
       (cond ((eof-object? char) found)
-            ((and (char=? char #\0)) (loop (acons (string->number (substring (read-line port) 2) 16) #f found)))
+            ((and (char=? char #\0)) (loop (acons (text->number (substring (read-line port) 2) 16) #f found)))
             (else
              (set-cdr! (car found) (read-function port))
              (loop found))))))
