@@ -112,7 +112,7 @@ is_let_out (const bt_dive *dive, bt__state *state, int i, int vehicle)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   double core = bt__core (tether->props.diameter);
-  for (int part = 0; part <= (tether->parted != 0); part++)
+  for (int part = 0; part < bt__chains (tether); part++)
     if (is_inside (dive, bt__dive_chain (dive, state, i, part), vehicle, core))
       return 1;
   return 0;
@@ -123,7 +123,7 @@ static int
 can_meet (const bt_dive *dive, bt__state *state, int i, int vehicle)
 {
   return bt__may_meet_hull (dive->model, i, vehicle)
-         && bt__dive_tether (dive, state, i)->shape.form == BT__FORM_CHAIN
+         && bt__is_cable (bt__dive_tether (dive, state, i))
          && !bt__passes_hull (dive, state, i, vehicle);
 }
 
@@ -299,8 +299,7 @@ bt__add_line_loads (const bt_dive *dive, bt__state *state, int vehicle, bt__rigi
   for (int i = 0; i < model->n_tethers && model->n_hulls > 0; i++)
     {
       const bt__tether *tether = bt__dive_tether (dive, state, i);
-      for (int part = 0; part <= (tether->parted != 0) && can_meet (dive, state, i, vehicle);
-           part++)
+      for (int part = 0; part < bt__chains (tether) && can_meet (dive, state, i, vehicle); part++)
         add_loads (bt__dive_anchors (dive, state, i, part), bt__hull_number (model, vehicle),
                    centre, &sum);
     }
@@ -345,7 +344,7 @@ box_of_way (const bt_dive *dive, bt__state *state, int i)
   bt__aabb box = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
   bt__state *both[2] = { dive->now, state };
   for (int k = 0; k < 2; k++)
-    for (int part = 0; part <= (bt__dive_tether (dive, both[k], i)->parted != 0); part++)
+    for (int part = 0; part < bt__chains (bt__dive_tether (dive, both[k], i)); part++)
       {
         const bt__dynamic *chain = bt__dive_chain (dive, both[k], i, part);
         for (int64_t q = 0; q <= chain->n; q++)
@@ -359,8 +358,8 @@ static int
 was_shown_all (const bt_dive *dive, bt__state *state, int i)
 {
   bt__aabb way;
-  if (bt__dive_tether (dive, dive->now, i)->shape.form != BT__FORM_CHAIN
-      || bt__dive_tether (dive, state, i)->shape.form != BT__FORM_CHAIN)
+  if (!bt__is_cable (bt__dive_tether (dive, dive->now, i))
+      || !bt__is_cable (bt__dive_tether (dive, state, i)))
     return 1;
   way = box_of_way (dive, state, i);
   for (int v = 0; v < dive->model->n_hulls; v++)
