@@ -121,9 +121,11 @@ expectations do, or where it was raised, or #f."
 
 (define (exception->line exception)
   "Return what EXCEPTION says on one line: PROCEDURE: MESSAGE."
-  (if (eq? 'syntax-error (exception-kind exception))
-      (apply syntax-error->line (exception-args exception))
-      (printed-exception exception)))
+  (case (exception-kind exception)
+    ((syntax-error) (apply syntax-error->line (exception-args exception)))
+    ((out-of-memory) "Out of memory")   ; Guile's printer needs memory
+    ((stack-overflow) "Stack overflow")
+    (else (printed-exception exception))))
 
 (define (exception->placed-line exception)
   "Return what EXCEPTION says on one line, after its place, if that is known: FILE:LINE: PROCEDURE: MESSAGE."
