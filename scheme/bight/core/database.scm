@@ -12,7 +12,8 @@
   #:export (open-tables
             close-tables!
             in-transaction
-            copy-of-database))
+            copy-of-database
+            delete-database!))
 
 (define (close-tables! database)
   "Close DATABASE."
@@ -98,6 +99,10 @@ version when it is of a later version."
         (false-if-exception (delete-file log-copy)))
     (and before (equal? before (signs file log)))))
 
+(define (delete-database! file)
+  "Delete the database FILE with its log.  Whoever has it open may go on; nothing is left when it is closed."
+  (for-each (lambda (suffix) (false-if-exception (delete-file (string-append file suffix)))) '("" "-wal" "-shm")))
+
 (define (copy-of-database proc file)
   "Return the name of a new file that holds what is committed in the database FILE now, whoever has it open.
 Raise a &bight-error from PROC if it changes faster than it can be copied."
@@ -114,5 +119,4 @@ Raise a &bight-error from PROC if it changes faster than it can be copied."
     (let ((database (%open-database copy #t)))
       (%query database "pragma journal_mode=delete" '())
       (%close-database database))
-    (false-if-exception (delete-file (string-append copy "-wal")))
     copy))

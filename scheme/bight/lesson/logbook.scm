@@ -132,7 +132,7 @@ what else is to be known.  Return the number of the entry."
          (database (open-tables 'merge-logbook! copy kind version tables))
          (rows (%query database "select kind, time, trainee, what, score, data from entries order by id" '())))
     (close-tables! database)
-    (delete-file copy)
+    (delete-database! copy)
     rows))
 
 (define (count-entries database)

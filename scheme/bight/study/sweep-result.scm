@@ -197,7 +197,7 @@ sweep is writing it."
   (or (open-named file '() #t)
       (let* ((copy (copy-of-database 'sweep file))
              (database (open-named copy '() #t)))
-        (delete-file copy)              ; what is open stays until it is closed
+        (delete-database! copy)
         database)))
 
 (define (call-with-settled file proc)
@@ -211,7 +211,7 @@ sweep is writing it."
           (dynamic-wind
             (const #f)
             (lambda () (proc copy))
-            (lambda () (false-if-exception (delete-file copy))))))))
+            (lambda () (delete-database! copy)))))))
 
 (define (close-result! database)
   "Close DATABASE.  What it holds is then in one file."
