@@ -1,6 +1,6 @@
 /* The forms of a static tether: its shape alone, split into spans at obstacles, or held by them.
 
-   All three have a static shape (tether/shape.h) , the source of all answers beyond the
+   All three have a static shape (tether/shape.h), the source of all answers beyond the
    knowledge of spans or polyline.  A thesis line among obstacles is split (contact/thesis.h); a
    line of the models `elastic' and `steady' is held (contact/held.h), and answers as a shape alone
    while no obstacle holds the line off the shape.
