@@ -59,43 +59,105 @@ current_numbers (SCM object)
   return from_doubles (args, (size_t)bt_current_pack (&current, args));
 }
 
-/* What is told of a vehicle, in this order.  */
-static const char *const vehicle_answers[]
-    = { "position", "velocity", "heading",  "pitch", "roll",
-        "turns",    "sticks",   "arrived?", "held?", "surge-speed" };
+/* ---- Views of vehicles and tethers ---- */
 
-enum
+/* What lies at OFFSET of a view, told by NAME.  */
+typedef struct answer
 {
-  VEHICLE_ANSWERS = sizeof vehicle_answers / sizeof *vehicle_answers
-};
+  const char *name;
+  enum
+  {
+    POINT,
+    REAL,
+    ANGLE,
+    STICKS,
+    TRUTH,
+    PLACE /* an index, below 0 for none */
+  } kind;
+  size_t offset;
+} answer;
 
 static SCM
-vehicle_answer (const bt_vehicle_view *v, int k)
+from_answer (const answer *a, const void *view)
 {
-  switch (k)
+  const void *at = (const char *)view + a->offset;
+  switch (a->kind)
     {
-    case 0:
-      return bt__from_point (v->position);
-    case 1:
-      return bt__from_point (v->velocity);
-    case 2:
-      return scm_from_double (v->heading * DEGREES);
-    case 3:
-      return scm_from_double (v->pitch * DEGREES);
-    case 4:
-      return scm_from_double (v->roll * DEGREES);
-    case 5:
-      return scm_from_double (v->turns);
-    case 6:
-      return from_doubles (v->sticks, 4);
-    case 7:
-      return scm_from_bool (v->arrived);
-    case 8:
-      return scm_from_bool (v->held);
+    case POINT:
+      return bt__from_point (*(const bt_vec3 *)at);
+    case REAL:
+      return scm_from_double (*(const double *)at);
+    case ANGLE:
+      return scm_from_double (*(const double *)at * DEGREES);
+    case STICKS:
+      return from_doubles (at, 4);
+    case TRUTH:
+      return scm_from_bool (*(const int *)at);
     default:
-      return scm_from_double (v->speeds[0]);
+      return *(const int *)at < 0 ? SCM_BOOL_F : scm_from_int (*(const int *)at);
     }
 }
+
+static SCM
+all_answers (const answer *answers, size_t n, const void *view)
+{
+  SCM list = SCM_EOL;
+  while (n-- > 0)
+    list = bt__associate (answers[n].name, from_answer (&answers[n], view), list);
+  return list;
+}
+
+/* One of them: to make all for one takes as long as a third of a step.  */
+static SCM
+one_answer (const answer *answers, size_t n, const void *view, SCM key)
+{
+  for (size_t k = 0; k < n; k++)
+    if (scm_is_eq (key, bt__symbol (answers[k].name)))
+      return from_answer (&answers[k], view);
+  return SCM_BOOL_F;
+}
+
+#define COUNT(table) (sizeof table / sizeof *table)
+
+#define ANSWER(name, kind, member)                                                                 \
+  {                                                                                                \
+    name, kind, offsetof (bt_vehicle_view, member)                                                 \
+  }
+
+static const answer vehicle_answers[] = {
+  ANSWER ("position", POINT, position), ANSWER ("velocity", POINT, velocity),
+  ANSWER ("heading", ANGLE, heading),   ANSWER ("pitch", ANGLE, pitch),
+  ANSWER ("roll", ANGLE, roll),         ANSWER ("turns", REAL, turns),
+  ANSWER ("sticks", STICKS, sticks),    ANSWER ("arrived?", TRUTH, arrived),
+  ANSWER ("held?", TRUTH, held),        ANSWER ("surge-speed", REAL, speeds),
+};
+
+#undef ANSWER
+#define ANSWER(name, kind, member)                                                                 \
+  {                                                                                                \
+    name, kind, offsetof (bt_tether_view, member)                                                  \
+  }
+
+static const answer tether_answers[] = {
+  ANSWER ("length", REAL, length),
+  ANSWER ("target", REAL, target),
+  ANSWER ("chord", REAL, chord),
+  ANSWER ("tension-anchor", REAL, tension_anchor),
+  ANSWER ("tension-end", REAL, tension_end),
+  ANSWER ("tension-max", REAL, tension_max),
+  ANSWER ("tension-error", REAL, tension_error),
+  ANSWER ("force", POINT, force),
+  ANSWER ("vehicle", PLACE, vehicle),
+  ANSWER ("taut?", TRUTH, taut),
+  ANSWER ("spooling?", TRUTH, spooling),
+  ANSWER ("parted?", TRUTH, parted),
+  ANSWER ("asleep?", TRUTH, asleep),
+  ANSWER ("blocked?", TRUTH, blocked),
+  ANSWER ("stuck?", TRUTH, stuck),
+  ANSWER ("settled?", TRUTH, settled),
+};
+
+#undef ANSWER
 
 static bt_vehicle_view
 vehicle_view (SCM object, SCM index)
@@ -111,24 +173,15 @@ static SCM
 vehicle (SCM object, SCM index)
 {
   bt_vehicle_view v = vehicle_view (object, index);
-  SCM list = SCM_EOL;
-  for (int k = VEHICLE_ANSWERS; k-- > 0;)
-    list = bt__associate (vehicle_answers[k], vehicle_answer (&v, k), list);
-  return list;
+  return all_answers (vehicle_answers, COUNT (vehicle_answers), &v);
 }
 
-/* One of them: to make all for one takes as long as a third of a step.  */
 static SCM
 vehicle_value (SCM object, SCM index, SCM key)
 {
   bt_vehicle_view v = vehicle_view (object, index);
-  for (int k = 0; k < VEHICLE_ANSWERS; k++)
-    if (scm_is_eq (key, bt__symbol (vehicle_answers[k])))
-      return vehicle_answer (&v, k);
-  return SCM_BOOL_F;
+  return one_answer (vehicle_answers, COUNT (vehicle_answers), &v, key);
 }
-
-/* ---- Tethers ---- */
 
 static bt_tether_view
 tether_view (const char *who, SCM object, SCM index)
@@ -139,75 +192,18 @@ tether_view (const char *who, SCM object, SCM index)
   return view;
 }
 
-/* What is told of a tether, in this order.  */
-static const char *const tether_answers[]
-    = { "length",        "target",   "chord",   "tension-anchor", "tension-end", "tension-max",
-        "tension-error", "force",    "vehicle", "taut?",          "spooling?",   "parted?",
-        "asleep?",       "blocked?", "stuck?",  "settled?" };
-
-enum
-{
-  TETHER_ANSWERS = sizeof tether_answers / sizeof *tether_answers
-};
-
-static SCM
-tether_answer (const bt_tether_view *t, int k)
-{
-  switch (k)
-    {
-    case 0:
-      return scm_from_double (t->length);
-    case 1:
-      return scm_from_double (t->target);
-    case 2:
-      return scm_from_double (t->chord);
-    case 3:
-      return scm_from_double (t->tension_anchor);
-    case 4:
-      return scm_from_double (t->tension_end);
-    case 5:
-      return scm_from_double (t->tension_max);
-    case 6:
-      return scm_from_double (t->tension_error);
-    case 7:
-      return bt__from_point (t->force);
-    case 8:
-      return t->vehicle < 0 ? SCM_BOOL_F : scm_from_int (t->vehicle);
-    case 9:
-      return scm_from_bool (t->taut);
-    case 10:
-      return scm_from_bool (t->spooling);
-    case 11:
-      return scm_from_bool (t->parted);
-    case 12:
-      return scm_from_bool (t->asleep);
-    case 13:
-      return scm_from_bool (t->blocked);
-    case 14:
-      return scm_from_bool (t->stuck);
-    default:
-      return scm_from_bool (t->settled);
-    }
-}
-
 static SCM
 tether (SCM object, SCM index)
 {
   bt_tether_view t = tether_view ("tether-length", object, index);
-  SCM list = SCM_EOL;
-  for (int k = TETHER_ANSWERS; k-- > 0;)
-    list = bt__associate (tether_answers[k], tether_answer (&t, k), list);
-  return list;
+  return all_answers (tether_answers, COUNT (tether_answers), &t);
 }
 
 static SCM
 tether_value (SCM object, SCM index, SCM key)
 {
   bt_tether_view t = tether_view ("tether-length", object, index);
-  for (int k = 0; k < TETHER_ANSWERS; k++)
-    if (scm_is_eq (key, bt__symbol (tether_answers[k])))
-      return tether_answer (&t, k);
-  return SCM_BOOL_F;
+  return one_answer (tether_answers, COUNT (tether_answers), &t, key);
 }
 
 static SCM
