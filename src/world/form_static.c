@@ -117,6 +117,13 @@ laid_nowhere (const bt_dive *dive, bt__state *state, int i, int *n)
   return NULL;
 }
 
+static const bt_vec3 *
+corners_of (bt__polyline *line, int *n)
+{
+  *n = (int)line->n;
+  return bt__polyline_x (line);
+}
+
 static int
 shape_ranges (const bt_dive *dive, const bt__state *state, int i, bt__range *out)
 {
@@ -227,9 +234,7 @@ spans_touches (const bt_dive *dive, int i, const bt__line *line, bt__touch *touc
 static const bt_vec3 *
 spans_laid (const bt_dive *dive, bt__state *state, int i, int *n)
 {
-  bt__polyline *line = bt__thesis_line (bt__dive_thesis (dive, state, i));
-  *n = (int)line->n;
-  return bt__polyline_x (line);
+  return corners_of (bt__thesis_line (bt__dive_thesis (dive, state, i)), n);
 }
 
 static int
@@ -328,9 +333,7 @@ held_touches (const bt_dive *dive, int i, const bt__line *line, bt__touch *touch
 static const bt_vec3 *
 held_laid (const bt_dive *dive, bt__state *state, int i, int *n)
 {
-  bt__polyline *line = bt__dive_held (dive, state, i);
-  *n = (int)line->n;
-  return bt__polyline_x (line);
+  return corners_of (bt__dive_held (dive, state, i), n);
 }
 
 static int
