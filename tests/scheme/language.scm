@@ -5,6 +5,7 @@
 (use-modules (bight core allowance)
              ((ice-9 regex) #:select (string-match))
              (bight assembly)
+             (bight language)
              (bight world current)
              (bight world describe)
              (bight core errors)
@@ -520,3 +521,16 @@ included."
   (let ((text (object->string (describe 'line) display)))
     (expect (string-contains text "follows"))
     (expect (string-match "[0-9][.][0-9]{9}" text) => #f)))
+
+(define (said form)
+  "Return the value of FORM as a script has it, or the sentence of its error."
+  (guard (e ((bight-error? e) (bight-error-message e)))
+    (eval form (language-module))))
+
+(define-scenario format-is-whole
+  "A script rounds and makes columns by `format' without loading a module; what is wrong is told in a line."
+  (expect (said '(format #f "~,2f m ~5d" 2.8549 7)) => "2.85 m     7")
+  (expect (said '(with-output-to-string (lambda () (format #t "~a|~s" 'a "b")))) => "a|\"b\"")
+  (expect (said '(format #f "~a")) => "missing argument(s) in (format #f \"~a<===\" ===>)")
+  (expect (said '(format #f "~,1f" 'a))
+          => "argument is not a number or a number string in (format #f \"~,1f<===\" ===>a )"))

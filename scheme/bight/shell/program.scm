@@ -114,5 +114,5 @@ begins with FILE and the line."
 (define (enter-language!)
   ;; Make a user's module, with the language, the current one.
   (set-current-module (resolve-module '(guile-user)))
-  (process-use-modules '(((bight))))
+  ((from (bight language) use-language!) (current-module))
   ((from (bight core place) mark-what-is-loaded!)))

@@ -10,6 +10,7 @@
   #:use-module ((bight core here) #:select (chain-here))
   #:use-module ((bight core place) #:select (mark-what-is-loaded!))
   #:use-module ((bight dive) #:select (served?))
+  #:use-module ((bight language) #:select (use-language!))
   #:use-module (bight shell comma)
   #:use-module (bight shell line-editor)
   #:use-module (bight shell typed)
@@ -91,7 +92,8 @@
 
 (define (enter-language!)
   (set-current-module (resolve-module '(guile-user)))
-  (process-use-modules '(((ice-9 session)) ((bight))))
+  (process-use-modules '(((ice-9 session))))
+  (use-language! (current-module))
   (mark-what-is-loaded!)
   (add-hook! after-error-hook tell-chain))
 
