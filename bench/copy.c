@@ -48,7 +48,7 @@ static void
 say_orders (bench_table *t, const char *setting, const scene *s, int rounds)
 {
   static double in_place[ROUNDS_MAX], copied[ROUNDS_MAX], ratio[ROUNDS_MAX];
-  bt_dive *a = scene_begin (s), *b = scene_begin (s);
+  bt_dive *a = scene_begin (&s->world), *b = scene_begin (&s->world);
   int differ = 0;
   char counters[160];
   scene_fly (a, 1, 0, WARM);

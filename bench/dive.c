@@ -1,7 +1,8 @@
 /* bight-bench-dive: what a whole dive costs, as CSV rows on standard output.
 
-   The scene has everything: a BlueROV2 Heavy holding its place in a jacket, on 100 nodes of a
-   moving line whose anchor rides a wind sea, in a current with the jacket's lee.  Row `all' is the
+   The scene, testbed/worlds/deep-jacket.scm, has everything: a BlueROV2 Heavy holding its place in
+   a jacket, on 100 nodes of a moving line whose anchor rides a wind sea, in a current with the
+   jacket's lee.  Row `all' is the
    CPU time of a step; among its counters, how many times faster than real time that is.  Each row
    `without ...' is the same dive with one part left out: share_percent is that part's share of the
    step; the counters of the part are zero when the scene lacks it.  The error is the share of steps
@@ -16,6 +17,7 @@
 #include "math/vec.h"
 #include "options.h"
 #include "row.h"
+#include "testbed/gallery.h"
 #include "testbed/scene.h"
 
 enum
@@ -43,46 +45,23 @@ typedef struct cost
 
 /* ---- The scene ---- */
 
-static bt_vec3
-corner (int k, double z)
-{
-  return bt__vec (k == 0 || k == 3 ? -6 : 6, k < 2 ? 6 : -6, z);
-}
-
-/* Four legs, three bays: levels and X braces on four sides.  */
+/* Take from W what HAS does not name.  */
 static void
-add_jacket (scene *s)
+strip (gallery_world *w, int has)
 {
-  for (int k = 0; k < 4; k++)
-    scene_bar (s, corner (k, 0), corner (k, -60), 0.6);
-  for (int bay = 0; bay < 3; bay++)
-    for (int k = 0; k < 4; k++)
-      {
-        double high = -20 * bay, low = high - 20;
-        int next = (k + 1) % 4;
-        scene_bar (s, corner (k, low), corner (next, low), 0.25);
-        scene_bar (s, corner (k, high), corner (next, low), 0.2);
-        scene_bar (s, corner (next, high), corner (k, low), 0.2);
-      }
-}
-
-static void
-draw (scene *s, int has)
-{
-  bt_error error;
-  scene_clear (s);
-  s->world.sea.wake = (has & WAKE) != 0;
-  if (has & CURRENT)
-    scene_current (s, bt__vec (0.3, 0, 0));
-  if (has & WAVES)
-    scene_waves (s);
-  bt_vehicle_def *rov = scene_vehicle (s, bt__vec (0, 0, -30));
-  if (has & VEHICLE)
-    scene_must (bt_def_set_vehicle_type (rov, "bluerov2-heavy", &error), &error);
-  scene_line (s, bt__vec (-1, -12, 0), 40, 100)->ride = bt__vec (1, 1, 1);
-  s->world.n_tethers = (has & LINE) != 0;
-  if (has & JACKET)
-    add_jacket (s);
+  bt_sea_def *sea = &w->world.sea;
+  if (!(has & VEHICLE))
+    w->vehicle->mass = 0;
+  if (!(has & JACKET))
+    w->world.n_obstacles = 0;
+  if (!(has & WAKE))
+    sea->wake = 0;
+  if (!(has & WAVES))
+    sea->waves = (bt_wave_def){ 0 };
+  if (!(has & CURRENT))
+    sea->current = (bt_current){ 0 };
+  if (!(has & LINE))
+    w->world.n_tethers = 0;
 }
 
 /* ---- Measuring ---- */
@@ -90,10 +69,11 @@ draw (scene *s, int has)
 static bt_dive *
 begin (int has)
 {
-  static scene s;
+  gallery_world *w = gallery_open ("deep-jacket");
   bt_error error;
-  draw (&s, has);
-  bt_dive *dive = scene_begin (&s);
+  strip (w, has);
+  bt_dive *dive = scene_begin (&w->world);
+  gallery_close (w);
   scene_must (bt_dive_do (dive, BT_OP_HOLD_POSITION, 0, NULL, 0, &error), &error);
   return dive;
 }

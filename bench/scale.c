@@ -205,7 +205,7 @@ take_turn (runner *r, int flown, int turn, int steps)
 static void
 compare_threads (bench_table *t, const scene *s, int n, int threads, const char *where, double work)
 {
-  runner one = { scene_begin (s), INFINITY, 0 }, many = { scene_begin (s), INFINITY, 0 };
+  runner one = { scene_begin (&s->world), INFINITY, 0 }, many = { scene_begin (&s->world), INFINITY, 0 };
   int steps = 1 + TURN / n, turns = (int)fmin (TURNS, work / TURN), differ = 0;
   char setting[60], counters[240];
   bt_profile p;

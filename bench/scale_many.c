@@ -55,7 +55,7 @@ begin_far (long n)
     }
   s->world.obstacles = o;
   s->world.n_obstacles = (int)n;
-  bt_dive *dive = scene_begin (s);
+  bt_dive *dive = scene_begin (&s->world);
   free (o);
   return dive;
 }
@@ -97,7 +97,7 @@ begin_lying (long n)
   bt_obstacle_def *slab = scene_obstacle (s, "box");
   slab->at = bt__vec (0, 0, -21);
   slab->size = bt__vec (3 * length + 20, 3 * length + 20, 2);
-  return scene_begin (s);
+  return scene_begin (&s->world);
 }
 
 void

@@ -43,7 +43,7 @@ static void
 join (turns *f, const scene *s)
 {
   double begun = bench_now ();
-  f->dive[f->n] = scene_begin (s);
+  f->dive[f->n] = scene_begin (&s->world);
   f->load[f->n] = bench_now () - begun;
   scene_fly (f->dive[f->n++], 1, 0, WARM);
 }

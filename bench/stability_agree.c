@@ -203,7 +203,7 @@ dives (void)
     {
       begin_case (&t, "dive", model);
       lay_scene (&s, (bt_model_kind)model);
-      bt_dive *dive = scene_begin (&s);
+      bt_dive *dive = scene_begin (&s.world);
       bt_error error;
       bt_profile work;
       bt_vec3 x[200];

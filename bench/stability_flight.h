@@ -24,7 +24,7 @@ enum
 typedef enum flight_kind
 {
   FLIGHT_JACKET,  /* tubulars, wires, boxes, a caisson of triangles, a rough bottom */
-  FLIGHT_WRECK,   /* the same ship as in worlds/wreck.scm, of triangles, with her masts and stays */
+  FLIGHT_WRECK,   /* worlds/wreck.scm, the ship of triangles */
   FLIGHT_RIGGING, /* worlds/rigging.scm */
   FLIGHT_CANYON,  /* worlds/canyon.scm */
   FLIGHT_HARM,    /* in the jacket: every other case; see flight_harm */

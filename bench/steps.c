@@ -107,7 +107,7 @@ put_flight (bench_table *t, const char *name, int has, int steps)
       for (int k = 0; k < 2; k++)
         {
           draw (&s, has, k ? INFINITY : 0.02);
-          bt_dive *dive = scene_begin (&s);
+          bt_dive *dive = scene_begin (&s.world);
           scene_fly (dive, 1, 0, 60);
           seconds[k][r] = scene_fly (dive, 1, 60, steps);
           p[k] = profile_of (dive);

@@ -58,6 +58,11 @@ void reef_take (reef *r, int i, int away);
    caisson of 2880 triangles, a rough bottom of 7200.  */
 int reef_jacket (reef *r, uint64_t seed);
 
+/* The obstacles of the world NAME of testbed/gallery.h, raised: its boxes are one surface of
+   triangles.  Zero for a world with an obstacle of another kind than box, cylinder, capsule, bed.
+ */
+int reef_world (reef *r, const char *name);
+
 /* The nearest any link of the polyline X of N points comes to anything, by brute force.  */
 double reef_clearance (const reef *r, const bt_vec3 *x, int n);
 

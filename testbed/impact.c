@@ -130,7 +130,7 @@ impact_scene (scene *s, const impact *i, int nodes)
 bt_dive *
 impact_begin (const scene *s)
 {
-  bt_dive *dive = scene_begin (s);
+  bt_dive *dive = scene_begin (&s->world);
   bt__vehicle *v = bt__dive_vehicle (dive, dive->now, 0);
   bt__dynamic *chain = bt__dive_chain (dive, dive->now, 0, 0);
   bt_vec3 way = bt__vec (IMPACT_SPEED, 0, 0);

@@ -109,12 +109,12 @@ scene_waves (scene *s)
 }
 
 bt_dive *
-scene_begin (const scene *s)
+scene_begin (const bt_world *world)
 {
   bt_model *model;
   bt_dive *dive;
   bt_error error;
-  scene_must (bt_model_new (&s->world, &model, &error), &error);
+  scene_must (bt_model_new (world, &model, &error), &error);
   scene_must (bt_dive_new (model, NULL, NULL, &dive, &error), &error);
   bt_model_release (model);
   return dive;

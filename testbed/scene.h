@@ -39,8 +39,8 @@ bt_obstacle_def *scene_bar (scene *s, bt_vec3 from, bt_vec3 to, double radius);
 void scene_current (scene *s, bt_vec3 u);
 void scene_waves (scene *s);
 
-/* Begin a dive in S.  */
-bt_dive *scene_begin (const scene *s);
+/* Begin a dive in WORLD, such as that of a scene or of the gallery.  */
+bt_dive *scene_begin (const bt_world *world);
 
 /* Step DIVE so often and return the CPU seconds of a step.  */
 double scene_run (bt_dive *dive, int steps);

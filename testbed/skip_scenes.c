@@ -141,7 +141,7 @@ skip_begin (const skip_case *c, int warm)
   bt_tether_view view = { 0 };
   bt_error error;
   c->draw (&s);
-  bt_dive *dive = scene_begin (&s);
+  bt_dive *dive = scene_begin (&s.world);
   for (int i = 0; i < 600 && c->asleep && !view.asleep; i++)
     {
       scene_run (dive, 60);

@@ -28,7 +28,7 @@ listed lessons -name '*.scm'
 listed studies '(' -name '*.scm' -o -name '*.sh' ')'
 listed tests '(' -path './law/*.[ch]' -o -path './unit/*.[ch]' -o -path './sc*/*.scm' -o -name '*.sh' ')'
 listed bench -name '*.[ch]'
-listed testbed -name '*.[ch]'
+listed testbed '(' -name '*.[ch]' -o -name '*.scm' ')'
 listed doc -path './figures/*.scm'
 
 # What git ignores is there for whoever wrote it, and for nobody else.

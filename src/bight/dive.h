@@ -186,13 +186,18 @@ enum
 /* Write CURRENT as the numbers of BT_OP_CURRENT to ARGS and return how many.  */
 int bt_current_pack (const bt_current *current, double *args);
 
+/* Make *CURRENT of N such numbers ARGS.  BT_ERR_FORMAT if they are none, BT_ERR_DOMAIN for a
+   current that cannot be.  */
+bt_status bt_current_unpack (const double *args, int n, bt_current *current, bt_error *error);
+
 enum
 {
   BT_WAVES_ARGS = 9
 };
 
-/* The same for BT_OP_WAVES.  */
+/* The same for BT_OP_WAVES.  Waves that cannot be are refused by bt_waves_make.  */
 int bt_waves_pack (const bt_wave_def *waves, double *args);
+bt_status bt_waves_unpack (const double *args, int n, bt_wave_def *waves, bt_error *error);
 
 /* Do OP on the SUBJECT-th part of its kind with N numbers ARGS.  BT_ERR_NAME for an unknown
    operation or subject, BT_ERR_DOMAIN for numbers outside their range, and any error of the

@@ -143,22 +143,6 @@ field_or_inner (const bt_head *head, const char *name, const bt_head **inner)
   return field;
 }
 
-/* Waves from the numbers that bt_waves_pack makes of them.  */
-static bt_wave_def
-to_waves (SCM numbers)
-{
-  const double *x = (const double *)SCM_BYTEVECTOR_CONTENTS (numbers);
-  return (bt_wave_def){ .kind = (int64_t)x[0],
-                        .height = x[1],
-                        .period = x[2],
-                        .toward = x[3],
-                        .phase = x[4],
-                        .gamma = x[5],
-                        .components = x[6],
-                        .seed = (int64_t)x[7],
-                        .accuracy = x[8] };
-}
-
 static void
 read_fields (const bt_head *head, void *def, SCM fields, SCM *function)
 {
@@ -184,7 +168,10 @@ read_fields (const bt_head *head, void *def, SCM fields, SCM *function)
         }
       else if (field->kind == BT_FIELD_WAVES)
         {
-          bt_wave_def waves = to_waves (value);
+          bt_wave_def waves;
+          const double *numbers = (const double *)SCM_BYTEVECTOR_CONTENTS (value);
+          int n = (int)scm_c_array_length (value);
+          bt__check (who, bt_waves_unpack (numbers, n, &waves, &error), &error);
           bt__check (who, bt_def_set_waves (field, def, &waves, &error), &error);
         }
       else

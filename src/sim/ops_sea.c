@@ -29,36 +29,38 @@ bt_current_pack (const bt_current *current, double *args)
 
 /* Check that every number is finite, also a number unused by the kind of current or wave.  */
 static bt_status
-check_finite (const bt__call *c, const char *what)
+check_finite (const double *args, int n, const char *what, bt_error *error)
 {
-  for (int i = 0; i < c->n; i++)
-    if (!isfinite (c->args[i]))
-      return bt__fail (c->error, BT_ERR_DOMAIN, "number %d of %s is %g; all are finite", i + 1,
-                       what, c->args[i]);
+  for (int i = 0; i < n; i++)
+    if (!isfinite (args[i]))
+      return bt__fail (error, BT_ERR_DOMAIN, "number %d of %s is %g; all are finite", i + 1, what,
+                       args[i]);
   return BT_OK;
 }
 
-static bt_status
-unpack_current (const bt__call *c, bt_current *current)
+bt_status
+bt_current_unpack (const double *args, int n, bt_current *current, bt_error *error)
 {
-  int kind = c->args[0] >= 0 && c->args[0] <= BT_CURRENT_GRID ? (int)c->args[0] : -1;
-  if (kind < 0 || kind != c->args[0] || c->n % 4 != 0)
-    return bt__fail (c->error, BT_ERR_FORMAT, "these %d numbers are not a current", c->n);
-  if (check_finite (c, "a current") != BT_OK)
+  int kind = n > 4 && n <= BT_CURRENT_ARGS && args[0] >= 0 && args[0] <= BT_CURRENT_GRID
+                 ? (int)args[0]
+                 : -1;
+  if (kind < 0 || kind != args[0] || n % 4 != 0)
+    return bt__fail (error, BT_ERR_FORMAT, "these %d numbers are not a current", n);
+  if (check_finite (args, n, "a current", error) != BT_OK)
     return BT_ERR_DOMAIN;
   memset (current, 0, sizeof *current);
   current->kind = kind;
-  current->turn_rate = c->args[1];
-  current->exponent = c->args[2];
-  current->period = c->args[3];
-  current->n = kind == BT_CURRENT_PROFILE ? (c->n - 4) / 4 : 0;
-  for (int i = 0; i < (c->n - 4) / 4; i++)
+  current->turn_rate = args[1];
+  current->exponent = args[2];
+  current->period = args[3];
+  current->n = kind == BT_CURRENT_PROFILE ? (n - 4) / 4 : 0;
+  for (int i = 0; i < (n - 4) / 4; i++)
     {
-      const double *row = c->args + 4 + 4 * i;
+      const double *row = args + 4 + 4 * i;
       current->z[i] = row[0];
       current->velocity[i] = bt__vec (row[1], row[2], row[3]);
     }
-  return bt_current_check (current, c->error);
+  return bt_current_check (current, error);
 }
 
 int
@@ -71,23 +73,35 @@ bt_waves_pack (const bt_wave_def *waves, double *args)
   return BT_WAVES_ARGS;
 }
 
+bt_status
+bt_waves_unpack (const double *args, int n, bt_wave_def *waves, bt_error *error)
+{
+  if (n != BT_WAVES_ARGS
+      || !(args[0] >= BT_WAVE_NONE && args[0] <= BT_WAVE_JONSWAP && fabs (args[7]) <= 1e15))
+    return bt__fail (error, BT_ERR_FORMAT, "these numbers are not waves");
+  if (check_finite (args, n, "waves", error) != BT_OK)
+    return BT_ERR_DOMAIN;
+  *waves = (bt_wave_def){ .kind = (int64_t)args[0],
+                          .height = args[1],
+                          .period = args[2],
+                          .toward = args[3],
+                          .phase = args[4],
+                          .gamma = args[5],
+                          .components = args[6],
+                          .seed = (int64_t)args[7],
+                          .accuracy = args[8] };
+  return BT_OK;
+}
+
 /* Waves in the present sea.  */
 bt_status
 bt__op_waves (const bt__call *c)
 {
-  const double *a = c->args;
-  bt_wave_def def = {
-    .height = a[1], .period = a[2], .toward = a[3], .phase = a[4], .gamma = a[5], .components = a[6]
-  };
+  bt_wave_def def;
   bt_waves waves;
-  bt_status status;
-  if (!(a[0] >= BT_WAVE_NONE && a[0] <= BT_WAVE_JONSWAP && fabs (a[7]) <= 1e15))
-    return bt__fail (c->error, BT_ERR_FORMAT, "these numbers are not waves");
-  if (check_finite (c, "waves") != BT_OK)
-    return BT_ERR_DOMAIN;
-  def.kind = (int64_t)a[0];
-  def.seed = (int64_t)a[7];
-  def.accuracy = a[8];
+  bt_status status = bt_waves_unpack (c->args, c->n, &def, c->error);
+  if (status != BT_OK)
+    return status;
   if (def.kind == BT_WAVE_NONE)
     memset (&def, 0, sizeof def);
   status = bt_waves_make (&def, c->state->depth, c->state->gravity, &waves, c->error);
@@ -103,7 +117,7 @@ bt_status
 bt__op_current (const bt__call *c)
 {
   bt_current current;
-  bt_status status = unpack_current (c, &current);
+  bt_status status = bt_current_unpack (c->args, c->n, &current, c->error);
   if (status != BT_OK)
     return status;
   if (current.kind == BT_CURRENT_FUNCTION && !c->dive->function)
@@ -122,7 +136,7 @@ bt__op_drift (const bt__call *c)
 {
   int k = bt__model_carried (c->dive->model, c->subject);
   bt__mover_state *mover;
-  if (check_finite (c, "a drift") != BT_OK)
+  if (check_finite (c->args, c->n, "a drift", c->error) != BT_OK)
     return BT_ERR_DOMAIN;
   for (int i = 0; i < 3; i++)
     if (bt__check_range (c, i, "a part of a drift, m/s,", -BT__DRIFT_MAX, BT__DRIFT_MAX) != BT_OK)

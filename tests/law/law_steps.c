@@ -123,7 +123,7 @@ test_a_start_at_once (void **state)
       s.vehicle[0].pull = 1e6;
       s.vehicle[0].heading = 90;
       s.vehicle[0].surge_speed = IMPACT_SPEED;
-      bt_dive *dive = scene_begin (&s);
+      bt_dive *dive = scene_begin (&s.world);
       scene_must (bt_vehicle_drive (dive, 0, &(bt_sticks){ .surge = 1 }, &error), &error);
       scene_run (dive, 1);
       scene_must (bt_dive_tether (dive, 0, &v, &error), &error);
@@ -222,7 +222,7 @@ test_calm_is_whole (void **state)
       scene_current (&s, bt__vec (0.2, 0, 0));
       scene_vehicle (&s, bt__vec (10, 0, -20));
       scene_line (&s, bt__vec (0, 0, 0), 30, NODES)->props.tension_accuracy = 0.02;
-      bt_dive *dive = scene_begin (&s);
+      bt_dive *dive = scene_begin (&s.world);
       bt_error error;
       bt_tether_view view;
       bt_vec3 points[NODES + 1];
@@ -263,7 +263,7 @@ begin_fleet (int threads)
       if (k % 3 == 0)
         scene_line (&s, bt__vec (0, 100 * k + 2, -30), 10.3, 60)->props.tension_accuracy = 0.02;
     }
-  bt_dive *dive = scene_begin (&s);
+  bt_dive *dive = scene_begin (&s.world);
   scene_must (bt_dive_set_threads (dive, threads, &error), &error);
   for (int k = 0; k < FLEET; k++)
     {

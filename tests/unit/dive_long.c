@@ -16,17 +16,14 @@
 
 #include <bight/bight.h>
 
-enum
-{
-  MEMBERS = 40
-};
+#include "testbed/gallery.h"
 
 typedef struct place
 {
   bt_world world;
   bt_vehicle_def vehicle;
   bt_tether_def tether;
-  bt_obstacle_def obstacle[MEMBERS];
+  bt_obstacle_def obstacle;
 } place;
 
 /* ---- Places ---- */
@@ -49,65 +46,33 @@ begin_place (place *p, bt_model_kind model, double length, int nodes)
   p->world.n_vehicles = 1;
   p->world.tethers = &p->tether;
   p->world.n_tethers = 1;
-  p->world.obstacles = p->obstacle;
+  p->world.obstacles = &p->obstacle;
 }
 
+/* The one obstacle.  */
 static bt_obstacle_def *
 add (place *p, const char *head)
 {
-  bt_obstacle_def *def = &p->obstacle[p->world.n_obstacles++];
-  bt_def_init (bt_head_find (head), def);
-  def->name[0] = 'a';
-  def->name[1] = (char)('a' + p->world.n_obstacles / 26);
-  def->name[2] = (char)('a' + p->world.n_obstacles % 26);
-  return def;
-}
-
-static void
-add_tube (place *p, bt_vec3 from, bt_vec3 to, double radius)
-{
-  bt_obstacle_def *def = add (p, "capsule");
-  def->from = from;
-  def->to = to;
-  def->radius = radius;
-}
-
-/* Four legs, three levels and X braces in two bays.  */
-static void
-add_jacket (place *p, double half)
-{
-  static const double level[] = { 2, -11, -24 };
-  bt_vec3 k[3][4];
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 4; j++)
-      k[i][j] = (bt_vec3){ j == 1 || j == 2 ? half : -half, j < 2 ? half : -half, level[i] };
-  for (int j = 0; j < 4; j++)
-    add_tube (p, k[0][j], k[2][j], 0.6);
-  for (int i = 0; i < 3; i++)
-    for (int j = 0; j < 4; j++)
-      add_tube (p, k[i][j], k[i][(j + 1) % 4], 0.25);
-  for (int i = 0; i < 2; i++)
-    for (int j = 0; j < 4; j++)
-      {
-        add_tube (p, k[i][j], k[i + 1][(j + 1) % 4], 0.2);
-        add_tube (p, k[i + 1][j], k[i][(j + 1) % 4], 0.2);
-      }
+  assert_int_equal (p->world.n_obstacles++, 0);
+  bt_def_init (bt_head_find (head), &p->obstacle);
+  strcpy (p->obstacle.name, head);
+  return &p->obstacle;
 }
 
 static bt_model *
-compile (const place *p)
+compile (const bt_world *world)
 {
   bt_model *model = NULL;
   bt_error e;
-  if (bt_model_new (&p->world, &model, &e) != BT_OK)
+  if (bt_model_new (world, &model, &e) != BT_OK)
     fail_msg ("%s", e.text);
   return model;
 }
 
+/* Begin a dive of MODEL, which is given away.  */
 static bt_dive *
-enter (const place *p)
+enter (bt_model *model)
 {
-  bt_model *model = compile (p);
   bt_dive *dive = NULL;
   bt_error e;
   if (bt_dive_new (model, NULL, NULL, &dive, &e) != BT_OK)
@@ -118,17 +83,17 @@ enter (const place *p)
 
 /* ---- Little work ---- */
 
-/* 36 m of a thick neutral line over 3 m, in a jacket.  */
-static void
-slack_in_a_jacket (place *p, bt_model_kind model, int nodes, double wet_weight)
+/* 36 m of a thick line over 3 m, in a jacket: testbed/worlds/narrow-jacket.scm.  */
+static bt_model *
+slack_in_a_jacket (bt_model_kind model, int nodes, double wet_weight)
 {
-  begin_place (p, model, 35.7, nodes);
-  p->vehicle.at = (bt_vec3){ 3.358, -0.589, -14.66 };
-  p->tether.from.at = (bt_vec3){ 1.9, -2.301, -12.52 };
-  p->tether.props.diameter = 0.0586;
-  p->tether.props.wet_weight = wet_weight;
-  p->tether.props.friction = 0.2;
-  add_jacket (p, 3.454);
+  gallery_world *w = gallery_open ("narrow-jacket");
+  w->tether->props.model = model;
+  w->tether->props.nodes = nodes;
+  w->tether->props.wet_weight = wet_weight;
+  bt_model *compiled = compile (&w->world);
+  gallery_close (w);
+  return compiled;
 }
 
 static void
@@ -141,9 +106,7 @@ laying_by_nodes (void **state)
       {
         bt_profile work;
         bt_tether_view view;
-        place p;
-        slack_in_a_jacket (&p, BT_MODEL_DYNAMIC, nodes[k], 2 * w);
-        bt_dive *dive = enter (&p);
+        bt_dive *dive = enter (slack_in_a_jacket (BT_MODEL_DYNAMIC, nodes[k], 2 * w));
         bt_dive_profile (dive, &work);
         assert_int_equal (bt_dive_tether (dive, 0, &view, NULL), BT_OK);
         print_message ("# %d nodes, %d N/m: %lu touches, %lu rounds, %lu pairs of links, %g N\n",
@@ -171,7 +134,7 @@ tow (int bed, bt_model_kind model)
   p.tether.from.at = (bt_vec3){ 0, 0, 0 };
   if (bed)
     add (&p, "seabed");
-  return enter (&p);
+  return enter (compile (&p.world));
 }
 
 static void
@@ -224,10 +187,8 @@ ask (void *user, double share)
 static void
 entering_is_given_up (void **state)
 {
-  place p;
   (void)state;
-  slack_in_a_jacket (&p, BT_MODEL_DYNAMIC, 64, 1);
-  bt_model *model = compile (&p);
+  bt_model *model = slack_in_a_jacket (BT_MODEL_DYNAMIC, 64, 1);
   patience whole = { 0 };
   bt_dive *dive = NULL;
   bt_error e;
@@ -276,9 +237,7 @@ what_is_done_is_given_up (void **state)
     {
       const act *a = &acts[k];
       bt_error e;
-      place p;
-      slack_in_a_jacket (&p, a->from, 30, 1);
-      bt_dive *dive = enter (&p);
+      bt_dive *dive = enter (slack_in_a_jacket (a->from, 30, 1));
       patience some = { .most = 1 + k % 3 }, whole = { 0 };
       uint64_t before = bt_dive_hash (dive);
       bt_dive_set_poll (dive, ask, &some);
@@ -307,7 +266,7 @@ a_hundred_kilometres (void **state)
   ball->at = (bt_vec3){ 4, -2, -23 };
   ball->radius = 0.27;
   patience some = { .most = 100 };
-  bt_dive *dive = enter (&p);
+  bt_dive *dive = enter (compile (&p.world));
   bt_dive_set_poll (dive, ask, &some);
   assert_int_equal (bt_dive_do (dive, BT_OP_PLACE, 0, (double[]){ 1e5, 0, -20 }, 3, &e),
                     BT_ERR_INTERRUPTED);
@@ -317,12 +276,10 @@ a_hundred_kilometres (void **state)
 static void
 a_haul_is_given_up (void **state)
 {
-  place p;
   bt_error e;
   bt_haul haul;
   (void)state;
-  slack_in_a_jacket (&p, BT_MODEL_DYNAMIC, 30, 1);
-  bt_dive *dive = enter (&p);
+  bt_dive *dive = enter (slack_in_a_jacket (BT_MODEL_DYNAMIC, 30, 1));
   patience some = { .most = 40 };
   uint64_t before = bt_dive_hash (dive);
   bt_dive_set_poll (dive, ask, &some);
