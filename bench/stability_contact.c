@@ -14,12 +14,6 @@ typedef struct survey
 
 static const flight_tally nothing = { .nearest = HUGE_VAL };
 
-enum
-{
-  BUDGET = 300, /* flights to cut one down, ... */
-  SECONDS = 60  /* ... and CPU seconds */
-};
-
 /* ---- Rows ---- */
 
 static double
@@ -90,19 +84,6 @@ enter (survey *s, stability_log *l, const flight *f, const flight_tally *t)
     }
 }
 
-/* Cut F down while it has FAULT, and tell what is left as a scenario.  */
-static void
-reproduce (const stability_log *l, flight *f, const flight_rules *rules, long number, int fault)
-{
-  if (!l->plan->folder)
-    return;
-  static flight whole;
-  whole = *f;
-  flight_minimise (f, rules, fault, BUDGET, SECONDS);
-  fprintf (stderr, "  cut down to %d steps and %d aims\n", f->steps, f->aims);
-  stability_tell_flight (l, &whole, f, number, fault);
-}
-
 int
 stability_contact (const stability_plan *plan, bench_table *table, stability_log *l)
 {
@@ -125,8 +106,8 @@ stability_contact (const stability_plan *plan, bench_table *table, stability_log
       for (int k = 0; k < FLIGHT_FAULTS; k++)
         if (t.faults[k])
           stability_fault (l, number, k);
-      if (fault != FLIGHT_SOUND)
-        reproduce (l, &f, &rules, number, fault);
+      if (fault != FLIGHT_SOUND && plan->folder)
+        stability_tell_flight (l, &f, number, fault);
     }
   report (table, &s);
   return 1;

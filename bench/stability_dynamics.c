@@ -96,27 +96,18 @@ kind_of (long number)
   return number % 22 < 10 ? CAMPAIGN_PLAIN : number % 22 < 20 ? CAMPAIGN_TELEPORTS : CAMPAIGN_VACUO;
 }
 
-enum
-{
-  BUDGET = 400, /* flights to cut one down, ... */
-  SECONDS = 60  /* ... and CPU seconds */
-};
-
-/* Cut the flight of C down while it has FAULT; keep what is left.  */
+/* Keep the flight of C, which has FAULT: for --replay, and as a scenario.  */
 static void
-reproduce (const stability_log *l, campaign *c, long number, campaign_fault fault)
+keep_flight (const stability_log *l, campaign *c, long number, campaign_fault fault)
 {
   FILE *file = stability_file (l, "flight", number);
   if (!file)
     return;
-  static campaign_flight whole;
-  whole = c->flight;
-  campaign_minimise (c, fault, BUDGET, SECONDS);
-  fprintf (stderr, "  cut down to %d nodes and %d steps: --replay %s/flight-%ld-%ld.txt\n",
-           c->flight.nodes, c->flight.moves, l->plan->folder, l->plan->seed, number);
+  fprintf (stderr, "  again with --replay %s/flight-%ld-%ld.txt\n", l->plan->folder, l->plan->seed,
+           number);
   campaign_write (file, &c->flight);
   fclose (file);
-  stability_tell_line (l, &whole, &c->flight, c->driven, number, fault);
+  stability_tell_line (l, &c->flight, c->driven, number, fault);
 }
 
 static void
@@ -137,7 +128,7 @@ fly_cases (stability_log *l, campaign *c, survey *s)
       if (fault == CAMPAIGN_SOUND)
         continue;
       stability_fault (l, number, (int)fault - 1);
-      reproduce (l, c, number, fault);
+      keep_flight (l, c, number, fault);
     }
 }
 

@@ -1,8 +1,8 @@
 /* Flights among obstacles that are to be survived: by pilots in four scenes, and by whoever means
    harm.
 
-   A flight is drawn whole, from its seed, before it is flown: so it can be flown again, cut down to
-   what still fails, and told as a scenario.
+   A flight is drawn whole, from its seed, before it is flown: so it can be flown again, and told as
+   a scenario.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -82,7 +82,6 @@ typedef struct flight
   bt_vec3 flow;                           /* m/s, of the water */
   bt_vec3 shape[FLIGHT_CORNERS];          /* how the line lies at first */
   flight_aim aim[FLIGHT_AIMS];
-  uint8_t gone[REEF_SOLIDS]; /* nonzero: without this obstacle */
 } flight;
 
 /* What came of a flight or of many.  */
@@ -109,7 +108,7 @@ void flight_draw (flight *f, uint64_t seed, long number);
 /* The line of F.  */
 bt_tether_props flight_line (const flight *f);
 
-/* Make R of F's scene, without what is gone; nonzero on success.  reef_close undoes it.  */
+/* Make R of F's scene; nonzero on success.  reef_close undoes it.  */
 int flight_scene (const flight *f, reef *r);
 
 /* Fly F by RULES and write what came of it to T, whose worst of its faults is returned; -1 when
@@ -118,9 +117,5 @@ int flight_play (const flight *f, const flight_rules *rules, flight_tally *t);
 
 /* Add FROM to *T.  */
 void flight_add (flight_tally *t, const flight_tally *from);
-
-/* Cut F, which has FAULT, down while it has: fewer steps, aims and obstacles.  Return how often it
-   was flown, at most BUDGET and none begun after SECONDS of CPU.  */
-int flight_minimise (flight *f, const flight_rules *rules, int fault, int budget, double seconds);
 
 #endif

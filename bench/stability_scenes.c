@@ -100,9 +100,5 @@ int
 flight_scene (const flight *f, reef *r)
 {
   int drawn = f->kind == FLIGHT_JACKET || f->kind == FLIGHT_HARM;
-  int good = drawn ? reef_jacket (r, f->seed) : reef_world (r, flight_kind_names[f->kind]);
-  for (int i = 0; good && i < r->obstacles; i++)
-    if (f->gone[i])
-      reef_take (r, i, 1);
-  return good;
+  return drawn ? reef_jacket (r, f->seed) : reef_world (r, flight_kind_names[f->kind]);
 }

@@ -93,16 +93,9 @@ close_tale (const tale *t)
 }
 
 static void
-say_twice (const tale *t)
+say_title (const tale *t, const char *fault)
 {
-  fputs (";;; Cut down for the bare line, and whole: what is hardly there may not be in a dive.\n",
-         t->port);
-}
-
-static void
-say_title (const tale *t, const char *more, const char *fault)
-{
-  fprintf (t->port, "\n(define-scenario %s%s\n  \"%s\"\n", t->name, more, fault);
+  fprintf (t->port, "\n(define-scenario %s\n  \"%s\"\n", t->name, fault);
 }
 
 /* It has no words: REASON.  */
@@ -250,16 +243,15 @@ depth_of (const reef *r)
 }
 
 static void
-say_flight (const tale *t, const char *more, const flight *f, const reef *r, int fault)
+say_flight (const tale *t, const flight *f, const reef *r, int fault)
 {
   bt_tether_props line = flight_line (f);
-  say_title (t, more, flight_fault_names[fault]);
+  say_title (t, flight_fault_names[fault]);
   fprintf (t->port, "  (in (world\n    (sea (depth %s) (gravity 9.81) ", number (depth_of (r)));
   say_current (t, "current", f->flow);
   fputs (")\n", t->port);
   for (int o = 0; o < r->obstacles; o++)
-    if (!f->gone[o])
-      say_obstacle (t, r, o);
+    say_obstacle (t, r, o);
   say_ends (t, f->shape, f->corners);
   say_line (t, &line, f->length, f->links);
   fputs (")))\n", t->port);
@@ -274,30 +266,25 @@ say_flight (const tale *t, const char *more, const flight *f, const reef *r, int
 }
 
 void
-stability_tell_flight (const stability_log *l, const flight *whole, const flight *cut, long number,
-                       int fault)
+stability_tell_flight (const stability_log *l, const flight *f, long number, int fault)
 {
   static reef r;
   tale t;
   if (!open_tale (&t, l, number))
     return;
   say_head (&t, flight_fault_names[fault]);
-  if (whole->kind == FLIGHT_HARM)
+  if (f->kind == FLIGHT_HARM)
     {
       give_up (&t, "a million newtons, places that are no numbers and a solver that is overwritten "
                    "have no words");
       return;
     }
-  if (whole->body)
+  if (f->body)
     fputs (";;; Its vehicle has 20 kg; here it has no mass, and goes where it is told.\n", t.port);
-  say_twice (&t);
   if (fault == FLIGHT_UNRECOVERED || fault == FLIGHT_BLOWN)
     fprintf (t.port, "\n%s", fault == FLIGHT_BLOWN ? slow : solved);
-  if (flight_scene (whole, &r))
-    {
-      say_flight (&t, "", cut, &r, fault);
-      say_flight (&t, "-whole", whole, &r, fault);
-    }
+  if (flight_scene (f, &r))
+    say_flight (&t, f, &r, fault);
   reef_close (&r);
   close_tale (&t);
 }
@@ -364,13 +351,12 @@ say_moves (const tale *t, const campaign_flight *f, campaign_fault fault)
 }
 
 static void
-say_line_flight (const tale *t, const char *more, const campaign_flight *f, campaign_fault fault,
-                 double driven)
+say_line_flight (const tale *t, const campaign_flight *f, campaign_fault fault, double driven)
 {
   bt_vec3 corner[CAMPAIGN_CORNERS];
   for (int i = 0; i < f->corners; i++)
     corner[i] = sunk (f->shape[i]);
-  say_title (t, more, campaign_fault_names[fault]);
+  say_title (t, campaign_fault_names[fault]);
   fprintf (t->port, "  (in (world\n    (sea (depth %g) (gravity 9.81))\n", 2 * DEPTH);
   say_ends (t, corner, f->corners);
   say_line (t, &f->line, f->length, f->nodes - 1);
@@ -380,26 +366,24 @@ say_line_flight (const tale *t, const char *more, const campaign_flight *f, camp
 }
 
 void
-stability_tell_line (const stability_log *l, const campaign_flight *whole,
-                     const campaign_flight *cut, double driven, long number, campaign_fault fault)
+stability_tell_line (const stability_log *l, const campaign_flight *f, double driven, long number,
+                     campaign_fault fault)
 {
   tale t;
   if (!open_tale (&t, l, number))
     return;
   say_head (&t, campaign_fault_names[fault]);
-  const char *reason = unspeakable (whole, fault);
+  const char *reason = unspeakable (f, fault);
   if (reason)
     {
       give_up (&t, reason);
       return;
     }
-  say_twice (&t);
   fprintf (t.port, "\n%s%s",
            fault == CAMPAIGN_BLOWN         ? slow
            : fault == CAMPAIGN_UNRECOVERED ? solved
                                            : "",
            gone);
-  say_line_flight (&t, "", cut, fault, driven);
-  say_line_flight (&t, "-whole", whole, fault, driven);
+  say_line_flight (&t, f, fault, driven);
   close_tale (&t);
 }

@@ -8,14 +8,12 @@
 #include "testbed/campaign.h"
 #include "stability_flight.h"
 
-/* Tell the case NUMBER, which has FAULT, WHOLE and CUT down, as FAMILY-SEED-NUMBER.scm in the
-   folder of L, its meshes beside it.  */
-void stability_tell_flight (const stability_log *l, const flight *whole, const flight *cut,
-                            long number, int fault);
+/* Tell the case NUMBER, the flight F with FAULT, as FAMILY-SEED-NUMBER.scm in the folder of L, its
+   meshes beside it.  */
+void stability_tell_flight (const stability_log *l, const flight *f, long number, int fault);
 
 /* The same of a line by itself, which DRIVEN m/s can move.  */
-void stability_tell_line (const stability_log *l, const campaign_flight *whole,
-                          const campaign_flight *cut, double driven, long number,
-                          campaign_fault fault);
+void stability_tell_line (const stability_log *l, const campaign_flight *f, double driven,
+                          long number, campaign_fault fault);
 
 #endif

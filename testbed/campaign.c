@@ -240,7 +240,7 @@ step (campaign *c, double h, double *behind, campaign_tally *t)
   double start = c->clock ? c->clock () : 0;
   bt_status status = bt__dynamic_step (c->d, c->work, &c->in, &c->report, NULL);
   double spent = c->clock ? c->clock () - start : 0;
-  if (status || !finite_line (c) || (c->planted && c->planted (c)))
+  if (status || !finite_line (c))
     {
       t->broken++;
       return 0;

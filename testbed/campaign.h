@@ -1,8 +1,8 @@
 /* Lines under abuse: lines of any kind, flown in random steps.  The tests and the stability bench
    fly the same ones.
 
-   A flight is drawn whole, from its seed, before it is flown: so it can be flown again, written to
-   a file, and cut down to what still fails (campaign_minimise).
+   A flight is drawn whole, from its seed, before it is flown: so it can be flown again, and written
+   to a file.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -84,8 +84,6 @@ typedef struct campaign
   bt__dynamic_work *work;
   double tension; /* N: the most it may have; 0: any */
   double driven;  /* m/s: the most that ends, water or overstretch can move the line with */
-  int (*planted) (const struct campaign *); /* NULL, or called after every step: nonzero breaks the
-                                               line; for tests of the minimiser */
 } campaign;
 
 /* What came of one line or of many.  */
@@ -129,12 +127,7 @@ extern const campaign_tally campaign_nothing;
 /* Add FROM to *T.  */
 void campaign_add (campaign_tally *t, const campaign_tally *from);
 
-/* ---- Reproducers: campaign_minimise.c ---- */
-
-/* Cut the flight of C, which has FAULT, down while it has: fewer and plainer steps, fewer nodes, a
-   plainer line.  Return how often it was flown, at most BUDGET, and none begun after SECONDS by C's
-   clock.  */
-int campaign_minimise (campaign *c, campaign_fault fault, int budget, double seconds);
+/* ---- Flights as text: campaign_file.c ---- */
 
 /* Write F to PORT as text that comes back bit by bit; read it.  Zero if it cannot be.  */
 int campaign_write (FILE *port, const campaign_flight *f);

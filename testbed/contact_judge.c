@@ -154,12 +154,6 @@ typedef struct question
   double least;
 } question;
 
-static int
-is_off (const reef *r, int item)
-{
-  return r->off[item < r->bones ? r->of_bone[item] : r->of_sheet[item - r->bones]];
-}
-
 /* Ask of every item whose box meets that of Q, once.  */
 static void
 look (question *q)
@@ -173,17 +167,9 @@ look (question *q)
           int i = b->item[k];
           const bounds *box = b->box + i;
           if (!are_apart (at, box) && u == column (b, fmax (at->lo.x, box->lo.x))
-              && v == line_of (b, fmax (at->lo.y, box->lo.y)) && !is_off (q->r, i))
+              && v == line_of (b, fmax (at->lo.y, box->lo.y)))
             q->ask (q, i);
         }
-}
-
-void
-reef_take (reef *r, int i, int away)
-{
-  r->off[i] = away != 0;
-  r->on.off = r->off;
-  r->on.version++;
 }
 
 /* ---- How near?  ---- */
@@ -205,7 +191,7 @@ solid_clearance (const reef *r, const bt_vec3 *x, int n)
 {
   double least = LOOK;
   for (int i = 0; i < r->solids; i++)
-    for (int j = 0; j + 1 < n && !r->off[r->of_solid[i]]; j++)
+    for (int j = 0; j + 1 < n; j++)
       {
         bt__link link = { x[j], x[j + 1] };
         bt_vec3 mid = bt__scale (0.5, bt__add (x[j], x[j + 1]));
@@ -221,7 +207,7 @@ plane_clearance (const reef *r, const bt_vec3 *x, int n)
 {
   double least = LOOK;
   for (int i = 0; i < r->obstacles; i++)
-    for (int j = 0; j < n && r->obstacle[i].kind == BT__OBSTACLE_PLANE && !r->off[i]; j++)
+    for (int j = 0; j < n && r->obstacle[i].kind == BT__OBSTACLE_PLANE; j++)
       least = fmin (least, x[j].z - r->obstacle[i].shape.plane.offset);
   return least;
 }

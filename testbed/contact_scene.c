@@ -371,7 +371,6 @@ rope_step (rope *p, double h, int judged)
   p->hook.witness = p;
   p->parts = 0;
   p->around.scene = p->reef->scene;
-  p->around.on = &p->reef->on;
   p->water.time += h;
   int n = (int)p->d->n + 1;
   memcpy (p->before, bt__dynamic_x (p->d), (size_t)n * sizeof *p->before);

@@ -25,8 +25,6 @@ typedef struct reef
 {
   bt__scene *scene;
   reef_bins *bins;
-  bt__switches on;          /* for the engine; the judge asks OFF too */
-  uint8_t off[REEF_SOLIDS]; /* nonzero: the obstacle is not there; see reef_take */
   int obstacles, solids, bones, sheets;
   bt__obstacle obstacle[REEF_SOLIDS];
   solid solid[REEF_SOLIDS];
@@ -50,9 +48,6 @@ int reef_tube (reef *r, bt_vec3 foot, double height, double radius, int round, i
 int reef_soup (reef *r, const bt__soup *soup);
 int reef_grid (reef *r, const bt__grid *grid);
 int reef_raise (reef *r);
-
-/* Take obstacle I of what is raised away, for engine and judge, or put it back.  */
-void reef_take (reef *r, int i, int away);
 
 /* A jacket: 4 legs of 1.2 m 12 m apart, 4 levels and crossed braces, 24 wires of 10 mm, 6 boxes, a
    caisson of 2880 triangles, a rough bottom of 7200.  */
