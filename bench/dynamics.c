@@ -21,6 +21,7 @@
 #include "tether/dynamic.h"
 
 #include "testbed/calibration.h"
+#include "testbed/chance.h"
 #include "moordyn.h"
 #include "options.h"
 #include "row.h"
@@ -483,15 +484,6 @@ run_scene (chain *c, explicit_chain *e, scene k, int quiet)
 
 static uint64_t seed;
 
-static double
-uniform (double a, double b)
-{
-  seed ^= seed << 13;
-  seed ^= seed >> 7;
-  seed ^= seed << 17;
-  return a + (b - a) * (double)(seed >> 11) * 0x1p-53;
-}
-
 static int
 ascending (const void *a, const void *b)
 {
@@ -508,8 +500,9 @@ fly_pilot (chain *c, int n, double *times)
   for (int i = 0; i < PILOT_STEPS; i++)
     {
       bt_vec3 *at = &c->in.end[1].at;
-      if (uniform (0, 1) < 0.02)
-        v = bt__vec (uniform (-1.5, 1.5), uniform (-1.5, 1.5), uniform (-0.7, 0.7));
+      if (chance_between (&seed, 0, 1) < 0.02)
+        v = bt__vec (chance_between (&seed, -1.5, 1.5), chance_between (&seed, -1.5, 1.5),
+                     chance_between (&seed, -0.7, 0.7));
       *at = bt__axpy (*at, 1.0 / 60, v);
       double far = bt__norm (*at);
       if (far > 100.02)

@@ -20,6 +20,7 @@
 #include <bight/statics.h>
 
 #include "testbed/calibration.h"
+#include "testbed/chance.h"
 #include "options.h"
 #include "row.h"
 #include "statics.h"
@@ -68,10 +69,7 @@ static uint64_t state;
 double
 statics_uniform (void)
 {
-  state ^= state << 13;
-  state ^= state >> 7;
-  state ^= state << 17;
-  return (double)(state >> 11) * 0x1p-53;
+  return chance (&state);
 }
 
 static double

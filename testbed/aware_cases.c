@@ -142,6 +142,18 @@ draw_rings (stage *g, dice *d, int n)
 }
 
 void
+draw_skeleton (stage *g, int k, dice *d)
+{
+  static const int bays[] = { 2, 4, 8 };
+  if (k == 0)
+    draw_piles (g, d, 6);
+  else if (k < 3)
+    draw_rings (g, d, k == 1 ? 1 : 3);
+  else
+    draw_jacket (g, d, bays[k - 3]);
+}
+
+void
 draw_boxes (stage *g, dice *d)
 {
   stage_clear (g);

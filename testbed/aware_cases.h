@@ -39,6 +39,9 @@ void draw_jacket (stage *g, dice *d, int bays);
 /* Rings of 16 capsules about any axis.  */
 void draw_rings (stage *g, dice *d, int n);
 
+/* The K-th of six scenes of bars: six piles, one ring, three rings, jackets of 2, 4, 8 bays.  */
+void draw_skeleton (stage *g, int k, dice *d);
+
 /* Boxes on the bed and balls in the water.  */
 void draw_boxes (stage *g, dice *d);
 

@@ -8,6 +8,7 @@
 #include "math/vec.h"
 
 #include "testbed/campaign.h"
+#include "testbed/chance.h"
 
 #define DENSITY 1025.0
 #define GRAVITY 9.81
@@ -24,10 +25,7 @@ const campaign_tally campaign_nothing = { .gain = -HUGE_VAL };
 double
 campaign_uniform (campaign *c, double a, double b)
 {
-  c->seed ^= c->seed << 13;
-  c->seed ^= c->seed >> 7;
-  c->seed ^= c->seed << 17;
-  return a + (b - a) * (double)(c->seed >> 11) * 0x1p-53;
+  return chance_between (&c->seed, a, b);
 }
 
 double
@@ -37,7 +35,7 @@ campaign_decades (campaign *c, double a, double b)
 }
 
 static int
-chance (campaign *c, double p)
+happens (campaign *c, double p)
 {
   return campaign_uniform (c, 0, 1) < p;
 }
@@ -87,8 +85,8 @@ random_props (campaign *c, campaign_kind kind)
                            .mass = water * campaign_uniform (c, 0.5, 3),
                            .wet_weight = campaign_uniform (c, -0.5, 1),
                            .ea = campaign_decades (c, 1e3, 1e9),
-                           .ei = chance (c, 0.5) ? 0 : campaign_decades (c, 1e-3, 1e3),
-                           .ba = chance (c, 0.3) ? 0 : campaign_uniform (c, 0, 200),
+                           .ei = happens (c, 0.5) ? 0 : campaign_decades (c, 1e-3, 1e3),
+                           .ba = happens (c, 0.3) ? 0 : campaign_uniform (c, 0, 200),
                            .cdn = campaign_uniform (c, 0.5, 2),
                            .cdt = 0.02,
                            .ca = 1 };
@@ -120,8 +118,8 @@ draw_line (campaign *c, campaign_flight *f)
   f->line = random_props (c, f->kind);
   f->length = l;
   f->step = campaign_decades (c, 1e-3, 0.1);
-  f->jittered = chance (c, 0.5);
-  f->free = chance (c, f->kind == CAMPAIGN_VACUO ? 0.5 : 0.1);
+  f->jittered = happens (c, 0.5);
+  f->free = happens (c, f->kind == CAMPAIGN_VACUO ? 0.5 : 0.1);
   if (f->free && f->kind != CAMPAIGN_VACUO)
     f->body = (bt__dynamic_lump){ .mass = 20, .added = 10, .quadratic = 60 };
 }
@@ -134,19 +132,19 @@ draw_move (campaign *c, const campaign_flight *f, campaign_move *m, bt_vec3 *v)
   m->h = f->jittered ? f->step * campaign_decades (c, 0.1, 1) : f->step;
   if (f->kind == CAMPAIGN_VACUO)
     return;
-  if (chance (c, 0.02))
+  if (happens (c, 0.02))
     *v = box (c, 5);
-  if (chance (c, 0.02))
+  if (happens (c, 0.02))
     *v = bt__vec (0, 0, 0);
-  if (chance (c, 0.05))
+  if (happens (c, 0.05))
     *v = bt__scale (-1, *v);
-  if (chance (c, 0.01))
+  if (happens (c, 0.01))
     {
       double u = campaign_uniform (c, -2, 2);
       m->flow = bt__vec (u, campaign_uniform (c, -2, 2), 0);
     }
   m->at = bt__axpy (m->at, m->h, *v);
-  if (f->kind == CAMPAIGN_TELEPORTS && chance (c, 0.01))
+  if (f->kind == CAMPAIGN_TELEPORTS && happens (c, 0.01))
     m->at = bt__add (m->at, box (c, 5));
   double far = bt__norm (m->at);
   if (far > reach)

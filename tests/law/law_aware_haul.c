@@ -16,6 +16,7 @@
 #include "aware/haul.h"
 #include "aware/shadow.h"
 #include "testbed/aware_cases.h"
+#include "near.h"
 
 #define CORE 0.005
 
@@ -41,13 +42,6 @@ static const bt__haul_body body = { .radius = 0.3,
                                     .drag2 = 100,
                                     .winch = 150,
                                     .grip = BT_HAUL_GRIP };
-
-static void
-near (const char *what, double is, double wanted, double tolerance)
-{
-  if (!(fabs (is - wanted) <= tolerance))
-    fail_msg ("%s is %.17g, not %.17g within %g", what, is, wanted, tolerance);
-}
 
 static bt__string *
 new_string (void)

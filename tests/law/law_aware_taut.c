@@ -13,6 +13,7 @@
 
 #include "aware/turns.h"
 #include "testbed/aware_cases.h"
+#include "near.h"
 
 #define CORE 0.005
 
@@ -28,13 +29,6 @@ typedef struct rig
 } rig;
 
 static rig r;
-
-static void
-near (const char *what, double is, double wanted, double tolerance)
-{
-  if (!(fabs (is - wanted) <= tolerance))
-    fail_msg ("%s is %.17g, not %.17g within %g", what, is, wanted, tolerance);
-}
 
 static int
 set_up (void **state)

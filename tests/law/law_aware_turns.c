@@ -13,6 +13,7 @@
 #include "aware/turns.h"
 #include "testbed/sweep.h"
 #include "testbed/aware_cases.h"
+#include "near.h"
 
 enum
 {
@@ -20,13 +21,6 @@ enum
 };
 
 static const bt__axis pile = { { 0, 0, 0 }, { 0, 0, -1 } };
-
-static void
-near (const char *what, double is, double wanted, double tolerance)
-{
-  if (!(fabs (is - wanted) <= tolerance))
-    fail_msg ("%s is %.17g, not %.17g within %g", what, is, wanted, tolerance);
-}
 
 /* TURNS clockwise seen from above, about (0, 0) at RADIUS, rising by RISE.  */
 static void

@@ -121,18 +121,6 @@ many (void)
 }
 
 static void
-draw (int scene, dice *d)
-{
-  static const int bays[] = { 2, 4, 8 };
-  if (scene == 0)
-    draw_piles (&r.g, d, 6);
-  else if (scene < 3)
-    draw_rings (&r.g, d, scene == 1 ? 1 : 3);
-  else
-    draw_jacket (&r.g, d, bays[scene - 3]);
-}
-
-static void
 ranks (void **state)
 {
   static const uint32_t rank[] = { 6, 1, 3 };
@@ -141,7 +129,7 @@ ranks (void **state)
     for (uint64_t seed = 1; seed <= 3; seed++)
       {
         dice d = dice_new (seed);
-        draw (scene, &d);
+        draw_skeleton (&r.g, scene, &d);
         read_scene (0.2, 0);
         print_message ("# scene %d: rank %u, expected %u, leftover %u, crossings %u, longest %u\n",
                        scene, r.report.rank, r.report.expected, r.report.leftover,
@@ -160,7 +148,7 @@ moves_keep_words (void **state)
   for (int scene = 0; scene < 6; scene++)
     {
       dice d = dice_new (10 + (uint64_t)scene);
-      draw (scene, &d);
+      draw_skeleton (&r.g, scene, &d);
       read_scene (0.2, 0);
       assert_int_equal (changed_by_moves (&d, 20, many ()), 0);
     }
@@ -175,7 +163,7 @@ tightening_keeps_words (void **state)
   for (uint64_t seed = 0; seed < 30; seed++)
     {
       dice d = dice_new (50 + seed);
-      draw ((int)(seed % 6), &d);
+      draw_skeleton (&r.g, (int)(seed % 6), &d);
       read_scene (0.2, 0);
       bt__taut_config config
           = { .scene = r.g.scene, .core = CORE, .want = CORE, .mesh = 0.6, .margin = 0.4 };

@@ -18,14 +18,10 @@
 
 #include <bight/statics.h>
 
-#define COUNT(table) (sizeof (table) / sizeof *(table))
+#include "near.h"
+#include "testbed/chance.h"
 
-static void
-near (const char *what, double is, double wanted, double tolerance)
-{
-  if (!(fabs (is - wanted) <= tolerance))
-    fail_msg ("%s is %.17g, not %.17g within %g", what, is, wanted, tolerance);
-}
+#define COUNT(table) (sizeof (table) / sizeof *(table))
 
 /* ---- The table ---- */
 
@@ -297,29 +293,15 @@ length_by_quadrature (void **state)
 
 static uint64_t seed = 88172645463325252u;
 
-static double
-uniform (void)
-{
-  seed ^= seed << 13;
-  seed ^= seed >> 7;
-  seed ^= seed << 17;
-  return (double)(seed >> 11) * 0x1p-53;
-}
-
-static double
-decades (double from, double to)
-{
-  return pow (10, from + (to - from) * uniform ());
-}
-
 /* Sizes over 13 decades, slack 1e-15 to 1e6, slopes h/v 1e-16 to 1e16.  */
 static void
 draw (double *h, double *v, double *s)
 {
-  double size = decades (-6, 7), slope = decades (-16, 16), chord = size / (1 + decades (-15, 6));
+  double size = chance_decades (&seed, -6, 7), slope = chance_decades (&seed, -16, 16),
+         chord = size / (1 + chance_decades (&seed, -15, 6));
   *s = size;
   *h = chord * (slope / hypot (1, slope));
-  *v = (uniform () < 0.5 ? -1 : 1) * chord / hypot (1, slope);
+  *v = (chance (&seed) < 0.5 ? -1 : 1) * chord / hypot (1, slope);
 }
 
 typedef __float128 quad;
@@ -386,8 +368,8 @@ meets_the_end_over_twelve_decades (void **state)
       bt_catenary c;
       draw (&h, &v, &s);
       assert_int_equal (bt_catenary_solve (h, v, s, &c, NULL), BT_OK);
-      bt_point2 p = bt_catenary_point (&c, s), m = bt_catenary_point (&c, s * uniform ());
-      bt_point2 t = bt_catenary_tangent (&c, s * uniform ());
+      bt_point2 p = bt_catenary_point (&c, s), m = bt_catenary_point (&c, s * chance (&seed));
+      bt_point2 t = bt_catenary_tangent (&c, s * chance (&seed));
       double miss = hypot (p.x - h, p.y - v) / s;
       if (!(miss < 1e-14) || !isfinite (m.x) || !isfinite (m.y)
           || !(fabs (hypot (t.x, t.y) - 1) < 1e-14))

@@ -204,33 +204,13 @@ recovers (void **state)
 
 /* ---- Wires ---- */
 
-/* Sweep a 20 m line of LINKS sideways at SPEED onto a wire of 10 mm, the K-th of many; with MUTANT
-   as the solver has it.  Return the crossings.  */
+/* The crossings of a sweep.  */
 static long
 sweep_wire (int k, double speed, int links, int mutant, dice *d)
 {
   static reef r;
   static rope p;
-  bt_vec3 middle
-      = { 3 + dice_between (d, 0, 1), dice_between (d, -0.5, 0.5), dice_between (d, -0.5, 0.5) };
-  bt_vec3 axis = bt__unit_or (
-      bt__add (bt__vec (0, cos (0.3 * k), sin (0.3 * k)), bt__scale (0.5, dice_direction (d))),
-      bt__vec (0, 0, 1));
-  bt_vec3 end = fabs (axis.y) > 0.9 ? bt__vec (0, 0, 10) : bt__vec (0, 10, 0);
-  bt_vec3 shape[] = { bt__scale (-1, end), { -1, 0, 0 }, end };
-  assert_true (reef_open (&r));
-  reef_wire (&r, bt__axpy (middle, -30, axis), bt__axpy (middle, 30, axis), 0.005);
-  assert_true (reef_raise (&r));
-  assert_true (rope_open (&p, &r, links, shape, 3, 20.2, 0.3));
-  p.config.pull[0] = p.config.pull[1] = 150;
-  p.hook.no_guard = p.hook.no_contacts = mutant;
-  for (int i = 0; i < 60; i++)
-    {
-      bt_vec3 to = { fmin (speed * (i + 1) * frame, 8), 0, 0 };
-      p.in.end[0].at = bt__add (shape[0], to);
-      p.in.end[1].at = bt__add (shape[2], to);
-      rope_step (&p, frame, 1);
-    }
+  sweep_onto_wire (&p, &r, k, links, speed, 60, mutant, d);
   long crossings = p.crossings;
   if (!mutant)
     assert_kept (&p, "a wire");

@@ -219,31 +219,12 @@ comes_off (void **state)
 
 /* ---- Sweeps ---- */
 
-/* Sweep a 20 m line sideways at SPEED onto a wire, the K-th of many.  */
 static void
 sweep (int k, double speed, int links, dice *d)
 {
   static reef r;
   static rope p;
-  bt_vec3 middle
-      = { 3 + dice_between (d, 0, 1), dice_between (d, -0.5, 0.5), dice_between (d, -0.5, 0.5) };
-  bt_vec3 axis = bt__unit_or (
-      bt__add (bt__vec (0, cos (0.3 * k), sin (0.3 * k)), bt__scale (0.5, dice_direction (d))),
-      bt__vec (0, 0, 1));
-  bt_vec3 end = fabs (axis.y) > 0.9 ? bt__vec (0, 0, 10) : bt__vec (0, 10, 0);
-  bt_vec3 shape[] = { bt__scale (-1, end), { -1, 0, 0 }, end };
-  assert_true (reef_open (&r));
-  reef_wire (&r, bt__axpy (middle, -30, axis), bt__axpy (middle, 30, axis), 0.005);
-  assert_true (reef_raise (&r));
-  assert_true (rope_open (&p, &r, links, shape, 3, 20.2, 0.3));
-  p.config.pull[0] = p.config.pull[1] = 150;
-  for (int i = 0; i < (speed < 10 ? 240 : 60); i++)
-    {
-      bt_vec3 to = { fmin (speed * (i + 1) * frame, 8), 0, 0 };
-      p.in.end[0].at = bt__add (shape[0], to);
-      p.in.end[1].at = bt__add (shape[2], to);
-      rope_step (&p, frame, 1);
-    }
+  sweep_onto_wire (&p, &r, k, links, speed, speed < 10 ? 240 : 60, 0, d);
   assert_kept (&p, "a sweep onto a wire");
   rope_close (&p);
   reef_close (&r);

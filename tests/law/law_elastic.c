@@ -15,14 +15,10 @@
 
 #include <bight/statics.h>
 
-#define COUNT(table) (sizeof (table) / sizeof *(table))
+#include "near.h"
+#include "testbed/chance.h"
 
-static void
-near (const char *what, double is, double wanted, double tolerance)
-{
-  if (!(fabs (is - wanted) <= tolerance))
-    fail_msg ("%s is %.17g, not %.17g within %g", what, is, wanted, tolerance);
-}
+#define COUNT(table) (sizeof (table) / sizeof *(table))
 
 /* Irvine 1981: x (s) = H s/EA + H/w [asinh (V/H) - asinh ((V - w s)/H)],
    z (s) = -(V s - w s^2/2)/EA - [sqrt (H^2 + V^2) - sqrt (H^2 + (V - w s)^2)]/w; the point at s/2.
@@ -202,21 +198,6 @@ refuses_nonsense (void **state)
 
 static uint64_t seed = 88172645463325252u;
 
-static double
-uniform (void)
-{
-  seed ^= seed << 13;
-  seed ^= seed >> 7;
-  seed ^= seed << 17;
-  return (double)(seed >> 11) * 0x1p-53;
-}
-
-static double
-decades (double from, double to)
-{
-  return pow (10, from + (to - from) * uniform ());
-}
-
 /* Slack 1e-10 to 1e3, stretched to 10 %, near vertical, weight / EA 1e-8 to 1e-2.  */
 static void
 meets_the_end_in_any_case (void **state)
@@ -227,17 +208,20 @@ meets_the_end_in_any_case (void **state)
   (void)state;
   for (long i = 0; i < cases; i++)
     {
-      double s = decades (-1, 3), w = decades (-3, 2), ea = w * s / decades (-8, -2);
-      double c = i % 4 == 1 ? s * (1 + 0.1 * decades (-8, 0)) : s / (1 + decades (-10, 3));
-      double angle = i % 4 == 3 ? acos (0.0) - decades (-9, -1) : 1.57 * uniform ();
-      double h = c * cos (angle), v = (uniform () < 0.5 ? -1 : 1) * c * sin (angle);
+      double s = chance_decades (&seed, -1, 3), w = chance_decades (&seed, -3, 2),
+             ea = w * s / chance_decades (&seed, -8, -2);
+      double c = i % 4 == 1 ? s * (1 + 0.1 * chance_decades (&seed, -8, 0))
+                            : s / (1 + chance_decades (&seed, -10, 3));
+      double angle
+          = i % 4 == 3 ? acos (0.0) - chance_decades (&seed, -9, -1) : 1.57 * chance (&seed);
+      double h = c * cos (angle), v = (chance (&seed) < 0.5 ? -1 : 1) * c * sin (angle);
       bt_elastic e;
       bt_error error;
       if (bt_elastic_solve (h, v, s, w, ea, &e, &error))
         fail_msg ("%s", error.text);
       bt_point2 p = bt_elastic_point (&e, s);
       double miss = hypot (p.x - h, p.y - v) / fmax (s, c);
-      if (!(miss < 1e-14) || !(e.H >= 0) || !isfinite (bt_elastic_tension (&e, s * uniform ())))
+      if (!(miss < 1e-14) || !(e.H >= 0) || !isfinite (bt_elastic_tension (&e, s * chance (&seed))))
         fail_msg ("case %ld: h %.17g v %.17g s %.17g w %.17g ea %.17g misses by %g", i, h, v, s, w,
                   ea, miss);
       worst = fmax (worst, miss);

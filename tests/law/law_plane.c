@@ -15,15 +15,9 @@
 
 #include "math/vec.h"
 #include "tether/shape.h"
+#include "near.h"
 
 #define COUNT(table) (sizeof (table) / sizeof *(table))
-
-static void
-near (const char *what, double is, double wanted, double tolerance)
-{
-  if (!(fabs (is - wanted) <= tolerance))
-    fail_msg ("%s is %.17g, not %.17g within %g", what, is, wanted, tolerance);
-}
 
 static void
 near_point (const char *what, bt_vec3 is, double x, double y, double z, double tolerance)

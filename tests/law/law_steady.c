@@ -18,6 +18,7 @@
 #include <bight/statics.h>
 
 #include "math/vec.h"
+#include "testbed/chance.h"
 #include "tether/equilibrium.h"
 
 enum
@@ -509,21 +510,13 @@ test_golden_numbers (void **state)
 
 static uint64_t seed;
 
-static double
-uniform (double from, double to)
-{
-  seed ^= seed << 13;
-  seed ^= seed >> 7;
-  seed ^= seed << 17;
-  return from + (to - from) * ((double)(seed >> 11) * 0x1p-53);
-}
-
 static bt_vec3
 direction (void)
 {
   for (;;)
     {
-      bt_vec3 v = bt__vec (uniform (-1, 1), uniform (-1, 1), uniform (-1, 1));
+      bt_vec3 v = bt__vec (chance_between (&seed, -1, 1), chance_between (&seed, -1, 1),
+                           chance_between (&seed, -1, 1));
       double n = bt__norm (v);
       if (n > 0.1 && n < 1)
         return bt__scale (1 / n, v);
@@ -535,15 +528,19 @@ direction (void)
 static void
 random_scene (scene *s, double low, double high, double speed, double ea)
 {
-  bt_line line = { uniform (20, 200), 0.0076, uniform (-0.1, 0.3), ea, 1.2, 0.01 };
-  if (uniform (0, 1) < 0.3)
+  bt_line line = {
+    chance_between (&seed, 20, 200), 0.0076, chance_between (&seed, -0.1, 0.3), ea, 1.2, 0.01
+  };
+  if (chance_between (&seed, 0, 1) < 0.3)
     line.wet_weight = 0;
-  double bearing = uniform (0, 2 * BT__PI), fast = uniform (0.05, speed);
+  double bearing = chance_between (&seed, 0, 2 * BT__PI),
+         fast = chance_between (&seed, 0.05, speed);
   set_scene (s, line, 1025, BT_CURRENT_PROFILE, 100, bt_set_and_drift (fast, bearing),
              bt__vec (0, 0, 0));
-  s->current.velocity[1] = bt_set_and_drift (fast * uniform (0, 1), bearing + uniform (-1, 1));
-  s->a = bt__vec (0, 0, -uniform (0, 50));
-  s->b = bt__axpy (s->a, uniform (low, high) * line.length, direction ());
+  s->current.velocity[1] = bt_set_and_drift (fast * chance_between (&seed, 0, 1),
+                                             bearing + chance_between (&seed, -1, 1));
+  s->a = bt__vec (0, 0, -chance_between (&seed, 0, 50));
+  s->b = bt__axpy (s->a, chance_between (&seed, low, high) * line.length, direction ());
 }
 
 /* A chain of the right length wandering from A, its end anywhere.  */
@@ -579,8 +576,8 @@ test_neutral_line_is_a_catenary (void **state)
     {
       scene s;
       const int n = 128;
-      double speed = uniform (0.05, 3), length = uniform (5, 300);
-      bt_vec3 to = bt__vec (uniform (0.3, 0.9), 0, uniform (-0.3, 0.3));
+      double speed = chance_between (&seed, 0.05, 3), length = chance_between (&seed, 5, 300);
+      bt_vec3 to = bt__vec (chance_between (&seed, 0.3, 0.9), 0, chance_between (&seed, -0.3, 0.3));
       bt_line line = { length, 0.0076, 0, INFINITY, 1.2, 0 };
       set_scene (&s, line, 1025, BT_CURRENT_UNIFORM, 0, bt__vec (0, 0, -speed),
                  bt__scale (length, to));
@@ -716,7 +713,7 @@ junk_shape (const scene *s, int kind, int n, bt_vec3 *shape)
   for (int i = 0; i <= n; i++)
     {
       bt_vec3 chord = bt__sub (s->b, s->a), far = bt__scale (s->line.length, direction ());
-      bt_vec3 points[] = { bt__axpy (s->a, uniform (0, 3), far),
+      bt_vec3 points[] = { bt__axpy (s->a, chance_between (&seed, 0, 3), far),
                            bt__axpy (s->a, i % 2, chord),
                            s->a,
                            bt__axpy (s->a, 1e4, far),
@@ -749,7 +746,8 @@ test_relaxation_survives_junk (void **state)
     {
       scene s;
       int n = links[k % 6];
-      double chord = k % 3 ? uniform (1e-6, 1.05) : pow (10, uniform (-6, 0));
+      double chord
+          = k % 3 ? chance_between (&seed, 1e-6, 1.05) : pow (10, chance_between (&seed, -6, 0));
       random_scene (&s, chord, chord, 5, stiffness[k / 7 % 4]);
       if (k % 11 == 0)
         s.line.wet_weight = 0, s.current.kind = BT_CURRENT_STILL;

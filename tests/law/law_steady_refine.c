@@ -19,6 +19,7 @@
 #include <bight/statics.h>
 
 #include "math/vec.h"
+#include "testbed/chance.h"
 #include "tether/equilibrium.h"
 
 enum
@@ -42,30 +43,23 @@ typedef struct scene
 
 static uint64_t seed;
 
-static double
-uniform (double from, double to)
-{
-  seed ^= seed << 13;
-  seed ^= seed >> 7;
-  seed ^= seed << 17;
-  return from + (to - from) * ((double)(seed >> 11) * 0x1p-53);
-}
-
 static void
 draw_current (bt_current *c)
 {
   static const int kinds[]
       = { BT_CURRENT_UNIFORM, BT_CURRENT_PROFILE, BT_CURRENT_TURNING, BT_CURRENT_POWER };
-  double toward = uniform (0, 2 * BT__PI), speed = uniform (0.05, 1.5);
-  *c = (bt_current){ .kind = kinds[(int)uniform (0, 4)], .n = 2 + (int)uniform (0, 5) };
+  double toward = chance_between (&seed, 0, 2 * BT__PI), speed = chance_between (&seed, 0.05, 1.5);
+  *c = (bt_current){ .kind = kinds[(int)chance_between (&seed, 0, 4)],
+                     .n = 2 + (int)chance_between (&seed, 0, 5) };
   c->velocity[0] = bt_set_and_drift (speed, toward);
   for (int i = 1; i < c->n; i++)
     {
-      c->velocity[i] = bt_set_and_drift (speed * uniform (0, 1), toward + uniform (-1, 1));
-      c->z[i] = c->z[i - 1] - uniform (5, 100);
+      c->velocity[i] = bt_set_and_drift (speed * chance_between (&seed, 0, 1),
+                                         toward + chance_between (&seed, -1, 1));
+      c->z[i] = c->z[i - 1] - chance_between (&seed, 5, 100);
     }
-  c->turn_rate = uniform (-0.01, 0.01);
-  c->exponent = uniform (0.14, 2);
+  c->turn_rate = chance_between (&seed, -0.01, 0.01);
+  c->exponent = chance_between (&seed, 0.14, 2);
 }
 
 static void
@@ -73,14 +67,16 @@ draw_scene (scene *s)
 {
   static const double stiffness[] = { INFINITY, 1e8, 1e6, 2e5, 1e4 };
   static const double weights[] = { 0, 0.1, 1, 12, -0.05, -0.5 };
-  int kind = (int)uniform (0, 6);
-  double length = pow (10, uniform (1, 2.8)), ea = stiffness[(int)uniform (0, 5)];
+  int kind = (int)chance_between (&seed, 0, 6);
+  double length = pow (10, chance_between (&seed, 1, 2.8)),
+         ea = stiffness[(int)chance_between (&seed, 0, 5)];
   double most = isinf (ea) ? 0.98 : 1;
-  double chord = uniform (0.3, most), turn = uniform (0, 2 * BT__PI), dip = uniform (-1.4, 0.2);
+  double chord = chance_between (&seed, 0.3, most), turn = chance_between (&seed, 0, 2 * BT__PI),
+         dip = chance_between (&seed, -1.4, 0.2);
   *s = (scene){ .line = { length, kind == 3 ? 0.03 : 0.01, weights[kind], ea, 1.2, 0.01 } };
   draw_current (&s->current);
   s->water = (bt_water){ .density = 1025, .gravity = 9.81, .depth = 700, .current = &s->current };
-  s->a = bt__vec (0, 0, -uniform (0, 30));
+  s->a = bt__vec (0, 0, -chance_between (&seed, 0, 30));
   s->b = bt__axpy (s->a, chord * length,
                    bt__vec (cos (dip) * cos (turn), cos (dip) * sin (turn), sin (dip)));
 }
@@ -239,22 +235,6 @@ test_accuracy_is_kept (void **state)
   assert_in_range (marches, 8 * 60, 2 * 8 * 60);
 }
 
-static int
-set_up (void **state)
-{
-  (void)state;
-  steady = bt_steady_new (FINE);
-  return steady ? 0 : -1;
-}
-
-static int
-tear_down (void **state)
-{
-  (void)state;
-  bt_steady_free (steady);
-  return 0;
-}
-
 int
 main (void)
 {
@@ -263,5 +243,8 @@ main (void)
     cmocka_unit_test (test_a_fixed_mesh_misses),
     cmocka_unit_test (test_accuracy_is_kept),
   };
-  return cmocka_run_group_tests (tests, set_up, tear_down);
+  steady = bt_steady_new (FINE);
+  int failed = steady ? cmocka_run_group_tests (tests, NULL, NULL) : 1;
+  bt_steady_free (steady);
+  return failed;
 }

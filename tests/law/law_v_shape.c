@@ -13,14 +13,9 @@
 
 #include <bight/statics.h>
 
-#define COUNT(table) (sizeof (table) / sizeof *(table))
+#include "near.h"
 
-static void
-near (const char *what, double is, double wanted, double tolerance)
-{
-  if (!(fabs (is - wanted) <= tolerance))
-    fail_msg ("%s is %.17g, not %.17g within %g", what, is, wanted, tolerance);
-}
+#define COUNT(table) (sizeof (table) / sizeof *(table))
 
 static double
 length_of (const bt_v_shape *v, double h, double y)

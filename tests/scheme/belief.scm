@@ -10,13 +10,10 @@
              ((bight view picture) #:select (picture-pixels))
              (bight view tube))
 
-(define-world slack-water
-  "A kinematic vehicle on a short line of few nodes, beside a post."
-  (sea      (depth 20) (current 0.2 90))
-  (cylinder (named post) (from 3 6 0) (to 3 6 -20) (radius 0.3))
-  (rov      (named minnow) (type kinematic) (at 0 12 -8) (heading 0))
-  (tether   (named line) (type fathom) (wet-weight 0) (model dynamic) (nodes 10) (from 0 0 -2) (to minnow)
-            (length 16)))
+(define slack-water
+  (with (find-world (string-append (dirname (dirname (dirname (current-filename)))) "/testbed/worlds/beside-a-post.scm")
+              #:trust #t)
+    (line (nodes 10))))
 
 (define-belief doubtful
   "The current, and the drag of the line."

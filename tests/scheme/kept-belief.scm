@@ -5,13 +5,9 @@
 (use-modules ((bight engine) #:select (%checksum)) (ice-9 exceptions) (ice-9 textual-ports) (rnrs bytevectors)
              ((srfi srfi-1) #:renamer (lambda (name) (if (eq? name 'every) 'every1 name))) (srfi srfi-4))
 
-(define-world slack-water
-  "A kinematic vehicle on a short line of few nodes, beside a post."
-  (sea      (depth 20) (current 0.2 90))
-  (cylinder (named post) (from 3 6 0) (to 3 6 -20) (radius 0.3))
-  (rov      (named minnow) (type kinematic) (at 0 12 -8) (heading 0))
-  (tether   (named line) (type fathom) (wet-weight 0) (model dynamic) (nodes 8) (from 0 0 -2) (to minnow)
-            (length 16)))
+(define slack-water
+  (find-world (string-append (dirname (dirname (dirname (current-filename)))) "/testbed/worlds/beside-a-post.scm")
+              #:trust #t))
 
 (define (begin-belief! by)
   ;; A belief that was told, doubted and touched something, in a dive that was ordered and altered.

@@ -18,6 +18,7 @@
 #include <cmocka.h>
 
 #include "../oracle/dive_play.h"
+#include "../oracle/two_lines.h"
 #include "math/vec.h"
 #include "world/hull.h"
 
@@ -150,24 +151,12 @@ judge_step (const bt_dive *dive, const sight *was, const sight *is, const hulls 
 static void
 draw_world (scene *s, dice *d, kind k)
 {
-  begin_scene (s, k.model);
-  s->world.n_vehicles = s->world.n_tethers = 2;
-  bt_def_set_name (s->tether[1].to.part, "garage", NULL);
+  begin_two_lines (s, k.model);
   for (int i = 0; i < 2; i++)
     {
-      double toward = dice_between (d, 0, 0.5) + i * BT__PI / 2;
-      bt_vec3 u = { cos (toward), sin (toward), 0 };
-      bt_vec3 middle = { 0, 0, -6 - 2 * i - dice_between (d, 0, 0.5) };
-      s->tether[i].from.at = bt__axpy (middle, -6, u);
-      s->vehicle[i].at = bt__axpy (middle, k.mass ? 2 : 6, u);
-      s->tether[i].length = dice_between (d, 12.1, 16) - (k.mass ? 4 : 0);
+      draw_line_of_two (s, i, d, 2, k.mass ? 2 : 6, k.mass);
       s->tether[i].props.nodes = k.fine ? 240 : 24;
-      s->tether[i].props.wet_weight = dice_between (d, -0.1, 0.3);
-      s->tether[i].props.friction = dice_between (d, 0, 0.6);
-      s->tether[i].props.breaking_load = 1e9;
-      if (k.mass)
-        assert_int_equal (bt_def_set_vehicle_type (&s->vehicle[i], "bluerov2-heavy", NULL), BT_OK);
-      else
+      if (!k.mass)
         give_hull (s, i, bt__vec (dice_between (d, 0.2, 1), dice_between (d, 0.2, 1), 0.4));
     }
   if (k.movers)
@@ -192,16 +181,7 @@ act (bt_dive *dive, dice *d, kind k)
 {
   int v = dice_below (d, 2);
   bt_vec3 p = across_the_other (dive, d, v);
-  if (k.cut && dice_below (d, 6) == 0)
-    operate (dive, BT_OP_CUT, v, 1, (double[]){ dice_between (d, 3, 10) });
-  else if (dice_below (d, 4) == 0)
-    operate (dive, BT_OP_DRIVE, v, 4,
-             (double[]){ dice_between (d, -1, 1), dice_between (d, -1, 1), dice_between (d, -1, 1),
-                         dice_between (d, -1, 1) });
-  else if (k.mass)
-    operate (dive, BT_OP_FLY_TO, v, 4, (double[]){ p.x, p.y, p.z, 2 });
-  else
-    operate (dive, BT_OP_MOVE, v, 4, (double[]){ p.x, p.y, p.z, dice_below (d, 3) ? 2 : 20 });
+  act_on_two (dive, d, v, p, 2, k.mass, k.cut);
 }
 
 /* Let DIVE go on from its own state, saved and restored.  */
