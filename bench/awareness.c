@@ -16,9 +16,9 @@
 
 #include "aware/haul.h"
 #include "aware/knot.h"
-#include "aware/shadow.h"
+#include "aware/shadow_job.h"
 #include "aware/turns.h"
-#include "aware/voxel.h"
+#include "aware/voxel_job.h"
 #include "testbed/calibration.h"
 #include "testbed/aware_cases.h"
 #include "options.h"
@@ -122,7 +122,7 @@ exact (bench *b, exact_kind k)
   double cold = bench_now () - start;
   double error = b->s->length / length - 1;
   double arcs = bt__string_length (&c, b->s, &b->count) / length - 1;
-  double clear = bt__clearance (&c, b->s->x, b->s->n, 1, &b->count);
+  double clear = way_clearance (&c, b->s->x, b->s->n, 1, &b->count);
   snprintf (counters, sizeof counters, "links=%u;steps=%u;arcs=%.2g;clearance=%.9f",
             (unsigned)b->s->n - 1, (unsigned)steps, arcs, clear);
   row (b, "taut", exact_names[k], "share of exact length", error, "closed form", cold, counters);
@@ -164,7 +164,7 @@ scenes (bench *b, int kind)
       bt__taut_relax (b->taut, &c, b->s, 400, &b->count);
       cold[i] = bench_now () - start;
       nodes += b->s->n;
-      clear = fmin (clear, bt__clearance (&c, b->s->x, b->s->n, 1, &b->count));
+      clear = fmin (clear, way_clearance (&c, b->s->x, b->s->n, 1, &b->count));
       bt__string_lay (b->fine, b->p, n);
       bt__taut_relax (b->taut, &fine, b->fine, 4000, &b->count);
       error[i] = fabs (bt__string_length (&c, b->s, &b->count)
@@ -216,7 +216,7 @@ changed (bench *b, const bt__shadow *shadow, dice *d, int paths)
       for (long i = 0, tries = 0; i < b->moves / paths && tries < 20 * b->moves; tries++)
         i += move_node (&b->g, d, 0.5, b->p, 1 + (uint32_t)dice_below (d, (int)n - 2));
       bt__shadow_word (shadow, b->p, n, &after);
-      out += !bt__word_equal (&before, &after);
+      out += !is_same_word (&before, &after);
     }
   return out;
 }
@@ -266,7 +266,7 @@ words (bench *b)
         continue;
       bt__shadow_report r;
       char counters[120];
-      bt__shadow_report_of (shadow, &r);
+      r = shadow->report;
       snprintf (counters, sizeof counters, "rank=%u;expected=%u;crossings=%u;longest=%u",
                 (unsigned)r.rank, (unsigned)r.expected, (unsigned)r.crossings, (unsigned)r.longest);
       row (b, "words load", scene[k].name, "relations left", r.leftover, "theory", load, counters);
@@ -303,8 +303,8 @@ voxels (bench *b, int kind)
       int pairs = 0, agree = 0, lost = 0;
       bt__voxel_report r;
       bt__shadow_report known;
-      bt__voxels_report_of (v, &r);
-      bt__shadow_report_of (shadow, &known);
+      r = v->report;
+      known = shadow->report;
       b->n = 0;
       for (int i = 0; i < PATHS; i++)
         {
@@ -320,7 +320,7 @@ voxels (bench *b, int kind)
           if (!other[i].lost && !other[j].lost)
             {
               pairs++;
-              agree += bt__word_equal (one + i, one + j) == bt__word_equal (other + i, other + j);
+              agree += is_same_word (one + i, one + j) == is_same_word (other + i, other + j);
             }
       char counters[120];
       snprintf (counters, sizeof counters, "cells=%u;generators=%u;rank=%u;left=%u",
@@ -362,7 +362,7 @@ free_lengths (bench *b, int kind)
         {
           bt_vec3 to = draw_point (&b->g, &d, 0.3);
           start = bench_now ();
-          double is = bt__free_length (tree, b->taut, &c, to, 60, b->s, &b->count);
+          double is = tight_free_length (tree, b->p[0], to, 60, b->taut, &c, b->s, &b->count);
           b->frames[b->n++] = bench_now () - start;
           if (k >= queries)
             continue;
@@ -402,7 +402,7 @@ hauls (bench *b, int kind)
       if (bt__free_new (&f, &tree, NULL))
         return;
       bt__free_grow (tree, b->p[0], NULL, &b->count);
-      bt__free_length (tree, b->taut, &c, b->p[n - 1], 200, b->fine, &b->count);
+      tight_free_length (tree, b->p[0], b->p[n - 1], 200, b->taut, &c, b->fine, &b->count);
       double start = bench_now ();
       bt__route w = bt__way_home (b->taut, &c, b->s, 0.32, b->home, &b->count);
       home[i] = bench_now () - start;

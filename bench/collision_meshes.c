@@ -208,7 +208,7 @@ time_beams (bench *b, const bt__scene *s, const char *setting)
           double w = 0.2 * k + 2 * BT__PI / 3 * ((double)i / (BEAMS - 1) - 0.5);
           bt__ray ray = { { 5, -3, -47 }, { cos (w), sin (w), 0 }, 100 };
           bt__ray_hit hit;
-          hits += bt__scene_ray (s, NULL, &ray, &hit, &count);
+          hits += bt__ray_cast (s, NULL, NULL, 0, &ray, &hit, &count);
         }
       times[k] = bench_now () - start;
     }

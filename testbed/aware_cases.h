@@ -8,6 +8,7 @@
 
 #include "testbed/solids.h"
 #include "aware/free.h"
+#include "aware/word.h"
 
 enum
 {
@@ -67,6 +68,24 @@ uint32_t draw_between (const stage *g, dice *d, bt_vec3 a, bt_vec3 b, int legs, 
 /* Move node J (not an end) of the line P somewhere else at random, by up to SIZE, if both its links
    stay out of everything below the surface and sweep no member's axis; nonzero if it moved.  */
 int move_node (const stage *g, dice *d, double size, bt_vec3 *p, uint32_t j);
+
+/* ---- Ways and words: aware_ways.c ---- */
+
+/* Return how near the polyline P of N points comes to anything, or CAP.  */
+double way_clearance (const bt__taut_config *config, const bt_vec3 *p, uint32_t n, double cap,
+                      bt__count *count);
+
+/* Lay STRING along the way of TREE to TO from FROM, where the tree has grown from, and tighten it
+   by up to STEPS.  Return the length of STRING, m, with arcs for corners at round members; INFINITY
+   if there is no way.  */
+double tight_free_length (const bt__free *tree, bt_vec3 from, bt_vec3 to, uint32_t steps,
+                          bt__taut *taut, const bt__taut_config *config, bt__string *string,
+                          bt__count *count);
+
+/* Nonzero if the words are equal, and not lost.  */
+int is_same_word (const bt__word *a, const bt__word *b);
+
+/* ---- Knots and links ---- */
 
 /* Three rings on a string: two linked, Borromean; a pipe knotted as a trefoil.  */
 void draw_hopf (stage *g);

@@ -3,8 +3,9 @@
 ;;; How long functions are, how much of the code is comment, how many static functions share a name, how
 ;;; many words of long comment sentences only point at others ("it", "that", "which"), which of the words
 ;;; that HACKING.md's glossary replaced are left, how many internal functions have no caller in another file of
-;;; src, which counts of lines in HACKING.md are stale, and how large the rooms are.  tests/house.sh holds the
-;;; measures to their bounds.
+;;; src, which counts of lines in HACKING.md are stale, how many calls lead from the step of a dive to the line that
+;;; applies friction, how many lines touching takes, how many constants are tuned, how large the rooms are.
+;;; tests/house.sh holds the measures to their bounds.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -44,8 +45,9 @@
 (define head (make-regexp "^([a-z_][A-Za-z0-9_]*) \\(.*$"))
 
 (define (functions text)
-  ;; Those that TEXT, laid out as .clang-format has it, defines: lists (NAME LINES STATIC?).  A definition is
-  ;; a line with its type, a line that begins with its name, more of its arguments, a line `{' ... a line `}'.
+  ;; Those that TEXT, laid out as .clang-format has it, defines: lists (NAME LINES STATIC? BODY), BODY being the
+  ;; lines from the name on.  A definition is a line with its type, a line that begins with its name, more of its
+  ;; arguments, a line `{' ... a line `}'.
   (define lines (list->vector (string-split text #\newline)))
   (define n (vector-length lines))
   (define (line i) (if (< i n) (vector-ref lines i) ""))
@@ -68,7 +70,8 @@
               (loop (+ close 1)
                     (cons (list (match:substring m 1)
                                 (- close open 1)
-                                (string-prefix? "static " (line (- i 1))))
+                                (string-prefix? "static " (line (- i 1)))
+                                (map line (iota (- close i) i)))
                           found))
               (loop (+ i 1) found))))))
 
@@ -112,7 +115,7 @@
 (define sources (filter (lambda (entry) (string-suffix? ".c" (car entry))) texts))
 
 (define all-functions
-  ;; (FILE NAME LINES STATIC?)
+  ;; (FILE NAME LINES STATIC? BODY)
   (append-map (lambda (entry) (map (lambda (f) (cons (car entry) f)) (functions (cdr entry)))) sources))
 
 (define (quantile sorted share)
@@ -187,6 +190,61 @@
           all-functions))
 
 
+;;; How far it is from the step of a dive to friction: the fewest calls, each named in the caller's text.
+
+(define defined (make-hash-table))      ; name -> functions of that name
+(for-each (lambda (f) (hash-set! defined (second f) (cons f (hash-ref defined (second f) '()))))
+          all-functions)
+
+(define word (make-regexp "[A-Za-z_][A-Za-z0-9_]*"))
+
+(define (named-in f)
+  ;; The functions that the text of F names: of the same file first, else those that are not static.
+  (append-map
+   (lambda (name)
+     (let* ((all (hash-ref defined name '()))
+            (near (filter (lambda (other) (string=? (first f) (first other))) all)))
+       (if (pair? near) near (remove fourth all))))
+   (delete-duplicates
+    (append-map (lambda (line) (map match:substring (list-matches word line))) (cdr (fifth f))))))
+
+(define (calls-between from to)
+  ;; The functions from the one called FROM to the one called TO, by the fewest calls; () if there are none.
+  (define seen (make-hash-table))
+  (let loop ((ways (list (list (car (hash-ref defined from '((#f #f 0 #f ("")))))))))
+    (cond ((null? ways) '())
+          ((find (lambda (way) (equal? to (second (car way)))) ways) => reverse)
+          (else
+           (loop (append-map
+                  (lambda (way)
+                    (filter-map (lambda (next)
+                                  (and (not (hashq-ref seen next))
+                                       (begin (hashq-set! seen next #t) (cons next way))))
+                                (named-in (car way))))
+                  ways))))))
+
+(define to-friction
+  ;; The form of a tether is a table, by which bring_to_ends calls bt__step_chain.
+  (append (calls-between "bt_dive_step" "bring_to_ends")
+          (calls-between "bt__step_chain" "assemble_row")))
+
+
+;;; What touching takes: contact, and what of collide and of the cable's solver is there for it alone.
+
+(define touching
+  (append-map (lambda (pattern)
+                (filter (lambda (entry) (regexp-exec (make-regexp pattern regexp/extended) (car entry))) texts))
+              '("/contact/" "/collide/(cast|safe|sweep|advance)" "/tether/dynamic_(contact|couple|pair|bent|hold)")))
+
+;; A constant is tuned if a line of its own defines it, with a number that is no whole one.
+(define tuned (make-regexp "^#define [A-Z_]+ \\(?-?[0-9.]+(e-?[0-9]+)?\\)?( |$)" regexp/extended))
+(define whole (make-regexp "^#define [A-Z_]+ \\(?-?[0-9]+\\)?( |$)" regexp/extended))
+
+(define tuning-constants
+  (filter (lambda (line) (and (regexp-exec tuned line) (not (regexp-exec whole line))))
+          (append-map (lambda (entry) (string-split (cdr entry) #\newline)) touching)))
+
+
 ;;; Counts of lines in HACKING.md.
 
 (define (source-named text)
@@ -235,6 +293,10 @@
     (private-words . ,(total (lambda (word) (total (lambda (entry) (occurrences word (cdr entry))) texts))
                              private-words))
     (lonely-functions . ,(length lonely-functions))
+    (calls-to-friction . ,(- (length to-friction) 1))
+    (files-to-friction . ,(length (delete-duplicates (map first to-friction))))
+    (lines-touching . ,(total (lambda (entry) (string-count (cdr entry) #\newline)) touching))
+    (tuning-constants . ,(length tuning-constants))
     (line-counts . ,(length (line-counts)))
     (stale-line-counts . ,(count stale? (line-counts)))
     (flat-modules . ,(length (filter (lambda (name) (string-suffix? ".scm" name))
@@ -258,6 +320,7 @@
             rooms))
 (print-rooms)
 
+(format #t "friction ~a~%" (string-join (map second to-friction)))
 (for-each (lambda (f) (format #t "lonely ~a ~a~%" (second f) (basename (first f)))) lonely-functions)
 (for-each (lambda (row) (format #t "lines ~a: ~a told, ~a counted~%" (first row) (second row) (third row)))
           (filter stale? (line-counts)))

@@ -373,12 +373,3 @@ bt__free_tighten (bt__taut *taut, const bt__taut_config *config, uint32_t steps,
     bt__taut_relax (taut, config, way, steps, count);
   return bt__string_length (config, way, count);
 }
-
-double
-bt__free_length (const bt__free *t, bt__taut *taut, const bt__taut_config *config, bt_vec3 p,
-                 uint32_t steps, bt__string *string, bt__count *count)
-{
-  if (!bt__free_way (t, t->anchor, p, string, count))
-    return INFINITY;
-  return bt__free_tighten (taut, config, steps, string, count);
-}

@@ -44,16 +44,12 @@ int bt__free_grow (bt__free *tree, bt_vec3 anchor, bt__asker *asker, bt__count *
 /* True if the straight way from A to B is as free as the tree's ways.  */
 int bt__free_sees (const bt__free_config *config, bt_vec3 a, bt_vec3 b, bt__count *count);
 
-/* Lay STRING along the way to P and tighten it by up to STEPS.  Return the length of STRING, m,
-   with arcs for corners at round members; INFINITY if there is no way.  */
-double bt__free_length (const bt__free *tree, bt__taut *taut, const bt__taut_config *config,
-                        bt_vec3 p, uint32_t steps, bt__string *string, bt__count *count);
-
-/* The same in two steps, from FROM, a place in sight of the tree's anchor: lay STRING along the way
-   as found, 0 if there is no way; tighten STRING.  Of two ways nearly as long, the way shorter from
-   FROM may be taken.  */
+/* Lay STRING along the tree's way to P from FROM, a place in sight of the tree's anchor; return 0
+   if there is no way.  Of two ways nearly as long, the way shorter from FROM may be taken.  */
 int bt__free_way (const bt__free *tree, bt_vec3 from, bt_vec3 p, bt__string *string,
                   bt__count *count);
+/* Tighten WAY by up to STEPS and return the length of WAY, m, with arcs for corners at round
+   members.  */
 double bt__free_tighten (bt__taut *taut, const bt__taut_config *config, uint32_t steps,
                          bt__string *way, bt__count *count);
 

@@ -398,12 +398,6 @@ bt__shadow_free (bt__shadow *x)
   free (x);
 }
 
-void
-bt__shadow_report_of (const bt__shadow *x, bt__shadow_report *out)
-{
-  *out = x->report;
-}
-
 uint32_t
 bt__shadow_object (const bt__shadow *x, int32_t generator)
 {

@@ -46,8 +46,6 @@ bt_status bt__shadow_new (const bt__graph *graph, const bt__shadow_config *confi
 
 void bt__shadow_free (bt__shadow *shadow); /* NULL is nothing */
 
-void bt__shadow_report_of (const bt__shadow *shadow, bt__shadow_report *out);
-
 /* Put the word of the polyline P of N points into *WORD.  No allocation.  */
 void bt__shadow_word (const bt__shadow *shadow, const bt_vec3 *p, uint32_t n, bt__word *word);
 

@@ -185,16 +185,3 @@ bt__taut_reseed (bt__taut *t, const bt__taut_config *c, bt__string *s, bt__strin
     memcpy (s, fresh, bt__string_size (s->room));
   return slipped;
 }
-
-double
-bt__clearance (const bt__taut_config *c, const bt_vec3 *p, uint32_t n, double cap, bt__count *count)
-{
-  for (uint32_t i = 0; i + 1 < n; i++)
-    {
-      bt__link link = { p[i], p[i + 1] };
-      bt__near near;
-      if (bt__scene_nearest (c->scene, c->on, &link, cap, &near, count))
-        cap = near.w.distance;
-    }
-  return cap;
-}

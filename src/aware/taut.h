@@ -86,8 +86,4 @@ int bt__taut_reseed (bt__taut *taut, const bt__taut_config *config, bt__string *
                      bt__string *fresh, const bt_vec3 *p, uint32_t n, uint32_t steps, double slip,
                      bt__count *count);
 
-/* Return how near the polyline comes to anything, or CAP.  */
-double bt__clearance (const bt__taut_config *config, const bt_vec3 *p, uint32_t n, double cap,
-                      bt__count *count);
-
 #endif

@@ -252,9 +252,3 @@ bt__voxels_free (bt__voxels *v)
   free (v->pool.slot);
   free (v);
 }
-
-void
-bt__voxels_report_of (const bt__voxels *v, bt__voxel_report *out)
-{
-  *out = v->report;
-}

@@ -53,8 +53,6 @@ bt_status bt__voxels_new (const bt__voxel_config *config, bt__asker *asker, bt__
 
 void bt__voxels_free (bt__voxels *voxels); /* NULL is nothing */
 
-void bt__voxels_report_of (const bt__voxels *voxels, bt__voxel_report *out);
-
 /* Put the word of the polyline P of N points into *WORD; lost if it cannot be followed.  No
    allocation.  */
 void bt__voxels_word (const bt__voxels *voxels, const bt_vec3 *p, uint32_t n, bt__word *word,

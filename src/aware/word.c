@@ -54,9 +54,3 @@ bt__word_relative (const bt__word *a, const bt__word *b, bt__word *out)
   bt__word_add (out, b->letter, b->n, 1);
   bt__word_end (out);
 }
-
-int
-bt__word_equal (const bt__word *a, const bt__word *b)
-{
-  return !a->lost && memcmp (a, b, sizeof *a) == 0;
-}

@@ -40,7 +40,4 @@ void bt__word_end (bt__word *word);
 /* Make *OUT the word of A and then B backwards: without letters if they are the same way.  */
 void bt__word_relative (const bt__word *a, const bt__word *b, bt__word *out);
 
-/* True if the words are equal, and not lost.  */
-int bt__word_equal (const bt__word *a, const bt__word *b);
-
 #endif

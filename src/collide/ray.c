@@ -1,4 +1,4 @@
-/* Rays through the tree over the obstacles, then through those of the meshes; points in solids.
+/* Rays through the tree over the obstacles, then through those of the meshes.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -73,9 +73,9 @@ is_ray (const bt__ray *r)
          && isfinite (r->range);
 }
 
-int
-bt__scene_ray (const bt__scene *s, const bt__switches *on, const bt__ray *ray, bt__ray_hit *out,
-               bt__count *count)
+static int
+ray_at_scene (const bt__scene *s, const bt__switches *on, const bt__ray *ray, bt__ray_hit *out,
+              bt__count *count)
 {
   question q = { .scene = s, .on = on, .ray = *ray, .out = out, .count = count };
   double reach = ray->range;
@@ -104,7 +104,7 @@ bt__ray_cast (const bt__scene *scene, const bt__switches *on, const bt__mover *m
 {
   bt__ray left = *ray;
   int found = 0;
-  if (bt__scene_ray (scene, on, ray, out, count))
+  if (ray_at_scene (scene, on, ray, out, count))
     {
       found = 1;
       left.range = out->range;
@@ -114,7 +114,7 @@ bt__ray_cast (const bt__scene *scene, const bt__switches *on, const bt__mover *m
       bt__frame f = bt__motion_at (&mover[m].motion, mover[m].done);
       bt__ray local = { bt__to_local (&f, left.from), bt__into (&f, left.direction), left.range };
       bt__ray_hit hit;
-      if (!bt__scene_ray (mover[m].body, mover[m].on, &local, &hit, count))
+      if (!ray_at_scene (mover[m].body, mover[m].on, &local, &hit, count))
         continue;
       found = 1;
       left.range = hit.range;
@@ -124,60 +124,4 @@ bt__ray_cast (const bt__scene *scene, const bt__switches *on, const bt__mover *m
       out->point = bt__axpy (ray->from, hit.range, ray->direction);
     }
   return found;
-}
-
-/* ---- Points in solids ---- */
-
-typedef struct inside
-{
-  const bt__scene *scene;
-  const bt__switches *on;
-  bt__link point;
-  double distance;
-  int found;
-  bt__near *out;
-  bt__count *count;
-} inside;
-
-static void
-test_solid (inside *q, uint32_t object)
-{
-  const bt__obstacle *o = q->scene->object + object;
-  bt__witness w;
-  if (!bt__is_on (q->on, object) || o->kind == BT__OBSTACLE_MESH)
-    return;
-  q->count->pairs++;
-  bt__obstacle_pair (o, &q->point, &w);
-  if (!(w.distance < q->distance))
-    return;
-  q->distance = w.distance;
-  q->found = 1;
-  *q->out = (bt__near){ 0, object, BT__NO_TRIANGLE, BT__NO_TRIANGLE, w };
-}
-
-static double
-visit_inside (void *user, uint32_t slot, double reach)
-{
-  inside *q = user;
-  test_solid (q, q->scene->solid[q->scene->tree.order[slot]]);
-  return reach;
-}
-
-int
-bt__scene_contains (const bt__scene *s, const bt__switches *on, bt_vec3 point, double depth,
-                    bt__near *out, bt__count *count)
-{
-  inside q = { s, on, { point, point }, -depth, 0, out, count };
-  if (s->n == 0)
-    {
-      count->skipped_empty++;
-      return 0;
-    }
-  if (!bt__is_finite (point))
-    return 0;
-  count->links++;
-  for (uint32_t i = 0; i < s->planes; i++)
-    test_solid (&q, s->plane[i]);
-  bt__bvh_query (&s->tree, &q.point, 0, 0, visit_inside, &q, count);
-  return q.found;
 }

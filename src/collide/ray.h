@@ -1,4 +1,4 @@
-/* Rays: what a beam of a sonar meets first; and which solid a point is inside of.
+/* Rays: what a beam of a sonar meets first.
 
    Obstacles are seen from outside: a ray that starts inside a solid meets it at once, at range 0.
    Meshes are two-sided and have no inside.
@@ -28,20 +28,11 @@ typedef struct bt__ray_hit
   uint32_t triangle;     /* its id, or BT__NO_TRIANGLE */
 } bt__ray_hit;
 
-/* Return true and *OUT, the first thing RAY meets in SCENE.  Ranges are
-   good to 1e-12 of the largest length involved but for grazing rays: no point of the ray before the
-   range is deeper in a solid than that.  A ray that is not finite meets nothing.  */
-int bt__scene_ray (const bt__scene *scene, const bt__switches *on, const bt__ray *ray,
-                   bt__ray_hit *out, bt__count *count);
-
-/* The same with kinematic obstacles, each at the share DONE of its motion.  */
+/* Return true and *OUT, the first thing RAY meets in SCENE, or of kinematic obstacles, each at the
+   share DONE of its motion.  Ranges are good to 1e-12 of the largest length involved but for
+   grazing rays: no point of the ray before the range is deeper in a solid than that.  A ray that is
+   not finite meets nothing.  */
 int bt__ray_cast (const bt__scene *scene, const bt__switches *on, const bt__mover *mover,
                   uint32_t movers, const bt__ray *ray, bt__ray_hit *out, bt__count *count);
-
-/* Return true and *OUT, the part with the shortest way out (its distance is minus that way), if
-   POINT is more than DEPTH (m, 0 or more) below the surface of a solid: box, sphere, cylinder,
-   capsule, convex, or the ground under a plane; of several solids the one it is deepest in.  */
-int bt__scene_contains (const bt__scene *scene, const bt__switches *on, bt_vec3 point, double depth,
-                        bt__near *out, bt__count *count);
 
 #endif

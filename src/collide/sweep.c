@@ -41,25 +41,9 @@ bt__body_box (const bt__box *b, double round)
 }
 
 bt__body
-bt__body_hull (const bt__hull *h, double round)
-{
-  double far = 0;
-  for (int i = 0; i < h->vertices; i++)
-    far = fmax (far, bt__norm (h->v[i]));
-  return (bt__body){ { bt__hull_support, h }, round, (far + round) * (1 + 1e-12) };
-}
-
-bt__body
 bt__body_ball (double radius)
 {
   return (bt__body){ { origin_support, NULL }, radius, radius };
-}
-
-bt__body
-bt__body_capsule (const bt__capsule *c)
-{
-  double far = fmax (bt__norm (c->a), bt__norm (c->b)) + c->radius;
-  return (bt__body){ { bt__capsule_support, c }, c->radius, far * (1 + 1e-12) };
 }
 
 /* ---- One scene ---- */

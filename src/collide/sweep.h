@@ -20,9 +20,7 @@ typedef struct bt__body
 } bt__body;
 
 bt__body bt__body_box (const bt__box *box, double round);
-bt__body bt__body_hull (const bt__hull *hull, double round);
 bt__body bt__body_ball (double radius);
-bt__body bt__body_capsule (const bt__capsule *capsule);
 
 /* What the body is near to, or what stopped it.  */
 typedef struct bt__stop

@@ -239,9 +239,9 @@ write_title (bt__pen *pen, const bt_view *view)
     write_line (pen, view->note, 0.82, 3.2 * e);
 }
 
-/* In a small picture there is room for the scale alone.  */
-void
-bt__write_figures (bt__pen *pen, const bt_view *view, const bt__optics *o)
+/* Write all that is read, with the pen.  In a small picture there is room for the scale alone.  */
+static void
+write_figures (bt__pen *pen, const bt_view *view, const bt__optics *o)
 {
   int small = pen->width < 24 * pen->letter || pen->height < 16 * pen->letter;
   write_scale (pen, view, o);
@@ -263,7 +263,7 @@ bt__overlay (const bt_view *view, bt__picture *picture, int paper, bt_error *err
   bt_status status = bt__pen_open (&pen, picture, paper, error);
   if (status != BT_OK)
     return status;
-  bt__write_figures (&pen, view, &optics);
+  write_figures (&pen, view, &optics);
   return bt__pen_close (&pen, error);
 }
 
@@ -278,7 +278,7 @@ bt__written (const bt_view *view, int width, int height, int paper, bt__box *box
     return n;
   if (bt__pen_open (&pen, &picture, paper, NULL) == BT_OK)
     {
-      bt__write_figures (&pen, view, &optics);
+      write_figures (&pen, view, &optics);
       n = pen.n_taken;
       for (int i = 0; i < n && i < most; i++)
         box[i] = pen.taken[i];

@@ -35,15 +35,6 @@ bt__picture_free (bt__picture *picture)
   picture->pixels = NULL;
 }
 
-void
-bt__picture_put (bt__picture *whole, const bt__picture *part, int x, int y)
-{
-  int w = part->width < whole->width - x ? part->width : whole->width - x;
-  for (int i = 0; w > 0 && i < part->height && y + i < whole->height; i++)
-    memcpy (whole->pixels + (size_t)(y + i) * (size_t)whole->width + x,
-            part->pixels + (size_t)i * (size_t)part->width, (size_t)w * sizeof *part->pixels);
-}
-
 static bt_status
 cannot_write (const char *file, int why, bt_error *error)
 {

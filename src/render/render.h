@@ -27,8 +27,6 @@ bt_status bt__picture_new (bt__picture *picture, int width, int height, bt_error
 void bt__picture_free (bt__picture *picture);
 /* Write PICTURE as PNG to FILE, whole or not at all.  BT_ERR_IO says why not.  */
 bt_status bt__picture_write (const bt__picture *picture, const char *file, bt_error *error);
-/* Copy PART to WHOLE with its first pixel at (X, Y); what falls outside is left out.  */
-void bt__picture_put (bt__picture *whole, const bt__picture *part, int x, int y);
 
 /* A context and what is kept in it.  */
 typedef struct bt__renderer bt__renderer;

@@ -51,7 +51,4 @@ double bt__round_step (double x);
 /* The words beside things, where there is room (labels.c).  */
 void bt__write_labels (bt__pen *pen, const bt_view *view, const bt__optics *optics);
 
-/* All that is read, with the pen: what bt__overlay and bt__plan share.  */
-void bt__write_figures (bt__pen *pen, const bt_view *view, const bt__optics *optics);
-
 #endif

@@ -101,11 +101,6 @@ bt_vec3 bt__rigid_point_velocity (const bt__rigid *body, bt_vec3 p);
 bt_vec3 bt__rigid_bounce (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_vec3 normal,
                           double restitution, double friction);
 
-/* ---- Measures ---- */
-
-/* Kinetic energy with added mass relative to water that flows by at FLOW, J.  */
-double bt__rigid_energy (const bt__vehicle_type *type, const bt__rigid *body, bt_vec3 flow);
-
 /* HEADING carried on to the heading of ATTITUDE by the shorter way.  The heading of an attitude is
    the turn about the vertical that remains without the tilt, so pitch, roll and loops leave the
    count alone.  Within 37 deg of upside down a heading means nothing, and HEADING stays.  */

@@ -27,14 +27,6 @@ bt__rigid_point_velocity (const bt__rigid *body, bt_vec3 p)
   return bt__turn_out (body->attitude, bt__add (body->velocity, bt__cross (body->spin, p)));
 }
 
-double
-bt__rigid_energy (const bt__vehicle_type *type, const bt__rigid *body, bt_vec3 flow)
-{
-  bt_vec3 v = bt__sub (body->velocity, bt__turn_in (body->attitude, flow));
-  bt_vec3 p = bt__times (bt__masses (type), v), l = bt__times (bt__inertias (type), body->spin);
-  return (bt__dot (p, v) + bt__dot (l, body->spin)) / 2;
-}
-
 /* Strike BODY at the point P of the world with IMPULSE, N s.  */
 static void
 strike_body (const bt__vehicle_type *type, bt__rigid *body, bt_vec3 p, bt_vec3 impulse)

@@ -22,6 +22,7 @@ typedef struct rig
   bt__taut *taut;
   bt__string *s;
   bt__free *tree;
+  bt_vec3 anchor;
   bt__taut_config config;
   bt__count count;
   bt_vec3 p[CASE_NODES];
@@ -59,6 +60,7 @@ grow (bt_vec3 anchor, double cell)
   bt__free_free (r.tree);
   assert_int_equal (bt__free_new (&c, &r.tree, NULL), BT_OK);
   bt__free_grow (r.tree, anchor, NULL, &r.count);
+  r.anchor = anchor;
   r.config = (bt__taut_config){
     .scene = r.g.scene, .core = CORE, .want = CORE, .mesh = 0.6, .margin = 0.4
   };
@@ -67,9 +69,9 @@ grow (bt_vec3 anchor, double cell)
 static double
 ask (bt_vec3 p)
 {
-  double length = bt__free_length (r.tree, r.taut, &r.config, p, 100, r.s, &r.count);
+  double length = tight_free_length (r.tree, r.anchor, p, 100, r.taut, &r.config, r.s, &r.count);
   if (isfinite (length))
-    assert_true (bt__clearance (&r.config, r.s->x, r.s->n, 1, &r.count) >= CORE);
+    assert_true (way_clearance (&r.config, r.s->x, r.s->n, 1, &r.count) >= CORE);
   return length;
 }
 

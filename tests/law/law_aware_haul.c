@@ -313,7 +313,7 @@ draw (uint64_t seed)
   bt__taut_relax (r.taut, &r.config, r.s, 400, &r.count);
   make_words ();
   make_tree (r.p[0]);
-  bt__free_length (r.tree, r.taut, &r.config, r.p[n - 1], 200, r.way, &r.count);
+  tight_free_length (r.tree, r.p[0], r.p[n - 1], 200, r.taut, &r.config, r.way, &r.count);
 }
 
 static void
@@ -365,14 +365,14 @@ unwinding (void **state)
       word_of (r.way, &free_word);
       bt__unwind u = bt__unwind_plan (r.taut, &r.config, r.s, r.way, 0.45, 1.2 * r.s->length, 0.3,
                                       r.loop, r.copy, &r.count);
-      if (!bt__word_equal (&string, &free_word))
+      if (!is_same_word (&string, &free_word))
         assert_true (u.needed); /* another class cannot be drawn to a point */
       needed += u.needed;
       feasible += u.feasible;
       if (!u.feasible)
         continue;
       word_of (r.copy, &end);
-      assert_true (bt__word_equal (&end, &free_word));
+      assert_true (is_same_word (&end, &free_word));
       assert_true (u.left <= r.way->length + fmax (0.5, 0.02 * r.way->length));
       near ("back where it was", bt__distance (r.loop->x[0], r.loop->x[r.loop->n - 1]), 0, 0);
       /* With less paid out than the string needs on the way it is not.  */
@@ -403,8 +403,8 @@ one_turn_off (void **state)
   bt__string_lay (r.s, r.p, 61);
   bt__taut_relax (r.taut, &r.config, r.s, 400, &r.count);
   make_tree (r.p[0]);
-  assert_true (
-      isfinite (bt__free_length (r.tree, r.taut, &r.config, r.p[60], 200, r.way, &r.count)));
+  assert_true (isfinite (
+      tight_free_length (r.tree, r.p[0], r.p[60], 200, r.taut, &r.config, r.way, &r.count)));
   bt__unwind u = bt__unwind_plan (r.taut, &r.config, r.s, r.way, 0.45, r.s->length + 5, 0.3, r.loop,
                                   r.copy, &r.count);
   assert_true (u.needed && u.feasible);

@@ -19,7 +19,7 @@
 #define BT__SQUARE_IS_CLEAR(v, c, count) ((void)(c), (void)(count), 1)
 #include "aware/voxel.c"
 
-#include "aware/shadow.h"
+#include "aware/shadow_job.h"
 #include "testbed/aware_cases.h"
 
 static stage g;
@@ -65,8 +65,8 @@ planes_for_one_end (void **state)
       bt__string_lay (s, p, n);
       bt__taut_relax (taut, &config, s, 400, &count);
       bt__shadow_word (shadow, s->x, s->n, &after);
-      changed += !bt__word_equal (&before, &after);
-      near += bt__clearance (&config, s->x, s->n, 1, &count) < 0.005;
+      changed += !is_same_word (&before, &after);
+      near += way_clearance (&config, s->x, s->n, 1, &count) < 0.005;
       bt__shadow_free (shadow);
     }
   print_message ("# planes for one end: %d of 30 classes changed, %d too near\n", changed, near);
@@ -87,7 +87,7 @@ squares_not_looked_into (void **state)
       draw_rings (&g, &d, 3);
       bt__voxel_config c = { g.scene, NULL, bt__vec (-18, -14, -20), bt__vec (18, 14, 0), 0.5 };
       assert_int_equal (bt__voxels_new (&c, NULL, &v, NULL), BT_OK);
-      bt__voxels_report_of (v, &report);
+      report = v->report;
       print_message ("# squares not looked into: %u of 3 rings left\n",
                      (unsigned)report.generators);
       assert_true (report.generators < 3);

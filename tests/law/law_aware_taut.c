@@ -64,7 +64,7 @@ configure (double mesh)
 static double
 clearance (const bt__string *s)
 {
-  return bt__clearance (&r.config, s->x, s->n, 10, &r.count);
+  return way_clearance (&r.config, s->x, s->n, 10, &r.count);
 }
 
 static bt__holds

@@ -12,8 +12,8 @@
 
 #include <cmocka.h>
 
-#include "aware/shadow.h"
-#include "aware/voxel.h"
+#include "aware/shadow_job.h"
+#include "aware/voxel_job.h"
 #include "testbed/aware_cases.h"
 
 enum
@@ -53,7 +53,7 @@ make_voxels (double cell)
   bt__voxels_free (r.voxels);
   if (bt__voxels_new (&c, NULL, &r.voxels, &error))
     fail_msg ("%s", error.text);
-  bt__voxels_report_of (r.voxels, &r.report);
+  r.report = r.voxels->report;
 }
 
 static void
@@ -90,10 +90,10 @@ compare (dice *d)
       {
         if (r.by_voxel[i].lost || r.by_voxel[j].lost)
           continue;
-        int one = bt__word_equal (r.by_shadow + i, r.by_shadow + j);
+        int one = is_same_word (r.by_shadow + i, r.by_shadow + j);
         t.pairs++;
         t.equal += one;
-        t.agree += one == bt__word_equal (r.by_voxel + i, r.by_voxel + j);
+        t.agree += one == is_same_word (r.by_voxel + i, r.by_voxel + j);
       }
   return t;
 }
@@ -123,7 +123,7 @@ agrees_with_shadows (void **state)
       make_shadow ();
       make_voxels (0.5);
       bt__shadow_report known;
-      bt__shadow_report_of (r.shadow, &known);
+      known = r.shadow->report;
       tally t = compare (&d);
       print_message ("# scene %d: %d of %d pairs agree, %d equal, %d lost; generators %u of %u, "
                      "left over %u\n",
@@ -178,8 +178,8 @@ meshes (void **state)
   bt__voxels_word (r.voxels, through, 3, &a, &r.count);
   bt__voxels_word (r.voxels, past, 3, &b, &r.count);
   bt__voxels_word (r.voxels, above, 3, &c, &r.count);
-  assert_true (bt__word_equal (&b, &c));
-  assert_false (bt__word_equal (&a, &b));
+  assert_true (is_same_word (&b, &c));
+  assert_false (is_same_word (&a, &b));
   bt__word_relative (&a, &b, &c);
   assert_int_equal (c.n, 1);
 }

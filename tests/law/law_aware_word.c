@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-#include "aware/shadow.h"
+#include "aware/shadow_job.h"
 #include "aware/tietze.h"
 #include "aware/turns.h"
 #include "testbed/aware_cases.h"
@@ -80,7 +80,7 @@ read_scene (double jitter, int all_boundary)
     }
   if (bt__shadow_new (&r.graph, &how, &r.shadow, &error))
     fail_msg ("%s", error.text);
-  bt__shadow_report_of (r.shadow, &r.report);
+  r.report = r.shadow->report;
   if (all_boundary)
     r.report.expected = rank;
   bt__graph_free (&r.graph);
@@ -108,7 +108,7 @@ changed_by_moves (dice *d, int paths, long moves)
       for (long i = 0, tries = 0; i < moves / paths && tries < 20 * moves; tries++)
         i += move_node (&r.g, d, 0.5, r.p, 1 + (uint32_t)dice_below (d, (int)n - 2));
       word_of (r.p, n, &after);
-      changed += !bt__word_equal (&before, &after);
+      changed += !is_same_word (&before, &after);
     }
   return changed;
 }
@@ -173,10 +173,10 @@ tightening_keeps_words (void **state)
       bt__string_lay (r.s, r.p, n);
       bt__taut_relax (r.taut, &config, r.s, 400, &r.count);
       word_of (r.s->x, r.s->n, &after);
-      assert_true (bt__word_equal (&before, &after));
+      assert_true (is_same_word (&before, &after));
       bt_vec3 line[2] = { r.p[0], r.p[n - 1] };
       word_of (line, 2, &straight);
-      wound += !bt__word_equal (&before, &straight);
+      wound += !is_same_word (&before, &straight);
       bt__string_lay (r.s, r.p, 2);
       for (uint32_t i = 2; i < n; i++)
         for (int k = 1; k <= 10; k++)
@@ -185,8 +185,8 @@ tightening_keeps_words (void **state)
             assert_true (bt__taut_step (r.taut, &config, r.s, r.p[0], to, 2, &r.count));
           }
       word_of (r.s->x, r.s->n, &after);
-      assert_true (bt__word_equal (&before, &after));
-      assert_true (bt__clearance (&config, r.s->x, r.s->n, 1, &r.count) >= CORE);
+      assert_true (is_same_word (&before, &after));
+      assert_true (way_clearance (&config, r.s->x, r.s->n, 1, &r.count) >= CORE);
     }
   print_message ("# %d of 30 lines were wound\n", wound);
   assert_true (wound > 12);
@@ -251,7 +251,7 @@ commutator_weave (void **state)
   bt__taut_relax (r.taut, &config, r.s, 2000, &r.count);
   bt__word tight;
   word_of (r.s->x, r.s->n, &tight);
-  assert_true (bt__word_equal (&tight, &weave));
+  assert_true (is_same_word (&tight, &weave));
   assert_true (r.s->length > 1.4 * bt__distance (straight[0], straight[1]));
 }
 
@@ -377,12 +377,12 @@ words_reduce (void **state)
   bt__word_begin (&c, 8, 1);
   bt__word_add (&c, letters + 6, 1, 0);
   bt__word_end (&c);
-  assert_false (bt__word_equal (&a, &c)); /* another world */
+  assert_false (is_same_word (&a, &c)); /* another world */
   bt__word_relative (&a, &c, &b);
   assert_true (b.lost);
   for (int i = 0; i < 1000; i++)
     bt__word_add (&c, letters, 2, 0);
-  assert_true (c.lost && !bt__word_equal (&c, &c));
+  assert_true (c.lost && !is_same_word (&c, &c));
 }
 
 /* a b a^-1 b^-1 is left over; with a b^-1 it is not, and b is a.  */

@@ -184,11 +184,8 @@ cast_beams (play *p, dice *d)
     {
       bt__ray ray = { p->hull.origin, dice_direction (d), 30 };
       bt__ray_hit hit;
-      bt__near in;
       if (bt__ray_cast (p->scene, NULL, &p->mover, 1, &ray, &hit, &p->count))
         add (p, &hit.range, sizeof hit.range);
-      if (bt__scene_contains (p->scene, NULL, dice_point (d, 9), 0, &in, &p->count))
-        add (p, &in.object, sizeof in.object);
     }
 }
 
@@ -250,7 +247,7 @@ no_frame_allocates (void **state)
 static void
 same_bits_everywhere (void **state)
 {
-  const uint64_t golden = 0x3c9f8e39b7e008bb;
+  const uint64_t golden = 0x53a5694a1f4cd841;
   dice d = dice_new (32);
   play p, q;
   (void)state;

@@ -1,6 +1,6 @@
 /* Rays against distance: a point that goes along the ray by its distance to the obstacle, told by
    the oracle, arrives where the ray does.  Trees against brute force, movers against obstacles
-   where they stand, no leak between triangles, points in solids against the oracle.
+   where they stand, no leak between triangles.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -232,7 +232,7 @@ check_scene (bt_vec3 far)
       bt_vec3 n = i % 10 ? dice_direction (&d) : bt__vec (0, i % 20 ? 1 : -1, 0);
       bt__ray ray = { bt__add (far, dice_point (&d, 25)), n, pow (10, dice_between (&d, 0, 3)) };
       bt__ray_hit hit;
-      int found = bt__scene_ray (s, &on, &ray, &hit, &count);
+      int found = bt__ray_cast (s, &on, NULL, 0, &ray, &hit, &count);
       double wanted = brute (s, &on, &ray);
       assert_int_equal (found, wanted < INFINITY);
       hits += found;
@@ -308,7 +308,7 @@ nothing_leaks (void **state)
       bt__ray ray = { from, bt__unit_or (bt__sub (at, from), bt__vec (0, 0, 1)), 3 };
       bt__ray_hit hit;
       bt__count count = { 0 };
-      assert_true (bt__scene_ray (s, NULL, &ray, &hit, &count));
+      assert_true (bt__ray_cast (s, NULL, NULL, 0, &ray, &hit, &count));
     }
   bt__scene_free (s);
 }
@@ -332,7 +332,7 @@ movers_where_they_stand (void **state)
         {
           bt__frame f = bt__motion_at (&mover[m].motion, mover[m].done);
           bt__ray local = { bt__to_local (&f, ray.from), bt__into (&f, ray.direction), 100 };
-          if (bt__scene_ray (s, NULL, &local, &own, &count))
+          if (bt__ray_cast (s, NULL, NULL, 0, &local, &own, &count))
             best = fmin (best, own.range);
         }
       int found = bt__ray_cast (&nothing, NULL, mover, 2, &ray, &hit, &count);
@@ -361,7 +361,7 @@ bad_rays_meet_nothing (void **state)
                     { { 0, 0, 1e9 }, { 0, 0, 1 }, 1e12 } };
   (void)state;
   for (int i = 0; i < 5; i++)
-    assert_false (bt__scene_ray (s, NULL, bad + i, &hit, &count));
+    assert_false (bt__ray_cast (s, NULL, NULL, 0, bad + i, &hit, &count));
   assert_int_equal (bt__scene_new (NULL, 0, 1, &empty, NULL), BT_OK);
   count = (bt__count){ 0 };
   assert_false (bt__ray_cast (empty, NULL, NULL, 0, bad + 4, &hit, &count));
@@ -371,65 +371,6 @@ bad_rays_meet_nothing (void **state)
   bt__scene_free (empty);
 }
 
-/* ---- Points ---- */
-
-static void
-points_in_solids (void **state)
-{
-  dice d = dice_new (10);
-  bt__count count = { 0 };
-  long inside = 0;
-  (void)state;
-  for (int i = 0; i < 3000; i++)
-    {
-      int kind = dice_below (&d, SOLID_HULL);
-      if (kind == SOLID_TRIANGLE)
-        kind = SOLID_BOX;
-      solid x = solid_draw (&d, (solid_kind)kind, 1, NULL, 0);
-      bt__obstacle o = obstacle_of_solid (&x);
-      bt__scene *s = NULL;
-      assert_int_equal (bt__scene_new (&o, 1, 1, &s, NULL), BT_OK);
-      bt_vec3 p = dice_point (&d, 0.8);
-      bt__near near;
-      int found = bt__scene_contains (s, NULL, p, 0, &near, &count);
-      assert_int_equal (found, solid_point (&x, p) == 0);
-      inside += found;
-      if (found) /* a way out as long as it says; a hair less than its depth is still inside */
-        {
-          double depth = -near.w.distance;
-          bt_vec3 out = bt__axpy (p, depth * (1 + 1e-9), near.w.normal);
-          assert_true (bt__scene_contains (s, NULL, p, 0.999 * depth, &near, &count));
-          assert_false (bt__scene_contains (s, NULL, p, 1.001 * depth, &near, &count));
-          assert_false (bt__scene_contains (s, NULL, out, 1e-8, &near, &count));
-        }
-      bt__scene_free (s);
-    }
-  assert_true (inside > 100);
-}
-
-static void
-ground_is_solid_and_meshes_are_not (void **state)
-{
-  dice d = dice_new (11);
-  bt__obstacle o[2] = { { .kind = BT__OBSTACLE_PLANE, .shape.plane = { { 0, 0, 1 }, -5 } },
-                        { .kind = BT__OBSTACLE_MESH, .shape.mesh = draw_mesh (&d) } };
-  bt__scene *s = NULL;
-  bt__count count = { 0 };
-  bt__near near;
-  (void)state;
-  assert_int_equal (bt__scene_new (o, 2, 1, &s, NULL), BT_OK);
-  assert_false (bt__scene_contains (s, NULL, bt__vec (0, 0, -5), 0, &near, &count));
-  assert_true (bt__scene_contains (s, NULL, bt__vec (0, 0, -6), 0, &near, &count));
-  assert_true (fabs (near.w.distance + 1) < 1e-15 && near.object == 0);
-  for (int i = 0; i < 1000; i++)
-    {
-      bt_vec3 p = dice_point (&d, 20);
-      assert_int_equal (bt__scene_contains (s, NULL, p, 0, &near, &count), p.z < -5);
-    }
-  assert_false (bt__scene_contains (&nothing, NULL, bt__vec (0, 0, -9), 0, &near, &count));
-  bt__scene_free (s);
-}
-
 int
 main (void)
 {
@@ -437,9 +378,7 @@ main (void)
                                       cmocka_unit_test (judge_can_say_no),
                                       cmocka_unit_test (scene_is_brute_force),
                                       cmocka_unit_test (nothing_leaks),
-                                      cmocka_unit_test (points_in_solids),
                                       cmocka_unit_test (movers_where_they_stand),
-                                      cmocka_unit_test (bad_rays_meet_nothing),
-                                      cmocka_unit_test (ground_is_solid_and_meshes_are_not) };
+                                      cmocka_unit_test (bad_rays_meet_nothing) };
   return cmocka_run_group_tests_name ("collide_ray", tests, make_hulls, drop_hulls);
 }

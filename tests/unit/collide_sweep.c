@@ -411,10 +411,11 @@ bodies_agree (void **state)
     corner[i] = corner_of (&hull, i);
   assert_int_equal (bt__hull_new (corner, 8, &points, NULL), BT_OK);
   place *p = draw_place (&d, 5, 0);
-  bt__body box = bt__body_box (&hull, 0.01), convex = bt__body_hull (points, 0.01);
+  bt__body box = bt__body_box (&hull, 0.01),
+           convex = { { bt__hull_support, points }, 0.01, box.radius };
   bt__body ball = bt__body_ball (0.4);
   bt__capsule grain = { { 0, 0, 0 }, { 0, 0, 1e-9 }, 0.4 };
-  bt__body capsule = bt__body_capsule (&grain);
+  bt__body capsule = { { bt__capsule_support, &grain }, grain.radius, ball.radius + 1e-9 };
   for (int i = 0; i < 300; i++)
     {
       bt__motion m = draw_motion (&d, &north, 8);

@@ -16,6 +16,7 @@
 
 #include "math/vec.h"
 #include "world/line.h"
+#include "../oracle/rigid_energy.h"
 
 #define MASSES 7
 #define NODES 20
@@ -99,7 +100,7 @@ energy (const bt_dive *dive)
   bt_vec3 still = { 0, 0, 0 };
   bt_energy line;
   assert_int_equal (bt_tether_energy (dive, 0, &line, NULL), BT_OK);
-  return line.kinetic + line.strain + bt__rigid_energy (&dive->model->types[0], &v->body, still);
+  return line.kinetic + line.strain + rigid_energy (&dive->model->types[0], &v->body, still);
 }
 
 static double
