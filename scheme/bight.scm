@@ -73,8 +73,8 @@
      winding turns windings wrap-angle capstan-lock
      homotopy-class homotopy-class? class-decided? class-free?
      knotted? fouled? foul-reason free-to-haul? haul-trial haul-prospect
-     way-home way-home-preview unwind-plan slack-to-reach
-     contact-length seabed-length bend-ratio snap-count thrust-share follow-string)
+     way-home way-home-preview unwind-plan slack-to-reach follow-string)
+    ((bight dive figures) contact-length seabed-length bend-ratio snap-count thrust-share)
     ((bight dive homing) fly-home! home-trial unwind-preview)
     ((bight dive tour)
      plan-tour fly-tour! tour-trial

@@ -1,14 +1,14 @@
 /* A surface between two lines with the same ends, and its crossings by the edges of a graph.
 
    The surface is a strip of triangles with rungs from line to line; at each rung the strip goes on
-   along the line that is behind, by shares of the lengths.  An edge that crosses the surface
-   contributes 1 or -1, by the side from which it comes: the crossings of all edges are a sum of
-   loops in the class of the closed curve of both lines (caught.h).
+   along the line that is behind, by shares of the lengths.  An edge across the surface contributes
+   1 or -1, by the side from which the edge comes: the crossings of all edges are a sum of loops in
+   the class of the closed curve of both lines (caught.h).
 
-   Crossings are exact as a whole: the side on which an edge passes a rung is the sign of one
-   product, computed by the same expression for both triangles at the rung, so an edge near a rung
-   crosses exactly one of the two triangles, whatever the rounding.  Blocks of triangles have boxes,
-   so a distant edge costs one comparison.
+   Crossings are exact as a whole: the side on which an edge passes a rung is the sign of a product,
+   computed by the same expression for both triangles at the rung.  So an edge near a rung crosses
+   exactly one of the two triangles, whatever the rounding.  Blocks of triangles have boxes, so a
+   distant edge costs one comparison.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -209,7 +209,7 @@ bt__caught_crossings (const bt__graph *graph, const bt_vec3 *p, uint32_t n, cons
   bt__count unused = { 0 };
   lay_strip (&s);
   bt__link diagonal = { s.all.lo, s.all.hi };
-  /* No point of a box is farther from its diagonal than half of that.  */
+  /* No point of a box is farther from the diagonal than half the diagonal's length.  */
   double reach = 0.5 * bt__distance (s.all.lo, s.all.hi);
   memset (loops, 0, graph->edges * sizeof *loops);
   bt__bvh_query (&graph->tree, &diagonal, reach, 0, cross_edge, &c, &unused);

@@ -8,8 +8,8 @@
    A string round a round member is a polygon that touches the member's arc from outside.  At a
    corner of angle t the polygon is longer than the arc by 2 rho tan (t / 2) - rho t, with rho the
    radius of the line's arc: the member's radius plus the core, over sin^2 of the angle to the
-   member's axis for a helix. bt__holds_length takes this excess off, provided that the two tangents
-   of a corner fit on its links; a coarser polygon is left as it is.
+   member's axis for a helix. bt__holds_length takes this excess off where the two tangents of a
+   corner fit on the corner's links; a coarser polygon keeps the excess.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

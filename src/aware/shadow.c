@@ -4,8 +4,8 @@
    curve (shadow.h).  Vertices are projected on the plane (u, z) across a horizontal direction; w is
    the depth along the direction.  Steps of the construction:
 
-   1. jitter moves every vertex a little, from a fixed seed, so that no three edges cross in one
-   point of the picture and no edge lies on another.  Without the jitter the horizontals of a jacket
+   1. jitter moves every vertex a little, from a fixed seed: then no three edges cross in a point of
+   the picture, and no two edges lie on each other.  Without the jitter the horizontals of a jacket
    cover each other, and wrong relations are left.
 
    2. find_shadow_crossings tests all pairs of edges that share no vertex.  At a crossing the edge
@@ -16,7 +16,7 @@
 
    4. relate_crossing writes, for the edge f in front and the letters g and g' of the edge behind
    before and after the cut, f g' f^-1 g^-1 = 1, or the mirror image f g^-1 f^-1 g' = 1.
-   relate_vertex writes for every inner vertex that the letters of its edges, sorted by their angle
+   relate_vertex writes for every inner vertex: the letters of the vertex's edges, sorted by angle
    in the picture, multiply to 1; an edge that arrives counts inverted.  A vertex in the ground or
    in the air (a boundary) gives no relation: a loop cannot be drawn off over such an end.
 
@@ -27,7 +27,7 @@
    A group without relations left over is free, and reduced words then decide the class.  The rank
    must be the first Betti number of the graph modulo its boundary; `decided' is true only if rank
    and relations agree with this and no obstacle went undescribed.  Edges are finally sorted into
-   square bins of the picture, so that a question looks at few of them.
+   square bins of the picture: a question looks at a few edges only.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

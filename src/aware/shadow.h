@@ -5,10 +5,10 @@
    direction.  Cut along all shadows, the water contracts to a point along the direction.  So the
    homotopy class of a line is given by the sequence of shadows crossed, with signs: a word, in
    which every strip is a letter.  Where an edge runs through the shadow of another edge, the letter
-   of the edge changes.  Each such crossing gives a relation between letters, and each inner vertex
-   another one: the product of the letters round the vertex is 1.  The relations are simplified
-   when the world is loaded (tietze.h), in several directions; the direction with the simplest
-   result is kept.
+   of the edge changes.  Each crossing gives a relation between letters, and each inner vertex gives
+   a relation: the product of the letters round the vertex is 1.  The relations are simplified when
+   the world is loaded (tietze.h), in several directions; the direction with the simplest result is
+   kept.
 
    The graph must be in general position, so every vertex is moved by the share JITTER of the radius
    of its thinnest member, at most 3 cm.  Lines must stay outside the members.  Moving obstacles are

@@ -2,13 +2,13 @@
 
    A link of the line crosses the shadow of an edge if the two segments cross in the picture (u, z)
    and the link is deeper there than the edge.  The letter of the edge's piece enters with the sign
-   of the side to which the link goes.  Passages of one link are sorted by their place on the link,
-   then every letter is replaced by its word in the generators that Tietze elimination has left, and
-   the product is reduced freely as the word grows (word.c).
+   of the side to which the link goes.  The passages of a link are sorted by place on the link.
+   Every letter is then replaced by a word in the generators left by Tietze elimination, and the
+   product is reduced freely as the word grows (word.c).
 
    Time per link is that of the edges in the bins under the link.  An edge and a link may share
-   several bins; the pair is tested in the first of the shared bins alone.  A link that crosses more
-   than 64 shadows makes the word `lost', which equals no word.
+   several bins; the pair is tested in the first of the shared bins alone.  A link across more than
+   64 shadows makes the word `lost': a lost word equals no word.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -3,11 +3,10 @@
    One outer step is: look (taut_look.c), solve (taut_solve.c), obey (taut_solve.c), and accept the
    step if the string got shorter by more than 1e-9 m.  A refused step is tried again with forty
    times the proximal weight, four tries at most; a large weight keeps the nodes near their places.
-   A string that is to be pushed out from obstacles may grow, and every one of its steps is
-   accepted.
+   A string pushed out from obstacles may grow, and every step of the string is accepted.
 
-   The string is settled after three steps in a row that each gained less than a millionth of its
-   length.  A settled string costs nothing until an end moves or bt__string_wake is called.
+   The string is settled after three steps in a row with a gain of less than a millionth of the
+   length each.  A settled string costs nothing until an end moves or bt__string_wake is called.
 
    Ends are led by new nodes: the link from the old to the new end must be clear, then the old end
    becomes an inner node and relaxes.  So the homotopy class of the string is the class of the

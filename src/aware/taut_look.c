@@ -19,7 +19,7 @@
 
 #include "aware/taut_job.h"
 
-/* Planes lie farther out than the core by this much, m, so that rounding never enters the core.  */
+/* Planes lie farther out than the core by this, m: rounding never enters the core.  */
 #define SPARE 1e-6
 
 enum

@@ -3,10 +3,10 @@
    The cell complex of voxel.h is built from distances alone.  Each cell keeps the distance from its
    middle to the nearest obstacle, up to twice the cell size.  A step between neighbouring cells is
    a segment between their middles, and a square the four middles round an edge of the grid.  Every
-   point of a step lies within half a cell of one of the two middles, and every point of a square
-   within 0.7072 cells of one of the four, so most steps and squares are known to be clear from the
-   distances of their cells.  Only the remaining ones are tested against the scene, a square as a
-   convex body by GJK (collide/gjk.c).
+   point of a step lies within half a cell of a middle, and every point of a square within 0.7072
+   cells of a middle: most steps and squares are known to be clear from the distances of the cells.
+   Only the remaining ones are tested against the scene, a square as a convex body by GJK
+   (collide/gjk.c).
 
    The test of squares is essential: a ring thinner than a cell may leave all four sides of a square
    clear and still pass through the square.  With sides alone the ring would vanish from the

@@ -5,12 +5,12 @@
    between the old and the new segment, and the class is kept.  If the triangle is not clear, the
    segment changes to a cell up to two steps away, over steps that are clear and in sight of P, and
    the labels of these steps are multiplied to the word.  Between pieces the segment changes to
-   neighbours nearer to P (come_near), so that segments stay short and most triangles are known to
-   be clear from the distance of the cell.
+   neighbours nearer to P (come_near): segments stay short, and most triangles are known to be clear
+   from the distance of the cell.
 
    Pieces are half a cell long and halved where no cell is found; a line that would need pieces
-   below a fiftieth of a cell is `lost'.  Both ends finish at the cell nearest to them, so that the
-   word depends on the ends and on the class of the line, not on the cells along the way.
+   below a fiftieth of a cell is `lost'.  Both ends finish at the nearest cell: the word depends on
+   the ends and on the class of the line, not on the cells along the way.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -187,8 +187,8 @@ settle_square (bt__voxels *v, uint32_t cell, int axis)
     return BT__NOWHERE;
   round_from (v, step, missing, &s);
   v->pool.failed |= s.full;
-  /* A step gone forwards is the inverse of the product of the steps after it, a step gone backwards
-     the product itself.  */
+  /* A step gone forwards is the inverse of the product of the following steps, a step gone
+     backwards the product.  */
   for (uint32_t i = 0; missing < 2 && i < s.n / 2 + s.n % 2; i++)
     {
       int32_t swap = -s.letter[i];

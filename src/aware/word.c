@@ -1,10 +1,10 @@
 /* Words: free reduction at the end of a stack.
 
-   A word is a product of generators and their inverses, written as positive and negative numbers.
-   A new letter cancels against the last letter of the stack if the two are inverse, else is pushed;
+   A word is a product of generators and their inverses, written as positive and negative numbers. A
+   new letter cancels against the last letter of the stack if the two are inverse, else is pushed;
    so a word is reduced at all times, and in a free group two words are equal exactly if their
-   reduced forms are.  Unused room is zero, so words are compared byte by byte.  A word that
-   outgrows its room is `lost' and equals no word, not even itself.
+   reduced forms are.  Unused room is zero, so words are compared byte by byte.  A word too long for
+   the room is `lost' and equals no word, not even a copy.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

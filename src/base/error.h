@@ -14,7 +14,7 @@
 #endif
 
 /* Fill *ERROR (may be NULL) with STATUS and the formatted sentence, cut at the capacity of ERROR,
-   and return STATUS, so that a function can fail in one line.  */
+   and return STATUS: a function can fail in a line.  */
 bt_status bt__fail (bt_error *error, bt_status status, const char *format, ...) BT__PRINTF (3, 4);
 
 #endif

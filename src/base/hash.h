@@ -11,8 +11,8 @@
 /* Return the hash of N bytes at DATA, continued from SEED (0 at first).  */
 uint64_t bt__hash (const void *data, size_t n, uint64_t seed);
 
-/* Return the hash of ROWS rows of USED bytes as if they lay one behind the other; a row begins
-   STRIDE bytes after the row before.  USED is a multiple of 8.  */
+/* Return the hash of ROWS rows of USED bytes, as if without gaps; a row begins STRIDE bytes after
+   the row before.  USED is a multiple of 8.  */
 uint64_t bt__hash_rows (const void *data, size_t rows, size_t used, size_t stride, uint64_t seed);
 
 /* Return another such hash, several times as fast where N is large.  */

@@ -13,9 +13,8 @@ BT_BEGIN_DECLS
 /* A place where a tether touches an obstacle.  */
 typedef struct bt_contact
 {
-  int object;       /* the obstacle's number; a tether's, itself among them, plus the number of
-                       obstacles; the number of a vehicle whose hull it is, plus those of obstacles
-                       and tethers */
+  int object; /* number of the obstacle; or of the tether, counted on after the obstacles; or of the
+                 vehicle with the hull, counted on after obstacles and tethers */
   int64_t triangle; /* its id on a mesh, or -1 */
   int slides;       /* zero: it sticks */
   double s;         /* m of arc length from the anchor */

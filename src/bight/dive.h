@@ -234,8 +234,8 @@ typedef struct bt_tether_view
   double target;                                   /* paid out when the winch will stop, m */
   double chord;                                    /* straight distance between the ends, m */
   double tension_anchor, tension_end, tension_max; /* N */
-  double tension_error; /* N: an estimate of its error in the last step, if it is more than the
-                           tether's tension_accuracy asks; else 0 */
+  double tension_error; /* N: estimated error of the tension in the last step if above the tether's
+                           tension_accuracy; else 0 */
   bt_vec3 force;        /* on what the far end is fastened to, N */
   int vehicle;          /* index of the vehicle at the far end, -1: a fixed point */
   int taut;
@@ -297,14 +297,14 @@ typedef struct bt_profile
      again after a hit; steps in which continuous collision detection held nodes back.  */
   uint64_t links_asked, boxes_visited, pairs_measured, links_clear, casts;
   uint64_t touches, contact_rounds, truncated;
-  uint64_t line_pairs;              /* links of tethers measured against links of tethers */
-  uint64_t beside_hulls;            /* moving lines so near the hull of another's vehicle that they
-                                       might meet in the step */
-  uint64_t chafes;                  /* of the touches: those that wore the jacket */
-  uint64_t span_solves, span_skips; /* of the thesis' response */
-  uint64_t current_samples_skipped; /* shapes solved in still water */
-  uint64_t strings, charts, words;  /* for questions about what a tether is doing */
-  uint64_t body_steps;              /* of vehicles with mass */
+  uint64_t line_pairs;   /* links of tethers measured against links of tethers */
+  uint64_t beside_hulls; /* moving lines near enough to the hull of a foreign vehicle to meet the
+                            hull in the step */
+  uint64_t chafes;       /* of the touches: those that wore the jacket */
+  uint64_t span_solves, span_skips;   /* of the thesis' response */
+  uint64_t current_samples_skipped;   /* shapes solved in still water */
+  uint64_t strings, charts, words;    /* for questions about what a tether is doing */
+  uint64_t body_steps;                /* of vehicles with mass */
   uint64_t wave_samples, lee_samples; /* places of moving lines and vehicles where the water was
                                          asked for waves, for the lee of obstacles */
   uint64_t operations, refused;

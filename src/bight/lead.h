@@ -28,9 +28,8 @@ typedef struct bt_lead_line
   const bt_set *sets; /* their planes counted at the winch end: 0 is north where the line begins to
                          be led straight down, and turns with the line the shortest way */
   int n_sets;
-  double tilt[2][2]; /* radians: by which the line leaves its ends beside the directions of the
-                        track, if clamped, toward 0 and toward 90 degrees of a plane of a set that
-                        goes with that end */
+  double tilt[2][2]; /* radians: at each end, if clamped, the angle between line and track, toward 0
+                        and toward 90 degrees of a plane of a set */
 } bt_lead_line;
 
 /* Where the ends are.  All arrays have ROWS elements, 2 or more.  */

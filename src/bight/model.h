@@ -130,8 +130,8 @@ typedef struct bt_tether_def
   bt_via via;    /* what its line of lay goes through; none: it is straight */
   double length; /* paid out, m */
   double drum;   /* the most that can be out, m */
-  bt_vec3 ride; /* shares of the motion of the water, heave, surge and sway along the waves, that an
-                   anchor that is a point takes; 0: it stands */
+  bt_vec3 ride;  /* shares of the motion of the water, heave, surge and sway along the waves, taken
+                    by an anchor that is a point; 0: the anchor stands */
   bt_tether_props props; /* mass or wet_weight may be NAN: it then follows from the other */
   bt_lump lumps[BT_LUMPS_MAX];
   double n_lumps;
@@ -308,7 +308,7 @@ bt_status bt_def_set_vehicle_type (bt_vehicle_def *def, const char *name, bt_err
 /* The same for tethers: diameter, weight, stiffness, strength, drag and friction.  */
 const char *bt_tether_type_name (int i);
 const char *bt_tether_type_text (int i);
-/* Return where the I-th type has its figure of FIELD from, a field that the type sets: "published",
+/* Return the origin of the I-th type's figure of FIELD, a field set by the type: "published",
    "measured", "fitted" (to a measurement) or "assumed"; NULL beyond the last type.  */
 const char *bt_tether_type_origin (int i, const char *field);
 bt_status bt_def_set_tether_type (bt_tether_def *def, const char *name, bt_error *error);

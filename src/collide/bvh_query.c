@@ -1,12 +1,12 @@
 /* Asking the tree: a capsule, the link with the reach for a radius, against eight boxes at a time.
 
    The tree is a bounding volume hierarchy of axis-aligned boxes with eight children to a node,
-   stored axis by axis, so that one loop over the eight uses the vector units.  The overlap test
-   uses separating axes: the three axes of the box and their cross products with the link.  Instead
-   of the distance from link to box, the box is grown by the reach; a grown box is a little larger
-   than the set of points within reach, so a query may report too much, never too little.  Rounding
-   has the same sign: floats lose at most SLACK of the largest coordinate, and the boxes are grown
-   by as much.
+   stored axis by axis: a loop over the eight uses the vector units.  The overlap test uses
+   separating axes: the three axes of the box and their cross products with the link.  Instead of
+   the distance from link to box, the box is grown by the reach; a grown box is a little larger than
+   the set of points within reach, so a query may report too much, never too little.  Rounding has
+   the same sign: floats lose at most SLACK of the largest coordinate, and the boxes are grown by as
+   much.
 
    A query for the nearest part visits children nearest first and shrinks the reach with each answer
    of the caller; a query for all parts within reach keeps the reach.  The stack is a fixed array.

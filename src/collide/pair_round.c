@@ -8,12 +8,12 @@
 
 #include "collide/pair.h"
 
-/* If two points are nearer than this share of their coordinates, their difference has lost digits;
-   the directions of the two shapes are then the better normal.  */
+/* Two points nearer than this share of the coordinates have a difference with lost digits; the
+   directions of the two shapes are then the better normal.  */
 #define CLOSE 1e-3
 
-/* N as it must be where a segment of direction D is met at T: across D, and at an end not towards
-   the segment (SIDE 1 if N points to it, -1 if from it).  */
+/* The normal N where a segment of direction D is met at T: made square to D, and at an end turned
+   away from the segment (SIDE 1 if N points to the segment, -1 if from the segment).  */
 static bt_vec3
 square_off (bt_vec3 n, bt_vec3 d, double t, double side)
 {

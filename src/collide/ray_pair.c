@@ -1,6 +1,6 @@
-/* A line meets a convex solid in one interval, the intersection of its intervals in the slabs,
-   half-spaces, balls and infinite cylinders that bound the solid.  A capsule is the union of three
-   such solids.
+/* A line meets a convex solid in an interval, the intersection of the line's intervals in the
+   slabs, half-spaces, balls and infinite cylinders about the solid.  A capsule is the union of
+   three such solids.
 
    Triangles are tested as by Woop, Benthin and Wald (2013): the ray is sheared on to an axis, and
    two triangles with a common edge compute the side of the edge by the same product, so no ray

@@ -1,15 +1,15 @@
 /* The safe step: continuous collision detection of a whole line, by a work list.
 
    A round has three parts.  Every link lists the parts of obstacles within reach of its move
-   (safe_list.c).  Then the work list: each link is cast against its list (cast.c), both ends' moves
-   are cut to the share found, and the link and its two neighbours are queued again, since a node
-   belongs to two links.  A kinematic obstacle that is met is held back by the same share, and then
-   all links are queued again.  Finally the shares are taken.
+   (safe_list.c).  Then the work list: each link is cast against the link's list (cast.c), both
+   ends' moves are cut to the share found, and the link and both neighbours are queued again, since
+   a node belongs to two links.  A kinematic obstacle that is met is held back by the same share,
+   and then all links are queued again.  Finally the shares are taken.
 
    Shares only shrink, and a share below 1/1000 becomes 0, so the list empties.  After 20 casts that
    cut, per link, offenders stop at once; after 60, all nodes and obstacles do: not to move is safe
-   always.  A round that moved some node by more than 1 % of the core radius is followed by another
-   towards the same goal, so nodes go on from where they were stopped and slide round corners.
+   always.  After a round in which some node moved by more than 1 % of the core radius, a new round
+   goes towards the same goal: nodes go on from where they were stopped and slide round corners.
    Kinematic obstacles move in the first round only.
 
    Guarantee: from a clear start no link's axis comes nearer than the core radius to an obstacle,

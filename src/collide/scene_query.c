@@ -5,9 +5,9 @@
    through the mesh's own tree.  The closest points come from the closed forms of pair.h.
 
    Lists have a fixed room.  A full list keeps the nearest parts and notes the least distance of the
-   dropped ones, so that a caller knows within which distance the list is complete.  Before a
-   triangle is measured exactly, the three coordinates are compared: most triangles of a leaf lie
-   beyond the reach along one axis.
+   dropped parts: nearer than this distance the list is complete.  Before a triangle is measured
+   exactly, the three coordinates are compared: most triangles of a leaf lie beyond the reach along
+   one axis.
 
    bt__scene_apart is the coarse question, asked once for a whole line: a lower bound on the
    distance from a box to anything in the scene, in the time of one box and the planes.

@@ -23,7 +23,7 @@ enum
 typedef struct bt__controller_event
 {
   bt__controller_what what;
-  int id;                         /* of the controller; another one for each time it is plugged in */
+  int id; /* of the controller; another one for each time it is plugged in */
   char name[BT__CONTROLLER_NAME]; /* of the controller, or of the axis or button */
   int known;                      /* plugged: its axes and buttons have SDL's names */
   double value;                   /* of an axis -1 to 1, of a button 0 or 1 */
@@ -31,9 +31,10 @@ typedef struct bt__controller_event
 
 typedef struct bt__controllers bt__controllers;
 
-/* Begin to listen to all controllers there are.  What SDL's database knows has axes leftx, lefty,
-   rightx, righty, lefttrigger, righttrigger and buttons a, b, x, y, leftshoulder, dpup and so on;
-   anything else axis0, button0, hat0up and so on.  BT_ERR_UNSUPPORTED where SDL cannot.  */
+/* Begin to listen to all controllers there are.  A controller known to SDL's database has axes
+   leftx, lefty, rightx, righty, lefttrigger, righttrigger and buttons a, b, x, y, leftshoulder,
+   dpup and the like; an unknown one axis0, button0, hat0up and the like.  BT_ERR_UNSUPPORTED where
+   SDL cannot.  */
 bt_status bt__controllers_new (bt__controllers **all, bt_error *error);
 void bt__controllers_free (bt__controllers *all);
 

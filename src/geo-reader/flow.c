@@ -1,11 +1,11 @@
 /* The current of an ocean model at one place, as rows x y z t u v w.
 
    The velocity components are found by their CF standard names, else by usual names of variables.
-   Each component has its own place among its cells (spot.c), since some models stagger the
-   components; times and levels (axes.c) are common to both.  Values are means over the cells with a
-   number, weighted by their shares: near a coast some cells are land.  A model on a grid of its own
-   axes has its vectors turned to east and north by its angle.  Levels without water at all times
-   are left out; w is 0.
+   Each component is found among separate cells (spot.c), since some models stagger the components;
+   times and levels (axes.c) are common to both.  Values are means over the cells with a number,
+   weighted by their shares: near a coast some cells are land.  Vectors on a turned grid are turned
+   back to east and north by the angle of the grid.  Levels without water at all times are left out;
+   w is 0.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

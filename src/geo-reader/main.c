@@ -1,6 +1,6 @@
 /* bight-geo-reader: read bathymetry or a current in geographic coordinates and write a table to
-   standard output in the form of src/geo/stream.h. bight runs one process for each geographic file
-   of a world, so that GDAL, PROJ and damaged files cannot harm the dive.
+   standard output in the form of src/geo/stream.h. bight runs a process for each geographic file of
+   a world: GDAL, PROJ and damaged files cannot harm the dive.
 
      bight-geo-reader CPU-SECONDS MEGABYTES FILE bed LATITUDE LONGITUDE REACH SIGN SYSTEM VARIABLE
      bight-geo-reader CPU-SECONDS MEGABYTES FILE current LATITUDE LONGITUDE START

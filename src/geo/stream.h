@@ -1,5 +1,5 @@
-/* The answer of bight-geo-reader to bight: one table of numbers.  Writer and reader are one build
-   on one machine, so numbers have the form of the machine.
+/* The answer of bight-geo-reader to bight: one table of numbers.  Writer and reader are of one
+   build on one machine: numbers have the form of the machine.
 
    head | rows, one after the other, doubles | checksum, 64 bits
 

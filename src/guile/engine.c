@@ -60,6 +60,8 @@ bight_guile_init (void)
   bt__define_times ();
   bt__define_live ();
   bt__define_questions ();
+  bt__define_types ();
+  bt__define_views ();
   bt__define_contacts ();
   bt__define_aware ();
   bt__define_outlines ();

@@ -31,6 +31,8 @@ void bt__define_operations (void);
 void bt__define_times (void);
 void bt__define_live (void);
 void bt__define_questions (void);
+void bt__define_types (void);
+void bt__define_views (void);
 void bt__define_contacts (void);
 void bt__define_aware (void);
 void bt__define_outlines (void);
@@ -42,6 +44,9 @@ void bt__raise (const char *who, const bt_error *error) SCM_NORETURN;
 
 /* Raise ERROR unless STATUS is BT_OK.  */
 void bt__check (const char *who, bt_status status, const bt_error *error);
+
+/* Return the N numbers X as an f64vector.  */
+SCM bt__from_doubles (const double *x, size_t n);
 
 /* A dive, the Scheme procedure of its current, if any, and the journal of its operations.  */
 typedef struct bt__handle

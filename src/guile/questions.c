@@ -1,15 +1,14 @@
-/* Questions: snapshots of a dive as Scheme values.
+/* Questions to a dive as a whole: its parts, its sea, its events, its work.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <stddef.h>
 #include <string.h>
 
 #include "guile/guile.h"
 
-#define DEGREES (180 / 3.14159265358979323846)
-
-static SCM
-from_doubles (const double *x, size_t n)
+SCM
+bt__from_doubles (const double *x, size_t n)
 {
   SCM v = scm_make_f64vector (scm_from_size_t (n), SCM_INUM0);
   memcpy (SCM_BYTEVECTOR_CONTENTS (v), x, n * sizeof *x);
@@ -46,7 +45,7 @@ sea (SCM object)
       bt__associate (
           "density", scm_from_double (view.density),
           bt__associate ("gravity", scm_from_double (view.gravity),
-                         bt__associate ("waves", from_doubles (waves, (size_t)n), SCM_EOL))));
+                         bt__associate ("waves", bt__from_doubles (waves, (size_t)n), SCM_EOL))));
 }
 
 /* The numbers of the operation `current' that set the current of a dive.  */
@@ -56,331 +55,8 @@ current_numbers (SCM object)
   bt_current current;
   double args[BT_CURRENT_ARGS];
   bt_dive_current (bt__to_dive (object), &current);
-  return from_doubles (args, (size_t)bt_current_pack (&current, args));
+  return bt__from_doubles (args, (size_t)bt_current_pack (&current, args));
 }
-
-/* ---- Views of vehicles and tethers ---- */
-
-/* What lies at OFFSET of a view, told by NAME.  */
-typedef struct answer
-{
-  const char *name;
-  enum
-  {
-    POINT,
-    REAL,
-    ANGLE,
-    STICKS,
-    TRUTH,
-    PLACE /* an index, below 0 for none */
-  } kind;
-  size_t offset;
-} answer;
-
-static SCM
-from_answer (const answer *a, const void *view)
-{
-  const void *at = (const char *)view + a->offset;
-  switch (a->kind)
-    {
-    case POINT:
-      return bt__from_point (*(const bt_vec3 *)at);
-    case REAL:
-      return scm_from_double (*(const double *)at);
-    case ANGLE:
-      return scm_from_double (*(const double *)at * DEGREES);
-    case STICKS:
-      return from_doubles (at, 4);
-    case TRUTH:
-      return scm_from_bool (*(const int *)at);
-    default:
-      return *(const int *)at < 0 ? SCM_BOOL_F : scm_from_int (*(const int *)at);
-    }
-}
-
-static SCM
-all_answers (const answer *answers, size_t n, const void *view)
-{
-  SCM list = SCM_EOL;
-  while (n-- > 0)
-    list = bt__associate (answers[n].name, from_answer (&answers[n], view), list);
-  return list;
-}
-
-/* One of them: to make all for one takes as long as a third of a step.  */
-static SCM
-one_answer (const answer *answers, size_t n, const void *view, SCM key)
-{
-  for (size_t k = 0; k < n; k++)
-    if (scm_is_eq (key, bt__symbol (answers[k].name)))
-      return from_answer (&answers[k], view);
-  return SCM_BOOL_F;
-}
-
-#define COUNT(table) (sizeof table / sizeof *table)
-
-#define ANSWER(name, kind, member)                                                                 \
-  {                                                                                                \
-    name, kind, offsetof (bt_vehicle_view, member)                                                 \
-  }
-
-static const answer vehicle_answers[] = {
-  ANSWER ("position", POINT, position), ANSWER ("velocity", POINT, velocity),
-  ANSWER ("heading", ANGLE, heading),   ANSWER ("pitch", ANGLE, pitch),
-  ANSWER ("roll", ANGLE, roll),         ANSWER ("turns", REAL, turns),
-  ANSWER ("sticks", STICKS, sticks),    ANSWER ("arrived?", TRUTH, arrived),
-  ANSWER ("held?", TRUTH, held),        ANSWER ("surge-speed", REAL, speeds),
-};
-
-#undef ANSWER
-#define ANSWER(name, kind, member)                                                                 \
-  {                                                                                                \
-    name, kind, offsetof (bt_tether_view, member)                                                  \
-  }
-
-static const answer tether_answers[] = {
-  ANSWER ("length", REAL, length),
-  ANSWER ("target", REAL, target),
-  ANSWER ("chord", REAL, chord),
-  ANSWER ("tension-anchor", REAL, tension_anchor),
-  ANSWER ("tension-end", REAL, tension_end),
-  ANSWER ("tension-max", REAL, tension_max),
-  ANSWER ("tension-error", REAL, tension_error),
-  ANSWER ("force", POINT, force),
-  ANSWER ("vehicle", PLACE, vehicle),
-  ANSWER ("taut?", TRUTH, taut),
-  ANSWER ("spooling?", TRUTH, spooling),
-  ANSWER ("parted?", TRUTH, parted),
-  ANSWER ("asleep?", TRUTH, asleep),
-  ANSWER ("blocked?", TRUTH, blocked),
-  ANSWER ("stuck?", TRUTH, stuck),
-  ANSWER ("settled?", TRUTH, settled),
-};
-
-#undef ANSWER
-
-static bt_vehicle_view
-vehicle_view (SCM object, SCM index)
-{
-  bt_vehicle_view v;
-  bt_error error;
-  bt__check ("rov-position", bt_dive_vehicle (bt__to_dive (object), scm_to_int (index), &v, &error),
-             &error);
-  return v;
-}
-
-static SCM
-vehicle (SCM object, SCM index)
-{
-  bt_vehicle_view v = vehicle_view (object, index);
-  return all_answers (vehicle_answers, COUNT (vehicle_answers), &v);
-}
-
-static SCM
-vehicle_value (SCM object, SCM index, SCM key)
-{
-  bt_vehicle_view v = vehicle_view (object, index);
-  return one_answer (vehicle_answers, COUNT (vehicle_answers), &v, key);
-}
-
-static bt_tether_view
-tether_view (const char *who, SCM object, SCM index)
-{
-  bt_tether_view view;
-  bt_error error;
-  bt__check (who, bt_dive_tether (bt__to_dive (object), scm_to_int (index), &view, &error), &error);
-  return view;
-}
-
-static SCM
-tether (SCM object, SCM index)
-{
-  bt_tether_view t = tether_view ("tether-length", object, index);
-  return all_answers (tether_answers, COUNT (tether_answers), &t);
-}
-
-static SCM
-tether_value (SCM object, SCM index, SCM key)
-{
-  bt_tether_view t = tether_view ("tether-length", object, index);
-  return one_answer (tether_answers, COUNT (tether_answers), &t, key);
-}
-
-static SCM
-error_estimate (SCM object, SCM index)
-{
-  double estimate;
-  bt_error error;
-  bt__check ("error-estimate",
-             bt_tether_error_estimate (bt__to_dive (object), scm_to_int (index), &estimate, &error),
-             &error);
-  return scm_from_double (estimate);
-}
-
-/* The properties of a tether, by the names of their fields.  */
-static SCM
-properties (SCM object, SCM index)
-{
-  bt_tether_def def;
-  const bt_head *head = bt_head_find ("tether");
-  SCM list = SCM_EOL;
-  bt_tether_view view = tether_view ("describe", object, index);
-  def.props = view.props;
-  def.length = view.length;
-  def.drum = view.drum;
-  for (size_t i = head->n_fields; i-- > 0;)
-    {
-      const bt_field *field = &head->fields[i];
-      const double *value = (const double *)(const void *)((const char *)&def + field->offset);
-      if (field->kind == BT_FIELD_NUMBER || field->kind == BT_FIELD_COUNT
-          || field->kind == BT_FIELD_WORD)
-        list = bt__associate (field->name, bt__from_field (field, *value), list);
-    }
-  return list;
-}
-
-static SCM
-tether_points (SCM object, SCM index, SCM count)
-{
-  bt_dive *dive = bt__to_dive (object);
-  int i = scm_to_int (index), asked = scm_to_int (count);
-  int n = asked ? asked : tether_view ("tether-points", object, index).nodes;
-  SCM array = scm_make_typed_array (symbol ("f64"), SCM_UNSPECIFIED,
-                                    scm_list_2 (scm_from_int (n), scm_from_int (3)));
-  scm_t_array_handle handle;
-  bt_status status;
-  bt_error error;
-  scm_array_get_handle (array, &handle);
-  status = bt_tether_points (
-      dive, i, asked, (bt_vec3 *)(void *)scm_array_handle_f64_writable_elements (&handle), &error);
-  scm_array_handle_release (&handle);
-  bt__check ("tether-points", status, &error);
-  return array;
-}
-
-/* Of tether INDEX, 16 bits of each node as four hexadecimal digits: those of %checksum.  */
-static SCM
-node_digits (SCM object, SCM index)
-{
-  bt_dive *dive = bt__to_dive (object);
-  int n = tether_view ("record!", object, index).nodes;
-  bt_vec3 *points = scm_gc_malloc_pointerless (sizeof *points * (size_t)(n + 1), "points");
-  char *text = scm_gc_malloc_pointerless (4 * (size_t)n + 1, "digits");
-  bt_error error;
-  bt__check ("record!", bt_tether_points (dive, scm_to_int (index), 0, points, &error), &error);
-  for (int i = 0; i < n; i++)
-    bt__hexadecimal (text + 4 * i, bt__checksum (points + i, sizeof *points, 0), 4);
-  return scm_from_latin1_stringn (text, 4 * (size_t)n);
-}
-
-static SCM
-tether_tensions (SCM object, SCM index, SCM count)
-{
-  bt_dive *dive = bt__to_dive (object);
-  int asked = scm_to_int (count);
-  int n = asked ? asked : tether_view ("tensions", object, index).nodes;
-  SCM v = scm_make_f64vector (scm_from_int (n), SCM_INUM0);
-  bt_error error;
-  bt__check ("tensions",
-             bt_tether_tensions (dive, scm_to_int (index), asked,
-                                 (double *)SCM_BYTEVECTOR_CONTENTS (v), &error),
-             &error);
-  return v;
-}
-
-static SCM
-point_at (SCM object, SCM index, SCM s)
-{
-  bt_vec3 p;
-  bt_error error;
-  bt__check (
-      "point-at",
-      bt_tether_point (bt__to_dive (object), scm_to_int (index), scm_to_double (s), &p, &error),
-      &error);
-  return bt__from_point (p);
-}
-
-static SCM
-tangent_at (SCM object, SCM index, SCM s)
-{
-  bt_vec3 p;
-  bt_error error;
-  bt__check (
-      "tangent-at",
-      bt_tether_tangent (bt__to_dive (object), scm_to_int (index), scm_to_double (s), &p, &error),
-      &error);
-  return bt__from_point (p);
-}
-
-static SCM
-tension_at (SCM object, SCM index, SCM s)
-{
-  double t;
-  bt_error error;
-  bt__check (
-      "tension-at",
-      bt_tether_tension (bt__to_dive (object), scm_to_int (index), scm_to_double (s), &t, &error),
-      &error);
-  return scm_from_double (t);
-}
-
-static SCM
-tether_tail (SCM object, SCM index)
-{
-  bt_dive *dive = bt__to_dive (object);
-  int i = scm_to_int (index), n = bt_tether_tail (dive, i, NULL, 0);
-  bt_vec3 *points = scm_gc_malloc_pointerless (sizeof *points * (size_t)(n + 1), "tether-tail");
-  bt_tether_tail (dive, i, points, n);
-  return n ? bt__from_points (points, n) : SCM_BOOL_F;
-}
-
-static SCM
-tightest_bend (SCM object, SCM index)
-{
-  double radius;
-  bt_error error;
-  bt__check ("tightest-bend",
-             bt_tether_tightest_bend (bt__to_dive (object), scm_to_int (index), &radius, &error),
-             &error);
-  return scm_from_double (radius);
-}
-
-static SCM
-energy (SCM object, SCM index)
-{
-  bt_energy e;
-  bt_error error;
-  bt__check ("energy", bt_tether_energy (bt__to_dive (object), scm_to_int (index), &e, &error),
-             &error);
-  return bt__associate (
-      "kinetic", scm_from_double (e.kinetic),
-      bt__associate (
-          "strain", scm_from_double (e.strain),
-          bt__associate ("gravity", scm_from_double (e.gravity),
-                         bt__associate ("bending", scm_from_double (e.bending), SCM_EOL))));
-}
-
-static SCM
-equilibria (SCM object, SCM index)
-{
-  enum
-  {
-    MOST = 8
-  };
-  int n = (int)tether_view ("equilibria", object, index).props.nodes + 1, found;
-  bt_vec3 *shapes = scm_gc_malloc_pointerless (sizeof *shapes * MOST * (size_t)n, "equilibria");
-  SCM list = SCM_EOL;
-  bt_error error;
-  bt__check_long (
-      "equilibria", bt__to_handle (object),
-      bt_tether_equilibria (bt__to_dive (object), scm_to_int (index), MOST, shapes, &found, &error),
-      &error);
-  while (found-- > 0)
-    list = scm_cons (bt__from_points (shapes + (size_t)found * n, n), list);
-  return list;
-}
-
-/* ---- The dive as a whole ---- */
 
 static SCM
 current_at (SCM object, SCM point)
@@ -432,52 +108,67 @@ events (SCM object, SCM first)
   return list;
 }
 
+/* The work counters of a dive by name.  */
+static const struct
+{
+  const char *name;
+  size_t offset;
+} counters[] = {
+  { "steps", offsetof (bt_profile, steps) },
+  { "shape-solves", offsetof (bt_profile, shape_solves) },
+  { "shape-skips", offsetof (bt_profile, shape_skips) },
+  { "search-iterations", offsetof (bt_profile, search_iterations) },
+  { "shots", offsetof (bt_profile, shots) },
+  { "marches", offsetof (bt_profile, marches) },
+  { "relaxations", offsetof (bt_profile, relaxations) },
+  { "unsettled", offsetof (bt_profile, unsettled) },
+  { "chain-steps", offsetof (bt_profile, chain_steps) },
+  { "chain-parts", offsetof (bt_profile, chain_parts) },
+  { "chain-solves", offsetof (bt_profile, chain_solves) },
+  { "chain-sleeps", offsetof (bt_profile, chain_sleeps) },
+  { "chain-remeshes", offsetof (bt_profile, chain_remeshes) },
+  { "chain-safeguarded", offsetof (bt_profile, chain_safeguarded) },
+  { "chain-unconverged", offsetof (bt_profile, chain_unconverged) },
+  { "still-water-shapes", offsetof (bt_profile, current_samples_skipped) },
+  { "links-asked", offsetof (bt_profile, links_asked) },
+  { "boxes-visited", offsetof (bt_profile, boxes_visited) },
+  { "pairs-measured", offsetof (bt_profile, pairs_measured) },
+  { "links-clear", offsetof (bt_profile, links_clear) },
+  { "casts", offsetof (bt_profile, casts) },
+  { "touches", offsetof (bt_profile, touches) },
+  { "chafes", offsetof (bt_profile, chafes) },
+  { "contact-rounds", offsetof (bt_profile, contact_rounds) },
+  { "truncated", offsetof (bt_profile, truncated) },
+  { "line-pairs", offsetof (bt_profile, line_pairs) },
+  { "span-solves", offsetof (bt_profile, span_solves) },
+  { "span-skips", offsetof (bt_profile, span_skips) },
+  { "body-steps", offsetof (bt_profile, body_steps) },
+  { "wave-samples", offsetof (bt_profile, wave_samples) },
+  { "lee-samples", offsetof (bt_profile, lee_samples) },
+  { "operations", offsetof (bt_profile, operations) },
+  { "strings", offsetof (bt_profile, strings) },
+  { "charts", offsetof (bt_profile, charts) },
+  { "words", offsetof (bt_profile, words) },
+  { "threads", offsetof (bt_profile, threads) },
+  { "shared-steps", offsetof (bt_profile, shared_steps) },
+  { "shared-again", offsetof (bt_profile, shared_again) },
+  { "beside-hulls", offsetof (bt_profile, beside_hulls) },
+  { "refused", offsetof (bt_profile, refused) },
+};
+
 static SCM
 profile (SCM object)
 {
   bt_profile p;
   SCM list = SCM_EOL;
   bt_dive_profile (bt__to_dive (object), &p);
-  list = bt__associate ("refused", scm_from_uint64 (p.refused), list);
-  list = bt__associate ("beside-hulls", scm_from_uint64 (p.beside_hulls), list);
-  list = bt__associate ("shared-again", scm_from_uint64 (p.shared_again), list);
-  list = bt__associate ("shared-steps", scm_from_uint64 (p.shared_steps), list);
-  list = bt__associate ("threads", scm_from_uint64 (p.threads), list);
-  list = bt__associate ("words", scm_from_uint64 (p.words), list);
-  list = bt__associate ("charts", scm_from_uint64 (p.charts), list);
-  list = bt__associate ("strings", scm_from_uint64 (p.strings), list);
-  list = bt__associate ("operations", scm_from_uint64 (p.operations), list);
-  list = bt__associate ("lee-samples", scm_from_uint64 (p.lee_samples), list);
-  list = bt__associate ("wave-samples", scm_from_uint64 (p.wave_samples), list);
-  list = bt__associate ("body-steps", scm_from_uint64 (p.body_steps), list);
-  list = bt__associate ("span-skips", scm_from_uint64 (p.span_skips), list);
-  list = bt__associate ("span-solves", scm_from_uint64 (p.span_solves), list);
-  list = bt__associate ("line-pairs", scm_from_uint64 (p.line_pairs), list);
-  list = bt__associate ("truncated", scm_from_uint64 (p.truncated), list);
-  list = bt__associate ("contact-rounds", scm_from_uint64 (p.contact_rounds), list);
-  list = bt__associate ("chafes", scm_from_uint64 (p.chafes), list);
-  list = bt__associate ("touches", scm_from_uint64 (p.touches), list);
-  list = bt__associate ("casts", scm_from_uint64 (p.casts), list);
-  list = bt__associate ("links-clear", scm_from_uint64 (p.links_clear), list);
-  list = bt__associate ("pairs-measured", scm_from_uint64 (p.pairs_measured), list);
-  list = bt__associate ("boxes-visited", scm_from_uint64 (p.boxes_visited), list);
-  list = bt__associate ("links-asked", scm_from_uint64 (p.links_asked), list);
-  list = bt__associate ("still-water-shapes", scm_from_uint64 (p.current_samples_skipped), list);
-  list = bt__associate ("chain-unconverged", scm_from_uint64 (p.chain_unconverged), list);
-  list = bt__associate ("chain-safeguarded", scm_from_uint64 (p.chain_safeguarded), list);
-  list = bt__associate ("chain-remeshes", scm_from_uint64 (p.chain_remeshes), list);
-  list = bt__associate ("chain-sleeps", scm_from_uint64 (p.chain_sleeps), list);
-  list = bt__associate ("chain-solves", scm_from_uint64 (p.chain_solves), list);
-  list = bt__associate ("chain-parts", scm_from_uint64 (p.chain_parts), list);
-  list = bt__associate ("chain-steps", scm_from_uint64 (p.chain_steps), list);
-  list = bt__associate ("unsettled", scm_from_uint64 (p.unsettled), list);
-  list = bt__associate ("relaxations", scm_from_uint64 (p.relaxations), list);
-  list = bt__associate ("marches", scm_from_uint64 (p.marches), list);
-  list = bt__associate ("shots", scm_from_uint64 (p.shots), list);
-  list = bt__associate ("search-iterations", scm_from_uint64 (p.search_iterations), list);
-  list = bt__associate ("shape-skips", scm_from_uint64 (p.shape_skips), list);
-  list = bt__associate ("shape-solves", scm_from_uint64 (p.shape_solves), list);
-  return bt__associate ("steps", scm_from_uint64 (p.steps), list);
+  for (size_t k = sizeof counters / sizeof *counters; k-- > 0;)
+    {
+      uint64_t count;
+      memcpy (&count, (const char *)&p + counters[k].offset, sizeof count);
+      list = bt__associate (counters[k].name, scm_from_uint64 (count), list);
+    }
+  return list;
 }
 
 void
@@ -488,33 +179,6 @@ bt__define_questions (void)
     { "%current-numbers", 1, 0, (scm_t_subr)current_numbers,
       "Return the current of DIVE as the numbers of the operation `current', an f64vector." },
     { "%sea", 1, 0, (scm_t_subr)sea, "Return depth, density and gravity of DIVE's sea, an alist." },
-    { "%vehicle", 2, 0, (scm_t_subr)vehicle, "Return the INDEX-th vehicle of DIVE, an alist." },
-    { "%vehicle-value", 3, 0, (scm_t_subr)vehicle_value,
-      "Return what KEY is in the alist of the INDEX-th vehicle of DIVE." },
-    { "%tether", 2, 0, (scm_t_subr)tether, "Return the INDEX-th tether of DIVE, an alist." },
-    { "%tether-value", 3, 0, (scm_t_subr)tether_value,
-      "Return what KEY is in the alist of the INDEX-th tether of DIVE." },
-    { "%tether-properties", 2, 0, (scm_t_subr)properties,
-      "Return the properties of the INDEX-th tether of DIVE, an alist by field." },
-    { "%error-estimate", 2, 0, (scm_t_subr)error_estimate,
-      "Return the error in position of tether INDEX of DIVE, m; NaN of a static shape." },
-    { "%node-digits", 2, 0, (scm_t_subr)node_digits,
-      "Return 16 bits of each node of tether INDEX of DIVE, in hexadecimal digits." },
-    { "%tether-points", 3, 0, (scm_t_subr)tether_points,
-      "Return COUNT points (0: the model's own) of the INDEX-th tether of DIVE, an n x 3 array." },
-    { "%tether-tensions", 3, 0, (scm_t_subr)tether_tensions,
-      "Return tensions at the same points, an f64vector." },
-    { "%point-at", 3, 0, (scm_t_subr)point_at, "Return the point at arc length S." },
-    { "%tangent-at", 3, 0, (scm_t_subr)tangent_at, "Return the unit tangent at arc length S." },
-    { "%tension-at", 3, 0, (scm_t_subr)tension_at, "Return the tension at arc length S, N." },
-    { "%tether-tail", 2, 0, (scm_t_subr)tether_tail,
-      "Return the points of the part of a parted tether at its far end, or #f when it is whole." },
-    { "%tightest-bend", 2, 0, (scm_t_subr)tightest_bend,
-      "Return the radius of the tightest bend of the INDEX-th tether of DIVE, m." },
-    { "%energy", 2, 0, (scm_t_subr)energy,
-      "Return the energies of the INDEX-th tether of DIVE by kind, J, an alist." },
-    { "%equilibria", 2, 0, (scm_t_subr)equilibria,
-      "Return the equilibria found for the INDEX-th tether of DIVE, polylines." },
     { "%current-at", 2, 0, (scm_t_subr)current_at, "Return the velocity of the water at POINT." },
     { "%events", 2, 0, (scm_t_subr)events,
       "Return the kept events of DIVE from number FIRST on, lists (KIND TIME SUBJECT)." },

@@ -64,8 +64,7 @@ static struct
 
 static pthread_mutex_t naming = PTHREAD_MUTEX_INITIALIZER;
 
-/* Intern NAME, and keep the symbol at the first free of TRIES places from AT on, if there is one.
- */
+/* Intern NAME, and keep the symbol at the first free of TRIES places from AT on, if any is free. */
 static SCM
 intern (const char *name, size_t at)
 {

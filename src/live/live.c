@@ -2,8 +2,8 @@
 
    A live dive is stepped by a thread of its own (thread.c).  The owner posts commands to a queue
    (queue.c), which the thread carries out between steps in the order of posting, and reads
-   published copies of the state (shelf.c).  Commands may be kept in a log with the number of their
-   step, so that a dive can be repeated step by step to the same hash.
+   published copies of the state (shelf.c).  Commands may be kept in a log with the number of the
+   step: from the log a dive is repeated step by step to the same hash.
 
    All waiting is by condition variables on the monotonic clock.  A caller with a poll waits in
    pieces of 20 ms; an interrupted poll takes the command back or stops the work under way.

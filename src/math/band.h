@@ -1,8 +1,7 @@
 /* Linear equations whose matrix is a band, not symmetric, by Gauss with exchanges of rows.
 
-   The band is kept by columns, HEIGHT numbers each: the diagonals above the main one that the
-   exchanges of rows may fill, twice BELOW of them, the main diagonal and the BELOW diagonals under
-   it.
+   The band is kept by columns, HEIGHT numbers each: twice BELOW diagonals above the main diagonal,
+   room for what exchanges of rows fill; the main diagonal; BELOW diagonals under the main diagonal.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

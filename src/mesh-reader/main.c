@@ -1,6 +1,6 @@
 /* bight-mesh-reader CPU-SECONDS MEGABYTES FILE UP: read a mesh file of any format known to assimp
-   and write the mesh to standard output in the form of src/mesh/stream.h. bight runs one process
-   for each mesh file of a world, so that assimp and damaged files cannot harm the dive.
+   and write the mesh to standard output in the form of src/mesh/stream.h. bight runs a process for
+   each mesh file of a world: assimp and damaged files cannot harm the dive.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -5,8 +5,8 @@
    child by O_CLOEXEC.  Signals have their defaults in the child, whatever the parent ignores or
    blocks.
 
-   Reading polls both pipes, so a child that fills standard error never blocks its answer.  Time is
-   the monotonic clock.  A child past its deadline is killed; a child that answered may finish until
+   Reading polls both pipes: a child never blocks its answer by filling standard error.  Time is the
+   monotonic clock.  A child past its deadline is killed; a child that answered may finish until
    then.  The status is collected by waitpid for the child's own number alone; no handler of SIGCHLD
    is set.
 

@@ -1,6 +1,6 @@
 /* A reader program: a separate process for a foreign library that reads a foreign file and answers
-   with a stream.  Here the program is found and started, its answer handed to the function for the
-   stream, and its exit status turned into an error.
+   with a stream.  The functions here find and start the program, hand the answer to the function
+   for the stream, and turn the exit status into an error.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,5 +1,5 @@
-/* The answer of bight-mesh-reader to bight: one mesh.  Writer and reader are one build on one
-   machine, so numbers have the form of the machine.
+/* The answer of bight-mesh-reader to bight: one mesh.  Writer and reader are of one build on one
+   machine: numbers have the form of the machine.
 
    head | vertices: x y z, m, z up, doubles | corners: three of 32 bits | checksum, 64 bits
 

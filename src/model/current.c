@@ -262,7 +262,7 @@ enum
   CHUNK = 64
 };
 
-/* True if the current is the same everywhere but for what stands in it.  */
+/* True if the current is the same everywhere but for lees.  */
 static int
 has_lees_alone (const bt_water *water)
 {

@@ -1,4 +1,4 @@
-/* What a solver that marches through water may ask of a current beside the velocity.
+/* Questions to a current, beside the velocity, by a solver that marches through water.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -16,7 +16,7 @@ int bt__water_is_layered (const bt_water *water);
 /* Return the layer at the height Z.  */
 int bt__water_layer_at (const bt_water *water, double z);
 
-/* Write the heights LOW and HIGH between which LAYER lies, infinite where it does not end.  */
+/* Write the heights LOW and HIGH of the ends of LAYER, infinite where the layer has no end.  */
 void bt__water_layer_bounds (const bt_water *water, int layer, double *low, double *high);
 
 /* Return the layer above LAYER if UP is true, else the one below.  There is one.  */

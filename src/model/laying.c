@@ -1,11 +1,11 @@
 /* Where a dive begins: anchors, vehicles and the lines along which tethers are laid must be clear
    of every obstacle.
 
-   A tether is laid straight from its anchor over its `via' points to its far end, and every
+   A tether is laid straight from the anchor over the `via' points to the far end, and every
    straight piece must be at least the tether's radius away from all obstacles, kinematic obstacles
-   at their places at time 0.  An obstacle may be touched within 1e-9 m: a world written to touch
-   may touch.  The contact solvers rely on this start: from a clear line no step passes through an
-   obstacle.
+   being where they are at time 0.  An obstacle may be touched within 1e-9 m: a world written to
+   touch may touch.  The contact solvers rely on this start: from a clear line no step passes
+   through an obstacle.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

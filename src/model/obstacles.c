@@ -1,10 +1,11 @@
 /* Compile the obstacles of a world.
 
    All standing obstacles become a single scene with a tree over the obstacles; each kinematic
-   obstacle gets a scene of its own in its own frame, a track, and the radius of a ball about its
-   origin.  A bed from a grid or a mesh has an edge and perhaps holes, so a level floor at the depth
-   of the sea, or 1 m below the lowest point of the bed, goes with it; bed and floor count as one
-   obstacle. where[i] is the place of obstacle i in the scene, or -1 - k for kinematic obstacle k.
+   obstacle gets a scene in the obstacle's own frame, a track, and the radius of a ball about the
+   origin of the frame.  A bed from a grid or a mesh has an edge and perhaps holes, so a level floor
+   at the depth of the sea, or 1 m below the lowest point of the bed, goes with it; bed and floor
+   count as one obstacle. where[i] is the place of obstacle i in the scene, or -1 - k for kinematic
+   obstacle k.
 
    Memory borrowed by definitions (points, meshes, grids, tracks) is copied, and the pointers of the
    copied definitions are cleared.  Limits hold for each obstacle and for the sum of triangles.

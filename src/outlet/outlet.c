@@ -34,8 +34,8 @@ static scm_t_port_type *outlet_type;
 
 /* ---- Letters ---- */
 
-/* The letter that begins at TEXT, of N bytes, and how many it takes; none when it is not whole yet;
-   -1 for a byte that is no UTF-8.  */
+/* Decode the LETTER at TEXT, of N bytes, and return the number of bytes taken; 0 for the beginning
+   of a letter; -1 for a byte outside UTF-8.  */
 static int
 decode (const unsigned char *text, size_t n, uint32_t *letter)
 {

@@ -2,13 +2,13 @@
    completions with their meanings.
 
    Guile's own module (ice-9 readline) reads the lines and calls a completer with the word alone.
-   The procedures here tell that completer of the whole line, and hand the completions that are to
-   be listed to a procedure of Scheme, which returns the text to be shown instead.
+   The procedures here tell the completer of the whole line.  Completions to be listed go to a
+   procedure of Scheme, and the text it returns is shown instead.
 
-   A form may have several lines in one buffer of readline.  Readline itself would show their ends
-   as ^J; therefore the rows on the screen come from a procedure of Scheme, the painter, and this
-   file moves the terminal's cursor among the rows.  What Enter and Tab do in the middle of a form
-   is asked of another procedure.
+   A form may have several lines in one buffer of readline.  Readline itself would show the ends of
+   lines as ^J; therefore the rows on the screen come from a procedure of Scheme, the painter, and
+   this file moves the terminal's cursor among the rows.  A second procedure decides about Enter and
+   Tab in the middle of a form.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -83,7 +83,7 @@ draw_rows (SCM texts, int row, int column)
   fflush (rl_outstream);
 }
 
-/* Draw the line with BEHIND what follows the cursor, or false for a line that is done.  */
+/* Draw the line; BEHIND is the text after the cursor, or false for a finished line.  */
 static void
 draw_with (SCM behind)
 {
@@ -286,8 +286,8 @@ prepare_terminal (int meta)
     }
 }
 
-/* Guile's module has keys of its own that make the cursor jump to the partner of a parenthesis, on
-   rows drawn by readline.  */
+/* Guile's module binds keys by which the cursor jumps to the partner of a parenthesis, on rows
+   drawn by readline.  */
 static void
 keep_cursor (void)
 {
@@ -359,8 +359,8 @@ columns_of (SCM c)
 }
 
 /* A quote before a name is no quotation mark, completions come in the order of the completer, and a
-   single Tab lists all.  In the file of the history a line with the time stands before each form,
-   which may so have several lines.  */
+   single Tab lists all.  In the file of the history a line with the time stands before each form: a
+   form may have several lines.  */
 static SCM
 begin_editing (SCM list, SCM paint, SCM press)
 {

@@ -1,9 +1,9 @@
 /* A current from a table: points of a grid in space and time, linear between.
 
    Rows x y z t u v w may come in any order.  The coordinates that occur along each axis, sorted,
-   are the lines of the grid; there must be exactly one row for every crossing of lines, and a
-   missing or double row is an error that names the point.  Coordinates must be below 1e12 in size,
-   speeds at most 20 m/s.
+   are the lines of the grid; every crossing of lines must have exactly one row; the error for a
+   missing or double row names the point.  Coordinates must be below 1e12 in size, speeds at most 20
+   m/s.
 
    A question finds the interval on each of the four lines by bisection and interpolates linearly in
    each direction, a sum over sixteen corners at most.  Beyond the first and the last line the

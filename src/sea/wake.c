@@ -158,8 +158,8 @@ bt_lees_share (const bt_lees *lees, bt_vec3 ambient, bt_vec3 p)
 
 enum
 {
-  TOGETHER = 8, /* places that are looked at together, ... */
-  NEAR = 96     /* ... and blocks of wakes that may leave a lee at any of them, at most */
+  TOGETHER = 8, /* places asked about together */
+  NEAR = 96     /* the most blocks of wakes with a lee at any of these places */
 };
 
 /* Blocks of wakes, each with the number of its leaf.  */
@@ -221,7 +221,7 @@ find_nearby (const bt_lees *lees, bt_vec3 ambient, bt_vec3 c, double r, nearby *
   return 1;
 }
 
-/* The share at P: the factors of share_at that are not 1, multiplied leaf by leaf as there.  */
+/* The share at P: the factors of share_at other than 1, multiplied leaf by leaf as in share_at.  */
 static BT__HOT double
 share_of_nearby (const nearby *found, bt_vec3 ambient, double speed, bt_vec3 p)
 {

@@ -4,9 +4,9 @@
    waves_sum.h.  A regular wave has one component.  An irregular sea has the JONSWAP spectrum
    (Hasselmann et al. 1973) between half and four times the peak frequency, cut into as many parts
    of equal energy as there are components.  Each component has the amplitude of one part, H / 4
-   sqrt (2 / n), a frequency drawn within its part, so that the sea never repeats, and a random
-   phase.  Numbers are drawn by SplitMix64 from the seed of the sea: equal definitions give equal
-   seas.
+   sqrt (2 / n), and a random phase.  The frequency is drawn within the part: a sea of such
+   frequencies never repeats.  Numbers are drawn by SplitMix64 from the seed of the sea: equal
+   definitions give equal seas.
 
    Wave numbers solve omega^2 = g k tanh (k depth).  A wave higher than Miche's limit 0.142 L tanh
    (k depth) breaks and is refused.  The factor of the bottom, e^(-2 k depth), is kept with each

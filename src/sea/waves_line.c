@@ -1,11 +1,11 @@
 /* Waves at the nodes of a line: nodes near each other share a power series.
 
-   Nodes follow each other along a line, so that a run of them lies within a small box in the plane
-   of the waves' way and the vertical.  A run goes on as long as the box about the run is so small
-   that the series about its middle (waves_series.h) fills the accuracy asked of the waves, a share
-   of the speed that all components have together at the surface.  Half of the accuracy is for the
-   terms left out, which the reach of a level (bt__waves_reaches) bounds; a quarter for components
-   left out at a depth, and a quarter for the share of the bottom in those components.
+   Nodes follow each other along a line: a run of nodes lies within a small box in the plane of the
+   waves' way and the vertical.  A run goes on while the series about the middle of the box
+   (waves_series.h) is as accurate as was asked, in shares of the speed of all components together
+   at the surface.  Half of the accuracy is for the terms left out, bounded by the reach of a level
+   (bt__waves_reaches); a quarter for components left out at a depth, and a quarter for the share of
+   the bottom in the components left out.
 
    Alone, a node is asked as bt_waves_motion asks; so are all where no accuracy is given, and where
    the components are no more than go side by side.
@@ -51,8 +51,8 @@ sum_at_surface (const bt_waves *w, int order)
   return sum;
 }
 
-/* So far from its centre a series holds for places of DEPTH or more.  Within k reach <= (N + 1) / 2
-   the terms left out are at most twice the first of them.  */
+/* The distance from the centre within which a series holds for places of DEPTH or more.  Within k
+   reach <= (N + 1) / 2 the terms left out are at most twice the first term left out.  */
 static double
 reach_at (const bt_waves *w, double depth)
 {

@@ -1,7 +1,7 @@
 /* The motion of the water about a place: power series of the sums of waves_sum.h.
 
-   The flow of the components has a potential, so that its velocity, seen as the complex number
-   along + i up over the plane of z + i way, is analytic: of one component of waves_sum.h
+   The flow of the components has a potential.  So the velocity, seen as the complex number along +
+   i up over the plane of z + i way, is analytic: of one component of waves_sum.h
 
      speed (e^(k (z + i way)) E + B e^(-k (z + i way)) E*),  E = e^(i (phase - omega t)).
 

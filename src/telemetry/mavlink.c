@@ -102,7 +102,7 @@ whole_number (const uint8_t *p, int bytes)
   return u;
 }
 
-/* The sum of the cells of a battery, mV, those left out that say they are none.  */
+/* The sum of the cells of a battery, mV, without the cells told to be absent.  */
 static double
 cells (const uint8_t *p)
 {

@@ -60,9 +60,9 @@ typedef struct bt__mavlink_found
   char name[BT__MAVLINK_NAME + 1];    /* of NAMED_VALUE_FLOAT, else empty */
 } bt__mavlink_found;
 
-/* Look at the N BYTES, each frame of which comes after STAMP bytes of time, 0 or
-   BT__MAVLINK_STAMP.  A frame that is not decoded here is believed only if another frame begins
-   behind it, or nothing.  */
+/* Look at the N BYTES, each frame of which comes after STAMP bytes of time, 0 or BT__MAVLINK_STAMP.
+   A frame not decoded here is believed only if a frame begins right behind, or if the bytes end
+   there.  */
 void bt__mavlink_next (const uint8_t *bytes, size_t n, size_t stamp, bt__mavlink_found *found);
 
 #endif

@@ -6,11 +6,11 @@
    off an obstacle that cannot hold the line.
 
    Forecast: bt_tether_foresee moves a predicted vehicle (predicted.h) on by half a second at a time
-   and leads two lines after the vehicle: a copy of the taut string, which tells bends, turns and
-   tautness, and a trailing line from the tether's present shape (aware/trail.h), which tells what a
-   slack line will touch.  The vehicle is stopped at obstacles, and held on a leash about the last
-   bend of the string where friction holds the line: by the length beyond the bend if the tether
-   pulls and lies straight there, or by the length paid out once the string is longer.
+   and leads two lines after the vehicle: a copy of the taut string for bends, turns and tautness,
+   and a trailing line from the tether's present shape (aware/trail.h) for what a slack line will
+   touch.  The vehicle is stopped at obstacles, and held on a leash about the last bend of the
+   string where friction holds the line: by the length beyond the bend if the tether pulls and lies
+   straight there, or by the length paid out once the string is longer.
 
    The forecast knows neither current on the line, nor weight, nor the winch.  At most 64 obstacles
    are told apart.

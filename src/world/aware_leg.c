@@ -1,12 +1,13 @@
 /* Legs of a tour: ways on which a tether goes from one free way to another.
 
-   A tether that lies by the free way of its vehicle's place is wound about nothing.  Fly back along
-   that free way to the anchor and out along the free way of the next place, and the tether lies by
-   that one.  The two ways together can be drawn tight between their ends without changing the
-   homotopy class, and so can the flight: the tight way, pushed out for the hull, is the leg.  A
-   tour of such legs ends unwound whatever the order of its places, and a leg costs no more than the
-   two free ways.  S. Kim, S. Bhattacharya and V. Kumar (2014) plan for a tethered robot by the same
-   classes; here the search over classes is not needed, because one class is kept at every place.
+   A tether that lies by the free way of its vehicle's place is wound about nothing.  After a flight
+   back along the free way to the anchor and out along the free way of the next place, the tether
+   lies by the next place's free way.  The two ways together can be drawn tight between their ends
+   without changing the homotopy class, and so can the flight: the tight way, pushed out for the
+   hull, is the leg.  A tour of such legs ends unwound whatever the order of its places, and a leg
+   costs no more than the two free ways.  S. Kim, S. Bhattacharya and V. Kumar (2014) plan for a
+   tethered robot by the same classes; here no search over classes is needed, because the same class
+   is kept at every place.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,4 +1,4 @@
-/* The life of a dive: allocation, the two state buffers, forks, checkpoints, parts.
+/* The life of a dive: allocation, the two state buffers, forks.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -6,16 +6,11 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "base/hash.h"
 #include "tether/equilibrium.h"
-#include "world/judge.h"
 #include "world/contexts.h"
 #include "world/layout.h"
 #include "world/obstacles.h"
 #include "world/watch.h"
-
-/* The first bytes of a state: layout version 10.  */
-static const uint64_t magic = 0x315448474942000aULL;
 
 double
 bt__state_time (const bt__state *state)
@@ -172,7 +167,7 @@ static void
 lay_out (bt_dive *dive)
 {
   int64_t at = 0;
-  dive->now->magic = magic;
+  dive->now->magic = BT__STATE_MAGIC;
   dive->now->model_id = dive->model->id;
   dive->now->size = dive->size;
   for (int i = 0; i < dive->model->n_tethers; i++)
@@ -377,125 +372,4 @@ bt__dive_become (bt_dive *dive, bt_error *error)
   if (status != BT_OK)
     bt__dive_commit (dive); /* the state before it is the present again */
   return status;
-}
-
-/* ---- Checkpoints ---- */
-
-size_t
-bt_dive_state_size (const bt_dive *dive)
-{
-  return dive->size;
-}
-
-uint64_t
-bt_dive_hash (const bt_dive *dive)
-{
-  return bt__hash_state (dive, dive->now);
-}
-
-void
-bt_dive_save (const bt_dive *dive, void *state)
-{
-  uint64_t checksum = bt_dive_hash (dive); /* the field itself is zero in a living state */
-  memset (state, 0, dive->size);
-  bt__copy_state (dive, state, dive->now);
-  memcpy ((char *)state + offsetof (bt__state, checksum), &checksum, sizeof checksum);
-}
-
-/* False if STATE follows a track unknown to DIVE: a fork may have read the track and saved STATE.
- */
-static int
-knows_tracks (const bt_dive *dive, bt__state *state)
-{
-  for (int i = 0; i < dive->model->n_vehicles; i++)
-    {
-      const bt__vehicle *vehicle = bt__dive_vehicle (dive, state, i);
-      if (vehicle->goal == BT__GOAL_TRACK && vehicle->track >= dive->n_tracks)
-        return 0;
-    }
-  return 1;
-}
-
-static bt_status
-take_whole (bt_dive *dive, const void *state, size_t size, bt_error *error)
-{
-  if (size != dive->size)
-    return bt__fail (error, BT_ERR_STALE, "a state of this dive has %zu bytes, not %zu", dive->size,
-                     size);
-  memcpy (dive->next, state, size);
-  return BT_OK;
-}
-
-bt_status
-bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error)
-{
-  bt__state *next = dive->next;
-  uint64_t checksum;
-  bt_status status;
-  memset (dive->alike, 0, BT__STORES + (size_t)dive->model->n_tethers);
-  if (bt_state_is_packed (state, size))
-    status = bt_state_unpack (state, size, next, dive->size, error);
-  else
-    status = take_whole (dive, state, size, error);
-  if (status != BT_OK)
-    return status;
-  checksum = next->checksum;
-  next->checksum = 0;
-  if (next->magic != magic || next->size != dive->size || !bt__layout_fits (dive, next)
-      || checksum != bt__hash_state (dive, next))
-    return bt__fail (error, BT_ERR_FORMAT, "these bytes are not a state as it was saved");
-  if (next->model_id != dive->model->id)
-    return bt__fail (error, BT_ERR_STALE, "this checkpoint belongs to another dive");
-  status = bt__state_judge (dive, next, error);
-  if (status == BT_OK && !knows_tracks (dive, next))
-    status = bt__fail (error, BT_ERR_STALE, "this checkpoint belongs to another dive");
-  return status == BT_OK ? bt__dive_become (dive, error) : status;
-}
-
-/* ---- Parts ---- */
-
-int
-bt_dive_count (const bt_dive *dive, bt_part part)
-{
-  switch (part)
-    {
-    case BT_PART_SEA:
-      return 1;
-    case BT_PART_VEHICLE:
-      return dive->model->n_vehicles;
-    case BT_PART_TETHER:
-      return dive->model->n_tethers;
-    case BT_PART_OBSTACLE:
-      return dive->model->n_obstacles;
-    }
-  return 0;
-}
-
-const char *
-bt_dive_name (const bt_dive *dive, bt_part part, int i)
-{
-  int n = bt_dive_count (dive, part);
-  int lines = bt_dive_count (dive, BT_PART_TETHER);
-  if (part == BT_PART_OBSTACLE && i >= n + lines)
-    return bt_dive_name (dive, BT_PART_VEHICLE, i - n - lines);
-  if (part == BT_PART_OBSTACLE && i >= n)
-    return bt_dive_name (dive, BT_PART_TETHER, i - n);
-  if (i < 0 || i >= n)
-    return NULL;
-  if (part == BT_PART_SEA)
-    return "sea";
-  if (part == BT_PART_OBSTACLE)
-    return dive->model->obstacles[i].name;
-  return part == BT_PART_VEHICLE ? dive->model->vehicles[i].name : dive->model->tethers[i].name;
-}
-
-bt_status
-bt__check_part (const bt_dive *dive, bt_part part, int i, bt_error *error)
-{
-  static const char *const words[] = { "sea", "vehicle", "tether", "obstacle" };
-  int n = bt_dive_count (dive, part);
-  if (i < 0 || i >= n)
-    return bt__fail (error, BT_ERR_NAME, "there is no %s number %d; this dive has %d", words[part],
-                     i, n);
-  return BT_OK;
 }

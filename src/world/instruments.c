@@ -1,9 +1,9 @@
 /* Readings of a pilot: instruments, transponders along a tether, sonar, camera.
 
-   This file gathers the truth of the present state and hands it to the pure functions of
-   vehicle/instruments.h and vehicle/sonar.h, which add noise and faults.  A parted tether takes
-   telemetry away.  Transponders are points at equal arc lengths with noise from channels of their
-   own, so that two tethers of a vehicle differ.
+   This file gathers the truth of the present state for the pure functions of vehicle/instruments.h
+   and vehicle/sonar.h; these add noise and faults.  A parted tether takes telemetry away.
+   Transponders are points at equal arc lengths with noise from separate channels: two tethers of a
+   vehicle differ.
 
    The camera sees a point of a tether if the point lies within sight and angles, and a ray from bow
    to point meets no obstacle; the tether is looked at every 0.1 m.

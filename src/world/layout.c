@@ -219,7 +219,7 @@ bt__dive_held (const bt_dive *dive, bt__state *state, int i)
 
 /* ---- What is live ---- */
 
-/* The parts of the store of tether I that are in use, in the order in which they lie there.  */
+/* The parts of tether I's store in use, in the order of the store.  */
 static int
 live_ranges (const bt_dive *dive, const bt__state *state, int i, bt__range *out)
 {

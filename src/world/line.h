@@ -29,8 +29,8 @@ bt__line bt__line_tail (const bt__line *line);
 /* Arc length from the anchor to the far end, or to where the line has parted, m.  */
 double bt__line_length (const bt__line *line);
 
-/* The paid-out length, m; for a moving line the length that has passed the winch so far, which
-   follows the ordered length with a lag.  True if no lag is left.  */
+/* The paid-out length, m; for a moving line the length past the winch so far, behind the ordered
+   length by a lag.  True if no lag is left.  */
 double bt__line_out (const bt__line *line);
 int bt__line_has_followed (const bt__line *line);
 

@@ -34,12 +34,12 @@ bt__mover_state *bt__dive_movers (const bt_dive *dive, bt__state *state);
 /* Coulomb's coefficient of each obstacle; NaN: the tether's own.  */
 double *bt__dive_roughness (const bt_dive *dive, bt__state *state);
 
-/* What a tether may touch: the obstacles by their numbers, then the tethers, itself among them,
-   then the hulls of vehicles.  */
+/* How many objects a tether may touch: the obstacles by number, then all tethers, then the hulls of
+   vehicles.  */
 int bt__objects (const bt_model *model);
 
-/* Where OBSTACLE stands among the bytes below: those in the scene by their place there, then those
-   carried, then tethers.  */
+/* The place of OBSTACLE among the bytes below: obstacles in the scene by their place in the scene,
+   then carried obstacles, then tethers.  */
 int bt__obstacle_slot (const bt_model *model, int obstacle);
 
 /* True if tether I passes through tether J, which may be I; through the hull of VEHICLE.  */

@@ -1,8 +1,8 @@
 /* A predicted vehicle, moved ahead without tether and obstacles (predicted.h).
 
-   A kinematic vehicle goes to its goal at its speed, or by its sticks: the velocity turns with the
-   heading, half the turn before the way and half after, so a circle stays a circle for any step
-   (the midpoint rule).  A vehicle with mass is stepped as in the dive (vehicle/body.h), by its
+   A kinematic vehicle goes to the goal at the ordered speed, or by the sticks: the velocity turns
+   with the heading, half the turn before the way and half after, so a circle stays a circle for any
+   step (the midpoint rule).  A vehicle with mass is stepped as in the dive (vehicle/body.h), by its
    thrusters, its autopilot and the water of the present time, in steps of at most 0.05 s.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */

@@ -158,9 +158,12 @@ bt__tether_form_of (const bt__tether *tether)
              : BT__TETHER_SHAPE;
 }
 
+/* The first bytes of a state: layout version 10.  */
+#define BT__STATE_MAGIC 0x315448474942000aULL
+
 typedef struct bt__state
 {
-  uint64_t magic;
+  uint64_t magic; /* BT__STATE_MAGIC */
   uint64_t model_id;
   uint64_t size;     /* bytes of the whole block */
   uint64_t checksum; /* of the block with this field zero; set in saved copies only */

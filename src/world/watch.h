@@ -26,8 +26,8 @@ bt__is_taut (double length, double out)
   return length >= (1 - BT_TAUT_SLACK) * out;
 }
 
-/* The world as charted for a tether.  A tree of free ways belongs to one anchor and one reach, a
-   graph with its words to one gap.  */
+/* The world as charted for a tether.  A tree of free ways belongs to an anchor and a reach, a graph
+   with words to a gap.  */
 typedef struct bt__chart
 {
   atomic_int references;

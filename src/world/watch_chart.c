@@ -4,7 +4,7 @@
 
    - Ways: a tree of free ways from the anchor, over about 50 000 cells of a box about the enabled
    obstacles within reach (aware/free.c).  The reach is the next power of two above the greatest
-   paid-out length, so that paying out seldom means another tree.
+   paid-out length: paying out seldom means a new tree.
 
    - Frame: the graph of members (aware/graph.c), of the whole world; gaps below 1 cm or the
    tether's diameter are closed.
@@ -12,10 +12,10 @@
    - Words: shadows of the graph (aware/shadow.c); if the graph leaves an obstacle undescribed, such
    as a mesh, voxels of the box about the anchor (aware/voxel.c).
 
-   A chart is valid for one set of switches, told by a version that is a hash of the switches, for
-   one gap or reach, and for one root.  The root is the anchor; an anchor that swings on waves or on
-   a vehicle takes a lattice point in sight of the anchor instead, and the state keeps the point
-   until the anchor is 4 m away, so that equal states have equal charts.
+   A chart is valid for a set of switches, told by a hash of the switches, for a gap or reach, and
+   for a root.  The root is the anchor; for an anchor on waves or on a vehicle the root is a lattice
+   point in sight of the anchor.  The state keeps the point until the anchor is 4 m away: equal
+   states have equal charts.
 
    Charts are immutable once made and counted by reference: a fork shares them, and only a tree
    still growing is not shared.

@@ -24,7 +24,7 @@
                           (and (memq name (language-names))
                                (not (string-suffix? "!" (symbol->string name)))))
                         (module-map (lambda (name variable) name) (resolve-interface module))))
-              '((bight dive query) (bight dive contact) (bight dive aware) (bight dive instruments) (bight dive foresight))))
+              '((bight dive query) (bight dive contact) (bight dive aware) (bight dive figures) (bight dive instruments) (bight dive foresight))))
 
 (define (says? text . words)
   (any (lambda (word) (string-contains text word)) words))

@@ -83,4 +83,4 @@
                     (append-map (lambda (module)
                                   (filter (lambda (name) (memq name (language-names)))
                                           (module-map (lambda (name variable) name) (resolve-interface module))))
-                                '((bight dive query) (bight dive contact) (bight dive aware) (bight dive instruments))))))
+                                '((bight dive query) (bight dive contact) (bight dive aware) (bight dive figures) (bight dive instruments))))))

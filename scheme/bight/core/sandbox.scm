@@ -159,7 +159,8 @@
     ((bight dive time))
     ((bight lesson) run-lesson lesson-list lesson-code lesson-location collect-lessons take-lesson
      scripted-guide pilot-named register-lesson! unknown-clause malformed-clause malformed-lesson)
-    ((bight dive aware) held-vehicle unwind-said members-of)
+    ((bight dive aware) unwind-said members-of)
+    ((bight dive figures) held-vehicle refuse-parted)
     ((bight dive homing) untold-fork)
     ((bight dive tour))
     ((bight dive instruments))

@@ -20,7 +20,7 @@
     (ask "ask of the vehicle, the sea and the tether" (dive query) (dive instruments))
     (touch "contact, wear and clearance" (dive contact))
     (aware "what a tether is doing: caught, fouled, the way home"
-           (dive aware) (dive foresight) (dive in-words) (dive probe) (cockpit coach))
+           (dive aware) (dive figures) (dive foresight) (dive in-words) (dive probe) (cockpit coach))
     (belief "a tether as it may be: what is uncertain, and what is learnt" belief (belief answer) (belief advise) (belief keeping))
     (moments "time as a value: checkpoints, forks, files"
              (dive checkpoint) (dive saving) (dive recording) (dive replay) (dive flight) (dive frames) (dive export)

@@ -11,6 +11,7 @@
   #:use-module ((bight core programs) #:select (check-writable write-bytes))
   #:use-module (bight core record)
   #:use-module (bight study risk)
+  #:use-module (bight study sweep-plan)
   #:use-module (bight study sweep-result)
   #:use-module (bight view plot)
   #:use-module (srfi srfi-1)

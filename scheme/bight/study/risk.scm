@@ -12,6 +12,7 @@
   #:use-module ((bight core markup) #:select (csv-line))
   #:use-module (bight core record)
   #:use-module (bight core verb)
+  #:use-module (bight study sweep-plan)
   #:use-module (bight study sweep-result)
   #:use-module (srfi srfi-1)
   #:export (wilson-interval

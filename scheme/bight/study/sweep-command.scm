@@ -11,6 +11,7 @@
   #:use-module (bight study risk-map)
   #:use-module (bight study sweep)
   #:use-module (bight study sweep-file)
+  #:use-module (bight study sweep-plan)
   #:use-module (bight study sweep-result)
   #:use-module (bight study sweep-slurm)
   #:use-module ((ice-9 threads) #:select (current-processor-count))

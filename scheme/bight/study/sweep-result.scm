@@ -5,9 +5,9 @@
 ;;;           column for each variable and each measure
 ;;;   legs    key (of the case), leg (1, 2, ...), name, x, y, z, and a column for each measure
 ;;;
-;;; True and false are 1 and 0; which measures are true or false, numbers or words, stands in `kinds'.  A case is in the table when it has an outcome, and then in one
-;;; transaction with its legs: what is not there is to be flown.  As in: select U, avg(fouled) from cases
-;;; where status = 'done' group by U;
+;;; True and false are 1 and 0; which measures are true or false, numbers or words, stands in `kinds'.  A case is
+;;; in the table when it has an outcome, and then in one transaction with its legs: what is not there is to be
+;;; flown.  As in: select U, avg(fouled) from cases where status = 'done' group by U;
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -16,21 +16,14 @@
   #:use-module ((bight core datum) #:select (text->datum))
   #:use-module (bight core errors)
   #:use-module ((bight core programs) #:select (check-writable))
-  #:use-module (bight core record)
   #:use-module (bight core sqlite)
   #:use-module (bight study sweep-design)
+  #:use-module (bight study sweep-plan)
   #:use-module (srfi srfi-1)
-  #:export (make-plan
-            plan?
-            plan-name
-            plan-facts
-            plan-fact
-            plan-kind
-            open-result
+  #:export (open-result
             open-found
             close-result!
             found-plan
-            check-same
             known-keys
             add-case!
             number-cases!
@@ -44,52 +37,6 @@
 
 (define kind #x42474853)                ; "BGHS"
 (define version 1)
-
-
-;;; What a result says of its study.
-
-(define-record <plan>
-  (make-plan facts)
-  plan?
-  (facts plan-facts))                   ; an alist of symbols and data
-
-(define (plan-fact plan name)
-  "Return what PLAN says about NAME: name, sentence, text, world, version, variables, spread, measures,
-legs or cases."
-  (assq-ref (plan-facts plan) name))
-
-(define (plan-kind plan name)
-  "Return what the values of the measure NAME of PLAN were so far, boolean, number or text, or #f when that is
-not known: no case was flown, or by an older bight."
-  (assq-ref (or (plan-fact plan 'kinds) '()) name))
-
-(define (plan-name plan)
-  "Return the name of the study of PLAN."
-  (plan-fact plan 'name))
-
-(define identity                        ; what two sweeps must share, and what it is called
-  '((name . "a study of another name")
-    (text . "another text of the study")
-    (world . "another world")
-    (version . "another version of bight")
-    (variables . "other variables")
-    (measures . "other measures")
-    (legs . "other legs")))
-
-(define (difference ours theirs)
-  ;; What sets the plans apart, a string, or #f.
-  (any (lambda (entry)
-         (and (not (equal? (plan-fact ours (car entry)) (plan-fact theirs (car entry))))
-              (cdr entry)))
-       identity))
-
-(define (check-same file ours theirs)
-  "Raise a &bight-error unless the result FILE, of the plan THEIRS, can hold cases of the plan OURS."
-  (let ((other (difference ours theirs)))
-    (when other
-      (bight-raise 'stale 'sweep "~s is the result of ~a (~a, bight ~a), and is not mixed: \
-name another result with -o, or move that one away" file other (plan-name theirs)
-                   (plan-fact theirs 'version)))))
 
 
 ;;; Tables.

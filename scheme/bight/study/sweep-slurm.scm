@@ -17,6 +17,7 @@
   #:use-module (bight study sweep)
   #:use-module (bight study sweep-design)
   #:use-module (bight study sweep-file)
+  #:use-module (bight study sweep-plan)
   #:use-module (bight study sweep-result)
   #:use-module (bight study sweep-watch)
   #:use-module ((ice-9 textual-ports) #:select (get-string-all))

@@ -15,6 +15,7 @@
   #:use-module (bight study sweep-design)
   #:use-module (bight study sweep-file)
   #:use-module (bight study sweep-flight)
+  #:use-module (bight study sweep-plan)
   #:use-module (bight study sweep-result)
   #:use-module (bight study sweep-watch)
   #:use-module (srfi srfi-1)
