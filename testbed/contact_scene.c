@@ -134,8 +134,9 @@ reef_bottom (reef *r, dice *d, double z, double side, int n, double rough)
   return done;
 }
 
-int
-reef_tube (reef *r, bt_vec3 foot, double height, double radius, int round, int up)
+/* Add a standing tube of triangles.  */
+static int
+add_tube (reef *r, bt_vec3 foot, double height, double radius, int round, int up)
 {
   int vertices = round * (up + 1), triangles = 2 * round * up;
   bt_vec3 *v = malloc ((size_t)vertices * sizeof *v);
@@ -210,7 +211,7 @@ reef_jacket (reef *r, uint64_t seed)
           = { dice_between (&d, 0.3, 1), dice_between (&d, 0.3, 1), dice_between (&d, 0.3, 1) };
       reef_box (r, at, half, dice_between (&d, 0, 3));
     }
-  return reef_tube (r, bt__vec (1.5, 1, -29), 27, 0.7, 48, 30)
+  return add_tube (r, bt__vec (1.5, 1, -29), 27, 0.7, 48, 30)
          && reef_bottom (r, &d, -30, 0.6, 60, 0.15) && reef_raise (r);
 }
 

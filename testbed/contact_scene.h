@@ -42,8 +42,6 @@ void reef_wire (reef *r, bt_vec3 a, bt_vec3 b, double radius); /* a capsule */
 void reef_plane (reef *r, double z);
 /* A rough bottom at Z about the origin: N by N squares of SIDE metres.  */
 int reef_bottom (reef *r, dice *d, double z, double side, int n, double rough);
-/* A standing tube of triangles.  */
-int reef_tube (reef *r, bt_vec3 foot, double height, double radius, int round, int up);
 /* Any triangles; any grid of heights.  */
 int reef_soup (reef *r, const bt__soup *soup);
 int reef_grid (reef *r, const bt__grid *grid);

@@ -20,6 +20,7 @@ within ()
 within function-95 -le 25 'nineteen of twenty functions have at most 25 lines'
 within function-longest -le 55 'and none has more than 55'
 within comment-share -ge 9.1 'the code is explained'
+within public-functions-commented -ge 99 'public functions have a comment'
 within shared-static-names -le 4.5 'few static functions share a name with one of another file'
 within static-names-twice-in-a-room -le 0 'hardly any with one of the same room'
 within pointing-words -le 4.9 'long sentences name what they speak of'

@@ -154,6 +154,29 @@
     (let ((at (string-contains text word from)))
       (if at (loop (+ at 1) (+ n 1)) n))))
 
+;; Words of the field, by which an engineer looks for a mechanism.
+(define field-words '("constraint" "manifold" "broad phase" "time of impact" "closest point" "warm start"))
+
+;;; Public functions that a comment speaks of.
+
+(define public-declaration (make-regexp "^[a-z][^;]*[ *]bt_[a-z0-9_]+ \\(" regexp/extended))
+
+(define public-functions
+  ;; (COMMENTED? . LINE) of each function declared in src/bight: commented if a comment stands before it in the
+  ;; paragraph of its declaration.
+  (append-map
+   (lambda (file)
+     (append-map
+      (lambda (paragraph)
+        (filter-map (lambda (line)
+                      (and (regexp-exec public-declaration line)
+                           (let ((comment (string-contains paragraph "/*")))
+                             (cons (and comment (< comment (string-contains paragraph line))) line))))
+                    (string-split paragraph #\newline)))
+      (map string-trim-both (string-split (regexp-substitute/global #f "\n\n" (text-of file) 'pre "\f" 'post)
+                                          #\page))))
+   (files-below "src/bight" ".h")))
+
 ;;; Internal functions that no other file of src names: dead, called by tests alone, or to be static.
 
 (define (without-comments text)
@@ -286,6 +309,8 @@
     (function-longest . ,(last lengths))
     (comment-share . ,(percent (total (lambda (entry) (total lines-in (comments (cdr entry)))) sources)
                                (total (lambda (entry) (string-count (cdr entry) #\newline)) sources)))
+    (public-functions . ,(length public-functions))
+    (public-functions-commented . ,(percent (count car public-functions) (length public-functions)))
     (shared-static-names . ,(percent (length (shared-names in-two-files?))
                                      (hash-count (const #t) static-names)))
     (static-names-twice-in-a-room . ,(length (shared-names twice-in-a-room?)))
@@ -320,6 +345,10 @@
             rooms))
 (print-rooms)
 
+(for-each (lambda (word)
+            (format #t "word ~a: ~a~%" word
+                    (total (lambda (entry) (occurrences word (string-downcase (cdr entry)))) texts)))
+          field-words)
 (format #t "friction ~a~%" (string-join (map second to-friction)))
 (for-each (lambda (f) (format #t "lonely ~a ~a~%" (second f) (basename (first f)))) lonely-functions)
 (for-each (lambda (row) (format #t "lines ~a: ~a told, ~a counted~%" (first row) (second row) (third row)))

@@ -90,6 +90,7 @@ typedef struct bt_class
   int32_t object[BT_CLASS_MAX]; /* of each letter the obstacle it goes round, -1: not known */
 } bt_class;
 
+/* Write the homotopy class of tether I to *OUT.  */
 bt_status bt_tether_class (const bt_dive *dive, int i, bt_class *out, bt_error *error);
 
 /* True if A and B are equal and neither is lost.  */
@@ -243,6 +244,7 @@ typedef struct bt_follow
   int slipped; /* true: it slid off something that could not hold it */
 } bt_follow;
 
+/* Lead the string of tether I on to the present state, and write what it is like to *OUT.  */
 bt_status bt_tether_follow (const bt_dive *dive, int i, bt_follow *out, bt_error *error);
 
 BT_END_DECLS

@@ -96,13 +96,12 @@ bt_status bt_dive_add_track (bt_dive *dive, const double *rows, int n, int *inde
 /* Return how many numbers the I-th track of DIVE has, and where in *ROWS; 0 when there is none.  */
 int bt_dive_track (const bt_dive *dive, int i, const double **rows);
 
-size_t bt_dive_state_size (const bt_dive *dive); /* bytes */
+/* Return the bytes of a state of DIVE.  */
+size_t bt_dive_state_size (const bt_dive *dive);
 /* Copy the whole state to STATE, bt_dive_state_size bytes.  */
 void bt_dive_save (const bt_dive *dive, void *state);
 /* Write the same to PACKED as bt_state_pack packs it (below), in words of eight bytes, and return
-   the number of bytes written, at most bt_dive_keep_size: room that is not in use is not gone
-   through.
- */
+   the number of bytes written, at most bt_dive_keep_size: unused room is not gone through.  */
 size_t bt_dive_keep_size (const bt_dive *dive);
 size_t bt_dive_keep (const bt_dive *dive, void *packed);
 /* Return to STATE of SIZE bytes, packed or not, of this dive or a fork, or read from a file by any

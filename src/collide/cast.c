@@ -18,8 +18,8 @@
    The planes of a part that turns do not stand still: only the first bound serves, with the turn's
    speed at the scene's radius added to the speed of the segment.
 
-   Result: a share of the move for which the segment stays the core radius away from the part, 1 for
-   all of it.  Rounding is covered by stopping at 1e-4 of the core radius.
+   Result: a lower bound of the time of impact, as a share of the move: so far the segment stays the
+   core radius away from the part; 1 for the whole move.  Rounding is covered by stopping at 1e-4 of the core radius.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -19,8 +19,8 @@ typedef struct bt__cast
   double core;
 } bt__cast;
 
-/* Return a share of the move that keeps the axis of the link CORE away from the part, provided that
-   the start keeps this distance; 1 for the whole move.  */
+/* Return a lower bound of the time of impact, as a share of the move: so far the axis of the link
+   stays CORE away from the part, if it does at the start; 1 for the whole move.  */
 double bt__cast_run (const bt__cast *cast, bt__count *count);
 
 #endif
