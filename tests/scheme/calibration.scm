@@ -2,7 +2,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight belief regression) (bight study sweep-design) ((srfi srfi-1) #:select (iota fold count append-map filter-map)) (srfi srfi-4))
+(use-modules (bight belief cloud) (bight belief regression) (bight study sweep-design) ((srfi srfi-1) #:select (iota fold count append-map filter-map)) (srfi srfi-4))
 
 (define (normals name)
   ;; A thunk that returns one independent standard normal number after another.
@@ -108,3 +108,22 @@ ranks are even, and those from 2 to 30 of 32 hold 29 in 33 truths."
                    (/ (count identity told) (length told))))))
     (expect (held 0.9) is (about 0.9 #:within 0.016))
     (expect (held 0.5) is (about 0.5 #:within 0.03))))
+
+
+;;; Courses: what two members with equal values do among obstacles.
+
+(define weigh-by-course! (@@ (bight belief condition) weigh-by-course!))
+
+(define-scenario courses-are-weighed
+  "Of 32 equal members 12 foretold a pull of 5 N and were right, within 1 N: nearly all weight is theirs.  Were it two,
+they are not believed so far that fewer than a third of the members count."
+  (define (share-of-the-right right)
+    (let* ((members (map (lambda (k) (make-member #f #f 0.0 0.0 #f #f 0.0)) (iota 32)))
+           (reading (make-reading 1 0 'winch-tension 5.0 1.0 '(line) (f64vector 5.0)
+                                  (map (lambda (k) (f64vector (if (< k right) 5.0 0.0))) (iota 32)) #f))
+           (belief (make-belief-record #f '() '() 1 'smoother members 1 0 '() #f '() #f (list reading) '() '() 1)))
+      (weigh-by-course! belief)
+      (let ((shares (f64vector->list (weights belief))))
+        (cons (apply + (list-head shares right)) (effective-number (weights belief))))))
+  (expect (car (share-of-the-right 12)) is (above 0.99))
+  (expect (share-of-the-right 2) is (lambda (both) (and (< 0.3 (car both) 0.5) (> (cdr both) 11)))))

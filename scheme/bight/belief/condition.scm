@@ -7,10 +7,12 @@
 ;;; `smoother': an ensemble Kalman smoother on the parameters, (bight belief regression), after which the members
 ;;; are flown again, so that each one's tether is what its own water makes of it.  Much evidence is taken in
 ;;; stages, each as much as leaves a share of the members effective (Iglesias and Yang, Inverse Problems 37,
-;;; 2021), and the readings are predicted anew after each.  A part of the evidence is kept for weights, which tell
-;;; apart what no linear model can, a line that caught and one that slipped off (Frei and Kuensch, Biometrika 100,
-;;; 2013): little of it, since what a line does among obstacles is as good as chance to the last newton, and weights
-;;; that go by chance leave few members.
+;;; 2021), and the readings are predicted anew after each.  Then weights tell apart what no linear model can, of two
+;;; members with equal values a line that caught and one that slipped off.  The linear model holds that for noise, so
+;;; nothing of the evidence has been spent on it.  The weights are likelihoods to a power below 1, as small as leaves
+;;; a share of the members effective, since what a line does among obstacles is as good as chance to the last newton, and
+;;; the members are too few for one that slips as the true one does (power likelihoods: Friel and Pettitt, Journal of the
+;;; Royal Statistical Society B 70, 2008).
 ;;;
 ;;; `particles': resampling by forks, in proportion to the weights (systematic: Kitagawa, Journal of
 ;;; Computational and Graphical Statistics 5, 1996), and a jitter of the latent numbers that keeps their mean and
@@ -33,8 +35,7 @@
 (define enough 0.25)                    ; of the members, effective: below, a belief is mended
 (define stage-leaves 0.4)               ; of the members, effective, after a stage of the smoother
 (define most-stages 6)
-(define kept-for-weights 0.1)           ; of the evidence, before the smoother and after
-(define weights-leave 0.8)              ; of the members, effective, after these weights
+(define weights-leave 0.35)             ; of the members, effective, after the weights that follow the smoother
 (define jitter 0.2)                     ; of the deviation of the latent numbers
 (define impossible 5.0)                 ; deviations from what any member foretold
 (define growth 0.15)                    ; of the way flown that is flown again, before it is once more
@@ -291,15 +292,14 @@ explain it: then the belief is as it was, but for its doubts."
     (replace-lost! belief)
     share))
 
-(define (choose-by-weights! belief readings)
-  ;; The part of the evidence of READINGS that is kept for weights, or as much of that as leaves a share of the
-  ;; members effective, weighs them: of two members with equal values one may have caught and one slipped off.
-  (let* ((logs (map (lambda (i) (sum-of (lambda (r) (log-chance r (list-ref (reading-predictions r) i))) readings))
+(define (weigh-by-course! belief)
+  ;; Weigh the members by all numbers that were read since they were flown from the origin.
+  (let* ((readings (filter reading-scalars (belief-readings belief)))
+         (logs (map (lambda (i) (sum-of (lambda (r) (log-chance r (list-ref (reading-predictions r) i))) readings))
                     (iota (length (belief-members belief)))))
-         (power (stage-share logs kept-for-weights weights-leave))
+         (power (stage-share logs 1.0 weights-leave))
          (most (fold max -inf.0 logs)))
-    (for-each (lambda (member log)
-                (set-member-event-weight! member (+ (* power (- log most)) (member-event-weight member))))
+    (for-each (lambda (member log) (set-member-weight! member (* power (- log most))))
               (belief-members belief) logs)))
 
 (define (sum-of f items) (fold (lambda (item sum) (+ sum (f item))) 0.0 items))
@@ -310,10 +310,10 @@ explain it: then the belief is as it was, but for its doubts."
 (define (smooth! belief)
   ;; Return how many stages it took.
   (let ((pending (pending-numbers belief)))
-    (let loop ((left (if (null? pending) 0.0 (- 1 (* 2 kept-for-weights)))) (stage 0))
+    (let loop ((left (if (null? pending) 0.0 1.0)) (stage 0))
       (if (< left 1e-9)
           (begin
-            (unless (null? pending) (choose-by-weights! belief pending))
+            (weigh-by-course! belief)
             (for-each (lambda (r) (set-reading-done! r #t)) pending)
             stage)
           (loop (- left (take-stage! belief pending left (= stage (- most-stages 1)))) (+ stage 1))))))
@@ -351,9 +351,8 @@ explain it: then the belief is as it was, but for its doubts."
   (shares-of (map member-event-weight (living belief)) 1.0))
 
 (define (mend-by-smoother! belief)
-  ;; What was seen to happen, and a part of the numbers, choose among the members first; numbers then move them.
+  ;; What was seen to happen chooses among the members first; numbers then move them.
   (replace-lost! belief)
-  (choose-by-weights! belief (pending-numbers belief))
   (let* ((n (length (belief-members belief)))
          (shares (event-shares belief)))
     (when (< (effective-number shares) (* 0.999 n))
@@ -361,7 +360,15 @@ explain it: then the belief is as it was, but for its doubts."
     (forget-weights! belief)
     (note-round! belief (smooth! belief))
     (when (old? belief)
+      (keep-weights! belief)
       (forget-past! belief))))
+
+(define (keep-weights! belief)
+  ;; What the numbers told of each member's course is kept as what was seen to happen: its course is not flown again.
+  (for-each (lambda (m)
+              (set-member-event-weight! m (+ (member-weight m) (member-event-weight m)))
+              (set-member-weight! m 0.0))
+            (belief-members belief)))
 
 (define (mend! belief)
   "Move the members of BELIEF to where what it knows lies, so that many bear its weight.  Raise diverged if none is left."
