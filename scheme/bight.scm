@@ -77,8 +77,9 @@
     ((bight dive figures) contact-length seabed-length bend-ratio snap-count thrust-share)
     ((bight dive homing) fly-home! home-trial unwind-preview)
     ((bight dive tour)
-     plan-tour fly-tour! tour-trial
-     tour? tour-names tour-places tour-way tour-length tour-line-needed tour-left-out)
+     tour? tour-names tour-places tour-way tour-length tour-line-needed tour-left-out tour-risk)
+    ((bight dive tour-flight) fly-tour! tour-trial)
+    ((bight belief tour) plan-tour)
     ((bight dive foresight)
      foresee foresight? foresight-kind foresight-object foresight-seconds foresight-confidence
      foresight-turns)

@@ -13,7 +13,7 @@
   #:use-module (bight core verb)
   #:use-module (bight dive)
   #:use-module ((bight dive past) #:select (entry-serial))
-  #:use-module ((bight dive query) #:select (tether-points))
+  #:use-module ((bight dive query) #:select (point-at tether-length tether-points type:arc-lengths))
   #:use-module (bight engine)
   #:use-module ((bight study sweep-design) #:select (draw-names))
   #:use-module (srfi srfi-1)
@@ -23,6 +23,8 @@
             observe! mend-belief! belief-doubts effective-size
             belief-values belief-about belief-hash fork-belief belief-threads!
             tether-tube tube-holds?
+            ;; For (bight belief tour).
+            (ready . ready-belief)
             ;; What the macros expand to.
             clauses->belief!)
   #:re-export (current-belief))
@@ -292,20 +294,33 @@ of it is the same to the last bit.  Return N."
   (f64vector (array-ref polyline i 0) (array-ref polyline i 1) (array-ref polyline i 2)))
 
 (define-verb (tether-tube #:key (belief maybe-belief #f) (share (between 0.01 0.99) 0.9) (n station-count 25)
-                          (tether name #f))
-  "Return the tube that holds the TETHER, by its name where there are several, of BELIEF with probability SHARE at each of N places, equally spaced in
-arc length from the anchor: a list of ellipsoids, each a list of its centre and its three half axes."
-  (map (lambda (e) (cons (ellipsoid-mean e) (ellipsoid-axes e))) (tube-of 'tether-tube belief share n tether)))
+                          (at arc-lengths #f) (noise non-negative 0.0) (tether name #f))
+  "Return the tube that holds the TETHER, by its name where there are several, of BELIEF with probability SHARE at each
+of N places, equally spaced in arc length from the anchor, or of the arc lengths AT: a list of ellipsoids, each a list of
+its centre and its three half axes.  With NOISE, m, it holds what is seen of the tether with such an error in each
+direction."
+  (map (lambda (e) (cons (ellipsoid-mean e) (ellipsoid-axes e))) (tube-of 'tether-tube belief share (or at n) noise tether)))
 
-(define (tube-of proc belief share n tether)
+(define (points-of tether places)
+  ;; A list: at so many PLACES, equally spaced, or at each of a list of arc lengths.
+  (if (list? places)
+      (map (lambda (s) (point-at tether (min s (tether-length tether)))) places)
+      (let ((line (tether-points tether places)))
+        (map (lambda (i) (row line i)) (iota places)))))
+
+(define (tube-of proc belief share places noise tether)
   (let* ((belief (ready proc belief)) (tether (tether-of proc belief tether))
-         (lines (answer-values (ask-members belief (lambda () (list (tether-points tether n)))))))
-    (map (lambda (i) (ellipsoid (answer-of belief (map (lambda (line) (row (car line) i)) lines)) share))
-         (iota n))))
+         (lines (map car (answer-values (ask-members belief (lambda () (list (points-of tether places))))))))
+    (apply map (lambda points (ellipsoid (answer-of belief points) share noise)) lines)))
 
-(define-verb (tube-holds? (points points) #:key (belief maybe-belief #f) (share (between 0.01 0.99) 0.9) (tether name #f))
-  "Return for each of POINTS, equally spaced along a tether from the anchor on, whether the tube of the TETHER of
-BELIEF for SHARE holds it: a list."
-  (map (lambda (e i) (ellipsoid-holds? e (row points i)))
-       (tube-of 'tube-holds? belief share (array-length points) tether)
-       (iota (array-length points))))
+(define-verb (tube-holds? (points points) #:key (belief maybe-belief #f) (share (between 0.01 0.99) 0.9)
+                          (at arc-lengths #f) (noise non-negative 0.0) (tether name #f))
+  "Return for each of POINTS, equally spaced along a tether from the anchor on, or at the arc lengths AT, whether the
+tube of the TETHER of BELIEF for SHARE holds it, a list.  With NOISE the points were seen with such an error, m, in each
+direction."
+  (let ((n (array-length points)))
+    (when (and at (not (= n (length at))))
+      (bight-raise 'domain 'tube-holds? "~a arc lengths were given for ~a points" (length at) n))
+    (map (lambda (e i) (ellipsoid-holds? e (row points i)))
+         (tube-of 'tube-holds? belief share (or at n) noise tether)
+         (iota n))))

@@ -3,7 +3,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules ((bight bench tours) #:select (run-tours)) ((bight dive tour-order) #:select (best-order)) ((srfi srfi-1) #:renamer (lambda (name) (if (eq? name (quote every)) (quote every1) name)))
+(use-modules ((bight belief cloud) #:select (belief-members in-member)) ((bight bench tours) #:select (run-tours)) ((bight dive tour-order) #:select (best-order)) ((srfi srfi-1) #:renamer (lambda (name) (if (eq? name (quote every)) (quote every1) name)))
              (srfi srfi-11))
 
 (define (structures)
@@ -186,6 +186,54 @@ tether parts ends with the vehicle not home."
     (expect (length (tour-left-out tour)) => 1)))
 
 
+;;; By a belief.
+
+(define-scenario a-tour-within-a-risk
+  "In a cage, with the current known to 0.3 m/s, one tether of eight is fouled on the shortest tour of two places.  Within a
+risk of 5 % they are visited the other way round, on a longer tour that fouled none; dive and belief stay as they are."
+  (enter! ((@@ (bight bench tours) flown-world) (find-world 'cage) 10))
+  (with-belief (make-belief (current-dive) '((current (error 0.3)) (line (cdn (uniform 1 1.6)))) #:members 8)
+    (let* ((places '(cage/back-3 cage/roof-7)) (hash (state-hash)) (belief-before (belief-hash)) (shortest (plan-tour places))
+           (held (plan-tour places #:risk 0.05 #:speed 0.5)))
+      (expect (tour-names shortest) => '(cage/back-3 cage/roof-7))
+      (expect (tour-risk shortest) => #f)
+      (expect (tour-names held) => '(cage/roof-7 cage/back-3))
+      (expect (first (tour-risk held)) => 0.0)
+      (expect (third (tour-risk held)) is (between 0.3 0.4)) ; none of eight
+      (expect (tour-length held) is (above (tour-length shortest)))
+      (expect (list (state-hash) (belief-hash)) => (list hash belief-before)))))
+
+(define (pile-and-short-line)
+  (world (sea (depth 15) (current 0.1 90))
+         (cylinder (named p1) (from 0 0 1) (to 0 0 -15) (radius 0.45))
+         (rov (named minnow) (at 6 -6 -5))
+         (tether (named line) (type fathom) (wet-weight 0) (from -6 -8 -3) (to minnow) (length 22) (model dynamic) (nodes 8))))
+
+(define-scenario a-risk-crossed
+  "A limit of risk asks for a belief of the present dive.  Where six of its eight tethers have parted, all places are left
+out, and it is said why; a limit of one takes what there is, and tells the risk of it."
+  (enter! (pile-and-short-line))
+  (let ((places '((3 4 -5) (8 1 -6))))
+    (current-belief #f)
+    (expect (plan-tour places #:risk 0.1) raises def)
+    (expect (plan-tour places #:risk 2) raises domain)
+    (with-belief (make-belief (current-dive) '((current (error 0.05))) #:members 8)
+      (expect (what-if (plan-tour places #:risk 0.1)) raises domain)
+      (expect (tour-names (plan-tour places #:risk 0.1)) => (tour-names (plan-tour places)))
+      (let ((tethers (belief-members (current-belief))))
+        ;; Six of eight tethers part on the way.
+        (for-each (lambda (m) (in-member m (lambda () (cut-tether! 'line #:at 5)))) (list-head tethers 6))
+        (let ((held (plan-tour places #:risk 0.5)) (taken (plan-tour places #:risk 1)))
+          (expect (tour-names held) => '())
+          (expect (map cdr (tour-left-out held)) => '("with it P(fouled) is above 50 %" "with it P(fouled) is above 50 %"))
+          (expect (first (tour-risk held)) => 0.75)
+          (expect (length (tour-names taken)) => 2)
+          (expect (first (tour-risk taken)) => 0.75))))
+    (cut-tether! 'line #:at 5)
+    (with-belief (make-belief (current-dive) '((current (error 0.05))) #:members 8)
+      (expect (plan-tour places #:risk 0.1) raises unsupported))))
+
+
 ;;; Against other tours.
 
 (define (rows-printed . options)
@@ -197,9 +245,11 @@ tether parts ends with the vehicle not home."
 (define-scenario a-planned-tour-comes-home-where-a-blind-one-does-not
   "Among piles the planned tour is flown home in every truth drawn, at most a quarter longer than the shortest tour of a
 vehicle without a tether, which comes home wound in each."
-  (let ((rows (rows-printed "--world" "piles" "--truths" "2" "--nodes" "10")))
+  (let ((rows (rows-printed "--world" "piles" "--truths" "2" "--nodes" "10" "--tethers" "8")))
     (define (cell tour k) (string->number (list-ref (assoc-ref rows tour) k)))
-    (expect (map car rows) => '("plan" "greedy" "blind" "bounded"))
+    (expect (map car rows) => '("plan" "held" "greedy" "blind" "bounded"))
+    (expect (cell "held" 2) => 2)
+    (expect (cell "held" 7) is (between 0 0.05))
     (expect (cell "plan" 2) => 2)
     (expect (cell "blind" 2) => 0)
     (expect (cell "plan" 4) is (between 1 1.25))

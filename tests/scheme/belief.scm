@@ -7,6 +7,7 @@
              (bight belief cloud)
              (bight belief tube)
              (bight belief unknowns)
+             (bight engine)
              ((bight view picture) #:select (picture-pixels))
              (bight view tube))
 
@@ -247,6 +248,23 @@
                   (ellipsoid-axes e))
         (expect (count (lambda (p) (ellipsoid-holds? e p)) points) is (between 28 31))))))
 
+(define-scenario the-tube-of-what-is-seen
+  "At arc lengths the tube is that of points seen there; seen with an error, it is wider by what the error asks, and holds as
+much of the members as they are seen: 2.5 deviations for 90 % of a point of which all else is known."
+  (in slack-water)
+  (run 2)
+  (with-belief (believe! (line (cdn (one-of 1.2))) #:members 8)
+    (let ((sure (tether-tube #:at '(4 8) #:share 0.8)) (seen (tether-tube #:at '(4 8) #:noise 0.1 #:share 0.8)))
+      (expect (map distance (map car sure) (list (point-at 4) (point-at 8))) is (lambda (off) (< (apply max off) 1e-9)))
+      ;; 0.9 of the 64 points that eight tethers are seen at, the errors' squares in a chi square of three degrees of freedom.
+      (for-each (lambda (e) (for-each (lambda (axis) (expect (norm axis) is (about 0.25 #:within 0.05))) (cdr e))) seen)
+      (for-each (lambda (e) (for-each (lambda (axis) (expect (norm axis) is (below 0.002))) (cdr e))) sure)
+      (let ((off (list->typed-array 'f64 2 (map (lambda (s) (f64vector->list (vec+ (point-at s) (vec 0.15 0 0)))) '(4 8)))))
+        (expect (tube-holds? off #:at '(4 8) #:share 0.8) => '(#f #f))
+        (expect (tube-holds? off #:at '(4 8) #:noise 0.1 #:share 0.8) => '(#t #t))
+        (expect (tube-holds? off #:at '(4) #:noise 0.1) raises domain)
+        (expect (tether-tube #:noise -1) raises domain)))))
+
 (define-scenario an-ellipsoid-is-drawn-as-an-ellipse
   "Of one place of a tube the cells are those whose middles lie in its outline; between two places no cell is left out."
   (let* ((half (list (vec 3 0 0) (vec 0 2 0) (vec 0 0 1)))
@@ -286,3 +304,44 @@
       (expect changed is (between 200 30000))
       (expect (equal? bare (picture-pixels 'test '(top) size 'plain '())) => #t)))
   (current-belief #f))
+
+
+;;; ^C.
+
+(define (press-at k thunk)
+  ;; Call THUNK and press ^C at the K-th look whether somebody does: `ended' or `left'.
+  (let ((looks 0))
+    (%set-reporter! (lambda (share)
+                      (when share
+                        (set! looks (+ looks 1))
+                        (when (= looks k) (throw 'pressed)))))
+    (let ((end (catch 'pressed (lambda () (thunk) 'ended) (lambda _ 'left))))
+      (%set-reporter! (const #f))
+      end)))
+
+(define-scenario (whoever-leaves-finds-it-as-it-was by)
+  "A belief that is left by ^C while it is flown on, or while it is mended, comes to the same in the end, to the last bit, as
+one that was never left: nothing is done to a tether twice, and nothing is learnt twice."
+  #:for ((by 'smoother 'particles))
+  (in slack-water)
+  (let ((beliefs (map (lambda (k) (make-belief (current-dive) doubtful #:members 8 #:by by)) (iota 6))))
+    (define (go!)
+      (move! '(6 10 -8) #:speed 0.5)
+      (run 1) (pay-out! 1 #:rate 0.5)
+      (run 2) (haul-in! 2 #:rate 0.5)
+      (run 2))
+    (define (learn! b) (observe! b 'winch-tension 0.2 #:noise 0.05) (observe! b 'rov-tension 1.2 #:noise 0.05))
+    (go!)
+    (let* ((ends (map (lambda (k b) (press-at (* 7 k) (lambda () (effective-size b)))) (iota 6) beliefs))
+           (hashes (map belief-hash beliefs)))
+      (expect (car ends) => 'ended)
+      (expect (cdr ends) is (lambda (ends) (memq 'left ends)))
+      (expect (delete-duplicates hashes) => (list (car hashes))))
+    (let* ((ends (map (lambda (k b) (press-at (* 29 k) (lambda () (learn! b) (mend-belief! b)))) (iota 6) beliefs))
+           (left (filter-map (lambda (end b) (and (eq? end 'left) b)) ends beliefs)))
+      (expect (car ends) => 'ended)
+      (when (eq? by 'smoother)
+        (expect (pair? left) => #t)
+        (for-each mend-belief! left)
+        (let ((hashes (map belief-hash (cons (car beliefs) left))))
+          (expect (delete-duplicates hashes) => (list (car hashes))))))))

@@ -147,9 +147,6 @@ says it in words, with the probability of trouble before and after."
 
 ;;; In words.
 
-(define (percent-said p)
-  (simple-format #f "~a %" (inexact->exact (round (* 100 p)))))
-
 (define (advice-said advice)
   (let ((before (assq-ref (%chances advice) 'go-on))
         (after (assq-ref (%chances advice) (%action advice))))

@@ -14,6 +14,7 @@
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:export (ask-members
             answer? answer-values answer-weights
+            share-interval
             answer-probability answer-interval answer-quantile answer-mean answer-covariance answer-shares))
 
 (define-record <answer>
@@ -92,8 +93,8 @@ answer."
 
 (define z-95 1.959963984540054)
 
-(define (wilson p n)
-  ;; Wilson's interval for 95 % confidence for a share P of N, which need not be whole.
+(define (share-interval p n)
+  "Return the list (LOW HIGH), Wilson's interval for 95 % confidence, of the share P of N, which need not be whole."
   (let* ((zz (* z-95 z-95))
          (middle (/ (+ p (/ zz (* 2 n))) (+ 1 (/ zz n))))
          (half (/ (* z-95 (sqrt (+ (/ (* p (- 1 p)) n) (/ zz (* 4 n n))))) (+ 1 (/ zz n)))))
@@ -140,7 +141,7 @@ members reach: n of them hold it with (n - 1) / (n + 1) at most; of an answer th
 its probability."
   (check-kind 'answer-interval a '(number chance))
   (if (eq? 'chance (answer-kind a))
-      (wilson (answer-probability a) (answer-effective a))
+      (share-interval (answer-probability a) (answer-effective a))
       (list (bound a (/ (- 1 share) 2)) (bound a (/ (+ 1 share) 2)))))
 
 

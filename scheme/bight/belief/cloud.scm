@@ -42,7 +42,7 @@
             make-reading reading-step reading-serial reading-kind reading-value reading-noise reading-part
             reading-scalars set-reading-scalars! reading-predictions set-reading-predictions!
             reading-done? set-reading-done!
-            catch-up! entries-since fly-again! forget-past! copy-member! in-member
+            catch-up! entries-since fly-again! forget-past! copy-member! way-back in-member
             weights effective-number
             current-belief this-belief type:belief))
 
@@ -87,7 +87,7 @@
   (origin-step belief-origin-step set-belief-origin-step!)
   (origin-journal belief-origin-journal set-belief-origin-journal!) ; the dive's then
   (origin-current belief-origin-current set-belief-origin-current!) ; the dive's then, numbers
-  (applied belief-applied set-belief-applied!) ; of the dive's journal: what was done to the members
+  (applied belief-applied set-belief-applied!) ; of the dive's journal: what was done to all members; #f: nobody knows
   (current belief-current set-belief-current!) ; the dive's, as far as the members were told
   (readings belief-readings set-belief-readings!) ; since the origin, the newest first
   (doubted belief-doubted set-belief-doubted!) ; readings that were impossible, the newest first
@@ -166,13 +166,7 @@
 (define (copy-member! belief to from)
   "Let the member TO of BELIEF be as the member FROM is: its state and its values."
   (unless (eq? to from)
-    (%restore-dive! (member-engine to) (%save-dive (member-engine from)))
-    (set-member-latent! to (member-latent from))
-    (set-member-weight! to (member-weight from))
-    (set-member-event-weight! to (member-event-weight from))
-    (set-member-lost! to (member-lost? from))
-    (set-member-origin! to (member-origin from))
-    (set-member-origin-error! to (member-origin-error from))))
+    (be-as! to from (%save-dive (member-engine from)))))
 
 
 ;;; A belief begins.
@@ -224,6 +218,36 @@ at once"))
    (map copy-reading (belief-readings belief))
    (belief-doubted belief) (belief-rounds belief) (belief-threads-of belief)))
 
+(define (way-back belief)
+  "Return a thunk that lets BELIEF be as it is now."
+  (let ((members (map member-way-back (belief-members belief))) (readings (map copy-reading (belief-readings belief)))
+        (fields (map (lambda (field) (cons (cdr field) ((car field) belief)))
+                     (list (cons belief-step set-belief-step!) (cons belief-origin-step set-belief-origin-step!)
+                           (cons belief-origin-journal set-belief-origin-journal!)
+                           (cons belief-origin-current set-belief-origin-current!)
+                           (cons belief-applied set-belief-applied!) (cons belief-current set-belief-current!)
+                           (cons belief-doubted set-belief-doubted!) (cons belief-rounds set-belief-rounds!)))))
+    (lambda ()
+      (for-each (lambda (back!) (back!)) members)
+      (set-belief-readings! belief readings)
+      (for-each (lambda (field) ((car field) belief (cdr field))) fields))))
+
+(define (member-way-back m)
+  ;; The same of the member M.
+  (let ((now (make-member #f (member-latent m) (member-weight m) (member-event-weight m) (member-lost? m)
+                          (member-origin m) (member-origin-error m)))
+        (state (%save-dive (member-engine m))))
+    (lambda () (be-as! m now state))))
+
+(define (be-as! to from state)
+  (%restore-dive! (member-engine to) state)
+  (set-member-latent! to (member-latent from))
+  (set-member-weight! to (member-weight from))
+  (set-member-event-weight! to (member-event-weight from))
+  (set-member-lost! to (member-lost? from))
+  (set-member-origin! to (member-origin from))
+  (set-member-origin-error! to (member-origin-error from)))
+
 (define (copy-reading r)
   (make-reading (reading-step r) (reading-serial r) (reading-kind r) (reading-value r) (reading-noise r)
                 (reading-part r) (reading-scalars r) (reading-predictions r) (reading-done? r)))
@@ -268,7 +292,9 @@ at once"))
   (for-each (lambda (member) (do-to-member! belief member entry)) (living belief)))
 
 (define (follow! belief entries step)
-  ;; Do ENTRIES to the members, each at its step, and fly them on to STEP.
+  ;; Do ENTRIES to the members, each at its step, and fly them on to STEP.  Who leaves in between, as by ^C, leaves nobody
+  ;; who knows what was done to which member.
+  (set-belief-applied! belief #f)
   (for-each (lambda (entry)
               (step-members! belief (entry-step entry))
               (do-to-members! belief entry))
@@ -280,7 +306,8 @@ at once"))
 
 (define* (catch-up! proc belief #:optional (step (%dive-steps (engine-of (belief-host belief)))))
   "Fly the members of BELIEF on to STEP, where its dive is now or was, doing what was done to the dive.  If the
-dive has gone back, the members are flown again.  Raise stale from PROC if it went back too far."
+dive has gone back, or nobody knows what was done to which member, they are flown again.  Raise stale from PROC if it went
+back too far."
   (let* ((engine (engine-of (belief-host belief)))
          (journal (journal-until (%journal engine) step))
          (new (entries-since journal (belief-applied belief))))
@@ -302,6 +329,7 @@ dive has gone back, the members are flown again.  Raise stale from PROC if it we
                      (look! (const #f)))
   "Fly the members of BELIEF again from its origin to STEP by JOURNAL, with their present values, and call LOOK!
 with each reading when they are where it was read."
+  (set-belief-applied! belief #f)
   (for-each (lambda (member) (begin-member! belief member)) (belief-members belief))
   (set-belief-step! belief (belief-origin-step belief))
   (set-belief-current! belief (belief-origin-current belief))

@@ -371,8 +371,16 @@ explain it: then the belief is as it was, but for its doubts."
             (belief-members belief)))
 
 (define (mend! belief)
-  "Move the members of BELIEF to where what it knows lies, so that many bear its weight.  Raise diverged if none is left."
+  "Move the members of BELIEF to where what it knows lies, so that many bear its weight.  Raise diverged if none is left.
+Who leaves before the end, as by ^C, leaves BELIEF as it was."
   (check-living belief)
-  (if (eq? 'particles (belief-kind belief))
-      (mend-by-particles! belief)
-      (mend-by-smoother! belief)))
+  (let ((back! (way-back belief)))
+    (with-exception-handler
+     (lambda (e)
+       (unless (bight-error? e) (back!))
+       (raise-exception e))
+     (lambda ()
+       (if (eq? 'particles (belief-kind belief))
+           (mend-by-particles! belief)
+           (mend-by-smoother! belief)))
+     #:unwind? #t)))

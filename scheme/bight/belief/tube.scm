@@ -4,14 +4,16 @@
 ;;; the tube at that place if its Mahalanobis distance is no more than that of the share of the members, each
 ;;; judged by all: as the members and the truth are drawn alike, the share of truths held is the share asked for,
 ;;; whatever the distribution (conformal prediction: Vovk, Gammerman and Shafer, Algorithmic Learning in a Random
-;;; World, 2005).
+;;; World, 2005).  A point that was seen with an error lies where a tether's point, moved by such an error, may lie.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight belief tube)
   #:use-module (bight belief answer)
+  #:use-module (bight study sweep-design)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
+  #:use-module ((bight core units) #:select (vec vec+))
   #:export (ellipsoid
             ellipsoid-mean
             ellipsoid-axes
@@ -38,30 +40,44 @@
   (let ((off (map - (f64vector->list p) (f64vector->list mean))))
     (fold (lambda (row a sum) (+ sum (* a (apply + (map * row off))))) 0.0 inverse off)))
 
-(define (floored covariance)
-  (map (lambda (row i) (map (lambda (v j) (if (= i j) (+ v least-variance) v)) row '(0 1 2)))
+(define (widened covariance variance)
+  (map (lambda (row i) (map (lambda (v j) (if (= i j) (+ v variance) v)) row '(0 1 2)))
        covariance '(0 1 2)))
 
-(define (weighted-rank pairs share)
-  ;; The least of the values of PAIRS, (VALUE . WEIGHT), at which SHARE of the weight, and one member's more, is
-  ;; reached; one and a half times the greatest where there are too few for that.
+(define (weighted-rank pairs share n)
+  ;; The least of the values of PAIRS, (VALUE . WEIGHT), at which SHARE of the weight, and that of one more of N members,
+  ;; is reached; one and a half times the greatest where there are too few for that.
   (let* ((sorted (sort pairs (lambda (a b) (< (car a) (car b)))))
-         (n (/ 1 (apply + (map (lambda (p) (* (cdr p) (cdr p))) pairs))))
          (wanted (* share (+ 1 (/ 1 n)))))
     (let loop ((rest sorted) (sum 0.0))
       (cond ((null? rest) (* 1.5 (car (last sorted))))
             ((>= (+ sum (cdar rest)) (- wanted 1e-12)) (caar rest))
             (else (loop (cdr rest) (+ sum (cdar rest))))))))
 
-(define (ellipsoid answer share)
-  "Return the ellipsoid that holds the point of ANSWER with probability SHARE."
-  (let* ((mean (answer-mean answer))
-         (covariance (floored (answer-covariance answer)))
+(define draws 8)                        ; of an error, for each member
+
+(define (seen-points p i noise)
+  ;; Where P, the point of member number I, may be seen to be.
+  (if (zero? noise)
+      (list p)
+      (let ((random (number-stream 'tube i)))
+        (map (lambda (k)
+               (let ((error (lambda (c) (* noise (normal-quantile (random (+ c (* 3 k))))))))
+                 (vec+ p (vec (error 0) (error 1) (error 2)))))
+             (iota draws)))))
+
+(define* (ellipsoid answer share #:optional (noise 0.0))
+  "Return the ellipsoid that holds the point of ANSWER, seen with an error of NOISE in each direction, with probability
+SHARE."
+  (let* ((mean (answer-mean answer)) (shares (answer-weights answer))
+         (covariance (widened (answer-covariance answer) (+ least-variance (* noise noise))))
          (inverse (inverse covariance)))
     (list mean inverse covariance
-          (weighted-rank (map (lambda (p w) (cons (square-distance mean inverse p) w))
-                              (answer-values answer) (answer-weights answer))
-                         share))))
+          (weighted-rank (append-map (lambda (p w i)
+                                       (let ((seen (seen-points p i noise)))
+                                         (map (lambda (q) (cons (square-distance mean inverse q) (/ w (length seen)))) seen)))
+                                     (answer-values answer) shares (iota (length shares)))
+                         share (/ 1 (apply + (map * shares shares)))))))
 
 (define (ellipsoid-holds? ellipsoid p)
   "Return true if P, a point, lies in ELLIPSOID."

@@ -1,7 +1,8 @@
 ;;; (bight bench tours) --- `bight bench tours': do tours bring the vehicle home, of which length, and how soon are they planned?
 ;;;
-;;; In each world some obstacles are looked at.  Four tours visit the same points about them:
-;;; `plan', as `plan-tour' finds it; `greedy', the same legs, always to the nearest place left; `blind', the shortest tour
+;;; In each world some obstacles are looked at.  Five tours visit the same points about them:
+;;; `plan', as `plan-tour' finds it; `held', as it finds it within a limit of risk by a belief, which may leave places out;
+;;; `greedy', the same legs, always to the nearest place left; `blind', the shortest tour
 ;;; of a vehicle that drags nothing; and `bounded', the shortest of the blind ones on which the tether drawn tight is never
 ;;; longer than a tenth more than `plan' takes of it, the idea of REACT (Amer et al., arXiv 2507.10204, 2025), by search
 ;;; over all orders.  Each is
@@ -14,6 +15,7 @@
   #:use-module ((bight assembly) #:select (data->part))
   #:use-module (bight belief)
   #:use-module (bight belief cloud)
+  #:use-module (bight belief tour)
   #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight core units)
@@ -23,6 +25,7 @@
   #:use-module (bight dive query)
   #:use-module (bight dive time)
   #:use-module (bight dive tour)
+  #:use-module (bight dive tour-flight)
   #:use-module (bight dive tour-order)
   #:use-module (bight engine)
   #:use-module (bight world)
@@ -36,9 +39,12 @@
   --world W     one alone of jacket, piles, pier, wreck, cage and pipeline; cage alone with --quick
   --places N    how many obstacles are looked at, 2 to 8; 5 when left out, 2 with --quick
   --nodes N     of the tether that is flown, 16 when left out
+  --tethers N   of the belief that `held' is planned by, 8 to 256; 16 when left out, 8 with --quick
+  --risk P      that `held' is planned within, 0.05 when left out
+  --error E     of the current, m/s, 0.1 when left out
 ")
 
-(define valued '("--truths" "--world" "--places" "--nodes"))
+(define valued '("--truths" "--world" "--places" "--nodes" "--tethers" "--risk" "--error"))
 
 (define (read-options arguments)
   (let loop ((rest arguments) (found '()))
@@ -54,6 +60,12 @@
     (unless (and (exact-integer? n) (<= low n high))
       (bight-raise 'domain 'bench "~a takes a whole number from ~a to ~a, not ~a" name low high text))
     n))
+
+(define (decimal options name default high)
+  (let* ((text (assoc-ref options name)) (x (if text (text->number text) default)))
+    (unless (and (real? x) (<= 0.001 x high))
+      (bight-raise 'domain 'bench "~a takes a number from 0.001 to ~a, not ~a" name high text))
+    x))
 
 
 ;;; The worlds: those of the catalogue with a kinematic vehicle and a line of few nodes, and two more.
@@ -104,10 +116,13 @@
   (with-line world at
              `((model rubber-band) (from ,@from) (length ,length) ,@(if (null? via) '() `((via ,@via))))))
 
-(define doubts
-  '((current (error 0.1))
+(define (doubts error)
+  `((current (error ,error))
     (line (cdn (uniform 1 1.6)) (wet-weight (normal 0 0.03)))
     (payout (normal 0 0.2))))
+
+(define planning-seed 11)
+(define truths-seed 7)
 
 
 ;;; What is looked at: obstacles evenly out of all, and of a pipeline places on either side of it.
@@ -144,9 +159,11 @@
       (cons (vector-ref v 3) (map list->f64vector (array->list points))))))
 
 
-;;; The four tours, each (NAME SECONDS TOUR).
+;;; The five tours, each (NAME SECONDS TOUR).
 
 (define (clock) (/ (get-internal-run-time) (exact->inexact internal-time-units-per-second)))
+
+(define speed 0.5)                      ; m/s, of all flights
 
 (define (timed name thunk)
   (let* ((begun (clock)) (tour (thunk)))
@@ -216,14 +233,18 @@
          (fits (find (lambda (tour) (within-bound? world home start (cdr tour) line)) sorted)))
     (or fits (car sorted))))
 
-(define (tours world name n)
-  ;; Of the present dive, in WORLD called NAME.
+(define (tours world name n clauses tethers risk)
+  ;; Of the present dive, in WORLD called NAME.  CLAUSES say what is uncertain to the belief of TETHERS tethers by which the
+  ;; tour within RISK is planned.
   (let* ((line (tether-length)) (start (f64vector->list (rov-position))) (home (f64vector->list (point-at 0)))
          (plan (timed 'plan (lambda () (plan-tour (looked-at name n) #:line line))))
          (stops (map f64vector->list (tour-places (third plan))))
          (ask (asker-without-tether world (cons* start home stops)))
          (cost (lambda (a b) (car (ask a b)))))
     (list plan
+          (timed 'held (lambda ()
+                         (with-belief (make-belief (current-dive) clauses #:members tethers #:seed planning-seed)
+                           (plan-tour (looked-at name n) #:line line #:risk risk #:speed speed))))
           (timed 'greedy (lambda () (tour-in-order (third plan) (greedy-order (leg-cost (third plan)) start stops))))
           (timed 'blind (lambda ()
                           (let ((order (shortest-order cost start stops home)))
@@ -253,8 +274,6 @@
 
 ;;; Flights.
 
-(define speed 0.5)                      ; m/s
-
 (define (comes-home? tour)
   ;; Flown in the present dive, a fork, to its end.
   (let* ((flight (begin-flight! tour speed)) (n (length (tour-places tour)))
@@ -278,17 +297,17 @@
 (define (say-tour name truths plan-length row)
   (let* ((begun (clock)) (tour (third row))
          (home (count (lambda (m) (home-in-truth? tour m)) truths)))
-    (simple-format #t "~a,~a,~a,~a,~a,~a,~a,~a,~a~%" name (first row) (length (tour-places tour)) (length truths) home
+    (simple-format #t "~a,~a,~a,~a,~a,~a,~a,~a,~a,~a~%" name (first row) (length (tour-places tour)) (length truths) home
                    (tenths (tour-length tour)) (hundredths (/ (tour-length tour) plan-length)) (hundredths (second row))
-                   (tenths (- (clock) begun)))
+                   (tenths (- (clock) begun)) (if (tour-risk tour) (hundredths (first (tour-risk tour))) ""))
     (force-output)))
 
-(define (say-world name n truths nodes)
+(define (say-world name n truths nodes clauses tethers risk)
   (let ((world (world-of name)))
     (enter! (flown-world world nodes))
-    (let* ((all (tours world name n))
+    (let* ((all (tours world name n clauses tethers risk))
            (blind (tour-length (third (find (lambda (row) (eq? 'blind (first row))) all))))
-           (belief (make-belief (current-dive) doubts #:members (max 8 truths) #:seed 7)))
+           (belief (make-belief (current-dive) clauses #:members (max 8 truths) #:seed truths-seed)))
       (for-each (lambda (row) (say-tour name (list-head (belief-members belief) truths) blind row)) all))))
 
 (define (run-tours arguments)
@@ -302,7 +321,9 @@
     (if (assoc-ref options "--help")
         (display help)
         (let ((truths (whole options "--truths" (if quick? 2 200) 1 4096)) (places (whole options "--places" (if quick? 2 5) 2 8))
-              (nodes (whole options "--nodes" 16 4 400)))
-          (display "world,tour,places,truths,home,length m,of the blind one's length,planned in s of CPU,flown in s of CPU\n")
-          (for-each (lambda (name) (say-world name places truths nodes)) names)))
+              (nodes (whole options "--nodes" 16 4 400)) (tethers (whole options "--tethers" (if quick? 8 16) 8 256))
+              (risk (decimal options "--risk" 0.05 1)) (clauses (doubts (decimal options "--error" 0.1 2))))
+          (display "world,tour,places,truths,home,length m,of the blind one's length,planned in s of CPU,flown in s of CPU,\
+P(fouled) told\n")
+          (for-each (lambda (name) (say-world name places truths nodes clauses tethers risk)) names)))
     0))

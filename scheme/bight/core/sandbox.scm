@@ -163,6 +163,8 @@
     ((bight dive figures) held-vehicle refuse-parted)
     ((bight dive homing) untold-fork)
     ((bight dive tour))
+    ((bight dive tour-flight))
+    ((bight belief tour))
     ((bight dive instruments))
     ((bight dive foresight))
     ((bight dive in-words))

@@ -13,7 +13,7 @@
   #:use-module (bight core units)
   #:use-module (srfi srfi-1)
   #:export (with-words words-of words-of-answer
-            figure-said metres seconds-said structure-of own-name objects-said
+            figure-said metres seconds-said percent-said structure-of own-name objects-said
             heading-said sentence
             corners-of
             class-said windings-said prospect-said haul-said way-said unwind-said-plainly reach-said
@@ -74,6 +74,10 @@ that was just #t, #f or ()."
                                 (number->string (remainder (abs tenths) 10)))))))))
 
 (define (metres x) (string-append (figure-said x) " m"))
+(define (percent-said p)
+  "Return the probability P in words."
+  (simple-format #f "~a %" (inexact->exact (round (* 100 p)))))
+
 (define (seconds-said x) (string-append (figure-said x) " s"))
 
 (define (up-to x)

@@ -22,7 +22,7 @@
             tensions tension-at anchor-tension rov-tension max-tension tether-force
             tether-length straight-distance taut-length free-length slack excess
             taut? parted? asleep? settled? model-of energy error-estimate accurate? tightest-bend equilibria
-            places-of deviation deviation-rms deviation-mean deviation-max deviation-worst deviation?
+            type:arc-lengths places-of deviation deviation-rms deviation-mean deviation-max deviation-worst deviation?
             events profile parts find-part part-to-alter tether-properties obstacle-properties))
 
 (define (tether-view proc t)

@@ -4,7 +4,8 @@
 
 (define-module (bight dive tour-order)
   #:use-module (srfi srfi-1)
-  #:export (best-order))
+  #:export (best-order
+            near-orders))
 
 (define exact-most 9)                   ; places: 9 * 9 * 2^9 sums
 
@@ -85,3 +86,9 @@ round does not shorten."
   (cond ((zero? n) '())
         ((<= n exact-most) (exact-order n cost))
         (else (exchanged (inserted n cost) n cost))))
+
+(define (near-orders order)
+  "Return ORDER, a list, and every other with one stretch of it turned round."
+  (let ((n (length order)))
+    (cons order (append-map (lambda (i) (map (lambda (j) (turned order i j)) (iota (max 0 (- n i 1)) (+ i 2))))
+                            (iota n)))))

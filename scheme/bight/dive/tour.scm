@@ -7,7 +7,8 @@
 ;;; of two legs (Croes 1958) for many.
 ;;;
 ;;; The legs see a tether drawn tight.  Whether a slack one in a current comes home is tried by flying the tour on a
-;;; fork, `tour-trial'.
+;;; fork, (bight dive tour-flight), or on the tethers of a belief, which (bight belief tour) does where `plan-tour' is
+;;; asked to.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -18,26 +19,27 @@
   #:use-module (bight core units)
   #:use-module (bight core verb)
   #:use-module (bight dive)
-  #:use-module ((bight dive aware) #:select (fouled? members-of))
+  #:use-module ((bight dive aware) #:select (members-of))
   #:use-module ((bight dive figures) #:select (held-vehicle))
   #:use-module (bight dive command)
-  #:use-module ((bight dive homing) #:select (fly-home! home-of untold-fork))
+  #:use-module ((bight dive homing) #:select (untold-fork))
   #:use-module (bight dive plain-words)
   #:use-module (bight dive query)
-  #:use-module ((bight dive task) #:select (add-task! remove-task! task-state set-task-state!))
-  #:use-module (bight dive time)
   #:use-module (bight dive tour-order)
   #:use-module (bight engine)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
-  #:export (plan-tour fly-tour! tour-trial
-            tour? tour-names tour-places tour-way tour-length tour-line-needed tour-left-out
+  #:export (tour? tour-names tour-places tour-way tour-length tour-line-needed tour-left-out tour-risk
+            ;; For (bight dive tour-flight).
+            type:tour (%tether-of . tour-tether) (%vehicle-of . tour-vehicle) (%legs . tour-legs) (%line . tour-line)
+            ;; For (bight belief tour).
+            type:places tour-found tour-at-risk
             ;; For (bight bench tours).
-            tour-along begin-flight! places-reached (is-home? . at-home?)))
+            tour-along))
 
 (define-record <tour>
-  (make-tour tether vehicle stops legs length needed line left-out)
+  (make-tour tether vehicle stops legs length needed line left-out risk)
   is-tour?
   (tether %tether-of)                   ; its name
   (vehicle %vehicle-of)                 ; the name of the one at its far end
@@ -46,7 +48,8 @@
   (length %length)                      ; m, of all legs
   (needed %needed)                      ; m of tether, drawn tight, at most
   (line %line)                          ; m of tether there are
-  (left-out %left-out))                 ; (NAME . WHY), WHY a string
+  (left-out %left-out)                  ; (NAME . WHY), WHY a string
+  (risk %risk))                         ; (PROBABILITY LOW HIGH) of trouble where it is greatest, or #f: nobody asked
 
 (define-argument-type (tour value)
   "a tour, as `plan-tour' returns one"
@@ -79,6 +82,17 @@
 (define-verb (tour-left-out (tour tour))
   "Return what cannot be visited, pairs of a name, or a point, and a sentence that says why."
   (%left-out tour))
+
+(define-verb (tour-risk (tour tour))
+  "Return the list (PROBABILITY LOW HIGH): how probably the tether is fouled, or the vehicle does not come there, at that
+place of the tour, or at home, where it is likeliest, and Wilson's interval of that; #f where `plan-tour' was given no
+#:risk."
+  (%risk tour))
+
+(define (tour-at-risk tour risk)
+  "Return TOUR, with RISK, a list as `tour-risk' returns it."
+  (make-tour (%tether-of tour) (%vehicle-of tour) (%stops tour) (%legs tour) (%length tour) (%needed tour) (%line tour)
+             (%left-out tour) risk))
 
 
 ;;; Where one stops: at a point, or at a distance from an object.
@@ -200,13 +214,13 @@
 
 (define (tour-of tether vehicle stops legs line left-out)
   (make-tour tether vehicle stops (map third legs) (fold + 0 (map first legs))
-             (fold max 0 (map second legs)) line left-out))
+             (fold max 0 (map second legs)) line left-out #f))
 
 (define (tour-along tether vehicle stops legs length line)
   "Return the tour of VEHICLE on TETHER, names, to STOPS, lists of three numbers, by LEGS, each a list of points: the last
 is the leg home, which a flight follows to its end.  LENGTH is that of all of them, m, and LINE how much tether there is."
   (make-tour tether vehicle (map (lambda (p) (let ((p (list->f64vector p))) (cons p p))) stops)
-             (append legs (list (last legs))) length line line '()))
+             (append legs (list (last legs))) length line line '() #f))
 
 (define (in-best-order asker stops)
   ;; STOPS in the order of the shortest tour.
@@ -217,20 +231,31 @@ is the leg home, which a flight follows to its end.  LENGTH is that of all of th
         (if (leg? leg) (first leg) too-long)))
     (map stop (best-order n cost))))
 
-(define (tour-among asker tether vehicle stops line left-out)
-  ;; The tour of STOPS; one that no leg leads to, or away from, is left out.
+(define (tours-near asker tether vehicle order line left-out)
+  ;; The tour of the stops in ORDER, and those with a stretch of it turned round that can be flown, the shorter first.
+  (let ((tours (filter-map (lambda (order)
+                             (let ((legs (legs-in-order asker order)))
+                               (and (every leg? legs) (tour-of tether vehicle order legs line left-out))))
+                           (near-orders order))))
+    (stable-sort tours (lambda (a b) (< (%length a) (%length b))))))
+
+(define (tour-among asker tether vehicle stops line left-out choose)
+  ;; The tour of STOPS that CHOOSE takes; a stop that no leg leads to, or away from, is left out.
   (let* ((order (in-best-order asker stops))
          (legs (legs-in-order asker order))
          (bad (list-index (negate leg?) legs)))
+    (define (without k why)
+      (let ((lost (list-ref order k)))
+        (tour-among asker tether vehicle (delq lost stops) line (acons (car lost) why left-out) choose)))
     (cond
      ((not bad)
-      (tour-of tether vehicle order legs line left-out))
+      (let ((chosen (choose (lambda () (tours-near asker tether vehicle order line left-out))
+                            (tour-of tether vehicle order legs line left-out))))
+        (if (is-tour? chosen) chosen (without (car chosen) (cdr chosen)))))
      ((null? order)
       (bight-raise 'unsupported 'plan-tour "no way leads home from where `~a' is: ~a" vehicle (car legs)))
      (else
-      (let ((lost (list-ref order (min bad (- (length order) 1)))))
-        (tour-among asker tether vehicle (delq lost stops) line
-                    (acons (car lost) (list-ref legs bad) left-out)))))))
+      (without (min bad (- (length order) 1)) (list-ref legs bad))))))
 
 (define (on-a-line tether line thunk)
   ;; What THUNK returns of a fork whose winch has been told to give as much as LINE m: ways are charted so far.
@@ -246,12 +271,10 @@ is the leg home, which a flight follows to its end.  LENGTH is that of all of th
   (let ((drum (assq-ref (tether-properties t) 'drum)))
     (if (and (real? drum) (< drum +inf.0)) drum (tether-length tether))))
 
-(define-verb (plan-tour #:subject (t tether) (places places) #:key (stay positive 1.0) (line (or-false positive) #f))
-  "Return the tour on which the vehicle visits PLACES and comes home to the anchor with its tether wound about
-nothing: the shortest that is found, its legs wide enough for the hull, its tether never longer than LINE m (left
-out: what is on the drum, or what is out where the drum has no end).  A place is a point; or the name of an obstacle,
-seen from STAY m off its surface; or that of a structure, whose members are all seen.  What cannot be reached is
-left out, and said.  The prompt says the tour in words; `tour-trial' flies it on a fork, `fly-tour!' flies it."
+(define* (tour-found t places stay line #:optional (choose (lambda (others shortest) shortest)))
+  "Return the tour of the vehicle of tether number T to PLACES, seen from STAY m off, with LINE m of tether, or what is on
+the drum if that is #f.  CHOOSE is called with a thunk that returns tours like the shortest, the shorter first, and with
+that; it returns the tour that is taken, or a pair of the number of a stop of the shortest that is to be left out, and why."
   (let* ((engine (this-engine 'plan-tour))
          (tether (list-ref (%names engine 'tether) t))
          (vehicle (held-vehicle 'plan-tour t))
@@ -264,121 +287,7 @@ left out, and said.  The prompt says the tour in words; `tour-trial' flies it on
              (split-choices engine t line
                             (append-map (lambda (target) (choices engine t target stay)) places)))
          (lambda (stops left-out)
-           (tour-among (leg-asker engine t line) tether vehicle stops line left-out)))))))
-
-
-;;; The flight.
-
-(define tick 0.5)                       ; s between looks at winch and vehicle
-(define stuck-way 0.3)                  ; m: no more of the way ...
-(define stuck-time 30)                  ; s: ... in so long is stuck
-(define ahead 4)                        ; s of flight for which line is out
-(define spare 1.5)                      ; m beyond what a taut line takes, and 5 % of it
-(define near-enough 0.3)                ; m of a place is there
-(define slack-pull 15)                  ; N: no more is a line that can be taken in
-
-(define (tend-line! tour speed)
-  ;; Have as much out as the taut line takes, and a little more.
-  (let* ((tether (%tether-of tour))
-         (out (tether-length tether))
-         (want (min (%line tour) (+ (* 1.05 (taut-length tether)) spare (* ahead speed)))))
-    (cond ((< out want) (pay-out! tether (- want out) #:rate 1))
-          ((and (> out (+ want 0.5)) (< (tension-at tether 0) slack-pull))
-           (haul-in! tether (- out want) #:rate 0.4))
-          (else (haul-in! tether 0)))))
-
-;; The state of a flight, a list: the step of the next tick; legs that are left, the first of which is flown, #f
-;; before it is begun; how many stops were reached; where the vehicle was when it had last moved on, and when.
-(define make-flight list)
-(define flight-due first)
-(define flight-legs second)
-(define flight-begun? third)
-(define flight-reached fourth)
-(define flight-place fifth)
-(define flight-since sixth)
-
-(define (moved-on flight due place)
-  (let ((moved? (> (distance place (flight-place flight)) stuck-way)))
-    (make-flight due (flight-legs flight) #t (flight-reached flight)
-                 (if moved? place (flight-place flight)) (if moved? (now) (flight-since flight)))))
-
-(define (end-flight! task tour)
-  ;; The last leg, or what is left of one that could not be flown, is flown home as `fly-home!' finds it.
-  (release! (%vehicle-of tour))
-  (remove-task! (this-dive 'fly-tour!) task)
-  (unless (and (not (parted? (%tether-of tour))) (fly-home! (%tether-of tour)))
-    (hold-position! (%vehicle-of tour))))
-
-(define (next-leg task flight due place)
-  (set-task-state! task (make-flight due (cdr (flight-legs flight)) #f (+ 1 (flight-reached flight)) place (now))))
-
-(define (at-end? leg place)
-  (< (distance place (last leg)) near-enough))
-
-(define (fly-on task tour speed)
-  (let* ((flight (task-state task)) (vehicle (%vehicle-of tour)) (step (%dive-steps (this-engine 'fly-tour!))))
-    (when (>= step (flight-due flight))
-      (let ((due (+ step (round (/ tick (time-step))))) (place (rov-position vehicle)))
-        (tend-line! tour speed)
-        (cond ((or (null? (cdr (flight-legs flight)))
-                   (> (- (now) (flight-since flight)) stuck-time)
-                   (parted? (%tether-of tour)))
-               (end-flight! task tour))
-              ((not (flight-begun? flight))
-               (fly-along! vehicle (car (flight-legs flight)) #:speed speed)
-               (set-task-state! task (moved-on flight due place)))
-              ((at-end? (car (flight-legs flight)) place) (next-leg task flight due place))
-              (else (set-task-state! task (moved-on flight due place))))))))
-
-(define (set-out! who tour speed)
-  ;; For the verb WHO; return the task.
-  (held-vehicle who (list-index (lambda (name) (eq? name (%tether-of tour))) (%names (this-engine who) 'tether)))
-  (release! (%vehicle-of tour))
-  (add-task! 'fly-tour! "fly a tour" (lambda (task) (fly-on task tour speed))
-             (make-flight 0 (%legs tour) #f 0 (rov-position (%vehicle-of tour)) (now))
-             (%vehicle-of tour)))
-
-(define (begin-flight! tour speed)
-  "Let the present dive fly TOUR at SPEED while time passes; return the flight."
-  (set-out! 'fly-tour! tour speed))
-
-(define (places-reached flight)
-  "Return how many places the FLIGHT has come to."
-  (flight-reached (task-state flight)))
-
-(define-verb (fly-tour! (tour tour) #:key (speed positive 0.35))
-  "Fly TOUR at SPEED m/s while time passes in `run': the winch keeps a little more out than a taut tether takes, and
-from the last place, or where the vehicle gets stuck, it comes home as `fly-home!' does.  Return the length of
-the tour, m."
-  (begin-flight! tour speed)
-  (%length tour))
-
-(define (flown tour speed)
-  ;; Fly TOUR in the present dive to its end; how many places were reached.
-  (let* ((task (set-out! 'tour-trial tour speed)) (dive (this-dive 'tour-trial))
-         (most (+ 120 (/ (* 3 (+ (%length tour) (%needed tour))) speed))) (start (now)))
-    (let loop ()
-      (when (and (pair? (dive-tasks dive)) (< (- (now) start) most))
-        (run 1)
-        (loop)))
-    (places-reached task)))
-
-(define home-within 1.5)                ; m of the anchor, or of the surface below it
-
-(define (is-home? tour)
-  (and (not (parted? (%tether-of tour)))
-       (< (distance (rov-position (%vehicle-of tour)) (home-of (%tether-of tour))) home-within)))
-
-(define-verb (tour-trial (tour tour) #:key (speed positive 0.35))
-  "Fly TOUR at SPEED m/s on a fork, where the tether has its slack and the water its current, and return an alist:
-home? (whether the vehicle came home), reached (how many places), fouled?, seconds, tension (N, the most at the
-vehicle or the winch since the dive began)."
-  (untold-fork
-   (lambda ()
-     (let ((start (now)) (tether (%tether-of tour)))
-       (let ((reached (flown tour speed)))
-         `((home? . ,(is-home? tour)) (reached . ,reached) (fouled? . ,(fouled? tether))
-           (seconds . ,(- (now) start)) (tension . ,(max-tension tether))))))))
+           (tour-among (leg-asker engine t line) tether vehicle stops line left-out choose)))))))
 
 
 ;;; In words.
@@ -395,10 +304,14 @@ vehicle or the winch since the dive began)."
                      (string-join (map place-said (tour-names tour)) ", ")
                      (metres (%length tour)) (metres (%needed tour)) (metres (%line tour)))))
 
+(define (risk-said tour)
+  (apply simple-format #f "P(fouled) ~a (~a to ~a)." (map percent-said (%risk tour))))
+
 (define (tour-said tour)
-  (string-join (cons (stops-said tour)
-                     (map (lambda (left) (simple-format #f "~a is left out: ~a." (place-said (car left)) (cdr left)))
-                          (%left-out tour)))
+  (string-join (append (list (stops-said tour))
+                       (if (%risk tour) (list (risk-said tour)) '())
+                       (map (lambda (left) (simple-format #f "~a is left out: ~a." (place-said (car left)) (cdr left)))
+                            (%left-out tour)))
                "  "))
 
 (set-record-type-printer!

@@ -36,7 +36,7 @@
     ((in-view? width) . "degrees") ((in-view? height) . "degrees")
     ((observe! on) . "m") ((observe! at) . "s") ((observe! noise) . "the unit of what is read")
     ((tether-in-view width) . "degrees") ((tether-in-view height) . "degrees")
-    ((wear-profile n) . #f) ((plan-tour places) . #f)))
+    ((plan-tour risk) . "probability") ((wear-profile n) . #f) ((plan-tour places) . #f)))
 
 (define (unit-of verb argument)
   "Return the unit of ARGUMENT, a symbol or keyword, of the verb called VERB, a string, or #f for a bare number."
@@ -130,7 +130,8 @@
     (part-head (part-head (part sphere (at 0 0 -3) (radius 1))))
     (pay-out! (begin (pay-out! 5 #:rate 0.2) (run 25) (tether-length)))
     (place! (place! '(3 4 -5)) (place! '(5 -6 -4) #:fresh #t))
-    (plan-tour (plan-tour '(p1 (3 4 -5) (4 -3 -8))) (plan-tour '(p1) #:stay 2 #:line 30))
+    (plan-tour (plan-tour '(p1 (3 4 -5) (4 -3 -8))) (plan-tour '(p1) #:stay 2 #:line 30)
+               (begin (believe! (current (error 0.1)) #:members 8) (plan-tour '((4 -3 -8)) #:risk 0.1)))
     (point-at (point-at (/ (tether-length) 2)))
     (point-in (point-in '(0 0 -5) '(5 5 -1)))
     (range-to (range-to '(0 0 -5)))
@@ -157,6 +158,7 @@
     (tour-names (tour-names (plan-tour '(p1 (4 -3 -8)))))
     (tour-places (tour-places (plan-tour '(p1 (4 -3 -8)))))
     (tour-trial (tour-trial (plan-tour '((3 4 -5)))))
+    (tour-risk (begin (believe! (current (error 0.1)) #:members 8) (tour-risk (plan-tour '((4 -3 -8)) #:risk 0.1))))
     (tour-way (fly-along! (tour-way (plan-tour '((3 4 -5)))) #:speed 0.4))
     (transponders (transponders 5 #:noise 0.02))
     (turns (turns 'p1))

@@ -16,7 +16,7 @@
     (worlds "worlds, parts and types" world (world atlas) (world types) (world build))
     (time "let time pass, and what runs meanwhile"
           (dive time) (dive task) (dive pilot) (dive live) (dive threads))
-    (fly "fly, spool, change the sea" (dive command) (dive homing) (dive tour))
+    (fly "fly, spool, change the sea" (dive command) (dive homing) (dive tour) (dive tour-flight) (belief tour))
     (ask "ask of the vehicle, the sea and the tether" (dive query) (dive instruments))
     (touch "contact, wear and clearance" (dive contact))
     (aware "what a tether is doing: caught, fouled, the way home"
