@@ -9,6 +9,7 @@
 (define-module (bight belief advise)
   #:use-module (bight belief)
   #:use-module (bight belief answer)
+  #:use-module (bight belief cloud)
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight core units)
@@ -29,10 +30,11 @@
   #:export (advise advice? advice-action advice-chances))
 
 (define-record <advice>
-  (make-advice action sentence chances seconds)
+  (make-advice action sentence now chances seconds)
   is-advice?
   (action %action)                      ; a symbol
   (sentence %sentence)                  ; what to do, a string
+  (now %now)                            ; probability of trouble before anything is done
   (chances %chances)                    ; alist, action -> probability of trouble
   (seconds %seconds))                   ; how far it was looked
 
@@ -55,7 +57,7 @@
 
 ;;; What can be done.
 
-(define some-line 3)                    ; m
+(define some-line 3)                    ; m, or less of a short tether
 (define along-speed 0.35)               ; m/s
 (define time-to-see 10)                 ; s after a way has been flown
 
@@ -80,6 +82,8 @@
     (haul-in! tether (min (* along-speed seconds) (* 0.9 (tether-length tether))) #:rate along-speed)
     seconds))
 
+(define (some-of tether) (min some-line (* 0.5 (tether-length tether))))
+
 (define actions
   (list
    (make-action 'go-on (lambda (tether vehicle) 0) (lambda (tether) "Go on."))
@@ -87,8 +91,8 @@
    (make-action 'pay-out (lambda (tether vehicle) (pay-out! tether some-line) 0)
                 (lambda (tether) (simple-format #f "Pay out ~a." (metres some-line))))
    (make-action 'haul-in
-                (lambda (tether vehicle) (haul-in! tether (min some-line (* 0.5 (tether-length tether)))) 0)
-                (lambda (tether) (simple-format #f "Haul in ~a." (metres some-line))))
+                (lambda (tether vehicle) (haul-in! tether (some-of tether)) 0)
+                (lambda (tether) (simple-format #f "Haul in ~a." (metres (some-of tether)))))
    (make-action 'go-back fly-back!
                 (lambda (tether) (string-append "Go back along the tether.  " (in-words tether 'way-home))))
    (make-action 'unwind
@@ -108,16 +112,20 @@
       (and (stuck? tether) (> (straight-distance tether) home-within))))
 
 (define (ends-badly? action tether vehicle seconds)
-  ;; Is TETHER in trouble after ACTION and SECONDS more, in the present dive?
-  (untold-fork
+  ;; Is TETHER in trouble after ACTION and SECONDS more, in the present dive?  One that refuses, as where the tether has
+  ;; parted, is.
+  (unless-refused
    (lambda ()
-     (let ((on-the-way ((action-act action) tether vehicle)))
-       (run (max seconds (if (positive? on-the-way) (+ on-the-way time-to-see) 0)))
-       (trouble? tether)))))
+     (untold-fork
+      (lambda ()
+        (let ((on-the-way ((action-act action) tether vehicle)))
+          (run (max seconds (if (positive? on-the-way) (+ on-the-way time-to-see) 0)))
+          (trouble? tether)))))
+   (const #t)))
 
-(define (chance-of action tether vehicle seconds)
-  (define (ask) (ends-badly? action tether vehicle seconds))
-  (if (current-belief)
+(define (chance ask)
+  ;; The probability that ASK returns true in the tethers of the belief of the present dive, or in the dive itself.
+  (if (and (current-belief) (eq? (belief-host (current-belief)) (this-dive 'advise)))
       (answer-probability (ask-belief #f ask))
       (if (ask) 1.0 0.0)))
 
@@ -129,17 +137,18 @@
     (car (find (lambda (entry) (<= (cdr entry) (+ least not-worth))) chances))))
 
 (define (advice-about tether vehicle seconds)
-  (let* ((chances (map (lambda (action) (cons (action-name action) (chance-of action tether vehicle seconds)))
+  (let* ((chances (map (lambda (action)
+                         (cons (action-name action) (chance (lambda () (ends-badly? action tether vehicle seconds)))))
                        actions))
          (best (best-of chances))
          (action (find (lambda (action) (eq? best (action-name action))) actions)))
-    (make-advice best ((action-sentence action) tether) chances seconds)))
+    (make-advice best ((action-sentence action) tether) (chance (lambda () (trouble? tether))) chances seconds)))
 
 (define-verb (advise #:subject (t tether) #:key (seconds positive 30.0))
   "Return what to do now: go on, stop, pay out, haul in, go back along the tether or round by the other side, the
 first of these after which the tether is least likely fouled, stuck or parted SECONDS later, or ten seconds after a
-way has been flown.  Each is flown on the tethers of the current belief, or, without one, on a fork.  The prompt
-says it in words, with the probability of trouble before and after."
+way has been flown.  Each is flown on the tethers of the current belief, or, without one of this dive, on a fork.  The
+prompt says it in words, with the probability of trouble now, after it, and after going on."
   (let* ((tether (list-ref (%names (this-engine 'advise) 'tether) t))
          (vehicle (held-vehicle 'advise t)))
     (advice-about tether vehicle seconds)))
@@ -148,13 +157,14 @@ says it in words, with the probability of trouble before and after."
 ;;; In words.
 
 (define (advice-said advice)
-  (let ((before (assq-ref (%chances advice) 'go-on))
-        (after (assq-ref (%chances advice) (%action advice))))
+  (let ((on (percent-said (assq-ref (%chances advice) 'go-on)))
+        (after (percent-said (assq-ref (%chances advice) (%action advice))))
+        (now (percent-said (%now advice))))
     (string-append
      (%sentence advice)
      (if (eq? 'go-on (%action advice))
-         (simple-format #f "  Trouble within ~a: ~a." (seconds-said (%seconds advice)) (percent-said before))
-         (simple-format #f "  Trouble: ~a instead of ~a." (percent-said after) (percent-said before))))))
+         (simple-format #f "  Trouble: ~a now, ~a in ~a." now on (seconds-said (%seconds advice)))
+         (simple-format #f "  Trouble: ~a now, ~a after it, ~a going on." now after on)))))
 
 (set-record-type-printer!
  <advice> (lambda (advice port) (simple-format port "#<advice: ~a>" (advice-said advice))))

@@ -40,10 +40,7 @@
 (define silence (list 'silence))        ; of a member that has no answer
 
 (define (asked member thunk)
-  (with-exception-handler
-   (lambda (e) (if (bight-error? e) silence (raise-exception e)))
-   (lambda () (in-member member thunk))
-   #:unwind? #t))
+  (unless-refused (lambda () (in-member member thunk)) (const silence)))
 
 (define (ask-members belief thunk)
   "Call THUNK with the dive of each living member of BELIEF as the current one, and return all it returned as one

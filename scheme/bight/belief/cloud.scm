@@ -42,7 +42,7 @@
             make-reading reading-step reading-serial reading-kind reading-value reading-noise reading-part
             reading-scalars set-reading-scalars! reading-predictions set-reading-predictions!
             reading-done? set-reading-done!
-            catch-up! entries-since fly-again! forget-past! copy-member! way-back in-member
+            catch-up! entries-since fly-again! forget-past! copy-member! way-back in-member unless-refused
             weights effective-number
             current-belief this-belief type:belief))
 
@@ -132,15 +132,16 @@
 (define (member-engine member)
   (engine-of (member-dive member)))
 
-(define (or-lost member thunk)
-  ;; Call THUNK; MEMBER is lost if its dive refuses.
+(define (unless-refused thunk otherwise)
+  "Return what THUNK does, or what the thunk OTHERWISE does where a dive refuses."
   (with-exception-handler
-   (lambda (e)
-     (if (bight-error? e)
-         (set-member-lost! member #t)
-         (raise-exception e)))
+   (lambda (e) (if (bight-error? e) (otherwise) (raise-exception e)))
    thunk
    #:unwind? #t))
+
+(define (or-lost member thunk)
+  ;; Call THUNK; MEMBER is lost if its dive refuses.
+  (unless-refused thunk (lambda () (set-member-lost! member #t))))
 
 (define (set-current! engine numbers)
   (%redo! engine 'current 0 numbers))

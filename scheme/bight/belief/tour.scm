@@ -27,13 +27,8 @@
 
 (define (troubles-of member tour speed)
   ;; Where TOUR goes wrong, flown on the tether of MEMBER: a list; everywhere, if its dive fails.
-  (with-exception-handler
-   (lambda (e)
-     (if (bight-error? e)
-         (make-list (+ 1 (length (tour-places tour))) #t)
-         (raise-exception e)))
-   (lambda () (in-member member (lambda () (tour-troubles tour speed))))
-   #:unwind? #t))
+  (unless-refused (lambda () (in-member member (lambda () (tour-troubles tour speed))))
+                  (lambda () (make-list (+ 1 (length (tour-places tour))) #t))))
 
 (define (chances belief tour limit speed)
   ;; The share of the tethers of BELIEF for which TOUR goes wrong at each place, and at home.  Once one is beyond LIMIT no

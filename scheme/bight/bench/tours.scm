@@ -286,10 +286,8 @@
 
 (define (home-in-truth? tour member)
   ;; A flight that fails for any reason has not come home.
-  (with-exception-handler
-      (lambda (e) (if (bight-error? e) #f (raise-exception e)))
-    (lambda () (in-member member (lambda () (untold-fork (lambda () (comes-home? tour))))))
-    #:unwind? #t))
+  (unless-refused (lambda () (in-member member (lambda () (untold-fork (lambda () (comes-home? tour))))))
+                  (const #f)))
 
 (define (tenths x) (/ (round (* 10.0 x)) 10))
 (define (hundredths x) (/ (round (* 100.0 x)) 100))
