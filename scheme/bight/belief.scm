@@ -25,6 +25,8 @@
             tether-tube tube-holds?
             ;; For (bight belief tour).
             (ready . ready-belief)
+            ;; For (bight bench belief-tank).
+            answer-of
             ;; What the macros expand to.
             clauses->belief!)
   #:re-export (current-belief))

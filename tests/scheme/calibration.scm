@@ -2,7 +2,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight belief cloud) (bight belief regression) (bight study sweep-design) ((srfi srfi-1) #:select (iota fold count append-map filter-map)) (srfi srfi-4))
+(use-modules (bight bench belief) (bight belief cloud) (bight belief regression) (bight study sweep-design) ((srfi srfi-1) #:select (iota fold count append-map filter-map)) (srfi srfi-4))
 
 (define (normals name)
   ;; A thunk that returns one independent standard normal number after another.
@@ -127,3 +127,25 @@ they are not believed so far that fewer than a third of the members count."
         (cons (apply + (list-head shares right)) (effective-number (weights belief))))))
   (expect (car (share-of-the-right 12)) is (above 0.99))
   (expect (share-of-the-right 2) is (lambda (both) (and (< 0.3 (car both) 0.5) (> (cdr both) 11)))))
+
+
+;;; A rope that was measured.
+
+(define folder
+  (or (getenv "BIGHT_REFERENCE_DATA") (string-append (or (getenv "top_srcdir") ".") "/../shared/data")))
+
+(define (printed . options)
+  (string-split (with-output-to-string (lambda () (run-belief options))) #\newline))
+
+(define-scenario a-measured-rope
+  "Identified on the first half of a run in a tank, a rope is seen in the second where the 90 % tube is, which is at most 2.5
+times as wide as the markers' own uncertainty asks.  Where the measurement is not, it is said."
+  (if (file-exists? (string-append folder "/real/toulon_cable6_surge_0p6_0031.csv"))
+      (let ((cells (map string->number (string-split (cadr (printed "--tank" "--tethers" "16")) #\,))))
+        (expect (list-ref cells 0) => 16)
+        (expect (list-ref cells 1) is (above 200))
+        (expect (list-ref cells 3) is (between 0.85 0.95))
+        (expect (list-ref cells 4) is (between 0.5 2.5)))
+      (begin
+        (expect (string-prefix? "skipped: " (car (printed "--tank"))))
+        (skip "the reference data are not here"))))

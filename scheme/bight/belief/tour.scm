@@ -30,16 +30,18 @@
   (unless-refused (lambda () (in-member member (lambda () (tour-troubles tour speed))))
                   (lambda () (make-list (+ 1 (length (tour-places tour))) #t))))
 
-(define (chances belief tour limit speed)
-  ;; The share of the tethers of BELIEF for which TOUR goes wrong at each place, and at home.  Once one is beyond LIMIT no
-  ;; more are flown.
-  (let loop ((members (living belief)) (shares (f64vector->list (weights belief)))
-             (sums (make-list (+ 1 (length (tour-places tour))) 0.0)))
-    (if (or (null? members) (beyond? sums limit))
-        sums
-        (loop (cdr members) (cdr shares)
-              (map (lambda (sum wrong?) (if wrong? (+ sum (car shares)) sum))
-                   sums (troubles-of (car members) tour speed))))))
+(define (chances tethers tour limit speed)
+  ;; Of TETHERS, (MEMBER . SHARE), the share for which TOUR goes wrong at each place, and at home; once one is beyond LIMIT
+  ;; no more are flown.  Return it with TETHERS in the order in which another tour had best be flown on them: what one
+  ;; catches on, another may.
+  (let loop ((rest tethers) (sums (make-list (+ 1 (length (tour-places tour))) 0.0)) (wrong '()) (right '()))
+    (if (or (null? rest) (beyond? sums limit))
+        (cons sums (append wrong rest right))
+        (let* ((troubles (troubles-of (caar rest) tour speed)) (share (cdar rest))
+               (more (map (lambda (sum wrong?) (if wrong? (+ sum share) sum)) sums troubles)))
+          (if (any identity troubles)
+              (loop (cdr rest) more (cons (car rest) wrong) right)
+              (loop (cdr rest) more wrong (cons (car rest) right)))))))
 
 (define (beyond? sums limit) (> (apply max sums) (+ limit 1e-9)))
 
@@ -53,18 +55,24 @@
 
 (define (chooser belief limit speed)
   ;; See `tour-found'.
-  (lambda (others shortest)
-    (let ((sums (chances belief shortest limit speed)))
-      (cond ((not (beyond? sums limit)) (at-risk shortest sums belief))
-            ((null? (tour-places shortest)) ; the way home alone
-             (at-risk shortest (chances belief shortest 1 speed) belief))
-            ((any (lambda (tour)
-                    (let ((sums (chances belief tour limit speed)))
-                      (and (not (beyond? sums limit)) (at-risk tour sums belief))))
-                  (at-most (- most-flown 1) (remove (lambda (tour) (same-order? tour shortest)) (others)))))
-            (else
-             (cons (worst-place shortest sums)
-                   (simple-format #f "with it P(fouled) is above ~a" (percent-said limit))))))))
+  (let ((tethers (map cons (living belief) (f64vector->list (weights belief)))))
+    (define (fly! tour limit)
+      (let ((flown (chances tethers tour limit speed)))
+        (set! tethers (cdr flown))
+        (car flown)))
+    (define (kept tour)
+      (let ((sums (fly! tour limit)))
+        (and (not (beyond? sums limit)) (at-risk tour sums belief))))
+    (lambda (others shortest)
+      (let ((sums (fly! shortest limit)))
+        (cond ((not (beyond? sums limit)) (at-risk shortest sums belief))
+              ((null? (tour-places shortest)) ; the way home alone
+               (at-risk shortest (fly! shortest 1) belief))
+              ((any kept (at-most (- most-flown 1)
+                                  (remove (lambda (tour) (same-order? tour shortest)) (others)))))
+              (else
+               (cons (worst-place shortest sums)
+                     (simple-format #f "with it P(fouled) is above ~a" (percent-said limit)))))))))
 
 (define (same-order? a b) (equal? (tour-places a) (tour-places b)))
 

@@ -45,14 +45,15 @@
        covariance '(0 1 2)))
 
 (define (weighted-rank pairs share n)
-  ;; The least of the values of PAIRS, (VALUE . WEIGHT), at which SHARE of the weight, and that of one more of N members,
-  ;; is reached; one and a half times the greatest where there are too few for that.
-  (let* ((sorted (sort pairs (lambda (a b) (< (car a) (car b)))))
-         (wanted (* share (+ 1 (/ 1 n)))))
-    (let loop ((rest sorted) (sum 0.0))
-      (cond ((null? rest) (* 1.5 (car (last sorted))))
-            ((>= (+ sum (cdar rest)) (- wanted 1e-12)) (caar rest))
-            (else (loop (cdr rest) (+ sum (cdar rest))))))))
+  ;; Below which of the values of PAIRS, (VALUE . WEIGHT), SHARE of the weight, and that of one more of N members, lies,
+  ;; interpolated; one and a half times the greatest where there are too few for that.
+  (let ((sorted (sort pairs (lambda (a b) (< (car a) (car b)))))
+        (wanted (* share (+ 1 (/ 1 n)))))
+    (let loop ((rest sorted) (sum 0.0) (below 0.0))
+      (cond ((null? rest) (* 1.5 below))
+            ((>= (+ sum (cdar rest)) (- wanted 1e-12))
+             (+ below (* (- (caar rest) below) (min 1 (/ (- wanted sum) (cdar rest))))))
+            (else (loop (cdr rest) (+ sum (cdar rest)) (caar rest)))))))
 
 (define draws 8)                        ; of an error, for each member
 

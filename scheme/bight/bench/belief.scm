@@ -1,6 +1,6 @@
 ;;; (bight bench belief) --- `bight bench belief': is a belief as sure as it may be, and what does it cost?
 ;;;
-;;; Truths are drawn as the members are, from another seed, and flown by the same orders round the head of a post
+;;; With `--tank' the truth is a measured rope: (bight bench belief-tank).  Else truths are drawn as the members are, from another seed, and flown by the same orders round the head of a post
 ;;; that the line may or may not slip over; a shorter way round a lower one where beliefs learn.  Each row is of one
 ;;; number of tethers: the share of the true line that the 90 % tube holds, of true values within their 90 % intervals,
 ;;; the Brier score of P(fouled) beside that of the dive without a belief, CPU time, and how many truths lie in each
@@ -14,6 +14,8 @@
   #:use-module (bight belief answer)
   #:use-module (bight belief cloud)
   #:use-module (bight belief unknowns)
+  #:use-module (bight bench belief-tank)
+  #:use-module ((bight bench plot) #:select (draw-line draw-on-decades draw-text))
   #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight dive)
@@ -30,14 +32,17 @@
 
 (define help "bight bench belief: how often beliefs are right, and what they cost
   --truths N    of each number of tethers, 400 when left out, 20 with --quick
-  --tethers N   one number of tethers alone; 16, 32, 64 and 128 when left out, 64 with --quick
+  --tethers N   one number of tethers alone; 8 to 256 by doubling when left out, 64 with --quick
+  --minutes M   with --learn: of each number of tethers no more truths than fit into M minutes
+  --plot FILE   draw, as SVG, how much of the true line is outside the tube over CPU time, a point for each number of tethers
   --learn       let each belief go by readings of tension first, on a shorter dive, at 2 s of CPU for 32 tethers
   --by HOW      learn by smoother or by particles
-  --cost        the cost of a step alone
+  --cost        the cost of a step, and of a minute with readings, alone
+  --tank        a measured rope instead of drawn truths: identified on the first half of a run, looked for in the second
 ")
 
-(define valued '("--truths" "--tethers" "--by"))
-(define flags '("--learn" "--quick" "--cost" "--help"))
+(define valued '("--truths" "--tethers" "--by" "--minutes" "--plot"))
+(define flags '("--learn" "--quick" "--cost" "--tank" "--help"))
 
 (define (read-options arguments)
   (let loop ((rest arguments) (found '()))
@@ -186,27 +191,54 @@
 
 (define (cpu) (/ (get-internal-run-time) (exact->inexact internal-time-units-per-second)))
 
-(define (verdicts dive tethers truths learn? by)
+(define (learnt-verdict dive tethers truth number by)
+  (let ((belief (believer dive tethers (+ 1 number) by)))
+    (fly-belief! dive belief truth number #t)
+    (judge belief truth)))
+
+(define (verdicts dive tethers truths learn? by until)
+  ;; Of as many of TRUTHS as are begun before the time UNTIL.
   (if learn?
-      (map (lambda (truth number)
-             (let ((belief (believer dive tethers (+ 1 number) by)))
-               (fly-belief! dive belief truth number #t)
-               (judge belief truth)))
-           truths (iota (length truths)))
+      (let loop ((rest truths) (number 0) (found '()))
+        (if (or (null? rest) (and (pair? found) (>= (current-time) until)))
+            (reverse! found)
+            (loop (cdr rest) (+ number 1) (cons (learnt-verdict dive tethers (car rest) number by) found))))
       (let ((belief (believer dive tethers 1 by)))
         (fly-belief! dive belief (car truths) 0 #f)
         (map (lambda (truth) (judge belief truth)) truths))))
 
-(define (say-row dive tethers truths learn? by)
+(define (say-row dive tethers truths learn? by minutes)
+  ;; Return (TETHERS SECONDS-A-TRUTH SHARE-HELD).
   (let* ((begun (cpu))
-         (all (verdicts dive tethers truths learn? by))
+         (all (verdicts dive tethers truths learn? by (+ (current-time) (* 60 minutes))))
+         (held (share (append-map first all)))
          (point (fouled?)))             ; of the dive that nothing is uncertain of
-    (simple-format #t "~a,~a,~a,~a,~a,~a,~a,~a,~a,\"~a\",\"~a\"~%" tethers (length truths) (if learn? by 'nothing)
-                   (share (append-map first all)) (share (append-map second all)) (share (map third all))
+    (simple-format #t "~a,~a,~a,~a,~a,~a,~a,~a,~a,\"~a\",\"~a\"~%" tethers (length all) (if learn? by 'nothing)
+                   held (share (append-map second all)) (share (map third all))
                    (brier (map (lambda (v) (cons (fourth v) (fifth v))) all))
                    (brier (map (lambda (v) (cons (if point 1 0) (fifth v))) all))
                    (/ (round (* 100 (- (cpu) begun))) 100) (reliability all) (by-tenths (append-map sixth all)))
-    (force-output)))
+    (force-output)
+    (list tethers (/ (- (cpu) begun) (length all)) held)))
+
+(define asked 0.9)
+
+(define (coverage-svg rows)
+  ;; Of ROWS, as `say-row' returns them.
+  (define (outside row) (max 0.001 (- 1 (third row))))
+  (draw-on-decades "The true line beside the 90 % tube" (map second rows) (cons (- 1 asked) (map outside rows))
+                   "CPU s for a truth" "share outside the tube"
+    (lambda (port x y)
+      (let ((all (map second rows)) (level (y (- 1 asked))))
+        (draw-line port (x (apply min all)) level (x (apply max all)) level "stroke='#57606a' stroke-dasharray='4 3'"))
+      (for-each (lambda (row)
+                  (let ((at (x (second row))) (up (y (outside row))))
+                    (simple-format port "<circle cx='~a' cy='~a' r='4' fill='#1f6feb'/>~%" at up)
+                    (draw-text port (+ at 8) up (simple-format #f "~a tethers" (first row)))))
+                rows))))
+
+(define (write-coverage file rows)
+  (call-with-output-file file (lambda (port) (display (coverage-svg rows) port))))
 
 
 ;;; What a step costs.
@@ -218,11 +250,14 @@
 
 (define turns 20)
 
+(define (enter-jacket!)
+  (enter! (extend (without (find-world 'jacket) 'line)
+                  (part tether (named line) (type fathom) (wet-weight 0) (friction 0.6) (model dynamic)
+                        (nodes 50) (from 0 -22 -3) (to minnow) (length 60)))))
+
 (define (say-cost)
   ;; A belief in a jacket and a dive alone, by turns of a second each; one thread, so that CPU time is what is told.
-  (let* ((dive (enter! (extend (without (find-world 'jacket) 'line)
-                               (part tether (named line) (type fathom) (wet-weight 0) (friction 0.6) (model dynamic)
-                                     (nodes 50) (from 0 -22 -3) (to minnow) (length 60)))))
+  (let* ((dive (enter-jacket!))
          (b (make-belief dive '((line (cdn (normal 1.2 0.001)))) #:members 64))
          (alone (begin (drive! #:surge 0.5) (engine-of (fork-dive dive)))))
     (belief-threads! 1 b)
@@ -235,20 +270,42 @@
 second of all takes ~a s of CPU~%"
                          (/ (round (* 100 (/ all one 64))) 100) (/ (round (* 100 (/ all turns))) 100))))))
 
+(define minute 60)                      ; s
+
+(define (say-live-cost)
+  ;; A belief in a jacket that goes by two tensions a second and is asked every second, for a minute.
+  (let* ((dive (enter-jacket!)) (before (list (cpu) (get-internal-real-time)))
+         (b (make-belief dive '((current (error 0.1)) (line (cdn (uniform 1 1.6)))) #:members 64)))
+    (drive! #:surge 0.5)
+    (for-each (lambda (k)
+                (run 1)
+                (observe-second! b 0 (tensions-now))
+                (ask-belief b fouled?))
+              (iota minute))
+    (simple-format #t "the same going by two tensions a second and asked every second, for ~a s: ~a s of CPU, ~a s by the clock with ~a threads; mended ~a times~%"
+                   minute (round (- (cpu) (first before)))
+                   (round (/ (- (get-internal-real-time) (second before)) internal-time-units-per-second 1.0))
+                   (belief-threads-of b) (length (assq-ref (belief-about b) 'mended)))))
+
 (define (run-belief arguments)
   "Do what ARGUMENTS of the bench belief ask for, print what came of it and return the exit status."
   (let* ((options (read-options arguments))
          (quick? (assoc-ref options "--quick"))
          (by (string->symbol (or (assoc-ref options "--by") "smoother"))))
     (cond ((assoc-ref options "--help") (display help))
-          ((assoc-ref options "--cost") (say-cost))
+          ((assoc-ref options "--cost") (say-cost) (say-live-cost))
+          ((assoc-ref options "--tank")
+           (say-tank (if (assoc "--tethers" options) (list (whole options "--tethers" 64)) '(32 64 128))))
           (else
            (let* ((learn? (assoc-ref options "--learn")) (dive (if learn? short-dive long-dive))
                   (truths (fly-truths dive (whole options "--truths" (if quick? 20 400)))))
              (display "tethers,truths,learnt by,held by the 90 % tube,current covered,cdn covered,brier,\
 brier of the dive alone,cpu s,\"reliability: (told true cases) ...\",ranks by tenths\n")
-             (for-each (lambda (tethers) (say-row dive tethers truths learn? by))
-                       (if (or quick? (assoc "--tethers" options))
-                           (list (whole options "--tethers" 64))
-                           '(16 32 64 128))))))
+             (let ((rows (map-in-order (lambda (tethers)
+                                         (say-row dive tethers truths learn? by (whole options "--minutes" 100000)))
+                                       (if (or quick? (assoc "--tethers" options))
+                                           (list (whole options "--tethers" 64))
+                                           '(8 16 32 64 128 256)))))
+               (when (assoc-ref options "--plot")
+                 (write-coverage (assoc-ref options "--plot") rows))))))
     0))
