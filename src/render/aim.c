@@ -1,9 +1,9 @@
 /* Cameras that aim themselves: directions by name, distances by what must be in the picture.
 
-   The things to be seen are gathered as points.  Without perspective the picture is the box around
-   the points as seen along the chosen direction.  With perspective the camera is moved back until
-   every point is inside: for a point q from the middle, right r, ahead f, half angle a, to |q.r| /
-   tan (a) - q.f behind the middle.
+   The things to be seen are points (framing.c).  Without perspective the picture is the box around
+   the points as seen along the chosen direction.  With perspective the camera is moved back and
+   aside until every point is inside: for a point q from the middle, right r, ahead f, tangent t to
+   one side of the picture, the camera's axis shifted by s and back by d, q.r - s <= t (q.f + d).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "math/vec.h"
+#include "render/framing.h"
 #include "render/sight.h"
 
 #define DEGREE (BT__PI / 180)
@@ -27,201 +28,14 @@ bt_aim_name (bt_aim aim)
   return (unsigned)aim < BT_AIM_COUNT ? names[aim] : NULL;
 }
 
-/* ---- What must be seen ---- */
-
-typedef void visit_point (void *user, bt_vec3 p);
-
-static void
-visit_ball (bt_vec3 p, double r, visit_point *visit, void *user)
-{
-  for (int i = 0; i < 8; i++)
-    visit (user, bt__add (p, bt__vec (i & 1 ? r : -r, i & 2 ? r : -r, i & 4 ? r : -r)));
-}
-
-static void
-visit_box (const bt_thing *t, bt_vec3 size, visit_point *visit, void *user)
-{
-  bt_vec3 axis[3];
-  bt_body_axes (t->heading, t->pitch, t->roll, axis);
-  for (int i = 0; i < 8; i++)
-    {
-      bt_vec3 p = bt__axpy (t->at, (i & 1 ? 0.5 : -0.5) * size.x, axis[0]);
-      p = bt__axpy (p, (i & 2 ? 0.5 : -0.5) * size.y, axis[1]);
-      visit (user, bt__axpy (p, (i & 4 ? 0.5 : -0.5) * size.z, axis[2]));
-    }
-}
-
-static void
-visit_points (const bt_thing *t, visit_point *visit, void *user)
-{
-  bt_vec3 axis[3];
-  bt_body_axes (t->heading, t->pitch, t->roll, axis);
-  for (size_t i = 0; i < t->n; i++)
-    if (t->kind == BT_THING_MESH)
-      {
-        bt_vec3 q = bt__scale (t->scale, t->points[i]), p = bt__axpy (t->at, q.x, axis[0]);
-        visit (user, bt__axpy (bt__axpy (p, q.y, axis[1]), q.z, axis[2]));
-      }
-    else
-      visit (user, t->points[i]);
-}
-
-/* Call VISIT for points that span T.  */
-static void
-visit_thing (const bt_thing *t, visit_point *visit, void *user)
-{
-  switch (t->kind)
-    {
-    case BT_THING_TUBE:
-    case BT_THING_MESH:
-    case BT_THING_LINES:
-      visit_points (t, visit, user);
-      break;
-    case BT_THING_BOX:
-      visit_box (t, t->size, visit, user);
-      break;
-    case BT_THING_CYLINDER:
-    case BT_THING_CAPSULE:
-      visit_ball (t->from, t->radius, visit, user);
-      visit_ball (t->to, t->radius, visit, user);
-      break;
-    case BT_THING_SPHERE:
-      visit_ball (t->at, t->radius, visit, user);
-      break;
-    case BT_THING_ARROW:
-      visit (user, t->from);
-      visit (user, t->to);
-      break;
-    case BT_THING_VEHICLE:
-    case BT_THING_SHIP:
-      visit_ball (t->at, 0.6 * t->size.y, visit, user);
-      break;
-    case BT_THING_ANCHOR:
-    case BT_THING_LABEL:
-    case BT_THING_MARK:
-      visit (user, t->at);
-      break;
-    default:
-      break;
-    }
-}
-
-typedef struct box
-{
-  bt_vec3 low, high;
-  int any;
-} box;
-
-static void
-widen_box (void *user, bt_vec3 p)
-{
-  box *b = user;
-  if (!b->any)
-    b->low = b->high = p;
-  b->any = 1;
-  b->low = bt__vec (fmin (b->low.x, p.x), fmin (b->low.y, p.y), fmin (b->low.z, p.z));
-  b->high = bt__vec (fmax (b->high.x, p.x), fmax (b->high.y, p.y), fmax (b->high.z, p.z));
-}
-
-static int
-apart (const box *a, const box *b, double gap)
-{
-  return a->low.x > b->high.x + gap || b->low.x > a->high.x + gap || a->low.y > b->high.y + gap
-         || b->low.y > a->high.y + gap || a->low.z > b->high.z + gap || b->low.z > a->high.z + gap;
-}
-
-static box
-box_of (const bt_thing *t)
-{
-  box b = { { 0, 0, 0 }, { 0, 0, 0 }, 0 };
-  visit_thing (t, widen_box, &b);
-  return b;
-}
-
-/* The box of what must be in the picture.  */
-static box
-must_box (const bt_view *view)
-{
-  box b = { { 0, 0, 0 }, { 0, 0, 0 }, 0 };
-  for (size_t i = 0; i < view->n; i++)
-    if (view->things[i].framing == BT_FRAME_MUST)
-      visit_thing (&view->things[i], widen_box, &b);
-  return b;
-}
-
-/* Call VISIT for all points of things that must be seen, and for the points of near things, clipped
-   to the box ALL grown by GAP.  */
-typedef struct clip
-{
-  box all;
-  double gap;
-  visit_point *visit;
-  void *user;
-} clip;
-
-static void
-visit_clipped (void *user, bt_vec3 p)
-{
-  const clip *c = user;
-  const box *b = &c->all;
-  p = bt__vec (fmin (fmax (p.x, b->low.x - c->gap), b->high.x + c->gap),
-               fmin (fmax (p.y, b->low.y - c->gap), b->high.y + c->gap),
-               fmin (fmax (p.z, b->low.z - c->gap), b->high.z + c->gap));
-  c->visit (c->user, p);
-}
-
-static double
-box_gap (const box *a, const box *b)
-{
-  double x = fmax (fmax (a->low.x - b->high.x, b->low.x - a->high.x), 0);
-  double y = fmax (fmax (a->low.y - b->high.y, b->low.y - a->high.y), 0);
-  double z = fmax (fmax (a->low.z - b->high.z, b->low.z - a->high.z), 0);
-  return sqrt (x * x + y * y + z * z);
-}
-
-/* The distance from the box ALL within which near things are framed: a sixth of its size, or enough
-   to show the nearest thing if the picture grows to three times the size at most.  */
-static double
-reach_about (const bt_view *view, const box *all)
-{
-  double size = bt__distance (all->low, all->high), reach = size / 6, least = INFINITY, more = 0;
-  for (size_t i = 0; i < view->n; i++)
-    {
-      box b;
-      double gap;
-      if (view->things[i].framing != BT_FRAME_NEAR || view->things[i].kind == BT_THING_ARROW
-          || (b = box_of (&view->things[i]), !b.any) || !((gap = box_gap (all, &b)) < least))
-        continue;
-      least = gap;
-      more = gap + fmin (bt__distance (b.low, b.high), size / 2);
-    }
-  return least > reach && least < size ? more : reach;
-}
-
-static void
-visit_all (const bt_view *view, visit_point *visit, void *user)
-{
-  clip c = { must_box (view), 0, visit, user };
-  c.gap = reach_about (view, &c.all);
-  for (size_t i = 0; i < view->n; i++)
-    {
-      const bt_thing *t = &view->things[i];
-      box b;
-      if (t->framing == BT_FRAME_MUST)
-        visit_thing (t, visit, user);
-      else if (t->framing == BT_FRAME_NEAR && (b = box_of (t), b.any) && !apart (&b, &c.all, c.gap))
-        visit_thing (t, visit_clipped, &c);
-    }
-}
-
 /* ---- Fitting ---- */
 
 typedef struct fit
 {
-  bt_vec3 middle, axis[3]; /* right, up, ahead */
-  double tangent[2];       /* of half the picture's angles; 0: no perspective */
-  double low[3], high[3];  /* without perspective: extent along the axes */
-  double back;             /* with: how far back of the middle */
+  bt_vec3 middle, axis[3];  /* right, up, ahead */
+  double low[3], high[3];   /* extent along the axes */
+  double side[2][2];        /* with perspective: tangents to the left and right, below and above */
+  double least[2], most[2]; /* where the edges of the picture must be in the plane of the middle */
 } fit;
 
 static void
@@ -235,8 +49,10 @@ fit_point (void *user, bt_vec3 p)
       double x = bt__dot (q, f->axis[i]);
       f->low[i] = fmin (f->low[i], x);
       f->high[i] = fmax (f->high[i], x);
-      if (i < 2 && f->tangent[i] > 0)
-        f->back = fmax (f->back, fabs (x) / f->tangent[i] - ahead);
+      if (i == 2)
+        continue;
+      f->least[i] = fmin (f->least[i], x + f->side[i][0] * ahead);
+      f->most[i] = fmax (f->most[i], x - f->side[i][1] * ahead);
     }
 }
 
@@ -246,9 +62,10 @@ fit_start (fit *f, bt_vec3 ahead, bt_vec3 up)
   f->axis[2] = bt__unit_or (ahead, north);
   f->axis[0] = bt__unit_or (bt__cross (f->axis[2], up), east);
   f->axis[1] = bt__cross (f->axis[0], f->axis[2]);
-  f->back = 0.1;
   for (int i = 0; i < 3; i++)
     f->low[i] = INFINITY, f->high[i] = -INFINITY;
+  for (int i = 0; i < 2; i++)
+    f->least[i] = INFINITY, f->most[i] = -INFINITY;
 }
 
 static void
@@ -258,10 +75,11 @@ centre (fit *f)
     f->middle = bt__axpy (f->middle, (f->low[i] + f->high[i]) / 2, f->axis[i]);
 }
 
-/* The share of the picture around the things to be seen: all round, and above and below in a level
-   view, where the titles stand.  */
+/* The share of the picture around the things to be seen: all round; above and below in a level
+   view, where titles and depths stand; and above in one with perspective, under the title.  */
 #define MARGIN 1.16
 #define HEADROOM 1.36
+#define UNDER_TITLE 1.26
 
 static void
 aim_level (bt_view *view, bt_vec3 ahead, bt_vec3 up, double aspect)
@@ -269,7 +87,7 @@ aim_level (bt_view *view, bt_vec3 ahead, bt_vec3 up, double aspect)
   fit f = { .middle = { 0, 0, 0 } };
   double width, height;
   fit_start (&f, ahead, up);
-  visit_all (view, fit_point, &f);
+  bt__framed_points (view, fit_point, &f);
   centre (&f);
   width = f.high[0] - f.low[0];
   height = f.high[1] - f.low[1];
@@ -278,19 +96,28 @@ aim_level (bt_view *view, bt_vec3 ahead, bt_vec3 up, double aspect)
   view->camera.from = bt__axpy (f.middle, -fmax (1, (f.high[2] - f.low[2]) / 2 + 0.5), f.axis[2]);
 }
 
+/* Of a camera BACK behind the middle, the picture's edges in the plane of the middle are at -side
+   [0] * back and side[1] * back of the camera's axis, which may be shifted: the picture spans least
+   to most if back is at least their distance by the sum of the tangents.  */
 static void
 aim_perspective (bt_view *view, bt_vec3 ahead, double angle, double aspect)
 {
-  fit f = { .middle = { 0, 0, 0 } };
+  double half = tan (angle / 2), back = 1.5, wide = half * aspect / MARGIN;
+  fit f = { .side = { { wide, wide }, { half / MARGIN, half / UNDER_TITLE } } };
   fit_start (&f, ahead, above);
-  visit_all (view, fit_point, &f);
+  bt__framed_points (view, fit_point, &f);
   centre (&f);
   fit_start (&f, ahead, above);
-  f.tangent[1] = tan (angle / 2) / MARGIN;
-  f.tangent[0] = f.tangent[1] * aspect;
-  visit_all (view, fit_point, &f);
+  bt__framed_points (view, fit_point, &f);
+  for (int i = 0; i < 2; i++)
+    back = fmax (back, (f.most[i] - f.least[i]) / (f.side[i][0] + f.side[i][1]));
+  for (int i = 0; i < 2; i++)
+    {
+      double low = f.least[i] + f.side[i][0] * back, high = f.most[i] - f.side[i][1] * back;
+      f.middle = bt__axpy (f.middle, (low + high) / 2, f.axis[i]);
+    }
   view->camera = (bt_camera){ .at = f.middle, .up = above, .angle = angle };
-  view->camera.from = bt__axpy (f.middle, -fmax (f.back, 1.5), f.axis[2]);
+  view->camera.from = bt__axpy (f.middle, -back, f.axis[2]);
 }
 
 /* ---- Directions ---- */
@@ -422,20 +249,13 @@ aim_by_vehicle (bt_view *view, bt_aim aim, bt_error *error)
 {
   const bt_thing *rov = first_of (view, BT_THING_VEHICLE);
   if (!rov)
-    return bt__fail (error, BT_ERR_DEF, "the view %s is a vehicle's, and this dive has none: give its world one, as in "
-                     "(rov (named minnow) (at 0 0 -5)), or choose another view",
-                     bt_aim_name (aim));
+    return bt__fail (
+        error, BT_ERR_DEF,
+        "the view %s is a vehicle's, and this dive has none: give its world one, as in "
+        "(rov (named minnow) (at 0 0 -5)), or choose another view",
+        bt_aim_name (aim));
   (aim == BT_AIM_CHASE ? aim_chase : aim_pilot) (view, rov);
   return BT_OK;
-}
-
-/* Let obstacles be what must be seen, in a view without vehicle and tether.  */
-static void
-frame_obstacles (bt_view *view)
-{
-  for (size_t i = 0; i < view->n; i++)
-    if (view->things[i].framing == BT_FRAME_NEAR && view->things[i].kind != BT_THING_ARROW)
-      view->things[i].framing = BT_FRAME_MUST;
 }
 
 bt_status
@@ -445,9 +265,9 @@ bt_view_aim (bt_view *view, bt_aim aim, double aspect, bt_error *error)
     return bt__fail (error, BT_ERR_NAME, "there is no view number %d", (int)aim);
   if (aim == BT_AIM_CHASE || aim == BT_AIM_PILOT)
     return aim_by_vehicle (view, aim, error);
-  if (!must_box (view).any)
-    frame_obstacles (view);
-  if (!must_box (view).any)
+  if (!bt__frames_any (view))
+    bt__frame_obstacles (view);
+  if (!bt__frames_any (view))
     return bt__fail (error, BT_ERR_DEF,
                      "there is nothing to look at: no vehicle, no tether and no obstacle");
   if (aim == BT_AIM_TOP) /* a high sun: shadows fall near their objects */
@@ -509,8 +329,8 @@ bt_view_turn (bt_view *view, double turn, double dip, bt_error *error)
     return bt__fail (error, BT_ERR_DOMAIN, "a camera turns by angles, not by %g and %g", turn, dip);
   along = atan2 (way.x, way.y) + turn;
   up = fmin (fmax (asin (way.z / far) + dip, -steepest), steepest);
-  c->from = bt__axpy (
-      c->at, far, bt__vec (sin (along) * cos (up), cos (along) * cos (up), sin (up)));
+  c->from
+      = bt__axpy (c->at, far, bt__vec (sin (along) * cos (up), cos (along) * cos (up), sin (up)));
   c->up = above;
   return BT_OK;
 }

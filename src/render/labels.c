@@ -1,9 +1,10 @@
 /* Labels: where the words beside things stand.  No label overlaps words or figures, or leaves the
-   picture.
+   picture; labels cover as few vehicles, anchors, arrows and tethers as can be.
 
    A greedy placement: labels are sorted by rank (vehicles, then labels asked for, marks, all
    others), and each is tried at eight directions and five distances beside its thing, nearest
-   first.  The first free box is taken and kept as taken by the pen.  The five most important labels
+   first.  Of the free boxes the first that covers least is taken, and kept as taken by the pen.
+   Vehicles, anchors, arrows and tethers are spots along them.  The five most important labels
    stand beside their things, with a line from a distant thing.  The remaining labels are numbers,
    explained by a list under the title as far as the list has room; labels without room are left
    out.
@@ -21,10 +22,23 @@
 
 enum
 {
-  WRITTEN = 5,   /* labels beside their things */
-  NUMBERED = 9,  /* and in the list */
-  DIRECTIONS = 8 /* in which a label is tried */
+  WRITTEN = 5,    /* labels beside their things */
+  NUMBERED = 9,   /* and in the list */
+  DIRECTIONS = 8, /* in which a label is tried */
+  SPOTS = 400,    /* that labels should not cover */
+  ALONG = 24      /* of these along one thing */
 };
+
+typedef struct spot
+{
+  double x, y, r; /* pixels */
+} spot;
+
+typedef struct spots
+{
+  spot at[SPOTS];
+  int n;
+} spots;
 
 typedef struct label
 {
@@ -117,29 +131,95 @@ are_apart (const bt__box *a, const bt__box *b)
   return a->x > b->x + b->w || b->x > a->x + a->w || a->y > b->y + b->h || b->y > a->y + a->h;
 }
 
-/* Write TEXT in the nearest free box beside (X, Y), but not on the box KEPT (or NULL); return true
-   if a box was free.  */
+/* ---- What labels should not cover ---- */
+
+/* Add the point P of a thing of radius R, m.  */
+static void
+shun_point (spots *s, const bt__pen *pen, const bt__optics *o, bt_vec3 p, double r)
+{
+  spot here = { .r = 0 };
+  double away = o->perspective ? bt__dot (bt__sub (p, o->eye), o->ahead) : 1;
+  if (s->n == SPOTS || !bt__project (o, p, pen->width, pen->height, &here.x, &here.y))
+    return;
+  here.r = fmax (r * pen->height / (2 * o->half_height * away), 0.1 * pen->letter);
+  s->at[s->n++] = here;
+}
+
+static void
+shun_thing (spots *s, const bt__pen *pen, const bt__optics *o, const bt_thing *t)
+{
+  int tube = t->kind == BT_THING_TUBE && t->framing == BT_FRAME_MUST;
+  if (t->kind == BT_THING_VEHICLE)
+    {
+      bt__lens lens = bt__lens_of (o, pen->height, 0);
+      shun_point (s, pen, o, t->at, 0.5 * t->size.y * bt__vehicle_growth (&lens, t));
+    }
+  else if (t->kind == BT_THING_ANCHOR)
+    shun_point (s, pen, o, t->at, t->size.y);
+  else if (t->kind == BT_THING_ARROW || (tube && t->n > 0))
+    for (int i = 0; i < ALONG; i++)
+      {
+        double share = (double)i / (ALONG - 1);
+        bt_vec3 p = bt__axpy (bt__scale (1 - share, t->from), share, t->to);
+        shun_point (s, pen, o, tube ? t->points[(size_t)(share * (double)(t->n - 1))] : p,
+                    t->radius);
+      }
+}
+
+/* How many of the spots the box B covers.  */
 static int
-write_beside (bt__pen *pen, double x, double y, const char *text, const bt__box *kept)
+covered (const spots *s, const bt__box *b)
+{
+  int n = 0;
+  for (int i = 0; i < s->n; i++)
+    {
+      const spot *p = &s->at[i];
+      n += p->x + p->r > b->x && p->x - p->r < b->x + b->w && p->y + p->r > b->y
+           && p->y - p->r < b->y + b->h;
+    }
+  return n;
+}
+
+/* ---- Places ---- */
+
+/* Find the place for TEXT beside (X, Y), but not on the box KEPT (or NULL): of the free boxes the
+   nearest of those that cover least; return true if a box was free.  */
+static int
+best_place (bt__pen *pen, const spots *s, double x, double y, const char *text, const bt__box *kept,
+            bt__box *place)
 {
   static const double gap[] = { 0.7, 1.7, 3, 4.6, 6.5 };
-  for (size_t i = 0; i < sizeof gap / sizeof *gap; i++)
-    for (int k = 0; k < DIRECTIONS; k++)
+  int least = SPOTS + 1;
+  for (size_t i = 0; i < sizeof gap / sizeof *gap && least > 0; i++)
+    for (int k = 0; k < DIRECTIONS && least > 0; k++)
       {
         bt__box b = box_beside (pen, x, y, text, gap[i] * pen->letter, k);
-        if (!bt__pen_free (pen, &b) || (kept && !are_apart (&b, kept)))
+        int over = covered (s, &b);
+        if (over >= least || !bt__pen_free (pen, &b) || (kept && !are_apart (&b, kept)))
           continue;
-        draw_leader (pen, x, y, &b);
-        bt__pen_text_in (pen, &b, text);
-        return 1;
+        least = over;
+        *place = b;
       }
-  return 0;
+  return least <= SPOTS;
+}
+
+/* Write TEXT at its place, with a leader; return true if there is one.  */
+static int
+write_beside (bt__pen *pen, const spots *s, double x, double y, const char *text,
+              const bt__box *kept)
+{
+  bt__box b;
+  if (!best_place (pen, s, x, y, text, kept, &b))
+    return 0;
+  draw_leader (pen, x, y, &b);
+  bt__pen_text_in (pen, &b, text);
+  return 1;
 }
 
 /* Number the label L as the I-th of the list, if there is room for both the number and the entry.
  */
 static int
-write_numbered (bt__pen *pen, const label *l, int i)
+write_numbered (bt__pen *pen, const spots *s, const label *l, int i)
 {
   char number[16], entry[160];
   double e = pen->letter;
@@ -149,7 +229,7 @@ write_numbered (bt__pen *pen, const label *l, int i)
   b = bt__pen_box (pen, 1.2 * e, (5 + 1.35 * i) * e, entry);
   if (b.y + b.h > 0.75 * pen->height || !bt__pen_free (pen, &b))
     return 0;
-  if (!write_beside (pen, l->x, l->y, number, &b))
+  if (!write_beside (pen, s, l->x, l->y, number, &b))
     return 0;
   bt__pen_text_in (pen, &b, entry);
   return 1;
@@ -161,16 +241,19 @@ bt__write_labels (bt__pen *pen, const bt_view *view, const bt__optics *optics)
   label *found = malloc ((view->n + 1) * sizeof *found);
   size_t n = found ? gather_labels (pen, view, optics, found) : 0;
   int written = 0, entries = 0;
+  spots s = { .n = 0 };
+  for (size_t i = 0; n > 0 && i < view->n; i++)
+    shun_thing (&s, pen, optics, &view->things[i]);
   for (size_t i = 0; i < n; i++)
     {
       if (written < WRITTEN
-          && write_beside (pen, found[i].x, found[i].y, found[i].thing->text, NULL))
+          && write_beside (pen, &s, found[i].x, found[i].y, found[i].thing->text, NULL))
         {
           written++;
           continue;
         }
       if (entries < NUMBERED)
-        entries += write_numbered (pen, &found[i], entries);
+        entries += write_numbered (pen, &s, &found[i], entries);
     }
   free (found);
 }

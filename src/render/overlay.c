@@ -229,14 +229,20 @@ write_line (bt__pen *pen, const char *text, double size, double y)
   cairo_set_font_size (pen->cr, e);
 }
 
+/* Nothing else stands in the lines of the title.  */
 static void
 write_title (bt__pen *pen, const bt_view *view)
 {
   double e = pen->letter;
+  int before = pen->n_taken;
+  if (!view->title && !view->note)
+    return;
   if (view->title)
     write_line (pen, view->title, 1, 1.9 * e);
   if (view->note)
     write_line (pen, view->note, 0.82, 3.2 * e);
+  pen->n_taken = before;
+  bt__pen_take (pen, &(bt__box){ 0, 0, pen->width - 7.8 * e, 3.6 * e });
 }
 
 /* Write all that is read, with the pen.  In a small picture there is room for the scale alone.  */

@@ -436,6 +436,52 @@ framing (void **state)
   bt_view_free (view);
 }
 
+/* An arrow whose words are beside a vehicle: they cover neither it nor the anchor below it, and
+   stand under the lines of the title, whichever way the arrow points.  An overview has the dive
+   under the title.  */
+static void
+labels_make_way (void **state)
+{
+  enum
+  {
+    MOST = 96
+  };
+  (void)state;
+  for (int i = 0; i < 12; i++)
+    {
+      double angle = 2 * BT__PI * i / 12, x, y;
+      bt_vec3 seen[2] = { { 0, 0, -5 }, { 0.2, 0, -8 } };
+      bt_thing arrow = bt_thing_of (BT_THING_ARROW), anchor = bt_thing_of (BT_THING_ANCHOR);
+      bt_view *view = new_view ();
+      bt__box box[MOST];
+      int n, about = 0;
+      add_vehicle (view, seen[0]);
+      anchor.at = seen[1];
+      anchor.framing = BT_FRAME_MUST;
+      add (view, &anchor);
+      arrow.to = bt__add (seen[0], bt__vec (0.1 * cos (angle), 0, 0.1 * sin (angle)));
+      arrow.from = bt__add (seen[0], bt__vec (-cos (angle), 0, -sin (angle)));
+      arrow.text = "what is said here";
+      add (view, &arrow);
+      view->title = "a title";
+      assert_int_equal (bt_view_aim (view, BT_AIM_OVERVIEW, 16.0 / 9, NULL), BT_OK);
+      bt__optics o = bt__optics_of (&view->camera, 16.0 / 9);
+      n = bt__written (view, 1280, 720, 0, box, MOST);
+      for (int k = 0; k < 2; k++)
+        {
+          assert_int_equal (bt__project (&o, seen[k], 1280, 720, &x, &y), 1);
+          assert_true (y > 3.6 * 18);
+          for (int b = 0; b < n; b++)
+            assert_false (box[b].x < x && x < box[b].x + box[b].w && box[b].y < y
+                          && y < box[b].y + box[b].h);
+        }
+      for (int b = 0; b < n; b++)
+        about += box[b].y > 3.6 * 18 && box[b].y + box[b].h < 600;
+      assert_int_equal (about, 1);
+      bt_view_free (view);
+    }
+}
+
 /* East is on the right when looking north, north is up from above, south on the right when looking
    east.  */
 static void
@@ -745,6 +791,7 @@ main (void)
     cmocka_unit_test (sizes),
     cmocka_unit_test (transparent),
     cmocka_unit_test (framing),
+    cmocka_unit_test (labels_make_way),
     cmocka_unit_test (directions),
     cmocka_unit_test (bad_views),
     cmocka_unit_test (carried_about),
