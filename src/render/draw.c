@@ -120,17 +120,11 @@ set_common (const bt__job *j, GLuint program)
 
 /* ---- Passes ---- */
 
-static const bt__shadows *
-shadows_of (const bt__job *j)
-{
-  return j->drawing.quick ? &j->r->quick : &j->r->still;
-}
-
 static void
 draw_shadows (bt__job *j)
 {
   const bt__gl *gl = j->gl;
-  const bt__shadows *shadows = shadows_of (j);
+  const bt__shadows *shadows = j->shade;
   bt__cast_matrix (j->view->sun, j->middle, j->radius, j->soup.origin, j->cast);
   gl->BindFramebuffer (GL_FRAMEBUFFER, shadows->frame);
   gl->Viewport (0, 0, shadows->side, shadows->side);
@@ -184,8 +178,8 @@ draw_scene (bt__job *j, const bt__window *window)
 static void
 bind_buffers (const bt__job *j, GLuint program)
 {
-  const GLuint texture[] = { j->frames->colors, j->frames->shapes, j->frames->depths,
-                             shadows_of (j)->map, j->frames->sky };
+  const GLuint texture[]
+      = { j->frames->colors, j->frames->shapes, j->frames->depths, j->shade->map, j->frames->sky };
   const char *const name[] = { "colors", "shapes", "depths", "shadow", "sky" };
   for (int i = 0; i < 5; i++)
     {
@@ -215,7 +209,7 @@ set_tile (const bt__job *j, GLuint program, int x, int y)
   set_number (j, program, "level", fmax (j->level, j->middle.z - j->radius));
   set_number (j, program, "bare", j->drawing.transparent);
   gl->UniformMatrix4fv (spot (j, program, "sunward"), 1, GL_FALSE, j->cast);
-  set_number (j, program, "texel", 1.0 / shadows_of (j)->side);
+  set_number (j, program, "texel", 1.0 / j->shade->side);
   set_number (j, program, "wide", 0.5 / j->radius);
   set_number (j, program, "grid", bt__grid_step (j));
 }
@@ -316,6 +310,14 @@ bt__check_size (int width, int height, bt_error *error)
   return BT_OK;
 }
 
+/* Shadows as fine as the picture.  */
+static int
+shadow_side (const bt__job *j)
+{
+  int longest = j->drawing.width > j->drawing.height ? j->drawing.width : j->drawing.height;
+  return j->drawing.quick ? 512 : longest <= 800 ? 1024 : 2048;
+}
+
 static bt_status
 draw_alone (bt__job *j, bt__picture *picture, bt_error *error)
 {
@@ -326,8 +328,9 @@ draw_alone (bt__job *j, bt__picture *picture, bt_error *error)
   j->gl->PixelStorei (GL_PACK_ALIGNMENT, 4);
   j->resolve = bt__renderer_resolve (j->r, j->drawing.samples, j->optics.perspective,
                                      sees_surface (j), error);
+  j->shade = j->resolve ? bt__renderer_shadows (j->r, shadow_side (j), error) : NULL;
   upload (j);
-  if (j->resolve)
+  if (j->shade)
     {
       draw_shadows (j);
       status = draw_tiles (j, picture, error);

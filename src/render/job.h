@@ -25,8 +25,9 @@ typedef struct bt__job
   int margin;   /* pixels around a tile */
   float cast[16];
   GLuint array, buffer[2];
-  bt__frames *frames;    /* the renderer's, once they are had */
-  const GLuint *resolve; /* the programs of the passes, likewise */
+  const bt__shadows *shade; /* the renderer's */
+  bt__frames *frames;       /* the renderer's, once they are had */
+  const GLuint *resolve;    /* the programs of the passes, likewise */
 } bt__job;
 
 /* Gather the triangles of JOB's view; from the triangles follow the frame of the light and the

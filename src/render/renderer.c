@@ -118,6 +118,19 @@ build_shadows (const bt__gl *gl, int side, bt__shadows *s, bt_error *error)
   return BT_OK;
 }
 
+/* A map is made at its first use: a process draws pictures of one size, mostly.  A map without
+   memory is tried again by the next picture.  */
+const bt__shadows *
+bt__renderer_shadows (bt__renderer *r, int side, bt_error *error)
+{
+  int i = 0;
+  while (i < BT__SHADOW_SIZES - 1 && r->shadows[i].map && r->shadows[i].side != side)
+    i++;
+  if (r->shadows[i].map && r->shadows[i].side == side)
+    return &r->shadows[i];
+  return build_shadows (&r->gl, side, &r->shadows[i], error) == BT_OK ? &r->shadows[i] : NULL;
+}
+
 /* ---- Life ---- */
 
 static void
@@ -137,10 +150,6 @@ furnish (bt__renderer *r, bt_error *error)
   status = bt__gl_load (&r->gl, r->backend, r->context, error);
   if (status == BT_OK)
     status = build_programs (r, error);
-  if (status == BT_OK)
-    status = build_shadows (&r->gl, BT__SHADOW_SIDE, &r->still, error);
-  if (status == BT_OK)
-    status = build_shadows (&r->gl, BT__SHADOW_SIDE_QUICK, &r->quick, error);
   if (status == BT_OK)
     {
       r->gl.GenVertexArrays (1, &r->empty);

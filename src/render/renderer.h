@@ -13,8 +13,7 @@
 
 enum
 {
-  BT__SHADOW_SIDE = 2048,
-  BT__SHADOW_SIDE_QUICK = 512
+  BT__SHADOW_SIZES = 3
 };
 
 /* Depths seen from the sun.  */
@@ -42,10 +41,10 @@ struct bt__renderer
   /* For one sample a pixel or two squared, without perspective or with it; 0 until they are wanted.
    */
   GLuint resolve[2][2][BT__RESOLVE_PASSES];
-  bt__shadows still, quick;
-  bt__frames frames;    /* of the last picture; W 0: there are none */
-  pthread_mutex_t lock; /* of the context: a picture at a time */
-  GLuint empty;         /* a vertex array for what has no vertices */
+  bt__shadows shadows[BT__SHADOW_SIZES]; /* likewise; MAP 0 until it is wanted */
+  bt__frames frames;                     /* of the last picture; W 0: there are none */
+  pthread_mutex_t lock;                  /* of the context: a picture at a time */
+  GLuint empty;                          /* a vertex array for what has no vertices */
   char name[200];
 };
 
@@ -54,5 +53,8 @@ struct bt__renderer
    and ERROR says why.  */
 const GLuint *bt__renderer_resolve (bt__renderer *r, int samples, int perspective, int surface,
                                     bt_error *error);
+
+/* Have the shadow map of SIDE pixels, likewise.  */
+const bt__shadows *bt__renderer_shadows (bt__renderer *r, int side, bt_error *error);
 
 #endif

@@ -123,7 +123,7 @@ static const char scene_fragment[] = "in vec3 n, c;\n"
     "void main ()\n"
     "{\n"
     "  color = vec4 (c, s.x);\n"
-    "  shape = vec4 (normalize (n) * 0.5 + 0.5, s.y);\n"
+    "  shape = vec4 (n * 0.5 + 0.5, s.y);\n" /* a unit once light falls on it */
     "}\n";
 
 /* ---- Shadows ---- */
