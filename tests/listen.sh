@@ -46,6 +46,15 @@ result $? 'an endless loop there holds up nobody'
 say "$socket" "(> (now) 0)" >"$scratch/out"
 grep -q '#t' "$scratch/out"
 result $? 'nor another session'
+# What Geiser 0.10 defines when an editor connects, and what C-x C-e sends.
+say "$socket" "(use-modules (system repl command))
+(define-meta-command ((geiser-eval geiser) repl (mod form args) . rest) \"what an editor evaluates\"
+  (write (list 'editor mod (and (null? args) (eval form (current-module))))))
+,geiser-eval #f (+ 1 2) ()" >"$scratch/out"
+grep -q '(editor #f 3)' "$scratch/out"
+evaluated=$?
+result $evaluated 'an editor evaluates data'
+[ $evaluated -eq 0 ] || diag "$(cat "$scratch/out")"
 kill $talker
 talker=
 say "$socket" "(freeze!)" >"$scratch/out"

@@ -105,12 +105,20 @@ Show the lines that led to the last error, the innermost first."
     (simple-format #t "There is no command ,~a; ~a,help lists them.~%" word
                    (if near (simple-format #f "did you mean ,~a?  " near) ""))))
 
+;; Guile reads the forms of a command as syntax; the Geiser of Debian 12 takes them for data, so that it
+;; would apply the value of what an editor evaluates to nothing.
+(define (run-on-data repl)
+  (let* ((command ((module-ref guiles 'lookup-command) (read)))
+         (forms ((module-ref guiles 'read-command-arguments) command repl)))
+    (when forms
+      (apply ((module-ref guiles 'command-procedure) command) repl (map syntax->datum forms)))))
+
 (define (reader-of-commands own)
   (lambda (repl)
     (let ((word (next-word)))
-      (if (or (string-null? word) (known? word))
-          (own repl)
-          (answer-unknown word)))))
+      (cond ((not (or (string-null? word) (known? word))) (answer-unknown word))
+            ((string=? "geiser-eval" word) (run-on-data repl))
+            (else (own repl))))))
 
 (define answer-unknown-commands!
   (let ((own #f))
