@@ -41,7 +41,7 @@
   ;; What may have been meant by WORD, the first of the command line: a command, a file; else where to read on.
   (let ((command (did-you-mean word first-words)))
     (if (string-null? command)
-        (let ((file ((from (bight shell meant) file-meant) word)))
+        (let ((file ((from (bight core missing) file-meant) word)))
           (if (string-null? file) "; bight --help lists the commands" file))
         command)))
 

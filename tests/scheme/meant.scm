@@ -214,10 +214,16 @@
     (expect (command-line-answer "zzzz") is (lambda (text) (not (string-contains text "did you mean"))))))
 
 (define-scenario files-that-are-not-there
-  "A script or a test whose name is misspelt is answered by the file beside it."
+  "A file whose name is misspelt is answered by the file beside it, whichever command takes it."
   (let ((file (scratch-file "careful.scm")))
     (call-with-output-file file (lambda (port) (display "1" port)))
     (let ((slip (string-append (dirname file) "/carefull.scm"))
           (meant (string-append "did you mean `" file "'?")))
       (expect (command-line-answer slip) is (lambda (text) (string-contains text meant)))
-      (expect (command-line-answer "test" slip) is (lambda (text) (string-contains text meant))))))
+      (expect (command-line-answer "test" slip) is (lambda (text) (string-contains text meant)))
+      ;; Each command that takes a file.
+      (for-each (lambda (words)
+                  (expect (cons words (apply command-line-answer (append words (list slip))))
+                          is (lambda (told) (string-contains (cdr told) meant))))
+                '(("watch") ("replay") ("sweep") ("follow") ("lesson") ("pilot") ("snapshot" "-o" "x.png")
+                  ("identify" "--unknown" "ei"))))))

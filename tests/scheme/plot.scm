@@ -78,7 +78,10 @@
        (display "case,model,setting,metric,error,reference,reference_uncertainty,cpu_ns\n" port)
        (display "c,m,n=1,rms,1e-3,none,0,1000\nc,m,n=2,rms,1e-5,none,0,5000\nc,m,n=3,rms,0,none,0,5\n"
                 port)))
-   (expect (->bool (string-contains (object->string (plot (scratch-file "bench.csv"))) "CPU, s")) => #t)
+   (let ((drawn (object->string (plot (scratch-file "bench.csv")))))
+     (expect (->bool (string-contains drawn "CPU, s")) => #t)
+     (expect (->bool (string-contains drawn "without 1 row of 0")) => #t))
+   (expect (string-contains (object->string (plot (scratch-file "bench.csv") #:log 'x)) "without") => #f)
    (expect (->bool (string-contains (object->string (plot '((up (0 0) (1 1)) (down (0 1) (1 0))))) "down"))
            => #t)))
 
@@ -143,7 +146,7 @@
   (define (script what)
     ;; What gnuplot would read.
     (call-with-output-string
-      (lambda (port) ((@@ (bight view chart) print-script) ((@@ (bight view plot) chart-of) what #f) 'svg '(800 . 600) port))))
+      (lambda (port) ((@@ (bight view chart) print-script) ((@@ (bight view plot) chart-of) what #f #f) 'svg '(800 . 600) port))))
   (define (times word text) (- (length (string-split* text word)) 1))
   (let ((one (script s)) (two (script (list (cons 'a s) (cons 'b s)))))
     (expect (times "plot '-'" one) => 2)

@@ -6,6 +6,7 @@
   #:use-module ((bight core datum) #:select (text->datum))
   #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
+  #:use-module ((bight core missing) #:select (why-not))
   #:use-module ((ice-9 textual-ports) #:select (get-string-n))
   #:export (clauses-from tethers-from))
 
@@ -15,7 +16,7 @@
   (catch 'system-error
     (lambda () (call-with-input-file file (lambda (port) (get-string-n port most-characters)) #:encoding "UTF-8"))
     (lambda args
-      (bight-raise 'io proc "cannot read ~s: ~a" file (strerror (system-error-errno args))))))
+      (bight-raise 'io proc "cannot read ~s: ~a" file (why-not file args)))))
 
 (define (clauses-from proc text)
   "Return the clauses of a belief, a list, that TEXT holds, or the file of that name; raise a &bight-error from PROC where

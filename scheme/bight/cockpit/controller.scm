@@ -16,6 +16,7 @@
   #:use-module (bight cockpit mapping)
   #:use-module (bight core datum)
   #:use-module (bight core errors)
+  #:use-module ((bight core missing) #:select (file-meant))
   #:use-module (bight core record)
   #:use-module (srfi srfi-1)
   #:export (open-controllers read-stream check-asked poll-events! note-event! controller-sticks controller-names
@@ -89,8 +90,8 @@ controllers; the file of a recorded stream can be flown"))
 (define (check-asked what)
   "Raise a &bight-error unless WHAT is `any' or the name of a file that is there."
   (unless (or (equal? what "any") (file-exists? what))
-    (bight-raise 'io 'controller "--controller is any, what is plugged in, or the file of a stream, and there is no file ~s"
-                 what)))
+    (bight-raise 'io 'controller "--controller is any, what is plugged in, or the file of a stream, and there is no file ~s~a"
+                 what (file-meant what))))
 
 (define (open-controllers what mapping)
   "Return the controllers that WHAT says: `any' for all that are or will be plugged in, or the file of a stream.  MAPPING

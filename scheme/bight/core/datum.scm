@@ -10,6 +10,7 @@
 
 (define-module (bight core datum)
   #:use-module (bight core errors)
+  #:use-module ((bight core missing) #:select (why-not))
   #:use-module ((ice-9 textual-ports) #:select (get-string-all))
   #:export (plain-text? text->datum read-forms))
 
@@ -93,7 +94,7 @@ cannot be read."
   (catch 'system-error
     (lambda () (call-with-input-file file get-string-all #:encoding "UTF-8"))
     (lambda args
-      (bight-raise 'io proc "cannot read ~s: ~a" file (strerror (system-error-errno args))))))
+      (bight-raise 'io proc "cannot read ~s: ~a" file (why-not file args)))))
 
 (define (read-forms proc file heading what)
   "Return the data in FILE behind HEADING, the datum with which WHAT, a string such as \"mapping\", begins.  Raise a

@@ -7,6 +7,7 @@
 
 (define-module (bight core files)
   #:use-module (bight core errors)
+  #:use-module ((bight core missing) #:select (file-meant))
   #:use-module (bight core schema)
   #:use-module (bight engine)
   #:use-module (bight world)
@@ -67,7 +68,7 @@
                        (readable)))))))
 
 (define (no-file proc name looked-in)
-  (bight-raise 'io proc "there is no file ~s~a~a" name looked-in
+  (bight-raise 'io proc "there is no file ~s~a~a~a" name looked-in (if (readable) "" (file-meant name))
                (if (readable) "; what comes from outside reads what lies beside it" "")))
 
 (define (find-beside proc w name)

@@ -6,6 +6,7 @@
   #:use-module (bight core columns)
   #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
+  #:use-module ((bight core missing) #:select (why-not))
   #:use-module (bight world earth)
   #:use-module (ice-9 rdelim)
   #:use-module (srfi srfi-1)
@@ -48,7 +49,7 @@
       (refuse-device proc file)
       (call-with-input-file file read-lines #:guess-encoding #t))
     (lambda args
-      (bight-raise 'io proc "cannot read ~s: ~a" file (strerror (system-error-errno args))))))
+      (bight-raise 'io proc "cannot read ~s: ~a" file (why-not file args)))))
 
 (define (first-columns proc file n entry)
   "Return the first N numbers of ENTRY, a line of FILE with its number."

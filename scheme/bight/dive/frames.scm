@@ -13,6 +13,7 @@
 (define-module (bight dive frames)
   #:use-module (bight core database)
   #:use-module (bight core errors)
+  #:use-module ((bight core missing) #:select (file-meant))
   #:use-module ((bight core markup) #:select (csv-line))
   #:use-module (bight core sqlite)
   #:use-module (bight core verb)
@@ -111,7 +112,7 @@ y real, z real, tension real)"
 (define (check-frames proc file)
   ;; A file that is there is SQLite's: the text of the recording is easily given instead.
   (unless (file-exists? file)
-    (bight-raise 'io proc "there is no file ~s" file))
+    (bight-raise 'io proc "there is no file ~s~a" file (file-meant file)))
   (when (file-is-directory? file)
     (bight-raise 'io proc "~s is a folder, not the frames of a recording" file))
   (unless (and (eq? 'regular (stat:type (stat file))) (begins-as-sqlite? file))

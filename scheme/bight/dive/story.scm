@@ -23,6 +23,7 @@
   #:use-module ((bight core datum) #:select (text->datum))
   #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
+  #:use-module ((bight core missing) #:select (why-not))
   #:use-module (bight core files)
   #:use-module (bight core record)
   #:use-module (bight core schema)
@@ -65,7 +66,7 @@
   (catch 'system-error
     (lambda () body body* ...)
     (lambda args
-      (bight-raise 'io proc "~s: ~a" file (strerror (system-error-errno args))))))
+      (bight-raise 'io proc "~s: ~a" file (why-not file args)))))
 
 (define (make-teller proc file)
   "Return a teller that writes FILE anew, or raise io from PROC."

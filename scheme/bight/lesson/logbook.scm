@@ -10,6 +10,7 @@
   #:use-module (bight core database)
   #:use-module ((bight core datum) #:select (text->datum))
   #:use-module (bight core errors)
+  #:use-module ((bight core missing) #:select (file-meant))
   #:use-module ((bight core folders) #:select (ensure-folder! state-folder))
   #:use-module (bight core record)
   #:use-module (bight core sqlite)
@@ -127,7 +128,7 @@ what else is to be known.  Return the number of the entry."
 (define (rows-of file)
   ;; The entries of the logbook FILE, which another process may have open.
   (unless (and (file-exists? file) (eq? 'regular (stat:type (stat file))))
-    (bight-raise 'io 'merge-logbook! "there is no file ~s" file))
+    (bight-raise 'io 'merge-logbook! "there is no file ~s~a" file (file-meant file)))
   (let* ((copy (copy-of-database 'merge-logbook! file))
          (database (open-tables 'merge-logbook! copy kind version tables))
          (rows (%query database "select kind, time, trainee, what, score, data from entries order by id" '())))

@@ -5,6 +5,7 @@
 (define-module (bight lesson order)
   #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
+  #:use-module ((bight core missing) #:select (file-meant))
   #:use-module (bight core record)
   #:use-module (bight lesson file)
   #:use-module (bight lesson tally)
@@ -97,6 +98,6 @@ value #t."
     (if (file-like? word)
         (begin
           (unless (and (file-exists? word) (eq? 'regular (stat:type (stat word))))
-            (bad-usage "lesson: there is no file ~s" word))
+            (bad-usage "lesson: there is no file ~s~a" word (file-meant word)))
           (make-order (absolute word) (not (option given "--trust" #f)) given))
         (make-order (lesson-file word) #f given))))

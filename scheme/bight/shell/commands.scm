@@ -25,7 +25,7 @@
 
 (define (run-script file arguments)
   (unless (file-exists? file)
-    (bad-usage "there is no file ~s~a" file ((from (bight shell meant) file-meant) file)))
+    (bad-usage "there is no file ~s~a" file ((from (bight core missing) file-meant) file)))
   (when (file-is-directory? file)
     (bad-usage "~s is a folder, not a script" file))
   (set-program-arguments (cons file arguments))

@@ -14,7 +14,6 @@
   #:export (quoted-names
             keywords-of
             known-variables
-            file-meant
             unbound-hint))
 
 (define (language name)
@@ -60,28 +59,6 @@ first."
 some more than once."
   (define (names module) (module-map (lambda (name variable) name) module))
   (append (names (current-module)) ((language 'language-names)) (append-map names (module-uses (current-module)))))
-
-;;; Files.
-
-(define (files-in folder)
-  (let ((port (false-if-exception (opendir folder))))
-    (if port
-        (let loop ((names '()))
-          (let ((name (readdir port)))
-            (cond ((eof-object? name) (closedir port) (sort names string<?))
-                  ((string-prefix? "." name) (loop names))
-                  (else (loop (cons name names))))))
-        '())))
-
-(define (file-meant file)
-  "Return \"; did you mean `OTHER'?\" about the file beside FILE, of which there is none, that is spelt most like
-it, or the empty string."
-  (let ((near (nearest (basename file) (files-in (dirname file)))))
-    (if near
-        (simple-format #f "; did you mean `~a'?"
-                       (if (string-index file #\/) (string-append (dirname file) "/" near) near))
-        "")))
-
 
 ;;; Variables.
 

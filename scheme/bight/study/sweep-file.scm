@@ -9,6 +9,7 @@
 (define-module (bight study sweep-file)
   #:use-module ((bight shell program) #:select (evaluate-file))
   #:use-module (bight core errors)
+  #:use-module ((bight core missing) #:select (file-meant))
   #:use-module (bight core folders)
   #:use-module ((bight engine) #:select (%worlds-folder))
   #:use-module (bight language)
@@ -35,7 +36,7 @@ BIGHT_STUDIES and bight's own."
   "Return the file of the study that DESIGNATOR, a file's name or the name of a study, stands for."
   (cond ((and (file-exists? designator) (not (file-is-directory? designator))) designator)
         ((or (string-index designator #\/) (string-suffix? ".scm" designator))
-         (bight-raise 'io 'sweep "there is no file ~s" designator))
+         (bight-raise 'io 'sweep "there is no file ~s~a" designator (file-meant designator)))
         ((find file-exists? (map (lambda (folder) (string-append folder "/" designator ".scm"))
                                  (studies-path))))
         (else (unknown-name 'sweep "the list of studies" designator

@@ -15,6 +15,7 @@
   #:use-module (bight core database)
   #:use-module ((bight core datum) #:select (text->datum))
   #:use-module (bight core errors)
+  #:use-module ((bight core missing) #:select (file-meant))
   #:use-module ((bight core programs) #:select (check-writable))
   #:use-module (bight core sqlite)
   #:use-module (bight study sweep-design)
@@ -131,7 +132,7 @@ writing it is waited for, PATIENCE seconds at most."
 
 (define (check-found file)
   (unless (file-exists? file)
-    (bight-raise 'io 'sweep "there is no file ~s" file))
+    (bight-raise 'io 'sweep "there is no file ~s~a" file (file-meant file)))
   (when (file-is-directory? file)
     (bight-raise 'io 'sweep "~s is a folder, not the result of a sweep" file))
   (when (zero? (stat:size (stat file)))

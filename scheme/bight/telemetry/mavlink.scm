@@ -8,6 +8,7 @@
 (define-module (bight telemetry mavlink)
   #:use-module (bight core columns)
   #:use-module (bight core errors)
+  #:use-module ((bight core missing) #:select (why-not))
   #:use-module (bight core record)
   #:use-module ((bight core table) #:select (refuse-device))
   #:use-module (bight telemetry raw)
@@ -188,4 +189,4 @@ is called with BYTES, START and END of each frame, or is #f."
                     (loop (append-reverse! (take-frames! f bytes) all)))))))
         #:binary #t))
     (lambda args
-      (bight-raise 'io proc "cannot read ~s: ~a" file (strerror (system-error-errno args))))))
+      (bight-raise 'io proc "cannot read ~s: ~a" file (why-not file args)))))

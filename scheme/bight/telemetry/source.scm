@@ -12,6 +12,7 @@
 (define-module (bight telemetry source)
   #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
+  #:use-module ((bight core missing) #:select (why-not))
   #:use-module (bight core record)
   #:use-module (bight telemetry mavlink)
   #:use-module (bight telemetry reading)
@@ -153,7 +154,7 @@ such as MAVProxy send it there" port name))
             (else (bight-raise 'io 'follow "~s is a ~a: telemetry comes from a file, a pipe or a socket" name
                                (stat:type (stat name)))))))
     (lambda args
-      (bight-raise 'io 'follow "cannot read ~s: ~a" name (strerror (system-error-errno args))))))
+      (bight-raise 'io 'follow "cannot read ~s: ~a" name (why-not name args)))))
 
 (define (open-stream name tally keep)
   (call-with-values (lambda () (port-of name))

@@ -8,6 +8,7 @@
 (define-module (bight test file)
   #:use-module ((bight shell program) #:select (evaluate-file program-error? program-error-text))
   #:use-module (bight core errors)
+  #:use-module ((bight core missing) #:select (file-meant))
   #:use-module ((bight core here) #:select (afresh))
   #:use-module (bight core record)
   #:use-module ((bight core folders) #:select (ensure-folder!))
@@ -61,7 +62,7 @@
   "Return the test files that PATH stands for: itself, or all *.scm of a folder, sorted."
   (cond ((not (file-exists? path))
          (bight-raise 'io 'run-tests "there is no file or folder ~s~a" path
-                      ((@ (bight shell meant) file-meant) path)))
+                      (file-meant path)))
         ((file-is-directory? path)
          (map (lambda (name) (string-append (string-trim-right path #\/) "/" name))
               (or (scandir path scheme-file? string<?) '())))

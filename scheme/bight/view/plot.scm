@@ -7,6 +7,7 @@
 
 (define-module (bight view plot)
   #:use-module ((bight core decimal) #:select (text->number))
+  #:use-module ((bight core missing) #:select (file-meant))
   #:use-module ((bight core errors) #:select (bight-raise bight-error?))
   #:use-module (bight core programs)
   #:use-module (bight core record)
@@ -198,9 +199,9 @@ samples, for `plot'."
       (bight-raise 'format 'plot "~s has no column ~s: it is no table of a bench" file name)))
 
 (define (bench-rows file)
-  ;; (CASE-METRIC-MODEL CPU ERROR) of each row that a logarithm takes.
+  ;; (CASE-METRIC-MODEL CPU ERROR) of each row that has both.
   (unless (file-exists? file)
-    (bight-raise 'io 'plot "there is no file ~s" file))
+    (bight-raise 'io 'plot "there is no file ~s~a" file (file-meant file)))
   (let* ((rows (map (lambda (line) (map string-trim-both (string-split line #\,))) (read-lines file)))
          (header (if (null? rows) '() (car rows)))
          (places (map (lambda (name) (column header name file))
@@ -210,14 +211,28 @@ samples, for `plot'."
        (and (= (length row) (length header))
             (let* ((cells (map (lambda (i) (list-ref row i)) places))
                    (cpu (text->number (fourth cells))) (error (text->number (fifth cells))))
-              (and (real? cpu) (real? error) (> cpu 0) (> (abs error) 0)
+              (and (real? cpu) (real? error)
                    (list (string-join (list (first cells) (third cells) (second cells)) " ")
                          (* 1e-9 cpu) (abs error))))))
      (cdr rows))))
 
-(define (chart-of-bench file)
-  (let ((rows (bench-rows file)))
-    (make-chart (basename file) "CPU, s" "error" "xy"
+(define (without-zeros rows log)
+  ;; The ROWS of a bench that axes with logarithms have a place for.
+  (remove (lambda (row)
+            (or (and (string-contains log "x") (<= (second row) 0)) (and (string-contains log "y") (zero? (third row)))))
+          rows))
+
+(define (title-of-bench file all kept)
+  ;; What is left out is told: an exact model's error of 0 would not be missed.
+  (let ((n (- (length all) (length kept))))
+    (if (zero? n)
+        (basename file)
+        (simple-format #f "~a (without ~a ~a of 0, for which a logarithm has no place)" (basename file) n
+                       (if (= n 1) "row" "rows")))))
+
+(define (chart-of-bench file log)
+  (let* ((all (bench-rows file)) (rows (without-zeros all log)))
+    (make-chart (title-of-bench file all rows) "CPU, s" "error" "xy"
                 (map (lambda (name)
                        (cons name (sort (filter-map (lambda (row) (and (string=? name (car row)) (cdr row)))
                                                     rows)
@@ -260,10 +275,14 @@ samples, for `plot'."
 (X Y), or a list of (NAME ROW ...)"
    profiles))
 
-(define (chart-of value tether)
+;; The axes with a logarithm, of what WORD, a keyword's value, says instead of USUAL.
+(define (logarithms word usual)
+  (case word ((#f) usual) ((none) "") (else (symbol->string word))))
+
+(define (chart-of value tether log)
   (cond ((samples-record? value) (chart-of-samples value))
         ((symbol? value) (chart-along value tether))
-        ((string? value) (chart-of-bench value))
+        ((string? value) (chart-of-bench value (logarithms log "xy")))
         ((dive? (car value)) (chart-of-dives value))
         (else (chart-of-numbers value))))
 
@@ -277,7 +296,7 @@ samples, for `plot'."
 
 (define (with-words chart title x y log)
   (make-chart (or title (chart-title chart)) (or x (chart-x chart)) (or y (chart-y chart))
-              (case log ((#f) (chart-log chart)) ((none) "") (else (symbol->string log)))
+              (logarithms log (chart-log chart))
               (chart-curves chart) (chart-events chart)))
 
 (define (check-axis chart axis part)
@@ -317,7 +336,7 @@ of numbers.  It goes to the file TO, an SVG or PNG by its name, or as characters
 and Y are words to put there, LOG the axes with a logarithmic scale, for numbers above 0, SIZE (WIDTH HEIGHT).  Return what was
 written, or the text."
   (let* ((kind (kind-of to))
-         (chart (check-logarithms (with-words (check-curves (chart-of what of)) title x y log)))
+         (chart (check-logarithms (with-words (check-curves (chart-of what of log)) title x y log)))
          (size (or size (if (eq? kind 'text) (terminal-size) '(800 . 600)))))
     (when to (check-writable 'plot to))
     (let ((bytes (draw-chart chart kind size)))

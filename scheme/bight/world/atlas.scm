@@ -8,6 +8,7 @@
 (define-module (bight world atlas)
   #:use-module (bight assembly)
   #:use-module (bight core errors)
+  #:use-module ((bight core missing) #:select (file-meant))
   #:use-module (bight core folders)
   #:use-module (bight core verb)
   #:use-module ((bight engine) #:select (%worlds-folder))
@@ -154,8 +155,11 @@ files.  At the prompt each comes with its sentence."
          => (lambda (file) (load-world proc file)))
         ((nearest text (worlds))
          => (lambda (near) (bight-raise 'io proc "there is no file ~s; did you mean '~a?" text near)))
-        (else (bight-raise 'io proc "there is no file ~s; known worlds are ~a" text
-                           (words->string (worlds))))))
+        (else (let ((meant (file-meant text)))
+                (bight-raise 'io proc "there is no file ~s~a" text
+                             (if (string-null? meant)
+                                 (string-append "; known worlds are " (words->string (worlds)))
+                                 meant))))))
 
 (define-argument-type (world-designator value)
   "a world, the name of one as in 'open-water, or a file name"
