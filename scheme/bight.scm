@@ -116,7 +116,8 @@
      log-dive! log-lesson! log-probe! logbook logbook-file merge-logbook!
      log-entry? log-entry-kind log-entry-when log-entry-trainee log-entry-what log-entry-score
      log-entry-data)
-    ((bight view) look status)
+    ((bight view) look)
+    ((bight view status) status)
     ((bight view picture) snapshot show)
     ((bight cockpit view) pilot!)
     ((bight view film) film)

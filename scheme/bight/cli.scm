@@ -7,9 +7,11 @@
 
 (define-module (bight cli)
   #:use-module (bight core errors)
+  #:use-module (bight core options)
   #:use-module (bight outlet)
   #:use-module (bight shell commands)
   #:use-module (bight shell program)
+  #:use-module ((bight shell tasks) #:select (run-prompt run-script))
   #:use-module (bight shell status)
   #:export (main))
 

@@ -1,8 +1,8 @@
 ;;; (bight cockpit) --- the screen in which dives are flown, watched and asked about.
 ;;;
 ;;; A cockpit draws a dive in half blocks, of which only the changed ones are written, with a display of
-;;; figures over it, a map, targets, and whatever its owner adds; and it knows the keys that change how things
-;;; look.  Who owns it lets time pass and does what the other keys say: free flight, (bight cockpit view), a
+;;; figures over it, a map, targets, and whatever its owner adds.  (bight cockpit view-keys) has the keys that
+;;; change how things look.  Who owns it lets time pass and does what the other keys say: free flight, (bight cockpit view), a
 ;;; lesson, (bight lesson cockpit), a recording, (bight cockpit watch).
 ;;;
 ;;; What can go wrong with the picture does not end the flight: plain characters take its place.
@@ -16,6 +16,7 @@
   #:use-module (bight cockpit desk)
   #:use-module (bight cockpit hud)
   #:use-module (bight cockpit keys)
+  #:use-module ((bight cockpit page) #:select (first-page))
   #:use-module (bight cockpit state)
   #:use-module (bight core errors)
   #:use-module (bight core units)
@@ -25,10 +26,9 @@
   #:use-module (bight engine)
   #:use-module ((bight view tube) #:select (draw-beneath))
   #:use-module ((bight world) #:select (world-name))
-  #:use-module (ice-9 regex)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
-  #:export (draw-frame! compose-frame! fit-to-size! draw-page! first-page last-lines view-key! frame-pixels))
+  #:export (draw-frame! compose-frame! fit-to-size! draw-page! frame-pixels))
 
 (define-syntax-rule (from module name)
   (module-ref (resolve-interface 'module) 'name))
@@ -313,36 +313,6 @@ there is nothing to tell, or, a line that is TYPING?, whatever is told."
     (compose-frame! c hint #:typing? typing?)
     (write-frame! c new?)))
 
-(define columned (make-regexp "(^|[^.!?:]) {2}"))
-
-(define (drawing? line)
-  ;; Does LINE stand in columns?  Blanks behind the end of a sentence, and lines that are broken, are running text.
-  (and (not (string-index line #\newline)) (regexp-exec columned line)))
-
-(define (fitted-lines lines columns)
-  ;; LINES for a box on a screen of COLUMNS, as wide as the drawings among them; running text is wrapped.
-  (let ((width (max 1 (min (- columns 4) (apply max 76 (map string-length (filter drawing? lines)))))))
-    (append-map (lambda (line)
-                  (if (and (<= (string-length line) width) (not (string-index line #\newline)))
-                      (list line)
-                      (wrap line width)))
-                lines)))
-
-(define (page-rows)
-  (max 1 (- (cdr (%screen-size)) 3)))
-
-(define (first-page lines)
-  "Return two values: what of LINES, strings, fits on the screen as it is now, as lines that fit; and the rest."
-  (let ((fitted (fitted-lines lines (car (%screen-size)))) (room (page-rows)))
-    (if (<= (length fitted) room)
-        (values fitted '())
-        (values (list-head fitted room) (drop-while string-null? (list-tail fitted room))))))
-
-(define (last-lines lines)
-  "Return what of LINES, strings, fits on the screen as it is now, where their end is what matters, as lines that fit."
-  (let ((fitted (fitted-lines lines (car (%screen-size)))))
-    (take-right fitted (min (length fitted) (page-rows)))))
-
 (define (draw-lines! put columns lines)
   ;; As a box in the middle, two rows below the top.
   (when (pair? lines)
@@ -361,75 +331,3 @@ there is nothing to tell, or, a line that is TYPING?, whatever is told."
     (draw-map! c put (+ 3 (length shown)))
     (draw-marks! put marks)
     (write-frame! c new?)))
-
-
-;;; The keys that change how things look.
-
-(define (next-of value values)
-  (let ((rest (memq value values)))
-    (if (and rest (pair? (cdr rest))) (cadr rest) (car values))))
-
-(define views '(chase pilot top side overview))
-
-(define a-cell 1.5)                     ; degrees that the mouse turns the overview by for a column; a row is two
-(define nearer 1.15)                    ; by a notch of its wheel
-
-(define (turn-overview! c turn dip zoom)
-  ;; Turn and dip by degrees, and come nearer by the factor ZOOM.
-  (let ((orbit (or (cockpit-orbit c) '(0 0 1))))
-    (set-orbit! c (list (+ (first orbit) turn) (max -90 (min 90 (+ (second orbit) dip)))
-                        (max 1/10 (min 20 (* (third orbit) zoom)))))))
-
-(define (do-mouse! c what column row)
-  (let ((held (cockpit-held-at c)))
-    (case what
-      ((press) (set-held-at! c (cons column row)))
-      ((release) (set-held-at! c #f))
-      ((nearer) (turn-overview! c 0 0 nearer))
-      ((further) (turn-overview! c 0 0 (/ nearer)))
-      ((drag)
-       (when held
-         (turn-overview! c (* a-cell (- column (car held))) (* 2 a-cell (- row (cdr held))) 1))
-       (set-held-at! c (cons column row))))))
-
-(define (mouse-moved! c mouse)
-  ;; MOUSE is (WHAT COLUMN ROW).
-  (if (eq? 'overview (cockpit-view c))
-      (apply do-mouse! c mouse)
-      (when (eq? 'press (car mouse))
-        (announce! c "the mouse turns the overview: 5"))))
-
-(define (show-view! c view)
-  (set-view! c view)
-  (set-orbit! c #f)
-  (announce! c (string-append "view: " (symbol->string view))))
-
-(define (suspend! c)
-  ;; As ^Z does elsewhere: all of the job, since a lesson is taken by a process whose parent waits for it.
-  (%terminal-leave!)
-  (kill 0 SIGSTOP)
-  (%terminal-enter!)
-  (look-anew! c))
-
-(define (view-key! c key)
-  "Do what KEY says if it only changes how things look, and return #t, else #f."
-  (if (and (pair? key) (eq? 'mouse (car key)))
-      (begin (mouse-moved! c (cdr key)) #t)
-      (plain-view-key! c key)))
-
-(define (plain-view-key! c key)
-  (case key
-    ((#\v) (show-view! c (next-of (cockpit-view c) views)) #t)
-    ((#\1 #\2 #\3 #\4 #\5)
-     (show-view! c (list-ref views (- (char->integer key) (char->integer #\1))))
-     #t)
-    ((#\o) (set-paint! c (next-of (cockpit-paint c) '(plain tension curvature model))) #t)
-    ((#\x) (set-plain! c (not (cockpit-plain? c))) #t)
-    ((#\y) (set-lamp! c (not (cockpit-lamp? c))) #t)
-    ((#\z) (set-map! c (not (cockpit-map? c))) (set-plan-due! c 0) #t)
-    ((#\f) (set-words! c (not (cockpit-words? c))) (set-ahead-due! c 0) (set-said! c #f) #t)
-    ((#\c) (toggle-belief! c) #t)
-    ((#\?) (set-help! c (not (cockpit-help? c))) #t)
-    ((#\page) (look-anew! c) #t)        ; ^L
-    ((#\sub) (suspend! c) #t)
-    (else #f)))

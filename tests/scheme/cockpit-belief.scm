@@ -4,6 +4,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight cockpit)
+             ((bight cockpit view-keys) #:select (view-key!))
              (bight cockpit believed)
              (bight cockpit cells)
              (bight cockpit hud)

@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight cockpit)
+             ((bight cockpit page) #:select (first-page last-lines))
              (bight cockpit cells)
              (bight cockpit palette)
              (bight cockpit desk)

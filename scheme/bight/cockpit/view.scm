@@ -11,6 +11,7 @@
   #:use-module (bight belief)
   #:use-module (bight belief clauses)
   #:use-module (bight cockpit)
+  #:use-module ((bight cockpit view-keys) #:select (view-key!))
   #:use-module (bight cockpit believed)
   #:use-module (bight cockpit cells)
   #:use-module (bight cockpit controller)

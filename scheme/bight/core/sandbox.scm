@@ -175,7 +175,8 @@
     ((bight dive pilot) define-pilot make-pilot with-pilot)
     ((bight dive checkpoint) checkpoint restore! what-if state-hash)
     ((bight test expect) about between above below)
-    ((bight view) look status)))
+    ((bight view) look)
+    ((bight view status) status)))
 
 (define (public-names module)
   (module-map (lambda (name variable) name) (resolve-interface module)))

@@ -5,6 +5,7 @@
 (define-module (bight identify command)
   #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
+  #:use-module ((bight core options) #:select (bad-usage))
   #:use-module ((bight core programs) #:select (check-writable write-bytes))
   #:use-module (bight identify)
   #:use-module (bight identify found)
@@ -13,9 +14,6 @@
   #:use-module (rnrs bytevectors)
   #:use-module (srfi srfi-1)
   #:export (identify-command))
-
-(define (bad-usage text . values)
-  (apply bight-raise 'domain #f text values))
 
 (define (words text) (remove string-null? (map string-trim-both (string-split text #\,))))
 

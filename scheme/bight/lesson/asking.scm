@@ -3,7 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight lesson asking)
-  #:use-module ((bight cockpit) #:select (last-lines))
+  #:use-module ((bight cockpit page) #:select (last-lines))
   #:use-module (bight cockpit line)
   #:use-module (bight cockpit state)
   #:use-module ((bight core decimal) #:select (text->number))

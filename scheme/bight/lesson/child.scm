@@ -7,6 +7,7 @@
 
 (define-module (bight lesson child)
   #:use-module (bight cockpit coach)
+  #:use-module ((bight core options) #:select (bad-usage))
   #:use-module ((bight cockpit controller) #:select (call-with-controllers))
   #:use-module ((bight cockpit orders) #:select (call-with-desk))
   #:use-module ((bight core errors) #:select (words->string))

@@ -4,6 +4,7 @@
 
 (define-module (bight lesson experiment-command)
   #:use-module (bight lesson command)
+  #:use-module ((bight core options) #:select (bad-usage))
   #:use-module (bight lesson experiment)
   #:use-module (bight lesson log)
   #:use-module (bight lesson logbook)

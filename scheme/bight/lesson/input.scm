@@ -20,7 +20,7 @@
   #:use-module (bight lesson score)
   #:use-module (bight lesson tally)
   #:use-module ((bight core told) #:select (exception->line))
-  #:use-module (bight view)
+  #:use-module (bight view text)
   #:use-module ((bight view looks) #:select (value->lines))
   #:use-module ((ice-9 control) #:select (call/ec))
   #:use-module (srfi srfi-1)

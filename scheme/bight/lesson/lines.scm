@@ -9,6 +9,7 @@
   #:use-module (bight lesson play)
   #:use-module (bight lesson score)
   #:use-module (bight view)
+  #:use-module ((bight view status) #:select (status))
   #:use-module (ice-9 rdelim)
   #:use-module (srfi srfi-1)
   #:export (ask-line leaving catch-up! fly-by-lines))

@@ -4,6 +4,7 @@
 
 (define-module (bight lesson listing)
   #:use-module ((bight core markup) #:select (csv-line))
+  #:use-module ((bight core options) #:select (bad-usage))
   #:use-module (bight lesson advice)
   #:use-module (bight lesson file)
   #:use-module (bight lesson groups)

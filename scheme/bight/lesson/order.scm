@@ -6,16 +6,13 @@
   #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module ((bight core missing) #:select (file-meant))
+  #:use-module ((bight core options) #:select (bad-usage))
   #:use-module (bight core record)
   #:use-module (bight lesson file)
   #:use-module (bight lesson tally)
   #:use-module (srfi srfi-1)
-  #:export (bad-usage read-words option seed-of level-of display-of who-of
+  #:export (read-words option seed-of level-of display-of who-of
             make-order is-order? order-of order-file order-outside? order-given))
-
-(define (bad-usage text . values)
-  "Raise the &bight-error TEXT, filled with VALUES: the command line is written wrong."
-  (apply bight-raise 'domain #f text values))
 
 (define flags '("--check" "--typed" "--trust" "--fresh" "--quiet" "--csv" "--skills" "--table"))
 (define options '("--trainee" "--group" "--seed" "--level" "--pilot" "--merge" "--display" "--instructor"

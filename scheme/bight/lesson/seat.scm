@@ -4,6 +4,8 @@
 
 (define-module (bight lesson seat)
   #:use-module (bight cockpit)
+  #:use-module ((bight cockpit page) #:select (first-page))
+  #:use-module ((bight cockpit view-keys) #:select (view-key!))
   #:use-module (bight cockpit controls)
   #:use-module (bight cockpit hud)
   #:use-module (bight cockpit keyboard)

@@ -1,235 +1,17 @@
-;;; (bight shell commands) --- the commands of the program: what each does, and the table that all help is made of.
+;;; (bight shell commands) --- the commands of the program: the table that all help is made of.
 ;;;
-;;; Whatever a command needs beyond this file is loaded when that command runs, so that `bight -c EXPR' starts as
-;;; fast as Guile and the language do.
+;;; One entry each; of these are made help, the manual page, the completion of shells, and the options known.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight shell commands)
   #:use-module (bight core errors)
+  #:use-module (bight core options)
   #:use-module (bight shell program)
+  #:use-module (bight shell tasks)
   #:use-module (bight shell usage)
   #:use-module (srfi srfi-1)
-  #:export (commands command-called first-words do-command
-            run-prompt run-script
-            bad-usage file-like? split-option print-usage without-value))
-
-(define (version)
-  ((from (bight engine) %version)))
-
-
-;;; The commands.  Each takes the list of its arguments and returns the exit status.
-
-(define (bad-usage text . values)
-  (apply bight-raise 'domain #f text values))
-
-(define (run-script file arguments)
-  (unless (file-exists? file)
-    (bad-usage "there is no file ~s~a" file ((from (bight core missing) file-meant) file)))
-  (when (file-is-directory? file)
-    (bad-usage "~s is a folder, not a script" file))
-  (set-program-arguments (cons file arguments))
-  (enter-language!)
-  (evaluate-file file)
-  0)
-
-(define (run-expression arguments)
-  (when (null? arguments)
-    (bad-usage "-c needs an expression after it"))
-  (set-program-arguments (cons "bight" (cdr arguments)))
-  (enter-language!)
-  (call-with-input-string (car arguments)
-    (lambda (port)
-      (set-port-filename! port "expression")
-      (evaluate-port port #f show-values)))
-  0)
-
-(define (run-input see arguments)
-  (set-program-arguments (cons "bight" arguments))
-  (enter-language!)
-  (set-port-filename! (current-input-port) "stdin")
-  (evaluate-port (current-input-port) "stdin" see)
-  0)
-
-(define (run-prompt)
-  (if (isatty? (current-input-port))
-      ((from (bight shell repl) run-prompt) (version))
-      (run-input show-values '())))
-
-(define (complete arguments)
-  (unless (and (= 1 (length arguments)) (print-completion commands (car arguments)))
-    (bad-usage "--completion needs a shell after it, bash or zsh"))
-  0)
-
-(define guile-paths '("GUILE_LOAD_PATH" "GUILE_LOAD_COMPILED_PATH" "GUILE_EXTENSIONS_PATH"))
-
-(define (print-environment arguments)
-  ;; What a shell has to know for plain guile to find bight: the first folder of each path, which the program
-  ;; itself has put there.
-  (for-each (lambda (name)
-              (let ((folder (car (string-split (or (getenv name) "") #\:))))
-                (simple-format #t "~a='~a'\"${~a:+:$~a}\"~%" name
-                               (string-join (string-split folder #\') "'\\''") name name)))
-            guile-paths)
-  (simple-format #t "export ~a~%" (string-join guile-paths " "))
-  0)
-
-(define (print-version arguments)
-  (simple-format #t "bight ~a~%" (version))
-  0)
-
-;;; Options.
-
-(define (split-arguments name arguments)
-  ;; ARGUMENTS as the others and an alist of the options that the command NAME knows; a flag's value is
-  ;; #t.
-  (let* ((known (command-options (command-called name)))
-         (names (map car known)))
-    (let loop ((rest arguments) (others '()) (options '()))
-      (cond ((null? rest) (values (reverse others) options))
-            ((string=? (car rest) "--") (values (append (reverse others) (cdr rest)) options))
-            ((split-option (car rest) known)
-             => (lambda (option) (loop (cdr rest) others (cons option options))))
-            ((and (assoc-ref known (car rest)) (pair? (cdr rest)))
-             (loop (cddr rest) others (acons (car rest) (cadr rest) options)))
-            ((assoc-ref known (car rest)) (bad-usage "~a: ~a needs a value after it" name (car rest)))
-            ((member (car rest) names) (loop (cdr rest) others (acons (car rest) #t options)))
-            ((and (string-prefix? "-" (car rest)) (> (string-length (car rest)) 1))
-             (bad-usage "~a has no option ~a~a" name (car rest) (did-you-mean (without-value (car rest)) names)))
-            (else (loop (cdr rest) (cons (car rest) others) options))))))
-
-(define (split-option argument known)
-  ;; (NAME . VALUE) of --NAME=VALUE or -nVALUE if NAME is KNOWN to take one, else #f.
-  (let* ((long? (string-prefix? "--" argument))
-         (end (if long? (string-index argument #\=) (and (> (string-length argument) 2) 2))))
-    (and end
-         (string-prefix? "-" argument)
-         (assoc-ref known (substring argument 0 end))
-         (cons (substring argument 0 end) (substring argument (if long? (+ end 1) end))))))
-
-
-;;; bight test.
-
-(define (default-tests)
-  (or (find file-exists? '("tests/scenario" "tests"))
-      (bad-usage "test: name a file or a folder; there is no folder tests here")))
-
-(define (run-tests arguments)
-  ((from (bight core place) mark-what-is-loaded!))
-  (call-with-values (lambda () (split-arguments "test" arguments))
-    (lambda (paths options)
-      ((from (bight test command) test-command)
-       (if (null? paths) (list (default-tests)) paths)
-       options))))
-
-
-;;; bight bench.
-
-(define (run-benches arguments)
-  ;; Not split here: what is no option of ours may be one of the program that measures.
-  ((from (bight bench) bench-command) arguments))
-
-
-;;; bight snapshot.
-
-(define (world-argument word)
-  ;; A file's name, or a world's.
-  (if (file-like? word) word (string->symbol word)))
-
-(define (take-snapshot arguments)
-  (call-with-values (lambda () (split-arguments "snapshot" arguments))
-    (lambda (worlds options)
-      (when (null? worlds)
-        (bad-usage "snapshot: name a world, of those that bight -c \"(worlds)\" lists, or a file, as in \
-bight snapshot jacket -o jacket.png"))
-      (unless (assoc-ref options "-o")
-        (bad-usage "snapshot: say where to, as in bight snapshot ~a -o FILE.png" (car worlds)))
-      (for-each show-values
-                ((from (bight view picture) snapshot-worlds)
-                 (map world-argument worlds)
-                 (assoc-ref options "-o")
-                 options))
-      0)))
-
-
-;;; Commands about one thing.
-
-(define (call-with-one command what example arguments proc)
-  ;; Call PROC in the language with the one thing that COMMAND is given among ARGUMENTS, and the options, and
-  ;; return the exit status: 1 if PROC returns #f.  WHAT there should be, as in EXAMPLE, is said where there is
-  ;; none, or more.
-  (call-with-values (lambda () (split-arguments command arguments))
-    (lambda (given options)
-      (unless (= 1 (length given))
-        (bad-usage "~a: name one ~a, as in bight ~a ~a" command what command example))
-      (enter-language!)
-      (if (eq? #f (proc (car given) options)) 1 0))))
-
-
-;;; bight pilot.
-
-(define (fly arguments)
-  (call-with-one "pilot" "world, of those that bight -c \"(worlds)\" lists, or file" "jacket" arguments
-                 (lambda (world options)
-                   ((from (bight cockpit view) pilot-world) (world-argument world) options))))
-
-
-;;; bight controller.
-
-(define (show-controllers arguments)
-  (call-with-values (lambda () (split-arguments "controller" arguments))
-    (lambda (given options)
-      (unless (null? given)
-        (bad-usage "controller: it takes options alone, which bight controller --help tells, not ~a" (car given)))
-      ((from (bight cockpit controller-command) controller-command) options)
-      0)))
-
-
-;;; bight instruct.
-
-(define (instruct arguments)
-  (unless (and (= 1 (length arguments)) (not (string-prefix? "-" (car arguments))))
-    (bad-usage "instruct: name the socket of a pupil, as in bight instruct SOCKET"))
-  (enter-language!)
-  ((from (bight shell instruct) instruct) (absolute (car arguments))))
-
-
-;;; bight watch.
-
-(define (watch arguments)
-  (call-with-one "watch" "recording" "FILE" arguments
-                 (lambda (file options) ((from (bight cockpit watch) watch-file) file options))))
-
-
-;;; bight follow.
-
-(define (follow arguments)
-  (call-with-one "follow" "source" "udp:14550" arguments
-                 (lambda (source options) ((from (bight follow command) follow-source) source options))))
-
-
-;;; bight sweep.
-
-(define (run-sweep arguments)
-  (call-with-values (lambda () (split-arguments "sweep" arguments))
-    (from (bight study sweep-command) sweep-command)))
-
-
-;;; bight identify.
-
-(define (run-identify arguments)
-  (call-with-values (lambda () (split-arguments "identify" arguments))
-    (from (bight identify command) identify-command)))
-
-
-;;; bight replay.
-
-(define (run-replay arguments)
-  (call-with-one "replay" "recording" "FILE" arguments
-                 (lambda (file options) ((from (bight dive replay) replay-file) file))))
-
-
-;;; The commands: one entry each, of which all help, the manual page and the options known are made.
+  #:export (commands command-called first-words do-command print-usage))
 
 (define commands
   (list
@@ -413,6 +195,11 @@ bight snapshot jacket -o jacket.png"))
    (command "--help" (lambda (arguments) (print-usage arguments)) "[COMMAND|all]"
             '("print this, or the options of a command"))))
 
+(define (complete arguments)
+  (unless (and (= 1 (length arguments)) (print-completion commands (car arguments)))
+    (bad-usage "--completion needs a shell after it, bash or zsh"))
+  0)
+
 (define command-names
   (map command-name (filter command-run commands)))
 
@@ -451,12 +238,3 @@ Exit status: 0 if all is well, else 1 with a line on standard error.
   (if (and (help-wanted? arguments) (not (member (command-name command) '("-c" "-"))))
       (print-usage (list (command-name command)))
       ((command-run command) arguments)))
-
-(define (without-value option)
-  ;; The --NAME of --NAME=VALUE.
-  (car (string-split option #\=)))
-
-(define (file-like? word)
-  (or (string-index word #\/)
-      (string-suffix? ".scm" word)
-      (file-exists? word)))

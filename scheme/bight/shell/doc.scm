@@ -14,7 +14,7 @@
   #:use-module ((bight shell manual) #:select (sections-about))
   #:use-module (bight shell topics)
   #:use-module ((bight core told) #:select (code->string))
-  #:use-module (bight view)
+  #:use-module (bight view text)
   #:use-module (ice-9 regex)
   #:use-module (srfi srfi-1)
   #:export (help-on

@@ -9,6 +9,7 @@
 
 (define-module (bight shell instruct)
   #:use-module (bight cockpit)
+  #:use-module ((bight cockpit view-keys) #:select (view-key!))
   #:use-module (bight cockpit cells)
   #:use-module (bight cockpit desk)
   #:use-module (bight cockpit hud)

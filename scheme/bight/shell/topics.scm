@@ -26,7 +26,7 @@
              (dive checkpoint) (dive saving) (dive recording) (dive replay) (dive flight) (dive frames) (dive export)
              (world moordyn) (world orcaflex))
     (see "see it: panels, pictures, plots, films"
-         view (view picture) (cockpit view) (view film) (view plot))
+         view (view status) (view picture) (cockpit view) (view film) (view plot))
     (points "points and units" (core units))
     (test "scenarios, properties and what they claim"
           (test scenario) (test property) (test generator) (world random-dive) (test invariant)

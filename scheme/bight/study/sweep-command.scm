@@ -5,6 +5,7 @@
 (define-module (bight study sweep-command)
   #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
+  #:use-module ((bight core options) #:select (bad-usage))
   #:use-module ((bight core sqlite) #:select (there?))
   #:use-module (bight study case)
   #:use-module (bight study risk)
@@ -17,9 +18,6 @@
   #:use-module ((ice-9 threads) #:select (current-processor-count))
   #:use-module (srfi srfi-1)
   #:export (sweep-command))
-
-(define (bad-usage text . values)
-  (apply bight-raise 'domain #f text values))
 
 (define (complain text . values)
   (force-output)

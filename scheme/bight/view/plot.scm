@@ -322,7 +322,7 @@ or choose others by #:log: none, x or y" axis row (car curve)))))
       refused))
 
 (define (terminal-size)
-  (let ((columns ((module-ref (resolve-interface '(bight view)) 'terminal-columns))))
+  (let ((columns ((module-ref (resolve-interface '(bight view text)) 'terminal-columns))))
     (cons (max 40 (min 120 columns)) 24)))
 
 (define-verb (plot (what plotted)
