@@ -288,6 +288,7 @@ typedef struct bt_profile
   uint64_t relaxations, unsettled;
   uint64_t chain_steps, chain_solves; /* of the moving line */
   uint64_t chain_parts;               /* of steps that were not taken whole */
+  uint64_t chain_stretched;           /* steps that it was solved for ahead */
   uint64_t chain_sleeps;              /* steps it slept through */
   uint64_t chain_remeshes;            /* by model `auto' */
   uint64_t chain_safeguarded, chain_unconverged;

@@ -124,6 +124,7 @@ static const struct
   { "unsettled", offsetof (bt_profile, unsettled) },
   { "chain-steps", offsetof (bt_profile, chain_steps) },
   { "chain-parts", offsetof (bt_profile, chain_parts) },
+  { "chain-stretched", offsetof (bt_profile, chain_stretched) },
   { "chain-solves", offsetof (bt_profile, chain_solves) },
   { "chain-sleeps", offsetof (bt_profile, chain_sleeps) },
   { "chain-remeshes", offsetof (bt_profile, chain_remeshes) },

@@ -150,6 +150,7 @@ bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, i
   tether->contact_form = BT__TETHER_SHAPE;
   tether->parted = tether->quiet = tether->settled = tether->blocked = tether->fine = 0;
   tether->peak = tether->unsure = 0;
+  tether->stretch = (bt__stretch){ 0 };
   vehicle = bt__carried_vehicle (dive, state, i);
   if (vehicle >= 0)
     bt__dynamic_v (chain)[n] = bt__rigid_point_velocity (
@@ -210,6 +211,7 @@ bt__carry_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, b
   bt_status status;
   if (bt__are_ends (ends, &tether->shape))
     return BT_OK;
+  bt__leave_stretch (dive, state, i);
   bt__store_changes (dive, i);
   if (bt__has_obstacles (dive))
     return bt__drag_chain (dive, state, i, ends, error);

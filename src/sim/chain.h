@@ -60,6 +60,11 @@ bt_status bt__step_among (bt_dive *dive, bt__state *state, int i, int part,
                           const bt__dynamic_input *input, bt__dynamic_report *report,
                           bt_error *error);
 
+/* The same, with the wear of it, counted in the profile (chain_step.c).  */
+bt_status bt__step_part (bt_dive *dive, bt__state *state, int i, int part,
+                         const bt__dynamic_input *input, bt__dynamic_report *report,
+                         bt_error *error);
+
 /* bt__advance_chain takes tether I on by the part of the step that the contact work of DIVE names;
    its ends go from FROM to TO in the whole step (chain_step.c).  bt__advance_as_asked takes tether
    I through the whole step in as many parts as its accuracy asks for, REPORT being of them all
@@ -68,6 +73,33 @@ bt_status bt__advance_chain (bt_dive *dive, bt__state *state, int i, const bt__e
                              const bt__ends *to, bt__dynamic_report *report, bt_error *error);
 bt_status bt__advance_as_asked (bt_dive *dive, bt__state *state, int i, const bt__ends *to,
                                 bt__dynamic_report *report, bt_error *error);
+
+/* What a line may change in a step beside its store; keep it, and go back to the present
+   (chain_fine.c).  */
+typedef struct bt__present
+{
+  bt__tether tether;
+  bt__vehicle vehicle[2];
+  int64_t events;
+} bt__present;
+
+void bt__keep_present (const bt_dive *dive, bt__state *state, int i, bt__present *p);
+void bt__go_back (const bt_dive *dive, bt__state *state, int i, const bt__present *p);
+
+/* bt__may_go_back and bt__was_wound: tether I may be taken through the step otherwise than whole.
+   The first: the line moved already in the present, the winch stands and gives no line, and water
+   and ends alone act on the line.  The second: all line from the winch was in the chain in the
+   present.  bt__has_jumped: the tension, at most TENSION, changed in the step by more than TIMES
+   its accuracy (chain_fine.c).  */
+int bt__may_go_back (const bt_dive *dive, bt__state *state, int i);
+int bt__was_wound (const bt_dive *dive, int i);
+int bt__has_jumped (const bt_dive *dive, bt__state *state, int i, double tension, double times);
+
+/* bt__rides_stretch takes tether I through the step to ENDS as a part of a stretch and returns
+   true, or does nothing.  bt__stretch_tension returns the largest present tension of a TETHER taken
+   so, N (chain_stretch.c).  */
+int bt__rides_stretch (bt_dive *dive, bt__state *state, int i, const bt__ends *ends);
+double bt__stretch_tension (const bt__tether *tether);
 
 /* bt__order_tethers sorts the tethers by the direction in which they press on each other.
    bt__put_carriers_first then puts tethers that carry vehicles first and static tethers last, and
@@ -90,10 +122,11 @@ void bt__wake_touched (const bt_dive *dive, bt__state *state, int i, int part);
    (chain_wear.c).  */
 void bt__wear_chain (bt_dive *dive, bt__state *state, int i, int part);
 
-/* Raise the events of a step of TETHER that follow from REPORT, and those that follow from twist.
- */
+/* Raise the events of a step of TETHER: all that REPORT tells; those of the largest TENSION alone;
+   those of twist.  */
 void bt__watch_step (const bt_dive *dive, bt__state *state, bt__tether *tether, int i,
                      const bt__dynamic_report *report);
+void bt__watch_tension (bt__state *state, bt__tether *tether, int i, double tension);
 void bt__watch_twist (const bt_dive *dive, bt__state *state, bt__tether *tether, int i);
 
 #endif

@@ -48,14 +48,6 @@ typedef struct attempt
   bt_vec3 pull[2];           /* N: the mean force on the ends */
 } attempt;
 
-/* What a line may change in a step beside its store.  */
-typedef struct present
-{
-  bt__tether tether;
-  bt__vehicle vehicle[2];
-  int64_t events;
-} present;
-
 /* ---- Back to the present ---- */
 
 /* The vehicle at end K of tether I that its step may move, or -1: one shared with tethers of other
@@ -67,8 +59,8 @@ own_vehicle (const bt_dive *dive, int i, int k)
   return v >= 0 && dive->context && dive->context->shared[v] ? -1 : v;
 }
 
-static void
-keep_present (const bt_dive *dive, bt__state *state, int i, present *p)
+void
+bt__keep_present (const bt_dive *dive, bt__state *state, int i, bt__present *p)
 {
   p->tether = *bt__dive_tether (dive, state, i);
   p->events = state->events;
@@ -77,14 +69,16 @@ keep_present (const bt_dive *dive, bt__state *state, int i, present *p)
       p->vehicle[k] = *bt__dive_vehicle (dive, state, own_vehicle (dive, i, k));
 }
 
-static void
-go_back (const bt_dive *dive, bt__state *state, int i, const present *p)
+void
+bt__go_back (const bt_dive *dive, bt__state *state, int i, const bt__present *p)
 {
   for (int64_t k = p->events; k < state->events; k++)
     state->event[k % BT_EVENTS_KEPT] = dive->now->event[k % BT_EVENTS_KEPT];
   state->events = p->events;
-  *bt__dive_tether (dive, state, i) = p->tether;
+  *bt__dive_tether (dive, state, i) = *bt__dive_tether (dive, dive->now, i);
   bt__copy_store (dive, state, dive->now, i);
+  bt__leave_stretch (dive, state, i);
+  *bt__dive_tether (dive, state, i) = p->tether;
   *bt__dive_subject (dive, state, BT_PART_TETHER, i)
       = *bt__dive_subject (dive, dive->now, BT_PART_TETHER, i);
   for (int k = 0; k < 2; k++)
@@ -157,8 +151,8 @@ asked (const bt__tether *tether, double tension)
 
 /* True if all line that the winch of tether I gave or took was in the chain, or out of it, in the
    present.  */
-static int
-was_wound (const bt_dive *dive, int i)
+int
+bt__was_wound (const bt_dive *dive, int i)
 {
   double in_chain = bt__dynamic_length (bt__dive_chain (dive, dive->now, i, 0));
   return fabs (bt__dive_tether (dive, dive->now, i)->length - in_chain) < FOLLOWED;
@@ -175,11 +169,11 @@ touches (const bt_dive *dive, bt__state *state, int i)
   return any;
 }
 
-/* True if tether I may be taken through the step in parts, if `was_wound' says so too: it moved
+/* True if tether I may be taken through the step in parts, if `bt__was_wound' says so too: it moved
    already in the present, its winch stands and gives no line, and nothing acts on it but water and
    what its ends are fastened to.  */
-static int
-may_go_back (const bt_dive *dive, bt__state *state, int i)
+int
+bt__may_go_back (const bt_dive *dive, bt__state *state, int i)
 {
   const bt__tether *now = bt__dive_tether (dive, dive->now, i),
                    *next = bt__dive_tether (dive, state, i);
@@ -189,11 +183,11 @@ may_go_back (const bt_dive *dive, bt__state *state, int i)
 }
 
 /* True if the tension of tether I changed in a step by more than TIMES what it may be wrong by.  */
-static int
-has_jumped (const bt_dive *dive, bt__state *state, int i, const attempt *a, double times)
+int
+bt__has_jumped (const bt_dive *dive, bt__state *state, int i, double tension, double times)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
-  double most = times * asked (tether, a->report.tension);
+  double most = times * asked (tether, tension);
   for (int part = 0; part < bt__chains (tether); part++)
     {
       const bt__dynamic *now = bt__dive_chain (dive, dive->now, i, part),
@@ -265,7 +259,7 @@ apart (const attempt *a, const attempt *b)
    last one's doublings, or -1 where a mover was held back.  *OFF is how far the last two are apart.
  */
 static int
-refine (bt_dive *dive, bt__state *state, int i, const bt__ends *to, const present *p, int fine,
+refine (bt_dive *dive, bt__state *state, int i, const bt__ends *to, const bt__present *p, int fine,
         attempt *a, double *off, bt_status *status, bt_error *error)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
@@ -273,7 +267,7 @@ refine (bt_dive *dive, bt__state *state, int i, const bt__ends *to, const presen
   while (fine < finest && !touches (dive, state, i))
     {
       attempt coarse = *a;
-      go_back (dive, state, i, p);
+      bt__go_back (dive, state, i, p);
       *status = try_parts (dive, state, i, to, ++fine, a, error);
       if (*status != BT_OK || dive->contact_work.balked)
         return -1;
@@ -298,17 +292,19 @@ static bt_status
 advance_in_parts (bt_dive *dive, bt__state *state, int i, const bt__ends *to, int *fine, attempt *a,
                   double *off, bt_error *error)
 {
-  present p;
-  keep_present (dive, state, i, &p);
-  if (*fine > 0 && !was_wound (dive, i))
+  bt__present p;
+  bt__keep_present (dive, state, i, &p);
+  if (*fine > 0 && !bt__was_wound (dive, i))
     *fine = 0;
   bt_status status = try_parts (dive, state, i, to, *fine, a, error);
   if (status == BT_OK && !dive->contact_work.balked
-      && (*fine > 0 || (has_jumped (dive, state, i, a, ENTER) && was_wound (dive, i))))
+      && (*fine > 0
+          || (bt__has_jumped (dive, state, i, a->report.tension, ENTER)
+              && bt__was_wound (dive, i))))
     *fine = refine (dive, state, i, to, &p, *fine, a, off, &status, error);
   if (status != BT_OK || *fine == 0 || (*fine > 0 && !dive->contact_work.balked))
     return status;
-  go_back (dive, state, i, &p);
+  bt__go_back (dive, state, i, &p);
   return try_parts (dive, state, i, to, *fine = 0, a, error);
 }
 
@@ -317,7 +313,7 @@ bt__advance_as_asked (bt_dive *dive, bt__state *state, int i, const bt__ends *to
                       bt__dynamic_report *report, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  int may = may_go_back (dive, state, i),
+  int may = bt__may_go_back (dive, state, i),
       fine = may && tether->fine > 0 ? (int)tether->fine - 1 : 0;
   attempt a;
   double off = 0;
@@ -328,7 +324,7 @@ bt__advance_as_asked (bt_dive *dive, bt__state *state, int i, const bt__ends *to
   *report = a.report;
   tether->peak = fine > 0 ? a.report.tension : 0;
   tether->unsure = off > asked (tether, a.report.tension) ? off : 0;
-  tether->fine = fine == 0 || !has_jumped (dive, state, i, &a, STAY)
+  tether->fine = fine == 0 || !bt__has_jumped (dive, state, i, a.report.tension, STAY)
                      ? 0
                      : next_fine (fine, off / (SHARE * asked (tether, a.report.tension)));
   dive->profile.chain_steps += tether->parted ? 2 : 1;

@@ -28,9 +28,9 @@ may_sleep_on (bt_dive *dive, bt__state *state, int i, const bt__tether *tether,
          && bt__hulls_rest (dive, state, i);
 }
 
-static bt_status
-step_part (bt_dive *dive, bt__state *state, int i, int part, const bt__dynamic_input *input,
-           bt__dynamic_report *report, bt_error *error)
+bt_status
+bt__step_part (bt_dive *dive, bt__state *state, int i, int part, const bt__dynamic_input *input,
+               bt__dynamic_report *report, bt_error *error)
 {
   bt_status status = bt__step_among (dive, state, i, part, input, report, error);
   if (status == BT_OK && bt__has_obstacles (dive))
@@ -51,7 +51,7 @@ step_far_part (bt_dive *dive, bt__state *state, int i, bt__dynamic_input input, 
   bt__dynamic_report report = { 0 };
   bt__fasten (dive, i, 0, bt__dynamic_length (chain), &input, &fastened);
   input.end[0] = (bt__dynamic_end){ .free = 1 };
-  return step_part (dive, state, i, 1, &input, &report, error);
+  return bt__step_part (dive, state, i, 1, &input, &report, error);
 }
 
 /* The chain follows the winch with a lag, for a drum that starts or stops at once sends a wave of
@@ -202,7 +202,7 @@ bt__advance_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *from,
   set_winch (dive, state, i, tether, chain, &input);
   input.mesh = bt__chain_mesh (dive, state, tether, i);
   input.mesh.idle &= dive->contact_work.left == 0;
-  status = step_part (dive, state, i, 0, &input, report, error);
+  status = bt__step_part (dive, state, i, 0, &input, report, error);
   if (status != BT_OK)
     return status;
   heed_winch (dive, state, i, chain, before, &input, report);
@@ -227,6 +227,11 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
       for (int part = 0; part < bt__chains (tether); part++)
         bt__note_line_meetings (dive, state, i, part);
       return BT_OK;
+    }
+  if (bt__rides_stretch (dive, state, i, ends))
+    {
+      bt__watch_tension (state, tether, i, bt__stretch_tension (tether));
+      return bt__is_ahead (tether) ? BT_OK : bt__remesh_chain (dive, state, i, error);
     }
   status = bt__advance_as_asked (dive, state, i, ends, &report, error);
   if (status != BT_OK)

@@ -18,8 +18,8 @@ enum
   SNAP_STEPS = 30
 };
 
-static void
-note_snap (bt__state *state, bt__tether *tether, int i, double tension)
+void
+bt__watch_tension (bt__state *state, bt__tether *tether, int i, double tension)
 {
   if (tension < SNAP_FROM)
     tether->slack_at = state->step;
@@ -97,6 +97,6 @@ bt__watch_step (const bt_dive *dive, bt__state *state, bt__tether *tether, int i
                 const bt__dynamic_report *report)
 {
   note_rest (dive, state, tether, i, report);
-  note_snap (state, tether, i, report->tension);
+  bt__watch_tension (state, tether, i, report->tension);
   note_kink (state, tether, i, report->bend_radius);
 }

@@ -179,6 +179,8 @@ apply_operation (bt_dive *dive, const op *o, int round, int subject, const doubl
                  bt_error *error)
 {
   bt__call c = { dive, bt__dive_begin (dive), subject, args, n, error };
+  if (o->info.subject != BT_PART_VEHICLE)
+    bt__leave_stretches (dive, c.state);
   bt_status status = o->apply (&c);
   if (status != BT_OK)
     return status;

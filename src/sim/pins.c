@@ -182,13 +182,23 @@ holds_end (const bt_dive *dive, bt__state *state, int i, bt_vec3 end, bt_vec3 he
   return bt__is_cable (bt__dive_tether (dive, state, i)) && bt__distance (end, here) <= AT_END;
 }
 
+/* Where end K of tether I is.  A line that is ahead of the present is told by its ends alone.  */
+static bt_vec3
+place_of_end (const bt_dive *dive, bt__state *state, int i, int k)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  if (bt__is_ahead (tether))
+    return k ? tether->shape.b : tether->shape.a;
+  bt__line line = bt__line_of (dive, state, i);
+  return bt__line_end (&line, k);
+}
+
 /* True if end K of tether I, made fast to a vehicle, is elsewhere than the vehicle: at *END.  */
 static int
 has_left (const bt_dive *dive, bt__state *state, int i, int k, bt_vec3 *end)
 {
   bt_vec3 here = bt__attachment (dive, state, dive->model->ends[i][k].vehicle);
-  bt__line line = bt__line_of (dive, state, i);
-  *end = bt__line_end (&line, k);
+  *end = place_of_end (dive, state, i, k);
   return !is_at (*end, here) && !holds_end (dive, state, i, *end, here);
 }
 

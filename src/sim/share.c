@@ -67,7 +67,7 @@ work_of (const bt_dive *dive, bt__state *state, int i)
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   bt__ends ends;
   if (bt__is_awake (tether))
-    return bt__dive_chain (dive, state, i, 0)->n;
+    return bt__chain_in_use (dive, state, i)->n;
   ends = bt__tether_ends (dive, state, i);
   return bt__is_unchanged (dive, state, tether, &ends) ? 0 : dive->model->tethers[i].props.nodes;
 }

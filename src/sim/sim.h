@@ -13,6 +13,11 @@
 /* Move the vehicles of STATE by one step as sticks, autopilots and tracks say (kinematics.c).  */
 void bt__move_vehicles (const bt_dive *dive, bt__state *state);
 
+/* Return how many of the coming STEPS of VEHICLE, without mass, bring no event about; *TO is where
+   all of them take it, if none does (kinematics.c).  */
+int bt__foresee_vehicle (const bt_dive *dive, bt__state *state, int vehicle, int steps,
+                         bt_vec3 *to);
+
 /* Vehicles with mass (bodies.c).  Steer the vehicles of STATE and find the forces of their moving
    lines; step the vehicles carried by no moving line.  */
 bt_status bt__steer_bodies (const bt_dive *dive, bt__state *state, bt_error *error);
@@ -120,6 +125,9 @@ bt_status bt__solve_shape (bt_dive *dive, bt__state *state, int i, const bt__end
 /* Solve tether I between ENDS by its static model, pulled taut by its vehicles (resolve.c).  */
 bt_status bt__solve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
                             bt_error *error);
+
+/* Let every line that is ahead of the present be stepped on from the present (chain_stretch.c).  */
+void bt__leave_stretches (const bt_dive *dive, bt__state *state);
 
 /* Note whether tether I is TAUT, with the event `taut' or `slack' (reach.c).  */
 void bt__note_taut (bt__state *state, bt__tether *tether, int i, int taut);

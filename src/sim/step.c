@@ -208,7 +208,7 @@ count_work (bt_dive *dive)
     {
       const bt__tether *tether = bt__dive_tether (dive, state, i);
       if (bt__is_awake (tether))
-        places += (uint64_t)bt__dive_chain (dive, state, i, 0)->n + 1;
+        places += (uint64_t)bt__chain_in_use (dive, state, i)->n + 1;
     }
   dive->profile.body_steps += bodies;
   dive->profile.wave_samples += state->waves.n > 0 ? bodies + places : 0;

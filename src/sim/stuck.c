@@ -15,33 +15,47 @@
 #define SLOW 0.02 /* m/s */
 #define PULL 1.0
 
-/* True if a winch hauls at the rest of a parted line.  */
+/* True if a winch hauls at the rest of tether I, parted.  */
 static int
-is_pulled_parted (const bt__line *line)
+is_pulled_parted (const bt_dive *dive, bt__state *state, int i)
 {
-  return line->tether->winch_rate < 0 && bt__line_tension (line, 0) > PULL;
+  bt__line line = bt__line_of (dive, state, i);
+  return line.tether->winch_rate < 0 && bt__line_tension (&line, 0) > PULL;
+}
+
+/* The force on what the far end of tether I is fastened to, N.  */
+static bt_vec3
+pull_of (const bt_dive *dive, bt__state *state, int i)
+{
+  if (bt__is_ahead (bt__dive_tether (dive, state, i)))
+    return bt__pull_within (dive, state, i, 1);
+  bt__line line = bt__line_of (dive, state, i);
+  return bt__line_pull (&line, 1);
 }
 
 /* True if somebody at the far end of tether I, or its winch, pulls.  */
 static int
-is_pulled (const bt_dive *dive, bt__state *state, const bt__line *line, int i)
+is_pulled (const bt_dive *dive, bt__state *state, int i)
 {
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
   int vehicle = dive->model->ends[i][1].vehicle;
   const bt__vehicle *v = vehicle < 0 ? NULL : bt__dive_vehicle (dive, state, vehicle);
   int wants = v
               && (v->goal != BT__GOAL_NONE || v->sticks[0] != 0 || v->sticks[1] != 0
                   || v->sticks[2] != 0);
-  if (line->tether->parted)
-    return is_pulled_parted (line);
-  return (wants || line->tether->winch_rate < 0) && bt__norm (bt__line_pull (line, 1)) > PULL;
+  if (tether->parted)
+    return is_pulled_parted (dive, state, i);
+  return (wants || tether->winch_rate < 0) && bt__norm (pull_of (dive, state, i)) > PULL;
 }
 
 /* Where tether I ends: a parted one where it has parted.  */
 static bt_vec3
-end_of_line (const bt_dive *dive, bt__state *state, const bt__line *line, int i)
+end_of_line (const bt_dive *dive, bt__state *state, int i)
 {
-  return line->tether->parted ? bt__line_node (line, bt__line_nodes (line) - 1)
-                              : bt__tether_ends (dive, state, i).b;
+  if (!bt__dive_tether (dive, state, i)->parted)
+    return bt__tether_ends (dive, state, i).b;
+  bt__line line = bt__line_of (dive, state, i);
+  return bt__line_node (&line, bt__line_nodes (&line) - 1);
 }
 
 /* True if TETHER, pulled for a while and its end at HERE, hardly moves.  */
@@ -72,9 +86,8 @@ bt__note_stuck (const bt_dive *dive, bt__state *state)
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       bt__tether *tether = bt__dive_tether (dive, state, i);
-      bt__line line = bt__line_of (dive, state, i);
-      if (is_pulled (dive, state, &line, i))
-        look_at_end (state, tether, end_of_line (dive, state, &line, i), i);
+      if (is_pulled (dive, state, i))
+        look_at_end (state, tether, end_of_line (dive, state, i), i);
       else
         tether->pulled = tether->stuck = 0;
     }

@@ -145,7 +145,7 @@ bt__dynamic_begin (const bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_
     return status;
   w->tolerance = tolerance_of (in) * bt__dynamic_length (d);
   double rest0 = wind_first (d, in, &w->owed), r = d->history ? in->h / d->h : 0;
-  if (r > HISTORY_RATIO)
+  if (r > fmax (in->growth, HISTORY_RATIO))
     r = 0;
   w->b0 = (1 + 2 * r) / ((1 + r) * in->h);
   w->b2 = r * r / ((1 + r) * in->h);

@@ -200,6 +200,8 @@ typedef struct bt__dynamic_input
                        1/60 s */
   int surfaced;     /* true: what is above the surface of the water is in air */
   int order;        /* 4: fourth order in space by deferred correction; else second */
+  double growth;    /* a step so many times as long as the last is of second order in time: up to
+                       1 + sqrt (2) where the motion is smooth; 0: no longer step is */
   bt__dynamic_mesh mesh;
 } bt__dynamic_input;
 
@@ -224,6 +226,35 @@ typedef struct bt__dynamic_report
    keep to INPUT->mesh, along the line.  */
 bt_status bt__dynamic_step (bt__dynamic *d, bt__dynamic_work *work, const bt__dynamic_input *input,
                             bt__dynamic_report *report, bt_error *error);
+
+/* ---- Within a long step (dynamic_dense.c) ---- */
+
+/* Copy what is in use of FROM to TO, which has as much room.  */
+void bt__dynamic_copy (bt__dynamic *to, const bt__dynamic *from);
+
+/* Let D, just stepped from BEGIN with as many intervals and in the second order, know of BEGIN for
+   the questions below; let D be as any block again.  */
+void bt__dynamic_reach_back (bt__dynamic *d, const bt__dynamic *begin);
+void bt__dynamic_forget_back (bt__dynamic *d);
+
+/* bt__dynamic_surprise estimates the error in place of any node by the last step of D, m, BEGIN
+   having made a step too: by the difference from the predictor (Milne's device).
+   bt__dynamic_swing: no node is farther from the straight way of the step, m.  */
+double bt__dynamic_surprise (const bt__dynamic *begin, const bt__dynamic *d);
+double bt__dynamic_swing (const bt__dynamic *d);
+
+/* Return the place of node I of D at the SHARE, 0 to 1, of its last step.  */
+bt_vec3 bt__dynamic_node_between (const bt__dynamic *d, double share, int64_t i);
+
+/* Make OUT, with as much room, the line D at the SHARE of the last step of D, a block that reaches
+   back; motion and former velocities of OUT are left alone.  bt__dynamic_resume gives OUT a last
+   step from the share BEFORE too, so that OUT can be stepped on.  Pulls on the ends are those of
+   D.  */
+void bt__dynamic_between (const bt__dynamic *d, double share, bt__dynamic *out);
+void bt__dynamic_resume (const bt__dynamic *d, double before, double share, bt__dynamic *out);
+
+/* Take the ends of D to END; the nodes between share the little way, at no speed.  */
+void bt__dynamic_lead_ends (bt__dynamic *d, const bt_vec3 end[2]);
 
 /* ---- Winch and knife ---- */
 

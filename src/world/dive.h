@@ -225,6 +225,21 @@ bt_vec3 *bt__dive_nodes (const bt_dive *dive, bt__state *state, int tether);
 bt_vec3 *bt__dive_tensions (const bt_dive *dive, bt__state *state, int tether);
 /* The chain of a moving tether: PART 0 at the anchor, 1 at the far end once the line has parted. */
 bt__dynamic *bt__dive_chain (const bt_dive *dive, bt__state *state, int tether, int part);
+
+/* Where tether I is ahead of the present of STATE, chain 1 alone is in use, at the end of the
+   stretch.  bt__show_chain lets chain 0 tell the present, as bt__line_of does; bt__leave_stretch
+   lets the line be stepped on from there (form_cable.c).  */
+void bt__show_chain (const bt_dive *dive, bt__state *state, int i);
+void bt__leave_stretch (const bt_dive *dive, bt__state *state, int i);
+
+/* The present force of tether I, a line ahead, on the end K, N.  */
+bt_vec3 bt__pull_within (const bt_dive *dive, bt__state *state, int i, int k);
+
+/* The largest tension of the intervals of CHAIN, N.  */
+double bt__largest_tension (const bt__dynamic *chain);
+
+/* The chain of tether I that is in use, for the number of its intervals alone.  */
+const bt__dynamic *bt__chain_in_use (const bt_dive *dive, bt__state *state, int i);
 /* Among obstacles: what that part touches; how its jacket is worn; the static tether as a thesis
    line; as a held one.  */
 bt__contacts *bt__dive_anchors (const bt_dive *dive, bt__state *state, int tether, int part);

@@ -12,9 +12,71 @@
 #include "world/form.h"
 #include "world/layout.h"
 
+/* ---- Ahead of the present ---- */
+
+/* The share of its stretch at which TETHER was BEFORE ticks ago.  */
+static double
+share_gone (const bt__tether *tether, int64_t before)
+{
+  return (double)(tether->stretch.gone - before) / (double)tether->stretch.span;
+}
+
+bt_vec3
+bt__pull_within (const bt_dive *dive, bt__state *state, int i, int k)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt_vec3 begun = tether->stretch.pull[k], is = bt__dive_chain (dive, state, i, 1)->pull[k];
+  return bt__axpy (begun, share_gone (tether, 0), bt__sub (is, begun));
+}
+
+/* Lead the ends of a chain told within a stretch; give the chain pulls, and no contacts.  */
+static void
+tell_rest (const bt_dive *dive, bt__state *state, int i)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  const bt_vec3 end[2] = { tether->shape.a, tether->shape.b };
+  bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  bt__dynamic_lead_ends (chain, end);
+  for (int k = 0; k < 2; k++)
+    chain->pull[k] = bt__pull_within (dive, state, i, k);
+  bt__contacts_init (bt__dive_anchors (dive, state, i, 0),
+                     bt__contact_room (dive->model, &dive->model->tethers[i]));
+}
+
+void
+bt__show_chain (const bt_dive *dive, bt__state *state, int i)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  if (!bt__is_ahead (tether))
+    return;
+  bt__dynamic_between (bt__dive_chain (dive, state, i, 1), share_gone (tether, 0),
+                       bt__dive_chain (dive, state, i, 0));
+  tell_rest (dive, state, i);
+}
+
+void
+bt__leave_stretch (const bt_dive *dive, bt__state *state, int i)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  if (!bt__is_ahead (tether))
+    return;
+  bt__store_changes (dive, i);
+  bt__dynamic_resume (bt__dive_chain (dive, state, i, 1), share_gone (tether, 1),
+                      share_gone (tether, 0), bt__dive_chain (dive, state, i, 0));
+  tell_rest (dive, state, i);
+  tether->stretch = (bt__stretch){ .wait = bt__next_wait (&tether->stretch) };
+}
+
+const bt__dynamic *
+bt__chain_in_use (const bt_dive *dive, bt__state *state, int i)
+{
+  return bt__dive_chain (dive, state, i, bt__is_ahead (bt__dive_tether (dive, state, i)));
+}
+
 static void
 cable_find (const bt_dive *dive, bt__state *state, int i, bt__line *line)
 {
+  bt__show_chain (dive, state, i);
   line->chain = bt__dive_chain (dive, state, i, 0);
   line->far_chain = bt__dive_chain (dive, state, i, line->tether->parted ? 1 : 0);
 }
@@ -61,8 +123,8 @@ cable_tension (const bt__line *line, double s)
   return t0 + k * (t1 - t0);
 }
 
-static double
-largest_in_chain (const bt__dynamic *chain)
+double
+bt__largest_tension (const bt__dynamic *chain)
 {
   const double *t = bt__dynamic_tension (chain);
   double most = 0;
@@ -83,7 +145,8 @@ cable_tension_max (const bt__line *line)
 {
   double ends = fmax (cable_tension (line, 0), bt__norm (cable_pull (line, 1)));
   ends = fmax (ends, line->tether->peak);
-  return fmax (ends, fmax (largest_in_chain (line->chain), largest_in_chain (line->far_chain)));
+  return fmax (ends,
+               fmax (bt__largest_tension (line->chain), bt__largest_tension (line->far_chain)));
 }
 
 /* ---- Its nodes ---- */
@@ -122,6 +185,7 @@ cable_touches (const bt_dive *dive, int i, const bt__line *line, bt__touch *touc
 static const bt_vec3 *
 cable_laid (const bt_dive *dive, bt__state *state, int i, int *n)
 {
+  bt__show_chain (dive, state, i);
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
   *n = (int)chain->n + 1;
   return bt__dynamic_x (chain);
@@ -129,12 +193,25 @@ cable_laid (const bt_dive *dive, bt__state *state, int i, int *n)
 
 /* ---- Its store ---- */
 
+/* The chains in use of TETHER are those from here on, less than the other.  */
+static int
+first_chain (const bt__tether *tether)
+{
+  return bt__is_ahead (tether);
+}
+
+static int
+end_of_chains (const bt__tether *tether)
+{
+  return bt__is_ahead (tether) ? 2 : bt__chains (tether);
+}
+
 static int
 cable_ranges (const bt_dive *dive, const bt__state *state, int i, bt__range *out)
 {
   const bt__tether *tether = bt__dive_tether (dive, (bt__state *)state, i);
   int n = 0;
-  for (int part = 0; part < bt__chains (tether); part++)
+  for (int part = first_chain (tether); part < end_of_chains (tether); part++)
     {
       size_t at = (size_t)part * dive->line[i].part, chain = dive->line[i].chain;
       size_t anchors = bt__contacts_live (bt__dive_anchors (dive, (bt__state *)state, i, part));
@@ -147,12 +224,21 @@ cable_ranges (const bt_dive *dive, const bt__state *state, int i, bt__range *out
   return n;
 }
 
+static int
+is_sound_stretch (const bt__tether *tether)
+{
+  const bt__stretch *s = &tether->stretch;
+  return s->span == 0 || (s->gone > 0 && s->gone < s->span && !tether->parted);
+}
+
 static bt_status
 cable_judge (bt__judge *judge, const bt_dive *dive, bt__state *state, int i)
 {
   const bt_tether_def *def = &dive->model->tethers[i];
-  bt_status status = BT_OK;
-  for (int part = 0; part < bt__chains (bt__dive_tether (dive, state, i)); part++)
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  bt_status status = bt__judge_that (judge, is_sound_stretch (tether),
+                                     "a long step that is not over, of a line in one piece");
+  for (int part = first_chain (tether); part < end_of_chains (tether); part++)
     {
       if (status == BT_OK)
         status = bt__dynamic_judge (judge, bt__dive_chain (dive, state, i, part),

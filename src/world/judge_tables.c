@@ -116,6 +116,16 @@ const bt__record bt__vehicle_record = BT__RECORD (bt__vehicle, "state", vehicle)
 
 /* ---- Tethers ---- */
 
+static const bt__member stretch[] = {
+  BT__WITHIN (bt__stretch, span, 0, BT__LONGEST_STRETCH),
+  BT__WITHIN (bt__stretch, gone, 0, BT__LONGEST_STRETCH - 1),
+  BT__WITHIN (bt__stretch, next, 0, BT__LONGEST_STRETCH),
+  BT__WITHIN (bt__stretch, wait, 0, BT__LONGEST_WAIT),
+  BT__WITHIN (bt__stretch, tension, -BT__HUGE, BT__HUGE),
+  BT__WITHIN (bt__stretch, pull, -BT__HUGE, BT__HUGE),
+};
+static const bt__record stretch_record = BT__RECORD (bt__stretch, "long step", stretch);
+
 /* The member `props' is judged by the table of fields.  */
 static const bt__member tether[] = {
   BT__ANY (bt__tether, props),
@@ -135,6 +145,7 @@ static const bt__member tether[] = {
   BT__WITHIN (bt__tether, fine, 0, BT__FINEST),
   BT__WITHIN (bt__tether, peak, 0, BT__HUGE),
   BT__WITHIN (bt__tether, unsure, 0, BT__HUGE),
+  BT__OF (bt__tether, stretch, stretch_record),
   BT__TRUTH (bt__tether, hockled),
   BT__TRUTH (bt__tether, kinked),
   BT__WITHIN (bt__tether, pulled, 0, BT__MANY / 2),

@@ -92,6 +92,25 @@ enum
   BT__SLEEP_AFTER = 60
 };
 
+/* A stretch: ticks of the dive for which a moving line was solved in one step, ahead of the present
+   (sim/chain_stretch.c).  */
+enum
+{
+  BT__LONGEST_STRETCH = 30,
+  BT__SHORTEST_WAIT = 8, /* until one is asked for again, after none was to be had */
+  BT__LONGEST_WAIT = 64
+};
+
+typedef struct bt__stretch
+{
+  int64_t span;      /* ticks of it; 0: the line was stepped to the present alone */
+  int64_t gone;      /* ticks that have passed, less than all */
+  int64_t next;      /* ticks the next may have; 0: none, the last was refused or broken off, ... */
+  int64_t wait;      /* ... until a step whose number WAIT divides; 0: the last was not */
+  double tension[2]; /* N: the largest, at begin and end */
+  bt_vec3 pull[2];   /* N: the force on the ends of the line at the begin */
+} bt__stretch;
+
 typedef struct bt__tether
 {
   bt_tether_props props;
@@ -112,6 +131,7 @@ typedef struct bt__tether
   double peak;      /* ... N: in none of which its tension was larger; 0 for a whole step; ... */
   double unsure; /* ... N: how far the tension of half as many was off, if by more than asked; else
                     0 */
+  bt__stretch stretch; /* AUTO: of its store the second chain alone is in use */
   int64_t hockled;
   int64_t kinked;
   int64_t pulled;                /* steps for which it has been pulled without a break */
@@ -140,6 +160,23 @@ bt__chains (const bt__tether *tether)
   return bt__is_cable (tether) ? 1 + (tether->parted != 0) : 0;
 }
 
+/* The wait after S was refused or broken off, twice as long as that before.  */
+static inline int64_t
+bt__next_wait (const bt__stretch *s)
+{
+  int64_t twice = 2 * s->wait;
+  return twice < BT__SHORTEST_WAIT  ? BT__SHORTEST_WAIT
+         : twice > BT__LONGEST_WAIT ? BT__LONGEST_WAIT
+                                    : twice;
+}
+
+/* True if TETHER is a moving line that was solved ahead of the present.  */
+static inline int
+bt__is_ahead (const bt__tether *tether)
+{
+  return bt__is_cable (tether) && tether->stretch.span > 0;
+}
+
 /* True if TETHER is a moving line, and not asleep.  */
 static inline int
 bt__is_awake (const bt__tether *tether)
@@ -158,8 +195,8 @@ bt__tether_form_of (const bt__tether *tether)
              : BT__TETHER_SHAPE;
 }
 
-/* The first bytes of a state: layout version 10.  */
-#define BT__STATE_MAGIC 0x315448474942000aULL
+/* The first bytes of a state: layout version 11.  */
+#define BT__STATE_MAGIC 0x315448474942000bULL
 
 typedef struct bt__state
 {
