@@ -21,8 +21,11 @@
 enum
 {
   LEVELS_MAX = 8,
-  EVERY = 2 /* of its stations: eleven */
+  EVERY = 2, /* of its stations: eleven */
+  DIVE_NODES = 64
 };
+
+#define DIVE_TENSION 0.02 /* its accuracy in a dive */
 
 /* What of either can be had within an error.  */
 typedef struct level
@@ -106,6 +109,34 @@ fly_ours (bench_table *table, const outside_flight *best, const outside_setting 
       }
 }
 
+/* Fly it in a dive, at its accuracy, as asked and in whole steps by turns.  */
+static void
+fly_dives (bench_table *table, const outside_flight *best, int rounds)
+{
+  static const double asked[] = { 0.2, 0.1, 0.05, 0.02, 0.01, 0.005 };
+  static outside_flight flight;
+  for (size_t a = 0; a < sizeof asked / sizeof *asked; a++)
+    {
+      double seconds[2] = { HUGE_VAL, HUGE_VAL }, error[2] = { 0, 0 };
+      for (int turn = 0; turn < 2 * rounds; turn++)
+        {
+          int whole = turn % 2;
+          outside_diving how
+              = { BT_MODEL_AUTO, DIVE_NODES, asked[a], whole ? INFINITY : DIVE_TENSION };
+          double once;
+          outside_moordyn_dive (&how, &flight, &once);
+          seconds[whole] = fmin (seconds[whole], once);
+          error[whole] = outside_apart (&flight, best, EVERY, NULL);
+        }
+      for (int whole = 0; whole < 2; whole++)
+        {
+          char setting[48];
+          snprintf (setting, sizeof setting, "accuracy=%g %s", asked[a], whole ? "whole" : "ahead");
+          row (table, "dive auto", setting, error[whole], seconds[whole]);
+        }
+    }
+}
+
 static void
 say (const bench_table *table, const level *levels, int count)
 {
@@ -143,4 +174,6 @@ bench_moordyn (bench_table *table, int every, int rounds, int quiet)
                   quiet, levels, count);
   if (quiet)
     say (table, levels, count);
+  else
+    fly_dives (table, &best, rounds);
 }

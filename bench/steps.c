@@ -4,7 +4,9 @@
    A vehicle of 20 kg runs lines of 5 to 60 m taut: the error is that of the peak against the exact
    wave (testbed/impact.h), the time that of the whole snap.  Flights are flown by turns as asked
    and in whole steps (`none'): the counters of the first tell by how much the CPU time of a median
-   pair and the linear solves exceed those of the second.
+   pair and the linear solves exceed those of the second.  Calm flights of the model `auto' are
+   flown so too: there the line is solved ahead, and the error is how far it is from that of whole
+   steps.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -124,6 +126,88 @@ put_flight (bench_table *t, const char *name, int has, int steps)
                     "tolerance of the step", 0, bench_median (seconds[0], ROUNDS), counters });
 }
 
+/* ---- Calm ---- */
+
+enum
+{
+  POINTS = 11,
+  LOOK = 37 /* steps between looks at the error */
+};
+
+static const struct
+{
+  const char *name;
+  double surge, yaw; /* sticks */
+  double pause;      /* s of each 30 without them */
+} calms[] = { { "calm, straight on", 0.2, 0, 0 },
+              { "calm, round and round", 0.3, 0.3, 0 },
+              { "calm, to and fro", 0.3, 0.5, 20 } };
+
+/* A dive of a vehicle without mass on a line of 40 m in a current, at ACCURACY.  */
+static bt_dive *
+begin_calm (double accuracy, int whole)
+{
+  static scene s;
+  draw (&s, CURRENT, whole ? INFINITY : 0.02);
+  s.tether[0].props.model = BT_MODEL_AUTO;
+  s.tether[0].props.nodes = 40;
+  s.tether[0].props.accuracy = accuracy;
+  return scene_begin (&s);
+}
+
+/* Fly it by turns, ahead and in whole steps, in WAYS as long as LOOK; *APART is how far the lines
+   were from each other.  */
+static void
+fly_calm (bt_dive *const dive[2], int which, int looks, double spent[2], double *apart)
+{
+  for (int k = 0; k < looks; k++)
+    {
+      double phase = fmod (k * LOOK / 60.0, 30);
+      int rests = phase < calms[which].pause;
+      bt_sticks sticks
+          = { .surge = rests ? 0 : calms[which].surge, .yaw = rests ? 0 : calms[which].yaw };
+      bt_vec3 at[2][POINTS];
+      bt_error error;
+      for (int w = 0; w < 2; w++)
+        {
+          scene_must (bt_vehicle_drive (dive[w], 0, &sticks, &error), &error);
+          spent[w] += LOOK * scene_run (dive[w], LOOK);
+          scene_must (bt_tether_points (dive[w], 0, POINTS, at[w], &error), &error);
+        }
+      for (int n = 0; n < POINTS; n++)
+        *apart = fmax (*apart, bt__distance (at[0][n], at[1][n]));
+    }
+}
+
+static void
+put_calm (bench_table *t, int which, double accuracy, int steps)
+{
+  double seconds[ROUNDS], ratio[ROUNDS], apart = 0;
+  char setting[24], counters[160];
+  bt_profile p[2];
+  for (int r = 0; r < ROUNDS; r++)
+    {
+      double spent[2] = { 0, 0 };
+      bt_dive *dive[2] = { begin_calm (accuracy, 0), begin_calm (accuracy, 1) };
+      fly_calm (dive, which, steps / LOOK, spent, &apart);
+      for (int w = 0; w < 2; w++)
+        {
+          p[w] = profile_of (dive[w]);
+          bt_dive_free (dive[w]);
+        }
+      seconds[r] = spent[0] / (steps / LOOK * LOOK);
+      ratio[r] = spent[0] / spent[1];
+    }
+  snprintf (setting, sizeof setting, "accuracy=%g", accuracy);
+  snprintf (counters, sizeof counters,
+            "times_whole=%.3g;solves_times_whole=%.3g;steps=%d;ahead=%d;sleeps=%d",
+            bench_median (ratio, ROUNDS), (double)p[0].chain_solves / (double)p[1].chain_solves,
+            (int)p[0].steps, (int)p[0].chain_stretched, (int)p[0].chain_sleeps);
+  bench_put (t, &(bench_row){ calms[which].name, "auto", setting, "share of the accuracy",
+                              apart / accuracy, "the same in whole steps", 0,
+                              bench_median (seconds, ROUNDS), counters });
+}
+
 static int
 run (int steps)
 {
@@ -135,6 +219,11 @@ run (int steps)
   put_flight (&table, "flight, mass", CURRENT | MASS, steps);
   put_flight (&table, "flight, bars", CURRENT | BARS, steps);
   put_flight (&table, "flight, mass, bars", CURRENT | MASS | BARS, steps);
+  for (size_t k = 0; k < sizeof calms / sizeof *calms; k++)
+    {
+      put_calm (&table, (int)k, 0.05, steps);
+      put_calm (&table, (int)k, 0.01, steps);
+    }
   return bench_close (&table);
 }
 

@@ -54,7 +54,7 @@ ended (rig *r)
 
 /* ---- MoorDyn ---- */
 
-static const bt_tether_props moordyn_line = {
+const bt_tether_props outside_moordyn_line = {
   .diameter = 0.01, .mass = 0.0805033117, .ea = 2e5, .ba = 50, .cdn = 1.2, .cdt = 0.02, .ca = 1
 };
 
@@ -77,7 +77,7 @@ outside_moordyn_rest (int which, int n, outside_shape *shape)
 {
   static outside_table data;
   rig r;
-  bt_tether_props line = moordyn_line;
+  bt_tether_props line = outside_moordyn_line;
   if (!outside_load (which ? "moordyn/B.csv" : "moordyn/A.csv", 5, &data))
     return OUTSIDE_NO_DATA;
   line.mass = which ? line.mass : 0.12;
@@ -101,19 +101,15 @@ outside_moordyn_rest (int which, int n, outside_shape *shape)
   return ended (&r);
 }
 
-enum
-{
-  C_ROWS = 121 /* half seconds */
-};
-
 outside_result
 outside_moordyn_theirs (outside_flight *f)
 {
   static outside_table data;
-  if (!outside_load ("moordyn/C.csv", 3 + 3 * OUTSIDE_STATIONS, &data) || data.rows != C_ROWS)
+  if (!outside_load ("moordyn/C.csv", 3 + 3 * OUTSIDE_STATIONS, &data)
+      || data.rows != OUTSIDE_HALVES)
     return OUTSIDE_NO_DATA;
-  f->rows = C_ROWS;
-  for (int k = 0; k < C_ROWS; k++)
+  f->rows = OUTSIDE_HALVES;
+  for (int k = 0; k < OUTSIDE_HALVES; k++)
     {
       const double *row = data.at[k];
       f->t[k] = row[0];
@@ -125,9 +121,8 @@ outside_moordyn_theirs (outside_flight *f)
   return OUTSIDE_DONE;
 }
 
-/* The far end of case C, T seconds after the start.  */
-static bt_vec3
-led (double t)
+bt_vec3
+outside_moordyn_led (double t)
 {
   double u = fmin (t / 10, 1);
   double a = 10 * (1 - cos (0.1 * t)) * u * u * u * (10 - 15 * u + 6 * u * u);
@@ -139,18 +134,19 @@ outside_moordyn_ours (const outside_setting *how, outside_flight *f, double *sec
 {
   rig r;
   double h = 0.5 / how->per, spent = 0;
-  open_moordyn (&r, moordyn_line, how->intervals, bt__vec (35, 32, -100), led (0));
+  open_moordyn (&r, outside_moordyn_line, how->intervals, bt__vec (35, 32, -100),
+                outside_moordyn_led (0));
   let_flow (&r);
   rig_settle (&r);
   r.in.order = how->order;
   r.in.tolerance = how->tolerance;
-  f->rows = C_ROWS;
-  for (int k = 0; r.good && k < C_ROWS; k++)
+  f->rows = OUTSIDE_HALVES;
+  for (int k = 0; r.good && k < OUTSIDE_HALVES; k++)
     {
       double start = bench_now ();
       for (int i = 1; i <= how->per && k > 0; i++)
         {
-          r.in.end[1].at = led (((k - 1) * how->per + i) * h);
+          r.in.end[1].at = outside_moordyn_led (((k - 1) * how->per + i) * h);
           rig_step (&r, h);
         }
       spent += bench_now () - start;
@@ -161,7 +157,7 @@ outside_moordyn_ours (const outside_setting *how, outside_flight *f, double *sec
         f->pull[k][e] = bt__dynamic_node_tension (r.d, e ? (int)r.d->n : 0);
     }
   if (seconds)
-    *seconds = spent / (0.5 * (C_ROWS - 1));
+    *seconds = spent / (0.5 * (OUTSIDE_HALVES - 1));
   return ended (&r);
 }
 

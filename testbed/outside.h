@@ -7,13 +7,16 @@
 #ifndef BT_TESTBED_OUTSIDE_H
 #define BT_TESTBED_OUTSIDE_H
 
+#include <bight/tether.h>
+
 #include "math/vec.h"
 
 enum
 {
   OUTSIDE_COLUMNS = 70,
   OUTSIDE_ROWS = 1000,
-  OUTSIDE_STATIONS = 21 /* of case C, evenly along the line */
+  OUTSIDE_STATIONS = 21, /* of case C, evenly along the line */
+  OUTSIDE_HALVES = 121   /* rows of case C, half a second apart */
 };
 
 /* The numbers of a file.  */
@@ -79,6 +82,22 @@ typedef struct outside_setting
 outside_result outside_moordyn_theirs (outside_flight *theirs);
 outside_result outside_moordyn_ours (const outside_setting *how, outside_flight *ours,
                                      double *seconds);
+
+/* How C is to be flown in a dive, by a vehicle without mass that follows a track.  */
+typedef struct outside_diving
+{
+  int model;       /* BT_MODEL_DYNAMIC or BT_MODEL_AUTO */
+  int nodes;       /* intervals of its world */
+  double accuracy; /* m */
+  double tension_accuracy;
+} outside_diving;
+
+outside_result outside_moordyn_dive (const outside_diving *how, outside_flight *ours,
+                                     double *seconds);
+
+/* The far end of C, T seconds after the start; the line of C.  */
+bt_vec3 outside_moordyn_led (double t);
+extern const bt_tether_props outside_moordyn_line;
 
 /* The flight that COARSE and FINE, of second order with half the step and interval, tend to.  */
 void outside_extrapolate (const outside_flight *coarse, const outside_flight *fine,
