@@ -261,6 +261,7 @@ try_step (bt__line_job *k, int near, int held, bt__dynamic_report *report, bt_er
   k->X = bt__dynamic_proposal (k->kernel);
   if (held) /* else what is held is of another line's step */
     start_ends (k);
+  k->bents = 0;
   if (near && !(hook && hook->no_contacts))
     {
       bt__line_bends (k);
@@ -269,6 +270,8 @@ try_step (bt__line_job *k, int near, int held, bt__dynamic_report *report, bt_er
       bt__line_inherit (k);
       bt__line_harden (k);
     }
+  else
+    bt__line_round (k);
   propose (k, near, held, report);
   return BT_OK;
 }
@@ -347,7 +350,7 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
     return status;
   w->last = *config;
   aim_ends (&k);
-  if (k.scene->n == 0 && k.movers == 0 && !bt__self_counts (&k))
+  if (k.scene->n == 0 && k.movers == 0 && !bt__self_counts (&k) && !d->rounded)
     {
       anchors->n = 0;
       status = bt__dynamic_step (d, work, k.in, report, error);
@@ -359,7 +362,8 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
       bt__dynamic_drift may = { INFINITY, INFINITY, INFINITY };
       check_known (&k);
       k.core = config->core * 1.01;
-      if (bt__line_is_far (&k, &may.way) && bt__self_is_far (&k, &may) && !(hook && hook->spoil))
+      if (!d->rounded && bt__line_is_far (&k, &may.way) && bt__self_is_far (&k, &may)
+          && !(hook && hook->spoil))
         status = step_far (&k, &may, report, &done, error);
       if (!done)
         {

@@ -331,6 +331,8 @@ hold (bt__line_job *k, const corners *s, int i)
   a->point = c->edge.point;
   a->normal = c->edge.normal;
   a->thick = c->edge.radius;
+  a->round = bt__turn_round (k, &c->edge, &c->turn, c->place);
+  k->w->rounder[at] = a->round - c->anchor.round;
   a->span = (c->edge.radius + k->config->radius) * fmax (c->turn.angle, 0);
 }
 
@@ -358,6 +360,7 @@ bt__line_bends (bt__line_job *k)
       hold (k, &s, c);
   for (int q = 0; q < k->olds; q++) /* taken, or gone */
     k->w->old[q].state = k->w->old[q].bent ? -1 : k->w->old[q].state;
+  bt__line_round (k);
   bt__dynamic_bend (k->kernel, k->w->bent, k->bents);
 }
 

@@ -56,6 +56,10 @@ typedef struct bt__turn
 int bt__turn_find (const bt__line_job *k, const bt__edge *e, const bt_vec3 *p,
                    const bt_vec3 *before, const bt_vec3 *after, bt__turn *t);
 
+/* How much longer than the line the chord on either side of a node at X is, m, where the line runs
+   about E by T.  */
+double bt__turn_round (const bt__line_job *k, const bt__edge *e, const bt__turn *t, bt_vec3 x);
+
 /* How much nearer than OUT a line from A to B comes to the axis through CENTRE on its way, m.  */
 double bt__turn_lack (bt_vec3 axis, bt_vec3 centre, bt_vec3 a, bt_vec3 b, double out);
 
@@ -98,7 +102,11 @@ int bt__bend_is_wedged (const bt__line_job *k, int64_t node, double share);
    node would leave the member.  */
 bt_vec3 bt__bend_aside (const bt__line_job *k, const bt__edge *e, bt_vec3 normal, bt_vec3 along);
 
-/* line_bend_keep.c: true if the I-th sliding node bears, or a corner of the same member next to it.
+/* line_bend_keep.c: bt__turn_round of the I-th sliding node as it now is, while none has come or
+   gone.  */
+double bt__bend_round (const bt__line_job *k, int i);
+
+/* True if the I-th sliding node bears, or a corner of the same member next to it.
  */
 int bt__bend_bears (const bt__line_job *k, int i);
 
@@ -110,6 +118,7 @@ typedef struct bt__sliding
   int n;
   bt__contact anchor[BT__BENTS];
   int64_t node[BT__BENTS];
+  double was[BT__BENTS]; /* m: bt__bend_round */
 } bt__sliding;
 
 /* line_bend_list.c: take the sliding nodes out of the contacts, or put them back in order; move the

@@ -106,7 +106,8 @@ struct bt__line_work
   bt__dynamic_input in;             /* of a step in which ends are not where they are wanted */
   bt__dynamic_hold hold[2];         /* what holds them */
   bt__dynamic_bent bent[BT__BENTS]; /* nodes held at edges, ... */
-  bt__contact bend[BT__BENTS];      /* ... and what they are held at */
+  bt__contact bend[BT__BENTS];      /* ... what they are held at, ... */
+  double rounder[BT__BENTS];        /* m: ... and what ROUND gains by the step */
 };
 
 typedef struct bt__line_job
@@ -201,6 +202,10 @@ void bt__line_press (const bt__line_job *k, int i);
 /* Hold the sliding nodes of the last step where they still serve; call this before bt__line_rows.
  */
 void bt__line_bends (bt__line_job *k);
+
+/* Tell the solver by how much the chords are longer than the line (line_round.c); bt__line_bends
+   calls this.  */
+void bt__line_round (bt__line_job *k);
 
 /* True if nodes are held at a round member that is not thin.  */
 int bt__line_is_laid_round (const bt__line_job *k);

@@ -33,6 +33,7 @@ static const bt__member anchor[] = {
   BT__WITHIN (bt__contact, held, -BT__FAR, BT__FAR),
   BT__WITHIN (bt__contact, away, -BT__FAR, BT__FAR),
   BT__WITHIN (bt__contact, lag, -BT__FAR, INFINITY),
+  BT__WITHIN (bt__contact, round, -BT__FAR, BT__FAR),
   BT__WITHIN (bt__contact, after, -2, 2),
   BT__WITHIN (bt__contact, unsolved, 0, BT__MANY),
   BT__WITHIN (bt__contact, other, -BT__FAR, BT__FAR),

@@ -295,6 +295,29 @@ let_go_idle (bt__line_job *k)
       bt__sliding_let_go (k, k->w->bent[q].node);
 }
 
+/* Note how much longer than the line the chords at the nodes of S are, before any comes or goes. */
+static void
+note_rounds (const bt__line_job *k, bt__sliding *s)
+{
+  for (int q = 0; q < s->n; q++)
+    for (int i = 0; i < k->bents; i++)
+      if (k->w->bent[i].node == s->node[q])
+        s->was[q] = bt__bend_round (k, i);
+}
+
+/* Add what that has changed by, as nodes came and went.  */
+static void
+renew_rounds (const bt__line_job *k, bt__sliding *s)
+{
+  for (int q = 0; q < s->n; q++)
+    {
+      bt__edge e;
+      bt__turn t = sliding_turn (k, s, q, &e);
+      double now = bt__turn_round (k, &e, &t, bt__dynamic_x (k->d)[s->node[q]]);
+      s->anchor[q].round += now - s->was[q];
+    }
+}
+
 void
 bt__line_rebend (bt__line_job *k)
 {
@@ -305,6 +328,7 @@ bt__line_rebend (bt__line_job *k)
   let_go_idle (k);
   bt__sliding_measure (k);
   bt__sliding_gather (k, &s);
+  note_rounds (k, &s);
   drop_failed (k, &s);
   p.node = no_bends || k->unsolved ? -1
                                    : 0; /* a new one would change the numbers of the rows' nodes */
@@ -320,6 +344,7 @@ bt__line_rebend (bt__line_job *k)
     if (!pass_nodes (k, &s, q))
       bt__sliding_drop (k, &s, q);
   take_spare (k, &s);
+  renew_rounds (k, &s);
   bt__sliding_measure (k);
   bt__sliding_scatter (k, &s);
 }

@@ -11,6 +11,11 @@
 
      (out u -+ sqrt (D^2 - out^2) axis x u) / D^2.
 
+   The line itself lies along the circle.  Where it turns by the angle 2 h about the axis, half of
+   the turn on either side of a corner, the chord on that side is longer than the line by
+   out (tan h - h), and by sin h for each metre that the corner is out too far; all of that divided
+   by the cosine of the line's pitch about the member.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include "contact/line_bend.h"
@@ -61,4 +66,23 @@ bt__turn_find (const bt__line_job *k, const bt__edge *e, const bt_vec3 *p, const
   t->sliding = bt__scale (0.5, bt__add (a, b));
   return bt__dot (t->normal, e->normal) > 0 && fabs (bt__dot (axis, a)) < ALONG
          && fabs (bt__dot (axis, b)) < ALONG;
+}
+
+/* The cosine of the pitch about AXIS of a line that turns by T, half of it by HALF.  */
+static double
+pitch_of (const bt__turn *t, bt_vec3 axis, double half)
+{
+  double along = bt__dot (axis, t->sliding);
+  double across = bt__norm (bt__off_axis (axis, t->sliding)) / cos (half);
+  double size = hypot (across, along);
+  return size > 0 ? across / size : 1;
+}
+
+double
+bt__turn_round (const bt__line_job *k, const bt__edge *e, const bt__turn *t, bt_vec3 x)
+{
+  double half = fmin (fmax (0.5 * t->angle, 0), acos (LEAST_COS));
+  double away = bt__dot (t->normal, bt__sub (x, t->centre)), out = e->radius + k->config->radius;
+  double more = out * (tan (half) - half) + (away - t->reach) * sin (half);
+  return e->round ? more / fmax (pitch_of (t, e->axis, half), LEAST_COS) : 0;
 }

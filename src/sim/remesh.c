@@ -162,7 +162,7 @@ bt__remesh_chain (bt_dive *dive, bt__state *state, int i, bt_error *error)
   int m = wanted (n, bt__chain_error (chain), tether->props.accuracy, room);
   if (bt__has_obstacles (dive))
     m = multiple (n, m, room);
-  return tether->parted || m == n || is_near_itself (dive, state, i, chain)
+  return tether->parted || m == n || chain->rounded || is_near_itself (dive, state, i, chain)
                  || bt__is_by_a_hull (dive, i)
              ? BT_OK
              : lay_anew (dive, state, i, m, error);

@@ -33,7 +33,7 @@ bt__dynamic_work_free (bt__dynamic_work *w)
       = { w->X,    w->d,         w->rhs,       w->keep,     w->last,  w->lam,   w->link,
           w->node, w->extra,     w->diag,      w->off,      w->up,    w->up2,   w->pivot,
           w->bend, w->bend_diag, w->bend_off,  w->bend_far, w->whole, w->spare, w->by_flow,
-          w->kept, w->crumple,   w->exchanged, w->natural,  w->twist, w->felt };
+          w->kept, w->crumple,   w->exchanged, w->natural,  w->twist, w->felt,  w->round };
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
     free (arrays[i]);
   free (w);
@@ -66,7 +66,8 @@ bt__dynamic_work_new (int n_max)
         && (w->exchanged = calloc (3 * n, sizeof *w->exchanged))
         && (w->natural = calloc (n, sizeof *w->natural))
         && (w->twist = calloc (n, sizeof *w->twist)) && (w->felt = calloc (n, sizeof *w->felt))
-        && (w->kept = calloc (n, sizeof *w->kept)) && (w->crumple = calloc (n, sizeof *w->crumple));
+        && (w->kept = calloc (n, sizeof *w->kept)) && (w->crumple = calloc (n, sizeof *w->crumple))
+        && (w->round = calloc (n, sizeof *w->round));
   if (whole)
     return w;
   bt__dynamic_work_free (w);

@@ -31,6 +31,13 @@
 
 /* ---- The intervals before and after ---- */
 
+/* By how much the chord of interval J is longer than its line, m.  */
+static double
+rounded_by (const bt__dynamic_work *w, int64_t j)
+{
+  return w->rounded ? w->round[j] : 0;
+}
+
 /* An interval at a bent node: its tension, and what that gains with its length, and with less rest
    length.  */
 typedef struct leg
@@ -50,7 +57,7 @@ static leg
 leg_of (const bt__dynamic_work *w, int64_t j)
 {
   const bt__link *k = w->link + j;
-  double length = bt__norm (chord_at_bend (w, j));
+  double length = bt__norm (chord_at_bend (w, j)) - rounded_by (w, j);
   int active = k->active > 0 && (k->tension > 0 || w->least == 0);
   return (leg){ .tension = active * k->tension,
                 .along = active * k->ka,
@@ -65,7 +72,7 @@ bt__dynamic_lengthen (bt__dynamic_work *w, int64_t j, double more)
   bt__link *k = w->link + j;
   double ratio = (k->rest + more) / k->rest;
   k->rest *= ratio;
-  k->zero *= ratio;
+  k->zero = ratio * (k->zero - rounded_by (w, j)) + rounded_by (w, j);
   k->ka /= ratio;
 }
 
@@ -306,10 +313,11 @@ share_out (const bt__dynamic_work *w, const bt__dynamic_bent *b)
 {
   const bt__link *p = w->link + b->node - 1, *q = p + 1;
   share s = { .rest_a = p->rest, .rest_b = q->rest, .unit = p->ka * p->rest };
-  s.zero_a = p->zero / p->rest;
-  s.zero_b = q->zero / q->rest;
-  s.a = bt__norm (chord_at_bend (w, b->node - 1)) / s.zero_a;
-  s.b = bt__norm (chord_at_bend (w, b->node)) / s.zero_b;
+  double ra = rounded_by (w, b->node - 1), rb = rounded_by (w, b->node);
+  s.zero_a = (p->zero - ra) / p->rest;
+  s.zero_b = (q->zero - rb) / q->rest;
+  s.a = (bt__norm (chord_at_bend (w, b->node - 1)) - ra) / s.zero_a;
+  s.b = (bt__norm (chord_at_bend (w, b->node)) - rb) / s.zero_b;
   return s;
 }
 

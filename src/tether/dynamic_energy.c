@@ -59,7 +59,9 @@ energies_at (const bt__dynamic *d, const bt__dynamic_input *in, const bt_vec3 *x
   for (int j = 0; j < n; j++)
     {
       bt_vec3 c = bt__sub (x[j + 1], x[j]);
-      double e = bt__norm (chord ? bt__add (c, chord[j]) : c) / rest[j];
+      double length
+          = chord ? bt__norm (bt__add (c, chord[j])) : bt__norm (c) - bt__dynamic_chord (d)[j].z;
+      double e = length / rest[j];
       sum.strain += strain_energy (ea, rest[j], e, p->ei > 0);
       if (in->surfaced && lift > 0)
         sum.gravity += lift * bt__dynamic_out (in->water, rest[j], x[j], x[j + 1]);
@@ -84,7 +86,7 @@ bt__dynamic_crumple_energy (const bt__dynamic *d, const bt__dynamic_input *in)
   double ea = bt__stiffness (in->line->ea), sum = 0;
   for (int j = 0; j < d->n && in->line->ei > 0 && isfinite (in->line->ea); j++)
     {
-      double e = bt__distance (x[j], x[j + 1]) / rest[j];
+      double e = (bt__distance (x[j], x[j + 1]) - bt__dynamic_chord (d)[j].z) / rest[j];
       double pressed = 1 + fmin (tension[j], 0) / ea; /* the stretch that the tension tells */
       if (e < pressed)
         sum += strain_energy (ea, rest[j], e, 1) - strain_energy (ea, rest[j], pressed, 1);

@@ -181,6 +181,21 @@ commit_pair (bt__dynamic *d, const bt__dynamic_work *w, int i, int j, const bt_v
   (void)d;
 }
 
+/* What chords are longer than their lines is no stretch.  */
+static void
+commit_rounds (bt__dynamic *d, const bt__dynamic_work *w)
+{
+  double *e = bt__dynamic_stretch (d), *de = bt__dynamic_dstretch (d);
+  for (int j = 0; j < w->n; j++)
+    {
+      double less = w->round[j] / w->link[j].rest;
+      e[j] -= less;
+      de[j] -= less;
+      bt__dynamic_chord (d)[j].z = w->round[j];
+      d->rounded |= w->round[j] != 0;
+    }
+}
+
 static void
 commit_links (bt__dynamic *d, const bt__dynamic_work *w, bt__dynamic_report *report)
 {
@@ -191,6 +206,9 @@ commit_links (bt__dynamic *d, const bt__dynamic_work *w, bt__dynamic_report *rep
     commit_pair (d, w, k, half + k, x, e, de);
   if (2 * half < w->n)
     commit_pair (d, w, w->n - 1, w->n - 1, x, e, de);
+  d->rounded = 0;
+  if (w->rounded)
+    commit_rounds (d, w);
   memcpy (bt__dynamic_tension (d), w->lam, (size_t)w->n * sizeof *w->lam);
   for (int j = 0; j < w->n; j++)
     if (w->lam[j] > most)
@@ -248,7 +266,7 @@ take_over (bt__dynamic *d, bt__dynamic_work *w, const uint8_t *restart, const bt
     bt__dynamic_correct (d, w);
   else if (w->in->line->ei > 0)
     for (int j = 0; j < w->n; j++)
-      bt__dynamic_chord (d)[j] = bt__vec (w->crumple[j], BT__BEARS, 0);
+      bt__dynamic_chord (d)[j] = bt__vec (w->crumple[j], BT__BEARS, bt__dynamic_chord (d)[j].z);
   commit_nodes (d, w, w->keep, restart);
   commit_links (d, w, report);
   commit_ends (d, w, pull, report);

@@ -30,6 +30,7 @@ static const bt__member dynamic[] = {
   BT__ANY (bt__dynamic, seen),
   BT__WITHIN (bt__dynamic, wait, 0, BT__MANY),
   BT__WITHIN (bt__dynamic, least, 1, BT__LEAST_INTERVALS),
+  BT__WITHIN (bt__dynamic, rounded, 0, 1),
 };
 const bt__record bt__dynamic_record = BT__RECORD (bt__dynamic, "chain", dynamic);
 

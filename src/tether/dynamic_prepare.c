@@ -41,6 +41,19 @@ prepare_links (bt__dynamic_work *w, const bt__dynamic *d, double rest0)
   w->node[w->n].cell = 0.5 * before;
 }
 
+void
+bt__dynamic_round (bt__dynamic_work *w, int64_t j, double round)
+{
+  if (w->chord || (round == 0 && !w->rounded))
+    return;
+  if (!w->rounded)
+    memset (w->round, 0, (size_t)w->n * sizeof *w->round);
+  w->rounded = 1;
+  w->link[j].zero += round - w->round[j];
+  w->link[j].start += round - w->round[j];
+  w->round[j] = round;
+}
+
 /* The end of a step is taken to its place; any other node goes on as it does.  */
 static void
 prepare_nodes (bt__dynamic_work *w, const bt__dynamic *d)
@@ -168,7 +181,7 @@ bt__dynamic_prepare (bt__dynamic_work *w, const bt__dynamic *d, const bt__dynami
   w->stiffen = 0;
   w->rows = w->pairs = 0;
   w->hold = NULL;
-  w->bents = 0;
+  w->bents = w->rounded = 0;
   w->n = (int)d->n;
   w->ea = bt__stiffness (p->ea);
   w->kn = half * p->cdn;
@@ -180,6 +193,8 @@ bt__dynamic_prepare (bt__dynamic_work *w, const bt__dynamic *d, const bt__dynami
   w->chord = in->order == 4 ? bt__dynamic_chord (d) : NULL;
   w->load = in->order == 4 ? bt__dynamic_load (d) : NULL;
   prepare_links (w, d, rest0);
+  for (int j = 0; d->rounded && !w->chord && j < w->n; j++)
+    bt__dynamic_round (w, j, bt__dynamic_chord (d)[j].z);
   prepare_nodes (w, d);
   sample_current (w);
   bt__dynamic_surface_prepare (w);

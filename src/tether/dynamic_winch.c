@@ -23,6 +23,7 @@
 
 #define BORN 0.001 /* of a piece: how far a lump is out when its node comes, ... */
 #define GONE 0.008 /* ... and how near to the winch the node of a lump goes */
+#define LEAST 0.01 /* of an interval: the least part of it */
 #define BENT 0.01  /* of a piece: so far from its neighbours' chord is a node at a corner */
 
 /* Make room for, or remove, element AT of an array of N.  */
@@ -108,10 +109,30 @@ set_moving (bt__dynamic *d, int64_t i, double u, int taut)
     }
 }
 
+/* The length of interval J's line as it is stretched, m.  */
+static double
+drawn_length (const bt__dynamic *d, int64_t j)
+{
+  const bt_vec3 *x = bt__dynamic_x (d) + j;
+  return bt__distance (x[0], x[1]) - bt__dynamic_chord (d)[j].z;
+}
+
+/* Interval J of D has been divided, whose chord was ROUND metres longer than its line: the part
+   next to the longer chord is where the line is laid round something.  */
+static void
+share_round (bt__dynamic *d, int64_t j, double round)
+{
+  bt_vec3 *chord = bt__dynamic_chord (d) + j;
+  double before = j > 0 ? chord[-1].z : 0, after = j + 2 < d->n ? chord[2].z : 0;
+  chord[0] = chord[1] = bt__vec (0, 0, 0);
+  chord[after >= before].z = d->rounded ? round : 0;
+}
+
 void
 bt__dynamic_split (bt__dynamic *d, int64_t j, double u, int straight)
 {
   int64_t i = j + 1;
+  double round = bt__dynamic_chord (d)[j].z;
   double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d), whole = rest[j];
   int taut = is_strained (d, j);
   bt_vec3 *x = bt__dynamic_x (d), none = { 0, 0, 0 },
@@ -120,9 +141,9 @@ bt__dynamic_split (bt__dynamic *d, int64_t j, double u, int straight)
   set_moving (d, i, u, taut);
   x[i] = bt__add (point_between (x + j, u), off);
   bt__dynamic_load (d)[i] = none;
-  bt__dynamic_chord (d)[j] = bt__dynamic_chord (d)[i] = none;
-  rest[j] = taut ? bt__distance (x[j], x[i]) / e[j] : u * whole;
-  rest[i] = taut ? bt__distance (x[i], x[i + 1]) / e[i] : whole - rest[j];
+  share_round (d, j, round);
+  rest[j] = taut ? drawn_length (d, j) / e[j] : u * whole;
+  rest[i] = taut ? drawn_length (d, i) / e[i] : whole - rest[j];
   d->owed += taut ? whole - rest[j] - rest[i] : 0;
 }
 
@@ -135,15 +156,24 @@ bt__dynamic_remove (bt__dynamic *d, int64_t i)
   double whole = rest[0] + rest[1], u = rest[0] / whole, chord;
   double mean[]
       = { u * t[0] + (1 - u) * t[1], u * e[0] + (1 - u) * e[1], u * de[0] + (1 - u) * de[1] };
+  double round = d->rounded ? bt__dynamic_chord (d)[j].z + bt__dynamic_chord (d)[i].z : 0;
   int taut = is_strained (d, j) && is_strained (d, j + 1);
   shift_all (d, i, -1);
-  chord = bt__distance (bt__dynamic_x (d)[j], bt__dynamic_x (d)[j + 1]);
-  bt__dynamic_chord (d)[j] = bt__vec (0, 0, 0);
+  bt__dynamic_chord (d)[j] = bt__vec (0, 0, round);
+  chord = drawn_length (d, j);
   t[0] = mean[0];
   de[0] = mean[2];
   rest[0] = taut ? chord / mean[1] : whole;
   e[0] = chord / rest[0];
   d->owed += whole - rest[0];
+}
+
+/* The share of the line that lies along the share U of the chord, which is interval J's now.  */
+static double
+share_of_line (const bt__dynamic *d, int64_t j, double u)
+{
+  double a = drawn_length (d, j), b = drawn_length (d, j + 1);
+  return d->rounded ? fmin (fmax (a / (a + b), LEAST), 1 - LEAST) : u;
 }
 
 /* A node between two others, one of which line runs through, moves along the line as the other.  */
@@ -152,7 +182,7 @@ bt__dynamic_insert (bt__dynamic *d, int64_t j, double u, int64_t from)
 {
   int64_t i = j + 1, other = from > j ? i + 1 : j;
   double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d), *t = bt__dynamic_tension (d),
-         *de = bt__dynamic_dstretch (d), whole = rest[j];
+         *de = bt__dynamic_dstretch (d), whole = rest[j], round = bt__dynamic_chord (d)[j].z;
   shift_all (d, i, 1);
   bt_vec3 *x = bt__dynamic_x (d),
           *nodes[] = { bt__dynamic_v (d), bt__dynamic_dx (d), bt__dynamic_vp (d) };
@@ -164,8 +194,8 @@ bt__dynamic_insert (bt__dynamic *d, int64_t j, double u, int64_t from)
       a[i] = bt__axpy (v, bt__dot (along, bt__sub (a[other], v)), along);
     }
   bt__dynamic_load (d)[i] = bt__vec (0, 0, 0);
-  bt__dynamic_chord (d)[j] = bt__dynamic_chord (d)[i] = bt__vec (0, 0, 0);
-  rest[j] = u * whole;
+  share_round (d, j, round);
+  rest[j] = share_of_line (d, j, u) * whole;
   rest[i] = whole - rest[j];
   t[j] = t[i];
   e[j] = e[i];
