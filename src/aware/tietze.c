@@ -1,7 +1,8 @@
-/* Tietze elimination.
+/* Tietze moves on a presentation of a group: a letter that occurs once in a relation is expressed
+   by the other letters of the relation and eliminated (H. Tietze 1908; see tietze.h).
 
-   A log keeps what each letter was put as, in order; read backwards it gives every letter in the
-   generators that are left.
+   A log keeps, in order, what each letter was replaced by; read backwards, the log gives every
+   letter as a word in the remaining generators.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -1,5 +1,21 @@
-/* Continuous collision detection of a line against obstacles: casts along the proposed move,
+/* Continuous collision detection (CCD) of a line against obstacles: casts along the proposed move,
    shorter moves, and the safe step.
+
+   The solver proposes a new place for every node.  Each link is cast along the straight paths of
+   both nodes against the candidate pairs of the link (line_near.c) by conservative advancement
+   (collide/cast.c; Mirtich 1996).  A part farther from the link than the link moves is not cast.  A
+   cast that stops short of the proposed place is a hit, and hits are answered in three ways, one
+   after the other:
+
+   1. A contact constraint is added where the link hits, and the step is solved again
+   (bt__line_hits).
+
+   2. If rounds of 1. leave a hit, all nodes take the same share of their moves, several times over
+   (bt__line_shorten).  The whole line may leave a place where a single node, held back by the
+   neighbours, could not.
+
+   3. The fallback always ends: the safe step (collide/safe.c) and the guard of self-contact shorten
+   the move of each node, by turns; after CUTS turns the line stays where it is (bt__line_truncate).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

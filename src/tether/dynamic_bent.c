@@ -1,20 +1,23 @@
-/* The moving line: nodes about which the line runs, as about a wire or an edge.
+/* The moving line: sliding nodes, about which the line runs as about a wire or an edge.  The method
+   is Eulerian on Lagrangian (S. Sueda et al., "Large-scale dynamic simulation of highly constrained
+   strands", 2011).
 
-   Such a node is held in place across the edge, and line runs through it: FLOW metres of rest
-   length in the step go from the interval before it to the one after.  That is one more unknown a
-   node, and one more equation: the tensions are as the capstan has it,
-     T_b + c = (T_a + c) exp (wrap k),   k = drag / max (|drag, side|, slip),
-   where DRAG is how far the line has been drawn from where it stuck: friction grows with it to the
-   whole at SLIP, as in every other contact.  C is a hundredth of a newton: a slack line would hold
-   nothing however often it is wound round, and one that is all but slack would hold anything in one
-   step and nothing in the next.
+   A sliding node stays in place across the edge, and line runs through the node: FLOW metres of
+   rest length go in a step from the interval before the node to the interval after.  Each sliding
+   node adds an unknown, the flow, and an equation, the capstan's:
+     T_b + c = (T_a + c) exp (wrap k),   k = drag / max (|drag, side|, slip).
 
-   The equations of the nodes stay symmetric and tridiagonal: the flows border them.  With y for the
-   update without flow and z for that of a metre of it, a small full system gives the flows.  It is
-   not symmetric, as friction is not.
+   DRAG is the length by which the line was drawn from where the line stuck: friction grows with
+   DRAG and is complete at SLIP, as in every contact.  The force c is a hundredth of a newton.
+   Without c a slack line would hold nothing however often the line is wound round, and a nearly
+   slack line would hold anything in one step and nothing in the next.
 
-   Without the border the descent of the safe way would be none: there the flows follow the places
-   from one iteration to the next, as friction follows the loads.
+   The equations of the nodes stay symmetric and tridiagonal, and the flows border them.  With y the
+   update without flow and z the update by a metre of flow, a small full system gives the flows; the
+   system is not symmetric, because friction is not.
+
+   The safe way leaves the border out, or the direction found would not descend: flows then follow
+   the places from one iteration to the next, as friction follows the loads.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

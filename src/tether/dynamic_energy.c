@@ -1,10 +1,13 @@
-/* The moving line: its energies, and the watch over those of a line alone.
+/* The moving line: energies, and the energy guard of a line left alone.
 
-   Without water, winch and moving ends nothing can give a line energy.  Backward Euler takes some
-   from it in every step, its equations being those of a potential that is convex.  The second-order
-   differences keep more, but may give where a line runs taut; so a step that would leave it more
-   than it began with alone, is taken by backward Euler.  Where that gives too, because the step was
-   not solved or bending was held in it, the velocities are slowed down by as much.
+   A line without water, winch and moving ends can gain no energy.  Backward Euler keeps to this:
+   the potential of the step's equations is convex, and every step loses some energy.  The
+   second-order differences lose less, but may add energy where a line runs taut.  So the guard
+   compares energies: after a step by second-order differences with more energy than the line had
+   when left alone, the step is taken again by backward Euler.
+
+   If the repeated step gains as well, because the step was not solved or bending was held in the
+   step, all velocities are slowed down until the gain is gone.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

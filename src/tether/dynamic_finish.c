@@ -1,6 +1,8 @@
 /* The moving line: a solved step is judged and taken over.
 
-   The two halves of the line side by side, as they are assembled.
+   The judgement refuses a solution that is not finite and measures the largest moves; taking over
+   commits nodes, intervals and ends.  Both halves of the line are gone through side by side, as in
+   the assembly.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

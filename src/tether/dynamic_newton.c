@@ -1,13 +1,15 @@
 /* The moving line: the iterations of a step.
 
    The quick way is a mixed primal-dual active set: each interval's multiplier, the linearised
-   tension, sets the geometric stiffness and decides with the stretch whether the interval is taut.
-   One iteration is enough in ordinary motion.  Friction takes the loads of the iterate before, so
-   that the blocks are symmetric; where that runs in a circle, as on a line wound about a pile under
-   load, iterations are tried in which friction follows the loads (dynamic_couple.c: Newton's own).
-   Where neither settles, the safe way restarts from
-   the better of predictor and present shape and descends on the incremental potential: no step
-   gains energy out of nothing.
+   tension, sets the geometric stiffness and decides, together with the stretch, whether the
+   interval is taut.  In ordinary motion a single iteration is enough.
+
+   Friction takes the loads of the iterate before, so the blocks are symmetric.  On a line wound
+   about a pile under load such iterations may run in a circle; then iterations are tried in which
+   friction follows the loads (dynamic_couple.c: Newton's own).
+
+   If neither settles, the safe way restarts from the better of predictor and present shape and
+   descends on the incremental potential: no step gains energy out of nothing.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

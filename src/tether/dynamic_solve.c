@@ -1,6 +1,9 @@
-/* The moving line: the linear solve, block tridiagonal, or pentadiagonal where the line is stiff in
-   bending.  Every pivot is factored as L D L^T: it is a stiff direction plus a soft plane, which
-   cofactors would mix.
+/* The moving line: the linear solve of an iteration, by block elimination from both ends of the
+   line to the middle, and back.
+
+   The matrix is block tridiagonal, or block pentadiagonal where the line is stiff in bending. Every
+   pivot is factored as L D L^T: a pivot is a stiff direction plus a soft plane, and an inverse by
+   cofactors would mix the two.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
