@@ -55,7 +55,7 @@ libraries=$($PKG_CONFIG --libs $packages)
 sources=$(sed -n '/^libbight_core_la_SOURCES/,/[^\\]$/p' src/Makefile.am | grep -o '[a-z_/]*\.c' |
   sed 's|^|src/|')
 sources="$sources $(ls bench/stability*.c testbed/campaign*.c) bench/options.c bench/row.c"
-for name in calibration contact_judge contact_scene gallery reef_world scene solids sweep; do
+for name in calibration chance contact_judge contact_scene gallery reef_world scene solids sweep; do
   sources="$sources testbed/$name.c"
 done
 sources="$sources $top_builddir/testbed/gallery_worlds.c"
