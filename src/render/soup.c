@@ -2,8 +2,8 @@
 
    A soup is a list of vertices with normals and material, and a list of indices, in floats relative
    to the point looked at.  Round bodies get as many sides as the picture needs: chords are off the
-   circle by at most 0.15 of a pixel, between 8 and 40 sides; in quick pictures half a pixel.  A failed allocation sets `full' and
-   drops further triangles; the picture then fails as a whole.
+   circle by at most 0.15 of a pixel, between 8 and 40 sides; in quick pictures half a pixel.  A
+   failed allocation sets `full' and drops further triangles; the picture then fails as a whole.
 
    A tube is a ring of vertices at each point of its line, joined by triangles.  The frame of the
    rings is carried from point to point by taking out the part along the line (parallel transport),
@@ -20,7 +20,7 @@
 
 enum
 {
-  ROUND = 40,    /* sides of what is round, at most */
+  ROUND = 40,     /* sides of what is round, at most */
   FEWEST = 8,     /* and at least */
   TUBE_LEAST = 6, /* of a tube */
   QUICK_LEAST = 4 /* of either in a quick picture */
@@ -33,10 +33,13 @@ bt__soup_free (bt__soup *soup)
   free (soup->index);
 }
 
+/* In the picture a point's depth is more than half its distance.  Of what is beside or behind the
+   camera no more than the shadow is seen, from about as far.  */
 double
 bt__pixel_at (const bt__lens *lens, bt_vec3 p)
 {
-  double depth = bt__dot (bt__sub (p, lens->from), lens->ahead);
+  bt_vec3 way = bt__sub (p, lens->from);
+  double depth = fmax (bt__dot (way, lens->ahead), bt__norm (way) / 2);
   return lens->perspective ? lens->pixel * fmax (depth, 0.05) : lens->pixel;
 }
 
@@ -224,9 +227,9 @@ bt__add_cone (bt__soup *soup, bt_vec3 from, bt_vec3 to, double r0, double r1, in
 {
   bt_vec3 axis = bt__unit_or (bt__sub (to, from), bt__vec (0, 0, 1)), u, v;
   double length = bt__distance (from, to), lean = length > 0 ? (r0 - r1) / length : 0;
-  int from_sides = sides_of (soup, from, fmax (r0, r1), FEWEST);
-  int to_sides = sides_of (soup, to, fmax (r0, r1), FEWEST);
-  int sides = from_sides > to_sides ? from_sides : to_sides;
+  double along = bt__dot (bt__sub (soup->lens.from, from), axis);
+  bt_vec3 nearest = bt__axpy (from, fmin (fmax (along, 0), length), axis);
+  int sides = sides_of (soup, nearest, fmax (r0, r1), FEWEST);
   cross_axes (axis, &u, &v);
   for (int i = 0; i <= sides; i++)
     {
@@ -267,7 +270,8 @@ direction (const bt_vec3 *points, size_t n, size_t i, bt_vec3 last)
   return bt__unit_or (bt__sub (after, before), last);
 }
 
-/* True if the ring about P is not seen to be another one than that about LAST, in a quick picture.  */
+/* True if the ring about P is not seen to be another one than that about LAST, in a quick picture.
+ */
 static int
 is_same_ring (const bt__soup *soup, bt_vec3 p, bt_vec3 last)
 {

@@ -778,6 +778,30 @@ small_is_cheap (void **state)
   assert_true (10 * triangles_grow_rarer (1) < 7 * triangles_grow_rarer (0));
 }
 
+/* Corners of triangles of a post about the z axis from LOW to HIGH, Y ahead of the camera.  */
+static size_t
+corners_of_post (double y, double low, double high)
+{
+  bt__soup soup = { .n = 0 };
+  size_t n;
+  soup.lens = (bt__lens){ { 0, -y, 0 }, { 0, 1, 0 }, 0.001, 1, 720, 0 };
+  bt__add_cone (&soup, bt__vec (0, 0, low), bt__vec (0, 0, high), 0.05, 0.05, 0);
+  n = soup.n_index;
+  bt__soup_free (&soup);
+  return n;
+}
+
+/* A post behind the camera has as few triangles as one far ahead, not as many as one at the lens; a
+   long post that passes near is as round there as a short one.  */
+static void
+beside_and_behind (void **state)
+{
+  (void)state;
+  assert_true (corners_of_post (-10, -1, 1) <= corners_of_post (5, -1, 1));
+  assert_true (3 * corners_of_post (-50, -1, 1) < corners_of_post (0.5, -1, 1));
+  assert_int_equal (corners_of_post (0.5, -30, 60), corners_of_post (0.5, -1, 1));
+}
+
 int
 main (void)
 {
@@ -803,6 +827,7 @@ main (void)
     cmocka_unit_test (under_a_lid),
     cmocka_unit_test (read_back),
     cmocka_unit_test (small_is_cheap),
+    cmocka_unit_test (beside_and_behind),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
