@@ -11,7 +11,7 @@
 ;;; members with equal values a line that caught and one that slipped off.  The linear model holds that for noise, so
 ;;; nothing of the evidence has been spent on it.  The weights are likelihoods to a power below 1, as small as leaves
 ;;; a share of the members effective, since what a line does among obstacles is as good as chance to the last newton, and
-;;; the members are too few for one that slips as the true one does (power likelihoods: Friel and Pettitt, Journal of the
+;;; the members are too few for one that slips as the true one does (power posteriors: Friel and Pettitt, Journal of the
 ;;; Royal Statistical Society B 70, 2008).
 ;;;
 ;;; `particles': resampling by forks, in proportion to the weights (systematic: Kitagawa, Journal of
