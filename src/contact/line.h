@@ -47,7 +47,8 @@ typedef struct bt__contact
   bt_vec3 held;     /* m: where the node was held, ... */
   double away;      /* ... from the middle of the edge, ... */
   bt_vec3 lag;      /* m: ... and what it had yet to go round */
-  double round;     /* m: on either side the chord is so much longer than the line */
+  double before;    /* m: surplus of the chord before, 0 if both ends are held at the same member */
+  double beyond;    /* m: surplus of the chord after, see line_round.c */
   bt_vec3 after;    /* unit, across AXIS: of the next interval, if its other end is held at the same
                        member; else 0 */
   int64_t unsolved; /* steps on end that were not solved */

@@ -270,13 +270,13 @@ push_out (const bt__line_job *k, corners *s)
     }
 }
 
-/* The way of corner C across the axis in the step, as the line is laid round; for a thin member
-   without the way from the place where the node was taken.  */
+/* The way of corner C across the axis in the step, as the line is laid round: of the wanted place,
+   for the line is measured along the arc wherever the corner is held.  */
 static bt_vec3
-gone_round (const bt__line_job *k, const corner *c)
+gone_round (const corner *c)
 {
-  bt_vec3 gone = bt__sub (c->place, c->anchor.held);
-  return bt__off_axis (c->edge.axis, is_thin (k, c) ? bt__add (gone, c->anchor.lag) : gone);
+  bt_vec3 to = bt__sub (c->place, c->lag), from = bt__sub (c->anchor.held, c->anchor.lag);
+  return bt__off_axis (c->edge.axis, bt__sub (to, from));
 }
 
 bt_vec3
@@ -297,6 +297,15 @@ slid_round (const bt__line_job *k, const corner *c, bt_vec3 aside)
   return is_thin (k, c) ? bt__vec (0, 0, 0) : bt__off_axis (c->edge.axis, bt__scale (slid, aside));
 }
 
+/* The surplus of the chord on SIDE of corner C at the end of the step, m.  */
+static double
+corner_round (const bt__line_job *k, const corners *s, int c, int side)
+{
+  const corner *q = s->at + c;
+  double angle = goes_on (s, side > 0 ? c : c - 1) ? q[side].turn.angle : NAN;
+  return bt__turn_round (k, &q->edge, &q->turn, q->place, beside (k, s, c, side), angle);
+}
+
 static void
 hold (bt__line_job *k, const corners *s, int i)
 {
@@ -307,7 +316,7 @@ hold (bt__line_job *k, const corners *s, int i)
   double bears = bt__dot (c->turn.normal, bt__sub (a_side, b_side));
   double turn = 2 * asin (fmin (0.5 * fmax (bears, 0), 1));
   double mu = bt__line_friction (k, c->anchor.object);
-  bt_vec3 gone = gone_round (k, c), sum = bt__add (a_side, b_side);
+  bt_vec3 gone = gone_round (c), sum = bt__add (a_side, b_side);
   bt_vec3 aside = bt__bend_aside (k, &c->edge, c->turn.normal, sum);
   gone = bt__sub (gone, slid_round (k, c, aside));
   k->w->bent[at] = (bt__dynamic_bent){ .node = c->node,
@@ -331,8 +340,10 @@ hold (bt__line_job *k, const corners *s, int i)
   a->point = c->edge.point;
   a->normal = c->edge.normal;
   a->thick = c->edge.radius;
-  a->round = bt__turn_round (k, &c->edge, &c->turn, c->place);
-  k->w->rounder[at] = a->round - c->anchor.round;
+  a->before = goes_on (s, i - 1) ? 0 : corner_round (k, s, i, -1);
+  a->beyond = corner_round (k, s, i, 1);
+  k->w->gain[at][0] = a->before - c->anchor.before;
+  k->w->gain[at][1] = a->beyond - c->anchor.beyond;
   a->span = (c->edge.radius + k->config->radius) * fmax (c->turn.angle, 0);
 }
 

@@ -56,9 +56,10 @@ typedef struct bt__turn
 int bt__turn_find (const bt__line_job *k, const bt__edge *e, const bt_vec3 *p,
                    const bt_vec3 *before, const bt_vec3 *after, bt__turn *t);
 
-/* How much longer than the line the chord on either side of a node at X is, m, where the line runs
-   about E by T.  */
-double bt__turn_round (const bt__line_job *k, const bt__edge *e, const bt__turn *t, bt_vec3 x);
+/* The surplus, m, of the chord from a node at X, where the line runs about E by T, to the next node
+   on either side, at NEXT.  ANGLE is the turn at NEXT if held at the same member, else NAN.  */
+double bt__turn_round (const bt__line_job *k, const bt__edge *e, const bt__turn *t, bt_vec3 x,
+                       bt_vec3 next, double angle);
 
 /* How much nearer than OUT a line from A to B comes to the axis through CENTRE on its way, m.  */
 double bt__turn_lack (bt_vec3 axis, bt_vec3 centre, bt_vec3 a, bt_vec3 b, double out);
@@ -102,11 +103,7 @@ int bt__bend_is_wedged (const bt__line_job *k, int64_t node, double share);
    node would leave the member.  */
 bt_vec3 bt__bend_aside (const bt__line_job *k, const bt__edge *e, bt_vec3 normal, bt_vec3 along);
 
-/* line_bend_keep.c: bt__turn_round of the I-th sliding node as it now is, while none has come or
-   gone.  */
-double bt__bend_round (const bt__line_job *k, int i);
-
-/* True if the I-th sliding node bears, or a corner of the same member next to it.
+/* line_bend_keep.c: true if the I-th sliding node bears, or a corner of the same member next to it.
  */
 int bt__bend_bears (const bt__line_job *k, int i);
 
@@ -118,7 +115,7 @@ typedef struct bt__sliding
   int n;
   bt__contact anchor[BT__BENTS];
   int64_t node[BT__BENTS];
-  double was[BT__BENTS]; /* m: bt__bend_round */
+  double was[BT__BENTS][2]; /* m: surplus before and after the node, as of before any change */
 } bt__sliding;
 
 /* line_bend_list.c: take the sliding nodes out of the contacts, or put them back in order; move the
@@ -142,6 +139,9 @@ void bt__sliding_drop (bt__line_job *k, bt__sliding *s, int q);
 void bt__sliding_put_in (bt__line_job *k, bt__sliding *s, int64_t j, double u, int64_t from);
 void bt__sliding_came (bt__line_job *k, bt__sliding *s, int64_t i);
 int bt__sliding_take_out (bt__line_job *k, bt__sliding *s, int64_t i);
+
+/* line_round.c: hand over surplus between the chords of a wrap; the tensions stay.  */
+void bt__sliding_even_rounds (bt__line_job *k, const bt__sliding *s);
 
 /* Node I goes on with the line; stays, but for along AXIS.  */
 void bt__sliding_let_go (bt__line_job *k, int64_t i);

@@ -49,18 +49,6 @@ bt__bend_bears (const bt__line_job *k, int i)
   return 0;
 }
 
-double
-bt__bend_round (const bt__line_job *k, int i)
-{
-  const bt__contact *a = k->w->bend + i;
-  const bt_vec3 *x = bt__dynamic_x (k->d) + k->w->bent[i].node;
-  bt__edge e = { a->axis, a->point, a->normal, a->thick, 0, a->bent == BT__BENT_ROUND };
-  bt__turn t;
-  bt__turn_find (k, &e, x - 1, is_followed (k, i - 1) ? &a[-1].after : NULL,
-                 is_followed (k, i) ? &a->after : NULL, &t);
-  return bt__turn_round (k, &e, &t, *x);
-}
-
 bt__contact
 bt__line_bent_anchor (const bt__line_job *k, int i)
 {

@@ -39,10 +39,10 @@ bt__sliding_add (bt__sliding *s, const bt__contact *a, int64_t node)
     {
       s->anchor[at] = s->anchor[at - 1];
       s->node[at] = s->node[at - 1];
-      s->was[at] = s->was[at - 1];
+      memcpy (s->was[at], s->was[at - 1], sizeof s->was[at]);
     }
   s->anchor[at] = *a;
-  s->anchor[at].round = s->was[at] = 0;
+  s->was[at][0] = s->was[at][1] = 0;
   s->node[at] = node;
   return at;
 }
@@ -57,7 +57,7 @@ bt__sliding_lose (bt__sliding *s, int q)
     {
       s->anchor[i] = s->anchor[i + 1];
       s->node[i] = s->node[i + 1];
-      s->was[i] = s->was[i + 1];
+      memcpy (s->was[i], s->was[i + 1], sizeof s->was[i]);
     }
 }
 
@@ -154,7 +154,7 @@ bt__sliding_gather (bt__line_job *k, bt__sliding *s)
     {
       int i = a[q].bent && s->n < BT__BENTS ? bt__bend_node (k, a[q].from_end) : -1;
       if (i > 0)
-        s->anchor[bt__sliding_add (s, a + q, i)].round = a[q].round;
+        bt__sliding_add (s, a + q, i);
       else
         {
           a[n] = a[q];

@@ -188,6 +188,7 @@ bt__sliding_hold (bt__line_job *k, bt__sliding *s, const bt__bend_place *p)
   a.bent = p->edge.round ? BT__BENT_ROUND : BT__BENT_EDGE;
   a.age = 0;
   a.flow = flow;
+  a.before = a.beyond = 0;
   a.drag = fmin (fmax (bt__dot (t, a.stick), -BT__LINE_SLIP), BT__LINE_SLIP);
   a.side = bt__dot (bt__bend_aside (k, &p->edge, p->edge.normal, t), a.stick);
   a.axis = p->edge.axis;

@@ -107,7 +107,7 @@ struct bt__line_work
   bt__dynamic_hold hold[2];         /* what holds them */
   bt__dynamic_bent bent[BT__BENTS]; /* nodes held at edges, ... */
   bt__contact bend[BT__BENTS];      /* ... what they are held at, ... */
-  double rounder[BT__BENTS];        /* m: ... and what ROUND gains by the step */
+  double gain[BT__BENTS][2];        /* m: gain of BEFORE and BEYOND in the step */
 };
 
 typedef struct bt__line_job
@@ -203,8 +203,7 @@ void bt__line_press (const bt__line_job *k, int i);
  */
 void bt__line_bends (bt__line_job *k);
 
-/* Tell the solver by how much the chords are longer than the line (line_round.c); bt__line_bends
-   calls this.  */
+/* Tell the solver the surplus of chords (line_round.c); bt__line_bends calls this function.  */
 void bt__line_round (bt__line_job *k);
 
 /* True if nodes are held at a round member that is not thin.  */

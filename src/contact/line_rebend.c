@@ -157,7 +157,7 @@ add_corner (bt__line_job *k, bt__sliding *s, int q, int side, const bt__turn *t)
     return 0;
   bt__sliding_put_in (k, s, j, side > 0 ? share : 1 - share, j);
   bt__contact a = s->anchor[q];
-  a.load = a.work = a.step_work = 0;
+  a.load = a.work = a.step_work = a.before = a.beyond = 0;
   a.force = bt__vec (0, 0, 0);
   a.age = 0;
   a.lag = bt__vec (INFINITY, 0, 0);
@@ -196,7 +196,7 @@ extend (bt__line_job *k, bt__sliding *s, int q, int side)
   bt_vec3 before = bt__turn_normal (a.axis, x), after = bt__turn_normal (a.axis, x + 1);
   if (!(bt__dot (a.axis, bt__cross (before, after)) > TURNS))
     return 0;
-  a.load = a.work = a.step_work = 0;
+  a.load = a.work = a.step_work = a.before = a.beyond = 0;
   a.force = bt__vec (0, 0, 0);
   a.age = 0;
   a.lag = bt__vec (INFINITY, 0, 0);
@@ -206,6 +206,41 @@ extend (bt__line_job *k, bt__sliding *s, int q, int side)
     a.after = after;
   bt__sliding_take_hold (k, i, a.axis);
   return settle_or_drop (k, s, bt__sliding_add (s, &a, i));
+}
+
+/* ---- The line along the arc ---- */
+
+/* The surplus of the chords before and after bend Q to OUT, m.  */
+static void
+find_rounds (const bt__line_job *k, const bt__sliding *s, int q, double out[2])
+{
+  const bt_vec3 *x = bt__dynamic_x (k->d) + s->node[q];
+  bt__edge e, unused;
+  bt__turn t = sliding_turn (k, s, q, &e);
+  double next = bt__sliding_goes_on (s, q) ? sliding_turn (k, s, q + 1, &unused).angle : NAN;
+  out[0] = bt__sliding_goes_on (s, q - 1) ? 0 : bt__turn_round (k, &e, &t, x[0], x[-1], NAN);
+  out[1] = bt__turn_round (k, &e, &t, x[0], x[1], next);
+}
+
+/* Note the surplus at all bends, before nodes come and go.  */
+static void
+note_rounds (const bt__line_job *k, bt__sliding *s)
+{
+  for (int q = 0; q < s->n; q++)
+    find_rounds (k, s, q, s->was[q]);
+}
+
+/* Add the change of surplus since note_rounds, with the line in place.  */
+static void
+renew_rounds (const bt__line_job *k, bt__sliding *s)
+{
+  for (int q = 0; q < s->n; q++)
+    {
+      double now[2];
+      find_rounds (k, s, q, now);
+      s->anchor[q].before += now[0] - s->was[q][0];
+      s->anchor[q].beyond += now[1] - s->was[q][1];
+    }
 }
 
 /* ---- Nodes that pass ---- */
@@ -295,29 +330,6 @@ let_go_idle (bt__line_job *k)
       bt__sliding_let_go (k, k->w->bent[q].node);
 }
 
-/* Note how much longer than the line the chords at the nodes of S are, before any comes or goes. */
-static void
-note_rounds (const bt__line_job *k, bt__sliding *s)
-{
-  for (int q = 0; q < s->n; q++)
-    for (int i = 0; i < k->bents; i++)
-      if (k->w->bent[i].node == s->node[q])
-        s->was[q] = bt__bend_round (k, i);
-}
-
-/* Add what that has changed by, as nodes came and went.  */
-static void
-renew_rounds (const bt__line_job *k, bt__sliding *s)
-{
-  for (int q = 0; q < s->n; q++)
-    {
-      bt__edge e;
-      bt__turn t = sliding_turn (k, s, q, &e);
-      double now = bt__turn_round (k, &e, &t, bt__dynamic_x (k->d)[s->node[q]]);
-      s->anchor[q].round += now - s->was[q];
-    }
-}
-
 void
 bt__line_rebend (bt__line_job *k)
 {
@@ -345,6 +357,7 @@ bt__line_rebend (bt__line_job *k)
       bt__sliding_drop (k, &s, q);
   take_spare (k, &s);
   renew_rounds (k, &s);
+  bt__sliding_even_rounds (k, &s);
   bt__sliding_measure (k);
   bt__sliding_scatter (k, &s);
 }

@@ -1,25 +1,26 @@
-/* How much longer than the line its chords are where the line is laid round something.
+/* The surplus of chords: by how much a chord is longer than the line about a round member.
 
    The corners of a polygon about a round member lie outside, and the polygon is longer than the arc
    on which the line really lies: by a tenth where a corner turns by a radian.  The line is measured
-   along the arc: each chord is longer than its line by what its two ends have too much
-   (bt__turn_round), and the solver leaves that out of the stretch.
+   along the arc: the solver leaves the surplus of every chord (bt__turn_round) out of the stretch.
 
-   What a corner has too much follows the corner at once as the corner moves.  Where corners come or
-   go, however, the length of the line would jump, and the tension with it, by EA times the jump
-   over an interval.  So a chord keeps what the chord had, and comes slowly to what the chord should
-   have.  A line in tension that has lost its corners still lies about the member: there only slack
-   is taken.
+   The surplus follows a corner at once as the corner moves.  Where corners come or go, however, the
+   length of the line would jump, and the tension with it, by EA times the jump over an interval.
+   Therefore a chord keeps the surplus; chords of a wrap with too much of a surplus hand over to
+   chords with too little; and the rest of the error decays slowly.  A taut line without corners
+   still lies about the member: only slack is taken from the surplus.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include "contact/line_bend.h"
 
-#define RATE 0.05 /* m/s: how fast a chord becomes longer than its line, or slack is taken; ... */
-#define TIGHTENS 0.02 /* m/s: ... and how fast a taut one becomes less */
-#define MOST 0.3      /* of an interval: no chord is longer than its line by more */
+#define RATE 0.05     /* m/s: how fast a surplus grows, or shrinks where the line is slack */
+#define TIGHTENS 0.02 /* m/s: how fast a surplus shrinks at most where the line is taut */
+#define GENTLE 1.0 /* N a step: by how much more than the neighbours a tightened interval bears */
+#define MORE 1.02  /* times the tension of the neighbours, likewise */
+#define MOST 0.3   /* of an interval: the largest surplus */
 
-/* True if interval J touches nothing that stands or moves.  */
+/* True if interval J touches no obstacle.  */
 static int
 lies_on_nothing (const bt__line_job *k, uint32_t j)
 {
@@ -30,19 +31,29 @@ lies_on_nothing (const bt__line_job *k, uint32_t j)
   return 1;
 }
 
-/* By how much the chord of interval J, longer than its line by WAS, is longer in this step, if that
-   should be SHOULD.  */
+/* By how much the surplus of the taut interval J may shrink in this step, m: the tension rises, but
+   not above the tension of the neighbours.  */
 static double
-next_round (const bt__line_job *k, uint32_t j, double was, double should)
+may_tighten (const bt__line_job *k, int j)
+{
+  const double *t = bt__dynamic_tension (k->d) + j;
+  double beside = fmax (j > 0 ? t[-1] : 0, j + 1 < k->links ? t[1] : 0);
+  double more = fmax (MORE * beside - t[0], 0) + GENTLE;
+  return fmin (more * bt__dynamic_rest (k->d)[j] / k->in->line->ea, TIGHTENS * k->h);
+}
+
+/* The surplus of interval J in this step, after WAS in the last; wanted is SHOULD.  */
+static double
+next_round (const bt__line_job *k, int j, double was, double should)
 {
   double e = bt__dynamic_stretch (k->d)[j], slack = (1 - e) * bt__dynamic_rest (k->d)[j];
-  int tightens = should > 0 || lies_on_nothing (k, j);
-  double less = fmin (fmax (slack, tightens ? TIGHTENS * k->h : 0), RATE * k->h);
+  int tightens = should > 0 || lies_on_nothing (k, (uint32_t)j);
+  double less = fmin (fmax (slack, tightens ? may_tighten (k, j) : 0), RATE * k->h);
   return fmin (fmax (should, was - less), was + RATE * k->h);
 }
 
-/* What sliding nodes at the ends of interval J tell: by how much longer than the line its chord
-   should be, and to *GAIN what that gains in the step; Q is the first of them from there on.  */
+/* The surplus of interval J wanted by the sliding nodes at its ends, of which Q is the first; *GAIN
+   receives the gain of the wanted surplus in the step.  */
 static double
 wanted_round (const bt__line_job *k, int j, int q, double *gain)
 {
@@ -50,8 +61,9 @@ wanted_round (const bt__line_job *k, int j, int q, double *gain)
   *gain = 0;
   for (int i = q; i < k->bents && k->w->bent[i].node <= j + 1; i++)
     {
-      should += k->w->bend[i].round;
-      *gain += k->w->rounder[i];
+      int after = k->w->bent[i].node == j;
+      should += after ? k->w->bend[i].beyond : k->w->bend[i].before;
+      *gain += k->w->gain[i][after];
     }
   return should;
 }
@@ -70,7 +82,69 @@ bt__line_round (bt__line_job *k)
       double was = bt__dynamic_chord (k->d)[j].z + gain;
       double most = MOST * bt__dynamic_rest (k->d)[j];
       if (was != 0 || should != 0)
-        bt__dynamic_round (k->kernel, j,
-                           fmin (fmax (next_round (k, (uint32_t)j, was, should), -most), most));
+        bt__dynamic_round (k->kernel, j, fmin (fmax (next_round (k, j, was, should), -most), most));
+    }
+}
+
+/* ---- Corners that came elsewhere ---- */
+
+/* Sums over intervals: surplus above and below the wanted surplus, m.  */
+typedef struct excess
+{
+  double much, little;
+} excess;
+
+/* By how much more than it should interval J is longer than its line, m, S being what is held;
+ *IDLE: interval J is neither longer nor should be.  */
+static double
+excess_of (const bt__line_job *k, const bt__sliding *s, int64_t j, int *idle)
+{
+  double should = 0, is = bt__dynamic_chord (k->d)[j].z;
+  for (int q = 0; q < s->n; q++)
+    should += s->node[q] == j ? s->anchor[q].beyond : s->node[q] == j + 1 ? s->anchor[q].before : 0;
+  *idle = is == 0 && should == 0;
+  return is - should;
+}
+
+/* Take LESS metres off the surplus of interval J: the line of the interval becomes longer, and the
+   tension stays.  */
+static void
+hand_over (bt__line_job *k, int64_t j, double less)
+{
+  bt__dynamic_chord (k->d)[j].z -= less;
+  bt__dynamic_rest (k->d)[j] += less / bt__dynamic_stretch (k->d)[j];
+}
+
+/* Even out the surplus of the intervals from FROM to before TO, with the sums SUM.  */
+static void
+even_out_run (bt__line_job *k, const bt__sliding *s, int64_t from, int64_t to, const excess *sum)
+{
+  double moved = fmin (sum->much, sum->little);
+  int idle;
+  for (int64_t j = from; moved > 0 && j < to; j++)
+    {
+      double over = excess_of (k, s, j, &idle);
+      double less = moved * over / (over > 0 ? sum->much : sum->little);
+      if (fabs (less) < MOST * bt__dynamic_rest (k->d)[j])
+        hand_over (k, j, less);
+    }
+}
+
+void
+bt__sliding_even_rounds (bt__line_job *k, const bt__sliding *s)
+{
+  excess sum = { 0, 0 };
+  int64_t from = 0;
+  for (int64_t j = 0; j < k->d->n && (k->d->rounded || s->n > 0); j++)
+    {
+      int idle;
+      double over = excess_of (k, s, j, &idle);
+      sum.much += fmax (over, 0);
+      sum.little += fmax (-over, 0);
+      if (!idle && j + 1 < k->d->n)
+        continue;
+      even_out_run (k, s, from, j + 1, &sum);
+      sum = (excess){ 0, 0 };
+      from = j + 1;
     }
 }

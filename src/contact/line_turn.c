@@ -11,10 +11,11 @@
 
      (out u -+ sqrt (D^2 - out^2) axis x u) / D^2.
 
-   The line itself lies along the circle.  Where it turns by the angle 2 h about the axis, half of
-   the turn on either side of a corner, the chord on that side is longer than the line by
-   out (tan h - h), and by sin h for each metre that the corner is out too far; all of that divided
-   by the cosine of the line's pitch about the member.
+   The line itself lies along the circle, half the turn of a corner on either side.  Between two
+   corners in a row with turns a and b lie out (a + b) / 2 of line about the circle, wherever the
+   corners are held; between a corner with turn a and a point at distance D from the axis lie
+   out a / 2 + sqrt (D^2 - out^2).  Together with the way along the axis the result is the length of
+   the line, as of an unrolled helix.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -68,21 +69,14 @@ bt__turn_find (const bt__line_job *k, const bt__edge *e, const bt_vec3 *p, const
          && fabs (bt__dot (axis, b)) < ALONG;
 }
 
-/* The cosine of the pitch about AXIS of a line that turns by T, half of it by HALF.  */
-static double
-pitch_of (const bt__turn *t, bt_vec3 axis, double half)
-{
-  double along = bt__dot (axis, t->sliding);
-  double across = bt__norm (bt__off_axis (axis, t->sliding)) / cos (half);
-  double size = hypot (across, along);
-  return size > 0 ? across / size : 1;
-}
-
 double
-bt__turn_round (const bt__line_job *k, const bt__edge *e, const bt__turn *t, bt_vec3 x)
+bt__turn_round (const bt__line_job *k, const bt__edge *e, const bt__turn *t, bt_vec3 x,
+                bt_vec3 next, double angle)
 {
-  double half = fmin (fmax (0.5 * t->angle, 0), acos (LEAST_COS));
-  double away = bt__dot (t->normal, bt__sub (x, t->centre)), out = e->radius + k->config->radius;
-  double more = out * (tan (half) - half) + (away - t->reach) * sin (half);
-  return e->round ? more / fmax (pitch_of (t, e->axis, half), LEAST_COS) : 0;
+  double out = e->radius + k->config->radius, rise = bt__dot (e->axis, bt__sub (next, x));
+  bt_vec3 u = bt__off_axis (e->axis, bt__sub (next, t->centre));
+  double beyond
+      = isfinite (angle) ? 0.5 * out * angle : sqrt (fmax (bt__dot (u, u) - out * out, 0));
+  double across = fmax (0.5 * out * t->angle + beyond, 0);
+  return e->round ? bt__distance (x, next) - hypot (across, rise) : 0;
 }

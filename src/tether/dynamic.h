@@ -66,7 +66,7 @@ typedef struct bt__dynamic
   int64_t seen;            /* what the spare was given for, and ... */
   int64_t wait;            /* ... in how many steps it is asked again, see contact/line.h */
   int64_t least;           /* intervals that the winch leaves: of a cut line all but its last */
-  int64_t rounded;         /* true: a chord is longer than its line, see bt__dynamic_chord */
+  int64_t rounded;         /* true: a chord has a surplus, see bt__dynamic_chord */
 } bt__dynamic;
 
 enum
@@ -93,13 +93,12 @@ bt_vec3 *bt__dynamic_dx (const bt__dynamic *d);    /* m: motion in the last step
 bt_vec3 *bt__dynamic_vp (const bt__dynamic *d);    /* m/s: velocities one step before */
 bt_vec3 *bt__dynamic_load (const bt__dynamic *d);  /* N: fourth-order part of the loads */
 bt_vec3 *bt__dynamic_chord (const bt__dynamic *d); /* m: fourth-order part of the chords; of a line
-                                                      of second order (crumple, BT__BEARS, round),
-                                                      zero without bending stiffness but for what
-                                                      the chord is longer than the line, ROUND */
+                                                      of second order (crumple, BT__BEARS, surplus
+                                                      over the line), zero where absent */
 #define BT__BEARS 1.0 /* an interval that bears compression, see dynamic_unfold.c */
 double *bt__dynamic_tension (const bt__dynamic *d);  /* N: tensions of the intervals */
 double *bt__dynamic_rest (const bt__dynamic *d);     /* m: rest lengths */
-double *bt__dynamic_stretch (const bt__dynamic *d);  /* chord, less ROUND, / rest length */
+double *bt__dynamic_stretch (const bt__dynamic *d);  /* chord without surplus / rest length */
 double *bt__dynamic_dstretch (const bt__dynamic *d); /* its change in the last step */
 
 /* The axial stiffness, N, that a line of stiffness EA is stepped with: one that cannot stretch

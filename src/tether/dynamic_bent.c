@@ -34,7 +34,7 @@
 
 /* ---- The intervals before and after ---- */
 
-/* By how much the chord of interval J is longer than its line, m.  */
+/* The surplus of interval J, m.  */
 static double
 rounded_by (const bt__dynamic_work *w, int64_t j)
 {

@@ -100,9 +100,9 @@ bt_status bt__dynamic_begin (const bt__dynamic *d, bt__dynamic_work *work,
    are kept for the step.  */
 void bt__dynamic_bend (bt__dynamic_work *work, bt__dynamic_bent *bent, int n);
 
-/* Between begin and bt__dynamic_bend: the chord of interval J is ROUND metres longer than its line,
-   which is laid round something while the chords meet outside; the stretch is that of the line.
-   Without a call it stays what it was.  Not of the fourth order.  */
+/* Between begin and bt__dynamic_bend: set the surplus of interval J to ROUND metres.  The chord is
+   longer than the line by the surplus, as about a round member, and the stretch is of the line.
+   Without a call the surplus stays.  Not for the fourth order.  */
 void bt__dynamic_round (bt__dynamic_work *work, int64_t j, double round);
 
 /* Let line flow at the sliding nodes until the tensions suit the altered proposal; or not at all.

@@ -183,7 +183,7 @@ commit_pair (bt__dynamic *d, const bt__dynamic_work *w, int i, int j, const bt_v
   (void)d;
 }
 
-/* What chords are longer than their lines is no stretch.  */
+/* Take the surplus of the chords out of the stretch.  */
 static void
 commit_rounds (bt__dynamic *d, const bt__dynamic_work *w)
 {

@@ -139,7 +139,7 @@ struct bt__dynamic_work
   bt__dynamic_hold *hold;      /* of the ends, NULL if none */
   bt__dynamic_bent *bent;      /* nodes about which the line runs, ... */
   int bents, bordered;         /* ... how many; true if their flows are unknowns */
-  int rounded;                 /* true: a chord is longer than its line */
+  int rounded;                 /* true: a chord has a surplus, see bt__dynamic_round */
   /* ---- arrays ---- */
   bt_vec3 *X, *d, *rhs, *keep; /* iterate, update, right-hand side, spare */
   bt_vec3 *last;               /* among contacts: the update before */
@@ -148,7 +148,7 @@ struct bt__dynamic_work
   bt_vec3 *twist;   /* ... and forces on nodes, N, as last asked for */
   bt_vec3 *felt;    /* ... by tangents on the way to the forces, N m */
   double *crumple;  /* m: with bending stiffness, see dynamic_unfold.c */
-  double *round;    /* m: of each interval, if ROUNDED, see bt__dynamic_round */
+  double *round;    /* m: surplus of the intervals, valid if ROUNDED */
   bt__link *link;
   bt__node *node;
   bt__extra *extra;

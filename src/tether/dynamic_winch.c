@@ -109,7 +109,7 @@ set_moving (bt__dynamic *d, int64_t i, double u, int taut)
     }
 }
 
-/* The length of interval J's line as it is stretched, m.  */
+/* The stretched length of the line of interval J, m.  */
 static double
 drawn_length (const bt__dynamic *d, int64_t j)
 {
@@ -117,8 +117,7 @@ drawn_length (const bt__dynamic *d, int64_t j)
   return bt__distance (x[0], x[1]) - bt__dynamic_chord (d)[j].z;
 }
 
-/* Interval J of D has been divided, whose chord was ROUND metres longer than its line: the part
-   next to the longer chord is where the line is laid round something.  */
+/* Give the surplus ROUND of the divided interval J to the part next to a chord with a surplus.  */
 static void
 share_round (bt__dynamic *d, int64_t j, double round)
 {
@@ -168,7 +167,7 @@ bt__dynamic_remove (bt__dynamic *d, int64_t i)
   d->owed += whole - rest[0];
 }
 
-/* The share of the line that lies along the share U of the chord, which is interval J's now.  */
+/* The share of the divided line in interval J, after the share U of the chord.  */
 static double
 share_of_line (const bt__dynamic *d, int64_t j, double u)
 {
