@@ -5,9 +5,10 @@
    one spot.  Each beam is therefore cast at several tilts over the vertical aperture, and every
    first echo adds to the spot of its range, by the cosine of the incidence, which follows from the
    ranges of neighbouring tilts.  A bed seen at a flat angle lies between the ranges of two tilts:
-   the echo is spread over all of them.  Behind the last echo there is shadow.  Tethers echo where no
-   obstacle is before them.  Grain is the hash of the spot and the step: equal dives give equal
-   pictures.
+   the echo is spread over all of them.  Behind the last echo there is shadow.  The hulls of other
+   vehicles echo as obstacles do; the instrument of the dive hears obstacles alone.  Tethers echo
+   where no obstacle is before them.  Grain is the hash of the spot and the step: equal dives give
+   equal pictures.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -60,12 +61,74 @@ cast (fan *f, bt_error *error)
   bt_status status = BT_OK;
   for (int t = 0; status == BT_OK && t < TILTS; t++)
     {
-      bt_sonar sonar = { .sector = sector, .tilt = row_tilt (t), .range = 3 * f->range, .beams = BEAMS };
+      bt_sonar sonar
+          = { .sector = sector, .tilt = row_tilt (t), .range = 3 * f->range, .beams = BEAMS };
       status = bt_dive_sonar (f->dive, f->vehicle, &sonar, range, error);
       for (int b = 0; status == BT_OK && b < BEAMS; b++)
         f->reach[b][t] = range[b];
     }
   return status;
+}
+
+/* The range of the box of SIZE about the origin on the ray from P along D, both in the box's own
+   axes; INFINITY: none, or the ray begins in the box.  By slabs (T. L. Kay and J. T. Kajiya 1986).
+ */
+static double
+range_of_box (const double p[3], const double d[3], const double size[3])
+{
+  double enter = 0, leave = INFINITY;
+  for (int k = 0; k < 3; k++)
+    {
+      double a = (-size[k] / 2 - p[k]) / d[k], b = (size[k] / 2 - p[k]) / d[k];
+      if (d[k] == 0 && fabs (p[k]) > size[k] / 2)
+        return INFINITY;
+      if (d[k] == 0)
+        continue;
+      enter = fmax (enter, fmin (a, b));
+      leave = fmin (leave, fmax (a, b));
+    }
+  return enter > 0 && enter <= leave ? enter : INFINITY;
+}
+
+/* The way of the beam B at the tilt T.  */
+static bt_vec3
+beam_way (const fan *f, int b, int t)
+{
+  double bearing = sector * ((double)b / (BEAMS - 1) - 0.5), tilt = row_tilt (t);
+  bt_vec3 d = bt__scale (sin (bearing), f->axis[0]);
+  d = bt__axpy (d, cos (bearing) * cos (tilt), f->axis[1]);
+  return bt__axpy (d, cos (bearing) * sin (tilt), f->axis[2]);
+}
+
+/* The hull of the vehicle V, nearer than what was met before.  */
+static void
+meet_hull (fan *f, const bt_vehicle_view *v)
+{
+  const double size[3] = { v->size.x, v->size.y, v->size.z };
+  bt_vec3 axis[3], from = bt__sub (f->head, v->position);
+  double p[3], d[3];
+  bt_body_axes (v->heading, v->pitch, v->roll, axis);
+  for (int k = 0; k < 3; k++)
+    p[k] = bt__dot (from, axis[k]);
+  for (int b = 0; b < BEAMS; b++)
+    for (int t = 0; t < TILTS; t++)
+      {
+        bt_vec3 way = beam_way (f, b, t);
+        for (int k = 0; k < 3; k++)
+          d[k] = bt__dot (way, axis[k]);
+        f->reach[b][t] = fmin (f->reach[b][t], range_of_box (p, d, size));
+      }
+}
+
+static void
+meet_vehicles (fan *f)
+{
+  for (int i = 0; i < bt_dive_count (f->dive, BT_PART_VEHICLE); i++)
+    {
+      bt_vehicle_view v;
+      if (i != f->vehicle && bt_dive_vehicle (f->dive, i, &v, NULL) == BT_OK)
+        meet_hull (f, &v);
+    }
 }
 
 /* An echo at RANGE on BEAM, spread over the bins about its own.  */
@@ -87,8 +150,8 @@ incidence (const double reach[TILTS], int t)
   return isfinite (slope) ? 1 / sqrt (1 + slope * slope) : 0.5;
 }
 
-/* True if tilt T and the next hit one flat surface: there, the inverse of the range is nearly linear
-   in the tilt, so it is for a tilt beside the two.  */
+/* True if tilt T and the next hit one flat surface: there, the inverse of the range is nearly
+   linear in the tilt, so it is for a tilt beside the two.  */
 static int
 is_one_surface (const double reach[TILTS], int t)
 {
@@ -310,9 +373,10 @@ bt__sonar_picture (const bt_dive *dive, int vehicle, double range, const char *t
   fan f = { .dive = dive, .vehicle = vehicle, .range = range };
   bt_status status;
   if (bt_dive_count (dive, BT_PART_VEHICLE) <= vehicle)
-    return bt__fail (error, BT_ERR_DEF,
-                     "the view sonar is a vehicle's, and this dive has none: give its world one, as "
-                     "in (rov (named minnow) (at 0 0 -5))");
+    return bt__fail (
+        error, BT_ERR_DEF,
+        "the view sonar is a vehicle's, and this dive has none: give its world one, as "
+        "in (rov (named minnow) (at 0 0 -5))");
   status = bt_dive_vehicle (dive, vehicle, &f.state, error);
   if (status == BT_OK && !have_fan (&f))
     status = bt__fail (error, BT_ERR_LIMIT, "there is no memory left for the picture");
@@ -320,6 +384,8 @@ bt__sonar_picture (const bt_dive *dive, int vehicle, double range, const char *t
   f.head = bt__axpy (f.state.position, f.state.size.y / 2, f.axis[1]);
   if (status == BT_OK)
     status = cast (&f, error);
+  if (status == BT_OK)
+    meet_vehicles (&f);
   if (status == BT_OK)
     status = draw_fan (&f, d, figures, title, picture, error);
   free (f.reach);

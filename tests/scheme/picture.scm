@@ -365,14 +365,29 @@
      (expect (brightness (heard 5.) (loudest (heard 5.))) is (below (/ (brightness pixels i) 3))))))
 
 (define-scenario a-sonar-hears-a-tether
-  "A line before the vehicle echoes."
+  "A line before the vehicle echoes, on the side where no other vehicle does."
   (in (world (sea (depth 500))
              (rov (named eye) (type kinematic) (at 0 0 -250) (heading 0))
              (rov (named far) (type kinematic) (at 3 9 -250))
              (tether (named line) (type fathom) (wet-weight 0) (from -3 9 -250) (to far) (length 6.2))))
   (with-pictures
-   (let ((with-line (heard 20.)))
-     (expect (brightness with-line (loudest with-line)) is (above 200)))))
+   (let* ((with-line (heard 20.))
+          (port (filter (lambda (i) (< (remainder i 320) 155)) (iota (* 320 180)))))
+     (expect (apply max (map (lambda (i) (brightness with-line i)) port)) is (above 200)))))
+
+(define-scenario a-sonar-hears-the-hull-of-another
+  "Another vehicle is as bright as the picture goes, at its bearing and range, and nothing is heard of it from behind."
+  (in (world (sea (depth 500))
+             (rov (named eye) (type kinematic) (at 0 0 -250) (heading 0))
+             (rov (named other) (type kinematic) (at 4 9 -250) (heading 30) (size 0.8 1 0.6))))
+  (with-pictures
+   (let* ((pixels (heard 20.)) (i (loudest pixels))
+          (x (- (remainder i 320) 160)) (y (- 171 (quotient i 320))))
+     (expect (brightness pixels i) is (above 200))
+     (expect (sqrt (+ (* x x) (* y y))) is (about (* 155 (/ 9.2 20)) #:within 6))
+     (expect (atan (/ x y)) is (about (atan 4 8.8) #:within 0.06))
+     (place! 'eye '(8 18 -250))
+     (expect (brightness (heard 20.) (loudest (heard 20.))) is (below 100)))))
 
 (define (row-brightness pixels y)
   ;; The mean of the middle hundred of 320 pixels in row Y.
