@@ -165,7 +165,9 @@ solve (bt__line_job *k, int held, bt__dynamic_report *report)
     hook->spoil (hook->user, k->x, k->X, k->links + 1);
 }
 
-/* Solve, and again for what is hit; then cut what still is.  */
+/* Solve, and again for what is hit; then cut what still is.  A proposal that is no solution meets
+   things that no solution would: constraints against those jam a heap of line for good, at five
+   times the cost.  */
 static void
 propose (bt__line_job *k, int near, int held, bt__dynamic_report *report)
 {
@@ -181,8 +183,9 @@ propose (bt__line_job *k, int near, int held, bt__dynamic_report *report)
       bt__self_watch_moves (k);
       if (hook->no_guard)
         return;
-      hits = bt__line_hits (k, i < rounds);
-      if (hits == 0 || i == rounds || bt__dynamic_is_left (k->kernel))
+      int last = i == rounds || !report->converged || bt__dynamic_is_left (k->kernel);
+      hits = bt__line_hits (k, !last);
+      if (hits == 0 || last)
         break;
       bt__line_harden (k);
       k->report->rounds++;

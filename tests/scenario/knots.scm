@@ -262,3 +262,21 @@ the engine knew of them before."
     (expect (events #:since since) => '()) ; it has left neither the bed nor itself
     (expect (collided? 'line 'seabed))
     (expect (collided? 'line 'line))))
+
+
+;;; A heap.
+
+(define-scenario a-line-paid-out-into-a-gap-heaps-up-and-is-not-jammed
+  "What a heap meets in a step that is not solved is not taken for contact: such steps were solved five times, and cut."
+  (in (world (sea (depth 100) (current 0.3 70))
+             (seabed)
+             (rov (named minnow) (type falcon) (at 2 0 -69))
+             (tether (named line) (type falcon) (model dynamic) (from 0 0 -67) (to minnow) (length 4) (drum 40))))
+  (pay-out! 26 #:rate 5)
+  (hold-position!)
+  (run 5/2)
+  (expect (length (contacts)) is (above 100))
+  (let* ((before (profile)) (more (lambda (what) (- (assq-ref (profile) what) (assq-ref before what)))))
+    (run 1/2)
+    (expect (more 'truncated) is (below 4))
+    (expect (more 'contact-rounds) is (below 8))))
