@@ -152,7 +152,7 @@ begin_calm (double accuracy, int whole)
   s.tether[0].props.model = BT_MODEL_AUTO;
   s.tether[0].props.nodes = 40;
   s.tether[0].props.accuracy = accuracy;
-  return scene_begin (&s);
+  return scene_begin (&s.world);
 }
 
 /* Fly it by turns, ahead and in whole steps, in WAYS as long as LOOK; *APART is how far the lines

@@ -34,7 +34,7 @@ begin (const outside_diving *how)
   line->props.model = how->model;
   line->props.accuracy = how->accuracy;
   line->props.tension_accuracy = how->tension_accuracy;
-  bt_dive *dive = scene_begin (&s);
+  bt_dive *dive = scene_begin (&s.world);
   for (int k = 0; k < ROWS; k++)
     {
       double *row = rows + 4 * k, t = k / 60.0;
