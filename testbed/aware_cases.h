@@ -78,9 +78,8 @@ double way_clearance (const bt__taut_config *config, const bt_vec3 *p, uint32_t 
 /* Lay STRING along the way of TREE to TO from FROM, where the tree has grown from, and tighten it
    by up to STEPS.  Return the length of STRING, m, with arcs for corners at round members; INFINITY
    if there is no way.  */
-double tight_free_length (const bt__free *tree, bt_vec3 from, bt_vec3 to, uint32_t steps,
-                          bt__taut *taut, const bt__taut_config *config, bt__string *string,
-                          bt__count *count);
+double tight_free_length (bt__free *tree, bt_vec3 from, bt_vec3 to, uint32_t steps, bt__taut *taut,
+                          const bt__taut_config *config, bt__string *string, bt__count *count);
 
 /* Nonzero if the words are equal, and not lost.  */
 int is_same_word (const bt__word *a, const bt__word *b);

@@ -21,10 +21,10 @@ way_clearance (const bt__taut_config *c, const bt_vec3 *p, uint32_t n, double ca
 }
 
 double
-tight_free_length (const bt__free *tree, bt_vec3 from, bt_vec3 to, uint32_t steps, bt__taut *taut,
+tight_free_length (bt__free *tree, bt_vec3 from, bt_vec3 to, uint32_t steps, bt__taut *taut,
                    const bt__taut_config *config, bt__string *string, bt__count *count)
 {
-  if (!bt__free_way (tree, from, to, string, count))
+  if (!bt__free_way (tree, from, to, string, NULL, count))
     return INFINITY;
   return bt__free_tighten (taut, config, steps, string, count);
 }

@@ -1,9 +1,10 @@
 /* The free length: the shortest way from the anchor, whatever its homotopy class.
 
-   A tree of any-angle ways over a grid, grown once from the anchor by lazy Theta* (Nash, Koenig and
-   Tovey 2010); a question looks for the best of the tree's points in sight and tightens that way.
-   Shortest ways in space are NP-hard: an answer may be too long, in trials by more than 0.2 % in
-   one of a hundred, never too short.  Obstacles that move are left out.
+   A tree of any-angle ways over a grid, grown from the anchor by lazy Theta* (Nash, Koenig and
+   Tovey 2010) as far as questions need; a question looks for the best of the tree's points in sight
+   and tightens that way.  One tree may be asked by several threads. Shortest ways in space are
+   NP-hard: an answer may be too long, in trials by more than 0.2 % in one of a hundred, never too
+   short.  Obstacles that move are left out.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -37,16 +38,17 @@ bt_status bt__free_new (const bt__free_config *config, bt__free **out, bt_error 
 
 void bt__free_free (bt__free *tree); /* NULL is nothing */
 
-/* Grow the tree from ANCHOR; no allocation.  Return 0 if ASKER (NULL: nobody) said to leave it:
-   then it is to be grown again.  */
-int bt__free_grow (bt__free *tree, bt_vec3 anchor, bt__asker *asker, bt__count *count);
+/* Plant the tree at ANCHOR: what grew before is forgotten.  */
+void bt__free_plant (bt__free *tree, bt_vec3 anchor);
 
-/* True if the straight way from A to B is as free as the tree's ways.  */
-int bt__free_sees (const bt__free_config *config, bt_vec3 a, bt_vec3 b, bt__count *count);
+/* True if the straight way from A to B keeps CLEAR from obstacles.  */
+int bt__free_sees (const bt__free_config *config, bt_vec3 a, bt_vec3 b, double clear,
+                   bt__count *count);
 
 /* Lay STRING along the tree's way to P from FROM, a place in sight of the tree's anchor; return 0
-   if there is no way.  Of two ways nearly as long, the way shorter from FROM may be taken.  */
-int bt__free_way (const bt__free *tree, bt_vec3 from, bt_vec3 p, bt__string *string,
+   if there is no way, or if ASKER (NULL: nobody) said to leave the search.  Of two ways nearly as
+   long, the way shorter from FROM may be taken.  */
+int bt__free_way (bt__free *tree, bt_vec3 from, bt_vec3 p, bt__string *string, bt__asker *asker,
                   bt__count *count);
 /* Tighten WAY by up to STEPS and return the length of WAY, m, with arcs for corners at round
    members.  */

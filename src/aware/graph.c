@@ -95,14 +95,13 @@ medium (bt__graph_job *k, bt_vec3 p, double radius)
 {
   bt__switches ground = { k->off, 0 };
   bt__link link = { p, p };
-  bt__near near;
-  if (bt__scene_nearest (k->scene, &ground, &link, radius + k->c->gap, &near, &k->count))
+  if (bt__scene_within (k->scene, &ground, &link, radius + k->c->gap, &k->count))
     return BT__GROUND;
   if (k->c->depth > 0 && p.z <= -k->c->depth)
     return BT__GROUND;
   ground.off = k->solid;
   if (k->undescribed > 0
-      && bt__scene_nearest (k->scene, &ground, &link, radius + k->c->gap, &near, &k->count))
+      && bt__scene_within (k->scene, &ground, &link, radius + k->c->gap, &k->count))
     return BT__MESH;
   return p.z >= k->c->surface ? BT__AIR : BT__WATER;
 }

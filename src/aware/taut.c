@@ -139,8 +139,7 @@ static int
 is_free_chord (const bt__taut_config *c, bt_vec3 from, bt_vec3 to, bt__count *count)
 {
   bt__link way = { from, to };
-  bt__near near;
-  return !bt__scene_nearest (c->scene, c->on, &way, c->core, &near, count);
+  return !bt__scene_within (c->scene, c->on, &way, c->core, count);
 }
 
 static int

@@ -66,9 +66,7 @@ can_drop_near (const bt__taut_config *c, const bt__string *s, uint32_t j, bt__co
   if (link_length (s, j - 1) + link_length (s, j) >= c->mesh)
     return 0;
   bt__link chord = { s->x[j - 1], s->x[j + 1] };
-  bt__near near;
-  return !bt__scene_nearest (c->scene, c->on, &chord, node_height (s, j) + c->core + SPARE, &near,
-                             count);
+  return !bt__scene_within (c->scene, c->on, &chord, node_height (s, j) + c->core + SPARE, count);
 }
 
 /* ---- Sides ---- */

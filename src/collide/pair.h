@@ -94,6 +94,8 @@ void bt__pair_box (const bt__box *box, const bt__link *link, bt__witness *out);
 
 /* Feature BT__SIDE, a cap or a rim.  */
 void bt__pair_cylinder (const bt__cylinder *cylinder, const bt__link *link, bt__witness *out);
+/* True if LINK is within REACH, positive, of CYLINDER; the way out of it is not looked for.  */
+int bt__cylinder_within (const bt__cylinder *cylinder, const bt__link *link, double reach);
 
 /* Two-sided, never inside: a link that crosses has distance 0.  Feature 0 the face, 1 to 3 the edge
    that starts at vertex 0 to 2, 4 to 6 the vertex.  */

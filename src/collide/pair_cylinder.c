@@ -160,29 +160,65 @@ finish_outside (const bt__frame *f, const bt__link *link, bt__witness *out)
     out->point = bt__to_world (f, out->point);
 }
 
+/* The point ON of LINK nearest to CYLINDER, in the cylinder's frame.  */
+typedef struct nearest
+{
+  bt__frame f;
+  local k;
+  double s, rho, beside, above, distance;
+  bt_vec3 on;
+} nearest;
+
+static void
+find_nearest (const bt__cylinder *cylinder, const bt__link *link, nearest *x)
+{
+  local *k = &x->k;
+  cylinder_frame (cylinder, &x->f);
+  k->half = cylinder->half;
+  k->radius = cylinder->radius;
+  k->p = bt__to_local (&x->f, link->a);
+  k->d = bt__into (&x->f, bt__sub (link->b, link->a));
+  k->a = k->d.x * k->d.x + k->d.y * k->d.y;
+  k->b = k->p.x * k->d.x + k->p.y * k->d.y;
+  x->s = nearest_to_cylinder (k);
+  x->on = bt__axpy (k->p, x->s, k->d);
+  x->rho = sqrt (x->on.x * x->on.x + x->on.y * x->on.y);
+  x->beside = x->rho > k->radius ? x->rho - k->radius : 0;
+  x->above = over (x->on.z, k->half);
+  x->distance = sqrt (x->beside * x->beside + x->above * x->above);
+}
+
+/* True if the link meets the cylinder, as far as distances are sure.  */
+static int
+does_meet (const nearest *x)
+{
+  return !(x->distance > BT__TOUCHING * (bt__largest (x->k.p) + x->k.half + x->k.radius));
+}
+
 void
 bt__pair_cylinder (const bt__cylinder *cylinder, const bt__link *link, bt__witness *out)
 {
-  bt__frame f;
-  local k = { .half = cylinder->half, .radius = cylinder->radius };
-  cylinder_frame (cylinder, &f);
-  k.p = bt__to_local (&f, link->a);
-  k.d = bt__into (&f, bt__sub (link->b, link->a));
-  k.a = k.d.x * k.d.x + k.d.y * k.d.y;
-  k.b = k.p.x * k.d.x + k.p.y * k.d.y;
-  out->s = nearest_to_cylinder (&k);
-  bt_vec3 on = bt__axpy (k.p, out->s, k.d);
-  double rho = sqrt (on.x * on.x + on.y * on.y), beside = rho > k.radius ? rho - k.radius : 0;
-  double above = over (on.z, k.half), distance = sqrt (beside * beside + above * above);
-  if (!(distance > BT__TOUCHING * (bt__largest (k.p) + k.half + k.radius)))
-    bt__cylinder_deep (k.p, bt__add (k.p, k.d), k.half, k.radius, out);
+  nearest x;
+  find_nearest (cylinder, link, &x);
+  out->s = x.s;
+  if (does_meet (&x))
+    bt__cylinder_deep (x.k.p, bt__add (x.k.p, x.k.d), x.k.half, x.k.radius, out);
   else
     {
-      double out_of_axis = beside > 0 ? beside / (rho * distance) : 0;
-      out->distance = distance;
-      out->normal = bt__vec (on.x * out_of_axis, on.y * out_of_axis, above / distance);
-      out->point = bt__axpy (on, -distance, out->normal);
-      out->feature = above == 0 ? BT__SIDE : (beside > 0 ? BT__RIM_LOW : BT__CAP_LOW) + (above > 0);
+      double above = x.above, out_of_axis = x.beside > 0 ? x.beside / (x.rho * x.distance) : 0;
+      out->distance = x.distance;
+      out->normal = bt__vec (x.on.x * out_of_axis, x.on.y * out_of_axis, above / x.distance);
+      out->point = bt__axpy (x.on, -x.distance, out->normal);
+      out->feature
+          = above == 0 ? BT__SIDE : (x.beside > 0 ? BT__RIM_LOW : BT__CAP_LOW) + (above > 0);
     }
-  finish_outside (&f, link, out);
+  finish_outside (&x.f, link, out);
+}
+
+int
+bt__cylinder_within (const bt__cylinder *cylinder, const bt__link *link, double reach)
+{
+  nearest x;
+  find_nearest (cylinder, link, &x);
+  return x.distance <= reach || does_meet (&x);
 }

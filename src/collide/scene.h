@@ -114,6 +114,10 @@ void bt__scene_near_line (const bt__scene *scene, const bt__switches *on, const 
 int bt__scene_nearest (const bt__scene *scene, const bt__switches *on, const bt__link *link,
                        double cap, bt__near *out, bt__count *count);
 
+/* Return true if a part of the scene is within REACH, positive, of LINK.  */
+int bt__scene_within (const bt__scene *scene, const bt__switches *on, const bt__link *link,
+                      double reach, bt__count *count);
+
 /* Reduce LIST to the nearest part of each obstacle, nearest first.  */
 void bt__nears_by_object (bt__nears *list);
 

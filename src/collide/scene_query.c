@@ -1,8 +1,9 @@
 /* A link's questions: the tree over the obstacles, then the tree over a mesh's triangles.
 
-   bt__scene_near lists all parts within a reach, bt__scene_nearest finds the nearest part.  Both
-   walk the planes, then the tree of the scene; a mesh found there is asked for its triangles
-   through the mesh's own tree.  The closest points come from the closed forms of pair.h.
+   bt__scene_near lists all parts within a reach, bt__scene_nearest finds the nearest part,
+   bt__scene_within ends at the first.  All walk the planes, then the tree of the scene; a mesh
+   found there is asked for its triangles through the mesh's own tree.  The closest points come from
+   the closed forms of pair.h.
 
    Lists have a fixed room.  A full list keeps the nearest parts and notes the least distance of the
    dropped parts: nearer than this distance the list is complete.  Before a triangle is measured
@@ -177,9 +178,17 @@ typedef struct question
   const bt__link *link;
   bt__nears *list; /* or NULL: the nearest only, in BEST */
   bt__near best, now;
-  int found;
+  int found, any; /* any: whether a part is within reach is all that is asked */
   bt__count *count;
 } question;
+
+/* The reach after a part was found of which nothing but that is asked.  */
+static double
+end_search (question *q)
+{
+  q->found = 1;
+  return -INFINITY;
+}
 
 /* Take NOW, a measured pair, if it is within REACH; return the reach from now on.  */
 static double
@@ -188,6 +197,8 @@ take_pair (question *q, double reach)
   q->count->pairs++;
   if (!(q->now.w.distance <= reach))
     return reach;
+  if (q->any)
+    return end_search (q);
   if (q->list)
     {
       keep_nearest (q->list, &q->now);
@@ -236,6 +247,11 @@ measure_object (question *q, uint32_t object, double reach)
   if (o->kind == BT__OBSTACLE_MESH)
     return bt__bvh_query (&o->shape.mesh->tree, q->link, reach, !q->list, measure_triangle, q,
                           q->count);
+  if (q->any && o->kind == BT__OBSTACLE_CYLINDER)
+    {
+      q->count->pairs++;
+      return bt__cylinder_within (&o->shape.cylinder, q->link, reach) ? end_search (q) : reach;
+    }
   bt__obstacle_pair (o, q->link, &q->now.w);
   return take_pair (q, reach);
 }
@@ -298,5 +314,14 @@ bt__scene_nearest (const bt__scene *scene, const bt__switches *on, const bt__lin
   ask_tree (&q, cap);
   if (q.found)
     *out = q.best;
+  return q.found;
+}
+
+int
+bt__scene_within (const bt__scene *scene, const bt__switches *on, const bt__link *link,
+                  double reach, bt__count *count)
+{
+  question q = { .scene = scene, .on = on, .link = link, .any = 1, .count = count };
+  ask_tree (&q, reach);
   return q.found;
 }

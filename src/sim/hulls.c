@@ -95,13 +95,11 @@ is_inside (const bt_dive *dive, const bt__dynamic *chain, int vehicle, double co
 {
   bt__frame at = hull_frame (dive, dive->now, vehicle);
   const bt_vec3 *x = bt__dynamic_x (chain);
-  bt__near unused;
   bt__count *count = &((bt_dive *)dive)->contact_work.count;
   for (int64_t k = 0; k < chain->n; k++)
     {
       bt__link link = { bt__to_local (&at, x[k]), bt__to_local (&at, x[k + 1]) };
-      if (bt__scene_nearest (dive->model->hull[vehicle], NULL, &link, INSIDE * core, &unused,
-                             count))
+      if (bt__scene_within (dive->model->hull[vehicle], NULL, &link, INSIDE * core, count))
         return 1;
     }
   return 0;

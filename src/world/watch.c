@@ -78,7 +78,7 @@ bt__watch_share (const bt_dive *dive, bt_dive *fork)
   for (int i = 0; w && i < w->n; i++)
     {
       bt__awareness *from = &dive->watch->tether[i], *to = &w->tether[i];
-      to->ways = from->ways && from->ways->grown ? from->ways : NULL;
+      to->ways = from->ways;
       to->words = from->words;
       to->frame = from->frame;
       retain (to->ways);
@@ -356,16 +356,20 @@ bt__watch_lay_way (const bt_dive *dive, int i, bt__awareness *g, bt_vec3 p, bt__
   struct bt__watch *w = dive->watch;
   bt_vec3 ends[2] = { g->node[0], p };
   bt__link chord = { ends[0], ends[1] };
-  bt__near near;
-  if (!bt__scene_nearest (g->config.scene, g->config.on, &chord, g->config.core, &near, &w->count))
+  if (!bt__scene_within (g->config.scene, g->config.on, &chord, g->config.core, &w->count))
     {
       *found = bt__string_lay (way, ends, 2);
       return BT_OK;
     }
-  bt_status status = bt__chart_grow (dive, i, g, error);
-  *found = status == BT_OK && g->ways->tree
-           && bt__free_way (g->ways->tree, ends[0], ends[1], way, &w->count);
-  return status;
+  *found = 0;
+  bt_status status = bt__chart_plant (dive, i, g, error);
+  if (status != BT_OK || !g->ways->tree)
+    return status;
+  if (!atomic_exchange (&g->ways->asked, 1))
+    ((bt_dive *)dive)->profile.charts++;
+  bt__asker *asker = bt__asker_of (dive);
+  *found = bt__free_way (g->ways->tree, ends[0], ends[1], way, asker, &w->count);
+  return bt__stopped (asker, error);
 }
 
 bt_status

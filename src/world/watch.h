@@ -2,7 +2,7 @@
 
    The cache belongs to a dive and is no part of the state.  The dive's count of changes, remembered
    for each tether, tells the state of the answers; the answers depend on the state alone.  A chart
-   depends on the world and the switches, is immutable once made, and is shared by forks.
+   depends on the world and the switches, answers whoever asks alike, and is shared by forks.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -37,8 +37,8 @@ typedef struct bt__chart
   double gap; /* m */
   uint8_t *off;
   bt__switches on;
-  bt__free *tree; /* NULL: nothing is within reach */
-  int grown;      /* true if the tree is; until then the chart is not shared */
+  bt__free *tree;   /* NULL: nothing is within reach */
+  atomic_int asked; /* true if the tree was */
   bt__graph graph;
   bt__shadow *shadow;
   bt__voxels *voxels;
@@ -139,11 +139,10 @@ void bt__watch_free_all (struct bt__watch *watch); /* NULL is nothing */
 /* Let FORK share the charts of DIVE.  Without memory it makes its own.  */
 void bt__watch_share (const bt_dive *dive, bt_dive *fork);
 
-/* watch_chart.c: have G's chart of ways, without its tree; with room for its tree; with its
-   tree; its graph; its chart of words.  */
+/* watch_chart.c: have G's chart of ways, without its tree; with its tree; its graph; its chart of
+   words.  */
 bt_status bt__chart_ways (const bt_dive *dive, int i, bt__awareness *g, bt_error *error);
 bt_status bt__chart_plant (const bt_dive *dive, int i, bt__awareness *g, bt_error *error);
-bt_status bt__chart_grow (const bt_dive *dive, int i, bt__awareness *g, bt_error *error);
 bt_status bt__chart_frame (const bt_dive *dive, int i, bt__awareness *g, bt_error *error);
 bt_status bt__chart_words (const bt_dive *dive, int i, bt__awareness *g, bt_error *error);
 void bt__chart_release (bt__chart *chart); /* NULL is nothing */

@@ -17,8 +17,8 @@
    point in sight of the anchor.  The state keeps the point until the anchor is 4 m away: equal
    states have equal charts.
 
-   Charts are immutable once made and counted by reference: a fork shares them, and only a tree
-   still growing is not shared.
+   Charts are counted by reference, and a fork shares them.  They are immutable once made, but for
+   the tree, which grows as far as anyone's question needs and answers all alike.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -176,17 +176,17 @@ static bt_vec3
 chart_root (const bt_dive *dive, int i, const bt__awareness *g)
 {
   bt_vec3 anchor = g->node[0];
-  bt__free_config config = { .scene = dive->model->scene, .on = g->config.on, .clear = CLEAR_MOST };
+  bt__free_config config = { .scene = dive->model->scene, .on = g->config.on };
   const bt__subject *subject = bt__dive_subject (dive, dive->now, BT_PART_TETHER, i);
   if (subject->berthed && bt__distance (subject->berth, anchor) < ASTRAY
-      && bt__free_sees (&config, anchor, subject->berth, &dive->watch->count))
+      && bt__free_sees (&config, anchor, subject->berth, CLEAR_MOST, &dive->watch->count))
     return subject->berth;
   for (double step = BERTH; step > 0.1 * BERTH; step *= 0.5)
     {
       bt_vec3 p = berth (dive, i, anchor, step);
       if (bt__distance (p, anchor) < 1e-9)
         return p;
-      if (bt__free_sees (&config, anchor, p, &dive->watch->count))
+      if (bt__free_sees (&config, anchor, p, CLEAR_MOST, &dive->watch->count))
         return p;
     }
   return anchor;
@@ -227,6 +227,8 @@ bt__chart_plant (const bt_dive *dive, int i, bt__awareness *g, bt_error *error)
   c->reach = reach;
   c->anchor = anchor;
   bt_status status = plant (dive, c, g->config.core, error);
+  if (c->tree)
+    bt__free_plant (c->tree, anchor);
   if (status != BT_OK)
     {
       bt__chart_release (c);
@@ -235,24 +237,6 @@ bt__chart_plant (const bt_dive *dive, int i, bt__awareness *g, bt_error *error)
   g->ways = c;
   g->config.on = &c->on;
   bt__chart_release (had);
-  return BT_OK;
-}
-
-bt_status
-bt__chart_grow (const bt_dive *dive, int i, bt__awareness *g, bt_error *error)
-{
-  bt__count count = { 0 };
-  bt_status status = bt__chart_plant (dive, i, g, error);
-  if (status != BT_OK || g->ways->grown)
-    return status;
-  if (g->ways->tree)
-    {
-      bt__asker *asker = bt__asker_of (dive);
-      if (!bt__free_grow (g->ways->tree, g->ways->anchor, asker, &count))
-        return bt__stopped (asker, error);
-      ((bt_dive *)dive)->profile.charts++;
-    }
-  g->ways->grown = 1;
   return BT_OK;
 }
 

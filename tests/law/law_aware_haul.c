@@ -291,7 +291,7 @@ make_tree (bt_vec3 anchor)
   bt__free_config c = { r.g.scene, NULL, bt__vec (-18, -14, -20), bt__vec (18, 14, 0), 0.75, 0.03 };
   bt__free_free (r.tree);
   assert_int_equal (bt__free_new (&c, &r.tree, NULL), BT_OK);
-  bt__free_grow (r.tree, anchor, NULL, &r.count);
+  bt__free_plant (r.tree, anchor);
 }
 
 /* A scene, a string in it, its free way.  */
