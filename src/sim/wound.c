@@ -35,21 +35,13 @@ has_moved (const bt_dive *dive, bt__subject *subject, int i)
   return 1;
 }
 
-/* The least length, m, of the string of SUBJECT's tether.  */
-static double
-least_string (const bt__subject *s)
-{
-  return s->string - bt__distance (s->seen[0], s->there[0])
-         - bt__distance (s->seen[1], s->there[1]);
-}
-
 /* Note the present windings of tether I of DIVE, and raise the events unless SILENT.  */
 static bt_status
 tell_windings (bt_dive *dive, int i, bt__subject *subject, int8_t *told, int silent,
                bt_error *error)
 {
   bt__awareness *g;
-  bt_status status = bt__watch_wound (dive, i, &g, error);
+  bt_status status = bt__watch_wind (dive, i, &g, error);
   if (status != BT_OK)
     return status;
   subject->string = g->has_taut ? g->taut_length : 0;
@@ -88,7 +80,7 @@ bt__note_windings (bt_dive *dive, bt_error *error)
       if (status != BT_OK)
         continue;
       subject->berthed = 1;
-      status = bt__watch_wound_still (dive, i, told, least_string (subject), &same, error);
+      status = bt__watch_wound_still (dive, i, &same, error);
       if (status == BT_OK && !same)
         status = tell_windings (dive, i, subject, told, first, error);
     }

@@ -104,7 +104,10 @@ double bt__watch_longest (const bt_dive *dive, int i);
 /* watch_wound.c: have memory for windings about what G's tether is among.  */
 bt_status bt__watch_wind_ready (const bt_dive *dive, int i, bt__awareness *g, bt_error *error);
 
-/* The same, with the windings; the string and the way only where they are needed.  */
+/* As bt__watch_look, with the windings; the string and the way only where they are needed.
+   bt__watch_wound first asks whether the windings are still those told last, bt__watch_wind does
+   not.  */
+bt_status bt__watch_wind (const bt_dive *dive, int i, bt__awareness **out, bt_error *error);
 bt_status bt__watch_wound (const bt_dive *dive, int i, bt__awareness **out, bt_error *error);
 
 /* A winding as a state keeps it, in a byte.  */
@@ -114,10 +117,9 @@ bt__told (int32_t winding)
   return (int8_t)(winding > 127 ? 127 : winding < -127 ? -127 : winding);
 }
 
-/* Set *SAME if the windings, one per obstacle, are known to be still TOLD without solving the taut
-   string, of length LEAST m or more.  */
-bt_status bt__watch_wound_still (const bt_dive *dive, int i, const int8_t *told, double least,
-                                 int *same, bt_error *error);
+/* Set *SAME if the windings are known to be still those told last, by the events of the state,
+   without solving the taut string.  */
+bt_status bt__watch_wound_still (const bt_dive *dive, int i, int *same, bt_error *error);
 
 /* Put into BERTH the root of the charts of tether I, for the state to keep.  */
 bt_status bt__watch_berth (const bt_dive *dive, int i, bt_vec3 *berth, bt_error *error);

@@ -285,7 +285,7 @@ wind (const bt_dive *dive, int i, bt__awareness *g, bt_error *error)
 }
 
 bt_status
-bt__watch_wound (const bt_dive *dive, int i, bt__awareness **out, bt_error *error)
+bt__watch_wind (const bt_dive *dive, int i, bt__awareness **out, bt_error *error)
 {
   bt_status status = bt__watch_look (dive, i, out, error);
   bt__awareness *g = *out;
@@ -337,17 +337,26 @@ look_again (const bt_dive *dive, int i, bt__awareness *g, const int8_t *told, do
   add_loops (dive, g);
   if (!is_as (dive, g, told))
     return BT_OK;
-  if (g->loops.any)
+  if (g->loops.any && bt__length (g->shortest->x, g->shortest->n) > least)
     status = bt__watch_tighten_way (dive, g, g->shortest, &length, error);
   *same = status == BT_OK && (!g->loops.any || length <= least);
   return status;
 }
 
+/* The least length, m, of the string of G's tether: what it was when SUBJECT was last told of, less
+   the motion of the ends.  */
+static double
+least_string (const bt__awareness *g, const bt__subject *s)
+{
+  return s->string - bt__distance (g->node[0], s->there[0])
+         - bt__distance (g->node[g->n - 1], s->there[1]);
+}
+
 bt_status
-bt__watch_wound_still (const bt_dive *dive, int i, const int8_t *told, double least, int *same,
-                       bt_error *error)
+bt__watch_wound_still (const bt_dive *dive, int i, int *same, bt_error *error)
 {
   bt__awareness *g;
+  const int8_t *told = bt__dive_told (dive, dive->now, i);
   bt_status status = bt__watch_look (dive, i, &g, error);
   *same = 0;
   if (status != BT_OK)
@@ -355,7 +364,34 @@ bt__watch_wound_still (const bt_dive *dive, int i, const int8_t *told, double le
   if (!g->has_wound && !forget (dive, g))
     return bt__watch_no_memory (error);
   if (!g->has_wound && !g->open)
-    return look_again (dive, i, g, told, least, same, error);
+    {
+      const bt__subject *s = bt__dive_subject (dive, dive->now, BT_PART_TETHER, i);
+      return look_again (dive, i, g, told, least_string (g, s), same, error);
+    }
   *same = is_as (dive, g, told);
   return BT_OK;
+}
+
+/* True if what was told last of tether I may still hold: the obstacles are those of then.  */
+static int
+may_be_as_told (const bt_dive *dive, int i, const bt__awareness *g)
+{
+  if (g->open || g->has_taut)
+    return 0;
+  const bt__subject *s = bt__dive_subject (dive, dive->now, BT_PART_TETHER, i);
+  return s->looked && s->then == s->version;
+}
+
+bt_status
+bt__watch_wound (const bt_dive *dive, int i, bt__awareness **out, bt_error *error)
+{
+  int same = 0;
+  bt_status status = bt__watch_look (dive, i, out, error);
+  bt__awareness *g = *out;
+  if (status != BT_OK || g->has_wound)
+    return status;
+  if (may_be_as_told (dive, i, g))
+    status = bt__watch_wound_still (dive, i, &same, error);
+  g->has_wound = same;
+  return status == BT_OK && !same ? bt__watch_wind (dive, i, out, error) : status;
 }

@@ -67,6 +67,7 @@
   (let ((all (windings)) (class (homotopy-class)))
     (set! visits (+ 1 visits))
     (unless (null? all) (set! caught (+ 1 caught)))
+    (expect (what-if (taut-length) (windings)) => all) ; with a string, without what was told before
     (expect (and-map (lambda (entry) (and (exact-integer? (cdr entry)) (not (zero? (cdr entry))))) all))
     (when (class-free? class) (expect all => '()))
     (unless (null? all) (expect (class-free? class) => #f))))
@@ -214,6 +215,25 @@ alone; what is no part is refused."
     (winding 'block))
   (expect (about 1) => 1)
   (expect (about -3) => 0))
+
+(define-scenario wound-as-before
+  "Of a line that stays wound as it was, the windings are asked without a string; asked of one, they are the same."
+  (enter! (world (sea (depth 20)) (seabed)
+                 (cylinder (named pile) (from 0 0 1) (to 0 0 -20) (radius 0.6))
+                 (rov (named minnow) (at 6 -6 -5))
+                 (tether (named line) (type fathom) (wet-weight 0) (from -6 -6 -5) (to minnow) (length 45)
+                         (model dynamic))))
+  (go '(3 -3 -5) '(-3 -3 -5) '(-3 3 -5) '(3 3 -5) '(3 -3 -5))
+  (let ((strings (assq-ref (profile) 'strings)))
+    (drive! #:surge 0.1 #:yaw 0.2)
+    (do ((i 0 (+ i 1))) ((= i 40))
+      (run 0.2)
+      (expect (winding 'pile) => 1)
+      (when (zero? (modulo i 8))
+        (expect (what-if (taut-length) (winding 'pile)) => 1)))
+    (expect (- (assq-ref (profile) 'strings) strings) is (below 8)))
+  (cut-tether! #:at 10)
+  (expect (winding 'pile) => (what-if (taut-length) (winding 'pile))))
 
 (define-scenario merely-passing
   "A line that passes beside a pile which stands in the way of its chord is looked at twice a second, and neither a

@@ -112,6 +112,7 @@ check_mesh (bt_vec3 far)
       bt__near near;
       int found = bt__scene_nearest (s, NULL, &link, reach, &near, &count);
       assert_true (found == (list.n > 0));
+      assert_true (found == bt__scene_within (s, NULL, &link, reach, &count));
       assert_true (!found || near.w.distance == best);
     }
   assert_true (count.pairs < (uint64_t)LINKS * TRIANGLES);
@@ -215,6 +216,7 @@ scene_is_brute_force (void **state)
           bt__obstacle_pair (s->object + k, &link, &w);
           assert_int_equal (list_has (&list, 3, k, reach), w.distance <= reach && !off[k]);
         }
+      assert_int_equal (bt__scene_within (s, &on, &link, reach, &count), list.n > 0);
       bt__nears_by_object (&list);
       for (uint32_t k = 1; k < list.n; k++)
         assert_true (list.at[k - 1].w.distance <= list.at[k].w.distance);
