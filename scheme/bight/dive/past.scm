@@ -67,10 +67,11 @@
   (serial mark-serial))
 
 (define-record <past>
-  (make-past moments marks clock)
+  (make-past moments marks noted clock)
   past?
   (moments past-moments)                ; the newest first; never empty
   (marks past-marks)                    ; the newest first
+  (noted past-noted)                    ; how many they are
   (clock past-clock))                   ; when the newest moment was kept
 
 (define (moment-now engine tasks)
@@ -78,7 +79,7 @@
 
 (define (new-past engine tasks)
   "Return the past of a dive that begins now: ENGINE its handle, TASKS what runs between its steps."
-  (make-past (list (moment-now engine tasks)) '() (get-internal-real-time)))
+  (make-past (list (moment-now engine tasks)) '() 0 (get-internal-real-time)))
 
 (define (past-oldest past)
   "Return the first step that one can go back to."
@@ -114,6 +115,7 @@
         past
         (make-past (past-moments past)
                    (cons (make-mark step tasks serial) (past-marks past))
+                   (+ 1 (past-noted past))
                    (past-clock past)))))
 
 (define (room-for size)
@@ -133,25 +135,24 @@
 (define (bounded past engine)
   ;; PAST without its older half when too much was noted in it.
   (let* ((moments (past-moments past))
-         (noted (+ (length (past-marks past))
+         (noted (+ (past-noted past)
                    (- (moment-serial (car moments)) (moment-serial (last moments))))))
     (if (or (<= noted most-noted) (null? (cdr moments)))
         past
         (let* ((kept (take moments (quotient (+ 1 (length moments)) 2)))
-               (oldest (last kept)))
+               (oldest (last kept))
+               (marks (take-while (lambda (m) (>= (mark-step m) (moment-step oldest))) (past-marks past))))
           (%set-journal! engine
                          (take-while (lambda (e) (> (entry-serial e) (moment-serial oldest)))
                                      (%journal engine)))
-          (make-past kept
-                     (take-while (lambda (m) (>= (mark-step m) (moment-step oldest)))
-                                 (past-marks past))
-                     (past-clock past))))))
+          (make-past kept marks (length marks) (past-clock past))))))
 
 (define (add-moment past moment)
   (let* ((moments (cons moment (past-moments past)))
          (room (room-for (bytevector-length (moment-bytes moment)))))
     (make-past (if (> (length moments) room) (thinned moments (moment-step moment)) moments)
                (past-marks past)
+               (past-noted past)
                (get-internal-real-time))))
 
 (define (due? past step)
@@ -217,11 +218,10 @@ values: its past then, and how its tasks stood."
          (moment (car moments))
          (mark (find-mark past moment step))
          (entries (done-between journal moment step mark))
-         (serial (if (null? entries) (moment-serial moment) (entry-serial (last entries)))))
+         (serial (if (null? entries) (moment-serial moment) (entry-serial (last entries))))
+         (marks (drop-while (lambda (m) (> (mark-step m) step)) (past-marks past))))
     (%restore-dive! engine (moment-bytes moment))
     (do-again! engine entries step)
     (%set-journal! engine (drop-while (lambda (e) (> (entry-serial e) serial)) journal))
-    (values (make-past moments
-                       (drop-while (lambda (m) (> (mark-step m) step)) (past-marks past))
-                       (get-internal-real-time))
+    (values (make-past moments marks (length marks) (get-internal-real-time))
             (if mark (mark-tasks mark) (moment-tasks moment)))))
