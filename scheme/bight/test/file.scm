@@ -127,6 +127,7 @@
 
 (define (view-of-dive where)
   ;; (LINES PICTURE) of the present dive, for the catalogue.
+  (draw-from-the-cache!)
   (and (current-dive)
        (list (string-split (string-trim-right
                             (or (false-if-exception (simple-format #f "~a" (look #:columns 78))) ""))
@@ -199,9 +200,17 @@
 
 ;; A process that has threads cannot be forked: nobody would wake the child's locks.  Mesa draws without
 ;; any when it is told to; a file that draws while it is loaded starts none then.
+(define cache-setting (getenv "MESA_SHADER_CACHE_DISABLE"))
+
 (define (draw-without-threads!)
   (setenv "LP_NUM_THREADS" "0")
   (setenv "MESA_SHADER_CACHE_DISABLE" "true"))
+
+;; The picture of the catalogue is the last that a scenario's process does: nothing is forked any more, and what
+;; Mesa has compiled for other pictures need not be compiled again.
+(define (draw-from-the-cache!)
+  (unless cache-setting
+    (unsetenv "MESA_SHADER_CACHE_DISABLE")))
 
 (define (load-scenarios file)
   ;; The list of the scenarios of FILE; raise &program-error.
