@@ -79,7 +79,7 @@ typedef struct bt_vehicle_def
   bt_vec3 size; /* m: of its hull, along its own x, y, z about its place; all 0: a point */
   double surge_speed, sway_speed, heave_speed; /* m/s at full stick, without mass */
   double yaw_rate;                             /* degrees/s at full stick */
-  double pull;        /* N: its pull on a taut tether that holds it, without mass */
+  double pull;        /* N: the most it pulls a tether with, without mass */
   double restitution; /* of its hull */
   /* With mass.  */
   double mass;                     /* kg */

@@ -8,10 +8,6 @@
    Only casts and safe step decide on the accepted move, so no answer of the equations can break the
    promise that nothing is passed through.
 
-   An end with a target is a place that the line must reach, whatever the force; among obstacles the
-   line may have no such shape.  Near anything the end is therefore pulled to its target by a
-   bounded force.
-
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <stdlib.h>
@@ -19,12 +15,6 @@
 
 #include "base/error.h"
 #include "contact/line_job.h"
-
-#define GIVE 20.0        /* m/s2: what the pull makes of the mass of an end that was held back */
-#define HELD_BACK 0.9    /* of the most: an end that is pulled by more was held back */
-#define HELD 1e-3        /* m: an end nearer than this to its place is there */
-#define HOLDING 10.0     /* times EA over a link's length: what holds an end in its place, ... */
-#define HOLDING_MOST 1e9 /* N/m: ... at most */
 
 /* ---- The parts of a step ---- */
 
@@ -63,25 +53,6 @@ widened (double core, const bt_vec3 *x, int links)
   return core * (1 + 1e-6) + 1e-14 * far;
 }
 
-/* The input, to be altered.  */
-static bt__dynamic_input *
-own_input (bt__line_job *k)
-{
-  if (k->in != &k->w->in)
-    k->w->in = *k->in;
-  k->in = &k->w->in;
-  return &k->w->in;
-}
-
-/* Where the ends are wanted; a place that is not finite means stay.  */
-static void
-aim_ends (bt__line_job *k)
-{
-  for (int e = 0; e < 2; e++)
-    if (!bt__is_finite (k->in->end[e].at))
-      own_input (k)->end[e].at = k->x[e ? k->links : 0];
-}
-
 static void
 check_known (bt__line_job *k)
 {
@@ -106,47 +77,6 @@ prepare (bt__line_job *k)
   k->olds = k->anchors->n < w->rows_max ? (int)k->anchors->n : w->rows_max;
   memcpy (w->old, bt__contacts_at (k->anchors), (size_t)k->olds * sizeof *w->old);
   memset (w->restart, 0, (size_t)k->links + 1);
-}
-
-/* Let the prescribed ends be pulled.  */
-static int
-hold_ends (bt__line_job *k)
-{
-  const double *rest = bt__dynamic_rest (k->d);
-  int any = 0;
-  for (int e = 0; e < 2; e++)
-    {
-      const bt__dynamic_end *end = k->in->end + e;
-      bt_vec3 x = k->x[e ? k->links : 0], d = bt__sub (end->at, x);
-      double size = bt__norm (d), most = k->config->pull[e];
-      k->w->hold[e] = (bt__dynamic_hold){ 0 };
-      if (end->free || !isfinite (most))
-        continue;
-      double last = rest[e ? k->links - 1 : 0];
-      bt_vec3 pull = bt__scale (-1, k->d->pull[e]); /* of what held it in the last step */
-      double now = bt__norm (pull);
-      k->w->hold[e] = (bt__dynamic_hold){ .on = 1, .most = fmax (most, 1e-9) };
-      k->w->hold[e].stiffness = fmin (HOLDING * k->in->line->ea / last, HOLDING_MOST);
-      k->w->hold[e].mass = most / GIVE;
-      k->w->hold[e].at = size > BT__LINE_STRIDE ? bt__axpy (x, BT__LINE_STRIDE / size, d) : end->at;
-      k->w->hold[e].force = now > most ? bt__scale (most / now, pull) : pull;
-      own_input (k)->end[e].free = 1;
-      any = 1;
-    }
-  return any;
-}
-
-/* An end held back starts from its own place, any other end from its target.  */
-static void
-start_ends (bt__line_job *k)
-{
-  for (int e = 0; e < 2; e++)
-    {
-      const bt__dynamic_hold *h = k->w->hold + e;
-      int i = e ? k->links : 0;
-      if (h->on)
-        k->X[i] = bt__norm (h->force) > HELD_BACK * h->most ? k->x[i] : h->at;
-    }
 }
 
 static void
@@ -210,17 +140,6 @@ mark_fresh (bt__line_job *k)
     }
 }
 
-static void
-tell_ends (bt__line_job *k, const bt__dynamic_input *input)
-{
-  for (int e = 0; e < 2; e++)
-    {
-      bt_vec3 x = bt__dynamic_x (k->d)[e ? k->d->n : 0], at = input->end[e].at;
-      k->report->end[e] = x;
-      k->report->held[e] = !input->end[e].free && !(bt__distance (x, at) <= HELD);
-    }
-}
-
 /* True if there is but the line, which is clear of itself: what it meets cannot be why it is not
    solved.  */
 static int
@@ -242,7 +161,8 @@ step_far (bt__line_job *k, const bt__dynamic_drift *may, bt__dynamic_report *rep
   if (status)
     return status;
   k->X = bt__dynamic_proposal (k->kernel);
-  *done = is_alone (k) || (isfinite (report->update) && bt__self_stays_far (k));
+  *done = !bt__line_is_overpulled (k)
+          && (is_alone (k) || (isfinite (report->update) && bt__self_stays_far (k)));
   if (*done)
     status = bt__dynamic_finish_within (k->d, k->kernel, may, done, report, error);
   if (!*done || status)
@@ -263,7 +183,7 @@ try_step (bt__line_job *k, int near, int held, bt__dynamic_report *report, bt_er
     return status;
   k->X = bt__dynamic_proposal (k->kernel);
   if (held) /* else what is held is of another line's step */
-    start_ends (k);
+    bt__line_start_ends (k);
   k->bents = 0;
   if (near && !(hook && hook->no_contacts))
     {
@@ -279,7 +199,17 @@ try_step (bt__line_job *k, int near, int held, bt__dynamic_report *report, bt_er
   return BT_OK;
 }
 
-/* The same; If corners about round members prevent a solution, half-spaces take their place.  */
+/* Begin the proposal anew, with another way to hold the line or its ends.  */
+static bt_status
+try_again (bt__line_job *k, int near, int held, bt__dynamic_report *report, bt_error *error)
+{
+  k->rows = 0;
+  k->report->rounds = k->report->truncated = 0;
+  prepare (k);
+  return try_step (k, near, held, report, error);
+}
+
+/* As try_step; if corners about round members prevent a solution, half-spaces take their place.  */
 static bt_status
 try_both (bt__line_job *k, int near, int held, bt__dynamic_report *report, bt_error *error)
 {
@@ -290,18 +220,18 @@ try_both (bt__line_job *k, int near, int held, bt__dynamic_report *report, bt_er
     return status;
   memcpy (k->w->hold, before, sizeof before);
   k->plain = 1;
-  k->rows = 0;
-  k->report->rounds = k->report->truncated = 0;
-  prepare (k);
-  return try_step (k, near, held, report, error);
+  return try_again (k, near, held, report, error);
 }
 
 static bt_status
 step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
 {
   const bt__line_hook *hook = k->config->hook;
-  int beside = bt__line_watch (k), near = bt__self_watch (k) | beside, held = near && hold_ends (k);
+  int beside = bt__line_watch (k), near = bt__self_watch (k) | beside;
+  int held = near && bt__line_hold_ends (k);
   bt_status status = try_both (k, near, held, report, error);
+  if (!status && !held && bt__line_is_overpulled (k) && bt__line_hold_ends (k))
+    status = try_again (k, near, 1, report, error);
   if (status)
     return status;
   if (k->report->truncated || (hook && hook->spoil))
@@ -320,6 +250,36 @@ step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
   bt__line_rebend (k);
   if (bt__dynamic_is_wound (k->d, k->in))
     bt__line_wind (k);
+  return BT_OK;
+}
+
+/* The step of a line that can meet nothing.  An end that slips was first taken to its place.  */
+static bt_status
+step_open (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
+{
+  const bt__line_config *c = k->config;
+  bt_status status;
+  k->anchors->n = 0;
+  if (!c->slips[0] && !c->slips[1])
+    return bt__dynamic_step (k->d, k->kernel, k->in, report, error);
+  status = bt__dynamic_begin (k->d, k->kernel, k->in, report, error);
+  k->X = bt__dynamic_proposal (k->kernel);
+  if (!status)
+    status = bt__dynamic_iterate_free (k->d, k->kernel, &k->watch, report, error);
+  if (!status && bt__line_is_overpulled (k) && bt__line_hold_ends (k))
+    {
+      k->watch = (bt__dynamic_watch){ 0 };
+      status = bt__dynamic_begin (k->d, k->kernel, k->in, report, error);
+      bt__line_start_ends (k);
+      bt__dynamic_iterate (k->kernel, NULL, 0, k->w->hold, report);
+    }
+  if (!status)
+    status = bt__dynamic_finish (k->d, k->kernel, NULL, report, error);
+  if (status)
+    return status;
+  bt__dynamic_note_free (k->d, k->kernel, &k->watch);
+  if (bt__dynamic_is_wound (k->d, k->in))
+    bt__dynamic_wind (k->d, k->kernel, k->in);
   return BT_OK;
 }
 
@@ -352,12 +312,9 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
   if (status)
     return status;
   w->last = *config;
-  aim_ends (&k);
+  bt__line_aim_ends (&k);
   if (k.scene->n == 0 && k.movers == 0 && !bt__self_counts (&k) && !d->rounded)
-    {
-      anchors->n = 0;
-      status = bt__dynamic_step (d, work, k.in, report, error);
-    }
+    status = step_open (&k, report, error);
   else
     {
       const bt__line_hook *hook = config->hook;
@@ -378,6 +335,6 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
         bt__line_wind (&k);
     }
   if (status == BT_OK)
-    tell_ends (&k, input);
+    bt__line_tell_ends (&k, input);
   return status;
 }

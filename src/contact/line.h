@@ -157,6 +157,7 @@ typedef struct bt__line_config
   int64_t obstacles;   /* entries of ROUGH */
   double pull[2];      /* N: what at most takes a prescribed end to its place when obstacles are
                           near; INFINITY: whatever it takes */
+  int slips[2];        /* true: no more than that anywhere */
   int itself;          /* true: the line touches itself, ... */
   int64_t id;          /* ... as the object of this number, which it is to others too */
   const bt__strand *strand;  /* other lines that it touches, none of more intervals than the */

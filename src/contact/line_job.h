@@ -135,6 +135,23 @@ typedef struct bt__line_job
   bt__count *count;
 } bt__line_job;
 
+/* ---- Its ends (line_ends.c) ---- */
+
+/* Say where the ends are wanted; a place that is not finite means stay.  */
+void bt__line_aim_ends (bt__line_job *k);
+
+/* Let the prescribed ends be pulled, by no more than may pull them; return true if there are such
+   ends.  Then start the proposal: an end held back from its own place, any other from its target.
+ */
+int bt__line_hold_ends (bt__line_job *k);
+void bt__line_start_ends (bt__line_job *k);
+
+/* True if the line of the proposal pulls harder than an end that slips may be pulled.  */
+int bt__line_is_overpulled (const bt__line_job *k);
+
+/* Report where the ends are, INPUT being the caller's.  */
+void bt__line_tell_ends (bt__line_job *k, const bt__dynamic_input *input);
+
 /* ---- What is near (line_near.c) ---- */
 
 /* List what every link could meet; return true if anything is so near that it matters.  */

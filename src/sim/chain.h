@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "collide/bvh.h"
+#include "sim/form_step.h"
 #include "sim/sim.h"
 #include "world/line.h"
 
@@ -100,6 +101,18 @@ int bt__has_jumped (const bt_dive *dive, bt__state *state, int i, double tension
    so, N (chain_stretch.c).  */
 int bt__rides_stretch (bt_dive *dive, bt__state *state, int i, const bt__ends *ends);
 double bt__stretch_tension (const bt__tether *tether);
+
+/* bt__most_pull_at returns what pulls end K of tether I to its place, N: a fixed point whatever it
+   takes; a vehicle its pull, and what its other tethers pull against tether I.  bt__slips_at is
+   true if end K slips where the tether pulls harder: a vehicle without mass holds it
+   (chain_touch.c).  */
+double bt__most_pull_at (const bt_dive *dive, bt__state *state, int i, int k);
+int bt__slips_at (const bt_dive *dive, bt__state *state, int i, int k);
+
+/* Bring tether I, of a static model, to ENDS in a step by GO; an end that slips, and its vehicle,
+   only as near as its vehicle can pull it (slip.c).  */
+bt_status bt__slip_to_ends (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
+                            bt__form_move *go, bt_error *error);
 
 /* bt__order_tethers sorts the tethers by the direction in which they press on each other.
    bt__put_carriers_first then puts tethers that carry vehicles first and static tethers last, and

@@ -13,6 +13,7 @@
 
 /* How the chain follows the winch.  */
 #define WINCH_REST 1e-5 /* m: what the lag leaves at last is paid in one step */
+#define SLIPPED 1e-5    /* m: an end that is less far from its place holds it */
 #define TURNS 0.1       /* of its rate: a winch that turns more slowly may be stalling */
 enum
 {
@@ -154,6 +155,18 @@ most_tense (const bt__dynamic *chain)
   return at;
 }
 
+/* By how much end K of tether I, which slips, is not where it was to be at the start of the present
+   part, on its way from FROM to TO.  */
+static bt_vec3
+slipped (const bt_dive *dive, bt__state *state, int i, int k, bt_vec3 from, bt_vec3 to)
+{
+  const bt__dynamic *chain
+      = bt__dive_chain (dive, state, i, k && bt__dive_tether (dive, state, i)->parted);
+  bt_vec3 planned = bt__axpy (from, dive->contact_work.since, bt__sub (to, from));
+  bt_vec3 off = bt__sub (bt__dynamic_x (chain)[k ? chain->n : 0], planned);
+  return bt__slips_at (dive, state, i, k) && bt__norm (off) > SLIPPED ? off : bt__vec (0, 0, 0);
+}
+
 /* What the kernel is told of tether I for the present part of the step, which began with its ends
    at FROM.  */
 static bt_status
@@ -171,6 +184,11 @@ input_of_part (const bt_dive *dive, bt__state *state, int i, const bt__ends *fro
       water->time -= part->left * BT__TIME_STEP;
       ends.a = bt__axpy (from->a, gone, bt__sub (to->a, from->a));
       ends.b = bt__axpy (from->b, gone, bt__sub (to->b, from->b));
+    }
+  if (part->since > 0)
+    {
+      ends.a = bt__add (ends.a, slipped (dive, state, i, 0, from->a, to->a));
+      ends.b = bt__add (ends.b, slipped (dive, state, i, 1, from->b, to->b));
     }
   if (vehicle >= 0 && (part->since > 0 || dive->driven[vehicle].in.h != h))
     status = bt__grip_body (dive, state, vehicle, i, h, error);

@@ -17,16 +17,45 @@
 #include "sim/chain.h"
 #include "world/obstacles.h"
 
-/* What pulls end K of tether I to its place: a vehicle with its pull, a fixed point whatever it
-   takes.  */
+#define STANDS 5e-6 /* m: an end that is nearer to its vehicle is there */
+
+/* How hard the other tethers of VEHICLE pulled along the unit vector U at the start of the step, N.
+ */
 static double
-most_pull_at (const bt_dive *dive, bt__state *state, int i, int k)
+pull_of_others (const bt_dive *dive, int i, int vehicle, bt_vec3 u)
+{
+  double sum = 0;
+  for (int j = 0; j < dive->model->n_tethers; j++)
+    for (int k = 0; k < 2 && j != i; k++)
+      if (dive->model->ends[j][k].vehicle == vehicle)
+        {
+          bt__line line = bt__line_of (dive, dive->now, j);
+          sum += bt__dot (bt__line_pull (&line, k), u);
+        }
+  return sum;
+}
+
+double
+bt__most_pull_at (const bt_dive *dive, bt__state *state, int i, int k)
 {
   int vehicle = dive->model->ends[i][k].vehicle;
   if (vehicle < 0
       || (dive->contact_work.pin && dive->contact_work.pin[vehicle].how == BT__PIN_HARD))
     return INFINITY;
-  return bt__dive_vehicle (dive, state, vehicle)->pull;
+  const bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
+  if (v->rigid || dive->model->n_tethers == 1)
+    return v->pull;
+  bt__line line = bt__line_of (dive, dive->now, i);
+  bt_vec3 u = bt__unit_or (bt__line_pull (&line, k), bt__vec (0, 0, 0));
+  return v->pull + fmax (0, -pull_of_others (dive, i, vehicle, u));
+}
+
+int
+bt__slips_at (const bt_dive *dive, bt__state *state, int i, int k)
+{
+  int vehicle = dive->model->ends[i][k].vehicle;
+  return vehicle >= 0 && !bt__dive_vehicle (dive, state, vehicle)->rigid
+         && !(dive->contact_work.pin && dive->contact_work.pin[vehicle].how == BT__PIN_HARD);
 }
 
 /* True if tether I touches tether J, which may be I.  */
@@ -125,7 +154,8 @@ line_config (const bt_dive *dive, bt__state *state, int i, int part)
       = { .radius = props->diameter / 2,
           .core = bt__core (props->diameter),
           .friction = props->friction,
-          .pull = { most_pull_at (dive, state, i, 0), most_pull_at (dive, state, i, 1) },
+          .pull = { bt__most_pull_at (dive, state, i, 0), bt__most_pull_at (dive, state, i, 1) },
+          .slips = { bt__slips_at (dive, state, i, 0), bt__slips_at (dive, state, i, 1) },
           .rough = bt__dive_roughness (dive, state),
           .obstacles = dive->model->n_obstacles,
           .itself = touches_tether (dive, state, i, i),
@@ -156,14 +186,24 @@ bt__note_line_meetings (const bt_dive *dive, bt__state *state, int i, int part)
       bt__note_meeting (state, subject, BT_PART_TETHER, i, (int)anchor[k].object);
 }
 
+/* True if end K of tether I was held, or slipped in this part of the step or in one before.  */
+static int
+is_left_behind (const bt_dive *dive, bt__state *state, int i, int k, const bt__line_report *report)
+{
+  if (report->held[k] || !bt__slips_at (dive, state, i, k))
+    return report->held[k];
+  bt_vec3 here = bt__attachment (dive, state, dive->model->ends[i][k].vehicle);
+  return bt__distance (report->end[k], here) > STANDS;
+}
+
 static void
 bring_held_ends (const bt_dive *dive, bt__state *state, int i, int part,
                  const bt__line_report *report)
 {
   int parted = bt__dive_tether (dive, state, i)->parted != 0;
-  if (part == 0 && report->held[0])
+  if (part == 0 && is_left_behind (dive, state, i, 0, report))
     bt__bring_end (dive, state, i, 0, report->end[0]);
-  if ((part == 1 || !parted) && report->held[1])
+  if ((part == 1 || !parted) && is_left_behind (dive, state, i, 1, report))
     bt__bring_end (dive, state, i, 1, report->end[1]);
 }
 

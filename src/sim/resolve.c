@@ -233,7 +233,9 @@ bring_to_ends (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int
     status = form->lay (dive, state, i, ends, error);
   if (status != BT_OK)
     return status;
-  return (passes ? form->step : form->carry) (dive, state, i, ends, error);
+  if (!passes || wanted == BT__TETHER_CABLE)
+    return (passes ? form->step : form->carry) (dive, state, i, ends, error);
+  return bt__slip_to_ends (dive, state, i, ends, form->step, error);
 }
 
 /* True if tethers could meet each other, or hulls.  */

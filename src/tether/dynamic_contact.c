@@ -7,7 +7,9 @@
    friction from the load of the previous iterate.
 
    A held end is stuck to its place while its multiplier is less than the greatest pull; else the
-   end is pulled by that force and has mass, because a slack line at an end without mass would fly.
+   end is pulled by that force and has mass against gaining speed toward its place, because a slack
+   line at an end without mass would fly.  Against losing speed it has none: a line that runs taut
+   is never pulled by more than the greatest pull.
    The quick way sticks the end with a very firm spring.  The safe way could not descend across so
    narrow a potential: its spring is softer, and the missing force is added from one update of the
    loads to the next (the method of multipliers).
@@ -189,6 +191,21 @@ safe_pull (const bt__dynamic_work *w, int k)
   return bt__axpy (h->lean, h->stiffness, bt__sub (h->at, w->X[end_node (w, k)]));
 }
 
+/* Toward the place of end K, from where the end was; zero if it was there.  */
+static bt_vec3
+way_of (const bt__dynamic_work *w, int k)
+{
+  return bt__unit_or (bt__sub (w->hold[k].at, w->x[end_node (w, k)]), bt__vec (0, 0, 0));
+}
+
+/* How the end K gains speed toward its place, m/s2; 0 if it loses speed.  */
+static double
+gain_of (const bt__dynamic_work *w, int k, bt_vec3 way)
+{
+  int i = end_node (w, k);
+  return fmax (bt__dot (bt__node_a (w, i, bt__node_v (w, i)), way), 0);
+}
+
 static void
 assemble_hold (bt__dynamic_work *w, int k, bt__mode mode)
 {
@@ -210,9 +227,10 @@ assemble_hold (bt__dynamic_work *w, int k, bt__mode mode)
   bt__sym_add (w->diag + i, c, turn, along);
   if (h->slips || safe)
     {
-      bt_vec3 a = bt__node_a (w, i, bt__node_v (w, i));
-      w->rhs[i] = bt__axpy (w->rhs[i], -h->mass, a);
-      bt__sym_add (w->diag + i, w->b0 * w->b0 * h->mass, 0, a);
+      bt_vec3 way = way_of (w, k);
+      double gain = gain_of (w, k, way);
+      w->rhs[i] = bt__axpy (w->rhs[i], -h->mass * gain, way);
+      bt__sym_add (w->diag + i, 0, gain > 0 ? w->b0 * w->b0 * h->mass : 0, way);
     }
 }
 
@@ -267,8 +285,9 @@ ease_rows (bt__dynamic_work *w, int k, double share)
     }
 }
 
-/* End K does not slip: what its place pulls with where SHARE of the update has been taken over.  */
-static void
+/* End K does not slip: what its place pulls with where SHARE of the update has been taken over.
+   Return true if the place can pull so.  */
+static int
 take_hold (bt__dynamic_work *w, int k, double share)
 {
   bt__dynamic_hold *h = w->hold + k;
@@ -279,6 +298,7 @@ take_hold (bt__dynamic_work *w, int k, double share)
   h->force = force;
   if (size > h->most)
     ease_rows (w, k, h->most / size);
+  return size <= h->most;
 }
 
 int
@@ -297,7 +317,7 @@ bt__dynamic_contact_take (bt__dynamic_work *w, double share)
     }
   for (int k = 0; w->hold && k < 2; k++)
     if (w->hold[k].on && !w->hold[k].slips)
-      take_hold (w, k, share);
+      settled &= take_hold (w, k, share);
   bt__dynamic_bent_take (w, share);
   return settled;
 }
@@ -350,11 +370,10 @@ static double
 hold_potential (const bt__dynamic_work *w, int k)
 {
   const bt__dynamic_hold *h = w->hold + k;
-  int i = end_node (w, k);
-  bt_vec3 a = bt__node_a (w, i, bt__node_v (w, i));
+  double gain = gain_of (w, k, way_of (w, k));
   double away = bt__norm (safe_pull (w, k)) / h->stiffness, yield = h->most / h->stiffness;
   double pull = away < yield ? 0.5 * h->stiffness * away * away : h->most * (away - 0.5 * yield);
-  return pull + 0.5 * h->mass * bt__dot (a, a) / (w->b0 * w->b0);
+  return pull + 0.5 * h->mass * gain * gain / (w->b0 * w->b0);
 }
 
 double

@@ -118,6 +118,10 @@ bt_vec3 *bt__dynamic_proposal (bt__dynamic_work *work);
 int bt__dynamic_iterate (bt__dynamic_work *work, bt__constraint *rows, int n,
                          bt__dynamic_hold *hold, bt__dynamic_report *report);
 
+/* The force of the proposal on end K (0, 1), N: the sum of all forces on the end node but the holder's
+   (dynamic_ends.c).  */
+bt_vec3 bt__dynamic_end_pull (bt__dynamic_work *work, int k);
+
 /* What is watched in a step of a line that nothing moves, see dynamic_energy.c.  */
 typedef struct bt__dynamic_watch
 {

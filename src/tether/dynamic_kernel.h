@@ -208,10 +208,6 @@ void bt__dynamic_lump_add (const bt__dynamic_work *w, bt__extra *e, const bt__dy
 /* Drag, weight, inertia and lost buoyancy of the line about node I, N.  */
 bt_vec3 bt__dynamic_node_load (bt__dynamic_work *w, int i);
 
-/* Force of the line on end K (0, 1), N: the sum of all forces on the end node but the holder's
-   (dynamic_ends.c).  */
-bt_vec3 bt__dynamic_end_pull (bt__dynamic_work *w, int k);
-
 /* By how much the line draws too hard on the winch, N: the excess of the end pull over what the
    winch holds, at most the pull of the first interval.  The weight and drag of the half interval at
    the winch are borne by the winch whether line is given or not; a slack interval draws no line. */

@@ -22,7 +22,7 @@
          (weight (between-random -0.05 0.3)))
     (lambda (model nodes)
       (world (sea (depth 200) (current speed toward))
-             (rov (named minnow) (at end))
+             (rov (named minnow) (at end) (pull 1e6))
              (tether (named line) (type fathom) (wet-weight weight) (from 0 0 -20) (to minnow)
                      (length length) (model ,model) (nodes nodes) (accuracy asked))))))
 

@@ -217,7 +217,7 @@
   "A moving line begun where it rests stays there, in balance, within the errors that both have."
   #:for ((world one-tether))
   #:cases 6
-  (define here (with (world-of-case world) (t1 (model steady) (nodes 64))))
+  (define here (with (world-of-case world) (r1 (pull 1e6)) (t1 (model steady) (nodes 64))))
   (assume (bare? here))
   (in-random here)
   (assume (< (z (point-at 't1 (/ (tether-length 't1) 2))) -1))

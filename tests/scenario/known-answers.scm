@@ -127,7 +127,7 @@ physical, mu 0.3, EA 2e5 N."
   #:for ((model 'dynamic 'catenary 'rubber-band))
   (in (world (sea (depth 20))
              (cylinder (named wire) (from 0 0 1) (to 0 0 -20) (radius 0.005))
-             (rov (named minnow) (at -6 8 -8) (surge-speed 6))
+             (rov (named minnow) (at -6 8 -8) (surge-speed 6) (pull 1e6))
              (tether (named line) (type fathom) (wet-weight 0) (ea 2e5) (friction 0.3) (stick-angle 36000)
                      (from 0 -8 -8) (to minnow) (length 20) (model ,model))))
   (define (dash p speed)
