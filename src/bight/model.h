@@ -137,6 +137,8 @@ typedef struct bt_tether_def
   double n_lumps;
   bt_set sets[BT_SETS_MAX]; /* want `ei' and a model that moves */
   double n_sets;
+  bt_vec3 along[2]; /* the way the line leaves its anchor, and its far end, where it is clamped
+                       there; of a vehicle along its own axes; 0: it is not.  Wants `ei', too  */
 } bt_tether_def;
 
 typedef enum bt_obstacle_kind

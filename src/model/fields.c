@@ -163,6 +163,11 @@ static const bt_field tether_fields[] = {
          "the anchor: a point, or a vehicle that carries the winch"),
   OTHER (bt_tether_def, to, "to", "m", BT_FIELD_END, 0, NULL, 0,
          "the far end: a vehicle, or a fixed point"),
+  OTHER (
+      bt_tether_def, along[0], "from-along", "", BT_FIELD_POINT, 0, NULL, 0,
+      "the way it leaves its anchor, if clamped; of a vehicle along its own axes; 0 0 0: hinged"),
+  OTHER (bt_tether_def, along[1], "to-along", "", BT_FIELD_POINT, 0, NULL, 0,
+         "the way it leaves its far end, likewise"),
   OTHER (bt_tether_def, via, "via", "m", BT_FIELD_VIA, 0, NULL, 0,
          "points that it is laid through from its anchor to its far end"),
   NUMBER (bt_tether_def, length, "length", "m", NAN, 0, LONG, 1, 0, NULL,
@@ -386,14 +391,5 @@ bt_field_find (const bt_head *head, const char *name)
   for (size_t i = 0; head && name && i < head->n_fields; i++)
     if (strcmp (head->fields[i].name, name) == 0)
       return &head->fields[i];
-  return NULL;
-}
-
-const bt_head *
-bt_obstacle_head (bt_obstacle_kind kind)
-{
-  for (size_t i = 0; i < COUNT_OF (heads); i++)
-    if (heads[i].obstacle >= 0 && heads[i].obstacle == (int)kind)
-      return &heads[i];
   return NULL;
 }

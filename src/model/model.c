@@ -158,18 +158,38 @@ check_lumps (const bt_tether_def *tether, bt_error *error)
 
 #define SET_TURN 1.0 /* radians: the most that a set may turn a line within one interval */
 
-/* A set is an affair of bending, in a line that moves.  */
+/* A set and a clamp are affairs of bending, in a line that moves.  */
 bt_status
-bt__bears_sets (const bt_tether_props *p, const char *name, bt_error *error)
+bt__bears_bends (const bt_tether_props *p, const bt_tether_def *tether, bt_error *error)
 {
+  const char *has = tether->n_sets > 0 ? "has a set" : "is clamped";
+  if (!(tether->n_sets > 0) && !bt__is_clamped (tether, 0) && !bt__is_clamped (tether, 1))
+    return BT_OK;
   if (p->model < BT_MODEL_DYNAMIC)
     return bt__fail (error, BT_ERR_UNSUPPORTED,
-                     "tether `%s' has a set: its model must be `dynamic' or `auto'", name);
+                     "tether `%s' %s: its model must be `dynamic' or `auto'", tether->name, has);
   if (!(p->ei > 0))
     return bt__fail (error, BT_ERR_UNSUPPORTED,
-                     "tether `%s' has a set, which is a bend that its stiffness holds: it needs an "
-                     "`ei' of more than 0",
-                     name);
+                     "tether `%s' %s, which is a bend that its stiffness holds: it needs an `ei' "
+                     "of more than 0",
+                     tether->name, has);
+  return BT_OK;
+}
+
+/* The moment of a clamp would turn a vehicle with mass; no vehicle is told.  */
+static bt_status
+check_clamps (const bt_model *model, int i, bt_error *error)
+{
+  const bt_tether_def *tether = &model->tethers[i];
+  for (int k = 0; k < 2; k++)
+    {
+      int vehicle = model->ends[i][k].vehicle;
+      if (vehicle >= 0 && bt__is_clamped (tether, k) && model->vehicles[vehicle].mass > 0)
+        return bt__fail (error, BT_ERR_UNSUPPORTED,
+                         "tether `%s' is clamped to `%s', which has mass; a clamp holds a line at "
+                         "a point, or at a vehicle without mass",
+                         tether->name, model->vehicles[vehicle].name);
+    }
   return BT_OK;
 }
 
@@ -181,12 +201,9 @@ check_sets (const bt_tether_def *tether, bt_error *error)
   if (!(tether->n_sets >= 0 && tether->n_sets <= BT_SETS_MAX))
     return bt__fail (error, BT_ERR_LIMIT, "tether `%s' has at most %d sets", tether->name,
                      BT_SETS_MAX);
-  if (tether->n_sets > 0)
-    {
-      bt_status status = bt__bears_sets (p, tether->name, error);
-      if (status)
-        return status;
-    }
+  bt_status status = bt__bears_bends (p, tether, error);
+  if (status)
+    return status;
   for (int k = 0; k < (int)tether->n_sets; k++)
     {
       const bt_set *set = &tether->sets[k];
@@ -257,6 +274,8 @@ compile_tether (bt_model *model, int i, bt_error *error)
     status = check_lumps (tether, error);
   if (status == BT_OK)
     status = check_sets (tether, error);
+  if (status == BT_OK)
+    status = check_clamps (model, i, error);
   if (status == BT_OK && tether->length > tether->drum)
     status = bt__fail (error, BT_ERR_DEF, "%g m of tether `%s' are out, of %g m on its drum",
                        tether->length, tether->name, tether->drum);
@@ -302,6 +321,9 @@ content_id (const bt_model *model, const bt_world *world)
   for (int i = 0; i < model->n_tethers; i++)
     if (model->tethers[i].n_sets > 0)
       h = bt__hash (model->tethers[i].sets, sizeof model->tethers[i].sets, h + (uint64_t)i);
+  for (int i = 0; i < model->n_tethers; i++)
+    if (bt__is_clamped (&model->tethers[i], 0) || bt__is_clamped (&model->tethers[i], 1))
+      h = bt__hash (model->tethers[i].along, sizeof model->tethers[i].along, h + (uint64_t)i);
   return bt__hash_obstacles (world, h);
 }
 

@@ -62,8 +62,18 @@ struct bt_model
   int n_floors;     /* 1: the last of SCENE is the bottom beyond the edge of a seabed */
 };
 
-/* BT_OK if a tether of PROPS called NAME can have a set; else BT_ERR_UNSUPPORTED says why not.  */
-bt_status bt__bears_sets (const bt_tether_props *props, const char *name, bt_error *error);
+/* True if TETHER is clamped at its end K.  */
+static inline int
+bt__is_clamped (const bt_tether_def *tether, int k)
+{
+  bt_vec3 u = tether->along[k];
+  return u.x != 0 || u.y != 0 || u.z != 0;
+}
+
+/* BT_OK if TETHER with PROPS can have the sets and clamps it has; else BT_ERR_UNSUPPORTED says why
+   not.  */
+bt_status bt__bears_bends (const bt_tether_props *props, const bt_tether_def *tether,
+                           bt_error *error);
 
 /* The longest chord, m, of LENGTH metres of a tether with PROPS under a pull of at most PULL
    newtons: LENGTH plus the elastic stretch, up to the breaking load or a tenth.  */

@@ -308,3 +308,16 @@ bt__hash_obstacles (const bt_world *world, uint64_t h)
     h = hash_obstacle (&world->obstacles[i], h);
   return h;
 }
+
+/* ---- Which kind ---- */
+
+const bt_head *
+bt_obstacle_head (bt_obstacle_kind kind)
+{
+  size_t n;
+  const bt_head *heads = bt_heads (&n);
+  for (size_t i = 0; i < n; i++)
+    if (heads[i].obstacle >= 0 && heads[i].obstacle == (int)kind)
+      return &heads[i];
+  return NULL;
+}

@@ -14,6 +14,14 @@
 /* The vehicle with mass carried by the far end of tether I, or -1.  */
 int bt__carried_vehicle (const bt_dive *dive, bt__state *state, int i);
 
+/* True if tether I is clamped at an end.  */
+static inline int
+bt__is_clamped_at_all (const bt_dive *dive, int i)
+{
+  return bt__is_clamped (&dive->model->tethers[i], 0)
+         || bt__is_clamped (&dive->model->tethers[i], 1);
+}
+
 /* What the kernel is told of tether I: ends, water, the vehicle it carries; no winch, nothing that
    is fastened to the line or has set in it.  */
 bt__dynamic_input bt__chain_input (const bt_dive *dive, bt__state *state, int i,
@@ -75,8 +83,9 @@ bt_status bt__advance_chain (bt_dive *dive, bt__state *state, int i, const bt__e
 bt_status bt__advance_as_asked (bt_dive *dive, bt__state *state, int i, const bt__ends *to,
                                 bt__dynamic_report *report, bt_error *error);
 
-/* What a line may change in a step beside its store; keep it, and go back to the present
-   (chain_fine.c).  */
+/* What tether I may change in a step beside its store.  bt__keep_present notes it as it is before
+   the step; bt__go_back brings tether I back to the present and to what was noted (chain_fine.c).
+ */
 typedef struct bt__present
 {
   bt__tether tether;

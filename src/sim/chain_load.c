@@ -67,18 +67,41 @@ bt__fasten (const bt_dive *dive, int i, double from, double to, bt__dynamic_inpu
     }
 }
 
+/* Clamp END, end K of tether I, if the tether is clamped there.  A line goes from its winch to its
+   far end, and so comes to a clamp there against the way it leaves.  */
+static void
+clamp_end (const bt_dive *dive, bt__state *state, int i, int k, bt__dynamic_end *end)
+{
+  int vehicle = dive->model->ends[i][k].vehicle;
+  bt_vec3 along = dive->model->tethers[i].along[k];
+  if (!bt__is_clamped (&dive->model->tethers[i], k))
+    return;
+  end->clamped = 1;
+  end->direction = bt__scale ((k ? -1 : 1) / bt__norm (along), along);
+  end->side = bt__set_side (end->direction);
+  if (vehicle < 0)
+    return;
+  const bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
+  bt__quat q = bt__quat_of (v->heading, v->pitch, v->roll);
+  end->direction = bt__turn_out (q, end->direction);
+  end->side = bt__turn_out (q, end->side);
+}
+
 bt__dynamic_input
 bt__chain_input (const bt_dive *dive, bt__state *state, int i, const bt_water *water,
                  const bt__ends *ends)
 {
   int vehicle = bt__carried_vehicle (dive, state, i);
   bt__dynamic_end far = { .at = ends->b };
-  return (bt__dynamic_input){ .line = &bt__dive_tether (dive, state, i)->props,
-                              .water = water,
-                              .end = { { .at = ends->a },
-                                       vehicle >= 0 ? vehicle_end (dive, vehicle) : far },
-                              .h = BT__TIME_STEP,
-                              .surfaced = 1 };
+  bt__dynamic_input input
+      = { .line = &bt__dive_tether (dive, state, i)->props,
+          .water = water,
+          .end = { { .at = ends->a }, vehicle >= 0 ? vehicle_end (dive, vehicle) : far },
+          .h = BT__TIME_STEP,
+          .surfaced = 1 };
+  for (int k = 0; k < 2; k++)
+    clamp_end (dive, state, i, k, &input.end[k]);
+  return input;
 }
 
 /* Let the vehicle that the line carries follow its last node.  */

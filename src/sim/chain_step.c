@@ -20,13 +20,28 @@ enum
   STALLED_AFTER = 30 /* steps for which it hardly turned: a jerk alone stalls no winch */
 };
 
+/* True if a vehicle turns a clamp of tether I in this step.  */
+static int
+is_turned (const bt_dive *dive, bt__state *state, int i)
+{
+  int any = 0;
+  for (int k = 0; k < 2; k++)
+    {
+      int vehicle = dive->model->ends[i][k].vehicle;
+      if (vehicle >= 0 && bt__is_clamped (&dive->model->tethers[i], k))
+        any |= bt__dive_vehicle (dive, dive->now, vehicle)->heading
+               != bt__dive_vehicle (dive, state, vehicle)->heading;
+    }
+  return any;
+}
+
 static int
 may_sleep_on (bt_dive *dive, bt__state *state, int i, const bt__tether *tether,
               const bt__ends *ends)
 {
   return tether->quiet >= BT__SLEEP_AFTER && tether->winch_rate == 0
          && bt__is_unchanged (dive, state, tether, ends) && !bt__movers_move (dive)
-         && bt__hulls_rest (dive, state, i);
+         && bt__hulls_rest (dive, state, i) && !is_turned (dive, state, i);
 }
 
 bt_status

@@ -268,5 +268,6 @@ bt__lay_chain_among (bt_dive *dive, bt__state *state, int i, const bt__ends *end
     begin_along_nodes (dive, state, i, node, n);
   status
       = bt__begin_chain (dive, state, i, ends, n, there ? NULL : dive->contact_work.share, error);
+  there &= !bt__is_clamped_at_all (dive, i);
   return status == BT_OK && !there ? bt__fall (dive, state, i, ends, error) : status;
 }

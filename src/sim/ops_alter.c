@@ -79,8 +79,7 @@ alter_tether (const bt__call *c)
   if (c->dive->model->tethers[c->subject].n_lumps > 0 && def.props.model < BT_MODEL_DYNAMIC)
     return bt__fail (c->error, BT_ERR_UNSUPPORTED,
                      "the tether has clumps or floats: only `dynamic' and `auto' move it");
-  if (c->dive->model->tethers[c->subject].n_sets > 0)
-    status = bt__bears_sets (&def.props, c->dive->model->tethers[c->subject].name, c->error);
+  status = bt__bears_bends (&def.props, &c->dive->model->tethers[c->subject], c->error);
   if (status != BT_OK)
     return status;
   forget_follower (field, &def.props);

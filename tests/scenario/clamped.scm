@@ -1,0 +1,84 @@
+;;; A line that is clamped at an end leaves it in a direction.
+;;;
+;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
+
+(use-modules (srfi srfi-1))
+
+(define-scenario (a-cantilever model)
+  "Cut near its vehicle, a stiff line that a clamp holds out level sags by w L^4 / (8 E I) at its free end."
+  #:for ((model 'dynamic 'auto))
+  (enter! (world (sea (depth 60))
+                 (rov (named v) (type kinematic) (at 3.3 0 -10))
+                 (tether (named l) (type fathom) (wet-weight 1) (ei 200) (bending-damping 20) (from 0 0 -10)
+                         (from-along 1 0 0) (to v) (length 3.3) (nodes 66) (model ,model))))
+  (cut-tether! #:at 3)
+  (run 20)
+  (expect (tether-length) is (about 3 #:within 0.12)) ; parted in the middle of an interval
+  (let ((l (tether-length)))
+    (expect (- -10 (z (point-at l))) is (about (/ (expt l 4) 8 200) #:within 1e-3))
+    ;; slope of the end: w L^3 / (6 E I)
+    (expect (- (z (tangent-at l))) is (about (/ (expt l 3) 6 200) #:within 1e-3))))
+
+(define pi (* 4 (atan 1)))
+
+(define (off-a-circle n radius centre)
+  "How far the tether's points are from the circle of RADIUS about CENTRE at most, m."
+  (apply max (map (lambda (i) (abs (- (distance (point-at (* (tether-length) (/ i n))) centre) radius))) (iota (+ n 1)))))
+
+(define-scenario (half-a-circle turned)
+  "A line of pi R between clamps that point the same way, 2 R apart, is half a circle, and pulls at nothing;
+whichever way a vehicle looks that carries the clamp in its own axes."
+  #:for ((turned 0 90 -145))
+  (define heading (* turned (/ pi 180)))
+  (enter! (world (sea (depth 60))
+                 (rov (named v) (type kinematic) (at 2 0 -10) (heading turned))
+                 (tether (named l) (type fathom) (wet-weight 0) (ei 2) (bending-damping 0.5) (from 0 0 -10)
+                         (from-along 0 1 0) (to v) (to-along (- (sin heading)) (cos heading) 0) (length pi)
+                         (nodes 80) (model dynamic))))
+  (run 40)
+  (expect (off-a-circle 20 1 '(1 0 -10)) is (below 2e-3))
+  (expect (y (point-at (/ pi 2))) is (about 1 #:within 2e-3))
+  (expect (norm (tether-force)) is (below 0.02)))  ; E I / R^2 is 2 N
+
+(define-scenario a-clamp-turns-with-its-vehicle
+  "A vehicle that turns where it stands turns the clamp, and wakes a line that had come to rest."
+  (enter! (world (sea (depth 60))
+                 (rov (named v) (type kinematic) (at 2 0 -10))
+                 (tether (named l) (type fathom) (wet-weight 0) (ei 2) (bending-damping 0.5) (from 0 0 -10)
+                         (to v) (to-along 0 1 0) (length 3) (nodes 60) (model dynamic))))
+  (settle! #:within 1e-5 #:at-most 120)
+  (expect (y (tangent-at 3)) is (below -0.99))
+  (hold-heading! 180)
+  (run 30)
+  (expect (rov-position) is (about '(2 0 -10) #:within 1e-9))
+  (expect (y (tangent-at 3)) is (above 0.99)))
+
+(define-scenario (paid-out-from-a-clamp rate)
+  "Line that is paid out, or hauled in, leaves its clamp in the clamp's direction."
+  #:for ((rate 0.2 -0.2))
+  (enter! (world (sea (depth 60))
+                 (rov (named v) (type kinematic) (at 3 0 -10))
+                 (tether (named l) (type fathom) (wet-weight 0) (ei 2) (bending-damping 0.5) (from 0 0 -10)
+                         (from-along 0 1 0) (to v) (length 6) (nodes 60) (model dynamic))))
+  (run 5)
+  (if (positive? rate) (pay-out! 3 #:rate rate) (haul-in! 2 #:rate (- rate)))
+  (run 20)
+  (expect (y (tangent-at 0)) is (above 0.99)))
+
+(define-scenario what-a-clamp-wants
+  "A clamp bends a line that is stiff and moves; a vehicle with mass is told of no moment."
+  (define (line . fields)
+    (enter! (world (sea) (rov (named v) (at 2 0 -10))
+                   (splice (list (apply (lambda (model ei)
+                                          (part tether (named l) (from 0 0 -10) (from-along 1 0 0) (to v) (length 3)
+                                                (ei ei) (model ,model)))
+                                        fields))))))
+  (expect (line 'catenary 1) raises unsupported)
+  (expect (line 'dynamic 0) raises unsupported)
+  (line 'dynamic 1)
+  (expect (alter! 'l #:ei 0) raises unsupported)
+  (expect (tether-model! 'l 'catenary) raises unsupported)
+  (expect (enter! (world (sea) (rov (named v) (type bluerov2-heavy) (at 2 0 -10))
+                         (tether (named l) (from 0 0 -10) (to v) (to-along 0 -1 0) (length 3) (ei 1)
+                                 (model dynamic))))
+          raises unsupported))
