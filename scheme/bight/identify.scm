@@ -125,8 +125,8 @@
                        (floor (or-false number)) (intervals (at-least 4) 60) (set-pieces (at-least 1) 1) (step positive 0.01))
   "Find what is UNKNOWN of a line: ea, ei, diameter, mass, wet-weight, cdn, cdt, ca, ba, bending-damping, friction,
 length, set (natural curvature, toward two sides, of each of SET-PIECES parts of equal length), tilt (by which the line
-leaves clamps beside what their markers tell), current, clock (how late the markers' clock is against the ends') or
-places (of the markers).  RUNS are CSV
+leaves clamps beside what their markers tell), vertical (by how much what is up leans east and north in
+the frame of the places), current, clock (how late the markers' clock is against the ends') or places (of the markers).  RUNS are CSV
 files of what was measured: t; anchor_x ... and end_x ... of its ends; m1_x, m1_y, m1_z ... of markers from the
 anchor on, in metres; end_tension or end_fx ... in newtons; out for line that is paid out.  Without columns for an
 end, the outermost marker is one.

@@ -1,4 +1,5 @@
-/* Static tethers that stretch, at vehicles without mass: a vehicle pulls with no more than its pull.
+/* Static tethers that stretch, at vehicles without mass: a vehicle pulls with no more than its
+   pull.
 
    A static model solves the shape between given ends, whatever force that takes.  Where the force
    on a vehicle is more than the vehicle's pull, the vehicle gives way along the force, as the end
@@ -71,7 +72,7 @@ try_way (bt_dive *dive, bt__state *state, slip *s, double way, bt_error *error)
 /* The way to try after the N-th try: between LOW, where the tether pulls too hard by OVER[0], and
    HIGH, where it pulls too little by -OVER[1].  */
 static double
-between (int n, double low, double high, const double *over)
+way_between (int n, double low, double high, const double *over)
 {
   double share = over[0] / (over[0] - over[1]);
   if (n % 2 || !(share > 0.01 && share < 0.99))
@@ -95,7 +96,7 @@ find_way (bt_dive *dive, bt__state *state, slip *s, double over0, bt_error *erro
         return status;
       *(s->over > 0 ? &low : &high) = s->way;
       over[!(s->over > 0)] = s->over;
-      way = isnan (high) ? WIDER * s->way : between (n, low, high, over);
+      way = isnan (high) ? WIDER * s->way : way_between (n, low, high, over);
     }
   return s->over > 0 && !isnan (high) ? try_way (dive, state, s, high, error) : status;
 }

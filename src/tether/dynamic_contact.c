@@ -193,14 +193,14 @@ safe_pull (const bt__dynamic_work *w, int k)
 
 /* Toward the place of end K, from where the end was; zero if it was there.  */
 static bt_vec3
-way_of (const bt__dynamic_work *w, int k)
+way_to_place (const bt__dynamic_work *w, int k)
 {
   return bt__unit_or (bt__sub (w->hold[k].at, w->x[end_node (w, k)]), bt__vec (0, 0, 0));
 }
 
 /* How the end K gains speed toward its place, m/s2; 0 if it loses speed.  */
 static double
-gain_of (const bt__dynamic_work *w, int k, bt_vec3 way)
+speeding_up (const bt__dynamic_work *w, int k, bt_vec3 way)
 {
   int i = end_node (w, k);
   return fmax (bt__dot (bt__node_a (w, i, bt__node_v (w, i)), way), 0);
@@ -227,8 +227,8 @@ assemble_hold (bt__dynamic_work *w, int k, bt__mode mode)
   bt__sym_add (w->diag + i, c, turn, along);
   if (h->slips || safe)
     {
-      bt_vec3 way = way_of (w, k);
-      double gain = gain_of (w, k, way);
+      bt_vec3 way = way_to_place (w, k);
+      double gain = speeding_up (w, k, way);
       w->rhs[i] = bt__axpy (w->rhs[i], -h->mass * gain, way);
       bt__sym_add (w->diag + i, 0, gain > 0 ? w->b0 * w->b0 * h->mass : 0, way);
     }
@@ -370,7 +370,7 @@ static double
 hold_potential (const bt__dynamic_work *w, int k)
 {
   const bt__dynamic_hold *h = w->hold + k;
-  double gain = gain_of (w, k, way_of (w, k));
+  double gain = speeding_up (w, k, way_to_place (w, k));
   double away = bt__norm (safe_pull (w, k)) / h->stiffness, yield = h->most / h->stiffness;
   double pull = away < yield ? 0.5 * h->stiffness * away * away : h->most * (away - 0.5 * yield);
   return pull + 0.5 * h->mass * gain * gain / (w->b0 * w->b0);

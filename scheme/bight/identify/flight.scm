@@ -6,6 +6,7 @@
 
 (define-module (bight identify flight)
   #:use-module (bight core record)
+  #:use-module (bight identify lean)
   #:use-module (bight identify measured)
   #:use-module (bight identify solver)
   #:use-module (bight identify unknown)
@@ -131,8 +132,9 @@ known, and those that are sought."
 
 ;;; How a run begins.
 
-(define (track-of run)
-  (let ((ends (run-ends run)) (directions (or (run-directions run) '(#f #f))))
+(define (track-of run lean)
+  (define (in-order vectors) (map (lambda (v) (upright v lean)) vectors))
+  (let ((ends (in-order (run-ends run))) (directions (in-order (or (run-directions run) '(#f #f)))))
     (vector (run-times run) (first ends) (second ends) (first directions) (second directions) (run-out run))))
 
 (define (end-place run end row)
@@ -140,7 +142,7 @@ known, and those that are sought."
 
 (define (known-place? place) (every (lambda (x) (= x x)) place))
 
-(define (start-of setting run)
+(define (start-of setting run lean)
   ;; Along the markers of the first row, each as fast as it is in the second; #f: at rest.
   (and (setting-moving? setting)
        (let* ((h (f64vector-ref (run-times run) 1))
@@ -152,29 +154,39 @@ known, and those that are sought."
                            (filter (lambda (entry) (< 0 (first entry) (setting-length setting))) seen)
                            (list (list (setting-length setting) (end-place run 1 0) (end-place run 1 1))))))
          (vector (list->f64vector (map (lambda (entry) (exact->inexact (first entry))) all))
-                 (list->f64vector (append-map second all))
-                 (list->f64vector (append-map (lambda (entry)
-                                                (map (lambda (a b) (/ (- b a) h)) (second entry) (third entry)))
-                                              all))))))
+                 (upright (list->f64vector (append-map second all)) lean)
+                 (upright (list->f64vector (append-map (lambda (entry)
+                                                         (map (lambda (a b) (/ (- b a) h)) (second entry) (third entry)))
+                                                       all))
+                          lean)))))
 
 
 ;;; Flights.
 
 (define-record <flight>
-  (%make-flight line track start marks)
+  (%make-flight line track start marks lean)
   flight?
   (line flight-line)
   (track flight-track)
   (start flight-start)
-  (marks flight-marks))
+  (marks flight-marks)
+  (lean flight-lean))                   ; of the frame of the run
 
 (document (flight? "Return true if OBJECT is a flight."))
 
 (define (make-flight setting coordinates x run run-index last)
   "Return the flight of the line that COORDINATES at X and SETTING make through the first LAST rows of RUN, the one of
 RUN-INDEX."
-  (%make-flight (line-numbers setting coordinates x run-index last) (track-of run) (start-of setting run)
-                (marks setting coordinates x)))
+  (let* ((values (unknown-values coordinates x))
+         (lean (make-lean (value-of values 'vertical 0 0.) (value-of values 'vertical 1 0.))))
+    (%make-flight (line-numbers setting coordinates x run-index last) (track-of run lean) (start-of setting run lean)
+                  (marks setting coordinates x) lean)))
+
+(define (as-seen flown lean)
+  ;; What was flown, in the frame of the run.
+  (if (pair? flown)
+      (cons (leaning (car flown) lean) (leaning (cdr flown) lean))
+      flown))
 
 (define (flight-failed? flown)
   "Return true if FLOWN, of `fly-all', says why a flight went wrong."
@@ -193,7 +205,8 @@ says what went wrong.  No flight goes on when the call is left."
       (let ((k (take!)))
         (when (and (< k n) (zero? (s8vector-ref halt 0)))
           (let ((f (vector-ref waiting k)))
-            (vector-set! flown k (%lead (flight-line f) (flight-track f) (flight-start f) (flight-marks f) halt)))
+            (vector-set! flown k (as-seen (%lead (flight-line f) (flight-track f) (flight-start f) (flight-marks f) halt)
+                                          (flight-lean f))))
           (work))))
     (dynamic-wind
       (const #t)

@@ -21,7 +21,7 @@
   coordinate?
   (name coordinate-name)                ; symbol, as it is told
   (what coordinate-what)                ; a field of tethers, length, set, current, clock or places
-  (which coordinate-which)              ; set: (piece . component); tilt: (end . component); current: axis; clock: run; places: marker; else #f
+  (which coordinate-which)              ; set: (piece . component); tilt: (end . component); current, vertical: axis; clock: run; places: marker; else #f
   (log? coordinate-log?)
   (start coordinate-start)
   (scale coordinate-scale)
@@ -41,11 +41,11 @@
   '((ea 1e4) (ei 1e-3) (diameter .005) (mass .05) (wet-weight .1) (cdn 1.2) (cdt .01) (ca 1.) (ba 1.)
     (bending-damping 1e-4) (friction .3)))
 
-(define others '(length set tilt current clock places))
+(define others '(length set tilt vertical current clock places))
 
 (define aliases
   '((cn . cdn) (ct . cdt) (weight . wet-weight) (added-mass . ca) (axial-damping . ba) (damping . ba)
-    (natural-curvature . set) (drum-set . set)
+    (natural-curvature . set) (drum-set . set) (camera-tilt . vertical)
     (clock-offset . clock) (marker-places . places) (bending . ei) (mu . friction)))
 
 (define unknown-names
@@ -77,7 +77,7 @@
   (case (coordinate-what coordinate)
     ((current) "m/s")
     ((set) "1/m")
-    ((tilt) "rad")
+    ((tilt vertical) "rad")
     ((clock) "s")
     ((places) "m")
     (else (field-unit (head-field 'tether (coordinate-what coordinate))))))
@@ -120,6 +120,9 @@ how many parts of equal length a set is."
        ((tilt) (map (lambda (name end component)
                       (make-coordinate name 'tilt (cons end component) #f 0. .05 -1. 1.))
                     '(tilt-anchor-0 tilt-anchor-90 tilt-end-0 tilt-end-90) '(0 0 1 1) '(0 1 0 1)))
+       ((vertical)
+        (map (lambda (axis label) (make-coordinate label 'vertical axis #f 0. .02 -.5 .5))
+             '(0 1) '(vertical-east vertical-north)))
        ((current)
         (map (lambda (axis label) (make-coordinate label 'current axis #f 0. .1 -3. 3.))
              '(0 1) '(current-east current-north)))

@@ -138,7 +138,7 @@
             '("find what is unknown of a real tether from measurements: places of markers and forces over time;"
               "values with 90 % intervals, a score on what was held out, and a type of tether")
             '("--unknown U,..." "ea, ei, diameter, mass, wet-weight, cdn, cdt, ca, ba, bending-damping, friction,"
-              "length, current, clock, places")
+              "length, set, tilt, vertical, current, clock, places")
             '("--type T" "a type of tether that it is like")
             '("--known N=V,..." "fields of the tether, as in diameter=0.004,mass=0.05,length=12")
             '("--places M,..." "where its markers are, in metres from the anchor")

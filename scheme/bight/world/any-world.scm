@@ -33,8 +33,11 @@
       (and (eq? head 'tether) (memq (field-name field) '(to model)))))
 
 (define (drawn-fields head)
-  ;; The world gives names; the files of scene-files are in local metres, and so without an origin.
-  (remove (lambda (field) (or (eq? 'name (field-kind field)) (map-field? field))) (head-fields head)))
+  ;; The world gives names; the files of scene-files are in local metres, and so without an origin.  Clamps are
+  ;; refused by most models and stiffnesses, and would leave few worlds.
+  (remove (lambda (field)
+            (or (eq? 'name (field-kind field)) (map-field? field) (memq (field-name field) '(from-along to-along))))
+          (head-fields head)))
 
 (define (clauses head field wild?)
   ;; A generator of no clause or one.
