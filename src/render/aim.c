@@ -1,9 +1,10 @@
 /* Cameras that aim themselves: directions by name, distances by what must be in the picture.
 
    The things to be seen are points (framing.c).  Without perspective the picture is the box around
-   the points as seen along the chosen direction.  With perspective the camera is moved back and
-   aside until every point is inside: for a point q from the middle, right r, ahead f, tangent t to
-   one side of the picture, the camera's axis shifted by s and back by d, q.r - s <= t (q.f + d).
+   the points as seen along the chosen direction.  With perspective the camera is moved back, and
+   up or down, until every point is inside: for a point q from the middle, right r, ahead f, tangent
+   t to one side of the picture, the camera's axis shifted by s and back by d, q.r - s <= t (q.f +
+   d).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -97,25 +98,23 @@ aim_level (bt_view *view, bt_vec3 ahead, bt_vec3 up, double aspect)
 }
 
 /* Of a camera BACK behind the middle, the picture's edges in the plane of the middle are at -side
-   [0] * back and side[1] * back of the camera's axis, which may be shifted: the picture spans least
-   to most if back is at least their distance by the sum of the tangents.  */
+   [0] * back and side[1] * back of the camera's axis.  Up and down the axis may be shifted: the
+   picture spans least to most if back is at least their distance by the sum of the tangents.  */
 static void
 aim_perspective (bt_view *view, bt_vec3 ahead, double angle, double aspect)
 {
-  double half = tan (angle / 2), back = 1.5, wide = half * aspect / MARGIN;
+  double half = tan (angle / 2), back = 1.5, wide = half * aspect / MARGIN, low, high;
   fit f = { .side = { { wide, wide }, { half / MARGIN, half / UNDER_TITLE } } };
   fit_start (&f, ahead, above);
   bt__framed_points (view, fit_point, &f);
   centre (&f);
   fit_start (&f, ahead, above);
   bt__framed_points (view, fit_point, &f);
-  for (int i = 0; i < 2; i++)
-    back = fmax (back, (f.most[i] - f.least[i]) / (f.side[i][0] + f.side[i][1]));
-  for (int i = 0; i < 2; i++)
-    {
-      double low = f.least[i] + f.side[i][0] * back, high = f.most[i] - f.side[i][1] * back;
-      f.middle = bt__axpy (f.middle, (low + high) / 2, f.axis[i]);
-    }
+  back = fmax (back, fmax (f.most[0], -f.least[0]) / wide);
+  back = fmax (back, (f.most[1] - f.least[1]) / (f.side[1][0] + f.side[1][1]));
+  low = f.least[1] + f.side[1][0] * back;
+  high = f.most[1] - f.side[1][1] * back;
+  f.middle = bt__axpy (f.middle, (low + high) / 2, f.axis[1]);
   view->camera = (bt_camera){ .at = f.middle, .up = above, .angle = angle };
   view->camera.from = bt__axpy (f.middle, -back, f.axis[2]);
 }
