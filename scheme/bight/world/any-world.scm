@@ -34,7 +34,7 @@
 
 (define (drawn-fields head)
   ;; The world gives names; the files of scene-files are in local metres, and so without an origin.  Clamps are
-  ;; refused by most models and stiffnesses, and would leave few worlds.
+  ;; refused by most models and stiffnesses, and would leave few worlds: see `clamped'.
   (remove (lambda (field)
             (or (eq? 'name (field-kind field)) (map-field? field) (memq (field-name field) '(from-along to-along))))
           (head-fields head)))
@@ -119,12 +119,16 @@ numbers come from all that is allowed."
              clause))
        tether))
 
+(define (clamped tether)
+  ;; TETHER, stiff, clamped at its anchor; at its far end too if it was drawn with its own torsion.
+  `(,@tether (from-along 1 0 0) ,@(if (assq 'gj (cdr tether)) '((to-along 0 -1 0)) '())))
+
 (define (with-what-things-need tether)
-  ;; Only a moving line carries clumps and floats, and only one with a bending stiffness has a set.
+  ;; Only a moving line carries clumps and floats, and only one with a bending stiffness has a set or a clamp.
   (let ((ei (assq 'ei (cdr tether))))
     (define (stiff tether)
       (if (and ei (> (cadr ei) 0)) tether `(,(car tether) ,@(delete ei (cdr tether)) (ei 0.05))))
-    (cond ((assq 'set (cdr tether)) (stiff (as-a-moving-line tether)))
+    (cond ((assq 'set (cdr tether)) (clamped (stiff (as-a-moving-line tether))))
           ((or (assq 'clump (cdr tether)) (assq 'float (cdr tether))) (as-a-moving-line tether))
           (else tether))))
 
