@@ -113,8 +113,8 @@ double bt__stretch_tension (const bt__tether *tether);
 
 /* bt__most_pull_at returns what pulls end K of tether I to its place, N: a fixed point whatever it
    takes; a vehicle its pull, and what its other tethers pull against tether I.  bt__slips_at is
-   true if end K slips where the tether pulls harder: a vehicle without mass holds it
-   (chain_touch.c).  */
+   true if end K slips where the tether pulls harder: a vehicle without mass holds it, and no
+   measured track tells where that was (chain_touch.c).  */
 double bt__most_pull_at (const bt_dive *dive, bt__state *state, int i, int k);
 int bt__slips_at (const bt_dive *dive, bt__state *state, int i, int k);
 

@@ -42,12 +42,15 @@ enum
 
 /* ---- May it be? ---- */
 
-/* True if the end K of tether I goes where it is taken, whatever the line does.  */
+/* True if the end K of tether I goes where it is taken, whatever the line does, and nothing turns
+   it.  */
 static int
 is_led (const bt_dive *dive, bt__state *state, int i, int k)
 {
   int v = dive->model->ends[i][k].vehicle;
-  return v < 0 || !bt__dive_vehicle (dive, state, v)->rigid;
+  return v < 0
+         || (!bt__dive_vehicle (dive, state, v)->rigid
+             && !bt__is_clamped (&dive->model->tethers[i], k));
 }
 
 /* True if nothing in the world moves but tether I and its vehicles, and the water is steady.  */
@@ -152,6 +155,18 @@ is_eventless (const bt__tether *tether, const bt__dynamic_report *report)
          && report->tension <= tether->props.breaking_load;
 }
 
+/* True if no vehicle gives way to tether I, just stepped.  */
+static int
+is_in_hand (const bt_dive *dive, bt__state *state, int i)
+{
+  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  int all = 1;
+  for (int k = 0; k < 2; k++)
+    all &= !bt__slips_at (dive, state, i, k)
+           || bt__norm (chain->pull[k]) < bt__most_pull_at (dive, state, i, k);
+  return all;
+}
+
 /* Note the stretch of STEPS, just solved for tether I with the error OFF of the accepted error.  */
 static void
 begin_stretch (bt_dive *dive, bt__state *state, int i, int steps, double off,
@@ -193,7 +208,8 @@ go_ahead (bt_dive *dive, bt__state *state, int i)
         return 0;
       bt_status status = solve_ahead (dive, state, i, steps, &to, &report, NULL);
       double off = status == BT_OK ? error_of (dive, state, i) : INFINITY;
-      if (off <= 1 && is_eventless (&p.tether, &report) && went_clear (dive, state, i, &report)
+      if (off <= 1 && is_eventless (&p.tether, &report) && is_in_hand (dive, state, i)
+          && went_clear (dive, state, i, &report)
           && !bt__has_jumped (dive, state, i, report.tension, 1))
         {
           begin_stretch (dive, state, i, steps, off, &report);

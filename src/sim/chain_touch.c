@@ -54,8 +54,11 @@ int
 bt__slips_at (const bt_dive *dive, bt__state *state, int i, int k)
 {
   int vehicle = dive->model->ends[i][k].vehicle;
-  return vehicle >= 0 && !bt__dive_vehicle (dive, state, vehicle)->rigid
-         && !(dive->contact_work.pin && dive->contact_work.pin[vehicle].how == BT__PIN_HARD);
+  if (vehicle < 0
+      || (dive->contact_work.pin && dive->contact_work.pin[vehicle].how == BT__PIN_HARD))
+    return 0;
+  const bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
+  return !v->rigid && v->goal != BT__GOAL_TRACK;
 }
 
 /* True if tether I touches tether J, which may be I.  */

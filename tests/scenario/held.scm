@@ -65,6 +65,26 @@
   (expect (most-pull 10 'l) is (below 101))
   (expect (x (rov-position)) is (below 19.6)))
 
+(define-scenario (a-track-is-where-it-was model)
+  "A vehicle that follows a measured track is where the track says, whatever the tether pulls: by its bow in a current."
+  #:for ((model 'dynamic 'auto))
+  (enter! (world (sea (depth 200) (current 0.5 0))
+                 (rov (named led) (at 70 0 -100))
+                 (tether (named l) (type fathom) (wet-weight 0) (nodes 40) (from 0 0 -100) (to led) (length 100)
+                         (model ,model))))
+  (follow! '((0 70 0 -100) (12 82 0 -91) (60 82 0 -91)))
+  (expect (most-pull 12 'l) is (above 120))
+  (expect (distance (rov-position) '(82 0 -91)) is (below 1e-9)))
+
+(define-scenario (slowly-taut-ahead speed)
+  "Of a line that is solved ahead of the present it is the pull, and what one step stretches."
+  #:for ((speed 0.02 0.1))
+  (enter! (line-to 19 #:model 'auto #:long 19.8))
+  (fly-to! 'v '(25 0 -10) #:speed speed)
+  (expect (most-pull (/ 1.5 speed) 'l) is (below (+ 101 (* speed 1/60 (/ 2e5 19.8)))))
+  (expect (rov-tension) is (about 100 #:within 1))
+  (expect (assq-ref (profile) 'chain-stretched) is (above 20)))
+
 (define-scenario at-the-winch-that-it-carries
   "The same of a vehicle that carries the winch."
   (enter! (world (sea)

@@ -14,7 +14,7 @@
 
 (define (neutral-line nodes)
   (world (sea (depth 1000) (density 1025) (gravity 9.81) (current 0.5 0))
-         (rov (named led) (at 70 0 -100) (pull 1e6))
+         (rov (named led) (at 70 0 -100))
          (tether (named line) (from 0 0 -100) (to led) (length 100) (model dynamic) (nodes nodes)
                  (diameter 0.01) (mass 0.0805033117) (wet-weight 0)
                  (ea 2e5) (ba 50) (cdn 1.2) (cdt 0.02) (ca 1))))
