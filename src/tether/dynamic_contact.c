@@ -7,9 +7,9 @@
    friction from the load of the previous iterate.
 
    A held end is stuck to its place while its multiplier is less than the greatest pull; else the
-   end is pulled by that force and has mass against gaining speed toward its place, because a slack
-   line at an end without mass would fly.  Against losing speed it has none: a line that runs taut
-   is never pulled by more than the greatest pull.
+   end is pulled by that force and has mass, because a slack line at an end without mass would fly.
+   In the quick way the end has mass against gaining speed toward its place alone: a line that runs
+   taut is never pulled by more than the greatest pull.
    The quick way sticks the end with a very firm spring.  The safe way could not descend across so
    narrow a potential: its spring is softer, and the missing force is added from one update of the
    loads to the next (the method of multipliers).
@@ -198,12 +198,13 @@ way_to_place (const bt__dynamic_work *w, int k)
   return bt__unit_or (bt__sub (w->hold[k].at, w->x[end_node (w, k)]), bt__vec (0, 0, 0));
 }
 
-/* How the end K gains speed toward its place, m/s2; 0 if it loses speed.  */
-static double
-speeding_up (const bt__dynamic_work *w, int k, bt_vec3 way)
+/* What mass at end K resists of the acceleration of the end, m/s2: in the SAFE way all of it; else the
+   gain of speed on the WAY to the place of the end.  */
+static bt_vec3
+resisted (const bt__dynamic_work *w, int k, int safe, bt_vec3 way)
 {
-  int i = end_node (w, k);
-  return fmax (bt__dot (bt__node_a (w, i, bt__node_v (w, i)), way), 0);
+  bt_vec3 a = bt__node_a (w, end_node (w, k), bt__node_v (w, end_node (w, k)));
+  return safe ? a : bt__scale (fmax (bt__dot (a, way), 0), way);
 }
 
 static void
@@ -227,10 +228,10 @@ assemble_hold (bt__dynamic_work *w, int k, bt__mode mode)
   bt__sym_add (w->diag + i, c, turn, along);
   if (h->slips || safe)
     {
-      bt_vec3 way = way_to_place (w, k);
-      double gain = speeding_up (w, k, way);
-      w->rhs[i] = bt__axpy (w->rhs[i], -h->mass * gain, way);
-      bt__sym_add (w->diag + i, 0, gain > 0 ? w->b0 * w->b0 * h->mass : 0, way);
+      bt_vec3 way = way_to_place (w, k), a = resisted (w, k, safe, way);
+      double m = w->b0 * w->b0 * h->mass, gains = bt__dot (a, way) > 0;
+      w->rhs[i] = bt__axpy (w->rhs[i], -h->mass, a);
+      bt__sym_add (w->diag + i, safe ? m : 0, safe ? 0 : gains * m, way);
     }
 }
 
@@ -370,10 +371,10 @@ static double
 hold_potential (const bt__dynamic_work *w, int k)
 {
   const bt__dynamic_hold *h = w->hold + k;
-  double gain = speeding_up (w, k, way_to_place (w, k));
   double away = bt__norm (safe_pull (w, k)) / h->stiffness, yield = h->most / h->stiffness;
+  bt_vec3 a = resisted (w, k, 1, bt__vec (0, 0, 0));
   double pull = away < yield ? 0.5 * h->stiffness * away * away : h->most * (away - 0.5 * yield);
-  return pull + 0.5 * h->mass * gain * gain / (w->b0 * w->b0);
+  return pull + 0.5 * h->mass * bt__dot (a, a) / (w->b0 * w->b0);
 }
 
 double
