@@ -210,12 +210,15 @@ extend (bt__line_job *k, bt__sliding *s, int q, int side)
 
 /* ---- The line along the arc ---- */
 
-/* The surplus of the chords before and after bend Q to OUT, m.  */
+/* The surplus of the chords before and after bend Q to OUT, m: none at a sharp edge.  */
 static void
 find_rounds (const bt__line_job *k, const bt__sliding *s, int q, double out[2])
 {
   const bt_vec3 *x = bt__dynamic_x (k->d) + s->node[q];
   bt__edge e, unused;
+  out[0] = out[1] = 0;
+  if (s->anchor[q].bent != BT__BENT_ROUND)
+    return;
   bt__turn t = sliding_turn (k, s, q, &e);
   double next = bt__sliding_goes_on (s, q) ? sliding_turn (k, s, q + 1, &unused).angle : NAN;
   out[0] = bt__sliding_goes_on (s, q - 1) ? 0 : bt__turn_round (k, &e, &t, x[0], x[-1], NAN);
