@@ -25,7 +25,7 @@ told ()
 }
 
 told dynamics 35 180 'a line by itself'
-told contact 4 150 'a line in rigging'
+told contact 16 150 'a line in rigging'
 
 "$program" --replay "$scratch/flight-1-35.txt" >"$scratch/out" 2>&1
 result $? 'the line by itself is sound, but for the planted fault'

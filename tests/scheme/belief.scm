@@ -159,7 +159,7 @@
 
 (define-scenario what-cannot-be
   "Evidence that no member explains is an answer, told of, and changes nothing; what comes too late is late."
-  (in slack-water)
+  (in (with slack-water (sea (current 0.4 90)))) ; in which every line presses on the post
   (let ((b (believe! doubtful #:members 16)))
     (run 2)
     (expect (observe! b 'winch-tension 1e6) => 'impossible)
