@@ -72,10 +72,8 @@ bt__keep_present (const bt_dive *dive, bt__state *state, int i, bt__present *p)
 void
 bt__go_back (const bt_dive *dive, bt__state *state, int i, const bt__present *p)
 {
-  for (int64_t k = p->events; k < state->events; k++)
-    state->event[k % BT_EVENTS_KEPT] = dive->now->event[k % BT_EVENTS_KEPT];
-  state->events = p->events;
-  *bt__dive_tether (dive, state, i) = *bt__dive_tether (dive, dive->now, i);
+  bt__forget_events (dive, state, p->events);
+  *bt__dive_tether (dive, state, i) = *bt__dive_tether (dive, dive->now, i); /* whose store it is */
   bt__copy_store (dive, state, dive->now, i);
   bt__leave_stretch (dive, state, i);
   *bt__dive_tether (dive, state, i) = p->tether;

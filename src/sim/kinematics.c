@@ -164,15 +164,6 @@ move_kinematically (const bt_dive *dive, bt__state *state, bt__vehicle *v)
   v->velocity = bt__scale (1 / BT__TIME_STEP, bt__sub (to, from));
 }
 
-/* An event that was foreseen has not been raised.  */
-static void
-forget_events (const bt_dive *dive, bt__state *state, int64_t events)
-{
-  for (int64_t k = events; k < state->events; k++)
-    state->event[k % BT_EVENTS_KEPT] = dive->now->event[k % BT_EVENTS_KEPT];
-  state->events = events;
-}
-
 int
 bt__foresee_vehicle (const bt_dive *dive, bt__state *state, int vehicle, int steps, bt_vec3 *to)
 {
@@ -186,7 +177,7 @@ bt__foresee_vehicle (const bt_dive *dive, bt__state *state, int vehicle, int ste
     }
   *to = v->position;
   n -= state->events != events;
-  forget_events (dive, state, events);
+  bt__forget_events (dive, state, events);
   state->step = step;
   *v = before;
   return n;

@@ -272,6 +272,10 @@ void bt__raise_event (bt__state *state, bt_event_kind kind, int subject);
 void bt__raise_event_at (bt__state *state, bt_event_kind kind, bt_part part, int subject,
                          int object);
 
+/* Forget the events of STATE, the next of DIVE, from the number EVENTS on: the step is tried anew.
+ */
+void bt__forget_events (const bt_dive *dive, bt__state *state, int64_t events);
+
 /* BT_ERR_NAME unless I counts a PART of DIVE.  */
 bt_status bt__check_part (const bt_dive *dive, bt_part part, int i, bt_error *error);
 

@@ -23,6 +23,14 @@ bt__raise_event (bt__state *state, bt_event_kind kind, int subject)
   bt__raise_event_at (state, kind, part, subject, -1);
 }
 
+void
+bt__forget_events (const bt_dive *dive, bt__state *state, int64_t events)
+{
+  for (int64_t k = events; k < state->events; k++)
+    state->event[k % BT_EVENTS_KEPT] = dive->now->event[k % BT_EVENTS_KEPT];
+  state->events = events;
+}
+
 int64_t
 bt_dive_event_count (const bt_dive *dive)
 {
