@@ -253,34 +253,31 @@ step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
   return BT_OK;
 }
 
+/* Solve the step of a line that can meet nothing, its ends pulled by no more than may pull them. */
+static bt_status
+solve_held (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
+{
+  bt_status status = bt__dynamic_begin (k->d, k->kernel, k->in, report, error);
+  if (status)
+    return status;
+  k->watch = (bt__dynamic_watch){ 0 };
+  bt__line_start_ends (k);
+  bt__dynamic_iterate (k->kernel, NULL, 0, k->w->hold, report);
+  return BT_OK;
+}
+
 /* The step of a line that can meet nothing.  An end that slips was first taken to its place.  */
 static bt_status
 step_open (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
 {
-  const bt__line_config *c = k->config;
-  bt_status status;
-  k->anchors->n = 0;
-  if (!c->slips[0] && !c->slips[1])
-    return bt__dynamic_step (k->d, k->kernel, k->in, report, error);
-  status = bt__dynamic_begin (k->d, k->kernel, k->in, report, error);
-  k->X = bt__dynamic_proposal (k->kernel);
+  bt_status status = bt__dynamic_begin (k->d, k->kernel, k->in, report, error);
   if (!status)
     status = bt__dynamic_iterate_free (k->d, k->kernel, &k->watch, report, error);
+  k->X = bt__dynamic_proposal (k->kernel);
+  k->anchors->n = 0;
   if (!status && bt__line_is_overpulled (k) && bt__line_hold_ends (k))
-    {
-      k->watch = (bt__dynamic_watch){ 0 };
-      status = bt__dynamic_begin (k->d, k->kernel, k->in, report, error);
-      bt__line_start_ends (k);
-      bt__dynamic_iterate (k->kernel, NULL, 0, k->w->hold, report);
-    }
-  if (!status)
-    status = bt__dynamic_finish (k->d, k->kernel, NULL, report, error);
-  if (status)
-    return status;
-  bt__dynamic_note_free (k->d, k->kernel, &k->watch);
-  if (bt__dynamic_is_wound (k->d, k->in))
-    bt__dynamic_wind (k->d, k->kernel, k->in);
-  return BT_OK;
+    status = solve_held (k, report, error);
+  return status ? status : bt__dynamic_take_free (k->d, k->kernel, k->in, &k->watch, report, error);
 }
 
 bt_status

@@ -235,6 +235,19 @@ bt__dynamic_note_free (bt__dynamic *d, const bt__dynamic_work *w, const bt__dyna
 }
 
 bt_status
+bt__dynamic_take_free (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *in,
+                       const bt__dynamic_watch *watch, bt__dynamic_report *report, bt_error *error)
+{
+  bt_status status = bt__dynamic_finish (d, w, NULL, report, error);
+  if (status)
+    return status;
+  bt__dynamic_note_free (d, w, watch);
+  if (bt__dynamic_is_wound (d, in))
+    bt__dynamic_wind (d, w, in);
+  return BT_OK;
+}
+
+bt_status
 bt__dynamic_step (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *in,
                   bt__dynamic_report *report, bt_error *error)
 {
@@ -242,12 +255,5 @@ bt__dynamic_step (bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_input *
   bt_status status = bt__dynamic_begin (d, w, in, report, error);
   if (!status)
     status = bt__dynamic_iterate_free (d, w, &watch, report, error);
-  if (!status)
-    status = bt__dynamic_finish (d, w, NULL, report, error);
-  if (status)
-    return status;
-  bt__dynamic_note_free (d, w, &watch);
-  if (bt__dynamic_is_wound (d, in))
-    bt__dynamic_wind (d, w, in);
-  return BT_OK;
+  return status ? status : bt__dynamic_take_free (d, w, in, &watch, report, error);
 }

@@ -118,8 +118,8 @@ bt_vec3 *bt__dynamic_proposal (bt__dynamic_work *work);
 int bt__dynamic_iterate (bt__dynamic_work *work, bt__constraint *rows, int n,
                          bt__dynamic_hold *hold, bt__dynamic_report *report);
 
-/* The force of the proposal on end K (0, 1), N: the sum of all forces on the end node but the holder's
-   (dynamic_ends.c).  */
+/* The force of the proposal on end K (0, 1), N: the sum of all forces on the end node but the
+   holder's (dynamic_ends.c).  */
 bt_vec3 bt__dynamic_end_pull (bt__dynamic_work *work, int k);
 
 /* What is watched in a step of a line that nothing moves, see dynamic_energy.c.  */
@@ -136,6 +136,11 @@ bt_status bt__dynamic_iterate_free (bt__dynamic *d, bt__dynamic_work *work,
                                     bt_error *error);
 void bt__dynamic_note_free (bt__dynamic *d, const bt__dynamic_work *work,
                             const bt__dynamic_watch *watch);
+
+/* Take the solution over as bt__dynamic_step does: finish, note, and let nodes come and go.  */
+bt_status bt__dynamic_take_free (bt__dynamic *d, bt__dynamic_work *work,
+                                 const bt__dynamic_input *input, const bt__dynamic_watch *watch,
+                                 bt__dynamic_report *report, bt_error *error);
 
 /* Return no less than the longest of the N vectors A, less B: cheap, and up to sqrt (3) too large.
  */
