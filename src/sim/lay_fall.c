@@ -95,7 +95,9 @@ bt__fall (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error
   bt__pin kept[2];
   bt__dynamic_report report = { .speed = INFINITY };
   bt_status status = BT_OK;
-  int64_t nodes = bt__dive_chain (dive, state, i, 0)->n + 1;
+  int64_t nodes = 0;
+  for (int part = 0; part < bt__chains (tether); part++)
+    nodes += bt__dive_chain (dive, state, i, part)->n + 1;
   int steps = (int)fmin (FALL / BT__TIME_STEP, ceil (FALL_WORK / (double)nodes));
   keep_pins (dive, i, kept, 0);
   pin_ends (dive, state, i, BT__PIN_HARD);

@@ -77,7 +77,7 @@
       (/ (* 4096 (call-with-input-file "/proc/self/statm" (lambda (port) (read port) (read port)))) 1e6)
       0))
 
-(define most-seconds 40)                ; of CPU: to find what hangs; the slowest takes 18 to 22, as the machine is loaded
+(define most-seconds 20)
 (define most-megabytes 1500)
 
 (define (asked thunk)
