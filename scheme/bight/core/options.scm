@@ -4,11 +4,16 @@
 
 (define-module (bight core options)
   #:use-module (bight core errors)
-  #:export (bad-usage split-arguments split-option without-value file-like?))
+  #:export (bad-usage check-there split-arguments split-option without-value file-like?))
 
 (define (bad-usage text . values)
   "Raise the &bight-error TEXT, filled with VALUES: the command line is written wrong."
   (apply bight-raise 'domain #f text values))
+
+(define (check-there file)
+  "Raise a &bight-error that names the file meant, unless there is FILE."
+  (unless (file-exists? file)
+    (bad-usage "there is no file ~s~a" file ((@ (bight core missing) file-meant) file))))
 
 (define (split-arguments name known arguments)
   "Return two values: of ARGUMENTS what is no option, and an alist of those options that are KNOWN to the command

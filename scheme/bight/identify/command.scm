@@ -5,8 +5,7 @@
 (define-module (bight identify command)
   #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
-  #:use-module ((bight core missing) #:select (file-meant))
-  #:use-module ((bight core options) #:select (bad-usage))
+  #:use-module ((bight core options) #:select (bad-usage check-there))
   #:use-module ((bight core programs) #:select (check-writable write-bytes))
   #:use-module (bight identify)
   #:use-module (bight identify found)
@@ -76,10 +75,6 @@
   (check-writable 'identify file)
   (write-bytes 'identify (string->utf8 (form-text i name)) file)
   (simple-format #t "wrote ~a: (type ~a)~%" file name))
-
-(define (check-there file)
-  (unless (file-exists? file)
-    (bad-usage "identify: there is no file ~s~a" file (file-meant file))))
 
 (define (identify-command files options)
   "Do bight identify of FILES with OPTIONS, an alist; return the exit status."

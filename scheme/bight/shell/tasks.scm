@@ -24,8 +24,7 @@
   (split-arguments name (command-options ((from (bight shell commands) command-called) name)) arguments))
 
 (define (run-script file arguments)
-  (unless (file-exists? file)
-    (bad-usage "there is no file ~s~a" file ((from (bight core missing) file-meant) file)))
+  (check-there file)
   (when (file-is-directory? file)
     (bad-usage "~s is a folder, not a script" file))
   (set-program-arguments (cons file arguments))
