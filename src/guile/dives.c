@@ -59,6 +59,14 @@ bt__to_idle_dive (const char *who, SCM object)
   return bt__to_dive (object);
 }
 
+/* Dives and forks come and go by the thousand, and their memory is not the collector's: whoever makes
+   one frees what was dropped before, by scm_run_finalizers, and tells the collector the size.  */
+void
+bt__tell_size (const bt_dive *dive)
+{
+  scm_gc_register_allocation (2 * bt_dive_state_size (dive));
+}
+
 /* The collector scans the handle, and so finds its procedure: a mark function of our own would run
    on the collector's helper threads, which Guile knows nothing of.  */
 bt__handle *
@@ -133,9 +141,9 @@ make_fork (SCM origin)
   if (fork && bt_dive_fork_again (fork, dive, &error) == BT_OK)
     return fork;
   bt_dive_free (fork);
-  scm_run_finalizers (); /* forks come and go by the thousand */
+  scm_run_finalizers ();
   bt__check ("what-if", bt_dive_fork (dive, &fork, &error), &error);
-  scm_gc_register_allocation (2 * bt_dive_state_size (fork)); /* as if the collector's */
+  bt__tell_size (fork);
   return fork;
 }
 

@@ -91,6 +91,8 @@ void bt__operate (const char *who, bt__handle *handle, bt_op op, int subject, co
 bt__handle *bt__new_handle (SCM function);
 SCM bt__from_handle (bt__handle *handle);
 bt__handle *bt__to_handle (SCM object);
+/* Tell the collector how much memory DIVE, just made, takes besides the collector's.  */
+void bt__tell_size (const bt_dive *dive);
 /* One at a time: what threads that share a live dive do to its handle.  */
 void bt__lock_sharing (void);
 void bt__unlock_sharing (void);

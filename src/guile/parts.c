@@ -299,12 +299,14 @@ make_dive (SCM parts)
   bt_model *model;
   bt_error error;
   bt_status status;
+  scm_run_finalizers ();
   bt__check_long (who, handle,
                   bt_model_new_polled (&r.world, bt__ask_guile, handle, &model, &error), &error);
   status = bt_dive_new_polled (model, asks ? bt__call_current : NULL, handle, bt__ask_guile, handle,
                                &handle->dive, &error);
   bt_model_release (model);
   bt__check_long (who, handle, status, &error);
+  bt__tell_size (handle->dive);
   scm_remember_upto_here_1 (parts);
   return bt__from_handle (handle);
 }
