@@ -111,6 +111,12 @@ int bt__has_jumped (const bt_dive *dive, bt__state *state, int i, double tension
 int bt__rides_stretch (bt_dive *dive, bt__state *state, int i, const bt__ends *ends);
 double bt__stretch_tension (const bt__tether *tether);
 
+/* bt__are_ends_foreseen returns true if the stretch of tether I has its ends at ENDS in the next
+   step.  bt__go_on_within takes tether I, with more of its stretch to come than the step, through
+   the step to ENDS, with what bt__step_chain notes in such a step (chain_stretch.c).  */
+int bt__are_ends_foreseen (const bt_dive *dive, bt__state *state, int i, const bt__ends *ends);
+void bt__go_on_within (bt_dive *dive, bt__state *state, int i, const bt__ends *ends);
+
 /* bt__most_pull_at returns what pulls end K of tether I to its place, N: a fixed point whatever it
    takes; a vehicle its pull, and what its other tethers pull against tether I.  bt__slips_at is
    true if end K slips where the tether pulls harder: a vehicle without mass holds it, and no

@@ -17,7 +17,8 @@
 #define TURNS 0.1       /* of its rate: a winch that turns more slowly may be stalling */
 enum
 {
-  STALLED_AFTER = 30 /* steps for which it hardly turned: a jerk alone stalls no winch */
+  STALLED_AFTER = 30, /* steps for which it hardly turned: a jerk alone stalls no winch */
+  CALM_EVERY = 30     /* steps between looks at the error of a line that is solved ahead */
 };
 
 /* True if a vehicle turns a clamp of tether I in this step.  */
@@ -261,10 +262,13 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
         bt__note_line_meetings (dive, state, i, part);
       return BT_OK;
     }
+  int64_t begun = state->step - tether->stretch.gone;
   if (bt__rides_stretch (dive, state, i, ends))
     {
       bt__watch_tension (state, tether, i, bt__stretch_tension (tether));
-      return bt__is_ahead (tether) ? BT_OK : bt__remesh_chain (dive, state, i, error);
+      return !bt__is_ahead (tether) && state->step / CALM_EVERY != begun / CALM_EVERY
+                 ? bt__remesh_chain (dive, state, i, error)
+                 : BT_OK;
     }
   status = bt__advance_as_asked (dive, state, i, ends, &report, error);
   if (status != BT_OK)

@@ -27,9 +27,10 @@
 #include "sim/chain.h"
 #include "world/layout.h"
 
-#define LATE 0.02 /* of the accuracy: the error of the steps of a second, at most, ... */
+#define LATE 0.05 /* of the accuracy: the error of the steps of a second, at most, ... */
 #define AT_ONCE                                                                                    \
-  0.25 /* s: ... and of one step that of so long, for errors to and fro add up to none */
+  0.25         /* s: ... and of one step that of so long, for errors to and fro add up to none */
+#define JUMP 2 /* tension accuracies: how far a tension may change within a stretch */
 #define ASTRAY 0.01  /* of the accuracy: how far an end may be from where the stretch has it */
 #define FOLLOWED 0.9 /* of the steps that the error would allow */
 #define GROWTH 2     /* times as long as the step before */
@@ -210,7 +211,7 @@ go_ahead (bt_dive *dive, bt__state *state, int i)
       double off = status == BT_OK ? error_of (dive, state, i) : INFINITY;
       if (off <= 1 && is_eventless (&p.tether, &report) && is_in_hand (dive, state, i)
           && went_clear (dive, state, i, &report)
-          && !bt__has_jumped (dive, state, i, report.tension, 1))
+          && !bt__has_jumped (dive, state, i, report.tension, JUMP))
         {
           begin_stretch (dive, state, i, steps, off, &report);
           return 1;
@@ -233,14 +234,19 @@ is_there (const bt__tether *tether, const bt__dynamic *chain, int64_t k, bt_vec3
   return bt__distance (has, at) <= ASTRAY * tether->props.accuracy;
 }
 
+int
+bt__are_ends_foreseen (const bt_dive *dive, bt__state *state, int i, const bt__ends *ends)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 1);
+  return is_there (tether, chain, 0, ends->a) && is_there (tether, chain, chain->n, ends->b);
+}
+
 /* True if the stretch of tether I holds for this step too, which takes its ends to ENDS.  */
 static int
 still_holds (const bt_dive *dive, bt__state *state, int i, const bt__ends *ends)
 {
-  const bt__tether *tether = bt__dive_tether (dive, state, i);
-  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 1);
-  return is_world_still (dive, state, i) && is_there (tether, chain, 0, ends->a)
-         && is_there (tether, chain, chain->n, ends->b);
+  return is_world_still (dive, state, i) && bt__are_ends_foreseen (dive, state, i, ends);
 }
 
 /* Step tether I on by a step of its stretch, its ends to ENDS.  */
@@ -261,6 +267,23 @@ go_on (bt_dive *dive, bt__state *state, int i, const bt__ends *ends)
   *s = (bt__stretch){ .next = s->next, .tension = { s->tension[1], s->tension[1] } };
 }
 
+/* Note that tether I was taken to ENDS.  */
+static void
+note_ends (bt__tether *tether, const bt__ends *ends)
+{
+  tether->shape.a = ends->a;
+  tether->shape.b = ends->b;
+}
+
+void
+bt__go_on_within (bt_dive *dive, bt__state *state, int i, const bt__ends *ends)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  go_on (dive, state, i, ends);
+  note_ends (tether, ends);
+  bt__watch_tension (state, tether, i, bt__stretch_tension (tether));
+}
+
 int
 bt__rides_stretch (bt_dive *dive, bt__state *state, int i, const bt__ends *ends)
 {
@@ -276,8 +299,7 @@ bt__rides_stretch (bt_dive *dive, bt__state *state, int i, const bt__ends *ends)
   else if (!is_calm (dive, state, i) || !is_world_still (dive, state, i)
            || longest_of (dive, state, i) < GROWTH || !go_ahead (dive, state, i))
     return 0;
-  tether->shape.a = ends->a;
-  tether->shape.b = ends->b;
+  note_ends (tether, ends);
   tether->shape.length = tether->length;
   tether->stale = 0;
   tether->settled = bt__chain_in_use (dive, state, i)->fastest < SETTLED;

@@ -107,11 +107,21 @@ toward_target (const bt_dive *dive, bt__state *state, bt__vehicle *v)
   return v->target;
 }
 
-/* The row of TRACK at or before time T, by bisection.  */
+/* The row of TRACK at or before time T, by bisection from a guess: most tracks have even rows.  */
 static int
 row_at (const bt__track *track, double t)
 {
   int low = 0, high = track->n - 1;
+  double first = track->row[0][0], last = track->row[high][0];
+  double guess = (t - first) / (last - first) * high;
+  if (high > 1 && guess >= 1 && guess < high - 1)
+    {
+      int at = (int)guess; /* 1 to high - 2 */
+      if (track->row[at - 1][0] <= t)
+        low = at - 1;
+      if (track->row[at + 2 < high ? at + 2 : high][0] > t)
+        high = at + 2 < high ? at + 2 : high;
+    }
   while (high - low > 1)
     {
       int middle = (low + high) / 2;
@@ -183,14 +193,17 @@ bt__foresee_vehicle (const bt_dive *dive, bt__state *state, int vehicle, int ste
   return n;
 }
 
+void
+bt__move_vehicle (const bt_dive *dive, bt__state *state, int vehicle)
+{
+  move_kinematically (dive, state, bt__dive_vehicle (dive, state, vehicle));
+}
+
 /* Those with mass are moved by forces (bodies.c).  */
 void
 bt__move_vehicles (const bt_dive *dive, bt__state *state)
 {
   for (int i = 0; i < dive->model->n_vehicles; i++)
-    {
-      bt__vehicle *v = bt__dive_vehicle (dive, state, i);
-      if (!v->rigid)
-        move_kinematically (dive, state, v);
-    }
+    if (!bt__dive_vehicle (dive, state, i)->rigid)
+      bt__move_vehicle (dive, state, i);
 }

@@ -112,6 +112,12 @@ pull_back (const bt_dive *dive, const bt__state *from, bt__state *state, int i, 
   return 1;
 }
 
+int
+bt__is_chord_taut (const bt__tether *tether, const bt__ends *ends)
+{
+  return bt__distance (ends->a, ends->b) >= tether->length * (1 - 1e-9);
+}
+
 void
 bt__note_taut (bt__state *state, bt__tether *tether, int i, int taut)
 {
@@ -152,9 +158,7 @@ bt__hold_at_tethers (const bt_dive *dive, const bt__state *from, bt__state *stat
       bt__ends ends = bt__tether_ends (dive, state, i);
       bt__tether *tether = bt__dive_tether (dive, state, i);
       if (tether->contact_form != BT__TETHER_SPANS) /* spans know by themselves */
-        bt__note_taut (state, tether, i,
-                       !tether->parted
-                           && bt__distance (ends.a, ends.b) >= tether->length * (1 - 1e-9));
+        bt__note_taut (state, tether, i, !tether->parted && bt__is_chord_taut (tether, &ends));
     }
 }
 

@@ -13,6 +13,17 @@
 /* Move the vehicles of STATE by one step as sticks, autopilots and tracks say (kinematics.c).  */
 void bt__move_vehicles (const bt_dive *dive, bt__state *state);
 
+/* The same of VEHICLE alone, without mass (kinematics.c).  */
+void bt__move_vehicle (const bt_dive *dive, bt__state *state, int vehicle);
+
+/* Take the present of DIVE, in open water and all its lines ahead of it, on by a step, in place and
+   to the bits of any other step, and return true; or leave the present as it is (glide.c).  */
+int bt__glides (bt_dive *dive);
+
+/* The step of a dive taken in the spare state, as bt_dive_step takes those that do not glide
+   (step.c).  */
+bt_status bt__step_aside (bt_dive *dive, bt_error *error);
+
 /* Return how many of the coming STEPS of VEHICLE, without mass, bring no event about; *TO is where
    all of them take it, if none does (kinematics.c).  */
 int bt__foresee_vehicle (const bt_dive *dive, bt__state *state, int vehicle, int steps,
@@ -128,6 +139,9 @@ bt_status bt__solve_static (bt_dive *dive, bt__state *state, int i, const bt__en
 
 /* Let every line that is ahead of the present be stepped on from the present (chain_stretch.c).  */
 void bt__leave_stretches (const bt_dive *dive, bt__state *state);
+
+/* True if the distance of ENDS makes TETHER taut (reach.c).  */
+int bt__is_chord_taut (const bt__tether *tether, const bt__ends *ends);
 
 /* Note whether tether I is TAUT, with the event `taut' or `slack' (reach.c).  */
 void bt__note_taut (bt__state *state, bt__tether *tether, int i, int taut);

@@ -1,7 +1,8 @@
 /* A dive begins, and steps.
 
-   The whole step stands in bt_dive_step: vehicles move, winches turn, taut tethers hold, changed
-   tethers are solved, and only then does the new state become the present.
+   The whole step stands in bt__step_aside: vehicles move, winches turn, taut tethers hold, changed
+   tethers are solved, and only then does the new state become the present.  A step in which all
+   that is known already is taken in place (glide.c).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -216,7 +217,7 @@ count_work (bt_dive *dive)
 }
 
 bt_status
-bt_dive_step (bt_dive *dive, bt_error *error)
+bt__step_aside (bt_dive *dive, bt_error *error)
 {
   bt_status status = try_step (dive, 0, error);
   for (int round = 1; status == BT_OK && round <= BT__TRIES && !agree (dive, dive->next); round++)
@@ -236,6 +237,12 @@ bt_dive_step (bt_dive *dive, bt_error *error)
   else
     dive->profile.steps++;
   return status;
+}
+
+bt_status
+bt_dive_step (bt_dive *dive, bt_error *error)
+{
+  return bt__glides (dive) ? BT_OK : bt__step_aside (dive, error);
 }
 
 int64_t

@@ -200,13 +200,21 @@ bt__dynamic_node_tension (const bt__dynamic *d, int i)
   return (t[i - 1] * rest[i] + t[i] * rest[i - 1]) / (rest[i - 1] + rest[i]);
 }
 
+/* A chain's arrays, looked up once for a walk along it.  */
+typedef struct walk
+{
+  int n;
+  const bt_vec3 *x;
+  const double *rest;
+} walk;
+
 /* The third derivative by arc length of the polynomial through nodes K - 1 to K + 2, of the second
    order: six times Newton's divided difference.  */
-static bt_vec3
-third_derivative (const bt__dynamic *d, int k)
+static inline bt_vec3
+third_derivative (const walk *w, int k)
 {
-  const bt_vec3 *x = bt__dynamic_x (d) + k - 1;
-  const double *h = bt__dynamic_rest (d) + k - 1;
+  const bt_vec3 *x = w->x + k - 1;
+  const double *h = w->rest + k - 1;
   bt_vec3 first[3], second[2];
   for (int i = 0; i < 3; i++)
     first[i] = bt__scale (1 / h[i], bt__sub (x[i + 1], x[i]));
@@ -218,16 +226,16 @@ third_derivative (const bt__dynamic *d, int k)
 /* The difference between the arc and the chord of interval J, along and across: minus a 24th of the
    third derivative and the cubed length; the derivative is extended to the ends.
    Nothing is known of it at a CORNER.  */
-static bt_vec3
-arc_defect (const bt__dynamic *d, int j, const uint8_t *corner)
+static inline bt_vec3
+arc_defect (const walk *w, int j, const uint8_t *corner)
 {
-  int n = (int)d->n, k = j < 1 ? 1 : j > n - 2 ? n - 2 : j;
-  double h = bt__dynamic_rest (d)[j];
+  int n = w->n, k = j < 1 ? 1 : j > n - 2 ? n - 2 : j;
+  double h = w->rest[j];
   if (corner && (corner[k] || corner[k + 1]))
     return bt__vec (0, 0, 0);
-  bt_vec3 third = third_derivative (d, k);
+  bt_vec3 third = third_derivative (w, k);
   if (k != j && n >= 4)
-    third = bt__axpy (bt__scale (2, third), -1, third_derivative (d, j < 1 ? 2 : n - 3));
+    third = bt__axpy (bt__scale (2, third), -1, third_derivative (w, j < 1 ? 2 : n - 3));
   return bt__scale (-h * h * h / 24, third);
 }
 
@@ -248,8 +256,8 @@ chord_error (const bt__dynamic *d)
 double
 bt__dynamic_space_error (const bt__dynamic *d, const uint8_t *corner)
 {
-  int n = (int)d->n;
-  const double *rest = bt__dynamic_rest (d);
+  const walk w = { (int)d->n, bt__dynamic_x (d), bt__dynamic_rest (d) };
+  int n = w.n;
   bt_vec3 all = { 0, 0, 0 }, sum = { 0, 0, 0 };
   double most = 0, length = 0, s = 0;
   if (n < 3)
@@ -258,14 +266,15 @@ bt__dynamic_space_error (const bt__dynamic *d, const uint8_t *corner)
     return chord_error (d);
   for (int j = 0; j < n; j++)
     {
-      all = bt__add (all, arc_defect (d, j, corner));
-      length += rest[j];
+      all = bt__add (all, arc_defect (&w, j, corner));
+      length += w.rest[j];
     }
   for (int j = 0; j < n; j++)
     {
-      sum = bt__add (sum, arc_defect (d, j, corner));
-      s += rest[j];
-      most = fmax (most, bt__norm (bt__axpy (sum, -s / length, all)));
+      sum = bt__add (sum, arc_defect (&w, j, corner));
+      s += w.rest[j];
+      bt_vec3 off = bt__axpy (sum, -s / length, all);
+      most = fmax (most, bt__dot (off, off));
     }
-  return most;
+  return sqrt (most);
 }

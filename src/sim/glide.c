@@ -1,0 +1,120 @@
+/* A glide: a step of the dive in which all its lines are ahead of the present, taken in place.
+
+   Where every line was solved ahead, what is left of a step in open water is to move the vehicles,
+   to see that they are where the lines were told, and to count.  A copy of the state for that is
+   dearer than all the rest, so the present itself is written to, once nothing can refuse the step
+   any more.  Any doubt (an end elsewhere, an arrival, a line about to be taut) leaves the present
+   as it was, and the step is taken as any other: with the same outcome to the bit, for each
+   quantity is found by the function that finds it there.
+
+   An operation on the sea, a tether or an obstacle ends all stretches (ops.c), so that within one
+   only vehicles and their orders can have changed.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <string.h>
+
+#include "math/vec.h"
+#include "sim/around.h"
+#include "sim/chain.h"
+
+/* ---- May it be? ---- */
+
+/* True if every tether of the present is ahead of it beyond the next step.  */
+static int
+are_all_ahead (const bt_dive *dive)
+{
+  int all = dive->model->n_tethers > 0;
+  for (int i = 0; all && i < dive->model->n_tethers; i++)
+    {
+      const bt__tether *tether = bt__dive_tether (dive, dive->now, i);
+      all = bt__is_ahead (tether) && tether->stretch.gone + 1 < tether->stretch.span;
+    }
+  return all;
+}
+
+static int
+are_all_kinematic (const bt_dive *dive)
+{
+  for (int i = 0; i < dive->model->n_vehicles; i++)
+    if (bt__dive_vehicle (dive, dive->now, i)->rigid)
+      return 0;
+  return 1;
+}
+
+/* ---- Vehicles ---- */
+
+/* Move the vehicles of the present by a step, the spare state keeping them as they were; return
+   true if that brought no event about.  */
+static int
+move (bt_dive *dive)
+{
+  bt__state *now = dive->now;
+  size_t size = sizeof (bt__vehicle) * (size_t)dive->model->n_vehicles;
+  memcpy (bt__dive_vehicle (dive, dive->next, 0), bt__dive_vehicle (dive, now, 0), size);
+  int64_t events = now->events;
+  bt_event slot = now->event[events % BT_EVENTS_KEPT];
+  for (int i = 0; i < dive->model->n_vehicles; i++)
+    {
+      bt__move_vehicle (dive, now, i);
+      bt__dive_vehicle (dive, now, i)->held = 0;
+      if (now->events != events)
+        {
+          now->event[events % BT_EVENTS_KEPT] = slot;
+          now->events = events;
+          return 0;
+        }
+    }
+  return 1;
+}
+
+static void
+move_back (bt_dive *dive)
+{
+  size_t size = sizeof (bt__vehicle) * (size_t)dive->model->n_vehicles;
+  memcpy (bt__dive_vehicle (dive, dive->now, 0), bt__dive_vehicle (dive, dive->next, 0), size);
+}
+
+/* ---- Lines ---- */
+
+/* True if every line can go on with its ends where the moved vehicles have them: it is not taut,
+   and its stretch holds.  */
+static int
+do_all_hold (const bt_dive *dive)
+{
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    {
+      const bt__tether *tether = bt__dive_tether (dive, dive->now, i);
+      bt__ends ends = bt__tether_ends (dive, dive->now, i);
+      if (tether->taut || bt__is_chord_taut (tether, &ends)
+          || !bt__are_ends_foreseen (dive, dive->now, i, &ends))
+        return 0;
+    }
+  return 1;
+}
+
+int
+bt__glides (bt_dive *dive)
+{
+  bt__state *now = dive->now;
+  if (dive->model->n_obstacles > 0 || dive->model->n_hulls > 0 || !are_all_ahead (dive)
+      || !are_all_kinematic (dive) || bt__ask (&dive->asker))
+    return 0;
+  now->step++;
+  if (!move (dive) || !do_all_hold (dive))
+    {
+      now->step--;
+      move_back (dive);
+      return 0;
+    }
+  for (int i = 0; i < dive->model->n_tethers; i++)
+    {
+      bt__ends ends = bt__tether_ends (dive, now, i);
+      bt__go_on_within (dive, now, i, &ends);
+    }
+  bt__note_all_partings (dive, now);
+  bt__note_stuck (dive, now);
+  dive->changes++;
+  dive->profile.steps++;
+  return 1;
+}
