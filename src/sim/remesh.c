@@ -3,7 +3,8 @@
    Model `auto' chooses the number of nodes by the accuracy asked for.  The discretisation error is
    estimated from the curvature of the line and falls with the square of the number of nodes.  The
    line gets more nodes if the estimate exceeds the accepted error, and fewer if the estimate is far
-   below; the gap between the two bounds is the hysteresis.
+   below; the gap between the two bounds is the hysteresis.  The new nodes lie on a smooth curve through
+   the old ones, but for what keeps the tensions (tether/dynamic_fit.c).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -121,6 +122,16 @@ sample (bt_dive *dive, const bt__line *line, int n)
   straighten (line->chain, length, dive->polyline, n);
 }
 
+/* Take N + 1 points off LINE that keep its tensions; where there are none, points of its curve.  */
+static void
+sample_tensions (bt_dive *dive, const bt__line *line, int n)
+{
+  sample (dive, line, n);
+  bt__dynamic_measure (line->chain, n, dive->fit);
+  if (!bt__dynamic_fit (dive->polyline, dive->motion, n, dive->fit))
+    sample (dive, line, n);
+}
+
 static bt_status
 lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
 {
@@ -130,7 +141,7 @@ lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
   bt_vec3 pull[2] = { chain->pull[0], chain->pull[1] };
   double length = bt__line_length (&line);
   bt_status status;
-  sample (dive, &line, n);
+  sample_tensions (dive, &line, n);
   if (bt__has_obstacles (dive) && !bt__may_remesh (dive, state, i, n))
     return BT_OK;
   status = bt__dynamic_init (chain, bt__chain_room (&dive->model->tethers[i]), n, dive->polyline,

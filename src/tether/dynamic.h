@@ -121,6 +121,23 @@ extern const bt__record bt__dynamic_record;
    whole of it as seen.  What the functions above need of a block holds if it is sound.  */
 bt_status bt__dynamic_judge (bt__judge *judge, const bt__dynamic *d, int room);
 
+/* An interval of another mesh of a line: what its chord is to be, and what is needed to find
+   nodes for that.  */
+typedef struct bt__fit
+{
+  double rest;         /* m */
+  double length, rate; /* m, m/s: of its chord */
+  bt_vec3 along;       /* unit vector; 0: slack, and so short that nothing is asked of it */
+  double off, pivot, force;
+} bt__fit;
+
+/* bt__dynamic_measure tells in FIT what N equal intervals of the line of D, which has no surplus of
+   arcs, are to be for their tensions to be those of D.  bt__dynamic_fit moves the inner ones of the
+   N + 1 points X, and changes their velocities V, by the least that makes them so, and returns
+   true; or returns false if no such points were found near by: X is then anywhere.  */
+void bt__dynamic_measure (const bt__dynamic *d, int n, bt__fit *fit);
+int bt__dynamic_fit (bt_vec3 *x, bt_vec3 *v, int n, bt__fit *fit);
+
 /* Take all motion out of D and forget its history.  */
 void bt__dynamic_still (bt__dynamic *d);
 

@@ -65,8 +65,9 @@ make_tools (bt_dive *dive, bt_error *error)
   dive->along = calloc (points, sizeof *dive->along);
   dive->motion = calloc (points, sizeof *dive->motion);
   dive->corner = calloc (points, sizeof *dive->corner);
+  dive->fit = calloc (points, sizeof *dive->fit);
   if (!dive->tools.search || !dive->tools.steady || !dive->work || !dive->polyline || !dive->motion
-      || !dive->corner || !dive->along)
+      || !dive->corner || !dive->along || !dive->fit)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the solvers of a dive");
   bt__steady_ask (dive->tools.steady, &dive->asker);
   bt__dynamic_ask (dive->work, &dive->asker);
@@ -259,6 +260,7 @@ bt_dive_free (bt_dive *dive)
   free (dive->motion);
   free (dive->corner);
   free (dive->along);
+  free (dive->fit);
   free (dive->driven);
   free (dive->sea);
   free (dive->line);

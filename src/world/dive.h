@@ -149,6 +149,7 @@ struct bt_dive
   bt_vec3 *motion;        /* room for a velocity at each */
   bt_vec3 *corner;        /* room for as many points again */
   double *along;          /* room for a number at each */
+  bt__fit *fit;           /* room for an interval of another mesh at each */
   bt_sea *sea;            /* beside the current: in the next state, and in the present */
   bt__driven *driven;     /* of each vehicle */
   bt__contact_work contact_work;

@@ -1,0 +1,194 @@
+/* Nodes of a line of model `auto' come and go without moving its tension.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "math/vec.h"
+#include "testbed/profile.h"
+#include "testbed/scene.h"
+
+enum
+{
+  LINES = 24,
+  SECOND = 60 /* steps */
+};
+
+/* N, and a share of the tension: less counts as nothing.  A line as laid is measured beside them.
+ */
+#define LEAST 5.0
+#define SHARE 0.02
+
+static double
+lot (uint64_t *seed, double low, double high)
+{
+  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+  return low + (high - low) * (double)(*seed >> 11) / 9007199254740992.0;
+}
+
+/* A line that hangs or lies in a current between a point and a vehicle, from slack to nearly
+   straight, from soft to stiff.  */
+static bt_dive *
+begin (uint64_t seed, double accuracy)
+{
+  static scene s;
+  uint64_t r = seed;
+  double length = lot (&r, 10, 100), way = length * (1 - pow (10, lot (&r, -3, -0.5))),
+         rise = lot (&r, -0.5, 0.5);
+  scene_clear (&s);
+  s.world.sea.depth = 500;
+  scene_current (&s, bt__vec (lot (&r, -0.3, 0.3), lot (&r, 0.05, 0.6), 0));
+  scene_vehicle (&s, bt__vec (way * sqrt (1 - rise * rise), 0, -150 + way * rise))->pull = 1e7;
+  bt_tether_def *line = scene_line (&s, bt__vec (0, 0, -150), length, 20);
+  line->props.model = BT_MODEL_AUTO;
+  line->props.ea = pow (10, lot (&r, 3.5, 7));
+  line->props.wet_weight = lot (&r, 0, 1);
+  line->props.accuracy = accuracy;
+  return scene_begin (&s.world);
+}
+
+static void
+ask (bt_dive *dive, bt_tether_view *v)
+{
+  bt_error error;
+  scene_must (bt_dive_tether (dive, 0, v, &error), &error);
+}
+
+/* The most that either end's tension is off FIRST in the next COUNT steps, as a share of what it
+   may be off.  */
+static double
+largest_jump (bt_dive *dive, const bt_tether_view *first, int count)
+{
+  double most = 0;
+  for (int k = 0; k < count; k++)
+    {
+      bt_tether_view v;
+      scene_run (dive, 1);
+      ask (dive, &v);
+      double may = fmax (LEAST, SHARE * first->tension_max);
+      most = fmax (most, fabs (v.tension_end - first->tension_end) / may);
+      most = fmax (most, fabs (v.tension_anchor - first->tension_anchor) / may);
+    }
+  return most;
+}
+
+static void
+ask_for (bt_dive *dive, double accuracy)
+{
+  bt_error error;
+  scene_must (bt_part_alter (dive, BT_PART_TETHER, 0, "accuracy", accuracy, &error), &error);
+}
+
+/* Let the vehicle creep across the line, lest the line sleep.  */
+static void
+creep (bt_dive *dive)
+{
+  bt_error error;
+  bt_vehicle_view v;
+  scene_must (bt_dive_vehicle (dive, 0, &v, &error), &error);
+  bt_flight flight = { bt__add (v.position, bt__vec (0, 1, 0)), 5e-4 };
+  scene_must (bt_vehicle_move (dive, 0, &flight, &error), &error);
+}
+
+/* At rest, all but, with few nodes and many by turns.  */
+static void
+test_at_rest (void **state)
+{
+  int remeshed = 0, wrong = 0;
+  (void)state;
+  for (uint64_t f = 1; f <= LINES; f++)
+    {
+      bt_dive *dive = begin (f, 0.002);
+      creep (dive);
+      scene_run (dive, 60 * SECOND);
+      for (int turn = 0; turn < 4; turn++)
+        {
+          bt_tether_view first, then;
+          ask (dive, &first);
+          ask_for (dive, turn % 2 ? 0.002 : 0.1);
+          double most = largest_jump (dive, &first, 2 * SECOND);
+          ask (dive, &then);
+          remeshed += then.nodes != first.nodes;
+          if (most > 1)
+            {
+              wrong++;
+              print_message ("line %d, turn %d: %d to %d nodes, %g times as much, of %g N\n",
+                             (int)f, turn, first.nodes, then.nodes, most, first.tension_max);
+            }
+        }
+      bt_dive_free (dive);
+    }
+  print_message ("%d remeshed\n", remeshed);
+  assert_true (remeshed > 2 * LINES);
+  assert_int_equal (wrong, 0);
+}
+
+/* In motion: beside the same line that keeps its nodes, and with its kinetic energy.  */
+static void
+test_in_motion (void **state)
+{
+  int remeshed = 0, wrong = 0;
+  (void)state;
+  for (uint64_t f = 1; f <= LINES; f++)
+    {
+      bt_dive *dive[2];
+      bt_tether_view v[2];
+      bt_energy e[2];
+      for (int k = 0; k < 2; k++)
+        {
+          bt_error error;
+          bt_vehicle_view at;
+          dive[k] = begin (f, 0.01);
+          scene_must (bt_dive_vehicle (dive[k], 0, &at, &error), &error);
+          bt_flight flight = { bt__axpy (at.position, -0.2, bt__vec (20, 30, 10)), 0.3 };
+          scene_must (bt_vehicle_move (dive[k], 0, &flight, &error), &error);
+          scene_run (dive[k], 10 * SECOND);
+        }
+      ask_for (dive[1], 0.1);
+      double most = 0;
+      for (int n = 0; n < SECOND; n++)
+        {
+          for (int k = 0; k < 2; k++)
+            {
+              bt_error error;
+              scene_run (dive[k], 1);
+              ask (dive[k], &v[k]);
+              scene_must (bt_tether_energy (dive[k], 0, &e[k], &error), &error);
+            }
+          double may = fmax (LEAST, SHARE * v[0].tension_max);
+          most = fmax (most, fabs (v[1].tension_end - v[0].tension_end) / may);
+          most = fmax (most, fabs (v[1].tension_anchor - v[0].tension_anchor) / may);
+          if (fabs (e[1].kinetic - e[0].kinetic) > 0.05 * e[0].kinetic + 0.01)
+            most = fmax (most, 100);
+        }
+      remeshed += v[1].nodes != v[0].nodes;
+      if (most > 1)
+        {
+          wrong++;
+          print_message ("line %d: %d to %d nodes, %g times as much, of %g N; %g J of %g\n", (int)f,
+                         v[0].nodes, v[1].nodes, most, v[0].tension_max, e[1].kinetic,
+                         e[0].kinetic);
+        }
+      bt_dive_free (dive[0]);
+      bt_dive_free (dive[1]);
+    }
+  print_message ("%d remeshed\n", remeshed);
+  assert_true (remeshed > LINES / 2);
+  assert_int_equal (wrong, 0);
+}
+
+int
+main (void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test (test_at_rest),
+    cmocka_unit_test (test_in_motion),
+  };
+  return cmocka_run_group_tests (tests, NULL, NULL);
+}
