@@ -93,8 +93,9 @@ do_all_hold (const bt_dive *dive)
   return 1;
 }
 
-int
-bt__glides (bt_dive *dive)
+/* Take the present on by a step in place and return true; or leave it as it is.  */
+static int
+glides (bt_dive *dive)
 {
   bt__state *now = dive->now;
   if (dive->model->n_obstacles > 0 || dive->model->n_hulls > 0 || !are_all_ahead (dive)
@@ -117,4 +118,10 @@ bt__glides (bt_dive *dive)
   dive->changes++;
   dive->profile.steps++;
   return 1;
+}
+
+bt_status
+bt_dive_step (bt_dive *dive, bt_error *error)
+{
+  return glides (dive) ? BT_OK : bt__step_aside (dive, error);
 }

@@ -16,12 +16,8 @@ void bt__move_vehicles (const bt_dive *dive, bt__state *state);
 /* The same of VEHICLE alone, without mass (kinematics.c).  */
 void bt__move_vehicle (const bt_dive *dive, bt__state *state, int vehicle);
 
-/* Take the present of DIVE, in open water and all its lines ahead of it, on by a step, in place and
-   to the bits of any other step, and return true; or leave the present as it is (glide.c).  */
-int bt__glides (bt_dive *dive);
-
 /* The step of a dive taken in the spare state, as bt_dive_step takes those that do not glide
-   (step.c).  */
+   in place (step.c).  */
 bt_status bt__step_aside (bt_dive *dive, bt_error *error);
 
 /* Return how many of the coming STEPS of VEHICLE, without mass, bring no event about; *TO is where

@@ -239,12 +239,6 @@ bt__step_aside (bt_dive *dive, bt_error *error)
   return status;
 }
 
-bt_status
-bt_dive_step (bt_dive *dive, bt_error *error)
-{
-  return bt__glides (dive) ? BT_OK : bt__step_aside (dive, error);
-}
-
 int64_t
 bt_dive_steps (const bt_dive *dive)
 {

@@ -55,7 +55,7 @@ bt__dynamic_measure (const bt__dynamic *d, int n, bt__fit *fit)
 
 /* What interval K of X is off its length, m; 0 if it is slack and may be.  */
 static double
-excess (const bt_vec3 *x, const bt__fit *fit, int k)
+too_long (const bt_vec3 *x, const bt__fit *fit, int k)
 {
   double off = bt__distance (x[k], x[k + 1]) - fit[k].length;
   return fit[k].length > fit[k].rest || off > 0 ? off : 0;
@@ -63,12 +63,12 @@ excess (const bt_vec3 *x, const bt__fit *fit, int k)
 
 /* Look at the chords of X anew; return the most that one is off, as a share of its length.  */
 static double
-look (const bt_vec3 *x, int n, bt__fit *fit)
+look_at_chords (const bt_vec3 *x, int n, bt__fit *fit)
 {
   double most = 0;
   for (int k = 0; k < n; k++)
     {
-      double off = excess (x, fit, k);
+      double off = too_long (x, fit, k);
       int held = fit[k].length > fit[k].rest || off > 0;
       fit[k].along = bt__unit_or (bt__sub (x[k + 1], x[k]), bt__vec (0, 0, 0));
       if (!held)
@@ -117,7 +117,7 @@ bt__dynamic_fit (bt_vec3 *x, bt_vec3 *v, int n, bt__fit *fit)
   do
     {
       before = off;
-      off = look (x, n, fit);
+      off = look_at_chords (x, n, fit);
       if (off > EXACT && round < ROUNDS)
         project (x, n, fit);
     }
