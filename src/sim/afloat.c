@@ -26,6 +26,7 @@ typedef struct arch
 } arch;
 
 #define HAIR 1e-9  /* m: a node lifted out of the water by rounding is not in air */
+#define ASIDE 1e-6 /* of the current: less of it across the feet is rounding and tells no side */
 #define DEEPER 0.1 /* of the length between nodes: cubics rise less above the nodes */
 
 static const bt_vec3 up = { 0, 0, 1 };
@@ -81,7 +82,7 @@ static void
 lay_down (bt_vec3 *x, const arch *a, bt_vec3 downstream)
 {
   bt_vec3 e = along_feet (x, a), side = bt__unit_or (bt__cross (up, e), bt__vec (1, 0, 0));
-  if (bt__dot (side, downstream) < 0)
+  if (bt__dot (side, downstream) < -ASIDE * bt__norm (downstream))
     side = bt__scale (-1, side);
   for (int k = a->first; k <= a->last; k++)
     {

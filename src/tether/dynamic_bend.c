@@ -11,8 +11,8 @@
    into account as much as leaves every block positive; Newton's way finds the rest.
 
    The energy of bending also falls when a bent interval shortens, as if it were pushed by EI
-   kappa^2 (the multiplier of |r'| = 1 is the tension less EI kappa^2).  The tension that is told
-   has that thrust in it, as it is at the start of the step.
+   kappa^2.  A line bent to a circle would so be shorter by EI kappa^2 / EA, and no circle between
+   clamps: the intervals push back by that thrust, as it is at the start of the step.
 
    Damping of bending adds D dw/dt / cell to the moment of a node.  The backward difference of w is
    linear in the positions, so a damped row is a row again: stiffer by D b0, about another turn.
@@ -139,7 +139,6 @@ prepare_thrust (bt__dynamic_work *w)
       bt__link *k = w->link + j;
       double after = j + 1 < w->n ? thrusting_square (w, j + 1) : before;
       k->thrust = bt__thrust_of (w->in->line->ei, j ? before : after, after);
-      k->zero -= k->thrust / k->ka;
       before = after;
     }
 }

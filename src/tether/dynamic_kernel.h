@@ -59,7 +59,7 @@ typedef struct bt__extra
 typedef struct bt__link
 {
   double rest, ka, zero; /* m, N/m, m: length of no tension */
-  double thrust;         /* N: of bending, in the tension, see dynamic_bend.c */
+  double thrust;         /* N: what bending pushes it together with, see dynamic_bend.c */
   double start;          /* m: length at the start */
   double tension;        /* N: of the line */
   bt_vec3 t;             /* unit tangent */

@@ -40,6 +40,17 @@ whichever way a vehicle looks that carries the clamp in its own axes."
   (expect (y (point-at (/ pi 2))) is (about 1 #:within 2e-3))
   (expect (norm (tether-force)) is (below 0.02)))  ; E I / R^2 is 2 N
 
+(define-scenario half-a-circle-of-a-line-that-stretches
+  "Bending shortens no line: half a circle is one even where E I / (E A R^2), by which it would, is a twentieth."
+  (enter! (world (sea (depth 60))
+                 (rov (named v) (type kinematic) (at 2 0 -10) (pull 1e6))
+                 (tether (named l) (type fathom) (wet-weight 0) (ea 1e5) (ei 5000) (bending-damping 50) (from 0 0 -10)
+                         (breaking-load 1e6) (from-along 0 1 0) (to v) (to-along 0 1 0) (length pi) (nodes 80)
+                         (model dynamic))))
+  (run 20)
+  (expect (off-a-circle 20 1 '(1 0 -10)) is (below 1e-3))
+  (expect (norm (tether-force)) is (below 5))) ; E I / R^2 is 5000 N
+
 (define-scenario a-clamp-turns-with-its-vehicle
   "A vehicle that turns where it stands turns the clamp, and wakes a line that had come to rest."
   (enter! (world (sea (depth 60))
