@@ -292,6 +292,7 @@ typedef struct bt_profile
   uint64_t chain_sleeps;              /* steps it slept through */
   uint64_t chain_remeshes;            /* by model `auto' */
   uint64_t chain_safeguarded, chain_unconverged;
+  uint64_t chain_slips; /* turns of lines whose layers slip, added up over the steps */
   /* Work for obstacles, all zero in a world without: segments asked about, boxes visited, parts
      measured, segments known to be clear, casts; contacts, added up over the steps; steps solved
      again after a hit; steps in which continuous collision detection held nodes back.  */

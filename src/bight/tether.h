@@ -76,6 +76,8 @@ typedef struct bt_tether_props
   double gj;                   /* N m2 */
   double ba;                   /* internal damping, N s */
   double bending_damping;      /* N m2 s: of a change of curvature */
+  double ei_stuck;             /* N m2: while its layers stick to each other; 0: as EI */
+  double slip_curvature;       /* 1/m: at which the layers of a straight line slip; 0: always */
   double cdn, cdt, ca;         /* drag on D, on pi D; added mass per displaced mass */
   double friction;             /* Coulomb */
   double breaking_load;        /* N */

@@ -130,6 +130,7 @@ static const struct
   { "chain-remeshes", offsetof (bt_profile, chain_remeshes) },
   { "chain-safeguarded", offsetof (bt_profile, chain_safeguarded) },
   { "chain-unconverged", offsetof (bt_profile, chain_unconverged) },
+  { "chain-slips", offsetof (bt_profile, chain_slips) },
   { "still-water-shapes", offsetof (bt_profile, current_samples_skipped) },
   { "links-asked", offsetof (bt_profile, links_asked) },
   { "boxes-visited", offsetof (bt_profile, boxes_visited) },

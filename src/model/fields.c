@@ -189,6 +189,11 @@ static const bt_field tether_fields[] = {
   PROP (ba, "ba", "N s", 20, 0, 1e9, 0, NULL, "internal damping"),
   PROP (bending_damping, "bending-damping", "N m2 s", 0, 0, 1e9, 0, NULL,
         "internal damping of bending, of the moving line"),
+  PROP (ei_stuck, "ei-stuck", "N m2", 0, 0, 1e9, 0, NULL,
+        "bending stiffness of the moving line while the layers of its armour stick to each other, "
+        "more than `ei', which is that of layers that slip; 0: as `ei'"),
+  PROP (slip_curvature, "slip-curvature", "1/m", 0, 0, 1000, 0, NULL,
+        "the curvature at which the layers of a straight line slip; 0: they always do"),
   PROP (cdn, "cdn", "", 1.2, 0, 20, 0, NULL, "normal drag coefficient, on the diameter"),
   PROP (cdt, "cdt", "", 0.01, 0, 5, 0, NULL, "tangential drag coefficient, on the circumference"),
   PROP (ca, "ca", "", 1, 0, 10, 0, NULL, "normal added mass per displaced mass"),

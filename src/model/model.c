@@ -158,10 +158,30 @@ check_lumps (const bt_tether_def *tether, bt_error *error)
 
 #define SET_TURN 1.0 /* radians: the most that a set may turn a line within one interval */
 
+static bt_status
+check_layers (const bt_tether_props *p, const bt_tether_def *tether, bt_error *error)
+{
+  if (p->ei_stuck > 0 && !(p->ei > 0 && p->ei_stuck >= p->ei))
+    return bt__fail (
+        error, BT_ERR_DOMAIN,
+        "`ei-stuck' of tether `%s' is %g N m2, `ei' %g: it is stiffest while its layers "
+        "stick, and has an `ei' of more than 0 while they slip",
+        tether->name, p->ei_stuck, p->ei);
+  if (p->ei_stuck > 0 && tether->n_sets > 0)
+    return bt__fail (error, BT_ERR_UNSUPPORTED,
+                     "tether `%s' has a set and layers that slip; a line may have one of them. "
+                     "Without `ei-stuck' it keeps its set",
+                     tether->name);
+  return BT_OK;
+}
+
 /* A set and a clamp are affairs of bending, in a line that moves.  */
 bt_status
 bt__bears_bends (const bt_tether_props *p, const bt_tether_def *tether, bt_error *error)
 {
+  bt_status status = check_layers (p, tether, error);
+  if (status != BT_OK)
+    return status;
   const char *has = tether->n_sets > 0 ? "has a set" : "is clamped";
   if (!(tether->n_sets > 0) && !bt__is_clamped (tether, 0) && !bt__is_clamped (tether, 1))
     return BT_OK;

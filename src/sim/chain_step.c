@@ -54,6 +54,7 @@ bt__step_part (bt_dive *dive, bt__state *state, int i, int part, const bt__dynam
     bt__wear_chain (dive, state, i, part);
   dive->profile.chain_parts += dive->contact_work.since > 0 || dive->contact_work.left > 0;
   dive->profile.chain_solves += (uint64_t)report->solves;
+  dive->profile.chain_slips += (uint64_t)report->slips;
   dive->profile.chain_safeguarded += report->safeguarded != 0;
   dive->profile.chain_unconverged += !report->converged;
   return status;

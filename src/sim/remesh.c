@@ -142,6 +142,8 @@ lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
   double length = bt__line_length (&line);
   bt_status status;
   sample_tensions (dive, &line, n);
+  if (bt__slips (&tether->props))
+    bt__slipped_along (chain, n, dive->corner);
   if (bt__has_obstacles (dive) && !bt__may_remesh (dive, state, i, n))
     return BT_OK;
   status = bt__dynamic_init (chain, bt__chain_room (&dive->model->tethers[i]), n, dive->polyline,
@@ -150,6 +152,8 @@ lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
     return status;
   memcpy (bt__dynamic_v (chain), dive->motion, sizeof (bt_vec3) * (size_t)(n + 1));
   memcpy (bt__dynamic_tension (chain), dive->along, sizeof (double) * (size_t)n);
+  if (bt__slips (&tether->props))
+    memcpy (bt__dynamic_load (chain), dive->corner, sizeof (bt_vec3) * (size_t)(n + 1));
   chain->pull[0] = pull[0];
   chain->pull[1] = pull[1];
   dive->profile.chain_remeshes++;

@@ -29,11 +29,11 @@ bt__dynamic_work_free (bt__dynamic_work *w)
 {
   if (!w)
     return;
-  void *arrays[]
-      = { w->X,    w->d,         w->rhs,       w->keep,     w->last,  w->lam,   w->link,
-          w->node, w->extra,     w->diag,      w->off,      w->up,    w->up2,   w->pivot,
-          w->bend, w->bend_diag, w->bend_off,  w->bend_far, w->whole, w->spare, w->by_flow,
-          w->kept, w->crumple,   w->exchanged, w->natural,  w->twist, w->felt,  w->round };
+  void *arrays[] = { w->X,       w->d,     w->rhs,     w->keep,      w->last,     w->lam,
+                     w->link,    w->node,  w->extra,   w->diag,      w->off,      w->up,
+                     w->up2,     w->pivot, w->bend,    w->bend_diag, w->bend_off, w->bend_far,
+                     w->whole,   w->spare, w->by_flow, w->kept,      w->crumple,  w->exchanged,
+                     w->natural, w->twist, w->felt,    w->round,     w->slip,     w->slip_rest };
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
     free (arrays[i]);
   free (w);
@@ -67,7 +67,8 @@ bt__dynamic_work_new (int n_max)
         && (w->natural = calloc (n, sizeof *w->natural))
         && (w->twist = calloc (n, sizeof *w->twist)) && (w->felt = calloc (n, sizeof *w->felt))
         && (w->kept = calloc (n, sizeof *w->kept)) && (w->crumple = calloc (n, sizeof *w->crumple))
-        && (w->round = calloc (n, sizeof *w->round));
+        && (w->round = calloc (n, sizeof *w->round)) && (w->slip = calloc (n, sizeof *w->slip))
+        && (w->slip_rest = calloc (n, sizeof *w->slip_rest));
   if (whole)
     return w;
   bt__dynamic_work_free (w);
@@ -107,6 +108,9 @@ check_input (const bt__dynamic *d, const bt__dynamic_work *w, const bt__dynamic_
         "the line has mass %g kg/m, EA %g N, EI %g N m2, damping %g N s, diameter %g m;"
         " mass and EA must be positive, nothing negative",
         p->mass, p->ea, p->ei, p->ba, p->diameter);
+  if (bt__slips (p) && (in->n_sets > 0 || in->order == 4))
+    return bt__fail (error, BT_ERR_UNSUPPORTED,
+                     "a line whose layers slip has no set and is stepped in the second order");
   for (int k = 0; k < 2; k++)
     if (!in->end[k].free && !bt__is_finite (in->end[k].at))
       return bt__fail (error, BT_ERR_DOMAIN, "end %d of the line is not at a finite place", k);

@@ -91,7 +91,9 @@ bt_vec3 *bt__dynamic_x (const bt__dynamic *d);     /* m: positions */
 bt_vec3 *bt__dynamic_v (const bt__dynamic *d);     /* m/s: velocities */
 bt_vec3 *bt__dynamic_dx (const bt__dynamic *d);    /* m: motion in the last step */
 bt_vec3 *bt__dynamic_vp (const bt__dynamic *d);    /* m/s: velocities one step before */
-bt_vec3 *bt__dynamic_load (const bt__dynamic *d);  /* N: fourth-order part of the loads */
+bt_vec3 *bt__dynamic_load (const bt__dynamic *d);  /* N: fourth-order part of the loads; of a line
+                                                      of second order the curvature, 1/m, by which
+                                                      layers have slipped, see dynamic_slip.c */
 bt_vec3 *bt__dynamic_chord (const bt__dynamic *d); /* m: fourth-order part of the chords; of a line
                                                       of second order (crumple, BT__BEARS, surplus
                                                       over the line), zero where absent */
@@ -203,15 +205,15 @@ typedef struct bt__dynamic_mesh
 typedef struct bt__dynamic_input
 {
   const bt_tether_props *line; /* diameter, mass, wet_weight, ea, ei, ba,
-                                  bending_damping, cdn, cdt, ca */
+                                  bending_damping, ei_stuck, slip_curvature, cdn, cdt, ca */
   const bt_water *water;       /* TIME at the end of the step; density 0: no water */
   bt__dynamic_end end[2];
   const bt__dynamic_lump *lumps;
   int n_lumps;
   const bt__dynamic_set *sets; /* want bending stiffness; overlapping sets add up */
-  int n_sets;
-  double h;    /* s */
-  double pay;  /* m/s of line through the winch end, out positive */
+  int n_sets;                  /* not of a line whose layers slip */
+  double h;                    /* s */
+  double pay;                  /* m/s of line through the winch end, out positive */
   double hold; /* N: what the winch holds; a line that pulls harder draws line from it; 0: all */
   double room; /* m: how much it may draw in the step, beyond PAY */
   double tolerance; /* of the length: last update of a solved step; 0: 1e-5, less in steps below
@@ -235,6 +237,7 @@ typedef struct bt__dynamic_report
   int at;                     /* ... and its interval, to be held against the breaking load */
   double bend_radius;         /* m: the tightest, INFINITY if straight */
   int bend_at;                /* its node */
+  int slips;                  /* nodes whose layers may slip */
   bt__dynamic_drift drift;    /* m: of the step */
 } bt__dynamic_report;
 
@@ -323,6 +326,13 @@ int bt__place_sets (const bt_set *sets, int n, double length, double beyond, bt_
    shortest way.  */
 bt_vec3 bt__set_side (bt_vec3 direction);
 bt_vec3 bt__set_carry (bt_vec3 side, bt_vec3 from, bt_vec3 to);
+
+/* True if the layers of a line of P stick and slip.  */
+int bt__slips (const bt_tether_props *p);
+
+/* Write the curvatures, 1/m, by which the layers of D have slipped at N + 1 places evenly along it
+   to OUT.  */
+void bt__slipped_along (const bt__dynamic *d, int n, bt_vec3 *out);
 
 /* Return the energies of the line (not its lumps) as INPUT has it.  */
 bt__dynamic_energy bt__dynamic_energies (const bt__dynamic *d, const bt__dynamic_input *input);

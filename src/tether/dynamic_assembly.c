@@ -376,7 +376,7 @@ bt__dynamic_assemble (bt__dynamic_work *w, bt__mode mode)
   if (w->surfaced)
     bt__dynamic_surface_force (w);
   if (w->bends > 0)
-    bt__dynamic_bend_force (w);
+    bt__dynamic_bend_force (w, mode);
   if (bt__dynamic_touches (w))
     changed |= bt__dynamic_contact_assemble (w, mode);
   return changed;

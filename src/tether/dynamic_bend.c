@@ -117,8 +117,8 @@ pushed_most (const bt__dynamic_work *w, double ei)
   return SAFELY * fmax (2 * sqrt (inertia * ei), inertia * l * l / 4);
 }
 
-/* The square of the turn of node I; with a set, the product of the turn and the turn beyond the
-   natural one.  */
+/* The square of the curvature at node I; with a set, the product of the curvature and the curvature
+   beyond the natural one.  */
 static double
 thrusting_square (const bt__dynamic_work *w, int i)
 {
@@ -130,6 +130,14 @@ thrusting_square (const bt__dynamic_work *w, int i)
   return fmax (-BT__SHARPEST, fmin (all - set, BT__SHARPEST)) / (cell * cell);
 }
 
+/* The thrust of node I, N.  */
+static double
+thrust_at (const bt__dynamic_work *w, int i)
+{
+  double thrust = w->in->line->ei * thrusting_square (w, i);
+  return w->slips > 0 ? thrust + bt__slip_thrust (w, i) : thrust;
+}
+
 static void
 prepare_thrust (bt__dynamic_work *w)
 {
@@ -137,8 +145,8 @@ prepare_thrust (bt__dynamic_work *w)
   for (int j = 0; j < w->n; j++)
     {
       bt__link *k = w->link + j;
-      double after = j + 1 < w->n ? thrusting_square (w, j + 1) : before;
-      k->thrust = bt__thrust_of (w->in->line->ei, j ? before : after, after);
+      double after = j + 1 < w->n ? thrust_at (w, j + 1) : before;
+      k->thrust = 0.5 * ((j ? before : after) + after);
       before = after;
     }
 }
@@ -148,7 +156,7 @@ bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d)
 {
   double ei = w->in->line->ei, damping = w->in->line->bending_damping;
   size_t size = (size_t)(w->n + 1) * sizeof (double);
-  w->bends = 0;
+  w->bends = w->slips = 0;
   w->least = ei > 0 ? -INFINITY : 0;
   w->pushed = ei > 0 ? -pushed_most (w, ei) : 0;
   if (!(ei > 0 || damping > 0))
@@ -156,6 +164,7 @@ bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d)
   w->is_set = w->in->n_sets > 0 && ei > 0;
   if (w->is_set)
     bt__dynamic_set_forces (w, w->x);
+  bt__dynamic_slip_prepare (w, d);
   prepare_thrust (w);
   bt__dynamic_unfold (w, d);
   memset (w->bend_diag, 0, size);
@@ -185,7 +194,7 @@ turn_of (const bt__bend *row, const bt_vec3 *X)
 }
 
 void
-bt__dynamic_bend_force (bt__dynamic_work *w)
+bt__dynamic_bend_force (bt__dynamic_work *w, bt__mode mode)
 {
   for (int k = 0; k < w->bends; k++)
     {
@@ -197,6 +206,8 @@ bt__dynamic_bend_force (bt__dynamic_work *w)
           *r = bt__axpy (*r, -row->k * row->c[p], turn);
         }
     }
+  if (w->slips > 0)
+    bt__dynamic_slip_force (w, mode);
   if (!w->is_set)
     return;
   bt__dynamic_set_forces (w, w->X);
@@ -222,6 +233,8 @@ bt__dynamic_bend_on (bt__dynamic_work *w, int i)
     bt__dynamic_set_forces (w, w->X);
   if (w->is_set)
     sum = w->twist[i];
+  if (w->slips > 0)
+    sum = bt__add (sum, bt__dynamic_slip_on (w, i));
   int inner = w->n - 1, from = i > 2 ? i - 2 : 0, to = i < inner ? i + 1 : inner;
   for (int k = from; k < to; k++)
     sum = add_row_on (w, k, i, sum);
@@ -239,5 +252,7 @@ bt__dynamic_bend_energy (const bt__dynamic_work *w, const bt_vec3 *X)
       bt_vec3 turn = turn_of (w->bend + k, X);
       sum += 0.5 * w->bend[k].k * bt__dot (turn, turn);
     }
+  if (w->slips > 0)
+    sum += bt__dynamic_slip_potential (w, X);
   return w->is_set ? sum + bt__dynamic_set_potential (w, X) : sum;
 }

@@ -26,9 +26,11 @@ strain_energy (double ea, double rest, double e, int bends)
 }
 
 static double
-bending_energy (const bt_vec3 *x, const double *rest, int n, const bt__dynamic_input *in)
+bending_energy (const bt__dynamic *d, const bt_vec3 *x, const bt__dynamic_input *in)
 {
+  const double *rest = bt__dynamic_rest (d);
   double sum = 0, ei = in->line->ei;
+  int n = (int)d->n;
   if (in->n_sets > 0 && ei > 0)
     return bt__set_energy (in, x, rest, n);
   for (int i = 1; i < n && ei > 0; i++)
@@ -36,7 +38,7 @@ bending_energy (const bt_vec3 *x, const double *rest, int n, const bt__dynamic_i
       double cell = 0.5 * (rest[i - 1] + rest[i]);
       sum += 0.5 * ei * bt__turn_square (x + i, rest[i - 1], rest[i]) / cell;
     }
-  return sum;
+  return bt__slips (in->line) ? sum + bt__slip_energy (d, in, x) : sum;
 }
 
 /* The energies of D at the places X with the velocities V.  */
@@ -50,7 +52,7 @@ energies_at (const bt__dynamic *d, const bt__dynamic_input *in, const bt_vec3 *x
   double ea = bt__stiffness (p->ea);
   double lift = in->water->density > 0 ? p->mass * in->water->gravity - p->wet_weight : 0;
   int n = (int)d->n;
-  bt__dynamic_energy sum = { 0, 0, 0, bending_energy (x, rest, n, in) };
+  bt__dynamic_energy sum = { 0, 0, 0, bending_energy (d, x, in) };
   for (int i = 0; i <= n; i++)
     {
       double cell = 0.5 * ((i ? rest[i - 1] : 0) + (i < n ? rest[i] : 0));

@@ -269,6 +269,8 @@ take_over (bt__dynamic *d, bt__dynamic_work *w, const uint8_t *restart, const bt
   else if (w->in->line->ei > 0)
     for (int j = 0; j < w->n; j++)
       bt__dynamic_chord (d)[j] = bt__vec (w->crumple[j], BT__BEARS, bt__dynamic_chord (d)[j].z);
+  if (w->slips > 0)
+    bt__dynamic_slip_take (d, w);
   commit_nodes (d, w, w->keep, restart);
   commit_links (d, w, report);
   commit_ends (d, w, pull, report);
@@ -289,6 +291,7 @@ judge (bt__dynamic_work *w, const uint8_t *restart, bt_vec3 *pull, bt__dynamic_r
   if (!finite || !bt__is_finite (pull[0]) || !bt__is_finite (pull[1]) || !isfinite (report->update))
     return refuse (w, error);
   judge_bends (w, report);
+  report->slips = w->slips;
   return BT_OK;
 }
 

@@ -83,6 +83,17 @@ typedef struct bt__bend
   bt_vec3 d;
 } bt__bend;
 
+/* A node whose layers may slip, see dynamic_slip.c.  */
+typedef struct bt__slip
+{
+  int64_t node;
+  bt__bend row;    /* of its turn, with the secant stiffness; no D */
+  double k;        /* N m: stiffness of what sticks, for a turn */
+  bt_vec3 tangent; /* at the start of the step */
+  bt_vec3 turn;    /* by which its layers have slipped then, across TANGENT */
+  bt_vec3 borne;   /* at the last iterate: the turn that its moment bears, m / k */
+} bt__slip;
+
 /* A^-1 K of one node, or of two side by side.  */
 typedef union bt__factors
 {
@@ -115,6 +126,7 @@ struct bt__dynamic_work
   const bt__dynamic_input *in;
   int n, lo, hi;     /* unknown nodes LO to HI */
   int bends, lumped; /* rows of bending; true if any node has extras, ... */
+  int slips;         /* nodes whose layers may slip */
   int bodies;        /* ... and of these more than a force */
   double b0, b1, b2;
   double ea, kn, kt, m, ma, weight; /* N, drag, mass and wet weight per metre */
@@ -160,6 +172,8 @@ struct bt__dynamic_work
   bt__factor middle;   /* ... and where both ways meet */
   bt__bend *bend;
   double *bend_diag, *bend_off, *bend_far;
+  bt__slip *slip;
+  double *slip_rest;                /* m: of the intervals */
   bt_vec3 *whole, *spare, *by_flow; /* of bent nodes: updates without flow and of each flow */
   int *exchanged; /* rows of the band, which lies in BY_FLOW, see dynamic_couple.c */
 };
@@ -304,9 +318,26 @@ double bt__set_hold (const bt__dynamic_work *w, int i);
 double bt__dynamic_set_potential (const bt__dynamic_work *w, const bt_vec3 *x);
 double bt__set_energy (const bt__dynamic_input *in, const bt_vec3 *x, const double *rest, int n);
 
-/* Bending: set up the rows, add their forces to RHS, return their energy.  */
+/* U, a vector across the unit vector T, as T turns to the unit vector S the shortest way.  */
+bt_vec3 bt__carry_side (bt_vec3 u, bt_vec3 t, bt_vec3 s);
+
+/* Slipping layers (dynamic_slip.c): set up the nodes of a step; add forces and blocks at the
+   iterate X, where but in the safe way what has slipped turns with the tangents; the force on node
+   I, N, at X; the potential of the safe way at X; the thrust, N, of node I at the start of the
+   step; what has slipped after the step, to D.  */
+void bt__dynamic_slip_prepare (bt__dynamic_work *w, const bt__dynamic *d);
+void bt__dynamic_slip_force (bt__dynamic_work *w, bt__mode mode);
+bt_vec3 bt__dynamic_slip_on (bt__dynamic_work *w, int i);
+double bt__dynamic_slip_potential (const bt__dynamic_work *w, const bt_vec3 *x);
+double bt__slip_thrust (const bt__dynamic_work *w, int i);
+void bt__dynamic_slip_take (bt__dynamic *d, bt__dynamic_work *w);
+
+/* What layers that stick store, J, of D with its nodes at X.  */
+double bt__slip_energy (const bt__dynamic *d, const bt__dynamic_input *in, const bt_vec3 *x);
+
+/* Bending: set up the rows, add their forces to RHS in MODE, return their energy.  */
 void bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d);
-void bt__dynamic_bend_force (bt__dynamic_work *w);
+void bt__dynamic_bend_force (bt__dynamic_work *w, bt__mode mode);
 double bt__dynamic_bend_energy (const bt__dynamic_work *w, const bt_vec3 *X);
 
 /* What node X[0] turns by, its intervals BEFORE and AFTER metres long; its square; and that by the
@@ -331,13 +362,6 @@ bt__bend_square (const bt_vec3 *x, double before, double after)
 {
   double cell = 0.5 * (before + after);
   return fmin (bt__turn_square (x, before, after), BT__SHARPEST) / (cell * cell);
-}
-
-/* The thrust of an interval between nodes of bend squares BEFORE and AFTER, N.  */
-static inline double
-bt__thrust_of (double ei, double before, double after)
-{
-  return ei * 0.5 * (before + after);
 }
 
 /* Return true if the step of D that INPUT asks for can only take energy from it.  */

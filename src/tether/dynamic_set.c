@@ -33,9 +33,8 @@
 
 static const bt_vec3 down = { 0, 0, -1 }, north = { 0, 1, 0 };
 
-/* U, a vector across the unit vector T, as T turns to the unit vector S the shortest way.  */
-static bt_vec3
-carry_side (bt_vec3 u, bt_vec3 t, bt_vec3 s)
+bt_vec3
+bt__carry_side (bt_vec3 u, bt_vec3 t, bt_vec3 s)
 {
   double c = 1 + bt__dot (t, s);
   return c > BACK ? bt__axpy (u, -bt__dot (u, s) / c, bt__add (t, s)) : u;
@@ -44,13 +43,13 @@ carry_side (bt_vec3 u, bt_vec3 t, bt_vec3 s)
 bt_vec3
 bt__set_side (bt_vec3 direction)
 {
-  return carry_side (north, down, direction);
+  return bt__carry_side (north, down, direction);
 }
 
 bt_vec3
 bt__set_carry (bt_vec3 side, bt_vec3 from, bt_vec3 to)
 {
-  return bt__unit_or (carry_side (side, from, to), bt__set_side (to));
+  return bt__unit_or (bt__carry_side (side, from, to), bt__set_side (to));
 }
 
 static bt__dynamic_set
@@ -193,8 +192,8 @@ next_station (const set_line *l, walk *s, int i)
   at.middle = bt__unit_or (bt__add (s->t, next), next);
   at.k = 2 * l->in->line->ei / (before + after);
   at.d = natural_turn (l, s, s->left - 0.5 * after, s->left + 0.5 * before, at.middle,
-                       carry_side (s->u, s->t, at.middle));
-  s->u = carry_side (s->u, s->t, next);
+                       bt__carry_side (s->u, s->t, at.middle));
+  s->u = bt__carry_side (s->u, s->t, next);
   s->t = next;
   s->left -= after;
   return at;

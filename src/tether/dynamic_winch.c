@@ -127,10 +127,21 @@ share_round (bt__dynamic *d, int64_t j, double round)
   chord[after >= before].z = d->rounded ? round : 0;
 }
 
+/* What a new node at the share U of interval J keeps where loads are kept: a fourth-order part
+   begins anew, the layers of a line that bends have slipped as beside it.  */
+static bt_vec3
+slipped_between (const bt__dynamic *d, int64_t j, double u)
+{
+  const bt_vec3 *a = bt__dynamic_load (d) + j;
+  return bt__dynamic_chord (d)[j].y == BT__BEARS ? bt__axpy (bt__scale (1 - u, a[0]), u, a[1])
+                                                 : bt__vec (0, 0, 0);
+}
+
 void
 bt__dynamic_split (bt__dynamic *d, int64_t j, double u, int straight)
 {
   int64_t i = j + 1;
+  bt_vec3 slipped = slipped_between (d, j, u);
   double round = bt__dynamic_chord (d)[j].z;
   double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d), whole = rest[j];
   int taut = is_strained (d, j);
@@ -139,7 +150,7 @@ bt__dynamic_split (bt__dynamic *d, int64_t j, double u, int straight)
   shift_all (d, i, 1);
   set_moving (d, i, u, taut);
   x[i] = bt__add (point_between (x + j, u), off);
-  bt__dynamic_load (d)[i] = none;
+  bt__dynamic_load (d)[i] = slipped;
   share_round (d, j, round);
   rest[j] = taut ? drawn_length (d, j) / e[j] : u * whole;
   rest[i] = taut ? drawn_length (d, i) / e[i] : whole - rest[j];
@@ -180,6 +191,7 @@ void
 bt__dynamic_insert (bt__dynamic *d, int64_t j, double u, int64_t from)
 {
   int64_t i = j + 1, other = from > j ? i + 1 : j;
+  bt_vec3 slipped = slipped_between (d, j, u);
   double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d), *t = bt__dynamic_tension (d),
          *de = bt__dynamic_dstretch (d), whole = rest[j], round = bt__dynamic_chord (d)[j].z;
   shift_all (d, i, 1);
@@ -192,7 +204,7 @@ bt__dynamic_insert (bt__dynamic *d, int64_t j, double u, int64_t from)
       bt_vec3 *a = nodes[k], v = bt__axpy (bt__scale (1 - u, a[j]), u, a[i + 1]);
       a[i] = bt__axpy (v, bt__dot (along, bt__sub (a[other], v)), along);
     }
-  bt__dynamic_load (d)[i] = bt__vec (0, 0, 0);
+  bt__dynamic_load (d)[i] = slipped;
   share_round (d, j, round);
   rest[j] = share_of_line (d, j, u) * whole;
   rest[i] = whole - rest[j];

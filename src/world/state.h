@@ -195,8 +195,8 @@ bt__tether_form_of (const bt__tether *tether)
              : BT__TETHER_SHAPE;
 }
 
-/* The first bytes of a state: layout version 11.  */
-#define BT__STATE_MAGIC 0x315448474942000bULL
+/* The first bytes of a state: layout version 12.  */
+#define BT__STATE_MAGIC 0x315448474942000cULL
 
 typedef struct bt__state
 {

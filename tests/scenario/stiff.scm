@@ -190,3 +190,56 @@ on."
   (alter! 'line #:ei 0.02)
   (run 1)
   (expect (now) is (about 1 #:within 1e-9)))
+
+(define (armoured model . clauses)
+  ;; A stiff line that its vehicle holds 2 m from its anchor, with CLAUSES more.
+  (eval `(world (sea (depth 60)) (rov (named minnow) (type kinematic) (at 2 0 -20) (pull 1e6))
+                (tether (named line) (type fathom) (from 0 0 -20) (to minnow) (length 3) (wet-weight 0) (ei 0.5)
+                        (bending-damping 0.05) (breaking-load 1e6) (nodes 40) (drum 30) (model ,model) ,@clauses))
+        here-module))
+
+(define (bent-and-let-straight model . clauses)
+  ;; How far such a line is from straight after it was bent and drawn straight again, m.
+  (enter! (apply armoured model clauses))
+  (fly-to! '(1 0 -20))
+  (run 10)
+  (fly-to! '(2.97 0 -20) #:speed 1/2)
+  (run 20)
+  (cut-tether! #:at 2.9)
+  (run 30)
+  (let ((l (tether-length)))
+    (norm (vec- (point-at (/ l 2)) (vec* 1/2 (vec+ (point-at 0) (point-at l)))))))
+
+(define-scenario (layers-slip-and-stay-slipped model)
+  "Bent by its vehicle, drawn straight and cut loose, a line whose layers slip keeps a bend; an elastic one keeps none.
+What it keeps is in forks and checkpoints, and goes with its line when more is paid out."
+  #:for ((model 'dynamic 'auto))
+  (let ((kept (bent-and-let-straight model '(ei-stuck 5) '(slip-curvature 0.2))))
+    (expect kept is (above 0.05))
+    (expect (assq-ref (profile) 'chain-slips) is (above 0)))
+  (let ((here (checkpoint)) (l (tether-length)))
+    (pay-out! 2 #:rate 1)
+    (run 5)
+    (let ((there (state-hash)))
+      (restore! here)
+      (expect (what-if (begin (pay-out! 2 #:rate 1) (run 5)) (state-hash)) => there)))
+  (expect (bent-and-let-straight model) is (below 0.02))
+  (expect (assq-ref (profile) 'chain-slips) => 0))
+
+(define-scenario layers-that-are-none
+  "Layers that stick no more than they slip, and such as always slip, change nothing to the last bit; a set beside them, or a
+line stiffer while they slip, is refused, by alter! too."
+  (define (after clauses)
+    (enter! (apply armoured 'dynamic clauses))
+    (fly-to! '(1.2 0.5 -20))
+    (run 5)
+    (f64vector->list (point-at 1.5)))
+  (expect (after '((ei-stuck 0.5) (slip-curvature 0.2))) => (after '()))
+  (expect (after '((ei-stuck 5))) => (after '()))
+  (expect (enter! (armoured 'dynamic '(ei-stuck 0.1))) raises domain)
+  (expect (enter! (armoured 'dynamic '(ei-stuck 5) '(set (curvature 1)))) raises unsupported)
+  (enter! (armoured 'dynamic '(ei-stuck 5) '(slip-curvature 0.2)))
+  (expect (alter! 'line #:ei 6) raises domain)
+  (alter! 'line #:ei-stuck 8)
+  (run 1)
+  (expect (now) is (about 1 #:within 1e-9)))

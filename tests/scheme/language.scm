@@ -468,6 +468,13 @@
   (expect (map (lambda (name) (fourth (assoc name (description-rows (describe 'trial-line)))))
                '("wet-weight" "diameter" "ea"))
           => '("" "published" "assumed"))
+  (for-each (lambda (name) ; of those that come with bight; of `falcon' the vehicle's figures are told before
+              (let ((rows (description-rows (describe name))))
+                (for-each (lambda (field)
+                            (expect (member (fourth (assoc field rows)) '("published" "measured" "fitted" "assumed"))
+                                    is identity))
+                          '("diameter" "ea" "cdn" "friction" "breaking-load"))))
+            '(fathom fathom-slim falcon cat5e work-umbilical leaded-rope flexible-jumper))
   (expect (define-tether-type trial-line "Wrong." (like fatom)) raises name)
   (expect (define-tether-type trial-line "Wrong." (lenght 3)) raises name)
   (expect (define-tether-type trial-line "Wrong." (to minnow)) raises def)

@@ -244,9 +244,17 @@ given, from its type or left to the default, and for each thing inside it."
          (members (if w (group-members (world-parts-of w) name) '())))
     (and (pair? members) members)))
 
-(define (type-called name)
-  (find (lambda (type) (eq? name (part-type-name type)))
-        (append-map part-types (part-heads))))
+(define (types-called name)
+  ;; A vehicle and its tether may be types of one name.
+  (filter (lambda (type) (eq? name (part-type-name type)))
+          (append-map part-types (part-heads))))
+
+(define (types-description types)
+  ;; The descriptions of TYPES, one after the other, as one.
+  (let ((all (map type-description types)))
+    (make-description (string-join (map description-title all) "; ")
+                      (string-join (map description-sentence all) " ")
+                      (append-map description-rows all))))
 
 (define (all-names)
   (let ((w (here-world)))
@@ -262,7 +270,7 @@ given, from its type or left to the default, and for each thing inside it."
         ((here-part name) => dive-description)
         ((here-group name) => (lambda (members) (group-description name members)))
         ((or (part-head? name) (inner-head? name)) (head-description name))
-        ((type-called name) => type-description)
+        ((pair? (types-called name)) (types-description (types-called name)))
         ((memq name (worlds)) (world-description (find-world name)))
         (else (unknown-name 'describe "the language" name (all-names) "part, type or world"))))
 
