@@ -13,7 +13,8 @@
 BT_BEGIN_DECLS
 
 /* The line and its water.  Of PROPS count diameter, mass, wet_weight, ea, ei, ba, bending_damping,
-   cdn, cdt, ca and friction.  Sets count with bending stiffness alone.  */
+   ei_stuck and slip_curvature, which are 0 of a line with sets, cdn, cdt, ca and friction.  Sets
+   count with bending stiffness alone.  */
 typedef struct bt_lead_line
 {
   bt_tether_props props;

@@ -34,19 +34,26 @@
 #define STRAIGHT 1e-4 /* ... while the line turns there by less */
 #define SAFELY 0.9    /* of the compression at which a block of a step would be singular */
 
+void
+bt__bend_stiffen (bt__dynamic_work *w, const bt__bend *row, double k)
+{
+  const double *c = row->c;
+  for (int p = 0; p < row->count; p++)
+    {
+      int i = row->first + p;
+      w->bend_diag[i] += k * c[p] * c[p];
+      if (p + 1 < row->count)
+        w->bend_off[i] += k * c[p] * c[p + 1];
+      if (p + 2 < row->count)
+        w->bend_far[i] += k * c[p] * c[p + 2];
+    }
+}
+
 static void
 add_bend (bt__dynamic_work *w, bt__bend row)
 {
   w->bend[w->bends++] = row;
-  for (int p = 0; p < row.count; p++)
-    {
-      int i = row.first + p;
-      w->bend_diag[i] += row.k * row.c[p] * row.c[p];
-      if (p + 1 < row.count)
-        w->bend_off[i] += row.k * row.c[p] * row.c[p + 1];
-      if (p + 2 < row.count)
-        w->bend_far[i] += row.k * row.c[p] * row.c[p + 2];
-    }
+  bt__bend_stiffen (w, &row, row.k);
 }
 
 /* The half cell at end K turns from the clamp's direction.  */

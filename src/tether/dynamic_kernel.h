@@ -340,6 +340,9 @@ void bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d);
 void bt__dynamic_bend_force (bt__dynamic_work *w, bt__mode mode);
 double bt__dynamic_bend_energy (const bt__dynamic_work *w, const bt_vec3 *X);
 
+/* Make the blocks stiffer by K for the turn of ROW.  */
+void bt__bend_stiffen (bt__dynamic_work *w, const bt__bend *row, double k);
+
 /* What node X[0] turns by, its intervals BEFORE and AFTER metres long; its square; and that by the
    square of its cell, as far as it thrusts.  */
 static inline bt_vec3

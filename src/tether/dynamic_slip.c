@@ -102,23 +102,6 @@ borne (bt_vec3 w, bt_vec3 s, double k, double most)
 
 /* ---- In a step ---- */
 
-/* Change the stiffness of ROW to K, in the blocks too.  */
-static void
-stiffen (bt__dynamic_work *w, bt__bend *row, double k)
-{
-  double more = k - row->k;
-  row->k = k;
-  for (int p = 0; p < row->count; p++)
-    {
-      int i = row->first + p;
-      w->bend_diag[i] += more * row->c[p] * row->c[p];
-      if (p + 1 < row->count)
-        w->bend_off[i] += more * row->c[p] * row->c[p + 1];
-      if (p + 2 < row->count)
-        w->bend_far[i] += more * row->c[p] * row->c[p + 2];
-    }
-}
-
 /* The turn of node I as a row without stiffness: at a clamp from its direction.  */
 static bt__bend
 row_of (const slip_line *l, int i)
@@ -141,7 +124,6 @@ line_of_step (const bt__dynamic_work *w, const bt_vec3 *x)
 void
 bt__dynamic_slip_prepare (bt__dynamic_work *w, const bt__dynamic *d)
 {
-  w->slips = 0;
   if (!bt__slips (w->in->line))
     return;
   for (int j = 0; j < w->n; j++)
@@ -180,9 +162,10 @@ look (bt__dynamic_work *w, int follows)
     {
       bt__slip *s = w->slip + r;
       bt_vec3 slipped, turn = look_at (w, s, w->X, follows, &slipped);
-      double off = bt__distance (turn, slipped);
+      double off = bt__distance (turn, slipped), k = s->k * off > most ? most / off : s->k;
       s->borne = borne (turn, slipped, s->k, most);
-      stiffen (w, &s->row, s->k * off > most ? most / off : s->k);
+      bt__bend_stiffen (w, &s->row, k - s->row.k);
+      s->row.k = k;
     }
 }
 
