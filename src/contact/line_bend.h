@@ -116,7 +116,18 @@ typedef struct bt__sliding
   bt__contact anchor[BT__BENTS];
   int64_t node[BT__BENTS];
   double was[BT__BENTS][2]; /* m: surplus before and after the node, as of before any change */
+  bt__turn turn[BT__BENTS]; /* at the present nodes, see bt__sliding_turn */
+  uint32_t known;           /* bit q: TURN[q] is computed */
+  int changed;              /* true: nodes or sides are others than those WAS is of */
 } bt__sliding;
+
+/* Note that nodes, or the directions of sides, have changed.  */
+static inline void
+bt__sliding_change (bt__sliding *s)
+{
+  s->known = 0;
+  s->changed = 1;
+}
 
 /* line_bend_list.c: take the sliding nodes out of the contacts, or put them back in order; move the
    contact of constraint Q to A, or return 0 if Q has none.  */

@@ -44,6 +44,7 @@ bt__sliding_add (bt__sliding *s, const bt__contact *a, int64_t node)
   s->anchor[at] = *a;
   s->was[at][0] = s->was[at][1] = 0;
   s->node[at] = node;
+  bt__sliding_change (s);
   return at;
 }
 
@@ -52,6 +53,7 @@ bt__sliding_lose (bt__sliding *s, int q)
 {
   if (bt__sliding_goes_on (s, q - 1))
     s->anchor[q - 1].after = bt__vec (0, 0, 0);
+  bt__sliding_change (s);
   s->n--;
   for (int i = q; i < s->n; i++)
     {
@@ -82,6 +84,7 @@ void
 bt__sliding_came (bt__line_job *k, bt__sliding *s, int64_t i)
 {
   shift_bends (s, i, 1);
+  bt__sliding_change (s);
   bt__sliding_show (k, i, 1);
 }
 
@@ -99,6 +102,7 @@ bt__sliding_take_out (bt__line_job *k, bt__sliding *s, int64_t i)
     return 0;
   bt__dynamic_remove (k->d, i);
   shift_bends (s, i, -1);
+  bt__sliding_change (s);
   bt__sliding_show (k, i, -1);
   return 1;
 }

@@ -125,6 +125,18 @@ is_wedged (const bt__line_job *k, int q)
          || (j + 1 < k->links && bt__bend_is_wedged (k, j + 1, CALM));
 }
 
+/* True if the line turns about the round member of P, which touches interval J at AT; where the
+   line turns away, a node would be let go in the next step.  */
+static int
+turns_about (const bt__line_job *k, const bt__bend_place *p, int64_t j, bt_vec3 at)
+{
+  const bt_vec3 *x = bt__dynamic_x (k->d);
+  int64_t i = p->node;
+  const bt_vec3 on[] = { x[i < 0 ? j : i - 1], i < 0 ? at : x[i], x[i < 0 ? j + 1 : i + 1] };
+  bt__turn t;
+  return bt__turn_find (k, &p->edge, on, NULL, NULL, &t) && t.angle > 0;
+}
+
 /* True if the line may be bent where row Q bears.  */
 static int
 may_bend (const bt__line_job *k, const bt__sliding *s, int q, bt__bend_place *p)
@@ -145,7 +157,8 @@ may_bend (const bt__line_job *k, const bt__sliding *s, int q, bt__bend_place *p)
     return 0;
   return bt__edge_is_thin (k, &p->edge)
              ? k->w->of[q].flat != 1 && !is_wedged (k, q)
-             : is_settled (k, q) && !has_company (k, q) && fabs (bt__dot (t, p->edge.axis)) < STEEP;
+             : is_settled (k, q) && !has_company (k, q) && fabs (bt__dot (t, p->edge.axis)) < STEEP
+                   && turns_about (k, p, r->node, at);
 }
 
 static int

@@ -43,26 +43,34 @@ join (bt__line_job *k, bt__sliding *s)
       bt__edge e = { .radius = a->thick };
       if (q + 1 == s->n || s->node[q] + 1 != s->node[q + 1] || a->object != b->object
           || bt__edge_is_thin (k, &e))
-        a->after = none;
+        {
+          if (bt__dot (a->after, a->after) > 0)
+            bt__sliding_change (s);
+          a->after = none;
+        }
       else if (a->bent == BT__BENT_ROUND && b->bent == BT__BENT_ROUND && !bt__sliding_goes_on (s, q)
                && bt__dot (a->axis, b->axis) > 0)
-        a->after = bt__turn_normal (a->axis, bt__dynamic_x (k->d) + s->node[q]);
+        {
+          a->after = bt__turn_normal (a->axis, bt__dynamic_x (k->d) + s->node[q]);
+          bt__sliding_change (s);
+        }
     }
 }
 
 /* ---- Corners of a member that come and go ---- */
 
-/* The turn at bend Q as it is now.  */
-static bt__turn
-sliding_turn (const bt__line_job *k, const bt__sliding *s, int q, bt__edge *e)
+/* The turn at bend Q as it is now, computed once for as long as nodes and sides stay.  */
+static const bt__turn *
+sliding_turn (const bt__line_job *k, bt__sliding *s, int q, bt__edge *e)
 {
   const bt__contact *a = s->anchor + q;
-  bt__turn t;
   *e = (bt__edge){ a->axis, a->point, a->normal, a->thick, 0, a->bent == BT__BENT_ROUND };
-  bt__turn_find (k, e, bt__dynamic_x (k->d) + s->node[q] - 1,
-                 bt__sliding_goes_on (s, q - 1) ? &s->anchor[q - 1].after : NULL,
-                 bt__sliding_goes_on (s, q) ? &a->after : NULL, &t);
-  return t;
+  if (!(s->known >> q & 1))
+    bt__turn_find (k, e, bt__dynamic_x (k->d) + s->node[q] - 1,
+                   bt__sliding_goes_on (s, q - 1) ? &s->anchor[q - 1].after : NULL,
+                   bt__sliding_goes_on (s, q) ? &a->after : NULL, s->turn + q);
+  s->known |= 1u << q;
+  return s->turn + q;
 }
 
 /* Take out the corner at either end of a member's where the line turns no more.  */
@@ -73,7 +81,7 @@ take_corner (bt__line_job *k, bt__sliding *s, int q)
   if (bt__sliding_goes_on (s, q - 1) == bt__sliding_goes_on (s, q))
     return;
   double least = s->anchor[q].age < IDLE ? -BACK : BACK;
-  if (sliding_turn (k, s, q, &e).angle > least)
+  if (sliding_turn (k, s, q, &e)->angle > least)
     return;
   int64_t node = s->node[q];
   bt__sliding_lose (s, q);
@@ -83,13 +91,13 @@ take_corner (bt__line_job *k, bt__sliding *s, int q)
 
 /* How far bend Q has to go round, and its distance from the axis, to *AWAY.  */
 static bt_vec3
-sliding_lag (const bt__line_job *k, const bt__sliding *s, int q, double *away)
+sliding_lag (const bt__line_job *k, bt__sliding *s, int q, double *away)
 {
   bt__edge e;
   bt_vec3 x = bt__dynamic_x (k->d)[s->node[q]];
-  bt__turn t = sliding_turn (k, s, q, &e);
-  *away = bt__dot (t.normal, bt__sub (x, t.centre));
-  return bt__off_axis (e.axis, bt__sub (x, bt__axpy (t.centre, *away, t.normal)));
+  const bt__turn *t = sliding_turn (k, s, q, &e);
+  *away = bt__dot (t->normal, bt__sub (x, t->centre));
+  return bt__off_axis (e.axis, bt__sub (x, bt__axpy (t->centre, *away, t->normal)));
 }
 
 static int
@@ -100,7 +108,7 @@ is_new (const bt__sliding *s, int q)
 
 /* True if bend Q is new, and too far from where it should be.  */
 static int
-is_behind (const bt__line_job *k, const bt__sliding *s, int q)
+is_behind (const bt__line_job *k, bt__sliding *s, int q)
 {
   bt__edge e = { .radius = s->anchor[q].thick };
   double away;
@@ -173,7 +181,7 @@ static void
 grow (bt__line_job *k, bt__sliding *s, int q)
 {
   bt__edge e;
-  bt__turn t = sliding_turn (k, s, q, &e);
+  bt__turn t = *sliding_turn (k, s, q, &e);
   if (!e.round || bt__edge_is_thin (k, &e) || t.angle <= BT__TURN_MOST + MORE)
     return;
   const double *rest = bt__dynamic_rest (k->d) + s->node[q];
@@ -212,17 +220,17 @@ extend (bt__line_job *k, bt__sliding *s, int q, int side)
 
 /* The surplus of the chords before and after bend Q to OUT, m: none at a sharp edge.  */
 static void
-find_rounds (const bt__line_job *k, const bt__sliding *s, int q, double out[2])
+find_rounds (const bt__line_job *k, bt__sliding *s, int q, double out[2])
 {
   const bt_vec3 *x = bt__dynamic_x (k->d) + s->node[q];
   bt__edge e, unused;
   out[0] = out[1] = 0;
   if (s->anchor[q].bent != BT__BENT_ROUND)
     return;
-  bt__turn t = sliding_turn (k, s, q, &e);
-  double next = bt__sliding_goes_on (s, q) ? sliding_turn (k, s, q + 1, &unused).angle : NAN;
-  out[0] = bt__sliding_goes_on (s, q - 1) ? 0 : bt__turn_round (k, &e, &t, x[0], x[-1], NAN);
-  out[1] = bt__turn_round (k, &e, &t, x[0], x[1], next);
+  const bt__turn *t = sliding_turn (k, s, q, &e);
+  double next = bt__sliding_goes_on (s, q) ? sliding_turn (k, s, q + 1, &unused)->angle : NAN;
+  out[0] = bt__sliding_goes_on (s, q - 1) ? 0 : bt__turn_round (k, &e, t, x[0], x[-1], NAN);
+  out[1] = bt__turn_round (k, &e, t, x[0], x[1], next);
 }
 
 /* Note the surplus at all bends, before nodes come and go.  */
@@ -231,13 +239,14 @@ note_rounds (const bt__line_job *k, bt__sliding *s)
 {
   for (int q = 0; q < s->n; q++)
     find_rounds (k, s, q, s->was[q]);
+  s->changed = 0;
 }
 
 /* Add the change of surplus since note_rounds, with the line in place.  */
 static void
 renew_rounds (const bt__line_job *k, bt__sliding *s)
 {
-  for (int q = 0; q < s->n; q++)
+  for (int q = 0; q < s->n && s->changed; q++)
     {
       double now[2];
       find_rounds (k, s, q, now);
@@ -281,7 +290,7 @@ pass_nodes (bt__line_job *k, bt__sliding *s, int q)
 {
   bt__edge e;
   double flow = s->anchor[q].flow * k->h, piece = k->d->piece, size = fabs (flow);
-  double zone = sliding_turn (k, s, q, &e).zone, r = k->config->radius;
+  double zone = sliding_turn (k, s, q, &e)->zone, r = k->config->radius;
   double clear = zone + sqrt (2 * (e.radius + r) * CLEAR * r);
   int passed = 1;
   for (int side = -1; side < 2; side += 2)

@@ -68,9 +68,21 @@ wanted_round (const bt__line_job *k, int j, int q, double *gain)
   return should;
 }
 
+/* Tell the solver the surplus of interval J; Q is the first sliding node that is not before J.  */
+static void
+tell_round (bt__line_job *k, int j, int q)
+{
+  double gain, should = wanted_round (k, j, q, &gain);
+  double was = bt__dynamic_chord (k->d)[j].z + gain;
+  double most = MOST * bt__dynamic_rest (k->d)[j];
+  if (was != 0 || should != 0)
+    bt__dynamic_round (k->kernel, j, fmin (fmax (next_round (k, j, was, should), -most), most));
+}
+
 void
 bt__line_round (bt__line_job *k)
 {
+  const bt_vec3 *chord = bt__dynamic_chord (k->d);
   if (!k->d->rounded && k->bents == 0)
     return;
   int q = 0;
@@ -78,11 +90,8 @@ bt__line_round (bt__line_job *k)
     {
       while (q < k->bents && k->w->bent[q].node < j)
         q++;
-      double gain, should = wanted_round (k, j, q, &gain);
-      double was = bt__dynamic_chord (k->d)[j].z + gain;
-      double most = MOST * bt__dynamic_rest (k->d)[j];
-      if (was != 0 || should != 0)
-        bt__dynamic_round (k->kernel, j, fmin (fmax (next_round (k, j, was, should), -most), most));
+      if (chord[j].z != 0 || (q < k->bents && k->w->bent[q].node <= j + 1))
+        tell_round (k, j, q);
     }
 }
 
@@ -94,16 +103,28 @@ typedef struct excess
   double much, little;
 } excess;
 
-/* By how much more than it should interval J is longer than its line, m, S being what is held;
- *IDLE: interval J is neither longer nor should be.  */
-static double
-excess_of (const bt__line_job *k, const bt__sliding *s, int64_t j, int *idle)
+/* The chords of the line and the sliding nodes between them, followed from interval to interval. */
+typedef struct chords
 {
-  double should = 0, is = bt__dynamic_chord (k->d)[j].z;
-  for (int q = 0; q < s->n; q++)
-    should += s->node[q] == j ? s->anchor[q].beyond : s->node[q] == j + 1 ? s->anchor[q].before : 0;
-  *idle = is == 0 && should == 0;
-  return is - should;
+  const bt_vec3 *chord;
+  const bt__sliding *s;
+  int64_t n;
+  int q; /* the first sliding node that is not before the interval */
+} chords;
+
+/* The surplus of interval J beyond the wanted surplus, m, to *OVER; zero if interval J has none and
+   wants none.  Of one call and the next of the same C, J does not fall.  */
+static int
+find_excess (chords *c, int64_t j, double *over)
+{
+  const bt__sliding *s = c->s;
+  double should = 0;
+  while (c->q < s->n && s->node[c->q] < j)
+    c->q++;
+  for (int q = c->q; q < s->n && s->node[q] <= j + 1; q++)
+    should += s->node[q] == j ? s->anchor[q].beyond : s->anchor[q].before;
+  *over = c->chord[j].z - should;
+  return c->chord[j].z != 0 || should != 0;
 }
 
 /* Take LESS metres off the surplus of interval J: the line of the interval becomes longer, and the
@@ -113,17 +134,17 @@ hand_over (bt__line_job *k, int64_t j, double less)
 {
   bt__dynamic_chord (k->d)[j].z -= less;
   bt__dynamic_rest (k->d)[j] += less / bt__dynamic_stretch (k->d)[j];
+  k->d->rounded = 1;
 }
 
-/* Even out the surplus of the intervals from FROM to before TO, with the sums SUM.  */
+/* Even out the surplus of the intervals from FROM, where C is, to before TO, with the sums SUM.  */
 static void
-even_out_run (bt__line_job *k, const bt__sliding *s, int64_t from, int64_t to, const excess *sum)
+even_out_run (bt__line_job *k, chords c, int64_t from, int64_t to, const excess *sum)
 {
-  double moved = fmin (sum->much, sum->little);
-  int idle;
+  double moved = fmin (sum->much, sum->little), over;
   for (int64_t j = from; moved > 0 && j < to; j++)
     {
-      double over = excess_of (k, s, j, &idle);
+      find_excess (&c, j, &over);
       double less = moved * over / (over > 0 ? sum->much : sum->little);
       if (fabs (less) < MOST * bt__dynamic_rest (k->d)[j])
         hand_over (k, j, less);
@@ -133,18 +154,18 @@ even_out_run (bt__line_job *k, const bt__sliding *s, int64_t from, int64_t to, c
 void
 bt__sliding_even_rounds (bt__line_job *k, const bt__sliding *s)
 {
-  excess sum = { 0, 0 };
-  int64_t from = 0;
-  for (int64_t j = 0; j < k->d->n && (k->d->rounded || s->n > 0); j++)
+  chords c = { bt__dynamic_chord (k->d), s, k->d->rounded || s->n > 0 ? k->d->n : 0, 0 };
+  for (int64_t j = 0; j < c.n; j++)
     {
-      int idle;
-      double over = excess_of (k, s, j, &idle);
-      sum.much += fmax (over, 0);
-      sum.little += fmax (-over, 0);
-      if (!idle && j + 1 < k->d->n)
-        continue;
-      even_out_run (k, s, from, j + 1, &sum);
-      sum = (excess){ 0, 0 };
-      from = j + 1;
+      chords run = c;
+      int64_t from = j;
+      excess sum = { 0, 0 };
+      for (double over; j < c.n && find_excess (&c, j, &over); j++)
+        {
+          sum.much += fmax (over, 0);
+          sum.little += fmax (-over, 0);
+        }
+      if (j > from)
+        even_out_run (k, run, from, j, &sum);
     }
 }

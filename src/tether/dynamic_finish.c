@@ -188,13 +188,16 @@ static void
 commit_rounds (bt__dynamic *d, const bt__dynamic_work *w)
 {
   double *e = bt__dynamic_stretch (d), *de = bt__dynamic_dstretch (d);
+  bt_vec3 *chord = bt__dynamic_chord (d);
   for (int j = 0; j < w->n; j++)
     {
+      chord[j].z = w->round[j];
+      if (w->round[j] == 0)
+        continue;
       double less = w->round[j] / w->link[j].rest;
       e[j] -= less;
       de[j] -= less;
-      bt__dynamic_chord (d)[j].z = w->round[j];
-      d->rounded |= w->round[j] != 0;
+      d->rounded = 1;
     }
 }
 

@@ -193,8 +193,10 @@ bt__dynamic_prepare (bt__dynamic_work *w, const bt__dynamic *d, const bt__dynami
   w->chord = in->order == 4 ? bt__dynamic_chord (d) : NULL;
   w->load = in->order == 4 ? bt__dynamic_load (d) : NULL;
   prepare_links (w, d, rest0);
+  const bt_vec3 *chord = bt__dynamic_chord (d);
   for (int j = 0; d->rounded && !w->chord && j < w->n; j++)
-    bt__dynamic_round (w, j, bt__dynamic_chord (d)[j].z);
+    if (chord[j].z != 0)
+      bt__dynamic_round (w, j, chord[j].z);
   prepare_nodes (w, d);
   sample_current (w);
   bt__dynamic_surface_prepare (w);

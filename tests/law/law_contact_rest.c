@@ -64,6 +64,91 @@ rests (ground g, uint64_t seed, const char *what, double seconds, double least)
   reef_close (&r);
 }
 
+enum
+{
+  BOWED = 20
+};
+
+/* Lay P of 20.05 m between ends 20 m apart in a current toward -y, along AT, beside a post whose
+   nearest point is at HEIGHT.  */
+static void
+bow (reef *r, rope *p, double height, const bt_vec3 *at)
+{
+  double y = height - 0.3 - 0.005;
+  assert_true (reef_open (r));
+  reef_cylinder (r, bt__vec (0.03, y, -3), bt__vec (0.03, y, 3), 0.3);
+  assert_true (reef_raise (r));
+  assert_true (rope_open (p, r, BOWED, at, BOWED + 1, 20.05, 0.3));
+  p->config.pull[1] = INFINITY;
+  p->current = (bt_current){ .kind = BT_CURRENT_UNIFORM, .velocity = { { 0, -0.3, 0 } } };
+}
+
+/* Where a line without a post comes to rest, to AT; return its lowest place.  */
+static double
+bowed (reef *r, rope *p, bt_vec3 *at)
+{
+  double lowest = 0;
+  for (int i = 0; i <= BOWED; i++)
+    {
+      double u = (double)i / BOWED;
+      at[i] = bt__vec (20 * u - 10, -2.4 * u * (1 - u), 0);
+    }
+  bow (r, p, -100, at);
+  for (int i = 0; i < 2000; i++)
+    assert_true (rope_step (p, frame, 0));
+  memcpy (at, bt__dynamic_x (p->d), (BOWED + 1) * sizeof *at);
+  for (int i = 0; i <= BOWED; i++)
+    lowest = fmin (lowest, at[i].y);
+  rope_close (p);
+  reef_close (r);
+  return lowest;
+}
+
+/* A post is pushed IN metres into the line of REST, LOWEST its lowest place.  */
+static void
+lies_on_a_post (const bt_vec3 *rest, double lowest, double in)
+{
+  static reef r;
+  static rope p;
+  bt_vec3 over[BOWED + 1];
+  double least = INFINITY, most = 0;
+  int away = 0;
+  for (int i = 0; i <= BOWED; i++)
+    over[i]
+        = bt__add (rest[i], bt__vec (0, i % BOWED ? in + 0.06 * sin (BT__PI * i / BOWED) : 0, 0));
+  bow (&r, &p, lowest + in, over);
+  for (int i = 0; i < 2400; i++)
+    {
+      assert_true (rope_step (&p, frame, 0));
+      if (i < 1800)
+        continue;
+      away += p.touch.touches == 0;
+      least = fmin (least, p.report.tension);
+      most = fmax (most, p.report.tension);
+    }
+  print_message ("# a post %.1f mm in: %.3f N on it, tension %.3f to %.3f N\n", 1000 * in,
+                 p.touch.load, least, most);
+  assert_int_equal (away, 0);
+  assert_near (most / least, 1, 1e-3, "the tension");
+  rope_close (&p);
+  reef_close (&r);
+}
+
+/* A line bowed by a current lies on a post with hundredths of a newton and turns away from the post
+   on either side: the line stays on the post, and its tension with it.  */
+static void
+stays_on_a_post (void **state)
+{
+  (void)state;
+  static reef r;
+  static rope p;
+  const double in[] = { 0.0005, 0.002, 0.01 };
+  bt_vec3 rest[BOWED + 1];
+  double lowest = bowed (&r, &p, rest);
+  for (int i = 0; i < 3; i++)
+    lies_on_a_post (rest, lowest, in[i]);
+}
+
 static void
 comes_to_rest (void **state)
 {
@@ -246,7 +331,8 @@ main (void)
 {
   const struct CMUnitTest tests[]
       = { cmocka_unit_test (comes_to_rest),     cmocka_unit_test (rests_on_crests),
-          cmocka_unit_test (is_pushed),         cmocka_unit_test (is_the_line_alone),
-          cmocka_unit_test (remembers_nothing), cmocka_unit_test (tells_touches) };
+          cmocka_unit_test (stays_on_a_post),   cmocka_unit_test (is_pushed),
+          cmocka_unit_test (is_the_line_alone), cmocka_unit_test (remembers_nothing),
+          cmocka_unit_test (tells_touches) };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
