@@ -108,12 +108,19 @@ is_crest (const bt__line_job *k, uint32_t j, const bt__near *near, const bt__tri
 
 /* ---- Rows ---- */
 
-/* True if node AT is over the face of T, HEIGHT from it, on the side of NORMAL.  */
-static int
-is_over (const bt__triangle *t, bt_vec3 at, double *height, bt_vec3 *normal)
+/* The unit normal of T; zero without area.  */
+static bt_vec3
+face_normal (const bt__triangle *t)
 {
-  bt_vec3 n = bt__unit_or (bt__cross (bt__sub (t->v[1], t->v[0]), bt__sub (t->v[2], t->v[0])),
-                           bt__vec (0, 0, 0));
+  return bt__unit_or (bt__cross (bt__sub (t->v[1], t->v[0]), bt__sub (t->v[2], t->v[0])),
+                      bt__vec (0, 0, 0));
+}
+
+/* True if node AT is over the face of T, whose unit normal is N, HEIGHT from it, on the side of
+   NORMAL.  */
+static int
+is_over (const bt__triangle *t, bt_vec3 n, bt_vec3 at, double *height, bt_vec3 *normal)
+{
   double h = bt__dot (n, bt__sub (at, t->v[0]));
   for (int i = 0; i < 3; i++)
     {
@@ -126,19 +133,21 @@ is_over (const bt__triangle *t, bt_vec3 at, double *height, bt_vec3 *normal)
   return bt__dot (n, n) > 0;
 }
 
-/* Where LINK passes over the edge of T from corner E; zero if it does not.  */
+/* Where LINK passes over the edge of T from corner E, to *W; zero if it does not.  */
 static int
 pass_edge (const bt__triangle *t, int e, const bt__link *link, bt__witness *w)
 {
   bt_vec3 along = bt__sub (link->b, link->a), edge = bt__sub (t->v[(e + 1) % 3], t->v[e]);
   double u;
   bt__closest_segments (bt__sub (link->a, t->v[e]), along, edge, &w->s, &u);
+  if (!(w->s > 0 && w->s < 1 && u > 0 && u < 1))
+    return 0;
   w->point = bt__axpy (t->v[e], u, edge);
   bt_vec3 away = bt__sub (bt__along (link, w->s), w->point);
   w->distance = bt__norm (away);
   w->normal = bt__unit_or (away, bt__vec (0, 0, 0));
   w->feature = e + 1;
-  return w->s > 0 && w->s < 1 && u > 0 && u < 1;
+  return 1;
 }
 
 /* A link rests on at most two edges of a triangle; the nearest edge has a constraint already: on
@@ -167,13 +176,14 @@ bt__row_facet (bt__line_job *k, uint32_t j, const bt__near *near)
   bt__triangle t
       = bt__mesh_triangle (bt__line_scene (k, near)->object[near->object].shape.mesh, near->slot);
   bt__pass p = bt__row_pass (k, j, near);
+  bt_vec3 n = face_normal (&t);
   double nearest = near->w.distance + BT__ROW_NEAREST * k->config->radius;
   int over = 0, is_nearest = 0;
   for (int e = 0; e < 2; e++)
     {
       bt_vec3 at = e ? p.from.b : p.from.a;
       bt__witness w = { 0 };
-      if (!is_over (&t, at, &w.distance, &w.normal))
+      if (!is_over (&t, n, at, &w.distance, &w.normal))
         continue;
       over++;
       is_nearest |= w.distance <= nearest;
