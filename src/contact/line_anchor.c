@@ -21,13 +21,10 @@
 
 #include "contact/line_bend.h"
 
-#define REMEMBER 0.75 /* of a link: the farthest a contact goes along the line in a step */
-#define ALIKE 0.8     /* product of the normals */
-#define TURNED 1.0    /* of that: a normal that is at right angles counts like a place so far */
-#define STIFF 30.0    /* times EA over a link's length: of contacts, ... */
-#define STIFFEST 1e9  /* N/m: ... at most, but for the load */
-#define HARDER 30.0   /* times stiffer is what is hit although it pushes */
-#define YIELD 20.0    /* the part of the way to the core that the load may press a contact in */
+#define ALIKE 0.8   /* product of the normals */
+#define STIFF 30.0  /* times EA over a link's length: of contacts */
+#define HARDER 30.0 /* times stiffer is what is hit although it pushes */
+#define YIELD 20.0  /* the part of the way to the core that the load may press a contact in */
 
 /* ---- The block ---- */
 
@@ -135,7 +132,7 @@ bt__line_stiffness (const bt__line_job *k, int64_t i)
 {
   const double *rest = bt__dynamic_rest (k->d), *tension = bt__dynamic_tension (k->d);
   const bt__line_config *c = k->config;
-  double stiff = fmin (STIFF * k->in->line->ea / fmax (rest[i], k->d->piece), STIFFEST);
+  double stiff = fmin (STIFF * k->in->line->ea / fmax (rest[i], k->d->piece), BT__LINE_STIFFEST);
   return fmax (stiff, YIELD * tension[i] / (c->radius - c->core));
 }
 
@@ -145,21 +142,22 @@ harden (bt__line_job *k, int i)
 {
   bt__constraint *r = k->w->row + i;
   double stiff = bt__line_stiffness (k, r->node);
-  r->stiffness = fmin (stiff * pow (HARDER, k->w->of[i].again), fmax (stiff, STIFFEST));
+  r->stiffness = fmin (stiff * pow (HARDER, k->w->of[i].again), fmax (stiff, BT__LINE_STIFFEST));
   bt__line_press (k, i);
 }
 
 /* ---- What is remembered ---- */
 
-/* The distance of contact Q of the last step from constraint I, along the line and by direction;
-   INFINITY for another obstacle's contact or beyond REACH.  */
+/* The distance of contact Q of the last step from constraint I, along the line and by direction:
+   normals at right angles count like places REACH apart.  INFINITY for another obstacle's contact
+   or beyond REACH.  */
 static double
 contact_distance (const bt__line_job *k, int i, int q, double reach)
 {
   const bt__contact *a = k->w->old + q;
   const bt__line_row *of = k->w->of + i;
   double alike = bt__dot (a->normal, k->w->row[i].normal);
-  double away = fabs (a->from_end - of->from_end) + TURNED * reach * (1 - alike);
+  double away = fabs (a->from_end - of->from_end) + reach * (1 - alike);
   int can = a->state >= 0 && a->mover == (int64_t)of->mover - 1 && alike > ALIKE;
   return can && away < reach ? away : INFINITY;
 }
@@ -167,7 +165,7 @@ contact_distance (const bt__line_job *k, int i, int q, double reach)
 static double
 memory_reach (const bt__line_job *k, int i)
 {
-  return REMEMBER * bt__dynamic_rest (k->d)[k->w->row[i].node];
+  return BT__LINE_REMEMBER * bt__dynamic_rest (k->d)[k->w->row[i].node];
 }
 
 /* Return the contact of the last step nearest to constraint I and not taken yet, from *FROM on, or

@@ -27,7 +27,6 @@
 
 #include "contact/line_bend.h"
 
-#define FORETOLD 0.2 /* m: a neighbour that moves more in the step is where it is */
 #define TURNED 0.3   /* radians: a corner that turns back by more is none */
 #define DISTURBS 2.0 /* times the line's radius: how near what else is there may be */
 #define HALFWAY 0.5  /* of the way to where it should be does a corner go in a step, ... */
@@ -109,7 +108,8 @@ is_thin (const bt__line_job *k, const corner *c)
 static bt_vec3
 expected (const bt__line_job *k, const corner *c, int i)
 {
-  return !is_thin (k, c) && bt__distance (k->X[i], k->x[i]) <= FORETOLD ? k->X[i] : k->x[i];
+  return !is_thin (k, c) && bt__distance (k->X[i], k->x[i]) <= BT__LINE_FORETOLD ? k->X[i]
+                                                                                 : k->x[i];
 }
 
 static int

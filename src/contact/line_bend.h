@@ -65,8 +65,10 @@ double bt__turn_round (const bt__line_job *k, const bt__edge *e, const bt__turn 
 double bt__turn_lack (bt_vec3 axis, bt_vec3 centre, bt_vec3 a, bt_vec3 b, double out);
 
 #define BT__BEND_BEHIND                                                                            \
-  0.1                     /* of the way from the axis: how far one may have to go round, at most */
-#define BT__TURN_MOST 1.0 /* radians: of a corner about a round member that is not thin */
+  0.1                      /* of the way from the axis: how far one may have to go round, at most */
+#define BT__TURN_MOST 1.0  /* radians: of a corner about a round member that is not thin */
+#define BT__TURN_ALONG 0.9 /* product of line and edge: more, and the line lies along it */
+#define BT__BEND_TURNS 0.05 /* radians: a node that turns less is no corner */
 
 /* The normal of the interval from P[0] to P[1] about an axis.  */
 static inline bt_vec3

@@ -11,12 +11,11 @@
 
 #include "contact/line_job.h"
 
-#define GIVE 20.0        /* m/s2: what the pull makes of the mass of an end that was held back */
-#define HELD_BACK 0.9    /* of the most: an end that is pulled by more was held back */
-#define HELD 1e-3        /* m: an end nearer than this to its place is there */
-#define STANDS 5e-6      /* m: the same of an end that slips; what a step is accurate to */
-#define HOLDING 10.0     /* times EA over a link's length: what holds an end in its place, ... */
-#define HOLDING_MOST 1e9 /* N/m: ... at most */
+#define GIVE 20.0     /* m/s2: what the pull makes of the mass of an end that was held back */
+#define HELD_BACK 0.9 /* of the most: an end that is pulled by more was held back */
+#define HELD 1e-3     /* m: an end nearer than this to its place is there */
+#define STANDS 5e-6   /* m: the same of an end that slips; what a step is accurate to */
+#define HOLDING 10.0  /* times EA over a link's length: what holds an end in its place */
 
 /* The input, to be altered.  */
 static bt__dynamic_input *
@@ -53,7 +52,7 @@ bt__line_hold_ends (bt__line_job *k)
       bt_vec3 pull = bt__scale (-1, k->d->pull[e]); /* of what held it in the last step */
       double now = bt__norm (pull);
       k->w->hold[e] = (bt__dynamic_hold){ .on = 1, .most = fmax (most, 1e-9) };
-      k->w->hold[e].stiffness = fmin (HOLDING * k->in->line->ea / last, HOLDING_MOST);
+      k->w->hold[e].stiffness = fmin (HOLDING * k->in->line->ea / last, BT__LINE_STIFFEST);
       k->w->hold[e].mass = most / GIVE;
       k->w->hold[e].at = size > BT__LINE_STRIDE ? bt__axpy (x, BT__LINE_STRIDE / size, d) : end->at;
       k->w->hold[e].force = now > most ? bt__scale (most / now, pull) : pull;

@@ -5,15 +5,13 @@
 
 #include "contact/line_bend.h"
 
-#define ALONG 0.9     /* product of line and edge: more, and the line lies along it */
-#define STEEP 0.8     /* ... less for a corner of a round member, or it would be let go at once */
+#define STEEP 0.8     /* product of line and axis: a corner with more would be let go at once */
 #define FROM_NODE 0.1 /* of a piece: nearer to a node no other is put; ... */
 #define CROWDED 0.01  /* ... nearer to the next one none is bent */
 #define TAUT 5.0      /* N: a line under less has no corners about round members */
 #define CALM 3.0      /* times as far must be what else is near as when it is held */
-#define TURNS 0.05    /* radians: a link's end that turns less is no corner, nor one that ... */
-#define SHARPEST 2.4  /* ... turns more, ... */
-#define ASIDE 0.06    /* ... or whose links pass nearer to the axis by so much of the way ... */
+#define SHARPEST 2.4  /* radians: a link's end that turns more is no corner, nor one ... */
+#define ASIDE 0.06    /* ... whose links pass nearer to the axis by so much of the way ... */
 #define OFF 0.03      /* ... or farther; ... */
 #define BEYOND 0.1    /* of a piece: ... or touch farther out than they reach */
 
@@ -54,8 +52,8 @@ is_tangent_corner (const bt__line_job *k, int64_t i, bt__edge *e)
   double low = (1 - ASIDE) * out, high = (1 + OFF) * out, da = bt__dot (a, u), db = bt__dot (b, u);
   double la = bt__dot (bt__cross (e->axis, a), u), lb = -bt__dot (bt__cross (e->axis, b), u);
   double slack = BEYOND * k->d->piece;
-  return angle > TURNS && angle < SHARPEST && da > low && da < high && db > low && db < high
-         && la > -slack && lb > -slack && la < bt__distance (x[0], x[1]) + slack
+  return angle > BT__BEND_TURNS && angle < SHARPEST && da > low && da < high && db > low
+         && db < high && la > -slack && lb > -slack && la < bt__distance (x[0], x[1]) + slack
          && lb < bt__distance (x[1], x[2]) + slack;
 }
 
@@ -149,7 +147,8 @@ may_bend (const bt__line_job *k, const bt__sliding *s, int q, bt__bend_place *p)
   p->node = node_near (k, r);
   if (p->node >= 0 && (is_crowded (k, p->node) || bt__sliding_has (s, p->node)))
     return 0;
-  if (!bt__edge_find (k, k->w->of[q].id, at, &p->edge) || fabs (bt__dot (t, p->edge.axis)) >= ALONG)
+  if (!bt__edge_find (k, k->w->of[q].id, at, &p->edge)
+      || fabs (bt__dot (t, p->edge.axis)) >= BT__TURN_ALONG)
     return 0;
   if (bt__dot (bt__cross (p->edge.axis, p->edge.normal), t) < 0)
     p->edge.axis = bt__scale (-1, p->edge.axis);

@@ -12,11 +12,9 @@
 #include "base/hash.h"
 #include "contact/line_job.h"
 
-#define AHEAD 1.2  /* of the present speed: how far a link may go in the step */
-#define WIDER 1.1  /* of what is needed: what is listed */
-#define LOOK 0.5   /* m: how far a clear link looks, so as not to ask again soon, ... */
-#define FAR 2.0    /* ... and the whole line */
-#define CLOSE 1e-6 /* for rounding */
+#define WIDER 1.1 /* of what is needed: what is listed */
+#define LOOK 0.5  /* m: how far a clear link looks, so as not to ask again soon, ... */
+#define FAR 2.0   /* ... and the whole line */
 
 /* What is left of the clearance measured last.  */
 static double
@@ -25,7 +23,7 @@ known_clear (const bt__line_job *k, uint32_t j)
   const bt__link_watch *s = k->w->watch + j;
   bt_vec3 a = bt__sub (k->x[j], s->a), b = bt__sub (k->x[j + 1], s->b);
   double square = fmax (bt__dot (a, a), bt__dot (b, b));
-  return s->clear - sqrt (square) * (1 + CLOSE);
+  return s->clear - sqrt (square) * (1 + BT__LINE_CLOSE);
 }
 
 /* The farthest a point of MOVER goes.  */
@@ -98,11 +96,11 @@ list_mover (bt__line_job *k, uint32_t j, uint32_t m, bt__nears *list)
   double own = motion_of (mover), dropped = list->dropped;
   bt__pair_point (at->origin, &link, &ball);
   double away = ball.distance - mover->radius - own;
-  if (away * (1 - CLOSE) > s->reach)
+  if (away * (1 - BT__LINE_CLOSE) > s->reach)
     return;
   link = (bt__link){ bt__to_local (at, link.a), bt__to_local (at, link.b) };
-  bt__scene_near (mover->body, mover->on, &link, m + 1, (s->reach + own) * (1 + CLOSE), list,
-                  k->count);
+  bt__scene_near (mover->body, mover->on, &link, m + 1, (s->reach + own) * (1 + BT__LINE_CLOSE),
+                  list, k->count);
   if (!(list->dropped < dropped))
     return;
   s->full = 1;
@@ -163,7 +161,7 @@ bt__line_watch (bt__line_job *k)
     {
       double after = bt__dot (v[j + 1], v[j + 1]);
       double move = fmax (k->h * sqrt (fmax (before, after)), ends);
-      double need = fmax (touch, AHEAD * fmin (move, BT__LINE_STRIDE) + k->core);
+      double need = fmax (touch, BT__LINE_AHEAD * fmin (move, BT__LINE_STRIDE) + k->core);
       list_link (k, (uint32_t)j, need);
       any |= is_near (k, (uint32_t)j, need);
       before = after;
@@ -256,8 +254,9 @@ is_enough (const bt__line_job *k, double clear)
   double fast = k->h * k->d->fastest;
   if (!(clear > k->config->radius + k->margin))
     return 0;
-  return clear > AHEAD * BT__LINE_STRIDE + k->core
-         || clear > AHEAD * fmin (fmax (fast, move_of_ends (k)), BT__LINE_STRIDE) + k->core;
+  return clear > BT__LINE_AHEAD * BT__LINE_STRIDE + k->core
+         || clear
+                > BT__LINE_AHEAD * fmin (fmax (fast, move_of_ends (k)), BT__LINE_STRIDE) + k->core;
 }
 
 int
@@ -272,7 +271,7 @@ bt__line_is_far (bt__line_job *k, double *may)
     return 1;
   for (int looked = 0;; looked++)
     {
-      double clear = (1 - CLOSE) * d->spare.way;
+      double clear = (1 - BT__LINE_CLOSE) * d->spare.way;
       *may = clear - k->core;
       if (is_enough (k, clear))
         return 1;
@@ -307,10 +306,10 @@ bt__line_watch_moves (bt__line_job *k)
       const bt__link_watch *s = k->w->watch + j;
       double after = bt__distance (k->x[j + 1], k->X[j + 1]), need = fmax (before, after) + k->core;
       before = after;
-      if (need * (1 + CLOSE) <= s->reach)
+      if (need * (1 + BT__LINE_CLOSE) <= s->reach)
         continue;
       if (!s->full)
-        list_link (k, j, need * (1 + CLOSE));
+        list_link (k, j, need * (1 + BT__LINE_CLOSE));
       if (need <= s->reach)
         continue;
       k->report->overflows++;

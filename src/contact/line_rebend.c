@@ -24,7 +24,6 @@
 #define ROOM 0.99     /* of an interval: the farthest along it that a corner comes */
 #define MORE 0.05     /* radians: by what a corner turns too much for the next to come, ... */
 #define BACK 0.02     /* ... and turns back to go */
-#define TURNS 0.05    /* radians: a node that turns less is no corner */
 
 enum
 {
@@ -202,7 +201,7 @@ extend (bt__line_job *k, bt__sliding *s, int q, int side)
       || s->n >= BT__BENTS)
     return 0;
   bt_vec3 before = bt__turn_normal (a.axis, x), after = bt__turn_normal (a.axis, x + 1);
-  if (!(bt__dot (a.axis, bt__cross (before, after)) > TURNS))
+  if (!(bt__dot (a.axis, bt__cross (before, after)) > BT__BEND_TURNS))
     return 0;
   a.load = a.work = a.step_work = a.before = a.beyond = 0;
   a.force = bt__vec (0, 0, 0);

@@ -20,11 +20,8 @@
 #define FLAT 0.1      /* of the radius: a link no steeper lies along a plane */
 #define SAME 0.15     /* of a link: places so near are one, ... */
 #define SAME_HIT 0.25 /* ... of hits, ... */
-#define ALIKE 0.995   /* ... if their normals' product is more, ... */
-#define ALIKE_HIT 0.7 /* ... of hits */
-#define AHEAD 0.2     /* m: a line that moves more in a step is not foretold */
+#define ALIKE 0.995   /* ... if their normals' product is more */
 #define COPLANAR 0.9999
-#define RECOVERY 0.2 /* m/s: a line that was pressed in is let out so fast */
 
 /* ---- Rows ---- */
 
@@ -48,7 +45,7 @@ bt__row_set (bt__line_job *k, int number, uint32_t j, double s, const bt__near *
       point = bt__to_world (&to, w->point);
       drift = bt__sub (point, bt__to_world (&m->motion.from, w->point));
     }
-  double out = fmin (k->config->radius, fmax (start, k->core) + RECOVERY * k->h);
+  double out = fmin (k->config->radius, fmax (start, k->core) + BT__LINE_RECOVERY * k->h);
   k->w->row[number] = (bt__constraint){ .node = (int64_t)j,
                                         .s = s,
                                         .normal = normal,
@@ -107,7 +104,7 @@ look_ahead (const bt__line_job *k, const bt__pass *p, const bt__link *from, cons
             const bt__witness *now, bt__witness *w)
 {
   *w = *now;
-  if (fmax (bt__distance (from->a, to->a), bt__distance (from->b, to->b)) > AHEAD)
+  if (fmax (bt__distance (from->a, to->a), bt__distance (from->b, to->b)) > BT__LINE_FORETOLD)
     return;
   bt__scene_pair (bt__line_scene (k, p->near), p->near, to, w);
   int turned = !(bt__dot (w->normal, now->normal) > BT__ROW_TURNED);
@@ -179,7 +176,7 @@ touch_end (bt__line_job *k, uint32_t j, int e, const bt__pass *p, const pass_end
 {
   double above = fmax (end->from.distance - k->config->radius, 0);
   int64_t i = (int64_t)j + e;
-  raise = fmin (raise, above + (i > 0 && i < k->links ? RECOVERY * k->h : 0));
+  raise = fmin (raise, above + (i > 0 && i < k->links ? BT__LINE_RECOVERY * k->h : 0));
   if (end->from.distance - raise >= k->config->radius + k->margin || k->rows >= k->w->rows_max)
     return;
   bt__row_set (k, k->rows, j, e, p->near, &end->w, end->from.distance - raise);
@@ -363,7 +360,7 @@ row_for_hit (const bt__line_job *k, uint32_t j, const bt__near *near, double s, 
       const bt__line_row *of = k->w->of + i;
       if (of->link == j && of->mover == near->link && of->object == near->object
           && of->slot == near->slot && fabs (r->s - s) < SAME_HIT
-          && bt__dot (r->normal, n) > ALIKE_HIT)
+          && bt__dot (r->normal, n) > BT__LINE_ALIKE_HIT)
         return i;
     }
   return k->rows;

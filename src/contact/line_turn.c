@@ -21,7 +21,6 @@
 
 #include "contact/line_bend.h"
 
-#define ALONG 0.9      /* product of line and edge: more, and the line lies along it */
 #define LEAST_COS 0.25 /* of half the turn: what a node is held out for at most */
 
 /* The normal of the tangent from U: of the line that comes from there, SIGN 1, or goes there, -1.
@@ -65,8 +64,8 @@ bt__turn_find (const bt__line_job *k, const bt__edge *e, const bt_vec3 *p, const
           b = bt__unit_or (bt__sub (p[2], t->at), none);
   t->turn = 2 * asin (fmin (0.5 * bt__norm (bt__sub (b, a)), 1));
   t->sliding = bt__scale (0.5, bt__add (a, b));
-  return bt__dot (t->normal, e->normal) > 0 && fabs (bt__dot (axis, a)) < ALONG
-         && fabs (bt__dot (axis, b)) < ALONG;
+  return bt__dot (t->normal, e->normal) > 0 && fabs (bt__dot (axis, a)) < BT__TURN_ALONG
+         && fabs (bt__dot (axis, b)) < BT__TURN_ALONG;
 }
 
 double

@@ -17,7 +17,7 @@
 double
 bt__self_expected (const bt__line_job *k, double went)
 {
-  return k->config->strands > 0 ? BT__SELF_AHEAD * went : 0;
+  return k->config->strands > 0 ? BT__LINE_AHEAD * went : 0;
 }
 
 /* The box about the line as it is and as it is to go to TO, or NULL, with REACH about it.  */

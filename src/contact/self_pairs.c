@@ -42,7 +42,7 @@ static bt__dynamic_drift
 allowed (const bt__line_job *k)
 {
   bt__dynamic_drift may = k->d->spare;
-  may.apart += 2 * (bt__self_touching (k) - k->core) * (1 - BT__SELF_CLOSE);
+  may.apart += 2 * (bt__self_touching (k) - k->core) * (1 - BT__LINE_CLOSE);
   return may;
 }
 
@@ -51,8 +51,8 @@ is_ahead (const bt__line_job *k)
 {
   bt__dynamic_drift may = allowed (k);
   const bt__dynamic *d = k->d;
-  return d->spare.turned > 0 && d->spare.apart > 0 && may.turned > BT__SELF_AHEAD * d->step.turned
-         && may.apart > BT__SELF_AHEAD * d->step.apart;
+  return d->spare.turned > 0 && d->spare.apart > 0 && may.turned > BT__LINE_AHEAD * d->step.turned
+         && may.apart > BT__LINE_AHEAD * d->step.apart;
 }
 
 /* True if it is clear of itself, and for longer than the step that starts is expected to go.
@@ -152,8 +152,8 @@ is_known (const bt__line_job *k, const bt_vec3 *x, bt__dynamic_drift *drift)
 {
   const bt__self *self = &k->w->self;
   bt__dynamic_drifted (x, self->stood, self->still, drift);
-  drift->turned *= 1 + BT__SELF_CLOSE;
-  drift->apart *= 1 + BT__SELF_CLOSE;
+  drift->turned *= 1 + BT__LINE_CLOSE;
+  drift->apart *= 1 + BT__LINE_CLOSE;
   return drift->turned < self->turn && drift->apart < self->way;
 }
 
@@ -301,7 +301,7 @@ goes_clear (const bt__line_job *k, const bt__self_known *p)
       most = fmax (most, bt__distance (k->x[p->i + n], k->X[p->i + n]));
       most = fmax (most, bt__distance (k->x[p->j + n], k->X[p->j + n]));
     }
-  return gap > 2 * (k->core + most * (1 + BT__SELF_CLOSE)) * (1 + BT__SELF_CLOSE);
+  return gap > 2 * (k->core + most * (1 + BT__LINE_CLOSE)) * (1 + BT__LINE_CLOSE);
 }
 
 static int
@@ -371,7 +371,7 @@ list_moves (bt__line_job *k)
   bt__self *self = &k->w->self;
   bt__dynamic_drift drift = { 0 };
   for (int i = 0; i <= k->links; i++)
-    self->move[i] = bt__distance (k->x[i], k->X[i]) * (1 + BT__SELF_CLOSE);
+    self->move[i] = bt__distance (k->x[i], k->X[i]) * (1 + BT__LINE_CLOSE);
   return list (k, k->X, know_move (k, &drift));
 }
 

@@ -21,17 +21,14 @@
 
 #include "contact/line_job.h"
 
-#define APART 4.0     /* radii of line between two links: less, and they do not touch */
-#define RECOVERY 0.2  /* m/s: links that were pressed together part so fast */
-#define STIFF 0.1     /* times EA over a link's length: of a touch, ... */
-#define STIFFEST 1e6  /* N/m: ... at most, but for the load */
-#define YIELD 8.0     /* part of the way to the core: the deepest penetration by the load ... */
-#define HARDEST 1e8   /* N/m: ... as far as a touch gives way at all, which held ends do not, ... */
-#define RIGID 100.0   /* times EI over the cube of a link's length: ... or a line that is stiff */
-#define ALIKE_HIT 0.7 /* product of the normals: a hit is of the row that is there */
-#define REMEMBER 0.75 /* of a link: the farthest a touch goes along either line in a step */
-#define ALIKE 0.5     /* product of the normals in that */
-#define LEVER 1e-3    /* of a link: so near to an end that is held nothing else is moved */
+#define APART 4.0    /* radii of line between two links: less, and they do not touch */
+#define STIFF 0.1    /* times EA over a link's length: of a touch, ... */
+#define STIFFEST 1e6 /* N/m: ... at most, but for the load */
+#define YIELD 8.0    /* part of the way to the core: the deepest penetration by the load ... */
+#define HARDEST 1e8  /* N/m: ... as far as a touch gives way at all, which held ends do not, ... */
+#define RIGID 100.0  /* times EI over the cube of a link's length: ... or a line that is stiff */
+#define ALIKE 0.5    /* product of the normals of a touch that is remembered */
+#define LEVER 1e-3   /* of a link: so near to an end that is held nothing else is moved */
 
 static double
 radius_of (const bt__line_job *k, const bt__self_pair *p)
@@ -152,7 +149,7 @@ set_row (bt__line_job *k, int q, const bt__self_pair *p, const bt__link *second,
          const bt__witness *w)
 {
   double t = share_of (second, w->point), whole = k->config->radius + radius_of (k, p);
-  double out = fmin (whole, fmax (p->w.distance, p->floor) + RECOVERY * k->h);
+  double out = fmin (whole, fmax (p->w.distance, p->floor) + BT__LINE_RECOVERY * k->h);
   double stands = p->strand < 0 ? 0 : bt__dot (w->normal, w->point);
   int64_t id = p->strand < 0 ? k->config->id : k->config->strand[p->strand].id;
   k->w->row[q] = (bt__constraint){ .node = p->i,
@@ -221,7 +218,7 @@ bt__self_add_hit (bt__line_job *k, const bt__self_pair *p, const bt__witness *w,
       const bt__line_row *of = k->w->of + at;
       if (of->mover == BT__LINE_SELF && of->link == p->i && of->slot == p->j
           && of->object == (uint32_t)(p->strand + 1)
-          && bt__dot (k->w->row[at].normal, w->normal) > ALIKE_HIT)
+          && bt__dot (k->w->row[at].normal, w->normal) > BT__LINE_ALIKE_HIT)
         break;
     }
   if (at >= k->w->rows_max)
@@ -279,7 +276,7 @@ is_of_later (const bt__line_job *k, int i, const bt__contact *a, double away)
 int
 bt__self_anchor (const bt__line_job *k, int i)
 {
-  double reach = REMEMBER * bt__dynamic_rest (k->d)[k->w->row[i].node], least = 2 * reach;
+  double reach = BT__LINE_REMEMBER * bt__dynamic_rest (k->d)[k->w->row[i].node], least = 2 * reach;
   int best = -1;
   for (int q = 0; q < k->olds; q++)
     {

@@ -7,9 +7,6 @@
 
 #include "contact/line_job.h"
 
-#define BT__SELF_CLOSE 1e-6 /* for rounding */
-#define BT__SELF_AHEAD 1.2  /* of the last step's drift: what is expected of this one */
-
 /* A link that goes so much of its rest length in a direction goes along, ... */
 #define BT__SELF_TELLS 0.25
 #define BT__SELF_ALONG 0.24 /* ... and what such links must keep */

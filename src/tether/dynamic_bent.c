@@ -29,7 +29,6 @@
 #define CLING 0.01    /* N: what a slack line holds on by */
 #define SOFT 1e-6     /* of the stiffness: what resists the flow between slack intervals */
 #define FOLLOWS 60    /* iterations for a flow that follows the places */
-#define DAMPING 1.0   /* times the step's drag along the edge: what sticks must not ring */
 #define SETTLED 1e-13 /* m */
 
 /* ---- The intervals before and after ---- */
@@ -127,10 +126,10 @@ static void
 assemble_bent (bt__dynamic_work *w, bt__dynamic_bent *b)
 {
   b->side_now = side_of (w, b);
-  double answered = b->side_now + DAMPING * (b->side_now - b->side);
+  double answered = b->side_now + BT__STICK_DAMPING * (b->side_now - b->side);
   double size = hypot (b->drag + b->flow, answered), most = b->load > 0 ? b->friction * b->load : 0;
   double ks = most / fmax (size, b->slip), part = answered / size;
-  double slope = (1 + DAMPING) * (size > b->slip ? ks * fmax (1 - part * part, 0) : ks);
+  double slope = (1 + BT__STICK_DAMPING) * (size > b->slip ? ks * fmax (1 - part * part, 0) : ks);
   b->force = bt__axpy (spring_of (w, b), -ks * answered, b->axis);
   w->rhs[b->node] = bt__add (w->rhs[b->node], b->force);
   bt__sym_add (w->diag + b->node, b->stiffness, slope - b->stiffness, b->axis);

@@ -21,7 +21,6 @@
 #define ACTIVITY 0.02 /* of the stiffness: what a gap takes from a multiplier */
 #define HOLDING 0.05  /* the same of a held end */
 #define FIRM 1e4      /* times stiffer sticks an end that does not slip */
-#define DAMPING 1.0   /* times the step's drag: what sticks is a spring that must not ring */
 
 #define LOAD 1.0        /* N: loads that change less in an iteration, ... */
 #define LOAD_SHARE 0.05 /* ... and by this share of them, are settled */
@@ -58,7 +57,7 @@ static bt_vec3
 drag_of (const bt__dynamic_work *w, const bt__constraint *r)
 {
   bt_vec3 moved = bt__sub (place_of (r, w->X), place_of (r, w->x));
-  return tangential (r, bt__axpy (r->stick, 1 + DAMPING, bt__sub (moved, r->drift)));
+  return tangential (r, bt__axpy (r->stick, 1 + BT__STICK_DAMPING, bt__sub (moved, r->drift)));
 }
 
 /* How far the next node has risen against the node of R, m.  */
@@ -126,7 +125,8 @@ assemble_row (bt__dynamic_work *w, bt__constraint *r, bt__mode mode)
   double kn = active * r->stiffness;
   r->active = active;
   r->drag = drag_of (w, r);
-  double size = bt__norm (r->drag), ks = grip_of (r, r->load, size), kt = (1 + DAMPING) * ks;
+  double size = bt__norm (r->drag), ks = grip_of (r, r->load, size),
+         kt = (1 + BT__STICK_DAMPING) * ks;
   int slides = size > r->slip;
   bt_vec3 d = slides ? bt__scale (1 / size, r->drag) : bt__vec (0, 0, 0);
   r->force = bt__axpy (bt__scale (-kn * gap, r->normal), -ks, r->drag);
@@ -198,8 +198,8 @@ way_to_place (const bt__dynamic_work *w, int k)
   return bt__unit_or (bt__sub (w->hold[k].at, w->x[end_node (w, k)]), bt__vec (0, 0, 0));
 }
 
-/* What mass at end K resists of the acceleration of the end, m/s2: in the SAFE way all of it; else the
-   gain of speed on the WAY to the place of the end.  */
+/* What mass at end K resists of the acceleration of the end, m/s2: in the SAFE way all of it; else
+   the gain of speed on the WAY to the place of the end.  */
 static bt_vec3
 resisted (const bt__dynamic_work *w, int k, int safe, bt_vec3 way)
 {
@@ -364,7 +364,7 @@ row_potential (const bt__dynamic_work *w, const bt__constraint *r)
   double size = bt__norm (drag_of (w, r));
   double drag = size < r->slip ? 0.5 * size * size / r->slip : size - 0.5 * r->slip;
   double roll = r->roll > 0 ? r->load * roll_potential (w, r) : 0;
-  return 0.5 * r->stiffness * depth * depth + most * drag / (1 + DAMPING) + roll;
+  return 0.5 * r->stiffness * depth * depth + most * drag / (1 + BT__STICK_DAMPING) + roll;
 }
 
 static double

@@ -66,6 +66,9 @@ enum
   BT__BENTS = 24 /* bent nodes a line has at most */
 };
 
+#define BT__STICK_DAMPING                                                                          \
+  1.0 /* times the step's drag: what sticks is a spring that must not ring */
+
 /* A node about which the line runs, see dynamic_bent.c: held in the plane across AXIS, and line
    flows through it from the interval before to the one after.  */
 typedef struct bt__dynamic_bent
