@@ -118,7 +118,7 @@ typedef struct bt__sliding
   bt__contact anchor[BT__BENTS];
   int64_t node[BT__BENTS];
   double was[BT__BENTS][2]; /* m: surplus before and after the node, as of before any change */
-  bt__turn turn[BT__BENTS]; /* at the present nodes, see bt__sliding_turn */
+  bt__turn turn[BT__BENTS]; /* at the present nodes, kept by line_rebend.c */
   uint32_t known;           /* bit q: TURN[q] is computed */
   int changed;              /* true: nodes or sides are others than those WAS is of */
 } bt__sliding;
