@@ -300,7 +300,7 @@ of it is the same to the last bit.  Return N."
   "Return the tube that holds the TETHER, by its name where there are several, of BELIEF with probability SHARE at each
 of N places, equally spaced in arc length from the anchor, or of the arc lengths AT: a list of ellipsoids, each a list of
 its centre and its three half axes.  With NOISE, m, it holds what is seen of the tether with such an error in each
-direction."
+direction.  Of n tethers the tube holds n in n + 1 at most."
   (map (lambda (e) (cons (ellipsoid-mean e) (ellipsoid-axes e))) (tube-of 'tether-tube belief share (or at n) noise tether)))
 
 (define (points-of tether places)

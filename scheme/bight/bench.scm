@@ -243,6 +243,10 @@
                (loop rest-of names options (append (reverse (cons (car rest) values)) passed)))))
           (else (loop (cdr rest) (cons (car rest) names) options passed)))))
 
+(define (option->words option)
+  ;; OPTION, of ours, as it was written.
+  (if (string? (cdr option)) (list (car option) (cdr option)) (list (car option))))
+
 (define (option-value? word)
   ;; Does WORD follow an option rather than name a bench or a file of ours?
   (not (or (string-prefix? "-" word) (member word (benches)))))
@@ -380,7 +384,7 @@
               (old (compare old files names options passed folder))
               ((told-by-itself names)
                => (lambda (entry)
-                    (((second entry)) (append (if (assoc-ref options "--quick") '("--quick") '()) passed))))
+                    (((second entry)) (append (append-map option->words options) passed))))
               (else
                (let ((plan (make-plan names options passed)))
                  (cond ((worlds? names passed)

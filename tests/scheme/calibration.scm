@@ -2,7 +2,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight bench belief) (bight belief cloud) (bight belief regression) (bight study sweep-design) ((srfi srfi-1) #:select (iota fold count append-map filter-map)) (srfi srfi-4))
+(use-modules (bight bench belief) (bight bench in-time) (bight belief answer) (bight belief cloud) (bight belief tube) (bight belief regression) (bight study sweep-design) ((bight bench) #:select (bench-command)) ((srfi srfi-1) #:select (iota fold count append-map filter-map)) (srfi srfi-4))
 
 (define (normals name)
   ;; A thunk that returns one independent standard normal number after another.
@@ -108,6 +108,58 @@ ranks are even, and those from 2 to 30 of 32 hold 29 in 33 truths."
                    (/ (count identity told) (length told))))))
     (expect (held 0.9) is (about 0.9 #:within 0.016))
     (expect (held 0.5) is (about 0.5 #:within 0.03))))
+
+
+;;; The tube.
+
+(define (point-of-members points shares)
+  (make-answer 'point points shares (/ 1 (apply + (map * shares shares))) 0))
+
+(define-scenario (a-tube-holds-as-often-as-it-says n)
+  "Of points drawn as N others are, whether normal or on a bent sheet, the 90 % ellipsoid of these holds nine in ten."
+  #:for ((n 12 32))
+  (let* ((normal (normals 'tubes)) (shares (times n (const (/ 1.0 n))))
+         (bent (lambda () (let ((z (normal))) (f64vector z (+ (* z z) (* 0.3 (normal))) 0.0))))
+         (held (lambda (draw)
+                 (/ (count identity
+                           (times 400 (lambda ()
+                                        (let ((e (ellipsoid (point-of-members (times n draw) shares) 0.9)))
+                                          (ellipsoid-holds? e (draw))))))
+                    400))))
+    (expect (held (lambda () (f64vector (normal) (normal) (normal)))) is (about 0.91 #:within 0.04))
+    (expect (held bent) is (about 0.91 #:within 0.04))))
+
+(define-scenario a-tube-of-little
+  "Where one of eight members is off all others the ellipsoid ends, and not at any distance; where one bears all weight, or all
+are at one place, it is a point, or what an error asks."
+  (let* ((here (f64vector 1.0 2.0 3.0)) (there (f64vector 2.0 2.0 3.0)) (even (times 8 (const 0.125)))
+         (longest (lambda (e) (let ((a (car (ellipsoid-axes e)))) (sqrt (apply + (map * (f64vector->list a) (f64vector->list a)))))))
+         (alone (longest (ellipsoid (point-of-members (cons there (times 7 (const here))) even) 0.9))))
+    (expect alone is (between 1 3))
+    (expect (longest (ellipsoid (point-of-members (times 8 (const here)) even) 0.9)) is (below 1e-3))
+    (expect (longest (ellipsoid (point-of-members (cons there (times 7 (const here))) (cons 1.0 (times 7 (const 0.0)))) 0.9))
+            is (below 1e-3))
+    (expect (longest (ellipsoid (point-of-members (times 8 (const here)) even) 0.8 0.1)) is (about 0.25 #:within 0.05))))
+
+
+;;; In the minutes that there are.
+
+(define-scenario as-many-truths-as-fit
+  "A measurement ends with its minutes: what was under way is not told.  `bight bench' hands a bench of the language its
+options, and refuses those that it has not."
+  (let ((quietly (lambda (n minutes measure)
+                   (parameterize ((current-error-port (%make-void-port "w")))
+                     (as-many-as-fit "numbers" n (minutes-from-now minutes) measure)))))
+    (expect (quietly 5 #f identity) => '(0 1 2 3 4))
+    (expect (quietly 5 0 identity) => '())
+    (expect (quietly 5 0.02 (lambda (k) (let loop () (when (and (= k 2) (in-time?)) (loop))) k)) is (lambda (all) (< (length all) 3)))
+    (expect (share-of-time (minutes-from-now #f) 3) => +inf.0))
+  (expect (bench-command '("belief" "--minutes" "soon")) raises domain)
+  (expect (bench-command '("tours" "--minutes" "-1")) raises domain)
+  (expect (bench-command '("belief" "--rounds" "3")) raises domain)
+  (expect (run-belief '("--truths" "0")) raises domain)
+  (expect (run-belief '("--truhts" "3")) raises domain)
+  (expect (run-belief '("more")) raises domain))
 
 
 ;;; Courses: what two members with equal values do among obstacles.

@@ -1,10 +1,12 @@
 ;;; (bight belief tube) --- where a tether may be: the tube that holds it with a given probability.
 ;;;
 ;;; At each of several places along the tether the members' points have a mean and a covariance.  A point lies in
-;;; the tube at that place if its Mahalanobis distance is no more than that of the share of the members, each
-;;; judged by all: as the members and the truth are drawn alike, the share of truths held is the share asked for,
-;;; whatever the distribution (conformal prediction: Vovk, Gammerman and Shafer, Algorithmic Learning in a Random
-;;; World, 2005).  A point that was seen with an error lies where a tether's point, moved by such an error, may lie.
+;;; the tube at that place if its Mahalanobis distance is no more than that of the share of the members.  As the members and
+;;; the truth are drawn alike, the share of truths held is the share asked for, whatever the distribution (conformal
+;;; prediction: Vovk, Gammerman and Shafer, Algorithmic Learning in a Random World, 2005), if each member is judged as the
+;;; truth is, by the mean and the covariance of others alone.  Among those that it is one of itself it is nearer to the
+;;; middle than any truth: of 32 members a tube by such distances holds 0.83 of what is normal, not 0.9.  A point that was
+;;; seen with an error lies where a tether's point, moved by such an error, may lie.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -13,7 +15,6 @@
   #:use-module (bight study sweep-design)
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
-  #:use-module ((bight core units) #:select (vec vec+))
   #:export (ellipsoid
             ellipsoid-mean
             ellipsoid-axes
@@ -36,9 +37,14 @@
          (determinant (fold (lambda (j sum) (+ sum (* (list-ref (car m) j) (cofactor 0 j)))) 0.0 '(0 1 2))))
     (map (lambda (i) (map (lambda (j) (/ (cofactor j i) determinant)) '(0 1 2))) '(0 1 2))))
 
+(define (product matrix u v)
+  (fold (lambda (row a sum) (+ sum (* a (apply + (map * row v))))) 0.0 matrix u))
+
+(define (off mean p) (map - (f64vector->list p) (f64vector->list mean)))
+
 (define (square-distance mean inverse p)
-  (let ((off (map - (f64vector->list p) (f64vector->list mean))))
-    (fold (lambda (row a sum) (+ sum (* a (apply + (map * row off))))) 0.0 inverse off)))
+  (let ((d (off mean p)))
+    (product inverse d d)))
 
 (define (widened covariance variance)
   (map (lambda (row i) (map (lambda (v j) (if (= i j) (+ v variance) v)) row '(0 1 2)))
@@ -46,39 +52,62 @@
 
 (define (weighted-rank pairs share n)
   ;; Below which of the values of PAIRS, (VALUE . WEIGHT), SHARE of the weight, and that of one more of N members, lies,
-  ;; interpolated; one and a half times the greatest where there are too few for that.
+  ;; interpolated; the greatest where there are too few for that.
   (let ((sorted (sort pairs (lambda (a b) (< (car a) (car b)))))
         (wanted (* share (+ 1 (/ 1 n)))))
     (let loop ((rest sorted) (sum 0.0) (below 0.0))
-      (cond ((null? rest) (* 1.5 below))
+      (cond ((null? rest) below)
             ((>= (+ sum (cdar rest)) (- wanted 1e-12))
              (+ below (* (- (caar rest) below) (min 1 (/ (- wanted sum) (cdar rest))))))
             (else (loop (cdr rest) (+ sum (cdar rest)) (caar rest)))))))
 
+
+;;; How far a member is from the others.
+
+(define (distance-from-others inverse d share error)
+  ;; The square of the Mahalanobis distance of a member with SHARE, D off the mean of all and seen with ERROR beside it,
+  ;; from the mean of the others by their covariance, where INVERSE is that of the covariance of all (Sherman and
+  ;; Morrison, Annals of Mathematical Statistics 21, 1950).
+  (let* ((left (max 1e-6 (- 1 share))) (own (/ share left))
+         (v (map (lambda (e c) (+ e (/ c left))) error d))
+         (along (product inverse d v)))
+    (* left (+ (product inverse v v)
+               (/ (* own along along) (max 1e-9 (- 1 (* own (product inverse d d)))))))))
+
+;; Such distances grow without end where a member is alone off the others.  Their ranks are interpolated in a number that
+;; does not: the distance among N equal members that it is one of.
+
+(define (among d n) (/ (* d (- n 1)) (+ n d)))
+
+(define (from-others d n)
+  ;; The distance from N members of who would be at D, at most N - 1, among N + 1.
+  (/ (* d (+ n 1)) (- n d)))
+
 (define draws 8)                        ; of an error, for each member
 
-(define (seen-points p i noise)
-  ;; Where P, the point of member number I, may be seen to be.
+(define (errors i noise)
+  ;; What may be seen beside the point of member number I, lists.
   (if (zero? noise)
-      (list p)
+      '((0.0 0.0 0.0))
       (let ((random (number-stream 'tube i)))
-        (map (lambda (k)
-               (let ((error (lambda (c) (* noise (normal-quantile (random (+ c (* 3 k))))))))
-                 (vec+ p (vec (error 0) (error 1) (error 2)))))
+        (map (lambda (k) (map (lambda (c) (* noise (normal-quantile (random (+ c (* 3 k)))))) '(0 1 2)))
              (iota draws)))))
 
 (define* (ellipsoid answer share #:optional (noise 0.0))
   "Return the ellipsoid that holds the point of ANSWER, seen with an error of NOISE in each direction, with probability
 SHARE."
   (let* ((mean (answer-mean answer)) (shares (answer-weights answer))
-         (covariance (widened (answer-covariance answer) (+ least-variance (* noise noise))))
-         (inverse (inverse covariance)))
-    (list mean inverse covariance
-          (weighted-rank (append-map (lambda (p w i)
-                                       (let ((seen (seen-points p i noise)))
-                                         (map (lambda (q) (cons (square-distance mean inverse q) (/ w (length seen)))) seen)))
-                                     (answer-values answer) shares (iota (length shares)))
-                         share (/ 1 (apply + (map * shares shares)))))))
+         (n (max 2 (/ 1 (apply + (map * shares shares)))))
+         (own (answer-covariance answer)) (seen (+ least-variance (* noise noise)))
+         (of-others (inverse (widened own (* seen (- 1 (/ 1 n))))))
+         (covariance (widened own seen))
+         (ranked (append-map (lambda (p w i)
+                               (let ((d (off mean p)) (all (errors i noise)))
+                                 (map (lambda (error)
+                                        (cons (among (distance-from-others of-others d w error) n) (/ w (length all))))
+                                      all)))
+                             (answer-values answer) shares (iota (length shares)))))
+    (list mean (inverse covariance) covariance (from-others (weighted-rank ranked share n) n))))
 
 (define (ellipsoid-holds? ellipsoid p)
   "Return true if P, a point, lies in ELLIPSOID."

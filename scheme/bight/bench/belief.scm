@@ -1,11 +1,12 @@
 ;;; (bight bench belief) --- `bight bench belief': is a belief as sure as it may be, and what does it cost?
 ;;;
-;;; With `--tank' the truth is a measured rope: (bight bench belief-tank).  Else truths are drawn as the members are, from another seed, and flown by the same orders round the head of a post
-;;; that the line may or may not slip over; a shorter way round a lower one where beliefs learn.  Each row is of one
-;;; number of tethers: the share of the true line that the 90 % tube holds, of true values within their 90 % intervals,
-;;; the Brier score of P(fouled) beside that of the dive without a belief, CPU time, and how many truths lie in each
-;;; tenth of the members by rank: as many as there are ranks in it, where the belief is as sure as it may be (Talts, Betancourt, Simpson,
-;;; Vehtari and Gelman, arXiv 1804.06788, 2018).
+;;; With `--tank' the truth is a measured rope: (bight bench belief-tank).  Else truths are drawn as the members are, from
+;;; other seeds, and flown by the same orders round the head of a post that the line may or may not slip over; a shorter way
+;;; round a lower one where beliefs learn.  Each row is of one number of tethers: how many truths there were time for, the
+;;; share of the true line that the 90 % tube holds, of true values within their 90 % intervals, the Brier score of
+;;; P(fouled) beside that of the dive without a belief, CPU time, and how many truths lie in each tenth of the members by
+;;; rank: as many as there are ranks in it, where the belief is as sure as it may be (Talts, Betancourt, Simpson, Vehtari
+;;; and Gelman, arXiv 1804.06788, 2018).
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -15,8 +16,9 @@
   #:use-module (bight belief cloud)
   #:use-module (bight belief unknowns)
   #:use-module (bight bench belief-tank)
+  #:use-module (bight bench in-time)
+  #:use-module (bight bench options)
   #:use-module ((bight bench plot) #:select (draw-line draw-on-decades draw-text))
-  #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (bight dive)
   #:use-module ((bight dive aware) #:select (fouled?))
@@ -33,7 +35,7 @@
 (define help "bight bench belief: how often beliefs are right, and what they cost
   --truths N    of each number of tethers, 400 when left out, 20 with --quick
   --tethers N   one number of tethers alone; 8 to 256 by doubling when left out, 64 with --quick
-  --minutes M   with --learn: of each number of tethers no more truths than fit into M minutes
+  --minutes M   M minutes by the clock for all: of each number of tethers as many truths as fit
   --plot FILE   draw, as SVG, how much of the true line is outside the tube over CPU time, a point for each number of tethers
   --learn       let each belief go by readings of tension first, on a shorter dive, at 2 s of CPU for 32 tethers
   --by HOW      learn by smoother or by particles
@@ -43,22 +45,6 @@
 
 (define valued '("--truths" "--tethers" "--by" "--minutes" "--plot"))
 (define flags '("--learn" "--quick" "--cost" "--tank" "--help"))
-
-(define (read-options arguments)
-  (let loop ((rest arguments) (found '()))
-    (cond ((null? rest) found)
-          ((member (car rest) flags) (loop (cdr rest) (acons (car rest) #t found)))
-          ((not (member (car rest) valued))
-           (bight-raise 'domain 'bench "the bench belief has ~a, not ~a" (string-join (append valued flags) ", ")
-                        (car rest)))
-          ((null? (cdr rest)) (bight-raise 'domain 'bench "~a needs a value after it" (car rest)))
-          (else (loop (cddr rest) (acons (car rest) (cadr rest) found))))))
-
-(define (whole options name default)
-  (let* ((text (assoc-ref options name)) (n (if text (text->number text) default)))
-    (unless (and (exact-integer? n) (> n 0))
-      (bight-raise 'domain 'bench "~a takes a whole number above 0, not ~a" name text))
-    n))
 
 
 ;;; The dive.
@@ -102,28 +88,49 @@
   (let ((order (assv k (dive-orders dive))))
     (when order
       (move! (second order) #:speed (third order)))
+    (in-time?)
     (run 1)))
 
 (define (tensions-now)
   (list (anchor-tension) (rov-tension)))
 
-(define (fly-truths dive n)
-  ;; A list for each of N truths: values of what is uncertain, the line, is it fouled, tensions by the second, latent
+(define at-once 20)                     ; truths that are drawn and flown together
+
+(define (fly-truths dive seed)
+  ;; A vector of truths, each a list: values of what is uncertain, the line, is it fouled, tensions by the second, latent
   ;; numbers.
   (enter! (dive-field dive))
-  (let ((all (make-belief (current-dive) doubts #:members (max 8 n) #:seed 1001)))
+  (let ((all (make-belief (current-dive) doubts #:members at-once #:seed seed)))
     (let loop ((k 0) (read '()))
       (if (< k (dive-seconds dive))
           (begin
             (fly-second! dive k)
             (loop (+ k 1) (cons (answer-values (ask-belief all tensions-now)) read)))
-          (map (lambda (member i)
-                 (list (unknown-values (belief-unknowns all) (member-latent member))
-                       (in-member member (lambda () (tether-points places)))
-                       (in-member member fouled?)
-                       (map (lambda (second) (list-ref second i)) (reverse read))
-                       (member-latent member)))
-               (list-head (belief-members all) n) (iota n))))))
+          (list->vector
+           (map (lambda (member i)
+                  (list (unknown-values (belief-unknowns all) (member-latent member))
+                        (in-member member (lambda () (tether-points places)))
+                        (in-member member fouled?)
+                        (map (lambda (second) (list-ref second i)) (reverse read))
+                        (member-latent member)))
+                (belief-members all) (iota at-once)))))))
+
+(define first-seed 100001)              ; of truths; those of beliefs are smaller
+
+(define (truths-of dive)
+  ;; A procedure that returns truth number K of DIVE, flown when it is first asked for.
+  (let ((known (make-hash-table)))
+    (lambda (k)
+      (let ((some (quotient k at-once)))
+        (unless (hash-ref known some)
+          (hash-set! known some (fly-truths dive (+ first-seed some))))
+        (vector-ref (hash-ref known some) (modulo k at-once))))))
+
+(define (fouled-alone? dive)
+  ;; Is the line fouled after DIVE, where nothing is uncertain?
+  (enter! (dive-field dive))
+  (for-each (lambda (k) (fly-second! dive k)) (iota (dive-seconds dive)))
+  (fouled?))
 
 (define (believer dive tethers seed by)
   (enter! (dive-field dive))
@@ -136,11 +143,13 @@
                 (observe! belief kind (+ value (* noise (normal-quantile (random i)))) #:noise noise))
               '(winch-tension rov-tension) tensions '(0 1))))
 
-(define (fly-belief! dive belief truth number learn?)
-  (for-each (lambda (k tensions)
+(define (fly-belief! dive belief look!)
+  ;; LOOK! is called after each second, with its number.
+  (for-each (lambda (k)
               (fly-second! dive k)
-              (when learn? (observe-second! belief number tensions)))
-            (iota (dive-seconds dive)) (fourth truth)))
+              (look! k)
+              (effective-size belief))  ; it is there, too
+            (iota (dive-seconds dive))))
 
 
 ;;; How right it is.
@@ -192,34 +201,60 @@
 (define (cpu) (/ (get-internal-run-time) (exact->inexact internal-time-units-per-second)))
 
 (define (learnt-verdict dive tethers truth number by)
+  ;; Of a belief that went by what was read in TRUTH, which has NUMBER.
   (let ((belief (believer dive tethers (+ 1 number) by)))
-    (fly-belief! dive belief truth number #t)
+    (fly-belief! dive belief
+                 (lambda (k) (observe-second! belief number (list-ref (fourth truth) k))))
     (judge belief truth)))
 
-(define (verdicts dive tethers truths learn? by until)
-  ;; Of as many of TRUTHS as are begun before the time UNTIL.
+(define (judge-of dive tethers truth-of learn? by)
+  ;; A procedure that returns the verdict about the truth of a number.
   (if learn?
-      (let loop ((rest truths) (number 0) (found '()))
-        (if (or (null? rest) (and (pair? found) (>= (current-time) until)))
-            (reverse! found)
-            (loop (cdr rest) (+ number 1) (cons (learnt-verdict dive tethers (car rest) number by) found))))
-      (let ((belief (believer dive tethers 1 by)))
-        (fly-belief! dive belief (car truths) 0 #f)
-        (map (lambda (truth) (judge belief truth)) truths))))
+      (lambda (number) (learnt-verdict dive tethers (truth-of number) number by))
+      (let ((belief #f))
+        (lambda (number)
+          (let ((truth (truth-of number)))
+            (unless belief
+              (let ((new (believer dive tethers 1 by)))
+                (fly-belief! dive new (const #t))
+                (set! belief new)))
+            (judge belief truth))))))
 
-(define (say-row dive tethers truths learn? by minutes)
-  ;; Return (TETHERS SECONDS-A-TRUTH SHARE-HELD).
+(define heads "tethers,truths,learnt by,held by the 90 % tube,current covered,cdn covered,brier,\
+brier of the dive alone,cpu s,\"reliability: (told true cases) ...\",ranks by tenths\n")
+
+(define (say-row tethers all how point seconds)
+  ;; ALL are verdicts about truths, POINT whether the dive is fouled of which nothing is uncertain.
+  (simple-format #t "~a,~a,~a,~a,~a,~a,~a,~a,~a,\"~a\",\"~a\"~%" tethers (length all) how
+                 (share (append-map first all)) (share (append-map second all)) (share (map third all))
+                 (brier (map (lambda (v) (cons (fourth v) (fifth v))) all))
+                 (brier (map (lambda (v) (cons (if point 1 0) (fifth v))) all))
+                 (/ (round (* 100 seconds)) 100) (reliability all) (by-tenths (append-map sixth all)))
+  (force-output))
+
+(define (measure-row dive tethers truth-of n learn? by point end)
+  ;; Return (TETHERS SECONDS-A-TRUTH SHARE-HELD), or #f where no truth fitted into the time until END.
   (let* ((begun (cpu))
-         (all (verdicts dive tethers truths learn? by (+ (current-time) (* 60 minutes))))
-         (held (share (append-map first all)))
-         (point (fouled?)))             ; of the dive that nothing is uncertain of
-    (simple-format #t "~a,~a,~a,~a,~a,~a,~a,~a,~a,\"~a\",\"~a\"~%" tethers (length all) (if learn? by 'nothing)
-                   held (share (append-map second all)) (share (map third all))
-                   (brier (map (lambda (v) (cons (fourth v) (fifth v))) all))
-                   (brier (map (lambda (v) (cons (if point 1 0) (fifth v))) all))
-                   (/ (round (* 100 (- (cpu) begun))) 100) (reliability all) (by-tenths (append-map sixth all)))
+         (all (as-many-as-fit (simple-format #f "~a tethers, truths" tethers) n end
+                              (judge-of dive tethers truth-of learn? by)))
+         (seconds (- (cpu) begun)))
+    (cond ((null? all)
+           (simple-format #t "~a,0~%" tethers)
+           #f)
+          (else
+           (say-row tethers all (if learn? by 'nothing) point seconds)
+           (list tethers (/ seconds (length all)) (share (append-map first all)))))))
+
+(define (measure-rows dive counts n learn? by minutes)
+  ;; A row of each of COUNTS, numbers of tethers, as far as MINUTES reach.
+  (let ((end (minutes-from-now minutes)) (truth-of (truths-of dive)) (point (fouled-alone? dive)))
+    (display heads)
     (force-output)
-    (list tethers (/ (- (cpu) begun) (length all)) held)))
+    (let loop ((rest counts) (found '()))
+      (if (null? rest)
+          (reverse! found)
+          (let ((row (measure-row dive (car rest) truth-of n learn? by point (share-of-time end (length rest)))))
+            (loop (cdr rest) (if row (cons row found) found)))))))
 
 (define asked 0.9)
 
@@ -289,23 +324,20 @@ second of all takes ~a s of CPU~%"
 
 (define (run-belief arguments)
   "Do what ARGUMENTS of the bench belief ask for, print what came of it and return the exit status."
-  (let* ((options (read-options arguments))
+  (let* ((options (bench-options "belief" valued flags arguments))
          (quick? (assoc-ref options "--quick"))
-         (by (string->symbol (or (assoc-ref options "--by") "smoother"))))
+         (by (string->symbol (or (assoc-ref options "--by") "smoother")))
+         (tethers (whole options "--tethers" 64 8 4096))
+         (truths (whole options "--truths" (if quick? 20 400) 1 100000)))
     (cond ((assoc-ref options "--help") (display help))
           ((assoc-ref options "--cost") (say-cost) (say-live-cost))
           ((assoc-ref options "--tank")
-           (say-tank (if (assoc "--tethers" options) (list (whole options "--tethers" 64)) '(32 64 128))))
+           (say-tank (if (assoc "--tethers" options) (list tethers) '(32 64 128))))
           (else
-           (let* ((learn? (assoc-ref options "--learn")) (dive (if learn? short-dive long-dive))
-                  (truths (fly-truths dive (whole options "--truths" (if quick? 20 400)))))
-             (display "tethers,truths,learnt by,held by the 90 % tube,current covered,cdn covered,brier,\
-brier of the dive alone,cpu s,\"reliability: (told true cases) ...\",ranks by tenths\n")
-             (let ((rows (map-in-order (lambda (tethers)
-                                         (say-row dive tethers truths learn? by (whole options "--minutes" 100000)))
-                                       (if (or quick? (assoc "--tethers" options))
-                                           (list (whole options "--tethers" 64))
-                                           '(8 16 32 64 128 256)))))
-               (when (assoc-ref options "--plot")
-                 (write-coverage (assoc-ref options "--plot") rows))))))
+           (let* ((learn? (assoc-ref options "--learn"))
+                  (rows (measure-rows (if learn? short-dive long-dive)
+                                      (if (or quick? (assoc "--tethers" options)) (list tethers) '(8 16 32 64 128 256))
+                                      truths learn? by (decimal options "--minutes" #f 0.01 1e5)))
+                  (file (assoc-ref options "--plot")))
+             (when (and file (pair? rows)) (write-coverage file rows)))))
     0))

@@ -16,7 +16,8 @@
   #:use-module (bight belief)
   #:use-module (bight belief cloud)
   #:use-module (bight belief tour)
-  #:use-module ((bight core decimal) #:select (text->number))
+  #:use-module (bight bench in-time)
+  #:use-module (bight bench options)
   #:use-module (bight core errors)
   #:use-module (bight core units)
   #:use-module (bight dive)
@@ -42,30 +43,13 @@
   --tethers N   of the belief that `held' is planned by, 8 to 256; 16 when left out, 8 with --quick
   --risk P      that `held' is planned within, 0.05 when left out
   --error E     of the current, m/s, 0.1 when left out
+  --pull F      N, the most that the vehicle pulls with, 100 when left out
+  --minutes M   M minutes by the clock for all worlds: in each as many truths as fit
 ")
 
-(define valued '("--truths" "--world" "--places" "--nodes" "--tethers" "--risk" "--error"))
+(define valued '("--truths" "--world" "--places" "--nodes" "--tethers" "--risk" "--error" "--pull" "--minutes"))
+(define flags '("--quick" "--help"))
 
-(define (read-options arguments)
-  (let loop ((rest arguments) (found '()))
-    (cond ((null? rest) found)
-          ((member (car rest) '("--quick" "--help")) (loop (cdr rest) (acons (car rest) #t found)))
-          ((not (member (car rest) valued))
-           (bight-raise 'domain 'bench "the bench tours has ~a, not ~a" (string-join (cons "--quick" valued) ", ") (car rest)))
-          ((null? (cdr rest)) (bight-raise 'domain 'bench "~a needs a value after it" (car rest)))
-          (else (loop (cddr rest) (acons (car rest) (cadr rest) found))))))
-
-(define (whole options name default low high)
-  (let* ((text (assoc-ref options name)) (n (if text (text->number text) default)))
-    (unless (and (exact-integer? n) (<= low n high))
-      (bight-raise 'domain 'bench "~a takes a whole number from ~a to ~a, not ~a" name low high text))
-    n))
-
-(define (decimal options name default high)
-  (let* ((text (assoc-ref options name)) (x (if text (text->number text) default)))
-    (unless (and (real? x) (<= 0.001 x high))
-      (bight-raise 'domain 'bench "~a takes a number from 0.001 to ~a, not ~a" name high text))
-    x))
 
 
 ;;; The worlds: those of the catalogue with a kinematic vehicle and a line of few nodes, and two more.
@@ -100,21 +84,25 @@
 
 (define (bare world) (without (without world 'line) 'minnow))
 
-(define (with-line world at line)
-  ;; WORLD with a vehicle AT a place and the tether that the clauses LINE make.
+(define (with-line world at line pull)
+  ;; WORLD with a vehicle AT a place, which pulls with PULL N at most, and the tether that the clauses LINE make.
   (extend (bare world)
-          (splice (list (data->part `(rov (named minnow) (type kinematic) (at ,@at) (heading 0)))
+          (splice (list (data->part `(rov (named minnow) (type kinematic) (at ,@at) (heading 0) (pull ,pull)))
                         (data->part `(tether (named line) (type fathom) (wet-weight 0) (to minnow) ,@line))))))
 
-(define (flown-world world nodes)
+(define usual-pull 100)                 ; N, as of a vehicle of which nobody says it
+
+(define* (flown-world world nodes #:optional (pull usual-pull))
   (with-line world (f64vector->list (field-of world 'rov 'at))
              `((friction 0.5) (model dynamic) (nodes ,nodes) (from ,@(f64vector->list (field-of world 'tether 'from)))
-               (length ,(field-of world 'tether 'length)))))
+               (length ,(field-of world 'tether 'length)))
+             pull))
 
 (define (anchored-world world from at via length)
   ;; The same with an anchor at FROM and a line of LENGTH by VIA to the vehicle, which is AT.
   (with-line world at
-             `((model rubber-band) (from ,@from) (length ,length) ,@(if (null? via) '() `((via ,@via))))))
+             `((model rubber-band) (from ,@from) (length ,length) ,@(if (null? via) '() `((via ,@via))))
+             usual-pull))
 
 (define (doubts error)
   `((current (error ,error))
@@ -279,6 +267,7 @@
   (let* ((flight (begin-flight! tour speed)) (n (length (tour-places tour)))
          (most (+ (now) 120 (/ (* 2.5 (tour-length tour)) speed))))
     (let loop ()
+      (in-time?)
       (run 1)
       (cond ((and (>= (places-reached flight) n) (at-home? tour)) (not (fouled? 'line)))
             ((or (null? (dive-tasks (current-dive))) (> (now) most)) #f)
@@ -289,39 +278,77 @@
   (unless-refused (lambda () (in-member member (lambda () (untold-fork (lambda () (comes-home? tour))))))
                   (const #f)))
 
+(define (flights-in member all)
+  ;; Of ALL, tours as `tours' returns them, each flown in the truth of MEMBER: a list (HOME? SECONDS) for each.  Those with
+  ;; the same legs are flown once.
+  (let loop ((rest (map third all)) (known '()) (found '()))
+    (if (null? rest)
+        (reverse! found)
+        (let* ((legs (tour-legs (car rest)))
+               (flown (or (assoc-ref known legs)
+                          (let* ((begun (clock)) (home? (home-in-truth? (car rest) member)))
+                            (list home? (- (clock) begun))))))
+          (loop (cdr rest) (acons legs flown known) (cons flown found))))))
+
 (define (tenths x) (/ (round (* 10.0 x)) 10))
 (define (hundredths x) (/ (round (* 100.0 x)) 100))
 
-(define (say-tour name truths plan-length row)
-  (let* ((begun (clock)) (tour (third row))
-         (home (count (lambda (m) (home-in-truth? tour m)) truths)))
-    (simple-format #t "~a,~a,~a,~a,~a,~a,~a,~a,~a,~a~%" name (first row) (length (tour-places tour)) (length truths) home
-                   (tenths (tour-length tour)) (hundredths (/ (tour-length tour) plan-length)) (hundredths (second row))
-                   (tenths (- (clock) begun)) (if (tour-risk tour) (hundredths (first (tour-risk tour))) ""))
+(define (say-tour name flights blind-length row)
+  (let ((tour (third row)))
+    (simple-format #t "~a,~a,~a,~a,~a,~a,~a,~a,~a,~a~%" name (first row) (length (tour-places tour)) (length flights)
+                   (count first flights)
+                   (tenths (tour-length tour)) (hundredths (/ (tour-length tour) blind-length)) (hundredths (second row))
+                   (tenths (apply + (map second flights)))
+                   (if (tour-risk tour) (hundredths (first (tour-risk tour))) ""))
     (force-output)))
 
-(define (say-world name n truths nodes clauses tethers risk)
-  (let ((world (world-of name)))
-    (enter! (flown-world world nodes))
-    (let* ((all (tours world name n clauses tethers risk))
+(define (say-world name settings end)
+  ;; END is when the flights in it are to end.
+  (let ((world (world-of name)) (n (assq-ref settings 'places)) (truths (assq-ref settings 'truths))
+        (clauses (doubts (assq-ref settings 'error))))
+    (enter! (flown-world world (assq-ref settings 'nodes) (assq-ref settings 'pull)))
+    (let* ((all (tours world name n clauses (assq-ref settings 'tethers) (assq-ref settings 'risk)))
            (blind (tour-length (third (find (lambda (row) (eq? 'blind (first row))) all))))
-           (belief (make-belief (current-dive) clauses #:members (max 8 truths) #:seed truths-seed)))
-      (for-each (lambda (row) (say-tour name (list-head (belief-members belief) truths) blind row)) all))))
+           (members (list->vector
+                     (belief-members
+                      (make-belief (current-dive) clauses #:members (max 8 truths) #:seed truths-seed))))
+           (flights (as-many-as-fit (simple-format #f "~a, truths" name) truths end
+                                    (lambda (k) (flights-in (vector-ref members k) all)))))
+      (for-each (lambda (row k)
+                  (say-tour name (map (lambda (of-a-truth) (list-ref of-a-truth k)) flights) blind row))
+                all (iota (length all))))))
+
+(define (read-settings options)
+  (let ((quick? (assoc-ref options "--quick")))
+    `((truths . ,(whole options "--truths" (if quick? 2 200) 1 4096))
+      (places . ,(whole options "--places" (if quick? 2 5) 2 8))
+      (nodes . ,(whole options "--nodes" 16 4 400))
+      (tethers . ,(whole options "--tethers" (if quick? 8 16) 8 256))
+      (risk . ,(decimal options "--risk" 0.05 0.001 1))
+      (error . ,(decimal options "--error" 0.1 0.001 2))
+      (pull . ,(decimal options "--pull" usual-pull 1 1e6)))))
+
+(define (say-worlds names settings minutes)
+  (let ((end (minutes-from-now minutes)))
+    (display "world,tour,places,truths,home,length m,of the blind one's length,planned in s of CPU,flown in s of CPU,\
+P(fouled) told\n")
+    (force-output)
+    (let loop ((rest names))
+      (unless (null? rest)
+        (say-world (car rest) settings (share-of-time end (length rest)))
+        (loop (cdr rest))))))
 
 (define (run-tours arguments)
   "Do what ARGUMENTS of the bench tours ask for, print what came of it and return the exit status."
-  (let* ((options (read-options arguments)) (quick? (assoc-ref options "--quick"))
+  (let* ((options (bench-options "tours" valued flags arguments))
          (world (assoc-ref options "--world"))
-         (names (cond (world (list (string->symbol world))) (quick? '(cage)) (else world-names))))
+         (names (cond (world (list (string->symbol world)))
+                      ((assoc-ref options "--quick") '(cage))
+                      (else world-names))))
     (for-each (lambda (name)
                 (unless (memq name world-names) (unknown-name 'bench "the bench tours" name world-names "world")))
               names)
     (if (assoc-ref options "--help")
         (display help)
-        (let ((truths (whole options "--truths" (if quick? 2 200) 1 4096)) (places (whole options "--places" (if quick? 2 5) 2 8))
-              (nodes (whole options "--nodes" 16 4 400)) (tethers (whole options "--tethers" (if quick? 8 16) 8 256))
-              (risk (decimal options "--risk" 0.05 1)) (clauses (doubts (decimal options "--error" 0.1 2))))
-          (display "world,tour,places,truths,home,length m,of the blind one's length,planned in s of CPU,flown in s of CPU,\
-P(fouled) told\n")
-          (for-each (lambda (name) (say-world name places truths nodes clauses tethers risk)) names)))
+        (say-worlds names (read-settings options) (decimal options "--minutes" #f 0.01 1e5)))
     0))
