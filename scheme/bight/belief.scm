@@ -28,7 +28,7 @@
             ;; For (bight bench belief-tank).
             answer-of
             ;; What the macros expand to.
-            clauses->belief!)
+            clauses->belief! ask-picture nothing-asked)
   #:re-export (current-belief))
 
 (define-verb (belief? (object any))
@@ -114,9 +114,17 @@ Keywords at the end are those of `make-belief'."
 
 ;;; Asking.
 
+(define (belief-here proc)
+  ;; The current belief, which must be of the current dive.
+  (let ((belief (this-belief proc)))
+    (unless (eq? (belief-host belief) (this-dive proc))
+      (bight-raise 'domain proc "the current belief is of another dive; believe! makes one of this dive, (fork-belief) one \
+of a fork"))
+    belief))
+
 (define (flown proc belief)
   ;; BELIEF, or the current one, flown on to where its dive is.
-  (let ((belief (or belief (this-belief proc))))
+  (let ((belief (or belief (belief-here proc))))
     (catch-up! proc belief)
     (when (null? (living belief))
       (bight-raise 'diverged proc "no tether of this belief is left: each one's dive failed"))
@@ -133,19 +141,45 @@ Keywords at the end are those of `make-belief'."
 interval, quantiles, a mean with its ellipsoid, or shares.  With BELIEF #f the current belief is asked."
   (ask-members (ready 'belief belief) thunk))
 
-(define-syntax belief
-  (lambda (form)
-    "Ask each QUESTION, such as fouled? or (point-at 20), of the current belief, and return its answer; of several
-questions, a list."
-    (define (thunk-of stx)
-      (if (identifier? stx) stx #`(lambda () #,stx)))
-    (syntax-case form ()
-      ((_ question) #`(ask-belief #f #,(thunk-of #'question)))
-      ((_ question more ...) #'(list (belief question) (belief more) ...)))))
-
 (define-syntax-rule (with-belief b body body* ...)
   "Evaluate the body with B as the current belief."
   (parameterize ((current-belief b)) body body* ...))
+
+(define (ask-picture belief thunk)
+  "Return what THUNK does in the dive of BELIEF, or of the current one: a picture, which draws the belief itself."
+  (let ((belief (flown 'belief belief)))
+    (call-with-dive (belief-host belief) (lambda () (with-belief belief (thunk))))))
+
+(define (nothing-asked)
+  (bight-raise 'def 'belief "say what is asked, as in (belief fouled?) or (belief (point-at 20))"))
+
+(eval-when (expand load eval)
+  (define drawn '((look #:belief #t) (show #:overlay 'belief) (snapshot #:overlay 'belief)))
+
+  (define (drawn-with stx arguments)
+    ;; What lets the picture that STX, an identifier, draws by ARGUMENTS show the belief, a list; #f: it draws none.
+    (let ((more (and (identifier? stx) (assq-ref drawn (syntax->datum stx)))))
+      (and more
+           (if (memq (car more) (map syntax->datum arguments)) '() (datum->syntax stx more))))))
+
+(define-syntax belief
+  (lambda (form)
+    "Ask each QUESTION, such as fouled? or (point-at 20), of the current belief, and return its answer; of several
+questions, a list.  Of look, show and snapshot there is one picture, with the tubes that hold the tethers."
+    (define (question stx)
+      (syntax-case stx ()
+        ((head argument ...)
+         (drawn-with #'head #'(argument ...))
+         #`(ask-picture #f (lambda () (head argument ... #,@(drawn-with #'head #'(argument ...))))))
+        (head
+         (drawn-with #'head '())
+         #`(ask-picture #f (lambda () (head #,@(drawn-with #'head '())))))
+        (name (identifier? #'name) #'(ask-belief #f name))
+        (_ #`(ask-belief #f (lambda () #,stx)))))
+    (syntax-case form ()
+      ((_) #'(nothing-asked))
+      ((_ asked) (question #'asked))
+      ((_ asked ...) #`(list #,@(map question #'(asked ...)))))))
 
 (define-verb (effective-size #:optional (belief maybe-belief #f))
   "Return how many equal tethers would be as good as those of BELIEF with their weights."
@@ -220,7 +254,7 @@ of the tether) or touched (an obstacle, or (not OBSTACLE)).  Where there are sev
 position, heading or depth, and TETHER the tether of all others.  NOISE is its standard deviation, of `touched' the
 probability that it is false; AT the time when it was read, s.  Return `taken', `impossible' if no tether explains
 it, which `belief-doubts' tells of, or `late' if the belief is past that time."
-  (let ((belief (or belief (this-belief 'observe!))))
+  (let ((belief (or belief (belief-here 'observe!))))
     (call-with-dive
      (belief-host belief)
      (lambda ()
@@ -249,7 +283,7 @@ DEVIATION)."
          (time-step (%dive-time-step (engine-of (belief-host belief)))))
     (map (lambda (doubt)
            (let ((reading (first doubt)))
-             (cons* (* time-step (reading-step reading)) (reading-kind reading) (reading-value reading)
+             (cons* (* time-step (reading-step reading)) (reading-kind reading) (one-or-all (reading-value reading))
                     (cdr doubt))))
          (belief-doubted belief))))
 
@@ -276,7 +310,7 @@ is uncertain and the weights are the same to the last bit."
 (define-verb (fork-belief #:optional (belief maybe-belief #f))
   "Return a copy of BELIEF that belongs to the current dive: the dive of BELIEF itself, or a fork of it, as within
 `what-if'."
-  (let ((belief (ready 'fork-belief belief)))
+  (let ((belief (ready 'fork-belief (or belief (this-belief 'fork-belief)))))
     (fork-of-belief belief (this-dive 'fork-belief))))
 
 (define-verb (belief-threads! (n (between 1 64)) #:optional (belief maybe-belief #f))

@@ -42,7 +42,42 @@
     (expect (map cdr (answer-shares (fourth answers))) => '(1.0))
     (expect (answer-interval (fifth answers)) => '(16.0 16.0))
     (expect (answer-quantile (first answers) 0.5) raises unsupported)
-    (expect (answer-values (belief (rov-position 'line))) => '()))) ; no member has an answer
+    (expect (belief (rov-position 'line)) raises name)    ; what every member raises
+    (expect (belief (point-at)) raises domain)
+    ;; Some have an answer, and some have none.
+    (let ((asked -1))
+      (expect (length (answer-values (belief (begin (set! asked (+ asked 1)) (if (even? asked) (slack) (rov-position 'line))))))
+              => 8))))
+
+(define-scenario an-answer-in-words
+  "What does not spread is said without rounding errors; of many different values the likeliest are said, and how many
+more there are."
+  (in slack-water)
+  (believe! doubtful #:members 16)
+  (expect (object->string (belief (point-at 8))) is (lambda (said) (string-contains said "+- (0 0 0) m")))
+  (let ((k 0))
+    (expect (object->string (belief (begin (set! k (+ k 1)) (list k)))) is (lambda (said) (string-contains said ", 10 more, 16 tethers"))))
+  (expect (observe! #f 'winch-tension 3000) => 'impossible)
+  (expect (third (first (belief-doubts))) => 3000.0))
+
+(define-scenario a-belief-of-another-dive
+  "Asked in a dive that it is not of, the current belief refuses; in a fork a fork of it answers for what was done there."
+  (in slack-water)
+  (let ((b (believe! doubtful #:members 8)))
+    (what-if
+     (cut-tether! 'line #:at 5)
+     (run 1)
+     (expect (belief parted?) raises domain)
+     (expect (observe! #f 'winch-tension 1) raises domain)
+     (expect (tether-tube) raises domain)
+     (expect (look #:belief #t) raises domain)
+     (expect (answer-probability (ask-belief b parted?)) => 0.0)
+     (with-belief (fork-belief)
+       (expect (answer-probability (belief parted?)) => 1.0)))
+    (expect (answer-probability (belief parted?)) => 0.0)
+    (enter! slack-water)
+    (expect (belief fouled?) raises domain)
+    (current-belief #f)))
 
 (define-scenario nothing-uncertain-nothing-spread
   "A belief of one value alone is the dive itself to the last bit of the line, through all that is done to it."
@@ -211,7 +246,10 @@
   (expect (make-belief (current-dive) '((line (cdn (grid 2 1))))) raises def)
   (expect (believe! (line (length (uniform 1 2)))) raises unsupported)
   (expect (believe! (line (cdn (uniform 1 2))) (line (cdn (uniform 1 2)))) raises def)
-  (expect (believe! (current (errors 0.1))) raises def)
+  (expect (believe! (current (errors 0.1))) raises name)
+  (expect (believe! (current (levels 0 -5))) raises def)
+  (expect (believe! (currant (error 0.1))) raises name)
+  (expect (belief) raises def)
   (expect (believe! (current (error 0.1)) #:members 3) raises domain)
   (current! (lambda (p t) (vec 0.1 0 0)))
   (expect (believe! (line (cdn (uniform 1 2)))) raises unsupported)
@@ -295,7 +333,10 @@ much of the members as they are seen: 2.5 deviations for 90 % of a point of whic
          (added (filter-map (lambda (a b) (and (not (char=? a b)) b)) (string->list bare) (string->list told))))
     (expect (lset-difference char=? added '(#\. #\:)) => '())
     (expect (count (lambda (c) (char=? c #\.)) added) is (above 3))
-    (expect (string-length told) => (string-length bare)))
+    (expect (string-length told) => (string-length bare))
+    (expect (object->string (belief (look #:columns 80))) => told)
+    (expect (object->string (belief (look #:columns 80 #:belief #f))) => bare)
+    (expect (object->string (belief look)) => (object->string (look #:belief #t))))
   (when (false-if-exception (resolve-interface '(bight view render)))
     (let* ((size '(160 . 120))
            (bare (picture-pixels 'test '(top) size 'plain '()))

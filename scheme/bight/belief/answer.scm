@@ -37,19 +37,27 @@
         ((every (lambda (v) (and (f64vector? v) (= 3 (f64vector-length v)))) values) 'point)
         (else 'choice)))
 
-(define silence (list 'silence))        ; of a member that has no answer
+(define-record <refusal>
+  (make-refusal error)
+  refusal?
+  (error refusal-error))
 
 (define (asked member thunk)
-  (unless-refused (lambda () (in-member member thunk)) (const silence)))
+  ;; What THUNK returns with the dive of MEMBER as the current one, or a refusal.
+  (with-exception-handler
+   (lambda (e) (if (bight-error? e) (make-refusal e) (raise-exception e)))
+   (lambda () (in-member member thunk))
+   #:unwind? #t))
 
 (define (ask-members belief thunk)
   "Call THUNK with the dive of each living member of BELIEF as the current one, and return all it returned as one
-answer."
+answer.  Where it refuses in every one, raise what it raised in the first."
   (let* ((shares (f64vector->list (weights belief)))
-         (all (map (lambda (member) (asked member thunk)) (living belief)))
-         (told (filter (lambda (pair) (not (eq? silence (car pair)))) (map cons all shares)))
+         (all (map-in-order (lambda (member) (asked member thunk)) (living belief)))
+         (told (filter (lambda (pair) (not (refusal? (car pair)))) (map cons all shares)))
          (sum (fold (lambda (pair sum) (+ sum (cdr pair))) 0.0 told))
          (kept (map (lambda (pair) (/ (cdr pair) sum)) told)))
+    (when (and (null? told) (pair? all)) (raise-exception (refusal-error (car all))))
     (make-answer (kind-of (map car told)) (map car told) kept
                  (if (null? kept) 0 (effective-number (list->f64vector kept)))
                  (- 1 sum))))
@@ -178,8 +186,13 @@ its probability."
 
 ;;; In words.
 
+(define nothing 1e-9)                   ; m: no more is rounding
+
 (define (deviations answer)
-  (map (lambda (row k) (sqrt (max 0.0 (list-ref row k)))) (answer-covariance answer) '(0 1 2)))
+  (map (lambda (row k)
+         (let ((deviation (sqrt (max 0.0 (list-ref row k)))))
+           (if (< deviation nothing) 0 deviation)))
+       (answer-covariance answer) '(0 1 2)))
 
 (define (probability->string p) (short (/ (round (* 1000 p)) 1000.0)))
 
@@ -195,10 +208,15 @@ its probability."
     ((point)
      (simple-format #f "~a +- ~a m" (map short (f64vector->list (answer-mean answer)))
                     (map short (deviations answer))))
-    (else
-     (string-join (map (lambda (entry) (simple-format #f "~a: ~a" (car entry) (probability->string (cdr entry))))
-                       (answer-shares answer))
-                  ", "))))
+    (else (shares-said (answer-shares answer)))))
+
+(define most-said 6)                    ; different values
+
+(define (shares-said shares)
+  (let ((left (- (length shares) most-said))
+        (said (map (lambda (entry) (simple-format #f "~a: ~a" (car entry) (probability->string (cdr entry))))
+                   (list-head shares (min most-said (length shares))))))
+    (string-join (if (positive? left) (append said (list (simple-format #f "~a more" left))) said) ", ")))
 
 (set-record-type-printer!
  <answer>

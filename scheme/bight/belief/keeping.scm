@@ -162,10 +162,6 @@ Raise unsupported when a part of the dive is a procedure, io when the file canno
       (make-reading (first told) (second told) kind value (fifth told) (told-part engine kind (sixth told)) scalars
                     (ninth told) (eighth told)))))
 
-(define (one-or-all value)
-  ;; As `observe!' takes it: a number where one is read, else a point.
-  (if (and (f64vector? value) (= 1 (f64vector-length value))) (f64vector-ref value 0) value))
-
 (define reading-fields
   (list whole? exact-integer? symbol? any? (lambda (x) (and (finite-number? x) (> x 0))) list?
         (lambda (s) (or (not s) (finite-vector? s))) boolean? list?))

@@ -21,6 +21,7 @@
             event?
             of-vehicle?
             check-reading
+            one-or-all
             usual-noise
             predicted
             log-chance))
@@ -63,6 +64,10 @@ a pair of a name and what was told.  Raise a &bight-error where a value is of an
     ((payout winch-tension rov-tension heading depth)
      (f64vector (check-argument 'observe! kind type:number value)))
     (else (unknown-name 'observe! "a belief" kind reading-kinds "reading"))))
+
+(define (one-or-all value)
+  "Return VALUE, of a reading in its canonical form, as `observe!' takes it: a number where one is read, else as it is."
+  (if (and (f64vector? value) (= 1 (f64vector-length value))) (f64vector-ref value 0) value))
 
 (define (nearest-turn degrees value)
   ;; DEGREES, by whole turns as near to VALUE as may be.
