@@ -25,9 +25,9 @@
 
 (define most-flown 6)                   ; tours of the same places, before one of them is left out
 
-(define (troubles-of member tour speed)
-  ;; Where TOUR goes wrong, flown on the tether of MEMBER: a list; everywhere, if its dive fails.
-  (unless-refused (lambda () (in-member member (lambda () (tour-troubles tour speed))))
+(define (troubles-of member tour speed enough?)
+  ;; Where TOUR goes wrong, flown on the tether of MEMBER: a list; everywhere, if its dive fails.  See `tour-troubles'.
+  (unless-refused (lambda () (in-member member (lambda () (tour-troubles tour speed enough?))))
                   (lambda () (make-list (+ 1 (length (tour-places tour))) #t))))
 
 (define (chances tethers tour limit speed)
@@ -37,7 +37,9 @@
   (let loop ((rest tethers) (sums (make-list (+ 1 (length (tour-places tour))) 0.0)) (wrong '()) (right '()))
     (if (or (null? rest) (beyond? sums limit))
         (cons sums (append wrong rest right))
-        (let* ((troubles (troubles-of (caar rest) tour speed)) (share (cdar rest))
+        (let* ((share (cdar rest))
+               (troubles (troubles-of (caar rest) tour speed
+                                      (lambda (k) (beyond? (list (+ share (list-ref sums k))) limit))))
                (more (map (lambda (sum wrong?) (if wrong? (+ sum share) sum)) sums troubles)))
           (if (any identity troubles)
               (loop (cdr rest) more (cons (car rest) wrong) right)
@@ -78,13 +80,6 @@
 
 (define (at-most n items) (list-head items (min n (length items))))
 
-(define (belief-here)
-  ;; The current belief, ready to be asked, which must be of the current dive.
-  (let ((belief (ready-belief 'plan-tour #f)))
-    (unless (eq? (belief-host belief) (this-dive 'plan-tour))
-      (bight-raise 'domain 'plan-tour "the current belief is of another dive; (fork-belief) makes one of this one"))
-    belief))
-
 (define-verb (plan-tour #:subject (t tether) (places places)
                         #:key (stay positive 1.0) (line (or-false positive) #f) (risk (or-false (between 0 1)) #f)
                         (speed positive 0.35))
@@ -96,5 +91,5 @@ the shortest that keeps within that risk: it is flown at SPEED m/s on every teth
 place, and not at home, are more of them fouled, or not there.  What cannot be reached is left out, and said.  The
 prompt says the tour in words; `tour-trial' flies it on a fork, `fly-tour!' flies it."
   (if risk
-      (tour-found t places stay line (chooser (belief-here) risk speed))
+      (tour-found t places stay line (chooser (ready-belief 'plan-tour #f) risk speed))
       (tour-found t places stay line)))

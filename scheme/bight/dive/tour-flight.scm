@@ -69,32 +69,36 @@
 (define (at-end? leg place)
   (< (distance place (last leg)) near-enough))
 
-(define (fly-on task tour speed)
+(define (give-up! task tour)
+  ;; Nobody asks how a vehicle comes home that has not come to all places.
+  (remove-task! (this-dive 'fly-tour!) task)
+  (hold-position! (tour-vehicle tour)))
+
+(define (fly-on task tour speed whole?)
   (let* ((flight (task-state task)) (vehicle (tour-vehicle tour)) (step (%dive-steps (this-engine 'fly-tour!))))
     (when (>= step (flight-due flight))
       (let ((due (+ step (round (/ tick (time-step))))) (place (rov-position vehicle)))
         (tend-line! tour speed)
-        (cond ((or (null? (cdr (flight-legs flight)))
-                   (> (- (now) (flight-since flight)) stuck-time)
-                   (parted? (tour-tether tour)))
-               (end-flight! task tour))
+        (cond ((null? (cdr (flight-legs flight))) (end-flight! task tour))
+              ((or (> (- (now) (flight-since flight)) stuck-time) (parted? (tour-tether tour)))
+               ((if whole? give-up! end-flight!) task tour))
               ((not (flight-begun? flight))
                (fly-along! vehicle (car (flight-legs flight)) #:speed speed)
                (set-task-state! task (moved-on flight due place)))
               ((at-end? (car (flight-legs flight)) place) (next-leg task flight due place))
               (else (set-task-state! task (moved-on flight due place))))))))
 
-(define (set-out! who tour speed)
-  ;; For the verb WHO; return the task.
+(define* (set-out! who tour speed #:optional whole?)
+  ;; For the verb WHO; return the task.  With WHOLE? a vehicle that gets stuck does not fly home.
   (held-vehicle who (list-index (lambda (name) (eq? name (tour-tether tour))) (%names (this-engine who) 'tether)))
   (release! (tour-vehicle tour))
-  (add-task! 'fly-tour! "fly a tour" (lambda (task) (fly-on task tour speed))
+  (add-task! 'fly-tour! "fly a tour" (lambda (task) (fly-on task tour speed whole?))
              (make-flight 0 (tour-legs tour) #f 0 (rov-position (tour-vehicle tour)) (now))
              (tour-vehicle tour)))
 
 (define (begin-flight! tour speed)
-  "Let the present dive fly TOUR at SPEED while time passes; return the flight."
-  (set-out! 'fly-tour! tour speed))
+  "Let the present dive fly the whole of TOUR at SPEED while time passes, or as far as it can; return the flight."
+  (set-out! 'fly-tour! tour speed #t))
 
 (define (places-reached flight)
   "Return how many places the FLIGHT has come to."
@@ -107,14 +111,14 @@ the tour, m."
   (begin-flight! tour speed)
   (tour-length tour))
 
-(define (flown tour speed reached!)
-  ;; Fly TOUR in the present dive to its end, calling REACHED! with the number of each place that is come to; how many.
-  (let* ((task (set-out! 'tour-trial tour speed)) (dive (this-dive 'tour-trial))
+(define* (flown tour speed #:optional whole? (go-on? (const #t)))
+  ;; Fly TOUR in the present dive to its end, and return how many places were come to.  GO-ON? is called with the number of
+  ;; each place that is come to, and returns whether the flight goes on.  WHOLE? is as `set-out!' takes it.
+  (let* ((task (set-out! 'tour-trial tour speed whole?)) (dive (this-dive 'tour-trial))
          (most (+ 120 (/ (* 3 (+ (tour-length tour) (tour-line-needed tour))) speed))) (start (now)))
     (let loop ((reached 0))
       (let ((n (places-reached task)))
-        (for-each reached! (iota (- n reached) reached))
-        (if (and (pair? (dive-tasks dive)) (< (- (now) start) most))
+        (if (and (every go-on? (iota (- n reached) reached)) (pair? (dive-tasks dive)) (< (- (now) start) most))
             (begin (run 1) (loop n))
             n)))))
 
@@ -131,16 +135,20 @@ vehicle or the winch since the dive began)."
   (untold-fork
    (lambda ()
      (let ((start (now)) (tether (tour-tether tour)))
-       (let ((reached (flown tour speed (const #t))))
+       (let ((reached (flown tour speed)))
          `((home? . ,(is-home? tour)) (reached . ,reached) (fouled? . ,(fouled? tether))
            (seconds . ,(- (now) start)) (tension . ,(max-tension tether))))))))
 
-(define (tour-troubles tour speed)
+(define (tour-troubles tour speed enough?)
   "Fly TOUR at SPEED on a fork of the present dive.  Return a list that has true for each place, and then for home, where
-the tether was fouled or the vehicle did not come."
+the tether was fouled or the vehicle did not come.  It does not come farther than a place where the tether is fouled and
+ENOUGH?, a procedure of the number of that place, returns true."
   (untold-fork
    (lambda ()
      (let* ((tether (tour-tether tour)) (n (length (tour-places tour))) (troubles (make-vector (+ n 1) #t))
-            (reached (flown tour speed (lambda (k) (vector-set! troubles k (fouled? tether))))))
+            (reached (flown tour speed #t (lambda (k)
+                                            (let ((trouble? (fouled? tether)))
+                                              (vector-set! troubles k trouble?)
+                                              (not (and trouble? (enough? k))))))))
        (vector-set! troubles n (not (and (= reached n) (is-home? tour) (not (fouled? tether)))))
        (vector->list troubles)))))
