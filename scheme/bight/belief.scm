@@ -151,6 +151,7 @@ interval, quantiles, a mean with its ellipsoid, or shares.  With BELIEF #f the c
     (call-with-dive (belief-host belief) (lambda () (with-belief belief (thunk))))))
 
 (define (nothing-asked)
+  "Raise the &bight-error of a `belief' that asks nothing."
   (bight-raise 'def 'belief "say what is asked, as in (belief fouled?) or (belief (point-at 20))"))
 
 (eval-when (expand load eval)
