@@ -66,10 +66,14 @@ typedef struct bt_sonar
   double tilt;   /* rad: of that plane about the own x, bow up positive */
   double range;  /* m */
   int beams;     /* at most BT_BEAMS_MAX */
+  double width;  /* rad: of a beam, a cone, in which lines are heard; 0: lines are not heard */
 } bt_sonar;
 
 /* Write to RANGE the distance of the first echo of each beam, from port to starboard, m; INFINITY
-   where nothing comes back.  Without noise good to 1e-9 m.  BT_ERR_NAME, BT_ERR_DOMAIN.  */
+   where nothing comes back.  On the axis of a beam echo obstacles, the hulls of other vehicles, boxes of
+   their size, and clumps and floats at a point of a tether, balls of their volume.  Tethers, which a
+   thin beam would miss, echo anywhere in its cone where nothing solid is before them, by the nearest point
+   there.  Without noise good to 1e-9 m.  BT_ERR_NAME, BT_ERR_DOMAIN; BT_ERR_LIMIT: no memory.  */
 bt_status bt_dive_sonar (const bt_dive *dive, int i, const bt_sonar *sonar, double *range,
                          bt_error *error);
 

@@ -102,10 +102,11 @@ transponders (SCM object, SCM index, SCM count, SCM noise)
 }
 
 static SCM
-sonar (SCM object, SCM index, SCM sector, SCM tilt, SCM range, SCM beams)
+sonar (SCM object, SCM index, SCM angles, SCM range, SCM beams)
 {
-  bt_sonar s = { scm_to_double (sector) / DEGREES, scm_to_double (tilt) / DEGREES,
-                 scm_to_double (range), scm_to_int (beams) };
+  bt_vec3 a = bt__to_point ("sonar", angles); /* sector, tilt, width */
+  bt_sonar s = { a.x / DEGREES, a.y / DEGREES, scm_to_double (range), scm_to_int (beams),
+                 a.z / DEGREES };
   double echo[BT_BEAMS_MAX];
   bt_error error;
   SCM v;
@@ -150,10 +151,10 @@ bt__define_instruments (void)
       "Return where N transponders on the INDEX-th tether of DIVE say that they are, an N x 3 "
       "array "
       "with NOISE metres of noise in each coordinate." },
-    { "%sonar", 6, 0, (scm_t_subr)sonar,
-      "Return the echoes of BEAMS beams of the INDEX-th vehicle of DIVE over SECTOR degrees, "
-      "tilted "
-      "by TILT, to RANGE metres, an f64vector from port to starboard." },
+    { "%sonar", 5, 0, (scm_t_subr)sonar,
+      "Return the echoes of BEAMS beams of the INDEX-th vehicle of DIVE to RANGE metres, an "
+      "f64vector from port to starboard: ANGLES are the sector, the tilt and the width of a beam in "
+      "degrees." },
     { "%sight", 5, 0, (scm_t_subr)sight,
       "Return (LENGTH . NEAREST) of what a camera of the INDEX-th vehicle of DIVE sees of TETHER: "
       "ANGLES are its width, height and tilt in degrees, FAR how many metres one sees." },

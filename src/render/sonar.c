@@ -5,9 +5,8 @@
    one spot.  Each beam is therefore cast at several tilts over the vertical aperture, and every
    first echo adds to the spot of its range, by the cosine of the incidence, which follows from the
    ranges of neighbouring tilts.  A bed seen at a flat angle lies between the ranges of two tilts:
-   the echo is spread over all of them.  Behind the last echo there is shadow.  The hulls of other
-   vehicles echo as obstacles do; the instrument of the dive hears obstacles alone.  Tethers echo
-   where no obstacle is before them.  Grain is the hash of the spot and the step: equal dives give
+   the echo is spread over all of them.  Behind the last echo there is shadow.  Tethers
+   echo where nothing solid is before them.  Grain is the hash of the spot and the step: equal dives give
    equal pictures.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
@@ -68,67 +67,6 @@ cast (fan *f, bt_error *error)
         f->reach[b][t] = range[b];
     }
   return status;
-}
-
-/* The range of the box of SIZE about the origin on the ray from P along D, both in the box's own
-   axes; INFINITY: none, or the ray begins in the box.  By slabs (T. L. Kay and J. T. Kajiya 1986).
- */
-static double
-range_of_box (const double p[3], const double d[3], const double size[3])
-{
-  double enter = 0, leave = INFINITY;
-  for (int k = 0; k < 3; k++)
-    {
-      double a = (-size[k] / 2 - p[k]) / d[k], b = (size[k] / 2 - p[k]) / d[k];
-      if (d[k] == 0 && fabs (p[k]) > size[k] / 2)
-        return INFINITY;
-      if (d[k] == 0)
-        continue;
-      enter = fmax (enter, fmin (a, b));
-      leave = fmin (leave, fmax (a, b));
-    }
-  return enter > 0 && enter <= leave ? enter : INFINITY;
-}
-
-/* The way of the beam B at the tilt T.  */
-static bt_vec3
-beam_way (const fan *f, int b, int t)
-{
-  double bearing = sector * ((double)b / (BEAMS - 1) - 0.5), tilt = row_tilt (t);
-  bt_vec3 d = bt__scale (sin (bearing), f->axis[0]);
-  d = bt__axpy (d, cos (bearing) * cos (tilt), f->axis[1]);
-  return bt__axpy (d, cos (bearing) * sin (tilt), f->axis[2]);
-}
-
-/* The hull of the vehicle V, nearer than what was met before.  */
-static void
-meet_hull (fan *f, const bt_vehicle_view *v)
-{
-  const double size[3] = { v->size.x, v->size.y, v->size.z };
-  bt_vec3 axis[3], from = bt__sub (f->head, v->position);
-  double p[3], d[3];
-  bt_body_axes (v->heading, v->pitch, v->roll, axis);
-  for (int k = 0; k < 3; k++)
-    p[k] = bt__dot (from, axis[k]);
-  for (int b = 0; b < BEAMS; b++)
-    for (int t = 0; t < TILTS; t++)
-      {
-        bt_vec3 way = beam_way (f, b, t);
-        for (int k = 0; k < 3; k++)
-          d[k] = bt__dot (way, axis[k]);
-        f->reach[b][t] = fmin (f->reach[b][t], range_of_box (p, d, size));
-      }
-}
-
-static void
-meet_vehicles (fan *f)
-{
-  for (int i = 0; i < bt_dive_count (f->dive, BT_PART_VEHICLE); i++)
-    {
-      bt_vehicle_view v;
-      if (i != f->vehicle && bt_dive_vehicle (f->dive, i, &v, NULL) == BT_OK)
-        meet_hull (f, &v);
-    }
 }
 
 /* An echo at RANGE on BEAM, spread over the bins about its own.  */
@@ -384,8 +322,6 @@ bt__sonar_picture (const bt_dive *dive, int vehicle, double range, const char *t
   f.head = bt__axpy (f.state.position, f.state.size.y / 2, f.axis[1]);
   if (status == BT_OK)
     status = cast (&f, error);
-  if (status == BT_OK)
-    meet_vehicles (&f);
   if (status == BT_OK)
     status = draw_fan (&f, d, figures, title, picture, error);
   free (f.reach);

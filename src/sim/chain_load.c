@@ -8,6 +8,7 @@
 #include "math/vec.h"
 #include "sim/around.h"
 #include "sim/chain.h"
+#include "world/lump.h"
 
 /* The vehicle with mass carried by the far end of tether I, or -1.  */
 int
@@ -30,22 +31,18 @@ vehicle_end (const bt_dive *dive, int vehicle)
   return end;
 }
 
-/* Steel sinks by its weight less the water it displaces; a float is a hull that weighs three tenths
-   of what it displaces.  Both drag as spheres (Cd 0.5) and add half of what they displace.  */
+/* A lump weighs what it has of mass less the water it displaces.  Steel and floats drag as spheres (Cd 0.5) and add half of what they displace.  */
 static bt__dynamic_lump
 lump_of (const bt_lump *def, double from_end, const bt_water *water)
 {
-  double rho = water->density, g = water->gravity;
-  double volume = def->mass > 0      ? def->mass / 7850
-                  : rho > 0 && g > 0 ? def->buoyancy / (0.7 * rho * g)
-                                     : 0;
+  double rho = water->density, volume = bt__lump_volume (def, water);
   double mass = def->mass > 0 ? def->mass : 0.3 * rho * volume;
-  double radius = cbrt (3 * volume / (4 * BT__PI));
+  double radius = bt__ball_radius (volume);
   return (bt__dynamic_lump){ .from_end = from_end,
                              .span = def->span,
                              .mass = mass,
                              .added = 0.5 * rho * volume,
-                             .wet_weight = (mass - rho * volume) * g,
+                             .wet_weight = (mass - rho * volume) * water->gravity,
                              .quadratic = 0.5 * rho * 0.5 * BT__PI * radius * radius };
 }
 

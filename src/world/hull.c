@@ -29,6 +29,12 @@ bt__vehicle_frame (const bt__vehicle *v)
   return bt__turned (v->position, v->heading * degrees, v->pitch * degrees, v->roll * degrees);
 }
 
+bt_vec3
+bt__vehicle_bow (const bt_vehicle_def *def, const bt__vehicle *v)
+{
+  return bt__axpy (v->position, def->size.y / 2, bt__vehicle_frame (v).y);
+}
+
 int
 bt__stop_obstacle (const bt_model *model, const bt__stop *stop)
 {

@@ -23,6 +23,9 @@ void bt__hull_of (const bt_vehicle_def *def, bt__hull_body *hull);
 /* Where V stands and how it is turned.  */
 bt__frame bt__vehicle_frame (const bt__vehicle *v);
 
+/* Where the bow of V is, a vehicle of DEF: there are its camera and its sonar.  */
+bt_vec3 bt__vehicle_bow (const bt_vehicle_def *def, const bt__vehicle *v);
+
 /* The number of the obstacle that STOP is about.  */
 int bt__stop_obstacle (const bt_model *model, const bt__stop *stop);
 

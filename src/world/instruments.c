@@ -1,7 +1,7 @@
-/* Readings of a pilot: instruments, transponders along a tether, sonar, camera.
+/* Readings of a pilot: instruments, transponders along a tether, camera; the sonar is in sonar.c.
 
-   This file gathers the truth of the present state for the pure functions of vehicle/instruments.h
-   and vehicle/sonar.h; these add noise and faults.  A parted tether takes telemetry away.
+   This file gathers the truth of the present state for the pure functions of vehicle/instruments.h,
+   which add noise and faults.  A parted tether takes telemetry away.
    Transponders are points at equal arc lengths with noise from separate channels: two tethers of a
    vehicle differ.
 
@@ -18,7 +18,8 @@
 #include "base/error.h"
 #include "collide/ray.h"
 #include "math/vec.h"
-#include "vehicle/sonar.h"
+#include "vehicle/instruments.h"
+#include "world/hull.h"
 #include "world/line.h"
 #include "world/obstacles.h"
 
@@ -166,41 +167,6 @@ bt_dive_transponders (const bt_dive *dive, int i, int n, double sigma, bt_vec3 *
   return BT_OK;
 }
 
-/* ---- Sonar ---- */
-
-static bt_vec3
-bow_of (const bt_dive *dive, int vehicle)
-{
-  return bt__vec (0, dive->model->vehicles[vehicle].size.y / 2, 0);
-}
-
-bt_status
-bt_dive_sonar (const bt_dive *dive, int i, const bt_sonar *sonar, double *range, bt_error *error)
-{
-  bt_status status = bt__check_part (dive, BT_PART_VEHICLE, i, error);
-  const bt__vehicle *v = bt__dive_vehicle (dive, dive->now, i);
-  bt__surroundings around = { .scene = dive->model->scene };
-  bt__count count = { 0 };
-  bt__sonar head;
-  if (status != BT_OK)
-    return status;
-  if (!(sonar->beams >= 1 && sonar->beams <= BT_BEAMS_MAX && sonar->range > 0
-        && isfinite (sonar->range) && isfinite (sonar->tilt) && isfinite (sonar->sector)))
-    return bt__fail (error, BT_ERR_DOMAIN, "a sonar of %d beams to %g m; 1 to %d are allowed",
-                     sonar->beams, sonar->range, BT_BEAMS_MAX);
-  head = (bt__sonar){ .at = bow_of (dive, i),
-                      .sector = sonar->sector,
-                      .tilt = sonar->tilt,
-                      .range = sonar->range,
-                      .noise = v->instruments.range_noise,
-                      .seed = v->instruments.seed };
-  if (dive->model->n_obstacles > 0)
-    around = bt__standing (dive, dive->now, BT_PART_VEHICLE, i);
-  bt__sonar_sweep (&head, v->position, attitude_of (v), dive->now->step, around.scene, around.on,
-                   around.mover, around.movers, sonar->beams, range, &count);
-  return BT_OK;
-}
-
 /* ---- Camera ---- */
 
 typedef struct lens
@@ -254,7 +220,7 @@ bt_dive_sight (const bt_dive *dive, int i, const bt_eye *camera, int tether, bt_
   l = (lens){ .camera = camera,
               .attitude = attitude_of (v),
               .around = { .scene = dive->model->scene } };
-  l.eye = bt__add (v->position, bt__turn_out (l.attitude, bow_of (dive, i)));
+  l.eye = bt__vehicle_bow (&dive->model->vehicles[i], v);
   if (dive->model->n_obstacles > 0)
     l.around = bt__standing (dive, dive->now, BT_PART_VEHICLE, i);
   line = bt__line_of (dive, dive->now, tether);

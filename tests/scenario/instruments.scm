@@ -142,3 +142,28 @@ at every step; so a model can be held against it."
     (expect (deviation-rms (deviation measured)) is (above 0.1)))
   (expect (transponders 1) raises domain)
   (expect (transponders 5 #:noise -1) raises domain))
+
+(define (ahead . options)
+  ;; What a single beam of the eye reads.
+  (f64vector-ref (apply sonar 'eye #:beams 1 options) 0))
+
+(define-scenario a-sonar-hears-hulls-clumps-and-lines
+  "The hull of another is as far as its nearer side, turned or not; a clump as far as a ball of its steel; a line is heard
+by a beam that has a width, and nothing is heard through what is solid."
+  (in (world (sea (depth 100))
+             (rov (named eye) (type kinematic) (at 0 0 -30) (size 0.5 1 0.5))
+             (rov (named other) (type kinematic) (at 0 10 -30) (size 3 1 1))
+             (rov (named turned) (type kinematic) (at 30 10 -30) (heading 90) (size 3 1 1))
+             (tether (named line) (type fathom) (wet-weight 0) (model dynamic) (from -20 40 -30) (to other) (length 37)
+                     (clump (at 15) (mass 40)))))
+  (expect (ahead #:width 0) is (about 9 #:within 1e-9))
+  (place! 'eye '(30 0 -30))
+  (expect (ahead #:width 0) is (about 8 #:within 1e-9))
+  (let* ((at (point-at 15)) (radius (expt (/ (* 3 (/ 40 7850)) (* 4 (acos -1))) 1/3)))
+    (place! 'eye (vec (x at) (- (y at) 6) (z at)))
+    (expect (ahead #:width 0) is (about (- 5.5 radius) #:within 1e-3)))
+  (let ((p (point-at 28)))
+    (place! 'eye (vec (x p) (- (y p) 6) (z p)))
+    (expect (ahead #:width 0) => +inf.0)
+    (expect (ahead #:width 4) is (between 5.2 5.5))
+    (expect (ahead #:width 4 #:range 5) => +inf.0)))

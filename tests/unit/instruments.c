@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "model/model.h"
 #include "vehicle/instruments.h"
 #include "vehicle/sonar.h"
 
@@ -166,43 +167,97 @@ mesh_wall (double y)
 
 /* The head at the origin looks north at a wall of mesh 12 m away: 12 m by the cosine.  And at
    a cylinder of 1 m about (0, 8): by the quadratic.  */
+static double
+bearing_of (int i, int n, double sector)
+{
+  return sector * (i / (n - 1.0) - 0.5);
+}
+
 static void
 test_sonar (void **state)
 {
   (void)state;
-  bt__sonar sonar = { .sector = 120 * DEGREE, .range = 50 };
-  bt__quat north = bt__quat_of (0, 0, 0);
-  bt_vec3 origin = { 0, 0, 0 };
+  bt__sonar sonar
+      = { .head = bt__turned (bt__vec (0, 0, 0), 0, 0, 0), .sector = 120 * DEGREE, .range = 50 };
   bt__count count = { 0 };
   double range[BT__BEAMS];
   bt__obstacle pile = { .kind = BT__OBSTACLE_CYLINDER };
   pile.shape.cylinder = (bt__cylinder){ { 0, 8, 0 }, { 0, 0, 1 }, 30, 1 };
   bt__scene *wall = scene_of (mesh_wall (12)), *post = scene_of (pile);
-  bt__sonar_sweep (&sonar, origin, north, 0, wall, NULL, NULL, 0, BT__BEAMS, range, &count);
+  bt__echoing to_wall = { .scene = wall }, to_post = { .scene = post };
+  bt__sonar_sweep (&sonar, &to_wall, BT__BEAMS, range, &count);
+  for (int i = 0; i < BT__BEAMS; i++)
+    assert_close (range[i], 12 / cos (bearing_of (i, BT__BEAMS, sonar.sector)), 1e-9, "wall");
+  bt__sonar_sweep (&sonar, &to_post, BT__BEAMS, range, &count);
   for (int i = 0; i < BT__BEAMS; i++)
     {
-      double a = 120 * DEGREE * (i / (BT__BEAMS - 1.0) - 0.5);
-      assert_close (range[i], 12 / cos (a), 1e-9, "wall");
-    }
-  bt__sonar_sweep (&sonar, origin, north, 0, post, NULL, NULL, 0, BT__BEAMS, range, &count);
-  for (int i = 0; i < BT__BEAMS; i++)
-    {
-      double a = 120 * DEGREE * (i / (BT__BEAMS - 1.0) - 0.5), s = 8 * sin (a);
+      double a = bearing_of (i, BT__BEAMS, sonar.sector), s = 8 * sin (a);
       if (fabs (s) < 1)
         assert_close (range[i], 8 * cos (a) - sqrt (1 - s * s), 1e-9, "pile");
       else
         assert_true (range[i] == INFINITY);
     }
   /* Turned and moved as one, it sees the same; noise is its own.  */
-  sonar.at = bt__vec (0, 0.2, 0);
-  bt__quat east = bt__quat_of (90 * DEGREE, 0, 0);
-  bt__sonar_sweep (&sonar, bt__vec (-8.2, 8, -3), east, 0, post, NULL, NULL, 0, 3, range, &count);
+  sonar.head = bt__turned (bt__vec (-8, 8, -3), 90, 0, 0);
+  bt__sonar_sweep (&sonar, &to_post, 3, range, &count);
   assert_close (range[1], 7, 1e-9, "moved");
   sonar.noise = 0.01;
-  bt__sonar_sweep (&sonar, bt__vec (-8.2, 8, -3), east, 7, post, NULL, NULL, 0, 3, range, &count);
+  bt__sonar_add_noise (&sonar, 7, 3, range);
   assert_true (range[1] != 7 && fabs (range[1] - 7) < 0.06 && range[0] == INFINITY);
   bt__scene_free (wall);
   bt__scene_free (post);
+}
+
+/* A line across the way ahead, 12 m away and in the plane of the beams, is as far in each as the
+   edge of the beam that is nearer to ahead: 12 m by the cosine.  One of which only an end reaches
+   into a beam is as far as that end. A post before the line hides what is behind it.  */
+static void
+test_sonar_hears_lines (void **state)
+{
+  (void)state;
+  enum
+  {
+    N = 61
+  };
+  double range[N], sector = 120 * DEGREE, width = 1.5 * DEGREE, radius = 0.004;
+  bt__sonar sonar = {
+    .head = bt__turned (bt__vec (0, 0, 0), 0, 0, 0), .sector = sector, .range = 50, .width = width
+  };
+  bt__count count = { 0 };
+  bt__capsule across = { { -90, 12, 0 }, { 90, 12, 0 }, radius },
+              stub = { { 5, 5, 0 }, { 9, 9, 0 }, radius };
+  bt__obstacle ball = { .kind = BT__OBSTACLE_SPHERE };
+  ball.shape.sphere = (bt__sphere){ .centre = { 0, 8, 0 }, .radius = 1 };
+  bt__scene *nothing = NULL;
+  assert_int_equal (bt__scene_new (NULL, 0, 1, &nothing, NULL), BT_OK);
+  bt__echoing open = { .scene = nothing },
+              hidden = { .scene = nothing, .body = &ball, .bodies = 1 };
+  bt__sonar_sweep (&sonar, &open, N, range, &count);
+  bt__sonar_hear_line (&sonar, &open, &across, N, range, &count);
+  for (int i = 0; i < N; i++)
+    {
+      double a = fmax (0, fabs (bearing_of (i, N, sector)) - width / 2);
+      assert_close (range[i], 12 / cos (a) - radius, 1e-9, "line");
+    }
+  bt__sonar_sweep (&sonar, &open, N, range, &count);
+  bt__sonar_hear_line (&sonar, &open, &stub, N, range, &count);
+  for (int i = 0; i < N; i++)
+    if (fabs (bearing_of (i, N, sector) - 45 * DEGREE) < width / 2)
+      assert_close (range[i], sqrt (50) - radius, 1e-9, "end");
+    else
+      assert_true (range[i] == INFINITY);
+  bt__sonar_sweep (&sonar, &hidden, N, range, &count);
+  bt__sonar_hear_line (&sonar, &hidden, &across, N, range, &count);
+  for (int i = 0; i < N; i++)
+    {
+      double a = bearing_of (i, N, sector), s = 8 * sin (a);
+      double line = 12 / cos (fmax (0, fabs (a) - width / 2)) - radius;
+      if (fabs (s) < 1)
+        assert_close (range[i], 8 * cos (a) - sqrt (1 - s * s), 1e-9, "ball");
+      else if (8 * sin (fabs (a) - width / 2) > 1)
+        assert_close (range[i], line, 1e-9, "beside the ball");
+    }
+  bt__scene_free (nothing);
 }
 
 int
@@ -211,7 +266,7 @@ main (void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test (test_truth),          cmocka_unit_test (test_noise),
     cmocka_unit_test (test_noisy_readings), cmocka_unit_test (test_faults),
-    cmocka_unit_test (test_sonar),
+    cmocka_unit_test (test_sonar),          cmocka_unit_test (test_sonar_hears_lines),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }

@@ -111,10 +111,14 @@ Return all that is broken."
   (if (and (exact-integer? value) (<= 1 value 1024)) value refused))
 
 (define-verb (sonar #:subject (v vehicle) #:key (beams beam-count 120) (sector (between 0 360) 120)
-                    (tilt (between -90 90) 0) (range positive 50))
+                    (tilt (between -90 90) 0) (range positive 50) (width (between 0 179) #f))
   "Return the distances of the first echoes of BEAMS beams, from port to starboard over SECTOR degrees
-about ahead, to RANGE metres: an f64vector, +inf.0 where nothing comes back."
-  (%sonar (this-engine 'sonar) v sector tilt range beams))
+about ahead, to RANGE metres: an f64vector, +inf.0 where nothing comes back.  Obstacles echo, hulls of other
+vehicles, clumps and floats; and tethers, in a beam WIDTH degrees wide, 0: not at all.  Unless told, beams are as
+wide as they are apart, a single one a degree."
+  (%sonar (this-engine 'sonar) v
+          (f64vector sector tilt (or width (if (= 1 beams) 1 (min 179 (/ sector (- beams 1))))))
+          range beams))
 
 (define (sighting proc v t width height tilt sight)
   (%sight (this-engine proc) v t (f64vector width height tilt) sight))
