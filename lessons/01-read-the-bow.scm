@@ -58,7 +58,8 @@ degrees, from the vehicle (north is 0, east 90).")
         (done-when (< (range-to (point-at (/ (tether-length) 2))) 1))
         (hint-after 30 "Turn toward the bow, down-current of the line to the anchor, and go ahead: it lies
 about half way, to that side.")
-        (hint-after 60 "(bearing-to (point-at (/ (tether-length) 2))) is the bearing; (fly-to! P) flies there.")
+        (hint-after 60 "The map shows your tether where there is room for it: z.  Its middle is where the bow is widest."
+                    "(bearing-to (point-at (/ (tether-length) 2))) is the bearing; (fly-to! P) flies there.")
         (at-most 180))
 
   (pilot expert "Knows that the water chooses the side."

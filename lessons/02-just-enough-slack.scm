@@ -4,22 +4,24 @@
   (trains slack)
   (setting set 0.1 0.2 0.3)
   (in (with open-water (current (setting 'set) (+ 90 (jitter 20))) (minnow (at 0 8 -6)) (line (length 9))))
-  (say "Today you are pilot and tender in one: + pays a metre out, - hauls one in; or (pay-out! 5).  Too
-little tether and it stops you; too much and it drifts, drags and finds something to hang on.")
+  (say "Today you are pilot and tender in one: you pay tether out and haul it in yourself.  Too little tether and it stops you; too much and it drifts, drags and finds something to hang on.")
   (show)
   (fork-and-show "Watch what happens to one who leaves and pays nothing out."
     (fly-to! '(0 48 -8) #:speed 0.4) (run 60))
-  (task "Fly forty metres north, to within 1.5 m of (0 48 -8), keeping 5 to 20 % of the tether slack."
+  (task "Fly forty metres north, to within 1.5 m of the target, keeping 5 to 20 % of the tether slack."
         (target "north" '(0 48 -8))
         (done-when (< (range-to '(0 48 -8)) 1.5))
-        (hint-after 30 "(slack) is the share that is slack: keep it near 0.12.  Pay out as fast as you fly.")
-        (hint-after 90 "(fly-to! '(0 48 -8) #:speed 0.3) (pay-out! 45 #:rate 0.33), and look now and then.")
+        (hint-after 30 "Keep the share that is slack near 12 %: pay out as fast as you fly."
+                    "(slack) is that share.")
+        (hint-after 90 "A metre out for each metre you go, and then look at the slack."
+                    "(fly-to! '(0 48 -8) #:speed 0.3) (pay-out! 45 #:rate 0.33)")
         (fail-when (parted?) "The tether has parted.")
         (at-most 300))
-  (task "Now home, to within 1.5 m of (0 8 -6): take in what comes loose."
+  (task "Now home, to within 1.5 m of where you began: take in what comes loose."
         (target "home" '(0 8 -6))
         (done-when (< (range-to '(0 8 -6)) 1.5))
-        (hint-after 60 "Haul in as fast as you come: (haul-in! 40 #:rate 0.28).")
+        (hint-after 60 "Haul in as fast as you come: a metre for each metre."
+                    "(haul-in! 40 #:rate 0.28)")
         (fail-when (parted?) "The tether has parted.")
         (at-most 300))
   (count snaps (taut?))

@@ -5,19 +5,21 @@
   (in (with open-water (current 0.05 90) (minnow (at 0 10 -6)) (line (length 20) (model catenary))))
   (say "Every time your heading goes once round, your tether has one turn more in it.  Twist makes loops,
 and loops hang on things.  Count, take the shorter way only when it is the way back, and come home with none.")
-  (task "Inspect the four sides: fly to within 1 m of (6 14 -6), (-6 14 -6), (-6 6 -6) and (6 6 -6), in any
-order, then to the dock at (0 10 -6)."
+  (task "Inspect the four sides: fly to within 1 m of each of them, in any order, then to the dock in their
+middle."
         (target "side 1" '(6 14 -6)) (target "side 2" '(-6 14 -6))
         (target "side 3" '(-6 6 -6)) (target "side 4" '(6 6 -6)) (target "dock" '(0 10 -6))
         (done-when (and (all-sides-seen?) (< (range-to '(0 10 -6)) 1)))
-        (hint-after 60 "(net-turns) counts for you, clockwise +.")
+        (hint-after 60 "The figure called turns counts for you, clockwise +."
+                    "(net-turns)")
         (hint-after 120 "If you go round by the right three times, go round by the left three times too.")
         (at-most 300))
   (probe "How many turns have you made, to the nearest quarter, clockwise +?" (net-turns) #:within 0.3)
   (task "Take all turns off: face north again with no turn left."
         (done-when (< (abs (net-turns)) 0.06))
         (held-for 2)
-        (hint-after 30 "Turn against the turns you made: (drive! #:yaw -0.5) takes off clockwise ones.")
+        (hint-after 30 "Turn against the turns you made: to the left takes off clockwise ones."
+                    "(drive! #:yaw -0.5) turns to the left.")
         (at-most 120))
   (count north-east (< (range-to '(6 14 -6)) 1))
   (count north-west (< (range-to '(-6 14 -6)) 1))

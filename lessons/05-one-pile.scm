@@ -8,10 +8,11 @@
   (say "There is one pile here, and there is work on the far side of it.  Every time you go round a pile
 your tether goes round it too, and what is wound does not come off by pulling.")
   (show)
-  (task "Fly to the far side of the pile, to within a metre of (0 5 -5)."
+  (task "Fly to the far side of the pile, to within a metre of the target."
         (target "far side" '(0 5 -5))
         (done-when (< (range-to '(0 5 -5)) 1))
-        (hint-after 60 "Choose a side and keep it: (fly-to! '(4 0 -5)), then (fly-to! '(0 5 -5)).")
+        (hint-after 60 "Choose a side and keep it, some four metres off the pile."
+                    "(fly-to! '(4 0 -5)), then (fly-to! '(0 5 -5)).")
         (fail-when (parted?) "The tether has parted.")
         (at-most 180))
   (probe "On which side of the pile does your tether pass it?"
@@ -21,11 +22,12 @@ your tether goes round it too, and what is wound does not come off by pulling.")
               (if (> (turns 'p1) 0)
                   '((4 3 -5) (4 -4 -5) (-4 -4 -5) (-4 0 -5))
                   '((-4 3 -5) (-4 -4 -5) (4 -4 -5) (6 -6 -5)))))
-  (task "Come home to within a metre of (6 -6 -5), with no turn round the pile."
+  (task "Come home to within a metre of where you began, with no turn round the pile."
         (target "home" '(6 -6 -5))
         (done-when (and (< (range-to '(6 -6 -5)) 1) (= 0 (winding 'p1))))
         (hint-after 60 "Go back the way you came: by the same side, along your tether.")
-        (hint-after 120 "(winding 'p1) tells how often the tether goes round the pile: + is clockwise.")
+        (hint-after 120 "Wound tells how often the tether goes round the pile: + is clockwise."
+                    "(winding 'p1)")
         (fail-when (parted?) "The tether has parted.")
         (at-most 240))
   (score ((abs (turns 'p1)) 0 0.6 #:by most #:over 0.3 #:weight 3)

@@ -8,12 +8,13 @@
   (say "Sooner or later you will be on the wrong side of something.  Today on purpose: go once round the
 pile, and notice when your tether begins to bend round it.")
   (show)
-  (task "Go all the way round the pile, clockwise as seen from above, and back to (6 -6 -5).  As soon as the
-tether bends round it by a quarter turn, tell the tender so: t wrapped, or (tell! 'tender \"wrapped\")."
+  (task "Go all the way round the pile, clockwise as seen from above, and back to the start.  As soon as the
+tether bends round it by a quarter turn, tell the tender so: t, and then wrapped."
         (target "start" '(6 -6 -5))
         (done-when (and (note-bend!) (= 1 (winding 'p1)) (pair? (messages)) (< (range-to '(6 -6 -5)) 2)))
         (hint-after 60 "From the south go west of the pile, then north, east, and home.")
-        (hint-after 120 "Have you told the tender? t wrapped.")
+        (hint-after 120 "Have you told the tender that it is wrapped?  t, and then the word."
+                    "(tell! 'tender \"wrapped\")")
         (fail-when (parted?) "The tether has parted.")
         (at-most 300))
   (fork-and-show "Watch what happens if you pull now."
@@ -22,11 +23,12 @@ tether bends round it by a quarter turn, tell the tender so: t wrapped, or (tell
        (what-if (fly-to! '(14 -12 -5)) (run 40) (max-tension)))
   (probe "Which way must you go round the pile to take the turn off, as seen from above?"
          (if (> (winding 'p1) 0) 'anticlockwise 'clockwise) #:choices (clockwise anticlockwise))
-  (task "Take the turn off and come back to within 2 m of (6 -6 -5), without ever pulling hard."
+  (task "Take the turn off and come home to within 2 m, without ever pulling hard."
         (target "home" '(6 -6 -5))
         (done-when (and (= 0 (winding 'p1)) (< (abs (turns 'p1)) 0.4) (< (range-to '(6 -6 -5)) 2)))
         (hint-after 60 "Retrace your way: east, north, west, south of the pile, and slack behind you.")
-        (hint-after 120 "(turns 'p1) must go to 0: watch it.")
+        (hint-after 120 "What is wound must go to no: watch it."
+                    "(turns 'p1) must go to 0.")
         (fail-when (> (max-tension) 400) "You pulled with more than 400 N: the tether is damaged.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 300))

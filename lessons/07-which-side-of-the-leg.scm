@@ -5,23 +5,25 @@
   (needs bow route)
   (setting set 0.15 0.25 0.35)
   (in (with jacket (current (setting 'set) (+ 90 (jitter 10)))))
-  (say "A platform stands on four legs.  You are to look at the south-east leg, leg-b2, from the north: the
-place is (6 -2 -8).  Your tether comes from the south, and the current sets east.")
+  (say "A platform stands on four legs.  You are to look at the south-east leg, leg-b2, from the north, at
+8 m.  Your tether comes from the south, and the current sets east.")
   (show)
   (probe "On which side of the leg do you pass, so that the water carries your tether clear of it?"
          'east #:choices (east west))
-  (task "Fly to within a metre of (8 -2 -8), north-east of leg-b2, and look at it for five seconds."
+  (task "Fly to within a metre of the place north-east of leg-b2, and look at it for five seconds."
         (target "leg-b2" '(8 -2 -8))
         (done-when (< (range-to '(8 -2 -8)) 1))
         (held-for 5)
-        (hint-after 60 "Down-current of the leg is east of it: by (10 -9 -8) and (10 -4 -8).")
+        (hint-after 60 "Down-current of the leg is east of it: go out east, four metres off the leg, and only then north."
+                    "By (10 -9 -8) and (10 -4 -8).")
         (fail-when (parted?) "The tether has parted.")
         (at-most 180))
-  (task "Home to within 1.5 m of (-2 -14 -8), clear of every leg."
+  (task "Home to within 1.5 m of where you began, clear of every leg."
         (target "home" '(-2 -14 -8))
         (done-when (and (< (range-to '(-2 -14 -8)) 1.5) (= 0 (winding 'jacket/leg-b2))))
         (hint-after 60 "Go back by the side that you came by.")
-        (hint-after 120 "(winding 'jacket/leg-b2) is the count about the leg; it must be 0.")
+        (hint-after 120 "Wound must not name the leg: go round it the other way."
+                    "(winding 'jacket/leg-b2) is the count about the leg; it must be 0.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 200))
   (count touches (pair? (contacts)))

@@ -11,11 +11,13 @@ current sets it east against that.  Go home beside it, up-current of it: the ten
 him.  Never run ahead of it, never lose sight of it, and do not turn about looking for it."
        (setting 'sight))
   (probe "Which way does your tether leave you?  Its bearing." (bearing-to (tether-ahead 3)) #:within 25)
-  (task "Follow your tether home, to within 2 m of (-1 -17 -14), and keep it in view."
+  (task "Follow your tether home, to within 2 m of where it is paid out, 14 m deep, and keep it in view."
         (done-when (< (range-to '(-1 -17 -14)) 2))
-        (hint-after 20 "(point-at (- (tether-length) 3)) is on your tether, 3 m from you: go there, a metre west
-of it, and again.")
-        (hint-after 60 "(in-view? #:sight 3) tells whether the camera sees it.  Lost it?  Stop, and turn back.")
+        (hint-after 20 "Turn until the camera sees your tether, go three metres beside it, a metre west of it, and
+again."
+                    "(point-at (- (tether-length) 3)) is on it, 3 m from you.")
+        (hint-after 60 "The camera does not see it any more?  Stop, and turn back."
+                    "(in-view? #:sight 3) tells whether it does.")
         (hint-after 120 "What it lies against it lies against on your side: keep a metre off, west.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 240))

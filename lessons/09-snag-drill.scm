@@ -21,20 +21,23 @@ pull, and do not let anybody haul.")
   (task "Ahead, gently, to the south-east until the tether comes taut."
         (first (settle! #:at-most 5))
         (done-when (or (taut?) (> (rov-tension) 15)))
-        (hint-after 30 "(drive! #:surge 0.3) is enough.")
+        (hint-after 30 "A third of the stick is enough: with shift the key puts it there."
+                    "(drive! #:surge 0.3)")
         (fail-when (> (max-tension) 300) "You pulled with more than 300 N: never pull to clear a snag.")
         (at-most 120))
   (task "Back off for slack: the tether hangs loose, less than 5 N at the vehicle."
         (done-when (and (not (taut?)) (< (rov-tension) 5)))
         (held-for 2)
-        (hint-after 20 "(drive! #:surge -0.3), then (release!).")
+        (hint-after 20 "Astern a little, then let go of everything."
+                    "(drive! #:surge -0.3), then (release!).")
         (fail-when (> (max-tension) 300) "You pulled with more than 300 N: never pull to clear a snag.")
         (at-most 90))
   (task "Turn round until you look along your tether, within 25 degrees, and hold still."
         (first (hold-heading! (+ 180 (along-the-tether))) (run 4) (release!))
         (done-when (< (off-the-tether) 25))
         (held-for 2)
-        (hint-after 20 "(bearing-to (point-at (- (tether-length) 3))) is where it leads; (hold-heading! ...).")
+        (hint-after 20 "The map shows where it leads; turn there, and hold the heading."
+                    "(bearing-to (point-at (- (tether-length) 3))) is where it leads; (hold-heading! ...).")
         (at-most 90))
   (probe "What is it that holds your tether?" 'post #:choices (post strut seabed))
   (task "Follow it to the snag: to within 2 m of the post at the depth of your tether."
@@ -45,8 +48,10 @@ pull, and do not let anybody haul.")
         (at-most 120))
   (task "Clear it: go round the post by the way the tether came, until it holds no more."
         (done-when (and (= 0 (winding 'post)) (< (abs (turns 'post)) 0.3)))
-        (hint-after 40 "(turns 'post) tells how far round it goes: clockwise +.  Go round against that.")
-        (hint-after 80 "North of the post to the west, and then south: (fly-to! '(0 3 -5)), (fly-to! '(-3 0 -5)).")
+        (hint-after 40 "Wound tells how far round the post it goes: clockwise +.  Go round against that."
+                    "(turns 'post)")
+        (hint-after 80 "North of the post to the west, and then south."
+                    "(fly-to! '(0 3 -5)), (fly-to! '(-3 0 -5)).")
         (fail-when (> (max-tension) 300) "You pulled with more than 300 N: never pull to clear a snag.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 200))

@@ -33,14 +33,15 @@ sea: loose, it rises.")
            (in (with quay (current (setting 'set) (+ 0 (jitter 15)))))
            (say "As it is, then.")))
   (show)
-  (task "Fly to within 0.7 m of (0 2.5 -8.5), under the ledge, and stay for ten seconds."
+  (task "Fly to within 0.7 m of the place under the ledge, and stay for ten seconds."
         (target "ledge" '(0 2.5 -8.5))
         (done-when (< (range-to '(0 2.5 -8.5)) 0.7))
         (held-for 10)
-        (hint-after 40 "Stay below 8 m, under the edge of the ledge: (fly-to! '(0 2.5 -8.5) #:speed 0.3).")
+        (hint-after 40 "Stay below 8 m, under the edge of the ledge, and go slowly."
+                    "(fly-to! '(0 2.5 -8.5) #:speed 0.3)")
         (fail-when (parted?) "The tether has parted.")
         (at-most 150))
-  (task "And back to within a metre of (0 -5 -9)."
+  (task "And back to within a metre of home, in front of the wall."
         (target "home" '(0 -5 -9))
         (done-when (< (range-to '(0 -5 -9)) 1))
         (hint-after 40 "Straight back, beside your tether.")

@@ -9,26 +9,29 @@
          contacts clearance contact-length stuck? turns winding windings wrap-angle max-tension rov-tension
          anchor-tension tension-at tensions payout-counter load-cell foresee what-if fouled?)
   (in (with jacket (current 0.15 (+ 0 (jitter 15))) (line (length 12))))
-  (say "You see your camera and your instruments: compass, depth, (ship-range) and (ship-bearing).  Your
+  (gauge "ship, m" (ship-range))
+  (gauge "bears" (ship-bearing))
+  (say "You see your camera and your instruments: compass, depth, and range and bearing to the ship.  Your
 tender sees the counter and the load cell of the winch, 12 m out now, and nothing of you.  It does what you
 tell it: \"give 5\", \"take 5\"; to \"out?\" it answers; \"range 20\" lets it know how far away you are.  You may
 send ten messages.  Too little holds you back; too much lies on the legs, down-current.")
-  (task "Between the two southern legs to the work inside the jacket: within a metre of (3.5 2 -8)."
+  (task "Between the two southern legs to the work inside the jacket: within a metre of it."
         (target "work" '(3.5 2 -8))
         (done-when (< (range-to '(3.5 2 -8)) 1))
         (held-for 3)
         (hint-after 20 "You will be 25 m from the ship: 13 or 14 m more than are out, a tenth of it to spare.")
-        (hint-after 60 "t give 14 asks for it, or (tell! 'tender \"give 14\"); (3.5 -9 -8) is the way in.")
+        (hint-after 60 "t, and then give 14, asks for it.  The way in is straight from the south, 8 m deep."
+                    "(tell! 'tender \"give 14\"); (3.5 -9 -8) is the way in.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 180))
   (probe "Pilot: how many metres of tether are out?" (tether-length) #:ratio 0.1)
   (probe "Tender: how many metres away is the vehicle?" (ship-range) #:ratio 0.1 #:answer (tender-thinks))
-  (task "Home by the same way, to within 1.5 m of (-2 -14 -8), and no more than 14 m left out."
+  (task "Home by the same way, to within 1.5 m of where you began, and no more than 14 m left out."
         (target "home" '(-2 -14 -8))
         (done-when (and (< (range-to '(-2 -14 -8)) 1.5) (< (tether-length) 14)
                         (= 0 (winding 'jacket/leg-b2)) (= 0 (winding 'jacket/leg-b1))))
-        (hint-after 40 "Have it taken in as you come: t take 6, twice, and not at once.")
-        (hint-after 100 "out? tells you what the counter shows; less than 14 m at the end.")
+        (hint-after 40 "Have it taken in as you come: t, and then take 6, twice, and not at once.")
+        (hint-after 100 "t, and then out?, tells you what the counter shows; less than 14 m at the end.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 180))
   (tender "Does what it is told, and reads out its counter and its load cell."

@@ -6,21 +6,23 @@
   (setting set 0.1 0.2 0.3)
   (in (with wreck (current (setting 'set) (+ 290 (jitter 10)))))
   (say "She lies on her side with masts and stays standing; stays are wires you may not see.  You are west
-of her, the current sets west.  You are to look at her stem: the place is (3 18 -19).")
+of her, the current sets west.  You are to look at her stem.")
   (show)
   (probe "The current sets west.  On which side of her do you go, so that your tether is carried clear?"
          'west #:choices (west over east))
-  (task "Fly to within 1.5 m of (3 18 -19), off her stem, and look for five seconds."
+  (task "Fly to within 1.5 m of the place off her stem, and look for five seconds."
         (target "stem" '(3 18 -19))
         (done-when (< (range-to '(3 18 -19)) 1.5))
         (held-for 5)
-        (hint-after 60 "Stay 8 m west of her: (-10 4 -18), (-4 17 -19), then east to the stem.")
+        (hint-after 60 "Stay 8 m west of her all the way north; only then east to the stem."
+                    "(-10 4 -18), (-4 17 -19), then the stem.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 240))
-  (task "Home to within 1.5 m of (-10 -8 -16), beside your tether."
+  (task "Home to within 1.5 m of where you began, beside your tether."
         (target "home" '(-10 -8 -16))
         (done-when (< (range-to '(-10 -8 -16)) 1.5))
-        (hint-after 90 "Go back as you came: (-4 17 -19), (-10 4 -18), home.")
+        (hint-after 90 "Go back as you came: west of her first, then south."
+                    "(-4 17 -19), (-10 4 -18), home.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 240))
   (count crossings (over-her?))

@@ -5,7 +5,7 @@
   (needs route trim)
   (setting set 0.03 0.06 0.1)
   (say "Two metres of ice, keels four metres deep, and one hole.  You go 45 m in, under two keels, to a
-mooring at (4 45 -8), and come out by the same way.  A line that floats lies against the ice and behind the
+mooring, and come out by the same way.  A line that floats lies against the ice and behind the
 keels; one that sinks drags over the bottom and what lies there.")
   (probe "How is your line trimmed for this: light, neutral or heavy?" 'neutral
          #:choices (light neutral heavy))
@@ -23,16 +23,19 @@ keels; one that sinks drags over the bottom and what lies there.")
         (target "mooring" '(4 45 -8))
         (done-when (< (range-to '(4 45 -8)) 1.5))
         (held-for 5)
-        (hint-after 30 "Under the keels, 7 to 8 m deep, and straight: (fly-to! '(4 45 -8) #:speed 0.4).")
+        (hint-after 30 "Under the keels, 7 to 8 m deep, and straight."
+                    "(fly-to! '(4 45 -8) #:speed 0.4)")
         (fail-when (parted?) "The tether has parted.")
         (at-most 240))
   (probe "Which way does your tether leave you?  Its bearing." (bearing-to (point-at (- (tether-length) 5)))
          #:within 25)
-  (task "Out again by the way you came, to within 1.5 m of (0 1 -6), below the hole."
+  (task "Out again by the way you came, to within 1.5 m of the place below the hole."
         (target "hole" '(0 1 -6))
         (done-when (< (range-to '(0 1 -6)) 1.5))
-        (hint-after 60 "Beside your tether: (point-at (- (tether-length) 4)) is on it, and again from there.")
-        (hint-after 120 "(off-the-way 1) is how far you are from the way you came in.")
+        (hint-after 60 "Beside your tether, four metres at a time: where it lies, there you came."
+                    "(point-at (- (tether-length) 4)) is on it, and again from there.")
+        (hint-after 120 "The current has set the bow of it aside: the way in was straight from the hole."
+                     "(off-the-way 1) is how far you are from the way you came in.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 240))
   (tender "Gives and takes a metre at a time, so that little is loose."

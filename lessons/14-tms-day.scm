@@ -6,24 +6,25 @@
   (setting speed 0.25 0.35 0.45)
   (in (with garage (current (tide (speed (setting 'speed)) (toward (+ 0 (jitter 10))) (period 1080)))))
   (say "Your garage hangs 20 m above the blow-out preventer, 7 m west of its riser.  The work is a valve 100 m
-east of the garage, at (92 8 -75).  The tide sets north, and by the tables turns at 360 s: then it sets
+east of the garage.  The tide sets north, and by the tables turns at 360 s: then it sets
 south.  The winch of the garage holds your slack; what the tide does with your tether is yours to foresee.")
   (show)
   (probe "On which side of the riser do you go out, so that the tide carries your tether clear of it?"
          'north #:choices (north south))
   (probe "And after the turn, where does it lay a tether that leads north of the riser?"
          'on-the-riser #:choices (clear on-the-riser))
-  (task "Out to the valve, to within 1.5 m of (92 8 -75), and look at it for ten seconds."
+  (task "Out to the valve, to within 1.5 m of it, and look at it for ten seconds."
         (target "valve" '(92 8 -75))
         (done-when (< (range-to '(92 8 -75)) 1.5))
         (held-for 10)
         (fault-after 60 "The ship: the tide is early.  It turns at 270 s, not at 360.")
-        (hint-after 20 "North of the riser, well clear: (fly-to! '(0 10 -68) #:speed 0.8), then the valve.")
+        (hint-after 20 "North of the riser, ten metres clear, then the valve."
+                    "(fly-to! '(0 10 -68) #:speed 0.8)")
         (fail-when (parted?) "The tether has parted.")
         (at-most 320))
   (probe "It turns at 270 s; you make 0.8 m/s.  By what time, at the latest, must you leave to be at the
 garage by then?" (- 270 (/ (range-to '(-6 1 -67.5)) 0.8)) #:within 25)
-  (task "Home into the garage: within 1.2 m of (-6 1 -67.5), less than 6 m of tether out, no turn left in it."
+  (task "Home into the garage: within 1.2 m of its door, less than 6 m of tether out, no turn left in it."
         (target "garage" '(-6 1 -67.5))
         (done-when (and (< (range-to '(-6 1 -67.5)) 1.2) (< (tether-length) 6)
                         (< (abs (turns 'wellhead/riser)) 0.5) (< (abs (net-turns)) 1)))

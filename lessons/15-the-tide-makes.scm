@@ -6,31 +6,33 @@
   (setting tide 0.45 0.55 0.65)
   (hides wear wear-profile)
   (in (with tidal-jacket (current 0.15 (+ 270 (jitter 10)))))
-  (say "You survey a node on the east side of a jacket, at (9 4 -8), from a ship that heaves in the swell.
+  (say "You survey a node on the east side of a jacket from a ship that heaves in the swell.
 Your tether comes up past the south-east leg, which is grown over with mussels.  The survey would take six
 minutes, and the first minute of it is worth having.  The tide is on the make.  You can break off at any
-time: tell the tender, t abort, or (tell! 'tender \"abort\").  Nothing shows you how far the tether is worn;
+time: tell the tender: t, and then abort.  Nothing shows you how far the tether is worn;
 (load-cell) shows how hard it is held.")
   (show)
   (probe "The tide sets west.  Where does it lay your tether, while you are at the node?"
          'on-the-leg #:choices (clear on-the-leg on-the-bed))
-  (task "Survey: stay within 2 m of (9 4 -8) for a minute or more, and break off in time."
+  (task "Survey: stay within 2 m of the node for a minute or more, and break off in time."
         (target "survey" '(9 4 -8))
         (first (pay-out! 11 #:rate 0.6))
         (done-when (and (note-survey!) (pair? (messages))))
         (fault-after 80 "The ship: the tide is making." (current! 0.35 270))
         (fault-after 130 "The ship: more than was forecast, and still making." (current! (setting 'tide) 270))
-        (hint-after 20 "(fly-to! '(10 -4 -8) #:speed 0.5), then (9 4 -8): stay east of the leg.")
+        (hint-after 20 "Stay east of the leg: out east of it first, then north to the node."
+                    "(fly-to! '(10 -4 -8) #:speed 0.5), then (9 4 -8).")
         (hint-after 150 "The load cell, T, shows twice what it did, and every swell saws: is it worth it?")
         (fail-when (worn-through?) "The jacket is worn through: no picture, no power.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 330))
   (probe "What wears your tether most, now: the tide by itself, the swell, or your thrusters?" 'swell
          #:choices (tide swell thrusters))
-  (task "Home: to within 2 m of (-2 -14 -8), with the tether off the leg."
+  (task "Home: to within 2 m of where you began, with the tether off the leg."
         (target "home" '(-2 -14 -8))
         (done-when (and (< (range-to '(-2 -14 -8)) 2) (< (abs (turns 'mussels)) 0.2)))
-        (hint-after 40 "Back along your tether, east of the leg: (11 -4 -8), (9 -11 -8), home.")
+        (hint-after 40 "Back along your tether, east of the leg, until you are south of it."
+                    "(11 -4 -8), (9 -11 -8), home.")
         (hint-after 90 "Never pull it round the leg: what is taut saws.  Up to it, past it, then home.")
         (fail-when (worn-through?) "The jacket is worn through: no picture, no power.")
         (fail-when (parted?) "The tether has parted.")

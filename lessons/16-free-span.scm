@@ -12,14 +12,14 @@ comes home over it has put your tether round the pipe, and no winch takes that o
   (show)
   (probe "Which way do you cross to the far side, if you are to be hauled into the garage at any moment?"
          'over #:choices (over under))
-  (task "The near side: look at the span from (-2 6 -78), within a metre, for five seconds."
+  (task "The near side: look at the span from the target, within a metre, for five seconds."
         (target "near side" '(-2 6 -78))
         (done-when (< (range-to '(-2 6 -78)) 1))
         (held-for 5)
         (hint-after 30 "Down and north-east from the garage, west of the pipe all the way.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 300))
-  (task "The far side: look at it from (2.5 6 -78), within a metre, for five seconds."
+  (task "The far side: look at it from the target, within a metre, for five seconds."
         (target "far side" '(2.5 6 -78))
         (done-when (< (range-to '(2.5 6 -78)) 1))
         (held-for 5)
@@ -28,7 +28,7 @@ comes home over it has put your tether round the pipe, and no winch takes that o
         (at-most 300))
   (probe "You hang east of the pipe.  If the tender hauled now, what would the tether do?"
          (if (< (abs (winding 'pipeline/pipe)) 1) 'come-home 'hold) #:choices (come-home hold))
-  (task "Home into the garage: within 1.2 m of (-11 -5 -69), and less than 8 m of tether out."
+  (task "Home into the garage: within 1.2 m of its door, and less than 8 m of tether out."
         (target "garage" '(-11 -5 -69))
         (done-when (and (< (range-to '(-11 -5 -69)) 1.2) (< (tether-length) 8)))
         (hint-after 60 "The way you came: up, over the pipe, and then down-slope to the garage.")

@@ -16,7 +16,7 @@
   (setting speed 0.2 0.3 0.35)
   (in (with cleaning (current (tide (speed (setting 'speed)) (toward (+ 270 (jitter 10))) (period 880)))))
   (say "Two legs are to be freed of mussels before the inspectors come: the west face of the south-west leg,
-from (-7.6 -6 -9), and the east face of the south-east leg, from (7.6 -6 -9).  Half a minute at each will do
+and the east face of the south-east leg.  Half a minute at each will do
 today.  You stand south of the jacket; a clump keeps your tether down at 8 m.")
   (say "The tide sets west, at ~a m/s, and turns at 220 s; then it sets east.  A tether that is pressed to a
 leg while the jet shakes you is a tether that is sawn.  Choose which leg first, and what you do at the turn."
@@ -25,15 +25,16 @@ leg while the jet shakes you is a tether that is sawn.  Choose which leg first, 
   (probe "Which leg do you clean while the tide sets west?" 'south-west #:choices (south-west south-east))
   (probe "The jet is on, the leg is half clean, and the tide turns.  What then?" 'move-off
          #:choices (finish-first move-off ask-for-slack))
-  (task "Clean both legs: half a minute in all within 1.2 m of (-7.6 -6 -9), and half a minute of (7.6 -6 -9)."
+  (task "Clean both legs: half a minute in all within 1.2 m of the one place, and half a minute of the other."
         (target "west leg" '(-7.6 -6 -9)) (target "east leg" '(7.6 -6 -9))
         (done-when (and (note-work!) (>= (counter 'west) 30) (>= (counter 'east) 30)))
         (hint-after 40 "The face that the water leaves: what it carries off the leg, it carries off your tether too.")
-        (hint-after 170 "By now stand off to the south, and wait out the turn there: (0 -13 -9).")
+        (hint-after 170 "By now stand off to the south, and wait out the turn there."
+                     "(0 -13 -9)")
         (fault-after 200 "The ship: slack water by the meter.  It makes to the east from now on.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 400))
-  (task "Home to the boat: to within 1.5 m of (0 -13 -9), the tether clear of both legs."
+  (task "Home to the boat: to within 1.5 m of it, the tether clear of both legs."
         (target "boat" '(0 -13 -9))
         (done-when (and (< (range-to '(0 -13 -9)) 1.5) (null? (contacts))))
         (hint-after 40 "Away from the leg first, south, and then across.")

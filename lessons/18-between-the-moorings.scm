@@ -5,8 +5,8 @@
   (needs route bow)
   (setting speed 0.2 0.3 0.4)
   (in (with net-pen (current (list 'profile (list 0 (setting 'speed) (+ 90 (jitter 10))) '(-30 0.1 70)))))
-  (say "A diver saw a hole in the south-west side of this net.  You are to find it: look at the net from
-(-10.6 -4.4 -6).  The pen hangs on eight moorings that run out and down from its collar; the boat lies south-west,
+  (say "A diver saw a hole in the south-west side of this net.  You are to find it: look at the net there from a
+metre.  The pen hangs on eight moorings that run out and down from its collar; the boat lies south-west,
 outside the bay between the moorings 4 (south) and 5 (south-west); the hole is in the next bay, beyond
 mooring 5 and short of mooring 6 (west).")
   (say "A mooring is a slope: near the pen it is high, far out it is deep.  Over it or under it makes no
@@ -14,20 +14,22 @@ difference to you, and all the difference to your tether: by what side of a line
   (show)
   (probe "You go to the hole over mooring 5, well out from the pen.  How do you come home?"
          'above-it #:choices (above-it under-it round-the-pen))
-  (task "To the hole in the net: to within a metre of (-10.6 -4.4 -6), and look for eight seconds."
+  (task "To the hole in the net: to within a metre of the target, and look for eight seconds."
         (target "hole" '(-10.6 -4.4 -6))
         (done-when (< (range-to '(-10.6 -4.4 -6)) 1))
         (held-for 8)
-        (hint-after 40 "Over mooring 5 well out from the pen, where it is deep: (-18 -12 -5), then (-15 -6 -6).")
+        (hint-after 40 "Over mooring 5 well out from the pen, where it is deep: west first, and then north."
+                    "(-18 -12 -5), then (-15 -6 -6).")
         (fail-when (parted?) "The tether has parted.")
         (at-most 300))
   (probe "Which mooring does your tether cross on its way home?" 'mooring-5
          #:choices (mooring-4 mooring-5 mooring-6))
-  (task "Home to within 1.5 m of (-8 -16 -5), your tether off every mooring."
+  (task "Home to within 1.5 m of the boat, your tether off every mooring."
         (target "home" '(-8 -16 -5))
         (done-when (and (< (range-to '(-8 -16 -5)) 1.5) (< (excess) 0.5) (< (tether-length) 18)))
         (hint-after 50 "Back over mooring 5, where you came, and only then east to the boat.")
-        (hint-after 120 "Held?  (contacts) tells by what.  Go back round it the way you came; do not pull.")
+        (hint-after 120 "Held?  Wound tells by what.  Go back round it the way you came; do not pull."
+                     "(contacts)")
         (fail-when (parted?) "The tether has parted.")
         (at-most 240))
   (tender "A deck hand with the tether in his hands: a metre at a time, hand-tight."

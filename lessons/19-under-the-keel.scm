@@ -6,7 +6,7 @@
   (setting speed 0.08 0.15 0.25)
   (in (with alongside (current (setting 'speed) (+ 180 (jitter 10)))))
   (say "The coaster lies at anchor with her bow to the north; you come from a boat on her port side.  Her
-starboard bilge keel has been aground: you are to look at it from below, from (6.5 -3 -5.5).  She draws 4 m and
+starboard bilge keel has been aground: you are to look at it from below.  She draws 4 m and
 there are 22 m of water.")
   (say "Under a keel your tether has two edges to lie on, both of them overgrown.  Dive a few metres below
 her, so that it hangs clear, and come back by the same way.  Ahead of her the
@@ -14,7 +14,7 @@ anchor chain goes down to the bed: who comes up on the far side and goes home ro
 the ship.")
   (show)
   (probe "How deep do you cross under her, for a tether that hangs clear of the turn of her bilge?" 8 #:within 2)
-  (task "Under her to starboard: to within a metre of (6.5 -3 -5.5), and look up for eight seconds."
+  (task "Under her to starboard: to within a metre of the target, and look up for eight seconds."
         (target "starboard" '(6.5 -3 -5.5))
         (done-when (< (range-to '(6.5 -3 -5.5)) 1))
         (held-for 8)
@@ -24,7 +24,7 @@ the ship.")
   (fork-and-show "Watch what happens to one who goes home round the bow from here."
     (for-each (lambda (p) (fly-to! p #:speed 0.7) (run-until arrived? #:at-most 60))
               '((6 24 -3) (-4 25 -3) (-12 0 -4))))
-  (task "Home to within 1.5 m of (-12 0 -4), and your tether out from under her."
+  (task "Home to within 1.5 m of the boat, and your tether out from under her."
         (target "home" '(-12 0 -4))
         (done-when (and (< (range-to '(-12 0 -4)) 1.5) (< (tether-length) 14) (< (excess) 0.5)))
         (hint-after 40 "Down, across, up: as you came.")

@@ -17,14 +17,14 @@
   (say "Sixty metres of water with a tide in it: half a metre a second and more above, next to nothing at the
 bed.  In that your umbilical is a sail.  A clump weight takes it over: down to the clump the line is the
 ship's, and from the clump on it is yours, some metres to move in.")
-  (say "Where it hangs is decided on deck.  You are to look at a valve from (0 16 -53), behind a manifold that
+  (say "Where it hangs is decided on deck.  You are to look at a valve, 53 m deep, behind a manifold that
 stands up to 54 m.  Too high, and you drag the sail yourself.  Too low, and your tether leads through the steel.")
   (probe "At how many metres of line do you shackle the clump on?" 'at-47 #:choices (at-25 at-47 at-57))
   (in (cond ((eq? 'at-25 (last-answer)) (manifold-with 25 22))
             ((eq? 'at-57 (last-answer)) (manifold-with 57 22))
             (else (manifold-with 47 22))))
   (show)
-  (task "To the valve: within 1.2 m of (0 16 -53), and look at it for ten seconds."
+  (task "To the valve: within 1.2 m of the target, and look at it for ten seconds."
         (target "valve" '(0 16 -53))
         (done-when (< (range-to '(0 16 -53)) 1.2))
         (held-for 10)
@@ -33,7 +33,7 @@ stands up to 54 m.  Too high, and you drag the sail yourself.  Too low, and your
         (at-most 300))
   (probe "Where does your tether leave you to?  Its bearing, five metres from you."
          (bearing-to (point-at (- (tether-length) 5))) #:within 25)
-  (task "Back to below the ship: within 2 m of (2 3 -48)."
+  (task "Back to below the ship: within 2 m of the target."
         (target "below the ship" '(2 3 -48))
         (done-when (< (range-to '(2 3 -48)) 2))
         (hint-after 40 "Up first: your tether goes over the manifold, and so do you.")

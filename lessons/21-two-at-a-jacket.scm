@@ -19,26 +19,26 @@
   (setting set 0.05 0.1 0.15)
   (in (with two-at-a-jacket (current (setting 'set) (jitter 10))))
   (say "You fly alfa.  Bravo, from the same ship, cleans a node on the east side of the jacket, and its tether
-runs from the ship to it, at the depth you see.  Your work is a marker at (16 -8 -12), and bravo's tether lies
+runs from the ship to it, at the depth you see.  Your work is a marker east of that, and bravo's tether lies
 between you and it.")
   (say "Two tethers that have crossed twice the same way, over going and under coming, are one rope.  Ask bravo
-to hold before you cross: t crossing.  Cross under, well clear, near the ship; come home under again; then tell
-him: t clear.")
+to hold before you cross: t, and then crossing.  Cross under, well clear, near the ship; come home under again; then tell
+him: t, and then clear.")
   (show)
   (probe "You have crossed under bravo's tether.  How do you come home?" 'under #:choices (under over either))
-  (task "To the marker: within 1.2 m of (16 -8 -12), and look at it for five seconds."
+  (task "To the marker: within 1.2 m of it, and look at it for five seconds."
         (target "marker" '(16 -8 -12))
         (done-when (and (note-crossing!) (< (range-to '(16 -8 -12)) 1.2)))
         (held-for 5)
-        (hint-after 20 "Tell bravo first: t crossing.  Then down to 13 m, and east under its tether.")
+        (hint-after 20 "Tell bravo first: t, and then crossing.  Then down to 13 m, and east under its tether.")
         (fail-when (parted?) "Your tether has parted.")
         (at-most 300))
-  (task "Home: within 1.5 m of (-3 -15 -8), uncrossed, and bravo told that you are clear."
+  (task "Home: within 1.5 m of where you began, uncrossed, and bravo told that you are clear."
         (target "home" '(-3 -15 -8))
         (done-when (and (note-crossing!) (< (range-to '(-3 -15 -8)) 1.5) (= 0 (counter 'twist))
                         (told-of-both?)))
         (hint-after 40 "Under again, where you crossed, and up only when you are west of it.")
-        (hint-after 100 "t clear tells bravo that it may move.")
+        (hint-after 100 "t, and then clear, tells bravo that it may move.")
         (fail-when (parted?) "Your tether has parted.")
         (at-most 260))
   (tender "Bravo's pilot, and the hands at alfa's winch: bravo holds while you cross, if you ask."

@@ -17,19 +17,25 @@
          rov-clearance contact-length turns winding windings wrap-angle foresee what-if fouled? in-view? sonar
          tether-in-view way-home unwind-plan segments haul-prospect)
   (in (with down-line (current (setting 'set) (+ 90 (jitter 15)))))
+  (gauge "ship, m" (ship-range))
+  (gauge "bears" (ship-bearing))
+  (gauge "counter, m" (payout-counter))
   (say "The camera has failed.  You have a compass, depth, range and bearing to the ship, the counter of the
-winch, and the pull of your tether: (rov-tension).  You left the ship northward and passed east of where a buoy's
+winch, and the pull of your tether.  You left the ship northward and passed east of where a buoy's
 down-line should be; then you were north of it, and then you came round to the south-west, where you are now.")
-  (say "(ship-range) is ~a m.  (payout-counter) shows ~a m.  Remember both." (ship-range) (payout-counter))
-  (task "On to the south-west, gently, until something holds you.  Then stop, and tell the tender: t held."
+  (say "The ship is ~a m away.  The counter of the winch shows ~a m.  Remember both." (ship-range) (payout-counter))
+  (task "On to the south-west, gently, until something holds you.  Then stop, and tell the tender: t, and then held."
         (done-when (and (note-pull!) (pair? (messages))))
-        (hint-after 30 "Half ahead is enough: (drive! #:surge 0.3), heading 240; watch (rov-tension).")
-        (hint-after 60 "Do you feel it?  Centre the sticks, and t held, or (tell! 'tender \"held\").")
+        (hint-after 30 "A third of the stick ahead is enough, heading 240; watch the pull."
+                    "(drive! #:surge 0.3); watch (rov-tension).")
+        (hint-after 60 "Do you feel it?  Centre the sticks, then t, and held."
+                    "(tell! 'tender \"held\")")
         (fail-when (> (max-tension) 250) "You pulled with more than 250 N at something that you do not know.")
         (at-most 240))
   (probe "Taut, there are 29 m out.  How far is the ship, straight through the water, m?" (ship-range) #:within 2)
   (probe "So what holds you?" 'round-something #:choices (round-something at-the-end a-turn-of-the-winch))
-  (task "Free it by the way you came, and stand 2 m from (5 -9 -6), south-east of the wire, free to be hauled."
+  (task "Free it by the way you came, and stand within 2 m of the place south-east of the wire, free to be hauled."
+        (target "clear" '(5 -9 -6))
         (done-when (and (< (range-to '(5 -9 -6)) 2) (< (excess) 0.4)))
         (hint-after 20 "Slack first: astern a little.  Then by your own track: north-east, past the wire on its north
 side, east of it, and south.")

@@ -4,6 +4,7 @@
   (trains blind route)
   (needs blind slack)
   (setting set 0.05 0.1 0.15)
+  (gauge "pulls toward" (if (> (rov-tension) 0.5) (pull-bearing) "nowhere"))
   (hides look status tether-points point-at tangent-at contacts clearance rov-clearance contact-length turns
          winding windings wrap-angle foresee what-if fouled? in-view? sonar tether-in-view way-home unwind-plan
          segments free-length taut-length haul-prospect)
@@ -12,10 +13,11 @@
   (say "Somebody has stirred the bed up, and you see your own bow and no more.  Between you and home lies what a
 platform dropped; you went out round it, west of this and east of that, and cannot say in what order.  Your
 tether can.  The tender keeps a light hand on it and takes in what you give: it pulls you the way it goes.")
-  (say "(tether-force) is that pull: its x is east, its y north.  Go where it points, a metre at a time, and a
+  (say "You read that pull, and where it goes.  Go where it points, a metre at a time, and a
 little up-current of it, to the west.  The bearing of the ship is where the ship is; it is not the way there.")
-  (probe "(ship-bearing) shows ~a.  Is that the way home?" 'no #:choices (yes no))
-  (task "Home by feel: to within 2 m of (-1 -17 -14), and the tender with less than 8 m out."
+  (say "The ship bears ~a." (ship-bearing))
+  (probe "Is that the way home?" 'no #:choices (yes no))
+  (task "Home by feel: to within 2 m of the tender, 14 m deep, and the tender with less than 8 m out."
         (done-when (and (< (range-to '(-1 -17 -14)) 2) (< (tether-length) 8)))
         (fault-after 45 "The compass drifts: do not trust it." (fault! 'compass 2))
         (hint-after 15 "Ahead where it pulls, a metre and a half; then wait until it pulls
@@ -62,3 +64,8 @@ again, and keep a little west of it.")
 
 (define (fly-legs points speed)
   (for-each (lambda (p) (fly-to! p #:speed speed) (run-until arrived? #:at-most 90)) points))
+
+(define (pull-bearing)
+  ;; The compass bearing, degrees, toward which the tether pulls the vehicle.
+  (let ((f (tether-force)))
+    (bearing-to (vec+ (rov-position) f))))

@@ -19,7 +19,7 @@
   (yours finder line)
   (setting set 0.15 0.2 0.25)
   (in (with lost-vehicle (current (setting 'set) (+ 90 (jitter 8)))))
-  (say "The other vehicle's tether has parted.  It sits dead at (0 0 -12) among containers, and some fourteen
+  (say "The other vehicle's tether has parted.  It sits dead, 12 m deep, among containers, and some fourteen
 metres of its tether stream from it, neutral, down-current: to the east.  You are to take hold of the loose end,
 so that a new line can be shackled to it.")
   (say "It is a line in the water without a pilot.  Run over it, and it is in your thrusters; cross up-current
@@ -38,7 +38,7 @@ down-current.")
         (fail-when (< (near-the-line) 0.4) "The loose line is in your thrusters: now there are two of you down here.")
         (fail-when (parted?) "Your own tether has parted.")
         (at-most 300))
-  (task "With the position noted, home: within 1.5 m of (2 -14 -9), your tether free of everything."
+  (task "With the position noted, home: within 1.5 m of where you began, your tether free of everything."
         (target "home" '(2 -14 -9))
         (done-when (and (< (range-to '(2 -14 -9)) 1.5) (< (excess) 0.4)))
         (hint-after 40 "East first, away from it, then south, then home.")

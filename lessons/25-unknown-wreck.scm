@@ -5,22 +5,23 @@
   (needs route turns blind)
   (setting set 0.08 0.15 0.2)
   (in (with wreck (current (setting 'set) (+ 290 (jitter 10)))))
-  (say "A mark on the sonar: thirty metres long, seven wide, lying about north-north-east, its middle at
-(0 0 -20), with masts, by the shadows.  Nobody has a drawing of it.  The archaeologists want it seen from four
-sides: west (-9 2 -17), north (5 19 -17), east (9 -3 -17) and south (-5 -19 -17), each within 2 m.")
+  (say "A mark on the sonar: thirty metres long, seven wide, lying about north-north-east, twenty metres down,
+with masts, by the shadows.  Nobody has a drawing of it.  The archaeologists want it seen from four
+sides, west, north, east and south, each from within 2 m.")
   (say "You could go round it once and be home in five minutes, and your tether with you, round masts and stays
 that you have not seen.  Two halves, each out and back by the same side, cost ten, and leave nothing behind.")
   (show)
   (probe "West and north are seen.  You are off the bow: how do you come to the east side?" 'back-and-round-the-south
          #:choices (on-round-the-bow back-and-round-the-south over-her))
-  (task "See it from all four sides, and come back to within 2 m of (-10 -14 -16)."
-        (target "back" '(-10 -14 -16))
+  (task "See it from all four sides, and come back to within 2 m of where you began."
+        (target "west" '(-9 2 -17)) (target "north" '(5 19 -17)) (target "east" '(9 -3 -17))
+        (target "south" '(-5 -19 -17)) (target "back" '(-10 -14 -16))
         (done-when (and (all-seen?) (< (range-to '(-10 -14 -16)) 2)))
         (hint-after 40 "West, then north; then back along her west side and by the south to her east side.")
         (hint-after 200 "Seen: west, north, south, east?  The rest of the way home is the way you came.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 420))
-  (task "Hand over: the tether free to haul, and no turn in it, within 2 m of (-10 -14 -16)."
+  (task "Hand over: the tether free to haul, and no turn in it, within 2 m of where you began."
         (target "hand over" '(-10 -14 -16))
         (done-when (and (< (range-to '(-10 -14 -16)) 2) (< (excess) 0.5) (< (abs (net-turns)) 0.5)))
         (held-for 3)

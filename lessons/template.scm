@@ -26,11 +26,13 @@
   ;; A question, its truth, and how near is near enough; or #:choices (left right).
   (probe "Bearing to the middle of your tether?" (bearing-to (point-at (/ (tether-length) 2))) #:within 25)
 
-  ;; What to do.  Hints come by themselves, or when h is pressed; at-most is in seconds of the dive.
-  (task "Fly to within a metre of (8 18 -8)."
+  ;; What to do: targets are shown with distance, bearing and depth.  Hints come by themselves, or when e is pressed;
+  ;; their forms are for who types.  at-most is in seconds of the dive.
+  (task "Fly to within a metre of the work."
         (target "work" '(8 18 -8))
         (done-when (< (range-to '(8 18 -8)) 1))
-        (hint-after 20 "(fly-to! '(8 18 -8) #:speed 0.4) flies there.")
+        (hint-after 20 "Turn toward it, go ahead, and sink as you come."
+                    "(fly-to! '(8 18 -8) #:speed 0.4) flies there.")
         (fail-when (taut?) "Your tether came taut.")
         (at-most 120))
 

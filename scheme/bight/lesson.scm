@@ -1,7 +1,7 @@
 ;;; (bight lesson) --- lessons: what to read, to answer and to fly, as plain files anybody can write.
 ;;;
-;;; A lesson is written with `define-lesson', (bight lesson syntax); what happens in it is in
-;;; (bight lesson play), how it is marked in (bight lesson score).  It runs three ways, by who stands behind
+;;; A lesson is written with `define-lesson', (bight lesson syntax); what happens in it is in (bight lesson guide),
+;;; (bight lesson probe) and (bight lesson task), how it is marked in (bight lesson score).  It runs three ways, by who stands behind
 ;;; its guide: a person, (bight lesson terminal); a scripted pilot of the lesson's own, here; a test, which
 ;;; is a scripted pilot whose report is looked at.
 ;;;
@@ -16,9 +16,10 @@
   #:use-module (bight dive checkpoint)
   #:use-module (bight dive pilot)
   #:use-module (bight dive time)
+  #:use-module (bight lesson guide)
   #:use-module (bight lesson lost)
   #:use-module (bight lesson message)
-  #:use-module (bight lesson play)
+  #:use-module (bight lesson probe)
   #:use-module (bight lesson report)
   #:use-module (bight lesson score)
   #:use-module (bight lesson shelf)
@@ -51,6 +52,9 @@
 
 (define (counts-of lesson)
   (map (lambda (d) (cons (first d) (second d))) (declared 'count lesson)))
+
+(define (gauges-of lesson)
+  (map (lambda (d) (cons (first d) (second d))) (declared 'gauge lesson)))
 
 (define (tender-of lesson)
   (let ((all (declared 'tender lesson)))
@@ -106,7 +110,7 @@
   "Call THUNK in a session of LESSON that has only begun, without a coach, taken by GUIDE."
   (parameterize ((current-session (make-session (declared 'setting lesson) level guide #f (const #f) seed
                                                 (limits-of lesson 'three))))
-    (call-with-plan (make-rows lesson) (counts-of lesson) (tender-of lesson) thunk)))
+    (call-with-plan (make-rows lesson) (counts-of lesson) (gauges-of lesson) (tender-of lesson) thunk)))
 
 (define* (take-lesson lesson guide #:key (who 'pupil) (seed 0) (level 'normal) (coach #f) (display 'three))
   "Take LESSON with GUIDE, a dive of its own for each (in WORLD), and return the report.  DISPLAY says which
@@ -126,7 +130,7 @@ views are shown: three, plan or none."
                 (own-subjects (concatenate (declared 'yours lesson)))
                 (side-shown? (not (eq? 'plan display))))
              (let ((rows (make-rows lesson)))
-               (call-with-plan rows (counts-of lesson) (tender-of lesson) (lesson-steps lesson))
+               (call-with-plan rows (counts-of lesson) (gauges-of lesson) (tender-of lesson) (lesson-steps lesson))
                (values (current-session) (current-dive) #f))))))
     (lambda (session dive ended)
       (parameterize ((current-session session) (current-dive dive)

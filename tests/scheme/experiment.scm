@@ -6,7 +6,7 @@
 (use-modules (bight lesson experiment)
              (bight lesson experiment-command)
              (bight lesson)
-             ((bight lesson play) #:select (make-guide))
+             ((bight lesson guide) #:select (make-guide))
              ((bight lesson log) #:select (logged-results))
              (bight lesson logbook)
              ((bight core sqlite) #:select (there?))

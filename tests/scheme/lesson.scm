@@ -8,7 +8,8 @@
              ((bight dive) #:select (engine-of))
              (bight dive reel)
              ((bight engine) #:select (%hash-dive %dive-steps))
-             ((bight lesson play) #:select (make-guide task-set-dive task-set-time))
+             ((bight lesson guide) #:select (at-keys? make-guide))
+             ((bight lesson task) #:select (task-gauges task-set-dive task-set-time))
              ((bight lesson expert) #:select (task-at expert-flight))
              ((bight lesson report) #:select (report-lost report-tasks))
              ((bight lesson review) #:select (review-lines))
@@ -105,6 +106,24 @@ hints, tender and counters among it; a pupil's dive stays as it was; who has no 
     (expect (task-at report (second lost) -1) => #f))
   (let ((report (run-lesson (define-lesson alone "x" (in small) (task "t" (done-when #f) (at-most 1)) (pilot idle "x")) #:pilot 'idle)))
     (expect (expert-flight report (first (report-tasks report))) => #f)))
+
+(define-lesson told "What is told, and to whom"
+  (in small)
+  (gauge "depth" (rov-depth))
+  (gauge "side" (if (> (x (rov-position)) 100) "east" #f))
+  (task "Wait."
+        (hint-after 1 "Go on." "(run 5)")
+        (done-when (begin (set! gauges (task-gauges)) #f)) (at-most 2))
+  (pilot idle "Waits."))
+
+(define gauges #f)
+
+(define-scenario forms-are-told-to-who-types
+  "A hint's forms are told to a pupil who types them, not to one at the keys; a gauge tells a number, or nothing."
+  (expect (texts 'hint (run-lesson 'told #:pilot 'idle)) => '("Go on.  (run 5)"))
+  (expect (map car gauges) => '("depth"))
+  (expect (cdar gauges) is (about 5 #:within 0.5))
+  (expect (parameterize ((at-keys? #t)) (texts 'hint (run-lesson 'told #:pilot 'idle))) => '("Go on.")))
 
 (define-scenario one-who-does-nothing-fails
   "A task that is not done in time ends the flight; what was never begun is no mark."

@@ -3,7 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight core sandbox)
-             ((bight lesson play) #:select (untrusted?)))
+             ((bight lesson guide) #:select (untrusted?)))
 
 (define (read-inside text)
   ;; The lessons that TEXT, read as a file from outside, defines.

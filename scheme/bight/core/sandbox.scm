@@ -17,7 +17,7 @@
   #:use-module ((bight core landlock) #:select (close-paths!))
   #:use-module ((bight core place) #:select (evaluate-marked))
   #:use-module (bight lesson)
-  #:use-module ((bight lesson play) #:select (untrusted?))
+  #:use-module ((bight lesson guide) #:select (untrusted?))
   #:use-module ((bight world atlas) #:select (worlds-path))
   #:use-module (ice-9 sandbox)
   #:use-module (srfi srfi-1)

@@ -10,7 +10,7 @@
   #:use-module (bight lesson how-it-was)
   #:use-module (bight lesson input)
   #:use-module (bight lesson lines)
-  #:use-module (bight lesson play)
+  #:use-module (bight lesson probe)
   #:use-module (bight lesson seat)
   #:use-module (srfi srfi-1)
   #:export (answer-in type-in columns-now probe-in-cockpit))

@@ -15,6 +15,7 @@
   #:use-module (bight core record)
   #:use-module (bight dive plain-words)
   #:use-module (bight lesson flying)
+  #:use-module (bight lesson guide)
   #:use-module (bight lesson how-it-was)
   #:use-module (bight lesson input)
   #:use-module (bight lesson lines)
@@ -30,7 +31,7 @@
 characters for a picture."
   (let ((c (new-cockpit (this-palette) 'chase 'plain)))
     (when plain? (set-plain! c #t))
-    (parameterize ((the-seat (make-seat c '() 'chase '() '() #f '() #f)) (unseen? hidden-in-lesson?))
+    (parameterize ((the-seat (make-seat c '() 'chase '() '() #f '() #f)) (unseen? hidden-in-lesson?) (at-keys? #t))
       (dynamic-wind
         %terminal-enter!
         (lambda ()

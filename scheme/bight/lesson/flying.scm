@@ -12,6 +12,7 @@
   #:use-module ((bight cockpit orders) #:select (answer-order! next-order! publish!))
   #:use-module (bight cockpit state)
   #:use-module (bight cockpit what-if)
+  #:use-module ((bight core decimal) #:select (figure))
   #:use-module (bight core units)
   #:use-module (bight dive)
   #:use-module (bight dive plain-words)
@@ -21,10 +22,10 @@
   #:use-module (bight lesson how-it-was)
   #:use-module (bight lesson input)
   #:use-module (bight lesson lines)
-  #:use-module (bight lesson play)
   #:use-module (bight lesson seat)
   #:use-module (bight lesson tally)
   #:use-module (srfi srfi-1)
+  #:use-module (bight lesson task)
   #:export (fly-in-cockpit lesson-panel target-line show-lines!))
 
 (define (show-lines! lines)
@@ -43,10 +44,17 @@
                    (string-pad (number->string (modulo (inexact->exact (round (bearing-to p))) 360)) 3 #\0)
                    "  " (metres (- (z p))) " deep")))
 
+(define (target-lines targets)
+  (map target-line targets (iota (length targets))))
+
 (define (counters-line)
   (string-join
    (append (list (seconds-said (task-seconds)))
-           (map (lambda (entry) (simple-format #f "~a ~a" (car entry) (cdr entry))) (task-counters)))
+           (map (lambda (entry) (simple-format #f "~a ~a" (car entry) (cdr entry))) (task-counters))
+           (map (lambda (entry)
+                  (string-append (car entry) " "
+                                 (let ((value (cdr entry))) (if (number? value) (figure value) (simple-format #f "~a" value)))))
+                (task-gauges)))
    "  "))
 
 (define (lesson-panel task heard targets counters)
@@ -88,14 +96,14 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
 (define (panel-now put columns rows)
   (let ((targets (targets-seen)))
     ((lesson-panel (task-text) (seat-heard (the-seat))
-                   (map target-line targets (iota (length targets)))
+                   (target-lines targets)
                    (list (counters-line)))
      put columns rows)))
 
 
 ;;; Flying: keys and time.
 
-(define flight-hint "e hint  u back  p pause  t tender  z map  v view  : Scheme  ? keys  q leave, to go on later")
+(define flight-hint "e hint  u back  p pause  t tender  z map  v view  : Scheme  ? keys  q leave")
 
 (define most-steps 6)                   ; in a frame: a slow machine flies slower rather than in jumps
 
@@ -268,7 +276,8 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
     (catch-up!)
     (read-what-was-said!)
     (take-seat! c)
-    (show-page! (list (string-append "TASK: " (task-text))) "Enter begins   ? in flight shows the keys   q leaves")
+    (show-page! (cons (string-append "TASK: " (task-text)) (target-lines (task-targets)))
+                "Enter begins   ? in flight shows the keys   q leaves")
     (set-stepped! c (clock))
     (dynamic-wind
       (const #t)

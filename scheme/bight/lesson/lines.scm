@@ -5,9 +5,12 @@
 (define-module (bight lesson lines)
   #:use-module ((bight cockpit desk) #:select (wrap))
   #:use-module (bight dive time)
+  #:use-module (bight core decimal)
+  #:use-module (bight core units)
+  #:use-module (bight lesson guide)
   #:use-module (bight lesson input)
-  #:use-module (bight lesson play)
   #:use-module (bight lesson score)
+  #:use-module (bight lesson task)
   #:use-module (bight view)
   #:use-module ((bight view status) #:select (status))
   #:use-module (ice-9 rdelim)
@@ -95,11 +98,18 @@
             (apply-input! input))
           (unless last? (loop)))))))
 
+(define (print-targets)
+  ;; Where the task leads, as forms want it.
+  (for-each (lambda (target)
+              (print "  " (car target) ": (" (string-join (map (lambda (along) (figure (along (cdr target)))) (list x y z)) " ") ")"))
+            (task-targets)))
+
 (define (fly-by-lines n seconds)
   "Let the pupil fly task N by typed lines until it is over."
   (when (replaying?)
     (catch-up!)
     (for-each print (wrap (string-append "TASK: " (task-text)) 78)))
+  (print-targets)
   (let loop ()
     (for-each print (apply-input! (next-input ask-input)))
     (loop)))

@@ -11,6 +11,7 @@
   #:use-module (bight lesson journal)
   #:use-module (bight lesson log)
   #:use-module (bight lesson order)
+  #:use-module (bight lesson path)
   #:use-module (srfi srfi-1)
   #:export (lessons-command))
 
@@ -24,20 +25,43 @@
   (let ((journal (journal-file (make-order file #f given))))
     (and journal (file-exists? journal))))
 
+;; How a pupil stands to a lesson: what he made of it, else whether he has shown what it needs.
+(define (standing file place places results given)
+  (let ((total (best results (place-name place))))
+    (define (with-marks word) (string-append word " " (number->string total)))
+    (cond ((passed? results place) (with-marks "passed"))
+          ((begun? file given) "begun")
+          ((not total) (if (ready? results places place) "ready" "later"))
+          ((any (lambda (r) (assq-ref r 'passed?)) (results-in results (place-name place))) (with-marks "easy"))
+          (else (with-marks "tried")))))
+
+(define (words symbols)
+  (string-join (map symbol->string symbols) " "))
+
+(define (lesson-row number name standing trains needs)
+  (string-trim-right
+   (string-append (string-pad-right number 4) (string-pad-right name 23) (string-pad-right standing 12)
+                  (string-pad-right trains 18) needs)))
+
 (define (list-lessons given)
-  (let ((results (logged-results (who-of given))))
-    (for-each
-     (lambda (file)
-       (let* ((name (lesson-file-name file)) (total (best results name)))
-         (simple-format #t "~a  ~a ~a  ~a~%"
-                        (substring (basename file) 0 2)
-                        (string-pad-right (symbol->string name) 26)
-                        (string-pad (cond (total (number->string total))
-                                          ((begun? file given) "begun")
-                                          (else "-"))
-                                    5)
-                        (lesson-file-title file))))
-     (lesson-files))))
+  ;; A table of 80 columns at most, by grades.
+  (let* ((results (logged-results (who-of given))) (files (lesson-files)) (places (catalogue))
+         (rows (map (lambda (file place)
+                      (cons (place-grade place)
+                            (lesson-row (substring (basename file) 0 2) (symbol->string (place-name place))
+                                        (standing file place places results given)
+                                        (words (place-trains place)) (words (place-needs place)))))
+                    files places)))
+    (for-each (lambda (grade)
+                (print-line (lesson-row "" (simple-format #f "Grade ~a" grade) "you" "trains" "needs"))
+                (for-each (lambda (row) (when (= grade (car row)) (print-line (cdr row)))) rows))
+              (sort (delete-duplicates (map car rows)) <))
+    (print-line "\nready: you have shown what it needs.  `bight lesson NAME' takes one, `bight lesson' proposes the
+next, `bight lessons --skills' says what the skills are.")))
+
+(define (print-line text)
+  (display text)
+  (newline))
 
 (define (results-of given)
   ;; The results that are meant: those of a group, or of one pupil.
@@ -71,7 +95,7 @@
 (define columns '(who group lesson level seed total passed? seconds hints rewinds))
 
 (define (compare-groups)
-  (for-each (lambda (line) (display line) (newline)) (group-lines (logged-results #f))))
+  (for-each print-line (group-lines (logged-results #f))))
 
 (define (csv-value value)
   (cond ((eq? value #t) 1)

@@ -8,7 +8,7 @@
 (define-module (bight lesson message)
   #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core verb)
-  #:use-module ((bight lesson play) #:select (say-as))
+  #:use-module ((bight lesson guide) #:select (say-as))
   #:use-module (bight lesson tally)
   #:use-module (srfi srfi-1)
   #:export (tell! told messages messages-left number-in))

@@ -15,6 +15,7 @@
   #:use-module (srfi srfi-1)
   #:export (catalogue make-place place? place-name place-grade place-trains place-needs
             beliefs-from skill-belief chance-to-pass
+            results-in passed? ready?
             proposal proposal-lines skill-lines))
 
 
@@ -83,9 +84,11 @@
 (define least-chance 0.35)
 
 (define (results-in results name)
+  "Return those of RESULTS that are of the lesson NAME."
   (filter (lambda (r) (eq? name (assq-ref r 'lesson))) results))
 
 (define (passed? results place)
+  "Return #t if one of RESULTS passes the lesson at PLACE at more than the level easy."
   (any (lambda (r) (and (assq-ref r 'passed?) (not (eq? 'easy (assq-ref r 'level)))))
        (results-in results (place-name place))))
 
@@ -94,7 +97,8 @@
   (find (lambda (p) (and (memq skill (place-trains p)) (passed? results p))) places))
 
 (define (ready? results places place)
-  ;; Was every skill that the lesson at PLACE needs shown in another lesson, as far as another trains it?
+  "Return #t if every skill that the lesson at PLACE needs was shown by RESULTS in another lesson at PLACES, as far as
+another trains it."
   (every (lambda (skill)
            (let ((others (filter (lambda (p) (and (not (eq? p place)) (memq skill (place-trains p)))) places)))
              (or (null? others) (shown-in results others skill))))

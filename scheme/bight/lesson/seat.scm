@@ -14,9 +14,9 @@
   #:use-module (bight core units)
   #:use-module (bight dive)
   #:use-module (bight dive query)
+  #:use-module (bight lesson guide)
   #:use-module (bight lesson input)
   #:use-module (bight lesson lines)
-  #:use-module (bight lesson play)
   #:use-module (bight lesson tally)
   #:use-module (srfi srfi-1)
   #:export (make-seat seat? the-seat this-cockpit hard? from-above-alone? one-view hidden-in-lesson?

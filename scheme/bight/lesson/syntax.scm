@@ -7,10 +7,12 @@
 
 (define-module (bight lesson syntax)
   #:use-module (bight core errors)
-  #:use-module (bight lesson play)
+  #:use-module (bight lesson guide)
+  #:use-module (bight lesson probe)
   #:use-module (bight lesson score)
   #:use-module (bight lesson shelf)
   #:use-module ((bight core told) #:select (code->string source-location location->string))
+  #:use-module (bight lesson task)
   #:use-module ((bight test scenario) #:select (world-of))
   #:use-module (srfi srfi-1)
   #:export (define-lesson
@@ -34,6 +36,7 @@
     (set-up "(set-up FORM ...)")
     (score "(score (MEASURE LOW HIGH #:by WAY #:share S #:over W #:weight W #:as \"words\" #:why \"words\") ...)")
     (count "(count NAME E)")
+    (gauge "(gauge \"name\" E)")
     (setting "(setting NAME EASY NORMAL HARD)")
     (pilot "(pilot NAME \"sentence\" (answers (TRUTH CHOICES) E) (flies FORM ...) ...)")
     (tender "(tender \"sentence\" FORM ...)")
@@ -46,7 +49,7 @@
 
 (define task-clauses
   '((done-when "(done-when E)")
-    (hint-after "(hint-after SECONDS \"text\")")
+    (hint-after "(hint-after SECONDS \"text\") or (hint-after SECONDS \"text\" \"forms to be typed\")")
     (fail-when "(fail-when E \"text\")")
     (at-most "(at-most SECONDS)")
     (held-for "(held-for SECONDS)")
@@ -110,7 +113,7 @@
         (wrong where clause)))
 
   (define declaring
-    '(score count setting pilot tender message-limit hides grade trains needs yours))
+    '(score count gauge setting pilot tender message-limit hides grade trains needs yours))
 
   (define (declaring? clause) (memq (head-of clause) declaring))
 
@@ -165,6 +168,7 @@
     (syntax-case clause ()
       ((_ e) (eq? 'done-when (head-of clause)) #'(list 'done (lambda () e)))
       ((_ s text) (eq? 'hint-after (head-of clause)) #'(list 'hint s text))
+      ((_ s text forms) (and (eq? 'hint-after (head-of clause)) (text? #'forms)) #'(list 'hint s text forms))
       ((_ e text) (eq? 'fail-when (head-of clause)) #'(list 'fail (lambda () e) text))
       ((_ s) (eq? 'at-most (head-of clause)) #'(list 'at-most s))
       ((_ s) (eq? 'held-for (head-of clause)) #'(list 'held s))
@@ -220,6 +224,8 @@
        #`(list 'score (lambda () (list #,@(map (lambda (r) (expand-row clause r)) #'(row ...))))))
       ((_ name e) (and (eq? 'count (head-of clause)) (identifier? #'name))
        #'(list 'count 'name (lambda () e)))
+      ((_ name e) (and (eq? 'gauge (head-of clause)) (text? #'name))
+       #'(list 'gauge name (lambda () e)))
       ((_ name value ...) (and (eq? 'setting (head-of clause)) (identifier? #'name))
        #'(list 'setting 'name value ...))
       ((_ name sentence part ...)
@@ -246,7 +252,7 @@
 its own pilots with (run-lesson 'NAME #:pilot 'expert).  The CLAUSEs, in the order they are taken, are
 (in WORLD), (say TEXT VALUE ...), (show), (probe QUESTION TRUTH ...), (task TEXT CONDITION ...),
 (branch (E CLAUSE ...) ...), (when E CLAUSE ...), (repeat N CLAUSE ...), (fork-and-show TEXT FORM ...) and
-(set-up FORM ...); those about the whole are (score ROW ...), (count NAME E), (setting NAME EASY NORMAL
+(set-up FORM ...); those about the whole are (score ROW ...), (count NAME E), (gauge NAME E), (setting NAME EASY NORMAL
 HARD), (pilot NAME TEXT ...), (tender TEXT FORM ...), (message-limit N), (hides VERB ...), (grade N),
 (trains SKILL ...), (needs SKILL ...) and, where there are several vehicles, (yours VEHICLE TETHER)."
     (syntax-case stx ()
