@@ -14,6 +14,7 @@
              (bight cockpit sequences)
              (bight cockpit state)
              (bight cockpit view)
+             ((bight lesson flying) #:select (lesson-panel))
              (ice-9 regex)
              (rnrs bytevectors)
              (srfi srfi-1))
@@ -319,6 +320,26 @@
        (expect (->bool (string-match "surge \\+0.5 .*heave -1.0" text)) => #t)))
    '((80 24) (120 40) (250 80)))
   (expect (list? (draw-on 20 5)) => #t))
+
+(define-scenario what-a-pilot-does-not-see-is-not-told
+  "Where a pilot does not see what the tether is wound round, the display does not say that it is round nothing."
+  (in pier)
+  (expect (->bool (string-match "wound +no" (string-join (draw-on 80 24) "\n"))) => #t)
+  (parameterize ((unseen? (lambda (verb) (eq? verb 'windings))))
+    (expect (->bool (string-match "wound +-" (string-join (draw-on 80 24) "\n"))) => #t)
+    (expect (list? (draw-on 30 8)) => #t)))
+
+(define-scenario what-is-heard-is-read-in-a-tiny-window
+  "In a window of 30 by 8 a hint stands whole, in place of the task."
+  (let ((lines '()))
+    (define (panel heard)
+      (set! lines '())
+      ((lesson-panel "Get slack, then turn to south, and hold that." heard '() '("1.3 s"))
+       (lambda (column row text ink paper) (set! lines (cons (string-trim-both text) lines))) 30 8))
+    (expect (panel '()) => 4)
+    (expect (reverse lines) => '("Get slack, then turn to so.." "1.3 s"))
+    (expect (panel '((0 . "Hint: At the end of its tether a vehicle cannot turn: first make slack.") (0 . "Coach: before."))) => 5)
+    (expect (reverse lines) => '("Hint: At the end of its" "tether a vehicle cannot" "turn: first make slack."))))
 
 (define-scenario what-is-to-come-is-foretold
   "On course for a pile the display says so, with the seconds; standing still it says nothing."

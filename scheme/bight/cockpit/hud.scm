@@ -84,9 +84,9 @@
 (define most-named 3)
 
 (define (windings tether)
-  ;; What the tether is caught on, in words: up to three.
-  (let ((wound (or (seen windings (seen status (windings->strings (subject-of tether)))) '())))
-    (take wound (min most-named (length wound)))))
+  ;; What the tether is caught on, in words: up to three; #f if the pilot does not see that.
+  (let ((wound (seen windings (seen status (windings->strings (subject-of tether))))))
+    (and wound (take wound (min most-named (length wound))))))
 
 (define (warnings vehicle tether)
   (define (when-true what . text) (and what (string-concatenate text)))
@@ -193,9 +193,9 @@ most two.  This takes milliseconds."
          (row "tension" (figure (figures-tension f) 1 "N"))
          (tension-row f))
    (let ((windings (assq-ref slow 'windings)))
-     (if (null? windings)
-         (list (row "wound" (string-pad "no" 8)))
-         (map (lambda (text) (row "wound" (string-append "  " text))) windings)))))
+     (if (pair? windings)
+         (map (lambda (text) (row "wound" (string-append "  " text))) windings)
+         (list (row "wound" (string-pad (if windings "no" "-") 8)))))))
 
 
 ;;; Drawing.
@@ -251,7 +251,7 @@ most two.  This takes milliseconds."
                   (short "slack" (and s (* 100 s)) 0 "%") (short "turns" (figures-turns f) 1 "")
                   (short "tension" (figures-tension f) 0 "N") (short "speed" (figures-speed f) 1 "m/s")
                   (short "altitude" (figures-altitude f) 1 "m"))
-            (assq-ref slow 'windings))))
+            (or (assq-ref slow 'windings) '()))))
 
 (define (flowed words columns)
   ;; WORDS, strings, on lines of COLUMNS with two blanks between them.

@@ -61,24 +61,28 @@
   "Return a panel of a cockpit, a procedure of PUT, columns and rows: the TASK, a string; HEARD, a list of (INK . TEXT),
 the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below."
   (lambda (put columns rows)
+    (define tiny? (and (< rows 12) (pair? heard))) ; what was heard last then takes the place of task and counters
     (define most (cond ((>= rows 30) 4) ((>= rows 20) 3) (else 1)))
-    (define (shown text)
+    (define (shown text most)
       (let ((lines (wrap text (- columns 2))))
         (if (<= (length lines) most)
             lines
             (append (list-head lines (- most 1))
                     (list (cut (string-append (list-ref lines (- most 1)) " " (list-ref lines most)) (- columns 2)))))))
+    (define (inked entry most)
+      (map (lambda (line) (cons (car entry) line)) (shown (cdr entry) most)))
+    (define (heard-lines)
+      (if tiny?
+          (inked (car heard) 3)
+          (let ((lines (append-map (lambda (entry) (inked entry most)) (reverse heard))))
+            (take-right lines (min most (length lines))))))
     (define (put-all row lines ink)
       (fold (lambda (line row)
               (put 0 row (string-pad-right (string-append " " line) columns) ink #x102028)
               (+ row 1))
             row lines))
-    (let* ((row (put-all 2 (shown task) white))
-           (lines (fold (lambda (entry lines)
-                          (append (map (lambda (line) (cons (car entry) line)) (shown (cdr entry))) lines))
-                        '() heard))
-           (lines (if (> (length lines) most) (take-right lines most) lines))
-           (row (fold (lambda (entry row) (put-all row (list (cdr entry)) (car entry))) row lines))
+    (let* ((row (put-all 2 (if tiny? '() (shown task most)) white))
+           (row (fold (lambda (entry row) (put-all row (list (cdr entry)) (car entry))) row (heard-lines)))
            (room (if (>= rows 20) 9 1))
            (row (fold (lambda (line row)
                         (put 0 row (cut (string-append " " line " ") columns) green #f)
@@ -87,7 +91,7 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
       (fold (lambda (line row)
               (put 0 row (cut (string-append " " line " ") columns) pale #f)
               (+ row 1))
-            row counters))))
+            row (if tiny? '() counters)))))
 
 (define (targets-seen)
   ;; Where the level lets a pupil have them.

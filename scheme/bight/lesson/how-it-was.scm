@@ -28,13 +28,15 @@
   (bearings how-bearings))              ; (SAID . TRUE), degrees, or #f
 
 (define (note-how-it-was! truth answer degrees?)
-  (let ((before (seat-pending (the-seat))))
-    (set-pending! (the-seat)
-                  (make-how-it-was (fork-dive (current-dive)) (state-hash)
-                                   (if before (how-verdict before) '())
-                                   (cond (degrees? (cons answer truth))
-                                         (before (how-bearings before))
-                                         (else #f))))))
+  ;; Unless there was an input after this answer, before which that was shown.
+  (unless (replaying?)
+    (let ((before (seat-pending (the-seat))))
+      (set-pending! (the-seat)
+                    (make-how-it-was (fork-dive (current-dive)) (state-hash)
+                                     (if before (how-verdict before) '())
+                                     (cond (degrees? (cons answer truth))
+                                           (before (how-bearings before))
+                                           (else #f)))))))
 
 (define (same-dive? how)
   (and (current-dive) (= (how-hash how) (state-hash))))
