@@ -264,10 +264,10 @@ fall in it."
                 (sticks . ,(sticks-now c))))))
 
 (define (draw-help! c put)
-  (let* ((columns (car (cockpit-size c))) (rows (cdr (cockpit-size c)))
-         (width (min columns (+ 4 (apply max (map string-length key-lines)))))
+  (let* ((columns (car (cockpit-size c))) (rows (cdr (cockpit-size c))) (told (keys-told))
+         (width (min columns (+ 4 (apply max (map string-length told)))))
          (lines (map (lambda (line) (string-pad-right (cut (string-append "  " line) width) width))
-                     (list-head key-lines (min (length key-lines) (max 0 (- rows 2)))))))
+                     (list-head told (min (length told) (max 0 (- rows 2)))))))
     (put-lines put (quotient (- columns width) 2)
                (max 1 (min 4 (- rows 1 (length lines))))
                lines #xffffff #x102028)))

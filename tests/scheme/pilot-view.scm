@@ -329,6 +329,21 @@
     (expect (->bool (string-match "wound +-" (string-join (draw-on 80 24) "\n"))) => #t)
     (expect (list? (draw-on 30 8)) => #t)))
 
+;; Whoever owns the cockpit.
+(define-scenario help-tells-the-keys-there-are
+  "In a flight those of a flight; of another owner his own."
+  (in pier)
+  (let ((c (new-cockpit 'none 'chase 'plain)))
+    (define (help . told)
+      (let ((written (begin (compose-frame! c "hint") (%screen-bytes (cockpit-screen c) #t))))
+        (map (lambda (text) (->bool (string-contains written text))) told)))
+    (board! c (current-dive))
+    (fit-to-size! c '(80 . 24))
+    (set-help! c #t)
+    (expect (help "ahead, astern" "my own key") => '(#t #f))
+    (parameterize ((keys-told '("x  my own key")))
+      (expect (help "ahead, astern" "my own key") => '(#f #t)))))
+
 (define-scenario what-is-heard-is-read-in-a-tiny-window
   "In a window of 30 by 8 a hint stands whole, in place of the task."
   (let ((lines '()))

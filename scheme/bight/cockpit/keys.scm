@@ -12,7 +12,7 @@
   #:use-module (srfi srfi-1)
   #:export (new-sticks press let-up let-all-up nudge settle stick-values sticks?
             stick-of-key nudge-of-key act-of-key
-            key-lines))
+            keys-told))
 
 
 ;;; Sticks: for each axis where it was put, and where a key holds it until when.
@@ -121,3 +121,6 @@ key comes up."
     ":       the prompt (,q comes back)"
     "pads    bight controller tells what they do"
     "? q     this; leave"))
+
+;; What ? shows, lines: who owns the cockpit, and has other keys, tells those.
+(define keys-told (make-parameter key-lines))

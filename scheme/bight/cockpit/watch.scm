@@ -9,6 +9,7 @@
   #:use-module (bight cockpit desk)
   #:use-module (bight cockpit hud)
   #:use-module (bight cockpit keyboard)
+  #:use-module ((bight cockpit keys) #:select (keys-told))
   #:use-module (bight cockpit palette)
   #:use-module (bight cockpit state)
   #:use-module (bight cockpit traces)
@@ -22,7 +23,22 @@
   #:use-module ((bight world) #:select (world-name))
   #:export (watch-file watch-reel film-stretch watch-panel show?))
 
-(define hint "space play  left right 1 s  [ ] 10 s  n b events  t plot  g ghost  + - speed  0 begin  v view  q leave")
+(define hint "space play  arrows 1 s  [ ] 10 s  n b events  t plot  g ghost  ? keys  q leave")
+
+(define watch-keys
+  '("space p   play, pause; at the end: from the beginning"
+    "arrows    left, right: a second back, forth"
+    "[ ]       ten seconds"
+    "n b       the next event; the one before"
+    "0         the beginning"
+    "+ -       twice as fast; half"
+    "t         plots, one after another, then none"
+    "g         the ghost, where there is one"
+    "v 1-5     view: chase camera top side overview,"
+    "          which the mouse turns and zooms"
+    "o x       colour of the tether; picture or plain"
+    "z f y     map; the way home in words; lights"
+    "? q       this; leave"))
 
 (define-record <show>
   (make-show cockpit reel ghost behind traces pace owed drawn)
@@ -237,7 +253,7 @@ is told first.  PLAIN? wants plain characters for a picture.  Return how it ende
     (when plain? (set-plain! c #t))
     (when told (announce! c told long))
     (set-ghost-name! c ghost-name)
-    (parameterize ((current-dive (reel-dive reel)))
+    (parameterize ((current-dive (reel-dive reel)) (keys-told watch-keys))
       (board! c (reel-dive reel))
       (when ghost (set-ghost! c (reel-dive ghost)))
       (when at

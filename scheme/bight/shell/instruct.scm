@@ -14,6 +14,7 @@
   #:use-module (bight cockpit desk)
   #:use-module (bight cockpit hud)
   #:use-module (bight cockpit keyboard)
+  #:use-module ((bight cockpit keys) #:select (keys-told))
   #:use-module (bight cockpit line)
   #:use-module (bight cockpit palette)
   #:use-module (bight cockpit state)
@@ -148,7 +149,21 @@
   (clock station-clock set-clock!)
   (words station-words set-words!))     ; what the pupil reads
 
-(define hint "w words  c current  d drift  b break  m mend  l light  t clock  : form  v view  q leave")
+(define hint "w words  c current  d drift  b break  m mend  l light  t clock  : form  ? keys  q leave")
+
+(define station-keys
+  '("w       words to the pupil"
+    "c       the current: m/s, and the degrees it sets to"
+    "d       an obstacle with a track adrift"
+    "b m     break a sensor or a thruster; mend it"
+    "l       take the light, give it"
+    "t       stop the pupil's clock, let it run"
+    ":       a form of the language, done in his dive"
+    "v 1-5   view: chase camera top side overview,"
+    "        which the mouse turns and zooms"
+    "o x     colour of the tether; picture or plain"
+    "z f y   map; the way home in words; lights"
+    "? q     this; leave"))
 
 (define labels
   '((words . "to the pupil> ") (current . "current, m/s and the degrees it sets to> ")
@@ -245,7 +260,7 @@
                         hint)))
     (set-panel! c (station-panel (station-words s)))
     (if (cockpit-dive c)
-        (draw-frame! c last-line #:typing? typing)
+        (parameterize ((keys-told station-keys)) (draw-frame! c last-line #:typing? typing))
         (draw-page! c '("Waiting for the pupil to fly.") last-line))))
 
 (define (sit! port)
