@@ -58,11 +58,14 @@
 (define* (frame-pixels engine view paint size flags ghost #:optional (marks #f))
   "Return the pixels, a bytevector, of a quick picture of the dive of ENGINE by VIEW, as %draw takes it, for SIZE, a pair of
 columns and rows; GHOST is the engine of another dive, or #f.  MARKS, an f64vector of points, receives where they
-fall in it."
-  ((from (bight view render) %draw) ((from (bight view picture) renderer) 'pilot!)
-                               engine "" view
-                               (cons (car size) (* 2 (cdr size)))
-                               paint (cons 'quick flags) ghost marks))
+fall in it; a sonar, which hears no heights, has none."
+  (let ((pixels (cons (car size) (* 2 (cdr size)))))
+    (if (eq? 'sonar view)
+        ((from (bight view render) %draw-sonar) engine "" pixels sonar-range '())
+        ((from (bight view render) %draw) ((from (bight view picture) renderer) 'pilot!)
+                                     engine "" view pixels paint (cons 'quick flags) ghost marks))))
+
+(define sonar-range 30.)                ; m
 
 (define least-side 16)
 
@@ -100,7 +103,8 @@ fall in it."
 
 (define (draw-picture! c)
   ;; Return the marks with where they fall: lists (NAME COLUMN ROW).
-  (let ((marks (shown-marks c)) (drawing (believed-drawing c)) (size (picture-size c)))
+  (let* ((sonar? (eq? 'sonar (cockpit-view c))) (marks (if sonar? '() (shown-marks c)))
+         (drawing (and (not sonar?) (believed-drawing c))) (size (picture-size c)))
     (let ((places (marks-vector marks)))
       (%screen-picture! (cockpit-screen c)
                         (if drawing
@@ -134,7 +138,8 @@ fall in it."
   (and (>= (car (cockpit-size c)) least-side) (>= (* 2 (cdr (cockpit-size c))) least-side)))
 
 (define (blind? c)
-  (or (not (cockpit-dive c)) (cockpit-dark? c) ((unseen?) 'look) (not (room-for-picture? c))))
+  ;; A sonar needs no light.
+  (or (not (cockpit-dive c)) (and (cockpit-dark? c) (not (eq? 'sonar (cockpit-view c)))) ((unseen?) 'look) (not (room-for-picture? c))))
 
 (define (draw-scene! c put)
   ;; The picture, or plain characters; return the marks in it.
@@ -218,7 +223,9 @@ fall in it."
                  (and (cockpit-lamp? c) "lights")
                  (and (current-controllers) (pair? (controller-names (current-controllers)))
                       (simple-format #f "pads ~a" (length (controller-names (current-controllers)))))
-                 (if (cockpit-plain? c) "plain" (symbol->string (cockpit-view c)))
+                 (cond ((cockpit-plain? c) "plain")
+                       ((eq? 'sonar (cockpit-view c)) (simple-format #f "sonar ~a m" (inexact->exact sonar-range)))
+                       (else (symbol->string (cockpit-view c))))
                  (and (not (eq? 'plain (cockpit-paint c))) (symbol->string (cockpit-paint c)))
                  (string-append (number->string (frames-a-second c)) "/s")))
    (- (car (cockpit-size c)) (string-length (title c)) 4)))

@@ -14,6 +14,7 @@
              (bight cockpit sequences)
              (bight cockpit state)
              (bight cockpit view)
+             ((bight cockpit view-keys) #:select (view-key!))
              ((bight lesson flying) #:select (lesson-panel))
              (ice-9 regex)
              (rnrs bytevectors)
@@ -328,6 +329,27 @@
   (parameterize ((unseen? (lambda (verb) (eq? verb 'windings))))
     (expect (->bool (string-match "wound +-" (string-join (draw-on 80 24) "\n"))) => #t)
     (expect (list? (draw-on 30 8)) => #t)))
+
+(define-scenario a-sonar-needs-no-light
+  "6 shows what a sonar hears, in the dark too; where a lesson hides the sonar, 6 and v do not show it."
+  (in pier)
+  (let ((c (new-cockpit 'true 'chase 'plain)))
+    (define (drawn)
+      (compose-frame! c "hint")
+      (%screen-bytes (cockpit-screen c) #t))
+    (define (press-all . keys) (for-each (lambda (key) (view-key! c key)) keys) (cockpit-view c))
+    (board! c (current-dive))
+    (fit-to-size! c '(80 . 24))
+    (expect (press-all #\6) => 'sonar)
+    (let ((lit (drawn)))
+      (set-dark! c #t)
+      (expect (bytevector-length (string->utf8 (drawn))) is (above (* 1/2 (bytevector-length (string->utf8 lit)))))
+      (press-all #\1)
+      (expect (bytevector-length (string->utf8 (drawn))) is (below (* 1/2 (bytevector-length (string->utf8 lit))))))
+    (expect (press-all #\5 #\v #\v) => 'chase)
+    (parameterize ((unseen? (lambda (verb) (eq? verb 'sonar))))
+      (expect (press-all #\6) => 'chase)
+      (expect (press-all #\5 #\v) => 'chase))))
 
 ;; Whoever owns the cockpit.
 (define-scenario help-tells-the-keys-there-are

@@ -5,6 +5,7 @@
 (define-module (bight cockpit view-keys)
   #:use-module (bight cockpit believed)
   #:use-module (bight cockpit cells)
+  #:use-module ((bight cockpit hud) #:select (unseen?))
   #:use-module (bight cockpit state)
   #:use-module (srfi srfi-1)
   #:export (view-key!))
@@ -13,7 +14,13 @@
   (let ((rest (memq value values)))
     (if (and rest (pair? (cdr rest))) (cadr rest) (car values))))
 
-(define views '(chase pilot top side overview))
+(define views '(chase pilot top side overview sonar))
+
+(define (has-sonar? c)
+  (and (cockpit-vehicle c) (not ((unseen?) 'sonar))))
+
+(define (views-of c)
+  (if (has-sonar? c) views (delq 'sonar views)))
 
 (define a-cell 1.5)                     ; degrees that the mouse turns the overview by for a column; a row is two
 (define nearer 1.15)                    ; by a notch of its wheel
@@ -44,9 +51,12 @@
         (announce! c "the mouse turns the overview: 5"))))
 
 (define (show-view! c view)
-  (set-view! c view)
-  (set-orbit! c #f)
-  (announce! c (string-append "view: " (symbol->string view))))
+  (if (memq view (views-of c))
+      (begin
+        (set-view! c view)
+        (set-orbit! c #f)
+        (announce! c (string-append "view: " (symbol->string view))))
+      (announce! c "there is no sonar here")))
 
 (define (suspend! c)
   ;; As ^Z does elsewhere: all of the job, since a lesson is taken by a process whose parent waits for it.
@@ -63,8 +73,8 @@
 
 (define (plain-view-key! c key)
   (case key
-    ((#\v) (show-view! c (next-of (cockpit-view c) views)) #t)
-    ((#\1 #\2 #\3 #\4 #\5)
+    ((#\v) (show-view! c (next-of (cockpit-view c) (views-of c))) #t)
+    ((#\1 #\2 #\3 #\4 #\5 #\6)
      (show-view! c (list-ref views (- (char->integer key) (char->integer #\1))))
      #t)
     ((#\o) (set-paint! c (next-of (cockpit-paint c) '(plain tension curvature model))) #t)

@@ -240,11 +240,11 @@
         (unless was-live?
           (false-if-exception (freeze-dive! dive)))))))
 
-(define-verb (pilot! #:key (view (one-of chase pilot top side overview) 'chase)
+(define-verb (pilot! #:key (view (one-of chase pilot top side overview sonar) 'chase)
                      (paint (one-of plain tension curvature model) 'plain)
                      (colors (or-false (one-of true many few none))))
   "Fly the dive live from the keyboard, all of the terminal its picture: ? there shows the keys, : is the
-prompt, q leaves.  VIEW is chase, pilot, top, side or overview; PAINT colours the tether as `snapshot'
+prompt, q leaves.  VIEW is chase, pilot, top, side, overview or sonar; PAINT colours the tether as `snapshot'
 does; COLORS, when given, says what the terminal can: true, many (256), few (16) or none.  Return the time
 at which it was left."
   (let ((dive (this-dive 'pilot!)))

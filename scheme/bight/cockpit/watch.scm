@@ -34,8 +34,8 @@
     "+ -       twice as fast; half"
     "t         plots, one after another, then none"
     "g         the ghost, where there is one"
-    "v 1-5     view: chase camera top side overview,"
-    "          which the mouse turns and zooms"
+    "v 1-6     view: chase camera top side overview sonar;"
+    "          the mouse turns and zooms the overview"
     "o x       colour of the tether; picture or plain"
     "z f y     map; the way home in words; lights"
     "? q       this; leave"))

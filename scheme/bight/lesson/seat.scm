@@ -92,7 +92,7 @@
 (define (view-key-here! key)
   "Change how things look as far as the level lets a pupil."
   (let ((c (this-cockpit)))
-    (if (or (and (one-view) (memv key '(#\v #\1 #\2 #\3 #\4 #\5))) (and (hard?) (eqv? key #\z)))
+    (if (or (and (one-view) (memv key '(#\v #\1 #\2 #\3 #\4 #\5 #\6))) (and (hard?) (eqv? key #\z)))
         (begin
           (announce! c (if (from-above-alone?)
                        "you fly by the view from above alone"

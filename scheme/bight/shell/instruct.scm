@@ -159,8 +159,8 @@
     "l       take the light, give it"
     "t       stop the pupil's clock, let it run"
     ":       a form of the language, done in his dive"
-    "v 1-5   view: chase camera top side overview,"
-    "        which the mouse turns and zooms"
+    "v 1-6   view: chase camera top side overview sonar;"
+    "        the mouse turns and zooms the overview"
     "o x     colour of the tether; picture or plain"
     "z f y   map; the way home in words; lights"
     "? q     this; leave"))
