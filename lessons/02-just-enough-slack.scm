@@ -4,7 +4,8 @@
   (trains slack)
   (setting set 0.1 0.2 0.3)
   (in (with open-water (current (setting 'set) (+ 90 (jitter 20))) (minnow (at 0 8 -6)) (line (length 9))))
-  (say "Today you are pilot and tender in one: you pay tether out and haul it in yourself.  Too little tether and it stops you; too much and it drifts, drags and finds something to hang on.")
+  (say "Today you are pilot and tender in one: you pay tether out and haul it in yourself.  Too little
+tether and it stops you; too much and it drifts, drags and finds something to hang on.")
   (show)
   (fork-and-show "Watch what happens to one who leaves and pays nothing out."
     (fly-to! '(0 48 -8) #:speed 0.4) (run 60))

@@ -70,10 +70,11 @@ typedef struct bt_sonar
 } bt_sonar;
 
 /* Write to RANGE the distance of the first echo of each beam, from port to starboard, m; INFINITY
-   where nothing comes back.  On the axis of a beam echo obstacles, the hulls of other vehicles, boxes of
-   their size, and clumps and floats at a point of a tether, balls of their volume.  Tethers, which a
-   thin beam would miss, echo anywhere in its cone where nothing solid is before them, by the nearest point
-   there.  Without noise good to 1e-9 m.  BT_ERR_NAME, BT_ERR_DOMAIN; BT_ERR_LIMIT: no memory.  */
+   where nothing comes back.  On the axis of a beam echo obstacles, the hulls of other vehicles,
+   boxes of their size, and clumps and floats at a point of a tether, balls of their volume.
+   Tethers, which a thin beam would miss, echo anywhere in its cone where nothing solid is before
+   them, by the nearest point there.  Without noise good to 1e-9 m.  BT_ERR_NAME, BT_ERR_DOMAIN;
+   BT_ERR_LIMIT: no memory.  */
 bt_status bt_dive_sonar (const bt_dive *dive, int i, const bt_sonar *sonar, double *range,
                          bt_error *error);
 

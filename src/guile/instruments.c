@@ -105,8 +105,8 @@ static SCM
 sonar (SCM object, SCM index, SCM angles, SCM range, SCM beams)
 {
   bt_vec3 a = bt__to_point ("sonar", angles); /* sector, tilt, width */
-  bt_sonar s = { a.x / DEGREES, a.y / DEGREES, scm_to_double (range), scm_to_int (beams),
-                 a.z / DEGREES };
+  bt_sonar s
+      = { a.x / DEGREES, a.y / DEGREES, scm_to_double (range), scm_to_int (beams), a.z / DEGREES };
   double echo[BT_BEAMS_MAX];
   bt_error error;
   SCM v;
@@ -153,7 +153,8 @@ bt__define_instruments (void)
       "with NOISE metres of noise in each coordinate." },
     { "%sonar", 5, 0, (scm_t_subr)sonar,
       "Return the echoes of BEAMS beams of the INDEX-th vehicle of DIVE to RANGE metres, an "
-      "f64vector from port to starboard: ANGLES are the sector, the tilt and the width of a beam in "
+      "f64vector from port to starboard: ANGLES are the sector, the tilt and the width of a beam "
+      "in "
       "degrees." },
     { "%sight", 5, 0, (scm_t_subr)sight,
       "Return (LENGTH . NEAREST) of what a camera of the INDEX-th vehicle of DIVE sees of TETHER: "

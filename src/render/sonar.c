@@ -6,8 +6,8 @@
    first echo adds to the spot of its range, by the cosine of the incidence, which follows from the
    ranges of neighbouring tilts.  A bed seen at a flat angle lies between the ranges of two tilts:
    the echo is spread over all of them.  Behind the last echo there is shadow.  Tethers
-   echo where nothing solid is before them.  Grain is the hash of the spot and the step: equal dives give
-   equal pictures.
+   echo where nothing solid is before them.  Grain is the hash of the spot and the step: equal dives
+   give equal pictures.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

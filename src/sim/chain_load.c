@@ -31,7 +31,8 @@ vehicle_end (const bt_dive *dive, int vehicle)
   return end;
 }
 
-/* A lump weighs what it has of mass less the water it displaces.  Steel and floats drag as spheres (Cd 0.5) and add half of what they displace.  */
+/* A lump weighs what it has of mass less the water it displaces.  Steel and floats drag as spheres
+ * (Cd 0.5) and add half of what they displace.  */
 static bt__dynamic_lump
 lump_of (const bt_lump *def, double from_end, const bt_water *water)
 {

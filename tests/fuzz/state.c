@@ -258,7 +258,7 @@ ask_vehicle (const bt_dive *d, int i)
   bt_dive_instruments (d, i, &readings, NULL);
   bt_dive_faults (d, i, &lost);
   bt_dive_thrusts (d, i, x);
-  bt_dive_sonar (d, i, &(bt_sonar){ 2, 0, 40, ROOM }, x, NULL);
+  bt_dive_sonar (d, i, &(bt_sonar){ 2, 0, 40, ROOM, 0.05 }, x, NULL);
   bt_dive_sight (d, i, &(bt_eye){ 1, 1, 0, 20 }, 0, &sight, NULL);
   bt_vehicle_clearance (d, i, -1, &near, NULL);
 }

@@ -125,7 +125,7 @@ ask_instruments (const bt_dive *dive)
   double range[BEAMS];
   bt_readings readings;
   bt_sighting sighting;
-  bt_sonar sonar = { 2, 0, 60, BEAMS };
+  bt_sonar sonar = { 2, 0, 60, BEAMS, 0.05 };
   bt_eye eye = { 1.5, 1.2, 0, 40 };
   bt_obstacle_view view;
   assert_int_equal (bt_dive_instruments (dive, 0, &readings, NULL), BT_OK);
