@@ -5,10 +5,11 @@
    of the tile from the buffers: shadows, outlines, occlusion, fog, averaging.  Only the picture in
    memory grows with the size of the picture.
 
-   Tiles are equal parts of the picture, so that none is a narrow rest, and small, since fresh
-   memory for large buffers costs more than margins do.  A tile is drawn with a margin as wide as
-   the neighbourhood used in shading, so a tiled picture equals the picture drawn at once.  Shadows
-   come from one map for all tiles, drawn from the sun's side over the box about all bodies.
+   Tiles are equal parts of the picture, so that none is a narrow rest, and small in large pictures,
+   since fresh memory for large buffers costs more than margins do.  A tile is drawn with a margin
+   as wide as the neighbourhood used in shading, so a tiled picture equals the picture drawn at
+   once.  Shadows come from one map for all tiles, drawn from the sun's side over the box about all
+   bodies.
 
    Numbers handed to the shaders are relative to the point looked at, the soup's origin, because
    floats have too few digits for metres of a map.
@@ -25,7 +26,8 @@
 
 enum
 {
-  TILE = 640 /* pixels */
+  TILE = 640, /* pixels; a picture of no more is a tile, whose memory the next frame has again */
+  PART = 320  /* the most of a tile of a larger picture, of which a process mostly draws one */
 };
 
 /* ---- Triangles ---- */
@@ -280,9 +282,9 @@ tile_side (int n, int most)
 static bt_status
 draw_tiles (bt__job *j, bt__picture *picture, bt_error *error)
 {
-  int most = j->drawing.tile ? j->drawing.tile : TILE, m = j->margin;
-  int W = picture->width, H = picture->height, side = tile_side (W, most),
-      tall = tile_side (H, most);
+  int W = picture->width, H = picture->height, m = j->margin;
+  int most = j->drawing.tile ? j->drawing.tile : W <= TILE && H <= TILE ? TILE : PART;
+  int side = tile_side (W, most), tall = tile_side (H, most);
   bt_status status = bt__frames_have (j, side, tall, error);
   for (int y = 0; status == BT_OK && y < H; y += tall)
     for (int x = 0; status == BT_OK && x < W; x += side)
@@ -310,12 +312,13 @@ bt__check_size (int width, int height, bt_error *error)
   return BT_OK;
 }
 
-/* Shadows as fine as the picture.  */
+/* Shadows four fifths as fine as the picture: the map spans all that casts them, and its texels are
+   blended.  */
 static int
 shadow_side (const bt__job *j)
 {
   int longest = j->drawing.width > j->drawing.height ? j->drawing.width : j->drawing.height;
-  return j->drawing.quick ? 512 : longest <= 800 ? 1024 : 2048;
+  return j->drawing.quick || longest <= 640 ? 512 : longest <= 1280 ? 1024 : 2048;
 }
 
 static bt_status

@@ -12,6 +12,9 @@ extern const char *const bt__shader_shadow_vertex[];
 extern const char *const bt__shader_shadow_fragment[];
 extern const char *const bt__shader_resolve_vertex[];
 extern const char bt__shader_version[], bt__shader_common[], bt__shader_lighting[];
+/* shaders_lit.c: functions of the water and of surfaces; the main functions of passes.  */
+extern const char bt__shader_water[], bt__shader_surfaces[];
+extern const char bt__shader_nothing[], bt__shader_one_surface[], bt__shader_edges[];
 
 /* The passes that make pixels.  Pass 0 sorts the pixels; each further pass shades one sort: empty
    water, one solid, edges, ground, the surface from below, edges before the surface.  Sort K has
