@@ -11,7 +11,9 @@
   #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module (srfi srfi-1)
-  #:use-module (srfi srfi-19)
+  ;; A tenth of what a start costs, and few worlds have a date.
+  #:autoload (srfi srfi-19) (string->date date->string date->time-utc time-utc->date
+                             make-time time-second time-utc)
   #:export (parse-origin
             degrees-pair
             origin-of-parts
