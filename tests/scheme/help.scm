@@ -12,7 +12,12 @@
              ((bight shell usage) #:select (command-examples command-name command-options command-run))
              ((bight shell manual) #:select (manual-sections))
              ((bight world describe) #:select (description-rows))
-             ((bight core schema) #:select (head-names))
+             ((bight core schema)
+              #:select (head-names head-fields field-name field-text field-unit field-kind))
+             ((bight core allowance) #:select (check-field field-range))
+             ((bight core sentence) #:select (event-sentence))
+             ((bight engine) #:select (%event-kinds))
+             ((bight shell words) #:select (all-heads example-value))
              ((bight core verb) #:select (verb? verb-arguments verb-parameters))
              ((srfi srfi-1) #:hide (every))
              ((srfi srfi-1) #:select ((every . all?))))
@@ -179,10 +184,11 @@
   (expect (said (help "  ")) => (said (help))))
 
 (define (names-in-see-also name)
-  ;; What the help of NAME shows as related, and its topic, as symbols.
+  ;; What the help of NAME shows as related, and its topic, as symbols; what else NAME is comes after an empty line.
   (let* ((text (help-text name)) (at (string-contains text "See also: ")))
     (if at
-        (map string->symbol (string-tokenize (substring text (+ at 10)) (char-set-complement (string->char-set ", ().\n"))))
+        (map string->symbol (string-tokenize (substring text (+ at 10) (or (string-contains text "\n\n" at) (string-length text)))
+                                             (char-set-complement (string->char-set ", ().\n"))))
         '())))
 
 (define (quotes? name other)
@@ -280,3 +286,56 @@
   (enter! 'cage)
   (expect (lset-difference eq? (head-names 'seabed) (map string->symbol (map first (description-rows (describe 'seabed)))))
           => '()))
+
+(define (example-taken? head field)
+  ;; Is the example of FIELD, if help shows one, a value that it takes?
+  (let ((text (example-value field)))
+    (or (not text)
+        (memq (field-kind field) '(track points mesh grid waves))
+        (let ((values (call-with-input-string (string-append "(" text ")") read)))
+          (bight-error-free?
+           (lambda () (check-field 'help head (field-name field)
+                                   (if (null? (cdr values)) (car values) values))))))))
+
+(define (bight-error-free? thunk)
+  (with-exception-handler (lambda (e) (if (bight-error? e) #f (raise-exception e)))
+    (lambda () (thunk) #t)
+    #:unwind? #t))
+
+(define-scenario fields-have-help
+  "Help on each field says what it is and what it may be, and shows a value that it takes."
+  (for-each
+   (lambda (head)
+     (for-each
+      (lambda (field)
+        (let ((text (help-text (field-name field))))
+          (expect (list head (field-name field)
+                        (->bool (string-contains text (field-text field)))
+                        (->bool (string-contains text (field-range field)))
+                        (->bool (example-taken? head field)))
+                  => (list head (field-name field) #t #t #t))))
+      (head-fields head)))
+   (all-heads)))
+
+(define-scenario other-words-have-help
+  "Help on events, units, keywords, options, worlds, types and lessons says what they are."
+  (for-each (lambda (event)
+              (expect (list event (string-null? (event-sentence event))) => (list event #f))
+              (expect (list event (->bool (string-contains (help-text event) (event-sentence event)))) => (list event #t)))
+            (%event-kinds))
+  (for-each (lambda (unit)
+              (expect (list unit (->bool (string-contains (help-text unit) (string-append unit ": a unit.")))) => (list unit #t)))
+            (remove string-null?
+                    (delete-duplicates
+                     (append-map (lambda (head)
+                                   (append-map (lambda (field) (map string-trim (string-split (field-unit field) #\,)))
+                                               (head-fields head)))
+                                 (all-heads)))))
+  (expect (string-contains (help-text '#:surge) "(drive! #:surge ...)") is identity)
+  (expect (string-contains (help-text "--last-failed") "bight test --last-failed") is identity)
+  (expect (string-prefix? "pile: One pile" (help-text 'pile)) => #t)
+  (expect (string-contains (help-text 'pile) "(enter! 'pile)") is identity)
+  (expect (string-contains (help-text 'fathom) "(type fathom)") is identity)
+  (expect (string-contains (help-text 'snag-drill) "bight lesson snag-drill") is identity)
+  ;; Scheme has a word of the same name.
+  (expect (string-prefix? "length: a field of tether." (help-text 'length)) => #t))

@@ -1,4 +1,4 @@
-;;; (bight core sentence) --- what a name means, in a sentence: a verb, a part, a world, a lesson.
+;;; (bight core sentence) --- what a name means, in a sentence: a verb, a part, a world, a lesson, an event.
 ;;;
 ;;; The sentences of worlds and lessons in files are read, not run.
 ;;;
@@ -13,7 +13,8 @@
   #:export (first-sentence
             sentence-of-variable
             sentence-of-name
-            sentence-of-lesson))
+            sentence-of-lesson
+            event-sentence))
 
 (define (first-sentence text)
   "Return the first sentence of TEXT on one line."
@@ -36,6 +37,29 @@
                            ((@ (bight lesson file) lesson-file) (symbol->string name))))
       ""))
 
+(define event-sentences
+  '((taut . "A tether lost its slack.")
+    (slack . "A tether that was taut has slack again.")
+    (arrived . "A vehicle reached where it was sent.")
+    (spooled . "A winch has paid out or hauled in what was ordered.")
+    (stalled . "A winch stopped before that, on a taut tether.")
+    (parted . "A tether broke, or was cut.")
+    (snapped . "A slack tether came taut with a jerk.")
+    (hockled . "Its twist threw a loop into a tether.")
+    (kinked . "A tether was bent more tightly than it may be.")
+    (touched . "A tether or a vehicle met an obstacle.")
+    (left . "What had met an obstacle has been away from it for half a second.")
+    (stuck . "A tether has held fast for 5 s against a pull.")
+    (pinched . "A moving obstacle was held back by what it would run into.")
+    (prop-danger . "A tether has come near to a thruster of a vehicle that turns.")
+    (worn . "An obstacle has worn a tether's jacket to its limit.")
+    (wrapped . "A tether is wound about an obstacle once more.")
+    (freed . "A tether is not wound about an obstacle any more.")))
+
+(define (event-sentence name)
+  "Return what the event NAME says, a sentence, or the empty string."
+  (or (assq-ref event-sentences name) ""))
+
 (define (here-part name)
   (let ((world (and (current-dive) (dive-world (current-dive)))))
     (and world (find-part (world-parts-of world) name))))
@@ -53,4 +77,5 @@
         ((world-text name))
         ((part-head? name) (head-sentence name))
         ((type-called name) => part-type-sentence)
+        ((assq-ref event-sentences name))
         (else (sentence-of-lesson name))))

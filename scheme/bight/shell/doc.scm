@@ -2,7 +2,7 @@
 ;;;
 ;;; `(help)' is a short tour, `(help NAME)' tells how NAME is used and what it does.  Nothing is written
 ;;; twice: usage and arguments come from the verb itself, macros carry their docstring in the
-;;; transformer, parts and their fields answer through `describe'.
+;;; transformer, parts answer through `describe', all other words by (bight shell words).
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -13,6 +13,7 @@
   #:use-module (bight shell guide)
   #:use-module ((bight shell manual) #:select (sections-about))
   #:use-module (bight shell topics)
+  #:use-module ((bight shell words) #:select (word-lines))
   #:use-module ((bight core told) #:select (code->string))
   #:use-module (bight view text)
   #:use-module (ice-9 regex)
@@ -314,17 +315,30 @@ of which name each other; then, while these are few, what has a word in common w
 
 (define nothing (list 'nothing))
 
-(define (topic-lines topic)
-  (let* ((name (if (string? topic) (string->symbol topic) topic))
-         (value (language-ref name nothing)))
+(define (name-lines name)
+  ;; What NAME, a symbol, is as a verb, a procedure, a topic or a part.
+  (let ((value (language-ref name nothing)))
     (cond ((not (eq? value nothing)) (help-lines name value))
           ((topic-called name) => topic->lines)
           ((described name) => (lambda (text) (string-split (string-trim-right text) #\newline)))
-          (else (unknown topic)))))
+          (else '()))))
+
+(define (schemes-own? name)
+  ;; Does NAME mean something, as `length' does, that bight has no part in?
+  (not (or (memq name (language-names)) (eq? nothing (language-ref name nothing)))))
+
+(define (topic-lines topic)
+  (let* ((name (if (string? topic) (string->symbol topic) topic))
+         (own (if (keyword? name) '() (name-lines name)))
+         (others (word-lines topic)))
+    (cond ((null? others) (if (null? own) (unknown topic) own))
+          ((null? own) others)
+          ((schemes-own? name) (append others (cons "" own)))
+          (else (append own (cons "" others))))))
 
 (define-argument-type (topic value)
-  "a name or a string"
-  (cond ((or (symbol? value) (string? value)) value)
+  "a name, a keyword or a string"
+  (cond ((or (symbol? value) (string? value) (keyword? value)) value)
         ((and (pair? value) (eq? 'quote (car value)) (pair? (cdr value)) (symbol? (cadr value)))
          (cadr value))
         (else refused)))
@@ -342,7 +356,8 @@ of which name each other; then, while these are few, what has a word in common w
 (define-syntax help
   (lambda (stx)
     "(help): a short tour of bight, and the topics.
-(help NAME), (help 'NAME): how NAME is used and what it does; NAME may be a topic or a part too.
+(help NAME), (help 'NAME): how NAME is used and what it does; NAME may be a topic, a part, a field, a keyword, an option,
+an event, a unit, a world, a type or a lesson too.
 (help \"word\"): the same, or what is said about the word: by names, in their texts, in the manual."
     (syntax-case stx ()
       ((_) #'(help-on))

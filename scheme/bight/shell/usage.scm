@@ -13,6 +13,7 @@
             command-name
             command-run
             command-options
+            command-option-lines
             command-examples
             print-overview
             print-completion
@@ -30,6 +31,7 @@
 (document
  (command? "Return true if OBJECT is a command.")
  (command-name "Return the word that COMMAND is called by.")
+ (command-option-lines "Return what COMMAND says of its options: a list (CALL LINE ...) for each, CALL as \"-o FILE\".")
  (command-run "Return the procedure that does COMMAND: it takes a list of words, returns an exit status."))
 
 (define (command name run arguments text . options)
