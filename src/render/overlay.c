@@ -15,6 +15,11 @@
 #include "math/vec.h"
 #include "render/text.h"
 
+enum
+{
+  LEAST = 7 /* pixels of letters that can be read */
+};
+
 /* ---- The scale bar ---- */
 
 /* Pixels of a metre where the camera looks.  */
@@ -216,16 +221,17 @@ write_legend (bt__pen *pen, const bt_scale *scale)
 
 /* ---- All of it ---- */
 
-/* TEXT of SIZE letters at most, smaller if it would run into the compass.  */
+/* TEXT of SIZE letters at most, smaller if it would run into the compass; nothing if it could not
+   be read then.  */
 static void
 write_line (bt__pen *pen, const char *text, double size, double y)
 {
-  double e = pen->letter, room = pen->width - 9 * e, w;
+  double e = pen->letter, room = pen->width - 9 * e, share;
   cairo_set_font_size (pen->cr, size * e);
-  w = bt__pen_width (pen, text);
-  if (w > room)
-    cairo_set_font_size (pen->cr, size * e * fmax (room / w, 0.5));
-  bt__pen_text (pen, 1.2 * e, y, 0, text);
+  share = fmin (1, room / bt__pen_width (pen, text));
+  cairo_set_font_size (pen->cr, size * e * share);
+  if (size * e * share >= LEAST)
+    bt__pen_text (pen, 1.2 * e, y, 0, text);
   cairo_set_font_size (pen->cr, e);
 }
 
@@ -240,7 +246,7 @@ write_title (bt__pen *pen, const bt_view *view)
   if (view->title)
     write_line (pen, view->title, 1, 1.9 * e);
   if (view->note)
-    write_line (pen, view->note, 0.82, 3.2 * e);
+    write_line (pen, view->note, fmax (0.82, fmin (1, 10 / e)), 3.2 * e);
   pen->n_taken = before;
   bt__pen_take (pen, &(bt__box){ 0, 0, pen->width - 7.8 * e, 3.6 * e });
 }

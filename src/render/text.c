@@ -1,6 +1,6 @@
 /* A pen for pictures: text, strokes and boxes on finished pixels, by cairo.
 
-   The size of letters is a fortieth of the picture's height, between 8.5 and 160 pixels.  Text and
+   The size of letters is a fortieth of the picture's height, between 10.5 and 160 pixels.  Text and
    strokes are drawn twice, a wide halo and then the ink, to be read on any background: white ink on
    water, dark ink on paper.  The pen remembers the boxes in use, so that labels find free places
    (labels.c); a pen without memory for another box has no free place left.
@@ -16,7 +16,7 @@ bt_status
 bt__pen_open (bt__pen *pen, bt__picture *p, int paper, bt_error *error)
 {
   *pen = (bt__pen){ .width = p->width, .height = p->height, .paper = paper };
-  pen->letter = fmin (fmax (p->height / 40.0, 8.5), 160);
+  pen->letter = fmin (fmax (p->height / 40.0, 10.5), 160);
   pen->surface = cairo_image_surface_create_for_data (
       (unsigned char *)(void *)p->pixels, CAIRO_FORMAT_ARGB32, p->width, p->height, 4 * p->width);
   pen->cr = cairo_create (pen->surface);
