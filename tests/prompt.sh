@@ -229,21 +229,22 @@ at_prompt
 typed "(enter! 'open-water)"
 typed "(load \"$scratch/leg.scm\")"
 typed '(list (all))'
-told 'an error is told with the lines that led there' 'at .*leg.scm:3 in leg, called from .*leg.scm:6 in all$' 1
+told 'an error is told with the line that failed' 'leg.scm:3 in leg: (drive! #:surge surge)))$' 1
+told 'and with the line that led there' 'leg.scm:6 in all: (car (leg 3))' 1
 typed ',bt'
-told 'and ,bt shows these lines' 'leg.scm:6 in all: (car (leg 3))' 1
+told 'and ,bt shows these lines again' 'leg.scm:6 in all: (car (leg 3))' 2
 keys -l '(define (half x)'
 keys Enter
 keys -l '(let ((y (/ x 2)))'
 keys Enter
 typed '(car y)))'
 typed '(list 1 (half 4))'
-told 'a procedure that was typed is told by its line' '^  at prompt.[0-9]*.:3 in half$' 1
+told 'a procedure that was typed is told by its line' '^  prompt.[0-9]*.:3 in half: (car y)))$' 1
 typed ',bt'
-told 'which ,bt shows' ' in half: (car y)))$' 1
+told 'which ,bt shows, too' ' in half: (car y)))$' 2
 typed '(drve! #:surge 3)'
 told 'a slip in what was typed just now needs no place' 'did you mean .drive!' 1
-told 'and has none' '^  at ' 2
+told 'and has none' '^  prompt' 4
 typed '(free-to-haul?)'
 told 'an answer that was asked for is said in words' '^\$[0-9]* = #t: Yes: ' 1
 

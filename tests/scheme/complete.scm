@@ -154,3 +154,8 @@ what stands for it when it is left out."
                         (and (not (hint (simple-format #f "(~a " (car entry)))) (car entry)))
                       (verbs))
           => '()))
+
+(define-scenario types-of-errors-are-asked-for
+  "The types of errors are completed for those alone who begin with their mark."
+  (expect (filter (lambda (word) (string-prefix? "&" word)) (map candidate-word (candidates-after "("))) => '())
+  (expect (map candidate-word (candidates-after "(&bight")) => '("&bight-error")))

@@ -5,7 +5,7 @@
 
 (use-modules ((bight dive) #:select (this-engine))
              ((bight engine) #:select (%names))
-             ((bight view looks) #:select (value->lines))
+             ((bight view looks) #:select (value->lines with-sentences))
              ((bight dive plain-words) #:select (figure-said corners-of own-name objects-said))
              (ice-9 regex)
              ((srfi srfi-1) #:hide (every))
@@ -207,3 +207,13 @@
                                     (+ (taut-length tether) 0.02
                                        (distance p (point-at tether (tether-length tether)))))))))
    (tethers)))
+
+(define-scenario sentences-go-on-below-their-column
+  "A sentence beside a name that is too long for the terminal goes on below where it began."
+  (let ((columns (getenv "COLUMNS")))
+    (setenv "COLUMNS" "60")
+    (let ((lines (value->lines (with-sentences '(pile wreck) (lambda (name) (if (eq? name 'pile) "One." (string-join (make-list 20 "water"))))))))
+      (setenv "COLUMNS" columns)
+      (expect (list-head lines 2) => (list "  pile   One." "  wreck  water water water water water water water water"))
+      (expect (length lines) => 4)
+      (expect (list-tail lines 3) => (list "         water water water water")))))

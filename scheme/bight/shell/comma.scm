@@ -15,7 +15,8 @@
   #:use-module ((system repl command) #:select (define-meta-command))
   #:use-module ((system repl common) #:select (repl-eval))
   #:export (answer-unknown-commands!
-            note-chain!))
+            note-chain!
+            frame->line))
 
 ;; Guile's own knows no macros.
 (define-meta-command ((describe #f) repl (form))
@@ -64,17 +65,19 @@ Show the names that match REGEXP, bight's with a sentence each, then Scheme's."
              (read-line port)))))
       ""))
 
+(define (frame->line frame)
+  "Return where the call of FRAME stands, and the source there, as a line."
+  (simple-format #f "  ~a~a: ~a" (location->string (car frame))
+                 (if (cdr frame) (simple-format #f " in ~a" (cdr frame)) "")
+                 (read-source-line (car frame))))
+
 ;; Guile's own shows the frames of its evaluator.
 (define-meta-command ((backtrace bt) repl)
   "backtrace
 Show the lines that led to the last error, the innermost first."
   (if (null? last-chain)
       (display "No line led to the last error.\n")
-      (for-each (lambda (frame)
-                  (simple-format #t "  ~a~a: ~a~%" (location->string (car frame))
-                                 (if (cdr frame) (simple-format #f " in ~a" (cdr frame)) "")
-                                 (read-source-line (car frame))))
-                last-chain)))
+      (for-each (lambda (frame) (display (frame->line frame)) (newline)) last-chain)))
 
 
 ;;; A command that is misspelt: Guile's own reader of commands says no more than that there is none.

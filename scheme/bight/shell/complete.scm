@@ -55,7 +55,11 @@
 
 (define (variables word)
   ;; The language's names and the user's own, or Scheme's if none of these begins with WORD.
-  (define (begins? name) (string-prefix? word (symbol->string name)))
+  ;; The types of errors are for those who ask for them.
+  (define (begins? name)
+    (let ((text (symbol->string name)))
+      (and (string-prefix? word text)
+           (or (string-prefix? "&" word) (not (string-prefix? "&" text))))))
   (let* ((language (module-ref (resolve-interface '(bight)) 'language-names))
          (ours (filter begins? (delete-duplicates (append (user-names) (language)) eq?)))
          (all (if (null? ours) (apropos-internal (string-append "^" (regexp-quote word))) ours)))

@@ -14,7 +14,7 @@
   #:use-module (bight shell comma)
   #:use-module (bight shell line-editor)
   #:use-module (bight shell typed)
-  #:use-module ((bight core told) #:select (syntax-error->line location->string chain->string))
+  #:use-module ((bight core told) #:select (syntax-error->line))
   #:use-module ((bight view looks) #:select (value->lines))
   #:use-module ((system repl common) #:select (repl-default-option-set!))
   #:use-module ((system repl repl) #:select (start-repl))
@@ -100,11 +100,8 @@
 (define (tell-chain)
   ;; Guile reports an error where it is raised: the calls that led there are still under way.
   (note-chain! (chain-here))
-  (let ((frames (frames-elsewhere (chain-here))))
-    (when (pair? frames)
-      (simple-format (current-error-port) "  at ~a~a~%" (location->string (car (car frames)))
-                     (let ((text (chain->string frames)))
-                       (if (string-null? text) "" (string-append " " text)))))))
+  (for-each (lambda (frame) (simple-format (current-error-port) "~a~%" (frame->line frame)))
+            (frames-elsewhere (chain-here))))
 
 (define (print-banner version)
   (simple-format #t "bight ~a, a tether to play with.  (help) is a short tour, ,q leaves.~%" version))

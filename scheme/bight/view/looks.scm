@@ -8,6 +8,7 @@
   #:use-module ((bight core decimal) #:select (fixed text->number))
   #:use-module ((bight core verb) #:select (verb? verb-usage))
   #:use-module ((bight dive plain-words) #:select (words-of words-of-answer))
+  #:use-module ((bight view text) #:select (terminal-columns))
   #:use-module (ice-9 regex)
   #:use-module (srfi srfi-1)
   #:export (prompt-table
@@ -132,6 +133,20 @@
   (let ((width (apply max 0 (map length rows))))
     (map (lambda (row) (append row (make-list (- width (length row)) ""))) rows)))
 
+(define (hung start lines)
+  ;; LINES, whose last column begins at START; what is too long for the terminal goes on below it.
+  (define (hang line room)
+    (let ((texts (filled (substring line start) room)) (indent (make-string start #\space)))
+      (cons (string-append (substring line 0 start) (car texts))
+            (map (lambda (text) (string-append indent text)) (cdr texts)))))
+  (let* ((long? (any (lambda (line) (> (string-length line) width)) lines))
+         (room (and long? (- (terminal-columns) start))))
+    (if (and room (>= room least-hung))
+        (append-map (lambda (line) (if (> (string-length line) (+ start room)) (hang line room) (list line))) lines)
+        lines)))
+
+(define least-hung 30)                  ; characters of words, or there is no room for them below each other
+
 (define (table->lines heads rows)
   (let* ((parts (shortened (level rows)))
          (shown (append (first parts) (third parts)))
@@ -139,12 +154,14 @@
                          (or heads (map (const #f) (car shown))) shown))
          (lines (map (lambda (cells) (string-trim-right (string-append "  " (string-join cells "  "))))
                      (apply map list columns)))
+         (start (fold (lambda (column from) (+ from 2 (string-length (car column)))) 2 (drop-right columns 1)))
          (before (+ (length (first parts)) (if heads 1 0))))
-    (if (zero? (second parts))
-        lines
-        (append (take lines before)
-                (list (simple-format #f "  ... ~a more ..." (second parts)))
-                (drop lines before)))))
+    (hung start
+          (if (zero? (second parts))
+              lines
+              (append (take lines before)
+                      (list (simple-format #f "  ... ~a more ..." (second parts)))
+                      (drop lines before))))))
 
 
 ;;; Values.
@@ -208,7 +225,7 @@
 
 (define width 78)                       ; of lines of words
 
-(define (filled text)
+(define* (filled text #:optional (width width))
   ;; TEXT as lines of WIDTH at most, but for longer words.
   (let loop ((words (string-tokenize text)) (line #f) (lines '()))
     (cond ((null? words) (reverse (if line (cons line lines) lines)))
