@@ -11,11 +11,19 @@
 
    Within a step the ends go straight from place to place; a vehicle with mass on the line is
    stepped with each part under the forces of the step's start, and so is its thrust; movers go
-   their share of the way; other lines stand where they are, as in a whole step; a step in which the
-   winch turns, or may give line, is taken whole, for it draws in no line in a step that ends above
-   its pull, and so is a step that starts with the line touching something.  Wear is added up over
-   the parts, contacts and sliding nodes are those of the last one.  Where a mover is held back the
-   step is taken whole, for others were told how far the mover goes.
+   their share of the way; other lines stand where they are, as in a whole step.  No step is divided
+   for accuracy in which the winch turns, or may give line, for it draws in no line in a step that
+   ends above its pull, and none that starts with the line touching something.  Wear is added up
+   over the parts, contacts and sliding nodes are those of the last one.  Where a mover is held back
+   the step is taken whole, for others were told how far the mover goes.
+
+   A step that is not solved, of any line, is taken again in twice as many parts, and so on.  The
+   half-spaces of contact stand as a step finds them, while in a heap of line that is being paid out
+   links turn about each other, and pass by more than they are thick, within one whole step: then no
+   place of the line satisfies them all, and the tensions are those of a hundred iterations that end
+   nowhere, or that are let go at half a millimetre, which along a stiff line is hundreds of
+   newtons. A step half as long is solved by a few.  The next step begins with as many parts; every
+   COARSER steps half as many are tried.
 
    An attempt begins from the present state of the dive alone, so that the number of threads, and
    how time is asked for, has no influence; FINE in the state is the only memory.
@@ -40,6 +48,12 @@
 #define FOLLOWED 1e-5 /* m: a chain so near to the length at its winch is not wound */
 #define SHARE 0.25    /* of the error asked for: that of one step, for those of a snap add up */
 #define MORE 0.125    /* of what was accepted: less is not worth as many parts again */
+
+enum
+{
+  SOLVING = 3, /* the parts of a step that is not solved are halved so often at most */
+  COARSER = 16 /* steps of the dive, after which fewer parts are tried */
+};
 
 /* What an attempt at a step has come to.  */
 typedef struct attempt
@@ -93,6 +107,7 @@ add_report (bt__dynamic_report *sum, const bt__dynamic_report *part)
   bt__dynamic_report before = *sum;
   *sum = *part;
   sum->converged &= before.converged;
+  sum->loose |= before.loose;
   sum->speed = fmax (part->speed, before.speed);
   sum->acceleration = fmax (part->acceleration, before.acceleration);
   sum->tension = fmax (part->tension, before.tension);
@@ -284,14 +299,12 @@ next_fine (int fine, double off)
   return off < MORE * MORE ? 0 : off < MORE ? (int)fmax (fine - 1, 0) : fine;
 }
 
-/* Take tether I, which may go back, through the step, at first in 2^*FINE parts, until it is
-   accurate; *FINE and *OFF are then as `refine' has them.  */
+/* Take tether I, which may go back for its accuracy, through the step, at first in 2^*FINE parts,
+   until it is accurate; *FINE and *OFF are then as `refine' has them.  */
 static bt_status
-advance_in_parts (bt_dive *dive, bt__state *state, int i, const bt__ends *to, int *fine, attempt *a,
-                  double *off, bt_error *error)
+advance_in_parts (bt_dive *dive, bt__state *state, int i, const bt__ends *to, const bt__present *p,
+                  int *fine, attempt *a, double *off, bt_error *error)
 {
-  bt__present p;
-  bt__keep_present (dive, state, i, &p);
   if (*fine > 0 && !bt__was_wound (dive, i))
     *fine = 0;
   bt_status status = try_parts (dive, state, i, to, *fine, a, error);
@@ -299,11 +312,52 @@ advance_in_parts (bt_dive *dive, bt__state *state, int i, const bt__ends *to, in
       && (*fine > 0
           || (bt__has_jumped (dive, state, i, a->report.tension, ENTER)
               && bt__was_wound (dive, i))))
-    *fine = refine (dive, state, i, to, &p, *fine, a, off, &status, error);
-  if (status != BT_OK || *fine == 0 || (*fine > 0 && !dive->contact_work.balked))
-    return status;
-  bt__go_back (dive, state, i, &p);
-  return try_parts (dive, state, i, to, *fine = 0, a, error);
+    *fine = refine (dive, state, i, to, p, *fine, a, off, &status, error);
+  return status;
+}
+
+/* True if A has places and tensions to be believed.  */
+static int
+is_solved (const attempt *a)
+{
+  return a->report.converged && !a->report.loose;
+}
+
+/* Take tether I, whose step in 2^*FINE parts came to *A, through it in more parts until it is
+   solved, and whole where a mover was held back in a part.  Return true if there were more.  */
+static int
+solve_in_parts (bt_dive *dive, bt__state *state, int i, const bt__ends *to, const bt__present *p,
+                int *fine, attempt *a, bt_status *status, bt_error *error)
+{
+  int more = 0;
+  for (; *status == BT_OK && !is_solved (a) && *fine >= 0 && *fine < SOLVING; more = 1)
+    {
+      bt__go_back (dive, state, i, p);
+      *status = try_parts (dive, state, i, to, ++*fine, a, error);
+    }
+  if (*status == BT_OK && *fine != 0 && dive->contact_work.balked)
+    {
+      bt__go_back (dive, state, i, p);
+      *status = try_parts (dive, state, i, to, *fine = 0, a, error);
+    }
+  return more;
+}
+
+/* With how many parts the next step of STATE begins, as the state has it, if this one was solved in
+   2^FINE.  */
+static int
+solved_fine (const bt__state *state, int fine)
+{
+  return fine == 0 ? 0 : BT__FINEST + fine + (state->step % COARSER != 0);
+}
+
+/* How often the parts of the present step are halved at first.  Where the line MAY not go back for
+   its accuracy, parts that were taken for that count no more.  */
+static int
+first_fine (const bt__tether *tether, int may)
+{
+  int solving = tether->fine > BT__FINEST, fine = (int)tether->fine - (solving ? BT__FINEST : 0);
+  return fine > 0 && (may || solving) ? fine - 1 : 0;
 }
 
 bt_status
@@ -311,20 +365,25 @@ bt__advance_as_asked (bt_dive *dive, bt__state *state, int i, const bt__ends *to
                       bt__dynamic_report *report, bt_error *error)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  int may = bt__may_go_back (dive, state, i),
-      fine = may && tether->fine > 0 ? (int)tether->fine - 1 : 0;
+  uint64_t unsolved = dive->profile.chain_unconverged;
+  int may = bt__may_go_back (dive, state, i), fine = first_fine (tether, may);
+  bt__present p;
   attempt a;
   double off = 0;
-  bt_status status = may ? advance_in_parts (dive, state, i, to, &fine, &a, &off, error)
-                         : try_parts (dive, state, i, to, 0, &a, error);
+  bt__keep_present (dive, state, i, &p);
+  bt_status status = may ? advance_in_parts (dive, state, i, to, &p, &fine, &a, &off, error)
+                         : try_parts (dive, state, i, to, fine, &a, error);
+  int solving = solve_in_parts (dive, state, i, to, &p, &fine, &a, &status, error) || !may;
   if (status != BT_OK)
     return status;
   *report = a.report;
   tether->peak = fine > 0 ? a.report.tension : 0;
   tether->unsure = off > asked (tether, a.report.tension) ? off : 0;
-  tether->fine = fine == 0 || !bt__has_jumped (dive, state, i, a.report.tension, STAY)
+  tether->fine = solving ? solved_fine (state, fine)
+                 : fine == 0 || !bt__has_jumped (dive, state, i, a.report.tension, STAY)
                      ? 0
                      : next_fine (fine, off / (SHARE * asked (tether, a.report.tension)));
   dive->profile.chain_steps += tether->parted ? 2 : 1;
+  dive->profile.chain_unconverged = unsolved + !a.report.converged;
   return BT_OK;
 }

@@ -62,14 +62,14 @@ bt__step_part (bt_dive *dive, bt__state *state, int i, int part, const bt__dynam
 
 /* The far part of a parted line: its new end is free, the other goes with the vehicle.  */
 static bt_status
-step_far_part (bt_dive *dive, bt__state *state, int i, bt__dynamic_input input, bt_error *error)
+step_far_part (bt_dive *dive, bt__state *state, int i, bt__dynamic_input input,
+               bt__dynamic_report *report, bt_error *error)
 {
   bt__dynamic *chain = bt__dive_chain (dive, state, i, 1);
   bt__fastened fastened;
-  bt__dynamic_report report = { 0 };
   bt__fasten (dive, i, 0, bt__dynamic_length (chain), &input, &fastened);
   input.end[0] = (bt__dynamic_end){ .free = 1 };
-  return bt__step_part (dive, state, i, 1, &input, &report, error);
+  return bt__step_part (dive, state, i, 1, &input, report, error);
 }
 
 /* The chain follows the winch with a lag, for a drum that starts or stops at once sends a wave of
@@ -119,16 +119,20 @@ set_winch (const bt_dive *dive, bt__state *state, int i, const bt__tether *tethe
     input->hold = 0;
 }
 
-/* Note that the winch of TETHER was held back while hauling CHAIN from BEFORE metres: the winch
-   goes on from its actual speed, and stalls when it has hardly turned for a while.  */
+/* Note that the winch of tether I was held back while hauling CHAIN from BEFORE metres for H
+   seconds: the winch goes on from its actual speed, and stalls when it has hardly turned for a
+   while.  */
 static void
-hold_back (bt__state *state, int i, bt__tether *tether, const bt__dynamic *chain, double before)
+hold_back (const bt_dive *dive, bt__state *state, int i, const bt__dynamic *chain, double before,
+           double h)
 {
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  int ended = dive->contact_work.left == 0;
   double length = fmin (bt__dynamic_length (chain), before);
-  double speed = (before - length) / BT__TIME_STEP, rate = -tether->winch_rate;
+  double speed = (before - length) / h, rate = -tether->winch_rate;
   tether->length = fmax (tether->length, length - speed * tether->props.winch_lag);
   tether->stalling
-      = speed < TURNS * fmin (rate, tether->props.winch_rate) ? tether->stalling + 1 : 0;
+      = speed < TURNS * fmin (rate, tether->props.winch_rate) ? tether->stalling + ended : 0;
   if (tether->stalling > STALLED_AFTER || tether->winch_rate == 0)
     bt__stall_winch (state, tether, i, length);
 }
@@ -144,7 +148,7 @@ heed_winch (const bt_dive *dive, bt__state *state, int i, const bt__dynamic *cha
   if (!is_hauled (tether, input->pay))
     tether->length = fmin (tether->length + report->given, bt__most_out (dive, state, i));
   else if (report->given > 0 || bt__dynamic_length (chain) >= before)
-    hold_back (state, i, tether, chain, before);
+    hold_back (dive, state, i, chain, before, input->h);
   else
     tether->stalling = 0;
 }
@@ -223,12 +227,13 @@ bt__advance_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *from,
   double far_length = 0, before = bt__dynamic_length (chain);
   bt_water water;
   bt__dynamic_input input;
+  bt__dynamic_report far = { .converged = 1 };
   bt__fastened fastened;
   bt_status status = input_of_part (dive, state, i, from, to, &water, &input, error);
   if (status == BT_OK && tether->parted)
     {
       far_length = bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
-      status = step_far_part (dive, state, i, input, error);
+      status = step_far_part (dive, state, i, input, &far, error);
       input.end[1] = (bt__dynamic_end){ .free = 1 };
     }
   if (status != BT_OK)
@@ -240,6 +245,7 @@ bt__advance_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *from,
   status = bt__step_part (dive, state, i, 0, &input, report, error);
   if (status != BT_OK)
     return status;
+  report->converged &= far.converged;
   heed_winch (dive, state, i, chain, before, &input, report);
   bt__ends here = bt__tether_ends (dive, state, i); /* where obstacles let the ends come */
   tether->shape.a = here.a;

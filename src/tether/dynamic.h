@@ -230,6 +230,7 @@ typedef struct bt__dynamic_report
   int converged;
   int solves;                 /* linear solves */
   int safeguarded;            /* true: the quick iteration failed and descent took over */
+  int loose;                  /* true: converged, but tension still walks along the line */
   double update;              /* m: last update */
   double speed, acceleration; /* the largest of any node, for the caller's sleep */
   double given;               /* m: line that was drawn from the winch, beyond what was paid out */

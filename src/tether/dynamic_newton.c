@@ -364,8 +364,12 @@ bt__dynamic_newton (bt__dynamic_work *w, bt__dynamic_report *report)
       return 1;
     }
   save (w); /* the predictor, for the safe way */
-  if (quick (w, report))
-    return 1;
-  report->safeguarded = 1;
-  return safe (w, report);
+  int solved = quick (w, report);
+  if (!solved)
+    {
+      report->safeguarded = 1;
+      solved = safe (w, report);
+    }
+  report->loose = solved && report->update > w->tolerance;
+  return solved;
 }

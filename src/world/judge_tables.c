@@ -142,7 +142,7 @@ static const bt__member tether[] = {
   BT__TRUTH (bt__tether, parted),
   BT__WITHIN (bt__tether, quiet, 0, BT__MANY / 2),
   BT__WITHIN (bt__tether, slack_at, -1, BT__MANY / 2),
-  BT__WITHIN (bt__tether, fine, 0, BT__FINEST),
+  BT__WITHIN (bt__tether, fine, 0, 2 * BT__FINEST),
   BT__WITHIN (bt__tether, peak, 0, BT__HUGE),
   BT__WITHIN (bt__tether, unsure, 0, BT__HUGE),
   BT__OF (bt__tether, stretch, stretch_record),

@@ -127,8 +127,9 @@ typedef struct bt__tether
   int64_t parted;   /* the line is in two: a second chain hangs from the far end */
   int64_t quiet;    /* DYNAMIC: steps it has rested; it sleeps when they are enough */
   int64_t slack_at; /* DYNAMIC: the step at which it was last slack */
-  int64_t fine;     /* DYNAMIC: its last step was taken in 2^FINE equal parts, ... */
-  double peak;      /* ... N: in none of which its tension was larger; 0 for a whole step; ... */
+  int64_t fine;     /* DYNAMIC: if not 0, its next step is tried in 2^(FINE - 1) parts first; above
+                       BT__FINEST by what is more, for the last was not solved in fewer */
+  double peak;   /* N: in no part of its last step was its tension larger; 0: a whole step; ... */
   double unsure; /* ... N: how far the tension of half as many was off, if by more than asked; else
                     0 */
   bt__stretch stretch; /* AUTO: of its store the second chain alone is in use */

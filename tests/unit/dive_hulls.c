@@ -37,12 +37,14 @@ typedef struct kind
   bt_model_kind model;
 } kind;
 
-/* What the judge saw: steps, steps in which a line touched a hull, steps not judged because nodes
-   came or went, steps with a line in a hull, steps that the guard shortened; where it all ended. */
+/* What the judge saw: steps, steps in which a line touched a hull, steps judged at their end alone,
+   because nodes came or went, or straight ways lead through a hull in a step that was taken in
+   parts, in each of which the line goes straight, but not in all; steps with a line in a hull,
+   steps that the guard shortened; the parts taken so far; where it all ended.  */
 typedef struct verdict
 {
   long steps, touching, unjudged, inside;
-  uint64_t tries, truncated, beside, shared, hash;
+  uint64_t tries, truncated, beside, shared, parts, hash;
 } verdict;
 
 /* Where the hulls are.  A body that is pitched and rolled has another heading than its compass
@@ -125,11 +127,22 @@ was_inside (const sight *was, const sight *is, int p, const bt__box *a, const bt
   return 0;
 }
 
+/* True if DIVE took a line through its last step in parts.  */
+static int
+was_in_parts (const bt_dive *dive, verdict *v)
+{
+  bt_profile work;
+  bt_dive_profile (dive, &work);
+  int in_parts = work.chain_parts != v->parts;
+  v->parts = work.chain_parts;
+  return in_parts;
+}
+
 static void
 judge_step (const bt_dive *dive, const sight *was, const sight *is, const hulls *before,
             const hulls *after, verdict *v)
 {
-  int first = bt_dive_count (dive, BT_PART_OBSTACLE) + 2;
+  int first = bt_dive_count (dive, BT_PART_OBSTACLE) + 2, in_parts = was_in_parts (dive, v);
   v->steps++;
   v->touching += bt_dive_collided (dive, BT_PART_TETHER, 0, first + 1)
                  || bt_dive_collided (dive, BT_PART_TETHER, 1, first);
@@ -139,6 +152,11 @@ judge_step (const bt_dive *dive, const sight *was, const sight *is, const hulls 
       v->unjudged += !same;
       if (!was_inside (was, is, p, &before->box[hull], &after->box[hull], same ? 1 : BETWEEN))
         continue;
+      if (in_parts && !was_inside (was, is, p, &before->box[hull], &after->box[hull], BETWEEN))
+        {
+          v->unjudged += same;
+          continue;
+        }
       v->inside++;
       if (getenv ("BIGHT_TELL"))
         printf ("# t %.3f part %d is in the hull of vehicle %d\n", bt_dive_time (dive), p, hull);
@@ -258,6 +276,7 @@ fly_and_judge (uint64_t seed, kind k, verdict *v)
   v->beside += work.beside_hulls;
   v->shared += work.shared_steps;
   v->hash = v->hash * 31 + bt_dive_hash (dive);
+  v->parts = 0;
   bt_dive_free (dive);
 }
 
