@@ -10,11 +10,13 @@
 #include "sim/chain.h"
 #include "sim/lay.h"
 
-/* Limits of a fall into place: time, and steps times nodes, whichever is reached first; and the
-   speed below which the line rests.  */
-#define FALL 20.0     /* s */
-#define FALL_WORK 2e5 /* steps times nodes */
-#define AT_REST 5e-3  /* m/s */
+/* Limits of a fall into place: time, steps times nodes, and linear solves times nodes, whichever is
+   reached first; and the speed below which the line rests.  Mostly a step takes three or four
+   solves, one that is not solved a hundred and more.  */
+#define FALL 20.0       /* s */
+#define FALL_WORK 2e5   /* steps times nodes */
+#define FALL_SOLVES 4e6 /* solves times nodes */
+#define AT_REST 5e-3    /* m/s */
 
 #define DRAG_SPEED 3.0 /* m/s */
 enum
@@ -85,6 +87,7 @@ step_to (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt__dynam
   if (status == BT_OK)
     status = bt__step_among (dive, state, i, 0, &input, report, error);
   report->speed = fmax (report->speed, far.speed);
+  report->solves += far.solves;
   return status;
 }
 
@@ -95,15 +98,18 @@ bt__fall (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error
   bt__pin kept[2];
   bt__dynamic_report report = { .speed = INFINITY };
   bt_status status = BT_OK;
-  int64_t nodes = 0;
+  int64_t nodes = 0, solves = 0;
   for (int part = 0; part < bt__chains (tether); part++)
     nodes += bt__dive_chain (dive, state, i, part)->n + 1;
   int steps = (int)fmin (FALL / BT__TIME_STEP, ceil (FALL_WORK / (double)nodes));
+  double most = ceil (FALL_SOLVES / (double)nodes);
   keep_pins (dive, i, kept, 0);
   pin_ends (dive, state, i, BT__PIN_HARD);
-  for (int k = 0; status == BT_OK && k < steps && report.speed > AT_REST; k++)
+  for (int k = 0; status == BT_OK && k < steps && (double)solves < most && report.speed > AT_REST;
+       k++)
     {
       status = step_to (dive, state, i, ends, &report, error);
+      solves += report.solves;
       if (status == BT_OK)
         status = bt__poll (dive, (double)k / steps, error);
     }
