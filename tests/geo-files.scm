@@ -1,9 +1,10 @@
 ;;; Writers of geographic files for tests: ESRI ASCII, XYZ, GeoTIFF and NetCDF (classic) from procedures, by
-;;; the formats' own specifications and no library, so that what reads them is held to the formats.
+;;; the formats' own specifications and no library, so that what reads them is held to the formats; the same files
+;;; damaged; and what tests of the reader share.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (rnrs bytevectors) (ice-9 binary-ports) (srfi srfi-1))
+(use-modules (bight core errors) (bight world earth) (rnrs bytevectors) (rnrs exceptions) (ice-9 binary-ports) (srfi srfi-1))
 
 (define (flatten . parts)
   ;; One bytevector of bytevectors and lists of such.
@@ -156,3 +157,52 @@
                   ("lon" ("lon") (("units" . "degrees_east") ("standard_name" . "longitude")) ,(line west width))
                   (,name ("lat" "lon") ,attributes
                    ,(concatenate (reverse (grid-rows west north step width height value)))))))
+
+
+;;; Damage.
+
+(define runs (or (and=> (getenv "BIGHT_RUNS") string->number) 5))
+(define random-numbers (seed->random-state (or (and=> (getenv "BIGHT_SEED") string->number) 17)))
+
+(define* (damaged file #:key (head 600))
+  "A copy of FILE that is cut short, or of which some of the first HEAD bytes are others."
+  (let* ((bytes (call-with-input-file file get-bytevector-all #:binary #t))
+         (n (bytevector-length bytes))
+         (head (min n head)))
+    (if (zero? (random 4 random-numbers))
+        (let ((short (make-bytevector (random n random-numbers))))
+          (bytevector-copy! bytes 0 short 0 (bytevector-length short))
+          (write-bytes (scratch-file "damaged") short))
+        (begin
+          (for-each (lambda (i) (bytevector-u8-set! bytes (random head random-numbers) (random 256 random-numbers)))
+                    (iota (+ 1 (random 4 random-numbers))))
+          (write-bytes (scratch-file "damaged") bytes)))))
+
+
+;;; What tests of the reader share.
+
+(define (refused? kinds thunk)
+  "True if THUNK raises one line that is of one of KINDS."
+  (guard (e ((bight-error? e)
+             (and (memq (bight-error-kind e) kinds) (not (string-index (bight-error-message e) #\newline)))))
+    (thunk)
+    #f))
+
+(define (whole-or-refused? thunk)
+  (guard (e ((bight-error? e) (not (string-index (bight-error-message e) #\newline))))
+    (thunk)
+    #t))
+
+(define (built-with-reader?)
+  (let ((program (getenv "BIGHT_GEO_READER")))
+    (or (not program) (file-exists? program))))
+
+(define-syntax-rule (with-reader body ...)
+  ;; BODY, unless bight was built without the reader.
+  (if (built-with-reader?) (let () body ...) (skip "built without geographic files")))
+
+(define (bed-height origin lat lon)
+  "Of the bed of the dive at a place in degrees, m."
+  (let ((p (degrees->local origin lat lon)))
+    (place! (vec (car p) (cdr p) -1))
+    (- -1 (rov-altitude))))

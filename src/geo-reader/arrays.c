@@ -62,6 +62,17 @@ bt__array_attribute (const bt__array *a, const char *name, char *text, size_t si
   return text;
 }
 
+/* The number of A's attribute NAME; NaN without one.  */
+static double
+attribute_number (const bt__array *a, const char *name)
+{
+  GDALAttributeH attribute = GDALMDArrayGetAttribute (a->array, name);
+  double number = attribute ? GDALAttributeReadAsDouble (attribute) : NAN;
+  if (attribute)
+    GDALAttributeRelease (attribute);
+  return number;
+}
+
 bt_status
 bt__array_read (const bt__array *a, const size_t *first, const size_t *count, double *numbers,
                 bt_error *error)
@@ -82,10 +93,12 @@ bt__array_read (const bt__array *a, const size_t *first, const size_t *count, do
     return bt__fail (error, BT_ERR_FORMAT, "it is damaged: its numbers cannot all be read");
   int has_none, has_scale, has_offset;
   double none = GDALMDArrayGetNoDataValueAsDouble (a->array, &has_none);
+  double missing = attribute_number (a, "missing_value"); /* beside _FillValue, or without */
   double scale = GDALMDArrayGetScale (a->array, &has_scale);
   double offset = GDALMDArrayGetOffset (a->array, &has_offset);
   for (size_t i = 0; i < n; i++)
-    if ((has_none && numbers[i] == none) || !isfinite (numbers[i]) || fabs (numbers[i]) > 1e30)
+    if ((has_none && numbers[i] == none) || numbers[i] == missing || !isfinite (numbers[i])
+        || fabs (numbers[i]) > 1e30)
       numbers[i] = NAN;
     else
       numbers[i] = numbers[i] * (has_scale ? scale : 1) + (has_offset ? offset : 0);

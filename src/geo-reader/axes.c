@@ -15,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/error.h"
 #include "geo-reader/flow.h"
@@ -206,7 +207,7 @@ bt__flow_levels (GDALGroupH group, const bt__flow_part *part, const bt_geo_origi
   if (z
       && strncmp (bt__array_attribute (&a, "standard_name", text, sizeof text), "ocean_s", 7) == 0)
     s = follow_bed (group, at, a.size[0], z, error);
-  else if (z && strcmp (bt__array_attribute (&a, "positive", text, sizeof text), "up") != 0)
+  else if (z && strcasecmp (bt__array_attribute (&a, "positive", text, sizeof text), "up") != 0)
     for (size_t i = 0; i < a.size[0]; i++)
       z[i] = 0 - z[i];
   bt__array_close (&a);

@@ -25,17 +25,23 @@ enum
 
 static const double degree = 3.14159265358979323846 / 180;
 
-/* True if the unit of A is degrees to the WAY, "north" or "east".  */
+/* True if the unit of A is degrees to the WAY, 0: north, 1: east, in one of the six spellings of
+   the CF conventions (4.1, 4.2).  */
 static int
-points (const bt__array *a, const char *way)
+points (const bt__array *a, int way)
 {
-  char unit[TEXT], wanted[TEXT];
+  static const char *const stems[] = { "degrees_", "degree_", "degrees", "degree" };
+  static const char *const ends[2][2] = { { "north", "N" }, { "east", "E" } };
+  char unit[TEXT];
   bt__array_attribute (a, "units", unit, sizeof unit);
-  snprintf (wanted, sizeof wanted, "degrees_%s", way);
-  if (strcmp (unit, wanted) == 0)
-    return 1;
-  snprintf (wanted, sizeof wanted, "degree_%s", way);
-  return strcmp (unit, wanted) == 0;
+  for (size_t i = 0; i < sizeof stems / sizeof *stems; i++)
+    {
+      size_t n = strlen (stems[i]);
+      if (strncmp (unit, stems[i], n) == 0
+          && (strcmp (unit + n, ends[way][0]) == 0 || strcmp (unit + n, ends[way][1]) == 0))
+        return 1;
+    }
+  return 0;
 }
 
 /* ---- Lines of latitude and longitude ---- */
@@ -171,7 +177,7 @@ open_fields (GDALGroupH group, const bt__flow_part *part, bt__array field[2])
       bt__array a;
       if (!bt__array_open (group, name, &a))
         continue;
-      int way = points (&a, "north") ? 0 : points (&a, "east") ? 1 : -1;
+      int way = points (&a, 0) ? 0 : points (&a, 1) ? 1 : -1;
       if (way >= 0 && !found[way] && a.n == 2 && a.size[0] == part->array.size[part->row]
           && a.size[1] == part->array.size[part->column])
         {
@@ -193,7 +199,7 @@ bt__flow_find_spot (GDALGroupH group, const bt_geo_origin *at, bt__flow_part *pa
   part->column = (int)part->array.n - 1;
   bt__array_open (group, part->array.name[part->row], side);
   bt__array_open (group, part->array.name[part->column], side + 1);
-  if (side[0].n == 1 && side[1].n == 1 && points (side, "north") && points (side + 1, "east"))
+  if (side[0].n == 1 && side[1].n == 1 && points (side, 0) && points (side + 1, 1))
     s = find_on_lines (side, at, &part->spot, error);
   else
     {

@@ -24,19 +24,8 @@
 (define (enter-bed! . fields)
   (enter! (apply bed-world `(origin ,latitude ,longitude) fields)))
 
-(define-syntax-rule (with-reader body ...)
-  ;; BODY, unless bight was built without the reader.
-  (if (built-with-reader?) (let () body ...) (skip "built without geographic files")))
-
-(define (built-with-reader?)
-  (let ((program (getenv "BIGHT_GEO_READER")))
-    (or (not program) (file-exists? program))))
-
 (define (height-at lat lon)
-  ;; Of the bed at a place in degrees.
-  (let ((p (degrees->local (list latitude longitude) lat lon)))
-    (place! (vec (car p) (cdr p) -1))
-    (- -1 (rov-altitude))))
+  (bed-height (list latitude longitude) lat lon))
 
 ;; Some places, degrees from the origin.
 (define places '((0 0) (0.004 0.009) (-0.0071 0.0113) (0.0093 -0.0152) (-0.0082 -0.0041)))
@@ -117,35 +106,32 @@ which every height is in the air is asked about."
   "A file of another place, of no place, of too much or of nothing is refused with one line, and the dive before it \
 goes on."
   (with-reader
-   (define (refused? kind . fields)
-     (guard (e ((bight-error? e)
-                (and (eq? kind (bight-error-kind e)) (not (string-index (bight-error-message e) #\newline)))))
-       (enter! (apply bed-world fields))
-       #f))
+   (define (bed-refused? kind . fields)
+     (and (refused? (list kind) (lambda () (enter! (apply bed-world fields)))) #t))
    (define here `(origin ,latitude ,longitude))
    (define grid (list west north 0.001 61 41 (lambda (x y) -30)))
    (define tiff (apply write-tiff (scratch-file "fine.tif") 4326 grid))
    (define bare (write-ascii (scratch-file "bare.asc") 5e6 5e6 10 11 11 (lambda (x y) -30)))
    (enter! 'open-water)
    (let ((before (state-hash)))
-     (expect (refused? 'def `(grid ,tiff)) => #t)
-     (expect (refused? 'def `(grid ,bare) '(reach 100)) => #t)
-     (expect (refused? 'format `(grid ,tiff) '(origin -33 151)) => #t)
-     (expect (refused? 'format `(grid ,tiff) here '(system "EPSG:32632")) => #t)
-     (expect (refused? 'format `(grid ,tiff) here '(system "/etc/passwd")) => #t)
-     (expect (refused? 'format `(grid ,bare) here) => #t)
-     (expect (refused? 'format `(grid ,(apply write-tiff (scratch-file "wide.tif") 4326
+     (expect (bed-refused? 'def `(grid ,tiff)) => #t)
+     (expect (bed-refused? 'def `(grid ,bare) '(reach 100)) => #t)
+     (expect (bed-refused? 'format `(grid ,tiff) '(origin -33 151)) => #t)
+     (expect (bed-refused? 'format `(grid ,tiff) here '(system "EPSG:32632")) => #t)
+     (expect (bed-refused? 'format `(grid ,tiff) here '(system "/etc/passwd")) => #t)
+     (expect (bed-refused? 'format `(grid ,bare) here) => #t)
+     (expect (bed-refused? 'format `(grid ,(apply write-tiff (scratch-file "wide.tif") 4326
                                               (append grid (list #:claimed-width 2000000000)))) here) => #t)
-     (expect (refused? 'format `(grid ,(write-tiff (scratch-file "nan.tif") 4326 west north 0.001 61 41
+     (expect (bed-refused? 'format `(grid ,(write-tiff (scratch-file "nan.tif") 4326 west north 0.001 61 41
                                                    (lambda (x y) +nan.0))) here) => #t)
-     (expect (refused? 'format `(grid ,(write-tiff (scratch-file "peak.tif") 4326 west north 0.001 61 41
+     (expect (bed-refused? 'format `(grid ,(write-tiff (scratch-file "peak.tif") 4326 west north 0.001 61 41
                                                    (lambda (x y) 3e38))) here) => #t)
-     (expect (refused? 'limit `(grid ,(write-tiff (scratch-file "world.tif") 4326 -179.5 89.5 1 360 180
+     (expect (bed-refused? 'limit `(grid ,(write-tiff (scratch-file "world.tif") 4326 -179.5 89.5 1 360 180
                                                   (lambda (x y) -30))) here) => #t)
-     (expect (refused? 'format `(grid ,(write-bed-netcdf (scratch-file "other.nc") "salinity" '() west north 0.001 61 41
+     (expect (bed-refused? 'format `(grid ,(write-bed-netcdf (scratch-file "other.nc") "salinity" '() west north 0.001 61 41
                                                          (lambda (x y) -30))) here '(variable "elevation")) => #t)
-     (expect (refused? 'def `(grid ,tiff) here '(origin 1 2)) => #t)
-     (expect (refused? 'domain `(grid ,tiff) '(origin 91 2)) => #t)
+     (expect (bed-refused? 'def `(grid ,tiff) here '(origin 1 2)) => #t)
+     (expect (bed-refused? 'domain `(grid ,tiff) '(origin 91 2)) => #t)
      (expect (state-hash) => before))))
 
 (define-scenario little-memory
@@ -289,28 +275,6 @@ turned from the cells' axes to east and north."
 
 
 ;;; Damage.
-
-(define runs (or (and=> (getenv "BIGHT_RUNS") string->number) 5))
-(define random-numbers (seed->random-state (or (and=> (getenv "BIGHT_SEED") string->number) 17)))
-
-(define (damaged file)
-  ;; A copy of FILE that is cut short, or of which some bytes are others.
-  (let* ((bytes (call-with-input-file file get-bytevector-all #:binary #t))
-         (n (bytevector-length bytes))
-         (head (min n 600)))
-    (if (zero? (random 4 random-numbers))
-        (let ((short (make-bytevector (random n random-numbers))))
-          (bytevector-copy! bytes 0 short 0 (bytevector-length short))
-          (write-bytes (scratch-file "damaged") short))
-        (begin
-          (for-each (lambda (i) (bytevector-u8-set! bytes (random head random-numbers) (random 256 random-numbers)))
-                    (iota (+ 1 (random 4 random-numbers))))
-          (write-bytes (scratch-file "damaged") bytes)))))
-
-(define (whole-or-refused? thunk)
-  (guard (e ((bight-error? e) (not (string-index (bight-error-message e) #\newline))))
-    (thunk)
-    #t))
 
 (define-scenario damaged-files
   "A damaged file is a bed or a current all the same, or is refused with one line."
