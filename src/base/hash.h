@@ -15,7 +15,21 @@ uint64_t bt__hash (const void *data, size_t n, uint64_t seed);
    the row before.  USED is a multiple of 8.  */
 uint64_t bt__hash_rows (const void *data, size_t rows, size_t used, size_t stride, uint64_t seed);
 
-/* Return another such hash, several times as fast where N is large.  */
-uint64_t bt__hash_long (const void *data, size_t n, uint64_t seed);
+/* Another such hash, of long data in pieces: several times as fast.  Where one piece ends and the
+   next begins counts: the same bytes in other pieces have another hash.  */
+enum
+{
+  BT__HASH_LANES = 8
+};
+
+typedef struct bt__hash_lanes
+{
+  uint64_t lane[BT__HASH_LANES];
+  uint64_t n; /* bytes added */
+} bt__hash_lanes;
+
+void bt__hash_begin (bt__hash_lanes *lanes);
+void bt__hash_add (bt__hash_lanes *lanes, const void *data, size_t n);
+uint64_t bt__hash_end (const bt__hash_lanes *lanes);
 
 #endif

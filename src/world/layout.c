@@ -275,14 +275,16 @@ uint64_t
 bt__hash_state (const bt_dive *dive, const bt__state *state)
 {
   bt__range live[BT__STORE_RANGES];
-  uint64_t h = bt__hash_long (state, fixed_size (dive), 0);
+  bt__hash_lanes lanes;
+  bt__hash_begin (&lanes);
+  bt__hash_add (&lanes, state, fixed_size (dive));
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       int n = live_ranges (dive, state, i, live);
       for (int k = 0; k < n; k++)
-        h = bt__hash_long (store_of (dive, state, i) + live[k].at, live[k].size, h);
+        bt__hash_add (&lanes, store_of (dive, state, i) + live[k].at, live[k].size);
     }
-  return h;
+  return bt__hash_end (&lanes);
 }
 
 size_t
