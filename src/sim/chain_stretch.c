@@ -29,8 +29,7 @@
 
 #define LATE 0.05 /* of the accuracy: the error of the steps of a second, at most, ... */
 #define AT_ONCE                                                                                    \
-  0.25         /* s: ... and of one step that of so long, for errors to and fro add up to none */
-#define JUMP 2 /* tension accuracies: how far a tension may change within a stretch */
+  0.25 /* s: ... and of one step that of so long, for errors to and fro add up to none */
 #define ASTRAY 0.01  /* of the accuracy: how far an end may be from where the stretch has it */
 #define FOLLOWED 0.9 /* of the steps that the error would allow */
 #define GROWTH 2     /* times as long as the step before */
@@ -212,7 +211,7 @@ go_ahead (bt_dive *dive, bt__state *state, int i)
       double off = status == BT_OK ? error_of (dive, state, i) : INFINITY;
       if (off <= 1 && is_eventless (&p.tether, &report) && is_in_hand (dive, state, i)
           && went_clear (dive, state, i, &report)
-          && !bt__has_jumped (dive, state, i, report.tension, JUMP))
+          && !bt__has_jumped (dive, state, i, report.tension, 1))
         {
           begin_stretch (dive, state, i, steps, off, &report);
           return 1;
