@@ -155,7 +155,7 @@ look_at (const bt__dynamic_work *w, const bt__slip *s, const bt_vec3 *x, int fol
 
 /* Note what the nodes bear at the iterate, and put their stiffness into the blocks.  */
 static void
-look (bt__dynamic_work *w, int follows)
+note_borne (bt__dynamic_work *w, int follows)
 {
   double most = most_moment (w->in->line);
   for (int r = 0; r < w->slips; r++)
@@ -172,7 +172,7 @@ look (bt__dynamic_work *w, int follows)
 void
 bt__dynamic_slip_force (bt__dynamic_work *w, bt__mode mode)
 {
-  look (w, mode != BT__SAFE);
+  note_borne (w, mode != BT__SAFE);
   for (int r = 0; r < w->slips; r++)
     for (int p = 0; p < w->slip[r].row.count; p++)
       {
@@ -186,7 +186,7 @@ bt_vec3
 bt__dynamic_slip_on (bt__dynamic_work *w, int i)
 {
   bt_vec3 sum = { 0, 0, 0 };
-  look (w, 1);
+  note_borne (w, 1);
   for (int r = 0; r < w->slips; r++)
     {
       const bt__slip *s = w->slip + r;
