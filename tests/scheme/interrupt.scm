@@ -65,10 +65,10 @@
 ;;; Each call that lasts.
 
 (define (cpu-seconds)
-  (let ((all (times)))
-    (/ (+ (tms:utime all) (tms:stime all)) 1.0 internal-time-units-per-second)))
+  ;; Without those of the kernel: how long it takes to clear the pages of a new dive is the machine's affair.
+  (/ (tms:utime (times)) 1.0 internal-time-units-per-second))
 
-(define most-seconds 0.25)              ; of this thread's work between two looks, on any machine
+(define most-seconds 0.25)              ; of this process's work between two looks, on any machine
 
 (define (pressed k thunk)
   ;; What became of THUNK when ^C is pressed at the K-th look whether somebody waits: a list of `interrupted' or
