@@ -54,7 +54,8 @@
             part-type-origins
             add-part-type!
             find-part-type
-            part-types))
+            part-types
+            types-called))
 
 
 ;;; Fields.
@@ -306,6 +307,11 @@ ORIGINS of those, words such as published.")
                 (hash-map->list (lambda (key type) type) type-table))
         (lambda (a b) (string<? (symbol->string (part-type-name a))
                                 (symbol->string (part-type-name b))))))
+
+(define (types-called name)
+  "Return the types of the name NAME, of all heads: a vehicle and its tether may be types of one name."
+  (filter (lambda (type) (eq? name (part-type-name type)))
+          (append-map part-types (part-heads))))
 
 (define (find-part-type proc head name)
   "Return the type NAME of HEAD, or raise a &bight-error from PROC."

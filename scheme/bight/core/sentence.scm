@@ -68,14 +68,14 @@
   (let ((type (assq-ref (part-fields-of part) 'type)))
     (if type (part-type-sentence type) (head-title (part-head-of part)))))
 
-(define (type-called name)
-  (find (lambda (type) (eq? name (part-type-name type))) (append-map part-types (part-heads))))
+(define (types-sentence types)
+  (string-join (map part-type-sentence types) " "))
 
 (define (sentence-of-name name)
   "Return what the quoted NAME stands for in the present dive or the language, or the empty string."
   (cond ((here-part name) => part-sentence)
         ((world-text name))
         ((part-head? name) (head-sentence name))
-        ((type-called name) => part-type-sentence)
+        ((pair? (types-called name)) (types-sentence (types-called name)))
         ((assq-ref event-sentences name))
         (else (sentence-of-lesson name))))

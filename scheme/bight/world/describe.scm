@@ -244,11 +244,6 @@ given, from its type or left to the default, and for each thing inside it."
          (members (if w (group-members (world-parts-of w) name) '())))
     (and (pair? members) members)))
 
-(define (types-called name)
-  ;; A vehicle and its tether may be types of one name.
-  (filter (lambda (type) (eq? name (part-type-name type)))
-          (append-map part-types (part-heads))))
-
 (define (types-description types)
   ;; The descriptions of TYPES, one after the other, as one.
   (let ((all (map type-description types)))
