@@ -2,7 +2,8 @@
 
    Every operation works on a copy of the state, taken over only after success: a refused call
    leaves the dive unchanged.  Questions are pure reads.  Nothing is allocated between bt_dive_new
-   and bt_dive_free but by bt_dive_fork, bt_dive_set_threads and the operation `follow'.
+   and bt_dive_free but by bt_dive_fork, bt_dive_set_threads, the operation `follow' and, for the
+   time of the call, bt_dive_sonar.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

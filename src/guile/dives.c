@@ -59,8 +59,9 @@ bt__to_idle_dive (const char *who, SCM object)
   return bt__to_dive (object);
 }
 
-/* Dives and forks come and go by the thousand, and their memory is not the collector's: whoever makes
-   one frees what was dropped before, by scm_run_finalizers, and tells the collector the size.  */
+/* Dives and forks come and go by the thousand, and their memory is not the collector's: whoever
+   makes one frees what was dropped before, by scm_run_finalizers, and tells the collector the size.
+   A guest of a live dive only tells: other threads make guests.  */
 void
 bt__tell_size (const bt_dive *dive)
 {

@@ -45,6 +45,7 @@ share_live (SCM object)
     }
   bt__unlock_sharing ();
   bt__check ("listen", status, &error);
+  bt__tell_size (guest->dive);
   return bt__from_handle (guest);
 }
 

@@ -71,7 +71,7 @@ is_calm (const bt_dive *dive, bt__state *state, int i)
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
   return tether->props.model == BT_MODEL_AUTO && !tether->parted && tether->fine == 0
          && tether->quiet == 0 && tether->props.gj * tether->props.ei == 0
-         && !bt__slips (&tether->props) && chain->history && chain->owed == 0
+         && !bt__layers_slip (&tether->props) && chain->history && chain->owed == 0
          && bt__may_go_back (dive, state, i) && bt__was_wound (dive, i);
 }
 

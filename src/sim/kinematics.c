@@ -152,9 +152,10 @@ along_track (const bt_dive *dive, bt__state *state, bt__vehicle *v)
   return track_point (track, t);
 }
 
-static void
-move_kinematically (const bt_dive *dive, bt__state *state, bt__vehicle *v)
+void
+bt__move_vehicle (const bt_dive *dive, bt__state *state, int vehicle)
 {
+  bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
   double angle = turn_of_step (v);
   bt_vec3 from = v->position, to;
   switch (v->goal)
@@ -183,7 +184,7 @@ bt__foresee_vehicle (const bt_dive *dive, bt__state *state, int vehicle, int ste
   for (; n < steps && state->events == events; n++)
     {
       state->step++;
-      move_kinematically (dive, state, v);
+      bt__move_vehicle (dive, state, vehicle);
     }
   *to = v->position;
   n -= state->events != events;
@@ -191,12 +192,6 @@ bt__foresee_vehicle (const bt_dive *dive, bt__state *state, int vehicle, int ste
   state->step = step;
   *v = before;
   return n;
-}
-
-void
-bt__move_vehicle (const bt_dive *dive, bt__state *state, int vehicle)
-{
-  move_kinematically (dive, state, bt__dive_vehicle (dive, state, vehicle));
 }
 
 /* Those with mass are moved by forces (bodies.c).  */

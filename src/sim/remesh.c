@@ -3,8 +3,8 @@
    Model `auto' chooses the number of nodes by the accuracy asked for.  The discretisation error is
    estimated from the curvature of the line and falls with the square of the number of nodes.  The
    line gets more nodes if the estimate exceeds the accepted error, and fewer if the estimate is far
-   below; the gap between the two bounds is the hysteresis.  The new nodes lie on a smooth curve through
-   the old ones, but for what keeps the tensions (tether/dynamic_fit.c).
+   below; the gap between the two bounds is the hysteresis.  The new nodes lie on a smooth curve
+   through the old ones, but for what keeps the tensions (tether/dynamic_fit.c).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -142,7 +142,7 @@ lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
   double length = bt__line_length (&line);
   bt_status status;
   sample_tensions (dive, &line, n);
-  if (bt__slips (&tether->props))
+  if (bt__layers_slip (&tether->props))
     bt__slipped_along (chain, n, dive->corner);
   if (bt__has_obstacles (dive) && !bt__may_remesh (dive, state, i, n))
     return BT_OK;
@@ -152,7 +152,7 @@ lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
     return status;
   memcpy (bt__dynamic_v (chain), dive->motion, sizeof (bt_vec3) * (size_t)(n + 1));
   memcpy (bt__dynamic_tension (chain), dive->along, sizeof (double) * (size_t)n);
-  if (bt__slips (&tether->props))
+  if (bt__layers_slip (&tether->props))
     memcpy (bt__dynamic_load (chain), dive->corner, sizeof (bt_vec3) * (size_t)(n + 1));
   chain->pull[0] = pull[0];
   chain->pull[1] = pull[1];

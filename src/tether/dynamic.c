@@ -33,7 +33,7 @@ bt__dynamic_work_free (bt__dynamic_work *w)
                      w->link,    w->node,  w->extra,   w->diag,      w->off,      w->up,
                      w->up2,     w->pivot, w->bend,    w->bend_diag, w->bend_off, w->bend_far,
                      w->whole,   w->spare, w->by_flow, w->kept,      w->crumple,  w->exchanged,
-                     w->natural, w->twist, w->felt,    w->round,     w->slip,     w->slip_rest };
+                     w->natural, w->twist, w->felt,    w->round,     w->slip };
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
     free (arrays[i]);
   free (w);
@@ -67,8 +67,7 @@ bt__dynamic_work_new (int n_max)
         && (w->natural = calloc (n, sizeof *w->natural))
         && (w->twist = calloc (n, sizeof *w->twist)) && (w->felt = calloc (n, sizeof *w->felt))
         && (w->kept = calloc (n, sizeof *w->kept)) && (w->crumple = calloc (n, sizeof *w->crumple))
-        && (w->round = calloc (n, sizeof *w->round)) && (w->slip = calloc (n, sizeof *w->slip))
-        && (w->slip_rest = calloc (n, sizeof *w->slip_rest));
+        && (w->round = calloc (n, sizeof *w->round)) && (w->slip = calloc (n, sizeof *w->slip));
   if (whole)
     return w;
   bt__dynamic_work_free (w);
@@ -108,7 +107,7 @@ check_input (const bt__dynamic *d, const bt__dynamic_work *w, const bt__dynamic_
         "the line has mass %g kg/m, EA %g N, EI %g N m2, damping %g N s, diameter %g m;"
         " mass and EA must be positive, nothing negative",
         p->mass, p->ea, p->ei, p->ba, p->diameter);
-  if (bt__slips (p) && (in->n_sets > 0 || in->order == 4))
+  if (bt__layers_slip (p) && (in->n_sets > 0 || in->order == 4))
     return bt__fail (error, BT_ERR_UNSUPPORTED,
                      "a line whose layers slip has no set and is stepped in the second order");
   for (int k = 0; k < 2; k++)

@@ -329,7 +329,7 @@ bt_vec3 bt__set_side (bt_vec3 direction);
 bt_vec3 bt__set_carry (bt_vec3 side, bt_vec3 from, bt_vec3 to);
 
 /* True if the layers of a line of P stick and slip.  */
-int bt__slips (const bt_tether_props *p);
+int bt__layers_slip (const bt_tether_props *p);
 
 /* Write the curvatures, 1/m, by which the layers of D have slipped at N + 1 places evenly along it
    to OUT.  */

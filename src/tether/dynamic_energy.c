@@ -38,7 +38,7 @@ bending_energy (const bt__dynamic *d, const bt_vec3 *x, const bt__dynamic_input 
       double cell = 0.5 * (rest[i - 1] + rest[i]);
       sum += 0.5 * ei * bt__turn_square (x + i, rest[i - 1], rest[i]) / cell;
     }
-  return bt__slips (in->line) ? sum + bt__slip_energy (d, in, x) : sum;
+  return bt__layers_slip (in->line) ? sum + bt__slip_energy (d, in, x) : sum;
 }
 
 /* The energies of D at the places X with the velocities V.  */

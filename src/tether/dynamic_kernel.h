@@ -173,7 +173,6 @@ struct bt__dynamic_work
   bt__bend *bend;
   double *bend_diag, *bend_off, *bend_far;
   bt__slip *slip;
-  double *slip_rest;                /* m: of the intervals */
   bt_vec3 *whole, *spare, *by_flow; /* of bent nodes: updates without flow and of each flow */
   int *exchanged; /* rows of the band, which lies in BY_FLOW, see dynamic_couple.c */
 };

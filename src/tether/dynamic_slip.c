@@ -25,21 +25,28 @@
 static const bt_vec3 down = { 0, 0, -1 };
 
 int
-bt__slips (const bt_tether_props *p)
+bt__layers_slip (const bt_tether_props *p)
 {
   return p->ei > 0 && p->ei_stuck > p->ei && p->slip_curvature > 0;
 }
 
 /* ---- Of one node ---- */
 
-/* A line as it lies at X.  */
+/* A line as it lies at X: in a step, of intervals LINK; else with rest lengths REST.  */
 typedef struct slip_line
 {
   const bt__dynamic_input *in;
   const bt_vec3 *x;
+  const bt__link *link;
   const double *rest;
   int n;
 } slip_line;
+
+static double
+slip_rest (const slip_line *l, int j)
+{
+  return l->link ? l->link[j].rest : l->rest[j];
+}
 
 /* What lies before node I of L, or behind it if AFTER: an interval, or what clamps the line.  */
 static bt_vec3
@@ -48,7 +55,7 @@ way_at (const slip_line *l, int i, int after)
   int j = after ? i : i - 1;
   if (j < 0 || j >= l->n)
     return bt__unit_or (l->in->end[after].direction, down);
-  return bt__scale (1 / l->rest[j], bt__sub (l->x[j + 1], l->x[j]));
+  return bt__scale (1 / slip_rest (l, j), bt__sub (l->x[j + 1], l->x[j]));
 }
 
 static bt_vec3
@@ -69,7 +76,7 @@ turn_at (const slip_line *l, int i)
 static double
 cell_at (const slip_line *l, int i)
 {
-  return 0.5 * ((i > 0 ? l->rest[i - 1] : 0) + (i < l->n ? l->rest[i] : 0));
+  return 0.5 * ((i > 0 ? slip_rest (l, i - 1) : 0) + (i < l->n ? slip_rest (l, i) : 0));
 }
 
 /* True if node I of L bends.  */
@@ -106,7 +113,7 @@ borne (bt_vec3 w, bt_vec3 s, double k, double most)
 static bt__bend
 row_of (const slip_line *l, int i)
 {
-  double q = i > 0 ? 1 / l->rest[i - 1] : 0, p = i < l->n ? 1 / l->rest[i] : 0;
+  double q = i > 0 ? 1 / slip_rest (l, i - 1) : 0, p = i < l->n ? 1 / slip_rest (l, i) : 0;
   bt__bend row = { .first = i - 1, .count = 3, .c = { q, -(p + q), p } };
   if (i == 0)
     row = (bt__bend){ .first = 0, .count = 2, .c = { -p, p } };
@@ -118,16 +125,14 @@ row_of (const slip_line *l, int i)
 static slip_line
 line_of_step (const bt__dynamic_work *w, const bt_vec3 *x)
 {
-  return (slip_line){ .in = w->in, .x = x, .rest = w->slip_rest, .n = w->n };
+  return (slip_line){ .in = w->in, .x = x, .link = w->link, .n = w->n };
 }
 
 void
 bt__dynamic_slip_prepare (bt__dynamic_work *w, const bt__dynamic *d)
 {
-  if (!bt__slips (w->in->line))
+  if (!bt__layers_slip (w->in->line))
     return;
-  for (int j = 0; j < w->n; j++)
-    w->slip_rest[j] = w->link[j].rest;
   slip_line l = line_of_step (w, w->x);
   for (int i = 0; i <= w->n; i++)
     {
@@ -262,8 +267,8 @@ bt__slipped_along (const bt__dynamic *d, int n, bt_vec3 *out)
 double
 bt__slip_energy (const bt__dynamic *d, const bt__dynamic_input *in, const bt_vec3 *x)
 {
-  slip_line was = { in, bt__dynamic_x (d), bt__dynamic_rest (d), (int)d->n };
-  slip_line is = { in, x, was.rest, was.n };
+  slip_line was = { in, bt__dynamic_x (d), NULL, bt__dynamic_rest (d), (int)d->n };
+  slip_line is = { in, x, NULL, was.rest, was.n };
   double sum = 0, most = most_moment (in->line);
   for (int i = 1; i < is.n; i++)
     {
