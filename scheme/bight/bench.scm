@@ -9,15 +9,16 @@
 
 (define-module (bight bench)
   #:use-module (bight bench compare)
+  #:use-module ((bight bench in-time) #:select (say-progress))
   #:use-module ((bight bench plot) #:select (plots-of))
   #:use-module (bight bench report)
   #:use-module (bight bench row)
   #:use-module (bight bench validation)
+  #:use-module (bight core clock)
   #:use-module ((bight core decimal) #:select (text->number))
   #:use-module (bight core errors)
   #:use-module ((bight core folders) #:select (ensure-folder!))
   #:use-module ((bight engine) #:select (%programs-folder))
-  #:use-module ((bight outlet) #:select (control watched?))
   #:use-module ((ice-9 ftw) #:select (scandir))
   #:use-module (ice-9 popen)
   #:use-module ((ice-9 rdelim) #:select (read-line))
@@ -113,17 +114,6 @@
 
 
 ;;; Rounds.
-
-(define (clock)
-  (/ (get-internal-real-time) (exact->inexact internal-time-units-per-second)))
-
-(define (say-progress text . values)
-  ;; At a terminal, in place of what was said before.
-  (let ((port (current-error-port)))
-    (when (watched? port)
-      (control "\r\x1b[K" port)
-      (display (apply simple-format #f text values) port)
-      (force-output port))))
 
 (define (minutes-and-seconds seconds)
   (let ((s (inexact->exact (round seconds))))

@@ -7,6 +7,7 @@
 
 (define-module (bight cli)
   #:use-module (bight core errors)
+  #:use-module (bight core late)
   #:use-module (bight core options)
   #:use-module (bight outlet)
   #:use-module (bight shell commands)

@@ -19,6 +19,7 @@
   #:use-module ((bight cockpit page) #:select (first-page))
   #:use-module (bight cockpit state)
   #:use-module (bight core errors)
+  #:use-module (bight core late)
   #:use-module (bight core units)
   #:use-module (bight dive)
   #:use-module (bight dive query)
@@ -29,9 +30,6 @@
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:export (draw-frame! compose-frame! fit-to-size! draw-page! frame-pixels))
-
-(define-syntax-rule (from module name)
-  (module-ref (resolve-interface 'module) 'name))
 
 (define slow-period 1/2)                ; s: between questions that cost something
 (define forecast-period 1)              ; s: between looks ahead, or longer,

@@ -3,12 +3,18 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight bench in-time)
+  #:use-module (bight core clock)
   #:use-module ((bight outlet) #:select (control watched?))
   #:use-module ((ice-9 control) #:select (let/ec))
-  #:export (minutes-from-now share-of-time as-many-as-fit in-time?))
+  #:export (say-progress minutes-from-now share-of-time as-many-as-fit in-time?))
 
-(define (clock)
-  (/ (get-internal-real-time) (exact->inexact internal-time-units-per-second)))
+(define (say-progress text . values)
+  "Say TEXT, filled with VALUES, on the error port, if that is a terminal: in place of what was said before."
+  (let ((port (current-error-port)))
+    (when (watched? port)
+      (control "\r\x1b[K" port)
+      (display (apply simple-format #f text values) port)
+      (force-output port))))
 
 (define (minutes-from-now minutes)
   "Return the time, s by a clock of the machine's own, that is MINUTES from now; never, if that is #f."
@@ -29,18 +35,17 @@
 (define between 15)                     ; s from one line about the progress to the next, in a file
 
 (define (make-teller what n)
-  ;; A procedure of how many of N are done, which says so on the error port: at a terminal in place of what it said before.
-  (let* ((port (current-error-port)) (live? (watched? port)) (begun (clock)) (told begun))
-    (define (say done)
-      (simple-format port "~a: ~a of ~a in ~a s" what done n (inexact->exact (round (- (clock) begun)))))
+  ;; A procedure of how many of N are done, which says so on the error port: at a terminal at once, in a file now and then.
+  (let* ((begun (clock)) (told begun) (live? (watched? (current-error-port))))
+    (define (progress done)
+      (simple-format #f "~a: ~a of ~a in ~a s" what done n (inexact->exact (round (- (clock) begun)))))
     (lambda (done)
-      (cond ((eq? done 'end) (when live? (control "\r\x1b[K" port)))
-            (live? (control "\r\x1b[K" port) (say done))
+      (cond ((eq? done 'end) (say-progress ""))
+            (live? (say-progress "~a" (progress done)))
             ((>= (- (clock) told) between)
              (set! told (clock))
-             (say done)
-             (newline port)))
-      (force-output port))))
+             (simple-format (current-error-port) "~a~%" (progress done))
+             (force-output (current-error-port)))))))
 
 (define (as-many-as-fit what n end measure)
   "Return what MEASURE returns of 0, 1 ... N - 1, a list: of as many as are measured before END, as `minutes-from-now'

@@ -18,6 +18,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight cockpit orders)
+  #:use-module (bight core clock)
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight dive)
@@ -47,9 +48,6 @@
 (define shown-dive #f)
 (define late '())                       ; what came of orders for which nobody waited: (UNTIL . TEXT), the last first
 (define the-beginning '(0 . ""))        ; (SERIAL . TEXT) of that dive
-
-(define (clock)
-  (/ (get-internal-real-time) (exact->inexact internal-time-units-per-second)))
 
 (define (call-with-desk socket thunk)
   "Call THUNK while instructors can connect at SOCKET, a file made now that is its owner's alone; at #f none can."

@@ -5,11 +5,13 @@
 (define-module (bight cockpit state)
   #:use-module (bight cockpit keys)
   #:use-module (bight cockpit palette)
+  #:use-module (bight core clock)
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight dive)
   #:use-module (bight engine)
-  #:export (cockpit? new-cockpit board! ask-anew! look-anew! announce! call-or-tell trying clock frame target
+  #:re-export (clock)
+  #:export (cockpit? new-cockpit board! ask-anew! look-anew! announce! call-or-tell trying frame target
             cockpit-palette cockpit-ascii? cockpit-dive set-dive! cockpit-vehicle set-vehicle! cockpit-tether
             set-tether! cockpit-screen set-screen! cockpit-size set-size! cockpit-view set-view! cockpit-paint
             set-paint! cockpit-plain? set-plain! cockpit-lamp? set-lamp! cockpit-help? set-help! cockpit-words?
@@ -26,10 +28,6 @@
             set-believed-due!))
 
 (define frame 1/30)                     ; s
-
-(define (clock)
-  "Return the time of the machine's clock, s."
-  (/ (get-internal-real-time) (exact->inexact internal-time-units-per-second)))
 
 
 ;;; What it knows.

@@ -23,6 +23,7 @@
   #:use-module (bight cockpit state)
   #:use-module (bight cockpit what-if)
   #:use-module (bight core errors)
+  #:use-module (bight core late)
   #:use-module (bight core verb)
   #:use-module (bight dive)
   #:use-module (bight dive checkpoint)
@@ -34,9 +35,6 @@
   #:use-module (srfi srfi-1)
   #:export (pilot!
             pilot-world))
-
-(define-syntax-rule (from module name)
-  (module-ref (resolve-interface 'module) 'name))
 
 
 ;;; Time.

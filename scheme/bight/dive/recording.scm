@@ -16,6 +16,7 @@
 
 (define-module (bight dive recording)
   #:use-module (bight core errors)
+  #:use-module (bight core late)
   #:use-module (bight core record)
   #:use-module (bight core verb)
   #:use-module (bight dive)
@@ -29,10 +30,6 @@
 
 (define second-long 60)                 ; steps
 (define frame-every 6)                  ; steps: ten frames a second
-
-(define-syntax-rule (from module name)
-  ;; The value of NAME in MODULE, loaded now.
-  (module-ref (resolve-interface 'module) 'name))
 
 
 ;;; The recorder.

@@ -6,6 +6,7 @@
 
 (define-module (bight shell commands)
   #:use-module (bight core errors)
+  #:use-module (bight core late)
   #:use-module (bight core options)
   #:use-module (bight shell program)
   #:use-module (bight shell tasks)

@@ -19,6 +19,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight shell door)
+  #:use-module (bight core clock)
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight shell listen)
@@ -172,9 +173,6 @@
 (document
  (session? "Return true if OBJECT is a session.")
  (subscription? "Return true if OBJECT is a subscription."))
-
-(define (clock)
-  (/ (get-internal-real-time) (exact->inexact internal-time-units-per-second)))
 
 (define (say session datum)
   (let ((text (string-append (object->string datum) "\n")))

@@ -5,14 +5,11 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight shell program)
+  #:use-module (bight core late)
   #:use-module (bight core errors)
   #:use-module ((bight core here) #:select (noting-places))
-  #:export (from evaluate-file evaluate-port program-error? program-error-text
+  #:export (evaluate-file evaluate-port program-error? program-error-text
             enter-language! ignore show-values absolute))
-
-(define-syntax-rule (from module name)
-  ;; The value of NAME in MODULE, loaded now.
-  (module-ref (resolve-interface 'module) 'name))
 
 (define &program-error (make-exception-type '&program-error &error '(text)))
 (define make-program-error (record-constructor &program-error))

@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight shell progress)
+  #:use-module (bight core clock)
   #:use-module ((bight engine) #:select (%set-reporter!))
   #:use-module ((bight outlet) #:select (control watched?))
   #:use-module ((srfi srfi-1) #:select (first second third))
@@ -10,9 +11,6 @@
 
 (define patience 1.0)                   ; seconds of waiting before a bar is shown
 (define width 40)
-
-(define (clock)
-  (/ (get-internal-real-time) (exact->inexact internal-time-units-per-second)))
 
 (define (terminal)
   ;; The error port if a person watches it, else #f.

@@ -5,6 +5,7 @@
 (define-module (bight shell status)
   #:use-module (bight core errors)
   #:use-module ((bight core here) #:select (noting-places))
+  #:use-module (bight core late)
   #:use-module (bight shell program)
   #:export (complain exit-status))
 

@@ -8,6 +8,7 @@
 
 (define-module (bight shell tasks)
   #:use-module (bight core errors)
+  #:use-module (bight core late)
   #:use-module (bight core options)
   #:use-module (bight shell program)
   #:use-module ((bight shell usage) #:select (command-options))

@@ -7,6 +7,7 @@
 
 (define-module (bight shell words)
   #:use-module ((bight core allowance) #:select (field-default-string field-range))
+  #:use-module (bight core late)
   #:use-module (bight core schema)
   #:use-module ((bight core sentence) #:select (event-sentence sentence-of-lesson))
   #:use-module ((bight core verb) #:select (verb? verb-arguments))
@@ -151,18 +152,15 @@
                                       (if unit (string-append unit "; ") "") (cdr entry))))
                    found)))))
 
-(define (from module name)
-  (module-ref (resolve-interface module) name))
-
 (define (option-lines text)
   ;; What the commands say of their option TEXT, such as "--seed".
   (define (of-command command)
     (filter-map (lambda (option)
                   (and (string=? text (car (string-split (car option) #\space)))
-                       (simple-format #f "  bight ~a ~a: ~a" ((from '(bight shell usage) 'command-name) command)
+                       (simple-format #f "  bight ~a ~a: ~a" ((from (bight shell usage) command-name) command)
                                       (car option) (string-join (cdr option) " "))))
-                ((from '(bight shell usage) 'command-option-lines) command)))
-  (let ((found (append-map of-command (from '(bight shell commands) 'commands))))
+                ((from (bight shell usage) command-option-lines) command)))
+  (let ((found (append-map of-command (from (bight shell commands) commands))))
     (if (null? found) '() (cons (simple-format #f "~a: an option." text) found))))
 
 

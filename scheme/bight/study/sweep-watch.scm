@@ -3,15 +3,13 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight study sweep-watch)
+  #:use-module (bight core clock)
   #:use-module ((bight outlet) #:select (control watched?))
   #:export (progress-shower
             call-with-stop
             stop-asked?))
 
 ;;; Progress.
-
-(define (clock)
-  (/ (get-internal-real-time) (exact->inexact internal-time-units-per-second)))
 
 (define (two-digits n) (string-pad (number->string n) 2 #\0))
 

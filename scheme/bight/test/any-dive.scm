@@ -7,6 +7,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight test any-dive)
+  #:use-module (bight core clock)
   #:use-module (bight core errors)
   #:use-module (bight core fork)
   #:use-module (bight dive)
@@ -137,9 +138,6 @@ WHY), (flown SECONDS ORDERS REFUSED WRONG ...), or (died SIGNAL)."
 ;;; Shrinking.
 
 (define most-tries 600)
-
-(define (clock)
-  (/ (get-internal-real-time) (exact->inexact internal-time-units-per-second)))
 
 (define* (simplest-dive generator datum outcome #:key (at-most 120))
   "Return the simplest of the data of GENERATOR, from DATUM on, that go wrong as OUTCOME tells, and its own

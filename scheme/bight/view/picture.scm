@@ -11,6 +11,7 @@
   #:use-module (bight core argument)
   #:use-module ((bight core errors)
                 #:select (bight-raise bight-error? bight-error-kind bight-error-message nearest))
+  #:use-module (bight core late)
   #:use-module (bight core record)
   #:use-module (bight core verb)
   #:use-module (bight dive)
@@ -309,9 +310,6 @@ which also takes the daylight: with the view pilot, what the vehicle's camera se
 
 
 ;;; In the terminal.
-
-(define-syntax-rule (from module name)
-  (module-ref (resolve-interface 'module) 'name))
 
 (define (best-way)
   ;; kitty, sixel, symbols, or plain; symbols are beyond ASCII.

@@ -8,6 +8,7 @@
 (define-module (bight world atlas)
   #:use-module (bight assembly)
   #:use-module (bight core errors)
+  #:use-module (bight core late)
   #:use-module ((bight core missing) #:select (file-meant))
   #:use-module (bight core folders)
   #:use-module (bight core verb)
@@ -103,9 +104,6 @@ files.  At the prompt each comes with its sentence."
         (world-documentation-of known)
         (and=> (world-file-named (symbol->string name))
                (lambda (file) (false-if-exception (text-in file)))))))
-
-(define-syntax-rule (from module name)
-  (module-ref (resolve-interface 'module) 'name))
 
 (define (refuse-file proc file exception)
   ;; Raise what EXCEPTION says, after its place; an error of the reader tells that itself.

@@ -6,6 +6,7 @@
 (define-module (bight world track)
   #:use-module (bight core columns)
   #:use-module (bight core errors)
+  #:use-module (bight core late)
   #:use-module (bight core table)
   #:use-module (bight core verb)
   #:use-module (bight world earth)
@@ -63,11 +64,7 @@ its sea or seabed; ~a" file teaching))
             (named-rows proc file names rows origin)
             (map (lambda (entry) (first-columns proc file 4 entry)) rows)))))
 
-;;; Logs of MAVLink.
-
-(define-syntax-rule (from module name)
-  ;; The value of NAME in MODULE, loaded now: few tracks are logs.
-  (module-ref (resolve-interface 'module) 'name))
+;;; Logs of MAVLink: few tracks are such logs, whose reader is loaded when one is.
 
 (define (quantity reading) ((from (bight telemetry reading) reading-quantity) reading))
 
