@@ -12,7 +12,7 @@
   #:use-module (srfi srfi-1)
   #:export (new-sticks press let-up let-all-up nudge settle stick-values sticks?
             stick-of-key nudge-of-key act-of-key
-            keys-told))
+            view-key-lines keys-told))
 
 
 ;;; Sticks: for each axis where it was put, and where a key holds it until when.
@@ -102,17 +102,22 @@ key comes up."
   "Return what KEY asks for besides the sticks and the view, a list such as (winch 1), or #f."
   (assv-ref acts key))
 
+(define (view-key-lines column)
+  "Return what the keys of the view do, lines in which the keys take COLUMN characters."
+  (map (lambda (row) (string-append (string-pad-right (car row) column) (cdr row)))
+       '(("v 1-6" . "view: chase camera top side overview sonar;")
+         ("" . "the mouse turns and zooms the overview")
+         ("o x" . "colour of the tether; picture or plain"))))
+
 (define key-lines
-  '("w s     ahead, astern          hold them; with shift"
+  `("w s     ahead, astern          hold them; with shift"
     "a d     turn                   a key nudges its stick,"
     "i k     up, down    (arrows)   which stays there"
     "j l     sideways    (arrows)"
     "space   let go of everything"
     "h b n m hold heading, depth, altitude, place"
     "[ ]     winch: in, out a metre      { } five"
-    "v 1-6   view: chase camera top side overview sonar;"
-    "        the mouse turns and zooms the overview"
-    "o x     colour of the tether; picture or plain"
+    ,@(view-key-lines 8)
     "z f     map; the way home in words"
     "y       lights       g   what if: 5 s from now"
     "c       where a belief holds the tether to be"

@@ -9,7 +9,7 @@
   #:use-module (bight cockpit desk)
   #:use-module (bight cockpit hud)
   #:use-module (bight cockpit keyboard)
-  #:use-module ((bight cockpit keys) #:select (keys-told))
+  #:use-module ((bight cockpit keys) #:select (keys-told view-key-lines))
   #:use-module (bight cockpit palette)
   #:use-module (bight cockpit state)
   #:use-module (bight cockpit traces)
@@ -26,7 +26,7 @@
 (define hint "space play  arrows 1 s  [ ] 10 s  n b events  t plot  g ghost  ? keys  q leave")
 
 (define watch-keys
-  '("space p   play, pause; at the end: from the beginning"
+  `("space p   play, pause; at the end: from the beginning"
     "arrows    left, right: a second back, forth"
     "[ ]       ten seconds"
     "n b       the next event; the one before"
@@ -34,9 +34,7 @@
     "+ -       twice as fast; half"
     "t         plots, one after another, then none"
     "g         the ghost, where there is one"
-    "v 1-6     view: chase camera top side overview sonar;"
-    "          the mouse turns and zooms the overview"
-    "o x       colour of the tether; picture or plain"
+    ,@(view-key-lines 10)
     "z f y     map; the way home in words; lights"
     "? q       this; leave"))
 
