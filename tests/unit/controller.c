@@ -24,7 +24,7 @@ typedef struct bench
 } bench;
 
 static int
-listen (void **state)
+plug_in (void **state)
 {
   static bench b;
   bt_error error;
@@ -37,7 +37,7 @@ listen (void **state)
 }
 
 static int
-stop (void **state)
+unplug (void **state)
 {
   bt__controllers_free (((bench *)*state)->all);
   return 0;
@@ -154,9 +154,9 @@ int
 main (void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test_setup_teardown (a_pad_has_the_names_of_the_database, listen, stop),
-    cmocka_unit_test_setup_teardown (a_stick_that_is_unknown_has_numbers, listen, stop),
-    cmocka_unit_test_setup_teardown (several_are_told_apart, listen, stop),
+    cmocka_unit_test_setup_teardown (a_pad_has_the_names_of_the_database, plug_in, unplug),
+    cmocka_unit_test_setup_teardown (a_stick_that_is_unknown_has_numbers, plug_in, unplug),
+    cmocka_unit_test_setup_teardown (several_are_told_apart, plug_in, unplug),
   };
   cmocka_set_message_output (CM_OUTPUT_TAP);
   return cmocka_run_group_tests (tests, NULL, NULL);
