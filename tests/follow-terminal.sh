@@ -23,6 +23,12 @@ see 'COACH: You are at the end of your tether'
 result $? 'the coach speaks'
 see ' m from where it says it is'
 result $? 'and how far the dive is from the vehicle'
+keys '?'
+see '  space p  pause, go on'
+result $? 'its keys are told'
+! shows astern
+result $? 'and none that it has not'
+keys '?'
 keys 3
 see ' top .*/s'
 result $? 'views have their keys'

@@ -269,13 +269,12 @@ fall in it; a sonar, which hears no heights, has none."
                 (sticks . ,(sticks-now c))))))
 
 (define (draw-help! c put)
-  (let* ((columns (car (cockpit-size c))) (rows (cdr (cockpit-size c))) (told (keys-told))
-         (width (min columns (+ 4 (apply max (map string-length told)))))
-         (lines (map (lambda (line) (string-pad-right (cut (string-append "  " line) width) width))
-                     (list-head told (min (length told) (max 0 (- rows 2)))))))
+  (let* ((columns (car (cockpit-size c))) (rows (cdr (cockpit-size c))) (lines (help-lines c))
+         (width (min columns (+ 4 (apply max (map string-length lines))))))
     (put-lines put (quotient (- columns width) 2)
                (max 1 (min 4 (- rows 1 (length lines))))
-               lines #xffffff #x102028)))
+               (map (lambda (line) (string-pad-right (string-append "  " line) width)) lines)
+               #xffffff #x102028)))
 
 (define (note-frame! c)
   (let ((times (cons (clock) (cockpit-times c))))
@@ -301,7 +300,7 @@ fall in it; a sonar, which hears no heights, has none."
   "Draw the dive of C with its display on the screen of C, which nobody sees yet; HINT stands in the last line where
 there is nothing to tell, or, a line that is TYPING?, whatever is told."
   (let* ((put (new-desk c)) (marks (draw-scene! c (plain-put c))))
-    (when (cockpit-help? c)
+    (when (help-lines c)
       (draw-help! c put))
     (let ((top (or (and (cockpit-panel c)
                         ((cockpit-panel c) put (car (cockpit-size c)) (cdr (cockpit-size c))))

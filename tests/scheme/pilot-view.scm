@@ -353,7 +353,7 @@
 
 ;; Whoever owns the cockpit.
 (define-scenario help-tells-the-keys-there-are
-  "In a flight those of a flight; of another owner his own."
+  "In a flight those of a flight; of another owner his own; in a small window page by page, nothing cut off."
   (in pier)
   (let ((c (new-cockpit 'none 'chase 'plain)))
     (define (help . told)
@@ -361,10 +361,41 @@
         (map (lambda (text) (->bool (string-contains written text))) told)))
     (board! c (current-dive))
     (fit-to-size! c '(80 . 24))
-    (set-help! c #t)
+    (turn-help! c)
     (expect (help "ahead, astern" "my own key") => '(#t #f))
-    (parameterize ((keys-told '("x  my own key")))
-      (expect (help "ahead, astern" "my own key") => '(#f #t)))))
+    (parameterize ((keys-told '(("x" . "my own key"))))
+      (expect (help "ahead, astern" "my own key") => '(#f #t))
+      (turn-help! c)
+      (expect (help "my own key") => '(#f)))
+    (fit-to-size! c '(30 . 8))
+    (expect (let loop ((pages 0) (first? #f) (last? #f))
+              (turn-help! c)
+              (if (help-lines c)
+                  (loop (+ pages 1) (or first? (car (help "ahead, astern"))) (or last? (car (help "this; leave"))))
+                  (list (> pages 1) first? last?)))
+            => '(#t #t #t))))
+
+(define (words-of lines)
+  (append-map string-tokenize lines))
+
+(define-scenario help-loses-no-word-in-a-narrow-window
+  "Sentences are wrapped beside their keys; each page fits, and all pages hold all words."
+  (in open-water)
+  (for-each
+   (lambda (columns height)
+     (let ((pages (let loop ((i 0))
+                    (let ((page (keys-page columns height i)))
+                      (if page (cons page (loop (+ i 1))) '())))))
+       (expect (and-map (lambda (page)
+                          (and (<= (length page) height)
+                               (and-map (lambda (line) (<= (string-length line) columns)) page)))
+                        pages)
+               => #t)
+       (expect (lset-difference string=?
+                                (words-of (append-map (lambda (row) (list (car row) (cdr row))) (keys-told)))
+                                (words-of (concatenate pages)))
+               => '())))
+   '(26 36 76 116) '(6 10 22 38)))
 
 (define-scenario what-is-heard-is-read-in-a-tiny-window
   "In a window of 30 by 8 a hint stands whole, in place of the task."

@@ -9,6 +9,7 @@
   #:use-module (bight cockpit desk)
   #:use-module (bight cockpit hud)
   #:use-module (bight cockpit keyboard)
+  #:use-module ((bight cockpit keys) #:select (keys-told view-keys-told))
   #:use-module (bight cockpit palette)
   #:use-module (bight cockpit state)
   #:use-module (bight cockpit what-if)
@@ -24,6 +25,13 @@
   #:export (follow-in-cockpit follow-panel screen?))
 
 (define hint "v view  o paint  z map  f words  x plain  g what if  p pause  ? keys  q leave")
+
+;; The sticks of the vehicle that is followed are its pilot's: none are here.
+(define follow-keys
+  `(("space p" . "pause, go on: what comes meanwhile is read then")
+    ("g" . "what if: 5 s from now, if he lets the sticks stand")
+    ,@view-keys-told
+    ("? q" . "this; leave")))
 
 (define-record <screen>
   (make-screen cockpit session alarms pace due)
@@ -123,7 +131,7 @@ a procedure that shows an alarm.  OPTIONS are those of the command line, an alis
     (set-tell! (lambda (text) (add-alarm! screen text)))
     (dynamic-wind
       %terminal-enter!
-      (lambda () (follow-frames! screen stop?))
+      (lambda () (parameterize ((keys-told follow-keys)) (follow-frames! screen stop?)))
       %terminal-leave!)
     (when (eq? 'hung-up (cockpit-done? c))
       (bight-raise 'io 'follow "the terminal is gone"))))

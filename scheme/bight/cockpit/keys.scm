@@ -8,11 +8,12 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight cockpit keys)
+  #:use-module (bight cockpit desk)
   #:use-module (bight core record)
   #:use-module (srfi srfi-1)
   #:export (new-sticks press let-up let-all-up nudge settle stick-values sticks?
             stick-of-key nudge-of-key act-of-key
-            view-key-lines keys-told))
+            view-keys-told keys-told keys-page))
 
 
 ;;; Sticks: for each axis where it was put, and where a key holds it until when.
@@ -102,30 +103,56 @@ key comes up."
   "Return what KEY asks for besides the sticks and the view, a list such as (winch 1), or #f."
   (assv-ref acts key))
 
-(define (view-key-lines column)
-  "Return what the keys of the view do, lines in which the keys take COLUMN characters."
-  (map (lambda (row) (string-append (string-pad-right (car row) column) (cdr row)))
-       '(("v 1-6" . "view: chase camera top side overview sonar;")
-         ("" . "the mouse turns and zooms the overview")
-         ("o x" . "colour of the tether; picture or plain"))))
+;;; What they do, told: rows of keys and a sentence.
 
-(define key-lines
-  `("w s     ahead, astern          hold them; with shift"
-    "a d     turn                   a key nudges its stick,"
-    "i k     up, down    (arrows)   which stays there"
-    "j l     sideways    (arrows)"
-    "space   let go of everything"
-    "h b n m hold heading, depth, altitude, place"
-    "[ ]     winch: in, out a metre      { } five"
-    ,@(view-key-lines 8)
-    "z f     map; the way home in words"
-    "y       lights       g   what if: 5 s from now"
-    "c       where a belief holds the tether to be"
-    "p       pause        u   back"
-    "e t     in a lesson: a hint; tell the tender"
-    ":       the prompt (,q comes back)"
-    "pads    bight controller tells what they do"
-    "? q     this; leave"))
+;; The keys of the view, which every cockpit has.
+(define view-keys-told
+  '(("v 1-6" . "view: chase camera top side overview sonar; the mouse turns and zooms the overview")
+    ("o x" . "colour of the tether; picture or plain")
+    ("z f y" . "map; the way home in words; lights")
+    ("c" . "where a belief holds the tether to be")))
 
-;; What ? shows, lines: who owns the cockpit, and has other keys, tells those.
-(define keys-told (make-parameter key-lines))
+(define flight-keys
+  `(("w s" . "ahead, astern")
+    ("a d" . "turn")
+    ("i k" . "up, down (arrows)")
+    ("j l" . "sideways (arrows)")
+    ("" . "hold them; with shift a key nudges its stick, which stays there")
+    ("space" . "let go of everything")
+    ("h b n m" . "hold heading, depth, altitude, place")
+    ("[ ] { }" . "winch: in, out a metre; five")
+    ,@view-keys-told
+    ("g" . "what if: 5 s from now")
+    ("p u" . "pause; back")
+    ("e t" . "in a lesson: a hint; tell the tender")
+    (":" . "the prompt (,q comes back)")
+    ("pads" . "bight controller tells what they do")
+    ("? q" . "this; leave")))
+
+;; What ? shows, rows of (KEYS . SENTENCE): who owns the cockpit, and has other keys, tells those.
+(define keys-told (make-parameter flight-keys))
+
+(define most-wide 60)                   ; columns: a longer line is harder to read
+
+(define (keys-lines rows columns)
+  ;; ROWS, pairs of keys and what they do, as lines of at most COLUMNS, the sentences wrapped beside their keys.
+  (let* ((wide (+ 2 (apply max (map (lambda (row) (string-length (car row))) rows))))
+         (room (max 1 (- (min most-wide columns) wide))))
+    (append-map (lambda (row)
+                  (let ((lines (wrap (cdr row) room)))
+                    (map (lambda (keys line) (cut (string-append (string-pad-right keys wide) line) columns))
+                         (cons (car row) (map (const "") (cdr lines)))
+                         lines)))
+                rows)))
+
+(define (keys-page columns height page)
+  "Return what ? shows, lines of at most COLUMNS: the page PAGE, from 0 on, if a page has HEIGHT lines; #f behind the last."
+  (let* ((lines (keys-lines (keys-told) columns))
+         (whole? (<= (length lines) (max 1 height)))
+         (n (if whole? (length lines) (max 1 (- height 1)))) ; the last line says that there is more
+         (from (* page n)))
+    (and (< from (length lines))
+         (let ((rest (list-tail lines from)))
+           (if (> (length rest) n)
+               (append (list-head rest n) (list (cut "?  the other keys" columns)))
+               rest)))))

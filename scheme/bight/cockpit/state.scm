@@ -14,7 +14,7 @@
   #:export (cockpit? new-cockpit board! ask-anew! look-anew! announce! call-or-tell trying frame target
             cockpit-palette cockpit-ascii? cockpit-dive set-dive! cockpit-vehicle set-vehicle! cockpit-tether
             set-tether! cockpit-screen set-screen! cockpit-size set-size! cockpit-view set-view! cockpit-paint
-            set-paint! cockpit-plain? set-plain! cockpit-lamp? set-lamp! cockpit-help? set-help! cockpit-words?
+            set-paint! cockpit-plain? set-plain! cockpit-lamp? set-lamp! help-lines turn-help! cockpit-words?
             set-words! cockpit-map? set-map! cockpit-sticks set-sticks! cockpit-message set-message!
             cockpit-message-until set-message-until! cockpit-slow set-slow! cockpit-slow-due set-slow-due!
             cockpit-ahead set-ahead! cockpit-words set-said! cockpit-ahead-due set-ahead-due! cockpit-plan
@@ -33,7 +33,7 @@
 ;;; What it knows.
 
 (define-record <cockpit>
-  (make-cockpit palette ascii? dive vehicle tether screen size view paint plain? lamp? help? words? map? sticks
+  (make-cockpit palette ascii? dive vehicle tether screen size view paint plain? lamp? help words? map? sticks
                 message message-until slow slow-due ahead words ahead-due plan plan-due
                 paused? ghost ghost-name ghost-fork done? times targets labels panel dark? orbit held-at releases? characters
                 belief? believed believed-due sent live? stepped)
@@ -49,7 +49,7 @@
   (paint cockpit-paint set-paint!)
   (plain? cockpit-plain? set-plain!)    ; no picture
   (lamp? cockpit-lamp? set-lamp!)
-  (help? cockpit-help? set-help!)
+  (help cockpit-help set-help!)         ; the page of the help that is shown, or #f
   (words? cockpit-words? set-words!)
   (map? cockpit-map? set-map!)
   (sticks cockpit-sticks set-sticks!)
@@ -110,6 +110,21 @@
   (set-plan-due! c 0)
   (set-believed! c #f)
   (set-believed-due! c 0))
+
+(define (help-page c page)
+  ;; Lines, or #f behind the last page; a margin stands at either side, the title and the hint above and below.
+  (let ((size (or (cockpit-size c) '(80 . 24))))
+    (keys-page (max 1 (- (car size) 4)) (- (cdr size) 2) page)))
+
+(define (help-lines c)
+  "Return the lines of the help that C shows, or #f."
+  (and (cockpit-help c)
+       (or (help-page c (cockpit-help c)) (help-page c 0))))
+
+(define (turn-help! c)
+  "Let C show its help, the next page of it, or behind the last none."
+  (let ((next (if (cockpit-help c) (+ 1 (cockpit-help c)) 0)))
+    (set-help! c (and (help-page c next) next))))
 
 (define (look-anew! c)
   "Let the next frame be written whole."

@@ -83,7 +83,7 @@
     ((#\z) (set-map! c (not (cockpit-map? c))) (set-plan-due! c 0) #t)
     ((#\f) (set-words! c (not (cockpit-words? c))) (set-ahead-due! c 0) (set-said! c #f) #t)
     ((#\c) (toggle-belief! c) #t)
-    ((#\?) (set-help! c (not (cockpit-help? c))) #t)
+    ((#\?) (turn-help! c) #t)
     ((#\page) (look-anew! c) #t)        ; ^L
     ((#\sub) (suspend! c) #t)
     (else #f)))

@@ -9,7 +9,7 @@
   #:use-module (bight cockpit desk)
   #:use-module (bight cockpit hud)
   #:use-module (bight cockpit keyboard)
-  #:use-module ((bight cockpit keys) #:select (keys-told view-key-lines))
+  #:use-module ((bight cockpit keys) #:select (keys-told view-keys-told))
   #:use-module (bight cockpit palette)
   #:use-module (bight cockpit state)
   #:use-module (bight cockpit traces)
@@ -26,17 +26,16 @@
 (define hint "space play  arrows 1 s  [ ] 10 s  n b events  t plot  g ghost  ? keys  q leave")
 
 (define watch-keys
-  `("space p   play, pause; at the end: from the beginning"
-    "arrows    left, right: a second back, forth"
-    "[ ]       ten seconds"
-    "n b       the next event; the one before"
-    "0         the beginning"
-    "+ -       twice as fast; half"
-    "t         plots, one after another, then none"
-    "g         the ghost, where there is one"
-    ,@(view-key-lines 10)
-    "z f y     map; the way home in words; lights"
-    "? q       this; leave"))
+  `(("space p" . "play, pause; at the end: from the beginning")
+    ("arrows" . "left, right: a second back, forth")
+    ("[ ]" . "ten seconds")
+    ("n b" . "the next event; the one before")
+    ("0" . "the beginning")
+    ("+ -" . "twice as fast; half")
+    ("t" . "plots, one after another, then none")
+    ("g" . "the ghost, where there is one")
+    ,@view-keys-told
+    ("? q" . "this; leave")))
 
 (define-record <show>
   (make-show cockpit reel ghost behind traces pace owed drawn)

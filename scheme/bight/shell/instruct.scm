@@ -14,7 +14,7 @@
   #:use-module (bight cockpit desk)
   #:use-module (bight cockpit hud)
   #:use-module (bight cockpit keyboard)
-  #:use-module ((bight cockpit keys) #:select (keys-told view-key-lines))
+  #:use-module ((bight cockpit keys) #:select (keys-told view-keys-told))
   #:use-module (bight cockpit line)
   #:use-module (bight cockpit palette)
   #:use-module (bight cockpit state)
@@ -152,16 +152,15 @@
 (define hint "w words  c current  d drift  b break  m mend  l light  t clock  : form  ? keys  q leave")
 
 (define station-keys
-  `("w       words to the pupil"
-    "c       the current: m/s, and the degrees it sets to"
-    "d       an obstacle with a track adrift"
-    "b m     break a sensor or a thruster; mend it"
-    "l       take the light, give it"
-    "t       stop the pupil's clock, let it run"
-    ":       a form of the language, done in his dive"
-    ,@(view-key-lines 8)
-    "z f y   map; the way home in words; lights"
-    "? q     this; leave"))
+  `(("w" . "words to the pupil")
+    ("c" . "the current: m/s, and the degrees it sets to")
+    ("d" . "an obstacle with a track adrift")
+    ("b m" . "break a sensor or a thruster; mend it")
+    ("l" . "take the light, give it")
+    ("t" . "stop the pupil's clock, let it run")
+    (":" . "a form of the language, done in his dive")
+    ,@view-keys-told
+    ("? q" . "this; leave")))
 
 (define labels
   '((words . "to the pupil> ") (current . "current, m/s and the degrees it sets to> ")
