@@ -4,8 +4,10 @@
 
 (use-modules (bight core argument)
              (bight shell guide)
+             (bight shell fold)
+             ((bight view text) #:select (picture-lines))
              (bight shell topics)
-             ((bight shell doc) #:select (related docstring-of))
+             ((bight shell doc) #:select (help-on related docstring-of))
              ((bight world current) #:select (current-help current-forms))
              ((bight core told) #:select (exception->line))
              ((bight shell commands) #:select (commands))
@@ -339,3 +341,28 @@
   (expect (string-contains (help-text 'snag-drill) "bight lesson snag-drill") is identity)
   ;; Scheme has a word of the same name.
   (expect (string-prefix? "length: a field of tether." (help-text 'length)) => #t))
+
+(define-scenario help-fits-the-terminal
+  "At any width no line is longer, no word is lost, and what goes on stands below its own column."
+  (in open-water)
+  (define (words lines) (append-map string-tokenize lines))
+  (for-each
+   (lambda (columns)
+     (for-each
+      (lambda (topic)
+        (let ((lines (joined-lines (picture-lines (help-on topic)))))
+          (define folded (folded-lines lines columns))
+          (expect (filter (lambda (line) (and (> (string-length line) columns) (string-index (string-trim line) #\space)))
+                          folded)
+                  => '())
+          (expect (words folded) => (words lines))))
+      '("" "fly" "snapshot" "current!" "tangle")))
+   '(40 80 120))
+  (expect (folded-lines '("  sure?       Return what is known, and so on") 30)
+          => '("  sure?       Return what is" "              known, and so on"))
+  (expect (folded-lines '("  #:at: m; a point, or #f; may be left out") 30)
+          => '("  #:at: m; a point, or #f; may" "    be left out"))
+  (expect (folded-lines '("One.  Two, and a long sentence") 20) => '("One.  Two, and a" "long sentence"))
+  (expect (folded-lines '("a-word-that-is-longer-than-a-line, and more") 20)
+          => '("a-word-that-is-longer-than-a-line," "and more"))
+  (expect (folded-lines '("as it is") #f) => '("as it is")))

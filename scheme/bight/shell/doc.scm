@@ -10,6 +10,7 @@
   #:use-module (bight core errors)
   #:use-module ((bight core sentence) #:select (first-sentence))
   #:use-module (bight core verb)
+  #:use-module (bight shell fold)
   #:use-module (bight shell guide)
   #:use-module ((bight shell manual) #:select (sections-about))
   #:use-module (bight shell topics)
@@ -46,6 +47,9 @@
   ;; The lines of TEXT, without the indentation that its source gave them.
   (let ((lines (string-split text #\newline)))
     (cons (car lines) (map string-trim (cdr lines)))))
+
+(define (joined-if-folded lines)
+  (if (reader-columns) (joined-lines lines) lines))
 
 (define docstrings (make-weak-key-hash-table)) ; those read: compiled code is searched for each
 
@@ -174,7 +178,7 @@ of which name each other; then, while these are few, what has a word in common w
 (define (help-lines name value)
   (let ((doc (docstring-of value)))
     (append (usage-lines name value doc)
-            (if doc (tidy-docstring doc) '())
+            (if doc (joined-if-folded (tidy-docstring doc)) '())
             (if (procedure? value) (argument-lines name value) '())
             (more-lines value)
             (example-lines name value)
@@ -349,9 +353,10 @@ of which name each other; then, while these are few, what has a word in common w
 (define (help-on . topics)
   "Return help on a topic, a symbol or string, or a short tour, as a picture, which prints as text."
   (lines->picture
-   (if (or (null? topics) (blank? (car topics)))
-       (tour-lines)
-       (topic-lines (check-argument 'help 'topic type:topic (car topics))))))
+   (folded-lines (if (or (null? topics) (blank? (car topics)))
+                     (tour-lines)
+                     (topic-lines (check-argument 'help 'topic type:topic (car topics))))
+                 (reader-columns))))
 
 (define-syntax help
   (lambda (stx)

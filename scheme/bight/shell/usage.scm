@@ -7,6 +7,7 @@
 
 (define-module (bight shell usage)
   #:use-module (bight core record)
+  #:use-module (bight shell fold)
   #:use-module (srfi srfi-1)
   #:export (command
             command?
@@ -78,12 +79,19 @@ list of lines, says what it does; each of OPTIONS is a list of how it is written
 (define (spaces n)
   (make-string n #\space))
 
+(define (fitting lines column)
+  ;; LINES that begin at COLUMN, one text, as they are if all fit, else folded.
+  (let ((columns (reader-columns)))
+    (if (and columns (any (lambda (line) (> (+ column (string-length line)) columns)) lines))
+        (folded-lines (list (string-join lines " ")) (- columns column))
+        lines)))
+
 (define (print-entry head lines column)
   ;; HEAD, and LINES from COLUMN on: beside it if there is room, else below.
   (let ((room (- column (string-length head))))
     (simple-format #t "~a~a~a~%" head
                    (if (>= room 2) (spaces room) (string-append "\n" (spaces column)))
-                   (string-join lines (string-append "\n" (spaces column))))))
+                   (string-join (fitting lines column) (string-append "\n" (spaces column))))))
 
 (define (call-of command)
   (string-join (remove string-null?
@@ -101,7 +109,7 @@ list of lines, says what it does; each of OPTIONS is a list of how it is written
 (define (print-help command)
   "Print how COMMAND is called, what it does, its options, and examples."
   (simple-format #t "Usage: ~a~%" (call-of command))
-  (for-each (lambda (line) (simple-format #t "  ~a~%" line)) (command-text command))
+  (for-each (lambda (line) (simple-format #t "  ~a~%" line)) (fitting (command-text command) 2))
   (for-each (lambda (option)
               (print-entry (string-append "  " (car option)) (cdr option) 20))
             (command-option-lines command))
