@@ -200,6 +200,11 @@ bt_status bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *
                          bt__dynamic_report *report, bt__line_report *contact_report,
                          bt__count *count, bt_error *error);
 
+/* Return the point S metres along D, of RADIUS m, with CONTACTS: as bt__dynamic_point, but on the
+   arc where the line bends about a round member (line_arc.c).  */
+bt_vec3 bt__line_arc_point (const bt__dynamic *d, const bt__contacts *contacts, double radius,
+                            double s);
+
 /* Fill OUT, of ROOM, with what touches: the anchors that bear load, in order from node 0.  Return
    how many there are.  S is in metres of arc length from node 0 as it lies.  */
 int bt__line_touches (const bt__dynamic *d, const bt__contacts *anchors, bt__touch *out, int room);

@@ -63,7 +63,7 @@ typedef struct corners
 int
 bt__bend_node (const bt__line_job *k, double from_end)
 {
-  double near = 1e-9 * (1 + k->w->from_end[0]);
+  double near = BT__BEND_NEAR * (1 + k->w->from_end[0]);
   for (int i = 1; i < k->links; i++)
     if (fabs (k->w->from_end[i] - from_end) <= near)
       return i;

@@ -61,6 +61,10 @@ int bt__turn_find (const bt__line_job *k, const bt__edge *e, const bt_vec3 *p,
 double bt__turn_round (const bt__line_job *k, const bt__edge *e, const bt__turn *t, bt_vec3 x,
                        bt_vec3 next, double angle);
 
+/* The unit normal of the tangent from U, m across AXIS, to the circle of radius OUT: of the line
+   that comes from U, SIGN 1, or goes to U, SIGN -1.  The direction of U if U is not outside.  */
+bt_vec3 bt__turn_tangent (bt_vec3 axis, bt_vec3 u, double out, double sign);
+
 /* How much nearer than OUT a line from A to B comes to the axis through CENTRE on its way, m.  */
 double bt__turn_lack (bt_vec3 axis, bt_vec3 centre, bt_vec3 a, bt_vec3 b, double out);
 
@@ -68,6 +72,7 @@ double bt__turn_lack (bt_vec3 axis, bt_vec3 centre, bt_vec3 a, bt_vec3 b, double
   0.1                      /* of the way from the axis: how far one may have to go round, at most */
 #define BT__TURN_MOST 1.0  /* radians: of a corner about a round member that is not thin */
 #define BT__TURN_ALONG 0.9 /* product of line and edge: more, and the line lies along it */
+#define BT__BEND_NEAR 1e-9 /* of the line and a metre: two places so near are one */
 #define BT__BEND_TURNS 0.05 /* radians: a node that turns less is no corner */
 
 /* The normal of the interval from P[0] to P[1] about an axis.  */

@@ -23,10 +23,8 @@
 
 #define LEAST_COS 0.25 /* of half the turn: what a node is held out for at most */
 
-/* The normal of the tangent from U: of the line that comes from there, SIGN 1, or goes there, -1.
- */
-static bt_vec3
-tangent (bt_vec3 axis, bt_vec3 u, double out, double sign)
+bt_vec3
+bt__turn_tangent (bt_vec3 axis, bt_vec3 u, double out, double sign)
 {
   double square = bt__dot (u, u), way = sqrt (fmax (square - out * out, 0));
   if (!(way > 0))
@@ -48,9 +46,10 @@ bt__turn_find (const bt__line_job *k, const bt__edge *e, const bt_vec3 *p, const
 {
   bt_vec3 axis = e->axis, centre = bt__axpy (e->point, -e->radius, e->normal), none = { 0, 0, 0 };
   double out = e->radius + k->config->radius;
-  t->before
-      = before ? *before : tangent (axis, bt__off_axis (axis, bt__sub (p[0], centre)), out, 1);
-  t->after = after ? *after : tangent (axis, bt__off_axis (axis, bt__sub (p[2], centre)), out, -1);
+  t->before = before ? *before
+                     : bt__turn_tangent (axis, bt__off_axis (axis, bt__sub (p[0], centre)), out, 1);
+  t->after = after ? *after
+                   : bt__turn_tangent (axis, bt__off_axis (axis, bt__sub (p[2], centre)), out, -1);
   bt_vec3 sum = bt__add (t->before, t->after);
   t->normal = bt__unit_or (sum, e->normal);
   t->angle = atan2 (bt__dot (axis, bt__cross (t->before, t->after)), bt__dot (t->before, t->after));

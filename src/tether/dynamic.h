@@ -306,6 +306,10 @@ double bt__dynamic_along (const bt__dynamic *d, double s);
 bt_vec3 bt__dynamic_point (const bt__dynamic *d, double s);
 bt_vec3 bt__dynamic_velocity (const bt__dynamic *d, double s);
 
+/* Return the interval at U metres of rest length from node 0 (clamped); *START receives the rest
+   length from node 0 to the beginning of the interval.  */
+int bt__dynamic_interval (const bt__dynamic *d, double u, double *start);
+
 /* Return the point at U metres of rest length from node 0 (clamped) on the straight intervals.  */
 bt_vec3 bt__dynamic_chord_point (const bt__dynamic *d, double u);
 

@@ -104,10 +104,8 @@ bt__dynamic_along (const bt__dynamic *d, double s)
   return d->owed == 0 ? s : s * (1 - d->owed / bt__dynamic_length (d));
 }
 
-/* The interval at U metres of rest length from node 0; *START receives the beginning of the
-   interval.  */
-static int
-interval_at (const bt__dynamic *d, double u, double *start)
+int
+bt__dynamic_interval (const bt__dynamic *d, double u, double *start)
 {
   const double *rest = bt__dynamic_rest (d);
   int n = (int)d->n, j = 0;
@@ -122,7 +120,7 @@ bt__dynamic_chord_point (const bt__dynamic *d, double u)
 {
   const bt_vec3 *x = bt__dynamic_x (d);
   double start;
-  int j = interval_at (d, u, &start);
+  int j = bt__dynamic_interval (d, u, &start);
   double at = fmin (fmax (u - start, 0) / bt__dynamic_rest (d)[j], 1);
   return bt__axpy (x[j], at, bt__sub (x[j + 1], x[j]));
 }
@@ -135,7 +133,7 @@ interpolate (const bt__dynamic *d, const bt_vec3 *a, double u)
   const double *rest = bt__dynamic_rest (d);
   double start;
   u = fmin (fmax (u, 0), bt__dynamic_length (d));
-  int n = (int)d->n, j = interval_at (d, u, &start);
+  int n = (int)d->n, j = bt__dynamic_interval (d, u, &start);
   int first = j > 0 ? j - 1 : 0, count = n < 3 ? n + 1 : 4;
   if (first + count > n + 1)
     first = n + 1 - count;
@@ -173,7 +171,7 @@ bt__dynamic_point (const bt__dynamic *d, double s)
 {
   const bt_vec3 *x = bt__dynamic_x (d);
   double start, u = bt__dynamic_along (d, s);
-  int j = interval_at (d, u, &start);
+  int j = bt__dynamic_interval (d, u, &start);
   double rest = bt__dynamic_rest (d)[j], f = fmin (fmax (u - start, 0) / rest, 1);
   bt_vec3 chord = bt__sub (x[j + 1], x[j]), p = bt__axpy (x[j], f, chord);
   if (f == 0 || f == 1)

@@ -77,8 +77,11 @@ static void
 cable_find (const bt_dive *dive, bt__state *state, int i, bt__line *line)
 {
   bt__show_chain (dive, state, i);
+  int far = line->tether->parted ? 1 : 0;
   line->chain = bt__dive_chain (dive, state, i, 0);
-  line->far_chain = bt__dive_chain (dive, state, i, line->tether->parted ? 1 : 0);
+  line->far_chain = bt__dive_chain (dive, state, i, far);
+  line->contacts = bt__dive_anchors (dive, state, i, 0);
+  line->far_contacts = bt__dive_anchors (dive, state, i, far);
 }
 
 /* ---- Anywhere along the line ---- */
@@ -92,7 +95,8 @@ cable_length (const bt__line *line)
 static bt_vec3
 cable_point (const bt__line *line, double s)
 {
-  return bt__dynamic_point (line->chain, s);
+  double radius = 0.5 * line->tether->props.diameter;
+  return bt__line_arc_point (line->chain, line->contacts, radius, s);
 }
 
 /* The direction between two points a hundredth of an interval to either side.  */
@@ -101,8 +105,7 @@ cable_tangent (const bt__line *line, double s)
 {
   const bt__dynamic *chain = line->chain;
   double length = bt__dynamic_length (chain), e = 0.01 * length / (double)chain->n;
-  bt_vec3 a = bt__dynamic_point (chain, fmax (s - e, 0));
-  bt_vec3 b = bt__dynamic_point (chain, fmin (s + e, length));
+  bt_vec3 a = cable_point (line, fmax (s - e, 0)), b = cable_point (line, fmin (s + e, length));
   return bt__unit_or (bt__sub (b, a), bt__vec (0, 0, -1));
 }
 

@@ -40,6 +40,7 @@ bt__line_tail (const bt__line *line)
 {
   bt__line tail = *line;
   tail.chain = line->far_chain;
+  tail.contacts = line->far_contacts;
   return tail;
 }
 

@@ -16,8 +16,9 @@ typedef struct bt__line
   const bt_vec3 *nodes, *tensions; /* of a static shape */
   const bt__dynamic *chain;        /* of the moving line, from the anchor on; else NULL */
   const bt__dynamic *far_chain;    /* what hangs from the far end: CHAIN, or its other part */
-  const bt__thesis *split;         /* of a static line split at obstacles, else NULL */
-  const bt__polyline *held;        /* of a static line that an obstacle holds off its shape */
+  const bt__contacts *contacts, *far_contacts; /* of these chains */
+  const bt__thesis *split;                     /* of a static line split at obstacles, else NULL */
+  const bt__polyline *held; /* of a static line that an obstacle holds off its shape */
 } bt__line;
 
 /* Return tether I of STATE.  */

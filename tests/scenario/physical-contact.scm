@@ -77,6 +77,26 @@ outside the drum."
     (expect (rov-tension) is (about pull #:within 0.5))
     (expect (clearance) is (above (* -1/4 0.0076)))))
 
+(define (spaced-points gap)
+  ;; Points of the tether, each GAP m of line after the one before.
+  (map (lambda (k) (point-at (* k gap))) (iota (inexact->exact (floor (/ (tether-length) gap))))))
+
+(define-scenario (points-lie-on-the-arc radius)
+  "Bent half round a member, the points of a line lie on the member or off it, and are no farther from each other
+than the line between them is long: they are read along the arc, not on the corner that the solver has there."
+  #:for ((radius 0.05 0.6 1.5))
+  (in (world (sea (depth 30))
+             (cylinder (named drum) (from 0 0 1) (to 0 0 -30) (radius radius) (friction 0.3))
+             (rov (named minnow) (at 6 2 -16))
+             (tether (from 6 -2 -12) (to minnow) (length 24) (via (-2 -2 -12) (-2 2 -12)) (type fathom) (wet-weight 0)
+                     (friction 0.3) (ei 0.5) (nodes 16) (model dynamic))))
+  (move! '(20 2 -16) #:speed 0.5)
+  (run 30)
+  (expect (pair? (contacts)))
+  (let* ((gap 0.01) (points (spaced-points gap)))
+    (expect (apply min (map (lambda (p) (norm (vec (x p) (y p) 0))) points)) is (above (+ radius 0.00379)))
+    (expect (apply max (map distance (list-head points (- (length points) 1)) (cdr points))) is (below (* 1.02 gap)))))
+
 (define-scenario a-wound-line-does-not-feel-the-winch
   "Two and a half turns round a pile hold by friction, e^(0.8 5 pi): 100 N need 0.4 mN on the winch's side, and a
 slack line drifting there pulls with more.  What is paid out stays there, and the vehicle, pulled as it was, gains
