@@ -164,6 +164,17 @@ mv "$scratch/world.scm" "$scratch/worlds"
 result $? 'so may one in a folder of worlds'
 rm -f "$scratch/stolen"
 
+# What a dive needs is there inside too: a convex body had wanted to write to a null device.
+cat >"$scratch/convex.scm" <<'END'
+(define-lesson yard-lesson "A yard"
+  (in (world (sea (depth 20)) (convex (named rock) (points (0 0 -20) (4 0 -20) (0 4 -20) (4 4 -20) (2 2 -12)))
+       (rov (named m) (at 1 8 -5)) (tether (named t) (wet-weight 0) (from 1 6 -2) (to m) (length 12))))
+  (task "Wait." (done-when (> (now) 1)))
+  (pilot expert "Waits." (flies (run 2))))
+END
+check 'a lesson from outside may have a convex body' \
+  "$pre" bight lesson "$scratch/convex.scm" --pilot expert
+
 # What the language does not stop, the kernel does.
 cat >"$scratch/kernel.scm" <<END
 (use-modules (bight core sandbox))

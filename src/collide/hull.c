@@ -6,6 +6,8 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <config.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -115,22 +117,25 @@ take_faces (qhT *qh, int (*corner)[3])
 }
 
 /* Run Qhull over the N COORDINATES; return its faces in *CORNER (the caller's to free), their
-   number, or -1.  */
+   number: 0 if there is no hull, -1 if there is no memory.
+
+   What Qhull has to say goes to a stream in memory, which keeps the beginning and drops the rest:
+   without a stream Qhull would speak to stderr, and a process that may write no file has no
+   /dev/null.  */
 static int
 run_qhull (double *coordinates, int n, int (**corner)[3])
 {
-  char options[] = "qhull Qt Pp";
+  char options[] = "qhull Qt Pp", said[256];
   qhT qh;
-  int faces = -1, left, total;
-  FILE *nowhere = fopen ("/dev/null", "w"); /* without a file it would speak to stderr */
+  int faces = 0, left, total;
+  FILE *nowhere = fmemopen (said, sizeof said, "w");
   if (!nowhere)
     return -1;
   qh_zero (&qh, nowhere);
   if (!qh_new_qhull (&qh, 3, n, coordinates, 0, options, NULL, nowhere))
     {
       *corner = malloc ((size_t)qh.num_facets * sizeof **corner);
-      if (*corner)
-        faces = take_faces (&qh, *corner);
+      faces = *corner ? take_faces (&qh, *corner) : -1;
     }
   qh_freeqhull (&qh, !qh_ALL);
   qh_memfreeshort (&qh, &left, &total);
@@ -283,10 +288,10 @@ bt__hull_new (const bt_vec3 *points, int n, bt__hull **out, bt_error *error)
     }
   h->faces = run_qhull (x, n, &h->corner);
   free (x);
-  if (h->faces < 4)
+  if (h->faces >= 0 && h->faces < 4)
     status = bt__fail (error, BT_ERR_DOMAIN,
                        "the %d points of a convex shape have no volume: they are in one plane", n);
-  else if (!take_tables (h, points, n))
+  else if (h->faces < 0 || !take_tables (h, points, n))
     status = bt__fail (error, BT_ERR_LIMIT, "no memory for a convex shape of %d points", n);
   if (status)
     bt__hull_free (h);
