@@ -19,13 +19,14 @@ uint64_t bt__hash_rows (const void *data, size_t rows, size_t used, size_t strid
    next begins counts: the same bytes in other pieces have another hash.  */
 enum
 {
-  BT__HASH_LANES = 8
+  BT__HASH_LANES = 16
 };
 
 typedef struct bt__hash_lanes
 {
   uint64_t lane[BT__HASH_LANES];
-  uint64_t n; /* bytes added */
+  uint64_t little; /* of pieces shorter than a word for each lane */
+  uint64_t n;      /* bytes added */
 } bt__hash_lanes;
 
 void bt__hash_begin (bt__hash_lanes *lanes);

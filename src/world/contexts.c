@@ -142,7 +142,7 @@ bt__context_enter (bt__context *context, const bt_dive *dive, bt__state *next)
   context->body = bt__state_body (dive, next);
   context->refused = 0;
   own->now = dive->now;
-  memcpy (own->next, next, offsetof (bt__state, events));
+  bt__copy_head (own->next, next);
   own->next->events = 0;
   own->driven = dive->driven;
   own->alike = dive->alike;

@@ -134,6 +134,7 @@ bt__judge_sea (bt__judge *judge, const bt_dive *dive, const bt__state *state)
   const bt_head *head = bt_head_find ("sea");
   const bt_sea_def *was = &dive->model->sea;
   bt_status status = bt__judge_records (judge, &bt__state_record, state, 1);
+  judge->seen -= sizeof *state - bt__live_head (state); /* the rest of the head is not in use */
   status
       = AND (status, judge_field (judge, bt_field_find (head, "depth"), state->depth, was->depth));
   status = AND (status, judge_field (judge, bt_field_find (head, "density"), state->density, 0));

@@ -9,9 +9,10 @@
    moving line keeps its chain and contacts, then chain and contacts of the far part once the line
    has parted.  The wear of the line stands behind the larger of the two.
 
-   Stores have room for the largest mesh, mostly unused. live_ranges lists the ranges in use for the
-   present form; copies, hashes and sizes of checkpoints walk this list alone, and bt__layout_fits
-   checks the list of a state from outside against the size of the store before a byte is copied.
+   Stores have room for the largest mesh, mostly unused, and the head has room for the longest
+   current, most waves and 128 events.  live_ranges and head_in_use list the ranges in use; copies,
+   hashes and sizes of checkpoints walk these lists alone, and bt__layout_fits checks the list of a
+   state from outside against the size of the store before a byte is copied.
 
    Most of a state stands still from step to step: stores of tethers that sleep, friction and
    switches of obstacles.  dive->alike tells of each such part whether both buffers hold the same
@@ -52,13 +53,6 @@ bt__layout_of (const bt_model *model)
   l.subject = bt__subject_size (model);
   l.stores = l.section + bt__obstacles_size (model);
   return l;
-}
-
-/* Bytes before the stores.  */
-static size_t
-fixed_size (const bt_dive *dive)
-{
-  return sizeof (bt__state) + dive->layout.stores;
 }
 
 /* ---- The store of a tether ---- */
@@ -219,6 +213,37 @@ bt__dive_held (const bt_dive *dive, bt__state *state, int i)
 
 /* ---- What is live ---- */
 
+enum
+{
+  HEAD_RANGES = 4
+};
+
+/* The ranges of the head of STATE in use, in order.  STATE may come from outside: no number in it
+   is believed.  */
+static void
+head_in_use (const bt__state *state, bt__range out[HEAD_RANGES])
+{
+  const size_t current = offsetof (bt__state, current), waves = offsetof (bt__state, waves);
+  size_t rows = state->current.kind == BT_CURRENT_PROFILE ? BT_PROFILE_MAX : 0;
+  int64_t events = state->events < 0                ? 0
+                   : state->events < BT_EVENTS_KEPT ? state->events
+                                                    : BT_EVENTS_KEPT;
+  out[0] = (bt__range){ 0, current + offsetof (bt_current, z) + rows * sizeof (double) };
+  out[1] = (bt__range){ current + offsetof (bt_current, velocity),
+                        sizeof (bt_vec3) * (rows > 0 ? rows : 1) };
+  out[2] = (bt__range){ waves, state->waves.n != 0 ? sizeof (bt_waves) : sizeof state->waves.n };
+  out[3] = (bt__range){ offsetof (bt__state, event), sizeof (bt_event) * (size_t)events };
+}
+
+void
+bt__copy_head (bt__state *to, const bt__state *from)
+{
+  bt__range live[HEAD_RANGES];
+  head_in_use (from, live);
+  for (int k = 0; k < HEAD_RANGES; k++)
+    memcpy ((char *)to + live[k].at, (const char *)from + live[k].at, live[k].size);
+}
+
 /* The parts of tether I's store in use, in the order of the store.  */
 static int
 live_ranges (const bt_dive *dive, const bt__state *state, int i, bt__range *out)
@@ -239,10 +264,18 @@ bt__copy_store (const bt_dive *dive, bt__state *to, const bt__state *from, int i
             live[k].size);
 }
 
+/* Copy all that comes before the stores.  */
+static void
+copy_fixed (const bt_dive *dive, bt__state *to, const bt__state *from)
+{
+  bt__copy_head (to, from);
+  memcpy (to + 1, from + 1, dive->layout.stores);
+}
+
 void
 bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from)
 {
-  memcpy (to, from, fixed_size (dive));
+  copy_fixed (dive, to, from);
   for (int i = 0; i < dive->model->n_tethers; i++)
     bt__copy_store (dive, to, from, i);
 }
@@ -253,7 +286,8 @@ static void
 copy_without_pairs (const bt_dive *dive, bt__state *to, const bt__state *from)
 {
   const bt__layout *l = &dive->layout;
-  memcpy (to, from, sizeof (bt__state) + l->roughness);
+  bt__copy_head (to, from);
+  memcpy (to + 1, from + 1, l->roughness);
   for (size_t at = l->subjects; at < l->stores; at += l->subject)
     memcpy ((char *)(to + 1) + at, (const char *)(from + 1) + at, sizeof (bt__subject));
 }
@@ -264,35 +298,22 @@ bt__level (bt_dive *dive)
   if (dive->alike[BT__PAIRS])
     copy_without_pairs (dive, dive->next, dive->now);
   else
-    memcpy (dive->next, dive->now, fixed_size (dive));
+    copy_fixed (dive, dive->next, dive->now);
   for (int i = 0; i < dive->model->n_tethers; i++)
     if (!dive->alike[BT__STORES + i])
       bt__copy_store (dive, dive->next, dive->now, i);
   memset (dive->alike, 1, BT__STORES + (size_t)dive->model->n_tethers);
 }
 
-uint64_t
-bt__hash_state (const bt_dive *dive, const bt__state *state)
-{
-  bt__range live[BT__STORE_RANGES];
-  bt__hash_lanes lanes;
-  bt__hash_begin (&lanes);
-  bt__hash_add (&lanes, state, fixed_size (dive));
-  for (int i = 0; i < dive->model->n_tethers; i++)
-    {
-      int n = live_ranges (dive, state, i, live);
-      for (int k = 0; k < n; k++)
-        bt__hash_add (&lanes, store_of (dive, state, i) + live[k].at, live[k].size);
-    }
-  return bt__hash_end (&lanes);
-}
-
 size_t
 bt__walk_live (const bt_dive *dive, const bt__state *state, bt__walk *walk, void *user)
 {
-  bt__range live[BT__STORE_RANGES];
-  size_t count = 1;
-  walk (user, 0, state, fixed_size (dive));
+  bt__range live[BT__STORE_RANGES], head[HEAD_RANGES];
+  size_t count = HEAD_RANGES + 1;
+  head_in_use (state, head);
+  for (int k = 0; k < HEAD_RANGES; k++)
+    walk (user, head[k].at, (const char *)state + head[k].at, head[k].size);
+  walk (user, sizeof *state, state + 1, dive->layout.stores);
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
       const char *store = store_of (dive, state, i);
@@ -304,14 +325,46 @@ bt__walk_live (const bt_dive *dive, const bt__state *state, bt__walk *walk, void
   return count;
 }
 
+static void
+hash_range (void *lanes, size_t at, const void *data, size_t size)
+{
+  (void)at;
+  bt__hash_add (lanes, data, size);
+}
+
+uint64_t
+bt__hash_state (const bt_dive *dive, const bt__state *state)
+{
+  bt__hash_lanes lanes;
+  bt__hash_begin (&lanes);
+  bt__walk_live (dive, state, hash_range, &lanes);
+  return bt__hash_end (&lanes);
+}
+
+static void
+add_size (void *sum, size_t at, const void *data, size_t size)
+{
+  (void)at;
+  (void)data;
+  *(size_t *)sum += size;
+}
+
 size_t
 bt__live_size (const bt_dive *dive, const bt__state *state)
 {
-  bt__range live[BT__STORE_RANGES];
-  size_t size = fixed_size (dive);
-  for (int i = 0; i < dive->model->n_tethers; i++)
-    for (int k = live_ranges (dive, state, i, live); k-- > 0;)
-      size += live[k].size;
+  size_t size = 0;
+  bt__walk_live (dive, state, add_size, &size);
+  return size;
+}
+
+size_t
+bt__live_head (const bt__state *state)
+{
+  bt__range live[HEAD_RANGES];
+  size_t size = 0;
+  head_in_use (state, live);
+  for (int k = 0; k < HEAD_RANGES; k++)
+    size += live[k].size;
   return size;
 }
 

@@ -29,6 +29,9 @@ void bt__level (bt_dive *dive);
 /* Copy the live part of the store of tether I from FROM to TO, whose store is as large.  */
 void bt__copy_store (const bt_dive *dive, bt__state *to, const bt__state *from, int i);
 
+/* Copy what is live of the head of FROM to TO.  */
+void bt__copy_head (bt__state *to, const bt__state *from);
+
 /* Copy what is live of FROM to TO; hash it.  */
 void bt__copy_state (const bt_dive *dive, bt__state *to, const bt__state *from);
 uint64_t bt__hash_state (const bt_dive *dive, const bt__state *state);
@@ -38,8 +41,9 @@ uint64_t bt__hash_state (const bt_dive *dive, const bt__state *state);
 typedef void bt__walk (void *user, size_t at, const void *data, size_t size);
 size_t bt__walk_live (const bt_dive *dive, const bt__state *state, bt__walk *walk, void *user);
 
-/* Return how many bytes that are.  */
+/* Return how many bytes that are; how many of them are of the head, a bt__state.  */
 size_t bt__live_size (const bt_dive *dive, const bt__state *state);
+size_t bt__live_head (const bt__state *state);
 
 /* True if all that STATE says is live lies within it: to be asked before it is hashed, of bytes
    that came from elsewhere.  */

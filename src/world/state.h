@@ -196,9 +196,11 @@ bt__tether_form_of (const bt__tether *tether)
              : BT__TETHER_SHAPE;
 }
 
-/* The first bytes of a state: layout version 12.  */
-#define BT__STATE_MAGIC 0x315448474942000cULL
+/* The first bytes of a state: layout version 13.  */
+#define BT__STATE_MAGIC 0x315448474942000dULL
 
+/* The head.  The members with room for more than is in use stand last: rows of a current,
+   components of waves, events (head_in_use of layout.c).  */
 typedef struct bt__state
 {
   uint64_t magic; /* BT__STATE_MAGIC */
@@ -207,11 +209,11 @@ typedef struct bt__state
   uint64_t checksum; /* of the block with this field zero; set in saved copies only */
   int64_t step;
   double depth, density, gravity;
-  bt_current current;
   int64_t wake;     /* true: the current is less in the lee of obstacles */
   bt_wave_def wave; /* as they were asked for */
+  int64_t events;   /* ever raised */
+  bt_current current;
   bt_waves waves;
-  int64_t events; /* ever raised */
   bt_event event[BT_EVENTS_KEPT];
 } bt__state;
 

@@ -24,7 +24,8 @@
 
 (define parts
   ;; Beginnings of "FOLDER/FILE.c FUNCTION"; the first that fits counts.
-  '(("recording" "world/layout.c bt__hash_state" "guile/times.c" "guile/sqlite.c")
+  '(("shared" "world/layout.c bt__walk_live") ; of whoever hashes, packs or counts
+    ("recording" "world/layout.c bt__hash_state" "guile/times.c" "guile/sqlite.c")
     ("ccd" "contact/line_guard" "collide/cast.c" "collide/safe.c")
     ("contact" "contact/" "sim/contact_" "sim/stuck" "sim/chain_touch" "sim/chain_wear")
     ("cable" "tether/" "sim/chain" "sim/remesh" "sim/resolve" "sim/lay" "sim/afloat")
