@@ -243,6 +243,18 @@ bt__judge_obstacles (bt__judge *judge, const bt_dive *dive, bt__state *state)
               judge_roughness (judge, bt__dive_roughness (dive, state), model->n_obstacles));
 }
 
+/* A meeting in use is with an object there is.  One that is not names object 0, also in a world
+   without any.  */
+static bt_status
+judge_meetings (bt__judge *judge, const bt__subject *subject)
+{
+  bt_status status = BT_OK;
+  for (int64_t k = 0; k < subject->n && status == BT_OK; k++)
+    status = bt__judge_count (judge, "for the object of a meeting", subject->meeting[k].object, 0,
+                              judge->below[BT__BELOW_OBJECTS] - 1);
+  return status;
+}
+
 /* Behind a subject lie a switch for each object, then the windings about each obstacle, both padded
    with zeros.  The version vouches for the switches: caches of a scene compare versions alone.  */
 bt_status
@@ -252,6 +264,7 @@ bt__judge_subject (bt__judge *judge, const bt_dive *dive, bt__state *state, bt_p
   const uint8_t *off = bt__dive_off (dive, state, part, i);
   size_t bytes = dive->layout.subject - sizeof *subject;
   bt_status status = bt__judge_records (judge, &bt__subject_record, subject, 1);
+  status = AND (status, judge_meetings (judge, subject));
   size_t half = bytes / 2, objects = (size_t)bt__objects (dive->model);
   int whole = 1;
   judge->seen += bytes;

@@ -181,7 +181,7 @@ static const bt__member mover[] = {
 const bt__record bt__mover_record = BT__RECORD (bt__mover_state, "place", mover);
 
 static const bt__member meeting[] = {
-  BT__INDEX (bt__meeting, object, 0, BT__BELOW_OBJECTS),
+  BT__WITHIN (bt__meeting, object, 0, BT__MANY), /* of those in use, see judge_parts.c */
   BT__WITHIN (bt__meeting, last, 0, BT__MANY / 2),
 };
 static const bt__record meeting_record = BT__RECORD (bt__meeting, "meeting", meeting);

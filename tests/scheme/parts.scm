@@ -97,6 +97,18 @@
   (expect (array-ref (field-of w 'e 'track) 1 4) => 90.)
   (expect (nan? (array-ref (field-of w 'e 'track) 0 4))))
 
+(define-scenario vehicles-alone
+  "A world without tether and obstacle is gone back in, and a refused change leaves it as it was."
+  (enter! (without 'open-water 'line))
+  (define before (state-hash))
+  (define here (checkpoint))
+  (expect (alter! 'minnow #:volts 0.5 #:max-current 0.973) raises name)
+  (expect (state-hash) => before)
+  (drive! #:surge 1)
+  (run 1)
+  (restore! here)
+  (expect (state-hash) => before))
+
 (define-scenario friction
   "An obstacle has the tether's friction, or its own; it may change while a dive runs."
   (in bay)
