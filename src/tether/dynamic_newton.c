@@ -197,7 +197,8 @@ lags (const bt__dynamic_work *w, int i)
    thrown up in every step, unless the loads are too; but they need not settle at all costs.
 
    Among contacts tension walks along a slack line an interval at a time, each time by less: what is
-   left of that is taken for solved.
+   left of that is taken for solved.  LAST holds an update of this step once one has been taken:
+   a held end that arrives lets the first iterations go by without.
 
    Where a loop runs tight within the step the load of a place that is solved for may be many times
    what it will be; without its fellows the next update then throws the line metres away.  Of that
@@ -209,7 +210,7 @@ quick (bt__dynamic_work *w, bt__dynamic_report *report)
   int touches = bt__dynamic_touches (w), last = touches ? touching (w, QUICK_TOUCHING) : QUICK;
   double lost = w->hold ? LOST_HELD : touches ? LOST_TOUCHING : LOST / 1e-5 * w->tolerance;
   double share = 1;
-  int pressed = 0;
+  int pressed = 0, moved = 0;
   for (int i = 0; i < last && !bt__ask (w->asker); i++)
     {
       int changed = bt__dynamic_assemble (w, i < TURNING ? BT__QUICK : BT__FROZEN);
@@ -222,7 +223,8 @@ quick (bt__dynamic_work *w, bt__dynamic_report *report)
         return 0;
       if (touches)
         {
-          share = fmin (i < SWINGING ? 1 : calm (w, share), REACH / most);
+          share = fmin (i < SWINGING || !moved ? 1 : calm (w, share), REACH / most);
+          moved = 1;
           memcpy (w->last, w->d, (size_t)(w->n + 1) * sizeof *w->d);
         }
       int settled = take (w, share);

@@ -27,7 +27,8 @@ enum
   TWICE = 16,  /* two lines to one vehicle */
   LUMPS = 32,  /* a clump and a float */
   LOOP = 64,   /* a line laid across itself */
-  GROUND = 128 /* a bed of triangles, on which it lies */
+  GROUND = 128, /* a bed of triangles, on which it lies */
+  WEAK = 256    /* a vehicle without mass that the line can hold */
 };
 
 typedef struct recipe
@@ -62,6 +63,8 @@ static const recipe recipes[] = {
   { BT_MODEL_DYNAMIC, GROUND | WAVES, "dynamic on a mesh" },
   { BT_MODEL_CATENARY, GROUND, "catenary on a mesh" },
   { BT_MODEL_DYNAMIC, GROUND | LOOP | MASS, "a line across itself on a mesh" },
+  { BT_MODEL_DYNAMIC, WOOD | WEAK, "dynamic among obstacles, weak vehicles" },
+  { BT_MODEL_DYNAMIC, LOOP | WEAK, "a line across itself, weak vehicles" },
 };
 
 int
@@ -138,6 +141,8 @@ make_scene (scene *s, const recipe *r)
     make_waves (s);
   if (r->with & MASS)
     assert_int_equal (bt_def_set_vehicle_type (&s->vehicle[0], "bluerov2-heavy", NULL), BT_OK);
+  if (r->with & WEAK)
+    s->vehicle[0].pull = s->vehicle[1].pull = 2;
   if (r->with & TWICE)
     tie_twice (s);
   if (r->with & LUMPS)

@@ -1,6 +1,6 @@
 /* What is copied of a state, and what is written in place: nothing is missed.
 
-   Three laws, in every world of state_worlds.c, after each of many acts.  The two states of a dive
+   Laws, in every world of state_worlds.c, after each of many acts.  The two states of a dive
    are the same once the parts said to have changed are copied.  What lies behind the used part of
    an array is never read: a twin, all of whose unused room is poisoned, goes the same way.  An
    order written to the present state leaves what the operation on a copy leaves.
@@ -20,6 +20,7 @@
 #include "../fuzz/state_worlds.h"
 #include "../oracle/dive_scene.h"
 #include "testbed/order.h"
+#include "testbed/overwrite.h"
 #include "world/layout.h"
 #include "world/obstacles.h"
 
@@ -142,6 +143,34 @@ unused_room_is_not_read (void **state)
     }
 }
 
+/* Numbers that a step could take for those of a step before, and numbers that are none.  */
+static void
+the_workspace_remembers_nothing (void **state)
+{
+  static const int bytes[] = { 0xff, 0x3f, 0xbf };
+  (void)state;
+  for (int i = 0; i < state_worlds (); i++)
+    {
+      bt_dive *clean = state_world (i), *foul = state_world (i);
+      for (int k = 0; k < ACTS; k++)
+        {
+          act (clean, k);
+          act (foul, k);
+          for (int m = 0; m < 4; m++)
+            {
+              if (foul->work)
+                overwrite_work (foul->work, bytes[(k + m) % 3]);
+              run (clean, 1);
+              run (foul, 1);
+            }
+          if (bt_dive_hash (clean) != bt_dive_hash (foul))
+            fail_msg ("%s: after act %d", state_world_name (i), k);
+        }
+      bt_dive_free (clean);
+      bt_dive_free (foul);
+    }
+}
+
 static void
 orders_in_place_are_operations (void **state)
 {
@@ -232,6 +261,7 @@ main (void)
     cmocka_unit_test (both_states_are_level),
     cmocka_unit_test (windings_are_level),
     cmocka_unit_test (unused_room_is_not_read),
+    cmocka_unit_test (the_workspace_remembers_nothing),
     cmocka_unit_test (orders_in_place_are_operations),
     cmocka_unit_test (kept_states_are_saved_states),
     cmocka_unit_test (refused_orders_leave_nothing),
