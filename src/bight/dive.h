@@ -234,6 +234,7 @@ typedef struct bt_tether_view
   double target;                                   /* paid out when the winch will stop, m */
   double chord;                                    /* straight distance between the ends, m */
   double tension_anchor, tension_end, tension_max; /* N */
+  double accuracy;      /* m: the error in position that is accepted now */
   double tension_error; /* N: estimated error of the tension in the last step if above the tether's
                            tension_accuracy; else 0 */
   bt_vec3 force;        /* on what the far end is fastened to, N */

@@ -54,6 +54,9 @@ typedef enum bt_stick_by
 /* The value of winch_pull for 500 N or half the breaking load, whichever is less.  */
 #define BT_WINCH_AUTO 0.0
 
+/* The value of accuracy for 2 cm or 0.2 % of what is paid out, whichever is less.  */
+#define BT_ACCURACY_AUTO 0.0
+
 /* A natural curvature of a part of a tether: what a drum or a kink has left in it.  Sets that
    overlap add up.  */
 typedef struct bt_set
@@ -88,7 +91,8 @@ typedef struct bt_tether_props
   double model;                /* bt_model_kind */
   double depth_rule;           /* bt_depth_rule */
   double sag_buoyancy;         /* -1 sinks ... 1 floats, or BT_SAG_AUTO */
-  double accuracy;             /* m: the error in position that nodes come and go for */
+  double accuracy;             /* m: the error in position that nodes come and go for, or
+                                  BT_ACCURACY_AUTO */
   double tension_accuracy;     /* the error in tension that steps are shortened for, as a share */
   double max_current;          /* m/s: the thesis' maximum allowed current */
   double thesis_length_factor; /* thesis 2.4.1 took 0.95 of the length in its ratio; 1 */

@@ -92,6 +92,7 @@ static const answer tether_answers[] = {
   ANSWER ("tension-anchor", REAL, tension_anchor),
   ANSWER ("tension-end", REAL, tension_end),
   ANSWER ("tension-max", REAL, tension_max),
+  ANSWER ("accuracy", REAL, accuracy),
   ANSWER ("tension-error", REAL, tension_error),
   ANSWER ("force", POINT, force),
   ANSWER ("vehicle", PLACE, vehicle),

@@ -20,6 +20,7 @@ static const bt_word unbreakable[] = { { "none", INFINITY }, { NULL, 0 } };
 static const bt_word unlimited[] = { { "none", INFINITY }, { NULL, 0 } };
 static const bt_word automatic[] = { { "auto", BT_SAG_AUTO }, { NULL, 0 } };
 static const bt_word usual[] = { { "auto", BT_WINCH_AUTO }, { NULL, 0 } };
+static const bt_word by_length[] = { { "auto", BT_ACCURACY_AUTO }, { NULL, 0 } };
 static const bt_word everywhere[] = { { "all", INFINITY }, { NULL, 0 } };
 static const bt_word never[] = { { "none", INFINITY }, { NULL, 0 } };
 static const bt_word yes_no[] = { { "yes", 1 }, { "no", 0 }, { NULL, 0 } };
@@ -213,9 +214,9 @@ static const bt_field tether_fields[] = {
          depth_rules, 1, "how the thesis' models take depth"),
   PROP (sag_buoyancy, "sag-buoyancy", "", BT_SAG_AUTO, -1, 1, 0, automatic,
         "the thesis' buoyancy for rule `sag': -1 sinks, 1 floats"),
-  PROP (accuracy, "accuracy", "m", 0.05, 0, 100, 1, NULL,
+  PROP (accuracy, "accuracy", "m", BT_ACCURACY_AUTO, 0, 100, 1, by_length,
         "the error in position that nodes come and go for: always in model `auto', in `dynamic' "
-        "once its winch has turned"),
+        "once its winch has turned; `auto': 0.02, or 0.2 % of what is paid out if that is less"),
   PROP (tension_accuracy, "tension-accuracy", "", 0.02, 1e-4, 1, 0, unlimited,
         "the error in the tension of a moving line, as a share of it, that its steps are divided "
         "for; `none': never"),

@@ -141,7 +141,7 @@ static double
 error_of (const bt_dive *dive, bt__state *state, int i)
 {
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
-  double accuracy = bt__dive_tether (dive, state, i)->props.accuracy,
+  double accuracy = bt__accuracy (bt__dive_tether (dive, state, i)),
          asked = LATE * accuracy * fmax (chain->h, AT_ONCE);
   return bt__dynamic_surprise (bt__dive_chain (dive, dive->now, i, 0), chain) / asked;
 }
@@ -231,7 +231,7 @@ is_there (const bt__tether *tether, const bt__dynamic *chain, int64_t k, bt_vec3
 {
   double share = (double)(tether->stretch.gone + 1) / (double)tether->stretch.span;
   bt_vec3 has = bt__dynamic_node_between (chain, share, k);
-  return bt__distance (has, at) <= ASTRAY * tether->props.accuracy;
+  return bt__distance (has, at) <= ASTRAY * bt__accuracy (tether);
 }
 
 int

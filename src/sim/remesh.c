@@ -51,7 +51,7 @@ bt__chain_mesh (const bt_dive *dive, const bt__state *state, const bt__tether *t
   return (bt__dynamic_mesh){ .fewest = fewest,
                              .most = (int)fmax (wanted, WINCH_SHARE * bt__chain_room (def)),
                              .error
-                             = wound ? WINCH_AIM * tether->props.accuracy / BT__CHAIN_ERROR : 0,
+                             = wound ? WINCH_AIM * bt__accuracy (tether) / BT__CHAIN_ERROR : 0,
                              .shortest = SHORTEST,
                              .idle = !adapts && wound && state->step % BT__REMESH_EVERY == 0,
                              .corners = def->n_lumps > 0 };
@@ -174,7 +174,7 @@ bt__remesh_chain (bt_dive *dive, bt__state *state, int i, bt_error *error)
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
   int n = (int)chain->n, room = bt__chain_room (&dive->model->tethers[i]);
-  int m = wanted (n, bt__chain_error (chain), tether->props.accuracy, room);
+  int m = wanted (n, bt__chain_error (chain), bt__accuracy (tether), room);
   if (bt__has_obstacles (dive))
     m = multiple (n, m, room);
   return tether->parted || m == n || chain->rounded || is_near_itself (dive, state, i, chain)

@@ -14,6 +14,10 @@
 
 #define FOLLOWED 1e-4 /* m: a line so near to where its winch stands has followed it */
 
+/* The default accuracy: m, and at most a share of what is paid out.  */
+#define USUAL_ACCURACY 0.02
+#define ACCURATE_SHARE 0.002
+
 const bt__form *
 bt__form_of (const bt__tether *tether)
 {
@@ -42,6 +46,14 @@ bt__line_tail (const bt__line *line)
   tail.chain = line->far_chain;
   tail.contacts = line->far_contacts;
   return tail;
+}
+
+double
+bt__accuracy (const bt__tether *tether)
+{
+  return tether->props.accuracy != BT_ACCURACY_AUTO
+             ? tether->props.accuracy
+             : fmin (USUAL_ACCURACY, ACCURATE_SHARE * tether->length);
 }
 
 double

@@ -35,6 +35,9 @@ double bt__line_length (const bt__line *line);
 double bt__line_out (const bt__line *line);
 int bt__line_has_followed (const bt__line *line);
 
+/* The error in position that TETHER accepts, m.  */
+double bt__accuracy (const bt__tether *tether);
+
 /* The model's own points: how many there are, and place and tension of the K-th.  */
 int bt__line_nodes (const bt__line *line);
 bt_vec3 bt__line_node (const bt__line *line, int k);

@@ -127,6 +127,7 @@ bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *erro
                             .tension_anchor = bt__line_tension (&line, 0),
                             .tension_end = bt__norm (bt__line_pull (&line, 1)),
                             .tension_max = bt__line_tension_max (&line),
+                            .accuracy = bt__accuracy (t),
                             .tension_error = line.chain ? t->unsure : 0,
                             .force = bt__line_pull (&line, 1),
                             .vehicle = dive->model->ends[i][1].vehicle,

@@ -58,3 +58,26 @@
     (format #t "# errors of 100 flights: median ~,3f m, worst ~,3f m, ~a above ~a m~%"
             (list-ref (sort errors <) 50) (apply max errors) (length worse) asked)
     (expect (length worse) is (between 0 1))))
+
+(define (default-flight length)
+  ;; The estimated error of LENGTH metres of line in a current after half a minute, and whether it is accepted.
+  (enter! (world (sea (depth 300) (current 0.3 90))
+                 (rov (named minnow) (at 0 (* 0.8 length) -40) (pull 1e6))
+                 (tether (named line) (type fathom) (from 0 0 -40) (to minnow) (length length) (model auto))))
+  (run 30)
+  (list (error-estimate) (accurate?)))
+
+(define-scenario the-default-follows-what-is-out
+  "Without a number the accepted error is 2 cm, and less of what is shorter than 10 m: 0.2 %."
+  (for-each
+   (lambda (length)
+     (let ((usual (default-flight length)) (accepted (min 0.02 (* 0.002 length))))
+       (expect (cadr usual))
+       (expect (car usual) is (between 0 accepted))
+       (accuracy! (* 0.99 (car usual)))
+       (expect (not (accurate?)))
+       (accuracy! 'auto)
+       (expect (accurate?))
+       (accuracy! accepted)
+       (expect (accurate?))))
+   '(2 5 30 100)))

@@ -21,10 +21,19 @@
 ;; still there when the line is laid: its chords are 29.12 m of a line of 29 m at 2 N.
 (define open-dives '(22))
 
+;; Open: a stiff line paid out at 20 m/s; points in its first centimetres are up to 1.7 mm farther apart than the line
+;; between them is long.
+(define open-wild-dives '(5))
+
+(define (but for numbers)
+  (remove (lambda (n) (memv n for)) numbers))
+
 (define-scenario (any-dive-is-sound wild?)
-  "Whatever the world and the orders, no law is broken, no process dies and none hangs; but for a dive that is known."
+  "Whatever the world and the orders, no law is broken, no process dies and none hangs; but for dives that are known."
   #:for ((wild? #f #t))
-  (expect (told (unsound-dives (if wild? (iota 12) (remove (lambda (n) (memv n open-dives)) (iota 24))) #:wild? wild?))
+  (expect (told (if wild?
+                    (unsound-dives (but open-wild-dives (iota 12)) #:wild? #t)
+                    (unsound-dives (but open-dives (iota 24)))))
           => '()))
 
 

@@ -311,7 +311,8 @@ auto.  Return it."
   (alter-field! 'tether-model! 'tether t 'model model)
   model)
 
-(define-verb (accuracy! #:subject (t tether) (metres positive))
-  "Accept an error in position of METRES: the model `auto' takes as many nodes as keep it.  Return METRES."
+(define-verb (accuracy! #:subject (t tether) (metres any))
+  "Accept an error in position of METRES, or, with the word auto, of 2 cm or 0.2 % of what is paid out, whichever
+is less: the model `auto' takes as many nodes as keep it.  Return METRES."
   (alter-field! 'accuracy! 'tether t 'accuracy metres)
   metres)

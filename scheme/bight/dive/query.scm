@@ -238,7 +238,7 @@ Raise unsupported for static models."
 comes of its nodes, `error-estimate', is at most the tether's `accuracy', and the tension of the last step
 was found to its `tension-accuracy'.  Static models are."
   (let ((error (%error-estimate (this-engine 'accurate?) t)))
-    (and (or (nan? error) (<= error (assq-ref (tether-properties t) 'accuracy)))
+    (and (or (nan? error) (<= error (assq-ref (tether-view 'accurate? t) 'accuracy)))
          (zero? (assq-ref (tether-view 'accurate? t) 'tension-error)))))
 
 (define-verb (equilibria #:subject (t tether))

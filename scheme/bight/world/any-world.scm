@@ -123,14 +123,31 @@ numbers come from all that is allowed."
   ;; TETHER, stiff, clamped at its anchor; at its far end too if it was drawn with its own torsion.
   `(,@tether (from-along 1 0 0) ,@(if (assq 'gj (cdr tether)) '((to-along 0 -1 0)) '())))
 
+(define (without-field tether name)
+  `(,(car tether) ,@(remove (lambda (clause) (and (pair? clause) (eq? name (car clause)))) (cdr tether))))
+
+(define (number-of tether name)
+  (let ((clause (assq name (cdr tether))))
+    (if clause (cadr clause) 0)))
+
+(define (stiff tether)
+  (if (> (number-of tether 'ei) 0)
+      tether
+      `(,@(without-field tether 'ei) (ei 0.05))))
+
+(define (armoured tether)
+  ;; TETHER; if its layers stick, softer while they slip.
+  (let ((stuck (number-of tether 'ei-stuck)))
+    (if (or (zero? stuck) (< 0 (number-of tether 'ei) stuck))
+        tether
+        `(,@(without-field tether 'ei) (ei ,(/ stuck 4))))))
+
 (define (with-what-things-need tether)
-  ;; Only a moving line carries clumps and floats, and only one with a bending stiffness has a set or a clamp.
-  (let ((ei (assq 'ei (cdr tether))))
-    (define (stiff tether)
-      (if (and ei (> (cadr ei) 0)) tether `(,(car tether) ,@(delete ei (cdr tether)) (ei 0.05))))
-    (cond ((assq 'set (cdr tether)) (clamped (stiff (as-a-moving-line tether))))
-          ((or (assq 'clump (cdr tether)) (assq 'float (cdr tether))) (as-a-moving-line tether))
-          (else tether))))
+  ;; Only a moving line carries clumps and floats, and only one with a bending stiffness has a set or a clamp; layers
+  ;; that slip have no set.
+  (cond ((assq 'set (cdr tether)) (clamped (stiff (without-field (as-a-moving-line tether) 'ei-stuck))))
+        ((or (assq 'clump (cdr tether)) (assq 'float (cdr tether))) (armoured (as-a-moving-line tether)))
+        (else (armoured tether))))
 
 (define (name-all parts letter)
   (map (lambda (part i) (name-part part letter i)) parts (iota (length parts))))
