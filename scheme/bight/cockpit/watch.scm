@@ -240,12 +240,12 @@ the last of its EVENTS, and, where there is room, what PLOT, a procedure of a wi
         (begin
           (display (film-stretch (open-reel file) out (or (seconds "--from") 0) (seconds "--to")))
           (newline))
-        (watch-in-cockpit file options (seconds "--at")))))
+        (watch-in-cockpit file options (if (equal? "end" (assoc-ref options "--at")) 'end (seconds "--at"))))))
 
 (define* (watch-reel reel at #:key ghost (behind 0) (ghost-name "ghost") told plain?)
-  "Watch REEL in a terminal that was taken, from its beginning, or, if AT is a number of seconds, standing still there;
-beside GHOST, another reel or #f, called GHOST-NAME, that begins where REEL is at its place BEHIND.  TOLD, a string or #f,
-is told first.  PLAIN? wants plain characters for a picture.  Return how it ended: #t, or hung-up."
+  "Watch REEL in a terminal that was taken, from its beginning, or, if AT is a number of seconds or end, standing still
+there; beside GHOST, another reel or #f, called GHOST-NAME, that begins where REEL is at its place BEHIND.  TOLD, a string
+or #f, is told first.  PLAIN? wants plain characters for a picture.  Return how it ended: #t, or hung-up."
   (let* ((c (new-cockpit (this-palette) 'chase 'plain)) (show (make-show c reel ghost behind (new-traces) 1 0 (clock))))
     (when plain? (set-plain! c #t))
     (when told (announce! c told long))
@@ -254,7 +254,7 @@ is told first.  PLAIN? wants plain characters for a picture.  Return how it ende
       (board! c (reel-dive reel))
       (when ghost (set-ghost! c (reel-dive ghost)))
       (when at
-        (wind-both! show (steps-in show at))
+        (wind-both! show (if (eq? 'end at) (reel-length reel) (steps-in show at)))
         (set-paused! c #t))
       (set-drawn! show (clock))
       (play-frames! show)

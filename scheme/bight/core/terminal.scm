@@ -1,4 +1,4 @@
-;;; (bight core terminal) --- a terminal that is left as it was found, and its size.
+;;; (bight core terminal) --- a terminal that is left as it was found, its keys one by one, and its size.
 ;;;
 ;;; The C library's own calls, so that no program need be started.
 ;;;
@@ -9,6 +9,8 @@
   #:use-module (system foreign)
   #:export (terminal-state
             restore-terminal!
+            call-hearing-keys
+            key-within
             terminal-size))
 
 (define (libc name return . arguments)
@@ -36,6 +38,52 @@ no terminal."
   "Give the terminal the settings STATE, or do nothing if STATE is #f."
   (when state
     ((libc "tcsetattr" int int int '*) (input-fd) drained (bytevector->pointer state))))
+
+;; Linux's struct termios: the local flags are its fourth word.
+(define local-flags 12)
+(define line-by-line 2)                 ; ICANON
+(define echoing 8)                      ; ECHO
+
+(define (hear-keys! state)
+  ;; Let the terminal whose settings are STATE hand over each key as it is pressed, and show none.
+  (let ((keys (bytevector-copy state)))
+    (bytevector-u32-native-set! keys local-flags
+                                (logand (bytevector-u32-native-ref keys local-flags)
+                                        (lognot (logior line-by-line echoing))))
+    (restore-terminal! keys)))
+
+(define ends (list SIGINT SIGTERM SIGHUP))
+
+(define (ending-with state)
+  ;; A handler of signals that end this process: the terminal gets its settings STATE back first.
+  (lambda (signal)
+    (restore-terminal! state)
+    (sigaction signal SIG_DFL)
+    (kill (getpid) signal)))
+
+(define (call-hearing-keys thunk)
+  "Call THUNK while the terminal on standard input, if there is one, hands over each key as it is pressed.  A signal that
+ends the process meanwhile, such as that of ^C, gives the terminal back first."
+  (let ((state (terminal-state)) (handlers '()))
+    (if state
+        (dynamic-wind
+          (lambda ()
+            (set! handlers (map (lambda (signal) (sigaction signal (ending-with state))) ends))
+            (hear-keys! state))
+          thunk
+          (lambda ()
+            (restore-terminal! state)
+            (for-each (lambda (signal handler) (sigaction signal (car handler) (cdr handler))) ends handlers)))
+        (thunk))))
+
+(define (key-within seconds)
+  "Return the key, a character, that is pressed within SECONDS, or #f; #f too once there is no terminal."
+  (let ((port (current-input-port)) (microseconds (inexact->exact (round (* 1e6 seconds)))))
+    (if (not (terminal-state))
+        (begin (usleep microseconds) #f)
+        (and (or (char-ready? port) (pair? (car (select (list port) '() '() 0 microseconds))))
+             (let ((key (read-char port)))
+               (and (char? key) key))))))
 
 (define window-size #x5413)             ; TIOCGWINSZ
 

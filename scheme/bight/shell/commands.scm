@@ -29,7 +29,7 @@
             '("--last-failed" "those alone that failed when they were last run; all if none did")
             '("--fail-fast" "none after one that failed")
             '("--durations N" "tell the N slowest")
-            '("--watch" "run them, then again what changes, until C-c")
+            '("--watch" "run them, then again what changes, until C-c; w shows how one failed, in the cockpit")
             '("--junit FILE" "write the report as JUnit XML too")
             '("--seed N" "begin the random things of every scenario with N; 1 when left out")
             '("--cases N" "try every property on N cases")
@@ -162,7 +162,7 @@
    (command "watch" watch "FILE"
             '("watch a recording in the terminal: play, pause, back and forth, from event to event; ? shows keys")
             '("--ghost OTHER" "with another recording pale beside it, such as the expert's")
-            '("--at S" "standing still at this second of the recording, as where a test failed")
+            '("--at S" "standing still at this second of the recording, or at its end, as where a test failed")
             '("--film OUT" "write a film of it, or of a stretch, instead")
             '("--from S" "where the stretch begins, in seconds of the recording")
             '("--to S" "where it ends"))
