@@ -46,6 +46,9 @@ bt__mesh_free (bt__mesh *m)
   free (m->v);
   free (m->corner);
   free (m->id);
+  free (m->next_corner);
+  free (m->next_edge);
+  free (m->folds);
   free (m);
 }
 
@@ -164,14 +167,18 @@ bt__mesh_new (const bt__soup *soup, const bt__place *place, bt__asker *asker, bt
   bt__bvh_build (&m->tree, m->triangles, box_of_triangle, m);
   m->tree.asker = NULL;
   status = bt__stopped (asker, error);
+  if (!status)
+    {
+      bt__bvh_trim (&m->tree);
+      sort_corners (m, soup);
+      find_box (m);
+      status = bt__mesh_find_rings (m, asker, error);
+    }
   if (status)
     {
       bt__mesh_free (m);
       return status;
     }
-  bt__bvh_trim (&m->tree);
-  sort_corners (m, soup);
-  find_box (m);
   *out = m;
   return BT_OK;
 }

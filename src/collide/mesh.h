@@ -21,9 +21,15 @@ typedef struct bt__mesh
   bt_vec3 *v;
   uint32_t (*corner)[3]; /* in leaf order */
   uint32_t *id;          /* in leaf order */
+  uint32_t *next_corner; /* by 3 slot + i: the next corner at the same point, in a ring */
+  uint32_t *next_edge;   /* by 3 slot + i, the edge from corner i: the next between the same points,
+                            in a ring */
+  uint8_t *folds;        /* bit i: edge i is not one of two triangles in a plane */
   bt__aabb box;
   bt__bvh tree;
 } bt__mesh;
+
+#define BT__MESH_FLAT 1e-3 /* sine of the angle up to which two triangles are in a plane */
 
 typedef struct bt__soup
 {
@@ -52,6 +58,9 @@ bt_status bt__mesh_from_grid (const bt__grid *grid, const bt__place *place, bt__
                               bt__mesh **out, bt_error *error);
 
 void bt__mesh_free (bt__mesh *mesh); /* NULL is nothing */
+
+/* mesh_rings.c: fill NEXT_CORNER, NEXT_EDGE and FOLDS of M.  BT_ERR_LIMIT; BT_ERR_INTERRUPTED.  */
+bt_status bt__mesh_find_rings (bt__mesh *mesh, bt__asker *asker, bt_error *error);
 
 static inline bt__triangle
 bt__mesh_triangle (const bt__mesh *m, uint32_t slot)

@@ -101,6 +101,10 @@ void bt__obstacle_pair (const bt__obstacle *obstacle, const bt__link *link, bt__
 void bt__scene_pair (const bt__scene *scene, const bt__near *near, const bt__link *link,
                      bt__witness *out);
 
+/* The same; return true if the part is within REACH, else *OUT may be as it was.  */
+int bt__scene_pair_within (const bt__scene *scene, const bt__near *near, const bt__link *link,
+                           double reach, bt__witness *out, bt__count *count);
+
 /* Add to LIST every part within REACH of LINK, numbered NUMBER.  */
 void bt__scene_near (const bt__scene *scene, const bt__switches *on, const bt__link *link,
                      uint32_t number, double reach, bt__nears *list, bt__count *count);

@@ -55,6 +55,46 @@ bt__scene_pair (const bt__scene *s, const bt__near *near, const bt__link *link, 
     }
 }
 
+/* True if P and Q are both farther than REACH on one side of all of A, B, C.  */
+static inline int
+is_beyond (double a, double b, double c, double p, double q, double reach)
+{
+  double lo = a < b ? a : b, hi = a < b ? b : a;
+  lo = (c < lo ? c : lo) - reach;
+  hi = (c > hi ? c : hi) + reach;
+  return (p < lo && q < lo) || (p > hi && q > hi);
+}
+
+/* True if LINK is within REACH of T, to *OUT; else *OUT may be as it was.  */
+static inline int
+triangle_within (const bt__triangle *t, const bt__link *link, double reach, bt__witness *out,
+                 bt__count *count)
+{
+  const bt_vec3 *v = t->v, a = link->a, b = link->b;
+  if (is_beyond (v[0].x, v[1].x, v[2].x, a.x, b.x, reach)
+      || is_beyond (v[0].y, v[1].y, v[2].y, a.y, b.y, reach)
+      || is_beyond (v[0].z, v[1].z, v[2].z, a.z, b.z, reach))
+    return 0;
+  count->pairs++;
+  bt__pair_triangle (t, link, out);
+  return out->distance <= reach;
+}
+
+int
+bt__scene_pair_within (const bt__scene *s, const bt__near *near, const bt__link *link, double reach,
+                       bt__witness *out, bt__count *count)
+{
+  const bt__obstacle *o = s->object + near->object;
+  if (near->slot != BT__NO_TRIANGLE)
+    {
+      bt__triangle t = bt__mesh_triangle (o->shape.mesh, near->slot);
+      return triangle_within (&t, link, reach, out, count);
+    }
+  count->pairs++;
+  bt__obstacle_pair (o, link, out);
+  return out->distance <= reach;
+}
+
 /* ---- Lists ---- */
 
 static uint32_t
@@ -194,7 +234,6 @@ end_search (question *q)
 static double
 take_pair (question *q, double reach)
 {
-  q->count->pairs++;
   if (!(q->now.w.distance <= reach))
     return reach;
   if (q->any)
@@ -209,30 +248,16 @@ take_pair (question *q, double reach)
   return q->now.w.distance;
 }
 
-/* True if P and Q are both farther than REACH on one side of all of A, B, C.  */
-static inline int
-is_beyond (double a, double b, double c, double p, double q, double reach)
-{
-  double lo = a < b ? a : b, hi = a < b ? b : a;
-  lo = (c < lo ? c : lo) - reach;
-  hi = (c > hi ? c : hi) + reach;
-  return (p < lo && q < lo) || (p > hi && q > hi);
-}
-
 static double
 measure_triangle (void *user, uint32_t slot, double reach)
 {
   question *q = user;
   const bt__mesh *m = q->scene->object[q->now.object].shape.mesh;
   bt__triangle t = bt__mesh_triangle (m, slot);
-  const bt_vec3 *v = t.v, a = q->link->a, b = q->link->b;
-  if (is_beyond (v[0].x, v[1].x, v[2].x, a.x, b.x, reach)
-      || is_beyond (v[0].y, v[1].y, v[2].y, a.y, b.y, reach)
-      || is_beyond (v[0].z, v[1].z, v[2].z, a.z, b.z, reach))
+  if (!triangle_within (&t, q->link, reach, &q->now.w, q->count))
     return reach;
   q->now.slot = slot;
   q->now.triangle = m->id[slot];
-  bt__pair_triangle (&t, q->link, &q->now.w);
   return take_pair (q, reach);
 }
 
@@ -247,11 +272,9 @@ measure_object (question *q, uint32_t object, double reach)
   if (o->kind == BT__OBSTACLE_MESH)
     return bt__bvh_query (&o->shape.mesh->tree, q->link, reach, !q->list, measure_triangle, q,
                           q->count);
+  q->count->pairs++;
   if (q->any && o->kind == BT__OBSTACLE_CYLINDER)
-    {
-      q->count->pairs++;
-      return bt__cylinder_within (&o->shape.cylinder, q->link, reach) ? end_search (q) : reach;
-    }
+    return bt__cylinder_within (&o->shape.cylinder, q->link, reach) ? end_search (q) : reach;
   bt__obstacle_pair (o, q->link, &q->now.w);
   return take_pair (q, reach);
 }

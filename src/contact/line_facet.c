@@ -3,7 +3,8 @@
    Nodes over the face are borne by the face.  A link is borne at its nearest place, unless the
    surrounding surface hides the edge there, because a neighbouring triangle is nearer (a ghost
    edge).  A link over a crest is borne at the crest as well, even if another place is nearer: a
-   link lying on two edges of a triangle would see-saw on a single edge.
+   link lying on two edges of a triangle would see-saw on a single edge.  An edge between two
+   triangles in a plane is no crest.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -15,20 +16,11 @@
 
 /* ---- Edges that a mesh hides ---- */
 
-static int
-corner_number (const bt__triangle *t, bt_vec3 p)
-{
-  for (int i = 0; i < 3; i++)
-    if (t->v[i].x == p.x && t->v[i].y == p.y && t->v[i].z == p.z)
-      return i + 1;
-  return 0;
-}
-
 /* True if triangle T rises to the side of normal N from its corner I.  */
 static int
-rises_from_corner (const bt__triangle *t, int i, bt_vec3 n)
+rises_from_corner (const bt__triangle *t, uint32_t i, bt_vec3 n)
 {
-  for (int k = 1; k < 3; k++)
+  for (uint32_t k = 1; k < 3; k++)
     {
       bt_vec3 e = bt__sub (t->v[(i + k) % 3], t->v[i]);
       if (bt__dot (n, e) > GHOST * bt__norm (e))
@@ -37,73 +29,60 @@ rises_from_corner (const bt__triangle *t, int i, bt_vec3 n)
   return 0;
 }
 
-/* By how much it rises from its edge between corners I and J: the sine of an angle.  */
+/* The height to which triangle T rises to the side of normal N from its edge I, per metre across
+   the edge: the sine of an angle.  */
 static double
-rise_from_edge (const bt__triangle *t, int i, int j, bt_vec3 n)
+rise_from_edge (const bt__triangle *t, uint32_t i, bt_vec3 n)
 {
-  bt_vec3 a = t->v[i], e = bt__sub (t->v[j], a), c = bt__sub (t->v[3 - i - j], a);
+  bt_vec3 a = t->v[i], e = bt__sub (t->v[(i + 1) % 3], a), c = bt__sub (t->v[(i + 2) % 3], a);
   bt_vec3 in = bt__axpy (c, -bt__dot (c, e) / bt__dot (e, e), e);
   return bt__dot (n, in) / bt__norm (in);
 }
 
-static int
-is_hidden_by (const bt__triangle *own, int feature, bt_vec3 n, const bt__triangle *other)
+static const bt__mesh *
+mesh_near (const bt__line_job *k, const bt__near *near)
 {
-  int a = corner_number (other, own->v[feature > 3 ? feature - 4 : feature - 1]);
-  if (feature > 3)
-    return a && rises_from_corner (other, a - 1, n);
-  int b = corner_number (other, own->v[feature % 3]);
-  return a && b && rise_from_edge (other, a - 1, b - 1, n) > GHOST;
+  return bt__line_scene (k, near)->object[near->object].shape.mesh;
 }
 
-/* True if the nearest point W of the triangle NEAR is on an edge or corner where another listed
-   triangle is nearer.  */
+/* True if the nearest point W of the triangle NEAR is on an edge or corner where another triangle
+   is nearer.  */
 static int
-is_ghost (const bt__line_job *k, uint32_t j, const bt__near *near, const bt__witness *w)
+is_ghost (const bt__line_job *k, const bt__near *near, const bt__witness *w)
 {
-  const bt__scene *scene = bt__line_scene (k, near);
-  const bt__near *other = bt__line_near (k, j);
-  if (near->slot == BT__NO_TRIANGLE || w->feature == 0)
+  if (w->feature == 0)
     return 0;
-  const bt__mesh *mesh = scene->object[near->object].shape.mesh;
-  bt__triangle own = bt__mesh_triangle (mesh, near->slot);
-  for (uint32_t i = 0; i < k->w->watch[j].found; i++)
+  const bt__mesh *mesh = mesh_near (k, near);
+  int at_corner = w->feature > 3;
+  const uint32_t *next = at_corner ? mesh->next_corner : mesh->next_edge;
+  uint32_t own = 3 * near->slot + (uint32_t)(w->feature - (at_corner ? 4 : 1));
+  for (uint32_t at = next[own]; at != own; at = next[at])
     {
-      if (other[i].link != near->link || other[i].object != near->object
-          || other[i].slot == near->slot)
-        continue;
-      bt__triangle t = bt__mesh_triangle (mesh, other[i].slot);
-      if (is_hidden_by (&own, w->feature, w->normal, &t))
+      bt__triangle t = bt__mesh_triangle (mesh, at / 3);
+      if (at / 3 != near->slot
+          && (at_corner ? rises_from_corner (&t, at % 3, w->normal)
+                        : rise_from_edge (&t, at % 3, w->normal) > GHOST))
         return 1;
     }
   return 0;
 }
 
-/* True if the surface falls away from edge E of the triangle OWN, that of NEAR, on either side,
-   as seen from normal N.  */
+/* True if the surface of MESH falls away from edge EDGE on either side, as seen from normal N.  */
 static int
-is_crest (const bt__line_job *k, uint32_t j, const bt__near *near, const bt__triangle *own, int e,
-          bt_vec3 n)
+is_crest (const bt__mesh *mesh, uint32_t edge, bt_vec3 n)
 {
-  const bt__near *other = bt__line_near (k, j);
-  const bt__mesh *mesh = bt__line_scene (k, near)->object[near->object].shape.mesh;
-  double most = rise_from_edge (own, e, (e + 1) % 3, n), least = most;
-  int is_free = 1;
-  for (uint32_t i = 0; most <= LEVEL && i < k->w->watch[j].found; i++)
+  double most = -INFINITY, least = INFINITY;
+  uint32_t at = edge;
+  do
     {
-      if (other[i].link != near->link || other[i].object != near->object
-          || other[i].slot == near->slot)
-        continue;
-      bt__triangle t = bt__mesh_triangle (mesh, other[i].slot);
-      int a = corner_number (&t, own->v[e]), b = corner_number (&t, own->v[(e + 1) % 3]);
-      if (!a || !b)
-        continue;
-      double rise = rise_from_edge (&t, a - 1, b - 1, n);
+      bt__triangle t = bt__mesh_triangle (mesh, at / 3);
+      double rise = rise_from_edge (&t, at % 3, n);
       most = fmax (most, rise);
       least = fmin (least, rise);
-      is_free = 0;
+      at = mesh->next_edge[at];
     }
-  return most <= LEVEL && (is_free || least < -CREST);
+  while (at != edge && most <= LEVEL);
+  return most <= LEVEL && (mesh->next_edge[edge] == edge || least < -CREST);
 }
 
 /* ---- Rows ---- */
@@ -155,12 +134,16 @@ pass_edge (const bt__triangle *t, int e, const bt__link *link, bt__witness *w)
 static void
 touch_crests (bt__line_job *k, uint32_t j, const bt__pass *p, const bt__triangle *t, int has)
 {
+  const bt__mesh *mesh = mesh_near (k, p->near);
+  unsigned folds = mesh->folds[p->near->slot];
   double touch = k->config->radius + k->margin;
-  for (int e = 0; e < 3; e++)
+  for (int e = 0; e < 3 && folds; e++)
     {
+      uint32_t edge = 3 * p->near->slot + (uint32_t)e;
       bt__witness now, w;
-      if (has == e + 1 || k->rows >= k->w->rows_max || !pass_edge (t, e, &p->from, &now)
-          || now.distance >= touch || !is_crest (k, j, p->near, t, e, now.normal))
+      if (has == e + 1 || !(folds >> e & 1) || k->rows >= k->w->rows_max
+          || !pass_edge (t, e, &p->from, &now) || now.distance >= touch
+          || !is_crest (mesh, edge, now.normal))
         continue;
       int other = !pass_edge (t, e, &p->to, &w) || !(w.distance > k->core)
                   || !(bt__dot (w.normal, now.normal) > BT__ROW_TURNED);
@@ -173,8 +156,7 @@ touch_crests (bt__line_job *k, uint32_t j, const bt__pass *p, const bt__triangle
 void
 bt__row_facet (bt__line_job *k, uint32_t j, const bt__near *near)
 {
-  bt__triangle t
-      = bt__mesh_triangle (bt__line_scene (k, near)->object[near->object].shape.mesh, near->slot);
+  bt__triangle t = bt__mesh_triangle (mesh_near (k, near), near->slot);
   bt__pass p = bt__row_pass (k, j, near);
   bt_vec3 n = face_normal (&t);
   double nearest = near->w.distance + BT__ROW_NEAREST * k->config->radius;
@@ -195,7 +177,7 @@ bt__row_facet (bt__line_job *k, uint32_t j, const bt__near *near)
     }
   if (over == 2)
     return;
-  if (!is_nearest && !is_ghost (k, j, near, &near->w))
+  if (!is_nearest && !is_ghost (k, near, &near->w))
     bt__row_between (k, j, &p, 0);
   touch_crests (k, j, &p, &t, is_nearest ? 0 : near->w.feature);
 }

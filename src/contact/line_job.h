@@ -65,11 +65,19 @@ typedef struct bt__self
 #define BT__LINE_ALIKE_HIT 0.7 /* product of the normals: a hit is of the constraint there */
 #define BT__LINE_STIFFEST 1e9  /* N/m: of a contact, but for the load; of what holds an end */
 
+/* A part of what stands, near a link: as in a bt__near.  */
+typedef struct bt__candidate
+{
+  uint32_t object, slot;
+} bt__candidate;
+
 /* What is known of a link.  */
 typedef struct bt__link_watch
 {
   bt_vec3 a, b;   /* m: where it was when CLEAR was measured */
   double clear;   /* m to what stands, at least, then */
+  double span;    /* m: the parts within, then, are candidates; negative: none were listed */
+  uint32_t kept;  /* candidates */
   double reach;   /* m: whatever it can meet with its ends moving less than this is listed */
   uint32_t found; /* parts listed */
   uint32_t full;  /* true: REACH is so short because the list is full */
@@ -103,6 +111,7 @@ struct bt__line_work
   bt__link_watch *watch;
   uint32_t room; /* parts near a link: */
   bt__near *near;
+  bt__candidate *kept;
   bt__constraint *row;
   bt__line_row *of; /* what ROW is of */
   bt__contact *old; /* anchors of the last step, then of this */

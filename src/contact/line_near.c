@@ -2,8 +2,12 @@
 
    A link whose clearance, measured once, exceeds the ways of link and step since then is not asked.
    For the remaining links all parts within reach are listed, standing and moving; a full list
-   shortens the reach, and in the end the move.  Lists and casts see the same parts whether
-   clearances are remembered or not: the memory saves time and changes nothing.
+   shortens the reach, and in the end the move.
+
+   The tree of what stands is asked for more than is needed: the parts found are kept as candidates,
+   and only these are measured until the link has used up the difference.  Lists and casts see the
+   same parts in the same order whether clearances and candidates are remembered or not: the memory
+   saves time and changes nothing.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -12,18 +16,26 @@
 #include "base/hash.h"
 #include "contact/line_job.h"
 
-#define WIDER 1.1 /* of what is needed: what is listed */
-#define LOOK 0.5  /* m: how far a clear link looks, so as not to ask again soon, ... */
-#define FAR 2.0   /* ... and the whole line */
+#define WIDER 1.1  /* of what is needed: what is listed */
+#define LOOK 0.5   /* m: how far a clear link looks, so as not to ask again soon, ... */
+#define FAR 2.0    /* ... and the whole line */
+#define AROUND 0.1 /* m beyond what is listed: what is a candidate */
+
+/* How far link J has gone since CLEAR was measured, at most.  */
+static double
+gone (const bt__line_job *k, uint32_t j)
+{
+  const bt__link_watch *s = k->w->watch + j;
+  bt_vec3 a = bt__sub (k->x[j], s->a), b = bt__sub (k->x[j + 1], s->b);
+  double square = fmax (bt__dot (a, a), bt__dot (b, b));
+  return sqrt (square) * (1 + BT__LINE_CLOSE);
+}
 
 /* What is left of the clearance measured last.  */
 static double
 known_clear (const bt__line_job *k, uint32_t j)
 {
-  const bt__link_watch *s = k->w->watch + j;
-  bt_vec3 a = bt__sub (k->x[j], s->a), b = bt__sub (k->x[j + 1], s->b);
-  double square = fmax (bt__dot (a, a), bt__dot (b, b));
-  return s->clear - sqrt (square) * (1 + BT__LINE_CLOSE);
+  return k->w->watch[j].clear - gone (k, j);
 }
 
 /* The farthest a point of MOVER goes.  */
@@ -54,35 +66,100 @@ measure_clear (bt__line_job *k, uint32_t j, double known, double look)
       break;
     }
   s->reach = s->clear;
+  s->span = -1;
+}
+
+/* ---- Candidates ---- */
+
+static bt__candidate *
+kept_of (const bt__line_job *k, uint32_t j)
+{
+  return k->w->kept + (size_t)j * k->w->room;
+}
+
+/* Drop from LIST what is farther than REACH.  */
+static void
+drop_beyond (bt__nears *list, double reach)
+{
+  uint32_t n = 0;
+  for (uint32_t i = 0; i < list->n; i++)
+    if (list->at[i].w.distance <= reach)
+      list->at[n++] = list->at[i];
+  list->n = n;
+}
+
+/* List the parts within REACH of link J, and keep as candidates what is within SPAN.  If that finds
+   no room, the next smaller span is the distance of what was dropped.  */
+static void
+renew_candidates (bt__line_job *k, uint32_t j, double reach, double span, bt__nears *list)
+{
+  bt__link_watch *s = k->w->watch + j;
+  bt__link link = bt__line_link (k->x, j);
+  for (;; span = fmax (reach, nextafter (list->dropped, 0)))
+    {
+      list->n = 0;
+      list->dropped = INFINITY;
+      bt__scene_near (k->scene, k->on, &link, 0, span, list, k->count);
+      if (span == reach || list->dropped == INFINITY)
+        break;
+    }
+  s->a = link.a;
+  s->b = link.b;
+  s->clear = fmin (span, list->dropped);
+  s->span = list->dropped == INFINITY ? span : -1;
+  s->kept = list->n;
+  for (uint32_t i = 0; i < list->n; i++)
+    {
+      s->clear = fmin (s->clear, list->at[i].w.distance);
+      kept_of (k, j)[i] = (bt__candidate){ list->at[i].object, list->at[i].slot };
+    }
+  if (span > reach)
+    drop_beyond (list, reach);
+}
+
+/* List the candidates of link J that are within REACH.  */
+static void
+measure_candidates (bt__line_job *k, uint32_t j, double reach, bt__nears *list)
+{
+  bt__link link = bt__line_link (k->x, j);
+  for (uint32_t i = 0; i < k->w->watch[j].kept; i++)
+    {
+      bt__candidate c = kept_of (k, j)[i];
+      bt__near *near = list->at + list->n;
+      const bt__obstacle *o = k->scene->object + c.object;
+      near->link = 0;
+      near->object = c.object;
+      near->slot = c.slot;
+      near->triangle = c.slot == BT__NO_TRIANGLE ? BT__NO_TRIANGLE : o->shape.mesh->id[c.slot];
+      list->n += bt__scene_pair_within (k->scene, near, &link, reach, &near->w, k->count) != 0;
+    }
 }
 
 static void
 list_static (bt__line_job *k, uint32_t j, double need, bt__nears *list)
 {
   bt__link_watch *s = k->w->watch + j;
-  bt__link link = bt__line_link (k->x, j);
-  double known = known_clear (k, j);
+  double way = gone (k, j), known = s->clear - way, reach = WIDER * need;
   if (known > need)
     {
       k->count->skipped_clear++;
       s->reach = known;
       return;
     }
-  if (!(s->clear <= need)) /* it was clear */
+  if (reach + way <= s->span)
+    measure_candidates (k, j, reach, list);
+  else
     {
-      measure_clear (k, j, known, fmax (LOOK, 2 * need));
-      if (s->clear > need)
-        return;
+      if (!(s->clear <= need)) /* it was clear */
+        {
+          measure_clear (k, j, known, fmax (LOOK, 2 * need));
+          if (s->clear > need)
+            return;
+        }
+      renew_candidates (k, j, reach, reach + AROUND, list);
     }
-  s->a = link.a;
-  s->b = link.b;
-  s->reach = WIDER * need;
-  bt__scene_near (k->scene, k->on, &link, 0, s->reach, list, k->count);
-  s->full = list->dropped < s->reach;
-  s->reach = fmin (s->reach, list->dropped);
-  s->clear = s->reach;
-  for (uint32_t i = 0; i < list->n; i++)
-    s->clear = fmin (s->clear, list->at[i].w.distance);
+  s->full = list->dropped < reach;
+  s->reach = fmin (reach, list->dropped);
 }
 
 static void

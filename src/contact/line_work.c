@@ -39,6 +39,7 @@ bt__line_work_free (bt__line_work *w)
   bt__safe_free (w->safe);
   free (w->watch);
   free (w->near);
+  free (w->kept);
   free (w->row);
   free (w->of);
   free (w->old);
@@ -71,6 +72,7 @@ bt__line_work_new (int n_max, bt__among among)
       = bt__safe_new ((uint32_t)n, w->room, &w->safe, NULL) == BT_OK
         && (w->watch = calloc (n, sizeof *w->watch))
         && (w->near = calloc (n * w->room + 1, sizeof *w->near))
+        && (w->kept = calloc (n * w->room + 1, sizeof *w->kept))
         && (w->row = calloc (rows + 1, sizeof *w->row))
         && (w->of = calloc (rows + 1, sizeof *w->of))
         && (w->old = calloc (rows + BT__BENTS, sizeof *w->old))
@@ -95,6 +97,7 @@ bt__line_work_forget (bt__line_work *w)
   for (int j = 0; j < w->n_max; j++)
     {
       w->watch[j].clear = 1e9;
+      w->watch[j].span = -1;
       w->watch[j].a = w->watch[j].b = bt__vec (INFINITY, 0, 0);
     }
 }

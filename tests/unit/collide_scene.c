@@ -134,6 +134,85 @@ mesh_far_away (void **state)
   check_mesh (bt__vec (1e8, 0, 3));
 }
 
+/* ---- Rings ---- */
+
+static int
+is_same (bt_vec3 a, bt_vec3 b)
+{
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/* The corner or, if EDGES, the edge at A is at the same place as that at B.  */
+static int
+is_same_place (const bt__mesh *m, uint32_t a, uint32_t b, int edges)
+{
+  bt__triangle s = bt__mesh_triangle (m, a / 3), t = bt__mesh_triangle (m, b / 3);
+  bt_vec3 p = s.v[a % 3], q = s.v[(a + 1) % 3], u = t.v[b % 3], v = t.v[(b + 1) % 3];
+  if (!edges)
+    return is_same (p, u);
+  return !is_same (p, q)
+         && ((is_same (p, u) && is_same (q, v)) || (is_same (p, v) && is_same (q, u)));
+}
+
+/* The ring NEXT from A on has all that is at the same place once, and no other.  */
+static void
+check_ring (const bt__mesh *m, const uint32_t *next, uint32_t a, int edges)
+{
+  uint32_t members = 1, wanted = 1;
+  for (uint32_t b = 0; b < 3 * m->triangles; b++)
+    wanted += b != a && is_same_place (m, a, b, edges);
+  for (uint32_t b = next[a]; b != a && members <= wanted; b = next[b], members++)
+    assert_true (is_same_place (m, a, b, edges));
+  assert_int_equal (members, wanted);
+}
+
+/* A soup of corners drawn from few places, some written as -0, some triangles without area: edges
+   of one triangle and of many.  */
+static void
+rings_are_brute_force (void **state)
+{
+  (void)state;
+  static bt_vec3 v[900];
+  static uint32_t corner[300][3];
+  dice d = dice_new (5);
+  for (uint32_t i = 0; i < 900; i++)
+    {
+      uint64_t place = dice_below (&d, 60);
+      v[i] = bt__vec (place % 4            ? (double)(place % 4)
+                      : dice_below (&d, 2) ? 0.0
+                                           : -0.0,
+                      (double)(place / 4 % 4), (double)(place / 16));
+      corner[i / 3][i % 3] = i;
+    }
+  bt__soup soup = { 900, 300, v, (const uint32_t (*)[3])corner, NULL };
+  bt__mesh *m = NULL;
+  assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &m, NULL), BT_OK);
+  for (uint32_t i = 0; i < 900; i++)
+    {
+      check_ring (m, m->next_corner, i, 0);
+      check_ring (m, m->next_edge, i, 1);
+    }
+  bt__mesh_free (m);
+}
+
+/* Of two triangles in a plane only the outer edges are folds; if one is bent off by 0.002, all.  */
+static void
+folds_are_no_planes (void **state)
+{
+  (void)state;
+  for (int bent = 0; bent < 2; bent++)
+    {
+      bt_vec3 v[] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, bent ? 0.002 : 0 } };
+      const uint32_t corner[2][3] = { { 0, 1, 2 }, { 0, 2, 3 } };
+      bt__soup soup = { 4, 2, v, corner, NULL };
+      bt__mesh *m = NULL;
+      assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &m, NULL), BT_OK);
+      for (uint32_t i = 0; i < 2; i++)
+        assert_int_equal (m->folds[i], bent ? 7 : m->id[i] == 0 ? 3 : 6);
+      bt__mesh_free (m);
+    }
+}
+
 /* ---- Obstacles ---- */
 
 static bt__obstacle
@@ -335,6 +414,7 @@ main (void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test (mesh_is_brute_force),           cmocka_unit_test (mesh_far_away),
+    cmocka_unit_test (rings_are_brute_force),         cmocka_unit_test (folds_are_no_planes),
     cmocka_unit_test (scene_is_brute_force),          cmocka_unit_test (refuses_bad_soups),
     cmocka_unit_test (overflow_says_what_it_dropped), cmocka_unit_test (grid_has_its_triangles),
     cmocka_unit_test (empty_scene_does_nothing),      cmocka_unit_test (body_finds_its_nearest)
