@@ -16,8 +16,9 @@
 
    Damping of bending adds D dw/dt / cell to the moment of a node.  The backward difference of w is
    linear in the positions, so a damped row is a row again: stiffer by D b0, about another turn.
-   Any D is stable.  The half cell at a clamp has no damping: the rate at which the clamp's
-   direction turns is not given.
+   Any D is stable.  At the first node of a line that is wound, where the cell changes too, D
+   resists the change of curvature w / cell instead.  The half cell at a clamp has no damping: the
+   rate at which the clamp's direction turns is not given.
 
    A set makes the natural turn of a node other than none (dynamic_set.c): its forces are added at
    every iterate, and the thrust of an interval is EI kappa . (kappa - the natural curvature).
@@ -78,16 +79,48 @@ bend_sum (const bt__bend *row, const bt_vec3 *p)
   return sum;
 }
 
-/* ROW with a DAMPING of its turn, N m s.  */
-static bt__bend
-damped (const bt__dynamic_work *w, bt__bend row, double damping)
+/* b0 times the turn of ROW that does not change in the step.  */
+static bt_vec3
+still_turn (const bt__dynamic_work *w, const bt__bend *row)
 {
   bt_vec3 v0[3];
-  for (int p = 0; p < row.count; p++)
-    v0[p] = w->node[row.first + p].v0;
+  for (int p = 0; p < row->count; p++)
+    v0[p] = w->node[row->first + p].v0;
+  return bt__axpy (bt__scale (w->b0, bend_sum (row, w->x + row->first)), -1, bend_sum (row, v0));
+}
+
+/* The curvature at the middle of three places X that are FIRST and NEXT metres of line apart.  */
+static bt_vec3
+curvature_of (const bt_vec3 *x, double first, double next)
+{
+  bt_vec3 a = bt__scale (1 / first, bt__sub (x[1], x[0])),
+          b = bt__scale (1 / next, bt__sub (x[2], x[1]));
+  return bt__scale (2 / (first + next), bt__sub (b, a));
+}
+
+/* The same for node 1 while the winch turns: the curvature that does not change, for the length of
+   line before node 1 does.  The length before the last step follows from the stretch.  */
+static bt_vec3
+still_first_turn (const bt__dynamic_work *w, const bt__dynamic *d)
+{
+  const bt_vec3 *dx = bt__dynamic_dx (d);
+  bt_vec3 was[3];
+  double first = bt__dynamic_rest (d)[0], next = w->link[1].rest,
+         stretch = bt__dynamic_stretch (d)[0] - bt__dynamic_dstretch (d)[0];
+  for (int i = 0; i < 3; i++)
+    was[i] = bt__sub (w->x[i], dx[i]);
+  double drawn = bt__distance (was[0], was[1]) - bt__dynamic_chord (d)[0].z;
+  double before = stretch > 0 && drawn > 0 ? drawn / stretch : first;
+  bt_vec3 now = curvature_of (w->x, first, next), then = curvature_of (was, before, next);
+  bt_vec3 still = bt__axpy (bt__scale (w->b0, now), -w->b2, bt__sub (now, then));
+  return bt__scale (w->node[1].cell, still);
+}
+
+/* ROW with a DAMPING of its turn, N m s; STILL is b0 times the turn that is not damped.  */
+static bt__bend
+damped (const bt__dynamic_work *w, bt__bend row, double damping, bt_vec3 still)
+{
   double k = row.k + w->b0 * damping;
-  bt_vec3 still = bt__axpy (bt__scale (w->b0, bend_sum (&row, w->x + row.first)), -1,
-                            bend_sum (&row, v0)); /* b0 times the turn that does not change */
   row.d = bt__scale (1 / k, bt__axpy (bt__scale (row.k, row.d), damping, still));
   row.k = k;
   return row;
@@ -183,7 +216,13 @@ bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d)
       bt__bend row = { i - 1, 3, ei / w->node[i].cell, { q, -(p + q), p }, { 0, 0, 0 } };
       if (!w->is_set)
         add_crook (w, &row);
-      add_bend (w, damping > 0 ? damped (w, row, damping / w->node[i].cell) : row);
+      if (damping > 0)
+        {
+          int winds = i == 1 && w->link[0].rest != bt__dynamic_rest (d)[0];
+          bt_vec3 still = winds ? still_first_turn (w, d) : still_turn (w, &row);
+          row = damped (w, row, damping / w->node[i].cell, still);
+        }
+      add_bend (w, row);
     }
   add_clamp (w, 0, ei);
   add_clamp (w, 1, ei);
