@@ -58,6 +58,7 @@ bight_guile_init (void)
   bt__define_dives ();
   bt__define_operations ();
   bt__define_times ();
+  bt__define_quantities ();
   bt__define_live ();
   bt__define_questions ();
   bt__define_types ();

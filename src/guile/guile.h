@@ -30,6 +30,7 @@ void bt__define_dives (void);
 void bt__define_operations (void);
 void bt__define_times (void);
 void bt__define_live (void);
+void bt__define_quantities (void);
 void bt__define_questions (void);
 void bt__define_types (void);
 void bt__define_views (void);
@@ -71,9 +72,6 @@ typedef struct bt__handle
 
 /* Write the last DIGITS hexadecimal digits of X to TEXT, without a zero behind them.  */
 void bt__hexadecimal (char *text, uint64_t x, int digits);
-
-/* Return the checksum of N BYTES, continued from SEED (0 at first).  */
-uint64_t bt__checksum (const void *bytes, size_t n, uint64_t seed);
 
 /* bt__ask_guile is a bt_poll for the dive of a handle.  bt__check_long ends a call that asked the
    poll: the function raises the exception that interrupted the call, or else ERROR, unless STATUS

@@ -146,24 +146,16 @@ eight_digits (SCM numbers, SCM count)
 
 /* FNV-1a, 64 bits, but 0 for nothing: the sum of what follows continues from that of what went
    before.  */
-uint64_t
-bt__checksum (const void *bytes, size_t n, uint64_t seed)
-{
-  const unsigned char *p = bytes;
-  const uint64_t basis = 0xcbf29ce484222325ULL;
-  uint64_t h = seed ^ basis;
-  for (size_t i = 0; i < n; i++)
-    h = (h ^ p[i]) * 0x100000001b3ULL;
-  return h ^ basis;
-}
-
 static SCM
 checksum (SCM bytes, SCM seed)
 {
-  uint64_t sum = bt__checksum (SCM_BYTEVECTOR_CONTENTS (bytes), SCM_BYTEVECTOR_LENGTH (bytes),
-                               scm_to_uint64 (seed));
+  const uint64_t basis = 0xcbf29ce484222325ULL;
+  const unsigned char *p = (const unsigned char *)SCM_BYTEVECTOR_CONTENTS (bytes);
+  uint64_t h = scm_to_uint64 (seed) ^ basis;
+  for (size_t i = 0, n = SCM_BYTEVECTOR_LENGTH (bytes); i < n; i++)
+    h = (h ^ p[i]) * 0x100000001b3ULL;
   scm_remember_upto_here_1 (bytes);
-  return scm_from_uint64 (sum);
+  return scm_from_uint64 (h ^ basis);
 }
 
 /* Base 64, but a run of zero bytes in threes, of which states are full, is written *COUNT*.  */

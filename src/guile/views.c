@@ -206,21 +206,6 @@ tether_points (SCM object, SCM index, SCM count)
   return array;
 }
 
-/* Of tether INDEX, 16 bits of each node as four hexadecimal digits: those of %checksum.  */
-static SCM
-node_digits (SCM object, SCM index)
-{
-  bt_dive *dive = bt__to_dive (object);
-  int n = tether_view ("record!", object, index).nodes;
-  bt_vec3 *points = scm_gc_malloc_pointerless (sizeof *points * (size_t)(n + 1), "points");
-  char *text = scm_gc_malloc_pointerless (4 * (size_t)n + 1, "digits");
-  bt_error error;
-  bt__check ("record!", bt_tether_points (dive, scm_to_int (index), 0, points, &error), &error);
-  for (int i = 0; i < n; i++)
-    bt__hexadecimal (text + 4 * i, bt__checksum (points + i, sizeof *points, 0), 4);
-  return scm_from_latin1_stringn (text, 4 * (size_t)n);
-}
-
 static SCM
 tether_tensions (SCM object, SCM index, SCM count)
 {
@@ -342,8 +327,6 @@ bt__define_views (void)
       "Return the properties of the INDEX-th tether of DIVE, an alist by field." },
     { "%error-estimate", 2, 0, (scm_t_subr)error_estimate,
       "Return the error in position of tether INDEX of DIVE, m; NaN of a static shape." },
-    { "%node-digits", 2, 0, (scm_t_subr)node_digits,
-      "Return 16 bits of each node of tether INDEX of DIVE, in hexadecimal digits." },
     { "%tether-points", 3, 0, (scm_t_subr)tether_points,
       "Return COUNT points (0: the model's own) of the INDEX-th tether of DIVE, an n x 3 array." },
     { "%tether-tensions", 3, 0, (scm_t_subr)tether_tensions,

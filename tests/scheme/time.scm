@@ -320,6 +320,28 @@ SPARED."
     (stop-recording!)
     (expect (replay file) => 'identical)))
 
+(define-scenario recorded-quantities
+  "A second of a recording is data that tells where the vehicle is, how the tether pulls and its nodes, to the last
+bit, by names of any letters."
+  (enter! (world (sea (depth 30))
+                 (rov (named Möwe-2) (at 0 8 -5))
+                 (tether (named ligne-ç) (from 0 0 0) (length 12) (nodes 20) (model dynamic))))
+  (let ((file (scratch-file "quantities.rec")))
+    (record! file)
+    (drive! #:surge 0.5 #:yaw 0.3)
+    (run 2)
+    (stop-recording!)
+    (let ((second (find (lambda (line) (and (eq? 'second (car line)) (eqv? 120 (cadr line))))
+                        (call-with-input-file file
+                          (lambda (port) (unfold eof-object? values (lambda (x) (read port)) (read port)))
+                          #:encoding "UTF-8"))))
+      (expect (list-ref second 3)
+              => (cons* 'rov 'Möwe-2 (append (array->list (rov-position)) (list (rov-heading)))))
+      (expect (list-head (list-ref second 4) 5)
+              => (list 'tether 'ligne-ç (tether-length) (anchor-tension) (rov-tension)))
+      (expect (string-length (list-ref (list-ref second 4) 5)) => (* 4 (array-length (tether-points)))))
+    (expect (replay file) => 'identical)))
+
 (define (retold file other change)
   "Write the story in FILE to OTHER with each line as CHANGE has it, and checksums that hold."
   (let ((teller (story:make-teller 'test other)))

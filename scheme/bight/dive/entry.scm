@@ -11,8 +11,9 @@
   #:use-module (bight dive past)
   #:use-module (bight engine)
   #:use-module (bight world)
+  #:use-module ((rnrs bytevectors) #:select (string->utf8))
   #:use-module (srfi srfi-1)
-  #:export (entry->line redo-line! quantities digits short-hash))
+  #:export (entry->line redo-line! quantity-heads quantities digits short-hash))
 
 
 ;;; Operations as lines.
@@ -86,21 +87,16 @@
   (let ((text (number->string n 16)))
     (string-append (make-string (- width (string-length text)) #\0) text)))
 
-(define (rov-quantities engine name i)
-  (let ((v (%vehicle engine i)))
-    `(rov ,name ,@(f64vector->list (assq-ref v 'position)) ,(assq-ref v 'heading))))
+(define (quantity-heads engine)
+  "Return how the quantities of each part of ENGINE begin: what `quantities' wants, the same for all time."
+  (define (heads head)
+    (map (lambda (name) (string->utf8 (string-append "(" (symbol->string head) " " (object->string name))))
+         (%names engine head)))
+  (cons (heads 'rov) (heads 'tether)))
 
-(define (tether-quantities engine name i)
-  (let ((t (%tether engine i)))
-    `(tether ,name ,(assq-ref t 'length) ,(assq-ref t 'tension-anchor) ,(assq-ref t 'tension-end)
-             ,(%node-digits engine i))))
-
-(define (of-each engine head quantities)
-  (let ((names (%names engine head)))
-    (map (lambda (name i) (quantities engine name i)) names (iota (length names)))))
-
-(define (quantities engine)
-  (append (of-each engine 'rov rov-quantities) (of-each engine 'tether tether-quantities)))
+(define (quantities engine heads)
+  "Return what came of ENGINE, whose parts have the HEADS of `quantity-heads', UTF-8 in a bytevector."
+  (%quantities engine (car heads) (cdr heads)))
 
 (define (short-hash engine)
   (logand #xffffffff (%hash-dive engine)))

@@ -35,7 +35,7 @@
 ;;; The recorder.
 
 (define-record <recorder>
-  (make-recorder dive teller mutex serial second first hashes synced frames pending thread scratch)
+  (make-recorder dive teller mutex serial second first hashes synced frames pending thread scratch heads)
   recorder?
   (dive recorder-dive)
   (teller recorder-teller)
@@ -48,6 +48,7 @@
   (frames recorder-frames)                      ; a database, or #f
   (pending recorder-pending set-recorder-pending!) ; frames not written yet, the last first
   (thread recorder-thread set-recorder-thread!)    ; that writes while the dive is live, or #f
+  (heads recorder-heads)                        ; of the parts, as `quantities' wants them
   (scratch recorder-scratch set-recorder-scratch!)) ; a fork to look at what such a dive was
 
 (define (recorder-engine r)
@@ -66,13 +67,15 @@
 
 (define (write-hashes! r)
   (unless (null? (recorder-hashes r))
-    (tell-datum! (recorder-teller r)
-           (list 'steps (recorder-first r)
-                 (string-concatenate (reverse (recorder-hashes r)))))
+    (tell-text! (recorder-teller r)
+                (string-append "(steps " (number->string (recorder-first r)) " \""
+                               (string-concatenate-reverse (recorder-hashes r)) "\")\n"))
     (set-recorder-hashes! r '())))
 
 (define (write-second! r step hash quantities)
-  (apply tell-with-checksum! (recorder-teller r) 'second step (hex hash) quantities)
+  (tell-bytes-with-checksum! (recorder-teller r)
+                             (string-append "(second " (number->string step) " \"" (hex hash) "\"")
+                             quantities)
   (set-recorder-second! r step)
   (hand-on! r))
 
@@ -127,7 +130,7 @@
       (write-entries! r +inf.0)
       (when (and (zero? (modulo step second-long)) (> step (recorder-second r)))
         (write-hashes! r)
-        (write-second! r step (%hash-dive engine) (quantities engine))))))
+        (write-second! r step (%hash-dive engine) (quantities engine (recorder-heads r)))))))
 
 (define (jump! r)
   (let ((engine (recorder-engine r)))
@@ -135,7 +138,7 @@
     (tell-datum! (recorder-teller r) (state-line engine))
     (set-recorder-serial! r (%serial engine))
     (set-recorder-second! r (%dive-steps engine))
-    (write-second! r (%dive-steps engine) (%hash-dive engine) (quantities engine))))
+    (write-second! r (%dive-steps engine) (%hash-dive engine) (quantities engine (recorder-heads r)))))
 
 
 ;;; A live dive.
@@ -147,8 +150,8 @@
       (%restore-dive! (recorder-scratch r) bytes)
       (when (recorder-frames r)
         (take-frame! r (recorder-scratch r)))
-      (quantities (recorder-scratch r)))
-    (lambda args '())))
+      (quantities (recorder-scratch r) (recorder-heads r)))
+    (lambda args #vu8())))
 
 (define (write-moments! r)
   (with-mutex (recorder-mutex r)
@@ -210,7 +213,8 @@
   (let ((engine (engine-of dive)) (teller (make-teller 'record! file)))
     (tell-beginning! 'record! teller 'bight-recording dive)
     (make-recorder dive teller (make-mutex) (%serial engine) (%dive-steps engine) 0 '()
-                   0 (and frames ((from (bight dive frames) open-frames) 'record! frames)) '() #f #f)))
+                   0 (and frames ((from (bight dive frames) open-frames) 'record! frames)) '() #f #f
+                   (quantity-heads engine))))
 
 (define-verb (record! (file string) #:key (frames (or-false string) #f))
   "Record what is done to the dive from now on in FILE, text that `replay' reads; with FRAMES, also what it

@@ -5,6 +5,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight dive replay)
+  #:use-module ((bight core datum) #:select (text->datum))
   #:use-module (bight core errors)
   #:use-module (bight core record)
   #:use-module (bight core verb)
@@ -13,6 +14,7 @@
   #:use-module (bight dive story)
   #:use-module (bight engine)
   #:use-module (ice-9 exceptions)
+  #:use-module ((rnrs bytevectors) #:select (utf8->string))
   #:use-module (srfi srfi-1)
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:export (replay replay-file
@@ -78,6 +80,9 @@
                         (else (list (simple-format #f "~a of ~a: ~a, not ~a" what name b a)))))
                 (assq-ref quantity-names (car recorded)) (cddr recorded) (cddr found))))
 
+(define (found-quantities engine)
+  (text->datum (string-append "(" (utf8->string (quantities engine (quantity-heads engine))) ")")))
+
 (define (differences recorded found)
   (let ((odd (if (= (length recorded) (length found))
                  (append-map differing recorded found)
@@ -138,7 +143,7 @@
         (cond ((or odd-step (not same?))
                (difference (second line)
                            (differences (filter pair? (cdddr line))
-                                        (if (eq? 'end (car line)) '() (quantities engine)))))
+                                        (if (eq? 'end (car line)) '() (found-quantities engine)))))
               (else
                (forget!)
                #f))))

@@ -37,7 +37,8 @@
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
   #:export (make-teller
-            tell-datum! tell-with-checksum! teller-flush! teller-sync! teller-close!
+            tell-datum! tell-text! tell-with-checksum! tell-bytes-with-checksum!
+            teller-flush! teller-sync! teller-close!
             tell-beginning!
             hex unhex
             teller? story?
@@ -116,16 +117,28 @@
   "Write DATUM on a line of its own."
   (put-text! teller (datum->line datum)))
 
+(define (tell-text! teller text)
+  "Write TEXT, lines that end, as it is."
+  (put-text! teller text))
+
 (define (put-text! teller text)
-  (let ((bytes (string->utf8 text)))
-    (set-teller-sum! teller (%checksum bytes (teller-sum teller)))
-    (put-bytevector (teller-port teller) bytes)))
+  (put-bytes! teller (string->utf8 text)))
+
+(define (put-bytes! teller bytes)
+  (set-teller-sum! teller (%checksum bytes (teller-sum teller)))
+  (put-bytevector (teller-port teller) bytes))
 
 (define (tell-with-checksum! teller . datum)
   "Write the list DATUM, and at its end the checksum of all that was written before."
   (let ((text (datum->text datum)))
     (put-text! teller (substring text 0 (- (string-length text) 1)))
     (put-text! teller (closing (teller-sum teller)))))
+
+(define (tell-bytes-with-checksum! teller text bytes)
+  "The same of a line that begins with TEXT and goes on with BYTES, UTF-8, both as they are written."
+  (put-text! teller text)
+  (put-bytes! teller bytes)
+  (put-text! teller (closing (teller-sum teller))))
 
 (define (closing sum)
   ;; The end of a line that ends in the checksum SUM.
