@@ -32,6 +32,7 @@
      net-turns sticks held? range-to bearing-to current-at sea-depth
      tether-points tether-tail point-at tangent-at tensions tension-at
      anchor-tension rov-tension max-tension tether-force
+     tether-twist tether-torque anchor-torque
      tether-length straight-distance taut-length free-length slack excess
      taut? parted? asleep? settled? model-of energy error-estimate accurate? tightest-bend equilibria
      deviation deviation? deviation-rms deviation-mean deviation-max deviation-worst

@@ -237,8 +237,11 @@ typedef struct bt_tether_view
   double accuracy;      /* m: the error in position that is accepted now */
   double tension_error; /* N: estimated error of the tension in the last step if above the tether's
                            tension_accuracy; else 0 */
-  bt_vec3 force;        /* on what the far end is fastened to, N */
-  int vehicle;          /* index of the vehicle at the far end, -1: a fixed point */
+  double twist;         /* radians by which its far end is turned against its anchor, right-handed
+                           about the way from the anchor; 0 of a line that does not twist */
+  double torque_anchor, torque_end; /* in the line at its ends, likewise, N m */
+  bt_vec3 force;                    /* on what the far end is fastened to, N */
+  int vehicle;                      /* index of the vehicle at the far end, -1: a fixed point */
   int taut;
   int parted; /* true: the line is in two; what is asked is the part at the anchor */
   int spooling;

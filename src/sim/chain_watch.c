@@ -43,7 +43,7 @@ bt__watch_twist (const bt_dive *dive, bt__state *state, bt__tether *tether, int 
     return;
   turn = bt__dive_vehicle (dive, state, vehicle)->heading
          - bt__dive_vehicle (dive, state, vehicle)->heading0;
-  torque = tether->props.gj * turn / length;
+  torque = chain->gripped ? chain->torque[1] : tether->props.gj * turn / length;
   most = torque * torque / (4 * ei) - BT__PI * BT__PI * ei / (length * length);
   for (int64_t j = 0; j < chain->n; j++)
     least = fmin (least, bt__dynamic_tension (chain)[j]);

@@ -141,8 +141,10 @@ lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
   bt_vec3 pull[2] = { chain->pull[0], chain->pull[1] };
   double length = bt__line_length (&line);
   bt_status status;
+  bt__dynamic twisted = *chain;
+  int keeps = bt__layers_slip (&tether->props) || tether->props.gj * tether->props.ei > 0;
   sample_tensions (dive, &line, n);
-  if (bt__layers_slip (&tether->props))
+  if (keeps)
     bt__slipped_along (chain, n, dive->corner);
   if (bt__has_obstacles (dive) && !bt__may_remesh (dive, state, i, n))
     return BT_OK;
@@ -152,8 +154,9 @@ lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
     return status;
   memcpy (bt__dynamic_v (chain), dive->motion, sizeof (bt_vec3) * (size_t)(n + 1));
   memcpy (bt__dynamic_tension (chain), dive->along, sizeof (double) * (size_t)n);
-  if (bt__layers_slip (&tether->props))
+  if (keeps)
     memcpy (bt__dynamic_load (chain), dive->corner, sizeof (bt_vec3) * (size_t)(n + 1));
+  bt__twist_copy (chain, &twisted);
   chain->pull[0] = pull[0];
   chain->pull[1] = pull[1];
   dive->profile.chain_remeshes++;

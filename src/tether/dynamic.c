@@ -33,7 +33,7 @@ bt__dynamic_work_free (bt__dynamic_work *w)
                      w->link,    w->node,  w->extra,   w->diag,      w->off,      w->up,
                      w->up2,     w->pivot, w->bend,    w->bend_diag, w->bend_off, w->bend_far,
                      w->whole,   w->spare, w->by_flow, w->kept,      w->crumple,  w->exchanged,
-                     w->natural, w->twist, w->felt,    w->round,     w->slip };
+                     w->natural, w->twist, w->felt,    w->round,     w->slip,     w->twisted };
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
     free (arrays[i]);
   free (w);
@@ -64,7 +64,7 @@ bt__dynamic_work_new (int n_max)
         && (w->whole = calloc (n, sizeof *w->whole)) && (w->spare = calloc (n, sizeof *w->spare))
         && (w->by_flow = calloc ((BT__BENTS + 1) * n, sizeof *w->by_flow))
         && (w->exchanged = calloc (3 * n, sizeof *w->exchanged))
-        && (w->natural = calloc (n, sizeof *w->natural))
+        && (w->twisted = bt__twisted_new (n)) && (w->natural = calloc (n, sizeof *w->natural))
         && (w->twist = calloc (n, sizeof *w->twist)) && (w->felt = calloc (n, sizeof *w->felt))
         && (w->kept = calloc (n, sizeof *w->kept)) && (w->crumple = calloc (n, sizeof *w->crumple))
         && (w->round = calloc (n, sizeof *w->round)) && (w->slip = calloc (n, sizeof *w->slip));
@@ -99,9 +99,10 @@ check_input (const bt__dynamic *d, const bt__dynamic_work *w, const bt__dynamic_
   if (!(in->h > 0 && isfinite (in->h)))
     return bt__fail (error, BT_ERR_DOMAIN, "a step of %g s; it must be positive and finite", in->h);
   if (!(p->mass > 0 && isfinite (p->mass) && p->ea > 0 && p->ei >= 0 && isfinite (p->ei)
-        && p->ba >= 0 && isfinite (p->ba) && p->bending_damping >= 0
-        && isfinite (p->bending_damping) && p->diameter >= 0 && isfinite (p->diameter)
-        && isfinite (p->wet_weight) && p->cdn >= 0 && p->cdt >= 0 && p->ca >= 0))
+        && p->gj >= 0 && isfinite (p->gj) && p->ba >= 0 && isfinite (p->ba)
+        && p->bending_damping >= 0 && isfinite (p->bending_damping) && p->diameter >= 0
+        && isfinite (p->diameter) && isfinite (p->wet_weight) && p->cdn >= 0 && p->cdt >= 0
+        && p->ca >= 0))
     return bt__fail (
         error, BT_ERR_DOMAIN,
         "the line has mass %g kg/m, EA %g N, EI %g N m2, damping %g N s, diameter %g m;"

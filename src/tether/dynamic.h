@@ -67,6 +67,10 @@ typedef struct bt__dynamic
   int64_t wait;            /* ... in how many steps it is asked again, see contact/line.h */
   int64_t least;           /* intervals that the winch leaves: of a cut line all but its last */
   int64_t rounded;         /* true: a chord has a surplus, see bt__dynamic_chord */
+  int64_t gripped;         /* true: both clamps hold the material, see dynamic_twist.c */
+  double grip;             /* rad: angle of the far clamp's director in the line without twist */
+  double twist;            /* rad: of node n against node 0, right-handed about the line */
+  double torque[2];        /* N m: in the line at its ends, right-handed about the line */
 } bt__dynamic;
 
 enum
@@ -93,7 +97,9 @@ bt_vec3 *bt__dynamic_dx (const bt__dynamic *d);    /* m: motion in the last step
 bt_vec3 *bt__dynamic_vp (const bt__dynamic *d);    /* m/s: velocities one step before */
 bt_vec3 *bt__dynamic_load (const bt__dynamic *d);  /* N: fourth-order part of the loads; of a line
                                                       of second order the curvature, 1/m, by which
-                                                      layers have slipped, see dynamic_slip.c */
+                                                      layers have slipped, see dynamic_slip.c, or
+                                                      (angle of the interval's director, rad, 0, 0),
+                                                      see dynamic_twist.c */
 bt_vec3 *bt__dynamic_chord (const bt__dynamic *d); /* m: fourth-order part of the chords; of a line
                                                       of second order (crumple, BT__BEARS, surplus
                                                       over the line), zero where absent */
@@ -185,8 +191,9 @@ typedef struct bt__dynamic_end
   double stiffness[3][3]; /* N/m: symmetric, positive definite */
   int clamped;            /* true: the line leaves along DIRECTION; wants bending stiffness */
   bt_vec3 direction;      /* unit, from node 0 toward node n */
-  bt_vec3 side;           /* of a clamp at node 0: the first director of the line's cross-section
-                             there; 0: bt__set_side */
+  bt_vec3 side;           /* of a clamp: a director of the line's cross-section there, the first one
+                             at node 0; 0: bt__set_side.  At node n the line is gripped as it lies
+                             in its first step.  */
 } bt__dynamic_end;
 
 /* What the number of intervals keeps to while a winch turns; all zero: as many as there is room
@@ -204,7 +211,7 @@ typedef struct bt__dynamic_mesh
 
 typedef struct bt__dynamic_input
 {
-  const bt_tether_props *line; /* diameter, mass, wet_weight, ea, ei, ba,
+  const bt_tether_props *line; /* diameter, mass, wet_weight, ea, ei, gj, ba,
                                   bending_damping, ei_stuck, slip_curvature, cdn, cdt, ca */
   const bt_water *water;       /* TIME at the end of the step; density 0: no water */
   bt__dynamic_end end[2];
@@ -334,6 +341,14 @@ bt_vec3 bt__set_carry (bt_vec3 side, bt_vec3 from, bt_vec3 to);
 
 /* True if the layers of a line of P stick and slip.  */
 int bt__layers_slip (const bt_tether_props *p);
+
+/* True if the line of INPUT twists: it has torsional stiffness, and clamps or a set that twist
+   it.  */
+int bt__twists (const bt__dynamic_input *input);
+
+/* Give TO, the same line on another mesh, the twist of FROM; no line is held so any more.  */
+void bt__twist_copy (bt__dynamic *to, const bt__dynamic *from);
+void bt__twist_forget (bt__dynamic *d);
 
 /* Write the curvatures, 1/m, by which the layers of D have slipped at N + 1 places evenly along it
    to OUT.  */

@@ -22,6 +22,7 @@
 
    A set makes the natural turn of a node other than none (dynamic_set.c): its forces are added at
    every iterate, and the thrust of an interval is EI kappa . (kappa - the natural curvature).
+   Those of twist are added with them (dynamic_twist.c).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -202,7 +203,8 @@ bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d)
   if (!(ei > 0 || damping > 0))
     return;
   w->is_set = w->in->n_sets > 0 && ei > 0;
-  if (w->is_set)
+  bt__dynamic_twist_prepare (w, d);
+  if (w->is_set || w->twists)
     bt__dynamic_set_forces (w, w->x);
   bt__dynamic_slip_prepare (w, d);
   prepare_thrust (w);
@@ -228,6 +230,8 @@ bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d)
   add_clamp (w, 1, ei);
   for (int i = 1; i < w->n && w->is_set; i++)
     w->bend_diag[i] += bt__set_hold (w, i);
+  if (w->twists)
+    bt__dynamic_twist_hold (w);
 }
 
 static inline bt_vec3
@@ -254,7 +258,7 @@ bt__dynamic_bend_force (bt__dynamic_work *w, bt__mode mode)
     }
   if (w->slips > 0)
     bt__dynamic_slip_force (w, mode);
-  if (!w->is_set)
+  if (!w->is_set && !w->twists)
     return;
   bt__dynamic_set_forces (w, w->X);
   for (int i = 0; i <= w->n; i++)
@@ -275,10 +279,11 @@ bt_vec3
 bt__dynamic_bend_on (bt__dynamic_work *w, int i)
 {
   bt_vec3 sum = { 0, 0, 0 };
-  if (w->is_set)
-    bt__dynamic_set_forces (w, w->X);
-  if (w->is_set)
-    sum = w->twist[i];
+  if (w->is_set || w->twists)
+    {
+      bt__dynamic_set_forces (w, w->X);
+      sum = w->twist[i];
+    }
   if (w->slips > 0)
     sum = bt__add (sum, bt__dynamic_slip_on (w, i));
   int inner = w->n - 1, from = i > 2 ? i - 2 : 0, to = i < inner ? i + 1 : inner;
@@ -300,5 +305,5 @@ bt__dynamic_bend_energy (const bt__dynamic_work *w, const bt_vec3 *X)
     }
   if (w->slips > 0)
     sum += bt__dynamic_slip_potential (w, X);
-  return w->is_set ? sum + bt__dynamic_set_potential (w, X) : sum;
+  return w->is_set || w->twists ? sum + bt__dynamic_set_potential (w, X) : sum;
 }

@@ -13,7 +13,7 @@
 
 #include <math.h>
 
-#include "tether/dynamic_kernel.h"
+#include "tether/dynamic_frame.h"
 
 #define NOTHING 1e-12 /* of what moves, is strained and can fall: no gain */
 
@@ -25,14 +25,22 @@ strain_energy (double ea, double rest, double e, int bends)
   return over > 0 || bends ? 0.5 * ea * rest * over * over : 0;
 }
 
+/* What D stores at X by bending and twist, twisted as D is, or as W is if W is not NULL.  */
 static double
-bending_energy (const bt__dynamic *d, const bt_vec3 *x, const bt__dynamic_input *in)
+bending_energy (const bt__dynamic *d, const bt__dynamic_work *w, const bt_vec3 *x,
+                const bt__dynamic_input *in)
 {
   const double *rest = bt__dynamic_rest (d);
   double sum = 0, ei = in->line->ei;
   int n = (int)d->n;
+  bt__frame_line l = { .in = in, .x = x, .n = n, .rest = rest };
+  if (bt__twists (in))
+    {
+      bt__twist_of (d, w, &l);
+      sum = bt__twist_energy (&l);
+    }
   if (in->n_sets > 0 && ei > 0)
-    return bt__set_energy (in, x, rest, n);
+    return sum + bt__set_energy (&l);
   for (int i = 1; i < n && ei > 0; i++)
     {
       double cell = 0.5 * (rest[i - 1] + rest[i]);
@@ -41,9 +49,10 @@ bending_energy (const bt__dynamic *d, const bt_vec3 *x, const bt__dynamic_input 
   return bt__layers_slip (in->line) ? sum + bt__slip_energy (d, in, x) : sum;
 }
 
-/* The energies of D at the places X with the velocities V.  */
+/* The energies of D at the places X with the velocities V, twisted as D is, or as W.  */
 static bt__dynamic_energy
-energies_at (const bt__dynamic *d, const bt__dynamic_input *in, const bt_vec3 *x, const bt_vec3 *v)
+energies_at (const bt__dynamic *d, const bt__dynamic_work *w, const bt__dynamic_input *in,
+             const bt_vec3 *x, const bt_vec3 *v)
 {
   const double *rest = bt__dynamic_rest (d);
   const bt_vec3 *chord = in->order == 4 ? bt__dynamic_chord (d) : NULL;
@@ -52,7 +61,7 @@ energies_at (const bt__dynamic *d, const bt__dynamic_input *in, const bt_vec3 *x
   double ea = bt__stiffness (p->ea);
   double lift = in->water->density > 0 ? p->mass * in->water->gravity - p->wet_weight : 0;
   int n = (int)d->n;
-  bt__dynamic_energy sum = { 0, 0, 0, bending_energy (d, x, in) };
+  bt__dynamic_energy sum = { 0, 0, 0, bending_energy (d, w, x, in) };
   for (int i = 0; i <= n; i++)
     {
       double cell = 0.5 * ((i ? rest[i - 1] : 0) + (i < n ? rest[i] : 0));
@@ -77,7 +86,7 @@ energies_at (const bt__dynamic *d, const bt__dynamic_input *in, const bt_vec3 *x
 bt__dynamic_energy
 bt__dynamic_energies (const bt__dynamic *d, const bt__dynamic_input *in)
 {
-  bt__dynamic_energy now = energies_at (d, in, bt__dynamic_x (d), bt__dynamic_v (d));
+  bt__dynamic_energy now = energies_at (d, NULL, in, bt__dynamic_x (d), bt__dynamic_v (d));
   if (!isfinite (in->line->ea)) /* its strain is what a solved step may leave undone */
     now.strain = 0;
   return now;
@@ -122,7 +131,7 @@ static double
 energy_of (const bt__dynamic *d, const bt__dynamic_work *w, const bt_vec3 *x, const bt_vec3 *v,
            double *moving, double *grain)
 {
-  bt__dynamic_energy e = energies_at (d, w->in, x, v);
+  bt__dynamic_energy e = energies_at (d, x == w->X ? w : NULL, w->in, x, v);
   double length = bt__dynamic_length (d), weight = fabs (w->weight) * length;
   for (int i = 0; w->lumped && i <= w->n; i++)
     {

@@ -274,6 +274,10 @@ take_over (bt__dynamic *d, bt__dynamic_work *w, const uint8_t *restart, const bt
       bt__dynamic_chord (d)[j] = bt__vec (w->crumple[j], BT__BEARS, bt__dynamic_chord (d)[j].z);
   if (w->slips > 0)
     bt__dynamic_slip_take (d, w);
+  if (w->twists)
+    bt__dynamic_twist_take (d, w);
+  else
+    bt__twist_forget (d);
   commit_nodes (d, w, w->keep, restart);
   commit_links (d, w, report);
   commit_ends (d, w, pull, report);

@@ -31,6 +31,10 @@ static const bt__member dynamic[] = {
   BT__WITHIN (bt__dynamic, wait, 0, BT__MANY),
   BT__WITHIN (bt__dynamic, least, 1, BT__LEAST_INTERVALS),
   BT__WITHIN (bt__dynamic, rounded, 0, 1),
+  BT__TRUTH (bt__dynamic, gripped),
+  BT__WITHIN (bt__dynamic, grip, -BT__FAR, BT__FAR),
+  BT__WITHIN (bt__dynamic, twist, -BT__FAR, BT__FAR),
+  BT__WITHIN (bt__dynamic, torque, -BT__HUGE, BT__HUGE),
 };
 const bt__record bt__dynamic_record = BT__RECORD (bt__dynamic, "chain", dynamic);
 

@@ -118,6 +118,9 @@ typedef union bt__pivot
   bt__pair_factor two;
 } bt__pivot;
 
+struct bt__frame_line;
+struct bt__twisted;
+
 struct bt__dynamic_work
 {
   int n_max;
@@ -145,6 +148,8 @@ struct bt__dynamic_work
   const bt_vec3 *x;            /* positions at the start */
   const bt_vec3 *chord, *load; /* fourth-order parts, NULL if none */
   int is_set;                  /* true: the line has a natural curvature, see dynamic_set.c: */
+  int twists;                  /* true: the directors turn about it, see dynamic_twist.c: */
+  struct bt__twisted *twisted; /* ... the angles of a step */
   bt__constraint *row;         /* the caller's half-spaces, ... */
   int coupled;                 /* true: friction follows the loads within an iteration */
   int rows, pairs;             /* ... how many; and of these, how many bear on two places */
@@ -309,13 +314,30 @@ double bt__dynamic_couple_solve (bt__dynamic_work *w);
 /* Unfold what is crumpled of a line with bending stiffness (dynamic_unfold.c).  */
 void bt__dynamic_unfold (bt__dynamic_work *w, const bt__dynamic *d);
 
-/* A set: its forces and natural turns of a line that lies at X, to TWIST and NATURAL; the
-   potential of the forces; the energy of bending, J, of a line with a set; what node I resists
+/* A set, and twist: their forces and natural turns of a line that lies at X, to TWIST and NATURAL;
+   the potential of the forces; the energy of bending, J, of a line with a set; what node I resists
    more than by its bending, N/m.  */
 void bt__dynamic_set_forces (bt__dynamic_work *w, const bt_vec3 *x);
 double bt__set_hold (const bt__dynamic_work *w, int i);
 double bt__dynamic_set_potential (const bt__dynamic_work *w, const bt_vec3 *x);
-double bt__set_energy (const bt__dynamic_input *in, const bt_vec3 *x, const double *rest, int n);
+double bt__set_energy (const struct bt__frame_line *l);
+
+/* Twist (dynamic_twist.c): set up a step of D; find the angles of the directors of L, which are
+   then L's, and return the torque of the grip on node n, N m; the energy of twist of L, J, and of
+   the last L found but for a constant; make the blocks stiffer by what twist may resist; keep in D
+   what the step came to.  */
+void bt__dynamic_twist_prepare (bt__dynamic_work *w, const bt__dynamic *d);
+double bt__dynamic_twist (const bt__dynamic_work *w, struct bt__frame_line *l);
+double bt__twist_energy (const struct bt__frame_line *l);
+double bt__dynamic_twist_potential (const bt__dynamic_work *w, const struct bt__frame_line *l);
+void bt__dynamic_twist_hold (bt__dynamic_work *w);
+void bt__dynamic_twist_take (bt__dynamic *d, bt__dynamic_work *w);
+
+/* Let L twist as D does after its last step, or if W is not NULL as the last iterate of W.  */
+void bt__twist_of (const bt__dynamic *d, const bt__dynamic_work *w, struct bt__frame_line *l);
+
+/* The workspace of the angles for N intervals, or NULL; freed by free.  */
+struct bt__twisted *bt__twisted_new (size_t n);
 
 /* U, a vector across the unit vector T, as T turns to the unit vector S the shortest way.  */
 bt_vec3 bt__carry_side (bt_vec3 u, bt_vec3 t, bt_vec3 s);

@@ -24,7 +24,7 @@
 
 #include <string.h>
 
-#include "tether/dynamic_kernel.h"
+#include "tether/dynamic_frame.h"
 
 #define BACK 1e-6  /* of 1 + cos of the angle of a fold: less is a fold right back */
 #define HOLD 1.0   /* of EI kappa0^4 by the cell, in the blocks */
@@ -74,69 +74,36 @@ bt__place_sets (const bt_set *sets, int n, double length, double beyond, bt__dyn
 
 /* ---- Along the line ---- */
 
-/* A line as it lies at X; of REST and LINK one tells its rest lengths.  */
-typedef struct set_line
-{
-  const bt__dynamic_input *in;
-  const bt_vec3 *x;
-  int n;
-  const double *rest;
-  const bt__link *link;
-} set_line;
-
-static double
-rest_of (const set_line *l, int j)
-{
-  return l->rest ? l->rest[j] : l->link[j].rest;
-}
-
 static bt_vec3
-set_chord (const set_line *l, int j)
+set_chord (const bt__frame_line *l, int j)
 {
   return bt__sub (l->x[j + 1], l->x[j]);
 }
 
-/* On the way along a line: where, the tangent and the first director of the interval before.  */
-typedef struct walk
-{
-  double left; /* m of rest length to node n */
-  bt_vec3 t, u;
-  double cos, sin; /* of the angle by which the line has turned about itself */
-} walk;
-
-/* A node on the way.  */
-typedef struct station
-{
-  bt_vec3 w, d;   /* turn, natural turn */
-  bt_vec3 middle; /* unit tangent: half the way between the two */
-  bt_vec3 swept;  /* product of the tangents before and after */
-  double k, half; /* EI / cell; 1 + cos of the turn, halved */
-} station;
-
-static int
-first_station (const set_line *l)
+int
+bt__first_station (const bt__frame_line *l)
 {
   return l->in->end[0].clamped ? 0 : 1;
 }
 
-static int
-last_station (const set_line *l)
+int
+bt__last_station (const bt__frame_line *l)
 {
   return l->in->end[1].clamped ? l->n : l->n - 1;
 }
 
 static bt_vec3
-clamp_of (const set_line *l, int end)
+clamp_of (const bt__frame_line *l, int end)
 {
   return bt__unit_or (l->in->end[end].direction, down);
 }
 
-static walk
-set_out (const set_line *l)
+bt__walk
+bt__set_out (const bt__frame_line *l)
 {
-  walk s = { .cos = 1 };
+  bt__walk s = { .cos = 1 };
   for (int j = 0; j < l->n; j++)
-    s.left += rest_of (l, j);
+    s.left += bt__frame_rest (l, j);
   if (l->in->end[0].clamped)
     {
       bt_vec3 side = l->in->end[0].side;
@@ -147,7 +114,7 @@ set_out (const set_line *l)
     }
   s.t = bt__unit_or (set_chord (l, 0), down);
   s.u = bt__set_side (s.t);
-  s.left -= rest_of (l, 0);
+  s.left -= bt__frame_rest (l, 0);
   return s;
 }
 
@@ -167,7 +134,8 @@ natural_angle (const bt__dynamic_input *in, int c, double from, double to)
 /* The natural turn of a node of tangent B whose first director is U; its cell reaches from FROM to
    TO metres from node n.  */
 static bt_vec3
-natural_turn (const set_line *l, const walk *s, double from, double to, bt_vec3 b, bt_vec3 u)
+natural_turn (const bt__frame_line *l, const bt__walk *s, double from, double to, bt_vec3 b,
+              bt_vec3 u)
 {
   double p = natural_angle (l->in, 0, from, to), q = natural_angle (l->in, 1, from, to);
   double angle = hypot (p, q);
@@ -179,18 +147,25 @@ natural_turn (const set_line *l, const walk *s, double from, double to, bt_vec3 
                    size * (p * s->sin + q * s->cos), v);
 }
 
-/* Go on to node I, from the first station on one after the other.  */
-static station
-next_station (const set_line *l, walk *s, int i)
+bt__station
+bt__next_station (const bt__frame_line *l, bt__walk *s, int i)
 {
-  double before = i > 0 ? rest_of (l, i - 1) : 0, after = i < l->n ? rest_of (l, i) : 0;
+  double before = i > 0 ? bt__frame_rest (l, i - 1) : 0,
+         after = i < l->n ? bt__frame_rest (l, i) : 0;
   bt_vec3 to = i < l->n ? set_chord (l, i) : clamp_of (l, 1);
   bt_vec3 next = bt__unit_or (to, s->t);
   bt_vec3 from = i > 0 ? bt__scale (1 / before, set_chord (l, i - 1)) : s->t;
-  station at = { .swept = bt__cross (s->t, next), .half = 0.5 * (1 + bt__dot (s->t, next)) };
+  bt__station at = { .swept = bt__cross (s->t, next), .half = 0.5 * (1 + bt__dot (s->t, next)) };
   at.w = bt__sub (i < l->n ? bt__scale (1 / after, to) : to, from);
   at.middle = bt__unit_or (bt__add (s->t, next), next);
+  at.cell = 0.5 * (before + after);
   at.k = 2 * l->in->line->ei / (before + after);
+  if (l->edge)
+    {
+      double angle = 0.5 * (bt__angle_before (l, i) + bt__angle_after (l, i));
+      s->cos = cos (angle);
+      s->sin = sin (angle);
+    }
   at.d = natural_turn (l, s, s->left - 0.5 * after, s->left + 0.5 * before, at.middle,
                        bt__carry_side (s->u, s->t, at.middle));
   s->u = bt__carry_side (s->u, s->t, next);
@@ -199,25 +174,24 @@ next_station (const set_line *l, walk *s, int i)
   return at;
 }
 
-/* Minus the derivative of a station's energy by the angle of its directors, N m.  */
-static double
-moment_of (const station *at)
+double
+bt__moment_of (const bt__station *at)
 {
   return at->k * bt__dot (at->middle, bt__cross (at->d, at->w));
 }
 
 /* At the start of L, at the angle about its axis to which a line turns without a clamp.  */
-static walk
-set_out_turned (const set_line *l)
+static bt__walk
+set_out_turned (const bt__frame_line *l)
 {
-  walk start = set_out (l), s = start;
+  bt__walk start = bt__set_out (l), s = start;
   double sin = 0, cos = 0;
-  if (l->in->end[0].clamped)
+  if (l->in->end[0].clamped || l->edge)
     return start;
-  for (int i = first_station (l); i <= last_station (l); i++)
+  for (int i = bt__first_station (l); i <= bt__last_station (l); i++)
     {
-      station at = next_station (l, &s, i);
-      sin += moment_of (&at);
+      bt__station at = bt__next_station (l, &s, i);
+      sin += bt__moment_of (&at);
       cos += at.k * bt__dot (at.d, at.w);
     }
   double size = hypot (sin, cos);
@@ -230,16 +204,15 @@ set_out_turned (const set_line *l)
 }
 
 double
-bt__set_energy (const bt__dynamic_input *in, const bt_vec3 *x, const double *rest, int n)
+bt__set_energy (const bt__frame_line *l)
 {
-  set_line l = { .in = in, .x = x, .n = n, .rest = rest };
-  walk s = set_out_turned (&l);
+  bt__walk s = set_out_turned (l);
   double sum = 0;
-  for (int i = first_station (&l); i <= last_station (&l); i++)
+  for (int i = bt__first_station (l); i <= bt__last_station (l); i++)
     {
-      station at = next_station (&l, &s, i);
+      bt__station at = bt__next_station (l, &s, i);
       bt_vec3 off = bt__sub (at.w, at.d);
-      sum += i > 0 && i < n ? 0.5 * at.k * bt__dot (off, off) : 0;
+      sum += i > 0 && i < l->n ? 0.5 * at.k * bt__dot (off, off) : 0;
     }
   return sum;
 }
@@ -249,9 +222,9 @@ bt__set_energy (const bt__dynamic_input *in, const bt_vec3 *x, const double *res
 /* The derivative of - w.d k of node I by the tangents before and after the node: the natural turn
    follows the tangents, and the moment BEYOND passes through the node.  */
 static void
-push_tangents (bt__dynamic_work *w, int i, const station *at, double beyond)
+push_tangents (bt__dynamic_work *w, int i, const bt__station *at, double beyond)
 {
-  double half = fmax (at->half, BLUNT), c = sqrt (half), here = beyond + moment_of (at);
+  double half = fmax (at->half, BLUNT), c = sqrt (half), here = beyond + bt__moment_of (at);
   double size = 1 / (4 * half * (1 + c));
   double near = 1 + 2 * c; /* the half of a turn that is at a tangent follows it more */
   bt_vec3 follow = bt__scale (at->k * bt__dot (at->w, at->middle) / (2 * c), at->d);
@@ -272,49 +245,49 @@ pull_apart (bt__dynamic_work *w, int j, bt_vec3 pull)
 
 /* The force of the natural turn of node I, its directors held.  */
 static void
-push_turn (bt__dynamic_work *w, const set_line *l, int i, const station *at)
+push_turn (bt__dynamic_work *w, const bt__frame_line *l, int i, const bt__station *at)
 {
   w->natural[i] = at->d;
   if (i > 0)
-    pull_apart (w, i - 1, bt__scale (-at->k / rest_of (l, i - 1), at->d));
+    pull_apart (w, i - 1, bt__scale (-at->k / bt__frame_rest (l, i - 1), at->d));
   if (i < w->n)
-    pull_apart (w, i, bt__scale (at->k / rest_of (l, i), at->d));
+    pull_apart (w, i, bt__scale (at->k / bt__frame_rest (l, i), at->d));
 }
 
 /* The forces of what the tangents feel.  */
 static void
-push_chords (bt__dynamic_work *w, const set_line *l)
+push_chords (bt__dynamic_work *w, const bt__frame_line *l)
 {
   for (int j = 0; j < w->n; j++)
     {
       bt_vec3 c = set_chord (l, j), t = bt__unit_or (c, down), g = w->felt[j];
-      double length = fmax (bt__norm (c), SHORT * rest_of (l, j));
+      double length = fmax (bt__norm (c), SHORT * bt__frame_rest (l, j));
       pull_apart (w, j, bt__scale (-1 / length, bt__axpy (g, -bt__dot (g, t), t)));
     }
 }
 
 /* The moment that passes a node is the sum over all nodes beyond, from the far end, which turns
-   freely.  */
+   freely, or is gripped and adds the torque of its grip.  */
 void
 bt__dynamic_set_forces (bt__dynamic_work *w, const bt_vec3 *x)
 {
-  set_line l = { .in = w->in, .x = x, .n = w->n, .link = w->link };
-  walk start = set_out_turned (&l), s = start;
-  double beyond = 0;
+  bt__frame_line l = { .in = w->in, .x = x, .n = w->n, .link = w->link };
+  double beyond = w->twists ? bt__dynamic_twist (w, &l) : 0;
+  bt__walk start = set_out_turned (&l), s = start;
   memset (w->natural, 0, (size_t)(w->n + 1) * sizeof *w->natural);
   memset (w->twist, 0, (size_t)(w->n + 1) * sizeof *w->twist);
   memset (w->felt, 0, (size_t)(w->n + 1) * sizeof *w->felt);
-  for (int i = first_station (&l); i <= last_station (&l); i++)
+  for (int i = bt__first_station (&l); i <= bt__last_station (&l); i++)
     {
-      station at = next_station (&l, &s, i);
-      beyond += moment_of (&at);
+      bt__station at = bt__next_station (&l, &s, i);
+      beyond += bt__moment_of (&at);
       push_turn (w, &l, i, &at);
     }
   s = start;
-  for (int i = first_station (&l); i <= last_station (&l); i++)
+  for (int i = bt__first_station (&l); i <= bt__last_station (&l); i++)
     {
-      station at = next_station (&l, &s, i);
-      beyond -= moment_of (&at);
+      bt__station at = bt__next_station (&l, &s, i);
+      beyond -= bt__moment_of (&at);
       push_tangents (w, i, &at, beyond);
     }
   push_chords (w, &l);
@@ -330,12 +303,14 @@ bt__set_hold (const bt__dynamic_work *w, int i)
 double
 bt__dynamic_set_potential (const bt__dynamic_work *w, const bt_vec3 *x)
 {
-  set_line l = { .in = w->in, .x = x, .n = w->n, .link = w->link };
-  walk s = set_out_turned (&l);
-  double sum = 0;
-  for (int i = first_station (&l); i <= last_station (&l); i++)
+  bt__frame_line l = { .in = w->in, .x = x, .n = w->n, .link = w->link };
+  if (w->twists)
+    bt__dynamic_twist (w, &l);
+  bt__walk s = set_out_turned (&l);
+  double sum = w->twists ? bt__dynamic_twist_potential (w, &l) : 0;
+  for (int i = bt__first_station (&l); i <= bt__last_station (&l); i++)
     {
-      station at = next_station (&l, &s, i);
+      bt__station at = bt__next_station (&l, &s, i);
       sum -= at.k * bt__dot (at.w, at.d);
     }
   return sum;

@@ -329,6 +329,7 @@ new_end (bt__dynamic *d, int64_t j, int64_t end)
   d->pull[end ? 1 : 0] = bt__vec (0, 0, 0);
   d->history = 0;
   d->spare = (bt__dynamic_drift){ 0, 0, 0 };
+  bt__twist_forget (d);
 }
 
 void

@@ -2,74 +2,9 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
-#include "law/dynamic_scene.h"
-#include "tether/dynamic_kernel.h"
-
-#define EVERYWHERE -1e3, 1e3 /* m */
-
-static uint64_t dice = 1;
-
-/* From -1 to 1.  */
-static double
-thrown (void)
-{
-  dice = dice * 6364136223846793005u + 1442695040888963407u;
-  return (double)(int64_t)dice / 9.3e18;
-}
-
-static void
-open_line (scene *s, int n, double length, double ei, const bt__dynamic_set *sets, int n_sets)
-{
-  bt_vec3 shape[2] = { { 0, 0, 0 }, { length, 0, 0 } };
-  bt_tether_props line
-      = { .diameter = 0.01, .mass = 0.1, .ea = 1e6, .ei = ei, .cdn = 1.2, .cdt = 0.01, .ca = 1 };
-  scene_open (s, line, 0, n, shape, 2, length);
-  s->in.sets = sets;
-  s->in.n_sets = n_sets;
-}
+#include "law/dynamic_bent.h"
 
 /* ---- Energy and forces ---- */
-
-enum
-{
-  BENT = 14
-};
-
-static double
-prepared_energy (scene *s)
-{
-  s->in.h = 1;
-  assert_int_equal (bt__dynamic_begin (s->d, s->work, &s->in, &s->report, &s->error), BT_OK);
-  memcpy (s->work->X, bt__dynamic_x (s->d), (BENT + 1) * sizeof (bt_vec3));
-  return bt__dynamic_bend_energy (s->work, s->work->X);
-}
-
-static double *
-component (scene *s, int i, int axis)
-{
-  return &((double *)(void *)&bt__dynamic_x (s->d)[i])[axis];
-}
-
-/* A crooked line of uneven stretch, of three sets; CLAMPS: bit K for end K.  */
-static void
-open_crooked (scene *s, int clamps, double crooked, const bt__dynamic_set *sets)
-{
-  open_line (s, BENT, 2, 0.7, sets, 3);
-  bt_vec3 *x = bt__dynamic_x (s->d);
-  for (int i = 0; i <= BENT; i++)
-    x[i] = bt__vec (1.9 * i / BENT + 0.05 * crooked * thrown (), crooked * 0.08 * thrown (),
-                    crooked * (0.3 * sin (0.4 * i) + 0.08 * thrown ()));
-  for (int k = 0; k < 2; k++)
-    {
-      s->in.end[k].free = 1;
-      s->in.end[k].clamped = clamps >> k & 1;
-      s->in.end[k].direction
-          = bt__unit_or (bt__vec (1, 0.4 * thrown (), 0.4 * thrown ()), bt__vec (1, 0, 0));
-    }
-}
-
-static const bt__dynamic_set three[3]
-    = { { 0.4, 1.1, { 2, -1 } }, { 0.8, 3, { -1.5, 0.6 } }, { -1, 0.5, { 0.3, 2 } } };
 
 /* What bending pushes with at the start of a step is minus the gradient of its energy, of central
    differences; without clamps no force and no moment of all is left.  */
@@ -80,34 +15,10 @@ test_force_is_the_gradient (void **state)
   for (int trial = 0; trial < 24; trial++)
     {
       scene s;
-      double h = 1e-5, worst = 0, most = 0;
-      bt_vec3 all = { 0, 0, 0 }, turning = { 0, 0, 0 };
-      open_crooked (&s, trial % 4, trial < 12 ? 1 : 0.2, three);
-      for (int i = 0; i <= BENT; i++)
-        {
-          prepared_energy (&s);
-          bt_vec3 x = s.work->X[i], f = bt__dynamic_bend_on (s.work, i);
-          double force[3];
-          memcpy (force, &f, sizeof force);
-          all = bt__add (all, f);
-          turning = bt__add (turning, bt__cross (x, f));
-          for (int axis = 0; axis < 3; axis++)
-            {
-              double was = *component (&s, i, axis), up, down;
-              *component (&s, i, axis) = was + h;
-              up = prepared_energy (&s);
-              *component (&s, i, axis) = was - h;
-              down = prepared_energy (&s);
-              *component (&s, i, axis) = was;
-              worst = fmax (worst, fabs (force[axis] + (up - down) / (2 * h)));
-              most = fmax (most, fabs (force[axis]));
-            }
-        }
-      if (!(worst < 1e-6 * most))
-        fail_msg ("trial %d: the force is off the gradient by %g of %g", trial, worst, most);
-      assert_true (bt__norm (all) < 1e-9 * most);
-      if (trial % 4 == 0)
-        assert_true (bt__norm (turning) < 1e-9 * most);
+      char what[32];
+      snprintf (what, sizeof what, "trial %d", trial);
+      open_crooked (&s, trial % 4, trial < 12 ? 1 : 0.2, 0, 3);
+      assert_gradient (&s, trial % 4, what);
       scene_close (&s);
     }
 }
@@ -135,7 +46,7 @@ is_an_arc (int clamped, double plane)
   scene s;
   double length = 2, bend = 2 * BT__PI / length, corner = 2 * BT__PI / N;
   bt__dynamic_set set = { EVERYWHERE, { bend * cos (plane), bend * sin (plane) } };
-  open_line (&s, N, length, 0.3, &set, 1);
+  open_line (&s, N, length, 0.3, 0, &set, 1);
   s.in.end[0].clamped = clamped;
   s.in.end[0].direction = bt__vec (1, 0, 0);
   s.in.end[1].free = 1;
@@ -182,7 +93,7 @@ test_turning_set_is_a_helix (void **state)
       set[i]
           = (bt__dynamic_set){ i * piece, (i + 1) * piece, { k * cos (angle), k * sin (angle) } };
     }
-  open_line (&s, PIECES, length, 0.3, set, PIECES);
+  open_line (&s, PIECES, length, 0.3, 0, set, PIECES);
   s.in.end[1].free = 1;
   scene_settle (&s);
   const bt_vec3 *x = bt__dynamic_x (s.d);
@@ -211,7 +122,7 @@ test_pulled_straight (void **state)
       scene s;
       double k = 0.05, length = 2, ei = 0.5, q = sqrt (pull / ei);
       bt__dynamic_set set = { EVERYWHERE, { 0, k } };
-      open_line (&s, 80, length, ei, &set, 1);
+      open_line (&s, 80, length, ei, 0, &set, 1);
       s.in.end[1].free = 1;
       s.in.end[1].body.force = bt__vec (pull, 0, 0);
       scene_settle (&s);
@@ -231,7 +142,7 @@ test_no_energy_is_gained (void **state)
 {
   scene s;
   (void)state;
-  open_line (&s, 40, 2, 0.3, three, 3);
+  open_line (&s, 40, 2, 0.3, 0, three, 3);
   s.in.end[1].free = 1;
   double first = scene_energy (&s), fastest = 0;
   for (int i = 0; i < 480; i++)
@@ -256,7 +167,7 @@ test_none_is_none (void **state)
   for (int k = 0; k < 2; k++)
     {
       scene s;
-      open_line (&s, 30, 2, 0.3, k ? &none : NULL, 0);
+      open_line (&s, 30, 2, 0.3, 0, k ? &none : NULL, 0);
       s.line.wet_weight = 1;
       s.in.end[1].free = 1;
       for (int i = 0; i < 60; i++)

@@ -76,6 +76,37 @@ whichever way a vehicle looks that carries the clamp in its own axes."
   (run 20)
   (expect (y (tangent-at 0)) is (above 0.99)))
 
+(define-scenario a-vehicle-twists-its-line
+  "A vehicle that turns under its line twists it by as many turns, awake or asleep: the torque is G J Theta / L at both
+ends, in forks and checkpoints too.  Paid out, the line has less of it; cut, none."
+  (enter! (world (sea (depth 60))
+                 (rov (named v) (type kinematic) (at 0 0 -14) (pull 1e6))
+                 (tether (named l) (type fathom) (wet-weight 0.1) (ei 0.5) (gj 0.4) (bending-damping 0.05) (from 0 0 -10)
+                         (from-along 0 0 -1) (to v) (to-along 0 0 1) (length 3.99) (nodes 20) (model dynamic))))
+  (define (torque) (/ (* 0.4 2 pi (tether-twist)) (tether-length)))
+  (settle! #:within 1e-5 #:at-most 60)
+  (expect (tether-twist) is (about 0 #:within 1e-9))
+  (drive! #:yaw 1)                      ; 45 degrees a second, clockwise as seen from above
+  (run 12)
+  (drive! #:yaw 0)
+  (run 5)
+  (expect (tether-twist) is (about 1.5 #:within 1e-3)) ; right-handed about the way down
+  (expect (tether-torque) is (about (torque) #:within 1e-9))
+  (expect (anchor-torque) is (about (tether-torque) #:within 1e-9))
+  (let ((here (checkpoint)))
+    (drive! #:yaw -1)
+    (run 4)
+    (expect (tether-twist) is (about 1 #:within 1e-3))
+    (let ((there (state-hash)))
+      (restore! here)
+      (expect (what-if (begin (drive! #:yaw -1) (run 4) (state-hash))) => there)))
+  (pay-out! 2 #:rate 1)
+  (run 10)
+  (expect (tether-torque) is (about (torque) #:within 1e-9))
+  (cut-tether! #:at 1)
+  (run 1)
+  (expect (list (tether-twist) (tether-torque) (anchor-torque)) => '(0. 0. 0.)))
+
 (define-scenario what-a-clamp-wants
   "A clamp bends a line that is stiff and moves; a vehicle with mass is told of no moment."
   (define (line . fields)

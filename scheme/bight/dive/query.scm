@@ -20,6 +20,7 @@
             current-at sea-depth
             tether-points point-at tangent-at
             tensions tension-at anchor-tension rov-tension max-tension tether-force
+            tether-twist tether-torque anchor-torque
             tether-length straight-distance taut-length free-length slack excess
             taut? parted? asleep? settled? model-of energy error-estimate accurate? tightest-bend equilibria
             type:arc-lengths places-of deviation deviation-rms deviation-mean deviation-max deviation-worst deviation?
@@ -152,6 +153,25 @@ what is out."
 the last step was taken in parts (`tension-accuracy'), it is the largest in all of these.")
 (define-tether-question (tether-force force)
   "Return the force of the tether on the vehicle, N, a vector.")
+
+
+;;; Twist.
+
+(define turn (* 8 (atan 1)))            ; radians
+
+(define-verb (tether-twist #:subject (t tether))
+  "Return by how many turns the far end of the tether is twisted against its anchor, right-handed about the way from the
+anchor: of a moving line with `gj' that is clamped at both ends, since it was laid.  What it writhes in loops is
+untwisted.  0 of any other line."
+  (/ (assq-ref (tether-view 'tether-twist t) 'twist) turn))
+
+(define-tether-question (tether-torque torque-end)
+  "Return the torque in the tether at its far end, N m, right-handed about the way from the anchor: 0 unless a moving
+line with `gj' is clamped at both ends.")
+
+(define-tether-question (anchor-torque torque-anchor)
+  "Return the torque in the tether at its anchor, N m, right-handed about the way from the anchor: `tether-torque', and
+what a set along the line takes up on the way.  0 of a line that is not clamped at its anchor, or has no `gj'.")
 
 
 ;;; Lengths.
