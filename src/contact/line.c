@@ -308,7 +308,6 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
   bt_status status = check_config (config, w, d, error);
   if (status)
     return status;
-  w->last = *config;
   bt__line_aim_ends (&k);
   if (k.scene->n == 0 && k.movers == 0 && !bt__self_counts (&k) && !d->rounded)
     status = step_open (&k, report, error);

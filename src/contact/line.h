@@ -107,11 +107,6 @@ void bt__line_work_free (bt__line_work *work); /* NULL is nothing */
    alone.  */
 void bt__line_work_forget (bt__line_work *work);
 
-/* Return how far each node of D, which WORK has just stepped, may be from where it is, for it to be
-   clear of itself and other lines whatever those do, m; 0: it is not.  What the step's CONFIG
-   points to must still be there.  */
-double bt__line_work_spare (bt__line_work *work, bt__dynamic *d);
-
 /* Return within what distance of where it was, m, a line came, and asked for others, in all that
    was done with WORK since this was last called: farther off others may do as they like.  */
 double bt__line_work_asked (bt__line_work *work);
@@ -164,6 +159,10 @@ typedef struct bt__line_config
   int strands;               /* workspace has room for */
   const bt__line_hook *hook; /* NULL */
 } bt__line_config;
+
+/* Return how far each node of D may be from its place, m, for D to be clear of itself and of the
+   lines of CONFIG, whatever these do; 0: D is not clear.  */
+double bt__line_work_spare (bt__line_work *work, bt__dynamic *d, const bt__line_config *config);
 
 typedef struct bt__line_report
 {

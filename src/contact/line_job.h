@@ -119,7 +119,6 @@ struct bt__line_work
   double *from_end; /* m of rest length from each node to node n */
   uint8_t *restart;
   bt__self self;
-  bt__line_config last;             /* of the last step */
   double asked;                     /* m, see bt__line_work_asked */
   bt__dynamic_input in;             /* of a step in which ends are not where they are wanted */
   bt__dynamic_hold hold[2];         /* what holds them */

@@ -103,15 +103,15 @@ bt__line_work_forget (bt__line_work *w)
 }
 
 double
-bt__line_work_spare (bt__line_work *w, bt__dynamic *d)
+bt__line_work_spare (bt__line_work *w, bt__dynamic *d, const bt__line_config *config)
 {
   bt__line_report unused = { 0 };
   bt__line_job k = { .w = w,
                      .d = d,
-                     .config = &w->last,
+                     .config = config,
                      .links = (int)d->n,
-                     .margin = w->last.radius,
-                     .core = w->last.core,
+                     .margin = config->radius,
+                     .core = config->core,
                      .x = bt__dynamic_x (d),
                      .report = &unused };
   return bt__self_counts (&k) ? bt__self_spare (&k) : INFINITY;

@@ -130,6 +130,14 @@ box_leaves (const bt_dive *dive, bt__state *state, bt__contexts *l, int i, int p
   l->boxes[i] += leaves_of (chain);
 }
 
+/* One box about all the places that tether I has in its stretch.  */
+static void
+box_stretch (const bt_dive *dive, bt__state *state, bt__contexts *l, int i)
+{
+  l->whole[i] = l->box[l->box_at[i]] = bt__box_of_stretch (dive, state, i);
+  l->boxes[i] = 1;
+}
+
 /* Give every moving line the box about its parts, drawn before.  */
 static void
 box_tethers (const bt_dive *dive, bt__state *state, bt__contexts *l)
@@ -139,7 +147,9 @@ box_tethers (const bt_dive *dive, bt__state *state, bt__contexts *l)
       const bt__tether *tether = bt__dive_tether (dive, state, i);
       const bt__aabb *part = dive->contact_work.box + 2 * i;
       l->boxes[i] = 0;
-      if (!bt__is_cable (tether))
+      if (bt__is_ahead (tether))
+        box_stretch (dive, state, l, i);
+      if (!bt__is_cable (tether) || bt__is_ahead (tether))
         continue;
       l->whole[i] = part[0];
       if (tether->parted)
@@ -194,11 +204,14 @@ tethers_meet (const bt_dive *dive, bt__state *state, const bt__contexts *l, int 
               double gap)
 {
   const bt__aabb *a = l->box + l->box_at[i], *b = l->box + l->box_at[j];
+  int told = bt__is_ahead (bt__dive_tether (dive, state, i))
+             || bt__is_ahead (bt__dive_tether (dive, state, j)); /* by boxes alone */
   for (int m = 0; m < l->boxes[i]; m++)
     if (bt__boxes_are_near (&a[m], &l->whole[j], gap))
       for (int n = 0; n < l->boxes[j]; n++)
         if (bt__boxes_are_near (&a[m], &b[n], gap)
-            && leaves_meet (leaf_of (dive, state, i, m), leaf_of (dive, state, j, n), gap))
+            && (told
+                || leaves_meet (leaf_of (dive, state, i, m), leaf_of (dive, state, j, n), gap)))
           return 1;
   return 0;
 }

@@ -213,7 +213,7 @@ bt__carry_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, b
   bt_status status;
   if (bt__are_ends (ends, &tether->shape))
     return BT_OK;
-  bt__leave_stretch (dive, state, i);
+  bt__leave_stretches (dive, state); /* the line may come to lie where another was told to go */
   bt__store_changes (dive, i);
   if (bt__has_obstacles (dive))
     return bt__drag_chain (dive, state, i, ends, error);

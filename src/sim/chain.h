@@ -117,6 +117,20 @@ double bt__stretch_tension (const bt__tether *tether);
 int bt__are_ends_foreseen (const bt_dive *dive, bt__state *state, int i, const bt__ends *ends);
 void bt__go_on_within (bt_dive *dive, bt__state *state, int i, const bt__ends *ends);
 
+/* bt__is_out_of_sight returns true if tether I was ahead before the step to STATE: no contact looks
+   at tether I.  bt__has_room_about returns true if tether I, WAY metres about its places from the
+   present to STATE, meets no tether in the step, nor in the stretch of one (chain_apart.c).  */
+int bt__is_out_of_sight (const bt_dive *dive, const bt__state *state, int i);
+int bt__has_room_about (const bt_dive *dive, bt__state *state, int i, double way);
+
+/* The way, m, that every node of tether I, in one piece, may go while the line stays clear of
+   itself and of tethers in sight, however these move; at most a share of an interval
+   (chain_touch.c).  */
+double bt__spare_among_lines (bt_dive *dive, bt__state *state, int i);
+
+/* The box about all places of tether I of STATE, ahead of the present, in its stretch.  */
+bt__aabb bt__box_of_stretch (const bt_dive *dive, bt__state *state, int i);
+
 /* bt__most_pull_at returns what pulls end K of tether I to its place, N: a fixed point whatever it
    takes; a vehicle its pull, and what its other tethers pull against tether I.  bt__slips_at is
    true if end K slips where the tether pulls harder: a vehicle without mass holds it, and no

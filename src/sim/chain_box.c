@@ -3,7 +3,7 @@
    The box of a line has room for a step at the speed of the fastest node, and more.  All boxes are
    drawn before the first tether is resolved and stay as long as their lines stay inside.  Queries
    for distant lines therefore have the same answer before and after a step of the distant line, and
-   in every thread.
+   in every thread.  A line ahead of the present has no box (chain_apart.c).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -77,6 +77,8 @@ int
 bt__box_line (bt_dive *dive, bt__state *state, int i)
 {
   int left = 0;
+  if (bt__is_out_of_sight (dive, state, i) || bt__is_ahead (bt__dive_tether (dive, state, i)))
+    return 0;
   for (int part = 0; part < bt__chains (bt__dive_tether (dive, state, i)); part++)
     {
       bt__aabb *known = &dive->contact_work.box[2 * i + part];

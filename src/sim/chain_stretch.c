@@ -1,16 +1,17 @@
-/* A stretch: several steps of the dive that a moving line is taken through in one solve.
+/* A stretch: several steps of the dive through which a moving line is taken in one solve.
 
    The dive's clock stays.  Where all is calm a line of model `auto' is solved ahead, for up to half
    a second, and each step of the dive then tells the line from the places and velocities at both
-   ends of the stretch (tether/dynamic_dense.c).  The state holds the end of the stretch, and how
-   many steps of the stretch are gone, and nothing else of the line.  A question about the line
-   brings a copy of the line to the present first, so that a state is the same to the bit however
-   often the dive was asked, saved or forked.
+   ends of the stretch (tether/dynamic_dense.c).  Of the line the state holds the end of the stretch
+   alone, and how many steps of the stretch are gone.  A question about the line brings a copy of
+   the line to the present first: a state is the same to the bit however often the dive was asked,
+   saved or forked.
 
-   A stretch takes four things for granted: sticks, autopilots and tracks alone move the ends of the
-   line, no obstacle moves, the water is steady, the winch stands.  An operation on anything but a
-   vehicle ends the stretch.  Each step compares the ends with the stretch and looks for obstacles
-   on their way; where the stretch is wrong, the line is stepped on from the present, as last told.
+   A stretch takes five things for granted: sticks, autopilots and tracks alone move the ends of the
+   line, no obstacle moves, the water is steady, the winch stands, no line comes near
+   (chain_apart.c).  An operation on anything but a vehicle ends the stretch.  Each step compares
+   the ends with the stretch and looks for obstacles on their way; where the stretch is wrong, the
+   line is stepped on from the present, as last told.
 
    The error of the last stretch says how many steps the next stretch takes: the difference of the
    solution from the predictor (Milne's device; Hairer, Norsett, Wanner, Solving Ordinary
@@ -53,12 +54,27 @@ is_led (const bt_dive *dive, bt__state *state, int i, int k)
              && !bt__is_clamped (&dive->model->tethers[i], k));
 }
 
-/* True if nothing in the world moves but tether I and its vehicles, and the water is steady.  */
+/* True if no other tether is fastened to a vehicle of tether I.  */
+static int
+has_own_vehicles (const bt_dive *dive, int i)
+{
+  const bt_model *model = dive->model;
+  int own = 1;
+  for (int j = 0; j < model->n_tethers; j++)
+    for (int k = 0; k < 2 && j != i; k++)
+      for (int e = 0; e < 2; e++)
+        own &= model->ends[j][k].vehicle < 0
+               || model->ends[j][k].vehicle != model->ends[i][e].vehicle;
+  return own;
+}
+
+/* True if nothing but tethers and vehicles moves in the world, and the water is steady; and what
+   moves the ends of tether I is known ahead.  */
 static int
 is_world_still (const bt_dive *dive, bt__state *state, int i)
 {
   bt_water water = bt__dive_water (dive, state);
-  return dive->model->n_tethers == 1 && dive->model->n_hulls == 0 && water.density > 0
+  return has_own_vehicles (dive, i) && dive->model->n_hulls == 0 && water.density > 0
          && !bt_water_is_unsteady (&water) && is_led (dive, state, i, 0)
          && is_led (dive, state, i, 1) && !bt__movers_move (dive);
 }
@@ -117,13 +133,16 @@ solve_ahead (bt_dive *dive, bt__state *state, int i, int steps, const bt__ends *
   input.h = steps * BT__TIME_STEP;
   input.growth = GROWTH * (1 + 1e-6);
   bt__fasten (dive, i, 0, INFINITY, &input, &fastened);
-  return bt__step_part (dive, state, i, 0, &input, report, error);
+  dive->contact_work.alone = 1;
+  bt_status status = bt__step_part (dive, state, i, 0, &input, report, error);
+  dive->contact_work.alone = 0;
+  return status;
 }
 
 /* True if tether I, just stepped through a stretch, can meet nothing meanwhile: the straight way of
    the step was clear by as much as the line swings.  */
 static int
-went_clear (const bt_dive *dive, bt__state *state, int i, const bt__dynamic_report *report)
+went_clear (bt_dive *dive, bt__state *state, int i, const bt__dynamic_report *report)
 {
   bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
   double swing = 1.01 * bt__dynamic_swing (chain), way = 1.01 * report->drift.way + swing;
@@ -133,7 +152,7 @@ went_clear (const bt_dive *dive, bt__state *state, int i, const bt__dynamic_repo
   if (bt__has_obstacles (dive) && !(chain->spare.way > way + touching))
     return 0;
   return fmin (chain->spare.turned, chain->spare.apart) > 2 * swing
-         || bt__line_work_spare (dive->contact_work.line, chain) > way;
+         || bt__spare_among_lines (dive, state, i) > way;
 }
 
 /* The error in place of the last stretch of tether I over the accepted error.  */
@@ -192,12 +211,24 @@ begin_stretch (bt_dive *dive, bt__state *state, int i, int steps, double off,
   dive->profile.chain_steps++;
 }
 
+/* Note that no stretch was to be had for tether I; return zero.  */
+static int
+refuse (const bt_dive *dive, bt__state *state, int i)
+{
+  bt__stretch *s = &bt__dive_tether (dive, state, i)->stretch;
+  s->next = 0;
+  s->wait = bt__next_wait (s);
+  return 0;
+}
+
 /* Try to solve tether I for a stretch; return true if it is taken.  */
 static int
 go_ahead (bt_dive *dive, bt__state *state, int i)
 {
   bt__present p;
   bt__keep_present (dive, state, i, &p);
+  if (!bt__has_room_about (dive, dive->now, i, 0))
+    return refuse (dive, state, i);
   for (int steps = longest_of (dive, state, i); steps >= GROWTH; steps /= SHORTER)
     {
       bt__ends to;
@@ -211,14 +242,14 @@ go_ahead (bt_dive *dive, bt__state *state, int i)
       double off = status == BT_OK ? error_of (dive, state, i) : INFINITY;
       if (off <= 1 && is_eventless (&p.tether, &report) && is_in_hand (dive, state, i)
           && went_clear (dive, state, i, &report)
-          && !bt__has_jumped (dive, state, i, report.tension, 1))
+          && !bt__has_jumped (dive, state, i, report.tension, 1)
+          && bt__has_room_about (dive, state, i, 0))
         {
           begin_stretch (dive, state, i, steps, off, &report);
           return 1;
         }
       bt__go_back (dive, state, i, &p);
-      bt__dive_tether (dive, state, i)->stretch.next = 0;
-      bt__dive_tether (dive, state, i)->stretch.wait = bt__next_wait (&p.tether.stretch);
+      refuse (dive, state, i);
     }
   return 0;
 }

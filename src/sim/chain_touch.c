@@ -123,11 +123,12 @@ static int
 gather_strands (const bt_dive *dive, bt__state *state, int i, int part)
 {
   int n = 0;
-  for (int j = 0; j < dive->model->n_tethers; j++)
+  for (int j = 0; !dive->contact_work.alone && j < dive->model->n_tethers; j++)
     {
       bt__state *from = bt__are_apart (dive, i, j) ? dive->now : state;
       const bt__tether *other = bt__dive_tether (dive, from, j);
-      if (!bt__is_cable (other) || !touches_tether (dive, state, i, j))
+      if (!bt__is_cable (other) || !touches_tether (dive, state, i, j)
+          || bt__is_out_of_sight (dive, state, j))
         continue;
       for (int k = 0; k < bt__chains (other); k++)
         if (j != i || k != part)
@@ -176,6 +177,14 @@ take_up (bt_dive *dive, int i, int part)
   if (dive->contact_work.line_of != line)
     bt__line_work_forget (dive->contact_work.line);
   dive->contact_work.line_of = line;
+}
+
+double
+bt__spare_among_lines (bt_dive *dive, bt__state *state, int i)
+{
+  bt__line_config config = line_config (dive, state, i, 0);
+  take_up (dive, i, 0);
+  return bt__line_work_spare (dive->contact_work.line, bt__dive_chain (dive, state, i, 0), &config);
 }
 
 void
@@ -280,8 +289,8 @@ push_towards (const bt_dive *dive, bt__state *state, int i, int j)
 static int
 goes_behind (const bt_dive *dive, bt__state *state, int i, int j)
 {
-  return bt__is_cable (bt__dive_tether (dive, state, i))
-         && bt__is_cable (bt__dive_tether (dive, state, j))
+  const bt__tether *a = bt__dive_tether (dive, state, i), *b = bt__dive_tether (dive, state, j);
+  return bt__is_cable (a) && bt__is_cable (b) && !bt__is_ahead (a) && !bt__is_ahead (b)
          && push_towards (dive, state, i, j) > push_towards (dive, state, j, i);
 }
 

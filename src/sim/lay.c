@@ -87,8 +87,7 @@ bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n)
   bt__surroundings around = bt__surround (dive, state, BT_PART_TETHER, i);
   double core = bt__core (bt__dive_tether (dive, state, i)->props.diameter);
   double length = bt__dynamic_length (chain), s = 0;
-  /* It has just stepped; where lines touch, nodes stay.  */
-  double spare = bt__line_work_spare (dive->contact_work.line, chain);
+  double spare = bt__spare_among_lines (dive, state, i); /* where lines touch, nodes stay */
   int64_t j = 0;
   for (int k = 0; k < n; k++)
     {
@@ -100,6 +99,20 @@ bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n)
         return 0;
     }
   return 1;
+}
+
+double
+bt__way_of_remesh (const bt_dive *dive, bt__state *state, int i, int n)
+{
+  bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  double length = bt__dynamic_length (chain), s = 0, most = 0;
+  int64_t j = 0;
+  for (int k = 0; k < n; k++)
+    {
+      bt__link link = { dive->polyline[k], dive->polyline[k + 1] };
+      most = fmax (most, farthest_off (chain, &link, length * k / n, length * (k + 1) / n, &j, &s));
+    }
+  return most;
 }
 
 /* Leave out corners of P, N in number, not needed for a clearance of KEEP, if the line gets shorter

@@ -24,6 +24,10 @@ int bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n);
 double bt__room_about (bt_dive *dive, const bt__surroundings *around, const bt__link *link,
                        double cap, bt__near *near);
 
+/* The farthest that a point of tether I goes, m, if the line changes to the N intervals on the
+   dive's polyline.  */
+double bt__way_of_remesh (const bt_dive *dive, bt__state *state, int i, int n);
+
 /* Lead the N + 1 nodes X of tether I toward the points on the dive's polyline until the line has
    the length of the tether; *THERE: true if all nodes arrived (lay_way.c).  */
 bt_status bt__lead_to_rest (bt_dive *dive, bt__state *state, int i, bt_vec3 *x, int n, int *there,

@@ -13,6 +13,7 @@
 
 #include "math/vec.h"
 #include "sim/around.h"
+#include "sim/chain.h"
 #include "sim/lay.h"
 #include "world/line.h"
 
@@ -146,7 +147,9 @@ lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
   sample_tensions (dive, &line, n);
   if (keeps)
     bt__slipped_along (chain, n, dive->corner);
-  if (bt__has_obstacles (dive) && !bt__may_remesh (dive, state, i, n))
+  if (bt__has_obstacles (dive)
+          ? !bt__may_remesh (dive, state, i, n)
+          : !bt__has_room_about (dive, state, i, bt__way_of_remesh (dive, state, i, n)))
     return BT_OK;
   status = bt__dynamic_init (chain, bt__chain_room (&dive->model->tethers[i]), n, dive->polyline,
                              n + 1, length, tether->props.ea, error);

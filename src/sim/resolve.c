@@ -275,6 +275,8 @@ bt_status
 bt__resolve_tethers (bt_dive *dive, bt__state *state, int passes, bt_error *error)
 {
   bt_status status = BT_OK;
+  if (passes)
+    bt__leave_barred (dive, state);
   if (are_others (dive))
     bt__box_lines (dive, state);
   bt__near_hulls (dive, state, passes);

@@ -66,6 +66,8 @@ work_of (const bt_dive *dive, bt__state *state, int i)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   bt__ends ends;
+  if (bt__is_ahead (tether) && tether->stretch.gone + 1 < tether->stretch.span)
+    return 0;
   if (bt__is_awake (tether))
     return bt__chain_in_use (dive, state, i)->n;
   ends = bt__tether_ends (dive, state, i);

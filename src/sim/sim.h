@@ -136,6 +136,12 @@ bt_status bt__solve_static (bt_dive *dive, bt__state *state, int i, const bt__en
 /* Let every line that is ahead of the present be stepped on from the present (chain_stretch.c).  */
 void bt__leave_stretches (const bt_dive *dive, bt__state *state);
 
+/* bt__leave_barred lets every barred line be stepped on from the present.  bt__bar_stretches bars
+   lines ahead of the present, and the lines met by them in the step to the next state.  The return
+   value is true if any were met: the step is to be taken again (chain_apart.c).  */
+void bt__leave_barred (const bt_dive *dive, bt__state *state);
+int bt__bar_stretches (bt_dive *dive);
+
 /* True if the distance of ENDS makes TETHER taut (reach.c).  */
 int bt__is_chord_taut (const bt__tether *tether, const bt__ends *ends);
 

@@ -183,17 +183,22 @@ try_once (bt_dive *dive, int round, bt_error *error)
 }
 
 /* The same, shared out over the threads of DIVE if there are several.  A refused attempt is
-   repeated by one thread (share.c).  */
+   repeated by one thread (share.c).  All is repeated while lines ahead of the present were met
+   (chain_apart.c).  */
 static bt_status
 try_step (bt_dive *dive, int round, bt_error *error)
 {
   bt_status status;
-  if (!dive->contexts)
-    return try_once (dive, round, error);
-  bt__share_begin (dive);
-  status = try_once (dive, round, error);
-  return bt__share_refused (dive) && status != BT_ERR_INTERRUPTED ? try_once (dive, round, error)
-                                                                  : status;
+  do
+    {
+      if (dive->contexts)
+        bt__share_begin (dive);
+      status = try_once (dive, round, error);
+      if (dive->contexts && bt__share_refused (dive) && status != BT_ERR_INTERRUPTED)
+        status = try_once (dive, round, error);
+    }
+  while (status == BT_OK && bt__bar_stretches (dive));
+  return status;
 }
 
 /* What a step had to do with bodies, waves and lee.  */
@@ -219,6 +224,7 @@ count_work (bt_dive *dive)
 bt_status
 bt__step_aside (bt_dive *dive, bt_error *error)
 {
+  memset (dive->contact_work.barred, 0, (size_t)dive->model->n_tethers);
   bt_status status = try_step (dive, 0, error);
   for (int round = 1; status == BT_OK && round <= BT__TRIES && !agree (dive, dive->next); round++)
     status = try_step (dive, round, error);

@@ -148,6 +148,7 @@ bt__context_enter (bt__context *context, const bt_dive *dive, bt__state *next)
   own->alike = dive->alike;
   own->contact_work.pin = dive->contact_work.pin;
   own->contact_work.place = dive->contact_work.place;
+  own->contact_work.barred = dive->contact_work.barred;
   memcpy (own->contact_work.course, dive->contact_work.course,
           sizeof *own->contact_work.course * (size_t)bt__courses (dive->model));
   memcpy (own->contact_work.by_hull, dive->contact_work.by_hull,
@@ -171,6 +172,7 @@ bt__context_leave (bt__context *context)
   own->alike = NULL;
   own->contact_work.pin = NULL;
   own->contact_work.place = NULL;
+  own->contact_work.barred = NULL;
 }
 
 /* Add to SUM the counters MORE, both records of nothing but 64-bit counters.  */

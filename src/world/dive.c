@@ -85,7 +85,8 @@ make_rows (bt_dive *dive, bt_error *error)
               && (dive->alike = calloc (BT__STORES + tethers, sizeof *dive->alike));
   whole = whole && (shore->pin = calloc (vehicles, sizeof *shore->pin))
           && (shore->order = calloc (tethers, sizeof *shore->order))
-          && (shore->place = calloc (tethers, sizeof *shore->place));
+          && (shore->place = calloc (tethers, sizeof *shore->place))
+          && (shore->barred = calloc (tethers, sizeof *shore->barred));
   return whole ? BT_OK : bt__fail (error, BT_ERR_LIMIT, "no memory for the parts of a dive");
 }
 
@@ -143,6 +144,7 @@ free_shore (bt__contact_work *shore)
   free (shore->box);
   free (shore->order);
   free (shore->place);
+  free (shore->barred);
   free (shore->node);
   free (shore->share);
   bt__line_work_free (shore->line);
