@@ -228,6 +228,18 @@ hints, tender and counters among it; a pupil's dive stays as it was; who has no 
                       (pilot expert "x" (flies (if (> (slack) 0) (run 2)))))))
     (expect (wrong? "asks the machine: random"
                     (define-lesson bad "x" (in small) (set-up (random 3)) (pilot expert "x"))))
+    (expect (wrong? "as many: \"Go ~a m.\""
+                    (define-lesson bad "x" (in small) (task "Go ~a m." (done-when (> (now) 1)) (at-most 5))
+                      (pilot expert "x"))))
+    (expect (wrong? "as many: \"It is ~a of ~a.\""
+                    (define-lesson bad "x" (in small) (when (< (now) 0) (say "It is ~a of ~a." 1)) (pilot expert "x"))))
+    (expect (wrong? "as many: \"now ~s\""
+                    (define-lesson bad "x" (in small) (tender "x" (tell! 'pilot (string-append "now " "~s")))
+                      (task "t" (done-when (> (now) 1)) (at-most 5)) (pilot expert "x"))))
+    (expect (wrong? "as many"
+                    (define-lesson good "x" (in small) (say "It is ~a, about ~ab." 1 2) (say "About ~surface.")
+                      (set-up (simple-format #f "~a" 1)) (pilot expert "x")))
+            => #f)
     (let ((n 0))
       (expect (wrong? "the same"
                       (define-lesson bad "x" (in small) (set-up (set! n (+ n 1)) (run n)) (pilot expert "x")))))))

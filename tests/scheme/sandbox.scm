@@ -3,6 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (use-modules (bight core sandbox)
+             ((bight lesson file) #:select (lesson-files))
              ((bight lesson guide) #:select (untrusted?)))
 
 (define (read-inside text)
@@ -29,6 +30,16 @@
   (task \"Wait.\" (done-when (> (now) 1)) (fault-after 0.5 \"!\" (current! 0.3 0)))
   (score (slack 0 1)) (count n (taut?)) (tender \"Sleeps.\" (run 1))
   (pilot expert \"Waits.\" (answers (truth choices) truth) (flies (run 1))))")) => 1))
+
+(define-scenario lessons-use-what-there-is-inside
+  "No shipped lesson uses a name, in whatever branch, that it could not use from outside; what does is found."
+  (for-each (lambda (file) (expect (cons file (unbound-inside file)) => (list file))) (lesson-files))
+  (let* ((port (mkstemp (string-copy "/tmp/bight-XXXXXX"))) (file (port-filename port)))
+    (write '(define (far x) (if x (own x) (beyond))) port)
+    (write '(define (own x) (lambda (y) (elsewhere y x))) port)
+    (close-port port)
+    (expect (sort (map symbol->string (unbound-inside file)) string<?) => '("beyond" "elsewhere"))
+    (delete-file file)))
 
 (define-scenario names-are-made-by-format
   "`format' makes a string, as of names of many parts; it prints nothing.  It was unbound."

@@ -20,12 +20,15 @@
   #:use-module ((bight lesson guide) #:select (untrusted?))
   #:use-module ((bight world atlas) #:select (worlds-path))
   #:use-module (ice-9 sandbox)
+  #:use-module ((language tree-il)
+                #:select (tree-il-fold toplevel-ref? toplevel-ref-name toplevel-define? toplevel-define-name))
   #:use-module (srfi srfi-1)
   #:export (enclose!
             readable-paths
             breathe!
             ending-text
             sandbox-module
+            unbound-inside
             evaluate-inside
             read-lessons-inside))
 
@@ -106,6 +109,7 @@
   `((expt . ,(power 'expt expt))
     (format . ,format-text)
     (simple-format . ,format-text)
+    (inexact->exact . ,inexact->exact)  ; at most 1074 bits; Guile's own groups leave it out
     (integer-expt . ,(power 'integer-expt integer-expt))
     (ash . ,(shift 'ash ash))
     (round-ash . ,(shift 'round-ash round-ash))
@@ -223,6 +227,26 @@
                                                           ": "))
                                        text
                                        (cure exception)))))
+
+(define (forms-in port)
+  (let ((form (read-syntax port)))
+    (if (eof-object? form) '() (cons form (forms-in port)))))
+
+(define (unbound-inside file)
+  "Return the names, symbols, that FILE uses, in whatever branch, and neither FILE nor the language inside defines."
+  (let ((module (sandbox-module)) (used '()) (defined '()))
+    (define (note! x)
+      (cond ((toplevel-ref? x) (set! used (cons (toplevel-ref-name x) used)))
+            ((toplevel-define? x) (set! defined (cons (toplevel-define-name x) defined)))))
+    (save-module-excursion
+     (lambda ()
+       (set-current-module module)
+       (for-each (lambda (form)
+                   (tree-il-fold (lambda (x seed) (note! x)) (lambda (x seed) seed) #f
+                                 (macroexpand form 'c '(compile load eval))))
+                 (call-with-input-file file forms-in))))
+    (remove (lambda (name) (or (memq name defined) (module-variable module name)))
+            (delete-duplicates used eq?))))
 
 (define* (evaluate-inside port file module #:optional (between breathe!))
   "Evaluate the forms in PORT, from FILE, in MODULE, one from `sandbox-module'; call BETWEEN before each.

@@ -4,7 +4,8 @@
 ;;; conditions and marks do not tell who has learnt it.  No pilot may break down.  Flown again it must come
 ;;; out the same to the last bit; each hint must be heard by a pilot who does nothing, and no task may be done
 ;;; by doing nothing; nothing in it may ask the machine for the time or for chance, and its pilots may not see
-;;; what it hides from a pupil.
+;;; what it hides from a pupil.  No text may be shown with a ~a that nothing fills, and no name may be used, in
+;;; whatever branch, that nobody defines.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -12,6 +13,7 @@
   #:use-module (bight core errors)
   #:use-module ((bight core here) #:select (noting-places))
   #:use-module (bight lesson)
+  #:use-module (ice-9 regex)
   #:use-module (srfi srfi-1)
   #:export (check-lesson
             demonstration
@@ -139,9 +141,40 @@
     (map (lambda (verb) (simple-format #f "its pilots see what it hides from the pupil: ~a" verb))
          (filter (lambda (verb) (memq verb flown)) hidden))))
 
-(define* (check-lesson lesson #:optional (words (words-in (lesson-code lesson))) #:key (told noop))
+;; Of `simple-format'.  A word may begin with ~, which is about, where no values follow.
+(define for-value (make-regexp "~[as]" regexp/icase))
+(define left-over (make-regexp "~([as]([^a-z]|$)|[%~])" regexp/icase))
+
+(define (unfilled? text)
+  (->bool (regexp-exec left-over text)))
+
+(define (unfilled code)
+  ;; The texts in CODE, a datum, with directives of `format' that nothing fills, or with more values than these.
+  (cond ((string? code) (if (unfilled? code) (list code) '()))
+        ((not (pair? code)) '())
+        ((memq (car code) '(format simple-format))
+         (append-map unfilled (if (list? code) (remove string? (cdr code)) '())))
+        ((and (eq? 'say (car code)) (list? code) (> (length code) 2) (string? (second code)))
+         (append (if (= (length (list-matches for-value (second code))) (length (cddr code))) '() (list (second code)))
+                 (append-map unfilled (cddr code))))
+        (else (append (unfilled (car code)) (unfilled (cdr code))))))
+
+(define (said-unfilled reports)
+  ;; What was said in REPORTS with a directive left in it, whoever made it.
+  (filter unfilled?
+          (append-map (lambda (r) (filter string? (map third (report-said r)))) reports)))
+
+(define (check-texts lesson reports)
+  (map (lambda (text) (simple-format #f "the directives of a text and its values are not as many: ~s" text))
+       (delete-duplicates (append (unfilled (lesson-code lesson)) (said-unfilled reports)))))
+
+(define (check-names unbound)
+  (map (lambda (name) (simple-format #f "nobody defines ~a" name)) unbound))
+
+(define* (check-lesson lesson #:optional (words (words-in (lesson-code lesson))) #:key (unbound '()) (told noop))
   "Return what is wrong with LESSON, a list of sentences, empty if it is proved.  WORDS are the symbols of
-the file it is in.  TOLD is called with each pilot's name, the seed and the report of that flight."
+the file it is in, UNBOUND those of them that it uses and nobody defines.  TOLD is called with each pilot's name, the
+seed and the report of that flight."
   (let* ((report (fly lesson #f))
          (again (fly lesson #f))
          (idles (idle-reports lesson report)))
@@ -151,4 +184,6 @@ the file it is in.  TOLD is called with each pilot's name, the seed and the repo
             (check-hints lesson report idles)
             (check-idle idles)
             (check-machine words)
-            (check-hidden lesson))))
+            (check-hidden lesson)
+            (check-texts lesson (cons report idles))
+            (check-names unbound))))
