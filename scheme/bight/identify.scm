@@ -112,8 +112,16 @@
   (need 'places (pair? (setting-places setting)) "there are no markers")
   (need 'tilt (setting-clamped? setting) "its ends are not clamped, #:clamped #t")
   (need 'length (not (run-out (first runs))) "the line that is out was measured")
-  (need 'set (or (memq 'ei names) (> (or (assq-ref (setting-known setting) 'ei) 0) 0))
-        "it is a bend that stiffness holds, and `ei' is neither known nor sought")
+  (define (told? name)
+    (or (memq name names) (> (or (assq-ref (setting-known setting) name) 0) 0)))
+  (define (set?) (or (memq 'set names) (assq 'set (setting-known setting))))
+  (need 'set (told? 'ei) "it is a bend that stiffness holds, and `ei' is neither known nor sought")
+  (need 'gj (and (told? 'ei) (or (set?) (setting-clamped? setting)))
+        "a line twists between clamps, #:clamped #t, or by its set, and with an `ei' that is known or sought")
+  (for-each (lambda (name)
+              (need name (and (told? 'ei) (told? 'ei-stuck) (told? 'slip-curvature) (not (set?)))
+                    "layers slip where `ei', `ei-stuck' and `slip-curvature' are known or sought, in a line without a set"))
+            '(ei-stuck slip-curvature))
   (need 'ca (> (setting-density setting) 0) "there is no water"))
 
 (define-verb (identify (runs run-files)
@@ -123,8 +131,8 @@
                        (loss (one-of huber cauchy squares) 'huber)
                        (sigma (or-false string)) (density non-negative 1000.) (gravity positive 9.80665)
                        (floor (or-false number)) (intervals (at-least 4) 60) (set-pieces (at-least 1) 1) (step positive 0.01))
-  "Find what is UNKNOWN of a line: ea, ei, diameter, mass, wet-weight, cdn, cdt, ca, ba, bending-damping, friction,
-length, set (natural curvature, toward two sides, of each of SET-PIECES parts of equal length), tilt (by which the line
+  "Find what is UNKNOWN of a line: ea, ei, diameter, mass, wet-weight, cdn, cdt, ca, ba, bending-damping, gj,
+ei-stuck, slip-curvature, friction, length, set (natural curvature, toward two sides, of each of SET-PIECES parts of equal length), tilt (by which the line
 leaves clamps beside what their markers tell), vertical (by how much what is up leans east and north in
 the frame of the places), current, clock (how late the markers' clock is against the ends') or places (of the markers).  RUNS are CSV
 files of what was measured: t; anchor_x ... and end_x ... of its ends; m1_x, m1_y, m1_z ... of markers from the

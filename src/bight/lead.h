@@ -13,8 +13,9 @@
 BT_BEGIN_DECLS
 
 /* The line and its water.  Of PROPS count diameter, mass, wet_weight, ea, ei, ba, bending_damping,
-   ei_stuck and slip_curvature, which are 0 of a line with sets, cdn, cdt, ca and friction.  Sets
-   count with bending stiffness alone.  */
+   gj, ei_stuck and slip_curvature, which are 0 of a line with sets, cdn, cdt, ca and friction. Sets
+   and gj count with bending stiffness alone.  A clamp turns about its direction as little as it
+   can; the line is gripped as it lies without twist.  */
 typedef struct bt_lead_line
 {
   bt_tether_props props;

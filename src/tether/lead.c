@@ -228,6 +228,19 @@ settle_led (led *l, bt_error *error)
   return status;
 }
 
+/* The same, and without twist: what a set twists alone is twisted from there.  */
+static bt_status
+rest_led (led *l, bt_error *error)
+{
+  bt_tether_props limp = l->line->props;
+  limp.gj = 0;
+  l->in.line = &limp;
+  bt_status status = settle_led (l, error);
+  l->in.line = &l->line->props;
+  return status == BT_OK && bt__twists (&l->in) && l->in.n_sets > 0 ? settle_led (l, error)
+                                                                    : status;
+}
+
 /* The velocities of START, spread along the line.  */
 static void
 set_going (led *l, const bt_lead_start *start)
@@ -291,7 +304,7 @@ lead_all (led *l, const bt_lead_start *start, const double *marks, int n, bt_vec
       = bt__place_sets (l->line->sets, l->line->n_sets, out_at (l, l->track->t[0]), 0, l->sets);
   bt_status status = lay_led (l, start, error);
   if (status == BT_OK && start->n == 0)
-    status = settle_led (l, error);
+    status = rest_led (l, error);
   else if (status == BT_OK)
     set_going (l, start);
   l->water.time = l->track->t[0];

@@ -260,6 +260,37 @@ taken for drag, and the line is farther off."
   (expect (identify (measured-swing rope 0 1) #:unknown '(set) #:known `((length 2.5) ,@rope) #:places marks)
           raises def))
 
+(define (swung-in-air file truth)
+  ;; FILE has what a line of the fields TRUTH does in air.
+  (let ((rows (list-head swung 30)))
+    (write-run file rows (fly-truth rows marks truth #:density 1.2) 5 1e-4 (seed->random-state 3))
+    file))
+
+(define (find-in-air file unknown known)
+  (identify file #:unknown unknown #:known `((length 2.5) ,@known) #:places marks #:intervals 20 #:step .05 #:density 1.2))
+
+(define-scenario torsion-of-a-line-with-sets
+  "The torsional stiffness of a line is found from how its sets, toward two sides, turn each other."
+  (let* ((line `(,@cable (set (at .6) (span 1.2) (curvature 3)) (set (at 1.9) (span 1.2) (curvature 3) (plane 90))))
+         (i (find-in-air (swung-in-air (scratch-file "kinked.csv") `(,@line (gj 1.5e-3))) '(torsion) `(,@line (gj 4e-4)))))
+    (expect (found i 'gj) is (about 1.5e-3 #:within 1e-4))
+    (expect (assq 'gj (filter pair? (identified-type i 'kinked))) is identity)))
+
+(define-scenario layers-of-a-cable
+  "So are how stiff the layers of a cable are that stick, and the curvature at which they slip."
+  (let* ((line (but cable '(ei-stuck 8e-3) '(slip-curvature .4)))
+         (i (find-in-air (swung-in-air (scratch-file "armoured.csv") line) '(ei-stuck slip-curvature)
+                         (but cable '(ei-stuck 4e-3) '(slip-curvature .2)))))
+    (expect (found i 'ei-stuck) is (about 8e-3 #:within 1e-3))
+    (expect (found i 'slip-curvature) is (about .4 #:within .05))))
+
+(define-scenario what-cannot-twist-or-slip
+  "Torsion is sought of a line that is clamped or has a set, layers of one without a set."
+  (define file (swung-in-air (scratch-file "plain.csv") cable))
+  (expect (find-in-air file '(gj) cable) raises def)
+  (expect (find-in-air file '(ei-stuck) cable) raises def)
+  (expect (find-in-air file '(slip-curvature) `(,@cable (ei-stuck 8e-3) (set (curvature 1)))) raises def))
+
 ;;; Intervals.
 
 (define long? (equal? "1" (getenv "BIGHT_LONG")))

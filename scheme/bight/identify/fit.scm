@@ -92,7 +92,7 @@
                            (f64vector->list (times-rows (m r) r 1))))))
          (iota (length xs)))))
 
-(define wide '(ei bending-damping ba ea)) ; whose size may be unknown by orders of magnitude
+(define wide '(ei bending-damping gj ei-stuck ba ea)) ; whose size may be unknown by orders of magnitude
 
 (define tries '(0 -2 -1 -1/2 1/2 1 2))  ; powers of ten
 

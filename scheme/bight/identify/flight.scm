@@ -79,6 +79,9 @@ wet weight is neither known nor sought follows from the other."
       (wet-weight . ,(or weight (* g (- (or mass .05) displaced))))
       (ea . ,(let ((ea (get 'ea 2e5))) (if (< ea +inf.0) ea 1e9)))
       (ei . ,(get 'ei 0.)) (ba . ,(get 'ba 20.)) (bending-damping . ,(get 'bending-damping 0.))
+      (gj . ,(get 'gj 0.))
+      (ei-stuck . ,(let ((stuck (get 'ei-stuck 0.))) (if (> stuck 0) (max stuck (get 'ei 0.)) stuck)))
+      (slip-curvature . ,(get 'slip-curvature 0.))
       (cdn . ,(get 'cdn 1.2)) (cdt . ,(get 'cdt .01)) (ca . ,(get 'ca 1.)) (friction . ,(get 'friction .3))
       (length . ,(value-of values 'length #f (setting-length setting))))))
 

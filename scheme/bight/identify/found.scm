@@ -238,7 +238,7 @@ M) for each run."
 
 ;;; A type of tether.
 
-(define of-a-type '(diameter mass wet-weight ea ei ba bending-damping cdn cdt ca friction))
+(define of-a-type '(diameter mass wet-weight ea ei ba bending-damping gj ei-stuck slip-curvature cdn cdt ca friction))
 
 (define (digits x n)
   ;; X to N significant digits.

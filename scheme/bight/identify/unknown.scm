@@ -39,14 +39,14 @@
 ;; (NAME START): fields of tethers that can be unknown, and where the search begins if nothing is known of one.
 (define fields
   '((ea 1e4) (ei 1e-3) (diameter .005) (mass .05) (wet-weight .1) (cdn 1.2) (cdt .01) (ca 1.) (ba 1.)
-    (bending-damping 1e-4) (friction .3)))
+    (bending-damping 1e-4) (gj 1e-3) (ei-stuck 1e-2) (slip-curvature .5) (friction .3)))
 
 (define others '(length set tilt vertical current clock places))
 
 (define aliases
   '((cn . cdn) (ct . cdt) (weight . wet-weight) (added-mass . ca) (axial-damping . ba) (damping . ba)
     (natural-curvature . set) (drum-set . set) (camera-tilt . vertical)
-    (clock-offset . clock) (marker-places . places) (bending . ei) (mu . friction)))
+    (clock-offset . clock) (marker-places . places) (bending . ei) (torsion . gj) (mu . friction)))
 
 (define unknown-names
   ;; The names of all that can be unknown, symbols.

@@ -138,7 +138,8 @@
    (command "identify" run-identify "RUN.csv..."
             '("find what is unknown of a real tether from measurements: places of markers and forces over time;"
               "values with 90 % intervals, a score on what was held out, and a type of tether")
-            '("--unknown U,..." "ea, ei, diameter, mass, wet-weight, cdn, cdt, ca, ba, bending-damping, friction,"
+            '("--unknown U,..." "ea, ei, diameter, mass, wet-weight, cdn, cdt, ca, ba, bending-damping, gj,"
+              "ei-stuck, slip-curvature, friction,"
               "length, set, tilt, vertical, current, clock, places")
             '("--type T" "a type of tether that it is like")
             '("--known N=V,..." "fields of the tether, as in diameter=0.004,mass=0.05,length=12")
