@@ -3,6 +3,7 @@
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <stdio.h>
+#include <string.h>
 
 #include "guile/guile.h"
 
@@ -90,6 +91,8 @@ bt__new_handle (SCM function)
   handle->thrown = SCM_BOOL_F;
   handle->looked = 0;
   handle->told = 0;
+  for (int part = 0; part <= BT_PART_OBSTACLE; part++)
+    handle->names[part] = SCM_BOOL_F;
   return handle;
 }
 
@@ -164,6 +167,7 @@ fork_dive (SCM object)
   bt__handle *origin = bt__to_handle (object), *copy = bt__new_handle (origin->function);
   copy->journal = origin->journal;
   copy->serial = origin->serial;
+  memcpy (copy->names, origin->names, sizeof copy->names);
   hold (copy, make_fork (object));
   return bt__from_handle (copy);
 }

@@ -68,6 +68,8 @@ typedef struct bt__handle
   SCM thrown;       /* (KEY . ARGS) while the engine gives up what was interrupted, else #f */
   double looked;    /* s: when it was last looked whether something waits */
   int told;         /* true: how far the present call is was told */
+  SCM names[BT_PART_OBSTACLE
+            + 1]; /* of the parts of each kind, once they were asked for; else #f */
 } bt__handle;
 
 /* Write the last DIGITS hexadecimal digits of X to TEXT, without a zero behind them.  */

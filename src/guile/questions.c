@@ -21,15 +21,20 @@ symbol (const char *name)
   return scm_from_utf8_symbol (name);
 }
 
+/* The names of a dive stay, and every verb about a vehicle or a tether asks for them.  */
 static SCM
 names (SCM object, SCM part)
 {
-  bt_dive *dive = bt__to_dive (object);
   bt_part kind = bt__to_part ("parts", part);
-  SCM list = SCM_EOL;
+  SCM *list = &bt__to_handle (object)->names[kind];
+  if (scm_is_true (*list))
+    return *list;
+  bt_dive *dive = bt__to_dive (object);
+  SCM all = SCM_EOL;
   for (int i = bt_dive_count (dive, kind); i-- > 0;)
-    list = scm_cons (symbol (bt_dive_name (dive, kind, i)), list);
-  return list;
+    all = scm_cons (symbol (bt_dive_name (dive, kind, i)), all);
+  *list = all;
+  return all;
 }
 
 static SCM

@@ -233,13 +233,13 @@ bt__call_current (void *user, bt_vec3 p, double t, bt_vec3 *v)
 bt_part
 bt__to_part (const char *who, SCM symbol)
 {
-  if (scm_is_eq (symbol, scm_from_utf8_symbol ("rov")))
+  if (scm_is_eq (symbol, bt__symbol ("rov")))
     return BT_PART_VEHICLE;
-  if (scm_is_eq (symbol, scm_from_utf8_symbol ("tether")))
+  if (scm_is_eq (symbol, bt__symbol ("tether")))
     return BT_PART_TETHER;
-  if (scm_is_eq (symbol, scm_from_utf8_symbol ("sea")))
+  if (scm_is_eq (symbol, bt__symbol ("sea")))
     return BT_PART_SEA;
-  if (scm_is_eq (symbol, scm_from_utf8_symbol ("obstacle")))
+  if (scm_is_eq (symbol, bt__symbol ("obstacle")))
     return BT_PART_OBSTACLE;
   fail (who, BT_ERR_NAME, "a part is a sea, a rov, a tether or an obstacle");
 }

@@ -72,11 +72,12 @@ one_answer (const answer *answers, size_t n, const void *view, SCM key)
   }
 
 static const answer vehicle_answers[] = {
-  ANSWER ("position", POINT, position), ANSWER ("velocity", POINT, velocity),
-  ANSWER ("heading", ANGLE, heading),   ANSWER ("pitch", ANGLE, pitch),
-  ANSWER ("roll", ANGLE, roll),         ANSWER ("turns", REAL, turns),
-  ANSWER ("sticks", STICKS, sticks),    ANSWER ("arrived?", TRUTH, arrived),
-  ANSWER ("held?", TRUTH, held),        ANSWER ("surge-speed", REAL, speeds),
+  ANSWER ("position", POINT, position), ANSWER ("height", REAL, position.z),
+  ANSWER ("velocity", POINT, velocity), ANSWER ("heading", ANGLE, heading),
+  ANSWER ("pitch", ANGLE, pitch),       ANSWER ("roll", ANGLE, roll),
+  ANSWER ("turns", REAL, turns),        ANSWER ("sticks", STICKS, sticks),
+  ANSWER ("arrived?", TRUTH, arrived),  ANSWER ("held?", TRUTH, held),
+  ANSWER ("surge-speed", REAL, speeds),
 };
 
 #undef ANSWER

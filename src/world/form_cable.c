@@ -132,7 +132,7 @@ bt__largest_tension (const bt__dynamic *chain)
   const double *t = bt__dynamic_tension (chain);
   double most = 0;
   for (int64_t j = 0; j < chain->n; j++)
-    most = fmax (most, t[j]);
+    most = t[j] > most ? t[j] : most; /* fmax would be a call for each */
   return most;
 }
 

@@ -97,8 +97,11 @@
 ;;; Remembering.
 
 (define (same-tasks? a b)
-  (and (= (length a) (length b))
-       (every (lambda (x y) (and (eq? (car x) (car y)) (eqv? (cdr x) (cdr y)))) a b)))
+  (or (and (null? a) (null? b))
+      (and (pair? a) (pair? b)
+           (eq? (caar a) (caar b))
+           (eqv? (cdar a) (cdar b))
+           (same-tasks? (cdr a) (cdr b)))))
 
 (define (last-tasks past)
   (let ((moment (car (past-moments past))) (marks (past-marks past)))
@@ -108,13 +111,12 @@
 
 (define (past-with-tasks past engine step tasks)
   "Return PAST and what the TASKS of STEP, which have just run, left behind."
-  (let* ((serial (%serial engine))
-         (journal (%journal engine))
+  (let* ((journal (%journal engine))
          (done? (and (pair? journal) (= step (entry-step (car journal))))))
     (if (and (not done?) (same-tasks? tasks (last-tasks past)))
         past
         (make-past (past-moments past)
-                   (cons (make-mark step tasks serial) (past-marks past))
+                   (cons (make-mark step tasks (%serial engine)) (past-marks past))
                    (+ 1 (past-noted past))
                    (past-clock past)))))
 

@@ -61,7 +61,7 @@
 
 (define-verb (rov-depth #:subject (v vehicle))
   "Return the depth of the vehicle, m."
-  (- (z (rov-position-of 'rov-depth v))))
+  (- (%vehicle-value (this-engine 'rov-depth) v 'height)))
 
 (define-verb (rov-altitude #:subject (v vehicle))
   "Return the height of the vehicle above what is straight below it, m: a level seabed, one of a grid or a
