@@ -32,6 +32,7 @@
 #define AT_ONCE                                                                                    \
   0.25 /* s: ... and of one step that of so long, for errors to and fro add up to none */
 #define ASTRAY 0.01  /* of the accuracy: how far an end may be from where the stretch has it */
+#define REACHED 5e-6 /* m: an end that is nearer to its place is there, as in pins.c */
 #define FOLLOWED 0.9 /* of the steps that the error would allow */
 #define GROWTH 2     /* times as long as the step before */
 #define CALM 2e-4    /* m/s: slower, a line is about to sleep, which costs nothing at all */
@@ -175,12 +176,14 @@ is_eventless (const bt__tether *tether, const bt__dynamic_report *report)
          && report->tension <= tether->props.breaking_load;
 }
 
-/* True if no vehicle gives way to tether I, just stepped.  */
+/* True if the ends of tether I, just stepped, came to TO, and no vehicle gives way to the tether.
+ */
 static int
-is_in_hand (const bt_dive *dive, bt__state *state, int i)
+is_in_hand (const bt_dive *dive, bt__state *state, int i, const bt__ends *to)
 {
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
-  int all = 1;
+  const bt_vec3 *x = bt__dynamic_x (chain);
+  int all = bt__distance (x[0], to->a) <= REACHED && bt__distance (x[chain->n], to->b) <= REACHED;
   for (int k = 0; k < 2; k++)
     all &= !bt__slips_at (dive, state, i, k)
            || bt__norm (chain->pull[k]) < bt__most_pull_at (dive, state, i, k);
@@ -240,7 +243,7 @@ go_ahead (bt_dive *dive, bt__state *state, int i)
         return 0;
       bt_status status = solve_ahead (dive, state, i, steps, &to, &report, NULL);
       double off = status == BT_OK ? error_of (dive, state, i) : INFINITY;
-      if (off <= 1 && is_eventless (&p.tether, &report) && is_in_hand (dive, state, i)
+      if (off <= 1 && is_eventless (&p.tether, &report) && is_in_hand (dive, state, i, &to)
           && went_clear (dive, state, i, &report)
           && !bt__has_jumped (dive, state, i, report.tension, 1)
           && bt__has_room_about (dive, state, i, 0))

@@ -248,7 +248,7 @@ bt__step_among (bt_dive *dive, bt__state *state, int i, int part, const bt__dyna
   bt__around_done (dive);
   bt__hulls_done (dive, i);
   bt__note_line_meetings (dive, state, i, part);
-  if (dive->contact_work.left == 0)
+  if (dive->contact_work.left == 0 && !dive->contact_work.alone)
     bring_held_ends (dive, state, i, part, &touch);
   add_up_report (&dive->profile, &touch);
   return BT_OK;

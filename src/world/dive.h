@@ -88,7 +88,8 @@ typedef struct bt__contact_work
   bt__line_work *line;
   int *order, *place; /* of tethers: which steps when, and when which steps */
   uint8_t *barred;    /* of tethers, true: may not be ahead of the present after the step */
-  int alone;          /* true: the line sees no other, for it is solved ahead of the present */
+  int alone;          /* true: the line is solved ahead of the present: it sees no other line, and
+                         moves no vehicle */
   bt__strand *strand; /* room for both parts of every tether, ... */
   bt__aabb *box;      /* ... and where each is, while tethers are resolved */
   int line_of;        /* the line it knows: twice the tether and the part */

@@ -407,6 +407,49 @@ test_events_come_when_they_should (void **state)
   assert_true (step[0] == step[1]);
 }
 
+/* The largest pull on a vehicle that gives way at PULL newtons and runs a line of stiffness EA taut
+   at 1 m/s, N.  */
+static double
+largest_pull (double pull, double ea, double wet_weight)
+{
+  static scene s;
+  bt_error error;
+  bt_tether_view v;
+  double most = 0;
+  scene_clear (&s);
+  scene_vehicle (&s, bt__vec (17, 0, -12))->pull = pull;
+  bt_tether_def *line = scene_line (&s, bt__vec (0, 0, -10), 20, 20);
+  line->props.model = BT_MODEL_AUTO;
+  line->props.accuracy = 0.05;
+  line->props.ea = ea;
+  line->props.wet_weight = wet_weight;
+  bt_dive *dive = scene_begin (&s.world);
+  drive (dive, 1, 0, 0, 0);
+  for (int k = 0; k < 16 * SECOND; k++)
+    {
+      scene_run (dive, 1);
+      scene_must (bt_dive_tether (dive, 0, &v, &error), &error);
+      most = fmax (most, v.tension_end);
+    }
+  assert_true (profile_of (dive).chain_stretched > 3 * SECOND);
+  bt_dive_free (dive);
+  return most;
+}
+
+/* Nor does a vehicle that gives way hold a line that was to be solved ahead.  */
+static void
+test_no_vehicle_pulls_harder (void **state)
+{
+  static const double ea[] = { 1e4, 3e4, 1e5 };
+  (void)state;
+  for (int k = 0; k < 6; k++)
+    {
+      double most = largest_pull (100, ea[k % 3], k < 3 ? 0 : 0.1);
+      if (!(most < 104))
+        fail_msg ("EA %g N: %g N", ea[k % 3], most);
+    }
+}
+
 /* ---- Conservation, obstacles ---- */
 
 /* A line that comes to rest in still water, its vehicle having stopped: energy goes, and none
@@ -511,6 +554,7 @@ main (void)
     cmocka_unit_test (test_the_same_from_within),
     cmocka_unit_test (test_what_is_done_within),
     cmocka_unit_test (test_events_come_when_they_should),
+    cmocka_unit_test (test_no_vehicle_pulls_harder),
     cmocka_unit_test (test_energy_is_not_gained),
     cmocka_unit_test (test_nothing_is_passed_through),
   };
