@@ -122,15 +122,23 @@ spring_of (const bt__dynamic_work *w, const bt__dynamic_bent *b)
   return bt__scale (b->stiffness, bt__axpy (away, -bt__dot (b->axis, away), b->axis));
 }
 
-static void
-assemble_bent (bt__dynamic_work *w, bt__dynamic_bent *b)
+/* The force on node B at its place; *SLOPE is the stiffness along the edge, N/m.  */
+static bt_vec3
+bent_force (bt__dynamic_work *w, bt__dynamic_bent *b, double *slope)
 {
   b->side_now = side_of (w, b);
   double answered = b->side_now + BT__STICK_DAMPING * (b->side_now - b->side);
   double size = hypot (b->drag + b->flow, answered), most = b->load > 0 ? b->friction * b->load : 0;
   double ks = most / fmax (size, b->slip), part = answered / size;
-  double slope = (1 + BT__STICK_DAMPING) * (size > b->slip ? ks * fmax (1 - part * part, 0) : ks);
-  b->force = bt__axpy (spring_of (w, b), -ks * answered, b->axis);
+  *slope = (1 + BT__STICK_DAMPING) * (size > b->slip ? ks * fmax (1 - part * part, 0) : ks);
+  return bt__axpy (spring_of (w, b), -ks * answered, b->axis);
+}
+
+static void
+assemble_bent (bt__dynamic_work *w, bt__dynamic_bent *b)
+{
+  double slope;
+  b->force = bent_force (w, b, &slope);
   w->rhs[b->node] = bt__add (w->rhs[b->node], b->force);
   bt__sym_add (w->diag + b->node, b->stiffness, slope - b->stiffness, b->axis);
 }
@@ -263,7 +271,10 @@ find_by_flow (bt__dynamic_work *w, const border *r)
       first = b->node - 1 < first ? b->node - 1 : first;
       last = b->node + 1 > last ? b->node + 1 : last;
     }
-  bt__dynamic_solve_again (w, w->by_flow, w->bents, first, last);
+  if (w->pairs == 0)
+    bt__dynamic_solve_again (w, w->by_flow, w->bents, first, last);
+  for (int l = 0; w->pairs > 0 && l < w->bents; l++)
+    bt__dynamic_pair_solve_again (w, w->by_flow + (size_t)l * nodes, first, last);
 }
 
 double
@@ -272,7 +283,7 @@ bt__dynamic_bent_solve (bt__dynamic_work *w)
   border r[BT__BENTS];
   double m[BT__BENTS][BT__BENTS], y[BT__BENTS];
   size_t nodes = (size_t)w->n + 1;
-  bt__dynamic_solve_blocks (w);
+  bt__dynamic_pair_solve (w);
   for (int k = 0; k < w->bents; k++)
     {
       r[k] = border_of (w, w->bent + k);
@@ -371,14 +382,17 @@ follow (bt__dynamic_work *w, bt__dynamic_bent *b)
   let_flow (w, b, wanted_flow (w, b));
 }
 
-/* What the obstacle bears: never more than both tensions, whatever was done to the places.  */
+/* What the obstacle bears: never more than both tensions, whatever was done to the places.  The
+   force is that of the places after the iteration.  */
 static void
-bear (const bt__dynamic_work *w, bt__dynamic_bent *b)
+bear (bt__dynamic_work *w, bt__dynamic_bent *b)
 {
+  double slope;
   b->pull[0] = fmax (w->lam[b->node - 1], 0);
   b->pull[1] = fmax (w->lam[b->node], 0);
   b->load = fmin (bt__dot (b->normal, spring_of (w, b)), b->pull[0] + b->pull[1]);
   b->load = fmax (b->load, 0);
+  b->force = bent_force (w, b, &slope);
 }
 
 void

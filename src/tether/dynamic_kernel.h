@@ -299,6 +299,10 @@ bt__dynamic_touches (const bt__dynamic_work *w)
 void bt__dynamic_pair_add (bt__dynamic_work *w, bt__constraint *r, const bt__sym *k);
 double bt__dynamic_pair_solve (bt__dynamic_work *w);
 
+/* After that, solve the same equations for the right-hand side X, which is zero but from node FIRST
+   to LAST, into X.  There are pairs.  */
+void bt__dynamic_pair_solve_again (bt__dynamic_work *w, bt_vec3 *x, int64_t first, int64_t last);
+
 /* Q less what the blocks have too much of for rows of two places, times P.  */
 void bt__dynamic_pair_take_back (const bt__dynamic_work *w, const bt_vec3 *p, bt_vec3 *q);
 

@@ -9,7 +9,7 @@
    and keep their form.  The excess, K (u + v) at both places, is taken back by conjugate gradients:
    an iteration is a solution of the blocks, and a crossing needs one or two.  Left in, the excess
    would not spoil the solution of the step, but two places moving together would be slow, as if
-   heavy.
+   heavy.  The updates by the flows of sliding nodes are solved in the same way.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -22,9 +22,8 @@ enum
   ITERATIONS = 6
 };
 
-#define ENOUGH                                                                                     \
-  1e-3 /* of the square of the first residual: the step's own iterations do the rest               \
-        */
+/* Of the square of the first residual: the step's own iterations do the rest.  */
+#define ENOUGH 1e-3
 
 /* ---- Blocks ---- */
 
@@ -97,21 +96,22 @@ bt__dynamic_sum (const bt__dynamic_work *w, bt_vec3 *to, const bt_vec3 *a, doubl
     to[i] = bt__axpy (a[i], share, b[i]);
 }
 
-/* The residual is RHS; D, what the blocks make of it, WHOLE the solution so far, SPARE the
-   direction, BY_FLOW the blocks times that.  */
-double
-bt__dynamic_pair_solve (bt__dynamic_work *w)
+/* Refine X, the solution of the blocks for the right-hand side R, to that of the equations; R is
+   spent.  In the notation of conjugate gradients: WHOLE is the solution so far, SPARE the
+   direction, MP the blocks times the direction.  Beside sliding nodes twice as many digits are
+   worth their iterations: the flows follow from differences of tensions.  */
+static void
+refine (bt__dynamic_work *w, bt_vec3 *r, bt_vec3 *x)
 {
-  size_t size = (size_t)(w->n + 1) * sizeof *w->d;
-  bt_vec3 *sum = w->whole, *p = w->spare, *mp = w->by_flow, *q = mp + w->n + 1;
-  double most = bt__dynamic_solve_blocks (w), rz = bt__dynamic_product (w, w->rhs, w->d),
-         first = rz;
-  if (w->lo > w->hi || !isfinite (most))
-    return most;
+  size_t nodes = (size_t)w->n + 1, size = nodes * sizeof *x;
+  bt_vec3 *sum = w->whole, *p = w->spare, *mp = w->by_flow + BT__BENTS * nodes, *q = mp + nodes;
+  int last = w->bents > 0 ? 2 * ITERATIONS : ITERATIONS;
+  double rz = bt__dynamic_product (w, r, x);
+  double enough = rz * (w->bents > 0 ? ENOUGH * ENOUGH : ENOUGH);
   memset (sum, 0, size);
-  memcpy (p, w->d, size);
-  memcpy (mp, w->rhs, size);
-  for (int i = 0; i < ITERATIONS; i++)
+  memcpy (p, x, size);
+  memcpy (mp, r, size);
+  for (int i = 0; i < last; i++)
     {
       memcpy (q, mp, size);
       bt__dynamic_pair_take_back (w, p, q);
@@ -119,18 +119,37 @@ bt__dynamic_pair_solve (bt__dynamic_work *w)
       if (!(curve > 0))
         break;
       bt__dynamic_sum (w, sum, sum, rz / curve, p);
-      bt__dynamic_sum (w, w->rhs, w->rhs, -rz / curve, q);
-      if (i + 1 == ITERATIONS)
+      bt__dynamic_sum (w, r, r, -rz / curve, q);
+      if (i + 1 == last)
         break;
-      memcpy (w->d, w->rhs, size);
-      bt__dynamic_solve_again (w, w->d, 1, w->lo, w->hi);
-      double next = bt__dynamic_product (w, w->rhs, w->d);
-      if (!(next > ENOUGH * first))
+      memcpy (x, r, size);
+      bt__dynamic_solve_again (w, x, 1, w->lo, w->hi);
+      double next = bt__dynamic_product (w, r, x);
+      if (!(next > enough))
         break;
-      bt__dynamic_sum (w, p, w->d, next / rz, p);
-      bt__dynamic_sum (w, mp, w->rhs, next / rz, mp);
+      bt__dynamic_sum (w, p, x, next / rz, p);
+      bt__dynamic_sum (w, mp, r, next / rz, mp);
       rz = next;
     }
-  memcpy (w->d, sum, size);
+  memcpy (x, sum, size);
+}
+
+double
+bt__dynamic_pair_solve (bt__dynamic_work *w)
+{
+  double most = bt__dynamic_solve_blocks (w);
+  if (w->lo > w->hi || !isfinite (most) || w->pairs == 0)
+    return most;
+  refine (w, w->rhs, w->d);
   return bt__dynamic_largest (w);
+}
+
+void
+bt__dynamic_pair_solve_again (bt__dynamic_work *w, bt_vec3 *x, int64_t first, int64_t last)
+{
+  size_t nodes = (size_t)w->n + 1;
+  bt_vec3 *r = w->by_flow + (BT__BENTS + 2) * nodes;
+  memcpy (r, x, nodes * sizeof *r);
+  bt__dynamic_solve_again (w, x, 1, first, last);
+  refine (w, r, x);
 }
