@@ -158,35 +158,36 @@ pushed_most (const bt__dynamic_work *w, double ei)
   return SAFELY * fmax (2 * sqrt (inertia * ei), inertia * l * l / 4);
 }
 
-/* The square of the curvature at node I; with a set, the product of the curvature and the curvature
-   beyond the natural one.  */
+/* The square of the curvature at node I as the step starts, with the REST lengths before the winch
+   turns; with a set, the product of the curvature and the curvature beyond the natural one.  */
 static double
-thrusting_square (const bt__dynamic_work *w, int i)
+thrusting_square (const bt__dynamic_work *w, const double *rest, int i)
 {
-  double before = w->link[i - 1].rest, after = w->link[i].rest, cell = w->node[i].cell;
+  double before = rest[i - 1], after = rest[i], cell = 0.5 * (before + after);
   if (!w->is_set)
     return bt__bend_square (w->x + i, before, after);
   double all = bt__turn_square (w->x + i, before, after),
          set = bt__dot (bt__turn_of (w->x + i, before, after), w->natural[i]);
+  set *= cell / w->node[i].cell;
   return fmax (-BT__SHARPEST, fmin (all - set, BT__SHARPEST)) / (cell * cell);
 }
 
 /* The thrust of node I, N.  */
 static double
-thrust_at (const bt__dynamic_work *w, int i)
+thrust_at (const bt__dynamic_work *w, const double *rest, int i)
 {
-  double thrust = w->in->line->ei * thrusting_square (w, i);
-  return w->slips > 0 ? thrust + bt__slip_thrust (w, i) : thrust;
+  double thrust = w->in->line->ei * thrusting_square (w, rest, i);
+  return w->slips > 0 ? thrust + bt__slip_thrust (w, rest, i) : thrust;
 }
 
 static void
-prepare_thrust (bt__dynamic_work *w)
+prepare_thrust (bt__dynamic_work *w, const double *rest)
 {
   double before = 0;
   for (int j = 0; j < w->n; j++)
     {
       bt__link *k = w->link + j;
-      double after = j + 1 < w->n ? thrust_at (w, j + 1) : before;
+      double after = j + 1 < w->n ? thrust_at (w, rest, j + 1) : before;
       k->thrust = 0.5 * ((j ? before : after) + after);
       before = after;
     }
@@ -207,7 +208,7 @@ bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d)
   if (w->is_set || w->twists)
     bt__dynamic_set_forces (w, w->x);
   bt__dynamic_slip_prepare (w, d);
-  prepare_thrust (w);
+  prepare_thrust (w, bt__dynamic_rest (d));
   bt__dynamic_unfold (w, d);
   memset (w->bend_diag, 0, size);
   memset (w->bend_off, 0, size);

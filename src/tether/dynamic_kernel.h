@@ -354,7 +354,7 @@ void bt__dynamic_slip_prepare (bt__dynamic_work *w, const bt__dynamic *d);
 void bt__dynamic_slip_force (bt__dynamic_work *w, bt__mode mode);
 bt_vec3 bt__dynamic_slip_on (bt__dynamic_work *w, int i);
 double bt__dynamic_slip_potential (const bt__dynamic_work *w, const bt_vec3 *x);
-double bt__slip_thrust (const bt__dynamic_work *w, int i);
+double bt__slip_thrust (const bt__dynamic_work *w, const double *rest, int i);
 void bt__dynamic_slip_take (bt__dynamic *d, bt__dynamic_work *w);
 
 /* What layers that stick store, J, of D with its nodes at X.  */

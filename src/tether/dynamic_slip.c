@@ -217,15 +217,16 @@ bt__dynamic_slip_potential (const bt__dynamic_work *w, const bt_vec3 *x)
 }
 
 double
-bt__slip_thrust (const bt__dynamic_work *w, int i)
+bt__slip_thrust (const bt__dynamic_work *w, const double *rest, int i)
 {
   int r = i - (w->slips > 0 ? w->slip[0].node : 0);
   if (r < 0 || r >= w->slips)
     return 0;
   const bt__slip *s = w->slip + r;
-  bt_vec3 slipped, turn = look_at (w, s, w->x, 0, &slipped);
-  return s->k * bt__dot (borne (turn, slipped, s->k, most_moment (w->in->line)), turn)
-         / w->node[i].cell;
+  slip_line was = { w->in, w->x, NULL, rest, w->n };
+  double cell = w->node[i].cell;
+  bt_vec3 turn = bt__scale (cell / cell_at (&was, i), turn_at (&was, i));
+  return s->k * bt__dot (borne (turn, s->turn, s->k, most_moment (w->in->line)), turn) / cell;
 }
 
 /* ---- After it, and of a line as it lies ---- */

@@ -5,6 +5,8 @@
 (use-modules (srfi srfi-1)
              (srfi srfi-4))
 
+(define here-module (current-module))
+
 (define (between-nodes)
   ;; The sum of the distances between the points of the tether.
   (let ((points (array->list (tether-points))))
@@ -98,6 +100,19 @@ same from a checkpoint and in a fork."
   (run 60)
   (expect (off-its-length) is (below 2e-4)))
 
+(define-scenario (hauled-while-it-is-bent clauses)
+  "A stiff line that is hauled in fast, until the winch stalls, is nowhere pulled much harder than at its ends: the length
+that the winch takes from the first interval is no bend of the line."
+  #:for ((clauses '((ei 5)) '((ei 5) (ei-stuck 50) (slip-curvature 0.2))))
+  (enter! (eval `(world (sea (depth 60)) (rov (named minnow) (type kinematic) (at 10 0 -20) (pull 1e4))
+                        (tether (from 0 0 -20) (to minnow) (length 12) (ea 1e6) (winch-pull 100) (breaking-load 1e7)
+                                (model dynamic) ,@clauses))
+                here-module))
+  (run 3)
+  (haul-in! 3 #:rate 2)
+  (always (< (max-tension) (+ 5 (* 1.1 (max (anchor-tension) (rov-tension)))))
+    (run 3)))
+
 (define-scenario laid-shorter-than-it-is
   "A stiff line laid on chords shorter than its length has the energy of its bend, and none of what has crumpled; that of
 its thrust stays small beside the bend's."
@@ -109,8 +124,6 @@ its thrust stays small beside the bend's."
 
 
 ;;; A set.
-
-(define here-module (current-module))
 
 (define (coiled model . clauses)
   ;; A neutral line in still water.
