@@ -1,5 +1,6 @@
-/* The shaders that light what is seen, as text: water, surfaces, ground, edges and outlines, the samples of
-   a pixel averaged in linear light.  They follow the pieces of shaders_pixels.c, whose names they use.
+/* The shaders that light what is seen, as text: water, surfaces, ground, edges and outlines, the
+   samples of a pixel averaged in linear light.  They follow the pieces of shaders_pixels.c, whose
+   names they use.
 
    A pixel on an edge is lit for at most two samples: the nearest, and the sample least like the
    nearest.  The remaining samples take the light of the more similar of the two.
@@ -270,7 +271,12 @@ const char bt__shader_edges[] =
     "      if (u > most) { most = u; b = x[i]; }\n"
     "    }\n"
     "  vec2 ours = vec2 (0), theirs = vec2 (0);\n" /* samples, and their lines */
-    "  float sharp = murk > 0.0 ? 1.0 - fog (metres (a.d)) : 1.0;\n"
+    /* A line is as far away as what it borders, though it may fall on the water behind.  */
+    "#if PERSPECTIVE\n"
+    "  float sharp = 1.0 - fog (metres (a.d));\n"
+    "#else\n"
+    "  float sharp = 1.0;\n"
+    "#endif\n"
     "  for (int i = 0; i < all; i++)\n"
     "    {\n"
     "      vec2 one = vec2 (1, sharp * edge (x[i].at, x[i].d, x[i].s));\n"

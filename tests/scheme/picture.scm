@@ -423,3 +423,19 @@
           (water (map (lambda (y) (row-brightness pixels y)) (iota 40 115))))
      (expect (apply min bed) is (above (apply max water)))
      (expect (apply max bed) is (below (* 1.5 (mean bed)))))))
+
+(define (darkest-line-of-a-box metres)
+  ;; How much darker a pixel is than those a little to the left and to the right of it, at most, in the middle row of a
+  ;; picture of a wide box that far away, which looks at what is near.
+  (enter! (world (sea (depth 60)) (box (named wall) (at 0 metres -20) (size 4 1 12))
+                 (rov (named m) (at 40 0 -20)) (tether (named t) (wet-weight 0) (from 40 -6 -20) (to m) (length 8))))
+  (let* ((columns 320) (rows 200) (pixels (seen (f64vector 0. 0. -20. 0. 5. -20.) (cons columns rows) '()))
+         (at (lambda (column) (brightness pixels (+ column (* columns (quotient rows 2)))))))
+    (apply max (map (lambda (column) (- (min (at (- column 5)) (at (+ column 5))) (at column)))
+                    (iota (- columns 10) 5)))))
+
+(define-scenario outlines-fade-with-distance
+  "Where water hides what is far, its outline is hidden too."
+  (with-pictures
+   (expect (darkest-line-of-a-box 5) is (above 25))
+   (expect (darkest-line-of-a-box 30) is (below 5))))
