@@ -37,6 +37,23 @@ nearest_prop (const bt__vehicle_type *type, const bt__vehicle *v, bt_vec3 a, bt_
   return least;
 }
 
+/* True if the square of a distance, D2, is of less than REACH and a link whose square is LINK2.
+   Most links of a line are far: what no link reaches is told without a root.  */
+static int
+is_near (double d2, double reach, double link2)
+{
+  return d2 <= 2.001 * (reach * reach + link2) && sqrt (d2) < reach + sqrt (link2);
+}
+
+static int
+any_turns (const bt__vehicle_type *type, const bt__vehicle *v)
+{
+  for (int k = 0; k < type->n; k++)
+    if (fabs (v->body.thrust[k]) > TURNS)
+      return 1;
+  return 0;
+}
+
 /* The squared distance, m2, between tether I and the nearest turning thruster of V.  */
 static double
 nearest_on (const bt_dive *dive, bt__state *state, int i, const bt__vehicle_type *type,
@@ -48,9 +65,9 @@ nearest_on (const bt_dive *dive, bt__state *state, int i, const bt__vehicle_type
   bt_vec3 a = bt__line_node (&line, 0), end = bt__line_node (&line, n - 1);
   for (int k = 1; k < n; k++)
     {
-      bt_vec3 b = bt__line_node (&line, k);
-      double link = bt__distance (a, b);
-      if (bt__distance (b, v->position) < reach + link && bt__distance (a, end) > OWN_LENGTH)
+      bt_vec3 b = bt__line_node (&line, k), along = bt__sub (b, a), to = bt__sub (b, v->position);
+      if (is_near (bt__dot (to, to), reach, bt__dot (along, along))
+          && bt__distance (a, end) > OWN_LENGTH)
         least = fmin (least, nearest_prop (type, v, a, k == n - 1 ? a : b));
       a = b;
     }
@@ -63,12 +80,14 @@ bt__watch_props (const bt_dive *dive, bt__state *state)
   for (int vehicle = 0; vehicle < dive->model->n_vehicles; vehicle++)
     {
       bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
+      const bt__vehicle_type *type = &dive->model->types[vehicle];
       double least = INFINITY;
       if (!v->rigid)
         continue;
+      int turns = any_turns (type, v);
       for (int i = 0; i < dive->model->n_tethers; i++)
         if (bt__dive_tether (dive, state, i)->quiet < BT__SLEEP_AFTER)
-          least = fmin (least, nearest_on (dive, state, i, &dive->model->types[vehicle], v));
+          least = turns ? fmin (least, nearest_on (dive, state, i, type, v)) : least;
         else if (v->props)
           least = 0; /* a sleeping tether stays near */
       if (least < NEAR * NEAR && !v->props)

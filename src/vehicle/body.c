@@ -182,17 +182,20 @@ look_at_iterate (const job *j)
   return s;
 }
 
-/* The matrix at the iterate; without C if not TURNING.  */
+/* The matrix at the iterate: of the next iterate, with C and with the slope of damping, if TURNING;
+   else without C and with damping over velocity.  */
 static void
 assemble (job *j, const scene *s, int turning)
 {
-  double rate = 2 / j->in->h;
+  double rate = 2 / j->in->h, slope = turning ? 2 : 1;
+  bt_vec3 quadratic = bt__scale (slope, j->quadratic);
+  bt_vec3 quadratic_w = bt__scale (slope, j->quadratic_w);
   motion p = momenta (j, j->mid);
   memset (j->a, 0, sizeof j->a);
   add_diagonal_block (j->a, 0, bt__scale (rate, j->mass));
   add_diagonal_block (j->a, 3, bt__scale (rate, j->inertia));
-  add_diagonal_block (j->a, 0, bt__scale (s->wet, damping (j->linear, j->quadratic, j->mid.v)));
-  add_diagonal_block (j->a, 3, bt__scale (s->wet, damping (j->linear_w, j->quadratic_w, j->mid.w)));
+  add_diagonal_block (j->a, 0, bt__scale (s->wet, damping (j->linear, quadratic, j->mid.v)));
+  add_diagonal_block (j->a, 3, bt__scale (s->wet, damping (j->linear_w, quadratic_w, j->mid.w)));
   add_turning (j->a, 1 / rate, j->type->buoyancy, s->buoyancy);
   add_turning (j->a, 1 / rate, j->type->attached, s->pull);
   if (!turning)
