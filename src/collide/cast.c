@@ -19,7 +19,8 @@
    speed at the scene's radius added to the speed of the segment.
 
    Result: a lower bound of the time of impact, as a share of the move: so far the segment stays the
-   core radius away from the part; 1 for the whole move.  Rounding is covered by stopping at 1e-4 of the core radius.
+   core radius away from the part; 1 for the whole move.  Rounding is covered by stopping at 1e-4 of
+   the core radius.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -29,10 +30,6 @@ enum
 {
   STEPS_MAX = 200
 };
-
-#define SAFETY 0.9
-#define NEAR 0.02  /* of the core: the advance stops here */
-#define FLOOR 1e-4 /* of the core: nearer than this nothing comes nearer */
 
 /* ---- Motions ---- */
 
@@ -112,7 +109,7 @@ to_plane (double g, double v, double core)
 {
   if (v >= 0)
     return INFINITY;
-  return g > FLOOR * core ? SAFETY * g / -v : 0;
+  return g > BT__CAST_FLOOR * core ? BT__CAST_SAFETY * g / -v : 0;
 }
 
 /* With the link at LINK and its nearest point W: the next share, at least; INFINITY if the plane
@@ -146,9 +143,9 @@ bt__cast_run (const bt__cast *c, bt__count *count)
     {
       double gap = w.distance - c->core;
       bt__link link = link_at_share (c, t);
-      if (i > 0 && gap < NEAR * c->core)
+      if (i > 0 && gap < BT__CAST_NEAR * c->core)
         return t;
-      double step = gap > FLOOR * c->core ? SAFETY * gap / speed : 0;
+      double step = gap > BT__CAST_FLOOR * c->core ? BT__CAST_SAFETY * gap / speed : 0;
       if (!turning)
         step = fmax (step, planar (c, &link, &w, da, db, 1 - t));
       if (!(step > 0))

@@ -7,6 +7,15 @@
 
 #include "collide/safe.h"
 
+/* A promise is kept against rounding: by a core a little larger, and by coordinates.  */
+#define BT__MARGIN 1e-6
+#define BT__ROUNDING 1e-14
+
+/* Conservative advancement, of links against parts and of links against links.  */
+#define BT__CAST_SAFETY 0.9 /* of a bound: what is taken */
+#define BT__CAST_NEAR 0.02  /* of the core: the advance stops here */
+#define BT__CAST_FLOOR 1e-4 /* of the core: nearer than this nothing comes nearer */
+
 typedef struct bt__cast
 {
   const bt__scene *scene;

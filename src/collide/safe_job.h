@@ -5,11 +5,8 @@
 #ifndef BT_COLLIDE_SAFE_JOB_H
 #define BT_COLLIDE_SAFE_JOB_H
 
+#include "collide/cast.h"
 #include "collide/safe.h"
-
-/* The promise is kept against rounding: by a core a little larger, and by coordinates.  */
-#define BT__MARGIN 1e-6
-#define BT__ROUNDING 1e-14
 
 struct bt__safe
 {

@@ -14,6 +14,7 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include "collide/cast.h"
 #include "collide/sweep_job.h"
 
 enum
@@ -23,11 +24,9 @@ enum
   HALVINGS = 12
 };
 
-#define MARGIN 1e-6  /* of the gap, against rounding */
 #define HOLD 1.005   /* gaps: where a body is stopped */
 #define CREEP 1e-5   /* of the gap: what a body that was stopped may yield, for rounding */
 #define LITTLE 0.005 /* of the gap: a way not worth another step */
-#define ROUNDING 1e-14
 
 bt_vec3
 bt__placed_support (const void *shape, bt_vec3 d, int *hint)
@@ -162,7 +161,7 @@ limit_from (double here, double goal, double gap)
 double
 bt__chase_run (const bt__chase *c, double most, bt__apart *out, bt__count *count)
 {
-  double t = 0, goal = c->gap * (1 + MARGIN) + ROUNDING * size_of (c), limit = 0;
+  double t = 0, goal = c->gap * (1 + BT__MARGIN) + BT__ROUNDING * size_of (c), limit = 0;
   double least_step = LITTLE * c->gap / (farthest_way (&c->body) + farthest_way (&c->part));
   count->casts++;
   for (int i = 0; i < STEPS_MAX; i++)

@@ -43,14 +43,13 @@ check_config (const bt__line_config *c, const bt__line_work *w, const bt__dynami
   return BT_OK;
 }
 
-/* The promise is kept against rounding: by a core a little larger, and by coordinates.  */
 static double
 widened (double core, const bt_vec3 *x, int links)
 {
   double far = 0;
   for (int i = 0; i <= links; i++)
     far = fmax (far, bt__largest (x[i]));
-  return core * (1 + 1e-6) + 1e-14 * far;
+  return core * (1 + BT__MARGIN) + BT__ROUNDING * far;
 }
 
 static void

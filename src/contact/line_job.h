@@ -57,7 +57,6 @@ typedef struct bt__self
 #define BT__LINE_STRIDE 2.0 /* m: no node goes farther in a step in which anything is near */
 
 /* What touches of obstacles and of lines have in common.  */
-#define BT__LINE_CLOSE 1e-6    /* for rounding */
 #define BT__LINE_AHEAD 1.2     /* of the last step's way: what is expected of this one */
 #define BT__LINE_FORETOLD 0.2  /* m: a node that moves more in the step is not foretold */
 #define BT__LINE_RECOVERY 0.2  /* m/s: a line that was pressed in is let out so fast */

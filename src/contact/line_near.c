@@ -28,7 +28,7 @@ gone (const bt__line_job *k, uint32_t j)
   const bt__link_watch *s = k->w->watch + j;
   bt_vec3 a = bt__sub (k->x[j], s->a), b = bt__sub (k->x[j + 1], s->b);
   double square = fmax (bt__dot (a, a), bt__dot (b, b));
-  return sqrt (square) * (1 + BT__LINE_CLOSE);
+  return sqrt (square) * (1 + BT__MARGIN);
 }
 
 /* What is left of the clearance measured last.  */
@@ -173,11 +173,11 @@ list_mover (bt__line_job *k, uint32_t j, uint32_t m, bt__nears *list)
   double own = motion_of (mover), dropped = list->dropped;
   bt__pair_point (at->origin, &link, &ball);
   double away = ball.distance - mover->radius - own;
-  if (away * (1 - BT__LINE_CLOSE) > s->reach)
+  if (away * (1 - BT__MARGIN) > s->reach)
     return;
   link = (bt__link){ bt__to_local (at, link.a), bt__to_local (at, link.b) };
-  bt__scene_near (mover->body, mover->on, &link, m + 1, (s->reach + own) * (1 + BT__LINE_CLOSE),
-                  list, k->count);
+  bt__scene_near (mover->body, mover->on, &link, m + 1, (s->reach + own) * (1 + BT__MARGIN), list,
+                  k->count);
   if (!(list->dropped < dropped))
     return;
   s->full = 1;
@@ -348,7 +348,7 @@ bt__line_is_far (bt__line_job *k, double *may)
     return 1;
   for (int looked = 0;; looked++)
     {
-      double clear = (1 - BT__LINE_CLOSE) * d->spare.way;
+      double clear = (1 - BT__MARGIN) * d->spare.way;
       *may = clear - k->core;
       if (is_enough (k, clear))
         return 1;
@@ -383,10 +383,10 @@ bt__line_watch_moves (bt__line_job *k)
       const bt__link_watch *s = k->w->watch + j;
       double after = bt__distance (k->x[j + 1], k->X[j + 1]), need = fmax (before, after) + k->core;
       before = after;
-      if (need * (1 + BT__LINE_CLOSE) <= s->reach)
+      if (need * (1 + BT__MARGIN) <= s->reach)
         continue;
       if (!s->full)
-        list_link (k, j, need * (1 + BT__LINE_CLOSE));
+        list_link (k, j, need * (1 + BT__MARGIN));
       if (need <= s->reach)
         continue;
       k->report->overflows++;

@@ -19,6 +19,8 @@
 #include "base/record.h"
 #include "contact/touch.h"
 
+#define BT__SAME_LENGTH 1e-9 /* of a length: two that differ by no more are the same */
+
 /* Flat; X[room], then U[room] follow the head.  What is beyond N is zero.  */
 typedef struct bt__polyline
 {

@@ -17,12 +17,11 @@ enum
   HALVINGS = 10
 };
 
-#define STRIDE 2.0     /* m a leg, unless that makes too many */
-#define MARGIN 4e-6    /* of the core: the casts here are a little stricter than the safe step's */
-#define STRETCH 0.005  /* of its arc: a link is drawn longer by a nudge at most */
-#define NUDGE 0.1      /* a smaller share is not worth it */
-#define EVEN 1e-9      /* of its arc: a link is no longer than it by more */
-#define ROUNDING 4e-14 /* of the coordinates: likewise */
+#define STRIDE 2.0              /* m a leg, unless that makes too many */
+#define MARGIN (4 * BT__MARGIN) /* the casts here are a little stricter than the safe step's */
+#define STRETCH 0.005           /* of its arc: a link is drawn longer by a nudge at most */
+#define NUDGE 0.1               /* a smaller share is not worth it */
+#define ROUNDING (4 * BT__ROUNDING)
 
 /* ---- Surroundings ---- */
 
@@ -279,7 +278,7 @@ even_shares_out (const bt__polyline *line, const bt__polyline_work *w)
           bt_vec3 q = bt__axpy (x[i + 1], s[i + 1], bt__sub (w->want[i + 1], x[i + 1]));
           double du = u[i + 1] + s[i + 1] * (w->arc[i + 1] - u[i + 1]);
           du -= u[i] + s[i] * (w->arc[i] - u[i]);
-          if (s[i] == s[i + 1] || (du > 0 && bt__distance (p, q) <= du * (1 + EVEN)))
+          if (s[i] == s[i + 1] || (du > 0 && bt__distance (p, q) <= du * (1 + BT__SAME_LENGTH)))
             continue;
           s[i] = s[i + 1] = fmin (s[i], s[i + 1]);
           changed = 1;

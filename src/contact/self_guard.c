@@ -18,10 +18,6 @@ enum
   SWEEPS_HARD = 60
 };
 
-#define SAFETY 0.9
-#define NEAR 0.02  /* of the floor: near enough to stop */
-#define FLOOR 1e-4 /* of the floor: nearer than this nothing comes nearer */
-
 /* ---- The cast ---- */
 
 /* Two links, the moves of their ends, and how near they may come.  */
@@ -66,7 +62,7 @@ planar (const meeting *m, const bt__link *a, const bt__link *b, double left)
       double g = bt__dot (n, bt__sub (p, q)) - m->floor;
       if (v >= 0 || g + v * left >= 0)
         continue;
-      best = fmin (best, g > FLOOR * m->floor ? SAFETY * g / -v : 0);
+      best = fmin (best, g > BT__CAST_FLOOR * m->floor ? BT__CAST_SAFETY * g / -v : 0);
     }
   return best;
 }
@@ -83,9 +79,9 @@ run (meeting *m, bt__count *count)
     {
       double gap = m->w.distance - m->floor;
       bt__link a = moved (&m->a, m->da, t), b = moved (&m->b, m->db, t);
-      if (i > 0 && gap < NEAR * m->floor)
+      if (i > 0 && gap < BT__CAST_NEAR * m->floor)
         return t;
-      double step = gap > FLOOR * m->floor ? SAFETY * gap / speed : 0;
+      double step = gap > BT__CAST_FLOOR * m->floor ? BT__CAST_SAFETY * gap / speed : 0;
       step = fmax (step, planar (m, &a, &b, 1 - t));
       if (!(step > 0))
         return t;

@@ -229,6 +229,6 @@ bt__self_look (const bt__line_job *k, double *turned, double *apart)
       measure_parts (&s, all);
       look_into (&s, all);
     }
-  *turned = (1 - BT__LINE_CLOSE) * s.turned;
-  *apart = (1 - BT__LINE_CLOSE) * s.apart;
+  *turned = (1 - BT__MARGIN) * s.turned;
+  *apart = (1 - BT__MARGIN) * s.apart;
 }

@@ -42,7 +42,7 @@ static bt__dynamic_drift
 allowed (const bt__line_job *k)
 {
   bt__dynamic_drift may = k->d->spare;
-  may.apart += 2 * (bt__self_touching (k) - k->core) * (1 - BT__LINE_CLOSE);
+  may.apart += 2 * (bt__self_touching (k) - k->core) * (1 - BT__MARGIN);
   return may;
 }
 
@@ -152,8 +152,8 @@ is_known (const bt__line_job *k, const bt_vec3 *x, bt__dynamic_drift *drift)
 {
   const bt__self *self = &k->w->self;
   bt__dynamic_drifted (x, self->stood, self->still, drift);
-  drift->turned *= 1 + BT__LINE_CLOSE;
-  drift->apart *= 1 + BT__LINE_CLOSE;
+  drift->turned *= 1 + BT__MARGIN;
+  drift->apart *= 1 + BT__MARGIN;
   return drift->turned < self->turn && drift->apart < self->way;
 }
 
@@ -301,7 +301,7 @@ goes_clear (const bt__line_job *k, const bt__self_known *p)
       most = fmax (most, bt__distance (k->x[p->i + n], k->X[p->i + n]));
       most = fmax (most, bt__distance (k->x[p->j + n], k->X[p->j + n]));
     }
-  return gap > 2 * (k->core + most * (1 + BT__LINE_CLOSE)) * (1 + BT__LINE_CLOSE);
+  return gap > 2 * (k->core + most * (1 + BT__MARGIN)) * (1 + BT__MARGIN);
 }
 
 static int
@@ -371,7 +371,7 @@ list_moves (bt__line_job *k)
   bt__self *self = &k->w->self;
   bt__dynamic_drift drift = { 0 };
   for (int i = 0; i <= k->links; i++)
-    self->move[i] = bt__distance (k->x[i], k->X[i]) * (1 + BT__LINE_CLOSE);
+    self->move[i] = bt__distance (k->x[i], k->X[i]) * (1 + BT__MARGIN);
   return list (k, k->X, know_move (k, &drift));
 }
 

@@ -47,7 +47,7 @@ bt__self_between (const bt__line_job *k, int strand, uint32_t i, uint32_t j)
 double
 bt__self_floor (const bt__line_job *k, int strand, uint32_t i, uint32_t j)
 {
-  double other = strand < 0 ? k->core : k->config->strand[strand].core * (1 + BT__LINE_CLOSE);
+  double other = strand < 0 ? k->core : k->config->strand[strand].core * (1 + BT__MARGIN);
   return fmin (k->core + other, BT__SELF_ALONG * bt__self_between (k, strand, i, j));
 }
 

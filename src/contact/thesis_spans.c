@@ -11,8 +11,6 @@
 
 #include "contact/thesis_job.h"
 
-#define TINY 1e-9  /* m: no span is shorter */
-#define TAUT 1e-9  /* of the reach: nearer than this to its end is taut */
 #define CHEAT 1e-6 /* of its length: a rubber band shorter than this is one */
 
 bt_vec3
@@ -157,14 +155,14 @@ hold_vehicle (bt__thesis_job *j, double between)
       if (s->stuck)
         span->length = reach;
     }
-  s->taut = bt__distance (j->b, c) >= reach * (1 - TAUT);
+  s->taut = bt__distance (j->b, c) >= reach * (1 - BT__SAME_LENGTH);
   j->b = within (j->b, c, reach);
 }
 
 static void
 set_length (bt__thesis_job *j, int64_t k, double length)
 {
-  j->span[k].length = fmax (length, TINY);
+  j->span[k].length = fmax (length, BT__SAME_PLACE);
 }
 
 void

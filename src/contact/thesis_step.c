@@ -16,8 +16,6 @@ enum
   ROUNDS = 24 /* moves tried in a step */
 };
 
-#define HELD 1e-9 /* m: an end farther than this from where it should be is held */
-
 /* ---- The rules of 3.5.1 ---- */
 
 static void
@@ -245,7 +243,8 @@ report (bt__thesis_job *j, const int64_t *before, int n)
   r->a = bt__polyline_x (j->line)[0];
   r->b = bt__polyline_x (j->line)[j->line->n - 1];
   r->length = bt__polyline_u (j->line)[j->line->n - 1];
-  j->state->held = bt__distance (r->a, j->goal_a) > HELD || bt__distance (r->b, j->goal_b) > HELD;
+  j->state->held = bt__distance (r->a, j->goal_a) > BT__SAME_PLACE
+                   || bt__distance (r->b, j->goal_b) > BT__SAME_PLACE;
   r->held = (int)j->state->held;
   r->taut = (int)j->state->taut;
   r->touched_n = without (after, m, before, n, r->touched);
