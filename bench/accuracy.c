@@ -1,0 +1,232 @@
+/* bight-bench-accuracy: the error of a line of model `auto' against what was asked and against its
+   own estimate, as CSV rows on standard output.
+
+   Random flights are flown three times from the same begin: by a line of model `auto' to an
+   accuracy drawn with the flight, by a line of model `dynamic' with FINE equal intervals, the
+   reference, and by one with half as many.  Once a second all are told at POINTS places; the
+   greatest distance from the reference is the true error of that look.  A look is left out where
+   the two lines of model `dynamic' are farther apart than KNOWN of what was asked: in still water a
+   slack line goes where chance has it.  The kinds of flights differ in what the vehicle does: it
+   flies about within the reach of a slack line, in still water or in a current; it runs the line
+   taut and turns back, again and again; or it stands while the winch pays out and hauls in.
+
+   For each kind three shares of looks are given: with a true error above what was asked; with one
+   above twice that; and with an estimate that is off from the true error by a factor beyond 3.  An
+   estimate and a true error that are both below NOTHING of what was asked agree.
+
+   Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "math/vec.h"
+#include "options.h"
+#include "row.h"
+#include "testbed/calibration.h"
+#include "testbed/scene.h"
+
+enum
+{
+  FINE = 200,
+  POINTS = 41,
+  LOOK = 60,  /* steps */
+  LOOKS = 40, /* of a flight */
+  DIVES = 3,  /* the line, the reference, half of that */
+  LEG = 4,    /* looks for which sticks stay */
+  FLIGHTS = 2000
+};
+
+#define NOTHING 0.05
+#define KNOWN 0.3
+
+typedef enum kind
+{
+  STILL,
+  CURRENT,
+  TAUT,
+  WINCH,
+  KINDS
+} kind;
+
+static const char *const names[KINDS]
+    = { "flights, still water", "flights, current", "flights, taut", "flights, winch" };
+
+/* What was found in the looks of a kind of flights.  */
+typedef struct found
+{
+  int looks, above, twice, off, unknown;
+  double share[FLIGHTS * LOOKS]; /* of the true error in what was asked */
+  double seconds;                /* of a step of model `auto' */
+} found;
+
+/* ---- Flights ---- */
+
+static double
+lot (uint64_t *seed, double low, double high)
+{
+  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+  return low + (high - low) * (double)(*seed >> 11) / 9007199254740992.0;
+}
+
+/* Draw the world of flight SEED of a kind; return the accuracy asked for.  */
+static double
+draw (scene *s, kind what, uint64_t *seed)
+{
+  double length = lot (seed, 10, 60), way = length * lot (seed, 0.4, 0.9),
+         bearing = lot (seed, 0, 6.28);
+  scene_clear (s);
+  if (what != STILL)
+    scene_current (s, bt__vec (lot (seed, -0.3, 0.3), lot (seed, -0.3, 0.3), 0));
+  scene_vehicle (s, bt__vec (0.9 * way * cos (bearing), 0.9 * way * sin (bearing), -5 - 0.4 * way));
+  bt_tether_def *line = scene_line (s, bt__vec (0, 0, -5), length, FINE);
+  line->props.wet_weight = lot (seed, 0, 1) < 0.3 ? 0 : lot (seed, -0.05, 0.4);
+  line->props.diameter = lot (seed, 0.006, 0.02);
+  line->props.ea = pow (10, lot (seed, 4, 6));
+  return pow (10, lot (seed, -2, -1));
+}
+
+/* The sticks of a leg: about, or straight away and back.  */
+static bt_sticks
+steer (kind what, int leg, uint64_t *seed)
+{
+  double fast = what == TAUT ? 0.9 : 0.3;
+  bt_sticks s = { lot (seed, -fast, fast), lot (seed, -fast, fast), lot (seed, -0.1, 0.1),
+                  lot (seed, -0.3, 0.3) };
+  if (what == TAUT)
+    s.surge = leg % 4 < 2 ? fast : -fast;
+  if (what == WINCH)
+    s = (bt_sticks){ 0 };
+  return s;
+}
+
+static void
+fly_leg (bt_dive *dive, kind what, int leg, uint64_t *seed, double length)
+{
+  bt_error error;
+  bt_sticks sticks = steer (what, leg, seed);
+  double rate = lot (seed, 0.05, 0.4);
+  scene_must (bt_vehicle_drive (dive, 0, &sticks, &error), &error);
+  if (what == WINCH && leg % 2 == 0)
+    scene_must (bt_tether_pay_out (dive, 0, &(bt_spooling){ 0.5 * length, rate }, &error), &error);
+  else if (what == WINCH)
+    scene_must (bt_tether_haul_in (dive, 0, &(bt_spooling){ 0.5 * length, rate }, &error), &error);
+}
+
+/* ---- Looks ---- */
+
+static double
+apart (const bt_dive *a, const bt_dive *b)
+{
+  bt_vec3 p[POINTS], q[POINTS];
+  bt_error error;
+  double most = 0;
+  scene_must (bt_tether_points (a, 0, POINTS, p, &error), &error);
+  scene_must (bt_tether_points (b, 0, POINTS, q, &error), &error);
+  for (int k = 0; k < POINTS; k++)
+    most = fmax (most, bt__distance (p[k], q[k]));
+  return most;
+}
+
+static void
+note (found *f, double off, double estimate, double asked)
+{
+  int tiny = off < NOTHING * asked && estimate < NOTHING * asked;
+  f->share[f->looks++] = off / asked;
+  f->above += off > asked;
+  f->twice += off > 2 * asked;
+  f->off += !tiny && (estimate > 3 * off || off > 3 * estimate);
+}
+
+static void
+fly (found *f, kind what, uint64_t first)
+{
+  static scene s;
+  bt_error error;
+  uint64_t seed[DIVES] = { first, first, first };
+  bt_dive *dive[DIVES];
+  double asked = 0;
+  for (int d = 0; d < DIVES; d++)
+    {
+      asked = draw (&s, what, &seed[d]);
+      s.tether[0].props.model = d ? BT_MODEL_DYNAMIC : BT_MODEL_AUTO;
+      s.tether[0].props.accuracy = asked;
+      s.tether[0].props.nodes = d == 2 ? FINE / 2 : FINE;
+      dive[d] = scene_begin (&s.world);
+    }
+  for (int k = 0; k < LOOKS; k++)
+    {
+      double estimate;
+      for (int d = 0; d < DIVES; d++)
+        {
+          if (k % LEG == 0)
+            fly_leg (dive[d], what, k / LEG, &seed[d], s.tether[0].length);
+          f->seconds += (d ? 0 : LOOK) * scene_run (dive[d], LOOK);
+        }
+      scene_must (bt_tether_error_estimate (dive[0], 0, &estimate, &error), &error);
+      if (apart (dive[1], dive[2]) > KNOWN * asked)
+        f->unknown++;
+      else
+        note (f, apart (dive[0], dive[1]), estimate, asked);
+    }
+  for (int d = 0; d < DIVES; d++)
+    bt_dive_free (dive[d]);
+}
+
+/* ---- Rows ---- */
+
+static int
+by_size (const void *a, const void *b)
+{
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static void
+put (bench_table *t, kind what, found *f)
+{
+  static const char *const metrics[]
+      = { "share of looks above what was asked", "share of looks above twice that",
+          "share of estimates off by more than 3" };
+  const int counts[] = { f->above, f->twice, f->off };
+  char counters[120];
+  if (f->looks == 0)
+    return;
+  qsort (f->share, (size_t)f->looks, sizeof *f->share, by_size);
+  snprintf (counters, sizeof counters, "looks=%d;unknown=%d;p50=%.3g;p95=%.3g;p99=%.3g;most=%.3g",
+            f->looks, f->unknown, f->share[f->looks / 2], f->share[f->looks * 95 / 100],
+            f->share[f->looks * 99 / 100], f->share[f->looks - 1]);
+  for (int m = 0; m < 3; m++)
+    bench_put (t, &(bench_row){ names[what], "auto", "accuracy 1 cm to 10 cm", metrics[m],
+                                (double)counts[m] / f->looks, "dynamic, 200 intervals", 0,
+                                f->seconds / (LOOK * (f->looks + f->unknown)), counters });
+}
+
+static int
+run (int flights)
+{
+  static found f;
+  bench_table table;
+  bench_open (&table);
+  for (int what = 0; what < KINDS; what++)
+    {
+      f = (found){ 0 };
+      for (int k = 0; k < flights; k++)
+        fly (&f, (kind)what, (uint64_t)(1000 * what + k + 1));
+      put (&table, (kind)what, &f);
+    }
+  return bench_close (&table);
+}
+
+int
+main (int argc, char **argv)
+{
+  long flights = 50;
+  const bench_option options[]
+      = { { "flights", &flights, 1, FLIGHTS, 2, "random flights of each of four kinds" } };
+  const bench_program program
+      = { "accuracy", "Measure the error of lines against what is asked and estimated", options,
+          1 };
+  int status = bench_options (&program, argc, argv);
+  return status == BENCH_GO_ON ? run ((int)flights) : status;
+}
