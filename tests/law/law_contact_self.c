@@ -498,6 +498,72 @@ bights_hook (void **state)
   untie (&p, &r);
 }
 
+/* Step P, about a wire, and then Q, which hooks it and is pulled away by F along x.  */
+static void
+step_hooked (rope *p, rope *q, double f)
+{
+  bt__strand on_p = strand_of (q, 1), on_q = strand_of (p, 0);
+  p->config.strand = &on_p;
+  q->config.strand = &on_q;
+  p->config.strands = q->config.strands = 1;
+  for (int e = 0; e < 2; e++)
+    q->in.end[e].body.force = bt__vec (f / 2, 0, e ? 0.075 * f : -0.075 * f);
+  rope_step (p, frame, 1);
+  rope_step (q, frame, 1);
+}
+
+/* A bight over a wire of 10 mm, both its ends hanging down, is held at the wire by a node of either
+   leg and pulled off by the bight of another line, in the same steps: what the wire, the other line
+   and its ends do to it cancels, and the other line feels the same.  */
+static void
+bights_hook_beside_a_wire (void **state)
+{
+  (void)state;
+  static reef r;
+  static rope p, q;
+  double pulled = 0, left = 0, seconds = 5;
+  int last = 0;
+  bt_vec3 a = { 0, 0, 0 }, b = { 0, 0, 0 };
+  bt_vec3 one[] = { { -2.05, -0.5, -2 },
+                    { -2.05, -0.5, 0.05 },
+                    { 0.3, 0, 0 },
+                    { -2.05, 0.5, 0.05 },
+                    { -2.05, 0.5, -2 } };
+  bt_vec3 two[] = { { 3, 0, -0.5 }, { -0.3, 0, 0 }, { 3, 0, 0.5 } };
+  assert_true (reef_open (&r));
+  reef_wire (&r, bt__vec (-2, -2, 0), bt__vec (-2, 2, 0), 0.005);
+  assert_true (reef_raise (&r));
+  assert_true (rope_open (&p, &r, 50, one, 5, 1.001 * bt__length (one, 5), 0.3)
+               && rope_open (&q, &r, 40, two, 3, 6.7, 0.3));
+  rope_set_itself (&p);
+  rope_set_itself (&q);
+  q.config.id = 1001;
+  for (int e = 0; e < 2; e++)
+    q.in.end[e] = (bt__dynamic_end){ .free = 1, .body = { .mass = 10, .quadratic = 60 } };
+  for (int i = 0; i < 2400; i++)
+    {
+      step_hooked (&p, &q, fmin (100, 0.4 * i));
+      if (i < 2400 - seconds / frame)
+        continue;
+      last += p.touch.bends == 2 && p.touch.meets > 0;
+      left = fmax (left, bt__norm (left_over (&p, &pulled)));
+      a = bt__axpy (a, frame / seconds, force_on (&p));
+      b = bt__axpy (b, frame / seconds, force_on (&q));
+    }
+  print_message ("# 2 bights and a wire: %.4g N and %.4g N, %.2g N left over; %.2g N of all on the "
+                 "one; %ld of %ld steps unsolved\n",
+                 bt__norm (a), bt__norm (b), bt__norm (bt__add (a, b)), left, p.unconverged,
+                 p.steps);
+  assert_int_equal (p.crossings + q.crossings, 0);
+  assert_true (last > 0.9 * seconds / frame);
+  assert_near (bt__norm (bt__add (a, b)), 0, 0.02 * bt__norm (b), "force and reaction");
+  assert_near (a.x, 100, 2, "the pull of the other line");
+  assert_below (left, 0.02 * 100, "what is left of all forces");
+  assert_below ((double)p.unconverged, 2e-3 * (double)p.steps, "steps not solved");
+  rope_close (&q);
+  untie (&p, &r);
+}
+
 /* ---- Energy ---- */
 
 /* A knot in still water, not pulled, that springs open by its bending stiffness' absence: what it
@@ -542,6 +608,7 @@ main (void)
                                       cmocka_unit_test (junk),
                                       cmocka_unit_test (straight_line_asks_nothing),
                                       cmocka_unit_test (bights_hook),
+                                      cmocka_unit_test (bights_hook_beside_a_wire),
                                       cmocka_unit_test (remembers_nothing),
                                       cmocka_unit_test (looked_far_or_not),
                                       cmocka_unit_test (gains_no_energy) };
