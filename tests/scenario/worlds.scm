@@ -16,25 +16,10 @@
   ;; The scripts of FINDINGS, to be read in a report.
   (map third findings))
 
-;; Open: a line of four intervals laid past a capsule.  A corner about the capsule came and went as the line fell into
-;; place; the surplus of its chords over the arc (contact/line_round.c) goes slowly where the line is taut, and so is
-;; still there when the line is laid: its chords are 29.12 m of a line of 29 m at 2 N.
-(define open-dives '(22))
-
-;; Open: a stiff line paid out at 20 m/s; points in its first centimetres are up to 1.7 mm farther apart than the line
-;; between them is long.
-(define open-wild-dives '(5))
-
-(define (but for numbers)
-  (remove (lambda (n) (memv n for)) numbers))
-
 (define-scenario (any-dive-is-sound wild?)
-  "Whatever the world and the orders, no law is broken, no process dies and none hangs; but for dives that are known."
+  "Whatever the world and the orders, no law is broken, no process dies and none hangs."
   #:for ((wild? #f #t))
-  (expect (told (if wild?
-                    (unsound-dives (but open-wild-dives (iota 12)) #:wild? #t)
-                    (unsound-dives (but open-dives (iota 24)))))
-          => '()))
+  (expect (told (unsound-dives (iota (if wild? 12 24)) #:wild? wild?)) => '()))
 
 
 ;;; The grammar knows all that the schema knows.
