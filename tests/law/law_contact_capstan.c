@@ -256,13 +256,46 @@ sticks (void **state)
   unwind (&c);
 }
 
+/* Hauled through a right angle over the edge of a box, links longer than all that is round there:
+   node after node comes to the edge, and no step has another ratio of tensions than e^(mu pi / 2)
+   by 2 %.  */
+static void
+over_a_box_edge (void **state)
+{
+  (void)state;
+  static capstan c;
+  const bt_vec3 shape[] = { { -0.4, 0, -14 }, { -0.4, 0, 0.2 }, { 15, 0, 0.4 } };
+  double ratio = exp (0.3 * BT__PI / 2), least = INFINITY, most = 0;
+  assert_true (reef_open (&c.reef));
+  reef_box (&c.reef, bt__vec (15, 0, -1), bt__vec (15, 3, 1), 0);
+  assert_true (reef_raise (&c.reef));
+  assert_true (rope_open (&c.rope, &c.reef, 100, shape, 3, bt__length (shape, 3), 0.3));
+  c.rope.line.cdt = 0;
+  c.rope.config.pull[1] = INFINITY;
+  c.rope.in.end[0]
+      = (bt__dynamic_end){ .free = 1, .body = { .mass = 1, .linear = 5, .force = { 0, 0, -30 } } };
+  for (int i = 0; i < 540; i++)
+    {
+      const double *t = bt__dynamic_tension (c.rope.d);
+      c.rope.in.end[1].at.x += frame * fmin (1, i / 60.0);
+      assert_true (rope_step (&c.rope, frame, 0));
+      if (i < 270)
+        continue;
+      least = fmin (least, t[c.rope.d->n - 2] / t[1]);
+      most = fmax (most, t[c.rope.d->n - 2] / t[1]);
+    }
+  print_message ("# over a box's edge: ratios of %.4f to %.4f, and not %.4f\n", least, most, ratio);
+  assert_true (least > 0.98 * ratio && most < 1.02 * ratio);
+  unwind (&c);
+}
+
 int
 main (void)
 {
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test (half_a_turn), cmocka_unit_test (long_links), cmocka_unit_test (a_turn),
-    cmocka_unit_test (much_friction),
-    cmocka_unit_test (no_friction), cmocka_unit_test (no_ripple),  cmocka_unit_test (sticks)
-  };
+  const struct CMUnitTest tests[]
+      = { cmocka_unit_test (half_a_turn),   cmocka_unit_test (long_links),
+          cmocka_unit_test (a_turn),        cmocka_unit_test (over_a_box_edge),
+          cmocka_unit_test (much_friction), cmocka_unit_test (no_friction),
+          cmocka_unit_test (no_ripple),     cmocka_unit_test (sticks) };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
