@@ -139,20 +139,34 @@ place_in_table (double value, double first, double step, int n, double *share)
   return i;
 }
 
-static double
-at_row (int row, double volts)
+/* A voltage: between columns K and K + 1, by SHARE nearer to the next.  */
+typedef struct column
 {
+  int k;
   double share;
-  int k = place_in_table (volts, VOLTS_LEAST, VOLTS_STEP, VOLTAGES, &share);
-  return (1 - share) * t200[row][k] + share * t200[row][k + 1];
+} column;
+
+static column
+column_of (double volts)
+{
+  column c;
+  c.k = place_in_table (volts, VOLTS_LEAST, VOLTS_STEP, VOLTAGES, &c.share);
+  return c;
+}
+
+static double
+at_row (int row, column c)
+{
+  return (1 - c.share) * t200[row][c.k] + c.share * t200[row][c.k + 1];
 }
 
 static double
 t200_force (double volts, double command)
 {
   double share;
+  column c = column_of (volts);
   int i = place_in_table (command, -1, 2.0 / (PULSES - 1), PULSES, &share);
-  return (1 - share) * at_row (i, volts) + share * at_row (i + 1, volts);
+  return (1 - share) * at_row (i, c) + share * at_row (i + 1, c);
 }
 
 /* Bisection on the rising table, from zero outward: a force of 0 has the command 0.  */
@@ -162,16 +176,17 @@ t200_command (double volts, double force)
   int zero = PULSES / 2, way = force < 0 ? -1 : 1, low = 0, high = zero;
   if (force == 0)
     return 0;
+  column c = column_of (volts);
   while (high - low > 1)
     {
       int middle = (low + high) / 2;
-      if (fabs (at_row (zero + way * middle, volts)) < fabs (force))
+      if (fabs (at_row (zero + way * middle, c)) < fabs (force))
         low = middle;
       else
         high = middle;
     }
-  double least = fabs (at_row (zero + way * low, volts));
-  double most = fabs (at_row (zero + way * high, volts));
+  double least = fabs (at_row (zero + way * low, c));
+  double most = fabs (at_row (zero + way * high, c));
   double share = most > least ? fmin (1, (fabs (force) - least) / (most - least)) : 1;
   return way * (low + share) / zero;
 }
