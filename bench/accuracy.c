@@ -55,7 +55,7 @@ static const char *const names[KINDS]
 /* What was found in the looks of a kind of flights.  */
 typedef struct found
 {
-  int looks, above, twice, off, unknown;
+  int looks, above, twice, off, under, unknown;
   double share[FLIGHTS * LOOKS]; /* of the true error in what was asked */
   double seconds;                /* of a step of model `auto' */
 } found;
@@ -135,6 +135,7 @@ note (found *f, double off, double estimate, double asked)
   f->share[f->looks++] = off / asked;
   f->above += off > asked;
   f->twice += off > 2 * asked;
+  f->under += !tiny && off > 3 * estimate;
   f->off += !tiny && (estimate > 3 * off || off > 3 * estimate);
 }
 
@@ -193,8 +194,8 @@ put (bench_table *t, kind what, found *f)
   if (f->looks == 0)
     return;
   qsort (f->share, (size_t)f->looks, sizeof *f->share, by_size);
-  snprintf (counters, sizeof counters, "looks=%d;unknown=%d;p50=%.3g;p95=%.3g;p99=%.3g;most=%.3g",
-            f->looks, f->unknown, f->share[f->looks / 2], f->share[f->looks * 95 / 100],
+  snprintf (counters, sizeof counters, "looks=%d;unknown=%d;under=%d;p50=%.3g;p95=%.3g;p99=%.3g;most=%.3g",
+            f->looks, f->unknown, f->under, f->share[f->looks / 2], f->share[f->looks * 95 / 100],
             f->share[f->looks * 99 / 100], f->share[f->looks - 1]);
   for (int m = 0; m < 3; m++)
     bench_put (t, &(bench_row){ names[what], "auto", "accuracy 1 cm to 10 cm", metrics[m],
