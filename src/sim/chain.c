@@ -169,8 +169,8 @@ bt__lay_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_
   status = bt__trace_rest (dive, state, i, ends, n, error);
   if (status == BT_OK)
     status = bt__begin_chain (dive, state, i, ends, n, NULL, error);
-  if (status == BT_OK && bt__is_clamped_at_all (dive, i)) /* the equilibrium knows no clamps */
-    status = bt__fall (dive, state, i, ends, error);
+  if (status == BT_OK)
+    status = bt__settle_bent (dive, state, i, ends, error);
   if (status != BT_OK)
     return status;
   return tether->props.model == BT_MODEL_AUTO ? bt__remesh_chain (dive, state, i, error) : BT_OK;

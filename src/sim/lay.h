@@ -36,6 +36,11 @@ bt_status bt__lead_to_rest (bt_dive *dive, bt__state *state, int i, bt_vec3 *x, 
 /* Let the moving line of tether I fall into place between ENDS, the clock standing (lay_fall.c). */
 bt_status bt__fall (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt_error *error);
 
+/* Let the moving line of tether I, laid at an equilibrium without bending in open water, come to
+   rest between ENDS with its clamps and sets; a line that has neither stays (lay_settle.c).  */
+bt_status bt__settle_bent (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
+                           bt_error *error);
+
 /* Lay the moving line of tether I along its corners and let the line fall into place while the
    clock stands.  */
 bt_status bt__lay_chain_among (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,

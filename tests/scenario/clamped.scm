@@ -21,6 +21,8 @@
 
 (define pi (* 4 (atan 1)))
 
+(define here-module (current-module))
+
 (define (off-a-circle n radius centre)
   "How far the tether's points are from the circle of RADIUS about CENTRE at most, m."
   (apply max (map (lambda (i) (abs (- (distance (point-at (* (tether-length) (/ i n))) centre) radius))) (iota (+ n 1)))))
@@ -106,6 +108,20 @@ ends, in forks and checkpoints too.  Paid out, the line has less of it; cut, non
   (cut-tether! #:at 1)
   (run 1)
   (expect (list (tether-twist) (tether-torque) (anchor-torque)) => '(0. 0. 0.)))
+
+(define-scenario (laid-at-rest clauses)
+  "A line with clamps, or with a set, begins at rest, its bending in balance with the current."
+  #:for ((clauses '((set (curvature 1))) '((from-along 1 0 0) (to-along 0 1 0))
+                  '((gj 0.03) (from-along 1 0 0) (to-along 0 0 1) (set (curvature 1)) (set (at 1) (span 1) (curvature 2) (plane 90)))))
+  (enter! (eval `(world (sea (depth 60) (current 0.3 70))
+                        (rov (named v) (type kinematic) (at 2.8 0 -20) (pull 1e6))
+                        (tether (named l) (type fathom) (ei 0.05) (from 0 0 -20) (to v) (length 4) (model dynamic) ,@clauses))
+                here-module))
+  (define (places) (map (lambda (k) (point-at (/ k 2))) (iota 9)))
+  (let ((before (places)))
+    (run 5)
+    (expect (apply max (map distance before (places))) is (below 1e-5))
+    (expect (assq-ref (energy) 'kinetic) is (below 1e-8))))
 
 (define-scenario what-a-clamp-wants
   "A clamp bends a line that is stiff and moves; a vehicle with mass is told of no moment."

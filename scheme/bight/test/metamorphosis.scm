@@ -152,8 +152,7 @@ its cube; water and gravity stay."
   ;; VALUE of a FIELD that tells of the body itself, not of where it is.
   (case (field-name field)
     ((heading) ((change-bearing change) value))
-    ((from-along to-along) (changed-direction change value))
-    ((roll plane) (* (change-hand change) value)) ; a set's plane counts against other sets alone
+    ((roll) (* (change-hand change) value))
     ((tether-point buoyancy-centre) (own-vector change value))
     ((points) (own-rows change value))
     ((size) (vec* (change-scale change) value))
@@ -193,14 +192,55 @@ its cube; water and gravity stay."
                                 (else #f))))
                       (head-fields head))))
 
-(define (changed-entry change head)
+;; Clamps, and the planes of sets.  A clamp at a vehicle is along the vehicle's own axes.
+
+(define (changed-along change which fields)
+  (let ((along (or (assq-ref fields which) (vec 0 0 0))) (end (assq-ref fields (if (eq? which 'from-along) 'from 'to))))
+    (if (symbol? end) (own-vector change along) (changed-direction change along))))
+
+(define (dot a b) (+ (* (x a) (x b)) (* (y a) (y b)) (* (z a) (z b))))
+
+(define (cross a b)
+  (vec (- (* (y a) (z b)) (* (z a) (y b))) (- (* (z a) (x b)) (* (x a) (z b))) (- (* (x a) (y b)) (* (y a) (x b)))))
+
+(define (unit a) (vec* (/ (norm a)) a))
+
+(define (directors along)
+  ;; Toward planes of 0 and of 90 degrees of a line that a clamp lets out ALONG: north, where that is down, turned with
+  ;; it the shortest way.
+  (let* ((t (unit along)) (down (vec 0 0 -1)) (north (vec 0 1 0)) (c (+ 1 (dot t down)))
+         (side (if (> c 1e-6) (vec- north (vec* (/ (dot north t) c) (vec+ t down))) north)))
+    (list side (cross t side))))
+
+(define degree (/ (atan 1) 45))
+
+(define (changed-plane change fields plane)
+  ;; Without a clamp at the anchor the planes of sets count against other sets alone.
+  (let ((along (assq-ref fields 'from-along)))
+    (if (and along (> (norm along) 0))
+        (let* ((here (directors along)) (there (directors (changed-along change 'from-along fields)))
+               (toward (vec+ (vec* (cos (* degree plane)) (first here)) (vec* (sin (* degree plane)) (second here))))
+               (goes (if (symbol? (assq-ref fields 'from)) (own-vector change toward) (changed-direction change toward))))
+          (/ (atan (dot goes (second there)) (dot goes (first there))) degree))
+        (* (change-hand change) plane))))
+
+(define (with-plane change fields head before after)
+  ;; AFTER, the changed entries BEFORE of a thing with HEAD: of a set, with the plane that it then has.
+  (if (eq? head 'set)
+      (cons (cons 'plane (changed-plane change fields (or (assq-ref before 'plane) 0)))
+            (remove (lambda (entry) (eq? 'plane (car entry))) after))
+      after))
+
+(define (changed-entry change head fields)
+  ;; A procedure of an entry of a part with HEAD and FIELDS.
   (lambda (entry)
     (let ((field (head-field head (car entry))))
-      ;; Open: one law finds lines with a set not to follow Froude's law within the error that they state.
-      (when (and (eq? 'set (car entry)) (eq? 'scaled (change-name change)))
-        (unchangeable change "a line with a set"))
       (cond ((not field)                ; a thing inside: its fields are entries
-             (cons (car entry) (map (changed-entry change (car entry)) (cdr entry))))
+             (cons (car entry)
+                   (with-plane change fields (car entry) (cdr entry)
+                               (map (changed-entry change (car entry) fields) (cdr entry)))))
+            ((memq (car entry) '(from-along to-along))
+             (cons (car entry) (changed-along change (car entry) fields)))
             ((eq? 'type (car entry)) #f)
             (else (cons (car entry) (changed-value change head field (cdr entry))))))))
 
@@ -221,7 +261,7 @@ its cube; water and gravity stay."
            (append (if (eq? head 'sea) '() `((named ,(part-name part))))
                    (map written
                         (filter identity
-                                (map (changed-entry change head)
+                                (map (changed-entry change head (part-all-fields part))
                                      (with-defaults head (part-all-fields part)))))))))
 
 (define (changed-world change world)
