@@ -168,14 +168,17 @@ check 'and is taken to its marks' take_all
 cat >"$scratch/ahead.scm" <<'LESSON'
 (define-lesson ahead "Ahead"
   (in open-water)
-  (task "Go ahead." (done-when (> (range-to '(0 0 -5)) 1000)) (at-most 2))
+  (task "Go ahead." (target "far" '(0 25 -8)) (done-when (> (range-to '(0 0 -5)) 1000)) (at-most 2))
   (task "Never." (done-when #f))
   (score (rov-depth 0 100))
   (pilot expert "Goes." (flies (drive! #:surge 1))))
 LESSON
 begin 80 24 COLORTERM= TERM=screen-256color LC_ALL=C.UTF-8
 line "bight lesson $scratch/ahead.scm --trust"
-see '^ Enter begins' && keys Enter && see 'a: begin the task again' && keys e && see 'Marks were lost here' && keys w &&
+see '^ Enter begins' && see '   1\( \|$\)'
+result $? 'before a task its target is on the map already'
+keys Enter
+see 'a: begin the task again' && keys e && see 'Marks were lost here' && keys w &&
   see 'pale: the expert, from where you began' && see PAUSED && see ' expert ' && keys q && see 'Marks were lost here'
 result $? 'beside what was flown the expert flies it'
 keys Enter

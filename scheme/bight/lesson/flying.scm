@@ -169,12 +169,17 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
         ((act-of-key key) => (lambda (act) (act->inputs c act)))
         (else '())))
 
-(define* (draw-flight! c last-line #:key typing?)
+(define (call-with-targets c thunk)
+  ;; Call THUNK, which draws: the task's targets are in the view and on the map.
   (set-targets! c targets-seen)
+  (let ((value (thunk)))
+    (set-targets! c (const '()))
+    value))
+
+(define* (draw-flight! c last-line #:key typing?)
   (set-panel! c panel-now)
-  (draw-frame! c last-line #:typing? typing?)
-  (set-panel! c #f)
-  (set-targets! c (const '())))
+  (call-with-targets c (lambda () (draw-frame! c last-line #:typing? typing?)))
+  (set-panel! c #f))
 
 (define (inputs-until c end)
   ;; What the keys mean that come before the time END, s of the clock.
@@ -280,8 +285,11 @@ the last first; TARGETS and COUNTERS, lists of lines.  It returns the row below.
     (catch-up!)
     (read-what-was-said!)
     (take-seat! c)
-    (show-page! (cons (string-append "TASK: " (task-text)) (target-lines (task-targets)))
-                "Enter begins   ? in flight shows the keys   q leaves")
+    (set-plan-due! c 0)
+    (call-with-targets c
+      (lambda ()
+        (show-page! (cons (string-append "TASK: " (task-text)) (target-lines (task-targets)))
+                    "Enter begins   ? in flight shows the keys   q leaves")))
     (set-stepped! c (clock))
     (dynamic-wind
       (const #t)
