@@ -160,7 +160,7 @@ bt__next_station (const bt__frame_line *l, bt__walk *s, int i)
   at.middle = bt__unit_or (bt__add (s->t, next), next);
   at.cell = 0.5 * (before + after);
   at.k = 2 * l->in->line->ei / (before + after);
-  if (l->edge)
+  if (l->edge && l->in->n_sets > 0)
     {
       double angle = 0.5 * (bt__angle_before (l, i) + bt__angle_after (l, i));
       s->cos = cos (angle);
@@ -277,7 +277,7 @@ bt__dynamic_set_forces (bt__dynamic_work *w, const bt_vec3 *x)
   memset (w->natural, 0, (size_t)(w->n + 1) * sizeof *w->natural);
   memset (w->twist, 0, (size_t)(w->n + 1) * sizeof *w->twist);
   memset (w->felt, 0, (size_t)(w->n + 1) * sizeof *w->felt);
-  for (int i = bt__first_station (&l); i <= bt__last_station (&l); i++)
+  for (int i = bt__first_station (&l); w->is_set && i <= bt__last_station (&l); i++)
     {
       bt__station at = bt__next_station (&l, &s, i);
       beyond += bt__moment_of (&at);
