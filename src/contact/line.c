@@ -3,8 +3,8 @@
    A line far from everything takes the step of open water.  Otherwise: contact constraints
    (half-spaces) for everything touched, and a solve; then continuous collision detection, a cast of
    every link along its proposed move.  A hit adds a constraint at the place and time of the impact,
-   and the step is solved again, four times at most.  Hits that remain are answered by a shorter
-   move of the whole line, and if the shorter move hits as well, by the safe step (collide/safe.c).
+   and the step is solved again, four times at most.  Hits that remain are answered by the safe step
+   (collide/safe.c).
    Only casts and safe step decide on the accepted move, so no answer of the equations can break the
    promise that nothing is passed through.
 
@@ -120,7 +120,7 @@ propose (bt__line_job *k, int near, int held, bt__dynamic_report *report)
       k->report->rounds++;
     }
   k->report->rows = k->rows;
-  if (hits > 0 && bt__line_shorten (k) > 0)
+  if (hits > 0)
     bt__line_truncate (k);
 }
 

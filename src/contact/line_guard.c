@@ -1,20 +1,16 @@
 /* Continuous collision detection (CCD) of a line against obstacles: casts along the proposed move,
-   shorter moves, and the safe step.
+   and the safe step.
 
    The solver proposes a new place for every node.  Each link is cast along the straight paths of
    both nodes against the candidate pairs of the link (line_near.c) by conservative advancement
    (collide/cast.c; Mirtich 1996).  A part farther from the link than the link moves is not cast.  A
-   cast that stops short of the proposed place is a hit, and hits are answered in three ways, one
+   cast that stops short of the proposed place is a hit, and hits are answered in two ways, one
    after the other:
 
    1. A contact constraint is added where the link hits, and the step is solved again
    (bt__line_hits).
 
-   2. If rounds of 1. leave a hit, all nodes take the same share of their moves, several times over
-   (bt__line_shorten).  The whole line may leave a place where a single node, held back by the
-   neighbours, could not.
-
-   3. The fallback always ends: the safe step (collide/safe.c) and the guard of self-contact shorten
+   2. The fallback always ends: the safe step (collide/safe.c) and the guard of self-contact shorten
    the move of each node, by turns; after CUTS turns the line stays where it is (bt__line_truncate).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
@@ -25,11 +21,8 @@
 
 enum
 {
-  SHORTER = 4, /* times a move is shortened, ... */
-  CUTS = 6     /* times it is cut for obstacles and for lines */
+  CUTS = 6 /* times a move is cut for obstacles and for lines */
 };
-
-#define SHORT 0.2 /* ... to this share */
 
 int
 bt__line_bound (bt__line_job *k, double most)
@@ -107,23 +100,6 @@ bt__line_hits (bt__line_job *k, int add)
   return hits + bt__self_hits (k, add);
 }
 
-/* A line that is pressed to the core can go nowhere by halves: a node held back alone keeps its
-   neighbours from leaving.  The whole line may.  */
-int
-bt__line_shorten (bt__line_job *k)
-{
-  int hits = 1;
-  k->report->truncated = k->links + 1;
-  memset (k->w->restart, 1, (size_t)k->links + 1);
-  for (int i = 0; i < SHORTER && hits > 0; i++)
-    {
-      for (int q = 0; q <= k->links; q++)
-        k->X[q] = bt__axpy (k->x[q], SHORT, bt__sub (k->X[q], k->x[q]));
-      hits = bt__line_hits (k, 0);
-    }
-  return hits;
-}
-
 /* ---- The safe step ---- */
 
 /* What the safe step leaves of the proposal.  */
@@ -144,6 +120,8 @@ cut_at_obstacles (bt__line_job *k)
 void
 bt__line_truncate (bt__line_job *k)
 {
+  k->report->truncated = k->links + 1;
+  memset (k->w->restart, 1, (size_t)k->links + 1);
   for (int i = 0; i <= CUTS; i++)
     {
       if (i == CUTS)

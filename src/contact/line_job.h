@@ -365,9 +365,6 @@ int bt__line_bound (bt__line_job *k, double most);
 /* Cast every link along its proposed move.  Return the number that hit; with ADD rows are made.  */
 int bt__line_hits (bt__line_job *k, int add);
 
-/* Shorten the whole proposal until it hits nothing; return the number of hits that are left.  */
-int bt__line_shorten (bt__line_job *k);
-
 /* Cut the proposal, node by node, to what is safe.  */
 void bt__line_truncate (bt__line_job *k);
 
