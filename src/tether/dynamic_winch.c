@@ -127,6 +127,33 @@ share_round (bt__dynamic *d, int64_t j, double round)
   chord[after >= before].z = d->rounded ? round : 0;
 }
 
+/* What interval J is crumpled by, m.  */
+static double
+crumple_of (const bt__dynamic *d, int64_t j)
+{
+  const bt_vec3 *chord = bt__dynamic_chord (d) + j;
+  return chord->y == BT__BEARS ? chord->x : 0;
+}
+
+/* The length to which tension draws interval J, uncrumpled, over its rest length.  */
+static double
+drawn_share (const bt__dynamic *d, int64_t j)
+{
+  return bt__dynamic_stretch (d)[j] + crumple_of (d, j) / bt__dynamic_rest (d)[j];
+}
+
+/* Crumple interval J, whose rest length is known, so that its tension draws it to SHARE times that;
+   an interval longer than this has more line.  */
+static void
+crumple_to (bt__dynamic *d, int64_t j, double share)
+{
+  double *rest = bt__dynamic_rest (d) + j, chord = drawn_length (d, j);
+  *rest = fmax (*rest, chord / share);
+  bt__dynamic_stretch (d)[j] = chord / *rest;
+  bt__dynamic_chord (d)[j].x = fmax (share * *rest - chord, 0);
+  bt__dynamic_chord (d)[j].y = BT__BEARS;
+}
+
 /* What a new node at the share U of interval J keeps where loads are kept: a fourth-order part
    begins anew, the layers of a line that bends have slipped as beside it.  */
 static bt_vec3
@@ -142,9 +169,9 @@ bt__dynamic_split (bt__dynamic *d, int64_t j, double u, int straight)
 {
   int64_t i = j + 1;
   bt_vec3 slipped = slipped_between (d, j, u);
-  double round = bt__dynamic_chord (d)[j].z;
+  double round = bt__dynamic_chord (d)[j].z, drawn = drawn_share (d, j);
   double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d), whole = rest[j];
-  int taut = is_strained (d, j);
+  int taut = is_strained (d, j), crumpled = taut && crumple_of (d, j) > 0;
   bt_vec3 *x = bt__dynamic_x (d), none = { 0, 0, 0 },
           off = straight || !taut ? none : bow_of_interval (d, j, u * whole, (1 - u) * whole);
   shift_all (d, i, 1);
@@ -152,8 +179,10 @@ bt__dynamic_split (bt__dynamic *d, int64_t j, double u, int straight)
   x[i] = bt__add (point_between (x + j, u), off);
   bt__dynamic_load (d)[i] = slipped;
   share_round (d, j, round);
-  rest[j] = taut ? drawn_length (d, j) / e[j] : u * whole;
-  rest[i] = taut ? drawn_length (d, i) / e[i] : whole - rest[j];
+  rest[j] = taut && !crumpled ? drawn_length (d, j) / e[j] : u * whole;
+  rest[i] = taut && !crumpled ? drawn_length (d, i) / e[i] : whole - rest[j];
+  for (int64_t k = j; crumpled && k <= i; k++)
+    crumple_to (d, k, drawn);
   d->owed += taut ? whole - rest[j] - rest[i] : 0;
 }
 
@@ -167,14 +196,18 @@ bt__dynamic_remove (bt__dynamic *d, int64_t i)
   double mean[]
       = { u * t[0] + (1 - u) * t[1], u * e[0] + (1 - u) * e[1], u * de[0] + (1 - u) * de[1] };
   double round = d->rounded ? bt__dynamic_chord (d)[j].z + bt__dynamic_chord (d)[i].z : 0;
-  int taut = is_strained (d, j) && is_strained (d, j + 1);
+  double drawn = u * drawn_share (d, j) + (1 - u) * drawn_share (d, i);
+  int taut = is_strained (d, j) && is_strained (d, j + 1),
+      crumpled = taut && crumple_of (d, j) + crumple_of (d, i) > 0;
   shift_all (d, i, -1);
   bt__dynamic_chord (d)[j] = bt__vec (0, 0, round);
   chord = drawn_length (d, j);
   t[0] = mean[0];
   de[0] = mean[2];
-  rest[0] = taut ? chord / mean[1] : whole;
+  rest[0] = taut && !crumpled ? chord / mean[1] : whole;
   e[0] = chord / rest[0];
+  if (crumpled)
+    crumple_to (d, j, drawn);
   d->owed += whole - rest[0];
 }
 
@@ -194,6 +227,8 @@ bt__dynamic_insert (bt__dynamic *d, int64_t j, double u, int64_t from)
   bt_vec3 slipped = slipped_between (d, j, u);
   double *rest = bt__dynamic_rest (d), *e = bt__dynamic_stretch (d), *t = bt__dynamic_tension (d),
          *de = bt__dynamic_dstretch (d), whole = rest[j], round = bt__dynamic_chord (d)[j].z;
+  double drawn = drawn_share (d, j);
+  int crumpled = crumple_of (d, j) > 0;
   shift_all (d, i, 1);
   bt_vec3 *x = bt__dynamic_x (d),
           *nodes[] = { bt__dynamic_v (d), bt__dynamic_dx (d), bt__dynamic_vp (d) };
@@ -211,6 +246,8 @@ bt__dynamic_insert (bt__dynamic *d, int64_t j, double u, int64_t from)
   t[j] = t[i];
   e[j] = e[i];
   de[j] = de[i];
+  for (int64_t k = j; crumpled && k <= i; k++)
+    crumple_to (d, k, drawn);
 }
 
 void

@@ -113,6 +113,19 @@ that the winch takes from the first interval is no bend of the line."
   (always (< (max-tension) (+ 5 (* 1.1 (max (anchor-tension) (rov-tension)))))
     (run 3)))
 
+(define-scenario (nodes-come-where-it-has-crumpled nodes)
+  "A stiff line laid on few long chords, cut at its end, falls and takes more nodes: what the chords were crumpled by goes
+to the parts of each, and is no strain."
+  #:for ((nodes 4 6 8))
+  (enter! (eval `(world (sea) (rov (named minnow) (at 6 7 -2.4) (pull 53))
+                        (tether (named line) (type fathom) (wet-weight 1.2) (from -8 -2.5 -1.2) (to minnow) (length 31)
+                                (ei 0.05) (nodes ,nodes) (model dynamic)))
+                here-module))
+  (run 1)
+  (cut-tether! 'line #:at (tether-length))
+  (always (< (max-tension) 120) (run 1))
+  (expect (array-length (tether-points)) is (above (+ nodes 1))))
+
 (define-scenario laid-shorter-than-it-is
   "A stiff line laid on chords shorter than its length has the energy of its bend, and none of what has crumpled; that of
 its thrust stays small beside the bend's."
