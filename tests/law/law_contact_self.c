@@ -412,6 +412,17 @@ looked_far_or_not (void **state)
 
 /* ---- Two lines ---- */
 
+/* P and Q touch themselves and are two; the ends of Q are bodies that may be pulled.  */
+static void
+set_two (rope *p, rope *q)
+{
+  rope_set_itself (p);
+  rope_set_itself (q);
+  q->config.id = 1001;
+  for (int e = 0; e < 2; e++)
+    q->in.end[e] = (bt__dynamic_end){ .free = 1, .body = { .mass = 10, .quadratic = 60 } };
+}
+
 static bt__strand
 strand_of (const rope *p, int yields)
 {
@@ -454,11 +465,7 @@ bights_hook (void **state)
   assert_true (reef_open (&r) && reef_raise (&r));
   assert_true (rope_open (&p, &r, 40, one, 3, 6.7, 0.3)
                && rope_open (&q, &r, 40, two, 3, 6.7, 0.3));
-  rope_set_itself (&p);
-  rope_set_itself (&q);
-  q.config.id = 1001;
-  for (int e = 0; e < 2; e++)
-    q.in.end[e] = (bt__dynamic_end){ .free = 1, .body = { .mass = 10, .quadratic = 60 } };
+  set_two (&p, &q);
   static bt_vec3 before[2][64];
   for (int i = 0; i < 2400; i++)
     {
@@ -535,11 +542,7 @@ bights_hook_beside_a_wire (void **state)
   assert_true (reef_raise (&r));
   assert_true (rope_open (&p, &r, 50, one, 5, 1.001 * bt__length (one, 5), 0.3)
                && rope_open (&q, &r, 40, two, 3, 6.7, 0.3));
-  rope_set_itself (&p);
-  rope_set_itself (&q);
-  q.config.id = 1001;
-  for (int e = 0; e < 2; e++)
-    q.in.end[e] = (bt__dynamic_end){ .free = 1, .body = { .mass = 10, .quadratic = 60 } };
+  set_two (&p, &q);
   for (int i = 0; i < 2400; i++)
     {
       step_hooked (&p, &q, fmin (100, 0.4 * i));
