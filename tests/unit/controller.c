@@ -43,11 +43,38 @@ unplug (void **state)
   return 0;
 }
 
+/* True if NOW tells nothing beside OLD, the event before: an axis again, or one at rest that is not
+   NAME.  */
+static int
+tells_nothing (const bt__controller_event *old, const bt__controller_event *now, const char *name)
+{
+  int again = now->value == old->value && strcmp (now->name, old->name) == 0,
+      rests = now->value == 0 && !(name && strcmp (now->name, name) == 0);
+  return now->what == BT__CONTROLLER_AXIS && (again || rests);
+}
+
+/* True if there is another event that tells anything.  SDL 2 tells where the axes of a device stand
+   as the device is plugged in, SDL 2 made of SDL 3 with the first event of the device, and some
+   events twice.  */
+static int
+next (bench *b, const char *name)
+{
+  bt__controller_event old;
+  int any;
+  do
+    {
+      old = b->event;
+      any = bt__controllers_next (b->all, &b->event);
+    }
+  while (any && tells_nothing (&old, &b->event, name));
+  return any;
+}
+
 /* The next event, which must be WHAT of NAME.  */
 static const bt__controller_event *
 next_is (bench *b, bt__controller_what what, const char *name)
 {
-  assert_true (bt__controllers_next (b->all, &b->event));
+  assert_true (next (b, name));
   assert_int_equal (b->event.what, what);
   if (name)
     assert_string_equal (b->event.name, name);
@@ -57,7 +84,7 @@ next_is (bench *b, bt__controller_what what, const char *name)
 static void
 nothing_more (bench *b)
 {
-  assert_false (bt__controllers_next (b->all, &b->event));
+  assert_false (next (b, NULL));
 }
 
 /* Plug a virtual device in, and return its number; *AT is its place among SDL's.  */
@@ -80,7 +107,7 @@ pull (bench *b, int at, int id)
 {
   assert_int_equal (SDL_JoystickDetachVirtual (at), 0);
   do
-    assert_true (bt__controllers_next (b->all, &b->event) && b->event.id == id);
+    assert_true (next (b, NULL) && b->event.id == id);
   while (b->event.what != BT__CONTROLLER_LOST && b->event.value == 0);
   assert_int_equal (b->event.what, BT__CONTROLLER_LOST);
 }
