@@ -121,7 +121,7 @@ is_fold (const bt__mesh *m, uint32_t edge)
   return !(bt__dot (sum, sum) <= BT__MESH_FLAT * BT__MESH_FLAT);
 }
 
-/* ---- ---- */
+/* ---- All ---- */
 
 static int
 reserve_rings (bt__mesh *m, table *points, table *edges, uint32_t **point)

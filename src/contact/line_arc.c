@@ -31,12 +31,6 @@ arc_point (const arc *a, double f)
   return bt__axpy (bt__axpy (a->centre, a->out, n), f * a->rise, a->axis);
 }
 
-static double
-angle_between (bt_vec3 axis, bt_vec3 a, bt_vec3 b)
-{
-  return atan2 (bt__dot (axis, bt__cross (a, b)), bt__dot (a, b));
-}
-
 /* The arc at corner C with its node at X, of ANGLE and RISE.  */
 static arc
 arc_from (const bt__contact *c, double radius, bt_vec3 x)
@@ -64,7 +58,7 @@ arc_to_tangent (const bt__contact *c, double radius, bt_vec3 x, bt_vec3 next, in
   arc a = arc_from (c, radius, x);
   bt_vec3 u = bt__off_axis (a.axis, bt__sub (next, a.centre));
   double way = sqrt (fmax (bt__dot (u, u) - a.out * a.out, 0));
-  a.angle = angle_between (a.axis, a.from, bt__turn_tangent (a.axis, u, a.out, -side));
+  a.angle = bt__turn_angle (a.axis, a.from, bt__turn_tangent (a.axis, u, a.out, -side));
   a.angle = side * fmax (side * a.angle, 0);
   double round = a.out * fabs (a.angle);
   a.rise = round > 0 ? bt__dot (a.axis, bt__sub (next, x)) * round / (round + way) : 0;
@@ -78,7 +72,7 @@ arc_to_corner (const bt__contact *c, double radius, bt_vec3 x, bt_vec3 next)
 {
   arc a = arc_from (c, radius, x);
   bt_vec3 to = bt__unit_or (bt__off_axis (a.axis, bt__sub (next, a.centre)), a.from);
-  a.angle = angle_between (a.axis, a.from, to);
+  a.angle = bt__turn_angle (a.axis, a.from, to);
   a.rise = bt__dot (a.axis, bt__sub (next, x));
   measure_arc (&a);
   return a;

@@ -65,6 +65,13 @@ double bt__turn_round (const bt__line_job *k, const bt__edge *e, const bt__turn 
    that comes from U, SIGN 1, or goes to U, SIGN -1.  The direction of U if U is not outside.  */
 bt_vec3 bt__turn_tangent (bt_vec3 axis, bt_vec3 u, double out, double sign);
 
+/* The angle from A to B, both across AXIS, radians.  */
+static inline double
+bt__turn_angle (bt_vec3 axis, bt_vec3 a, bt_vec3 b)
+{
+  return atan2 (bt__dot (axis, bt__cross (a, b)), bt__dot (a, b));
+}
+
 /* How much nearer than OUT a line from A to B comes to the axis through CENTRE on its way, m.  */
 double bt__turn_lack (bt_vec3 axis, bt_vec3 centre, bt_vec3 a, bt_vec3 b, double out);
 

@@ -48,7 +48,7 @@ is_tangent_corner (const bt__line_job *k, int64_t i, bt__edge *e)
   if (bt__dot (e->axis, bt__cross (u, bt__sub (x[2], x[0]))) < 0)
     e->axis = bt__scale (-1, e->axis);
   bt_vec3 a = bt__turn_normal (e->axis, x), b = bt__turn_normal (e->axis, x + 1);
-  double angle = atan2 (bt__dot (e->axis, bt__cross (a, b)), bt__dot (a, b));
+  double angle = bt__turn_angle (e->axis, a, b);
   double low = (1 - ASIDE) * out, high = (1 + OFF) * out, da = bt__dot (a, u), db = bt__dot (b, u);
   double la = bt__dot (bt__cross (e->axis, a), u), lb = -bt__dot (bt__cross (e->axis, b), u);
   double slack = BEYOND * k->d->piece;

@@ -52,7 +52,7 @@ bt__turn_find (const bt__line_job *k, const bt__edge *e, const bt_vec3 *p, const
                    : bt__turn_tangent (axis, bt__off_axis (axis, bt__sub (p[2], centre)), out, -1);
   bt_vec3 sum = bt__add (t->before, t->after);
   t->normal = bt__unit_or (sum, e->normal);
-  t->angle = atan2 (bt__dot (axis, bt__cross (t->before, t->after)), bt__dot (t->before, t->after));
+  t->angle = bt__turn_angle (axis, t->before, t->after);
   double cosine = fmax (0.5 * bt__norm (sum), LEAST_COS);
   t->zone = out * sqrt (fmax (1 / (cosine * cosine) - 1, 0));
   centre = bt__axpy (centre, bt__dot (axis, bt__sub (p[1], centre)), axis);

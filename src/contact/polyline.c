@@ -8,8 +8,6 @@
 #include "base/error.h"
 #include "contact/polyline.h"
 
-/* A corner nearer to a node than this share of the length is the node.  */
-
 /* ---- Scratch ---- */
 
 void

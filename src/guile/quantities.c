@@ -134,9 +134,8 @@ bt__define_quantities (void)
 {
   static const bt__procedure table[] = {
     { "%quantities", 3, 0, (scm_t_subr)quantities,
-      "Return what a recording tells of DIVE, UTF-8 in a bytevector.  VEHICLES and TETHERS are "
-      "lists "
-      "of bytevectors that say how each begins: (rov NAME." },
+      "Return what a recording tells of DIVE, UTF-8 in a bytevector.  VEHICLES and TETHERS, lists "
+      "of bytevectors, say how each begins: (rov NAME." },
   };
   bt__define_procedures (table, sizeof table / sizeof *table);
 }

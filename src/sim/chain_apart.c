@@ -24,8 +24,8 @@
 
 #define ASTRAY 0.02 /* of the accuracy: an end is led by less than that off its stretch */
 #define ROOM 0.1    /* m: beyond where a line is, ... */
-#define AHEAD 2.0   /* ... of the way that the line goes in a step: as about its box (chain_box.c) \
-                     */
+#define AHEAD 2.0   /* ... of the line's way in a step: as about a box (chain_box.c) */
+
 enum
 {
   LEAVES = 32

@@ -257,9 +257,9 @@ Raise unsupported for static models."
   "Return #t if the tether is as exact as its world asks: if the estimate of the error in position that
 comes of its nodes, `error-estimate', is at most the tether's `accuracy', and the tension of the last step
 was found to its `tension-accuracy'.  Static models are."
-  (let ((error (%error-estimate (this-engine 'accurate?) t)))
-    (and (or (nan? error) (<= error (assq-ref (tether-view 'accurate? t) 'accuracy)))
-         (zero? (assq-ref (tether-view 'accurate? t) 'tension-error)))))
+  (let ((error (%error-estimate (this-engine 'accurate?) t)) (view (tether-view 'accurate? t)))
+    (and (or (nan? error) (<= error (assq-ref view 'accuracy)))
+         (zero? (assq-ref view 'tension-error)))))
 
 (define-verb (equilibria #:subject (t tether))
   "Return the distinct shapes in which the tether could rest with its ends where they are, polylines, the

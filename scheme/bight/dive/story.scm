@@ -115,13 +115,10 @@
 
 (define (tell-datum! teller datum)
   "Write DATUM on a line of its own."
-  (put-text! teller (datum->line datum)))
+  (tell-text! teller (datum->line datum)))
 
 (define (tell-text! teller text)
-  "Write TEXT, lines that end, as it is."
-  (put-text! teller text))
-
-(define (put-text! teller text)
+  "Write TEXT as it is."
   (put-bytes! teller (string->utf8 text)))
 
 (define (put-bytes! teller bytes)
@@ -131,14 +128,14 @@
 (define (tell-with-checksum! teller . datum)
   "Write the list DATUM, and at its end the checksum of all that was written before."
   (let ((text (datum->text datum)))
-    (put-text! teller (substring text 0 (- (string-length text) 1)))
-    (put-text! teller (closing (teller-sum teller)))))
+    (tell-text! teller (substring text 0 (- (string-length text) 1)))
+    (tell-text! teller (closing (teller-sum teller)))))
 
 (define (tell-bytes-with-checksum! teller text bytes)
   "The same of a line that begins with TEXT and goes on with BYTES, UTF-8, both as they are written."
-  (put-text! teller text)
+  (tell-text! teller text)
   (put-bytes! teller bytes)
-  (put-text! teller (closing (teller-sum teller))))
+  (tell-text! teller (closing (teller-sum teller))))
 
 (define (closing sum)
   ;; The end of a line that ends in the checksum SUM.
