@@ -26,10 +26,14 @@ tether and it stops you; too much and it drifts, drags and finds something to ha
         (fail-when (parted?) "The tether has parted.")
         (at-most 300))
   (count snaps (taut?))
-  (score (slack 0.05 0.20 #:share 0.8 #:weight 8)
-         (rov-tension 0 20 #:share 0.95 #:over 60)
-         ((counter 'snaps) 0 0 #:by end #:over 3 #:weight 2)
-         ((if (taut?) 1 0) 0 0 #:share 0.98 #:weight 2))
+  (score ((* 100 (slack)) 5 20 #:share 0.8 #:weight 8
+          #:as "slack, %" #:why "Pay out as fast as you fly, and look at the slack every few metres.")
+         (rov-tension 0 20 #:share 0.95 #:over 60
+          #:why "Who tows his tether has too much of it in the water, or too little of it out.")
+         ((counter 'snaps) 0 0 #:by end #:over 3 #:weight 2
+          #:as "times it came taut" #:why "Each time it comes taut the tether takes a jerk: pay out before.")
+         ((not (taut?)) 1 1 #:share 0.98 #:weight 2
+          #:as "tether not taut" #:why "A taut tether stops you, and hauls at whatever it lies on."))
   (pilot expert "Watches the slack, and tends as he flies."
     (flies (fly-to! '(0 48 -8) #:speed 0.4) (tend 0.12 0.4))
     (flies (fly-to! '(0 8 -6) #:speed 0.4) (tend 0.12 0.4)))

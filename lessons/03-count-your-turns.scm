@@ -25,8 +25,10 @@ middle."
   (count north-west (< (range-to '(-6 14 -6)) 1))
   (count south-west (< (range-to '(-6 6 -6)) 1))
   (count south-east (< (range-to '(6 6 -6)) 1))
-  (score ((abs (net-turns)) 0 1 #:by most #:over 1.5 #:weight 3)
-         ((abs (net-turns)) 0 0.06 #:by end #:over 1 #:weight 2))
+  (score ((abs (net-turns)) 0 1 #:by most #:over 1.5 #:weight 3
+          #:as "turns in the tether" #:why "Take the shorter way round only where it is the way back.")
+         ((abs (net-turns)) 0 0.06 #:by end #:over 1 #:weight 2
+          #:as "turns left at the end" #:why "What you put on you take off before you come home."))
   (pilot expert "Goes there and back, never all the way round."
     (answers (truth choices) truth)
     (flies (fly-legs '((6 14 -6) (-6 14 -6) (-6 6 -6)) 0.4)

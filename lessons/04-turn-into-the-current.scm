@@ -20,9 +20,12 @@ turning against it you are thrown about." (rov-tension) (* 100 (slack)))
                     "(drive! #:surge -0.6), until (slack) is above 0.1; then (hold-heading! 180).")
         (at-most 60))
   (count yaws-held (and (taut?) (yawing?)))
-  (score ((if (and (taut?) (yawing?)) 1 0) 0 0 #:by mean #:over 0.35 #:weight 4)
-         ((if (taut?) 1 0) 0 0 #:share 0.8 #:weight 2)
-         (max-tension 0 60 #:by most #:over 60))
+  (score ((if (and (taut?) (yawing?)) 100 0) 0 0 #:by mean #:over 35 #:weight 4
+          #:as "turning while held, %" #:why "Held at its stern a vehicle cannot turn: back up for slack first.")
+         ((not (taut?)) 1 1 #:share 0.8 #:weight 2
+          #:as "tether not taut" #:why "Keep a little slack behind you in a current, a tenth of what is out.")
+         (max-tension 0 60 #:by most #:over 60
+          #:why "Thrust against a taut tether pulls at it, and moves nothing."))
   (pilot expert "Backs off, then turns."
     (flies (drive! #:surge -0.8) (run-until (lambda () (> (slack) 0.12)) #:at-most 30)
            (release!) (hold-heading! 180) (run 3) (keep-off 0.1)))

@@ -30,9 +30,12 @@ your tether goes round it too, and what is wound does not come off by pulling.")
                     "(winding 'p1)")
         (fail-when (parted?) "The tether has parted.")
         (at-most 240))
-  (score ((abs (turns 'p1)) 0 0.6 #:by most #:over 0.3 #:weight 3)
-         (rov-clearance 1 +inf.0 #:by least #:over 0.7 #:weight 4)
-         (clearance 0.02 +inf.0 #:share 0.9 #:weight 2))
+  (score ((abs (turns 'p1)) 0 0.6 #:by most #:over 0.3 #:weight 3
+          #:as "turns about the pile" #:why "Out by one side and home by the same: half a turn, and off again.")
+         (rov-clearance 1 +inf.0 #:by least #:over 0.7 #:weight 4
+          #:why "A metre at least: the current sets you onto the pile while you look at it.")
+         (clearance 0.02 +inf.0 #:share 0.9 #:weight 2
+          #:why "Four metres off the pile your tether passes clear of it too."))
   (pilot expert "Out and back on the east, well clear."
     (flies (fly-legs '((5 -1 -5) (3 3 -5) (0 5 -5)) 0.4))
     (flies (fly-legs '((3 3 -5) (5 -1 -5) (6 -6 -5)) 0.4)))

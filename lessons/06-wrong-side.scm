@@ -34,9 +34,12 @@ tether bends round it by a quarter turn, tell the tender so: t, and then wrapped
         (at-most 300))
   (tender "Does not haul, whatever happens, while there is a turn round the pile."
     (run 1))
-  (score ((seconds-till-told) 0 20 #:by end #:over 60 #:weight 3)
-         (max-tension 0 100 #:by most #:over 200 #:weight 3)
-         ((abs (winding 'p1)) 0 0 #:by end #:over 1))
+  (score ((seconds-till-told) 0 20 #:by end #:over 60 #:weight 3
+          #:as "from bent to told, s" #:why "The tender must know before he hauls, not after.")
+         (max-tension 0 100 #:by most #:over 200 #:weight 3
+          #:why "What is wound locks, the harder the more you pull.")
+         ((abs (winding 'p1)) 0 0 #:by end #:over 1
+          #:as "turns left on the pile" #:why "Retrace your way: the turn comes off as it went on."))
   (pilot expert "Goes round well clear, calls at once, retraces."
     (flies (round-calling 4 0.5 3))
     (flies (fly-legs '((4 -3 -5) (5 4 -5) (-5 4 -5) (-5 -5 -5) (6 -6 -5)) 0.4)))

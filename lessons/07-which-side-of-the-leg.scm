@@ -27,10 +27,15 @@
         (fail-when (parted?) "The tether has parted.")
         (at-most 200))
   (count touches (pair? (contacts)))
-  (score ((if (pair? (contacts)) 1 0) 0 0 #:share 0.95 #:weight 4)
-         ((abs (turns 'jacket/leg-b2)) 0 0.5 #:by most #:over 0.5 #:weight 3)
-         (rov-clearance 1 +inf.0 #:by least #:over 0.6 #:weight 4)
-         (max-tension 0 60 #:by most #:over 100))
+  (score ((null? (contacts)) 1 1 #:share 0.95 #:weight 4
+          #:as "tether on nothing"
+          #:why "Pass the leg down-current: the water then carries your tether off it.")
+         ((abs (turns 'jacket/leg-b2)) 0 0.5 #:by most #:over 0.5 #:weight 3
+          #:as "turns about the leg" #:why "Home by the side that you came by.")
+         (rov-clearance 1 +inf.0 #:by least #:over 0.6 #:weight 4
+          #:why "Four metres off the leg until you are north of it, and a metre at the work.")
+         (max-tension 0 60 #:by most #:over 100
+          #:why "A tether that pulls lies on something, or is too short: stop and look."))
   (pilot expert "Round by the east, and back the same way."
     (flies (fly-legs '((10 -10 -8) (10 -3 -8) (8 -2 -8)) 0.5))
     (flies (fly-legs '((10 -3 -8) (10 -10 -8) (-2 -14 -8)) 0.5)))

@@ -28,10 +28,15 @@ it: yes or no?" (if (fouled?) 'yes 'no) #:choices (yes no))
       (if (and (> (slack) 0.1) (> (tether-length) 6)) (haul-in! 0.5))
       (run 1)
       (take-in)))
-  (score ((in-view? #:sight (setting 'sight)) 1 1 #:share 0.7 #:weight 4)
-         ((abs (net-turns)) 0 1 #:by most #:over 0.5 #:weight 3)
-         ((abs (turns 'stub)) 0 0.5 #:by end #:over 0.5 #:weight 3)
-         (rov-clearance 0.5 +inf.0 #:by least #:over 0.5 #:weight 2))
+  (score ((in-view? #:sight (setting 'sight)) 1 1 #:share 0.7 #:weight 4
+          #:as "tether in the camera"
+          #:why "Three metres along it at a time: who looks further ahead loses it in the silt.")
+         ((abs (net-turns)) 0 1 #:by most #:over 0.5 #:weight 3
+          #:as "turns of the vehicle" #:why "Turning about to look for it only twists it.")
+         ((abs (turns 'stub)) 0 0.5 #:by end #:over 0.5 #:weight 3
+          #:as "turns about the stub" #:why "Beside your tether you come round what it goes round.")
+         (rov-clearance 0.5 +inf.0 #:by least #:over 0.5 #:weight 2
+          #:why "What your tether lies against stands beside your way: keep a metre west of it."))
   (pilot expert "Three metres of tether at a time, up-current of it."
     (answers (truth choices) truth)
     (flies (follow-tether 3 1.2 0.35)))

@@ -55,8 +55,10 @@ pull, and do not let anybody haul.")
         (fail-when (> (max-tension) 300) "You pulled with more than 300 N: never pull to clear a snag.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 200))
-  (score (max-tension 0 60 #:by most #:over 100 #:weight 4)
-         ((now) 0 100 #:by end #:over 120 #:weight 4))
+  (score (max-tension 0 60 #:by most #:over 100 #:weight 4
+          #:why "A third of the stick is enough to feel that you are held.")
+         ((now) 0 100 #:by end #:over 120 #:weight 4
+          #:as "time, s" #:why "Taut, slack, turn, follow, clear: the drill takes a minute and a half."))
   (pilot expert "Does the drill."
     (flies (drive! #:surge 0.25))
     (flies (drive! #:surge -0.3) (run 6) (release!))

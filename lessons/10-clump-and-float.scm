@@ -47,9 +47,12 @@ sea: loose, it rises.")
         (hint-after 40 "Straight back, beside your tether.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 150))
-  (score ((if (pair? (contacts)) 1 0) 0 0 #:share 0.95 #:weight 5)
-         (rov-clearance 1 +inf.0 #:by least #:over 0.6 #:weight 4)
-         (max-tension 0 40 #:by most #:over 80))
+  (score ((null? (contacts)) 1 1 #:share 0.95 #:weight 5
+          #:as "tether on nothing" #:why "A line that floats rises under the ledge: a clump holds it below.")
+         (rov-clearance 1 +inf.0 #:by least #:over 0.6 #:weight 4
+          #:why "Stay below 8 m under the edge, and go slowly.")
+         (max-tension 0 40 #:by most #:over 80
+          #:why "A hard pull under a ledge is a tether that rubs along its edge."))
   (pilot expert "A clump, and well below the edge."
     (flies (fly-legs '((0 -2 -9) (0 2.5 -8.5)) 0.4))
     (flies (fly-legs '((0 -2 -9) (0 -5 -9)) 0.4)))

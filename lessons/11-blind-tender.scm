@@ -38,11 +38,16 @@ send ten messages.  Too little holds you back; too much lies on the legs, down-c
     (let listen ()
       (run-until (lambda () (heed (told 'tender))))
       (listen)))
-  (score (slack 0.02 (setting 'most-slack) #:share 0.9 #:weight 4)
-         ((if (pair? (contacts)) 1 0) 0 0 #:share 0.75 #:weight 3)
-         (max-tension 0 60 #:by most #:over 60 #:weight 2)
-         (messages-left 0 10 #:by end)
-         (rov-clearance 1 +inf.0 #:by least #:over 1))
+  (score ((* 100 (slack)) 2 (* 100 (setting 'most-slack)) #:share 0.9 #:weight 4
+          #:as "slack, %" #:why "Your range and a tenth to spare: ask for that much, and in time.")
+         ((null? (contacts)) 1 1 #:share 0.75 #:weight 3
+          #:as "tether on nothing" #:why "What is too much lies on the legs, down-current.")
+         (max-tension 0 60 #:by most #:over 60 #:weight 2
+          #:why "Held back?  Ask before you push.")
+         (messages-left 0 10 #:by end
+          #:as "messages left" #:why "Ten messages, and one that was not understood is one gone.")
+         (rov-clearance 1 +inf.0 #:by least #:over 1
+          #:why "Straight in from the south, between the legs, and out the same way."))
   (pilot expert "Asks for what he needs, says where he is, and has it taken in as he comes."
     (answers (truth choices) (+ 26 (jitter 0.4)))
     (flies (tell! 'tender "give 3") (fly-legs '((3.5 -10 -8)) 0.4)

@@ -26,10 +26,14 @@ of her, the current sets west.  You are to look at her stem.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 240))
   (count crossings (over-her?))
-  (score ((counter 'crossings) 0 0 #:by end #:over 2 #:weight 3)
-         (rov-clearance 2.5 +inf.0 #:by least #:over 2.5 #:weight 4)
-         (clearance 1 +inf.0 #:by least #:over 1 #:weight 3)
-         (max-tension 0 60 #:by most #:over 100))
+  (score ((counter 'crossings) 0 0 #:by end #:over 2 #:weight 3
+          #:as "times over her" #:why "Over a wreck your tether lies across her: go beside her.")
+         (rov-clearance 2.5 +inf.0 #:by least #:over 2.5 #:weight 4
+          #:why "Stays are wires you may not see: keep well off all of her.")
+         (clearance 1 +inf.0 #:by least #:over 1 #:weight 3
+          #:why "Eight metres down-current of her the water carries your tether clear.")
+         (max-tension 0 60 #:by most #:over 100
+          #:why "A tether that pulls beside a wreck is a tether on the wreck."))
   (pilot expert "Beside her, down-current, both ways."
     (flies (fly-legs '((-11 4 -18) (-5 18 -19) (3 18 -19)) 0.5))
     (flies (fly-legs '((-5 18 -19) (-11 4 -18) (-10 -8 -16)) 0.5)))

@@ -44,11 +44,17 @@ keels; one that sinks drags over the bottom and what lies there.")
             ((and (> (loose) (+ 2 (* 0.1 (tether-length)))) (> (tether-length) 5)) (haul-in! 1 #:rate 1)))
       (run 1)
       (tend)))
-  (score ((off-the-way 1) 0 2 #:by rms #:over 4 #:weight 4)
-         ((if (pair? (contacts)) 1 0) 0 0 #:share 0.95 #:weight 4)
-         ((/ (contact-length) (tether-length)) 0 0.05 #:by most #:over 0.2)
-         (rov-clearance 1 +inf.0 #:by least #:over 1 #:weight 2)
-         (max-tension 0 60 #:by most #:over 60))
+  (score ((off-the-way 1) 0 2 #:by rms #:over 4 #:weight 4
+          #:as "off the way in, m" #:why "Where your tether lies, there you came: out beside it.")
+         ((null? (contacts)) 1 1 #:share 0.95 #:weight 4
+          #:as "tether on nothing"
+          #:why "A line that floats lies against the ice, one that sinks on the bottom: trim it neutral.")
+         ((* 100 (/ (contact-length) (tether-length))) 0 5 #:by most #:over 20
+          #:as "tether on something, %" #:why "What lies along ice or bed is held by it.")
+         (rov-clearance 1 +inf.0 #:by least #:over 1 #:weight 2
+          #:why "Keels reach 4 m down: pass under them at 7 to 8 m.")
+         (max-tension 0 60 #:by most #:over 60
+          #:why "Never pull: there is one hole, and your tether leads to it."))
   (pilot expert "Neutral, straight in, and out beside it."
     (answers (truth choices) truth)
     (flies (fly-legs '((2 20 -8) (4 45 -8)) 0.5))

@@ -38,10 +38,14 @@ garage by then?" (- 270 (/ (range-to '(-6 1 -67.5)) 0.8)) #:within 25)
             ((and (> (loose) (+ 2 (* 0.1 (tether-length)))) (> (tether-length) 5)) (haul-in! 1 #:rate 1)))
       (run 0.8)
       (tend)))
-  (score ((now) 0 270 #:by end #:over 150 #:weight 3)
-         ((if (pair? (contacts)) 1 0) 0 0 #:share 0.95 #:weight 4)
-         ((/ (max-tension) 5000) 0 0.2 #:by most #:over 0.2)
-         (rov-clearance 2 +inf.0 #:share 0.9 #:weight 2))
+  (score ((now) 0 270 #:by end #:over 150 #:weight 3
+          #:as "time, s" #:why "Home before the tide turns: it lays your tether on the riser then.")
+         ((null? (contacts)) 1 1 #:share 0.95 #:weight 4
+          #:as "tether on nothing" #:why "North of the riser, ten metres clear, as long as the tide sets north.")
+         ((/ (max-tension) 50) 0 20 #:by most #:over 20
+          #:as "hardest pull, % of 5 kN" #:why "Touching?  Give slack, and go round as your tether does.")
+         (rov-clearance 2 +inf.0 #:share 0.9 #:weight 2
+          #:why "Two metres off riser and well head: the tide carries you while you look."))
   (pilot expert "Out at once, and home as soon as he hears that the tide is early."
     (answers (truth choices) truth)
     (flies (fly-legs '((0 9 -68) (92 8 -75)) 0.85))

@@ -44,10 +44,14 @@ time: tell the tender: t, and then abort.  Nothing shows you how far the tether 
       (if (and (> (slack) 0.15) (> (tether-length) 14)) (haul-in! 0.5))
       (run 1)
       (take-in)))
-  (score ((worn-when-he-broke-off) 0 50 #:by end #:over 30 #:weight 4)
-         ((* 100 (wear)) 0 60 #:by end #:over 40 #:weight 3)
-         ((counter 'surveyed) 60 +inf.0 #:by end #:over 60 #:weight 3)
-         (rov-clearance 0.5 +inf.0 #:by least #:over 0.5))
+  (score ((worn-when-he-broke-off) 0 50 #:by end #:over 30 #:weight 4
+          #:as "worn as you broke off, %" #:why "The load cell shows twice what it did: that is the time to go.")
+         ((* 100 (wear)) 0 60 #:by end #:over 40 #:weight 3
+          #:as "worn at the end, %" #:why "What is taut saws: up to the leg, past it, then home.")
+         ((counter 'surveyed) 60 +inf.0 #:by end #:over 60 #:weight 3
+          #:as "time at the node, s" #:why "The first minute is worth having: be at the node for it.")
+         (rov-clearance 0.5 +inf.0 #:by least #:over 0.5
+          #:why "A ship that heaves in the swell moves you too: keep off the leg."))
   (pilot expert "Watches the load cell, and goes when it has doubled."
     (answers (truth choices) truth)
     (flies (fly-legs '((10 -4 -8) (9 4 -8)) 0.5)

@@ -44,7 +44,7 @@ comes home over it has put your tether round the pipe, and no winch takes that o
   (score ((abs (turns 'pipeline/pipe)) 0 0.4 #:by most #:over 0.3 #:weight 4
           #:as "turns about the pipe"
           #:why "Under it and home over it is a turn, and it is there from the moment you went under.")
-         ((if (pair? (contacts)) 1 0) 0 0 #:share 0.9 #:weight 3
+         ((null? (contacts)) 1 1 #:share 0.9 #:weight 3
           #:as "tether on nothing"
           #:why "Two metres over the pipe the tether clears its crown; the coating is no place for it.")
          (rov-clearance 0.7 +inf.0 #:by least #:over 0.6 #:weight 3

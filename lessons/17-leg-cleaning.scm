@@ -46,7 +46,7 @@ leg while the jet shakes you is a tether that is sawn.  Choose which leg first, 
             ((and (> (loose) 4) (> (tether-length) 15)) (haul-in! 1 #:rate 0.8)))
       (run 1)
       (tend)))
-  (score ((if (pair? (contacts)) 1 0) 0 0 #:share 0.95 #:weight 6
+  (score ((null? (contacts)) 1 1 #:share 0.95 #:weight 6
           #:as "tether on nothing"
           #:why "Work the face that the water carries your tether off, and move off before it turns.")
          ((now) 0 420 #:by end #:over 150 #:weight 2

@@ -38,7 +38,7 @@ difference to you, and all the difference to your tether: by what side of a line
             ((and (> (loose) 3) (> (tether-length) 13)) (haul-in! 1 #:rate 0.8)))
       (run 1)
       (tend)))
-  (score ((if (pair? (contacts)) 1 0) 0 0 #:share 0.9 #:weight 4
+  (score ((null? (contacts)) 1 1 #:share 0.9 #:weight 4
           #:as "tether on nothing"
           #:why "The water carries a loose tether onto net and moorings: well out, and hand-tight.")
          ((abs (turns 'mooring-5)) 0 0.5 #:by end #:over 0.5 #:weight 3
@@ -46,7 +46,8 @@ difference to you, and all the difference to your tether: by what side of a line
           #:why "Out above a mooring and home under it is a turn about it.")
          (rov-clearance 0.7 +inf.0 #:by least #:over 0.5 #:weight 3
           #:why "A propeller in a net is the end of the day: stay a metre off.")
-         (max-tension 0 80 #:by most #:over 100))
+         (max-tension 0 80 #:by most #:over 100
+          #:why "What pulls is taut over a mooring, or short: ask for a metre before you push."))
   (pilot expert "Over mooring 5 far out, and back the same way."
     (answers (truth choices) truth)
     (flies (fly-legs '((-18 -12 -5) (-15 -6 -6) (-11.1 -4.6 -6)) 0.5))

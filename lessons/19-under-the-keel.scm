@@ -37,14 +37,15 @@ the ship.")
             ((and (> (loose) 3) (> (tether-length) 9)) (haul-in! 1 #:rate 0.8)))
       (run 1)
       (tend)))
-  (score ((if (pair? (contacts)) 1 0) 0 0 #:share 0.9 #:weight 5
+  (score ((null? (contacts)) 1 1 #:share 0.9 #:weight 5
           #:as "tether off the hull"
           #:why "Deeper under her: what runs level from boat to bilge runs through her.")
          (rov-clearance 0.5 +inf.0 #:by least #:over 0.5 #:weight 3
           #:why "Paint on the vehicle, and none on the ship: half a metre at least.")
          (max-tension 0 80 #:by most #:over 120 #:weight 2
           #:why "Stop and think at the first resistance.")
-         ((now) 0 150 #:by end #:over 200 #:as "time under her, s"))
+         ((now) 0 150 #:by end #:over 200 #:as "time under her, s"
+          #:why "Two and a half minutes: know the way across before you go down."))
   (pilot expert "Down to eight metres, across, up; and the same back."
     (answers (truth choices) truth)
     (flies (fly-legs '((-9 -1 -8.5) (6.5 -3 -8.5) (6.5 -3 -5.6)) 0.5))

@@ -39,13 +39,14 @@ stands up to 54 m.  Too high, and you drag the sail yourself.  Too low, and your
         (hint-after 40 "Up first: your tether goes over the manifold, and so do you.")
         (fail-when (parted?) "The tether has parted.")
         (at-most 240))
-  (score ((if (pair? (contacts)) 1 0) 0 0 #:share 0.9 #:weight 4
+  (score ((null? (contacts)) 1 1 #:share 0.9 #:weight 4
           #:as "tether off the manifold"
           #:why "A clump below the top of what you cross leads your tether through it.")
          (rov-tension 0 25 #:share 0.85 #:over 30 #:weight 4
           #:as "pull at the vehicle, N"
           #:why "The clump, deep in slack water, takes the umbilical's drag; high up it leaves it to you.")
-         (rov-clearance 0.8 +inf.0 #:by least #:over 0.8 #:weight 2))
+         (rov-clearance 0.8 +inf.0 #:by least #:over 0.8 #:weight 2
+          #:why "Most of a metre off the manifold: what swings under a ship swings you too."))
   (pilot expert "A clump at 47 m, and over the manifold."
     (answers (truth choices) truth)
     (flies (fly-legs '((0 8 -50.5) (0 15 -51) (0 16 -53)) 0.35))

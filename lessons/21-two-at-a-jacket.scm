@@ -55,7 +55,7 @@ him: t, and then clear.")
                    #:speed 0.3))
       (run 1)
       (work)))
-  (score ((if (pair? (contacts)) 1 0) 0 0 #:share 0.95 #:weight 3
+  (score ((null? (contacts)) 1 1 #:share 0.95 #:weight 3
           #:as "tether on nothing"
           #:why "Neither steel nor the other's tether: pass under with metres to spare.")
          ((counter 'unasked) 0 0 #:by end #:over 1 #:weight 3

@@ -51,7 +51,8 @@ side, east of it, and south.")
           #:why "Come up on what holds you gently: a wire under load cuts a jacket.")
          ((seconds-till-told) 0 10 #:by end #:over 40 #:weight 3
           #:as "from held to told, s" #:why "The tender must know before he hauls, not after.")
-         ((abs (net-turns)) 0 1 #:by end #:over 1 #:weight 1)
+         ((abs (net-turns)) 0 1 #:by end #:over 1 #:weight 1
+          #:as "turns left at the end" #:why "Turning about to look at it twists the tether round the wire.")
          ((now) 0 150 #:by end #:over 200 #:weight 2
           #:as "time, s" #:why "By your own track it is a minute; by guessing it is ten."))
   (pilot expert "Feels it, stops, says so, and goes back by his own track."

@@ -41,7 +41,8 @@ again, and keep a little west of it.")
           #:why "Who goes home by the bearing leaves his tether where it lay.")
          ((abs (net-turns)) 0 1 #:by most #:over 1 #:weight 2
           #:as "turns" #:why "Turning about to look for it only twists it.")
-         ((now) 0 200 #:by end #:over 120 #:weight 2 #:as "time, s"))
+         ((now) 0 200 #:by end #:over 120 #:weight 2
+          #:as "time, s" #:why "Three minutes: along the tether without stopping, slowly."))
   (pilot expert "Lets the tether lead, a step at a time."
     (answers (truth choices) truth)
     (flies (let on () (fly-by-pull 1.6 1) (on))))

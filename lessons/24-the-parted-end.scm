@@ -51,14 +51,15 @@ down-current.")
               ((and (> loose 3.5) (> (tether-length) 11)) (haul-in! 'line 1 #:rate 0.8))))
       (run 1)
       (tend)))
-  (score ((if (pair? (contacts)) 1 0) 0 0 #:share 0.95 #:weight 3
+  (score ((null? (contacts)) 1 1 #:share 0.95 #:weight 3
           #:as "your tether on nothing"
           #:why "The water carries it onto what lies down-current of it: be down-current yourself.")
          ((near-the-line) 1 +inf.0 #:share 0.98 #:weight 4
           #:as "off the loose line, m"
           #:why "A loose line is drawn into thrusters from a metre away: come to its end, and only that.")
-         (rov-clearance 1 +inf.0 #:by least #:over 1 #:weight 2)
-         ((now) 0 240 #:by end #:over 150 #:as "time, s"))
+         (rov-clearance 1 +inf.0 #:by least #:over 1 #:weight 2
+          #:why "A metre off everything: you cannot see the loose line and the steel at once.")
+         ((now) 0 240 #:by end #:over 150 #:as "time, s" #:why "Four minutes: the loose end drifts on while you look."))
   (pilot expert "South about, and up-current to the end."
     (answers (truth choices) truth)
     (flies (fly-legs '((17 -10 -11)) 0.6) (seek 0.35))

@@ -37,7 +37,7 @@ that you have not seen.  Two halves, each out and back by the same side, cost te
   (count north (< (range-to '(5 19 -17)) 2))
   (count east (< (range-to '(9 -3 -17)) 2))
   (count south (< (range-to '(-5 -19 -17)) 2))
-  (score ((if (pair? (contacts)) 1 0) 0 0 #:share 0.9 #:weight 3
+  (score ((null? (contacts)) 1 1 #:share 0.9 #:weight 3
           #:as "tether on nothing"
           #:why "What you have not seen you have not cleared: keep well off, and above the bed.")
          ((abs (turns 'wreck/main-mast)) 0 0.6 #:by most #:over 0.4 #:weight 4

@@ -56,7 +56,7 @@
   (count fast (> (rov-speed) 0.05))
   (tender "Pays out when told." (run-until (lambda () (told 'tender))) (pay-out! 3) (run 1000))
   (score (slack 0.1 0.6)
-         ((counter 'fast) 1 1 #:by end)
+         ((counter 'fast) 1 1 #:by end #:as "fast")
          (tether-length 15 15 #:by most #:over 3)
          (rov-depth 4.9 5.1 #:by mean))
   (pilot expert "Goes and stays."
@@ -76,8 +76,8 @@
     (expect (texts 'fault report) => '("A gust."))
     (expect (texts 'message report) => '("to the tender: three metres"))
     (expect (report-hints report) => 1)
-    (expect (mark "tether-length" report) is (above 0.99))
-    (expect (mark "(counter 'fast)" report) => 1)))
+    (expect (mark "tether out, m" report) is (above 0.99))
+    (expect (mark "fast" report) => 1)))
 
 (define (end-of flown)
   "Return the hash of the dive at the end of FLOWN, as `expert-flight' returns it."
@@ -240,6 +240,12 @@ hints, tender and counters among it; a pupil's dive stays as it was; who has no 
                     (define-lesson good "x" (in small) (say "It is ~a, about ~ab." 1 2) (say "About ~surface.")
                       (set-up (simple-format #f "~a" 1)) (pilot expert "x")))
             => #f)
+    (expect (wrong? "is told in code; say #:as \"words\" of it: (abs (net-turns))"
+                    (define-lesson bad "x" (in small) (score (max-tension 0 60) ((abs (net-turns)) 0 1)) (pilot expert "x"))))
+    (expect (wrong? "told in code"
+                    (define-lesson good "x" (in small) (score (max-tension 0 60) ((abs (net-turns)) 0 1 #:as "turns"))
+                      (pilot expert "x")))
+            => #f)
     (let ((n 0))
       (expect (wrong? "the same"
                       (define-lesson bad "x" (in small) (set-up (set! n (+ n 1)) (run n)) (pilot expert "x")))))))
@@ -255,6 +261,27 @@ hints, tender and counters among it; a pupil's dive stays as it was; who has no 
     (expect (string-contains (told 20) "tether out, m"))
     (expect (string-contains (told 20) "Less is more.") => #f)
     (expect (string-contains (told 5) "Less is more."))))
+
+(define-syntax-rule (told-of row)
+  ;; What a pupil reads of ROW, of a score over a second at a depth of 5 m: its name, and how it came about.
+  (let ((mark (last (report-marks (run-lesson (define-lesson told "x" (in small)
+                                                (task "t" (done-when (> (now) 1)) (at-most 5))
+                                                (score row)
+                                                (pilot expert "x")))))))
+    (string-append (first mark) ": " (fourth mark))))
+
+(define-scenario marks-are-told-in-words
+  "Plain words for a measure that has no name of its own, and for each way of judging what was, and what was asked, as its
+author wrote it; a value that just misses is told from what was asked."
+  (expect (told-of (rov-depth 0 60 #:by most)) => "depth, m: up to 5.00; at most 60 was asked")
+  (expect (told-of (rov-depth 4.5 +inf.0 #:by least)) => "depth, m: down to 5.00; at least 4.5 was asked")
+  (expect (told-of (rov-depth 3 4 #:by end)) => "depth, m: 5.00 at the end; 3 to 4 was asked")
+  (expect (told-of ((- (rov-depth)) 0 4 #:by mean #:as "height, m")) => "height, m: -5.00 on average; 0 to 4 was asked")
+  (expect (told-of (rov-depth 2 2 #:by rms)) => "depth, m: 5.00 as root mean square; 2 was asked")
+  (expect (told-of (rov-depth 0 4 #:share 0.8)) => "depth, m: at most 4 for 0 % of the time; 80 % was asked")
+  (expect (told-of ((null? (contacts)) 1 1 #:share 0.9 #:as "tether on nothing"))
+          => "tether on nothing: right for 100 % of the time; 90 % was asked")
+  (expect (told-of (rov-depth 0 4.999 #:by most)) => "depth, m: up to 5.0000; at most 4.999 was asked"))
 
 (define pair-at-work
   (extend small
@@ -362,7 +389,7 @@ hints, tender and counters among it; a pupil's dive stays as it was; who has no 
     (expect (report-rewinds back) => 2)
     (expect (map car (failures back)) => (make-list 3 (car (first (failures none)))))
     (expect (report-hash back) => (report-hash none))
-    (expect (mark "slack" back) => (mark "slack" none))))
+    (expect (mark "slack, of 1" back) => (mark "slack, of 1" none))))
 
 (define-scenario the-coach-is-sparing
   "At most six utterances in fifteen minutes, ten seconds apart, none twice, fewer for the able, each with
@@ -409,7 +436,7 @@ its reason."
 dive; what was right is not among them; and the flight of each is watched up to there."
   (let* ((report (run-lesson 'loses-marks #:pilot 'careless))
          (lost (report-lost report)) (dives (map second lost)) (times (map third lost)))
-    (expect (map (lambda (entry) (mark-label (first entry))) lost) => '("probe 1" "task 2" "rov-depth"))
+    (expect (map (lambda (entry) (mark-label (first entry))) lost) => '("probe 1" "task 2" "depth, m"))
     (expect (list-ref times 0) => 2.0)
     (expect (list-ref times 1) is (about 3 #:within 0.25))
     (expect (list-ref times 2) is (between 3 7))

@@ -4,8 +4,8 @@
 ;;; conditions and marks do not tell who has learnt it.  No pilot may break down.  Flown again it must come
 ;;; out the same to the last bit; each hint must be heard by a pilot who does nothing, and no task may be done
 ;;; by doing nothing; nothing in it may ask the machine for the time or for chance, and its pilots may not see
-;;; what it hides from a pupil.  No text may be shown with a ~a that nothing fills, and no name may be used, in
-;;; whatever branch, that nobody defines.
+;;; what it hides from a pupil.  No text may be shown with a ~a that nothing fills, no row of its score may be named by
+;;; code, and no name may be used, in whatever branch, that nobody defines.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -13,6 +13,7 @@
   #:use-module (bight core errors)
   #:use-module ((bight core here) #:select (noting-places))
   #:use-module (bight lesson)
+  #:use-module ((bight lesson score) #:select (words-of-measure))
   #:use-module (ice-9 regex)
   #:use-module (srfi srfi-1)
   #:export (check-lesson
@@ -168,6 +169,14 @@
   (map (lambda (text) (simple-format #f "the directives of a text and its values are not as many: ~s" text))
        (delete-duplicates (append (unfilled (lesson-code lesson)) (said-unfilled reports)))))
 
+(define (told-in-code row)
+  ;; A sentence about ROW, a datum, if a pupil would read code for its name, else #f.
+  (and (pair? row) (not (memq #:as row)) (not (words-of-measure (car row)))
+       (simple-format #f "a row of the score is told in code; say #:as \"words\" of it: ~s" (car row))))
+
+(define (check-rows lesson)
+  (filter-map told-in-code (append-map cdr (clauses-in 'score (lesson-code lesson)))))
+
 (define (check-names unbound)
   (map (lambda (name) (simple-format #f "nobody defines ~a" name)) unbound))
 
@@ -186,4 +195,5 @@ seed and the report of that flight."
             (check-machine words)
             (check-hidden lesson)
             (check-texts lesson (cons report idles))
+            (check-rows lesson)
             (check-names unbound))))

@@ -64,16 +64,16 @@ how it came about."
 (define-verb (report-seconds (r report)) "Return how long the lesson's dives lasted, s."
   (%report-seconds r))
 
-(define (mark-lines m)
-  ;; How the mark M came about, and, if anything of it was lost, what it teaches.
-  (cons (mark-line m)
+(define (mark-lines m width)
+  ;; How the mark M, its name on WIDTH columns, came about, and, if anything of it was lost, what it teaches.
+  (cons (mark-line m width)
         (if (or (mark-passed? m) (not (mark-why m)))
             '()
             (list (string-append (make-string 8 #\space) (mark-why m))))))
 
-(define (mark-line m)
+(define (mark-line m width)
   (string-append (if (mark-passed? m) "  [x] " "  [ ] ")
-                 (string-pad-right (mark-label m) 24) " "
+                 (string-pad-right (mark-label m) width) " "
                  (string-pad (number->string (inexact->exact (round (* 100 (mark-credit m))))) 4)
                  "  " (mark-detail m)))
 
@@ -87,13 +87,17 @@ how it came about."
   (map (lambda (line) (string-append "  at " (figure (first line)) " s the instructor: " (second line)))
        (report-instructed r)))
 
+(define (counted n one many)
+  (simple-format #f "~a ~a" n (if (= n 1) one many)))
+
 (define (report-lines r)
   (append
    (list (simple-format #f "~a: ~a out of 100, ~a" (lesson-name (report-lesson r)) (%report-total r)
                         (if (%report-passed? r) "passed" "not passed yet")))
-   (append-map mark-lines (report-mark-list r))
-   (list (simple-format #f "  ~a s under water, ~a hints, ~a steps back" (figure (%report-seconds r))
-                        (%report-hints r) (%report-rewinds r)))
+   (let ((width (fold (lambda (m most) (max most (string-length (mark-label m)))) 0 (report-mark-list r))))
+     (append-map (lambda (m) (mark-lines m width)) (report-mark-list r)))
+   (list (simple-format #f "  ~a s under water, ~a, ~a" (figure (%report-seconds r))
+                        (counted (%report-hints r) "hint" "hints") (counted (%report-rewinds r) "step back" "steps back")))
    (instructor-lines r)
    (report-charts r)))
 

@@ -20,6 +20,7 @@
             judge-row row-worst
             make-mark mark? mark-label mark-credit mark-weight mark-detail mark-passed? mark-why
             total-of
+            words-of-measure
             strip-chart)
   #:re-export (figure))
 
@@ -36,8 +37,29 @@
 
 (define ways '(share end most least mean rms))
 
-(define* (make-row label ask low high #:key (by 'share) (share 0.8) over (weight 1) (as label) why)
-  "Return the row of a score called LABEL, or AS, whose measure ASK, a thunk, should lie from LOW to HIGH.
+;; What a pupil reads for a measure that a lesson does not name otherwise.
+(define plain-words
+  '((clearance . "room about the tether, m")
+    (excess . "tether to spare, m")
+    (max-tension . "hardest pull, N")
+    (net-turns . "turns of the vehicle")
+    (now . "time, s")
+    (rov-altitude . "height over the bed, m")
+    (rov-clearance . "room about the vehicle, m")
+    (rov-depth . "depth, m")
+    (rov-speed . "speed, m/s")
+    (rov-tension . "pull at the vehicle, N")
+    (slack . "slack, of 1")
+    (tether-length . "tether out, m")
+    (wear . "wear, of 1")))
+
+(define (words-of-measure name)
+  "Return what a pupil reads for the measure NAME, a symbol, or #f."
+  (assq-ref plain-words name))
+
+(define* (make-row label ask low high #:key (by 'share) (share 0.8) over (weight 1) as why)
+  "Return the row of a score whose measure ASK, a thunk, should lie from LOW to HIGH.  A pupil reads AS for it, else the
+plain words for LABEL, the measure as the lesson has it, else LABEL.
 WHY tells one who lost the mark what he should have known."
   (unless (memq by ways)
     (unknown-name 'score "a row of a score" by ways "way of judging"))
@@ -49,7 +71,8 @@ WHY tells one who lost the mark what he should have known."
               (unless (or (not text) (string? text))
                 (bight-raise 'domain 'score "~a of ~a is a text, not ~s" key label text)))
             '(#:as #:why) (list as why))
-  (%make-row as ask low high by share (or over (default-over low high)) weight why))
+  (%make-row (or as (words-of-measure (string->symbol label)) label) ask low high by share
+             (or over (default-over low high)) weight why))
 
 (define (default-over low high)
   (cond ((and (finite? low) (finite? high) (< low high)) (- high low))
@@ -116,12 +139,18 @@ about; and WHY it matters, or #f."
 (define (share-inside row values)
   (/ (count (lambda (v) (inside? row v)) values) (exact->inexact (length values))))
 
-(define (band row)
+(define (band row values)
+  ;; In words; of what is never below 0 it need not be said that it should not be.
   (let ((low (row-low row)) (high (row-high row)))
-    (cond ((= low high) (figure low))
-          ((not (finite? high)) (string-append "at least " (figure low)))
-          ((not (finite? low)) (string-append "at most " (figure high)))
-          (else (string-append (figure low) " to " (figure high))))))
+    (cond ((= low high) (bound low))
+          ((not (finite? high)) (string-append "at least " (bound low)))
+          ((or (not (finite? low)) (and (zero? low) (every (lambda (v) (>= v 0)) values)))
+           (string-append "at most " (bound high)))
+          (else (string-append (bound low) " to " (bound high))))))
+
+(define (bound x)
+  ;; As its author writes it: 60, not 60.0.
+  (string-trim-right (string-trim-right (fixed x 4) #\0) #\.))
 
 (define (key-value row values)
   (case (row-by row)
@@ -140,14 +169,13 @@ about; and WHY it matters, or #f."
            (let* ((part (share-inside row values))
                   (credit (min 1 (/ part (row-share row)))))
              (make-mark (row-label row) credit (row-weight row) (>= part (- (row-share row) 1e-9))
-                        (string-append (percent part) " of the time " (band row) "; asked "
-                                       (percent (row-share row)))
+                        (string-append (if (= (row-low row) (row-high row)) "right" (band row values)) " for "
+                                       (percent part) " of the time; " (percent (row-share row)) " was asked")
                         (row-why row))))
           (else
            (let* ((v (key-value row values)) (off (outside row v)))
              (make-mark (row-label row) (max 0 (- 1 (/ off (row-over row)))) (row-weight row) (zero? off)
-                        (simple-format #f "~a ~a; asked ~a" (way->string (row-by row)) (figure v)
-                                       (band row))
+                        (string-append (value-by (row-by row) (figure-told row v)) "; " (band row values) " was asked")
                         (row-why row)))))))
 
 (define (row-worst rows row)
@@ -165,9 +193,21 @@ end: (DIVE . TIME), or #f if it was never measured."
                                 (first places) (cdr places)))))
            (cons (second worst) (third worst))))))
 
-(define (way->string way)
-  (assq-ref '((end . "at the end") (most . "at most") (least . "at least") (mean . "on average")
-              (rms . "rms")) way))
+(define (figure-told row v)
+  ;; V in figures, in more of them where it would read like the end of the band that it lies outside.
+  (let ((end (if (< v (row-low row)) (row-low row) (row-high row))))
+    (if (and (not (inside? row v)) (string=? (figure v) (figure end)))
+        (fixed v 4)
+        (figure v))))
+
+(define (value-by way value)
+  ;; VALUE, a string, and in words which of all values it is.
+  (case way
+    ((end) (string-append value " at the end"))
+    ((most) (string-append "up to " value))
+    ((least) (string-append "down to " value))
+    ((mean) (string-append value " on average"))
+    (else (string-append value " as root mean square"))))
 
 (define (total-of marks)
   "Return the weighted mean of MARKS out of 100, a whole number."
