@@ -283,10 +283,13 @@ step_free (const bt_dive *dive, bt__state *state, int vehicle, bt_error *error)
   bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
   int i = slack_line (dive, state, vehicle);
   bt_status status = BT_OK;
-  if (i >= 0 && bt__dive_tether (dive, state, i)->shape.length > 0)
+  bt__driven *d = &dive->driven[vehicle];
+  int gripped = i >= 0 && bt__dive_tether (dive, state, i)->shape.length > 0;
+  if (gripped)
     status = pull_of_slack (dive, state, vehicle, i, error);
   if (status == BT_OK)
-    status = bt__rigid_step (type_of (dive, vehicle), &v->body, &dive->driven[vehicle].in, error);
+    status = bt__rigid_follow (type_of (dive, vehicle), &v->body, &d->in, gripped ? &d->grip : NULL,
+                               error);
   bt__mirror_body (v);
   return status;
 }
@@ -318,7 +321,7 @@ bt__follow_line (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 x, 
   bt__driven *d = &dive->driven[vehicle];
   bt_status status;
   d->in.pull = bt__grip_pull (&d->grip, x);
-  status = bt__rigid_step (type_of (dive, vehicle), &v->body, &d->in, error);
+  status = bt__rigid_follow (type_of (dive, vehicle), &v->body, &d->in, &d->grip, error);
   bt__mirror_body (v);
   if (status == BT_OK)
     bt__put_vehicle (v, bt__add (v->position, bt__sub (x, bt__attachment (dive, state, vehicle))),

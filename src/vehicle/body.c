@@ -15,18 +15,15 @@ enum
   ITERATES = 60
 };
 
-/* The last change of a solved step, of the velocity or of LEAST m/s and rad/s.  */
+/* The last change of a solved step, and of what a line sees, of the velocity or of LEAST m/s and
+   rad/s.  */
 #define SOLVED 1e-14
+#define SEEN 1e-10
 #define LEAST 0.1
+#define QUICK 0.1
 #define LETTING_GO 4.0 /* a pull falling to less than a LETTING_GOth in a step counts less */
 #define PROPELLER 0.1  /* m: the height over which a thruster leaves the water */
 #define SOFT 50.0      /* h2 k / m of a line that is neither soft nor stiff */
-
-/* Two vectors: along and about the own axes.  */
-typedef struct motion
-{
-  bt_vec3 v, w;
-} motion;
 
 /* The data of a step.  Forces are in the own axes but for WORLD_*.  */
 typedef struct job
@@ -35,11 +32,13 @@ typedef struct job
   const bt__rigid *body;
   const bt__rigid_input *in;
   bt_vec3 mass, inertia, linear, quadratic, linear_w, quadratic_w;
-  motion start, mid;               /* relative to the water */
-  motion thrust;                   /* N, N m: mean of the step */
+  bt_vec3 carried;                 /* kg: the masses from which C is built */
+  bt__rigid_motion start, mid;     /* relative to the water */
+  bt__rigid_motion thrust;         /* N, N m: mean of the step */
   bt_vec3 world_pull, world_force; /* N */
+  double solved;                   /* SOLVED or SEEN */
   double theta;                    /* share of the new pull, see body.h */
-  double a[6][6];                  /* of the last iterate */
+  double a[6][6];                  /* factors */
 } job;
 
 /* ---- Thrusters ---- */
@@ -51,7 +50,7 @@ drowned (const job *j, int k)
   if (!(j->in->surface < INFINITY))
     return 1;
   double depth = j->in->surface - bt__rigid_point (j->body, j->type->thruster[k].at).z;
-  return fmax (0, fmin (1, 0.5 + depth / PROPELLER));
+  return bt__clamp (0.5 + depth / PROPELLER, 0, 1);
 }
 
 /* The force of thruster K after its lag.  */
@@ -62,8 +61,7 @@ settled (const job *j, int k)
   double nominal = j->type->volts, volts = j->in->volts > 0 ? j->in->volts : nominal;
   if (j->in->lost >> k & 1)
     return 0;
-  return drowned (j, k)
-         * bt__thruster_force (t, volts, bt__thruster_command (t, nominal, j->in->wish[k]));
+  return drowned (j, k) * bt__thruster_push (t, nominal, volts, j->in->wish[k]);
 }
 
 /* First-order lag, exact for a command held over the step: the mean of the step, and *END.  */
@@ -99,9 +97,10 @@ wet_share (const job *j, double z)
   if (!(j->in->surface < INFINITY))
     return 1;
   double s = 0.5 + (j->in->surface - z) / (height > 0 ? height : 1e-3);
-  return fmax (0, fmin (1, s));
+  return bt__clamp (s, 0, 1);
 }
 
+/* Add -P x to A.  */
 static void
 add_skew (double (*a)[6], int row, int column, bt_vec3 p)
 {
@@ -113,16 +112,32 @@ add_skew (double (*a)[6], int row, int column, bt_vec3 p)
   a[row + 2][column + 1] -= p.x;
 }
 
+/* Add P x times MASS.  */
+static void
+add_skew_by (double (*a)[6], int row, int column, bt_vec3 p, bt_vec3 mass)
+{
+  a[row][column + 1] -= p.z * mass.y;
+  a[row][column + 2] += p.y * mass.z;
+  a[row + 1][column] += p.z * mass.x;
+  a[row + 1][column + 2] -= p.x * mass.z;
+  a[row + 2][column] -= p.y * mass.x;
+  a[row + 2][column + 1] += p.x * mass.y;
+}
+
 /* The stiffness against turning of the force F, fixed in the world, at R; the negative part is left
    out.  */
 static void
 add_turning (double (*a)[6], double k, bt_vec3 r, bt_vec3 f)
 {
   double along = bt__dot (r, f), level = along + (bt__norm (r) * bt__norm (f) - along) / 2;
-  double u[3] = { r.x, r.y, r.z }, w[3] = { f.x, f.y, f.z };
-  for (int i = 0; i < 3; i++)
-    for (int c = 0; c < 3; c++)
-      a[3 + i][3 + c] += k * ((i == c ? level : 0) - (u[i] * w[c] + w[i] * u[c]) / 2);
+  double xy = k * (r.x * f.y + f.x * r.y) / 2, xz = k * (r.x * f.z + f.x * r.z) / 2;
+  double yz = k * (r.y * f.z + f.y * r.z) / 2;
+  a[3][3] += k * (level - r.x * f.x);
+  a[4][4] += k * (level - r.y * f.y);
+  a[5][5] += k * (level - r.z * f.z);
+  a[3][4] -= xy, a[4][3] -= xy;
+  a[3][5] -= xz, a[5][3] -= xz;
+  a[4][5] -= yz, a[5][4] -= yz;
 }
 
 static void
@@ -140,17 +155,21 @@ damping (bt_vec3 linear, bt_vec3 quadratic, bt_vec3 v)
                   linear.z + quadratic.z * fabs (v.z));
 }
 
-/* The momenta from which C is built.  */
-static motion
-momenta (const job *j, motion m)
+/* The masses from which C is built: of the added mass what Munk's moment leaves.  */
+static bt_vec3
+carried_masses (const bt__vehicle_type *type)
 {
-  const bt__hydro *hydro = &j->type->hydro;
-  bt_vec3 added = bt__along_axes (hydro->added);
-  double mean = (added.x + added.y + added.z) / 3;
-  bt_vec3 kept
-      = bt__axpy (bt__scale ((1 - hydro->munk) * mean, bt__vec (1, 1, 1)), hydro->munk, added);
-  bt_vec3 mass = bt__add (kept, bt__vec (j->type->mass, j->type->mass, j->type->mass));
-  return (motion){ bt__times (mass, m.v), bt__times (j->inertia, m.w) };
+  bt_vec3 added = bt__along_axes (type->hydro.added);
+  double mean = (added.x + added.y + added.z) / 3, munk = type->hydro.munk;
+  bt_vec3 kept = bt__axpy (bt__scale ((1 - munk) * mean, bt__vec (1, 1, 1)), munk, added);
+  return bt__add (kept, bt__vec (type->mass, type->mass, type->mass));
+}
+
+/* The momenta from which C is built.  */
+static bt__rigid_motion
+momenta (const job *j, bt__rigid_motion m)
+{
+  return (bt__rigid_motion){ bt__times (j->carried, m.v), bt__times (j->inertia, m.w) };
 }
 
 /* Forces and their points at an iterate: everything but C, D and inertia.  */
@@ -158,7 +177,7 @@ typedef struct scene
 {
   bt__quat q;
   bt_vec3 buoyancy, pull; /* N, own axes */
-  motion sum;
+  bt__rigid_motion sum;
   double wet;
 } scene;
 
@@ -182,15 +201,22 @@ look_at_iterate (const job *j)
   return s;
 }
 
-/* The matrix at the iterate: of the next iterate, with C and with the slope of damping, if TURNING;
-   else without C and with damping over velocity.  */
-static void
-assemble (job *j, const scene *s, int turning)
+/* What a matrix is for: how the body yields to a force, without C and with damping over velocity;
+   an iterate that is bounded whatever the step, with C skew; an iterate of Newton.  */
+typedef enum purpose
 {
-  double rate = 2 / j->in->h, slope = turning ? 2 : 1;
+  YIELDING,
+  BOUNDED,
+  NEWTON
+} purpose;
+
+static void
+assemble (job *j, const scene *s, purpose purpose)
+{
+  double rate = 2 / j->in->h, slope = purpose == YIELDING ? 1 : 2;
   bt_vec3 quadratic = bt__scale (slope, j->quadratic);
   bt_vec3 quadratic_w = bt__scale (slope, j->quadratic_w);
-  motion p = momenta (j, j->mid);
+  bt__rigid_motion p = momenta (j, j->mid);
   memset (j->a, 0, sizeof j->a);
   add_diagonal_block (j->a, 0, bt__scale (rate, j->mass));
   add_diagonal_block (j->a, 3, bt__scale (rate, j->inertia));
@@ -198,11 +224,16 @@ assemble (job *j, const scene *s, int turning)
   add_diagonal_block (j->a, 3, bt__scale (s->wet, damping (j->linear_w, quadratic_w, j->mid.w)));
   add_turning (j->a, 1 / rate, j->type->buoyancy, s->buoyancy);
   add_turning (j->a, 1 / rate, j->type->attached, s->pull);
-  if (!turning)
+  if (purpose == YIELDING)
     return;
   add_skew (j->a, 0, 3, p.v);
   add_skew (j->a, 3, 0, p.v);
   add_skew (j->a, 3, 3, p.w);
+  if (purpose == BOUNDED)
+    return;
+  add_skew_by (j->a, 0, 0, j->mid.w, j->carried);
+  add_skew_by (j->a, 3, 0, j->mid.v, j->carried);
+  add_skew_by (j->a, 3, 3, j->mid.w, j->inertia);
 }
 
 /* The residual of the equations at the iterate.  */
@@ -210,7 +241,7 @@ static void
 residual (const job *j, const scene *s, double *r)
 {
   double rate = 2 / j->in->h;
-  motion p = momenta (j, j->mid), m = j->mid;
+  bt__rigid_motion p = momenta (j, j->mid), m = j->mid;
   bt_vec3 v = bt__axpy (s->sum.v, -rate, bt__times (j->mass, bt__sub (m.v, j->start.v)));
   bt_vec3 w = bt__axpy (s->sum.w, -rate, bt__times (j->inertia, bt__sub (m.w, j->start.w)));
   v = bt__axpy (v, -s->wet, bt__times (damping (j->linear, j->quadratic, m.v), m.v));
@@ -220,38 +251,59 @@ residual (const job *j, const scene *s, double *r)
   memcpy (r, (double[6]){ v.x, v.y, v.z, w.x, w.y, w.z }, 6 * sizeof *r);
 }
 
+/* Factors of the matrix at the iterate: Newton's if *QUICK, unless it has none.  */
+static int
+factors_at (job *j, const scene *s, int *quick)
+{
+  if (*quick)
+    {
+      assemble (j, s, NEWTON);
+      if (bt__factor6 (j->a))
+        return 1;
+      *quick = 0;
+    }
+  assemble (j, s, BOUNDED);
+  return bt__factor6 (j->a);
+}
+
+/* Newton's matrix serves on while each update is QUICK of the one before; what is then left after
+   an update is foretold by the same share.  Else each iterate is bounded.  */
 static int
 solve_mid (job *j)
 {
-  double r[6], d[6], a[6][6];
+  double d[6], before = 0;
+  int quick = 1;
   for (int i = 0; i < ITERATES; i++)
     {
       scene s = look_at_iterate (j);
-      residual (j, &s, r);
-      assemble (j, &s, 1);
-      memcpy (a, j->a, sizeof a);
-      if (!bt__solve6 (a, r, d))
+      residual (j, &s, d);
+      if ((i == 0 || !quick) && !factors_at (j, &s, &quick))
         return 0;
+      bt__substitute6 (j->a, d);
       bt_vec3 dv = bt__vec (d[0], d[1], d[2]), dw = bt__vec (d[3], d[4], d[5]);
       j->mid.v = bt__add (j->mid.v, dv);
       j->mid.w = bt__add (j->mid.w, dw);
-      if (bt__norm (dv) <= SOLVED * (LEAST + bt__norm (j->mid.v))
-          && bt__norm (dw) <= SOLVED * (LEAST + bt__norm (j->mid.w)))
+      double update = fmax (bt__norm (dv) / (LEAST + bt__norm (j->mid.v)),
+                            bt__norm (dw) / (LEAST + bt__norm (j->mid.w)));
+      if (update <= j->solved || (i > 0 && quick && update * update <= j->solved * before))
         break;
+      quick = quick && (i == 0 || update <= QUICK * before);
+      before = update;
     }
   return bt__is_finite (j->mid.v) && bt__is_finite (j->mid.w);
 }
 
 static void
 prepare_step (job *j, const bt__vehicle_type *type, const bt__rigid *body,
-              const bt__rigid_input *in)
+              const bt__rigid_input *in, double solved)
 {
   const bt__hydro *hydro = &type->hydro;
   double water = in->density > 0;
   bt_vec3 begin = bt__axpy (in->flow, -in->h / 2, in->flow_acceleration);
-  *j = (job){ .type = type, .body = body, .in = in };
+  *j = (job){ .type = type, .body = body, .in = in, .solved = solved };
   j->mass = bt__masses (type);
   j->inertia = bt__inertias (type);
+  j->carried = carried_masses (type);
   j->linear = bt__scale (water, bt__along_axes (hydro->linear));
   j->quadratic = bt__scale (water, bt__along_axes (hydro->quadratic));
   j->linear_w = bt__scale (water, bt__about (hydro->linear));
@@ -297,12 +349,12 @@ mean_pull (const job *j, bt_vec3 pull)
 }
 
 /* The excess of the mean motion over the midpoint's, in a step with a stiff line.  */
-static motion
+static bt__rigid_motion
 lead_of (const job *j)
 {
   double k = 2 * j->theta - 1;
-  return (motion){ bt__scale (k, bt__sub (j->mid.v, j->start.v)),
-                   bt__scale (k, bt__sub (j->mid.w, j->start.w)) };
+  return (bt__rigid_motion){ bt__scale (k, bt__sub (j->mid.v, j->start.v)),
+                             bt__scale (k, bt__sub (j->mid.w, j->start.w)) };
 }
 
 static void
@@ -311,26 +363,31 @@ move_body (const job *j, bt__rigid *next)
   double h = j->in->h;
   bt__quat q = bt__quat_turned (j->body->attitude, bt__scale (h / 2, j->mid.w));
   bt_vec3 end = bt__axpy (j->in->flow, h / 2, j->in->flow_acceleration);
-  motion lead = lead_of (j);
+  bt__rigid_motion lead = lead_of (j);
   bt_vec3 way = bt__add (bt__turn_out (q, bt__add (j->mid.v, lead.v)), j->in->flow);
   next->position = bt__axpy (j->body->position, h, way);
   next->attitude = bt__quat_turned (j->body->attitude, bt__scale (h, bt__add (j->mid.w, lead.w)));
   next->velocity
       = bt__add (bt__sub (bt__scale (2, j->mid.v), j->start.v), bt__turn_in (next->attitude, end));
   next->spin = bt__sub (bt__scale (2, j->mid.w), j->start.w);
-  next->heading = bt__heading_follow (next->heading, next->attitude);
 }
 
-/* NEXT from BODY with PULL at the end of the step.  J keeps the last iterate.  */
+/* NEXT from the body of J, prepared, with PULL at the end of the step, and with what GRIP knows
+   unless NULL; all but its heading.  */
 static int
-advance_body (job *j, const bt__vehicle_type *type, const bt__rigid *body,
-              const bt__rigid_input *in, bt_vec3 pull, bt__rigid *next)
+advance_body (job *j, bt_vec3 pull, const bt__grip *grip, bt__rigid *next)
 {
-  prepare_step (j, type, body, in);
-  *next = *body;
-  run_thrusters (j, next->thrust);
+  *next = *j->body;
+  if (grip)
+    {
+      j->thrust = grip->thrust;
+      j->mid = grip->mid;
+      memcpy (next->thrust, grip->end, sizeof next->thrust);
+    }
+  else
+    run_thrusters (j, next->thrust);
   j->theta = share_of_new (j);
-  j->world_pull = in->gripped ? mean_pull (j, pull) : pull;
+  j->world_pull = j->in->gripped ? mean_pull (j, pull) : pull;
   if (!solve_mid (j))
     return 0;
   next->pull = pull;
@@ -340,29 +397,36 @@ advance_body (job *j, const bt__vehicle_type *type, const bt__rigid *body,
 }
 
 bt_status
-bt__rigid_step (const bt__vehicle_type *type, bt__rigid *body, const bt__rigid_input *in,
-                bt_error *error)
+bt__rigid_follow (const bt__vehicle_type *type, bt__rigid *body, const bt__rigid_input *in,
+                  const bt__grip *grip, bt_error *error)
 {
   job j;
   bt__rigid next;
-  if (!advance_body (&j, type, body, in, in->pull, &next))
+  prepare_step (&j, type, body, in, SOLVED);
+  if (!advance_body (&j, in->pull, grip, &next))
     return bt__fail (error, BT_ERR_DIVERGED, "the motion of a vehicle (%s) has no finite answer",
                      type->name);
+  next.heading = bt__heading_follow (next.heading, next.attitude);
   *body = next;
   return BT_OK;
+}
+
+bt_status
+bt__rigid_step (const bt__vehicle_type *type, bt__rigid *body, const bt__rigid_input *in,
+                bt_error *error)
+{
+  return bt__rigid_follow (type, body, in, NULL, error);
 }
 
 /* ---- The grip ---- */
 
 /* The velocity of the attachment per FORCE on it, world: a column of J S J^T.  */
 static bt_vec3
-yield (const job *j, bt__quat q, bt_vec3 force)
+yield (job *j, bt__quat q, bt_vec3 force)
 {
-  double a[6][6], x[6];
   bt_vec3 f = bt__turn_in (q, force), m = bt__cross (j->type->attached, f);
-  double b[6] = { f.x, f.y, f.z, m.x, m.y, m.z };
-  memcpy (a, j->a, sizeof a);
-  bt__solve6 (a, b, x);
+  double x[6] = { f.x, f.y, f.z, m.x, m.y, m.z };
+  bt__substitute6 (j->a, x);
   bt_vec3 v = bt__vec (x[0], x[1], x[2]), w = bt__vec (x[3], x[4], x[5]);
   return bt__turn_out (q, bt__add (v, bt__cross (w, j->type->attached)));
 }
@@ -389,11 +453,13 @@ bt__rigid_grip (const bt__vehicle_type *type, const bt__rigid *body, const bt__r
   bt__rigid_input gripped = *in;
   bt_vec3 column[3];
   gripped.gripped = 1;
-  if (!advance_body (&j, type, body, &gripped, body->pull, &next))
+  prepare_step (&j, type, body, &gripped, SEEN);
+  if (!advance_body (&j, body->pull, NULL, &next))
     return bt__fail (error, BT_ERR_DIVERGED, "the motion of a vehicle (%s) has no finite answer",
                      type->name);
   scene s = look_at_iterate (&j);
-  assemble (&j, &s, 0);
+  assemble (&j, &s, YIELDING);
+  bt__factor6 (j.a);
   for (int i = 0; i < 3; i++)
     {
       bt_vec3 unit = bt__vec (i == 0, i == 1, i == 2);
@@ -404,6 +470,9 @@ bt__rigid_grip (const bt__vehicle_type *type, const bt__rigid *body, const bt__r
   grip->at = bt__axpy (grip->at, -body->pull.x, column[0]);
   grip->at = bt__axpy (grip->at, -body->pull.y, column[1]);
   grip->at = bt__axpy (grip->at, -body->pull.z, column[2]);
+  grip->mid = j.mid;
+  grip->thrust = j.thrust;
+  memcpy (grip->end, next.thrust, sizeof grip->end);
   return BT_OK;
 }
 

@@ -7,10 +7,11 @@
      M nu' + C(nu) nu + D(nu) nu + g = tau + (rho V - m) a + J^T F.
 
    M is the mass with its added mass, a the acceleration of the water, F the pull of the tether on
-   its attachment.  A step is the midpoint rule, of second order, solved by iterates that hold C
-   skew and D positive: at every iterate C does no work and drag takes energy away, so the step is
-   bounded for any h.  Without forces the midpoint rule keeps the kinetic energy, and with the
-   attitude turned by Cayley's transform the momentum in the world.
+   its attachment.  A step is the midpoint rule, of second order, solved by Newton's iterates where
+   these settle quickly, else by iterates that hold C skew and D positive: at every such iterate C
+   does no work and drag takes energy away, so the step is bounded for any h.  Without forces the
+   midpoint rule keeps the kinetic energy, and with the attitude turned by Cayley's transform the
+   momentum in the world.
 
    The implicit line.  A stiff line must be solved together with the body that the line pulls.  Over
    a step the end place X of the attachment is, but for terms of higher order, a linear function of
@@ -75,16 +76,30 @@ void bt__rigid_place (bt__rigid *body, bt_vec3 position, double heading, double 
 bt_status bt__rigid_step (const bt__vehicle_type *type, bt__rigid *body, const bt__rigid_input *in,
                           bt_error *error);
 
+/* Two vectors: along and about the own axes.  */
+typedef struct bt__rigid_motion
+{
+  bt_vec3 v, w;
+} bt__rigid_motion;
+
 /* What an implicit line sees at its end.  */
 typedef struct bt__grip
 {
-  bt_vec3 at;             /* m: where the attachment would come to without the line */
-  double stiffness[3][3]; /* N/m: symmetric, positive definite */
+  bt_vec3 at;              /* m: where the attachment would come to without the line */
+  double stiffness[3][3];  /* N/m: symmetric, positive definite */
+  bt__rigid_motion mid;    /* m/s, rad/s: in the middle of the step with the pull of the last */
+  bt__rigid_motion thrust; /* N, N m: mean of the step */
+  double end[BT__THRUSTERS_MAX]; /* N: of each thruster at the end of the step */
 } bt__grip;
 
 /* Return in *GRIP the end condition for the line of the coming step; IN->pull is not used.  */
 bt_status bt__rigid_grip (const bt__vehicle_type *type, const bt__rigid *body,
                           const bt__rigid_input *in, bt__grip *grip, bt_error *error);
+
+/* Step BODY, whose grip for IN, but for pull, GRIPPED and stiffness, is GRIP: as bt__rigid_step, to
+   what is left at the end of its iteration, 1e-14 of the velocities, in less time.  */
+bt_status bt__rigid_follow (const bt__vehicle_type *type, bt__rigid *body,
+                            const bt__rigid_input *in, const bt__grip *grip, bt_error *error);
 
 /* The pull on the body of a line whose end the step has brought to X.  */
 bt_vec3 bt__grip_pull (const bt__grip *grip, bt_vec3 x);

@@ -59,20 +59,21 @@ bt_status
 bt__rig_make (const bt__vehicle_type *type, bt__rig *rig, bt_error *error)
 {
   static const char *const names[] = { "surge", "sway", "heave", "roll", "pitch", "yaw" };
-  double b[BT__THRUSTERS_MAX][BT__AXES], a[6][6], x[6];
+  double b[BT__THRUSTERS_MAX][BT__AXES], a[6][6];
   memset (rig, 0, sizeof *rig);
   for (int k = 0; k < type->n; k++)
     effect (&type->thruster[k], b[k]);
   for (int axis = 0; axis < 6; axis++)
     {
-      double wish[6] = { 0 };
+      double x[6] = { 0 };
       if (!type->steers[axis])
         continue;
-      wish[axis] = 1;
+      x[axis] = 1;
       square_up (type, b, a);
-      if (!bt__solve6 (a, wish, x))
+      if (!bt__factor6 (a))
         return bt__fail (error, BT_ERR_DEF, "the thrusters of `%s' cannot command %s alone",
                          type->name, names[axis]);
+      bt__substitute6 (a, x);
       for (int k = 0; k < type->n; k++)
         for (int i = 0; i < 6; i++)
           if (type->steers[i])
@@ -94,13 +95,14 @@ bt__rig_share (const bt__vehicle_type *type, const bt__rig *rig, const double *w
       force[k] = 0;
       for (int i = 0; i < BT__AXES; i++)
         force[k] += rig->mix[k][i] * wrench[i];
-      over = fmax (over, fabs (force[k]) / fmax (t->ahead, t->astern));
+      double share = fabs (force[k]) / (t->ahead > t->astern ? t->ahead : t->astern);
+      over = share > over ? share : over;
     }
   for (int k = 0; k < type->n; k++)
     {
       const bt__thruster *t = &type->thruster[k];
       double f = force[k] / over;
-      force[k] = fmax (-t->astern, fmin (t->ahead, f));
+      force[k] = bt__clamp (f, -t->astern, t->ahead);
       reduced |= over > 1 || force[k] != f;
     }
   return reduced;

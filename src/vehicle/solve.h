@@ -5,10 +5,11 @@
 #ifndef BT_VEHICLE_SOLVE_H
 #define BT_VEHICLE_SOLVE_H
 
-/* Solve A X = B by elimination without pivoting, which is right when the symmetric part of A is
-   positive definite; A and B are used up.  Return zero when a pivot is next to nothing.  */
+/* Eliminate A without pivoting, which is right when the symmetric part of A is positive definite.
+   What is left: the factors below the diagonal, the reciprocals of the pivots on it, the eliminated
+   rows beyond.  Return zero when a pivot is next to nothing.  */
 static inline int
-bt__solve6 (double (*a)[6], double *b, double *x)
+bt__factor6 (double (*a)[6])
 {
   double scale[6];
   for (int i = 0; i < 6; i++)
@@ -17,22 +18,31 @@ bt__solve6 (double (*a)[6], double *b, double *x)
     {
       if (!(a[i][i] > 1e-10 * scale[i]))
         return 0;
+      a[i][i] = 1 / a[i][i];
       for (int j = i + 1; j < 6; j++)
         {
-          double k = a[j][i] / a[i][i];
+          double k = a[j][i] *= a[i][i];
           for (int c = i + 1; c < 6; c++)
             a[j][c] -= k * a[i][c];
-          b[j] -= k * b[i];
         }
     }
+  return 1;
+}
+
+/* Solve for X, the right-hand side before, with the factors A.  Column by column: no row then waits
+   for more than the one before.  */
+static inline void
+bt__substitute6 (double (*a)[6], double *x)
+{
+  for (int i = 0; i < 6; i++)
+    for (int j = i + 1; j < 6; j++)
+      x[j] -= a[j][i] * x[i];
   for (int i = 5; i >= 0; i--)
     {
-      x[i] = b[i];
-      for (int c = i + 1; c < 6; c++)
-        x[i] -= a[i][c] * x[c];
-      x[i] /= a[i][i];
+      x[i] *= a[i][i];
+      for (int j = 0; j < i; j++)
+        x[j] -= a[j][i] * x[i];
     }
-  return 1;
 }
 
 #endif

@@ -13,6 +13,7 @@
 
 #include <math.h>
 
+#include "math/vec.h"
 #include "vehicle/type.h"
 
 enum
@@ -169,25 +170,31 @@ t200_force (double volts, double command)
   return (1 - share) * at_row (i, c) + share * at_row (i + 1, c);
 }
 
-/* Bisection on the rising table, from zero outward: a force of 0 has the command 0.  */
+/* The size of the force ROW rows from zero outward.  */
+static double
+outward (int row, int way, column c)
+{
+  return fabs (at_row (PULSES / 2 + way * row, c));
+}
+
+/* Bisection on the rising table, from zero outward: a force of 0 has the command 0.  A step is
+   taken or not by arithmetic: a processor cannot foretell which, and thrusters need not wait for
+   each other.  */
 static double
 t200_command (double volts, double force)
 {
-  int zero = PULSES / 2, way = force < 0 ? -1 : 1, low = 0, high = zero;
+  int zero = PULSES / 2, way = force < 0 ? -1 : 1, low = 0;
+  double size = fabs (force);
   if (force == 0)
     return 0;
   column c = column_of (volts);
-  while (high - low > 1)
+  for (int step = 32; step > 0; step /= 2)
     {
-      int middle = (low + high) / 2;
-      if (fabs (at_row (zero + way * middle, c)) < fabs (force))
-        low = middle;
-      else
-        high = middle;
+      int next = low + step < zero ? low + step : zero - 1;
+      low += (next - low) * (outward (next, way, c) < size);
     }
-  double least = fabs (at_row (zero + way * low, c));
-  double most = fabs (at_row (zero + way * high, c));
-  double share = most > least ? fmin (1, (fabs (force) - least) / (most - least)) : 1;
+  double least = outward (low, way, c), most = outward (low + 1, way, c);
+  double share = most > least ? bt__clamp ((size - least) / (most - least), 0, 1) : 1;
   return way * (low + share) / zero;
 }
 
@@ -209,4 +216,16 @@ bt__thruster_command (const bt__thruster *thruster, double volts, double force)
   if (thruster->map == BT_MAP_T200)
     return t200_command (volts, f);
   return f > 0 ? sqrt (f / thruster->ahead) : f < 0 ? -sqrt (-f / thruster->astern) : 0;
+}
+
+double
+bt__thruster_push (const bt__thruster *thruster, double nominal, double volts, double wish)
+{
+  if (volts != nominal || thruster->dead > 0)
+    return bt__thruster_force (thruster, volts, bt__thruster_command (thruster, nominal, wish));
+  double f = bt__clamp (wish, -thruster->astern, thruster->ahead);
+  if (thruster->map != BT_MAP_T200)
+    return f;
+  column c = column_of (volts);
+  return bt__clamp (f, at_row (0, c), at_row (PULSES - 1, c));
 }

@@ -86,6 +86,10 @@ double bt__thruster_force (const bt__thruster *thruster, double volts, double co
 /* The command that gives FORCE at VOLTS, or the nearest it can.  */
 double bt__thruster_command (const bt__thruster *thruster, double volts, double force);
 
+/* The force, N, of a thruster at VOLTS to which the command is given that makes WISH at NOMINAL
+   volts.  */
+double bt__thruster_push (const bt__thruster *thruster, double nominal, double volts, double wish);
+
 /* ---- What sticks and autopilots command ---- */
 
 /* The thrusters of a type as one: made once.  */

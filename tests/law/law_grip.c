@@ -113,9 +113,10 @@ solve (line *l, const bt__grip *grip, bt_vec3 wish, double h)
   double size = 1;
   for (int n = 0; n < 200 && size > 1e-13; n++)
     {
-      double r[6], a[6][6], d[6], before = potential (l, grip, wish, x, h), share = 1;
-      equations (l, grip, wish, x, h, r, a);
-      assert_true (bt__solve6 (a, r, d));
+      double d[6], a[6][6], before = potential (l, grip, wish, x, h), share = 1;
+      equations (l, grip, wish, x, h, d, a);
+      assert_true (bt__factor6 (a));
+      bt__substitute6 (a, d);
       bt_vec3 y[2] = { x[0], x[1] };
       for (int i = 0; i < 40; i++, share /= 2)
         {
