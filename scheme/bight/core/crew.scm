@@ -10,8 +10,9 @@
 ;;; the crew goes home, be it for ^C.  When the process that gives the orders is killed, the pipes of the shops end, and
 ;;; every shop ends its hands and itself.
 ;;;
-;;; Who forks must have one thread: another may hold a lock at that moment, which nobody then opens.  Guile starts a
-;;; thread at the first `sigaction', so shops are opened before that, and a shop calls none.
+;;; Who forks must have one thread, or others that are known to hold no lock: nobody would open it in the child.  Guile
+;;; starts a thread at the first `sigaction', so shops are opened before that, and a shop calls none; a hand that does
+;;; waits for the thread to have begun (`await-signal-thread!').
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -136,30 +137,12 @@ PATIENCE seconds unless that is #f.  No process outlives the call."
 
 ;;; Children.
 
-;; Is this process of somebody else's crew?
-(define child? #f)
-
 (define (become-child!)
   ;; The standard input is empty; what is written to the standard output by others than Scheme must not
   ;; get into the report.
   (let ((nothing (open "/dev/null" O_RDONLY)))
     (dup2 (fileno nothing) 0))
-  (dup2 2 1)
-  (set! child? #t))
-
-(define (await-signals!)
-  ;; Guile's thread for signals holds locks while it begins, and a process forked then waits for them for
-  ;; ever.  A child may just have begun one, for its own time limit: when a signal has been heard, it has
-  ;; begun.  In a child that hears none there is no such thread, and the wait is in vain.
-  (when child?
-    (let ((heard? #f) (old (sigaction SIGURG)))
-      (sigaction SIGURG (lambda (signal) (set! heard? #t)))
-      (kill (getpid) SIGURG)
-      (let wait ((turns 100))
-        (unless (or heard? (zero? turns))
-          (usleep 10000)
-          (wait (- turns 1))))
-      (sigaction SIGURG (car old) (cdr old)))))
+  (dup2 2 1))
 
 (define (call-in-child thunk)
   ;; Fork; the child calls THUNK and ends.  Return its process.
@@ -294,7 +277,6 @@ PATIENCE seconds unless that is #f.  No process outlives the call."
 the file and a procedure that tells one datum, a list; it returns a procedure that does work, for
 `do-orders', or #f if there is none to do.  Return what they told, in order; (late) and (died EXIT SIGNAL)
 stand for what was told by none."
-  (await-signals!)
   (let loop ((rest files) (told '()))
     (if (null? rest)
         (concatenate (reverse told))

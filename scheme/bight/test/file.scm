@@ -12,6 +12,7 @@
   #:use-module ((bight core here) #:select (afresh))
   #:use-module (bight core record)
   #:use-module ((bight core folders) #:select (ensure-folder!))
+  #:use-module ((bight core fork) #:select (await-signal-thread!))
   #:use-module (bight core told)
   #:use-module (bight dive)
   #:use-module ((bight dive flight) #:select (keep-flight! flown-seconds))
@@ -116,6 +117,7 @@
       (stop-whole-trial! `(run-scenario #:limit ,seconds)
                          (simple-format #f "an end within ~a s of processor time" seconds)
                          "none: it was stopped")))
+  (await-signal-thread!)                ; what is tested may fork
   (set-timer! seconds))
 
 (define (picture-of where)
