@@ -152,12 +152,11 @@ fall in it; a sonar, which hears no heights, has none."
          (trying c (draw-plainly! c put))
          '())))
 
-(define (draw-marks! put marks)
+(define (draw-marks! put columns marks)
   ;; Each has its name beside it where there is room.
   (for-each (lambda (mark)
-              (let ((text (string-append "+ " (first mark))))
-                (or (put (second mark) (third mark) text green 0)
-                    (put (second mark) (third mark) "+" green 0))))
+              (define (mark! text) (put-apart put columns (second mark) (third mark) text green 0))
+              (or (mark! (string-append "+ " (first mark))) (mark! "+")))
             marks))
 
 
@@ -309,7 +308,7 @@ there is nothing to tell, or, a line that is TYPING?, whatever is told."
       (look-at-belief! c)
       (draw-map! c put top)
       (trying c (draw-figures! c put top hint typing?)))
-    (draw-marks! put marks)))
+    (draw-marks! put (car (cockpit-size c)) marks)))
 
 (define* (draw-frame! c hint #:key typing?)
   "Show the dive of C with its display; HINT and TYPING? are for `compose-frame!'."
@@ -333,5 +332,5 @@ there is nothing to tell, or, a line that is TYPING?, whatever is told."
     (put 0 0 (cut (string-append " " (title c) " ") columns) white #f)
     (draw-lines! put columns shown)
     (draw-map! c put (+ 3 (length shown)))
-    (draw-marks! put marks)
+    (draw-marks! put columns marks)
     (write-frame! c new?)))

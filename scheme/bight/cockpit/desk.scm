@@ -8,7 +8,7 @@
 (define-module (bight cockpit desk)
   #:use-module (rnrs bytevectors)
   #:use-module (srfi srfi-1)
-  #:export (desk wrap cut put-lines put-centred put-right put-box))
+  #:export (desk wrap cut put-lines put-centred put-right put-apart put-box))
 
 (define (desk columns rows put)
   "Return a procedure of column, row, text, ink and paper that puts the text on a screen of COLUMNS and ROWS by PUT,
@@ -54,6 +54,12 @@ a procedure of the same, where there is room for all of it and nothing was put b
 (define (put-right put columns row text ink paper)
   "Put TEXT at the right end of ROW."
   (put (- columns (string-length text)) row text ink paper))
+
+(define (put-apart put columns column row text ink paper)
+  "Put TEXT with a blank before and behind it, where its ROW of COLUMNS goes on there, so that it is read as a word."
+  (put (max 0 (- column 1)) row
+       (string-append (if (> column 0) " " "") text (if (< (+ column (string-length text)) columns) " " ""))
+       ink paper))
 
 (define (put-box put column row lines ink paper)
   "Put LINES as a block with a margin, all as wide as the widest.  Return the row below it."

@@ -3,7 +3,7 @@
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 (define-module (bight core decimal)
-  #:export (fixed fixed-with-sign figure text->number))
+  #:export (fixed fixed-with-sign figure written-figure text->number))
 
 (define (fixed x places)
   "Return the finite number X with PLACES decimals, a string; what rounds to 0 has no sign."
@@ -30,6 +30,10 @@
   (cond ((not (real? x)) "none")
         ((not (finite? x)) (if (nan? x) "none" "any"))
         (else (fixed x (cond ((>= (abs x) 100) 0) ((>= (abs x) 10) 1) (else 2))))))
+
+(define (written-figure x)
+  "Return the number X as one writes it, a string: 60, and not 60.0; at most four places."
+  (string-trim-right (string-trim-right (fixed x 4) #\0) #\.))
 
 (define* (text->number text #:optional (radix 10))
   "Return the number that the string TEXT spells with RADIX, or #f: also for one such as 1e9999, at which Guile's

@@ -33,7 +33,7 @@
   (let ((get (lambda (key) (assq-ref result key))))
     (log-lesson! (get 'lesson) #:trainee (get 'who) #:score (get 'total) #:data result)
     (for-each (lambda (mark)
-                (when (string-prefix? "probe" (first mark))
+                (when (string-prefix? "question " (first mark))
                   (log-probe! (string-append (symbol->string (get 'lesson)) ": " (first mark))
                               #:trainee (get 'who) #:score (second mark)
                               #:data `((passed? ,(third mark)) (how ,(fourth mark))))))

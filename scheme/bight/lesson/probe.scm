@@ -23,16 +23,19 @@
   (let ((off (if degrees? (compass-error answer truth) (abs (- answer truth)))))
     (max 0 (- 1 (/ off (* 3.6 within))))))
 
-(define (probe-mark label answer truth choices within degrees?)
+(define (probe-mark n question answer truth choices within degrees?)
+  ;; The mark of the N-th; who lost it reads QUESTION beside his answer.
+  (define label (simple-format #f "question ~a" n))
   (if choices
       (let ((right? (equal? answer truth)))
         (make-mark label (if right? 1 0) 1 right?
-                   (simple-format #f "said ~a, it was ~a" answer truth)))
+                   (simple-format #f "said ~a, it was ~a" answer truth) question))
       (let ((credit (probe-credit answer truth within degrees?))
             (off (if degrees? (compass-error answer truth) (abs (- answer truth)))))
         (make-mark label credit 1 (<= off within)
                    (simple-format #f "said ~a, it was ~a; asked within ~a"
-                                  (figure answer) (figure truth) (figure within))))))
+                                  (figure answer) (figure truth) (written-figure within))
+                   question))))
 
 (define (checked-truth truth choices)
   (cond ((and choices (not (member truth choices)))
@@ -65,7 +68,7 @@ what somebody else than the pupil says, who is asked in his place."
     (let* ((answer (or answer
                        (parameterize ((asked-in-degrees? (and degrees (not choices))))
                          ((guide-probe (this-guide)) question truth choices))))
-           (mark (probe-mark (simple-format #f "probe ~a" n) answer truth choices within degrees)))
+           (mark (probe-mark n question answer truth choices within degrees)))
       (add-mark! mark)
       (tally-set! 'answer answer)
       (say-as (if (mark-passed? mark) 'right 'wrong) (mark-detail mark)))))

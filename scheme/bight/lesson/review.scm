@@ -38,7 +38,7 @@
 (define (enough?)
   (memv (next-key 0) '(escape #\etx)))
 
-(define (probe-mark? mark) (string-prefix? "probe" (mark-label mark)))
+(define (probe-mark? mark) (string-prefix? "question " (mark-label mark)))
 
 (define (expert-at report dive time)
   ;; (REEL . OUTCOME) of the task that was going on in DIVE at TIME as the expert flies it, or #f.

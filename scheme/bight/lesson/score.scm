@@ -142,15 +142,11 @@ about; and WHY it matters, or #f."
 (define (band row values)
   ;; In words; of what is never below 0 it need not be said that it should not be.
   (let ((low (row-low row)) (high (row-high row)))
-    (cond ((= low high) (bound low))
-          ((not (finite? high)) (string-append "at least " (bound low)))
+    (cond ((= low high) (written-figure low))
+          ((not (finite? high)) (string-append "at least " (written-figure low)))
           ((or (not (finite? low)) (and (zero? low) (every (lambda (v) (>= v 0)) values)))
-           (string-append "at most " (bound high)))
-          (else (string-append (bound low) " to " (bound high))))))
-
-(define (bound x)
-  ;; As its author writes it: 60, not 60.0.
-  (string-trim-right (string-trim-right (fixed x 4) #\0) #\.))
+           (string-append "at most " (written-figure high)))
+          (else (string-append (written-figure low) " to " (written-figure high))))))
 
 (define (key-value row values)
   (case (row-by row)
