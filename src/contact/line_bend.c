@@ -3,11 +3,12 @@
    The idea is that of Eulerian-on-Lagrangian cables (Sueda et al. 2011).  Links passing over a thin
    member would feel every node: the line would turn now at one node, now at the next, and a polygon
    drawn round a drum jerks like a chain on a sprocket.  So a node is placed where the line turns,
-   and stays while line flows through the node (tether/dynamic_bent.c).  An edge or a wire needs a
-   single node.  A round member has as many as the turn of the line needs, the corners of a polygon
-   about the member (line_turn.c): the first and the last side follow the line, the sides between
-   keep their directions.  Links beside sliding nodes are tangents at the line's radius, and are
-   guarded like all links.
+   and stays while line flows through the node (tether/dynamic_bent.c).  An edge needs a single
+   node, and so does a wire about which the line turns by a right angle; by half a turn, the
+   tangents of a single node would meet nowhere.  A round member has as many nodes as the turn of
+   the line needs, the corners of a polygon about the member (line_turn.c): the first and the last
+   side follow the line, the sides between keep their directions.  Links beside sliding nodes are
+   tangents at the line's radius, and are guarded like all links.
 
    Sliding is measured at the tangents, not at the corner: as the line is laid round, a corner moves
    on and line flows through the corner without sliding.  Sideways a corner slides across the line's
@@ -52,6 +53,7 @@ typedef struct corner
   bt__turn turn;
   bt_vec3 lag, place; /* m: what it has yet to go round; where it is held */
   double away;        /* m from the axis, but for LAG */
+  int single;         /* true: the only corner about a member that is thin */
 } corner;
 
 typedef struct corners
@@ -97,19 +99,19 @@ goes_on (const corners *s, int c)
          && bt__bend_goes_on (&s->at[c].anchor, &s->at[c + 1].anchor);
 }
 
+/* True if corner C is the only one about a member that is thin.  */
 static int
-is_thin (const bt__line_job *k, const corner *c)
+is_single (const bt__line_job *k, const corners *s, int c)
 {
-  return bt__edge_is_thin (k, &c->edge);
+  return bt__edge_is_thin (k, s->at[c].edge.radius) && !goes_on (s, c - 1) && !goes_on (s, c);
 }
 
-/* The expected place of node I, a neighbour of C. About a thin member the present place is taken:
+/* The expected place of node I, a neighbour of C. Of a single corner the present place is taken:
    the turn depends little on the neighbour, but the distance from the axis depends on the turn.  */
 static bt_vec3
 expected (const bt__line_job *k, const corner *c, int i)
 {
-  return !is_thin (k, c) && bt__distance (k->X[i], k->x[i]) <= BT__LINE_FORETOLD ? k->X[i]
-                                                                                 : k->x[i];
+  return !c->single && bt__distance (k->X[i], k->x[i]) <= BT__LINE_FORETOLD ? k->X[i] : k->x[i];
 }
 
 static int
@@ -185,7 +187,7 @@ static void
 choose (const bt__line_job *k, const corners *s, int *may)
 {
   for (int c = 0; c < s->n; c++)
-    may[c] = is_thin (k, s->at + c)
+    may[c] = bt__edge_is_thin (k, s->at[c].edge.radius)
                  ? !bt__bend_is_wedged (k, s->at[c].node, 1)
                  : !k->plain && bt__bend_is_calm (k, s->at[c].node, s->at[c].anchor.object, 1);
   for (int c = 0; c + 1 < s->n; c++)
@@ -207,7 +209,7 @@ shortened (bt_vec3 v, double by)
 static bt_vec3
 corner_lag (const bt__line_job *k, const corner *c)
 {
-  if (is_thin (k, c))
+  if (c->single)
     return bt__vec (0, 0, 0);
   bt_vec3 should = bt__axpy (c->turn.centre, c->anchor.away, c->turn.normal);
   bt_vec3 lag = bt__off_axis (c->edge.axis, bt__sub (c->anchor.held, should));
@@ -219,7 +221,7 @@ static double
 held_distance (const bt__line_job *k, const corner *c)
 {
   double more = c->turn.reach - c->anchor.away;
-  if (is_thin (k, c))
+  if (c->single)
     return c->turn.reach;
   return c->anchor.away + fmin (fmax (more, -SINKS * k->h), RISES * k->h);
 }
@@ -261,7 +263,7 @@ push_out (const bt__line_job *k, corners *s)
       for (; c >= 0 && c < s->n; c += by)
         {
           corner *q = s->at + c;
-          if (is_thin (k, q))
+          if (q->single)
             continue;
           double more = fmax (lack_of (k, s, c, -1), lack_of (k, s, c, 1));
           q->away += more;
@@ -282,7 +284,7 @@ gone_round (const corner *c)
 bt_vec3
 bt__bend_aside (const bt__line_job *k, const bt__edge *e, bt_vec3 normal, bt_vec3 along)
 {
-  if (bt__edge_is_thin (k, e))
+  if (bt__edge_is_thin (k, e->radius))
     return e->axis;
   bt_vec3 aside = bt__unit_or (bt__cross (normal, along), e->axis);
   return bt__dot (aside, e->axis) < 0 ? bt__scale (-1, aside) : aside;
@@ -294,7 +296,7 @@ static bt_vec3
 slid_round (const bt__line_job *k, const corner *c, bt_vec3 aside)
 {
   double slid = bt__dot (aside, bt__sub (k->x[c->node], c->anchor.held));
-  return is_thin (k, c) ? bt__vec (0, 0, 0) : bt__off_axis (c->edge.axis, bt__scale (slid, aside));
+  return c->single ? bt__vec (0, 0, 0) : bt__off_axis (c->edge.axis, bt__scale (slid, aside));
 }
 
 /* The surplus of the chord on SIDE of corner C at the end of the step, m.  */
@@ -355,6 +357,8 @@ bt__line_bends (bt__line_job *k)
   k->bents = 0;
   gather (k, &s);
   for (int c = 0; c < s.n; c++)
+    s.at[c].single = is_single (k, &s, c);
+  for (int c = 0; c < s.n; c++)
     find_corner_turn (k, &s, c);
   for (int c = 0; c < s.n; c++)
     if (goes_on (&s, c))
@@ -379,11 +383,8 @@ int
 bt__line_is_laid_round (const bt__line_job *k)
 {
   for (int i = 0; i < k->bents; i++)
-    {
-      bt__edge e = { .radius = k->w->bend[i].thick };
-      if (!bt__edge_is_thin (k, &e))
-        return 1;
-    }
+    if (!bt__edge_is_thin (k, k->w->bend[i].thick))
+      return 1;
   return 0;
 }
 

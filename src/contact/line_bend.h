@@ -25,8 +25,9 @@ int bt__edge_again (const bt__line_job *k, const bt__contact *a, bt_vec3 p, bt__
 /* True if the obstacle of row OF has no edges that count; cheap.  */
 int bt__edge_has_none (const bt__line_job *k, const bt__line_row *of);
 
-/* True if E is thin enough against the line's links for a single node.  */
-int bt__edge_is_thin (const bt__line_job *k, const bt__edge *e);
+/* True if an edge of RADIUS is thin enough against the line's links for a single node where the
+   line turns by a right angle.  */
+int bt__edge_is_thin (const bt__line_job *k, double radius);
 
 /* The part of V across AXIS.  */
 static inline bt_vec3
@@ -76,10 +77,11 @@ bt__turn_angle (bt_vec3 axis, bt_vec3 a, bt_vec3 b)
 double bt__turn_lack (bt_vec3 axis, bt_vec3 centre, bt_vec3 a, bt_vec3 b, double out);
 
 #define BT__BEND_BEHIND                                                                            \
-  0.1                      /* of the way from the axis: how far one may have to go round, at most */
-#define BT__TURN_MOST 1.0  /* radians: of a corner about a round member that is not thin */
-#define BT__TURN_ALONG 0.9 /* product of line and edge: more, and the line lies along it */
-#define BT__BEND_NEAR 1e-9 /* of the line and a metre: two places so near are one */
+  0.1                     /* of the way from the axis: how far one may have to go round, at most */
+#define BT__TURN_MOST 1.0 /* radians: of a corner about a round member that is not thin */
+#define BT__TURN_SINGLE 2.0 /* radians: of a single corner, about a member that is thin */
+#define BT__TURN_ALONG 0.9  /* product of line and edge: more, and the line lies along it */
+#define BT__BEND_NEAR 1e-9  /* of the line and a metre: two places so near are one */
 #define BT__BEND_TURNS 0.05 /* radians: a node that turns less is no corner */
 
 /* The normal of the interval from P[0] to P[1] about an axis.  */
@@ -149,9 +151,11 @@ void bt__sliding_gather (bt__line_job *k, bt__sliding *s);
 void bt__sliding_scatter (bt__line_job *k, bt__sliding *s);
 int bt__sliding_take_anchor (bt__line_job *k, int q, bt__contact *a);
 
-/* True if node I is held; if bend Q and the next are of one member.  */
+/* True if node I is held; if bend Q and the next are of one member; if bend Q is the only one
+   there, and the member is thin.  */
 int bt__sliding_has (const bt__sliding *s, int64_t i);
 int bt__sliding_goes_on (const bt__sliding *s, int q);
+int bt__sliding_is_single (const bt__line_job *k, const bt__sliding *s, int q);
 
 /* Hold NODE too, as A says: return its place in the list; hold bend Q no more; the same, and let
    its node go.  */

@@ -29,8 +29,7 @@ is_slack (const bt__line_job *k, int i)
 {
   const bt__dynamic_bent *b = k->w->bent + i;
   const bt__contact *a = k->w->bend + i;
-  bt__edge e = { .radius = a->thick };
-  int is_thin = bt__edge_is_thin (k, &e);
+  int is_thin = bt__edge_is_thin (k, a->thick);
   int patience = !is_thin ? PATIENCE : a->bent == BT__BENT_ROUND ? 0 : AT_ONCE;
   return a->age < patience && fmax (b->pull[0], b->pull[1]) < SLACK;
 }

@@ -23,6 +23,13 @@ bt__sliding_goes_on (const bt__sliding *s, int q)
          && bt__bend_goes_on (s->anchor + q, s->anchor + q + 1);
 }
 
+int
+bt__sliding_is_single (const bt__line_job *k, const bt__sliding *s, int q)
+{
+  return bt__edge_is_thin (k, s->anchor[q].thick) && !bt__sliding_goes_on (s, q - 1)
+         && !bt__sliding_goes_on (s, q);
+}
+
 static void
 shift_bends (bt__sliding *s, int64_t from, int by)
 {

@@ -115,7 +115,7 @@ feel_for_edge (const asked *q, bt_vec3 p, const bt__witness *w, bt__edge *e)
       || !(bt__dot (axis, bt__sub (a.point, b.point)) > 2 * LONG * step))
     return 0;
   *e = (bt__edge){ axis, w->point, w->normal, w->distance * goes / (1 - goes), w->distance, 0 };
-  return bt__edge_is_thin (q->k, e) && is_edge_sharp (q, p, across);
+  return bt__edge_is_thin (q->k, e->radius) && is_edge_sharp (q, p, across);
 }
 
 /* ---- Known ---- */
@@ -140,9 +140,9 @@ side_of (const asked *q, const bt__witness *w, bt__edge *e)
 }
 
 int
-bt__edge_is_thin (const bt__line_job *k, const bt__edge *e)
+bt__edge_is_thin (const bt__line_job *k, double radius)
 {
-  return e->radius + k->config->radius <= THIN * k->d->piece;
+  return radius + k->config->radius <= THIN * k->d->piece;
 }
 
 static int

@@ -86,7 +86,7 @@ may_corner (const bt__line_job *k, const bt__sliding *s, int q, int64_t i, bt__b
   p->node = i;
   return is_settled (k, q) && i >= 1 && i < k->d->n && !bt__sliding_has (s, i) && !is_crowded (k, i)
          && bt__edge_find (k, k->w->of[q].id, x[i], &p->edge) && p->edge.round
-         && !bt__edge_is_thin (k, &p->edge) && is_steep (k, i, &p->edge)
+         && !bt__edge_is_thin (k, p->edge.radius) && is_steep (k, i, &p->edge)
          && is_tangent_corner (k, i, &p->edge);
 }
 
@@ -154,7 +154,7 @@ may_bend (const bt__line_job *k, const bt__sliding *s, int q, bt__bend_place *p)
     p->edge.axis = bt__scale (-1, p->edge.axis);
   if (p->edge.round && is_held_near (k, s, q))
     return 0;
-  return bt__edge_is_thin (k, &p->edge)
+  return bt__edge_is_thin (k, p->edge.radius)
              ? k->w->of[q].flat != 1 && !is_wedged (k, q)
              : is_settled (k, q) && !has_company (k, q) && fabs (bt__dot (t, p->edge.axis)) < STEEP
                    && turns_about (k, p, r->node, at);

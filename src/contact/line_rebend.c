@@ -33,15 +33,13 @@ enum
 
 /* Neighbouring nodes found to belong to the same member: the side between stays.  */
 static void
-join (bt__line_job *k, bt__sliding *s)
+join (const bt__line_job *k, bt__sliding *s)
 {
   for (int q = 0; q < s->n; q++)
     {
       bt__contact *a = s->anchor + q, *b = a + 1;
       bt_vec3 none = { 0, 0, 0 };
-      bt__edge e = { .radius = a->thick };
-      if (q + 1 == s->n || s->node[q] + 1 != s->node[q + 1] || a->object != b->object
-          || bt__edge_is_thin (k, &e))
+      if (q + 1 == s->n || s->node[q] + 1 != s->node[q + 1] || a->object != b->object)
         {
           if (bt__dot (a->after, a->after) > 0)
             bt__sliding_change (s);
@@ -109,9 +107,8 @@ is_new (const bt__sliding *s, int q)
 static int
 is_behind (const bt__line_job *k, bt__sliding *s, int q)
 {
-  bt__edge e = { .radius = s->anchor[q].thick };
   double away;
-  return is_new (s, q) && !bt__edge_is_thin (k, &e)
+  return is_new (s, q) && !bt__sliding_is_single (k, s, q)
          && bt__norm (sliding_lag (k, s, q, &away)) > BT__BEND_BEHIND * away;
 }
 
@@ -176,12 +173,22 @@ add_corner (bt__line_job *k, bt__sliding *s, int q, int side, const bt__turn *t)
   return settle_or_drop (k, s, bt__sliding_add (s, &a, j + 1));
 }
 
+/* True if bend Q turns by T, and that is more than a corner of its kind does.  */
+static int
+turns_too_much (const bt__line_job *k, const bt__sliding *s, int q, const bt__turn *t)
+{
+  return bt__sliding_is_single (k, s, q)
+             ? t->angle > BT__TURN_SINGLE
+                   || (t->angle > 0 && !bt__edge_is_thin (k, t->zone - k->config->radius))
+             : t->angle > BT__TURN_MOST + MORE;
+}
+
 static void
 grow (bt__line_job *k, bt__sliding *s, int q)
 {
   bt__edge e;
   bt__turn t = *sliding_turn (k, s, q, &e);
-  if (!e.round || bt__edge_is_thin (k, &e) || t.angle <= BT__TURN_MOST + MORE)
+  if (!e.round || !turns_too_much (k, s, q, &t))
     return;
   const double *rest = bt__dynamic_rest (k->d) + s->node[q];
   int longer = rest[0] >= rest[-1] ? 1 : -1;
@@ -196,9 +203,7 @@ extend (bt__line_job *k, bt__sliding *s, int q, int side)
   int64_t i = s->node[q] + side;
   bt__contact a = s->anchor[q];
   const bt_vec3 *x = bt__dynamic_x (k->d) + i - 1;
-  bt__edge e = { .radius = a.thick };
-  if (a.bent != BT__BENT_ROUND || bt__edge_is_thin (k, &e) || i < 1 || i >= k->d->n
-      || s->n >= BT__BENTS)
+  if (a.bent != BT__BENT_ROUND || i < 1 || i >= k->d->n || s->n >= BT__BENTS)
     return 0;
   bt_vec3 before = bt__turn_normal (a.axis, x), after = bt__turn_normal (a.axis, x + 1);
   if (!(bt__dot (a.axis, bt__cross (before, after)) > BT__BEND_TURNS))
@@ -325,10 +330,9 @@ drop_failed (bt__line_job *k, bt__sliding *s)
 {
   for (int q = s->n - 1; q >= 0; q--)
     {
-      bt__edge e = { .radius = s->anchor[q].thick };
       int64_t *failed = &s->anchor[q].unsolved;
       *failed = k->unsolved ? *failed + 1 : 0;
-      if (k->report->truncated || (*failed >= FAILURES && !bt__edge_is_thin (k, &e)))
+      if (k->report->truncated || (*failed >= FAILURES && !bt__sliding_is_single (k, s, q)))
         bt__sliding_drop (k, s, q);
     }
 }
