@@ -5,11 +5,14 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <string.h>
+
 #include <bight/water.h>
 
 #include "base/error.h"
 #include "math/vec.h"
 #include "model/current.h"
+#include "sea/waves_line.h"
 
 #define SPEED_MAX 20.0
 #define TURN_MAX 1e3 /* rad/m: beyond any meaning, well within the range of sin and cos */
@@ -264,11 +267,10 @@ enum
 
 /* True if the current is the same everywhere but for lees.  */
 static int
-has_lees_alone (const bt_water *water)
+is_open_uniform (const bt_current *current)
 {
-  const bt_current *current = water->current;
-  return water->sea && water->sea->lees && current
-         && (current->kind == BT_CURRENT_UNIFORM || current->kind == BT_CURRENT_TIDE);
+  return !current || current->kind == BT_CURRENT_STILL || current->kind == BT_CURRENT_UNIFORM
+         || current->kind == BT_CURRENT_TIDE;
 }
 
 /* The current at N places P, CHUNK at most.  */
@@ -276,12 +278,13 @@ static void
 currents (const bt_water *water, const bt_vec3 *p, size_t n, bt_vec3 *velocity)
 {
   double share[CHUNK];
-  bt_vec3 v = open_current (water, p[0]);
-  int lees = has_lees_alone (water) && (v.x != 0 || v.y != 0 || v.z != 0);
+  int same = is_open_uniform (water->current);
+  bt_vec3 v = same ? open_current (water, p[0]) : still;
+  int lees = same && water->sea && water->sea->lees && (v.x != 0 || v.y != 0 || v.z != 0);
   if (lees)
     bt_lees_shares (water->sea->lees, v, p, n, share);
   for (size_t i = 0; i < n; i++)
-    velocity[i] = lees ? bt__scale (share[i], v) : bt_water_current (water, p[i]);
+    velocity[i] = lees ? bt__scale (share[i], v) : same ? v : bt_water_current (water, p[i]);
 }
 
 void
@@ -292,6 +295,8 @@ bt_water_motions (const bt_water *water, const bt_vec3 *p, size_t n, bt_vec3 *ve
   int waves = water_has_waves (water);
   if (waves)
     bt_waves_motions (water->sea->waves, p, n, water->time, velocity, acceleration);
+  if (waves && (!water->current || water->current->kind == BT_CURRENT_STILL))
+    return;
   for (size_t i = 0; i < n; i += CHUNK)
     {
       size_t count = n - i < CHUNK ? n - i : CHUNK;
@@ -308,6 +313,15 @@ bt_water_surface (const bt_water *water, bt_vec3 p)
                                  : 0;
 }
 
+void
+bt__water_surfaces (const bt_water *water, const bt_vec3 *p, size_t n, double *height)
+{
+  if (water_has_waves (water))
+    bt__waves_elevations (water->sea->waves, p, n, water->time, height);
+  else
+    memset (height, 0, n * sizeof *height);
+}
+
 double
 bt_water_crest (const bt_water *water)
 {
@@ -320,11 +334,8 @@ bt_water_crest (const bt_water *water)
 int
 bt_water_is_uniform (const bt_water *water)
 {
-  const bt_current *current = water->current;
-  if (water_has_waves (water) || (water->sea && water->sea->lees))
-    return 0;
-  return !current || current->kind == BT_CURRENT_STILL || current->kind == BT_CURRENT_UNIFORM
-         || current->kind == BT_CURRENT_TIDE;
+  return !water_has_waves (water) && !(water->sea && water->sea->lees)
+         && is_open_uniform (water->current);
 }
 
 bt_vec3

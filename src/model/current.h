@@ -26,4 +26,8 @@ int bt__water_next_layer (const bt_water *water, int layer, int up);
    height: beyond the bounds as if the layer went on.  */
 bt_vec3 bt__water_in_layer (const bt_water *water, int layer, double z, bt_vec3 *shear);
 
+/* Write the height of the surface of WATER over each of N places P, m, to HEIGHT: as
+   bt_water_surface, within the accuracy of the waves.  */
+void bt__water_surfaces (const bt_water *water, const bt_vec3 *p, size_t n, double *height);
+
 #endif

@@ -19,6 +19,7 @@
 #define LEVEL_FIRST 0.5 /* by the greatest wave number: the depth of the second level */
 #define LEVEL_RATIO 1.5 /* of the depths of two levels that follow each other */
 #define FEW 2           /* nodes that cost less alone */
+#define TOGETHER 8      /* nodes that are added to a run at once */
 
 /* k times the depth from which on a component does not count.  */
 static double
@@ -103,10 +104,18 @@ height_of (const bt_waves *w, bt_vec3 p)
   return p.z < 0 ? bt__clamp (p.z, -w->depth, 0) : 0;
 }
 
-static run
-run_of_one (const bt_waves *w, bt_vec3 p)
+/* The N places P in the plane of the waves: way, height, and a number that is finite if P is.  */
+static void
+lay_out (const bt_waves *w, const bt_vec3 *p, size_t n, bt_vec3 *laid)
 {
-  double z = height_of (w, p), way = way_of (w, p), next = LEVEL_FIRST / w->k[w->n - 1];
+  for (size_t i = 0; i < n; i++)
+    laid[i] = bt__vec (way_of (w, p[i]), height_of (w, p[i]), p[i].x + p[i].y + p[i].z);
+}
+
+static run
+run_of_one (const bt_waves *w, bt_vec3 laid)
+{
+  double z = laid.y, way = laid.x, next = LEVEL_FIRST / w->k[w->n - 1];
   run r = { z, z, way, way, 0, 0 };
   while (r.level < BT_WAVES_LEVELS - 1 && -z >= next)
     {
@@ -117,14 +126,18 @@ run_of_one (const bt_waves *w, bt_vec3 p)
   return r;
 }
 
+/* R with COUNT places more.  */
 static run
-run_with (const bt_waves *w, run r, bt_vec3 p)
+run_with (run r, const bt_vec3 *laid, size_t count)
 {
-  double z = height_of (w, p), way = way_of (w, p);
-  r.low = z < r.low ? z : r.low;
-  r.top = z > r.top ? z : r.top;
-  r.back = way < r.back ? way : r.back;
-  r.front = way > r.front ? way : r.front;
+  for (size_t i = 0; i < count; i++)
+    {
+      double z = laid[i].y, way = laid[i].x;
+      r.low = z < r.low ? z : r.low;
+      r.top = z > r.top ? z : r.top;
+      r.back = way < r.back ? way : r.back;
+      r.front = way > r.front ? way : r.front;
+    }
   while (r.level > 0 && -r.top < r.depth)
     {
       r.level--;
@@ -133,35 +146,52 @@ run_with (const bt_waves *w, run r, bt_vec3 p)
   return r;
 }
 
-/* False for what is not finite, too.  */
 static int
-is_within_reach (const bt_waves *w, const run *r, bt_vec3 last)
+is_within_reach (const bt_waves *w, const run *r)
 {
   double high = r->top - r->low, wide = r->front - r->back, reach = 2 * w->reach[r->level];
-  return high * high + wide * wide <= reach * reach && isfinite (last.x + last.y + last.z);
+  return high * high + wide * wide <= reach * reach;
 }
 
-/* The number of the N places P, from the first on, that share a series in the box *R.  */
-static size_t
-run_from (const bt_waves *w, const bt_vec3 *p, size_t n, run *r)
+static int
+are_finite (const bt_vec3 *laid, size_t count)
 {
-  size_t count = 1;
-  *r = run_of_one (w, p[0]);
-  if (!isfinite (p[0].x + p[0].y + p[0].z))
+  double sum = 0;
+  for (size_t i = 0; i < count; i++)
+    sum += laid[i].z;
+  return isfinite (sum);
+}
+
+/* The number of the N places LAID, from the first on, that share a series in the box *R: looked for
+   by TOGETHER at a time, the last ones by half as many, and so on.  */
+static size_t
+run_from (const bt_waves *w, const bt_vec3 *laid, size_t n, run *r)
+{
+  size_t count = 1, more = TOGETHER;
+  *r = run_of_one (w, laid[0]);
+  if (!are_finite (laid, 1))
     return 1;
-  for (; count < n; count++)
+  while (count < n)
     {
-      run wider = run_with (w, *r, p[count]);
-      if (!is_within_reach (w, &wider, p[count]))
+      more = more < n - count ? more : n - count;
+      run wider = run_with (*r, laid + count, more);
+      if (is_within_reach (w, &wider) && are_finite (laid + count, more))
+        {
+          *r = wider;
+          count += more;
+        }
+      else if (more > 1)
+        more /= 2;
+      else
         break;
-      *r = wider;
     }
   return count;
 }
 
+/* VELOCITY has the places as they are laid out.  */
 static BT__WIDE void
-orbits_in_run (const bt_waves *w, const run *r, double felt, double t, const bt_vec3 *p, size_t n,
-               bt_vec3 *velocity, bt_vec3 *acceleration)
+orbits_in_run (const bt_waves *w, const run *r, double felt, double t, size_t n, bt_vec3 *velocity,
+               bt_vec3 *acceleration)
 {
   bt__waves_centre at
       = { 0.5 * (r->back + r->front), 0.5 * (r->low + r->top), t, r->low, r->top, felt };
@@ -171,9 +201,7 @@ orbits_in_run (const bt_waves *w, const run *r, double felt, double t, const bt_
   bt__waves_series_make (&terms, &s);
   for (size_t i = 0; i < n; i++)
     {
-      double way = w->east * p[i].x + w->north * p[i].y;
-      double z = p[i].z < 0 ? (p[i].z > -w->depth ? p[i].z : -w->depth) : 0;
-      bt__orbit o = bt__waves_series_at (&s, z - at.z, way - at.way);
+      bt__orbit o = bt__waves_series_at (&s, velocity[i].y - at.z, velocity[i].x - at.way);
       velocity[i] = (bt_vec3){ o.along * w->east, o.along * w->north, o.up };
       acceleration[i] = (bt_vec3){ o.along2 * w->east, o.along2 * w->north, o.up2 };
     }
@@ -185,14 +213,67 @@ bt_waves_motions (const bt_waves *w, const bt_vec3 *p, size_t n, double t, bt_ve
 {
   int shared = w->accuracy > 0 && w->n > BT__FOUR && isfinite (t);
   double felt = shared ? felt_to (w) : 0;
+  if (shared)
+    lay_out (w, p, n, velocity);
   for (size_t i = 0, count; i < n; i += count)
     {
       run r;
-      count = shared ? run_from (w, p + i, n - i, &r) : 1;
+      count = shared ? run_from (w, velocity + i, n - i, &r) : 1;
       if (count > FEW)
-        orbits_in_run (w, &r, felt, t, p + i, count, velocity + i, acceleration + i);
+        orbits_in_run (w, &r, felt, t, count, velocity + i, acceleration + i);
       else
         for (size_t k = i; k < i + count; k++)
           bt_waves_motion (w, p[k], t, velocity + k, acceleration + k);
+    }
+}
+
+/* ---- The surface ---- */
+
+static BT__WIDE void
+heights_in_run (const bt_waves *w, double middle, double t, const bt_vec3 *p, size_t n,
+                double *height)
+{
+  double c[BT__WAVES_ORDER];
+  bt__waves_height_make (w, middle, t, c);
+  for (size_t i = 0; i < n; i++)
+    height[i] = bt__waves_height_at (c, w->east * p[i].x + w->north * p[i].y - middle);
+}
+
+/* The number of the N places P, from the first on, that share a series of the surface about
+   *MIDDLE.  What is left out of the surface is no greater a share of it than what is left out of
+   the velocity is of that, for the shorter a wave is, the more it is left out, and the faster it
+   is. */
+static size_t
+level_run (const bt_waves *w, const bt_vec3 *p, size_t n, double *middle)
+{
+  size_t count = 1;
+  double back = way_of (w, p[0]), front = back;
+  while (count < n)
+    {
+      double way = way_of (w, p[count]), low = way < back ? way : back;
+      double high = way > front ? way : front;
+      if (!(high - low <= 2 * w->reach[0]) || !isfinite (way))
+        break;
+      back = low;
+      front = high;
+      count++;
+    }
+  *middle = 0.5 * (back + front);
+  return count;
+}
+
+void
+bt__waves_elevations (const bt_waves *w, const bt_vec3 *p, size_t n, double t, double *height)
+{
+  int shared = w->accuracy > 0 && w->n > BT__FOUR && isfinite (t);
+  for (size_t i = 0, count; i < n; i += count)
+    {
+      double middle = 0;
+      count = shared ? level_run (w, p + i, n - i, &middle) : 1;
+      if (count > FEW)
+        heights_in_run (w, middle, t, p + i, count, height + i);
+      else
+        for (size_t k = i; k < i + count; k++)
+          height[k] = bt_waves_elevation (w, p[k].x, p[k].y, t);
     }
 }

@@ -125,19 +125,29 @@ lump_between (bt__dynamic_work *w, const bt__dynamic_lump *lump, double u, doubl
 }
 
 /* Water that is accelerated pushes on what it displaces, any way, for the tension is the effective
-   one; and across the line on its added mass.  */
+   one; and across the line on its added mass: two nodes side by side.  */
 static void
 push_by_waves (bt__dynamic_work *w)
 {
   const bt__dynamic_input *in = w->in;
+  const bt_vec3 *x = w->x;
   double d = in->line->diameter, displaced = in->water->density * BT__PI / 4 * d * d;
-  for (int i = 0; i <= w->n; i++)
+  bt__pair all = { displaced + w->ma, displaced + w->ma }, added = { w->ma, w->ma };
+  bt__pair none = { 0, 0 }, most = { INFINITY, INFINITY };
+  for (int i = 0; i <= w->n; i += 2)
     {
-      bt_vec3 a = w->keep[i];
-      bt_vec3 chord = bt__sub (w->x[i < w->n ? i + 1 : i], w->x[i > 0 ? i - 1 : i]);
-      bt_vec3 t = bt__unit_or (chord, bt__vec (0, 0, 0));
-      bt_vec3 push = bt__axpy (bt__scale (displaced + w->ma, a), -w->ma * bt__dot (a, t), t);
-      w->extra[i].force = bt__axpy (w->extra[i].force, w->node[i].wet, push);
+      int j = i < w->n ? i + 1 : i, after = j < w->n ? j + 1 : j, before = i > 0 ? i - 1 : i;
+      bt__extra *p = w->extra + i, *q = w->extra + j;
+      bt__pair_vec a = bt__pair_load (w->keep + i, w->keep + j);
+      bt__pair_vec chord = bt__pair_sub (bt__pair_load (x + j, x + after),
+                                         bt__pair_load (x + before, x + (i < j ? i : before)));
+      bt__pair size = bt__pair_dot (chord, chord);
+      bt__pair along = added * bt__pair_dot (a, chord) / size;
+      along = bt__pair_where ((size > none) & (size < most), along);
+      bt__pair wet = { w->node[i].wet, w->node[j].wet };
+      bt__pair_vec push = bt__pair_axpy (bt__pair_scale (all, a), -along, chord);
+      bt__pair_store (&p->force, &q->force,
+                      bt__pair_axpy (bt__pair_load (&p->force, &q->force), wet, push));
     }
 }
 

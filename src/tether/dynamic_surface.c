@@ -13,7 +13,13 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include "model/current.h"
 #include "tether/dynamic_kernel.h"
+
+enum
+{
+  CHUNK = 64 /* nodes whose surface is asked for at once */
+};
 
 #define LAYER 0.1 /* m */
 #define LEVEL 0.5 /* of the layer: an interval that rises less is integrated by points */
@@ -117,26 +123,43 @@ air_in (const bt__dynamic_work *w, int j)
 
 /* ---- What a step knows ---- */
 
+/* Ask for the surface at nodes FROM to TO.  */
+static void
+ask_levels (bt__dynamic_work *w, int from, int to)
+{
+  double level[CHUNK];
+  for (int i = from; i <= to; i += CHUNK)
+    {
+      int count = to - i < CHUNK ? to - i + 1 : CHUNK;
+      bt__water_surfaces (w->in->water, w->X + i, (size_t)count, level);
+      for (int k = 0; k < count; k++)
+        w->node[i + k].level = level[k];
+    }
+}
+
 /* Ask for the surface at the nodes of intervals near the surface, note the intervals, and return
    true if there are any.  */
 static int
 find_levels (bt__dynamic_work *w)
 {
-  const bt_water *water = w->in->water;
-  double trough = -bt_water_crest (water);
-  int any = 0, before = 0;
+  double trough = -bt_water_crest (w->in->water);
+  int any = 0, asked = -1, n = w->n; /* ASKED: the last node that was */
   w->near_from = w->near_to = 0;
-  for (int i = 0; i <= w->n; i++)
+  for (int i = 0; i <= n; i++)
     {
-      int near = w->X[i].z > trough, after = i < w->n && w->X[i + 1].z > trough;
-      if (near || before || after)
-        w->node[i].level = bt_water_surface (water, w->X[i]);
-      if (near && !any)
-        w->near_from = i > 0 ? i - 1 : 0;
-      if (near)
-        w->near_to = i < w->n ? i + 1 : w->n;
-      any |= near;
-      before = near;
+      int first = i > 0 ? i - 1 : 0, last = i;
+      if (!(w->X[i].z > trough))
+        continue;
+      while (last < n && w->X[last + 1].z > trough)
+        last++;
+      i = last;
+      last = last < n ? last + 1 : n;
+      ask_levels (w, first > asked ? first : asked + 1, last);
+      asked = last;
+      if (!any)
+        w->near_from = first;
+      w->near_to = last;
+      any = 1;
     }
   return any;
 }

@@ -15,6 +15,7 @@
 
 #include "clones.h"
 #include "math/vec.h"
+#include "sea/waves_line.h"
 #include "sea/waves_series.h"
 #include "sea/waves_sum.h"
 
@@ -264,8 +265,8 @@ test_clones (void **state)
 
 typedef struct shared
 {
-  double velocity, acceleration; /* the largest error, by what the accuracy allows */
-  int series;                    /* places that differ at all from those asked alone */
+  double velocity, acceleration, height; /* the largest error, by what the accuracy allows */
+  int series, heights;                   /* places that differ at all from those asked alone */
 } shared;
 
 enum
@@ -292,17 +293,22 @@ static void
 compare_shared (const bt_waves *w, const bt_vec3 *p, double t, shared *worst)
 {
   bt_vec3 v[PLACES], a[PLACES], v0, a0;
-  double speed = 0, gain = 0;
+  double speed = 0, gain = 0, crest = 0, height[PLACES];
   for (int i = 0; i < w->n; i++)
     {
+      crest += w->amplitude[i];
       speed += w->speed[i];
       gain += w->speed[i] * w->omega[i];
     }
   bt_waves_motions (w, p, PLACES, t, v, a);
+  bt__waves_elevations (w, p, PLACES, t, height);
   for (int i = 0; i < PLACES; i++)
     {
       bt_waves_motion (w, p[i], t, &v0, &a0);
       double off = bt__distance (v[i], v0), off2 = bt__distance (a[i], a0);
+      double off0 = fabs (height[i] - bt_waves_elevation (w, p[i].x, p[i].y, t));
+      worst->height = fmax (worst->height, off0 / (w->accuracy * crest));
+      worst->heights += off0 > 0;
       worst->velocity = fmax (worst->velocity, off / (w->accuracy * speed));
       worst->acceleration = fmax (worst->acceleration, off2 / (w->accuracy * gain));
       worst->series += off > 0;
@@ -318,7 +324,7 @@ test_shared (void **state)
   static const double accuracy[] = { 0.1, 1e-2, 1e-3, 1e-4, 1e-6 }, depth[] = { 2.5, 12, 60, 2000 };
   for (int n = 0; n < 5; n++)
     {
-      shared worst = { 0, 0, 0 };
+      shared worst = { 0 };
       for (int d = 0; d < 4; d++)
         for (int seed = 1; seed <= 24; seed++)
           {
@@ -329,10 +335,11 @@ test_shared (void **state)
             places_along (&w, pow (10, -2 + seed % 4), seed, p);
             compare_shared (&w, p, 1e3 * seed, &worst);
           }
-      if (!(worst.velocity <= 1 && worst.acceleration <= 1))
-        fail_msg ("accuracy %g: %g and %g of it", accuracy[n], worst.velocity, worst.acceleration);
-      assert_true (worst.velocity > 1e-3 && worst.acceleration > 1e-3);
-      assert_true (worst.series > 96 * PLACES / 4);
+      if (!(worst.velocity <= 1 && worst.acceleration <= 1 && worst.height <= 1))
+        fail_msg ("accuracy %g: %g, %g and %g of it", accuracy[n], worst.velocity,
+                  worst.acceleration, worst.height);
+      assert_true (worst.velocity > 1e-3 && worst.acceleration > 1e-3 && worst.height > 1e-4);
+      assert_true (worst.series > 96 * PLACES / 4 && worst.heights > 96 * PLACES / 4);
     }
 }
 
@@ -348,10 +355,13 @@ test_exact (void **state)
   for (int n = 0; n < 3; n++)
     {
       bt_vec3 p[PLACES], v[PLACES], a[PLACES], v0, a0;
+      double height[PLACES];
       places_along (&seas[n], n < 2 ? 0.1 : 40, 3, p);
       bt_waves_motions (&seas[n], p, PLACES, 9, v, a);
+      bt__waves_elevations (&seas[n], p, PLACES, 9, height);
       for (int i = 0; i < PLACES; i++)
         {
+          assert_true (height[i] == bt_waves_elevation (&seas[n], p[i].x, p[i].y, 9));
           bt_waves_motion (&seas[n], p[i], 9, &v0, &a0);
           assert_memory_equal (&v0, &v[i], sizeof v0);
           assert_memory_equal (&a0, &a[i], sizeof a0);
@@ -375,11 +385,16 @@ test_shared_not_finite (void **state)
   for (int n = 0; n < 9; n++)
     {
       bt_vec3 p[PLACES], v[PLACES], a[PLACES];
+      double height[PLACES];
       places_along (&w, 0.1, 3, p);
       *(n / 3 == 0 ? &p[20].x : n / 3 == 1 ? &p[20].y : &p[20].z) = bad[n % 3];
       bt_waves_motions (&w, p, PLACES, 9, v, a);
+      bt__waves_elevations (&w, p, PLACES, 9, height);
       for (int i = 0; i < PLACES; i++)
-        assert_true (bt__is_finite (v[i]) == (i != 20) && bt__is_finite (a[i]) == (i != 20));
+        {
+          assert_true (bt__is_finite (v[i]) == (i != 20) && bt__is_finite (a[i]) == (i != 20));
+          assert_true ((isfinite (height[i]) != 0) == (i != 20 || n / 3 == 2));
+        }
       bt_waves_motions (&w, p, 1, NAN, v, a);
       assert_false (bt__is_finite (v[0]) || bt__is_finite (a[0]));
     }
