@@ -1,11 +1,12 @@
-/* A glide: a step of the dive in which all its lines are ahead of the present, taken in place.
+/* A glide: a step of the dive in which all its lines are ahead of the present, or all at rest,
+   taken in place.
 
-   Where every line was solved ahead, what is left of a step in open water is to move the vehicles,
-   to see that they are where the lines were told, and to count.  A copy of the state for that is
-   dearer than all the rest, so the present itself is written to, once nothing can refuse the step
-   any more.  Any doubt (an end elsewhere, an arrival, a line about to be taut) leaves the present
-   as it was, and the step is taken as any other: with the same outcome to the bit, for each
-   quantity is found by the function that finds it there.
+   Where every line was solved ahead, or none moves, what is left of a step in open water is to move
+   the vehicles, to see that they are where the lines were told, or where they were, and to count.
+   A copy of the state for that is dearer than all the rest, so the present itself is written to,
+   once nothing can refuse the step any more.  Any doubt (an end elsewhere, an arrival, a line about
+   to be taut) leaves the present as it was, and the step is taken as any other: with the same
+   outcome to the bit, for each quantity is found by the function that finds it there.
 
    An operation on the sea, a tether or an obstacle ends all stretches (ops.c), so that within one
    only vehicles and their orders can have changed.
@@ -17,6 +18,7 @@
 #include "math/vec.h"
 #include "sim/around.h"
 #include "sim/chain.h"
+#include "sim/form_step.h"
 
 /* ---- May it be? ---- */
 
@@ -24,12 +26,49 @@
 static int
 are_all_ahead (const bt_dive *dive)
 {
-  int all = dive->model->n_tethers > 0;
+  int all = 1;
   for (int i = 0; all && i < dive->model->n_tethers; i++)
     {
       const bt__tether *tether = bt__dive_tether (dive, dive->now, i);
       all = bt__is_ahead (tether) && tether->stretch.gone + 1 < tether->stretch.span;
     }
+  return all;
+}
+
+/* True if no vehicle at an end of tether I moved in the last step.  */
+static int
+do_ends_stand (const bt_dive *dive, int i)
+{
+  int all = 1;
+  for (int k = 0; k < 2; k++)
+    {
+      int v = dive->model->ends[i][k].vehicle;
+      bt_vec3 u = v < 0 ? bt__vec (0, 0, 0) : bt__dive_vehicle (dive, dive->now, v)->velocity;
+      all &= u.x == 0 && u.y == 0 && u.z == 0;
+    }
+  return all;
+}
+
+/* True if TETHER, I of the present, is asleep, its winch still, and it touches nothing; or has a
+   static shape that is no spring, which could slip.  */
+static int
+may_rest (const bt_dive *dive, const bt__tether *tether, int i)
+{
+  if (bt__tether_form_of (tether) != bt__wanted_form (dive, tether) || tether->winch_rate != 0
+      || !do_ends_stand (dive, i))
+    return 0;
+  if (!bt__is_cable (tether))
+    return !bt__is_spring (tether);
+  return tether->quiet >= BT__SLEEP_AFTER && !tether->parted && !bt__is_ahead (tether)
+         && bt__dive_anchors (dive, dive->now, i, 0)->n == 0;
+}
+
+static int
+may_all_rest (const bt_dive *dive)
+{
+  int all = 1;
+  for (int i = 0; all && i < dive->model->n_tethers; i++)
+    all = may_rest (dive, bt__dive_tether (dive, dive->now, i), i);
   return all;
 }
 
@@ -77,20 +116,59 @@ move_back (bt_dive *dive)
 
 /* ---- Lines ---- */
 
-/* True if every line can go on with its ends where the moved vehicles have them: it is not taut,
-   and its stretch holds.  */
+/* True if no end of tether I has another heading than before the vehicles moved.  */
 static int
-do_all_hold (const bt_dive *dive)
+keeps_headings (const bt_dive *dive, int i)
+{
+  int all = 1;
+  for (int k = 0; k < 2; k++)
+    {
+      int v = dive->model->ends[i][k].vehicle;
+      all &= v < 0
+             || bt__dive_vehicle (dive, dive->now, v)->heading
+                    == bt__dive_vehicle (dive, dive->next, v)->heading;
+    }
+  return all;
+}
+
+/* True if tether I, not taut, goes on with its ends at ENDS, where the moved vehicles have them:
+   its stretch holds, or, at REST, nothing has changed.  */
+static int
+does_hold (const bt_dive *dive, int i, const bt__ends *ends, int rest)
+{
+  const bt__tether *tether = bt__dive_tether (dive, dive->now, i);
+  if (tether->taut || bt__is_chord_taut (tether, ends))
+    return 0;
+  if (!rest)
+    return bt__are_ends_foreseen (dive, dive->now, i, ends);
+  return keeps_headings (dive, i)
+         && (bt__is_cable (tether) ? bt__is_unchanged (dive, dive->now, tether, ends)
+                                   : bt__step_shape.rests (dive, dive->now, i, ends));
+}
+
+static int
+do_all_hold (const bt_dive *dive, int rest)
 {
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
-      const bt__tether *tether = bt__dive_tether (dive, dive->now, i);
       bt__ends ends = bt__tether_ends (dive, dive->now, i);
-      if (tether->taut || bt__is_chord_taut (tether, &ends)
-          || !bt__are_ends_foreseen (dive, dive->now, i, &ends))
+      if (!does_hold (dive, i, &ends, rest))
         return 0;
     }
   return 1;
+}
+
+/* Go on with tether I, which holds.  */
+static void
+go_on (bt_dive *dive, int i, int rest)
+{
+  bt__ends ends = bt__tether_ends (dive, dive->now, i);
+  if (!rest)
+    bt__go_on_within (dive, dive->now, i, &ends);
+  else if (!bt__is_cable (bt__dive_tether (dive, dive->now, i)))
+    dive->profile.shape_skips++;
+  else
+    dive->profile.chain_sleeps++;
 }
 
 /* Take the present on by a step in place and return true; or leave it as it is.  */
@@ -98,21 +176,20 @@ static int
 glides (bt_dive *dive)
 {
   bt__state *now = dive->now;
-  if (dive->model->n_obstacles > 0 || dive->model->n_hulls > 0 || !are_all_ahead (dive)
-      || !are_all_kinematic (dive) || bt__ask (&dive->asker))
+  if (dive->model->n_obstacles > 0 || dive->model->n_hulls > 0)
+    return 0;
+  int rest = !are_all_ahead (dive);
+  if ((rest && !may_all_rest (dive)) || !are_all_kinematic (dive) || bt__ask (&dive->asker))
     return 0;
   now->step++;
-  if (!move (dive) || !do_all_hold (dive))
+  if (!move (dive) || !do_all_hold (dive, rest))
     {
       now->step--;
       move_back (dive);
       return 0;
     }
   for (int i = 0; i < dive->model->n_tethers; i++)
-    {
-      bt__ends ends = bt__tether_ends (dive, now, i);
-      bt__go_on_within (dive, now, i, &ends);
-    }
+    go_on (dive, i, rest);
   bt__note_all_partings (dive, now);
   bt__note_stuck (dive, now);
   dive->changes++;

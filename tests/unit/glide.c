@@ -103,6 +103,18 @@ order (bt_dive *dive[2], uint64_t *seed)
     }
 }
 
+/* The kept events of KIND of DIVE.  */
+static uint64_t
+events_of (const bt_dive *dive, bt_event_kind kind)
+{
+  bt_event event[BT_EVENTS_KEPT];
+  int n = bt_dive_events (dive, 0, event);
+  uint64_t sum = 0;
+  for (int e = 0; e < n; e++)
+    sum += event[e].kind == (int64_t)kind;
+  return sum;
+}
+
 static void
 test_in_place_and_aside_are_alike (void **state)
 {
@@ -125,17 +137,98 @@ test_in_place_and_aside_are_alike (void **state)
       bt_profile p = profile_of (dive[0]), q = profile_of (dive[1]);
       assert_memory_equal (&p, &q, sizeof p);
       stretched += p.chain_stretched;
-      for (int64_t e = 0; e < bt_dive_event_count (dive[0]); e++)
-        {
-          bt_event event;
-          bt_dive_events (dive[0], e, &event);
-          arrived += event.kind == BT_EVENT_ARRIVED;
-        }
+      arrived += events_of (dive[0], BT_EVENT_ARRIVED);
       bt_dive_free (dive[0]);
       bt_dive_free (dive[1]);
     }
   assert_true (stretched > SCENES * STEPS / 4);
   assert_true (arrived > SCENES / 8);
+}
+
+/* A vehicle on a line that hangs: asleep, of few intervals, twisted or clamped; static; or none. */
+static bt_dive *
+begin_at_rest (uint64_t *seed)
+{
+  static scene s;
+  int kind = one_of (seed, 4);
+  scene_clear (&s);
+  scene_vehicle (&s, bt__vec (12, 0, -20));
+  if (kind > 0)
+    {
+      bt_tether_def *line = scene_line (&s, bt__vec (0, 0, -20), lot (seed, 13, 20), 4);
+      line->props.wet_weight = 0.2;
+      line->props.model = kind == 1 ? BT_MODEL_CATENARY : BT_MODEL_DYNAMIC;
+      line->props.ei = kind == 3 ? 0.02 : 0;
+      line->props.gj = kind == 3 ? 1 : 0;
+      if (kind == 3)
+        line->along[0] = bt__vec (0.5, 0, -1);
+    }
+  scene_vehicle (&s, bt__vec (5, 5, -20));
+  if (one_of (seed, 2))
+    scene_line (&s, bt__vec (0, 5, -20), 30, 20)->props.model = BT_MODEL_CATENARY;
+  return scene_begin (&s.world);
+}
+
+/* Step DIVE aside until its first line sleeps, if it is one that moves, and it does so soon.  */
+static void
+put_to_sleep (bt_dive *dive)
+{
+  bt_error error;
+  for (int k = 0; k < 60 * STEPS; k++)
+    {
+      const bt__tether *line
+          = dive->model->n_tethers > 0 ? bt__dive_tether (dive, dive->now, 0) : NULL;
+      if (!line || !bt__is_awake (line))
+        return;
+      scene_must (bt__step_aside (dive, &error), &error);
+    }
+}
+
+/* True if the last step of DIVE was taken in place: WAS is the present before it.  */
+static int
+is_in_place (const bt_dive *dive, const bt__state *was)
+{
+  return dive->now == was;
+}
+
+static void
+test_rest_in_place_and_aside_are_alike (void **state)
+{
+  (void)state;
+  uint64_t in_place = 0, slept = 0, skipped = 0, hockled = 0;
+  for (uint64_t f = 1; f <= SCENES; f++)
+    {
+      uint64_t one = f, two = f;
+      bt_dive *dive[2] = { begin_at_rest (&one), begin_at_rest (&two) };
+      put_to_sleep (dive[0]);
+      put_to_sleep (dive[1]);
+      for (int k = 0; k < 6 * STEPS; k++)
+        {
+          bt_error error;
+          if (f % 4 != 0 && k % (3 * STEPS) == 2 * STEPS)
+            order (dive, &one);
+          for (int m = 0; m < 2; m++)
+            if (k % (3 * STEPS) == 2 * STEPS + 60)
+              (void)bt_vehicle_drive (dive[m], 0, &(bt_sticks){ 0 }, &error);
+            else if (f % 4 == 0 && k == STEPS) /* it turns on the spot */
+              (void)bt_vehicle_drive (dive[m], 0, &(bt_sticks){ .yaw = 0.5 }, &error);
+          const bt__state *was = dive[0]->now;
+          scene_must (bt_dive_step (dive[0], &error), &error);
+          scene_must (bt__step_aside (dive[1], &error), &error);
+          in_place += (uint64_t)is_in_place (dive[0], was);
+          if (k % 10 == 0 && bt_dive_hash (dive[0]) != bt_dive_hash (dive[1]))
+            fail_msg ("scene %d, step %d", (int)f, k);
+        }
+      bt_profile p = profile_of (dive[0]), q = profile_of (dive[1]);
+      assert_memory_equal (&p, &q, sizeof p);
+      slept += p.chain_sleeps;
+      skipped += p.shape_skips;
+      hockled += events_of (dive[0], BT_EVENT_HOCKLED);
+      bt_dive_free (dive[0]);
+      bt_dive_free (dive[1]);
+    }
+  assert_true (in_place > SCENES * STEPS && slept > SCENES * STEPS / 4);
+  assert_true (skipped > SCENES * STEPS && hockled > 0);
 }
 
 /* Who is asked whether to go on is asked in such steps too.  */
@@ -171,6 +264,7 @@ main (void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test (test_in_place_and_aside_are_alike),
+    cmocka_unit_test (test_rest_in_place_and_aside_are_alike),
     cmocka_unit_test (test_it_can_be_interrupted),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
