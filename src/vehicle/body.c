@@ -59,9 +59,13 @@ settled (const job *j, int k)
 {
   const bt__thruster *t = &j->type->thruster[k];
   double nominal = j->type->volts, volts = j->in->volts > 0 ? j->in->volts : nominal;
+  double wish = j->in->wish[k];
   if (j->in->lost >> k & 1)
     return 0;
-  return drowned (j, k) * bt__thruster_push (t, nominal, volts, j->in->wish[k]);
+  /* Commands are made for the nominal voltage.  */
+  if (volts == nominal && !(t->dead > 0))
+    return drowned (j, k) * bt__thruster_nearest (t, volts, wish);
+  return drowned (j, k) * bt__thruster_force (t, volts, bt__thruster_command (t, nominal, wish));
 }
 
 /* First-order lag, exact for a command held over the step: the mean of the step, and *END.  */

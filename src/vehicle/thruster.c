@@ -219,11 +219,9 @@ bt__thruster_command (const bt__thruster *thruster, double volts, double force)
 }
 
 double
-bt__thruster_push (const bt__thruster *thruster, double nominal, double volts, double wish)
+bt__thruster_nearest (const bt__thruster *thruster, double volts, double force)
 {
-  if (volts != nominal || thruster->dead > 0)
-    return bt__thruster_force (thruster, volts, bt__thruster_command (thruster, nominal, wish));
-  double f = bt__clamp (wish, -thruster->astern, thruster->ahead);
+  double f = bt__clamp (force, -thruster->astern, thruster->ahead);
   if (thruster->map != BT_MAP_T200)
     return f;
   column c = column_of (volts);

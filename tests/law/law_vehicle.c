@@ -328,21 +328,20 @@ test_t200 (void **state)
       }
 }
 
-/* What a wish becomes at a battery's voltage is the force of the command for the wish: with the
-   chart, with a square law, and with a square law that has a dead band.  */
+/* The nearest force that a thruster can give is the force of the command for the wish: with the
+   chart, and with a square law.  */
 static void
-test_push (void **state)
+test_nearest (void **state)
 {
   (void)state;
-  bt__thruster t[3] = { type_of ("bluerov2-heavy").thruster[0] };
-  t[1] = t[2] = (bt__thruster){ .map = BT_MAP_SQUARE, .ahead = 80, .astern = 50 };
-  t[2].dead = 0.2;
-  for (int k = 0; k < 3; k++)
+  bt__thruster t[2] = { type_of ("bluerov2-heavy").thruster[0] };
+  t[1] = (bt__thruster){ .map = BT_MAP_SQUARE, .ahead = 80, .astern = 50 };
+  for (int k = 0; k < 2; k++)
     for (double volts = 9; volts < 22; volts += 0.5)
       for (double f = -90; f < 90; f += 0.37)
-        assert_close (bt__thruster_push (&t[k], 16, volts, f),
-                      bt__thruster_force (&t[k], volts, bt__thruster_command (&t[k], 16, f)), 1e-12,
-                      "push");
+        assert_close (bt__thruster_nearest (&t[k], volts, f),
+                      bt__thruster_force (&t[k], volts, bt__thruster_command (&t[k], volts, f)), 1e-9,
+                      "nearest");
 }
 
 /* First-order lag, exact at the ends of steps: f = F (1 - exp (-t/tau)), and as much impulse.  */
@@ -514,7 +513,7 @@ main (void)
     cmocka_unit_test (test_current_and_acceleration),
     cmocka_unit_test (test_floats),
     cmocka_unit_test (test_t200),
-    cmocka_unit_test (test_push),
+    cmocka_unit_test (test_nearest),
     cmocka_unit_test (test_lag),
     cmocka_unit_test (test_allocation),
     cmocka_unit_test (test_turns),
