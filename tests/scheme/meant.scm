@@ -85,10 +85,19 @@
   (expect (answer-to 'xyzzyx) is (lambda (text) (not (string-contains text "did you mean")))))
 
 (define-scenario a-word-of-a-name
-  "Of a single word that is near no name, the names that have it are told, the shortest first."
+  "Of a single word that names have, the names are told, the shortest first, and not another word that it is like."
   (expect (string-suffix? "; there is `cut-tether!'" (answer-to '(cut!))) => #t)
   (expect (string-suffix? "; there is `haul-prospect'" (answer-to '(prospect))) => #t)
+  (expect (string-suffix? "variable: altitude; there are `rov-altitude', `hold-altitude!'" (answer-to '(altitude)))
+          => #t)
+  (expect (string-contains (answer-to '(current)) "(describe 'sea); there are `current!'") is identity)
+  (expect (string-contains (answer-to '(tension)) "(measure! #:tension ...)?; there are `tension-at'") is identity)
   (expect (string-contains (answer-to '(quux!)) "there ") => #f))
+
+(define-scenario a-subject-is-counted
+  "How many arguments were given is told of all of them, the name of a tether too."
+  (in pile)
+  (expect (string-contains (answer-to '(cut-tether! 'line 10)) "2 arguments were given") is identity))
 
 (define-scenario a-field-written-as-a-name
   "A field of parts is no variable: which part has it is told."

@@ -160,10 +160,11 @@ to the expressions that stand for them when they are left out."
                  ((1) "one argument was")
                  (else (simple-format #f "~a arguments were" n)))))
 
-(define (check-count s n)
+(define (check-count s n given)
+  ;; Are N the arguments that the verb of S takes beside its subject and keywords?  GIVEN counts the subject, too.
   (unless (and (<= (signature-least s) n)
                (or (not (signature-most s)) (<= n (signature-most s))))
-    (usage-error s n)))
+    (usage-error s given)))
 
 (define (check-one s parameter value)
   "Return the canonical form of VALUE, given for PARAMETER, a pair (NAME . TYPE), of the verb with the
@@ -204,7 +205,7 @@ required, optional, keys, rest; those left out are `absent'.  Raise a &bight-err
                       (subject-among? s others)))
          (others* (if named? (cdr others) others))
          (subject (and named? (find-subject s (car others)))))
-    (check-count s (length others*))
+    (check-count s (length others*) (length others))
     (let* ((keywords (arrange-keywords s values))
            (arranged (arrange-positional s others* keywords)))
       (cons (or subject (find-subject s #f)) arranged))))

@@ -241,6 +241,9 @@ of which name each other; then, while these are few, what has a word in common w
   (delete-duplicates (append (about text) (append-map about (or (assoc-ref other-words (string-downcase text)) '())))
                      eq?))
 
+(define (times n)
+  (if (= n 1) "once" (simple-format #f "~a times" n)))
+
 (define (found-lines text)
   ;; What is known about TEXT, or the empty list.
   (let ((names (names-about text)) (sections (sections-about text)))
@@ -249,7 +252,7 @@ of which name each other; then, while these are few, what has a word in common w
             (if (null? sections)
                 '()
                 (cons "In the manual, `info bight':"
-                      (map (lambda (section) (simple-format #f "  ~a (~a times)" (car section) (cdr section)))
+                      (map (lambda (section) (simple-format #f "  ~a (~a)" (car section) (times (cdr section))))
                            (take-up-to 6 sections)))))))
 
 (define (unknown word)

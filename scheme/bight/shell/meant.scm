@@ -96,7 +96,7 @@ some more than once."
 (define (nearest-hint name)
   (let* ((quoted (append-map cdr (quoted-names)))
          (near (nearest name (append (known-variables) quoted))))
-    (cond ((not near) (by-a-word-hint name))
+    (cond ((not near) "")
           ((eq? near name) "; (use-modules (bight)) gives that name")
           ((module-variable (current-module) near) (simple-format #f "; did you mean `~a'?" near))
           ((memq near quoted)
@@ -112,13 +112,15 @@ some more than once."
     (and (pair? heads)
          (simple-format #f "; `~a' is a field of `~a': (describe '~a)" name (car heads) (car heads)))))
 
+(define (keyword-hint name)
+  (let* ((keyword (as-keyword name)) (verb (verb-with keyword)))
+    (and verb (simple-format #f "; did you mean ~s, as in (~a ~s ...)?" keyword verb keyword))))
+
 (define (unbound-hint name)
   "Return what is to be added to the news that NAME, a symbol, is no variable: what was meant, or nothing."
-  (let ((meaning (quoted-meaning name))
-        (verb (verb-with (as-keyword name))))
-    (cond (meaning
-           (simple-format #f "; ~a is ~a: did you mean '~a?" name meaning name))
-          (verb
-           (let ((keyword (as-keyword name)))
-             (simple-format #f "; did you mean ~s, as in (~a ~s ...)?" keyword verb keyword)))
-          (else (or (field-hint name) (nearest-hint name))))))
+  ;; A word that names have is no slip of another.
+  (let ((meaning (quoted-meaning name)) (by-a-word (by-a-word-hint name)))
+    (cond (meaning (simple-format #f "; ~a is ~a: did you mean '~a?" name meaning name))
+          ((or (keyword-hint name) (field-hint name)) => (lambda (hint) (string-append hint by-a-word)))
+          ((string-null? by-a-word) (nearest-hint name))
+          (else by-a-word))))
