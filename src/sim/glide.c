@@ -158,9 +158,9 @@ do_all_hold (const bt_dive *dive, int rest)
   return 1;
 }
 
-/* Go on with tether I, which holds.  */
+/* Take tether I, which holds, on.  */
 static void
-go_on (bt_dive *dive, int i, int rest)
+take_on (bt_dive *dive, int i, int rest)
 {
   bt__ends ends = bt__tether_ends (dive, dive->now, i);
   if (!rest)
@@ -189,7 +189,7 @@ glides (bt_dive *dive)
       return 0;
     }
   for (int i = 0; i < dive->model->n_tethers; i++)
-    go_on (dive, i, rest);
+    take_on (dive, i, rest);
   bt__note_all_partings (dive, now);
   bt__note_stuck (dive, now);
   dive->changes++;
