@@ -244,8 +244,13 @@ cat >chained.scm <<'SCM'
   (leg 3))
 SCM
 "$pre" bight test chained.scm >out 2>err
-grep -q 'drive!: .* (in leg, called from chained.scm:7)$' out
-result $? 'so does a test'
+grep -q '^#  *chained.scm:3 in leg: (drive! #:surge surge)))$' out && grep -q '^#  *chained.scm:7: (leg 3))$' out
+result $? 'a test tells each with its source'
+
+"$pre" bight -c '(/ 1 0)' >out 2>err
+echo '(/ 1 0)' | "$pre" bight 2>>err
+[ "$(grep -c '^bight: .*divide: a division by zero$' err)" = 2 ]
+result $? 'a division by zero is called so'
 
 cat >claimed.scm <<'SCM'
 (define (half x)

@@ -5,9 +5,12 @@
 (define-module (bight core told)
   #:use-module (bight core errors)
   #:use-module ((bight core here) #:select (place-of chain-of))
+  #:use-module ((ice-9 rdelim) #:select (read-line))
   #:use-module (srfi srfi-1)
   #:export (source-location
             location->string
+            source-line
+            frame->line
             chain->string
             chain-suffix
             code->string
@@ -43,6 +46,22 @@
       (string-append (near-name (car location)) ":" (number->string (cdr location)))
       "at the prompt"))
 
+(define (source-line place)
+  "Return the line of the file at PLACE, (FILE . LINE), without the blanks about it; \"\" if it cannot be read."
+  (or (false-if-exception
+       (call-with-input-file (car place)
+         (lambda (port)
+           (do ((i 1 (+ i 1)))
+               ((= i (cdr place)) (string-trim-both (read-line port)))
+             (read-line port)))))
+      ""))
+
+(define* (frame->line frame #:optional (source-line source-line))
+  "Return where the call of FRAME stands, and the source there, which SOURCE-LINE reads, as a line."
+  (simple-format #f "  ~a~a: ~a" (location->string (car frame))
+                 (if (cdr frame) (simple-format #f " in ~a" (cdr frame)) "")
+                 (source-line (car frame))))
+
 (define (frame->string frame)
   (string-append "called from " (location->string (car frame))
                  (if (cdr frame) (simple-format #f " in ~a" (cdr frame)) "")))
@@ -75,6 +94,11 @@ nothing for a call outside of all procedures."
 
 
 ;;; What an exception says, on one line.
+
+;; Guile has none for what is raised by (/ 1 0).
+(set-exception-printer! 'numerical-overflow
+  (lambda (port key args default)
+    (simple-format port "~a: a division by zero" (first args))))
 
 (define (raised-kind exception)
   "Return the kind of EXCEPTION, a symbol: a bight kind such as domain, or Guile's own key."

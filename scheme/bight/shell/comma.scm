@@ -8,7 +8,7 @@
   #:use-module (bight core errors)
   #:use-module ((bight core sentence) #:select (sentence-of-variable))
   #:use-module (bight shell typed)
-  #:use-module ((bight core told) #:select (location->string))
+  #:use-module ((bight core told) #:select (frame->line source-line))
   #:use-module ((ice-9 session) #:select (apropos-internal))
   #:use-module ((ice-9 rdelim) #:select (read-line))
   #:use-module (srfi srfi-1)
@@ -16,7 +16,7 @@
   #:use-module ((system repl common) #:select (repl-eval))
   #:export (answer-unknown-commands!
             note-chain!
-            frame->line))
+            print-chain))
 
 ;; Guile's own knows no macros.
 (define-meta-command ((describe #f) repl (form))
@@ -54,22 +54,11 @@ Show the names that match REGEXP, bight's with a sentence each, then Scheme's."
   "Remember the FRAMES that led to the last error."
   (set! last-chain frames))
 
-(define (read-source-line place)
-  ;; The line that stands at PLACE, (FILE . LINE), or the empty string.
-  (or (and=> (typed-line place) string-trim-both)
-      (false-if-exception
-       (call-with-input-file (car place)
-         (lambda (port)
-           (do ((i 1 (+ i 1)))
-               ((= i (cdr place)) (string-trim-both (read-line port)))
-             (read-line port)))))
-      ""))
-
-(define (frame->line frame)
-  "Return where the call of FRAME stands, and the source there, as a line."
-  (simple-format #f "  ~a~a: ~a" (location->string (car frame))
-                 (if (cdr frame) (simple-format #f " in ~a" (cdr frame)) "")
-                 (read-source-line (car frame))))
+(define (print-chain frames port)
+  "Print to PORT where the calls of FRAMES stand, and the source there, typed or in a file, a line each."
+  (define (line-at place)
+    (or (and=> (typed-line place) string-trim-both) (source-line place)))
+  (for-each (lambda (frame) (simple-format port "~a~%" (frame->line frame line-at))) frames))
 
 ;; Guile's own shows the frames of its evaluator.
 (define-meta-command ((backtrace bt) repl)
@@ -77,7 +66,7 @@ Show the names that match REGEXP, bight's with a sentence each, then Scheme's."
 Show the lines that led to the last error, the innermost first."
   (if (null? last-chain)
       (display "No line led to the last error.\n")
-      (for-each (lambda (frame) (display (frame->line frame)) (newline)) last-chain)))
+      (print-chain last-chain (current-output-port))))
 
 
 ;;; A command that is misspelt: Guile's own reader of commands says no more than that there is none.

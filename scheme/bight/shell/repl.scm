@@ -100,8 +100,7 @@
 (define (tell-chain)
   ;; Guile reports an error where it is raised: the calls that led there are still under way.
   (note-chain! (chain-here))
-  (for-each (lambda (frame) (simple-format (current-error-port) "~a~%" (frame->line frame)))
-            (frames-elsewhere (chain-here))))
+  (print-chain (frames-elsewhere (chain-here)) (current-error-port)))
 
 (define (print-banner version)
   (simple-format #t "bight ~a, a tether to play with.  (help) is a short tour, ,q leaves.~%" version))

@@ -7,7 +7,7 @@
 
 (define-module (bight test trial)
   #:use-module (bight core errors)
-  #:use-module ((bight core here) #:select (afresh noting-places))
+  #:use-module ((bight core here) #:select (afresh chain-of noting-places))
   #:use-module ((bight core scratch) #:select (call-with-scratch))
   #:use-module (bight core told)
   #:use-module (bight core verb)
@@ -108,8 +108,9 @@
 
 (define (unexpected exception)
   (make-failure '... "no error"
-                (simple-format #f "~a error: ~a~a" (raised-kind exception) (exception->line exception)
-                               (chain-suffix exception))
+                (string-join (cons (simple-format #f "~a error: ~a" (raised-kind exception) (exception->line exception))
+                                   (map frame->line (chain-of exception)))
+                             "\n           ")
                 (or (raised-at exception) (variable-ref (current-location)))))
 
 (define (call-catching thunk fail)
