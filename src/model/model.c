@@ -158,6 +158,32 @@ check_lumps (const bt_tether_def *tether, bt_error *error)
 
 #define SET_TURN 1.0 /* radians: the most that a set may turn a line within one interval */
 
+#define STIFFEST 1e12 /* Pa: Young's modulus of diamond */
+
+/* No line is stiffer than a solid rod of its diameter of the stiffest material, nor damps its
+   bending more than such a rod that gives way within a second.  */
+static bt_status
+check_stiffness (const bt_tether_props *p, const bt_tether_def *tether, bt_error *error)
+{
+  double d = p->diameter, bends = STIFFEST * BT__PI / 64 * pow (d, 4);
+  const struct
+  {
+    const char *name, *unit;
+    double is, most;
+  } all[] = { { "ea", "N", isinf (p->ea) ? 0 : p->ea, STIFFEST * BT__PI / 4 * d * d },
+              { "ei", "N m2", p->ei, bends },
+              { "ei-stuck", "N m2", p->ei_stuck, bends },
+              { "gj", "N m2", p->gj, bends },
+              { "bending-damping", "N m2 s", p->bending_damping, bends } };
+  for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+    if (!(all[k].is <= all[k].most))
+      return bt__fail (error, BT_ERR_DOMAIN,
+                       "`%s' of tether `%s' is %g %s; a solid rod as thick, %g mm, and as stiff as "
+                       "diamond has %.3g: no line has more",
+                       all[k].name, tether->name, all[k].is, all[k].unit, 1e3 * d, all[k].most);
+  return BT_OK;
+}
+
 static bt_status
 check_layers (const bt_tether_props *p, const bt_tether_def *tether, bt_error *error)
 {
@@ -179,7 +205,9 @@ check_layers (const bt_tether_props *p, const bt_tether_def *tether, bt_error *e
 bt_status
 bt__bears_bends (const bt_tether_props *p, const bt_tether_def *tether, bt_error *error)
 {
-  bt_status status = check_layers (p, tether, error);
+  bt_status status = check_stiffness (p, tether, error);
+  if (status == BT_OK)
+    status = check_layers (p, tether, error);
   if (status != BT_OK)
     return status;
   const char *has = tether->n_sets > 0 ? "has a set" : "is clamped";

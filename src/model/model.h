@@ -70,8 +70,8 @@ bt__is_clamped (const bt_tether_def *tether, int k)
   return u.x != 0 || u.y != 0 || u.z != 0;
 }
 
-/* BT_OK if TETHER with PROPS can have the sets and clamps it has; else BT_ERR_UNSUPPORTED says why
-   not.  */
+/* BT_OK if a line can be as stiff as PROPS say, and TETHER have the sets and clamps it has; else
+   BT_ERR_DOMAIN or BT_ERR_UNSUPPORTED says why not.  */
 bt_status bt__bears_bends (const bt_tether_props *props, const bt_tether_def *tether,
                            bt_error *error);
 

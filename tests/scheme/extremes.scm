@@ -148,3 +148,50 @@
   (told "stretches"
         (world (rov (named minnow) (at 5 0 -5))
                (tether (from 0 0 -5) (to minnow) (length 1e5) (diameter 0.5) (mass 3000) (ea 1e5)))))
+
+
+;;; What no line can be.
+
+(define (a-line . clauses)
+  (eval `(world (sea (depth 60))
+                (rov (named minnow) (at -6 0 -10))
+                (tether (named line) (from 0 0 -10) (to minnow) (length 17) (model dynamic) ,@clauses))
+        language))
+
+(define-scenario (no-line-is-stiffer-than-diamond name)
+  "A line of 7.6 mm has at most the stiffness of a solid rod of diamond, 164 N m2, and damps no more than that for a
+second; a thicker line may, until it is made thinner."
+  #:for ((name 'ei 'ei-stuck 'gj 'bending-damping))
+  (define (with value . more)
+    (apply a-line `(,@(if (eq? name 'ei-stuck) '((ei 1)) '()) (,name ,value) ,@more)))
+  (expect (enter! (with 165)) raises domain)
+  (expect (enter! (with 1e9)) raises domain)
+  (enter! (with 163))
+  (expect (alter! 'line #:diameter 0.007) raises domain)
+  (enter! (with 165 '(diameter 0.008)))
+  (run 1/10)
+  (expect (all-finite?)))
+
+(define-scenario as-little-does-one-stretch-less
+  "Nor does a line stretch less than such a rod, 45 MN for a line of 7.6 mm, unless it is said to be inextensible."
+  (expect (enter! (a-line '(ea 4.6e7))) raises domain)
+  (enter! (a-line '(ea 4.5e7)))
+  (enter! (a-line '(ea inextensible))))
+
+(define-scenario (the-stiffest-gains-nothing clauses)
+  "Laid slack, as stiff as can be, a line springs straight with no more than its bend had; damped as much as can be, it
+holds what falls with it as others do."
+  #:for ((clauses '((ei 163)) '((ei 1) (ei-stuck 163) (slip-curvature 0.9)) '((ei 40) (ei-stuck 163) (slip-curvature 1000))
+                  '((bending-damping 163) (clump (at 7) (mass 100000)))))
+  (enter! (apply a-line clauses))
+  (let* ((part (lambda (name) (assq-ref (energy) name)))
+         (most (+ 100 (part 'bending) (if (assq 'clump clauses) (* 1e6 17) 0))))
+    (always (and (all-finite?) (<= (+ (part 'kinetic) (part 'strain)) most)) (run 3))))
+
+(define-scenario the-heaviest-hangs
+  "Five hundred metres of the heaviest line bear thirteen million newtons, and no invariant calls that odd."
+  (enter! (eval '(world (sea (depth 600)) (rov (named minnow) (at 50 0 -480))
+                        (tether (from 0 0 -1) (to minnow) (length 500) (wet-weight 27000) (ea 1e10) (diameter 0.5) (model elastic)))
+                language))
+  (expect (max-tension) is (above 1.2e7))
+  (expect (all-finite?)))

@@ -51,9 +51,9 @@
                          (all-sane? (assq-ref vehicle 'velocity) far))))
                 (vehicles))
          (every (lambda (i) (all-sane? (tether-points (name-of 'tether i)) most)) (tethers))
-         (every (lambda (i)
-                  (let ((most (max-tension (name-of 'tether i))))
-                    (and (real? most) (< -1 most 1e7))))
+         (every (lambda (t)
+                  (let ((most (max-tension (name-of 'tether t))))
+                    (and (real? most) (< -1 most (+ 1e7 (own-weight t))))))
                 (tethers)))))
 
 (define rounding 1e-9)                  ; m

@@ -135,6 +135,21 @@ numbers come from all that is allowed."
       tether
       `(,@(without-field tether 'ei) (ei 0.05))))
 
+(define (no-stiffer-than-diamond tether)
+  ;; TETHER; what it has of stiffness is no more than a line of its diameter can have.
+  (let* ((diameter (number-of tether 'diameter)) (diameter (if (zero? diameter) 0.0076 diameter)))
+    (define (most-of name)
+      (case name
+        ((ea) (* 7.8e11 (expt diameter 2)))
+        ((ei ei-stuck gj bending-damping) (* 4.9e10 (expt diameter 4)))
+        (else #f)))
+    (map (lambda (clause)
+           (let ((most (and (pair? clause) (most-of (car clause)))))
+             (if (and most (real? (cadr clause)) (> (cadr clause) most))
+                 (list (car clause) most)
+                 clause)))
+         tether)))
+
 (define (armoured tether)
   ;; TETHER; if its layers stick, softer while they slip.
   (let ((stuck (number-of tether 'ei-stuck)))
@@ -156,7 +171,7 @@ numbers come from all that is allowed."
   `(world ,sea ,@bed
           ,@(name-all obstacles "o")
           ,@(name-all vehicles "r")
-          ,@(map (lambda (tether) (with-what-things-need (name-ends tether (length vehicles))))
+          ,@(map (lambda (tether) (with-what-things-need (no-stiffer-than-diamond (name-ends tether (length vehicles)))))
                  (name-all tethers "t"))))
 
 (define (some-parts heads least most wild?)
