@@ -9,13 +9,13 @@
    largest tension in the step, and the mean force at either end.  The finest attempt is kept.  The
    next step begins with half as many parts, so that the number follows the motion both ways.
 
-   Within a step the ends go straight from place to place; a vehicle with mass on the line is
-   stepped with each part under the forces of the step's start, and so is its thrust; movers go
-   their share of the way; other lines stand where they are, as in a whole step.  No step is divided
-   for accuracy in which the winch turns, or may give line, for it draws in no line in a step that
-   ends above its pull, and none that starts with the line touching something.  Wear is added up
-   over the parts, contacts and sliding nodes are those of the last one.  Where a mover is held back
-   the step is taken whole, for others were told how far the mover goes.
+   Within a step the ends go from place to place (end_within in chain_step.c); a vehicle with mass
+   on the line is stepped with each part under the forces of the step's start, and so is its
+   thrust; movers go their share of the way; other lines stand where they are, as in a whole step.
+   No step is divided for accuracy in which the winch turns, or may give line, for it draws in no
+   line in a step that ends above its pull, and none that starts with the line touching something.
+   Wear is added up over the parts, contacts and sliding nodes are those of the last one. Where a
+   mover is held back the step is taken whole, for others were told how far the mover goes.
 
    A step that is not solved, of any line, is taken again in twice as many parts, and so on.  The
    half-spaces of contact stand as a step finds them, while in a heap of line that is being paid out

@@ -18,7 +18,7 @@
 enum
 {
   STALLED_AFTER = 30, /* steps for which it hardly turned: a jerk alone stalls no winch */
-  CALM_EVERY = 30     /* steps between looks at the error of a line that is solved ahead */
+  CALM_EVERY = 10     /* steps between looks at the error of a line that is solved ahead */
 };
 
 /* True if a vehicle turns a clamp of tether I in this step.  */
@@ -176,6 +176,27 @@ most_tense (const bt__dynamic *chain)
   return at;
 }
 
+/* Where end K of tether I is to be at the share GONE of the step, which takes the end FROM a place
+   TO another.  Away along the line it goes straight: an end that starts at once sends a wave of
+   m c V, however many parts.  Otherwise its speed grows out of that of the step before, for half an
+   interval would pull against a start at once by the more, the more parts, and leave a vehicle
+   behind that pulls with no more than its pull.  */
+static bt_vec3
+end_within (const bt_dive *dive, int i, int k, double gone, bt_vec3 from, bt_vec3 to)
+{
+  const bt__tether *now = bt__dive_tether (dive, dive->now, i);
+  const bt__dynamic *chain = bt__dive_chain (dive, dive->now, i, k && now->parted);
+  bt_vec3 way = bt__sub (to, from);
+  if (!bt__is_cable (now))
+    return bt__axpy (from, gone, way);
+  const bt_vec3 *x = bt__dynamic_x (chain), *v = bt__dynamic_v (chain);
+  int64_t end = k ? chain->n : 0, next = k ? end - 1 : 1;
+  bt_vec3 out = bt__unit_or (bt__sub (x[end], x[next]), bt__vec (0, 0, 0));
+  bt_vec3 late = bt__axpy (way, -BT__TIME_STEP, v[end]);
+  late = bt__axpy (late, -fmax (0, bt__dot (late, out)), out);
+  return bt__axpy (bt__axpy (from, gone, way), -gone * (1 - gone) * (1 - gone), late);
+}
+
 /* By how much end K of tether I, which slips, is not where it was to be at the start of the present
    part, on its way from FROM to TO.  */
 static bt_vec3
@@ -183,7 +204,7 @@ slipped (const bt_dive *dive, bt__state *state, int i, int k, bt_vec3 from, bt_v
 {
   const bt__dynamic *chain
       = bt__dive_chain (dive, state, i, k && bt__dive_tether (dive, state, i)->parted);
-  bt_vec3 planned = bt__axpy (from, dive->contact_work.since, bt__sub (to, from));
+  bt_vec3 planned = end_within (dive, i, k, dive->contact_work.since, from, to);
   bt_vec3 off = bt__sub (bt__dynamic_x (chain)[k ? chain->n : 0], planned);
   return bt__slips_at (dive, state, i, k) && bt__norm (off) > SLIPPED ? off : bt__vec (0, 0, 0);
 }
@@ -203,8 +224,8 @@ input_of_part (const bt_dive *dive, bt__state *state, int i, const bt__ends *fro
   if (part->left > 0)
     {
       water->time -= part->left * BT__TIME_STEP;
-      ends.a = bt__axpy (from->a, gone, bt__sub (to->a, from->a));
-      ends.b = bt__axpy (from->b, gone, bt__sub (to->b, from->b));
+      ends.a = end_within (dive, i, 0, gone, from->a, to->a);
+      ends.b = end_within (dive, i, 1, gone, from->b, to->b);
     }
   if (part->since > 0)
     {
@@ -269,7 +290,7 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
         bt__note_line_meetings (dive, state, i, part);
       return BT_OK;
     }
-  int64_t begun = state->step - tether->stretch.gone;
+  int64_t begun = state->step - 1 - tether->stretch.gone;
   if (bt__rides_stretch (dive, state, i, ends))
     {
       bt__watch_tension (state, tether, i, bt__stretch_tension (tether));

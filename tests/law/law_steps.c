@@ -134,6 +134,35 @@ test_a_start_at_once (void **state)
     }
 }
 
+/* Half an interval that a vehicle without mass takes along across its line pulls by the more, the
+   shorter the time in which it comes to its speed, and is no tension: in however many parts the
+   step is taken, the vehicle goes where its sticks lead.  */
+static void
+test_a_start_across (void **state)
+{
+  static const int nodes[] = { 20, 40, 80, 160 };
+  (void)state;
+  for (size_t k = 0; k < sizeof nodes / sizeof *nodes; k++)
+    {
+      static scene s;
+      bt_vehicle_view v;
+      bt_error error;
+      scene_clear (&s);
+      scene_vehicle (&s, bt__vec (25, 0, -5))->surge_speed = 2;
+      bt_tether_def *line = scene_line (&s, bt__vec (0, 0, -5), 30, nodes[k]);
+      line->props.ea = 1e6;
+      line->props.tension_accuracy = 1e-3;
+      bt_dive *dive = scene_begin (&s.world);
+      scene_must (bt_vehicle_drive (dive, 0, &(bt_sticks){ .surge = 1 }, &error), &error);
+      scene_run (dive, 6);
+      scene_must (bt_dive_vehicle (dive, 0, &v, &error), &error);
+      int parts = profile_of (dive).chain_parts > 0;
+      bt_dive_free (dive);
+      if (!(fabs (v.position.y - 2 * 6 / 60.0) < 1e-3) || !parts)
+        fail_msg ("%d intervals: %g m of 0.2 m; parts %d", nodes[k], v.position.y, parts);
+    }
+}
+
 /* ---- Flights ---- */
 
 /* A line slack by so much, and the speeds with which its vehicle, without mass, runs it taut.  */
@@ -362,6 +391,7 @@ main (void)
     cmocka_unit_test (test_any_stiffness),
     cmocka_unit_test (test_what_cannot_be_met_is_told),
     cmocka_unit_test (test_a_start_at_once),
+    cmocka_unit_test (test_a_start_across),
     cmocka_unit_test (test_true_error_is_below_what_is_asked),
     cmocka_unit_test (test_calm_is_whole),
     cmocka_unit_test (test_the_same_for_any_threads),

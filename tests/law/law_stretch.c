@@ -168,6 +168,38 @@ test_error_follows_the_accuracy (void **state)
     }
 }
 
+/* A vehicle that comes back slackens its line, which bends more every second: nodes come in time,
+   however long the line is solved ahead.  */
+static void
+test_nodes_come_in_time (void **state)
+{
+  (void)state;
+  for (double speed = 0.3; speed < 0.65; speed += 0.1)
+    {
+      static scene s;
+      bt_error error;
+      double most = 0, estimate, accuracy = 0.03;
+      scene_clear (&s);
+      scene_vehicle (&s, bt__vec (0, 26, -14))->surge_speed = speed;
+      bt_tether_def *line = scene_line (&s, bt__vec (0, 0, -5), 31, 20);
+      line->props.model = BT_MODEL_AUTO;
+      line->props.accuracy = accuracy;
+      line->props.wet_weight = 0.2;
+      bt_dive *dive = scene_begin (&s.world);
+      drive (dive, -1, 0, 0, 0);
+      for (int k = 0; k < 240; k++)
+        {
+          scene_run (dive, 1);
+          scene_must (bt_tether_error_estimate (dive, 0, &estimate, &error), &error);
+          most = fmax (most, estimate);
+        }
+      uint64_t ahead = profile_of (dive).chain_stretched;
+      bt_dive_free (dive);
+      if (!(most < accuracy) || ahead == 0)
+        fail_msg ("%g m/s: %g m of %g", speed, most, accuracy);
+    }
+}
+
 /* A stick that is never still: its vehicle is never where it was foreseen, by less than counts or
    by more, and each time the line goes on as it was told, without a jerk.  */
 static void
@@ -549,6 +581,7 @@ main (void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test (test_error_is_below_what_is_asked),
     cmocka_unit_test (test_error_follows_the_accuracy),
+    cmocka_unit_test (test_nodes_come_in_time),
     cmocka_unit_test (test_sticks_are_never_still),
     cmocka_unit_test (test_the_same_however_it_is_asked),
     cmocka_unit_test (test_the_same_from_within),
