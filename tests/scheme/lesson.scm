@@ -261,7 +261,9 @@ hints, tender and counters among it; a pupil's dive stays as it was; who has no 
                                (pilot expert "x")))))))
     (expect (string-contains (told 20) "tether out, m"))
     (expect (string-contains (told 20) "Less is more.") => #f)
-    (expect (string-contains (told 5) "Less is more."))))
+    (expect (string-contains (told 5) "Less is more."))
+    ;; A small terminal shows the end.
+    (expect (string-contains (last (string-split (told 20) #\newline)) "s under water, 0 hints, 0 steps back"))))
 
 (define-syntax-rule (told-of row)
   ;; What a pupil reads of ROW, of a score over a second at a depth of 5 m: its name, and how it came about.

@@ -91,18 +91,19 @@ how it came about."
   (simple-format #f "~a ~a" n (if (= n 1) one many)))
 
 (define (report-lines r)
+  ;; The marks are last: in a small terminal that is what is seen.
   (append
+   (report-charts r)
    (list (simple-format #f "~a: ~a out of 100, ~a" (lesson-name (report-lesson r)) (%report-total r)
                         (if (%report-passed? r) "passed" "not passed yet")))
    (let ((width (fold (lambda (m most) (max most (string-length (mark-label m)))) 0 (report-mark-list r))))
      (append-map (lambda (m) (mark-lines m width)) (report-mark-list r)))
    (list (simple-format #f "  ~a s under water, ~a, ~a" (figure (%report-seconds r))
                         (counted (%report-hints r) "hint" "hints") (counted (%report-rewinds r) "step back" "steps back")))
-   (instructor-lines r)
-   (report-charts r)))
+   (instructor-lines r)))
 
 (define-verb (report-text (r report))
-  "Return the report R as a person reads it: the marks, and each measure over time."
+  "Return the report R as a person reads it: each measure over time, then the marks."
   (string-join (report-lines r) "\n"))
 
 (set-record-type-printer! <report>
