@@ -38,12 +38,16 @@ chmod +x "$scratch"/bin/*
 
 bare ()
 {
-  env PATH="$scratch/bin:$scratch/tools" PRETEND_ID="$1" BIGHT_BUILD="$2" "$scratch/tools/sh" "$top_srcdir/bootstrap"
+  bare_id=$1 bare_build=$2
+  shift 2
+  env PATH="$scratch/bin:$scratch/tools" PRETEND_ID="$bare_id" BIGHT_BUILD="$bare_build" \
+    "$scratch/tools/sh" "$top_srcdir/bootstrap" "$@"
 }
 
 said 'without root and sudo, what to install is told' 1 'please run as root: apt-get install .*guile-3.0' \
   bare 1000 "$scratch/build"
 said 'without a network, why, and how to go on' 1 'guile-3.0.*Unable to fetch.*--no-packages' bare 0 "$scratch/build"
+said 'a compiler with a blank is an option of configure' 1 'Unable to fetch' bare 0 "$scratch/build" CC='ccache gcc'
 said 'a folder that cannot be written has another name' 1 'BIGHT_BUILD=' bare 0 /dev/null/build
 
 # ---- The program ----

@@ -48,9 +48,9 @@ fi
 
 # ---- The same result in every way ----
 
-print_of () # RESULT: the fingerprint of all its rows, told by a sweep that finds nothing to do
+print_of () # RESULT [STUDY]: the fingerprint of all its rows, told by a sweep that finds nothing to do
 {
-  bight sweep quick.scm -o "$1" | sed -n 's/.*done (0 now), fingerprint //p'
+  bight sweep "${2:-quick.scm}" -o "$1" | sed -n 's/.*done (0 now), fingerprint //p'
 }
 
 bight sweep quick.scm -o one.db -j 1 >out 2>err
@@ -175,6 +175,38 @@ bight sweep bad.scm -o bad.db 2>&1 | grep -q '2 done, 4 failed (0 now)'
 result $? 'what failed is not flown again'
 bight sweep bad.scm -o bad.db --again 2>&1 | grep -q '2 done, 4 failed (4 now)'
 result $? 'unless that is asked for'
+
+# ---- Several cases in one process ----
+
+sed 's/^  (latin-hypercube 3)/  (together 5) &/' quick.scm >together.scm
+CASE_LOG=$scratch/together bight sweep together.scm -o together.db -j 2 >out 2>&1
+[ "$(print_of together.db together.scm)" = "$one" ]
+result $? 'five cases a process come to the same'
+[ "$(wc -l <together)" -eq 12 ] && [ "$(sed 's/^(\([0-9]*\).*/\1/' together | sort -u | wc -l)" -eq 3 ]
+result $? 'twelve in three processes'
+bight sweep together.scm -o one.db | grep -q '12 done (0 now)'
+result $? 'and it is the same study'
+rm murdered
+sed 's/(at-most 0.4)/& (together 3)/' bad.scm >bad-together.scm
+bight sweep bad-together.scm -o bad-together.db -j 2 >out 2>err
+bight sweep --rows bad-together.db | cut -d, -f 1-3 >rows
+[ "$(tr '\n' ' ' <rows)" = \
+  'number,status,error 1,done, 2,failed,domain 3,failed,crash 4,timed out,limit 5,done, 6,failed,crash ' ]
+told=$?
+result $told 'one that goes wrong takes none of its fellows with it'
+[ $told -eq 0 ] || diag "$(cat out err rows)"
+cat >long.scm <<'SCM'
+(define-study long
+  "Each takes its time."
+  #:for ((case 1 2 3))
+  (in tank)
+  (together 3) (at-most 0.4)
+  (fly (let ((end (+ (get-internal-run-time) (* 1/4 internal-time-units-per-second))))
+         (let loop () (when (< (get-internal-run-time) end) (loop)))))
+  (measure (t (now))))
+SCM
+bight sweep long.scm -j 1 | grep -q '3 cases: 3 done'
+result $? 'and at-most is for each of them'
 
 # ---- A study that changes ----
 

@@ -41,11 +41,13 @@
     (measure "(measure (NAME E) ...)")
     (monte-carlo "(monte-carlo N) or (monte-carlo N #:seed S)")
     (latin-hypercube "(latin-hypercube N) or (latin-hypercube N #:seed S)")
-    (at-most "(at-most SECONDS)")))
+    (at-most "(at-most SECONDS)")
+    (together "(together N)")))
 
 (define design-clauses
-  ;; Those that say which cases there are and how long one may take, but nothing of how it comes out.
-  '(monte-carlo latin-hypercube at-most))
+  ;; Those that say which cases there are, how long one may take and how many share a process, but nothing of how one
+  ;; comes out.
+  '(monte-carlo latin-hypercube at-most together))
 
 (define (place location)
   (if location (string-append (location->string location) ": ") ""))
@@ -104,19 +106,25 @@ one value that THUNK, a procedure of HEAD's arguments, returns."
                  at)))
 
 (define most-limit 1e6)
+(define most-together 1000)
 
 (define (check-limit at limit)
   (unless (and (real? limit) (< 0 limit most-limit))
     (bight-raise 'domain 'define-study "~a(at-most SECONDS) needs a number above 0, not ~s" at limit)))
 
-(define (register-study! name sentence location draws sampling limit measures legs world body)
+(define (check-together at n)
+  (unless (and (exact-integer? n) (<= 1 n most-together))
+    (bight-raise 'domain 'define-study "~a(together N) needs a whole number from 1 to ~a, not ~s" at most-together n)))
+
+(define (register-study! name sentence location draws sampling limit together measures legs world body)
   (let ((at (place location)))
     (unless world
       (bight-raise 'def 'define-study "~aa study needs (in WORLD): where its dives take place" at))
     (check-names at (map draw-variable draws) measures legs)
     (check-limit at limit)
-    (let ((study (make-study name sentence location (design at draws sampling) limit measures legs world
-                             body)))
+    (check-together at together)
+    (let ((study (make-study name sentence location (design at draws sampling) limit together measures legs
+                             world body)))
       (shelve! shelf study-name name (list study))
       study)))
 
@@ -171,7 +179,7 @@ one value that THUNK, a procedure of HEAD's arguments, returns."
       ((_ argument ...)
        (let ((n (length #'(argument ...))))
          (case (head-of clause)
-           ((in at-most) (= 1 n))
+           ((in at-most together) (= 1 n))
            ((define) (> n 1))
            ((fly monte-carlo latin-hypercube) (> n 0))
            ((leg) (and (> n 0) (identifier? (car #'(argument ...)))))
@@ -235,6 +243,7 @@ one value that THUNK, a procedure of HEAD's arguments, returns."
                (list #,@(map expand-row rows))
                #,(sampling-syntax clauses)
                #,(the-one 'at-most clauses only-argument #`#,default-limit)
+               #,(the-one 'together clauses only-argument #'1)
                '#,(map car (measures-of clauses))
                '#,(leg-names clauses)
                #,(the-one 'in clauses (world-syntax variables) #'#f)
@@ -256,7 +265,8 @@ instead: (U (range 0 1 0.25)), (seed (seeds 20)), or, at random, (U (uniform 0 0
 (fly FORM ...) and (leg NAME FORM ...) are flown in order; after each leg all is measured.
 (measure (NAME E) ...) is what is to be known of a case: numbers, true or false, symbols, strings.
 (define NAME E) defines a name for the clauses after it, and the measures.
-(at-most SECONDS) is the processor time that a case may take, 600 if it does not say."
+(at-most SECONDS) is the processor time that a case may take, 600 if it does not say.
+(together N) lets one process fly N cases in turn, which suits short ones whose flights change no variable of yours."
     (syntax-case stx ()
       ((_ name sentence #:for (row ...) clause ...)
        (and (identifier? #'name) (string? (syntax->datum #'sentence)))

@@ -230,6 +230,8 @@
   (says "two legs have one name" (study (in tank) (leg a) (leg a) (measure (t (now)))))
   (says "(at-most SECONDS) needs a number above 0, not -1"
         (study (in tank) (at-most -1) (measure (t (now)))))
+  (says "(together N) needs a whole number from 1 to 1000, not 0"
+        (study (in tank) (together 0) (measure (t (now)))))
   (says "the study has 1001000 cases, more than 1000000"
         (study #:for ((a (seeds 1001)) (b (seeds 1000))) (in tank) (measure (t (now))))))
 

@@ -24,6 +24,7 @@
             study-location
             study-design
             study-limit
+            study-together
             study-measures
             study-legs
             fly-case
@@ -38,13 +39,14 @@
 ;;; Studies.
 
 (define-record <study>
-  (make-study name sentence location design limit measures legs world body)
+  (make-study name sentence location design limit together measures legs world body)
   is-study?
   (name study-name)                     ; a symbol
   (sentence study-sentence)             ; a string
   (location study-location)             ; (FILE . LINE) or #f
   (design study-design)
   (limit study-limit)                   ; seconds of processor time that a case may take
+  (together study-together)             ; how many cases one process may fly, one after the other
   (measures study-measures)             ; symbols
   (legs study-legs)                     ; symbols, in the order in which they are flown
   (world study-world)                   ; a procedure of the values of the variables

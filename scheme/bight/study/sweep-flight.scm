@@ -1,8 +1,10 @@
-;;; (bight study sweep-flight) --- the flight of one case of a study, in a process of its own, and what came of it.
+;;; (bight study sweep-flight) --- the flight of the cases of a study in processes of their own, and what came of each.
 ;;;
-;;; The processes are those of (bight core crew).  That of a case tells what came of it; when it tells nothing, how it
-;;; ended says so.  A process that was ended by a signal which comes from outside, as SIGKILL does when memory is
-;;; short, says nothing about its case: that is `interrupted', and what becomes of the case is for the sweep to decide.
+;;; The processes are those of (bight core crew).  One flies one case, or as many in turn as the study lets fly
+;;; `together', and tells what came of each; of the first of which it tells nothing, how it ended says so, and those
+;;; after that are flown by another.  A process that was ended by a signal which comes from outside, as SIGKILL does when
+;;; memory is short, says nothing about its case: that is `interrupted', and what becomes of the case is for the sweep to
+;;; decide.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -18,7 +20,7 @@
             interrupted?))
 
 
-;;; The process of a case.
+;;; The process of some cases.
 
 (define (place->text place)
   ;; Without its folder, which another machine has elsewhere.
@@ -51,16 +53,21 @@
     (set-current-output-port nowhere)
     (dup2 (fileno nowhere) 1)))
 
+(define (limit-time! seconds)
+  ;; SIGPROF ends this process when it has had SECONDS of processor time from now on.
+  (let ((whole (inexact->exact (floor seconds))))
+    (setitimer ITIMER_PROF 0 0 whole (inexact->exact (floor (* 1000000 (- seconds whole)))))))
+
 (define (flyer-of study)
   ;; What `open-shops' loads: STUDY is here already.
   (lambda (file tell)
     (tell '(ready))
-    (lambda (number tell)
+    (lambda (numbers tell)
       (quiet!)
-      (let ((limit (study-limit study)))
-        (setitimer ITIMER_PROF 0 0 (inexact->exact (floor limit))
-                   (inexact->exact (floor (* 1000000 (- limit (floor limit)))))))
-      (tell (cons 'outcome (case-outcome study number))))))
+      (for-each (lambda (number)
+                  (limit-time! (study-limit study))
+                  (tell (cons* 'outcome number (case-outcome study number))))
+                numbers))))
 
 
 ;;; What came of it.
@@ -113,18 +120,33 @@ this process before, nor is a database open."
       (open-shops crew (make-list n 'study) (flyer-of study))
       (receive crew))))
 
-(define (fly-cases crew study numbers settle! stop?)
-  "Let CREW fly the cases NUMBERS, from 0, of STUDY, and call SETTLE! with the number and the outcome, an alist, of
-each that ends before STOP?, a procedure without arguments, returns true."
-  (let ((outcomes (make-hash-table)))
-    (do-orders crew (map (lambda (number) (list 'study number)) numbers)
+(define (orders-of study numbers jobs)
+  ;; The cases NUMBERS of STUDY in orders for JOBS processes, none of which is to be idle.
+  (let ((size (min (study-together study) (max 1 (quotient (length numbers) jobs)))))
+    (let loop ((rest numbers) (orders '()))
+      (if (null? rest)
+          (reverse orders)
+          (let ((n (min size (length rest))))
+            (loop (drop rest n) (cons (list 'study (take rest n)) orders)))))))
+
+(define (fly-cases crew study numbers jobs settle! stop?)
+  "Let CREW, of JOBS processes, fly the cases NUMBERS, from 0, of STUDY, and call SETTLE! with the number and the
+outcome, an alist, of each that ends before STOP?, a procedure without arguments, returns true."
+  (let ((settled (make-hash-table)) (left '()))
+    (define (settle-once! number outcome)
+      (hashv-set! settled number #t)
+      (settle! number outcome))
+    (do-orders crew (orders-of study numbers jobs)
       (lambda (order told)
-        (let ((number (second order)))
-          (case (first told)
-            ((outcome) (hashv-set! outcomes number (cdr told)))
-            ((closed)
-             (bight-raise 'io 'sweep "all processes that had read the study are gone; start it again and it goes on"))
-            (else
-             (settle! number (or (hashv-ref outcomes number) (verdict study told)))
-             (hashv-remove! outcomes number)))))
-      #:stop? stop?)))
+        (case (first told)
+          ((outcome) (settle-once! (second told) (cddr told)))
+          ((closed)
+           (bight-raise 'io 'sweep "all processes that had read the study are gone; start it again and it goes on"))
+          (else
+           (let ((untold (remove (lambda (number) (hashv-ref settled number)) (second order))))
+             (unless (null? untold)
+               (settle-once! (car untold) (verdict study told))
+               (set! left (append (cdr untold) left)))))))
+      #:stop? stop?)
+    (unless (or (null? left) (stop?))
+      (fly-cases crew study (sort left <) jobs settle! stop?))))

@@ -212,9 +212,14 @@ sweep is writing it."
 (define (write-kinds! database kinds)
   (%query database "insert or replace into study values ('kinds', ?)" (list (object->string kinds))))
 
+(define (kinds-known database)
+  ;; What `kinds' of DATABASE says, or #f.
+  (let ((rows (%query database "select value from study where name = 'kinds'" '())))
+    (and (pair? rows) (text->datum (caar rows)))))
+
 (define (note-kinds! database more)
   ;; The kinds of DATABASE become wider by MORE; where none are told, older cases have unknown ones.
-  (let* ((known (plan-fact (found-plan database) 'kinds))
+  (let* ((known (kinds-known database))
          (joined (and known (join-kinds more known))))
     (unless (or (not known) (lset= equal? known joined))
       (write-kinds! database joined))))

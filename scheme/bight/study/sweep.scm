@@ -122,11 +122,11 @@ returns the number of a case that is to be flown again."
               ((< n most-flights) (tell-again number outcome) number)
               (else (enter! number (given-up outcome)) #f))))))
 
-(define (fly-all! crew study pending settle!)
-  "Let CREW fly the cases PENDING of STUDY, and call SETTLE! with the number and outcome of each, and again those
+(define (fly-all! crew study pending jobs settle!)
+  "Let CREW, of JOBS processes, fly the cases PENDING of STUDY, and call SETTLE! with the number and outcome of each, and again those
 that it returns, one at a time.  Return #t if it was stopped."
   (let loop ((now pending) (again '()))
-    (fly-cases crew study now
+    (fly-cases crew study now jobs
                (lambda (number outcome)
                  (let ((left (settle! number outcome)))
                    (when left (set! again (append again (list left))))))
@@ -154,7 +154,7 @@ that it returns, one at a time.  Return #t if it was stopped."
                 flown stopped? (result-fingerprint database plan)
                 (first-failure (case-rows database plan)))))
 
-(define (fly-missing! study plan database crew shard again?)
+(define (fly-missing! study plan database crew jobs shard again?)
   (let* ((keys (keys-of study plan))
          (flown 0) (failed 0)
          (show (progress-shower)))
@@ -174,7 +174,7 @@ that it returns, one at a time.  Return #t if it was stopped."
         (force-output (current-error-port)))
       (show 0 all 0)
       (let ((stopped? (call-with-stop
-                       (lambda () (fly-all! crew study pending (settler enter! tell-again))))))
+                       (lambda () (fly-all! crew study pending jobs (settler enter! tell-again))))))
         (show #f)
         (tally-of database plan shard flown stopped?)))))
 
@@ -183,13 +183,14 @@ that it returns, one at a time.  Return #t if it was stopped."
 is (I . N), the I-th of N parts, or #f for all; AGAIN? also flies what failed before.  Another sweep that is
 writing RESULT is waited for, PATIENCE seconds at most."
   (let* ((study (load-study file))
-         (plan (plan-of study file shard)))
+         (plan (plan-of study file shard))
+         (jobs (max 1 (min jobs (plan-fact plan 'cases)))))
     (force-output (current-output-port))
-    (call-with-flyers study (min jobs (plan-fact plan 'cases))
+    (call-with-flyers study jobs
       (lambda (crew)
         (sigaction SIGPIPE SIG_IGN)     ; the process that has read the study may be gone when it is written to
         (let* ((database (open-result result plan #:patience patience))
-               (tally (fly-missing! study plan database crew shard again?)))
+               (tally (fly-missing! study plan database crew jobs shard again?)))
           (close-result! database)
           tally)))))
 

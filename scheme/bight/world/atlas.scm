@@ -120,8 +120,24 @@ files.  At the prompt each comes with its sentence."
                             text
                             (string-append file ": " text)))))
 
+(define own-worlds (make-hash-table))   ; file of a world that comes with bight -> (VERSION . WORLD)
+
+(define (version-of file)
+  (let ((s (stat file)))
+    (list (stat:mtime s) (stat:mtimensec s) (stat:size s))))
+
 (define (load-world proc file)
-  ;; The last world that FILE defines; it is not made known, so that a changed file is read again.
+  ;; The last world that FILE defines; it is not made known, so that a changed file is read again.  Those of bight's own
+  ;; folder depend on nothing but their text: read once, they are kept.
+  (if (string=? (%worlds-folder) (dirname file))
+      (let ((version (version-of file)) (kept (hash-ref own-worlds file '(#f))))
+        (unless (equal? version (car kept))
+          (set! kept (cons version (read-world proc file)))
+          (hash-set! own-worlds file kept))
+        (cdr kept))
+      (read-world proc file)))
+
+(define (read-world proc file)
   (or (last-remembered
        (lambda ()
          (with-exception-handler
