@@ -49,6 +49,7 @@
 ;; Benches that are no programs, each loaded when it is asked for: name, purpose, and a thunk for what runs it.
 (define in-the-language
   `(("belief" "How often beliefs are right, and what they cost." ,(lambda () (@ (bight bench belief) run-belief)))
+    ("cases" "How many short dives a second of CPU a sweep flies." ,(lambda () (@ (bight bench cases) run-cases)))
     ("cockpit" "What a frame of the cockpit costs, with a lesson's overlay."
      ,(lambda () (@ (bight bench cockpit) run-cockpit)))
     ("tours" "How often tours come home, how long they are, how soon they are planned."
