@@ -416,6 +416,13 @@
   (expect (find-world 'trail) raises name)
   (expect (find-world "no/such/file.scm") raises io)
   (expect (find-world 5) raises domain)
+  (expect (eq? (find-world 'tank) (find-world 'tank)) => #t) ; read once
+  (let ((file (scratch-file "mine.scm")))
+    (define (depth-of-file depth)
+      (call-with-output-file file
+        (lambda (port) (write `(define-world mine "Mine." (sea (depth ,depth)) (rov (at 0 0 -1))) port)))
+      (field-of (find-world file #:trust #t) 'sea 'depth))
+    (expect (map depth-of-file '(20 30)) => '(20 30)))
   (expect (guard (e (#t (bight-error-procedure e))) (enter! 'trail)) => 'enter!))
 
 

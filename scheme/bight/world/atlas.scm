@@ -126,10 +126,15 @@ files.  At the prompt each comes with its sentence."
   (let ((s (stat file)))
     (list (stat:mtime s) (stat:mtimensec s) (stat:size s))))
 
+(define (comes-with-bight? file)
+  ;; Where BIGHT_WORLDS names a folder of the user's, that stands for bight's own, but for the tree as built.
+  (and (string=? (%worlds-folder) (dirname file))
+       (or (not (getenv "BIGHT_WORLDS")) (getenv "BIGHT_UNINSTALLED"))))
+
 (define (load-world proc file)
-  ;; The last world that FILE defines; it is not made known, so that a changed file is read again.  Those of bight's own
-  ;; folder depend on nothing but their text: read once, they are kept.
-  (if (string=? (%worlds-folder) (dirname file))
+  ;; The last world that FILE defines; it is not made known, so that a changed file is read again.  Those that come with
+  ;; bight depend on nothing but their text: read once, they are kept.
+  (if (comes-with-bight? file)
       (let ((version (version-of file)) (kept (hash-ref own-worlds file '(#f))))
         (unless (equal? version (car kept))
           (set! kept (cons version (read-world proc file)))
