@@ -12,13 +12,20 @@
       (* 4096e-6 (call-with-input-file "/proc/self/statm" (lambda (port) (read port) (read port))))
       0))
 
+(define (peak n thunk)
+  "The most that this process holds as THUNK is called N times: what is held at the end alone depends on when memory was
+last collected, and on what of it could be given back."
+  (let loop ((i 0) (most 0))
+    (if (= i n)
+        most
+        (begin
+          (thunk)
+          (loop (+ i 1) (max most (megabytes)))))))
+
 (define (growth n thunk)
-  "By how many megabytes this process grows as THUNK is called N times, once it was called as often."
-  (let ((often (lambda () (do ((i 0 (+ i 1))) ((= i n)) (thunk)))))
-    (often)
-    (let ((before (megabytes)))
-      (often)
-      (- (megabytes) before))))
+  "By how many megabytes the peak of this process grows as THUNK is called N times, once it was called as often."
+  (let ((before (peak n thunk)))
+    (- (peak n thunk) before)))
 
 (define (saved)
   (let ((file (scratch-file "dropped.dive")))
