@@ -4,6 +4,7 @@
 
 (use-modules (bight lesson)
              (bight lesson check)
+             ((bight lesson file) #:select (lesson-file lesson-files))
              (bight core errors)
              ((bight dive) #:select (engine-of))
              (bight dive reel)
@@ -163,6 +164,12 @@ hints, tender and counters among it; a pupil's dive stays as it was; who has no 
     (expect (abs (/ (apply + (draw 5)) 200)) is (below 1.5))
     (expect (count (lambda (x) (> x 5)) (draw 5)) is (between 30 70))
     (expect (jitter 10) => 0)))
+
+(define-scenario lessons-have-numbers
+  "A lesson is found by its name or its number; who gives one that is not there is told which are."
+  (expect (lesson-file "7") => (lesson-file "which-side-of-the-leg"))
+  (expect (says? (simple-format #f "from 1 to ~a, not 99" (length (lesson-files))) (lesson-file "99")))
+  (expect (says? "did you mean" (lesson-file "one-pille"))))
 
 (define-scenario mistakes-teach
   "An unknown clause lists those there are and the nearest; a wrong one is shown how it is written."

@@ -89,7 +89,10 @@ of kind name when there is none."
                 (or (string=? designator (symbol->string (lesson-file-name file)))
                     (eqv? number (text->number (substring (basename file) 0 2)))))
               files)
-        (unknown-name 'lesson "the list of lessons" designator (lessons)))))
+        (if number
+            (bight-raise 'name 'lesson "there are lessons from 1 to ~a, not ~a; `bight lessons' lists them"
+                         (length files) designator)
+            (unknown-name 'lesson "the list of lessons" designator (lessons))))))
 
 (define (read-lessons file)
   "Return the lessons that FILE, which is trusted, defines."
