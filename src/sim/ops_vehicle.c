@@ -140,13 +140,32 @@ check_hull (const bt__call *c)
                    c->dive->model->obstacles[bt__stop_obstacle (c->dive->model, &stop)].name);
 }
 
+/* True if tether I is one that the world fastens to the subject.  */
+static int
+is_of_subject (const bt__call *c, int i)
+{
+  const bt__end *end = c->dive->model->ends[i];
+  return end[0].vehicle == c->subject || end[1].vehicle == c->subject;
+}
+
+/* What is left of a parted line is not fastened to the subject, and so is not laid to it.  */
+static bt_status
+check_whole (const bt__call *c)
+{
+  for (int i = 0; i < c->dive->model->n_tethers; i++)
+    if (is_of_subject (c, i) && bt__dive_tether (c->dive, c->state, i)->parted)
+      return bt__fail (c->error, BT_ERR_UNSUPPORTED,
+                       "tether `%s' has parted: what is left of it is not laid anew",
+                       c->dive->model->tethers[i].name);
+  return BT_OK;
+}
+
 /* Lay tether I anew if it is fastened to the subject.  */
 static void
 forget_shape (const bt__call *c, int i)
 {
-  const bt__end *end = c->dive->model->ends[i];
   bt__tether *tether = bt__dive_tether (c->dive, c->state, i);
-  if (end[0].vehicle != c->subject && end[1].vehicle != c->subject)
+  if (!is_of_subject (c, i))
     return;
   memset (&tether->memory, 0, sizeof tether->memory);
   memset (&tether->shape, 0, sizeof tether->shape);
@@ -161,6 +180,8 @@ bt__op_lay (const bt__call *c)
   bt_vec3 p;
   if (bt__check_point (c) != BT_OK)
     return BT_ERR_DOMAIN;
+  if (check_whole (c) != BT_OK)
+    return BT_ERR_UNSUPPORTED;
   p = bt__point_of (c);
   if (bt__reach_along (c->dive, c->state, c->subject, v->position, p) < 1)
     return bt__fail (c->error, BT_ERR_DOMAIN, "the tether does not reach to (%g %g %g)", p.x, p.y,

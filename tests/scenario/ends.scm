@@ -363,3 +363,13 @@ very ends."
   (cut-tether!)
   (run 10)
   (expect (map car (events)) => '(parted)))
+
+(define-scenario what-has-parted-is-not-laid-anew
+  "The stump of a cut line is not fastened to its vehicle again, kilometres away, by being laid anew: that is refused, and
+the vehicle is placed without."
+  (enter! (world (sea (depth 60)) (rov (named r1) (at 8 0 -10)) (tether (named t1) (from 0 0 -10) (to r1) (length 9) (model dynamic))))
+  (cut-tether! 't1 #:at 3)
+  (run 1)
+  (expect (place! 'r1 '(500 0 -20) #:fresh #t) raises unsupported)
+  (expect (parted?))
+  (expect (max-tension) is (below 50)))
