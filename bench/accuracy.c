@@ -14,6 +14,9 @@
    above twice that; and with an estimate that is off from the true error by a factor beyond 3.  An
    estimate and a true error that are both below NOTHING of what was asked agree.
 
+   With --alone the same kinds of flights are flown without a reference, by lines of more kinds, for
+   so many steps: how many were not solved, and how many looks found a line nowhere.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
@@ -194,13 +197,83 @@ put (bench_table *t, kind what, found *f)
   if (f->looks == 0)
     return;
   qsort (f->share, (size_t)f->looks, sizeof *f->share, by_size);
-  snprintf (counters, sizeof counters, "looks=%d;unknown=%d;under=%d;p50=%.3g;p95=%.3g;p99=%.3g;most=%.3g",
-            f->looks, f->unknown, f->under, f->share[f->looks / 2], f->share[f->looks * 95 / 100],
+  snprintf (counters, sizeof counters,
+            "looks=%d;unknown=%d;under=%d;p50=%.3g;p95=%.3g;p99=%.3g;most=%.3g", f->looks,
+            f->unknown, f->under, f->share[f->looks / 2], f->share[f->looks * 95 / 100],
             f->share[f->looks * 99 / 100], f->share[f->looks - 1]);
   for (int m = 0; m < 3; m++)
     bench_put (t, &(bench_row){ names[what], "auto", "accuracy 1 cm to 10 cm", metrics[m],
                                 (double)counts[m] / f->looks, "dynamic, 200 intervals", 0,
                                 f->seconds / (LOOK * (f->looks + f->unknown)), counters });
+}
+
+/* ---- Alone ---- */
+
+/* What so many steps of lines that are flown alone came to.  */
+typedef struct endured
+{
+  uint64_t steps, unsolved, parts, ahead, faults;
+} endured;
+
+/* True if a point of the line is not finite, or farther from the anchor than twice its length.  */
+static int
+is_nowhere (const bt_dive *dive, double length)
+{
+  bt_vec3 p[POINTS];
+  bt_error error;
+  int any = 0;
+  scene_must (bt_tether_points (dive, 0, POINTS, p, &error), &error);
+  for (int k = 0; k < POINTS; k++)
+    any |= !(bt__distance (p[k], p[0]) < 2 * length);
+  return any;
+}
+
+/* Fly a line of any stiffness through flight SEED of a kind; add to *E what came of it.  */
+static void
+fly_alone (endured *e, kind what, uint64_t seed)
+{
+  static scene s;
+  bt_profile did;
+  double asked = draw (&s, what, &seed);
+  bt_tether_props *props = &s.tether[0].props;
+  props->model = BT_MODEL_AUTO;
+  props->accuracy = asked;
+  props->ea = pow (10, lot (&seed, 3, 7.4));
+  props->ei = lot (&seed, 0, 1) < 0.5 ? 0 : pow (10, lot (&seed, -3, 1));
+  bt_dive *dive = scene_begin (&s.world);
+  for (int k = 0; k < LOOKS; k++)
+    {
+      if (k % LEG == 0)
+        fly_leg (dive, what, k / LEG, &seed, s.tether[0].length);
+      scene_run (dive, LOOK);
+      e->faults += (uint64_t)is_nowhere (dive, 1.5 * s.tether[0].length);
+    }
+  bt_dive_profile (dive, &did);
+  bt_dive_free (dive);
+  e->steps += did.steps;
+  e->unsolved += did.chain_unconverged;
+  e->parts += did.chain_parts;
+  e->ahead += did.chain_stretched;
+}
+
+static int
+run_alone (uint64_t steps)
+{
+  endured e = { 0 };
+  bench_table table;
+  char counters[120];
+  bench_open (&table);
+  for (uint64_t f = 1; e.steps < steps; f++)
+    fly_alone (&e, (kind)(f % KINDS), 7919 * f + 13);
+  snprintf (counters, sizeof counters, "steps=%.0f;parts=%.0f;ahead=%.0f", (double)e.steps,
+            (double)e.parts, (double)e.ahead);
+  bench_put (&table, &(bench_row){ "flights alone", "auto", "accuracy 1 cm to 10 cm",
+                                   "share of steps that are not solved",
+                                   (double)e.unsolved / (double)e.steps, "0", 0, NAN, counters });
+  bench_put (&table,
+             &(bench_row){ "flights alone", "auto", "accuracy 1 cm to 10 cm",
+                           "looks with a line nowhere", (double)e.faults, "0", 0, NAN, counters });
+  return bench_close (&table);
 }
 
 static int
@@ -222,12 +295,16 @@ run (int flights)
 int
 main (int argc, char **argv)
 {
-  long flights = 50;
+  long flights = 50, alone = 0;
   const bench_option options[]
-      = { { "flights", &flights, 1, FLIGHTS, 2, "random flights of each of four kinds" } };
+      = { { "flights", &flights, 1, FLIGHTS, 2, "random flights of each of four kinds" },
+          { "alone", &alone, 0, 1000000000, 0,
+            "steps to be flown without a reference, in place of the flights" } };
   const bench_program program
       = { "accuracy", "Measure the error of lines against what is asked and estimated", options,
-          1 };
+          2 };
   int status = bench_options (&program, argc, argv);
-  return status == BENCH_GO_ON ? run ((int)flights) : status;
+  if (status != BENCH_GO_ON)
+    return status;
+  return alone > 0 ? run_alone ((uint64_t)alone) : run ((int)flights);
 }
