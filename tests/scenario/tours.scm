@@ -106,7 +106,7 @@
 (define-scenario a-tour-is-flown
   "The vehicle stops at each place, holds to its line, and comes home free; a fork had told so."
   (in pile)
-  (let* ((tour (plan-tour (list 'p1 '(3 4 -5) '(4 -3 -8)))) (told (tour-trial tour)) (left (tour-places tour)))
+  (let* ((tour (plan-tour (list 'p1 '(3 4 -5) '(4 -3 -8)))) (told (tour-trial tour)) (left (tour-places tour)) (begun (now)))
     (expect (assq-ref told 'home?) => #t)
     (fly-tour! tour)
     (do ((k 0 (+ k 1))) ((or (= k 600) (arrived?)))
@@ -114,8 +114,21 @@
       (expect (taut-length) is (below (+ 0.1 (tether-length))))
       (set! left (remove (lambda (p) (< (distance p (rov-position)) 0.6)) left)))
     (expect left => '())
+    (expect (- (now) begun) is (about (assq-ref told 'seconds) #:within 2))
     (expect (distance (rov-position) (point-at 0)) is (below 1.5))
     (expect (fouled?) => #f)))
+
+(define-scenario a-way-that-is-barred
+  "A vehicle that something which moves, and so is no part of the plan, stops short of a place comes home, as a fork told."
+  (enter! (world (sea (depth 15)) (box (named barge) (track (0 0 20 -6)) (size 12 2 12)) (rov (named minnow) (at 0 8 -5))
+                 (tether (named line) (type fathom) (wet-weight 0) (model dynamic) (nodes 12) (from 0 0 -3) (to minnow)
+                         (length 12))))
+  (let* ((tour (plan-tour '((0 30 -5)) #:line 40)) (told (tour-trial tour)))
+    (expect (assq-ref told 'reached) => 0)
+    (expect (assq-ref told 'home?) => #t)
+    (fly-tour! tour)
+    (run-until arrived? #:at-most 300)
+    (expect (distance (rov-position) (point-at 0)) is (below 1.5))))
 
 (define-scenario a-tour-begins-by-unwinding
   "A tether that is wound about the pile when the tour begins is unwound on the first leg."
@@ -255,5 +268,7 @@ vehicle without a tether, which comes home wound in each."
     (expect (cell "plan" 4) is (between 1 1.25))
     (expect (cell "bounded" 4) is (between 1 1.25))
     (expect (cell "greedy" 3) is (above (- (cell "plan" 3) 0.1)))
+    (expect (map car (rows-printed "--world" "piles" "--truths" "1" "--nodes" "10" "--tours" "greedy,plan")) => '("greedy" "plan"))
+    (expect (run-tours '("--tours" "plan,longest")) raises name)
     (expect (run-tours '("--world" "moon")) raises name)
     (expect (run-tours '("--truths" "0")) raises domain)))

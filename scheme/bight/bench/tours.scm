@@ -38,6 +38,7 @@
 (define help "bight bench tours: how often tours come home, how long they are, how soon they are planned
   --truths N    drawn from a belief, in which each tour is flown, 200 when left out, 2 with --quick
   --world W     one alone of jacket, piles, pier, wreck, cage and pipeline; cage alone with --quick
+  --tours NAMES which of plan, held, greedy, blind and bounded are flown, with commas between; all when left out
   --places N    how many obstacles are looked at, 2 to 8; 5 when left out, 2 with --quick
   --nodes N     of the tether that is flown, 16 when left out
   --tethers N   of the belief that `held' is planned by, 8 to 256; 16 when left out, 8 with --quick
@@ -47,7 +48,7 @@
   --minutes M   M minutes by the clock for all worlds: in each as many truths as fit
 ")
 
-(define valued '("--truths" "--world" "--places" "--nodes" "--tethers" "--risk" "--error" "--pull" "--minutes"))
+(define valued '("--truths" "--world" "--tours" "--places" "--nodes" "--tethers" "--risk" "--error" "--pull" "--minutes"))
 (define flags '("--quick" "--help"))
 
 
@@ -221,26 +222,29 @@
          (fits (find (lambda (tour) (within-bound? world home start (cdr tour) line)) sorted)))
     (or fits (car sorted))))
 
-(define (tours world name n clauses tethers risk)
-  ;; Of the present dive, in WORLD called NAME.  CLAUSES say what is uncertain to the belief of TETHERS tethers by which the
-  ;; tour within RISK is planned.
+(define (tours world name n clauses tethers risk wanted)
+  ;; The WANTED ones, names, of the present dive, in WORLD called NAME, and `blind'.  CLAUSES say what is uncertain to the
+  ;; belief of TETHERS tethers by which the tour within RISK is planned.
   (let* ((line (tether-length)) (start (f64vector->list (rov-position))) (home (f64vector->list (point-at 0)))
          (plan (timed 'plan (lambda () (plan-tour (looked-at name n) #:line line))))
          (stops (map f64vector->list (tour-places (third plan))))
          (ask (asker-without-tether world (cons* start home stops)))
          (cost (lambda (a b) (car (ask a b)))))
-    (list plan
-          (timed 'held (lambda ()
-                         (with-belief (make-belief (current-dive) clauses #:members tethers #:seed planning-seed)
-                           (plan-tour (looked-at name n) #:line line #:risk risk #:speed speed))))
-          (timed 'greedy (lambda () (tour-in-order (third plan) (greedy-order (leg-cost (third plan)) start stops))))
-          (timed 'blind (lambda ()
-                          (let ((order (shortest-order cost start stops home)))
-                            (along order (legs-of ask start order home) line))))
-          (timed 'bounded (lambda ()
-                            (let ((found (bounded-order world ask start stops home
-                                                        (* 1.1 (tour-line-needed (third plan))))))
-                              (along (car found) (cdr found) line)))))))
+    (define (make which)
+      (case which
+        ((plan) plan)
+        ((held) (timed 'held (lambda ()
+                               (with-belief (make-belief (current-dive) clauses #:members tethers #:seed planning-seed)
+                                 (plan-tour (looked-at name n) #:line line #:risk risk #:speed speed)))))
+        ((greedy) (timed 'greedy (lambda () (tour-in-order (third plan) (greedy-order (leg-cost (third plan)) start stops)))))
+        ((blind) (timed 'blind (lambda ()
+                                 (let ((order (shortest-order cost start stops home)))
+                                   (along order (legs-of ask start order home) line)))))
+        ((bounded) (timed 'bounded (lambda ()
+                                     (let ((found (bounded-order world ask start stops home
+                                                                 (* 1.1 (tour-line-needed (third plan))))))
+                                       (along (car found) (cdr found) line)))))))
+    (map make (lset-union eq? wanted '(blind)))))
 
 (define (leg-cost tour)
   ;; The length of the leg of a tether between two places, or from where the vehicle is.
@@ -307,8 +311,10 @@
   (let ((world (world-of name)) (n (assq-ref settings 'places)) (truths (assq-ref settings 'truths))
         (clauses (doubts (assq-ref settings 'error))))
     (enter! (flown-world world (assq-ref settings 'nodes) (assq-ref settings 'pull)))
-    (let* ((all (tours world name n clauses (assq-ref settings 'tethers) (assq-ref settings 'risk)))
-           (blind (tour-length (third (find (lambda (row) (eq? 'blind (first row))) all))))
+    (let* ((wanted (assq-ref settings 'tours))
+           (made (tours world name n clauses (assq-ref settings 'tethers) (assq-ref settings 'risk) wanted))
+           (all (filter (lambda (row) (memq (first row) wanted)) made))
+           (blind (tour-length (third (find (lambda (row) (eq? 'blind (first row))) made))))
            (members (list->vector
                      (belief-members
                       (make-belief (current-dive) clauses #:members (max 8 truths) #:seed truths-seed))))
@@ -318,9 +324,19 @@
                   (say-tour name (map (lambda (of-a-truth) (list-ref of-a-truth k)) flights) blind row))
                 all (iota (length all))))))
 
+(define tour-kinds '(plan held greedy blind bounded))
+
+(define (tours-asked text)
+  (let ((names (if text (map string->symbol (string-split text #\,)) tour-kinds)))
+    (for-each (lambda (name)
+                (unless (memq name tour-kinds) (unknown-name 'bench "the bench tours" name tour-kinds "tour")))
+              names)
+    names))
+
 (define (read-settings options)
   (let ((quick? (assoc-ref options "--quick")))
-    `((truths . ,(whole options "--truths" (if quick? 2 200) 1 4096))
+    `((tours . ,(tours-asked (assoc-ref options "--tours")))
+      (truths . ,(whole options "--truths" (if quick? 2 200) 1 4096))
       (places . ,(whole options "--places" (if quick? 2 5) 2 8))
       (nodes . ,(whole options "--nodes" 16 4 400))
       (tethers . ,(whole options "--tethers" (if quick? 8 16) 8 256))

@@ -24,11 +24,13 @@
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-11)
   #:export (fly-home! home-trial unwind-preview
-            ;; For (bight dive tour).
-            home-of untold-fork))
+            ;; For (bight dive tour) and (bight dive tour-flight).
+            home-of untold-fork come-home!))
 
 (define tick 0.1)                       ; s between looks at winch and vehicle
 (define near-home 0.8)                  ; m of the anchor is home
+(define usual-speed 0.35)               ; m/s
+(define usual-pull 150.0)               ; N
 (define last-leg 2.5)                   ; m: so near what drifted flies
 (define stuck-way 0.3)                  ; m: no more of the way ...
 (define stuck-time 20)                  ; s: ... in so long is stuck
@@ -182,7 +184,7 @@ by his tether."
              vehicle))
 
 (define (try plan tether vehicle speed pull)
-  ;; What PLAN comes to on a fork: (HOME? SECONDS LEFT AT).
+  ;; What PLAN comes to on a fork: (HOME? SECONDS LEFT AT STATE), STATE that of the fork where it came home.
   (untold-fork
    (lambda ()
      (let ((start (now)) (task (set-out! plan tether vehicle speed pull))
@@ -191,14 +193,16 @@ by his tether."
          (when (and (< (- (now) start) most) (memq task (dive-tasks (this-dive 'home-trial))))
            (run 1)
            (loop)))
-       (list (home? tether vehicle) (- (now) start) (tether-length tether) (rov-position vehicle))))))
+       (let ((home? (home? tether vehicle)))
+         (list home? (- (now) start) (tether-length tether) (rov-position vehicle)
+               (and home? (%save-dive (this-engine 'home-trial)))))))))
 
 (define (untold-fork thunk)
   ;; What THUNK returns on a fork of the verb's own: what happens there is no news.
   (without-telling (lambda () (what-if-thunk thunk))))
 
 (define (first-home tether vehicle speed pull)
-  ;; (PLAN HOME? SECONDS LEFT AT) of the first plan that arrives, or of the one that came nearest.
+  ;; (PLAN HOME? SECONDS LEFT AT STATE) of the first plan that arrives, or of the one that came nearest.
   (let loop ((left (plans)) (best #f))
     (if (null? left)
         best
@@ -207,7 +211,7 @@ by his tether."
                 ((or (not best) (< (fourth outcome) (fourth best))) (loop (cdr left) outcome))
                 (else (loop (cdr left) best)))))))
 
-(define-verb (home-trial #:subject (t tether) #:key (speed positive 0.35) (pull positive 150.0))
+(define-verb (home-trial #:subject (t tether) #:key (speed positive usual-speed) (pull positive usual-pull))
   "Look on forks for a way to come home to the anchor that arrives, the winch taking in and pulling no more
 than PULL newtons, the vehicle flying at SPEED m/s.  Return an alist: home?, plan (the manners that are flown
 in turn when one gets stuck: retrace, flying back along the string; drift, hauled by the winch; tighten,
@@ -216,7 +220,7 @@ seconds, left (m still out), at.  It takes some tenths of a second for each plan
   (let-values (((tether vehicle) (names 'home-trial t)))
     (map cons '(plan home? seconds left at) (first-home tether vehicle speed pull))))
 
-(define-verb (fly-home! #:subject (t tether) #:key (speed positive 0.35) (pull positive 150.0))
+(define-verb (fly-home! #:subject (t tether) #:key (speed positive usual-speed) (pull positive usual-pull))
   "Bring the vehicle home to the anchor in the way that `home-trial' found to arrive; it flies, and works the
 winch, while time passes in `run', and is not `arrived?' before it ends: the vehicle then holds its place at the
 anchor, or at the surface below one in the air, on a slack line.  Return the plan, or #f, and do nothing,
@@ -227,6 +231,14 @@ when none arrives."
          (begin
            (set-out! (first found) tether vehicle speed pull)
            (first found)))))
+
+(define (come-home! tether vehicle)
+  "Like `fly-home!', on a fork that nobody watches: what a trial saw come home is not flown a second time, the present
+dive is as the trial ended.  Return true if one came home; else do nothing."
+  (let ((found (first-home tether vehicle usual-speed usual-pull)))
+    (when (second found)
+      (%restore-dive! (this-engine 'fly-home!) (sixth found)))
+    (second found)))
 
 
 ;;; Unwinding.

@@ -10,7 +10,7 @@
   #:use-module ((bight dive aware) #:select (fouled?))
   #:use-module (bight dive command)
   #:use-module ((bight dive figures) #:select (held-vehicle))
-  #:use-module ((bight dive homing) #:select (fly-home! home-of untold-fork))
+  #:use-module ((bight dive homing) #:select (come-home! fly-home! home-of untold-fork))
   #:use-module (bight dive query)
   #:use-module ((bight dive task) #:select (add-task! remove-task! task-state set-task-state!))
   #:use-module (bight dive time)
@@ -56,12 +56,13 @@
     (make-flight due (flight-legs flight) #t (flight-reached flight)
                  (if moved? place (flight-place flight)) (if moved? (now) (flight-since flight)))))
 
-(define (end-flight! task tour)
+(define (end-flight! task tour watched?)
   ;; The last leg, or what is left of one that could not be flown, is flown home as `fly-home!' finds it.
-  (release! (tour-vehicle tour))
-  (remove-task! (this-dive 'fly-tour!) task)
-  (unless (and (not (parted? (tour-tether tour))) (fly-home! (tour-tether tour)))
-    (hold-position! (tour-vehicle tour))))
+  (let ((tether (tour-tether tour)) (vehicle (tour-vehicle tour)))
+    (release! vehicle)
+    (remove-task! (this-dive 'fly-tour!) task)
+    (unless (and (not (parted? tether)) (if watched? (fly-home! tether) (come-home! tether vehicle)))
+      (hold-position! vehicle))))
 
 (define (next-leg task flight due place)
   (set-task-state! task (make-flight due (cdr (flight-legs flight)) #f (+ 1 (flight-reached flight)) place (now))))
@@ -74,31 +75,33 @@
   (remove-task! (this-dive 'fly-tour!) task)
   (hold-position! (tour-vehicle tour)))
 
-(define (fly-on task tour speed whole?)
+(define (fly-on task tour speed whole? watched?)
   (let* ((flight (task-state task)) (vehicle (tour-vehicle tour)) (step (%dive-steps (this-engine 'fly-tour!))))
     (when (>= step (flight-due flight))
       (let ((due (+ step (round (/ tick (time-step))))) (place (rov-position vehicle)))
         (tend-line! tour speed)
-        (cond ((null? (cdr (flight-legs flight))) (end-flight! task tour))
+        (cond ((null? (cdr (flight-legs flight))) (end-flight! task tour watched?))
               ((or (> (- (now) (flight-since flight)) stuck-time) (parted? (tour-tether tour)))
-               ((if whole? give-up! end-flight!) task tour))
+               (if whole? (give-up! task tour) (end-flight! task tour watched?)))
               ((not (flight-begun? flight))
                (fly-along! vehicle (car (flight-legs flight)) #:speed speed)
                (set-task-state! task (moved-on flight due place)))
               ((at-end? (car (flight-legs flight)) place) (next-leg task flight due place))
               (else (set-task-state! task (moved-on flight due place))))))))
 
-(define* (set-out! who tour speed #:optional whole?)
-  ;; For the verb WHO; return the task.  With WHOLE? a vehicle that gets stuck does not fly home.
+(define* (set-out! who tour speed #:key whole? watched?)
+  ;; For the verb WHO; return the task.  With WHOLE? a vehicle that gets stuck does not fly home; WATCHED?, or is it on a fork
+  ;; of the verb's own?
   (held-vehicle who (list-index (lambda (name) (eq? name (tour-tether tour))) (%names (this-engine who) 'tether)))
   (release! (tour-vehicle tour))
-  (add-task! 'fly-tour! "fly a tour" (lambda (task) (fly-on task tour speed whole?))
+  (add-task! 'fly-tour! "fly a tour" (lambda (task) (fly-on task tour speed whole? watched?))
              (make-flight 0 (tour-legs tour) #f 0 (rov-position (tour-vehicle tour)) (now))
              (tour-vehicle tour)))
 
 (define (begin-flight! tour speed)
-  "Let the present dive fly the whole of TOUR at SPEED while time passes, or as far as it can; return the flight."
-  (set-out! 'fly-tour! tour speed #t))
+  "Let the present dive, a fork that nobody watches, fly the whole of TOUR at SPEED while time passes, or as far as it can;
+return the flight."
+  (set-out! 'fly-tour! tour speed #:whole? #t))
 
 (define (places-reached flight)
   "Return how many places the FLIGHT has come to."
@@ -108,13 +111,13 @@
   "Fly TOUR at SPEED m/s while time passes in `run': the winch keeps a little more out than a taut tether takes, and
 from the last place, or where the vehicle gets stuck, it comes home as `fly-home!' does.  Return the length of
 the tour, m."
-  (begin-flight! tour speed)
+  (set-out! 'fly-tour! tour speed #:watched? #t)
   (tour-length tour))
 
 (define* (flown tour speed #:optional whole? (go-on? (const #t)))
   ;; Fly TOUR in the present dive to its end, and return how many places were come to.  GO-ON? is called with the number of
   ;; each place that is come to, and returns whether the flight goes on.  WHOLE? is as `set-out!' takes it.
-  (let* ((task (set-out! 'tour-trial tour speed whole?)) (dive (this-dive 'tour-trial))
+  (let* ((task (set-out! 'tour-trial tour speed #:whole? whole?)) (dive (this-dive 'tour-trial))
          (most (+ 120 (/ (* 3 (+ (tour-length tour) (tour-line-needed tour))) speed))) (start (now)))
     (let loop ((reached 0))
       (let ((n (places-reached task)))
