@@ -15,7 +15,9 @@ overwrite_work (bt__dynamic_work *w, int byte)
       = { w->X, w->d, w->rhs, w->keep, w->last, w->twist, w->felt, w->natural, w->whole, w->spare };
   double *numbers[] = { w->lam, w->crumple, w->round };
   for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
-    memset (vectors[k], byte, n * sizeof **vectors);
+    if (vectors[k]) /* of bending: made where a line has it */
+      memset (vectors[k], byte, n * sizeof **vectors);
   for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
-    memset (numbers[k], byte, n * sizeof **numbers);
+    if (numbers[k])
+      memset (numbers[k], byte, n * sizeof **numbers);
 }

@@ -114,8 +114,8 @@ typedef struct bt_line
 
 typedef struct bt_steady bt_steady; /* workspace for up to a given number of intervals */
 
-/* Return a workspace for lines of up to N_MAX intervals, or NULL when memory is out.  The solvers
-   below allocate nothing.  */
+/* Return a workspace for lines of up to N_MAX intervals, or NULL when memory is out.  The first
+   call of a solver below allocates the arrays of the workspace: BT_ERR_LIMIT when memory is out. */
 bt_steady *bt_steady_new (int n_max);
 void bt_steady_free (bt_steady *steady);
 

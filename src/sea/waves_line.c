@@ -162,8 +162,8 @@ are_finite (const bt_vec3 *laid, size_t count)
   return isfinite (sum);
 }
 
-/* The number of the N places LAID, from the first on, that share a series in the box *R: looked for
-   by TOGETHER at a time, the last ones by half as many, and so on.  */
+/* The number of the N places LAID, from the first on, with a common series in the box *R.  Places
+   are added by TOGETHER at a time, then by half as many, and so on.  */
 static size_t
 run_from (const bt_waves *w, const bt_vec3 *laid, size_t n, run *r)
 {
@@ -239,10 +239,9 @@ heights_in_run (const bt_waves *w, double middle, double t, const bt_vec3 *p, si
     height[i] = bt__waves_height_at (c, w->east * p[i].x + w->north * p[i].y - middle);
 }
 
-/* The number of the N places P, from the first on, that share a series of the surface about
-   *MIDDLE.  What is left out of the surface is no greater a share of it than what is left out of
-   the velocity is of that, for the shorter a wave is, the more it is left out, and the faster it
-   is. */
+/* The number of the N places P, from the first on, with a common series of the surface about
+   *MIDDLE.  The share of the surface left out is at most the share of the velocity left out: short
+   waves lose most, and count more in the velocity.  */
 static size_t
 level_run (const bt_waves *w, const bt_vec3 *p, size_t n, double *middle)
 {

@@ -39,16 +39,46 @@ bt__dynamic_work_free (bt__dynamic_work *w)
   free (w);
 }
 
+/* Elements of each array: bending has a row for each clamp too.  */
+static size_t
+room_of (const bt__dynamic_work *w)
+{
+  return (size_t)w->n_max + 3;
+}
+
+/* *AT, if it is not made yet: COUNT elements of SIZE.  */
+static int
+make (void *at, size_t count, size_t size)
+{
+  void **array = at;
+  return *array || (*array = calloc (count, size));
+}
+
+int
+bt__dynamic_work_room (bt__dynamic_work *w, const bt_tether_props *p)
+{
+  size_t n = room_of (w);
+  if (!(p->ei > 0 || p->bending_damping > 0))
+    return 1;
+  return make (&w->up2, n, sizeof *w->up2) && make (&w->bend, n, sizeof *w->bend)
+         && make (&w->bend_diag, n, sizeof *w->bend_diag)
+         && make (&w->bend_off, n, sizeof *w->bend_off)
+         && make (&w->bend_far, n, sizeof *w->bend_far) && make (&w->natural, n, sizeof *w->natural)
+         && make (&w->twist, n, sizeof *w->twist) && make (&w->felt, n, sizeof *w->felt)
+         && make (&w->crumple, n, sizeof *w->crumple) && make (&w->slip, n, sizeof *w->slip)
+         && (w->twisted || (w->twisted = bt__twisted_new (n)));
+}
+
 bt__dynamic_work *
 bt__dynamic_work_new (int n_max)
 {
   if (n_max < 1)
     return NULL;
-  size_t n = (size_t)n_max + 3; /* bending has a row for each clamp too */
   bt__dynamic_work *w = calloc (1, sizeof *w);
   if (!w)
     return NULL;
   w->n_max = n_max;
+  size_t n = room_of (w);
   int whole
       = (w->X = calloc (n, sizeof *w->X)) && (w->d = calloc (n, sizeof *w->d))
         && (w->rhs = calloc (n, sizeof *w->rhs)) && (w->keep = calloc (n, sizeof *w->keep))
@@ -56,18 +86,11 @@ bt__dynamic_work_new (int n_max)
         && (w->link = calloc (n, sizeof *w->link)) && (w->node = calloc (n, sizeof *w->node))
         && (w->extra = calloc (n, sizeof *w->extra)) && (w->diag = calloc (n, sizeof *w->diag))
         && (w->off = calloc (n, sizeof *w->off)) && (w->up = calloc (n, sizeof *w->up))
-        && (w->up2 = calloc (n, sizeof *w->up2)) && (w->pivot = calloc (n, sizeof *w->pivot))
-        && (w->bend = calloc (n, sizeof *w->bend))
-        && (w->bend_diag = calloc (n, sizeof *w->bend_diag))
-        && (w->bend_off = calloc (n, sizeof *w->bend_off))
-        && (w->bend_far = calloc (n, sizeof *w->bend_far))
+        && (w->pivot = calloc (n, sizeof *w->pivot)) && (w->kept = calloc (n, sizeof *w->kept))
         && (w->whole = calloc (n, sizeof *w->whole)) && (w->spare = calloc (n, sizeof *w->spare))
         && (w->by_flow = calloc ((BT__BENTS + 3) * n, sizeof *w->by_flow))
         && (w->exchanged = calloc (3 * n, sizeof *w->exchanged))
-        && (w->twisted = bt__twisted_new (n)) && (w->natural = calloc (n, sizeof *w->natural))
-        && (w->twist = calloc (n, sizeof *w->twist)) && (w->felt = calloc (n, sizeof *w->felt))
-        && (w->kept = calloc (n, sizeof *w->kept)) && (w->crumple = calloc (n, sizeof *w->crumple))
-        && (w->round = calloc (n, sizeof *w->round)) && (w->slip = calloc (n, sizeof *w->slip));
+        && (w->round = calloc (n, sizeof *w->round));
   if (whole)
     return w;
   bt__dynamic_work_free (w);
@@ -148,6 +171,8 @@ bt__dynamic_begin (const bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_
   bt_status status = check_input (d, w, in, error);
   if (status)
     return status;
+  if (!bt__dynamic_work_room (w, in->line))
+    return bt__fail (error, BT_ERR_LIMIT, "no memory for the bending of %d intervals", w->n_max);
   w->tolerance = tolerance_of (in) * bt__dynamic_length (d);
   double rest0 = wind_first (d, in, &w->owed), r = d->history ? in->h / d->h : 0;
   if (r > fmax (in->growth, HISTORY_RATIO))

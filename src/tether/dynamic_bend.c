@@ -198,7 +198,7 @@ bt__dynamic_bend_prepare (bt__dynamic_work *w, const bt__dynamic *d)
 {
   double ei = w->in->line->ei, damping = w->in->line->bending_damping;
   size_t size = (size_t)(w->n + 1) * sizeof (double);
-  w->bends = w->slips = 0;
+  w->bends = w->slips = w->is_set = w->twists = 0;
   w->least = ei > 0 ? -INFINITY : 0;
   w->pushed = ei > 0 ? -pushed_most (w, ei) : 0;
   if (!(ei > 0 || damping > 0))

@@ -80,11 +80,12 @@ bt_status
 bt_steady_equilibria (bt_steady *steady, const bt_line *line, const bt_water *water, bt_vec3 a,
                       bt_vec3 b, int n, int max, bt_vec3 *shapes, int *found, bt_error *error)
 {
-  bt_vec3 side[SIDES], *r = steady->shape;
+  bt_vec3 side[SIDES], *r;
+  bt_status room = bt__steady_room (steady, n, error);
   *found = 0;
-  if (n < 1 || n > steady->n_max)
-    return bt__fail (error, BT_ERR_LIMIT, "%d links; the workspace holds 1 to %d", n,
-                     steady->n_max);
+  if (room != BT_OK)
+    return room;
+  r = steady->shape;
   set_sides (line, water, a, b, side);
   for (int i = 0; i < SIDES && *found < max && !bt__ask (steady->asker); i++)
     {

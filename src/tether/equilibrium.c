@@ -189,9 +189,9 @@ bt__equilibrium_solve (bt_steady *steady, const bt_line *line, const bt_water *w
                        bt_vec3 *nodes, bt_vec3 *tensions, bt__shape_counts *counts, bt_error *error)
 {
   task k = { steady, line, water, a, b, n, counts, error };
-  if (n < 1 || n > steady->n_max)
-    return bt__fail (error, BT_ERR_LIMIT, "%d intervals; the workspace holds 1 to %d", n,
-                     steady->n_max);
+  bt_status room = bt__steady_room (steady, n, error);
+  if (room != BT_OK)
+    return room;
   if (!bt__is_finite (a) || !bt__is_finite (b) || !(line->length > 0))
     return bt__fail (
         error, BT_ERR_DOMAIN,

@@ -26,4 +26,8 @@ bt_status bt__equilibrium_solve (bt_steady *steady, const bt_line *line, const b
    shape still moves.  */
 void bt__steady_ask (bt_steady *steady, bt__asker *asker);
 
+/* Let STEADY be ready for N intervals, each solver first.  BT_ERR_LIMIT: it holds fewer, or memory
+   is out.  */
+bt_status bt__steady_room (bt_steady *steady, int n, bt_error *error);
+
 #endif

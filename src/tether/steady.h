@@ -124,7 +124,7 @@ bt_status bt__steady_refine (bt_steady *steady, const bt_line *line, const bt_wa
 /* Correct the pull of REACTION, of a line whose end B has moved by WAY, m, against end A.  */
 void bt__steady_follow (bt__reaction *reaction, bt_vec3 way);
 
-/* The workspace; arrays of n_max + 1 elements each.  */
+/* The workspace; arrays of n_max + 1 elements each, made by the first call of bt__steady_room.  */
 struct bt_steady
 {
   int n_max;

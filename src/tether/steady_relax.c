@@ -488,9 +488,9 @@ bt_steady_relax (bt_steady *steady, const bt_line *line, const bt_water *water, 
 {
   chain c;
   *report = (bt_steady_report){ 0, 0, 0, line->length };
-  if (n < 1 || n > steady->n_max)
-    return bt__fail (error, BT_ERR_LIMIT, "%d links; the workspace holds 1 to %d", n,
-                     steady->n_max);
+  bt_status room = bt__steady_room (steady, n, error);
+  if (room != BT_OK)
+    return room;
   if (!bt__is_finite (a) || !bt__is_finite (b))
     return bt__fail (error, BT_ERR_DOMAIN, "an end of the line is not at a finite place");
   set_chain (&c, steady, line, water, a, b, n, r);

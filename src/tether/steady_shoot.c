@@ -152,9 +152,9 @@ bt_status
 bt__shot_begin (bt_steady *steady, const bt_line *line, const bt_water *water, bt_vec3 a, bt_vec3 b,
                 int n, bt_error *error)
 {
-  if (n < 1 || n > steady->n_max)
-    return bt__fail (error, BT_ERR_LIMIT, "%d intervals; the workspace holds 1 to %d", n,
-                     steady->n_max);
+  bt_status room = bt__steady_room (steady, n, error);
+  if (room != BT_OK)
+    return room;
   if (!bt__is_finite (a) || !bt__is_finite (b))
     return bt__fail (error, BT_ERR_DOMAIN, "an end of the line is not at a finite place");
   if (!bt__is_finite (bt_water_mean_velocity (water, a, b)))
@@ -187,21 +187,33 @@ bt_steady_shoot (bt_steady *steady, const bt_line *line, const bt_water *water, 
   return BT_OK;
 }
 
-static int
-allocate_shooting (bt_steady *steady, size_t n)
+bt_status
+bt__steady_room (bt_steady *steady, int n, bt_error *error)
 {
-  bt_vec3 **vectors[] = { &steady->x0, &steady->dx, &steady->t, &steady->shape, &steady->tensions };
-  int ok = 1;
-  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
-    ok = (*vectors[i] = calloc (n, sizeof (bt_vec3))) && ok;
-  ok = (steady->lam = calloc (n, sizeof (double))) && ok;
-  ok = (steady->pull = calloc (n, sizeof (double))) && ok;
-  ok = (steady->bias = calloc (n, sizeof (double))) && ok;
-  ok = (steady->up = calloc (n, sizeof (bt__block))) && ok;
-  ok = (steady->lanes = calloc (n, sizeof *steady->lanes)) && ok;
-  steady->solver = gsl_multiroot_fdfsolver_alloc (gsl_multiroot_fdfsolver_hybridsj, 3);
-  steady->guess = gsl_vector_alloc (3);
-  return ok && steady->solver && steady->guess;
+  const struct
+  {
+    void *at;
+    size_t size;
+  } array[] = { { &steady->x0, sizeof *steady->x0 },
+                { &steady->dx, sizeof *steady->dx },
+                { &steady->t, sizeof *steady->t },
+                { &steady->shape, sizeof *steady->shape },
+                { &steady->tensions, sizeof *steady->tensions },
+                { &steady->lam, sizeof *steady->lam },
+                { &steady->pull, sizeof *steady->pull },
+                { &steady->bias, sizeof *steady->bias },
+                { &steady->up, sizeof *steady->up },
+                { &steady->lanes, sizeof *steady->lanes } };
+  if (n < 1 || n > steady->n_max)
+    return bt__fail (error, BT_ERR_LIMIT, "%d intervals; the workspace holds 1 to %d", n,
+                     steady->n_max);
+  for (size_t i = 0; i < sizeof array / sizeof *array; i++)
+    {
+      void **at = array[i].at;
+      if (!*at && !(*at = calloc ((size_t)steady->n_max + 1, array[i].size)))
+        return bt__fail (error, BT_ERR_LIMIT, "no memory for %d intervals", steady->n_max);
+    }
+  return BT_OK;
 }
 
 bt_steady *
@@ -215,12 +227,12 @@ bt_steady_new (int n_max)
   if (!steady)
     return NULL;
   steady->n_max = n_max;
-  if (!allocate_shooting (steady, (size_t)n_max + 1))
-    {
-      bt_steady_free (steady);
-      return NULL;
-    }
-  return steady;
+  steady->solver = gsl_multiroot_fdfsolver_alloc (gsl_multiroot_fdfsolver_hybridsj, 3);
+  steady->guess = gsl_vector_alloc (3);
+  if (steady->solver && steady->guess)
+    return steady;
+  bt_steady_free (steady);
+  return NULL;
 }
 
 void

@@ -5,9 +5,9 @@
 #ifndef BT_VEHICLE_SOLVE_H
 #define BT_VEHICLE_SOLVE_H
 
-/* Eliminate A without pivoting, which is right when the symmetric part of A is positive definite.
-   What is left: the factors below the diagonal, the reciprocals of the pivots on it, the eliminated
-   rows beyond.  Return zero when a pivot is next to nothing.  */
+/* Eliminate A without pivoting, right when the symmetric part of A is positive definite.  A
+   receives the factors below the diagonal, the reciprocals of the pivots on the diagonal, the
+   eliminated rows above the diagonal.  Return zero when a pivot is next to nothing.  */
 static inline int
 bt__factor6 (double (*a)[6])
 {

@@ -45,8 +45,25 @@ bt__dive_water (const bt_dive *dive, const bt__state *state)
 
 /* ---- Life ---- */
 
+/* Make the arrays for bending and for the steady model, if a tether of the model has these.  The
+   first step of a tether altered to have them makes them too.  */
+static bt_status
+make_room (bt_dive *dive, int most, bt_error *error)
+{
+  bt_status status = BT_OK;
+  for (int i = 0; i < dive->model->n_tethers && status == BT_OK; i++)
+    {
+      const bt_tether_props *p = &dive->model->tethers[i].props;
+      if (!bt__dynamic_work_room (dive->work, p))
+        status = bt__fail (error, BT_ERR_LIMIT, "no memory for the bending of a dive's lines");
+      else if (p->model == BT_MODEL_STEADY)
+        status = bt__steady_room (dive->tools.steady, most, error);
+    }
+  return status;
+}
+
 /* Make the workspaces any tether of the model may come to need: its model may change while it
- * dives.  */
+   dives.  */
 static bt_status
 make_tools (bt_dive *dive, bt_error *error)
 {
@@ -71,7 +88,7 @@ make_tools (bt_dive *dive, bt_error *error)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for the solvers of a dive");
   bt__steady_ask (dive->tools.steady, &dive->asker);
   bt__dynamic_ask (dive->work, &dive->asker);
-  return BT_OK;
+  return make_room (dive, most, error);
 }
 
 /* What a step has of each vehicle and each tether: contexts borrow it.  */

@@ -397,6 +397,36 @@ test_limits (void **state)
   assert_true (off[0] > 1e-4 && off[0] < 0.01 && off[1] < 0.3 * off[0]);
 }
 
+/* A workspace that a line was twisted in steps a line without torsion as a new one does.  */
+static void
+test_workspace_keeps_nothing (void **state)
+{
+  (void)state;
+  scene twisted, plain[2];
+  open_line (&twisted, 20, 2, 0.7, 0.3, three, 3);
+  clamp (&twisted);
+  scene_step (&twisted, 0.1);
+  twist (&twisted, 0, 6, 3, 0.1);
+  for (int k = 0; k < 2; k++)
+    {
+      open_line (&plain[k], 20, 2, 0, 0.3, NULL, 0);
+      clamp (&plain[k]);
+      turn_grip (&plain[k], 0.5);
+    }
+  bt__dynamic_work *own = plain[1].work;
+  plain[1].work = twisted.work;
+  for (int i = 0; i < 3; i++)
+    {
+      scene_step (&plain[0], 0.1);
+      scene_step (&plain[1], 0.1);
+      assert_memory_equal (plain[0].d, plain[1].d, bt__dynamic_size ((int)plain[0].d->n_max));
+    }
+  plain[1].work = own;
+  scene_close (&plain[0]);
+  scene_close (&plain[1]);
+  scene_close (&twisted);
+}
+
 int
 main (void)
 {
@@ -410,6 +440,7 @@ main (void)
     cmocka_unit_test (test_no_energy_is_gained),
     cmocka_unit_test (test_planar_and_mirrored),
     cmocka_unit_test (test_limits),
+    cmocka_unit_test (test_workspace_keeps_nothing),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
