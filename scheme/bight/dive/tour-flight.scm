@@ -116,8 +116,9 @@ the tour, m."
 
 (define* (flown tour speed #:optional whole? (go-on? (const #t)))
   ;; Fly TOUR in the present dive to its end, and return how many places were come to.  GO-ON? is called with the number of
-  ;; each place that is come to, and returns whether the flight goes on.  WHOLE? is as `set-out!' takes it.
-  (let* ((task (set-out! 'tour-trial tour speed #:whole? whole?)) (dive (this-dive 'tour-trial))
+  ;; each place that is come to, and returns whether the flight goes on.  WHOLE? is as `set-out!' takes it; places are looked at
+  ;; then, so that nothing may be taken over before the last is.
+  (let* ((task (set-out! 'tour-trial tour speed #:whole? whole? #:watched? whole?)) (dive (this-dive 'tour-trial))
          (most (+ 120 (/ (* 3 (+ (tour-length tour) (tour-line-needed tour))) speed))) (start (now)))
     (let loop ((reached 0))
       (let ((n (places-reached task)))
