@@ -158,10 +158,12 @@ check_lumps (const bt_tether_def *tether, bt_error *error)
 
 #define SET_TURN 1.0 /* radians: the most that a set may turn a line within one interval */
 
-#define STIFFEST 1e12 /* Pa: Young's modulus of diamond */
+#define STIFFEST 1e16 /* Pa: ten thousand times diamond, so that a line may be all but rigid */
+#define WITHIN 0.01   /* s */
 
-/* No line is stiffer than a solid rod of its diameter of the stiffest material, nor damps its
-   bending more than such a rod that gives way within a second.  */
+/* No line is stiffer than a solid rod of its diameter and of STIFFEST, nor damps its bending more
+   than such a rod that gives way within WITHIN seconds: what bends beyond that, and weighs next to
+   nothing, moves by more energy than the solver's rounding can hold.  */
 static bt_status
 check_stiffness (const bt_tether_props *p, const bt_tether_def *tether, bt_error *error)
 {
@@ -174,12 +176,12 @@ check_stiffness (const bt_tether_props *p, const bt_tether_def *tether, bt_error
               { "ei", "N m2", p->ei, bends },
               { "ei-stuck", "N m2", p->ei_stuck, bends },
               { "gj", "N m2", p->gj, bends },
-              { "bending-damping", "N m2 s", p->bending_damping, bends } };
+              { "bending-damping", "N m2 s", p->bending_damping, bends * WITHIN } };
   for (size_t k = 0; k < sizeof all / sizeof *all; k++)
     if (!(all[k].is <= all[k].most))
       return bt__fail (error, BT_ERR_DOMAIN,
-                       "`%s' of tether `%s' is %g %s; a solid rod as thick, %g mm, and as stiff as "
-                       "diamond has %.3g: no line has more",
+                       "`%s' of tether `%s' is %g %s; a solid rod as thick, %g mm, and ten thousand "
+                       "times as stiff as diamond has %.3g, the most there is",
                        all[k].name, tether->name, all[k].is, all[k].unit, 1e3 * d, all[k].most);
   return BT_OK;
 }

@@ -135,13 +135,14 @@ numbers come from all that is allowed."
       tether
       `(,@(without-field tether 'ei) (ei 0.05))))
 
-(define (no-stiffer-than-diamond tether)
+(define (no-stiffer-than-a-rod tether)
   ;; TETHER; what it has of stiffness is no more than a line of its diameter can have.
   (let* ((diameter (number-of tether 'diameter)) (diameter (if (zero? diameter) 0.0076 diameter)))
     (define (most-of name)
       (case name
-        ((ea) (* 7.8e11 (expt diameter 2)))
-        ((ei ei-stuck gj bending-damping) (* 4.9e10 (expt diameter 4)))
+        ((ea) (* 7.8e15 (expt diameter 2)))
+        ((ei ei-stuck gj) (* 4.9e14 (expt diameter 4)))
+        ((bending-damping) (* 4.9e12 (expt diameter 4)))
         (else #f)))
     (map (lambda (clause)
            (let ((most (and (pair? clause) (most-of (car clause)))))
@@ -171,7 +172,7 @@ numbers come from all that is allowed."
   `(world ,sea ,@bed
           ,@(name-all obstacles "o")
           ,@(name-all vehicles "r")
-          ,@(map (lambda (tether) (with-what-things-need (no-stiffer-than-diamond (name-ends tether (length vehicles)))))
+          ,@(map (lambda (tether) (with-what-things-need (no-stiffer-than-a-rod (name-ends tether (length vehicles)))))
                  (name-all tethers "t"))))
 
 (define (some-parts heads least most wild?)
