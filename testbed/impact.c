@@ -29,8 +29,6 @@ impact_time (const impact *i)
   return 1.2 * BT__PI * sqrt (IMPACT_MASS * i->length / i->ea);
 }
 
-#define STIFFEST 7e11 /* N/m2: EA over the square of the diameter; diamond has 7.9e11 */
-
 enum
 {
   MODES = 1000,
@@ -123,7 +121,6 @@ impact_scene (scene *s, const impact *i, int nodes)
   bt_tether_props *p = &scene_line (s, bt__vec (0, 0, -50), i->length, nodes)->props;
   p->tension_accuracy = 0.02;
   p->ea = i->ea;
-  p->diameter = fmax (p->diameter, sqrt (i->ea / STIFFEST)); /* water does not act on it */
   p->ba = i->ba;
   p->mass = i->mass;
   p->wet_weight = 0;
