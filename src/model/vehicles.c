@@ -177,6 +177,19 @@ check_thrusters (bt_vehicle_def *def, bt_error *error)
   return status;
 }
 
+#define AIR 1.2 /* kg/m3: no vehicle displaces so much water that air would carry it */
+
+static bt_status
+check_volume (const bt_vehicle_def *def, bt_error *error)
+{
+  if (def->volume * AIR <= def->mass)
+    return BT_OK;
+  return bt__fail (error, BT_ERR_DOMAIN,
+                   "`volume' of rov `%s' is %g m3; with its mass of %g kg it has at most %.3g: more, "
+                   "and it is lighter than air",
+                   def->name, def->volume, def->mass, def->mass / AIR);
+}
+
 bt_status
 bt__compile_vehicle (bt_vehicle_def *def, double density, bt__vehicle_type *type, bt__rig *rig,
                      bt_error *error)
@@ -195,6 +208,9 @@ bt__compile_vehicle (bt_vehicle_def *def, double density, bt__vehicle_type *type
       fill_type (&dead, type);
       return BT_OK;
     }
+  status = check_volume (def, error);
+  if (status != BT_OK)
+    return status;
   fill_type (def, type);
   status = bt__vehicle_type_check (type, &inner);
   if (status == BT_OK && any_of (&def->steers) == 0)
