@@ -30,6 +30,7 @@
 #define SOFT 1e-6     /* of the stiffness: what resists the flow between slack intervals */
 #define FOLLOWS 60    /* iterations for a flow that follows the places */
 #define SETTLED 1e-13 /* m */
+#define STICKS 0.25   /* of SLIP: a node that goes less in a step may stick */
 
 /* ---- The intervals before and after ---- */
 
@@ -296,19 +297,16 @@ bt__dynamic_bent_solve (bt__dynamic_work *w)
                 + lack_by (w->bent + k, r + k, w->by_flow + (size_t)l * nodes);
   if (!solve_small (m, y, w->bents))
     return INFINITY;
-  double most = 0;
   for (int l = 0; l < w->bents; l++)
     {
       const bt_vec3 *z = w->by_flow + (size_t)l * nodes;
       w->bent[l].step = y[l];
       w->bent[l].gain[0] = r[l].a.by_rest;
       w->bent[l].gain[1] = r[l].b.by_rest;
-      most = fmax (most, fabs (y[l]));
       for (size_t i = 0; i < nodes; i++)
         w->d[i] = bt__axpy (w->d[i], y[l], z[i]);
     }
-  double moved = bt__dynamic_largest (w);
-  return fmax (moved, most);
+  return bt__dynamic_largest (w);
 }
 
 /* ---- Flows that follow the places ---- */
@@ -407,18 +405,26 @@ bt__dynamic_bent_follow (bt__dynamic_work *w)
 
 /* ---- After an iteration ---- */
 
-/* The tensions are those of the linear equations, the flows what then suits the places.  */
+/* The tensions are those of the linear equations, the flows what then suits the places.  Between
+   slack intervals the linear equations may swing to and fro while those flows stand.  */
 void
 bt__dynamic_bent_take (bt__dynamic_work *w, double share)
 {
-  for (int k = 0; k < w->bents && w->bordered; k++)
+  double before[BT__BENTS];
+  for (int k = 0; k < w->bents; k++)
     {
       bt__dynamic_bent *b = w->bent + k;
+      before[k] = b->flow;
+      if (!w->bordered)
+        continue;
       w->lam[b->node - 1] += share * b->gain[0] * b->step;
       w->lam[b->node] -= share * b->gain[1] * b->step;
       let_flow (w, b, share * b->step);
     }
   bt__dynamic_bent_follow (w);
+  w->flowed = 0;
+  for (int k = 0; k < w->bents; k++)
+    w->flowed = fmax (w->flowed, fabs (w->bent[k].flow - before[k]));
 }
 
 /* ---- From outside ---- */
@@ -433,6 +439,8 @@ bt__dynamic_bent_stop (bt__dynamic_work *w)
     }
 }
 
+/* A sliding node starts where it is held, but along its edge as predicted, unless that is so little
+   that it may stick: at rest it would be stirred up.  */
 void
 bt__dynamic_bend (bt__dynamic_work *w, bt__dynamic_bent *bent, int n)
 {
@@ -443,7 +451,9 @@ bt__dynamic_bend (bt__dynamic_work *w, bt__dynamic_bent *bent, int n)
       double guess = bent[k].flow;
       bent[k].flow = 0;
       let_flow (w, bent + k, guess);
-      w->X[bent[k].node] = bent[k].at;
+      bt_vec3 *X = w->X + bent[k].node, away = bt__sub (*X, bent[k].at);
+      double along = bt__dot (bent[k].axis, away);
+      *X = bt__axpy (bent[k].at, fabs (along) > STICKS * bent[k].slip ? along : 0, bent[k].axis);
     }
   for (int k = 0; k < n; k++)
     follow (w, bent + k);

@@ -179,6 +179,7 @@ struct bt__dynamic_work
   double *bend_diag, *bend_off, *bend_far;
   bt__slip *slip;
   bt_vec3 *whole, *spare, *by_flow; /* of bent nodes: updates without flow and of each flow */
+  double flowed;                    /* m: the most that a flow changed in the last iteration */
   int *exchanged; /* rows of the band, which lies in BY_FLOW, see dynamic_couple.c */
 };
 

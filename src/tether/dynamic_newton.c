@@ -47,7 +47,7 @@ enum
 #define LOST_HELD 0.3     /* ... and where an end is held */
 #define REACH 0.1         /* m: what is taken at most of one among contacts, see quick */
 #define STRAYS 0.3        /* m: an update of these that is lost */
-#define LEAST_SHARE 0.3   /* of an update that is held back */
+#define LEAST_SHARE 0.1   /* of an update that is held back */
 #define MORE 2.0         /* times that, when updates do not go back that differ by as much as ... */
 #define WALKS_LEAST 2e-3 /* m: ... fronts that walk, at least ... */
 #define WALKS_MOST 2e-2  /* ... and at most */
@@ -232,6 +232,8 @@ quick (bt__dynamic_work *w, bt__dynamic_report *report)
         send_fronts (w);
       if (lags (w, i) && couple (w, report))
         return 1;
+      if (touches)
+        report->update = most = fmax (most, w->flowed);
       if (!(most <= w->tolerance && (i == 0 || !changed)))
         continue;
       if (settled || ++pressed > PRESSED)

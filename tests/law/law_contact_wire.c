@@ -276,6 +276,38 @@ comes_off (void **state)
   clear (&r);
 }
 
+/* ---- What a steady step costs ---- */
+
+/* Drawn along the wire at a steady speed by both ends, pulled apart and down: one solve a step.  */
+static void
+slides_in_one_solve (void **state)
+{
+  static reef r;
+  static rope p;
+  const bt_vec3 shape[] = { { -4, 0, -3 }, { 0, 0, 0.02 }, { 4, 0, -3 } };
+  long before = 0;
+  (void)state;
+  assert_true (reef_open (&r));
+  reef_wire (&r, bt__vec (0, -30, 0), bt__vec (0, 30, 0), 0.005);
+  assert_true (reef_raise (&r) && rope_open (&p, &r, 40, shape, 3, 10.1, 0.3));
+  for (int e = 0; e < 2; e++)
+    p.in.end[e] = (bt__dynamic_end){ .free = 1, .body = { .mass = 5, .linear = 50 } };
+  for (int i = 0; i < 900; i++)
+    {
+      for (int e = 0; e < 2; e++)
+        p.in.end[e].body.force = bt__vec (e ? 20 : -20, i > 300 ? 30 : 0, -60);
+      before = i == 450 ? p.solves : before;
+      assert_true (rope_step (&p, frame, 1));
+    }
+  double solves = (double)(p.solves - before) / 450;
+  print_message ("# sliding at %.2f m/s: %.3f solves a step\n", p.touch.speed, solves);
+  assert_true (p.touch.speed > 0.05 && p.touch.bends > 0);
+  assert_below (solves, 1.1, "solves of a step that slides on as it did");
+  assert_kept (&p, "a line that slides along a wire");
+  rope_close (&p);
+  reef_close (&r);
+}
+
 /* ---- Sweeps ---- */
 
 static void
@@ -309,6 +341,6 @@ main (void)
       = { cmocka_unit_test (capstan),         cmocka_unit_test (goes_fast),
           cmocka_unit_test (ripples_without), cmocka_unit_test (sticks),
           cmocka_unit_test (slides_along),    cmocka_unit_test (comes_off),
-          cmocka_unit_test (sweeps) };
+          cmocka_unit_test (sweeps),          cmocka_unit_test (slides_in_one_solve) };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
