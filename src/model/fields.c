@@ -114,7 +114,7 @@ static const bt_field vehicle_fields[] = {
   NUMBER (bt_vehicle_def, mass, "mass", "kg", 0, 0, 1e6, 0, 0, NULL,
           "0: it goes exactly where it is told; else thrust, water and tether move it"),
   NUMBER (bt_vehicle_def, volume, "volume", "m3", NAN, 0, 1e6, 0, 0, neutral,
-          "of water displaced; with mass, of which a cubic metre needs 1.2 kg"),
+          "of water displaced; with mass, at most of 800 times as much water"),
   POSITIVE (inertia, "inertia", "kg m2", 1e9,
             "of roll, pitch, yaw about the centre of gravity; 0: of a box of its size"),
   OTHER (bt_vehicle_def, buoyancy, "buoyancy-centre", "m", BT_FIELD_POINT, 0, NULL, 0,

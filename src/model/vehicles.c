@@ -177,17 +177,18 @@ check_thrusters (bt_vehicle_def *def, bt_error *error)
   return status;
 }
 
-#define AIR 1.2 /* kg/m3: no vehicle displaces so much water that air would carry it */
+#define MOST_DISPLACED 800.0 /* times its own mass, of water: no vehicle is lighter than air */
 
 static bt_status
-check_volume (const bt_vehicle_def *def, bt_error *error)
+check_volume (const bt_vehicle_def *def, double density, bt_error *error)
 {
-  if (def->volume * AIR <= def->mass)
+  double most = MOST_DISPLACED * def->mass / density;
+  if (def->volume <= most)
     return BT_OK;
   return bt__fail (error, BT_ERR_DOMAIN,
                    "`volume' of rov `%s' is %g m3; with its mass of %g kg it has at most %.3g: more, "
                    "and it is lighter than air",
-                   def->name, def->volume, def->mass, def->mass / AIR);
+                   def->name, def->volume, def->mass, most);
 }
 
 bt_status
@@ -208,7 +209,7 @@ bt__compile_vehicle (bt_vehicle_def *def, double density, bt__vehicle_type *type
       fill_type (&dead, type);
       return BT_OK;
     }
-  status = check_volume (def, error);
+  status = check_volume (def, density, error);
   if (status != BT_OK)
     return status;
   fill_type (def, type);
