@@ -15,8 +15,8 @@
 /* Holds the procedure that is told, or #f.  */
 static SCM reporter;
 
-/* Time is asked for thousands of times a second.  The coarse clock is a look into memory, and right to
-   some milliseconds.  */
+/* Time is asked for thousands of times a second.  The coarse clock is a look into memory, and right
+   to some milliseconds.  */
 #ifdef CLOCK_MONOTONIC_COARSE
 #define CLOCK CLOCK_MONOTONIC_COARSE
 #else

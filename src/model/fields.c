@@ -114,7 +114,7 @@ static const bt_field vehicle_fields[] = {
   NUMBER (bt_vehicle_def, mass, "mass", "kg", 0, 0, 1e6, 0, 0, NULL,
           "0: it goes exactly where it is told; else thrust, water and tether move it"),
   NUMBER (bt_vehicle_def, volume, "volume", "m3", NAN, 0, 1e6, 0, 0, neutral,
-          "of water displaced; with mass, at most of 800 times as much water"),
+          "of water displaced; with mass, at most 800 times its mass of water"),
   POSITIVE (inertia, "inertia", "kg m2", 1e9,
             "of roll, pitch, yaw about the centre of gravity; 0: of a box of its size"),
   OTHER (bt_vehicle_def, buoyancy, "buoyancy-centre", "m", BT_FIELD_POINT, 0, NULL, 0,
@@ -185,12 +185,14 @@ static const bt_field tether_fields[] = {
   PROP (wet_weight, "wet-weight", "N/m", NAN, -3e4, 3e4, 0, NULL,
         "in the water, sinking positive; follows from mass when not given"),
   PROP (ea, "ea", "N", 2e5, 0, 1e11, 1, inextensible,
-        "axial stiffness; at most that of a solid rod of the diameter, ten thousand times as stiff as diamond"),
+        "axial stiffness; at most that of a solid rod of the diameter, ten thousand times as stiff "
+        "as diamond"),
   PROP (ei, "ei", "N m2", 0, 0, 1e9, 0, NULL, "bending stiffness; at most that of such a rod"),
   PROP (gj, "gj", "N m2", 0, 0, 1e9, 0, NULL, "torsional stiffness; no more than `ei' may be"),
   PROP (ba, "ba", "N s", 20, 0, 1e9, 0, NULL, "internal damping"),
   PROP (bending_damping, "bending-damping", "N m2 s", 0, 0, 1e9, 0, NULL,
-        "internal damping of bending, of the moving line; no more than a hundredth of what `ei' may be"),
+        "internal damping of bending, of the moving line; no more than a hundredth of what `ei' "
+        "may be"),
   PROP (ei_stuck, "ei-stuck", "N m2", 0, 0, 1e9, 0, NULL,
         "bending stiffness of the moving line while the layers of its armour stick to each other, "
         "more than `ei', which is that of layers that slip; 0: as `ei'"),

@@ -179,10 +179,11 @@ check_stiffness (const bt_tether_props *p, const bt_tether_def *tether, bt_error
               { "bending-damping", "N m2 s", p->bending_damping, bends * WITHIN } };
   for (size_t k = 0; k < sizeof all / sizeof *all; k++)
     if (!(all[k].is <= all[k].most))
-      return bt__fail (error, BT_ERR_DOMAIN,
-                       "`%s' of tether `%s' is %g %s; a solid rod as thick, %g mm, and ten thousand "
-                       "times as stiff as diamond has %.3g, the most there is",
-                       all[k].name, tether->name, all[k].is, all[k].unit, 1e3 * d, all[k].most);
+      return bt__fail (
+          error, BT_ERR_DOMAIN,
+          "`%s' of tether `%s' is %g %s; a solid rod as thick, %g mm, and ten thousand "
+          "times as stiff as diamond has %.3g, the most there is",
+          all[k].name, tether->name, all[k].is, all[k].unit, 1e3 * d, all[k].most);
   return BT_OK;
 }
 

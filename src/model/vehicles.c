@@ -185,10 +185,11 @@ check_volume (const bt_vehicle_def *def, double density, bt_error *error)
   double most = MOST_DISPLACED * def->mass / density;
   if (def->volume <= most)
     return BT_OK;
-  return bt__fail (error, BT_ERR_DOMAIN,
-                   "`volume' of rov `%s' is %g m3; with its mass of %g kg it has at most %.3g: more, "
-                   "and it is lighter than air",
-                   def->name, def->volume, def->mass, most);
+  return bt__fail (
+      error, BT_ERR_DOMAIN,
+      "`volume' of rov `%s' is %g m3; with its mass of %g kg it has at most %.3g: more, "
+      "and it is lighter than air",
+      def->name, def->volume, def->mass, most);
 }
 
 bt_status

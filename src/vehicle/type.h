@@ -86,8 +86,8 @@ double bt__thruster_force (const bt__thruster *thruster, double volts, double co
 /* The command that gives FORCE at VOLTS, or the nearest it can.  */
 double bt__thruster_command (const bt__thruster *thruster, double volts, double force);
 
-/* The force at VOLTS of the command for FORCE at VOLTS, N, without the command: the nearest to FORCE
-   that a thruster without a dead band can give.  */
+/* The force at VOLTS of the command for FORCE at VOLTS, N, without the command: the nearest to
+   FORCE that a thruster without a dead band can give.  */
 double bt__thruster_nearest (const bt__thruster *thruster, double volts, double force);
 
 /* ---- What sticks and autopilots command ---- */

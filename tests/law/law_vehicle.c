@@ -340,8 +340,8 @@ test_nearest (void **state)
     for (double volts = 9; volts < 22; volts += 0.5)
       for (double f = -90; f < 90; f += 0.37)
         assert_close (bt__thruster_nearest (&t[k], volts, f),
-                      bt__thruster_force (&t[k], volts, bt__thruster_command (&t[k], volts, f)), 1e-9,
-                      "nearest");
+                      bt__thruster_force (&t[k], volts, bt__thruster_command (&t[k], volts, f)),
+                      1e-9, "nearest");
 }
 
 /* First-order lag, exact at the ends of steps: f = F (1 - exp (-t/tau)), and as much impulse.  */
