@@ -12,7 +12,7 @@ pre=$top_builddir/pre-inst-env
 sub=$top_srcdir/tests/follow/ardusub.py
 follower=
 feeder=
-trap 'kill $follower $feeder 2>/dev/null; rm -rf "$scratch"' EXIT
+trap 'itself && { kill $follower $feeder 2>/dev/null; rm -rf "$scratch"; }' EXIT
 PYTHONDONTWRITEBYTECODE=1
 export PYTHONDONTWRITEBYTECODE
 

@@ -73,6 +73,7 @@ lose () # KERNEL: with all the processes that it is made of
 }
 end_kernels ()
 {
+  itself || return
   for kernel in $kernels; do
     lose "$kernel"
   done

@@ -105,6 +105,7 @@ CONF
   export SLURM_CONF
   end_slurm ()
   {
+    itself || return
     scancel --user=root >/dev/null 2>&1
     daemons=$(cat "$real/slurmd.n1.pid" "$real/slurmd.n2.pid" "$real/slurmctld.pid" "$real/munge/pid" 2>/dev/null)
     # shellcheck disable=SC2086 # a list of processes
@@ -167,9 +168,9 @@ result $? 'what is under way is not submitted again'
 bight sweep quick.scm --slurm --tasks 5 -o "it's.db" --detach 2>err
 [ $? -eq 1 ] && grep -q 'is being flown in 4 parts' err
 result $? 'and keeps its parts, be there files of them or not'
-"$pre" bight sweep quick.scm --slurm -o "it's.db" >out 2>err &
+"$pre" bight sweep quick.scm --slurm -o "it's.db" >followed 2>err &
 follower=$!
-await grep -q 'are under way' out
+await grep -q 'are under way' followed # a file of its own: `out' has said so already
 kill -INT $follower
 wait $follower
 [ $? -eq 1 ] && grep -q 'go on without us' err

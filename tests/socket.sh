@@ -8,7 +8,7 @@ export XDG_RUNTIME_DIR
 mkdir -m 700 "$XDG_RUNTIME_DIR"
 house=
 talker=
-trap 'kill $house $talker 2>/dev/null; rm -rf "$scratch"' EXIT
+trap 'itself && { kill $house $talker 2>/dev/null; rm -rf "$scratch"; }' EXIT
 
 # Whoever talks to the house for longer is `talker'.
 

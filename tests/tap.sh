@@ -7,7 +7,14 @@ export LC_ALL
 tests=0
 failures=0
 scratch=$(mktemp -d) || exit 99
-trap 'rm -rf "$scratch"' EXIT
+
+# In this process itself: bash runs the EXIT trap of its parent in a child that a signal meets before the child has
+# become its command, and the parent would go on without its files.
+itself ()
+{
+  sh -c "[ \$PPID -eq $$ ]"
+}
+trap 'itself && rm -rf "$scratch"' EXIT
 
 diag ()
 {

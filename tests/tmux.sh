@@ -10,7 +10,7 @@ fi
 TMUX_TMPDIR=$scratch
 export TMUX_TMPDIR
 unset TMUX
-trap 'pane kill-server 2>/dev/null; rm -rf "$scratch"' EXIT
+trap 'itself && { pane kill-server 2>/dev/null; rm -rf "$scratch"; }' EXIT
 
 # Each terminal is a server of its own: one that is on its way out takes no more.
 server=0
