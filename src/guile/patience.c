@@ -6,6 +6,8 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <config.h>
+
 #include <time.h>
 
 #include "guile/guile.h"
