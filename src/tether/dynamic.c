@@ -14,6 +14,7 @@
 #define OWED_TIME 0.5     /* s in which the winch pays what it owes */
 #define LEAST_REST 0.05   /* of a piece: the shortest an interval is hauled to, ... */
 #define LEAST_LUMP 0.0005 /* ... where the node of a lump may be at the winch, ... */
+#define LEAST_TURN 0.125  /* of what is enough for a stiff line, ... */
 #define STUB 0.05         /* m: ... and the last of all */
 /* Of the length, in steps of a sixtieth of a second and longer; what a step may leave undone must
    shrink with it, or short steps add it up.  */
@@ -148,7 +149,9 @@ static double
 wind_first (const bt__dynamic *d, const bt__dynamic_input *in, double *owed)
 {
   double rest = bt__dynamic_rest (d)[0], part = d->owed * fmin (1, in->h / OWED_TIME);
-  double least = (in->mesh.corners ? LEAST_LUMP : LEAST_REST) * d->piece;
+  double least = LEAST_REST * d->piece;
+  if (in->mesh.corners)
+    least = fmax (LEAST_LUMP * d->piece, LEAST_TURN * bt__dynamic_blunt (d, in->line));
   least = d->n > 1 ? least : fmin (least, STUB);
   double next = fmax (rest + in->pay * in->h + part, fmin (rest, least));
   *owed = d->owed - part;

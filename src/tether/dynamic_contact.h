@@ -174,6 +174,10 @@ typedef struct bt__dynamic_turn
   int lump;     /* true if the node comes with a lump: see bt__dynamic_split_at_lump */
 } bt__dynamic_turn;
 
+/* Return how short the first interval of D, of a line P, need be for what the line turns at the
+   winch, m: 0 for a line without bending stiffness, in which a corner is sharp.  */
+double bt__dynamic_blunt (const bt__dynamic *d, const bt_tether_props *p);
+
 /* Return the next deed of the winch on D, whose lumps are in INPUT.  */
 bt__dynamic_turn bt__dynamic_winding (const bt__dynamic *d, const bt__dynamic_input *input);
 

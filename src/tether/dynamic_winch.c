@@ -10,6 +10,10 @@
    brings its own node, which comes as the lump leaves the winch, in the direction in which the
    winch is pulled; and the nodes about a lump go only at the winch itself.
 
+   A stiff line has no corner: it turns over sqrt (EI / T).  A first interval much shorter than that
+   would shape nothing, and be a lever: what a step leaves undone of the place of its node, times EI
+   over the third power of its length, pulls at a clamp.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
@@ -21,6 +25,7 @@
 #define SPLIT 1.6 /* of a piece: the first interval is split beyond this, ... */
 #define JOIN 0.4  /* ... and joined below this; far apart, so that neither undoes the other */
 
+#define TURNS 0.1  /* of sqrt (EI / T): no first interval of a stiff line need be shorter */
 #define BORN 0.001 /* of a piece: how far a lump is out when its node comes, ... */
 #define GONE 0.008 /* ... and how near to the winch the node of a lump goes */
 #define LEAST 0.01 /* of an interval: the least part of it */
@@ -291,11 +296,20 @@ is_off_chord (const bt__dynamic *d)
   return bt__norm (bt__cross (a, b)) > BENT * d->piece * chord;
 }
 
+double
+bt__dynamic_blunt (const bt__dynamic *d, const bt_tether_props *p)
+{
+  double pull = bt__dynamic_tension (d)[d->n > 1 ? 1 : 0], most = JOIN * d->piece;
+  if (!(p->ei > 0))
+    return 0;
+  return pull > 0 ? fmin (TURNS * sqrt (p->ei / pull), most) : most;
+}
+
 static first_lump
-first_lump_of (const bt__dynamic *d, const bt__dynamic_input *in)
+first_lump_of (const bt__dynamic *d, const bt__dynamic_input *in, double edge)
 {
   const double *rest = bt__dynamic_rest (d);
-  double length = bt__dynamic_length (d) - d->owed, edge = BORN * d->piece;
+  double length = bt__dynamic_length (d) - d->owed;
   double next = rest[0] + (d->n > 1 ? rest[1] : 0);
   first_lump found = { d->n > 1 && is_off_chord (d), 0 };
   for (int k = 0; k < in->n_lumps; k++)
@@ -313,17 +327,19 @@ first_lump_of (const bt__dynamic *d, const bt__dynamic_input *in)
 bt__dynamic_turn
 bt__dynamic_winding (const bt__dynamic *d, const bt__dynamic_input *in)
 {
-  double rest = bt__dynamic_rest (d)[0], piece = d->piece;
-  first_lump lump = in->mesh.corners ? first_lump_of (d, in) : (first_lump){ 0, 0 };
-  int near = lump.corner ? in->pay < 0 && rest < GONE * piece : rest < JOIN * piece;
+  double rest = bt__dynamic_rest (d)[0], piece = d->piece, step = in->pay * in->h;
+  double blunt = in->mesh.corners ? bt__dynamic_blunt (d, in->line) : 0;
+  double born = fmax (BORN * piece, blunt);
+  first_lump lump = in->mesh.corners ? first_lump_of (d, in, born) : (first_lump){ 0, 0 };
+  double gone = blunt > 0 ? fmin (fmax (GONE * piece, blunt - step), JOIN * piece) : GONE * piece;
+  int near = lump.corner ? in->pay < 0 && rest < gone : rest < JOIN * piece;
   if (d->n > d->least && near)
     return (bt__dynamic_turn){ .way = -1 };
-  if (in->pay > 0 && lump.out > 0 && lump.out <= fmax (2 * BORN * piece, 2 * in->pay * in->h))
+  if (in->pay > 0 && lump.out > 0 && lump.out <= fmax (2 * born, 2 * step))
     return (bt__dynamic_turn){ .way = 1, .first = lump.out, .lump = 1 };
   if (rest > SPLIT * piece)
-    return (bt__dynamic_turn){ .way = 1,
-                               .first = lump.out > 0 ? BORN * piece : 0,
-                               .straight = lump.corner };
+    return (
+        bt__dynamic_turn){ .way = 1, .first = lump.out > 0 ? born : 0, .straight = lump.corner };
   return (bt__dynamic_turn){ .way = 0 };
 }
 

@@ -78,6 +78,17 @@ whichever way a vehicle looks that carries the clamp in its own axes."
   (run 20)
   (expect (y (tangent-at 0)) is (above 0.99)))
 
+(define-scenario (lumps-come-to-a-clamped-winch ei)
+  "Whatever the stiffness, lumps that are hauled into a clamp are felt there by a few times what the winch pulls with."
+  #:for ((ei 0.001 0.05 50 1000))
+  (enter! (world (sea (current 0.3 90))
+                 (rov (named v) (type kinematic) (at 12 0 -8))
+                 (tether (named l) (wet-weight 0.2) (ei ei) (from 0 0 -2) (from-along 1 0 0) (to v) (length 16)
+                         (clump (at 1) (mass 2)) (float (at 3) (buoyancy 20)) (model dynamic))))
+  (run 3)
+  (haul-in! 3 #:rate 0.3)
+  (always (< (anchor-tension) 300) (run 12)))
+
 (define-scenario a-vehicle-twists-its-line
   "A vehicle that turns under its line twists it by as many turns, awake or asleep: the torque is G J Theta / L at both
 ends, in forks and checkpoints too.  Paid out, the line has less of it; cut, none."
