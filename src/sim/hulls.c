@@ -192,8 +192,7 @@ show_hull (bt_dive *dive, bt__state *state, int vehicle)
 void
 bt__surround_by_hulls (bt_dive *dive, bt__state *state, int i, bt__surroundings *around)
 {
-  static const uint8_t off = 1;
-  static const bt__switches none = { .off = &off };
+  static const bt__scene nothing; /* in place of a hull that the line may not meet */
   bt__contact_work *work = &dive->contact_work;
   if (!bt__is_by_a_hull (dive, i))
     return;
@@ -204,12 +203,10 @@ bt__surround_by_hulls (bt_dive *dive, bt__state *state, int i, bt__surroundings 
       bt__motion motion = bt__motion_between (&here, &here);
       if (counts)
         motion = bt__motion_part (show_hull (dive, state, v), work->since, 1 - work->left);
-      work->mover[around->movers++]
-          = (bt__mover){ .body = dive->model->hull[v] ? dive->model->hull[v] : dive->model->scene,
-                         .on = counts ? NULL : &none,
-                         .motion = motion,
-                         .radius = counts ? radius_of_hull (dive, v) : 0,
-                         .done = 1 };
+      work->mover[around->movers++] = (bt__mover){ .body = counts ? dive->model->hull[v] : &nothing,
+                                                   .motion = motion,
+                                                   .radius = counts ? radius_of_hull (dive, v) : 0,
+                                                   .done = 1 };
     }
 }
 

@@ -77,6 +77,25 @@
   (expect (abs (middle-x)) is (below 0.01))
   (expect (assq-ref (profile) 'beside-hulls) => 0))
 
+(define here-module (current-module))
+
+(define-scenario no-obstacle-goes-with-a-vehicle
+  "What stands about the origin is met there alone, not about a vehicle without a size, near which another's hull is."
+  ;; So many, because an obstacle too many was met where a byte of a string happened to be zero.
+  (define about-the-origin
+    (map (lambda (i) `(sphere (named ,(string->symbol (simple-format #f "o~a" i))) (at -0.5 0.1 0) (radius 0.3)))
+         (iota 120)))
+  (enter! (eval `(world (sea) ,@about-the-origin
+                        (rov (named b) (at 18.5 0.5 -10) (size 0.5 0.4 0.3))
+                        (rov (named a) (at 20 0 -10))
+                        (tether (named line) (from 10 0 -10) (to a) (length 10.5) (wet-weight 0) (model dynamic)
+                                (nodes 40)))
+                here-module))
+  (run 1)
+  (expect (assq-ref (profile) 'beside-hulls) is (above 0))
+  (expect (contacts) => '())
+  (expect (events) => '()))
+
 (define-scenario far-from-hulls-nothing-is-asked
   "A line in whose reach no hull comes is stepped as if there were none: the same bits, no pair and no link asked."
   (in (with (crossed) (b (at 30 0 -13.5))))
