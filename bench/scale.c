@@ -7,7 +7,7 @@
    what grows; it is the only number here that is not better for being closer to something else.
 
    The same of what moves the water, waves and lees of piles: scale_sea.h; of obstacles far away,
-   contacts, and forks stepped side by side: scale_many.h.  The counter `n' is what a row has so
+   contacts, forks stepped side by side, and what a fork takes of memory: scale_many.h.  The counter `n' is what a row has so
    many of; the report draws CPU time over `n', case by case, with the exponent that fits.
 
    The same vehicles stepped by several threads, in open water and each line pressed to a post,
@@ -265,6 +265,7 @@ main (int argc, char **argv)
     return status;
   bench_table table;
   bench_open (&table);
+  scale_forks (&table);
   scale_nodes (&table, nodes, (double)work);
   scale_vehicles (&table, vehicles, (double)work);
   scale_triangles (&table, triangles, (double)work);

@@ -2,9 +2,12 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <malloc.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "math/vec.h"
 #include "scale_many.h"
@@ -164,4 +167,117 @@ scale_members (bench_table *t, long most, double work)
       free (member);
     }
   bt_dive_free (origin);
+}
+
+/* ---- Forks ---- */
+
+enum
+{
+  FORKS = 20,
+  AGAIN = 400 /* forks made and freed, for the time */
+};
+
+/* Bytes for an interval of a fork, and s of CPU for a fork made and freed.  */
+typedef struct cost
+{
+  double idle, stepped; /* given by the system: before a step, after five */
+  double allotted;      /* asked of the system, after five */
+  double seconds;
+} cost;
+
+/* What the system gave this process, bytes.  */
+static double
+given (void)
+{
+  long all = 0, resident = 0;
+  FILE *f = fopen ("/proc/self/statm", "r");
+  if (!f || fscanf (f, "%ld %ld", &all, &resident) != 2)
+    exit (EXIT_FAILURE);
+  fclose (f);
+  return (double)resident * (double)sysconf (_SC_PAGESIZE);
+}
+
+static double
+asked (void)
+{
+  struct mallinfo2 m = mallinfo2 ();
+  return (double)m.uordblks + (double)m.hblkhd;
+}
+
+/* A vehicle on a line of N intervals that a current, where there is a bar, presses to it.  */
+static bt_dive *
+begin_forked (long n, int bar)
+{
+  scene *s = &drawn;
+  scene_clear (s);
+  scene_vehicle (s, bt__vec (0, 12, -20));
+  scene_line (s, bt__vec (-1, -12, 0), fmax (40, 0.01 * (double)n), (int)n)->props.mass = 0.05;
+  if (bar)
+    scene_bar (s, bt__vec (-1, -20, -12), bt__vec (-1, 20, -12), 0.3);
+  bt_dive *dive = scene_begin (&s->world);
+  scene_fly (dive, 1, 0, WARM);
+  return dive;
+}
+
+static cost
+measure_forks (long n, int bar)
+{
+  bt_dive *dive = begin_forked (n, bar), *fork[FORKS];
+  double before = given (), asked_before = asked (), each = FORKS * (double)n;
+  cost c;
+  bt_error error;
+  for (int k = 0; k < FORKS; k++)
+    scene_must (bt_dive_fork (dive, &fork[k], &error), &error);
+  c.idle = (given () - before) / each;
+  for (int k = 0; k < FORKS; k++)
+    scene_fly (fork[k], 1, WARM, 5);
+  c.stepped = (given () - before) / each;
+  c.allotted = (asked () - asked_before) / each;
+  for (int k = 0; k < FORKS; k++)
+    bt_dive_free (fork[k]);
+  double begun = bench_now ();
+  for (int k = 0; k < AGAIN; k++)
+    {
+      scene_must (bt_dive_fork (dive, fork, &error), &error);
+      bt_dive_free (fork[0]);
+    }
+  c.seconds = (bench_now () - begun) / AGAIN;
+  return c;
+}
+
+/* The same in a process of its own, whose memory is fresh.  */
+static cost
+measure_apart (long n, int bar)
+{
+  int ends[2], status;
+  cost c = { NAN, NAN, NAN, NAN };
+  if (pipe (ends) != 0)
+    exit (EXIT_FAILURE);
+  pid_t child = fork ();
+  if (child == 0)
+    {
+      c = measure_forks (n, bar);
+      _exit (write (ends[1], &c, sizeof c) == sizeof c ? EXIT_SUCCESS : EXIT_FAILURE);
+    }
+  close (ends[1]);
+  if (child < 0 || read (ends[0], &c, sizeof c) != sizeof c || waitpid (child, &status, 0) != child)
+    exit (EXIT_FAILURE);
+  close (ends[0]);
+  return c;
+}
+
+void
+scale_forks (bench_table *t)
+{
+  for (int bar = 0; bar < 2; bar++)
+    for (long n = 100; n <= 1000; n *= 10)
+      {
+        cost c = measure_apart (n, bar);
+        char setting[60], counters[120];
+        snprintf (setting, sizeof setting, "%ld intervals%s", n, bar ? ", pressed to a bar" : "");
+        snprintf (counters, sizeof counters, "allotted=%.0f;without_step=%.0f;intervals=%ld",
+                  c.allotted, c.idle, n);
+        bench_put (t, &(bench_row){ "fork", "dynamic", setting, "bytes given for an interval",
+                                    c.stepped, NULL, 0, c.seconds, counters });
+      }
 }

@@ -19,4 +19,9 @@ void scale_contacts (bench_table *t, long most, double work);
  */
 void scale_members (bench_table *t, long most, double work);
 
+/* The memory of forks of a dive, in open water and pressed to a bar, and what making one takes. The
+   error is what the system gave of memory, in bytes for an interval, after five steps.  Call this
+   first: memory that was used before is not seen to be given.  */
+void scale_forks (bench_table *t);
+
 #endif

@@ -10,7 +10,7 @@
 void
 overwrite_work (bt__dynamic_work *w, int byte)
 {
-  size_t n = (size_t)w->n_max + 3;
+  size_t n = (size_t)w->room + 3;
   bt_vec3 *vectors[]
       = { w->X, w->d, w->rhs, w->keep, w->last, w->twist, w->felt, w->natural, w->whole, w->spare };
   double *numbers[] = { w->lam, w->crumple, w->round };

@@ -1,9 +1,9 @@
 /* A dive: one model and the flat state that moves.
 
    Every operation works on a copy of the state, taken over only after success: a refused call
-   leaves the dive unchanged.  Questions are pure reads.  Nothing is allocated between bt_dive_new
-   and bt_dive_free but by bt_dive_fork, bt_dive_set_threads, the operation `follow' and, for the
-   time of the call, bt_dive_sonar.
+   leaves the dive unchanged.  Questions are pure reads.  A fork is little more than a state: its
+   first operation or step allocates the workspaces, and later steps allocate more when a line has
+   more intervals, or touches more, than ever before.  BT_ERR_LIMIT when memory is out.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

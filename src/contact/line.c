@@ -43,6 +43,13 @@ check_config (const bt__line_config *c, const bt__line_work *w, const bt__dynami
   return BT_OK;
 }
 
+static bt_status
+lack (bt__line_work *w, bt_error *error)
+{
+  w->lacks = 0;
+  return bt__fail (error, BT_ERR_LIMIT, "no memory for what a line touches");
+}
+
 static double
 widened (double core, const bt_vec3 *x, int links)
 {
@@ -74,6 +81,8 @@ prepare (bt__line_job *k)
   for (int j = k->links - 1; j >= 0; j--)
     w->from_end[j] = w->from_end[j + 1] + rest[j];
   k->olds = k->anchors->n < w->rows_max ? (int)k->anchors->n : w->rows_max;
+  if (!bt__line_old_room (w, k->olds))
+    k->olds = 0;
   memcpy (w->old, bt__contacts_at (k->anchors), (size_t)k->olds * sizeof *w->old);
   memset (w->restart, 0, (size_t)k->links + 1);
 }
@@ -162,6 +171,8 @@ step_far (bt__line_job *k, const bt__dynamic_drift *may, bt__dynamic_report *rep
   k->X = bt__dynamic_proposal (k->kernel);
   *done = !bt__line_is_overpulled (k)
           && (is_alone (k) || (isfinite (report->update) && bt__self_stays_far (k)));
+  if (k->w->lacks)
+    return lack (k->w, error);
   if (*done)
     status = bt__dynamic_finish_within (k->d, k->kernel, may, done, report, error);
   if (!*done || status)
@@ -237,6 +248,8 @@ step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
     bt__dynamic_bent_follow (k->kernel);
   mark_fresh (k);
   bt__line_keep (k);
+  if (k->w->lacks)
+    return lack (k->w, error);
   status = bt__dynamic_finish (k->d, k->kernel, k->w->restart, report, error);
   if (status)
     return status;
@@ -307,6 +320,8 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
   bt_status status = check_config (config, w, d, error);
   if (status)
     return status;
+  if (!bt__line_room (w, d, config))
+    return lack (w, error);
   bt__line_aim_ends (&k);
   if (k.scene->n == 0 && k.movers == 0 && !bt__self_counts (&k) && !d->rounded)
     status = step_open (&k, report, error);

@@ -313,6 +313,8 @@ anchor_of (const bt__line_job *k, int i)
 static void
 insert (bt__line_job *k, const bt__contact *a)
 {
+  if (!bt__line_old_room (k->w, k->olds + 1))
+    return;
   bt__contact *at = k->w->old;
   int i = k->olds++;
   for (; i > 0 && at[i - 1].from_end < a->from_end; i--)

@@ -141,7 +141,7 @@ touch_crests (bt__line_job *k, uint32_t j, const bt__pass *p, const bt__triangle
     {
       uint32_t edge = 3 * p->near->slot + (uint32_t)e;
       bt__witness now, w;
-      if (has == e + 1 || !(folds >> e & 1) || k->rows >= k->w->rows_max
+      if (has == e + 1 || !(folds >> e & 1) || !bt__line_takes_row (k)
           || !pass_edge (t, e, &p->from, &now) || now.distance >= touch
           || !is_crest (mesh, edge, now.normal))
         continue;
@@ -170,7 +170,7 @@ bt__row_facet (bt__line_job *k, uint32_t j, const bt__near *near)
       over++;
       is_nearest |= w.distance <= nearest;
       w.point = bt__axpy (at, -w.distance, w.normal);
-      if (w.distance >= k->config->radius + k->margin || k->rows >= k->w->rows_max)
+      if (w.distance >= k->config->radius + k->margin || !bt__line_takes_row (k))
         continue;
       bt__row_set (k, k->rows, j, e, near, &w, w.distance);
       bt__row_take (k, 1);

@@ -109,8 +109,11 @@ cut_at_obstacles (bt__line_job *k)
   bt__safe_config config = { k->config->core, BT__LINE_STRIDE, 1 };
   bt__safe_report safe;
   size_t size = (size_t)(k->links + 1) * sizeof *k->x;
+  bt__safe *work = bt__line_safe (k->w);
+  if (!work)
+    return;
   memcpy (k->w->to, k->x, size);
-  bt__safe_step (k->w->safe, &config, k->scene, k->on, k->mover, k->movers, k->w->to, k->X,
+  bt__safe_step (work, &config, k->scene, k->on, k->mover, k->movers, k->w->to, k->X,
                  (uint32_t)k->links + 1, &safe, k->count);
   memcpy (k->X, k->w->to, size);
 }

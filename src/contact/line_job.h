@@ -35,9 +35,10 @@ typedef struct bt__self_known
 /* What is known of a line and itself, see self_pairs.c.  */
 typedef struct bt__self
 {
-  int pairs, knowns, room;  /* of either */
-  bt__self_pair *pair;      /* of this step */
-  bt__self_known *known;    /* until the next look */
+  int pairs, knowns, most; /* there are, and may be of either */
+  bt__self_pair *pair;     /* of this step */
+  bt__self_known *known;   /* until the next look */
+  size_t pair_room, known_room;
   double *move;             /* m: how far each node may go for PAIR to hold all */
   double *reach;            /* m: how far each link looks */
   bt__aabb *box, *its;      /* of links, of links of links: this line's, another's */
@@ -101,20 +102,28 @@ typedef struct bt__line_row
   bt_vec3 point;   /* on the obstacle, at the end of the step */
 } bt__line_row;
 
+/* The parts near a link: such a list is made when anything comes near to the link.  */
+typedef struct bt__link_list
+{
+  bt__near near[BT__LINE_ROOM];      /* as found in this step */
+  bt__candidate kept[BT__LINE_ROOM]; /* among which later steps look */
+} bt__link_list;
+
 struct bt__line_work
 {
   int n_max, rows_max;
+  int lacks;                /* true: memory was out in this step, which is then not taken */
   uint64_t serial, version; /* of the scene and the switches CLEAR is of, ... */
   const uint8_t *off;       /* ... and their place */
-  bt__safe *safe;
+  bt__safe *safe;           /* made when a move is cut, as is TO */
+  bt_vec3 *to;
   bt__link_watch *watch;
-  uint32_t room; /* parts near a link: */
-  bt__near *near;
-  bt__candidate *kept;
+  uint32_t room;        /* parts near a link */
+  bt__link_list **list; /* of each link, or NULL */
   bt__constraint *row;
   bt__line_row *of; /* what ROW is of */
   bt__contact *old; /* anchors of the last step, then of this */
-  bt_vec3 *to;
+  size_t row_room, of_room, old_room, self_room;
   double *from_end; /* m of rest length from each node to node n */
   uint8_t *restart;
   bt__self self;
@@ -151,6 +160,28 @@ typedef struct bt__line_job
   bt__count *count;
 } bt__line_job;
 
+/* ---- Room (line_work.c) ---- */
+
+/* Make room for D beside the other lines of CONFIG; for N constraints, and for N contacts kept; for
+   one more pair of links of either kind.  Return false when memory is out, which the workspace
+   notes.  */
+int bt__line_room (bt__line_work *w, const bt__dynamic *d, const bt__line_config *config);
+int bt__line_row_room (bt__line_work *w, int n);
+int bt__line_old_room (bt__line_work *w, int n);
+int bt__self_pair_room (bt__line_work *w);
+int bt__self_known_room (bt__line_work *w);
+
+/* The list of LINK, made if there is none; what cuts moves, likewise.  NULL as above.  */
+bt__link_list *bt__line_list (bt__line_work *w, uint32_t link);
+bt__safe *bt__line_safe (bt__line_work *w);
+
+/* True if there may be another constraint, and is room for it.  */
+static inline int
+bt__line_takes_row (bt__line_job *k)
+{
+  return k->rows < k->w->rows_max && bt__line_row_room (k->w, k->rows + 1);
+}
+
 /* ---- Its ends (line_ends.c) ---- */
 
 /* Say where the ends are wanted; a place that is not finite means stay.  */
@@ -184,10 +215,12 @@ void bt__line_note_near (bt__line_job *k, int near);
    are full.  */
 void bt__line_watch_moves (bt__line_job *k);
 
-static inline bt__near *
+/* What is listed of LINK; NULL: nothing was ever near to it.  */
+static inline const bt__near *
 bt__line_near (const bt__line_job *k, uint32_t link)
 {
-  return k->w->near + (size_t)link * k->w->room;
+  const bt__link_list *list = k->w->list[link];
+  return list ? list->near : NULL;
 }
 
 static inline bt__link

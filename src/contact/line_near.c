@@ -74,7 +74,16 @@ measure_clear (bt__line_job *k, uint32_t j, double known, double look)
 static bt__candidate *
 kept_of (const bt__line_job *k, uint32_t j)
 {
-  return k->w->kept + (size_t)j * k->w->room;
+  return k->w->list[j]->kept;
+}
+
+/* Let LIST be the list of link J, which is made if there is none.  */
+static void
+open_list (bt__line_job *k, uint32_t j, bt__nears *list)
+{
+  bt__link_list *own = bt__line_list (k->w, j);
+  list->at = own ? own->near : NULL;
+  list->room = own ? k->w->room : 0;
 }
 
 /* Drop from LIST what is farther than REACH.  */
@@ -147,7 +156,10 @@ list_static (bt__line_job *k, uint32_t j, double need, bt__nears *list)
       return;
     }
   if (reach + way <= s->span)
-    measure_candidates (k, j, reach, list);
+    {
+      open_list (k, j, list);
+      measure_candidates (k, j, reach, list);
+    }
   else
     {
       if (!(s->clear <= need)) /* it was clear */
@@ -156,6 +168,7 @@ list_static (bt__line_job *k, uint32_t j, double need, bt__nears *list)
           if (s->clear > need)
             return;
         }
+      open_list (k, j, list);
       renew_candidates (k, j, reach, reach + AROUND, list);
     }
   s->full = list->dropped < reach;
@@ -175,6 +188,7 @@ list_mover (bt__line_job *k, uint32_t j, uint32_t m, bt__nears *list)
   double away = ball.distance - mover->radius - own;
   if (away * (1 - BT__MARGIN) > s->reach)
     return;
+  open_list (k, j, list);
   link = (bt__link){ bt__to_local (at, link.a), bt__to_local (at, link.b) };
   bt__scene_near (mover->body, mover->on, &link, m + 1, (s->reach + own) * (1 + BT__MARGIN), list,
                   k->count);
@@ -188,7 +202,7 @@ static void
 list_link (bt__line_job *k, uint32_t j, double need)
 {
   bt__link_watch *s = k->w->watch + j;
-  bt__nears list = { bt__line_near (k, j), 0, k->w->room, INFINITY };
+  bt__nears list = { NULL, 0, 0, INFINITY };
   s->full = 0;
   s->reach = WIDER * need;
   if (k->scene->n > 0)
@@ -234,6 +248,8 @@ bt__line_watch (bt__line_job *k)
   double touch = k->config->radius + k->margin, ends = move_of_ends (k);
   int any = 0;
   double before = bt__dot (v[0], v[0]);
+  if (k->w->room == 0 && k->scene->n == 0 && k->movers == 0)
+    return 0; /* nor was anything ever listed */
   for (int j = 0; j < k->links; j++)
     {
       double after = bt__dot (v[j + 1], v[j + 1]);

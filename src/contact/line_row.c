@@ -177,7 +177,7 @@ touch_end (bt__line_job *k, uint32_t j, int e, const bt__pass *p, const pass_end
   double above = fmax (end->from.distance - k->config->radius, 0);
   int64_t i = (int64_t)j + e;
   raise = fmin (raise, above + (i > 0 && i < k->links ? BT__LINE_RECOVERY * k->h : 0));
-  if (end->from.distance - raise >= k->config->radius + k->margin || k->rows >= k->w->rows_max)
+  if (end->from.distance - raise >= k->config->radius + k->margin || !bt__line_takes_row (k))
     return;
   bt__row_set (k, k->rows, j, e, p->near, &end->w, end->from.distance - raise);
   k->w->row[k->rows].offset += raise;
@@ -195,7 +195,7 @@ void
 bt__row_between (bt__line_job *k, uint32_t j, const bt__pass *p, double radius)
 {
   bt_vec3 along = bt__sub (p->to.b, p->to.a);
-  if (k->rows >= k->w->rows_max)
+  if (!bt__line_takes_row (k))
     return;
   bt__witness w;
   look_ahead (k, p, &p->from, &p->to, &p->near->w, &w);
@@ -377,7 +377,7 @@ bt__line_add_hit (bt__line_job *k, uint32_t j, const bt__near *near, const bt__w
       n = bt__out_of (&to, n);
     }
   int at = row_for_hit (k, j, near, w->s, n);
-  if (at >= k->w->rows_max)
+  if (at == k->rows && !bt__line_takes_row (k))
     return -1;
   int again = at < k->rows ? k->w->of[at].again + 1 : 0;
   k->wedged = bt__line_is_wedged (k, j, 1);

@@ -1,12 +1,15 @@
-/* The workspace of a line among obstacles.
+/* The workspace of a line among obstacles.  Lists and arrays are made when obstacles or links come
+   near, and grow; the most links of a line bound their lengths, whatever the room.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <stdlib.h>
+#include <string.h>
 
+#include "base/room.h"
 #include "contact/line_job.h"
 
-/* Room a link for parts and pairs that are near, and half-spaces.  */
+/* The most parts and pairs a link that are near, and half-spaces.  */
 typedef struct room
 {
   int parts, pairs, rows;
@@ -16,30 +19,123 @@ static const room rooms[] = { [BT__AMONG_ITSELF] = { 0, 8, 1 },
                               [BT__AMONG_LINES] = { 0, 24, 4 },
                               [BT__AMONG_OBSTACLES] = { BT__LINE_ROOM, 24, 4 } };
 
+/* ---- Room, made as it is needed ---- */
+
+/* ARRAY anew, for N elements of SIZE, holding anything.  */
 static int
-self_new (bt__self *s, size_t n, int pairs)
+renew (void *array, size_t n, size_t size)
 {
-  size_t boxes = 2;
+  void *old, *made = malloc (n * size);
+  memcpy (&old, array, sizeof old);
+  free (old);
+  memcpy (array, &made, sizeof made);
+  return made != NULL;
+}
+
+static int
+longest (const bt__dynamic *d, const bt__line_config *config)
+{
+  int64_t n = d->n;
+  for (int i = 0; i < config->strands; i++)
+    n = config->strand[i].line->n > n ? config->strand[i].line->n : n;
+  return (int)n;
+}
+
+/* The arrays for lines of up to LINKS: what was known of a line and itself is forgotten.  */
+static int
+renew_self (bt__self *s, size_t links)
+{
+  size_t n = links + 2, boxes = 2;
   while (boxes < 2 * n)
     boxes *= 2;
-  s->room = pairs * (int)n;
-  return (s->pair = calloc ((size_t)s->room, sizeof *s->pair))
-         && (s->known = calloc ((size_t)s->room, sizeof *s->known))
-         && (s->move = calloc (n, sizeof *s->move)) && (s->reach = calloc (n, sizeof *s->reach))
-         && (s->box = calloc (boxes, sizeof *s->box)) && (s->its = calloc (boxes, sizeof *s->its))
-         && (s->chord = calloc (boxes, sizeof *s->chord))
-         && (s->stood = calloc (n, sizeof *s->stood));
+  s->still = 0;
+  return renew (&s->move, n, sizeof *s->move) && renew (&s->reach, n, sizeof *s->reach)
+         && renew (&s->stood, n, sizeof *s->stood) && renew (&s->box, boxes, sizeof *s->box)
+         && renew (&s->its, boxes, sizeof *s->its) && renew (&s->chord, boxes, sizeof *s->chord);
 }
+
+/* Return HAS, and note that memory is out if it is false.  */
+static int
+note (bt__line_work *w, int has)
+{
+  w->lacks |= !has;
+  return has;
+}
+
+int
+bt__line_room (bt__line_work *w, const bt__dynamic *d, const bt__line_config *config)
+{
+  size_t links = (size_t)longest (d, config);
+  if (links <= w->self_room)
+    return 1;
+  w->self_room = 0;
+  links += links / 8;
+  if (!note (w, renew_self (&w->self, links)))
+    return 0;
+  w->self_room = links;
+  return 1;
+}
+
+int
+bt__line_row_room (bt__line_work *w, int n)
+{
+  return note (w, bt__make_room (&w->row, &w->row_room, (size_t)n, sizeof *w->row)
+                      && bt__make_room (&w->of, &w->of_room, (size_t)n, sizeof *w->of));
+}
+
+int
+bt__line_old_room (bt__line_work *w, int n)
+{
+  return note (w, bt__make_room (&w->old, &w->old_room, (size_t)n, sizeof *w->old));
+}
+
+int
+bt__self_pair_room (bt__line_work *w)
+{
+  bt__self *s = &w->self;
+  return note (w, bt__make_room (&s->pair, &s->pair_room, (size_t)s->pairs + 1, sizeof *s->pair));
+}
+
+int
+bt__self_known_room (bt__line_work *w)
+{
+  bt__self *s = &w->self;
+  return note (w,
+               bt__make_room (&s->known, &s->known_room, (size_t)s->knowns + 1, sizeof *s->known));
+}
+
+bt__link_list *
+bt__line_list (bt__line_work *w, uint32_t link)
+{
+  if (!w->list[link])
+    note (w, (w->list[link] = malloc (sizeof **w->list)) != NULL);
+  return w->list[link];
+}
+
+bt__safe *
+bt__line_safe (bt__line_work *w)
+{
+  size_t n = (size_t)w->n_max + 1;
+  if (w->safe)
+    return w->safe;
+  if (note (w, (w->to || (w->to = malloc (n * sizeof *w->to)))
+                   && bt__safe_new ((uint32_t)n, w->room, &w->safe, NULL) == BT_OK))
+    return w->safe;
+  return NULL;
+}
+
+/* ---- Life ---- */
 
 void
 bt__line_work_free (bt__line_work *w)
 {
   if (!w)
     return;
+  for (int j = 0; w->list && j <= w->n_max; j++)
+    free (w->list[j]);
   bt__safe_free (w->safe);
   free (w->watch);
-  free (w->near);
-  free (w->kept);
+  free (w->list);
   free (w->row);
   free (w->of);
   free (w->old);
@@ -64,20 +160,14 @@ bt__line_work_new (int n_max, bt__among among)
   bt__line_work *w = n_max < 1 ? NULL : calloc (1, sizeof *w);
   if (!w)
     return NULL;
-  size_t n = (size_t)n_max + 1, rows = (size_t)room->rows * n + 16;
+  size_t n = (size_t)n_max + 1;
   w->n_max = n_max;
-  w->rows_max = (int)rows;
+  w->rows_max = room->rows * (int)n + 16;
   w->room = (uint32_t)room->parts;
-  int whole
-      = bt__safe_new ((uint32_t)n, w->room, &w->safe, NULL) == BT_OK
-        && (w->watch = calloc (n, sizeof *w->watch))
-        && (w->near = calloc (n * w->room + 1, sizeof *w->near))
-        && (w->kept = calloc (n * w->room + 1, sizeof *w->kept))
-        && (w->row = calloc (rows + 1, sizeof *w->row))
-        && (w->of = calloc (rows + 1, sizeof *w->of))
-        && (w->old = calloc (rows + BT__BENTS, sizeof *w->old))
-        && (w->to = calloc (n, sizeof *w->to)) && (w->from_end = calloc (n, sizeof *w->from_end))
-        && (w->restart = calloc (n, sizeof *w->restart)) && self_new (&w->self, n, room->pairs);
+  w->self.most = room->pairs * (int)n;
+  int whole = (w->watch = calloc (n, sizeof *w->watch)) && (w->list = calloc (n, sizeof *w->list))
+              && (w->from_end = malloc (n * sizeof *w->from_end))
+              && (w->restart = malloc (n * sizeof *w->restart));
   if (whole)
     {
       bt__line_work_forget (w);
@@ -93,7 +183,8 @@ bt__line_work_forget (bt__line_work *w)
   w->self.still = 0;
   if (w->room == 0)
     return;
-  bt__safe_forget (w->safe);
+  if (w->safe)
+    bt__safe_forget (w->safe);
   for (int j = 0; j < w->n_max; j++)
     {
       w->watch[j].clear = 1e9;
@@ -114,7 +205,9 @@ bt__line_work_spare (bt__line_work *w, bt__dynamic *d, const bt__line_config *co
                      .core = config->core,
                      .x = bt__dynamic_x (d),
                      .report = &unused };
-  return bt__self_counts (&k) ? bt__self_spare (&k) : INFINITY;
+  if (!bt__self_counts (&k))
+    return INFINITY;
+  return bt__line_room (w, d, config) ? bt__self_spare (&k) : 0;
 }
 
 double

@@ -138,7 +138,7 @@ look (bt__line_job *k)
   self->still = 0;
   while (!look_once (k) && self->way > LEAST_WAY * piece)
     self->way *= 0.5;
-  self->wait = self->knowns == self->room ? WAIT : 0;
+  self->wait = self->knowns == self->most ? WAIT : 0;
   self->drift = (bt__dynamic_drift){ 0 };
   if (self->wait > 0)
     return;
@@ -341,7 +341,8 @@ stays_clear (bt__line_job *k)
   return drift.turned <= may.turned && drift.apart <= may.apart;
 }
 
-/* Other lines that come as near as that to where this one was may be met in its move.  */
+/* Ask how near a line must come, to the place of the line before its move, to be met in the move.
+ */
 static void
 ask_moved (const bt__line_job *k)
 {

@@ -196,7 +196,7 @@ void
 bt__self_rows (bt__line_job *k)
 {
   const bt__self *self = &k->w->self;
-  for (int n = 0; n < self->pairs && k->rows < k->w->rows_max; n++)
+  for (int n = 0; n < self->pairs && bt__line_takes_row (k); n++)
     {
       const bt__self_pair *p = self->pair + n;
       double touch = k->config->radius + radius_of (k, p) + k->margin;
@@ -221,7 +221,7 @@ bt__self_add_hit (bt__line_job *k, const bt__self_pair *p, const bt__witness *w,
           && bt__dot (k->w->row[at].normal, w->normal) > BT__LINE_ALIKE_HIT)
         break;
     }
-  if (at >= k->w->rows_max)
+  if (at == k->rows && !bt__line_takes_row (k))
     return;
   bt__link a = bt__self_second (k, k->x, p), b = bt__self_second (k, k->X, p);
   bt__link second

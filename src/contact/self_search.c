@@ -233,7 +233,7 @@ bt__self_add (bt__self_search *s, int i, int j)
   k->report->pairs++;
   if (!(bt__self_distance (&a, &b) <= reach) || are_neighbours (s, i, j))
     return;
-  if (all->pairs == all->room)
+  if (all->pairs == all->most || !bt__self_pair_room (k->w))
     {
       s->dropped++;
       return;
@@ -266,7 +266,7 @@ add_known (bt__self_search *s, int i, int j)
     return;
   self->least = bt__self_lower (self->least, clear);
   self->least_turn = bt__self_lower (self->least_turn, clear / (j + 1 - i));
-  if (self->knowns == self->room)
+  if (self->knowns == self->most || !bt__self_known_room (k->w))
     s->dropped++;
   else
     self->known[self->knowns++] = (bt__self_known){ (uint32_t)i, (uint32_t)j, clear };

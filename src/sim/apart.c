@@ -1,8 +1,8 @@
 /* Islands: groups of tethers that may influence each other in the coming step.
 
-   Tethers form one island if they share a vehicle that one of them may carry by its far end, if one
-   may meet the hull of a vehicle of the other, or if they are moving lines that may touch each
-   other within the reach of their queries.  Distances are bounded by boxes: about each line, about
+   Two tethers form an island in three cases: the far end of either may carry a vehicle of both;
+   either may meet the hull of a vehicle at the far end of the second; both are moving lines and may
+   touch within the reach of their queries.  Distances are bounded by boxes: about each line, about
    every few links, then link by link.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */

@@ -191,6 +191,7 @@ bt__still_chain (bt_dive *dive, bt__state *state, int i)
   memset (&tether->memory.reaction, 0, sizeof tether->memory.reaction);
   tether->shape.form = BT__FORM_NODES;
   tether->shape.n = n;
+  bt__clear_unused_nodes (dive, state, i);
 }
 
 /* Move a part of a parted line, unchanged in shape, along with its held end.  */

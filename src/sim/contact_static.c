@@ -151,10 +151,13 @@ step_among_obstacles (bt_dive *dive, bt__state *state, int i, const bt__ends *en
                       bt_error *error)
 {
   bt__surroundings around;
+  bt_status status = bt__dive_safe (dive, error);
+  if (status != BT_OK)
+    return status;
   bt__store_changes (dive, i);
   around = bt__surround (dive, state, BT_PART_TETHER, i);
   bt__way way = workspace_for (dive, bt__dive_tether (dive, state, i), i, &around);
-  bt_status status = go (dive, state, i, ends, &way, error);
+  status = go (dive, state, i, ends, &way, error);
   bt__around_done (dive);
   return status;
 }

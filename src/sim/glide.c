@@ -200,5 +200,8 @@ glides (bt_dive *dive)
 bt_status
 bt_dive_step (bt_dive *dive, bt_error *error)
 {
+  bt_status status = bt__dive_ready (dive, error);
+  if (status != BT_OK)
+    return status;
   return glides (dive) ? BT_OK : bt__step_aside (dive, error);
 }

@@ -71,7 +71,9 @@ bt__lead_to_rest (bt_dive *dive, bt__state *state, int i, bt_vec3 *x, int n, int
   bt__safe_config config = { .core = keep_off (dive, state, i, x, n),
                              .stride = fmax (STRIDE_LEAST, 2 * left / ROUNDS),
                              .rounds = 1 };
-  bt_status status = BT_OK;
+  bt_status status = bt__dive_safe (dive, error);
+  if (status != BT_OK)
+    return status;
   bt__safe_forget (dive->contact_work.safe);
   dive->contact_work.safe_of = -1;
   for (int k = 0; status == BT_OK && left > 0 && gone > IDLE * config.stride && k < ROUNDS; k++)

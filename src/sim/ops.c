@@ -223,7 +223,9 @@ try_op (bt_dive *dive, bt_op which, int subject, const double *args, int n, bt_e
     return status;
   if (o->order && bt__all_rest (dive, dive->now))
     return bt__give_order (&(bt__call){ dive, dive->now, subject, args, n, error }, o->apply);
-  status = apply_until_it_fits (dive, o, subject, args, n, error);
+  status = bt__dive_ready (dive, error);
+  if (status == BT_OK)
+    status = apply_until_it_fits (dive, o, subject, args, n, error);
   return status == BT_OK ? bt__dive_become (dive, error) : status;
 }
 

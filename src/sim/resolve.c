@@ -129,11 +129,14 @@ bt__solve_static (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, 
   bt__tether *tether = bt__dive_tether (dive, state, i);
   double pull = pull_for_solve (dive, state, i);
   bt_vec3 *nodes = bt__dive_nodes (dive, state, i);
+  int had_nodes = bt__has_nodes (tether->shape.form);
   bt_status status = solve_shape (dive, state, i, ends, pull, error);
   if (status != BT_OK)
     return status;
   if (may_float (tether))
     bt__lay_shape_afloat (dive, state, i);
+  if (!had_nodes && bt__has_nodes (tether->shape.form))
+    bt__clear_unused_nodes (dive, state, i);
   tether->tension_max = largest_tension (&tether->shape, nodes, bt__dive_tensions (dive, state, i));
   tether->pull = pull;
   tether->stale = !tether->settled; /* a shape that still moves goes on next step */

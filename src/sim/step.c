@@ -105,6 +105,24 @@ fill (const bt_dive *dive, bt__state *state)
   bt__obstacles_init (dive, state);
 }
 
+/* Put the parts of DIVE in their places, and lay its tethers.  */
+static bt_status
+begin (bt_dive *dive, bt_error *error)
+{
+  bt_status status = bt__dive_ready (dive, error);
+  if (status != BT_OK)
+    return status;
+  fill (dive, bt__dive_begin (dive));
+  bt__hold_at_tethers (dive, dive->next, dive->next);
+  if (bt__has_obstacles (dive))
+    bt__rest_movers (dive, dive->next);
+  status = bt__resolve_tethers (dive, dive->next, 0, error);
+  if (status != BT_OK)
+    return status;
+  bt__dive_commit (dive);
+  return bt__watch_prepare (dive, error);
+}
+
 bt_status
 bt_dive_new_polled (bt_model *model, bt_current_function function, void *user, bt_poll poll,
                     void *poll_user, bt_dive **out, bt_error *error)
@@ -119,18 +137,7 @@ bt_dive_new_polled (bt_model *model, bt_current_function function, void *user, b
   dive->function = function;
   dive->user = user;
   bt_dive_set_poll (dive, poll, poll_user);
-  fill (dive, bt__dive_begin (dive));
-  bt__hold_at_tethers (dive, dive->next, dive->next);
-  if (bt__has_obstacles (dive))
-    bt__rest_movers (dive, dive->next);
-  status = bt__resolve_tethers (dive, dive->next, 0, error);
-  if (status != BT_OK)
-    {
-      bt_dive_free (dive);
-      return status;
-    }
-  bt__dive_commit (dive);
-  status = bt__watch_prepare (dive, error);
+  status = begin (dive, error);
   if (status == BT_OK)
     *out = dive;
   else

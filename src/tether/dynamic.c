@@ -25,26 +25,40 @@
 
 /* ---- The workspace ---- */
 
+/* The arrays that follow the number of intervals, those of bending among them.  */
+static void
+free_arrays (bt__dynamic_work *w)
+{
+  void *at[] = { &w->X,     &w->d,     &w->rhs,     &w->keep,      &w->last,      &w->lam,
+                 &w->link,  &w->node,  &w->extra,   &w->diag,      &w->off,       &w->up,
+                 &w->up2,   &w->pivot, &w->bend,    &w->bend_diag, &w->bend_off,  &w->bend_far,
+                 &w->whole, &w->spare, &w->by_flow, &w->crumple,   &w->exchanged, &w->natural,
+                 &w->twist, &w->felt,  &w->round,   &w->slip,      &w->twisted };
+  for (size_t i = 0; i < sizeof at / sizeof *at; i++)
+    {
+      void *array, *none = NULL;
+      memcpy (&array, at[i], sizeof array);
+      free (array);
+      memcpy (at[i], &none, sizeof none);
+    }
+  w->room = 0;
+}
+
 void
 bt__dynamic_work_free (bt__dynamic_work *w)
 {
   if (!w)
     return;
-  void *arrays[] = { w->X,       w->d,     w->rhs,     w->keep,      w->last,     w->lam,
-                     w->link,    w->node,  w->extra,   w->diag,      w->off,      w->up,
-                     w->up2,     w->pivot, w->bend,    w->bend_diag, w->bend_off, w->bend_far,
-                     w->whole,   w->spare, w->by_flow, w->kept,      w->crumple,  w->exchanged,
-                     w->natural, w->twist, w->felt,    w->round,     w->slip,     w->twisted };
-  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
-    free (arrays[i]);
+  free_arrays (w);
+  free (w->kept);
   free (w);
 }
 
 /* Elements of each array: bending has a row for each clamp too.  */
 static size_t
-room_of (const bt__dynamic_work *w)
+elements (const bt__dynamic_work *w)
 {
-  return (size_t)w->n_max + 3;
+  return (size_t)w->room + 3;
 }
 
 /* *AT, if it is not made yet: COUNT elements of SIZE.  */
@@ -55,12 +69,35 @@ make (void *at, size_t count, size_t size)
   return *array || (*array = calloc (count, size));
 }
 
-int
-bt__dynamic_work_room (bt__dynamic_work *w, const bt_tether_props *p)
+/* The same without clearing, for large arrays of which a step uses little: the system gives no
+   memory for untouched pages.  */
+static int
+make_untouched (void *at, size_t count, size_t size)
 {
-  size_t n = room_of (w);
-  if (!(p->ei > 0 || p->bending_damping > 0))
-    return 1;
+  void **array = at;
+  return *array || (*array = malloc (count * size));
+}
+
+static int
+make_arrays (bt__dynamic_work *w)
+{
+  size_t n = elements (w);
+  return make (&w->X, n, sizeof *w->X) && make (&w->d, n, sizeof *w->d)
+         && make (&w->rhs, n, sizeof *w->rhs) && make (&w->keep, n, sizeof *w->keep)
+         && make (&w->last, n, sizeof *w->last) && make (&w->lam, n, sizeof *w->lam)
+         && make (&w->link, n, sizeof *w->link) && make (&w->node, n, sizeof *w->node)
+         && make (&w->extra, n, sizeof *w->extra) && make (&w->diag, n, sizeof *w->diag)
+         && make (&w->off, n, sizeof *w->off) && make (&w->up, n, sizeof *w->up)
+         && make (&w->pivot, n, sizeof *w->pivot) && make (&w->whole, n, sizeof *w->whole)
+         && make (&w->spare, n, sizeof *w->spare) && make (&w->round, n, sizeof *w->round)
+         && make_untouched (&w->by_flow, (BT__BENTS + 3) * n, sizeof *w->by_flow)
+         && make_untouched (&w->exchanged, 3 * n, sizeof *w->exchanged);
+}
+
+static int
+make_for_bending (bt__dynamic_work *w)
+{
+  size_t n = elements (w);
   return make (&w->up2, n, sizeof *w->up2) && make (&w->bend, n, sizeof *w->bend)
          && make (&w->bend_diag, n, sizeof *w->bend_diag)
          && make (&w->bend_off, n, sizeof *w->bend_off)
@@ -68,6 +105,23 @@ bt__dynamic_work_room (bt__dynamic_work *w, const bt_tether_props *p)
          && make (&w->twist, n, sizeof *w->twist) && make (&w->felt, n, sizeof *w->felt)
          && make (&w->crumple, n, sizeof *w->crumple) && make (&w->slip, n, sizeof *w->slip)
          && (w->twisted || (w->twisted = bt__twisted_new (n)));
+}
+
+/* Make room for N intervals of a line of P; false when memory is out.  */
+static int
+make_room (bt__dynamic_work *w, int n, const bt_tether_props *p)
+{
+  if (n > w->room)
+    {
+      free_arrays (w);
+      w->room = n + n / 8 < w->n_max ? n + n / 8 : w->n_max;
+      if (!make_arrays (w))
+        {
+          free_arrays (w);
+          return 0;
+        }
+    }
+  return !(p->ei > 0 || p->bending_damping > 0) || make_for_bending (w);
 }
 
 bt__dynamic_work *
@@ -79,22 +133,10 @@ bt__dynamic_work_new (int n_max)
   if (!w)
     return NULL;
   w->n_max = n_max;
-  size_t n = room_of (w);
-  int whole
-      = (w->X = calloc (n, sizeof *w->X)) && (w->d = calloc (n, sizeof *w->d))
-        && (w->rhs = calloc (n, sizeof *w->rhs)) && (w->keep = calloc (n, sizeof *w->keep))
-        && (w->last = calloc (n, sizeof *w->last)) && (w->lam = calloc (n, sizeof *w->lam))
-        && (w->link = calloc (n, sizeof *w->link)) && (w->node = calloc (n, sizeof *w->node))
-        && (w->extra = calloc (n, sizeof *w->extra)) && (w->diag = calloc (n, sizeof *w->diag))
-        && (w->off = calloc (n, sizeof *w->off)) && (w->up = calloc (n, sizeof *w->up))
-        && (w->pivot = calloc (n, sizeof *w->pivot)) && (w->kept = calloc (n, sizeof *w->kept))
-        && (w->whole = calloc (n, sizeof *w->whole)) && (w->spare = calloc (n, sizeof *w->spare))
-        && (w->by_flow = calloc ((BT__BENTS + 3) * n, sizeof *w->by_flow))
-        && (w->exchanged = calloc (3 * n, sizeof *w->exchanged))
-        && (w->round = calloc (n, sizeof *w->round));
-  if (whole)
+  w->kept = calloc ((size_t)n_max + 1, sizeof *w->kept);
+  if (w->kept)
     return w;
-  bt__dynamic_work_free (w);
+  free (w);
   return NULL;
 }
 
@@ -174,8 +216,8 @@ bt__dynamic_begin (const bt__dynamic *d, bt__dynamic_work *w, const bt__dynamic_
   bt_status status = check_input (d, w, in, error);
   if (status)
     return status;
-  if (!bt__dynamic_work_room (w, in->line))
-    return bt__fail (error, BT_ERR_LIMIT, "no memory for the bending of %d intervals", w->n_max);
+  if (!make_room (w, (int)d->n, in->line))
+    return bt__fail (error, BT_ERR_LIMIT, "no memory for a line of %d intervals", (int)d->n);
   w->tolerance = tolerance_of (in) * bt__dynamic_length (d);
   double rest0 = wind_first (d, in, &w->owed), r = d->history ? in->h / d->h : 0;
   if (r > fmax (in->growth, HISTORY_RATIO))

@@ -153,11 +153,10 @@ void bt__dynamic_still (bt__dynamic *d);
 
 typedef struct bt__dynamic_work bt__dynamic_work;
 
-/* Return a workspace for up to N_MAX intervals, or NULL when memory is out.  bt__dynamic_work_room
-   makes the arrays for the bending stiffness or damping of P, and returns false when memory is out.
-   The first step of a line with either makes these arrays too; nothing else below allocates.  */
+/* Return a workspace for up to N_MAX intervals, or NULL when memory is out.  Its arrays are made by
+   the first step (bt__dynamic_begin) of a line with so many intervals, or with bending; nothing
+   else below allocates.  */
 bt__dynamic_work *bt__dynamic_work_new (int n_max);
-int bt__dynamic_work_room (bt__dynamic_work *work, const bt_tether_props *p);
 void bt__dynamic_work_free (bt__dynamic_work *work);
 
 /* Let the iterations of a step ask ASKER, which must stay, whether to go on; left, a step has not

@@ -123,7 +123,7 @@ struct bt__twisted;
 
 struct bt__dynamic_work
 {
-  int n_max;
+  int n_max, room; /* intervals at most; that the arrays are made for */
   bt__asker *asker; /* of the iterations; or NULL */
   /* ---- of the step ---- */
   const bt__dynamic_input *in;

@@ -58,9 +58,12 @@ take_whole (bt_dive *dive, const void *state, size_t size, bt_error *error)
 bt_status
 bt_dive_restore (bt_dive *dive, const void *state, size_t size, bt_error *error)
 {
-  bt__state *next = dive->next;
+  bt__state *next;
   uint64_t checksum;
-  bt_status status;
+  bt_status status = bt__dive_ready (dive, error);
+  if (status != BT_OK)
+    return status;
+  next = dive->next;
   memset (dive->alike, 0, BT__STORES + (size_t)dive->model->n_tethers);
   if (bt_state_is_packed (state, size))
     status = bt_state_unpack (state, size, next, dive->size, error);

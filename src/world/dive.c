@@ -1,4 +1,5 @@
-/* The life of a dive: allocation, the two state buffers, forks.
+/* The life of a dive: allocation, the two state buffers, forks.  The first operation makes the
+   spare state and the workspaces (ready.c).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -6,7 +7,6 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "tether/equilibrium.h"
 #include "world/contexts.h"
 #include "world/layout.h"
 #include "world/obstacles.h"
@@ -45,130 +45,6 @@ bt__dive_water (const bt_dive *dive, const bt__state *state)
 
 /* ---- Life ---- */
 
-/* Make the arrays for bending and for the steady model, if a tether of the model has these.  The
-   first step of a tether altered to have them makes them too.  */
-static bt_status
-make_room (bt_dive *dive, int most, bt_error *error)
-{
-  bt_status status = BT_OK;
-  for (int i = 0; i < dive->model->n_tethers && status == BT_OK; i++)
-    {
-      const bt_tether_props *p = &dive->model->tethers[i].props;
-      if (!bt__dynamic_work_room (dive->work, p))
-        status = bt__fail (error, BT_ERR_LIMIT, "no memory for the bending of a dive's lines");
-      else if (p->model == BT_MODEL_STEADY)
-        status = bt__steady_room (dive->tools.steady, most, error);
-    }
-  return status;
-}
-
-/* Make the workspaces any tether of the model may come to need: its model may change while it
-   dives.  */
-static bt_status
-make_tools (bt_dive *dive, bt_error *error)
-{
-  int most = 0;
-  size_t points;
-  for (int i = 0; i < dive->model->n_tethers; i++)
-    if (bt__chain_room (&dive->model->tethers[i]) > most)
-      most = bt__chain_room (&dive->model->tethers[i]);
-  if (most == 0)
-    return BT_OK;
-  dive->tools.search = bt_search_new ();
-  dive->tools.steady = bt_steady_new (most); /* as many as a chain comes to */
-  dive->work = bt__dynamic_work_new (most);
-  points = (size_t)most + 1 + 2 * BT__SPLITS_MAX;
-  dive->polyline = calloc (points, sizeof *dive->polyline);
-  dive->along = calloc (points, sizeof *dive->along);
-  dive->motion = calloc (points, sizeof *dive->motion);
-  dive->corner = calloc (points, sizeof *dive->corner);
-  dive->fit = calloc (points, sizeof *dive->fit);
-  if (!dive->tools.search || !dive->tools.steady || !dive->work || !dive->polyline || !dive->motion
-      || !dive->corner || !dive->along || !dive->fit)
-    return bt__fail (error, BT_ERR_LIMIT, "no memory for the solvers of a dive");
-  bt__steady_ask (dive->tools.steady, &dive->asker);
-  bt__dynamic_ask (dive->work, &dive->asker);
-  return make_room (dive, most, error);
-}
-
-/* What a step has of each vehicle and each tether: contexts borrow it.  */
-static bt_status
-make_rows (bt_dive *dive, bt_error *error)
-{
-  const bt_model *model = dive->model;
-  bt__contact_work *shore = &dive->contact_work;
-  size_t vehicles = (size_t)model->n_vehicles + 1, tethers = (size_t)model->n_tethers + 1;
-  int whole = (dive->driven = calloc (vehicles, sizeof *dive->driven))
-              && (dive->alike = calloc (BT__STORES + tethers, sizeof *dive->alike));
-  whole = whole && (shore->pin = calloc (vehicles, sizeof *shore->pin))
-          && (shore->order = calloc (tethers, sizeof *shore->order))
-          && (shore->place = calloc (tethers, sizeof *shore->place))
-          && (shore->barred = calloc (tethers, sizeof *shore->barred));
-  return whole ? BT_OK : bt__fail (error, BT_ERR_LIMIT, "no memory for the parts of a dive");
-}
-
-/* Make the workspaces of contact: for lines with each other; then those for obstacles, for the
-   longest tether and all kinematic obstacles.  */
-static bt_status
-make_shore (bt_dive *dive, bt_error *error)
-{
-  const bt_model *model = dive->model;
-  bt__contact_work *shore = &dive->contact_work;
-  int chain = 0, room = 0;
-  size_t moving = (size_t)bt__courses (model);
-  size_t pairs = (size_t)model->n_tethers * (size_t)model->n_hulls;
-  bt_status status;
-  for (int i = 0; i < model->n_tethers; i++)
-    {
-      chain = chain > bt__chain_room (&model->tethers[i]) ? chain
-                                                          : bt__chain_room (&model->tethers[i]);
-      room = room > bt__polyline_room (&model->tethers[i]) ? room
-                                                           : bt__polyline_room (&model->tethers[i]);
-    }
-  shore->line_of = -1;
-  shore->line = bt__line_work_new (chain + 1, bt__model_among (model));
-  shore->strand = calloc (2 * (size_t)model->n_tethers + 1, sizeof *shore->strand);
-  shore->box = calloc (2 * (size_t)model->n_tethers + 1, sizeof *shore->box);
-  shore->mover = calloc (moving + 1, sizeof *shore->mover);
-  shore->course = calloc (moving + 1, sizeof *shore->course);
-  shore->by_hull = calloc (pairs + 1, sizeof *shore->by_hull);
-  if (!shore->line || !shore->strand || !shore->box || !shore->mover || !shore->course
-      || !shore->by_hull)
-    return bt__fail (error, BT_ERR_LIMIT, "no memory for what the lines of a dive touch");
-  if (model->n_obstacles == 0)
-    return BT_OK;
-  shore->safe_of = -1;
-  shore->node = calloc ((size_t)chain + 1, sizeof *shore->node);
-  shore->share = calloc ((size_t)chain + 1, sizeof *shore->share);
-  if (!shore->node || !shore->share)
-    return bt__fail (error, BT_ERR_LIMIT, "no memory for the obstacles of a dive");
-  status = bt__polyline_work_new ((uint32_t)room + 1, (uint32_t)model->n_carried, &shore->polyline,
-                                  error);
-  /* A chain is taken by the safe step to where it is laid, as a polyline is.  */
-  return status == BT_OK ? bt__safe_new ((uint32_t)(chain > room ? chain : room) + 1, BT__PARTS_MAX,
-                                         &shore->safe, error)
-                         : status;
-}
-
-static void
-free_shore (bt__contact_work *shore)
-{
-  free (shore->mover);
-  free (shore->course);
-  free (shore->by_hull);
-  free (shore->pin);
-  free (shore->strand);
-  free (shore->box);
-  free (shore->order);
-  free (shore->place);
-  free (shore->barred);
-  free (shore->node);
-  free (shore->share);
-  bt__line_work_free (shore->line);
-  bt__polyline_work_free (shore->polyline);
-  bt__safe_free (shore->safe);
-}
-
 static bt_status
 make_layout (bt_dive *dive, bt_error *error)
 {
@@ -197,25 +73,35 @@ lay_out (bt_dive *dive)
     }
 }
 
-/* Make a dive with NOW and NEXT bytes of its states; 0: none.  */
-static bt_status
-make_dive_of_size (bt_model *model, size_t now, size_t next, bt_dive **out, bt_error *error)
+/* The places of kinematic obstacles, of which questions read.  */
+static int
+make_courses (bt_dive *dive)
 {
-  bt_status status = BT_OK;
+  size_t moving = (size_t)bt__courses (dive->model) + 1;
+  bt__contact_work *shore = &dive->contact_work;
+  return (shore->mover = calloc (moving, sizeof *shore->mover))
+         && (shore->course = calloc (moving, sizeof *shore->course));
+}
+
+/* Make a dive with NOW, a state; NULL: without one.  */
+static bt_status
+make_dive (bt_model *model, bt__state *now, bt_dive **out, bt_error *error)
+{
+  bt_status status;
   bt_dive *dive = calloc (1, sizeof *dive);
   if (!dive)
-    return bt__fail (error, BT_ERR_LIMIT, "no memory for a dive");
+    {
+      free (now);
+      return bt__fail (error, BT_ERR_LIMIT, "no memory for a dive");
+    }
+  dive->now = now;
   dive->model = bt_model_retain (model);
   status = make_layout (dive, error);
-  dive->now = now > 0 ? calloc (1, now) : NULL;
-  dive->next = calloc (1, next);
   dive->sea = calloc (2, sizeof *dive->sea);
-  if ((now > 0 && !dive->now) || !dive->next || !dive->sea)
-    status = bt__fail (error, BT_ERR_LIMIT, "no memory for a state of %zu bytes", dive->size);
-  if (status == BT_OK)
-    status = make_tools (dive, error);
-  if (status == BT_OK)
-    status = make_shore (dive, error);
+  if (now)
+    dive->alike = calloc (BT__STORES + (size_t)model->n_tethers + 1, sizeof *dive->alike);
+  if (!dive->sea || (now && !dive->alike) || !make_courses (dive))
+    status = bt__fail (error, BT_ERR_LIMIT, "no memory for the parts of a dive");
   if (status == BT_OK)
     *out = dive;
   else
@@ -223,32 +109,31 @@ make_dive_of_size (bt_model *model, size_t now, size_t next, bt_dive **out, bt_e
   return status;
 }
 
+static bt_status
+no_memory_for (size_t size, bt_error *error)
+{
+  return bt__fail (error, BT_ERR_LIMIT, "no memory for a state of %zu bytes", size);
+}
+
 bt_status
 bt__dive_alloc (bt_model *model, bt_dive **out, bt_error *error)
 {
   size_t size = bt__state_size (model);
-  bt_dive *dive;
-  bt_status status = make_dive_of_size (model, size, size, &dive, error);
-  if (status != BT_OK)
-    return status;
-  status = make_rows (dive, error);
-  if (status != BT_OK)
-    {
-      bt_dive_free (dive);
-      return status;
-    }
-  lay_out (dive);
-  *out = dive;
-  return BT_OK;
+  bt__state *now = calloc (1, size);
+  bt_status status = now ? make_dive (model, now, out, error) : no_memory_for (size, error);
+  if (status == BT_OK)
+    lay_out (*out);
+  return status;
 }
 
 bt_status
 bt__dive_alloc_lane (bt_model *model, bt__context *context, bt_error *error)
 {
-  bt_status status = make_dive_of_size (model, 0, sizeof (bt__state), &context->dive, error);
-  if (status == BT_OK)
-    context->dive->context = context;
-  return status;
+  bt_status status = make_dive (model, NULL, &context->dive, error);
+  if (status != BT_OK)
+    return status;
+  context->dive->context = context;
+  return bt__dive_ready (context->dive, error);
 }
 
 static void
@@ -272,23 +157,15 @@ bt_dive_free (bt_dive *dive)
   if (!dive)
     return;
   release_tracks (dive);
-  bt_search_free (dive->tools.search);
-  bt_steady_free (dive->tools.steady);
-  bt__dynamic_work_free (dive->work);
-  free (dive->polyline);
-  free (dive->motion);
-  free (dive->corner);
-  free (dive->along);
-  free (dive->fit);
-  free (dive->driven);
+  bt__dive_clear_up (dive);
+  free (dive->contact_work.mover);
+  free (dive->contact_work.course);
   free (dive->sea);
   free (dive->line);
   free (dive->alike);
-  free_shore (&dive->contact_work);
   bt__watch_free_all (dive->watch);
   bt__contexts_free (dive->contexts);
   free (dive->now);
-  free (dive->next);
   bt_model_release (dive->model);
   free (dive);
 }
@@ -313,7 +190,9 @@ take_after (bt_dive *fork, const bt_dive *dive)
 bt_status
 bt_dive_fork (const bt_dive *dive, bt_dive **copy, bt_error *error)
 {
-  bt_status status = bt__dive_alloc (dive->model, copy, error);
+  bt__state *now = malloc (dive->size); /* unused room is never read */
+  bt_status status
+      = now ? make_dive (dive->model, now, copy, error) : no_memory_for (dive->size, error);
   if (status == BT_OK)
     take_after (*copy, dive);
   return status;

@@ -71,8 +71,8 @@ bt__courses (const bt_model *model)
   return model->n_carried + model->n_hulls;
 }
 
-/* The workspaces of contact in a step.  NODE, SHARE, SAFE and POLYLINE are NULL in a world without
-   obstacles.  */
+/* The workspaces of contact in a step.  NODE, SHARE and POLYLINE are NULL in a world without
+   obstacles, SAFE until a step needs it.  */
 typedef struct bt__contact_work
 {
   bt__mover *mover;
@@ -144,7 +144,7 @@ struct bt_dive
   bt__layout layout;
   bt__line_size *line; /* of each tether */
   bt__state *now;      /* what questions read */
-  bt__state *next;     /* what an operation or a step works on */
+  bt__state *next;     /* what an operation or a step works on; NULL: DIVE is not ready */
   uint8_t *alike;      /* of each bt__standing_part, true: both states hold the same there */
   bt__shape_tools tools;
   bt__dynamic_work *work; /* of the moving line */
@@ -184,7 +184,7 @@ bt__pairs_change (const bt_dive *dive)
   dive->alike[BT__PAIRS] = 0;
 }
 
-/* Make dive->next a copy of the present state and return it.  */
+/* Make dive->next a copy of the present state and return it; DIVE is ready (bt__dive_ready).  */
 bt__state *bt__dive_begin (bt_dive *dive);
 /* Take dive->next over as the present.  */
 void bt__dive_commit (bt_dive *dive);
@@ -227,6 +227,9 @@ bt__dive_tether (const bt_dive *dive, bt__state *state, int i)
 bt_vec3 bt__attachment (const bt_dive *dive, bt__state *state, int vehicle);
 bt_vec3 *bt__dive_nodes (const bt_dive *dive, bt__state *state, int tether);
 bt_vec3 *bt__dive_tensions (const bt_dive *dive, bt__state *state, int tether);
+/* Zero both arrays of TETHER behind its nodes, when its shape comes to have nodes: the arrays are
+   live as a whole, and held other bytes before.  */
+void bt__clear_unused_nodes (const bt_dive *dive, bt__state *state, int tether);
 /* The chain of a moving tether: PART 0 at the anchor, 1 at the far end once the line has parted. */
 bt__dynamic *bt__dive_chain (const bt_dive *dive, bt__state *state, int tether, int part);
 
@@ -257,10 +260,16 @@ double bt__state_time (const bt__state *state);
 int bt__chain_room (const bt_tether_def *tether);
 bt_water bt__dive_water (const bt_dive *dive, const bt__state *state);
 
-/* Make a dive with an empty state and the workspaces for its tethers; make the dive of LANE, with
-   workspaces and the head of a state alone.  */
+/* Make a dive with an empty state; make the dive of CONTEXT, with workspaces and the head of a
+   state alone.  */
 bt_status bt__dive_alloc (bt_model *model, bt_dive **dive, bt_error *error);
 bt_status bt__dive_alloc_lane (bt_model *model, bt__context *context, bt_error *error);
+
+/* Make the spare state and the workspaces of DIVE, if they are not there (ready.c); free them. Make
+   the workspace of safe steps, likewise.  BT_ERR_LIMIT.  */
+bt_status bt__dive_ready (bt_dive *dive, bt_error *error);
+void bt__dive_clear_up (bt_dive *dive);
+bt_status bt__dive_safe (bt_dive *dive, bt_error *error);
 
 /* True if tethers I and J are of groups that step at the same time: each sees the other where it
    was.  */

@@ -322,6 +322,8 @@ held_node_tension (const bt__line *line, int k)
 static int
 held_touches (const bt_dive *dive, int i, const bt__line *line, bt__touch *touch, int room)
 {
+  if (bt__dive_ready ((bt_dive *)dive, NULL) != BT_OK)
+    return 0;
   bt__surroundings around = bt__standing (dive, dive->now, BT_PART_TETHER, i);
   bt__way way = { .around = &around,
                   .core = bt__core (line->tether->props.diameter),

@@ -175,6 +175,15 @@ bt__dive_tensions (const bt_dive *dive, bt__state *state, int i)
   return bt__dive_nodes (dive, state, i) + node_points (&dive->model->tethers[i]);
 }
 
+void
+bt__clear_unused_nodes (const bt_dive *dive, bt__state *state, int i)
+{
+  size_t n = (size_t)bt__dive_tether (dive, state, i)->shape.n + 1;
+  size_t unused = sizeof (bt_vec3) * ((size_t)node_points (&dive->model->tethers[i]) - n);
+  memset (bt__dive_nodes (dive, state, i) + n, 0, unused);
+  memset (bt__dive_tensions (dive, state, i) + n, 0, unused);
+}
+
 bt__dynamic *
 bt__dive_chain (const bt_dive *dive, bt__state *state, int i, int part)
 {

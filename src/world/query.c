@@ -319,6 +319,9 @@ bt_tether_equilibria (const bt_dive *dive, int i, int max, bt_vec3 *shapes, int 
   t = line.tether;
   if (t->props.model != BT_MODEL_STEADY)
     return bt__fail (error, BT_ERR_UNSUPPORTED, "only the model `steady' looks for equilibria");
+  status = bt__dive_ready ((bt_dive *)dive, error);
+  if (status != BT_OK)
+    return status;
   status = bt_steady_equilibria (dive->tools.steady,
                                  &(bt_line){ t->length, t->props.diameter, t->props.wet_weight,
                                              t->props.ea, t->props.cdn, t->props.cdt },

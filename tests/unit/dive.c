@@ -121,20 +121,104 @@ step (bt_dive *dive, int n)
 /* ---- Tests ---- */
 
 #ifdef CAN_COUNT
+/* Work space grows with the line and with what the line touches: the same steps again need no more
+   of it.  */
 static void
-steps_allocate_nothing (void **unused)
+steps_taken_before_allocate_nothing (void **unused)
 {
   (void)unused;
   for (int model = BT_MODEL_RUBBER_BAND; model <= BT_MODEL_AUTO; model++)
     {
       bt_dive *dive = begin ((bt_model_kind)model);
+      size_t size = bt_dive_state_size (dive);
+      void *state = malloc (size);
       long before;
+      bt_error e;
       drive (dive, 0.8, 0.1);
+      bt_dive_save (dive, state);
+      step (dive, 120);
+      assert_int_equal (bt_dive_restore (dive, state, size, &e), BT_OK);
       before = allocations;
       step (dive, 120);
       assert_true (allocations == before);
+      free (state);
       bt_dive_free (dive);
     }
+}
+
+/* A line that the current has pressed to a post, about to be hauled along the post.  */
+static bt_dive *
+begin_at_a_post (void)
+{
+  scene s;
+  bt_obstacle_def post;
+  bt_model *model;
+  bt_dive *dive;
+  bt_error e;
+  make_scene (&s, BT_MODEL_DYNAMIC);
+  bt_def_init (bt_head_find ("capsule"), &post);
+  assert_int_equal (bt_def_set_name (post.name, "post", &e), BT_OK);
+  post.from = (bt_vec3){ 4, 10, -8 };
+  post.to = (bt_vec3){ 4, 10, 8 };
+  post.radius = 0.3;
+  s.world.obstacles = &post;
+  s.world.n_obstacles = 1;
+  assert_int_equal (bt_model_new (&s.world, &model, &e), BT_OK);
+  assert_int_equal (bt_dive_new (model, NULL, NULL, &dive, &e), BT_OK);
+  bt_model_release (model);
+  step (dive, 900);
+  drive (dive, 1, 0.3);
+  return dive;
+}
+
+enum
+{
+  SHORT = 40 /* steps */
+};
+
+/* Step a fork of DIVE, the NTH allocation in its steps being refused, and again what that stops;
+ *REFUSED: it was asked for.  Return the hash at the end.  */
+static uint64_t
+hash_without (const bt_dive *dive, long nth, int *refused)
+{
+  bt_dive *fork;
+  bt_error e;
+  uint64_t hash = 0;
+  assert_int_equal (bt_dive_fork (dive, &fork, &e), BT_OK);
+  long least = allocations;
+  fail_at = nth < 0 ? -1 : least + nth;
+  for (int k = 0; k < SHORT; k++)
+    {
+      hash = bt_dive_hash (fork);
+      if (bt_dive_step (fork, &e) == BT_OK)
+        continue;
+      assert_int_equal (e.status, BT_ERR_LIMIT);
+      assert_true (bt_dive_hash (fork) == hash);
+      fail_at = -1;
+      step (fork, 1);
+    }
+  *refused = allocations > least + nth;
+  fail_at = -1;
+  hash = bt_dive_hash (fork);
+  bt_dive_free (fork);
+  return hash;
+}
+
+static void
+a_step_without_memory_is_an_error (void **unused)
+{
+  bt_dive *dive = begin_at_a_post ();
+  int refused;
+  uint64_t wanted = hash_without (dive, -1, &refused);
+  long nth = 0;
+  bt_profile p;
+  (void)unused;
+  bt_dive_profile (dive, &p);
+  assert_true (p.touches > 100);
+  for (refused = 1; refused; nth++)
+    assert_true (hash_without (dive, nth, &refused) == wanted);
+  assert_true (nth > 40);
+  bt_dive_free (dive);
 }
 
 static void
@@ -515,7 +599,8 @@ main (void)
 {
   const struct CMUnitTest tests[] = {
 #ifdef CAN_COUNT
-    cmocka_unit_test (steps_allocate_nothing),
+    cmocka_unit_test (steps_taken_before_allocate_nothing),
+    cmocka_unit_test (a_step_without_memory_is_an_error),
     cmocka_unit_test (memory_running_out_is_an_error),
 #endif
     cmocka_unit_test (a_fork_goes_on_bit_equal),

@@ -26,7 +26,8 @@
 
 enum
 {
-  ACTS = 12
+  ACTS = 12,
+  OTHER_MODEL = 5 /* every act of a number by this: a line that moved is still, or the reverse */
 };
 
 /* The K-th act on DIVE; most are steps.  Refusals are as good as the rest.  */
@@ -45,6 +46,8 @@ act (bt_dive *dive, int k)
                { BT_OP_PAY_OUT, 2 }, { BT_OP_HOLD_HEADING, 1 }, { BT_OP_RELEASE, 0 } };
   const double *args[] = { stick, way, spool, off, way, rough, spool, stick, NULL };
   size_t which = (size_t)k % (sizeof acts / sizeof *acts);
+  if (k % OTHER_MODEL == OTHER_MODEL - 1)
+    take_model (dive, 0, k / OTHER_MODEL % 2 ? BT_MODEL_DYNAMIC : BT_MODEL_STEADY);
   bt_dive_do (dive, acts[which].op, 0, args[which], acts[which].n, NULL);
 }
 
