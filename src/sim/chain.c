@@ -19,6 +19,9 @@ enum
   SETTLE_TRIES = 20
 };
 
+/* Of the room of a chain: what the mesh takes of it, for contact puts in nodes, too.  */
+#define MESH_SHARE 0.875
+
 /* ---- Laying ---- */
 
 /* Put N + 1 points of the present shape of tether I on the dive's polyline, and the tensions in the
@@ -63,12 +66,25 @@ settle_shape (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
     }
 }
 
+int
+bt__mesh_room (const bt_tether_def *def)
+{
+  return (int)(MESH_SHARE * bt__chain_room (def));
+}
+
+int
+bt__adaptive_room (const bt_dive *dive, int i)
+{
+  const bt_tether_def *def = &dive->model->tethers[i];
+  return bt__has_obstacles (dive) ? bt__mesh_room (def) : bt__chain_room (def);
+}
+
 /* How many intervals the equilibrium that tether I is laid from has.  */
 int
 bt__rest_nodes (const bt_dive *dive, const bt__tether *tether, int i)
 {
   const bt_tether_def *def = &dive->model->tethers[i];
-  return tether->props.model == BT_MODEL_AUTO ? bt__chain_room (def) : (int)def->props.nodes;
+  return tether->props.model == BT_MODEL_AUTO ? bt__adaptive_room (dive, i) : (int)def->props.nodes;
 }
 
 /* Give tether I a shape to begin with when it has none: its equilibrium, or, when that is not

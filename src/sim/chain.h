@@ -52,6 +52,12 @@ bt__dynamic_mesh bt__chain_mesh (const bt_dive *dive, const bt__state *state,
 int bt__lay_afloat (bt_vec3 *x, int n, double length, const bt_water *water);
 void bt__lay_shape_afloat (bt_dive *dive, bt__state *state, int i);
 
+/* The most intervals that the mesh of a tether takes of the room of its chain where contact may put
+   in nodes, too; the most that model `auto' chooses for tether I.  A node that slides about an edge
+   comes only where the chain has room: without that a node of the line is caught there.  */
+int bt__mesh_room (const bt_tether_def *def);
+int bt__adaptive_room (const bt_dive *dive, int i);
+
 /* bt__rest_nodes returns the number of intervals with which a chain of TETHER begins.
    bt__trace_rest puts N + 1 points of the shape of tether I, or of the equilibrium if the tether
    has no shape, on the dive's polyline, with the tensions along it.  bt__begin_chain begins

@@ -36,8 +36,6 @@ enum
 /* A line hauled in, or crumpled, is not cut into shorter intervals than this, m.  */
 #define SHORTEST 0.05
 
-/* The winch leaves some room to the nodes that contact puts in.  */
-#define WINCH_SHARE 0.875
 #define WINCH_AIM 0.5 /* of the accuracy: the standard for nodes that come and go */
 
 /* The mesh of tether I; a line with its original length keeps its original nodes: its mesh has no
@@ -50,7 +48,7 @@ bt__chain_mesh (const bt_dive *dive, const bt__state *state, const bt__tether *t
   int wanted = adapts ? FEWEST : (int)tether->props.nodes;
   int fewest = (int)fmax (1, fmin (wanted, tether->length / SHORTEST));
   return (bt__dynamic_mesh){ .fewest = fewest,
-                             .most = (int)fmax (wanted, WINCH_SHARE * bt__chain_room (def)),
+                             .most = (int)fmax (wanted, bt__mesh_room (def)),
                              .error
                              = wound ? WINCH_AIM * bt__accuracy (tether) / BT__CHAIN_ERROR : 0,
                              .shortest = SHORTEST,
@@ -179,7 +177,7 @@ bt__remesh_chain (bt_dive *dive, bt__state *state, int i, bt_error *error)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
-  int n = (int)chain->n, room = bt__chain_room (&dive->model->tethers[i]);
+  int n = (int)chain->n, room = bt__adaptive_room (dive, i);
   int m = wanted (n, bt__chain_error (chain), bt__accuracy (tether), room);
   if (bt__has_obstacles (dive))
     m = multiple (n, m, room);
