@@ -17,7 +17,7 @@
   #:export (every every-seconds on cancel!
             add-task! remove-task! steered? task-state set-task-state!
             add-step-watcher! remove-step-watcher!
-            idle? steps-until-due run-tasks!
+            idle? steps-until-due run-tasks! run-watchers!
             copy-tasks! tasks-state restore-tasks!))
 
 (define-record <task>
@@ -167,6 +167,10 @@ handle for `cancel!'."
               (when (memq task (dive-tasks dive)) ; a task may cancel another
                 ((task-poll task) task)))
             (dive-tasks dive))
+  (run-watchers! dive))
+
+(define (run-watchers! dive)
+  "Run what watches the steps of DIVE, after its tasks."
   (for-each (lambda (watcher) (watcher)) (dive-watchers dive)))
 
 (define (copy-tasks! dive)

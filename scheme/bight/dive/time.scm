@@ -36,10 +36,26 @@
         (recorder n)
         (%step-dive! (engine-of dive) n))))
 
+(define (only-watched? dive)
+  (and (null? (dive-tasks dive)) (not (dive-recorder dive))))
+
+(define (step-watched! dive n)
+  ;; Up to N steps of a dive of which nothing but watchers is to be told, to the first after which a watcher
+  ;; has done anything to the dive.  Return how many steps are left.
+  (let* ((engine (engine-of dive)) (serial (%serial engine)))
+    (let loop ((left n))
+      (cond ((and (> left 0) (only-watched? dive) (= serial (%serial engine)))
+             (%step-dive! engine 1)
+             (run-watchers! dive)
+             (loop (- left 1)))
+            (else
+             (note-tasks! dive (%dive-steps engine))
+             left)))))
+
 (define (step-stretch! dive n)
   ;; N steps; what runs between them runs when it is due.
   (note-tasks! dive (+ 1 (%dive-steps (engine-of dive))))
-  (let loop ((left n))
+  (let loop ((left (if (idle? dive) n (step-watched! dive n))))
     (when (> left 0)
       (let ((k (if (idle? dive) left (steps-until-due dive left))))
         (take-and-tell! dive k)

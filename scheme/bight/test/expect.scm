@@ -12,7 +12,6 @@
   #:use-module (bight core record)
   #:use-module (bight core told)
   #:use-module (bight core verb)
-  #:use-module ((ice-9 control) #:select (call/ec))
   #:use-module (ice-9 exceptions)
   #:use-module (srfi srfi-1)
   #:export (expect
@@ -37,6 +36,7 @@
             note-failure!
             note-success!
             claim
+            judge-of
             &failed-expectation
             trial?
             ;; What the macros expand to.
@@ -119,23 +119,33 @@ REMARKS are lines that show more of it; #f leaves them to the trial that is told
     #f))
 
 
-;;; Judges.  Each returns #f if all is well, else a pair of strings (EXPECTED . ACTUAL).
+;;; Judges.  Each is a thunk, made once for a claim and called for each verdict on it: #f if all is well,
+;;; else a pair of strings (EXPECTED . ACTUAL).
 
 (define (not-an-error? exception)
   (memq (exception-kind exception) '(quit signal)))
 
+(define raised-tag (make-prompt-tag 'raised))
+
+(define-record <raised>
+  (make-raised exception)
+  raised?
+  (exception raised-exception))
+
+(define (note-raised exception)
+  (if (not-an-error? exception)
+      (raise-exception exception)
+      (abort-to-prompt raised-tag (note-place! exception))))
+
 (define (attempt thunk succeed fail)
-  ;; SUCCEED with the value of THUNK, or FAIL with the exception it raised.
-  ((call/ec
-    (lambda (return)
-      (let ((value (with-exception-handler
-                    (lambda (exception)
-                      (if (not-an-error? exception)
-                          (raise-exception exception)
-                          (let ((exception (note-place! exception)))
-                            (return (lambda () (fail exception))))))
-                    thunk)))
-        (lambda () (succeed value)))))))
+  ;; SUCCEED with the value of THUNK, or FAIL with the exception it raised.  A prompt costs a sixth of an
+  ;; escape procedure, and claims are judged after each step.
+  (let ((value (call-with-prompt raised-tag
+                 (lambda () (with-exception-handler note-raised thunk))
+                 (lambda (continuation exception) (make-raised exception)))))
+    (if (raised? value)
+        (fail (raised-exception value))
+        (succeed value))))
 
 (define (procedures-on-the-way exception)
   ;; Where EXCEPTION was raised and what led there, in parentheses, if that is in a procedure of the file.
@@ -150,25 +160,32 @@ REMARKS are lines that show more of it; #f leaves them to the trial that is told
 
 (define (judge ask good? expected)
   ;; EXPECTED is a thunk that gives the text.
-  (attempt (lambda ()
-             (let ((value (ask)))
-               (and (not (good? value)) (list value))))
-           (lambda (wrong) (and wrong (cons (expected) (brief (car wrong)))))
-           (lambda (exception) (cons (expected) (describe-raise exception)))))
+  (define (try)
+    (let ((value (ask)))
+      (and (not (good? value)) (list value))))
+  (define (tell wrong)
+    (and wrong (cons (expected) (brief (car wrong)))))
+  (define (tell-raise exception)
+    (cons (expected) (describe-raise exception)))
+  (lambda () (attempt try tell tell-raise)))
 
 (define (judge-truth ask)
   (judge ask identity (const "true")))
 
 (define (judge-comparison name compare ask)
-  ;; ASK gives the list of the values compared.
-  (attempt (lambda ()
-             (let ((values (ask)))
-               (and (not (apply compare values)) values)))
-           (lambda (unlike)
-             (and unlike
-                  (cons "true" (simple-format #f "(~a ~a)" name
-                                              (string-join (map brief unlike) " ")))))
-           (lambda (exception) (cons "true" (describe-raise exception)))))
+  ;; ASK calls what it is given with the values compared.
+  (define differ
+    (case-lambda
+      ((a b) (and (not (compare a b)) (list a b)))
+      (values (and (not (apply compare values)) values))))
+  (define (try)
+    (ask differ))
+  (define (tell unlike)
+    (and unlike
+         (cons "true" (simple-format #f "(~a ~a)" name (string-join (map brief unlike) " ")))))
+  (define (tell-raise exception)
+    (cons "true" (describe-raise exception)))
+  (lambda () (attempt try tell tell-raise)))
 
 (define (same-as value code)
   ;; What is expected by a claim that something is VALUE, which CODE gives.
@@ -177,17 +194,20 @@ REMARKS are lines that show more of it; #f leaves them to the trial that is told
       (brief value)))
 
 (define (judge-same ask wanted code)
-  (attempt wanted
-           (lambda (value) (judge ask (lambda (given) (same? value given)) (lambda () (same-as value code))))
-           (lambda (exception) (cons "a value to compare with" (describe-raise exception)))))
+  (define (judge-by value)
+    ((judge ask (lambda (given) (same? value given)) (lambda () (same-as value code)))))
+  (define (tell-raise exception)
+    (cons "a value to compare with" (describe-raise exception)))
+  (lambda () (attempt wanted judge-by tell-raise)))
 
 (define (judge-is ask predicate code)
   (define (judge-by accept?)
     (if (procedure? accept?)
-        (judge ask accept? (lambda () (describe-predicate accept? code)))
+        ((judge ask accept? (lambda () (describe-predicate accept? code))))
         (cons "a predicate after `is'" (brief accept?))))
-  (attempt predicate judge-by
-           (lambda (exception) (cons (code->string code) (describe-raise exception)))))
+  (define (tell-raise exception)
+    (cons (code->string code) (describe-raise exception)))
+  (lambda () (attempt predicate judge-by tell-raise)))
 
 (define (judge-raise ask kind)
   (define (expected)
@@ -195,12 +215,13 @@ REMARKS are lines that show more of it; #f leaves them to the trial that is told
         (simple-format #f "a ~a error~a" kind
                        (if (memq kind bight-error-kinds) "" (did-you-mean kind bight-error-kinds)))
         "an error"))
-  (attempt ask
-           (lambda (value) (cons (expected) (brief value)))
-           (lambda (exception)
-             (and kind
-                  (not (eq? kind (raised-kind exception)))
-                  (cons (expected) (describe-raise exception))))))
+  (define (tell value)
+    (cons (expected) (brief value)))
+  (define (tell-raise exception)
+    (and kind
+         (not (eq? kind (raised-kind exception)))
+         (cons (expected) (describe-raise exception))))
+  (lambda () (attempt ask tell tell-raise)))
 
 (define* (report-verdict form location verdict #:key stop?)
   (if verdict
@@ -219,7 +240,7 @@ REMARKS are lines that show more of it; #f leaves them to the trial that is told
          (free-identifier=? stx (datum->syntax #'here (syntax->datum stx)))))
 
   (define (expand-claim stx clause)
-    ;; The judge's call for CLAUSE, what stands after the head of STX.
+    ;; The judge of CLAUSE, what stands after the head of STX.
     (syntax-case clause ()
       ((e arrow v) (marker? #'arrow '=>)
        #'(judge-same (lambda () e) (lambda () v) 'v))
@@ -232,7 +253,7 @@ REMARKS are lines that show more of it; #f leaves them to the trial that is told
       ((e raises) (marker? #'raises 'raises)
        #'(judge-raise (lambda () e) #f))
       (((compare a b ...)) (comparator? #'compare)
-       #'(judge-comparison 'compare compare (lambda () (list a b ...))))
+       #'(judge-comparison 'compare compare (lambda (differ) (differ a b ...))))
       ((e)
        #'(judge-truth (lambda () e)))
       (_ (syntax-violation
@@ -248,11 +269,15 @@ REMARKS are lines that show more of it; #f leaves them to the trial that is told
        (did-you-mean (syntax->datum #'word) '(=> is raises)))
       (_ ""))))
 
-(define-syntax claim
+(define-syntax judge-of
   (lambda (stx)
-    "(claim CLAUSE ...): judge CLAUSE as `expect' does.  Return #f, or (EXPECTED . ACTUAL)."
+    "(judge-of CLAUSE ...): a thunk that judges CLAUSE as `expect' does, and returns #f, or (EXPECTED . ACTUAL)."
     (syntax-case stx ()
       ((_ . clause) (expand-claim stx #'clause)))))
+
+(define-syntax-rule (claim . clause)
+  "(claim CLAUSE ...): judge CLAUSE as `expect' does.  Return #f, or (EXPECTED . ACTUAL)."
+  ((judge-of . clause)))
 
 (define-syntax expect
   (lambda (stx)
@@ -264,7 +289,7 @@ REMARKS are lines that show more of it; #f leaves them to the trial that is told
 In a scenario a failure is collected and the scenario goes on; elsewhere it raises.  Return #t or #f."
     (syntax-case stx ()
       ((_ . clause)
-       #`(report-verdict '#,stx (source-location #,stx) #,(expand-claim stx #'clause))))))
+       #`(report-verdict '#,stx (source-location #,stx) (#,(expand-claim stx #'clause)))))))
 
 (define-syntax require
   (lambda (stx)
@@ -272,7 +297,7 @@ In a scenario a failure is collected and the scenario goes on; elsewhere it rais
 failure ends the scenario at once."
     (syntax-case stx ()
       ((_ . clause)
-       #`(report-verdict '#,stx (source-location #,stx) #,(expand-claim stx #'clause) #:stop? #t)))))
+       #`(report-verdict '#,stx (source-location #,stx) (#,(expand-claim stx #'clause)) #:stop? #t)))))
 
 
 ;;; Comparing numbers, points and polylines.

@@ -294,11 +294,13 @@ combination of the values, the last variable varying fastest."
         (note-watched! form "at some step" last (time-or-false) location (scene))
         (note-success!))))
 
-(define (negate verdict)
-  ;; The verdict on NOT E, of which VERDICT is the verdict on E.
-  (cond ((not verdict) '("false" . "true"))
-        ((string-contains (cdr verdict) " error: ") verdict)
-        (else #f)))
+(define (negate judge)
+  ;; The judge of NOT E, of which JUDGE is the judge of E.
+  (lambda ()
+    (let ((verdict (judge)))
+      (cond ((not verdict) '("false" . "true"))
+            ((string-contains (cdr verdict) " error: ") verdict)
+            (else #f)))))
 
 (define-syntax always
   (lambda (stx)
@@ -306,7 +308,7 @@ combination of the values, the last variable varying fastest."
 The first step at which it is not is reported.  Return #t or #f."
     (syntax-case stx ()
       ((_ p form ...)
-       #`(watch-always '#,stx (source-location #,stx) (lambda () (claim p))
+       #`(watch-always '#,stx (source-location #,stx) (judge-of p)
                        (lambda () form ... *unspecified*) "after every step")))))
 
 (define-syntax never
@@ -315,7 +317,7 @@ The first step at which it is not is reported.  Return #t or #f."
 The first step at which it is true is reported.  Return #t or #f."
     (syntax-case stx ()
       ((_ p form ...)
-       #`(watch-always '#,stx (source-location #,stx) (lambda () (negate (claim p)))
+       #`(watch-always '#,stx (source-location #,stx) (negate (judge-of p))
                        (lambda () form ... *unspecified*) "after every step")))))
 
 (define-syntax eventually
@@ -324,7 +326,7 @@ The first step at which it is true is reported.  Return #t or #f."
 when they have ended.  Return #t or #f."
     (syntax-case stx ()
       ((_ p form ...)
-       #`(watch-eventually '#,stx (source-location #,stx) (lambda () (claim p))
+       #`(watch-eventually '#,stx (source-location #,stx) (judge-of p)
                            (lambda () form ... *unspecified*))))))
 
 
