@@ -2,10 +2,14 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <malloc.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "guile/guile.h"
+
+#define LEFT_MOST ((size_t)32 << 20) /* bytes of dives freed before the system gets them back */
 
 /* ---- The object ---- */
 
@@ -102,6 +106,29 @@ bt__from_handle (bt__handle *handle)
   return scm_new_smob (dive_tag, (scm_t_bits)handle);
 }
 
+/* Free DIVE, or nothing; return about how many bytes that was.  */
+static size_t
+free_one (bt_dive *dive)
+{
+  size_t size = dive ? 2 * bt_dive_state_size (dive) : 0;
+  bt_dive_free (dive);
+  return size;
+}
+
+/* BYTES were freed.  The C library keeps freed memory that lies between memory in use: a belief
+   made anew for each of many truths then takes more of the system with each.  */
+static void
+give_back (size_t bytes)
+{
+  static atomic_size_t left;
+  if (atomic_fetch_add (&left, bytes) + bytes < LEFT_MOST)
+    return;
+  atomic_store (&left, 0);
+#ifdef __GLIBC__
+  malloc_trim (0);
+#endif
+}
+
 /* Under plain guile this runs on its finalizer thread: it touches the dive alone.  */
 static size_t
 free_dive (SCM object)
@@ -111,9 +138,7 @@ free_dive (SCM object)
     bt_live_let_go (handle->live);
   else
     bt_live_stop (handle->live, NULL);
-  bt_dive_free (handle->flown);
-  bt_dive_free (handle->spare);
-  bt_dive_free (handle->dive);
+  give_back (free_one (handle->flown) + free_one (handle->spare) + free_one (handle->dive));
   return 0;
 }
 

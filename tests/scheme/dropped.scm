@@ -2,6 +2,8 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
+(use-modules ((bight dive) #:select (fork-dive with-dive)))
+
 (define scene
   (world (sea (depth 9) (current .3 90)) (seabed) (rov (named minnow) (at 3 2 -5))
          (tether (named line) (from 0 0 0) (to minnow) (length 10) (nodes 24) (model dynamic))))
@@ -48,3 +50,30 @@ what is dropped is freed, so that memory grows by less than 30 MB."
            (cons 'fork (lambda () (what-if (run 1/60))))
            (cons 'load-dive (lambda () (load-dive file)))
            (cons 'alter! (lambda () (alter! 'line #:cdn 1.4)))))))
+
+(define (flown-fork)
+  (let ((fork (fork-dive (current-dive))))
+    (with-dive fork (run 1/60))
+    fork))
+
+(define (keep-each-twentieth! forks)
+  "Drop the other FORKS, a vector, and have what was dropped collected."
+  (for-each (lambda (i)
+              (unless (= 0 (modulo i 20))
+                (vector-set! forks i #f)))
+            (iota (vector-length forks)))
+  (for-each (lambda (i) (gc) (flown-fork)) (iota 3)))
+
+(define-scenario what-lies-between-what-is-kept-is-given-back
+  "Of 800 flown forks each twentieth is kept: the system gets more than half of the memory back, though what is kept lies
+between what is dropped."
+  (when (= 0 (megabytes))
+    (skip "the system does not tell what a process holds"))
+  (enter! scene)
+  (let* ((before (megabytes)) (forks (make-vector 800 #f)))
+    (for-each (lambda (i) (vector-set! forks i (flown-fork))) (iota 800))
+    (let ((most (- (megabytes) before)))
+      (expect most is (above 50))
+      (keep-each-twentieth! forks)
+      (expect (- (megabytes) before) is (below (* 0.5 most)))
+      (expect (vector-length forks) => 800))))
