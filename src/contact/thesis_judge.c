@@ -88,13 +88,14 @@ static const bt__member thesis[] = {
 };
 const bt__record bt__thesis_record = BT__RECORD (bt__thesis, "split line", thesis);
 
-/* Every span has a length and a shape that a split line may have; every split is at an inner node,
-   farther along than the one before.  */
+/* Every span has a length and a shape that a split line may have; every split is at an object and
+   at an inner node, farther along than the one before.  */
 static bt_status
 judge_spans (bt__judge *judge, const bt__thesis *s)
 {
   const bt__span *span = bt__thesis_spans (s);
-  int64_t last = 0, end = bt__thesis_line (s)->n - 1, movers = judge->below[BT__BELOW_MOVERS];
+  int64_t last = 0, end = bt__thesis_line (s)->n - 1, movers = judge->below[BT__BELOW_MOVERS],
+          objects = judge->below[BT__BELOW_OBJECTS];
   for (int64_t k = 0; k < s->spans; k++)
     {
       const bt__split *split = &span[k].end;
@@ -104,6 +105,9 @@ judge_spans (bt__judge *judge, const bt__thesis *s)
                                  "its spans are curves of a thesis' model");
       if (status == BT_OK && k < s->spans - 1)
         status = bt__judge_count (judge, "for the node of a split", split->node, last + 1, end - 1);
+      if (status == BT_OK && k < s->spans - 1)
+        status
+            = bt__judge_count (judge, "for the object of a split", split->object, 0, objects - 1);
       if (status == BT_OK && k < s->spans - 1)
         status = bt__judge_count (judge, "for the mover of a split", split->mover, 0, movers);
       if (status != BT_OK)

@@ -150,6 +150,32 @@ refusals_teach (void **state)
   bt_dive_free (dive);
 }
 
+/* A split, which `contacts' tells, is at an object; the last span of a line ends at none.  */
+static void
+splits_have_an_object (void **state)
+{
+  int found = 0;
+  (void)state;
+  for (int i = 0; i < state_worlds (); i++)
+    {
+      bt_dive *dive = state_world (i);
+      bt__state *kept = malloc (bt_dive_state_size (dive));
+      assert_non_null (kept);
+      bt_dive_save (dive, kept);
+      bt__thesis *line = bt__dive_thesis (dive, kept, 0);
+      if (bt__dive_tether (dive, kept, 0)->contact_form == BT__TETHER_SPANS && line->spans > 1)
+        {
+          found++;
+          bt__thesis_spans (line)->end.object = -1;
+          assert_non_null (
+              strstr (said_of (dive, kept), "has -1 for the object of a split, not 0"));
+        }
+      free (kept);
+      bt_dive_free (dive);
+    }
+  assert_true (found > 0);
+}
+
 /* ---- Spoilt states ---- */
 
 /* The I-th choices, whatever was tried before.  */
@@ -211,8 +237,11 @@ int
 main (void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test (every_byte_has_a_member),          cmocka_unit_test (gaps_are_found),
-    cmocka_unit_test (what_a_dive_comes_to_is_believed), cmocka_unit_test (refusals_teach),
+    cmocka_unit_test (every_byte_has_a_member),
+    cmocka_unit_test (gaps_are_found),
+    cmocka_unit_test (what_a_dive_comes_to_is_believed),
+    cmocka_unit_test (refusals_teach),
+    cmocka_unit_test (splits_have_an_object),
     cmocka_unit_test (spoilt_states_do_no_harm),
   };
   if (getenv ("BIGHT_RUNS"))
