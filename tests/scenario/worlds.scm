@@ -8,6 +8,7 @@
              (bight world any-world)
              ((bight test generator) #:select (draw expression))
              (bight core schema)
+             (bight test invariant)
              (bight test soundness)
              (bight watched)
              ((srfi srfi-1) #:hide (every)))
@@ -139,6 +140,17 @@
   (expect (imbalance 'line) is (above 0.2))
   (expect (wound-though-free 'line #t '((p1 . 0) (p2 . -1))) is string?)
   (expect (wound-though-free 'line #f '((p2 . -1))) => #f))
+
+(define-scenario what-falls-drags-other-lines-along
+  "A line that lies across another has what the other's clump gains as it falls: the bound on its energy has it, too."
+  (define (bound mass)
+    (enter! (world (sea)
+                   (rov (named a) (at 0 8 -8))
+                   (rov (named b) (at 8 0 -5))
+                   (tether (named under) (from 0 -8 -8) (to a) (length 17) (model dynamic))
+                   (tether (named over) (from -8 0 -5) (to b) (length 20) (clump (at 8) (mass mass)) (model dynamic))))
+    (most-energy 0))
+  (expect (- (bound 1001) (bound 1)) is (about (* 1000 10 2 20) #:within 1e-3)))
 
 (define-scenario a-crash-is-told
   "A dive whose process dies is a finding, and is made simpler."

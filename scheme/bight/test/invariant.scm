@@ -19,7 +19,7 @@
                 #:select (part-all-fields part-fields part-head part-name world-part world-parts))
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
-  #:export (post? all-finite? nothing-crossed? energy-bounded? turns-watcher same-again? always-sound))
+  #:export (post? all-finite? nothing-crossed? most-energy energy-bounded? turns-watcher same-again? always-sound))
 
 (define (tethers)
   (iota (length (%names (this-engine 'tethers) 'tether))))
@@ -118,9 +118,11 @@ one."
   (* (abs (assq-ref (tether-properties t) 'wet-weight)) (whole-length t)))
 
 (define (most-energy t)
+  "Return the most energy of motion and strain, J, that whoever drags the T-th tether, and the water, could give it before
+it breaks."
   (let ((speed (fold max 1 (cons (norm (current-at '(0 0 -1))) (map vehicle-speed (vehicles)))))
         (fields (tether-properties t)))
-    (+ (most-fall t)
+    (+ (apply + (map most-fall (tethers)))
        (* (whole-length t)
           (+ (* 1/2 (line-mass t) (expt (* 3 speed) 2))
              (most-strain (max-load (assq-ref fields 'breaking-load) (own-weight t)) (assq-ref fields 'ea)))))))
