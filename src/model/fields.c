@@ -189,7 +189,8 @@ static const bt_field tether_fields[] = {
         "as diamond"),
   PROP (ei, "ei", "N m2", 0, 0, 1e9, 0, NULL, "bending stiffness; at most that of such a rod"),
   PROP (gj, "gj", "N m2", 0, 0, 1e9, 0, NULL, "torsional stiffness; no more than `ei' may be"),
-  PROP (ba, "ba", "N s", 20, 0, 1e9, 0, NULL, "internal damping"),
+  PROP (ba, "ba", "N s", 20, 0, 1e9, 0, NULL,
+        "internal damping; no more than `ea' for a second, but 1e5 in any case"),
   PROP (bending_damping, "bending-damping", "N m2 s", 0, 0, 1e9, 0, NULL,
         "internal damping of bending, of the moving line; no more than a hundredth of what `ei' "
         "may be"),

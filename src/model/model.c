@@ -187,6 +187,23 @@ check_stiffness (const bt_tether_props *p, const bt_tether_def *tether, bt_error
   return BT_OK;
 }
 
+#define CREEPS 1.0 /* s: the longest in which a line gives way to its load, unless ... */
+#define SOFT 1e5   /* N s: ... it damps no more than this */
+
+/* What a step leaves undone of a line's length, times `ba' over the step, is a tension: a line may
+   give way as slowly as nobody sees, but not in hours what it stretches by in a step.  */
+static bt_status
+check_damping (const bt_tether_props *p, const bt_tether_def *tether, bt_error *error)
+{
+  double most = fmax (CREEPS * p->ea, SOFT);
+  if (p->ba <= most)
+    return BT_OK;
+  return bt__fail (error, BT_ERR_DOMAIN,
+                   "`ba' of tether `%s' is %g N s; with an `ea' of %g N the most there is is %g, "
+                   "with which it gives way to a load in %g s",
+                   tether->name, p->ba, p->ea, most, most / p->ea);
+}
+
 static bt_status
 check_layers (const bt_tether_props *p, const bt_tether_def *tether, bt_error *error)
 {
@@ -209,6 +226,8 @@ bt_status
 bt__bears_bends (const bt_tether_props *p, const bt_tether_def *tether, bt_error *error)
 {
   bt_status status = check_stiffness (p, tether, error);
+  if (status == BT_OK)
+    status = check_damping (p, tether, error);
   if (status == BT_OK)
     status = check_layers (p, tether, error);
   if (status != BT_OK)

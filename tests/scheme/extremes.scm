@@ -193,6 +193,28 @@ damps no more than a hundredth of that, in N m2 s; a thicker line may, until it 
   (enter! (a-line '(diameter 0.001) '(ea 7.8e9)))
   (enter! (a-line '(ea inextensible))))
 
+(define-scenario a-line-gives-way-within-a-second
+  "A line damps no more than its axial stiffness for a second, and 1e5 N s in any case; one that cannot stretch damps as much
+as it likes."
+  (expect (enter! (a-line '(ea 1e6) '(ba 1.01e6))) raises domain)
+  (enter! (a-line '(ea 1e6) '(ba 9.9e5)))
+  (expect (alter! 'line #:ea 5e5) raises domain)
+  (enter! (a-line '(ea 100) '(ba 9.9e4)))
+  (expect (alter! 'line #:ba 1.01e5) raises domain)
+  (enter! (a-line '(ea inextensible) '(ba 1e9))))
+
+(define-scenario (as-damped-as-can-be-a-line-snaps-as-others ea)
+  "A line that damps as much as can be and falls taut with a clump bears what others bear, a few hundred newtons."
+  #:for ((ea 3000 1e5 1e6))
+  (enter! (eval `(world (sea (current 0.3 90)) (rov (named minnow) (at 12 0 -8))
+                        (tether (named line) (from 0 0 -2) (to minnow) (length 13.5) (model dynamic) (wet-weight 0.2)
+                                (ea ,ea) (ba ,(* 0.99 (max ea 1e5))) (clump (at 5) (mass 5))))
+                language))
+  (always (< (max-tension) 1000)
+    (run 1)
+    (haul-in! 2 #:rate 1)
+    (run 3)))
+
 (define-scenario (the-stiffest-gains-nothing clauses)
   "Laid slack, as stiff as can be, a line springs straight with no more than its bend had; damped as much as can be, it
 holds what falls with it as others do."

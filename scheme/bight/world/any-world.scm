@@ -136,12 +136,14 @@ numbers come from all that is allowed."
       `(,@(without-field tether 'ei) (ei 0.05))))
 
 (define (no-stiffer-than-a-rod tether)
-  ;; TETHER; what it has of stiffness is no more than a line of its diameter can have.
-  (let* ((diameter (number-of tether 'diameter)) (diameter (if (zero? diameter) 0.0076 diameter)))
+  ;; TETHER; what it has of stiffness and damping is no more than a line of its diameter can have.
+  (let* ((diameter (number-of tether 'diameter)) (diameter (if (zero? diameter) 0.0076 diameter))
+         (ea (number-of tether 'ea)))
     (define (most-of name)
       (case name
         ((ea) (* 7.8e15 (expt diameter 2)))
         ((ei ei-stuck gj) (* 4.9e14 (expt diameter 4)))
+        ((ba) (if (real? ea) (max 1e5 (min ea (most-of 'ea))) 1e9))
         ((bending-damping) (* 4.9e12 (expt diameter 4)))
         (else #f)))
     (map (lambda (clause)
