@@ -1,5 +1,5 @@
 ;; Beside a wreck and below its mast tops, never over it and never through its rigging.
-(define-lesson wreck-with-rigging "A wreck with rigging: never over, never through"
+(define-lesson wreck-with-rigging "A wreck's rigging: never over or through"
   (grade 3)
   (trains route)
   (needs bow route)

@@ -10,7 +10,7 @@
                   (from 0 0 1) (to minnow) (length 60) (drum 120)
                   (clump (at metres) (mass weight)))))
 
-(define-lesson where-the-clump-hangs "The umbilical, the clump, and the tether behind it"
+(define-lesson where-the-clump-hangs "The umbilical, the clump, and the tether"
   (grade 3)
   (trains trim handling)
   (needs bow slack)

@@ -15,8 +15,12 @@ take ()
 }
 
 "$pre" bight lessons --trainee ann >"$scratch/out" 2>"$scratch/err"
-grep -q '^05  one-pile  *later  *route  *slack$' "$scratch/out"
-result $? 'bight lessons lists the lessons'
+grep -q '^05  one-pile  *later  *One pile, out and back$' "$scratch/out"
+result $? 'bight lessons lists the lessons by their titles'
+awk 'length > 80 { long = 1 } END { exit long }' "$scratch/out"
+result $? 'in 80 columns'
+"$pre" bight lessons --skills --trainee ann | grep -q '^  one-pile  *route  *slack$'
+result $? 'what each trains and needs is told with the skills'
 
 take <<END
 h
@@ -53,7 +57,7 @@ if grep -q '^bight: ' "$scratch/err" || ! "$pre" bight -c '(logbook)' >/dev/null
   skip 'marks in the list: no logbook here'
   skip 'marks of a group: no logbook here'
 else
-  "$pre" bight lessons --trainee ann | grep -q '^05  one-pile  *passed 100  *route  *slack$'
+  "$pre" bight lessons --trainee ann | grep -q '^05  one-pile  *passed 100  *One pile, out and back$'
   result $? 'the list shows the marks'
   "$pre" bight lessons --csv --group crew | grep -q '^ann,crew,one-pile,normal,1,100,1,'
   result $? 'and a group is told as CSV'

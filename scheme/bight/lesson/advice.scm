@@ -31,8 +31,9 @@
     0))
 
 (define (list-skills given)
-  "Print how well the pupil has each skill."
-  (let ((why (why-no-record)))
+  "Print how well the pupil has each skill, and which lessons train and need it."
+  (let ((why (why-no-record)) (places (catalogue)))
     (if why
         (print-without-record why)
-        (print (skill-lines (beliefs-from (logged-results #f) (catalogue)) (who-of given))))))
+        (print (skill-lines (beliefs-from (logged-results #f) places) (who-of given))))
+    (print (cons "" (training-lines places)))))

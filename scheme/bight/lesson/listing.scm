@@ -35,13 +35,9 @@
           ((any (lambda (r) (assq-ref r 'passed?)) (results-in results (place-name place))) (with-marks "easy"))
           (else (with-marks "tried")))))
 
-(define (words symbols)
-  (string-join (map symbol->string symbols) " "))
-
-(define (lesson-row number name standing trains needs)
+(define (lesson-row number name standing title)
   (string-trim-right
-   (string-append (string-pad-right number 4) (string-pad-right name 23) (string-pad-right standing 12)
-                  (string-pad-right trains 18) needs)))
+   (string-append (string-pad-right number 4) (string-pad-right name 23) (string-pad-right standing 12) title)))
 
 (define (list-lessons given)
   ;; A table of 80 columns at most, by grades.
@@ -49,15 +45,15 @@
          (rows (map (lambda (file place)
                       (cons (place-grade place)
                             (lesson-row (substring (basename file) 0 2) (symbol->string (place-name place))
-                                        (standing file place places results given)
-                                        (words (place-trains place)) (words (place-needs place)))))
+                                        (standing file place places results given) (place-title place))))
                     files places)))
     (for-each (lambda (grade)
-                (print-line (lesson-row "" (simple-format #f "Grade ~a" grade) "you" "trains" "needs"))
+                (print-line (lesson-row "" (simple-format #f "Grade ~a" grade) "you" ""))
                 (for-each (lambda (row) (when (= grade (car row)) (print-line (cdr row)))) rows))
               (sort (delete-duplicates (map car rows)) <))
-    (print-line "\nready: you have shown what it needs.  `bight lesson NAME' takes one, `bight lesson' proposes the
-next, `bight lessons --skills' says what the skills are.")))
+    (print-line "\nready: you have shown what it needs.  `bight lesson NAME' takes one,
+`bight lesson' proposes the next, `bight lessons --skills' says which skills
+each trains and needs.")))
 
 (define (print-line text)
   (display text)

@@ -13,10 +13,10 @@
   #:use-module ((bight lesson log) #:select (earlier?))
   #:use-module (bight lesson skill)
   #:use-module (srfi srfi-1)
-  #:export (catalogue make-place place? place-name place-grade place-trains place-needs
+  #:export (catalogue make-place place? place-name place-title place-grade place-trains place-needs
             beliefs-from skill-belief chance-to-pass
             results-in passed? ready?
-            proposal proposal-lines skill-lines))
+            proposal proposal-lines skill-lines training-lines))
 
 
 ;;; What lessons there are.
@@ -159,6 +159,20 @@ passing it, and why it was chosen: new, again (all were passed), or early (nothi
   "Return lines that tell how well WHO has each skill."
   (cons "Chance to pass a lesson of grade 2 that trains the skill alone, with the interval of 90 %:"
         (map (lambda (skill) (string-append "  " (skill-line beliefs who skill))) (skills))))
+
+(define (words symbols)
+  (string-join (map symbol->string symbols) " "))
+
+(define (training-row name trains needs)
+  (string-trim-right
+   (string-append "  " (string-pad-right name 23) (string-pad-right trains 18) needs)))
+
+(define (training-lines places)
+  "Return lines that tell which skills the lessons at PLACES train and need."
+  (cons (training-row "Lesson" "trains" "needs")
+        (map (lambda (place)
+               (training-row (symbol->string (place-name place)) (words (place-trains place)) (words (place-needs place))))
+             places)))
 
 (define (need-line results places place skill)
   (let ((shown (shown-in results (delq place places) skill)))
