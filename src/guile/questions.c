@@ -128,6 +128,7 @@ static const struct
   { "relaxations", offsetof (bt_profile, relaxations) },
   { "unsettled", offsetof (bt_profile, unsettled) },
   { "chain-steps", offsetof (bt_profile, chain_steps) },
+  { "chain-tries", offsetof (bt_profile, chain_tries) },
   { "chain-parts", offsetof (bt_profile, chain_parts) },
   { "chain-stretched", offsetof (bt_profile, chain_stretched) },
   { "chain-solves", offsetof (bt_profile, chain_solves) },

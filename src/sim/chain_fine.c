@@ -133,6 +133,7 @@ try_parts (bt_dive *dive, bt__state *state, int i, const bt__ends *to, int fine,
   int n = 1 << fine;
   bt_status status = BT_OK;
   double before = n > 1 ? way_asked (work) : 0, sum = 0;
+  dive->profile.chain_tries += (uint64_t)bt__chains (tether);
   work->balked = 0;
   *a = (attempt){ .report = { .converged = 1, .bend_radius = HUGE_VAL } };
   for (int k = 0; k < n && status == BT_OK && !(n > 1 && work->balked); k++)
@@ -383,7 +384,7 @@ bt__advance_as_asked (bt_dive *dive, bt__state *state, int i, const bt__ends *to
                  : fine == 0 || !bt__has_jumped (dive, state, i, a.report.tension, STAY)
                      ? 0
                      : next_fine (fine, off / (SHARE * asked (tether, a.report.tension)));
-  dive->profile.chain_steps += tether->parted ? 2 : 1;
+  dive->profile.chain_steps += (uint64_t)bt__chains (tether);
   dive->profile.chain_unconverged = unsolved + !a.report.converged;
   return BT_OK;
 }

@@ -212,6 +212,7 @@ begin_stretch (bt_dive *dive, bt__state *state, int i, int steps, double off,
                                    .pull = { now->pull[0], now->pull[1] } };
   tether->peak = tether->unsure = 0;
   dive->profile.chain_steps++;
+  dive->profile.chain_tries++;
 }
 
 /* Note that no stretch was to be had for tether I; return zero.  */

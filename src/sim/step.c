@@ -162,6 +162,14 @@ agree (bt_dive *dive, bt__state *next)
   return vehicles && hulls && bt__around_agrees (dive);
 }
 
+/* A try is taken back: no step of a line was taken since BEFORE was counted, the work stays.  */
+static void
+forget_try (bt_dive *dive, const bt_profile *before)
+{
+  dive->profile.chain_steps = before->chain_steps;
+  dive->profile.chain_unconverged = before->chain_unconverged;
+}
+
 /* Step the copy; after ROUND tries at it tethers, vehicles and obstacles did not fit together.  */
 static bt_status
 try_once (bt_dive *dive, int round, bt_error *error)
@@ -193,16 +201,20 @@ try_once (bt_dive *dive, int round, bt_error *error)
    repeated by one thread (share.c).  All is repeated while lines ahead of the present were met
    (chain_apart.c).  */
 static bt_status
-try_step (bt_dive *dive, int round, bt_error *error)
+try_step (bt_dive *dive, int round, const bt_profile *before, bt_error *error)
 {
   bt_status status;
   do
     {
+      forget_try (dive, before);
       if (dive->contexts)
         bt__share_begin (dive);
       status = try_once (dive, round, error);
       if (dive->contexts && bt__share_refused (dive) && status != BT_ERR_INTERRUPTED)
-        status = try_once (dive, round, error);
+        {
+          forget_try (dive, before);
+          status = try_once (dive, round, error);
+        }
     }
   while (status == BT_OK && bt__bar_stretches (dive));
   return status;
@@ -232,9 +244,10 @@ bt_status
 bt__step_aside (bt_dive *dive, bt_error *error)
 {
   memset (dive->contact_work.barred, 0, (size_t)dive->model->n_tethers);
-  bt_status status = try_step (dive, 0, error);
+  bt_profile before = dive->profile;
+  bt_status status = try_step (dive, 0, &before, error);
   for (int round = 1; status == BT_OK && round <= BT__TRIES && !agree (dive, dive->next); round++)
-    status = try_step (dive, round, error);
+    status = try_step (dive, round, &before, error);
   bt__settle_movers (dive, dive->next);
   bt__note_all_partings (dive, dive->next);
   if (status != BT_OK)

@@ -271,7 +271,7 @@ fly_and_judge (uint64_t seed, kind k, verdict *v)
         save_and_restore (dive);
     }
   bt_dive_profile (dive, &work);
-  v->tries += work.chain_steps;
+  v->tries += work.chain_tries;
   v->truncated += work.truncated;
   v->beside += work.beside_hulls;
   v->shared += work.shared_steps;

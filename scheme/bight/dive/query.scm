@@ -373,7 +373,8 @@ never drains them; the last 128 are kept."
           (%events (this-engine 'events) 0)))
 
 (define-verb (profile)
-  "Return the work done since the dive began and the work skipped, an alist of counters."
+  "Return the work done since the dive began and the work skipped, an alist of counters.  What was done in
+vain is work too, but for steps and chain-steps, which are those taken; chain-tries are all tries at them."
   (%profile (this-engine 'profile)))
 
 (define-verb (parts)
