@@ -7,7 +7,7 @@
 
 #include "row.h"
 
-/* Put the rows to TABLE, of one rough bed if QUICK, else of five.  Zero if a scene could not be
+/* Put the rows to TABLE, of one rough bed if QUICK, else of 24.  Zero if a scene could not be
    made.  */
 int contact_quiet (bench_table *table, int quick);
 
