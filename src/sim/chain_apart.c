@@ -180,12 +180,14 @@ int
 bt__has_room_about (const bt_dive *dive, bt__state *state, int i, double way)
 {
   sweep own, other;
-  sweep_through (dive, state, i, &own);
+  int drawn = 0;
   for (int j = 0; j < dive->model->n_tethers; j++)
     {
       double gap = j == i ? -1 : gap_between (dive, dive->now, i, j);
       if (gap < 0)
         continue;
+      if (!drawn++)
+        sweep_through (dive, state, i, &own);
       sweep_through (dive, dive->now, j, &other);
       if (meet (&own, &other, gap + way + room_to_move (dive, j)))
         return 0;
