@@ -17,6 +17,7 @@
 #include "world/obstacles.h"
 
 #define HULL_FRICTION 0.3
+#define BALL (1 + 1e-5) /* of the radius of the ball about a hull: rounding */
 
 /* Sweeps of a step, the first included.  */
 enum
@@ -127,13 +128,20 @@ turn_body (bt__vehicle *v, const bt__vehicle *before, double share)
   v->body.heading = bt__heading_follow (before->body.heading, v->body.attitude);
 }
 
-/* True if VEHICLE can meet no obstacle on its way FROM to WANTED, in any orientation.  */
+/* True if VEHICLE can meet no obstacle on its way FROM to WANTED, in any orientation: none is
+   within the ball about its hull.  Asked so, most steps need neither the hull nor how it is turned.
+ */
 static int
-is_hull_far (const bt_dive *dive, bt_vec3 from, bt_vec3 wanted, int vehicle)
+is_hull_far (bt_dive *dive, bt_vec3 from, bt_vec3 wanted, int vehicle)
 {
+  const bt__scene *scene = dive->model->scene;
   bt__aabb way = bt__box_with ((bt__aabb){ from, from }, wanted);
-  double radius = 0.5 * bt__norm (dive->model->vehicles[vehicle].size) + BT__HULL_GAP;
-  return dive->model->n_carried == 0 && bt__scene_apart (dive->model->scene, &way) > radius;
+  double radius = BALL * (0.5 * bt__norm (dive->model->vehicles[vehicle].size) + BT__HULL_GAP);
+  if (dive->model->n_carried > 0 || !bt__is_finite (wanted))
+    return 0;
+  return bt__scene_apart (scene, &way) > radius
+         || !bt__scene_within (scene, NULL, &(bt__link){ from, wanted }, radius,
+                               &dive->contact_work.count);
 }
 
 static bt_vec3
