@@ -219,7 +219,7 @@ reef_jacket (reef *r, uint64_t seed)
 
 enum
 {
-  SPARE = 24 /* nodes that may come where the line runs about edges */
+  SPARE = 48 /* nodes that may come where the line runs about edges */
 };
 
 int

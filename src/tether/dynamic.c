@@ -29,11 +29,12 @@
 static void
 free_arrays (bt__dynamic_work *w)
 {
-  void *at[] = { &w->X,     &w->d,     &w->rhs,     &w->keep,      &w->last,      &w->lam,
-                 &w->link,  &w->node,  &w->extra,   &w->diag,      &w->off,       &w->up,
-                 &w->up2,   &w->pivot, &w->bend,    &w->bend_diag, &w->bend_off,  &w->bend_far,
-                 &w->whole, &w->spare, &w->by_flow, &w->crumple,   &w->exchanged, &w->natural,
-                 &w->twist, &w->felt,  &w->round,   &w->slip,      &w->twisted };
+  void *at[]
+      = { &w->X,     &w->d,         &w->rhs,      &w->keep,      &w->last,    &w->lam,   &w->link,
+          &w->node,  &w->extra,     &w->diag,     &w->off,       &w->up,      &w->up2,   &w->pivot,
+          &w->bend,  &w->bend_diag, &w->bend_off, &w->bend_far,  &w->whole,   &w->spare, &w->crowd,
+          &w->down,  &w->far,       &w->crumple,  &w->first_row, &w->natural, &w->twist, &w->felt,
+          &w->round, &w->slip,      &w->twisted };
   for (size_t i = 0; i < sizeof at / sizeof *at; i++)
     {
       void *array, *none = NULL;
@@ -90,16 +91,17 @@ make_arrays (bt__dynamic_work *w)
          && make (&w->off, n, sizeof *w->off) && make (&w->up, n, sizeof *w->up)
          && make (&w->pivot, n, sizeof *w->pivot) && make (&w->whole, n, sizeof *w->whole)
          && make (&w->spare, n, sizeof *w->spare) && make (&w->round, n, sizeof *w->round)
-         && make_untouched (&w->by_flow, (BT__BENTS + 3) * n, sizeof *w->by_flow)
-         && make_untouched (&w->exchanged, 3 * n, sizeof *w->exchanged);
+         && make_untouched (&w->crowd, BT__CROWD * n, sizeof *w->crowd)
+         && make_untouched (&w->down, n, sizeof *w->down)
+         && make_untouched (&w->first_row, n, sizeof *w->first_row);
 }
 
 static int
 make_for_bending (bt__dynamic_work *w)
 {
   size_t n = elements (w);
-  return make (&w->up2, n, sizeof *w->up2) && make (&w->bend, n, sizeof *w->bend)
-         && make (&w->bend_diag, n, sizeof *w->bend_diag)
+  return make (&w->up2, n, sizeof *w->up2) && make (&w->far, n, sizeof *w->far)
+         && make (&w->bend, n, sizeof *w->bend) && make (&w->bend_diag, n, sizeof *w->bend_diag)
          && make (&w->bend_off, n, sizeof *w->bend_off)
          && make (&w->bend_far, n, sizeof *w->bend_far) && make (&w->natural, n, sizeof *w->natural)
          && make (&w->twist, n, sizeof *w->twist) && make (&w->felt, n, sizeof *w->felt)

@@ -12,11 +12,10 @@
    Without c a slack line would hold nothing however often the line is wound round, and a nearly
    slack line would hold anything in one step and nothing in the next.
 
-   The equations of the nodes stay symmetric and tridiagonal, and the flows border them.  With y the
-   update without flow and z the update by a metre of flow, a small full system gives the flows; the
-   system is not symmetric, because friction is not.
+   A flow is one more unknown of its node (dynamic_lu.c).  Its equation and what it does to the
+   nodes are not symmetric, because friction is not.
 
-   The safe way leaves the border out, or the direction found would not descend: flows then follow
+   The safe way leaves the flows out, or the direction found would not descend: flows then follow
    the places from one iteration to the next, as friction follows the loads.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
@@ -147,7 +146,7 @@ assemble_bent (bt__dynamic_work *w, bt__dynamic_bent *b)
 void
 bt__dynamic_bent_assemble (bt__dynamic_work *w, bt__mode mode)
 {
-  w->bordered = mode != BT__SAFE;
+  w->flows = mode != BT__SAFE;
   for (int k = 0; k < w->bents; k++)
     assemble_bent (w, w->bent + k);
 }
@@ -168,145 +167,33 @@ bt__dynamic_bent_potential (const bt__dynamic_work *w)
   return sum;
 }
 
-/* ---- The border ---- */
+/* ---- The equations of the flows ---- */
 
-/* One bent node's equation: its two legs, and what it lacks.  */
-typedef struct border
+/* The equation of the flow at B: the lack T_b - e T_a is to become zero.  */
+static bt__flow
+flow_of (const bt__dynamic_work *w, bt__dynamic_bent *b)
 {
-  leg a, b;
-  double e, slope; /* T_b / T_a; what T_b - e T_a loses by friction with the flow, N/m */
-  double lack;     /* N: T_b - e T_a */
-} border;
-
-static border
-border_of (const bt__dynamic_work *w, const bt__dynamic_bent *b)
-{
-  border r = { .a = leg_of (w, b->node - 1), .b = leg_of (w, b->node) };
-  double slope, k = share_of (b, b->drag + b->flow, &slope);
-  r.e = exp (b->wrap * k);
-  r.slope = (r.a.tension + CLING) * r.e * b->wrap * slope;
-  r.lack = r.b.tension + CLING - r.e * (r.a.tension + CLING);
-  return r;
+  leg before = leg_of (w, b->node - 1), after = leg_of (w, b->node);
+  double bends, k = share_of (b, b->drag + b->flow, &bends), e = exp (b->wrap * k);
+  double slope = (before.tension + CLING) * e * b->wrap * bends;
+  b->gain[0] = before.by_rest;
+  b->gain[1] = after.by_rest;
+  bt_vec3 p = bt__scale (before.by_rest, before.t), q = bt__scale (after.by_rest, after.t),
+          c = bt__scale (e * before.along, before.t), d = bt__scale (after.along, after.t);
+  return (bt__flow){ .node = b->node,
+                     .column = { bt__scale (-1, p), bt__add (p, q), bt__scale (-1, q) },
+                     .row = { c, bt__scale (-1, bt__add (c, d)), d },
+                     .own
+                     = -(after.by_rest + e * before.by_rest + slope + before.soft + after.soft),
+                     .beside = { e * before.by_rest, after.by_rest },
+                     .right = e * (before.tension + CLING) - after.tension - CLING };
 }
 
-/* What a metre of flow at B does to the nodes, as a right-hand side P.  */
-static void
-push_of (const bt__dynamic_bent *b, const border *r, bt_vec3 *p)
+void
+bt__dynamic_bent_flows (bt__dynamic_work *w)
 {
-  bt_vec3 a = bt__scale (r->a.by_rest, r->a.t), c = bt__scale (r->b.by_rest, r->b.t);
-  p += b->node;
-  p[-1] = a;
-  p[0] = bt__scale (-1, bt__add (a, c));
-  p[1] = c;
-}
-
-/* What the update D does to the lack of B.  */
-static double
-lack_by (const bt__dynamic_bent *b, const border *r, const bt_vec3 *d)
-{
-  const bt_vec3 *p = d + b->node;
-  return r->b.along * bt__dot (r->b.t, bt__sub (p[1], p[0]))
-         - r->e * r->a.along * bt__dot (r->a.t, bt__sub (p[0], p[-1]));
-}
-
-/* What a metre of flow at bent node L does to the lack at K, the nodes staying.  */
-static double
-lack_by_flow (const bt__dynamic_work *w, const border *r, int k, int l)
-{
-  int64_t away = w->bent[l].node - w->bent[k].node;
-  const border *b = r + k;
-  if (k == l)
-    return -(b->b.by_rest + b->e * b->a.by_rest + b->slope + b->a.soft + b->b.soft);
-  return away == 1 ? b->b.by_rest : away == -1 ? b->e * b->a.by_rest : 0;
-}
-
-/* Solve the N equations M x = Y, of BT__BENTS columns, into Y.  Return zero if they are not
-   finite.  */
-static int
-solve_small (double m[][BT__BENTS], double *y, int n)
-{
-  for (int i = 0; i < n; i++)
-    {
-      int p = i;
-      for (int k = i + 1; k < n; k++)
-        p = fabs (m[k][i]) > fabs (m[p][i]) ? k : p;
-      for (int c = 0; c < n; c++)
-        {
-          double t = m[i][c];
-          m[i][c] = m[p][c];
-          m[p][c] = t;
-        }
-      double t = y[i];
-      y[i] = y[p];
-      y[p] = t;
-      for (int k = i + 1; k < n; k++)
-        {
-          double f = m[k][i] / m[i][i];
-          for (int c = i; c < n; c++)
-            m[k][c] -= f * m[i][c];
-          y[k] -= f * y[i];
-        }
-    }
-  double sum = 0;
-  for (int i = n - 1; i >= 0; i--)
-    {
-      for (int c = i + 1; c < n; c++)
-        y[i] -= m[i][c] * y[c];
-      y[i] /= m[i][i];
-      sum += y[i];
-    }
-  return isfinite (sum);
-}
-
-/* The updates of a metre of each flow.  */
-static void
-find_by_flow (bt__dynamic_work *w, const border *r)
-{
-  size_t nodes = (size_t)w->n + 1;
-  int64_t first = w->n, last = 0;
-  memset (w->by_flow, 0, (size_t)w->bents * nodes * sizeof *w->by_flow);
-  for (int l = 0; l < w->bents; l++)
-    {
-      const bt__dynamic_bent *b = w->bent + l;
-      push_of (b, r + l, w->by_flow + (size_t)l * nodes);
-      first = b->node - 1 < first ? b->node - 1 : first;
-      last = b->node + 1 > last ? b->node + 1 : last;
-    }
-  if (w->pairs == 0)
-    bt__dynamic_solve_again (w, w->by_flow, w->bents, first, last);
-  for (int l = 0; w->pairs > 0 && l < w->bents; l++)
-    bt__dynamic_pair_solve_again (w, w->by_flow + (size_t)l * nodes, first, last);
-}
-
-double
-bt__dynamic_bent_solve (bt__dynamic_work *w)
-{
-  border r[BT__BENTS];
-  double m[BT__BENTS][BT__BENTS], y[BT__BENTS];
-  size_t nodes = (size_t)w->n + 1;
-  bt__dynamic_pair_solve (w);
   for (int k = 0; k < w->bents; k++)
-    {
-      r[k] = border_of (w, w->bent + k);
-      y[k] = -r[k].lack - lack_by (w->bent + k, r + k, w->d);
-    }
-  find_by_flow (w, r);
-  for (int l = 0; l < w->bents; l++)
-    for (int k = 0; k < w->bents; k++)
-      m[k][l] = lack_by_flow (w, r, k, l)
-                + lack_by (w->bent + k, r + k, w->by_flow + (size_t)l * nodes);
-  if (!solve_small (m, y, w->bents))
-    return INFINITY;
-  for (int l = 0; l < w->bents; l++)
-    {
-      const bt_vec3 *z = w->by_flow + (size_t)l * nodes;
-      w->bent[l].step = y[l];
-      w->bent[l].gain[0] = r[l].a.by_rest;
-      w->bent[l].gain[1] = r[l].b.by_rest;
-      for (size_t i = 0; i < nodes; i++)
-        w->d[i] = bt__axpy (w->d[i], y[l], z[i]);
-    }
-  return bt__dynamic_largest (w);
+    w->flow[k] = flow_of (w, w->bent + k);
 }
 
 /* ---- Flows that follow the places ---- */
@@ -415,7 +302,7 @@ bt__dynamic_bent_take (bt__dynamic_work *w, double share)
     {
       bt__dynamic_bent *b = w->bent + k;
       before[k] = b->flow;
-      if (!w->bordered)
+      if (!w->flows)
         continue;
       w->lam[b->node - 1] += share * b->gain[0] * b->step;
       w->lam[b->node] -= share * b->gain[1] * b->step;

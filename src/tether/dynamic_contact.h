@@ -45,6 +45,7 @@ typedef struct bt__constraint
   bt_vec3 drag;     /* out, m: the drag that friction answers, not yet shortened to SLIP */
   bt_vec3 force;    /* out, N on the line; of two places on the first */
   double block[6];  /* out, of two places: the stiffness between them */
+  int64_t next;     /* any value; in the solver the next constraint at NODE */
 } bt__constraint;
 
 /* An end that is taken to its place by MOST newtons at the most; the end must be free in the input.
@@ -63,7 +64,7 @@ typedef struct bt__dynamic_hold
 
 enum
 {
-  BT__BENTS = 24 /* bent nodes a line has at most */
+  BT__BENTS = 48 /* bent nodes a line has at most */
 };
 
 #define BT__STICK_DAMPING                                                                          \

@@ -1,122 +1,81 @@
-/* The moving line: the linear solve in which friction follows the loads.
+/* The moving line: the linear solve in which flows are unknowns, and friction follows the loads.
 
-   The quick way lags: friction takes the load of the iterate before, so that all blocks are
-   symmetric.  Where a line is wound about something with much friction the load of every place
-   depends on the tension, and the tension on the friction of the places before: the lagged
-   iteration then runs about in a circle.  Here what friction gains with the load stands in the
+   Where a line is wound about something the load of every place depends on the tension, and the
+   tension on the friction of the places before.  So what friction gains with the load stands in the
    equations (the consistent tangent of Coulomb's law: P. Wriggers, Computational Contact Mechanics,
-   2nd edition, chapter 9).  A row adds to the blocks of its two nodes the product of two vectors,
-   and the matrix, no longer symmetric, is solved as a band.
+   2nd edition, chapter 9), together with the friction of the present loads.  A row adds to the
+   blocks of its two nodes the product of two vectors, and the matrix is no longer symmetric; nor is
+   it where line flows through sliding nodes.  From the first of these places to the last nodes are
+   eliminated by Gauss (dynamic_lu.c).
 
    Rows of two places couple nodes that are not neighbours.  Their symmetric part is in the blocks
    with an excess, as dynamic_pair.c says; the excess is taken back, and what their friction gains
-   is added, by BiCGSTAB with the band as preconditioner on the right (H. A. van der Vorst, SIAM J.
-   Sci. Stat. Comput. 13, 1992, 631).  As a product of the matrix of the band with what it solved
-   for is known, no other product is needed.
+   is added, by BiCGSTAB with that elimination as preconditioner on the right (H. A. van der Vorst,
+   SIAM J. Sci. Stat. Comput. 13, 1992, 631).  As a product of the eliminated matrix with what was
+   solved for is known, no other product is needed.  The equations of the flows are solved exactly,
+   and never have a residual.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <string.h>
 
-#include "math/band.h"
 #include "tether/dynamic_kernel.h"
 
 enum
 {
-  TURNS = 3 /* of BiCGSTAB at most: Newton's iterations do the rest */
+  TURNS = 6 /* of BiCGSTAB at most: Newton's iterations do the rest */
 };
 
-#define LITTLE 1e-6 /* of the square of the right-hand side: a residual that is solved */
+#define LITTLE 1e-12 /* of the square of the right-hand side: a residual that is solved */
 
-/* ---- The band ---- */
+/* ---- Where the equations are not symmetric ---- */
 
-static void
-put_block (double *b, int i, int j, double m[3][3])
+static int
+gains (const bt__constraint *r)
 {
-  for (int r = 0; r < 3; r++)
-    for (int c = 0; c < 3; c++)
-      *bt__band_at (b, 3 * i + r, 3 * j + c) += m[r][c];
+  return r->active > 0 && r->load > 0 && r->friction > 0;
 }
 
-/* SIGN times A, and K on the diagonal, between nodes I and J.  */
+/* Chain the rows of one place whose friction gains with the load, each at its node; the equations
+   had friction of the loads before.  */
 static void
-put_sym (double *b, int i, int j, double sign, const bt__sym *a, double k)
+chain_rows (bt__dynamic_work *w)
 {
-  double m[3][3] = { { sign * a->xx + k, sign * a->xy, sign * a->xz },
-                     { sign * a->xy, sign * a->yy + k, sign * a->yz },
-                     { sign * a->xz, sign * a->yz, sign * a->zz + k } };
-  put_block (b, i, j, m);
-}
-
-static void
-put_blocks (const bt__dynamic_work *w, double *b)
-{
-  static const bt__sym none = { 0 };
-  int stiff = w->bends > 0, lo = w->lo;
-  for (int i = lo; i <= w->hi; i++)
+  memset (w->first_row, 0, ((size_t)w->n + 1) * sizeof *w->first_row);
+  for (int k = w->rows - 1; k >= 0; k--)
     {
-      put_sym (b, i - lo, i - lo, 1, w->diag + i, stiff ? w->bend_diag[i] : 0);
-      for (int k = 0; i < w->hi && k < 2; k++)
-        put_sym (b, i - lo + k, i - lo + 1 - k, -1, w->off + i, stiff ? w->bend_off[i] : 0);
-      for (int k = 0; stiff && i + 2 <= w->hi && k < 2; k++)
-        put_sym (b, i - lo + 2 * k, i - lo + 2 - 2 * k, 1, &none, w->bend_far[i]);
+      bt__constraint *r = w->row + k;
+      if (r->pair > 0 || !gains (r))
+        continue;
+      bt_vec3 f = bt__scale (bt__dot (r->force, r->normal) - r->load, bt__dynamic_gain_of (r));
+      w->rhs[r->node] = bt__axpy (w->rhs[r->node], 1 - r->s, f);
+      w->rhs[r->node + 1] = bt__axpy (w->rhs[r->node + 1], r->s, f);
+      r->next = w->first_row[r->node];
+      w->first_row[r->node] = k + 1;
     }
 }
 
-/* The force that friction of R gains by a newton of load.  */
-static bt_vec3
-gain_of (const bt__constraint *r)
-{
-  return bt__scale (-r->friction / fmax (bt__norm (r->drag), r->slip), r->drag);
-}
-
-static int
-bears (const bt__constraint *r)
-{
-  return r->active > 0 && r->load > 0;
-}
-
-/* What friction of R gains with the load, at the nodes of its one place.  */
+/* Nodes from FIRST to LAST of the line are no longer symmetric; *FROM to *TO are not yet.  */
 static void
-put_gain (const bt__dynamic_work *w, double *b, const bt__constraint *r)
+spread (const bt__dynamic_work *w, int64_t first, int64_t last, int *from, int *to)
 {
-  bt_vec3 u = gain_of (r), v = bt__scale (r->stiffness, r->normal);
-  double m[3][3] = { { u.x * v.x, u.x * v.y, u.x * v.z },
-                     { u.y * v.x, u.y * v.y, u.y * v.z },
-                     { u.z * v.x, u.z * v.y, u.z * v.z } };
-  const double share[2] = { 1 - r->s, r->s };
-  for (int p = 0; p < 2; p++)
-    for (int q = 0; q < 2; q++)
-      {
-        int i = (int)r->node + p, j = (int)r->node + q;
-        double part[3][3], k = share[p] * share[q];
-        for (int e = 0; e < 9; e++)
-          part[e / 3][e % 3] = k * m[e / 3][e % 3];
-        if (i >= w->lo && i <= w->hi && j >= w->lo && j <= w->hi)
-          put_block (b, i - w->lo, j - w->lo, part);
-      }
+  *from = first < *from ? (first > w->lo ? (int)first : w->lo) : *from;
+  *to = last > *to ? (last < w->hi ? (int)last : w->hi) : *to;
 }
 
+/* The nodes of the part that is not symmetric, all of them with pairs; none if *FROM > *TO.  */
 static void
-make_band (bt__dynamic_work *w)
+find_part (const bt__dynamic_work *w, int *from, int *to)
 {
-  int rows = 3 * (w->hi - w->lo + 1);
-  double *b = (double *)w->by_flow;
-  memset (b, 0, (size_t)rows * BT__BAND_HEIGHT * sizeof *b);
-  put_blocks (w, b);
-  for (int k = 0; k < w->rows; k++)
-    if (w->row[k].pair == 0 && bears (w->row + k))
-      put_gain (w, b, w->row + k);
-  bt__band_factorize (b, rows, w->exchanged);
-}
-
-/* TO = what the band makes of the right-hand side FROM.  */
-static void
-solve_with_band (const bt__dynamic_work *w, const bt_vec3 *from, bt_vec3 *to)
-{
-  int nodes = w->hi - w->lo + 1;
-  memcpy (to + w->lo, from + w->lo, (size_t)nodes * sizeof *to);
-  bt__band_solve ((const double *)w->by_flow, 3 * nodes, w->exchanged, (double *)(to + w->lo));
+  *from = w->n + 1;
+  *to = -1;
+  for (int k = 0; w->flows && k < w->bents; k++)
+    spread (w, w->bent[k].node - 1, w->bent[k].node + 1, from, to);
+  for (int i = 0; w->coupled && i < w->n; i++)
+    if (w->first_row[i] > 0)
+      spread (w, i, i + 1, from, to);
+  if (w->pairs > 0)
+    spread (w, w->lo, w->hi, from, to);
 }
 
 /* ---- Pairs ---- */
@@ -127,53 +86,77 @@ add_pair_gains (const bt__dynamic_work *w, const bt_vec3 *p, bt_vec3 *q)
   for (int k = 0; k < w->rows; k++)
     {
       const bt__constraint *r = w->row + k;
-      if (r->pair == 0 || !bears (r))
+      if (r->pair == 0 || !gains (r))
         continue;
       const int64_t node[4] = { r->node, r->node + 1, r->pair - 1, r->pair };
       const double share[4] = { 1 - r->s, r->s, r->t - 1, -r->t };
       double rise = 0;
       for (int i = 0; i < 4; i++)
         rise += share[i] * bt__dot (r->normal, p[node[i]]);
-      bt_vec3 f = bt__scale (r->stiffness * rise, gain_of (r));
+      bt_vec3 f = bt__scale (r->stiffness * rise, bt__dynamic_gain_of (r));
       for (int i = 0; i < 4; i++)
         q[node[i]] = bt__axpy (q[node[i]], share[i], f);
     }
 }
 
-/* Q = the whole matrix times what the band makes of Y, which is left in P.  */
+/* Q plus what the eliminated matrix has more than the whole, times P.  */
 static void
-multiply (const bt__dynamic_work *w, const bt_vec3 *y, bt_vec3 *p, bt_vec3 *q)
+take_back (const bt__dynamic_work *w, const bt_vec3 *p, bt_vec3 *q)
 {
-  solve_with_band (w, y, p);
-  memcpy (q, y, (size_t)(w->n + 1) * sizeof *q);
   bt__dynamic_pair_take_back (w, p, q);
-  add_pair_gains (w, p, q);
+  if (w->coupled)
+    add_pair_gains (w, p, q);
 }
 
-/* BiCGSTAB in the notation of van der Vorst; the shadow residual is the right-hand side.  */
+/* Q = the whole matrix times what elimination makes of Y, which is left in P and FLOW.  */
+static void
+multiply (const bt__dynamic_work *w, const bt_vec3 *y, bt_vec3 *p, double *flow, bt_vec3 *q)
+{
+  size_t size = (size_t)(w->n + 1) * sizeof *q;
+  memcpy (p, y, size);
+  memcpy (q, y, size);
+  memset (flow, 0, BT__BENTS * sizeof *flow);
+  bt__dynamic_lu_solve_again (w, w->lo, w->hi, p, flow);
+  take_back (w, p, q);
+}
+
+/* Add SHARE of P and FLOW to the update.  */
+static void
+add_update (bt__dynamic_work *w, double share, const bt_vec3 *p, const double *flow)
+{
+  bt__dynamic_sum (w, w->d, w->d, share, p);
+  for (int k = 0; k < w->bents; k++)
+    w->bent[k].step += share * flow[k];
+}
+
+/* BiCGSTAB in the notation of van der Vorst, from what elimination makes of the right-hand side;
+   the shadow residual S is the first.  */
 static void
 solve_with_pairs (bt__dynamic_work *w)
 {
   size_t nodes = (size_t)w->n + 1;
-  bt_vec3 *r = (bt_vec3 *)w->up, *p = r + nodes, *v = p + nodes, *ph = v + nodes, *sh = ph + nodes,
-          *t = sh + nodes;
-  double rho = bt__dynamic_product (w, w->rhs, w->rhs), enough = LITTLE * rho;
-  memset (w->up, 0, 6 * nodes * sizeof *r);
-  memcpy (r, w->rhs, nodes * sizeof *r);
-  memcpy (p, r, nodes * sizeof *r);
-  for (int turn = 0; turn < TURNS; turn++)
+  bt_vec3 *r = w->crowd, *p = r + nodes, *v = p + nodes, *ph = v + nodes, *t = ph + nodes,
+          *s = t + nodes;
+  double flow[BT__BENTS], enough = LITTLE * bt__dynamic_product (w, w->rhs, w->rhs);
+  memset (r, 0, BT__CROWD * nodes * sizeof *r);
+  take_back (w, w->d, s);
+  bt__dynamic_sum (w, p, p, -1, s);
+  memcpy (r, p, nodes * sizeof *r);
+  memcpy (s, p, nodes * sizeof *r);
+  double rho = bt__dynamic_product (w, s, s);
+  for (int turn = 0; turn < TURNS && rho != 0; turn++)
     {
-      multiply (w, p, ph, v);
-      double alpha = rho / bt__dynamic_product (w, w->rhs, v);
-      bt__dynamic_sum (w, w->d, w->d, alpha, ph);
+      multiply (w, p, ph, flow, v);
+      double alpha = rho / bt__dynamic_product (w, s, v);
+      add_update (w, alpha, ph, flow);
       bt__dynamic_sum (w, r, r, -alpha, v);
-      multiply (w, r, sh, t);
+      multiply (w, r, ph, flow, t);
       double size = bt__dynamic_product (w, t, t),
              omega = size > 0 ? bt__dynamic_product (w, t, r) / size : 0;
-      bt__dynamic_sum (w, w->d, w->d, omega, sh);
+      add_update (w, omega, ph, flow);
       bt__dynamic_sum (w, r, r, -omega, t);
-      double next = bt__dynamic_product (w, w->rhs, r);
-      if (!(bt__dynamic_product (w, r, r) > enough) || next == 0 || omega == 0)
+      double next = bt__dynamic_product (w, s, r);
+      if (!(bt__dynamic_product (w, r, r) > enough) || omega == 0)
         return;
       double beta = next / rho * alpha / omega;
       for (int i = w->lo; i <= w->hi; i++)
@@ -185,13 +168,19 @@ solve_with_pairs (bt__dynamic_work *w)
 double
 bt__dynamic_couple_solve (bt__dynamic_work *w)
 {
-  memset (w->d, 0, (size_t)(w->n + 1) * sizeof *w->d);
-  if (w->lo > w->hi)
-    return 0;
-  make_band (w);
+  double flow[BT__BENTS];
+  int first, last;
+  if (w->coupled)
+    chain_rows (w);
+  find_part (w, &first, &last);
+  if (first > last)
+    return bt__dynamic_solve_blocks (w);
+  if (w->flows)
+    bt__dynamic_bent_flows (w);
+  bt__dynamic_solve_around (w, first, last, flow);
+  for (int k = 0; k < w->bents; k++)
+    w->bent[k].step = flow[k];
   if (w->pairs > 0)
     solve_with_pairs (w);
-  else
-    solve_with_band (w, w->rhs, w->d);
   return bt__dynamic_largest (w);
 }

@@ -94,11 +94,15 @@ typedef struct bt__slip
   bt_vec3 borne;   /* at the last iterate: the turn that its moment bears, m / k */
 } bt__slip;
 
-/* A^-1 K of one node, or of two side by side.  */
+/* Four numbers side by side, anywhere.  */
+typedef double bt__four __attribute__ ((vector_size (32), aligned (8)));
+
+/* A^-1 K of one node, or of two side by side; of one in dynamic_lu.c, with A^-1 R.  */
 typedef union bt__factors
 {
   bt__full one;
   bt__pair_full two;
+  bt__four rows[3];
 } bt__factors;
 
 /* A pivot: A = L D L^T with unit L; inverse D.  */
@@ -112,11 +116,46 @@ typedef struct bt__pair_factor
   bt__pair l10, l20, l21, d0, d1, d2;
 } bt__pair_factor;
 
+/* A pivot that is not symmetric: its rows in the order ROW are L U; inverses of the diagonal of U.
+ */
+typedef struct bt__lu
+{
+  double l10, l20, l21, u01, u02, u12, d0, d1, d2;
+  int row[3];
+} bt__lu;
+
 typedef union bt__pivot
 {
   bt__factor one;
   bt__pair_factor two;
+  bt__lu lu;
 } bt__pivot;
+
+enum
+{
+  BT__CROWD = 6
+};
+
+/* What a node before and one after pass on when they are eliminated: K A^-1 K and K A^-1 R.  */
+typedef struct bt__passed
+{
+  bt__pair_sym a;
+  bt__pair_vec r;
+} bt__passed;
+
+/* The equation of a flow, an unknown of its sliding node: what the flow does in the equations of
+   the nodes before, at and after, and what these do in its own, with the flows of the nodes before
+   and after.  Then, of dynamic_lu.c: the flow by the nodes at and after; by the next flow, and what
+   the flow does in that one's equation.  */
+typedef struct bt__flow
+{
+  int64_t node;
+  bt_vec3 column[3], row[3]; /* N/m */
+  double own, beside[2];     /* N/m */
+  double right;              /* N: right-hand side */
+  bt_vec3 by[2];
+  double by_next, back;
+} bt__flow;
 
 struct bt__frame_line;
 struct bt__twisted;
@@ -155,7 +194,8 @@ struct bt__dynamic_work
   int rows, pairs;             /* ... how many; and of these, how many bear on two places */
   bt__dynamic_hold *hold;      /* of the ends, NULL if none */
   bt__dynamic_bent *bent;      /* nodes about which the line runs, ... */
-  int bents, bordered;         /* ... how many; true if their flows are unknowns */
+  int bents, flows;            /* ... how many; true if their flows are unknowns, ... */
+  bt__flow flow[BT__BENTS];    /* ... with these equations */
   int rounded;                 /* true: a chord has a surplus, see bt__dynamic_round */
   /* ---- arrays ---- */
   bt_vec3 *X, *d, *rhs, *keep; /* iterate, update, right-hand side, spare */
@@ -178,9 +218,12 @@ struct bt__dynamic_work
   bt__bend *bend;
   double *bend_diag, *bend_off, *bend_far;
   bt__slip *slip;
-  bt_vec3 *whole, *spare, *by_flow; /* of bent nodes: updates without flow and of each flow */
-  double flowed;                    /* m: the most that a flow changed in the last iteration */
-  int *exchanged; /* rows of the band, which lies in BY_FLOW, see dynamic_couple.c */
+  bt_vec3 *whole, *spare; /* of what is tried */
+  bt_vec3 *crowd;         /* BT__CROWD vectors of all nodes: of what is solved for pairs */
+  double flowed;          /* m: the most that a flow changed in the last iteration */
+  bt__four (*far)[3];     /* of dynamic_lu.c: as UP2; with pairs, the blocks from a node ... */
+  bt__four (*down)[3];    /* ... to the one before */
+  int64_t *first_row;     /* 1 + the first row of each node, or 0, see dynamic_couple.c */
 };
 
 /* Ways to assemble: which tangents, whose activity.  */
@@ -247,12 +290,10 @@ double bt__dynamic_product (const bt__dynamic_work *w, const bt_vec3 *a, const b
 void bt__dynamic_sum (const bt__dynamic_work *w, bt_vec3 *to, const bt_vec3 *a, double share,
                       const bt_vec3 *b);
 
-/* The same without what borders the blocks or couples places, which is to be asked for again; and
-   again with COUNT other right-hand sides, one behind the other from COLUMN on and solved in place,
-   that are zero but for nodes FIRST to LAST.  */
+/* The same for the symmetric blocks alone, with pivots that are kept; then again for another
+   right-hand side X, in place.  */
 double bt__dynamic_solve_blocks (bt__dynamic_work *w);
-void bt__dynamic_solve_again (bt__dynamic_work *w, bt_vec3 *column, int count, int64_t first,
-                              int64_t last);
+void bt__dynamic_solve_again (bt__dynamic_work *w, bt_vec3 *x);
 
 /* Iterate X to the solution.  Return true if it is one; on return zero X may hold anything.  */
 int bt__dynamic_newton (bt__dynamic_work *w, bt__dynamic_report *report);
@@ -300,21 +341,33 @@ bt__dynamic_touches (const bt__dynamic_work *w)
 void bt__dynamic_pair_add (bt__dynamic_work *w, bt__constraint *r, const bt__sym *k);
 double bt__dynamic_pair_solve (bt__dynamic_work *w);
 
-/* After that, solve the same equations for the right-hand side X, which is zero but from node FIRST
-   to LAST, into X.  There are pairs.  */
-void bt__dynamic_pair_solve_again (bt__dynamic_work *w, bt_vec3 *x, int64_t first, int64_t last);
-
 /* Q less what the blocks have too much of for rows of two places, times P.  */
 void bt__dynamic_pair_take_back (const bt__dynamic_work *w, const bt_vec3 *p, bt_vec3 *q);
 
-/* Bent nodes, likewise; the solution with their flows.  */
+/* Bent nodes, likewise; the equations of their flows, to FLOW.  */
 void bt__dynamic_bent_assemble (bt__dynamic_work *w, bt__mode mode);
 void bt__dynamic_bent_take (bt__dynamic_work *w, double share);
 double bt__dynamic_bent_potential (const bt__dynamic_work *w);
-double bt__dynamic_bent_solve (bt__dynamic_work *w);
+void bt__dynamic_bent_flows (bt__dynamic_work *w);
 
-/* The solution in which friction follows the loads (dynamic_couple.c): no bent nodes, no holds.  */
+/* The solution with flows, and with friction that follows the loads if COUPLED (dynamic_couple.c).
+   Its parts: solve for nodes FIRST to LAST, of which D has the right-hand sides and those before
+   and after have taken PASSED, and for the FLOWs; with pairs, again for other right-hand sides, in
+   place (dynamic_lu.c).  The same for all nodes, of which those that are as far from both ends as
+   FIRST or LAST are eliminated in pairs (dynamic_solve.c).  */
 double bt__dynamic_couple_solve (bt__dynamic_work *w);
+void bt__dynamic_lu_solve (bt__dynamic_work *w, int first, int last, const bt__passed *passed,
+                           double *flow);
+void bt__dynamic_lu_solve_again (const bt__dynamic_work *w, int first, int last, bt_vec3 *x,
+                                 double *flow);
+void bt__dynamic_solve_around (bt__dynamic_work *w, int first, int last, double *flow);
+
+/* The force that friction of R gains by a newton of load.  */
+static inline bt_vec3
+bt__dynamic_gain_of (const bt__constraint *r)
+{
+  return bt__scale (-r->friction / fmax (bt__norm (r->drag), r->slip), r->drag);
+}
 
 /* Unfold what is crumpled of a line with bending stiffness (dynamic_unfold.c).  */
 void bt__dynamic_unfold (bt__dynamic_work *w, const bt__dynamic *d);

@@ -9,7 +9,7 @@
    and keep their form.  The excess, K (u + v) at both places, is taken back by conjugate gradients:
    an iteration is a solution of the blocks, and a crossing needs one or two.  Left in, the excess
    would not spoil the solution of the step, but two places moving together would be slow, as if
-   heavy.  The updates by the flows of sliding nodes are solved in the same way.
+   heavy.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -97,21 +97,18 @@ bt__dynamic_sum (const bt__dynamic_work *w, bt_vec3 *to, const bt_vec3 *a, doubl
 }
 
 /* Refine X, the solution of the blocks for the right-hand side R, to that of the equations; R is
-   spent.  In the notation of conjugate gradients: WHOLE is the solution so far, SPARE the
-   direction, MP the blocks times the direction.  Beside sliding nodes twice as many digits are
-   worth their iterations: the flows follow from differences of tensions.  */
+   spent.  In the notation of conjugate gradients: SUM is the solution so far, P the direction, MP
+   the blocks times the direction.  */
 static void
 refine (bt__dynamic_work *w, bt_vec3 *r, bt_vec3 *x)
 {
   size_t nodes = (size_t)w->n + 1, size = nodes * sizeof *x;
-  bt_vec3 *sum = w->whole, *p = w->spare, *mp = w->by_flow + BT__BENTS * nodes, *q = mp + nodes;
-  int last = w->bents > 0 ? 2 * ITERATIONS : ITERATIONS;
-  double rz = bt__dynamic_product (w, r, x);
-  double enough = rz * (w->bents > 0 ? ENOUGH * ENOUGH : ENOUGH);
+  bt_vec3 *sum = w->whole, *p = w->spare, *mp = w->crowd, *q = mp + nodes;
+  double rz = bt__dynamic_product (w, r, x), enough = ENOUGH * rz;
   memset (sum, 0, size);
   memcpy (p, x, size);
   memcpy (mp, r, size);
-  for (int i = 0; i < last; i++)
+  for (int i = 0; i < ITERATIONS; i++)
     {
       memcpy (q, mp, size);
       bt__dynamic_pair_take_back (w, p, q);
@@ -120,10 +117,10 @@ refine (bt__dynamic_work *w, bt_vec3 *r, bt_vec3 *x)
         break;
       bt__dynamic_sum (w, sum, sum, rz / curve, p);
       bt__dynamic_sum (w, r, r, -rz / curve, q);
-      if (i + 1 == last)
+      if (i + 1 == ITERATIONS)
         break;
       memcpy (x, r, size);
-      bt__dynamic_solve_again (w, x, 1, w->lo, w->hi);
+      bt__dynamic_solve_again (w, x);
       double next = bt__dynamic_product (w, r, x);
       if (!(next > enough))
         break;
@@ -142,14 +139,4 @@ bt__dynamic_pair_solve (bt__dynamic_work *w)
     return most;
   refine (w, w->rhs, w->d);
   return bt__dynamic_largest (w);
-}
-
-void
-bt__dynamic_pair_solve_again (bt__dynamic_work *w, bt_vec3 *x, int64_t first, int64_t last)
-{
-  size_t nodes = (size_t)w->n + 1;
-  bt_vec3 *r = w->by_flow + (BT__BENTS + 2) * nodes;
-  memcpy (r, x, nodes * sizeof *r);
-  bt__dynamic_solve_again (w, x, 1, first, last);
-  refine (w, r, x);
 }

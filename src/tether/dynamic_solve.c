@@ -1,7 +1,8 @@
 /* The moving line: the linear solve of an iteration, by block elimination from both ends of the
    line to the middle, and back.
 
-   The matrix is block tridiagonal, or block pentadiagonal where the line is stiff in bending. Every
+   The matrix is block tridiagonal, or block pentadiagonal where the line is stiff in bending. Where
+   it is not symmetric the nodes in the middle are eliminated by Gauss (dynamic_lu.c).  Every
    pivot is factored as L D L^T: a pivot is a stiff direction plus a soft plane, and an inverse by
    cofactors would mix the two.
 
@@ -10,11 +11,6 @@
 #include <string.h>
 
 #include "tether/dynamic_kernel.h"
-
-enum
-{
-  SIDE = 4 /* right-hand sides solved side by side */
-};
 
 #define HUGE_UPDATE 1e60 /* m2: not finite */
 
@@ -61,8 +57,8 @@ full_apply (const bt__full *g, bt_vec3 v)
 /* ---- Without bending: from both ends to the middle and back, a pair of nodes at a time ----
 
    Of a pair with blocks A, right-hand sides R and blocks K toward the middle, G = A^-1 K and A^-1 R
-   are kept.  What it passes on, K A^-1 K and K A^-1 R, is had from L^-1 K and L^-1 R already, so
-   that the next pair need not wait for them.  */
+   are kept.  What it passes on is had from L^-1 K and L^-1 R already, so that the next pair need
+   not wait for them.  */
 
 static BT__HOT bt__pair_factor
 factorize_pair (const bt__pair_sym *a)
@@ -112,18 +108,11 @@ put_pair_column (bt__pair_full *g, int c, bt__pair_vec v)
   g->m[2][c] = v.z;
 }
 
-/* What nodes I and J pass on to the next: K A^-1 K and K A^-1 R.  */
-typedef struct passed
-{
-  bt__pair_sym a;
-  bt__pair_vec r;
-} passed;
-
 /* Eliminate nodes I and J toward the nodes beyond the blocks RIGHT and LEFT.  KEEP: their pivots
    are kept.  */
 static BT__HOT void
 eliminate_pair (bt__dynamic_work *w, int i, int j, const bt__sym *right, const bt__sym *left,
-                int keep, passed *p)
+                int keep, bt__passed *p)
 {
   bt__pair_sym a = bt__pair_load_sym (w->diag + i, w->diag + j),
                k = bt__pair_load_sym (right, left);
@@ -152,7 +141,7 @@ eliminate_pair (bt__dynamic_work *w, int i, int j, const bt__sym *right, const b
 
 /* The node where both ways meet: P and Q are passed on from either side.  */
 static void
-solve_middle (bt__dynamic_work *w, int m, const passed *p, const passed *q)
+solve_middle (bt__dynamic_work *w, int m, const bt__passed *p, const bt__passed *q)
 {
   bt__sym a = w->diag[m];
   bt_vec3 r = w->rhs[m];
@@ -210,10 +199,10 @@ static BT__HOT double
 solve_plain (bt__dynamic_work *w, int keep)
 {
   int lo = w->lo, hi = w->hi, m = lo + (hi - lo) / 2, up = m - lo, down = hi - m;
-  passed p = { 0 };
+  bt__passed p = { 0 };
   for (int k = 0; k < up; k++)
     eliminate_pair (w, lo + k, hi - k, w->off + lo + k, w->off + hi - k - 1, keep, &p);
-  passed q = p;
+  bt__passed q = p;
   if (down > up)
     eliminate_pair (w, m + 1, m + 1, w->off + m, w->off + m, keep, &q);
   solve_middle (w, m, &p, &q);
@@ -234,36 +223,46 @@ pass_pair (const bt__dynamic_work *w, bt_vec3 *x, int i, int j, bt__pair_vec *pa
                             g->m[0][2] * r.x + g->m[1][2] * r.y + g->m[2][2] * r.z };
 }
 
-/* Columns X, SIDE of them: each waits for itself, not for the others.  What no right-hand side has
-   been passed on to is zero and stays so until the way back.  */
 static void
-solve_plain_again (const bt__dynamic_work *w, bt_vec3 *x, int count, int first, int last)
+solve_plain_again (const bt__dynamic_work *w, bt_vec3 *x)
 {
   int lo = w->lo, hi = w->hi, m = lo + (hi - lo) / 2, up = m - lo, down = hi - m;
-  int none = first - lo < hi - last ? first - lo : hi - last;
-  size_t column = (size_t)w->n + 1;
-  bt__pair_vec p[SIDE] = { { .x = { 0, 0 } } };
-  for (int k = none > 0 ? none : 0; k < up; k++)
-    for (int c = 0; c < count; c++)
-      pass_pair (w, x + (size_t)c * column, lo + k, hi - k, p + c);
-  for (int c = 0; c < count; c++)
+  bt__pair_vec p = { .x = { 0, 0 } };
+  for (int k = 0; k < up; k++)
+    pass_pair (w, x, lo + k, hi - k, &p);
+  bt__pair_vec q = p;
+  if (down > up)
+    pass_pair (w, x, m + 1, m + 1, &q);
+  bt_vec3 r = bt__vec (p.x[0] + q.x[1], p.y[0] + q.y[1], p.z[0] + q.z[1]);
+  x[m] = resolve (&w->middle, bt__add (x[m], r));
+  p = bt__pair_load (x + m, x + m);
+  if (down > up)
     {
-      bt_vec3 *y = x + (size_t)c * column;
-      bt__pair_vec q = p[c];
-      if (down > up)
-        pass_pair (w, y, m + 1, m + 1, &q);
-      bt_vec3 r = bt__vec (p[c].x[0] + q.x[1], p[c].y[0] + q.y[1], p[c].z[0] + q.z[1]);
-      y[m] = resolve (&w->middle, bt__add (y[m], r));
-      p[c] = bt__pair_load (y + m, y + m);
-      if (down > up)
-        {
-          substitute_pair (w, y, m + 1, m + 1, p + c);
-          p[c] = bt__pair_load (y + m, y + m + 1);
-        }
+      substitute_pair (w, x, m + 1, m + 1, &p);
+      p = bt__pair_load (x + m, x + m + 1);
     }
   for (int k = up - 1; k >= 0; k--)
-    for (int c = 0; c < count; c++)
-      substitute_pair (w, x + (size_t)c * column, lo + k, hi - k, p + c);
+    substitute_pair (w, x, lo + k, hi - k, &p);
+}
+
+void
+bt__dynamic_solve_around (bt__dynamic_work *w, int first, int last, double *flow)
+{
+  int lo = w->lo, hi = w->hi, before = first - lo, after = hi - last;
+  int pairs = w->bends > 0 ? 0 : before < after ? before : after;
+  bt__passed p = { 0 };
+  w->d[0] = w->d[w->n] = bt__vec (0, 0, 0);
+  for (int k = 0; k < pairs; k++)
+    eliminate_pair (w, lo + k, hi - k, w->off + lo + k, w->off + hi - k - 1, 0, &p);
+  first = lo + pairs;
+  last = hi - pairs;
+  memcpy (w->d + first, w->rhs + first, (size_t)(last - first + 1) * sizeof *w->d);
+  w->d[first] = bt__add (w->d[first], bt__vec (p.r.x[0], p.r.y[0], p.r.z[0]));
+  w->d[last] = bt__add (w->d[last], bt__vec (p.r.x[1], p.r.y[1], p.r.z[1]));
+  bt__dynamic_lu_solve (w, first, last, &p, flow);
+  bt__pair_vec v = bt__pair_load (w->d + first, w->d + last);
+  for (int k = pairs - 1; k >= 0; k--)
+    substitute_pair (w, w->d, lo + k, hi - k, &v);
 }
 
 /* ---- With bending: the coupling to the next node but one is a multiple E of the unit ---- */
@@ -445,30 +444,24 @@ bt__dynamic_solve_blocks (bt__dynamic_work *w)
 }
 
 void
-bt__dynamic_solve_again (bt__dynamic_work *w, bt_vec3 *x, int count, int64_t first, int64_t last)
+bt__dynamic_solve_again (bt__dynamic_work *w, bt_vec3 *x)
 {
-  size_t column = (size_t)w->n + 1;
-  for (int c = 0; c < count; c++)
-    {
-      bt_vec3 *y = x + (size_t)c * column;
-      for (int i = 0; i < w->lo; i++)
-        y[i] = bt__vec (0, 0, 0);
-      for (int i = w->hi + 1; i <= w->n; i++)
-        y[i] = bt__vec (0, 0, 0);
-      if (w->bends > 0 && w->lo <= w->hi)
-        solve_stiff_again (w, y);
-    }
-  for (int c = 0; c < count && !(w->bends > 0) && w->lo <= w->hi; c += SIDE)
-    solve_plain_again (w, x + (size_t)c * column, count - c < SIDE ? count - c : SIDE, (int)first,
-                       (int)last);
+  for (int i = 0; i < w->lo; i++)
+    x[i] = bt__vec (0, 0, 0);
+  for (int i = w->hi + 1; i <= w->n; i++)
+    x[i] = bt__vec (0, 0, 0);
+  if (w->lo > w->hi)
+    return;
+  if (w->bends > 0)
+    solve_stiff_again (w, x);
+  else
+    solve_plain_again (w, x);
 }
 
 double
 bt__dynamic_solve (bt__dynamic_work *w)
 {
-  if (w->bents > 0 && w->bordered)
-    return bt__dynamic_bent_solve (w);
-  if (w->coupled)
+  if ((w->bents > 0 && w->flows) || w->coupled)
     return bt__dynamic_couple_solve (w);
   return w->pairs > 0 ? bt__dynamic_pair_solve (w) : solve (w, 0);
 }
