@@ -293,6 +293,7 @@ typedef struct bt_profile
   uint64_t relaxations, unsettled;
   uint64_t chain_steps, chain_solves; /* of the moving line */
   uint64_t chain_tries;               /* at those steps, with those that were taken back */
+  uint64_t chain_vain;                /* solves besides, of which nothing was taken */
   uint64_t chain_parts;               /* of steps that were not taken whole */
   uint64_t chain_stretched;           /* steps that it was solved for ahead */
   uint64_t chain_sleeps;              /* steps it slept through */

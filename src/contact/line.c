@@ -133,6 +133,15 @@ propose (bt__line_job *k, int near, int held, bt__dynamic_report *report)
     bt__line_truncate (k);
 }
 
+/* The workspace may be made anew for it.  */
+static bt_status
+begin_proposal (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
+{
+  bt_status status = bt__dynamic_begin (k->d, k->kernel, k->in, report, error);
+  k->X = bt__dynamic_proposal (k->kernel);
+  return status;
+}
+
 /* Nodes that met something go on without memory.  */
 static void
 mark_fresh (bt__line_job *k)
@@ -156,25 +165,61 @@ is_alone (const bt__line_job *k)
   return k->scene->n == 0 && k->movers == 0 && k->config->strands == 0 && k->w->self.clear;
 }
 
+/* Solve the step of a line that can meet nothing, its ends pulled by no more than may pull them. */
+static bt_status
+solve_held (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
+{
+  bt_status status = begin_proposal (k, report, error);
+  if (status)
+    return status;
+  k->watch = (bt__dynamic_watch){ 0 };
+  bt__line_start_ends (k);
+  bt__dynamic_iterate (k->kernel, NULL, 0, k->w->hold, report);
+  return BT_OK;
+}
+
+/* The proposal is not taken: begin anew, each end at its place.  */
+static void
+give_up (bt__line_job *k, const bt__dynamic_report *report)
+{
+  k->report->vain += report->solves;
+  bt__line_let_go (k);
+}
+
+/* Solve the step of a line that can meet nothing and whose end slipped in the step before, as if it
+   slipped on.  Return true if it does; else each end is to be taken to its place.  */
+static int
+slips_on (bt__line_job *k, bt__dynamic_report *report)
+{
+  if (!bt__line_slipped (k) || !bt__line_hold_ends (k))
+    return 0;
+  if (solve_held (k, report, NULL) == BT_OK && report->converged && bt__line_slips (k))
+    return 1;
+  give_up (k, report);
+  return 0;
+}
+
 /* The step of a line that is far from everything for any drift up to MAY; else *DONE is zero and
    nothing has happened.  */
 static bt_status
 step_far (bt__line_job *k, const bt__dynamic_drift *may, bt__dynamic_report *report, int *done,
           bt_error *error)
 {
-  bt_status status = bt__dynamic_begin (k->d, k->kernel, k->in, report, error);
+  int slips = slips_on (k, report);
+  bt_status status = slips ? BT_OK : begin_proposal (k, report, error);
   *done = 1;
-  if (status == BT_OK)
+  if (!slips && !status)
     status = bt__dynamic_iterate_free (k->d, k->kernel, &k->watch, report, error);
   if (status)
     return status;
-  k->X = bt__dynamic_proposal (k->kernel);
   *done = !bt__line_is_overpulled (k)
           && (is_alone (k) || (isfinite (report->update) && bt__self_stays_far (k)));
   if (k->w->lacks)
     return lack (k->w, error);
   if (*done)
     status = bt__dynamic_finish_within (k->d, k->kernel, may, done, report, error);
+  if (!*done)
+    give_up (k, report);
   if (!*done || status)
     return status;
   bt__dynamic_note_free (k->d, k->kernel, &k->watch);
@@ -188,10 +233,9 @@ static bt_status
 try_step (bt__line_job *k, int near, int held, bt__dynamic_report *report, bt_error *error)
 {
   const bt__line_hook *hook = k->config->hook;
-  bt_status status = bt__dynamic_begin (k->d, k->kernel, k->in, report, error);
+  bt_status status = begin_proposal (k, report, error);
   if (status)
     return status;
-  k->X = bt__dynamic_proposal (k->kernel);
   if (held) /* else what is held is of another line's step */
     bt__line_start_ends (k);
   k->bents = 0;
@@ -214,6 +258,7 @@ static bt_status
 try_again (bt__line_job *k, int near, int held, bt__dynamic_report *report, bt_error *error)
 {
   k->rows = 0;
+  k->report->vain += report->solves;
   k->report->rounds = k->report->truncated = 0;
   prepare (k);
   return try_step (k, near, held, report, error);
@@ -265,30 +310,20 @@ step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
   return BT_OK;
 }
 
-/* Solve the step of a line that can meet nothing, its ends pulled by no more than may pull them. */
-static bt_status
-solve_held (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
-{
-  bt_status status = bt__dynamic_begin (k->d, k->kernel, k->in, report, error);
-  if (status)
-    return status;
-  k->watch = (bt__dynamic_watch){ 0 };
-  bt__line_start_ends (k);
-  bt__dynamic_iterate (k->kernel, NULL, 0, k->w->hold, report);
-  return BT_OK;
-}
-
 /* The step of a line that can meet nothing.  An end that slips was first taken to its place.  */
 static bt_status
 step_open (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
 {
-  bt_status status = bt__dynamic_begin (k->d, k->kernel, k->in, report, error);
-  if (!status)
+  int slips = slips_on (k, report);
+  bt_status status = slips ? BT_OK : begin_proposal (k, report, error);
+  if (!slips && !status)
     status = bt__dynamic_iterate_free (k->d, k->kernel, &k->watch, report, error);
-  k->X = bt__dynamic_proposal (k->kernel);
   k->anchors->n = 0;
   if (!status && bt__line_is_overpulled (k) && bt__line_hold_ends (k))
-    status = solve_held (k, report, error);
+    {
+      k->report->vain += report->solves;
+      status = solve_held (k, report, error);
+    }
   return status ? status : bt__dynamic_take_free (k->d, k->kernel, k->in, &k->watch, report, error);
 }
 
@@ -317,6 +352,8 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
   *line_report = (bt__line_report){ 0 };
   for (uint32_t m = 0; m < k.movers; m++)
     k.mover[m].done = 1;
+  for (int e = 0; e < 2; e++)
+    w->hold[e].on = 0;
   bt_status status = check_config (config, w, d, error);
   if (status)
     return status;

@@ -172,6 +172,7 @@ typedef struct bt__line_report
   int bends;        /* ... and of these nodes held at an edge */
   int rows;         /* half-spaces in the equations */
   int rounds;       /* times the step was solved again for a hit */
+  int vain;         /* linear solves of proposals given up for another way to hold the ends */
   int truncated;    /* nodes that go on without memory: all where the guard cut the move */
   int overlaps;     /* links nearer than the core at the start: nothing is promised for them */
   int overflows;    /* links with more near than there is room for */

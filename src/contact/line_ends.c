@@ -16,6 +16,7 @@
 #define HELD 1e-3     /* m: an end nearer than this to its place is there */
 #define STANDS 5e-6   /* m: the same of an end that slips; what a step is accurate to */
 #define HOLDING 10.0  /* times EA over a link's length: what holds an end in its place */
+#define SLIPPED 0.999 /* of the most: an end that is pulled by more slipped in the last step */
 
 /* The input, to be altered.  */
 static bt__dynamic_input *
@@ -63,6 +64,17 @@ bt__line_hold_ends (bt__line_job *k)
 }
 
 void
+bt__line_let_go (bt__line_job *k)
+{
+  for (int e = 0; e < 2; e++)
+    if (k->w->hold[e].on)
+      {
+        k->w->hold[e].on = 0;
+        own_input (k)->end[e].free = 0;
+      }
+}
+
+void
 bt__line_start_ends (bt__line_job *k)
 {
   for (int e = 0; e < 2; e++)
@@ -81,6 +93,25 @@ bt__line_is_overpulled (const bt__line_job *k)
   for (int e = 0; e < 2; e++)
     any |= k->config->slips[e] && !k->in->end[e].free
            && bt__norm (bt__dynamic_end_pull (k->kernel, e)) > k->config->pull[e];
+  return any;
+}
+
+int
+bt__line_slipped (const bt__line_job *k)
+{
+  int any = 0;
+  for (int e = 0; e < 2; e++)
+    any |= k->config->slips[e] && !k->in->end[e].free
+           && bt__norm (k->d->pull[e]) > SLIPPED * k->config->pull[e];
+  return any;
+}
+
+int
+bt__line_slips (const bt__line_job *k)
+{
+  int any = 0;
+  for (int e = 0; e < 2; e++)
+    any |= k->config->slips[e] && k->w->hold[e].on && k->w->hold[e].slips;
   return any;
 }
 

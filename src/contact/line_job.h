@@ -193,6 +193,13 @@ void bt__line_aim_ends (bt__line_job *k);
 int bt__line_hold_ends (bt__line_job *k);
 void bt__line_start_ends (bt__line_job *k);
 
+/* Prescribe anew the ends that bt__line_hold_ends let be pulled.  */
+void bt__line_let_go (bt__line_job *k);
+
+/* True if an end slipped in the step before; true if an end that is held slips in the proposal.  */
+int bt__line_slipped (const bt__line_job *k);
+int bt__line_slips (const bt__line_job *k);
+
 /* True if the line of the proposal pulls harder than an end that slips may be pulled.  */
 int bt__line_is_overpulled (const bt__line_job *k);
 

@@ -132,6 +132,7 @@ static const struct
   { "chain-parts", offsetof (bt_profile, chain_parts) },
   { "chain-stretched", offsetof (bt_profile, chain_stretched) },
   { "chain-solves", offsetof (bt_profile, chain_solves) },
+  { "chain-vain", offsetof (bt_profile, chain_vain) },
   { "chain-sleeps", offsetof (bt_profile, chain_sleeps) },
   { "chain-remeshes", offsetof (bt_profile, chain_remeshes) },
   { "chain-safeguarded", offsetof (bt_profile, chain_safeguarded) },

@@ -226,6 +226,7 @@ add_up_report (bt_profile *profile, const bt__line_report *report)
   profile->contact_rounds += (uint64_t)report->rounds;
   profile->truncated += report->truncated > 0;
   profile->line_pairs += (uint64_t)report->pairs;
+  profile->chain_vain += (uint64_t)report->vain;
 }
 
 bt_status
