@@ -330,8 +330,8 @@ bt_status bt_dive_vehicle (const bt_dive *dive, int i, bt_vehicle_view *view, bt
 bt_status bt_dive_tether (const bt_dive *dive, int i, bt_tether_view *view, bt_error *error);
 bt_status bt_dive_current_at (const bt_dive *dive, bt_vec3 p, bt_vec3 *velocity, bt_error *error);
 
-/* Write an upper estimate of the error in position of moving line I by its nodes, m; NAN for static
-   shapes.  */
+/* Write the estimated error in position of moving line I, m: of its nodes, or what is left of the
+   error with fewer nodes before; NAN for static shapes.  */
 bt_status bt_tether_error_estimate (const bt_dive *dive, int i, double *estimate, bt_error *error);
 
 /* Point, unit tangent (toward the vehicle) and tension (N) of tether I at arc length S metres from

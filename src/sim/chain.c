@@ -167,6 +167,7 @@ bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, i
   tether->parted = tether->quiet = tether->settled = tether->blocked = tether->fine = 0;
   tether->peak = tether->unsure = 0;
   tether->stretch = (bt__stretch){ 0 };
+  tether->look = (bt__look){ 0 };
   vehicle = bt__carried_vehicle (dive, state, i);
   if (vehicle >= 0)
     bt__dynamic_v (chain)[n] = bt__rigid_point_velocity (

@@ -295,7 +295,7 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
     {
       bt__watch_tension (state, tether, i, bt__stretch_tension (tether));
       return !bt__is_ahead (tether) && state->step / CALM_EVERY != begun / CALM_EVERY
-                 ? bt__remesh_chain (dive, state, i, error)
+                 ? bt__look_at_nodes (dive, state, i, tether->look.bend, error)
                  : BT_OK;
     }
   status = bt__advance_as_asked (dive, state, i, ends, &report, error);
@@ -308,7 +308,8 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
   /* The tensions of a step that did not converge prove nothing.  */
   if (!tether->parted && report.converged && report.tension > tether->props.breaking_load)
     bt__part_chain (dive, state, i, most_tense (bt__dive_chain (dive, state, i, 0)));
-  else if (tether->props.model == BT_MODEL_AUTO && state->step % BT__REMESH_EVERY == 0)
-    return bt__remesh_chain (dive, state, i, error);
+  else if (tether->props.model == BT_MODEL_AUTO
+           && bt__is_look_due (dive, state, i, 1 / report.bend_radius))
+    return bt__look_at_nodes (dive, state, i, 1 / report.bend_radius, error);
   return BT_OK;
 }

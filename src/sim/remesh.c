@@ -6,6 +6,11 @@
    below; the gap between the two bounds is the hysteresis.  The new nodes lie on a smooth curve
    through the old ones, but for what keeps the tensions (tether/dynamic_fit.c).
 
+   The nodes are looked at every BT__REMESH_EVERY steps, and as soon as the line bends much more
+   sharply than at the last look.  A taut line that is let go folds within a few steps.  The nodes
+   of that moment decide about the fold, and nodes added later do not put the fold right.  Therefore
+   even a straight line has FEWEST nodes, and the error of a line with few nodes counts for a while.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <math.h>
@@ -30,8 +35,14 @@
 #define STRETCH 0.01
 enum
 {
-  FEWEST = 8
+  FEWEST = 30
 };
+
+/* A bend so many times as sharp as the sharpest at the last look is looked at.  */
+#define SHARPER 1.25
+
+/* 1/s: the rate at which the error of fewer nodes is forgotten.  */
+#define FORGETS 0.6
 
 /* A line hauled in, or crumpled, is not cut into shorter intervals than this, m.  */
 #define SHORTEST 0.05
@@ -170,6 +181,44 @@ is_near_itself (const bt_dive *dive, bt__state *state, int i, const bt__dynamic 
 {
   return !bt__has_obstacles (dive)
          && (chain->wait > 0 || bt__dive_anchors (dive, state, i, 0)->n > 0);
+}
+
+/* ---- Looks ---- */
+
+/* The curvature, 1/m, that adds no error to be heeded even along the whole of tether I.  */
+static double
+harmless_bend (const bt_dive *dive, bt__state *state, int i)
+{
+  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  double length = bt__dynamic_length (chain), h = length / (double)chain->n,
+         error = AIM * bt__accuracy (bt__dive_tether (dive, state, i)) / BT__CHAIN_ERROR;
+  return sqrt (24 * error / length) / h;
+}
+
+int
+bt__is_look_due (const bt_dive *dive, bt__state *state, int i, double bend)
+{
+  double last = bt__dive_tether (dive, state, i)->look.bend;
+  return state->step % BT__REMESH_EVERY == 0
+         || (bend > SHARPER * last && bend > SHARPER * harmless_bend (dive, state, i));
+}
+
+/* Note a look at tether I, its tightest bend BEND.  */
+static void
+note_look (const bt_dive *dive, bt__state *state, int i, double bend)
+{
+  bt__look *look = &bt__dive_tether (dive, state, i)->look;
+  double gone = fmax (0, (double)(state->step - look->step)) * BT__TIME_STEP,
+         error = BT__COMMON_ERROR * bt__chain_error (bt__dive_chain (dive, state, i, 0)),
+         left = fmax (0, look->error - error) * exp (-FORGETS * gone);
+  *look = (bt__look){ .step = state->step, .error = error + left, .bend = bend };
+}
+
+bt_status
+bt__look_at_nodes (bt_dive *dive, bt__state *state, int i, double bend, bt_error *error)
+{
+  note_look (dive, state, i, bend);
+  return bt__remesh_chain (dive, state, i, error);
 }
 
 bt_status

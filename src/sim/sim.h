@@ -161,4 +161,10 @@ void bt__still_chain (bt_dive *dive, bt__state *state, int i);
 bt_status bt__remesh_chain (bt_dive *dive, bt__state *state, int i, bt_error *error);
 void bt__part_chain (bt_dive *dive, bt__state *state, int i, int interval);
 
+/* bt__look_at_nodes notes, after a step of tether I of model `auto' with the tightest bend BEND,
+   1/m, the error of the nodes, and remeshes.  bt__is_look_due is true if a look is due
+   (remesh.c).  */
+int bt__is_look_due (const bt_dive *dive, bt__state *state, int i, double bend);
+bt_status bt__look_at_nodes (bt_dive *dive, bt__state *state, int i, double bend, bt_error *error);
+
 #endif

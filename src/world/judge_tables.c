@@ -126,6 +126,13 @@ static const bt__member stretch[] = {
 };
 static const bt__record stretch_record = BT__RECORD (bt__stretch, "long step", stretch);
 
+static const bt__member look[] = {
+  BT__WITHIN (bt__look, step, 0, BT__MANY / 2),
+  BT__WITHIN (bt__look, error, 0, BT__HUGE),
+  BT__WITHIN (bt__look, bend, 0, BT__HUGE),
+};
+static const bt__record look_record = BT__RECORD (bt__look, "look at nodes", look);
+
 /* The member `props' is judged by the table of fields.  */
 static const bt__member tether[] = {
   BT__ANY (bt__tether, props),
@@ -146,6 +153,7 @@ static const bt__member tether[] = {
   BT__WITHIN (bt__tether, peak, 0, BT__HUGE),
   BT__WITHIN (bt__tether, unsure, 0, BT__HUGE),
   BT__OF (bt__tether, stretch, stretch_record),
+  BT__OF (bt__tether, look, look_record),
   BT__TRUTH (bt__tether, hockled),
   BT__TRUTH (bt__tether, kinked),
   BT__WITHIN (bt__tether, pulled, 0, BT__MANY / 2),

@@ -133,3 +133,11 @@ bt__chain_error (const bt__dynamic *chain)
 {
   return BT__CHAIN_ERROR * bt__dynamic_space_error (chain, NULL);
 }
+
+double
+bt__line_error (const bt__line *line)
+{
+  return line->chain
+             ? fmax (BT__COMMON_ERROR * bt__chain_error (line->chain), line->tether->look.error)
+             : NAN;
+}

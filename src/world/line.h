@@ -57,6 +57,12 @@ double bt__line_tension_max (const bt__line *line);
 #define BT__CHAIN_ERROR 2.5
 double bt__chain_error (const bt__dynamic *chain);
 
+/* The error in position of LINE, m: the common error of its nodes, a share of the upper estimate,
+   or the rest of the error with fewer nodes before, whichever is larger; NAN if LINE has no chain.
+ */
+#define BT__COMMON_ERROR 0.8
+double bt__line_error (const bt__line *line);
+
 /* Where end K of LINE is, 0 the anchor and 1 the far end; the force of LINE on what the end is
    fastened to, N.  */
 bt_vec3 bt__line_end (const bt__line *line, int k);

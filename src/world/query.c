@@ -151,7 +151,7 @@ bt_tether_error_estimate (const bt_dive *dive, int i, double *estimate, bt_error
   bt__line line;
   bt_status status = ask_line (dive, i, &line, error);
   if (status == BT_OK)
-    *estimate = line.chain ? bt__chain_error (line.chain) : NAN;
+    *estimate = bt__line_error (&line);
   return status;
 }
 

@@ -111,6 +111,14 @@ typedef struct bt__stretch
   bt_vec3 pull[2];   /* N: the force on the ends of the line at the begin */
 } bt__stretch;
 
+/* The last look at the nodes of a line of model `auto' (sim/remesh.c).  */
+typedef struct bt__look
+{
+  int64_t step; /* the step of the dive that it followed */
+  double error; /* m: estimated error in place, of the nodes then and of fewer nodes before */
+  double bend;  /* 1/m: the tightest bend then */
+} bt__look;
+
 typedef struct bt__tether
 {
   bt_tether_props props;
@@ -133,6 +141,7 @@ typedef struct bt__tether
   double unsure; /* ... N: how far the tension of half as many was off, if by more than asked; else
                     0 */
   bt__stretch stretch; /* AUTO: of its store the second chain alone is in use */
+  bt__look look;       /* AUTO */
   int64_t hockled;
   int64_t kinked;
   int64_t pulled;                /* steps for which it has been pulled without a break */
@@ -196,8 +205,8 @@ bt__tether_form_of (const bt__tether *tether)
              : BT__TETHER_SHAPE;
 }
 
-/* The first bytes of a state: layout version 13.  */
-#define BT__STATE_MAGIC 0x315448474942000dULL
+/* The first bytes of a state: layout version 14.  */
+#define BT__STATE_MAGIC 0x315448474942000eULL
 
 /* The head.  The members with room for more than is in use stand last: rows of a current,
    components of waves, events (head_in_use of layout.c).  */

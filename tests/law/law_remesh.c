@@ -183,12 +183,102 @@ test_in_motion (void **state)
   assert_int_equal (wrong, 0);
 }
 
+/* ---- A taut line let go ---- */
+
+enum
+{
+  TAUT_LINES = 24,
+  LOOKS = 4, /* of each, half a second apart */
+  PLACES = 41,
+  FINE = 400 /* intervals of the line beside it */
+};
+
+/* A line nearly straight, of MODEL with NODES, between a point and a vehicle; *ACCURACY receives
+   the error in position accepted of it.  */
+static bt_dive *
+begin_straight (uint64_t seed, int model, int nodes, double *accuracy)
+{
+  static scene s;
+  uint64_t r = seed;
+  lot (&r, 0, 1);
+  double length = lot (&r, 15, 40);
+  scene_clear (&s);
+  scene_current (&s, bt__vec (lot (&r, -0.2, 0.2), lot (&r, 0.05, 0.3), 0));
+  scene_vehicle (&s, bt__vec (0.97 * length, 0, -10));
+  bt_tether_def *line = scene_line (&s, bt__vec (0, 0, -10), length, nodes);
+  line->props.model = model;
+  line->props.ea = pow (10, lot (&r, 4, 6));
+  line->props.wet_weight = lot (&r, 0, 0.3);
+  line->props.accuracy = *accuracy = lot (&r, 0.02, 0.08);
+  return scene_begin (&s.world);
+}
+
+static void
+surge (bt_dive *dive, double stick)
+{
+  bt_error error;
+  scene_must (bt_vehicle_drive (dive, 0, &(bt_sticks){ .surge = stick }, &error), &error);
+}
+
+/* The greatest distance of the line of A from that of B.  */
+static double
+lines_apart (const bt_dive *a, const bt_dive *b)
+{
+  bt_vec3 p[PLACES], q[PLACES];
+  bt_error error;
+  double most = 0;
+  scene_must (bt_tether_points (a, 0, PLACES, p, &error), &error);
+  scene_must (bt_tether_points (b, 0, PLACES, q, &error), &error);
+  for (int k = 0; k < PLACES; k++)
+    most = fmax (most, bt__distance (p[k], q[k]));
+  return most;
+}
+
+/* Let line SEED be drawn taut and go; return how many looks find its estimated error off from the
+   true one by a factor beyond 3.  Less than a tenth of what is accepted counts as nothing.  */
+static int
+count_misjudged (uint64_t seed)
+{
+  double accuracy, estimate;
+  bt_error error;
+  bt_dive *dive = begin_straight (seed, BT_MODEL_AUTO, FINE / 2, &accuracy),
+          *fine = begin_straight (seed, BT_MODEL_DYNAMIC, FINE, &accuracy);
+  int count = 0;
+  for (int k = -1; k < LOOKS; k++)
+    {
+      surge (dive, k < 0 ? 0.9 : -0.9);
+      surge (fine, k < 0 ? 0.9 : -0.9);
+      scene_run (dive, k < 0 ? 6 * SECOND : SECOND / 2);
+      scene_run (fine, k < 0 ? 6 * SECOND : SECOND / 2);
+      scene_must (bt_tether_error_estimate (dive, 0, &estimate, &error), &error);
+      double off = fmax (0.1 * accuracy, lines_apart (dive, fine));
+      count += k >= 0 && (off > 3 * estimate || estimate > 3 * off);
+    }
+  bt_dive_free (dive);
+  bt_dive_free (fine);
+  return count;
+}
+
+/* The line folds with the few nodes of a straight one, and is off by what these made of the fold
+   long after more have come.  */
+static void
+test_what_few_nodes_did_is_told (void **state)
+{
+  int misjudged = 0;
+  (void)state;
+  for (uint64_t seed = 1; seed <= TAUT_LINES; seed++)
+    misjudged += count_misjudged (seed);
+  if (misjudged > TAUT_LINES * LOOKS / 10)
+    fail_msg ("%d of %d estimates are off by more than 3", misjudged, TAUT_LINES * LOOKS);
+}
+
 int
 main (void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test (test_at_rest),
     cmocka_unit_test (test_in_motion),
+    cmocka_unit_test (test_what_few_nodes_did_is_told),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }

@@ -242,8 +242,8 @@ gravity (from z = 0) and bending, an alist.  Raise unsupported for static models
   (%energy (this-engine 'energy) t))
 
 (define-verb (error-estimate #:subject (t tether))
-  "Return an upper estimate of the error in position of the moving line, m, as it comes of its nodes.
-Raise unsupported for static models."
+  "Return the estimated error in position of the moving line, m: of its nodes, or what is left of the error
+that it had with fewer nodes before, if that is more.  Raise unsupported for static models."
   (let ((error (%error-estimate (this-engine 'error-estimate) t)))
     (if (nan? error)
         (bight-raise 'unsupported 'error-estimate
@@ -254,8 +254,8 @@ Raise unsupported for static models."
 ;; What the user asked for is kept by the mesh where it can be; where it cannot, status, the pilot's view
 ;; and the coach say so.
 (define-verb (accurate? #:subject (t tether))
-  "Return #t if the tether is as exact as its world asks: if the estimate of the error in position that
-comes of its nodes, `error-estimate', is at most the tether's `accuracy', and the tension of the last step
+  "Return #t if the tether is as exact as its world asks: if the estimate of its error in position,
+`error-estimate', is at most the tether's `accuracy', and the tension of the last step
 was found to its `tension-accuracy'.  Static models are."
   (let ((error (%error-estimate (this-engine 'accurate?) t)) (view (tether-view 'accurate? t)))
     (and (or (nan? error) (<= error (assq-ref view 'accuracy)))
