@@ -52,81 +52,97 @@ typedef struct op
 {
   bt_op_info info;
   bt_status (*apply) (const bt__call *c);
-  int order; /* true: it moves nothing, see rest.c */
+  int order;
 } op;
+
+enum
+{
+  MOVES = 0,
+  ORDERS = 1 /* it moves nothing, see rest.c */
+};
 
 static const op ops[BT_OP_COUNT] = {
   [BT_OP_DRIVE] = { { "drive", BT_PART_VEHICLE, 4, 4, "surge sway heave yaw",
                       "set the sticks, -1 to 1; NAN leaves one as it is" },
                     bt__op_drive,
-                    1 },
+                    ORDERS },
   [BT_OP_RELEASE]
   = { { "release", BT_PART_VEHICLE, 0, 0, "", "centre the sticks and switch the autopilots off" },
       bt__op_release,
-      1 },
+      ORDERS },
   [BT_OP_PLACE] = { { "place", BT_PART_VEHICLE, 3, 3, "x y z",
                       "sweep the vehicle there at once, stopping where it is blocked" },
-                    bt__op_place },
+                    bt__op_place,
+                    MOVES },
   [BT_OP_LAY]
   = { { "lay", BT_PART_VEHICLE, 3, 3, "x y z", "put the vehicle there and lay the tethers anew" },
-      bt__op_lay },
+      bt__op_lay,
+      MOVES },
   [BT_OP_MOVE] = { { "move", BT_PART_VEHICLE, 4, 4, "x y z speed", "go there in a straight line" },
                    bt__op_move,
-                   1 },
+                   ORDERS },
   [BT_OP_FLY_TO] = { { "fly-to", BT_PART_VEHICLE, 4, 4, "x y z speed", "fly there, facing it" },
                      bt__op_fly_to,
-                     1 },
+                     ORDERS },
   [BT_OP_HOLD_HEADING]
   = { { "hold-heading", BT_PART_VEHICLE, 1, 1, "radians", "keep this heading" },
       bt__op_hold_heading,
-      1 },
-  [BT_OP_HOLD_DEPTH]
-  = { { "hold-depth", BT_PART_VEHICLE, 1, 1, "depth", "keep this depth" }, bt__op_hold_depth, 1 },
+      ORDERS },
+  [BT_OP_HOLD_DEPTH] = { { "hold-depth", BT_PART_VEHICLE, 1, 1, "depth", "keep this depth" },
+                         bt__op_hold_depth,
+                         ORDERS },
   [BT_OP_HOLD_ALTITUDE]
   = { { "hold-altitude", BT_PART_VEHICLE, 1, 1, "altitude", "keep this height above the bottom" },
       bt__op_hold_altitude,
-      1 },
+      ORDERS },
   [BT_OP_HOLD_POSITION]
-  = { { "hold-position", BT_PART_VEHICLE, 0, 0, "", "stay here" }, bt__op_hold_position, 1 },
+  = { { "hold-position", BT_PART_VEHICLE, 0, 0, "", "stay here" }, bt__op_hold_position, ORDERS },
   [BT_OP_FOLLOW] = { { "follow", BT_PART_VEHICLE, 8, 40000000, "t x y z ...",
                        "follow a measured track, beginning now" },
-                     bt__op_follow },
+                     bt__op_follow,
+                     MOVES },
   [BT_OP_STABILISE] = { { "stabilise", BT_PART_VEHICLE, 1, 1, "on",
                           "keep a vehicle with mass level; the yaw stick then sets a rate" },
                         bt__op_stabilise,
-                        1 },
+                        ORDERS },
   [BT_OP_PAY_OUT]
-  = { { "pay-out", BT_PART_TETHER, 2, 2, "metres rate", "let tether out" }, bt__op_pay_out },
+  = { { "pay-out", BT_PART_TETHER, 2, 2, "metres rate", "let tether out" }, bt__op_pay_out, MOVES },
   [BT_OP_HAUL_IN]
-  = { { "haul-in", BT_PART_TETHER, 2, 2, "metres rate", "haul tether in" }, bt__op_haul_in },
-  [BT_OP_CUT]
-  = { { "cut-tether", BT_PART_TETHER, 1, 1, "arc-length", "cut the moving line" }, bt__op_cut },
+  = { { "haul-in", BT_PART_TETHER, 2, 2, "metres rate", "haul tether in" }, bt__op_haul_in, MOVES },
+  [BT_OP_CUT] = { { "cut-tether", BT_PART_TETHER, 1, 1, "arc-length", "cut the moving line" },
+                  bt__op_cut,
+                  MOVES },
   [BT_OP_CURRENT]
   = { { "current", BT_PART_SEA, 8, BT_CURRENT_ARGS, "packed current", "change the current" },
-      bt__op_current },
+      bt__op_current,
+      MOVES },
   [BT_OP_FAULT]
   = { { "fault", BT_PART_VEHICLE, 3, 3, "fault on value",
         "break an instrument (a bt_fault) or mend it; value: of the compass its drift in "
         "rad/s, of a thruster its number" },
       bt__op_fault,
-      1 },
+      ORDERS },
   [BT_OP_WAVES] = { { "waves", BT_PART_SEA, BT_WAVES_ARGS, BT_WAVES_ARGS,
                       "kind height period toward phase gamma components seed accuracy",
                       "change the waves; kind 0: none, 1: one, 2: a wind sea" },
-                    bt__op_waves },
+                    bt__op_waves,
+                    MOVES },
   [BT_OP_ALTER] = { { "alter", BT_PART_SEA, 3, 3, "part field value",
                       "change a live field of the subject-th PART (a bt_part), by its place in the "
                       "table of fields" },
-                    bt__op_alter },
+                    bt__op_alter,
+                    MOVES },
   [BT_OP_DRIFT]
   = { { "drift", BT_PART_OBSTACLE, 3, 3, "vx vy vz",
         "set an obstacle that has a track adrift, m/s: it leaves the track for good" },
-      bt__op_drift },
+      bt__op_drift,
+      MOVES },
   [BT_OP_COLLIDE]
   = { { "collide", BT_PART_SEA, 3, 3, "part obstacle on",
         "let the subject-th PART (a bt_part: a vehicle or a tether) and an obstacle meet or not; "
         "obstacle -1: all of its pairs, part 0: all pairs there are" },
-      bt__op_collide },
+      bt__op_collide,
+      MOVES },
 };
 
 const bt_op_info *
