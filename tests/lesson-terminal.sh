@@ -142,7 +142,7 @@ keys '?' p
 check 'a line of Scheme flies too, and the marks come at the end' fly_to_the_bow watch_what_was_lost
 check 'the terminal is as it was' sane
 line 'clear; bight lessons'
-see '^01  read-the-bow  *passed \(100\|[7-9][0-9]\)  *bow$'
+see '^01  read-the-bow  *passed \(100\|[7-9][0-9]\)  *Read the bow: where is your tether?$'
 result $? 'and the marks are in the list'
 
 # ---- From start to mark in lesser ones ----

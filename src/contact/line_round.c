@@ -112,8 +112,8 @@ typedef struct chords
   int q; /* the first sliding node that is not before the interval */
 } chords;
 
-/* The surplus of interval J beyond the wanted surplus, m, to *OVER; zero if interval J has none and
-   wants none.  Of one call and the next of the same C, J does not fall.  */
+/* The surplus of interval J beyond the wanted surplus, m, to *OVER; zero if interval J has
+   none and wants none.  Of one call and the next of the same C, J does not fall.  */
 static int
 find_excess (chords *c, int64_t j, double *over)
 {
@@ -128,7 +128,8 @@ find_excess (chords *c, int64_t j, double *over)
 }
 
 /* Take LESS metres off the surplus of interval J: the line of the interval becomes longer, and the
-   tension stays.  */
+   tension stays.  For that the change of line is LESS over the stretch, so that where one chord is
+   slack and another is not, the line of all does not stay quite the same.  */
 static void
 hand_over (bt__line_job *k, int64_t j, double less)
 {
@@ -137,18 +138,34 @@ hand_over (bt__line_job *k, int64_t j, double less)
   k->d->rounded = 1;
 }
 
+/* How much of the sum that an interval with the excess OVER counts to.  */
+static double
+counted (const excess *sum, double over)
+{
+  return over > 0 ? sum->much : sum->little;
+}
+
+/* The surplus that chords with too much in the run from FROM, where C is, to before TO hand over to
+   those with too little, of the sums SUM, m: so much that each has its part, and no
+   interval becomes longer or shorter by more than a share.  */
+static double
+handed_over (const bt__line_job *k, chords c, int64_t from, int64_t to, const excess *sum)
+{
+  double moved = fmin (sum->much, sum->little), over;
+  for (int64_t j = from; moved > 0 && j < to; j++)
+    if (find_excess (&c, j, &over) && over != 0)
+      moved = fmin (moved, MOST * bt__dynamic_rest (k->d)[j] * counted (sum, over) / fabs (over));
+  return moved;
+}
+
 /* Even out the surplus of the intervals from FROM, where C is, to before TO, with the sums SUM.  */
 static void
 even_out_run (bt__line_job *k, chords c, int64_t from, int64_t to, const excess *sum)
 {
-  double moved = fmin (sum->much, sum->little), over;
+  double moved = handed_over (k, c, from, to, sum), over;
   for (int64_t j = from; moved > 0 && j < to; j++)
-    {
-      find_excess (&c, j, &over);
-      double less = moved * over / (over > 0 ? sum->much : sum->little);
-      if (fabs (less) < MOST * bt__dynamic_rest (k->d)[j])
-        hand_over (k, j, less);
-    }
+    if (find_excess (&c, j, &over) && over != 0)
+      hand_over (k, j, moved * over / counted (sum, over));
 }
 
 void
