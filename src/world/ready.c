@@ -14,29 +14,30 @@
 #include "world/layout.h"
 #include "world/obstacles.h"
 
-/* The most intervals of a chain, and nodes of a polyline, that a tether of MODEL may have.  */
+/* The most that a tether of MODEL has of ROOM.  */
 static int
-most_links (const bt_model *model)
+most_of (const bt_model *model, int (*room) (const bt_tether_def *))
 {
   int most = 0;
   for (int i = 0; i < model->n_tethers; i++)
     {
-      int room = bt__chain_room (&model->tethers[i]);
-      most = room > most ? room : most;
+      int its = room (&model->tethers[i]);
+      most = its > most ? its : most;
     }
   return most;
+}
+
+/* The most intervals of a chain, and nodes of a polyline, that a tether of MODEL may have.  */
+static int
+most_links (const bt_model *model)
+{
+  return most_of (model, bt__chain_room);
 }
 
 static int
 most_points (const bt_model *model)
 {
-  int most = 0;
-  for (int i = 0; i < model->n_tethers; i++)
-    {
-      int room = bt__polyline_room (&model->tethers[i]);
-      most = room > most ? room : most;
-    }
-  return most;
+  return most_of (model, bt__polyline_room);
 }
 
 /* Make the workspaces any tether of the model may come to need: its model may change while it
