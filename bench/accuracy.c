@@ -5,9 +5,9 @@
    accuracy drawn with the flight, by a line of model `dynamic' with FINE equal intervals, the
    reference, and by one with half as many.  A reference of half as many intervals was itself off by
    as much as lines in a current are, and made a third of their estimates look too large.  Once a
-   second all are told at POINTS places; the greatest distance from the reference is the true error
-   of that look.  A look is left out where the two lines of model `dynamic' are farther apart than
-   KNOWN of what was asked: in still water a slack line goes where chance has it.  The kinds of
+   second all are told at SCENE_PLACES places; the greatest distance from the reference is the true
+   error of that look.  A look is left out where the two lines of model `dynamic' are farther apart
+   than KNOWN of what was asked: in still water a slack line goes where chance has it.  The kinds of
    flights differ in what the vehicle does: it flies about within the reach of a slack line, in
    still water or in a current; it runs the line taut and turns back, again and again; or it stands
    while the winch pays out and hauls in.
@@ -35,11 +35,10 @@ enum
 {
   FINE = 400,
   NODES = 200, /* that the line is laid for, of which it may have four times as many */
-  POINTS = 41,
-  LOOK = 60,  /* steps */
-  LOOKS = 40, /* of a flight */
-  DIVES = 3,  /* the line, the reference, half of that */
-  LEG = 4,    /* looks for which sticks stay */
+  LOOK = 60,   /* steps */
+  LOOKS = 40,  /* of a flight */
+  DIVES = 3,   /* the line, the reference, half of that */
+  LEG = 4,     /* looks for which sticks stay */
   FLIGHTS = 2000
 };
 
@@ -121,19 +120,6 @@ fly_leg (bt_dive *dive, kind what, int leg, uint64_t *seed, double length)
 
 /* ---- Looks ---- */
 
-static double
-apart (const bt_dive *a, const bt_dive *b)
-{
-  bt_vec3 p[POINTS], q[POINTS];
-  bt_error error;
-  double most = 0;
-  scene_must (bt_tether_points (a, 0, POINTS, p, &error), &error);
-  scene_must (bt_tether_points (b, 0, POINTS, q, &error), &error);
-  for (int k = 0; k < POINTS; k++)
-    most = fmax (most, bt__distance (p[k], q[k]));
-  return most;
-}
-
 static void
 note (found *f, double off, double estimate, double asked)
 {
@@ -171,10 +157,10 @@ fly (found *f, kind what, uint64_t first)
           f->seconds += (d ? 0 : LOOK) * scene_run (dive[d], LOOK);
         }
       scene_must (bt_tether_error_estimate (dive[0], 0, &estimate, &error), &error);
-      if (apart (dive[1], dive[2]) > KNOWN * asked)
+      if (scene_apart (dive[1], dive[2]) > KNOWN * asked)
         f->unknown++;
       else
-        note (f, apart (dive[0], dive[1]), estimate, asked);
+        note (f, scene_apart (dive[0], dive[1]), estimate, asked);
     }
   for (int d = 0; d < DIVES; d++)
     bt_dive_free (dive[d]);
@@ -222,11 +208,11 @@ typedef struct endured
 static int
 is_nowhere (const bt_dive *dive, double length)
 {
-  bt_vec3 p[POINTS];
+  bt_vec3 p[SCENE_PLACES];
   bt_error error;
   int any = 0;
-  scene_must (bt_tether_points (dive, 0, POINTS, p, &error), &error);
-  for (int k = 0; k < POINTS; k++)
+  scene_must (bt_tether_points (dive, 0, SCENE_PLACES, p, &error), &error);
+  for (int k = 0; k < SCENE_PLACES; k++)
     any |= !(bt__distance (p[k], p[0]) < 2 * length);
   return any;
 }

@@ -2,10 +2,12 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "math/vec.h"
 #include "testbed/calibration.h"
 #include "testbed/scene.h"
 
@@ -21,6 +23,19 @@ scene_must (bt_status status, const bt_error *error)
     return;
   fprintf (stderr, "bight bench: %s\n", error->text);
   exit (EXIT_FAILURE);
+}
+
+double
+scene_apart (const bt_dive *a, const bt_dive *b)
+{
+  bt_vec3 p[SCENE_PLACES], q[SCENE_PLACES];
+  bt_error error;
+  double most = 0;
+  scene_must (bt_tether_points (a, 0, SCENE_PLACES, p, &error), &error);
+  scene_must (bt_tether_points (b, 0, SCENE_PLACES, q, &error), &error);
+  for (int k = 0; k < SCENE_PLACES; k++)
+    most = fmax (most, bt__distance (p[k], q[k]));
+  return most;
 }
 
 void

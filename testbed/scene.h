@@ -24,6 +24,14 @@ typedef struct scene
 /* Exit with a line on standard error unless STATUS is BT_OK.  */
 void scene_must (bt_status status, const bt_error *error);
 
+/* Return the greatest distance, m, of the first line of A from that of B, at as many places of
+   each.  */
+enum
+{
+  SCENE_PLACES = 41
+};
+double scene_apart (const bt_dive *a, const bt_dive *b);
+
 /* Make S a still, empty sea of 60 m.  */
 void scene_clear (scene *s);
 

@@ -189,7 +189,6 @@ enum
 {
   TAUT_LINES = 24,
   LOOKS = 4, /* of each, half a second apart */
-  PLACES = 41,
   FINE = 400 /* intervals of the line beside it */
 };
 
@@ -220,20 +219,6 @@ surge (bt_dive *dive, double stick)
   scene_must (bt_vehicle_drive (dive, 0, &(bt_sticks){ .surge = stick }, &error), &error);
 }
 
-/* The greatest distance of the line of A from that of B.  */
-static double
-lines_apart (const bt_dive *a, const bt_dive *b)
-{
-  bt_vec3 p[PLACES], q[PLACES];
-  bt_error error;
-  double most = 0;
-  scene_must (bt_tether_points (a, 0, PLACES, p, &error), &error);
-  scene_must (bt_tether_points (b, 0, PLACES, q, &error), &error);
-  for (int k = 0; k < PLACES; k++)
-    most = fmax (most, bt__distance (p[k], q[k]));
-  return most;
-}
-
 /* Let line SEED be drawn taut and go; return how many looks find its estimated error off from the
    true one by a factor beyond 3.  Less than a tenth of what is accepted counts as nothing.  */
 static int
@@ -251,7 +236,7 @@ count_misjudged (uint64_t seed)
       scene_run (dive, k < 0 ? 6 * SECOND : SECOND / 2);
       scene_run (fine, k < 0 ? 6 * SECOND : SECOND / 2);
       scene_must (bt_tether_error_estimate (dive, 0, &estimate, &error), &error);
-      double off = fmax (0.1 * accuracy, lines_apart (dive, fine));
+      double off = fmax (0.1 * accuracy, scene_apart (dive, fine));
       count += k >= 0 && (off > 3 * estimate || estimate > 3 * off);
     }
   bt_dive_free (dive);
