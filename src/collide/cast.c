@@ -1,5 +1,5 @@
-/* Conservative advancement (Mirtich 1996), of a segment against one convex part, with a planar
-   advance.
+/* Conservative advancement (Mirtich 1996), of a segment against one convex part or against another
+   segment on its way, with a planar advance.
 
    Two bounds on the next share of the move are known after each measurement of the distance:
 
@@ -9,7 +9,8 @@
    - The part is convex, so at any time the part lies behind the plane through its nearest point
    across the shortest way, and the segment before the plane.  So each end may go 0.9 of the way to
    the plane moved by the core radius; an end that moves along the plane or away from the plane is
-   not bounded at all, and segments slide over a surface in one advance.
+   not bounded at all, and segments slide over a surface in one advance.  Of two segments each end
+   of the first is held against each end of the second.
 
    The larger bound is taken and the distance measured anew, until the move is over or the segment
    is within 2 % of the core radius of the core.  If neither end reaches the plane before the end of
@@ -77,24 +78,40 @@ bt__motion_between (const bt__frame *from, const bt__frame *to)
 static bt__link
 link_at_share (const bt__cast *c, double t)
 {
-  bt__link link = { bt__axpy (c->link.a, t, c->da), bt__axpy (c->link.b, t, c->db) };
+  bt__link link = bt__link_moved (&c->link, c->d[0], c->d[1], t);
   if (!c->motion)
     return link;
   bt__frame f = bt__motion_at (c->motion, t * c->share);
-  return (bt__link){ bt__to_local (&f, link.a), bt__to_local (&f, link.b) };
+  return bt__link_into (&f, link);
 }
 
-/* The ends' moves against the part, in the part's frame at the start of the motion.  */
-static void
-relative (const bt__cast *c, bt_vec3 *da, bt_vec3 *db)
+/* The other link after the share T; of a part its nearest point.  */
+static bt__link
+other_at_share (const bt__cast *c, double t)
 {
-  *da = c->da;
-  *db = c->db;
-  if (!c->motion)
-    return;
-  bt_vec3 travel = bt__scale (c->share, c->motion->travel);
-  *da = bt__into (&c->motion->from, bt__sub (*da, travel));
-  *db = bt__into (&c->motion->from, bt__sub (*db, travel));
+  return c->scene ? (bt__link){ c->w.point, c->w.point }
+                  : bt__link_moved (&c->other, c->other_d[0], c->other_d[1], t);
+}
+
+static void
+measure (bt__cast *c, double t, bt__count *count)
+{
+  bt__link link = link_at_share (c, t), other = other_at_share (c, t);
+  if (c->scene)
+    bt__scene_pair (c->scene, c->near, &link, &c->w);
+  else
+    bt__pair_links (&other, &link, &c->w);
+  count->cast_steps++;
+}
+
+/* The ends' moves against the part to D, in the part's frame at the start of the motion.  */
+static void
+relative (const bt__cast *c, bt_vec3 d[2])
+{
+  for (int e = 0; e < 2; e++)
+    d[e] = c->motion ? bt__into (&c->motion->from,
+                                 bt__sub (c->d[e], bt__scale (c->share, c->motion->travel)))
+                     : c->d[e];
 }
 
 static int
@@ -103,59 +120,79 @@ turns (const bt__cast *c)
   return c->motion && c->motion->angle != 0 && c->share > 0;
 }
 
-/* How far an end at height G over the plane, moving V against it, may go: a share of the move.  */
-static double
-to_plane (double g, double v, double core)
+/* The number of pairs of ends, the link's end I & 1 and the other link's end I >> 1; a part has
+ * one.
+ */
+static int
+ends_of (const bt__cast *c)
 {
-  if (v >= 0)
-    return INFINITY;
-  return g > BT__CAST_FLOOR * core ? BT__CAST_SAFETY * g / -v : 0;
+  return c->scene ? 2 : 4;
 }
 
-/* With the link at LINK and its nearest point W: the next share, at least; INFINITY if the plane
-   stays behind until the end, LEFT from now.  */
+/* The greatest of the ends' moves D against those of the other.  */
 static double
-planar (const bt__cast *c, const bt__link *link, const bt__witness *w, bt_vec3 da, bt_vec3 db,
-        double left)
+speed_of (const bt__cast *c, const bt_vec3 d[2])
 {
-  double va = bt__dot (w->normal, da), vb = bt__dot (w->normal, db);
-  double ga = bt__dot (w->normal, bt__sub (link->a, w->point)) - c->core;
-  double gb = bt__dot (w->normal, bt__sub (link->b, w->point)) - c->core;
-  if ((va >= 0 || ga + va * left >= 0) && (vb >= 0 || gb + vb * left >= 0))
-    return INFINITY;
-  return fmin (to_plane (ga, va, c->core), to_plane (gb, vb, c->core));
+  double most = 0;
+  for (int i = 0; i < ends_of (c); i++)
+    {
+      bt_vec3 v = bt__sub (d[i & 1], c->other_d[i >> 1]);
+      most = fmax (most, bt__dot (v, v));
+    }
+  return sqrt (most) + (turns (c) ? c->motion->angle * c->share * c->radius : 0);
+}
+
+/* The next share after T, at least, of the ends' moves D; INFINITY if the plane between stays there
+   until the end.  */
+static double
+planar (const bt__cast *c, double t, const bt_vec3 d[2])
+{
+  bt__link link = link_at_share (c, t), other = other_at_share (c, t);
+  double best = INFINITY;
+  for (int i = 0; i < ends_of (c); i++)
+    {
+      bt_vec3 p = i & 1 ? link.b : link.a, q = i >> 1 ? other.b : other.a;
+      double v = bt__dot (c->w.normal, bt__sub (d[i & 1], c->other_d[i >> 1]));
+      double g = bt__dot (c->w.normal, bt__sub (p, q)) - c->core;
+      if (v >= 0 || g + v * (1 - t) >= 0)
+        continue;
+      best = fmin (best, g > BT__CAST_FLOOR * c->core ? BT__CAST_SAFETY * g / -v : 0);
+    }
+  return best;
 }
 
 double
-bt__cast_run (const bt__cast *c, bt__count *count)
+bt__cast_run (bt__cast *c, bt__count *count)
 {
-  bt_vec3 da, db;
-  bt__witness w = c->near->w;
-  relative (c, &da, &db);
-  int turning = turns (c);
-  double speed = fmax (bt__norm (da), bt__norm (db)), t = 0;
-  if (turning)
-    speed += c->motion->angle * c->share * c->radius;
-  if (w.distance - c->core > speed)
+  bt_vec3 d[2];
+  relative (c, d);
+  double speed = speed_of (c, d), t = 0;
+  if (c->core == 0 || c->w.distance - c->core > speed)
     return 1;
   count->casts++;
   for (int i = 0; i < STEPS_MAX; i++)
     {
-      double gap = w.distance - c->core;
-      bt__link link = link_at_share (c, t);
+      double gap = c->w.distance - c->core;
       if (i > 0 && gap < BT__CAST_NEAR * c->core)
         return t;
       double step = gap > BT__CAST_FLOOR * c->core ? BT__CAST_SAFETY * gap / speed : 0;
-      if (!turning)
-        step = fmax (step, planar (c, &link, &w, da, db, 1 - t));
+      if (!turns (c))
+        step = fmax (step, planar (c, t, d));
       if (!(step > 0))
         return t;
       if (t + step >= 1)
         return 1;
       t += step;
-      link = link_at_share (c, t);
-      bt__scene_pair (c->scene, c->near, &link, &w);
-      count->cast_steps++;
+      measure (c, t, count);
     }
   return t;
+}
+
+double
+bt__cast_core (double core, double times, const bt_vec3 *x, uint32_t n)
+{
+  double far = 0;
+  for (uint32_t i = 0; i < n; i++)
+    far = fmax (far, bt__largest (x[i]));
+  return core * (1 + times * BT__MARGIN) + times * BT__ROUNDING * far;
 }

@@ -89,6 +89,13 @@ void bt__pair_plane (const bt__plane *plane, const bt__link *link, bt__witness *
 /* Feature BT__SIDE, BT__CAP_LOW (round A) or BT__CAP_HIGH (round B).  The radius may be 0.  */
 void bt__pair_capsule (const bt__capsule *capsule, const bt__link *link, bt__witness *out);
 
+/* LINK against the axis of OTHER: as against a capsule of radius 0.  */
+static inline void
+bt__pair_links (const bt__link *other, const bt__link *link, bt__witness *out)
+{
+  bt__pair_capsule (&(bt__capsule){ other->a, other->b, 0 }, link, out);
+}
+
 /* Feature in base 3, least digit x: 0 the low side, 1 between, 2 the high side.  */
 void bt__pair_box (const bt__box *box, const bt__link *link, bt__witness *out);
 
@@ -166,6 +173,26 @@ static inline bt_vec3
 bt__to_world (const bt__frame *f, bt_vec3 p)
 {
   return bt__add (f->origin, bt__out_of (f, p));
+}
+
+/* Link J of the polyline X; LINK as seen in F; LINK after the share T of the moves DA, DB of the
+   ends.  */
+static inline bt__link
+bt__link_of (const bt_vec3 *x, uint32_t j)
+{
+  return (bt__link){ x[j], x[j + 1] };
+}
+
+static inline bt__link
+bt__link_into (const bt__frame *f, bt__link link)
+{
+  return (bt__link){ bt__to_local (f, link.a), bt__to_local (f, link.b) };
+}
+
+static inline bt__link
+bt__link_moved (const bt__link *link, bt_vec3 da, bt_vec3 db, double t)
+{
+  return (bt__link){ bt__axpy (link->a, t, da), bt__axpy (link->b, t, db) };
 }
 
 /* The parameters S, T of the closest points of P + s D and Q + t E, both from 0 to 1, with

@@ -24,12 +24,6 @@
 #include "collide/cast.h"
 #include "collide/safe_job.h"
 
-enum
-{
-  SWEEPS_SOFT = 20,
-  SWEEPS_HARD = 60
-};
-
 /* ---- Memory ---- */
 
 void
@@ -113,12 +107,13 @@ cast_safe_link (bt__job *k, uint32_t j, uint32_t *hit)
 {
   const bt__safe *s = k->safe;
   double best = 1;
-  bt__cast c = { .link = bt__job_link (k, j), .core = k->core };
-  c.da = bt__scale (s->t[j], s->d[j]);
-  c.db = bt__scale (s->t[j + 1], s->d[j + 1]);
+  bt__cast c = { .link = bt__link_of (k->x, j),
+                 .d = { bt__scale (s->t[j], s->d[j]), bt__scale (s->t[j + 1], s->d[j + 1]) },
+                 .core = k->core };
   for (uint32_t i = 0; i < s->found[j] && best > 0; i++)
     {
       c.near = s->near + (size_t)j * s->room + i;
+      c.w = c.near->w;
       const bt__mover *m = c.near->link ? k->mover + c.near->link - 1 : NULL;
       bt__motion still;
       c.scene = m ? m->body : k->scene;
@@ -138,14 +133,6 @@ cast_safe_link (bt__job *k, uint32_t j, uint32_t *hit)
         }
     }
   return best;
-}
-
-static void
-shrink (double *share, double t)
-{
-  *share *= t;
-  if (*share < 1e-3)
-    *share = 0;
 }
 
 static void
@@ -171,13 +158,13 @@ truncate_moves (bt__job *k)
       if (t >= 1)
         continue;
       cut++;
-      if (++asked > (uint64_t)SWEEPS_SOFT * k->links)
+      if (++asked > (uint64_t)BT__SWEEPS_SOFT * k->links)
         t = 0;
-      shrink (s->t + j, t);
-      shrink (s->t + j + 1, t);
+      bt__cast_shrink (s->t + j, t);
+      bt__cast_shrink (s->t + j + 1, t);
       if (hit && k->moving)
-        shrink (&k->mover[hit - 1].done, t);
-      if (asked > (uint64_t)SWEEPS_HARD * k->links)
+        bt__cast_shrink (&k->mover[hit - 1].done, t);
+      if (asked > (uint64_t)BT__SWEEPS_HARD * k->links)
         {
           stop_all (k);
           while (k->waiting > 0)
@@ -264,15 +251,6 @@ check_known (bt__job *k)
   k->safe->version = version;
 }
 
-static double
-widen (double core, const bt_vec3 *x, uint32_t n)
-{
-  double far = 0;
-  for (uint32_t i = 0; i < n; i++)
-    far = fmax (far, bt__largest (x[i]));
-  return core * (1 + BT__MARGIN) + BT__ROUNDING * far;
-}
-
 void
 bt__safe_step (bt__safe *safe, const bt__safe_config *config, const bt__scene *scene,
                const bt__switches *on, bt__mover *mover, uint32_t movers, bt_vec3 *x,
@@ -301,7 +279,7 @@ bt__safe_step (bt__safe *safe, const bt__safe_config *config, const bt__scene *s
   k.moving = 1;
   for (uint32_t i = 0; i < config->rounds; i++)
     {
-      k.core = widen (config->core, x, n);
+      k.core = bt__cast_core (config->core, 1, x, n);
       if (!round_of (&k, want))
         break;
       k.moving = 0;

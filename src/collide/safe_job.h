@@ -37,12 +37,6 @@ typedef struct bt__job
   bt__count *count;
 } bt__job;
 
-static inline bt__link
-bt__job_link (const bt__job *k, uint32_t j)
-{
-  return (bt__link){ k->x[j], k->x[j + 1] };
-}
-
 /* Shorten the move of NODE to MOST.  */
 void bt__cut_move (bt__job *k, uint32_t node, double most);
 

@@ -69,7 +69,7 @@ list_static (bt__job *k, uint32_t j, bt__nears *list)
       k->count->skipped_clear++;
       return;
     }
-  bt__link link = bt__job_link (k, j);
+  bt__link link = bt__link_of (k->x, j);
   double reach = 1.3 * need + 0.05;
   bt__scene_near (k->scene, k->on, &link, j, reach, list, k->count);
   remember_clearance (k, j, list, reach);
@@ -81,12 +81,11 @@ list_mover (bt__job *k, uint32_t j, uint32_t m, bt__nears *list)
 {
   bt__mover *mover = k->mover + m;
   bt__frame at = bt__motion_at (&mover->motion, k->moving ? 0 : mover->done);
-  bt__link link = bt__job_link (k, j);
+  bt__link link = bt__link_into (&at, bt__link_of (k->x, j));
   double own = 0, dropped = list->dropped;
   if (k->moving)
     own = bt__norm (mover->motion.travel) + fabs (mover->motion.angle) * mover->radius;
   double need = move_of (k, j) + k->core + own * mover->done;
-  link = (bt__link){ bt__to_local (&at, link.a), bt__to_local (&at, link.b) };
   bt__scene_near (mover->body, mover->on, &link, m + 1, need * (1 + BT__MARGIN), list, k->count);
   if (!(list->dropped < dropped) || !(list->dropped < need))
     return;

@@ -50,15 +50,6 @@ lack (bt__line_work *w, bt_error *error)
   return bt__fail (error, BT_ERR_LIMIT, "no memory for what a line touches");
 }
 
-static double
-widened (double core, const bt_vec3 *x, int links)
-{
-  double far = 0;
-  for (int i = 0; i <= links; i++)
-    far = fmax (far, bt__largest (x[i]));
-  return core * (1 + BT__MARGIN) + BT__ROUNDING * far;
-}
-
 static void
 check_known (bt__line_job *k)
 {
@@ -76,10 +67,7 @@ static void
 prepare (bt__line_job *k)
 {
   bt__line_work *w = k->w;
-  const double *rest = bt__dynamic_rest (k->d);
-  w->from_end[k->links] = 0;
-  for (int j = k->links - 1; j >= 0; j--)
-    w->from_end[j] = w->from_end[j + 1] + rest[j];
+  bt__line_measure (k);
   k->olds = k->anchors->n < w->rows_max ? (int)k->anchors->n : w->rows_max;
   if (!bt__line_old_room (w, k->olds))
     k->olds = 0;
@@ -374,7 +362,7 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
         status = step_far (&k, &may, report, &done, error);
       if (!done)
         {
-          k.core = widened (config->core, k.x, k.links);
+          k.core = bt__cast_core (config->core, 1, k.x, (uint32_t)k.links + 1);
           prepare (&k);
           status = step (&k, report, error);
         }

@@ -145,11 +145,8 @@ bt__sliding_drop (bt__line_job *k, bt__sliding *s, int q)
 void
 bt__sliding_measure (bt__line_job *k)
 {
-  const double *rest = bt__dynamic_rest (k->d);
   k->links = (int)k->d->n;
-  k->w->from_end[k->links] = 0;
-  for (int j = k->links - 1; j >= 0; j--)
-    k->w->from_end[j] = k->w->from_end[j + 1] + rest[j];
+  bt__line_measure (k);
 }
 
 /* ---- Their anchors ---- */

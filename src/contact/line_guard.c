@@ -51,25 +51,10 @@ cast_of (const bt__line_job *k, uint32_t j, const bt__near *near)
                      .motion = m ? &m->motion : NULL,
                      .share = 1,
                      .radius = m ? m->radius : 0,
-                     .link = bt__line_link (k->x, j),
-                     .da = bt__sub (k->X[j], k->x[j]),
-                     .db = bt__sub (k->X[j + 1], k->x[j + 1]),
-                     .core = k->core };
-}
-
-/* Closest points of link J and NEAR after the share T of the step.  */
-static bt__witness
-witness_at (const bt__cast *c, double t)
-{
-  bt__link link = { bt__axpy (c->link.a, t, c->da), bt__axpy (c->link.b, t, c->db) };
-  bt__witness w;
-  if (c->motion)
-    {
-      bt__frame f = bt__motion_at (c->motion, t);
-      link = (bt__link){ bt__to_local (&f, link.a), bt__to_local (&f, link.b) };
-    }
-  bt__scene_pair (c->scene, c->near, &link, &w);
-  return w;
+                     .link = bt__link_of (k->x, j),
+                     .d = { bt__sub (k->X[j], k->x[j]), bt__sub (k->X[j + 1], k->x[j + 1]) },
+                     .core = k->core,
+                     .w = near->w };
 }
 
 int
@@ -93,8 +78,7 @@ bt__line_hits (bt__line_job *k, int add)
           hits++;
           if (!add)
             return hits;
-          bt__witness w = witness_at (&c, t);
-          bt__line_add_hit (k, j, near + i, &w, t);
+          bt__line_add_hit (k, j, near + i, &c.w, t);
         }
     }
   return hits + bt__self_hits (k, add);
@@ -148,11 +132,11 @@ bt__line_may_move (bt__line_job *k, const bt_vec3 *p, bt_vec3 move)
   for (uint32_t j = 0; j < 2; j++)
     {
       bt__nears list = { part, 0, BT__LINE_ROOM, INFINITY };
-      bt__link link = bt__line_link (p, j);
+      bt__link link = bt__link_of (p, j);
       for (uint32_t m = 0; m < k->movers; m++) /* beside what moves it can wait */
         {
           bt__frame f = bt__motion_at (&k->mover[m].motion, k->mover[m].done);
-          bt__link local = { bt__to_local (&f, link.a), bt__to_local (&f, link.b) };
+          bt__link local = bt__link_into (&f, link);
           bt__near unused;
           if (bt__scene_nearest (k->mover[m].body, k->mover[m].on, &local, need, &unused, k->count))
             return 0;
@@ -162,11 +146,10 @@ bt__line_may_move (bt__line_job *k, const bt_vec3 *p, bt_vec3 move)
         return 0;
       for (uint32_t i = 0; i < list.n; i++)
         {
-          bt__cast c = { .scene = k->scene, .near = part + i, .link = link, .core = k->core };
-          if (j)
-            c.da = move;
-          else
-            c.db = move;
+          bt__cast c = {
+            .scene = k->scene, .near = part + i, .link = link, .core = k->core, .w = part[i].w
+          };
+          c.d[!j] = move;
           if (bt__cast_run (&c, k->count) < 1)
             return 0;
         }

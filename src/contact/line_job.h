@@ -182,6 +182,9 @@ bt__line_takes_row (bt__line_job *k)
   return k->rows < k->w->rows_max && bt__line_row_room (k->w, k->rows + 1);
 }
 
+/* Measure how far the nodes of the line are from its end: FROM_END of the workspace.  */
+void bt__line_measure (const bt__line_job *k);
+
 /* ---- Its ends (line_ends.c) ---- */
 
 /* Say where the ends are wanted; a place that is not finite means stay.  */
@@ -228,12 +231,6 @@ bt__line_near (const bt__line_job *k, uint32_t link)
 {
   const bt__link_list *list = k->w->list[link];
   return list ? list->near : NULL;
-}
-
-static inline bt__link
-bt__line_link (const bt_vec3 *x, uint32_t j)
-{
-  return (bt__link){ x[j], x[j + 1] };
 }
 
 /* The scene that NEAR is of, and its mover or NULL.  */
@@ -347,18 +344,11 @@ int bt__self_stays_far (bt__line_job *k);
    whatever their motion; at most a share of an interval.  */
 double bt__self_spare (bt__line_job *k);
 
-/* The links of pair P now.  */
-static inline bt__link
-bt__self_first (const bt_vec3 *x, const bt__self_pair *p)
-{
-  return bt__line_link (x, p->i);
-}
-
+/* The second link of pair P, of the places X if it is of this line.  */
 static inline bt__link
 bt__self_second (const bt__line_job *k, const bt_vec3 *x, const bt__self_pair *p)
 {
-  return bt__line_link (p->strand < 0 ? x : bt__dynamic_x (k->config->strand[p->strand].line),
-                        p->j);
+  return bt__link_of (p->strand < 0 ? x : bt__dynamic_x (k->config->strand[p->strand].line), p->j);
 }
 
 /* Metres of line between links I and J of the line, I before J. With STRAND not negative, between
@@ -371,9 +361,6 @@ double bt__self_floor (const bt__line_job *k, int strand, uint32_t i, uint32_t j
 
 /* The same for links that start at DISTANCE.  */
 double bt__self_lowered (double floor, double distance);
-
-/* Link A against the axis of link B.  */
-bt__witness bt__self_witness (const bt__link *a, const bt__link *b);
 
 /* self_row.c: constraints of touching pairs; of a hit, of P at W after the share T; the contact of
    the last step for constraint I, or -1; the move of one place against the other in constraint R;

@@ -51,7 +51,7 @@ static void
 measure_clear (bt__line_job *k, uint32_t j, double known, double look)
 {
   bt__link_watch *s = k->w->watch + j;
-  bt__link link = bt__line_link (k->x, j);
+  bt__link link = bt__link_of (k->x, j);
   double likely = 2 * s->clear - known;
   bt__near nearest;
   s->a = link.a;
@@ -103,7 +103,7 @@ static void
 renew_candidates (bt__line_job *k, uint32_t j, double reach, double span, bt__nears *list)
 {
   bt__link_watch *s = k->w->watch + j;
-  bt__link link = bt__line_link (k->x, j);
+  bt__link link = bt__link_of (k->x, j);
   for (;; span = fmax (reach, nextafter (list->dropped, 0)))
     {
       list->n = 0;
@@ -130,7 +130,7 @@ renew_candidates (bt__line_job *k, uint32_t j, double reach, double span, bt__ne
 static void
 measure_candidates (bt__line_job *k, uint32_t j, double reach, bt__nears *list)
 {
-  bt__link link = bt__line_link (k->x, j);
+  bt__link link = bt__link_of (k->x, j);
   for (uint32_t i = 0; i < k->w->watch[j].kept; i++)
     {
       bt__candidate c = kept_of (k, j)[i];
@@ -181,7 +181,7 @@ list_mover (bt__line_job *k, uint32_t j, uint32_t m, bt__nears *list)
   bt__link_watch *s = k->w->watch + j;
   const bt__mover *mover = k->mover + m;
   const bt__frame *at = &mover->motion.from;
-  bt__link link = bt__line_link (k->x, j);
+  bt__link link = bt__link_of (k->x, j);
   bt__witness ball;
   double own = motion_of (mover), dropped = list->dropped;
   bt__pair_point (at->origin, &link, &ball);
@@ -189,7 +189,7 @@ list_mover (bt__line_job *k, uint32_t j, uint32_t m, bt__nears *list)
   if (away * (1 - BT__MARGIN) > s->reach)
     return;
   open_list (k, j, list);
-  link = (bt__link){ bt__to_local (at, link.a), bt__to_local (at, link.b) };
+  link = bt__link_into (at, link);
   bt__scene_near (mover->body, mover->on, &link, m + 1, (s->reach + own) * (1 + BT__MARGIN), list,
                   k->count);
   if (!(list->dropped < dropped))

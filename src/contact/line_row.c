@@ -117,13 +117,12 @@ bt__pass
 bt__row_pass (const bt__line_job *k, uint32_t j, const bt__near *near)
 {
   const bt__mover *m = bt__line_mover (k, near);
-  bt__pass p = { .near = near, .from = bt__line_link (k->x, j), .to = bt__line_link (k->X, j) };
+  bt__pass p = { .near = near, .from = bt__link_of (k->x, j), .to = bt__link_of (k->X, j) };
   if (m)
     {
       bt__frame end = bt__motion_at (&m->motion, 1);
-      p.from = (bt__link){ bt__to_local (&m->motion.from, p.from.a),
-                           bt__to_local (&m->motion.from, p.from.b) };
-      p.to = (bt__link){ bt__to_local (&end, p.to.a), bt__to_local (&end, p.to.b) };
+      p.from = bt__link_into (&m->motion.from, p.from);
+      p.to = bt__link_into (&end, p.to);
     }
   return p;
 }

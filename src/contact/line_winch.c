@@ -69,7 +69,7 @@ static int
 is_interval_clear (bt__line_job *k, int64_t j)
 {
   const double *rest = bt__dynamic_rest (k->d);
-  bt__link link = bt__line_link (bt__dynamic_x (k->d), (uint32_t)j);
+  bt__link link = bt__link_of (bt__dynamic_x (k->d), (uint32_t)j);
   bt__near unused;
   return k->movers == 0
          && !bt__scene_nearest (k->scene, k->on, &link, 0.5 * rest[j] + k->core, &unused, k->count)

@@ -124,6 +124,16 @@ bt__line_safe (bt__line_work *w)
   return NULL;
 }
 
+void
+bt__line_measure (const bt__line_job *k)
+{
+  const double *rest = bt__dynamic_rest (k->d);
+  double *from_end = k->w->from_end;
+  from_end[k->d->n] = 0;
+  for (int64_t j = k->d->n - 1; j >= 0; j--)
+    from_end[j] = from_end[j + 1] + rest[j];
+}
+
 /* ---- Life ---- */
 
 void

@@ -17,11 +17,10 @@ enum
   HALVINGS = 10
 };
 
-#define STRIDE 2.0              /* m a leg, unless that makes too many */
-#define MARGIN (4 * BT__MARGIN) /* the casts here are a little stricter than the safe step's */
-#define STRETCH 0.005           /* of its arc: a link is drawn longer by a nudge at most */
-#define NUDGE 0.1               /* a smaller share is not worth it */
-#define ROUNDING (4 * BT__ROUNDING)
+#define STRIDE 2.0    /* m a leg, unless that makes too many */
+#define STRICTER 4    /* times the margin of the safe step is that of the casts here */
+#define STRETCH 0.005 /* of its arc: a link is drawn longer by a nudge at most */
+#define NUDGE 0.1     /* a smaller share is not worth it */
 
 /* ---- Surroundings ---- */
 
@@ -88,8 +87,9 @@ cast_link (leg *l, uint32_t j, uint32_t m, const bt__nears *list)
   for (uint32_t i = 0; i < list->n && l->share > 0; i++)
     {
       c.near = list->at + i;
-      c.da = bt__scale (l->share, bt__sub (l->to[j], link.a));
-      c.db = bt__scale (l->share, bt__sub (l->to[j + 1], link.b));
+      c.w = c.near->w;
+      c.d[0] = bt__scale (l->share, bt__sub (l->to[j], link.a));
+      c.d[1] = bt__scale (l->share, bt__sub (l->to[j + 1], link.b));
       double t = bt__cast_run (&c, l->way->count);
       if (t >= 1)
         continue;
@@ -109,13 +109,10 @@ meet_mover (leg *l, uint32_t j, uint32_t m)
   double need = l->share * move + l->core;
   bt__nears list = { l->way->work->near, 0, BT__PARTS_MAX, INFINITY };
   if (mover)
-    {
-      const bt__frame *f = &mover->motion.from;
-      link = (bt__link){ bt__to_local (f, link.a), bt__to_local (f, link.b) };
-    }
+    link = bt__link_into (&mover->motion.from, link);
   if (scene->n > 0)
-    bt__scene_near (scene, mover ? mover->on : l->way->around->on, &link, j, need * (1 + MARGIN),
-                    &list, l->way->count);
+    bt__scene_near (scene, mover ? mover->on : l->way->around->on, &link, j,
+                    need * (1 + STRICTER * BT__MARGIN), &list, l->way->count);
   if (list.dropped < need)
     l->share = fmin (l->share, fmax (0.999 * (list.dropped - l->core), 0) / move);
   cast_link (l, j, m, &list);
@@ -136,7 +133,7 @@ look_at_hit (leg *l)
     }
   const bt__mover *mover = l->way->work->still + h->mover - 1;
   const bt__frame *f = &mover->motion.from;
-  bt__link local = { bt__to_local (f, link.a), bt__to_local (f, link.b) };
+  bt__link local = bt__link_into (f, link);
   bt__scene_pair (mover->body, &h->near, &local, &h->near.w);
   h->near.w.point = bt__to_world (f, h->near.w.point);
   h->near.w.normal = bt__out_of (f, h->near.w.normal);
@@ -146,10 +143,7 @@ look_at_hit (leg *l)
 static double
 common_share (const bt__way *way, const bt_vec3 *x, const bt_vec3 *to, uint32_t n, bt__hit *hit)
 {
-  double far = 0;
-  for (uint32_t i = 0; i < n; i++)
-    far = fmax (far, bt__largest (x[i]));
-  leg l = { way, x, to, way->core * (1 + MARGIN) + ROUNDING * far, 1, hit };
+  leg l = { way, x, to, bt__cast_core (way->core, STRICTER, x, n), 1, hit };
   *hit = (bt__hit){ 0 };
   for (uint32_t j = 0; j + 1 < n; j++)
     for (uint32_t m = 0; m <= way->around->movers; m++)

@@ -151,7 +151,7 @@ look_at_links (look *s, part p, part q)
         const bt_vec3 *x = s->k->x;
         if (are_seen_apart (x[i], x[i + 1], x[j], x[j + 1], told (s, i, j) + s->keep))
           continue;
-        bt__link a = bt__line_link (x, (uint32_t)i), b = bt__line_link (x, (uint32_t)j);
+        bt__link a = bt__link_of (x, (uint32_t)i), b = bt__link_of (x, (uint32_t)j);
         s->k->report->pairs++;
         tell (s, i, j, bt__self_distance (&a, &b) - s->keep);
       }

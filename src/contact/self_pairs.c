@@ -91,16 +91,6 @@ bt__self_note (bt__line_job *k)
 
 /* ---- What is known of a line and itself ---- */
 
-static void
-measure (bt__line_job *k)
-{
-  const double *rest = bt__dynamic_rest (k->d);
-  double *from_end = k->w->from_end;
-  from_end[k->links] = 0;
-  for (int j = k->links - 1; j >= 0; j--)
-    from_end[j] = from_end[j + 1] + rest[j];
-}
-
 /* Look; zero if there was more than room for it.  */
 static int
 look_once (bt__line_job *k)
@@ -210,7 +200,7 @@ list (bt__line_job *k, const bt_vec3 *to, const bt__dynamic_drift *drift)
   bt__self_search s = { .k = k, .own = bt__self_side_of (k, -1), .move = self->move };
   self->pairs = 0;
   if (!drift || self->knowns > 0 || k->config->strands > 0)
-    measure (k);
+    bt__line_measure (k);
   for (int j = 0; j < k->links; j++)
     self->reach[j] = bt__self_higher (bt__self_touching (k),
                                       k->core + bt__self_higher (self->move[j], self->move[j + 1]));
@@ -294,7 +284,7 @@ know_move (const bt__line_job *k, bt__dynamic_drift *drift)
 static int
 goes_clear (const bt__line_job *k, const bt__self_known *p)
 {
-  bt__link a = bt__line_link (k->x, p->i), b = bt__line_link (k->x, p->j);
+  bt__link a = bt__link_of (k->x, p->i), b = bt__link_of (k->x, p->j);
   double most = 0, gap = bt__self_distance (&a, &b);
   for (uint32_t n = 0; n < 2; n++)
     {
@@ -424,7 +414,7 @@ bt__self_spare (bt__line_job *k)
   for (int j = 0; j < k->links; j++)
     self->reach[j] = bt__self_touching (k) + most;
   bt__self_asks_more (k, bt__self_touching (k) + 2 * most);
-  measure (k);
+  bt__line_measure (k);
   bt__self_look_at_itself (k, &s);
   bt__self_look_at_others (k, &s);
   return fmax (s.spare, 0);

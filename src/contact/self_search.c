@@ -68,15 +68,6 @@ bt__self_lowered (double floor, double distance)
   return distance >= floor ? floor : distance > least ? fmax (0.5 * distance, least) : 0;
 }
 
-bt__witness
-bt__self_witness (const bt__link *a, const bt__link *b)
-{
-  bt__capsule axis = { b->a, b->b, 0 };
-  bt__witness w;
-  bt__pair_capsule (&axis, a, &w);
-  return w;
-}
-
 /* ---- Boxes ---- */
 
 /* What box T holds: links FROM to TO, less one.  */
@@ -228,7 +219,7 @@ bt__self_add (bt__self_search *s, int i, int j)
 {
   bt__line_job *k = s->k;
   bt__self *all = &k->w->self;
-  bt__link a = bt__line_link (s->own.x, (uint32_t)i), b = bt__line_link (s->its.x, (uint32_t)j);
+  bt__link a = bt__link_of (s->own.x, (uint32_t)i), b = bt__link_of (s->its.x, (uint32_t)j);
   double reach = search_reach (&s->own, i) + search_reach (&s->its, j);
   k->report->pairs++;
   if (!(bt__self_distance (&a, &b) <= reach) || are_neighbours (s, i, j))
@@ -240,7 +231,7 @@ bt__self_add (bt__self_search *s, int i, int j)
     }
   bt__self_pair *p = all->pair + all->pairs++;
   *p = (bt__self_pair){ .i = (uint32_t)i, .j = (uint32_t)j, .strand = s->strand };
-  p->w = bt__self_witness (&a, &b);
+  bt__pair_links (&b, &a, &p->w);
   p->floor = bt__self_floor (k, s->strand, p->i, p->j);
   k->report->overlaps += p->w.distance < p->floor;
   p->floor = bt__self_lowered (p->floor, p->w.distance);
@@ -259,7 +250,7 @@ add_known (bt__self_search *s, int i, int j)
 {
   bt__line_job *k = s->k;
   bt__self *self = &k->w->self;
-  bt__link a = bt__line_link (s->own.x, (uint32_t)i), b = bt__line_link (s->its.x, (uint32_t)j);
+  bt__link a = bt__link_of (s->own.x, (uint32_t)i), b = bt__link_of (s->its.x, (uint32_t)j);
   double clear = bt__self_distance (&a, &b) - 2 * bt__self_touching (k);
   k->report->pairs++;
   if (clear > bt__self_toward ((uint32_t)i, (uint32_t)j, self->turn, self->way))
@@ -281,7 +272,7 @@ look_at (bt__self_search *s, int i, int j)
     add_known (s, i, j);
   else if (!are_neighbours (s, i, j))
     {
-      bt__link a = bt__line_link (s->own.x, (uint32_t)i), b = bt__line_link (s->its.x, (uint32_t)j);
+      bt__link a = bt__link_of (s->own.x, (uint32_t)i), b = bt__link_of (s->its.x, (uint32_t)j);
       double near = s->strand < 0 ? bt__self_touching (s->k) : s->its.thick;
       s->spare
           = fmin (s->spare, 0.5 * (bt__self_distance (&a, &b) - bt__self_touching (s->k) - near));

@@ -36,7 +36,7 @@ measure_collision (bt__thesis_job *j, const bt__hit *hit, bt__collision *c)
   const bt__frame *f = hit->mover ? &j->way->work->still[hit->mover - 1].motion.from : NULL;
   if (f)
     {
-      link = (bt__link){ bt__to_local (f, link.a), bt__to_local (f, link.b) };
+      link = bt__link_into (f, link);
       near.w.point = bt__to_local (f, near.w.point);
       near.w.normal = bt__into (f, near.w.normal);
     }

@@ -50,6 +50,13 @@ bt__axpy (bt_vec3 a, double k, bt_vec3 b)
   return bt__vec (a.x + k * b.x, a.y + k * b.y, a.z + k * b.z);
 }
 
+/* The point between P[0] and P[1] at the share S.  */
+static inline bt_vec3
+bt__between (const bt_vec3 *p, double s)
+{
+  return bt__axpy (bt__scale (1 - s, p[0]), s, p[1]);
+}
+
 static inline double
 bt__dot (bt_vec3 a, bt_vec3 b)
 {

@@ -154,8 +154,9 @@ cast (const move *m, bt__count *count)
   assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &o.shape.mesh, NULL), BT_OK);
   assert_int_equal (bt__scene_new (&o, 1, 1, &s, NULL), BT_OK);
   assert_true (bt__scene_nearest (s, NULL, &m->link, 1e3, &near, count));
-  bt__cast c
-      = { .scene = s, .near = &near, .link = m->link, .da = m->da, .db = m->db, .core = core };
+  bt__cast c = {
+    .scene = s, .near = &near, .link = m->link, .d = { m->da, m->db }, .core = core, .w = near.w
+  };
   double t = bt__cast_run (&c, count);
   bt__scene_free (s);
   return t;
