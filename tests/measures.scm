@@ -260,12 +260,16 @@
               '("/contact/" "/collide/(cast|safe|sweep|advance)" "/tether/dynamic_(contact|couple|pair|bent|hold)")))
 
 ;; A constant is tuned if a line of its own defines it, with a number that is no whole one.
-(define tuned (make-regexp "^#define [A-Z_]+ \\(?-?[0-9.]+(e-?[0-9]+)?\\)?( |$)" regexp/extended))
-(define whole (make-regexp "^#define [A-Z_]+ \\(?-?[0-9]+\\)?( |$)" regexp/extended))
+(define tuned (make-regexp "^#define [A-Z_]+ +\\(?-?[0-9.]+(e-?[0-9]+)?\\)?( |$)" regexp/extended))
+(define whole (make-regexp "^#define [A-Z_]+ +\\(?-?[0-9]+\\)?( |$)" regexp/extended))
+
+(define (whole-lines text)
+  ;; The lines of TEXT, of which some go on in the next.
+  (string-split (regexp-substitute/global #f "\\\\\n" text 'pre 'post) #\newline))
 
 (define tuning-constants
   (filter (lambda (line) (and (regexp-exec tuned line) (not (regexp-exec whole line))))
-          (append-map (lambda (entry) (string-split (cdr entry) #\newline)) touching)))
+          (append-map (lambda (entry) (whole-lines (cdr entry))) touching)))
 
 
 ;;; Counts of lines in HACKING.md.

@@ -12,6 +12,13 @@
 #define BT__MARGIN 1e-6
 #define BT__ROUNDING 1e-14
 
+/* m: no node goes farther in a step, or a leg of it, in which anything is near.  */
+#define BT__STRIDE 2.0
+
+/* Lists of what is near save later ones: times what is needed, and m beyond that.  */
+#define BT__NEAR_WIDER 1.1
+#define BT__NEAR_AROUND 0.1
+
 #define BT__CAST_SAFETY 0.9 /* of a bound: what is taken */
 #define BT__CAST_NEAR 0.02  /* of the core: the advance stops here */
 #define BT__CAST_FLOOR 1e-4 /* of the core: nearer than this nothing comes nearer */

@@ -4,8 +4,8 @@
    dropped part, so that nothing unlisted can be reached.
 
    A link whose clearance is known to exceed its move needs no query: the known clearance is the
-   clearance measured last, less the way of the ends since.  Static parts are asked for with a reach
-   a third longer than needed, so that a known clearance lasts for some steps.
+   clearance measured last, less the way of the ends since.  Static parts are asked for with a
+   longer reach than needed, so that a known clearance lasts for some steps.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -70,10 +70,10 @@ list_static (bt__job *k, uint32_t j, bt__nears *list)
       return;
     }
   bt__link link = bt__link_of (k->x, j);
-  double reach = 1.3 * need + 0.05;
+  double reach = BT__NEAR_WIDER * need + BT__NEAR_AROUND;
   bt__scene_near (k->scene, k->on, &link, j, reach, list, k->count);
   remember_clearance (k, j, list, reach);
-  yield_to_dropped (k, j, list->dropped, need, 0.999);
+  yield_to_dropped (k, j, list->dropped, need, 1 - BT__CAST_LEAST);
 }
 
 static void
@@ -89,9 +89,10 @@ list_mover (bt__job *k, uint32_t j, uint32_t m, bt__nears *list)
   bt__scene_near (mover->body, mover->on, &link, m + 1, need * (1 + BT__MARGIN), list, k->count);
   if (!(list->dropped < dropped) || !(list->dropped < need))
     return;
-  yield_to_dropped (k, j, list->dropped, need, 0.499);
+  yield_to_dropped (k, j, list->dropped, need, 0.5 * (1 - BT__CAST_LEAST));
   if (k->moving && own > 0)
-    mover->done = fmin (mover->done, fmax (0.499 * (list->dropped - k->core), 0) / own);
+    mover->done = fmin (mover->done,
+                        fmax (0.5 * (1 - BT__CAST_LEAST) * (list->dropped - k->core), 0) / own);
 }
 
 void

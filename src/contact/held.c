@@ -19,13 +19,6 @@ aim (const bt__polyline *line, bt__polyline_work *w, const bt__shape *shape, con
   w->want[links] = shape->b;
 }
 
-static int64_t
-id_of (const bt__way *way, const bt__hit *hit)
-{
-  const bt__scene *scene = hit->mover ? way->work->still[hit->mover - 1].body : way->around->scene;
-  return hit->links ? (int64_t)scene->object[hit->near.object].id : -1;
-}
-
 void
 bt__held_step (bt__polyline *line, const bt__way *way, const bt__shape *shape, const bt_vec3 *nodes,
                const bt_vec3 *tensions, bt__held_report *report)
@@ -35,7 +28,7 @@ bt__held_step (bt__polyline *line, const bt__way *way, const bt__shape *shape, c
   aim (line, way->work, shape, nodes, tensions);
   report->share = bt__polyline_move (line, way, &hit);
   report->held = report->share < 1;
-  report->object = report->held ? id_of (way, &hit) : -1;
+  report->object = report->held ? bt__hit_object (way, &hit) : -1;
   int on_mesh = report->object >= 0 && hit.near.triangle != BT__NO_TRIANGLE;
   report->triangle = on_mesh ? (int64_t)hit.near.triangle : -1;
   report->a = bt__polyline_x (line)[0];

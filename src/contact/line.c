@@ -103,7 +103,7 @@ propose (bt__line_job *k, int near, int held, bt__dynamic_report *report)
   for (int i = 0;; i++)
     {
       solve (k, held, report);
-      if (!bt__line_bound (k, near ? BT__LINE_STRIDE : INFINITY))
+      if (!bt__line_bound (k, near ? BT__STRIDE : INFINITY))
         report->converged = 0;
       bt__line_watch_moves (k);
       bt__self_watch_moves (k);

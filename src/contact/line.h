@@ -81,6 +81,9 @@ size_t bt__contacts_live (const bt__contacts *anchors);
 void bt__contacts_init (bt__contacts *anchors, int room);
 bt__contact *bt__contacts_at (const bt__contacts *anchors);
 
+/* Put A where it belongs among the N contacts AT in the order of the line; there is room.  */
+void bt__contacts_put (bt__contact *at, int64_t n, const bt__contact *a);
+
 extern const bt__record bt__contact_record, bt__contacts_record;
 
 /* Judge ANCHORS, which were allotted room for ROOM and come from outside.  */

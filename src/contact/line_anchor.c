@@ -309,24 +309,20 @@ anchor_of (const bt__line_job *k, int i)
                         .stick = stick };
 }
 
-/* Put A where it belongs in the order of the line.  */
-static void
-insert (bt__line_job *k, const bt__contact *a)
+void
+bt__contacts_put (bt__contact *at, int64_t n, const bt__contact *a)
 {
-  if (!bt__line_old_room (k->w, k->olds + 1))
-    return;
-  bt__contact *at = k->w->old;
-  int i = k->olds++;
-  for (; i > 0 && at[i - 1].from_end < a->from_end; i--)
-    at[i] = at[i - 1];
-  at[i] = *a;
+  for (; n > 0 && at[n - 1].from_end < a->from_end; n--)
+    at[n] = at[n - 1];
+  at[n] = *a;
 }
 
 static void
 keep (bt__line_job *k, const bt__contact *a)
 {
   bt__line_report *report = k->report;
-  insert (k, a);
+  if (bt__line_old_room (k->w, k->olds + 1))
+    bt__contacts_put (k->w->old, k->olds++, a);
   report->touches++;
   report->load = fmax (report->load, a->load);
   report->speed = fmax (report->speed, a->speed);

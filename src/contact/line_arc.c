@@ -97,7 +97,7 @@ static const bt__contact *
 round_at (const bt__dynamic *d, const bt__contacts *contacts, double from_end)
 {
   const bt__contact *a = bt__contacts_at (contacts);
-  double near = BT__BEND_NEAR * (1 + bt__dynamic_length (d));
+  double near = BT__SAME * (1 + bt__dynamic_length (d));
   for (int64_t q = 0; q < contacts->n; q++)
     if (a[q].bent == BT__BENT_ROUND && fabs (a[q].from_end - from_end) <= near)
       return a + q;

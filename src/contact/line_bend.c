@@ -28,12 +28,10 @@
 
 #include "contact/line_bend.h"
 
-#define TURNED 0.3   /* radians: a corner that turns back by more is none */
-#define DISTURBS 2.0 /* times the line's radius: how near what else is there may be */
-#define HALFWAY 0.5  /* of the way to where it should be does a corner go in a step, ... */
-#define FOLLOWS 1.0  /* m/s: ... but no faster; ... */
-#define RISES 0.3    /* m/s: nor does one come out faster, as the line turns more, ... */
-#define SINKS 0.02   /* ... or in, as it turns less */
+#define TURNED 0.3  /* radians: a corner that turns back by more is none */
+#define HALFWAY 0.5 /* of the way to where it should be does a corner go in a step, ... */
+#define FOLLOWS 1.0 /* m/s: ... but no faster; ... */
+#define RISES 0.3   /* m/s: nor does one come out faster, as the line turns more */
 #define UNEVEN                                                                                     \
   1.2 /* times the most a corner turns: one that turns more shares with the next, ... */
 #define EVENING 0.5 /* radians/s: ... so fast */
@@ -65,7 +63,7 @@ typedef struct corners
 int
 bt__bend_node (const bt__line_job *k, double from_end)
 {
-  double near = BT__BEND_NEAR * (1 + k->w->from_end[0]);
+  double near = BT__SAME * (1 + k->w->from_end[0]);
   for (int i = 1; i < k->links; i++)
     if (fabs (k->w->from_end[i] - from_end) <= near)
       return i;
@@ -168,7 +166,7 @@ is_disturbed (const bt__line_job *k, uint32_t j, int64_t id, double way)
 int
 bt__bend_is_calm (const bt__line_job *k, int64_t node, int64_t id, double share)
 {
-  double way = share * DISTURBS * k->config->radius;
+  double way = share * (k->config->radius + k->margin);
   return !is_disturbed (k, (uint32_t)node, id, way)
          && !is_disturbed (k, (uint32_t)node - 1, id, way);
 }
@@ -223,7 +221,7 @@ held_distance (const bt__line_job *k, const corner *c)
   double more = c->turn.reach - c->anchor.away;
   if (c->single)
     return c->turn.reach;
-  return c->anchor.away + fmin (fmax (more, -SINKS * k->h), RISES * k->h);
+  return c->anchor.away + fmin (fmax (more, -BT__LINE_CREEP * k->h), RISES * k->h);
 }
 
 static void

@@ -76,13 +76,13 @@ bt__turn_angle (bt_vec3 axis, bt_vec3 a, bt_vec3 b)
 /* How much nearer than OUT a line from A to B comes to the axis through CENTRE on its way, m.  */
 double bt__turn_lack (bt_vec3 axis, bt_vec3 centre, bt_vec3 a, bt_vec3 b, double out);
 
-#define BT__BEND_BEHIND                                                                            \
-  0.1                     /* of the way from the axis: how far one may have to go round, at most */
-#define BT__TURN_MOST 1.0 /* radians: of a corner about a round member that is not thin */
-#define BT__TURN_SINGLE 2.0 /* radians: of a single corner, about a member that is thin */
-#define BT__TURN_ALONG 0.9  /* product of line and edge: more, and the line lies along it */
-#define BT__BEND_NEAR 1e-9  /* of the line and a metre: two places so near are one */
-#define BT__BEND_TURNS 0.05 /* radians: a node that turns less is no corner */
+/* Of the distance from the axis: the farthest that a new corner may have to go round.  */
+#define BT__BEND_BEHIND 0.1
+#define BT__TURN_MOST 1.0     /* radians: of a corner about a round member that is not thin */
+#define BT__TURN_SINGLE 2.0   /* radians: of a single corner, about a member that is thin */
+#define BT__TURN_ALONG 0.9    /* product of line and edge: more, and the line lies along it */
+#define BT__BEND_TURNS 0.05   /* radians: a node that turns less is no corner, nor one needed */
+#define BT__BEND_CROWDED 0.01 /* of an interval: nearer to a node no other is bent */
 
 /* The normal of the interval from P[0] to P[1] about an axis.  */
 static inline bt_vec3

@@ -4,8 +4,6 @@
 
 #include "contact/line_bend.h"
 
-#define SLACK 1.0 /* N: a line under less is slack */
-
 enum
 {
   PATIENCE = 6, /* steps: for so long a slack line is held, ... */
@@ -31,7 +29,7 @@ is_slack (const bt__line_job *k, int i)
   const bt__contact *a = k->w->bend + i;
   int is_thin = bt__edge_is_thin (k, a->thick);
   int patience = !is_thin ? PATIENCE : a->bent == BT__BENT_ROUND ? 0 : AT_ONCE;
-  return a->age < patience && fmax (b->pull[0], b->pull[1]) < SLACK;
+  return a->age < patience && fmax (b->pull[0], b->pull[1]) < BT__LINE_SLIGHT;
 }
 
 int

@@ -172,26 +172,14 @@ bt__sliding_gather (bt__line_job *k, bt__sliding *s)
   k->anchors->n = n;
 }
 
-/* Put A where it belongs in the list, if there is room.  */
-static void
-put_back (bt__contacts *list, const bt__contact *a)
-{
-  bt__contact *at = bt__contacts_at (list);
-  if (list->n >= list->room)
-    return;
-  int64_t i = list->n++;
-  for (; i > 0 && at[i - 1].from_end < a->from_end; i--)
-    at[i] = at[i - 1];
-  at[i] = *a;
-}
-
 void
 bt__sliding_scatter (bt__line_job *k, bt__sliding *s)
 {
   for (int q = 0; q < s->n; q++)
     {
       s->anchor[q].from_end = k->w->from_end[s->node[q]];
-      put_back (k->anchors, s->anchor + q);
+      if (k->anchors->n < k->anchors->room)
+        bt__contacts_put (bt__contacts_at (k->anchors), k->anchors->n++, s->anchor + q);
     }
 }
 

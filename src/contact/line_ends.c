@@ -55,7 +55,7 @@ bt__line_hold_ends (bt__line_job *k)
       k->w->hold[e] = (bt__dynamic_hold){ .on = 1, .most = fmax (most, 1e-9) };
       k->w->hold[e].stiffness = fmin (HOLDING * k->in->line->ea / last, BT__LINE_STIFFEST);
       k->w->hold[e].mass = most / GIVE;
-      k->w->hold[e].at = size > BT__LINE_STRIDE ? bt__axpy (x, BT__LINE_STRIDE / size, d) : end->at;
+      k->w->hold[e].at = size > BT__STRIDE ? bt__axpy (x, BT__STRIDE / size, d) : end->at;
       k->w->hold[e].force = now > most ? bt__scale (most / now, pull) : pull;
       own_input (k)->end[e].free = 1;
       any = 1;

@@ -90,7 +90,7 @@ bt__line_hits (bt__line_job *k, int add)
 static void
 cut_at_obstacles (bt__line_job *k)
 {
-  bt__safe_config config = { k->config->core, BT__LINE_STRIDE, 1 };
+  bt__safe_config config = { k->config->core, BT__STRIDE, 1 };
   bt__safe_report safe;
   size_t size = (size_t)(k->links + 1) * sizeof *k->x;
   bt__safe *work = bt__line_safe (k->w);

@@ -6,14 +6,12 @@
 #include "contact/line_bend.h"
 
 #define STEEP 0.8     /* product of line and axis: a corner with more would be let go at once */
-#define FROM_NODE 0.1 /* of a piece: nearer to a node no other is put; ... */
-#define CROWDED 0.01  /* ... nearer to the next one none is bent */
+#define FROM_NODE 0.1 /* of a piece: nearer to a node no other is put, nor is a touch beyond it */
 #define TAUT 5.0      /* N: a line under less has no corners about round members */
 #define CALM 3.0      /* times as far must be what else is near as when it is held */
 #define SHARPEST 2.4  /* radians: a link's end that turns more is no corner, nor one ... */
 #define ASIDE 0.06    /* ... whose links pass nearer to the axis by so much of the way ... */
-#define OFF 0.03      /* ... or farther; ... */
-#define BEYOND 0.1    /* of a piece: ... or touch farther out than they reach */
+#define OFF 0.03      /* ... or farther */
 
 enum
 {
@@ -33,7 +31,7 @@ static int
 is_crowded (const bt__line_job *k, int64_t i)
 {
   const double *rest = bt__dynamic_rest (k->d) + i;
-  return i < 1 || i >= k->d->n || fmin (rest[-1], rest[0]) < CROWDED * k->d->piece;
+  return i < 1 || i >= k->d->n || fmin (rest[-1], rest[0]) < BT__BEND_CROWDED * k->d->piece;
 }
 
 /* True if both links of node I are tangents of E, as near as may be, and touch it.  E's axis is
@@ -51,7 +49,7 @@ is_tangent_corner (const bt__line_job *k, int64_t i, bt__edge *e)
   double angle = bt__turn_angle (e->axis, a, b);
   double low = (1 - ASIDE) * out, high = (1 + OFF) * out, da = bt__dot (a, u), db = bt__dot (b, u);
   double la = bt__dot (bt__cross (e->axis, a), u), lb = -bt__dot (bt__cross (e->axis, b), u);
-  double slack = BEYOND * k->d->piece;
+  double slack = FROM_NODE * k->d->piece;
   return angle > BT__BEND_TURNS && angle < SHARPEST && da > low && da < high && db > low
          && db < high && la > -slack && lb > -slack && la < bt__distance (x[0], x[1]) + slack
          && lb < bt__distance (x[1], x[2]) + slack;
@@ -141,7 +139,7 @@ may_bend (const bt__line_job *k, const bt__sliding *s, int q, bt__bend_place *p)
 {
   const bt__constraint *r = k->w->row + q;
   const bt_vec3 *x = bt__dynamic_x (k->d) + r->node;
-  bt_vec3 at = bt__axpy (bt__scale (1 - r->s, x[0]), r->s, x[1]);
+  bt_vec3 at = bt__between (x, r->s);
   bt_vec3 t = bt__unit_or (bt__sub (x[1], x[0]), bt__vec (0, 0, 0));
   p->row = q;
   p->node = node_near (k, r);
@@ -193,7 +191,7 @@ bt__sliding_hold (bt__line_job *k, bt__sliding *s, const bt__bend_place *p)
   int64_t j = r->node, node = p->node;
   bt_vec3 *x = bt__dynamic_x (k->d), *v = bt__dynamic_v (k->d);
   bt_vec3 t = bt__unit_or (bt__sub (x[j + 1], x[j]), bt__vec (0, 0, 0));
-  double flow = bt__dot (t, bt__axpy (bt__scale (1 - r->s, v[j]), r->s, v[j + 1]));
+  double flow = bt__dot (t, bt__between (v + j, r->s));
   bt__contact a;
   if (!bt__sliding_take_anchor (k, p->row, &a))
     a = (bt__contact){ .object = k->w->of[p->row].id, .triangle = -1, .mover = -1 };

@@ -55,7 +55,6 @@ typedef struct bt__self
 
 #define BT__LINE_SLIP 0.002 /* m: the drag at which friction is whole */
 #define BT__LINE_SELF UINT32_MAX
-#define BT__LINE_STRIDE 2.0 /* m: no node goes farther in a step in which anything is near */
 
 /* What touches of obstacles and of lines have in common.  */
 #define BT__LINE_AHEAD 1.2     /* of the last step's way: what is expected of this one */
@@ -63,6 +62,8 @@ typedef struct bt__self
 #define BT__LINE_RECOVERY 0.2  /* m/s: a line that was pressed in is let out so fast */
 #define BT__LINE_REMEMBER 0.75 /* of a link: the farthest a contact goes along it in a step */
 #define BT__LINE_ALIKE_HIT 0.7 /* product of the normals: a hit is of the constraint there */
+#define BT__LINE_SLIGHT 1.0    /* N: a line under less is slack, and a tension may change so */
+#define BT__LINE_CREEP 0.02    /* m/s: how fast a taut line about a round member is drawn in */
 #define BT__LINE_STIFFEST 1e9  /* N/m: of a contact, but for the load; of what holds an end */
 
 /* A part of what stands, near a link: as in a bt__near.  */

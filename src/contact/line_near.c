@@ -16,10 +16,8 @@
 #include "base/hash.h"
 #include "contact/line_job.h"
 
-#define WIDER 1.1  /* of what is needed: what is listed */
-#define LOOK 0.5   /* m: how far a clear link looks, so as not to ask again soon, ... */
-#define FAR 2.0    /* ... and the whole line */
-#define AROUND 0.1 /* m beyond what is listed: what is a candidate */
+/* m: how far a clear link looks, to ask less often; the whole line looks as far as a stride.  */
+#define LOOK 0.5
 
 /* How far link J has gone since CLEAR was measured, at most.  */
 static double
@@ -148,7 +146,7 @@ static void
 list_static (bt__line_job *k, uint32_t j, double need, bt__nears *list)
 {
   bt__link_watch *s = k->w->watch + j;
-  double way = gone (k, j), known = s->clear - way, reach = WIDER * need;
+  double way = gone (k, j), known = s->clear - way, reach = BT__NEAR_WIDER * need;
   if (known > need)
     {
       k->count->skipped_clear++;
@@ -169,7 +167,7 @@ list_static (bt__line_job *k, uint32_t j, double need, bt__nears *list)
             return;
         }
       open_list (k, j, list);
-      renew_candidates (k, j, reach, reach + AROUND, list);
+      renew_candidates (k, j, reach, reach + BT__NEAR_AROUND, list);
     }
   s->full = list->dropped < reach;
   s->reach = fmin (reach, list->dropped);
@@ -204,7 +202,7 @@ list_link (bt__line_job *k, uint32_t j, double need)
   bt__link_watch *s = k->w->watch + j;
   bt__nears list = { NULL, 0, 0, INFINITY };
   s->full = 0;
-  s->reach = WIDER * need;
+  s->reach = BT__NEAR_WIDER * need;
   if (k->scene->n > 0)
     list_static (k, j, need, &list);
   for (uint32_t m = 0; m < k->movers; m++)
@@ -238,7 +236,7 @@ move_of_ends (const bt__line_job *k)
   for (int e = 0; e < 2; e++)
     if (!k->in->end[e].free)
       most = fmax (most, bt__distance (k->in->end[e].at, k->x[e ? k->links : 0]));
-  return fmin (most, BT__LINE_STRIDE);
+  return fmin (most, BT__STRIDE);
 }
 
 int
@@ -254,7 +252,7 @@ bt__line_watch (bt__line_job *k)
     {
       double after = bt__dot (v[j + 1], v[j + 1]);
       double move = fmax (k->h * sqrt (fmax (before, after)), ends);
-      double need = fmax (touch, BT__LINE_AHEAD * fmin (move, BT__LINE_STRIDE) + k->core);
+      double need = fmax (touch, BT__LINE_AHEAD * fmin (move, BT__STRIDE) + k->core);
       list_link (k, (uint32_t)j, need);
       any |= is_near (k, (uint32_t)j, need);
       before = after;
@@ -271,7 +269,7 @@ clear_by (bt__line_job *k, uint32_t j, double least)
   double known = known_clear (k, j);
   if (known >= least)
     return known;
-  measure_clear (k, j, known, fmin (least + LOOK, FAR));
+  measure_clear (k, j, known, fmin (least + LOOK, BT__STRIDE));
   return k->w->watch[j].clear;
 }
 
@@ -285,15 +283,15 @@ box_of (const bt__line_job *k)
 }
 
 /* How clear the line is of what stands, at least: by the box about the line if the box is far, else
-   by the least clearance of a link; at most FAR.  What is remembered spares links that have more,
-   and changes nothing else: this is kept in the state.  */
+   by the least clearance of a link; at most BT__STRIDE.  What is remembered spares links that have
+   more, and changes nothing else: this is kept in the state.  */
 static double
 clearance (bt__line_job *k)
 {
   bt__aabb box = box_of (k);
-  double least = FAR, known = INFINITY, all = bt__scene_apart (k->scene, &box);
+  double least = BT__STRIDE, known = INFINITY, all = bt__scene_apart (k->scene, &box);
   uint32_t nearest = 0;
-  if (all > FAR)
+  if (all > BT__STRIDE)
     return all;
   for (uint32_t j = 0; j < (uint32_t)k->links; j++)
     {
@@ -318,7 +316,7 @@ fastest (const bt__line_job *k)
   return sqrt (most);
 }
 
-/* What what is spared was given for: the scene, which of it counts, how thick the line is.  */
+/* Key of the spared clearance: valid for this scene, these switches and this radius alone.  */
 static int64_t
 seal_of (const bt__line_job *k)
 {
@@ -347,9 +345,8 @@ is_enough (const bt__line_job *k, double clear)
   double fast = k->h * k->d->fastest;
   if (!(clear > k->config->radius + k->margin))
     return 0;
-  return clear > BT__LINE_AHEAD * BT__LINE_STRIDE + k->core
-         || clear
-                > BT__LINE_AHEAD * fmin (fmax (fast, move_of_ends (k)), BT__LINE_STRIDE) + k->core;
+  return clear > BT__LINE_AHEAD * BT__STRIDE + k->core
+         || clear > BT__LINE_AHEAD * fmin (fmax (fast, move_of_ends (k)), BT__STRIDE) + k->core;
 }
 
 int
@@ -406,7 +403,7 @@ bt__line_watch_moves (bt__line_job *k)
       if (need <= s->reach)
         continue;
       k->report->overflows++;
-      cut_move (k, j, 0.999 * (s->reach - k->core));
-      cut_move (k, j + 1, 0.999 * (s->reach - k->core));
+      cut_move (k, j, (1 - BT__CAST_LEAST) * (s->reach - k->core));
+      cut_move (k, j + 1, (1 - BT__CAST_LEAST) * (s->reach - k->core));
     }
 }

@@ -21,9 +21,7 @@
 #define LEAST 0.06    /* ... with so little left the line runs over the edge as it can, ... */
 #define INSIDE 0.8    /* of the way to where it touches: ... or with so little */
 #define SPARE 1.3     /* of a piece: a node between two intervals no longer than this is spare */
-#define ROOM 0.99     /* of an interval: the farthest along it that a corner comes */
-#define MORE 0.05     /* radians: by what a corner turns too much for the next to come, ... */
-#define BACK 0.02     /* ... and turns back to go */
+#define BACK 0.02     /* radians: how far a corner turns back to go */
 
 enum
 {
@@ -156,8 +154,8 @@ add_corner (bt__line_job *k, bt__sliding *s, int q, int side, const bt__turn *t)
   int64_t node = s->node[q], j = side > 0 ? node : node - 1;
   const bt_vec3 *x = bt__dynamic_x (k->d) + j;
   double share = t->zone / fmax (bt__distance (x[0], x[1]), 1e-9);
-  if (bt__sliding_goes_on (s, side > 0 ? q : q - 1) || !(share < ROOM) || s->n >= BT__BENTS
-      || k->d->n >= k->d->n_max)
+  if (bt__sliding_goes_on (s, side > 0 ? q : q - 1) || !(share < 1 - BT__BEND_CROWDED)
+      || s->n >= BT__BENTS || k->d->n >= k->d->n_max)
     return 0;
   bt__sliding_put_in (k, s, j, side > 0 ? share : 1 - share, j);
   bt__contact a = s->anchor[q];
@@ -180,7 +178,7 @@ turns_too_much (const bt__line_job *k, const bt__sliding *s, int q, const bt__tu
   return bt__sliding_is_single (k, s, q)
              ? t->angle > BT__TURN_SINGLE
                    || (t->angle > 0 && !bt__edge_is_thin (k, t->zone - k->config->radius))
-             : t->angle > BT__TURN_MOST + MORE;
+             : t->angle > BT__TURN_MOST + BT__BEND_TURNS;
 }
 
 static void

@@ -14,11 +14,10 @@
 
 #include "contact/line_bend.h"
 
-#define RATE 0.05     /* m/s: how fast a surplus grows, or shrinks where the line is slack */
-#define TIGHTENS 0.02 /* m/s: how fast a surplus shrinks at most where the line is taut */
-#define GENTLE 1.0 /* N a step: by how much more than the neighbours a tightened interval bears */
-#define MORE 1.02  /* times the tension of the neighbours, likewise */
-#define MOST 0.3   /* of an interval: the largest surplus */
+#define RATE 0.05 /* m/s: how fast a surplus grows, or shrinks where the line is slack */
+/* Times the tension of the neighbours: the most that a tightened interval bears.  */
+#define MORE 1.02
+#define MOST 0.3 /* of an interval: the largest surplus */
 
 /* True if interval J touches no obstacle.  */
 static int
@@ -38,8 +37,8 @@ may_tighten (const bt__line_job *k, int j)
 {
   const double *t = bt__dynamic_tension (k->d) + j;
   double beside = fmax (j > 0 ? t[-1] : 0, j + 1 < k->links ? t[1] : 0);
-  double more = fmax (MORE * beside - t[0], 0) + GENTLE;
-  return fmin (more * bt__dynamic_rest (k->d)[j] / k->in->line->ea, TIGHTENS * k->h);
+  double more = fmax (MORE * beside - t[0], 0) + BT__LINE_SLIGHT;
+  return fmin (more * bt__dynamic_rest (k->d)[j] / k->in->line->ea, BT__LINE_CREEP * k->h);
 }
 
 /* The surplus of interval J in this step, after WAS in the last; wanted is SHOULD.  */

@@ -71,7 +71,7 @@ static double
 height_of (const bt__line_job *k, const bt__constraint *r)
 {
   const bt_vec3 *p = k->x + r->node;
-  bt_vec3 at = bt__axpy (bt__scale (1 - r->s, p[0]), r->s, p[1]);
+  bt_vec3 at = bt__between (p, r->s);
   return bt__dot (r->normal, at) - r->offset;
 }
 
@@ -294,33 +294,20 @@ is_borne (const bt__line_job *k, const bt__constraint *r, int first, double i)
   return 0;
 }
 
-/* A link along a plane with both nodes bearing on the plane needs no constraints between: drop
-   those of link J, from FIRST on.  */
+/* Drop the spare constraints of link J, from FIRST on: those between nodes bearing on a plane along
+   the link, and those of edges with a sliding node.  */
 static void
-drop_between (bt__line_job *k, uint32_t j, int first, int before)
+drop_spare (bt__line_job *k, uint32_t j, int first, int before)
 {
   int n = first;
   for (int q = first; q < k->rows; q++)
     {
       const bt__constraint *r = k->w->row + q;
-      if (k->w->of[q].flat == 2 && is_borne (k, r, before, j) && is_borne (k, r, before, j + 1.0))
+      int flat
+          = k->w->of[q].flat == 2 && is_borne (k, r, before, j) && is_borne (k, r, before, j + 1.0);
+      if (flat || (k->bents > 0 && bt__line_is_bent_about (k, q)))
         continue;
       k->w->row[n] = *r;
-      k->w->of[n++] = k->w->of[q];
-    }
-  k->rows = n;
-}
-
-/* Drop the rows from FIRST on of edges about which the line is bent.  */
-static void
-drop_bent (bt__line_job *k, int first)
-{
-  int n = first;
-  for (int q = first; q < k->rows; q++)
-    {
-      if (bt__line_is_bent_about (k, q))
-        continue;
-      k->w->row[n] = k->w->row[q];
       k->w->of[n++] = k->w->of[q];
     }
   k->rows = n;
@@ -340,9 +327,7 @@ bt__line_rows (bt__line_job *k)
         if (near[i].w.distance < touch)
           touch_part (k, j, near + i);
       if (k->rows > first)
-        drop_between (k, j, first, before);
-      if (k->bents > 0)
-        drop_bent (k, first);
+        drop_spare (k, j, first, before);
       before = first;
     }
 }
@@ -383,8 +368,7 @@ bt__line_add_hit (bt__line_job *k, uint32_t j, const bt__near *near, const bt__w
   bt__row_set (k, at, j, w->s, near, w, near->w.distance);
   k->w->of[at].again = again;
   bt__constraint *r = k->w->row + at;
-  bt_vec3 a = bt__sub (k->X[j], k->x[j]), b = bt__sub (k->X[j + 1], k->x[j + 1]);
-  bt_vec3 moved = bt__sub (bt__axpy (bt__scale (1 - r->s, a), r->s, b), r->drift);
+  bt_vec3 moved = bt__self_move (k, r);
   r->stick = bt__scale (-t, bt__axpy (moved, -bt__dot (moved, r->normal), r->normal));
   k->rows += at == k->rows;
   return at;

@@ -69,7 +69,7 @@ static void
 lay_piece (bt__polyline *line, bt_vec3 p, double u, bt_vec3 q, double v, double length,
            uint32_t nodes)
 {
-  double h = length / nodes, same = BT__SAME_LENGTH * length;
+  double h = length / nodes, same = BT__SAME * length;
   for (uint32_t k = (uint32_t)(u / h); k < nodes; k++)
     {
       double s = k * h;
@@ -86,7 +86,7 @@ bt__polyline_lay (bt__polyline *line, uint32_t room, const bt_vec3 *points, uint
 {
   double way = bt__length (points, n), u = 0;
   if (n < 2 || nodes < 1 || !isfinite (way) || !(length > 0 && isfinite (length))
-      || way > length * (1 + BT__SAME_LENGTH))
+      || way > length * (1 + BT__SAME))
     return bt__fail (error, BT_ERR_DOMAIN, "a tether of %g m cannot lie along a way of %g m",
                      length, way);
   if (room < nodes + n - 1)

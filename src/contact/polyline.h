@@ -19,8 +19,6 @@
 #include "base/record.h"
 #include "contact/touch.h"
 
-#define BT__SAME_LENGTH 1e-9 /* of a length: two that differ by no more are the same */
-
 /* Flat; X[room], then U[room] follow the head.  What is beyond N is zero.  */
 typedef struct bt__polyline
 {
@@ -54,6 +52,9 @@ typedef struct bt__way
   void *user;
 } bt__way;
 
+/* The scene of mover number MOVER less 1, or of what stands for 0; its switches to *ON.  */
+const bt__scene *bt__way_scene (const bt__way *way, uint32_t mover, const bt__switches **on);
+
 /* What stopped a move.  */
 typedef struct bt__hit
 {
@@ -62,6 +63,9 @@ typedef struct bt__hit
   uint32_t links; /* that obstacles would have stopped; 0: nothing known to be in the way */
   bt__near near;  /* the part, and its witness where the move stopped, in the frame of the world */
 } bt__hit;
+
+/* The id of the obstacle that HIT is of; -1 if nothing is known to be in the way.  */
+int64_t bt__hit_object (const bt__way *way, const bt__hit *hit);
 
 enum
 {

@@ -17,7 +17,6 @@ enum
   HALVINGS = 10
 };
 
-#define STRIDE 2.0    /* m a leg, unless that makes too many */
 #define STRICTER 4    /* times the margin of the safe step is that of the casts here */
 #define STRETCH 0.005 /* of its arc: a link is drawn longer by a nudge at most */
 #define NUDGE 0.1     /* a smaller share is not worth it */
@@ -42,6 +41,22 @@ bt__polyline_let_pass (bt__polyline *line, const bt__way *way)
       way->work->still[m].motion
           = (bt__motion){ .from = bt__motion_at (&s->mover[m].motion, s->mover[m].done) };
     }
+}
+
+const bt__scene *
+bt__way_scene (const bt__way *way, uint32_t mover, const bt__switches **on)
+{
+  const bt__mover *m = mover ? way->work->still + mover - 1 : NULL;
+  *on = m ? m->on : way->around->on;
+  return m ? m->body : way->around->scene;
+}
+
+int64_t
+bt__hit_object (const bt__way *way, const bt__hit *hit)
+{
+  const bt__switches *on;
+  const bt__scene *scene = bt__way_scene (way, hit->mover, &on);
+  return hit->links ? (int64_t)scene->object[hit->near.object].id : -1;
 }
 
 /* ---- A leg ---- */
@@ -114,7 +129,7 @@ meet_mover (leg *l, uint32_t j, uint32_t m)
     bt__scene_near (scene, mover ? mover->on : l->way->around->on, &link, j,
                     need * (1 + STRICTER * BT__MARGIN), &list, l->way->count);
   if (list.dropped < need)
-    l->share = fmin (l->share, fmax (0.999 * (list.dropped - l->core), 0) / move);
+    l->share = fmin (l->share, fmax ((1 - BT__CAST_LEAST) * (list.dropped - l->core), 0) / move);
   cast_link (l, j, m, &list);
 }
 
@@ -216,7 +231,7 @@ static double
 take_legs (const bt__way *way, bt_vec3 *x, uint32_t n, bt__hit *hit)
 {
   const bt_vec3 *want = way->work->want;
-  double legs = ceil (longest_move (x, want, n) / STRIDE), gone = 0;
+  double legs = ceil (longest_move (x, want, n) / BT__STRIDE), gone = 0;
   legs = legs < 1 ? 1 : legs < LEGS_MAX ? legs : LEGS_MAX;
   for (double k = legs; k >= 1; k--)
     {
@@ -272,7 +287,7 @@ even_shares_out (const bt__polyline *line, const bt__polyline_work *w)
           bt_vec3 q = bt__axpy (x[i + 1], s[i + 1], bt__sub (w->want[i + 1], x[i + 1]));
           double du = u[i + 1] + s[i + 1] * (w->arc[i + 1] - u[i + 1]);
           du -= u[i] + s[i] * (w->arc[i] - u[i]);
-          if (s[i] == s[i + 1] || (du > 0 && bt__distance (p, q) <= du * (1 + BT__SAME_LENGTH)))
+          if (s[i] == s[i + 1] || (du > 0 && bt__distance (p, q) <= du * (1 + BT__SAME)))
             continue;
           s[i] = s[i + 1] = fmin (s[i], s[i + 1]);
           changed = 1;
@@ -303,7 +318,7 @@ bt__polyline_creep (bt__polyline *line, const bt__way *way)
   if (!is_usable (w->want, w->arc, n))
     return 0;
   for (uint32_t i = 0; i < n; i++)
-    w->share[i] = fmin (1, STRIDE / fmax (bt__distance (x[i], w->want[i]), STRIDE));
+    w->share[i] = fmin (1, BT__STRIDE / fmax (bt__distance (x[i], w->want[i]), BT__STRIDE));
   for (int k = 0; k < HALVINGS; k++)
     {
       even_shares_out (line, w);

@@ -22,7 +22,6 @@ enum
   FEW = 16    /* ... or as many as the ratio of the two ways in the last motion */
 };
 
-#define PIECES 8.0 /* of a piece: no more is told */
 #define LEAST 0.3  /* of a rest length: a link that soon turns back is of no stretch */
 #define ROUGH 0.25 /* of their distance: parts that are so thin are not halved */
 
@@ -217,7 +216,8 @@ bt__self_look (const bt__line_job *k, double *turned, double *apart)
 {
   part all = { 1, 0, k->links };
   const bt__dynamic_drift *step = &k->d->step;
-  double piece = PIECES * k->d->piece, few = step->turned > 0 ? step->apart / step->turned : FEW;
+  double piece = BT__SELF_PIECES * k->d->piece,
+         few = step->turned > 0 ? step->apart / step->turned : FEW;
   look s = { .k = k,
              .chord = k->w->self.chord,
              .keep = 2 * bt__self_touching (k),

@@ -9,8 +9,6 @@
 
 #include "contact/self_search.h"
 
-#define PARALLEL 1e-3 /* sine: chords at a smaller angle have no common normal */
-
 /* How far a line that went so far in the last step is expected to go against other lines, which
    have stepped already or are to wait.  A step must know early that an end is pulled with limited
    force: before the line comes to what it hits.  */
@@ -90,7 +88,7 @@ has_plane_between (const bt__line_job *k, const bt_vec3 *to, const bt__self_side
   bt_vec3 a = chord_from (k->x, k->links), b = chord_from (side->x, side->links);
   bt_vec3 n = bt__cross (a, b), way = bt__sub (side->x[side->links / 2], k->x[k->links / 2]);
   double size = bt__norm (n), far = bt__norm (way);
-  return (size > PARALLEL && is_parted_along (k, to, side, bt__scale (1 / size, n), gap))
+  return (size > 0 && is_parted_along (k, to, side, bt__scale (1 / size, n), gap))
          || (far > gap && is_parted_along (k, to, side, bt__scale (1 / far, way), gap));
 }
 

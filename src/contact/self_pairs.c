@@ -24,15 +24,13 @@ enum
 {
   WAIT = 12,   /* steps after a look that found more than it could list */
   AGAIN = 8,   /* steps until a line that can go on clear for no longer than a step is looked at */
+  RANGE = 16,  /* times as far as at least may be looked */
   SHORTER = 12 /* times a move is halved for want of room */
 };
 
-#define TURN 0.5 /* of a piece: what the ends of a link may go apart until the next look, ... */
-#define LEAST_TURN 0.1 /* ... at most and at least */
-#define WAY 8.0        /* the same of any two nodes */
-#define LEAST_WAY 0.5
-#define FARTHER 1.4 /* times as far at the next look */
-#define SPARE 0.2   /* of a piece: the most of what a line is said to be clear by */
+/* Of an interval: how far the ends of a link may part until the next look, at most.  */
+#define TURN 0.5
+#define SPARE 0.2 /* of a piece: the most of what a line is said to be clear by */
 
 /* ---- A line that is clear of itself ---- */
 
@@ -108,13 +106,13 @@ look_once (bt__line_job *k)
   return s.dropped == 0;
 }
 
-/* How far to look: farther by what was used up, if few pairs were listed, and less far by what was
-   not.  */
+/* How far to look, MOST at most: twice as far when all was used up, if few pairs were listed, and
+   half as far when less than half was.  */
 static double
-suited (double was, double used, int few, double least, double most)
+suited (double was, double used, int few, double most)
 {
-  double next = used >= was ? few ? FARTHER * was : was : used < 0.5 * was ? was / FARTHER : was;
-  return fmin (fmax (next, least), most);
+  double next = used >= was ? few ? 2 * was : was : used < 0.5 * was ? 0.5 * was : was;
+  return fmin (fmax (next, most / RANGE), most);
 }
 
 static void
@@ -123,10 +121,10 @@ look (bt__line_job *k)
   bt__self *self = &k->w->self;
   double piece = k->d->piece;
   int few = 2 * self->knowns < k->links;
-  self->turn = suited (self->turn, self->drift.turned, few, LEAST_TURN * piece, TURN * piece);
-  self->way = suited (self->way, self->drift.apart, few, LEAST_WAY * piece, WAY * piece);
+  self->turn = suited (self->turn, self->drift.turned, few, TURN * piece);
+  self->way = suited (self->way, self->drift.apart, few, BT__SELF_PIECES * piece);
   self->still = 0;
-  while (!look_once (k) && self->way > LEAST_WAY * piece)
+  while (!look_once (k) && self->way > BT__SELF_PIECES * piece / RANGE)
     self->way *= 0.5;
   self->wait = self->knowns == self->most ? WAIT : 0;
   self->drift = (bt__dynamic_drift){ 0 };

@@ -19,9 +19,8 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
-#include "contact/line_job.h"
+#include "contact/self_search.h"
 
-#define APART 4.0    /* radii of line between two links: less, and they do not touch */
 #define STIFF 0.1    /* times EA over a link's length: of a touch, ... */
 #define STIFFEST 1e6 /* N/m: ... at most, but for the load */
 #define YIELD 8.0    /* part of the way to the core: the deepest penetration by the load ... */
@@ -65,7 +64,7 @@ drift_of (const bt__line_job *k, const bt__self_pair *p, double t)
   if (p->strand < 0)
     return bt__vec (0, 0, 0);
   const bt_vec3 *dx = bt__dynamic_dx (k->config->strand[p->strand].line) + p->j;
-  return bt__axpy (bt__scale (1 - t, dx[0]), t, dx[1]);
+  return bt__between (dx, t);
 }
 
 /* ---- Lines that yield ---- */
@@ -134,7 +133,7 @@ feel_reaction (bt__line_job *k, int q)
   if (!a)
     return;
   const bt_vec3 *x = k->x + r->node;
-  bt_vec3 here = bt__add (bt__axpy (bt__scale (1 - r->s, x[0]), r->s, x[1]), r->drift);
+  bt_vec3 here = bt__add (bt__between (x, r->s), r->drift);
   bt_vec3 drag = bt__axpy (a->force, -bt__dot (a->force, r->normal), r->normal);
   of->triangle = (uint32_t)at;
   r->offset = bt__dot (r->normal, here) + load / r->stiffness;
@@ -201,7 +200,7 @@ bt__self_rows (bt__line_job *k)
       const bt__self_pair *p = self->pair + n;
       double touch = k->config->radius + radius_of (k, p) + k->margin;
       double way = bt__self_between (k, p->strand, p->i, p->j);
-      if (!p->touches || !(p->w.distance < touch) || way < APART * k->config->radius)
+      if (!p->touches || !(p->w.distance < touch) || way * BT__SELF_TELLS < 2 * k->config->core)
         continue;
       bt__link second = bt__self_second (k, k->x, p);
       if (!is_of_holders (k, p, &p->w, share_of (&second, p->w.point)))
@@ -232,19 +231,19 @@ bt__self_add_hit (bt__line_job *k, const bt__self_pair *p, const bt__witness *w,
   k->rows += at == k->rows;
 }
 
+/* The proposed move of the place at the share S of link J.  */
+static bt_vec3
+move_between (const bt__line_job *k, int64_t j, double s)
+{
+  const bt_vec3 *x = k->x + j, *X = k->X + j;
+  return bt__between ((bt_vec3[]){ bt__sub (X[0], x[0]), bt__sub (X[1], x[1]) }, s);
+}
+
 bt_vec3
 bt__self_move (const bt__line_job *k, const bt__constraint *r)
 {
-  const bt_vec3 *x = k->x + r->node, *X = k->X + r->node;
-  bt_vec3 a = bt__sub (X[0], x[0]), b = bt__sub (X[1], x[1]);
-  bt_vec3 d = bt__sub (bt__axpy (bt__scale (1 - r->s, a), r->s, b), r->drift);
-  if (r->pair == 0)
-    return d;
-  x = k->x + r->pair - 1;
-  X = k->X + r->pair - 1;
-  a = bt__sub (X[0], x[0]);
-  b = bt__sub (X[1], x[1]);
-  return bt__sub (d, bt__axpy (bt__scale (1 - r->t, a), r->t, b));
+  bt_vec3 d = bt__sub (move_between (k, r->node, r->s), r->drift);
+  return r->pair == 0 ? d : bt__sub (d, move_between (k, r->pair - 1, r->t));
 }
 
 /* ---- What lasts ---- */

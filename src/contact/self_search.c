@@ -3,9 +3,9 @@
    Links that run along with the way from the first of them to the last, all of them and all the
    time, come no nearer to each other than the line between them is long in that direction: of a
    stretch that is straight so far no pair is asked.  The search is told how far nodes may move; the
-   farther, the fewer stretches are straight so far, but contacts are looked for on those alone that
-   are not straight as they lie.  For the rest there are boxes about links,
-   about four links, eight, sixteen, and only where boxes meet is looked into them.
+   farther, the fewer stretches are straight so far, but contacts are looked for on the
+   stretches alone that are not straight as they lie.  For the rest there are boxes about links,
+   about four links, eight, sixteen, and only boxes that meet are opened.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -15,8 +15,6 @@ enum
 {
   LEAF = 4 /* links in the smallest box */
 };
-
-#define WITHIN 0.02 /* of what links must keep: nearer, and they are within each other */
 
 /* Metres of line O from its link J to its end E; counted anew, for a line that is far from itself
    has not noted how far its nodes are from its end.  */
@@ -60,11 +58,12 @@ are_neighbours (const bt__self_search *s, int i, int j)
 }
 
 /* Links that start nearer may come nearer yet by half, so that they can get away from each other,
-   but not through.  Those that start within each other may do as they like.  */
+   but not through.  Links that start nearer than a cast comes are within each other, and are free.
+ */
 double
 bt__self_lowered (double floor, double distance)
 {
-  double least = WITHIN * floor;
+  double least = BT__CAST_NEAR * floor;
   return distance >= floor ? floor : distance > least ? fmax (0.5 * distance, least) : 0;
 }
 

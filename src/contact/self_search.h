@@ -10,6 +10,8 @@
 /* A link that goes so much of its rest length in a direction goes along, ... */
 #define BT__SELF_TELLS 0.25
 #define BT__SELF_ALONG 0.24 /* ... and what such links must keep */
+/* Intervals: parts of a line may always come nearer by more.  */
+#define BT__SELF_PIECES 8.0
 
 /* ---- Boxes ---- */
 

@@ -8,8 +8,6 @@
 #include "contact/thesis.h"
 #include "math/vec.h"
 
-#define BT__SAME_PLACE 1e-9 /* m: two places no farther apart are the same */
-
 /* What a collision is taken from: a link pressed so deep, a share of the radius.  */
 #define BT__PRESSED 0.05
 

@@ -9,9 +9,8 @@
 
 #include <string.h>
 
+#include "collide/cast.h"
 #include "contact/thesis_job.h"
-
-#define CHEAT 1e-6 /* of its length: a rubber band shorter than this is one */
 
 bt_vec3
 bt__span_start (const bt__thesis_job *j, int64_t k)
@@ -155,14 +154,14 @@ hold_vehicle (bt__thesis_job *j, double between)
       if (s->stuck)
         span->length = reach;
     }
-  s->taut = bt__distance (j->b, c) >= reach * (1 - BT__SAME_LENGTH);
+  s->taut = bt__distance (j->b, c) >= reach * (1 - BT__SAME);
   j->b = within (j->b, c, reach);
 }
 
 static void
 set_length (bt__thesis_job *j, int64_t k, double length)
 {
-  j->span[k].length = fmax (length, BT__SAME_PLACE);
+  j->span[k].length = fmax (length, BT__SAME);
 }
 
 void
@@ -284,7 +283,7 @@ void
 bt__spans_count_cheats (bt__thesis_job *j)
 {
   for (int64_t k = 0; k < j->state->spans; k++)
-    if (j->span[k].straight && chord (j, k) < j->span[k].length * (1 - CHEAT))
+    if (j->span[k].straight && chord (j, k) < j->span[k].length * (1 - BT__MARGIN))
       {
         j->counts->length_cheats += j->in->props->model != BT_MODEL_RUBBER_BAND;
         return;

@@ -8,7 +8,6 @@
 
 #define APART 1.0  /* radii: splits nearer than this are one */
 #define AT_END 2.0 /* radii: nearer to an end is no place for a split */
-#define CLEAR 1.05 /* times the core: a break point nearer to something is not taken */
 #define MORE                                                                                       \
   (BT__PI / 36)  /* what a contact that came back at once must open further: 5 degrees             \
                   */
@@ -16,22 +15,13 @@
 
 /* ---- Measuring ---- */
 
-static const bt__scene *
-scene_of (const bt__thesis_job *j, uint32_t mover, const bt__switches **on)
-{
-  const bt__mover *m = mover ? j->way->work->still + mover - 1 : NULL;
-  *on = m ? m->on : j->way->around->on;
-  return m ? m->body : j->way->around->scene;
-}
-
 /* In the frame of the part that was hit, and back.  */
 static void
 measure_collision (bt__thesis_job *j, const bt__hit *hit, bt__collision *c)
 {
-  const bt_vec3 *x = bt__polyline_x (j->line) + hit->link;
   const bt__switches *on;
-  const bt__scene *scene = scene_of (j, hit->mover, &on);
-  bt__link link = { x[0], x[1] };
+  const bt__scene *scene = bt__way_scene (j->way, hit->mover, &on);
+  bt__link link = bt__link_of (bt__polyline_x (j->line), hit->link);
   bt__near near = hit->near;
   const bt__frame *f = hit->mover ? &j->way->work->still[hit->mover - 1].motion.from : NULL;
   if (f)
@@ -55,7 +45,7 @@ static int
 is_part_near (bt__thesis_job *j, uint32_t mover, bt_vec3 p, double reach, int64_t object)
 {
   const bt__switches *on;
-  const bt__scene *scene = scene_of (j, mover, &on);
+  const bt__scene *scene = bt__way_scene (j->way, mover, &on);
   bt__nears list = { j->way->work->near, 0, BT__PARTS_MAX, INFINITY };
   if (mover)
     p = bt__to_local (&j->way->work->still[mover - 1].motion.from, p);
@@ -69,11 +59,12 @@ is_part_near (bt__thesis_job *j, uint32_t mover, bt_vec3 p, double reach, int64_
   return 0;
 }
 
+/* True if P is clear of everything, and will be if the line there is pressed in a little.  */
 static int
 is_clear_point (bt__thesis_job *j, bt_vec3 p)
 {
   for (uint32_t m = 0; m <= j->way->around->movers; m++)
-    if (is_part_near (j, m, p, CLEAR * j->way->core, -1))
+    if (is_part_near (j, m, p, (1 + BT__PRESSED) * j->way->core, -1))
       return 0;
   return 1;
 }
@@ -114,9 +105,7 @@ came_back (const bt__thesis_job *j, int64_t object)
 static bt__split
 new_split (bt__thesis_job *j, const bt__hit *hit, const bt__collision *c, int64_t node)
 {
-  const bt__switches *on;
-  const bt__scene *scene = scene_of (j, hit->mover, &on);
-  int64_t object = scene->object[hit->near.object].id;
+  int64_t object = bt__hit_object (j->way, hit);
   int mesh = hit->near.triangle != BT__NO_TRIANGLE;
   bt_vec3 here = bt__polyline_x (j->line)[node];
   return (bt__split){ .object = object,

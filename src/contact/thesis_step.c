@@ -163,14 +163,6 @@ wish (bt__thesis_job *j)
   return status == BT_OK ? keep_back_sides (j) : status;
 }
 
-static int64_t
-object_hit (const bt__thesis_job *j, const bt__hit *hit)
-{
-  const bt__mover *m = hit->mover ? j->way->work->still + hit->mover - 1 : NULL;
-  const bt__scene *scene = m ? m->body : j->way->around->scene;
-  return hit->links ? (int64_t)scene->object[hit->near.object].id : -1;
-}
-
 /* Give in to HIT, against which no split helps: the other nodes move on, then the ends stay, and
    the spans are solved for these ends.  */
 static int
@@ -180,7 +172,7 @@ give_in (bt__thesis_job *j, const bt__hit *hit)
   bt__polyline_creep (j->line, j->way);
   if (j->blocked)
     return 0;
-  j->report->blocker = object_hit (j, hit);
+  j->report->blocker = bt__hit_object (j->way, hit);
   j->blocked = 1;
   return 1;
 }
@@ -243,8 +235,8 @@ report (bt__thesis_job *j, const int64_t *before, int n)
   r->a = bt__polyline_x (j->line)[0];
   r->b = bt__polyline_x (j->line)[j->line->n - 1];
   r->length = bt__polyline_u (j->line)[j->line->n - 1];
-  j->state->held = bt__distance (r->a, j->goal_a) > BT__SAME_PLACE
-                   || bt__distance (r->b, j->goal_b) > BT__SAME_PLACE;
+  j->state->held
+      = bt__distance (r->a, j->goal_a) > BT__SAME || bt__distance (r->b, j->goal_b) > BT__SAME;
   r->held = (int)j->state->held;
   r->taut = (int)j->state->taut;
   r->touched_n = without (after, m, before, n, r->touched);

@@ -9,6 +9,9 @@
 
 #include "collide/safe.h"
 
+/* Of a length, or m: a smaller difference of lengths or places is none.  */
+#define BT__SAME 1e-9
+
 /* The obstacles around a tether in a step: the objects of SCENE stand still; kinematic obstacles
    move from one place to another, and their DONE receives the share of the motion taken.  The ids
    of objects are the numbers of the obstacles in the model.  */
