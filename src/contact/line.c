@@ -187,19 +187,13 @@ slips_on (bt__line_job *k, bt__dynamic_report *report)
   return 0;
 }
 
-/* The step of a line that is far from everything for any drift up to MAY; else *DONE is zero and
-   nothing has happened.  */
+/* Take the proposal of a line that is far from everything for any drift up to MAY; else *DONE is
+   zero and nothing has happened.  */
 static bt_status
-step_far (bt__line_job *k, const bt__dynamic_drift *may, bt__dynamic_report *report, int *done,
+take_far (bt__line_job *k, const bt__dynamic_drift *may, bt__dynamic_report *report, int *done,
           bt_error *error)
 {
-  int slips = slips_on (k, report);
-  bt_status status = slips ? BT_OK : begin_proposal (k, report, error);
-  *done = 1;
-  if (!slips && !status)
-    status = bt__dynamic_iterate_free (k->d, k->kernel, &k->watch, report, error);
-  if (status)
-    return status;
+  bt_status status = BT_OK;
   *done = !bt__line_is_overpulled (k)
           && (is_alone (k) || (isfinite (report->update) && bt__self_stays_far (k)));
   if (k->w->lacks)
@@ -214,6 +208,37 @@ step_far (bt__line_job *k, const bt__dynamic_drift *may, bt__dynamic_report *rep
   bt__self_note (k);
   k->anchors->n = 0;
   return BT_OK;
+}
+
+/* Take the proposal of a line that has nothing to meet.  An end that slips was first taken to its
+   place.  */
+static bt_status
+take_open (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
+{
+  bt_status status = BT_OK;
+  k->anchors->n = 0;
+  if (bt__line_is_overpulled (k) && bt__line_hold_ends (k))
+    {
+      k->report->vain += report->solves;
+      status = solve_held (k, report, error);
+    }
+  return status ? status : bt__dynamic_take_free (k->d, k->kernel, k->in, &k->watch, report, error);
+}
+
+/* The step of a line that can meet nothing; with MAY not NULL, for any drift up to MAY: then *DONE
+   is as of take_far.  */
+static bt_status
+step_free (bt__line_job *k, const bt__dynamic_drift *may, bt__dynamic_report *report, int *done,
+           bt_error *error)
+{
+  int slips = slips_on (k, report);
+  bt_status status = slips ? BT_OK : begin_proposal (k, report, error);
+  *done = 1;
+  if (!slips && !status)
+    status = bt__dynamic_iterate_free (k->d, k->kernel, &k->watch, report, error);
+  if (status)
+    return status;
+  return may ? take_far (k, may, report, done, error) : take_open (k, report, error);
 }
 
 /* Propose where the line is at the end of the step.  */
@@ -298,23 +323,6 @@ step (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
   return BT_OK;
 }
 
-/* The step of a line that can meet nothing.  An end that slips was first taken to its place.  */
-static bt_status
-step_open (bt__line_job *k, bt__dynamic_report *report, bt_error *error)
-{
-  int slips = slips_on (k, report);
-  bt_status status = slips ? BT_OK : begin_proposal (k, report, error);
-  if (!slips && !status)
-    status = bt__dynamic_iterate_free (k->d, k->kernel, &k->watch, report, error);
-  k->anchors->n = 0;
-  if (!status && bt__line_is_overpulled (k) && bt__line_hold_ends (k))
-    {
-      k->report->vain += report->solves;
-      status = solve_held (k, report, error);
-    }
-  return status ? status : bt__dynamic_take_free (k->d, k->kernel, k->in, &k->watch, report, error);
-}
-
 bt_status
 bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
                const bt__dynamic_input *input, const bt__surroundings *around,
@@ -348,18 +356,18 @@ bt__line_step (bt__dynamic *d, bt__dynamic_work *work, bt__line_work *w,
   if (!bt__line_room (w, d, config))
     return lack (w, error);
   bt__line_aim_ends (&k);
+  int done = 0;
   if (k.scene->n == 0 && k.movers == 0 && !bt__self_counts (&k) && !d->rounded)
-    status = step_open (&k, report, error);
+    status = step_free (&k, NULL, report, &done, error);
   else
     {
       const bt__line_hook *hook = config->hook;
-      int done = 0;
       bt__dynamic_drift may = { INFINITY, INFINITY, INFINITY };
       check_known (&k);
       k.core = config->core * 1.01;
       if (!d->rounded && bt__line_is_far (&k, &may.way) && bt__self_is_far (&k, &may)
           && !(hook && hook->spoil))
-        status = step_far (&k, &may, report, &done, error);
+        status = step_free (&k, &may, report, &done, error);
       if (!done)
         {
           k.core = bt__cast_core (config->core, 1, k.x, (uint32_t)k.links + 1);
