@@ -96,7 +96,16 @@ SCM
 (let ((a 1))
   BAD)
 SCM
-  for file in at-top in-a-procedure in-a-tail in-a-loop in-an-argument after-a-callback; do
+  write_file in-a-sum.scm "$1" <<'SCM'
+(enter! 'pile)
+(define (total x)
+  (+ 1 (* 2 (abs (- x
+                    3)))
+     (length (list (list x)
+                   BAD))))
+(abs (total (abs -1)))
+SCM
+  for file in at-top in-a-procedure in-a-tail in-a-loop in-an-argument after-a-callback in-a-sum; do
     line=$(grep -nF -- "$1" $file.scm | cut -d: -f1)
     "$pre" bight $file.scm >out 2>err </dev/null
     told "$1 $file" $file.scm err

@@ -3,7 +3,8 @@
 ;;; Code that is interpreted leaves no trace of its lines, and an error in a procedure of a script would be
 ;;; told as one of the form that called it in the end.  So each call that stands in the file is made within
 ;;; its place, (bight core here).  A call of the file's own procedures in tail position stays one, so that loops
-;;; take no room; any other call comes back anyway.
+;;; take no room; any other call comes back anyway.  An argument that stands in the line of its call is within that
+;;; call's place already: a place for each sum and product of a formula took twice the time of the formula.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -46,48 +47,52 @@
 
 (define (marked expression file module)
   ;; EXPRESSION, as the expander leaves it, with its calls in FILE marked.
-  (define (walk-all expressions name) (map (lambda (e) (walk e #f name)) expressions))
-  (define (walk-call e tail? name)
+  ;; AROUND is the place within which an expression is evaluated, told by a call about it, or #f.
+  (define (walk-all expressions name around) (map (lambda (e) (walk e #f name around)) expressions))
+  (define (walk-call e tail? name around)
     (let* ((place (source-place (call-src e) file))
            (operator (call-proc e))
-           (call (make-call (call-src e) (walk operator #f name) (walk-all (call-args e) name))))
-      (cond ((not place) call)
-            ((or (not tail?) (foreign? operator module)) (within place name call))
+           (whole? (and place (or (not tail?) (foreign? operator module))))
+           (inside (if whole? place around))
+           (call (make-call (call-src e) (walk operator #f name inside) (walk-all (call-args e) name inside))))
+      (cond ((or (not place) (equal? place around)) call)
+            (whole? (within place name call))
             ((toplevel-ref? operator)   ; a name that nobody has is missed here
              (make-call (call-src e) (within place name operator) (call-args call)))
             (else call))))
-  (define (walk e tail? name)
-    (cond ((call? e) (walk-call e tail? name))
+  (define (walk e tail? name around)
+    (cond ((call? e) (walk-call e tail? name around))
           ((conditional? e)
-           (make-conditional (conditional-src e) (walk (conditional-test e) #f name)
-                             (walk (conditional-consequent e) tail? name)
-                             (walk (conditional-alternate e) tail? name)))
-          ((seq? e) (make-seq (seq-src e) (walk (seq-head e) #f name) (walk (seq-tail e) tail? name)))
+           (make-conditional (conditional-src e) (walk (conditional-test e) #f name around)
+                             (walk (conditional-consequent e) tail? name around)
+                             (walk (conditional-alternate e) tail? name around)))
+          ((seq? e) (make-seq (seq-src e) (walk (seq-head e) #f name around) (walk (seq-tail e) tail? name around)))
           ((lambda? e)
            (make-lambda (lambda-src e) (lambda-meta e)
-                      (and (lambda-body e) (walk (lambda-body e) #t (or (assq-ref (lambda-meta e) 'name) name)))))
+                      (and (lambda-body e)
+                           (walk (lambda-body e) #t (or (assq-ref (lambda-meta e) 'name) name) #f))))
           ((lambda-case? e)
            (make-lambda-case (lambda-case-src e) (lambda-case-req e) (lambda-case-opt e)
-                             (lambda-case-rest e) (lambda-case-kw e) (walk-all (lambda-case-inits e) name)
-                             (lambda-case-gensyms e) (walk (lambda-case-body e) #t name)
-                             (and (lambda-case-alternate e) (walk (lambda-case-alternate e) #t name))))
+                             (lambda-case-rest e) (lambda-case-kw e) (walk-all (lambda-case-inits e) name #f)
+                             (lambda-case-gensyms e) (walk (lambda-case-body e) #t name #f)
+                             (and (lambda-case-alternate e) (walk (lambda-case-alternate e) #t name #f))))
           ((let? e)
-           (make-let (let-src e) (let-names e) (let-gensyms e) (walk-all (let-vals e) name)
-                     (walk (let-body e) tail? name)))
+           (make-let (let-src e) (let-names e) (let-gensyms e) (walk-all (let-vals e) name around)
+                     (walk (let-body e) tail? name around)))
           ((letrec? e)
            (make-letrec (letrec-src e) (letrec-in-order? e) (letrec-names e) (letrec-gensyms e)
-                        (walk-all (letrec-vals e) name) (walk (letrec-body e) tail? name)))
+                        (walk-all (letrec-vals e) name around) (walk (letrec-body e) tail? name around)))
           ((toplevel-define? e)
            (make-toplevel-define (toplevel-define-src e) (toplevel-define-mod e) (toplevel-define-name e)
-                                 (walk (toplevel-define-exp e) #f name)))
+                                 (walk (toplevel-define-exp e) #f name around)))
           ((toplevel-set? e)
            (make-toplevel-set (toplevel-set-src e) (toplevel-set-mod e) (toplevel-set-name e)
-                              (walk (toplevel-set-exp e) #f name)))
+                              (walk (toplevel-set-exp e) #f name around)))
           ((lexical-set? e)
            (make-lexical-set (lexical-set-src e) (lexical-set-name e) (lexical-set-gensym e)
-                             (walk (lexical-set-exp e) #f name)))
+                             (walk (lexical-set-exp e) #f name around)))
           (else e)))
-  (walk expression #f #f))
+  (walk expression #f #f #f))
 
 (define (evaluate-marked form file)
   "Evaluate FORM, read from a port whose name is FILE, in the current module; an error in it knows its line.
