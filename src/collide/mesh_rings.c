@@ -2,8 +2,10 @@
 
    All corners of triangles at one point form a ring, and all edges of triangles between the same
    two points form a ring, whatever the number of triangles there.  Points are the same if their
-   coordinates are: a soup may give each triangle its own vertices.  Both rings are found in one
-   pass over the triangles, with a hash table of points and another of pairs of points.
+   coordinates are: a soup may give each triangle its own vertices.  Each vertex is therefore named
+   after the first at its place, found in a hash table.  Edges are then sorted by their lower end,
+   and those of one lower end joined by a list, by their higher end, that is cleared behind them:
+   time grows with the edges, however many meet in one point.
 
    An edge is a fold unless exactly two triangles share it and lie in one plane.
 
@@ -17,30 +19,32 @@
 
 enum
 {
-  TRIANGLES_A_QUESTION = 8192 /* between two questions whether to go on */
+  ITEMS_A_QUESTION = 8192 /* between two questions whether to go on */
 };
 
 #define NONE UINT32_MAX
 
-/* Open addressing: an entry is a vertex of the soup, or an edge, or NONE.  */
-typedef struct table
+typedef struct low_edge
 {
-  uint32_t *entry;
-  size_t mask;
-} table;
+  uint32_t edge, high; /* 3 slot + i; its higher end */
+} low_edge;
+
+typedef struct joining
+{
+  bt__mesh *mesh;
+  uint32_t *point; /* by vertex: the first vertex at its place */
+  uint32_t *first; /* by point: the first of a ring, or NONE */
+  uint32_t *end;   /* by point: where in EDGE those end of which the point is the lower end */
+  low_edge *edge;
+} joining;
 
 static int
-table_new (table *t, size_t items)
+is_interrupted (bt__asker *asker, uint32_t i)
 {
-  size_t size = 16;
-  while (size < 2 * items)
-    size *= 2;
-  t->mask = size - 1;
-  t->entry = malloc (size * sizeof *t->entry);
-  if (t->entry)
-    memset (t->entry, 0xff, size * sizeof *t->entry);
-  return t->entry != NULL;
+  return i % ITEMS_A_QUESTION == 0 && bt__ask (asker);
 }
+
+/* ---- Points ---- */
 
 static int
 is_same_point (bt_vec3 a, bt_vec3 b)
@@ -48,56 +52,147 @@ is_same_point (bt_vec3 a, bt_vec3 b)
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/* Return the first vertex of M that was asked for at the place of vertex V.  */
-static uint32_t
-point_of (const bt__mesh *m, table *t, uint32_t v)
+/* Return the entry of TABLE, of MASK + 1 entries, a vertex of M at P or NONE.  */
+static uint32_t *
+find_point (const bt__mesh *m, uint32_t *table, size_t mask, bt_vec3 p)
 {
-  bt_vec3 p = m->v[v], key = bt__vec (p.x + 0.0, p.y + 0.0, p.z + 0.0); /* -0 is 0 */
-  size_t at = bt__hash (&key, sizeof key, 0) & t->mask;
-  while (t->entry[at] != NONE && !is_same_point (m->v[t->entry[at]], p))
-    at = (at + 1) & t->mask;
-  if (t->entry[at] == NONE)
-    t->entry[at] = v;
-  return t->entry[at];
+  bt_vec3 key = bt__vec (p.x + 0.0, p.y + 0.0, p.z + 0.0); /* -0 is 0 */
+  size_t at = bt__hash (&key, sizeof key, 0) & mask;
+  while (table[at] != NONE && !is_same_point (m->v[table[at]], p))
+    at = (at + 1) & mask;
+  return table + at;
 }
 
-/* Put I into the ring of FIRST.  */
-static void
-add_to_ring (uint32_t *next, uint32_t first, uint32_t i)
+/* True if there was memory.  */
+static int
+name_points (joining *j)
 {
-  next[i] = next[first];
-  next[first] = i;
+  const bt__mesh *m = j->mesh;
+  size_t size = 16;
+  while (size < 2 * (size_t)m->vertices)
+    size *= 2;
+  uint32_t *table = malloc (size * sizeof *table);
+  if (!table)
+    return 0;
+  memset (table, 0xff, size * sizeof *table);
+  for (uint32_t v = 0; v < m->vertices; v++)
+    {
+      uint32_t *entry = find_point (m, table, size - 1, m->v[v]);
+      if (*entry == NONE)
+        *entry = v;
+      j->point[v] = *entry;
+    }
+  free (table);
+  return 1;
 }
 
-/* The points of edge E of triangle SLOT, the smaller first; POINT is by corner.  */
+/* ---- Rings ---- */
+
+/* Put I, the ring NEXT of itself until now, into the ring that begins with *FIRST.  */
 static void
-ends_of_edge (const uint32_t *point, uint32_t edge, uint32_t ends[2])
+add_to_ring (uint32_t *next, uint32_t *first, uint32_t i)
 {
-  uint32_t e = edge % 3, a = point[edge], b = point[edge - e + (e + 1) % 3];
+  next[i] = i;
+  if (*first == NONE)
+    *first = i;
+  else
+    {
+      next[i] = next[*first];
+      next[*first] = i;
+    }
+}
+
+/* The ends of edge I of triangle SLOT, the lower first.  */
+static void
+find_ends (const joining *j, uint32_t slot, uint32_t i, uint32_t ends[2])
+{
+  const uint32_t *corner = j->mesh->corner[slot];
+  uint32_t a = j->point[corner[i]], b = j->point[corner[(i + 1) % 3]];
   ends[0] = a < b ? a : b;
   ends[1] = a < b ? b : a;
 }
 
+/* Join the corners of SLOT, and count its edges at their lower ends.  An edge without length is a
+   ring of its own.  */
 static void
-join_edge (bt__mesh *m, table *t, const uint32_t *point, uint32_t edge)
+join_corners (joining *j, uint32_t slot)
 {
-  uint32_t ends[2], its[2];
-  ends_of_edge (point, edge, ends);
-  m->next_edge[edge] = edge;
-  if (ends[0] == ends[1])
-    return;
-  size_t at = bt__hash (ends, sizeof ends, 0) & t->mask;
-  for (; t->entry[at] != NONE; at = (at + 1) & t->mask)
+  bt__mesh *m = j->mesh;
+  for (uint32_t i = 0, c = 3 * slot; i < 3; i++, c++)
     {
-      ends_of_edge (point, t->entry[at], its);
-      if (its[0] == ends[0] && its[1] == ends[1])
-        break;
+      uint32_t ends[2];
+      add_to_ring (m->next_corner, j->first + j->point[m->corner[slot][i]], c);
+      m->next_edge[c] = c;
+      find_ends (j, slot, i, ends);
+      j->end[ends[0]] += ends[0] != ends[1];
     }
-  if (t->entry[at] == NONE)
-    t->entry[at] = edge;
-  else
-    add_to_ring (m->next_edge, t->entry[at], edge);
 }
+
+static void
+sort_edges (joining *j, uint32_t slot)
+{
+  for (uint32_t i = 0; i < 3; i++)
+    {
+      uint32_t ends[2];
+      find_ends (j, slot, i, ends);
+      if (ends[0] != ends[1])
+        j->edge[j->end[ends[0]]++] = (low_edge){ 3 * slot + i, ends[1] };
+    }
+}
+
+/* Join N edges of one lower end.  */
+static void
+join_edges (joining *j, const low_edge *edge, uint32_t n)
+{
+  for (uint32_t i = 0; i < n; i++)
+    add_to_ring (j->mesh->next_edge, j->first + edge[i].high, edge[i].edge);
+  for (uint32_t i = 0; i < n; i++)
+    j->first[edge[i].high] = NONE;
+}
+
+/* From numbers of edges to where those of each point begin.  */
+static void
+add_up (joining *j)
+{
+  uint32_t sum = 0;
+  for (uint32_t v = 0; v < j->mesh->vertices; v++)
+    {
+      uint32_t n = j->end[v];
+      j->end[v] = sum;
+      sum += n;
+    }
+}
+
+/* True if it was finished.  */
+static int
+join_all (joining *j, bt__asker *asker)
+{
+  const bt__mesh *m = j->mesh;
+  memset (j->first, 0xff, m->vertices * sizeof *j->first);
+  for (uint32_t slot = 0; slot < m->triangles; slot++)
+    {
+      if (is_interrupted (asker, slot))
+        return 0;
+      join_corners (j, slot);
+    }
+  memset (j->first, 0xff, m->vertices * sizeof *j->first);
+  add_up (j);
+  for (uint32_t slot = 0; slot < m->triangles; slot++)
+    {
+      if (is_interrupted (asker, slot))
+        return 0;
+      sort_edges (j, slot);
+    }
+  for (uint32_t v = 0, begin = 0; v < m->vertices; begin = j->end[v++])
+    {
+      if (is_interrupted (asker, v))
+        return 0;
+      join_edges (j, j->edge + begin, j->end[v] - begin);
+    }
+  return 1;
+}
+
+/* ---- Folds ---- */
 
 /* The direction from edge EDGE of M into its triangle, in the plane of the triangle and across the
    edge; zero without area.  */
@@ -112,83 +207,72 @@ into_triangle (const bt__mesh *m, uint32_t edge)
 }
 
 static int
-is_fold (const bt__mesh *m, uint32_t edge)
+is_fold (const bt__mesh *m, uint32_t edge, uint32_t other)
 {
-  uint32_t other = m->next_edge[edge];
-  if (other == edge || m->next_edge[other] != edge)
-    return 1;
   bt_vec3 sum = bt__add (into_triangle (m, edge), into_triangle (m, other));
   return !(bt__dot (sum, sum) <= BT__MESH_FLAT * BT__MESH_FLAT);
+}
+
+/* Each pair of edges is looked at once, for both.  */
+static void
+find_folds (bt__mesh *m, uint32_t slot)
+{
+  for (uint32_t i = 0, edge = 3 * slot; i < 3; i++, edge++)
+    {
+      uint32_t other = m->next_edge[edge];
+      int two = other != edge && m->next_edge[other] == edge;
+      if (two && other < edge)
+        continue;
+      if (two && !is_fold (m, edge, other))
+        continue;
+      m->folds[slot] |= (uint8_t)(1 << i);
+      if (two)
+        m->folds[other / 3] |= (uint8_t)(1 << other % 3);
+    }
+}
+
+static int
+find_all_folds (bt__mesh *m, bt__asker *asker)
+{
+  for (uint32_t slot = 0; slot < m->triangles; slot++)
+    {
+      if (is_interrupted (asker, slot))
+        return 0;
+      find_folds (m, slot);
+    }
+  return 1;
 }
 
 /* ---- All ---- */
 
 static int
-reserve_rings (bt__mesh *m, table *points, table *edges, uint32_t **point)
+reserve_rings (joining *j)
 {
+  bt__mesh *m = j->mesh;
   size_t corners = 3 * (size_t)m->triangles;
   m->next_corner = malloc (corners * sizeof *m->next_corner);
   m->next_edge = malloc (corners * sizeof *m->next_edge);
   m->folds = calloc (m->triangles, 1);
-  *point = malloc (corners * sizeof **point);
-  return m->next_corner && m->next_edge && m->folds && *point && table_new (points, m->vertices)
-         && table_new (edges, corners);
-}
-
-static void
-join_triangle (bt__mesh *m, table *points, table *edges, uint32_t *point, uint32_t slot,
-               uint32_t *of_point)
-{
-  for (uint32_t i = 0, c = 3 * slot; i < 3; i++, c++)
-    {
-      uint32_t v = point_of (m, points, m->corner[slot][i]);
-      point[c] = v;
-      m->next_corner[c] = c;
-      if (of_point[v] == NONE)
-        of_point[v] = c;
-      else
-        add_to_ring (m->next_corner, of_point[v], c);
-    }
-  for (uint32_t i = 0; i < 3; i++)
-    join_edge (m, edges, point, 3 * slot + i);
-}
-
-/* True if it was finished.  */
-static int
-join_all (bt__mesh *m, bt__asker *asker, table *points, table *edges, uint32_t *point,
-          uint32_t *of_point)
-{
-  memset (of_point, 0xff, m->vertices * sizeof *of_point);
-  for (uint32_t slot = 0; slot < m->triangles; slot++)
-    {
-      if (slot % TRIANGLES_A_QUESTION == 0 && bt__ask (asker))
-        return 0;
-      join_triangle (m, points, edges, point, slot, of_point);
-    }
-  for (uint32_t slot = 0; slot < m->triangles; slot++)
-    {
-      if (slot % TRIANGLES_A_QUESTION == 0 && bt__ask (asker))
-        return 0;
-      for (uint32_t e = 0; e < 3; e++)
-        m->folds[slot] |= (uint8_t)(is_fold (m, 3 * slot + e) << e);
-    }
-  return 1;
+  j->point = malloc (m->vertices * sizeof *j->point);
+  j->first = malloc (m->vertices * sizeof *j->first);
+  j->end = calloc (m->vertices, sizeof *j->end);
+  j->edge = malloc (corners * sizeof *j->edge);
+  return m->next_corner && m->next_edge && m->folds && j->point && j->first && j->end && j->edge;
 }
 
 bt_status
 bt__mesh_find_rings (bt__mesh *m, bt__asker *asker, bt_error *error)
 {
-  table points = { NULL, 0 }, edges = { NULL, 0 };
-  uint32_t *point = NULL, *of_point = malloc (m->vertices * sizeof *of_point);
+  joining j = { .mesh = m };
   bt_status status = BT_OK;
-  if (!of_point || !reserve_rings (m, &points, &edges, &point))
+  if (!reserve_rings (&j) || !name_points (&j))
     status = bt__fail (error, BT_ERR_LIMIT, "no memory for the edges of %u triangles",
                        (unsigned)m->triangles);
-  else if (!join_all (m, asker, &points, &edges, point, of_point))
+  else if (!join_all (&j, asker) || !find_all_folds (m, asker))
     status = bt__stopped (asker, error);
-  free (points.entry);
-  free (edges.entry);
-  free (point);
-  free (of_point);
+  free (j.point);
+  free (j.first);
+  free (j.end);
+  free (j.edge);
   return status;
 }
