@@ -58,10 +58,11 @@ typedef struct bt__bvh_node
   uint32_t count[BT__BVH_WIDE];
 } bt__bvh_node;
 
+/* x, y, z, 0: the box of an item while the tree is built.  */
+typedef float bt__quad __attribute__ ((vector_size (16)));
 typedef struct bt__bvh_item
 {
-  float lo[3], hi[3];
-  uint32_t index;
+  bt__quad lo, hi;
 } bt__bvh_item;
 
 typedef struct bt__bvh

@@ -3,10 +3,17 @@
 
    Below DEEP levels parts are halved: no arrangement of boxes makes the tree deep.
 
+   A tree of a million items takes some twenty passes over the items: each pass handles all axes of
+   a box in one vector of four floats.
+
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <float.h>
 #include <stdlib.h>
+
+#if defined __SSE2__
+#include <emmintrin.h>
+#endif
 
 #include "base/error.h"
 #include "collide/bvh.h"
@@ -15,13 +22,14 @@ enum
 {
   BINS = 16,
   LEAF = 4,
+  MANY = 4096,
   DEEP = 24,
   ITEMS_A_QUESTION = 1 << 16
 };
 
 typedef struct bounds
 {
-  float lo[3], hi[3];
+  bt__quad lo, hi;
 } bounds;
 
 typedef struct part
@@ -69,54 +77,67 @@ bt__bvh_reserve (bt__bvh *tree, uint32_t n, bt_error *error)
 /* ---- Boxes ---- */
 
 static inline float
-smaller (float a, float b)
-{
-  return a < b ? a : b;
-}
-
-static inline float
 larger (float a, float b)
 {
   return a > b ? a : b;
 }
 
-static const bounds nothing = { { FLT_MAX, FLT_MAX, FLT_MAX }, { -FLT_MAX, -FLT_MAX, -FLT_MAX } };
+/* Of each two the smaller, B if neither is.  */
+static inline bt__quad
+smaller_of_each (bt__quad a, bt__quad b)
+{
+#if defined __SSE2__
+  return _mm_min_ps (a, b);
+#else
+  for (int k = 0; k < 4; k++)
+    a[k] = a[k] < b[k] ? a[k] : b[k];
+  return a;
+#endif
+}
+
+static inline bt__quad
+larger_of_each (bt__quad a, bt__quad b)
+{
+#if defined __SSE2__
+  return _mm_max_ps (a, b);
+#else
+  for (int k = 0; k < 4; k++)
+    a[k] = a[k] > b[k] ? a[k] : b[k];
+  return a;
+#endif
+}
+
+static const bounds nothing
+    = { { FLT_MAX, FLT_MAX, FLT_MAX, 0 }, { -FLT_MAX, -FLT_MAX, -FLT_MAX, 0 } };
 
 static inline void
-include (bounds *b, const float lo[3], const float hi[3])
+include (bounds *b, bt__quad lo, bt__quad hi)
 {
-  for (int k = 0; k < 3; k++)
-    {
-      b->lo[k] = smaller (b->lo[k], lo[k]);
-      b->hi[k] = larger (b->hi[k], hi[k]);
-    }
+  b->lo = smaller_of_each (b->lo, lo);
+  b->hi = larger_of_each (b->hi, hi);
 }
 
 static inline float
 area (const bounds *b)
 {
-  float x = b->hi[0] - b->lo[0], y = b->hi[1] - b->lo[1], z = b->hi[2] - b->lo[2];
+  bt__quad size = b->hi - b->lo;
+  float x = size[0], y = size[1], z = size[2];
   return x < 0 ? 0 : x * y + y * z + z * x;
-}
-
-static inline void
-double_centre (const bt__bvh_item *item, float c[3])
-{
-  for (int k = 0; k < 3; k++)
-    c[k] = item->lo[k] + item->hi[k];
 }
 
 static void
 measure_boxes (const bt__bvh *tree, part *p)
 {
-  p->box = p->middles = nothing;
+  bounds box = nothing, middles = nothing;
   for (uint32_t i = p->first; i < p->first + p->n; i++)
     {
-      float c[3];
-      double_centre (tree->item + i, c);
-      include (&p->box, tree->item[i].lo, tree->item[i].hi);
-      include (&p->middles, c, c);
+      const bt__bvh_item *item = tree->item + i;
+      bt__quad centre = item->lo + item->hi;
+      include (&box, item->lo, item->hi);
+      include (&middles, centre, centre);
     }
+  p->box = box;
+  p->middles = middles;
 }
 
 /* ---- Parting ---- */
@@ -141,17 +162,46 @@ item_bin (float c, float from, float scale)
 }
 
 static void
-fill_item_bins (const bt__bvh *tree, const part *p, int axis, float from, float scale,
-                bin bins[BINS])
+clear_bins (bin bins[BINS])
 {
   for (int i = 0; i < BINS; i++)
     bins[i] = (bin){ nothing, 0 };
+}
+
+static inline void
+put_into_bin (bin *b, const bt__bvh_item *item)
+{
+  include (&b->box, item->lo, item->hi);
+  b->n++;
+}
+
+/* The bins of one axis.  */
+static void
+fill_bins (const bt__bvh *tree, const part *p, int axis, float scale, bin bins[BINS])
+{
+  float from = p->middles.lo[axis];
+  clear_bins (bins);
   for (uint32_t i = p->first; i < p->first + p->n; i++)
     {
       const bt__bvh_item *item = tree->item + i;
-      bin *b = bins + item_bin (item->lo[axis] + item->hi[axis], from, scale);
-      include (&b->box, item->lo, item->hi);
-      b->n++;
+      bt__quad centre = item->lo + item->hi;
+      put_into_bin (bins + item_bin (centre[axis], from, scale), item);
+    }
+}
+
+/* The bins of all axes.  */
+static void
+fill_all_bins (const bt__bvh *tree, const part *p, bt__quad scale, bin bins[3][BINS])
+{
+  bt__quad from = p->middles.lo;
+  for (int k = 0; k < 3; k++)
+    clear_bins (bins[k]);
+  for (uint32_t i = p->first; i < p->first + p->n; i++)
+    {
+      const bt__bvh_item *item = tree->item + i;
+      bt__quad centre = item->lo + item->hi;
+      for (int k = 0; k < 3; k++)
+        put_into_bin (bins[k] + item_bin (centre[k], from[k], scale[k]), item);
     }
 }
 
@@ -184,36 +234,59 @@ best_cut (const bin bins[BINS], int *at)
   return best;
 }
 
-/* Try the cuts of a small part along all axes, of a part of more than 4096 items along the longest
-   axis alone: the cut of a large part matters less and costs more time.  */
+/* Return bins per length along each axis, SIZE being the extent of the middles.  The scale is 0
+   along an axis without extent and, in a part of N > MANY items, along all axes but the longest:
+   the cut of a large part matters less and costs more time.  */
+static bt__quad
+bin_scales (bt__quad size, uint32_t n)
+{
+  bt__quad scale = { 0, 0, 0, 0 };
+  int longest = 0;
+  for (int k = 0; k < 3; k++)
+    longest = size[k] > size[longest] ? k : longest;
+  for (int k = 0; k < 3; k++)
+    if (size[k] > 0 && (n <= MANY || k == longest))
+      {
+        float s = (float)BINS * 0.999f / size[k];
+        scale[k] = s < FLT_MAX ? s : 0;
+      }
+  return scale;
+}
+
 static int
 find_cut (const bt__bvh *tree, const part *p, cut *out)
 {
-  float best = FLT_MAX, size[3];
-  int longest = 0;
+  bt__quad scale = bin_scales (p->middles.hi - p->middles.lo, p->n);
+  float best = FLT_MAX;
+  bin bins[3][BINS];
+  if (p->n <= MANY)
+    fill_all_bins (tree, p, scale, bins);
   for (int k = 0; k < 3; k++)
     {
-      size[k] = p->middles.hi[k] - p->middles.lo[k];
-      longest = size[k] > size[longest] ? k : longest;
-    }
-  for (int k = 0; k < 3; k++)
-    {
-      bin bins[BINS];
       int at = 0;
-      if (!(size[k] > 0) || (p->n > 4096 && k != longest))
+      if (!(scale[k] > 0))
         continue;
-      float scale = (float)BINS * 0.999f / size[k];
-      if (!(scale < FLT_MAX))
-        continue;
-      fill_item_bins (tree, p, k, p->middles.lo[k], scale, bins);
-      float cost = best_cut (bins, &at);
+      if (p->n > MANY)
+        fill_bins (tree, p, k, scale[k], bins[k]);
+      float cost = best_cut (bins[k], &at);
       if (cost < best)
         {
           best = cost;
-          *out = (cut){ k, at, p->middles.lo[k], scale };
+          *out = (cut){ k, at, p->middles.lo[k], scale[k] };
         }
     }
   return best < FLT_MAX;
+}
+
+static void
+exchange (bt__bvh *tree, uint32_t i, uint32_t j)
+{
+  bt__bvh_item item = tree->item[i];
+  uint32_t number = tree->order[i];
+  tree->item[i] = tree->item[j];
+  tree->order[i] = tree->order[j];
+  tree->item[j] = item;
+  tree->order[j] = number;
 }
 
 static uint32_t
@@ -222,15 +295,11 @@ move_apart (bt__bvh *tree, const part *p, const cut *c)
   uint32_t i = p->first, j = p->first + p->n;
   while (i < j)
     {
-      bt__bvh_item *item = tree->item + i;
-      if (item_bin (item->lo[c->axis] + item->hi[c->axis], c->from, c->scale) < c->at)
+      bt__quad centre = tree->item[i].lo + tree->item[i].hi;
+      if (item_bin (centre[c->axis], c->from, c->scale) < c->at)
         i++;
       else
-        {
-          bt__bvh_item swap = *item;
-          *item = tree->item[--j];
-          tree->item[j] = swap;
-        }
+        exchange (tree, i, --j);
     }
   return i - p->first;
 }
@@ -365,9 +434,9 @@ static void
 set_item (bt__bvh *tree, uint32_t i, const bt__aabb *b)
 {
   bt_vec3 lo = bt__sub (b->lo, tree->origin), hi = bt__sub (b->hi, tree->origin);
-  tree->item[i] = (bt__bvh_item){ { below (lo.x), below (lo.y), below (lo.z) },
-                                  { above (hi.x), above (hi.y), above (hi.z) },
-                                  i };
+  tree->item[i] = (bt__bvh_item){ { below (lo.x), below (lo.y), below (lo.z), 0 },
+                                  { above (hi.x), above (hi.y), above (hi.z), 0 } };
+  tree->order[i] = i;
 }
 
 void
@@ -391,6 +460,4 @@ bt__bvh_build (bt__bvh *tree, uint32_t n, bt__box_of box, const void *user)
   measure_boxes (tree, &whole);
   tree->nodes = 1;
   make_node (tree, 0, &whole, 0);
-  for (uint32_t i = 0; i < n; i++)
-    tree->order[i] = tree->item[i].index;
 }

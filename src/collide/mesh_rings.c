@@ -2,10 +2,10 @@
 
    All corners of triangles at one point form a ring, and all edges of triangles between the same
    two points form a ring, whatever the number of triangles there.  Points are the same if their
-   coordinates are: a soup may give each triangle its own vertices.  Each vertex is therefore named
-   after the first at its place, found in a hash table.  Edges are then sorted by their lower end,
-   and those of one lower end joined by a list, by their higher end, that is cleared behind them:
-   time grows with the edges, however many meet in one point.
+   coordinates are: a soup may give each triangle its own vertices.  A hash table names each vertex
+   after the first vertex at its place.  Edges are sorted by their lower end; the edges of one lower
+   end are joined by a list of higher ends, cleared afterwards.  Time grows with the number of
+   edges, however many meet in one point.
 
    An edge is a fold unless exactly two triangles share it and lie in one plane.
 
@@ -34,7 +34,7 @@ typedef struct joining
   bt__mesh *mesh;
   uint32_t *point; /* by vertex: the first vertex at its place */
   uint32_t *first; /* by point: the first of a ring, or NONE */
-  uint32_t *end;   /* by point: where in EDGE those end of which the point is the lower end */
+  uint32_t *end;   /* by point: end in EDGE of the edges with this lower end */
   low_edge *edge;
 } joining;
 
@@ -88,7 +88,7 @@ name_points (joining *j)
 
 /* ---- Rings ---- */
 
-/* Put I, the ring NEXT of itself until now, into the ring that begins with *FIRST.  */
+/* Put I into the ring of *FIRST in NEXT; alone, I becomes *FIRST.  */
 static void
 add_to_ring (uint32_t *next, uint32_t *first, uint32_t i)
 {
@@ -150,7 +150,7 @@ join_edges (joining *j, const low_edge *edge, uint32_t n)
     j->first[edge[i].high] = NONE;
 }
 
-/* From numbers of edges to where those of each point begin.  */
+/* Replace the number of edges of each point by the place of its first edge.  */
 static void
 add_up (joining *j)
 {
