@@ -24,6 +24,13 @@
 #include "collide/cast.h"
 #include "collide/safe_job.h"
 
+/* Times the margin of a step: the margin of a common share, for the step by the share to be safe.
+ */
+enum
+{
+  STRICTER = 4
+};
+
 /* ---- Memory ---- */
 
 void
@@ -100,10 +107,10 @@ dequeue (bt__job *k)
   return j;
 }
 
-/* Return the share of the remaining move of link J that is safe; *HIT is the kinematic obstacle in
-   the way plus 1, or 0.  */
+/* Return the safe share of the remaining move of link J; less than 1: *MET is the part in the way,
+   with the closest points where the link is stopped.  */
 static double
-cast_safe_link (bt__job *k, uint32_t j, uint32_t *hit)
+cast_safe_link (bt__job *k, uint32_t j, bt__near *met)
 {
   const bt__safe *s = k->safe;
   double best = 1;
@@ -129,7 +136,8 @@ cast_safe_link (bt__job *k, uint32_t j, uint32_t *hit)
       if (t < best)
         {
           best = t;
-          *hit = c.near->link;
+          *met = *c.near;
+          met->w = c.w;
         }
     }
   return best;
@@ -153,10 +161,12 @@ truncate_moves (bt__job *k)
     enqueue (k, j);
   while (k->waiting > 0)
     {
-      uint32_t j = dequeue (k), hit = 0;
-      double t = cast_safe_link (k, j, &hit);
+      bt__near met;
+      uint32_t j = dequeue (k);
+      double t = cast_safe_link (k, j, &met);
       if (t >= 1)
         continue;
+      uint32_t hit = met.link;
       cut++;
       if (++asked > (uint64_t)BT__SWEEPS_SOFT * k->links)
         t = 0;
@@ -286,4 +296,34 @@ bt__safe_step (bt__safe *safe, const bt__safe_config *config, const bt__scene *s
     }
   for (uint32_t i = 0; i < n; i++)
     report->held += bt__is_finite (want[i]) && bt__distance (x[i], want[i]) > 0;
+}
+
+double
+bt__safe_common (bt__safe *safe, const bt__scene *scene, bt__mover *still, double core,
+                 const bt_vec3 *x, uint32_t n, bt__hit *hit, bt__count *count)
+{
+  bt__job k = { .safe = safe,
+                .scene = scene,
+                .mover = still,
+                .x = (bt_vec3 *)x,
+                .core = bt__cast_core (core, STRICTER, x, n),
+                .count = count };
+  double share = 1;
+  *hit = (bt__hit){ 0 };
+  for (uint32_t j = 0; j + 1 < n; j++)
+    {
+      bt__near met;
+      safe->t[j] = safe->t[j + 1] = share;
+      double t = cast_safe_link (&k, j, &met);
+      share *= t;
+      if (t < 1)
+        *hit = (bt__hit){ j, met.link, hit->links + 1, met };
+    }
+  if (hit->mover)
+    {
+      const bt__frame *f = &still[hit->mover - 1].motion.from;
+      hit->near.w.point = bt__to_world (f, hit->near.w.point);
+      hit->near.w.normal = bt__out_of (f, hit->near.w.normal);
+    }
+  return share;
 }

@@ -1,8 +1,8 @@
 /* The safe step: of any proposed move of a tether as much as keeps every link clear.
 
    From a clear start no link's axis comes nearer than the core radius to an obstacle, whatever is
-   proposed: not finite, a thousand kilometres away, any number of steps.  The path it promises this
-   for is the one it takes: within a round every node moves on a straight line, all at once.
+   proposed: not finite, a thousand kilometres away, any number of steps.  The promise
+   is about the path taken: within a round every node moves on a straight line, all at once.
 
    Movers are scenes with a motion.  A mover that would touch is held back, with the links.
 
@@ -53,6 +53,15 @@ typedef struct bt__safe_report
   uint32_t overflows; /* links with more parts near than there is room for: they moved less */
 } bt__safe_report;
 
+/* What stopped a move of all nodes by one share.  */
+typedef struct bt__hit
+{
+  uint32_t link;
+  uint32_t mover; /* the mover's place plus 1; 0: the scene */
+  uint32_t links; /* that obstacles would have stopped; 0: nothing known to be in the way */
+  bt__near near; /* the part, and its closest points where the move stopped, in the world's frame */
+} bt__hit;
+
 typedef struct bt__safe bt__safe;
 
 /* Make the working memory for tethers of up to NODES nodes, ROOM parts near each link.
@@ -69,5 +78,10 @@ void bt__safe_forget (bt__safe *safe);
 void bt__safe_step (bt__safe *safe, const bt__safe_config *config, const bt__scene *scene,
                     const bt__switches *on, bt__mover *mover, uint32_t movers, bt_vec3 *x,
                     const bt_vec3 *want, uint32_t n, bt__safe_report *report, bt__count *count);
+
+/* After a bt__safe_step of one round from the N nodes X among SCENE and the movers STILL, at rest:
+   return the share of that move that all nodes can take at once; less than 1: *HIT says where.  */
+double bt__safe_common (bt__safe *safe, const bt__scene *scene, bt__mover *still, double core,
+                        const bt_vec3 *x, uint32_t n, bt__hit *hit, bt__count *count);
 
 #endif

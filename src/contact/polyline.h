@@ -1,10 +1,11 @@
 /* A tether as a polyline among obstacles, and the one way in which it moves.
 
    Node I has a place x[I] and an arc length u[I] from the anchor; no link is longer than its share
-   of arc by more than rounding.  A move goes from one such polyline to another, node by node and
-   all by the same share: what lies between two inextensible polylines is inextensible, so a move
-   that an obstacle cuts short stretches nothing and invents no tension.  What carries it out is the
-   safe step, and so from a clear start no link's axis comes nearer to an obstacle than the core.
+   of arc by more than rounding.  A move goes from a polyline to another,
+   node by node and all by the same share: between two inextensible polylines lie inextensible ones,
+   so a move cut short by an obstacle stretches nothing and invents no tension.  The safe step
+   carries the move out: from a clear start no link's axis comes nearer to an obstacle than the
+   core.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -54,15 +55,6 @@ typedef struct bt__way
 
 /* The scene of mover number MOVER less 1, or of what stands for 0; its switches to *ON.  */
 const bt__scene *bt__way_scene (const bt__way *way, uint32_t mover, const bt__switches **on);
-
-/* What stopped a move.  */
-typedef struct bt__hit
-{
-  uint32_t link;
-  uint32_t mover; /* the mover's place plus 1; 0: the scene */
-  uint32_t links; /* that obstacles would have stopped; 0: nothing known to be in the way */
-  bt__near near;  /* the part, and its witness where the move stopped, in the frame of the world */
-} bt__hit;
 
 /* The id of the obstacle that HIT is of; -1 if nothing is known to be in the way.  */
 int64_t bt__hit_object (const bt__way *way, const bt__hit *hit);

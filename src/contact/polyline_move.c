@@ -1,8 +1,8 @@
 /* How a polyline moves: all nodes by one share of their way, carried out by the safe step.
 
    A long way is taken in legs.  A leg is first tried as a whole on a copy.  If the safe step cuts
-   the leg, every link is cast along the common motion, all nodes take the least share, and the safe
-   step carries the shortened leg out: never is more committed than the safe step allowed.
+   the leg, all nodes take the least share that a link was left, and the safe step carries the
+   shortened leg out: never is more committed than the safe step allowed.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -17,7 +17,6 @@ enum
   HALVINGS = 10
 };
 
-#define STRICTER 4    /* times the margin of the safe step is that of the casts here */
 #define STRETCH 0.005 /* of its arc: a link is drawn longer by a nudge at most */
 #define NUDGE 0.1     /* a smaller share is not worth it */
 
@@ -73,100 +72,6 @@ arrives (const bt__way *way, const bt_vec3 *x, const bt_vec3 *to, uint32_t n)
   return report.held == 0;
 }
 
-typedef struct leg
-{
-  const bt__way *way;
-  const bt_vec3 *x, *to;
-  double core, share;
-  bt__hit *hit;
-} leg;
-
-static bt__link
-link_after (const leg *l, uint32_t j, double t)
-{
-  bt_vec3 da = bt__sub (l->to[j], l->x[j]), db = bt__sub (l->to[j + 1], l->x[j + 1]);
-  return (bt__link){ bt__axpy (l->x[j], t, da), bt__axpy (l->x[j + 1], t, db) };
-}
-
-/* Cast link J against LIST, the parts of kinematic obstacle M - 1, or of the scene, within reach.
- */
-static void
-cast_link (leg *l, uint32_t j, uint32_t m, const bt__nears *list)
-{
-  const bt__mover *mover = m ? l->way->work->still + m - 1 : NULL;
-  bt__link link = link_after (l, j, 0);
-  bt__cast c = { .scene = mover ? mover->body : l->way->around->scene,
-                 .motion = mover ? &mover->motion : NULL,
-                 .link = link,
-                 .core = l->core };
-  for (uint32_t i = 0; i < list->n && l->share > 0; i++)
-    {
-      c.near = list->at + i;
-      c.w = c.near->w;
-      c.d[0] = bt__scale (l->share, bt__sub (l->to[j], link.a));
-      c.d[1] = bt__scale (l->share, bt__sub (l->to[j + 1], link.b));
-      double t = bt__cast_run (&c, l->way->count);
-      if (t >= 1)
-        continue;
-      l->share *= t;
-      *l->hit = (bt__hit){ j, m, l->hit->links + (l->hit->link != j || l->hit->links == 0),
-                           list->at[i] };
-    }
-}
-
-static void
-meet_mover (leg *l, uint32_t j, uint32_t m)
-{
-  const bt__mover *mover = m ? l->way->work->still + m - 1 : NULL;
-  const bt__scene *scene = mover ? mover->body : l->way->around->scene;
-  bt__link link = link_after (l, j, 0);
-  double move = fmax (bt__distance (l->to[j], link.a), bt__distance (l->to[j + 1], link.b));
-  double need = l->share * move + l->core;
-  bt__nears list = { l->way->work->near, 0, BT__PARTS_MAX, INFINITY };
-  if (mover)
-    link = bt__link_into (&mover->motion.from, link);
-  if (scene->n > 0)
-    bt__scene_near (scene, mover ? mover->on : l->way->around->on, &link, j,
-                    need * (1 + STRICTER * BT__MARGIN), &list, l->way->count);
-  if (list.dropped < need)
-    l->share = fmin (l->share, fmax ((1 - BT__CAST_LEAST) * (list.dropped - l->core), 0) / move);
-  cast_link (l, j, m, &list);
-}
-
-/* The witness of the hit where the move stopped, in the frame of the world.  */
-static void
-look_at_hit (leg *l)
-{
-  bt__hit *h = l->hit;
-  bt__link link = link_after (l, h->link, l->share);
-  if (h->links == 0)
-    return;
-  if (!h->mover)
-    {
-      bt__scene_pair (l->way->around->scene, &h->near, &link, &h->near.w);
-      return;
-    }
-  const bt__mover *mover = l->way->work->still + h->mover - 1;
-  const bt__frame *f = &mover->motion.from;
-  bt__link local = bt__link_into (f, link);
-  bt__scene_pair (mover->body, &h->near, &local, &h->near.w);
-  h->near.w.point = bt__to_world (f, h->near.w.point);
-  h->near.w.normal = bt__out_of (f, h->near.w.normal);
-}
-
-/* How far everything can go along the leg to TO, by the casts.  */
-static double
-common_share (const bt__way *way, const bt_vec3 *x, const bt_vec3 *to, uint32_t n, bt__hit *hit)
-{
-  leg l = { way, x, to, bt__cast_core (way->core, STRICTER, x, n), 1, hit };
-  *hit = (bt__hit){ 0 };
-  for (uint32_t j = 0; j + 1 < n; j++)
-    for (uint32_t m = 0; m <= way->around->movers; m++)
-      meet_mover (&l, j, m);
-  look_at_hit (&l);
-  return l.share;
-}
-
 static void
 commit (const bt__way *way, bt_vec3 *x, const bt_vec3 *to, uint32_t n)
 {
@@ -192,7 +97,8 @@ take_leg (const bt__way *way, bt_vec3 *x, uint32_t n, bt__hit *hit)
       commit (way, x, to, n);
       return 1;
     }
-  double t = common_share (way, x, to, n, hit), done = 1;
+  double done = 1, t = bt__safe_common (way->safe, way->around->scene, way->work->still, way->core,
+                                        x, n, hit, way->count);
   for (int k = 0; k < HALVINGS && t * done > 0; k++)
     {
       interpolate (x, to, t, to, n);
