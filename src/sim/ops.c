@@ -227,6 +227,16 @@ apply_until_it_fits (bt_dive *dive, const op *o, int subject, const double *args
   return status;
 }
 
+bt_status
+bt__operate_on_copy (bt_dive *dive, bt_op which, int subject, const double *args, int n,
+                     bt_error *error)
+{
+  bt_status status = bt__dive_ready (dive, error);
+  if (status == BT_OK)
+    status = apply_until_it_fits (dive, &ops[which], subject, args, n, error);
+  return status == BT_OK ? bt__dive_become (dive, error) : status;
+}
+
 static bt_status
 try_op (bt_dive *dive, bt_op which, int subject, const double *args, int n, bt_error *error)
 {
@@ -239,10 +249,7 @@ try_op (bt_dive *dive, bt_op which, int subject, const double *args, int n, bt_e
     return status;
   if (o->order && bt__all_rest (dive, dive->now))
     return bt__give_order (&(bt__call){ dive, dive->now, subject, args, n, error }, o->apply);
-  status = bt__dive_ready (dive, error);
-  if (status == BT_OK)
-    status = apply_until_it_fits (dive, o, subject, args, n, error);
-  return status == BT_OK ? bt__dive_become (dive, error) : status;
+  return bt__operate_on_copy (dive, which, subject, args, n, error);
 }
 
 bt_status

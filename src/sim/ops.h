@@ -60,6 +60,11 @@ bt_status bt__op_collide (const bt__call *c);
 /* ops_alter.c */
 bt_status bt__op_alter (const bt__call *c);
 
+/* Do WHICH, whose arguments were checked as far as their number goes, on a copy of the state of
+   DIVE, which becomes the present if all of it is solved.  */
+bt_status bt__operate_on_copy (bt_dive *dive, bt_op which, int subject, const double *args, int n,
+                               bt_error *error);
+
 /* True if an operation that moves nothing would solve no tether of STATE anew; give the order of
    the call C, which APPLY writes after its last check, to the present state of such a dive
    (rest.c).  */
