@@ -100,30 +100,36 @@ enters (bt_vec3 p, bt_vec3 q, bt_vec3 half)
   return from < to;
 }
 
-/* P in the frame of the box that goes from A to B, after the share T: straight, with an even turn.
- */
-static bt_vec3
-in_hull (const bt__box *a, const bt__box *b, double t, bt_vec3 p)
+/* True if a line of N nodes, which went from X to Y, had after the share T a point within HALF of
+   the origin of the frame *BOX.  */
+static int
+is_in (const bt__frame *box, bt_vec3 half, const bt_vec3 *x, const bt_vec3 *y, int n, double t)
 {
-  bt__motion motion = bt__motion_between (&a->frame, &b->frame);
-  bt__frame f = bt__motion_at (&motion, t);
-  return bt__to_local (&f, p);
+  bt_vec3 last = bt__to_local (box, bt__axpy (x[0], t, bt__sub (y[0], x[0])));
+  for (int i = 1; i < n; i++)
+    {
+      bt_vec3 next = bt__to_local (box, bt__axpy (x[i], t, bt__sub (y[i], x[i])));
+      if (enters (last, next, half))
+        return 1;
+      last = next;
+    }
+  return 0;
 }
 
-/* True if part P of a line is in the box, or was at one of the moments from FIRST on.  */
+/* True if part P of a line is in the box that went from A to B, straight, with an even turn, or was
+   at one of the moments from FIRST on.  */
 static int
 was_inside (const sight *was, const sight *is, int p, const bt__box *a, const bt__box *b, int first)
 {
   bt_vec3 half = bt__sub (a->half, bt__vec (1e-6, 1e-6, 1e-6));
+  bt__motion motion = bt__motion_between (&a->frame, &b->frame);
   for (int m = first; m <= BETWEEN; m++)
-    for (int i = 0; i + 1 < is->n[p]; i++)
-      {
-        double t = (double)m / BETWEEN;
-        const bt_vec3 *y = is->x[p] + i, *x = m < BETWEEN ? was->x[p] + i : y;
-        if (enters (in_hull (a, b, t, bt__axpy (x[0], t, bt__sub (y[0], x[0]))),
-                    in_hull (a, b, t, bt__axpy (x[1], t, bt__sub (y[1], x[1]))), half))
-          return 1;
-      }
+    {
+      double t = (double)m / BETWEEN;
+      bt__frame box = bt__motion_at (&motion, t);
+      if (is_in (&box, half, m < BETWEEN ? was->x[p] : is->x[p], is->x[p], is->n[p], t))
+        return 1;
+    }
   return 0;
 }
 
