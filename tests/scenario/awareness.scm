@@ -412,6 +412,11 @@ place on a slack line; nobody is lifted by his tether."
 
 ;;; Hauling.
 
+(define (twice-round-a-pile friction)
+  (world (sea (depth 60)) (splice (pile 'p1 0 0)) (splice (dead-rov '(-6 6 -5)))
+         (tether (type fathom) (wet-weight 0) (friction friction) (from -6 -6 -5) (to minnow) (length 50)
+                 (via (4 -2 -5) (2 2 -5) (-2 2 -5) (-2 -2 -5) (2 -2 -5) (2 2 -5)) (model dynamic))))
+
 (define-scenario free-to-haul
   "A free line is hauled home, on the fork as in the dive; a line twice round a pile is not."
   (in (world (sea (depth 60)) (splice (pile 'p1 0 0)) (splice (dead-rov '(6 -6 -5)))
@@ -421,18 +426,14 @@ place on a slack line; nobody is lifted by his tether."
   (haul-in! 15 #:rate 0.4)
   (run 60)
   (expect (straight-distance) is (below 2))
-  (in (world (sea (depth 60)) (splice (pile 'p1 0 0)) (splice (dead-rov '(-6 6 -5)))
-             (tether (type fathom) (wet-weight 0) (friction 2) (from -6 -6 -5) (to minnow) (length 75)
-                     (via (6 -3 -5) (4 4 -5) (-4 4 -5) (-4 -4 -5) (4 -4 -5) (4 4 -5)) (model dynamic))))
+  (in (twice-round-a-pile 2))
   (expect (take (haul-prospect) 2) => '(no locked))
   (expect (free-to-haul? #:pull 100) => #f))
 
 (define-scenario (rule-and-haul friction pull)
   "Twice round a pile: where the rule is sure the haul agrees, where it is not it names what the haul then tells of."
   #:for ((friction 0.05 0.3 1 2) (pull 60 150))
-  (in (world (sea (depth 60)) (splice (pile 'p1 0 0)) (splice (dead-rov '(-6 6 -5)))
-             (tether (type fathom) (wet-weight 0) (friction friction) (from -6 -6 -5) (to minnow) (length 50)
-                     (via (4 -2 -5) (2 2 -5) (-2 2 -5) (-2 -2 -5) (2 -2 -5) (2 2 -5)) (model dynamic))))
+  (in (twice-round-a-pile friction))
   (define prospect (haul-prospect #:pull pull))
   (define trial (haul-trial #:pull pull))
   (define (told key) (assq-ref trial key))
