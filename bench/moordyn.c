@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "moordyn.h"
-#include "testbed/outside.h"
+#include "testbed/race.h"
 #include "testbed/reference.h"
 
 /* s: an explicit base-line step of 100 nodes on the machine of MoorDyn's table; a
@@ -21,11 +21,8 @@
 enum
 {
   LEVELS_MAX = 8,
-  EVERY = 2, /* of its stations: eleven */
-  DIVE_NODES = 64
+  EVERY = 2 /* of its stations: eleven */
 };
-
-#define DIVE_TENSION 0.02 /* its accuracy in a dive */
 
 /* What of either can be had within an error.  */
 typedef struct level
@@ -92,7 +89,7 @@ fly_ours (bench_table *table, const outside_flight *best, const outside_setting 
   char setting[48];
   double seconds = HUGE_VAL, once;
   for (int round = 0; round < rounds; round++)
-    if (outside_moordyn_ours (how, &flight, &once) == OUTSIDE_DONE)
+    if (race_by_chain (&races[RACE_LED], how, &flight, &once) == OUTSIDE_DONE)
       seconds = fmin (seconds, once);
   if (!isfinite (seconds))
     return;
@@ -107,34 +104,6 @@ fly_ours (bench_table *table, const outside_flight *best, const outside_setting 
         levels[k].ours = seconds;
         memcpy (levels[k].setting, setting, sizeof setting);
       }
-}
-
-/* Fly it in a dive, at its accuracy, as asked and in whole steps by turns.  */
-static void
-fly_dives (bench_table *table, const outside_flight *best, int rounds)
-{
-  static const double asked[] = { 0.2, 0.1, 0.05, 0.02, 0.01, 0.005 };
-  static outside_flight flight;
-  for (size_t a = 0; a < sizeof asked / sizeof *asked; a++)
-    {
-      double seconds[2] = { HUGE_VAL, HUGE_VAL }, error[2] = { 0, 0 };
-      for (int turn = 0; turn < 2 * rounds; turn++)
-        {
-          int whole = turn % 2;
-          outside_diving how
-              = { BT_MODEL_AUTO, DIVE_NODES, asked[a], whole ? INFINITY : DIVE_TENSION };
-          double once;
-          outside_moordyn_dive (&how, &flight, &once);
-          seconds[whole] = fmin (seconds[whole], once);
-          error[whole] = outside_apart (&flight, best, EVERY, NULL);
-        }
-      for (int whole = 0; whole < 2; whole++)
-        {
-          char setting[48];
-          snprintf (setting, sizeof setting, "accuracy=%g %s", asked[a], whole ? "whole" : "ahead");
-          row (table, "dive auto", setting, error[whole], seconds[whole]);
-        }
-    }
 }
 
 static void
@@ -174,6 +143,4 @@ bench_moordyn (bench_table *table, int every, int rounds, int quiet)
                   quiet, levels, count);
   if (quiet)
     say (table, levels, count);
-  else
-    fly_dives (table, &best, rounds);
 }

@@ -16,7 +16,7 @@
 
 #include "moordyn.h"
 #include "options.h"
-#include "testbed/outside.h"
+#include "testbed/race.h"
 #include "validation.h"
 
 /* ---- Rows and curves ---- */
@@ -112,9 +112,9 @@ fly_moordyn (validation *v)
   const char *name = "moordyn-c";
   double pull[3], apart[3];
   if (!validation_counts (v, name, outside_moordyn_theirs (&theirs), "moordyn/C.csv")
-      || outside_moordyn_ours (&(outside_setting){ 100, 50, 2, 1e-9 }, &coarse, NULL)
+      || race_by_chain (&races[RACE_LED], &(outside_setting){ 100, 50, 2, 1e-9 }, &coarse, NULL)
              != OUTSIDE_DONE
-      || outside_moordyn_ours (&(outside_setting){ 200, 100, 2, 1e-9 }, &fine, NULL)
+      || race_by_chain (&races[RACE_LED], &(outside_setting){ 200, 100, 2, 1e-9 }, &fine, NULL)
              != OUTSIDE_DONE)
     return;
   outside_extrapolate (&coarse, &fine, &best);

@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "testbed/calibration.h"
 #include "testbed/outside.h"
 #include "testbed/reference.h"
 #include "testbed/rig.h"
@@ -54,7 +53,7 @@ ended (rig *r)
 
 /* ---- MoorDyn ---- */
 
-const bt_tether_props outside_moordyn_line = {
+static const bt_tether_props moordyn_line = {
   .diameter = 0.01, .mass = 0.0805033117, .ea = 2e5, .ba = 50, .cdn = 1.2, .cdt = 0.02, .ca = 1
 };
 
@@ -77,7 +76,7 @@ outside_moordyn_rest (int which, int n, outside_shape *shape)
 {
   static outside_table data;
   rig r;
-  bt_tether_props line = outside_moordyn_line;
+  bt_tether_props line = moordyn_line;
   if (!outside_load (which ? "moordyn/B.csv" : "moordyn/A.csv", 5, &data))
     return OUTSIDE_NO_DATA;
   line.mass = which ? line.mass : 0.12;
@@ -127,38 +126,6 @@ outside_moordyn_led (double t)
   double u = fmin (t / 10, 1);
   double a = 10 * (1 - cos (0.1 * t)) * u * u * u * (10 - 15 * u + 6 * u * u);
   return bt__vec (70 + 0.8 * a, 0, -100 + 0.6 * a);
-}
-
-outside_result
-outside_moordyn_ours (const outside_setting *how, outside_flight *f, double *seconds)
-{
-  rig r;
-  double h = 0.5 / how->per, spent = 0;
-  open_moordyn (&r, outside_moordyn_line, how->intervals, bt__vec (35, 32, -100),
-                outside_moordyn_led (0));
-  let_flow (&r);
-  rig_settle (&r);
-  r.in.order = how->order;
-  r.in.tolerance = how->tolerance;
-  f->rows = OUTSIDE_HALVES;
-  for (int k = 0; r.good && k < OUTSIDE_HALVES; k++)
-    {
-      double start = bench_now ();
-      for (int i = 1; i <= how->per && k > 0; i++)
-        {
-          r.in.end[1].at = outside_moordyn_led (((k - 1) * how->per + i) * h);
-          rig_step (&r, h);
-        }
-      spent += bench_now () - start;
-      f->t[k] = 0.5 * k;
-      for (int i = 0; i < OUTSIDE_STATIONS; i++)
-        f->at[k][i] = bt__dynamic_point (r.d, 100.0 * i / (OUTSIDE_STATIONS - 1));
-      for (int e = 0; e < 2; e++)
-        f->pull[k][e] = bt__dynamic_node_tension (r.d, e ? (int)r.d->n : 0);
-    }
-  if (seconds)
-    *seconds = spent / (0.5 * (OUTSIDE_HALVES - 1));
-  return ended (&r);
 }
 
 void

@@ -77,27 +77,11 @@ typedef struct outside_setting
   double tolerance;   /* of a step; 0: the engine's own */
 } outside_setting;
 
-/* Read what MoorDyn gave for C; fly it ourselves.  *SECONDS, unless it is NULL, receives the CPU
-   seconds of a simulated one.  */
+/* Read what MoorDyn gave for C; race.h flies it.  */
 outside_result outside_moordyn_theirs (outside_flight *theirs);
-outside_result outside_moordyn_ours (const outside_setting *how, outside_flight *ours,
-                                     double *seconds);
 
-/* How C is to be flown in a dive, by a vehicle without mass that follows a track.  */
-typedef struct outside_diving
-{
-  int model;       /* BT_MODEL_DYNAMIC or BT_MODEL_AUTO */
-  int nodes;       /* intervals of its world */
-  double accuracy; /* m */
-  double tension_accuracy;
-} outside_diving;
-
-outside_result outside_moordyn_dive (const outside_diving *how, outside_flight *ours,
-                                     double *seconds);
-
-/* The far end of C, T seconds after the start; the line of C.  */
+/* The far end of C, T seconds after the start.  */
 bt_vec3 outside_moordyn_led (double t);
-extern const bt_tether_props outside_moordyn_line;
 
 /* The flight that COARSE and FINE, of second order with half the step and interval, tend to.  */
 void outside_extrapolate (const outside_flight *coarse, const outside_flight *fine,

@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-#include "testbed/outside.h"
+#include "testbed/race.h"
 #include "testbed/reference.h"
 
 /* The test is skipped when the data are not there, and fails when a step is refused.  */
@@ -59,8 +59,8 @@ test_moordyn_flight (void **state)
   static outside_flight theirs, coarse, fine, best;
   double miss[2], own[2], best_miss[2];
   must (outside_moordyn_theirs (&theirs));
-  must (outside_moordyn_ours (&(outside_setting){ 100, 50, 2, 1e-9 }, &coarse, NULL));
-  must (outside_moordyn_ours (&(outside_setting){ 200, 100, 2, 1e-9 }, &fine, NULL));
+  must (race_by_chain (&races[RACE_LED], &(outside_setting){ 100, 50, 2, 1e-9 }, &coarse, NULL));
+  must (race_by_chain (&races[RACE_LED], &(outside_setting){ 200, 100, 2, 1e-9 }, &fine, NULL));
   outside_extrapolate (&coarse, &fine, &best);
   miss[0] = outside_apart (&fine, &theirs, 1, miss + 1);
   own[0] = outside_apart (&fine, &best, 1, own + 1);
