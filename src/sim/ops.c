@@ -247,8 +247,9 @@ try_op (bt_dive *dive, bt_op which, int subject, const double *args, int n, bt_e
   status = check_call (dive, o, subject, args, n, error);
   if (status != BT_OK)
     return status;
-  if (o->order && bt__all_rest (dive, dive->now))
-    return bt__give_order (&(bt__call){ dive, dive->now, subject, args, n, error }, o->apply);
+  if (o->order)
+    return bt__give_order (&(bt__call){ dive, dive->now, subject, args, n, error }, which,
+                           o->apply);
   return bt__operate_on_copy (dive, which, subject, args, n, error);
 }
 

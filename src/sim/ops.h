@@ -65,11 +65,9 @@ bt_status bt__op_alter (const bt__call *c);
 bt_status bt__operate_on_copy (bt_dive *dive, bt_op which, int subject, const double *args, int n,
                                bt_error *error);
 
-/* True if an operation that moves nothing would solve no tether of STATE anew; give the order of
-   the call C, which APPLY writes after its last check, to the present state of such a dive
-   (rest.c).  */
-int bt__all_rest (const bt_dive *dive, bt__state *state);
-bt_status bt__give_order (const bt__call *c, bt_status (*apply) (const bt__call *c));
+/* Give the order WHICH of the call C, which APPLY writes after its last check: to the present state
+   where all tethers rest, else on a copy (rest.c).  */
+bt_status bt__give_order (const bt__call *c, bt_op which, bt_status (*apply) (const bt__call *c));
 
 /* Wake the lines made fast to the vehicle of the operation (ops.c).  */
 void bt__wake_lines (const bt__call *c);

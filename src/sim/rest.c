@@ -25,8 +25,9 @@ rests (const bt_dive *dive, bt__state *state, int i)
          && bt__form_step_of (wanted)->rests (dive, state, i, &ends);
 }
 
-int
-bt__all_rest (const bt_dive *dive, bt__state *state)
+/* True if an operation that moves nothing would solve no tether of STATE anew.  */
+static int
+all_rest (const bt_dive *dive, bt__state *state)
 {
   for (int i = 0; i < dive->model->n_tethers; i++)
     if (!rests (dive, state, i))
@@ -45,8 +46,8 @@ note_unmoved (bt_dive *dive, bt__state *state)
       dive->profile.shape_skips++;
 }
 
-bt_status
-bt__give_order (const bt__call *c, bt_status (*apply) (const bt__call *c))
+static bt_status
+write_order (const bt__call *c, bt_status (*apply) (const bt__call *c))
 {
   bt_status status = bt__watch_make_ready (c->dive, c->error);
   if (status == BT_OK)
@@ -56,4 +57,12 @@ bt__give_order (const bt__call *c, bt_status (*apply) (const bt__call *c))
   bt__wake_lines (c);
   note_unmoved (c->dive, c->state);
   return BT_OK;
+}
+
+bt_status
+bt__give_order (const bt__call *c, bt_op which, bt_status (*apply) (const bt__call *c))
+{
+  return all_rest (c->dive, c->state)
+             ? write_order (c, apply)
+             : bt__operate_on_copy (c->dive, which, c->subject, c->args, c->n, c->error);
 }
