@@ -8,6 +8,8 @@
 #include "collide/pair.h"
 #include "rivals.h"
 
+#define COARSEST 200.0 /* m: of facets as long as every tube, hexagonal ones */
+
 int
 jacket_new (jacket *j, uint32_t most)
 {
@@ -52,7 +54,8 @@ add_tube (jacket *s, bt_vec3 a, bt_vec3 b, double r, double size)
   bt_vec3 f = bt__unit_or (bt__cross (axis, e), e);
   uint32_t around = (uint32_t)fmax (6, ceil (2 * BT__PI * r / size));
   uint32_t along = (uint32_t)fmax (1, ceil (bt__norm (axis) / size)), base = s->vertices;
-  if (s->triangles + 2 * around * along > s->room)
+  s->wanted += 2.0 * around * along;
+  if (s->wanted > s->room)
     return;
   for (uint32_t j = 0; j <= along; j++)
     for (uint32_t i = 0; i < around; i++)
@@ -78,6 +81,7 @@ add_jacket (jacket *s, double size)
 {
   static const double side[4][2] = { { -30, -30 }, { 30, -30 }, { 30, 30 }, { -30, 30 } };
   s->vertices = s->triangles = 0;
+  s->wanted = 0;
   for (int k = 0; k < 4; k++)
     {
       const double *p = side[k], *q = side[(k + 1) % 4];
@@ -95,13 +99,12 @@ add_jacket (jacket *s, double size)
 void
 jacket_make (jacket *s, uint32_t wanted)
 {
-  double lo = 0.01, hi = 10;
+  double lo = 0.01, hi = COARSEST;
   for (int i = 0; i < 40; i++)
     {
       double size = sqrt (lo * hi);
       add_jacket (s, size);
-      /* Tubes that found no room make the count stop short of WANTED.  */
-      if (s->triangles >= wanted)
+      if (s->wanted >= wanted)
         lo = size;
       else
         hi = size;

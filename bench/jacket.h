@@ -20,13 +20,15 @@ typedef struct jacket
   bt_vec3 *v;
   uint32_t (*corner)[3];
   uint32_t vertices, triangles, room; /* room: of both */
+  double wanted;                      /* triangles of all tubes, those without room too */
 } jacket;
 
 /* Return nonzero if there was memory for MOST triangles.  */
 int jacket_new (jacket *j, uint32_t most);
 void jacket_free (jacket *j);
 
-/* Make J of at most WANTED triangles, and nearly so many, in facets of one size.  */
+/* Make J of fewer than WANTED triangles, and nearly so many, in facets of one size; but of no fewer
+   than the 768 of hexagonal tubes.  */
 void jacket_make (jacket *j, uint32_t wanted);
 
 /* Lay a tether: SHIFT, m, along what it touches.  */
