@@ -61,16 +61,23 @@ bt__to_idle_dive (const char *who, SCM object)
   bt_error error = { BT_ERR_DEF, "the procedure of a current cannot change the dive that asks it" };
   if (handle->asking)
     bt__raise (who, &error);
-  return bt__to_dive (object);
+  bt_dive *dive = bt__to_dive (object);
+  if (!handle->live)
+    bt__tell_states (handle, 2);
+  return dive;
 }
 
 /* Dives and forks come and go by the thousand, and their memory is not the collector's: whoever
    makes one frees what was dropped before, by scm_run_finalizers, and tells the collector the size.
    A guest of a live dive only tells: other threads make guests.  */
 void
-bt__tell_size (const bt_dive *dive)
+bt__tell_states (bt__handle *handle, int states)
 {
-  scm_gc_register_allocation (2 * bt_dive_state_size (dive));
+  if (states <= handle->states)
+    return;
+  scm_gc_register_allocation ((size_t)(states - handle->states)
+                              * bt_dive_state_size (handle->dive));
+  handle->states = states;
 }
 
 /* The collector scans the handle, and so finds its procedure: a mark function of our own would run
@@ -95,6 +102,7 @@ bt__new_handle (SCM function)
   handle->thrown = SCM_BOOL_F;
   handle->looked = 0;
   handle->told = 0;
+  handle->states = handle->spare_states = 0;
   for (int part = 0; part <= BT_PART_OBSTACLE; part++)
     handle->names[part] = SCM_BOOL_F;
   return handle;
@@ -106,11 +114,11 @@ bt__from_handle (bt__handle *handle)
   return scm_new_smob (dive_tag, (scm_t_bits)handle);
 }
 
-/* Free DIVE, or nothing; return about how many bytes that was.  */
+/* Free DIVE, of so many STATES, or nothing; return about how many bytes were freed.  */
 static size_t
-free_one (bt_dive *dive)
+free_one (bt_dive *dive, int states)
 {
-  size_t size = dive ? 2 * bt_dive_state_size (dive) : 0;
+  size_t size = dive ? (size_t)states * bt_dive_state_size (dive) : 0;
   bt_dive_free (dive);
   return size;
 }
@@ -138,7 +146,10 @@ free_dive (SCM object)
     bt_live_let_go (handle->live);
   else
     bt_live_stop (handle->live, NULL);
-  give_back (free_one (handle->flown) + free_one (handle->spare) + free_one (handle->dive));
+  /* The dive flown live has the states; questions meanwhile go to a copy.  */
+  give_back (free_one (handle->flown, handle->states)
+             + free_one (handle->spare, handle->spare_states)
+             + free_one (handle->dive, handle->flown ? 1 : handle->states));
   return 0;
 }
 
@@ -160,28 +171,36 @@ is_dive (SCM object)
 
 /* ---- Forks ---- */
 
-/* A fork of the dive of ORIGIN, in the memory of an earlier fork if ORIGIN has a spare.  */
-static bt_dive *
-make_fork (SCM origin)
+/* Let HANDLE have a fork of the dive of ORIGIN, a state in the memory of an earlier fork if ORIGIN
+   has a spare.  */
+static void
+make_fork (bt__handle *handle, SCM origin)
 {
-  bt_dive *dive = bt__to_dive (origin), *fork = bt__to_handle (origin)->spare;
+  bt__handle *from = bt__to_handle (origin);
+  bt_dive *dive = bt__to_dive (origin), *fork = from->spare;
   bt_error error;
-  bt__to_handle (origin)->spare = NULL;
+  from->spare = NULL;
+  handle->states = 0;
   if (fork && bt_dive_fork_again (fork, dive, &error) == BT_OK)
-    return fork;
+    {
+      handle->dive = fork;
+      handle->states = from->spare_states;
+      return;
+    }
   bt_dive_free (fork);
   scm_run_finalizers ();
   bt__check ("what-if", bt_dive_fork (dive, &fork, &error), &error);
-  bt__tell_size (fork);
-  return fork;
+  handle->dive = fork;
+  bt__tell_states (handle, 1);
 }
 
-/* Let HANDLE have DIVE, a fork.  */
+/* Let HANDLE have a fork of the dive of ORIGIN, which asks as HANDLE does.  */
 static void
-hold (bt__handle *handle, bt_dive *dive)
+hold_fork (bt__handle *handle, SCM origin)
 {
   int asks = scm_is_true (scm_procedure_p (handle->function));
-  handle->dive = dive;
+  make_fork (handle, origin);
+  bt_dive *dive = handle->dive;
   bt_dive_set_poll (dive, bt__ask_guile, handle);
   bt_dive_set_current_function (dive, asks ? bt__call_current : NULL, handle);
 }
@@ -193,7 +212,7 @@ fork_dive (SCM object)
   copy->journal = origin->journal;
   copy->serial = origin->serial;
   memcpy (copy->names, origin->names, sizeof copy->names);
-  hold (copy, make_fork (object));
+  hold_fork (copy, object);
   return bt__from_handle (copy);
 }
 
@@ -224,6 +243,7 @@ rest_fork (SCM object, SCM origin)
   fork->origin = origin;
   bt_dive_free (from->spare);
   from->spare = fork->dive;
+  from->spare_states = fork->states;
   fork->dive = NULL;
   return SCM_BOOL_T;
 }
@@ -233,12 +253,13 @@ wake (bt__handle *handle)
 {
   SCM bytes = handle->rest;
   bt_error error;
-  hold (handle, make_fork (handle->origin));
+  hold_fork (handle, handle->origin);
   handle->rest = SCM_BOOL_F;
   bt__check ("what-if",
              bt_dive_restore (handle->dive, SCM_BYTEVECTOR_CONTENTS (bytes),
                               SCM_BYTEVECTOR_LENGTH (bytes), &error),
              &error);
+  bt__tell_states (handle, 2);
   bt_dive_carry (handle->dive, handle->carried);
   handle->origin = SCM_BOOL_F;
   scm_remember_upto_here_1 (bytes);

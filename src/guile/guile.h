@@ -68,6 +68,8 @@ typedef struct bt__handle
   SCM thrown;       /* (KEY . ARGS) while the engine gives up what was interrupted, else #f */
   double looked;    /* s: when it was last looked whether something waits */
   int told;         /* true: how far the present call is was told */
+  int states; /* of DIVE, or FLOWN, known to the collector: 1 of a fork, 2 of a dive that moves */
+  int spare_states; /* of SPARE, likewise */
   SCM names[BT_PART_OBSTACLE
             + 1]; /* of the parts of each kind, once they were asked for; else #f */
 } bt__handle;
@@ -91,8 +93,9 @@ void bt__operate (const char *who, bt__handle *handle, bt_op op, int subject, co
 bt__handle *bt__new_handle (SCM function);
 SCM bt__from_handle (bt__handle *handle);
 bt__handle *bt__to_handle (SCM object);
-/* Tell the collector how much memory DIVE, just made, takes besides the collector's.  */
-void bt__tell_size (const bt_dive *dive);
+/* Tell the collector that the dive of HANDLE has so many STATES, which are not the collector's
+ * memory.  */
+void bt__tell_states (bt__handle *handle, int states);
 /* One at a time: what threads that share a live dive do to its handle.  */
 void bt__lock_sharing (void);
 void bt__unlock_sharing (void);

@@ -45,7 +45,7 @@ share_live (SCM object)
     }
   bt__unlock_sharing ();
   bt__check ("listen", status, &error);
-  bt__tell_size (guest->dive);
+  bt__tell_states (guest, 1);
   return bt__from_handle (guest);
 }
 

@@ -306,7 +306,7 @@ make_dive (SCM parts)
                                &handle->dive, &error);
   bt_model_release (model);
   bt__check_long (who, handle, status, &error);
-  bt__tell_size (handle->dive);
+  bt__tell_states (handle, 2);
   scm_remember_upto_here_1 (parts);
   return bt__from_handle (handle);
 }

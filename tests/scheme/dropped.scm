@@ -51,6 +51,22 @@ what is dropped is freed, so that memory grows by less than 30 MB."
            (cons 'load-dive (lambda () (load-dive file)))
            (cons 'alter! (lambda () (alter! 'line #:cdn 1.4)))))))
 
+(define (collections n thunk)
+  "How often memory is collected as THUNK is called N times."
+  (gc)
+  (let ((before (assq-ref (gc-stats) 'gc-times)))
+    (do ((i 0 (+ i 1))) ((= i n)) (thunk))
+    (- (assq-ref (gc-stats) 'gc-times) before)))
+
+(define-scenario a-fork-counts-as-the-state-that-it-is
+  "The collector hears of one state for a fork that is asked, and of another once the fork is flown: told of two for each,
+forks that are asked had memory collected as often as those that are flown."
+  (enter! (with scene (line (drum 4000) (accuracy 0.001))))
+  (let* ((asked (collections 1500 (lambda () (with-dive (fork-dive (current-dive)) (now)))))
+         (flown (collections 1500 flown-fork)))
+    (expect flown is (above 5))
+    (expect asked is (below (* 3/4 flown)))))
+
 (define (flown-fork)
   (let ((fork (fork-dive (current-dive))))
     (with-dive fork (run 1/60))
