@@ -49,7 +49,7 @@ no such thing or a field is wrong."
   (when (inner-head? (car datum))
     (misplaced 'world (car datum)))
   (unless (part-head? (car datum))
-    (unknown-name 'world "a world" (car datum) (part-heads) "part"))
+    (unknown-clause 'world "a world" (car datum) (part-heads) "part"))
   (if (eq? 'group (car datum))
       (data->group (cdr datum))
       (part-of (car datum) (read-fields 'world (car datum) (cdr datum)))))

@@ -51,6 +51,29 @@
     (if (null? slips) word (list-ref slips (quotient (length slips) 2)))))
 
 
+;;; What belongs elsewhere.
+
+(define misplaced
+  ;; alist, a part -> what the answer says of where it belongs
+  '(((sea (depth 60) (seabed 40)) . "(seabed ...)")
+    ((sea (bottom 40)) . "(seabed)")
+    ((sea (floor -40)) . "(depth D)")
+    ((seabed 40) . "(depth 40)")
+    ((seabed (depth 40)) . "(sea (depth ...))")
+    ((depth 60) . "(sea (depth ...))")
+    ((rov (clump (at 1) (mass 1))) . "inside a tether")
+    ((sea (wet-weight 1)) . "(tether (wet-weight ...))")
+    ((sea (dpeth 40)) . "did you mean `depth'")))
+
+(define-scenario what-is-written-in-the-wrong-place
+  "A part inside another part, a field of another kind of part, a depth that is given to the bed: the answer says where it
+belongs."
+  (expect (remove (lambda (entry)
+                    (string-contains (or (answer-to `(world ,(car entry) (rov (at 0 0 -5)))) "") (cdr entry)))
+                  misplaced)
+          => '()))
+
+
 ;;; Names.
 
 (define-scenario a-name-without-its-quote

@@ -22,6 +22,7 @@
             global-value
             read-fields
             read-clause
+            unknown-clause
             missing-field))
 
 
@@ -222,7 +223,40 @@
 ;;; When the data are there.
 
 (define (wrong-clause proc head clause)
-  (bight-raise 'def proc "a field of ~a is written (NAME VALUE), not ~s" (head-title head) clause))
+  (bight-raise 'def proc "a field of ~a is written (NAME VALUE), not ~s~a" (head-title head) clause
+               (if (and (eq? head 'seabed) (real? clause))
+                   (simple-format #f "; the seabed lies at the depth of the sea, (sea (depth ~a))" (abs clause))
+                   "")))
+
+;; What people call a bed, that no field and no part is called.
+(define words-for-a-bed '(bottom bed floor ground seafloor sea-bed sea-floor))
+
+(define (owners name)
+  ;; The heads of the parts that have a field NAME.
+  (filter (lambda (head) (head-field head name)) (part-heads)))
+
+(define (whereabouts name)
+  "Return where NAME is written that is not where it belongs: of a part that stands in the world by itself, of what
+goes inside another part, or of a field that one kind of part alone has; #f when nothing is known of it."
+  (let ((owners (owners name)))
+    (cond ((memq name words-for-a-bed)
+           "the bottom is a part of the world, (seabed), and lies at the depth of the sea, (sea (depth D))")
+          ((part-head? name)
+           (simple-format #f "~a is a part of the world, beside the others: (world ... (~a ...))" (head-title name) name))
+          ((inner-head? name)
+           (simple-format #f "~a goes inside ~a" (head-title name) (head-title (outer-head name))))
+          ((and (pair? owners) (null? (cdr owners)))
+           (simple-format #f "`~a' belongs to ~a: (~a (~a ...))" name (head-title (car owners)) (car owners) name))
+          (else #f))))
+
+(define (unknown-clause proc whose name candidates . noun)
+  "Raise the &bight-error from PROC for WHOSE, a string such as \"the sea\", that has no NAME but CANDIDATES: it tells
+where NAME belongs, or else what was meant.  NOUN as for `unknown-name'."
+  (let ((where (whereabouts name)))
+    (if (and where (not (memq name candidates)))
+        (bight-raise 'name proc (string-append "~a has no~a `~a'; " where) whose
+                     (if (null? noun) "" (string-append " " (car noun))) name)
+        (apply unknown-name proc whose name candidates noun))))
 
 (define (wrong-arguments proc head name values)
   (let ((field (head-field head name)))
@@ -272,7 +306,7 @@ from PROC when HEAD has no such field, the field no such value, or the thing not
             (cond ((head-field head name)
                    (check-field proc head name (clause-value proc head name values)))
                   ((memq name (inner-heads head)) (read-inner proc name values))
-                  (else (unknown-name proc (head-title head) name (head-names head))))))))
+                  (else (unknown-clause proc (head-title head) name (head-names head))))))))
 
 (define (read-fields proc head clauses)
   "Return the alist of canonical fields from CLAUSES, a list of data (FIELD VALUE ...) of a part with
