@@ -262,8 +262,22 @@ typedef struct bt_head
   int obstacle; /* its bt_obstacle_kind, or -1: it is none */
 } bt_head;
 
+/* The most that a field of a tether may be, besides the end of the field's range: FACTOR times the
+   field OF to the POWER, or FLOOR if FLOOR is more.  An infinite field is not bounded.  */
+typedef struct bt_bound
+{
+  const char *field, *of;
+  double factor;
+  int power;
+  double floor;
+  const char *why; /* a phrase: what has so much */
+} bt_bound;
+
 /* Return the kinds of parts, *N of them.  */
 const bt_head *bt_heads (size_t *n);
+
+/* Return the bounds of the fields of tethers, *N of them: of the field OF before that of FIELD.  */
+const bt_bound *bt_bounds (size_t *n);
 
 /* Return the head or field called NAME, or NULL.  */
 const bt_head *bt_head_find (const char *name);

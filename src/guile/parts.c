@@ -116,6 +116,26 @@ part_fields (SCM symbol)
   return list;
 }
 
+/* A list of #(field of factor power floor).  */
+static SCM
+tether_bounds (void)
+{
+  size_t n;
+  const bt_bound *all = bt_bounds (&n);
+  SCM list = SCM_EOL;
+  while (n-- > 0)
+    {
+      SCM v = scm_c_make_vector (5, SCM_BOOL_F);
+      scm_c_vector_set_x (v, 0, scm_from_utf8_symbol (all[n].field));
+      scm_c_vector_set_x (v, 1, scm_from_utf8_symbol (all[n].of));
+      scm_c_vector_set_x (v, 2, scm_from_double (all[n].factor));
+      scm_c_vector_set_x (v, 3, scm_from_int (all[n].power));
+      scm_c_vector_set_x (v, 4, scm_from_double (all[n].floor));
+      list = scm_cons (v, list);
+    }
+  return list;
+}
+
 /* ---- A world from a list ---- */
 
 /* What a list of parts is read into; its memory is the collector's.  */
@@ -330,6 +350,10 @@ bt__define_parts (void)
       "Return the fields of parts of kind HEAD, a list of vectors #(name kind unit text default "
       "min "
       "max above-min? words specials live?)." },
+    { "%tether-bounds", 0, 0, (scm_t_subr)tether_bounds,
+      "Return what fields of tethers may be at most for another field, a list of vectors #(field "
+      "of "
+      "factor power floor)." },
     { "%make-dive", 1, 0, (scm_t_subr)make_dive,
       "Start a dive from PARTS, a list of (HEAD NAME ((FIELD . VALUE) ...))." },
   };

@@ -12,6 +12,7 @@
 #include <bight/model.h>
 
 #include "base/error.h"
+#include "math/vec.h"
 
 #define COUNT_OF(array) (sizeof (array) / sizeof *(array))
 
@@ -193,7 +194,7 @@ static const bt_field tether_fields[] = {
         "internal damping; no more than `ea' for a second, but 1e5 in any case"),
   PROP (bending_damping, "bending-damping", "N m2 s", 0, 0, 1e9, 0, NULL,
         "internal damping of bending, of the moving line; no more than a hundredth of what `ei' "
-        "may be"),
+        "may be, nor than `ei' for a second, but 1 in any case"),
   PROP (ei_stuck, "ei-stuck", "N m2", 0, 0, 1e9, 0, NULL,
         "bending stiffness of the moving line while the layers of its armour stick to each other, "
         "more than `ei', which is that of layers that slip; 0: as `ei'"),
@@ -378,6 +379,42 @@ static const bt_head heads[] = {
   OBSTACLE ("mesh", "triangles from a file: a surface with two sides", mesh_fields,
             BT_OBSTACLE_MESH),
 };
+
+/* ---- Bounds that follow from other fields ---- */
+
+#define STIFFEST 1e16 /* Pa: ten thousand times diamond, so that a line may be all but rigid */
+#define WITHIN 0.01   /* s */
+#define CREEPS                                                                                     \
+  1.0            /* s: the longest in which a line gives way to its load or its bend, unless ... */
+#define SOFT 1e5 /* N s: ... it damps no more than this, ... */
+#define SUPPLE 1.0 /* N m2 s: ... or its bending no more than this */
+
+#define AREA (BT__PI / 4)
+#define OF_AREA (BT__PI / 64)
+#define ROD "a solid rod as thick, ten thousand times as stiff as diamond, has no more"
+
+/* A line stiffer than a rod of STIFFEST, of next to no weight, moves by more energy than the
+   solver's rounding can hold.  The length that a step leaves undone, times `ba' over the step, is a
+   tension: a line may give way as slowly as nobody sees, but not in hours what a step stretches the
+   line by. A turn is a difference of chords, so an interval strained more than the next one counts
+   as turned: `bending-damping' then keeps the strain where the strain is.  */
+static const bt_bound bounds[] = {
+  { "ea", "diameter", STIFFEST *AREA, 2, 0, ROD },
+  { "ei", "diameter", STIFFEST *OF_AREA, 4, 0, ROD },
+  { "ei-stuck", "diameter", STIFFEST *OF_AREA, 4, 0, ROD },
+  { "gj", "diameter", STIFFEST *OF_AREA, 4, 0, ROD },
+  { "ba", "ea", CREEPS, 1, SOFT, "with which it gives way to a load within a second" },
+  { "bending-damping", "diameter", WITHIN *STIFFEST *OF_AREA, 4, 0, ROD },
+  { "bending-damping", "ei", CREEPS, 1, SUPPLE,
+    "with which it gives way to a bend within a second" },
+};
+
+const bt_bound *
+bt_bounds (size_t *n)
+{
+  *n = COUNT_OF (bounds);
+  return bounds;
+}
 
 const bt_head *
 bt_heads (size_t *n)

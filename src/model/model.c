@@ -158,50 +158,34 @@ check_lumps (const bt_tether_def *tether, bt_error *error)
 
 #define SET_TURN 1.0 /* radians: the most that a set may turn a line within one interval */
 
-#define STIFFEST 1e16 /* Pa: ten thousand times diamond, so that a line may be all but rigid */
-#define WITHIN 0.01   /* s */
-
-/* No line is stiffer than a solid rod of its diameter and of STIFFEST, nor damps its bending more
-   than such a rod that gives way within WITHIN seconds: what bends beyond that, and weighs next to
-   nothing, moves by more energy than the solver's rounding can hold.  */
-static bt_status
-check_stiffness (const bt_tether_props *p, const bt_tether_def *tether, bt_error *error)
+static double
+number_of (const bt_tether_def *def, const bt_field *field)
 {
-  double d = p->diameter, bends = STIFFEST * BT__PI / 64 * pow (d, 4);
-  const struct
-  {
-    const char *name, *unit;
-    double is, most;
-  } all[] = { { "ea", "N", isinf (p->ea) ? 0 : p->ea, STIFFEST * BT__PI / 4 * d * d },
-              { "ei", "N m2", p->ei, bends },
-              { "ei-stuck", "N m2", p->ei_stuck, bends },
-              { "gj", "N m2", p->gj, bends },
-              { "bending-damping", "N m2 s", p->bending_damping, bends * WITHIN } };
-  for (size_t k = 0; k < sizeof all / sizeof *all; k++)
-    if (!(all[k].is <= all[k].most))
-      return bt__fail (
-          error, BT_ERR_DOMAIN,
-          "`%s' of tether `%s' is %g %s; a solid rod as thick, %g mm, and ten thousand "
-          "times as stiff as diamond has %.3g, the most there is",
-          all[k].name, tether->name, all[k].is, all[k].unit, 1e3 * d, all[k].most);
-  return BT_OK;
+  double value;
+  memcpy (&value, (const char *)def + field->offset, sizeof value);
+  return value;
 }
 
-#define CREEPS 1.0 /* s: the longest in which a line gives way to its load, unless ... */
-#define SOFT 1e5   /* N s: ... it damps no more than this */
-
-/* What a step leaves undone of a line's length, times `ba' over the step, is a tension: a line may
-   give way as slowly as nobody sees, but not in hours what it stretches by in a step.  */
+/* Refuse DEF, called NAME, if a field is more than another lets it be.  */
 static bt_status
-check_damping (const bt_tether_props *p, const bt_tether_def *tether, bt_error *error)
+check_bounds (const bt_tether_def *def, const char *name, bt_error *error)
 {
-  double most = fmax (CREEPS * p->ea, SOFT);
-  if (p->ba <= most)
-    return BT_OK;
-  return bt__fail (error, BT_ERR_DOMAIN,
-                   "`ba' of tether `%s' is %g N s; with an `ea' of %g N the most there is is %g, "
-                   "with which it gives way to a load in %g s",
-                   tether->name, p->ba, p->ea, most, most / p->ea);
+  const bt_head *head = bt_head_find ("tether");
+  size_t n;
+  const bt_bound *all = bt_bounds (&n);
+  for (const bt_bound *b = all; b < all + n; b++)
+    {
+      const bt_field *field = bt_field_find (head, b->field), *of = bt_field_find (head, b->of);
+      double is = number_of (def, field), other = number_of (def, of),
+             most = fmax (b->factor * pow (other, b->power), b->floor);
+      if (isfinite (is) && !(is <= most))
+        return bt__fail (error, BT_ERR_DOMAIN,
+                         "`%s' of tether `%s' is %g %s; with %s `%s' of %g %s the most there is is "
+                         "%.3g: %s",
+                         b->field, name, is, field->unit, strchr ("aei", *b->of) ? "an" : "a",
+                         b->of, other, of->unit, most, b->why);
+    }
+  return BT_OK;
 }
 
 static bt_status
@@ -225,9 +209,8 @@ check_layers (const bt_tether_props *p, const bt_tether_def *tether, bt_error *e
 bt_status
 bt__bears_bends (const bt_tether_props *p, const bt_tether_def *tether, bt_error *error)
 {
-  bt_status status = check_stiffness (p, tether, error);
-  if (status == BT_OK)
-    status = check_damping (p, tether, error);
+  bt_tether_def def = { .props = *p };
+  bt_status status = check_bounds (&def, tether->name, error);
   if (status == BT_OK)
     status = check_layers (p, tether, error);
   if (status != BT_OK)

@@ -52,6 +52,16 @@
                       heads)
           => '()))
 
+(define-scenario what-is-drawn-keeps-to-the-bounds
+  "No random line is refused for what another of its fields lets it be: the bounds are those of the schema."
+  (define dice (seed->random-state 5))
+  (define worlds (any-world #:wild? #t #:obstacles 0 #:vehicles 1))
+  (define (bound-broken world)
+    (let ((outcome (fly-in-child (list world))))
+      (and (eq? 'refused (car outcome))
+           (string-contains (second outcome) "the most there is"))))
+  (expect (filter-map (lambda (i) (bound-broken (expression worlds (draw worlds dice)))) (iota 60)) => '()))
+
 (define-scenario every-kind-of-order-is-given
   "Each verb that changes a dive is ordered sooner or later, and nothing but what the language has."
   (define dice (seed->random-state 4))
@@ -158,6 +168,17 @@
   (expect (finding? (fly-in-child (list world '(run 1)))) => #f)
   (expect (fly-in-child (list world '(kill (getpid) SIGSEGV))) => (list 'died SIGSEGV))
   (expect (car (fly-in-child (list world '(let loop () (loop))) #:seconds 1)) => 'died))
+
+(define-scenario what-is-tried-says-nothing
+  "What the worlds of random dives warn of is not shown: one that is made simpler is flown by the hundred."
+  (define file (tmpfile))
+  (setvbuf file 'none)
+  (parameterize ((current-warning-port file))
+    (expect (car (fly-in-child '((world (seabed (grid (lambda (x y) -30) (from 100 100) (to 110 110) (spacing 5)))
+                                        (rov (named r1) (at 0 0 -5)))
+                                 (run 1/60))))
+            => 'flown))
+  (expect (ftell file) => 0))
 
 (define-scenario (laid-under-more-than-it-bears weight)
   "A line is laid whole whatever its own weight, or lift, and parts in the first step that finds it too much."

@@ -40,6 +40,12 @@
             field-max
             field-above-min?
 
+            tether-bounds
+            bound?
+            bound-field
+            bound-of
+            bound-most
+
             make-reference
             reference?
             reference-name
@@ -251,6 +257,31 @@ a part must give all that have no default."
   (if (inner-head? head)
       (map field-name (remove field-default (head-fields head)))
       (or (assq-ref needed head) '())))
+
+
+;;; Bounds that follow from other fields.
+
+(define-record <bound>
+  (make-bound field of factor power floor)
+  bound?
+  (field bound-field)                   ; symbol
+  (of bound-of)                         ; symbol: the field it follows from
+  (factor bound-factor)
+  (power bound-power)
+  (floor bound-floor))
+
+(document
+ (bound? "Return true if OBJECT is a bound of a field that follows from another field.")
+ (bound-field "Return the name of the field that BOUND is about.")
+ (bound-of "Return the name of the field that BOUND follows from."))
+
+(define tether-bounds
+  ;; What fields of a tether may be at most besides the ends of their ranges, those that others follow from first.
+  (map (lambda (v) (apply make-bound (vector->list v))) (%tether-bounds)))
+
+(define (bound-most bound value)
+  "Return the most that the field of BOUND may be where VALUE is that of the field that it follows from."
+  (max (bound-floor bound) (* (bound-factor bound) (expt value (bound-power bound)))))
 
 
 ;;; References: a bare symbol where a point may stand is a part's name first, else a variable.

@@ -90,7 +90,7 @@
              (limit! 'as most-memory)
              (catch #t
                (lambda ()
-                 (let ((answer (with-output-to-string* thunk)))
+                 (let ((answer (quietly thunk)))
                    (write answer (cdr ends))
                    (force-output (cdr ends))))
                (lambda (key . arguments)
@@ -104,11 +104,11 @@
                (let ((status (cdr (waitpid process))))
                  (if (pair? answer) answer (list 'died (or (status:term-sig status) 0))))))))))
 
-(define (with-output-to-string* thunk)
-  ;; What THUNK returns; what it prints is lost.
-  (let ((answer #f))
-    (with-output-to-string (lambda () (set! answer (thunk))))
-    answer))
+(define (quietly thunk)
+  ;; What THUNK returns; what it prints and what it warns of is lost.
+  (let ((nowhere (%make-void-port "w")))
+    (parameterize ((current-output-port nowhere) (current-warning-port nowhere))
+      (thunk))))
 
 (define* (fly-in-child dive #:key (seconds most-seconds))
   "Fly DIVE, (WORLD ORDER ...), in a process that may take so many SECONDS of processor time.  Return (refused

@@ -135,23 +135,27 @@ numbers come from all that is allowed."
       tether
       `(,@(without-field tether 'ei) (ei 0.05))))
 
-(define (no-stiffer-than-a-rod tether)
-  ;; TETHER; what it has of stiffness and damping is no more than a line of its diameter can have.
-  (let* ((diameter (number-of tether 'diameter)) (diameter (if (zero? diameter) 0.0076 diameter))
-         (ea (number-of tether 'ea)))
-    (define (most-of name)
-      (case name
-        ((ea) (* 7.8e15 (expt diameter 2)))
-        ((ei ei-stuck gj) (* 4.9e14 (expt diameter 4)))
-        ((ba) (if (real? ea) (max 1e5 (min ea (most-of 'ea))) 1e9))
-        ((bending-damping) (* 4.9e12 (expt diameter 4)))
-        (else #f)))
-    (map (lambda (clause)
-           (let ((most (and (pair? clause) (most-of (car clause)))))
-             (if (and most (real? (cadr clause)) (> (cadr clause) most))
-                 (list (car clause) most)
-                 clause)))
-         tether)))
+(define (value-of tether name)
+  ;; The number that NAME of TETHER is, given, by its type or by default; a word as the number it stands for.
+  (let* ((type (and=> (assq 'type (cdr tether)) cadr)) (field (head-field 'tether name))
+         (value (cond ((assq name (cdr tether)) => cadr)
+                      ((and type (assq-ref (part-type-fields (find-part-type 'any-world 'tether type)) name)))
+                      (else (field-default field)))))
+    (or (assq-ref (field-specials field) value) value)))
+
+(define (at-most tether name most)
+  ;; TETHER, of which the number NAME is no more than MOST.
+  (let ((value (value-of tether name)))
+    (if (and (real? value) (finite? value) (> value most))
+        `(,@(without-field tether name) (,name ,most))
+        tether)))
+
+(define (within-bounds tether)
+  ;; TETHER; what follows from its other fields is no more than it can be.
+  (fold (lambda (bound tether)
+          (at-most tether (bound-field bound) (bound-most bound (value-of tether (bound-of bound)))))
+        tether
+        tether-bounds))
 
 (define (armoured tether)
   ;; TETHER; if its layers stick, softer while they slip.
@@ -174,7 +178,7 @@ numbers come from all that is allowed."
   `(world ,sea ,@bed
           ,@(name-all obstacles "o")
           ,@(name-all vehicles "r")
-          ,@(map (lambda (tether) (with-what-things-need (no-stiffer-than-a-rod (name-ends tether (length vehicles)))))
+          ,@(map (lambda (tether) (within-bounds (with-what-things-need (name-ends tether (length vehicles)))))
                  (name-all tethers "t"))))
 
 (define (some-parts heads least most wild?)
