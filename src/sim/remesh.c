@@ -142,6 +142,19 @@ sample_tensions (bt_dive *dive, const bt__line *line, int n)
     sample (dive, line, n);
 }
 
+/* True if no obstacle, no line, and no second part of a parted tether is on the way of tether I to
+   N intervals.  */
+static int
+has_way (bt_dive *dive, bt__state *state, int i, int n)
+{
+  if (bt__has_obstacles (dive))
+    return bt__may_remesh (dive, state, i, n);
+  double way = bt__way_of_remesh (dive, state, i, n);
+  return bt__has_room_about (dive, state, i, way)
+         && (!bt__dive_tether (dive, state, i)->parted
+             || way < bt__spare_among_lines (dive, state, i));
+}
+
 static bt_status
 lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
 {
@@ -156,9 +169,7 @@ lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
   sample_tensions (dive, &line, n);
   if (keeps)
     bt__slipped_along (chain, n, dive->corner);
-  if (bt__has_obstacles (dive)
-          ? !bt__may_remesh (dive, state, i, n)
-          : !bt__has_room_about (dive, state, i, bt__way_of_remesh (dive, state, i, n)))
+  if (!has_way (dive, state, i, n))
     return BT_OK;
   status = bt__dynamic_init (chain, bt__chain_room (&dive->model->tethers[i]), n, dive->polyline,
                              n + 1, length, tether->props.ea, error);
@@ -203,35 +214,47 @@ bt__is_look_due (const bt_dive *dive, bt__state *state, int i, double bend)
          || (bend > SHARPER * last && bend > SHARPER * harmless_bend (dive, state, i));
 }
 
-/* Note a look at tether I, its tightest bend BEND.  */
+/* Note a look at tether I: the tightest bend BEND, and MOST, an upper estimate of the error of the
+   nodes.  */
 static void
-note_look (const bt_dive *dive, bt__state *state, int i, double bend)
+note_look (const bt_dive *dive, bt__state *state, int i, double bend, double most)
 {
   bt__look *look = &bt__dive_tether (dive, state, i)->look;
   double gone = fmax (0, (double)(state->step - look->step)) * BT__TIME_STEP,
-         error = BT__COMMON_ERROR * bt__chain_error (bt__dive_chain (dive, state, i, 0)),
+         error = BT__COMMON_ERROR * most,
          left = fmax (0, look->error - error) * exp (-FORGETS * gone);
   *look = (bt__look){ .step = state->step, .error = error + left, .bend = bend };
 }
 
-bt_status
-bt__look_at_nodes (bt_dive *dive, bt__state *state, int i, double bend, bt_error *error)
+/* Give tether I as many intervals as the accuracy asks for, unless contacts forbid a change; MOST
+   is the upper estimate of the error with the present nodes.  */
+static bt_status
+remesh (bt_dive *dive, bt__state *state, int i, double most, bt_error *error)
 {
-  note_look (dive, state, i, bend);
-  return bt__remesh_chain (dive, state, i, error);
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  int n = (int)chain->n, room = bt__adaptive_room (dive, i);
+  int m = wanted (n, most, bt__accuracy (tether), room);
+  if (tether->parted) /* hauled home it is short */
+    m = (int)fmax (1, fmin (m, bt__dynamic_length (chain) / SHORTEST));
+  if (bt__has_obstacles (dive))
+    m = multiple (n, m, room);
+  return m == n || chain->rounded || is_near_itself (dive, state, i, chain)
+                 || bt__is_by_a_hull (dive, i)
+             ? BT_OK
+             : lay_anew (dive, state, i, m, error);
 }
 
 bt_status
 bt__remesh_chain (bt_dive *dive, bt__state *state, int i, bt_error *error)
 {
-  const bt__tether *tether = bt__dive_tether (dive, state, i);
-  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
-  int n = (int)chain->n, room = bt__adaptive_room (dive, i);
-  int m = wanted (n, bt__chain_error (chain), bt__accuracy (tether), room);
-  if (bt__has_obstacles (dive))
-    m = multiple (n, m, room);
-  return tether->parted || m == n || chain->rounded || is_near_itself (dive, state, i, chain)
-                 || bt__is_by_a_hull (dive, i)
-             ? BT_OK
-             : lay_anew (dive, state, i, m, error);
+  return remesh (dive, state, i, bt__chain_error (bt__dive_chain (dive, state, i, 0)), error);
+}
+
+bt_status
+bt__look_at_nodes (bt_dive *dive, bt__state *state, int i, double bend, bt_error *error)
+{
+  double most = bt__chain_error (bt__dive_chain (dive, state, i, 0));
+  note_look (dive, state, i, bend, most);
+  return remesh (dive, state, i, most, error);
 }

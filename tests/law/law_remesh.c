@@ -12,6 +12,7 @@
 
 #include "math/vec.h"
 #include "testbed/profile.h"
+#include "testbed/race.h"
 #include "testbed/scene.h"
 
 enum
@@ -257,6 +258,27 @@ test_what_few_nodes_did_is_told (void **state)
     fail_msg ("%d of %d estimates are off by more than 3", misjudged, TAUT_LINES * LOOKS);
 }
 
+/* A line cut at the far end and let go level folds about the anchor, as accurately as asked.  200
+   equal intervals are 3 mm off.  */
+static void
+test_a_cut_line_keeps_to_what_is_asked (void **state)
+{
+  static const double asked[] = { 0.05, 0.02 };
+  static outside_flight fine, flight;
+  const race *r = &races[RACE_LET_GO];
+  (void)state;
+  assert_int_equal (race_by_chain (r, &(outside_setting){ 200, 60, 2, 0 }, &fine, NULL),
+                    OUTSIDE_DONE);
+  for (size_t k = 0; k < sizeof asked / sizeof *asked; k++)
+    {
+      double seconds;
+      race_in_dive (r, &(race_dive){ BT_MODEL_AUTO, 64, asked[k], 0.02 }, &flight, &seconds);
+      double off = outside_apart (&flight, &fine, 1, NULL);
+      if (!(off <= asked[k]))
+        fail_msg ("%g m were asked, %g m is a cut line off", asked[k], off);
+    }
+}
+
 int
 main (void)
 {
@@ -264,6 +286,7 @@ main (void)
     cmocka_unit_test (test_at_rest),
     cmocka_unit_test (test_in_motion),
     cmocka_unit_test (test_what_few_nodes_did_is_told),
+    cmocka_unit_test (test_a_cut_line_keeps_to_what_is_asked),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
