@@ -301,6 +301,21 @@ check_figures (const bt_tether_def *tether, bt_error *error)
   return BT_OK;
 }
 
+/* List the tethers by the vehicles at their far ends, in order.  */
+static void
+list_led (bt_model *model)
+{
+  for (int v = 0; v < model->n_vehicles; v++)
+    model->led[v] = -1;
+  for (int i = model->n_tethers - 1; i >= 0; i--)
+    {
+      int vehicle = model->ends[i][1].vehicle;
+      model->led_too[i] = vehicle < 0 ? -1 : model->led[vehicle];
+      if (vehicle >= 0)
+        model->led[vehicle] = i;
+    }
+}
+
 static bt_status
 compile_tether (bt_model *model, int i, bt_error *error)
 {
@@ -355,6 +370,8 @@ compile_world (bt_model *model, const bt_world *world, bt_error *error)
     status = bt__compile_sea (model, error);
   for (int i = 0; status == BT_OK && i < model->n_tethers; i++)
     status = compile_tether (model, i, error);
+  if (status == BT_OK)
+    list_led (model);
   if (status == BT_OK)
     status = bt__compile_hulls (model, error);
   if (status == BT_OK)
@@ -433,9 +450,12 @@ model_of (const bt_world *world)
   model->vehicles = copy_of (world->vehicles, world->n_vehicles, sizeof *world->vehicles);
   model->tethers = copy_of (world->tethers, world->n_tethers, sizeof *world->tethers);
   model->ends = calloc ((size_t)world->n_tethers + 1, sizeof *model->ends);
+  model->led = calloc ((size_t)world->n_vehicles + 1, sizeof *model->led);
+  model->led_too = calloc ((size_t)world->n_tethers + 1, sizeof *model->led_too);
   model->types = calloc ((size_t)world->n_vehicles + 1, sizeof *model->types);
   model->rigs = calloc ((size_t)world->n_vehicles + 1, sizeof *model->rigs);
-  if (model->vehicles && model->tethers && model->ends && model->types && model->rigs)
+  if (model->vehicles && model->tethers && model->ends && model->led && model->led_too
+      && model->types && model->rigs)
     return model;
   bt_model_release (model);
   return NULL;
@@ -492,6 +512,8 @@ bt_model_release (bt_model *model)
   free (model->rigs);
   free (model->tethers);
   free (model->ends);
+  free (model->led);
+  free (model->led_too);
   bt__release_obstacles (model);
   bt__release_hulls (model);
   free (model);

@@ -51,6 +51,8 @@ struct bt_model
   bt__rig *rigs;
   bt_tether_def *tethers; /* props complete */
   bt__end (*ends)[2];     /* per tether: anchor, far end */
+  int *led;               /* per vehicle: the first tether whose far end it has, or -1 */
+  int *led_too;           /* per tether: the next whose far end the same vehicle has, or -1 */
   int n_obstacles, n_carried;
   bt_obstacle_def *obstacles; /* their numbers and names; what they borrowed is in the scenes */
   int *where;                 /* of each: its place in SCENE, or -1 - its place in CARRIED */

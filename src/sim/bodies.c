@@ -64,11 +64,11 @@ bt__deaden_vehicle (bt__vehicle *v)
 int
 bt__carrier (const bt_dive *dive, bt__state *state, int vehicle)
 {
-  for (int i = 0; i < dive->model->n_tethers; i++)
+  const bt_model *model = dive->model;
+  for (int i = model->led[vehicle]; i >= 0; i = model->led_too[i])
     {
       const bt__tether *tether = bt__dive_tether (dive, state, i);
-      if (dive->model->ends[i][1].vehicle == vehicle && bt__is_cable (tether)
-          && bt__is_moving_model (tether))
+      if (bt__is_cable (tether) && bt__is_moving_model (tether))
         return i;
     }
   return -1;
@@ -92,11 +92,11 @@ is_at_its_end (const bt__tether *tether)
 static int
 slack_line (const bt_dive *dive, bt__state *state, int vehicle)
 {
-  for (int i = 0; i < dive->model->n_tethers; i++)
+  const bt_model *model = dive->model;
+  for (int i = model->led[vehicle]; i >= 0; i = model->led_too[i])
     {
       const bt__tether *tether = bt__dive_tether (dive, state, i);
-      if (dive->model->ends[i][1].vehicle == vehicle && !bt__is_cable (tether)
-          && !is_at_its_end (tether))
+      if (!bt__is_cable (tether) && !is_at_its_end (tether))
         return i;
     }
   return -1;

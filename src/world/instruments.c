@@ -52,16 +52,6 @@ attitude_of (const bt__vehicle *v)
   return v->rigid ? v->body.attitude : bt__quat_of (v->heading, v->pitch, v->roll);
 }
 
-/* The first tether whose far end VEHICLE has, or -1.  */
-static int
-tether_ending_at (const bt_dive *dive, int vehicle)
-{
-  for (int i = 0; i < dive->model->n_tethers; i++)
-    if (dive->model->ends[i][1].vehicle == vehicle)
-      return i;
-  return -1;
-}
-
 /* What the winch and the ship know.  */
 static void
 look_at_ship (const bt_dive *dive, int tether, bt__truth *truth)
@@ -86,7 +76,7 @@ bt_dive_instruments (const bt_dive *dive, int i, bt_readings *readings, bt_error
   if (status != BT_OK)
     return status;
   in = v->instruments;
-  tether = tether_ending_at (dive, i);
+  tether = dive->model->led[i];
   truth.position = v->position;
   truth.velocity = v->velocity;
   truth.attitude = attitude_of (v);
