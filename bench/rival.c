@@ -355,7 +355,7 @@ main (int argc, char **argv)
   long quiet = 0, only = 0;
   const bench_option options[]
       = { { "rounds", &rounds, 1, 100, 1, "runs of a dive, of which the quickest counts" },
-          { "race", &only, 0, RACES, 0, "the number of the only race; 0: all" },
+          { "race", &only, 0, RACES, 1, "the number of the only race; 0: all" },
           { "moordyn", &theirs_too, 0, 1, 0, "0: of MoorDyn its converged runs alone" },
           { "summary", &quiet, 0, 0, 0, "each target with both codes in words, instead of rows" } };
   const bench_program program
