@@ -35,10 +35,7 @@
 
 (define (misplaced proc head)
   ;; Something with HEAD where a part should be.
-  (let ((outer (outer-head head)))
-    (bight-raise 'def proc "~a is written inside ~a, as in (~a ... (~a (~a ...) ...)), not beside it"
-                 (head-title head) (head-title outer) outer head
-                 (field-name (car (head-fields head))))))
+  (bight-raise 'def proc (string-append (where-inside head) ", not beside it")))
 
 (define (data->part datum)
   "Return the part that DATUM, (HEAD (FIELD VALUE ...) ...), describes.  Raise a &bight-error when it is

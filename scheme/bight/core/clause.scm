@@ -23,6 +23,7 @@
             read-fields
             read-clause
             unknown-clause
+            where-inside
             missing-field))
 
 
@@ -235,6 +236,12 @@
   ;; The heads of the parts that have a field NAME.
   (filter (lambda (head) (head-field head name)) (part-heads)))
 
+(define (where-inside head)
+  "Return where a thing with HEAD, which goes inside a part, is written."
+  (let ((outer (outer-head head)))
+    (simple-format #f "~a is written inside ~a, as in (~a ... (~a (~a ...) ...))" (head-title head) (head-title outer)
+                   outer head (field-name (car (head-fields head))))))
+
 (define (whereabouts name)
   "Return where NAME is written that is not where it belongs: of a part that stands in the world by itself, of what
 goes inside another part, or of a field that one kind of part alone has; #f when nothing is known of it."
@@ -243,8 +250,7 @@ goes inside another part, or of a field that one kind of part alone has; #f when
            "the bottom is a part of the world, (seabed), and lies at the depth of the sea, (sea (depth D))")
           ((part-head? name)
            (simple-format #f "~a is a part of the world, beside the others: (world ... (~a ...))" (head-title name) name))
-          ((inner-head? name)
-           (simple-format #f "~a goes inside ~a" (head-title name) (head-title (outer-head name))))
+          ((inner-head? name) (where-inside name))
           ((and (pair? owners) (null? (cdr owners)))
            (simple-format #f "`~a' belongs to ~a: (~a (~a ...))" name (head-title (car owners)) (car owners) name))
           (else #f))))
