@@ -270,7 +270,7 @@ typedef struct bt_bound
   double factor;
   int power;
   double floor;
-  const char *why; /* a phrase: what has so much */
+  const char *why; /* a clause: what has so much, or no more */
 } bt_bound;
 
 /* Return the kinds of parts, *N of them.  */

@@ -391,7 +391,7 @@ static const bt_head heads[] = {
 
 #define AREA (BT__PI / 4)
 #define OF_AREA (BT__PI / 64)
-#define ROD "a solid rod as thick, ten thousand times as stiff as diamond, has no more"
+#define ROD "a rod 10 000 times as stiff as diamond has no more"
 
 /* A line stiffer than a rod of STIFFEST, of next to no weight, moves by more energy than the
    solver's rounding can hold.  The length that a step leaves undone, times `ba' over the step, is a
@@ -403,10 +403,9 @@ static const bt_bound bounds[] = {
   { "ei", "diameter", STIFFEST *OF_AREA, 4, 0, ROD },
   { "ei-stuck", "diameter", STIFFEST *OF_AREA, 4, 0, ROD },
   { "gj", "diameter", STIFFEST *OF_AREA, 4, 0, ROD },
-  { "ba", "ea", CREEPS, 1, SOFT, "with which it gives way to a load within a second" },
+  { "ba", "ea", CREEPS, 1, SOFT, "so much gives way to a load within a second" },
   { "bending-damping", "diameter", WITHIN *STIFFEST *OF_AREA, 4, 0, ROD },
-  { "bending-damping", "ei", CREEPS, 1, SUPPLE,
-    "with which it gives way to a bend within a second" },
+  { "bending-damping", "ei", CREEPS, 1, SUPPLE, "so much gives way to a bend within a second" },
 };
 
 const bt_bound *

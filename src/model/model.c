@@ -180,10 +180,9 @@ check_bounds (const bt_tether_def *def, const char *name, bt_error *error)
              most = fmax (b->factor * pow (other, b->power), b->floor);
       if (isfinite (is) && !(is <= most))
         return bt__fail (error, BT_ERR_DOMAIN,
-                         "`%s' of tether `%s' is %g %s; with %s `%s' of %g %s the most there is is "
-                         "%.3g: %s",
-                         b->field, name, is, field->unit, strchr ("aei", *b->of) ? "an" : "a",
-                         b->of, other, of->unit, most, b->why);
+                         "`%s' of tether `%s' is %g %s; with `%s' %g %s the most there is is %.3g; "
+                         "%s",
+                         b->field, name, is, field->unit, b->of, other, of->unit, most, b->why);
     }
   return BT_OK;
 }
