@@ -19,20 +19,25 @@
   "a list of places along the tether, in metres from the anchor"
   (if (and (pair? value) (list? value) (every (lambda (s) (and (real? s) (>= s 0))) value)) value refused))
 
+(define (columns-of-marker k)
+  (let ((name (string-append "m" (number->string k))))
+    (map (lambda (axis) (string-append name axis)) '("_x" "_y" "_z"))))
+
 (define (header n tension?)
   (string-join
    (append '("t" "anchor_x" "anchor_y" "anchor_z" "end_x" "end_y" "end_z" "out")
            (if tension? '("end_tension") '())
-           (append-map (lambda (k) (map (lambda (axis) (simple-format #f "m~a_~a" (+ k 1) axis)) '("x" "y" "z"))) (iota n)))
+           (append-map columns-of-marker (iota n 1)))
    ","))
 
 (define (row at noise tension? dice)
+  (define out (tether-length))
   (define (seen s)
     ;; A marker that has been hauled in, or cut off, is not seen.
-    (if (> s (tether-length))
+    (if (> s out)
         (make-list 3 +nan.0)
         (map (lambda (x) (+ x (* noise (random:normal dice)))) (f64vector->list (point-at s)))))
-  (append (list (now)) (f64vector->list (point-at 0)) (f64vector->list (point-at (tether-length))) (list (tether-length))
+  (append (list (now)) (f64vector->list (point-at 0)) (f64vector->list (point-at out)) (list out)
           (if tension? (list (rov-tension)) '())
           (append-map seen at)))
 
@@ -54,10 +59,10 @@ deviation in metres drawn from SEED, `nan' while a marker is not out; with TENSI
 pool is hired: `identify' reads the file.  Return what `cancel!' takes."
   (unless at
     (bight-raise 'domain 'measure! "where the markers are, is not said: #:at '(METRES ...)"))
-  (let ((host (this-dive 'measure!)) (beyond (find (lambda (s) (> s (tether-length))) at))
-        (dice (seed->random-state seed)))
+  (let* ((host (this-dive 'measure!)) (out (tether-length)) (beyond (find (lambda (s) (> s out)) at))
+         (dice (seed->random-state seed)))
     (when beyond
-      (bight-raise 'domain 'measure! "a marker is to be ~a m along a tether of ~a m" beyond (tether-length)))
+      (bight-raise 'domain 'measure! "a marker is to be ~a m along a tether of ~a m" beyond out))
     (check-writable 'measure! file)
     (write-line file (header (length at) tension) "w")
     (let ((look (lambda ()
