@@ -355,8 +355,9 @@ bt__line_rebend (bt__line_job *k)
   bt__sliding_gather (k, &s);
   note_rounds (k, &s);
   drop_failed (k, &s);
-  p.node = no_bends || k->unsolved ? -1
-                                   : 0; /* a new one would change the numbers of the rows' nodes */
+  /* A new one changes the numbers of the rows' nodes.  A cut step is no solution either, but a line
+     hooked over a thin member is cut in every step until a node lets the line slide.  */
+  p.node = no_bends || (k->unsolved && !k->report->truncated) ? -1 : 0;
   while (p.node >= 0 && bt__sliding_find (k, &s, &p))
     bt__sliding_hold (k, &s, &p);
   join (k, &s);

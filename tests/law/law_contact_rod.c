@@ -138,6 +138,27 @@ friction (void **state)
   check_all (0.3);
 }
 
+/* A line falls slack on a thin rod and is hauled over it without friction.  Where a node comes down
+   beside the rod the line hooks over it by that node: every step was cut then, and what is cut took
+   no node to slide over the rod, for 11 kN and more.  */
+static void
+hooked (void **state)
+{
+  (void)state;
+  for (int i = 0; i < 40; i++)
+    {
+      static rig r;
+      char what[80];
+      double radius = i & 1 ? 0.001 : 0.003, degrees = 250 + i;
+      snprintf (what, sizeof what, "rod %g m, %g degrees, slack", radius, degrees);
+      lay (&r, radius, 0.1, degrees * BT__PI / 180, 0);
+      close_to (haul (&r, 0.15, 500, 460), 1, what, "hauled");
+      assert_kept (&r.rope, what);
+      rope_close (&r.rope);
+      reef_close (&r.reef);
+    }
+}
+
 /* Every turn takes more corners.  */
 static void
 five_turns (void **state)
@@ -190,8 +211,9 @@ caught_without (void **state)
 int
 main (void)
 {
-  const struct CMUnitTest tests[] = { cmocka_unit_test (no_friction), cmocka_unit_test (friction),
-                                      cmocka_unit_test (five_turns), cmocka_unit_test (goes_fast),
-                                      cmocka_unit_test (caught_without) };
+  const struct CMUnitTest tests[]
+      = { cmocka_unit_test (no_friction), cmocka_unit_test (friction),
+          cmocka_unit_test (hooked),      cmocka_unit_test (five_turns),
+          cmocka_unit_test (goes_fast),   cmocka_unit_test (caught_without) };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
