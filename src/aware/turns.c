@@ -63,8 +63,7 @@ bt__axis_of (const bt__obstacle *o, bt__axis *out)
 static bt_vec3
 off_axis (const bt__axis *axis, bt_vec3 p)
 {
-  bt_vec3 d = bt__sub (p, axis->at);
-  return bt__axpy (d, -bt__dot (d, axis->along), axis->along);
+  return bt__off_axis (axis->along, bt__sub (p, axis->at));
 }
 
 double

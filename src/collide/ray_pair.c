@@ -84,8 +84,8 @@ static span
 in_side (bt_vec3 centre, bt_vec3 axis, double radius, const line *l)
 {
   bt_vec3 m = bt__sub (l->from, centre);
-  m = bt__axpy (m, -bt__dot (m, axis), axis);
-  bt_vec3 d = bt__axpy (l->d, -bt__dot (l->d, axis), axis);
+  m = bt__off_axis (axis, m);
+  bt_vec3 d = bt__off_axis (axis, l->d);
   return in_round (m, d, bt__dot (d, d), radius);
 }
 

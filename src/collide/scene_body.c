@@ -37,7 +37,7 @@ cylinder_support (const void *shape, bt_vec3 d, int *hint)
   bt_vec3 level = bt__axpy (d, -z, c->axis), p = c->centre;
   /* A direction along the axis leaves a difference of rounding alone, not across the axis: project
      once more.  */
-  level = bt__axpy (level, -bt__dot (c->axis, level), c->axis);
+  level = bt__off_axis (c->axis, level);
   double size = bt__norm (level);
   if (size > 1e-12 * bt__norm (d))
     p = bt__axpy (p, c->radius / size, level);

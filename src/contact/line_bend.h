@@ -29,13 +29,6 @@ int bt__edge_has_none (const bt__line_job *k, const bt__line_row *of);
    line turns by a right angle.  */
 int bt__edge_is_thin (const bt__line_job *k, double radius);
 
-/* The part of V across AXIS.  */
-static inline bt_vec3
-bt__off_axis (bt_vec3 axis, bt_vec3 v)
-{
-  return bt__axpy (v, -bt__dot (axis, v), axis);
-}
-
 /* ---- How it runs about that (line_turn.c) ---- */
 
 /* The turn of the line at a node: along a tangent of the edge to the node, along another tangent

@@ -369,7 +369,7 @@ bt__line_add_hit (bt__line_job *k, uint32_t j, const bt__near *near, const bt__w
   k->w->of[at].again = again;
   bt__constraint *r = k->w->row + at;
   bt_vec3 moved = bt__self_move (k, r);
-  r->stick = bt__scale (-t, bt__axpy (moved, -bt__dot (moved, r->normal), r->normal));
+  r->stick = bt__scale (-t, bt__off_axis (r->normal, moved));
   k->rows += at == k->rows;
   return at;
 }

@@ -187,7 +187,7 @@ double
 bt__split_angle (bt_vec3 d, bt_vec3 e, bt_vec3 normal)
 {
   bt_vec3 way = bt__sub (e, d);
-  way = bt__axpy (way, -bt__dot (way, normal), normal);
+  way = bt__off_axis (normal, way);
   bt_vec3 t = bt__unit_or (way, bt__across (normal));
   return BT__PI + opening_angle (d, t, normal) + opening_angle (e, t, normal);
 }

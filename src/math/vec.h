@@ -63,6 +63,13 @@ bt__dot (bt_vec3 a, bt_vec3 b)
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/* The part of V across the unit vector AXIS.  */
+static inline bt_vec3
+bt__off_axis (bt_vec3 axis, bt_vec3 v)
+{
+  return bt__axpy (v, -bt__dot (axis, v), axis);
+}
+
 static inline bt_vec3
 bt__cross (bt_vec3 a, bt_vec3 b)
 {

@@ -116,8 +116,7 @@ axle_of (const bt_obstacle_view *o)
 static bt_vec3
 aside (const axle *a, bt_vec3 p)
 {
-  bt_vec3 d = bt__sub (p, a->at);
-  return bt__axpy (d, -bt__dot (d, a->along), a->along);
+  return bt__off_axis (a->along, bt__sub (p, a->at));
 }
 
 /* The point of tether I nearest to the axle.  */

@@ -298,7 +298,7 @@ bt__add_tube (bt__soup *soup, const bt_vec3 *points, size_t n, double radius, do
         continue;
       last = points[i];
       along = direction (points, n, i, along);
-      u = bt__unit_or (bt__axpy (u, -bt__dot (u, along), along), u);
+      u = bt__unit_or (bt__off_axis (along, u), u);
       v = bt__cross (along, u);
       if (color)
         bt__stuff_color (&soup->stuff, color[i]);

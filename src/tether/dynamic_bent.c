@@ -119,7 +119,7 @@ static bt_vec3
 spring_of (const bt__dynamic_work *w, const bt__dynamic_bent *b)
 {
   bt_vec3 away = bt__sub (b->at, w->X[b->node]);
-  return bt__scale (b->stiffness, bt__axpy (away, -bt__dot (b->axis, away), b->axis));
+  return bt__scale (b->stiffness, bt__off_axis (b->axis, away));
 }
 
 /* The force on node B at its place; *SLOPE is the stiffness along the edge, N/m.  */

@@ -46,18 +46,13 @@ gap_of (const bt__constraint *r, const bt_vec3 *X)
   return bt__dot (r->normal, place_of (r, X)) - r->offset;
 }
 
-static bt_vec3
-tangential (const bt__constraint *r, bt_vec3 v)
-{
-  return bt__axpy (v, -bt__dot (r->normal, v), r->normal);
-}
-
 /* What friction answers.  */
 static bt_vec3
 drag_of (const bt__dynamic_work *w, const bt__constraint *r)
 {
   bt_vec3 moved = bt__sub (place_of (r, w->X), place_of (r, w->x));
-  return tangential (r, bt__axpy (r->stick, 1 + BT__STICK_DAMPING, bt__sub (moved, r->drift)));
+  return bt__off_axis (r->normal,
+                       bt__axpy (r->stick, 1 + BT__STICK_DAMPING, bt__sub (moved, r->drift)));
 }
 
 /* How far the next node has risen against the node of R, m.  */

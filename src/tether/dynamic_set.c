@@ -108,7 +108,7 @@ bt__set_out (const bt__frame_line *l)
     {
       bt_vec3 side = l->in->end[0].side;
       s.t = clamp_of (l, 0);
-      side = bt__axpy (side, -bt__dot (side, s.t), s.t);
+      side = bt__off_axis (s.t, side);
       s.u = bt__unit_or (side, bt__set_side (s.t));
       return s;
     }
@@ -262,7 +262,7 @@ push_chords (bt__dynamic_work *w, const bt__frame_line *l)
     {
       bt_vec3 c = set_chord (l, j), t = bt__unit_or (c, down), g = w->felt[j];
       double length = fmax (bt__norm (c), SHORT * bt__frame_rest (l, j));
-      pull_apart (w, j, bt__scale (-1 / length, bt__axpy (g, -bt__dot (g, t), t)));
+      pull_apart (w, j, bt__scale (-1 / length, bt__off_axis (t, g)));
     }
 }
 

@@ -142,7 +142,7 @@ bt__dynamic_slip_prepare (bt__dynamic_work *w, const bt__dynamic *d)
         w->slip[w->slips++] = (bt__slip){ .node = i,
                                           .row = row_of (&l, i),
                                           .tangent = b,
-                                          .turn = bt__axpy (s, -bt__dot (s, b), b),
+                                          .turn = bt__off_axis (b, s),
                                           .k = stiffness_of (w->in->line) / cell };
     }
 }
@@ -275,7 +275,7 @@ bt__slip_energy (const bt__dynamic *d, const bt__dynamic_input *in, const bt_vec
     {
       double cell = cell_at (&is, i), k = stiffness_of (in->line) / cell;
       bt_vec3 from = middle_of (&was, i), s = bt__scale (cell, bt__dynamic_load (d)[i]);
-      s = bt__carry_side (bt__axpy (s, -bt__dot (s, from), from), from, middle_of (&is, i));
+      s = bt__carry_side (bt__off_axis (from, s), from, middle_of (&is, i));
       bt_vec3 off = borne (turn_at (&is, i), s, k, most);
       sum += 0.5 * k * bt__dot (off, off);
     }

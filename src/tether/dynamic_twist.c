@@ -122,7 +122,7 @@ look_along (const bt__frame_line *l, spring *node)
           = (spring){ at.k * bt__dot (at.w, at.d), bt__moment_of (&at), l->in->line->gj / at.cell };
     }
   bt_vec3 side = l->in->end[1].side;
-  side = bt__axpy (side, -bt__dot (side, s.t), s.t);
+  side = bt__off_axis (s.t, side);
   side = bt__unit_or (side, bt__set_side (s.t));
   return atan2 (bt__dot (side, bt__cross (s.t, s.u)), bt__dot (side, s.u));
 }

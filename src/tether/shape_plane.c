@@ -93,7 +93,7 @@ sagging_direction (const bt__shape_job *j)
 bt_vec3
 bt__shape_square_to (bt_vec3 d, bt_vec3 wish)
 {
-  bt_vec3 part = bt__axpy (wish, -bt__dot (wish, d), d);
+  bt_vec3 part = bt__off_axis (d, wish);
   if (bt__norm (part) > 1e-3)
     return bt__unit_or (part, part);
   bt_vec3 level = bt__vec (-d.y, d.x, 0);
@@ -104,7 +104,7 @@ bt__shape_square_to (bt_vec3 d, bt_vec3 wish)
 void
 bt__shape_span_plane (bt__shape_job *j, bt_vec3 chord)
 {
-  bt_vec3 d = j->direction, side = bt__axpy (chord, -bt__dot (chord, d), d);
+  bt_vec3 d = j->direction, side = bt__off_axis (d, chord);
   j->v = -bt__dot (chord, d);
   j->h = bt__norm (side);
   if (j->h > ALONG * fmax (j->in->length, bt__norm (chord)))

@@ -30,11 +30,11 @@ typedef struct plane
 static bt_vec3
 normal_to (bt_vec3 n, bt_vec3 wish)
 {
-  bt_vec3 side = bt__axpy (wish, -bt__dot (wish, n), n);
+  bt_vec3 side = bt__off_axis (n, wish);
   if (bt__is_finite (side) && bt__norm (side) > 1e-6 * bt__norm (wish))
     return bt__unit_or (side, bt__vec (1, 0, 0));
   bt_vec3 other = fabs (n.x) < 0.7 ? bt__vec (1, 0, 0) : bt__vec (0, 1, 0);
-  return bt__unit_or (bt__axpy (other, -bt__dot (other, n), n), other);
+  return bt__unit_or (bt__off_axis (n, other), other);
 }
 
 /* Solve the cubic of the head comment: Convex beyond its turning points: Newton from above falls

@@ -61,7 +61,7 @@ blow_to (const bt__vehicle_type *type, bt_vec3 r, bt_vec3 v, bt_vec3 wish)
 static bt_vec3
 sliding_blow (const bt__vehicle_type *type, bt_vec3 r, bt_vec3 n, bt_vec3 v, double friction)
 {
-  bt_vec3 slip = bt__unit_or (bt__axpy (v, -bt__dot (v, n), n), bt__vec (0, 0, 0));
+  bt_vec3 slip = bt__unit_or (bt__off_axis (n, v), bt__vec (0, 0, 0));
   bt_vec3 way = bt__axpy (n, -friction, slip);
   double gain = bt__dot (n, answer (type, r, way));
   if (gain > 0)
