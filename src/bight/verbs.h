@@ -86,8 +86,9 @@ typedef struct bt_spooling
 bt_status bt_tether_pay_out (bt_dive *dive, int t, const bt_spooling *spooling, bt_error *error);
 bt_status bt_tether_haul_in (bt_dive *dive, int t, const bt_spooling *spooling, bt_error *error);
 
-/* Cut tether T at ARC_LENGTH metres from its anchor.  BT_ERR_UNSUPPORTED for a model without a
-   moving line, and for a tether that has parted already.  */
+/* Cut tether T at ARC_LENGTH metres from its anchor, within a fifth of an interval.  The
+   part at the anchor of a parted tether is cut again: the piece between both cuts drifts off and
+   leaves the dive.  BT_ERR_UNSUPPORTED for a model without a moving line.  */
 bt_status bt_tether_cut (bt_dive *dive, int t, double arc_length, bt_error *error);
 
 /* ---- The sea ---- */

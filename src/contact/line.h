@@ -84,6 +84,11 @@ bt__contact *bt__contacts_at (const bt__contacts *anchors);
 /* Put A where it belongs among the N contacts AT in the order of the line; there is room.  */
 void bt__contacts_put (bt__contact *at, int64_t n, const bt__contact *a);
 
+/* Line ID is cut: leave A the contacts between FROM and TO metres from the end of the line, and
+   measure their places from FROM.  The line's contacts with itself start anew, for either side may
+   now belong to another part.  */
+void bt__contacts_cut (bt__contacts *a, double from, double to, int64_t id);
+
 extern const bt__record bt__contact_record, bt__contacts_record;
 
 /* Judge ANCHORS, which were allotted room for ROOM and come from outside.  */
@@ -209,7 +214,7 @@ bt_vec3 bt__line_arc_point (const bt__dynamic *d, const bt__contacts *contacts, 
                             double s);
 
 /* Fill OUT, of ROOM, with what touches: the anchors that bear load, in order from node 0.  Return
-   how many there are.  S is in metres of arc length from node 0 as it lies.  */
+   how many there are.  S is in metres along D, as bt__dynamic_point takes it.  */
 int bt__line_touches (const bt__dynamic *d, const bt__contacts *anchors, bt__touch *out, int room);
 
 #endif

@@ -26,33 +26,6 @@
 #define HARDER 30.0 /* times stiffer is what is hit although it pushes */
 #define YIELD 20.0  /* the part of the way to the core that the load may press a contact in */
 
-/* ---- The block ---- */
-
-size_t
-bt__contacts_size (int room)
-{
-  return sizeof (bt__contacts) + (size_t)room * sizeof (bt__contact);
-}
-
-size_t
-bt__contacts_live (const bt__contacts *a)
-{
-  return bt__contacts_size ((int)a->n);
-}
-
-bt__contact *
-bt__contacts_at (const bt__contacts *a)
-{
-  return (bt__contact *)(a + 1);
-}
-
-void
-bt__contacts_init (bt__contacts *a, int room)
-{
-  memset (a, 0, sizeof *a); /* what is behind the live ones is never read */
-  a->room = room;
-}
-
 /* ---- Friction ---- */
 
 /* The turn of the line at node I if it is toward the obstacle, against normal N; radians.  */
@@ -211,7 +184,7 @@ inherit (bt__line_job *k, int i, const bt__contact *a)
   if (!(r->stiffness > 0))
     {
       r->load = a->load;
-      r->stick = bt__axpy (a->stick, -bt__dot (a->stick, r->normal), r->normal);
+      r->stick = bt__off_axis (r->normal, a->stick);
     }
   k->w->of[i].work = a->work;
   k->w->of[i].age = a->age + 1;
@@ -262,14 +235,6 @@ bt__line_harden (bt__line_job *k)
 
 /* ---- What is kept ---- */
 
-/* The move of the line along the obstacle at row R.  */
-static bt_vec3
-slide_of (const bt__line_job *k, const bt__constraint *r)
-{
-  bt_vec3 d = bt__self_move (k, r);
-  return bt__axpy (d, -bt__dot (d, r->normal), r->normal);
-}
-
 /* The force of constraint R on the line: its load, and friction by STICK, full at a drag of SLIP.
    (The force of the last iteration belongs to the places before the iteration.) */
 static bt_vec3
@@ -283,7 +248,7 @@ anchor_of (const bt__line_job *k, int i)
 {
   const bt__constraint *r = k->w->row + i;
   const bt__line_row *of = k->w->of + i;
-  bt_vec3 slide = slide_of (k, r), stick = bt__add (r->stick, slide);
+  bt_vec3 slide = bt__off_axis (r->normal, bt__self_move (k, r)), stick = bt__add (r->stick, slide);
   double drag = bt__norm (stick), over = fmax (drag - r->slip, 0);
   double work = r->friction * r->load * over;
   if (over > 0)
@@ -309,14 +274,6 @@ anchor_of (const bt__line_job *k, int i)
                         .stick = stick };
 }
 
-void
-bt__contacts_put (bt__contact *at, int64_t n, const bt__contact *a)
-{
-  for (; n > 0 && at[n - 1].from_end < a->from_end; n--)
-    at[n] = at[n - 1];
-  at[n] = *a;
-}
-
 static void
 keep (bt__line_job *k, const bt__contact *a)
 {
@@ -339,7 +296,7 @@ keep_reactions (bt__line_job *k)
       if (!(k->w->row[i].load > 0) || k->w->row[i].pair == 0)
         continue;
       bt__contact a = anchor_of (k, i);
-      a = bt__self_reaction (k, i, &a);
+      a = bt__self_reaction (k, &a);
       keep (k, &a);
     }
 }
@@ -373,31 +330,4 @@ bt__line_store (bt__line_job *k)
   bt__contacts *to = k->anchors;
   to->n = k->olds < to->room ? k->olds : to->room;
   memcpy (bt__contacts_at (to), k->w->old, (size_t)to->n * sizeof *k->w->old);
-}
-
-/* ---- What is told ---- */
-
-int
-bt__line_touches (const bt__dynamic *d, const bt__contacts *anchors, bt__touch *out, int room)
-{
-  const double *rest = bt__dynamic_rest (d);
-  const bt_vec3 *x = bt__dynamic_x (d);
-  const bt__contact *a = bt__contacts_at (anchors);
-  int n = anchors->n < room ? (int)anchors->n : room;
-  double arc = 0, from_end = bt__dynamic_length (d);
-  int64_t j = 0;
-  for (int i = 0; i < n; i++)
-    {
-      for (; j < d->n - 1 && from_end - rest[j] > a[i].from_end; j++)
-        {
-          arc += bt__distance (x[j], x[j + 1]);
-          from_end -= rest[j];
-        }
-      double share = fmin (fmax ((from_end - a[i].from_end) / rest[j], 0), 1);
-      out[i] = (bt__touch){ a[i].object, a[i].triangle,
-                            a[i].state,  arc + share * bt__distance (x[j], x[j + 1]),
-                            a[i].point,  a[i].normal,
-                            a[i].force };
-    }
-  return n;
 }

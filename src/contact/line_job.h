@@ -372,7 +372,7 @@ int bt__self_anchor (const bt__line_job *k, int i);
 double bt__self_friction (const bt__line_job *k, int i);
 double bt__self_stiffness (const bt__line_job *k, int i);
 bt_vec3 bt__self_move (const bt__line_job *k, const bt__constraint *r);
-bt__contact bt__self_reaction (const bt__line_job *k, int i, const bt__contact *a);
+bt__contact bt__self_reaction (const bt__line_job *k, const bt__contact *a);
 
 /* self_guard.c: as bt__line_hits and bt__line_truncate for pairs; true if node I can go straight by
    MOVE, with all other nodes at rest, and meets no link.  */

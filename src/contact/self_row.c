@@ -134,7 +134,7 @@ feel_reaction (bt__line_job *k, int q)
     return;
   const bt_vec3 *x = k->x + r->node;
   bt_vec3 here = bt__add (bt__between (x, r->s), r->drift);
-  bt_vec3 drag = bt__axpy (a->force, -bt__dot (a->force, r->normal), r->normal);
+  bt_vec3 drag = bt__off_axis (r->normal, a->force);
   of->triangle = (uint32_t)at;
   r->offset = bt__dot (r->normal, here) + load / r->stiffness;
   r->slip = fmax (BT__LINE_SLIP, r->friction * load / r->stiffness);
@@ -312,7 +312,7 @@ bt__self_stiffness (const bt__line_job *k, int i)
 }
 
 bt__contact
-bt__self_reaction (const bt__line_job *k, int i, const bt__contact *a)
+bt__self_reaction (const bt__line_job *k, const bt__contact *a)
 {
   bt__contact b = *a;
   b.from_end = a->other;
@@ -321,6 +321,5 @@ bt__self_reaction (const bt__line_job *k, int i, const bt__contact *a)
   b.normal = bt__scale (-1, a->normal);
   b.force = bt__scale (-1, a->force);
   b.stick = bt__scale (-1, a->stick);
-  (void)i;
   return b;
 }

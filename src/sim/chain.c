@@ -165,6 +165,7 @@ bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, i
   tether->shape.length = tether->length;
   tether->contact_form = BT__TETHER_SHAPE;
   tether->parted = tether->quiet = tether->settled = tether->blocked = tether->fine = 0;
+  tether->lost = 0;
   tether->peak = tether->unsure = 0;
   tether->stretch = (bt__stretch){ 0 };
   tether->look = (bt__look){ 0 };
@@ -251,20 +252,49 @@ bt__carry_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, b
 
 /* ---- Parting ---- */
 
+/* Cut tether I, which is whole: chain 1 becomes what hangs from its far end.  */
+static void
+cut_whole (bt_dive *dive, bt__state *state, int i, int interval, double share)
+{
+  bt__dynamic *near = bt__dive_chain (dive, state, i, 0), *far = bt__dive_chain (dive, state, i, 1);
+  bt__contacts *anchors = bt__dive_anchors (dive, state, i, 0);
+  int id = dive->model->n_obstacles + i;
+  bt__dynamic_cut (near, interval, share, near, far);
+  memcpy (bt__dive_anchors (dive, state, i, 1), anchors, bt__contacts_live (anchors));
+  bt__contacts_cut (anchors, bt__dynamic_length (far), INFINITY, id);
+  bt__contacts_cut (bt__dive_anchors (dive, state, i, 1), 0, bt__dynamic_length (far), id);
+}
+
+/* Cut PART of tether I, which has parted: the piece between both cuts drifts off.  */
+static void
+cut_part (bt_dive *dive, bt__state *state, int i, int part, int interval, double share)
+{
+  bt__dynamic *chain = bt__dive_chain (dive, state, i, part);
+  bt__contacts *anchors = bt__dive_anchors (dive, state, i, part);
+  double length = bt__dynamic_length (chain), lost;
+  int id = dive->model->n_obstacles + i;
+  bt__dynamic_cut (chain, interval, share, part ? NULL : chain, part ? chain : NULL);
+  lost = length - bt__dynamic_length (chain);
+  bt__contacts_cut (anchors, part ? 0 : lost, part ? length - lost : INFINITY, id);
+  bt__dive_tether (dive, state, i)->lost += lost;
+}
+
 void
-bt__part_chain (bt_dive *dive, bt__state *state, int i, int interval)
+bt__part_chain (bt_dive *dive, bt__state *state, int i, int part, int interval, double share)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  bt__dynamic *whole = bt__dive_chain (dive, state, i, 0),
-              *far = bt__dive_chain (dive, state, i, 1);
   bt__store_changes (dive, i);
-  bt__dynamic_cut (whole, interval, whole, far);
-  bt__contacts_init (bt__dive_anchors (dive, state, i, 1),
-                     bt__contact_room (dive->model, &dive->model->tethers[i]));
+  if (tether->parted)
+    cut_part (dive, state, i, part, interval, share);
+  else
+    cut_whole (dive, state, i, interval, share);
   tether->parted = 1;
-  tether->length = bt__dynamic_length (whole);
-  tether->winch_rate = 0;
   tether->quiet = 0;
+  if (part == 0)
+    {
+      tether->length = bt__dynamic_length (bt__dive_chain (dive, state, i, 0));
+      tether->winch_rate = 0;
+    }
   bt__raise_event (state, BT_EVENT_PARTED, i);
   bt__note_taut (state, tether, i, 0);
 }

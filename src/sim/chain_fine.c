@@ -100,9 +100,8 @@ bt__go_back (const bt_dive *dive, bt__state *state, int i, const bt__present *p)
 
 /* ---- Attempts ---- */
 
-/* Add the report of a part of a step to that of the parts before.  */
-static void
-add_report (bt__dynamic_report *sum, const bt__dynamic_report *part)
+void
+bt__add_report (bt__dynamic_report *sum, const bt__dynamic_report *part)
 {
   bt__dynamic_report before = *sum;
   *sum = *part;
@@ -143,7 +142,7 @@ try_parts (bt_dive *dive, bt__state *state, int i, const bt__ends *to, int fine,
       work->left = 1 - (double)(k + 1) / n;
       status = bt__advance_chain (dive, state, i, &from, to, &part, error);
       sum += n > 1 ? way_asked (work) : 0;
-      add_report (&a->report, &part);
+      bt__add_report (&a->report, &part);
       for (int e = 0; e < 2; e++)
         a->pull[e] = bt__axpy (a->pull[e], 1.0 / n,
                                bt__dive_chain (dive, state, i, e && tether->parted)->pull[e]);

@@ -153,10 +153,11 @@ heed_winch (const bt_dive *dive, bt__state *state, int i, const bt__dynamic *cha
     tether->stalling = 0;
 }
 
-/* The interval of CHAIN with the greatest tension, the first or the last if an end pulls harder.
-   The report of the step tells an interval of the mesh before nodes came or went.  */
+/* The interval of CHAIN with the greatest tension, the first or the last if an end pulls harder;
+   and that tension, N.  The report of the step tells an interval of the mesh before nodes came or
+   went.  */
 static int
-most_tense (const bt__dynamic *chain)
+most_tense (const bt__dynamic *chain, double *greatest)
 {
   const double *tension = bt__dynamic_tension (chain);
   double most = -INFINITY;
@@ -173,7 +174,25 @@ most_tense (const bt__dynamic *chain)
         most = bt__norm (chain->pull[k]);
         at = k ? (int)chain->n - 1 : 0;
       }
+  *greatest = most;
   return at;
+}
+
+/* Part tether I in the middle of the interval that bears most, if beyond its breaking load: a whole
+   tether by the greatest tension of the step, TENSION, each part of a parted one by the part's own
+   at the end.  A part of one interval parts no more.  */
+static void
+part_overloaded (bt_dive *dive, bt__state *state, int i, double tension)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  for (int part = bt__chains (tether) - 1; part >= 0; part--)
+    {
+      const bt__dynamic *chain = bt__dive_chain (dive, state, i, part);
+      double own;
+      int at = most_tense (chain, &own), stub = tether->parted && chain->n == 1;
+      if (!stub && (tether->parted ? own : tension) > tether->props.breaking_load)
+        bt__part_chain (dive, state, i, part, at, 0.5);
+    }
 }
 
 /* Where end K of tether I is to be at the share GONE of the step, which takes the end FROM a place
@@ -245,29 +264,29 @@ bt__advance_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *from,
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
   bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
-  double far_length = 0, before = bt__dynamic_length (chain);
+  double beyond = bt__beyond_chain (dive, state, i), before = bt__dynamic_length (chain);
   bt_water water;
   bt__dynamic_input input;
-  bt__dynamic_report far = { .converged = 1 };
+  bt__dynamic_report far = { .converged = 1, .bend_radius = HUGE_VAL };
   bt__fastened fastened;
   bt_status status = input_of_part (dive, state, i, from, to, &water, &input, error);
   if (status == BT_OK && tether->parted)
     {
-      far_length = bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
       status = step_far_part (dive, state, i, input, &far, error);
       input.end[1] = (bt__dynamic_end){ .free = 1 };
     }
   if (status != BT_OK)
     return status;
-  bt__fasten (dive, i, far_length, INFINITY, &input, &fastened);
+  bt__fasten (dive, i, beyond, INFINITY, &input, &fastened);
   set_winch (dive, state, i, tether, chain, &input);
   input.mesh = bt__chain_mesh (dive, state, tether, i);
   input.mesh.idle &= dive->contact_work.left == 0;
   status = bt__step_part (dive, state, i, 0, &input, report, error);
   if (status != BT_OK)
     return status;
-  report->converged &= far.converged;
   heed_winch (dive, state, i, chain, before, &input, report);
+  bt__add_report (&far, report);
+  *report = far;
   bt__ends here = bt__tether_ends (dive, state, i); /* where obstacles let the ends come */
   tether->shape.a = here.a;
   tether->shape.b = here.b;
@@ -306,8 +325,8 @@ bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt
     for (int part = 0; part < bt__chains (tether); part++)
       bt__wake_touched (dive, state, i, part);
   /* The tensions of a step that did not converge prove nothing.  */
-  if (!tether->parted && report.converged && report.tension > tether->props.breaking_load)
-    bt__part_chain (dive, state, i, most_tense (bt__dive_chain (dive, state, i, 0)));
+  if (report.converged && report.tension > tether->props.breaking_load)
+    part_overloaded (dive, state, i, report.tension);
   else if (tether->props.model == BT_MODEL_AUTO
            && bt__is_look_due (dive, state, i, 1 / report.bend_radius))
     return bt__look_at_nodes (dive, state, i, 1 / report.bend_radius, error);

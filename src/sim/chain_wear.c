@@ -56,8 +56,7 @@ bt__wear_chain (bt_dive *dive, bt__state *state, int i, int part)
   if (anchors->n == 0)
     return;
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, part);
-  int parted = bt__dive_tether (dive, state, i)->parted != 0;
-  double far = parted && part == 0 ? bt__dynamic_length (bt__dive_chain (dive, state, i, 1)) : 0;
+  double far = part == 0 ? bt__beyond_chain (dive, state, i) : 0;
   for (int64_t k = 0; k < anchors->n; k++)
     if (anchor[k].step_work > 0)
       chafe (dive, state, i, far + anchor[k].from_end, span_of (chain, &anchor[k]), &anchor[k]);

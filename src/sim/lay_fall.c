@@ -75,15 +75,13 @@ step_to (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, bt__dynam
   bt__fastened fastened;
   bt__dynamic_input input = bt__chain_input (dive, state, i, &water, ends);
   bt__dynamic_report far = { 0 };
-  double from = 0;
   bt_status status = BT_OK;
   if (bt__dive_tether (dive, state, i)->parted)
     {
-      from = bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
       status = fall_far_part (dive, state, i, input, &far, error);
       input.end[1] = (bt__dynamic_end){ .free = 1 };
     }
-  bt__fasten (dive, i, from, INFINITY, &input, &fastened);
+  bt__fasten (dive, i, bt__beyond_chain (dive, state, i), INFINITY, &input, &fastened);
   if (status == BT_OK)
     status = bt__step_among (dive, state, i, 0, &input, report, error);
   report->speed = fmax (report->speed, far.speed);

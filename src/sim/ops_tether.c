@@ -31,25 +31,44 @@ spool (const bt__call *c, double sign)
   return BT_OK;
 }
 
-/* Cut the line at an arc length.  */
+/* A cut leaves at least this share of an interval to either side: a shorter stub would bear forces
+   of its own making.  */
+#define SHORTEST 0.2
+
+/* Where CHAIN is cut for S metres to be left: at a node that is near, else in interval *J, at the
+   share returned.  */
+static double
+place_of_cut (const bt__dynamic *chain, double s, int *j)
+{
+  const double *rest = bt__dynamic_rest (chain);
+  double share;
+  for (*j = 0; *j < chain->n - 1 && s > rest[*j]; ++*j)
+    s -= rest[*j];
+  share = s / rest[*j];
+  if (share > 1 - SHORTEST && *j < chain->n - 1)
+    return 1;
+  if (share >= SHORTEST || *j == 0)
+    return fmin (fmax (share, SHORTEST), 1 - SHORTEST);
+  --*j;
+  return 1;
+}
+
+/* Cut the line at an arc length; of a parted one the part at the anchor.  */
 bt_status
 bt__op_cut (const bt__call *c)
 {
   bt__tether *tether = bt__dive_tether (c->dive, c->state, c->subject);
   bt__dynamic *chain = bt__dive_chain (c->dive, c->state, c->subject, 0);
-  double s = c->args[0];
-  int j = 0;
+  double s = c->args[0], share;
+  int j;
   if (!bt__is_cable (tether))
     return bt__fail (c->error, BT_ERR_UNSUPPORTED,
                      "only a tether moved by the model `dynamic' can be cut");
-  if (tether->parted)
-    return bt__fail (c->error, BT_ERR_UNSUPPORTED, "the tether has parted already");
   if (!(s >= 0 && s <= tether->length))
     return bt__fail (c->error, BT_ERR_DOMAIN, "a place to cut lies in 0 to %g m, not %g",
                      tether->length, s);
-  for (; j < chain->n - 1 && s > bt__dynamic_rest (chain)[j]; j++)
-    s -= bt__dynamic_rest (chain)[j];
-  bt__part_chain (c->dive, c->state, c->subject, j);
+  share = place_of_cut (chain, s, &j);
+  bt__part_chain (c->dive, c->state, c->subject, 0, j, share);
   return BT_OK;
 }
 

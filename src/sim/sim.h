@@ -150,7 +150,8 @@ void bt__note_taut (bt__state *state, bt__tether *tether, int i, int taut);
 
 /* The moving line (chain.c): lay tether I from its present shape, or from its equilibrium; go on by
    a step; go along with ends that were put elsewhere; become nodes of a static model; take as many
-   nodes as its accuracy wants (remesh.c); part in the middle of INTERVAL.  */
+   nodes as its accuracy wants (remesh.c); part at SHARE of INTERVAL of chain
+   PART: of a tether that had parted before, the piece between the two breaks drifts off.  */
 bt_status bt__lay_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
                          bt_error *error);
 bt_status bt__step_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends,
@@ -159,7 +160,7 @@ bt_status bt__carry_chain (bt_dive *dive, bt__state *state, int i, const bt__end
                            bt_error *error);
 void bt__still_chain (bt_dive *dive, bt__state *state, int i);
 bt_status bt__remesh_chain (bt_dive *dive, bt__state *state, int i, bt_error *error);
-void bt__part_chain (bt_dive *dive, bt__state *state, int i, int interval);
+void bt__part_chain (bt_dive *dive, bt__state *state, int i, int part, int interval, double share);
 
 /* bt__look_at_nodes notes, after a step of tether I of model `auto' with the tightest bend BEND,
    1/m, the error of the nodes, and remeshes.  bt__is_look_due is true if a look is due

@@ -29,10 +29,7 @@ bt__winch_pull (const bt_tether_props *props)
 double
 bt__most_out (const bt_dive *dive, bt__state *state, int i)
 {
-  double drum = dive->model->tethers[i].drum;
-  if (bt__dive_tether (dive, state, i)->parted)
-    drum -= bt__dynamic_length (bt__dive_chain (dive, state, i, 1));
-  return fmin (drum, MOST_OUT);
+  return fmin (dive->model->tethers[i].drum - bt__beyond_chain (dive, state, i), MOST_OUT);
 }
 
 /* True if tether I is a moving line drawing along the vehicle at its end.  */

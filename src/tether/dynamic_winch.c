@@ -345,12 +345,15 @@ bt__dynamic_winding (const bt__dynamic *d, const bt__dynamic_input *in)
 
 /* ---- The knife ---- */
 
-/* Copy what D has of nodes FIRST on, COUNT intervals of it, to TO.  */
+/* Copy what D has of nodes FIRST on, COUNT intervals of it, to TO, which may be D.  */
 static void
 copy_part (const bt__dynamic *d, int64_t first, int64_t count, bt__dynamic *to)
 {
-  memset (to, 0, bt__dynamic_size ((int)d->n_max));
-  *to = *d;
+  if (to != d)
+    {
+      memset (to, 0, bt__dynamic_size ((int)d->n_max));
+      *to = *d;
+    }
   to->spare = (bt__dynamic_drift){ 0, 0, 0 };
   to->n = count;
   bt_vec3 *(*const nodes[]) (const bt__dynamic *)
@@ -358,26 +361,26 @@ copy_part (const bt__dynamic *d, int64_t first, int64_t count, bt__dynamic *to)
   double *(*const intervals[]) (const bt__dynamic *)
       = { bt__dynamic_tension, bt__dynamic_rest, bt__dynamic_stretch, bt__dynamic_dstretch };
   for (int k = 0; k < 5; k++)
-    memcpy (nodes[k](to), nodes[k](d) + first, (size_t)(count + 1) * sizeof (bt_vec3));
+    memmove (nodes[k](to), nodes[k](d) + first, (size_t)(count + 1) * sizeof (bt_vec3));
   for (int k = 0; k < 4; k++)
-    memcpy (intervals[k](to), intervals[k](d) + first, (size_t)count * sizeof (double));
-  memcpy (bt__dynamic_chord (to), bt__dynamic_chord (d) + first, (size_t)count * sizeof (bt_vec3));
+    memmove (intervals[k](to), intervals[k](d) + first, (size_t)count * sizeof (double));
+  memmove (bt__dynamic_chord (to), bt__dynamic_chord (d) + first, (size_t)count * sizeof (bt_vec3));
 }
 
-/* Halve interval J of D, at whose node END the line now ends.  */
+/* Cut interval J of D at SHARE of it: the line now ends there, at node END.  */
 static void
-new_end (bt__dynamic *d, int64_t j, int64_t end)
+new_end (bt__dynamic *d, int64_t j, double share, int64_t end)
 {
   bt_vec3 *(*const nodes[]) (const bt__dynamic *)
       = { bt__dynamic_x, bt__dynamic_v, bt__dynamic_dx, bt__dynamic_vp };
   for (int k = 0; k < 4; k++)
     {
       bt_vec3 *a = nodes[k](d);
-      a[end] = bt__scale (0.5, bt__add (a[j], a[j + 1]));
+      a[end] = bt__axpy (bt__scale (1 - share, a[j]), share, a[j + 1]);
     }
   bt__dynamic_load (d)[end] = bt__vec (0, 0, 0);
   bt__dynamic_chord (d)[j] = bt__vec (0, 0, 0);
-  bt__dynamic_rest (d)[j] *= 0.5;
+  bt__dynamic_rest (d)[j] *= end ? share : 1 - share;
   bt__dynamic_tension (d)[j] = 0;
   d->pull[end ? 1 : 0] = bt__vec (0, 0, 0);
   d->history = 0;
@@ -386,12 +389,13 @@ new_end (bt__dynamic *d, int64_t j, int64_t end)
 }
 
 void
-bt__dynamic_cut (const bt__dynamic *d, int j, bt__dynamic *a, bt__dynamic *b)
+bt__dynamic_cut (const bt__dynamic *d, int j, double share, bt__dynamic *a, bt__dynamic *b)
 {
   if (b)
     {
-      copy_part (d, j, d->n - j, b);
-      new_end (b, 0, 0);
+      int64_t first = share == 1 ? j + 1 : j;
+      copy_part (d, first, d->n - first, b);
+      new_end (b, 0, share == 1 ? 0 : share, 0);
       b->owed = 0;
     }
   if (a && a != d)
@@ -400,6 +404,6 @@ bt__dynamic_cut (const bt__dynamic *d, int j, bt__dynamic *a, bt__dynamic *b)
     {
       a->n = j + 1;
       a->least = 1;
-      new_end (a, j, j + 1);
+      new_end (a, j, share, j + 1);
     }
 }

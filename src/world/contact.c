@@ -73,8 +73,7 @@ static double
 from_far_end (const bt_dive *dive, int i, double s)
 {
   const bt__tether *tether = bt__dive_tether (dive, dive->now, i);
-  double far = tether->parted ? bt__dynamic_length (bt__dive_chain (dive, dive->now, i, 1)) : 0;
-  return far + tether->length - s;
+  return bt__beyond_chain (dive, dive->now, i) + tether->length - s;
 }
 
 bt_status

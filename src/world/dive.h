@@ -232,6 +232,9 @@ bt_vec3 *bt__dive_tensions (const bt_dive *dive, bt__state *state, int tether);
 void bt__clear_unused_nodes (const bt_dive *dive, bt__state *state, int tether);
 /* The chain of a moving tether: PART 0 at the anchor, 1 at the far end once the line has parted. */
 bt__dynamic *bt__dive_chain (const bt_dive *dive, bt__state *state, int tether, int part);
+/* Metres of rest length of TETHER between its far end and the far end of chain 0: of a parted line
+   chain 1 and what was lost, else 0.  */
+double bt__beyond_chain (const bt_dive *dive, bt__state *state, int tether);
 
 /* Where tether I is ahead of the present of STATE, chain 1 alone is in use, at the end of the
    stretch.  bt__show_chain lets chain 0 tell the present, as bt__line_of does; bt__leave_stretch

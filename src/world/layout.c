@@ -191,6 +191,14 @@ bt__dive_chain (const bt_dive *dive, bt__state *state, int i, int part)
   return (bt__dynamic *)(void *)(store_of (dive, state, i) + offset);
 }
 
+double
+bt__beyond_chain (const bt_dive *dive, bt__state *state, int i)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  return tether->parted ? tether->lost + bt__dynamic_length (bt__dive_chain (dive, state, i, 1))
+                        : 0;
+}
+
 bt__contacts *
 bt__dive_anchors (const bt_dive *dive, bt__state *state, int i, int part)
 {

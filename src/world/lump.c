@@ -31,11 +31,11 @@ bt__lump_place (const bt_dive *dive, int i, const bt__line *line, const bt_lump 
   double length = bt__line_length (&part);
   if (line->tether->parted && from_end > length)
     {
-      from_end -= length;
+      from_end -= length + line->tether->lost;
       part = *line;
       length = bt__line_length (&part);
     }
-  if (from_end > length)
+  if (from_end < 0 || from_end > length) /* lost with what lay between two breaks, or not out */
     return 0;
   *at = bt__line_point (&part, length - from_end);
   return 1;

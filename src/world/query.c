@@ -297,8 +297,7 @@ bt_tether_energy (const bt_dive *dive, int i, bt_energy *energy, bt_error *error
   bt__dynamic_set sets[BT_SETS_MAX];
   bt__dynamic_input input
       = { .line = &line.tether->props, .water = &water, .h = BT__TIME_STEP, .sets = sets };
-  double beyond
-      = line.tether->parted ? bt__dynamic_length (bt__dive_chain (dive, dive->now, i, 1)) : 0;
+  double beyond = bt__beyond_chain (dive, dive->now, i);
   input.n_sets = bt__place_sets (def->sets, (int)def->n_sets, def->length, beyond, sets);
   e = bt__dynamic_energies (line.chain, &input);
   e.strain = fmax (0, e.strain - bt__dynamic_crumple_energy (line.chain, &input));

@@ -169,7 +169,7 @@ test_parting (void **state)
   scene_settle (&s);
   bt__dynamic *whole = malloc (bt__dynamic_size (RIG_MAX));
   memcpy (whole, s.d, bt__dynamic_size (RIG_MAX));
-  bt__dynamic_cut (whole, 12, s.d, rest.d);
+  bt__dynamic_cut (whole, 12, 0.5, s.d, rest.d);
   assert_close (bt__dynamic_length (s.d) + bt__dynamic_length (rest.d), 20.3, 1e-12, "length");
   assert_int_equal (s.d->n + rest.d->n, 31);
   s.in.end[1].free = rest.in.end[0].free = 1;

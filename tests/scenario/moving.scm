@@ -119,10 +119,76 @@ water there, four times the drag.)"
   (expect (tether-tail) => #f)
   (expect (cut-tether! #:at 30) is (about 30 #:within 0.7))
   (expect (parted?))
-  (expect (cut-tether! #:at 3) raises unsupported)
   (drive! #:surge 1)
   (run 60)
   (expect (held?) => #f))
+
+(define-scenario it-is-cut-again
+  "Of a cut line the part at the anchor is cut again: what lies between both cuts drifts off."
+  (in (world (sea) (rov (named minnow) (at 0 0 -30))
+             (tether (named line) (wet-weight 0.5) (from 0 0 0) (to minnow) (length 40) (drum 60) (nodes 40)
+                     (clump (at 25) (mass 20)) (model dynamic))))
+  (run 1)
+  (expect (cut-tether! #:at 30.05) is (about 30 #:within 0.3))
+  (run 1)
+  (let ((tail (tether-tail)) (hung (rov-tension)))
+    (expect (cut-tether! #:at 20.6) is (about 20.6 #:within 1e-6))
+    (expect (tether-tail) => tail)
+    (expect (rov-tension) => hung))
+  (expect (length (filter (lambda (e) (eq? (car e) 'parted)) (events))) => 2)
+  (run 120)
+  ;; The clump was at 25 m, in the piece that is gone; 20.6 m of line weigh 10.3 N.
+  (expect (anchor-tension) is (about 10.3 #:within 0.05))
+  (expect (z (point-at (tether-length))) is (about -20.6 #:within 0.05))
+  (expect (pay-out! 39.5) raises domain) ; 10 m hang from the vehicle, 9.4 m are gone: 29.95 + 10.05 are left
+  (pay-out! 15 #:rate 2)
+  (run 60)
+  (expect (anchor-tension) is (about 17.8 #:within 0.2)))
+
+(define-scenario what-hangs-from-the-vehicle-parts-too
+  "A line parts above a clump that is too heavy for it, and then below it, where the vehicle holds the clump up."
+  (in (world (sea) (rov (named minnow) (at 0 0 -30) (type kinematic))
+             (tether (named line) (wet-weight 0) (breaking-load 100) (from 0 0 0) (to minnow) (length 31)
+                     (clump (at 25) (mass 20)) (nodes 31) (model dynamic))))
+  (run 60)
+  (expect (length (filter (lambda (e) (eq? (car e) 'parted)) (events))) => 2)
+  (expect (max-tension) is (below 100))
+  (expect (rov-tension) is (below 1)))
+
+(define-scenario the-tail-moves-though-the-stub-rests
+  "A stub that lies still on the bottom does not let the other part of the line fall asleep while it swings."
+  (in (world (sea (depth 20)) (seabed) (rov (named minnow) (at 30 0 -5))
+             (tether (named line) (wet-weight 0.5) (from 0 0 -19.99) (to minnow) (length 34) (nodes 34)
+                     (model dynamic))))
+  (run 1)
+  (cut-tether! #:at 1)
+  (let loop ((i 0) (before (tether-tail)))
+    (run 5)
+    (let ((now (tether-tail)))
+      (expect now is (lambda (a) (not (equal? a before))))
+      (when (< i 5)
+        (loop (+ i 1) now))))
+  ;; All of it lies or hangs below the vehicle at last.
+  (run 120)
+  (expect (array-ref (tether-tail) 0 2) is (about -20 #:within 0.05)))
+
+(define-scenario a-cut-divides-contacts
+  "What the line touches is the same before and after it is cut, on either side of the cut."
+  (in (world (sea (depth 20)) (seabed) (box (named block) (at 8 0 -19) (size 1 1 2))
+             (rov (named minnow) (at 30 0 -12))
+             (tether (named line) (wet-weight 0.5) (from 0 0 -19.99) (to minnow) (length 36) (nodes 36)
+                     (model dynamic))))
+  (run 30)
+  (define (touches)
+    (map (lambda (c) (list (contact-object c) (f64vector->list (contact-position c)))) (contacts)))
+  (define (off c)
+    (distance (point-at (contact-arc-length c)) (contact-position c)))
+  (let ((before (touches)))
+    (cut-tether! #:at 18)
+    (let ((now (touches)))
+      (expect (length now) is (above 8))
+      (expect (list-head before (length now)) => now)
+      (expect (apply max (map off (contacts))) is (below 0.02)))))
 
 (define-scenario a-jerk-is-a-snap
   "A slack line run out at speed comes taut with a jerk, once."

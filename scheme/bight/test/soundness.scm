@@ -89,6 +89,10 @@
       (far-end . ,(holder name 'to))
       (ride . ,(ride name))
       (error . ,(if-supported (error-estimate name)))
+      (contacts . ,(map (lambda (c)
+                          (let ((s (contact-arc-length c)))
+                            (list s (distance (point-at name s) (contact-position c)) (contact-object c))))
+                        (contacts name)))
       (parted? . ,(parted? name))
       (tail . ,(and tail (rows tail)))
       (strain-energy . ,(or (assq-ref (or (if-supported (energy name)) '()) 'strain) 0)))))
@@ -178,12 +182,22 @@
     (and (not (and (real? length) (> length 0) (<= length (* drum (+ 1 1e-12)))))
          (say "~a m of it are out, with ~a m on the drum" length drum))))
 
+;; A contact is told at the end of a step, of a place that the line slides along, and in no case a piece away.
+(define (touches-where-it-lies answers)
+  (let ((near (+ (field answers 'diameter) (/ (assq-ref answers 'length) pieces))))
+    (any (lambda (contact)
+           (and (not (<= (second contact) near))
+                (say "it touches ~a at ~a m along it, ~a m from the contact's place"
+                     (third contact) (first contact) (second contact))))
+         (assq-ref answers 'contacts))))
+
 (define tether-laws
   ;; alist, name -> law
   `((length-sane . ,length-sane)
     (tensions-sane . ,tensions-sane)
     (ends-held . ,ends-held)
-    (no-longer-than-it-is . ,no-longer-than-it-is)))
+    (no-longer-than-it-is . ,no-longer-than-it-is)
+    (touches-where-it-lies . ,touches-where-it-lies)))
 
 (define (judge-tether answers)
   "Return #f, or what is wrong with a tether of which the ANSWERS are these, a sentence."
