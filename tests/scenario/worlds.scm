@@ -22,6 +22,30 @@
   #:for ((wild? #f #t))
   (expect (told (unsound-dives (iota (if wild? 12 24)) #:wild? wild?)) => '()))
 
+(define-scenario (cut-twice-and-reeled-in-every-world model)
+  "In each shipped world each tether is cut, cut again, hauled in and paid out: no law is broken at any time."
+  #:for ((model 'dynamic 'auto))
+  (define dice (seed->random-state 1))
+  (define (wrong)
+    (filter-map (lambda (name) (judge-tether (tether-answers name))) (tether-names)))
+  (define (with-each order)
+    (for-each order (tether-names)))
+  (define (cut! name)
+    (cut-tether! name #:at (* (random 1.0 dice) (tether-length name))))
+  (for-each
+   (lambda (world)
+     (enter! world)
+     (with-each (lambda (name) (tether-model! name model)))
+     (run 1.5)
+     (for-each (lambda (order seconds)
+                 (with-each order)
+                 (expect (wrong) => '())
+                 (run seconds)
+                 (expect (wrong) => '()))
+               (list cut! cut! (lambda (name) (haul-in! name 3 #:rate 1)) (lambda (name) (pay-out! name 2 #:rate 1)))
+               '(2 1 3 3)))
+   (worlds)))
+
 
 ;;; The grammar knows all that the schema knows.
 
@@ -107,7 +131,8 @@
   (expect (noticed? 'max-tension (lambda (t) (- t 1)) "largest tension"))
   (expect (noticed? 'tensions (lambda (t) (cons +nan.0 (cdr t))) "a tension is"))
   (expect (noticed? 'length (lambda (l) 0) "of it are out"))
-  (expect (noticed? 'drum (lambda (l) 20) "on the drum")))
+  (expect (noticed? 'drum (lambda (l) 20) "on the drum"))
+  (expect (noticed? 'contacts (lambda (none) '((3 5 seabed))) "it touches seabed at 3 m along it, 5 m from")))
 
 (define-scenario orders-are-judged
   "An error that is none of bight's, and a refusal after which the state is another, are noticed."
