@@ -48,7 +48,14 @@ static const struct
                        { 0.001, 1000, "rms position m" },
                        { 0.001, 400, "rms tension" } };
 
-static long rounds = 3, theirs_too = 1; /* options */
+static long rounds = 3, theirs_too = 1, target_only = 0; /* options */
+
+/* True if TARGET is asked for.  */
+static int
+is_wanted (int target)
+{
+  return target_only == 0 || target_only == target + 1;
+}
 
 /* The errors of a run, by target; its cost.  */
 typedef struct run
@@ -104,12 +111,12 @@ fly_dive (const race *r, const outside_flight *by, double accuracy, double tensi
   front_add (f, &once);
 }
 
-/* Fly R at accuracies from half a metre down, as asked and in whole steps.  */
+/* Fly R at accuracies from two metres down, as asked and in whole steps.  */
 static void
 fly_dives (const race *r, const outside_flight *by, front *f)
 {
-  static const double tension[] = { 0.02, 0.002, INFINITY };
-  for (double accuracy = 0.5; accuracy > 4e-4; accuracy *= 0.7)
+  static const double tension[] = { 0.2, 0.02, 0.002, INFINITY };
+  for (double accuracy = 2; accuracy > 4e-4; accuracy *= 0.7)
     for (size_t k = 0; k < sizeof tension / sizeof *tension; k++)
       fly_dive (r, by, accuracy, tension[k], f);
 }
@@ -252,7 +259,8 @@ race_moordyn (stable *s, front *f)
   front_clear (f);
   choose_schemes (s);
   for (int t = 0; t < TARGETS; t++)
-    reach (s, t, f);
+    if (is_wanted (t))
+      reach (s, t, f);
 }
 
 #endif
@@ -271,7 +279,7 @@ put (bench_table *t, const race *r, const outcome *o, const front *f, int target
 {
   const run *b = &f->best[target];
   char metric[48];
-  if (!isfinite (b->seconds))
+  if (!is_wanted (target) || !isfinite (b->seconds))
     return;
   snprintf (metric, sizeof metric, "%s, at most %g", targets[target].metric, targets[target].error);
   bench_put (t, &(bench_row){ r->name, b->model, b->setting, metric, error_of (b, target),
@@ -286,8 +294,13 @@ say (const race *r, const outcome *o)
   for (int t = 0; t < TARGETS; t++)
     {
       const run *a = &o->ours.best[t], *b = &o->theirs.best[t];
-      printf ("  %g %s: dive %.2f us (%.2g, %s)", targets[t].error, targets[t].metric,
-              1e6 * a->seconds, error_of (a, t), a->setting);
+      if (!is_wanted (t))
+        continue;
+      printf ("  %g %s: ", targets[t].error, targets[t].metric);
+      if (isfinite (a->seconds))
+        printf ("dive %.2f us (%.2g, %s)", 1e6 * a->seconds, error_of (a, t), a->setting);
+      else
+        printf ("not by a dive");
       if (isfinite (b->seconds))
         printf ("; %s %.0f us (%.2g, %s): 1/%.0f, asked 1/%.0f", b->model, 1e6 * b->seconds,
                 error_of (b, t), b->setting, b->seconds / a->seconds, targets[t].ratio);
@@ -356,10 +369,11 @@ main (int argc, char **argv)
   const bench_option options[]
       = { { "rounds", &rounds, 1, 100, 1, "runs of a dive, of which the quickest counts" },
           { "race", &only, 0, RACES, 1, "the number of the only race; 0: all" },
+          { "target", &target_only, 0, TARGETS, 0, "the number of the only target; 0: all" },
           { "moordyn", &theirs_too, 0, 1, 0, "0: of MoorDyn its converged runs alone" },
           { "summary", &quiet, 0, 0, 0, "each target with both codes in words, instead of rows" } };
   const bench_program program
-      = { "rival", "Measure a line in a dive beside MoorDyn at equal error", options, 4 };
+      = { "rival", "Measure a line in a dive beside MoorDyn at equal error", options, 5 };
   int status = bench_options (&program, argc, argv);
   return status == BENCH_GO_ON ? run_all ((int)quiet, only) : status;
 }

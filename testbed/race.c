@@ -191,8 +191,10 @@ lay_loose (const race *r, const race_dive *how)
   return dive;
 }
 
+/* What is told of a line that was cut is told of the part at the anchor, but for the force on what
+   the other part hangs from.  */
 static void
-tell (const bt_dive *dive, outside_flight *f, int k)
+tell (const race *r, const bt_dive *dive, outside_flight *f, int k)
 {
   bt_tether_view view;
   bt_error error;
@@ -201,6 +203,8 @@ tell (const bt_dive *dive, outside_flight *f, int k)
   scene_must (bt_dive_tether (dive, 0, &view, &error), &error);
   f->pull[k][0] = view.tension_anchor;
   f->pull[k][1] = view.tension_end;
+  if (r->loose)
+    scene_must (bt_tether_tension (dive, 0, view.length, &f->pull[k][1], &error), &error);
 }
 
 void
@@ -211,11 +215,11 @@ race_in_dive (const race *r, const race_dive *how, outside_flight *f, double *se
   if (!r->loose)
     follow (r, dive);
   f->rows = r->rows;
-  tell (dive, f, 0);
+  tell (r, dive, f, 0);
   for (int k = 1; k < r->rows; k++)
     {
       spent += HALF * scene_run (dive, HALF);
-      tell (dive, f, k);
+      tell (r, dive, f, k);
     }
   bt_dive_free (dive);
   *seconds = spent / (0.5 * (r->rows - 1));
