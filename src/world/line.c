@@ -137,7 +137,8 @@ bt__chain_error (const bt__dynamic *chain)
 double
 bt__line_error (const bt__line *line)
 {
-  return line->chain
-             ? fmax (BT__COMMON_ERROR * bt__chain_error (line->chain), line->tether->look.error)
-             : NAN;
+  if (!line->chain)
+    return NAN;
+  double error = fmax (BT__COMMON_ERROR * bt__chain_error (line->chain), line->tether->look.error);
+  return fmax (error, fabs (line->chain->owed));
 }

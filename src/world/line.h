@@ -58,8 +58,8 @@ double bt__line_tension_max (const bt__line *line);
 double bt__chain_error (const bt__dynamic *chain);
 
 /* The error in position of LINE, m: the common error of its nodes, a share of the upper estimate,
-   or the rest of the error with fewer nodes before, whichever is larger; NAN if LINE has no chain.
- */
+   the rest of the error with fewer nodes before, or the length by which the intervals differ from
+   what is out since nodes came or went, whichever is largest; NAN if LINE has no chain.  */
 #define BT__COMMON_ERROR 0.8
 double bt__line_error (const bt__line *line);
 

@@ -81,3 +81,27 @@
        (accuracy! accepted)
        (expect (accurate?))))
    '(2 5 30 100)))
+
+(define pieces 24)
+
+(define (longest-piece)
+  ;; The most that a straight way between ends of such a piece of the line is, as a share of the piece.
+  (let ((points (tether-points (+ pieces 1))))
+    (let loop ((i 1) (most 0))
+      (if (> i pieces)
+          (/ most (/ (tether-length) pieces))
+          (let ((way (map (lambda (k) (- (array-ref points i k) (array-ref points (- i 1) k))) '(0 1 2))))
+            (loop (+ i 1) (max most (sqrt (apply + (map * way way))))))))))
+
+(define-scenario (a-line-tells-what-it-is-longer-than-is-out volume)
+  "Where nodes come to a line of few intervals they lie on its curve, and the line is longer by a metre than what is out,
+until its winch has paid that: no piece is longer by more than its share of the estimated error, and a hundredth between nodes."
+  #:for ((volume 0.040 0.043 0.046))
+  (enter! (world (sea)
+                 (rov (named minnow) (at -6 -3 -1) (heading 31) (roll -56) (mass 18) (volume volume) (tether-point 1 -1 -1))
+                 (tether (named line) (from -8 3 -8) (to minnow) (via (-10 8 -10) (-9 -1 -9)) (length 26) (drum 120) (nodes 3)
+                         (model dynamic) (winch-brake 4.5) (winch-rate 2.2) (set (at 9.9) (curvature 0.0014) (plane 264))
+                         (ei 0.05) (from-along 1 0 0))))
+  (pay-out! 52 #:rate 52)
+  (always (< (longest-piece) (+ 1.011 (/ (error-estimate) (tether-length))))
+    (run 1.5)))

@@ -242,8 +242,9 @@ gravity (from z = 0) and bending, an alist.  Raise unsupported for static models
   (%energy (this-engine 'energy) t))
 
 (define-verb (error-estimate #:subject (t tether))
-  "Return the estimated error in position of the moving line, m: of its nodes, or what is left of the error
-that it had with fewer nodes before, if that is more.  Raise unsupported for static models."
+  "Return the estimated error in position of the moving line, m: of its nodes; what is left of the error that
+it had with fewer nodes before; or what it is longer or shorter than what is out, since nodes came or went:
+the largest of these.  Raise unsupported for static models."
   (let ((error (%error-estimate (this-engine 'error-estimate) t)))
     (if (nan? error)
         (bight-raise 'unsupported 'error-estimate

@@ -131,7 +131,9 @@
 (define (unsure ds answers)
   ;; How far the ends of a piece of DS metres may be off, m, by what the line says of its own error.
   (case (field answers 'model)
-    ((dynamic auto) (min (* 2 (or (assq-ref answers 'error) 0)) (* most-of-interpolation ds)))
+    ((dynamic auto)
+     (let ((error (or (assq-ref answers 'error) 0)))
+       (min (* 2 error) (* ds (+ most-of-interpolation (/ error (assq-ref answers 'length)))))))
     ((steady) (* most-of-interpolation ds))
     ;; In closed form, unless it floats.
     ((elastic) (if (negative? (field answers 'wet-weight)) (* most-of-interpolation ds) 0))
