@@ -109,10 +109,12 @@ void bt__go_back (const bt_dive *dive, bt__state *state, int i, const bt__presen
 /* bt__may_go_back and bt__was_wound: tether I may be taken through the step otherwise than whole.
    The first: the line moved already in the present, the winch stands and gives no line, and water
    and ends alone act on the line.  The second: all line from the winch was in the chain in the
-   present.  bt__has_jumped: the tension, at most TENSION, changed in the step by more than TIMES
+   present.  bt__tension_asked: the accepted error in tension, N, where the largest tension is
+   TENSION.  bt__has_jumped: the tension, at most TENSION, changed in the step by more than TIMES
    its accuracy (chain_fine.c).  */
 int bt__may_go_back (const bt_dive *dive, bt__state *state, int i);
 int bt__was_wound (const bt_dive *dive, int i);
+double bt__tension_asked (const bt__tether *tether, double tension);
 int bt__has_jumped (const bt_dive *dive, bt__state *state, int i, double tension, double times);
 
 /* bt__rides_stretch takes tether I through the step to ENDS as a part of a stretch and returns

@@ -155,9 +155,8 @@ try_parts (bt_dive *dive, bt__state *state, int i, const bt__ends *to, int fine,
 
 /* ---- Is it accurate? ---- */
 
-/* The error in tension, N, that is asked for where the largest tension is TENSION.  */
-static double
-asked (const bt__tether *tether, double tension)
+double
+bt__tension_asked (const bt__tether *tether, double tension)
 {
   return tether->props.tension_accuracy * fmax (tension, LEAST_SCALE);
 }
@@ -200,7 +199,7 @@ int
 bt__has_jumped (const bt_dive *dive, bt__state *state, int i, double tension, double times)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
-  double most = times * asked (tether, tension);
+  double most = times * bt__tension_asked (tether, tension);
   for (int part = 0; part < bt__chains (tether); part++)
     {
       const bt__dynamic *now = bt__dive_chain (dive, dive->now, i, part),
@@ -285,7 +284,7 @@ refine (bt_dive *dive, bt__state *state, int i, const bt__ends *to, const bt__pr
       if (*status != BT_OK || dive->contact_work.balked)
         return -1;
       *off = apart (&coarse, a);
-      if (*off <= SHARE * asked (tether, a->report.tension))
+      if (*off <= SHARE * bt__tension_asked (tether, a->report.tension))
         break;
     }
   return fine;
@@ -378,11 +377,12 @@ bt__advance_as_asked (bt_dive *dive, bt__state *state, int i, const bt__ends *to
     return status;
   *report = a.report;
   tether->peak = fine > 0 ? a.report.tension : 0;
-  tether->unsure = off > asked (tether, a.report.tension) ? off : 0;
-  tether->fine = solving ? solved_fine (state, fine)
-                 : fine == 0 || !bt__has_jumped (dive, state, i, a.report.tension, STAY)
-                     ? 0
-                     : next_fine (fine, off / (SHARE * asked (tether, a.report.tension)));
+  tether->unsure = off > bt__tension_asked (tether, a.report.tension) ? off : 0;
+  tether->fine
+      = solving ? solved_fine (state, fine)
+        : fine == 0 || !bt__has_jumped (dive, state, i, a.report.tension, STAY)
+            ? 0
+            : next_fine (fine, off / (SHARE * bt__tension_asked (tether, a.report.tension)));
   dive->profile.chain_steps += (uint64_t)bt__chains (tether);
   dive->profile.chain_unconverged = unsolved + !a.report.converged;
   return BT_OK;

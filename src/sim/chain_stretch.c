@@ -1,7 +1,7 @@
 /* A stretch: several steps of the dive through which a moving line is taken in one solve.
 
-   The dive's clock stays.  Where all is calm a line of model `auto' is solved ahead, for up to half
-   a second, and each step of the dive then tells the line from the places and velocities at both
+   The dive's clock stays.  Where all is calm a line of model `auto' is solved ahead, for up to a
+   second, and each step of the dive then tells the line from the places and velocities at both
    ends of the stretch (tether/dynamic_dense.c).  Of the line the state holds the end of the stretch
    alone, and how many steps of the stretch are gone.  A question about the line brings a copy of
    the line to the present first: a state is the same to the bit however often the dive was asked,
@@ -15,9 +15,9 @@
 
    The error of the last stretch says how many steps the next stretch takes: the difference of the
    solution from the predictor (Milne's device; Hairer, Norsett, Wanner, Solving Ordinary
-   Differential Equations I, III.5) grows with the cube of the step.  Two more bounds are the change
-   of tension within the stretch, and how far a node may go without meeting anything.  No stretch is
-   more than twice as long as the step before.
+   Differential Equations I, III.5) grows with the cube of the step.  Two more bounds are the
+   distance of the tensions from the straight ways told within the stretch, and the way of a node
+   clear of everything.  No stretch is more than twice as long as the step before.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -30,7 +30,8 @@
 
 #define LATE 0.05 /* of the accuracy: the error of the steps of a second, at most, ... */
 #define AT_ONCE                                                                                    \
-  0.25 /* s: ... and of one step that of so long, for errors to and fro add up to none */
+  0.25           /* s: ... and of one step that of so long, for errors to and fro add up to none */
+#define BOW 0.25 /* of the accuracy: how far a tension may be off its straight way */
 #define ASTRAY 0.01  /* of the accuracy: how far an end may be from where the stretch has it */
 #define REACHED 5e-6 /* m: an end that is nearer to its place is there, as in pins.c */
 #define FOLLOWED 0.9 /* of the steps that the error would allow */
@@ -166,6 +167,31 @@ error_of (const bt_dive *dive, bt__state *state, int i)
   return bt__dynamic_surprise (bt__dive_chain (dive, dive->now, i, 0), chain) / asked;
 }
 
+/* How much the force on end K of CHAIN, beyond the tension of the interval there, has changed since
+   NOW, N: the loads of half an interval.  */
+static double
+change_of_end (const bt__dynamic *now, const bt__dynamic *chain, int k)
+{
+  int64_t j = k ? chain->n - 1 : 0;
+  return fabs (bt__norm (chain->pull[k]) - bt__dynamic_tension (chain)[j] - bt__norm (now->pull[k])
+               + bt__dynamic_tension (now)[j]);
+}
+
+/* True if the tensions of tether I in the last stretch, at most TENSION, are straight ways from
+   begin to end, as near as their accuracy asks.  */
+static int
+is_tension_straight (const bt_dive *dive, bt__state *state, int i, double tension)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  const bt__dynamic *now = bt__dive_chain (dive, dive->now, i, 0),
+                    *chain = bt__dive_chain (dive, state, i, 0);
+  double asked = bt__tension_asked (tether, tension),
+         bow = bt__dynamic_tension_bow (now, chain, bt__stiffness (tether->props.ea));
+  return !bt__has_jumped (dive, state, i, tension, 1)
+         || (bow <= BOW * asked && change_of_end (now, chain, 0) <= asked
+             && change_of_end (now, chain, 1) <= asked);
+}
+
 /* True if the line is neither about to sleep nor to part, and no event of tension or bends falls
    into the stretch.  */
 static int
@@ -246,7 +272,7 @@ go_ahead (bt_dive *dive, bt__state *state, int i)
       double off = status == BT_OK ? error_of (dive, state, i) : INFINITY;
       if (off <= 1 && is_eventless (&p.tether, &report) && is_in_hand (dive, state, i, &to)
           && went_clear (dive, state, i, &report)
-          && !bt__has_jumped (dive, state, i, report.tension, 1)
+          && is_tension_straight (dive, state, i, report.tension)
           && bt__has_room_about (dive, state, i, 0))
         {
           begin_stretch (dive, state, i, steps, off, &report);
@@ -260,21 +286,24 @@ go_ahead (bt_dive *dive, bt__state *state, int i)
 
 /* ---- Within ---- */
 
-/* True if the end of tether I is at AT, about where the stretch has node K of the chain.  */
+/* True if end E of tether I is at AT, about where its stretch has that end.  An anchor stands
+   still in steady water.  */
 static int
-is_there (const bt__tether *tether, const bt__dynamic *chain, int64_t k, bt_vec3 at)
+is_there (const bt_dive *dive, bt__state *state, int i, int e, bt_vec3 at)
 {
+  if (dive->model->ends[i][e].vehicle < 0)
+    return 1;
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 1);
   double share = (double)(tether->stretch.gone + 1) / (double)tether->stretch.span;
-  bt_vec3 has = bt__dynamic_node_between (chain, share, k);
+  bt_vec3 has = bt__dynamic_node_between (chain, share, e ? chain->n : 0);
   return bt__distance (has, at) <= ASTRAY * bt__accuracy (tether);
 }
 
 int
 bt__are_ends_foreseen (const bt_dive *dive, bt__state *state, int i, const bt__ends *ends)
 {
-  const bt__tether *tether = bt__dive_tether (dive, state, i);
-  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 1);
-  return is_there (tether, chain, 0, ends->a) && is_there (tether, chain, chain->n, ends->b);
+  return is_there (dive, state, i, 0, ends->a) && is_there (dive, state, i, 1, ends->b);
 }
 
 /* True if the stretch of tether I holds for this step too, which takes its ends to ENDS.  */

@@ -269,8 +269,12 @@ void bt__dynamic_forget_back (bt__dynamic *d);
 
 /* bt__dynamic_surprise estimates the error in place of any node by the last step of D, m, BEGIN
    having made a step too: by the difference from the predictor (Milne's device).
-   bt__dynamic_swing: no node is farther from the straight way of the step, m.  */
+   bt__dynamic_swing: no node is farther from the straight way of the step, m.
+   bt__dynamic_tension_bow estimates how far any tension, of a line of stiffness EA, is meanwhile
+   off the straight way between its values before and after the last step of D, N: by the difference
+   from the tension extrapolated from the step of BEGIN.  */
 double bt__dynamic_surprise (const bt__dynamic *begin, const bt__dynamic *d);
+double bt__dynamic_tension_bow (const bt__dynamic *begin, const bt__dynamic *d, double ea);
 double bt__dynamic_swing (const bt__dynamic *d);
 
 /* Return the place of node I of D at the SHARE, 0 to 1, of its last step.  */

@@ -53,6 +53,20 @@ bt__dynamic_surprise (const bt__dynamic *begin, const bt__dynamic *d)
 }
 
 double
+bt__dynamic_tension_bow (const bt__dynamic *begin, const bt__dynamic *d, double ea)
+{
+  const double *t0 = bt__dynamic_tension (begin), *t1 = bt__dynamic_tension (d),
+               *de = bt__dynamic_dstretch (begin);
+  double r = d->h / begin->h, most = 0;
+  for (int64_t j = 0; j < d->n; j++)
+    {
+      double rate = t0[j] > 0 ? ea * r * de[j] : 0, off = fabs (t1[j] - t0[j] - rate);
+      most = off > most ? off : most;
+    }
+  return most * r / (4 * (1 + r));
+}
+
+double
 bt__dynamic_swing (const bt__dynamic *d)
 {
   const bt_vec3 *v = bt__dynamic_v (d), *vp = bt__dynamic_vp (d), *dx = bt__dynamic_dx (d);

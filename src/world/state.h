@@ -96,7 +96,7 @@ enum
    (sim/chain_stretch.c).  */
 enum
 {
-  BT__LONGEST_STRETCH = 30,
+  BT__LONGEST_STRETCH = 60,
   BT__SHORTEST_WAIT = 8, /* until one is asked for again, after none was to be had */
   BT__LONGEST_WAIT = 64
 };

@@ -200,6 +200,55 @@ test_nodes_come_in_time (void **state)
     }
 }
 
+/* A line that is run out until it is nearly taut: its tension grows to several times the accuracy
+   within many a stretch, and is told as well as in steps of a sixtieth of a second.  */
+static void
+test_a_tension_that_grows (void **state)
+{
+  (void)state;
+  for (int f = 0; f < 4; f++)
+    {
+      double place = 0, force = 0, accuracy = f % 2 ? 0.2 : 0.05, to = 40, rate = 0.3 + 0.2 * f;
+      bt_tether_view first, last;
+      bt_dive *dive[2];
+      for (int k = 0; k < 2; k++)
+        {
+          static scene s;
+          scene_clear (&s);
+          scene_current (&s, bt__vec (-0.2, 0.4, 0.1));
+          scene_vehicle (&s, bt__vec (34, 0, -10))->pull = 1e6;
+          bt_tether_def *line = scene_line (&s, bt__vec (0, 0, -10), to, 20);
+          line->props.model = BT_MODEL_AUTO;
+          line->props.accuracy = accuracy;
+          dive[k] = scene_begin (&s.world);
+          scene_run (dive[k], 2 * SECOND);
+        }
+      step_whole (dive[1]);
+      bt_error error;
+      scene_must (bt_dive_tether (dive[0], 0, &first, &error), &error);
+      uint64_t before = profile_of (dive[0]).chain_steps;
+      int steps = (int)(0.148 * to / rate * SECOND), told = 0;
+      for (int k = 0; k < 2; k++)
+        scene_must (
+            bt_vehicle_move (dive[k], 0, &(bt_flight){ bt__vec (to, 0, -10), rate }, &error),
+            &error);
+      for (; told < steps; told += 17)
+        {
+          scene_run (dive[0], 17);
+          scene_run (dive[1], 17);
+          compare (dive[0], dive[1], &place, &force);
+        }
+      scene_must (bt_dive_tether (dive[0], 0, &last, &error), &error);
+      uint64_t solved = profile_of (dive[0]).chain_steps - before;
+      bt_dive_free (dive[0]);
+      bt_dive_free (dive[1]);
+      if (!(last.tension_max > 4 * first.tension_max) || !(place < 0.2 * accuracy)
+          || !(force < 0.02) || (int)solved * 4 > told)
+        fail_msg ("%g m/s: %g to %g N, %g m of %g, force %g, %d solves in %d steps", rate,
+                  first.tension_max, last.tension_max, place, accuracy, force, (int)solved, told);
+    }
+}
+
 /* A stick that is never still: its vehicle is never where it was foreseen, by less than counts or
    by more, and each time the line goes on as it was told, without a jerk.  */
 static void
@@ -582,6 +631,7 @@ main (void)
     cmocka_unit_test (test_error_is_below_what_is_asked),
     cmocka_unit_test (test_error_follows_the_accuracy),
     cmocka_unit_test (test_nodes_come_in_time),
+    cmocka_unit_test (test_a_tension_that_grows),
     cmocka_unit_test (test_sticks_are_never_still),
     cmocka_unit_test (test_the_same_however_it_is_asked),
     cmocka_unit_test (test_the_same_from_within),
