@@ -111,8 +111,10 @@ void bt__note_all_partings (const bt_dive *dive, bt__state *state);
    and `freed' (wound.c).  */
 bt_status bt__note_windings (bt_dive *dive, bt_error *error);
 
-/* Count for how long each tether has been stuck, with the event `stuck' (stuck.c).  */
-void bt__note_stuck (const bt_dive *dive, bt__state *state);
+/* Count for how long tether I, its ends at ENDS, has been stuck, with the event `stuck'; the same
+   of all tethers (stuck.c).  */
+void bt__note_stuck (const bt_dive *dive, bt__state *state, int i, const bt__ends *ends);
+void bt__note_all_stuck (const bt_dive *dive, bt__state *state);
 
 /* Bring the movers of STATE to where they came; event `pinched'.  */
 void bt__settle_movers (bt_dive *dive, bt__state *state);

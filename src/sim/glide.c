@@ -5,8 +5,8 @@
    the vehicles, to see that they are where the lines were told, or where they were, and to count.
    A copy of the state for that is dearer than all the rest, so the present itself is written to,
    once nothing can refuse the step any more.  Any doubt (an end elsewhere, an arrival, a line about
-   to be taut) leaves the present as it was, and the step is taken as any other: with the same
-   outcome to the bit, for each quantity is found by the function that finds it there.
+   to be taut or slack) leaves the present as it was, and the step is taken as any other: with the
+   same outcome to the bit, for each quantity is found by the function that finds it there.
 
    An operation on the sea, a tether or an obstacle ends all stretches (ops.c), so that within one
    only vehicles and their orders can have changed.
@@ -131,67 +131,71 @@ keeps_headings (const bt_dive *dive, int i)
   return all;
 }
 
-/* True if tether I, not taut, goes on with its ends at ENDS, where the moved vehicles have them:
-   its stretch holds, or, at REST, nothing has changed.  */
+/* True if tether I goes on with its ends at ENDS, where the moved vehicles have them: its stretch
+   holds, or, at REST and not taut, nothing has changed.  */
 static int
 does_hold (const bt_dive *dive, int i, const bt__ends *ends, int rest)
 {
   const bt__tether *tether = bt__dive_tether (dive, dive->now, i);
-  if (tether->taut || bt__is_chord_taut (tether, ends))
-    return 0;
+  int taut = bt__is_chord_taut (tether, ends);
   if (!rest)
-    return bt__are_ends_foreseen (dive, dive->now, i, ends);
-  return keeps_headings (dive, i)
+    return taut == (tether->taut != 0)
+           && !(taut && bt__is_pulled_back (dive, dive->next, dive->now, i))
+           && bt__are_ends_foreseen (dive, dive->now, i, ends);
+  return !taut && !tether->taut && keeps_headings (dive, i)
          && (bt__is_cable (tether) ? bt__is_unchanged (dive, dive->now, tether, ends)
                                    : bt__step_shape.rests (dive, dive->now, i, ends));
 }
 
+/* The same of all tethers; ENDS receives where their ends are.  */
 static int
-do_all_hold (const bt_dive *dive, int rest)
+do_all_hold (const bt_dive *dive, bt__ends *ends, int rest)
 {
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
-      bt__ends ends = bt__tether_ends (dive, dive->now, i);
-      if (!does_hold (dive, i, &ends, rest))
+      ends[i] = bt__tether_ends (dive, dive->now, i);
+      if (!does_hold (dive, i, &ends[i], rest))
         return 0;
     }
   return 1;
 }
 
-/* Take tether I, which holds, on.  */
+/* Take tether I, which holds with its ends at ENDS, on.  */
 static void
-take_on (bt_dive *dive, int i, int rest)
+take_on (bt_dive *dive, int i, const bt__ends *ends, int rest)
 {
-  bt__ends ends = bt__tether_ends (dive, dive->now, i);
   if (!rest)
-    bt__go_on_within (dive, dive->now, i, &ends);
+    bt__go_on_within (dive, dive->now, i, ends);
   else if (!bt__is_cable (bt__dive_tether (dive, dive->now, i)))
     dive->profile.shape_skips++;
   else
     dive->profile.chain_sleeps++;
 }
 
-/* Take the present on by a step in place and return true; or leave it as it is.  */
+/* Take the present on by a step in place and return true; or leave it as it is.  Without obstacles
+   there are no meetings whose end would have to be noted.  */
 static int
 glides (bt_dive *dive)
 {
   bt__state *now = dive->now;
+  bt__ends ends[BT_TETHERS_MAX];
   if (dive->model->n_obstacles > 0 || dive->model->n_hulls > 0)
     return 0;
   int rest = !are_all_ahead (dive);
   if ((rest && !may_all_rest (dive)) || !are_all_kinematic (dive) || bt__ask (&dive->asker))
     return 0;
   now->step++;
-  if (!move (dive) || !do_all_hold (dive, rest))
+  if (!move (dive) || !do_all_hold (dive, ends, rest))
     {
       now->step--;
       move_back (dive);
       return 0;
     }
   for (int i = 0; i < dive->model->n_tethers; i++)
-    take_on (dive, i, rest);
-  bt__note_all_partings (dive, now);
-  bt__note_stuck (dive, now);
+    {
+      take_on (dive, i, &ends[i], rest);
+      bt__note_stuck (dive, now, i, &ends[i]);
+    }
   dive->changes++;
   dive->profile.steps++;
   return 1;

@@ -92,6 +92,33 @@ stop_body (const bt_dive *dive, bt__state *state, int vehicle, bt_vec3 u)
     v->pull += SMOOTH * (force - v->pull);
 }
 
+/* True if VEHICLE of STATE, fastened at *P, is outside the ball of tether I: farther than *REACH
+ *from OTHER, the far end.  */
+static int
+is_outside (const bt_dive *dive, const bt__state *from, bt__state *state, int i, int vehicle,
+            bt_vec3 *p, bt_vec3 *other, double *reach)
+{
+  if (!fastened (dive, state, i, vehicle, other))
+    return 0;
+  *p = bt__attachment (dive, state, vehicle);
+  *reach = reach_on_tether (dive, from, state, i, vehicle, *other);
+  return bt__distance (*p, *other) > *reach;
+}
+
+int
+bt__is_pulled_back (const bt_dive *dive, const bt__state *from, bt__state *state, int i)
+{
+  int any = 0;
+  for (int k = 0; k < 2; k++)
+    {
+      int vehicle = dive->model->ends[i][k].vehicle;
+      bt_vec3 p, other;
+      double reach;
+      any |= vehicle >= 0 && is_outside (dive, from, state, i, vehicle, &p, &other, &reach);
+    }
+  return any;
+}
+
 /* Pull VEHICLE back into the ball of tether I; return true if VEHICLE was outside.  */
 static int
 pull_back (const bt_dive *dive, const bt__state *from, bt__state *state, int i, int vehicle)
@@ -99,13 +126,9 @@ pull_back (const bt_dive *dive, const bt__state *from, bt__state *state, int i, 
   bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle);
   double reach, chord;
   bt_vec3 p, other;
-  if (!fastened (dive, state, i, vehicle, &other))
+  if (!is_outside (dive, from, state, i, vehicle, &p, &other, &reach))
     return 0;
-  p = bt__attachment (dive, state, vehicle);
-  reach = reach_on_tether (dive, from, state, i, vehicle, other);
   chord = bt__distance (p, other);
-  if (chord <= reach)
-    return 0;
   bt__put_vehicle (v, bt__axpy (v->position, reach / chord - 1, bt__sub (p, other)), 1);
   if (v->rigid)
     stop_body (dive, state, vehicle, bt__scale (1 / chord, bt__sub (other, p)));

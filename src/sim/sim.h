@@ -145,6 +145,10 @@ int bt__bar_stretches (bt_dive *dive);
 /* True if the distance of ENDS makes TETHER taut (reach.c).  */
 int bt__is_chord_taut (const bt__tether *tether, const bt__ends *ends);
 
+/* True if tether I would pull a vehicle back on the vehicle's way from its place in FROM to its
+   place in STATE (reach.c).  */
+int bt__is_pulled_back (const bt_dive *dive, const bt__state *from, bt__state *state, int i);
+
 /* Note whether tether I is TAUT, with the event `taut' or `slack' (reach.c).  */
 void bt__note_taut (bt__state *state, bt__tether *tether, int i, int taut);
 

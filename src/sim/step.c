@@ -252,7 +252,7 @@ bt__step_aside (bt_dive *dive, bt_error *error)
   bt__note_all_partings (dive, dive->next);
   if (status != BT_OK)
     return status;
-  bt__note_stuck (dive, dive->next);
+  bt__note_all_stuck (dive, dive->next);
   bt__watch_props (dive, dive->next);
   count_work (dive);
   bt__dive_commit (dive);

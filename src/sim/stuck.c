@@ -48,12 +48,12 @@ is_pulled (const bt_dive *dive, bt__state *state, int i)
   return (wants || tether->winch_rate < 0) && bt__norm (pull_of (dive, state, i)) > PULL;
 }
 
-/* Where tether I ends: a parted one where it has parted.  */
+/* Where tether I, its ends at ENDS, ends: a parted one where it has parted.  */
 static bt_vec3
-end_of_line (const bt_dive *dive, bt__state *state, int i)
+end_of_line (const bt_dive *dive, bt__state *state, int i, const bt__ends *ends)
 {
   if (!bt__dive_tether (dive, state, i)->parted)
-    return bt__tether_ends (dive, state, i).b;
+    return ends->b;
   bt__line line = bt__line_of (dive, state, i);
   return bt__line_node (&line, bt__line_nodes (&line) - 1);
 }
@@ -81,14 +81,21 @@ look_at_end (bt__state *state, bt__tether *tether, bt_vec3 here, int i)
 }
 
 void
-bt__note_stuck (const bt_dive *dive, bt__state *state)
+bt__note_stuck (const bt_dive *dive, bt__state *state, int i, const bt__ends *ends)
+{
+  bt__tether *tether = bt__dive_tether (dive, state, i);
+  if (is_pulled (dive, state, i))
+    look_at_end (state, tether, end_of_line (dive, state, i, ends), i);
+  else
+    tether->pulled = tether->stuck = 0;
+}
+
+void
+bt__note_all_stuck (const bt_dive *dive, bt__state *state)
 {
   for (int i = 0; i < dive->model->n_tethers; i++)
     {
-      bt__tether *tether = bt__dive_tether (dive, state, i);
-      if (is_pulled (dive, state, i))
-        look_at_end (state, tether, end_of_line (dive, state, i), i);
-      else
-        tether->pulled = tether->stuck = 0;
+      bt__ends ends = bt__tether_ends (dive, state, i);
+      bt__note_stuck (dive, state, i, &ends);
     }
 }

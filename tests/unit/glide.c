@@ -145,6 +145,54 @@ test_in_place_and_aside_are_alike (void **state)
   assert_true (arrived > SCENES / 8);
 }
 
+/* A line led along a track: past its length, where it stays a while, and back.  */
+static bt_dive *
+begin_led (double beyond)
+{
+  static scene s;
+  bt_error error;
+  const double rows[]
+      = { 0, 29.5, 0, -10, 5, 30 + beyond, 0, -10, 12, 30 + beyond, 0.5, -10, 16, 29, 0, -10 };
+  scene_clear (&s);
+  scene_current (&s, bt__vec (0.1, 0.3, 0));
+  scene_vehicle (&s, bt__vec (29.5, 0, -10))->pull = 50;
+  bt_tether_def *line = scene_line (&s, bt__vec (0, 0, -10), 30, 20);
+  line->props.model = BT_MODEL_AUTO;
+  line->props.accuracy = 0.05;
+  bt_dive *dive = scene_begin (&s.world);
+  scene_must (bt_vehicle_follow (dive, 0, &(bt_rows){ rows, 4, 4 }, &error), &error);
+  return dive;
+}
+
+/* Where a line is taut too; the vehicle is held back where it pulls too little to go on.  */
+static void
+test_taut_in_place_and_aside_are_alike (void **state)
+{
+  static const double beyond[] = { 0.001, 0.004, 0.02, 0.2 };
+  int taut = 0, held = 0;
+  (void)state;
+  for (int f = 0; f < 4; f++)
+    {
+      bt_dive *dive[2] = { begin_led (beyond[f]), begin_led (beyond[f]) };
+      for (int k = 0; k < STEPS; k++)
+        {
+          bt_error error;
+          const bt__state *was = dive[0]->now;
+          scene_must (bt_dive_step (dive[0], &error), &error);
+          scene_must (bt__step_aside (dive[1], &error), &error);
+          if (bt_dive_hash (dive[0]) != bt_dive_hash (dive[1]))
+            fail_msg ("%g m beyond, step %d", beyond[f], k);
+          taut += dive[0]->now == was && bt__dive_tether (dive[0], dive[0]->now, 0)->taut;
+          held += bt__dive_vehicle (dive[0], dive[0]->now, 0)->held != 0;
+        }
+      assert_true (events_of (dive[0], BT_EVENT_TAUT) > 0);
+      bt_dive_free (dive[0]);
+      bt_dive_free (dive[1]);
+    }
+  print_message ("%d taut in place, %d held\n", taut, held);
+  assert_true (taut > STEPS / 4 && held > STEPS / 4);
+}
+
 /* A vehicle on a line that hangs: asleep, of few intervals, twisted or clamped; static; or none. */
 static bt_dive *
 begin_at_rest (uint64_t *seed)
@@ -264,6 +312,7 @@ main (void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test (test_in_place_and_aside_are_alike),
+    cmocka_unit_test (test_taut_in_place_and_aside_are_alike),
     cmocka_unit_test (test_rest_in_place_and_aside_are_alike),
     cmocka_unit_test (test_it_can_be_interrupted),
   };
