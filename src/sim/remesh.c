@@ -9,7 +9,8 @@
    The nodes are looked at every BT__REMESH_EVERY steps, and as soon as the line bends much more
    sharply than at the last look.  A taut line that is let go folds within a few steps.  The nodes
    of that moment decide about the fold, and nodes added later do not put the fold right.  Therefore
-   even a straight line has FEWEST nodes, and the error of a line with few nodes counts for a while.
+   even a straight line has some nodes (fewest_of), and the error of a line with few nodes counts
+   for a while.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -35,8 +36,11 @@
 #define STRETCH 0.01
 enum
 {
-  FEWEST = 30
+  FEWEST = 30, /* intervals of a line, ... */
+  LEAST = 8    /* ... and of a line in open water, asked for less than usual */
 };
+#define USUAL 0.002   /* of its length: the usual accuracy */
+#define STRAIGHT 0.97 /* of its length: the distance of its ends */
 
 /* A bend so many times as sharp as the sharpest at the last look is looked at.  */
 #define SHARPER 1.25
@@ -49,6 +53,19 @@ enum
 
 #define WINCH_AIM 0.5 /* of the accuracy: the standard for nodes that come and go */
 
+/* The fewest intervals of TETHER, of model `auto'.  The error of a fold falls with the square of
+   their number.  A nearly straight line may be let go at any time; among obstacles contact takes
+   hold of nodes.  */
+static int
+fewest_of (const bt_dive *dive, const bt__tether *tether)
+{
+  double chord = bt__distance (tether->shape.a, tether->shape.b);
+  if (bt__has_obstacles (dive) || tether->parted || chord > STRAIGHT * tether->length)
+    return FEWEST;
+  double share = USUAL * tether->length / bt__accuracy (tether);
+  return (int)fmax (LEAST, ceil (FEWEST * sqrt (fmin (1, share))));
+}
+
 /* The mesh of tether I; a line with its original length keeps its original nodes: its mesh has no
    error to keep to.  */
 bt__dynamic_mesh
@@ -56,7 +73,7 @@ bt__chain_mesh (const bt_dive *dive, const bt__state *state, const bt__tether *t
 {
   const bt_tether_def *def = &dive->model->tethers[i];
   int adapts = tether->props.model == BT_MODEL_AUTO, wound = tether->length != def->length;
-  int wanted = adapts ? FEWEST : (int)tether->props.nodes;
+  int wanted = adapts ? fewest_of (dive, tether) : (int)tether->props.nodes;
   int fewest = (int)fmax (1, fmin (wanted, tether->length / SHORTEST));
   return (bt__dynamic_mesh){ .fewest = fewest,
                              .most = (int)fmax (wanted, bt__mesh_room (def)),
@@ -67,14 +84,15 @@ bt__chain_mesh (const bt_dive *dive, const bt__state *state, const bt__tether *t
                              .corners = def->n_lumps > 0 };
 }
 
-/* How many intervals the chain of N with the estimated ERROR should have, at most ROOM.  */
+/* How many intervals the chain of N with the estimated ERROR should have: FEWEST at least, and at
+   most ROOM.  */
 static int
-wanted (int n, double error, double accuracy, int room)
+wanted (int n, double error, double accuracy, int fewest, int room)
 {
   double ideal = SPARE * n * sqrt (error / (AIM * accuracy));
-  if (error <= AIM * accuracy && error >= TOO_GOOD * accuracy)
+  if (n >= fewest && error <= AIM * accuracy && error >= TOO_GOOD * accuracy)
     return n;
-  return (int)fmax (FEWEST, fmin (room, ceil (ideal)));
+  return (int)fmax (fewest, fmin (room, ceil (ideal)));
 }
 
 /* Among obstacles a line is refined by whole multiples: its nodes stay.  */
@@ -234,7 +252,7 @@ remesh (bt_dive *dive, bt__state *state, int i, double most, bt_error *error)
   const bt__tether *tether = bt__dive_tether (dive, state, i);
   const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
   int n = (int)chain->n, room = bt__adaptive_room (dive, i);
-  int m = wanted (n, most, bt__accuracy (tether), room);
+  int m = wanted (n, most, bt__accuracy (tether), fewest_of (dive, tether), room);
   if (tether->parted) /* hauled home it is short */
     m = (int)fmax (1, fmin (m, bt__dynamic_length (chain) / SHORTEST));
   if (bt__has_obstacles (dive))

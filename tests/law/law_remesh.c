@@ -279,6 +279,61 @@ test_a_cut_line_keeps_to_what_is_asked (void **state)
     }
 }
 
+/* ---- Little asked ---- */
+
+/* A line of 60 m in a current, of MODEL with NODES at most, that a vehicle leads about.  */
+static bt_dive *
+begin_slack (int model, int nodes, double accuracy)
+{
+  static scene s;
+  bt_error error;
+  scene_clear (&s);
+  scene_current (&s, bt__vec (0.1, 0.4, 0));
+  scene_vehicle (&s, bt__vec (48, 0, -10))->pull = 1e6;
+  bt_tether_def *line = scene_line (&s, bt__vec (0, 0, -10), 60, nodes);
+  line->props.model = model;
+  line->props.accuracy = accuracy;
+  bt_dive *dive = scene_begin (&s.world);
+  bt_sticks sticks = { 0.2, 0.1, 0, 0.1 };
+  scene_must (bt_vehicle_drive (dive, 0, &sticks, &error), &error);
+  return dive;
+}
+
+/* Where a centimetre is asked, a line has dozens of nodes; where half a metre is, a dozen or two,
+   and is no farther off.  Drawn nearly straight it has 30 again, for it may be let go.  */
+static void
+test_little_asked_takes_few_nodes (void **state)
+{
+  static const double asked[] = { 0.25, 0.5, 1 };
+  int nodes = 1000;
+  (void)state;
+  for (int a = 0; a < 3; a++)
+    {
+      bt_dive *dive = begin_slack (BT_MODEL_AUTO, 200, asked[a]),
+              *fine = begin_slack (BT_MODEL_DYNAMIC, 200, asked[a]);
+      bt_tether_view v;
+      double most = 0;
+      for (int k = 0; k < 20; k++)
+        {
+          scene_run (dive, SECOND);
+          scene_run (fine, SECOND);
+          most = fmax (most, scene_apart (dive, fine));
+        }
+      ask (dive, &v);
+      if (!(most < asked[a]) || !(v.nodes < 30) || !(v.nodes < nodes))
+        fail_msg ("%g m of %g with %d nodes", most, asked[a], v.nodes);
+      nodes = v.nodes;
+      bt_error error;
+      bt_flight flight = { bt__vec (59.5, 0, -10), 1 };
+      scene_must (bt_vehicle_move (dive, 0, &flight, &error), &error);
+      scene_run (dive, 20 * SECOND);
+      ask (dive, &v);
+      assert_true (v.nodes >= 30);
+      bt_dive_free (dive);
+      bt_dive_free (fine);
+    }
+}
+
 int
 main (void)
 {
@@ -287,6 +342,7 @@ main (void)
     cmocka_unit_test (test_in_motion),
     cmocka_unit_test (test_what_few_nodes_did_is_told),
     cmocka_unit_test (test_a_cut_line_keeps_to_what_is_asked),
+    cmocka_unit_test (test_little_asked_takes_few_nodes),
   };
   return cmocka_run_group_tests (tests, NULL, NULL);
 }
