@@ -111,8 +111,8 @@ void bt__note_all_partings (const bt_dive *dive, bt__state *state);
    and `freed' (wound.c).  */
 bt_status bt__note_windings (bt_dive *dive, bt_error *error);
 
-/* Count for how long tether I, its ends at ENDS, has been stuck, with the event `stuck'; the same
-   of all tethers (stuck.c).  */
+/* Count the steps for which tether I, with ends at ENDS, has been stuck, with the event `stuck';
+   bt__note_all_stuck does so for all tethers (stuck.c).  */
 void bt__note_stuck (const bt_dive *dive, bt__state *state, int i, const bt__ends *ends);
 void bt__note_all_stuck (const bt_dive *dive, bt__state *state);
 

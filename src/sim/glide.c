@@ -5,8 +5,8 @@
    the vehicles, to see that they are where the lines were told, or where they were, and to count.
    A copy of the state for that is dearer than all the rest, so the present itself is written to,
    once nothing can refuse the step any more.  Any doubt (an end elsewhere, an arrival, a line about
-   to be taut or slack) leaves the present as it was, and the step is taken as any other: with the
-   same outcome to the bit, for each quantity is found by the function that finds it there.
+   to be taut or slack) leaves the present as it was, and the step is taken aside, with the same
+   outcome to the bit: both ways find each quantity by the same function.
 
    An operation on the sea, a tether or an obstacle ends all stretches (ops.c), so that within one
    only vehicles and their orders can have changed.
@@ -131,7 +131,7 @@ keeps_headings (const bt_dive *dive, int i)
   return all;
 }
 
-/* True if tether I goes on with its ends at ENDS, where the moved vehicles have them: its stretch
+/* True if tether I goes on with its ends at ENDS, where the moved vehicles have them.  Its stretch
    holds, or, at REST and not taut, nothing has changed.  */
 static int
 does_hold (const bt_dive *dive, int i, const bt__ends *ends, int rest)
@@ -160,7 +160,7 @@ do_all_hold (const bt_dive *dive, bt__ends *ends, int rest)
   return 1;
 }
 
-/* Take tether I, which holds with its ends at ENDS, on.  */
+/* Take tether I, its ends at ENDS, on.  */
 static void
 take_on (bt_dive *dive, int i, const bt__ends *ends, int rest)
 {
@@ -172,8 +172,8 @@ take_on (bt_dive *dive, int i, const bt__ends *ends, int rest)
     dive->profile.chain_sleeps++;
 }
 
-/* Take the present on by a step in place and return true; or leave it as it is.  Without obstacles
-   there are no meetings whose end would have to be noted.  */
+/* Take the present on by a step in place and return true; or leave the present as it is.  A line
+   ahead, or at rest without contacts, ends no meeting.  */
 static int
 glides (bt_dive *dive)
 {

@@ -54,7 +54,7 @@ enum
 #define WINCH_AIM 0.5 /* of the accuracy: the standard for nodes that come and go */
 
 /* The fewest intervals of TETHER, of model `auto'.  The error of a fold falls with the square of
-   their number.  A nearly straight line may be let go at any time; among obstacles contact takes
+   the number.  A nearly straight line may be let go at any time; among obstacles contact takes
    hold of nodes.  */
 static int
 fewest_of (const bt_dive *dive, const bt__tether *tether)

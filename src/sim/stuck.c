@@ -48,7 +48,7 @@ is_pulled (const bt_dive *dive, bt__state *state, int i)
   return (wants || tether->winch_rate < 0) && bt__norm (pull_of (dive, state, i)) > PULL;
 }
 
-/* Where tether I, its ends at ENDS, ends: a parted one where it has parted.  */
+/* Where tether I, with ends at ENDS, ends; a parted tether, where it has parted.  */
 static bt_vec3
 end_of_line (const bt_dive *dive, bt__state *state, int i, const bt__ends *ends)
 {
