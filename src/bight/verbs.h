@@ -112,8 +112,8 @@ bt_status bt_part_choose (bt_dive *dive, bt_part part, int i, const char *field,
 bt_status bt_part_collide (bt_dive *dive, bt_part part, int i, int obstacle, bool on,
                            bt_error *error);
 
-/* Set the I-th obstacle adrift at VELOCITY, m/s: it leaves its track for good, and stands with zero.
-   BT_ERR_UNSUPPORTED for an obstacle without a track.  */
+/* Set the I-th obstacle adrift at VELOCITY, m/s: it leaves its track for good, and stands with
+   zero. BT_ERR_UNSUPPORTED for an obstacle without a track.  */
 bt_status bt_obstacle_drift (bt_dive *dive, int i, bt_vec3 velocity, bt_error *error);
 
 BT_END_DECLS

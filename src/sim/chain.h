@@ -80,8 +80,8 @@ bt_status bt__step_part (bt_dive *dive, bt__state *state, int i, int part,
                          const bt__dynamic_input *input, bt__dynamic_report *report,
                          bt_error *error);
 
-/* Add to SUM the report of another part of the step, or of the line: the largest, the tightest; what
-   is of one alone is PART's (chain_fine.c).  */
+/* Add to SUM the report of another part of the step, or of the line: the largest, the tightest;
+   what is of one alone is PART's (chain_fine.c).  */
 void bt__add_report (bt__dynamic_report *sum, const bt__dynamic_report *part);
 
 /* bt__advance_chain takes tether I on by the part of the step that the contact work of DIVE names;

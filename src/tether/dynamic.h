@@ -301,9 +301,10 @@ void bt__dynamic_wind (bt__dynamic *d, bt__dynamic_work *work, const bt__dynamic
 /* Return the length of D that is out, m.  */
 double bt__dynamic_length (const bt__dynamic *d);
 
-/* Cut D at SHARE of interval J, 1 only if another follows, into *A (nodes 0 to J and a new end) and *B (a new end and the
-   rest), blocks with room for as many intervals as D.  The new ends are to be stepped as free ends.
-   Either may be NULL, and then the other may be D itself; A may be in any case.  */
+/* Cut D at SHARE of interval J, 1 only if another follows, into *A (nodes 0 to J and a new end) and
+   *B (a new end and the rest), blocks with room for as many intervals as D.  The new ends are to be
+   stepped as free ends. Either may be NULL, and then the other may be D itself; A may be in any
+   case.  */
 void bt__dynamic_cut (const bt__dynamic *d, int j, double share, bt__dynamic *a, bt__dynamic *b);
 
 /* ---- Questions ---- */
