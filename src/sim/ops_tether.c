@@ -40,11 +40,9 @@ spool (const bt__call *c, double sign)
 static double
 place_of_cut (const bt__dynamic *chain, double s, int *j)
 {
-  const double *rest = bt__dynamic_rest (chain);
-  double share;
-  for (*j = 0; *j < chain->n - 1 && s > rest[*j]; ++*j)
-    s -= rest[*j];
-  share = s / rest[*j];
+  double start, share;
+  *j = bt__dynamic_interval (chain, s, &start);
+  share = (s - start) / bt__dynamic_rest (chain)[*j];
   if (share > 1 - SHORTEST && *j < chain->n - 1)
     return 1;
   if (share >= SHORTEST || *j == 0)

@@ -39,7 +39,6 @@ enum
   FEWEST = 30, /* intervals of a line, ... */
   LEAST = 8    /* ... and of a line in open water, asked for less than usual */
 };
-#define USUAL 0.002   /* of its length: the usual accuracy */
 #define STRAIGHT 0.97 /* of its length: the distance of its ends */
 
 /* A bend so many times as sharp as the sharpest at the last look is looked at.  */
@@ -62,7 +61,7 @@ fewest_of (const bt_dive *dive, const bt__tether *tether)
   double chord = bt__distance (tether->shape.a, tether->shape.b);
   if (bt__has_obstacles (dive) || tether->parted || chord > STRAIGHT * tether->length)
     return FEWEST;
-  double share = USUAL * tether->length / bt__accuracy (tether);
+  double share = BT__ACCURATE_SHARE * tether->length / bt__accuracy (tether);
   return (int)fmax (LEAST, ceil (FEWEST * sqrt (fmin (1, share))));
 }
 

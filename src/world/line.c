@@ -14,9 +14,8 @@
 
 #define FOLLOWED 1e-4 /* m: a line so near to where its winch stands has followed it */
 
-/* The default accuracy: m, and at most a share of what is paid out.  */
+/* The default accuracy, m, where its share of what is paid out is more.  */
 #define USUAL_ACCURACY 0.02
-#define ACCURATE_SHARE 0.002
 
 const bt__form *
 bt__form_of (const bt__tether *tether)
@@ -53,7 +52,7 @@ bt__accuracy (const bt__tether *tether)
 {
   return tether->props.accuracy != BT_ACCURACY_AUTO
              ? tether->props.accuracy
-             : fmin (USUAL_ACCURACY, ACCURATE_SHARE * tether->length);
+             : fmin (USUAL_ACCURACY, BT__ACCURATE_SHARE * tether->length);
 }
 
 double

@@ -35,7 +35,9 @@ double bt__line_length (const bt__line *line);
 double bt__line_out (const bt__line *line);
 int bt__line_has_followed (const bt__line *line);
 
-/* The error in position that TETHER accepts, m.  */
+/* The error in position that TETHER accepts, m; the most that is accepted where none is asked for,
+   as a share of what is out.  */
+#define BT__ACCURATE_SHARE 0.002
 double bt__accuracy (const bt__tether *tether);
 
 /* The model's own points: how many there are, and place and tension of the K-th.  */
