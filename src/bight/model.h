@@ -345,8 +345,17 @@ bt_status bt_model_new_polled (const bt_world *world, bt_poll poll, void *poll_u
 bt_model *bt_model_retain (bt_model *model);
 void bt_model_release (bt_model *model);
 
+/* A line has at least the share 1 / BT_LIGHTEST of the mass of the displaced water, and of the mass
+   that the lift would carry; in the sea, a line of 25 kg/m3.  Lighter foam is no tether.  Water 5
+   to 7 m deep compresses foam of 22 to 29 kg/m3 by a hundredth (ASTM D6817, EPS22 and EPS29).  */
+#define BT_LIGHTEST 40.0
+
+/* Return the least mass of a line, kg/m, in water of DENSITY, kg/m3, under GRAVITY, m/s2.  Of PROPS
+   count diameter and wet_weight; a wet_weight of NAN follows from the mass.  */
+double bt_tether_least_mass (const bt_tether_props *props, double density, double gravity);
+
 /* Complete PROPS: give mass or wet_weight from the other in water of DENSITY under GRAVITY; neutral
-   when both are NAN.  */
+   when both are NAN.  A mass completed so is at least the least mass.  */
 void bt_tether_props_complete (bt_tether_props *props, double density, double gravity);
 
 BT_END_DECLS

@@ -136,6 +136,17 @@ tether_bounds (void)
   return list;
 }
 
+/* WET-WEIGHT #f: it follows from the mass.  */
+static SCM
+least_mass (SCM diameter, SCM wet_weight, SCM density, SCM gravity)
+{
+  bt_tether_props props
+      = { .diameter = scm_to_double (diameter),
+          .wet_weight = scm_is_true (wet_weight) ? scm_to_double (wet_weight) : NAN };
+  return scm_from_double (
+      bt_tether_least_mass (&props, scm_to_double (density), scm_to_double (gravity)));
+}
+
 /* ---- A world from a list ---- */
 
 /* What a list of parts is read into; its memory is the collector's.  */
@@ -354,6 +365,9 @@ bt__define_parts (void)
       "Return what fields of tethers may be at most for another field, a list of vectors #(field "
       "of "
       "factor power floor)." },
+    { "%least-mass", 4, 0, (scm_t_subr)least_mass,
+      "Return the least mass, kg/m, that a line of DIAMETER and WET-WEIGHT, or #f if that follows, "
+      "has in water of DENSITY under GRAVITY." },
     { "%make-dive", 1, 0, (scm_t_subr)make_dive,
       "Start a dive from PARTS, a list of (HEAD NAME ((FIELD . VALUE) ...))." },
   };

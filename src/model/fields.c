@@ -182,7 +182,8 @@ static const bt_field tether_fields[] = {
   /* Half a metre of lead weighs 2.2 t/m, of steel it stretches by 4e10 N.  */
   PROP (diameter, "diameter", "m", 0.0076, 0, 0.5, 1, NULL, "outer"),
   PROP (mass, "mass", "kg/m", NAN, 0, 3e3, 1, NULL,
-        "in air; follows from wet-weight when not given"),
+        "in air; at least a fortieth of the water that the line displaces, or that its lift would "
+        "carry; follows from wet-weight when not given"),
   PROP (wet_weight, "wet-weight", "N/m", NAN, -3e4, 3e4, 0, NULL,
         "in the water, sinking positive; follows from mass when not given"),
   PROP (ea, "ea", "N", 2e5, 0, 1e11, 1, inextensible,

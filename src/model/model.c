@@ -18,19 +18,44 @@
 #include "math/vec.h"
 #include "model/compile.h"
 
+static double
+displaced_by (const bt_tether_props *props, double density)
+{
+  return density * BT__PI / 4 * props->diameter * props->diameter;
+}
+
+double
+bt_tether_least_mass (const bt_tether_props *props, double density, double gravity)
+{
+  double lift = gravity > 0 && props->wet_weight < 0 ? -props->wet_weight / gravity : 0;
+  return fmax (displaced_by (props, density), lift) / BT_LIGHTEST;
+}
+
 void
 bt_tether_props_complete (bt_tether_props *props, double density, double gravity)
 {
-  double displaced = density * BT__PI / 4 * props->diameter * props->diameter;
+  double displaced = displaced_by (props, density);
   if (isnan (props->mass) && isnan (props->wet_weight))
     props->wet_weight = 0;
   if (isnan (props->wet_weight))
     props->wet_weight = (props->mass - displaced) * gravity;
   else if (isnan (props->mass))
-    /* A line so buoyant that its mass would vanish still has some: a hundredth of what it
-     * displaces. */
-    props->mass
-        = fmax (displaced + (gravity > 0 ? props->wet_weight / gravity : 0), 0.01 * displaced);
+    props->mass = fmax (displaced + (gravity > 0 ? props->wet_weight / gravity : 0),
+                        bt_tether_least_mass (props, density, gravity));
+}
+
+bt_status
+bt__check_mass (const bt_tether_props *props, const char *name, double density, double gravity,
+                bt_error *error)
+{
+  double least = bt_tether_least_mass (props, density, gravity);
+  if (props->mass >= least * (1 - 1e-9)) /* a rounding's tolerance */
+    return BT_OK;
+  return bt__fail (error, BT_ERR_DOMAIN,
+                   "`mass' of tether `%s' is %g kg/m; with `diameter' %g m and `wet-weight' %g N/m "
+                   "the least there is is %.3g: a %gth of the water that it displaces, or that its "
+                   "lift would carry, for lighter foam is crushed by a few metres of water",
+                   name, props->mass, props->diameter, props->wet_weight, least, BT_LIGHTEST);
 }
 
 /* ---- The parts together ---- */
@@ -327,6 +352,9 @@ compile_tether (bt_model *model, int i, bt_error *error)
       bt_tether_props_complete (&tether->props, model->sea.density, model->sea.gravity);
       status = bt__check_def (bt_head_find ("tether"), tether->name, tether, error);
     }
+  if (status == BT_OK)
+    status = bt__check_mass (&tether->props, tether->name, model->sea.density, model->sea.gravity,
+                             error);
   if (status == BT_OK)
     status = check_figures (tether, error);
   if (status == BT_OK)

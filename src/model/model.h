@@ -77,6 +77,11 @@ bt__is_clamped (const bt_tether_def *tether, int k)
 bt_status bt__bears_bends (const bt_tether_props *props, const bt_tether_def *tether,
                            bt_error *error);
 
+/* BT_OK if the line of tether NAME can be as light as PROPS say in water of DENSITY under GRAVITY;
+   else BT_ERR_DOMAIN tells the least mass.  */
+bt_status bt__check_mass (const bt_tether_props *props, const char *name, double density,
+                          double gravity, bt_error *error);
+
 /* The longest chord, m, of LENGTH metres of a tether with PROPS under a pull of at most PULL
    newtons: LENGTH plus the elastic stretch, up to the breaking load or a tenth.  */
 double bt__longest_chord (const bt_tether_props *props, double length, double pull);

@@ -84,6 +84,10 @@ alter_tether (const bt__call *c)
     return status;
   forget_follower (field, &def.props);
   bt_tether_props_complete (&def.props, c->state->density, c->state->gravity);
+  status = bt__check_mass (&def.props, c->dive->model->tethers[c->subject].name, c->state->density,
+                           c->state->gravity, c->error);
+  if (status != BT_OK)
+    return status;
   ends = bt__tether_ends (c->dive, c->state, c->subject);
   if (!tether->parted
       && bt__distance (ends.a, ends.b)
@@ -94,16 +98,20 @@ alter_tether (const bt__call *c)
   return BT_OK;
 }
 
-/* Every line weighs what its mass does in the new water.  */
-static void
+/* Every line weighs what its mass does in the new water; BT_ERR_DOMAIN if a line is too light.  */
+static bt_status
 weigh_anew (const bt__call *c)
 {
-  for (int i = 0; i < c->dive->model->n_tethers; i++)
+  bt_status status = BT_OK;
+  for (int i = 0; i < c->dive->model->n_tethers && status == BT_OK; i++)
     {
       bt_tether_props *props = &bt__dive_tether (c->dive, c->state, i)->props;
       props->wet_weight = NAN;
       bt_tether_props_complete (props, c->state->density, c->state->gravity);
+      status = bt__check_mass (props, c->dive->model->tethers[i].name, c->state->density,
+                               c->state->gravity, c->error);
     }
+  return status;
 }
 
 static bt_status
@@ -121,9 +129,8 @@ alter_sea (const bt__call *c)
   c->state->density = def.density;
   c->state->gravity = def.gravity;
   c->state->wake = def.wake != 0;
-  weigh_anew (c);
   bt__mark_all_stale (c);
-  return BT_OK;
+  return weigh_anew (c);
 }
 
 /* All that changes of an obstacle is its friction.  */

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include <bight/lead.h>
+#include <bight/model.h>
 
 #include "base/error.h"
 #include "math/vec.h"
@@ -335,6 +336,10 @@ check_led (const bt_lead_line *line, const bt_lead_track *track, const bt_lead_s
   if (line->intervals < BT__LEAST_INTERVALS || line->intervals > BT_LEAD_INTERVALS)
     return bt__fail (error, BT_ERR_LIMIT, "a line has %d to %d intervals, not %d",
                      BT__LEAST_INTERVALS, BT_LEAD_INTERVALS, line->intervals);
+  double least = bt_tether_least_mass (&line->props, line->density, line->gravity);
+  if (!(line->props.mass >= least * (1 - 1e-9)))
+    return bt__fail (error, BT_ERR_DOMAIN, "a line of %g kg/m is too light: at least %.3g",
+                     line->props.mass, least);
   if (!(line->step > 0) || (start->n != 0 && start->n < 2))
     return bt__fail (error, BT_ERR_DOMAIN, "a step is longer than 0 s, a start has two places");
   return BT_OK;

@@ -181,6 +181,10 @@ refuses (void **state)
   assert_int_equal (bt_lead (&line, &r.track, &at_rest, NULL, 0, NULL, pull, NULL, NULL, &error),
                     BT_ERR_LIMIT);
   line.intervals = 20;
+  line.props.mass *= 1e-3;
+  assert_int_equal (bt_lead (&line, &r.track, &at_rest, NULL, 0, NULL, pull, NULL, NULL, &error),
+                    BT_ERR_DOMAIN);
+  line.props.mass *= 1e3;
   r.t[4] = r.t[3];
   assert_int_equal (bt_lead (&line, &r.track, &at_rest, NULL, 0, NULL, pull, NULL, NULL, &error),
                     BT_ERR_DOMAIN);

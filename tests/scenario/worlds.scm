@@ -86,6 +86,29 @@
            (string-contains (second outcome) "the most there is"))))
   (expect (filter-map (lambda (i) (bound-broken (expression worlds (draw worlds dice)))) (iota 60)) => '()))
 
+;; A line of which the mass is given, or that of its type: whether it is as light as it can be.
+(define (as-light-as-can-be? world)
+  (let* ((fields (lambda (name) (part-all-fields (world-part world name))))
+         (line (fields 't1)) (sea (fields 'sea)) (mass (assq-ref line 'mass)))
+    (and mass
+         (<= mass (* (+ 1 1e-9)
+                     (least-mass (or (assq-ref line 'diameter) (field-default (head-field 'tether 'diameter)))
+                                 (assq-ref line 'wet-weight)
+                                 (or (assq-ref sea 'density) 1025) (or (assq-ref sea 'gravity) 9.80665)))))))
+
+(define-scenario what-is-drawn-is-no-lighter-than-foam
+  "No random line is refused for its mass; now and then one is as light as a line can be."
+  (define dice (seed->random-state 6))
+  (define worlds (any-world #:wild? #t #:obstacles 0 #:vehicles 1 #:tethers 1))
+  (define drawn (map (lambda (i) (expression worlds (draw worlds dice))) (iota 200)))
+  (define (too-light world)
+    (let ((outcome (fly-in-child (list world))))
+      (and (eq? 'refused (car outcome))
+           (string-contains (second outcome) "the least there is"))))
+  (expect (filter-map too-light (take drawn 40)) => '())
+  (define worlds-drawn (filter-map (lambda (world) (false-if-exception (evaluated world))) drawn)) ; not refused
+  (expect (count as-light-as-can-be? worlds-drawn) is (above 3)))
+
 (define-scenario every-kind-of-order-is-given
   "Each verb that changes a dive is ordered sooner or later, and nothing but what the language has."
   (define dice (seed->random-state 4))
@@ -210,7 +233,8 @@
   #:for ((weight 30000.0 -30000.0))
   (enter! (world (sea)
                  (rov (named r1) (at -6 0 -1))
-                 (tether (named t1) (from 0 0 -1) (to r1) (length 17) (mass 1) (wet-weight weight)
+                 (tether (named t1) (from 0 0 -1) (to r1) (length 17) (mass (if (positive? weight) 1 80))
+                         (wet-weight weight)
                          (breaking-load 50) (model dynamic))))
   (expect (watched (step!)) => '())
   (expect (parted?)))

@@ -3,7 +3,8 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (bight core errors) (bight core schema) (rnrs exceptions) (srfi srfi-1))
+(use-modules (bight core errors) (bight core schema) ((bight dive query) #:select (tether-properties))
+             (rnrs exceptions) (srfi srfi-1))
 
 (define random-numbers (seed->random-state (or (and=> (getenv "BIGHT_SEED") string->number) 3)))
 
@@ -185,6 +186,36 @@ damps no more than a hundredth of that, in N m2 s; a thicker line may, until it 
   (enter! (of 9.3))
   (run 1)
   (expect (rov-speed) is (below 200))
+  (expect (all-finite?)))
+
+(define-scenario no-line-is-lighter-than-foam
+  "Of 7.6 mm a line has 1.2 g a metre at least, a fortieth of the sea that it displaces; one that lifts 30 kN/m has 76 kg a
+metre.  Lighter ones whipped without end: a cut tail of 1/840 of its water, a line of next to nothing under such lift."
+  (define (says-least? thunk)
+    (guard (e ((bight-error? e) (string-contains (bight-error-message e) "the least there is is")))
+      (thunk)
+      #f))
+  (define displaced (* 1025 (acos -1) 1/4 0.0076 0.0076))
+  (expect (enter! (a-line '(mass 0.00116))) raises domain)
+  (expect (says-least? (lambda () (enter! (a-line '(mass 0.00116))))))
+  (enter! (a-line '(mass 0.00117)))
+  (expect (enter! (a-line '(mass 76) '(wet-weight -30000))) raises domain)
+  (enter! (a-line '(mass 77) '(wet-weight -30000)))
+  (enter! (a-line '(mass 0.5) '(wet-weight 30)))
+  ;; What is not given follows.
+  (enter! (a-line '(wet-weight -30000)))
+  (expect (assq-ref (tether-properties 0) 'mass) is (about (/ 30000 9.80665 40) #:within 1e-6))
+  (enter! (a-line '(wet-weight -0.45)))
+  (expect (assq-ref (tether-properties 0) 'mass) is (about (/ displaced 40) #:within 1e-9))
+  (enter! (a-line '(type fathom)))
+  (expect (alter! 'line #:mass 0.001) raises domain)
+  (expect (alter! 'line #:diameter 0.05) raises domain)
+  (expect (assq-ref (tether-properties 0) 'diameter) => 0.0076)
+  (alter! 'line #:diameter 0.04)
+  (expect (alter! 'sea #:density 1500) raises domain)
+  (expect (assq-ref (tether-properties 0) 'mass) => 0.043)
+  (alter! 'line #:wet-weight -30000)
+  (run 1)
   (expect (all-finite?)))
 
 (define-scenario as-little-does-one-stretch-less

@@ -594,6 +594,30 @@ mass_and_wet_weight_follow_each_other (void **unused)
   assert_true (fabs (p.mass - 0.043) < 1e-12);
 }
 
+/* A line has a fortieth of its water's mass at least, or of the mass that its lift would carry;
+   where nothing gives it lift, or where there is no water, any.  */
+static void
+no_line_is_lighter_than_foam (void **unused)
+{
+  scene s;
+  bt_tether_props p = { .diameter = 0.02, .mass = NAN, .wet_weight = -1000 };
+  double displaced = 1025 * acos (-1) / 4 * 0.02 * 0.02;
+  (void)unused;
+  assert_true (fabs (bt_tether_least_mass (&p, 1025, 10) - 2.5) < 1e-12);
+  assert_true (fabs (bt_tether_least_mass (&p, 1025, 0) - displaced / 40) < 1e-12);
+  assert_true (bt_tether_least_mass (&p, 0, 0) == 0);
+  bt_tether_props_complete (&p, 1025, 10);
+  assert_true (fabs (p.mass - 2.5) < 1e-12);
+  make_scene (&s, BT_MODEL_CATENARY);
+  s.tether.props.diameter = 0.02;
+  s.tether.props.wet_weight = NAN;
+  s.tether.props.mass = 1.0001 * displaced / 40;
+  assert_int_equal (compile (&s), BT_OK);
+  s.tether.props.wet_weight = NAN;
+  s.tether.props.mass = 0.9999 * displaced / 40;
+  assert_int_equal (compile (&s), BT_ERR_DOMAIN);
+}
+
 int
 main (void)
 {
@@ -616,6 +640,7 @@ main (void)
     cmocka_unit_test (wished_time_becomes_whole_steps),
     cmocka_unit_test (bad_worlds_are_refused),
     cmocka_unit_test (mass_and_wet_weight_follow_each_other),
+    cmocka_unit_test (no_line_is_lighter_than_foam),
   };
   return cmocka_run_group_tests_name ("dive", tests, NULL, NULL);
 }

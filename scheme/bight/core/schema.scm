@@ -45,6 +45,7 @@
             bound-field
             bound-of
             bound-most
+            least-mass
 
             make-reference
             reference?
@@ -282,6 +283,11 @@ a part must give all that have no default."
 (define (bound-most bound value)
   "Return the most that the field of BOUND may be where VALUE is that of the field that it follows from."
   (max (bound-floor bound) (* (bound-factor bound) (expt value (bound-power bound)))))
+
+(define (least-mass diameter wet-weight density gravity)
+  "Return the least mass, kg/m, of a tether of DIAMETER, m, and WET-WEIGHT, N/m, or #f if that follows from the
+mass, in water of DENSITY, kg/m3, under GRAVITY, m/s2."
+  (%least-mass diameter wet-weight density gravity))
 
 
 ;;; References: a bare symbol where a point may stand is a part's name first, else a variable.

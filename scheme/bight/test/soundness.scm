@@ -9,6 +9,7 @@
 
 (define-module (bight test soundness)
   #:use-module (bight core errors)
+  #:use-module ((bight core schema) #:select (least-mass))
   #:use-module (bight core units)
   #:use-module (bight dive)
   #:use-module (bight dive aware)
@@ -78,6 +79,7 @@
          (tail (tether-tail name)))
     `((name . ,name)
       (fields . ,(tether-properties t))
+      (sea . ,(%sea (this-engine 'tether-answers)))
       (drum . ,(or (assq-ref (given name) 'drum) +inf.0))
       (length . ,(tether-length name))
       (points . ,(rows (tether-points name (+ pieces 1))))
@@ -184,6 +186,13 @@
     (and (not (and (real? length) (> length 0) (<= length (* drum (+ 1 1e-12)))))
          (say "~a m of it are out, with ~a m on the drum" length drum))))
 
+(define (no-lighter-than-foam answers)
+  (let* ((sea (assq-ref answers 'sea)) (mass (field answers 'mass))
+         (least (least-mass (field answers 'diameter) (field answers 'wet-weight)
+                            (assq-ref sea 'density) (assq-ref sea 'gravity))))
+    (and (not (>= mass (* least (- 1 1e-9))))
+         (say "it has ~a kg/m, but ~a is the least" mass least))))
+
 ;; A contact is told at the end of a step, of a place that the line slides along, and in no case a piece away.
 (define (touches-where-it-lies answers)
   (let ((near (+ (field answers 'diameter) (/ (assq-ref answers 'length) pieces))))
@@ -196,6 +205,7 @@
 (define tether-laws
   ;; alist, name -> law
   `((length-sane . ,length-sane)
+    (no-lighter-than-foam . ,no-lighter-than-foam)
     (tensions-sane . ,tensions-sane)
     (ends-held . ,ends-held)
     (no-longer-than-it-is . ,no-longer-than-it-is)

@@ -157,6 +157,22 @@ numbers come from all that is allowed."
         tether
         tether-bounds))
 
+(define (value-in sea name)
+  (let ((clause (assq name (cdr sea))))
+    (if clause (cadr clause) (field-default (head-field 'sea name)))))
+
+(define (heavy-enough tether sea)
+  ;; TETHER; if it was drawn lighter than a line can be in SEA, as light as can be.  A mass that is not given follows
+  ;; from a wet weight that is.
+  (let* ((given (lambda (name) (and (assq name (cdr tether)) (value-of tether name))))
+         (mass (if (given 'wet-weight) (given 'mass) (value-of tether 'mass)))
+         (least (least-mass (value-of tether 'diameter)
+                            (if (given 'mass) (given 'wet-weight) (value-of tether 'wet-weight))
+                            (value-in sea 'density) (value-in sea 'gravity))))
+    (if (and (real? mass) (< mass least))
+        `(,@(without-field tether 'mass) (mass ,least))
+        tether)))
+
 (define (armoured tether)
   ;; TETHER; if its layers stick, softer while they slip.
   (let ((stuck (number-of tether 'ei-stuck)))
@@ -178,7 +194,8 @@ numbers come from all that is allowed."
   `(world ,sea ,@bed
           ,@(name-all obstacles "o")
           ,@(name-all vehicles "r")
-          ,@(map (lambda (tether) (within-bounds (with-what-things-need (name-ends tether (length vehicles)))))
+          ,@(map (lambda (tether)
+                   (heavy-enough (within-bounds (with-what-things-need (name-ends tether (length vehicles)))) sea))
                  (name-all tethers "t"))))
 
 (define (some-parts heads least most wild?)
