@@ -55,7 +55,8 @@
     ((bight test generator) uniform integer one-of any-of list-of point-in made-of generator?)
     ((bight world random-dive) random-parts random-world random-pilot)
     ((bight test invariant)
-     all-finite? nothing-crossed? energy-bounded? turns-watcher same-again? always-sound)
+     all-finite? nothing-crossed? energy-bounded? strain-watcher turns-watcher same-again?
+     always-sound)
     ((bight lesson)
      define-lesson run-lesson last-answer counter count! setting jitter tell! told messages
      messages-left number-in way-flown off-the-way

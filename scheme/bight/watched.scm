@@ -43,21 +43,22 @@
                           (<= (last times) (+ (now) 1e-9))))
                  "the events are not in the order of time")))
 
-(define (dive-laws turns-are-steady?)
+(define (dive-laws strain-is-told? turns-are-steady?)
   (list (lambda () (unless-true (all-finite?) "a number of the dive is not finite or out of all size"))
         (lambda () (unless-true (nothing-crossed?) "something is crossed"))
         (lambda () (unless-true (energy-bounded?) "a line has more energy than anything gave it"))
+        (lambda () (unless-true (strain-is-told?) "a line is longer than its tension tells"))
         (lambda () (unless-true (turns-are-steady?) "a line turned all at once: it went through something"))
         events-in-order))
 
 (define (tethers-unsound)
   (any (lambda (name) (judge-tether ((as-told) (tether-answers name)))) (tether-names)))
 
-(define (unsound turns-are-steady?)
-  "Return what is wrong with the present dive, a sentence, or #f.  TURNS-ARE-STEADY? comes from
-`turns-watcher'."
+(define (unsound strain-is-told? turns-are-steady?)
+  "Return what is wrong with the present dive, a sentence, or #f.  STRAIN-IS-TOLD? comes from `strain-watcher',
+TURNS-ARE-STEADY? from `turns-watcher'."
   (or (tethers-unsound)
-      (any (lambda (law) (law)) (dive-laws turns-are-steady?))))
+      (any (lambda (law) (law)) (dive-laws strain-is-told? turns-are-steady?))))
 
 
 ;;; Orders.
@@ -97,10 +98,10 @@
 (define (watch-orders orders)
   "Do ORDERS, a list of (FORM . THUNK), in the present dive, and judge it after each and after every step.
 Return the list of what was wrong first, with its time and FORM: sentences, none for a sound dive."
-  (let ((turns-are-steady? (turns-watcher)) (wrong #f) (time #f))
+  (let ((strain-is-told? (strain-watcher)) (turns-are-steady? (turns-watcher)) (wrong #f) (time #f))
     (define (look!)
       (unless wrong
-        (set! wrong (unsound turns-are-steady?))
+        (set! wrong (unsound strain-is-told? turns-are-steady?))
         (set! time (now))))
     (define (go-on orders)
       (cond ((null? orders) '())

@@ -13,8 +13,9 @@
    of the first is held against each end of the second.
 
    The larger bound is taken and the distance measured anew, until the move is over or the segment
-   is within 2 % of the core radius of the core.  If neither end reaches the plane before the end of
-   the move, the whole move is safe without another measurement.
+   has come within 2 % of the core radius of the core and comes nearer: a segment that starts so
+   near may part.  If neither end reaches the plane before the end of the move, the whole move is
+   safe without another measurement.
 
    The planes of a part that turns do not stand still: only the first bound serves, with the turn's
    speed at the scene's radius added to the speed of the segment.
@@ -166,14 +167,15 @@ bt__cast_run (bt__cast *c, bt__count *count)
 {
   bt_vec3 d[2];
   relative (c, d);
-  double speed = speed_of (c, d), t = 0;
+  double speed = speed_of (c, d), t = 0, gap = -INFINITY;
   if (c->core == 0 || c->w.distance - c->core > speed)
     return 1;
   count->casts++;
   for (int i = 0; i < STEPS_MAX; i++)
     {
-      double gap = c->w.distance - c->core;
-      if (i > 0 && gap < BT__CAST_NEAR * c->core)
+      double before = gap;
+      gap = c->w.distance - c->core;
+      if (i > 0 && gap < BT__CAST_NEAR * c->core && gap <= before)
         return t;
       double step = gap > BT__CAST_FLOOR * c->core ? BT__CAST_SAFETY * gap / speed : 0;
       if (!turns (c))

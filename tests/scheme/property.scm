@@ -4,6 +4,7 @@
 
 (use-modules ((bight test expect) #:select (failure-remarks))
              ((bight test generator) #:select (draw simpler rounder expression value-of))
+             ((bight test invariant) #:select (strain-told?))
              (bight test scenario)
              ((bight test property) #:select (call-with-cases show-case))
              (ice-9 textual-ports)
@@ -185,6 +186,15 @@
   (expect (not (nothing-crossed?)))
   (place! '(0 8 -5))
   (expect (not (steady?))))
+
+(define-scenario strain-that-is-not-told-is-noticed
+  "14 kJ in 17 m of line are more than 119 N tell, 1.2 mJ no more than 7 N do; a line at rest tells what it holds."
+  (expect (not (strain-told? 14005 119 17 1e5)))
+  (expect (strain-told? 1.2e-3 7 17 1e5))
+  (in jacket)
+  (define told? (strain-watcher))
+  (drive! #:surge 1)
+  (always (told?) (run 5)))
 
 (define-scenario determinism-notices
   "A flight that is not the same every time is told from one that is."

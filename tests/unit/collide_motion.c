@@ -235,10 +235,88 @@ crossings_are_held (void **state)
   assert_true (held <= clear / 100);
 }
 
+/* ---- Moves that only part ---- */
+
+/* True if the link of C comes no nearer to X, or without X to the other link, in the whole of its
+   move.  */
+static int
+only_parts (const bt__cast *c, const solid *x)
+{
+  double before = c->w.distance;
+  for (int k = 1; k <= 300; k++) /* the first looks are the closest */
+    {
+      bt__link link = bt__link_moved (&c->link, c->d[0], c->d[1], pow (k / 300.0, 4));
+      bt__link other = c->other;
+      bt__witness w;
+      if (x)
+        w = solid_pair (x, &link);
+      else
+        bt__pair_links (&other, &link, &w);
+      if (!(w.distance >= before))
+        return 0;
+      before = w.distance;
+    }
+  return 1;
+}
+
+/* Draw C a link within 2 % of the core of what C meets, and a move.  */
+static int
+draw_parting (dice *d, bt__cast *c, const solid *x)
+{
+  bt_vec3 at = dice_point (d, 1.5),
+          along = bt__scale (dice_between (d, 0.05, 1), dice_direction (d));
+  c->link = (bt__link){ bt__sub (at, along), bt__add (at, along) };
+  if (x)
+    c->w = solid_pair (x, &c->link);
+  else
+    bt__pair_links (&c->other, &c->link, &c->w);
+  if (!(c->w.distance > 2 * core))
+    return 0;
+  double way = c->w.distance - core * (1 + exp (dice_between (d, log (1e-3), log (BT__CAST_NEAR))));
+  bt_vec3 to = bt__scale (-way, c->w.normal);
+  c->link = bt__link_moved (&c->link, to, to, 1);
+  c->w.distance -= way;
+  for (int e = 0; e < 2; e++)
+    c->d[e] = bt__axpy (dice_point (d, 0.3), dice_between (d, 0, 0.3), c->w.normal);
+  return 1;
+}
+
+/* However near the link is as the move begins.  */
+static void
+parting_is_free (void **state)
+{
+  dice d = dice_new (6);
+  bt__count count = { 0 };
+  long parts = 0, held = 0;
+  (void)state;
+  for (long i = 0; i < moves (); i++)
+    {
+      static const solid_kind kinds[] = { SOLID_SPHERE, SOLID_CAPSULE, SOLID_BOX, SOLID_CYLINDER };
+      solid drawn = solid_draw (&d, kinds[i % 4], 1, NULL, 0), *x = i % 5 ? &drawn : NULL;
+      bt__obstacle o = obstacle_of_solid (&drawn);
+      bt__scene *s = NULL;
+      bt__near near = { .slot = BT__NO_TRIANGLE };
+      assert_int_equal (bt__scene_new (&o, 1, 1, &s, NULL), BT_OK);
+      bt__cast c = { .scene = x ? s : NULL, .near = &near, .core = core };
+      c.other = (bt__link){ dice_point (&d, 1), dice_point (&d, 1) };
+      if (draw_parting (&d, &c, x) && only_parts (&c, x))
+        {
+          parts++;
+          held += bt__cast_run (&c, &count) < 1;
+        }
+      bt__scene_free (s);
+    }
+  print_message ("# of %ld moves that only part %ld are held, %.1f steps each\n", parts, held,
+                 (double)count.cast_steps / (double)parts);
+  assert_true (parts > moves () / 20);
+  assert_true (held <= parts / 1000);
+}
+
 int
 main (void)
 {
   const struct CMUnitTest tests[]
-      = { cmocka_unit_test (no_contact_is_missed), cmocka_unit_test (crossings_are_held) };
+      = { cmocka_unit_test (no_contact_is_missed), cmocka_unit_test (crossings_are_held),
+          cmocka_unit_test (parting_is_free) };
   return cmocka_run_group_tests_name ("collide_motion", tests, NULL, NULL);
 }

@@ -19,7 +19,8 @@
                 #:select (part-all-fields part-fields part-head part-name world-part world-parts))
   #:use-module (srfi srfi-1)
   #:use-module (srfi srfi-4)
-  #:export (post? all-finite? nothing-crossed? most-energy energy-bounded? turns-watcher same-again? always-sound))
+  #:export (post? all-finite? nothing-crossed? most-energy energy-bounded? strain-told? strain-watcher turns-watcher
+            same-again? always-sound))
 
 (define (tethers)
   (iota (length (%names (this-engine 'tethers) 'tether))))
@@ -142,6 +143,35 @@ could give it before it breaks."
   (every energy-sound? (tethers)))
 
 
+;;; Strain.  A line at its largest tension all along has the most strain energy that tensions can tell.  A step
+;;; that no solution was found for may leave an interval longer than that for a moment.
+
+(define at-a-loss 3)                    ; looks on end
+(define little 10)                      ; N: a tension this much larger tells what reading and damping leave out
+
+(define (strain-told? strain tension length ea)
+  "Return #t if TENSION, N, tells that LENGTH metres of a line of stiffness EA may hold STRAIN, J."
+  (<= strain (* 1/2 length (/ (expt (+ (* 2 tension) little) 2) ea))))
+
+(define (largest-tension name)
+  ;; N; a line with bending stiffness is pushed too.
+  (fold max 0 (cons (max-tension name) (map abs (f64vector->list (tensions name))))))
+
+(define (strain-of-tether-told? t)
+  (let ((name (name-of 'tether t)) (ea (assq-ref (tether-properties t) 'ea)))
+    (or (not (moving? t))
+        (not (real? ea))
+        (strain-told? (assq-ref (energy name) 'strain) (largest-tension name) (tether-length name) ea))))
+
+(define-verb (strain-watcher)
+  "Return a procedure that returns #f if a moving line has held, when it was called the last four times, more
+strain than its largest tension tells."
+  (let ((misses 0))
+    (lambda ()
+      (set! misses (if (every strain-of-tether-told? (tethers)) 0 (+ misses 1)))
+      (<= misses at-a-loss))))
+
+
 ;;; Turns.  As long as a tether lies between the upper and the lower end of what stands upright, it cannot get
 ;;; past its ends, and its turns about it change little by little; a jump by one is a line that went through.
 
@@ -216,9 +246,10 @@ end in the same state, bit for bit.  When FLIGHT raises, the dive is as it was."
 
 (define-syntax-rule (always-sound form ...)
   "(always-sound FORM ...): after every step that the FORMs let pass, and when they have ended, all is finite,
-nothing is crossed, energy is bounded and turns are steady.  What is not is reported."
-  (let ((turns-are-steady? (turns-watcher)))
+nothing is crossed, energy is bounded, strain is told and turns are steady.  What is not is reported."
+  (let ((strain-is-told? (strain-watcher)) (turns-are-steady? (turns-watcher)))
     (always (all-finite?)
       (always (nothing-crossed?)
         (always (energy-bounded?)
-          (always (turns-are-steady?) form ...))))))
+          (always (strain-is-told?)
+            (always (turns-are-steady?) form ...)))))))
