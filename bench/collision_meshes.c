@@ -257,7 +257,7 @@ run_mesh (bench *b, jacket *s, uint32_t wanted)
   double times[3];
   jacket_make (s, wanted);
   snprintf (setting, sizeof setting, "%u triangles", (unsigned)s->triangles);
-  bt__soup as_mesh = { s->vertices, s->triangles, s->v, (const uint32_t (*)[3])s->corner, NULL };
+  bt__soup as_mesh = { s->vertices, s->triangles, s->v, (const uint32_t (*)[3])s->corner, NULL, 0 };
   bt__obstacle o = { .kind = BT__OBSTACLE_MESH };
   for (int k = 0; k < 3; k++)
     {

@@ -7,8 +7,9 @@
    what grows; it is the only number here that is not better for being closer to something else.
 
    The same of what moves the water, waves and lees of piles: scale_sea.h; of obstacles far away,
-   contacts, forks stepped side by side, and what a fork takes of memory: scale_many.h.  The counter `n' is what a row has so
-   many of; the report draws CPU time over `n', case by case, with the exponent that fits.
+   contacts, forks stepped side by side, and what a fork takes of memory: scale_many.h.  The counter
+   `n' is what a row has so many of; the report draws CPU time over `n', case by case, with the
+   exponent that fits.
 
    The same vehicles stepped by several threads, in open water and each line pressed to a post,
    beside a dive of one thread: by turns, a few steps each.  The error is the number of turns after
@@ -30,11 +31,13 @@
 #include "row.h"
 #include "scale_many.h"
 #include "scale_sea.h"
+#include "scale_trees.h"
 #include "testbed/scene.h"
 
 enum
 {
   ROUNDS = 5,
+  TREE_ROUNDS = 7,
   WARM = 12,    /* steps before it is timed */
   SEVERAL = 50, /* intervals of each of several lines */
   TURNS = 300,  /* of two dives that are compared, at most, ... */
@@ -205,7 +208,8 @@ take_turn (runner *r, int flown, int turn, int steps)
 static void
 compare_threads (bench_table *t, const scene *s, int n, int threads, const char *where, double work)
 {
-  runner one = { scene_begin (&s->world), INFINITY, 0 }, many = { scene_begin (&s->world), INFINITY, 0 };
+  runner one = { scene_begin (&s->world), INFINITY, 0 },
+         many = { scene_begin (&s->world), INFINITY, 0 };
   int steps = 1 + TURN / n, turns = (int)fmin (TURNS, work / TURN), differ = 0;
   char setting[60], counters[240];
   bt_profile p;
@@ -268,7 +272,9 @@ main (int argc, char **argv)
   scale_forks (&table);
   scale_nodes (&table, nodes, (double)work);
   scale_vehicles (&table, vehicles, (double)work);
+  setenv ("BIGHT_TREES", "", 1); /* or else rows of loading would hang on earlier runs */
   scale_triangles (&table, triangles, (double)work);
+  scale_trees (&table, triangles, rounds < TREE_ROUNDS ? (int)rounds : TREE_ROUNDS);
   scale_threads (&table, vehicles, (double)work);
   scale_waves (&table, (int)rounds);
   scale_lees (&table, piles, (int)rounds);

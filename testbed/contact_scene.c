@@ -155,7 +155,7 @@ add_tube (reef *r, bt_vec3 foot, double height, double radius, int round, int up
       memcpy (corner[2 * i + 1], (uint32_t[]){ a, b + above, a + above }, sizeof *corner);
     }
   bt__soup soup
-      = { (uint32_t)vertices, (uint32_t)triangles, v, (const uint32_t (*)[3])corner, NULL };
+      = { (uint32_t)vertices, (uint32_t)triangles, v, (const uint32_t (*)[3])corner, NULL, 0 };
   int done = v && corner && reef_soup (r, &soup);
   free (v);
   free (corner);

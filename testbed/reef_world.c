@@ -69,7 +69,7 @@ add_boxes (reef *r, const bt_world *w)
   for (int i = 0; i < w->n_obstacles; i++)
     if (w->obstacles[i].kind == BT_OBSTACLE_BOX)
       add_box (&k, w->obstacles + i);
-  bt__soup soup = { k.vertices, k.triangles, k.v, (const uint32_t (*)[3])k.corner, NULL };
+  bt__soup soup = { k.vertices, k.triangles, k.v, (const uint32_t (*)[3])k.corner, NULL, 0 };
   return k.triangles == 0 || reef_soup (r, &soup);
 }
 

@@ -144,7 +144,7 @@ mesh_of_sheets (const stage *g)
   for (uint32_t i = 0; i < 3u * (uint32_t)g->sheets; i++)
     corner[i / 3][i % 3] = i;
   bt__soup soup = { 3 * (uint32_t)g->sheets, (uint32_t)g->sheets, g->sheet->v,
-                    (const uint32_t (*)[3])corner, NULL };
+                    (const uint32_t (*)[3])corner, NULL, 0 };
   bt__mesh *m = NULL;
   return bt__mesh_new (&soup, NULL, NULL, &m, NULL) == BT_OK ? m : NULL;
 }

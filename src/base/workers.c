@@ -22,6 +22,7 @@
 
 enum
 {
+  MANY_PROCESSORS = 1024,
   LOOKS = 200, /* before a worker sleeps: about a tenth of a millisecond when nobody else runs */
   NOW_AND_THEN = 20000000 /* ns */
 };
@@ -217,11 +218,29 @@ bt__workers_run (bt__workers *all, int tasks, void (*duty) (void *user, int w, i
                  void (*meanwhile) (void *user), void *user)
 {
   pid_t process = getpid ();
+  for (int k = 0; !all && k < tasks; k++)
+    duty (user, 0, k);
+  if (!all)
+    return;
   if (all->process != process)
     begin_in (all, process);
   open_round (all, tasks, duty, user);
   take_part (all, 0);
   close_round (all, meanwhile);
+}
+
+int
+bt__processors (void)
+{
+  long n = 0;
+#ifdef CPU_COUNT
+  cpu_set_t set;
+  if (sched_getaffinity (0, sizeof set, &set) == 0)
+    n = CPU_COUNT (&set);
+#endif
+  if (n < 1)
+    n = sysconf (_SC_NPROCESSORS_ONLN);
+  return n < 1 ? 1 : n > MANY_PROCESSORS ? MANY_PROCESSORS : (int)n;
 }
 
 int

@@ -20,9 +20,13 @@ void bt__workers_free (bt__workers *workers);
 /* Do DUTY (USER, W, K) once for every K below TASKS, on worker W below COUNT, one task at a time on
    each worker; return when all tasks are done.  If the system refuses a thread, fewer workers do
    the tasks; in a child process, which does not inherit threads, the workers start anew.  A caller
-   waiting for the workers calls MEANWHILE (USER) now and then, unless MEANWHILE is NULL.  */
+   waiting for the workers calls MEANWHILE (USER) now and then, unless MEANWHILE is NULL.  If
+   WORKERS is NULL, the caller does all tasks, as worker 0.  */
 void bt__workers_run (bt__workers *workers, int tasks, void (*duty) (void *user, int w, int k),
                       void (*meanwhile) (void *user), void *user);
+
+/* Return how many processors this process may use, 1 or more.  */
+int bt__processors (void);
 
 /* Return how many threads were ever started.  */
 int bt__workers_started (const bt__workers *workers);

@@ -337,7 +337,11 @@ typedef struct bt_model bt_model;
    bt_model_release.  Everything is copied.  BT_ERR_DEF when the parts contradict each other (two
    parts of the same name, a tether to no vehicle, a tether too short to reach, a line of lay
    through an obstacle), BT_ERR_DOMAIN for a number outside its range, BT_ERR_LIMIT for too many
-   parts or no memory.  */
+   parts or no memory.
+
+   Meshes and grids of many triangles are sorted by several threads, and the trees are kept
+   in files of the user's cache; no error if the cache cannot be written.  The environment variable
+   BIGHT_TREES names a different folder or, empty, none.  */
 bt_status bt_model_new (const bt_world *world, bt_model **model, bt_error *error);
 /* The same, asking POLL with POLL_USER while meshes are sorted: BT_ERR_INTERRUPTED.  */
 bt_status bt_model_new_polled (const bt_world *world, bt_poll poll, void *poll_user,

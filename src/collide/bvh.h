@@ -14,6 +14,7 @@
 #include <bight/status.h>
 
 #include "base/ask.h"
+#include "base/workers.h"
 #include "collide/pair.h"
 
 enum
@@ -75,7 +76,8 @@ typedef struct bt__bvh
   uint32_t *order; /* leaf order to item number */
   bt__bvh_item *item;
   uint32_t room, node_room;
-  bt__asker *asker; /* while it is built, or NULL; left, the tree is good for nothing */
+  bt__asker *asker;     /* while it is built, or NULL; left, the tree is good for nothing */
+  bt__workers *workers; /* that build it, or NULL: the caller alone */
 } bt__bvh;
 
 /* Work done by queries, added up.  */

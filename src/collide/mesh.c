@@ -20,9 +20,16 @@
 
 #include "base/error.h"
 #include "collide/mesh.h"
+#include "collide/mesh_keep.h"
 
 /* Farther from the origin than this no geometry holds in doubles.  */
 #define FAR 1e12
+
+enum
+{
+  SHARED = 50000,  /* triangles, from which on threads pay */
+  MOST_WORKERS = 4 /* of more, each would wait for memory */
+};
 
 static bt_vec3
 turned_by_place (const bt__place *place, bt_vec3 d)
@@ -118,29 +125,50 @@ copy_soup (bt__mesh *m, const bt__soup *s, const bt__place *place)
   return 1;
 }
 
-/* The corners and their numbers, from the soup, in the order of the leaves.  */
-static void
-sort_corners (bt__mesh *m, const bt__soup *s)
+/* The tree of M, its corners in the order of the leaves, and their neighbours.  */
+static bt_status
+make_tree (bt__mesh *m, const bt__soup *soup, bt__workers *workers, bt__asker *asker,
+           bt_error *error)
 {
-  for (uint32_t i = 0; i < m->triangles; i++)
-    {
-      uint32_t from = m->tree.order[i];
-      memcpy (m->corner[i], s->corner[from], sizeof *m->corner);
-      m->id[i] = s->id ? s->id[from] : from;
-    }
+  bt_status status = bt__bvh_reserve (&m->tree, m->triangles, error);
+  if (status)
+    return status;
+  m->tree.asker = asker;
+  m->tree.workers = workers;
+  bt__bvh_build (&m->tree, m->triangles, box_of_triangle, m);
+  m->tree.asker = NULL;
+  m->tree.workers = NULL;
+  status = bt__stopped (asker, error);
+  if (status)
+    return status;
+  bt__bvh_trim (&m->tree);
+  return bt__mesh_sort (m, soup, workers, asker, error);
 }
 
-static void
-find_box (bt__mesh *m)
+/* The tree of M and its neighbours, from disk or made.  */
+static bt_status
+find_tree (bt__mesh *m, const bt__soup *soup, bt__workers *workers, bt__asker *asker,
+           bt_error *error)
 {
-  bt__aabb b = { m->v[m->corner[0][0]], m->v[m->corner[0][0]] };
-  for (uint32_t i = 0; i < 3 * m->triangles; i++)
-    {
-      bt_vec3 p = m->v[m->corner[i / 3][i % 3]];
-      b.lo = bt__vec (LEAST (b.lo.x, p.x), LEAST (b.lo.y, p.y), LEAST (b.lo.z, p.z));
-      b.hi = bt__vec (MOST (b.hi.x, p.x), MOST (b.hi.y, p.y), MOST (b.hi.z, p.z));
-    }
-  m->box = b;
+  if (m->triangles < BT__KEEP_FROM)
+    return make_tree (m, soup, workers, asker, error);
+  uint64_t key = bt__keep_key (m, soup);
+  if (bt__keep_load (m, soup, key))
+    return BT_OK;
+  bt_status status = make_tree (m, soup, workers, asker, error);
+  if (!status)
+    bt__keep_save (m, key);
+  return status;
+}
+
+/* Return the workers that make SOUP, or NULL: the caller alone does.  */
+static bt__workers *
+workers_for (const bt__soup *soup)
+{
+  int n = soup->workers;
+  if (n == 0 && soup->triangles >= SHARED)
+    n = bt__processors () < MOST_WORKERS ? bt__processors () : MOST_WORKERS;
+  return n > 1 ? bt__workers_new (n) : NULL;
 }
 
 bt_status
@@ -153,27 +181,13 @@ bt__mesh_new (const bt__soup *soup, const bt__place *place, bt__asker *asker, bt
   if (status)
     return status;
   bt__mesh *m = calloc (1, sizeof *m);
+  bt__workers *workers = workers_for (soup);
   if (!m || !copy_soup (m, soup, place))
     status = bt__fail (error, BT_ERR_LIMIT, "no memory for a mesh of %u triangles",
                        (unsigned)soup->triangles);
   if (!status)
-    status = bt__bvh_reserve (&m->tree, m->triangles, error);
-  if (status)
-    {
-      bt__mesh_free (m);
-      return status;
-    }
-  m->tree.asker = asker;
-  bt__bvh_build (&m->tree, m->triangles, box_of_triangle, m);
-  m->tree.asker = NULL;
-  status = bt__stopped (asker, error);
-  if (!status)
-    {
-      bt__bvh_trim (&m->tree);
-      sort_corners (m, soup);
-      find_box (m);
-      status = bt__mesh_find_rings (m, asker, error);
-    }
+    status = find_tree (m, soup, workers, asker, error);
+  bt__workers_free (workers);
   if (status)
     {
       bt__mesh_free (m);
@@ -238,7 +252,7 @@ bt__mesh_from_grid (const bt__grid *g, const bt__place *place, bt__asker *asker,
       for (uint32_t j = 0; j + 1 < g->ny; j++)
         for (uint32_t i = 0; i + 1 < g->nx; i++)
           n += add_field (g, i, j, corner + n, id + n);
-      bt__soup soup = { (uint32_t)posts, n, v, (const uint32_t (*)[3])corner, id };
+      bt__soup soup = { (uint32_t)posts, n, v, (const uint32_t (*)[3])corner, id, 0 };
       status = bt__mesh_new (&soup, place, asker, out, error);
     }
   free (v);

@@ -37,6 +37,7 @@ typedef struct bt__soup
   const bt_vec3 *v;
   const uint32_t (*corner)[3];
   const uint32_t *id; /* NULL: 0, 1, 2 ... */
+  int workers;        /* that make the mesh, always of the same bits; 0: as many as pay */
 } bt__soup;
 
 /* Copy SOUP, placed by PLACE (NULL: as it is), into *OUT with its tree, asking ASKER (NULL: nobody)
@@ -59,8 +60,15 @@ bt_status bt__mesh_from_grid (const bt__grid *grid, const bt__place *place, bt__
 
 void bt__mesh_free (bt__mesh *mesh); /* NULL is nothing */
 
-/* mesh_rings.c: fill NEXT_CORNER, NEXT_EDGE and FOLDS of M.  BT_ERR_LIMIT; BT_ERR_INTERRUPTED.  */
-bt_status bt__mesh_find_rings (bt__mesh *mesh, bt__asker *asker, bt_error *error);
+/* mesh_rings.c: the triangles of SOUP into M in the order of its tree's leaves, their box and their
+   neighbours, by WORKERS (NULL: by the caller alone); the result does not depend on the
+   number of workers.
+   BT_ERR_LIMIT; BT_ERR_INTERRUPTED.  */
+bt_status bt__mesh_sort (bt__mesh *mesh, const bt__soup *soup, bt__workers *workers,
+                         bt__asker *asker, bt_error *error);
+
+/* The corners and ids of M, from SOUP, in the order of its tree's leaves.  */
+void bt__mesh_put_in_order (bt__mesh *mesh, const bt__soup *soup);
 
 static inline bt__triangle
 bt__mesh_triangle (const bt__mesh *m, uint32_t slot)

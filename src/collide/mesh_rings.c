@@ -1,4 +1,5 @@
-/* The neighbours of a mesh's triangles: rings of corners and of edges.
+/* A mesh's triangles in the order of the leaves of its tree, and their neighbours: rings of corners
+   and of edges.
 
    All corners of triangles at one point form a ring, and all edges of triangles between the same
    two points form a ring, whatever the number of triangles there.  Points are the same if their
@@ -7,10 +8,14 @@
    end are joined by a list of higher ends, cleared afterwards.  Time grows with the number of
    edges, however many meet in one point.
 
+   Workers share two tasks, the order of corners and the names of points; then two more, rings of
+   corners and rings of edges; then the folds of ranges of triangles.
+
    An edge is a fold unless exactly two triangles share it and lie in one plane.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,7 +24,8 @@
 
 enum
 {
-  ITEMS_A_QUESTION = 8192 /* between two questions whether to go on */
+  ITEMS_A_QUESTION = 8192, /* between two questions whether to go on */
+  FOLD_TASKS = 16
 };
 
 #define NONE UINT32_MAX
@@ -32,16 +38,27 @@ typedef struct low_edge
 typedef struct joining
 {
   bt__mesh *mesh;
-  uint32_t *point; /* by vertex: the first vertex at its place */
-  uint32_t *first; /* by point: the first of a ring, or NONE */
-  uint32_t *end;   /* by point: end in EDGE of the edges with this lower end */
+  const bt__soup *soup;
+  bt__asker *asker; /* asked by worker 0, who is the caller */
+  atomic_int ended; /* true from when the asker said so */
+  uint32_t *table;  /* vertices, by a hash of their places */
+  size_t mask;      /* its entries less one, a power of two */
+  uint32_t *point;  /* by vertex: the first vertex at its place */
+  uint32_t *corner; /* by point: the first of a ring of corners, or NONE */
+  uint32_t *first;  /* by point: the first of a ring of edges, or NONE */
+  uint32_t *end;    /* by point: end in EDGE of the edges with this lower end */
   low_edge *edge;
 } joining;
 
+/* Is the work of worker W to be left at item I?  */
 static int
-is_interrupted (bt__asker *asker, uint32_t i)
+is_left (joining *j, int w, uint32_t i)
 {
-  return i % ITEMS_A_QUESTION == 0 && bt__ask (asker);
+  if (i % ITEMS_A_QUESTION)
+    return 0;
+  if (w == 0 && bt__ask (j->asker))
+    atomic_store_explicit (&j->ended, 1, memory_order_relaxed);
+  return atomic_load_explicit (&j->ended, memory_order_relaxed);
 }
 
 /* ---- Points ---- */
@@ -52,38 +69,66 @@ is_same_point (bt_vec3 a, bt_vec3 b)
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/* Return the entry of TABLE, of MASK + 1 entries, a vertex of M at P or NONE.  */
+/* Return the entry of J's table with a vertex at P or NONE.  */
 static uint32_t *
-find_point (const bt__mesh *m, uint32_t *table, size_t mask, bt_vec3 p)
+find_point (const joining *j, bt_vec3 p)
 {
   bt_vec3 key = bt__vec (p.x + 0.0, p.y + 0.0, p.z + 0.0); /* -0 is 0 */
-  size_t at = bt__hash (&key, sizeof key, 0) & mask;
-  while (table[at] != NONE && !is_same_point (m->v[table[at]], p))
-    at = (at + 1) & mask;
-  return table + at;
+  size_t at = bt__hash (&key, sizeof key, 0) & j->mask;
+  while (j->table[at] != NONE && !is_same_point (j->mesh->v[j->table[at]], p))
+    at = (at + 1) & j->mask;
+  return j->table + at;
 }
 
-/* True if there was memory.  */
-static int
-name_points (joining *j)
+static void
+name_points (joining *j, int w)
 {
   const bt__mesh *m = j->mesh;
-  size_t size = 16;
-  while (size < 2 * (size_t)m->vertices)
-    size *= 2;
-  uint32_t *table = malloc (size * sizeof *table);
-  if (!table)
-    return 0;
-  memset (table, 0xff, size * sizeof *table);
-  for (uint32_t v = 0; v < m->vertices; v++)
+  memset (j->table, 0xff, (j->mask + 1) * sizeof *j->table);
+  for (uint32_t v = 0; v < m->vertices && !is_left (j, w, v); v++)
     {
-      uint32_t *entry = find_point (m, table, size - 1, m->v[v]);
+      uint32_t *entry = find_point (j, m->v[v]);
       if (*entry == NONE)
         *entry = v;
       j->point[v] = *entry;
     }
-  free (table);
-  return 1;
+}
+
+/* ---- Order ---- */
+
+void
+bt__mesh_put_in_order (bt__mesh *m, const bt__soup *s)
+{
+  for (uint32_t i = 0; i < m->triangles; i++)
+    {
+      uint32_t from = m->tree.order[i];
+      memcpy (m->corner[i], s->corner[from], sizeof *m->corner);
+      m->id[i] = s->id ? s->id[from] : from;
+    }
+}
+
+static void
+find_box (bt__mesh *m)
+{
+  bt_vec3 first = m->v[m->corner[0][0]];
+  bt__aabb b = { first, first };
+  for (uint32_t i = 0; i < m->triangles; i++)
+    for (int k = 0; k < 3; k++)
+      b = bt__box_with (b, m->v[m->corner[i][k]]);
+  m->box = b;
+}
+
+static void
+sort_or_name (void *user, int w, int task)
+{
+  joining *j = user;
+  if (task == 0)
+    name_points (j, w);
+  else
+    {
+      bt__mesh_put_in_order (j->mesh, j->soup);
+      find_box (j->mesh);
+    }
 }
 
 /* ---- Rings ---- */
@@ -112,17 +157,24 @@ find_ends (const joining *j, uint32_t slot, uint32_t i, uint32_t ends[2])
   ends[1] = a < b ? b : a;
 }
 
-/* Join the corners of SLOT, and count its edges at their lower ends.  An edge without length is a
-   ring of its own.  */
 static void
-join_corners (joining *j, uint32_t slot)
+join_corners (joining *j, int w)
 {
   bt__mesh *m = j->mesh;
-  for (uint32_t i = 0, c = 3 * slot; i < 3; i++, c++)
+  memset (j->corner, 0xff, m->vertices * sizeof *j->corner);
+  for (uint32_t slot = 0; slot < m->triangles && !is_left (j, w, slot); slot++)
+    for (uint32_t i = 0; i < 3; i++)
+      add_to_ring (m->next_corner, j->corner + j->point[m->corner[slot][i]], 3 * slot + i);
+}
+
+/* Count the edges of SLOT at their lower ends.  An edge without length is a ring of its own.  */
+static void
+count_edges (joining *j, uint32_t slot)
+{
+  for (uint32_t i = 0; i < 3; i++)
     {
       uint32_t ends[2];
-      add_to_ring (m->next_corner, j->first + j->point[m->corner[slot][i]], c);
-      m->next_edge[c] = c;
+      j->mesh->next_edge[3 * slot + i] = 3 * slot + i;
       find_ends (j, slot, i, ends);
       j->end[ends[0]] += ends[0] != ends[1];
     }
@@ -142,7 +194,7 @@ sort_edges (joining *j, uint32_t slot)
 
 /* Join N edges of one lower end.  */
 static void
-join_edges (joining *j, const low_edge *edge, uint32_t n)
+join_some (joining *j, const low_edge *edge, uint32_t n)
 {
   for (uint32_t i = 0; i < n; i++)
     add_to_ring (j->mesh->next_edge, j->first + edge[i].high, edge[i].edge);
@@ -163,33 +215,31 @@ add_up (joining *j)
     }
 }
 
-/* True if it was finished.  */
-static int
-join_all (joining *j, bt__asker *asker)
+static void
+join_edges (joining *j, int w)
 {
   const bt__mesh *m = j->mesh;
   memset (j->first, 0xff, m->vertices * sizeof *j->first);
-  for (uint32_t slot = 0; slot < m->triangles; slot++)
-    {
-      if (is_interrupted (asker, slot))
-        return 0;
-      join_corners (j, slot);
-    }
-  memset (j->first, 0xff, m->vertices * sizeof *j->first);
+  for (uint32_t slot = 0; slot < m->triangles && !is_left (j, w, slot); slot++)
+    count_edges (j, slot);
   add_up (j);
   for (uint32_t slot = 0; slot < m->triangles; slot++)
     {
-      if (is_interrupted (asker, slot))
-        return 0;
+      if (is_left (j, w, slot))
+        return;
       sort_edges (j, slot);
     }
-  for (uint32_t v = 0, begin = 0; v < m->vertices; begin = j->end[v++])
-    {
-      if (is_interrupted (asker, v))
-        return 0;
-      join_edges (j, j->edge + begin, j->end[v] - begin);
-    }
-  return 1;
+  for (uint32_t v = 0, begin = 0; v < m->vertices && !is_left (j, w, v); begin = j->end[v++])
+    join_some (j, j->edge + begin, j->end[v] - begin);
+}
+
+static void
+join (void *user, int w, int task)
+{
+  if (task == 0)
+    join_edges (user, w);
+  else
+    join_corners (user, w);
 }
 
 /* ---- Folds ---- */
@@ -213,6 +263,13 @@ is_fold (const bt__mesh *m, uint32_t edge, uint32_t other)
   return !(bt__dot (sum, sum) <= BT__MESH_FLAT * BT__MESH_FLAT);
 }
 
+/* Another worker may look at another edge of triangle SLOT.  */
+static void
+set_fold (bt__mesh *m, uint32_t slot, uint32_t i)
+{
+  __atomic_fetch_or (m->folds + slot, (uint8_t)(1 << i), __ATOMIC_RELAXED);
+}
+
 /* Each pair of edges is looked at once, for both.  */
 static void
 find_folds (bt__mesh *m, uint32_t slot)
@@ -225,22 +282,22 @@ find_folds (bt__mesh *m, uint32_t slot)
         continue;
       if (two && !is_fold (m, edge, other))
         continue;
-      m->folds[slot] |= (uint8_t)(1 << i);
+      set_fold (m, slot, i);
       if (two)
-        m->folds[other / 3] |= (uint8_t)(1 << other % 3);
+        set_fold (m, other / 3, other % 3);
     }
 }
 
-static int
-find_all_folds (bt__mesh *m, bt__asker *asker)
+/* The folds of one of FOLD_TASKS ranges of triangles.  */
+static void
+find_folds_of_range (void *user, int w, int task)
 {
-  for (uint32_t slot = 0; slot < m->triangles; slot++)
-    {
-      if (is_interrupted (asker, slot))
-        return 0;
-      find_folds (m, slot);
-    }
-  return 1;
+  joining *j = user;
+  uint64_t n = j->mesh->triangles;
+  uint32_t slot = (uint32_t)(n * (uint64_t)task / FOLD_TASKS),
+           end = (uint32_t)(n * ((uint64_t)task + 1) / FOLD_TASKS);
+  for (; slot < end && !is_left (j, w, slot); slot++)
+    find_folds (j->mesh, slot);
 }
 
 /* ---- All ---- */
@@ -253,26 +310,46 @@ reserve_rings (joining *j)
   m->next_corner = malloc (corners * sizeof *m->next_corner);
   m->next_edge = malloc (corners * sizeof *m->next_edge);
   m->folds = calloc (m->triangles, 1);
+  j->mask = 16;
+  while (j->mask < 2 * (size_t)m->vertices)
+    j->mask *= 2;
+  j->table = malloc (j->mask * sizeof *j->table);
+  j->mask--;
   j->point = malloc (m->vertices * sizeof *j->point);
+  j->corner = malloc (m->vertices * sizeof *j->corner);
   j->first = malloc (m->vertices * sizeof *j->first);
   j->end = calloc (m->vertices, sizeof *j->end);
   j->edge = malloc (corners * sizeof *j->edge);
-  return m->next_corner && m->next_edge && m->folds && j->point && j->first && j->end && j->edge;
+  return m->next_corner && m->next_edge && m->folds && j->table && j->point && j->corner && j->first
+         && j->end && j->edge;
+}
+
+static void
+do_all (joining *j, bt__workers *workers)
+{
+  bt__workers_run (workers, 2, sort_or_name, NULL, j);
+  if (!j->ended)
+    bt__workers_run (workers, 2, join, NULL, j);
+  if (!j->ended)
+    bt__workers_run (workers, FOLD_TASKS, find_folds_of_range, NULL, j);
 }
 
 bt_status
-bt__mesh_find_rings (bt__mesh *m, bt__asker *asker, bt_error *error)
+bt__mesh_sort (bt__mesh *m, const bt__soup *soup, bt__workers *workers, bt__asker *asker,
+               bt_error *error)
 {
-  joining j = { .mesh = m };
+  joining j = { .mesh = m, .soup = soup, .asker = asker };
   bt_status status = BT_OK;
-  if (!reserve_rings (&j) || !name_points (&j))
+  if (reserve_rings (&j))
+    do_all (&j, workers);
+  else
     status = bt__fail (error, BT_ERR_LIMIT, "no memory for the edges of %u triangles",
                        (unsigned)m->triangles);
-  else if (!join_all (&j, asker) || !find_all_folds (m, asker))
-    status = bt__stopped (asker, error);
+  free (j.table);
   free (j.point);
+  free (j.corner);
   free (j.first);
   free (j.end);
   free (j.edge);
-  return status;
+  return status ? status : bt__stopped (asker, error);
 }

@@ -124,7 +124,7 @@ draw_mesh (const bt_obstacle_def *def, bt__asker *asker, bt__obstacle *out, bt_e
   bt_vec3 *p = drawn_points (&frame, def->kind == BT_OBSTACLE_MESH ? def->scale : 1, mesh->vertex,
                              mesh->vertices);
   bt__soup soup
-      = { (uint32_t)mesh->vertices, (uint32_t)mesh->triangles, p, mesh->corner, mesh->id };
+      = { (uint32_t)mesh->vertices, (uint32_t)mesh->triangles, p, mesh->corner, mesh->id, 0 };
   bt_status status;
   if (!p)
     return no_memory (mesh->vertices, error);

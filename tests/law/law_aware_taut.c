@@ -154,7 +154,7 @@ skin_of_box (bt_vec3 centre, bt_vec3 half)
             }
           n++;
         }
-  bt__soup soup = { n, t, v, (const uint32_t (*)[3])corner, NULL };
+  bt__soup soup = { n, t, v, (const uint32_t (*)[3])corner, NULL, 0 };
   assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &mesh, NULL), BT_OK);
   return mesh;
 }

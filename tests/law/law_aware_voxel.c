@@ -161,7 +161,7 @@ meshes (void **state)
         memcpy (corner[n], t, sizeof t);
         n += 2;
       }
-  bt__soup soup = { LONG * AROUND, n, v, (const uint32_t (*)[3])corner, NULL };
+  bt__soup soup = { LONG * AROUND, n, v, (const uint32_t (*)[3])corner, NULL, 0 };
   stage_clear (&r.g);
   r.g.o[0] = (bt__obstacle){ .kind = BT__OBSTACLE_MESH };
   assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &r.g.o[0].shape.mesh, NULL), BT_OK);

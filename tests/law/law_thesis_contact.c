@@ -73,7 +73,7 @@ cube_mesh (bt_vec3 centre, double half)
   for (int i = 0; i < 8; i++)
     v[i] = bt__add (centre, bt__vec (half * (i & 1 ? 1 : -1), half * (i & 2 ? 1 : -1),
                                      half * (i & 4 ? 1 : -1)));
-  bt__soup soup = { 8, 12, v, cube, NULL };
+  bt__soup soup = { 8, 12, v, cube, NULL, 0 };
   bt__mesh *m = NULL;
   return bt__mesh_new (&soup, NULL, NULL, &m, NULL) == BT_OK ? m : NULL;
 }

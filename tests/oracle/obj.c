@@ -91,7 +91,7 @@ obj_mesh (const char *name)
     return NULL;
   assert_true (read_obj (&m, f));
   fclose (f);
-  bt__soup soup = { m.vertices, m.triangles, m.v, (const uint32_t (*)[3])m.corner, NULL };
+  bt__soup soup = { m.vertices, m.triangles, m.v, (const uint32_t (*)[3])m.corner, NULL, 0 };
   if (bt__mesh_new (&soup, NULL, NULL, &mesh, &error))
     fail_msg ("%s: %s", name, error.text);
   free (m.v);

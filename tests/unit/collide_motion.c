@@ -147,7 +147,7 @@ static double
 cast (const move *m, bt__count *count)
 {
   uint32_t corner[1][3] = { { 0, 1, 2 } };
-  bt__soup soup = { 3, 1, m->triangle.v, (const uint32_t (*)[3])corner, NULL };
+  bt__soup soup = { 3, 1, m->triangle.v, (const uint32_t (*)[3])corner, NULL, 0 };
   bt__obstacle o = { .kind = BT__OBSTACLE_MESH };
   bt__scene *s = NULL;
   bt__near near;

@@ -161,7 +161,7 @@ draw_mesh (dice *d)
           corner[i][k] = 3 * i + k;
         }
     }
-  bt__soup soup = { 3 * TRIANGLES, TRIANGLES, v, (const uint32_t (*)[3])corner, NULL };
+  bt__soup soup = { 3 * TRIANGLES, TRIANGLES, v, (const uint32_t (*)[3])corner, NULL, 0 };
   bt__mesh *m = NULL;
   assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &m, NULL), BT_OK);
   return m;
@@ -292,7 +292,7 @@ nothing_leaks (void **state)
           corner[n + (uint32_t)k / 3][k % 3] = two[k / 3][k % 3];
         n += 2;
       }
-  bt__soup soup = { ROUND * (UP + 1), n, v, (const uint32_t (*)[3])corner, NULL };
+  bt__soup soup = { ROUND * (UP + 1), n, v, (const uint32_t (*)[3])corner, NULL, 0 };
   bt__obstacle o = { .kind = BT__OBSTACLE_MESH };
   bt__scene *s = NULL;
   assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &o.shape.mesh, NULL), BT_OK);

@@ -44,7 +44,7 @@ draw_mesh (dice *d, bt_vec3 far)
         corner[i][2] = corner[i][1];
       id[i] = 7 * i + 3;
     }
-  bt__soup soup = { 3 * TRIANGLES, TRIANGLES, v, (const uint32_t (*)[3])corner, id };
+  bt__soup soup = { 3 * TRIANGLES, TRIANGLES, v, (const uint32_t (*)[3])corner, id, 0 };
   bt__mesh *m = NULL;
   bt_error error;
   if (bt__mesh_new (&soup, NULL, NULL, &m, &error))
@@ -184,7 +184,7 @@ rings_are_brute_force (void **state)
                       (double)(place / 4 % 4), (double)(place / 16));
       corner[i / 3][i % 3] = i;
     }
-  bt__soup soup = { 900, 300, v, (const uint32_t (*)[3])corner, NULL };
+  bt__soup soup = { 900, 300, v, (const uint32_t (*)[3])corner, NULL, 0 };
   bt__mesh *m = NULL;
   assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &m, NULL), BT_OK);
   for (uint32_t i = 0; i < 900; i++)
@@ -204,7 +204,7 @@ folds_are_no_planes (void **state)
     {
       bt_vec3 v[] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, bent ? 0.002 : 0 } };
       const uint32_t corner[2][3] = { { 0, 1, 2 }, { 0, 2, 3 } };
-      bt__soup soup = { 4, 2, v, corner, NULL };
+      bt__soup soup = { 4, 2, v, corner, NULL, 0 };
       bt__mesh *m = NULL;
       assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &m, NULL), BT_OK);
       for (uint32_t i = 0; i < 2; i++)
@@ -375,7 +375,7 @@ refuses_bad_soups (void **state)
 {
   bt_vec3 v[3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, NAN, 0 } };
   uint32_t corner[1][3] = { { 0, 1, 2 } };
-  bt__soup soup = { 3, 1, v, (const uint32_t (*)[3])corner, NULL };
+  bt__soup soup = { 3, 1, v, (const uint32_t (*)[3])corner, NULL, 0 };
   bt__mesh *m = NULL;
   bt_error error;
   (void)state;

@@ -114,7 +114,7 @@ obstacle_of (const solid *x)
 {
   bt__obstacle o = { .kind = BT__OBSTACLE_MESH };
   uint32_t corner[1][3] = { { 0, 1, 2 } };
-  bt__soup soup = { 3, 1, x->triangle.v, (const uint32_t (*)[3])corner, NULL };
+  bt__soup soup = { 3, 1, x->triangle.v, (const uint32_t (*)[3])corner, NULL, 0 };
   if (x->kind != SOLID_TRIANGLE)
     return obstacle_of_solid (x);
   assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &o.shape.mesh, NULL), BT_OK);

@@ -157,7 +157,7 @@ mesh_wall (double y)
   double x[4] = { -90, 90, 90, -90 }, z[4] = { -90, -90, 90, 90 };
   for (int i = 0; i < 4; i++)
     v[i] = bt__vec (x[i], y, z[i]);
-  bt__soup soup = { 4, 2, v, corner, NULL };
+  bt__soup soup = { 4, 2, v, corner, NULL, 0 };
   bt__obstacle o = { .kind = BT__OBSTACLE_MESH };
   bt_error error;
   if (bt__mesh_new (&soup, NULL, NULL, &o.shape.mesh, &error) != BT_OK)
