@@ -44,7 +44,7 @@
      make-wellhead make-rigging)
     ((bight dive contact)
      contacts contact? contact-object contact-triangle contact-position contact-normal
-     contact-arc-length contact-force contact-state
+     contact-arc-length contact-force contact-state contact-tail?
      segments segment? segment-model segment-from segment-to segment-length segment-ends
      clearance rov-clearance collide! collided? stuck? wear wear-profile)
     ((bight test scenario)

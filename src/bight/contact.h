@@ -17,14 +17,16 @@ typedef struct bt_contact
                  vehicle with the hull, counted on after obstacles and tethers */
   int64_t triangle; /* its id on a mesh, or -1 */
   int slides;       /* zero: it sticks */
-  double s;         /* m of arc length from the anchor */
+  int tail;         /* true: of the far part of a parted tether */
+  double s;         /* m of arc length from the anchor; of the far part counted on beyond the near
+                       part, with the line that drifted off between both */
   bt_vec3 position; /* m, on the obstacle */
   bt_vec3 normal;   /* unit, from the obstacle to the tether */
   bt_vec3 force;    /* N, on the tether; zero of a static model */
 } bt_contact;
 
-/* Write up to MAX contacts of tether I to CONTACTS, from the anchor on, and return how many there
-   are; -1 when there is no such tether.  */
+/* Write up to MAX contacts of tether I to CONTACTS, of both parts if it has parted, from the anchor
+   on, and return how many there are; -1 when there is no such tether.  */
 int bt_tether_contacts (const bt_dive *dive, int i, bt_contact *contacts, int max);
 
 /* A span between contacts, or between a contact and an end.  */

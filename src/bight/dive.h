@@ -358,10 +358,12 @@ bt_status bt_tether_tightest_bend (const bt_dive *dive, int i, double *radius, b
 typedef struct bt_energy
 {
   double kinetic, strain, gravity, bending; /* J; gravity from z = 0 */
+  double lost; /* J: gone at breaks, from the interval that parted and with the line between two
+                  breaks; no break changes the sum of all five */
 } bt_energy;
 
-/* Return the energies of tether I in *ENERGY.  BT_ERR_UNSUPPORTED unless its model is a moving
- * line.  */
+/* Return the energies of tether I, of both parts if it has parted, in *ENERGY.  BT_ERR_UNSUPPORTED
+   unless its model is a moving line.  */
 bt_status bt_tether_energy (const bt_dive *dive, int i, bt_energy *energy, bt_error *error);
 
 /* Search for distinct equilibria of tether I at its present ends, as bt_steady_equilibria, at most

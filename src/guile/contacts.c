@@ -13,11 +13,11 @@ enum
   MOST = 4096
 };
 
-/* #(object triangle position normal s force sliding?) */
+/* #(object triangle position normal s force sliding? tail?) */
 static SCM
 from_contact (bt_dive *dive, const bt_contact *c)
 {
-  SCM v = scm_c_make_vector (7, SCM_BOOL_F);
+  SCM v = scm_c_make_vector (8, SCM_BOOL_F);
   scm_c_vector_set_x (v, 0, bt__obstacle_name (dive, c->object));
   if (c->triangle >= 0)
     scm_c_vector_set_x (v, 1, scm_from_int64 (c->triangle));
@@ -26,6 +26,7 @@ from_contact (bt_dive *dive, const bt_contact *c)
   scm_c_vector_set_x (v, 4, scm_from_double (c->s));
   scm_c_vector_set_x (v, 5, bt__from_point (c->force));
   scm_c_vector_set_x (v, 6, scm_from_bool (c->slides));
+  scm_c_vector_set_x (v, 7, scm_from_bool (c->tail));
   return v;
 }
 

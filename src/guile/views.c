@@ -291,10 +291,11 @@ energy (SCM object, SCM index)
              &error);
   return bt__associate (
       "kinetic", scm_from_double (e.kinetic),
-      bt__associate (
-          "strain", scm_from_double (e.strain),
-          bt__associate ("gravity", scm_from_double (e.gravity),
-                         bt__associate ("bending", scm_from_double (e.bending), SCM_EOL))));
+      bt__associate ("strain", scm_from_double (e.strain),
+                     bt__associate ("gravity", scm_from_double (e.gravity),
+                                    bt__associate ("bending", scm_from_double (e.bending),
+                                                   bt__associate ("lost", scm_from_double (e.lost),
+                                                                  SCM_EOL)))));
 }
 
 static SCM

@@ -165,7 +165,7 @@ bt__begin_chain (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, i
   tether->shape.length = tether->length;
   tether->contact_form = BT__TETHER_SHAPE;
   tether->parted = tether->quiet = tether->settled = tether->blocked = tether->fine = 0;
-  tether->lost = 0;
+  tether->lost = tether->shed = 0;
   tether->peak = tether->unsure = 0;
   tether->stretch = (bt__stretch){ 0 };
   tether->look = (bt__look){ 0 };
@@ -279,16 +279,25 @@ cut_part (bt_dive *dive, bt__state *state, int i, int part, int interval, double
   bt__dive_tether (dive, state, i)->lost += lost;
 }
 
+static double
+energy_left (const bt_dive *dive, bt__state *state, int i)
+{
+  bt_energy e = bt__line_energy (dive, state, i);
+  return e.kinetic + e.strain + e.gravity + e.bending;
+}
+
 void
 bt__part_chain (bt_dive *dive, bt__state *state, int i, int part, int interval, double share)
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
+  double energy = energy_left (dive, state, i);
   bt__store_changes (dive, i);
   if (tether->parted)
     cut_part (dive, state, i, part, interval, share);
   else
     cut_whole (dive, state, i, interval, share);
   tether->parted = 1;
+  tether->shed += energy - energy_left (dive, state, i);
   tether->quiet = 0;
   if (part == 0)
     {

@@ -135,10 +135,10 @@ void bt__go_on_within (bt_dive *dive, bt__state *state, int i, const bt__ends *e
 int bt__is_out_of_sight (const bt_dive *dive, const bt__state *state, int i);
 int bt__has_room_about (const bt_dive *dive, bt__state *state, int i, double way);
 
-/* The way, m, that every node of tether I, in one piece, may go while the line stays clear of
-   itself and of tethers in sight, however these move; at most a share of an interval
+/* The way, m, that every node of PART of tether I may go while the part stays clear of itself, of
+   the other part and of tethers in sight, however these move; at most a share of an interval
    (chain_touch.c).  */
-double bt__spare_among_lines (bt_dive *dive, bt__state *state, int i);
+double bt__spare_among_lines (bt_dive *dive, bt__state *state, int i, int part);
 
 /* The box about all places of tether I of STATE, ahead of the present, in its stretch.  */
 bt__aabb bt__box_of_stretch (const bt_dive *dive, bt__state *state, int i);

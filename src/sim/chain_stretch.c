@@ -154,7 +154,7 @@ went_clear (bt_dive *dive, bt__state *state, int i, const bt__dynamic_report *re
   if (bt__has_obstacles (dive) && !(chain->spare.way > way + touching))
     return 0;
   return fmin (chain->spare.turned, chain->spare.apart) > 2 * swing
-         || bt__spare_among_lines (dive, state, i) > way;
+         || bt__spare_among_lines (dive, state, i, 0) > way;
 }
 
 /* The error in place of the last stretch of tether I over the accepted error.  */

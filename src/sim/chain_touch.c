@@ -180,11 +180,12 @@ take_up (bt_dive *dive, int i, int part)
 }
 
 double
-bt__spare_among_lines (bt_dive *dive, bt__state *state, int i)
+bt__spare_among_lines (bt_dive *dive, bt__state *state, int i, int part)
 {
-  bt__line_config config = line_config (dive, state, i, 0);
-  take_up (dive, i, 0);
-  return bt__line_work_spare (dive->contact_work.line, bt__dive_chain (dive, state, i, 0), &config);
+  bt__line_config config = line_config (dive, state, i, part);
+  take_up (dive, i, part);
+  return bt__line_work_spare (dive->contact_work.line, bt__dive_chain (dive, state, i, part),
+                              &config);
 }
 
 void

@@ -137,7 +137,7 @@ look_for_culprit (const trial *t, bt_haul *out)
       out->object = near.object;
       out->hull = 1;
     }
-  else if (bt_tether_contacts (t->fork, t->tether, &contact, 1) > 0)
+  else if (bt_tether_contacts (t->fork, t->tether, &contact, 1) > 0 && !contact.tail)
     out->object = contact.object;
 }
 

@@ -77,17 +77,17 @@ farthest_off (const bt__dynamic *chain, const bt__link *link, double from, doubl
   return off;
 }
 
-/* True if tether I may change to N intervals without touching.  Each point of the line moves
-   straight to the new point of equal arc length: no point leaves the capsule about the new interval
-   and the old points.  */
+/* True if PART of tether I may change to N intervals without touching.  Each point of the line
+   moves straight to the new point of equal arc length: no point leaves the capsule about the new
+   interval and the old points.  */
 int
-bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n)
+bt__may_remesh (bt_dive *dive, bt__state *state, int i, int part, int n)
 {
-  bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  bt__dynamic *chain = bt__dive_chain (dive, state, i, part);
   bt__surroundings around = bt__surround (dive, state, BT_PART_TETHER, i);
   double core = bt__core (bt__dive_tether (dive, state, i)->props.diameter);
   double length = bt__dynamic_length (chain), s = 0;
-  double spare = bt__spare_among_lines (dive, state, i); /* where lines touch, nodes stay */
+  double spare = bt__spare_among_lines (dive, state, i, part); /* where lines touch, nodes stay */
   int64_t j = 0;
   for (int k = 0; k < n; k++)
     {
@@ -102,9 +102,9 @@ bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n)
 }
 
 double
-bt__way_of_remesh (const bt_dive *dive, bt__state *state, int i, int n)
+bt__way_of_remesh (const bt_dive *dive, bt__state *state, int i, int part, int n)
 {
-  bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  bt__dynamic *chain = bt__dive_chain (dive, state, i, part);
   double length = bt__dynamic_length (chain), s = 0, most = 0;
   int64_t j = 0;
   for (int k = 0; k < n; k++)

@@ -15,18 +15,18 @@
 bt_status bt__corners (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, int *n,
                        bt_error *error);
 
-/* True if nothing is between the moving line of tether I and the N + 1 points on the dive's
+/* True if nothing is between PART of the moving line of tether I and the N + 1 points on the dive's
    polyline, equally spaced along it.  */
-int bt__may_remesh (bt_dive *dive, bt__state *state, int i, int n);
+int bt__may_remesh (bt_dive *dive, bt__state *state, int i, int part, int n);
 
 /* The distance of LINK to the nearest obstacle AROUND, at most CAP; *NEAR receives the part of an
    obstacle nearer than CAP.  */
 double bt__room_about (bt_dive *dive, const bt__surroundings *around, const bt__link *link,
                        double cap, bt__near *near);
 
-/* The farthest that a point of tether I goes, m, if the line changes to the N intervals on the
-   dive's polyline.  */
-double bt__way_of_remesh (const bt_dive *dive, bt__state *state, int i, int n);
+/* The farthest that a point of PART of tether I goes, m, if the part changes to the N intervals on
+   the dive's polyline.  */
+double bt__way_of_remesh (const bt_dive *dive, bt__state *state, int i, int part, int n);
 
 /* Lead the N + 1 nodes X of tether I toward the points on the dive's polyline until the line has
    the length of the tether; *THERE: true if all nodes arrived (lay_way.c).  */

@@ -159,25 +159,26 @@ sample_tensions (bt_dive *dive, const bt__line *line, int n)
     sample (dive, line, n);
 }
 
-/* True if no obstacle, no line, and no second part of a parted tether is on the way of tether I to
-   N intervals.  */
+/* True if no obstacle, no line, and no other part of a parted tether is on the way of PART of
+   tether I to N intervals.  */
 static int
-has_way (bt_dive *dive, bt__state *state, int i, int n)
+has_way (bt_dive *dive, bt__state *state, int i, int part, int n)
 {
   if (bt__has_obstacles (dive))
-    return bt__may_remesh (dive, state, i, n);
-  double way = bt__way_of_remesh (dive, state, i, n);
+    return bt__may_remesh (dive, state, i, part, n);
+  double way = bt__way_of_remesh (dive, state, i, part, n);
   return bt__has_room_about (dive, state, i, way)
          && (!bt__dive_tether (dive, state, i)->parted
-             || way < bt__spare_among_lines (dive, state, i));
+             || way < bt__spare_among_lines (dive, state, i, part));
 }
 
 static bt_status
-lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
+lay_anew (bt_dive *dive, bt__state *state, int i, int part, int n, bt_error *error)
 {
-  bt__line line = bt__line_of (dive, state, i);
+  bt__line whole = bt__line_of (dive, state, i);
+  bt__line line = part ? bt__line_tail (&whole) : whole;
   bt__tether *tether = bt__dive_tether (dive, state, i);
-  bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  bt__dynamic *chain = bt__dive_chain (dive, state, i, part);
   bt_vec3 pull[2] = { chain->pull[0], chain->pull[1] };
   double length = bt__line_length (&line);
   bt_status status;
@@ -186,7 +187,7 @@ lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
   sample_tensions (dive, &line, n);
   if (keeps)
     bt__slipped_along (chain, n, dive->corner);
-  if (!has_way (dive, state, i, n))
+  if (!has_way (dive, state, i, part, n))
     return BT_OK;
   status = bt__dynamic_init (chain, bt__chain_room (&dive->model->tethers[i]), n, dive->polyline,
                              n + 1, length, tether->props.ea, error);
@@ -203,24 +204,31 @@ lay_anew (bt_dive *dive, bt__state *state, int i, int n, bt_error *error)
   return BT_OK;
 }
 
-/* True if, in a world without obstacles, the line is too near to itself for a change of nodes.  */
+/* True if, in a world without obstacles, PART of tether I is too near to itself for a change of
+   nodes.  */
 static int
-is_near_itself (const bt_dive *dive, bt__state *state, int i, const bt__dynamic *chain)
+is_near_itself (const bt_dive *dive, bt__state *state, int i, int part)
 {
   return !bt__has_obstacles (dive)
-         && (chain->wait > 0 || bt__dive_anchors (dive, state, i, 0)->n > 0);
+         && (bt__dive_chain (dive, state, i, part)->wait > 0
+             || bt__dive_anchors (dive, state, i, part)->n > 0);
 }
 
 /* ---- Looks ---- */
 
-/* The curvature, 1/m, that adds no error to be heeded even along the whole of tether I.  */
+/* The curvature, 1/m, that adds no error to be heeded even along all of a part of tether I.  */
 static double
 harmless_bend (const bt_dive *dive, bt__state *state, int i)
 {
-  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
-  double length = bt__dynamic_length (chain), h = length / (double)chain->n,
-         error = AIM * bt__accuracy (bt__dive_tether (dive, state, i)) / BT__CHAIN_ERROR;
-  return sqrt (24 * error / length) / h;
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  double error = AIM * bt__accuracy (tether) / BT__CHAIN_ERROR, least = INFINITY;
+  for (int part = 0; part < bt__chains (tether); part++)
+    {
+      const bt__dynamic *chain = bt__dive_chain (dive, state, i, part);
+      double length = bt__dynamic_length (chain), h = length / (double)chain->n;
+      least = fmin (least, sqrt (24 * error / length) / h);
+    }
+  return least;
 }
 
 int
@@ -243,35 +251,41 @@ note_look (const bt_dive *dive, bt__state *state, int i, double bend, double mos
   *look = (bt__look){ .step = state->step, .error = error + left, .bend = bend };
 }
 
-/* Give tether I as many intervals as the accuracy asks for, unless contacts forbid a change; MOST
-   is the upper estimate of the error with the present nodes.  */
+/* Give PART of tether I as many intervals as the accuracy asks for, unless contacts forbid a
+   change; MOST is the upper estimate of the error with the present nodes.  */
 static bt_status
-remesh (bt_dive *dive, bt__state *state, int i, double most, bt_error *error)
+remesh (bt_dive *dive, bt__state *state, int i, int part, double most, bt_error *error)
 {
   const bt__tether *tether = bt__dive_tether (dive, state, i);
-  const bt__dynamic *chain = bt__dive_chain (dive, state, i, 0);
+  const bt__dynamic *chain = bt__dive_chain (dive, state, i, part);
   int n = (int)chain->n, room = bt__adaptive_room (dive, i);
   int m = wanted (n, most, bt__accuracy (tether), fewest_of (dive, tether), room);
   if (tether->parted) /* hauled home it is short */
     m = (int)fmax (1, fmin (m, bt__dynamic_length (chain) / SHORTEST));
   if (bt__has_obstacles (dive))
     m = multiple (n, m, room);
-  return m == n || chain->rounded || is_near_itself (dive, state, i, chain)
+  return m == n || chain->rounded || is_near_itself (dive, state, i, part)
                  || bt__is_by_a_hull (dive, i)
              ? BT_OK
-             : lay_anew (dive, state, i, m, error);
+             : lay_anew (dive, state, i, part, m, error);
 }
 
 bt_status
 bt__remesh_chain (bt_dive *dive, bt__state *state, int i, bt_error *error)
 {
-  return remesh (dive, state, i, bt__chain_error (bt__dive_chain (dive, state, i, 0)), error);
+  return remesh (dive, state, i, 0, bt__chain_error (bt__dive_chain (dive, state, i, 0)), error);
 }
 
 bt_status
 bt__look_at_nodes (bt_dive *dive, bt__state *state, int i, double bend, bt_error *error)
 {
-  double most = bt__chain_error (bt__dive_chain (dive, state, i, 0));
-  note_look (dive, state, i, bend, most);
-  return remesh (dive, state, i, most, error);
+  int parts = bt__chains (bt__dive_tether (dive, state, i));
+  double most[2] = { 0, 0 };
+  bt_status status = BT_OK;
+  for (int part = 0; part < parts; part++)
+    most[part] = bt__chain_error (bt__dive_chain (dive, state, i, part));
+  note_look (dive, state, i, bend, fmax (most[0], most[1]));
+  for (int part = 0; part < parts && status == BT_OK; part++)
+    status = remesh (dive, state, i, part, most[part], error);
+  return status;
 }

@@ -100,6 +100,8 @@ bt_tether_contact_length (const bt_dive *dive, int i, int obstacle, int sliding,
   double interval = bt__line_length (&line) / fmax (1, bt__line_nodes (&line) - 1);
   int n = bt_tether_contacts (dive, i, c, CONTACTS_MAX);
   n = n < CONTACTS_MAX ? n : CONTACTS_MAX;
+  while (n > 0 && c[n - 1].tail) /* the length asked for is of the part at the anchor */
+    n--;
   for (int k = 0; k < n; k++)
     if ((obstacle < 0 || c[k].object == obstacle) && (!sliding || c[k].slides))
       *length += contact_length (c, n, k, interval);

@@ -25,45 +25,55 @@ enum
 
 /* ---- Contacts ---- */
 
+/* The contact TOUCH; of a far part, which begins BEFORE metres from the anchor, if TAIL is true. */
 static bt_contact
-contact_of (const bt__touch *touch)
+contact_of (const bt__touch *touch, int tail, double before)
 {
   return (bt_contact){ .object = (int)touch->object,
                        .triangle = touch->triangle,
                        .slides = touch->state == BT__TOUCH_SLIDE,
-                       .s = touch->s,
+                       .tail = tail,
+                       .s = before + touch->s,
                        .position = touch->point,
                        .normal = touch->normal,
                        .force = touch->force };
 }
 
-/* All of them in memory of their own; *N is -1 when there is no such tether.  */
+/* All of LINE, tether I, in memory of their own.  */
 static bt__touch *
-all_touches (const bt_dive *dive, int i, int *n)
+all_touches (const bt_dive *dive, int i, const bt__line *line, int *n)
 {
-  bt__touch *touch = NULL;
-  bt__line line;
-  *n = i < 0 || i >= dive->model->n_tethers ? -1 : 0;
-  if (*n < 0)
-    return NULL;
-  touch = malloc (sizeof *touch * TOUCHES_MAX);
-  line = bt__line_of (dive, dive->now, i);
-  if (touch)
-    *n = line.form->touches (dive, i, &line, touch, TOUCHES_MAX);
+  bt__touch *touch = malloc (sizeof *touch * TOUCHES_MAX);
+  *n = touch ? line->form->touches (dive, i, line, touch, TOUCHES_MAX) : 0;
   if (*n > TOUCHES_MAX)
     *n = TOUCHES_MAX;
   return touch;
 }
 
+static int
+is_tether (const bt_dive *dive, int i)
+{
+  return i >= 0 && i < dive->model->n_tethers;
+}
+
 int
 bt_tether_contacts (const bt_dive *dive, int i, bt_contact *contacts, int max)
 {
-  int n;
-  bt__touch *touch = all_touches (dive, i, &n);
-  for (int k = 0; k < n && k < max; k++)
-    contacts[k] = contact_of (&touch[k]);
-  free (touch);
-  return n;
+  int all = 0, n;
+  if (!is_tether (dive, i))
+    return -1;
+  bt__line whole = bt__line_of (dive, dive->now, i);
+  double before = bt__line_length (&whole) + whole.tether->lost;
+  for (int tail = 0; tail <= (whole.tether->parted != 0); tail++)
+    {
+      bt__line line = tail ? bt__line_tail (&whole) : whole;
+      bt__touch *touch = all_touches (dive, i, &line, &n);
+      for (int k = 0; k < n; k++, all++)
+        if (all < max)
+          contacts[all] = contact_of (&touch[k], tail, tail ? before : 0);
+      free (touch);
+    }
+  return all;
 }
 
 /* ---- Wear ---- */
@@ -163,10 +173,10 @@ int
 bt_tether_segments (const bt_dive *dive, int i, bt_segment *segments, int max)
 {
   int touches, n;
-  bt__touch *touch = all_touches (dive, i, &touches);
-  if (touches < 0)
+  if (!is_tether (dive, i))
     return -1;
   bt__line line = bt__line_of (dive, dive->now, i);
+  bt__touch *touch = all_touches (dive, i, &line, &touches);
   n = line.split ? thesis_segments (&line, segments, max)
                  : free_segments (&line, touch, touches, segments, max);
   free (touch);

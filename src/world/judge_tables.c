@@ -148,6 +148,7 @@ static const bt__member tether[] = {
   BT__TRUTH (bt__tether, taut),
   BT__TRUTH (bt__tether, parted),
   BT__WITHIN (bt__tether, lost, 0, BT__FAR),
+  BT__WITHIN (bt__tether, shed, -BT__HUGE, BT__HUGE),
   BT__WITHIN (bt__tether, quiet, 0, BT__MANY / 2),
   BT__WITHIN (bt__tether, slack_at, -1, BT__MANY / 2),
   BT__WITHIN (bt__tether, fine, 0, 2 * BT__FINEST),

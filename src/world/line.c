@@ -139,5 +139,39 @@ bt__line_error (const bt__line *line)
   if (!line->chain)
     return NAN;
   double error = fmax (BT__COMMON_ERROR * bt__chain_error (line->chain), line->tether->look.error);
-  return fmax (error, fabs (line->chain->owed));
+  error = fmax (error, fabs (line->chain->owed));
+  if (line->far_chain != line->chain)
+    error = fmax (error, BT__COMMON_ERROR * bt__chain_error (line->far_chain));
+  return error;
+}
+
+/* Add to SUM the energies of CHAIN, of tether I, BEYOND metres from its far end.  */
+static void
+add_energies (const bt_dive *dive, bt__state *state, int i, const bt__dynamic *chain, double beyond,
+              bt_energy *sum)
+{
+  const bt_tether_def *def = &dive->model->tethers[i];
+  bt_water water = bt__dive_water (dive, state);
+  bt__dynamic_set sets[BT_SETS_MAX];
+  bt__dynamic_input input = { .line = &bt__dive_tether (dive, state, i)->props,
+                              .water = &water,
+                              .h = BT__TIME_STEP,
+                              .sets = sets };
+  input.n_sets = bt__place_sets (def->sets, (int)def->n_sets, def->length, beyond, sets);
+  bt__dynamic_energy e = bt__dynamic_energies (chain, &input);
+  sum->kinetic += e.kinetic;
+  sum->strain += fmax (0, e.strain - bt__dynamic_crumple_energy (chain, &input));
+  sum->gravity += e.gravity;
+  sum->bending += e.bending;
+}
+
+bt_energy
+bt__line_energy (const bt_dive *dive, bt__state *state, int i)
+{
+  bt__line line = bt__line_of (dive, state, i);
+  bt_energy sum = { .lost = line.tether->shed };
+  add_energies (dive, state, i, line.chain, bt__beyond_chain (dive, state, i), &sum);
+  if (line.far_chain != line.chain)
+    add_energies (dive, state, i, line.far_chain, 0, &sum);
+  return sum;
 }

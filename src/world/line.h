@@ -65,6 +65,9 @@ double bt__chain_error (const bt__dynamic *chain);
 #define BT__COMMON_ERROR 0.8
 double bt__line_error (const bt__line *line);
 
+/* The energies of tether I of STATE, a moving line, of both its parts.  */
+bt_energy bt__line_energy (const bt_dive *dive, bt__state *state, int i);
+
 /* Where end K of LINE is, 0 the anchor and 1 the far end; the force of LINE on what the end is
    fastened to, N.  */
 bt_vec3 bt__line_end (const bt__line *line, int k);

@@ -286,22 +286,12 @@ bt_status
 bt_tether_energy (const bt_dive *dive, int i, bt_energy *energy, bt_error *error)
 {
   bt__line line;
-  bt_water water = bt__dive_water (dive, dive->now);
-  bt__dynamic_energy e;
   bt_status status = ask_line (dive, i, &line, error);
   if (status != BT_OK)
     return status;
   if (!line.chain)
     return bt__fail (error, BT_ERR_UNSUPPORTED, "only a moving line has its energies counted");
-  const bt_tether_def *def = &dive->model->tethers[i];
-  bt__dynamic_set sets[BT_SETS_MAX];
-  bt__dynamic_input input
-      = { .line = &line.tether->props, .water = &water, .h = BT__TIME_STEP, .sets = sets };
-  double beyond = bt__beyond_chain (dive, dive->now, i);
-  input.n_sets = bt__place_sets (def->sets, (int)def->n_sets, def->length, beyond, sets);
-  e = bt__dynamic_energies (line.chain, &input);
-  e.strain = fmax (0, e.strain - bt__dynamic_crumple_energy (line.chain, &input));
-  *energy = (bt_energy){ e.kinetic, e.strain, e.gravity, e.bending };
+  *energy = bt__line_energy (dive, dive->now, i);
   return BT_OK;
 }
 

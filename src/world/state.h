@@ -134,6 +134,7 @@ typedef struct bt__tether
   int64_t taut;
   int64_t parted;   /* the line is in two: a second chain hangs from the far end */
   double lost;      /* m: of the line between the two, gone when either parted again */
+  double shed;      /* J: gone when it parted, from the interval and with such a piece */
   int64_t quiet;    /* DYNAMIC: steps it has rested; it sleeps when they are enough */
   int64_t slack_at; /* DYNAMIC: the step at which it was last slack */
   int64_t fine;     /* DYNAMIC: if not 0, its next step is tried in 2^(FINE - 1) parts first; above
@@ -206,8 +207,8 @@ bt__tether_form_of (const bt__tether *tether)
              : BT__TETHER_SHAPE;
 }
 
-/* The first bytes of a state: layout version 15.  */
-#define BT__STATE_MAGIC 0x315448474942000fULL
+/* The first bytes of a state: layout version 16.  */
+#define BT__STATE_MAGIC 0x3154484749420010ULL
 
 /* The head.  The members with room for more than is in use stand last: rows of a current,
    components of waves, events (head_in_use of layout.c).  */

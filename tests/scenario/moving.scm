@@ -173,22 +173,87 @@ water there, four times the drag.)"
   (expect (array-ref (tether-tail) 0 2) is (about -20 #:within 0.05)))
 
 (define-scenario a-cut-divides-contacts
-  "What the line touches is the same before and after it is cut, on either side of the cut."
+  "What the line touches is the same before and after it is cut, on either side of the cut, and both parts tell of it."
   (in (world (sea (depth 20)) (seabed) (box (named block) (at 8 0 -19) (size 1 1 2))
              (rov (named minnow) (at 30 0 -12))
              (tether (named line) (wet-weight 0.5) (from 0 0 -19.99) (to minnow) (length 36) (nodes 36)
                      (model dynamic))))
   (run 30)
   (define (touches)
-    (map (lambda (c) (list (contact-object c) (f64vector->list (contact-position c)))) (contacts)))
+    (map (lambda (c) (list (contact-object c) (f64vector->list (contact-position c)) (round (* 1e6 (contact-arc-length c)))))
+         (contacts)))
   (define (off c)
     (distance (point-at (contact-arc-length c)) (contact-position c)))
   (let ((before (touches)))
     (cut-tether! #:at 18)
     (let ((now (touches)))
-      (expect (length now) is (above 8))
-      (expect (list-head before (length now)) => now)
-      (expect (apply max (map off (contacts))) is (below 0.02)))))
+      (expect (length now) is (above 12))
+      (expect now => before)
+      (expect (length (filter contact-tail? (contacts))) is (above 3))
+      (expect (map (lambda (c) (> (contact-arc-length c) (tether-length))) (contacts)) => (map contact-tail? (contacts)))
+      (expect (apply max (map off (filter (lambda (c) (not (contact-tail? c))) (contacts)))) is (below 0.02))
+      (expect (apply max (map segment-to (segments))) is (about (tether-length) #:within 1e-6)))))
+
+(define-scenario what-lies-there-is-borne
+  "Both parts of a cut line come to lie on the bottom, which bears all that does not hang from the vehicle."
+  (in (world (sea (depth 20)) (seabed) (rov (named minnow) (at 30 0 -12))
+             (tether (named line) (wet-weight 0.5) (from 0 0 -19.99) (to minnow) (length 46) (nodes 46)
+                     (model dynamic))))
+  (run 20)
+  (cut-tether! #:at 20)
+  (run 120)
+  (expect (apply + (rov-tension) (map (lambda (c) (z (contact-force c))) (contacts))) is (about 23 #:within 0.5)))
+
+(define (all-energy)
+  (apply + (map cdr (energy))))
+
+(define-scenario (a-break-loses-what-it-says at)
+  "Cut, and cut again, a line has the energy that it had, less what is said to be lost; left to itself it gains none."
+  #:for ((at 15 0.5 39))
+  (in (world (sea (density 1)) (rov (named minnow) (at 25 0 -10))
+             (tether (named line) (wet-weight 0.5) (ca 0) (cdn 0) (cdt 0) (from 0 0 -10) (to minnow) (length 40) (nodes 40)
+                     (breaking-load none) (model dynamic))))
+  (run 1)
+  (move! '(30 3 -10) #:speed 1)
+  (run 7)
+  (define begun (all-energy))
+  (expect (assq-ref (energy) 'lost) => 0.0)
+  (define gravity (assq-ref (energy) 'gravity))
+  (cut-tether! #:at at)
+  (expect (all-energy) is (about begun #:within 1e-6))
+  (expect (abs (assq-ref (energy) 'lost)) is (below 0.05))
+  (expect (assq-ref (energy) 'gravity) is (about gravity #:within 0.3))
+  (always (<= (all-energy) (+ begun 1e-3)) (run 5))
+  (let ((before (all-energy)))
+    (cut-tether! #:at (* 1/2 (tether-length)))
+    (expect (all-energy) is (about before #:within 1e-6))
+    (expect (assq-ref (energy) 'lost) is (lambda (lost) (< lost -0.5)))))
+
+(define-scenario both-parts-take-the-nodes-they-need
+  "A line of model auto that hangs straight in both parts, once it was cut in a bight, has fewer nodes in both."
+  (in (world (sea) (rov (named minnow) (at 10 0 -60))
+             (tether (named line) (wet-weight 0.5) (from 0 0 -60) (to minnow) (length 100) (accuracy 0.005) (model auto))))
+  (run 2)
+  (cut-tether! #:at 50)
+  (let ((tail (car (array-dimensions (tether-tail)))))
+    (expect tail is (above 40))
+    (run 120)
+    (expect (car (array-dimensions (tether-tail))) is (below (* 2/3 tail)))
+    (expect (car (array-dimensions (tether-points))) is (below (* 2/3 tail)))
+    (expect (array-ref (tether-tail) 0 2) is (about -110 #:within 0.1))))
+
+(define-scenario a-vehicle-cuts-itself-free
+  "Cut at its far end, a line leaves its vehicle no more than a stub."
+  (in (moving))
+  (run 1)
+  (cut-tether! #:at (tether-length))
+  (let* ((tail (tether-tail)) (nodes (map (lambda (i) (list (array-ref tail i 0) (array-ref tail i 1) (array-ref tail i 2)))
+                                          (iota (car (array-dimensions tail))))))
+    (expect (length nodes) => 2)
+    (expect (distance (car nodes) (cadr nodes)) is (below 0.5)))
+  (drive! #:surge 1)
+  (run 30)
+  (expect (held?) => #f))
 
 (define-scenario a-jerk-is-a-snap
   "A slack line run out at speed comes taut with a jerk, once."

@@ -205,7 +205,7 @@ the winch will stop, m."
 
 (define-verb (cut-tether! #:subject (t tether) #:key (at non-negative (/ (%length t) 2)))
   "Cut the tether, moved by the model `dynamic', AT metres of arc length from its anchor (its middle when
-left out).  Both parts go on moving.  Of a tether that is cut already the part at the anchor is cut again, and
+left out); at its vehicle's end by (tether-length).  Both parts go on moving.  Of a tether that is cut already the part at the anchor is cut again, and
 the piece between drifts off, out of the dive.  Return the length left at the anchor, m."
   (operate! 'cut-tether! t at)
   (%length t))

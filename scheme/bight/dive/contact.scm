@@ -16,7 +16,7 @@
   #:use-module ((srfi srfi-9 gnu) #:select (set-record-type-printer!))
   #:export (contacts
             contact? contact-object contact-triangle contact-position contact-normal
-            contact-arc-length contact-force contact-state
+            contact-arc-length contact-force contact-state contact-tail?
             segments
             segment? segment-model segment-from segment-to segment-length segment-ends
             clearance rov-clearance
@@ -28,7 +28,7 @@
 ;;; Contacts.
 
 (define-record <contact>
-  (make-contact object triangle position normal arc-length force slides?)
+  (make-contact object triangle position normal arc-length force slides? tail?)
   contact-record?
   (object %object)
   (triangle %triangle)
@@ -36,7 +36,8 @@
   (normal %normal)
   (arc-length %arc-length)
   (force %force)
-  (slides? %slides?))
+  (slides? %slides?)
+  (tail? %tail?))
 
 (define (rounded x)
   (/ (round (* 100 x)) 100))
@@ -67,7 +68,8 @@
   "Return the unit vector from the obstacle to the tether at the contact C."
   (%normal c))
 (define-verb (contact-arc-length (c contact))
-  "Return where on the tether the contact C is, metres of arc length from the anchor."
+  "Return where on the tether the contact C is, metres of arc length from the anchor; of the far part of a tether that
+has parted it is counted on beyond the part at the anchor, with the piece that drifted off between them."
   (%arc-length c))
 (define-verb (contact-force (c contact))
   "Return the force on the tether at the contact C, N, a vector; zero with a static model."
@@ -75,10 +77,13 @@
 (define-verb (contact-state (c contact))
   "Return `stick' or `slide', what the tether does at the contact C."
   (if (%slides? c) 'slide 'stick))
+(define-verb (contact-tail? (c contact))
+  "Return #t if the contact C is that of the far part of a tether that has parted."
+  (%tail? c))
 
 (define-verb (contacts #:subject (t tether))
   "Return where the tether touches obstacles, other tethers, hulls of vehicles that it is not made fast to
-and, at either place, itself, from the anchor on: a list of contacts."
+and, at either place, itself, from the anchor on: a list of contacts; of a tether that has parted those of both parts."
   (map (lambda (v) (apply make-contact (vector->list v)))
        (%contacts (this-engine 'contacts) t)))
 

@@ -238,7 +238,8 @@ circle through three neighbours among the model's own points."
 
 (define-verb (energy #:subject (t tether))
   "Return the energies of the moving line in joules by kind: kinetic (added mass moves too), strain,
-gravity (from z = 0) and bending, an alist.  Raise unsupported for static models."
+gravity (from z = 0) and bending, and what was lost where it parted, an alist; of a line that has parted those of both
+parts.  No break changes the sum of all.  Raise unsupported for static models."
   (%energy (this-engine 'energy) t))
 
 (define-verb (error-estimate #:subject (t tether))

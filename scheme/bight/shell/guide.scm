@@ -278,7 +278,7 @@ Lines:
 ;; Those that ask something of what another returns.
 (define families
   '(((map NAME (contacts))
-     contact-arc-length contact-force contact-normal contact-object contact-position contact-state contact-triangle)
+     contact-arc-length contact-force contact-normal contact-object contact-position contact-state contact-tail? contact-triangle)
     ((map NAME (segments)) segment-ends segment-from segment-length segment-model segment-to)
     ((NAME (deviation (transponders 5 #:noise 0.02))) deviation-max deviation-mean deviation-rms deviation-worst)
     ((map NAME (begin (drive! #:surge 0.5) (foresee 60)))

@@ -161,7 +161,7 @@ could give it before it breaks."
   (let ((name (name-of 'tether t)) (ea (assq-ref (tether-properties t) 'ea)))
     (or (not (moving? t))
         (not (real? ea))
-        (strain-told? (assq-ref (energy name) 'strain) (largest-tension name) (tether-length name) ea))))
+        (strain-told? (assq-ref (energy name) 'strain) (largest-tension name) (whole-length t) ea))))
 
 (define-verb (strain-watcher)
   "Return a procedure that returns #f if a moving line has held, when it was called the last four times, more

@@ -73,10 +73,22 @@
         (height (list-ref (f64vector->list (assq-ref (%sea (this-engine 'tether-answers)) 'waves)) 1)))
     (if shares (* 2 height (norm shares)) 0)))
 
+(define (off-tail tail place)
+  ;; How far PLACE is from the nearest of the nodes TAIL, m, beyond half of the longest interval.
+  (max 0 (- (apply min (map (lambda (node) (distance node place)) tail))
+            (* 1/2 (apply max (map distance tail (cdr tail)))))))
+
+(define (place-on-line name tail contact)
+  ;; (METRES-FROM-ANCHOR METRES-OFF OBJECT) of CONTACT of the tether NAME, whose other part has the nodes TAIL.
+  (let ((s (contact-arc-length contact)) (place (contact-position contact)))
+    (list s
+          (if (contact-tail? contact) (off-tail tail place) (distance (point-at name s) place))
+          (contact-object contact))))
+
 (define (tether-answers name)
   "Return what the present dive answers about the tether NAME, an alist."
   (let* ((t (list-index (lambda (n) (eq? n name)) (tether-names)))
-         (tail (tether-tail name)))
+         (tail (and=> (tether-tail name) rows)))
     `((name . ,name)
       (fields . ,(tether-properties t))
       (sea . ,(%sea (this-engine 'tether-answers)))
@@ -91,12 +103,9 @@
       (far-end . ,(holder name 'to))
       (ride . ,(ride name))
       (error . ,(if-supported (error-estimate name)))
-      (contacts . ,(map (lambda (c)
-                          (let ((s (contact-arc-length c)))
-                            (list s (distance (point-at name s) (contact-position c)) (contact-object c))))
-                        (contacts name)))
+      (contacts . ,(map (lambda (c) (place-on-line name tail c)) (contacts name)))
       (parted? . ,(parted? name))
-      (tail . ,(and tail (rows tail)))
+      (tail . ,tail)
       (strain-energy . ,(or (assq-ref (or (if-supported (energy name)) '()) 'strain) 0)))))
 
 
