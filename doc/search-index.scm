@@ -15,19 +15,34 @@
 (define (page-text file)
   (call-with-input-file (string-append folder "/" file) get-string-all #:encoding "UTF-8"))
 
-(define (without pattern text)
-  (regexp-substitute/global #f pattern text 'pre " " 'post))
+;; Regular expressions would begin each match with a copy of all text that is left: minutes for the manual.
 
-(define (replaced text pairs)
-  (fold (lambda (pair text) (regexp-substitute/global #f (car pair) text 'pre (cdr pair) 'post)) text pairs))
+(define entities
+  '(("&lt;" . "<") ("&gt;" . ">") ("&quot;" . "\"") ("&rsquo;" . "'") ("&lsquo;" . "'") ("&nbsp;" . " ") ("&amp;" . "&")))
+
+(define mark (char-set #\< #\&))
+
+(define (meaning html i)
+  ;; What stands in HTML at I, a mark: its text, and where it ends.
+  (let ((end (and (char=? (string-ref html i) #\<) (string-index html #\> i)))
+        (entity (find (lambda (entity) (string-prefix? (car entity) html 0 (string-length (car entity)) i)) entities)))
+    (cond (end (values " " (+ end 1)))
+          (entity (values (cdr entity) (+ i (string-length (car entity)))))
+          (else (values (string (string-ref html i)) (+ i 1))))))
 
 (define (plain html)
   ;; The words of HTML.
-  (string-join
-   (string-tokenize
-    (replaced (without "<[^>]*>" (without "<script[^>]*>|^[^>]*>" html))
-              '(("&lt;" . "<") ("&gt;" . ">") ("&quot;" . "\"") ("&rsquo;|&lsquo;" . "'") ("&nbsp;" . " ")
-                ("&amp;" . "&"))))))
+  (let loop ((from 0) (pieces '()))
+    (let ((i (string-index html mark from)))
+      (if i
+          (call-with-values (lambda () (meaning html i))
+            (lambda (text end)
+              (loop end (cons* text (substring html from i) pieces))))
+          (string-join (string-tokenize (string-concatenate-reverse pieces (substring html from))))))))
+
+(define (without-name title)
+  ;; TITLE without the manual's name at its end.
+  (regexp-substitute #f (string-match "( \\(bight[^)]*\\))?$" title) 'pre))
 
 (define (part text from to)
   ;; What is between FROM and TO in TEXT, or the empty string.
@@ -45,8 +60,9 @@
 (define (page file)
   (let ((text (page-text file)))
     (vector file
-            (replaced (plain (part text "<title>" "</title>")) '((" \\(bight[^)]*\\)$" . "")))
-            (plain (without-headers (part text "<body" "</body>"))))))
+            (without-name (plain (part text "<title>" "</title>")))
+            ;; The tag is cut through at its beginning, for attributes may follow.
+            (plain (string-append "<" (without-headers (part text "<body" "</body>")))))))
 
 (display "window.bightPages = ")
 (write-json (list->vector (map page (sort (filter (lambda (f) (string-suffix? ".html" f)) (scandir folder)) string<?)))

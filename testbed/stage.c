@@ -143,8 +143,12 @@ mesh_of_sheets (const stage *g)
   static uint32_t corner[SHEETS][3];
   for (uint32_t i = 0; i < 3u * (uint32_t)g->sheets; i++)
     corner[i / 3][i % 3] = i;
-  bt__soup soup = { 3 * (uint32_t)g->sheets, (uint32_t)g->sheets, g->sheet->v,
-                    (const uint32_t (*)[3])corner, NULL, 0 };
+  bt__soup soup = { 3 * (uint32_t)g->sheets,
+                    (uint32_t)g->sheets,
+                    g->sheet->v,
+                    (const uint32_t (*)[3])corner,
+                    NULL,
+                    0 };
   bt__mesh *m = NULL;
   return bt__mesh_new (&soup, NULL, NULL, &m, NULL) == BT_OK ? m : NULL;
 }
