@@ -134,6 +134,14 @@ bt__share (double n, double d)
   return d > 0 ? bt__clamp (n / d, 0, 1) : 0;
 }
 
+/* The place of the point of LINK nearest to P: 0 at its start, 1 at its end.  */
+static inline double
+bt__nearest_share (const bt__link *link, bt_vec3 p)
+{
+  bt_vec3 d = bt__sub (link->b, link->a);
+  return bt__share (bt__dot (bt__sub (p, link->a), d), bt__dot (d, d));
+}
+
 static inline double
 bt__largest (bt_vec3 a)
 {

@@ -12,10 +12,6 @@
    goes towards the same goal: nodes go on from where they were stopped and slide round corners.
    Kinematic obstacles move in the first round only.
 
-   Guarantee: from a clear start no link's axis comes nearer than the core radius to an obstacle,
-   along the straight paths of the nodes within each round.  The core is widened by a relative
-   margin and by the rounding of the farthest coordinate.
-
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
 #include <stdlib.h>

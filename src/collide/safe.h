@@ -34,6 +34,13 @@ typedef struct bt__mover
 /* Return the motion from FROM to TO.  */
 bt__motion bt__motion_between (const bt__frame *from, const bt__frame *to);
 
+/* The farthest a point no farther than RADIUS from the origin goes by MOTION, m.  */
+static inline double
+bt__motion_way (const bt__motion *m, double radius)
+{
+  return bt__norm (m->travel) + fabs (m->angle) * radius;
+}
+
 /* Return where MOTION is after the share T.  */
 bt__frame bt__motion_at (const bt__motion *motion, double t);
 

@@ -82,9 +82,8 @@ list_mover (bt__job *k, uint32_t j, uint32_t m, bt__nears *list)
   bt__mover *mover = k->mover + m;
   bt__frame at = bt__motion_at (&mover->motion, k->moving ? 0 : mover->done);
   bt__link link = bt__link_into (&at, bt__link_of (k->x, j));
-  double own = 0, dropped = list->dropped;
-  if (k->moving)
-    own = bt__norm (mover->motion.travel) + fabs (mover->motion.angle) * mover->radius;
+  double own = k->moving ? bt__motion_way (&mover->motion, mover->radius) : 0,
+         dropped = list->dropped;
   double need = move_of (k, j) + k->core + own * mover->done;
   bt__scene_near (mover->body, mover->on, &link, m + 1, need * (1 + BT__MARGIN), list, k->count);
   if (!(list->dropped < dropped) || !(list->dropped < need))

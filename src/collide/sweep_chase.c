@@ -136,13 +136,6 @@ time_apart (const outlook *o, double here, double limit, double left)
   return good;
 }
 
-/* The farthest any point of the two goes.  */
-static double
-farthest_way (const bt__flier *x)
-{
-  return bt__norm (x->motion.travel) + fabs (x->motion.angle) * x->radius;
-}
-
 static double
 size_of (const bt__chase *c)
 {
@@ -162,7 +155,9 @@ double
 bt__chase_run (const bt__chase *c, double most, bt__apart *out, bt__count *count)
 {
   double t = 0, goal = c->gap * (1 + BT__MARGIN) + BT__ROUNDING * size_of (c), limit = 0;
-  double least_step = LITTLE * c->gap / (farthest_way (&c->body) + farthest_way (&c->part));
+  double least_step = LITTLE * c->gap
+                      / (bt__motion_way (&c->body.motion, c->body.radius)
+                         + bt__motion_way (&c->part.motion, c->part.radius));
   count->casts++;
   for (int i = 0; i < STEPS_MAX; i++)
     {

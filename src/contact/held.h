@@ -18,13 +18,6 @@ typedef struct bt__held_report
   int64_t object, triangle; /* that one's id, or -1 */
 } bt__held_report;
 
-/* Nodes that a line of NODES intervals has room for.  */
-static inline uint32_t
-bt__held_room (uint32_t nodes)
-{
-  return nodes + 1;
-}
-
 /* Move LINE to SHAPE (NODES and TENSIONS as solved with it).  */
 void bt__held_step (bt__polyline *line, const bt__way *way, const bt__shape *shape,
                     const bt_vec3 *nodes, const bt_vec3 *tensions, bt__held_report *report);

@@ -4,13 +4,11 @@
    (half-spaces) for everything touched, and a solve; then continuous collision detection, a cast of
    every link along its proposed move.  A hit adds a constraint at the place and time of the impact,
    and the step is solved again, four times at most.  Hits that remain are answered by the safe step
-   (collide/safe.c).
-   Only casts and safe step decide on the accepted move, so no answer of the equations can break the
-   promise that nothing is passed through.
+   (collide/safe.c).  Only casts and safe step decide on the accepted move, so no answer of the
+   equations can break the promise that nothing is passed through.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"

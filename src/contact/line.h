@@ -1,9 +1,8 @@
 /* The moving line among obstacles: it touches, sticks, slides and never passes through.
 
-   A step is the moving line's own (tether/dynamic.h) with the contacts as half-spaces inside its
-   equations, checked link by link by casts, solved again where it would hit, and in the end never
-   taken farther than the safe step allows: from a clear start no link's axis comes nearer than the
-   core to an obstacle, standing or moving, whatever the solver gave.
+   A step is the moving line's own (tether/dynamic.h) with contacts in the equations, as line.c
+   describes: from a clear start no link's axis comes nearer than the core to an obstacle, standing
+   or moving, whatever the solver gave.
 
    What lasts from step to step is in the bt__dynamic and in the bt__contacts beside it: both flat,
    both copied with memcpy.  A workspace holds nothing that changes a result.

@@ -62,11 +62,8 @@ static int
 has_neighbour (const bt__line_job *k, int i, int64_t j)
 {
   const bt__line_row *of = k->w->of;
-  for (int q = i - 1; q >= 0 && q >= i - 8; q--)
-    if (of[q].link == j && of[q].id == of[i].id)
-      return 1;
-  for (int q = i + 1; q < k->rows && q <= i + 8; q++)
-    if (of[q].link == j && of[q].id == of[i].id)
+  for (int q = i < 8 ? 0 : i - 8; q < k->rows && q <= i + 8; q++)
+    if (q != i && of[q].link == j && of[q].id == of[i].id)
       return 1;
   return 0;
 }

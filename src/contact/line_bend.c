@@ -386,7 +386,6 @@ bt__line_is_laid_round (const bt__line_job *k)
   return 0;
 }
 
-/* True if row Q is of what the line runs about there.  */
 int
 bt__line_is_bent_about (const bt__line_job *k, int q)
 {

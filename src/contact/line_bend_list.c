@@ -15,7 +15,6 @@ bt__sliding_has (const bt__sliding *s, int64_t i)
   return 0;
 }
 
-/* True if bend Q and the next are of one member.  */
 int
 bt__sliding_goes_on (const bt__sliding *s, int q)
 {
@@ -37,7 +36,6 @@ shift_bends (bt__sliding *s, int64_t from, int by)
     s->node[q] += s->node[q] >= from ? by : 0;
 }
 
-/* Put A at NODE among the bends.  */
 int
 bt__sliding_add (bt__sliding *s, const bt__contact *a, int64_t node)
 {
@@ -95,7 +93,6 @@ bt__sliding_came (bt__line_job *k, bt__sliding *s, int64_t i)
   bt__sliding_show (k, i, 1);
 }
 
-/* Take out node I if the way of its links to the chord is clear.  */
 int
 bt__sliding_take_out (bt__line_job *k, bt__sliding *s, int64_t i)
 {
@@ -114,7 +111,6 @@ bt__sliding_take_out (bt__line_job *k, bt__sliding *s, int64_t i)
   return 1;
 }
 
-/* A node that is bent no more goes on with the line; one that is stays, but for along AXIS.  */
 void
 bt__sliding_let_go (bt__line_job *k, int64_t i)
 {
@@ -151,7 +147,6 @@ bt__sliding_measure (bt__line_job *k)
 
 /* ---- Their anchors ---- */
 
-/* Take the anchors of nodes that are held out of the list.  */
 void
 bt__sliding_gather (bt__line_job *k, bt__sliding *s)
 {
@@ -183,7 +178,6 @@ bt__sliding_scatter (bt__line_job *k, bt__sliding *s)
     }
 }
 
-/* Take the anchor of row Q out of the list, to A; zero if it has none.  */
 int
 bt__sliding_take_anchor (bt__line_job *k, int q, bt__contact *a)
 {

@@ -7,8 +7,6 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
-#include <string.h>
-
 #include "contact/line_job.h"
 
 #define GIVE 20.0     /* m/s2: what the pull makes of the mass of an end that was held back */

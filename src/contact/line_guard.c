@@ -1,17 +1,12 @@
 /* Continuous collision detection (CCD) of a line against obstacles: casts along the proposed move,
    and the safe step.
 
-   The solver proposes a new place for every node.  Each link is cast along the straight paths of
-   both nodes against the candidate pairs of the link (line_near.c) by conservative advancement
-   (collide/cast.c; Mirtich 1996).  A part farther from the link than the link moves is not cast.  A
-   cast that stops short of the proposed place is a hit, and hits are answered in two ways, one
-   after the other:
-
-   1. A contact constraint is added where the link hits, and the step is solved again
-   (bt__line_hits).
-
-   2. The fallback always ends: the safe step (collide/safe.c) and the guard of self-contact shorten
-   the move of each node, by turns; after CUTS turns the line stays where it is (bt__line_truncate).
+   Each link is cast along the proposed straight paths of both nodes against the candidate pairs of
+   the link (line_near.c), by conservative advancement (collide/cast.c).  A part farther from the
+   link than the link moves is not cast.  A cast that stops short of the proposed place is a hit;
+   line.c says how hits are answered.  The last answer always ends: the safe step (collide/safe.c)
+   and the guard of self-contact shorten the move of each node, by turns, and after CUTS turns the
+   line stays where it is.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 

@@ -183,7 +183,6 @@ bt__sliding_find (const bt__line_job *k, const bt__sliding *s, bt__bend_place *p
   return 0;
 }
 
-/* Hold the line at P.  */
 void
 bt__sliding_hold (bt__line_job *k, bt__sliding *s, const bt__bend_place *p)
 {

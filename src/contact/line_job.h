@@ -315,14 +315,8 @@ bt__self_counts (const bt__line_job *k)
   return k->config->itself || k->config->strands > 0;
 }
 
-/* Note that other lines within WAY of the place of the line at the start of the step would have
-   counted; WAY more, of the place after the move.  */
-static inline void
-bt__self_asks (const bt__line_job *k, double way)
-{
-  k->w->asked = k->w->asked > way ? k->w->asked : way;
-}
-
+/* Note that other lines would have counted within WAY more, of the place of the line after the
+   move; see bt__line_work_came.  */
 static inline void
 bt__self_asks_more (const bt__line_job *k, double way)
 {

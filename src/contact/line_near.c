@@ -36,13 +36,6 @@ known_clear (const bt__line_job *k, uint32_t j)
   return k->w->watch[j].clear - gone (k, j);
 }
 
-/* The farthest a point of MOVER goes.  */
-static double
-motion_of (const bt__mover *m)
-{
-  return bt__norm (m->motion.travel) + fabs (m->motion.angle) * m->radius;
-}
-
 /* Measure how clear link J is, as far as LOOK.  KNOWN is what is left of what was measured last: A
    link may have gained as much clearance as it has lost, and hardly more.  */
 static void
@@ -181,7 +174,7 @@ list_mover (bt__line_job *k, uint32_t j, uint32_t m, bt__nears *list)
   const bt__frame *at = &mover->motion.from;
   bt__link link = bt__link_of (k->x, j);
   bt__witness ball;
-  double own = motion_of (mover), dropped = list->dropped;
+  double own = bt__motion_way (&mover->motion, mover->radius), dropped = list->dropped;
   bt__pair_point (at->origin, &link, &ball);
   double away = ball.distance - mover->radius - own;
   if (away * (1 - BT__MARGIN) > s->reach)
@@ -223,7 +216,7 @@ is_near (const bt__line_job *k, uint32_t j, double need)
     {
       const bt__mover *m = bt__line_mover (k, near + i);
       least = fmin (least, near[i].w.distance);
-      any |= near[i].w.distance <= need + (m ? motion_of (m) : 0);
+      any |= near[i].w.distance <= need + (m ? bt__motion_way (&m->motion, m->radius) : 0);
     }
   k->report->overlaps += least < k->config->core;
   return any;

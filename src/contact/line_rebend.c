@@ -1,10 +1,9 @@
 /* Sliding nodes come and go where a line runs about something.
 
-   A node comes where a link bears on an edge: on the link's chord, which keeps the line's shape, or
-   an end of a link between two tangents of a round member is taken.  Where the line turns by too
-   much at a corner of a member, the next corner is placed on the side that follows the line, at the
-   touching point: the line does not turn there yet, and the shape is kept again.  A corner goes the
-   same way when the line no longer turns at the corner, and all corners go when none bears.
+   A node comes where a link bears (line_hold.c).  Where the line turns by too much at a corner of a
+   member, the next corner is placed on the side that follows the line, at the touching point: the
+   line does not turn there yet, and keeps its shape.  A corner goes the same way when the line no
+   longer turns at the corner, and all corners go when none bears.
 
    As line flows, neighbouring nodes pass from side to side of a sliding node: each is taken out
    before arriving at the turn and put in behind the turn.  A node is taken out only if the way of
@@ -121,11 +120,17 @@ settle (const bt__line_job *k, bt__sliding *s, int q)
   a->lag = sliding_lag (k, s, q, &a->away);
 }
 
-/* The same, or it is not held.  */
+/* Hold NODE beside a corner of the same member, as A says that corner is; return true if it is
+   still held then.  */
 static int
-settle_or_drop (bt__line_job *k, bt__sliding *s, int q)
+hold_beside (bt__line_job *k, bt__sliding *s, bt__contact *a, int64_t node)
 {
-  int behind = is_behind (k, s, q);
+  a->load = a->work = a->step_work = a->before = a->beyond = 0;
+  a->force = bt__vec (0, 0, 0);
+  a->age = 0;
+  a->lag = bt__vec (INFINITY, 0, 0);
+  bt__sliding_take_hold (k, node, a->axis);
+  int q = bt__sliding_add (s, a, node), behind = is_behind (k, s, q);
   if (behind)
     bt__sliding_drop (k, s, q);
   else
@@ -159,16 +164,11 @@ add_corner (bt__line_job *k, bt__sliding *s, int q, int side, const bt__turn *t)
     return 0;
   bt__sliding_put_in (k, s, j, side > 0 ? share : 1 - share, j);
   bt__contact a = s->anchor[q];
-  a.load = a.work = a.step_work = a.before = a.beyond = 0;
-  a.force = bt__vec (0, 0, 0);
-  a.age = 0;
-  a.lag = bt__vec (INFINITY, 0, 0);
   if (side > 0)
     s->anchor[q].after = t->after;
   else
     a.after = t->before;
-  bt__sliding_take_hold (k, j + 1, a.axis);
-  return settle_or_drop (k, s, bt__sliding_add (s, &a, j + 1));
+  return hold_beside (k, s, &a, j + 1);
 }
 
 /* True if bend Q turns by T, and that is more than a corner of its kind does.  */
@@ -206,16 +206,11 @@ extend (bt__line_job *k, bt__sliding *s, int q, int side)
   bt_vec3 before = bt__turn_normal (a.axis, x), after = bt__turn_normal (a.axis, x + 1);
   if (!(bt__dot (a.axis, bt__cross (before, after)) > BT__BEND_TURNS))
     return 0;
-  a.load = a.work = a.step_work = a.before = a.beyond = 0;
-  a.force = bt__vec (0, 0, 0);
-  a.age = 0;
-  a.lag = bt__vec (INFINITY, 0, 0);
   if (side > 0)
     s->anchor[q].after = before;
   else
     a.after = after;
-  bt__sliding_take_hold (k, i, a.axis);
-  return settle_or_drop (k, s, bt__sliding_add (s, &a, i));
+  return hold_beside (k, s, &a, i);
 }
 
 /* ---- The line along the arc ---- */

@@ -57,10 +57,7 @@ take_out (bt__line_job *k, bt__sliding *s, int64_t i)
   double from = k->w->from_end[i], inner = k->w->from_end[1];
   if (!bt__sliding_take_out (k, s, i))
     return 0;
-  if (i > 1)
-    note_change (k, from, inner);
-  else
-    note_change (k, INFINITY, inner);
+  note_change (k, i > 1 ? from : INFINITY, inner);
   return 1;
 }
 

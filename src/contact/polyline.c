@@ -127,13 +127,6 @@ link_at_arc (const bt__polyline *line, double s)
   return lo;
 }
 
-static double
-share_of_link (const bt__polyline *line, int64_t link, double s)
-{
-  const double *u = bt__polyline_u ((bt__polyline *)line) + link;
-  return u[1] > u[0] ? bt__clamp ((s - u[0]) / (u[1] - u[0]), 0, 1) : 0;
-}
-
 int64_t
 bt__polyline_insert (bt__polyline *line, double s, double grain)
 {
@@ -146,7 +139,7 @@ bt__polyline_insert (bt__polyline *line, double s, double grain)
     return i;
   if (line->n >= line->room)
     return -1;
-  bt_vec3 p = bt__axpy (x[j], share_of_link (line, j, s), bt__sub (x[i], x[j]));
+  bt_vec3 p = bt__polyline_point (line, s);
   memmove (x + i + 1, x + i, (size_t)(line->n - i) * sizeof *x);
   memmove (u + i + 1, u + i, (size_t)(line->n - i) * sizeof *u);
   x[i] = p;
@@ -174,7 +167,8 @@ bt__polyline_point (const bt__polyline *line, double s)
 {
   int64_t j = link_at_arc (line, s);
   const bt_vec3 *x = bt__polyline_x ((bt__polyline *)line) + j;
-  return bt__axpy (x[0], share_of_link (line, j, s), bt__sub (x[1], x[0]));
+  const double *u = bt__polyline_u ((bt__polyline *)line) + j;
+  return bt__axpy (x[0], bt__share (s - u[0], u[1] - u[0]), bt__sub (x[1], x[0]));
 }
 
 bt_vec3

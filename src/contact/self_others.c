@@ -99,7 +99,7 @@ bt__self_strand_is_apart (const bt__line_job *k, int i, const bt__aabb *own, con
                           double reach)
 {
   bt__aabb b = box_of_strand (k, i);
-  if (bt__self_are_apart (&b, own))
+  if (!bt__boxes_are_near (&b, own, 0))
     return 1;
   bt__self_side side = bt__self_side_of (k, i);
   return has_plane_between (k, to, &side, reach + side.thick);

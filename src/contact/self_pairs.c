@@ -34,8 +34,8 @@ enum
 
 /* ---- A line that is clear of itself ---- */
 
-/* How far it may go apart in a step that starts with what it has to spare: what that lets come
-   together does not touch, and for a step may, but not meet.  */
+/* How far the line may go apart in a step that starts with the spare in D: links that the spare
+   lets come together do not touch, and for a step may touch, but not meet.  */
 static bt__dynamic_drift
 allowed (const bt__line_job *k)
 {
@@ -215,7 +215,7 @@ is_far (bt__line_job *k)
   bt__self *self = &k->w->self;
   self->pairs = 0;
   self->clear = 1;
-  bt__self_asks (k, bt__self_touching (k) + bt__self_expected (k, k->d->step.way));
+  bt__line_work_came (k->w, bt__self_touching (k) + bt__self_expected (k, k->d->step.way));
   if (!bt__self_counts (k))
     return 1;
   self->clear = is_clear_of_itself (k);
@@ -335,7 +335,7 @@ static void
 ask_moved (const bt__line_job *k)
 {
   if (k->config->strands > 0)
-    bt__self_asks (k, bt__self_touching (k) + bt__dynamic_stray (k->X, k->x, k->links + 1));
+    bt__line_work_came (k->w, bt__self_touching (k) + bt__dynamic_stray (k->X, k->x, k->links + 1));
 }
 
 static int
@@ -364,7 +364,7 @@ list_moves (bt__line_job *k)
   return list (k, k->X, know_move (k, &drift));
 }
 
-/* A line that is clear is held against what it may go when it has gone.  */
+/* A clear line is asked after the step whether the way was allowed.  */
 int
 bt__self_stays_far (bt__line_job *k)
 {

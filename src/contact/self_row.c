@@ -49,14 +49,6 @@ from_end_of (const bt__line_job *k, const bt__self_pair *p, double t)
   return sum;
 }
 
-/* Where W's point is along link B.  */
-static double
-share_of (const bt__link *b, bt_vec3 point)
-{
-  bt_vec3 d = bt__sub (b->b, b->a);
-  return bt__share (bt__dot (bt__sub (point, b->a), d), bt__dot (d, d));
-}
-
 /* How another line went in its last step, at T along link J.  */
 static bt_vec3
 drift_of (const bt__line_job *k, const bt__self_pair *p, double t)
@@ -147,7 +139,7 @@ static void
 set_row (bt__line_job *k, int q, const bt__self_pair *p, const bt__link *second,
          const bt__witness *w)
 {
-  double t = share_of (second, w->point), whole = k->config->radius + radius_of (k, p);
+  double t = bt__nearest_share (second, w->point), whole = k->config->radius + radius_of (k, p);
   double out = fmin (whole, fmax (p->w.distance, p->floor) + BT__LINE_RECOVERY * k->h);
   double stands = p->strand < 0 ? 0 : bt__dot (w->normal, w->point);
   int64_t id = p->strand < 0 ? k->config->id : k->config->strand[p->strand].id;
@@ -203,7 +195,7 @@ bt__self_rows (bt__line_job *k)
       if (!p->touches || !(p->w.distance < touch) || way * BT__SELF_TELLS < 2 * k->config->core)
         continue;
       bt__link second = bt__self_second (k, k->x, p);
-      if (!is_of_holders (k, p, &p->w, share_of (&second, p->w.point)))
+      if (!is_of_holders (k, p, &p->w, bt__nearest_share (&second, p->w.point)))
         set_row (k, k->rows++, p, &second, &p->w);
     }
 }

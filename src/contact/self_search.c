@@ -16,8 +16,8 @@ enum
   LEAF = 4 /* links in the smallest box */
 };
 
-/* Metres of line O from its link J to its end E; counted anew, for a line that is far from itself
-   has not noted how far its nodes are from its end.  */
+/* Metres of line O from link J to end E; counted anew, for a line far from itself has not noted how
+   far the nodes are from the end.  */
 static double
 way_to_end (const bt__dynamic *o, uint32_t j, int e)
 {
@@ -57,9 +57,8 @@ are_neighbours (const bt__self_search *s, int i, int j)
   return s->strand >= 0 && !(bt__self_between (s->k, s->strand, (uint32_t)i, (uint32_t)j) > 0);
 }
 
-/* Links that start nearer may come nearer yet by half, so that they can get away from each other,
-   but not through.  Links that start nearer than a cast comes are within each other, and are free.
- */
+/* Links that start nearer may come nearer yet by half, and so get away, but not through.  Links
+   that start nearer than a cast comes overlap, and are free.  */
 double
 bt__self_lowered (double floor, double distance)
 {
@@ -278,12 +277,12 @@ look_at (bt__self_search *s, int i, int j)
     }
 }
 
-/* Parts P of the one and Q of the other, which in the same line comes after it.  */
+/* Part P of the first line and part Q of the second; in the same line Q comes after P.  */
 static void
 search_between (bt__self_search *s, part p, part q)
 {
   int a = end_of (&s->own, p), b = end_of (&s->its, q);
-  if (p.from >= a || q.from >= b || bt__self_are_apart (s->own.box + p.t, s->its.box + q.t))
+  if (p.from >= a || q.from >= b || !bt__boxes_are_near (s->own.box + p.t, s->its.box + q.t, 0))
     return;
   if (are_of_stretch (s, p, q) && is_straight (s, 1, p.from, b))
     return;

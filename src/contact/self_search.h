@@ -39,13 +39,6 @@ bt__self_add_point (bt__aabb *b, bt_vec3 p, double more)
                    bt__self_higher (b->hi.z, p.z + more));
 }
 
-static inline int
-bt__self_are_apart (const bt__aabb *a, const bt__aabb *b)
-{
-  return a->hi.x < b->lo.x || a->lo.x > b->hi.x || a->hi.y < b->lo.y || a->lo.y > b->hi.y
-         || a->hi.z < b->lo.z || a->lo.z > b->hi.z;
-}
-
 /* ---- The search ---- */
 
 /* The links of one of two lines, and boxes about them: box 1 about all, of box T the halves 2T and
@@ -99,8 +92,8 @@ double bt__self_toward (uint32_t i, uint32_t j, double turned, double apart);
 /* Add links I of the own side and J of the other, if they can meet.  */
 void bt__self_add (bt__self_search *s, int i, int j);
 
-/* Of a line that went by WENT in the last step, the expected move in this one against other lines
-   (self_others.c).  */
+/* The expected move, in the step, of a line against other lines, after a move of WENT in the last
+   step (self_others.c).  */
 double bt__self_expected (const bt__line_job *k, double went);
 
 /* True if the line, with REACH about it, stays clear of line number I on its way to TO; NULL: where

@@ -61,28 +61,12 @@ bt__thesis_lay (bt__thesis *s, uint32_t nodes, const bt_vec3 *points, uint32_t n
   *s = (bt__thesis){ .nodes = nodes, .spans = 1, .length = length };
   bt__span *span = bt__thesis_spans (s);
   span->length = length;
-  span->shape = (bt__shape){ .form = BT__FORM_STRAIGHT,
-                             .a = points[0],
-                             .b = points[n - 1],
-                             .length = length,
-                             .plane_length = length };
+  bt__span_be_straight (span, points[0], points[n - 1]);
   return bt__polyline_lay (bt__thesis_line (s), bt__thesis_room (nodes), points, n, length, nodes,
                            error);
 }
 
 /* ---- Asking ---- */
-
-bt_vec3
-bt__thesis_point (const bt__thesis *s, double at)
-{
-  return bt__polyline_point (bt__thesis_line (s), at);
-}
-
-bt_vec3
-bt__thesis_tangent (const bt__thesis *s, double at)
-{
-  return bt__polyline_tangent (bt__thesis_line (s), at);
-}
 
 double
 bt__thesis_tension (const bt__thesis *s, double at)

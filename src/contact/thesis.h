@@ -165,9 +165,7 @@ bt_status bt__thesis_step (bt__thesis *state, const bt__thesis_input *input, con
 
 /* ---- Asking ---- */
 
-/* At arc length S from the anchor, clamped.  */
-bt_vec3 bt__thesis_point (const bt__thesis *state, double s);
-bt_vec3 bt__thesis_tangent (const bt__thesis *state, double s);
+/* At arc length S from the anchor, clamped; the largest.  */
 double bt__thesis_tension (const bt__thesis *state, double s);
 double bt__thesis_tension_max (const bt__thesis *state);
 

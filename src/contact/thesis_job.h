@@ -58,6 +58,9 @@ typedef struct bt__thesis_job
 bt_vec3 bt__span_start (const bt__thesis_job *j, int64_t k);
 bt_vec3 bt__span_stop (const bt__thesis_job *j, int64_t k);
 
+/* Lay SPAN straight from A to B.  */
+void bt__span_be_straight (bt__span *span, bt_vec3 a, bt_vec3 b);
+
 /* Decide whether the tether sticks.  */
 void bt__spans_stick (bt__thesis_job *j);
 

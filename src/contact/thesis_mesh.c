@@ -5,8 +5,6 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
-#include <string.h>
-
 #include "contact/thesis_job.h"
 
 #define COARSE 1.5 /* times the even arc: too long a link */

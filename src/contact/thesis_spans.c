@@ -1,9 +1,8 @@
 /* Sharing out the length among the spans, and solving those that changed.
 
    A sliding tether has one bend: one span holds all the slack, the other spans are straight, and
-   the sum of lengths is constant (thesis 3.5.2).  The bent span is the longest at the time of the
-   last split; in the thesis the bend jumps to the longest span at any time.  In a stuck tether
-   every span keeps its length, and the winch changes the length of the first span only.
+   the sum of lengths is constant (thesis 3.5.2).  In a stuck tether every span keeps its length,
+   and the winch changes the length of the first span only.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -201,8 +200,8 @@ is_as_was (const bt__span *span, bt_vec3 a, bt_vec3 b)
          && memcmp (&span->shape.b, &b, sizeof b) == 0 && span->shape.length == span->length;
 }
 
-static void
-be_straight (bt__span *span, bt_vec3 a, bt_vec3 b)
+void
+bt__span_be_straight (bt__span *span, bt_vec3 a, bt_vec3 b)
 {
   memset (&span->shape, 0, sizeof span->shape);
   span->shape.form = BT__FORM_STRAIGHT;
@@ -230,7 +229,7 @@ solve_span (bt__thesis_job *j, int64_t k)
   span->solved = 1;
   if (straight)
     {
-      be_straight (span, a, b);
+      bt__span_be_straight (span, a, b);
       return BT_OK;
     }
   bt__shape_input in = { a, b, span->length, pull, j->in->props, j->in->water };

@@ -75,10 +75,9 @@ is_clear_point (bt__thesis_job *j, bt_vec3 p)
 static double
 arc_of (const bt__thesis_job *j, uint32_t link, bt_vec3 p)
 {
-  const bt_vec3 *x = bt__polyline_x (j->line) + link;
   const double *u = bt__polyline_u (j->line) + link;
-  bt_vec3 d = bt__sub (x[1], x[0]);
-  return u[0] + bt__share (bt__dot (bt__sub (p, x[0]), d), bt__dot (d, d)) * (u[1] - u[0]);
+  bt__link at = bt__link_of (bt__polyline_x (j->line), link);
+  return u[0] + bt__nearest_share (&at, p) * (u[1] - u[0]);
 }
 
 /* True if a split at P on span K would coincide with an existing split or end.  */

@@ -84,12 +84,7 @@ respond (bt__thesis_job *j, const bt__hit *hit)
   int64_t k = bt__thesis_span_of (j, hit->link);
   int bends = !j->span[k].straight && !j->in->rules->no_immediate;
   j->counts->many_per_link += (uint64_t)collided_before (j, hit->link);
-  if (bends && is_fresh (j, k))
-    {
-      make_rubber (j, k, &j->counts->immediate);
-      return 1;
-    }
-  if (bt__thesis_split (j, hit))
+  if (!(bends && is_fresh (j, k)) && bt__thesis_split (j, hit))
     return 1;
   if (bends)
     {

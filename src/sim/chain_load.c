@@ -65,8 +65,8 @@ bt__fasten (const bt_dive *dive, int i, double from, double to, bt__dynamic_inpu
     }
 }
 
-/* Clamp END, end K of tether I, if the tether is clamped there.  A line goes from its winch to its
-   far end, and so comes to a clamp there against the way it leaves.  */
+/* Clamp END, end K of tether I, if the tether is clamped there.  A line goes from the winch to the
+   far end, and so comes to a clamp there against the direction of the clamp.  */
 static void
 clamp_end (const bt_dive *dive, bt__state *state, int i, int k, bt__dynamic_end *end)
 {

@@ -40,30 +40,30 @@ rounded_by (const bt__dynamic_work *w, int64_t j)
   return w->rounded ? w->round[j] : 0;
 }
 
-/* An interval at a bent node: its tension, and what that gains with its length, and with less rest
-   length.  */
+/* An interval at a bent node: the tension, and the tension's gain with the interval's length, and
+   with less rest length.  */
 typedef struct leg
 {
   double tension, along, by_rest, soft;
   bt_vec3 t;
 } leg;
 
-static bt_vec3
-chord_at_bend (const bt__dynamic_work *w, int64_t j)
+/* The length of the line of interval J: of the chord but for the surplus, m.  */
+static double
+length_at_bend (const bt__dynamic_work *w, int64_t j)
 {
   bt_vec3 c = bt__sub (w->X[j + 1], w->X[j]);
-  return w->chord ? bt__add (c, w->chord[j]) : c;
+  return bt__norm (w->chord ? bt__add (c, w->chord[j]) : c) - rounded_by (w, j);
 }
 
 static leg
 leg_of (const bt__dynamic_work *w, int64_t j)
 {
   const bt__link *k = w->link + j;
-  double length = bt__norm (chord_at_bend (w, j)) - rounded_by (w, j);
   int active = k->active > 0 && (k->tension > 0 || w->least == 0);
   return (leg){ .tension = active * k->tension,
                 .along = active * k->ka,
-                .by_rest = active * k->ka * length / k->rest,
+                .by_rest = active * k->ka * length_at_bend (w, j) / k->rest,
                 .soft = SOFT * k->ka,
                 .t = k->t };
 }
@@ -211,11 +211,10 @@ share_out (const bt__dynamic_work *w, const bt__dynamic_bent *b)
 {
   const bt__link *p = w->link + b->node - 1, *q = p + 1;
   share s = { .rest_a = p->rest, .rest_b = q->rest, .unit = p->ka * p->rest };
-  double ra = rounded_by (w, b->node - 1), rb = rounded_by (w, b->node);
-  s.zero_a = (p->zero - ra) / p->rest;
-  s.zero_b = (q->zero - rb) / q->rest;
-  s.a = (bt__norm (chord_at_bend (w, b->node - 1)) - ra) / s.zero_a;
-  s.b = (bt__norm (chord_at_bend (w, b->node)) - rb) / s.zero_b;
+  s.zero_a = (p->zero - rounded_by (w, b->node - 1)) / p->rest;
+  s.zero_b = (q->zero - rounded_by (w, b->node)) / q->rest;
+  s.a = length_at_bend (w, b->node - 1) / s.zero_a;
+  s.b = length_at_bend (w, b->node) / s.zero_b;
   return s;
 }
 

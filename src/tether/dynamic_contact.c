@@ -3,8 +3,8 @@
    The quick way treats a constraint like an interval: its multiplier, the linearised load, decides
    together with the gap whether the constraint bears.  Friction takes the load of the previous
    iterate, so its block is symmetric; dynamic_couple.c adds what friction gains with the load.  The
-   safe way takes load and activity from the gap, and
-   friction from the load of the previous iterate.
+   safe way takes load and activity from the gap, and friction from the load of the previous
+   iterate.
 
    A held end is stuck to its place while its multiplier is less than the greatest pull; else the
    end is pulled by that force and has mass, because a slack line at an end without mass would fly.
@@ -28,16 +28,10 @@
 /* ---- Rows ---- */
 
 static bt_vec3
-between (const bt_vec3 *p, double s)
-{
-  return bt__axpy (bt__scale (1 - s, p[0]), s, p[1]);
-}
-
-static bt_vec3
 place_of (const bt__constraint *r, const bt_vec3 *X)
 {
-  bt_vec3 p = between (X + r->node, r->s);
-  return r->pair > 0 ? bt__sub (p, between (X + r->pair - 1, r->t)) : p;
+  bt_vec3 p = bt__between (X + r->node, r->s);
+  return r->pair > 0 ? bt__sub (p, bt__between (X + r->pair - 1, r->t)) : p;
 }
 
 static double

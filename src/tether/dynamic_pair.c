@@ -49,12 +49,6 @@ bt__dynamic_pair_add (bt__dynamic_work *w, bt__constraint *r, const bt__sym *k)
 
 /* ---- The solution ---- */
 
-static bt_vec3
-at (const bt_vec3 *p, int64_t i, double s)
-{
-  return bt__axpy (bt__scale (1 - s, p[i]), s, p[i + 1]);
-}
-
 static void
 take_from (bt_vec3 *q, int64_t i, double s, bt_vec3 f)
 {
@@ -72,7 +66,7 @@ bt__dynamic_pair_take_back (const bt__dynamic_work *w, const bt_vec3 *p, bt_vec3
       if (r->pair == 0)
         continue;
       memcpy (&block, r->block, sizeof block);
-      bt_vec3 both = bt__add (at (p, r->node, r->s), at (p, r->pair - 1, r->t));
+      bt_vec3 both = bt__add (bt__between (p + r->node, r->s), bt__between (p + r->pair - 1, r->t));
       bt_vec3 f = bt__sym_apply (&block, both);
       take_from (q, r->node, r->s, f);
       take_from (q, r->pair - 1, r->t, f);

@@ -124,8 +124,8 @@ lump_between (bt__dynamic_work *w, const bt__dynamic_lump *lump, double u, doubl
   bt__dynamic_lump_add (w, w->extra + j + 1, lump, share * (1 - at));
 }
 
-/* Water that is accelerated pushes on what it displaces, any way, for the tension is the effective
-   one; and across the line on its added mass: two nodes side by side.  */
+/* Accelerated water pushes on the volume of the line in any direction, for the tension is the
+   effective tension; and across the line on its added mass: two nodes side by side.  */
 static void
 push_by_waves (bt__dynamic_work *w)
 {

@@ -147,8 +147,8 @@ drawn_share (const bt__dynamic *d, int64_t j)
   return bt__dynamic_stretch (d)[j] + crumple_of (d, j) / bt__dynamic_rest (d)[j];
 }
 
-/* Crumple interval J, whose rest length is known, so that its tension draws it to SHARE times that;
-   an interval longer than this has more line.  */
+/* Crumple interval J, of known rest length, so that the tension draws the interval to SHARE times
+   the rest length; a longer interval has more line.  */
 static void
 crumple_to (bt__dynamic *d, int64_t j, double share)
 {
@@ -224,7 +224,7 @@ share_of_line (const bt__dynamic *d, int64_t j, double u)
   return d->rounded ? fmin (fmax (a / (a + b), LEAST), 1 - LEAST) : u;
 }
 
-/* A node between two others, one of which line runs through, moves along the line as the other.  */
+/* A node between a sliding node and a second node moves along the line as the second.  */
 void
 bt__dynamic_insert (bt__dynamic *d, int64_t j, double u, int64_t from)
 {

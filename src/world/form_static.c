@@ -191,13 +191,13 @@ spans_length (const bt__line *line)
 static bt_vec3
 spans_point (const bt__line *line, double s)
 {
-  return bt__thesis_point (line->split, s);
+  return bt__polyline_point (bt__thesis_line (line->split), s);
 }
 
 static bt_vec3
 spans_tangent (const bt__line *line, double s)
 {
-  return bt__thesis_tangent (line->split, s);
+  return bt__polyline_tangent (bt__thesis_line (line->split), s);
 }
 
 static double

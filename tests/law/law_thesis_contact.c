@@ -246,7 +246,7 @@ rejoining (void **state)
         u += 8.45 / (double)(n - 1);
       bt_vec3 p
           = bt__axpy (shape[k], (s - u) * (double)(n - 1) / 8.45, bt__sub (shape[k + 1], shape[k]));
-      assert_true (bt__distance (p, bt__thesis_point (r->state, s)) < 0.0845);
+      assert_true (bt__distance (p, bt__polyline_point (bt__thesis_line (r->state), s)) < 0.0845);
     }
   rig_check (r);
   rig_free (r);

@@ -338,7 +338,7 @@ held (void **state)
   rig *r = rig_new ();
   rig_pile (r, bt__vec (0, 0, -10), bt__vec (0, 0, 0), 0.3);
   rig_start (r, bt__vec (-6, -3, -5), bt__vec (3, -3, -5), 12);
-  uint32_t room = bt__held_room (RIG_NODES);
+  uint32_t room = RIG_NODES + 1;
   bt__polyline *line = calloc (1, bt__polyline_size (room));
   bt_vec3 ends[2] = { r->a, r->b };
   bt__shape shape = { 0 };

@@ -180,13 +180,15 @@ platform (void **state)
   assert_true (rig_turns (r, leg[0]) - w0 > 1 && rig_turns (r, leg[1]) - w1 > 1);
   double t = tension_at_end (r), first = rig_span (r, 0)->length;
   bt_vec3 b = r->report.b;
-  bt_vec3 near = bt__thesis_point (r->state, r->report.length - 1);
+  bt_vec3 near = bt__polyline_point (bt__thesis_line (r->state), r->report.length - 1);
   double last = rig_span (r, rig_contacts (r))->length;
   r->length += 10;
   rig_rest (r, 10);
   assert_memory_equal (&b, &r->report.b, sizeof b);
   assert_true (fabs (tension_at_end (r) - t) <= 0.02 * fabs (t));
-  assert_true (bt__distance (near, bt__thesis_point (r->state, r->report.length - 1)) < 1e-6);
+  assert_true (
+      bt__distance (near, bt__polyline_point (bt__thesis_line (r->state), r->report.length - 1))
+      < 1e-6);
   assert_true (fabs (rig_span (r, rig_contacts (r))->length - last) < 1e-6);
   assert_true (fabs (rig_span (r, 0)->length - first - 10) < 1e-6);
   rig_check (r);
@@ -226,7 +228,7 @@ asking (void **state)
       assert_true (bt__dot (touch[k].force, touch[k].normal) > 0);
       assert_true (touch[k].s == seg[k].to && seg[k].to == seg[k + 1].from);
       assert_int_equal (seg[k + 1].model, BT_MODEL_RUBBER_BAND);
-      bt_vec3 p = bt__thesis_point (r->state, touch[k].s);
+      bt_vec3 p = bt__polyline_point (bt__thesis_line (r->state), touch[k].s);
       assert_true (bt__distance (p, seg[k].b) == 0);
     }
   assert_true (bt__thesis_tension_max (r->state) >= tension_at_end (r));
