@@ -126,9 +126,11 @@ typedef struct bt__sliding
   int64_t node[BT__BENTS];
   double was[BT__BENTS][2]; /* m: surplus before and after the node, as of before any change */
   bt__turn turn[BT__BENTS]; /* at the present nodes, kept by line_rebend.c */
-  uint32_t known;           /* bit q: TURN[q] is computed */
+  uint64_t known;           /* bit q: TURN[q] is computed */
   int changed;              /* true: nodes or sides are others than those WAS is of */
 } bt__sliding;
+
+_Static_assert(BT__BENTS <= 8 * sizeof (((bt__sliding *)0)->known), "a bit for each node");
 
 /* Note that nodes, or the directions of sides, have changed.  */
 static inline void

@@ -63,7 +63,7 @@ sliding_turn (const bt__line_job *k, bt__sliding *s, int q, bt__edge *e)
     bt__turn_find (k, e, bt__dynamic_x (k->d) + s->node[q] - 1,
                    bt__sliding_goes_on (s, q - 1) ? &s->anchor[q - 1].after : NULL,
                    bt__sliding_goes_on (s, q) ? &a->after : NULL, s->turn + q);
-  s->known |= 1u << q;
+  s->known |= (uint64_t)1 << q;
   return s->turn + q;
 }
 
