@@ -3,7 +3,9 @@
    An end with a target is a place that the line must reach, whatever the force.  There are two
    reasons to pull an end to its target by a bounded force instead.  Near anything the line may have
    no shape that reaches the target.  And a vehicle without mass pulls with no more than its pull:
-   where the line pulls harder the end slips, and the vehicle comes no farther than the end.
+   where the line pulls harder the end slips, and the vehicle comes no farther than the end.  An end
+   that slips has no mass either: its place is never farther than one step's way, and with mass it
+   would stay behind where the vehicle turns back along a tight line.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -52,7 +54,7 @@ bt__line_hold_ends (bt__line_job *k)
       double now = bt__norm (pull);
       k->w->hold[e] = (bt__dynamic_hold){ .on = 1, .most = fmax (most, 1e-9) };
       k->w->hold[e].stiffness = fmin (HOLDING * k->in->line->ea / last, BT__LINE_STIFFEST);
-      k->w->hold[e].mass = most / GIVE;
+      k->w->hold[e].mass = k->config->slips[e] ? 0 : most / GIVE;
       k->w->hold[e].at = size > BT__STRIDE ? bt__axpy (x, BT__STRIDE / size, d) : end->at;
       k->w->hold[e].force = now > most ? bt__scale (most / now, pull) : pull;
       own_input (k)->end[e].free = 1;

@@ -7,9 +7,10 @@
    iterate.
 
    A held end is stuck to its place while its multiplier is less than the greatest pull; else the
-   end is pulled by that force and has mass, because a slack line at an end without mass would fly.
-   In the quick way the end has mass against gaining speed toward its place alone: a line that runs
-   taut is never pulled by more than the greatest pull.
+   end is pulled by that force, straight to its place.  The end may have mass, because a slack line
+   at an end without mass would fly where the place is far.  In the quick way the end has mass
+   against gaining speed toward its place alone: a line that runs taut is never pulled by more than
+   the greatest pull.
    The quick way sticks the end with a very firm spring.  The safe way could not descend across so
    narrow a potential: its spring is softer, and the missing force is added from one update of the
    loads to the next (the method of multipliers).
@@ -19,7 +20,7 @@
 #include "tether/dynamic_kernel.h"
 
 #define ACTIVITY 0.02 /* of the stiffness: what a gap takes from a multiplier */
-#define HOLDING 0.05  /* the same of a held end */
+#define HOLDING 0.05  /* the same of a held end that has mass */
 #define FIRM 1e4      /* times stiffer sticks an end that does not slip */
 
 #define LOAD 1.0        /* N: loads that change less in an iteration, ... */
@@ -180,6 +181,14 @@ safe_pull (const bt__dynamic_work *w, int k)
   return bt__axpy (h->lean, h->stiffness, bt__sub (h->at, w->X[end_node (w, k)]));
 }
 
+/* The share of its stiffness by which the pull of a held end follows the place within an iteration.
+   Of an end without mass the place alone tells the direction, which would swing else.  */
+static double
+follows_place (const bt__dynamic_hold *h)
+{
+  return h->mass > 0 ? HOLDING : 1;
+}
+
 /* Toward the place of end K, from where the end was; zero if it was there.  */
 static bt_vec3
 way_to_place (const bt__dynamic_work *w, int k)
@@ -202,7 +211,8 @@ assemble_hold (bt__dynamic_work *w, int k, bt__mode mode)
   bt__dynamic_hold *h = w->hold + k;
   int i = end_node (w, k), safe = mode == BT__SAFE;
   bt_vec3 away = bt__sub (h->at, w->X[i]), along = { 0, 0, 0 };
-  bt_vec3 urge = safe ? safe_pull (w, k) : bt__axpy (h->force, HOLDING * h->stiffness, away);
+  bt_vec3 urge
+      = safe ? safe_pull (w, k) : bt__axpy (h->force, follows_place (h) * h->stiffness, away);
   double size = bt__norm (urge), c = safe ? h->stiffness : FIRM * h->stiffness, turn = 0;
   h->slips = size > h->most;
   h->force = safe ? urge : bt__scale (c, away);
@@ -210,7 +220,7 @@ assemble_hold (bt__dynamic_work *w, int k, bt__mode mode)
     {
       along = bt__scale (1 / size, urge);
       h->force = bt__scale (h->most, along);
-      c = (safe ? 1 : HOLDING) * h->stiffness * h->most / size;
+      c = (safe ? 1 : follows_place (h)) * h->stiffness * h->most / size;
       turn = safe ? 0 : -c; /* the safe way would run off along the pull */
     }
   w->rhs[i] = bt__add (w->rhs[i], h->force);
@@ -275,6 +285,24 @@ ease_rows (bt__dynamic_work *w, int k, double share)
     }
 }
 
+/* End K slips: return true if its pull, and what the line pulls with there, have hardly changed
+   with SHARE of the update.  A stiff line pulls by much more for an update that is small.  An end
+   that has mass is not asked: where it gets to in a step is not what its pull alone makes of it. */
+static int
+keeps_pull (const bt__dynamic_work *w, int k, double share)
+{
+  const bt__dynamic_hold *h = w->hold + k;
+  int i = end_node (w, k), next = k ? i - 1 : 1;
+  if (h->mass > 0)
+    return 1;
+  bt_vec3 solved = bt__axpy (w->X[i], 1 - share, w->d[i]),
+          along = bt__scale (1 / h->most, h->force);
+  bt_vec3 urge = bt__axpy (h->force, h->stiffness, bt__sub (h->at, solved));
+  double turned = bt__distance (bt__unit_or (urge, along), along) * h->most;
+  double drawn = bt__dot (bt__sub (w->d[i], w->d[next]), along) * w->link[k ? next : 0].ka;
+  return fmax (turned, fabs (drawn)) <= LOAD + LOAD_SHARE * h->most;
+}
+
 /* End K does not slip: what its place pulls with where SHARE of the update has been taken over.
    Return true if the place can pull so.  */
 static int
@@ -306,8 +334,8 @@ bt__dynamic_contact_take (bt__dynamic_work *w, double share)
       r->load = next;
     }
   for (int k = 0; w->hold && k < 2; k++)
-    if (w->hold[k].on && !w->hold[k].slips)
-      settled &= take_hold (w, k, share);
+    if (w->hold[k].on)
+      settled &= w->hold[k].slips ? keeps_pull (w, k, share) : take_hold (w, k, share);
   bt__dynamic_bent_take (w, share);
   return settled;
 }

@@ -153,3 +153,29 @@
   (cut-tether! #:at 10)
   (run 1)
   (expect (rov-tension) is (below 60)))
+
+(define (gives-way nodes accuracy)
+  "Where a vehicle is, in steps of .1 s, that flies past the end of its line, and then turns back."
+  (enter! (world (sea (depth 60) (current 0.2 60))
+                 (rov (named v) (type kinematic) (at 17 0 -10) (pull 100) (surge-speed 2))
+                 (tether (named l) (type fathom) (wet-weight 0.3) (nodes nodes) (from 0 0 -5) (to v) (length 20)
+                         (ea 1.3e4) (tension-accuracy accuracy) (model dynamic))))
+  (fly-to! 'v '(24 8 -12) #:speed 0.9)
+  (map (lambda (k) (run 0.1) (rov-position)) (iota 60)))
+
+(define-scenario (where-it-gives-way nodes accuracy)
+  "The way on which it gives way hangs neither on the nodes nor on the parts in which steps are taken."
+  #:for ((nodes 24 48 100) (accuracy 0.02 0.005))
+  (define ways (gives-way 200 0.02))
+  (expect (fold max 0 (map distance ways (gives-way nodes accuracy))) is (below 0.004)))
+
+(define-scenario (it-turns-back-at-once ea)
+  "Turned back, it goes as fast as it is told from the first step on: the line does not hold it there."
+  #:for ((ea 1e4 1e5 1e6))
+  (enter! (line-to 19 #:ea ea))
+  (fly-to! 'v '(40 10 -10) #:speed 1)
+  (run 6)
+  (define from (rov-position))
+  (fly-to! 'v '(0 0 -10) #:speed 1)
+  (step!)
+  (expect (distance (rov-position) from) is (about (/ 60) #:within 1e-4)))
