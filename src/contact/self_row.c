@@ -162,6 +162,12 @@ set_row (bt__line_job *k, int q, const bt__self_pair *p, const bt__link *second,
                                             + w->s * k->w->from_end[p->i + 1],
                                 .other = from_end_of (k, p, t),
                                 .point = bt__axpy (w->point, radius_of (k, p), w->normal) };
+}
+
+/* Row Q, just set for P, against a line that yields, gives way as that line does.  */
+static void
+soften (bt__line_job *k, int q, const bt__self_pair *p)
+{
   if (p->strand >= 0 && k->config->strand[p->strand].yields)
     feel_reaction (k, q);
 }
@@ -196,7 +202,10 @@ bt__self_rows (bt__line_job *k)
         continue;
       bt__link second = bt__self_second (k, k->x, p);
       if (!is_of_holders (k, p, &p->w, bt__nearest_share (&second, p->w.point)))
-        set_row (k, k->rows++, p, &second, &p->w);
+        {
+          set_row (k, k->rows, p, &second, &p->w);
+          soften (k, k->rows++, p);
+        }
     }
 }
 
@@ -217,8 +226,12 @@ bt__self_add_hit (bt__line_job *k, const bt__self_pair *p, const bt__witness *w,
   bt__link a = bt__self_second (k, k->x, p), b = bt__self_second (k, k->X, p);
   bt__link second
       = { bt__axpy (a.a, t, bt__sub (b.a, a.a)), bt__axpy (a.b, t, bt__sub (b.b, a.b)) };
-  double bore = at < k->rows ? k->w->row[at].load : 0; /* too soft for that */
+  int again = at < k->rows ? k->w->of[at].again + 1 : 0; /* too soft: in this step nothing yields */
+  double bore = again ? k->w->row[at].load : 0;
   set_row (k, at, p, &second, w);
+  if (!again)
+    soften (k, at, p);
+  k->w->of[at].again = again;
   k->w->row[at].load = bore;
   k->rows += at == k->rows;
 }
