@@ -122,12 +122,19 @@ spring_of (const bt__dynamic_work *w, const bt__dynamic_bent *b)
   return bt__scale (b->stiffness, bt__off_axis (b->axis, away));
 }
 
+/* The way along the edge that friction of B answers, m.  */
+static double
+answered_by (const bt__dynamic_bent *b)
+{
+  return b->side_now + BT__STICK_DAMPING * (b->side_now - b->side);
+}
+
 /* The force on node B at its place; *SLOPE is the stiffness along the edge, N/m.  */
 static bt_vec3
 bent_force (bt__dynamic_work *w, bt__dynamic_bent *b, double *slope)
 {
   b->side_now = side_of (w, b);
-  double answered = b->side_now + BT__STICK_DAMPING * (b->side_now - b->side);
+  double answered = answered_by (b);
   double size = hypot (b->drag + b->flow, answered), most = b->load > 0 ? b->friction * b->load : 0;
   double ks = most / fmax (size, b->slip), part = answered / size;
   *slope = (1 + BT__STICK_DAMPING) * (size > b->slip ? ks * fmax (1 - part * part, 0) : ks);
@@ -189,11 +196,29 @@ flow_of (const bt__dynamic_work *w, bt__dynamic_bent *b)
                      .right = e * (before.tension + CLING) - after.tension - CLING };
 }
 
+/* Friction of B along its edge follows the load in the equations, unless the load is all that both
+   tensions can press with; these are not known before the first iteration.  */
+static void
+follow_load (bt__dynamic_work *w, const bt__dynamic_bent *b, bt__flow *f)
+{
+  double load = bt__dot (b->normal, spring_of (w, b)), answered = answered_by (b);
+  if (!(b->load > 0 && load > 0 && b->load < b->pull[0] + b->pull[1]))
+    return;
+  double size = fmax (hypot (b->drag + b->flow, answered), b->slip);
+  f->gain = bt__scale (-b->friction * answered / size, b->axis);
+  f->press = bt__scale (b->stiffness, b->normal);
+  w->rhs[b->node] = bt__axpy (w->rhs[b->node], load - b->load, f->gain);
+}
+
 void
 bt__dynamic_bent_flows (bt__dynamic_work *w)
 {
   for (int k = 0; k < w->bents; k++)
-    w->flow[k] = flow_of (w, w->bent + k);
+    {
+      w->flow[k] = flow_of (w, w->bent + k);
+      if (w->coupled)
+        follow_load (w, w->bent + k, w->flow + k);
+    }
 }
 
 /* ---- Flows that follow the places ---- */

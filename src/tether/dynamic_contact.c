@@ -2,9 +2,9 @@
 
    The quick way treats a constraint like an interval: its multiplier, the linearised load, decides
    together with the gap whether the constraint bears.  Friction takes the load of the previous
-   iterate, so its block is symmetric; dynamic_couple.c adds what friction gains with the load.  The
-   safe way takes load and activity from the gap, and friction from the load of the previous
-   iterate.
+   iterate, so its block is symmetric; dynamic_couple.c adds what friction gains with the load, and
+   then a constraint that does not bear has no friction.  The safe way takes load and activity from
+   the gap, and friction from the load of the previous iterate.
 
    A held end is stuck to its place while its multiplier is less than the greatest pull; else the
    end is pulled by that force, straight to its place.  The end may have mass, because a slack line
@@ -64,16 +64,17 @@ shift_of (const bt__constraint *r, double tilt)
   return fmin (fmax (-r->roll * tilt, -r->s), 1 - r->s);
 }
 
-/* Add what the load does by having wandered.  */
+/* Add what LOAD does by having wandered.  */
 static void
-add_roll (bt__dynamic_work *w, bt__constraint *r)
+add_roll (bt__dynamic_work *w, bt__constraint *r, double load)
 {
-  double load = r->load > 0 ? r->load : 0, tilt = tilt_of (w, r), shift = shift_of (r, tilt);
+  double tilt = tilt_of (w, r), shift = shift_of (r, tilt);
   double k = shift == -r->roll * tilt ? load * r->roll : 0;
   bt__sym *p = w->diag + r->node;
   bt__sym_add (p, 0, k, r->normal);
   bt__sym_add (p + 1, 0, k, r->normal);
   bt__sym_add (w->off + r->node, 0, k, r->normal);
+  r->shift = shift;
   w->rhs[r->node] = bt__axpy (w->rhs[r->node], -load * shift, r->normal);
   w->rhs[r->node + 1] = bt__axpy (w->rhs[r->node + 1], load * shift, r->normal);
 }
@@ -112,17 +113,16 @@ assemble_row (bt__dynamic_work *w, bt__constraint *r, bt__mode mode)
   double gap = gap_of (r, w->X), urge = -ACTIVITY * r->stiffness * gap;
   urge = mode == BT__SAFE ? -gap : r->load + urge;
   double active = urge > 0, was = r->active;
-  double kn = active * r->stiffness;
+  double kn = active * r->stiffness, load = active || !w->coupled ? fmax (r->load, 0) : 0;
   r->active = active;
   r->drag = drag_of (w, r);
-  double size = bt__norm (r->drag), ks = grip_of (r, r->load, size),
-         kt = (1 + BT__STICK_DAMPING) * ks;
+  double size = bt__norm (r->drag), ks = grip_of (r, load, size), kt = (1 + BT__STICK_DAMPING) * ks;
   int slides = size > r->slip;
   bt_vec3 d = slides ? bt__scale (1 / size, r->drag) : bt__vec (0, 0, 0);
   r->force = bt__axpy (bt__scale (-kn * gap, r->normal), -ks, r->drag);
   add_row (w, r, kn, kt, slides ? kt : 0, d);
   if (r->roll > 0)
-    add_roll (w, r);
+    add_roll (w, r, load);
   return active != was && fabs (gap) > w->tolerance;
 }
 

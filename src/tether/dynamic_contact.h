@@ -43,6 +43,7 @@ typedef struct bt__constraint
   double before;    /* N: any value; LOAD while another way is tried */
   double active;    /* out: 1 if it bears, 0 if not; any value in */
   bt_vec3 drag;     /* out, m: the drag that friction answers, not yet shortened to SLIP */
+  double shift;     /* out, of the interval: how far the load has wandered by ROLL */
   bt_vec3 force;    /* out, N on the line; of two places on the first */
   double block[6];  /* out, of two places: the stiffness between them */
   int64_t next;     /* any value; in the solver the next constraint at NODE */

@@ -3,9 +3,11 @@
    Where a line is wound about something the load of every place depends on the tension, and the
    tension on the friction of the places before.  So what friction gains with the load stands in the
    equations (the consistent tangent of Coulomb's law: P. Wriggers, Computational Contact Mechanics,
-   2nd edition, chapter 9), together with the friction of the present loads.  A row adds to the
-   blocks of its two nodes the product of two vectors, and the matrix is no longer symmetric; nor is
-   it where line flows through sliding nodes.  From the first of these places to the last nodes are
+   2nd edition, chapter 9), together with the friction of the present loads; likewise what a load
+   does that has wandered along its interval, and the friction of sliding nodes along their edges.
+   A row adds to the blocks of its two nodes the product of two vectors, and the matrix is no longer
+   symmetric; nor is it where line flows through sliding nodes.  law_dynamic_tangent holds the
+   equations to differences of the forces.  From the first of these places to the last nodes are
    eliminated by Gauss (dynamic_lu.c).
 
    Rows of two places couple nodes that are not neighbours.  Their symmetric part is in the blocks
@@ -33,11 +35,22 @@ enum
 static int
 gains (const bt__constraint *r)
 {
-  return r->active > 0 && r->load > 0 && r->friction > 0;
+  return r->active > 0 && (r->friction > 0 || r->roll > 0);
 }
 
-/* Chain the rows of one place whose friction gains with the load, each at its node; the equations
-   had friction of the loads before.  */
+/* Add to Q what the nodes of R, from NODE on of the place SIDE (0, 1), gain by MORE newtons.  */
+static void
+add_gains_at (bt_vec3 *q, const bt__constraint *r, int side, double more)
+{
+  bt_vec3 gain[2];
+  int64_t node = side ? r->pair - 1 : r->node;
+  bt__dynamic_load_gains (r, side, gain);
+  for (int e = 0; e < 2; e++)
+    q[node + e] = bt__axpy (q[node + e], more, gain[e]);
+}
+
+/* Chain the rows of one place that gain with the load, each at its node; the equations had friction
+   of the loads before.  */
 static void
 chain_rows (bt__dynamic_work *w)
 {
@@ -45,11 +58,13 @@ chain_rows (bt__dynamic_work *w)
   for (int k = w->rows - 1; k >= 0; k--)
     {
       bt__constraint *r = w->row + k;
-      if (r->pair > 0 || !gains (r))
+      if (!gains (r))
         continue;
-      bt_vec3 f = bt__scale (bt__dot (r->force, r->normal) - r->load, bt__dynamic_gain_of (r));
-      w->rhs[r->node] = bt__axpy (w->rhs[r->node], 1 - r->s, f);
-      w->rhs[r->node + 1] = bt__axpy (w->rhs[r->node + 1], r->s, f);
+      double more = bt__dot (r->force, r->normal) - fmax (r->load, 0);
+      for (int side = 0; side <= (r->pair > 0); side++)
+        add_gains_at (w->rhs, r, side, more);
+      if (r->pair > 0)
+        continue;
       r->next = w->first_row[r->node];
       w->first_row[r->node] = k + 1;
     }
@@ -93,9 +108,8 @@ add_pair_gains (const bt__dynamic_work *w, const bt_vec3 *p, bt_vec3 *q)
       double rise = 0;
       for (int i = 0; i < 4; i++)
         rise += share[i] * bt__dot (r->normal, p[node[i]]);
-      bt_vec3 f = bt__scale (r->stiffness * rise, bt__dynamic_gain_of (r));
-      for (int i = 0; i < 4; i++)
-        q[node[i]] = bt__axpy (q[node[i]], share[i], f);
+      for (int side = 0; side < 2; side++)
+        add_gains_at (q, r, side, r->stiffness * rise);
     }
 }
 

@@ -145,14 +145,16 @@ typedef struct bt__passed
 
 /* The equation of a flow, an unknown of its sliding node: what the flow does in the equations of
    the nodes before, at and after, and what these do in its own, with the flows of the nodes before
-   and after.  Then, of dynamic_lu.c: the flow by the nodes at and after; by the next flow, and what
-   the flow does in that one's equation.  */
+   and after.  What friction along the edge gains by a newton of load, and what load the node loses
+   by its place, if COUPLED.  Then, of dynamic_lu.c: the flow by the nodes at and after; by the next
+   flow, and what the flow does in that one's equation.  */
 typedef struct bt__flow
 {
   int64_t node;
   bt_vec3 column[3], row[3]; /* N/m */
   double own, beside[2];     /* N/m */
   double right;              /* N: right-hand side */
+  bt_vec3 gain, press;       /* 1, N/m */
   bt_vec3 by[2];
   double by_next, back;
 } bt__flow;
@@ -362,11 +364,15 @@ void bt__dynamic_lu_solve_again (const bt__dynamic_work *w, int first, int last,
                                  double *flow);
 void bt__dynamic_solve_around (bt__dynamic_work *w, int first, int last, double *flow);
 
-/* The force that friction of R gains by a newton of load.  */
-static inline bt_vec3
-bt__dynamic_gain_of (const bt__constraint *r)
+/* The forces that the two nodes of R's place SIDE (0, 1) gain by a newton of load, beside the load
+   itself: friction, and what the load does by having wandered.  */
+static inline void
+bt__dynamic_load_gains (const bt__constraint *r, int side, bt_vec3 gain[2])
 {
-  return bt__scale (-r->friction / fmax (bt__norm (r->drag), r->slip), r->drag);
+  bt_vec3 f = bt__scale (-r->friction / fmax (bt__norm (r->drag), r->slip), r->drag);
+  double shift = side == 0 && r->roll > 0 ? r->shift : 0;
+  gain[0] = bt__axpy (bt__scale (side ? r->t - 1 : 1 - r->s, f), -shift, r->normal);
+  gain[1] = bt__axpy (bt__scale (side ? -r->t : r->s, f), shift, r->normal);
 }
 
 /* Unfold what is crumpled of a line with bending stiffness (dynamic_unfold.c).  */

@@ -146,24 +146,25 @@ lu_resolve (const bt__lu *f, bt_vec3 b)
 typedef struct window
 {
   rows a[3], up[2], down[2];
-  int flow; /* the next */
+  int flow, side; /* the next that is eliminated; whose node comes */
 } window;
 
-/* What friction of R gains with the load at its nodes: which of the window they are, -1 if none. */
+/* What R gains with the load at its nodes: which of the window they are, -1 if none.  */
 static void
 add_gain (window *s, const bt__constraint *r, int node, int next)
 {
-  bt_vec3 u = bt__dynamic_gain_of (r);
+  bt_vec3 gain[2];
   bt__four v = four (bt__scale (r->stiffness, r->normal), 0);
   double p = 1 - r->s, q = r->s;
+  bt__dynamic_load_gains (r, 0, gain);
   if (node >= 0)
-    add_dyad (s->a[node], p * p, u, v);
+    add_dyad (s->a[node], p, gain[0], v);
   if (next >= 0)
-    add_dyad (s->a[next], q * q, u, v);
+    add_dyad (s->a[next], q, gain[1], v);
   if (node >= 0 && next >= 0)
     {
-      add_dyad (s->up[node], p * q, u, v);
-      add_dyad (s->down[node], p * q, u, v);
+      add_dyad (s->up[node], q, gain[0], v);
+      add_dyad (s->down[node], p, gain[1], v);
     }
 }
 
@@ -192,6 +193,11 @@ enter (const bt__dynamic_work *w, window *s, int stiff, int i, int at, int first
     }
   if (!w->coupled || !inside)
     return;
+  if (s->side < w->bents && w->flow[s->side].node == i)
+    {
+      const bt__flow *f = w->flow + s->side++;
+      add_dyad (s->a[at], 1, f->gain, four (f->press, 0));
+    }
   if (i > 0)
     add_gains (w, s, i - 1, i > first ? at - 1 : -1, at);
   if (i == last)

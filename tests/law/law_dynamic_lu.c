@@ -78,6 +78,8 @@ draw_flows (equations *s, int first, int last, uint64_t *seed)
         }
       for (int k = 0; k < 2; k++)
         f->beside[k] = draw (seed);
+      f->gain = draw_vector (seed);
+      f->press = draw_vector (seed);
       s->w.bents++;
     }
   memcpy (s->w.flow, s->flow, sizeof s->flow);
@@ -97,6 +99,8 @@ draw_rows (equations *s, int n, uint64_t *seed)
                                               .friction = 0.6,
                                               .slip = 1e-3,
                                               .active = 1,
+                                              .roll = 1,
+                                              .shift = draw (seed),
                                               .drag = draw_vector (seed) };
         s->first_row[i] = ++s->w.rows;
       }
@@ -163,9 +167,10 @@ add_rows (const equations *s, const bt_vec3 *x, int first, int last, bt_vec3 *q)
       for (int e = 0; e < 2; e++)
         if (r->node + e >= first && r->node + e <= last)
           rise += share[e] * bt__dot (r->normal, x[r->node + e]);
-      bt_vec3 f = bt__scale (r->stiffness * rise, bt__dynamic_gain_of (r));
+      bt_vec3 gain[2];
+      bt__dynamic_load_gains (r, 0, gain);
       for (int e = 0; e < 2; e++)
-        q[r->node + e] = bt__axpy (q[r->node + e], share[e], f);
+        q[r->node + e] = bt__axpy (q[r->node + e], r->stiffness * rise, gain[e]);
     }
 }
 
@@ -177,6 +182,8 @@ add_flows (const equations *s, const bt_vec3 *x, const double *flow, int first, 
     {
       const bt__flow *f = &s->flow[k];
       own[k] = f->own * flow[k];
+      if (s->w.coupled)
+        q[f->node] = bt__axpy (q[f->node], bt__dot (f->press, x[f->node]), f->gain);
       for (int e = 0; e < 3; e++)
         if (f->node + e - 1 >= first && f->node + e - 1 <= last)
           {
