@@ -32,9 +32,7 @@
 #define HALFWAY 0.5 /* of the way to where it should be does a corner go in a step, ... */
 #define FOLLOWS 1.0 /* m/s: ... but no faster; ... */
 #define RISES 0.3   /* m/s: nor does one come out faster, as the line turns more */
-#define UNEVEN                                                                                     \
-  1.2 /* times the most a corner turns: one that turns more shares with the next, ... */
-#define EVENING 0.5 /* radians/s: ... so fast */
+#define EVENING 0.5 /* radians/s: how fast a corner that turns too much shares with the next */
 
 enum
 {
@@ -124,14 +122,14 @@ find_corner_turn (const bt__line_job *k, corners *s, int c)
   return turns && q->turn.angle > (is_first && is_last ? 0 : -TURNED);
 }
 
-/* Turn the side after corner C if a corner of the side turns by too much: the two corners share the
-   turn.  */
+/* Turn the side after corner C if a corner of the side turns by so much that another would come:
+   the two corners share the turn.  Else the corner that comes would stay without a turn, and go. */
 static void
 even_out (const bt__line_job *k, corners *s, int c)
 {
   corner *a = s->at + c, *b = a + 1;
-  double most = UNEVEN * BT__TURN_MOST, more = b->turn.angle - a->turn.angle;
-  if (fmax (a->turn.angle, b->turn.angle) <= most)
+  double more = b->turn.angle - a->turn.angle;
+  if (fmax (a->turn.angle, b->turn.angle) <= BT__TURN_MOST)
     return;
   double by = fmin (fmax (0.25 * more, -EVENING * k->h), EVENING * k->h);
   bt_vec3 n = a->anchor.after;

@@ -71,8 +71,8 @@ double bt__turn_lack (bt_vec3 axis, bt_vec3 centre, bt_vec3 a, bt_vec3 b, double
 
 /* Of the distance from the axis: the farthest that a new corner may have to go round.  */
 #define BT__BEND_BEHIND 0.1
-#define BT__TURN_MOST 1.0     /* radians: of a corner about a round member that is not thin */
-#define BT__TURN_SINGLE 2.0   /* radians: of a single corner, about a member that is thin */
+#define BT__TURN_MOST 1.05    /* radians: of a corner that is not single; ... */
+#define BT__TURN_SINGLE 2.0   /* ... of a single one, about a thin member; for more another comes */
 #define BT__TURN_ALONG 0.9    /* product of line and edge: more, and the line lies along it */
 #define BT__BEND_TURNS 0.05   /* radians: a node that turns less is no corner, nor one needed */
 #define BT__BEND_CROWDED 0.01 /* of an interval: nearer to a node no other is bent */
@@ -189,5 +189,9 @@ typedef struct bt__bend_place
    the numbers of those that the rows know.  */
 int bt__sliding_find (const bt__line_job *k, const bt__sliding *s, bt__bend_place *p);
 void bt__sliding_hold (bt__line_job *k, bt__sliding *s, const bt__bend_place *p);
+
+/* True if the links of node I run so far across AXIS that the node may become a corner: farther
+   than a corner has to, or the corner would come and go.  */
+int bt__sliding_runs_across (const bt__line_job *k, int64_t i, bt_vec3 axis);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "contact/line_bend.h"
 
-#define STEEP 0.8     /* product of line and axis: a corner with more would be let go at once */
+#define STEEP 0.8     /* product of line and axis: with more no corner comes, see BT__TURN_ALONG */
 #define FROM_NODE 0.1 /* of a piece: nearer to a node no other is put, nor is a touch beyond it */
 #define TAUT 5.0      /* N: a line under less has no corners about round members */
 #define CALM 3.0      /* times as far must be what else is near as when it is held */
@@ -55,14 +55,19 @@ is_tangent_corner (const bt__line_job *k, int64_t i, bt__edge *e)
          && lb < bt__distance (x[1], x[2]) + slack;
 }
 
-/* True if both links of node I cross E, and do not go along it.  */
+/* True if the link from node I to the next runs far enough across AXIS.  */
 static int
-is_steep (const bt__line_job *k, int64_t i, const bt__edge *e)
+link_runs_across (const bt__line_job *k, int64_t i, bt_vec3 axis)
 {
   const bt_vec3 *x = bt__dynamic_x (k->d) + i;
-  bt_vec3 none = { 0, 0, 0 }, a = bt__unit_or (bt__sub (x[0], x[-1]), none),
-          b = bt__unit_or (bt__sub (x[1], x[0]), none);
-  return fabs (bt__dot (a, e->axis)) < STEEP && fabs (bt__dot (b, e->axis)) < STEEP;
+  bt_vec3 none = { 0, 0, 0 }, t = bt__unit_or (bt__sub (x[1], x[0]), none);
+  return fabs (bt__dot (t, axis)) < STEEP;
+}
+
+int
+bt__sliding_runs_across (const bt__line_job *k, int64_t i, bt_vec3 axis)
+{
+  return link_runs_across (k, i - 1, axis) && link_runs_across (k, i, axis);
 }
 
 /* True if row Q has borne for a while, a line that is taut enough and near nothing else.  */
@@ -84,7 +89,7 @@ may_corner (const bt__line_job *k, const bt__sliding *s, int q, int64_t i, bt__b
   p->node = i;
   return is_settled (k, q) && i >= 1 && i < k->d->n && !bt__sliding_has (s, i) && !is_crowded (k, i)
          && bt__edge_find (k, k->w->of[q].id, x[i], &p->edge) && p->edge.round
-         && !bt__edge_is_thin (k, p->edge.radius) && is_steep (k, i, &p->edge)
+         && !bt__edge_is_thin (k, p->edge.radius) && bt__sliding_runs_across (k, i, p->edge.axis)
          && is_tangent_corner (k, i, &p->edge);
 }
 
@@ -146,7 +151,7 @@ may_bend (const bt__line_job *k, const bt__sliding *s, int q, bt__bend_place *p)
   if (p->node >= 0 && (is_crowded (k, p->node) || bt__sliding_has (s, p->node)))
     return 0;
   if (!bt__edge_find (k, k->w->of[q].id, at, &p->edge)
-      || fabs (bt__dot (t, p->edge.axis)) >= BT__TURN_ALONG)
+      || !link_runs_across (k, r->node, p->edge.axis))
     return 0;
   if (bt__dot (bt__cross (p->edge.axis, p->edge.normal), t) < 0)
     p->edge.axis = bt__scale (-1, p->edge.axis);
@@ -154,8 +159,7 @@ may_bend (const bt__line_job *k, const bt__sliding *s, int q, bt__bend_place *p)
     return 0;
   return bt__edge_is_thin (k, p->edge.radius)
              ? k->w->of[q].flat != 1 && !is_wedged (k, q)
-             : is_settled (k, q) && !has_company (k, q) && fabs (bt__dot (t, p->edge.axis)) < STEEP
-                   && turns_about (k, p, r->node, at);
+             : is_settled (k, q) && !has_company (k, q) && turns_about (k, p, r->node, at);
 }
 
 static int

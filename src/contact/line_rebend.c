@@ -120,8 +120,9 @@ settle (const bt__line_job *k, bt__sliding *s, int q)
   a->lag = sliding_lag (k, s, q, &a->away);
 }
 
-/* Hold NODE beside a corner of the same member, as A says that corner is; return true if it is
-   still held then.  */
+/* Hold NODE beside a corner of the same member, as A says that corner is.  A corner that would go
+   at once is not held, and nothing has happened: a line at rest would be stirred up in every step.
+ */
 static int
 hold_beside (bt__line_job *k, bt__sliding *s, bt__contact *a, int64_t node)
 {
@@ -129,13 +130,15 @@ hold_beside (bt__line_job *k, bt__sliding *s, bt__contact *a, int64_t node)
   a->force = bt__vec (0, 0, 0);
   a->age = 0;
   a->lag = bt__vec (INFINITY, 0, 0);
+  int q = bt__sliding_add (s, a, node);
+  if (!bt__sliding_runs_across (k, node, a->axis) || is_behind (k, s, q))
+    {
+      bt__sliding_lose (s, q);
+      return 0;
+    }
   bt__sliding_take_hold (k, node, a->axis);
-  int q = bt__sliding_add (s, a, node), behind = is_behind (k, s, q);
-  if (behind)
-    bt__sliding_drop (k, s, q);
-  else
-    settle (k, s, q);
-  return !behind;
+  settle (k, s, q);
+  return 1;
 }
 
 /* All that are new; one that goes changes how the line runs at the others.  */
@@ -178,7 +181,7 @@ turns_too_much (const bt__line_job *k, const bt__sliding *s, int q, const bt__tu
   return bt__sliding_is_single (k, s, q)
              ? t->angle > BT__TURN_SINGLE
                    || (t->angle > 0 && !bt__edge_is_thin (k, t->zone - k->config->radius))
-             : t->angle > BT__TURN_MOST + BT__BEND_TURNS;
+             : t->angle > BT__TURN_MOST;
 }
 
 static void

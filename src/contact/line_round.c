@@ -126,14 +126,14 @@ find_excess (chords *c, int64_t j, double *over)
   return c->chord[j].z != 0 || should != 0;
 }
 
-/* Take LESS metres off the surplus of interval J: the line of the interval becomes longer, and the
-   tension stays.  For that the change of line is LESS over the stretch, so that where one chord is
-   slack and another is not, the line of all does not stay quite the same.  */
+/* Take LESS metres off the surplus of interval J: the line of the interval becomes longer.  The
+   tension stays, for which the change of line is LESS over the stretch; a slack interval, which has
+   none, stays slack by LESS itself, so that the line of all stays the same but for strains.  */
 static void
 hand_over (bt__line_job *k, int64_t j, double less)
 {
   bt__dynamic_chord (k->d)[j].z -= less;
-  bt__dynamic_rest (k->d)[j] += less / bt__dynamic_stretch (k->d)[j];
+  bt__dynamic_rest (k->d)[j] += less / fmax (bt__dynamic_stretch (k->d)[j], 1);
   k->d->rounded = 1;
 }
 

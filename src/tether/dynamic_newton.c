@@ -4,9 +4,10 @@
    tension, sets the geometric stiffness and decides, together with the stretch, whether the
    interval is taut.  In ordinary motion a single iteration is enough.
 
-   Friction takes the loads of the iterate before, so the blocks are symmetric.  On a line wound
-   about a pile under load such iterations may run in a circle; then iterations are tried in which
-   friction follows the loads (dynamic_couple.c: Newton's own).
+   Friction follows the loads within each iteration (dynamic_couple.c: Newton's own).  Where places
+   of the line push each other apart that costs ten times as much: friction takes the loads of the
+   iterate before, so the blocks are symmetric, and iterations in which friction follows the loads
+   are tried where the others do not settle.
 
    If neither settles, the safe way restarts from the better of predictor and present shape and
    descends on the incremental potential: no step gains energy out of nothing.
@@ -32,10 +33,8 @@ enum
   SAFE_TOUCHING = 40,
   LINKS = 120,
   /* Iterations with friction of the loads before, then also such that friction follows the loads
-     within: after every AGAIN, COUPLED of them at most.  Where places of the line push each other
-     apart these cost ten times as much, and the lagging ones mostly settle.  */
-  LAGGING = 8,
-  LAGGING_PAIRS = 30,
+     within: after every AGAIN, COUPLED of them at most.  */
+  LAGGING = 30,
   AGAIN = 4,
   COUPLED = 7,
   FOLLOWING = 4 /* iterations of the safe way until friction follows the loads */
@@ -185,12 +184,21 @@ couple (bt__dynamic_work *w, bt__dynamic_report *report)
   return 0;
 }
 
+/* True if places of the line may push each other apart.  */
+static int
+has_pairs (const bt__dynamic_work *w)
+{
+  for (int k = 0; k < w->rows; k++)
+    if (w->row[k].pair > 0)
+      return 1;
+  return 0;
+}
+
 /* True when the quick way is to be left for `couple' after iteration I.  */
 static int
 lags (const bt__dynamic_work *w, int i)
 {
-  int first = w->pairs > 0 ? LAGGING_PAIRS : LAGGING;
-  return i >= first && i % AGAIN == 0 && w->rows > 0 && w->bents == 0 && !w->hold;
+  return !w->coupled && i >= LAGGING && i % AGAIN == 0 && w->rows > 0 && w->bents == 0 && !w->hold;
 }
 
 /* Contacts are stiff: places that are solved for may press with too much, and a line that lies be
@@ -368,7 +376,9 @@ bt__dynamic_newton (bt__dynamic_work *w, bt__dynamic_report *report)
       return 1;
     }
   save (w); /* the predictor, for the safe way */
+  w->coupled = bt__dynamic_touches (w) && !has_pairs (w);
   int solved = quick (w, report);
+  w->coupled = 0;
   if (!solved)
     {
       report->safeguarded = 1;
