@@ -17,6 +17,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/fd.h"
 #include "base/hash.h"
 #include "collide/mesh_keep.h"
 #include "collide/mesh_sound.h"
@@ -136,20 +137,6 @@ make_folders (const char *file)
 
 /* ---- Reading ---- */
 
-static int
-read_all (int fd, void *to, size_t n)
-{
-  for (char *p = to; n > 0;)
-    {
-      ssize_t got = read (fd, p, n);
-      if (got <= 0)
-        return 0;
-      p += got;
-      n -= (size_t)got;
-    }
-  return 1;
-}
-
 /* Open the file of KEY, a regular file of this user's.  Return it or -1.  */
 static int
 open_file (uint64_t key, uint64_t *size)
@@ -222,9 +209,9 @@ read_arrays (int fd, uint64_t size, const head *h, const bt__mesh *m)
   if (file_size (a) != size)
     return 0;
   for (int i = 0; i < ARRAYS; i++)
-    if (!read_all (fd, a[i].at, a[i].bytes))
+    if (bt__read_all (fd, a[i].at, a[i].bytes) < a[i].bytes)
       return 0;
-  return read_all (fd, &sum, sizeof sum) && sum == hash_all (h, a);
+  return bt__read_all (fd, &sum, sizeof sum) == sizeof sum && sum == hash_all (h, a);
 }
 
 int
@@ -236,7 +223,7 @@ bt__keep_load (bt__mesh *m, const bt__soup *soup, uint64_t key)
   if (fd < 0)
     return 0;
   int good = 0;
-  if (read_all (fd, &h, sizeof h) && is_ours (&h, m, key))
+  if (bt__read_all (fd, &h, sizeof h) == sizeof h && is_ours (&h, m, key))
     {
       good = reserve (m, &h) && read_arrays (fd, size, &h, m) && bt__tree_is_sound (&m->tree);
       if (good)

@@ -12,7 +12,6 @@
 
 #include <config.h>
 
-#include <errno.h>
 #include <locale.h>
 #include <math.h>
 #include <stdlib.h>
@@ -21,6 +20,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/fd.h"
 #include "mesh/file.h"
 #include "mesh/grid.h"
 
@@ -369,23 +369,6 @@ bt__grid_parse (const char *name, const char *text, size_t n, bt_heights_data **
   return s;
 }
 
-/* Read what is left of FD, at most SIZE bytes, into TEXT.  */
-static size_t
-read_all (int fd, char *text, size_t size)
-{
-  size_t got = 0;
-  while (got < size)
-    {
-      ssize_t n = read (fd, text + got, size - got);
-      if (n < 0 && errno == EINTR)
-        continue;
-      if (n <= 0)
-        break;
-      got += (size_t)n;
-    }
-  return got;
-}
-
 bt_status
 bt_heights_read (const char *file, bt_heights_data **out, bt_error *error)
 {
@@ -399,7 +382,7 @@ bt_heights_read (const char *file, bt_heights_data **out, bt_error *error)
   char *text = malloc (size + 1);
   if (text)
     {
-      size_t n = read_all (fd, text, size);
+      size_t n = bt__read_all (fd, text, size);
       text[n] = '\0';
       s = bt__grid_parse (name, text, n, out, error);
       free (text);
