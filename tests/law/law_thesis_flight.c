@@ -125,8 +125,9 @@ litter (rig *r, dice *d, sweep_triangle *sheet, int sheets)
   for (int i = 0; i < sheets; i++)
     for (int k = 0; k < 3; k++)
       sheet[i].v[k] = bt__add (k ? sheet[i].v[0] : dice_point (d, 5), dice_point (d, 1));
-  bt__soup soup
-      = { 3 * (uint32_t)sheets, (uint32_t)sheets, sheet->v, (const uint32_t (*)[3])corner, NULL };
+  bt__soup soup = {
+    3 * (uint32_t)sheets, (uint32_t)sheets, sheet->v, (const uint32_t (*)[3])corner, NULL, 0
+  };
   bt__mesh *m = NULL;
   assert_int_equal (bt__mesh_new (&soup, NULL, NULL, &m, NULL), BT_OK);
   rig_mesh (r, m);
