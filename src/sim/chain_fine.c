@@ -1,13 +1,19 @@
-/* A step of the dive, taken by a moving line in as many parts as the accuracy of its tension asks.
+/* A step of the dive, taken by a moving line in as many parts as its accuracy asks.
 
    The dive's clock stays: sticks, tracks, winches, events and questions know whole steps alone.  A
-   line first takes the step whole.  Where its tension has hardly changed, that is the step.
-   Elsewhere (a snap, a stall, a touch, a release) the line goes back to the present, takes the step
-   in twice as many equal parts, and so on until the tension of one attempt and of the next agree:
-   step doubling (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.4), with
-   the step of the dive as the unit.  What is compared is what parts a line and moves a vehicle: the
-   largest tension in the step, and the mean force at either end.  The finest attempt is kept.  The
-   next step begins with half as many parts, so that the number follows the motion both ways.
+   line first takes the step whole.  Where its tension has hardly changed, and its places are as a
+   predictor has them, that is the step.  Elsewhere (a snap, a stall, a touch, a release) the line
+   goes back to the present, takes the step in twice as many equal parts, and so on until one
+   attempt and the next agree: step doubling (Hairer, Norsett, Wanner, Solving Ordinary Differential
+   Equations I, II.4), with the step of the dive as the unit.  What is compared is what parts a line
+   and moves a vehicle, the largest tension in the step and the mean force at either end; and, of a
+   line of model `auto', which asks for its place to an accuracy, where the nodes are.  The finest
+   attempt is kept.  The next step begins with half as many parts, so that the number follows the
+   motion both ways.
+
+   Tension alone does not tell where a line is: two per cent of 2600 N are 26 mm along 100 m of a
+   line of 200 kN.  Places that differ no less from one attempt to the next are no matter of the
+   step: links that crumple go where chance has them.
 
    Within a step the ends go from place to place (end_within in chain_step.c); a vehicle with mass
    on the line is stepped with each part under the forces of the step's start, and so is its
@@ -48,6 +54,9 @@
 #define FOLLOWED 1e-5 /* m: a chain so near to the length at its winch is not wound */
 #define SHARE 0.25    /* of the error asked for: that of one step, for those of a snap add up */
 #define MORE 0.125    /* of what was accepted: less is not worth as many parts again */
+#define PLACE 0.1     /* of the accuracy in place: the error of one step */
+#define GAIN 1.5      /* times as near: places come to agree by smaller parts */
+#define AS_LONG 2.01  /* times the step before: the predictor of a longer step tells nothing */
 
 enum
 {
@@ -60,7 +69,14 @@ typedef struct attempt
 {
   bt__dynamic_report report; /* of all parts: the largest, the tightest */
   bt_vec3 pull[2];           /* N: the mean force on the ends */
+  int64_t n[2];              /* intervals of each part of the tether */
 } attempt;
+
+/* How far two attempts are apart: forces, N, and places, m.  */
+typedef struct difference
+{
+  double force, place;
+} difference;
 
 /* ---- Back to the present ---- */
 
@@ -147,6 +163,8 @@ try_parts (bt_dive *dive, bt__state *state, int i, const bt__ends *to, int fine,
         a->pull[e] = bt__axpy (a->pull[e], 1.0 / n,
                                bt__dive_chain (dive, state, i, e && tether->parted)->pull[e]);
     }
+  for (int part = 0; part < bt__chains (tether); part++)
+    a->n[part] = bt__dive_chain (dive, state, i, part)->n;
   work->since = work->left = 0;
   if (n > 1 && work->line)
     bt__line_work_came (work->line, fmax (before, sum));
@@ -257,12 +275,79 @@ finest_of (const bt_dive *dive, bt__state *state, int i)
 
 /* How far the tensions of two attempts are apart, N.  */
 static double
-apart (const attempt *a, const attempt *b)
+forces_apart (const attempt *a, const attempt *b)
 {
   double off = fabs (a->report.tension - b->report.tension);
   for (int e = 0; e < 2; e++)
     off = fmax (off, bt__distance (a->pull[e], b->pull[e]));
   return off;
+}
+
+/* The error in place that one step of TETHER may have, m.  */
+static double
+place_asked (const bt__tether *tether)
+{
+  return tether->props.model == BT_MODEL_AUTO ? PLACE * bt__accuracy (tether) : INFINITY;
+}
+
+/* True if the whole step of tether I, just taken, is farther off in place than TETHER asks.  */
+static int
+is_place_off (const bt_dive *dive, bt__state *state, int i)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  int off = 0;
+  for (int part = 0; part < bt__chains (tether) && isfinite (place_asked (tether)); part++)
+    {
+      const bt__dynamic *now = bt__dive_chain (dive, dive->now, i, part),
+                        *next = bt__dive_chain (dive, state, i, part);
+      off |= now->history && now->n == next->n && next->h <= AS_LONG * now->h
+             && bt__dynamic_surprise (now, next) > place_asked (tether);
+    }
+  return off;
+}
+
+/* Where the places of a tether's parts are kept while another attempt is made.  */
+static bt_vec3 *
+kept_places (const bt_dive *dive, int part)
+{
+  return part ? dive->motion : dive->polyline;
+}
+
+static void
+keep_places (const bt_dive *dive, bt__state *state, int i)
+{
+  for (int part = 0; part < bt__chains (bt__dive_tether (dive, state, i)); part++)
+    {
+      const bt__dynamic *chain = bt__dive_chain (dive, state, i, part);
+      memcpy (kept_places (dive, part), bt__dynamic_x (chain),
+              sizeof (bt_vec3) * (size_t)(chain->n + 1));
+    }
+}
+
+/* How far the places of tether I are from those kept of the attempt A, m.  */
+static double
+places_apart (const bt_dive *dive, bt__state *state, int i, const attempt *a)
+{
+  double off = 0;
+  for (int part = 0; part < bt__chains (bt__dive_tether (dive, state, i)); part++)
+    {
+      const bt__dynamic *chain = bt__dive_chain (dive, state, i, part);
+      const bt_vec3 *x = bt__dynamic_x (chain), *kept = kept_places (dive, part);
+      for (int64_t k = 0; k <= chain->n && chain->n == a->n[part]; k++)
+        off = fmax (off, bt__distance (x[k], kept[k]));
+    }
+  return off;
+}
+
+/* OFF over what tether I accepts after an attempt with the largest tension TENSION.  Forces count
+   while the tension changes by what they may be off.  */
+static difference
+over_asked (const bt_dive *dive, bt__state *state, int i, double tension, difference off)
+{
+  const bt__tether *tether = bt__dive_tether (dive, state, i);
+  int counts = bt__has_jumped (dive, state, i, tension, STAY);
+  return (difference){ counts ? off.force / (SHARE * bt__tension_asked (tether, tension)) : 0,
+                       off.place / place_asked (tether) };
 }
 
 /* ---- The step ---- */
@@ -272,29 +357,33 @@ apart (const attempt *a, const attempt *b)
  */
 static int
 refine (bt_dive *dive, bt__state *state, int i, const bt__ends *to, const bt__present *p, int fine,
-        attempt *a, double *off, bt_status *status, bt_error *error)
+        attempt *a, difference *off, bt_status *status, bt_error *error)
 {
-  const bt__tether *tether = bt__dive_tether (dive, state, i);
   int finest = finest_of (dive, state, i);
+  double before = INFINITY;
   while (fine < finest && !touches (dive, state, i))
     {
       attempt coarse = *a;
+      keep_places (dive, state, i);
       bt__go_back (dive, state, i, p);
       *status = try_parts (dive, state, i, to, ++fine, a, error);
       if (*status != BT_OK || dive->contact_work.balked)
         return -1;
-      *off = apart (&coarse, a);
-      if (*off <= SHARE * bt__tension_asked (tether, a->report.tension))
+      *off = (difference){ forces_apart (&coarse, a), places_apart (dive, state, i, &coarse) };
+      difference over = over_asked (dive, state, i, a->report.tension, *off);
+      if (over.force <= 1 && (over.place <= 1 || over.place * GAIN > before))
         break;
+      before = over.place;
     }
   return fine;
 }
 
-/* The number of doublings for the next step: in the last, of 2^FINE parts, the error was OFF of
-   what was accepted.  */
+/* The number of doublings for the next step: in the last, of 2^FINE parts, the error was OVER what
+   was accepted.  */
 static int
-next_fine (int fine, double off)
+next_fine (int fine, difference over)
 {
+  double off = fmax (over.force, over.place);
   return off < MORE * MORE ? 0 : off < MORE ? (int)fmax (fine - 1, 0) : fine;
 }
 
@@ -302,14 +391,15 @@ next_fine (int fine, double off)
    until it is accurate; *FINE and *OFF are then as `refine' has them.  */
 static bt_status
 advance_in_parts (bt_dive *dive, bt__state *state, int i, const bt__ends *to, const bt__present *p,
-                  int *fine, attempt *a, double *off, bt_error *error)
+                  int *fine, attempt *a, difference *off, bt_error *error)
 {
   if (*fine > 0 && !bt__was_wound (dive, i))
     *fine = 0;
   bt_status status = try_parts (dive, state, i, to, *fine, a, error);
   if (status == BT_OK && !dive->contact_work.balked
       && (*fine > 0
-          || (bt__has_jumped (dive, state, i, a->report.tension, ENTER)
+          || ((bt__has_jumped (dive, state, i, a->report.tension, ENTER)
+               || is_place_off (dive, state, i))
               && bt__was_wound (dive, i))))
     *fine = refine (dive, state, i, to, p, *fine, a, off, &status, error);
   return status;
@@ -368,7 +458,7 @@ bt__advance_as_asked (bt_dive *dive, bt__state *state, int i, const bt__ends *to
   int may = bt__may_go_back (dive, state, i), fine = first_fine (tether, may);
   bt__present p;
   attempt a;
-  double off = 0;
+  difference off = { 0, 0 };
   bt__keep_present (dive, state, i, &p);
   bt_status status = may ? advance_in_parts (dive, state, i, to, &p, &fine, &a, &off, error)
                          : try_parts (dive, state, i, to, fine, &a, error);
@@ -377,12 +467,10 @@ bt__advance_as_asked (bt_dive *dive, bt__state *state, int i, const bt__ends *to
     return status;
   *report = a.report;
   tether->peak = fine > 0 ? a.report.tension : 0;
-  tether->unsure = off > bt__tension_asked (tether, a.report.tension) ? off : 0;
-  tether->fine
-      = solving ? solved_fine (state, fine)
-        : fine == 0 || !bt__has_jumped (dive, state, i, a.report.tension, STAY)
-            ? 0
-            : next_fine (fine, off / (SHARE * bt__tension_asked (tether, a.report.tension)));
+  tether->unsure = off.force > bt__tension_asked (tether, a.report.tension) ? off.force : 0;
+  tether->fine = solving     ? solved_fine (state, fine)
+                 : fine == 0 ? 0
+                             : next_fine (fine, over_asked (dive, state, i, a.report.tension, off));
   dive->profile.chain_steps += (uint64_t)bt__chains (tether);
   dive->profile.chain_unconverged = unsolved + !a.report.converged;
   return BT_OK;
