@@ -78,7 +78,8 @@ spread (const bt__dynamic_work *w, int64_t first, int64_t last, int *from, int *
   *to = last > *to ? (last < w->hi ? (int)last : w->hi) : *to;
 }
 
-/* The nodes of the part that is not symmetric, all of them with pairs; none if *FROM > *TO.  */
+/* The nodes of the part that is not symmetric; all of them with pairs, and in a line that is stiff
+   in bending.  None if *FROM > *TO.  */
 static void
 find_part (const bt__dynamic_work *w, int *from, int *to)
 {
@@ -89,7 +90,7 @@ find_part (const bt__dynamic_work *w, int *from, int *to)
   for (int i = 0; w->coupled && i < w->n; i++)
     if (w->first_row[i] > 0)
       spread (w, i, i + 1, from, to);
-  if (w->pairs > 0)
+  if (w->pairs > 0 || (w->bends > 0 && *from <= *to))
     spread (w, w->lo, w->hi, from, to);
 }
 

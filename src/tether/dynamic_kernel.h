@@ -164,7 +164,7 @@ struct bt__twisted;
 
 struct bt__dynamic_work
 {
-  int n_max, room; /* intervals at most; that the arrays are made for */
+  int n_max, room;  /* intervals at most; that the arrays are made for */
   bt__asker *asker; /* of the iterations; or NULL */
   /* ---- of the step ---- */
   const bt__dynamic_input *in;
@@ -355,11 +355,11 @@ void bt__dynamic_bent_flows (bt__dynamic_work *w);
 /* The solution with flows, and with friction that follows the loads if COUPLED (dynamic_couple.c).
    Its parts: solve for nodes FIRST to LAST, of which D has the right-hand sides and those before
    and after have taken PASSED, and for the FLOWs; with pairs, again for other right-hand sides, in
-   place (dynamic_lu.c).  The same for all nodes, of which those that are as far from both ends as
-   FIRST or LAST are eliminated in pairs (dynamic_solve.c).  */
+   place (dynamic_lu.c).  The same for all nodes, of which those before FIRST and after LAST have
+   symmetric equations (dynamic_solve.c).  */
 double bt__dynamic_couple_solve (bt__dynamic_work *w);
-void bt__dynamic_lu_solve (bt__dynamic_work *w, int first, int last, const bt__passed *passed,
-                           double *flow);
+void bt__dynamic_lu_solve (bt__dynamic_work *w, int first, int last,
+                           const bt__passed *const passed[2], double *flow);
 void bt__dynamic_lu_solve_again (const bt__dynamic_work *w, int first, int last, bt_vec3 *x,
                                  double *flow);
 void bt__dynamic_solve_around (bt__dynamic_work *w, int first, int last, double *flow);

@@ -298,7 +298,7 @@ take_passed (rows a, const bt__passed *p, int k)
 }
 
 static BT__HOT void
-eliminate (bt__dynamic_work *w, int stiff, int first, int last, const bt__passed *passed)
+eliminate (bt__dynamic_work *w, int stiff, int first, int last, const bt__passed *const passed[2])
 {
   window s = { .flow = 0 };
   int ahead = stiff ? 2 : 1;
@@ -307,9 +307,9 @@ eliminate (bt__dynamic_work *w, int stiff, int first, int last, const bt__passed
       int comes = i + ahead, at = comes - first < ahead ? comes - first : ahead;
       enter (w, &s, stiff, comes, at, first, last);
       if (comes == first)
-        take_passed (s.a[at], passed, 0);
+        take_passed (s.a[at], passed[0], 0);
       if (comes == last)
-        take_passed (s.a[at], passed, 1);
+        take_passed (s.a[at], passed[1], 1);
       if (i < first)
         continue;
       if (s.flow < w->bents && w->flow[s.flow].node == i)
@@ -326,13 +326,13 @@ eliminate (bt__dynamic_work *w, int stiff, int first, int last, const bt__passed
 }
 
 static BT__WIDE void
-eliminate_narrow (bt__dynamic_work *w, int first, int last, const bt__passed *passed)
+eliminate_narrow (bt__dynamic_work *w, int first, int last, const bt__passed *const passed[2])
 {
   eliminate (w, 0, first, last, passed);
 }
 
 static BT__WIDE void
-eliminate_wide (bt__dynamic_work *w, int first, int last, const bt__passed *passed)
+eliminate_wide (bt__dynamic_work *w, int first, int last, const bt__passed *const passed[2])
 {
   eliminate (w, 1, first, last, passed);
 }
@@ -363,7 +363,7 @@ substitute (const bt__dynamic_work *w, int first, int last, bt_vec3 *x, double *
 }
 
 void
-bt__dynamic_lu_solve (bt__dynamic_work *w, int first, int last, const bt__passed *passed,
+bt__dynamic_lu_solve (bt__dynamic_work *w, int first, int last, const bt__passed *const passed[2],
                       double *flow)
 {
   if (w->bends > 0)

@@ -245,22 +245,54 @@ solve_plain_again (const bt__dynamic_work *w, bt_vec3 *x)
     substitute_pair (w, x, lo + k, hi - k, &p);
 }
 
+/* What one side (0: the nodes before, 1: the nodes after) passes on in P, as of two nodes.  */
+static bt__passed
+passed_by (const bt__passed *p, int side)
+{
+  bt__passed q;
+  for (size_t k = 0; k < sizeof q / sizeof (bt__pair); k++)
+    {
+      double one = ((const bt__pair *)p)[k][side];
+      ((bt__pair *)&q)[k] = (bt__pair){ one, one };
+    }
+  return q;
+}
+
+/* The nodes before and after the part from FIRST to LAST are eliminated toward it, a pair at a time
+   while both sides have one, then those of the longer side alone: far fewer operations each than in
+   dynamic_lu.c.  */
 void
 bt__dynamic_solve_around (bt__dynamic_work *w, int first, int last, double *flow)
 {
-  int lo = w->lo, hi = w->hi, before = first - lo, after = hi - last;
-  int pairs = w->bends > 0 ? 0 : before < after ? before : after;
+  int lo = w->lo, hi = w->hi, before = first - lo, after = hi - last, longer = after > before;
+  int pairs = longer ? before : after, all = longer ? after : before;
   bt__passed p = { 0 };
   w->d[0] = w->d[w->n] = bt__vec (0, 0, 0);
   for (int k = 0; k < pairs; k++)
     eliminate_pair (w, lo + k, hi - k, w->off + lo + k, w->off + hi - k - 1, 0, &p);
-  first = lo + pairs;
-  last = hi - pairs;
+  bt__passed q = passed_by (&p, longer);
+  for (int k = pairs; k < all; k++)
+    {
+      int i = longer ? hi - k : lo + k;
+      eliminate_pair (w, i, i, w->off + i - longer, w->off + i - longer, 0, &q);
+    }
+  const bt__passed *from[2] = { longer ? &p : &q, longer ? &q : &p };
   memcpy (w->d + first, w->rhs + first, (size_t)(last - first + 1) * sizeof *w->d);
-  w->d[first] = bt__add (w->d[first], bt__vec (p.r.x[0], p.r.y[0], p.r.z[0]));
-  w->d[last] = bt__add (w->d[last], bt__vec (p.r.x[1], p.r.y[1], p.r.z[1]));
-  bt__dynamic_lu_solve (w, first, last, &p, flow);
-  bt__pair_vec v = bt__pair_load (w->d + first, w->d + last);
+  for (int side = 0; side < 2; side++)
+    {
+      bt_vec3 *d = w->d + (side ? last : first);
+      const bt__pair_vec *r = &from[side]->r;
+      *d = bt__add (*d, bt__vec (r->x[side], r->y[side], r->z[side]));
+    }
+  bt__dynamic_lu_solve (w, first, last, from, flow);
+  const bt_vec3 *beside = w->d + (longer ? last : first);
+  bt__pair_vec v = bt__pair_load (beside, beside);
+  for (int k = all - 1; k >= pairs; k--)
+    {
+      int i = longer ? hi - k : lo + k;
+      substitute_pair (w, w->d, i, i, &v);
+    }
+  v = bt__pair_load (w->d + lo + pairs, w->d + hi - pairs);
   for (int k = pairs - 1; k >= 0; k--)
     substitute_pair (w, w->d, lo + k, hi - k, &v);
 }
