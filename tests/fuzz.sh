@@ -1,10 +1,11 @@
 # Random calls of the language: each succeeds or raises a &bight-error, and what is refused changes nothing.
-# `bight tests/fuzz/fuzz.scm --sequences N --seed S' goes on longer, or elsewhere.
+# BIGHT_LONG=1 makes 100000 calls; `bight tests/fuzz/fuzz.scm --sequences N --seed S' more, or others.
 # Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
 . "$top_srcdir/tests/tap.sh"
 
-sequences=5000
+sequences=1250
+[ "${BIGHT_LONG:-}" != 1 ] || sequences=5000
 # Seconds of processor time for a call: it is there to find calls without an end, and the dearest that has one
 # (a picture from within a crowd of solids) takes 2.5 on one machine and twice that on another.
 limit=10

@@ -428,7 +428,7 @@ place on a slack line; nobody is lifted by his tether."
   (expect (straight-distance) is (below 2))
   (in (twice-round-a-pile 2))
   (expect (take (haul-prospect) 2) => '(no locked))
-  (expect (free-to-haul? #:pull 100) => #f))
+  (expect (free-to-haul? #:pull 60) => #f)) ; soon stuck: what pulls harder creeps on for minutes first
 
 (define-scenario (rule-and-haul friction pull)
   "Twice round a pile: where the rule is sure the haul agrees, where it is not it names what the haul then tells of."
@@ -437,7 +437,7 @@ place on a slack line; nobody is lifted by his tether."
   (define prospect (haul-prospect #:pull pull))
   (define trial (haul-trial #:pull pull))
   (define (told key) (assq-ref trial key))
-  (when (< friction 1)                  ; the same haul, told in a word, is flown again where it is soon over
+  (when (< friction 0.3)                ; the same haul, told in a word, is flown again where it is soon over
     (expect (free-to-haul? #:pull pull) => (told 'home?)))
   (case (first prospect)
     ((yes) (expect (told 'home?)))

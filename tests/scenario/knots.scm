@@ -3,7 +3,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules ((srfi srfi-1) #:select (any append-map count (every . all?) map)))
+(use-modules ((srfi srfi-1) #:select (any append-map count (every . all?) fold map)))
 
 (define (fly . places)
   ;; Through PLACES one after another, giving up on each after a while.
@@ -117,13 +117,16 @@ holds; hauled in, it stays; the way back through the loop, and nothing else, und
   "The same knot in lines of about 0.1 N m2, pulled tight on the pile with over 60 N and slackened: three ways out
 leave it a knot about the pile, the way it was made leaves a line that is neither knotted nor wound.  Whether a loop
 stands wide enough for the vehicle to find its way hangs on the last bit of how it was pulled: most of the lines do so."
-  (expect (count (lambda (ei)
-                   (enter! (pile-with ei))
-                   (pull-tight-and-slacken!)
-                   (and (stays-a-knot? '((3 2 -6) (8 4 -6) (4 3 -4.5)))
-                        (freed-by-the-way-it-was-made?)))
-                 '(0.08 0.085 0.09 0.095 0.1 0.105 0.11 0.115))
-          is (above 3)))
+  (define (freed? ei)
+    (enter! (pile-with ei))
+    (pull-tight-and-slacken!)
+    (and (stays-a-knot? '((3 2 -6) (8 4 -6) (4 3 -4.5)))
+         (freed-by-the-way-it-was-made?)))
+  ;; Half of them are most; those that come after four are not flown.
+  (expect (fold (lambda (ei freed) (if (or (= freed 4) (not (freed? ei))) freed (+ freed 1)))
+                0
+                '(0.08 0.085 0.09 0.095 0.1 0.105 0.11 0.115))
+          => 4))
 
 
 ;;; With nothing else in the world.
