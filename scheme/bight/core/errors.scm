@@ -244,19 +244,26 @@ huge data are cut."
                         (+ (if same? 0 1) (vector-ref above (- j 1))))))
         (vector-set! row j (if swap? (min best (+ 9/10 (vector-ref two-above (- j 2)))) best))))))
 
-(define (edit-distance a b)
+(define (beyond? row limit)
+  ;; Whether all of ROW is above LIMIT.
+  (let loop ((j (- (vector-length row) 1)))
+    (or (< j 0)
+        (and (> (vector-ref row j) limit) (loop (- j 1))))))
+
+(define (edit-distance a b limit)
   ;; Insertions, deletions, substitutions and swaps of neighbours (optimal string alignment).  The row
   ;; above the first is farther than anything: no swap begins there.  A swap keeps all letters, so it is a
-  ;; little nearer than a wrong one: `piel' is pile rather than pier.
+  ;; little nearer than a wrong one: `piel' is pile rather than pier.  A row follows from the two above it and is
+  ;; no nearer than they are: where both are above LIMIT the words are.
   (let* ((width (+ 1 (string-length b)))
          (nowhere (make-vector width (+ width (string-length a)))))
     (let loop ((i 0) (above (list->vector (iota width))) (two-above nowhere))
-      (if (= i (string-length a))
-          (vector-ref above (string-length b))
-          (loop (+ i 1)
-                (edit-row above two-above (string-ref a i)
-                          (if (zero? i) #\nul (string-ref a (- i 1))) b)
-                above)))))
+      (cond ((= i (string-length a)) (vector-ref above (string-length b)))
+            ((and (beyond? above limit) (beyond? two-above limit)) longest-word)
+            (else (loop (+ i 1)
+                        (edit-row above two-above (string-ref a i)
+                                  (if (zero? i) #\nul (string-ref a (- i 1))) b)
+                        above))))))
 
 ;; What marks a word as an option, or as a keyword, is not part of its spelling.
 (define marks (string->char-set "-#:"))
@@ -272,7 +279,7 @@ huge data are cut."
           ((or (> n longest-word) (> m longest-word)) longest-word)
           ((and (>= n 3) (string-prefix? a b)) 1)
           ((> (abs (- n m)) limit) longest-word)
-          (else (edit-distance a b)))))
+          (else (edit-distance a b limit)))))
 
 (define (own-name letters)
   ;; What a member of a group is called in the group: LETTERS behind the last slash.
@@ -294,7 +301,7 @@ keywords or strings; of GROUP/NAME, NAME alone may be like WORD."
     (let loop ((rest candidates) (best #f) (distance (+ limit 1)))
       (if (null? rest)
           best
-          (let ((d (distance-to letters (car rest) limit)))
+          (let ((d (distance-to letters (car rest) (min limit distance)))) ; a farther one is no matter
             (if (< d distance)
                 (loop (cdr rest) (car rest) d)
                 (loop (cdr rest) best distance)))))))
