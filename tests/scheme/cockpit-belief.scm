@@ -45,7 +45,13 @@
 (define (marks-in text) (string-count text (char-set #\: #\.)))
 
 (define (colours-in bytes)
-  (length (delete-duplicates (map match:substring (list-matches "[34]8;2;[0-9]+;[0-9]+;[0-9]+" bytes)))))
+  ;; Looked for between one escape and the next: each match in a text copies what is left of the text.
+  (let ((seen (make-hash-table)))
+    (for-each (lambda (piece)
+                (for-each (lambda (m) (hash-set! seen (match:substring m) #t))
+                          (list-matches "[34]8;2;[0-9]+;[0-9]+;[0-9]+" piece)))
+              (string-split bytes #\esc))
+    (hash-count (const #t) seen)))
 
 (define-scenario the-line-and-the-tubes-are-shown
   "In plain characters the line and the tubes are there while the belief is shown, and are not after its key."
