@@ -29,6 +29,11 @@ typedef struct arch
 #define ASIDE 1e-6 /* of the current: less of it across the feet is rounding and tells no side */
 #define DEEPER 0.1 /* of the length between nodes: cubics rise less above the nodes */
 
+enum
+{
+  FEWEST = 32 /* intervals of a shape that had none: so many follow a fold */
+};
+
 static const bt_vec3 up = { 0, 0, 1 };
 
 static int
@@ -121,7 +126,7 @@ stands (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, i
 {
   if (is_out (shape->a) || is_out (shape->b))
     return 0;
-  int known = bt__has_nodes (shape->form) && shape->n == n;
+  int known = bt__has_nodes (shape->form);
   for (int k = 1; k < n; k++)
     if (is_out (known ? nodes[k] : bt__shape_point (shape, nodes, tensions, shape->length * k / n)))
       return 1;
@@ -172,7 +177,7 @@ bt__lay_shape_afloat (bt_dive *dive, bt__state *state, int i)
   bt__shape *shape = &tether->shape;
   bt_vec3 *nodes = bt__dive_nodes (dive, state, i), *tensions = bt__dive_tensions (dive, state, i);
   bt_vec3 *were = dive->polyline;
-  int n = (int)tether->props.nodes;
+  int n = (int)(bt__has_nodes (shape->form) ? shape->n : fmax (tether->props.nodes, FEWEST));
   bt_water water = bt__dive_water (dive, state);
   if (!stands (shape, nodes, tensions, n))
     return;

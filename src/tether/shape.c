@@ -108,6 +108,7 @@ solve_steady (bt__shape_job *j, int have_shape, bt_vec3 *nodes, bt_vec3 *tension
     }
   s->form = BT__FORM_NODES;
   s->n = (int64_t)j->props->nodes;
+  s->elastic.ea = line.ea;
   return bt__equilibrium_solve (j->tools->steady, &line, j->in->water, j->in->a, j->in->b,
                                 (int)s->n, have_shape, j->direction, &j->memory->reaction, nodes,
                                 tensions, j->counts, j->error);

@@ -51,7 +51,7 @@ typedef struct bt__shape
   double t1, t2;       /* N: constant tension (STRAIGHT, CATENARY: t1), of the two links (V) */
   bt_v_shape v;
   bt_catenary catenary;
-  bt_elastic elastic;
+  bt_elastic elastic; /* NODES, AFLOAT: its ea alone, which is that of the line */
 } bt__shape;
 
 /* What a shape is solved from.  */

@@ -5,10 +5,14 @@
 
    Nodes of a steady line are joined by cubics of Hermite.  The end tangents have the direction of
    the tension and the length of the arc, chord (1 + turn^2 / 24), right for a circle to fourth
-   order; a cubic longer than its interval by more than 1 % takes only a share of its deviation from
-   the chord (smooth.h).  Tensions are a cubic through the four nearest nodes.
+   order, times the stretch at the end over the mean stretch of the interval: the places along a
+   heavy line that hangs straight are a square of its arc length, as is the cubic.  A cubic longer
+   than its interval by more than 1 % takes only a share of its deviation from the chord (smooth.h).
+   Tensions are a cubic through the four nearest nodes.
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
+
+#include <math.h>
 
 #include "math/vec.h"
 #include "tether/shape.h"
@@ -87,7 +91,32 @@ node_interval (const bt__shape *shape, double s, double *f)
   return i;
 }
 
-/* The tangents have the length of the arc: the chord, longer by the square of the turn over 24.  */
+static double
+stretch_by (const bt__shape *shape, double tension)
+{
+  return shape->elastic.ea > 0 ? 1 + tension / shape->elastic.ea : 1;
+}
+
+/* The mean stretch of an interval between nodes under the tensions T and U, by the rule of Simpson:
+   where the load is even, tension changes evenly.  */
+static double
+mean_stretch (const bt__shape *shape, bt_vec3 t, bt_vec3 u)
+{
+  double between = 0.5 * bt__norm (bt__add (t, u));
+  return (stretch_by (shape, bt__norm (t)) + 4 * stretch_by (shape, between)
+          + stretch_by (shape, bt__norm (u)))
+         / 6;
+}
+
+/* How long an interval of REST metres, of the chord CHORD, would be unstretched, m: by its turn, in
+   radians, or by what is known of a line that stretches.  At a fold the turn tells too much.  */
+static double
+unstretched_arc (const bt__shape *shape, double chord, double turn, double mean, double rest)
+{
+  double arc = chord * (1 + turn * turn / 24) / mean;
+  return shape->elastic.ea > 0 ? fmin (arc, rest) : arc;
+}
+
 static piece
 piece_of (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions, double s)
 {
@@ -98,9 +127,15 @@ piece_of (const bt__shape *shape, const bt_vec3 *nodes, const bt_vec3 *tensions,
   p.chord = bt__sub (p.q, p.p);
   bt_vec3 along = bt__unit_or (p.chord, down);
   bt_vec3 t = bt__unit_or (tensions[p.i], along), u = bt__unit_or (tensions[p.i + 1], along);
-  double turn = bt__distance (t, u), arc = bt__norm (p.chord) * (1 + turn * turn / 24);
-  bt_vec3 a = bt__sub (bt__scale (arc, t), p.chord), b = bt__sub (bt__scale (arc, u), p.chord);
-  double share = bt__smooth_share (p.chord, a, b, shape->length / (double)shape->n);
+  double turn = bt__distance (t, u), rest = shape->length / (double)shape->n;
+  double mean = mean_stretch (shape, tensions[p.i], tensions[p.i + 1]),
+         at = stretch_by (shape, bt__norm (tensions[p.i])),
+         there = stretch_by (shape, bt__norm (tensions[p.i + 1])),
+         line = unstretched_arc (shape, bt__norm (p.chord), turn, mean, rest);
+  bt_vec3 a = bt__sub (bt__scale (line * at, t), p.chord),
+          b = bt__sub (bt__scale (line * there, u), p.chord);
+  double reach = fmax (at, there) / mean * fmax (bt__norm (p.chord), rest);
+  double share = bt__smooth_share (p.chord, a, b, reach);
   p.dp = bt__axpy (p.chord, share, a);
   p.dq = bt__axpy (p.chord, share, b);
   return p;

@@ -29,7 +29,9 @@ enum
   LUMPS = 32,   /* a clump and a float */
   LOOP = 64,    /* a line laid across itself */
   GROUND = 128, /* a bed of triangles, on which it lies */
-  WEAK = 256    /* a vehicle without mass that the line can hold */
+  WEAK = 256,   /* a vehicle without mass that the line can hold */
+  LAYERS = 512, /* a line clamped at its anchor, with layers that slip */
+  SET = 1024    /* a line with natural curvature and a stiffness in torsion */
 };
 
 typedef struct recipe
@@ -66,6 +68,12 @@ static const recipe recipes[] = {
   { BT_MODEL_DYNAMIC, GROUND | LOOP | MASS, "a line across itself on a mesh" },
   { BT_MODEL_DYNAMIC, WOOD | WEAK, "dynamic among obstacles, weak vehicles" },
   { BT_MODEL_DYNAMIC, LOOP | WEAK, "a line across itself, weak vehicles" },
+  { BT_MODEL_AUTO, GROUND | CUT, "auto on a mesh, cut" },
+  { BT_MODEL_AUTO, TWICE | CUT | WAVES, "two lines of auto in waves, one cut" },
+  { BT_MODEL_DYNAMIC, LAYERS | GROUND | CUT, "layers that slip, on a mesh, cut" },
+  { BT_MODEL_DYNAMIC, LAYERS | WOOD, "layers that slip among obstacles" },
+  { BT_MODEL_DYNAMIC, SET | WOOD | CUT, "a set among obstacles, cut" },
+  { BT_MODEL_AUTO, SET, "a set, auto" },
 };
 
 int
@@ -99,6 +107,22 @@ fasten_lumps (bt_tether_def *tether)
   tether->lumps[0] = (bt_lump){ .at = 10, .mass = 2 };
   tether->lumps[1] = (bt_lump){ .at = 20, .span = 2, .buoyancy = 5 };
   tether->n_lumps = 2;
+}
+
+static void
+stiffen (bt_tether_def *tether, int with)
+{
+  tether->props.ei = 0.05;
+  tether->along[0] = bt__vec (1, 0, 0);
+  if (with & LAYERS)
+    {
+      tether->props.ei_stuck = 0.2;
+      tether->props.slip_curvature = 0.05;
+      return;
+    }
+  tether->props.gj = 0.05;
+  tether->sets[0] = (bt_set){ .span = INFINITY, .curvature = 0.2, .plane = 30 };
+  tether->n_sets = 1;
 }
 
 /* Round two corners and across what was laid before.  */
@@ -148,6 +172,8 @@ make_scene (scene *s, const recipe *r)
     tie_twice (s);
   if (r->with & LUMPS)
     fasten_lumps (&s->tether[0]);
+  if (r->with & (LAYERS | SET))
+    stiffen (&s->tether[0], r->with);
   if (r->with & LOOP)
     lay_loop (&s->tether[0]);
   if (r->with & GROUND)

@@ -2,7 +2,7 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
-(use-modules (srfi srfi-1))
+(use-modules (srfi srfi-1) (bight test soundness))
 
 (define random-numbers (seed->random-state (or (and=> (getenv "BIGHT_SEED") string->number) 5)))
 
@@ -45,6 +45,20 @@ and the line is no longer than what is out."
      (expect (point-at 0) is (about (first (array->list (tether-points))) #:within 1e-9))
      (expect (distance (point-at (tether-length)) (rov-position)) is (below 1e-6)))
    (iota 20)))
+
+(define-scenario (no-piece-is-longer-than-it-is model-and-nodes)
+  "However few its nodes and however much it is stretched, no piece of a floating line is longer than its tension tells:
+folded back at the middle one of two intervals was by a twentieth."
+  #:for ((model-and-nodes '(elastic 2) '(elastic 3) '(elastic 8) '(steady 3) '(steady 5) '(steady 8) '(dynamic 2) '(dynamic 5)))
+  (define model (car model-and-nodes))
+  (define nodes (cadr model-and-nodes))
+  (for-each
+   (lambda (pull)
+     (enter! (world (sea (depth 60)) (rov (named minnow) (at (first pull) 0 -1))
+                    (tether (named line) (from -6 0 -1) (to minnow) (length 17) (wet-weight (second pull)) (nodes nodes)
+                            (model ,model))))
+     (expect (judge-tether (tether-answers 'line)) => #f))
+   '((-6 -30000) (-6 -3) (-5 -3000) (3 -30000) (8 -3000))))
 
 (define-scenario (it-goes-on-afloat model)
   "A still line stays on the water as its end is moved, also by turns of the current."
