@@ -45,7 +45,7 @@
     ((bight dive contact)
      contacts contact? contact-object contact-triangle contact-position contact-normal
      contact-arc-length contact-force contact-state contact-tail?
-     segments segment? segment-model segment-from segment-to segment-length segment-ends
+     segments segment? segment-model segment-from segment-to segment-length segment-ends segment-tail?
      clearance rov-clearance collide! collided? stuck? wear wear-profile)
     ((bight test scenario)
      define-scenario always never eventually skip run-scenario scenarios test-seed

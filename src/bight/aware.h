@@ -43,7 +43,8 @@ bt_status bt_tether_taut_string (const bt_dive *dive, int i, bt_vec3 *points, in
    most bt_tether_taut_length.  */
 bt_status bt_tether_free_length (const bt_dive *dive, int i, double *length, bt_error *error);
 
-/* Of the tether that lies on OBSTACLE, -1 for any; with SLIDING true only what is dragged.  */
+/* Metres of tether I that lie on OBSTACLE, -1 for any, of both parts if the tether has parted; with
+   SLIDING true only those that are dragged.  */
 bt_status bt_tether_contact_length (const bt_dive *dive, int i, int obstacle, int sliding,
                                     double *length, bt_error *error);
 

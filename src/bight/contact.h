@@ -33,11 +33,12 @@ int bt_tether_contacts (const bt_dive *dive, int i, bt_contact *contacts, int ma
 typedef struct bt_segment
 {
   double model;    /* bt_model_kind: the tether's, or a rubber band by a rule of the thesis */
-  double from, to; /* m of arc length from the anchor */
+  double from, to; /* m of arc length from the anchor; of the far part counted on, as a contact's */
   bt_vec3 a, b;    /* its ends, m */
+  int tail;        /* true: of the far part of a parted tether */
 } bt_segment;
 
-/* The same for the spans of tether I; one when it touches nothing.  */
+/* The same for the spans of tether I; one when it touches nothing, or one of either part.  */
 int bt_tether_segments (const bt_dive *dive, int i, bt_segment *segments, int max);
 
 /* Return in *SHARE the wear of the jacket of tether I by sliding: 0 as new, 1 worn through, more

@@ -53,16 +53,17 @@ model_name (double value)
   return bt__from_field (bt_field_find (bt_head_find ("tether"), "model"), value);
 }
 
-/* #(model from to a b) */
+/* #(model from to a b tail?) */
 static SCM
 from_segment (const bt_segment *s)
 {
-  SCM v = scm_c_make_vector (5, SCM_BOOL_F);
+  SCM v = scm_c_make_vector (6, SCM_BOOL_F);
   scm_c_vector_set_x (v, 0, model_name (s->model));
   scm_c_vector_set_x (v, 1, scm_from_double (s->from));
   scm_c_vector_set_x (v, 2, scm_from_double (s->to));
   scm_c_vector_set_x (v, 3, bt__from_point (s->a));
   scm_c_vector_set_x (v, 4, bt__from_point (s->b));
+  scm_c_vector_set_x (v, 5, scm_from_bool (s->tail));
   return v;
 }
 

@@ -72,13 +72,28 @@ bt_tether_free_length (const bt_dive *dive, int i, double *length, bt_error *err
   return status;
 }
 
-/* A contact stands for the line to half way to its neighbours, at most an interval.  */
+/* Metres of line from contact C to its neighbour OTHER, one of either part or NULL; at most an
+   interval of its part.  */
 static double
-contact_length (const bt_contact *c, int n, int k, double interval)
+to_neighbour (const bt_contact *c, const bt_contact *other, const double *interval)
 {
-  double before = k > 0 ? c[k].s - c[k - 1].s : INFINITY;
-  double after = k + 1 < n ? c[k + 1].s - c[k].s : INFINITY;
-  return 0.5 * (fmin (before, interval) + fmin (after, interval));
+  double most = interval[c->tail != 0];
+  return other && other->tail == c->tail ? fmin (fabs (other->s - c->s), most) : most;
+}
+
+/* A contact stands for the line to half way to its neighbours.  */
+static double
+contact_length (const bt_contact *c, int n, int k, const double *interval)
+{
+  return 0.5
+         * (to_neighbour (c + k, k > 0 ? c + k - 1 : NULL, interval)
+            + to_neighbour (c + k, k + 1 < n ? c + k + 1 : NULL, interval));
+}
+
+static double
+mean_interval (const bt__line *line)
+{
+  return bt__line_length (line) / fmax (1, bt__line_nodes (line) - 1);
 }
 
 bt_status
@@ -96,12 +111,10 @@ bt_tether_contact_length (const bt_dive *dive, int i, int obstacle, int sliding,
   bt_contact *c = malloc (sizeof *c * CONTACTS_MAX);
   if (!c)
     return bt__fail (error, BT_ERR_LIMIT, "no memory for contacts");
-  bt__line line = bt__line_of (dive, dive->now, i);
-  double interval = bt__line_length (&line) / fmax (1, bt__line_nodes (&line) - 1);
+  bt__line line = bt__line_of (dive, dive->now, i), tail = bt__line_tail (&line);
+  double interval[] = { mean_interval (&line), line.tether->parted ? mean_interval (&tail) : 0 };
   int n = bt_tether_contacts (dive, i, c, CONTACTS_MAX);
   n = n < CONTACTS_MAX ? n : CONTACTS_MAX;
-  while (n > 0 && c[n - 1].tail) /* the length asked for is of the part at the anchor */
-    n--;
   for (int k = 0; k < n; k++)
     if ((obstacle < 0 || c[k].object == obstacle) && (!sliding || c[k].slides))
       *length += contact_length (c, n, k, interval);

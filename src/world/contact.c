@@ -56,6 +56,14 @@ is_tether (const bt_dive *dive, int i)
   return i >= 0 && i < dive->model->n_tethers;
 }
 
+/* Where the far part of WHOLE, a tether that has parted, begins: m from the anchor, with the line
+   that drifted off.  */
+static double
+before_tail (const bt__line *whole)
+{
+  return bt__line_length (whole) + whole->tether->lost;
+}
+
 int
 bt_tether_contacts (const bt_dive *dive, int i, bt_contact *contacts, int max)
 {
@@ -63,7 +71,7 @@ bt_tether_contacts (const bt_dive *dive, int i, bt_contact *contacts, int max)
   if (!is_tether (dive, i))
     return -1;
   bt__line whole = bt__line_of (dive, dive->now, i);
-  double before = bt__line_length (&whole) + whole.tether->lost;
+  double before = before_tail (&whole);
   for (int tail = 0; tail <= (whole.tether->parted != 0); tail++)
     {
       bt__line line = tail ? bt__line_tail (&whole) : whole;
@@ -125,16 +133,23 @@ thesis_segments (const bt__line *line, bt_segment *out, int max)
   int n = bt__thesis_segments (line->split, (int64_t)line->tether->props.model, segment,
                                BT__SPLITS_MAX + 1);
   for (int k = 0; k < n && k < max; k++)
-    out[k] = (bt_segment){ (double)segment[k].model, segment[k].from, segment[k].to, segment[k].a,
-                           segment[k].b };
+    out[k] = (bt_segment){
+      (double)segment[k].model, segment[k].from, segment[k].to, segment[k].a, segment[k].b, 0
+    };
   return n;
 }
 
+/* The span of LINE from FROM to TO; of a far part, which begins BEFORE metres from the anchor, if
+   TAIL is true.  */
 static bt_segment
-segment_between (const bt__line *line, double from, double to)
+segment_between (const bt__line *line, double from, double to, int tail, double before)
 {
-  return (bt_segment){ line->tether->props.model, from, to, bt__line_point (line, from),
-                       bt__line_point (line, to) };
+  return (bt_segment){ .model = line->tether->props.model,
+                       .from = before + from,
+                       .to = before + to,
+                       .a = bt__line_point (line, from),
+                       .b = bt__line_point (line, to),
+                       .tail = tail };
 }
 
 /* Greatest arc length, m, between two contacts of one wrap: closer contacts with the same object
@@ -151,36 +166,44 @@ is_one_wrap (const bt__touch *a, const bt__touch *b, double gap)
   return a->object == b->object && b->s - a->s < gap;
 }
 
-/* The stretches of LINE between touches; within a wrap there is no stretch.  */
+/* The stretches of tether I, which is LINE, or its far part, between touches; within a wrap there
+   is no stretch.  BEFORE as for segment_between.  */
 static int
-free_segments (const bt__line *line, const bt__touch *touch, int touches, bt_segment *out, int max)
+free_segments (const bt_dive *dive, int i, const bt__line *line, int tail, double before,
+               bt_segment *out, int max)
 {
-  int n = 0;
+  int n = 0, touches;
   double from = 0;
+  bt__touch *touch = all_touches (dive, i, line, &touches);
   for (int k = 0; k <= touches; k++)
     {
       double to = k < touches ? touch[k].s : bt__line_length (line);
       int inside = k > 0 && k < touches && is_one_wrap (&touch[k - 1], &touch[k], wrap_gap (line));
       if (!inside && n < max)
-        out[n] = segment_between (line, from, to);
+        out[n] = segment_between (line, from, to, tail, before);
       n += !inside;
       from = to;
     }
+  free (touch);
   return n;
 }
 
 int
 bt_tether_segments (const bt_dive *dive, int i, bt_segment *segments, int max)
 {
-  int touches, n;
   if (!is_tether (dive, i))
     return -1;
   bt__line line = bt__line_of (dive, dive->now, i);
-  bt__touch *touch = all_touches (dive, i, &line, &touches);
-  n = line.split ? thesis_segments (&line, segments, max)
-                 : free_segments (&line, touch, touches, segments, max);
-  free (touch);
-  return n;
+  if (line.split)
+    return thesis_segments (&line, segments, max);
+  int n = free_segments (dive, i, &line, 0, 0, segments, max);
+  if (!line.tether->parted)
+    return n;
+  bt__line tail = bt__line_tail (&line);
+  int room = max > n ? max - n : 0;
+  return n
+         + free_segments (dive, i, &tail, 1, before_tail (&line),
+                          room > 0 ? segments + n : segments, room);
 }
 
 /* ---- Clearance ---- */

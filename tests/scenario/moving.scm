@@ -3,6 +3,8 @@
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
+(use-modules (srfi srfi-1))
+
 (define (moving)
   ;; 40 m of neutral line across a current of 0.5 m/s; the vehicle 20 m across and 10 m up-current.
   (world (sea    (depth 60) (current 0.5 90))
@@ -184,7 +186,7 @@ water there, four times the drag.)"
          (contacts)))
   (define (off c)
     (distance (point-at (contact-arc-length c)) (contact-position c)))
-  (let ((before (touches)))
+  (let ((before (touches)) (lies (contact-length)) (on-the-bed (seabed-length)) (on-the-block (contact-length 'line 'block)))
     (cut-tether! #:at 18)
     (let ((now (touches)))
       (expect (length now) is (above 12))
@@ -192,7 +194,14 @@ water there, four times the drag.)"
       (expect (length (filter contact-tail? (contacts))) is (above 3))
       (expect (map (lambda (c) (> (contact-arc-length c) (tether-length))) (contacts)) => (map contact-tail? (contacts)))
       (expect (apply max (map off (filter (lambda (c) (not (contact-tail? c))) (contacts)))) is (below 0.02))
-      (expect (apply max (map segment-to (segments))) is (about (tether-length) #:within 1e-6)))))
+      (expect (contact-length) is (about lies #:within 0.1))
+      (expect (seabed-length) is (about on-the-bed #:within 0.1))
+      (expect (contact-length 'line 'block) is (about on-the-block #:within 0.1))
+      (let ((near (remove segment-tail? (segments))) (tail (filter segment-tail? (segments))))
+        (expect (apply max (map segment-to near)) is (about (tether-length) #:within 1e-6))
+        (expect (segment-from (car tail)) is (about (tether-length) #:within 1e-6))
+        (expect (segment-to (last tail)) is (about 36 #:within 1e-6))
+        (expect (cadr (segment-ends (last tail))) is (about (rov-position) #:within 1e-6))))))
 
 (define-scenario what-lies-there-is-borne
   "Both parts of a cut line come to lie on the bottom, which bears all that does not hang from the vehicle."

@@ -18,7 +18,7 @@
             contact? contact-object contact-triangle contact-position contact-normal
             contact-arc-length contact-force contact-state contact-tail?
             segments
-            segment? segment-model segment-from segment-to segment-length segment-ends
+            segment? segment-model segment-from segment-to segment-length segment-ends segment-tail?
             clearance rov-clearance
             collide! collided? stuck?
             wear wear-profile
@@ -91,9 +91,9 @@ and, at either place, itself, from the anchor on: a list of contacts; of a tethe
 ;;; Segments.
 
 (define-record <segment>
-  (make-segment model from to a b)
+  (make-segment model from to a b tail?)
   segment-record?
-  (model %model) (from %from) (to %to) (a %a) (b %b))
+  (model %model) (from %from) (to %to) (a %a) (b %b) (tail? %of-tail?))
 
 (set-record-type-printer!
  <segment>
@@ -111,7 +111,7 @@ and, at either place, itself, from the anchor on: a list of contacts; of a tethe
   "Return the model of the segment S, a symbol."
   (%model s))
 (define-verb (segment-from (s segment))
-  "Return where the segment S begins, metres of arc length from the anchor."
+  "Return where the segment S begins, metres of arc length from the anchor, counted as `contact-arc-length' counts."
   (%from s))
 (define-verb (segment-to (s segment))
   "Return where the segment S ends, metres of arc length from the anchor."
@@ -122,10 +122,13 @@ and, at either place, itself, from the anchor on: a list of contacts; of a tethe
 (define-verb (segment-ends (s segment))
   "Return the two ends of the segment S, a list of points."
   (list (%a s) (%b s)))
+(define-verb (segment-tail? (s segment))
+  "Return #t if the segment S is that of the far part of a tether that has parted."
+  (%of-tail? s))
 
 (define-verb (segments #:subject (t tether))
   "Return the spans of the tether between its contacts, from the anchor on: a list of segments, one when
-it touches nothing."
+it touches nothing; of a tether that has parted those of both parts."
   (map (lambda (v) (apply make-segment (vector->list v)))
        (%segments (this-engine 'segments) t)))
 

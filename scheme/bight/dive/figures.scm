@@ -25,12 +25,13 @@
   (if (or (not value) (symbol? value)) value refused))
 
 (define-verb (contact-length #:subject (t tether) #:optional (object maybe-object #f))
-  "Return how much of the tether lies on OBJECT, or on anything, m."
+  "Return how much of the tether lies on OBJECT, or on anything, m; of one that has parted, of both parts."
   (%contact-length (this-engine 'contact-length) t
                    (if object (obstacle-index 'contact-length object) -1) #f))
 
 (define-verb (seabed-length #:subject (t tether) #:key (dragged flag #f))
-  "Return how much of the tether lies on the sea bed, m; with DRAGGED only what slides over it."
+  "Return how much of the tether lies on the sea bed, m; with DRAGGED only what slides over it; of a tether that has parted,
+of both parts."
   (let* ((engine (this-engine 'seabed-length))
          (world (dive-world (this-dive 'seabed-length)))
          (bed (list-index (lambda (name) (eq? 'seabed (part-head (world-part world name))))

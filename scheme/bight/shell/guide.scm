@@ -279,7 +279,7 @@ Lines:
 (define families
   '(((map NAME (contacts))
      contact-arc-length contact-force contact-normal contact-object contact-position contact-state contact-tail? contact-triangle)
-    ((map NAME (segments)) segment-ends segment-from segment-length segment-model segment-to)
+    ((map NAME (segments)) segment-ends segment-from segment-length segment-model segment-tail? segment-to)
     ((NAME (deviation (transponders 5 #:noise 0.02))) deviation-max deviation-mean deviation-rms deviation-worst)
     ((map NAME (begin (drive! #:surge 0.5) (foresee 60)))
      foresight-confidence foresight-kind foresight-object foresight-seconds foresight-turns)
