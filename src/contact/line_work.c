@@ -176,9 +176,8 @@ bt__line_work_new (int n_max, bt__among among)
   w->room = (uint32_t)room->parts;
   w->self.most = room->pairs * (int)n;
   int whole = (w->watch = calloc (n, sizeof *w->watch)) && (w->list = calloc (n, sizeof *w->list))
-              && (w->from_end = malloc (n * sizeof *w->from_end))
-              && (w->restart = malloc (n * sizeof *w->restart))
-              && bt__line_old_room (w, 1); /* memcpy takes an address even of no contact */
+              && (w->from_end = malloc (n * sizeof *w->from_end)) && bt__line_old_room (w, 1)
+              && (w->restart = malloc (n * sizeof *w->restart));
   if (whole)
     {
       bt__line_work_forget (w);
