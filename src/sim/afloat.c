@@ -16,15 +16,6 @@
 #include "math/vec.h"
 #include "sim/chain.h"
 
-/* An arch: its nodes, and its feet.  */
-typedef struct arch
-{
-  int first, last; /* nodes above the water */
-  bt_vec3 from, to;
-  int stands; /* true if a point is out of the water */
-  int hangs;  /* true if a foot is out of the water */
-} arch;
-
 #define HAIR 1e-9  /* m: a node lifted out of the water by rounding is not in air */
 #define ASIDE 1e-6 /* of the current: less of it across the feet is rounding and tells no side */
 #define DEEPER 0.1 /* of the length between nodes: cubics rise less above the nodes */
@@ -42,38 +33,35 @@ is_out (bt_vec3 p)
   return p.z > HAIR;
 }
 
-/* The crossing with LEVEL of the straight line between P and Q, on either side of LEVEL.  */
+/* The place between P and Q where the height over a level, HP there and HQ here, is none.  */
 static bt_vec3
-crossing (bt_vec3 p, bt_vec3 q, double level)
+crossing (bt_vec3 p, bt_vec3 q, double hp, double hq)
 {
-  bt_vec3 c = bt__axpy (p, (p.z - level) / (p.z - q.z), bt__sub (q, p));
-  c.z = level;
-  return c;
+  return bt__axpy (p, hp / (hp - hq), bt__sub (q, p));
 }
 
-/* Write the first arch over LEVEL of the N + 1 nodes X at or behind node K to *A; return zero if
-   there is none.  */
-static int
-next_arch (const bt_vec3 *x, int n, int k, double level, arch *a)
+int
+bt__next_arch (const bt_vec3 *x, const double *over, int n, int k, bt__arch *a)
 {
-  while (k <= n && !(x[k].z > level))
+  while (k <= n && !(over[k] > 0))
     k++;
   if (k > n)
     return 0;
   a->first = k;
-  a->stands = is_out (x[k]);
-  while (k < n && x[k + 1].z > level)
-    a->stands |= is_out (x[++k]);
+  while (k < n && over[k + 1] > 0)
+    k++;
   a->last = k;
-  a->from = a->first == 0 ? x[0] : crossing (x[a->first - 1], x[a->first], level);
-  a->to = a->last == n ? x[n] : crossing (x[a->last], x[a->last + 1], level);
-  a->hangs = is_out (a->from) || is_out (a->to);
+  a->from = a->first == 0
+                ? x[0]
+                : crossing (x[a->first - 1], x[a->first], over[a->first - 1], over[a->first]);
+  a->to = a->last == n ? x[n]
+                       : crossing (x[a->last], x[a->last + 1], over[a->last], over[a->last + 1]);
   return 1;
 }
 
 /* The direction of the arch's feet from each other; where they are one, that of its middle.  */
 static bt_vec3
-along_feet (const bt_vec3 *x, const arch *a)
+along_feet (const bt_vec3 *x, const bt__arch *a)
 {
   bt_vec3 far = bt__sub (a->to, a->from);
   if (bt__norm (far) > 1e-9)
@@ -83,8 +71,8 @@ along_feet (const bt_vec3 *x, const arch *a)
   return bt__unit_or (far, bt__vec (1, 0, 0));
 }
 
-static void
-lay_down (bt_vec3 *x, const arch *a, bt_vec3 downstream)
+void
+bt__lay_aside (bt_vec3 *x, const bt__arch *a, int hangs, bt_vec3 downstream)
 {
   bt_vec3 e = along_feet (x, a), side = bt__unit_or (bt__cross (up, e), bt__vec (1, 0, 0));
   if (bt__dot (side, downstream) < -ASIDE * bt__norm (downstream))
@@ -93,24 +81,36 @@ lay_down (bt_vec3 *x, const arch *a, bt_vec3 downstream)
     {
       bt_vec3 foot = bt__axpy (a->from, bt__dot (bt__sub (x[k], a->from), e), e);
       bt_vec3 off = bt__sub (x[k], foot);
-      if (!a->hangs)
+      if (!hangs)
         x[k] = bt__axpy (foot, bt__norm (off), side);
       else if (off.z > 0)
         x[k] = bt__sub (foot, off);
     }
 }
 
-int
-bt__lay_afloat (bt_vec3 *x, int n, double length, const bt_water *water)
+/* True if a node of A is out of the water.  */
+static int
+is_any_out (const bt_vec3 *x, const bt__arch *a)
 {
-  arch a;
+  int any = 0;
+  for (int k = a->first; k <= a->last; k++)
+    any |= is_out (x[k]);
+  return any;
+}
+
+int
+bt__lay_afloat (bt_vec3 *x, double *over, int n, double length, const bt_water *water)
+{
+  bt__arch a;
   double level = -DEEPER * length / n;
   int laid = 0;
   bt_vec3 first = x[0], last = x[n], downstream = bt_water_velocity (water, x[n / 2]);
-  for (int k = 0; next_arch (x, n, k, level, &a); k = a.last + 1)
-    if (a.stands)
+  for (int k = 0; k <= n; k++)
+    over[k] = x[k].z - level;
+  for (int k = 0; bt__next_arch (x, over, n, k, &a); k = a.last + 1)
+    if (is_any_out (x, &a))
       {
-        lay_down (x, &a, downstream);
+        bt__lay_aside (x, &a, is_out (a.from) || is_out (a.to), downstream);
         laid = 1;
       }
   x[0] = first;
@@ -184,7 +184,7 @@ bt__lay_shape_afloat (bt_dive *dive, bt__state *state, int i)
   if (shape->form != BT__FORM_NODES)
     divide (shape, nodes, tensions, n);
   memcpy (were, nodes, sizeof *nodes * (size_t)(n + 1));
-  bt__lay_afloat (nodes, n, shape->length, &water);
+  bt__lay_afloat (nodes, dive->over, n, shape->length, &water);
   turn_tensions (nodes, were, tensions, n);
   shape->form = BT__FORM_AFLOAT;
   shape->n = n;

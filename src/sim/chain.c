@@ -120,7 +120,7 @@ bt__trace_rest (bt_dive *dive, bt__state *state, int i, const bt__ends *ends, in
   dive->polyline[0] = ends->a;
   dive->polyline[n] = ends->b;
   water = bt__dive_water (dive, state);
-  bt__lay_afloat (dive->polyline, n, bt__dive_tether (dive, state, i)->length, &water);
+  bt__lay_afloat (dive->polyline, dive->over, n, bt__dive_tether (dive, state, i)->length, &water);
   return BT_OK;
 }
 

@@ -46,10 +46,26 @@ bt_status bt__bring_vehicle (const bt_dive *dive, bt__state *state, int i, bt_er
 bt__dynamic_mesh bt__chain_mesh (const bt_dive *dive, const bt__state *state,
                                  const bt__tether *tether, int i);
 
-/* Lay all arches of a line of LENGTH m with the N + 1 nodes X on the surface; return true if there
-   was an arch.  bt__lay_shape_afloat does so with the static shape of tether I, whose form is then
-   AFLOAT (afloat.c).  */
-int bt__lay_afloat (bt_vec3 *x, int n, double length, const bt_water *water);
+/* An arch: neighbouring nodes of a line that are beyond a limit, and the feet where the line
+   crosses it (afloat.c).  */
+typedef struct bt__arch
+{
+  int first, last; /* nodes */
+  bt_vec3 from, to;
+} bt__arch;
+
+/* Write the first arch of the N + 1 nodes X at or behind node K to *A, OVER telling how far each
+   node is beyond the limit, m, below 0 within; return zero if there is none.  */
+int bt__next_arch (const bt_vec3 *x, const double *over, int n, int k, bt__arch *a);
+
+/* Turn the arch A of the nodes X about the straight line between its feet until it lies aside, down
+   the stream; if it HANGS, until it hangs below its feet.  */
+void bt__lay_aside (bt_vec3 *x, const bt__arch *a, int hangs, bt_vec3 downstream);
+
+/* Lay all arches of a line of LENGTH m with the N + 1 nodes X on the surface, OVER having room for
+   as many numbers; return true if there was an arch.  bt__lay_shape_afloat does so with the static
+   shape of tether I, whose form is then AFLOAT (afloat.c).  */
+int bt__lay_afloat (bt_vec3 *x, double *over, int n, double length, const bt_water *water);
 void bt__lay_shape_afloat (bt_dive *dive, bt__state *state, int i);
 
 /* The most intervals that the mesh of a tether takes of the room of its chain where contact may put

@@ -258,7 +258,7 @@ bt__lay_chain_among (bt_dive *dive, bt__state *state, int i, const bt__ends *end
 {
   bt__tether *tether = bt__dive_tether (dive, state, i);
   bt_vec3 *corner = dive->corner, *node = dive->contact_work.node;
-  int m = 0, n = bt__rest_nodes (dive, tether, i), there = 0;
+  int m = 0, n = bt__rest_nodes (dive, tether, i), there = 0, bedded;
   double whole;
   bt_status status = bt__corners (dive, state, i, ends, &m, error);
   if (status != BT_OK)
@@ -271,6 +271,7 @@ bt__lay_chain_among (bt_dive *dive, bt__state *state, int i, const bt__ends *end
   if (status != BT_OK)
     return status;
   allot (corner, m, node, n);
+  bedded = bt__lay_on_bed (dive, state, i, node, n);
   whole = bt__length (node, (uint32_t)n + 1);
   status = bt__lead_to_rest (dive, state, i, node, n, &there, error);
   if (status != BT_OK)
@@ -281,6 +282,6 @@ bt__lay_chain_among (bt_dive *dive, bt__state *state, int i, const bt__ends *end
     begin_along_nodes (dive, state, i, node, n);
   status
       = bt__begin_chain (dive, state, i, ends, n, there ? NULL : dive->contact_work.share, error);
-  there &= !bt__is_clamped_at_all (dive, i);
+  there &= !bedded && !bt__is_clamped_at_all (dive, i);
   return status == BT_OK && !there ? bt__fall (dive, state, i, ends, error) : status;
 }

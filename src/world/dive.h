@@ -151,7 +151,8 @@ struct bt_dive
   bt_vec3 *polyline;      /* room for the points of any tether */
   bt_vec3 *motion;        /* room for a velocity at each */
   bt_vec3 *corner;        /* room for as many points again */
-  double *along;          /* room for a number at each */
+  double *along;          /* room for a number at each, and ... */
+  double *over;           /* ... another: how far it is beyond the water or the bed, m */
   bt__fit *fit;           /* room for an interval of another mesh at each */
   bt_sea *sea;            /* beside the current: in the next state, and in the present */
   bt__driven *driven;     /* of each vehicle */

@@ -58,6 +58,7 @@ make_tools (bt_dive *dive)
   bt__dynamic_ask (dive->work, &dive->asker);
   return (dive->polyline = malloc (points * sizeof *dive->polyline))
          && (dive->along = malloc (points * sizeof *dive->along))
+         && (dive->over = malloc (points * sizeof *dive->over))
          && (dive->motion = malloc (points * sizeof *dive->motion))
          && (dive->corner = malloc (points * sizeof *dive->corner))
          && (dive->fit = malloc (points * sizeof *dive->fit));
@@ -125,7 +126,7 @@ void
 bt__dive_clear_up (bt_dive *dive)
 {
   void *parts[] = { dive->polyline, dive->motion, dive->corner, dive->along,
-                    dive->fit,      dive->driven, dive->next };
+                    dive->over,     dive->fit,    dive->driven, dive->next };
   for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
     free (parts[i]);
   bt_search_free (dive->tools.search);
@@ -135,7 +136,7 @@ bt__dive_clear_up (bt_dive *dive)
   dive->tools = (bt__shape_tools){ 0 };
   dive->work = NULL;
   dive->polyline = dive->motion = dive->corner = NULL;
-  dive->along = NULL;
+  dive->along = dive->over = NULL;
   dive->fit = NULL;
   dive->driven = NULL;
   dive->next = NULL;

@@ -1,6 +1,6 @@
 ;;; A moving line is laid from its equilibrium, with a bed in the world too: what it pulls with at the start
 ;;; is what it pulls with when it has hung there for long.  A light line that obstacles keep from its
-;;; equilibrium is still falling when its laying ends.
+;;; equilibrium is still falling when its laying ends.  Slack lies on the bed in one bight.
 ;;;
 ;;; Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.
 
@@ -58,3 +58,25 @@
     (run 1)
     (require (> (length (contacts)) 0))
     (expect (off start (settled)) is (below 0.1))))
+
+;; A sea with a current of SPEED over a bed of KIND, 15 m deep or so.
+(define (over-a-bed kind speed)
+  (case kind
+    ((box) (world (sea (depth 60) (current speed 60))
+                  (box (named slab) (at 0 0 -17) (size 300 300 4) (friction 0.4))))
+    ((level) (world (sea (depth 15) (current speed 60)) (seabed (friction 0.4))))
+    ((slope) (world (sea (depth 60) (current speed 60))
+                    (seabed (friction 0.4)
+                            (grid (lambda (x y) (- (* 0.1 x) 15.5)) (from -100 -100) (to 100 100) (spacing 10)))))))
+
+(define-scenario (slack-lies-in-one-bight bed slack speed)
+  "What a slack line has too much lies on the bed in wide bends and touches no other part of the line."
+  #:for ((bed 'box 'level 'slope) (slack 0.15 0.35 0.55) (speed 0 0.25))
+  (enter! (extend (over-a-bed bed speed)
+                  (rov (named minnow) (at 12 0 -12))
+                  (tether (named line) (wet-weight 0.4) (diameter 0.012) (model auto) (from 0 0 -5)
+                          (to minnow) (length (/ 14 (- 1 slack))))))
+  (expect (tightest-bend) is (above 0.15))
+  (expect (filter (lambda (c) (not (memq (contact-object c) '(slab seabed)))) (contacts)) => '())
+  (when (> slack 0.3)
+    (expect (contact-length) is (above 1))))
