@@ -9,8 +9,8 @@
    error of that look.  A look is left out where the two lines of model `dynamic' are farther apart
    than KNOWN of what was asked: in still water a slack line goes where chance has it.  The kinds of
    flights differ in what the vehicle does: it flies about within the reach of a slack line, in
-   still water or in a current; it runs the line taut and turns back, again and again; or it stands
-   while the winch pays out and hauls in.
+   still water, in a current, or in a current and a wind sea whose waves reach the line; it runs the
+   line taut and turns back, again and again; or it stands while the winch pays out and hauls in.
 
    For each kind three shares of looks are given: with a true error above what was asked; with one
    above twice that; and with an estimate that is off from the true error by a factor beyond 3.  An
@@ -51,11 +51,12 @@ typedef enum kind
   CURRENT,
   TAUT,
   WINCH,
+  WAVES,
   KINDS
 } kind;
 
-static const char *const names[KINDS]
-    = { "flights, still water", "flights, current", "flights, taut", "flights, winch" };
+static const char *const names[KINDS] = { "flights, still water", "flights, current",
+                                          "flights, taut", "flights, winch", "flights, waves" };
 
 /* What was found in the looks of a kind of flights.  */
 typedef struct found
@@ -88,6 +89,14 @@ draw (scene *s, kind what, uint64_t *seed)
   line->props.wet_weight = lot (seed, 0, 1) < 0.3 ? 0 : lot (seed, -0.05, 0.4);
   line->props.diameter = lot (seed, 0.006, 0.02);
   line->props.ea = pow (10, lot (seed, 4, 6));
+  if (what == WAVES)
+    {
+      scene_waves (s);
+      bt_wave_def *w = &s->world.sea.waves;
+      w->height = lot (seed, 0.3, 2);
+      w->period = lot (seed, 4, 9);
+      w->seed = (uint64_t)lot (seed, 1, 1000);
+    }
   return pow (10, lot (seed, -2, -1));
 }
 
@@ -286,7 +295,7 @@ main (int argc, char **argv)
 {
   long flights = 50, alone = 0, first = 1;
   const bench_option options[]
-      = { { "flights", &flights, 1, FLIGHTS, 2, "random flights of each of four kinds" },
+      = { { "flights", &flights, 1, FLIGHTS, 2, "random flights of each of five kinds" },
           { "alone", &alone, 0, 1000000000, 0,
             "steps to be flown without a reference, in place of the flights" },
           { "first", &first, 1, 1000000000, 0, "number of the first flight" } };
