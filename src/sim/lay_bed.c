@@ -18,7 +18,16 @@
 #include "sim/lay.h"
 #include "world/obstacles.h"
 
-#define ABOVE 1.0 /* diameters: a laid line's middle above the bed */
+/* How high the middle of tether I is laid above the bed, m: clear of it by a radius, and of lines
+   that lie there already, on which it comes down.  */
+static double
+height_of (const bt_dive *dive, bt__state *state, int i)
+{
+  double height = bt__dive_tether (dive, state, i)->props.diameter;
+  for (int j = 0; j < i; j++)
+    height += 2 * bt__dive_tether (dive, state, j)->props.diameter;
+  return height;
+}
 
 /* The height at which the line of tether I lies on what is below the place of P, seen from the
    height TOP; the obstacle there, or BT__NO_OBSTACLE.  */
@@ -26,8 +35,7 @@ static double
 lies_at (const bt_dive *dive, bt__state *state, int i, bt_vec3 p, double top, int *obstacle)
 {
   p.z = top;
-  return top - bt__dive_altitude (dive, state, p, obstacle)
-         + ABOVE * bt__dive_tether (dive, state, i)->props.diameter;
+  return top - bt__dive_altitude (dive, state, p, obstacle) + height_of (dive, state, i);
 }
 
 /* The one obstacle below all nodes X of A, as seen from the WAY, or BT__NO_OBSTACLE.  */
@@ -53,7 +61,7 @@ static int
 put_down (const bt_dive *dive, bt__state *state, int i, bt_vec3 *x, const bt_vec3 *way,
           const bt__arch *a)
 {
-  double spare = ABOVE * bt__dive_tether (dive, state, i)->props.diameter;
+  double spare = height_of (dive, state, i);
   int below = 1, unused;
   for (int k = a->first; k <= a->last; k++)
     {
