@@ -28,7 +28,7 @@ within private-words -le 0 "the field's words are used"
 within lonely-functions -le 9 'few internal functions are named in one file of src alone'
 within calls-to-friction -ge 5 'the way from the step to friction is found'
 within calls-to-friction -le 20 'and is not too long'
-within lines-touching -le 12571 'what touches takes no more lines than it did'
+within lines-touching -le 12529 'what touches takes no more lines than it did'
 within tuning-constants -le 127 'nor more constants that are tuned'
 within line-counts -ge 13 'HACKING.md tells how many lines are written by hand'
 within stale-line-counts -le 0 'and tells it true'

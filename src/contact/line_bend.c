@@ -19,8 +19,7 @@
    stiff line pulled by a corner too far out turns more, and the corner goes farther out.  A corner
    moving round between its links at a constant distance from the axis leaves the length of the line
    unchanged at first order.  Therefore a corner goes half the wanted way round in a step, but moves
-   out and in slowly; and since a side not yet tangent would cut into the member, corners are pushed
-   out as far as the sides need.
+   out and in slowly.
 
    Nodes come and go in line_rebend.c.
 
@@ -36,7 +35,6 @@
 
 enum
 {
-  SHARES = 2, /* times the corners of a side share what it lacks, from either end */
   KNOTTED = 4 /* links: nor may the line touch itself so near */
 };
 
@@ -240,34 +238,6 @@ beside (const bt__line_job *k, const corners *s, int c, int side)
                                            : expected (k, s->at + c, s->at[c].node + side);
 }
 
-/* The excess of nearness to the axis of the line between corner C and the next node on SIDE, m.  */
-static double
-lack_of (const bt__line_job *k, const corners *s, int c, int side)
-{
-  const corner *q = s->at + c;
-  return bt__turn_lack (q->edge.axis, q->turn.centre, q->place, beside (k, s, c, side),
-                        q->edge.radius + k->config->radius);
-}
-
-/* Push corners out until no side cuts into the member, though sides are not tangents yet.  */
-static void
-push_out (const bt__line_job *k, corners *s)
-{
-  for (int i = 0; i < 2 * SHARES; i++)
-    {
-      int c = i < SHARES ? 0 : s->n - 1, by = i < SHARES ? 1 : -1;
-      for (; c >= 0 && c < s->n; c += by)
-        {
-          corner *q = s->at + c;
-          if (q->single)
-            continue;
-          double more = fmax (lack_of (k, s, c, -1), lack_of (k, s, c, 1));
-          q->away += more;
-          q->place = bt__axpy (q->place, more, q->turn.normal);
-        }
-    }
-}
-
 /* The way of corner C across the axis in the step, as the line is laid round: of the wanted place,
    for the line is measured along the arc wherever the corner is held.  */
 static bt_vec3
@@ -365,7 +335,6 @@ bt__line_bends (bt__line_job *k)
       may[c] &= find_corner_turn (k, &s, c);
       place (k, s.at + c);
     }
-  push_out (k, &s);
   for (int c = 0; c < s.n; c++)
     if (may[c])
       hold (k, &s, c);

@@ -66,9 +66,6 @@ bt__turn_angle (bt_vec3 axis, bt_vec3 a, bt_vec3 b)
   return atan2 (bt__dot (axis, bt__cross (a, b)), bt__dot (a, b));
 }
 
-/* How much nearer than OUT a line from A to B comes to the axis through CENTRE on its way, m.  */
-double bt__turn_lack (bt_vec3 axis, bt_vec3 centre, bt_vec3 a, bt_vec3 b, double out);
-
 /* Of the distance from the axis: the farthest that a new corner may have to go round.  */
 #define BT__BEND_BEHIND 0.1
 #define BT__TURN_MOST 1.05    /* radians: of a corner that is not single; ... */

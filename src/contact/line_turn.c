@@ -32,14 +32,6 @@ bt__turn_tangent (bt_vec3 axis, bt_vec3 u, double out, double sign)
   return bt__scale (1 / square, bt__axpy (bt__scale (out, u), sign * way, bt__cross (axis, u)));
 }
 
-double
-bt__turn_lack (bt_vec3 axis, bt_vec3 centre, bt_vec3 a, bt_vec3 b, double out)
-{
-  bt_vec3 p = bt__off_axis (axis, bt__sub (a, centre)), d = bt__off_axis (axis, bt__sub (b, a));
-  double square = bt__dot (d, d), s = square > 0 ? -bt__dot (p, d) / square : 0;
-  return s > 0 && s < 1 ? fmax (out - bt__norm (bt__axpy (p, s, d)), 0) : 0;
-}
-
 int
 bt__turn_find (const bt__line_job *k, const bt__edge *e, const bt_vec3 *p, const bt_vec3 *before,
                const bt_vec3 *after, bt__turn *t)
