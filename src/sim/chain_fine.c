@@ -1,19 +1,18 @@
 /* A step of the dive, taken by a moving line in as many parts as its accuracy asks.
 
    The dive's clock stays: sticks, tracks, winches, events and questions know whole steps alone.  A
-   line first takes the step whole.  Where its tension has hardly changed, and its places are as a
-   predictor has them, that is the step.  Elsewhere (a snap, a stall, a touch, a release) the line
-   goes back to the present, takes the step in twice as many equal parts, and so on until one
-   attempt and the next agree: step doubling (Hairer, Norsett, Wanner, Solving Ordinary Differential
-   Equations I, II.4), with the step of the dive as the unit.  What is compared is what parts a line
-   and moves a vehicle, the largest tension in the step and the mean force at either end; and, of a
-   line of model `auto', which asks for its place to an accuracy, where the nodes are.  The finest
-   attempt is kept.  The next step begins with half as many parts, so that the number follows the
-   motion both ways.
+   line first takes the step whole, and keeps to that where the tension has hardly changed and the
+   places are near the predictor.  Elsewhere (a snap, a stall, a touch, a release) the line
+   goes back to the present, takes the step in twice as many equal parts, and so on until two
+   attempts in a row agree: step doubling (Hairer, Norsett, Wanner, Solving Ordinary Differential
+   Equations I, II.4), with the step of the dive as the unit.  Compared are the largest tension in
+   the step and the mean force at either end, by which lines part and vehicles move; and, of a line
+   of model `auto', the places of the nodes.  The finest attempt is kept.  The next step begins with
+   half as many parts, so that the number follows the motion both ways.
 
    Tension alone does not tell where a line is: two per cent of 2600 N are 26 mm along 100 m of a
-   line of 200 kN.  Places that differ no less from one attempt to the next are no matter of the
-   step: links that crumple go where chance has them.
+   line of 200 kN.  Where smaller parts bring the places no nearer to each other, as of links in a
+   heap, the parts are halved no more.
 
    Within a step the ends go from place to place (end_within in chain_step.c); a vehicle with mass
    on the line is stepped with each part under the forces of the step's start, and so is its

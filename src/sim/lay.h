@@ -33,9 +33,9 @@ double bt__way_of_remesh (const bt_dive *dive, bt__state *state, int i, int part
 bt_status bt__lead_to_rest (bt_dive *dive, bt__state *state, int i, bt_vec3 *x, int n, int *there,
                             bt_error *error);
 
-/* Lay on the bed what hangs below the bed of the N + 1 points on the dive's polyline, at which
-   tether I would be at rest without a bed; the line is led there from the clear WAY of as many
-   points. Return true if there was any (lay_bed.c).  */
+/* Lay aside on the bed all bights below the bed of the N + 1 points on the dive's polyline, the
+   equilibrium of tether I without a bed; the line is then led from the clear WAY of as many points.
+   Return true if there was a bight (lay_bed.c).  */
 int bt__lay_on_bed (bt_dive *dive, bt__state *state, int i, const bt_vec3 *way, int n);
 
 /* Let the moving line of tether I fall into place between ENDS, the clock standing (lay_fall.c). */

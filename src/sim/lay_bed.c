@@ -1,12 +1,12 @@
 /* A slack line is laid on the bed below it.
 
-   The equilibrium from which a line is laid knows no bed.  Nodes that the bed stopped on their way
-   there crowded together, the line was as much longer than the way between them as its bight had
-   hung below the bed, and fell into a heap of hundreds of links that touch.  What hangs below the
-   bed is a bight with two feet on it; laid aside by a rotation about the straight line between the
-   feet, the bight keeps its length and its wide bends.  A bed is one obstacle that is below all of
-   the bight, where the bight hung and where it then lies, and below the clear way along which the
-   line is led there: other obstacles stop the nodes on their way (lay_way.c).
+   The equilibrium from which a line is laid knows no bed.  A bight of the equilibrium hangs below
+   the bed, with two feet on the bed.  The bight is laid aside by a rotation about the straight line
+   between the feet, and keeps length and wide bends.  Were the nodes led straight to the
+   equilibrium, the bed would stop the nodes, and the length of the bight would fall into a heap of
+   hundreds of links in contact.  The bed is a single obstacle below all of the bight, both hanging
+   and laid aside, and below the clear way from which the line is led.  Over several obstacles,
+   under a roof, and where the ground rises aside, the nodes are led straight (lay_way.c).
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
@@ -18,8 +18,8 @@
 #include "sim/lay.h"
 #include "world/obstacles.h"
 
-/* How high the middle of tether I is laid above the bed, m: clear of it by a radius, and of lines
-   that lie there already, on which it comes down.  */
+/* How high the middle of tether I is laid above the bed, m: clear of the bed by a radius, and of
+   the tethers laid before, on which tether I comes down.  */
 static double
 height_of (const bt_dive *dive, bt__state *state, int i)
 {
@@ -55,8 +55,8 @@ bed_of (const bt_dive *dive, bt__state *state, int i, const bt_vec3 *x, const bt
   return bed;
 }
 
-/* Take the nodes X of A to the height at which they lie; return zero if one then lies above the
-   WAY, as where the bed rises aside, or under a roof.  */
+/* Take the nodes X of A to the bed; return zero if a node then lies above the WAY: the bed rises
+   aside, or is a roof.  */
 static int
 put_down (const bt_dive *dive, bt__state *state, int i, bt_vec3 *x, const bt_vec3 *way,
           const bt__arch *a)
