@@ -269,7 +269,7 @@ the engine knew of them before."
              (rov (named minnow) (at 3 0 -7) (surge-speed 1))
              (tether (named line) (type fathom) (wet-weight 0.5) (model dynamic) (nodes 60) (friction 0.4)
                      (from -3 0 -7.8) (to minnow) (length 16))))
-  (fly '(0 3 -7) '(-3 0 -7) '(0 -3 -6.5) '(3 0 -6.5) '(0 0 -7.7))
+  (fly '(0 3 -7) '(-3 3 -7) '(-5 3 -7) '(-2 5 -7.7))
   (run 110)
   (expect (any on-itself? (contacts)))
   (expect (assq-ref (energy) 'kinetic) is (below 1e-6))
