@@ -415,7 +415,7 @@ set_missing (bt__bvh_node *node, int i)
   for (int k = 0; k < 3; k++)
     {
       node->centre[k][i] = 0;
-      node->half[k][i] = -1e30f;
+      node->half[k][i] = -1e17f; /* met by nothing; times STEEP of bvh_ray.c still a number */
     }
   node->first[i] = node->count[i] = 0;
 }

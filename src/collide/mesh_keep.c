@@ -25,7 +25,7 @@
 enum
 {
   FILE_VERSION
-  = 1, /* of the file; another too when a tree would be built or rings be made otherwise */
+  = 2, /* of the file; another too when a tree would be built or rings be made otherwise */
   BYTE_ORDER_MARK = 0x01020304,
   NAME_SIZE = 4096,
   ARRAYS = 5
