@@ -10,7 +10,6 @@
 
    Copyright (C) 2026 the bight authors.  GPL-3.0-or-later.  */
 
-#include <math.h>
 #include <string.h>
 
 #include "math/vec.h"
