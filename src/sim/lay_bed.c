@@ -17,6 +17,16 @@
 #include "sim/lay.h"
 #include "world/obstacles.h"
 
+/* What a line is laid among.  */
+typedef struct ground
+{
+  const bt_dive *dive;
+  bt__state *state;
+  bt__surroundings around; /* what the tether can touch */
+  const bt_vec3 *way;      /* the clear places from which the nodes are led */
+  double height;           /* m: of the line's middle above the bed */
+} ground;
+
 /* How high the middle of tether I is laid above the bed, m: clear of the bed by a radius, and of
    the tethers laid before, on which tether I comes down.  */
 static double
@@ -28,67 +38,54 @@ height_of (const bt_dive *dive, bt__state *state, int i)
   return height;
 }
 
-/* The height at which the line of tether I lies on what is below the place of P, seen from the
-   height TOP; the obstacle there, or BT__NO_OBSTACLE.  */
+/* The height at which node K lies on what is below the place of P, seen from the way; the obstacle
+   there, or BT__NO_OBSTACLE.  */
 static double
-lies_at (const bt_dive *dive, bt__state *state, int i, bt_vec3 p, double top, int *obstacle)
+lies_at (const ground *g, int k, bt_vec3 p, int *obstacle)
 {
-  p.z = top;
-  return top - bt__dive_altitude (dive, state, p, obstacle) + height_of (dive, state, i);
+  p.z = g->way[k].z;
+  return p.z - bt__altitude_among (g->dive, g->state, &g->around, p, obstacle) + g->height;
 }
 
-/* The one obstacle below all nodes X of A, as seen from the WAY, or BT__NO_OBSTACLE.  */
+/* The one obstacle below all nodes X of A, or BT__NO_OBSTACLE.  If PUTS, the nodes are taken down
+   to the obstacle; one that lies above the way has none below: the bed rises aside, or is a roof.
+ */
 static int
-bed_of (const bt_dive *dive, bt__state *state, int i, const bt_vec3 *x, const bt_vec3 *way,
-        const bt__arch *a)
+bed_of (const ground *g, bt_vec3 *x, const bt__arch *a, int puts)
 {
   int bed = BT__NO_OBSTACLE;
   for (int k = a->first; k <= a->last; k++)
     {
       int below;
-      lies_at (dive, state, i, x[k], way[k].z, &below);
-      if (k > a->first && below != bed)
+      double z = lies_at (g, k, x[k], &below);
+      if ((k > a->first && below != bed) || (puts && z > g->way[k].z + g->height))
         return BT__NO_OBSTACLE;
       bed = below;
+      if (puts)
+        x[k].z = z;
     }
   return bed;
-}
-
-/* Take the nodes X of A to the bed; return zero if a node then lies above the WAY: the bed rises
-   aside, or is a roof.  */
-static int
-put_down (const bt_dive *dive, bt__state *state, int i, bt_vec3 *x, const bt_vec3 *way,
-          const bt__arch *a)
-{
-  double spare = height_of (dive, state, i);
-  int below = 1, unused;
-  for (int k = a->first; k <= a->last; k++)
-    {
-      x[k].z = lies_at (dive, state, i, x[k], way[k].z, &unused);
-      below &= x[k].z <= way[k].z + spare;
-    }
-  return below;
 }
 
 int
 bt__lay_on_bed (bt_dive *dive, bt__state *state, int i, const bt_vec3 *way, int n)
 {
   bt_vec3 *x = dive->polyline, *kept = dive->motion;
-  double *over = dive->over;
   bt_water water = bt__dive_water (dive, state);
+  ground g = { dive, state, bt__surround (dive, state, BT_PART_TETHER, i), way,
+               height_of (dive, state, i) };
   bt__arch a;
   int unused, laid = 0;
   for (int k = 0; k <= n; k++)
-    over[k] = lies_at (dive, state, i, x[k], way[k].z, &unused) - x[k].z;
-  over[0] = over[n] = -1; /* the ends stay */
-  for (int k = 0; bt__next_arch (x, over, n, k, &a); k = a.last + 1)
+    dive->over[k] = lies_at (&g, k, x[k], &unused) - x[k].z;
+  dive->over[0] = dive->over[n] = -1; /* the ends stay */
+  for (int k = 0; bt__next_arch (x, dive->over, n, k, &a); k = a.last + 1)
     {
       size_t size = sizeof *x * (size_t)(a.last - a.first + 1);
-      int bed = bed_of (dive, state, i, x, way, &a);
+      int bed = bed_of (&g, x, &a, 0);
       memcpy (kept, x + a.first, size);
       bt__lay_aside (x, &a, 0, bt_water_velocity (&water, a.from));
-      if (bed != BT__NO_OBSTACLE && bed_of (dive, state, i, x, way, &a) == bed
-          && put_down (dive, state, i, x, way, &a))
+      if (bed != BT__NO_OBSTACLE && bed_of (&g, x, &a, 1) == bed)
         laid = 1;
       else
         memcpy (x + a.first, kept, size);

@@ -29,24 +29,32 @@ obstacle_hit (const bt_model *model, const bt__ray_hit *hit)
 }
 
 double
-bt__dive_altitude (const bt_dive *dive, bt__state *state, bt_vec3 p, int *obstacle)
+bt__altitude_among (const bt_dive *dive, bt__state *state, const bt__surroundings *around,
+                    bt_vec3 p, int *obstacle)
 {
   bt__ray down = { p, { 0, 0, -1 }, 0 };
-  bt__surroundings around;
   bt__count unused = { 0 };
   bt__ray_hit hit;
   int found = 0;
   if (dive->model->n_obstacles > 0)
     {
-      around = bt__all_standing (dive, state);
       /* A ray that ends exactly at the lowest bottom may miss the bottom by rounding.  */
-      down.range = fmax (0, p.z - lowest (dive, &around)) + 1;
-      found = bt__ray_cast (around.scene, around.on, around.mover, around.movers, &down, &hit,
+      down.range = fmax (0, p.z - lowest (dive, around)) + 1;
+      found = bt__ray_cast (around->scene, around->on, around->mover, around->movers, &down, &hit,
                             &unused);
     }
   if (obstacle)
     *obstacle = found ? obstacle_hit (dive->model, &hit) : BT__NO_OBSTACLE;
   return found ? hit.range : p.z + state->depth;
+}
+
+double
+bt__dive_altitude (const bt_dive *dive, bt__state *state, bt_vec3 p, int *obstacle)
+{
+  bt__surroundings around = { 0 };
+  if (dive->model->n_obstacles > 0)
+    around = bt__all_standing (dive, state);
+  return bt__altitude_among (dive, state, &around, p, obstacle);
 }
 
 double

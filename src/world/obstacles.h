@@ -70,8 +70,10 @@ bt__surroundings bt__all_standing (const bt_dive *dive, bt__state *state);
 /* Return the distance, m, from P straight down to the first surface, bed or obstacle, and in
    *OBSTACLE, unless NULL, the number of the obstacle met.  Where no obstacle is below P, *OBSTACLE
    is BT__NO_OBSTACLE, and the distance is the height above the depth of the sea, negative below.
- */
+   bt__altitude_among: of what is AROUND and switched on alone.  */
 double bt__dive_altitude (const bt_dive *dive, bt__state *state, bt_vec3 p, int *obstacle);
+double bt__altitude_among (const bt_dive *dive, bt__state *state, const bt__surroundings *around,
+                           bt_vec3 p, int *obstacle);
 
 /* Return the greatest altitude that there is under water in STATE, m.  */
 double bt__dive_altitude_max (const bt_dive *dive, bt__state *state);

@@ -80,3 +80,14 @@
   (expect (filter (lambda (c) (not (memq (contact-object c) '(slab seabed)))) (contacts)) => '())
   (when (> slack 0.3)
     (expect (contact-length) is (above 1))))
+
+(define-scenario what-is-off-is-no-bed
+  "A line that goes through a slab is laid as if no slab were there: at rest."
+  (enter! (extend (over-a-bed 'box 0)
+                  (rov (named minnow) (at 11 0 -10))
+                  (tether (named line) (wet-weight 0.4) (diameter 0.012) (model steady) (from 0 0 -5) (to minnow) (length 30))))
+  (collide! 'line 'slab #f)
+  (tether-model! 'line 'auto)
+  (let ((middle (point-at 15)))
+    (run 5)
+    (expect (distance (point-at 15) middle) is (below 0.02))))
