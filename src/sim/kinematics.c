@@ -142,12 +142,26 @@ track_point (const bt__track *track, double t)
   return bt__vec (p[1] + k * (q[1] - p[1]), p[2] + k * (q[2] - p[2]), p[3] + k * (q[3] - p[3]));
 }
 
+/* The time by its track of V, LATER steps after that of STATE.  */
+static double
+track_time (const bt_dive *dive, const bt__state *state, const bt__vehicle *v, int later)
+{
+  double t = (double)(state->step + later) * BT__TIME_STEP;
+  return t - v->track_start + dive->tracks[v->track]->row[0][0];
+}
+
+static int
+is_beyond (const bt__track *track, double t)
+{
+  return t >= track->row[track->n - 1][0];
+}
+
 static bt_vec3
 along_track (const bt_dive *dive, bt__state *state, bt__vehicle *v)
 {
   const bt__track *track = dive->tracks[v->track];
-  double t = bt__state_time (state) - v->track_start + track->row[0][0];
-  if (t >= track->row[track->n - 1][0])
+  double t = track_time (dive, state, v, 0);
+  if (is_beyond (track, t))
     arrive_at_goal (dive, state, v);
   return track_point (track, t);
 }
@@ -175,12 +189,27 @@ bt__move_vehicle (const bt_dive *dive, bt__state *state, int vehicle)
   v->velocity = bt__scale (1 / BT__TIME_STEP, bt__sub (to, from));
 }
 
+/* True if V follows a track that does not end within STEPS steps; *TO is then where it comes to. */
+static int
+stays_on_track (const bt_dive *dive, const bt__state *state, const bt__vehicle *v, int steps,
+                bt_vec3 *to)
+{
+  if (v->goal != BT__GOAL_TRACK)
+    return 0;
+  const bt__track *track = dive->tracks[v->track];
+  double t = track_time (dive, state, v, steps);
+  *to = track_point (track, t);
+  return !is_beyond (track, t);
+}
+
 int
 bt__foresee_vehicle (const bt_dive *dive, bt__state *state, int vehicle, int steps, bt_vec3 *to)
 {
   bt__vehicle *v = bt__dive_vehicle (dive, state, vehicle), before = *v;
   int64_t step = state->step, events = state->events;
   int n = 0;
+  if (stays_on_track (dive, state, v, steps, to))
+    return steps;
   for (; n < steps && state->events == events; n++)
     {
       state->step++;

@@ -154,18 +154,34 @@ interpolate (const bt__dynamic *d, const bt_vec3 *a, double u)
   return bt__add (sum, a[first]);
 }
 
-/* The deviation from its chord of the cubic about interval J, beginning at START, at the share F.
- */
-static bt_vec3
-off_chord (const bt__dynamic *d, int j, double start, double f)
+/* The cubic through the four nodes about interval J of D is, at the share F of the interval, off
+   the chord by F (1 - F) (A (1 - F) - B F), with A and B the slopes of the cubic by F at the nodes,
+   less the chord: Newton's form (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations
+   I, III.1) with the nodes of the interval first.  Two intervals have a parabola, one has its
+   chord.  */
+static void
+end_slopes (const bt__dynamic *d, int j, bt_vec3 *a, bt_vec3 *b)
 {
-  const bt_vec3 *x = bt__dynamic_x (d);
-  bt_vec3 c = bt__axpy (x[j], f, bt__sub (x[j + 1], x[j]));
-  return bt__sub (interpolate (d, x, start + f * bt__dynamic_rest (d)[j]), c);
+  int n = (int)d->n, first = j > 0 ? j - 1 : 0, count = n < 3 ? n : 3;
+  first = first + count > n ? n - count : first;
+  const bt_vec3 *x = bt__dynamic_x (d) + first;
+  const double *h = bt__dynamic_rest (d) + first;
+  double span = h[j - first];
+  bt_vec3 zero = { 0, 0, 0 }, slope[3], bend[2] = { zero, zero }, third = zero;
+  for (int k = 0; k < count; k++)
+    slope[k] = bt__scale (1 / h[k], bt__sub (x[k + 1], x[k]));
+  for (int k = 0; k + 1 < count; k++)
+    bend[k] = bt__scale (1 / (h[k] + h[k + 1]), bt__sub (slope[k + 1], slope[k]));
+  if (count == 3)
+    third = bt__scale (1 / (h[0] + h[1] + h[2]), bt__sub (bend[1], bend[0]));
+  /* The third node of Newton's form is that before the interval or, at the beginning, after.  */
+  int k = j - first;
+  double off = k > 0 ? h[k - 1] : n > 1 ? -h[0] - h[1] : 0;
+  bt_vec3 second = bend[k > 0 ? k - 1 : 0];
+  *a = bt__scale (-span * span, bt__axpy (second, off, third));
+  *b = bt__scale (span * span, bt__axpy (second, off + span, third));
 }
 
-/* The deviation of a cubic from its chord is f (1 - f) (A (1 - f) - B f), with A and B the end
-   derivatives less the chord: known from two places.  */
 bt_vec3
 bt__dynamic_point (const bt__dynamic *d, double s)
 {
@@ -173,12 +189,10 @@ bt__dynamic_point (const bt__dynamic *d, double s)
   double start, u = bt__dynamic_along (d, s);
   int j = bt__dynamic_interval (d, u, &start);
   double rest = bt__dynamic_rest (d)[j], f = fmin (fmax (u - start, 0) / rest, 1);
-  bt_vec3 chord = bt__sub (x[j + 1], x[j]), p = bt__axpy (x[j], f, chord);
+  bt_vec3 chord = bt__sub (x[j + 1], x[j]), p = bt__axpy (x[j], f, chord), a, b;
   if (f == 0 || f == 1)
     return p;
-  bt_vec3 one = bt__scale (4.5, off_chord (d, j, start, 1.0 / 3)),
-          two = bt__scale (4.5, off_chord (d, j, start, 2.0 / 3));
-  bt_vec3 a = bt__axpy (bt__scale (2, one), -1, two), b = bt__axpy (one, -2, two);
+  end_slopes (d, j, &a, &b);
   double share = bt__smooth_share (chord, a, b, rest);
   return bt__axpy (p, share * f * (1 - f), bt__axpy (bt__scale (1 - f, a), -f, b));
 }
@@ -198,34 +212,57 @@ bt__dynamic_node_tension (const bt__dynamic *d, int i)
   return (t[i - 1] * rest[i] + t[i] * rest[i - 1]) / (rest[i - 1] + rest[i]);
 }
 
-/* A chain's arrays, looked up once for a walk along it.  */
+/* A walk along a chain: the third derivative by arc length of the polynomials through four nodes
+   in a row, of second order, by Newton's divided differences.  */
 typedef struct walk
 {
   int n;
   const bt_vec3 *x;
   const double *rest;
+  int k;            /* the last two polynomials are those that begin at nodes K - 2 and K - 1 */
+  bt_vec3 slope;    /* of interval K + 1 */
+  bt_vec3 bend;     /* half the second derivative at node K + 1 */
+  bt_vec3 third[2]; /* the third derivative of the polynomial from node j - 1 on at j % 2 */
 } walk;
 
-/* The third derivative by arc length of the polynomial through nodes K - 1 to K + 2, of the second
-   order: six times Newton's divided difference.  */
 static inline bt_vec3
-third_derivative (const walk *w, int k)
+slope_of (const walk *w, int j)
 {
-  const bt_vec3 *x = w->x + k - 1;
-  const double *h = w->rest + k - 1;
-  bt_vec3 first[3], second[2];
-  for (int i = 0; i < 3; i++)
-    first[i] = bt__scale (1 / h[i], bt__sub (x[i + 1], x[i]));
-  for (int i = 0; i < 2; i++)
-    second[i] = bt__scale (1 / (h[i] + h[i + 1]), bt__sub (first[i + 1], first[i]));
-  return bt__scale (6 / (h[0] + h[1] + h[2]), bt__sub (second[1], second[0]));
+  return bt__scale (1 / w->rest[j], bt__sub (w->x[j + 1], w->x[j]));
+}
+
+/* A walk along D, of two intervals or more.  */
+static walk
+walk_along (const bt__dynamic *d)
+{
+  walk w = { .n = (int)d->n, .x = bt__dynamic_x (d), .rest = bt__dynamic_rest (d) };
+  w.slope = slope_of (&w, 1);
+  w.bend = bt__scale (1 / (w.rest[0] + w.rest[1]), bt__sub (w.slope, slope_of (&w, 0)));
+  return w;
+}
+
+/* The third derivative of the polynomial through nodes K - 1 to K + 2; K is no less than the
+   largest one before less one.  */
+static inline bt_vec3
+third_derivative (walk *w, int k)
+{
+  while (w->k < k)
+    {
+      const double *h = w->rest + w->k;
+      bt_vec3 slope = slope_of (w, ++w->k + 1);
+      bt_vec3 bend = bt__scale (1 / (h[1] + h[2]), bt__sub (slope, w->slope));
+      w->third[w->k % 2] = bt__scale (6 / (h[0] + h[1] + h[2]), bt__sub (bend, w->bend));
+      w->slope = slope;
+      w->bend = bend;
+    }
+  return w->third[k % 2];
 }
 
 /* The difference between the arc and the chord of interval J, along and across: minus a 24th of the
    third derivative and the cubed length; the derivative is extended to the ends.
    Nothing is known of it at a CORNER.  */
 static inline bt_vec3
-arc_defect (const walk *w, int j, const uint8_t *corner)
+arc_defect (walk *w, int j, const uint8_t *corner)
 {
   int n = w->n, k = j < 1 ? 1 : j > n - 2 ? n - 2 : j;
   double h = w->rest[j];
@@ -254,19 +291,20 @@ chord_error (const bt__dynamic *d)
 double
 bt__dynamic_space_error (const bt__dynamic *d, const uint8_t *corner)
 {
-  const walk w = { (int)d->n, bt__dynamic_x (d), bt__dynamic_rest (d) };
-  int n = w.n;
+  int n = (int)d->n;
   bt_vec3 all = { 0, 0, 0 }, sum = { 0, 0, 0 };
   double most = 0, length = 0, s = 0;
   if (n < 3)
     return bt__dynamic_length (d) / 8;
   if (n == 3)
     return chord_error (d);
+  walk w = walk_along (d);
   for (int j = 0; j < n; j++)
     {
       all = bt__add (all, arc_defect (&w, j, corner));
       length += w.rest[j];
     }
+  w = walk_along (d);
   for (int j = 0; j < n; j++)
     {
       sum = bt__add (sum, arc_defect (&w, j, corner));

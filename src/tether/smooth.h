@@ -35,11 +35,16 @@ bt__share_within (bt_vec3 chord, bt_vec3 off, double reach)
    less CHORD; at F the deviation of the derivative is A (1 - 4 F + 3 F F) + B (3 F F - 2 F).  The
    derivative is sampled BT__SMOOTH_LOOKS times; between samples the speed exceeds the samples by at
    most an eighth of the squared spacing times 6 |a + b|: 1 % for a cubic with end speeds of twice
-   the chord.  */
+   the chord.  The weights of A and B are at most 1 together, so that a cubic that bends little is
+   known to be short enough without a sample.  */
 static inline double
 bt__smooth_share (bt_vec3 chord, bt_vec3 a, bt_vec3 b, double rest)
 {
-  double reach = (1 + BT__SMOOTH_SPARE) * fmax (bt__norm (chord), rest), share = 1;
+  double reach = (1 + BT__SMOOTH_SPARE) * fmax (bt__norm (chord), rest), share = 1,
+         most = fmax (bt__dot (a, a), bt__dot (b, b))
+                + 2 * fmax (fabs (bt__dot (chord, a)), fabs (bt__dot (chord, b)));
+  if (most <= reach * reach - bt__dot (chord, chord))
+    return 1;
   for (int k = 0; k <= BT__SMOOTH_LOOKS; k++)
     {
       double f = (double)k / BT__SMOOTH_LOOKS;
